@@ -1,0 +1,201 @@
+# lambent: library, tool, checks and instruments. `make help` lists the targets; nothing is configured beforehand.
+#
+#   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
+#
+# Everything a build makes lies in $(BUILD)/$(CONFIG). CFLAGS and LDFLAGS are yours: what exactness needs comes after.
+
+.DEFAULT_GOAL := all
+.SUFFIXES:
+.DELETE_ON_ERROR:
+MAKEFLAGS += --no-print-directory
+
+CONFIG ?= default
+PORT   ?= host
+BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
+B      := $(BUILD)/$(CONFIG)
+
+# A port names its compiler, start-up sources, libraries, and what runs its programs (RUN).
+include platform/$(PORT)/port.mk
+
+CFLAGS ?= -O2
+NM     ?= nm
+SIZE   ?= size
+
+config_default :=
+config_tiny    := -DLMB_CONFIG_TINY
+ifeq ($(origin config_$(CONFIG)),undefined)
+$(error CONFIG=$(CONFIG): there are `default` and `tiny`)
+endif
+
+WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble-promotion
+EXACT    := -std=c99 -ffp-contract=off -fno-math-errno -fno-builtin-bcmp
+FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) -Iinclude
+COMPILE   = $(CC) $(FLAGS) -fstack-usage -MMD -MP
+LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
+
+# --- sources ---------------------------------------------------------------------------------------------------------
+
+object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
+LIB_SRC  := $(sort $(wildcard src/*/*.c src/map/voxel/*.c))
+TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/host/host.c
+TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth,tests/$(d)/test_*.c)))
+
+LIB_OBJ    := $(call object,$(LIB_SRC))
+TOOL_OBJ   := $(call object,$(TOOL_SRC))
+TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c $(PORT_SRC)) $(LIB_OBJ)
+DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+
+LIB  := $(B)/liblambent.a
+TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
+
+# --- what people want ------------------------------------------------------------------------------------------------
+
+.PHONY: all lib demo help clean
+all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
+lib: $(LIB)
+
+demo: $(TOOL) ## render the built-in scene to build/demo.png
+	@$(TOOL) render demo -o $(BUILD)/demo.png
+
+help: ## this list
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+
+clean: ## remove everything that was built
+	@rm -rf $(BUILD)
+
+# --- rules -----------------------------------------------------------------------------------------------------------
+
+$(B)/obj/%.o: %.c $(B)/flags
+	@mkdir -p $(@D)
+	@echo "CC $<"
+	@$(COMPILE) -c $< -o $@
+
+$(LIB): $(LIB_OBJ)
+	@echo "AR $@"
+	@rm -f $@
+	@$(AR) rcs $@ $^
+
+$(TOOL): $(TOOL_OBJ) $(LIB)
+$(B)/tests: $(TEST_OBJ) $(LIB)
+$(B)/golden: $(GOLDEN_OBJ)
+$(B)/demo: $(DEMO_OBJ)
+$(TOOL) $(B)/tests $(B)/golden $(B)/demo:
+	@echo "LD $@"
+	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
+
+# Rewritten only when it changes, so that another compiler or flag rebuilds and nothing else does.
+export FLAGS_LINE := $(COMPILE) $(LINK) $(PORT_LDLIBS) $(LDLIBS)
+$(B)/flags: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' "$$FLAGS_LINE" | cmp -s - $@ || printf '%s\n' "$$FLAGS_LINE" > $@
+
+# The table of tests: tests/GROUP/test_NAME.c defines `void test_NAME(void)`; nobody registers anything by hand.
+group_of    = $(word 2,$(subst /, ,$(1)))
+name_of     = $(patsubst test_%.c,%,$(notdir $(1)))
+TEST_LINES := $(foreach f,$(TEST_SRC),'TEST($(call group_of,$(f)),$(call name_of,$(f)))')
+$(B)/tests.inc: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' $(TEST_LINES) | cmp -s - $@ || printf '%s\n' $(TEST_LINES) > $@
+$(B)/obj/tests/unit/main.o: $(B)/tests.inc
+$(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
+
+.PHONY: FORCE
+FORCE:
+
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ)))
+
+# --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
+
+CHECKS ?= unit analytic truth golden floors symbols stack headers one tables readme cli tiny
+NEEDS  :=
+PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
+IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
+          LDLIBS='$(PORT_LDLIBS) $(LDLIBS)' sh
+
+.PHONY: check $(CHECKS) $(CHECKS:%=check-%)
+check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
+	@sh tests/build/sum.sh $(CHECKS:%=$(B)/check/%.log)
+
+$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden
+	+@$(PART) $* $(MAKE) $*
+
+unit analytic truth: $(B)/tests
+	@$(RUN) $(B)/tests $@
+
+golden: $(B)/golden ## small scenes' hashes against the committed ones
+	@$(RUN) $(B)/golden
+
+floors: ## includes only go down the house's floors
+	@$(IN_SH) tests/build/floors.sh
+
+symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
+	@$(IN_SH) tests/build/symbols.sh
+
+stack: $(LIB) ## stack of the hungriest functions; the budget is 4096 bytes each
+	@$(IN_SH) tests/build/stack.sh 4096
+
+headers: ## each public header alone, as C99 and as C++
+	@$(IN_SH) tests/build/headers.sh
+
+one: ## a bare compiler command with all of src: builds, and the pictures are the same
+	@$(IN_SH) tests/build/one.sh
+
+tables: $(LIB) ## generated tables are what their generators print
+	@$(IN_SH) tests/build/tables.sh
+
+readme: $(LIB) ## the README's examples compile and run
+	@$(IN_SH) tests/build/readme.sh
+
+cli: $(TOOL) ## the tool's files, exit statuses and messages
+	@$(IN_SH) tests/build/cli.sh
+
+# --- instruments and other machines ----------------------------------------------------------------------------------
+
+.PHONY: size room-sizes rom asan tiny run-demo cross install
+size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
+	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
+	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS=-Os LDFLAGS=
+
+room-sizes: $(LIB)
+	@$(IN_SH) tests/build/size.sh
+
+rom: room-sizes
+	@$(IN_SH) tests/build/rom.sh 49152
+
+ASAN_CC ?= clang
+asan: ## the checks under address and undefined-behaviour sanitizers
+	+@$(MAKE) check CHECKS="unit analytic truth golden readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
+	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+
+tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/build/tiny.sh
+
+run-demo: $(B)/demo
+	@$(RUN) $(B)/demo
+
+# One machine a line: what it needs installed, its compiler, what runs its programs.
+CROSS := gcc clang aarch64 mips cortex-m web
+cross-gcc:      NEEDS = gcc
+cross-gcc:      HOW   = CC=gcc
+cross-clang:    NEEDS = clang
+cross-clang:    HOW   = CC=clang CFLAGS="-O3 -march=native"
+cross-aarch64:  NEEDS = aarch64-linux-gnu-gcc qemu-aarch64
+cross-aarch64:  HOW   = CC=aarch64-linux-gnu-gcc LDFLAGS=-static RUN=qemu-aarch64
+cross-mips:     NEEDS = mips-linux-gnu-gcc qemu-mips
+cross-mips:     HOW   = CC=mips-linux-gnu-gcc LDFLAGS=-static RUN=qemu-mips
+cross-cortex-m: NEEDS = arm-none-eabi-gcc qemu-system-arm
+cross-cortex-m: HOW   = PORT=cortex-m
+cross-web:      NEEDS = clang wasm-ld node
+cross-web:      HOW   = PORT=web
+
+.PHONY: $(CROSS:%=cross-%)
+cross: $(CROSS:%=cross-%) ## golden pictures on other compilers and machines; installs what it needs where it can
+	@LOGS=$(B)/check sh tests/build/part.sh same sh tests/build/same.sh $(CROSS:%=$(B)/check/cross-%.log)
+	@sh tests/build/sum.sh $(CROSS:%=$(B)/check/cross-%.log) $(B)/check/same.log
+
+$(CROSS:%=cross-%): cross-%: install
+	+@$(PART) cross-$* $(MAKE) golden BUILD=$(BUILD)/cross/$* $(HOW)
+
+install:
+	@sh tests/build/tools.sh install

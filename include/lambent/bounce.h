@@ -1,0 +1,139 @@
+/* bounce.h: light received at a point from lit points, grouped in fixed-size arrays. [SEEDS V, JP5873672B2]
+ *
+ * The light's map gives first points (lmb_points_collect), neighbours join into discs (lmb_discs_join), discs into
+ * groups (lmb_group_greedy, lmb_group_zones), and groups light the pixels of a tile (lmb_gather_tile). */
+#ifndef LMB_BOUNCE_H
+#define LMB_BOUNCE_H
+
+#include "light.h"
+
+/* A pair of pixel and emitter closer than this many half-diagonals of the emitter is near: a group is then read
+ * through its discs, a disc through the exact form factor of its quad. */
+#define LMB_NEAR 2.8f
+
+/* A first point, and a disc once neighbours have joined it. 88 bytes. */
+typedef struct lmb_point {
+    lmb_vec3 position, normal; /* m; unit, on the lit side                                             [V5 V6] */
+    float flux[3];             /* outgoing Lambertian power: reflectance x power received, W           [V28] */
+    float albedo[3];           /* members' mean reflectance, weighted by power received                [V12] */
+    lmb_vec3 axis_u, axis_v;   /* half sides of its quad on the surface; area = 4 |u x v|              [V16] */
+    float distance;            /* mean distance to its neighbours, m; lmb_discs_join                   [V8] */
+    uint16_t cell_x, cell_y;   /* its place in the map of its face, in blocks of texels                [V15] */
+    uint32_t face;             /* which face of which light: equal numbers share one map */
+    uint32_t link;             /* lmb_group_*: scratch while grouping */
+} lmb_point;
+
+/* The caller's points. `cells` finds the neighbours: cell c of the face at hand begins at data[cells[c]]. */
+typedef struct lmb_points {
+    lmb_point *data;
+    uint32_t cap, count;
+    uint32_t *cells;
+    uint32_t cell_cap; /* >= (map size / block)^2 + 1 */
+    uint32_t faces;    /* collected so far */
+} lmb_points;
+
+/* Static storage for n points from maps of `side` x `side` blocks: LMB_POINTS_ARRAY(points, 400, 16); */
+#define LMB_POINTS_ARRAY(name, n, side) \
+    static lmb_point name##_data[n]; \
+    static uint32_t name##_cells[(side) * (side) + 1]; \
+    static lmb_points name = {name##_data, (n), 0, name##_cells, (side) * (side) + 1, 0}
+
+/* How first points become groups; zero means the default that stands beside each. */
+typedef struct lmb_grouping {
+    int32_t method;         /* LMB_GROUP_ZONES */
+    int32_t block;          /* 8   texels a side of a first point's surface element: 1 2 4 8           [V4] */
+    int32_t groups;         /* 512 wanted at most, <= LMB_MAX_GROUPS                                   [V21] */
+    float neighbour_m;      /* none: neighbours farther than this do not count, m                      [V9] */
+    float join;             /* 0.5 points closer than this x mean distance join a disc, 0 < k <= 1     [V11] */
+    float reach;            /* 3   a disc joins a group within this x the first disc's radius          [V17] */
+    float cosine;           /* 0.9 a disc joins where the normals' cosine is at least this; -1: any    [V17] */
+    uint32_t flags;         /* LMB_ZONES_STRICT                                                        [V20] */
+} lmb_grouping;
+enum { LMB_GROUP_ZONES = 0, LMB_GROUP_GREEDY = 1, LMB_GROUP_NONE = 2 };
+enum { LMB_ZONES_STRICT = 1, /* discs that do not fit their zone's group are dropped; stats say how much flux */
+       LMB_POINT_CENTRE = 2  /* a group stands at its first disc instead of the barycentre             [V22] */ };
+
+/* Level-2 groups, planar for the gather. Member discs of group k are points->data[first[k] .. first[k] + members[k]). */
+typedef struct lmb_groups {
+    int32_t count;
+    float position[3][LMB_MAX_GROUPS], normal[3][LMB_MAX_GROUPS]; /*                                   [V13 V18 V19] */
+    float flux[3][LMB_MAX_GROUPS];                                /* W */
+    float albedo[3][LMB_MAX_GROUPS];                              /* power-weighted mean               [V19] */
+    float area[LMB_MAX_GROUPS];                                   /* m2, sum of the members' */
+    float radius[LMB_MAX_GROUPS];                                 /* encloses all members, m           [V19] */
+    uint32_t first[LMB_MAX_GROUPS], members[LMB_MAX_GROUPS];
+} lmb_groups;
+
+/* What may stand between an emitter and a pixel. */
+typedef struct lmb_occluder {
+    const lmb_view *view;     /* the viewer's */
+    const lmb_surface *depth; /* its depth over the whole frame                                        [V24] */
+    int32_t kind;             /* lmb_occlusion */
+    int32_t steps;            /* samples along a segment, 1 .. 64 */
+} lmb_occluder;
+/* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps
+ * of world space [V25 V26]. Both know only blockers the viewer sees: what is off screen or hidden does not block, and
+ * an emitter hidden from the viewer by a nearer surface counts as blocked. */
+enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2 };
+
+/* One pixel bit a near group: filled and read inside lmb_gather_tile. */
+typedef struct lmb_gather_scratch {
+    uint64_t near_pixels[LMB_MAX_GROUPS];
+} lmb_gather_scratch;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_points_bytes: memory for n points and the cells of a map of side x side blocks. */
+size_t lmb_points_bytes(uint32_t n, uint32_t side);
+/* lmb_points_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *memory, size_t bytes);
+
+/* lmb_points_collect: append the first points of the map's tile rows tile_y0 .. tile_y1 - 1 of one face.
+ *                                                                                             [V1 V2 V4 V5 V6 V7]
+ * Every texel's flux is kept: the texels of a block that share a surface (normals within 25 degrees, planes within
+ * a texel) make one first point, at most four a block; what fits none joins the likest.
+ * Begin a face at tile_y0 = 0 and go on in order. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY when data or cells
+ * are full: the points so far stand, the rest of the face is missing. */
+lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
+                              const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
+                              int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping);
+
+/* lmb_discs_join: the face collected last: mean neighbour distances, and close points join. In place; order kept.
+ * Flux and area are sums, so both are conserved.                                              [V8 V9 V11 V12] */
+lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping);
+
+/* lmb_group_points: groups of all discs by grouping->method; reorders the discs so that members lie together.
+ *
+ * When more groups than asked for (or than LMB_MAX_GROUPS) would be needed, reach or zone size doubles and grouping
+ * starts again: every disc always ends in a group, except where strict zones drop it (stats->flux_grouped).
+ * LMB_GROUP_NONE: one group a disc, if they fit, else LMB_ERR_CAPACITY.
+ * Cost: greedy discs x groups x rounds; zones discs x groups a zone. Returns LMB_OK, LMB_ERR_ARG or _CAPACITY. */
+lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_grouping *grouping, lmb_stats *stats);
+
+/* lmb_gather_tile: add the groups' irradiance to a tile's pixels.                             [V25 V27 V28]
+ *
+ *   out       added to. Pixels without a surface stay.
+ *   scratch   caller's; contents before and after mean nothing.
+ *   points    the discs behind the groups, for near pairs; NULL: none are (groups only).
+ *   occluder  what may stand between, or NULL.
+ *
+ * Far pair, with c = cosP cosG, g = nP.nG, s = A / (pi r^2), t = c (3 cos^2 G - 1) + g cos^2 G:
+ *   E = M / (pi r^2) * (t >= 0 ? c^2 / (c + t s) : min(c - t s, cosG / s))
+ * the disc's form factor to second order in its size; exact on the axis of a facing disc, never over M / A.
+ * Near pair: each disc by the same formula, or its quad by Lambert's polygon formula clipped to the horizon.
+ * Doubling every flux doubles `out` exactly. Returns LMB_OK or LMB_ERR_ARG. Stack: 1 KiB. */
+lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_gather_scratch *scratch,
+                           const lmb_tile *tile, const lmb_groups *groups, const lmb_points *points,
+                           const lmb_occluder *occluder);
+
+/* lmb_disc_factor: the far formula for one pair, per unit flux (1/m2). lmb_quad_factor: the near one: the exact form
+ * factor of a quad over its area; corners centre +- u +- v. Both 0 where either faces away. */
+float lmb_disc_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, float area);
+float lmb_quad_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u, lmb_vec3 v);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,32 @@
+/* compose.h: direct + indirect -> radiance -> a display's pixels. [V28 V29 V30] */
+#ifndef LMB_COMPOSE_H
+#define LMB_COMPOSE_H
+
+#include "light.h"
+
+/* Radiance towards the viewer of a tile's pixels, W/(m2 sr), planar. */
+typedef struct lmb_radiance {
+    float rgb[3][LMB_TILE_PIXELS];
+} lmb_radiance;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_compose_tile: albedo / pi x (direct + indirect). Either irradiance may be NULL. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
+                            const lmb_irradiance *direct, const lmb_irradiance *indirect);
+
+/* lmb_store_tile: write a tile into a surface whose pixel (0, 0) is frame pixel (x0, y0).
+ *
+ *   out       LMB_RGB32F: radiance as it is. Others: x 2^exposure_ev, clipped to 0..1, sRGB-coded; RGB565 and RGB555
+ *             with an 8x8 ordered dither (Bayer 1973) fixed to the frame, so that bands meet without a seam.
+ *   x, y      px in the frame of the tile's pixel 0; what lies outside the surface is not written.
+ * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
+lmb_status lmb_store_tile(const lmb_surface *out, int32_t x0, int32_t y0, const lmb_radiance *in, int32_t x, int32_t y,
+                          float exposure_ev);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

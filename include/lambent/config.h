@@ -1,0 +1,50 @@
+/* config.h: every capacity and switch of lambent, with its unit, its cost and what happens when it is full.
+ *
+ * Each is #ifndef: define it on the compiler's command line (for the library and the application alike).
+ * LMB_CONFIG_TINY picks the small set in one word. Capacities are not sizes: a run may use any size up to them. */
+#ifndef LMB_CONFIG_H
+#define LMB_CONFIG_H
+
+/* Level-2 groups of one solution (SEEDS V19). 64 bytes each, inside lmb_groups. When full, grouping restarts with a
+ * wider reach until everything fits: nothing is lost, detail is. */
+#ifndef LMB_MAX_GROUPS
+#ifdef LMB_CONFIG_TINY
+#define LMB_MAX_GROUPS 96
+#else
+#define LMB_MAX_GROUPS 2048
+#endif
+#endif
+
+/* Lights of one frame that have their own light map. Full: LMB_ERR_CAPACITY. */
+#ifndef LMB_MAX_LIGHTS
+#ifdef LMB_CONFIG_TINY
+#define LMB_MAX_LIGHTS 1
+#else
+#define LMB_MAX_LIGHTS 128
+#endif
+#endif
+
+/* Slots of the post-transform vertex cache in lmb_raster_scratch; a power of two, 20 bytes each.
+ * A smaller cache costs transforms, never pixels. */
+#ifndef LMB_VERTEX_CACHE
+#ifdef LMB_CONFIG_TINY
+#define LMB_VERTEX_CACHE 64
+#else
+#define LMB_VERTEX_CACHE 512
+#endif
+#endif
+
+/* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
+#define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
+#define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
+#define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
+#define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
+#define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
+
+/* Two builds with different layouts must not link: the entry point that every user calls carries the layout's name.
+ * The name is made of the three capacities above. */
+#define LMB_PASTE_(a, b, c, d) a##_g##b##_l##c##_v##d
+#define LMB_PASTE(a, b, c, d) LMB_PASTE_(a, b, c, d)
+#define lmb_build_check LMB_PASTE(lmb_build_check, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_VERTEX_CACHE)
+
+#endif

@@ -1,0 +1,16 @@
+/* lambent.h: the whole public face. Read types.h first, then render.h for one call that does everything. */
+#ifndef LMB_LAMBENT_H
+#define LMB_LAMBENT_H
+
+#include "config.h"
+#include "types.h"
+#include "surface.h"
+#include "scene.h"
+#include "raster.h"
+#include "map.h"
+#include "light.h"
+#include "bounce.h"
+#include "compose.h"
+#include "render.h"
+
+#endif

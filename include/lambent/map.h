@@ -1,0 +1,64 @@
+/* map.h: what a camera or a light saw: the G-buffer for those who want it, and the map of a light. [V6 V7 V33] */
+#ifndef LMB_MAP_H
+#define LMB_MAP_H
+
+#include "raster.h"
+
+/* The light's map: depth + triangle id per face, nothing else. Flux, normals and positions are resolved from it on
+ * demand. Spot lights up to 50 degrees half angle and directional lights have one face; wider spots and point lights
+ * have six, in GL order (+x -x +y -y +z -z), of which a spot draws only those its cone meets. */
+typedef struct lmb_light_map {
+    lmb_view view[6];
+    lmb_target face[6];
+    int32_t faces;  /* 1 or 6 */
+    int32_t size;   /* texels a side */
+    uint32_t drawn; /* bit f: face f is part of the map */
+} lmb_light_map;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_gbuffer_band: one band of the frame's attributes as pixels of full-frame surfaces.
+ *
+ *   depth   LMB_R32F, view-space distance in m; normal, albedo: LMB_RGB32F, world face normal turned to the viewer
+ *           (the shading normal where the mesh has normals), linear reflectance. Any may be NULL. Size: the frame.
+ *   target  holds the rows 8 * band .. 8 * band + 7 with ids.
+ * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
+lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo,
+                            const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                            const lmb_target *target, int32_t band);
+
+/* lmb_light_map_faces: 1 or 6 for this light. */
+int32_t lmb_light_map_faces(const lmb_light *light);
+
+/* lmb_light_map_bytes: memory of a map of size x size texels a face; id_format LMB_ID16 or LMB_ID32. 0: bad size. */
+size_t lmb_light_map_bytes(int32_t faces, int32_t size, int32_t id_format);
+
+/* Static storage for a light's map of one face: LMB_LIGHT_MAP_ARRAY(memory, 128) with 16-bit ids. */
+#define LMB_LIGHT_MAP_ARRAY(name, size) static uint32_t name[(size) * (size) * 6 / 4]
+
+/* lmb_light_map_init: place a light's map into `memory` and fit its views.
+ *
+ *   size    texels a side: a multiple of 8, 8 .. LMB_MAX_SIDE.
+ *   scene   its bounds fit directional lights' maps and set every map's near plane.
+ * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes): `out` is then untouched. */
+lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
+                              int32_t id_format, void *memory, size_t bytes);
+
+/* lmb_light_map_draw: lmb_draw into every face that is part of the map. Clear the faces first:
+ * lmb_light_map_clear. The same returns as lmb_draw. */
+lmb_status lmb_light_map_clear(const lmb_light_map *map);
+lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kernels, lmb_raster_scratch *scratch,
+                              const lmb_scene *scene, uint32_t first_id, uint32_t count, lmb_stats *stats);
+
+/* lmb_light_texel_power: W per channel that a light of `intensity` sends through texel (x, y) of a face: intensity x
+ * exact solid angle of the texel (or its area, directional), with the spot's fall-off averaged over 2x2 points.
+ * Relative error of the solid angle under 1e-6 for maps of 16 texels or more. */
+void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_light_map *map, int32_t face, int32_t x,
+                           int32_t y);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,81 @@
+/* raster.h: triangles -> depth + id (a visibility buffer), then attributes of one tile at a time.
+ *
+ * A draw fills a *window* of a frame: a target's origin (x0, y0) says where in the frame its first pixel lies. A frame
+ * drawn in any set of windows has the bytes of the frame drawn whole. */
+#ifndef LMB_RASTER_H
+#define LMB_RASTER_H
+
+#include "scene.h"
+#include "surface.h"
+
+/* A machine's kernels: one formula each, the same bytes on every machine. Made by src/isa, handed in by the caller. */
+typedef struct lmb_kernels lmb_kernels;
+
+/* Where draws go. `id` is optional (data NULL): a depth-only map costs no id. Both surfaces have one size. */
+typedef struct lmb_target {
+    lmb_surface depth; /* LMB_DEPTH32F or LMB_DEPTH16, tiled or linear */
+    lmb_surface id;    /* LMB_ID16 or LMB_ID32, or data NULL */
+    int32_t x0, y0;    /* px in the frame, multiples of LMB_TILE, >= 0 */
+} lmb_target;
+
+/* A draw's vertex cache: contents before a call mean nothing. 24 bytes a slot. */
+typedef struct lmb_raster_scratch {
+    uint32_t tag[LMB_VERTEX_CACHE];
+    float x[LMB_VERTEX_CACHE], y[LMB_VERTEX_CACHE], z[LMB_VERTEX_CACHE], w[LMB_VERTEX_CACHE];
+    uint8_t code[LMB_VERTEX_CACHE];
+} lmb_raster_scratch;
+
+/* Attributes of 8x8 pixels, planar: kernels read whole vectors of them. Pixel k is (k % 8, k / 8). 4 KiB. */
+typedef struct lmb_tile {
+    float position[3][LMB_TILE_PIXELS]; /* world, m: on the plane of the pixel's own triangle */
+    float face[3][LMB_TILE_PIXELS];     /* unit normal of the triangle, turned to the viewer */
+    float normal[3][LMB_TILE_PIXELS];   /* unit shading normal, on the same side as `face` */
+    float albedo[3][LMB_TILE_PIXELS];
+    float depth[LMB_TILE_PIXELS]; /* along the view's axis, m; 0: nothing */
+    float uv[2][LMB_TILE_PIXELS];
+    uint32_t id[LMB_TILE_PIXELS]; /* 0: nothing; then every plane holds 0 */
+    int32_t x, y;                 /* px in the frame of pixel 0 */
+    int32_t hits;                 /* pixels with a surface */
+} lmb_tile;
+
+enum { LMB_CULL_BACK = 1 /* drop back faces of single-sided materials (cameras); lights see both sides */ };
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_kernels_pick: the best machine of this build for this processor. Never NULL.
+ * lmb_kernels_named: by name ("scalar", ...), or NULL where the build or the processor lacks it. */
+const lmb_kernels *lmb_kernels_pick(void);
+const lmb_kernels *lmb_kernels_named(const char *name);
+const char *lmb_kernels_name(const lmb_kernels *kernels);
+
+/* lmb_draw: draw triangles with ids first_id .. first_id + count - 1 into a window.
+ *
+ *   target   cleared or drawn before; depth keeps the nearer surface, equal depth keeps the earlier draw.
+ *   view     the frame's camera or light face.
+ *   scene    checked by lmb_scene_check. ids past its end are ignored.
+ *   flags    LMB_CULL_BACK or 0.
+ *   stats    counts triangles; may be NULL.
+ *
+ * Returns LMB_OK, LMB_ERR_ARG (null, window outside the frame or not on tiles, bad view) or LMB_ERR_FORMAT, and
+ * then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
+ * Triangles with a non-finite vertex, one more than 2^20 m away, or an index outside the mesh are dropped, counted.
+ * Coverage: pixel centres, top-left rule, vertices snapped to 1/256 px: exact integers, no crack, no overlap.
+ * Stack: under 2 KiB. Cost: vertices + covered tiles. Draws into different targets may run at once. */
+lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, lmb_raster_scratch *scratch,
+                    const lmb_view *view, const lmb_scene *scene, uint32_t first_id, uint32_t count, uint32_t flags,
+                    lmb_stats *stats);
+
+/* lmb_resolve_tile: attributes of the tile whose first pixel is (x, y) of the frame.
+ *
+ *   target  holds the tile, with ids.
+ * Returns LMB_OK or LMB_ERR_ARG (null, no ids, tile outside the window or not on tiles): `out` is then untouched.
+ * Cost: 64 pixels x different triangles among them. */
+lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                            const lmb_target *target, int32_t x, int32_t y);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,109 @@
+/* render.h: one call that draws a frame with bounced light, or one bounded step of it at a time. [V29 V30 V33 V34]
+ *
+ *     lmb_render r;                        1.4 KiB a light; holds no pointer into itself: copy it freely
+ *     lmb_render_begin(&r, &frame);        checks everything, writes no pixel
+ *     while (lmb_render_step(&r, 1000) == LMB_MORE) { ... }       or: lmb_render_frame(&frame)
+ *
+ * Order [V34]: per light its map, first points, discs; groups; the viewer's depth; then band after band: attributes,
+ * direct light, gathered light, picture. Steps of any size, and bands in any order, give the same bytes. */
+#ifndef LMB_RENDER_H
+#define LMB_RENDER_H
+
+#include "bounce.h"
+#include "compose.h"
+
+/* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
+enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
+
+/* Everything that works on one band. Place it in fast RAM; one for each thread that draws bands. */
+typedef struct lmb_band_scratch {
+    lmb_raster_scratch raster;
+    lmb_gather_scratch gather;
+    lmb_tile tile;
+    lmb_irradiance direct, indirect;
+    lmb_radiance radiance;
+} lmb_band_scratch;
+
+/* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,
+ * anything else to stop: lmb_render_step then returns LMB_OK early and the frame is incomplete. */
+typedef int (*lmb_band_callback)(void *user, const lmb_surface *rows, int32_t y);
+
+/* A frame's description: what to draw, how, and the memory to do it in. All memory is the caller's. */
+typedef struct lmb_frame {
+    const lmb_kernels *kernels; /* lmb_kernels_pick(), or one machine's own on small targets */
+    const lmb_scene *scene;     /* checked */
+    lmb_view view;
+    /* how */
+    int32_t show;          /* LMB_SHOW_* */
+    int32_t light_map;     /* texels a side: a multiple of 8 */
+    lmb_grouping grouping; /* zeros: defaults */
+    int32_t occlusion;     /* LMB_OCCLUSION_* */
+    int32_t steps;         /* 16 where 0: samples of a VIEW occlusion segment */
+    float exposure_ev;
+    /* memory */
+    void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */
+    size_t map_bytes;
+    int32_t id_format;  /* LMB_ID32 (or 0), or LMB_ID16 for scenes under 65,536 triangles */
+    lmb_points points;  /* data NULL: no bounced light */
+    lmb_groups *groups; /* NULL: no bounced light */
+    lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
+    lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
+    lmb_band_scratch *scratch;
+    /* where to */
+    lmb_surface out; /* the whole frame; or 8 rows, handed to `callback` band by band */
+    lmb_band_callback callback;
+    void *user;
+    lmb_stats *stats; /* may be NULL */
+} lmb_frame;
+
+/* The state of a frame under way. */
+typedef struct lmb_render {
+    lmb_frame frame;
+    lmb_light_map maps[LMB_MAX_LIGHTS];
+    int32_t stage;               /* lmb_stage */
+    uint32_t light, face, place; /* how far the stage is */
+    uint32_t triangles;          /* of the scene */
+} lmb_render;
+
+/* The stages, in order; lmb_render_progress names them. */
+typedef enum lmb_stage {
+    LMB_STAGE_LIGHT_MAP = 0,
+    LMB_STAGE_POINTS,
+    LMB_STAGE_GROUPS,
+    LMB_STAGE_VIEW,
+    LMB_STAGE_BANDS,
+    LMB_STAGE_DONE
+} lmb_stage;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_render_begin: check a frame and start it.
+ *
+ * Returns LMB_OK, or LMB_ERR_ARG, LMB_ERR_CAPACITY (too many lights, maps or surfaces too small), LMB_ERR_FORMAT,
+ * LMB_ERR_ALIGN, LMB_ERR_SCENE (ids do not fit id_format): then nothing but *r was written. */
+lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
+
+/* lmb_render_step: do up to `units` units of work, at least one.
+ *
+ * A unit is 1,024 triangles of a draw or a row of light-map tiles; a band counts as 8; grouping is one piece.
+ * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
+lmb_status lmb_render_step(lmb_render *r, int32_t units);
+
+/* lmb_render_band: draw one finished-from-here band into frame.out; legal from LMB_STAGE_BANDS on, in any order, on
+ * any thread with its own scratch (and, with a band-sized eye, its own `eye`). Band b is rows 8b .. 8b + 7.
+ * `out` is the whole frame, or 8 rows that take the band. Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
+lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
+                           const lmb_surface *out, int32_t band);
+
+/* lmb_render_frame: begin and all the steps. `r` is caller's memory. */
+lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame);
+
+/* lmb_render_progress: 0 .. 1 of the stage at hand. *name is its name in words; never NULL. */
+float lmb_render_progress(const char **name, const lmb_render *r);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,124 @@
+/* scene.h: a scene as plain const data: usable in place from flash, 4-byte aligned, nothing owned.
+ *
+ * Every array belongs to the caller and may be const. Positions may live in RAM beside indices in flash (moving,
+ * skinned meshes). `revision` numbers say what changed, so nothing needs hashing: raise them when you write. */
+#ifndef LMB_SCENE_H
+#define LMB_SCENE_H
+
+#include "types.h"
+
+/* Vertex streams: tightly packed, one format each. */
+enum { LMB_POSITION_F32 = 0, /* float x, y, z */
+       LMB_POSITION_I16 = 1  /* int16 x, y, z, 0: position_scale * v + position_offset */ };
+enum { LMB_UV_F32 = 0, /* float u, v */
+       LMB_UV_U16 = 1  /* uint16 u, v: uv_scale * v / 65535 */ };
+enum { LMB_INDEX_NONE = 0, /* vertices in order, three a triangle */
+       LMB_INDEX_U16 = 1, LMB_INDEX_U32 = 2 };
+
+typedef struct lmb_mesh {
+    const void *positions;
+    const int16_t *normals;  /* octahedral, two a vertex (lmb_octahedral_encode); NULL: flat shading */
+    const void *uvs;         /* NULL: no texture coordinates, (0, 0) */
+    const uint8_t *colours;  /* RGBA8, linear, multiplies the albedo; NULL: white */
+    const void *indices;     /* uint16 or uint32; NULL with LMB_INDEX_NONE */
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    lmb_vec3 position_scale, position_offset; /* LMB_POSITION_I16 only */
+    float uv_scale[2];                        /* LMB_UV_U16 only */
+    uint8_t position_format, uv_format, index_format, reserved;
+} lmb_mesh;
+
+enum { LMB_WRAP_REPEAT = 0, LMB_WRAP_CLAMP = 1, LMB_WRAP_MIRROR = 2 };
+enum { LMB_NEAREST = 0, LMB_BILINEAR = 1, LMB_TRILINEAR = 2 };
+
+/* Base colour image: RGBA8, colour sRGB-coded, alpha linear; level 0 first, each next level half the size (floor,
+ * at least 1), tightly packed. lmb_texture_mips fills the levels. */
+typedef struct lmb_texture {
+    const uint8_t *texels;
+    uint16_t width, height; /* of level 0; 1 .. LMB_MAX_SIDE, any size */
+    uint8_t levels;         /* 1: no mips */
+    uint8_t wrap_s, wrap_t;
+    uint8_t filter;
+} lmb_texture;
+
+enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
+       LMB_ALPHA_MASK = 2    /* holes where alpha < alpha_cutoff: takes the masked path */ };
+
+/* Lambertian surface. Diffuse albedo per channel is 0 .. 1; albedo x texture x vertex colour [V2]. */
+typedef struct lmb_material {
+    float albedo[3];
+    float alpha;        /* times texture alpha times vertex alpha */
+    float alpha_cutoff;
+    int32_t texture;    /* index into scene->textures, or -1 */
+    uint32_t flags;
+} lmb_material;
+
+/* A mesh placed in the world. Triangle t of it has the id first_id + t, in the draw order of the scene; the first
+ * instance has first_id 1, so that id 0 is nothing. lmb_scene_check verifies the numbering. */
+typedef struct lmb_instance {
+    lmb_mat4 to_world; /* affine; may mirror or scale unevenly */
+    uint32_t mesh, material;
+    uint32_t first_id;
+    uint32_t revision; /* raise when to_world or the mesh's data change */
+} lmb_instance;
+
+enum { LMB_LIGHT_POINT = 0, LMB_LIGHT_SPOT = 1, LMB_LIGHT_DIRECTIONAL = 2 };
+
+/* A light without area. Spot: full inside the inner cone, zero outside the outer one, smoothstep of the cosine
+ * between. `direction` is the way the light travels, unit length. */
+typedef struct lmb_light {
+    lmb_vec3 position;
+    lmb_vec3 direction;
+    float intensity[3]; /* W/sr; directional: W/m2 on a plane facing the light */
+    float cos_inner, cos_outer;
+    int32_t kind;
+    uint32_t revision;
+} lmb_light;
+
+typedef struct lmb_scene {
+    const lmb_mesh *meshes;
+    const lmb_material *materials;
+    const lmb_texture *textures;
+    const lmb_instance *instances;
+    const lmb_light *lights;
+    uint32_t mesh_count, material_count, texture_count, instance_count, light_count;
+    lmb_vec3 bounds_min, bounds_max; /* of all placed vertices, world metres: lmb_scene_bounds */
+    uint32_t revision;               /* raise when anything but the lights changed */
+    uint32_t lights_revision;
+} lmb_scene;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_scene_check: is the scene safe to draw? Reads every struct (not the vertices; draws check each index).
+ *
+ * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles), LMB_ERR_ALIGN (a stream not
+ * 4-byte aligned), LMB_ERR_FORMAT (unknown format, wrap, filter, light kind), LMB_ERR_SCENE (index outside, ids not
+ * numbered in order). Call it once after loading; every other function takes the scene as checked. */
+lmb_status lmb_scene_check(const lmb_scene *scene);
+
+/* lmb_scene_triangles: triangles over all instances; ids run 1 .. that. */
+uint32_t lmb_scene_triangles(const lmb_scene *scene);
+
+/* lmb_scene_bounds: the box of all placed, finite vertices; (0,0,0)-(0,0,0) for none. Cost: one pass over them. */
+void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene);
+
+/* lmb_texture_bytes: memory of `levels` levels of a width x height image, 4 bytes a texel; 0 for a bad size. */
+size_t lmb_texture_bytes(int32_t width, int32_t height, int32_t levels);
+
+/* lmb_texture_level_count: levels down to 1x1. */
+int32_t lmb_texture_level_count(int32_t width, int32_t height);
+
+/* lmb_texture_mips: fill levels 1.. from level 0 by a 2x2 box in linear light (alpha-weighted colour).
+ * `texels` holds lmb_texture_bytes. Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
+
+/* lmb_octahedral_encode / _decode: unit vector <-> two int16 (Meyer et al. 2010); error under 4e-5 rad. */
+void lmb_octahedral_encode(int16_t out[2], lmb_vec3 unit);
+lmb_vec3 lmb_octahedral_decode(const int16_t code[2]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

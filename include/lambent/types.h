@@ -1,0 +1,124 @@
+/* types.h: the words of the house: status, vectors, views, surfaces, statistics.
+ *
+ * Conventions (glTF 2.0's): metres, right-handed, +Y up, a camera looks down -Z, counter-clockwise front faces,
+ * linear RGB, column-major matrices. Pixel (x, y) has its centre at (x + 0.5, y + 0.5); y = 0 is the top row.
+ *
+ * Glossary
+ *   first point  a lit surface element seen by a light: a texel of the light's map, or several      [V4]
+ *   disc         a first point with the neighbours that joined it                                   [V12]
+ *   group        discs gathered into one emitter                                                    [V19]
+ *   flux         outgoing Lambertian power of an emitter, W: reflectance x incident power
+ *   tile, band   8x8 pixels; 8 rows of the frame. The band is the unit of work
+ *   window       the part of a frame that a surface holds
+ *   near pair    a pixel and an emitter closer than LMB_NEAR half-diagonals of it */
+#ifndef LMB_TYPES_H
+#define LMB_TYPES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "config.h"
+
+/* 0 is fine, positive is fine and says more, negative is an error. */
+typedef enum lmb_status {
+    LMB_OK = 0,
+    LMB_MORE = 1,          /* lmb_render_step: call again */
+    LMB_ERR_ARG = -1,      /* a null pointer, a size, a range */
+    LMB_ERR_CAPACITY = -2, /* a caller's array or a configured capacity is too small */
+    LMB_ERR_ALIGN = -3,    /* scene data not 4-byte aligned */
+    LMB_ERR_FORMAT = -4,   /* a surface's or stream's format that this call does not take */
+    LMB_ERR_SCENE = -5,    /* an index that points outside the scene */
+    LMB_ERR_BUILD = -6     /* compiled so that bytes would differ: see lmb_build_check */
+} lmb_status;
+
+typedef struct lmb_vec3 {
+    float x, y, z;
+} lmb_vec3;
+
+typedef struct lmb_mat4 {
+    float m[16]; /* column-major: m[4 * column + row] */
+} lmb_mat4;
+
+/* What a camera, or one face of a light's map, sees. The axes are orthonormal: right x up = back.
+ * Depth is d = z_clip / w_clip of a reversed projection: larger is nearer, 0 is nothing, affine in screen space.
+ *   perspective   d = near_m / w, no far plane          orthographic   d = (far_m - w) / (far_m - near_m)
+ * with w the distance along -back, in metres. */
+enum { LMB_PERSPECTIVE = 0, LMB_ORTHOGRAPHIC = 1 };
+typedef struct lmb_view {
+    lmb_vec3 eye;
+    lmb_vec3 right, up, back;
+    float half_width, half_height; /* perspective: tangents of the half angles; orthographic: metres */
+    float near_m, far_m;           /* > 0; far_m is used by orthographic views and 16-bit depth */
+    int32_t kind;                  /* LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC */
+    int32_t frame_width, frame_height; /* px of the whole frame, <= LMB_MAX_FRAME */
+} lmb_view;
+
+/* Pixel formats. Depth and id surfaces hold whole tiles: their memory is what lmb_surface_bytes says. */
+typedef enum lmb_format {
+    LMB_FORMAT_NONE = 0,
+    LMB_RGB565, /* 16 bit, red in the high bits */
+    LMB_RGB555, /* 16 bit, top bit 0 */
+    LMB_RGBA8,  /* bytes R G B A */
+    LMB_BGRA8,  /* bytes B G R A */
+    LMB_R32F,
+    LMB_RGB32F,
+    LMB_DEPTH32F,
+    LMB_DEPTH16, /* 0 nothing, else 1 + 65534 (d - d_far) / (1 - d_far): occlusion only */
+    LMB_ID16,
+    LMB_ID32
+} lmb_format;
+
+/* LINEAR: rows. TILED: 8x8 tiles of 64 values, tile rows from the top (depth and id only); stride_bytes is then
+ * the step from one row of tiles to the next. */
+enum { LMB_LINEAR = 0, LMB_TILED = 1 };
+
+/* A caller's pixels. No pointer of lambent's own ever points into another struct. */
+typedef struct lmb_surface {
+    void *data;           /* first row (LINEAR), first tile (TILED); NULL: no surface */
+    int32_t width, height; /* px, <= LMB_MAX_SIDE */
+    int32_t stride_bytes; /* may be negative for colour (bottom-up pictures) */
+    uint8_t format;       /* lmb_format */
+    uint8_t layout;       /* LMB_LINEAR or LMB_TILED */
+    uint16_t reserved;    /* 0 */
+} lmb_surface;
+
+/* What a call dropped or merged: bad data is counted, never an error. Counters only grow; zero them yourself. */
+typedef struct lmb_stats {
+    uint32_t triangles;         /* read */
+    uint32_t triangles_drawn;   /* reached the fill */
+    uint32_t triangles_dropped; /* non-finite or absurd vertex, index outside the mesh */
+    uint32_t first_points;
+    uint32_t discs;
+    uint32_t groups;
+    uint32_t regroups;          /* times grouping restarted because LMB_MAX_GROUPS was met */
+    uint32_t bands;
+    double flux_lit;            /* W: outgoing power of all first points, sum of R, G, B */
+    double flux_grouped;        /* W: the same over the groups; less only where strict zones drop some [V20] */
+} lmb_stats;
+
+#define LMB_VERSION 100 /* 0.1.0: major * 10000 + minor * 100 + patch */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_status_name: "LMB_OK", "LMB_ERR_ARG", ...; "?" for any other number. Never NULL. */
+const char *lmb_status_name(lmb_status status);
+
+/* lmb_build_check: was this library compiled so that its bytes equal everybody else's?
+ *
+ * Asks at run time: IEEE binary32 without excess precision, no contraction in any machine's kernels, no flushed
+ * denormals, arithmetic shifts. Returns LMB_OK or LMB_ERR_BUILD. Call it once at start. */
+lmb_status lmb_build_check(void);
+
+/* lmb_view_look: a perspective view from `eye` towards `target`.
+ *
+ *   vfov_rad  vertical angle of view, 0 < vfov_rad < pi.   width, height  the frame, px; pixels are square.
+ * Returns LMB_OK, or LMB_ERR_ARG (target at eye, up along the view, sizes outside) and leaves `out` alone. */
+lmb_status lmb_view_look(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
+                         int32_t height);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,119 @@
+/* main_tiny.c: the demo scene with bounced light, 160x120 in RGB565, in less than 256 KiB of RAM and without a heap.
+ *
+ * Prints the picture's hash, then the RAM it took. Runs on a host too: the hash must be the same. */
+#include <lambent/lambent.h>
+
+#include "../../tools/demo_scene.h"
+#include "../port.h"
+
+enum { WIDTH = 160, HEIGHT = 120, MAP_SIZE = 128, MAP_BLOCKS = MAP_SIZE / 8, POINTS = 400 };
+
+/* Words, so that everything is aligned to 4. Depth and id have whole tiles: both sizes are multiples of 8. */
+static uint32_t picture[WIDTH * HEIGHT / 2];
+static uint32_t band_depth[WIDTH * LMB_TILE];
+static uint32_t band_id[WIDTH * LMB_TILE / 2];
+static uint32_t view_depth[WIDTH * HEIGHT / 2];
+LMB_LIGHT_MAP_ARRAY(map_memory, MAP_SIZE);
+LMB_POINTS_ARRAY(points, POINTS, MAP_BLOCKS);
+static lmb_groups groups;
+static lmb_band_scratch scratch;
+static lmb_stats stats;
+static lmb_render render;
+
+static lmb_status place_surfaces(lmb_frame *frame)
+{
+    lmb_status s = lmb_surface_init(&frame->out, LMB_RGB565, WIDTH, HEIGHT, picture, sizeof picture);
+    if (s == LMB_OK)
+        s = lmb_surface_init(&frame->eye.depth, LMB_DEPTH32F, WIDTH, LMB_TILE, band_depth, sizeof band_depth);
+    if (s == LMB_OK)
+        s = lmb_surface_init(&frame->eye.id, LMB_ID16, WIDTH, LMB_TILE, band_id, sizeof band_id);
+    if (s == LMB_OK)
+        s = lmb_surface_init(&frame->eye_depth, LMB_DEPTH16, WIDTH, HEIGHT, view_depth, sizeof view_depth);
+    return s;
+}
+
+static lmb_status draw(lmb_surface *out)
+{
+    static lmb_frame frame;
+    lmb_status s = lmb_build_check();
+    if (s == LMB_OK)
+        s = place_surfaces(&frame);
+    frame.kernels = lmb_kernels_pick();
+    frame.scene = demo_scene();
+    frame.view = demo_view(WIDTH, HEIGHT);
+    frame.light_map = MAP_SIZE;
+    frame.occlusion = LMB_OCCLUSION_VIEW;
+    frame.map_memory = map_memory;
+    frame.map_bytes = sizeof map_memory;
+    frame.id_format = LMB_ID16;
+    frame.points = points;
+    frame.groups = &groups;
+    frame.scratch = &scratch;
+    frame.stats = &stats;
+    if (s == LMB_OK)
+        s = lmb_render_frame(&render, &frame);
+    *out = frame.out;
+    return s;
+}
+
+static void put_hex(uint64_t v)
+{
+    char text[17];
+    int i;
+    for (i = 0; i < 16; ++i)
+        text[i] = "0123456789abcdef"[(v >> (60 - 4 * i)) & 15];
+    text[16] = 0;
+    port_put(text);
+}
+
+static void put_number(uint32_t v)
+{
+    char text[11];
+    int i = 10;
+    text[i] = 0;
+    do
+        text[--i] = (char)('0' + v % 10);
+    while (v /= 10);
+    port_put(text + i);
+}
+
+static void put_count(const char *name, uint32_t v)
+{
+    port_put(name);
+    put_number(v);
+}
+
+static int report_ram(void)
+{
+    port_ram ram;
+    uint32_t total;
+    port_ram_used(&ram);
+    total = ram.data + ram.bss + ram.stack;
+    if (!ram.size)
+        return 0;
+    put_count("ram ", total);
+    put_count(" of ", ram.size);
+    put_count(" bytes: data ", ram.data);
+    put_count(", bss ", ram.bss);
+    put_count(", stack ", ram.stack);
+    port_put("\n");
+    return total >= ram.size;
+}
+
+int main(void)
+{
+    lmb_surface out;
+    lmb_status s = draw(&out);
+    if (s != LMB_OK) {
+        port_put(lmb_status_name(s));
+        port_put("\n");
+        return 1;
+    }
+    put_count("triangles ", stats.triangles_drawn);
+    put_count(", first points ", stats.first_points);
+    put_count(", groups ", stats.groups);
+    port_put("\ndemo-160x120-rgb565 ");
+    put_hex(lmb_surface_hash(&out));
+    port_put("\n");
+    return report_ram();
+}

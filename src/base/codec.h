@@ -1,0 +1,18 @@
+/* codec.h: 8-bit sRGB codes. (Octahedral normals are public: lambent/scene.h.) Floor 1. */
+#ifndef LMB_BASE_CODEC_H
+#define LMB_BASE_CODEC_H
+
+#include <stdint.h>
+
+#include "exact.h"
+
+/* [c]: linear value 0 .. 1 of code c, the float nearest to the curve of IEC 61966-2-1. */
+extern const float lmb_srgb_linear[256];
+
+static inline float lmb_srgb_decode(uint8_t code) { return lmb_srgb_linear[code]; }
+
+/* lmb_srgb_encode: the code nearest to the curve at `linear`, for every float: no float lies on a tie. Below 0 and NaN
+ * give 0, above 1 gives 255. */
+uint8_t lmb_srgb_encode(float linear);
+
+#endif

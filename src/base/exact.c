@@ -1,0 +1,57 @@
+/* exact.c: asks the running machine what exact.h cannot ask the compiler. Floor 1.
+ *
+ * Operands are volatile, so that the answers come from the code the compiler made and not from its own arithmetic. */
+#include "exact.h"
+
+#include <stdint.h>
+
+#include "vec.h"
+
+/* 1 + 2^-12 squared is 1 + 2^-11 + 2^-24: rounding drops the last term, a fused multiply-subtract keeps it. */
+static int float_is_plain(void)
+{
+    volatile float v_a = 1.000244140625f, v_c = 1.00048828125f, v_big = 16777216.0f, v_one = 1.0f;
+    float a = v_a, c = v_c, big = v_big, one = v_one;
+    volatile float minus = a * a - c, plus = -c + a * a, excess = (big + one) - big;
+    return minus == 0.0f && plus == 0.0f && excess == 0.0f;
+}
+
+/* In and out: a denormal operand must not count as 0, nor a denormal result become 0. */
+static int denormals_are_kept(void)
+{
+    volatile float tiny = 0x1p-140f, half = 0.5f, least = FLT_MIN, huge = 0x1p+100f;
+    volatile float out = least * half, in = tiny * huge, both = tiny * half;
+    return out == 0x1p-127f && in == 0x1p-40f && both == 0x1p-141f;
+}
+
+static int double_is_binary64(void)
+{
+    volatile double big = 9007199254740992.0, one = 1.0;
+    double sum = big + one;
+    volatile double excess = sum - big;
+    return DBL_MANT_DIG == 53 && DBL_MAX_EXP == 1024 && excess == 0.0;
+}
+
+static int integers_are_usual(void)
+{
+    volatile int32_t a = -5;
+    volatile int64_t b = -INT64_C(0x500000001);
+    volatile float up = 2.75f, down = -2.75f;
+    return a >> 1 == -3 && b >> 32 == -6 && (int32_t)up == 2 && (int32_t)down == -2;
+}
+
+/* Values whose roots lie just beside the middle of two floats, where an estimate rounds wrong. */
+static int roots_and_floors_are_exact(void)
+{
+    volatile float two = 2.0f, below_one = 0x1.fffffep-1f, above_one = 0x1.000002p+0f, below_four = 0x1.fffffep+1f;
+    volatile float tiny = 0x1p-140f, third = -0.3333f, whole = -7.0f, large = -8388607.5f;
+    return sqrtf(two) == 0x1.6a09e6p+0f && sqrtf(below_one) == 0x1.fffffep-1f && sqrtf(above_one) == 1.0f &&
+           sqrtf(below_four) == 0x1.fffffep+0f && sqrtf(tiny) == 0x1p-70f && floorf(third) == -1.0f &&
+           floorf(whole) == -7.0f && floorf(large) == -8388608.0f;
+}
+
+int lmb_base_is_exact(void)
+{
+    return float_is_plain() && denormals_are_kept() && double_is_binary64() && integers_are_usual() &&
+           roots_and_floors_are_exact();
+}

@@ -1,0 +1,25 @@
+/* exact.h: refuses builds whose bytes would differ, at compile time. lmb_build_check asks the rest at run time. Floor 1. */
+#ifndef LMB_BASE_EXACT_H
+#define LMB_BASE_EXACT_H
+
+#include <float.h>
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "lambent: -ffast-math changes pixels; build without it"
+#endif
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD != 0
+#error "lambent: this target computes float with excess precision; build with SSE2 (-mfpmath=sse -msse2) or -std=gnu99"
+#endif
+#if FLT_RADIX != 2 || FLT_MANT_DIG != 24 || FLT_MAX_EXP != 128
+#error "lambent: float is not IEEE-754 binary32"
+#endif
+
+/* The part of lmb_build_check that needs no kernel: 1 where this machine's plain C computes as everybody else's. */
+int lmb_base_is_exact(void);
+
+/* A seat belt beside -ffp-contract=off: gcc ignores the pragma, clang honours it for plain expressions. */
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#endif
+
+#endif

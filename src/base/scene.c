@@ -1,0 +1,148 @@
+/* scene.c: is a scene safe to draw, how many triangles, how large. Floor 1. */
+#include <lambent/scene.h>
+
+#include "vec.h"
+#include "vertex.h"
+
+/* 3 * triangle + k must fit 32 bits. */
+#define MAX_MESH_TRIANGLES 0x55555555u
+
+static int is_finite(float v) { return v >= -FLT_MAX && v <= FLT_MAX; }
+
+static int are_finite(const float *v, int32_t count)
+{
+    int32_t i;
+    for (i = 0; i < count; ++i)
+        if (!is_finite(v[i]))
+            return 0;
+    return 1;
+}
+
+static int is_finite3(lmb_vec3 v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); }
+
+static int is_aligned(const void *p) { return ((uintptr_t)p & 3u) == 0; }
+
+static lmb_status check_mesh(const lmb_mesh *m)
+{
+    if (m->position_format > LMB_POSITION_I16 || m->uv_format > LMB_UV_U16 || m->index_format > LMB_INDEX_U32)
+        return LMB_ERR_FORMAT;
+    if ((m->vertex_count && !m->positions) || m->triangle_count > MAX_MESH_TRIANGLES)
+        return LMB_ERR_ARG;
+    if (m->triangle_count && m->index_format != LMB_INDEX_NONE && !m->indices)
+        return LMB_ERR_ARG;
+    if (!is_aligned(m->positions) || !is_aligned(m->normals) || !is_aligned(m->uvs) || !is_aligned(m->colours) ||
+        !is_aligned(m->indices))
+        return LMB_ERR_ALIGN;
+    if (m->position_format == LMB_POSITION_I16 && !(is_finite3(m->position_scale) && is_finite3(m->position_offset)))
+        return LMB_ERR_ARG;
+    if (m->uvs && m->uv_format == LMB_UV_U16 && !are_finite(m->uv_scale, 2))
+        return LMB_ERR_ARG;
+    if (m->index_format == LMB_INDEX_NONE && m->triangle_count > m->vertex_count / 3)
+        return LMB_ERR_SCENE;
+    return LMB_OK;
+}
+
+static lmb_status check_texture(const lmb_texture *t)
+{
+    if (!t->texels || t->levels < 1 || t->levels > lmb_texture_level_count(t->width, t->height))
+        return LMB_ERR_ARG;
+    if (!is_aligned(t->texels))
+        return LMB_ERR_ALIGN;
+    if (t->wrap_s > LMB_WRAP_MIRROR || t->wrap_t > LMB_WRAP_MIRROR || t->filter > LMB_TRILINEAR)
+        return LMB_ERR_FORMAT;
+    return LMB_OK;
+}
+
+static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
+{
+    if (!are_finite(m->albedo, 3) || !is_finite(m->alpha) || !is_finite(m->alpha_cutoff))
+        return LMB_ERR_ARG;
+    if (m->texture < -1 || (m->texture >= 0 && (uint32_t)m->texture >= texture_count))
+        return LMB_ERR_SCENE;
+    return LMB_OK;
+}
+
+static lmb_status check_light(const lmb_light *l)
+{
+    if (l->kind < LMB_LIGHT_POINT || l->kind > LMB_LIGHT_DIRECTIONAL)
+        return LMB_ERR_FORMAT;
+    if (!is_finite3(l->position) || !is_finite3(l->direction) || !are_finite(l->intensity, 3) ||
+        !is_finite(l->cos_inner) || !is_finite(l->cos_outer))
+        return LMB_ERR_ARG;
+    return LMB_OK;
+}
+
+/* Ids run without a gap from 1 on, so that an id finds its instance by bisection. */
+static lmb_status check_instances(const lmb_scene *scene)
+{
+    uint32_t i, next_id = 1, triangles;
+    for (i = 0; i < scene->instance_count; ++i) {
+        const lmb_instance *in = &scene->instances[i];
+        if (!are_finite(in->to_world.m, 16))
+            return LMB_ERR_ARG;
+        if (in->mesh >= scene->mesh_count || in->material >= scene->material_count || in->first_id != next_id)
+            return LMB_ERR_SCENE;
+        triangles = scene->meshes[in->mesh].triangle_count;
+        if (triangles > (uint32_t)LMB_MAX_TRIANGLES - (next_id - 1))
+            return LMB_ERR_ARG;
+        next_id += triangles;
+    }
+    return LMB_OK;
+}
+
+/* A count above 0 needs its array. */
+static int has_arrays(const lmb_scene *s)
+{
+    return (s->meshes || !s->mesh_count) && (s->materials || !s->material_count) &&
+           (s->textures || !s->texture_count) && (s->instances || !s->instance_count) &&
+           (s->lights || !s->light_count);
+}
+
+lmb_status lmb_scene_check(const lmb_scene *scene)
+{
+    lmb_status status = LMB_OK;
+    uint32_t i;
+    if (!scene || !has_arrays(scene) || !is_finite3(scene->bounds_min) || !is_finite3(scene->bounds_max))
+        return LMB_ERR_ARG;
+    for (i = 0; i < scene->mesh_count && status == LMB_OK; ++i)
+        status = check_mesh(&scene->meshes[i]);
+    for (i = 0; i < scene->texture_count && status == LMB_OK; ++i)
+        status = check_texture(&scene->textures[i]);
+    for (i = 0; i < scene->material_count && status == LMB_OK; ++i)
+        status = check_material(&scene->materials[i], scene->texture_count);
+    for (i = 0; i < scene->light_count && status == LMB_OK; ++i)
+        status = check_light(&scene->lights[i]);
+    return status == LMB_OK ? check_instances(scene) : status;
+}
+
+uint32_t lmb_scene_triangles(const lmb_scene *scene)
+{
+    uint32_t i, sum = 0;
+    for (i = 0; scene && i < scene->instance_count; ++i)
+        sum += scene->meshes[scene->instances[i].mesh].triangle_count;
+    return sum;
+}
+
+static int is_sane_point(lmb_vec3 p) { return is_sane(p.x) && is_sane(p.y) && is_sane(p.z); }
+
+/* World positions that are not finite or beyond 2^20 m do not count: draws drop their triangles. */
+void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene)
+{
+    lmb_vec3 lo = vec3(FLT_MAX, FLT_MAX, FLT_MAX), hi = vec3(-FLT_MAX, -FLT_MAX, -FLT_MAX);
+    uint32_t i, v;
+    for (i = 0; i < scene->instance_count; ++i) {
+        const lmb_instance *in = &scene->instances[i];
+        const lmb_mesh *mesh = &scene->meshes[in->mesh];
+        for (v = 0; v < mesh->vertex_count; ++v) {
+            lmb_vec3 p = transform_point(&in->to_world, mesh_position(mesh, v));
+            if (!is_sane_point(p))
+                continue;
+            lo = vec3(minf(lo.x, p.x), minf(lo.y, p.y), minf(lo.z, p.z));
+            hi = vec3(maxf(hi.x, p.x), maxf(hi.y, p.y), maxf(hi.z, p.z));
+        }
+    }
+    if (lo.x > hi.x)
+        lo = hi = vec3(0.0f, 0.0f, 0.0f);
+    *out_min = lo;
+    *out_max = hi;
+}

@@ -1,0 +1,60 @@
+/* vec.h: scalar maths on three-vectors and 4x4 matrices. Floor 1.
+ *
+ * Every function is one fixed sequence of binary32 operations; sums run left to right. */
+#ifndef LMB_BASE_VEC_H
+#define LMB_BASE_VEC_H
+
+#include <lambent/types.h>
+
+#include "exact.h"
+
+float sqrtf(float);  /* the two that src/ takes from libm: both correctly rounded everywhere */
+float floorf(float);
+
+static inline lmb_vec3 vec3(float x, float y, float z)
+{
+    lmb_vec3 v;
+    v.x = x;
+    v.y = y;
+    v.z = z;
+    return v;
+}
+
+static inline lmb_vec3 add3(lmb_vec3 a, lmb_vec3 b) { return vec3(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline lmb_vec3 sub3(lmb_vec3 a, lmb_vec3 b) { return vec3(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline lmb_vec3 mul3(lmb_vec3 a, float s) { return vec3(a.x * s, a.y * s, a.z * s); }
+static inline float dot3(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static inline lmb_vec3 cross3(lmb_vec3 a, lmb_vec3 b)
+{
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+static inline float length3(lmb_vec3 a) { return sqrtf(dot3(a, a)); }
+
+/* Unit vector along a; a itself when it has no usable length. */
+static inline lmb_vec3 normalize3(lmb_vec3 a)
+{
+    float d2 = dot3(a, a);
+    return d2 > 1e-37f ? mul3(a, 1.0f / sqrtf(d2)) : a;
+}
+
+static inline float minf(float a, float b) { return a < b ? a : b; }
+static inline float maxf(float a, float b) { return a > b ? a : b; }
+static inline float clampf(float v, float lo, float hi) { return v < lo ? lo : v > hi ? hi : v; }
+static inline float absf(float a) { return a < 0.0f ? -a : a; }
+static inline int32_t mini(int32_t a, int32_t b) { return a < b ? a : b; }
+static inline int32_t maxi(int32_t a, int32_t b) { return a > b ? a : b; }
+
+/* Finite and within the door's range of 2^20 m; false for NaN. */
+static inline int is_sane(float v) { return v > -1048576.0f && v < 1048576.0f; }
+
+/* Affine point transform: columns times coordinates, summed x, y, z, translation. */
+static inline lmb_vec3 transform_point(const lmb_mat4 *t, lmb_vec3 p)
+{
+    const float *m = t->m;
+    return vec3(m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12], m[1] * p.x + m[5] * p.y + m[9] * p.z + m[13],
+                m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]);
+}
+
+#endif

@@ -1,0 +1,66 @@
+/* vertex.h: one vertex or index of a mesh, whatever its stream's format. Floor 1.
+ *
+ * Streams are 4-byte aligned and tightly packed (lmb_scene_check), so plain typed reads will do. Indices are returned
+ * as stored: whoever draws compares them with vertex_count before decoding. */
+#ifndef LMB_BASE_VERTEX_H
+#define LMB_BASE_VERTEX_H
+
+#include <lambent/scene.h>
+
+#include "vec.h"
+
+/* Model space, metres. */
+static inline lmb_vec3 mesh_position(const lmb_mesh *m, uint32_t vertex)
+{
+    if (m->position_format == LMB_POSITION_F32) {
+        const float *f = (const float *)m->positions + (size_t)vertex * 3;
+        return vec3(f[0], f[1], f[2]);
+    } else {
+        const int16_t *i = (const int16_t *)m->positions + (size_t)vertex * 4;
+        const lmb_vec3 *s = &m->position_scale, *o = &m->position_offset;
+        return vec3((float)i[0] * s->x + o->x, (float)i[1] * s->y + o->y, (float)i[2] * s->z + o->z);
+    }
+}
+
+/* Texture coordinates; (0, 0) without a stream. The quotient first: code 65535 is exactly uv_scale. */
+static inline void mesh_uv(const lmb_mesh *m, uint32_t vertex, float out[2])
+{
+    const float *f = (const float *)m->uvs;
+    const uint16_t *u = (const uint16_t *)m->uvs;
+    size_t i = (size_t)vertex * 2;
+    if (!m->uvs) {
+        out[0] = out[1] = 0.0f;
+    } else if (m->uv_format == LMB_UV_F32) {
+        out[0] = f[i];
+        out[1] = f[i + 1];
+    } else {
+        out[0] = (float)u[i] / 65535.0f * m->uv_scale[0];
+        out[1] = (float)u[i + 1] / 65535.0f * m->uv_scale[1];
+    }
+}
+
+/* Unit normal, model space; (0, 0, 0) without a stream: the triangle's own is wanted. */
+static inline lmb_vec3 mesh_normal(const lmb_mesh *m, uint32_t vertex)
+{
+    return m->normals ? lmb_octahedral_decode(m->normals + (size_t)vertex * 2) : vec3(0.0f, 0.0f, 0.0f);
+}
+
+/* Linear RGBA, 0 .. 1; white without a stream. */
+static inline void mesh_colour(const lmb_mesh *m, uint32_t vertex, float out[4])
+{
+    int32_t k;
+    for (k = 0; k < 4; ++k)
+        out[k] = m->colours ? (float)m->colours[(size_t)vertex * 4 + (size_t)k] / 255.0f : 1.0f;
+}
+
+/* Vertex number of corner 3 * triangle + k; the corner itself without indices. */
+static inline uint32_t mesh_index(const lmb_mesh *m, uint32_t corner)
+{
+    if (m->index_format == LMB_INDEX_U16)
+        return ((const uint16_t *)m->indices)[corner];
+    if (m->index_format == LMB_INDEX_U32)
+        return ((const uint32_t *)m->indices)[corner];
+    return corner;
+}
+
+#endif

@@ -1,0 +1,45 @@
+/* view.c: a camera from where it stands and what it looks at. Floor 1. */
+#include "poly.h"
+#include "vec.h"
+
+#define DEFAULT_NEAR_M 0.01f
+#define DEFAULT_FAR_M 1000.0f
+
+static int is_sane3(lmb_vec3 v) { return is_sane(v.x) && is_sane(v.y) && is_sane(v.z); }
+
+/* Nearly parallel vectors give a cross product of few good bits, so what it still holds of `back` is taken out. */
+static int look_axes(lmb_view *v, lmb_vec3 along, lmb_vec3 up)
+{
+    if (!(dot3(along, along) > 1e-12f && dot3(up, up) > 1e-37f))
+        return 0;
+    v->back = normalize3(along);
+    v->right = cross3(normalize3(up), v->back);
+    if (!(dot3(v->right, v->right) > 1e-10f)) /* under 1e-5 rad apart */
+        return 0;
+    v->right = normalize3(v->right);
+    v->right = normalize3(sub3(v->right, mul3(v->back, dot3(v->right, v->back))));
+    v->up = normalize3(cross3(v->back, v->right));
+    return 1;
+}
+
+lmb_status lmb_view_look(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
+                         int32_t height)
+{
+    lmb_view v;
+    if (!out || !is_sane3(eye) || !is_sane3(target) || !is_sane3(up) || !(vfov_rad > 0.0f && vfov_rad < LMB_PI))
+        return LMB_ERR_ARG;
+    if (width < 1 || width > LMB_MAX_FRAME || height < 1 || height > LMB_MAX_FRAME)
+        return LMB_ERR_ARG;
+    if (!look_axes(&v, sub3(eye, target), up))
+        return LMB_ERR_ARG;
+    v.eye = eye;
+    v.half_height = lmb_tan(0.5f * vfov_rad);
+    v.half_width = v.half_height * ((float)width / (float)height);
+    v.near_m = DEFAULT_NEAR_M;
+    v.far_m = DEFAULT_FAR_M;
+    v.kind = LMB_PERSPECTIVE;
+    v.frame_width = width;
+    v.frame_height = height;
+    *out = v;
+    return LMB_OK;
+}

@@ -1,0 +1,289 @@
+/* gather.inl: groups of emitters -> irradiance of a tile's pixels, with the viewer's depth map as occluder.  [V25-V28]
+ *
+ * Lanes are pixels; groups are added one after another: the order is the contract. */
+#ifndef LMB_GATHER_FORMULA
+#define LMB_GATHER_FORMULA
+
+/* One emitter, one vector of pixels. M = 1: W/m2 a watt.
+ *
+ * A disc of area A seen from r away, to second order in s = A / (pi r^2) (integrate cosP cosG / r^2 over the disc):
+ *   E = (c - t s) / (pi r^2),  c = cosP cosG,  t = c (3 cos^2 G - 1) + g cos^2 G,  g = nP.nG.
+ * c^2 / (c + t s) has the same expansion, stays positive for t >= 0 and equals 1 / (pi r^2 + A) on the axis of a
+ * facing disc (t = c = 1), which is exact. For t < 0 the sum itself is kept, under the bound cosG / s: nothing receives
+ * more than the disc's own radiosity M / A times cosG. */
+static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area)
+{
+    const lane zero = lane_splat(0.0f), inverse_pi = lane_splat(0.31830989f);
+    lane i = lane_div(lane_splat(1.0f), r2);
+    lane a = lane3_dot(n, to), b = lane_sub(zero, lane3_dot(axis, to));
+    lane c = lane_mul(lane_mul(a, b), i), g2 = lane_mul(lane_mul(b, b), i);
+    lane s = lane_mul(lane_mul(area, inverse_pi), i);
+    lane t = lane_add(lane_mul(c, lane_sub(lane_mul(lane_splat(3.0f), g2), lane_splat(1.0f))),
+                      lane_mul(lane3_dot(n, axis), g2));
+    lane ts = lane_mul(t, s);
+    lane_mask over = lane_le(zero, t);
+    lane cos_g = lane_mul(b, lane_sqrt(i));
+    lane top = lane_pick(over, lane_mul(c, c), lane_min(lane_mul(lane_sub(c, ts), s), cos_g));
+    lane bottom = lane_pick(over, lane_add(c, ts), s);
+    lane_mask faces = mask_and(lane_lt(zero, a), lane_lt(zero, b));
+    lane e = lane_mul(lane_mul(inverse_pi, i), lane_div(top, lane_pick(faces, bottom, lane_splat(1.0f))));
+    return lane_keep(faces, e);
+}
+
+#endif
+
+#ifdef KERNEL
+
+/* A vector of pixels in the viewer's frame, and the depth plane of each one's surface. */
+typedef struct seen_from {
+    lane x, y, w;     /* m along right, up, the axis */
+    lane px, py, d;   /* place in the map */
+    lane dx, dy;      /* the surface's own plane: d per px */
+} seen_from;
+
+static inline lane3 march_view(const lmb_march_job *m, lane3 p)
+{
+    lane3 v;
+    p = lane3_sub(p, lane3_splat(m->eye.x, m->eye.y, m->eye.z));
+    v.x = lane3_dot(p, lane3_splat(m->right.x, m->right.y, m->right.z));
+    v.y = lane3_dot(p, lane3_splat(m->up.x, m->up.y, m->up.z));
+    v.z = lane_sub(lane_splat(0.0f), lane3_dot(p, lane3_splat(m->back.x, m->back.y, m->back.z)));
+    return v;
+}
+
+static inline void march_place(lane *px, lane *py, lane *d, const lmb_march_job *m, lane3 v)
+{
+    const lane one = lane_splat(1.0f);
+    lane i = m->perspective ? lane_div(one, v.z) : one;
+    *px = lane_add(lane_mul(lane_mul(v.x, i), lane_splat(m->scale_x)), lane_splat(m->middle_x));
+    *py = lane_sub(lane_splat(m->middle_y), lane_mul(lane_mul(v.y, i), lane_splat(m->scale_y)));
+    *d = m->perspective ? lane_mul(lane_splat(m->near_m), i)
+                        : lane_mul(lane_sub(lane_splat(m->far_m), v.z), lane_splat(1.0f / (m->far_m - m->near_m)));
+}
+
+/* d of the plane through v with normal n, per px: d is affine in the map, and so are the rays' dot products with n. */
+static inline void march_plane(lane *dx, lane *dy, const lmb_march_job *m, lane3 v, lane3 n)
+{
+    lane nx = lane3_dot(n, lane3_splat(m->right.x, m->right.y, m->right.z));
+    lane ny = lane3_dot(n, lane3_splat(m->up.x, m->up.y, m->up.z));
+    lane nz = lane_sub(lane_splat(0.0f), lane3_dot(n, lane3_splat(m->back.x, m->back.y, m->back.z)));
+    lane bottom, gain;
+    if (m->perspective) {
+        bottom = lane_add(lane_add(lane_mul(nx, v.x), lane_mul(ny, v.y)), lane_mul(nz, v.z));
+        gain = lane_splat(m->near_m);
+    } else {
+        bottom = nz;
+        gain = lane_splat(1.0f / (m->far_m - m->near_m));
+    }
+    const lane least = lane_splat(-1e-6f); /* the surface faces the viewer: negative */
+    gain = lane_div(gain, lane_min(bottom, least));
+    *dx = lane_mul(lane_mul(gain, nx), lane_splat(1.0f / m->scale_x));
+    *dy = lane_mul(lane_mul(gain, ny), lane_splat(-1.0f / m->scale_y));
+}
+
+static inline seen_from march_begin(const lmb_march_job *m, const lmb_tile *tile, int k)
+{
+    seen_from s;
+    lane3 v = march_view(m, lane3_load(tile->position, k));
+    v.z = lane_max(v.z, lane_splat(m->near_m));
+    s.x = v.x;
+    s.y = v.y;
+    s.w = v.z;
+    march_place(&s.px, &s.py, &s.d, m, v);
+    march_plane(&s.dx, &s.dy, m, v, lane3_load(tile->face, k));
+    return s;
+}
+
+/* Share of the segment from (px, py) that lies inside the frame, along one axis. */
+static inline lane march_inside(lane from, lane to, float size)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), end = lane_splat(size);
+    lane edge = lane_pick(lane_lt(to, zero), zero, end);
+    lane_mask leaves = mask_or(lane_lt(to, zero), lane_lt(end, to));
+    lane run = lane_sub(to, from);
+    lane share = lane_div(lane_sub(edge, from), lane_pick(leaves, run, one));
+    return lane_pick(leaves, lane_min(lane_max(share, zero), one), one);
+}
+
+/* Depth codes of the map at whole pixels inside it; lanes that are done read pixel 0. */
+static inline lane march_read(const lmb_march_job *m, lane x, lane y)
+{
+    int32_t ix[LANES], iy[LANES];
+    float d[LANES];
+    const lmb_surface *s = m->depth;
+    lanei_store(ix, lane_to_int(x));
+    lanei_store(iy, lane_to_int(y));
+    for (int i = 0; i < LANES; ++i) {
+        int32_t bytes = s->format == LMB_DEPTH16 ? 2 : 4;
+        const uint8_t *row = (const uint8_t *)s->data, *p;
+        if (s->layout == LMB_TILED) {
+            p = row + (ptrdiff_t)(iy[i] >> 3) * s->stride_bytes +
+                ((ix[i] >> 3) * LMB_TILE_PIXELS + (iy[i] & 7) * LMB_TILE + (ix[i] & 7)) * bytes;
+        } else {
+            p = row + (ptrdiff_t)iy[i] * s->stride_bytes + ix[i] * bytes;
+        }
+        if (bytes == 4) {
+            d[i] = *(const float *)(const void *)p;
+        } else {
+            uint16_t code = *(const uint16_t *)(const void *)p;
+            d[i] = code != 0 ? (float)code * m->d16_scale + m->d16_bias : 0.0f;
+        }
+    }
+    return lane_load(d);
+}
+
+/* Which of the wanted segments from the pixels to one emitter meet nothing that the viewer sees.
+ *
+ * In the map a segment is straight and d is affine along it. Heights are taken over the pixel's own surface plane: the
+ * stored surface's at its texel's middle, against the segment's. So a flat receiver never shadows itself, however
+ * grazing the view, and no bias needs tuning. */
+static inline lane_mask march(const lmb_march_job *m, const seen_from *s, float gx, float gy, float gz, lane_mask wanted)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f);
+    lane3 v = march_view(m, lane3_splat(gx, gy, gz));
+    lane wg = v.z;
+    if (m->perspective) { /* cut where the segment passes the near plane */
+        lane near_m = lane_splat(m->near_m), run = lane_sub(s->w, v.z);
+        lane_mask behind = lane_lt(v.z, near_m);
+        lane share = lane_div(lane_sub(s->w, near_m), lane_pick(behind, run, one));
+        share = lane_pick(behind, share, one);
+        v.x = lane_add(s->x, lane_mul(lane_sub(v.x, s->x), share));
+        v.y = lane_add(s->y, lane_mul(lane_sub(v.y, s->y), share));
+        wg = lane_max(lane_add(s->w, lane_mul(lane_sub(v.z, s->w), share)), near_m);
+        v.z = wg;
+    }
+    lane px, py, d;
+    march_place(&px, &py, &d, m, v);
+    const lane run_x = lane_sub(px, s->px), run_y = lane_sub(py, s->py);
+    /* Height of the segment's end over the receiver's plane, in d. */
+    const lane rise = lane_sub(lane_sub(d, s->d), lane_add(lane_mul(run_x, s->dx), lane_mul(run_y, s->dy)));
+    lane end = lane_min(march_inside(s->px, px, (float)m->depth->width), march_inside(s->py, py, (float)m->depth->height));
+    const lane last_x = lane_splat((float)(m->depth->width - 1)), last_y = lane_splat((float)(m->depth->height - 1));
+    const lane slack = lane_mul(lane_splat(m->slack), s->d);
+    lane_mask open = wanted;
+    for (int i = 0; i < m->steps && mask_bits(open); ++i) {
+        lane t = lane_splat(((float)i + 0.5f) / (float)m->steps);
+        t = m->kind == LMB_OCCLUSION_VIEW_WORLD && m->perspective /* equal steps of the world, seen in the map */
+                ? lane_div(lane_mul(t, wg), lane_add(s->w, lane_mul(lane_sub(wg, s->w), t)))
+                : lane_mul(t, end);
+        lane x = lane_add(s->px, lane_mul(run_x, t)), y = lane_add(s->py, lane_mul(run_y, t));
+        x = lane_trunc(lane_min(lane_max(x, zero), last_x));
+        y = lane_trunc(lane_min(lane_max(y, zero), last_y));
+        lane stored = march_read(m, x, y);
+        lane off_x = lane_sub(lane_add(x, half), s->px), off_y = lane_sub(lane_add(y, half), s->py);
+        lane over = lane_add(s->d, lane_add(lane_mul(off_x, s->dx), lane_mul(off_y, s->dy)));
+        over = lane_add(lane_add(over, lane_mul(rise, t)), slack);
+        open = mask_and(open, mask_not(mask_and(lane_lt(over, stored), lane_le(t, end))));
+    }
+    return open;
+}
+
+static inline void gather_add(lmb_irradiance *inout, int k, lane weight, float r, float g, float b)
+{
+    lane_store(inout->rgb[0] + k, lane_add(lane_load(inout->rgb[0] + k), lane_mul(weight, lane_splat(r))));
+    lane_store(inout->rgb[1] + k, lane_add(lane_load(inout->rgb[1] + k), lane_mul(weight, lane_splat(g))));
+    lane_store(inout->rgb[2] + k, lane_add(lane_load(inout->rgb[2] + k), lane_mul(weight, lane_splat(b))));
+}
+
+/* Lanes that carry a surface. */
+static inline lane_mask gather_hits(const lmb_tile *tile, int k)
+{
+    return mask_not(lanei_equal(lanei_load((const int32_t *)tile->id + k), lanei_splat(0)));
+}
+
+static void KERNEL(gather)(lmb_irradiance *inout, uint64_t *near_pixels, const lmb_tile *tile, const lmb_groups *groups,
+                           const lmb_march_job *m)
+{
+    for (int32_t j = 0; j < groups->count; ++j) {
+        near_pixels[j] = 0;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lane3 p = lane3_load(tile->position, k), n = lane3_load(tile->normal, k);
+        const lane_mask hits = gather_hits(tile, k);
+        seen_from from;
+        if (mask_bits(hits) == 0) {
+            continue;
+        }
+        if (m != NULL) {
+            from = march_begin(m, tile, k);
+        }
+        for (int32_t j = 0; j < groups->count; ++j) {
+            float gx = groups->position[0][j], gy = groups->position[1][j], gz = groups->position[2][j];
+            lane near2 = lane_splat(groups->radius[j] * LMB_NEAR * (groups->radius[j] * LMB_NEAR));
+            lane3 to = lane3_sub(lane3_splat(gx, gy, gz), p);
+            lane r2 = lane3_dot(to, to);
+            lane_mask close = mask_and(hits, lane_lt(r2, near2));
+            near_pixels[j] |= (uint64_t)mask_bits(close) << k;
+            lane weight = disc_factor(to, lane_max(r2, near2), n,
+                                      lane3_splat(groups->normal[0][j], groups->normal[1][j], groups->normal[2][j]),
+                                      lane_splat(groups->area[j]));
+            lane_mask lit = mask_and(mask_and(hits, mask_not(close)), lane_lt(lane_splat(0.0f), weight));
+            if (m != NULL && mask_bits(lit)) {
+                lit = march(m, &from, gx, gy, gz, lit);
+            }
+            if (mask_bits(lit)) {
+                gather_add(inout, k, lane_keep(lit, weight), groups->flux[0][j], groups->flux[1][j], groups->flux[2][j]);
+            }
+        }
+    }
+}
+
+/* The exact form factor for the few lanes so close to a disc that its shape matters. */
+static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *tile, int k, const lmb_point *disc)
+{
+    float w[LANES];
+    uint32_t bits = mask_bits(close);
+    lane_store(w, weight);
+    for (int i = 0; i < LANES; ++i) {
+        if ((bits >> i) & 1u) {
+            w[i] = lmb_quad_factor(vec3(tile->position[0][k + i], tile->position[1][k + i], tile->position[2][k + i]),
+                                   vec3(tile->normal[0][k + i], tile->normal[1][k + i], tile->normal[2][k + i]),
+                                   disc->position, disc->normal, disc->axis_u, disc->axis_v);
+        }
+    }
+    return lane_load(w);
+}
+
+static void KERNEL(gather_near)(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
+                                uint32_t count, const lmb_march_job *m)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lane3 p = lane3_load(tile->position, k), n = lane3_load(tile->normal, k);
+        const uint32_t mine = (uint32_t)(pixels >> k) & ((1u << LANES) - 1u);
+        seen_from from;
+        if (mine == 0) {
+            continue;
+        }
+        if (m != NULL) {
+            from = march_begin(m, tile, k);
+        }
+        int32_t flag[LANES];
+        for (int i = 0; i < LANES; ++i) {
+            flag[i] = (int32_t)((mine >> i) & 1u);
+        }
+        const lane_mask hits = lanei_equal(lanei_load(flag), lanei_splat(1));
+        for (uint32_t j = 0; j < count; ++j) {
+            const lmb_point *d = &discs[j];
+            float uu = dot3(d->axis_u, d->axis_u), vv = dot3(d->axis_v, d->axis_v), uv = dot3(d->axis_u, d->axis_v);
+            float area = 4.0f * sqrtf(maxf(uu * vv - uv * uv, 0.0f)), half2 = uu + vv + 2.0f * absf(uv);
+            lane near2 = lane_splat(half2 * (LMB_NEAR * LMB_NEAR));
+            lane3 to = lane3_sub(lane3_splat(d->position.x, d->position.y, d->position.z), p);
+            lane r2 = lane3_dot(to, to);
+            lane_mask close = mask_and(hits, lane_lt(r2, near2));
+            lane weight = disc_factor(to, lane_max(r2, near2), n, lane3_splat(d->normal.x, d->normal.y, d->normal.z),
+                                      lane_splat(area));
+            if (mask_bits(close)) {
+                weight = gather_quads(weight, close, tile, k, d);
+            }
+            lane_mask lit = mask_and(hits, lane_lt(lane_splat(0.0f), weight));
+            if (m != NULL && mask_bits(lit)) {
+                lit = march(m, &from, d->position.x, d->position.y, d->position.z, lit);
+            }
+            if (mask_bits(lit)) {
+                gather_add(inout, k, lane_keep(lit, weight), d->flux[0], d->flux[1], d->flux[2]);
+            }
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,30 @@
+/* group.h: what the two groupings share: adding discs up, closing a group, sorting the members together. Floor 6. */
+#ifndef LMB_BOUNCE_GROUP_H
+#define LMB_BOUNCE_GROUP_H
+
+#include <lambent/bounce.h>
+
+#include "../base/vec.h"
+
+#define LMB_UNGROUPED 0xffffffffu /* link of a disc in no group */
+
+/* A group while it grows. */
+typedef struct lmb_group_sum {
+    lmb_vec3 position, normal; /* weighted by power */
+    float weight;
+    uint32_t count;
+    lmb_vec3 centre, axis; /* barycentre and unit normal so far [V18 V19] */
+} lmb_group_sum;
+
+float lmb_disc_power(const lmb_point *disc);
+float lmb_disc_area(const lmb_point *disc);
+
+void lmb_group_open(lmb_group_sum *sum);
+void lmb_group_add(lmb_group_sum *sum, const lmb_point *disc);
+
+/* Groups of the discs by method, each disc's link set to its group or LMB_UNGROUPED (strict zones).
+ * They return the number of groups, which may exceed `most`: then the links mean nothing. */
+uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t most);
+uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t most);
+
+#endif

@@ -1,0 +1,57 @@
+/* group_greedy.c: discs -> groups around a chosen disc, until none fits. Floor 6.                        [V17 V18]
+ *
+ * A disc joins when its centre is within reach x the first disc's radius of the group's barycentre and its normal
+ * agrees; after each round of joining the barycentre has moved, so the rounds go on until one adds nothing. */
+#include "group.h"
+
+#define EVERYTHING 1e4f /* a reach this wide takes all that is left */
+#define ROUNDS 64 /* a group that still creeps after this many is taken as it is */
+
+static int fits(const lmb_group_sum *g, const lmb_point *d, float reach_m, float cosine)
+{
+    lmb_vec3 away = sub3(d->position, g->centre);
+    return dot3(away, away) <= reach_m * reach_m && dot3(d->normal, g->axis) >= cosine;
+}
+
+/* One pass over the discs still free; returns how many joined. */
+static uint32_t join_round(lmb_group_sum *g, lmb_points *points, uint32_t from, uint32_t group, float reach_m,
+                           float cosine)
+{
+    uint32_t joined = 0;
+    const lmb_group_sum before = *g;
+    for (uint32_t i = from; i < points->count; ++i) {
+        lmb_point *d = &points->data[i];
+        if (d->link == LMB_UNGROUPED && fits(&before, d, reach_m, cosine)) {
+            d->link = group;
+            lmb_group_add(g, d);
+            ++joined;
+        }
+    }
+    return joined;
+}
+
+uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t most)
+{
+    uint32_t groups = 0;
+    for (uint32_t i = 0; i < points->count; ++i) {
+        points->data[i].link = LMB_UNGROUPED;
+    }
+    for (uint32_t i = 0; i < points->count; ++i) {
+        lmb_point *first = &points->data[i];
+        if (first->link == LMB_UNGROUPED) {
+            lmb_group_sum g;
+            float radius = maxf(sqrtf(lmb_disc_area(first) * 0.31830989f), 0.5f * first->distance);
+            float reach_m = reach < EVERYTHING ? reach * radius : 1e18f;
+            if (groups == most) {
+                return most + 1;
+            }
+            lmb_group_open(&g);
+            first->link = groups;
+            lmb_group_add(&g, first);
+            for (int round = 0; round < ROUNDS && join_round(&g, points, i + 1, groups, reach_m, grouping->cosine); ++round) {
+            }
+            ++groups;
+        }
+    }
+    return groups;
+}

@@ -1,0 +1,88 @@
+/* group_zones.c: the disc map cut into square zones, one group each; misfits open further groups. Floor 6. [V20 V21]
+ *
+ * Discs of one zone: the zone's first disc leads; one joins when its normal agrees with the group's and it lies within
+ * the zone's own size of the barycentre (so that a foreground edge and the wall behind it part). What does not fit the
+ * zone's first group opens the zone's second, and so on; LMB_ZONES_STRICT drops it instead. */
+#include "group.h"
+
+/* Equal for the discs of one zone. */
+static uint64_t zone_of(const lmb_point *d, int32_t zone)
+{
+    return ((uint64_t)d->face << 32) | ((uint64_t)(d->cell_y / zone) << 16) | (uint64_t)(d->cell_x / zone);
+}
+
+/* Past the last disc that may share a zone with disc i: faces follow one another, rows of zones too. */
+static uint32_t zone_row_end(const lmb_points *points, uint32_t i, int32_t zone)
+{
+    const lmb_point *d = &points->data[i];
+    uint32_t end = i;
+    while (end < points->count && points->data[end].face == d->face && points->data[end].cell_y / zone == d->cell_y / zone) {
+        ++end;
+    }
+    return end;
+}
+
+/* The reach of a zone, m: its side in discs times their distance, and half as much again for its diagonal. */
+static float zone_reach(const lmb_point *first, int32_t zone, float reach)
+{
+    float disc = maxf(first->distance, sqrtf(lmb_disc_area(first)));
+    return disc * (float)zone * maxf(reach * 0.5f, 1.0f);
+}
+
+/* One group from disc i over the free discs of its zone. */
+static void fill_group(lmb_points *points, uint32_t i, uint32_t end, int32_t zone, const lmb_grouping *grouping,
+                       uint32_t group)
+{
+    lmb_group_sum g;
+    const uint64_t here = zone_of(&points->data[i], zone);
+    const float reach_m = zone_reach(&points->data[i], zone, grouping->reach);
+    lmb_group_open(&g);
+    for (uint32_t j = i; j < end; ++j) {
+        lmb_point *d = &points->data[j];
+        if (d->link == LMB_UNGROUPED && zone_of(d, zone) == here) {
+            lmb_vec3 away = sub3(d->position, g.centre);
+            if (g.count == 0 || (dot3(away, away) <= reach_m * reach_m && dot3(d->normal, g.axis) >= grouping->cosine)) {
+                d->link = group;
+                lmb_group_add(&g, d);
+            }
+        }
+    }
+}
+
+/* Strict: whatever of the zone did not fit is dropped, so its zone must not lead again. */
+static void drop_rest(lmb_points *points, uint32_t i, uint32_t end, int32_t zone)
+{
+    const uint64_t here = zone_of(&points->data[i], zone);
+    for (uint32_t j = i + 1; j < end; ++j) {
+        if (points->data[j].link == LMB_UNGROUPED && zone_of(&points->data[j], zone) == here) {
+            points->data[j].link = LMB_UNGROUPED - 1;
+        }
+    }
+}
+
+uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t most)
+{
+    uint32_t groups = 0, end = 0;
+    for (uint32_t i = 0; i < points->count; ++i) {
+        points->data[i].link = LMB_UNGROUPED;
+    }
+    for (uint32_t i = 0; i < points->count; ++i) {
+        end = i >= end ? zone_row_end(points, i, zone) : end;
+        if (points->data[i].link == LMB_UNGROUPED) {
+            if (groups == most) {
+                return most + 1;
+            }
+            fill_group(points, i, end, zone, grouping, groups);
+            if (grouping->flags & LMB_ZONES_STRICT) {
+                drop_rest(points, i, end, zone);
+            }
+            ++groups;
+        }
+    }
+    for (uint32_t i = 0; i < points->count; ++i) {
+        if (points->data[i].link == LMB_UNGROUPED - 1) {
+            points->data[i].link = LMB_UNGROUPED;
+        }
+    }
+    return groups;
+}

@@ -1,0 +1,222 @@
+/* points.c: a light's map -> first points: lit surface elements with their flux. Floor 6.     [V1 V2 V4 V5 V6 V7]
+ *
+ * A block of b x b texels is one element a surface: texels whose normals and planes agree are summed, so a fine map
+ * costs points only where surfaces meet. Each element becomes a quad of equal area whose sides follow the texels'
+ * footprint on the surface and their spread inside the block (second moments), so that a strip stays a strip. */
+#include <lambent/bounce.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+
+#define ELEMENTS 4       /* a block's surfaces at most; more join the likest */
+#define COS_25 0.90630779f
+#define GRAZE 0.02f      /* cosine under which a texel's footprint is not stretched further */
+
+size_t lmb_points_bytes(uint32_t n, uint32_t side)
+{
+    return (size_t)n * sizeof(lmb_point) + ((size_t)side * side + 1) * sizeof(uint32_t);
+}
+
+lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *memory, size_t bytes)
+{
+    if (out == NULL || memory == NULL || n == 0 || side == 0 || side > LMB_MAX_SIDE) {
+        return LMB_ERR_ARG;
+    }
+    if ((uintptr_t)memory % 4 != 0) {
+        return LMB_ERR_ALIGN;
+    }
+    if (bytes < lmb_points_bytes(n, side)) {
+        return LMB_ERR_CAPACITY;
+    }
+    memset(out, 0, sizeof *out);
+    out->data = (lmb_point *)memory;
+    out->cap = n;
+    out->cells = (uint32_t *)(void *)(out->data + n);
+    out->cell_cap = side * side + 1;
+    return LMB_OK;
+}
+
+/* Sums over the texels of one surface in a block. */
+typedef struct element {
+    lmb_vec3 position, normal; /* weighted by power */
+    lmb_vec3 first, face;      /* the first texel's, to compare with */
+    float power[3], flux[3], weight;
+    float x, y, xx, yy; /* texels from the block's middle */
+    int32_t count;
+} element;
+
+static float plane_gap(const element *e, lmb_vec3 p) { return absf(dot3(e->face, sub3(p, e->first))); }
+
+/* The element a texel belongs to: the same surface, a new one, or the likest when all are taken. */
+static element *find_element(element *e, int32_t *count, lmb_vec3 p, lmb_vec3 n, float texel_m)
+{
+    int32_t best = 0;
+    float best_cosine = -2.0f;
+    for (int32_t i = 0; i < *count; ++i) {
+        float cosine = dot3(e[i].face, n);
+        if (cosine >= COS_25 && plane_gap(&e[i], p) <= texel_m) {
+            return &e[i];
+        }
+        if (cosine > best_cosine) {
+            best_cosine = cosine;
+            best = i;
+        }
+    }
+    if (*count == ELEMENTS) {
+        return &e[best];
+    }
+    memset(&e[*count], 0, sizeof *e);
+    e[*count].first = p;
+    e[*count].face = n;
+    return &e[(*count)++];
+}
+
+static void add_texel(element *e, const lmb_tile *t, int k, const float power[3], float x, float y)
+{
+    float weight = power[0] + power[1] + power[2];
+    e->position = add3(e->position, mul3(sub3(vec3(t->position[0][k], t->position[1][k], t->position[2][k]), e->first), weight));
+    e->normal = add3(e->normal, mul3(vec3(t->face[0][k], t->face[1][k], t->face[2][k]), weight));
+    for (int c = 0; c < 3; ++c) {
+        e->power[c] += power[c];
+        e->flux[c] += power[c] * t->albedo[c][k];
+    }
+    e->weight += weight;
+    e->x += x;
+    e->y += y;
+    e->xx += x * x;
+    e->yy += y * y;
+    ++e->count;
+}
+
+/* How the surface moves when the map moves by one texel along (sx, sy): the ray's plane slid along the ray. */
+static lmb_vec3 footprint(const lmb_view *v, lmb_vec3 p, lmb_vec3 n, lmb_vec3 step)
+{
+    lmb_vec3 ray = v->kind == LMB_PERSPECTIVE ? sub3(p, v->eye) : mul3(v->back, -1.0f);
+    float w = v->kind == LMB_PERSPECTIVE ? maxf(-dot3(v->back, ray), 0.0f) : 1.0f;
+    float slope = dot3(n, ray), least = GRAZE * length3(ray);
+    slope = slope < 0.0f ? minf(slope, -least) : maxf(slope, least);
+    return mul3(sub3(step, mul3(ray, dot3(n, step) / slope)), w);
+}
+
+/* Side of the quad, in texels, from the spread of the texels along one axis: exact for a full block. */
+static float spread(float sum, float sum2, float count)
+{
+    float mean = sum / count, variance = maxf(sum2 / count - mean * mean, 0.0f) + 1.0f / 12.0f;
+    return sqrtf(12.0f * variance);
+}
+
+static void make_point(lmb_point *out, const element *e, const lmb_light_map *map, const lmb_view *v)
+{
+    float n = (float)e->count, per_weight = 1.0f / e->weight;
+    float side_x = spread(e->x, e->xx, n), side_y = spread(e->y, e->yy, n);
+    float fit = 0.5f * sqrtf(n / (side_x * side_y)); /* half sides of a quad with the texels' area */
+    memset(out, 0, sizeof *out);
+    out->position = add3(e->first, mul3(e->position, per_weight));
+    out->normal = normalize3(e->normal);
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = e->flux[c];
+        out->albedo[c] = e->power[c] > 0.0f ? e->flux[c] / e->power[c] : 0.0f;
+    }
+    lmb_vec3 step_x = mul3(v->right, 2.0f * v->half_width / (float)map->size);
+    lmb_vec3 step_y = mul3(v->up, 2.0f * v->half_height / (float)map->size);
+    out->axis_u = mul3(footprint(v, out->position, out->normal, step_x), fit * side_x);
+    out->axis_v = mul3(footprint(v, out->position, out->normal, step_y), fit * side_y);
+}
+
+typedef struct collector {
+    lmb_points *points;
+    const lmb_scene *scene;
+    const lmb_light *light;
+    const lmb_light_map *map;
+    int32_t face, block;
+} collector;
+
+/* The block whose first texel is (bx, by) of the tile. */
+static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_t bx, int32_t by)
+{
+    const lmb_view *v = &c->map->view[c->face];
+    element e[ELEMENTS];
+    int32_t count = 0;
+    float middle = 0.5f * (float)(c->block - 1), texel = 2.0f * maxf(v->half_width, v->half_height) / (float)c->map->size;
+    for (int32_t y = 0; y < c->block; ++y) {
+        for (int32_t x = 0; x < c->block; ++x) {
+            int k = (by + y) * LMB_TILE + bx + x;
+            float power[3];
+            if (tile->id[k] == 0) {
+                continue;
+            }
+            lmb_light_texel_power(power, c->light, c->map, c->face, tile->x + bx + x, tile->y + by + y);
+            if (power[0] + power[1] + power[2] > 0.0f) {
+                lmb_vec3 p = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
+                lmb_vec3 n = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
+                float texel_m = texel * (v->kind == LMB_PERSPECTIVE ? tile->depth[k] : 1.0f);
+                add_texel(find_element(e, &count, p, n, texel_m), tile, k, power, (float)x - middle, (float)y - middle);
+            }
+        }
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        if (c->points->count == c->points->cap) {
+            return LMB_ERR_CAPACITY;
+        }
+        lmb_point *p = &c->points->data[c->points->count++];
+        make_point(p, &e[i], c->map, v);
+        p->cell_x = (uint16_t)((tile->x + bx) / c->block);
+        p->cell_y = (uint16_t)((tile->y + by) / c->block);
+        p->face = c->points->faces;
+    }
+    return LMB_OK;
+}
+
+/* A row of blocks through all tiles of the row, so that points and cells come in row order. */
+static lmb_status collect_block_row(const collector *c, const lmb_kernels *kernels, lmb_tile *tile, int32_t y)
+{
+    int32_t side = c->map->size / c->block;
+    for (int32_t x = 0; x < c->map->size; x += c->block) {
+        lmb_status status = LMB_OK;
+        if (x % LMB_TILE == 0) {
+            status = lmb_resolve_tile(tile, kernels, &c->map->view[c->face], c->scene, &c->map->face[c->face], x,
+                                      y - y % LMB_TILE);
+        }
+        c->points->cells[(y / c->block) * side + x / c->block] = c->points->count;
+        if (status == LMB_OK && tile->hits > 0) {
+            status = collect_block(c, tile, x % LMB_TILE, y % LMB_TILE);
+        }
+        if (status != LMB_OK) {
+            return status;
+        }
+    }
+    return LMB_OK;
+}
+
+lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
+                              const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
+                              int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping)
+{
+    collector c;
+    int32_t block = grouping != NULL && grouping->block != 0 ? grouping->block : LMB_TILE;
+    if (points == NULL || points->data == NULL || kernels == NULL || scratch == NULL || scene == NULL || light == NULL ||
+        map == NULL || face < 0 || face >= map->faces || tile_y0 < 0 || tile_y1 > map->size / LMB_TILE ||
+        (block != 1 && block != 2 && block != 4 && block != 8)) {
+        return LMB_ERR_ARG;
+    }
+    int32_t side = map->size / block;
+    if ((uint32_t)side * (uint32_t)side + 1 > points->cell_cap) {
+        return LMB_ERR_CAPACITY;
+    }
+    points->faces += tile_y0 == 0;
+    c.points = points;
+    c.scene = scene;
+    c.light = light;
+    c.map = map;
+    c.face = face;
+    c.block = block;
+    for (int32_t y = tile_y0 * LMB_TILE; y < tile_y1 * LMB_TILE; y += block) {
+        lmb_status status = collect_block_row(&c, kernels, scratch, y);
+        if (status != LMB_OK) {
+            return status;
+        }
+    }
+    points->cells[side * side] = points->count;
+    return LMB_OK;
+}

@@ -1,0 +1,354 @@
+/* render.c: the one call that runs the rooms in order, whole or one bounded step at a time. Floor 8.     [V33 V34] */
+#include <lambent/render.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+
+#define UNIT_TRIANGLES 1024u
+#define BAND_UNITS 8
+
+static int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
+
+static int is_whole(const lmb_surface *s, const lmb_view *v)
+{
+    return s->data != NULL && s->width == v->frame_width && s->height == v->frame_height;
+}
+
+static int wants_direct(const lmb_frame *f) { return f->show == LMB_SHOW_FULL || f->show == LMB_SHOW_DIRECT; }
+
+static int wants_bounce(const lmb_frame *f)
+{
+    return f->show != LMB_SHOW_DIRECT && f->points.data != NULL && f->groups != NULL;
+}
+
+/* The depth map that occludes, or NULL. */
+static const lmb_surface *occluding_depth(const lmb_frame *f)
+{
+    if (f->occlusion == LMB_OCCLUSION_NONE || !wants_bounce(f)) {
+        return NULL;
+    }
+    return is_whole(&f->eye.depth, &f->view) ? &f->eye.depth : &f->eye_depth;
+}
+
+static lmb_status check_eye(const lmb_frame *f)
+{
+    const lmb_surface *d = &f->eye.depth;
+    if (d->data == NULL || f->eye.id.data == NULL || f->eye.x0 != 0 || f->eye.y0 != 0 || d->width != f->view.frame_width ||
+        (d->height != f->view.frame_height && d->height != LMB_TILE)) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_surface *map = occluding_depth(f);
+    return map == NULL || is_whole(map, &f->view) ? LMB_OK : LMB_ERR_ARG;
+}
+
+static lmb_status check_out(const lmb_surface *out, const lmb_view *v)
+{
+    if (out->data == NULL || out->width != v->frame_width || (out->height != v->frame_height && out->height != LMB_TILE)) {
+        return LMB_ERR_ARG;
+    }
+    return out->format >= LMB_RGB565 && out->format <= LMB_RGB32F && out->format != LMB_R32F ? LMB_OK : LMB_ERR_FORMAT;
+}
+
+static lmb_status check_frame(const lmb_frame *f)
+{
+    if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
+        f->show > LMB_SHOW_IRRADIANCE || f->steps < 0 || f->steps > 64 || f->view.frame_width < 1 ||
+        f->view.frame_height < 1 || f->occlusion < LMB_OCCLUSION_NONE || f->occlusion > LMB_OCCLUSION_VIEW_WORLD) {
+        return LMB_ERR_ARG;
+    }
+    if (f->scene->light_count > LMB_MAX_LIGHTS) {
+        return LMB_ERR_CAPACITY;
+    }
+    if (f->id_format == LMB_ID16 && lmb_scene_triangles(f->scene) > 65535u) {
+        return LMB_ERR_SCENE;
+    }
+    lmb_status status = check_eye(f);
+    return status != LMB_OK ? status : check_out(&f->out, &f->view);
+}
+
+/* Share the map memory out: one light's map after another. */
+static lmb_status place_maps(lmb_render *r)
+{
+    const lmb_frame *f = &r->frame;
+    uint8_t *place = (uint8_t *)f->map_memory;
+    size_t left = f->map_bytes;
+    for (uint32_t i = 0; i < f->scene->light_count; ++i) {
+        const lmb_light *light = &f->scene->lights[i];
+        size_t need = lmb_light_map_bytes(lmb_light_map_faces(light), f->light_map, f->id_format);
+        lmb_status status = lmb_light_map_init(&r->maps[i], light, f->scene, f->light_map, f->id_format, place, left);
+        if (status != LMB_OK) {
+            return status;
+        }
+        place += need;
+        left -= need;
+    }
+    return LMB_OK;
+}
+
+lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
+{
+    if (r == NULL || frame == NULL) {
+        return LMB_ERR_ARG;
+    }
+    memset(r, 0, sizeof *r);
+    r->frame = *frame;
+    lmb_frame *f = &r->frame;
+    f->id_format = f->id_format != 0 ? f->id_format : LMB_ID32;
+    f->steps = f->steps != 0 ? f->steps : 16;
+    f->points.count = 0;
+    f->points.faces = 0;
+    lmb_status status = check_frame(f);
+    if (status == LMB_OK) {
+        status = place_maps(r);
+    }
+    r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
+    r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
+    return status;
+}
+
+/* Every stage's step does up to `units` of work, moves r->light, face and place on, and sets LMB_MORE or LMB_OK when the stage is
+ * complete. */
+static lmb_status step_light_map(lmb_render *r, int32_t units)
+{
+    lmb_frame *f = &r->frame;
+    if (r->light == f->scene->light_count) {
+        return LMB_OK;
+    }
+    if (r->place == 0) {
+        lmb_light_map_clear(&r->maps[r->light]);
+    }
+    lmb_status status = lmb_light_map_draw(&r->maps[r->light], f->kernels, &f->scratch->raster, f->scene, r->place + 1,
+                                           (uint32_t)units * UNIT_TRIANGLES, f->stats);
+    r->place += (uint32_t)units * UNIT_TRIANGLES;
+    if (r->place >= r->triangles) {
+        r->place = 0;
+        ++r->light;
+    }
+    return status != LMB_OK ? status : LMB_MORE;
+}
+
+static lmb_status end_face(lmb_render *r)
+{
+    const lmb_light_map *map = &r->maps[r->light];
+    lmb_status status = (map->drawn >> r->face) & 1u ? lmb_discs_join(&r->frame.points, map, &r->frame.grouping) : LMB_OK;
+    r->place = 0;
+    if (++r->face >= (uint32_t)map->faces) {
+        r->face = 0;
+        ++r->light;
+    }
+    return status;
+}
+
+static lmb_status step_points(lmb_render *r, int32_t units)
+{
+    lmb_frame *f = &r->frame;
+    if (!wants_bounce(f) || r->light == f->scene->light_count) {
+        return LMB_OK;
+    }
+    const lmb_light_map *map = &r->maps[r->light];
+    int32_t rows = map->size / LMB_TILE, last = mini(rows, (int32_t)r->place + units);
+    uint32_t before = f->points.count;
+    if ((map->drawn >> r->face) & 1u) {
+        lmb_status status =
+            lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
+                               (int32_t)r->face, (int32_t)r->place, last, &f->grouping);
+        if (status != LMB_OK) {
+            return status;
+        }
+    }
+    if (f->stats != NULL) {
+        f->stats->first_points += f->points.count - before;
+    }
+    r->place = (uint32_t)last;
+    if (last == rows) {
+        lmb_status status = end_face(r);
+        return status != LMB_OK ? status : LMB_MORE;
+    }
+    return LMB_MORE;
+}
+
+static lmb_status step_groups(lmb_render *r)
+{
+    lmb_frame *f = &r->frame;
+    return wants_bounce(f) ? lmb_group_points(f->groups, &f->points, &f->grouping, f->stats) : LMB_OK;
+}
+
+/* The whole frame's depth: with ids where the eye holds them all, else depth alone for the occlusion. */
+static lmb_status step_view(lmb_render *r, int32_t units)
+{
+    lmb_frame *f = &r->frame;
+    lmb_target whole = f->eye;
+    if (!is_whole(&f->eye.depth, &f->view)) {
+        const lmb_surface *map = occluding_depth(f);
+        if (map == NULL) {
+            return LMB_OK;
+        }
+        memset(&whole, 0, sizeof whole);
+        whole.depth = *map;
+    }
+    if (r->place == 0) {
+        lmb_surface_clear(&whole.depth);
+        if (whole.id.data != NULL) {
+            lmb_surface_clear(&whole.id);
+        }
+    }
+    lmb_status status = lmb_draw(&whole, f->kernels, &f->scratch->raster, &f->view, f->scene, r->place + 1,
+                                 (uint32_t)units * UNIT_TRIANGLES, LMB_CULL_BACK, f->stats);
+    r->place += (uint32_t)units * UNIT_TRIANGLES;
+    return status != LMB_OK ? status : r->place >= r->triangles ? LMB_OK : LMB_MORE;
+}
+
+/* Attributes of the band: in the whole frame's target, or drawn now into a band-sized one. */
+static lmb_status draw_band(const lmb_render *r, lmb_band_scratch *s, lmb_target *eye, int32_t band)
+{
+    const lmb_frame *f = &r->frame;
+    if (is_whole(&eye->depth, &f->view)) {
+        return LMB_OK;
+    }
+    eye->y0 = band * LMB_TILE;
+    lmb_surface_clear(&eye->depth);
+    lmb_surface_clear(&eye->id);
+    return lmb_draw(eye, f->kernels, &s->raster, &f->view, f->scene, 1, r->triangles, LMB_CULL_BACK, NULL);
+}
+
+/* SHOW_IRRADIANCE is what arrives before the albedo. */
+static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
+
+static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_occluder occluder;
+    lmb_status status = LMB_OK;
+    memset(&s->direct, 0, sizeof s->direct);
+    memset(&s->indirect, 0, sizeof s->indirect);
+    for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
+        status = lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, &f->scene->lights[i], &r->maps[i]);
+    }
+    if (wants_bounce(f) && status == LMB_OK) {
+        occluder.view = &f->view;
+        occluder.depth = occluding_depth(f);
+        occluder.kind = f->occlusion;
+        occluder.steps = f->steps;
+        status = lmb_gather_tile(&s->indirect, f->kernels, &s->gather, &s->tile, f->groups, &f->points, &occluder);
+    }
+    if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
+        show_irradiance(&s->radiance, &s->indirect);
+        return LMB_OK;
+    }
+    return status != LMB_OK ? status : lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, &s->indirect);
+}
+
+lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye, const lmb_surface *out,
+                           int32_t band)
+{
+    if (r == NULL || scratch == NULL || eye == NULL || out == NULL || r->stage < LMB_STAGE_BANDS || band < 0 ||
+        band >= band_count(&r->frame.view)) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_frame *f = &r->frame;
+    lmb_target window = *eye;
+    int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
+    lmb_status status = draw_band(r, scratch, &window, band);
+    for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
+        status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, &window, x, band * LMB_TILE);
+        if (status == LMB_OK) {
+            status = light_tile(r, scratch);
+        }
+        if (status == LMB_OK) {
+            status = lmb_store_tile(out, 0, out_y0, &scratch->radiance, x, band * LMB_TILE, f->exposure_ev);
+        }
+    }
+    return status;
+}
+
+/* 1 to go on. */
+static int hand_over(const lmb_frame *f, int32_t band)
+{
+    lmb_surface rows = f->out;
+    int32_t y = band * LMB_TILE;
+    if (f->callback == NULL) {
+        return 1;
+    }
+    if (is_whole(&f->out, &f->view)) {
+        rows.data = (uint8_t *)rows.data + (ptrdiff_t)y * rows.stride_bytes;
+    }
+    rows.height = mini(LMB_TILE, f->view.frame_height - y);
+    return f->callback(f->user, &rows, y) == 0;
+}
+
+static lmb_status step_bands(lmb_render *r, int32_t units)
+{
+    const int32_t bands = band_count(&r->frame.view);
+    for (int32_t n = 0; (n == 0 || n + BAND_UNITS <= units) && r->place < (uint32_t)bands; n += BAND_UNITS) {
+        int32_t band = (int32_t)r->place++;
+        lmb_status status = lmb_render_band(r, r->frame.scratch, &r->frame.eye, &r->frame.out, band);
+        if (status != LMB_OK) {
+            return status;
+        }
+        if (r->frame.stats != NULL) {
+            ++r->frame.stats->bands;
+        }
+        if (!hand_over(&r->frame, band)) {
+            return LMB_OK;
+        }
+    }
+    return r->place < (uint32_t)bands ? LMB_MORE : LMB_OK;
+}
+
+lmb_status lmb_render_step(lmb_render *r, int32_t units)
+{
+    lmb_status status;
+    if (r == NULL) {
+        return LMB_ERR_ARG;
+    }
+    units = mini(maxi(units, 1), 1 << 20);
+    switch (r->stage) {
+    case LMB_STAGE_LIGHT_MAP: status = step_light_map(r, units); break;
+    case LMB_STAGE_POINTS: status = step_points(r, units); break;
+    case LMB_STAGE_GROUPS: status = step_groups(r); break;
+    case LMB_STAGE_VIEW: status = step_view(r, units); break;
+    case LMB_STAGE_BANDS: status = step_bands(r, units); break;
+    default: return LMB_OK;
+    }
+    if (status < 0) {
+        r->stage = LMB_STAGE_DONE;
+        return status;
+    }
+    if (status == LMB_OK) {
+        ++r->stage;
+        r->light = r->face = r->place = 0;
+    }
+    return r->stage == LMB_STAGE_DONE ? LMB_OK : LMB_MORE;
+}
+
+lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame)
+{
+    lmb_status status = lmb_render_begin(r, frame);
+    if (status == LMB_OK) {
+        do {
+            status = lmb_render_step(r, 64);
+        } while (status == LMB_MORE);
+    }
+    return status;
+}
+
+float lmb_render_progress(const char **name, const lmb_render *r)
+{
+    static const char *const names[] = {"light maps", "first points", "groups", "view", "bands", "done"};
+    if (r == NULL || r->stage < 0 || r->stage > LMB_STAGE_DONE) {
+        *name = names[LMB_STAGE_DONE];
+        return 1.0f;
+    }
+    float lights = maxf((float)r->frame.scene->light_count, 1.0f), triangles = maxf((float)r->triangles, 1.0f), done = 0.0f;
+    *name = names[r->stage];
+    switch (r->stage) {
+    case LMB_STAGE_LIGHT_MAP: done = ((float)r->light + (float)r->place / triangles) / lights; break;
+    case LMB_STAGE_POINTS: done = (float)r->light / lights; break;
+    case LMB_STAGE_VIEW: done = (float)r->place / triangles; break;
+    case LMB_STAGE_BANDS: done = (float)r->place / (float)band_count(&r->frame.view); break;
+    case LMB_STAGE_DONE: done = 1.0f; break;
+    default: break;
+    }
+    return minf(done, 1.0f);
+}

@@ -1,0 +1,92 @@
+/* clip.c: a triangle in clip space against the near plane and the guard band. Floor 3.
+ *
+ * Sutherland-Hodgman. Two triangles that share an edge must cut it at the same bits, whichever way they walk it: the
+ * intersection is always computed from the endpoint with the smaller outcode, then the smaller bit pattern. */
+#include "clip.h"
+
+#include <string.h>
+
+static float plane_distance(const lmb_clip_vertex *v, uint32_t plane, const lmb_clip_guard *guard)
+{
+    switch (plane) {
+    case CLIP_NEAR: return v->w - v->z; /* d = z / w <= 1 */
+    case CLIP_LEFT: return guard->x * v->w + v->x;
+    case CLIP_RIGHT: return guard->x * v->w - v->x;
+    case CLIP_TOP: return guard->y * v->w - v->y;
+    default: return guard->y * v->w + v->y;
+    }
+}
+
+uint32_t lmb_clip_code(const lmb_clip_vertex *v, const lmb_clip_guard *guard)
+{
+    uint32_t code = 0;
+    for (uint32_t plane = CLIP_NEAR; plane <= CLIP_BOTTOM; plane <<= 1) {
+        code |= plane_distance(v, plane, guard) < 0.0f ? plane : 0;
+    }
+    return code;
+}
+
+static int comes_first(const lmb_clip_vertex *a, const lmb_clip_vertex *b)
+{
+    uint32_t p[4], q[4];
+    if (a->code != b->code) {
+        return a->code < b->code;
+    }
+    memcpy(p, &a->x, sizeof p);
+    memcpy(q, &b->x, sizeof q);
+    for (int i = 0; i < 4; ++i) {
+        if (p[i] != q[i]) {
+            return p[i] < q[i];
+        }
+    }
+    return 1;
+}
+
+static lmb_clip_vertex intersect(const lmb_clip_vertex *a, const lmb_clip_vertex *b, uint32_t plane,
+                                 const lmb_clip_guard *guard)
+{
+    lmb_clip_vertex r;
+    if (!comes_first(a, b)) {
+        const lmb_clip_vertex *c = a;
+        a = b;
+        b = c;
+    }
+    float da = plane_distance(a, plane, guard), db = plane_distance(b, plane, guard);
+    float t = da / (da - db); /* the signs differ, so da - db is not 0 */
+    r.x = a->x + (b->x - a->x) * t;
+    r.y = a->y + (b->y - a->y) * t;
+    r.z = a->z + (b->z - a->z) * t;
+    r.w = a->w + (b->w - a->w) * t;
+    r.code = lmb_clip_code(&r, guard);
+    return r;
+}
+
+static int cut(lmb_clip_vertex *polygon, int n, uint32_t plane, const lmb_clip_guard *guard)
+{
+    lmb_clip_vertex out[LMB_CLIP_MAX + 1];
+    int m = 0;
+    for (int i = 0; i < n; ++i) {
+        const lmb_clip_vertex *a = &polygon[i], *b = &polygon[i + 1 < n ? i + 1 : 0];
+        int a_in = plane_distance(a, plane, guard) >= 0.0f, b_in = plane_distance(b, plane, guard) >= 0.0f;
+        if (a_in && m < LMB_CLIP_MAX) {
+            out[m++] = *a;
+        }
+        if (a_in != b_in && m < LMB_CLIP_MAX) {
+            out[m++] = intersect(a, b, plane, guard);
+        }
+    }
+    memcpy(polygon, out, (size_t)m * sizeof *out);
+    return m;
+}
+
+int lmb_clip_polygon(lmb_clip_vertex polygon[LMB_CLIP_MAX], uint32_t planes, const lmb_clip_guard *guard)
+{
+    int n = 3;
+    for (uint32_t plane = CLIP_NEAR; plane <= CLIP_BOTTOM && n >= 3; plane <<= 1) {
+        /* A cut may push a new corner out of a plane its parents were inside of by a rounding: always test. */
+        if (planes & plane) {
+            n = cut(polygon, n, plane, guard);
+        }
+    }
+    return n >= 3 ? n : 0;
+}

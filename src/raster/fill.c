@@ -1,0 +1,156 @@
+/* fill.c: a set-up triangle into the tiles of a window. Floor 3.
+ *
+ * Tiles are out, partly covered or wholly inside each edge by the edge's value at the tile's corners. An edge that
+ * the whole tile lies inside of is left out of the kernel (its sums become 0), which also keeps the kernel's sums in
+ * 32 bits. Depth is taken at each tile's first pixel in binary64, so windows and tile order change nothing. */
+#include "fill.h"
+
+#include <string.h>
+
+#include "resolve.h"
+
+void lmb_depth16_coding(float *scale, float *bias, const lmb_view *view)
+{
+    float d_far = view->kind == LMB_PERSPECTIVE ? view->near_m / view->far_m : 0.0f;
+    *scale = 65534.0f / (1.0f - d_far);
+    *bias = 1.0f - d_far * *scale;
+}
+
+static void *tile_address(const lmb_surface *s, int32_t tile_x, int32_t tile_y, int32_t bytes)
+{
+    uint8_t *data = (uint8_t *)s->data;
+    return s->layout == LMB_TILED
+               ? data + (ptrdiff_t)tile_y * s->stride_bytes + (ptrdiff_t)tile_x * LMB_TILE_PIXELS * bytes
+               : data + (ptrdiff_t)tile_y * LMB_TILE * s->stride_bytes + (ptrdiff_t)tile_x * LMB_TILE * bytes;
+}
+
+lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t tile_y)
+{
+    lmb_fill_tile t;
+    int32_t depth_bytes = lmb_pixel_bytes(target->depth.format), id_bytes = lmb_pixel_bytes(target->id.format);
+    t.depth = tile_address(&target->depth, tile_x, tile_y, depth_bytes);
+    t.depth_step = target->depth.layout == LMB_TILED ? LMB_TILE : target->depth.stride_bytes / depth_bytes;
+    t.depth_format = target->depth.format;
+    t.id = NULL;
+    t.id_step = 0;
+    t.id_format = LMB_FORMAT_NONE;
+    if (target->id.data != NULL) {
+        t.id = tile_address(&target->id, tile_x, tile_y, id_bytes);
+        t.id_step = target->id.layout == LMB_TILED ? LMB_TILE : target->id.stride_bytes / id_bytes;
+        t.id_format = target->id.format;
+    }
+    return t;
+}
+
+/* A tile's own copy, for the masked path. */
+typedef struct tile_copy {
+    uint32_t depth[LMB_TILE_PIXELS]; /* in the target's depth format */
+    uint32_t id[LMB_TILE_PIXELS];
+} tile_copy;
+
+static void copy_rows(void *to, int32_t to_step, const void *from, int32_t from_step, int32_t bytes)
+{
+    for (int y = 0; y < LMB_TILE; ++y) {
+        memcpy((uint8_t *)to + (ptrdiff_t)y * to_step * bytes, (const uint8_t *)from + (ptrdiff_t)y * from_step * bytes,
+               (size_t)(LMB_TILE * bytes));
+    }
+}
+
+/* Fill a copy of the tile, then keep only the changed pixels whose alpha passes. Opaque scenes never come here. */
+static void fill_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job, int32_t x, int32_t y)
+{
+    tile_copy copy;
+    lmb_fill_tile aside = *tile;
+    lmb_resolve_job surface;
+    lmb_resolve_alpha alpha;
+    int32_t bytes = tile->depth_format == LMB_DEPTH16 ? 2 : 4, id_bytes = tile->id_format == LMB_ID16 ? 2 : 4;
+    if (!lmb_resolve_setup(&surface, &alpha, c->view, c->scene, job->id, x, y)) {
+        return;
+    }
+    aside.depth = copy.depth;
+    aside.depth_step = LMB_TILE;
+    copy_rows(copy.depth, LMB_TILE, tile->depth, tile->depth_step, bytes);
+    if (tile->id != NULL) {
+        aside.id = copy.id;
+        aside.id_step = LMB_TILE;
+        copy_rows(copy.id, LMB_TILE, tile->id, tile->id_step, id_bytes);
+    }
+    c->kernels->fill(&aside, job);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        uint8_t *was = (uint8_t *)tile->depth + ((k / LMB_TILE) * tile->depth_step + k % LMB_TILE) * bytes;
+        const uint8_t *now = (const uint8_t *)copy.depth + k * bytes;
+        if (memcmp(was, now, (size_t)bytes) != 0 &&
+            lmb_resolve_opaque(&surface, &alpha, c->scene, (float)(k % LMB_TILE), (float)(k / LMB_TILE))) {
+            memcpy(was, now, (size_t)bytes);
+            if (tile->id != NULL) {
+                memcpy((uint8_t *)tile->id + ((k / LMB_TILE) * tile->id_step + k % LMB_TILE) * id_bytes,
+                       (const uint8_t *)copy.id + k * id_bytes, (size_t)id_bytes);
+            }
+        }
+    }
+}
+
+/* 1 and the job's edges, or 0 where the tile lies outside one. e is each edge at the tile's first pixel. */
+static int enter_tile(lmb_fill_job *job, const lmb_setup *s, const int64_t e[3])
+{
+    const int64_t reach = LMB_TILE - 1;
+    for (int i = 0; i < 3; ++i) {
+        int64_t ex = s->ex[i], ey = s->ey[i];
+        int64_t low = e[i] + reach * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
+        int64_t high = e[i] + reach * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
+        if (high < 0) {
+            return 0;
+        }
+        job->e[i] = low >= 0 ? 0 : (int32_t)e[i];
+        job->ex[i] = low >= 0 ? 0 : s->ex[i];
+        job->ey[i] = low >= 0 ? 0 : s->ey[i];
+    }
+    return 1;
+}
+
+/* First and last tile, inside the window, of a box in 24.8 from the frame's middle. */
+static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t high_24_8, int32_t frame, int32_t origin,
+                      int32_t size)
+{
+    int32_t low_px = ((low_24_8 + frame * 128) >> 8) - origin, high_px = ((high_24_8 + frame * 128) >> 8) - origin;
+    *first = maxi(low_px, 0) >> 3;
+    *last = mini(high_px, size - 1) >> 3; /* -1 >> 3 is -1: nothing */
+}
+
+void lmb_fill_triangle(const lmb_fill_context *c, const lmb_setup *s, uint32_t id, int masked)
+{
+    const lmb_target *target = c->target;
+    int32_t tx0, tx1, ty0, ty1;
+    lmb_fill_job job;
+    tile_span(&tx0, &tx1, s->x_min, s->x_max, c->view->frame_width, target->x0, target->depth.width);
+    tile_span(&ty0, &ty1, s->y_min, s->y_max, c->view->frame_height, target->y0, target->depth.height);
+    job.dx = (float)s->d_x;
+    job.dy = (float)s->d_y;
+    job.d_min = s->d_min;
+    job.d_max = s->d_max;
+    job.d_scale = c->d16_scale;
+    job.d_bias = c->d16_bias;
+    job.id = id;
+    for (int32_t ty = ty0; ty <= ty1; ++ty) {
+        int32_t y = target->y0 + ty * LMB_TILE, y_24_8 = y * 256 + 128 - c->view->frame_height * 128;
+        int32_t x = target->x0 + tx0 * LMB_TILE, x_24_8 = x * 256 + 128 - c->view->frame_width * 128;
+        int64_t e[3];
+        for (int i = 0; i < 3; ++i) {
+            e[i] = setup_edge(s, i, x_24_8, y_24_8);
+        }
+        for (int32_t tx = tx0; tx <= tx1; ++tx, x_24_8 += LMB_TILE * 256) {
+            if (enter_tile(&job, s, e)) {
+                lmb_fill_tile tile = lmb_target_tile(target, tx, ty);
+                job.d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
+                if (masked) {
+                    fill_masked(c, &tile, &job, target->x0 + tx * LMB_TILE, y);
+                } else {
+                    c->kernels->fill(&tile, &job);
+                }
+            }
+            for (int i = 0; i < 3; ++i) {
+                e[i] += (int64_t)s->ex[i] * LMB_TILE;
+            }
+        }
+    }
+}

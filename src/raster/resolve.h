@@ -1,0 +1,26 @@
+/* resolve.h: what fill's masked path and the tiles of maps share of a triangle's attributes. Floor 3. */
+#ifndef LMB_RASTER_RESOLVE_H
+#define LMB_RASTER_RESOLVE_H
+
+#include "../lane/kernels.h"
+#include "triangle.h"
+
+/* Opacity at the corners and where to look it up. */
+typedef struct lmb_resolve_alpha {
+    float corner[3];
+    float cutoff; /* 0: opaque everywhere */
+    int32_t texture;
+} lmb_resolve_alpha;
+
+/* The job of triangle `id` over the tile whose first pixel is (x, y); 0 where the id names none. */
+int lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_scene *scene,
+                      uint32_t id, int32_t x, int32_t y);
+
+/* Does the surface stand at pixel (x, y) of the tile, or is there a hole? */
+int lmb_resolve_opaque(const lmb_resolve_job *job, const lmb_resolve_alpha *alpha, const lmb_scene *scene, float x,
+                       float y);
+
+/* The same at barycentrics (b1, b2) of a triangle. */
+int lmb_triangle_opaque(const lmb_triangle *triangle, const lmb_scene *scene, float b1, float b2);
+
+#endif

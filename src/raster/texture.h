@@ -1,0 +1,10 @@
+/* texture.h: a base colour image at a point. Floor 3. */
+#ifndef LMB_RASTER_TEXTURE_H
+#define LMB_RASTER_TEXTURE_H
+
+#include <lambent/scene.h>
+
+/* Linear R G B and alpha at (u, v), lod in levels (0: base; trilinear only). A non-finite coordinate reads (0, 0). */
+void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, float lod);
+
+#endif

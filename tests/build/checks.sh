@@ -1,0 +1,32 @@
+# checks.sh: counting for the shell checks that source it: pass, fail WHAT, skip WHY; `finish` last.
+passed=0 failed=0 skipped=0
+
+pass() { passed=$((passed + 1)); }
+
+fail() {
+    failed=$((failed + 1))
+    echo "FAIL $*"
+}
+
+skip() {
+    skipped=$((skipped + 1))
+    echo "skipped: $*"
+}
+
+# check WHAT COMMAND...: passes where the command succeeds; its output is shown where it does not.
+check() {
+    what=$1
+    shift
+    if said=$("$@" 2>&1); then
+        pass
+    else
+        fail "$what"
+        [ -z "$said" ] || printf '%s\n' "$said" | head -n 20
+    fi
+}
+
+finish() {
+    echo "$passed passed, $failed failed, $skipped skipped"
+    [ $failed -eq 0 ]
+    exit
+}

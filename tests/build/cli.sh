@@ -1,0 +1,97 @@
+# cli.sh: what the tool writes, says and returns; TOOL and B in the environment.
+. tests/build/checks.sh
+
+dir=$B/cli
+rm -rf "$dir"
+mkdir -p "$dir"
+
+# status WANTED ARGUMENT...: the exit status; a failure says one line on stderr, and only there.
+status() {
+    wanted=$1
+    shift
+    "$TOOL" "$@" >"$dir/out.txt" 2>"$dir/err.txt"
+    got=$?
+    [ $got -eq "$wanted" ] && pass || fail "lambent $*: exit status $got, not $wanted: $(head -n 1 "$dir/err.txt")"
+    if [ "$wanted" -eq 1 ]; then
+        lines=$(grep -c . "$dir/err.txt")
+        [ "$lines" -eq 1 ] && pass || fail "lambent $*: $lines lines on stderr instead of one"
+        [ ! -s "$dir/out.txt" ] && pass || fail "lambent $*: an error, yet output on stdout"
+    elif [ "$wanted" -eq 2 ]; then
+        [ -s "$dir/err.txt" ] && pass || fail "lambent $*: bad usage and not a word on stderr"
+    fi
+}
+
+# begins FILE BYTES_IN_OCTAL: the first bytes of a file.
+begins() {
+    got=$(od -An -to1 -N4 "$1" | tr -d ' \n')
+    [ "$got" = "$2" ] && pass || fail "$1 begins with $got instead of $2"
+}
+
+absent() { [ ! -e "$1" ] && pass || fail "$1 should not be there"; }
+
+small="--size 64x48 --light-map 64"
+
+# Each format by its extension, whole.
+for extension in png ppm pfm hdr; do
+    status 0 render demo $small -o "$dir/demo.$extension"
+done
+begins "$dir/demo.png" 211120116107
+begins "$dir/demo.ppm" 120066012066
+begins "$dir/demo.pfm" 120106012066
+begins "$dir/demo.hdr" 043077122101
+check "demo.ppm is 64x48" test "$(wc -c <"$dir/demo.ppm")" -eq $((64 * 48 * 3 + 13))
+check "demo.pfm is 64x48" test "$(sed -n 2p "$dir/demo.pfm")" = "64 48"
+
+# What is shown, and by which method.
+for show in direct indirect irradiance depth normal albedo; do
+    status 0 render demo $small --show $show -o "$dir/$show.pfm"
+done
+for grouping in greedy zones; do
+    status 0 render demo $small --grouping $grouping -o "$dir/$grouping.pfm"
+done
+for occlusion in none view view-world; do
+    status 0 render demo $small --occlusion $occlusion -o "$dir/$occlusion.pfm"
+done
+status 0 render demo $small --stats "$dir/stats.json" -o "$dir/again.pfm"
+check "the same command writes the same bytes" cmp "$dir/demo.pfm" "$dir/again.pfm"
+check "stats are JSON" grep -q '^{' "$dir/stats.json"
+
+# Help and version go to stdout.
+for ask in --help --version "render --help" "compare --help"; do
+    status 0 $ask
+    check "lambent $ask says something" test -s "$dir/out.txt"
+done
+
+# compare: equal, different, sizes differ.
+status 0 compare "$dir/demo.pfm" "$dir/again.pfm"
+status 0 render demo --size 32x24 --light-map 64 -o "$dir/half.pfm"
+status 3 compare "$dir/demo.pfm" "$dir/half.pfm"
+
+# Bad usage.
+status 2
+status 2 paint
+status 2 render
+status 2 render demo
+status 2 render demo -o "$dir/bad.png" --no-such-flag
+status 2 render demo -o "$dir/bad.png" --size 64
+status 2 render demo -o "$dir/bad.png" --size 0x48
+status 2 render demo -o "$dir/bad.png" --show nonsense
+status 2 render demo -o "$dir/bad.png" --size
+status 2 render demo -o "$dir/bad.tiff"
+status 2 compare "$dir/demo.pfm"
+absent "$dir/bad.png"
+
+# What cannot be done leaves nothing behind.
+printf 'no scene' >"$dir/broken.glb"
+status 1 render "$dir/nowhere.gltf" -o "$dir/bad.png"
+status 1 render "$dir/broken.glb" -o "$dir/bad.png"
+absent "$dir/bad.png"
+status 1 render demo $small -o "$dir/nowhere/demo.png"
+absent "$dir/nowhere"
+mkdir "$dir/folder.png"
+status 1 render demo $small -o "$dir/folder.png"
+check "folder.png stays an empty folder" rmdir "$dir/folder.png"
+status 1 compare "$dir/demo.pfm" "$dir/nowhere.pfm"
+left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
+check "left behind: $left" test -z "$left"
+finish

@@ -1,0 +1,60 @@
+/* test.h: the checks that every test uses: a failure prints where and why, and the run goes on. */
+#ifndef TEST_H
+#define TEST_H
+
+#include <stdint.h>
+#include <stdio.h>
+
+/* Counters live in the test program's main. */
+extern int test_passed, test_failed, test_skipped;
+
+#define CHECK(cond) \
+    do { \
+        if (cond) { \
+            ++test_passed; \
+        } else { \
+            ++test_failed; \
+            printf("FAIL %s:%d: %s\n", __FILE__, __LINE__, #cond); \
+        } \
+    } while (0)
+
+#define CHECK_MSG(cond, ...) \
+    do { \
+        if (cond) { \
+            ++test_passed; \
+        } else { \
+            ++test_failed; \
+            printf("FAIL %s:%d: %s: ", __FILE__, __LINE__, #cond); \
+            printf(__VA_ARGS__); \
+            printf("\n"); \
+        } \
+    } while (0)
+
+#define SKIP(...) \
+    do { \
+        ++test_skipped; \
+        printf("skipped: "); \
+        printf(__VA_ARGS__); \
+        printf("\n"); \
+    } while (0)
+
+/* Repeatable 32-bit random numbers (PCG XSH-RR, O'Neill 2014). */
+typedef struct test_rng {
+    uint64_t state;
+} test_rng;
+
+static inline uint32_t test_random(test_rng *r)
+{
+    uint64_t s = r->state;
+    uint32_t x = (uint32_t)(((s >> 18) ^ s) >> 27), turn = (uint32_t)(s >> 59);
+    r->state = s * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return (x >> turn) | (x << ((32u - turn) & 31u));
+}
+
+/* Uniform in [lo, hi). */
+static inline float test_uniform(test_rng *r, float lo, float hi)
+{
+    return lo + (hi - lo) * ((float)(test_random(r) >> 8) * (1.0f / 16777216.0f));
+}
+
+#endif

@@ -1,0 +1,61 @@
+/* main.c: runs the tests: tests [GROUP | NAME]...   without words, all of them.
+ *
+ * The Makefile lists them in tests.inc, a line TEST(group, name) for each tests/GROUP/test_NAME.c. */
+#include "../test.h"
+
+#include <string.h>
+
+int test_passed, test_failed, test_skipped;
+
+#define TEST(group, name) void test_##name(void);
+#include "tests.inc"
+#undef TEST
+
+static const struct test {
+    const char *group, *name;
+    void (*run)(void);
+} tests[] = {
+#define TEST(group, name) {#group, #name, test_##name},
+#include "tests.inc"
+#undef TEST
+};
+enum { TEST_COUNT = sizeof tests / sizeof tests[0] };
+
+static int is_wanted(const struct test *t, int argc, char **argv)
+{
+    int i;
+    for (i = 1; i < argc; ++i)
+        if (!strcmp(argv[i], t->group) || !strcmp(argv[i], t->name))
+            return 1;
+    return argc < 2;
+}
+
+/* One line a test, so that a crash shows where it happened. */
+static void run(const struct test *t)
+{
+    int passed = test_passed, failed = test_failed, skipped = test_skipped;
+    printf("%s/%s\n", t->group, t->name);
+    fflush(stdout);
+    t->run();
+    printf("%s/%s: %d passed", t->group, t->name, test_passed - passed);
+    if (test_failed > failed)
+        printf(", %d failed", test_failed - failed);
+    if (test_skipped > skipped)
+        printf(", %d skipped", test_skipped - skipped);
+    printf("\n");
+}
+
+int main(int argc, char **argv)
+{
+    int i, wanted = 0;
+    for (i = 0; i < TEST_COUNT; ++i)
+        if (is_wanted(&tests[i], argc, argv)) {
+            run(&tests[i]);
+            ++wanted;
+        }
+    if (!wanted) {
+        SKIP("no test of that name or group");
+    }
+    printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);
+    return test_failed > 0;
+}

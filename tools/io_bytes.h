@@ -1,0 +1,42 @@
+/* io_bytes.h: what the picture files share: the largest picture and numbers in either byte order. */
+#ifndef IO_BYTES_H
+#define IO_BYTES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* 16384 x 16384: 1 GiB as RGBA, so that byte counts up to 15 a pixel also fit a 32-bit size_t. */
+#define PICTURE_MAX_PIXELS (UINT64_C(1) << 28)
+
+static inline int picture_fits(uint64_t width, uint64_t height)
+{
+    return width > 0 && height > 0 && width <= PICTURE_MAX_PIXELS && height <= PICTURE_MAX_PIXELS / width;
+}
+
+static inline uint32_t get_u32_be(const uint8_t *p)
+{
+    return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
+}
+
+static inline uint32_t get_u32_le(const uint8_t *p)
+{
+    return (uint32_t)p[3] << 24 | (uint32_t)p[2] << 16 | (uint32_t)p[1] << 8 | p[0];
+}
+
+static inline void put_u32_be(uint8_t *p, uint32_t v)
+{
+    p[0] = (uint8_t)(v >> 24);
+    p[1] = (uint8_t)(v >> 16);
+    p[2] = (uint8_t)(v >> 8);
+    p[3] = (uint8_t)v;
+}
+
+static inline void put_u32_le(uint8_t *p, uint32_t v)
+{
+    p[0] = (uint8_t)v;
+    p[1] = (uint8_t)(v >> 8);
+    p[2] = (uint8_t)(v >> 16);
+    p[3] = (uint8_t)(v >> 24);
+}
+
+#endif

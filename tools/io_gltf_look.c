@@ -1,0 +1,299 @@
+/* io_gltf_look.c: glTF materials, textures, samplers and images, as far as a Lambertian renderer has use for them. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io_gltf.h"
+
+enum { GL_NEAREST = 9728, GL_LINEAR = 9729, GL_CLAMP = 33071, GL_MIRROR = 33648 };
+
+/* A sampler has two filters, lambent one. Pixel art (magnified by nearest) stays sharp; mips are made where the
+ * minifying filter names them, or nothing is said. */
+static uint8_t filter_of(uint32_t mag, uint32_t min)
+{
+    if (mag == GL_NEAREST) return LMB_NEAREST;
+    if (min == GL_NEAREST) return mag == GL_LINEAR ? LMB_BILINEAR : LMB_NEAREST;
+    return min == GL_LINEAR ? LMB_BILINEAR : LMB_TRILINEAR;
+}
+
+static uint8_t wrap_of(uint32_t wrap)
+{
+    return wrap == GL_CLAMP ? LMB_WRAP_CLAMP : wrap == GL_MIRROR ? LMB_WRAP_MIRROR : LMB_WRAP_REPEAT;
+}
+
+static int read_sampler(lmb_texture *out, gltf *g, uint32_t texture)
+{
+    const json *doc = &g->doc;
+    uint32_t sampler, mag = 0, min = 0, s = 0, t = 0;
+    if (!gltf_item(&sampler, g, &g->samplers, json_member(doc, texture, "sampler")) ||
+        !json_read_uint(&mag, doc, json_member(doc, sampler, "magFilter"), g->b->r) ||
+        !json_read_uint(&min, doc, json_member(doc, sampler, "minFilter"), g->b->r) ||
+        !json_read_uint(&s, doc, json_member(doc, sampler, "wrapS"), g->b->r) ||
+        !json_read_uint(&t, doc, json_member(doc, sampler, "wrapT"), g->b->r))
+        return 0;
+    out->filter = filter_of(mag, min);
+    out->wrap_s = wrap_of(s);
+    out->wrap_t = wrap_of(t);
+    return 1;
+}
+
+/* The file's bytes of images[index], likely a PNG; `place` names it. The caller calls file_free.
+ * 0: see `why`, or g->b->r where the model itself is damaged. */
+static int image_bytes(gltf_bytes *out, file_bytes *file, char place[64], gltf *g, uint32_t index, report *why)
+{
+    const uint32_t node = g->images.items[index], reference = json_member(&g->doc, node, "bufferView");
+    uint32_t view;
+    json_path(place, 64, &g->doc, node);
+    if (reference == JSON_NONE) {
+        if (!gltf_uri(out, file, g, json_member(&g->doc, node, "uri"), why)) return 0;
+    } else if (!gltf_item(&view, g, &g->views, reference) || !gltf_view(out, g, view)) {
+        return 0;
+    }
+    if (out->size < 2 || out->data[0] != 0xFF || out->data[1] != 0xD8) return 1;
+    file_free(file);
+    return report_fail(why, "%s is a JPEG; convert it to PNG", place);
+}
+
+/* images[index], decoded, with mips if wanted; kept in image_texels for the next texture that shows it. */
+static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int mips, report *why)
+{
+    lmb_texture *known = &g->image_texels[index];
+    gltf_bytes bytes = { NULL, 0, 0 };
+    file_bytes file = { NULL, 0 };
+    char place[64];
+    int ok;
+    if (!known->texels || (mips && known->levels == 1)) {
+        if (!image_bytes(&bytes, &file, place, g, index, why)) return 0;
+        ok = build_texels(g->b, known, bytes.data, bytes.size, mips, place, why);
+        file_free(&file);
+        if (!ok) return 0;
+    }
+    out->texels = known->texels;
+    out->width = known->width;
+    out->height = known->height;
+    out->levels = mips ? known->levels : 1;
+    return 1;
+}
+
+/* Mean of the metallic (blue) channel of images[index], 0 .. 1; worked out once. */
+static int image_mean(double *out, gltf *g, uint32_t index, report *why)
+{
+    gltf_bytes bytes = { NULL, 0, 0 };
+    file_bytes file = { NULL, 0 };
+    bitmap map;
+    char place[64];
+    uint64_t sum = 0;
+    size_t i, n;
+    int ok;
+    if (g->image_metal[index] < 0) {
+        if (!image_bytes(&bytes, &file, place, g, index, why)) return 0;
+        ok = png_decode(&map, bytes.data, bytes.size, place, why);
+        file_free(&file);
+        if (!ok) return 0;
+        n = (size_t)map.width * (size_t)map.height;
+        for (i = 0; i < n; ++i) sum += map.texels[4 * i + 2];
+        bitmap_free(&map);
+        g->image_metal[index] = (double)sum / (255.0 * (double)n);
+    }
+    *out = g->image_metal[index];
+    return 1;
+}
+
+/* A texture or image that cannot be had is a note, unless the model itself is damaged. */
+static int leave_out(gltf *g, const report *why)
+{
+    if (g->b->r->text[0]) return 0;
+    if (g->left_out.textures++ == 0) g->texture_error = *why;
+    return 1;
+}
+
+/* The image of a texture, without that of an extension that only other formats need. */
+static int texture_image(uint32_t *out, gltf *g, uint32_t texture)
+{
+    return gltf_index(out, g, &g->images, json_member(&g->doc, texture, "source"));
+}
+
+/* Slot in the scene of textures[index]: made at first use; -1 where its image cannot be had. */
+static int texture_slot(int32_t *out, gltf *g, uint32_t index)
+{
+    const uint32_t node = g->textures.items[index];
+    lmb_texture made;
+    uint32_t source;
+    report why;
+    if (g->texture_slot[index] == -1) {
+        memset(&made, 0, sizeof made);
+        why.text[0] = '\0';
+        g->texture_slot[index] = -2;
+        if (!read_sampler(&made, g, node) || !texture_image(&source, g, node)) return 0;
+        if (source == JSON_NONE) {
+            json_fail(&g->doc, node, &why, "no PNG or JPEG source");
+            if (!leave_out(g, &why)) return 0;
+        } else if (image_decode(&made, g, source, made.filter == LMB_TRILINEAR, &why)) {
+            g->texture_slot[index] = (int32_t)g->b->texture_count;
+            g->b->textures[g->b->texture_count++] = made;
+        } else if (!leave_out(g, &why)) {
+            return 0;
+        }
+    }
+    *out = g->texture_slot[index] < 0 ? -1 : g->texture_slot[index];
+    return 1;
+}
+
+/* KHR_texture_transform: u' = offset + rotation * scale * u. The rotation is counter-clockwise with v downwards, as
+ * in the viewers and test models that agree on it; the extension's own GLSL text turns the other way. */
+static int read_transform(gltf_uv *uv, gltf *g, uint32_t transform)
+{
+    const json *doc = &g->doc;
+    double offset[2] = { 0, 0 }, scale[2] = { 1, 1 }, angle = 0, c, s;
+    if (!json_read_doubles(offset, 2, doc, json_member(doc, transform, "offset"), g->b->r) ||
+        !json_read_doubles(scale, 2, doc, json_member(doc, transform, "scale"), g->b->r) ||
+        !json_read_double(&angle, doc, json_member(doc, transform, "rotation"), g->b->r) ||
+        !json_read_uint(&uv->set, doc, json_member(doc, transform, "texCoord"), g->b->r))
+        return 0;
+    c = cos(angle);
+    s = sin(angle);
+    uv->m[0] = c * scale[0];
+    uv->m[1] = s * scale[1];
+    uv->m[2] = offset[0];
+    uv->m[3] = -s * scale[0];
+    uv->m[4] = c * scale[1];
+    uv->m[5] = offset[1];
+    uv->moved = angle != 0 || offset[0] != 0 || offset[1] != 0 || scale[0] != 1 || scale[1] != 1;
+    return 1;
+}
+
+/* baseColorTexture: its slot and how it takes texture coordinates. */
+static int read_base_texture(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t info)
+{
+    const json *doc = &g->doc;
+    const uint32_t reference = json_member(doc, info, "index");
+    uint32_t index, transform;
+    uv->set = JSON_NONE;
+    if (info == JSON_NONE) return 1;
+    if (reference == JSON_NONE) return json_fail(doc, info, g->b->r, "index is missing");
+    if (!gltf_index(&index, g, &g->textures, reference) || !texture_slot(&out->texture, g, index)) return 0;
+    if (out->texture < 0) return 1;
+    uv->set = 0;
+    if (!json_read_uint(&uv->set, doc, json_member(doc, info, "texCoord"), g->b->r)) return 0;
+    transform = json_member(doc, json_member(doc, info, "extensions"), "KHR_texture_transform");
+    return transform == JSON_NONE || read_transform(uv, g, transform);
+}
+
+static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
+
+/* *out: what a metallic map does on average; unchanged where its image cannot be had. */
+static int metallic_mean(double *out, gltf *g, uint32_t info)
+{
+    uint32_t texture, index;
+    report why;
+    why.text[0] = '\0';
+    if (!gltf_item(&texture, g, &g->textures, json_member(&g->doc, info, "index")) ||
+        !texture_image(&index, g, texture))
+        return 0;
+    return index == JSON_NONE || image_mean(out, g, index, &why) || leave_out(g, &why);
+}
+
+/* Metals have no diffuse light of their own; 0.04 of their colour stands for it while there is no glossy lobe. A
+ * metallic map counts as its mean; one that cannot be had as no metal, because most surfaces are none. */
+static int read_metallic(double *diffuse, gltf *g, uint32_t pbr)
+{
+    const uint32_t map = json_member(&g->doc, pbr, "metallicRoughnessTexture");
+    double metallic = 1, mean = 0;
+    if (!json_read_double(&metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r)) return 0;
+    if (map != JSON_NONE && metallic > 0) {
+        if (!metallic_mean(&mean, g, map)) return 0;
+        metallic *= mean;
+        ++g->left_out.metal_maps;
+    }
+    *diffuse = 1 - metallic > 0.04 ? 1 - metallic : 0.04;
+    g->left_out.metals += metallic >= 0.5;
+    return 1;
+}
+
+static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
+{
+    const uint32_t mode = json_member(&g->doc, material, "alphaMode");
+    double cutoff = 0.5;
+    if (mode == JSON_NONE || json_equals(&g->doc, mode, "OPAQUE")) return 1;
+    if (json_equals(&g->doc, mode, "BLEND")) {
+        ++g->left_out.blends;
+    } else if (!json_equals(&g->doc, mode, "MASK")) {
+        return json_fail(&g->doc, mode, g->b->r, "must be OPAQUE, MASK or BLEND");
+    } else if (!json_read_double(&cutoff, &g->doc, json_member(&g->doc, material, "alphaCutoff"), g->b->r)) {
+        return 0;
+    }
+    out->flags |= LMB_ALPHA_MASK;
+    out->alpha_cutoff = cutoff > 0 ? cutoff < 2 ? (float)cutoff : 2.0f : 0.0f;
+    return 1;
+}
+
+/* What the renderer has no use for, counted for the notes. */
+static int count_ignored(gltf *g, uint32_t material)
+{
+    const json *doc = &g->doc;
+    double emissive[3] = { 0, 0, 0 };
+    if (!json_read_doubles(emissive, 3, doc, json_member(doc, material, "emissiveFactor"), g->b->r)) return 0;
+    g->left_out.emissive += emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0;
+    g->left_out.other_maps += json_member(doc, material, "normalTexture") != JSON_NONE ||
+                              json_member(doc, material, "occlusionTexture") != JSON_NONE;
+    return 1;
+}
+
+static int read_material(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t material)
+{
+    const json *doc = &g->doc;
+    const uint32_t pbr = json_member(doc, material, "pbrMetallicRoughness");
+    const int unlit = json_member(doc, json_member(doc, material, "extensions"), "KHR_materials_unlit") != JSON_NONE;
+    double base[4] = { 1, 1, 1, 1 }, diffuse = 1;
+    int sided = 0, i;
+    if (!json_read_doubles(base, 4, doc, json_member(doc, pbr, "baseColorFactor"), g->b->r) ||
+        !json_read_bool(&sided, doc, json_member(doc, material, "doubleSided"), g->b->r) ||
+        !read_alpha(out, g, material) || (!unlit && !read_metallic(&diffuse, g, pbr)) ||
+        !read_base_texture(out, uv, g, json_member(doc, pbr, "baseColorTexture")) || !count_ignored(g, material))
+        return 0;
+    for (i = 0; i < 3; ++i) out->albedo[i] = clamp01(base[i] * diffuse);
+    out->alpha = clamp01(base[3]);
+    out->flags |= sided ? LMB_DOUBLE_SIDED : 0;
+    g->left_out.unlit += (uint32_t)unlit;
+    return 1;
+}
+
+static void plain_material(lmb_material *out)
+{
+    memset(out, 0, sizeof *out);
+    out->albedo[0] = out->albedo[1] = out->albedo[2] = out->alpha = 1.0f;
+    out->alpha_cutoff = 0.5f;
+    out->texture = -1;
+}
+
+int gltf_materials(gltf *g)
+{
+    const uint32_t n = g->materials.count;
+    uint32_t i;
+    g->b->materials = (lmb_material *)build_keep(g->b, (uint64_t)n + 1, sizeof *g->b->materials);
+    g->b->textures = (lmb_texture *)build_keep(g->b, g->textures.count, sizeof *g->b->textures);
+    g->material_uv = (gltf_uv *)build_scratch(g->b, (uint64_t)n + 1, sizeof *g->material_uv);
+    g->texture_slot = (int32_t *)build_scratch(g->b, g->textures.count, sizeof *g->texture_slot);
+    g->image_texels = (lmb_texture *)build_scratch(g->b, g->images.count, sizeof *g->image_texels);
+    g->image_metal = (double *)build_scratch(g->b, g->images.count, sizeof *g->image_metal);
+    if (!g->b->materials || !g->b->textures || !g->material_uv || !g->texture_slot || !g->image_texels || !g->image_metal)
+        return 0;
+    for (i = 0; i < g->images.count; ++i) g->image_metal[i] = -1;
+    for (i = 0; i < g->textures.count; ++i) g->texture_slot[i] = -1;
+    for (i = 0; i < n; ++i) {
+        plain_material(&g->b->materials[i]);
+        if (!read_material(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i])) return 0;
+    }
+    g->b->material_count = n;
+    g->default_material = JSON_NONE;
+    return 1;
+}
+
+/* glTF's own default is a metal, which would be nearly black here: white serves those who named no material. */
+void gltf_default_material(gltf *g)
+{
+    if (g->default_material != JSON_NONE) return;
+    g->default_material = g->b->material_count++;
+    plain_material(&g->b->materials[g->default_material]);
+    g->material_uv[g->default_material].set = JSON_NONE;
+}

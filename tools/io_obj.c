@@ -1,0 +1,527 @@
+/* io_obj.c: reads Wavefront OBJ: polygons to triangles, corners to vertices, one mesh and instance a material.
+ *
+ * Two passes: the first counts, so that every array has its final size; the second fills. A corner, two bytes of text
+ * or more, costs at most 36 bytes on the way, 60 more in the file's widest face, and 28 in the model; a triangle 20
+ * and 12. The worst is one huge face of one-digit corners, 64 bytes a byte of file: within MODEL_BYTES_PER_BYTE,
+ * textures aside. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io_obj.h"
+#include "polygon.h"
+
+#define NONE UINT32_MAX
+#define MAX_LIBRARIES 64
+
+/* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given. */
+typedef struct corner {
+    uint32_t v, vt, vn;
+} corner;
+
+/* Corners by number; group is 2 * material + (has normals). */
+typedef struct triangle {
+    uint32_t corner[3];
+    uint32_t group;
+} triangle;
+
+/* What the first pass found; 64 bits, because a file of 4 GiB can name more of something than 32 hold. */
+typedef struct census {
+    uint64_t v, vt, vn, corners, triangles, names, libraries;
+    uint64_t widest; /* most corners of a face */
+    int colours;     /* some v has six numbers */
+} census;
+
+typedef struct obj {
+    model_build *b;
+    census n;
+    float *v, *vt, *vn;
+    uint8_t *colours; /* RGBA8 by v, or NULL */
+    uint32_t v_count, vt_count, vn_count; /* so far: what negative numbers count back from */
+    corner *corners;                      /* different ones */
+    uint32_t corner_count;
+    uint32_t *slots; /* open addressing over corners: number + 1 */
+    uint32_t slot_mask;
+    triangle *triangles;
+    uint32_t triangle_count;
+    obj_names names;
+    slice libraries[MAX_LIBRARIES];
+    uint32_t library_count, library_extra;
+    uint32_t material; /* of the faces that follow */
+    corner *face;      /* scratch for one face: its corners, numbers, points and triangles */
+    uint32_t *face_number, *face_cut, *face_links;
+    double *face_points;
+    uint32_t points_lines, degenerate, overlapping, zero_normals;
+} obj;
+
+/* --- first pass --- */
+
+static void count_face(census *n, cursor *c)
+{
+    slice token;
+    uint64_t corners = 0;
+    while (text_token(&token, c)) ++corners;
+    n->corners += corners;
+    n->triangles += corners > 2 ? corners - 2 : 0;
+    n->widest = corners > n->widest ? corners : n->widest;
+}
+
+static census count_all(cursor c)
+{
+    census n;
+    slice word, token;
+    memset(&n, 0, sizeof n);
+    do {
+        int numbers = 0;
+        if (!text_token(&word, &c)) continue;
+        if (slice_is(word, "v")) {
+            while (numbers < 6 && text_token(&token, &c)) ++numbers;
+            n.colours = n.colours || numbers == 6;
+            ++n.v;
+        } else if (slice_is(word, "vt")) {
+            ++n.vt;
+        } else if (slice_is(word, "vn")) {
+            ++n.vn;
+        } else if (slice_is(word, "f")) {
+            count_face(&n, &c);
+        } else if (slice_is(word, "usemtl")) {
+            ++n.names;
+        }
+    } while (text_next_line(&c));
+    return n;
+}
+
+/* The least power of two that is at least twice n: half of an index's slots stay empty. */
+static uint64_t slots_for(uint64_t n)
+{
+    uint64_t slots = 16;
+    while (slots < 2 * n) slots *= 2;
+    return slots;
+}
+
+static int allocate_names(obj *o)
+{
+    const uint64_t n = o->n.names + 1, slots = slots_for(n);
+    uint32_t slot;
+    slice nothing = { "", 0 };
+    o->names.items = (obj_material *)build_scratch(o->b, n, sizeof *o->names.items);
+    o->names.slots = (uint32_t *)build_scratch(o->b, slots, sizeof *o->names.slots);
+    o->names.mask = (uint32_t)(slots - 1);
+    if (!o->names.items || !o->names.slots) return 0;
+    o->names.items[0].name = nothing;
+    obj_find(&o->names, nothing, &slot);
+    o->names.slots[slot] = 1;
+    o->names.count = 1;
+    return 1;
+}
+
+static int allocate(obj *o)
+{
+    const census *n = &o->n;
+    const uint64_t slots = slots_for(n->corners);
+    if (n->v >= NONE / 4 || n->vt >= NONE / 4 || n->vn >= NONE / 4 || n->corners >= NONE / 4)
+        return report_fail(o->b->r, "%s: more than a thousand million elements; split it", o->b->path);
+    o->v = (float *)build_scratch(o->b, n->v, 3 * sizeof *o->v);
+    o->vt = (float *)build_scratch(o->b, n->vt, 2 * sizeof *o->vt);
+    o->vn = (float *)build_scratch(o->b, n->vn, 3 * sizeof *o->vn);
+    o->corners = (corner *)build_scratch(o->b, n->corners, sizeof *o->corners);
+    o->slots = (uint32_t *)build_scratch(o->b, slots, sizeof *o->slots);
+    o->slot_mask = (uint32_t)(slots - 1);
+    o->triangles = (triangle *)build_scratch(o->b, n->triangles, sizeof *o->triangles);
+    o->face = (corner *)build_scratch(o->b, n->widest, sizeof *o->face);
+    o->face_number = (uint32_t *)build_scratch(o->b, n->widest, sizeof *o->face_number);
+    o->face_cut = (uint32_t *)build_scratch(o->b, n->widest, 3 * sizeof *o->face_cut);
+    o->face_links = (uint32_t *)build_scratch(o->b, n->widest, 2 * sizeof *o->face_links);
+    o->face_points = (double *)build_scratch(o->b, n->widest, 3 * sizeof *o->face_points);
+    if (n->colours && !(o->colours = (uint8_t *)build_scratch(o->b, n->v, 4))) return 0;
+    return o->v && o->vt && o->vn && o->corners && o->slots && o->triangles && o->face && o->face_number &&
+           o->face_cut && o->face_links && o->face_points && allocate_names(o);
+}
+
+/* --- second pass --- */
+
+/* Up to `most` numbers of the line; at least `least`, or an error. *count of them. */
+static int read_numbers(double *out, int *count, int least, int most, cursor *c, report *r)
+{
+    slice token;
+    *count = 0;
+    while (*count < most && text_token(&token, c)) {
+        if (!slice_number(&out[*count], token))
+            return text_fail(c, r, "\"%.*s\" is not a number; repair the line", token.size < 40 ? (int)token.size : 40,
+                             token.at);
+        ++*count;
+    }
+    return *count >= least || text_fail(c, r, "%d numbers where %d are needed; repair the line", *count, least);
+}
+
+/* A double beyond binary32's range becomes an infinity, which the library drops; the cast alone would not say so. */
+static float to_float(double v) { return v > 3.4e38 ? (float)INFINITY : v < -3.4e38 ? -(float)INFINITY : (float)v; }
+
+/* x y z, then perhaps a weight (ignored), or r g b taken as linear. */
+static int read_v(obj *o, cursor *c)
+{
+    double v[7];
+    int n, i;
+    uint8_t *colour = o->colours ? o->colours + 4 * (size_t)o->v_count : NULL;
+    if (!read_numbers(v, &n, 3, 7, c, o->b->r)) return 0;
+    for (i = 0; i < 3; ++i) o->v[3 * (size_t)o->v_count + (size_t)i] = to_float(v[i]);
+    for (i = 0; colour && i < 4; ++i) {
+        const double value = i < 3 && n >= 6 ? v[3 + i] : 1;
+        colour[i] = value > 0 ? value < 1 ? (uint8_t)(value * 255 + 0.5) : 255 : 0;
+    }
+    ++o->v_count;
+    return 1;
+}
+
+static float sane_uv(double v) { return v > -1e6 && v < 1e6 ? (float)v : 0.0f; }
+
+/* OBJ counts v upwards from the image's foot, lambent downwards from its top. */
+static int read_vt(obj *o, cursor *c)
+{
+    double v[3] = { 0, 0, 0 };
+    int n;
+    if (!read_numbers(v, &n, 1, 3, c, o->b->r)) return 0;
+    o->vt[2 * (size_t)o->vt_count] = sane_uv(v[0]);
+    o->vt[2 * (size_t)o->vt_count + 1] = sane_uv(1 - v[1]);
+    ++o->vt_count;
+    return 1;
+}
+
+static int read_vn(obj *o, cursor *c)
+{
+    double v[3], d;
+    int n, i;
+    if (!read_numbers(v, &n, 3, 3, c, o->b->r)) return 0;
+    d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(d > 1e-20 && d < 1e30)) {
+        v[0] = v[2] = 0;
+        v[1] = d = 1;
+        ++o->zero_normals;
+    }
+    for (i = 0; i < 3; ++i) o->vn[3 * (size_t)o->vn_count + (size_t)i] = (float)(v[i] / d);
+    ++o->vn_count;
+    return 1;
+}
+
+/* One number of a corner: from 1 over the whole file, or back from here. `total` are in the file, `here` so far. */
+static int resolve(uint32_t *out, slice number, uint64_t total, uint32_t here, const char *what, cursor *c, report *r)
+{
+    int64_t value;
+    if (!slice_integer(&value, number))
+        return text_fail(c, r, "\"%.*s\" is not a %s number; repair the line", number.size < 40 ? (int)number.size : 40,
+                         number.at, what);
+    if (value > 0 && (uint64_t)value <= total) {
+        *out = (uint32_t)(value - 1);
+        return 1;
+    }
+    if (value < 0 && -value <= (int64_t)here) {
+        *out = here - (uint32_t)-value;
+        return 1;
+    }
+    return text_fail(c, r, "%s number %.*s, but there are %u; repair the line", what,
+                     number.size < 40 ? (int)number.size : 40, number.at, (unsigned)(value < 0 ? here : total));
+}
+
+/* The text before the next slash; what follows it stays in *token. */
+static slice cut_at_slash(slice *token)
+{
+    slice part = *token;
+    part.size = 0;
+    while (part.size < token->size && token->at[part.size] != '/') ++part.size;
+    token->at += part.size;
+    token->size -= part.size;
+    if (token->size) {
+        ++token->at;
+        --token->size;
+    }
+    return part;
+}
+
+/* v, v/vt, v//vn or v/vt/vn. */
+static int read_corner(corner *out, const obj *o, slice token, cursor *c)
+{
+    const slice v = cut_at_slash(&token), vt = cut_at_slash(&token), vn = token;
+    out->vt = out->vn = NONE;
+    if (!resolve(&out->v, v, o->n.v, o->v_count, "v", c, o->b->r)) return 0;
+    if (vt.size && !resolve(&out->vt, vt, o->n.vt, o->vt_count, "vt", c, o->b->r)) return 0;
+    return !vn.size || resolve(&out->vn, vn, o->n.vn, o->vn_count, "vn", c, o->b->r);
+}
+
+/* The number of a corner: that of an equal one, or a new one. The table was sized for all corners of the file. */
+static uint32_t intern(obj *o, const corner *key)
+{
+    uint32_t hash = key->v * 0x9E3779B1u ^ key->vt * 0x85EBCA77u ^ key->vn * 0xC2B2AE3Du, slot;
+    hash ^= hash >> 15;
+    for (slot = hash & o->slot_mask; o->slots[slot] != 0; slot = (slot + 1) & o->slot_mask) {
+        const corner *known = &o->corners[o->slots[slot] - 1];
+        if (known->v == key->v && known->vt == key->vt && known->vn == key->vn) return o->slots[slot] - 1;
+    }
+    o->corners[o->corner_count] = *key;
+    o->slots[slot] = ++o->corner_count;
+    return o->corner_count - 1;
+}
+
+/* A face may name vertices that come later in the file. They still lie at 0 here, so such a face is cut by what is
+ * known of it; its corners are fetched when all has been read. */
+static void cut_face(obj *o, uint32_t n, int with_normals)
+{
+    uint32_t i, k;
+    for (i = 0; i < n; ++i) {
+        if (!with_normals) o->face[i].vn = NONE;
+        o->face_number[i] = intern(o, &o->face[i]);
+        for (k = 0; k < 3; ++k) o->face_points[3 * (size_t)i + k] = (double)o->v[3 * (size_t)o->face[i].v + k];
+    }
+    if (!polygon_cut(o->face_cut, o->face_points, n, o->face_links)) ++o->overlapping;
+    for (i = 0; i < n - 2; ++i) {
+        triangle *t = &o->triangles[o->triangle_count++];
+        for (k = 0; k < 3; ++k) t->corner[k] = o->face_number[o->face_cut[3 * (size_t)i + k]];
+        t->group = 2 * o->material + (uint32_t)with_normals;
+    }
+}
+
+static int read_face(obj *o, cursor *c)
+{
+    slice token;
+    uint32_t n = 0;
+    int with_normals = 1;
+    while (text_token(&token, c)) {
+        if (!read_corner(&o->face[n], o, token, c)) return 0;
+        with_normals = with_normals && o->face[n].vn != NONE;
+        ++n;
+    }
+    if (n < 3)
+        ++o->degenerate;
+    else
+        cut_face(o, n, with_normals);
+    return 1;
+}
+
+static void use_material(obj *o, cursor *c)
+{
+    slice name;
+    uint32_t slot;
+    text_rest(&name, c);
+    o->material = obj_find(&o->names, name, &slot);
+    if (o->material != UINT32_MAX) return;
+    o->material = o->names.count++;
+    o->names.items[o->material].name = name;
+    o->names.slots[slot] = o->names.count;
+}
+
+static void use_library(obj *o, cursor *c)
+{
+    slice name;
+    uint32_t i;
+    text_rest(&name, c);
+    for (i = 0; i < o->library_count; ++i)
+        if (o->libraries[i].size == name.size && memcmp(o->libraries[i].at, name.at, name.size) == 0) return;
+    if (o->library_count < MAX_LIBRARIES)
+        o->libraries[o->library_count++] = name;
+    else
+        ++o->library_extra;
+}
+
+static int read_line(obj *o, cursor *c)
+{
+    slice word;
+    if (!text_token(&word, c)) return 1;
+    if (slice_is(word, "v")) return read_v(o, c);
+    if (slice_is(word, "vt")) return read_vt(o, c);
+    if (slice_is(word, "vn")) return read_vn(o, c);
+    if (slice_is(word, "f")) return read_face(o, c);
+    if (slice_is(word, "usemtl")) use_material(o, c);
+    if (slice_is(word, "mtllib")) use_library(o, c);
+    o->points_lines += slice_is(word, "l") || slice_is(word, "p");
+    return 1;
+}
+
+/* --- materials --- */
+
+/* A middle grey until a library says more; double sided, because OBJ says nothing of sides. */
+static int make_materials(obj *o)
+{
+    uint32_t i, undefined = 0;
+    model_build *b = o->b;
+    b->materials = (lmb_material *)build_keep(b, o->names.count, sizeof *b->materials);
+    b->textures = (lmb_texture *)build_keep(b, o->names.count, sizeof *b->textures);
+    if (!b->materials || !b->textures) return 0;
+    b->material_count = o->names.count;
+    for (i = 0; i < o->names.count; ++i) {
+        lmb_material *m = &b->materials[i];
+        m->albedo[0] = m->albedo[1] = m->albedo[2] = 0.8f;
+        m->alpha = 1.0f;
+        m->alpha_cutoff = 0.5f;
+        m->texture = -1;
+        m->flags = LMB_DOUBLE_SIDED;
+    }
+    for (i = 0; i < o->library_count; ++i)
+        if (!mtl_load(b, &o->names, o->libraries[i])) return 0;
+    for (i = 1; i < o->names.count; ++i) undefined += !o->names.items[i].defined;
+    if (undefined) build_note(b, "%u materials that no library describes, drawn grey", (unsigned)undefined);
+    return mtl_textures(b, &o->names);
+}
+
+/* --- meshes --- */
+
+/* The triangles of each group side by side: numbers of triangles, and where each group starts (groups + 1). */
+static int sort_by_group(uint32_t **sorted, uint32_t **starts, obj *o)
+{
+    const uint32_t groups = 2 * o->names.count;
+    uint32_t i;
+    *sorted = (uint32_t *)build_scratch(o->b, o->triangle_count, sizeof **sorted);
+    *starts = (uint32_t *)build_scratch(o->b, (uint64_t)groups + 2, sizeof **starts);
+    if (!*sorted || !*starts) return 0;
+    for (i = 0; i < o->triangle_count; ++i) ++(*starts)[o->triangles[i].group + 2];
+    for (i = 2; i < groups + 2; ++i) (*starts)[i] += (*starts)[i - 1];
+    for (i = 0; i < o->triangle_count; ++i) (*sorted)[(*starts)[o->triangles[i].group + 1]++] = i;
+    return 1;
+}
+
+/* Number the corners that these triangles use in the order of their first use: local[corner] = number + 1,
+ * used[number] = corner. */
+static uint32_t number_corners(uint32_t *local, uint32_t *used, const obj *o, const uint32_t *list, uint32_t n)
+{
+    uint32_t count = 0, i, k;
+    for (i = 0; i < n; ++i)
+        for (k = 0; k < 3; ++k) {
+            const uint32_t corner_number = o->triangles[list[i]].corner[k];
+            if (local[corner_number]) continue;
+            used[count++] = corner_number;
+            local[corner_number] = count;
+        }
+    return count;
+}
+
+static int fill_indices(lmb_mesh *out, const obj *o, const uint32_t *local, const uint32_t *list)
+{
+    const int small = out->vertex_count <= 65536;
+    void *indices = build_keep(o->b, 3 * (uint64_t)out->triangle_count, small ? 2 : 4);
+    uint32_t i, k;
+    if (!indices) return 0;
+    for (i = 0; i < out->triangle_count; ++i)
+        for (k = 0; k < 3; ++k) {
+            const uint32_t number = local[o->triangles[list[i]].corner[k]] - 1;
+            if (small)
+                ((uint16_t *)indices)[3 * (size_t)i + k] = (uint16_t)number;
+            else
+                ((uint32_t *)indices)[3 * (size_t)i + k] = number;
+        }
+    out->indices = indices;
+    out->index_format = small ? LMB_INDEX_U16 : LMB_INDEX_U32;
+    return 1;
+}
+
+static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
+{
+    float *positions = (float *)build_keep(o->b, out->vertex_count, 3 * sizeof *positions);
+    uint8_t *colours = o->colours ? (uint8_t *)build_keep(o->b, out->vertex_count, 4) : NULL;
+    uint32_t i;
+    if (!positions || (o->colours && !colours)) return 0;
+    for (i = 0; i < out->vertex_count; ++i) {
+        const size_t v = o->corners[used[i]].v;
+        memcpy(positions + 3 * (size_t)i, o->v + 3 * v, 3 * sizeof *positions);
+        if (colours) memcpy(colours + 4 * (size_t)i, o->colours + 4 * v, 4);
+    }
+    out->positions = positions;
+    out->colours = colours;
+    out->position_format = LMB_POSITION_F32;
+    return 1;
+}
+
+/* Texture coordinates where the material has a texture; corners without them get (0, 0). */
+static int fill_uvs(lmb_mesh *out, const obj *o, const uint32_t *used)
+{
+    float *uvs = (float *)build_keep(o->b, out->vertex_count, 2 * sizeof *uvs);
+    uint32_t i;
+    if (!uvs) return 0;
+    for (i = 0; i < out->vertex_count; ++i) {
+        const uint32_t vt = o->corners[used[i]].vt;
+        if (vt != NONE) memcpy(uvs + 2 * (size_t)i, o->vt + 2 * (size_t)vt, 2 * sizeof *uvs);
+    }
+    out->uvs = uvs;
+    out->uv_format = LMB_UV_F32;
+    return 1;
+}
+
+static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
+{
+    int16_t *codes = (int16_t *)build_keep(o->b, out->vertex_count, 2 * sizeof *codes);
+    uint32_t i;
+    if (!codes) return 0;
+    for (i = 0; i < out->vertex_count; ++i) {
+        const float *n = o->vn + 3 * (size_t)o->corners[used[i]].vn;
+        const lmb_vec3 unit = { n[0], n[1], n[2] };
+        lmb_octahedral_encode(codes + 2 * (size_t)i, unit);
+    }
+    out->normals = codes;
+    return 1;
+}
+
+static int fill_mesh(lmb_mesh *out, const obj *o, uint32_t group, const uint32_t *list, uint32_t *local, uint32_t *used)
+{
+    uint32_t i;
+    out->vertex_count = number_corners(local, used, o, list, out->triangle_count);
+    if (!fill_indices(out, o, local, list) || !fill_positions(out, o, used)) return 0;
+    if (o->b->materials[group / 2].texture >= 0 && !fill_uvs(out, o, used)) return 0;
+    if (group % 2 && !fill_normals(out, o, used)) return 0;
+    for (i = 0; i < out->vertex_count; ++i) local[used[i]] = 0;
+    return 1;
+}
+
+static void place(lmb_instance *out, uint32_t mesh, uint32_t material)
+{
+    out->to_world.m[0] = out->to_world.m[5] = out->to_world.m[10] = out->to_world.m[15] = 1.0f;
+    out->mesh = mesh;
+    out->material = material;
+}
+
+/* A mesh and an instance for each group that has triangles. */
+static int make_meshes(obj *o)
+{
+    const uint32_t groups = 2 * o->names.count;
+    model_build *b = o->b;
+    uint32_t *sorted, *starts, g;
+    uint32_t *local = (uint32_t *)build_scratch(b, o->corner_count, sizeof *local);
+    uint32_t *used = (uint32_t *)build_scratch(b, o->corner_count, sizeof *used);
+    b->meshes = (lmb_mesh *)build_keep(b, groups, sizeof *b->meshes);
+    b->instances = (lmb_instance *)build_keep(b, groups, sizeof *b->instances);
+    if (!local || !used || !b->meshes || !b->instances || !sort_by_group(&sorted, &starts, o)) return 0;
+    for (g = 0; g < groups; ++g) {
+        lmb_mesh *mesh = &b->meshes[b->mesh_count];
+        mesh->triangle_count = starts[g + 1] - starts[g];
+        if (mesh->triangle_count == 0) continue;
+        if (!fill_mesh(mesh, o, g, sorted + starts[g], local, used)) return 0;
+        place(&b->instances[b->instance_count++], b->mesh_count++, g / 2);
+    }
+    return 1;
+}
+
+static void tell_left_out(const obj *o)
+{
+    if (o->points_lines) build_note(o->b, "%u elements of points or lines skipped", (unsigned)o->points_lines);
+    if (o->degenerate) build_note(o->b, "%u faces with fewer than 3 corners skipped", (unsigned)o->degenerate);
+    if (o->overlapping)
+        build_note(o->b, "%u concave faces of more than %d corners may overlap themselves", (unsigned)o->overlapping,
+                   POLYGON_MAX_CONCAVE);
+    if (o->zero_normals) build_note(o->b, "%u normals without length, set to +Y", (unsigned)o->zero_normals);
+    if (o->library_extra)
+        build_note(o->b, "more than %d material libraries; %u left out", MAX_LIBRARIES, (unsigned)o->library_extra);
+}
+
+int obj_load(model_build *b, const uint8_t *data, size_t size)
+{
+    obj o;
+    cursor c = text_open(data, size, b->path);
+    memset(&o, 0, sizeof o);
+    o.b = b;
+    o.n = count_all(c);
+    if (o.n.triangles == 0) return report_fail(b->r, "%s: no faces; give a polygon model", b->path);
+    if (!allocate(&o)) return 0;
+    do {
+        if (!read_line(&o, &c)) return 0;
+    } while (text_next_line(&c));
+    if (!make_materials(&o) || !make_meshes(&o)) return 0;
+    tell_left_out(&o);
+    return 1;
+}

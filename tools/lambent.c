@@ -1,0 +1,46 @@
+/* lambent.c: the command line: finds the verb. */
+#include <stdio.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "verb_compare.h"
+#include "verb_render.h"
+
+static const char usage[] =
+    "usage: lambent VERB ...\n"
+    "\n"
+    "  render SCENE -o OUT      draw a scene (.gltf .glb .obj, or the built-in `demo`) with bounced light\n"
+    "  compare A B              error figures of a picture against a reference\n"
+    "\n"
+    "  lambent VERB --help      what a verb takes\n"
+    "  lambent --version\n";
+
+int main(int argc, char **argv)
+{
+    if (lmb_build_check() != LMB_OK) {
+        fputs("lambent: this build does not compute like others (contraction, fast math or flushed denormals): pixels "
+              "would differ; build with the Makefile's flags\n", stderr);
+        return 1;
+    }
+    if (argc >= 2 && strcmp(argv[1], "render") == 0) {
+        return verb_render(argc - 1, argv + 1);
+    }
+    if (argc >= 2 && strcmp(argv[1], "compare") == 0) {
+        return verb_compare(argc - 1, argv + 1);
+    }
+    if (argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 || strcmp(argv[1], "-h") == 0)) {
+        fputs(usage, stdout);
+        return 0;
+    }
+    if (argc >= 2 && strcmp(argv[1], "--version") == 0) {
+        printf("lambent %d.%d.%d\n", LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100);
+        return 0;
+    }
+    if (argc >= 2) {
+        fprintf(stderr, "lambent: there is no verb `%s`; lambent --help lists them\n", argv[1]);
+    } else {
+        fputs(usage, stderr);
+    }
+    return 2;
+}

@@ -1,0 +1,246 @@
+/* model.c: owns a loaded model's memory, picks the reader by content, and finishes what a reader built. */
+#include <ctype.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model_build.h"
+
+void model_free(model *m)
+{
+    uint32_t i;
+    for (i = 0; i < m->block_count; ++i) free(m->blocks[i]);
+    free(m->blocks);
+    memset(m, 0, sizeof *m);
+}
+
+/* Room for one more block; the list doubles. */
+static int reserve_block(model *m)
+{
+    uint32_t cap = m->block_cap ? m->block_cap * 2 : 64;
+    void **grown;
+    if (m->block_count < m->block_cap) return 1;
+    if (cap > UINT32_MAX / 2 / sizeof *grown) return 0;
+    grown = (void **)realloc(m->blocks, cap * sizeof *grown);
+    if (!grown) return 0;
+    m->blocks = grown;
+    m->block_cap = cap;
+    return 1;
+}
+
+/* count * size zeroed bytes in m's list, or NULL; without a budget. */
+static void *add_block(model *m, uint64_t count, size_t size)
+{
+    void *block;
+    if (count == 0) count = 1;
+    if (count > SIZE_MAX / size || !reserve_block(m)) return NULL;
+    block = calloc((size_t)count, size);
+    if (block) m->blocks[m->block_count++] = block;
+    return block;
+}
+
+static void *build_alloc(model_build *b, model *m, uint64_t count, size_t size)
+{
+    void *block;
+    if (count > b->budget / size) {
+        report_fail(b->r, "%s: asks for more than %d bytes of memory a byte of file; it is damaged or made to harm",
+                    b->path, MODEL_BYTES_PER_BYTE);
+        return NULL;
+    }
+    b->budget -= count * size;
+    block = add_block(m, count, size);
+    if (!block) report_fail(b->r, "%s: out of memory; load a smaller model", b->path);
+    return block;
+}
+
+void *build_keep(model_build *b, uint64_t count, size_t size) { return build_alloc(b, b->out, count, size); }
+
+void *build_scratch(model_build *b, uint64_t count, size_t size) { return build_alloc(b, &b->scratch, count, size); }
+
+void build_note(model_build *b, const char *format, ...)
+{
+    model_notes *n = b->notes;
+    const uint32_t room = sizeof n->line / sizeof n->line[0];
+    char line[sizeof n->line[0]];
+    va_list args;
+    uint32_t i;
+    va_start(args, format);
+    vsnprintf(line, sizeof line, format, args);
+    va_end(args);
+    for (i = 0; i < n->count; ++i)
+        if (strcmp(n->line[i], line) == 0) return;
+    if (n->count == room) {
+        snprintf(n->line[room - 1], sizeof line, "more notes than %u; the rest is left out", (unsigned)room);
+        return;
+    }
+    memcpy(n->line[n->count++], line, sizeof line);
+}
+
+int build_read(model_build *b, file_bytes *out, const char *path, report *r)
+{
+    if (!file_read(out, path, r)) return 0;
+    b->budget += (uint64_t)out->size * MODEL_BYTES_PER_BYTE;
+    return 1;
+}
+
+int build_is_relative(const char *name)
+{
+    const size_t n = strcspn(name, ":/\\");
+    return name[0] != '\0' && name[0] != '/' && name[0] != '\\' && name[n] != ':';
+}
+
+int build_sibling(char *out, size_t cap, const model_build *b, const char *name, report *r)
+{
+    const char *slash = strrchr(b->path, '/');
+    size_t folder, n = strlen(name);
+#if defined(_WIN32)
+    const char *back = strrchr(b->path, '\\');
+    if (back && (!slash || back > slash)) slash = back;
+#endif
+    folder = slash ? (size_t)(slash - b->path) + 1 : 0;
+    if (folder >= cap || n >= cap - folder)
+        return report_fail(r, "%s: a path beside it is longer than %u bytes; move the model", b->path, (unsigned)cap);
+    memcpy(out, b->path, folder);
+    memcpy(out + folder, name, n + 1);
+    return 1;
+}
+
+/* Level 0 to the model's memory, with room for `levels`. */
+static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, const char *name, report *why)
+{
+    size_t bytes = lmb_texture_bytes(map->width, map->height, levels);
+    uint8_t *texels = NULL;
+    if (bytes == 0) {
+        report_fail(why, "%s: %dx%d pixels; sides may have up to %d", name, (int)map->width, (int)map->height,
+                    LMB_MAX_SIDE);
+        return NULL;
+    }
+    if (bytes <= b->texel_budget) texels = (uint8_t *)add_block(b->out, bytes, 1);
+    if (!texels) {
+        report_fail(why, "%s: no memory left for textures; shrink them", name);
+        return NULL;
+    }
+    b->texel_budget -= bytes;
+    memcpy(texels, map->texels, (size_t)map->width * (size_t)map->height * 4);
+    return texels;
+}
+
+int build_texels(model_build *b, lmb_texture *out, const uint8_t *png, size_t size, int mips, const char *name,
+                 report *why)
+{
+    bitmap map;
+    int32_t levels;
+    uint8_t *texels;
+    if (!png_decode(&map, png, size, name, why)) return 0;
+    levels = mips ? lmb_texture_level_count(map.width, map.height) : 1;
+    texels = keep_texels(b, &map, levels, name, why);
+    if (texels) {
+        out->texels = texels;
+        out->width = (uint16_t)map.width;
+        out->height = (uint16_t)map.height;
+        out->levels = (uint8_t)levels;
+        if (levels > 1) lmb_texture_mips(texels, map.width, map.height, levels);
+    }
+    bitmap_free(&map);
+    return texels != NULL;
+}
+
+/* Ids 1 .. in instance order. */
+static int number_triangles(model_build *b)
+{
+    uint64_t next = 1;
+    uint32_t i;
+    for (i = 0; i < b->instance_count; ++i) {
+        b->instances[i].first_id = (uint32_t)next;
+        next += b->meshes[b->instances[i].mesh].triangle_count;
+        if (next - 1 > LMB_MAX_TRIANGLES)
+            return report_fail(b->r, "%s: more than %u triangles in the scene; split it", b->path,
+                               (unsigned)LMB_MAX_TRIANGLES);
+    }
+    return 1;
+}
+
+/* Far from the origin, binary32 has few bits left for the shape itself. */
+static void note_far_away(model_build *b)
+{
+    const lmb_vec3 lo = b->out->scene.bounds_min, hi = b->out->scene.bounds_max;
+    double cx = ((double)lo.x + (double)hi.x) / 2, cy = ((double)lo.y + (double)hi.y) / 2,
+           cz = ((double)lo.z + (double)hi.z) / 2;
+    double dx = (double)hi.x - (double)lo.x, dy = (double)hi.y - (double)lo.y, dz = (double)hi.z - (double)lo.z;
+    double distance = sqrt(cx * cx + cy * cy + cz * cz), diagonal = sqrt(dx * dx + dy * dy + dz * dz);
+    if (distance > 1000 * diagonal && diagonal > 0)
+        build_note(b, "the scene is %.3g m across but %.3g m from the origin; move it there for precision", diagonal,
+                   distance);
+}
+
+static int finish(model_build *b)
+{
+    lmb_scene *scene = &b->out->scene;
+    lmb_status status;
+    if (!number_triangles(b)) return 0;
+    scene->meshes = b->meshes;
+    scene->materials = b->materials;
+    scene->textures = b->textures;
+    scene->instances = b->instances;
+    scene->lights = b->lights;
+    scene->mesh_count = b->mesh_count;
+    scene->material_count = b->material_count;
+    scene->texture_count = b->texture_count;
+    scene->instance_count = b->instance_count;
+    scene->light_count = b->light_count;
+    lmb_scene_bounds(&scene->bounds_min, &scene->bounds_max, scene);
+    status = lmb_scene_check(scene);
+    if (status != LMB_OK)
+        return report_fail(b->r, "%s: the scene that was read is not sound (%s); please report this file", b->path,
+                           lmb_status_name(status));
+    note_far_away(b);
+    return 1;
+}
+
+/* Does the path end in `extension` (lower case, with its point)? */
+static int has_extension(const char *path, const char *extension)
+{
+    size_t n = strlen(path), e = strlen(extension), i;
+    if (n < e) return 0;
+    for (i = 0; i < e; ++i)
+        if (tolower((unsigned char)path[n - e + i]) != extension[i]) return 0;
+    return 1;
+}
+
+/* glTF by its magic, its extension or a first brace; OBJ, which has no mark, by its extension alone. */
+static int load_content(model_build *b, const file_bytes *file)
+{
+    size_t i = 0;
+    if (file->size >= 4 && memcmp(file->data, "glTF", 4) == 0) return gltf_load(b, file->data, file->size);
+    if (has_extension(b->path, ".obj")) return obj_load(b, file->data, file->size);
+    while (i < file->size && strchr(" \t\r\n", file->data[i]) && file->data[i]) ++i;
+    if (has_extension(b->path, ".gltf") || has_extension(b->path, ".glb") || (i < file->size && file->data[i] == '{'))
+        return gltf_load(b, file->data, file->size);
+    return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb or .obj file", b->path);
+}
+
+int model_load(model *out, const char *path, model_notes *notes, report *r)
+{
+    model_build b;
+    file_bytes file;
+    model_notes unread;
+    int ok;
+    memset(out, 0, sizeof *out);
+    memset(&b, 0, sizeof b);
+    if (!notes) notes = &unread;
+    notes->count = 0;
+    b.out = out;
+    b.notes = notes;
+    b.r = r;
+    b.path = path;
+    b.budget = MODEL_BYTES_FREE;
+    b.texel_budget = MODEL_TEXEL_BYTES;
+    if (!build_read(&b, &file, path, r)) return 0;
+    ok = load_content(&b, &file) && finish(&b);
+    file_free(&file);
+    model_free(&b.scratch);
+    if (!ok) model_free(out);
+    return ok;
+}

@@ -1,0 +1,56 @@
+/* model_build.h: what the model readers share: memory with a budget, notes, neighbouring files, textures, the end. */
+#ifndef MODEL_BUILD_H
+#define MODEL_BUILD_H
+
+#include "image.h"
+#include "model.h"
+
+#define MODEL_BYTES_PER_BYTE 96        /* memory a reader may take for each byte of input ... */
+#define MODEL_BYTES_FREE (16u << 20)   /* ... beside these */
+#define MODEL_TEXEL_BYTES (UINT64_C(1) << 32) /* of all decoded textures: PNG packs up to a thousandfold */
+#define MODEL_PATH_MAX 4096            /* bytes of a path that a reader composes */
+
+/* A scene under construction; the arrays are blocks of `out`. */
+typedef struct model_build {
+    model *out;
+    model scratch; /* blocks that go when loading ends */
+    model_notes *notes;
+    report *r;
+    const char *path;      /* the model's file, as the user named it */
+    uint64_t budget;       /* bytes that may still be allocated */
+    uint64_t texel_budget; /* the same for texels */
+    lmb_mesh *meshes;
+    lmb_material *materials;
+    lmb_texture *textures;
+    lmb_instance *instances;
+    lmb_light *lights;
+    uint32_t mesh_count, material_count, texture_count, instance_count, light_count;
+} model_build;
+
+/* build_keep: count * size zeroed bytes that live as long as the model; build_scratch: until loading ends.
+ * NULL with the report set where memory or the budget is short; never NULL otherwise, count 0 included. */
+void *build_keep(model_build *b, uint64_t count, size_t size);
+void *build_scratch(model_build *b, uint64_t count, size_t size);
+
+/* build_note: a line for the user; equal lines appear once, the sixteenth says that there were more. */
+void build_note(model_build *b, const char *format, ...) REPORT_PRINTF(2, 3);
+
+/* build_read: a whole file, whose size raises the budget. The caller calls file_free. */
+int build_read(model_build *b, file_bytes *out, const char *path, report *r);
+
+/* build_is_relative: is this a path from the model's folder: no scheme, no drive, no root? */
+int build_is_relative(const char *name);
+
+/* build_sibling: the path of `name`, relative to the model's file; 0 with `r` set where it is longer than `cap`. */
+int build_sibling(char *out, size_t cap, const model_build *b, const char *name, report *r);
+
+/* build_texels: decode a PNG into out->texels, width, height and, if `mips`, all levels; `name` for messages.
+ * 0 with `why` set, which need not end the loading. */
+int build_texels(model_build *b, lmb_texture *out, const uint8_t *png, size_t size, int mips, const char *name,
+                 report *why);
+
+/* The readers: fill the arrays of `b`; first_id and bounds are set afterwards. 1, or 0 with b->r set. */
+int gltf_load(model_build *b, const uint8_t *data, size_t size);
+int obj_load(model_build *b, const uint8_t *data, size_t size);
+
+#endif

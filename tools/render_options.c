@@ -1,0 +1,294 @@
+/* render_options.c: the command line of `lambent render`, strictly: every number whole, every word known. */
+#include "render_options.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char render_usage[] =
+    "usage: lambent render SCENE -o OUT [options]\n"
+    "\n"
+    "SCENE  .gltf, .glb, .obj, or `demo`, a built-in room.   OUT  .png .ppm (display), .pfm .hdr (linear)\n"
+    "\n"
+    "view\n"
+    "  --size WxH                 picture, px (default: height 480, width by the camera's aspect)\n"
+    "  --camera NAME|N            one of the scene's cameras, by name or number from 0 (default: 0)\n"
+    "  --eye X,Y,Z --target X,Y,Z [--up X,Y,Z] --fov DEG\n"
+    "                             a camera of your own; fov is the vertical angle (default 45), up +Y\n"
+    "light\n"
+    "  --light KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]\n"
+    "                             instead of the scene's lights; may be repeated, lights add up. KIND is spot, point\n"
+    "                             or sun; position in metres, direction of travel; W/sr, sun W/m2; a spot's half\n"
+    "                             angles in degrees (default 0,45)\n"
+    "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, less for many lights)\n"
+    "bounce\n"
+    "  --grouping zones|greedy|none   how lit points become groups (default zones)\n"
+    "  --groups N                 groups at most (default 512)\n"
+    "  --block N                  texels a side of a first point: 1 2 4 8 (default 8)\n"
+    "  --occlusion none|view|view-world\n"
+    "                             what stands between groups and pixels: nothing, or what the viewer's depth map\n"
+    "                             shows, marched in map space or in world space (default view). A depth map cannot\n"
+    "                             know what is off screen or hidden.\n"
+    "  --steps N                  samples of a view march, 1 .. 64 (default 16)\n"
+    "picture\n"
+    "  --show full|direct|indirect|irradiance|depth|normal|albedo   (default full; irradiance: bounced, before albedo)\n"
+    "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
+    "other\n"
+    "  --backend scalar           which machine's kernels (default: the best here)\n"
+    "  --stats FILE.json          time by stage, counts, bytes\n";
+
+static int parse_float(const char **p, float *out)
+{
+    char *end;
+    double v = strtod(*p, &end);
+    if (end == *p || !(fabs(v) < 1e30)) {
+        return 0;
+    }
+    *out = (float)v;
+    *p = end;
+    return 1;
+}
+
+/* `count` numbers with commas between; *p stops behind them. */
+static int parse_floats(const char **p, float *out, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        if ((i > 0 && *(*p)++ != ',') || !parse_float(p, &out[i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int parse_vec3(const char *text, lmb_vec3 *out)
+{
+    float v[3];
+    if (!parse_floats(&text, v, 3) || *text != '\0') {
+        return 0;
+    }
+    out->x = v[0];
+    out->y = v[1];
+    out->z = v[2];
+    return 1;
+}
+
+static int parse_int(const char *text, int32_t low, int32_t high, int32_t *out)
+{
+    char *end;
+    long v = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || v < low || v > high) {
+        return 0;
+    }
+    *out = (int32_t)v;
+    return 1;
+}
+
+static int parse_size(const char *text, render_options *o)
+{
+    char *end;
+    long w = strtol(text, &end, 10), h = 0;
+    if (end == text || (*end != 'x' && *end != 'X')) {
+        return 0;
+    }
+    text = end + 1;
+    h = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || w < 1 || h < 1 || w > LMB_MAX_SIDE || h > LMB_MAX_SIDE) {
+        return 0;
+    }
+    o->width = (int32_t)w;
+    o->height = (int32_t)h;
+    return 1;
+}
+
+static int parse_word(const char *text, const char *const *words, const int32_t *values, int32_t *out)
+{
+    for (int i = 0; words[i] != NULL; ++i) {
+        if (strcmp(text, words[i]) == 0) {
+            *out = values[i];
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* KIND:P:D:RGB[:INNER,OUTER] */
+static int parse_light(const char *text, lmb_light *out)
+{
+    static const char *const kinds[] = {"spot:", "point:", "sun:"};
+    static const int32_t values[] = {LMB_LIGHT_SPOT, LMB_LIGHT_POINT, LMB_LIGHT_DIRECTIONAL};
+    float p[3], d[3], c[3], cone[2] = {0.0f, 45.0f};
+    memset(out, 0, sizeof *out);
+    out->kind = -1;
+    for (int i = 0; i < 3 && out->kind < 0; ++i) {
+        if (strncmp(text, kinds[i], strlen(kinds[i])) == 0) {
+            out->kind = values[i];
+            text += strlen(kinds[i]);
+        }
+    }
+    if (out->kind < 0 || !parse_floats(&text, p, 3) || *text++ != ':' || !parse_floats(&text, d, 3) || *text++ != ':' ||
+        !parse_floats(&text, c, 3)) {
+        return 0;
+    }
+    if (*text == ':' && (++text, !parse_floats(&text, cone, 2))) {
+        return 0;
+    }
+    double length = sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+    if (*text != '\0' || c[0] < 0.0f || c[1] < 0.0f || c[2] < 0.0f || cone[0] < 0.0f || cone[1] < cone[0] ||
+        cone[1] <= 0.0f || cone[1] > 89.0f || (length < 1e-20 && out->kind != LMB_LIGHT_POINT)) {
+        return 0;
+    }
+    length = length < 1e-20 ? 1.0 : length;
+    out->position = (lmb_vec3){p[0], p[1], p[2]};
+    out->direction = (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length), (float)((double)d[2] / length)};
+    memcpy(out->intensity, c, sizeof c);
+    out->cos_inner = (float)cos((double)cone[0] * 3.14159265358979 / 180.0);
+    out->cos_outer = (float)cos((double)cone[1] * 3.14159265358979 / 180.0);
+    return 1;
+}
+
+static int parse_exposure(const char *text, render_options *o)
+{
+    o->exposure_auto = strcmp(text, "auto") == 0;
+    return o->exposure_auto || (parse_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
+}
+
+static int parse_show(const char *text, render_options *o)
+{
+    static const char *const words[] = {"full", "direct", "indirect", "irradiance", "depth", "normal", "albedo", NULL};
+    static const int32_t values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT, LMB_SHOW_INDIRECT, LMB_SHOW_IRRADIANCE,
+                                     SHOW_DEPTH,    SHOW_NORMAL,     SHOW_ALBEDO};
+    return parse_word(text, words, values, &o->show);
+}
+
+static int parse_grouping(const char *text, render_options *o)
+{
+    static const char *const words[] = {"zones", "greedy", "none", NULL};
+    static const int32_t values[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY, LMB_GROUP_NONE};
+    return parse_word(text, words, values, &o->grouping.method);
+}
+
+static int parse_occlusion(const char *text, render_options *o)
+{
+    static const char *const words[] = {"none", "view", "view-world", NULL};
+    static const int32_t values[] = {LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW, LMB_OCCLUSION_VIEW_WORLD};
+    return parse_word(text, words, values, &o->occlusion);
+}
+
+static int parse_block(const char *text, render_options *o)
+{
+    static const char *const words[] = {"1", "2", "4", "8", NULL};
+    static const int32_t values[] = {1, 2, 4, 8};
+    return parse_word(text, words, values, &o->grouping.block);
+}
+
+static int parse_light_map(const char *text, render_options *o)
+{
+    return parse_int(text, 8, 4096, &o->light_map) && o->light_map % 8 == 0;
+}
+
+static int parse_fov(const char *text, render_options *o)
+{
+    o->has_fov = parse_floats(&text, &o->fov_deg, 1) && *text == '\0' && o->fov_deg > 0.0f && o->fov_deg < 179.0f;
+    return o->has_fov;
+}
+
+static int parse_eye(const char *text, render_options *o) { return o->has_eye = parse_vec3(text, &o->eye); }
+static int parse_target(const char *text, render_options *o) { return o->has_target = parse_vec3(text, &o->target); }
+static int parse_up(const char *text, render_options *o) { return parse_vec3(text, &o->up); }
+static int parse_out(const char *text, render_options *o) { return (o->out = text)[0] != '\0'; }
+static int parse_stats(const char *text, render_options *o) { return (o->stats = text)[0] != '\0'; }
+static int parse_camera(const char *text, render_options *o) { return (o->camera = text)[0] != '\0'; }
+static int parse_backend(const char *text, render_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
+static int parse_steps(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->steps); }
+
+static int parse_groups(const char *text, render_options *o)
+{
+    return parse_int(text, 1, LMB_MAX_GROUPS, &o->grouping.groups);
+}
+
+static int add_light(const char *text, render_options *o)
+{
+    return o->light_count < RENDER_LIGHTS && parse_light(text, &o->lights[o->light_count++]);
+}
+
+static const struct flag {
+    const char *name;
+    int (*parse)(const char *text, render_options *o);
+    const char *wants;
+} flags[] = {
+    {"-o", parse_out, "a file name"},
+    {"--size", parse_size, "WxH, 1 .. 8192 each"},
+    {"--camera", parse_camera, "a camera's name or number"},
+    {"--eye", parse_eye, "X,Y,Z"},
+    {"--target", parse_target, "X,Y,Z"},
+    {"--up", parse_up, "X,Y,Z"},
+    {"--fov", parse_fov, "degrees, over 0 and under 179"},
+    {"--light", add_light, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], at most 64 of them, angles <= 89"},
+    {"--light-map", parse_light_map, "a multiple of 8, 8 .. 4096"},
+    {"--grouping", parse_grouping, "zones, greedy or none"},
+    {"--groups", parse_groups, "a number from 1 to the build's capacity (2048)"},
+    {"--block", parse_block, "1, 2, 4 or 8"},
+    {"--occlusion", parse_occlusion, "none, view or view-world"},
+    {"--steps", parse_steps, "1 .. 64"},
+    {"--show", parse_show, "full, direct, indirect, irradiance, depth, normal or albedo"},
+    {"--exposure", parse_exposure, "stops (-60 .. 60) or auto"},
+    {"--backend", parse_backend, "scalar"},
+    {"--stats", parse_stats, "a file name"},
+};
+
+static int parse_flag(render_options *o, const char *name, const char *value, report *r)
+{
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; ++i) {
+        if (strcmp(name, flags[i].name) == 0) {
+            if (value == NULL) {
+                return report_fail(r, "%s wants a value: %s", name, flags[i].wants);
+            }
+            return flags[i].parse(value, o) || report_fail(r, "%s: `%s` is not %s", name, value, flags[i].wants);
+        }
+    }
+    return report_fail(r, "there is no option %s; lambent render --help lists them", name);
+}
+
+static int check_together(const render_options *o, report *r)
+{
+    if (o->scene == NULL) {
+        return report_fail(r, "no scene given; try: lambent render demo -o demo.png");
+    }
+    if (o->out == NULL) {
+        return report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
+    }
+    if (o->has_eye != o->has_target) {
+        return report_fail(r, "--eye and --target go together");
+    }
+    if (o->has_eye && o->camera != NULL) {
+        return report_fail(r, "--camera and --eye exclude each other");
+    }
+    return 1;
+}
+
+int render_options_parse(render_options *o, int argc, char **argv, report *r)
+{
+    memset(o, 0, sizeof *o);
+    o->up.y = 1.0f;
+    o->fov_deg = 45.0f;
+    o->occlusion = LMB_OCCLUSION_VIEW;
+    o->exposure_auto = 1;
+    o->kernels = lmb_kernels_pick();
+    for (int i = 1; i < argc; ++i) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
+            o->help = 1;
+            return 1;
+        }
+        if (argv[i][0] == '-' && argv[i][1] != '\0') {
+            if (!parse_flag(o, argv[i], i + 1 < argc ? argv[i + 1] : NULL, r)) {
+                return 0;
+            }
+            ++i;
+        } else if (o->scene != NULL) {
+            return report_fail(r, "one scene at a time: `%s` and `%s`", o->scene, argv[i]);
+        } else {
+            o->scene = argv[i];
+        }
+    }
+    return check_together(o, r);
+}

@@ -1,0 +1,567 @@
+/* verb_render.c: `lambent render`: a scene in, a picture with bounced light out. */
+#include "verb_render.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "../platform/host/host.h"
+#include "demo_scene.h"
+#include "model.h"
+#include "picture.h"
+#include "render_options.h"
+
+#define STAGES (LMB_STAGE_DONE + 1)
+#define MAP_TEXELS (16u << 20) /* over all lights' maps, by default: 128 MiB */
+
+/* One run, from the options to the picture. Everything here is freed by job_free. */
+typedef struct job {
+    render_options o;
+    model loaded;
+    lmb_scene scene; /* the loaded or built-in one, with the lights of this run */
+    lmb_light sun;
+    lmb_frame frame;
+    lmb_render *render;
+    lmb_stats stats;
+    image linear;
+    void *map_memory, *point_memory, *depth_memory, *id_memory;
+    size_t bytes; /* of the above and the state */
+    double load_s, write_s, total_s, stage_s[STAGES];
+    double indirect_share;
+} job;
+
+static void job_free(job *j)
+{
+    free(j->map_memory);
+    free(j->point_memory);
+    free(j->depth_memory);
+    free(j->id_memory);
+    free(j->frame.groups);
+    free(j->frame.scratch);
+    free(j->render);
+    image_free(&j->linear);
+    model_free(&j->loaded);
+}
+
+static void *take(job *j, size_t bytes, report *r)
+{
+    void *p = malloc(bytes > 0 ? bytes : 1);
+    j->bytes += bytes;
+    if (p == NULL) {
+        report_fail(r, "not enough memory: %.0f MiB more wanted; try a smaller --size or --light-map", (double)bytes / 1048576.0);
+    }
+    return p;
+}
+
+/* --- scene, camera, lights ------------------------------------------------------------------------------------------ */
+
+static int load_scene(job *j, report *r)
+{
+    model_notes notes;
+    if (strcmp(j->o.scene, "demo") == 0) {
+        j->scene = *demo_scene();
+        return 1;
+    }
+    memset(&notes, 0, sizeof notes);
+    int ok = model_load(&j->loaded, j->o.scene, &notes, r);
+    for (uint32_t i = 0; i < notes.count; ++i) {
+        fprintf(stderr, "lambent: note: %s\n", notes.line[i]);
+    }
+    if (ok) {
+        j->scene = j->loaded.scene;
+    }
+    return ok;
+}
+
+/* Width from the height and an aspect. */
+static void choose_size(job *j, float aspect)
+{
+    if (j->o.width == 0) {
+        j->o.height = 480;
+        j->o.width = (int32_t)lrintf(480.0f * (aspect > 0.0f ? aspect : 4.0f / 3.0f));
+        j->o.width = j->o.width < 1 ? 1 : j->o.width > LMB_MAX_SIDE ? LMB_MAX_SIDE : j->o.width;
+    }
+}
+
+/* A box is seen whole from a little above and to the side. */
+static int frame_scene(job *j, lmb_view *v, report *r)
+{
+    lmb_vec3 lo = j->scene.bounds_min, hi = j->scene.bounds_max;
+    lmb_vec3 centre = {(lo.x + hi.x) * 0.5f, (lo.y + hi.y) * 0.5f, (lo.z + hi.z) * 0.5f};
+    float radius = 0.5f * sqrtf((hi.x - lo.x) * (hi.x - lo.x) + (hi.y - lo.y) * (hi.y - lo.y) + (hi.z - lo.z) * (hi.z - lo.z));
+    choose_size(j, 0.0f);
+    if (!(radius > 0.0f)) {
+        return report_fail(r, "%s: nothing to see: the scene has no extent", j->o.scene);
+    }
+    float narrow = j->o.width < j->o.height ? (float)j->o.width / (float)j->o.height : 1.0f;
+    float away = radius / (sinf(0.349f) * narrow); /* half of 40 degrees */
+    lmb_vec3 eye = {centre.x + 0.45f * away, centre.y + 0.35f * away, centre.z + 0.82f * away};
+    fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", j->o.scene, (double)eye.x,
+            (double)eye.y, (double)eye.z);
+    return lmb_view_look(v, eye, centre, j->o.up, 0.698f, j->o.width, j->o.height) == LMB_OK ||
+           report_fail(r, "%s: no view frames the scene; give --eye and --target", j->o.scene);
+}
+
+static const model_camera *find_camera(const job *j, report *r)
+{
+    char *end;
+    long n;
+    if (j->o.camera == NULL) {
+        return j->loaded.camera_count > 0 ? &j->loaded.cameras[0] : NULL;
+    }
+    for (uint32_t i = 0; i < j->loaded.camera_count; ++i) {
+        if (strcmp(j->loaded.cameras[i].name, j->o.camera) == 0) {
+            return &j->loaded.cameras[i];
+        }
+    }
+    n = strtol(j->o.camera, &end, 10);
+    if (*end == '\0' && n >= 0 && n < (long)j->loaded.camera_count) {
+        return &j->loaded.cameras[n];
+    }
+    report_fail(r, "%s: no camera `%s`; it has %u, numbered from 0", j->o.scene, j->o.camera, (unsigned)j->loaded.camera_count);
+    return NULL;
+}
+
+static void use_camera(job *j, lmb_view *v, const model_camera *c)
+{
+    choose_size(j, c->aspect);
+    float aspect = (float)j->o.width / (float)j->o.height;
+    v->eye = c->eye;
+    v->right = c->right;
+    v->up = c->up;
+    v->back = c->back;
+    v->kind = c->orthographic ? LMB_ORTHOGRAPHIC : LMB_PERSPECTIVE;
+    v->half_height = c->orthographic ? c->half_height : tanf(0.5f * c->yfov_rad);
+    v->half_width = v->half_height * aspect;
+    v->near_m = c->near_m;
+    v->far_m = c->far_m;
+    v->frame_width = j->o.width;
+    v->frame_height = j->o.height;
+}
+
+static float from_eye(const lmb_scene *s, lmb_vec3 eye)
+{
+    float far2 = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        float x = (i & 1 ? s->bounds_max.x : s->bounds_min.x) - eye.x, y = (i & 2 ? s->bounds_max.y : s->bounds_min.y) - eye.y;
+        float z = (i & 4 ? s->bounds_max.z : s->bounds_min.z) - eye.z;
+        far2 = fmaxf(far2, x * x + y * y + z * z);
+    }
+    return sqrtf(far2);
+}
+
+static int set_view(job *j, lmb_view *v, report *r)
+{
+    memset(v, 0, sizeof *v);
+    if (j->o.has_eye) {
+        choose_size(j, 0.0f);
+        if (lmb_view_look(v, j->o.eye, j->o.target, j->o.up, j->o.fov_deg * 0.017453293f, j->o.width, j->o.height) != LMB_OK) {
+            return report_fail(r, "--eye, --target and --up do not make a view: they must not lie on one line");
+        }
+    } else if (strcmp(j->o.scene, "demo") == 0 && j->o.camera == NULL) {
+        choose_size(j, 4.0f / 3.0f);
+        *v = demo_view(j->o.width, j->o.height);
+    } else {
+        const model_camera *c = find_camera(j, r);
+        if (c == NULL && r->text[0] != '\0') {
+            return 0;
+        }
+        if (c == NULL && !frame_scene(j, v, r)) {
+            return 0;
+        }
+        if (c != NULL) {
+            use_camera(j, v, c);
+        }
+    }
+    /* A near plane of the scene's own size where none is given: a millionth of what is seen. */
+    float reach = fmaxf(from_eye(&j->scene, v->eye), 1e-4f);
+    v->near_m = v->near_m > 0.0f && j->loaded.camera_count > 0 && !j->o.has_eye ? v->near_m : 1e-4f * reach;
+    v->far_m = v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m ? v->far_m : v->near_m + 2.0f * reach;
+    return 1;
+}
+
+static void set_lights(job *j)
+{
+    if (j->o.light_count > 0) {
+        j->scene.lights = j->o.lights;
+        j->scene.light_count = j->o.light_count;
+    } else if (j->scene.light_count == 0) {
+        lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0};
+        j->sun = sun;
+        j->scene.lights = &j->sun;
+        j->scene.light_count = 1;
+        fprintf(stderr, "lambent: no light in %s: a sun of 3 W/m2 from the upper right; --light sets others\n", j->o.scene);
+    }
+}
+
+/* --- memory --------------------------------------------------------------------------------------------------------- */
+
+static uint32_t total_faces(const lmb_scene *s)
+{
+    uint32_t faces = 0;
+    for (uint32_t i = 0; i < s->light_count; ++i) {
+        faces += (uint32_t)lmb_light_map_faces(&s->lights[i]);
+    }
+    return faces;
+}
+
+static int32_t choose_light_map(const job *j, uint32_t faces)
+{
+    uint32_t size = 1024;
+    while (size > 64 && (uint64_t)size * size * faces > MAP_TEXELS) {
+        size /= 2;
+    }
+    return j->o.light_map != 0 ? j->o.light_map : (int32_t)size;
+}
+
+static int take_maps(job *j, report *r)
+{
+    lmb_frame *f = &j->frame;
+    uint32_t faces = total_faces(&j->scene);
+    f->light_map = choose_light_map(j, faces);
+    for (uint32_t i = 0; i < j->scene.light_count; ++i) {
+        f->map_bytes += lmb_light_map_bytes(lmb_light_map_faces(&j->scene.lights[i]), f->light_map, f->id_format);
+    }
+    f->map_memory = j->map_memory = take(j, f->map_bytes, r);
+    return f->map_memory != NULL;
+}
+
+/* Room for every block to hold all the surfaces that the library tells apart. */
+static int take_points(job *j, report *r)
+{
+    lmb_frame *f = &j->frame;
+    int32_t block = f->grouping.block != 0 ? f->grouping.block : LMB_TILE;
+    uint32_t side = (uint32_t)(f->light_map / block);
+    uint64_t n = (uint64_t)side * side * 4u * total_faces(&j->scene);
+    if (n > 64000000u) {
+        return report_fail(r, "%.0f first points are too many; use a larger --block or a smaller --light-map", (double)n);
+    }
+    n = n > 0 ? n : 1;
+    size_t bytes = lmb_points_bytes((uint32_t)n, side);
+    j->point_memory = take(j, bytes, r);
+    f->groups = take(j, sizeof *f->groups, r);
+    return j->point_memory != NULL && f->groups != NULL &&
+           lmb_points_init(&f->points, (uint32_t)n, side, j->point_memory, bytes) == LMB_OK;
+}
+
+static int take_frame(job *j, report *r)
+{
+    lmb_frame *f = &j->frame;
+    int32_t w = f->view.frame_width, h = f->view.frame_height;
+    size_t depth = lmb_surface_bytes(LMB_DEPTH32F, w, h), id = lmb_surface_bytes(f->id_format, w, h);
+    size_t out = (size_t)w * (size_t)h * 3 * sizeof(float);
+    j->depth_memory = take(j, depth, r);
+    j->id_memory = take(j, id, r);
+    j->linear.pixels = take(j, out, r);
+    f->scratch = take(j, sizeof *f->scratch, r);
+    j->render = take(j, sizeof *j->render, r);
+    if (r->text[0] != '\0') {
+        return 0;
+    }
+    memset(j->linear.pixels, 0, out);
+    j->linear.width = w;
+    j->linear.height = h;
+    j->linear.channels = 3;
+    lmb_surface_init(&f->eye.depth, LMB_DEPTH32F, w, h, j->depth_memory, depth);
+    lmb_surface_init(&f->eye.id, f->id_format, w, h, j->id_memory, id);
+    lmb_surface_init(&f->out, LMB_RGB32F, w, h, j->linear.pixels, out);
+    return 1;
+}
+
+static int set_frame(job *j, report *r)
+{
+    lmb_frame *f = &j->frame;
+    if (!set_view(j, &f->view, r)) {
+        return 0;
+    }
+    set_lights(j);
+    if (j->scene.light_count > LMB_MAX_LIGHTS) {
+        return report_fail(r, "%s: %u lights; this build draws up to %d at once, each with its own map", j->o.scene,
+                           (unsigned)j->scene.light_count, LMB_MAX_LIGHTS);
+    }
+    f->kernels = j->o.kernels;
+    f->scene = &j->scene;
+    f->show = j->o.show < SHOW_DEPTH ? j->o.show : LMB_SHOW_FULL;
+    f->grouping = j->o.grouping;
+    f->occlusion = j->o.occlusion;
+    f->steps = j->o.steps;
+    f->id_format = LMB_ID32;
+    f->stats = &j->stats;
+    if (j->o.show >= SHOW_DEPTH) {
+        return take_frame(j, r);
+    }
+    return take_maps(j, r) && (j->o.show == LMB_SHOW_DIRECT || take_points(j, r)) && take_frame(j, r);
+}
+
+/* --- drawing -------------------------------------------------------------------------------------------------------- */
+
+static void show_progress(const lmb_render *render, double since)
+{
+    const char *name;
+    float part = lmb_render_progress(&name, render);
+    double passed = host_seconds() - since;
+    char bar[21];
+    for (int i = 0; i < 20; ++i) {
+        bar[i] = (float)i < part * 20.0f ? '#' : '.';
+    }
+    bar[20] = '\0';
+    if (render->stage == LMB_STAGE_BANDS && part > 0.02f) {
+        fprintf(stderr, "\r%-12s [%s] %3.0f %%  %.0f s left   ", name, bar, (double)part * 100.0, passed / (double)part - passed);
+    } else {
+        fprintf(stderr, "\r%-12s [%s] %3.0f %%               ", name, bar, (double)part * 100.0);
+    }
+}
+
+static int draw(job *j, report *r)
+{
+    double start = host_seconds(), last = start, stage_start = start, shown = 0.0;
+    int watched = host_watched(), stage = LMB_STAGE_LIGHT_MAP;
+    lmb_status status = lmb_render_begin(j->render, &j->frame);
+    if (status == LMB_OK) {
+        do {
+            status = lmb_render_step(j->render, 16);
+            double now = host_seconds();
+            j->stage_s[stage] += now - last;
+            if (j->render->stage != stage) {
+                stage = j->render->stage;
+                stage_start = now;
+            }
+            last = now;
+            if (watched && now - start > 1.0 && now - shown > 0.1) {
+                show_progress(j->render, stage_start);
+                shown = now;
+            }
+        } while (status == LMB_MORE);
+    }
+    if (shown > 0.0) {
+        fprintf(stderr, "\r%60s\r", "");
+    }
+    return status == LMB_OK || report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
+}
+
+/* Attributes instead of light: the view alone is drawn. */
+static int draw_attributes(job *j, report *r)
+{
+    lmb_frame *f = &j->frame;
+    lmb_surface z = f->out, *depth = NULL, *normal = NULL, *albedo = NULL;
+    lmb_surface_clear(&f->eye.depth);
+    lmb_surface_clear(&f->eye.id);
+    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->scratch->raster, &f->view, &j->scene, 1, UINT32_MAX - 1,
+                                 LMB_CULL_BACK, &j->stats);
+    if (j->o.show == SHOW_DEPTH) {
+        z.format = LMB_R32F;
+        z.stride_bytes = z.width * 4;
+        j->linear.channels = 1;
+        depth = &z;
+    } else if (j->o.show == SHOW_NORMAL) {
+        normal = &f->out;
+    } else {
+        albedo = &f->out;
+    }
+    for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
+        status = lmb_gbuffer_band(depth, normal, albedo, f->kernels, &f->view, &j->scene, &f->eye, band);
+    }
+    return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", j->o.scene, lmb_status_name(status));
+}
+
+/* Display formats show attributes as pictures: depth near to white, normals with 0 at middle grey. */
+static int attributes_for_display(job *j, report *r)
+{
+    size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
+    float far_m = 1e-30f, *wide;
+    if (j->o.show == SHOW_NORMAL) {
+        for (size_t i = 0; i < 3 * n; ++i) {
+            j->linear.pixels[i] = 0.5f + 0.5f * j->linear.pixels[i];
+        }
+    }
+    if (j->o.show != SHOW_DEPTH) {
+        return 1;
+    }
+    wide = malloc(3 * n * sizeof *wide);
+    if (wide == NULL) {
+        return report_fail(r, "not enough memory for the picture; try a smaller --size");
+    }
+    for (size_t i = 0; i < n; ++i) {
+        far_m = fmaxf(far_m, j->linear.pixels[i]);
+    }
+    for (size_t i = 0; i < n; ++i) {
+        float d = j->linear.pixels[i];
+        wide[3 * i] = wide[3 * i + 1] = wide[3 * i + 2] = d > 0.0f ? 1.0f - 0.9f * d / far_m : 0.0f;
+    }
+    free(j->linear.pixels);
+    j->linear.pixels = wide;
+    j->linear.channels = 3;
+    return 1;
+}
+
+/* PFM keeps one channel; a Radiance picture has three. */
+static int depth_for_hdr(job *j, report *r)
+{
+    size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
+    float *wide = malloc(3 * n * sizeof *wide);
+    if (wide == NULL) {
+        return report_fail(r, "not enough memory for the picture; try a smaller --size");
+    }
+    for (size_t i = 0; i < n; ++i) {
+        wide[3 * i] = wide[3 * i + 1] = wide[3 * i + 2] = j->linear.pixels[i];
+    }
+    free(j->linear.pixels);
+    j->linear.pixels = wide;
+    j->linear.channels = 3;
+    return 1;
+}
+
+static double mean(const image *p)
+{
+    double sum = 0.0;
+    size_t n = (size_t)p->width * (size_t)p->height * 3;
+    for (size_t i = 0; i < n; ++i) {
+        sum += (double)p->pixels[i];
+    }
+    return sum / (double)n;
+}
+
+/* --- reporting ------------------------------------------------------------------------------------------------------ */
+
+static int write_stats(const job *j, report *r)
+{
+    static const char *const names[] = {"light_maps", "first_points", "groups", "view", "bands"};
+    char text[2048];
+    int n = 0;
+    const lmb_stats *s = &j->stats;
+    n += snprintf(text + n, sizeof text - (size_t)n, "{\n  \"width\": %d, \"height\": %d,\n  \"seconds\": {\"load\": %.6f",
+                  (int)j->frame.view.frame_width, (int)j->frame.view.frame_height, j->load_s);
+    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+        n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->stage_s[i]);
+    }
+    n += snprintf(text + n, sizeof text - (size_t)n, ", \"write\": %.6f, \"total\": %.6f},\n", j->write_s, j->total_s);
+    n += snprintf(text + n, sizeof text - (size_t)n,
+                  "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
+                  "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n",
+                  (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
+                  (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
+                  (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups);
+    n += snprintf(text + n, sizeof text - (size_t)n,
+                  "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n  \"bytes\": %.0f,\n"
+                  "  \"backend\": \"%s\"\n}\n",
+                  s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0, (double)j->bytes,
+                  lmb_kernels_name(j->frame.kernels));
+    return file_write(j->o.stats, text, (size_t)n, r);
+}
+
+static void tell_demo(const job *j)
+{
+    const char *name;
+    lmb_render at = *j->render;
+    printf("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->frame.view.frame_width,
+           (int)j->frame.view.frame_height, (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
+    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+        at.stage = i;
+        lmb_render_progress(&name, &at);
+        printf("  %-13s %8.1f ms\n", name, j->stage_s[i] * 1e3);
+    }
+    printf("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
+}
+
+/* How much of the picture's light has bounced: the same frame again, direct light only, which costs little. */
+static int measure_share(job *j, report *r)
+{
+    double full = mean(&j->linear);
+    image direct;
+    lmb_render *render = malloc(sizeof *render);
+    lmb_frame f = j->frame;
+    size_t bytes = (size_t)j->linear.width * (size_t)j->linear.height * 3 * sizeof(float);
+    direct = j->linear;
+    direct.pixels = malloc(bytes);
+    if (render == NULL || direct.pixels == NULL) {
+        free(render);
+        free(direct.pixels);
+        return report_fail(r, "not enough memory for the picture; try a smaller --size");
+    }
+    f.show = LMB_SHOW_DIRECT;
+    f.stats = NULL;
+    lmb_surface_init(&f.out, LMB_RGB32F, direct.width, direct.height, direct.pixels, bytes);
+    lmb_status status = lmb_render_frame(render, &f);
+    j->indirect_share = full > 0.0 ? 1.0 - mean(&direct) / full : 0.0;
+    free(render);
+    free(direct.pixels);
+    return status == LMB_OK || report_fail(r, "rendering stopped: %s", lmb_status_name(status));
+}
+
+static int save(job *j, report *r)
+{
+    float ev = j->o.exposure_ev;
+    int linear = picture_is_linear(picture_format(j->o.out));
+    if (j->o.show >= SHOW_DEPTH) {
+        ev = 0.0f;
+        if ((!linear && !attributes_for_display(j, r)) ||
+            (j->o.show == SHOW_DEPTH && picture_format(j->o.out) == PICTURE_HDR && !depth_for_hdr(j, r))) {
+            return 0;
+        }
+    } else if (j->o.exposure_auto && !linear) {
+        ev = picture_auto_exposure(&j->linear);
+        fprintf(stderr, "lambent: exposure %+.3g EV (auto)\n", (double)ev);
+    }
+    return picture_write(j->o.out, &j->linear, ev, r);
+}
+
+static int run(job *j, report *r)
+{
+    double start = host_seconds();
+    if (!load_scene(j, r)) {
+        return 0;
+    }
+    j->load_s = host_seconds() - start;
+    if (!set_frame(j, r) || !(j->o.show >= SHOW_DEPTH ? draw_attributes(j, r) : draw(j, r))) {
+        return 0;
+    }
+    if (j->stats.triangles_dropped > 0) {
+        fprintf(stderr, "lambent: note: %u triangles dropped: vertices not finite or over 2^20 m away\n",
+                (unsigned)j->stats.triangles_dropped);
+    }
+    int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL;
+    if (demo && !measure_share(j, r)) {
+        return 0;
+    }
+    double before = host_seconds();
+    if (!save(j, r)) {
+        return 0;
+    }
+    j->write_s = host_seconds() - before;
+    j->total_s = host_seconds() - start;
+    if (j->o.stats != NULL && !write_stats(j, r)) {
+        return 0;
+    }
+    if (demo) {
+        tell_demo(j);
+    }
+    return 1;
+}
+
+int verb_render(int argc, char **argv)
+{
+    report r = {""};
+    static job j; /* too large for a small stack: the options hold 64 lights */
+    memset(&j, 0, sizeof j);
+    if (!render_options_parse(&j.o, argc, argv, &r)) {
+        fprintf(stderr, "lambent render: %s\n", r.text);
+        return 2;
+    }
+    if (j.o.help) {
+        fputs(render_usage, stdout);
+        return 0;
+    }
+    if (picture_format(j.o.out) == PICTURE_UNKNOWN) {
+        fprintf(stderr, "lambent render: %s: the name must end in .png, .ppm, .pfm or .hdr\n", j.o.out);
+        return 2;
+    }
+    int ok = run(&j, &r);
+    if (!ok) {
+        fprintf(stderr, "lambent render: %s\n", r.text);
+    }
+    job_free(&j);
+    return ok ? 0 : 1;
+}

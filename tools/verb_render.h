@@ -1,0 +1,8 @@
+/* verb_render.h: `lambent render`. */
+#ifndef VERB_RENDER_H
+#define VERB_RENDER_H
+
+/* argv[0] is "render". Returns the exit status: 0 done, 1 failed, 2 bad usage. */
+int verb_render(int argc, char **argv);
+
+#endif
