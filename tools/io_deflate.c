@@ -8,7 +8,7 @@
 
 enum {
     HASH_BITS = 15,
-    BLOCK_TOKENS = 16384, /* a block's statistics: long enough to pay for its header, short enough to follow the picture */
+    BLOCK_TOKENS = 16384, /* long enough to pay for a block's header, short enough to follow the picture */
     CHAIN_TRIES = 128,    /* candidates looked at for one match */
     GOOD_MATCH = 8,       /* with one this long in hand, a quarter of the tries */
     LAZY_MATCH = 16,      /* shorter ones wait: the next byte may start a longer one */
@@ -139,9 +139,9 @@ static uint32_t sort_symbols(uint32_t *sorted, const uint32_t *freq, uint32_t n)
 }
 
 /* Lengths of the best prefix code none of whose words is longer than max_bits: package-merge (Larmore and Hirschberg
- * 1990). Level k's list holds the n leaves merged with the pairs of level k - 1's list; the 2n - 2 lightest items of the
- * last level, pairs opened, name each symbol as often as its code has bits. Only "leaf or pair" needs remembering: the
- * leaves among the first items of a list are always the lightest ones. n <= 2^max_bits. */
+ * 1990). Level k's list holds the n leaves merged with the pairs of level k - 1's list; the 2n - 2 lightest items of
+ * the last level, pairs opened, name each symbol as often as its code has bits. Only "leaf or pair" needs remembering:
+ * the leaves among the first items of a list are always the lightest ones. n <= 2^max_bits. */
 static void limited_lengths(uint8_t *bits, const uint32_t *freq, uint32_t symbols, uint32_t max_bits)
 {
     uint32_t sorted[DEFLATE_LITLENS], weight[2][2 * DEFLATE_LITLENS];

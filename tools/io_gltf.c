@@ -24,17 +24,19 @@ static int check_version(gltf *g)
     const uint32_t asset = json_member(&g->doc, 0, "asset");
     char version[16];
     json_string(version, sizeof version, &g->doc, json_member(&g->doc, asset, "version"));
-    if (strncmp(version, "2.", 2) == 0) return 1;
+    if (strncmp(version, "2.", 2) == 0)
+        return 1;
     return json_fail(&g->doc, asset, g->b->r, "version is not 2.x; export as glTF 2.0");
 }
 
 static int is_supported(const gltf *g, uint32_t name)
 {
-    static const char *const known[] = { "KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit",
-                                         "KHR_mesh_quantization" };
+    static const char *const known[] = {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit",
+                                        "KHR_mesh_quantization"};
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
-        if (json_equals(&g->doc, name, known[i])) return 1;
+        if (json_equals(&g->doc, name, known[i]))
+            return 1;
     return 0;
 }
 
@@ -46,12 +48,14 @@ static int check_extensions(gltf *g)
     char name[64];
     uint32_t i;
     for (i = json_first(&g->doc, required); i != JSON_NONE; i = json_next(&g->doc, i)) {
-        if (is_supported(g, i)) continue;
+        if (is_supported(g, i))
+            continue;
         json_string(name, sizeof name, &g->doc, i);
         return json_fail(&g->doc, i, g->b->r, "requires %s, which lambent does not read; export without it", name);
     }
     for (i = json_first(&g->doc, used); i != JSON_NONE; i = json_next(&g->doc, i)) {
-        if (is_supported(g, i)) continue;
+        if (is_supported(g, i))
+            continue;
         json_string(name, sizeof name, &g->doc, i);
         build_note(g->b, "extension %s is ignored", name);
     }
@@ -62,11 +66,13 @@ static int check_extensions(gltf *g)
 static int find_parents(tree *t, gltf *g)
 {
     uint32_t i, c, child;
-    for (i = 0; i < g->nodes.count; ++i) t->parent[i] = JSON_NONE;
+    for (i = 0; i < g->nodes.count; ++i)
+        t->parent[i] = JSON_NONE;
     for (i = 0; i < g->nodes.count; ++i) {
         const uint32_t children = json_member(&g->doc, g->nodes.items[i], "children");
         for (c = json_first(&g->doc, children); c != JSON_NONE; c = json_next(&g->doc, c)) {
-            if (!gltf_index(&child, g, &g->nodes, c)) return 0;
+            if (!gltf_index(&child, g, &g->nodes, c))
+                return 0;
             if (t->parent[child] != JSON_NONE)
                 return json_fail(&g->doc, c, g->b->r, "node %u already is a child of node %u; a node has one parent",
                                  (unsigned)child, (unsigned)t->parent[child]);
@@ -80,11 +86,13 @@ static int find_parents(tree *t, gltf *g)
 static int push_root(uint32_t *stack, uint32_t *depth, const tree *t, const gltf *g, uint32_t reference, uint8_t *seen)
 {
     uint32_t root;
-    if (!gltf_index(&root, g, &g->nodes, reference)) return 0;
+    if (!gltf_index(&root, g, &g->nodes, reference))
+        return 0;
     if (t->parent[root] != JSON_NONE)
         return json_fail(&g->doc, reference, g->b->r, "node %u is a child of node %u, not a root; export again",
                          (unsigned)root, (unsigned)t->parent[root]);
-    if (seen[root]) return json_fail(&g->doc, reference, g->b->r, "node %u stands there twice", (unsigned)root);
+    if (seen[root])
+        return json_fail(&g->doc, reference, g->b->r, "node %u stands there twice", (unsigned)root);
     seen[root] = 1;
     stack[(*depth)++] = root;
     return 1;
@@ -110,11 +118,13 @@ static int push_roots(uint32_t *stack, uint32_t *depth, const tree *t, gltf *g, 
         return 0;
     if (scenes.count == 0) {
         for (i = 0; i < g->nodes.count; ++i)
-            if (t->parent[i] == JSON_NONE) stack[(*depth)++] = i;
+            if (t->parent[i] == JSON_NONE)
+                stack[(*depth)++] = i;
     } else {
         const uint32_t nodes = json_member(&g->doc, scene == JSON_NONE ? scenes.items[0] : scene, "nodes");
         for (i = json_first(&g->doc, nodes); i != JSON_NONE; i = json_next(&g->doc, i))
-            if (!push_root(stack, depth, t, g, i, seen)) return 0;
+            if (!push_root(stack, depth, t, g, i, seen))
+                return 0;
     }
     reverse(stack, 0, *depth);
     return 1;
@@ -125,9 +135,11 @@ static int push_roots(uint32_t *stack, uint32_t *depth, const tree *t, gltf *g, 
 static int refuse_cycles(const tree *t, gltf *g)
 {
     uint32_t *mark = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *mark), i, up;
-    if (!mark) return 0;
+    if (!mark)
+        return 0;
     for (i = 0; i < g->nodes.count; ++i) {
-        for (up = i; up != JSON_NONE && mark[up] == 0; up = t->parent[up]) mark[up] = i + 1;
+        for (up = i; up != JSON_NONE && mark[up] == 0; up = t->parent[up])
+            mark[up] = i + 1;
         if (up != JSON_NONE && mark[up] == i + 1)
             return json_fail(&g->doc, g->nodes.items[up], g->b->r, "is its own ancestor; export the file again");
     }
@@ -147,7 +159,8 @@ static int walk(tree *t, gltf *g)
         t->order[t->count++] = node;
         from = depth;
         for (c = json_first(&g->doc, children); c != JSON_NONE; c = json_next(&g->doc, c)) {
-            if (!gltf_index(&child, g, &g->nodes, c)) return 0;
+            if (!gltf_index(&child, g, &g->nodes, c))
+                return 0;
             stack[depth++] = child;
         }
         reverse(stack, from, depth);
@@ -161,7 +174,8 @@ static int compose(matrix *out, const double t[3], const double q[4], const doub
     const double d = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     double x, y, z, w;
     int i;
-    if (!(d > 1e-12)) return 0;
+    if (!(d > 1e-12))
+        return 0;
     x = q[0] / d, y = q[1] / d, z = q[2] / d, w = q[3] / d;
     out->m[0] = 1 - 2 * (y * y + z * z), out->m[1] = 2 * (x * y + z * w), out->m[2] = 2 * (x * z - y * w);
     out->m[4] = 2 * (x * y - z * w), out->m[5] = 1 - 2 * (x * x + z * z), out->m[6] = 2 * (y * z + x * w);
@@ -181,9 +195,10 @@ static int local_matrix(matrix *out, gltf *g, uint32_t node)
 {
     const json *doc = &g->doc;
     const uint32_t whole = json_member(doc, node, "matrix");
-    double t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
+    double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
     if (whole != JSON_NONE) {
-        if (!json_read_doubles(out->m, 16, doc, whole, g->b->r)) return 0;
+        if (!json_read_doubles(out->m, 16, doc, whole, g->b->r))
+            return 0;
         if (out->m[3] != 0 || out->m[7] != 0 || out->m[11] != 0 || out->m[15] != 1)
             return json_fail(doc, whole, g->b->r, "the last row must be 0 0 0 1");
         return 1;
@@ -192,7 +207,8 @@ static int local_matrix(matrix *out, gltf *g, uint32_t node)
         !json_read_doubles(q, 4, doc, json_member(doc, node, "rotation"), g->b->r) ||
         !json_read_doubles(s, 3, doc, json_member(doc, node, "scale"), g->b->r))
         return 0;
-    if (!compose(out, t, q, s)) return json_fail(doc, node, g->b->r, "rotation is no quaternion (its length is 0)");
+    if (!compose(out, t, q, s))
+        return json_fail(doc, node, g->b->r, "rotation is no quaternion (its length is 0)");
     return 1;
 }
 
@@ -212,7 +228,8 @@ static int place_nodes(tree *t, gltf *g)
     for (i = 0; i < t->count; ++i) {
         const uint32_t node = t->order[i], up = t->parent[node];
         matrix local;
-        if (!local_matrix(&local, g, g->nodes.items[node])) return 0;
+        if (!local_matrix(&local, g, g->nodes.items[node]))
+            return 0;
         if (up == JSON_NONE)
             t->world[node] = local;
         else
@@ -237,7 +254,8 @@ static lmb_vec3 to_vec3(double x, double y, double z)
 static int normalize(double v[3])
 {
     const double d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(d > 1e-30 && d < 1e30)) return 0;
+    if (!(d > 1e-30 && d < 1e30))
+        return 0;
     v[0] /= d;
     v[1] /= d;
     v[2] /= d;
@@ -259,20 +277,27 @@ static int add_instances(const tree *t, gltf *g)
     lmb_instance *to;
     for (i = 0; i < t->count; ++i) {
         const uint32_t node = g->nodes.items[t->order[i]];
-        if (!gltf_index(&mesh, g, &g->meshes, json_member(&g->doc, node, "mesh"))) return 0;
-        if (mesh == JSON_NONE) continue;
-        if (!gltf_mesh(g, mesh)) return 0;
+        if (!gltf_index(&mesh, g, &g->meshes, json_member(&g->doc, node, "mesh")))
+            return 0;
+        if (mesh == JSON_NONE)
+            continue;
+        if (!gltf_mesh(g, mesh))
+            return 0;
         total += g->mesh_size[mesh];
         g->left_out.skins += json_member(&g->doc, node, "skin") != JSON_NONE;
     }
-    if (total > UINT32_MAX / sizeof *to) return report_fail(g->b->r, "%s: too many instances", g->b->path);
+    if (total > UINT32_MAX / sizeof *to)
+        return report_fail(g->b->r, "%s: too many instances", g->b->path);
     to = g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *to);
-    if (!to) return 0;
+    if (!to)
+        return 0;
     for (i = 0; i < t->count; ++i) {
         const matrix *world = &t->world[t->order[i]];
-        if (!gltf_index(&mesh, g, &g->meshes, json_member(&g->doc, g->nodes.items[t->order[i]], "mesh"))) return 0;
+        if (!gltf_index(&mesh, g, &g->meshes, json_member(&g->doc, g->nodes.items[t->order[i]], "mesh")))
+            return 0;
         for (k = 0; mesh != JSON_NONE && k < g->mesh_size[mesh]; ++k, ++to) {
-            for (c = 0; c < 16; ++c) to->to_world.m[c] = (float)world->m[c];
+            for (c = 0; c < 16; ++c)
+                to->to_world.m[c] = (float)world->m[c];
             to->mesh = g->mesh_first[mesh] + k;
             to->material = g->mesh_material[to->mesh];
         }
@@ -303,7 +328,8 @@ static int light_kind(lmb_light *out, gltf *g, uint32_t light)
     out->kind = LMB_LIGHT_POINT;
     out->cos_inner = 1.0f;
     out->cos_outer = 0.0f;
-    if (json_equals(&g->doc, type, "spot")) return spot_cone(out, g, light);
+    if (json_equals(&g->doc, type, "spot"))
+        return spot_cone(out, g, light);
     if (json_equals(&g->doc, type, "directional")) {
         out->kind = LMB_LIGHT_DIRECTIONAL;
         return 1;
@@ -316,16 +342,16 @@ static int light_kind(lmb_light *out, gltf *g, uint32_t light)
 static int read_light(lmb_light *out, gltf *g, uint32_t light, const matrix *world, uint32_t node)
 {
     const json *doc = &g->doc;
-    double colour[3] = { 1, 1, 1 }, intensity = 1, way[3];
+    double colour[3] = {1, 1, 1}, intensity = 1, way[3];
     int i;
     memset(out, 0, sizeof *out);
-    if (!light_kind(out, g, light) ||
-        !json_read_doubles(colour, 3, doc, json_member(doc, light, "color"), g->b->r) ||
+    if (!light_kind(out, g, light) || !json_read_doubles(colour, 3, doc, json_member(doc, light, "color"), g->b->r) ||
         !json_read_double(&intensity, doc, json_member(doc, light, "intensity"), g->b->r))
         return 0;
     for (i = 0; i < 3; ++i) {
         const double value = colour[i] * intensity;
-        if (!(value >= 0 && value <= 1e30)) return json_fail(doc, light, g->b->r, "color x intensity is no intensity");
+        if (!(value >= 0 && value <= 1e30))
+            return json_fail(doc, light, g->b->r, "color x intensity is no intensity");
         out->intensity[i] = (float)value;
         way[i] = -world->m[8 + i];
     }
@@ -354,14 +380,19 @@ static int add_lights(const tree *t, gltf *g)
     if (!gltf_list_of(&g->lights, g,
                       json_member(&g->doc, json_member(&g->doc, extensions, "KHR_lights_punctual"), "lights")))
         return 0;
-    for (i = 0; i < t->count; ++i) total += light_reference(g, g->nodes.items[t->order[i]]) != JSON_NONE;
+    for (i = 0; i < t->count; ++i)
+        total += light_reference(g, g->nodes.items[t->order[i]]) != JSON_NONE;
     g->b->lights = (lmb_light *)build_keep(g->b, total, sizeof *g->b->lights);
-    if (!g->b->lights) return 0;
+    if (!g->b->lights)
+        return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t index = t->order[i], node = g->nodes.items[index];
-        if (!gltf_item(&light, g, &g->lights, light_reference(g, node))) return 0;
-        if (light == JSON_NONE) continue;
-        if (!read_light(&g->b->lights[g->b->light_count++], g, light, &t->world[index], node)) return 0;
+        if (!gltf_item(&light, g, &g->lights, light_reference(g, node)))
+            return 0;
+        if (light == JSON_NONE)
+            continue;
+        if (!read_light(&g->b->lights[g->b->light_count++], g, light, &t->world[index], node))
+            return 0;
     }
     return 1;
 }
@@ -436,7 +467,8 @@ static int read_camera(model_camera *out, gltf *g, uint32_t camera, const matrix
     if (json_string(out->name, sizeof out->name, doc, json_member(doc, node, "name")) == 0 &&
         json_string(out->name, sizeof out->name, doc, json_member(doc, camera, "name")) == 0)
         snprintf(out->name, sizeof out->name, "camera %u", (unsigned)g->b->out->camera_count);
-    if (!camera_axes(out, g, world, node)) return 0;
+    if (!camera_axes(out, g, world, node))
+        return 0;
     if (json_equals(doc, json_member(doc, camera, "type"), "orthographic") && flat != JSON_NONE)
         return read_orthographic(out, g, flat);
     if (json_equals(doc, json_member(doc, camera, "type"), "perspective") && deep != JSON_NONE)
@@ -451,20 +483,25 @@ static int add_cameras(const tree *t, gltf *g)
     for (i = 0; i < t->count; ++i)
         total += json_member(&g->doc, g->nodes.items[t->order[i]], "camera") != JSON_NONE;
     out->cameras = (model_camera *)build_keep(g->b, total, sizeof *out->cameras);
-    if (!out->cameras) return 0;
+    if (!out->cameras)
+        return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t index = t->order[i], node = g->nodes.items[index];
-        if (!gltf_item(&camera, g, &g->cameras, json_member(&g->doc, node, "camera"))) return 0;
-        if (camera == JSON_NONE) continue;
-        if (!read_camera(&out->cameras[out->camera_count], g, camera, &t->world[index], node)) return 0;
+        if (!gltf_item(&camera, g, &g->cameras, json_member(&g->doc, node, "camera")))
+            return 0;
+        if (camera == JSON_NONE)
+            continue;
+        if (!read_camera(&out->cameras[out->camera_count], g, camera, &t->world[index], node))
+            return 0;
         ++out->camera_count;
     }
     return 1;
 }
 
-static void note_count(gltf *g, uint32_t count, const char *what)
+static void note_count(gltf *g, const char *what, uint32_t count)
 {
-    if (count) build_note(g->b, "%u %s", (unsigned)count, what);
+    if (count)
+        build_note(g->b, "%s: %u", what, (unsigned)count);
 }
 
 /* What a reader of the picture should know. */
@@ -472,23 +509,23 @@ static void tell_left_out(gltf *g)
 {
     const gltf_counts *n = &g->left_out;
     if (n->textures)
-        build_note(g->b, "%u texture%s left out (%.120s); plain colour instead", (unsigned)n->textures,
-                   n->textures == 1 ? "" : "s", g->texture_error.text);
-    note_count(g, n->points_lines, "primitives of points or lines skipped");
-    note_count(g, n->without_positions, "primitives without POSITION skipped");
-    note_count(g, n->ragged, "primitives whose vertices do not come out even; the rest is dropped");
-    note_count(g, n->bare, "primitives without a material, drawn white");
-    note_count(g, n->zero_normals, "normals without length, set to +Y");
-    note_count(g, n->blends, "BLEND materials drawn as MASK with cutoff 0.5");
-    note_count(g, n->metals, "metallic materials: diffuse part at least 0.04 of the base colour");
-    note_count(g, n->metal_maps, "metallic maps used by their mean, 0 where it cannot be read");
-    note_count(g, n->unlit, "unlit materials treated as Lambertian");
-    note_count(g, n->emissive, "emissive materials do not emit");
-    note_count(g, n->other_maps, "materials with normal or occlusion maps, which are ignored");
-    note_count(g, n->ranges, "light ranges ignored");
-    note_count(g, n->skins, "skinned nodes in their bind pose");
-    note_count(g, n->morphs, "primitives with morph targets, which are ignored");
-    note_count(g, json_count(&g->doc, json_member(&g->doc, 0, "animations")), "animations ignored");
+        build_note(g->b, "textures left out, plain colour instead: %u (first: %.120s)", (unsigned)n->textures,
+                   g->texture_error.text);
+    note_count(g, "primitives of points or lines skipped", n->points_lines);
+    note_count(g, "primitives without POSITION skipped", n->without_positions);
+    note_count(g, "primitives with vertices left over, which are dropped", n->ragged);
+    note_count(g, "primitives without a material, drawn white", n->bare);
+    note_count(g, "normals without length, set to +Y", n->zero_normals);
+    note_count(g, "BLEND materials drawn as MASK with cutoff 0.5", n->blends);
+    note_count(g, "metallic materials, nearly black without a glossy lobe", n->metals);
+    note_count(g, "metallic maps used by their mean, 0 where one cannot be read", n->metal_maps);
+    note_count(g, "unlit materials treated as Lambertian", n->unlit);
+    note_count(g, "emissive materials, which do not emit", n->emissive);
+    note_count(g, "materials with normal or occlusion maps, which are ignored", n->other_maps);
+    note_count(g, "light ranges ignored", n->ranges);
+    note_count(g, "skinned nodes in their bind pose", n->skins);
+    note_count(g, "primitives with morph targets, which are ignored", n->morphs);
+    note_count(g, "animations ignored", json_count(&g->doc, json_member(&g->doc, 0, "animations")));
 }
 
 /* The tables by accessor, buffer and mesh. A primitive makes at most one lambent mesh. */
@@ -512,7 +549,8 @@ static int make_tables(gltf *g)
     if (!g->b->meshes || !g->mesh_material || !g->mesh_first || !g->mesh_size || !g->positions || !g->uvs ||
         !g->normals || !g->colours || !g->uv_owner || !g->buffer_bytes || !g->files)
         return 0;
-    for (i = 0; i < g->meshes.count; ++i) g->mesh_first[i] = JSON_NONE;
+    for (i = 0; i < g->meshes.count; ++i)
+        g->mesh_first[i] = JSON_NONE;
     return 1;
 }
 
@@ -542,9 +580,11 @@ int gltf_load(model_build *b, const uint8_t *data, size_t size)
     int ok;
     memset(&g, 0, sizeof g);
     g.b = b;
-    if (!gltf_container(&g, data, size)) return 0;
+    if (!gltf_container(&g, data, size))
+        return 0;
     ok = load_document(&g);
-    for (i = 0; g.files && i < g.buffers.count; ++i) file_free(&g.files[i]);
+    for (i = 0; g.files && i < g.buffers.count; ++i)
+        file_free(&g.files[i]);
     json_free(&g.doc);
     return ok;
 }

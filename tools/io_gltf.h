@@ -19,16 +19,16 @@ typedef struct gltf_bytes {
 
 /* How a material's base colour picks texture coordinates; the transform is folded into them at load. */
 typedef struct gltf_uv {
-    uint32_t set;    /* n of TEXCOORD_n; JSON_NONE: untextured */
-    int moved;       /* m is not the identity */
-    double m[6];     /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
+    uint32_t set; /* n of TEXCOORD_n; JSON_NONE: untextured */
+    int moved;    /* m is not the identity */
+    double m[6];  /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
 } gltf_uv;
 
 /* What was left out or stands for something else, told once at the end. */
 typedef struct gltf_counts {
-    uint32_t points_lines, without_positions, ragged, zero_normals, bare; /* primitives, vertices */
+    uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, unlit, emissive, other_maps; /* materials */
-    uint32_t ranges, skins, morphs; /* lights, nodes, meshes */
+    uint32_t ranges, skins, morphs;                                             /* lights, nodes, meshes */
 } gltf_counts;
 
 typedef struct gltf {
@@ -42,25 +42,25 @@ typedef struct gltf {
     const void **positions, **uvs;
     const int16_t **normals;
     const uint8_t **colours;
-    uint32_t *uv_owner;        /* the material that uvs[accessor] was made for */
-    gltf_uv *material_uv;      /* by material */
-    int32_t *texture_slot;     /* by texture: index in b->textures, -1 unknown, -2 unreadable */
-    lmb_texture *image_texels; /* by image: what is decoded already; texels NULL: nothing yet */
-    double *image_metal;       /* by image: mean of its metallic channel; negative: not known yet */
+    uint32_t *uv_owner;               /* the material that uvs[accessor] was made for */
+    gltf_uv *material_uv;             /* by material */
+    int32_t *texture_slot;            /* by texture: index in b->textures, -1 unknown, -2 unreadable */
+    lmb_texture *image_texels;        /* by image: what is decoded already; texels NULL: nothing yet */
+    double *image_metal;              /* by image: mean of its metallic channel; negative: not known yet */
     uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
-    uint32_t *mesh_material;   /* by lambent mesh */
-    uint32_t default_material; /* of primitives that name none; JSON_NONE until needed */
+    uint32_t *mesh_material;          /* by lambent mesh */
+    uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
     gltf_counts left_out;
     report texture_error; /* the first one */
 } gltf;
 
 /* An accessor whose every byte was found to be there. */
 typedef struct gltf_accessor {
-    uint32_t node;             /* JSON, for messages */
-    const uint8_t *data;       /* element 0; NULL: zeros */
+    uint32_t node;       /* JSON, for messages */
+    const uint8_t *data; /* element 0; NULL: zeros */
     uint32_t count, stride;
-    uint32_t component;        /* GL type, 5120 .. 5126 */
-    uint32_t components;       /* 1 .. 4 */
+    uint32_t component;  /* GL type, 5120 .. 5126 */
+    uint32_t components; /* 1 .. 4 */
     int normalized;
     uint32_t sparse_count, sparse_component, sparse_node;
     const uint8_t *sparse_indices, *sparse_values;
@@ -69,19 +69,19 @@ typedef struct gltf_accessor {
 enum { GLTF_I8 = 5120, GLTF_U8 = 5121, GLTF_I16 = 5122, GLTF_U16 = 5123, GLTF_U32 = 5125, GLTF_F32 = 5126 };
 
 /* io_gltf_data.c */
-int gltf_container(gltf *g, const uint8_t *data, size_t size);    /* GLB or plain: parses the JSON */
-int gltf_lists(gltf *g);                                          /* all lists, except lights */
-int gltf_list_of(gltf_list *out, gltf *g, uint32_t array);        /* of any array, or of JSON_NONE: empty */
-int gltf_item(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference); /* node an index points to */
+int gltf_container(gltf *g, const uint8_t *data, size_t size); /* GLB or plain: parses the JSON */
+int gltf_lists(gltf *g);                                       /* all lists, except lights */
+int gltf_list_of(gltf_list *out, gltf *g, uint32_t array);     /* of any array, or of JSON_NONE: empty */
+int gltf_item(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference);  /* node an index points to */
 int gltf_index(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference); /* the index, checked */
 int gltf_uri(gltf_bytes *out, file_bytes *file, gltf *g, uint32_t uri, report *r); /* data: scratch; else file_free */
-int gltf_view(gltf_bytes *out, gltf *g, uint32_t view);           /* bytes of a bufferView, by JSON node */
+int gltf_view(gltf_bytes *out, gltf *g, uint32_t view); /* bytes of a bufferView, by JSON node */
 int gltf_accessor_open(gltf_accessor *out, gltf *g, uint32_t accessor);
 int gltf_accessor_floats(float *out, const gltf *g, const gltf_accessor *a); /* count * components values */
 int gltf_accessor_indices(uint32_t *out, const gltf *g, const gltf_accessor *a);
 
 /* io_gltf_look.c */
-int gltf_materials(gltf *g);       /* all of them, their textures, material_uv */
+int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
 void gltf_default_material(gltf *g); /* makes default_material, once */
 
 /* io_gltf_mesh.c */

@@ -11,8 +11,10 @@ enum { GL_NEAREST = 9728, GL_LINEAR = 9729, GL_CLAMP = 33071, GL_MIRROR = 33648 
  * minifying filter names them, or nothing is said. */
 static uint8_t filter_of(uint32_t mag, uint32_t min)
 {
-    if (mag == GL_NEAREST) return LMB_NEAREST;
-    if (min == GL_NEAREST) return mag == GL_LINEAR ? LMB_BILINEAR : LMB_NEAREST;
+    if (mag == GL_NEAREST)
+        return LMB_NEAREST;
+    if (min == GL_NEAREST)
+        return mag == GL_LINEAR ? LMB_BILINEAR : LMB_NEAREST;
     return min == GL_LINEAR ? LMB_BILINEAR : LMB_TRILINEAR;
 }
 
@@ -45,11 +47,13 @@ static int image_bytes(gltf_bytes *out, file_bytes *file, char place[64], gltf *
     uint32_t view;
     json_path(place, 64, &g->doc, node);
     if (reference == JSON_NONE) {
-        if (!gltf_uri(out, file, g, json_member(&g->doc, node, "uri"), why)) return 0;
+        if (!gltf_uri(out, file, g, json_member(&g->doc, node, "uri"), why))
+            return 0;
     } else if (!gltf_item(&view, g, &g->views, reference) || !gltf_view(out, g, view)) {
         return 0;
     }
-    if (out->size < 2 || out->data[0] != 0xFF || out->data[1] != 0xD8) return 1;
+    if (out->size < 2 || out->data[0] != 0xFF || out->data[1] != 0xD8)
+        return 1;
     file_free(file);
     return report_fail(why, "%s is a JPEG; convert it to PNG", place);
 }
@@ -58,15 +62,17 @@ static int image_bytes(gltf_bytes *out, file_bytes *file, char place[64], gltf *
 static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int mips, report *why)
 {
     lmb_texture *known = &g->image_texels[index];
-    gltf_bytes bytes = { NULL, 0, 0 };
-    file_bytes file = { NULL, 0 };
+    gltf_bytes bytes = {NULL, 0, 0};
+    file_bytes file = {NULL, 0};
     char place[64];
     int ok;
     if (!known->texels || (mips && known->levels == 1)) {
-        if (!image_bytes(&bytes, &file, place, g, index, why)) return 0;
+        if (!image_bytes(&bytes, &file, place, g, index, why))
+            return 0;
         ok = build_texels(g->b, known, bytes.data, bytes.size, mips, place, why);
         file_free(&file);
-        if (!ok) return 0;
+        if (!ok)
+            return 0;
     }
     out->texels = known->texels;
     out->width = known->width;
@@ -78,20 +84,23 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int mips, rep
 /* Mean of the metallic (blue) channel of images[index], 0 .. 1; worked out once. */
 static int image_mean(double *out, gltf *g, uint32_t index, report *why)
 {
-    gltf_bytes bytes = { NULL, 0, 0 };
-    file_bytes file = { NULL, 0 };
+    gltf_bytes bytes = {NULL, 0, 0};
+    file_bytes file = {NULL, 0};
     bitmap map;
     char place[64];
     uint64_t sum = 0;
     size_t i, n;
     int ok;
     if (g->image_metal[index] < 0) {
-        if (!image_bytes(&bytes, &file, place, g, index, why)) return 0;
+        if (!image_bytes(&bytes, &file, place, g, index, why))
+            return 0;
         ok = png_decode(&map, bytes.data, bytes.size, place, why);
         file_free(&file);
-        if (!ok) return 0;
+        if (!ok)
+            return 0;
         n = (size_t)map.width * (size_t)map.height;
-        for (i = 0; i < n; ++i) sum += map.texels[4 * i + 2];
+        for (i = 0; i < n; ++i)
+            sum += map.texels[4 * i + 2];
         bitmap_free(&map);
         g->image_metal[index] = (double)sum / (255.0 * (double)n);
     }
@@ -102,8 +111,10 @@ static int image_mean(double *out, gltf *g, uint32_t index, report *why)
 /* A texture or image that cannot be had is a note, unless the model itself is damaged. */
 static int leave_out(gltf *g, const report *why)
 {
-    if (g->b->r->text[0]) return 0;
-    if (g->left_out.textures++ == 0) g->texture_error = *why;
+    if (g->b->r->text[0])
+        return 0;
+    if (g->left_out.textures++ == 0)
+        g->texture_error = *why;
     return 1;
 }
 
@@ -124,10 +135,12 @@ static int texture_slot(int32_t *out, gltf *g, uint32_t index)
         memset(&made, 0, sizeof made);
         why.text[0] = '\0';
         g->texture_slot[index] = -2;
-        if (!read_sampler(&made, g, node) || !texture_image(&source, g, node)) return 0;
+        if (!read_sampler(&made, g, node) || !texture_image(&source, g, node))
+            return 0;
         if (source == JSON_NONE) {
             json_fail(&g->doc, node, &why, "no PNG or JPEG source");
-            if (!leave_out(g, &why)) return 0;
+            if (!leave_out(g, &why))
+                return 0;
         } else if (image_decode(&made, g, source, made.filter == LMB_TRILINEAR, &why)) {
             g->texture_slot[index] = (int32_t)g->b->texture_count;
             g->b->textures[g->b->texture_count++] = made;
@@ -144,7 +157,7 @@ static int texture_slot(int32_t *out, gltf *g, uint32_t index)
 static int read_transform(gltf_uv *uv, gltf *g, uint32_t transform)
 {
     const json *doc = &g->doc;
-    double offset[2] = { 0, 0 }, scale[2] = { 1, 1 }, angle = 0, c, s;
+    double offset[2] = {0, 0}, scale[2] = {1, 1}, angle = 0, c, s;
     if (!json_read_doubles(offset, 2, doc, json_member(doc, transform, "offset"), g->b->r) ||
         !json_read_doubles(scale, 2, doc, json_member(doc, transform, "scale"), g->b->r) ||
         !json_read_double(&angle, doc, json_member(doc, transform, "rotation"), g->b->r) ||
@@ -169,12 +182,17 @@ static int read_base_texture(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t i
     const uint32_t reference = json_member(doc, info, "index");
     uint32_t index, transform;
     uv->set = JSON_NONE;
-    if (info == JSON_NONE) return 1;
-    if (reference == JSON_NONE) return json_fail(doc, info, g->b->r, "index is missing");
-    if (!gltf_index(&index, g, &g->textures, reference) || !texture_slot(&out->texture, g, index)) return 0;
-    if (out->texture < 0) return 1;
+    if (info == JSON_NONE)
+        return 1;
+    if (reference == JSON_NONE)
+        return json_fail(doc, info, g->b->r, "index is missing");
+    if (!gltf_index(&index, g, &g->textures, reference) || !texture_slot(&out->texture, g, index))
+        return 0;
+    if (out->texture < 0)
+        return 1;
     uv->set = 0;
-    if (!json_read_uint(&uv->set, doc, json_member(doc, info, "texCoord"), g->b->r)) return 0;
+    if (!json_read_uint(&uv->set, doc, json_member(doc, info, "texCoord"), g->b->r))
+        return 0;
     transform = json_member(doc, json_member(doc, info, "extensions"), "KHR_texture_transform");
     return transform == JSON_NONE || read_transform(uv, g, transform);
 }
@@ -199,9 +217,11 @@ static int read_metallic(double *diffuse, gltf *g, uint32_t pbr)
 {
     const uint32_t map = json_member(&g->doc, pbr, "metallicRoughnessTexture");
     double metallic = 1, mean = 0;
-    if (!json_read_double(&metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r)) return 0;
+    if (!json_read_double(&metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r))
+        return 0;
     if (map != JSON_NONE && metallic > 0) {
-        if (!metallic_mean(&mean, g, map)) return 0;
+        if (!metallic_mean(&mean, g, map))
+            return 0;
         metallic *= mean;
         ++g->left_out.metal_maps;
     }
@@ -214,7 +234,8 @@ static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
 {
     const uint32_t mode = json_member(&g->doc, material, "alphaMode");
     double cutoff = 0.5;
-    if (mode == JSON_NONE || json_equals(&g->doc, mode, "OPAQUE")) return 1;
+    if (mode == JSON_NONE || json_equals(&g->doc, mode, "OPAQUE"))
+        return 1;
     if (json_equals(&g->doc, mode, "BLEND")) {
         ++g->left_out.blends;
     } else if (!json_equals(&g->doc, mode, "MASK")) {
@@ -231,8 +252,9 @@ static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
 static int count_ignored(gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
-    double emissive[3] = { 0, 0, 0 };
-    if (!json_read_doubles(emissive, 3, doc, json_member(doc, material, "emissiveFactor"), g->b->r)) return 0;
+    double emissive[3] = {0, 0, 0};
+    if (!json_read_doubles(emissive, 3, doc, json_member(doc, material, "emissiveFactor"), g->b->r))
+        return 0;
     g->left_out.emissive += emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0;
     g->left_out.other_maps += json_member(doc, material, "normalTexture") != JSON_NONE ||
                               json_member(doc, material, "occlusionTexture") != JSON_NONE;
@@ -244,14 +266,15 @@ static int read_material(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t mater
     const json *doc = &g->doc;
     const uint32_t pbr = json_member(doc, material, "pbrMetallicRoughness");
     const int unlit = json_member(doc, json_member(doc, material, "extensions"), "KHR_materials_unlit") != JSON_NONE;
-    double base[4] = { 1, 1, 1, 1 }, diffuse = 1;
+    double base[4] = {1, 1, 1, 1}, diffuse = 1;
     int sided = 0, i;
     if (!json_read_doubles(base, 4, doc, json_member(doc, pbr, "baseColorFactor"), g->b->r) ||
         !json_read_bool(&sided, doc, json_member(doc, material, "doubleSided"), g->b->r) ||
         !read_alpha(out, g, material) || (!unlit && !read_metallic(&diffuse, g, pbr)) ||
         !read_base_texture(out, uv, g, json_member(doc, pbr, "baseColorTexture")) || !count_ignored(g, material))
         return 0;
-    for (i = 0; i < 3; ++i) out->albedo[i] = clamp01(base[i] * diffuse);
+    for (i = 0; i < 3; ++i)
+        out->albedo[i] = clamp01(base[i] * diffuse);
     out->alpha = clamp01(base[3]);
     out->flags |= sided ? LMB_DOUBLE_SIDED : 0;
     g->left_out.unlit += (uint32_t)unlit;
@@ -276,13 +299,17 @@ int gltf_materials(gltf *g)
     g->texture_slot = (int32_t *)build_scratch(g->b, g->textures.count, sizeof *g->texture_slot);
     g->image_texels = (lmb_texture *)build_scratch(g->b, g->images.count, sizeof *g->image_texels);
     g->image_metal = (double *)build_scratch(g->b, g->images.count, sizeof *g->image_metal);
-    if (!g->b->materials || !g->b->textures || !g->material_uv || !g->texture_slot || !g->image_texels || !g->image_metal)
+    if (!g->b->materials || !g->b->textures || !g->material_uv || !g->texture_slot || !g->image_texels ||
+        !g->image_metal)
         return 0;
-    for (i = 0; i < g->images.count; ++i) g->image_metal[i] = -1;
-    for (i = 0; i < g->textures.count; ++i) g->texture_slot[i] = -1;
+    for (i = 0; i < g->images.count; ++i)
+        g->image_metal[i] = -1;
+    for (i = 0; i < g->textures.count; ++i)
+        g->texture_slot[i] = -1;
     for (i = 0; i < n; ++i) {
         plain_material(&g->b->materials[i]);
-        if (!read_material(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i])) return 0;
+        if (!read_material(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i]))
+            return 0;
     }
     g->b->material_count = n;
     g->default_material = JSON_NONE;
@@ -292,7 +319,8 @@ int gltf_materials(gltf *g)
 /* glTF's own default is a metal, which would be nearly black here: white serves those who named no material. */
 void gltf_default_material(gltf *g)
 {
-    if (g->default_material != JSON_NONE) return;
+    if (g->default_material != JSON_NONE)
+        return;
     g->default_material = g->b->material_count++;
     plain_material(&g->b->materials[g->default_material]);
     g->material_uv[g->default_material].set = JSON_NONE;

@@ -12,9 +12,12 @@ enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 static int open_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components,
                           uint32_t other, uint32_t count)
 {
-    if (!gltf_index(index, g, &g->accessors, reference)) return 0;
-    if (*index == JSON_NONE) return 1;
-    if (!gltf_accessor_open(a, g, g->accessors.items[*index])) return 0;
+    if (!gltf_index(index, g, &g->accessors, reference))
+        return 0;
+    if (*index == JSON_NONE)
+        return 1;
+    if (!gltf_accessor_open(a, g, g->accessors.items[*index]))
+        return 0;
     if ((a->components != components && a->components != other) || a->component == GLTF_U32)
         return json_fail(&g->doc, reference, g->b->r, "accessor %u has a type that this attribute does not take",
                          (unsigned)*index);
@@ -36,10 +39,12 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
     gltf_accessor a;
     uint32_t index;
     float *values;
-    if (!open_attribute(&a, &index, g, reference, 3, 3, 0)) return 0;
+    if (!open_attribute(&a, &index, g, reference, 3, 3, 0))
+        return 0;
     if (!g->positions[index]) {
         values = (float *)build_keep(g->b, (uint64_t)a.count * 3, sizeof *values);
-        if (!values || !gltf_accessor_floats(values, g, &a)) return 0;
+        if (!values || !gltf_accessor_floats(values, g, &a))
+            return 0;
         g->positions[index] = values;
     }
     out->positions = g->positions[index];
@@ -52,7 +57,7 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
 static lmb_vec3 unit_normal(const float *v, uint32_t *zeros)
 {
     double x = (double)v[0], y = (double)v[1], z = (double)v[2], d = sqrt(x * x + y * y + z * z);
-    lmb_vec3 n = { 0.0f, 1.0f, 0.0f };
+    lmb_vec3 n = {0.0f, 1.0f, 0.0f};
     if (!(d > 1e-20 && d < 1e30)) {
         ++*zeros;
         return n;
@@ -69,14 +74,18 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
     uint32_t index, i;
     float *values;
     int16_t *codes;
-    if (!open_attribute(&a, &index, g, reference, 3, 3, out->vertex_count)) return 0;
-    if (index == JSON_NONE) return 1;
+    if (!open_attribute(&a, &index, g, reference, 3, 3, out->vertex_count))
+        return 0;
+    if (index == JSON_NONE)
+        return 1;
     if (!g->normals[index]) {
         values = read_floats(g, &a);
         codes = (int16_t *)build_keep(g->b, (uint64_t)a.count * 2, sizeof *codes);
-        if (!values || !codes) return 0;
+        if (!values || !codes)
+            return 0;
         for (i = 0; i < a.count; ++i)
-            lmb_octahedral_encode(codes + 2 * (size_t)i, unit_normal(values + 3 * (size_t)i, &g->left_out.zero_normals));
+            lmb_octahedral_encode(codes + 2 * (size_t)i,
+                                  unit_normal(values + 3 * (size_t)i, &g->left_out.zero_normals));
         g->normals[index] = codes;
     }
     out->normals = g->normals[index];
@@ -105,15 +114,19 @@ static int read_uvs(lmb_mesh *out, gltf *g, uint32_t attributes, uint32_t materi
     gltf_accessor a;
     uint32_t index, reference;
     float *values;
-    if (how->set == JSON_NONE) return 1;
+    if (how->set == JSON_NONE)
+        return 1;
     snprintf(key, sizeof key, "TEXCOORD_%u", (unsigned)how->set);
     reference = json_member(&g->doc, attributes, key);
-    if (!open_attribute(&a, &index, g, reference, 2, 2, out->vertex_count)) return 0;
-    if (index == JSON_NONE) return 1;
+    if (!open_attribute(&a, &index, g, reference, 2, 2, out->vertex_count))
+        return 0;
+    if (index == JSON_NONE)
+        return 1;
     owner = g->uvs[index] ? &g->material_uv[g->uv_owner[index]] : NULL;
     if (!owner || owner->moved != how->moved || (how->moved && memcmp(owner->m, how->m, sizeof how->m) != 0)) {
         values = (float *)build_keep(g->b, (uint64_t)a.count * 2, sizeof *values);
-        if (!values || !gltf_accessor_floats(values, g, &a)) return 0;
+        if (!values || !gltf_accessor_floats(values, g, &a))
+            return 0;
         move_uvs(values, a.count, how);
         g->uvs[index] = values;
         g->uv_owner[index] = material;
@@ -132,12 +145,15 @@ static int read_colours(lmb_mesh *out, gltf *g, uint32_t reference)
     uint32_t index, i, c;
     float *values;
     uint8_t *bytes;
-    if (!open_attribute(&a, &index, g, reference, 3, 4, out->vertex_count)) return 0;
-    if (index == JSON_NONE) return 1;
+    if (!open_attribute(&a, &index, g, reference, 3, 4, out->vertex_count))
+        return 0;
+    if (index == JSON_NONE)
+        return 1;
     if (!g->colours[index]) {
         values = read_floats(g, &a);
         bytes = (uint8_t *)build_keep(g->b, a.count, 4);
-        if (!values || !bytes) return 0;
+        if (!values || !bytes)
+            return 0;
         for (i = 0; i < a.count; ++i)
             for (c = 0; c < 4; ++c)
                 bytes[4 * (size_t)i + c] = c < a.components ? unorm8(values[(size_t)i * a.components + c]) : 255;
@@ -150,8 +166,10 @@ static int read_colours(lmb_mesh *out, gltf *g, uint32_t reference)
 /* Corner k of triangle t of a strip or fan: its place in the order of the vertices (glTF 2.0, 3.7.2.1). */
 static uint32_t unrolled(uint32_t mode, uint32_t t, uint32_t k)
 {
-    if (mode == MODE_TRIANGLES) return 3 * t + k;
-    if (mode == MODE_FAN) return k == 2 ? 0 : t + 1 + k;
+    if (mode == MODE_TRIANGLES)
+        return 3 * t + k;
+    if (mode == MODE_FAN)
+        return k == 2 ? 0 : t + 1 + k;
     return k == 0 ? t : k == 1 ? t + 1 + t % 2 : t + 2 - t % 2;
 }
 
@@ -162,7 +180,8 @@ static int store_indices(lmb_mesh *out, gltf *g, uint32_t mode, const uint32_t *
     const uint64_t corners = (uint64_t)out->triangle_count * 3;
     void *indices = build_keep(g->b, corners, small ? 2 : 4);
     uint32_t t, k;
-    if (!indices) return 0;
+    if (!indices)
+        return 0;
     for (t = 0; t < out->triangle_count; ++t)
         for (k = 0; k < 3; ++k) {
             const uint32_t place = unrolled(mode, t, k), vertex = order ? order[place] : place;
@@ -181,9 +200,11 @@ static uint32_t *read_order(uint32_t *count, const lmb_mesh *mesh, gltf *g, uint
 {
     gltf_accessor a;
     uint32_t *order, i;
-    if (!gltf_accessor_open(&a, g, accessor)) return NULL;
+    if (!gltf_accessor_open(&a, g, accessor))
+        return NULL;
     order = (uint32_t *)build_scratch(g->b, a.count, sizeof *order);
-    if (!order || !gltf_accessor_indices(order, g, &a)) return NULL;
+    if (!order || !gltf_accessor_indices(order, g, &a))
+        return NULL;
     for (i = 0; i < a.count; ++i)
         if (order[i] >= mesh->vertex_count) {
             json_fail(&g->doc, accessor, g->b->r, "index %u at entry %u, but there are %u vertices; export again",
@@ -197,10 +218,12 @@ static uint32_t *read_order(uint32_t *count, const lmb_mesh *mesh, gltf *g, uint
 static int read_triangles(lmb_mesh *out, gltf *g, uint32_t primitive, uint32_t mode)
 {
     uint32_t accessor, places = out->vertex_count, *order = NULL;
-    if (!gltf_item(&accessor, g, &g->accessors, json_member(&g->doc, primitive, "indices"))) return 0;
+    if (!gltf_item(&accessor, g, &g->accessors, json_member(&g->doc, primitive, "indices")))
+        return 0;
     if (accessor != JSON_NONE) {
         order = read_order(&places, out, g, accessor);
-        if (!order) return 0;
+        if (!order)
+            return 0;
     }
     g->left_out.ragged += mode == MODE_TRIANGLES ? places % 3 != 0 : places < 3;
     out->triangle_count = mode == MODE_TRIANGLES ? places / 3 : places < 3 ? 0 : places - 2;
@@ -215,8 +238,10 @@ static int read_triangles(lmb_mesh *out, gltf *g, uint32_t primitive, uint32_t m
 
 static int primitive_material(uint32_t *out, gltf *g, uint32_t primitive)
 {
-    if (!gltf_index(out, g, &g->materials, json_member(&g->doc, primitive, "material"))) return 0;
-    if (*out != JSON_NONE) return 1;
+    if (!gltf_index(out, g, &g->materials, json_member(&g->doc, primitive, "material")))
+        return 0;
+    if (*out != JSON_NONE)
+        return 1;
     gltf_default_material(g);
     *out = g->default_material;
     ++g->left_out.bare;
@@ -230,7 +255,8 @@ static int read_primitive(gltf *g, uint32_t primitive)
     const uint32_t attributes = json_member(&g->doc, primitive, "attributes"),
                    position = json_member(&g->doc, attributes, "POSITION");
     uint32_t mode = MODE_TRIANGLES, material;
-    if (!json_read_uint(&mode, &g->doc, json_member(&g->doc, primitive, "mode"), g->b->r)) return 0;
+    if (!json_read_uint(&mode, &g->doc, json_member(&g->doc, primitive, "mode"), g->b->r))
+        return 0;
     if (mode > MODE_FAN)
         return json_fail(&g->doc, primitive, g->b->r, "mode %u; glTF has 0 to 6", (unsigned)mode);
     if (mode < MODE_TRIANGLES || position == JSON_NONE) {
@@ -239,12 +265,11 @@ static int read_primitive(gltf *g, uint32_t primitive)
     }
     memset(out, 0, sizeof *out);
     if (!primitive_material(&material, g, primitive) || !read_positions(out, g, position) ||
-        !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) ||
-        !read_uvs(out, g, attributes, material) ||
-        !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) ||
-        !read_triangles(out, g, primitive, mode))
+        !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) || !read_uvs(out, g, attributes, material) ||
+        !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) || !read_triangles(out, g, primitive, mode))
         return 0;
-    if (out->triangle_count == 0) return 1;
+    if (out->triangle_count == 0)
+        return 1;
     g->mesh_material[g->b->mesh_count++] = material;
     return 1;
 }
@@ -254,11 +279,14 @@ int gltf_mesh(gltf *g, uint32_t mesh)
     const uint32_t node = g->meshes.items[mesh];
     gltf_list primitives;
     uint32_t i;
-    if (g->mesh_first[mesh] != JSON_NONE) return 1;
-    if (!gltf_list_of(&primitives, g, json_member(&g->doc, node, "primitives"))) return 0;
+    if (g->mesh_first[mesh] != JSON_NONE)
+        return 1;
+    if (!gltf_list_of(&primitives, g, json_member(&g->doc, node, "primitives")))
+        return 0;
     g->mesh_first[mesh] = g->b->mesh_count;
     for (i = 0; i < primitives.count; ++i) {
-        if (!read_primitive(g, primitives.items[i])) return 0;
+        if (!read_primitive(g, primitives.items[i]))
+            return 0;
         g->left_out.morphs += json_member(&g->doc, primitives.items[i], "targets") != JSON_NONE;
     }
     g->mesh_size[mesh] = g->b->mesh_count - g->mesh_first[mesh];

@@ -89,25 +89,25 @@ static void fill_quick(decode_table *t, uint32_t symbol, uint32_t code, uint32_t
     for (; at < 1u << QUICK_BITS; at += 1u << bits) t->quick[at] = (uint16_t)(symbol << 4 | bits);
 }
 
-/* A set of code lengths must fill the code space exactly. The one exception of RFC 1951, a lone code of one bit or none
- * at all, is granted where `may_be_lone`. */
-static int lengths_fill(const uint16_t used[DEFLATE_MAX_BITS + 1], int may_be_lone)
+/* A set of code lengths must fill the code space exactly; RFC 1951 excepts distances with a lone code of one bit, or
+ * none at all. Granting that to every code is harmless: bits without a code make the stream bad when they are met. */
+static int lengths_fill(const uint16_t used[DEFLATE_MAX_BITS + 1])
 {
     uint32_t bits, space = 0, codes = 0;
     for (bits = 1; bits <= DEFLATE_MAX_BITS; ++bits) {
         space += (uint32_t)used[bits] << (DEFLATE_MAX_BITS - bits);
         codes += used[bits];
     }
-    return space == 1u << DEFLATE_MAX_BITS || (may_be_lone && (codes == 0 || (codes == 1 && used[1] == 1)));
+    return space == 1u << DEFLATE_MAX_BITS || codes == 0 || (codes == 1 && used[1] == 1);
 }
 
-static int build_table(decode_table *t, const uint8_t *lengths, uint32_t n, int may_be_lone)
+static int build_table(decode_table *t, const uint8_t *lengths, uint32_t n)
 {
     uint16_t used[DEFLATE_MAX_BITS + 1] = {0}, next[DEFLATE_MAX_BITS + 1];
     uint32_t code[DEFLATE_MAX_BITS + 1], i, bits;
 
     for (i = 0; i < n; ++i) ++used[lengths[i]];
-    if (!lengths_fill(used, may_be_lone)) return 0;
+    if (!lengths_fill(used)) return 0;
     memset(t->quick, 0, sizeof t->quick);
     t->limit[0] = 0;
     t->first[0] = next[0] = 0;
@@ -131,9 +131,9 @@ static int fixed_tables(inflater *s)
     uint8_t lengths[DEFLATE_FIXED_LITLENS];
     uint32_t i;
     for (i = 0; i < DEFLATE_FIXED_LITLENS; ++i) lengths[i] = deflate_fixed_bits(i);
-    if (!build_table(&s->litlen, lengths, DEFLATE_FIXED_LITLENS, 0)) return 0;
+    if (!build_table(&s->litlen, lengths, DEFLATE_FIXED_LITLENS)) return 0;
     memset(lengths, 5, 32); /* 32 codes fill the space; the last two must not occur */
-    return build_table(&s->dist, lengths, 32, 0);
+    return build_table(&s->dist, lengths, 32);
 }
 
 /* The lengths of both codes, run-length coded by a third. */
@@ -156,6 +156,7 @@ static int read_lengths(inflater *s, uint8_t *lengths, uint32_t n)
     return 1;
 }
 
+/* A code without the end symbol is not looked for: its block meets the end of the input, or of the output. */
 static int dynamic_tables(inflater *s)
 {
     uint8_t lengths[DEFLATE_FIXED_LITLENS + 32] = {0};
@@ -163,9 +164,9 @@ static int dynamic_tables(inflater *s)
 
     if (s->bad || litlens > DEFLATE_LITLENS || dists > DEFLATE_DISTS) return 0;
     for (i = 0; i < metas; ++i) lengths[deflate_meta_order(i)] = (uint8_t)take(s, 3);
-    if (s->bad || !build_table(&s->dist, lengths, DEFLATE_METAS, 0)) return 0; /* lent until it is read itself */
-    if (!read_lengths(s, lengths, litlens + dists) || lengths[DEFLATE_END] == 0) return 0;
-    return build_table(&s->litlen, lengths, litlens, 1) && build_table(&s->dist, lengths + litlens, dists, 1);
+    if (s->bad || !build_table(&s->dist, lengths, DEFLATE_METAS)) return 0; /* lent until it is read itself */
+    if (!read_lengths(s, lengths, litlens + dists)) return 0;
+    return build_table(&s->litlen, lengths, litlens) && build_table(&s->dist, lengths + litlens, dists);
 }
 
 static int stored_block(inflater *s)

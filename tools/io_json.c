@@ -9,9 +9,9 @@
 
 typedef struct parser {
     json *doc;
-    uint32_t at;       /* next byte */
-    uint32_t open;     /* innermost open container, or JSON_NONE */
-    uint32_t last;     /* child added to it last, or JSON_NONE */
+    uint32_t at;   /* next byte */
+    uint32_t open; /* innermost open container, or JSON_NONE */
+    uint32_t last; /* child added to it last, or JSON_NONE */
     uint32_t depth;
     uint32_t key_start, key_size; /* of the member that is being read */
     report *r;
@@ -21,33 +21,35 @@ static int is_digit(int c) { return c >= '0' && c <= '9'; }
 
 static int hex_digit(int c)
 {
-    if (is_digit(c)) return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    if (is_digit(c))
+        return c - '0';
+    if (c >= 'a' && c <= 'f')
+        return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F')
+        return c - 'A' + 10;
     return -1;
 }
 
 /* The byte at the parser's place; -1 behind the end. */
-static int peek(const parser *s)
-{
-    return s->at < s->doc->size ? (unsigned char)s->doc->text[s->at] : -1;
-}
+static int peek(const parser *s) { return s->at < s->doc->size ? (unsigned char)s->doc->text[s->at] : -1; }
 
 static int syntax(const parser *s, const char *what)
 {
     uint32_t line = 1, i;
     char path[160];
-    for (i = 0; i < s->at; ++i) line += s->doc->text[i] == '\n';
+    for (i = 0; i < s->at; ++i)
+        line += s->doc->text[i] == '\n';
     json_path(path, sizeof path, s->doc, s->open);
-    return report_fail(s->r, "%s: line %u, byte %u, in %s: %s; the JSON is damaged, export the file again", s->doc->name,
-                       (unsigned)line, (unsigned)s->at, path, what);
+    return report_fail(s->r, "%s: line %u, byte %u, in %s: %s; the JSON is damaged, export the file again",
+                       s->doc->name, (unsigned)line, (unsigned)s->at, path, what);
 }
 
 static void skip_space(parser *s)
 {
     for (;; ++s->at) {
         int c = peek(s);
-        if (c != ' ' && c != '\t' && c != '\n' && c != '\r') return;
+        if (c != ' ' && c != '\t' && c != '\n' && c != '\r')
+            return;
     }
 }
 
@@ -56,10 +58,12 @@ static int32_t hex4(const json *doc, uint32_t at)
 {
     int32_t value = 0;
     int i;
-    if (doc->size - at < 4) return -1;
+    if (doc->size - at < 4)
+        return -1;
     for (i = 0; i < 4; ++i) {
         int d = hex_digit((unsigned char)doc->text[at + (uint32_t)i]);
-        if (d < 0) return -1;
+        if (d < 0)
+            return -1;
         value = value * 16 + d;
     }
     return value;
@@ -69,31 +73,40 @@ static int32_t hex4(const json *doc, uint32_t at)
 static int skip_unicode(parser *s)
 {
     int32_t unit = hex4(s->doc, s->at + 1), low;
-    if (unit < 0) return syntax(s, "\\u without four hexadecimal digits");
+    if (unit < 0)
+        return syntax(s, "\\u without four hexadecimal digits");
     s->at += 5;
-    if (unit < 0xD800 || unit > 0xDFFF) return 1;
+    if (unit < 0xD800 || unit > 0xDFFF)
+        return 1;
     if (unit > 0xDBFF || s->doc->size - s->at < 6 || s->doc->text[s->at] != '\\' || s->doc->text[s->at + 1] != 'u')
         return syntax(s, "half a \\u surrogate pair");
     low = hex4(s->doc, s->at + 2);
-    if (low < 0xDC00 || low > 0xDFFF) return syntax(s, "half a \\u surrogate pair");
+    if (low < 0xDC00 || low > 0xDFFF)
+        return syntax(s, "half a \\u surrogate pair");
     s->at += 6;
     return 1;
 }
 
 static int read_string(parser *s, uint32_t *start, uint32_t *size)
 {
-    if (peek(s) != '"') return syntax(s, "expected a string in double quotes");
+    if (peek(s) != '"')
+        return syntax(s, "expected a string in double quotes");
     *start = ++s->at;
     for (;;) {
         int c = peek(s);
-        if (c < 0) return syntax(s, "the text ends inside a string");
-        if (c == '"') break;
-        if (c < 0x20) return syntax(s, "control character inside a string");
+        if (c < 0)
+            return syntax(s, "the text ends inside a string");
+        if (c == '"')
+            break;
+        if (c < 0x20)
+            return syntax(s, "control character inside a string");
         ++s->at;
-        if (c != '\\') continue;
+        if (c != '\\')
+            continue;
         c = peek(s);
         if (c == 'u') {
-            if (!skip_unicode(s)) return 0;
+            if (!skip_unicode(s))
+                return 0;
         } else if (c > 0 && strchr("\"\\/bfnrt", c)) {
             ++s->at;
         } else {
@@ -106,14 +119,17 @@ static int read_string(parser *s, uint32_t *start, uint32_t *size)
 
 static int skip_digits(parser *s)
 {
-    if (!is_digit(peek(s))) return syntax(s, "expected a digit");
-    while (is_digit(peek(s))) ++s->at;
+    if (!is_digit(peek(s)))
+        return syntax(s, "expected a digit");
+    while (is_digit(peek(s)))
+        ++s->at;
     return 1;
 }
 
 static int skip_number(parser *s)
 {
-    if (peek(s) == '-') ++s->at;
+    if (peek(s) == '-')
+        ++s->at;
     if (peek(s) == '0') {
         ++s->at;
     } else if (!skip_digits(s)) {
@@ -121,11 +137,14 @@ static int skip_number(parser *s)
     }
     if (peek(s) == '.') {
         ++s->at;
-        if (!skip_digits(s)) return 0;
+        if (!skip_digits(s))
+            return 0;
     }
-    if (peek(s) != 'e' && peek(s) != 'E') return 1;
+    if (peek(s) != 'e' && peek(s) != 'E')
+        return 1;
     ++s->at;
-    if (peek(s) == '+' || peek(s) == '-') ++s->at;
+    if (peek(s) == '+' || peek(s) == '-')
+        ++s->at;
     return skip_digits(s);
 }
 
@@ -143,8 +162,10 @@ static json_node *add_node(parser *s, uint32_t kind)
     node->next = JSON_NONE;
     node->count = 0;
     node->kind = kind;
-    if (s->last != JSON_NONE) doc->nodes[s->last].next = index;
-    if (s->open != JSON_NONE) ++doc->nodes[s->open].count;
+    if (s->last != JSON_NONE)
+        doc->nodes[s->last].next = index;
+    if (s->open != JSON_NONE)
+        ++doc->nodes[s->open].count;
     s->last = index;
     return node;
 }
@@ -152,17 +173,16 @@ static json_node *add_node(parser *s, uint32_t kind)
 static int read_key(parser *s)
 {
     skip_space(s);
-    if (!read_string(s, &s->key_start, &s->key_size)) return 0;
+    if (!read_string(s, &s->key_start, &s->key_size))
+        return 0;
     skip_space(s);
-    if (peek(s) != ':') return syntax(s, "expected ':' after a key");
+    if (peek(s) != ':')
+        return syntax(s, "expected ':' after a key");
     ++s->at;
     return 1;
 }
 
-static int closing(const parser *s)
-{
-    return s->doc->nodes[s->open].kind == JSON_ARRAY ? ']' : '}';
-}
+static int closing(const parser *s) { return s->doc->nodes[s->open].kind == JSON_ARRAY ? ']' : '}'; }
 
 static void close_container(parser *s)
 {
@@ -176,7 +196,8 @@ static void close_container(parser *s)
 /* Open a container; *complete is set where it is empty and already closed again. */
 static int open_container(parser *s, uint32_t kind, int *complete)
 {
-    if (s->depth == JSON_MAX_DEPTH) return syntax(s, "more than 64 arrays and objects inside each other");
+    if (s->depth == JSON_MAX_DEPTH)
+        return syntax(s, "more than 64 arrays and objects inside each other");
     ++s->depth;
     add_node(s, kind);
     s->open = s->last;
@@ -210,17 +231,23 @@ static int read_value(parser *s, int *complete)
     skip_space(s);
     c = peek(s);
     *complete = 1;
-    if (c == '[' || c == '{') return open_container(s, c == '[' ? JSON_ARRAY : JSON_OBJECT, complete);
-    if (c == 't') return read_literal(s, "true", JSON_TRUE);
-    if (c == 'f') return read_literal(s, "false", JSON_FALSE);
-    if (c == 'n') return read_literal(s, "null", JSON_NULL);
+    if (c == '[' || c == '{')
+        return open_container(s, c == '[' ? JSON_ARRAY : JSON_OBJECT, complete);
+    if (c == 't')
+        return read_literal(s, "true", JSON_TRUE);
+    if (c == 'f')
+        return read_literal(s, "false", JSON_FALSE);
+    if (c == 'n')
+        return read_literal(s, "null", JSON_NULL);
     if (c == '"') {
         node = add_node(s, JSON_STRING);
         return read_string(s, &node->start, &node->size);
     }
-    if (c != '-' && !is_digit(c)) return syntax(s, c < 0 ? "the text ends early" : "expected a value");
+    if (c != '-' && !is_digit(c))
+        return syntax(s, c < 0 ? "the text ends early" : "expected a value");
     node = add_node(s, JSON_NUMBER);
-    if (!skip_number(s)) return 0;
+    if (!skip_number(s))
+        return 0;
     node->size = s->at - node->start;
     return 1;
 }
@@ -246,10 +273,13 @@ static int parse_document(parser *s)
 {
     int complete;
     skip_space(s);
-    if (peek(s) != '{') return syntax(s, "expected '{'");
+    if (peek(s) != '{')
+        return syntax(s, "expected '{'");
     do {
-        if (!read_value(s, &complete)) return 0;
-        if (complete && !after_value(s)) return 0;
+        if (!read_value(s, &complete))
+            return 0;
+        if (complete && !after_value(s))
+            return 0;
     } while (s->open != JSON_NONE);
     skip_space(s);
     return s->at == s->doc->size ? 1 : syntax(s, "text after the end of the document");
@@ -259,27 +289,33 @@ static int parse_document(parser *s)
 static size_t node_bound(const char *text, size_t size)
 {
     size_t bound = 1, i;
-    for (i = 0; i < size; ++i) bound += text[i] == ',' || text[i] == '[' || text[i] == '{';
+    for (i = 0; i < size; ++i)
+        bound += text[i] == ',' || text[i] == '[' || text[i] == '{';
     return bound;
 }
 
 int json_parse(json *out, const char *text, size_t size, const char *name, report *r)
 {
-    parser s = { NULL, 0, JSON_NONE, JSON_NONE, 0, 0, 0, NULL };
+    parser s = {NULL, 0, JSON_NONE, JSON_NONE, 0, 0, 0, NULL};
     size_t bound;
     memset(out, 0, sizeof *out);
-    if (size >= UINT32_MAX) return report_fail(r, "%s: JSON of 4 GiB or more; split the file", name);
+    if (size >= UINT32_MAX)
+        return report_fail(r, "%s: JSON of 4 GiB or more; split the file", name);
     bound = node_bound(text, size);
-    if (bound > SIZE_MAX / sizeof *out->nodes) return report_fail(r, "%s: too large for this machine", name);
+    if (bound > SIZE_MAX / sizeof *out->nodes)
+        return report_fail(r, "%s: too large for this machine", name);
     out->nodes = (json_node *)malloc(bound * sizeof *out->nodes);
-    if (!out->nodes) return report_fail(r, "%s: out of memory for the JSON; close other programs", name);
+    if (!out->nodes)
+        return report_fail(r, "%s: out of memory for the JSON; close other programs", name);
     out->text = text;
     out->name = name;
     out->size = (uint32_t)size;
     s.doc = out;
     s.r = r;
-    if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) s.at = 3;
-    if (parse_document(&s)) return 1;
+    if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0)
+        s.at = 3;
+    if (parse_document(&s))
+        return 1;
     json_free(out);
     return 0;
 }
@@ -302,16 +338,19 @@ uint32_t json_member(const json *doc, uint32_t object, const char *key)
 {
     size_t n = strlen(key);
     uint32_t i;
-    if (json_kind(doc, object) != JSON_OBJECT) return JSON_NONE;
+    if (json_kind(doc, object) != JSON_OBJECT)
+        return JSON_NONE;
     for (i = json_first(doc, object); i != JSON_NONE; i = doc->nodes[i].next)
-        if (doc->nodes[i].key_size == n && memcmp(doc->text + doc->nodes[i].key_start, key, n) == 0) return i;
+        if (doc->nodes[i].key_size == n && memcmp(doc->text + doc->nodes[i].key_start, key, n) == 0)
+            return i;
     return JSON_NONE;
 }
 
 /* Put `size` bytes before *head, as far as there is room; 0 when there was not. */
 static int prepend(char *out, size_t *head, const char *text, size_t size)
 {
-    if (size > *head) return 0;
+    if (size > *head)
+        return 0;
     *head -= size;
     memcpy(out + *head, text, size);
     return 1;
@@ -325,7 +364,8 @@ static int prepend_step(char *out, size_t *head, const json *doc, uint32_t node)
     if (doc->nodes[n->parent].kind == JSON_OBJECT)
         return prepend(out, head, doc->text + n->key_start, n->key_size) &&
                (doc->nodes[n->parent].parent == JSON_NONE || prepend(out, head, ".", 1));
-    for (i = n->parent + 1; i != node; i = doc->nodes[i].next) ++at;
+    for (i = n->parent + 1; i != node; i = doc->nodes[i].next)
+        ++at;
     snprintf(number, sizeof number, "[%u]", (unsigned)at);
     return prepend(out, head, number, strlen(number));
 }
@@ -338,7 +378,8 @@ void json_path(char *out, size_t cap, const json *doc, uint32_t node)
         snprintf(out, cap, "the document");
         return;
     }
-    while (doc->nodes[node].parent != JSON_NONE && prepend_step(out, &head, doc, node)) node = doc->nodes[node].parent;
+    while (doc->nodes[node].parent != JSON_NONE && prepend_step(out, &head, doc, node))
+        node = doc->nodes[node].parent;
     memmove(out, out + head, cap - head);
 }
 
@@ -357,10 +398,13 @@ int json_fail(const json *doc, uint32_t node, report *r, const char *format, ...
 int json_read_double(double *out, const json *doc, uint32_t node, report *r)
 {
     double value;
-    if (node == JSON_NONE) return 1;
-    if (doc->nodes[node].kind != JSON_NUMBER) return json_fail(doc, node, r, "must be a number");
+    if (node == JSON_NONE)
+        return 1;
+    if (doc->nodes[node].kind != JSON_NUMBER)
+        return json_fail(doc, node, r, "must be a number");
     value = strtod(doc->text + doc->nodes[node].start, NULL);
-    if (!(fabs(value) <= 1e300)) return json_fail(doc, node, r, "the number is too large");
+    if (!(fabs(value) <= 1e300))
+        return json_fail(doc, node, r, "the number is too large");
     *out = value;
     return 1;
 }
@@ -368,19 +412,23 @@ int json_read_double(double *out, const json *doc, uint32_t node, report *r)
 int json_read_doubles(double *out, uint32_t count, const json *doc, uint32_t node, report *r)
 {
     uint32_t i;
-    if (node == JSON_NONE) return 1;
+    if (node == JSON_NONE)
+        return 1;
     if (doc->nodes[node].kind != JSON_ARRAY || doc->nodes[node].count != count)
         return json_fail(doc, node, r, "must be an array of %u numbers", (unsigned)count);
     for (i = json_first(doc, node); i != JSON_NONE; i = doc->nodes[i].next)
-        if (!json_read_double(out++, doc, i, r)) return 0;
+        if (!json_read_double(out++, doc, i, r))
+            return 0;
     return 1;
 }
 
 int json_read_uint(uint32_t *out, const json *doc, uint32_t node, report *r)
 {
     double value = 0;
-    if (node == JSON_NONE) return 1;
-    if (!json_read_double(&value, doc, node, r)) return 0;
+    if (node == JSON_NONE)
+        return 1;
+    if (!json_read_double(&value, doc, node, r))
+        return 0;
     if (!(value >= 0.0 && value <= 4294967294.0) || value != floor(value))
         return json_fail(doc, node, r, "must be a whole number from 0 to 4294967294");
     *out = (uint32_t)value;
@@ -390,8 +438,10 @@ int json_read_uint(uint32_t *out, const json *doc, uint32_t node, report *r)
 int json_read_bool(int *out, const json *doc, uint32_t node, report *r)
 {
     uint32_t kind = json_kind(doc, node);
-    if (node == JSON_NONE) return 1;
-    if (kind != JSON_TRUE && kind != JSON_FALSE) return json_fail(doc, node, r, "must be true or false");
+    if (node == JSON_NONE)
+        return 1;
+    if (kind != JSON_TRUE && kind != JSON_FALSE)
+        return json_fail(doc, node, r, "must be true or false");
     *out = kind == JSON_TRUE;
     return 1;
 }
@@ -430,10 +480,12 @@ static size_t next_character(char out[4], const json *doc, uint32_t *at, uint32_
     size_t n = 1;
     out[0] = (char)c;
     if (c >= 0xC0) { /* the rest of a UTF-8 character, so that a cut falls between characters */
-        while (n < 4 && *at < end && ((unsigned char)doc->text[*at] & 0xC0) == 0x80) out[n++] = doc->text[(*at)++];
+        while (n < 4 && *at < end && ((unsigned char)doc->text[*at] & 0xC0) == 0x80)
+            out[n++] = doc->text[(*at)++];
         return n;
     }
-    if (c != '\\') return 1;
+    if (c != '\\')
+        return 1;
     c = (unsigned char)doc->text[(*at)++];
     if (c != 'u') {
         const char *found = strchr(from, c);
@@ -456,7 +508,8 @@ size_t json_string(char *out, size_t cap, const json *doc, uint32_t node)
     int full = 0;
     char *to = out;
     *to = '\0';
-    if (json_kind(doc, node) != JSON_STRING) return 0;
+    if (json_kind(doc, node) != JSON_STRING)
+        return 0;
     at = doc->nodes[node].start;
     end = at + doc->nodes[node].size;
     while (at < end) {
@@ -464,7 +517,8 @@ size_t json_string(char *out, size_t cap, const json *doc, uint32_t node)
         size_t n = next_character(bytes, doc, &at, end);
         full = full || n >= cap - (size_t)(to - out);
         length += n;
-        if (full) continue;
+        if (full)
+            continue;
         memcpy(to, bytes, n);
         to += n;
         *to = '\0';

@@ -11,7 +11,7 @@
 #include "report.h"
 
 enum { JSON_NULL, JSON_FALSE, JSON_TRUE, JSON_NUMBER, JSON_STRING, JSON_ARRAY, JSON_OBJECT };
-#define JSON_NONE UINT32_MAX /* no such node; every function below takes it for an absent value */
+#define JSON_NONE      UINT32_MAX /* no such node; every function below takes it for an absent value */
 #define JSON_MAX_DEPTH 64
 
 typedef struct json_node {
@@ -37,7 +37,7 @@ int json_parse(json *out, const char *text, size_t size, const char *name, repor
 void json_free(json *doc);
 
 /* Walking. All return JSON_NONE where there is nothing of that sort. */
-uint32_t json_kind(const json *doc, uint32_t node); /* JSON_NONE for no node */
+uint32_t json_kind(const json *doc, uint32_t node);  /* JSON_NONE for no node */
 uint32_t json_count(const json *doc, uint32_t node); /* children; 0 for anything but a container */
 uint32_t json_first(const json *doc, uint32_t node);
 uint32_t json_next(const json *doc, uint32_t node);
@@ -54,7 +54,7 @@ void json_path(char *out, size_t cap, const json *doc, uint32_t node);
  * An absent node leaves the output as it was and is fine. */
 int json_read_double(double *out, const json *doc, uint32_t node, report *r);
 int json_read_doubles(double *out, uint32_t count, const json *doc, uint32_t node, report *r); /* exactly count */
-int json_read_uint(uint32_t *out, const json *doc, uint32_t node, report *r); /* 0 .. 4294967294 */
+int json_read_uint(uint32_t *out, const json *doc, uint32_t node, report *r);                  /* 0 .. 4294967294 */
 int json_read_bool(int *out, const json *doc, uint32_t node, report *r);
 
 /* json_string: decode a string's escapes into out, cut at a whole character to cap - 1 bytes, 0-terminated.

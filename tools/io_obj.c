@@ -12,7 +12,7 @@
 #include "io_obj.h"
 #include "polygon.h"
 
-#define NONE UINT32_MAX
+#define NONE          UINT32_MAX
 #define MAX_LIBRARIES 64
 
 /* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given. */
@@ -37,7 +37,7 @@ typedef struct obj {
     model_build *b;
     census n;
     float *v, *vt, *vn;
-    uint8_t *colours; /* RGBA8 by v, or NULL */
+    uint8_t *colours;                     /* RGBA8 by v, or NULL */
     uint32_t v_count, vt_count, vn_count; /* so far: what negative numbers count back from */
     corner *corners;                      /* different ones */
     uint32_t corner_count;
@@ -61,7 +61,8 @@ static void count_face(census *n, cursor *c)
 {
     slice token;
     uint64_t corners = 0;
-    while (text_token(&token, c)) ++corners;
+    while (text_token(&token, c))
+        ++corners;
     n->corners += corners;
     n->triangles += corners > 2 ? corners - 2 : 0;
     n->widest = corners > n->widest ? corners : n->widest;
@@ -74,9 +75,11 @@ static census count_all(cursor c)
     memset(&n, 0, sizeof n);
     do {
         int numbers = 0;
-        if (!text_token(&word, &c)) continue;
+        if (!text_token(&word, &c))
+            continue;
         if (slice_is(word, "v")) {
-            while (numbers < 6 && text_token(&token, &c)) ++numbers;
+            while (numbers < 6 && text_token(&token, &c))
+                ++numbers;
             n.colours = n.colours || numbers == 6;
             ++n.v;
         } else if (slice_is(word, "vt")) {
@@ -96,7 +99,8 @@ static census count_all(cursor c)
 static uint64_t slots_for(uint64_t n)
 {
     uint64_t slots = 16;
-    while (slots < 2 * n) slots *= 2;
+    while (slots < 2 * n)
+        slots *= 2;
     return slots;
 }
 
@@ -104,11 +108,12 @@ static int allocate_names(obj *o)
 {
     const uint64_t n = o->n.names + 1, slots = slots_for(n);
     uint32_t slot;
-    slice nothing = { "", 0 };
+    slice nothing = {"", 0};
     o->names.items = (obj_material *)build_scratch(o->b, n, sizeof *o->names.items);
     o->names.slots = (uint32_t *)build_scratch(o->b, slots, sizeof *o->names.slots);
     o->names.mask = (uint32_t)(slots - 1);
-    if (!o->names.items || !o->names.slots) return 0;
+    if (!o->names.items || !o->names.slots)
+        return 0;
     o->names.items[0].name = nothing;
     obj_find(&o->names, nothing, &slot);
     o->names.slots[slot] = 1;
@@ -134,7 +139,8 @@ static int allocate(obj *o)
     o->face_cut = (uint32_t *)build_scratch(o->b, n->widest, 3 * sizeof *o->face_cut);
     o->face_links = (uint32_t *)build_scratch(o->b, n->widest, 2 * sizeof *o->face_links);
     o->face_points = (double *)build_scratch(o->b, n->widest, 3 * sizeof *o->face_points);
-    if (n->colours && !(o->colours = (uint8_t *)build_scratch(o->b, n->v, 4))) return 0;
+    if (n->colours && !(o->colours = (uint8_t *)build_scratch(o->b, n->v, 4)))
+        return 0;
     return o->v && o->vt && o->vn && o->corners && o->slots && o->triangles && o->face && o->face_number &&
            o->face_cut && o->face_links && o->face_points && allocate_names(o);
 }
@@ -164,8 +170,10 @@ static int read_v(obj *o, cursor *c)
     double v[7];
     int n, i;
     uint8_t *colour = o->colours ? o->colours + 4 * (size_t)o->v_count : NULL;
-    if (!read_numbers(v, &n, 3, 7, c, o->b->r)) return 0;
-    for (i = 0; i < 3; ++i) o->v[3 * (size_t)o->v_count + (size_t)i] = to_float(v[i]);
+    if (!read_numbers(v, &n, 3, 7, c, o->b->r))
+        return 0;
+    for (i = 0; i < 3; ++i)
+        o->v[3 * (size_t)o->v_count + (size_t)i] = to_float(v[i]);
     for (i = 0; colour && i < 4; ++i) {
         const double value = i < 3 && n >= 6 ? v[3 + i] : 1;
         colour[i] = value > 0 ? value < 1 ? (uint8_t)(value * 255 + 0.5) : 255 : 0;
@@ -179,9 +187,10 @@ static float sane_uv(double v) { return v > -1e6 && v < 1e6 ? (float)v : 0.0f; }
 /* OBJ counts v upwards from the image's foot, lambent downwards from its top. */
 static int read_vt(obj *o, cursor *c)
 {
-    double v[3] = { 0, 0, 0 };
+    double v[3] = {0, 0, 0};
     int n;
-    if (!read_numbers(v, &n, 1, 3, c, o->b->r)) return 0;
+    if (!read_numbers(v, &n, 1, 3, c, o->b->r))
+        return 0;
     o->vt[2 * (size_t)o->vt_count] = sane_uv(v[0]);
     o->vt[2 * (size_t)o->vt_count + 1] = sane_uv(1 - v[1]);
     ++o->vt_count;
@@ -192,14 +201,16 @@ static int read_vn(obj *o, cursor *c)
 {
     double v[3], d;
     int n, i;
-    if (!read_numbers(v, &n, 3, 3, c, o->b->r)) return 0;
+    if (!read_numbers(v, &n, 3, 3, c, o->b->r))
+        return 0;
     d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     if (!(d > 1e-20 && d < 1e30)) {
         v[0] = v[2] = 0;
         v[1] = d = 1;
         ++o->zero_normals;
     }
-    for (i = 0; i < 3; ++i) o->vn[3 * (size_t)o->vn_count + (size_t)i] = (float)(v[i] / d);
+    for (i = 0; i < 3; ++i)
+        o->vn[3 * (size_t)o->vn_count + (size_t)i] = (float)(v[i] / d);
     ++o->vn_count;
     return 1;
 }
@@ -228,7 +239,8 @@ static slice cut_at_slash(slice *token)
 {
     slice part = *token;
     part.size = 0;
-    while (part.size < token->size && token->at[part.size] != '/') ++part.size;
+    while (part.size < token->size && token->at[part.size] != '/')
+        ++part.size;
     token->at += part.size;
     token->size -= part.size;
     if (token->size) {
@@ -243,8 +255,10 @@ static int read_corner(corner *out, const obj *o, slice token, cursor *c)
 {
     const slice v = cut_at_slash(&token), vt = cut_at_slash(&token), vn = token;
     out->vt = out->vn = NONE;
-    if (!resolve(&out->v, v, o->n.v, o->v_count, "v", c, o->b->r)) return 0;
-    if (vt.size && !resolve(&out->vt, vt, o->n.vt, o->vt_count, "vt", c, o->b->r)) return 0;
+    if (!resolve(&out->v, v, o->n.v, o->v_count, "v", c, o->b->r))
+        return 0;
+    if (vt.size && !resolve(&out->vt, vt, o->n.vt, o->vt_count, "vt", c, o->b->r))
+        return 0;
     return !vn.size || resolve(&out->vn, vn, o->n.vn, o->vn_count, "vn", c, o->b->r);
 }
 
@@ -255,7 +269,8 @@ static uint32_t intern(obj *o, const corner *key)
     hash ^= hash >> 15;
     for (slot = hash & o->slot_mask; o->slots[slot] != 0; slot = (slot + 1) & o->slot_mask) {
         const corner *known = &o->corners[o->slots[slot] - 1];
-        if (known->v == key->v && known->vt == key->vt && known->vn == key->vn) return o->slots[slot] - 1;
+        if (known->v == key->v && known->vt == key->vt && known->vn == key->vn)
+            return o->slots[slot] - 1;
     }
     o->corners[o->corner_count] = *key;
     o->slots[slot] = ++o->corner_count;
@@ -268,14 +283,18 @@ static void cut_face(obj *o, uint32_t n, int with_normals)
 {
     uint32_t i, k;
     for (i = 0; i < n; ++i) {
-        if (!with_normals) o->face[i].vn = NONE;
+        if (!with_normals)
+            o->face[i].vn = NONE;
         o->face_number[i] = intern(o, &o->face[i]);
-        for (k = 0; k < 3; ++k) o->face_points[3 * (size_t)i + k] = (double)o->v[3 * (size_t)o->face[i].v + k];
+        for (k = 0; k < 3; ++k)
+            o->face_points[3 * (size_t)i + k] = (double)o->v[3 * (size_t)o->face[i].v + k];
     }
-    if (!polygon_cut(o->face_cut, o->face_points, n, o->face_links)) ++o->overlapping;
+    if (!polygon_cut(o->face_cut, o->face_points, n, o->face_links))
+        ++o->overlapping;
     for (i = 0; i < n - 2; ++i) {
         triangle *t = &o->triangles[o->triangle_count++];
-        for (k = 0; k < 3; ++k) t->corner[k] = o->face_number[o->face_cut[3 * (size_t)i + k]];
+        for (k = 0; k < 3; ++k)
+            t->corner[k] = o->face_number[o->face_cut[3 * (size_t)i + k]];
         t->group = 2 * o->material + (uint32_t)with_normals;
     }
 }
@@ -286,7 +305,8 @@ static int read_face(obj *o, cursor *c)
     uint32_t n = 0;
     int with_normals = 1;
     while (text_token(&token, c)) {
-        if (!read_corner(&o->face[n], o, token, c)) return 0;
+        if (!read_corner(&o->face[n], o, token, c))
+            return 0;
         with_normals = with_normals && o->face[n].vn != NONE;
         ++n;
     }
@@ -303,7 +323,8 @@ static void use_material(obj *o, cursor *c)
     uint32_t slot;
     text_rest(&name, c);
     o->material = obj_find(&o->names, name, &slot);
-    if (o->material != UINT32_MAX) return;
+    if (o->material != UINT32_MAX)
+        return;
     o->material = o->names.count++;
     o->names.items[o->material].name = name;
     o->names.slots[slot] = o->names.count;
@@ -315,7 +336,8 @@ static void use_library(obj *o, cursor *c)
     uint32_t i;
     text_rest(&name, c);
     for (i = 0; i < o->library_count; ++i)
-        if (o->libraries[i].size == name.size && memcmp(o->libraries[i].at, name.at, name.size) == 0) return;
+        if (o->libraries[i].size == name.size && memcmp(o->libraries[i].at, name.at, name.size) == 0)
+            return;
     if (o->library_count < MAX_LIBRARIES)
         o->libraries[o->library_count++] = name;
     else
@@ -325,13 +347,20 @@ static void use_library(obj *o, cursor *c)
 static int read_line(obj *o, cursor *c)
 {
     slice word;
-    if (!text_token(&word, c)) return 1;
-    if (slice_is(word, "v")) return read_v(o, c);
-    if (slice_is(word, "vt")) return read_vt(o, c);
-    if (slice_is(word, "vn")) return read_vn(o, c);
-    if (slice_is(word, "f")) return read_face(o, c);
-    if (slice_is(word, "usemtl")) use_material(o, c);
-    if (slice_is(word, "mtllib")) use_library(o, c);
+    if (!text_token(&word, c))
+        return 1;
+    if (slice_is(word, "v"))
+        return read_v(o, c);
+    if (slice_is(word, "vt"))
+        return read_vt(o, c);
+    if (slice_is(word, "vn"))
+        return read_vn(o, c);
+    if (slice_is(word, "f"))
+        return read_face(o, c);
+    if (slice_is(word, "usemtl"))
+        use_material(o, c);
+    if (slice_is(word, "mtllib"))
+        use_library(o, c);
     o->points_lines += slice_is(word, "l") || slice_is(word, "p");
     return 1;
 }
@@ -345,7 +374,8 @@ static int make_materials(obj *o)
     model_build *b = o->b;
     b->materials = (lmb_material *)build_keep(b, o->names.count, sizeof *b->materials);
     b->textures = (lmb_texture *)build_keep(b, o->names.count, sizeof *b->textures);
-    if (!b->materials || !b->textures) return 0;
+    if (!b->materials || !b->textures)
+        return 0;
     b->material_count = o->names.count;
     for (i = 0; i < o->names.count; ++i) {
         lmb_material *m = &b->materials[i];
@@ -356,9 +386,12 @@ static int make_materials(obj *o)
         m->flags = LMB_DOUBLE_SIDED;
     }
     for (i = 0; i < o->library_count; ++i)
-        if (!mtl_load(b, &o->names, o->libraries[i])) return 0;
-    for (i = 1; i < o->names.count; ++i) undefined += !o->names.items[i].defined;
-    if (undefined) build_note(b, "%u materials that no library describes, drawn grey", (unsigned)undefined);
+        if (!mtl_load(b, &o->names, o->libraries[i]))
+            return 0;
+    for (i = 1; i < o->names.count; ++i)
+        undefined += !o->names.items[i].defined;
+    if (undefined)
+        build_note(b, "materials that no library describes, drawn grey: %u", (unsigned)undefined);
     return mtl_textures(b, &o->names);
 }
 
@@ -371,10 +404,14 @@ static int sort_by_group(uint32_t **sorted, uint32_t **starts, obj *o)
     uint32_t i;
     *sorted = (uint32_t *)build_scratch(o->b, o->triangle_count, sizeof **sorted);
     *starts = (uint32_t *)build_scratch(o->b, (uint64_t)groups + 2, sizeof **starts);
-    if (!*sorted || !*starts) return 0;
-    for (i = 0; i < o->triangle_count; ++i) ++(*starts)[o->triangles[i].group + 2];
-    for (i = 2; i < groups + 2; ++i) (*starts)[i] += (*starts)[i - 1];
-    for (i = 0; i < o->triangle_count; ++i) (*sorted)[(*starts)[o->triangles[i].group + 1]++] = i;
+    if (!*sorted || !*starts)
+        return 0;
+    for (i = 0; i < o->triangle_count; ++i)
+        ++(*starts)[o->triangles[i].group + 2];
+    for (i = 2; i < groups + 2; ++i)
+        (*starts)[i] += (*starts)[i - 1];
+    for (i = 0; i < o->triangle_count; ++i)
+        (*sorted)[(*starts)[o->triangles[i].group + 1]++] = i;
     return 1;
 }
 
@@ -386,7 +423,8 @@ static uint32_t number_corners(uint32_t *local, uint32_t *used, const obj *o, co
     for (i = 0; i < n; ++i)
         for (k = 0; k < 3; ++k) {
             const uint32_t corner_number = o->triangles[list[i]].corner[k];
-            if (local[corner_number]) continue;
+            if (local[corner_number])
+                continue;
             used[count++] = corner_number;
             local[corner_number] = count;
         }
@@ -398,7 +436,8 @@ static int fill_indices(lmb_mesh *out, const obj *o, const uint32_t *local, cons
     const int small = out->vertex_count <= 65536;
     void *indices = build_keep(o->b, 3 * (uint64_t)out->triangle_count, small ? 2 : 4);
     uint32_t i, k;
-    if (!indices) return 0;
+    if (!indices)
+        return 0;
     for (i = 0; i < out->triangle_count; ++i)
         for (k = 0; k < 3; ++k) {
             const uint32_t number = local[o->triangles[list[i]].corner[k]] - 1;
@@ -417,11 +456,13 @@ static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
     float *positions = (float *)build_keep(o->b, out->vertex_count, 3 * sizeof *positions);
     uint8_t *colours = o->colours ? (uint8_t *)build_keep(o->b, out->vertex_count, 4) : NULL;
     uint32_t i;
-    if (!positions || (o->colours && !colours)) return 0;
+    if (!positions || (o->colours && !colours))
+        return 0;
     for (i = 0; i < out->vertex_count; ++i) {
         const size_t v = o->corners[used[i]].v;
         memcpy(positions + 3 * (size_t)i, o->v + 3 * v, 3 * sizeof *positions);
-        if (colours) memcpy(colours + 4 * (size_t)i, o->colours + 4 * v, 4);
+        if (colours)
+            memcpy(colours + 4 * (size_t)i, o->colours + 4 * v, 4);
     }
     out->positions = positions;
     out->colours = colours;
@@ -434,10 +475,12 @@ static int fill_uvs(lmb_mesh *out, const obj *o, const uint32_t *used)
 {
     float *uvs = (float *)build_keep(o->b, out->vertex_count, 2 * sizeof *uvs);
     uint32_t i;
-    if (!uvs) return 0;
+    if (!uvs)
+        return 0;
     for (i = 0; i < out->vertex_count; ++i) {
         const uint32_t vt = o->corners[used[i]].vt;
-        if (vt != NONE) memcpy(uvs + 2 * (size_t)i, o->vt + 2 * (size_t)vt, 2 * sizeof *uvs);
+        if (vt != NONE)
+            memcpy(uvs + 2 * (size_t)i, o->vt + 2 * (size_t)vt, 2 * sizeof *uvs);
     }
     out->uvs = uvs;
     out->uv_format = LMB_UV_F32;
@@ -448,10 +491,11 @@ static int fill_normals(lmb_mesh *out, const obj *o, const uint32_t *used)
 {
     int16_t *codes = (int16_t *)build_keep(o->b, out->vertex_count, 2 * sizeof *codes);
     uint32_t i;
-    if (!codes) return 0;
+    if (!codes)
+        return 0;
     for (i = 0; i < out->vertex_count; ++i) {
         const float *n = o->vn + 3 * (size_t)o->corners[used[i]].vn;
-        const lmb_vec3 unit = { n[0], n[1], n[2] };
+        const lmb_vec3 unit = {n[0], n[1], n[2]};
         lmb_octahedral_encode(codes + 2 * (size_t)i, unit);
     }
     out->normals = codes;
@@ -462,10 +506,14 @@ static int fill_mesh(lmb_mesh *out, const obj *o, uint32_t group, const uint32_t
 {
     uint32_t i;
     out->vertex_count = number_corners(local, used, o, list, out->triangle_count);
-    if (!fill_indices(out, o, local, list) || !fill_positions(out, o, used)) return 0;
-    if (o->b->materials[group / 2].texture >= 0 && !fill_uvs(out, o, used)) return 0;
-    if (group % 2 && !fill_normals(out, o, used)) return 0;
-    for (i = 0; i < out->vertex_count; ++i) local[used[i]] = 0;
+    if (!fill_indices(out, o, local, list) || !fill_positions(out, o, used))
+        return 0;
+    if (o->b->materials[group / 2].texture >= 0 && !fill_uvs(out, o, used))
+        return 0;
+    if (group % 2 && !fill_normals(out, o, used))
+        return 0;
+    for (i = 0; i < out->vertex_count; ++i)
+        local[used[i]] = 0;
     return 1;
 }
 
@@ -486,27 +534,33 @@ static int make_meshes(obj *o)
     uint32_t *used = (uint32_t *)build_scratch(b, o->corner_count, sizeof *used);
     b->meshes = (lmb_mesh *)build_keep(b, groups, sizeof *b->meshes);
     b->instances = (lmb_instance *)build_keep(b, groups, sizeof *b->instances);
-    if (!local || !used || !b->meshes || !b->instances || !sort_by_group(&sorted, &starts, o)) return 0;
+    if (!local || !used || !b->meshes || !b->instances || !sort_by_group(&sorted, &starts, o))
+        return 0;
     for (g = 0; g < groups; ++g) {
         lmb_mesh *mesh = &b->meshes[b->mesh_count];
         mesh->triangle_count = starts[g + 1] - starts[g];
-        if (mesh->triangle_count == 0) continue;
-        if (!fill_mesh(mesh, o, g, sorted + starts[g], local, used)) return 0;
+        if (mesh->triangle_count == 0)
+            continue;
+        if (!fill_mesh(mesh, o, g, sorted + starts[g], local, used))
+            return 0;
         place(&b->instances[b->instance_count++], b->mesh_count++, g / 2);
     }
     return 1;
 }
 
+static void note_count(const obj *o, const char *what, uint32_t count)
+{
+    if (count)
+        build_note(o->b, "%s: %u", what, (unsigned)count);
+}
+
 static void tell_left_out(const obj *o)
 {
-    if (o->points_lines) build_note(o->b, "%u elements of points or lines skipped", (unsigned)o->points_lines);
-    if (o->degenerate) build_note(o->b, "%u faces with fewer than 3 corners skipped", (unsigned)o->degenerate);
-    if (o->overlapping)
-        build_note(o->b, "%u concave faces of more than %d corners may overlap themselves", (unsigned)o->overlapping,
-                   POLYGON_MAX_CONCAVE);
-    if (o->zero_normals) build_note(o->b, "%u normals without length, set to +Y", (unsigned)o->zero_normals);
-    if (o->library_extra)
-        build_note(o->b, "more than %d material libraries; %u left out", MAX_LIBRARIES, (unsigned)o->library_extra);
+    note_count(o, "elements of points or lines skipped", o->points_lines);
+    note_count(o, "faces with fewer than 3 corners skipped", o->degenerate);
+    note_count(o, "concave faces of over 1000 corners, which may overlap themselves", o->overlapping);
+    note_count(o, "normals without length, set to +Y", o->zero_normals);
+    note_count(o, "material libraries left out after the first 64", o->library_extra);
 }
 
 int obj_load(model_build *b, const uint8_t *data, size_t size)
@@ -516,12 +570,16 @@ int obj_load(model_build *b, const uint8_t *data, size_t size)
     memset(&o, 0, sizeof o);
     o.b = b;
     o.n = count_all(c);
-    if (o.n.triangles == 0) return report_fail(b->r, "%s: no faces; give a polygon model", b->path);
-    if (!allocate(&o)) return 0;
+    if (o.n.triangles == 0)
+        return report_fail(b->r, "%s: no faces; give a polygon model", b->path);
+    if (!allocate(&o))
+        return 0;
     do {
-        if (!read_line(&o, &c)) return 0;
+        if (!read_line(&o, &c))
+            return 0;
     } while (text_next_line(&c));
-    if (!make_materials(&o) || !make_meshes(&o)) return 0;
+    if (!make_materials(&o) || !make_meshes(&o))
+        return 0;
     tell_left_out(&o);
     return 1;
 }

@@ -19,19 +19,19 @@ typedef struct cursor {
 
 /* io_text.c: tokens. A comment, or the line's end unless a backslash stands before it, ends a line. */
 cursor text_open(const uint8_t *data, size_t size, const char *path);
-int text_token(slice *out, cursor *c);     /* the next on this line; 0 at its end */
-void text_rest(slice *out, cursor *c);     /* what remains of this line (not of one it goes on in), outer blanks cut */
-int text_next_line(cursor *c);             /* 0 at the end of the text */
+int text_token(slice *out, cursor *c); /* the next on this line; 0 at its end */
+void text_rest(slice *out, cursor *c); /* what remains of this line (not of one it goes on in), outer blanks cut */
+int text_next_line(cursor *c);         /* 0 at the end of the text */
 int slice_is(slice s, const char *word);
-int slice_number(double *out, slice s);    /* 0: not a number; inf and nan are numbers */
-int slice_integer(int64_t *out, slice s);  /* 0: not one of at most 18 digits */
+int slice_number(double *out, slice s);   /* 0: not a number; inf and nan are numbers */
+int slice_integer(int64_t *out, slice s); /* 0: not one of at most 18 digits */
 int text_fail(const cursor *c, report *r, const char *format, ...) REPORT_PRINTF(3, 4);
 
 /* One name that usemtl gave; [0] stands for faces before any. */
 typedef struct obj_material {
     slice name;
-    char *map;     /* map_Kd's path, or NULL */
-    int defined;   /* an MTL file describes it */
+    char *map;   /* map_Kd's path, or NULL */
+    int defined; /* an MTL file describes it */
     int has_kd;
     uint8_t wrap;
 } obj_material;

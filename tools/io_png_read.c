@@ -1,7 +1,7 @@
 /* io_png_read.c: PNG pictures from memory, every colour type and depth, as 8-bit RGBA.
  *
- * Memory beside the file: a copy of its image data, the rows (at most 1032 times the image data, deflate's best) and the
- * texels (at most 32 times the rows, for 1-bit pictures), which are not taken before the rows have been inflated.
+ * Memory beside the file: a copy of its image data, the rows (at most 1032 times the image data, deflate's best) and
+ * the texels (at most 32 times the rows, for 1-bit pictures), which are not taken before the rows have been inflated.
  * Bytes behind IEND are ignored; anything else that the specification forbids is refused. */
 #include "image.h"
 #include "io_png.h"
@@ -176,8 +176,8 @@ static int read_chunk(png_reader *p, const png_chunk *c)
     if (is_type(c, "tRNS")) return read_transparency(p, c);
     if (is_type(c, "IHDR")) return misplaced(p, c);
     if (c->type[0] >= 'a') return 1; /* ancillary: the picture is whole without it */
-    return report_fail(p->r, "%s: chunk %s at byte %zu is not known, yet needed; save the picture as plain PNG", p->name,
-                       c->type, c->at);
+    return report_fail(p->r, "%s: chunk %s at byte %zu is not known, yet needed; save the picture as plain PNG",
+                       p->name, c->type, c->at);
 }
 
 /* All chunks up to IEND, checked; afterwards IDAT chunks can be walked without looking. */
@@ -367,8 +367,8 @@ static uint8_t *inflate_rows(png_reader *p, size_t zeros, size_t size)
         free(joined);
         return rows;
     } else {
-        report_fail(p->r, "%s: image data (IDAT at byte %zu) does not inflate to the %zu bytes of %" PRIu32 " x %" PRIu32
-                    " pixels; the file is damaged", p->name, p->first_idat, size, p->width, p->height);
+        report_fail(p->r, "%s: image data (IDAT at byte %zu) does not inflate to the %zu bytes of %" PRIu32
+                    " x %" PRIu32 " pixels; the file is damaged", p->name, p->first_idat, size, p->width, p->height);
     }
     free(joined);
     free(rows);

@@ -26,7 +26,8 @@ static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *abov
 }
 
 /* All rows, each behind its filter's number. `trial` holds one row; `zeros` stands for the row above the first. */
-static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, int32_t height, uint8_t *trial, const uint8_t *zeros)
+static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, int32_t height, uint8_t *trial,
+                        const uint8_t *zeros)
 {
     const uint8_t *above = zeros;
     int32_t y;

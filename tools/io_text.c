@@ -13,7 +13,8 @@ cursor text_open(const uint8_t *data, size_t size, const char *path)
     c.end = size ? c.at + size : c.at;
     c.path = path;
     c.line = 1;
-    if (size >= 3 && memcmp(data, "\xEF\xBB\xBF", 3) == 0) c.at += 3;
+    if (size >= 3 && memcmp(data, "\xEF\xBB\xBF", 3) == 0)
+        c.at += 3;
     return c;
 }
 
@@ -23,7 +24,8 @@ static int is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == 
 static size_t continuation(const cursor *c)
 {
     const size_t left = (size_t)(c->end - c->at);
-    if (left >= 2 && c->at[0] == '\\' && c->at[1] == '\n') return 2;
+    if (left >= 2 && c->at[0] == '\\' && c->at[1] == '\n')
+        return 2;
     return left >= 3 && c->at[0] == '\\' && c->at[1] == '\r' && c->at[2] == '\n' ? 3 : 0;
 }
 
@@ -31,7 +33,8 @@ static void skip_blanks(cursor *c)
 {
     while (c->at < c->end) {
         const size_t n = continuation(c);
-        if (!n && !is_blank(*c->at)) return;
+        if (!n && !is_blank(*c->at))
+            return;
         c->line += n != 0;
         c->at += n ? n : 1;
     }
@@ -42,20 +45,25 @@ static int at_line_end(const cursor *c) { return c->at == c->end || *c->at == '\
 int text_token(slice *out, cursor *c)
 {
     skip_blanks(c);
-    if (at_line_end(c)) return 0;
+    if (at_line_end(c))
+        return 0;
     out->at = c->at;
-    while (c->at < c->end && *c->at != '\n' && !is_blank(*c->at) && !continuation(c)) ++c->at;
+    while (c->at < c->end && *c->at != '\n' && !is_blank(*c->at) && !continuation(c))
+        ++c->at;
     out->size = (size_t)(c->at - out->at);
     return 1;
 }
 
 void text_rest(slice *out, cursor *c)
 {
-    while (c->at < c->end && is_blank(*c->at)) ++c->at;
+    while (c->at < c->end && is_blank(*c->at))
+        ++c->at;
     out->at = c->at;
-    while (c->at < c->end && *c->at != '\n' && !continuation(c)) ++c->at;
+    while (c->at < c->end && *c->at != '\n' && !continuation(c))
+        ++c->at;
     out->size = (size_t)(c->at - out->at);
-    while (out->size && is_blank(out->at[out->size - 1])) --out->size;
+    while (out->size && is_blank(out->at[out->size - 1]))
+        --out->size;
 }
 
 int text_next_line(cursor *c)
@@ -65,7 +73,8 @@ int text_next_line(cursor *c)
         c->line += n != 0;
         c->at += n ? n : 1;
     }
-    if (c->at == c->end) return 0;
+    if (c->at == c->end)
+        return 0;
     ++c->at;
     ++c->line;
     return c->at < c->end;
@@ -77,7 +86,8 @@ int slice_is(slice s, const char *word) { return s.size == strlen(word) && memcm
 int slice_number(double *out, slice s)
 {
     char text[64], *end;
-    if (s.size == 0 || s.size >= sizeof text) return 0;
+    if (s.size == 0 || s.size >= sizeof text)
+        return 0;
     memcpy(text, s.at, s.size);
     text[s.size] = '\0';
     *out = strtod(text, &end);
@@ -89,9 +99,11 @@ int slice_integer(int64_t *out, slice s)
     const int negative = s.size > 0 && s.at[0] == '-';
     size_t i = (size_t)(negative || (s.size > 0 && s.at[0] == '+'));
     int64_t value = 0;
-    if (s.size == i || s.size - i > 18) return 0;
+    if (s.size == i || s.size - i > 18)
+        return 0;
     for (; i < s.size; ++i) {
-        if (s.at[i] < '0' || s.at[i] > '9') return 0;
+        if (s.at[i] < '0' || s.at[i] > '9')
+            return 0;
         value = value * 10 + (s.at[i] - '0');
     }
     *out = negative ? -value : value;

@@ -11,7 +11,8 @@
 void model_free(model *m)
 {
     uint32_t i;
-    for (i = 0; i < m->block_count; ++i) free(m->blocks[i]);
+    for (i = 0; i < m->block_count; ++i)
+        free(m->blocks[i]);
     free(m->blocks);
     memset(m, 0, sizeof *m);
 }
@@ -21,10 +22,13 @@ static int reserve_block(model *m)
 {
     uint32_t cap = m->block_cap ? m->block_cap * 2 : 64;
     void **grown;
-    if (m->block_count < m->block_cap) return 1;
-    if (cap > UINT32_MAX / 2 / sizeof *grown) return 0;
+    if (m->block_count < m->block_cap)
+        return 1;
+    if (cap > UINT32_MAX / 2 / sizeof *grown)
+        return 0;
     grown = (void **)realloc(m->blocks, cap * sizeof *grown);
-    if (!grown) return 0;
+    if (!grown)
+        return 0;
     m->blocks = grown;
     m->block_cap = cap;
     return 1;
@@ -34,10 +38,13 @@ static int reserve_block(model *m)
 static void *add_block(model *m, uint64_t count, size_t size)
 {
     void *block;
-    if (count == 0) count = 1;
-    if (count > SIZE_MAX / size || !reserve_block(m)) return NULL;
+    if (count == 0)
+        count = 1;
+    if (count > SIZE_MAX / size || !reserve_block(m))
+        return NULL;
     block = calloc((size_t)count, size);
-    if (block) m->blocks[m->block_count++] = block;
+    if (block)
+        m->blocks[m->block_count++] = block;
     return block;
 }
 
@@ -51,7 +58,8 @@ static void *build_alloc(model_build *b, model *m, uint64_t count, size_t size)
     }
     b->budget -= count * size;
     block = add_block(m, count, size);
-    if (!block) report_fail(b->r, "%s: out of memory; load a smaller model", b->path);
+    if (!block)
+        report_fail(b->r, "%s: out of memory; load a smaller model", b->path);
     return block;
 }
 
@@ -70,7 +78,8 @@ void build_note(model_build *b, const char *format, ...)
     vsnprintf(line, sizeof line, format, args);
     va_end(args);
     for (i = 0; i < n->count; ++i)
-        if (strcmp(n->line[i], line) == 0) return;
+        if (strcmp(n->line[i], line) == 0)
+            return;
     if (n->count == room) {
         snprintf(n->line[room - 1], sizeof line, "more notes than %u; the rest is left out", (unsigned)room);
         return;
@@ -80,7 +89,8 @@ void build_note(model_build *b, const char *format, ...)
 
 int build_read(model_build *b, file_bytes *out, const char *path, report *r)
 {
-    if (!file_read(out, path, r)) return 0;
+    if (!file_read(out, path, r))
+        return 0;
     b->budget += (uint64_t)out->size * MODEL_BYTES_PER_BYTE;
     return 1;
 }
@@ -97,7 +107,8 @@ int build_sibling(char *out, size_t cap, const model_build *b, const char *name,
     size_t folder, n = strlen(name);
 #if defined(_WIN32)
     const char *back = strrchr(b->path, '\\');
-    if (back && (!slash || back > slash)) slash = back;
+    if (back && (!slash || back > slash))
+        slash = back;
 #endif
     folder = slash ? (size_t)(slash - b->path) + 1 : 0;
     if (folder >= cap || n >= cap - folder)
@@ -117,7 +128,8 @@ static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, c
                     LMB_MAX_SIDE);
         return NULL;
     }
-    if (bytes <= b->texel_budget) texels = (uint8_t *)add_block(b->out, bytes, 1);
+    if (bytes <= b->texel_budget)
+        texels = (uint8_t *)add_block(b->out, bytes, 1);
     if (!texels) {
         report_fail(why, "%s: no memory left for textures; shrink them", name);
         return NULL;
@@ -133,7 +145,8 @@ int build_texels(model_build *b, lmb_texture *out, const uint8_t *png, size_t si
     bitmap map;
     int32_t levels;
     uint8_t *texels;
-    if (!png_decode(&map, png, size, name, why)) return 0;
+    if (!png_decode(&map, png, size, name, why))
+        return 0;
     levels = mips ? lmb_texture_level_count(map.width, map.height) : 1;
     texels = keep_texels(b, &map, levels, name, why);
     if (texels) {
@@ -141,7 +154,8 @@ int build_texels(model_build *b, lmb_texture *out, const uint8_t *png, size_t si
         out->width = (uint16_t)map.width;
         out->height = (uint16_t)map.height;
         out->levels = (uint8_t)levels;
-        if (levels > 1) lmb_texture_mips(texels, map.width, map.height, levels);
+        if (levels > 1)
+            lmb_texture_mips(texels, map.width, map.height, levels);
     }
     bitmap_free(&map);
     return texels != NULL;
@@ -179,7 +193,8 @@ static int finish(model_build *b)
 {
     lmb_scene *scene = &b->out->scene;
     lmb_status status;
-    if (!number_triangles(b)) return 0;
+    if (!number_triangles(b))
+        return 0;
     scene->meshes = b->meshes;
     scene->materials = b->materials;
     scene->textures = b->textures;
@@ -203,9 +218,11 @@ static int finish(model_build *b)
 static int has_extension(const char *path, const char *extension)
 {
     size_t n = strlen(path), e = strlen(extension), i;
-    if (n < e) return 0;
+    if (n < e)
+        return 0;
     for (i = 0; i < e; ++i)
-        if (tolower((unsigned char)path[n - e + i]) != extension[i]) return 0;
+        if (tolower((unsigned char)path[n - e + i]) != extension[i])
+            return 0;
     return 1;
 }
 
@@ -213,9 +230,12 @@ static int has_extension(const char *path, const char *extension)
 static int load_content(model_build *b, const file_bytes *file)
 {
     size_t i = 0;
-    if (file->size >= 4 && memcmp(file->data, "glTF", 4) == 0) return gltf_load(b, file->data, file->size);
-    if (has_extension(b->path, ".obj")) return obj_load(b, file->data, file->size);
-    while (i < file->size && strchr(" \t\r\n", file->data[i]) && file->data[i]) ++i;
+    if (file->size >= 4 && memcmp(file->data, "glTF", 4) == 0)
+        return gltf_load(b, file->data, file->size);
+    if (has_extension(b->path, ".obj"))
+        return obj_load(b, file->data, file->size);
+    while (i < file->size && strchr(" \t\r\n", file->data[i]) && file->data[i])
+        ++i;
     if (has_extension(b->path, ".gltf") || has_extension(b->path, ".glb") || (i < file->size && file->data[i] == '{'))
         return gltf_load(b, file->data, file->size);
     return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb or .obj file", b->path);
@@ -229,7 +249,8 @@ int model_load(model *out, const char *path, model_notes *notes, report *r)
     int ok;
     memset(out, 0, sizeof *out);
     memset(&b, 0, sizeof b);
-    if (!notes) notes = &unread;
+    if (!notes)
+        notes = &unread;
     notes->count = 0;
     b.out = out;
     b.notes = notes;
@@ -237,10 +258,12 @@ int model_load(model *out, const char *path, model_notes *notes, report *r)
     b.path = path;
     b.budget = MODEL_BYTES_FREE;
     b.texel_budget = MODEL_TEXEL_BYTES;
-    if (!build_read(&b, &file, path, r)) return 0;
+    if (!build_read(&b, &file, path, r))
+        return 0;
     ok = load_content(&b, &file) && finish(&b);
     file_free(&file);
     model_free(&b.scratch);
-    if (!ok) model_free(out);
+    if (!ok)
+        model_free(out);
     return ok;
 }

@@ -5,10 +5,10 @@
 #include "image.h"
 #include "model.h"
 
-#define MODEL_BYTES_PER_BYTE 96        /* memory a reader may take for each byte of input ... */
-#define MODEL_BYTES_FREE (16u << 20)   /* ... beside these */
-#define MODEL_TEXEL_BYTES (UINT64_C(1) << 32) /* of all decoded textures: PNG packs up to a thousandfold */
-#define MODEL_PATH_MAX 4096            /* bytes of a path that a reader composes */
+#define MODEL_BYTES_PER_BYTE 96                  /* memory a reader may take for each byte of input ... */
+#define MODEL_BYTES_FREE     (16u << 20)         /* ... beside these */
+#define MODEL_TEXEL_BYTES    (UINT64_C(1) << 32) /* of all decoded textures: PNG packs up to a thousandfold */
+#define MODEL_PATH_MAX       4096                /* bytes of a path that a reader composes */
 
 /* A scene under construction; the arrays are blocks of `out`. */
 typedef struct model_build {

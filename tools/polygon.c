@@ -33,7 +33,8 @@ static flat flatten(const double *points, uint32_t n)
     int axis;
     newell(normal, points, n);
     axis = fabs(normal[0]) > fabs(normal[1]) ? 0 : 1;
-    if (fabs(normal[2]) >= fabs(normal[axis])) axis = 2;
+    if (fabs(normal[2]) >= fabs(normal[axis]))
+        axis = 2;
     f.points = points;
     f.n = n;
     f.area = fabs(normal[axis]);
@@ -54,7 +55,8 @@ static int is_concave(const flat *f)
 {
     uint32_t i;
     for (i = 0; i < f->n; ++i)
-        if (turn(f, i, (i + 1) % f->n, (i + 2) % f->n) < -1e-9 * f->area) return 1;
+        if (turn(f, i, (i + 1) % f->n, (i + 2) % f->n) < -1e-9 * f->area)
+            return 1;
     return 0;
 }
 
@@ -69,10 +71,13 @@ static int same_place(const flat *f, uint32_t a, uint32_t b)
 static int is_ear(const flat *f, const uint32_t *next, uint32_t a, uint32_t b, uint32_t c)
 {
     uint32_t p;
-    if (!(turn(f, a, b, c) > 0)) return 0;
+    if (!(turn(f, a, b, c) > 0))
+        return 0;
     for (p = next[c]; p != a; p = next[p]) {
-        if (same_place(f, p, a) || same_place(f, p, b) || same_place(f, p, c)) continue;
-        if (turn(f, a, b, p) >= 0 && turn(f, b, c, p) >= 0 && turn(f, c, a, p) >= 0) return 0;
+        if (same_place(f, p, a) || same_place(f, p, b) || same_place(f, p, c))
+            continue;
+        if (turn(f, a, b, p) >= 0 && turn(f, b, c, p) >= 0 && turn(f, c, a, p) >= 0)
+            return 0;
     }
     return 1;
 }

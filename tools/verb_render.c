@@ -15,7 +15,7 @@
 #include "render_options.h"
 
 #define STAGES (LMB_STAGE_DONE + 1)
-#define MAP_TEXELS (16u << 20) /* over all lights' maps, by default: 128 MiB */
+#define MAP_TEXELS (2u << 20) /* over all lights' maps, by default: 16 MiB */
 
 /* One run, from the options to the picture. Everything here is freed by job_free. */
 typedef struct job {

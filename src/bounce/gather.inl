@@ -33,6 +33,11 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #endif
 
 #ifdef KERNEL
+#ifndef JUMP
+#define JUMP 0.02f
+#define SLOPE 2.0f
+#define GROUP_NEAR 2.0f
+#endif
 
 /* A vector of pixels in the viewer's frame, and the depth plane of each one's surface. */
 typedef struct seen_from {
@@ -62,7 +67,7 @@ static inline void march_place(lane *px, lane *py, lane *d, const lmb_march_job 
 }
 
 /* d of the plane through v with normal n, per px: d is affine in the map, and so are the rays' dot products with n. */
-static inline void march_plane(lane *dx, lane *dy, const lmb_march_job *m, lane3 v, lane3 n)
+static inline lane_mask march_plane(lane *dx, lane *dy, const lmb_march_job *m, lane3 v, lane3 n)
 {
     lane nx = lane3_dot(n, lane3_splat(m->right.x, m->right.y, m->right.z));
     lane ny = lane3_dot(n, lane3_splat(m->up.x, m->up.y, m->up.z));
@@ -79,6 +84,7 @@ static inline void march_plane(lane *dx, lane *dy, const lmb_march_job *m, lane3
     gain = lane_div(gain, lane_min(bottom, least));
     *dx = lane_mul(lane_mul(gain, nx), lane_splat(1.0f / m->scale_x));
     *dy = lane_mul(lane_mul(gain, ny), lane_splat(-1.0f / m->scale_y));
+    return lane_lt(bottom, least);
 }
 
 static inline seen_from march_begin(const lmb_march_job *m, const lmb_tile *tile, int k)
@@ -132,48 +138,130 @@ static inline lane march_read(const lmb_march_job *m, lane x, lane y)
     return lane_load(d);
 }
 
-/* Which of the wanted segments from the pixels to one emitter meet nothing that the viewer sees.
- *
- * In the map a segment is straight and d is affine along it. Heights are taken over the pixel's own surface plane: the
- * stored surface's at its texel's middle, against the segment's. So a flat receiver never shadows itself, however
- * grazing the view, and no bias needs tuning. */
-static inline lane_mask march(const lmb_march_job *m, const seen_from *s, float gx, float gy, float gz, lane_mask wanted)
+/* A run of segments in the map: from each pixel of a vector towards one emitter. */
+typedef struct march_run {
+    lane x, y;     /* px, over the whole segment */
+    lane rise;     /* d of the segment's end over the pixel's own surface plane */
+    lane end_x, end_y, end_d;       /* the emitter's place */
+    lane end_dx, end_dy, end_rise;  /* its plane: d per px; d of the segment's start over it */
+    lane w_end;    /* m along the view's axis */
+    lane end;      /* share of the segment that lies inside the frame */
+    lane pixel;    /* share of it that is one px */
+    lane samples;  /* one a px of it, at most m->steps */
+} march_run;
+
+static inline march_run march_towards(const lmb_march_job *m, const seen_from *s, lane3 at, lane3 axis)
 {
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f);
-    lane3 v = march_view(m, lane3_splat(gx, gy, gz));
-    lane wg = v.z;
+    march_run r;
+    lane3 v = march_view(m, at);
+    lane_mask level = march_plane(&r.end_dx, &r.end_dy, m, v, axis);
     if (m->perspective) { /* cut where the segment passes the near plane */
-        lane near_m = lane_splat(m->near_m), run = lane_sub(s->w, v.z);
+        lane near_m = lane_splat(m->near_m);
         lane_mask behind = lane_lt(v.z, near_m);
-        lane share = lane_div(lane_sub(s->w, near_m), lane_pick(behind, run, one));
-        share = lane_pick(behind, share, one);
+        lane run = lane_pick(behind, lane_sub(s->w, v.z), lane_splat(1.0f));
+        lane share = lane_pick(behind, lane_div(lane_sub(s->w, near_m), run), lane_splat(1.0f));
         v.x = lane_add(s->x, lane_mul(lane_sub(v.x, s->x), share));
         v.y = lane_add(s->y, lane_mul(lane_sub(v.y, s->y), share));
-        wg = lane_max(lane_add(s->w, lane_mul(lane_sub(v.z, s->w), share)), near_m);
-        v.z = wg;
+        v.z = lane_max(lane_add(s->w, lane_mul(lane_sub(v.z, s->w), share)), near_m);
     }
     lane px, py, d;
     march_place(&px, &py, &d, m, v);
-    const lane run_x = lane_sub(px, s->px), run_y = lane_sub(py, s->py);
-    /* Height of the segment's end over the receiver's plane, in d. */
-    const lane rise = lane_sub(lane_sub(d, s->d), lane_add(lane_mul(run_x, s->dx), lane_mul(run_y, s->dy)));
-    lane end = lane_min(march_inside(s->px, px, (float)m->depth->width), march_inside(s->py, py, (float)m->depth->height));
-    const lane last_x = lane_splat((float)(m->depth->width - 1)), last_y = lane_splat((float)(m->depth->height - 1));
-    const lane slack = lane_mul(lane_splat(m->slack), s->d);
-    lane_mask open = wanted;
+    r.x = lane_sub(px, s->px);
+    r.y = lane_sub(py, s->py);
+    r.rise = lane_sub(lane_sub(d, s->d), lane_add(lane_mul(r.x, s->dx), lane_mul(r.y, s->dy)));
+    r.w_end = v.z;
+    r.end_x = px;
+    r.end_y = py;
+    r.end_d = d;
+    /* An emitter turned away from the viewer is not in the map: no surface of its own to step over. */
+    r.end_rise = lane_sub(lane_sub(s->d, d), lane_sub(lane_splat(0.0f), lane_add(lane_mul(r.x, r.end_dx), lane_mul(r.y, r.end_dy))));
+    r.end_rise = lane_pick(level, r.end_rise, lane_splat(-1e30f));
+    r.end = lane_min(march_inside(s->px, px, (float)m->depth->width), march_inside(s->py, py, (float)m->depth->height));
+    const lane one = lane_splat(1.0f), zero = lane_splat(0.0f);
+    lane length = lane_max(lane_max(r.x, lane_sub(zero, r.x)), lane_max(r.y, lane_sub(zero, r.y)));
+    r.pixel = lane_div(one, lane_max(length, one));
+    r.samples = lane_trunc(lane_min(lane_add(lane_mul(length, r.end), one), lane_splat((float)m->steps)));
+    return r;
+}
+
+/* The stored d at share t of the segments, and how far it stands over them: positive, and the viewer's surface hides
+ * that place.
+ *
+ * Both heights are taken over the pixel's own surface plane, the stored one at its texel's middle. So a flat receiver
+ * never shadows itself, however grazing the view, and no bias needs tuning. */
+static inline lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
+{
+    const lane zero = lane_splat(0.0f), half = lane_splat(0.5f);
+    lane x = lane_add(s->px, lane_mul(r->x, t)), y = lane_add(s->py, lane_mul(r->y, t));
+    x = lane_trunc(lane_min(lane_max(x, zero), lane_splat((float)(m->depth->width - 1))));
+    y = lane_trunc(lane_min(lane_max(y, zero), lane_splat((float)(m->depth->height - 1))));
+    *stored = march_read(m, x, y);
+    lane off_x = lane_sub(lane_add(x, half), s->px), off_y = lane_sub(lane_add(y, half), s->py);
+    lane plane = lane_add(s->d, lane_add(lane_mul(off_x, s->dx), lane_mul(off_y, s->dy)));
+    lane ray = lane_add(plane, lane_mul(r->rise, t));
+    off_x = lane_sub(lane_add(x, half), r->end_x);
+    off_y = lane_sub(lane_add(y, half), r->end_y);
+    plane = lane_add(r->end_d, lane_add(lane_mul(off_x, r->end_dx), lane_mul(off_y, r->end_dy)));
+    ray = lane_max(ray, lane_add(plane, lane_mul(r->end_rise, lane_sub(lane_splat(1.0f), t))));
+    lane slack = lane_mul(lane_splat(m->slack), s->d);
+    return lane_sub(*stored, lane_add(ray, slack));
+}
+
+/* Where along the segments sample i lies: equal steps of the map, or of the world seen in the map. */
+static inline lane march_share(const lmb_march_job *m, const seen_from *s, const march_run *r, int i)
+{
+    lane t = lane_div(lane_splat((float)i + 0.5f), r->samples);
+    if (m->kind == LMB_OCCLUSION_VIEW_WORLD && m->perspective) {
+        return lane_div(lane_mul(t, r->w_end), lane_add(s->w, lane_mul(lane_sub(r->w_end, s->w), t)));
+    }
+    return lane_mul(t, r->end);
+}
+
+static inline lane march_gap(lane a, lane b) { return lane_max(lane_sub(a, b), lane_sub(b, a)); }
+
+/* Between two samples on different sides of the viewer's surface: does the segment cross it there, or only pass
+ * behind a silhouette? Halve the gap to about a pixel; a surface that then still jumps is two surfaces. */
+static inline lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from, lane to,
+                                      lane from_d, lane to_d, lane_mask from_hidden)
+{
+    for (int i = 0; i < 4; ++i) {
+        lane stored, middle = lane_mul(lane_add(from, to), lane_splat(0.5f));
+        lane_mask hidden = lane_lt(lane_splat(0.0f), march_height(&stored, m, s, r, middle));
+        lane_mask first = mask_not(mask_or(mask_and(hidden, mask_not(from_hidden)), mask_and(from_hidden, mask_not(hidden))));
+        from = lane_pick(first, middle, from);
+        from_d = lane_pick(first, stored, from_d);
+        to = lane_pick(first, to, middle);
+        to_d = lane_pick(first, to_d, stored);
+    }
+    lane before, after, jump = march_gap(from_d, to_d);
+    march_height(&before, m, s, r, lane_sub(from, r->pixel));
+    march_height(&after, m, s, r, lane_add(to, r->pixel));
+    lane slope = lane_max(march_gap(before, from_d), march_gap(to_d, after));
+    return lane_le(jump, lane_add(lane_mul(lane_splat(JUMP), lane_min(from_d, to_d)), lane_mul(lane_splat(SLOPE), slope)));
+}
+
+/* Which of the wanted segments from the pixels to one emitter cross nothing that the viewer sees.            [V25]
+ *
+ * In the map a segment is straight and d is affine along it. It may pass behind something, unseen, and come out again:
+ * that crosses no visible surface, so only a change of side without a silhouette blocks. */
+static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lane3 at, lane3 axis, lane_mask wanted)
+{
+    const lane zero = lane_splat(0.0f);
+    const march_run r = march_towards(m, s, at, axis);
+    lane_mask open = wanted, hidden_before = lane_lt(zero, zero);
+    lane before = zero, stored_before = s->d;
     for (int i = 0; i < m->steps && mask_bits(open); ++i) {
-        lane t = lane_splat(((float)i + 0.5f) / (float)m->steps);
-        t = m->kind == LMB_OCCLUSION_VIEW_WORLD && m->perspective /* equal steps of the world, seen in the map */
-                ? lane_div(lane_mul(t, wg), lane_add(s->w, lane_mul(lane_sub(wg, s->w), t)))
-                : lane_mul(t, end);
-        lane x = lane_add(s->px, lane_mul(run_x, t)), y = lane_add(s->py, lane_mul(run_y, t));
-        x = lane_trunc(lane_min(lane_max(x, zero), last_x));
-        y = lane_trunc(lane_min(lane_max(y, zero), last_y));
-        lane stored = march_read(m, x, y);
-        lane off_x = lane_sub(lane_add(x, half), s->px), off_y = lane_sub(lane_add(y, half), s->py);
-        lane over = lane_add(s->d, lane_add(lane_mul(off_x, s->dx), lane_mul(off_y, s->dy)));
-        over = lane_add(lane_add(over, lane_mul(rise, t)), slack);
-        open = mask_and(open, mask_not(mask_and(lane_lt(over, stored), lane_le(t, end))));
+        lane stored, t = march_share(m, s, &r, i);
+        lane_mask hidden = lane_lt(zero, march_height(&stored, m, s, &r, t));
+        lane_mask changed = mask_or(mask_and(hidden, mask_not(hidden_before)), mask_and(hidden_before, mask_not(hidden)));
+        changed = mask_and(mask_and(changed, open), lane_lt(lane_splat((float)i), r.samples));
+        if (mask_bits(changed)) {
+            lane_mask crosses = march_crosses(m, s, &r, before, t, stored_before, stored, hidden_before);
+            open = mask_and(open, mask_not(mask_and(changed, crosses)));
+        }
+        hidden_before = hidden;
+        before = t;
+        stored_before = stored;
     }
     return open;
 }
@@ -198,7 +286,7 @@ static void KERNEL(gather)(lmb_irradiance *inout, uint64_t *near_pixels, const l
         near_pixels[j] = 0;
     }
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const lane3 p = lane3_load(tile->position, k), n = lane3_load(tile->normal, k);
+        const lane3 p = lane3_load(tile->position, k), n = lane3_load(tile->normal, k), face = lane3_load(tile->face, k);
         const lane_mask hits = gather_hits(tile, k);
         seen_from from;
         if (mask_bits(hits) == 0) {
@@ -208,18 +296,18 @@ static void KERNEL(gather)(lmb_irradiance *inout, uint64_t *near_pixels, const l
             from = march_begin(m, tile, k);
         }
         for (int32_t j = 0; j < groups->count; ++j) {
-            float gx = groups->position[0][j], gy = groups->position[1][j], gz = groups->position[2][j];
-            lane near2 = lane_splat(groups->radius[j] * LMB_NEAR * (groups->radius[j] * LMB_NEAR));
-            lane3 to = lane3_sub(lane3_splat(gx, gy, gz), p);
+            const lane3 at = lane3_splat(groups->position[0][j], groups->position[1][j], groups->position[2][j]);
+            const lane3 axis = lane3_splat(groups->normal[0][j], groups->normal[1][j], groups->normal[2][j]);
+            lane near2 = lane_splat(groups->radius[j] * GROUP_NEAR * (groups->radius[j] * GROUP_NEAR));
+            lane3 to = lane3_sub(at, p);
             lane r2 = lane3_dot(to, to);
             lane_mask close = mask_and(hits, lane_lt(r2, near2));
             near_pixels[j] |= (uint64_t)mask_bits(close) << k;
-            lane weight = disc_factor(to, lane_max(r2, near2), n,
-                                      lane3_splat(groups->normal[0][j], groups->normal[1][j], groups->normal[2][j]),
-                                      lane_splat(groups->area[j]));
+            lane weight = disc_factor(to, lane_max(r2, near2), n, axis, lane_splat(groups->area[j]));
             lane_mask lit = mask_and(mask_and(hits, mask_not(close)), lane_lt(lane_splat(0.0f), weight));
+            lit = mask_and(lit, lane_lt(lane_splat(0.0f), lane3_dot(face, to)));
             if (m != NULL && mask_bits(lit)) {
-                lit = march(m, &from, gx, gy, gz, lit);
+                lit = march(m, &from, at, axis, lit);
             }
             if (mask_bits(lit)) {
                 gather_add(inout, k, lane_keep(lit, weight), groups->flux[0][j], groups->flux[1][j], groups->flux[2][j]);
@@ -248,7 +336,7 @@ static void KERNEL(gather_near)(lmb_irradiance *inout, uint64_t pixels, const lm
                                 uint32_t count, const lmb_march_job *m)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const lane3 p = lane3_load(tile->position, k), n = lane3_load(tile->normal, k);
+        const lane3 p = lane3_load(tile->position, k), n = lane3_load(tile->normal, k), face = lane3_load(tile->face, k);
         const uint32_t mine = (uint32_t)(pixels >> k) & ((1u << LANES) - 1u);
         seen_from from;
         if (mine == 0) {
@@ -267,17 +355,19 @@ static void KERNEL(gather_near)(lmb_irradiance *inout, uint64_t pixels, const lm
             float uu = dot3(d->axis_u, d->axis_u), vv = dot3(d->axis_v, d->axis_v), uv = dot3(d->axis_u, d->axis_v);
             float area = 4.0f * sqrtf(maxf(uu * vv - uv * uv, 0.0f)), half2 = uu + vv + 2.0f * absf(uv);
             lane near2 = lane_splat(half2 * (LMB_NEAR * LMB_NEAR));
-            lane3 to = lane3_sub(lane3_splat(d->position.x, d->position.y, d->position.z), p);
+            const lane3 at = lane3_splat(d->position.x, d->position.y, d->position.z);
+            const lane3 axis = lane3_splat(d->normal.x, d->normal.y, d->normal.z);
+            lane3 to = lane3_sub(at, p);
             lane r2 = lane3_dot(to, to);
             lane_mask close = mask_and(hits, lane_lt(r2, near2));
-            lane weight = disc_factor(to, lane_max(r2, near2), n, lane3_splat(d->normal.x, d->normal.y, d->normal.z),
-                                      lane_splat(area));
+            lane weight = disc_factor(to, lane_max(r2, near2), n, axis, lane_splat(area));
             if (mask_bits(close)) {
                 weight = gather_quads(weight, close, tile, k, d);
             }
             lane_mask lit = mask_and(hits, lane_lt(lane_splat(0.0f), weight));
+            lit = mask_and(lit, lane_lt(lane_splat(0.0f), lane3_dot(face, to)));
             if (m != NULL && mask_bits(lit)) {
-                lit = march(m, &from, d->position.x, d->position.y, d->position.z, lit);
+                lit = march(m, &from, at, axis, lit);
             }
             if (mask_bits(lit)) {
                 gather_add(inout, k, lane_keep(lit, weight), d->flux[0], d->flux[1], d->flux[2]);

@@ -9,7 +9,14 @@
 #include "../base/vec.h"
 
 #define LANES 4
-#define EACH for (int i = 0; i < LANES; ++i)
+/* Written out, not looped: gcc keeps a struct in registers only if its members have constant places. */
+#define EACH(...) \
+    do { \
+        { enum { i = 0 }; __VA_ARGS__; } \
+        { enum { i = 1 }; __VA_ARGS__; } \
+        { enum { i = 2 }; __VA_ARGS__; } \
+        { enum { i = 3 }; __VA_ARGS__; } \
+    } while (0)
 
 typedef struct lane {
     float v[LANES];
@@ -21,44 +28,44 @@ typedef struct lane_mask {
     uint32_t v[LANES];
 } lane_mask;
 
-static inline lane lane_splat(float a) { lane r; EACH r.v[i] = a; return r; }
-static inline lane lane_load(const float *p) { lane r; EACH r.v[i] = p[i]; return r; }
-static inline void lane_store(float *p, lane a) { EACH p[i] = a.v[i]; }
-static inline lane lane_add(lane a, lane b) { EACH a.v[i] = a.v[i] + b.v[i]; return a; }
-static inline lane lane_sub(lane a, lane b) { EACH a.v[i] = a.v[i] - b.v[i]; return a; }
-static inline lane lane_mul(lane a, lane b) { EACH a.v[i] = a.v[i] * b.v[i]; return a; }
-static inline lane lane_div(lane a, lane b) { EACH a.v[i] = a.v[i] / b.v[i]; return a; }
-static inline lane lane_sqrt(lane a) { EACH a.v[i] = sqrtf(a.v[i]); return a; }
-static inline lane lane_min(lane a, lane b) { EACH a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]; return a; }
-static inline lane lane_max(lane a, lane b) { EACH a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]; return a; }
-static inline lane_mask lane_lt(lane a, lane b) { lane_mask r; EACH r.v[i] = a.v[i] < b.v[i] ? ~0u : 0u; return r; }
-static inline lane_mask lane_le(lane a, lane b) { lane_mask r; EACH r.v[i] = a.v[i] <= b.v[i] ? ~0u : 0u; return r; }
-static inline lane lane_pick(lane_mask m, lane a, lane b) { EACH a.v[i] = m.v[i] ? a.v[i] : b.v[i]; return a; }
-static inline lane lane_keep(lane_mask m, lane a) { EACH a.v[i] = m.v[i] ? a.v[i] : 0.0f; return a; }
-static inline lane_mask mask_and(lane_mask a, lane_mask b) { EACH a.v[i] &= b.v[i]; return a; }
-static inline lane_mask mask_or(lane_mask a, lane_mask b) { EACH a.v[i] |= b.v[i]; return a; }
-static inline lane_mask mask_not(lane_mask a) { EACH a.v[i] = ~a.v[i]; return a; }
+static inline lane lane_splat(float a) { lane r; EACH(r.v[i] = a); return r; }
+static inline lane lane_load(const float *p) { lane r; EACH(r.v[i] = p[i]); return r; }
+static inline void lane_store(float *p, lane a) { EACH(p[i] = a.v[i]); }
+static inline lane lane_add(lane a, lane b) { EACH(a.v[i] = a.v[i] + b.v[i]); return a; }
+static inline lane lane_sub(lane a, lane b) { EACH(a.v[i] = a.v[i] - b.v[i]); return a; }
+static inline lane lane_mul(lane a, lane b) { EACH(a.v[i] = a.v[i] * b.v[i]); return a; }
+static inline lane lane_div(lane a, lane b) { EACH(a.v[i] = a.v[i] / b.v[i]); return a; }
+static inline lane lane_sqrt(lane a) { EACH(a.v[i] = sqrtf(a.v[i])); return a; }
+static inline lane lane_min(lane a, lane b) { EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lane lane_max(lane a, lane b) { EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lane_mask lane_lt(lane a, lane b) { lane_mask r; EACH(r.v[i] = a.v[i] < b.v[i] ? ~0u : 0u); return r; }
+static inline lane_mask lane_le(lane a, lane b) { lane_mask r; EACH(r.v[i] = a.v[i] <= b.v[i] ? ~0u : 0u); return r; }
+static inline lane lane_pick(lane_mask m, lane a, lane b) { EACH(a.v[i] = m.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lane lane_keep(lane_mask m, lane a) { EACH(a.v[i] = m.v[i] ? a.v[i] : 0.0f); return a; }
+static inline lane_mask mask_and(lane_mask a, lane_mask b) { EACH(a.v[i] &= b.v[i]); return a; }
+static inline lane_mask mask_or(lane_mask a, lane_mask b) { EACH(a.v[i] |= b.v[i]); return a; }
+static inline lane_mask mask_not(lane_mask a) { EACH(a.v[i] = ~a.v[i]); return a; }
 /* Bit i is lane i. */
-static inline uint32_t mask_bits(lane_mask a) { uint32_t r = 0; EACH r |= (a.v[i] & 1u) << i; return r; }
+static inline uint32_t mask_bits(lane_mask a) { uint32_t r = 0; EACH(r |= (a.v[i] & 1u) << i); return r; }
 
-static inline lanei lanei_splat(int32_t a) { lanei r; EACH r.v[i] = a; return r; }
-static inline lanei lanei_load(const int32_t *p) { lanei r; EACH r.v[i] = p[i]; return r; }
-static inline lanei lanei_add(lanei a, lanei b) { EACH a.v[i] = a.v[i] + b.v[i]; return a; }
-static inline lanei lanei_or(lanei a, lanei b) { EACH a.v[i] = a.v[i] | b.v[i]; return a; }
-static inline lane_mask lanei_not_negative(lanei a) { lane_mask r; EACH r.v[i] = a.v[i] >= 0 ? ~0u : 0u; return r; }
-static inline lane_mask lanei_equal(lanei a, lanei b) { lane_mask r; EACH r.v[i] = a.v[i] == b.v[i] ? ~0u : 0u; return r; }
+static inline lanei lanei_splat(int32_t a) { lanei r; EACH(r.v[i] = a); return r; }
+static inline lanei lanei_load(const int32_t *p) { lanei r; EACH(r.v[i] = p[i]); return r; }
+static inline lanei lanei_add(lanei a, lanei b) { EACH(a.v[i] = a.v[i] + b.v[i]); return a; }
+static inline lanei lanei_or(lanei a, lanei b) { EACH(a.v[i] = a.v[i] | b.v[i]); return a; }
+static inline lane_mask lanei_not_negative(lanei a) { lane_mask r; EACH(r.v[i] = a.v[i] >= 0 ? ~0u : 0u); return r; }
+static inline lane_mask lanei_equal(lanei a, lanei b) { lane_mask r; EACH(r.v[i] = a.v[i] == b.v[i] ? ~0u : 0u); return r; }
 /* Truncates; the caller clamps to the int32 range first. */
-static inline lanei lane_to_int(lane a) { lanei r; EACH r.v[i] = (int32_t)a.v[i]; return r; }
+static inline lanei lane_to_int(lane a) { lanei r; EACH(r.v[i] = (int32_t)a.v[i]); return r; }
 /* Toward zero, within the int32 range. */
-static inline lane lane_trunc(lane a) { EACH a.v[i] = (float)(int32_t)a.v[i]; return a; }
-static inline void lanei_store(int32_t *p, lanei a) { EACH p[i] = a.v[i]; }
+static inline lane lane_trunc(lane a) { EACH(a.v[i] = (float)(int32_t)a.v[i]); return a; }
+static inline void lanei_store(int32_t *p, lanei a) { EACH(p[i] = a.v[i]); }
 
 /* 16-bit memory: depth and ids. Values are 0 .. 65535, whole. */
-static inline lane lane_load_u16(const uint16_t *p) { lane r; EACH r.v[i] = (float)p[i]; return r; }
-static inline void lane_store_u16(uint16_t *p, lane a) { EACH p[i] = (uint16_t)a.v[i]; }
+static inline lane lane_load_u16(const uint16_t *p) { lane r; EACH(r.v[i] = (float)p[i]); return r; }
+static inline void lane_store_u16(uint16_t *p, lane a) { EACH(p[i] = (uint16_t)a.v[i]); }
 /* Write `id` where the mask is set. */
-static inline void lane_put_u16(uint16_t *p, uint32_t id, lane_mask m) { EACH if (m.v[i]) p[i] = (uint16_t)id; }
-static inline void lane_put_u32(uint32_t *p, uint32_t id, lane_mask m) { EACH if (m.v[i]) p[i] = id; }
+static inline void lane_put_u16(uint16_t *p, uint32_t id, lane_mask m) { EACH(if (m.v[i]) p[i] = (uint16_t)id); }
+static inline void lane_put_u32(uint32_t *p, uint32_t id, lane_mask m) { EACH(if (m.v[i]) p[i] = id); }
 
 #undef EACH
 #endif

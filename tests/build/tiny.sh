@@ -1,8 +1,9 @@
-# tiny.sh: the demo on a Cortex-M4F under qemu and here, both built tiny: equal pictures, and its RAM. MAKE BUILD set.
+# tiny.sh: the demo on a Cortex-M4F under qemu and here, both built tiny: equal pictures, and its RAM. MAKE BUILD in the
+# environment. Without cross compiler or qemu: skipped within `make check`, failed when asked for by itself.
 . tests/build/checks.sh
 
-if ! sh tests/build/tools.sh need arm-none-eabi-gcc qemu-system-arm; then
-    skip "the demo on a Cortex-M4F needs a cross compiler and qemu"
+if ! missing=$(sh tests/build/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then
+    skip "the demo on a Cortex-M4F: $missing"
     [ -n "$IN_CHECK" ] && finish
     exit 1
 fi

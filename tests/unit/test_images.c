@@ -1,4 +1,4 @@
-/* test_images.c: the picture files: what is written reads back, every kind of PNG, and nothing that damaged files do. */
+/* test_images.c: the picture files: what is written reads back, every kind of PNG, and what damaged files do. */
 #if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
 #define _XOPEN_SOURCE 700 /* directories and links */
 #endif
@@ -12,6 +12,8 @@
 
 #ifndef _WIN32
 #include <dirent.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #endif
@@ -113,10 +115,12 @@ static void check_deflate_damage(test_rng *rng)
 /* Streams of zlib 1.2: 300 bytes (i * i / 7) & 15, in a dynamic and in a fixed block. */
 static void check_inflate_known(void)
 {
-    static const uint8_t dynamic[] = {0x78, 0xda, 0xe5, 0xcb, 0xcb, 0x0d, 0x00, 0x20, 0x08, 0x04, 0xd1, 0xe5, 0x17, 0xd9,
-                                      0x40, 0xb0, 0xff, 0x6e, 0xd5, 0x3a, 0x9c, 0x77, 0x1e, 0x00, 0xa2, 0x16, 0x8b, 0x35,
-                                      0xe2, 0xd9, 0x70, 0x8e, 0x71, 0x47, 0x29, 0x91, 0x17, 0xb5, 0x62, 0xd3, 0x86, 0x8e,
-                                      0x4e, 0x97, 0x29, 0xae, 0x30, 0x15, 0xbc, 0xbe, 0xfb, 0x0e, 0x12, 0x4b, 0x06, 0xe8};
+    static const uint8_t dynamic[] = {
+        0x78, 0xda, 0xe5, 0xcb, 0xcb, 0x0d, 0x00, 0x20, 0x08, 0x04, 0xd1, 0xe5, 0x17, 0xd9,
+        0x40, 0xb0, 0xff, 0x6e, 0xd5, 0x3a, 0x9c, 0x77, 0x1e, 0x00, 0xa2, 0x16, 0x8b, 0x35,
+        0xe2, 0xd9, 0x70, 0x8e, 0x71, 0x47, 0x29, 0x91, 0x17, 0xb5, 0x62, 0xd3, 0x86, 0x8e,
+        0x4e, 0x97, 0x29, 0xae, 0x30, 0x15, 0xbc, 0xbe, 0xfb, 0x0e, 0x12, 0x4b, 0x06, 0xe8
+    };
     static const uint8_t fixed[] = {0x78, 0x01, 0x63, 0x60, 0x60, 0x60, 0x64, 0x62, 0x66, 0x65, 0xe7, 0xe4, 0xe6,
                                     0x63, 0x64, 0xe1, 0xe0, 0x61, 0x60, 0xe1, 0xe4, 0x63, 0xe6, 0xe4, 0x67, 0xe5,
                                     0x66, 0xe2, 0x64, 0xe0, 0x00, 0x42, 0x4e, 0x26, 0x6e, 0x56, 0x7e, 0x4e, 0x66,
@@ -132,7 +136,7 @@ static void check_inflate_known(void)
 
 /* A zlib stream put together bit by bit. */
 typedef struct bit_stream {
-    uint8_t data[128];
+    uint8_t data[512];
     size_t bits;
 } bit_stream;
 
@@ -158,7 +162,7 @@ static void start(bit_stream *s, int type)
 /* The checksum of `text`, then: does the stream give just it? */
 static int gives(bit_stream *s, const char *text)
 {
-    uint8_t out[64];
+    static uint8_t out[40000];
     size_t n = strlen(text), i;
     uint32_t sum = adler_bytewise((const uint8_t *)text, n);
     s->bits = (s->bits + 7) / 8 * 8;
@@ -166,16 +170,16 @@ static int gives(bit_stream *s, const char *text)
     return inflate_zlib(out, n, s->data, s->bits / 8) && memcmp(out, text, n) == 0;
 }
 
-/* A dynamic block's head in which 'a' and symbol `second` have one bit each, and so has distance 0. The meta code:
- * `metas` lengths of it, of which 1 and 18 have one bit each; their words are 0 and 1. */
-static void start_tiny(bit_stream *s, uint32_t second, uint32_t dists)
+/* A dynamic block's head in which 'a' and symbol `second` have `bits` bits each, 1 or 2. Of the meta code, `bits` and
+ * 18 (a run of 11 zeros or more) have one bit each; their words are 0 and 1. */
+static void start_tiny(bit_stream *s, int bits, uint32_t second, uint32_t dists)
 {
     int i;
     start(s, 2);
     add_bits(s, 0, 5);
     add_bits(s, dists - 1, 5);
     add_bits(s, 18 - 4, 4);
-    for (i = 0; i < 18; ++i) add_bits(s, i == 2 || i == 17, 3);
+    for (i = 0; i < 18; ++i) add_bits(s, i == 2 || i == (bits == 1 ? 17 : 15), 3);
     add_word(s, 1, 1), add_bits(s, 97 - 11, 7);
     add_word(s, 0, 1);
     add_word(s, 1, 1), add_bits(s, 127, 7);
@@ -187,31 +191,34 @@ static void check_inflate_crafted(void)
 {
     bit_stream s;
 
-    start_tiny(&s, 256, 1);
+    start_tiny(&s, 1, 256, 1);
     add_word(&s, 0, 1);  /* a lone distance code of one bit is allowed */
     add_word(&s, 1, 3);  /* a, a, end */
     CHECK(gives(&s, "aa"));
-    start_tiny(&s, 255, 10); /* the end has no code */
+    start_tiny(&s, 1, 255, 10); /* the end has no code */
     add_word(&s, 1, 1), add_bits(&s, 0, 7);
     add_word(&s, 3, 3);
     CHECK(!gives(&s, "aa"));
-    start_tiny(&s, 256, 2);
+    start_tiny(&s, 1, 256, 2);
     add_word(&s, 0, 2);
     add_word(&s, 1, 3);
     CHECK(gives(&s, "aa"));
-    start_tiny(&s, 256, 3); /* three distances of one bit are one too many */
+    start_tiny(&s, 1, 256, 3); /* three distances of one bit are one too many */
     add_word(&s, 0, 3);
     add_word(&s, 1, 3);
     CHECK(!gives(&s, "aa"));
-    start_tiny(&s, 256, 1); /* the last run reaches past the lists */
+    start_tiny(&s, 1, 256, 1); /* the last run reaches past the lists */
     add_word(&s, 1, 1), add_bits(&s, 0, 7);
     add_word(&s, 1, 3);
     CHECK(!gives(&s, "aa"));
-    start(&s, 2); /* an incomplete meta code: 0 with two bits */
-    add_bits(&s, 0, 10);
-    add_bits(&s, 0, 4);
-    add_bits(&s, 2 << 9, 12);
-    CHECK(!gives(&s, ""));
+    start_tiny(&s, 1, 256, 11); /* no distances */
+    add_word(&s, 1, 1), add_bits(&s, 0, 7);
+    add_word(&s, 1, 3);
+    CHECK(gives(&s, "aa"));
+    start_tiny(&s, 2, 256, 11); /* two codes of two bits leave half the space empty */
+    add_word(&s, 1, 1), add_bits(&s, 0, 7);
+    add_word(&s, 1, 6);
+    CHECK(!gives(&s, "aa"));
     start(&s, 3);
     CHECK(!gives(&s, ""));
 }
@@ -230,16 +237,6 @@ static void check_inflate_fixed(void)
     add_word(&s, 1, 7), add_word(&s, 1, 5);
     add_word(&s, 0, 7);
     CHECK(!gives(&s, "aaaa"));
-    start(&s, 1); /* length symbol 286 */
-    add_word(&s, 0x30 + 'a', 8);
-    add_word(&s, 0xc6, 8), add_word(&s, 0, 5);
-    add_word(&s, 0, 7);
-    CHECK(!gives(&s, "aaaa"));
-    start(&s, 1); /* distance symbol 30 */
-    add_word(&s, 0x30 + 'a', 8);
-    add_word(&s, 1, 7), add_word(&s, 30, 5);
-    add_word(&s, 0, 7);
-    CHECK(!gives(&s, "aaaa"));
     start(&s, 0);
     add_bits(&s, 0, 5), add_bits(&s, 1, 16), add_bits(&s, 0xfffe, 16), add_bits(&s, 'a', 8);
     CHECK(gives(&s, "a"));
@@ -249,6 +246,28 @@ static void check_inflate_fixed(void)
     start(&s, 0); /* longer than the stream */
     add_bits(&s, 0, 5), add_bits(&s, 9, 16), add_bits(&s, 0xfff6, 16), add_bits(&s, 'a', 8);
     CHECK(!gives(&s, "a"));
+}
+
+/* Length symbol 286 and distance symbol 30 do not exist; carried on, their formulas would mean 323 and 32769. */
+static void check_inflate_beyond(void)
+{
+    static char text[33100];
+    bit_stream s;
+    int i;
+
+    memset(text, 'a', 1 + 323);
+    start(&s, 1);
+    add_word(&s, 0x30 + 'a', 8);
+    add_word(&s, 0xc6, 8), add_bits(&s, 0, 6), add_word(&s, 0, 5);
+    add_word(&s, 0, 7);
+    CHECK(!gives(&s, text));
+    memset(text, 'a', 1 + 128 * 258 + 3);
+    start(&s, 1);
+    add_word(&s, 0x30 + 'a', 8);
+    for (i = 0; i < 128; ++i) add_word(&s, 0xc5, 8), add_word(&s, 0, 5);
+    add_word(&s, 1, 7), add_word(&s, 30, 5), add_bits(&s, 0, 14);
+    add_word(&s, 0, 7);
+    CHECK(!gives(&s, text));
 }
 
 /* --- a builder of PNG files, independent of the writer --- */
@@ -321,8 +340,9 @@ static void add_palette(png_file *f, const picture *p)
         alphas[i] = p->palette[i][3];
     }
     for (i = 0; i < 3; ++i) {
-        key[2 * i] = (uint8_t)(p->key[i] >> 8);
-        key[2 * i + 1] = (uint8_t)p->key[i];
+        uint32_t v = p->key[i] | (p->width % 2 ? 0xffffu << p->depth : 0); /* bits above the depth mean nothing */
+        key[2 * i] = (uint8_t)(v >> 8);
+        key[2 * i + 1] = (uint8_t)v;
     }
     if (p->palette_count) add_chunk(f, "PLTE", colours, 3 * p->palette_count);
     if (p->alpha_count) add_chunk(f, "tRNS", alphas, p->alpha_count);
@@ -538,7 +558,8 @@ static void repair_checksums(uint8_t *data, size_t size)
 {
     size_t at = 8;
     while (at < size && size - at >= 12) {
-        uint32_t n = (uint32_t)data[at] << 24 | (uint32_t)data[at + 1] << 16 | (uint32_t)data[at + 2] << 8 | data[at + 3];
+        const uint8_t *p = data + at;
+        uint32_t n = (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
         if (n > size - at - 12) return;
         put_be(data + at + 8 + n, crc_bitwise(data + at + 4, (size_t)n + 4));
         at += 12 + (size_t)n;
@@ -559,7 +580,10 @@ static void check_png_damage(test_rng *rng)
         }
         damaged.size = f.size;
         memcpy(damaged.data, f.data, f.size);
-        for (k = 0; k <= turn % 3; ++k) damaged.data[test_random(rng) % f.size] ^= (uint8_t)(1u << test_random(rng) % 8);
+        for (k = 0; k <= turn % 3; ++k) {
+            size_t at = test_random(rng) % f.size;
+            damaged.data[at] ^= (uint8_t)(1u << test_random(rng) % 8);
+        }
         if (turn % 4) repair_checksums(damaged.data, damaged.size);
         if (decode_copy(damaged.data, damaged.size, &r)) ++test_passed; /* either way: it came back */
     }
@@ -588,6 +612,8 @@ static void build_plan(png_file *f, const char *plan, uint32_t colour)
         switch (*plan) {
         case 'H': f->size += 25; memcpy(f->data + f->size - 25, f->data + 8, 25); break;
         case 'P': add_chunk(f, "PLTE", "abcdef", 6); break;
+        case 'q': add_chunk(f, "PLTE", "abc", 3); break;
+        case 'Q': add_chunk(f, "PLTE", "abcdefghi", 9); break;
         case 'p': add_chunk(f, "PLTE", "abcde", 5); break;
         case 't': add_chunk(f, "tRNS", "ab", 2); break;
         case 'T': add_chunk(f, "tRNS", "abc", 3); break;
@@ -597,6 +623,7 @@ static void build_plan(png_file *f, const char *plan, uint32_t colour)
         case 'd': add_chunk(f, "IDAT", "abcdefghijk", 11); break;
         case 'E': add_chunk(f, "IEND", "", 0); break;
         case 'e': add_chunk(f, "IEND", "a", 1); break;
+        case '1': f->data[24] = 1; repair_checksums(f->data, f->size); break; /* one bit a sample */
         default: f->data[f->size++] = '?'; break;
         }
     }
@@ -608,14 +635,21 @@ static void check_png_order(void)
         const char *plan;
         uint32_t colour;
         const char *says; /* NULL: decodes */
-    } cases[] = {{"DE", 0, NULL},          {"aDaE", 0, NULL},       {"PtDE", 3, NULL},     {"tDE", 0, NULL},
-                 {"DE?!", 0, NULL},        {"E", 0, "no image data"}, {"D", 0, "before IEND"}, {"DaDE", 0, "IDAT at byte"},
-                 {"HDE", 0, "IHDR at byte 33"}, {"CDE", 0, "TeSt at byte 33 is not known"}, {"De", 0, "IEND"},
-                 {"DE", 3, "IDAT"},        {"pDE", 3, "PLTE at byte 33 cannot hold 5"}, {"PPDE", 3, "PLTE"},
-                 {"DPE", 3, "IDAT"},       {"PDE", 0, "PLTE"},      {"PTDE", 3, "tRNS"},   {"tPDE", 3, "tRNS"},
-                 {"ttDE", 0, "tRNS"},      {"TDE", 0, "tRNS"},      {"DtE", 0, "tRNS"},    {"tDE", 4, "tRNS"},
-                 {"dE", 0, "does not inflate to the 4 bytes of 1 x 2 pixels"}, {"DE", 2, "does not inflate"},
-                 {"DE", 1, "colour type 1"}, {"DE", 7, "colour type 7"}, {"PD?", 3, "ends at byte"}};
+    } cases[] = {
+        {"DE", 0, NULL}, {"aDaE", 0, NULL}, {"PtDE", 3, NULL}, {"tDE", 0, NULL}, {"DE?!", 0, NULL},
+        {"1PDE", 3, NULL}, {"E", 0, "no image data"}, {"D", 0, "before IEND"},
+        {"DaDE", 0, "IDAT at byte 72 may not"}, {"HDE", 0, "IHDR at byte 33 may not"},
+        {"CDE", 0, "TeSt at byte 33 is not known"}, {"De", 0, "cannot hold 1 bytes"},
+        {"DE", 3, "IDAT at byte 33 may not"}, {"pDE", 3, "PLTE at byte 33 cannot hold 5"},
+        {"1QDE", 3, "PLTE at byte 33 cannot hold 9"}, {"PPDE", 3, "PLTE at byte 51 may not"},
+        {"DPE", 3, "IDAT at byte 33 may not"}, {"DPE", 2, "may not"}, {"PDE", 0, "PLTE at byte 33 may not"},
+        {"PTDE", 3, "tRNS at byte 51 cannot hold 3"}, {"tPDE", 3, "tRNS at byte 33 may not"},
+        {"ttDE", 0, "tRNS at byte 47 may not"}, {"TDE", 0, "tRNS at byte 33 cannot hold 3"}, {"DtE", 0, "may not"},
+        {"tDE", 4, "tRNS at byte 33 may not"}, {"tDE", 6, "tRNS at byte 33 may not"},
+        {"qDE", 3, "pixel 0, 0 has a colour index outside the palette of 1"},
+        {"dE", 0, "does not inflate to the 4 bytes of 1 x 2 pixels"}, {"DE", 2, "does not inflate"},
+        {"DE", 1, "colour type 1"}, {"DE", 7, "colour type 7"}, {"PD?", 3, "ends at byte"}
+    };
     static png_file f;
     size_t i;
     for (i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
@@ -795,8 +829,9 @@ static void check_pfm_text(void)
 {
     static const char good[] = "PF \t1\r\n2 -2e0\n\0\0\200?\0\0\0@\0\0@@\0\0\200@\0\0\240@\0\0\300@";
     static const char *const bad[] = {"", "P", "PF", "PG\n1 1\n-1\n1234", " Pf\n1 1\n-1\n1234", "Pf\n1 1\n0\n1234",
-                                      "Pf\n1 1\nnan\n1234", "Pf\n1 1\n1x\n1234", "Pf\n1 1\n-1e40\n1234", "Pf\n-1 1\n1\n1234",
-                                      "Pf\n0 1\n1\n1234", "Pf\n99999999999 1\n1\n1234", "Pf\n2234123412341 1\n1\n1234", "Pf\n268435456 2\n1\n1234",
+                                      "Pf\n1 1\nnan\n1234", "Pf\n1 1\n1x\n1234", "Pf\n1 1\n-1e40\n1234",
+                                      "Pf\n-1 1\n1\n1234", "Pf\n0 1\n1\n1234", "Pf\n99999999999 1\n1\n1234",
+                                      "Pf\n2234123412341 1\n1\n1234", "Pf\n268435456 2\n1\n1234",
                                       "Pf\n1 2\n1\n1234", "Pf\n1 1\n1\n12345", "Pf\n1 1\n1", "PF\n1 1\n1\n1234",
                                       "Pf\n1 1\n1.00000000000000000000000000000000000\n1234"};
     image got;
@@ -842,7 +877,8 @@ static int read_hdr(uint8_t *planes, const image *in, const file_bytes *file)
     size_t at, w = (size_t)in->width, x;
     int32_t y;
     int k;
-    snprintf(header, sizeof header, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", (int)in->height, (int)in->width);
+    snprintf(header, sizeof header, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n", (int)in->height,
+             (int)in->width);
     at = strlen(header);
     if (file->size < at || memcmp(file->data, header, at) != 0) return 0;
     for (y = 0; y < in->height; ++y, planes += 4 * w) {
@@ -891,7 +927,7 @@ static void check_hdr(test_rng *rng)
         uint8_t *planes = malloc((size_t)(4 * w * h));
         if (!planes || !make_image(&in, w, h, turn % 2 ? 1 : 3, rng)) continue;
         for (i = 0; turn % 4 && i < w * h * in.channels; ++i) /* steps make runs */
-            in.pixels[i] = i % 97 < 60 ? 0.7f : turn % 4 == 2 ? 0.999f : test_uniform(rng, 0.0f, 4.0f);
+            in.pixels[i] = i % 970 < 600 ? 0.7f : turn % 4 == 2 ? 0.999f : test_uniform(rng, 0.0f, 4.0f);
         CHECK(hdr_encode(&file, &in, &r));
         CHECK_MSG(file.data && read_hdr(planes, &in, &file) && hdr_near(&in, planes), "turn %d: %d x %d", turn, (int)w,
                   (int)h);
@@ -928,16 +964,42 @@ static int count_entries(const char *path)
 static void check_links(const char *file, const char *link)
 {
     report r = {""};
-    struct stat s;
+    struct stat s, before;
     if (symlink("a", link) != 0) {
         SKIP("links: none can be made");
         return;
     }
-    CHECK(file_write(link, "linked", 6, &r) && holds(file, "linked"));
+    CHECK(stat(file, &before) == 0 && file_write(link, "linked", 6, &r) && holds(file, "linked"));
     CHECK(lstat(link, &s) == 0 && S_ISLNK(s.st_mode));
+    CHECK(stat(file, &s) == 0 && s.st_ino != before.st_ino); /* replaced, not overwritten */
     remove(link);
-    CHECK(chmod(file, 0640) == 0 && file_write(file, "mode", 4, &r));
-    CHECK(stat(file, &s) == 0 && (s.st_mode & 0777) == 0640);
+}
+
+static void check_permissions(const char *file)
+{
+    report r = {""};
+    struct stat s;
+    CHECK(chmod(file, 0666) == 0 && file_write(file, "mode", 4, &r));
+    CHECK(stat(file, &s) == 0 && (s.st_mode & 0777) == 0666);
+    if (geteuid() == 0) return; /* who may write anything */
+    CHECK(chmod(file, 0444) == 0 && !file_write(file, "x", 1, &r) && holds(file, "mode"));
+    CHECK(chmod(file, 0644) == 0);
+}
+
+/* A write that fails half way leaves the old file, and nothing else. */
+static void check_full_disk(const char *file)
+{
+    static const char big[100000] = "big";
+    report r = {""};
+    struct rlimit limit, small;
+    void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+    if (getrlimit(RLIMIT_FSIZE, &limit) != 0) return;
+    small = limit;
+    small.rlim_cur = 50000;
+    if (setrlimit(RLIMIT_FSIZE, &small) == 0) CHECK(!file_write(file, big, sizeof big, &r) && r.text[0]);
+    setrlimit(RLIMIT_FSIZE, &limit);
+    signal(SIGXFSZ, handler);
+    CHECK(holds(file, "mode"));
 }
 
 static void check_files_in(const char *directory)
@@ -952,6 +1014,8 @@ static void check_files_in(const char *directory)
     CHECK(file_write(file, "", 0, &r) && holds(file, ""));
     CHECK(file_write(file, "second one", 10, &r) && holds(file, "second one"));
     check_links(file, link);
+    check_permissions(file);
+    check_full_disk(file);
     CHECK(!r.text[0] && count_entries(directory) == 1);
     CHECK(!file_write(beyond, "x", 1, &r) && strstr(r.text, "none/a"));
     memset(&r, 0, sizeof r);
@@ -1067,6 +1131,7 @@ void test_images(void)
     check_inflate_known();
     check_inflate_crafted();
     check_inflate_fixed();
+    check_inflate_beyond();
     check_deflate(&rng);
     check_deflate_damage(&rng);
     check_png_kinds(&rng);
