@@ -43,7 +43,7 @@ TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth,tests/$(d)/test_*.
 LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c $(PORT_SRC)) $(LIB_OBJ)
+GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 
 LIB  := $(B)/liblambent.a

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "io_obj.h"
-#include "polygon.h"
+#include "ear_clip.h"
 
 #define NONE          UINT32_MAX
 #define MAX_LIBRARIES 64

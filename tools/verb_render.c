@@ -362,7 +362,7 @@ static int draw_attributes(job *j, report *r)
         albedo = &f->out;
     }
     for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
-        status = lmb_gbuffer_band(depth, normal, albedo, f->kernels, &f->view, &j->scene, &f->eye, band);
+        status = lmb_gbuffer_band(depth, normal, albedo, &f->scratch->tile, f->kernels, &f->view, &j->scene, &f->eye, band);
     }
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", j->o.scene, lmb_status_name(status));
 }

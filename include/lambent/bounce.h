@@ -7,8 +7,7 @@
 
 #include "light.h"
 
-/* A pair of pixel and emitter closer than this many half-diagonals of the emitter is near: a group is then read
- * through its discs, a disc through the exact form factor of its quad. */
+/* A pixel closer to a disc than this many half-diagonals of its quad gets the quad's exact form factor. */
 #define LMB_NEAR 2.8f
 
 /* A first point, and a disc once neighbours have joined it. 88 bytes. */
@@ -42,7 +41,7 @@ typedef struct lmb_points {
 typedef struct lmb_grouping {
     int32_t method;         /* LMB_GROUP_ZONES */
     int32_t block;          /* 8   texels a side of a first point's surface element: 1 2 4 8           [V4] */
-    int32_t groups;         /* 512 wanted at most, <= LMB_MAX_GROUPS                                   [V21] */
+    int32_t groups;         /* 256 wanted at most, <= LMB_MAX_GROUPS                                   [V21] */
     float neighbour_m;      /* none: neighbours farther than this do not count, m                      [V9] */
     float join;             /* 0.5 points closer than this x mean distance join a disc, 0 < k <= 1     [V11] */
     float reach;            /* 3   a disc joins a group within this x the first disc's radius          [V17] */
@@ -64,7 +63,8 @@ typedef struct lmb_groups {
     uint32_t first[LMB_MAX_GROUPS], members[LMB_MAX_GROUPS];
 } lmb_groups;
 
-/* What may stand between an emitter and a pixel. */
+/* What may stand between an emitter and a pixel: a segment from one to the other that crosses the surface the viewer
+ * sees is blocked [V25]. */
 typedef struct lmb_occluder {
     const lmb_view *view;     /* the viewer's */
     const lmb_surface *depth; /* its depth over the whole frame                                        [V24] */
@@ -72,8 +72,9 @@ typedef struct lmb_occluder {
     int32_t steps;            /* samples along a segment, 1 .. 64 */
 } lmb_occluder;
 /* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps
- * of world space [V25 V26]. Both know only blockers the viewer sees: what is off screen or hidden does not block, and
- * an emitter hidden from the viewer by a nearer surface counts as blocked. */
+ * of world space [V26]. Crossing is a change of side where the surface goes on; a segment that passes behind a
+ * silhouette and comes out again crosses nothing that is seen. So both know only blockers whose surface the viewer
+ * sees: what is off screen or hidden does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
 enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2 };
 
 /* One pixel bit a near group: filled and read inside lmb_gather_tile. */

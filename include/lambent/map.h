@@ -23,10 +23,11 @@ extern "C" {
  *
  *   depth   LMB_R32F, view-space distance in m; normal, albedo: LMB_RGB32F, world face normal turned to the viewer
  *           (the shading normal where the mesh has normals), linear reflectance. Any may be NULL. Size: the frame.
+ *   tile    scratch; afterwards the band's last tile.
  *   target  holds the rows 8 * band .. 8 * band + 7 with ids.
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
 lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo,
-                            const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                            lmb_tile *tile, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t band);
 
 /* lmb_light_map_faces: 1 or 6 for this light. */

@@ -38,7 +38,7 @@ typedef struct lmb_frame {
     int32_t light_map;     /* texels a side: a multiple of 8 */
     lmb_grouping grouping; /* zeros: defaults */
     int32_t occlusion;     /* LMB_OCCLUSION_* */
-    int32_t steps;         /* 16 where 0: samples of a VIEW occlusion segment */
+    int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */

@@ -114,7 +114,7 @@ int32_t lmb_texture_level_count(int32_t width, int32_t height);
  * `texels` holds lmb_texture_bytes. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
 
-/* lmb_octahedral_encode / _decode: unit vector <-> two int16 (Meyer et al. 2010); error under 4e-5 rad. */
+/* lmb_octahedral_encode / _decode: unit vector <-> two int16 (Meyer et al. 2010); error under 4.4e-5 rad. */
 void lmb_octahedral_encode(int16_t out[2], lmb_vec3 unit);
 lmb_vec3 lmb_octahedral_decode(const int16_t code[2]);
 

@@ -10,7 +10,7 @@
  *   flux         outgoing Lambertian power of an emitter, W: reflectance x incident power
  *   tile, band   8x8 pixels; 8 rows of the frame. The band is the unit of work
  *   window       the part of a frame that a surface holds
- *   near pair    a pixel and an emitter closer than LMB_NEAR half-diagonals of it */
+ *   near         a pixel so close to an emitter that the emitter's parts and shape count */
 #ifndef LMB_TYPES_H
 #define LMB_TYPES_H
 

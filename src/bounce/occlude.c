@@ -17,7 +17,12 @@ int32_t lmb_march_setup(lmb_march_job *m, const lmb_occluder *o)
     if (d->format != LMB_DEPTH32F && d->format != LMB_DEPTH16) {
         return LMB_ERR_FORMAT;
     }
-    m->depth = d;
+    m->depth_32 = d->format == LMB_DEPTH32F ? (const float *)d->data : NULL;
+    m->depth_16 = d->format == LMB_DEPTH16 ? (const uint16_t *)d->data : NULL;
+    m->tiled = d->layout == LMB_TILED;
+    m->row_step = d->stride_bytes / lmb_pixel_bytes(d->format);
+    m->last_x = (float)(d->width - 1);
+    m->last_y = (float)(d->height - 1);
     m->eye = v->eye;
     m->right = v->right;
     m->up = v->up;

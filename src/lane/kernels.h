@@ -53,7 +53,10 @@ typedef struct lmb_direct_job {
 
 /* The viewer's depth map as the gather reads it. */
 typedef struct lmb_march_job {
-    const lmb_surface *depth;
+    const float *depth_32;    /* one of the two */
+    const uint16_t *depth_16;
+    int32_t tiled, row_step;  /* values from one row of tiles (or of pixels) to the next */
+    float last_x, last_y;     /* px */
     lmb_vec3 eye, right, up, back;
     float scale_x, scale_y;   /* px a unit of x / w, from the middle */
     float middle_x, middle_y; /* px */

@@ -39,11 +39,10 @@ static void store_tile(const lmb_surface *depth, const lmb_surface *normal, cons
 }
 
 lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo,
-                            const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                            lmb_tile *tile, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t band)
 {
-    lmb_tile tile;
-    if (kernels == NULL || view == NULL || scene == NULL || target == NULL || band < 0 ||
+    if (tile == NULL || kernels == NULL || view == NULL || scene == NULL || target == NULL || band < 0 ||
         band >= (view->frame_height + LMB_TILE - 1) / LMB_TILE) {
         return LMB_ERR_ARG;
     }
@@ -52,11 +51,11 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
         return LMB_ERR_FORMAT;
     }
     for (int32_t x = target->x0; x < target->x0 + target->depth.width; x += LMB_TILE) {
-        lmb_status status = lmb_resolve_tile(&tile, kernels, view, scene, target, x, band * LMB_TILE);
+        lmb_status status = lmb_resolve_tile(tile, kernels, view, scene, target, x, band * LMB_TILE);
         if (status != LMB_OK) {
             return status;
         }
-        store_tile(depth, normal, albedo, view, &tile);
+        store_tile(depth, normal, albedo, view, tile);
     }
     return LMB_OK;
 }

@@ -95,7 +95,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     r->frame = *frame;
     lmb_frame *f = &r->frame;
     f->id_format = f->id_format != 0 ? f->id_format : LMB_ID32;
-    f->steps = f->steps != 0 ? f->steps : 16;
+    f->steps = f->steps != 0 ? f->steps : 12;
     f->points.count = 0;
     f->points.faces = 0;
     lmb_status status = check_frame(f);

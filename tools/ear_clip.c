@@ -1,5 +1,5 @@
-/* polygon.c: cuts a planar polygon into triangles: a fan where it is convex, ears where it is not. */
-#include "polygon.h"
+/* ear_clip.c: cuts a planar polygon into triangles: a fan where it is convex, ears where it is not. */
+#include "ear_clip.h"
 
 #include <math.h>
 

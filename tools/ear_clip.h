@@ -1,6 +1,6 @@
-/* polygon.h: cuts one planar polygon into triangles. */
-#ifndef POLYGON_H
-#define POLYGON_H
+/* ear_clip.h: cuts one planar polygon into triangles. */
+#ifndef EAR_CLIP_H
+#define EAR_CLIP_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,0 +1,374 @@
+/* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine, compiler and configuration.
+ *
+ * Freestanding and small (static memory under 200 KiB), so that a Cortex-M4F runs the very same list. A hash changes
+ * only in a commit that explains the pixels. */
+#include <lambent/lambent.h>
+
+#include <string.h>
+
+#include "../../src/base/poly.h"
+#include "../../tools/demo_scene.h"
+
+int golden_run(void (*put)(const char *line));
+
+enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = 400, TRIANGLES = 40 };
+
+static struct memory {
+    uint32_t depth[80 * 64], id[80 * 64], out[WIDTH * HEIGHT * 3];
+    uint32_t map[MAP * MAP * 2];
+    lmb_groups groups;
+    lmb_band_scratch scratch;
+    lmb_render render;
+} memory;
+LMB_POINTS_ARRAY(points, POINTS, MAP / 4);
+
+/* --- hashing: every value as little-endian bytes ---------------------------------------------------------------------- */
+
+static uint64_t hash_u32(uint64_t h, uint32_t v)
+{
+    for (int i = 0; i < 4; ++i) {
+        h = (h ^ ((v >> (8 * i)) & 255u)) * UINT64_C(0x100000001b3);
+    }
+    return h;
+}
+
+static uint64_t hash_floats(uint64_t h, const float *v, size_t n)
+{
+    for (size_t i = 0; i < n; ++i) {
+        uint32_t bits;
+        memcpy(&bits, &v[i], sizeof bits);
+        h = hash_u32(h, bits);
+    }
+    return h;
+}
+
+static const uint64_t hash_start = UINT64_C(0xcbf29ce484222325);
+
+static uint64_t hash_surface(uint64_t h, const lmb_surface *s)
+{
+    uint64_t own = lmb_surface_hash(s);
+    return hash_u32(hash_u32(h, (uint32_t)own), (uint32_t)(own >> 32));
+}
+
+static uint64_t hash_points(uint64_t h)
+{
+    for (uint32_t i = 0; i < points.count; ++i) {
+        const lmb_point *p = &points.data[i];
+        h = hash_floats(h, &p->position.x, 3);
+        h = hash_floats(h, &p->normal.x, 3);
+        h = hash_floats(h, p->flux, 3);
+        h = hash_floats(h, p->albedo, 3);
+        h = hash_floats(h, &p->axis_u.x, 3);
+        h = hash_floats(h, &p->axis_v.x, 3);
+        h = hash_floats(h, &p->distance, 1);
+        h = hash_u32(h, p->cell_x | (uint32_t)p->cell_y << 16);
+    }
+    return h;
+}
+
+static uint64_t hash_groups(uint64_t h)
+{
+    const lmb_groups *g = &memory.groups;
+    for (int32_t k = 0; k < g->count; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            h = hash_floats(h, &g->position[c][k], 1);
+            h = hash_floats(h, &g->normal[c][k], 1);
+            h = hash_floats(h, &g->flux[c][k], 1);
+        }
+        h = hash_floats(h, &g->area[k], 1);
+        h = hash_floats(h, &g->radius[k], 1);
+        h = hash_u32(h, g->members[k]);
+    }
+    return h;
+}
+
+/* --- a scene of random triangles, some masked, some textured ---------------------------------------------------------- */
+
+static float soup_positions[TRIANGLES * 9], soup_uvs[TRIANGLES * 6];
+static uint32_t soup_colours[TRIANGLES * 3];
+static uint32_t soup_texels[16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1];
+static lmb_texture soup_texture;
+static lmb_mesh soup_meshes[2];
+static const lmb_material soup_materials[2] = {
+    {{0.8f, 0.7f, 0.6f}, 1.0f, 0.0f, 0, LMB_DOUBLE_SIDED},
+    {{0.5f, 0.6f, 0.9f}, 1.0f, 0.5f, 0, LMB_DOUBLE_SIDED | LMB_ALPHA_MASK},
+};
+static lmb_instance soup_instances[2];
+static lmb_light soup_light;
+static lmb_scene soup;
+
+static uint32_t random_state;
+
+static float random_float(float lo, float hi)
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    return lo + (hi - lo) * ((float)(random_state >> 8) * (1.0f / 16777216.0f));
+}
+
+static void make_texture(void)
+{
+    uint8_t *t = (uint8_t *)soup_texels;
+    for (int i = 0; i < 16 * 16; ++i) {
+        t[4 * i] = (uint8_t)(i * 7);
+        t[4 * i + 1] = (uint8_t)(255 - i);
+        t[4 * i + 2] = (uint8_t)(i * 3);
+        t[4 * i + 3] = ((i >> 1) ^ (i >> 5)) & 1 ? 255 : 40;
+    }
+    soup_texture.texels = t;
+    soup_texture.width = soup_texture.height = 16;
+    soup_texture.levels = 5;
+    soup_texture.wrap_s = LMB_WRAP_MIRROR;
+    soup_texture.filter = LMB_TRILINEAR;
+    lmb_texture_mips(t, 16, 16, 5);
+}
+
+static void make_soup(uint32_t seed, float span)
+{
+    static const lmb_instance instance = {
+        {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, 0, 0, 1, 0};
+    random_state = seed;
+    for (int i = 0; i < TRIANGLES * 9; ++i) {
+        soup_positions[i] = random_float(-span, span);
+    }
+    for (int i = 0; i < TRIANGLES * 6; ++i) {
+        soup_uvs[i] = random_float(-2.0f, 3.0f);
+    }
+    for (int i = 0; i < TRIANGLES * 3 * 4; ++i) {
+        ((uint8_t *)soup_colours)[i] = (uint8_t)random_float(0.0f, 256.0f);
+    }
+    make_texture();
+    for (int m = 0; m < 2; ++m) {
+        memset(&soup_meshes[m], 0, sizeof soup_meshes[m]);
+        soup_meshes[m].positions = soup_positions + m * TRIANGLES / 2 * 9;
+        soup_meshes[m].uvs = soup_uvs + m * TRIANGLES / 2 * 6;
+        soup_meshes[m].colours = (const uint8_t *)(soup_colours + m * TRIANGLES / 2 * 3);
+        soup_meshes[m].vertex_count = TRIANGLES / 2 * 3;
+        soup_meshes[m].triangle_count = TRIANGLES / 2;
+        soup_instances[m] = instance;
+        soup_instances[m].mesh = soup_instances[m].material = (uint32_t)m;
+        soup_instances[m].first_id = 1u + (uint32_t)m * TRIANGLES / 2;
+    }
+    memset(&soup, 0, sizeof soup);
+    soup.meshes = soup_meshes;
+    soup.materials = soup_materials;
+    soup.textures = &soup_texture;
+    soup.instances = soup_instances;
+    soup.lights = &soup_light;
+    soup.mesh_count = soup.material_count = soup.instance_count = 2;
+    soup.texture_count = soup.light_count = 1;
+    lmb_scene_bounds(&soup.bounds_min, &soup.bounds_max, &soup);
+}
+
+static lmb_view soup_view(int orthographic)
+{
+    lmb_view v;
+    lmb_vec3 eye = {0.3f, 0.2f, 4.0f}, target = {0, 0, 0}, up = {0, 1, 0};
+    lmb_view_look(&v, eye, target, up, 0.9f, WIDTH, HEIGHT);
+    v.near_m = 0.05f;
+    v.far_m = 20.0f;
+    if (orthographic) {
+        v.kind = LMB_ORTHOGRAPHIC;
+        v.half_width = 2.4f;
+        v.half_height = 1.8f;
+    }
+    return v;
+}
+
+static void set_eye(lmb_target *eye, int32_t height, int depth_format, int id_format)
+{
+    memset(eye, 0, sizeof *eye);
+    lmb_surface_init(&eye->depth, depth_format, WIDTH, height, memory.depth, sizeof memory.depth);
+    lmb_surface_init(&eye->id, id_format, WIDTH, height, memory.id, sizeof memory.id);
+    lmb_surface_clear(&eye->depth);
+    lmb_surface_clear(&eye->id);
+}
+
+/* --- cases ------------------------------------------------------------------------------------------------------------ */
+
+static uint64_t case_functions(int variant)
+{
+    uint64_t h = hash_start;
+    (void)variant;
+    for (int i = -600; i <= 600; ++i) {
+        float x = (float)i * 0.0103f, v[5];
+        v[0] = lmb_sin(x);
+        v[1] = lmb_cos(x * 3.0f);
+        v[2] = lmb_atan2(x, 1.5f - x * x);
+        v[3] = lmb_log2(x * x + 1e-6f);
+        v[4] = lmb_exp2(x);
+        h = hash_floats(h, v, 5);
+    }
+    return h;
+}
+
+/* 0..3: depth 32F/16 x id 16/32; +4 orthographic; near plane and guard band are both met. */
+static uint64_t case_raster(int variant)
+{
+    lmb_target eye;
+    make_soup(17u + (uint32_t)variant, variant & 4 ? 2.0f : 4.5f);
+    lmb_view v = soup_view(variant & 4);
+    set_eye(&eye, HEIGHT, variant & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, variant & 2 ? LMB_ID32 : LMB_ID16);
+    lmb_draw(&eye, lmb_kernels_pick(), &memory.scratch.raster, &v, &soup, 1, 1000, LMB_CULL_BACK, NULL);
+    return hash_surface(hash_surface(hash_start, &eye.depth), &eye.id);
+}
+
+static uint64_t case_resolve(int variant)
+{
+    lmb_target eye;
+    uint64_t h = hash_start;
+    make_soup(91u, 2.0f);
+    lmb_view v = soup_view(variant);
+    set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
+    lmb_draw(&eye, lmb_kernels_pick(), &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
+    for (int32_t y = 0; y < HEIGHT; y += 8) {
+        for (int32_t x = 0; x < WIDTH; x += 8) {
+            const lmb_tile *t = &memory.scratch.tile;
+            lmb_resolve_tile(&memory.scratch.tile, lmb_kernels_pick(), &v, &soup, &eye, x, y);
+            h = hash_floats(h, t->position[0], 3 * 64);
+            h = hash_floats(h, t->face[0], 3 * 64);
+            h = hash_floats(h, t->albedo[0], 3 * 64);
+            h = hash_floats(h, t->depth, 64);
+        }
+    }
+    return h;
+}
+
+static lmb_light make_light(int kind)
+{
+    lmb_light l = {{0.5f, 1.5f, 3.0f}, {-0.16439899f, -0.49319696f, -0.85424364f}, {9, 8, 7}, 0.95f, 0.8f, 0, 0};
+    l.kind = kind;
+    return l;
+}
+
+static uint64_t case_light_map(int variant)
+{
+    lmb_light_map map;
+    make_soup(33u, 2.0f);
+    soup_light = make_light(variant);
+    int32_t size = variant == LMB_LIGHT_POINT ? 24 : MAP;
+    lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
+    lmb_light_map_clear(&map);
+    lmb_light_map_draw(&map, lmb_kernels_pick(), &memory.scratch.raster, &soup, 1, 1000, NULL);
+    uint64_t h = hash_start;
+    for (int32_t f = 0; f < map.faces; ++f) {
+        float power[3];
+        h = hash_surface(hash_surface(h, &map.face[f].depth), &map.face[f].id);
+        for (int32_t i = 0; i < size; i += 3) {
+            lmb_light_texel_power(power, &soup_light, &map, f, i, size - 1 - i);
+            h = hash_floats(h, power, 3);
+        }
+    }
+    return h;
+}
+
+/* Points, discs and groups of the demo room's spot. Variants: zones, greedy, strict zones, first discs as centres. */
+static uint64_t case_groups(int variant)
+{
+    static const lmb_grouping how[4] = {
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0},
+        {LMB_GROUP_GREEDY, 4, 90, 0.5f, 1.0f, 2.5f, 0.8f, 0},
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0.95f, LMB_ZONES_STRICT},
+        {LMB_GROUP_ZONES, 4, 40, 0, 0, 0, 0, LMB_POINT_CENTRE},
+    };
+    const lmb_scene *scene = demo_scene();
+    lmb_light_map map;
+    lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
+    lmb_light_map_clear(&map);
+    lmb_light_map_draw(&map, lmb_kernels_pick(), &memory.scratch.raster, scene, 1, UINT32_MAX - 1, NULL);
+    points.count = points.faces = 0;
+    lmb_status a = lmb_points_collect(&points, lmb_kernels_pick(), &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
+                                      MAP / 8, &how[variant]);
+    uint64_t h = hash_u32(hash_points(hash_start), (uint32_t)a);
+    h = hash_u32(h, (uint32_t)lmb_discs_join(&points, &map, &how[variant]));
+    h = hash_points(h);
+    h = hash_u32(h, (uint32_t)lmb_group_points(&memory.groups, &points, &how[variant], NULL));
+    return hash_groups(h);
+}
+
+static lmb_frame demo_frame(void)
+{
+    lmb_frame f;
+    memset(&f, 0, sizeof f);
+    f.kernels = lmb_kernels_pick();
+    f.scene = demo_scene();
+    f.view = demo_view(WIDTH, HEIGHT);
+    f.light_map = MAP;
+    f.grouping.block = 4;
+    f.grouping.groups = 60;
+    f.occlusion = LMB_OCCLUSION_VIEW;
+    f.steps = 8;
+    f.map_memory = memory.map;
+    f.map_bytes = sizeof memory.map;
+    f.id_format = LMB_ID16;
+    f.points = points;
+    f.groups = &memory.groups;
+    f.scratch = &memory.scratch;
+    set_eye(&f.eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
+    lmb_surface_init(&f.out, LMB_RGB32F, WIDTH, HEIGHT, memory.out, sizeof memory.out);
+    return f;
+}
+
+static uint64_t case_show(int variant)
+{
+    lmb_frame f = demo_frame();
+    f.show = variant;
+    lmb_status status = lmb_render_frame(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
+static uint64_t case_occlusion(int variant)
+{
+    lmb_frame f = demo_frame();
+    f.show = LMB_SHOW_INDIRECT;
+    f.occlusion = variant;
+    lmb_status status = lmb_render_frame(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
+static uint64_t case_format(int variant)
+{
+    static const uint8_t formats[4] = {LMB_RGB565, LMB_RGB555, LMB_RGBA8, LMB_BGRA8};
+    lmb_frame f = demo_frame();
+    f.exposure_ev = 0.5f;
+    lmb_surface_init(&f.out, formats[variant], WIDTH, HEIGHT, memory.out, sizeof memory.out);
+    lmb_status status = lmb_render_frame(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
+/* --- the table -------------------------------------------------------------------------------------------------------- */
+
+static const struct golden {
+    const char *name;
+    uint64_t (*run)(int variant);
+    int variant;
+    uint64_t hash;
+} cases[] = {
+#include "golden_table.inc"
+};
+
+static void write_hex(char *out, uint64_t v)
+{
+    for (int i = 0; i < 16; ++i) {
+        out[i] = "0123456789abcdef"[(v >> (60 - 4 * i)) & 15u];
+    }
+    out[16] = '\0';
+}
+
+int golden_run(void (*put)(const char *line))
+{
+    int wrong = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        char line[64];
+        uint64_t hash = cases[i].run(cases[i].variant);
+        size_t n = strlen(cases[i].name);
+        memcpy(line, cases[i].name, n);
+        line[n] = ' ';
+        write_hex(line + n + 1, hash);
+        if (hash != cases[i].hash) {
+            ++wrong;
+            memcpy(line + n + 17, " WRONG", 7);
+        }
+        put(line);
+    }
+    return wrong;
+}
