@@ -360,8 +360,10 @@ int golden_run(void (*put)(const char *line))
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         char line[64];
         uint64_t hash = cases[i].run(cases[i].variant);
-        size_t n = strlen(cases[i].name);
-        memcpy(line, cases[i].name, n);
+        size_t n = 0;
+        for (; cases[i].name[n] != '\0'; ++n) {
+            line[n] = cases[i].name[n];
+        }
         line[n] = ' ';
         write_hex(line + n + 1, hash);
         if (hash != cases[i].hash) {
