@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_VERTICES = 1024, MAX_TRIANGLES = 2048, MAX_INSTANCES = 32 };
+enum { MAX_VERTICES = 1536, MAX_TRIANGLES = 3072, MAX_INSTANCES = 32 };
 enum { TILE_TEXELS = 32, TILE_LEVELS = 6 };
 
 #define ROOM_X 2.0     /* half the width */
@@ -700,8 +700,8 @@ static void build_scene(void)
     int i;
     build_quad(&shapes[QUAD]);
     build_box(&shapes[BOX]);
-    build_sphere(&shapes[SPHERE], 30, 14);
-    build_knot(&shapes[KNOT], 80, 8, 0.21);
+    build_sphere(&shapes[SPHERE], 48, 24);
+    build_knot(&shapes[KNOT], 96, 12, 0.21);
     build_painting(&shapes[PAINTING], 6, 3);
     for (i = 0; i < SHAPES; ++i) {
         pack(&shapes[i]);

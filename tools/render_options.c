@@ -23,7 +23,7 @@ const char render_usage[] =
     "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, less for many lights)\n"
     "bounce\n"
     "  --grouping zones|greedy|none   how lit points become groups (default zones)\n"
-    "  --groups N                 groups at most (default 256)\n"
+    "  --groups N                 groups at most (default 512)\n"
     "  --block N                  texels a side of a first point: 1 2 4 8 (default 8)\n"
     "  --occlusion none|view|view-world\n"
     "                             what stands between groups and pixels: nothing, or what the viewer's depth map\n"

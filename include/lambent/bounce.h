@@ -41,7 +41,7 @@ typedef struct lmb_points {
 typedef struct lmb_grouping {
     int32_t method;         /* LMB_GROUP_ZONES */
     int32_t block;          /* 8   texels a side of a first point's surface element: 1 2 4 8           [V4] */
-    int32_t groups;         /* 256 wanted at most, <= LMB_MAX_GROUPS                                   [V21] */
+    int32_t groups;         /* 512 wanted at most, <= LMB_MAX_GROUPS                                   [V21] */
     float neighbour_m;      /* none: neighbours farther than this do not count, m                      [V9] */
     float join;             /* 0.5 points closer than this x mean distance join a disc, 0 < k <= 1     [V11] */
     float reach;            /* 3   a disc joins a group within this x the first disc's radius          [V17] */

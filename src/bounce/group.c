@@ -165,7 +165,7 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
         return LMB_ERR_ARG;
     }
     g = *grouping;
-    g.groups = g.groups != 0 ? g.groups : mini(256, LMB_MAX_GROUPS);
+    g.groups = g.groups != 0 ? g.groups : mini(512, LMB_MAX_GROUPS);
     g.reach = g.reach > 0.0f ? g.reach : 3.0f;
     g.cosine = g.cosine != 0.0f ? g.cosine : 0.9f;
     uint32_t most = (uint32_t)(g.method == LMB_GROUP_NONE ? LMB_MAX_GROUPS : g.groups), count = 0;

@@ -14,7 +14,7 @@
 #include "../../tools/image.h"
 #include "../../tools/io_json.h"
 #include "../../tools/model.h"
-#include "../../tools/polygon.h"
+#include "../../tools/ear_clip.h"
 #include "../test.h"
 
 void test_models(void);
