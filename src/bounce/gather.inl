@@ -183,8 +183,9 @@ static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *ti
     lane_store(w, weight);
     for (int i = 0; i < LANES; ++i) {
         if ((bits >> i) & 1u) {
-            w[i] = lmb_quad_factor(tile_vec(tile->position, k + i), tile_vec(tile->normal, k + i), disc->position,
-                                   disc->normal, disc->axis_u, disc->axis_v);
+            w[i] = lmb_quad_factor(tile_vec(tile->position, k + i), tile_vec(tile->face, k + i),
+                                   tile_vec(tile->normal, k + i), disc->position, disc->normal, disc->axis_u,
+                                   disc->axis_v);
         }
     }
     return lane_load(w);
@@ -215,9 +216,8 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     if (mask_bits(close)) {
         weight = gather_quads(weight, close, tile, k, d);
     }
-    lane_mask lit = mask_and(mask_and(hits, lane_lt(zero, weight)), lane_lt(zero, lane3_dot(face, to)));
-    lane_mask own = mask_and(lit, close);
-    lit = mask_and(mask_and(lit, mask_not(close)), shared);
+    lane_mask lit = mask_and(hits, lane_lt(zero, weight)), own = mask_and(lit, close);
+    lit = mask_and(mask_and(mask_and(lit, mask_not(close)), shared), lane_lt(zero, lane3_dot(face, to)));
     if (mask_bits(own)) {
         lit = mask_or(lit, m != NULL ? march(m, from, lane3_point(d->position), lane3_point(d->normal), own) : own);
     }

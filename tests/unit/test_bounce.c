@@ -1,0 +1,1483 @@
+/* test_bounce.c: first points, discs, groups and their gather, against formulas, integrals and exact rays. [V1-V28] */
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "../../src/base/vec.h"
+#include "../test.h"
+
+void test_bounce(void);
+
+#define PI 3.14159265358979323846
+#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+
+enum { TRIANGLES = 4096, SIDE = 256, POINTS = 120000, FRAME = 128 };
+
+static const lmb_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
+
+/* --- a scene of one mesh ---------------------------------------------------------------------------------------------- */
+
+static float corners[TRIANGLES][3][3], uvs[TRIANGLES][3][2];
+static uint8_t colours[TRIANGLES][3][4];
+static struct {
+    lmb_mesh mesh;
+    lmb_material material;
+    lmb_texture texture;
+    lmb_instance instance;
+    lmb_scene scene;
+} world;
+
+static void world_begin(float red, float green, float blue)
+{
+    memset(&world, 0, sizeof world);
+    memset(colours, 255, sizeof colours);
+    world.material.albedo[0] = red;
+    world.material.albedo[1] = green;
+    world.material.albedo[2] = blue;
+    world.material.alpha = 1.0f;
+    world.material.texture = -1;
+    world.material.flags = LMB_DOUBLE_SIDED;
+}
+
+static void world_triangle(lmb_vec3 a, lmb_vec3 b, lmb_vec3 c)
+{
+    const lmb_vec3 p[3] = {a, b, c};
+    for (int i = 0; i < 3; ++i) {
+        corners[world.mesh.triangle_count][i][0] = p[i].x;
+        corners[world.mesh.triangle_count][i][1] = p[i].y;
+        corners[world.mesh.triangle_count][i][2] = p[i].z;
+    }
+    ++world.mesh.triangle_count;
+}
+
+/* Half sides u and v; the front is u x v. */
+static void world_quad(lmb_vec3 centre, lmb_vec3 u, lmb_vec3 v)
+{
+    lmb_vec3 a = sub3(sub3(centre, u), v), b = sub3(add3(centre, u), v), c = add3(add3(centre, u), v), d = add3(sub3(centre, u), v);
+    world_triangle(a, b, c);
+    world_triangle(a, c, d);
+}
+
+static void world_box(lmb_vec3 centre, float half)
+{
+    const lmb_vec3 axis[3] = {X, Y, Z};
+    for (int i = 0; i < 6; ++i) {
+        lmb_vec3 out = mul3(axis[i / 2], i & 1 ? -half : half);
+        world_quad(add3(centre, out), mul3(axis[(i / 2 + 1) % 3], half), mul3(axis[(i / 2 + 2) % 3], half));
+    }
+}
+
+static lmb_vec3 on_sphere(int stack, int stacks, int slice, int slices)
+{
+    double a = PI * stack / stacks, b = 2.0 * PI * slice / slices;
+    return vec3((float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)));
+}
+
+static void world_sphere(lmb_vec3 centre, float radius, int stacks, int slices)
+{
+    for (int i = 0; i < stacks; ++i) {
+        for (int j = 0; j < slices; ++j) {
+            lmb_vec3 a = add3(centre, mul3(on_sphere(i, stacks, j, slices), radius));
+            lmb_vec3 b = add3(centre, mul3(on_sphere(i, stacks, j + 1, slices), radius));
+            lmb_vec3 c = add3(centre, mul3(on_sphere(i + 1, stacks, j + 1, slices), radius));
+            lmb_vec3 d = add3(centre, mul3(on_sphere(i + 1, stacks, j, slices), radius));
+            if (i > 0) {
+                world_triangle(a, b, c);
+            }
+            if (i + 1 < stacks) {
+                world_triangle(a, c, d);
+            }
+        }
+    }
+}
+
+static void world_end(void)
+{
+    lmb_scene *s = &world.scene;
+    world.mesh.positions = corners;
+    world.mesh.uvs = uvs;
+    world.mesh.colours = &colours[0][0][0];
+    world.mesh.vertex_count = 3 * world.mesh.triangle_count;
+    world.instance.to_world.m[0] = world.instance.to_world.m[5] = world.instance.to_world.m[10] = 1.0f;
+    world.instance.to_world.m[15] = 1.0f;
+    world.instance.first_id = 1;
+    s->meshes = &world.mesh;
+    s->materials = &world.material;
+    s->textures = &world.texture;
+    s->instances = &world.instance;
+    s->mesh_count = s->material_count = s->instance_count = 1;
+    s->texture_count = world.texture.texels != NULL;
+    lmb_scene_bounds(&s->bounds_min, &s->bounds_max, s);
+    CHECK(lmb_scene_check(s) == LMB_OK);
+}
+
+/* A closed box of 2 m a side around the origin. */
+static void make_box(void)
+{
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    world_end();
+}
+
+/* The box with a ball and a crate in it: curved, near and far, six directions. */
+static void make_room(void)
+{
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    world_sphere(vec3(0.4f, -0.6f, 0.3f), 0.35f, 12, 24);
+    world_box(vec3(-0.5f, -0.8f, -0.4f), 0.2f);
+    world_end();
+}
+
+/* A floor of 4 m2 turned out of the map's grid, so that its edges do not all fall on one side of the texels' middles. */
+static void make_floor(void)
+{
+    float c = 0.8829476f, s = 0.4694716f; /* 28 degrees */
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_quad(vec3(0, 0, 0), vec3(s, 0, c), vec3(c, 0, -s));
+    world_end();
+}
+
+/* --- lights ----------------------------------------------------------------------------------------------------------- */
+
+static lmb_light make_light(int32_t kind, lmb_vec3 at, lmb_vec3 along)
+{
+    lmb_light l;
+    memset(&l, 0, sizeof l);
+    l.kind = kind;
+    l.position = at;
+    l.direction = normalize3(along);
+    l.intensity[0] = 2.0f;
+    l.intensity[1] = 3.0f;
+    l.intensity[2] = 5.0f;
+    l.cos_inner = l.cos_outer = -1.0f;
+    return l;
+}
+
+static lmb_light spot(lmb_vec3 at, lmb_vec3 along, double inner_deg, double outer_deg)
+{
+    lmb_light l = make_light(LMB_LIGHT_SPOT, at, along);
+    l.cos_inner = (float)cos(inner_deg * PI / 180.0);
+    l.cos_outer = (float)cos(outer_deg * PI / 180.0);
+    return l;
+}
+
+static lmb_light point_light(lmb_vec3 at) { return make_light(LMB_LIGHT_POINT, at, vec3(0, -1, 0)); }
+static lmb_light sun(lmb_vec3 along) { return make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), along); }
+
+/* --- first points ----------------------------------------------------------------------------------------------------- */
+
+static lmb_point point_data[POINTS];
+static uint32_t point_cells[SIDE * SIDE + 1];
+static lmb_points points;
+static uint32_t map_memory[6 * SIDE * SIDE * 2];
+static lmb_light_map map; /* of the light that add_points saw last */
+static lmb_raster_scratch raster;
+static lmb_tile tile;
+static lmb_groups groups;
+static lmb_stats stats;
+
+static void clear_points(void)
+{
+    memset(&points, 0, sizeof points);
+    points.data = point_data;
+    points.cap = POINTS;
+    points.cells = point_cells;
+    points.cell_cap = SIDE * SIDE + 1;
+}
+
+static void add_points(const lmb_light *light, int32_t size, const lmb_grouping *g, int join)
+{
+    const lmb_kernels *k = lmb_kernels_pick();
+    lmb_status status = lmb_light_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory);
+    lmb_light_map_clear(&map);
+    if (status == LMB_OK) {
+        status = lmb_light_map_draw(&map, k, &raster, &world.scene, 1, TRIANGLES, NULL);
+    }
+    for (int32_t f = 0; f < map.faces && status == LMB_OK; ++f) {
+        if ((map.drawn >> f) & 1u) {
+            status = lmb_points_collect(&points, k, &tile, &world.scene, light, &map, f, 0, size / LMB_TILE, g);
+            if (status == LMB_OK && join) {
+                status = lmb_discs_join(&points, &map, g);
+            }
+        }
+    }
+    CHECK_MSG(status == LMB_OK, "%s", lmb_status_name(status));
+}
+
+static lmb_grouping grouping_of(int32_t method, int32_t count, int32_t block)
+{
+    lmb_grouping g;
+    memset(&g, 0, sizeof g);
+    g.method = method;
+    g.groups = count;
+    g.block = block;
+    return g;
+}
+
+static void only_points(const lmb_light *light, int32_t size, int32_t block)
+{
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, block);
+    clear_points();
+    add_points(light, size, &g, 0);
+}
+
+static double flux_of(int c)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < points.count; ++i) {
+        sum += (double)points.data[i].flux[c];
+    }
+    return sum;
+}
+
+static double area_of(const lmb_point *p) { return 4.0 * (double)length3(cross3(p->axis_u, p->axis_v)); }
+
+static double total_area(void)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < points.count; ++i) {
+        sum += area_of(&points.data[i]);
+    }
+    return sum;
+}
+
+/* Power for 1 W/sr: the mean of smoothstep over its width is 1/2. */
+static double cone_power(double inner_deg, double outer_deg)
+{
+    double inner = cos(inner_deg * PI / 180.0), outer = cos(outer_deg * PI / 180.0);
+    return 2.0 * PI * (1.0 - inner + 0.5 * (inner - outer));
+}
+
+/* V4, V28: outgoing power of all points = albedo x intensity x power, whatever the block. */
+static void check_flux(const char *name, lmb_light light, double power, double bound)
+{
+    static const int32_t blocks[] = {8, 4, 2, 1};
+    double first[3] = {0, 0, 0}, worst = 0.0, spread = 0.0;
+    for (int b = 0; b < COUNT(blocks); ++b) {
+        only_points(&light, light.kind == LMB_LIGHT_POINT || light.cos_outer < 0.6f ? SIDE / 2 : SIDE, blocks[b]);
+        for (int c = 0; c < 3; ++c) {
+            double flux = flux_of(c), want = power * (double)light.intensity[c] * (double)world.material.albedo[c];
+            first[c] = b == 0 ? flux : first[c];
+            worst = fmax(worst, fabs(flux / want - 1.0));
+            spread = fmax(spread, fabs(flux / first[c] - 1.0));
+        }
+    }
+    printf("  flux, %-22s %.4f %% from closed form, blocks within %.1e\n", name, worst * 100.0, spread);
+    CHECK_MSG(worst <= bound, "%s: %g", name, worst);
+    CHECK_MSG(spread <= 1e-5, "%s: %g", name, spread);
+}
+
+static void test_flux(void)
+{
+    lmb_light wide;
+    make_box();
+    check_flux("spot 20-35", spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 35), cone_power(20, 35), 1e-3);
+    check_flux("spot 0-49", spot(vec3(0, 0, 0), vec3(1, 0.4f, 0.3f), 0, 49), cone_power(0, 49), 1e-3);
+    check_flux("spot 30-30, hard", spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 30, 30), cone_power(30, 30), 2e-3);
+    check_flux("spot 40-70, six faces", spot(vec3(0.1f, 0.5f, -0.2f), vec3(0.2f, -1, 0.3f), 40, 70), cone_power(40, 70), 1e-3);
+    wide = spot(vec3(0.1f, 0.5f, -0.2f), vec3(0.2f, -1, 0.3f), 60, 89);
+    check_flux("spot 60-89, six faces", wide, cone_power(60, 89), 1e-3);
+    check_flux("point", point_light(vec3(0.1f, 0.2f, 0.3f)), 4.0 * PI, 1e-3);
+    make_room();
+    check_flux("point, furnished", point_light(vec3(0.1f, 0.3f, -0.1f)), 4.0 * PI, 1e-3);
+    make_floor();
+    check_flux("sun overhead", sun(vec3(0, -1, 0)), 4.0, 2e-3);
+    check_flux("sun at 60 degrees", sun(vec3(0.8660254f, -0.5f, 0)), 2.0, 2e-3);
+}
+
+/* V5, V6, V7: on the walls of the box, normals inwards, facing the light, in its cone, each in its own cell. */
+static void check_places(lmb_light light, int32_t block)
+{
+    uint32_t off = 0, turned = 0, away = 0, outside = 0, misplaced = 0;
+    only_points(&light, SIDE, block);
+    for (uint32_t i = 0; i < points.count; ++i) {
+        const lmb_point *p = &points.data[i];
+        lmb_vec3 d = sub3(p->position, light.position), n = p->normal, q = p->position;
+        float most = maxf(absf(q.x), maxf(absf(q.y), absf(q.z))), w = -dot3(map.view[0].back, d);
+        off += absf(most - 1.0f) > 1e-5f;
+        turned += absf(dot3(n, q) + 1.0f) > 1e-5f || absf(length3(n) - 1.0f) > 1e-5f;
+        away += !(dot3(n, d) < 0.0f);
+        outside += light.kind == LMB_LIGHT_SPOT && dot3(normalize3(d), light.direction) < light.cos_outer - 1e-4f;
+        if (map.faces == 1) {
+            float x = (dot3(map.view[0].right, d) / (w * map.view[0].half_width) + 1.0f) * 0.5f * (float)SIDE / (float)block;
+            float y = (1.0f - dot3(map.view[0].up, d) / (w * map.view[0].half_height)) * 0.5f * (float)SIDE / (float)block;
+            misplaced += absf(x - 0.5f - (float)p->cell_x) > 0.501f || absf(y - 0.5f - (float)p->cell_y) > 0.501f;
+        }
+    }
+    CHECK_MSG(points.count > 0 && off == 0, "%u of %u off the walls", (unsigned)off, (unsigned)points.count);
+    CHECK_MSG(turned == 0, "%u normals wrong", (unsigned)turned);
+    CHECK_MSG(away == 0, "%u face away from the light", (unsigned)away);
+    CHECK_MSG(outside == 0, "%u outside the cone", (unsigned)outside);
+    CHECK_MSG(misplaced == 0, "%u not in their cell", (unsigned)misplaced);
+}
+
+/* V7: what lies behind a plate of 0.6 m is not lit, its upper side is. */
+static void check_shadowed(void)
+{
+    lmb_light light = spot(vec3(0, 0.9f, 0), vec3(0, -1, 0), 30, 40);
+    uint32_t behind = 0, on_plate = 0, under = 0;
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    world_quad(vec3(0.1f, 0, 0), vec3(0.3f, 0, 0), vec3(0, 0, -0.3f));
+    world_end();
+    only_points(&light, SIDE, 1);
+    for (uint32_t i = 0; i < points.count; ++i) {
+        lmb_vec3 p = points.data[i].position;
+        float t = 0.9f / (0.9f - p.y); /* where the ray passes y = 0 */
+        int inside = absf(p.x * t - 0.1f) < 0.295f && absf(p.z * t) < 0.295f;
+        behind += p.y < -0.5f && inside;
+        on_plate += absf(p.y) < 1e-4f;
+        under += absf(p.y) < 1e-4f && points.data[i].normal.y < 0.0f;
+    }
+    CHECK_MSG(behind == 0, "%u points in the plate's shadow", (unsigned)behind);
+    CHECK(on_plate > 100 && under == 0);
+}
+
+/* 4 |u x v| summed: the lit area. */
+static void check_areas(void)
+{
+    static const int32_t blocks[] = {1, 8};
+    double want = PI * tan(35 * PI / 180) * tan(35 * PI / 180);
+    for (int b = 0; b < COUNT(blocks); ++b) {
+        lmb_light l = sun(vec3(0.5f, -0.8f, 0.2f));
+        make_floor();
+        only_points(&l, SIDE, blocks[b]);
+        double floor_m2 = total_area();
+        make_box();
+        l = point_light(vec3(0.1f, 0.2f, 0.3f));
+        only_points(&l, SIDE / 2, blocks[b]);
+        double box_m2 = total_area();
+        l = spot(vec3(0, 0, 0), vec3(0, -1, 0), 25, 35);
+        only_points(&l, SIDE, blocks[b]);
+        double circle_m2 = total_area();
+        printf("  areas, block %d: floor %+.3f %%, box %+.3f %%, circle %+.3f %%\n", (int)blocks[b], (floor_m2 / 4 - 1) * 100,
+               (box_m2 / 24 - 1) * 100, (circle_m2 / want - 1) * 100);
+        CHECK(fabs(floor_m2 / 4.0 - 1.0) < 5e-3);
+        CHECK(fabs(box_m2 / 24.0 - 1.0) < 5e-3);
+        CHECK(fabs(circle_m2 / want - 1.0) < 1e-2);
+    }
+}
+
+/* V2: reflectance follows vertex colours, and textures. */
+static void check_albedo(void)
+{
+    static const uint8_t texels[2][4] = {{0, 0, 0, 255}, {255, 255, 255, 255}};
+    lmb_light l = sun(vec3(0, -1, 0));
+    float worst = 0.0f, least = 1.0f, most = 0.0f;
+    uint32_t grey = 0, dark = 0, bright = 0;
+    world_begin(1, 1, 1);
+    world_quad(vec3(0, 0, 0), Z, X);
+    for (int i = 0; i < 6; ++i) {
+        memset(colours[i / 3][i % 3], corners[i / 3][i % 3][0] > 0.0f ? 255 : 0, 3);
+    }
+    world_end();
+    only_points(&l, SIDE, 8);
+    for (uint32_t i = 0; i < points.count; ++i) {
+        float a = points.data[i].albedo[0];
+        worst = maxf(worst, absf(a - 0.5f * (1.0f + points.data[i].position.x)));
+        least = minf(least, a);
+        most = maxf(most, a);
+    }
+    CHECK_MSG(worst < 0.005f && least < 0.05f && most > 0.95f, "%g %g %g", (double)worst, (double)least, (double)most);
+    memset(colours, 255, sizeof colours);
+    for (int i = 0; i < 6; ++i) {
+        uvs[i / 3][i % 3][0] = corners[i / 3][i % 3][0] > 0.0f ? 1.0f : 0.0f;
+        uvs[i / 3][i % 3][1] = 0.5f;
+    }
+    world.texture.texels = &texels[0][0];
+    world.texture.width = 2;
+    world.texture.height = world.texture.levels = 1;
+    world.texture.wrap_s = LMB_WRAP_CLAMP;
+    world.texture.filter = LMB_NEAREST;
+    world.material.texture = 0;
+    world_end();
+    only_points(&l, SIDE, 1);
+    for (uint32_t i = 0; i < points.count; ++i) {
+        const lmb_point *p = &points.data[i];
+        dark += p->albedo[0] < 1e-5f && p->position.x < 0.0f;
+        bright += p->albedo[0] > 0.99999f && p->position.x > 0.0f;
+        grey += p->albedo[0] > 1e-5f && p->albedo[0] < 0.99999f;
+    }
+    CHECK_MSG(grey == 0 && dark > 1000 && dark + bright == points.count, "%u %u %u", (unsigned)grey, (unsigned)dark, (unsigned)bright);
+    memset(uvs, 0, sizeof uvs);
+}
+
+static void check_collect_limits(void)
+{
+    lmb_light l = point_light(vec3(0.1f, 0.2f, 0.3f));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    const lmb_kernels *k = lmb_kernels_pick();
+    make_box();
+    only_points(&l, SIDE / 2, 8);
+    uint32_t all = points.count;
+    clear_points();
+    points.cap = 5;
+    CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 0, SIDE / 16, &g) == LMB_ERR_CAPACITY);
+    CHECK(points.count == 5 && all > 5);
+    clear_points();
+    points.cell_cap = 16;
+    CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 0, SIDE / 16, &g) == LMB_ERR_CAPACITY);
+    clear_points();
+    g.block = 3;
+    CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 0, SIDE / 16, &g) == LMB_ERR_ARG);
+    CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 6, 0, SIDE / 16, NULL) == LMB_ERR_ARG);
+    CHECK(points.count == 0 && lmb_discs_join(&points, &map, NULL) == LMB_ERR_ARG);
+}
+
+static void test_points(void)
+{
+    make_box();
+    check_places(spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 35), 1);
+    check_places(spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 48), 8);
+    check_places(spot(vec3(0.1f, 0.1f, -0.2f), vec3(-1, -1, 1), 20, 48), 4);
+    check_places(point_light(vec3(0.5f, -0.2f, 0.7f)), 8);
+    check_shadowed();
+    check_areas();
+    check_albedo();
+    check_collect_limits();
+}
+
+/* --- discs ------------------------------------------------------------------------------------------------------------ */
+
+static int is_inner(const lmb_point *p, int32_t side)
+{
+    return p->cell_x > 1 && p->cell_y > 1 && p->cell_x < side - 2 && p->cell_y < side - 2;
+}
+
+/* Largest distance of the inner points' mean distance from `want`, as a share of it. */
+static double distance_error(double want)
+{
+    double worst = 0.0;
+    for (uint32_t i = 0; i < points.count; ++i) {
+        if (is_inner(&points.data[i], SIDE / 8)) {
+            worst = fmax(worst, fabs((double)points.data[i].distance / want - 1.0));
+        }
+    }
+    return worst;
+}
+
+/* V8, V9: on a plane facing the light the points stand in a grid: four neighbours a step away, four a diagonal. */
+static void check_distances(void)
+{
+    lmb_light l = sun(vec3(0, -1, 0));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), Z, X);
+    world_end();
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    double step = 16.0 * (double)map.view[0].half_width / SIDE;
+    CHECK_MSG(points.count == (SIDE / 8) * (SIDE / 8), "%u", (unsigned)points.count);
+    CHECK_MSG(distance_error(step * 0.5 * (1.0 + sqrt(2.0))) < 1e-3, "%g", distance_error(step * 0.5 * (1.0 + sqrt(2.0))));
+    g.neighbour_m = (float)(1.2 * step); /* leaves the diagonals out */
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    CHECK_MSG(distance_error(step) < 1e-3, "%g", distance_error(step));
+    g.neighbour_m = (float)(0.5 * step); /* leaves all out: the disc's own size */
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    CHECK_MSG(distance_error(step) < 1e-3, "%g", distance_error(step));
+}
+
+/* V11: the larger k, the fewer discs; V12: nothing is lost. */
+static void check_joining(void)
+{
+    static const float k[] = {0.05f, 0.5f, 0.75f, 1.0f};
+    lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
+    uint32_t before = 0xffffffffu, first = 0;
+    make_room();
+    for (int i = 0; i < COUNT(k); ++i) {
+        lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+        g.join = k[i];
+        clear_points();
+        add_points(&l, SIDE / 2, &g, 0);
+        double flux = flux_of(0), flux_b = flux_of(2), area = total_area();
+        first = points.count;
+        clear_points();
+        add_points(&l, SIDE / 2, &g, 1);
+        CHECK_MSG(fabs(flux_of(0) / flux - 1) < 1e-6 && fabs(flux_of(2) / flux_b - 1) < 1e-6, "%g", flux_of(0) / flux - 1);
+        CHECK_MSG(fabs(total_area() / area - 1) < 1e-5, "%g", total_area() / area - 1);
+        CHECK_MSG(points.count <= before, "k %g: %u discs after %u", (double)k[i], (unsigned)points.count, (unsigned)before);
+        before = points.count;
+    }
+    printf("  discs: k = 1 leaves %u of %u points\n", (unsigned)before, (unsigned)first);
+    CHECK(before < first);
+}
+
+/* Five points in 2x2 cells by hand: two of the first cell are 1 cm apart, the rest 1 m. */
+static void hand_points(void)
+{
+    static const float at[5][3] = {{0, 0, 0}, {0.01f, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}};
+    clear_points();
+    points.count = 5;
+    points.faces = 1;
+    memset(points.data, 0, 5 * sizeof *points.data);
+    for (uint32_t i = 0; i < 5; ++i) {
+        lmb_point *p = &points.data[i];
+        p->position = vec3(at[i][0], at[i][1], at[i][2]);
+        p->normal = Y;
+        p->flux[0] = p->flux[1] = p->flux[2] = (float)(i + 1);
+        p->albedo[0] = p->albedo[1] = p->albedo[2] = 0.25f * (float)i;
+        p->axis_u = mul3(X, 0.1f * (float)(i + 1));
+        p->axis_v = mul3(Z, 0.1f);
+        p->cell_x = (uint16_t)(i > 0 ? (i - 1) % 2 : 0);
+        p->cell_y = (uint16_t)(i > 0 ? (i - 1) / 2 : 0);
+        p->face = 1;
+    }
+    point_cells[0] = 0;
+    point_cells[1] = 2;
+    point_cells[2] = 3;
+    point_cells[3] = 4;
+    point_cells[4] = 5;
+    memset(&map, 0, sizeof map);
+    map.size = 16;
+}
+
+static void check_hand_joining(void)
+{
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    const lmb_point *p = points.data;
+    hand_points();
+    double area = total_area(), flux = flux_of(0);
+    CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 4);
+    p = points.data;
+    CHECK_MSG(absf(p->position.x - 0.02f / 3.0f) < 1e-6f, "%g", (double)p->position.x); /* weighted by flux 1 and 2 */
+    CHECK_MSG(absf(p->albedo[0] - 0.5f / 3.0f) < 1e-6f, "%g", (double)p->albedo[0]);     /* members' mean [V12] */
+    CHECK(fabs((double)p->flux[0] - 3.0) < 1e-6 && fabs(flux_of(0) - flux) < 1e-5);
+    CHECK(fabs(total_area() - area) < 1e-6);
+    hand_points(); /* mean distance of the first: (0.01 + 1 + 1 + 1.414) / 4 = 0.856 */
+    g.join = 0.01f;
+    CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5);
+    CHECK_MSG(absf(p->distance - 0.856053f) < 1e-5f, "%g", (double)p->distance);
+    hand_points();
+    g.join = 0.5f;
+    points.data[1].normal = X; /* another surface: neither a neighbour nor joined */
+    CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5);
+    CHECK_MSG(absf(p->distance - 1.138071f) < 1e-5f, "%g", (double)p->distance);
+    hand_points();
+    g.neighbour_m = 0.5f; /* V9: now the mean is 0.01, and half of that joins nothing */
+    CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5 && absf(p->distance - 0.01f) < 1e-6f);
+}
+
+static void test_discs(void)
+{
+    check_distances();
+    check_joining();
+    check_hand_joining();
+}
+
+/* --- groups ----------------------------------------------------------------------------------------------------------- */
+
+/* The same for the same points in any order. */
+static uint64_t hash_points(void)
+{
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < points.count; ++i) {
+        const uint8_t *bytes = (const uint8_t *)&points.data[i];
+        uint64_t h = UINT64_C(1469598103934665603);
+        for (size_t b = 0; b < offsetof(lmb_point, link); ++b) {
+            h = (h ^ bytes[b]) * UINT64_C(1099511628211);
+        }
+        sum += h;
+    }
+    return sum;
+}
+
+static lmb_vec3 group_vec(float planes[3][LMB_MAX_GROUPS], int32_t k)
+{
+    return vec3(planes[0][k], planes[1][k], planes[2][k]);
+}
+
+/* V12, V18, V19: everything about group k again, in double, from its members. */
+static int group_is_its_members(int32_t k)
+{
+    const lmb_point *m = points.data + groups.first[k];
+    double flux = 0, area = 0, albedo = 0, bary[3] = {0, 0, 0}, inside = 1;
+    lmb_vec3 centre = group_vec(groups.position, k);
+    for (uint32_t i = 0; i < groups.members[k]; ++i) {
+        double w = (double)m[i].flux[0] + (double)m[i].flux[1] + (double)m[i].flux[2];
+        flux += w;
+        area += area_of(&m[i]);
+        albedo += area_of(&m[i]) * (double)m[i].albedo[1];
+        bary[0] += w * (double)m[i].position.x;
+        bary[1] += w * (double)m[i].position.y;
+        bary[2] += w * (double)m[i].position.z;
+        for (int c = 0; c < 4; ++c) {
+            lmb_vec3 corner = add3(add3(m[i].position, mul3(m[i].axis_u, c & 1 ? 1.0f : -1.0f)), mul3(m[i].axis_v, c & 2 ? 1.0f : -1.0f));
+            inside *= length3(sub3(corner, centre)) <= groups.radius[k] * 1.00001f;
+        }
+    }
+    double sum = (double)groups.flux[0][k] + (double)groups.flux[1][k] + (double)groups.flux[2][k];
+    double off = fabs(bary[0] / flux - (double)centre.x) + fabs(bary[1] / flux - (double)centre.y) + fabs(bary[2] / flux - (double)centre.z);
+    return groups.members[k] > 0 && inside > 0 && fabs(sum / flux - 1) < 1e-5 && fabs((double)groups.area[k] / area - 1) < 1e-5 &&
+           fabs((double)groups.albedo[1][k] - albedo / area) < 1e-5 && off < 1e-4 &&
+           absf(length3(group_vec(groups.normal, k)) - 1.0f) < 1e-5f;
+}
+
+/* Every point is a member of exactly one group, none is lost or changed, and groups are what their members are. */
+static void check_groups(const char *name, uint64_t hash, uint32_t count, double flux)
+{
+    uint32_t next = 0, gaps = 0, wrong = 0;
+    for (int32_t k = 0; k < groups.count; ++k) {
+        gaps += groups.first[k] != next;
+        next += groups.members[k];
+        wrong += !group_is_its_members(k);
+    }
+    CHECK_MSG(gaps == 0 && next == points.count && points.count == count, "%s: %u in ranges, %u discs", name, (unsigned)next, (unsigned)count);
+    CHECK_MSG(hash_points() == hash, "%s: the discs have changed", name);
+    CHECK_MSG(wrong == 0, "%s: %u of %d groups are not their members' sum", name, (unsigned)wrong, (int)groups.count);
+    CHECK_MSG(fabs(stats.flux_grouped / flux - 1) < 1e-5 && fabs(stats.flux_lit / flux - 1) < 1e-5, "%s: %.9g of %.9g W",
+              name, stats.flux_grouped, flux);
+}
+
+static void run_grouping(const char *name, const lmb_grouping *g)
+{
+    uint64_t hash = hash_points();
+    uint32_t count = points.count;
+    double flux = flux_of(0) + flux_of(1) + flux_of(2);
+    memset(&stats, 0, sizeof stats);
+    CHECK(lmb_group_points(&groups, &points, g, &stats) == LMB_OK);
+    CHECK_MSG(groups.count > 0 && (g->groups == 0 || groups.count <= g->groups), "%s: %d groups", name, (int)groups.count);
+    CHECK(stats.groups == (uint32_t)groups.count && stats.discs == count);
+    check_groups(name, hash, count, flux);
+}
+
+/* Points of a furnished box under a lamp, joined to discs. */
+static void room_points(int32_t size, int32_t block)
+{
+    lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, block);
+    make_room();
+    clear_points();
+    add_points(&l, size, &g, 1);
+}
+
+/* V17, V18: members lie within reach, and when a group was closed no disc that came later would still have fit.
+ * The barycentre moves while members join, so the first of them may end at up to twice the reach. */
+static void check_greedy(float reach, float cosine)
+{
+    lmb_grouping g = grouping_of(LMB_GROUP_GREEDY, LMB_MAX_GROUPS, 8);
+    uint32_t far = 0, bent = 0, missed = 0;
+    float worst = 0.0f;
+    g.reach = reach;
+    g.cosine = cosine;
+    room_points(SIDE / 2, 8);
+    run_grouping("greedy", &g);
+    CHECK_MSG(stats.regroups == 0, "%u restarts: the reach is not what was asked for", (unsigned)stats.regroups);
+    for (int32_t k = 0; k < groups.count; ++k) {
+        const lmb_point *m = points.data + groups.first[k];
+        float radius = maxf((float)sqrt(area_of(m) / PI), 0.5f * m->distance) * reach;
+        lmb_vec3 at = group_vec(groups.position, k), n = group_vec(groups.normal, k);
+        for (uint32_t i = 0; i < points.count - groups.first[k]; ++i) {
+            float away = length3(sub3(m[i].position, at)), agree = dot3(m[i].normal, n);
+            if (i < groups.members[k]) {
+                worst = maxf(worst, away / radius);
+                far += away > 2.0f * radius;
+                bent += agree < 2.0f * cosine * cosine - 1.0f; /* twice the angle */
+            } else {
+                missed += away < radius * 0.9999f && agree > cosine + 1e-4f;
+            }
+        }
+    }
+    printf("  greedy: reach %g, cosine %g: %d groups, members within %.2f reaches\n", (double)reach, (double)cosine,
+           (int)groups.count, (double)worst);
+    CHECK_MSG(far == 0 && bent == 0, "%u too far, %u turned away", (unsigned)far, (unsigned)bent);
+    CHECK_MSG(missed == 0, "%u discs fit an earlier group", (unsigned)missed);
+}
+
+/* V21: never more than asked for; V20, V18: and nothing lost on the way. */
+static void check_counts(int32_t method)
+{
+    static const int32_t wanted[] = {1, 2, 3, 5, 6, 7, 16, 33, 64, 200, 256, 1000, LMB_MAX_GROUPS};
+    char name[64];
+    printf("  %s:", method == LMB_GROUP_GREEDY ? "greedy" : "zones");
+    for (int i = 0; i < COUNT(wanted); ++i) {
+        lmb_grouping g = grouping_of(method, wanted[i], 8);
+        if (wanted[i] > LMB_MAX_GROUPS) {
+            continue;
+        }
+        room_points(SIDE / 2, 8);
+        snprintf(name, sizeof name, "method %d, %d groups", (int)method, (int)wanted[i]);
+        run_grouping(name, &g);
+        printf(" %d/%d", (int)groups.count, (int)wanted[i]);
+    }
+    printf(" groups of %u discs\n", (unsigned)points.count);
+}
+
+/* More faces of maps than groups wanted. */
+static void check_many_faces(void)
+{
+    static const int32_t methods[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY};
+    for (int m = 0; m < COUNT(methods); ++m) {
+        for (int32_t wanted = 1; wanted <= 8; ++wanted) {
+            lmb_grouping g = grouping_of(methods[m], wanted, 8);
+            make_box();
+            clear_points();
+            for (int i = 0; i < 5; ++i) {
+                lmb_light l = point_light(vec3(0.15f * (float)i - 0.3f, 0.2f, 0.3f - 0.1f * (float)i));
+                add_points(&l, 32, &g, 1);
+            }
+            CHECK(points.faces == 30);
+            run_grouping("30 faces", &g);
+        }
+    }
+}
+
+/* V20: a plate 1 m over a floor; zones of 4x4 discs. What misfits opens a second group; strict drops it and says so. */
+static void check_zones(void)
+{
+    lmb_light l = sun(vec3(0, -1, 0));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 200, 8);
+    uint32_t mixed = 0, used = 0;
+    uint8_t zones[8][8];
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), Z, X);
+    world_quad(vec3(0.13f, 1, 0.07f), mul3(Z, 0.41f), mul3(X, 0.41f));
+    world_end();
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    g.groups = (int32_t)(points.count / 15);
+    run_grouping("zones", &g);
+    CHECK(stats.regroups == 0);
+    for (int32_t k = 0; k < groups.count; ++k) {
+        const lmb_point *m = points.data + groups.first[k];
+        for (uint32_t i = 0; i < groups.members[k]; ++i) {
+            mixed += absf(m[i].position.y - m[0].position.y) > 0.1f;
+            mixed += m[i].cell_x / 4 != m[0].cell_x / 4 || m[i].cell_y / 4 != m[0].cell_y / 4;
+        }
+    }
+    int32_t whole = groups.count;
+    CHECK_MSG(mixed == 0 && whole > 64, "%u members of another height or zone, %d groups", (unsigned)mixed, (int)whole);
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    g.flags = LMB_ZONES_STRICT;
+    memset(&stats, 0, sizeof stats);
+    memset(zones, 0, sizeof zones);
+    CHECK(lmb_group_points(&groups, &points, &g, &stats) == LMB_OK);
+    for (int32_t k = 0; k < groups.count; ++k) {
+        used += groups.members[k];
+        ++zones[points.data[groups.first[k]].cell_y / 4][points.data[groups.first[k]].cell_x / 4];
+    }
+    double dropped = 0.0;
+    for (uint32_t i = used; i < points.count; ++i) {
+        dropped += (double)points.data[i].flux[0] + (double)points.data[i].flux[1] + (double)points.data[i].flux[2];
+    }
+    CHECK_MSG(groups.count == 64, "%d groups of 64 zones", (int)groups.count);
+    for (int z = 0; z < 64; ++z) {
+        CHECK(zones[z / 8][z % 8] == 1);
+    }
+    printf("  zones: %d groups, or 64 strict ones that drop %.2f %%\n", (int)whole, dropped / stats.flux_lit * 100.0);
+    CHECK(dropped > 0.0);
+    CHECK_MSG(fabs(stats.flux_lit - stats.flux_grouped - dropped) < 1e-5 * stats.flux_lit, "%g %g", stats.flux_lit - stats.flux_grouped, dropped);
+}
+
+/* V22: a group stands at its first disc. */
+static void check_point_centre(void)
+{
+    static const int32_t methods[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY};
+    for (int m = 0; m < COUNT(methods); ++m) {
+        lmb_grouping g = grouping_of(methods[m], 64, 8);
+        uint32_t elsewhere = 0, outside = 0;
+        g.flags = LMB_POINT_CENTRE;
+        room_points(SIDE / 2, 8);
+        CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK);
+        for (int32_t k = 0; k < groups.count; ++k) {
+            const lmb_point *d = points.data + groups.first[k];
+            lmb_vec3 at = group_vec(groups.position, k);
+            elsewhere += memcmp(&at, &d->position, sizeof at) != 0;
+            for (uint32_t i = 0; i < groups.members[k]; ++i) {
+                lmb_vec3 corner = add3(add3(d[i].position, d[i].axis_u), d[i].axis_v);
+                outside += length3(sub3(corner, at)) > groups.radius[k] * 1.00001f;
+            }
+        }
+        CHECK_MSG(elsewhere == 0 && outside == 0, "%u not at their first disc, %u corners outside", (unsigned)elsewhere, (unsigned)outside);
+    }
+}
+
+/* V14: one group a disc where they fit, an error where they do not; bad arguments. */
+static void check_group_limits(void)
+{
+    lmb_grouping g = grouping_of(LMB_GROUP_NONE, 0, 8);
+    lmb_light l = spot(vec3(0, 0.8f, 0), vec3(0, -1, 0), 20, 35);
+    make_box();
+    clear_points();
+    add_points(&l, 128, &g, 1);
+    CHECK(points.count < LMB_MAX_GROUPS);
+    run_grouping("none", &g);
+    CHECK((uint32_t)groups.count == points.count);
+    l = point_light(vec3(0, 0, 0));
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    CHECK(points.count > LMB_MAX_GROUPS && lmb_group_points(&groups, &points, &g, NULL) == LMB_ERR_CAPACITY);
+    g.groups = LMB_MAX_GROUPS + 1;
+    CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_ERR_ARG);
+    g = grouping_of(3, 0, 8);
+    CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_ERR_ARG);
+    g = grouping_of(LMB_GROUP_ZONES, 16, 8);
+    points.count = 0;
+    CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK && groups.count == 0);
+}
+
+/* The same again, and whatever the scratch member held. */
+static void check_repeats(void)
+{
+    static const int32_t methods[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY};
+    static lmb_groups before;
+    for (int m = 0; m < COUNT(methods); ++m) {
+        lmb_grouping g = grouping_of(methods[m], 100, 8);
+        uint64_t hash;
+        memset(&groups, 0, sizeof groups);
+        room_points(SIDE / 2, 8);
+        CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK);
+        before = groups;
+        hash = hash_points();
+        memset(&groups, 0, sizeof groups);
+        room_points(SIDE / 2, 8);
+        for (uint32_t i = 0; i < points.count; ++i) {
+            points.data[i].link = i * 2654435761u;
+        }
+        CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK);
+        CHECK(hash_points() == hash && memcmp(&before, &groups, sizeof groups) == 0);
+        g.groups = 10; /* again, on discs that were grouped before */
+        run_grouping("again", &g);
+    }
+}
+
+static void test_groups(void)
+{
+    check_greedy(3.0f, 0.9f);
+    check_greedy(2.0f, 0.95f);
+    check_greedy(5.0f, 0.7f);
+    check_counts(LMB_GROUP_GREEDY);
+    check_counts(LMB_GROUP_ZONES);
+    check_many_faces();
+    check_zones();
+    check_point_centre();
+    check_group_limits();
+    check_repeats();
+}
+
+/* --- form factors ----------------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 random_unit(test_rng *r)
+{
+    for (;;) {
+        lmb_vec3 v = vec3(test_uniform(r, -1, 1), test_uniform(r, -1, 1), test_uniform(r, -1, 1));
+        float d2 = dot3(v, v);
+        if (d2 > 0.01f && d2 <= 1.0f) {
+            return normalize3(v);
+        }
+    }
+}
+
+static void basis(lmb_vec3 *u, lmb_vec3 *v, lmb_vec3 n)
+{
+    *u = normalize3(cross3(absf(n.x) < 0.7f ? X : Y, n));
+    *v = cross3(n, *u);
+}
+
+/* cosP cosG / (pi r^2), 0 where either faces away. */
+static double point_factor(lmb_vec3 at, lmb_vec3 n, const double q[3], lmb_vec3 axis)
+{
+    double x = q[0] - (double)at.x, y = q[1] - (double)at.y, z = q[2] - (double)at.z, r2 = x * x + y * y + z * z;
+    double a = x * (double)n.x + y * (double)n.y + z * (double)n.z;
+    double b = -(x * (double)axis.x + y * (double)axis.y + z * (double)axis.z);
+    return a > 0 && b > 0 ? a * b / (PI * r2 * r2) : 0.0;
+}
+
+/* The mean over a disc of radius 1: Gauss in the squared radius, equal steps around. */
+static double disc_truth(lmb_vec3 at, lmb_vec3 n, lmb_vec3 centre, lmb_vec3 axis)
+{
+    static const double node[4] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+    static const double weight[4] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+    double sum = 0.0;
+    lmb_vec3 u, v;
+    basis(&u, &v, axis);
+    for (int i = 0; i < 8; ++i) {
+        double r = sqrt(0.5 + 0.5 * (i & 1 ? -node[i / 2] : node[i / 2]));
+        for (int j = 0; j < 64; ++j) {
+            double x = r * cos(2 * PI * j / 64), y = r * sin(2 * PI * j / 64), q[3];
+            q[0] = (double)centre.x + x * (double)u.x + y * (double)v.x;
+            q[1] = (double)centre.y + x * (double)u.y + y * (double)v.y;
+            q[2] = (double)centre.z + x * (double)u.z + y * (double)v.z;
+            sum += 0.5 * weight[i / 2] / 64 * point_factor(at, n, q, axis);
+        }
+    }
+    return sum;
+}
+
+/* A receiver at the origin and a disc of radius 1 at distance r, all of it over the receiver's horizon and the receiver
+ * before it. */
+typedef struct pair {
+    lmb_vec3 normal, centre, axis;
+} pair;
+
+static pair random_pair(test_rng *r, float distance)
+{
+    for (;;) {
+        pair p;
+        p.normal = random_unit(r);
+        p.centre = mul3(random_unit(r), distance);
+        p.axis = random_unit(r);
+        float g = dot3(p.normal, p.axis), dip = sqrtf(maxf(1.0f - g * g, 0.0f));
+        if (dot3(p.normal, p.centre) > dip && dot3(p.axis, p.centre) < 0.0f) {
+            return p;
+        }
+    }
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* DESIGN 4: 1.6 / 0.4 / 0.05 / 0.01 % at 2-3 / 3-5 / 5-8 / 8-12 radii. */
+static void check_disc_error(float near_r, float far_r, double bound)
+{
+    enum { TRIES = 4000 };
+    static double error[TRIES];
+    test_rng rng = {UINT64_C(0x9e3779b97f4a7c15)};
+    double mean = 0.0;
+    for (int i = 0; i < TRIES; ++i) {
+        pair p = random_pair(&rng, test_uniform(&rng, near_r, far_r));
+        double want = disc_truth(vec3(0, 0, 0), p.normal, p.centre, p.axis);
+        error[i] = fabs((double)lmb_disc_factor(vec3(0, 0, 0), p.normal, p.centre, p.axis, (float)PI) / want - 1.0);
+        mean += error[i] / TRIES;
+    }
+    qsort(error, TRIES, sizeof *error, compare_doubles);
+    printf("  disc at %g-%g radii: median %.4f %%, mean %.4f %%, 99 %% under %.3f %%\n", (double)near_r, (double)far_r,
+           error[TRIES / 2] * 100, mean * 100, error[TRIES * 99 / 100] * 100);
+    CHECK_MSG(error[TRIES / 2] < bound, "%g", error[TRIES / 2]);
+    CHECK_MSG(mean < 3.0 * bound, "%g", mean);
+}
+
+/* The error is of second order in s = A / (pi r^2): twice as far, 16 times less. */
+static void check_disc_order(void)
+{
+    enum { TRIES = 400 };
+    static double ratio[TRIES];
+    test_rng rng = {77};
+    for (int i = 0; i < TRIES; ++i) {
+        pair p = random_pair(&rng, 6.0f);
+        double e[2];
+        for (int k = 0; k < 2; ++k) {
+            lmb_vec3 c = mul3(p.centre, k ? 2.0f : 1.0f);
+            double want = disc_truth(vec3(0, 0, 0), p.normal, c, p.axis);
+            e[k] = fabs((double)lmb_disc_factor(vec3(0, 0, 0), p.normal, c, p.axis, (float)PI) / want - 1.0);
+        }
+        ratio[i] = e[0] / (e[1] + 1e-9);
+    }
+    qsort(ratio, TRIES, sizeof *ratio, compare_doubles);
+    printf("  disc, twice as far: error %.1f times less (second order: 16)\n", ratio[TRIES / 2]);
+    CHECK_MSG(ratio[TRIES / 2] > 11 && ratio[TRIES / 2] < 22, "%g", ratio[TRIES / 2]);
+}
+
+static void check_disc_limits(void)
+{
+    test_rng rng = {5};
+    uint32_t over = 0, seen = 0, negative = 0;
+    for (int i = 1; i < 200; ++i) { /* exact on the axis */
+        float r = 0.05f * (float)i;
+        double want = 1.0 / (PI * (double)r * (double)r + PI);
+        float got = lmb_disc_factor(vec3(0, 0, 0), Z, vec3(0, 0, r), vec3(0, 0, -1), (float)PI);
+        CHECK_MSG(fabs((double)got / want - 1) < 2e-6, "at %g: %g, want %g", (double)r, (double)got, want);
+    }
+    for (int i = 0; i < 200000; ++i) {
+        float r = (float)pow(10.0, (double)test_uniform(&rng, -3, 2));
+        lmb_vec3 n = random_unit(&rng), c = mul3(random_unit(&rng), r), axis = random_unit(&rng);
+        float f = lmb_disc_factor(vec3(0, 0, 0), n, c, axis, (float)PI);
+        over += !(f <= (float)(1.0 / PI) * 1.00001f);
+        negative += !(f >= 0.0f);
+        seen += f != 0.0f && (dot3(n, c) <= 0.0f || dot3(axis, c) >= 0.0f);
+    }
+    CHECK_MSG(over == 0 && negative == 0, "%u over M / A, %u negative", (unsigned)over, (unsigned)negative);
+    CHECK_MSG(seen == 0, "%u face away and are lit", (unsigned)seen);
+    CHECK(lmb_disc_factor(vec3(0, 0, 0), Z, vec3(0, 0, 0), Z, 1.0f) == 0.0f);
+}
+
+static double quad_truth(lmb_vec3 at, lmb_vec3 n, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u, lmb_vec3 v)
+{
+    enum { STEPS = 400 };
+    double sum = 0.0;
+    for (int j = 0; j < STEPS; ++j) {
+        for (int i = 0; i < STEPS; ++i) {
+            double a = (2.0 * i + 1.0) / STEPS - 1.0, b = (2.0 * j + 1.0) / STEPS - 1.0, q[3];
+            q[0] = (double)centre.x + a * (double)u.x + b * (double)v.x;
+            q[1] = (double)centre.y + a * (double)u.y + b * (double)v.y;
+            q[2] = (double)centre.z + a * (double)u.z + b * (double)v.z;
+            sum += point_factor(at, n, q, axis);
+        }
+    }
+    return sum / ((double)STEPS * STEPS);
+}
+
+/* A square of 2 m a side around the origin. */
+static float quad_from(lmb_vec3 at, lmb_vec3 n, lmb_vec3 axis) { return lmb_quad_factor(at, n, n, vec3(0, 0, 0), axis, X, Y); }
+
+/* Any orientation, the horizon often through the quad; parallelograms too. */
+static void check_quads(void)
+{
+    test_rng rng = {99};
+    double worst = 0.0;
+    uint32_t clipped = 0;
+    for (int i = 0; i < 200; ++i) {
+        lmb_vec3 axis = random_unit(&rng), n = random_unit(&rng), u, v;
+        basis(&u, &v, axis);
+        v = add3(mul3(v, test_uniform(&rng, 0.2f, 1)), mul3(u, test_uniform(&rng, -0.5f, 0.5f)));
+        lmb_vec3 at = add3(mul3(axis, test_uniform(&rng, 0.1f, 3)), mul3(random_unit(&rng), 0.05f));
+        at = add3(at, add3(mul3(u, test_uniform(&rng, -2, 2)), mul3(v, test_uniform(&rng, -2, 2))));
+        int above = 0;
+        for (int c = 0; c < 4; ++c) {
+            lmb_vec3 corner = add3(mul3(u, c & 1 ? 1.0f : -1.0f), mul3(v, c & 2 ? 1.0f : -1.0f));
+            above += dot3(n, sub3(corner, at)) > 0.0f;
+        }
+        clipped += above > 0 && above < 4;
+        double area = 4.0 * (double)length3(cross3(u, v));
+        double want = quad_truth(at, n, vec3(0, 0, 0), axis, u, v);
+        worst = fmax(worst, area * fabs((double)lmb_quad_factor(at, n, n, vec3(0, 0, 0), axis, u, v) - want));
+    }
+    printf("  quad: form factor within %.1e of the integral, %u of 200 cut by the horizon\n", worst, (unsigned)clipped);
+    CHECK_MSG(worst < 1e-3, "%g", worst);
+    CHECK(clipped > 20);
+    CHECK(quad_from(vec3(0, 0, 1), vec3(0, 0, -1), vec3(0, 0, -1)) == 0.0f); /* emitter turned away */
+    CHECK(quad_from(vec3(0, 0, 1), Z, Z) == 0.0f);                           /* receiver */
+    CHECK(quad_from(vec3(0, 0, 0), Z, Z) == 0.0f && quad_from(vec3(3, 0, 0), X, Z) == 0.0f);            /* its own plane */
+    /* Touching: it fills the hemisphere. */
+    CHECK(absf(4.0f * quad_from(vec3(0, 0, 0.004f), vec3(0, 0, -1), Z) - 1.0f) < 1e-3f);
+}
+
+static void test_factors(void)
+{
+    check_disc_error(2, 3, 0.025);
+    check_disc_error(3, 5, 0.006);
+    check_disc_error(5, 8, 0.0008);
+    check_disc_error(8, 12, 0.00016);
+    check_disc_order();
+    check_disc_limits();
+    check_quads();
+}
+
+/* --- the gather of a tile --------------------------------------------------------------------------------------------- */
+
+static lmb_gather_scratch gather_scratch;
+
+static lmb_vec3 plane_vec(float planes[3][LMB_TILE_PIXELS], int k) { return vec3(planes[0][k], planes[1][k], planes[2][k]); }
+
+static void set_plane(float planes[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
+{
+    planes[0][k] = v.x;
+    planes[1][k] = v.y;
+    planes[2][k] = v.z;
+}
+
+/* 64 unrelated surface points around the origin; the last two without a surface. */
+static void random_tile(test_rng *rng)
+{
+    memset(&tile, 0, sizeof tile);
+    for (int k = 0; k < LMB_TILE_PIXELS - 2; ++k) {
+        lmb_vec3 n = random_unit(rng);
+        set_plane(tile.position, k, mul3(random_unit(rng), test_uniform(rng, 0, 1)));
+        set_plane(tile.normal, k, n);
+        set_plane(tile.face, k, n);
+        tile.depth[k] = 1.0f;
+        tile.id[k] = 1;
+        ++tile.hits;
+    }
+}
+
+static void set_group(int32_t k, lmb_vec3 at, lmb_vec3 axis, float area, float radius, float flux)
+{
+    for (int c = 0; c < 3; ++c) {
+        groups.flux[c][k] = flux * (float)(c + 1);
+    }
+    groups.position[0][k] = at.x;
+    groups.position[1][k] = at.y;
+    groups.position[2][k] = at.z;
+    groups.normal[0][k] = axis.x;
+    groups.normal[1][k] = axis.y;
+    groups.normal[2][k] = axis.z;
+    groups.area[k] = area;
+    groups.radius[k] = radius;
+    groups.first[k] = groups.members[k] = 0;
+}
+
+static void gather(lmb_irradiance *out, const lmb_points *p, const lmb_occluder *o)
+{
+    memset(out, 0, sizeof *out);
+    CHECK(lmb_gather_tile(out, lmb_kernels_pick(), &gather_scratch, &tile, &groups, p, o) == LMB_OK);
+}
+
+/* V27, V28: far groups, one after another. */
+static void check_far(void)
+{
+    test_rng rng = {11};
+    lmb_irradiance got, want;
+    memset(&want, 0, sizeof want);
+    random_tile(&rng);
+    groups.count = 50;
+    for (int32_t k = 0; k < groups.count; ++k) {
+        set_group(k, mul3(random_unit(&rng), test_uniform(&rng, 2, 9)), random_unit(&rng), test_uniform(&rng, 0.1f, 0.5f), 0.4f, test_uniform(&rng, 0.1f, 9));
+    }
+    for (int32_t j = 0; j < groups.count; ++j) {
+        for (int k = 0; k < LMB_TILE_PIXELS - 2; ++k) {
+            float f = lmb_disc_factor(plane_vec(tile.position, k), plane_vec(tile.normal, k), group_vec(groups.position, j),
+                                      group_vec(groups.normal, j), groups.area[j]);
+            for (int c = 0; c < 3; ++c) {
+                want.rgb[c][k] += f * groups.flux[c][j];
+            }
+        }
+    }
+    gather(&got, NULL, NULL);
+    CHECK(memcmp(&got, &want, sizeof got) == 0);
+    CHECK(got.rgb[0][LMB_TILE_PIXELS - 1] == 0.0f && got.rgb[0][0] > 0.0f);
+    /* A face that looks away takes nothing, whatever its shading normal. */
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_plane(tile.face, k, mul3(plane_vec(tile.normal, k), -1.0f));
+    }
+    gather(&got, NULL, NULL);
+    float sum = 0.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        sum += got.rgb[0][k];
+    }
+    CHECK(sum == 0.0f);
+}
+
+/* A plate of 8x8 discs over the origin, in 4 groups of 16. */
+static void plate_points(float y)
+{
+    clear_points();
+    groups.count = 4;
+    for (int32_t k = 0; k < 4; ++k) {
+        lmb_vec3 middle = vec3(k & 1 ? 0.5f : -0.5f, y, k & 2 ? 0.5f : -0.5f);
+        set_group(k, middle, vec3(0, -1, 0), 1.0f, 0.70710678f, 1.0f);
+        groups.first[k] = points.count;
+        groups.members[k] = 16;
+        for (int i = 0; i < 16; ++i) {
+            lmb_point *p = &points.data[points.count++];
+            memset(p, 0, sizeof *p);
+            p->position = add3(middle, vec3(0.25f * (float)(i % 4) - 0.375f, 0, 0.25f * (float)(i / 4) - 0.375f));
+            p->normal = vec3(0, -1, 0);
+            p->axis_u = mul3(X, 0.125f);
+            p->axis_v = mul3(Z, 0.125f);
+            p->flux[0] = p->flux[1] = p->flux[2] = 0.0625f * (float)(1 + i % 3);
+        }
+    }
+}
+
+/* A group within twice its radius is read disc by disc, a disc within LMB_NEAR half-diagonals as a quad. */
+static void check_near(void)
+{
+    test_rng rng = {12};
+    lmb_irradiance got, without;
+    double worst = 0.0;
+    int quads = 0;
+    for (int round = 0; round < 20; ++round) {
+        random_tile(&rng);
+        plate_points(test_uniform(&rng, 0.02f, 0.5f));
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* under the plate, inside all four groups' near range */
+            set_plane(tile.position, k, vec3(test_uniform(&rng, -0.5f, 0.5f), 0, test_uniform(&rng, -0.5f, 0.5f)));
+            tile.id[k] = 1;
+        }
+        gather(&got, &points, NULL);
+        gather(&without, NULL, NULL);
+        for (int k = 0; k < LMB_TILE_PIXELS - 2; ++k) {
+            lmb_vec3 at = plane_vec(tile.position, k), n = plane_vec(tile.normal, k);
+            double want = 0.0;
+            for (int32_t j = 0; j < 4; ++j) {
+                lmb_vec3 to = sub3(group_vec(groups.position, j), at);
+                int near_group = dot3(to, to) < 4.0f * groups.radius[j] * groups.radius[j];
+                for (uint32_t i = 0; i < 16; ++i) {
+                    const lmb_point *p = &points.data[groups.first[j] + i];
+                    float half2 = 4.0f * 0.125f * 0.125f * 0.5f;
+                    lmb_vec3 d = sub3(p->position, at);
+                    int near_disc = dot3(d, d) < half2 * LMB_NEAR * LMB_NEAR;
+                    quads += near_disc && near_group;
+                    want += !near_group ? 0.0
+                            : (double)p->flux[0] * (double)(near_disc ? lmb_quad_factor(at, n, n, p->position, p->normal, p->axis_u, p->axis_v)
+                                                                      : lmb_disc_factor(at, n, p->position, p->normal, 0.0625f));
+                }
+                want += near_group ? 0.0 : (double)groups.flux[0][j] * (double)lmb_disc_factor(at, n, group_vec(groups.position, j), vec3(0, -1, 0), 1.0f);
+            }
+            worst = fmax(worst, fabs((double)got.rgb[0][k] - want) / (want + 1e-3));
+            CHECK(without.rgb[0][k] <= got.rgb[0][k]); /* no discs handed in: near groups give nothing */
+        }
+    }
+    printf("  near: tile within %.1e of its discs' factors, %d of them quads\n", worst, quads);
+    CHECK_MSG(worst < 1e-5, "%g", worst);
+    CHECK(quads > 1000);
+}
+
+static void check_linear(const lmb_occluder *o)
+{
+    lmb_irradiance once, twice;
+    uint32_t wrong = 0, lit = 0;
+    gather(&once, &points, o);
+    for (int32_t k = 0; k < groups.count; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            groups.flux[c][k] *= 2.0f;
+        }
+    }
+    for (uint32_t i = 0; i < points.count; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            points.data[i].flux[c] *= 2.0f;
+        }
+    }
+    gather(&twice, &points, o);
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            wrong += twice.rgb[c][k] != 2.0f * once.rgb[c][k];
+            lit += once.rgb[c][k] > 0.0f;
+        }
+    }
+    CHECK_MSG(wrong == 0 && lit > 0, "%u values not exactly doubled", (unsigned)wrong);
+}
+
+static void check_gather_arguments(void)
+{
+    lmb_irradiance out;
+    lmb_occluder o;
+    const lmb_kernels *k = lmb_kernels_pick();
+    memset(&out, 0, sizeof out);
+    memset(&o, 0, sizeof o);
+    CHECK(lmb_gather_tile(NULL, k, &gather_scratch, &tile, &groups, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_gather_tile(&out, k, NULL, &tile, &groups, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_gather_tile(&out, k, &gather_scratch, &tile, NULL, NULL, NULL) == LMB_ERR_ARG);
+    o.kind = LMB_OCCLUSION_VIEW; /* without a view */
+    o.steps = 12;
+    CHECK(lmb_gather_tile(&out, k, &gather_scratch, &tile, &groups, NULL, &o) == LMB_ERR_ARG);
+}
+
+static void test_gather(void)
+{
+    test_rng rng = {13};
+    check_far();
+    check_near();
+    random_tile(&rng);
+    plate_points(0.3f);
+    check_linear(NULL);
+    check_gather_arguments();
+}
+
+/* --- occlusion -------------------------------------------------------------------------------------------------------- */
+
+static uint32_t depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
+static lmb_target eye;
+static float picture[2][FRAME * FRAME];
+static lmb_vec3 seen_at[FRAME * FRAME];
+static uint32_t seen_id[FRAME * FRAME];
+
+static lmb_view look(lmb_vec3 from, lmb_vec3 target, double fov_deg)
+{
+    lmb_view v;
+    CHECK(lmb_view_look(&v, from, target, Y, (float)(fov_deg * PI / 180), FRAME, FRAME) == LMB_OK);
+    v.near_m = 0.05f;
+    v.far_m = 50.0f;
+    return v;
+}
+
+static void draw_view(const lmb_view *v, int32_t format)
+{
+    memset(&eye, 0, sizeof eye);
+    CHECK(lmb_surface_init(&eye.depth, format, FRAME, FRAME, depth_memory, sizeof depth_memory) == LMB_OK);
+    CHECK(lmb_surface_init(&eye.id, LMB_ID32, FRAME, FRAME, id_memory, sizeof id_memory) == LMB_OK);
+    lmb_surface_clear(&eye.depth);
+    lmb_surface_clear(&eye.id);
+    CHECK(lmb_draw(&eye, lmb_kernels_pick(), &raster, v, &world.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
+}
+
+/* Red irradiance of every pixel, by kind of occlusion. */
+static void gather_view(float *out, const lmb_view *v, int32_t kind, int32_t steps)
+{
+    lmb_occluder o;
+    o.view = v;
+    o.depth = &eye.depth;
+    o.kind = kind;
+    o.steps = steps;
+    for (int32_t y = 0; y < FRAME; y += LMB_TILE) {
+        for (int32_t x = 0; x < FRAME; x += LMB_TILE) {
+            lmb_irradiance e;
+            CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), v, &world.scene, &eye, x, y) == LMB_OK);
+            gather(&e, &points, &o);
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                int32_t at = (y + k / LMB_TILE) * FRAME + x + k % LMB_TILE;
+                out[at] = e.rgb[0][k];
+                seen_at[at] = plane_vec(tile.position, k);
+                seen_id[at] = tile.id[k];
+            }
+        }
+    }
+}
+
+/* One emitter that is never near. */
+static void one_emitter(lmb_vec3 at, lmb_vec3 axis)
+{
+    clear_points();
+    groups.count = 1;
+    set_group(0, at, normalize3(axis), 1e-4f, 1e-3f, 1.0f);
+}
+
+/* V25, V26: a wall at x = 0, seen from its lit side, between floor pixels at x > 0 and an emitter at x < 0. */
+static void check_wall(int32_t kind, int32_t format, int32_t steps)
+{
+    const lmb_vec3 from = {-1, 0.6f, 0};
+    lmb_view v = look(vec3(2.5f, 1.8f, 1.5f), vec3(0.3f, 0.3f, 0), 55);
+    int hidden = 0, leaks = 0, open = 0, lost = 0;
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 3), mul3(X, 3));
+    world_quad(vec3(0, 0.4f, 0), mul3(Y, 0.4f), mul3(Z, 0.8f));
+    world_end();
+    draw_view(&v, format);
+    one_emitter(from, X);
+    gather_view(picture[0], &v, LMB_OCCLUSION_NONE, 12);
+    gather_view(picture[1], &v, kind, steps);
+    for (int i = 0; i < FRAME * FRAME; ++i) {
+        lmb_vec3 p = seen_at[i];
+        if (seen_id[i] == 0 || seen_id[i] > 2 || p.x < 0.1f || picture[0][i] == 0.0f) {
+            continue;
+        }
+        lmb_vec3 at = add3(from, mul3(sub3(p, from), 1.0f / (p.x + 1.0f))); /* where the segment passes x = 0 */
+        int inside = at.y < 0.75f && absf(at.z) < 0.75f, past = at.y > 0.85f || absf(at.z) > 0.85f;
+        hidden += inside;
+        leaks += inside && picture[1][i] != 0.0f;
+        open += past;
+        lost += past && picture[1][i] == 0.0f;
+    }
+    printf("  wall, %s, D%d, %d steps: %d of %d hidden pixels lit, %d of %d open ones dark\n",
+           kind == LMB_OCCLUSION_VIEW ? "view" : kind == LMB_OCCLUSION_NONE ? "none" : "view-world",
+           format == LMB_DEPTH32F ? 32 : 16, (int)steps, leaks, hidden, lost, open);
+    CHECK(hidden > 500 && open > 100);
+    if (kind == LMB_OCCLUSION_NONE) {
+        CHECK(leaks == hidden && lost == 0);
+    } else {
+        CHECK_MSG(leaks * 100 <= hidden, "%d of %d", leaks, hidden);
+        CHECK_MSG(lost * 100 <= open * 2, "%d of %d", lost, open);
+    }
+}
+
+/* A floor seen at 1 to 5 degrees under an emitter: nothing is between. */
+static void check_grazing(int32_t kind, int32_t format, int orthographic)
+{
+    static const double degrees[] = {1, 2, 3, 5, 20};
+    int dark = 0, seen = 0;
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 8), mul3(X, 8));
+    world_end();
+    for (int d = 0; d < COUNT(degrees); ++d) {
+        for (int e = 0; e < 5; ++e) {
+            double a = degrees[d] * PI / 180;
+            lmb_view v = look(vec3(0, (float)(5.0 * sin(a)), (float)(5.0 * cos(a))), vec3(0, 0, 0), 40);
+            if (orthographic) {
+                v.kind = LMB_ORTHOGRAPHIC;
+                v.half_width = v.half_height = 2.0f;
+            }
+            draw_view(&v, format);
+            one_emitter(vec3((float)(e - 2) * 0.9f, 0.5f + 0.6f * (float)e, 1.3f - 0.8f * (float)e), vec3(0, -1, 0));
+            gather_view(picture[0], &v, LMB_OCCLUSION_NONE, 12);
+            gather_view(picture[1], &v, kind, 12);
+            for (int i = 0; i < FRAME * FRAME; ++i) {
+                seen += picture[0][i] > 0.0f;
+                dark += picture[1][i] != picture[0][i];
+            }
+        }
+    }
+    CHECK_MSG(dark == 0 && seen > 1000, "kind %d, format %d, %s: %d of %d pixels of a bare floor are dark", (int)kind, (int)format,
+              orthographic ? "orthographic" : "perspective", dark, seen);
+}
+
+/* 16-bit depth says the same as 32-bit depth; the emitters' pairs are taken one by one. */
+static void check_depth_formats(int32_t kind)
+{
+    test_rng rng = {21};
+    lmb_view v = look(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
+    int pairs = 0, differ = 0, hidden = 0;
+    make_room();
+    v.far_m = 4.0f;
+    for (int e = 0; e < 24; ++e) {
+        lmb_vec3 n = random_unit(&rng), at = mul3(n, 0.98f / maxf(absf(n.x), maxf(absf(n.y), absf(n.z))));
+        one_emitter(at, mul3(at, -1.0f));
+        draw_view(&v, LMB_DEPTH32F);
+        gather_view(picture[0], &v, LMB_OCCLUSION_NONE, 12);
+        for (int i = 0; i < FRAME * FRAME; ++i) {
+            pairs += picture[0][i] > 0.0f;
+        }
+        gather_view(picture[0], &v, kind, 12);
+        draw_view(&v, LMB_DEPTH16);
+        gather_view(picture[1], &v, kind, 12);
+        for (int i = 0; i < FRAME * FRAME; ++i) {
+            differ += (picture[0][i] > 0.0f) != (picture[1][i] > 0.0f);
+            hidden += picture[0][i] == 0.0f;
+        }
+    }
+    printf("  depth of 16 bits and of 32 differ on %.3f %% of %d pairs\n", 100.0 * differ / pairs, pairs);
+    CHECK_MSG(differ * 100 <= pairs && hidden > 1000, "%d of %d", differ, pairs);
+}
+
+/* Rows and tiles of depth are read alike. */
+static void check_depth_layouts(void)
+{
+    static float rows[FRAME * FRAME];
+    lmb_view v = look(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
+    make_room();
+    one_emitter(vec3(-0.9f, -0.6f, 0.5f), X);
+    draw_view(&v, LMB_DEPTH32F);
+    gather_view(picture[0], &v, LMB_OCCLUSION_VIEW, 12);
+    CHECK(lmb_depth_linearize(rows, sizeof rows, &eye.depth) == LMB_OK);
+    eye.depth.data = rows;
+    eye.depth.layout = LMB_LINEAR;
+    eye.depth.stride_bytes = FRAME * 4;
+    gather_view(picture[1], &v, LMB_OCCLUSION_VIEW, 12);
+    CHECK(memcmp(picture[0], picture[1], sizeof picture[0]) == 0);
+}
+
+/* Doubled light is doubled behind an occluder too, near and far. */
+static void check_linear_occluded(void)
+{
+    lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 64, 8);
+    lmb_view v = look(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
+    lmb_occluder o;
+    make_room();
+    clear_points();
+    add_points(&l, SIDE / 2, &g, 1);
+    CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK);
+    draw_view(&v, LMB_DEPTH32F);
+    o.view = &v;
+    o.depth = &eye.depth;
+    o.kind = LMB_OCCLUSION_VIEW;
+    o.steps = 12;
+    CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), &v, &world.scene, &eye, 64, 64) == LMB_OK);
+    check_linear(&o);
+}
+
+static void test_occlusion(void)
+{
+    static const int32_t kinds[] = {LMB_OCCLUSION_VIEW, LMB_OCCLUSION_VIEW_WORLD};
+    check_wall(LMB_OCCLUSION_NONE, LMB_DEPTH32F, 12);
+    for (int k = 0; k < COUNT(kinds); ++k) {
+        check_wall(kinds[k], LMB_DEPTH32F, 12);
+        check_wall(kinds[k], LMB_DEPTH32F, 64);
+        check_wall(kinds[k], LMB_DEPTH16, 12);
+        for (int i = 0; i < 4; ++i) {
+            check_grazing(kinds[k], i & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, i >> 1);
+        }
+        check_depth_formats(kinds[k]);
+    }
+    check_depth_layouts();
+    check_linear_occluded();
+}
+
+void test_bounce(void)
+{
+    test_flux();
+    test_points();
+    test_discs();
+    test_groups();
+    test_factors();
+    test_gather();
+    test_occlusion();
+}
