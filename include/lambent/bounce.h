@@ -121,7 +121,7 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
  *   occluder  what may stand between, or NULL.
  *
  * Far pair, with c = cosP cosG, g = nP.nG, s = A / (pi r^2), t = c (3 cos^2 G - 1) + g cos^2 G:
- *   E = M / (pi r^2) * (t >= 0 ? c^2 / (c + t s) : min(c - t s, cosG / s))
+ *   E = M / (pi r^2) * min(t >= 0 ? c^2 / (c + t s) : c - t s, cosG / s)
  * the disc's form factor to second order in its size; exact on the axis of a facing disc, never over M / A.
  * Near pair: each disc by the same formula, or its quad by Lambert's polygon formula clipped to the horizon.
  * Doubling every flux doubles `out` exactly. Returns LMB_OK or LMB_ERR_ARG. Stack: 1 KiB. */

@@ -9,7 +9,7 @@
  * A disc of area A seen from r away, to second order in s = A / (pi r^2) (integrate cosP cosG / r^2 over the disc):
  *   E = (c - t s) / (pi r^2),  c = cosP cosG,  t = c (3 cos^2 G - 1) + g cos^2 G,  g = nP.nG.
  * c^2 / (c + t s) has the same expansion, stays positive for t >= 0 and equals 1 / (pi r^2 + A) on the axis of a
- * facing disc (t = c = 1), which is exact. For t < 0 the sum itself is kept, under the bound cosG / s: nothing receives
+ * facing disc (t = c = 1), which is exact. For t < 0 the sum itself is kept. Both stay under cosG / s: nothing receives
  * more than the disc's own radiosity M / A times cosG. */
 static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area)
 {
@@ -23,10 +23,10 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
     lane ts = lane_mul(t, s);
     lane_mask over = lane_le(zero, t);
     lane cos_g = lane_mul(b, lane_sqrt(i));
-    lane top = lane_pick(over, lane_mul(c, c), lane_min(lane_mul(lane_sub(c, ts), s), cos_g));
-    lane bottom = lane_pick(over, lane_add(c, ts), s);
+    lane base = lane_pick(over, lane_add(c, ts), lane_splat(1.0f)), sum = lane_pick(over, lane_mul(c, c), lane_sub(c, ts));
     lane_mask faces = mask_and(lane_lt(zero, a), lane_lt(zero, b));
-    lane e = lane_mul(lane_mul(inverse_pi, i), lane_div(top, lane_pick(faces, bottom, lane_splat(1.0f))));
+    lane top = lane_min(lane_mul(sum, s), lane_mul(cos_g, base)), bottom = lane_pick(faces, lane_mul(base, s), lane_splat(1.0f));
+    lane e = lane_mul(lane_mul(inverse_pi, i), lane_div(top, bottom));
     return lane_keep(faces, e);
 }
 

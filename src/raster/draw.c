@@ -181,8 +181,9 @@ static int view_is_fine(const lmb_view *v)
 static lmb_status check_target(const lmb_target *t, const lmb_view *view, const lmb_scene *scene)
 {
     const lmb_surface *d = &t->depth, *i = &t->id;
-    if (d->data == NULL || t->x0 < 0 || t->y0 < 0 || t->x0 % LMB_TILE != 0 || t->y0 % LMB_TILE != 0 ||
-        t->x0 + d->width > view->frame_width + LMB_TILE - 1 || t->y0 + d->height > view->frame_height + LMB_TILE - 1) {
+    if (d->data == NULL || t->x0 < 0 || t->y0 < 0 || t->x0 % LMB_TILE != 0 || t->y0 % LMB_TILE != 0 || d->width < 1 ||
+        d->height < 1 || d->width > LMB_MAX_SIDE || d->height > LMB_MAX_SIDE ||
+        t->x0 > view->frame_width + LMB_TILE - 1 - d->width || t->y0 > view->frame_height + LMB_TILE - 1 - d->height) {
         return LMB_ERR_ARG;
     }
     if ((d->format != LMB_DEPTH32F && d->format != LMB_DEPTH16) ||

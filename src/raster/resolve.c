@@ -108,7 +108,7 @@ static void plane_point(float *b1, float *b2, const lmb_resolve_job *job, float 
 
 static float mix3(const float corner[3], float b1, float b2)
 {
-    return corner[0] * (1.0f - b1 - b2) + corner[1] * b1 + corner[2] * b2;
+    return corner[0] + ((corner[1] - corner[0]) * b1 + (corner[2] - corner[0]) * b2);
 }
 
 static int opaque_at(const lmb_resolve_alpha *alpha, const lmb_scene *scene, const float u[3], const float v[3], float b1,

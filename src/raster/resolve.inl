@@ -17,22 +17,23 @@ static inline void resolve_put(float *p, lane_mask mine, lane value)
     lane_store(p, lane_pick(mine, value, lane_load(p)));
 }
 
-static inline lane resolve_mix(const float corner[3], lane b0, lane b1, lane b2)
+/* Differences from corner 0, so that three equal corners give exactly their value. */
+static inline lane resolve_mix(const float corner[3], lane b1, lane b2)
 {
-    return lane_add(lane_add(lane_mul(b0, lane_splat(corner[0])), lane_mul(b1, lane_splat(corner[1]))),
-                    lane_mul(b2, lane_splat(corner[2])));
+    return lane_add(lane_splat(corner[0]), lane_add(lane_mul(b1, lane_splat(corner[1] - corner[0])),
+                                                    lane_mul(b2, lane_splat(corner[2] - corner[0]))));
 }
 
 /* The interpolated normal, unit length, on the face normal's side; the face normal where it vanishes. */
-static inline lane3 resolve_normal(const lmb_resolve_job *job, lane b0, lane b1, lane b2)
+static inline lane3 resolve_normal(const lmb_resolve_job *job, lane b1, lane b2)
 {
     const lmb_vec3 *c = job->normal;
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), tiny = lane_splat(1e-12f);
     const lane3 face = lane3_splat(job->face.x, job->face.y, job->face.z);
     lane3 n;
-    n.x = resolve_mix((const float[3]){c[0].x, c[1].x, c[2].x}, b0, b1, b2);
-    n.y = resolve_mix((const float[3]){c[0].y, c[1].y, c[2].y}, b0, b1, b2);
-    n.z = resolve_mix((const float[3]){c[0].z, c[1].z, c[2].z}, b0, b1, b2);
+    n.x = resolve_mix((const float[3]){c[0].x, c[1].x, c[2].x}, b1, b2);
+    n.y = resolve_mix((const float[3]){c[0].y, c[1].y, c[2].y}, b1, b2);
+    n.z = resolve_mix((const float[3]){c[0].z, c[1].z, c[2].z}, b1, b2);
     lane d2 = lane3_dot(n, n);
     lane_mask fine = lane_lt(tiny, d2);
     lane scale = lane_div(one, lane_sqrt(lane_pick(fine, d2, one)));
@@ -68,9 +69,8 @@ static inline void resolve_vector(lmb_tile *out, const lmb_resolve_job *job, int
     lane b2 = lane3_dot(q, lane3_splat(job->g2.x, job->g2.y, job->g2.z));
     b1 = lane_min(lane_max(b1, zero), one);
     b2 = lane_min(lane_max(b2, zero), lane_sub(one, b1));
-    lane b0 = lane_sub(lane_sub(one, b1), b2);
 
-    const lane3 n = job->smooth ? resolve_normal(job, b0, b1, b2) : lane3_splat(job->face.x, job->face.y, job->face.z);
+    const lane3 n = job->smooth ? resolve_normal(job, b1, b2) : lane3_splat(job->face.x, job->face.y, job->face.z);
     resolve_put(out->depth + k, mine, w);
     resolve_put(out->position[0] + k, mine, lane_add(p.x, lane_splat(job->eye.x)));
     resolve_put(out->position[1] + k, mine, lane_add(p.y, lane_splat(job->eye.y)));
@@ -82,10 +82,10 @@ static inline void resolve_vector(lmb_tile *out, const lmb_resolve_job *job, int
     resolve_put(out->normal[1] + k, mine, n.y);
     resolve_put(out->normal[2] + k, mine, n.z);
     for (int c = 0; c < 3; ++c) {
-        resolve_put(out->albedo[c] + k, mine, resolve_mix(job->albedo[c], b0, b1, b2));
+        resolve_put(out->albedo[c] + k, mine, resolve_mix(job->albedo[c], b1, b2));
     }
-    resolve_put(out->uv[0] + k, mine, resolve_mix(job->uv[0], b0, b1, b2));
-    resolve_put(out->uv[1] + k, mine, resolve_mix(job->uv[1], b0, b1, b2));
+    resolve_put(out->uv[0] + k, mine, resolve_mix(job->uv[0], b1, b2));
+    resolve_put(out->uv[1] + k, mine, resolve_mix(job->uv[1], b1, b2));
 }
 
 static void KERNEL(resolve)(lmb_tile *out, const lmb_resolve_job *job)

@@ -11,7 +11,7 @@
 
 void test_demo(void);
 
-enum { WALLS = 6, MAX_VERTICES = 1024, FLASH_BYTES = 100 * 1024 };
+enum { WALLS = 6, MAX_VERTICES = 1536, FLASH_BYTES = 100 * 1024 };
 
 /* A triangle of an instance in the world. */
 static void corners(lmb_vec3 p[3], const lmb_scene *s, const lmb_instance *in, uint32_t triangle)
