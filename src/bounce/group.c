@@ -5,24 +5,6 @@
 
 #include <string.h>
 
-float lmb_disc_power(const lmb_point *d) { return d->flux[0] + d->flux[1] + d->flux[2]; }
-float lmb_disc_area(const lmb_point *d) { return 4.0f * length3(cross3(d->axis_u, d->axis_v)); }
-
-void lmb_group_open(lmb_group_sum *g) { memset(g, 0, sizeof *g); }
-
-void lmb_group_add(lmb_group_sum *g, const lmb_point *d)
-{
-    /* A black disc still has a place: it weighs by its area, far below any lit one. */
-    float weight = lmb_disc_power(d);
-    weight = weight > 0.0f ? weight : 1e-12f * lmb_disc_area(d) + 1e-24f;
-    g->position = add3(g->position, mul3(d->position, weight));
-    g->normal = add3(g->normal, mul3(d->normal, weight));
-    g->weight += weight;
-    g->count += 1;
-    g->centre = mul3(g->position, 1.0f / g->weight);
-    g->axis = normalize3(g->normal);
-}
-
 /* Move discs so that groups' members lie together, in order; discs of no group go last. In place: the links become
  * target places, then cycles are followed. `next` counts through each group's range. */
 static void sort_members(lmb_groups *out, lmb_points *points)

@@ -1,4 +1,4 @@
-/* group.h: what the two groupings share: adding discs up, closing a group, sorting the members together. Floor 6. */
+/* group.h: what the groupings share: discs added up, and each way to share them out. Floor 6. */
 #ifndef LMB_BOUNCE_GROUP_H
 #define LMB_BOUNCE_GROUP_H
 

@@ -1,7 +1,7 @@
 /* occlude.c: the viewer's depth map, made ready for the gather's march. Floor 6.                         [V24 V26] */
 #include "occlude.h"
 
-#include "../raster/fill.h"
+#include "../raster/target.h"
 
 int32_t lmb_march_setup(lmb_march_job *m, const lmb_occluder *o)
 {

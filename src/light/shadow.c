@@ -13,8 +13,8 @@
 #include "shadow.h"
 
 #include "../base/vec.h"
-#include "../raster/fill.h"
 #include "../raster/resolve.h"
+#include "../raster/target.h"
 
 #define EPSILON 3.0517578e-5f /* 2^-15: several roundings of distances that enter a plane test */
 

@@ -6,6 +6,7 @@
 #include "../base/vertex.h"
 #include "clip.h"
 #include "fill.h"
+#include "target.h"
 #include "triangle.h"
 
 #define GUARD_PX 16383.0f /* from the frame's middle; one px of rounding short of what setup.c can take */

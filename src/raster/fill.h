@@ -17,10 +17,4 @@ typedef struct lmb_fill_context {
 /* masked: the triangle's material has holes: every pixel that passes is asked for its alpha. */
 void lmb_fill_triangle(const lmb_fill_context *context, const lmb_setup *setup, uint32_t id, int masked);
 
-/* Address one tile of a window. */
-lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t tile_y);
-
-/* 16-bit depth codes: code = d * scale + bias. */
-void lmb_depth16_coding(float *scale, float *bias, const lmb_view *view);
-
 #endif

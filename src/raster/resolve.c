@@ -5,7 +5,7 @@
 
 #include "../base/poly.h"
 #include "../base/vertex.h"
-#include "fill.h"
+#include "target.h"
 #include "texture.h"
 
 static void set_rays(lmb_resolve_job *job, const lmb_view *v, int32_t x, int32_t y)

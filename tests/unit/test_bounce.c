@@ -739,6 +739,7 @@ static void check_zones(void)
     world_quad(vec3(0, 0, 0), Z, X);
     world_quad(vec3(0.13f, 1, 0.07f), mul3(Z, 0.41f), mul3(X, 0.41f));
     world_end();
+    g.neighbour_m = 0.3f; /* V9: the plate is no neighbour of the floor, so neither stretches the other's reach */
     clear_points();
     add_points(&l, SIDE, &g, 1);
     g.groups = (int32_t)(points.count / 10); /* 4x4 are the smallest zones of which that many hold all */

@@ -1,0 +1,22 @@
+/* group_sum.c: discs added up into a group. Floor 6.                                                       [V18 V19] */
+#include "group.h"
+
+#include <string.h>
+
+float lmb_disc_power(const lmb_point *d) { return d->flux[0] + d->flux[1] + d->flux[2]; }
+float lmb_disc_area(const lmb_point *d) { return 4.0f * length3(cross3(d->axis_u, d->axis_v)); }
+
+void lmb_group_open(lmb_group_sum *g) { memset(g, 0, sizeof *g); }
+
+void lmb_group_add(lmb_group_sum *g, const lmb_point *d)
+{
+    /* A black disc still has a place: it weighs by its area, far below any lit one. */
+    float weight = lmb_disc_power(d);
+    weight = weight > 0.0f ? weight : 1e-12f * lmb_disc_area(d) + 1e-24f;
+    g->position = add3(g->position, mul3(d->position, weight));
+    g->normal = add3(g->normal, mul3(d->normal, weight));
+    g->weight += weight;
+    g->count += 1;
+    g->centre = mul3(g->position, 1.0f / g->weight);
+    g->axis = normalize3(g->normal);
+}

@@ -1,0 +1,13 @@
+/* target.h: where a window's tiles lie in memory, and how 16 bits code depth. Floor 3. */
+#ifndef LMB_RASTER_TARGET_H
+#define LMB_RASTER_TARGET_H
+
+#include "../lane/kernels.h"
+
+/* Address one tile of a window. */
+lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t tile_y);
+
+/* 16-bit depth codes: code = d * scale + bias. */
+void lmb_depth16_coding(float *scale, float *bias, const lmb_view *view);
+
+#endif

@@ -1,0 +1,788 @@
+/* test_frames.c: floors 4 and 8: one frame, however it is cut into work and memory, has one set of bytes. */
+#include <math.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "../../tools/demo_scene.h"
+#include "../test.h"
+
+void test_frames(void);
+
+enum { MAX_W = 96, MAX_H = 72, MAP = 64, BLOCK = 4, GROUPS = 60, LIGHTS = 3, POINTS = 8192, CANARY = 64 };
+enum { FLOATS = MAX_W * MAX_H * 3, TARGET = 96 * 72, MAP_WORDS = 8 * MAP * MAP * 2 };
+#define PATTERN 0xa5a5a5a5u
+
+/* Everything a frame needs, between canaries where a size may be wrong. */
+static struct memory {
+    uint32_t depth[TARGET + 2 * CANARY], id[TARGET + 2 * CANARY], whole_depth[TARGET];
+    uint32_t map[MAP_WORDS + 2 * CANARY];
+    lmb_point points[POINTS + 1];
+    uint32_t cells[(MAP / BLOCK) * (MAP / BLOCK) + 1];
+    lmb_groups groups;
+    lmb_band_scratch scratch, other_scratch;
+    lmb_render render, copy;
+    lmb_stats stats;
+    uint32_t band_rows[MAX_W * 8 * 3];
+} m;
+
+/* Pictures, and canaries behind them. */
+typedef struct picture {
+    uint32_t data[FLOATS + CANARY];
+    lmb_surface surface;
+} picture;
+
+static picture reference, other, third;
+
+/* ---- scenes ---- */
+
+/* A box open to the viewer, a block in it, three lights. */
+static float room_positions[7 * 4 * 3];
+static uint16_t room_indices[7 * 6];
+static lmb_mesh room_mesh[7];
+static lmb_material room_materials[7];
+static lmb_instance room_instances[7];
+static lmb_light room_lights[LIGHTS];
+static lmb_scene room;
+
+static void put_quad(int n, const float p[12], float r, float g, float b)
+{
+    static const uint16_t corner[6] = {0, 1, 2, 0, 2, 3};
+    static const lmb_instance plain = {{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, 0, 0, 1, 0};
+    memcpy(room_positions + 12 * n, p, 12 * sizeof(float));
+    memcpy(room_indices + 6 * n, corner, sizeof corner);
+    memset(&room_mesh[n], 0, sizeof room_mesh[n]);
+    room_mesh[n].positions = room_positions + 12 * n;
+    room_mesh[n].indices = room_indices + 6 * n;
+    room_mesh[n].index_format = LMB_INDEX_U16;
+    room_mesh[n].vertex_count = 4;
+    room_mesh[n].triangle_count = 2;
+    memset(&room_materials[n], 0, sizeof room_materials[n]);
+    room_materials[n].albedo[0] = r;
+    room_materials[n].albedo[1] = g;
+    room_materials[n].albedo[2] = b;
+    room_materials[n].alpha = 1.0f;
+    room_materials[n].texture = -1;
+    room_materials[n].flags = LMB_DOUBLE_SIDED;
+    room_instances[n] = plain;
+    room_instances[n].mesh = room_instances[n].material = (uint32_t)n;
+    room_instances[n].first_id = 1u + 2u * (uint32_t)n;
+}
+
+static void set_lights(uint32_t count)
+{
+    static const lmb_light lights[LIGHTS] = {
+        {{0.2f, 1.8f, 0.5f}, {-0.2f, -0.96f, -0.196f}, {9, 8, 7}, 0.95f, 0.8f, LMB_LIGHT_SPOT, 0},
+        {{-0.5f, 1.2f, 0.9f}, {0, -1, 0}, {1, 2, 3}, 0, 0, LMB_LIGHT_POINT, 0},
+        {{0, 0, 0}, {0.6f, 0, -0.8f}, {2, 1, 0.5f}, 0, 0, LMB_LIGHT_DIRECTIONAL, 0},
+    };
+    memcpy(room_lights, lights, sizeof lights);
+    room.light_count = count;
+}
+
+static void set_room(void)
+{
+    static const float quads[7][12] = {
+        {-1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1},                       /* floor */
+        {-1, 2, -1, 1, 2, -1, 1, 2, 1, -1, 2, 1},                       /* ceiling */
+        {-1, 0, -1, 1, 0, -1, 1, 2, -1, -1, 2, -1},                     /* back */
+        {-1, 0, 1, -1, 0, -1, -1, 2, -1, -1, 2, 1},                     /* left */
+        {1, 0, -1, 1, 0, 1, 1, 2, 1, 1, 2, -1},                         /* right */
+        {-0.4f, 0, 0.3f, 0.3f, 0, 0.5f, 0.3f, 0.7f, 0.5f, -0.4f, 0.7f, 0.3f}, /* block, front */
+        {-0.4f, 0.7f, 0.3f, 0.3f, 0.7f, 0.5f, 0.2f, 0.7f, -0.3f, -0.4f, 0.7f, -0.3f}, /* block, top */
+    };
+    static const float colour[7][3] = {{0.7f, 0.7f, 0.7f}, {0.7f, 0.7f, 0.7f}, {0.7f, 0.6f, 0.5f}, {0.8f, 0.1f, 0.1f},
+                                       {0.1f, 0.7f, 0.2f}, {0.5f, 0.5f, 0.9f}, {0.9f, 0.9f, 0.3f}};
+    for (int n = 0; n < 7; ++n) {
+        put_quad(n, quads[n], colour[n][0], colour[n][1], colour[n][2]);
+    }
+    memset(&room, 0, sizeof room);
+    room.meshes = room_mesh;
+    room.materials = room_materials;
+    room.instances = room_instances;
+    room.lights = room_lights;
+    room.mesh_count = room.material_count = room.instance_count = 7;
+    set_lights(LIGHTS);
+    lmb_scene_bounds(&room.bounds_min, &room.bounds_max, &room);
+}
+
+/* ---- frames ---- */
+
+static void set_picture(picture *p, int32_t format, int32_t width, int32_t height)
+{
+    for (int i = 0; i < FLOATS + CANARY; ++i) {
+        p->data[i] = PATTERN;
+    }
+    lmb_surface_init(&p->surface, format, width, height, p->data, FLOATS * sizeof(uint32_t));
+}
+
+static size_t picture_bytes(const picture *p)
+{
+    return lmb_surface_bytes(p->surface.format, p->surface.width, p->surface.height);
+}
+
+/* Equal bytes over all of the memory: pixels and the untouched rest. */
+static int same_picture(const picture *a, const picture *b) { return memcmp(a->data, b->data, sizeof a->data) == 0; }
+
+static int picture_keeps_rest(const picture *p)
+{
+    const uint8_t *byte = (const uint8_t *)p->data;
+    int good = 1;
+    for (size_t i = picture_bytes(p); i < sizeof p->data; ++i) {
+        good &= byte[i] == 0xa5;
+    }
+    return good;
+}
+
+static lmb_surface target_surface(int32_t format, int32_t layout, int32_t width, int32_t height, uint32_t *data)
+{
+    lmb_surface s;
+    lmb_surface_init(&s, format, width, height, data, TARGET * sizeof(uint32_t));
+    if (layout == LMB_LINEAR) {
+        s.layout = LMB_LINEAR;
+        s.stride_bytes /= LMB_TILE;
+    }
+    return s;
+}
+
+static void set_eye(lmb_frame *f, int32_t height, int32_t layout, int32_t depth_format, int32_t id_format)
+{
+    memset(&f->eye, 0, sizeof f->eye);
+    f->eye.depth = target_surface(depth_format, layout, f->view.frame_width, height, m.depth + CANARY);
+    f->eye.id = target_surface(id_format, layout, f->view.frame_width, height, m.id + CANARY);
+}
+
+static lmb_frame plain_frame(const lmb_scene *scene, lmb_view view, picture *out)
+{
+    lmb_frame f;
+    memset(&f, 0, sizeof f);
+    f.kernels = lmb_kernels_pick();
+    f.scene = scene;
+    f.view = view;
+    f.light_map = MAP;
+    f.grouping.block = BLOCK;
+    f.grouping.groups = GROUPS;
+    f.occlusion = LMB_OCCLUSION_VIEW;
+    f.map_memory = m.map + CANARY;
+    f.map_bytes = MAP_WORDS * sizeof(uint32_t);
+    f.points.data = m.points;
+    f.points.cap = POINTS;
+    f.points.cells = m.cells;
+    f.points.cell_cap = sizeof m.cells / sizeof *m.cells;
+    f.groups = &m.groups;
+    f.scratch = &m.scratch;
+    f.stats = &m.stats;
+    set_picture(out, LMB_RGB32F, view.frame_width, view.frame_height);
+    f.out = out->surface;
+    set_eye(&f, view.frame_height, LMB_TILED, LMB_DEPTH32F, LMB_ID32);
+    /* What an earlier frame left must not matter. */
+    memset(&m.scratch, 0x3c, sizeof m.scratch);
+    memset(&m.groups, 0x3c, sizeof m.groups);
+    memset(m.points, 0x3c, sizeof m.points);
+    memset(m.cells, 0x3c, sizeof m.cells);
+    memset(m.map, 0x3c, sizeof m.map);
+    memset(m.depth, 0x3c, sizeof m.depth);
+    memset(m.id, 0x3c, sizeof m.id);
+    memset(m.whole_depth, 0x3c, sizeof m.whole_depth);
+    return f;
+}
+
+static lmb_status run_steps(const lmb_frame *f, int32_t units)
+{
+    lmb_status status = lmb_render_begin(&m.render, f);
+    while (status == LMB_OK || status == LMB_MORE) {
+        status = lmb_render_step(&m.render, units);
+        if (status != LMB_MORE) {
+            return status;
+        }
+    }
+    return status;
+}
+
+static lmb_view room_view(int32_t width, int32_t height)
+{
+    static const lmb_vec3 eye = {0.1f, 1.1f, 3.2f}, target = {0, 0.9f, 0}, up = {0, 1, 0};
+    lmb_view v;
+    lmb_view_look(&v, eye, target, up, 0.75f, width, height);
+    v.near_m = 0.1f;
+    v.far_m = 20.0f;
+    return v;
+}
+
+static int lit_pixels(const picture *p)
+{
+    int lit = 0;
+    for (int32_t i = 0; i < p->surface.width * p->surface.height * 3; ++i) {
+        float v;
+        memcpy(&v, &p->data[i], sizeof v);
+        lit += v > 0.0f;
+    }
+    return lit;
+}
+
+/* ---- slicing ---- */
+
+static void check_steps(const lmb_scene *scene, lmb_view view, const lmb_frame *how)
+{
+    static const int32_t units[] = {1, 3, 8, 17, 1000, 1 << 30};
+    for (size_t i = 0; i < sizeof units / sizeof *units; ++i) {
+        lmb_frame f = plain_frame(scene, view, &other);
+        f.occlusion = how->occlusion;
+        f.grouping.method = how->grouping.method;
+        CHECK(run_steps(&f, units[i]) == LMB_OK);
+        CHECK_MSG(same_picture(&reference, &other), "units %d", (int)units[i]);
+    }
+}
+
+/* The state may be copied between any two steps. */
+static void check_copies(const lmb_scene *scene, lmb_view view)
+{
+    lmb_frame f = plain_frame(scene, view, &other);
+    lmb_render *now = &m.render, *next = &m.copy;
+    lmb_status status = lmb_render_begin(now, &f);
+    CHECK(status == LMB_OK);
+    do {
+        lmb_render *t = now;
+        memcpy(next, now, sizeof *next);
+        memset(now, 0x3c, sizeof *now);
+        memset(&m.scratch, 0x3c, sizeof m.scratch);
+        now = next;
+        next = t;
+        status = lmb_render_step(now, 5);
+    } while (status == LMB_MORE);
+    CHECK(status == LMB_OK);
+    CHECK(same_picture(&reference, &other));
+}
+
+static void shuffle(int32_t *order, int32_t count, test_rng *r)
+{
+    for (int32_t i = 0; i < count; ++i) {
+        order[i] = i;
+    }
+    for (int32_t i = count - 1; i > 0; --i) {
+        int32_t j = (int32_t)(test_random(r) % (uint32_t)(i + 1)), t = order[i];
+        order[i] = order[j];
+        order[j] = t;
+    }
+}
+
+static lmb_status run_to_bands(const lmb_frame *f)
+{
+    lmb_status status = lmb_render_begin(&m.render, f);
+    while (status >= 0 && m.render.stage < LMB_STAGE_BANDS) {
+        status = lmb_render_step(&m.render, 64);
+    }
+    return status;
+}
+
+/* Bands in random order, by two scratches in turn, whole or band-sized eyes, into the frame or 8 rows of their own. */
+static void check_bands(const lmb_scene *scene, lmb_view view, int small_eye, int small_out)
+{
+    test_rng r = {31u + (uint64_t)small_eye + 2u * (uint64_t)small_out};
+    int32_t bands = (view.frame_height + 7) / 8, order[MAX_H / 8 + 1], failed = 0;
+    lmb_frame f = plain_frame(scene, view, &other);
+    lmb_target eye;
+    if (small_eye) {
+        set_eye(&f, LMB_TILE, LMB_TILED, LMB_DEPTH32F, LMB_ID32);
+        f.eye_depth = target_surface(LMB_DEPTH32F, LMB_TILED, view.frame_width, view.frame_height, m.whole_depth);
+    }
+    eye = f.eye;
+    CHECK(run_to_bands(&f) == LMB_MORE);
+    shuffle(order, bands, &r);
+    for (int32_t i = 0; i < bands; ++i) {
+        lmb_band_scratch *scratch = i & 1 ? &m.scratch : &m.other_scratch;
+        lmb_surface rows = f.out;
+        int32_t y = order[i] * 8, left = view.frame_height - y;
+        if (small_out) {
+            lmb_surface_init(&rows, LMB_RGB32F, view.frame_width, LMB_TILE, m.band_rows, sizeof m.band_rows);
+        }
+        failed += lmb_render_band(&m.render, scratch, &eye, &rows, order[i]) != LMB_OK;
+        if (small_out) {
+            memcpy(other.data + y * view.frame_width * 3, m.band_rows,
+                   sizeof(uint32_t) * 3u * (size_t)view.frame_width * (size_t)(left < 8 ? left : 8));
+        }
+    }
+    CHECK(failed == 0);
+    CHECK_MSG(same_picture(&reference, &other), "eye %s, out %s", small_eye ? "a band" : "whole", small_out ? "a band" : "whole");
+}
+
+/* Memory of other shapes: eyes of a band, rows instead of tiles, 16-bit ids. */
+static void check_memory(const lmb_scene *scene, lmb_view view, const lmb_frame *how)
+{
+    for (int i = 0; i < 16; ++i) {
+        lmb_frame f = plain_frame(scene, view, &other);
+        int layout = i & 1 ? LMB_LINEAR : LMB_TILED, id = i & 2 ? LMB_ID16 : LMB_ID32;
+        f.occlusion = how->occlusion;
+        f.grouping.method = how->grouping.method;
+        f.id_format = i & 4 ? LMB_ID16 : 0;
+        set_eye(&f, i & 8 ? LMB_TILE : view.frame_height, layout, LMB_DEPTH32F, id);
+        if (i & 8) {
+            f.eye_depth = target_surface(LMB_DEPTH32F, layout, view.frame_width, view.frame_height, m.whole_depth);
+        }
+        CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+        CHECK_MSG(same_picture(&reference, &other), "memory variant %d", i);
+    }
+}
+
+/* ---- callbacks ---- */
+
+typedef struct handed {
+    picture *to;
+    int32_t calls, wrong, stop_at;
+} handed;
+
+static int take_rows(void *user, const lmb_surface *rows, int32_t y)
+{
+    handed *h = (handed *)user;
+    const lmb_surface *whole = &h->to->surface;
+    int32_t expected = whole->height - y < 8 ? whole->height - y : 8;
+    h->wrong += y != 8 * h->calls || rows->height != expected || rows->width != whole->width;
+    ++h->calls;
+    for (int32_t i = 0; i < rows->height; ++i) {
+        memcpy((uint8_t *)whole->data + (y + i) * whole->stride_bytes, (const uint8_t *)rows->data + i * rows->stride_bytes,
+               (size_t)(whole->width * lmb_pixel_bytes(whole->format)));
+    }
+    return h->calls == h->stop_at;
+}
+
+/* 8 rows handed over band by band; the dither and the exposure go by the frame, not by the rows. */
+static void check_callback(const lmb_scene *scene, lmb_view view, int32_t format)
+{
+    static const lmb_surface none;
+    handed h = {&third, 0, 0, 0};
+    lmb_frame f = plain_frame(scene, view, &other);
+    set_picture(&reference, format, view.frame_width, view.frame_height);
+    f.out = reference.surface;
+    f.exposure_ev = 1.5f;
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+    set_picture(&third, format, view.frame_width, view.frame_height);
+    f.out = none;
+    lmb_surface_init(&f.out, format, view.frame_width, LMB_TILE, m.band_rows, sizeof m.band_rows);
+    f.callback = take_rows;
+    f.user = &h;
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+    CHECK(h.calls == (view.frame_height + 7) / 8 && h.wrong == 0);
+    CHECK_MSG(same_picture(&reference, &third), "format %d", (int)format);
+    CHECK(picture_keeps_rest(&reference));
+}
+
+static void test_callback_stops(void)
+{
+    handed h = {&third, 0, 0, 3};
+    lmb_frame f = plain_frame(&room, room_view(96, 72), &other);
+    set_picture(&third, LMB_RGB32F, 96, 72);
+    f.callback = take_rows;
+    f.user = &h;
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && h.calls == 3);
+    CHECK(memcmp(third.data, other.data, 24 * 96 * 12) == 0);
+    CHECK(other.data[24 * 96 * 3] == PATTERN); /* the whole frame, up to the band that was refused */
+}
+
+static void check_scene(const lmb_scene *scene, lmb_view view)
+{
+    static const int32_t formats[] = {LMB_RGB32F, LMB_RGBA8, LMB_BGRA8, LMB_RGB565, LMB_RGB555};
+    for (int i = 0; i < 4; ++i) {
+        lmb_frame f = plain_frame(scene, view, &reference);
+        f.occlusion = i % 3;
+        f.grouping.method = i & 1 ? LMB_GROUP_GREEDY : LMB_GROUP_ZONES;
+        CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+        CHECK(lit_pixels(&reference) > view.frame_width * view.frame_height && picture_keeps_rest(&reference));
+        check_steps(scene, view, &f);
+        check_memory(scene, view, &f);
+    }
+    lmb_frame f = plain_frame(scene, view, &reference);
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+    check_copies(scene, view);
+    for (int i = 0; i < 4; ++i) {
+        check_bands(scene, view, i & 1, i >> 1);
+    }
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i) {
+        check_callback(scene, view, formats[i]);
+    }
+}
+
+static void test_slicing(void)
+{
+    check_scene(&room, room_view(96, 72));
+    check_scene(&room, room_view(53, 37));
+    check_scene(demo_scene(), demo_view(96, 72));
+}
+
+/* ---- light is linear ---- */
+
+static void render_show(picture *out, int show, int occlusion, int method)
+{
+    lmb_frame f = plain_frame(&room, room_view(96, 72), out);
+    f.show = show;
+    f.occlusion = occlusion;
+    f.grouping.method = method;
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+}
+
+static void scale_lights(float s)
+{
+    for (int i = 0; i < LIGHTS; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            room_lights[i].intensity[c] *= s;
+        }
+    }
+}
+
+static float value_at(const picture *p, int i)
+{
+    float v;
+    memcpy(&v, &p->data[i], sizeof v);
+    return v;
+}
+
+static void test_doubling(void)
+{
+    static const int shows[] = {LMB_SHOW_INDIRECT, LMB_SHOW_IRRADIANCE, LMB_SHOW_DIRECT, LMB_SHOW_FULL};
+    for (int n = 0; n < 24; ++n) {
+        int wrong = 0, lit = 0;
+        set_lights(LIGHTS);
+        render_show(&reference, shows[n % 4], n / 4 % 3, n / 12);
+        scale_lights(n & 1 ? 2.0f : 0.5f);
+        render_show(&other, shows[n % 4], n / 4 % 3, n / 12);
+        for (int i = 0; i < FLOATS; ++i) {
+            float v = value_at(&reference, i) * (n & 1 ? 2.0f : 0.5f);
+            wrong += memcmp(&v, &other.data[i], sizeof v) != 0;
+            lit += v > 0.0f;
+        }
+        CHECK_MSG(wrong == 0 && lit > FLOATS / 4, "variant %d: %d of %d lit", n, wrong, lit);
+    }
+    set_lights(LIGHTS);
+}
+
+static void test_darkness(void)
+{
+    for (int n = 0; n < 16; ++n) {
+        int wrong = 0;
+        set_lights(n & 8 ? 0 : LIGHTS);
+        scale_lights(0.0f);
+        render_show(&other, n & 3, LMB_OCCLUSION_VIEW, n / 4 % 2);
+        for (int i = 0; i < FLOATS; ++i) {
+            wrong += other.data[i] != 0;
+        }
+        CHECK_MSG(wrong == 0, "variant %d: %d values are not zero", n, wrong);
+    }
+    set_lights(LIGHTS);
+}
+
+/* Each light's irradiance alone, summed in the lights' order, is what the frame's direct light is made of. */
+static void test_sum_of_lights(void)
+{
+    static lmb_irradiance sum, one;
+    static lmb_radiance radiance;
+    const lmb_kernels *k = lmb_kernels_pick();
+    picture *built = &third;
+    render_show(&reference, LMB_SHOW_DIRECT, LMB_OCCLUSION_NONE, 0);
+    lmb_render *r = &m.render; /* its maps and eye are still there */
+    set_picture(built, LMB_RGB32F, 96, 72);
+    for (int32_t at = 0; at < 12 * 9; ++at) {
+        int32_t x = at % 12 * 8, y = at / 12 * 8;
+        lmb_tile *tile = &m.scratch.tile;
+        lmb_resolve_tile(tile, k, &r->frame.view, &room, &r->frame.eye, x, y);
+        memset(&sum, 0, sizeof sum);
+        for (int i = 0; i < LIGHTS; ++i) {
+            memset(&one, 0, sizeof one);
+            lmb_direct_tile(&one, k, tile, &r->frame.view, &room, &room_lights[i], &r->maps[i]);
+            for (int p = 0; p < 3 * LMB_TILE_PIXELS; ++p) {
+                sum.rgb[p / LMB_TILE_PIXELS][p % LMB_TILE_PIXELS] += one.rgb[p / LMB_TILE_PIXELS][p % LMB_TILE_PIXELS];
+            }
+        }
+        lmb_compose_tile(&radiance, k, tile, &sum, NULL);
+        lmb_store_tile(&built->surface, 0, 0, &radiance, x, y, 0.0f);
+    }
+    CHECK(same_picture(&reference, built));
+}
+
+/* Direct light needs no points and no groups; full is direct and indirect. */
+static void test_shows(void)
+{
+    double worst = 0;
+    render_show(&reference, LMB_SHOW_DIRECT, LMB_OCCLUSION_VIEW, 0);
+    lmb_frame f = plain_frame(&room, room_view(96, 72), &other);
+    f.show = LMB_SHOW_DIRECT;
+    f.groups = NULL;
+    memset(&f.points, 0, sizeof f.points);
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && same_picture(&reference, &other));
+    f = plain_frame(&room, room_view(96, 72), &other);
+    f.groups = NULL; /* full, without what bounces: the same */
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && same_picture(&reference, &other));
+    f = plain_frame(&room, room_view(96, 72), &other);
+    f.stats = NULL;
+    f.show = LMB_SHOW_INDIRECT;
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+    render_show(&third, LMB_SHOW_FULL, LMB_OCCLUSION_VIEW, 0);
+    for (int i = 0; i < FLOATS; ++i) {
+        double whole = (double)value_at(&third, i), sum = (double)value_at(&reference, i) + (double)value_at(&other, i);
+        worst = fmax(worst, fabs(whole - sum) / (fabs(sum) + 1e-6));
+    }
+    CHECK_MSG(worst < 5e-7, "%g", worst);
+    CHECK(lit_pixels(&other) > FLOATS / 2 && lit_pixels(&reference) > FLOATS / 4);
+}
+
+/* ---- errors ---- */
+
+static void set_canaries(void)
+{
+    for (int i = 0; i < CANARY; ++i) {
+        m.depth[i] = m.id[i] = m.map[i] = PATTERN;
+        m.depth[CANARY + TARGET + i] = m.id[CANARY + TARGET + i] = m.map[CANARY + MAP_WORDS + i] = PATTERN;
+    }
+}
+
+static int canaries_live(void)
+{
+    int good = 1;
+    for (int i = 0; i < CANARY; ++i) {
+        good &= m.depth[i] == PATTERN && m.id[i] == PATTERN && m.map[i] == PATTERN;
+        good &= m.depth[CANARY + TARGET + i] == PATTERN && m.id[CANARY + TARGET + i] == PATTERN;
+        good &= m.map[CANARY + MAP_WORDS + i] == PATTERN;
+    }
+    return good;
+}
+
+/* Refused at once: the status, and no pixel, map or point written. */
+static void check_refused(const lmb_frame *f, lmb_status expected, const char *what)
+{
+    static uint32_t map_before[MAP_WORDS];
+    memcpy(map_before, m.map + CANARY, sizeof map_before);
+    set_canaries();
+    lmb_status status = lmb_render_frame(&m.render, f);
+    CHECK_MSG(status == expected, "%s: %s", what, lmb_status_name(status));
+    CHECK_MSG(other.data[0] == PATTERN && picture_keeps_rest(&other) && m.depth[CANARY] == 0x3c3c3c3cu &&
+                  m.points[0].face == 0x3c3c3c3cu && memcmp(map_before, m.map + CANARY, sizeof map_before) == 0,
+              "%s: wrote", what);
+    CHECK_MSG(canaries_live(), "%s", what);
+    CHECK_MSG(lmb_render_step(&m.render, 1000) <= LMB_OK, "%s: goes on", what);
+}
+
+static lmb_frame refused_frame(void) { return plain_frame(&room, room_view(96, 72), &other); }
+
+static void test_refused(void)
+{
+    static lmb_light many[LMB_MAX_LIGHTS + 1];
+    static const lmb_surface none;
+    lmb_frame f;
+#define REFUSED(change, status) \
+    do { \
+        f = refused_frame(); \
+        change; \
+        check_refused(&f, status, #change); \
+    } while (0)
+    CHECK(lmb_render_begin(NULL, &f) == LMB_ERR_ARG && lmb_render_begin(&m.render, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_render_step(NULL, 1) == LMB_ERR_ARG);
+    REFUSED(f.kernels = NULL, LMB_ERR_ARG);
+    REFUSED(f.scene = NULL, LMB_ERR_ARG);
+    REFUSED(f.scratch = NULL, LMB_ERR_ARG);
+    REFUSED(f.show = 4, LMB_ERR_ARG);
+    REFUSED(f.show = -1, LMB_ERR_ARG);
+    REFUSED(f.occlusion = 3, LMB_ERR_ARG);
+    REFUSED(f.steps = 65, LMB_ERR_ARG);
+    REFUSED(f.steps = -1, LMB_ERR_ARG);
+    REFUSED(f.light_map = 60, LMB_ERR_ARG);
+    REFUSED(f.light_map = 0, LMB_ERR_ARG);
+    REFUSED(f.map_memory = NULL, LMB_ERR_ARG);
+    REFUSED(f.map_memory = (uint8_t *)f.map_memory + 1, LMB_ERR_ALIGN);
+    REFUSED(f.map_bytes = 8 * MAP * MAP * 8 - 1, LMB_ERR_CAPACITY); /* 1 + 6 + 1 faces of 8 bytes a texel */
+    REFUSED(f.map_bytes = 0, LMB_ERR_CAPACITY);
+    REFUSED(f.out = none, LMB_ERR_ARG);
+    REFUSED(f.out.width = 95, LMB_ERR_ARG);
+    REFUSED(f.out.height = 71, LMB_ERR_ARG);
+    REFUSED(f.out.format = LMB_R32F, LMB_ERR_FORMAT);
+    REFUSED(f.out.format = LMB_DEPTH32F, LMB_ERR_FORMAT);
+    REFUSED(f.eye.depth.data = NULL, LMB_ERR_ARG);
+    REFUSED(f.eye.id.data = NULL, LMB_ERR_ARG);
+    REFUSED(f.eye.y0 = 8, LMB_ERR_ARG);
+    REFUSED(f.eye.depth.height = f.eye.id.height = 16, LMB_ERR_ARG);
+    REFUSED(set_eye(&f, LMB_TILE, LMB_TILED, LMB_DEPTH32F, LMB_ID32), LMB_ERR_ARG); /* VIEW needs the whole depth */
+    memcpy(many, room_lights, sizeof room_lights);
+    room.lights = many;
+    REFUSED(room.light_count = LMB_MAX_LIGHTS + 1, LMB_ERR_CAPACITY);
+    room.lights = room_lights;
+    set_lights(LIGHTS);
+    room_mesh[6].triangle_count = 65536;
+    REFUSED(f.id_format = LMB_ID16, LMB_ERR_SCENE);
+    room_mesh[6].triangle_count = 2;
+#undef REFUSED
+}
+
+/* Exactly enough map memory is enough, at the end of what there is. */
+static void test_exact_memory(void)
+{
+    lmb_frame f = plain_frame(&room, room_view(96, 72), &other);
+    set_canaries();
+    CHECK(f.map_bytes == 8 * lmb_light_map_bytes(1, MAP, LMB_ID32));
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && canaries_live() && picture_keeps_rest(&other));
+}
+
+/* Full points end the frame with a status; nothing past the caller's arrays is written. */
+static void test_few_points(void)
+{
+    for (uint32_t cap = 1; cap < 200; cap = cap * 3 + 1) {
+        lmb_frame f = plain_frame(&room, room_view(96, 72), &other);
+        f.points.cap = cap;
+        CHECK(lmb_render_frame(&m.render, &f) == LMB_ERR_CAPACITY);
+        CHECK(m.points[cap].face == 0x3c3c3c3cu && other.data[0] == PATTERN);
+    }
+    lmb_frame f = plain_frame(&room, room_view(96, 72), &other);
+    f.points.cell_cap = (MAP / BLOCK) * (MAP / BLOCK); /* one short */
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_ERR_CAPACITY);
+    CHECK(m.cells[(MAP / BLOCK) * (MAP / BLOCK)] == 0x3c3c3c3cu && other.data[0] == PATTERN);
+}
+
+static void test_band_arguments(void)
+{
+    lmb_frame f = plain_frame(&room, room_view(96, 72), &other);
+    CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
+    CHECK(lmb_render_band(&m.render, &m.scratch, &f.eye, &f.out, 0) == LMB_ERR_ARG); /* too early */
+    CHECK(run_to_bands(&f) == LMB_MORE);
+    CHECK(lmb_render_band(NULL, &m.scratch, &f.eye, &f.out, 0) == LMB_ERR_ARG);
+    CHECK(lmb_render_band(&m.render, NULL, &f.eye, &f.out, 0) == LMB_ERR_ARG);
+    CHECK(lmb_render_band(&m.render, &m.scratch, NULL, &f.out, 0) == LMB_ERR_ARG);
+    CHECK(lmb_render_band(&m.render, &m.scratch, &f.eye, NULL, 0) == LMB_ERR_ARG);
+    CHECK(lmb_render_band(&m.render, &m.scratch, &f.eye, &f.out, -1) == LMB_ERR_ARG);
+    CHECK(lmb_render_band(&m.render, &m.scratch, &f.eye, &f.out, 9) == LMB_ERR_ARG);
+    CHECK(other.data[0] == PATTERN && picture_keeps_rest(&other));
+}
+
+static void test_progress(void)
+{
+    lmb_frame f = plain_frame(&room, room_view(96, 72), &other);
+    const char *name = NULL;
+    int wrong = 0, stage = -1;
+    float before = 0.0f;
+    CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
+    do {
+        float now = lmb_render_progress(&name, &m.render);
+        wrong += name == NULL || !(now >= 0.0f && now <= 1.0f) || m.render.stage < stage;
+        wrong += m.render.stage == stage && now < before;
+        stage = m.render.stage;
+        before = now;
+    } while (lmb_render_step(&m.render, 1) == LMB_MORE);
+    CHECK(wrong == 0 && lmb_render_progress(&name, &m.render) == 1.0f);
+    CHECK(lmb_render_progress(&name, NULL) == 1.0f && name != NULL);
+}
+
+/* ---- the G-buffer ---- */
+
+static float gbuffer[2][7 * MAX_W * MAX_H];
+
+static void set_gbuffer(lmb_surface s[3], float *at, const lmb_view *v)
+{
+    size_t pixels = (size_t)v->frame_width * (size_t)v->frame_height;
+    memset(at, 0xa5, 7 * MAX_W * MAX_H * sizeof(float));
+    lmb_surface_init(&s[0], LMB_R32F, v->frame_width, v->frame_height, at, pixels * 4);
+    lmb_surface_init(&s[1], LMB_RGB32F, v->frame_width, v->frame_height, at + pixels, pixels * 12);
+    lmb_surface_init(&s[2], LMB_RGB32F, v->frame_width, v->frame_height, at + 4 * pixels, pixels * 12);
+}
+
+/* Bands from one whole target; then, last band first, each from a target of its own eight rows. */
+static void check_gbuffer(const lmb_scene *scene, lmb_view view)
+{
+    lmb_frame f = plain_frame(scene, view, &other);
+    int32_t bands = (view.frame_height + 7) / 8, failed = 0, flat = 0;
+    lmb_surface s[3];
+    const lmb_kernels *k = lmb_kernels_pick();
+    lmb_surface_clear(&f.eye.depth);
+    lmb_surface_clear(&f.eye.id);
+    lmb_draw(&f.eye, k, &m.scratch.raster, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
+    set_gbuffer(s, gbuffer[0], &view);
+    for (int32_t b = 0; b < bands; ++b) {
+        failed += lmb_gbuffer_band(&s[0], &s[1], &s[2], &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
+    }
+    set_gbuffer(s, gbuffer[1], &view);
+    set_eye(&f, LMB_TILE, LMB_LINEAR, LMB_DEPTH32F, LMB_ID16);
+    for (int32_t b = bands - 1; b >= 0; --b) {
+        f.eye.y0 = 8 * b;
+        lmb_surface_clear(&f.eye.depth);
+        lmb_surface_clear(&f.eye.id);
+        lmb_draw(&f.eye, k, &m.scratch.raster, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
+        failed += lmb_gbuffer_band(&s[0], NULL, &s[2], &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
+        failed += lmb_gbuffer_band(NULL, &s[1], NULL, &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
+    }
+    CHECK(failed == 0 && memcmp(gbuffer[0], gbuffer[1], sizeof gbuffer[0]) == 0);
+    for (int32_t i = 0; i < view.frame_width * view.frame_height; ++i) {
+        const float *n = gbuffer[0] + view.frame_width * view.frame_height + 3 * i;
+        float size = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+        flat += gbuffer[0][i] == 0.0f ? size != 0.0f : fabsf(size - 1.0f) > 1e-5f;
+    }
+    CHECK_MSG(flat == 0, "%d normals are not of unit length", (int)flat);
+}
+
+static void test_gbuffer(void)
+{
+    lmb_view view = room_view(96, 72);
+    lmb_surface s[3];
+    check_gbuffer(&room, view);
+    check_gbuffer(&room, room_view(53, 37));
+    check_gbuffer(demo_scene(), demo_view(96, 72));
+    lmb_frame f = plain_frame(&room, view, &other);
+    const lmb_kernels *k = lmb_kernels_pick();
+    set_gbuffer(s, gbuffer[0], &view);
+    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, &m.scratch.tile, k, &view, &room, &f.eye, 9) == LMB_ERR_ARG);
+    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, &m.scratch.tile, k, &view, &room, &f.eye, -1) == LMB_ERR_ARG);
+    CHECK(lmb_gbuffer_band(&s[0], NULL, NULL, NULL, k, &view, &room, &f.eye, 0) == LMB_ERR_ARG);
+    CHECK(lmb_gbuffer_band(&s[1], NULL, NULL, &m.scratch.tile, k, &view, &room, &f.eye, 0) == LMB_ERR_FORMAT);
+    CHECK(lmb_gbuffer_band(NULL, &s[0], NULL, &m.scratch.tile, k, &view, &room, &f.eye, 0) == LMB_ERR_FORMAT);
+}
+
+/* ---- the light's map ---- */
+
+/* Each face holds what lmb_draw gives in its view; lights see both sides of single-sided walls. */
+static void test_light_map(void)
+{
+    lmb_light_map map;
+    int32_t found = 0;
+    for (int n = 0; n < 7; ++n) {
+        room_materials[n].flags = 0;
+    }
+    lmb_status status = lmb_light_map_init(&map, &room_lights[1], &room, MAP, LMB_ID32, m.map + CANARY, 6 * MAP * MAP * 8);
+    CHECK(status == LMB_OK && map.faces == 6 && map.drawn == 63 && map.size == MAP);
+    lmb_light_map_clear(&map);
+    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &m.scratch.raster, &room, 1, 5, NULL) == LMB_OK);
+    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &m.scratch.raster, &room, 6, 99, NULL) == LMB_OK);
+    for (int32_t f = 0; f < 6; ++f) {
+        lmb_target t;
+        memset(&t, 0, sizeof t);
+        t.depth = target_surface(LMB_DEPTH32F, LMB_TILED, MAP, MAP, m.depth);
+        t.id = target_surface(LMB_ID32, LMB_TILED, MAP, MAP, m.id);
+        lmb_surface_clear(&t.depth);
+        lmb_surface_clear(&t.id);
+        lmb_draw(&t, lmb_kernels_pick(), &m.scratch.raster, &map.view[f], &room, 1, 99, 0, NULL);
+        CHECK(memcmp(t.depth.data, map.face[f].depth.data, MAP * MAP * 4) == 0);
+        CHECK(memcmp(t.id.data, map.face[f].id.data, MAP * MAP * 4) == 0);
+        for (int i = 0; i < MAP * MAP; ++i) {
+            found += m.id[i] != 0;
+        }
+    }
+    CHECK_MSG(found > 5 * MAP * MAP * 9 / 10, "%d texels", (int)found); /* all but the open side */
+    CHECK(lmb_light_map_init(&map, &room_lights[1], &room, MAP, LMB_ID32, m.map, 6 * MAP * MAP * 8 - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_light_map_init(&map, &room_lights[1], &room, 20, LMB_ID32, m.map, sizeof m.map) == LMB_ERR_ARG);
+    CHECK(lmb_light_map_draw(NULL, lmb_kernels_pick(), &m.scratch.raster, &room, 1, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_light_map_clear(NULL) == LMB_ERR_ARG);
+    for (int n = 0; n < 7; ++n) {
+        room_materials[n].flags = LMB_DOUBLE_SIDED;
+    }
+}
+
+void test_frames(void)
+{
+    set_room();
+    CHECK(lmb_scene_check(&room) == LMB_OK && lmb_scene_check(demo_scene()) == LMB_OK);
+    test_slicing();
+    test_callback_stops();
+    test_doubling();
+    test_darkness();
+    test_sum_of_lights();
+    test_shows();
+    test_refused();
+    test_exact_memory();
+    test_few_points();
+    test_band_arguments();
+    test_progress();
+    test_gbuffer();
+    test_light_map();
+}
