@@ -86,23 +86,50 @@ static void choose_size(job *j, float aspect)
     }
 }
 
-/* A box is seen whole from a little above and to the side. */
+static lmb_vec3 bounds_corner(const lmb_scene *s, int i)
+{
+    lmb_vec3 c = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
+                  i & 4 ? s->bounds_max.z : s->bounds_min.z};
+    return c;
+}
+
+static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
+{
+    return axis.x * (a.x - b.x) + axis.y * (a.y - b.y) + axis.z * (a.z - b.z);
+}
+
+/* How far back the eye must stand from `centre` for every corner of the bounds to fit, with a little air. */
+static float fitting_distance(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
+{
+    float away = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        lmb_vec3 c = bounds_corner(s, i);
+        float wide = fabsf(along(v->right, c, centre)) / v->half_width, high = fabsf(along(v->up, c, centre)) / v->half_height;
+        away = fmaxf(away, along(v->back, c, centre) + 1.05f * fmaxf(wide, high));
+    }
+    return away;
+}
+
+/* The whole scene, from a little above and to the side. */
 static int frame_scene(job *j, lmb_view *v, report *r)
 {
     lmb_vec3 lo = j->scene.bounds_min, hi = j->scene.bounds_max;
     lmb_vec3 centre = {(lo.x + hi.x) * 0.5f, (lo.y + hi.y) * 0.5f, (lo.z + hi.z) * 0.5f};
-    float radius = 0.5f * sqrtf((hi.x - lo.x) * (hi.x - lo.x) + (hi.y - lo.y) * (hi.y - lo.y) + (hi.z - lo.z) * (hi.z - lo.z));
+    lmb_vec3 from = {centre.x + 0.45f, centre.y + 0.35f, centre.z + 0.82f};
     choose_size(j, 0.0f);
-    if (!(radius > 0.0f)) {
+    if (!(hi.x > lo.x || hi.y > lo.y || hi.z > lo.z)) {
         return report_fail(r, "%s: nothing to see: the scene has no extent", j->o.scene);
     }
-    float narrow = j->o.width < j->o.height ? (float)j->o.width / (float)j->o.height : 1.0f;
-    float away = radius / (sinf(0.349f) * narrow); /* half of 40 degrees */
-    lmb_vec3 eye = {centre.x + 0.45f * away, centre.y + 0.35f * away, centre.z + 0.82f * away};
-    fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", j->o.scene, (double)eye.x,
-            (double)eye.y, (double)eye.z);
-    return lmb_view_look(v, eye, centre, j->o.up, 0.698f, j->o.width, j->o.height) == LMB_OK ||
-           report_fail(r, "%s: no view frames the scene; give --eye and --target", j->o.scene);
+    if (lmb_view_look(v, from, centre, j->o.up, 0.698f, j->o.width, j->o.height) != LMB_OK) {
+        return report_fail(r, "%s: no view frames the scene; give --eye and --target", j->o.scene);
+    }
+    float away = fitting_distance(&j->scene, v, centre);
+    v->eye.x = centre.x + away * v->back.x;
+    v->eye.y = centre.y + away * v->back.y;
+    v->eye.z = centre.z + away * v->back.z;
+    fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", j->o.scene, (double)v->eye.x,
+            (double)v->eye.y, (double)v->eye.z);
+    return 1;
 }
 
 static const model_camera *find_camera(const job *j, report *r)
@@ -146,9 +173,8 @@ static float from_eye(const lmb_scene *s, lmb_vec3 eye)
 {
     float far2 = 0.0f;
     for (int i = 0; i < 8; ++i) {
-        float x = (i & 1 ? s->bounds_max.x : s->bounds_min.x) - eye.x, y = (i & 2 ? s->bounds_max.y : s->bounds_min.y) - eye.y;
-        float z = (i & 4 ? s->bounds_max.z : s->bounds_min.z) - eye.z;
-        far2 = fmaxf(far2, x * x + y * y + z * z);
+        lmb_vec3 c = bounds_corner(s, i);
+        far2 = fmaxf(far2, (c.x - eye.x) * (c.x - eye.x) + (c.y - eye.y) * (c.y - eye.y) + (c.z - eye.z) * (c.z - eye.z));
     }
     return sqrtf(far2);
 }
@@ -502,7 +528,7 @@ static int save(job *j, report *r)
             return 0;
         }
     } else if (j->o.exposure_auto && !linear) {
-        ev = picture_auto_exposure(&j->linear);
+        ev = picture_auto_exposure(&j->linear) + 0.0f; /* no minus zero */
         fprintf(stderr, "lambent: exposure %+.3g EV (auto)\n", (double)ev);
     }
     return picture_write(j->o.out, &j->linear, ev, r);

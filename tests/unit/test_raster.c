@@ -113,12 +113,16 @@ static size_t place(const lmb_surface *s, int32_t x, int32_t y)
 
 static uint32_t id_at(const lmb_surface *s, int32_t x, int32_t y)
 {
-    return s->format == LMB_ID16 ? ((const uint16_t *)s->data)[place(s, x, y)] : ((const uint32_t *)s->data)[place(s, x, y)];
+    size_t at = place(s, x, y);
+    return s->format == LMB_ID16 ? ((const uint16_t *)s->data)[at] : ((const uint32_t *)s->data)[at];
 }
 
 static float depth_at(const lmb_surface *s, int32_t x, int32_t y) { return ((const float *)s->data)[place(s, x, y)]; }
 
-static uint32_t code_at(const lmb_surface *s, int32_t x, int32_t y) { return ((const uint16_t *)s->data)[place(s, x, y)]; }
+static uint32_t code_at(const lmb_surface *s, int32_t x, int32_t y)
+{
+    return ((const uint16_t *)s->data)[place(s, x, y)];
+}
 
 static lmb_status draw(const lmb_target *t, uint32_t first, uint32_t count, uint32_t flags)
 {
@@ -192,8 +196,8 @@ static void cover_exactly(uint32_t out[WINDOW * WINDOW], const grid_point corner
     for (int32_t y = top; y <= bottom; ++y) {
         for (int32_t x = left; x <= right; ++x) {
             int64_t cx = centre(x), cy = centre(y);
-            out[(y - y0) * WINDOW + x - x0] =
-                edge_takes(&p[0], &p[1], cx, cy) && edge_takes(&p[1], &p[2], cx, cy) && edge_takes(&p[2], &p[0], cx, cy);
+            out[(y - y0) * WINDOW + x - x0] = edge_takes(&p[0], &p[1], cx, cy) && edge_takes(&p[1], &p[2], cx, cy) &&
+                                              edge_takes(&p[2], &p[0], cx, cy);
         }
     }
 }
@@ -206,7 +210,10 @@ static void put_corner(int k, float x, float y, float z)
 }
 
 /* Metres are pixels: 24.8 has an exact float up to 2^16 px. */
-static void put_grid_point(int k, grid_point p, float z) { put_corner(k, (float)p.x / 256.0f, (float)-p.y / 256.0f, z); }
+static void put_grid_point(int k, grid_point p, float z)
+{
+    put_corner(k, (float)p.x / 256.0f, (float)-p.y / 256.0f, z);
+}
 
 static grid_point random_point(test_rng *r, int32_t reach_px, int32_t step)
 {
@@ -302,8 +309,8 @@ static void test_coverage(void)
         if (!equals_exactly(&t, p)) {
             ++wrong[kind];
             if (shown++ < 3) {
-                printf("  triangle %d, kind %d: (%d %d) (%d %d) (%d %d)\n", n, kind, (int)p[0].x, (int)p[0].y, (int)p[1].x,
-                       (int)p[1].y, (int)p[2].x, (int)p[2].y);
+                printf("  triangle %d, kind %d: (%d %d) (%d %d) (%d %d)\n", n, kind, (int)p[0].x, (int)p[0].y,
+                       (int)p[1].x, (int)p[1].y, (int)p[2].x, (int)p[2].y);
             }
         }
     }
@@ -644,7 +651,8 @@ static void judge_depth(depth_count *n, const lmb_target *t, const depth_plane *
         for (int32_t x = 0; x < FRAME; ++x) {
             if (id_at(&t->id, x, y)) {
                 double d = (double)depth_at(&t->depth, x, y);
-                double plane = p->d[0] + p->dx * (x + 0.5 - FRAME / 2 - p->x[0]) + p->dy * (y + 0.5 - FRAME / 2 - p->y[0]);
+                double cx = x + 0.5 - FRAME / 2, cy = y + 0.5 - FRAME / 2;
+                double plane = p->d[0] + p->dx * (cx - p->x[0]) + p->dy * (cy - p->y[0]);
                 double clamped = fmin(fmax(plane, p->lo), p->hi);
                 ++n->pixels;
                 n->range += d < p->lo || d > p->hi;
@@ -827,7 +835,8 @@ static int tiling_differs(const lmb_target *whole, int32_t id_format, int32_t la
     int32_t step_x = (width + 7) / 8 * 8, step_y = (height + 7) / 8 * 8;
     for (int32_t y = 0; y < TALL; y += step_y) {
         for (int32_t x = 0; x < WIDE; x += step_x) {
-            const int32_t box[4] = {x, y, width < WIDE + 7 - x ? width : WIDE + 7 - x, height < TALL + 7 - y ? height : TALL + 7 - y};
+            int32_t right = WIDE + 7 - x, bottom = TALL + 7 - y;
+            const int32_t box[4] = {x, y, width < right ? width : right, height < bottom ? height : bottom};
             lmb_target t = window_of(1, whole->depth.format, id_format, layout, box);
             wrong += draw(&t, 1, 60, LMB_CULL_BACK) != LMB_OK;
             wrong += window_differs(whole, &t);
@@ -959,7 +968,8 @@ static void test_bad_vertices(void)
     static const struct {
         float value;
         const char *name;
-    } bad[] = {{NAN, "nan"}, {INFINITY, "infinity"}, {-INFINITY, "-infinity"}, {1e30f, "1e30"}, {-3e38f, "-3e38"}, {1048576.0f, "2^20"}};
+    } bad[] = {{NAN, "nan"},    {INFINITY, "infinity"}, {-INFINITY, "-infinity"},
+               {1e30f, "1e30"}, {-3e38f, "-3e38"},     {1048576.0f, "2^20"}};
     for (size_t n = 0; n < sizeof bad / sizeof *bad; ++n) {
         for (int axis = 0; axis < 3; ++axis) {
             put_neighbours();
@@ -1088,7 +1098,9 @@ static void test_canaries(void)
         int32_t formats[2] = {n & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, n & 2 ? LMB_ID16 : LMB_ID32};
         const int32_t size[2] = {random_between(&r, 1, 104), random_between(&r, 1, 77)};
         uint8_t *depth = (uint8_t *)depth_memory[1] + 64, *id = (uint8_t *)id_memory[1] + 64;
-        size_t bytes[2] = {lmb_surface_bytes(formats[0], size[0], size[1]), lmb_surface_bytes(formats[1], size[0], size[1])};
+        size_t bytes[2];
+        bytes[0] = lmb_surface_bytes(formats[0], size[0], size[1]);
+        bytes[1] = lmb_surface_bytes(formats[1], size[0], size[1]);
         lmb_target t;
         random_soup(&r, 60, 30.0f, 12.0f);
         set_wide_view(n & 4);
@@ -1119,7 +1131,7 @@ static void test_hard_cuts(void)
     } rows[] = {
         {0.01f, {0, 0, -1e5f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}},
         {0.01f, {50, 0, -1e5f, 0.5f, 0.5f, -0.002f, -0.5f, 0.5f, -0.002f}},
-        {0.01f, {0, 0, -1e6f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}}, /* the cut leaves w = 0 inside the guard band */
+        {0.01f, {0, 0, -1e6f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}}, /* rounding leaves w = 0: no guard flagged */
         {0.01f, {0, 0, -1e6f, 0.3f, 0.1f, -0.005f, 3.0f, -1.0f, -0.005f}},
         {1e-5f, {0, 0, -1000, 0, 0, 1000, 5, 5, -10}}, /* an edge through the eye: w = x = y = 0 */
         {1e-5f, {0, 0, -1000, 0, 0, 1000, -5, 5, -10}},
@@ -1224,7 +1236,8 @@ static void test_masks(void)
         lmb_target unmasked = window_of(0, LMB_DEPTH32F, LMB_ID32, LMB_TILED, box);
         draw(&unmasked, 1, 1, 0);
         st.material.flags = LMB_ALPHA_MASK;
-        lmb_target masked = window_of(1, LMB_DEPTH32F, i & 2 ? LMB_ID16 : LMB_ID32, i & 4 ? LMB_TILED : LMB_LINEAR, box);
+        int32_t id_format = i & 2 ? LMB_ID16 : LMB_ID32;
+        lmb_target masked = window_of(1, LMB_DEPTH32F, id_format, i & 4 ? LMB_TILED : LMB_LINEAR, box);
         draw(&masked, 1, 1, 0);
         judge_mask(&n, &unmasked, &masked);
     }

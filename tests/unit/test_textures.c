@@ -167,7 +167,8 @@ static void test_against_double(void)
         set_texture(side[0], side[1], levels, variant % 3, variant / 3 % 3, filter);
         for (int n = 0; n < 200; ++n) {
             float u = random_coordinate(&r, filter == LMB_NEAREST, side[0]);
-            float v = random_coordinate(&r, filter == LMB_NEAREST, side[1]), lod = test_uniform(&r, -1.0f, 7.0f), out[4];
+            float v = random_coordinate(&r, filter == LMB_NEAREST, side[1]);
+            float lod = test_uniform(&r, -1.0f, 7.0f), out[4];
             lmb_texture_sample(out, &texture, u, v, lod);
             for (int c = 0; c < 4; ++c) {
                 worst = fmax(worst, fabs((double)out[c] - sample_value((double)u, (double)v, (double)lod, c)));
@@ -245,7 +246,8 @@ static double dot(point3 a, point3 b) { return a.v[0] * b.v[0] + a.v[1] * b.v[1]
 
 static point3 cross(point3 a, point3 b)
 {
-    return (point3){{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2], a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
+    return (point3){{a.v[1] * b.v[2] - a.v[2] * b.v[1], a.v[2] * b.v[0] - a.v[0] * b.v[2],
+                     a.v[0] * b.v[1] - a.v[1] * b.v[0]}};
 }
 
 static point3 unit(point3 a) { return along((point3){{0, 0, 0}}, 1.0 / sqrt(dot(a, a)), a); }
@@ -279,15 +281,17 @@ static void place_corners(truth *t)
 static void cast_ray(truth *t, int32_t x, int32_t y)
 {
     const lmb_view *v = &st.view;
-    double sx = ((x + 0.5) * 2 / FRAME - 1) * (double)v->half_width, sy = (1 - (y + 0.5) * 2 / FRAME) * (double)v->half_height;
-    point3 across = along(along((point3){{0, 0, 0}}, sx, from_vec(v->right)), sy, from_vec(v->up)), origin = from_vec(v->eye);
-    point3 ray = along(v->kind == LMB_PERSPECTIVE ? across : (point3){{0, 0, 0}}, -1, from_vec(v->back));
+    const point3 zero = {{0, 0, 0}};
+    double sx = ((x + 0.5) * 2 / FRAME - 1) * (double)v->half_width;
+    double sy = (1 - (y + 0.5) * 2 / FRAME) * (double)v->half_height;
+    point3 across = along(along(zero, sx, from_vec(v->right)), sy, from_vec(v->up)), origin = from_vec(v->eye);
+    point3 ray = along(v->kind == LMB_PERSPECTIVE ? across : zero, -1, from_vec(v->back));
     origin = v->kind == LMB_PERSPECTIVE ? origin : along(origin, 1, across);
     double slope = dot(t->plane, ray), whole;
     t->w = dot(t->plane, along(t->corner[0], -1, origin)) / slope;
     t->position = along(origin, t->w, ray);
     t->facing = fabs(slope) / sqrt(dot(ray, ray));
-    t->face = slope > 0 ? along((point3){{0, 0, 0}}, -1, t->plane) : t->plane;
+    t->face = slope > 0 ? along(zero, -1, t->plane) : t->plane;
     whole = dot(t->plane, cross(along(t->corner[1], -1, t->corner[0]), along(t->corner[2], -1, t->corner[0])));
     for (int k = 0; k < 3; ++k) {
         const point3 *a = &t->corner[(k + 1) % 3], *b = &t->corner[(k + 2) % 3];
@@ -558,8 +562,8 @@ static void test_levels(void)
     for (size_t i = 0; i < sizeof rate / sizeof *rate; ++i) {
         double expected = grey_of_level(log2(fmax((double)rate[i][0], (double)rate[i][1])));
         double got = (double)grey_at(rate[i][0], rate[i][1]);
-        CHECK_MSG(fabs(got - expected) < 1e-3, "%g x %g texels a pixel: %g, not %g", (double)rate[i][0], (double)rate[i][1],
-                  got, expected);
+        CHECK_MSG(fabs(got - expected) < 1e-3, "%g x %g texels a pixel: %g, not %g", (double)rate[i][0],
+                  (double)rate[i][1], got, expected);
     }
 }
 
