@@ -37,6 +37,9 @@ void file_free(file_bytes *file);
  * with every error checked, then renamed over it. Existing special files (/dev/stdout, pipes) are written directly. */
 int file_write(const char *path, const void *data, size_t size, report *r);
 
+/* file_can_write: could file_write begin? Ask before long work. Leaves nothing behind. */
+int file_can_write(const char *path, report *r);
+
 /* png_decode: PNG from memory; `name` stands in messages. Colour types 0 2 3 4 6, depths 1 2 4 8 16, tRNS,
  * interlaced or not; 16 bits keep their high byte. */
 int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);

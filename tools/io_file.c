@@ -275,3 +275,30 @@ int file_write(const char *path, const void *data, size_t size, report *r)
 }
 
 #endif
+
+#ifdef _WIN32
+#define IS_KIND(s, kind) (((s).st_mode & _S_IFMT) == _S_IF##kind)
+#else
+#define IS_KIND(s, kind) (((s).st_mode & S_IFMT) == S_IF##kind)
+#endif
+
+int file_can_write(const char *path, report *r)
+{
+    struct stat s;
+    char *temporary;
+    FILE *f;
+    int exists = stat(path, &s) == 0;
+    if (exists && IS_KIND(s, DIR)) return report_fail(r, "%s: cannot be written: it is a folder", path);
+    if (exists && !IS_KIND(s, REG)) return 1; /* a device or a pipe: only writing tells */
+    temporary = malloc(strlen(path) + SUFFIX_MAX);
+    if (!temporary) return report_fail(r, "%s: out of memory", path);
+    f = open_beside(temporary, path, -1);
+    if (!f) {
+        report_fail(r, "%s: cannot be written: no file can be made in its directory: %s", path, reason());
+    } else {
+        fclose(f);
+        remove(temporary);
+    }
+    free(temporary);
+    return f != NULL;
+}

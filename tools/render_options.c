@@ -25,6 +25,12 @@ const char render_usage[] =
     "  --grouping zones|greedy|none   how lit points become groups (default zones)\n"
     "  --groups N                 groups at most (default 512)\n"
     "  --block N                  texels a side of a first point: 1 2 4 8 (default 8)\n"
+    "  --neighbour METRES         points farther apart are no neighbours (default: any of the eight cells around)\n"
+    "  --join K                   points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)\n"
+    "  --reach X                  a disc joins a group within X x the first disc's radius (default 3)\n"
+    "  --cosine C                 ... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)\n"
+    "  --misfits keep|drop        what does not fit its zone opens another group, or is lost (--stats: energy_kept)\n"
+    "  --centre barycentre|disc   where a group stands (default barycentre)\n"
     "  --occlusion none|view|view-world\n"
     "                             what stands between groups and pixels: nothing, or what the viewer's depth map\n"
     "                             shows, marched in map space or in world space (default view). A depth map cannot\n"
@@ -206,6 +212,56 @@ static int parse_groups(const char *text, render_options *o)
     return parse_int(text, 1, LMB_MAX_GROUPS, &o->grouping.groups);
 }
 
+static int parse_number(const char *text, float low, float high, float *out)
+{
+    return parse_floats(&text, out, 1) && *text == '\0' && *out >= low && *out <= high;
+}
+
+static int parse_neighbour(const char *text, render_options *o)
+{
+    return parse_number(text, 0.0f, 1e6f, &o->grouping.neighbour_m);
+}
+
+/* 0 means the default to the library, so the least there is stands for it. */
+static int parse_join(const char *text, render_options *o)
+{
+    int ok = parse_number(text, 0.0f, 1.0f, &o->grouping.join);
+    o->grouping.join = o->grouping.join > 0.0f ? o->grouping.join : 1e-30f;
+    return ok;
+}
+
+static int parse_reach(const char *text, render_options *o)
+{
+    return parse_number(text, 0.01f, 1e6f, &o->grouping.reach);
+}
+
+static int parse_cosine(const char *text, render_options *o)
+{
+    int ok = parse_number(text, -1.0f, 1.0f, &o->grouping.cosine);
+    o->grouping.cosine = o->grouping.cosine != 0.0f ? o->grouping.cosine : 1e-30f;
+    return ok;
+}
+
+/* One of two words sets or clears a flag. */
+static int parse_flag_word(const char *text, const char *clear, const char *set, uint32_t flag, uint32_t *flags)
+{
+    if (strcmp(text, clear) != 0 && strcmp(text, set) != 0) {
+        return 0;
+    }
+    *flags = strcmp(text, set) == 0 ? *flags | flag : *flags & ~flag;
+    return 1;
+}
+
+static int parse_misfits(const char *text, render_options *o)
+{
+    return parse_flag_word(text, "keep", "drop", LMB_ZONES_STRICT, &o->grouping.flags);
+}
+
+static int parse_centre(const char *text, render_options *o)
+{
+    return parse_flag_word(text, "barycentre", "disc", LMB_POINT_CENTRE, &o->grouping.flags);
+}
+
 static int add_light(const char *text, render_options *o)
 {
     return o->light_count < RENDER_LIGHTS && parse_light(text, &o->lights[o->light_count++]);
@@ -228,6 +284,12 @@ static const struct flag {
     {"--grouping", parse_grouping, "zones, greedy or none"},
     {"--groups", parse_groups, "a number from 1 to the build's capacity (2048)"},
     {"--block", parse_block, "1, 2, 4 or 8"},
+    {"--neighbour", parse_neighbour, "metres, 0 or more"},
+    {"--join", parse_join, "a number from 0 to 1"},
+    {"--reach", parse_reach, "a number over 0"},
+    {"--cosine", parse_cosine, "a number from -1 to 1"},
+    {"--misfits", parse_misfits, "keep or drop"},
+    {"--centre", parse_centre, "barycentre or disc"},
     {"--occlusion", parse_occlusion, "none, view or view-world"},
     {"--steps", parse_steps, "1 .. 64"},
     {"--show", parse_show, "full, direct, indirect, irradiance, depth, normal or albedo"},

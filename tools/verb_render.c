@@ -13,6 +13,7 @@
 #include "model.h"
 #include "picture.h"
 #include "render_options.h"
+#include "render_view.h"
 
 #define STAGES (LMB_STAGE_DONE + 1)
 #define MAP_TEXELS (2u << 20) /* over all lights' maps, by default: 16 MiB */
@@ -56,7 +57,7 @@ static void *take(job *j, size_t bytes, report *r)
     return p;
 }
 
-/* --- scene, camera, lights ------------------------------------------------------------------------------------------ */
+/* --- scene and lights ----------------------------------------------------------------------------------------------- */
 
 static int load_scene(job *j, report *r)
 {
@@ -74,139 +75,6 @@ static int load_scene(job *j, report *r)
         j->scene = j->loaded.scene;
     }
     return ok;
-}
-
-/* Width from the height and an aspect. */
-static void choose_size(job *j, float aspect)
-{
-    if (j->o.width == 0) {
-        j->o.height = 480;
-        j->o.width = (int32_t)lrintf(480.0f * (aspect > 0.0f ? aspect : 4.0f / 3.0f));
-        j->o.width = j->o.width < 1 ? 1 : j->o.width > LMB_MAX_SIDE ? LMB_MAX_SIDE : j->o.width;
-    }
-}
-
-static lmb_vec3 bounds_corner(const lmb_scene *s, int i)
-{
-    lmb_vec3 c = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
-                  i & 4 ? s->bounds_max.z : s->bounds_min.z};
-    return c;
-}
-
-static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
-{
-    return axis.x * (a.x - b.x) + axis.y * (a.y - b.y) + axis.z * (a.z - b.z);
-}
-
-/* How far back the eye must stand from `centre` for every corner of the bounds to fit, with a little air. */
-static float fitting_distance(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
-{
-    float away = 0.0f;
-    for (int i = 0; i < 8; ++i) {
-        lmb_vec3 c = bounds_corner(s, i);
-        float wide = fabsf(along(v->right, c, centre)) / v->half_width, high = fabsf(along(v->up, c, centre)) / v->half_height;
-        away = fmaxf(away, along(v->back, c, centre) + 1.05f * fmaxf(wide, high));
-    }
-    return away;
-}
-
-/* The whole scene, from a little above and to the side. */
-static int frame_scene(job *j, lmb_view *v, report *r)
-{
-    lmb_vec3 lo = j->scene.bounds_min, hi = j->scene.bounds_max;
-    lmb_vec3 centre = {(lo.x + hi.x) * 0.5f, (lo.y + hi.y) * 0.5f, (lo.z + hi.z) * 0.5f};
-    lmb_vec3 from = {centre.x + 0.45f, centre.y + 0.35f, centre.z + 0.82f};
-    choose_size(j, 0.0f);
-    if (!(hi.x > lo.x || hi.y > lo.y || hi.z > lo.z)) {
-        return report_fail(r, "%s: nothing to see: the scene has no extent", j->o.scene);
-    }
-    if (lmb_view_look(v, from, centre, j->o.up, 0.698f, j->o.width, j->o.height) != LMB_OK) {
-        return report_fail(r, "%s: no view frames the scene; give --eye and --target", j->o.scene);
-    }
-    float away = fitting_distance(&j->scene, v, centre);
-    v->eye.x = centre.x + away * v->back.x;
-    v->eye.y = centre.y + away * v->back.y;
-    v->eye.z = centre.z + away * v->back.z;
-    fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", j->o.scene, (double)v->eye.x,
-            (double)v->eye.y, (double)v->eye.z);
-    return 1;
-}
-
-static const model_camera *find_camera(const job *j, report *r)
-{
-    char *end;
-    long n;
-    if (j->o.camera == NULL) {
-        return j->loaded.camera_count > 0 ? &j->loaded.cameras[0] : NULL;
-    }
-    for (uint32_t i = 0; i < j->loaded.camera_count; ++i) {
-        if (strcmp(j->loaded.cameras[i].name, j->o.camera) == 0) {
-            return &j->loaded.cameras[i];
-        }
-    }
-    n = strtol(j->o.camera, &end, 10);
-    if (*end == '\0' && n >= 0 && n < (long)j->loaded.camera_count) {
-        return &j->loaded.cameras[n];
-    }
-    report_fail(r, "%s: no camera `%s`; it has %u, numbered from 0", j->o.scene, j->o.camera, (unsigned)j->loaded.camera_count);
-    return NULL;
-}
-
-static void use_camera(job *j, lmb_view *v, const model_camera *c)
-{
-    choose_size(j, c->aspect);
-    float aspect = (float)j->o.width / (float)j->o.height;
-    v->eye = c->eye;
-    v->right = c->right;
-    v->up = c->up;
-    v->back = c->back;
-    v->kind = c->orthographic ? LMB_ORTHOGRAPHIC : LMB_PERSPECTIVE;
-    v->half_height = c->orthographic ? c->half_height : tanf(0.5f * c->yfov_rad);
-    v->half_width = v->half_height * aspect;
-    v->near_m = c->near_m;
-    v->far_m = c->far_m;
-    v->frame_width = j->o.width;
-    v->frame_height = j->o.height;
-}
-
-static float from_eye(const lmb_scene *s, lmb_vec3 eye)
-{
-    float far2 = 0.0f;
-    for (int i = 0; i < 8; ++i) {
-        lmb_vec3 c = bounds_corner(s, i);
-        far2 = fmaxf(far2, (c.x - eye.x) * (c.x - eye.x) + (c.y - eye.y) * (c.y - eye.y) + (c.z - eye.z) * (c.z - eye.z));
-    }
-    return sqrtf(far2);
-}
-
-static int set_view(job *j, lmb_view *v, report *r)
-{
-    memset(v, 0, sizeof *v);
-    if (j->o.has_eye) {
-        choose_size(j, 0.0f);
-        if (lmb_view_look(v, j->o.eye, j->o.target, j->o.up, j->o.fov_deg * 0.017453293f, j->o.width, j->o.height) != LMB_OK) {
-            return report_fail(r, "--eye, --target and --up do not make a view: they must not lie on one line");
-        }
-    } else if (strcmp(j->o.scene, "demo") == 0 && j->o.camera == NULL) {
-        choose_size(j, 4.0f / 3.0f);
-        *v = demo_view(j->o.width, j->o.height);
-    } else {
-        const model_camera *c = find_camera(j, r);
-        if (c == NULL && r->text[0] != '\0') {
-            return 0;
-        }
-        if (c == NULL && !frame_scene(j, v, r)) {
-            return 0;
-        }
-        if (c != NULL) {
-            use_camera(j, v, c);
-        }
-    }
-    /* A near plane of the scene's own size where none is given: a millionth of what is seen. */
-    float reach = fmaxf(from_eye(&j->scene, v->eye), 1e-4f);
-    v->near_m = v->near_m > 0.0f && j->loaded.camera_count > 0 && !j->o.has_eye ? v->near_m : 1e-4f * reach;
-    v->far_m = v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m ? v->far_m : v->near_m + 2.0f * reach;
-    return 1;
 }
 
 static void set_lights(job *j)
@@ -300,7 +168,7 @@ static int take_frame(job *j, report *r)
 static int set_frame(job *j, report *r)
 {
     lmb_frame *f = &j->frame;
-    if (!set_view(j, &f->view, r)) {
+    if (!render_view(&f->view, &j->o, &j->loaded, &j->scene, r)) {
         return 0;
     }
     set_lights(j);
@@ -341,13 +209,24 @@ static void show_progress(const lmb_render *render, double since)
     }
 }
 
+/* What stopped a frame, in words. The memory is sized here, so little can. */
+static int explain(const job *j, lmb_status status, int stage, report *r)
+{
+    if (status == LMB_ERR_CAPACITY && stage == LMB_STAGE_GROUPS) {
+        return report_fail(r, "--grouping none: %u discs do not fit %d groups; use a smaller --light-map, or zones",
+                           (unsigned)j->stats.first_points, LMB_MAX_GROUPS);
+    }
+    return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
+}
+
 static int draw(job *j, report *r)
 {
     double start = host_seconds(), last = start, stage_start = start, shown = 0.0;
-    int watched = host_watched(), stage = LMB_STAGE_LIGHT_MAP;
+    int watched = host_watched(), stage = LMB_STAGE_LIGHT_MAP, before = stage;
     lmb_status status = lmb_render_begin(j->render, &j->frame);
     if (status == LMB_OK) {
         do {
+            before = j->render->stage;
             status = lmb_render_step(j->render, 16);
             double now = host_seconds();
             j->stage_s[stage] += now - last;
@@ -365,7 +244,7 @@ static int draw(job *j, report *r)
     if (shown > 0.0) {
         fprintf(stderr, "\r%60s\r", "");
     }
-    return status == LMB_OK || report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
+    return status == LMB_OK || explain(j, status, before, r);
 }
 
 /* Attributes instead of light: the view alone is drawn. */
@@ -537,7 +416,7 @@ static int save(job *j, report *r)
 static int run(job *j, report *r)
 {
     double start = host_seconds();
-    if (!load_scene(j, r)) {
+    if (!file_can_write(j->o.out, r) || (j->o.stats != NULL && !file_can_write(j->o.stats, r)) || !load_scene(j, r)) {
         return 0;
     }
     j->load_s = host_seconds() - start;

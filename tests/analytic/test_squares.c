@@ -1,0 +1,216 @@
+/* test_squares.c: light between two unit squares, against Howell's closed forms. [V27]
+ *
+ * Form factors of a surface element (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3 and B-5):
+ * over a corner of a parallel rectangle a x b at distance c, with A = a/c, B = b/c:
+ *   F = 1/(2 pi) (A/sqrt(1+A2) atan(B/sqrt(1+A2)) + B/sqrt(1+B2) atan(A/sqrt(1+B2)))
+ * and at distance c from the edge of a perpendicular rectangle, b along that edge from the element on, a high, with
+ * X = a/b, Y = c/b:
+ *   F = 1/(2 pi) (atan(1/Y) - Y/sqrt(X2+Y2) atan(1/sqrt(X2+Y2)))
+ * Rectangles that do not begin at the element are sums and differences of such. */
+#include <math.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "../../src/base/vec.h"
+#include "../test.h"
+
+void test_squares(void);
+
+#define PI 3.14159265358979323846
+
+enum { CUTS = 32, BLOCK = 4 }; /* discs along the emitter's side; discs along a group's side */
+
+/* --- closed forms ----------------------------------------------------------------------------------------------------- */
+
+static double parallel_corner(double a, double b, double c)
+{
+    double x = a / c, y = b / c, u = sqrt(1 + x * x), v = sqrt(1 + y * y);
+    return (x / u * atan(y / u) + y / v * atan(x / v)) / (2 * PI);
+}
+
+/* From (x, z) to the unit square at height h; negative sides subtract by the atan's sign. */
+static double parallel_factor(double x, double z, double h)
+{
+    return parallel_corner(x, z, h) + parallel_corner(1 - x, z, h) + parallel_corner(x, 1 - z, h) + parallel_corner(1 - x, 1 - z, h);
+}
+
+static double upright_corner(double b, double c)
+{
+    double x = 1.0 / b, y = c / b, r = sqrt(x * x + y * y);
+    return (atan(1 / y) - y / r * atan(1 / r)) / (2 * PI);
+}
+
+/* From a floor point (x, z), 0 <= x <= 1, to the unit square that stands on z = 0. */
+static double upright_factor(double x, double z)
+{
+    return (x > 0 ? upright_corner(x, z) : 0.0) + (x < 1 ? upright_corner(1 - x, z) : 0.0);
+}
+
+/* --- the emitter ------------------------------------------------------------------------------------------------------ */
+
+static lmb_point discs[CUTS * CUTS];
+static lmb_points points;
+static lmb_groups groups;
+static lmb_gather_scratch scratch;
+
+/* A unit square of radiosity 1 from `corner` along u and v, as BLOCK x BLOCK discs a group; it shines along `axis`. */
+static void make_emitter(lmb_vec3 corner, lmb_vec3 u, lmb_vec3 v, lmb_vec3 axis)
+{
+    const float side = 1.0f / (float)CUTS, group_side = side * (float)BLOCK;
+    memset(&points, 0, sizeof points);
+    memset(&groups, 0, sizeof groups);
+    points.data = discs;
+    points.cap = CUTS * CUTS;
+    for (int g = 0; g < (CUTS / BLOCK) * (CUTS / BLOCK); ++g) {
+        int gx = g % (CUTS / BLOCK), gy = g / (CUTS / BLOCK), k = groups.count++;
+        lmb_vec3 at = add3(corner, add3(mul3(u, ((float)gx + 0.5f) * group_side), mul3(v, ((float)gy + 0.5f) * group_side)));
+        float place[3] = {at.x, at.y, at.z}, way[3] = {axis.x, axis.y, axis.z};
+        for (int c = 0; c < 3; ++c) {
+            groups.position[c][k] = place[c];
+            groups.normal[c][k] = way[c];
+            groups.flux[c][k] = group_side * group_side;
+        }
+        groups.area[k] = group_side * group_side;
+        groups.radius[k] = group_side * 0.70710678f;
+        groups.first[k] = points.count;
+        groups.members[k] = BLOCK * BLOCK;
+        for (int i = 0; i < BLOCK * BLOCK; ++i) {
+            lmb_point *p = &points.data[points.count++];
+            float x = ((float)(gx * BLOCK + i % BLOCK) + 0.5f) * side, y = ((float)(gy * BLOCK + i / BLOCK) + 0.5f) * side;
+            memset(p, 0, sizeof *p);
+            p->position = add3(corner, add3(mul3(u, x), mul3(v, y)));
+            p->normal = axis;
+            p->axis_u = mul3(u, 0.5f * side);
+            p->axis_v = mul3(v, 0.5f * side);
+            p->flux[0] = p->flux[1] = p->flux[2] = side * side;
+        }
+    }
+}
+
+/* Receivers: 64 points over the unit square y = 0, facing up. */
+static void make_tile(lmb_tile *tile)
+{
+    memset(tile, 0, sizeof *tile);
+    tile->hits = LMB_TILE_PIXELS;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        tile->position[0][k] = ((float)(k % 8) + 0.5f) / 8.0f;
+        tile->position[2][k] = ((float)(k / 8) + 0.5f) / 8.0f;
+        tile->normal[1][k] = tile->face[1][k] = 1.0f;
+        tile->depth[k] = 1.0f;
+        tile->id[k] = 1;
+    }
+}
+
+static void gather(lmb_irradiance *out, const lmb_tile *tile)
+{
+    memset(out, 0, sizeof *out);
+    CHECK(lmb_gather_tile(out, lmb_kernels_pick(), &scratch, tile, &groups, &points, NULL) == LMB_OK);
+}
+
+static void judge(const char *name, double where, double worst, double mean, double bound)
+{
+    printf("  %s %-6g worst %.4f %%, mean %.4f %%\n", name, where, worst * 100, mean * 100);
+    CHECK_MSG(worst < bound, "%s %g: %g", name, where, worst);
+}
+
+/* Irradiance of a square of radiosity 1 is the form factor itself: E = pi L F, and L = 1 / pi. */
+static void check_facing(double height, double bound)
+{
+    lmb_tile tile;
+    lmb_irradiance e;
+    double worst = 0.0, mean = 0.0;
+    make_tile(&tile);
+    make_emitter(vec3(0, (float)height, 0), vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));
+    gather(&e, &tile);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        double want = parallel_factor((double)tile.position[0][k], (double)tile.position[2][k], (double)(float)height);
+        double off = fabs((double)e.rgb[1][k] / want - 1.0);
+        worst = fmax(worst, off);
+        mean += off / LMB_TILE_PIXELS;
+    }
+    judge("facing squares, distance", height, worst, mean, bound);
+}
+
+/* Receivers in rows parallel to the shared edge, the nearest at `nearest`. */
+static void check_upright(double nearest, double bound)
+{
+    lmb_tile tile;
+    lmb_irradiance e;
+    double worst = 0.0, mean = 0.0;
+    make_tile(&tile);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        tile.position[2][k] = (float)(nearest * pow(1.0 / nearest, k / 8 / 7.0));
+    }
+    make_emitter(vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1));
+    gather(&e, &tile);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        double want = upright_factor((double)tile.position[0][k], (double)tile.position[2][k]);
+        double off = fabs((double)e.rgb[1][k] / want - 1.0);
+        worst = fmax(worst, off);
+        mean += off / LMB_TILE_PIXELS;
+    }
+    judge("upright squares, nearest", nearest, worst, mean, bound);
+}
+
+/* Square to square: facing at distance 1: 0.199825; with a shared edge: 0.200044 (Howell, C-11 and C-14). */
+static double mean_over_floor(void)
+{
+    double sum = 0.0;
+    for (int t = 0; t < 64; ++t) {
+        lmb_tile tile;
+        lmb_irradiance e;
+        make_tile(&tile);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            tile.position[0][k] = ((float)(t % 8 * 8 + k % 8) + 0.5f) / 64.0f;
+            tile.position[2][k] = ((float)(t / 8 * 8 + k / 8) + 0.5f) / 64.0f;
+        }
+        gather(&e, &tile);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            sum += (double)e.rgb[0][k] / 4096.0;
+        }
+    }
+    return sum;
+}
+
+/* The near formula alone: one whole square as a single quad. */
+static void check_quad(void)
+{
+    double worst = 0.0;
+    for (int i = 0; i < 64; ++i) {
+        double x = (i % 8 + 0.5) / 8, z = (i / 8 + 0.5) / 8;
+        lmb_vec3 at = vec3((float)x, 0, (float)z), up = vec3(0, 1, 0);
+        double facing = (double)lmb_quad_factor(at, up, up, vec3(0.5f, 0.25f, 0.5f), vec3(0, -1, 0), vec3(0.5f, 0, 0), vec3(0, 0, 0.5f));
+        double upright = (double)lmb_quad_factor(at, up, up, vec3(0.5f, 0.5f, 0), vec3(0, 0, 1), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0));
+        worst = fmax(worst, fabs(facing / parallel_factor(x, z, 0.25) - 1.0));
+        worst = fmax(worst, fabs(upright / upright_factor(x, z) - 1.0));
+    }
+    printf("  one quad: worst %.1e\n", worst);
+    CHECK_MSG(worst < 1e-5, "%g", worst);
+}
+
+/* The bounds are widest where the receivers stand 2 to 3 half-diagonals from a disc: there quads give way to the disc's
+ * formula of second order, 1 to 2 % off (DESIGN 4), and the grid of receivers meets the grid of discs alike everywhere. */
+void test_squares(void)
+{
+    check_quad();
+    check_facing(2.0, 1e-3);
+    check_facing(1.0, 1e-3);
+    check_facing(0.5, 1e-3);
+    check_facing(0.2, 5e-3);
+    check_facing(0.1, 8e-3);
+    check_facing(0.05, 2e-2);
+    check_facing(0.02, 5e-3);
+    check_facing(0.005, 1e-3);
+    check_upright(0.5, 1e-3);
+    check_upright(0.1, 2e-2);
+    check_upright(0.02, 2e-2);
+    check_upright(0.005, 2e-2);
+    make_emitter(vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, -1, 0));
+    double facing = mean_over_floor();
+    make_emitter(vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1));
+    double upright = mean_over_floor();
+    printf("  square to square: facing %.6f (0.199825), upright %.6f (0.200044)\n", facing, upright);
+    CHECK_MSG(fabs(facing / 0.199825 - 1.0) < 1e-3, "%g", facing);
+    CHECK_MSG(fabs(upright / 0.200044 - 1.0) < 5e-3, "%g", upright);
+}

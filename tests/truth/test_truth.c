@@ -1,0 +1,437 @@
+/* test_truth.c: pictures against the path-traced ones of the shared folder. [V25 V27 V28 V29 V30]
+ *
+ * LMB_SHARED names the folder; without it ../shared is tried, and what is not there is skipped. Settings are those that
+ * `lambent render` takes by default. The bars are the first milestone's; figures are printed, met or not. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "../../tools/image.h"
+#include "../../tools/metrics.h"
+#include "../../tools/model.h"
+#include "../test.h"
+
+void test_truth(void);
+
+#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+
+enum { PATH_SIZE = 512 };
+
+/* --- files ------------------------------------------------------------------------------------------------------------ */
+
+static void path_of(char path[PATH_SIZE], const char *scene, const char *file)
+{
+    const char *shared = getenv("LMB_SHARED");
+    snprintf(path, PATH_SIZE, "%.300s/truth/%.60s/%.60s", shared != NULL ? shared : "../shared", scene, file);
+}
+
+static int load_picture(image *out, const char *scene, const char *file)
+{
+    char path[PATH_SIZE];
+    file_bytes bytes;
+    report r = {""};
+    path_of(path, scene, file);
+    int ok = file_read(&bytes, path, &r);
+    if (ok) {
+        ok = pfm_decode(out, bytes.data, bytes.size, path, &r);
+        file_free(&bytes);
+    }
+    CHECK_MSG(ok, "%s", r.text);
+    return ok;
+}
+
+static int is_there(const char *scene)
+{
+    char path[PATH_SIZE];
+    FILE *f;
+    path_of(path, scene, "scene.gltf");
+    f = fopen(path, "rb");
+    if (f == NULL) {
+        SKIP("%s is not there (LMB_SHARED names the folder)", path);
+        return 0;
+    }
+    fclose(f);
+    return 1;
+}
+
+/* --- a scene, drawn as the tool draws it ------------------------------------------------------------------------------ */
+
+typedef struct stage {
+    const char *name;
+    model loaded;
+    lmb_frame frame;
+    lmb_render *render;
+    void *map_memory, *point_memory, *depth_memory, *id_memory;
+    lmb_stats stats;
+    image drawn, depth; /* depth: the truth's, the third channel marks surfaces */
+} stage;
+
+static void *take(size_t bytes)
+{
+    void *p = calloc(1, bytes > 0 ? bytes : 1);
+    if (p == NULL) {
+        printf("not enough memory for the test\n");
+        exit(1);
+    }
+    return p;
+}
+
+static void set_view(stage *s)
+{
+    const model_camera *c = &s->loaded.cameras[0];
+    lmb_view *v = &s->frame.view;
+    v->eye = c->eye;
+    v->right = c->right;
+    v->up = c->up;
+    v->back = c->back;
+    v->kind = LMB_PERSPECTIVE;
+    v->half_height = tanf(0.5f * c->yfov_rad);
+    v->half_width = v->half_height * (float)s->drawn.width / (float)s->drawn.height;
+    v->near_m = c->near_m > 0.0f ? c->near_m : 1e-3f;
+    v->far_m = 1000.0f;
+    v->frame_width = s->drawn.width;
+    v->frame_height = s->drawn.height;
+}
+
+/* 1024 texels a side, less where faces are many: 2 M texels in all. */
+static void take_maps(stage *s)
+{
+    const lmb_scene *scene = &s->loaded.scene;
+    lmb_frame *f = &s->frame;
+    uint32_t faces = 0, side;
+    f->light_map = 1024;
+    for (uint32_t i = 0; i < scene->light_count; ++i) {
+        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i]);
+    }
+    while ((uint32_t)f->light_map * (uint32_t)f->light_map * faces > 2u << 20) {
+        f->light_map /= 2;
+    }
+    for (uint32_t i = 0; i < scene->light_count; ++i) {
+        f->map_bytes += lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i]), f->light_map, LMB_ID32);
+    }
+    f->map_memory = s->map_memory = take(f->map_bytes);
+    side = (uint32_t)f->light_map / 8u;
+    size_t bytes = lmb_points_bytes(side * side * 4u * faces, side);
+    s->point_memory = take(bytes);
+    CHECK(lmb_points_init(&f->points, side * side * 4u * faces, side, s->point_memory, bytes) == LMB_OK);
+}
+
+static void take_frame(stage *s)
+{
+    lmb_frame *f = &s->frame;
+    int32_t w = s->drawn.width, h = s->drawn.height;
+    size_t depth = lmb_surface_bytes(LMB_DEPTH32F, w, h), id = lmb_surface_bytes(LMB_ID32, w, h), out = (size_t)w * (size_t)h * 12;
+    s->depth_memory = take(depth);
+    s->id_memory = take(id);
+    s->drawn.pixels = take(out);
+    s->drawn.channels = 3;
+    s->render = take(sizeof *s->render);
+    f->groups = take(sizeof *f->groups);
+    f->scratch = take(sizeof *f->scratch);
+    CHECK(lmb_surface_init(&f->eye.depth, LMB_DEPTH32F, w, h, s->depth_memory, depth) == LMB_OK);
+    CHECK(lmb_surface_init(&f->eye.id, LMB_ID32, w, h, s->id_memory, id) == LMB_OK);
+    CHECK(lmb_surface_init(&f->out, LMB_RGB32F, w, h, s->drawn.pixels, out) == LMB_OK);
+    f->kernels = lmb_kernels_pick();
+    f->scene = &s->loaded.scene;
+    f->occlusion = LMB_OCCLUSION_VIEW;
+    f->steps = 12;
+    f->id_format = LMB_ID32;
+    f->stats = &s->stats;
+}
+
+/* `sized_as`: the truth picture that gives the size. */
+static int stage_open(stage *s, const char *name, const char *sized_as)
+{
+    char path[PATH_SIZE];
+    model_notes notes;
+    report r = {""};
+    image like;
+    memset(s, 0, sizeof *s);
+    memset(&notes, 0, sizeof notes);
+    s->name = name;
+    if (!is_there(name) || !load_picture(&like, name, sized_as)) {
+        return 0;
+    }
+    s->drawn.width = like.width;
+    s->drawn.height = like.height;
+    image_free(&like);
+    path_of(path, name, "scene.gltf");
+    int ok = model_load(&s->loaded, path, &notes, &r);
+    CHECK_MSG(ok && s->loaded.camera_count > 0, "%s: %s", name, r.text);
+    if (ok) {
+        set_view(s);
+        take_maps(s);
+        take_frame(s);
+    }
+    return ok;
+}
+
+static void stage_close(stage *s)
+{
+    free(s->map_memory);
+    free(s->point_memory);
+    free(s->depth_memory);
+    free(s->id_memory);
+    free(s->render);
+    free(s->frame.groups);
+    free(s->frame.scratch);
+    image_free(&s->drawn);
+    image_free(&s->depth);
+    model_free(&s->loaded);
+}
+
+static void stage_draw(stage *s, int32_t show)
+{
+    memset(&s->stats, 0, sizeof s->stats);
+    s->frame.show = show;
+    CHECK(lmb_render_frame(s->render, &s->frame) == LMB_OK);
+}
+
+static int has_surface(const stage *s, int i) { return s->depth.pixels[3 * i + 2] > 0.5f; }
+
+static float grey(const image *p, int i) { return (p->pixels[3 * i] + p->pixels[3 * i + 1] + p->pixels[3 * i + 2]) / 3.0f; }
+
+static int measure(metrics *m, const stage *s, const image *truth)
+{
+    metrics_input in;
+    report r = {""};
+    memset(&in, 0, sizeof in);
+    in.test = s->drawn.pixels;
+    in.truth = truth->pixels;
+    in.surface = s->depth.pixels;
+    in.width = truth->width;
+    in.height = truth->height;
+    in.channels = 3;
+    int ok = s->depth.channels == 3 && truth->width == s->drawn.width && truth->height == s->drawn.height && metrics_measure(m, &in, &r);
+    CHECK_MSG(ok, "%s: %s", s->name, r.text);
+    return ok;
+}
+
+/* --- G-buffer --------------------------------------------------------------------------------------------------------- */
+
+enum { DEPTH, NORMAL, ALBEDO };
+
+static void draw_attribute(stage *s, int what)
+{
+    lmb_frame *f = &s->frame;
+    lmb_surface z = f->out;
+    z.format = LMB_R32F;
+    z.stride_bytes = z.width * 4;
+    lmb_surface_clear(&f->eye.depth);
+    lmb_surface_clear(&f->eye.id);
+    CHECK(lmb_draw(&f->eye, f->kernels, &f->scratch->raster, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, NULL) == LMB_OK);
+    for (int32_t band = 0; band < (f->view.frame_height + 7) / 8; ++band) {
+        CHECK(lmb_gbuffer_band(what == DEPTH ? &z : NULL, what == NORMAL ? &f->out : NULL, what == ALBEDO ? &f->out : NULL,
+                               &f->scratch->tile, f->kernels, &f->view, f->scene, &f->eye, band) == LMB_OK);
+    }
+}
+
+/* Within 0.1 %: of the depth, of the unit normal's length, of each channel. Nothing must be nothing. */
+static int is_same(int what, const float *test, const float *truth)
+{
+    double d = 0.0;
+    if (what == DEPTH) {
+        return truth[2] > 0.5f ? fabs((double)test[0] / (double)truth[0] - 1.0) <= 1e-3 : test[0] == 0.0f;
+    }
+    for (int c = 0; c < 3; ++c) {
+        double off = (double)test[c] - (double)truth[c];
+        if (what == ALBEDO && fabs(off) > 1e-3 * (double)truth[c]) {
+            return 0;
+        }
+        d += off * off;
+    }
+    return what == ALBEDO || d <= 1e-6;
+}
+
+/* V5, V23: the first surface along each pixel's ray, its place, its normal and its reflectance. */
+static void check_gbuffer(const char *name)
+{
+    static const char *const files[] = {"gbuffer_depth.pfm", "gbuffer_normal.pfm", "gbuffer_albedo.pfm"};
+    double share[3] = {0, 0, 0};
+    stage s;
+    if (!stage_open(&s, name, files[0])) {
+        return;
+    }
+    for (int what = DEPTH; what <= ALBEDO; ++what) {
+        image truth;
+        int n = s.drawn.width * s.drawn.height, same = 0;
+        draw_attribute(&s, what);
+        if (load_picture(&truth, name, files[what])) {
+            for (int i = 0; i < n; ++i) {
+                same += is_same(what, s.drawn.pixels + (what == DEPTH ? i : 3 * i), truth.pixels + 3 * i);
+            }
+            image_free(&truth);
+        }
+        share[what] = (double)same / n;
+        CHECK_MSG(share[what] >= 0.995, "%s, %s: %.3f %% of the pixels", name, files[what], share[what] * 100);
+    }
+    printf("  %-15s depth %.3f %%, normal %.3f %%, albedo %.3f %% of pixels within 0.1 %%\n", name, share[0] * 100, share[1] * 100, share[2] * 100);
+    stage_close(&s);
+}
+
+/* --- direct light ----------------------------------------------------------------------------------------------------- */
+
+static int is_lit(const image *p, int x, int y) { return grey(p, y * p->width + x) > 0.0f; }
+
+/* A pixel one of whose four neighbours is lit while it is dark, or dark while it is lit. */
+static int on_boundary(const image *p, int x, int y)
+{
+    int lit = is_lit(p, x, y);
+    return (x > 0 && is_lit(p, x - 1, y) != lit) || (x + 1 < p->width && is_lit(p, x + 1, y) != lit) ||
+           (y > 0 && is_lit(p, x, y - 1) != lit) || (y + 1 < p->height && is_lit(p, x, y + 1) != lit);
+}
+
+/* Within 2 px of such a pixel. */
+static int near_boundary(const image *p, int x, int y)
+{
+    for (int dy = -2; dy <= 2; ++dy) {
+        for (int dx = -2; dx <= 2; ++dx) {
+            int i = x + dx, j = y + dy;
+            if (dx * dx + dy * dy <= 4 && i >= 0 && j >= 0 && i < p->width && j < p->height && on_boundary(p, i, j)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+typedef struct direct_figures {
+    double rmse; /* relative, away from boundaries */
+    int pixels, wrong, wrong_far;
+} direct_figures;
+
+static direct_figures compare_direct(const stage *s, const image *truth)
+{
+    direct_figures d = {0, 0, 0, 0};
+    double sum = 0.0, mean = 0.0;
+    int away = 0;
+    for (int i = 0; i < truth->width * truth->height; ++i) {
+        int x = i % truth->width, y = i / truth->width;
+        if (!has_surface(s, i)) {
+            continue;
+        }
+        int is_near = near_boundary(truth, x, y), wrong = is_lit(truth, x, y) != is_lit(&s->drawn, x, y);
+        ++d.pixels;
+        d.wrong += wrong;
+        d.wrong_far += wrong && !is_near;
+        mean += (double)grey(truth, i);
+        for (int c = 0; c < 3 && !is_near; ++c) {
+            double off = (double)s->drawn.pixels[3 * i + c] - (double)truth->pixels[3 * i + c];
+            sum += off * off;
+            ++away;
+        }
+    }
+    d.rmse = sqrt(sum / (away > 0 ? away : 1)) / (mean / d.pixels);
+    return d;
+}
+
+/* V7, V29: direct light and its shadows. `barred`: the milestone's bars hold; else they are printed. */
+static void check_direct(const char *name, int barred)
+{
+    stage s;
+    image truth;
+    metrics m;
+    if (!stage_open(&s, name, "cycles_direct.pfm")) {
+        return;
+    }
+    if (load_picture(&s.depth, name, "gbuffer_depth.pfm") && load_picture(&truth, name, "cycles_direct.pfm")) {
+        stage_draw(&s, LMB_SHOW_DIRECT);
+        if (measure(&m, &s, &truth)) {
+            direct_figures d = compare_direct(&s, &truth);
+            printf("  %-15s e50 %.5f, off edges rmse %.5f, wrongly lit or dark %d of %d, %d of them over 2 px from an edge\n", name,
+                   m.e50, d.rmse, d.wrong, d.pixels, d.wrong_far);
+            CHECK_MSG(!barred || m.e50 <= 0.005, "%s: e50 %g", name, m.e50);
+            CHECK_MSG(!barred || d.rmse <= 0.02, "%s: rmse %g", name, d.rmse);
+            CHECK_MSG(!barred || d.wrong * 500 <= d.pixels, "%s: %d of %d", name, d.wrong, d.pixels);
+            CHECK_MSG(!barred || d.wrong_far == 0, "%s: %d pixels", name, d.wrong_far);
+        }
+        image_free(&truth);
+    }
+    stage_close(&s);
+}
+
+/* --- one bounce ------------------------------------------------------------------------------------------------------- */
+
+/* V25, V27, V28: the indirect part of one bounce. */
+static void check_indirect(const char *name, int barred)
+{
+    stage s;
+    image truth;
+    metrics m;
+    if (!stage_open(&s, name, "pt_indirect1.pfm")) {
+        return;
+    }
+    if (load_picture(&s.depth, name, "gbuffer_depth.pfm") && load_picture(&truth, name, "pt_indirect1.pfm")) {
+        stage_draw(&s, LMB_SHOW_INDIRECT);
+        if (measure(&m, &s, &truth)) {
+            printf("  %-15s trim %.4f, e50 %.4f, e95 %.4f, mean %.4f, %u groups\n", name, m.trim, m.e50, m.e95, m.mean, (unsigned)s.stats.groups);
+            CHECK_MSG(!barred || m.trim <= 0.25, "%s: trim %g", name, m.trim);
+            CHECK_MSG(!barred || m.e50 <= 0.08, "%s: e50 %g", name, m.e50);
+            CHECK_MSG(!barred || (m.mean >= 0.88 && m.mean <= 1.08), "%s: mean %g", name, m.mean);
+            CHECK_MSG(s.stats.flux_grouped >= 0.999 * s.stats.flux_lit, "%s: %g of %g W", name, s.stats.flux_grouped, s.stats.flux_lit);
+            CHECK(m.nonfinite == 0);
+        }
+        image_free(&truth);
+    }
+    stage_close(&s);
+}
+
+/* V30: the white furnace: rho I / (pi R2) and 1.5 times that, and the traced picture of the same mesh. */
+static void check_furnace(void)
+{
+    static const struct row {
+        int32_t show;
+        const char *file;
+        double want, bound;
+    } rows[] = {{LMB_SHOW_DIRECT, "pt_direct.pfm", 0.159155, 0.004}, {LMB_SHOW_FULL, "pt_one_bounce.pfm", 0.238732, 0.01}};
+    stage s;
+    image truth;
+    if (!stage_open(&s, "furnace_sphere", "pt_direct.pfm")) {
+        return;
+    }
+    for (int r = 0; r < COUNT(rows); ++r) {
+        double off = 0.0, off_truth = 0.0, mean = 0.0;
+        int n = s.drawn.width * s.drawn.height;
+        stage_draw(&s, rows[r].show);
+        if (!load_picture(&truth, "furnace_sphere", rows[r].file)) {
+            continue;
+        }
+        for (int i = 0; i < n; ++i) {
+            double v = (double)s.drawn.pixels[3 * i];
+            off = fmax(off, fabs(v / rows[r].want - 1.0));
+            off_truth = fmax(off_truth, fabs(v / (double)truth.pixels[3 * i] - 1.0));
+            mean += v / n;
+        }
+        printf("  furnace_sphere  mean %.6f, formula %.6f, worst pixel %.3f %%; of the traced picture %.3f %%\n", mean, rows[r].want,
+               off * 100, off_truth * 100);
+        CHECK_MSG(off < rows[r].bound && off_truth < rows[r].bound, "%g %g", off, off_truth);
+        image_free(&truth);
+    }
+    stage_close(&s);
+}
+
+void test_truth(void)
+{
+    static const struct scene {
+        const char *name;
+        int direct, indirect; /* the bars hold */
+    } scenes[] = {{"cornell", 1, 1},        {"corner_contact", 1, 0}, {"bunny_room", 1, 0}, {"corridor", 0, 0},
+                  {"sponza", 0, 0},         {"point_room", 0, 0},     {"grazing_sun", 0, 0}, {"two_lights", 0, 0},
+                  {"mixed_with", 0, 0},     {"mixed_without", 0, 0}};
+    printf(" G-buffer\n");
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        check_gbuffer(scenes[i].name);
+    }
+    printf(" direct light\n");
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        check_direct(scenes[i].name, scenes[i].direct);
+    }
+    printf(" one bounce\n");
+    for (int i = 0; i < COUNT(scenes); ++i) {
+        check_indirect(scenes[i].name, scenes[i].indirect);
+    }
+    check_furnace();
+}
