@@ -120,9 +120,12 @@ static int lit_by_depth(const place *at, const lmb_receiver *r, int32_t x, int32
     int perspective = v->kind == LMB_PERSPECTIVE;
     lmb_vec3 from = perspective ? v->eye : add3(v->eye, across), ray = perspective ? sub3(across, v->back) : mul3(v->back, -1.0f);
     float slope = dot3(r->face, ray), texel = 2.0f * v->half_width / size * (perspective ? at->w : 1.0f);
-    /* Steeper than 16 texels a texel the plane says nothing about the texel's middle: keep within that. */
-    float own = absf(slope) < 1e-3f ? at->w : dot3(r->face, sub3(r->position, from)) / slope;
-    own = clampf(own, at->w - 16.0f * texel, at->w + 16.0f * texel);
+    /* On a plane seen edge-on the texel's middle says nothing. Farther than 16 texels behind the point neither does the
+     * plane of a curved surface; before it, a convex edge is. */
+    if (absf(slope) < 1e-3f) {
+        return 1;
+    }
+    float own = minf(dot3(r->face, sub3(r->position, from)) / slope, at->w + 16.0f * texel);
     return lmb_depth_view_z(v, d) >= own - texel - r->noise;
 }
 

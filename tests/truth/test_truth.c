@@ -25,7 +25,7 @@ enum { PATH_SIZE = 512 };
 static void path_of(char path[PATH_SIZE], const char *scene, const char *file)
 {
     const char *shared = getenv("LMB_SHARED");
-    snprintf(path, PATH_SIZE, "%.300s/truth/%.60s/%.60s", shared != NULL ? shared : "../shared", scene, file);
+    snprintf(path, PATH_SIZE, "%.300s/truth/%.60s/%.60s", shared != NULL && *shared != '\0' ? shared : "../shared", scene, file);
 }
 
 static int load_picture(image *out, const char *scene, const char *file)

@@ -301,6 +301,13 @@ static void check_cone(void)
         double want = 2.0 * t * t * (3.0 - 2.0 * t) + (cosine > cos(PI * 30 / 180) ? 2.0 : 0.0);
         CHECK_MSG(fabs((double)e.rgb[0][k] - want) < 1e-5, "hard, cosine %g: %g", cosine, (double)e.rgb[0][k]);
     }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* the surface itself turned away: smooth normals let no light through */
+        tile.face[0][k] = -tile.face[0][k];
+        tile.face[1][k] = -tile.face[1][k];
+    }
+    memset(&e, 0, sizeof e);
+    CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
+    CHECK(e.rgb[0][0] == 0.0f && e.rgb[1][20] == 0.0f && e.rgb[2][63] == 0.0f);
     CHECK(lmb_direct_tile(NULL, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_ERR_ARG);
     CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, NULL, &l, NULL) == LMB_ERR_ARG);
 }
@@ -400,6 +407,7 @@ static void check_shadow(const char *name, lmb_light light, int32_t size)
            close + wrong, dark + lit, farthest, near_edge);
     CHECK_MSG(dark > 100 && lit > 1000, "%d dark, %d lit", dark, lit);
     CHECK_MSG(wrong == 0, "%s, map %d: %d pixels farther than a texel", name, (int)size, wrong);
+    CHECK_MSG(close * 25 <= near_edge, "%s, map %d: %d of %d within a texel", name, (int)size, close, near_edge);
 }
 
 /* A texture of holes: every second texel of 8x8 is missing. */
@@ -407,7 +415,7 @@ static void check_mask(lmb_light light, int32_t size)
 {
     static uint8_t texels[64][4];
     lmb_view v = look(vec3(0.4f, 0.9f, 2.0f), vec3(0, 0, 0), 60);
-    int wrong = 0, through = 0, stopped = 0;
+    int wrong = 0, through = 0, stopped = 0, corner = 0;
     for (int i = 0; i < 64; ++i) {
         memset(texels[i], (i % 8 + i / 8) % 2 ? 255 : 0, 4);
     }
@@ -428,16 +436,40 @@ static void check_mask(lmb_light light, int32_t size)
             fabs(uv[0]) > 0.98 || fabs(uv[1]) > 0.98) {
             continue;
         }
-        double s = (uv[0] + 1.0) * 4.0, t = (uv[1] + 1.0) * 4.0, edge = fmin(fmin(s - floor(s), ceil(s) - s), fmin(t - floor(t), ceil(t) - t));
-        int hole = ((int)s + (int)t) % 2 == 0;
-        if (edge > 0.1) { /* of a hole's side, which is 4 to 30 texels of the map */
-            through += hole;
-            stopped += !hole;
-            wrong += (seen[i].shadowed[0] > 0.0f) != hole;
+        double s = (uv[0] + 1.0) * 4.0, t = (uv[1] + 1.0) * 4.0;
+        double side = fmin(s - floor(s), ceil(s) - s), other = fmin(t - floor(t), ceil(t) - t);
+        int hole = ((int)s + (int)t) % 2 == 0, differs = (seen[i].shadowed[0] > 0.0f) != hole;
+        through += hole;
+        stopped += !hole;
+        if (fmax(side, other) < 0.3) { /* where four holes meet, no texel's middle need lie in the right one */
+            corner += differs;
+        } else {
+            wrong += differs && fmin(side, other) > 0.005;
         }
     }
-    printf("  holes, map %d: %d of %d pixels wrong\n", (int)size, wrong, through + stopped);
-    CHECK_MSG(through > 50 && stopped > 50 && wrong == 0, "%d of %d", wrong, through + stopped);
+    printf("  holes, map %d: %d of %d pixels wrong, %d more at corners\n", (int)size, wrong, through + stopped, corner);
+    CHECK_MSG(through > 50 && stopped > 50 && wrong * 500 <= through + stopped, "%d of %d", wrong, through + stopped);
+    CHECK_MSG(corner * 50 <= through + stopped, "%d of %d", corner, through + stopped);
+}
+
+/* A plate 4 mm over a floor shadows it: the slack for rounding is far smaller. Seen through the gap. */
+static void check_low_plate(lmb_light light)
+{
+    lmb_view v = look(vec3(0.3f, 0.003f, 1.5f), vec3(0, 0.001f, 0), 3);
+    int dark = 0, wrong = 0;
+    world_begin();
+    world_quad(vec3(0, 0.004f, 0), mul3(Z, 0.5f), mul3(X, 0.5f));
+    world_quad(vec3(0, 0, 0), mul3(Z, 0.4f), mul3(X, 0.4f));
+    world_end();
+    shade(&v, &light, 256);
+    for (int i = 0; i < PIXELS; ++i) {
+        int inner = absf(seen[i].at.x) < 0.39f && absf(seen[i].at.z) < 0.39f;
+        if (seen[i].id > 2 && inner && seen[i].open[0] > 0.0f) {
+            ++dark;
+            wrong += seen[i].shadowed[0] != 0.0f;
+        }
+    }
+    CHECK_MSG(dark > 100 && wrong == 0, "%d of %d pixels 4 mm under a plate are lit", wrong, dark);
 }
 
 static void test_shadows(void)
@@ -454,6 +486,9 @@ static void test_shadows(void)
     check_mask(sun, SIDE);
     check_mask(lamp, SIDE);
     check_mask(cone, 256);
+    check_low_plate(sun);
+    check_low_plate(lamp);
+    check_low_plate(cone);
 }
 
 /* --- no acne ---------------------------------------------------------------------------------------------------------- */

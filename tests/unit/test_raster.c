@@ -1159,7 +1159,7 @@ static void test_hard_cuts(void)
             bad += !(d >= 0.0f && d <= 1.0f);
             wrong += at != TOO_CLOSE && (at == INSIDE) != (id_at(&t.id, i % FRAME, i / FRAME) == 1);
         }
-        CHECK_MSG(bad == 0 && wrong == 0, "row %d: %d depths outside 0 .. 1, %d clear pixels wrong", (int)n, bad, wrong);
+        CHECK_MSG(bad == 0 && wrong == 0, "row %d: %d depths outside 0 .. 1, %d pixels wrong", (int)n, bad, wrong);
     }
 }
 
