@@ -61,6 +61,7 @@ typedef struct lmb_render {
     lmb_frame frame;
     lmb_light_map maps[LMB_MAX_LIGHTS];
     int32_t stage;               /* lmb_stage */
+    lmb_status failed;           /* what stopped the frame: every later call returns it; LMB_OK while nothing did */
     uint32_t light, face, place; /* how far the stage is */
     uint32_t triangles;          /* of the scene */
 } lmb_render;

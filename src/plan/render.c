@@ -104,6 +104,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     }
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
     r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
+    r->failed = status;
     return status;
 }
 
@@ -246,6 +247,9 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
         band >= band_count(&r->frame.view)) {
         return LMB_ERR_ARG;
     }
+    if (r->failed != LMB_OK) {
+        return r->failed;
+    }
     const lmb_frame *f = &r->frame;
     lmb_target window = *eye;
     int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
@@ -302,6 +306,9 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     if (r == NULL) {
         return LMB_ERR_ARG;
     }
+    if (r->failed != LMB_OK) {
+        return r->failed;
+    }
     units = mini(maxi(units, 1), 1 << 20);
     switch (r->stage) {
     case LMB_STAGE_LIGHT_MAP: status = step_light_map(r, units); break;
@@ -313,6 +320,7 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     }
     if (status < 0) {
         r->stage = LMB_STAGE_DONE;
+        r->failed = status;
         return status;
     }
     if (status == LMB_OK) {

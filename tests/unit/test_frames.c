@@ -22,9 +22,12 @@ enum { WIDTH = 32, HEIGHT = 24 };
 #else
 enum { WIDTH = 64, HEIGHT = 48 };
 #endif
-enum { MAP = 32, BLOCK = 4, GROUPS = 60, LIGHTS = 3, POINTS = 8192, CANARY = 64 };
+enum { MAP = 32, BLOCK = 4, GROUPS = 60, POINTS = 8192, CANARY = 64 };
 enum { FLOATS = WIDTH * HEIGHT * 3, TARGET = WIDTH * HEIGHT, MAP_WORDS = 8 * MAP * MAP * 2 };
 #define PATTERN 0xa5a5a5a5u
+
+/* Of the room's three; the small configuration takes the first, whose map has one face. */
+enum { ALL_LIGHTS = 3, LIGHTS = LMB_MAX_LIGHTS < ALL_LIGHTS ? 1 : ALL_LIGHTS, FACES = LIGHTS == 1 ? 1 : 8 };
 
 /* Everything a frame needs, between canaries where a size may be wrong. */
 static struct memory {
@@ -49,42 +52,58 @@ static picture reference, other, third;
 
 /* ---- scenes ---- */
 
-/* A box open to the viewer, a block in it, three lights. */
-static float room_positions[7 * 4 * 3];
-static uint16_t room_indices[7 * 6];
-static lmb_mesh room_mesh[7];
-static lmb_material room_materials[7];
-static lmb_instance room_instances[7];
-static lmb_light room_lights[LIGHTS];
+/* A box open to the viewer, a block in it, three lights. Each side is a grid, so that a draw takes several units. */
+enum { SIDES = 7, GRID = 13, SIDE_VERTICES = (GRID + 1) * (GRID + 1), SIDE_TRIANGLES = 2 * GRID * GRID };
+static float room_positions[SIDES][SIDE_VERTICES * 3];
+static uint16_t room_indices[SIDES][SIDE_TRIANGLES * 3];
+static lmb_mesh room_mesh[SIDES];
+static lmb_material room_materials[SIDES];
+static lmb_instance room_instances[SIDES];
+static lmb_light room_lights[ALL_LIGHTS];
 static lmb_scene room;
 
-static void put_quad(int n, const float p[12], float r, float g, float b)
+/* Corners in order around; bilinear between them. */
+static void put_grid(int n, const float p[12])
 {
-    static const uint16_t corner[6] = {0, 1, 2, 0, 2, 3};
+    float *at = room_positions[n];
+    uint16_t *index = room_indices[n];
+    for (int v = 0; v < SIDE_VERTICES; ++v) {
+        float s = (float)(v % (GRID + 1)) / GRID, t = (float)(v / (GRID + 1)) / GRID;
+        for (int c = 0; c < 3; ++c) {
+            *at++ = (p[c] * (1 - s) + p[3 + c] * s) * (1 - t) + (p[9 + c] * (1 - s) + p[6 + c] * s) * t;
+        }
+    }
+    for (int q = 0; q < GRID * GRID; ++q) {
+        static const int corner[6] = {0, 1, GRID + 2, 0, GRID + 2, GRID + 1};
+        for (int k = 0; k < 6; ++k) {
+            *index++ = (uint16_t)(q / GRID * (GRID + 1) + q % GRID + corner[k]);
+        }
+    }
+}
+
+static void put_side(int n, const float p[12], const float colour[3])
+{
     static const lmb_instance plain = {{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, 0, 0, 1, 0};
-    memcpy(room_positions + 12 * n, p, 12 * sizeof(float));
-    memcpy(room_indices + 6 * n, corner, sizeof corner);
+    put_grid(n, p);
     memset(&room_mesh[n], 0, sizeof room_mesh[n]);
-    room_mesh[n].positions = room_positions + 12 * n;
-    room_mesh[n].indices = room_indices + 6 * n;
+    room_mesh[n].positions = room_positions[n];
+    room_mesh[n].indices = room_indices[n];
     room_mesh[n].index_format = LMB_INDEX_U16;
-    room_mesh[n].vertex_count = 4;
-    room_mesh[n].triangle_count = 2;
+    room_mesh[n].vertex_count = SIDE_VERTICES;
+    room_mesh[n].triangle_count = SIDE_TRIANGLES;
     memset(&room_materials[n], 0, sizeof room_materials[n]);
-    room_materials[n].albedo[0] = r;
-    room_materials[n].albedo[1] = g;
-    room_materials[n].albedo[2] = b;
+    memcpy(room_materials[n].albedo, colour, sizeof room_materials[n].albedo);
     room_materials[n].alpha = 1.0f;
     room_materials[n].texture = -1;
     room_materials[n].flags = LMB_DOUBLE_SIDED;
     room_instances[n] = plain;
     room_instances[n].mesh = room_instances[n].material = (uint32_t)n;
-    room_instances[n].first_id = 1u + 2u * (uint32_t)n;
+    room_instances[n].first_id = 1u + SIDE_TRIANGLES * (uint32_t)n;
 }
 
 static void set_lights(uint32_t count)
 {
-    static const lmb_light lights[LIGHTS] = {
+    static const lmb_light lights[ALL_LIGHTS] = {
         {{0.2f, 1.8f, 0.5f}, {-0.2f, -0.96f, -0.196f}, {9, 8, 7}, 0.95f, 0.8f, LMB_LIGHT_SPOT, 0},
         {{-0.5f, 1.2f, 0.9f}, {0, -1, 0}, {1, 2, 3}, 0, 0, LMB_LIGHT_POINT, 0},
         {{0, 0, 0}, {0.6f, 0, -0.8f}, {2, 1, 0.5f}, 0, 0, LMB_LIGHT_DIRECTIONAL, 0},
@@ -95,7 +114,7 @@ static void set_lights(uint32_t count)
 
 static void set_room(void)
 {
-    static const float quads[7][12] = {
+    static const float quads[SIDES][12] = {
         {-1, 0, 1, 1, 0, 1, 1, 0, -1, -1, 0, -1},                       /* floor */
         {-1, 2, -1, 1, 2, -1, 1, 2, 1, -1, 2, 1},                       /* ceiling */
         {-1, 0, -1, 1, 0, -1, 1, 2, -1, -1, 2, -1},                     /* back */
@@ -104,17 +123,18 @@ static void set_room(void)
         {-0.4f, 0, 0.3f, 0.3f, 0, 0.5f, 0.3f, 0.7f, 0.5f, -0.4f, 0.7f, 0.3f}, /* block, front */
         {-0.4f, 0.7f, 0.3f, 0.3f, 0.7f, 0.5f, 0.2f, 0.7f, -0.3f, -0.4f, 0.7f, -0.3f}, /* block, top */
     };
-    static const float colour[7][3] = {{0.7f, 0.7f, 0.7f}, {0.7f, 0.7f, 0.7f}, {0.7f, 0.6f, 0.5f}, {0.8f, 0.1f, 0.1f},
-                                       {0.1f, 0.7f, 0.2f}, {0.5f, 0.5f, 0.9f}, {0.9f, 0.9f, 0.3f}};
-    for (int n = 0; n < 7; ++n) {
-        put_quad(n, quads[n], colour[n][0], colour[n][1], colour[n][2]);
+    static const float colour[SIDES][3] = {{0.7f, 0.7f, 0.7f}, {0.7f, 0.7f, 0.7f}, {0.7f, 0.6f, 0.5f},
+                                           {0.8f, 0.1f, 0.1f}, {0.1f, 0.7f, 0.2f}, {0.5f, 0.5f, 0.9f},
+                                           {0.9f, 0.9f, 0.3f}};
+    for (int n = 0; n < SIDES; ++n) {
+        put_side(n, quads[n], colour[n]);
     }
     memset(&room, 0, sizeof room);
     room.meshes = room_mesh;
     room.materials = room_materials;
     room.instances = room_instances;
     room.lights = room_lights;
-    room.mesh_count = room.material_count = room.instance_count = 7;
+    room.mesh_count = room.material_count = room.instance_count = SIDES;
     set_lights(LIGHTS);
     lmb_scene_bounds(&room.bounds_min, &room.bounds_max, &room);
 }
@@ -438,7 +458,7 @@ static void render_show(picture *out, int show, int occlusion, int method)
 
 static void scale_lights(float s)
 {
-    for (int i = 0; i < LIGHTS; ++i) {
+    for (int i = 0; i < ALL_LIGHTS; ++i) {
         for (int c = 0; c < 3; ++c) {
             room_lights[i].intensity[c] *= s;
         }
@@ -466,7 +486,7 @@ static void test_doubling(void)
             wrong += memcmp(&v, &other.data[i], sizeof v) != 0;
             lit += v > 0.0f;
         }
-        CHECK_MSG(wrong == 0 && lit > FLOATS / 4, "variant %d: %d of %d lit", n, wrong, lit);
+        CHECK_MSG(wrong == 0 && lit > FLOATS / 8, "variant %d: %d of %d lit", n, wrong, lit);
     }
     set_lights(LIGHTS);
 }
@@ -486,6 +506,17 @@ static void test_darkness(void)
     set_lights(LIGHTS);
 }
 
+/* Each light's map drawn by hand, all triangles at once. */
+static void draw_maps(lmb_light_map maps[ALL_LIGHTS])
+{
+    static uint32_t memory[ALL_LIGHTS][6 * MAP * MAP * 2];
+    for (int i = 0; i < LIGHTS; ++i) {
+        lmb_light_map_init(&maps[i], &room_lights[i], &room, MAP, LMB_ID32, memory[i], sizeof memory[i]);
+        lmb_light_map_clear(&maps[i]);
+        lmb_light_map_draw(&maps[i], lmb_kernels_pick(), &m.scratch.raster, &room, 1, UINT32_MAX, NULL);
+    }
+}
+
 /* Each light's irradiance alone, summed in the lights' order, is what the frame's direct light is made of. */
 static void test_sum_of_lights(void)
 {
@@ -494,7 +525,15 @@ static void test_sum_of_lights(void)
     const lmb_kernels *k = lmb_kernels_pick();
     picture *built = &third;
     render_show(&reference, LMB_SHOW_DIRECT, LMB_OCCLUSION_NONE, 0);
-    lmb_render *r = &m.render; /* its maps and eye are still there */
+    lmb_render *r = &m.render; /* its eye is still there */
+    lmb_light_map maps[ALL_LIGHTS];
+    draw_maps(maps);
+    for (int i = 0; i < LIGHTS; ++i) {
+        for (int32_t f = 0; f < maps[i].faces; ++f) {
+            CHECK(memcmp(maps[i].face[f].depth.data, r->maps[i].face[f].depth.data, MAP * MAP * 4) == 0);
+            CHECK(memcmp(maps[i].face[f].id.data, r->maps[i].face[f].id.data, MAP * MAP * 4) == 0);
+        }
+    }
     set_picture(built, LMB_RGB32F, WIDTH, HEIGHT);
     for (int32_t at = 0; at < WIDTH / 8 * (HEIGHT / 8); ++at) {
         int32_t x = at % (WIDTH / 8) * 8, y = at / (WIDTH / 8) * 8;
@@ -503,7 +542,7 @@ static void test_sum_of_lights(void)
         memset(&sum, 0, sizeof sum);
         for (int i = 0; i < LIGHTS; ++i) {
             memset(&one, 0, sizeof one);
-            lmb_direct_tile(&one, k, tile, &r->frame.view, &room, &room_lights[i], &r->maps[i]);
+            lmb_direct_tile(&one, k, tile, &r->frame.view, &room, &room_lights[i], &maps[i]);
             for (int p = 0; p < 3 * LMB_TILE_PIXELS; ++p) {
                 sum.rgb[p / LMB_TILE_PIXELS][p % LMB_TILE_PIXELS] += one.rgb[p / LMB_TILE_PIXELS][p % LMB_TILE_PIXELS];
             }
@@ -537,7 +576,7 @@ static void test_shows(void)
         worst = fmax(worst, fabs(whole - sum) / (fabs(sum) + 1e-6));
     }
     CHECK_MSG(worst < 5e-7, "%g", worst);
-    CHECK(lit_pixels(&other) > FLOATS / 2 && lit_pixels(&reference) > FLOATS / 4);
+    CHECK(lit_pixels(&other) > FLOATS / 2 && lit_pixels(&reference) > FLOATS / 8);
 }
 
 /* ---- errors ---- */
@@ -580,7 +619,7 @@ static lmb_frame refused_frame(void) { return plain_frame(&room, room_view(WIDTH
 
 static void test_refused(void)
 {
-    static lmb_light many[LMB_MAX_LIGHTS + 1];
+    static lmb_light many[LMB_MAX_LIGHTS + ALL_LIGHTS];
     static const lmb_surface none;
     lmb_frame f = refused_frame();
 #define REFUSED(change, status) \
@@ -603,7 +642,7 @@ static void test_refused(void)
     REFUSED(f.light_map = 0, LMB_ERR_ARG);
     REFUSED(f.map_memory = NULL, LMB_ERR_ARG);
     REFUSED(f.map_memory = (uint8_t *)f.map_memory + 1, LMB_ERR_ALIGN);
-    REFUSED(f.map_bytes = 8 * MAP * MAP * 8 - 1, LMB_ERR_CAPACITY); /* 1 + 6 + 1 faces of 8 bytes a texel */
+    REFUSED(f.map_bytes = FACES * MAP * MAP * 8 - 1, LMB_ERR_CAPACITY); /* 8 bytes a texel */
     REFUSED(f.map_bytes = 0, LMB_ERR_CAPACITY);
     REFUSED(f.out = none, LMB_ERR_ARG);
     REFUSED(f.out.width = WIDTH - 1, LMB_ERR_ARG);
@@ -622,7 +661,7 @@ static void test_refused(void)
     set_lights(LIGHTS);
     room_mesh[6].triangle_count = 65536;
     REFUSED(f.id_format = LMB_ID16, LMB_ERR_SCENE);
-    room_mesh[6].triangle_count = 2;
+    room_mesh[6].triangle_count = SIDE_TRIANGLES;
 #undef REFUSED
 }
 
@@ -631,14 +670,15 @@ static void test_exact_memory(void)
 {
     lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
     set_canaries();
-    CHECK(f.map_bytes == 8 * lmb_light_map_bytes(1, MAP, LMB_ID32));
+    f.map_bytes = FACES * lmb_light_map_bytes(1, MAP, LMB_ID32);
+    f.map_memory = m.map + CANARY + MAP_WORDS - f.map_bytes / sizeof *m.map;
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && canaries_live() && picture_keeps_rest(&other));
 }
 
 /* Full points end the frame with a status; nothing past the caller's arrays is written. */
 static void test_few_points(void)
 {
-    for (uint32_t cap = 1; cap < 200; cap = cap * 3 + 1) {
+    for (uint32_t cap = 1; cap < 60; cap = cap * 3 + 1) {
         lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
         f.points.cap = cap;
         CHECK(lmb_render_frame(&m.render, &f) == LMB_ERR_CAPACITY);
@@ -754,8 +794,8 @@ static void draw_light_map(lmb_light_map *map)
     lmb_status status = lmb_light_map_init(map, &room_lights[1], &room, MAP, LMB_ID32, m.map + CANARY, bytes);
     CHECK(status == LMB_OK && map->faces == 6 && map->drawn == 63 && map->size == MAP);
     CHECK(lmb_light_map_clear(map) == LMB_OK);
-    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &m.scratch.raster, &room, 1, 5, NULL) == LMB_OK);
-    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &m.scratch.raster, &room, 6, 99, NULL) == LMB_OK);
+    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &m.scratch.raster, &room, 1, 555, NULL) == LMB_OK);
+    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &m.scratch.raster, &room, 556, UINT32_MAX, NULL) == LMB_OK);
 }
 
 /* Texels with a surface; each face holds what lmb_draw gives in its view. */
@@ -770,7 +810,7 @@ static int check_faces(const lmb_light_map *map)
         lmb_surface_init(&t.id, LMB_ID32, MAP, MAP, id, sizeof id);
         lmb_surface_clear(&t.depth);
         lmb_surface_clear(&t.id);
-        lmb_draw(&t, lmb_kernels_pick(), &m.scratch.raster, &map->view[f], &room, 1, 99, 0, NULL);
+        lmb_draw(&t, lmb_kernels_pick(), &m.scratch.raster, &map->view[f], &room, 1, UINT32_MAX, 0, NULL);
         CHECK(memcmp(depth, map->face[f].depth.data, sizeof depth) == 0);
         CHECK(memcmp(id, map->face[f].id.data, sizeof id) == 0);
         for (int i = 0; i < MAP * MAP; ++i) {
@@ -786,7 +826,7 @@ static void test_light_map(void)
 {
     static uint32_t before[6][MAP * MAP];
     lmb_light_map map;
-    for (int n = 0; n < 7; ++n) {
+    for (int n = 0; n < SIDES; ++n) {
         room_materials[n].flags = 0;
     }
     draw_light_map(&map);
@@ -795,10 +835,10 @@ static void test_light_map(void)
     for (int32_t f = 0; f < 6; ++f) {
         memcpy(before[f], map.face[f].id.data, sizeof before[f]);
     }
-    for (int i = 0; i < 7 * 2; ++i) {
-        uint16_t t = room_indices[3 * i + 1];
-        room_indices[3 * i + 1] = room_indices[3 * i + 2];
-        room_indices[3 * i + 2] = t;
+    for (int i = 0; i < SIDES * SIDE_TRIANGLES; ++i) {
+        uint16_t *corner = room_indices[i / SIDE_TRIANGLES] + i % SIDE_TRIANGLES * 3, t = corner[1];
+        corner[1] = corner[2];
+        corner[2] = t;
     }
     draw_light_map(&map);
     for (int32_t f = 0; f < 6; ++f) {

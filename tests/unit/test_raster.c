@@ -537,7 +537,7 @@ static void test_split_afar(void)
     CHECK_MSG(wrong == 0, "%d pixels not hit once", wrong);
 }
 
-enum { CELLS = 6 };
+enum { CELLS = 6, SPOKES = 12 };
 #define GROUND_HALF 15.0f
 
 /* A jittered grid on the ground, 1 m under the eye, before and behind it. */
@@ -598,6 +598,64 @@ static void test_ground(void)
     CHECK(seen > 300 * FRAME * FRAME / 4);
 }
 
+/* A fan about a corner that is seen; its rim is `radius` away all around, in the plane of the first two axes. Each
+ * spoke belongs to two triangles that walk it in opposite directions. */
+static void put_fan(test_rng *r, float x, float y, float radius, int on_ground)
+{
+    float rim[SPOKES][2];
+    for (int k = 0; k < SPOKES; ++k) {
+        float angle = ((float)k + test_uniform(r, 0.1f, 0.9f)) * (6.2831853f / SPOKES);
+        float away = test_uniform(r, 1, 2) * radius;
+        rim[k][0] = x + away * cosf(angle);
+        rim[k][1] = y + away * sinf(angle);
+    }
+    for (int k = 0; k < SPOKES; ++k) {
+        const float middle[2] = {x, y}, *corner[3] = {middle, rim[k], rim[(k + 1) % SPOKES]};
+        for (int c = 0; c < 3; ++c) {
+            float second = corner[c][1];
+            put_corner(3 * k + c, corner[c][0], on_ground ? -1.0f : second, on_ground ? second : -3.0f);
+        }
+    }
+    set_stage(SPOKES);
+}
+
+/* Every spoke is cut far outside: with other bits on its two sides a centre beside it is missed or hit twice. */
+static void test_fans(void)
+{
+    test_rng r = {17};
+    int wrong = 0;
+    for (int n = 0; n < 600; ++n) {
+        put_fan(&r, test_uniform(&r, -20, 20), test_uniform(&r, -20, 20), n % 2 ? 20000.0f : 100000.0f, 0);
+        st.view = axis_view(LMB_ORTHOGRAPHIC, FRAME);
+        count_hits(SPOKES);
+        for (int i = 0; i < FRAME * FRAME; ++i) {
+            wrong += hits[i] != 1;
+        }
+    }
+    CHECK_MSG(wrong == 0, "%d pixels not hit once", wrong);
+}
+
+/* The same on the ground, where the near plane cuts the spokes that run behind the eye. */
+static void test_ground_fans(void)
+{
+    test_rng r = {18};
+    int wrong = 0, seen = 0;
+    for (int n = 0; n < 600; ++n) {
+        lmb_vec3 eye = {0, 0, 0}, up = {0, 1, 0}, target = {test_uniform(&r, -1, 1), -0.6f, -1.5f};
+        put_fan(&r, test_uniform(&r, -2, 2), test_uniform(&r, -4, -2), n % 2 ? 40.0f : 1000.0f, 1);
+        lmb_view_look(&st.view, eye, target, up, 1.2f, FRAME, FRAME);
+        st.view.near_m = n % 3 ? 0.1f : 0.001f;
+        count_hits(SPOKES);
+        for (int i = 0; i < FRAME * FRAME; ++i) {
+            int at = ground_at(i % FRAME, i / FRAME);
+            wrong += hits[i] > 1 || (at > 0 && hits[i] == 0);
+            seen += at > 0;
+        }
+    }
+    CHECK_MSG(wrong == 0, "%d pixels not hit once", wrong);
+    CHECK(seen > 600 * FRAME * FRAME / 4);
+}
+
 /* ---- depth ---- */
 
 /* Snapped corners, px from the middle, with the depth that the header's formula gives in binary32. */
@@ -616,10 +674,12 @@ static double solve_plane(depth_plane *p)
     return det;
 }
 
+/* Every other one has its corners on pixel centres, where rounding could leave the corners' range. */
 static void random_depth_triangle(depth_plane *p, test_rng *r, int perspective)
 {
+    int32_t step = test_random(r) & 1 ? 256 : 1;
     for (int k = 0; k < 3; ++k) {
-        grid_point g = random_point(r, 40, 1);
+        grid_point g = random_point(r, 30, step);
         float w = test_uniform(r, 0.6f, 100.0f), d = (128.5f - w) * (1.0f / 128.0f);
         if (perspective) {
             g = random_projected(r, k);
@@ -1132,6 +1192,7 @@ static void test_hard_cuts(void)
         {0.01f, {0, 0, -1e5f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}},
         {0.01f, {50, 0, -1e5f, 0.5f, 0.5f, -0.002f, -0.5f, 0.5f, -0.002f}},
         {0.01f, {0, 0, -1e6f, 0.1f, 0.1f, -0.005f, 0.2f, -0.1f, -0.005f}}, /* rounding leaves w = 0: no guard flagged */
+        {0.01f, {3e5f, 1e5f, -1e6f, 0.01f, 0.003f, -0.005f, -0.02f, 0.01f, -0.005f}}, /* loses x instead */
         {0.01f, {0, 0, -1e6f, 0.3f, 0.1f, -0.005f, 3.0f, -1.0f, -0.005f}},
         {1e-5f, {0, 0, -1000, 0, 0, 1000, 5, 5, -10}}, /* an edge through the eye: w = x = y = 0 */
         {1e-5f, {0, 0, -1000, 0, 0, 1000, -5, 5, -10}},
@@ -1275,6 +1336,8 @@ void test_raster(void)
     test_split_meshes();
     test_split_afar();
     test_ground();
+    test_fans();
+    test_ground_fans();
     test_depth_plane();
     test_depth_order();
     test_depth16();
