@@ -107,7 +107,7 @@ FORCE:
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
-CHECKS ?= unit analytic truth golden floors symbols stack headers one tables readme cli tiny
+CHECKS ?= unit analytic truth golden floors symbols stack headers layout one tables readme cli tiny
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -137,6 +137,9 @@ stack: $(LIB) ## stack of the hungriest functions; the budget is 4096 bytes each
 
 headers: ## each public header alone, as C99 and as C++
 	@$(IN_SH) tests/build/headers.sh
+
+layout: $(LIB) ## a program with other capacities than the library must not link
+	@$(IN_SH) tests/build/layout.sh
 
 one: ## a bare compiler command with all of src: builds, and the pictures are the same
 	@$(IN_SH) tests/build/one.sh

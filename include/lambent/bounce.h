@@ -57,7 +57,7 @@ typedef struct lmb_groups {
     int32_t count;
     float position[3][LMB_MAX_GROUPS], normal[3][LMB_MAX_GROUPS]; /*                                   [V13 V18 V19] */
     float flux[3][LMB_MAX_GROUPS];                                /* W */
-    float albedo[3][LMB_MAX_GROUPS];                              /* power-weighted mean               [V19] */
+    float albedo[3][LMB_MAX_GROUPS];                              /* mean, weighted by area             [V19] */
     float area[LMB_MAX_GROUPS];                                   /* m2, sum of the members' */
     float radius[LMB_MAX_GROUPS];                                 /* encloses all members, m           [V19] */
     uint32_t first[LMB_MAX_GROUPS], members[LMB_MAX_GROUPS];
@@ -86,7 +86,7 @@ typedef struct lmb_gather_scratch {
 extern "C" {
 #endif
 
-/* lmb_points_bytes: memory for n points and the cells of a map of side x side blocks. */
+/* lmb_points_bytes: memory for n points and the cells of a map of side x side blocks; 0 where that cannot be. */
 size_t lmb_points_bytes(uint32_t n, uint32_t side);
 /* lmb_points_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *memory, size_t bytes);
@@ -115,7 +115,7 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
 
 /* lmb_gather_tile: add the groups' irradiance to a tile's pixels.                             [V25 V27 V28]
  *
- *   out       added to. Pixels without a surface stay.
+ *   inout     added to. Pixels without a surface stay.
  *   scratch   caller's; contents before and after mean nothing.
  *   points    the discs behind the groups, for near pairs; NULL: none are (groups only).
  *   occluder  what may stand between, or NULL.

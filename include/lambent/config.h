@@ -24,7 +24,7 @@
 #endif
 #endif
 
-/* Slots of the post-transform vertex cache in lmb_raster_scratch; a power of two, 20 bytes each.
+/* Slots of the post-transform vertex cache in lmb_raster_scratch; a power of two, 21 bytes each.
  * A smaller cache costs transforms, never pixels. */
 #ifndef LMB_VERTEX_CACHE
 #ifdef LMB_CONFIG_TINY
@@ -41,10 +41,22 @@
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
-/* Two builds with different layouts must not link: the entry point that every user calls carries the layout's name.
- * The name is made of the three capacities above. */
+#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_VERTEX_CACHE < 1
+#error "lambent: a capacity in config.h is below 1"
+#endif
+#if (LMB_VERTEX_CACHE & (LMB_VERTEX_CACHE - 1)) != 0
+#error "lambent: LMB_VERTEX_CACHE must be a power of two"
+#endif
+
+/* Two builds with different layouts must not link: the calls that take a struct of such a layout carry it in their
+ * names. Capacities are therefore plain numbers, not expressions. */
 #define LMB_PASTE_(a, b, c, d) a##_g##b##_l##c##_v##d
 #define LMB_PASTE(a, b, c, d) LMB_PASTE_(a, b, c, d)
-#define lmb_build_check LMB_PASTE(lmb_build_check, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_VERTEX_CACHE)
+#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_VERTEX_CACHE)
+#define lmb_build_check LMB_LAYOUT(lmb_build_check)
+#define lmb_draw LMB_LAYOUT(lmb_draw)
+#define lmb_group_points LMB_LAYOUT(lmb_group_points)
+#define lmb_gather_tile LMB_LAYOUT(lmb_gather_tile)
+#define lmb_render_begin LMB_LAYOUT(lmb_render_begin)
 
 #endif

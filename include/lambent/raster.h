@@ -18,7 +18,7 @@ typedef struct lmb_target {
     int32_t x0, y0;    /* px in the frame, multiples of LMB_TILE, >= 0 */
 } lmb_target;
 
-/* A draw's vertex cache: contents before a call mean nothing. 24 bytes a slot. */
+/* A draw's vertex cache: contents before a call mean nothing. 21 bytes a slot. */
 typedef struct lmb_raster_scratch {
     uint32_t tag[LMB_VERTEX_CACHE];
     float x[LMB_VERTEX_CACHE], y[LMB_VERTEX_CACHE], z[LMB_VERTEX_CACHE], w[LMB_VERTEX_CACHE];
@@ -55,10 +55,11 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  *   target   cleared or drawn before; depth keeps the nearer surface, equal depth keeps the earlier draw.
  *   view     the frame's camera or light face.
  *   scene    checked by lmb_scene_check. ids past its end are ignored.
+ *   first_id at least 1: id 0 is nothing.
  *   flags    LMB_CULL_BACK or 0.
  *   stats    counts triangles; may be NULL.
  *
- * Returns LMB_OK, LMB_ERR_ARG (null, window outside the frame or not on tiles, bad view) or LMB_ERR_FORMAT, and
+ * Returns LMB_OK, LMB_ERR_ARG (null, id 0, window outside the frame or not on tiles, bad view or stride) or LMB_ERR_FORMAT, and
  * then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
  * Triangles with a non-finite vertex, one more than 2^20 m away, or an index outside the mesh are dropped, counted.
  * Coverage: pixel centres, top-left rule, vertices snapped to 1/256 px: exact integers, no crack, no overlap.

@@ -1,8 +1,8 @@
 /* render.h: one call that draws a frame with bounced light, or one bounded step of it at a time. [V29 V30 V33 V34]
  *
- *     lmb_render r;                        1.4 KiB a light; holds no pointer into itself: copy it freely
+ *     lmb_render r;                        0.8 KiB a light; holds no pointer into itself: copy it freely
  *     lmb_render_begin(&r, &frame);        checks everything, writes no pixel
- *     while (lmb_render_step(&r, 1000) == LMB_MORE) { ... }       or: lmb_render_frame(&frame)
+ *     while (lmb_render_step(&r, 1000) == LMB_MORE) { ... }       or: lmb_render_frame(&r, &frame)
  *
  * Order [V34]: per light its map, first points, discs; groups; the viewer's depth; then band after band: attributes,
  * direct light, gathered light, picture. Steps of any size, and bands in any order, give the same bytes. */
@@ -88,7 +88,8 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
- * A unit is 1,024 triangles of a draw or a row of light-map tiles; a band counts as 8; grouping is one piece.
+ * A unit is 1,024 triangles of a draw or a row of light-map tiles; a band counts as 8 (and draws the whole scene into
+ * its rows where the eye is band-sized); the discs of one face and the grouping are each one piece.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 

@@ -55,6 +55,8 @@ static lmb_status check_texture(const lmb_texture *t)
 
 static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
 {
+    if (m->albedo[0] < 0.0f || m->albedo[1] < 0.0f || m->albedo[2] < 0.0f)
+        return LMB_ERR_ARG;
     if (!are_finite(m->albedo, 3) || !is_finite(m->alpha) || !is_finite(m->alpha_cutoff))
         return LMB_ERR_ARG;
     if (m->texture < -1 || (m->texture >= 0 && (uint32_t)m->texture >= texture_count))
@@ -68,6 +70,12 @@ static lmb_status check_light(const lmb_light *l)
         return LMB_ERR_FORMAT;
     if (!is_finite3(l->position) || !is_finite3(l->direction) || !are_finite(l->intensity, 3) ||
         !is_finite(l->cos_inner) || !is_finite(l->cos_outer))
+        return LMB_ERR_ARG;
+    if (l->intensity[0] < 0.0f || l->intensity[1] < 0.0f || l->intensity[2] < 0.0f)
+        return LMB_ERR_ARG;
+    if (l->kind != LMB_LIGHT_POINT && absf(dot3(l->direction, l->direction) - 1.0f) > 1e-3f)
+        return LMB_ERR_ARG;
+    if (l->kind == LMB_LIGHT_SPOT && !(l->cos_outer > 0.0f && l->cos_inner >= l->cos_outer && l->cos_inner <= 1.0f))
         return LMB_ERR_ARG;
     return LMB_OK;
 }
@@ -103,6 +111,9 @@ lmb_status lmb_scene_check(const lmb_scene *scene)
     lmb_status status = LMB_OK;
     uint32_t i;
     if (!scene || !has_arrays(scene) || !is_finite3(scene->bounds_min) || !is_finite3(scene->bounds_max))
+        return LMB_ERR_ARG;
+    if (scene->bounds_min.x > scene->bounds_max.x || scene->bounds_min.y > scene->bounds_max.y ||
+        scene->bounds_min.z > scene->bounds_max.z)
         return LMB_ERR_ARG;
     for (i = 0; i < scene->mesh_count && status == LMB_OK; ++i)
         status = check_mesh(&scene->meshes[i]);

@@ -4,7 +4,7 @@
  * walk here goes by such runs and needs no second path for tiles. */
 #include <string.h>
 
-#include <lambent/surface.h>
+#include "surface_check.h"
 
 #include "vec.h"
 
@@ -76,11 +76,15 @@ lmb_status lmb_surface_init(lmb_surface *out, int32_t format, int32_t width, int
     return LMB_OK;
 }
 
-/* Could these numbers describe memory? Tiles only for depth and id, rows that do not overlap. */
-static int describes_pixels(const lmb_surface *s)
+/* Tiles only for depth and id, rows that do not overlap, pixels where their type may lie. */
+int lmb_surface_is_sound(const lmb_surface *s)
 {
     int32_t tile, least;
     if (!s || !s->data || !is_size(s->width, s->height) || !lmb_pixel_bytes(s->format) || s->layout > LMB_TILED)
+        return 0;
+    tile = mini(lmb_pixel_bytes(s->format), 4);
+    tile = tile == 3 ? 4 : tile;
+    if ((uintptr_t)s->data % (uintptr_t)tile != 0 || s->stride_bytes % tile != 0)
         return 0;
     tile = is_tile_format(s->format);
     if (!tile)
@@ -106,7 +110,7 @@ static int32_t run_length(const lmb_surface *s, int32_t x) { return mini(s->widt
 lmb_status lmb_surface_clear(const lmb_surface *surface)
 {
     int32_t y, rows, width, row_bytes;
-    if (!describes_pixels(surface))
+    if (!lmb_surface_is_sound(surface))
         return LMB_ERR_ARG;
     if (is_tile_format(surface->format)) {
         rows = round_up(surface->height, LMB_TILE) / (surface->layout == LMB_TILED ? LMB_TILE : 1);
@@ -125,7 +129,7 @@ lmb_status lmb_depth_linearize(void *out, size_t bytes, const lmb_surface *surfa
 {
     unsigned char *to = (unsigned char *)out;
     int32_t x, y, pixel;
-    if (!out || !describes_pixels(surface))
+    if (!out || !lmb_surface_is_sound(surface))
         return LMB_ERR_ARG;
     if (!is_tile_format(surface->format))
         return LMB_ERR_FORMAT;
@@ -178,7 +182,7 @@ uint64_t lmb_surface_hash(const lmb_surface *surface)
 {
     uint64_t hash = HASH_START;
     int32_t x, y, pixel, value;
-    if (!describes_pixels(surface))
+    if (!lmb_surface_is_sound(surface))
         return 0;
     pixel = lmb_pixel_bytes(surface->format);
     value = surface->format == LMB_RGBA8 || surface->format == LMB_BGRA8 ? 1 : mini(pixel, 4);
@@ -202,7 +206,7 @@ static int32_t equal_pixels(const unsigned char *a, const unsigned char *b, int3
 int32_t lmb_surface_diff(int32_t *x, int32_t *y, const lmb_surface *a, const lmb_surface *b)
 {
     int32_t i, j, run, same, pixel;
-    if (!x || !y || !describes_pixels(a) || !describes_pixels(b) || a->width != b->width || a->height != b->height)
+    if (!x || !y || !lmb_surface_is_sound(a) || !lmb_surface_is_sound(b) || a->width != b->width || a->height != b->height)
         return LMB_ERR_ARG;
     if (a->format != b->format)
         return LMB_ERR_FORMAT;

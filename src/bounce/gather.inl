@@ -63,6 +63,7 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
  * Neighbouring pixels of one surface nearly always agree on what they see: the four corners of such a tile are asked
  * first, and only where they differ is each pixel asked. Lost is what fits between the corners. */
 
+#define ALL_LANES (~0u >> (32 - LANES))
 enum { CORNERS = LANES < 4 ? 4 : LANES };
 enum { SEES_NOTHING, SEES_ALL, SEES_SOME };
 
@@ -112,7 +113,7 @@ static inline lane3 corner_load(const float (*p)[CORNERS], int i)
 /* What the tile's corners see of one emitter. */
 static int corners_see(const gather_corners *c, const lmb_march_job *m, lane3 at, lane3 axis)
 {
-    const uint32_t full = LANES == 32 ? ~0u : (1u << LANES) - 1u;
+    const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
     for (int i = 0; i < CORNERS && c->usable; i += LANES) {
         lane3 p = corner_load(c->position, i), face = corner_load(c->face, i);
@@ -234,7 +235,7 @@ static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lm
     const lane3 at = lane3_point(middle->position), axis = lane3_point(middle->normal);
     int sees = m == NULL ? SEES_ALL : corners_see(corners, m, at, axis);
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const uint32_t mine = (uint32_t)(pixels >> k) & ((1u << LANES) - 1u);
+        const uint32_t mine = (uint32_t)(pixels >> k) & ALL_LANES;
         if (mine != 0) {
             const lane_mask hits = gather_flags(mine);
             lane_mask shared = sees == SEES_NOTHING ? mask_not(lane_le(at.x, at.x)) : hits;

@@ -19,6 +19,12 @@ typedef struct lmb_group_sum {
 float lmb_disc_power(const lmb_point *disc);
 float lmb_disc_area(const lmb_point *disc);
 
+/* Do the normals agree? A cosine of -1 takes any: rounding may put opposed ones below it. */
+static inline int lmb_group_agrees(const lmb_group_sum *sum, const lmb_point *disc, float cosine)
+{
+    return cosine <= -1.0f || dot3(disc->normal, sum->axis) >= cosine;
+}
+
 void lmb_group_open(lmb_group_sum *sum);
 void lmb_group_add(lmb_group_sum *sum, const lmb_point *disc);
 

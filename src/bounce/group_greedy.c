@@ -4,13 +4,17 @@
  * agrees; after each round of joining the barycentre has moved, so the rounds go on until one adds nothing. */
 #include "group.h"
 
-#define EVERYTHING 1e4f /* a reach this wide takes all that is left */
+#define EVERYTHING 1e4f /* a reach this wide takes all that is left, whichever way it faces */
+#define ANYWHERE 1e18f  /* m */
 #define ROUNDS 64 /* a group that still creeps after this many is taken as it is */
 
 static int fits(const lmb_group_sum *g, const lmb_point *d, float reach_m, float cosine)
 {
     lmb_vec3 away = sub3(d->position, g->centre);
-    return dot3(away, away) <= reach_m * reach_m && dot3(d->normal, g->axis) >= cosine;
+    if (reach_m >= ANYWHERE) {
+        return 1;
+    }
+    return dot3(away, away) <= reach_m * reach_m && lmb_group_agrees(g, d, cosine);
 }
 
 /* One pass over the discs still free; returns how many joined. */
@@ -41,7 +45,7 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
         if (first->link == LMB_UNGROUPED) {
             lmb_group_sum g;
             float radius = maxf(sqrtf(lmb_disc_area(first) * 0.31830989f), 0.5f * first->distance);
-            float reach_m = reach < EVERYTHING ? reach * radius : 1e18f;
+            float reach_m = reach < EVERYTHING ? reach * radius : ANYWHERE;
             if (groups == most) {
                 return most + 1;
             }

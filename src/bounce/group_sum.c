@@ -10,13 +10,17 @@ void lmb_group_open(lmb_group_sum *g) { memset(g, 0, sizeof *g); }
 
 void lmb_group_add(lmb_group_sum *g, const lmb_point *d)
 {
-    /* A black disc still has a place: it weighs by its area, far below any lit one. */
-    float weight = lmb_disc_power(d);
-    weight = weight > 0.0f ? weight : 1e-12f * lmb_disc_area(d) + 1e-24f;
+    const float weight = lmb_disc_power(d);
     g->position = add3(g->position, mul3(d->position, weight));
     g->normal = add3(g->normal, mul3(d->normal, weight));
     g->weight += weight;
-    g->count += 1;
-    g->centre = mul3(g->position, 1.0f / g->weight);
-    g->axis = normalize3(g->normal);
+    if (g->count++ == 0) {
+        g->centre = d->position;
+        g->axis = d->normal;
+    }
+    /* Black discs move nothing, so that dimming the light does not either; a black group stands at its first disc. */
+    if (g->weight > 0.0f) {
+        g->centre = mul3(g->position, 1.0f / g->weight);
+        g->axis = normalize3(mul3(g->normal, 1.0f / g->weight));
+    }
 }

@@ -41,7 +41,7 @@ static void fill_group(lmb_points *points, uint32_t i, uint32_t end, int32_t zon
         lmb_point *d = &points->data[j];
         if (d->link == LMB_UNGROUPED && zone_of(d, zone) == here) {
             lmb_vec3 away = sub3(d->position, g.centre);
-            if (g.count == 0 || (dot3(away, away) <= reach_m * reach_m && dot3(d->normal, g.axis) >= grouping->cosine)) {
+            if (g.count == 0 || (dot3(away, away) <= reach_m * reach_m && lmb_group_agrees(&g, d, grouping->cosine))) {
                 d->link = group;
                 lmb_group_add(&g, d);
             }

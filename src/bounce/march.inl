@@ -173,7 +173,8 @@ static inline lane march_share(const lmb_march_job *m, const seen_from *s, const
 {
     lane t = lane_div(lane_splat((float)i + 0.5f), r->samples);
     if (m->kind == LMB_OCCLUSION_VIEW_WORLD && m->perspective) {
-        return lane_div(lane_mul(t, r->w_end), lane_add(s->w, lane_mul(lane_sub(r->w_end, s->w), t)));
+        t = lane_div(lane_mul(t, r->w_end), lane_add(s->w, lane_mul(lane_sub(r->w_end, s->w), t)));
+        return lane_min(t, r->end);
     }
     return lane_mul(t, r->end);
 }

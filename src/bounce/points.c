@@ -15,7 +15,11 @@
 
 size_t lmb_points_bytes(uint32_t n, uint32_t side)
 {
-    return (size_t)n * sizeof(lmb_point) + ((size_t)side * side + 1) * sizeof(uint32_t);
+    const size_t cells = ((size_t)side * side + 1) * sizeof(uint32_t);
+    if (side > LMB_MAX_SIDE || n > ((size_t)-1 - cells) / sizeof(lmb_point)) {
+        return 0; /* more than this machine can address */
+    }
+    return (size_t)n * sizeof(lmb_point) + cells;
 }
 
 lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *memory, size_t bytes)
@@ -26,7 +30,7 @@ lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *mem
     if ((uintptr_t)memory % 4 != 0) {
         return LMB_ERR_ALIGN;
     }
-    if (bytes < lmb_points_bytes(n, side)) {
+    if (lmb_points_bytes(n, side) == 0 || bytes < lmb_points_bytes(n, side)) {
         return LMB_ERR_CAPACITY;
     }
     memset(out, 0, sizeof *out);
@@ -113,7 +117,7 @@ static void make_point(lmb_point *out, const element *e, const lmb_light_map *ma
     float fit = 0.5f * sqrtf(n / (side_x * side_y)); /* half sides of a quad with the texels' area */
     memset(out, 0, sizeof *out);
     out->position = add3(e->first, mul3(e->position, per_weight));
-    out->normal = normalize3(e->normal);
+    out->normal = normalize3(mul3(e->normal, per_weight));
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = e->flux[c];
         out->albedo[c] = e->power[c] > 0.0f ? e->flux[c] / e->power[c] : 0.0f;

@@ -3,6 +3,7 @@
 
 #include "../base/codec.h"
 #include "../base/poly.h"
+#include "../base/surface_check.h"
 #include "../base/vec.h"
 
 /* Bayer's 8x8 index matrix (1973): 0 .. 63, each once. */
@@ -51,7 +52,8 @@ static void store_pixel(const lmb_surface *out, int32_t x, int32_t y, const floa
 lmb_status lmb_store_tile(const lmb_surface *out, int32_t x0, int32_t y0, const lmb_radiance *in, int32_t x, int32_t y,
                           float exposure_ev)
 {
-    if (out == NULL || out->data == NULL || in == NULL || out->layout != LMB_LINEAR) {
+    if (out == NULL || out->data == NULL || in == NULL || out->layout != LMB_LINEAR ||
+        !lmb_surface_is_sound(out)) {
         return LMB_ERR_ARG;
     }
     if (out->format != LMB_RGB32F && out->format != LMB_RGBA8 && out->format != LMB_BGRA8 && out->format != LMB_RGB565 &&

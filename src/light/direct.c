@@ -15,7 +15,8 @@ static lmb_direct_job make_job(const lmb_light *light)
     job.cone_scale = 1.0f / maxf(width, 1e-6f); /* a hard edge: a step over a millionth */
     job.kind = light->kind;
     for (int c = 0; c < 3; ++c) {
-        job.intensity[c] = light->intensity[c];
+        /* Under 2^-80 it is nothing, as in the maps: a kernel meets no denormal. */
+        job.intensity[c] = light->intensity[c] < 8.2718061e-25f ? 0.0f : light->intensity[c];
     }
     return job;
 }

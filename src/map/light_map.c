@@ -15,10 +15,18 @@ int32_t lmb_light_map_faces(const lmb_light *light)
     return light->kind == LMB_LIGHT_POINT || (light->kind == LMB_LIGHT_SPOT && light->cos_outer < COS_50) ? 6 : 1;
 }
 
+static int is_map(int32_t size, int32_t id_format)
+{
+    return size >= LMB_TILE && size <= LMB_MAX_SIDE && size % LMB_TILE == 0 &&
+           (id_format == LMB_ID16 || id_format == LMB_ID32);
+}
+
 size_t lmb_light_map_bytes(int32_t faces, int32_t size, int32_t id_format)
 {
-    return faces < 1 ? 0
-                     : (size_t)faces * (lmb_surface_bytes(LMB_DEPTH32F, size, size) + lmb_surface_bytes(id_format, size, size));
+    if (!is_map(size, id_format) || faces < 1 || faces > 6) {
+        return 0;
+    }
+    return (size_t)faces * (lmb_surface_bytes(LMB_DEPTH32F, size, size) + lmb_surface_bytes(id_format, size, size));
 }
 
 /* Axes for looking along `forward`: up from the world axis that is least along it. */
@@ -99,8 +107,7 @@ static void fit_views(lmb_light_map *map, const lmb_light *light, const lmb_scen
 lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
                               int32_t id_format, void *memory, size_t bytes)
 {
-    if (out == NULL || light == NULL || scene == NULL || memory == NULL || size < LMB_TILE || size > LMB_MAX_SIDE ||
-        size % LMB_TILE != 0 || (id_format != LMB_ID16 && id_format != LMB_ID32)) {
+    if (out == NULL || light == NULL || scene == NULL || memory == NULL || !is_map(size, id_format)) {
         return LMB_ERR_ARG;
     }
     if ((uintptr_t)memory % 4 != 0) {

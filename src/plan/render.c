@@ -3,7 +3,9 @@
 
 #include <string.h>
 
+#include "../base/surface_check.h"
 #include "../base/vec.h"
+#include "../raster/target.h"
 
 #define UNIT_TRIANGLES 1024u
 #define BAND_UNITS 8
@@ -34,12 +36,22 @@ static const lmb_surface *occluding_depth(const lmb_frame *f)
 static lmb_status check_eye(const lmb_frame *f)
 {
     const lmb_surface *d = &f->eye.depth;
-    if (d->data == NULL || f->eye.id.data == NULL || f->eye.x0 != 0 || f->eye.y0 != 0 || d->width != f->view.frame_width ||
+    lmb_status status = lmb_target_check(&f->eye, &f->view, lmb_scene_triangles(f->scene));
+    if (status != LMB_OK) {
+        return status;
+    }
+    if (f->eye.id.data == NULL || f->eye.x0 != 0 || f->eye.y0 != 0 || d->width != f->view.frame_width ||
         (d->height != f->view.frame_height && d->height != LMB_TILE)) {
         return LMB_ERR_ARG;
     }
     const lmb_surface *map = occluding_depth(f);
-    return map == NULL || is_whole(map, &f->view) ? LMB_OK : LMB_ERR_ARG;
+    if (map == NULL || map == d) {
+        return LMB_OK;
+    }
+    lmb_target whole = f->eye;
+    whole.depth = *map;
+    memset(&whole.id, 0, sizeof whole.id);
+    return is_whole(map, &f->view) ? lmb_target_check(&whole, &f->view, 0) : LMB_ERR_ARG;
 }
 
 static lmb_status check_out(const lmb_surface *out, const lmb_view *v)
@@ -47,7 +59,10 @@ static lmb_status check_out(const lmb_surface *out, const lmb_view *v)
     if (out->data == NULL || out->width != v->frame_width || (out->height != v->frame_height && out->height != LMB_TILE)) {
         return LMB_ERR_ARG;
     }
-    return out->format >= LMB_RGB565 && out->format <= LMB_RGB32F && out->format != LMB_R32F ? LMB_OK : LMB_ERR_FORMAT;
+    if (out->format < LMB_RGB565 || out->format > LMB_RGB32F || out->format == LMB_R32F || out->layout != LMB_LINEAR) {
+        return LMB_ERR_FORMAT;
+    }
+    return lmb_surface_is_sound(out) ? LMB_OK : LMB_ERR_ARG;
 }
 
 static lmb_status check_frame(const lmb_frame *f)
@@ -246,6 +261,10 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
     if (r == NULL || scratch == NULL || eye == NULL || out == NULL || r->stage < LMB_STAGE_BANDS || band < 0 ||
         band >= band_count(&r->frame.view)) {
         return LMB_ERR_ARG;
+    }
+    lmb_status sound = check_out(out, &r->frame.view);
+    if (sound != LMB_OK) {
+        return sound;
     }
     if (r->failed != LMB_OK) {
         return r->failed;

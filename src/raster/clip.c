@@ -84,7 +84,7 @@ int lmb_clip_polygon(lmb_clip_vertex polygon[LMB_CLIP_MAX], uint32_t planes, con
 {
     int n = 3;
     for (uint32_t plane = CLIP_NEAR; plane <= CLIP_BOTTOM && n >= 3; plane <<= 1) {
-        /* A cut may push a new corner out of a plane its parents were inside of by a rounding: always test. */
+        /* Only planes that cut the triangle itself: a new corner lies between two old ones. */
         if (planes & plane) {
             n = cut(polygon, n, plane, guard);
         }

@@ -172,49 +172,16 @@ static void draw_instance_range(const lmb_fill_context *c, lmb_raster_scratch *c
     }
 }
 
-static int view_is_fine(const lmb_view *v)
-{
-    return v->half_width > 0.0f && v->half_height > 0.0f && v->near_m > 0.0f && v->frame_width > 0 &&
-           v->frame_height > 0 && v->frame_width <= LMB_MAX_FRAME && v->frame_height <= LMB_MAX_FRAME &&
-           (v->kind == LMB_PERSPECTIVE || (v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m));
-}
-
-static lmb_status check_target(const lmb_target *t, const lmb_view *view, const lmb_scene *scene)
-{
-    const lmb_surface *d = &t->depth, *i = &t->id;
-    if (d->data == NULL || t->x0 < 0 || t->y0 < 0 || t->x0 % LMB_TILE != 0 || t->y0 % LMB_TILE != 0 || d->width < 1 ||
-        d->height < 1 || d->width > LMB_MAX_SIDE || d->height > LMB_MAX_SIDE ||
-        t->x0 > view->frame_width + LMB_TILE - 1 - d->width || t->y0 > view->frame_height + LMB_TILE - 1 - d->height) {
-        return LMB_ERR_ARG;
-    }
-    if ((d->format != LMB_DEPTH32F && d->format != LMB_DEPTH16) ||
-        (d->format == LMB_DEPTH16 && view->far_m <= view->near_m)) {
-        return LMB_ERR_FORMAT;
-    }
-    if (i->data != NULL) {
-        if (i->format != LMB_ID16 && i->format != LMB_ID32) {
-            return LMB_ERR_FORMAT;
-        }
-        if (i->width != d->width || i->height != d->height) {
-            return LMB_ERR_ARG;
-        }
-        if (i->format == LMB_ID16 && lmb_scene_triangles(scene) > 65535u) {
-            return LMB_ERR_CAPACITY;
-        }
-    }
-    return LMB_OK;
-}
-
 lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, lmb_raster_scratch *scratch,
                     const lmb_view *view, const lmb_scene *scene, uint32_t first_id, uint32_t count, uint32_t flags,
                     lmb_stats *stats)
 {
     lmb_stats unread;
     lmb_fill_context context;
-    if (target == NULL || kernels == NULL || scratch == NULL || view == NULL || scene == NULL || !view_is_fine(view)) {
+    if (target == NULL || kernels == NULL || scratch == NULL || view == NULL || scene == NULL || first_id == 0) {
         return LMB_ERR_ARG;
     }
-    lmb_status status = check_target(target, view, scene);
+    lmb_status status = lmb_target_check(target, view, lmb_scene_triangles(scene));
     if (status != LMB_OK) {
         return status;
     }

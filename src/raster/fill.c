@@ -12,8 +12,14 @@
 
 /* A tile's own copy, for the masked path. */
 typedef struct tile_copy {
-    uint32_t depth[LMB_TILE_PIXELS]; /* in the target's depth format */
-    uint32_t id[LMB_TILE_PIXELS];
+    union {
+        float f32[LMB_TILE_PIXELS];
+        uint16_t u16[LMB_TILE_PIXELS];
+    } depth;
+    union {
+        uint32_t u32[LMB_TILE_PIXELS];
+        uint16_t u16[LMB_TILE_PIXELS];
+    } id;
 } tile_copy;
 
 static void copy_rows(void *to, int32_t to_step, const void *from, int32_t from_step, int32_t bytes)
@@ -35,24 +41,24 @@ static void fill_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, co
     if (!lmb_resolve_setup(&surface, &alpha, c->view, c->scene, job->id, x, y)) {
         return;
     }
-    aside.depth = copy.depth;
+    aside.depth = &copy.depth;
     aside.depth_step = LMB_TILE;
-    copy_rows(copy.depth, LMB_TILE, tile->depth, tile->depth_step, bytes);
+    copy_rows(&copy.depth, LMB_TILE, tile->depth, tile->depth_step, bytes);
     if (tile->id != NULL) {
-        aside.id = copy.id;
+        aside.id = &copy.id;
         aside.id_step = LMB_TILE;
-        copy_rows(copy.id, LMB_TILE, tile->id, tile->id_step, id_bytes);
+        copy_rows(&copy.id, LMB_TILE, tile->id, tile->id_step, id_bytes);
     }
     c->kernels->fill(&aside, job);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         uint8_t *was = (uint8_t *)tile->depth + ((k / LMB_TILE) * tile->depth_step + k % LMB_TILE) * bytes;
-        const uint8_t *now = (const uint8_t *)copy.depth + k * bytes;
+        const uint8_t *now = (const uint8_t *)&copy.depth + k * bytes;
         if (memcmp(was, now, (size_t)bytes) != 0 &&
             lmb_resolve_opaque(&surface, &alpha, c->scene, (float)(k % LMB_TILE), (float)(k / LMB_TILE))) {
             memcpy(was, now, (size_t)bytes);
             if (tile->id != NULL) {
                 memcpy((uint8_t *)tile->id + ((k / LMB_TILE) * tile->id_step + k % LMB_TILE) * id_bytes,
-                       (const uint8_t *)copy.id + k * id_bytes, (size_t)id_bytes);
+                       (const uint8_t *)&copy.id + k * id_bytes, (size_t)id_bytes);
             }
         }
     }

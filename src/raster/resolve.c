@@ -204,7 +204,7 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
                             const lmb_target *target, int32_t x, int32_t y)
 {
     if (out == NULL || kernels == NULL || view == NULL || scene == NULL || target == NULL || target->id.data == NULL ||
-        x < target->x0 || y < target->y0 || x >= target->x0 + target->id.width || y >= target->y0 + target->id.height ||
+        lmb_target_check(target, view, 0) != LMB_OK || x < target->x0 || y < target->y0 || x >= target->x0 + target->id.width || y >= target->y0 + target->id.height ||
         x % LMB_TILE != 0 || y % LMB_TILE != 0) {
         return LMB_ERR_ARG;
     }

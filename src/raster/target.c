@@ -1,6 +1,9 @@
 /* target.c: where a window's tiles lie in memory, and how 16 bits code depth. Floor 3. */
 #include "target.h"
 
+#include "../base/surface_check.h"
+#include "../base/vec.h"
+
 void lmb_depth16_coding(float *scale, float *bias, const lmb_view *view)
 {
     float d_far = view->kind == LMB_PERSPECTIVE ? view->near_m / view->far_m : 0.0f;
@@ -32,4 +35,54 @@ lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t 
         t.id_format = target->id.format;
     }
     return t;
+}
+
+static int is_unit(lmb_vec3 v)
+{
+    float d2 = dot3(v, v);
+    return d2 > 0.99f && d2 < 1.01f;
+}
+
+int lmb_view_is_sound(const lmb_view *v)
+{
+    return v->half_width > 0.0f && v->half_height > 0.0f && v->half_width < 1e30f && v->half_height < 1e30f &&
+           v->near_m > 0.0f && is_unit(v->right) && is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) &&
+           is_sane(v->eye.y) && is_sane(v->eye.z) && v->frame_width > 0 && v->frame_height > 0 &&
+           v->frame_width <= LMB_MAX_FRAME && v->frame_height <= LMB_MAX_FRAME &&
+           (v->kind == LMB_PERSPECTIVE || (v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m));
+}
+
+/* A window on whole tiles, inside the frame but for the last tile's own edge. */
+static int is_window(const lmb_target *t, const lmb_view *view)
+{
+    return t->x0 >= 0 && t->y0 >= 0 && t->x0 % LMB_TILE == 0 && t->y0 % LMB_TILE == 0 &&
+           t->x0 <= view->frame_width + LMB_TILE - 1 - t->depth.width &&
+           t->y0 <= view->frame_height + LMB_TILE - 1 - t->depth.height;
+}
+
+static lmb_status check_ids(const lmb_target *t, uint32_t triangles)
+{
+    if (t->id.format != LMB_ID16 && t->id.format != LMB_ID32) {
+        return LMB_ERR_FORMAT;
+    }
+    if (!lmb_surface_is_sound(&t->id) || t->id.width != t->depth.width || t->id.height != t->depth.height) {
+        return LMB_ERR_ARG;
+    }
+    return t->id.format == LMB_ID16 && triangles > 65535u ? LMB_ERR_CAPACITY : LMB_OK;
+}
+
+lmb_status lmb_target_check(const lmb_target *t, const lmb_view *view, uint32_t triangles)
+{
+    const lmb_surface *d = &t->depth;
+    if (!lmb_view_is_sound(view) || d->data == NULL) {
+        return LMB_ERR_ARG;
+    }
+    if ((d->format != LMB_DEPTH32F && d->format != LMB_DEPTH16) ||
+        (d->format == LMB_DEPTH16 && view->far_m <= view->near_m)) {
+        return LMB_ERR_FORMAT;
+    }
+    if (!lmb_surface_is_sound(d) || !is_window(t, view)) {
+        return LMB_ERR_ARG;
+    }
+    return t->id.data != NULL ? check_ids(t, triangles) : LMB_OK;
 }

@@ -4,6 +4,12 @@
 
 #include "../lane/kernels.h"
 
+/* Can a frame be seen this way? */
+int lmb_view_is_sound(const lmb_view *view);
+
+/* LMB_OK where a scene of so many triangles can be drawn into the window; else what lmb_draw returns. */
+lmb_status lmb_target_check(const lmb_target *target, const lmb_view *view, uint32_t triangles);
+
 /* Address one tile of a window. */
 lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t tile_y);
 

@@ -16,7 +16,7 @@ void test_sphere(void);
 
 #define PI 3.14159265358979323846
 
-enum { STACKS = 48, SLICES = 96, TRIANGLES = 2 * SLICES * (STACKS - 1), FRAME = 64, MAP = 256, SIDE = MAP / 8, VIEWS = 6 };
+enum { STACKS = 48, SLICES = 96, TRIANGLES = 2 * SLICES * (STACKS - 1), FRAME = 32, MAP = 256, SIDE = MAP / 8, VIEWS = 6 };
 
 static const float albedo = 0.5f;
 
