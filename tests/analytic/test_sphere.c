@@ -1,8 +1,8 @@
 /* test_sphere.c: the integrating sphere: inside a Lambertian sphere one bounce is the same everywhere. [V27 V28 V29]
  *
- * Radius R, reflectance rho, a point light I at the centre: direct irradiance I / R2, radiance rho I / (pi R2); one bounce
- * arrives as rho I / R2 everywhere, since the form factor of any patch to any other is its area over 4 pi R2. The mesh is
- * inscribed, which raises all of it: by the mean of 1 / r3 over a facet, about 0.1 % here. */
+ * Radius R, reflectance rho, a point light I at the centre: direct irradiance I / R2, radiance rho I / (pi R2); one
+ * bounce arrives as rho I / R2 everywhere, since the form factor of any patch to any other is its area over 4 pi R2.
+ * The mesh is inscribed, which raises all of it: by the mean of 1 / r3 over a facet, about 0.1 % here. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,15 @@ void test_sphere(void);
 
 #define PI 3.14159265358979323846
 
-enum { STACKS = 48, SLICES = 96, TRIANGLES = 2 * SLICES * (STACKS - 1), FRAME = 32, MAP = 256, SIDE = MAP / 8, VIEWS = 6 };
+enum {
+    STACKS = 48,
+    SLICES = 96,
+    TRIANGLES = 2 * SLICES * (STACKS - 1),
+    FRAME = 32,
+    MAP = 256,
+    SIDE = MAP / 8,
+    VIEWS = 6
+};
 
 static const float albedo = 0.5f;
 
@@ -90,7 +98,7 @@ static void make_world(void)
     CHECK(world.count == TRIANGLES && lmb_scene_check(&world.scene) == LMB_OK);
 }
 
-/* --- rendering -------------------------------------------------------------------------------------------------------- */
+/* --- rendering ---------------------------------------------------------------------------------------------------- */
 
 static uint32_t map_memory[6 * MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
 static lmb_point point_data[6 * SIDE * SIDE * 4];
@@ -124,8 +132,9 @@ static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t 
     f.scratch = &scratch;
     f.stats = &stats;
     /* Off the centre, so that no symmetry helps; from there 95 degrees see a third of the sphere. */
-    CHECK(lmb_view_look(&f.view, vec3(0.05f, -0.03f, 0.3f), vec3(0.05f + ways[view][0], ways[view][1] - 0.03f, 0.3f + ways[view][2]),
-                        vec3(0, 1, 0), (float)(95 * PI / 180), FRAME, FRAME) == LMB_OK);
+    CHECK(lmb_view_look(&f.view, vec3(0.05f, -0.03f, 0.3f),
+                        vec3(0.05f + ways[view][0], ways[view][1] - 0.03f, 0.3f + ways[view][2]), vec3(0, 1, 0),
+                        (float)(95 * PI / 180), FRAME, FRAME) == LMB_OK);
     CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, FRAME, FRAME, depth_memory, sizeof depth_memory) == LMB_OK);
     CHECK(lmb_surface_init(&f.eye.id, LMB_ID32, FRAME, FRAME, id_memory, sizeof id_memory) == LMB_OK);
     CHECK(lmb_surface_init(&f.out, LMB_RGB32F, FRAME, FRAME, picture, sizeof picture) == LMB_OK);
@@ -158,7 +167,8 @@ static deviation measure(int32_t show, int32_t method, int32_t count, int32_t oc
 
 static void tell(const char *name, deviation d)
 {
-    printf("  %-34s mean %.5f of the formula, off by %.3f %% on average, %.3f %% at most\n", name, d.ratio, d.mean * 100, d.most * 100);
+    printf("  %-34s mean %.5f of the formula, off by %.3f %% on average, %.3f %% at most\n", name, d.ratio,
+           d.mean * 100, d.most * 100);
 }
 
 /* V27, V28: rho I / R2 within 1 % everywhere, with 700 groups or more; the bar of the source's own measure. */
@@ -179,6 +189,10 @@ static void check_bounce(const char *name, int32_t method, int32_t count)
 void test_sphere(void)
 {
     deviation d;
+    if (LMB_MAX_GROUPS < 2048) {
+        SKIP("integrating sphere: %d groups are too few for 1 %%", LMB_MAX_GROUPS);
+        return;
+    }
     make_world();
     d = measure(LMB_SHOW_DIRECT, 0, 0, LMB_OCCLUSION_NONE, (double)albedo / PI);
     tell("direct radiance", d);

@@ -21,7 +21,7 @@ void test_squares(void);
 
 enum { CUTS = 32, BLOCK = 4 }; /* discs along the emitter's side; discs along a group's side */
 
-/* --- closed forms ----------------------------------------------------------------------------------------------------- */
+/* --- closed forms ------------------------------------------------------------------------------------------------- */
 
 static double parallel_corner(double a, double b, double c)
 {
@@ -32,7 +32,8 @@ static double parallel_corner(double a, double b, double c)
 /* From (x, z) to the unit square at height h; negative sides subtract by the atan's sign. */
 static double parallel_factor(double x, double z, double h)
 {
-    return parallel_corner(x, z, h) + parallel_corner(1 - x, z, h) + parallel_corner(x, 1 - z, h) + parallel_corner(1 - x, 1 - z, h);
+    return parallel_corner(x, z, h) + parallel_corner(1 - x, z, h) + parallel_corner(x, 1 - z, h) +
+           parallel_corner(1 - x, 1 - z, h);
 }
 
 static double upright_corner(double b, double c)
@@ -47,7 +48,7 @@ static double upright_factor(double x, double z)
     return (x > 0 ? upright_corner(x, z) : 0.0) + (x < 1 ? upright_corner(1 - x, z) : 0.0);
 }
 
-/* --- the emitter ------------------------------------------------------------------------------------------------------ */
+/* --- the emitter -------------------------------------------------------------------------------------------------- */
 
 static lmb_point discs[CUTS * CUTS];
 static lmb_points points;
@@ -64,7 +65,8 @@ static void make_emitter(lmb_vec3 corner, lmb_vec3 u, lmb_vec3 v, lmb_vec3 axis)
     points.cap = CUTS * CUTS;
     for (int g = 0; g < (CUTS / BLOCK) * (CUTS / BLOCK); ++g) {
         int gx = g % (CUTS / BLOCK), gy = g / (CUTS / BLOCK), k = groups.count++;
-        lmb_vec3 at = add3(corner, add3(mul3(u, ((float)gx + 0.5f) * group_side), mul3(v, ((float)gy + 0.5f) * group_side)));
+        lmb_vec3 at =
+            add3(corner, add3(mul3(u, ((float)gx + 0.5f) * group_side), mul3(v, ((float)gy + 0.5f) * group_side)));
         float place[3] = {at.x, at.y, at.z}, way[3] = {axis.x, axis.y, axis.z};
         for (int c = 0; c < 3; ++c) {
             groups.position[c][k] = place[c];
@@ -77,7 +79,8 @@ static void make_emitter(lmb_vec3 corner, lmb_vec3 u, lmb_vec3 v, lmb_vec3 axis)
         groups.members[k] = BLOCK * BLOCK;
         for (int i = 0; i < BLOCK * BLOCK; ++i) {
             lmb_point *p = &points.data[points.count++];
-            float x = ((float)(gx * BLOCK + i % BLOCK) + 0.5f) * side, y = ((float)(gy * BLOCK + i / BLOCK) + 0.5f) * side;
+            float x = ((float)(gx * BLOCK + i % BLOCK) + 0.5f) * side,
+                  y = ((float)(gy * BLOCK + i / BLOCK) + 0.5f) * side;
             memset(p, 0, sizeof *p);
             p->position = add3(corner, add3(mul3(u, x), mul3(v, y)));
             p->normal = axis;
@@ -180,8 +183,10 @@ static void check_quad(void)
     for (int i = 0; i < 64; ++i) {
         double x = (i % 8 + 0.5) / 8, z = (i / 8 + 0.5) / 8;
         lmb_vec3 at = vec3((float)x, 0, (float)z), up = vec3(0, 1, 0);
-        double facing = (double)lmb_quad_factor(at, up, up, vec3(0.5f, 0.25f, 0.5f), vec3(0, -1, 0), vec3(0.5f, 0, 0), vec3(0, 0, 0.5f));
-        double upright = (double)lmb_quad_factor(at, up, up, vec3(0.5f, 0.5f, 0), vec3(0, 0, 1), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0));
+        double facing = (double)lmb_quad_factor(at, up, up, vec3(0.5f, 0.25f, 0.5f), vec3(0, -1, 0), vec3(0.5f, 0, 0),
+                                                vec3(0, 0, 0.5f));
+        double upright =
+            (double)lmb_quad_factor(at, up, up, vec3(0.5f, 0.5f, 0), vec3(0, 0, 1), vec3(0.5f, 0, 0), vec3(0, 0.5f, 0));
         worst = fmax(worst, fabs(facing / parallel_factor(x, z, 0.25) - 1.0));
         worst = fmax(worst, fabs(upright / upright_factor(x, z) - 1.0));
     }
@@ -190,7 +195,7 @@ static void check_quad(void)
 }
 
 /* The bounds are widest where the receivers stand 2 to 3 half-diagonals from a disc: there quads give way to the disc's
- * formula of second order, 1 to 2 % off (DESIGN 4), and the grid of receivers meets the grid of discs alike everywhere. */
+ * formula of second order, 1 to 2 % off, and the grid of receivers meets the grid of discs alike everywhere. */
 void test_squares(void)
 {
     check_quad();

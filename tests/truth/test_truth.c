@@ -1,8 +1,8 @@
 /* test_truth.c: pictures against the path-traced ones of the shared folder. [V25 V27 V28 V29 V30]
  *
  * LMB_SHARED names the folder; without it ../shared is tried, and what is not there is skipped. Settings are those that
- * `lambent render` takes by default. Some scenes have bars, the others' figures are only printed; LMB_TRUTH_ALL prints the
- * bounced light of every scene too, which takes four times as long. */
+ * `lambent render` takes by default. Some scenes have bars, the others' figures are only printed; LMB_TRUTH_ALL prints
+ * the bounced light of every scene too, which takes eight times as long. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,12 +21,13 @@ void test_truth(void);
 
 enum { PATH_SIZE = 512 };
 
-/* --- files ------------------------------------------------------------------------------------------------------------ */
+/* --- files -------------------------------------------------------------------------------------------------------- */
 
 static void path_of(char path[PATH_SIZE], const char *scene, const char *file)
 {
     const char *shared = getenv("LMB_SHARED");
-    snprintf(path, PATH_SIZE, "%.300s/truth/%.60s/%.60s", shared != NULL && *shared != '\0' ? shared : "../shared", scene, file);
+    snprintf(path, PATH_SIZE, "%.300s/truth/%.60s/%.60s", shared != NULL && *shared != '\0' ? shared : "../shared",
+             scene, file);
 }
 
 static int load_picture(image *out, const char *scene, const char *file)
@@ -58,7 +59,7 @@ static int is_there(const char *scene)
     return 1;
 }
 
-/* --- a scene, drawn as the tool draws it ------------------------------------------------------------------------------ */
+/* --- a scene, drawn as the tool draws it -------------------------------------------------------------------------- */
 
 typedef struct stage {
     const char *name;
@@ -124,7 +125,8 @@ static void take_frame(stage *s)
 {
     lmb_frame *f = &s->frame;
     int32_t w = s->drawn.width, h = s->drawn.height;
-    size_t depth = lmb_surface_bytes(LMB_DEPTH32F, w, h), id = lmb_surface_bytes(LMB_ID32, w, h), out = (size_t)w * (size_t)h * 12;
+    size_t depth = lmb_surface_bytes(LMB_DEPTH32F, w, h), id = lmb_surface_bytes(LMB_ID32, w, h),
+           out = (size_t)w * (size_t)h * 12;
     s->depth_memory = take(depth);
     s->id_memory = take(id);
     s->drawn.pixels = take(out);
@@ -193,7 +195,10 @@ static void stage_draw(stage *s, int32_t show)
 
 static int has_surface(const stage *s, int i) { return s->depth.pixels[3 * i + 2] > 0.5f; }
 
-static float grey(const image *p, int i) { return (p->pixels[3 * i] + p->pixels[3 * i + 1] + p->pixels[3 * i + 2]) / 3.0f; }
+static float grey(const image *p, int i)
+{
+    return (p->pixels[3 * i] + p->pixels[3 * i + 1] + p->pixels[3 * i + 2]) / 3.0f;
+}
 
 static int measure(metrics *m, const stage *s, const image *truth)
 {
@@ -206,12 +211,13 @@ static int measure(metrics *m, const stage *s, const image *truth)
     in.width = truth->width;
     in.height = truth->height;
     in.channels = 3;
-    int ok = s->depth.channels == 3 && truth->width == s->drawn.width && truth->height == s->drawn.height && metrics_measure(m, &in, &r);
+    int ok = s->depth.channels == 3 && truth->width == s->drawn.width && truth->height == s->drawn.height &&
+             metrics_measure(m, &in, &r);
     CHECK_MSG(ok, "%s: %s", s->name, r.text);
     return ok;
 }
 
-/* --- G-buffer --------------------------------------------------------------------------------------------------------- */
+/* --- G-buffer ----------------------------------------------------------------------------------------------------- */
 
 enum { DEPTH, NORMAL, ALBEDO };
 
@@ -223,10 +229,12 @@ static void draw_attribute(stage *s, int what)
     z.stride_bytes = z.width * 4;
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
-    CHECK(lmb_draw(&f->eye, f->kernels, &f->scratch->raster, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, NULL) == LMB_OK);
+    CHECK(lmb_draw(&f->eye, f->kernels, &f->scratch->raster, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK,
+                   NULL) == LMB_OK);
     for (int32_t band = 0; band < (f->view.frame_height + 7) / 8; ++band) {
-        CHECK(lmb_gbuffer_band(what == DEPTH ? &z : NULL, what == NORMAL ? &f->out : NULL, what == ALBEDO ? &f->out : NULL,
-                               &f->scratch->tile, f->kernels, &f->view, f->scene, &f->eye, band) == LMB_OK);
+        CHECK(lmb_gbuffer_band(what == DEPTH ? &z : NULL, what == NORMAL ? &f->out : NULL,
+                               what == ALBEDO ? &f->out : NULL, &f->scratch->tile, f->kernels, &f->view, f->scene,
+                               &f->eye, band) == LMB_OK);
     }
 }
 
@@ -269,11 +277,12 @@ static void check_gbuffer(const char *name)
         share[what] = (double)same / n;
         CHECK_MSG(share[what] >= 0.995, "%s, %s: %.3f %% of the pixels", name, files[what], share[what] * 100);
     }
-    printf("  %-15s depth %.3f %%, normal %.3f %%, albedo %.3f %% of pixels within 0.1 %%\n", name, share[0] * 100, share[1] * 100, share[2] * 100);
+    printf("  %-15s depth %.3f %%, normal %.3f %%, albedo %.3f %% of pixels within 0.1 %%\n", name, share[0] * 100,
+           share[1] * 100, share[2] * 100);
     stage_close(&s);
 }
 
-/* --- direct light ----------------------------------------------------------------------------------------------------- */
+/* --- direct light ------------------------------------------------------------------------------------------------- */
 
 static int is_lit(const image *p, int x, int y) { return grey(p, y * p->width + x) > 0.0f; }
 
@@ -342,8 +351,9 @@ static void check_direct(const char *name, int barred)
         stage_draw(&s, LMB_SHOW_DIRECT);
         if (measure(&m, &s, &truth)) {
             direct_figures d = compare_direct(&s, &truth);
-            printf("  %-15s e50 %.5f, off edges rmse %.5f, wrongly lit or dark %d of %d, %d of them over 2 px from an edge\n", name,
-                   m.e50, d.rmse, d.wrong, d.pixels, d.wrong_far);
+            printf("  %-15s e50 %.5f, off edges rmse %.5f, wrongly lit or dark %d of %d, %d of them over 2 px from an "
+                   "edge\n",
+                   name, m.e50, d.rmse, d.wrong, d.pixels, d.wrong_far);
             CHECK_MSG(!barred || m.e50 <= 0.005, "%s: e50 %g", name, m.e50);
             CHECK_MSG(!barred || d.rmse <= 0.02, "%s: rmse %g", name, d.rmse);
             CHECK_MSG(!barred || d.wrong * 500 <= d.pixels, "%s: %d of %d", name, d.wrong, d.pixels);
@@ -354,7 +364,7 @@ static void check_direct(const char *name, int barred)
     stage_close(&s);
 }
 
-/* --- one bounce ------------------------------------------------------------------------------------------------------- */
+/* --- one bounce --------------------------------------------------------------------------------------------------- */
 
 /* V25, V27, V28: the indirect part of one bounce. */
 static void check_indirect(const char *name, int barred)
@@ -368,11 +378,13 @@ static void check_indirect(const char *name, int barred)
     if (load_picture(&s.depth, name, "gbuffer_depth.pfm") && load_picture(&truth, name, "pt_indirect1.pfm")) {
         stage_draw(&s, LMB_SHOW_INDIRECT);
         if (measure(&m, &s, &truth)) {
-            printf("  %-15s trim %.4f, e50 %.4f, e95 %.4f, mean %.4f, %u groups\n", name, m.trim, m.e50, m.e95, m.mean, (unsigned)s.stats.groups);
+            printf("  %-15s trim %.4f, e50 %.4f, e95 %.4f, mean %.4f, %u groups\n", name, m.trim, m.e50, m.e95, m.mean,
+                   (unsigned)s.stats.groups);
             CHECK_MSG(!barred || m.trim <= 0.25, "%s: trim %g", name, m.trim);
             CHECK_MSG(!barred || m.e50 <= 0.08, "%s: e50 %g", name, m.e50);
             CHECK_MSG(!barred || (m.mean >= 0.88 && m.mean <= 1.08), "%s: mean %g", name, m.mean);
-            CHECK_MSG(s.stats.flux_grouped >= 0.999 * s.stats.flux_lit, "%s: %g of %g W", name, s.stats.flux_grouped, s.stats.flux_lit);
+            CHECK_MSG(s.stats.flux_grouped >= 0.999 * s.stats.flux_lit, "%s: %g of %g W", name, s.stats.flux_grouped,
+                      s.stats.flux_lit);
             CHECK(m.nonfinite == 0);
         }
         image_free(&truth);
@@ -387,7 +399,8 @@ static void check_furnace(void)
         int32_t show;
         const char *file;
         double want, bound;
-    } rows[] = {{LMB_SHOW_DIRECT, "pt_direct.pfm", 0.159155, 0.004}, {LMB_SHOW_FULL, "pt_one_bounce.pfm", 0.238732, 0.01}};
+    } rows[] = {{LMB_SHOW_DIRECT, "pt_direct.pfm", 0.159155, 0.004},
+                {LMB_SHOW_FULL, "pt_one_bounce.pfm", 0.238732, 0.01}};
     stage s;
     image truth;
     if (!stage_open(&s, "furnace_sphere", "pt_direct.pfm")) {
@@ -406,8 +419,8 @@ static void check_furnace(void)
             off_truth = fmax(off_truth, fabs(v / (double)truth.pixels[3 * i] - 1.0));
             mean += v / n;
         }
-        printf("  furnace_sphere  mean %.6f, formula %.6f, worst pixel %.3f %%; of the traced picture %.3f %%\n", mean, rows[r].want,
-               off * 100, off_truth * 100);
+        printf("  furnace_sphere  mean %.6f, formula %.6f, worst pixel %.3f %%; of the traced picture %.3f %%\n", mean,
+               rows[r].want, off * 100, off_truth * 100);
         CHECK_MSG(off < rows[r].bound && off_truth < rows[r].bound, "%g %g", off, off_truth);
         image_free(&truth);
     }
@@ -419,9 +432,9 @@ void test_truth(void)
     static const struct scene {
         const char *name;
         int direct, indirect; /* the bars hold */
-    } scenes[] = {{"cornell", 1, 1},        {"corner_contact", 1, 0}, {"bunny_room", 1, 0}, {"corridor", 0, 0},
-                  {"sponza", 0, 0},         {"point_room", 0, 0},     {"grazing_sun", 0, 0}, {"two_lights", 0, 0},
-                  {"mixed_with", 0, 0},     {"mixed_without", 0, 0}};
+    } scenes[] = {{"cornell", 1, 1},    {"corner_contact", 1, 0}, {"bunny_room", 1, 0},  {"corridor", 0, 0},
+                  {"sponza", 0, 0},     {"point_room", 0, 0},     {"grazing_sun", 0, 0}, {"two_lights", 0, 0},
+                  {"mixed_with", 0, 0}, {"mixed_without", 0, 0}};
     printf(" G-buffer\n");
     for (int i = 0; i < COUNT(scenes); ++i) {
         check_gbuffer(scenes[i].name);

@@ -11,14 +11,14 @@
 
 void test_bounce(void);
 
-#define PI 3.14159265358979323846
+#define PI       3.14159265358979323846
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
 enum { TRIANGLES = 4096, SIDE = 256, POINTS = 120000, FRAME = 128 };
 
 static const lmb_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
 
-/* --- a scene of one mesh ---------------------------------------------------------------------------------------------- */
+/* --- a scene of one mesh ------------------------------------------------------------------------------------------ */
 
 static float corners[TRIANGLES][3][3], uvs[TRIANGLES][3][2];
 static uint8_t colours[TRIANGLES][3][4];
@@ -56,7 +56,8 @@ static void world_triangle(lmb_vec3 a, lmb_vec3 b, lmb_vec3 c)
 /* Half sides u and v; the front is u x v. */
 static void world_quad(lmb_vec3 centre, lmb_vec3 u, lmb_vec3 v)
 {
-    lmb_vec3 a = sub3(sub3(centre, u), v), b = sub3(add3(centre, u), v), c = add3(add3(centre, u), v), d = add3(sub3(centre, u), v);
+    lmb_vec3 a = sub3(sub3(centre, u), v), b = sub3(add3(centre, u), v), c = add3(add3(centre, u), v),
+             d = add3(sub3(centre, u), v);
     world_triangle(a, b, c);
     world_triangle(a, c, d);
 }
@@ -132,7 +133,7 @@ static void make_room(void)
     world_end();
 }
 
-/* A floor of 4 m2 turned out of the map's grid, so that its edges do not all fall on one side of the texels' middles. */
+/* A floor of 4 m2 turned out of the map's grid: its edges do not all fall on one side of the texels' middles. */
 static void make_floor(void)
 {
     float c = 0.8829476f, s = 0.4694716f; /* 28 degrees */
@@ -141,7 +142,7 @@ static void make_floor(void)
     world_end();
 }
 
-/* --- lights ----------------------------------------------------------------------------------------------------------- */
+/* --- lights ------------------------------------------------------------------------------------------------------- */
 
 static lmb_light make_light(int32_t kind, lmb_vec3 at, lmb_vec3 along)
 {
@@ -168,7 +169,7 @@ static lmb_light spot(lmb_vec3 at, lmb_vec3 along, double inner_deg, double oute
 static lmb_light point_light(lmb_vec3 at) { return make_light(LMB_LIGHT_POINT, at, vec3(0, -1, 0)); }
 static lmb_light sun(lmb_vec3 along) { return make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), along); }
 
-/* --- first points ----------------------------------------------------------------------------------------------------- */
+/* --- first points ------------------------------------------------------------------------------------------------- */
 
 static lmb_point point_data[POINTS];
 static uint32_t point_cells[SIDE * SIDE + 1];
@@ -277,8 +278,10 @@ static void test_flux(void)
     make_box();
     check_flux("spot 20-35", spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 35), cone_power(20, 35), 1e-3);
     check_flux("spot 0-49", spot(vec3(0, 0, 0), vec3(1, 0.4f, 0.3f), 0, 49), cone_power(0, 49), 1e-3);
-    check_flux("spot 30-30, hard", spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 30, 30), cone_power(30, 30), 2e-3);
-    check_flux("spot 40-70, six faces", spot(vec3(0.1f, 0.5f, -0.2f), vec3(0.2f, -1, 0.3f), 40, 70), cone_power(40, 70), 1e-3);
+    check_flux("spot 30-30, hard", spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 30, 30), cone_power(30, 30),
+               2e-3);
+    check_flux("spot 40-70, six faces", spot(vec3(0.1f, 0.5f, -0.2f), vec3(0.2f, -1, 0.3f), 40, 70), cone_power(40, 70),
+               1e-3);
     wide = spot(vec3(0.1f, 0.5f, -0.2f), vec3(0.2f, -1, 0.3f), 60, 89);
     check_flux("spot 60-89, six faces", wide, cone_power(60, 89), 1e-3);
     check_flux("point", point_light(vec3(0.1f, 0.2f, 0.3f)), 4.0 * PI, 1e-3);
@@ -302,10 +305,13 @@ static void check_places(lmb_light light, int32_t block)
         off += absf(dot3(n, q) + 1.0f) > 1e-5f || most > 1.0f + texel / 128.0f; /* vertices stand on 1/256 texel */
         turned += maxf(absf(n.x), maxf(absf(n.y), absf(n.z))) < 0.999999f || absf(length3(n) - 1.0f) > 1e-5f;
         away += !(dot3(n, d) < 0.0f);
-        outside += light.kind == LMB_LIGHT_SPOT && w * light.cos_outer < length3(d) * light.cos_outer * light.cos_outer - texel * w;
+        outside += light.kind == LMB_LIGHT_SPOT &&
+                   w * light.cos_outer < length3(d) * light.cos_outer * light.cos_outer - texel * w;
         if (map.faces == 1) {
-            float x = (dot3(map.view[0].right, d) / (w * map.view[0].half_width) + 1.0f) * 0.5f * (float)SIDE / (float)block;
-            float y = (1.0f - dot3(map.view[0].up, d) / (w * map.view[0].half_height)) * 0.5f * (float)SIDE / (float)block;
+            float x =
+                (dot3(map.view[0].right, d) / (w * map.view[0].half_width) + 1.0f) * 0.5f * (float)SIDE / (float)block;
+            float y =
+                (1.0f - dot3(map.view[0].up, d) / (w * map.view[0].half_height)) * 0.5f * (float)SIDE / (float)block;
             misplaced += absf(x - 0.5f - (float)p->cell_x) > 0.501f || absf(y - 0.5f - (float)p->cell_y) > 0.501f;
         }
     }
@@ -355,8 +361,8 @@ static void check_areas(void)
         l = spot(vec3(0, 0, 0), vec3(0, -1, 0), 25, 35);
         only_points(&l, SIDE, blocks[b]);
         double circle_m2 = total_area();
-        printf("  areas, block %d: floor %+.3f %%, box %+.3f %%, circle %+.3f %%\n", (int)blocks[b], (floor_m2 / 4 - 1) * 100,
-               (box_m2 / 24 - 1) * 100, (circle_m2 / want - 1) * 100);
+        printf("  areas, block %d: floor %+.3f %%, box %+.3f %%, circle %+.3f %%\n", (int)blocks[b],
+               (floor_m2 / 4 - 1) * 100, (box_m2 / 24 - 1) * 100, (circle_m2 / want - 1) * 100);
         CHECK(fabs(floor_m2 / 4.0 - 1.0) < 5e-3);
         CHECK(fabs(box_m2 / 24.0 - 1.0) < 5e-3);
         CHECK(fabs(circle_m2 / want - 1.0) < 1e-2);
@@ -403,7 +409,8 @@ static void check_albedo(void)
         bright += p->albedo[0] > 0.99999f && p->position.x > 0.0f;
         grey += p->albedo[0] > 1e-5f && p->albedo[0] < 0.99999f;
     }
-    CHECK_MSG(grey == 0 && dark > 1000 && dark + bright == points.count, "%u %u %u", (unsigned)grey, (unsigned)dark, (unsigned)bright);
+    CHECK_MSG(grey == 0 && dark > 1000 && dark + bright == points.count, "%u %u %u", (unsigned)grey, (unsigned)dark,
+              (unsigned)bright);
     memset(uvs, 0, sizeof uvs);
 }
 
@@ -442,7 +449,7 @@ static void test_points(void)
     check_collect_limits();
 }
 
-/* --- discs ------------------------------------------------------------------------------------------------------------ */
+/* --- discs -------------------------------------------------------------------------------------------------------- */
 
 static int is_inner(const lmb_point *p, int32_t side)
 {
@@ -473,7 +480,8 @@ static void check_distances(void)
     add_points(&l, SIDE, &g, 1);
     double step = 16.0 * (double)map.view[0].half_width / SIDE;
     CHECK_MSG(points.count == (SIDE / 8) * (SIDE / 8), "%u", (unsigned)points.count);
-    CHECK_MSG(distance_error(step * 0.5 * (1.0 + sqrt(2.0))) < 1e-3, "%g", distance_error(step * 0.5 * (1.0 + sqrt(2.0))));
+    CHECK_MSG(distance_error(step * 0.5 * (1.0 + sqrt(2.0))) < 1e-3, "%g",
+              distance_error(step * 0.5 * (1.0 + sqrt(2.0))));
     g.neighbour_m = (float)(1.2 * step); /* leaves the diagonals out */
     clear_points();
     add_points(&l, SIDE, &g, 1);
@@ -500,9 +508,11 @@ static void check_joining(void)
         first = points.count;
         clear_points();
         add_points(&l, SIDE / 2, &g, 1);
-        CHECK_MSG(fabs(flux_of(0) / flux - 1) < 1e-6 && fabs(flux_of(2) / flux_b - 1) < 1e-6, "%g", flux_of(0) / flux - 1);
+        CHECK_MSG(fabs(flux_of(0) / flux - 1) < 1e-6 && fabs(flux_of(2) / flux_b - 1) < 1e-6, "%g",
+                  flux_of(0) / flux - 1);
         CHECK_MSG(fabs(total_area() / area - 1) < 1e-5, "%g", total_area() / area - 1);
-        CHECK_MSG(points.count <= before, "k %g: %u discs after %u", (double)k[i], (unsigned)points.count, (unsigned)before);
+        CHECK_MSG(points.count <= before, "k %g: %u discs after %u", (double)k[i], (unsigned)points.count,
+                  (unsigned)before);
         before = points.count;
     }
     printf("  discs: k = 1 leaves %u of %u points\n", (unsigned)before, (unsigned)first);
@@ -547,7 +557,7 @@ static void check_hand_joining(void)
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 4);
     p = points.data;
     CHECK_MSG(absf(p->position.x - 0.02f / 3.0f) < 1e-6f, "%g", (double)p->position.x); /* weighted by flux 1 and 2 */
-    CHECK_MSG(absf(p->albedo[0] - 0.5f / 3.0f) < 1e-6f, "%g", (double)p->albedo[0]);     /* members' mean [V12] */
+    CHECK_MSG(absf(p->albedo[0] - 0.5f / 3.0f) < 1e-6f, "%g", (double)p->albedo[0]);    /* members' mean [V12] */
     CHECK(fabs((double)p->flux[0] - 3.0) < 1e-6 && fabs(flux_of(0) - flux) < 1e-5);
     CHECK(fabs(total_area() - area) < 1e-6);
     hand_points(); /* mean distance of the first: (0.01 + 1 + 1 + 1.414) / 4 = 0.856 */
@@ -571,7 +581,7 @@ static void test_discs(void)
     check_hand_joining();
 }
 
-/* --- groups ----------------------------------------------------------------------------------------------------------- */
+/* --- groups ------------------------------------------------------------------------------------------------------- */
 
 /* The same for the same points in any order. */
 static uint64_t hash_points(void)
@@ -608,15 +618,17 @@ static int group_is_its_members(int32_t k)
         bary[1] += w * (double)m[i].position.y;
         bary[2] += w * (double)m[i].position.z;
         for (int c = 0; c < 4; ++c) {
-            lmb_vec3 corner = add3(add3(m[i].position, mul3(m[i].axis_u, c & 1 ? 1.0f : -1.0f)), mul3(m[i].axis_v, c & 2 ? 1.0f : -1.0f));
+            lmb_vec3 corner = add3(add3(m[i].position, mul3(m[i].axis_u, c & 1 ? 1.0f : -1.0f)),
+                                   mul3(m[i].axis_v, c & 2 ? 1.0f : -1.0f));
             inside *= length3(sub3(corner, centre)) <= groups.radius[k] * 1.00001f;
         }
     }
     double sum = (double)groups.flux[0][k] + (double)groups.flux[1][k] + (double)groups.flux[2][k];
-    double off = fabs(bary[0] / flux - (double)centre.x) + fabs(bary[1] / flux - (double)centre.y) + fabs(bary[2] / flux - (double)centre.z);
-    return groups.members[k] > 0 && inside > 0 && fabs(sum / flux - 1) < 1e-5 && fabs((double)groups.area[k] / area - 1) < 1e-5 &&
-           fabs((double)groups.albedo[1][k] - albedo / area) < 1e-5 && off < 1e-4 &&
-           absf(length3(group_vec(groups.normal, k)) - 1.0f) < 1e-5f;
+    double off = fabs(bary[0] / flux - (double)centre.x) + fabs(bary[1] / flux - (double)centre.y) +
+                 fabs(bary[2] / flux - (double)centre.z);
+    return groups.members[k] > 0 && inside > 0 && fabs(sum / flux - 1) < 1e-5 &&
+           fabs((double)groups.area[k] / area - 1) < 1e-5 && fabs((double)groups.albedo[1][k] - albedo / area) < 1e-5 &&
+           off < 1e-4 && absf(length3(group_vec(groups.normal, k)) - 1.0f) < 1e-5f;
 }
 
 /* Every point is a member of exactly one group, none is lost or changed, and groups are what their members are. */
@@ -628,11 +640,12 @@ static void check_groups(const char *name, uint64_t hash, uint32_t count, double
         next += groups.members[k];
         wrong += !group_is_its_members(k);
     }
-    CHECK_MSG(gaps == 0 && next == points.count && points.count == count, "%s: %u in ranges, %u discs", name, (unsigned)next, (unsigned)count);
+    CHECK_MSG(gaps == 0 && next == points.count && points.count == count, "%s: %u in ranges, %u discs", name,
+              (unsigned)next, (unsigned)count);
     CHECK_MSG(hash_points() == hash, "%s: the discs have changed", name);
     CHECK_MSG(wrong == 0, "%s: %u of %d groups are not their members' sum", name, (unsigned)wrong, (int)groups.count);
-    CHECK_MSG(fabs(stats.flux_grouped / flux - 1) < 1e-5 && fabs(stats.flux_lit / flux - 1) < 1e-5, "%s: %.9g of %.9g W",
-              name, stats.flux_grouped, flux);
+    CHECK_MSG(fabs(stats.flux_grouped / flux - 1) < 1e-5 && fabs(stats.flux_lit / flux - 1) < 1e-5,
+              "%s: %.9g of %.9g W", name, stats.flux_grouped, flux);
 }
 
 static void run_grouping(const char *name, const lmb_grouping *g)
@@ -642,7 +655,8 @@ static void run_grouping(const char *name, const lmb_grouping *g)
     double flux = flux_of(0) + flux_of(1) + flux_of(2);
     memset(&stats, 0, sizeof stats);
     CHECK(lmb_group_points(&groups, &points, g, &stats) == LMB_OK);
-    CHECK_MSG(groups.count > 0 && (g->groups == 0 || groups.count <= g->groups), "%s: %d groups", name, (int)groups.count);
+    CHECK_MSG(groups.count > 0 && (g->groups == 0 || groups.count <= g->groups), "%s: %d groups", name,
+              (int)groups.count);
     CHECK(stats.groups == (uint32_t)groups.count && stats.discs == count);
     check_groups(name, hash, count, flux);
 }
@@ -774,7 +788,8 @@ static void check_zones(void)
     }
     printf("  zones: %d groups, or 64 strict ones that drop %.2f %%\n", (int)whole, dropped / stats.flux_lit * 100.0);
     CHECK(dropped > 0.0);
-    CHECK_MSG(fabs(stats.flux_lit - stats.flux_grouped - dropped) < 1e-5 * stats.flux_lit, "%g %g", stats.flux_lit - stats.flux_grouped, dropped);
+    CHECK_MSG(fabs(stats.flux_lit - stats.flux_grouped - dropped) < 1e-5 * stats.flux_lit, "%g %g",
+              stats.flux_lit - stats.flux_grouped, dropped);
 }
 
 /* V22: a group stands at its first disc. */
@@ -796,7 +811,8 @@ static void check_point_centre(void)
                 outside += length3(sub3(corner, at)) > groups.radius[k] * 1.00001f;
             }
         }
-        CHECK_MSG(elsewhere == 0 && outside == 0, "%u not at their first disc, %u corners outside", (unsigned)elsewhere, (unsigned)outside);
+        CHECK_MSG(elsewhere == 0 && outside == 0, "%u not at their first disc, %u corners outside", (unsigned)elsewhere,
+                  (unsigned)outside);
     }
 }
 
@@ -830,7 +846,7 @@ static void check_repeats(void)
     static const int32_t methods[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY};
     static lmb_groups before;
     for (int m = 0; m < COUNT(methods); ++m) {
-        lmb_grouping g = grouping_of(methods[m], 100, 8);
+        lmb_grouping g = grouping_of(methods[m], 90, 8);
         uint64_t hash;
         memset(&groups, 0, sizeof groups);
         room_points(SIDE / 2, 8);
@@ -851,19 +867,23 @@ static void check_repeats(void)
 
 static void test_groups(void)
 {
-    check_greedy(3.0f, 0.9f);
-    check_greedy(2.0f, 0.95f);
-    check_greedy(5.0f, 0.7f);
+    if (LMB_MAX_GROUPS >= 512) {
+        check_greedy(3.0f, 0.9f);
+        check_greedy(2.0f, 0.95f);
+        check_greedy(5.0f, 0.7f);
+        check_zones();
+        check_group_limits();
+    } else {
+        SKIP("grouping by reach, zones one by one: %d groups are too few to tell", LMB_MAX_GROUPS);
+    }
     check_counts(LMB_GROUP_GREEDY);
     check_counts(LMB_GROUP_ZONES);
     check_many_faces();
-    check_zones();
     check_point_centre();
-    check_group_limits();
     check_repeats();
 }
 
-/* --- form factors ----------------------------------------------------------------------------------------------------- */
+/* --- form factors ------------------------------------------------------------------------------------------------- */
 
 static lmb_vec3 random_unit(test_rng *r)
 {
@@ -938,7 +958,7 @@ static int compare_doubles(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* DESIGN 4: 1.6 / 0.4 / 0.05 / 0.01 % at 2-3 / 3-5 / 5-8 / 8-12 radii. */
+/* The formula's own error, measured when it was chosen: 1.6 / 0.4 / 0.05 / 0.01 % at 2-3 / 3-5 / 5-8 / 8-12 radii. */
 static void check_disc_error(float near_r, float far_r, double bound)
 {
     enum { TRIES = 4000 };
@@ -1019,7 +1039,10 @@ static double quad_truth(lmb_vec3 at, lmb_vec3 n, lmb_vec3 centre, lmb_vec3 axis
 }
 
 /* A square of 2 m a side around the origin. */
-static float quad_from(lmb_vec3 at, lmb_vec3 n, lmb_vec3 axis) { return lmb_quad_factor(at, n, n, vec3(0, 0, 0), axis, X, Y); }
+static float quad_from(lmb_vec3 at, lmb_vec3 n, lmb_vec3 axis)
+{
+    return lmb_quad_factor(at, n, n, vec3(0, 0, 0), axis, X, Y);
+}
 
 /* Any orientation, the horizon often through the quad; parallelograms too. */
 static void check_quads(void)
@@ -1046,9 +1069,9 @@ static void check_quads(void)
     printf("  quad: form factor within %.1e of the integral, %u of 200 cut by the horizon\n", worst, (unsigned)clipped);
     CHECK_MSG(worst < 1e-3, "%g", worst);
     CHECK(clipped > 20);
-    CHECK(quad_from(vec3(0, 0, 1), vec3(0, 0, -1), vec3(0, 0, -1)) == 0.0f); /* emitter turned away */
-    CHECK(quad_from(vec3(0, 0, 1), Z, Z) == 0.0f);                           /* receiver */
-    CHECK(quad_from(vec3(0, 0, 0), Z, Z) == 0.0f && quad_from(vec3(3, 0, 0), X, Z) == 0.0f);            /* its own plane */
+    CHECK(quad_from(vec3(0, 0, 1), vec3(0, 0, -1), vec3(0, 0, -1)) == 0.0f);                 /* emitter turned away */
+    CHECK(quad_from(vec3(0, 0, 1), Z, Z) == 0.0f);                                           /* receiver */
+    CHECK(quad_from(vec3(0, 0, 0), Z, Z) == 0.0f && quad_from(vec3(3, 0, 0), X, Z) == 0.0f); /* its own plane */
     /* Touching: it fills the hemisphere. */
     CHECK(absf(4.0f * quad_from(vec3(0, 0, 0.004f), vec3(0, 0, -1), Z) - 1.0f) < 1e-3f);
 }
@@ -1064,11 +1087,14 @@ static void test_factors(void)
     check_quads();
 }
 
-/* --- the gather of a tile --------------------------------------------------------------------------------------------- */
+/* --- the gather of a tile ----------------------------------------------------------------------------------------- */
 
 static lmb_gather_scratch gather_scratch;
 
-static lmb_vec3 plane_vec(float planes[3][LMB_TILE_PIXELS], int k) { return vec3(planes[0][k], planes[1][k], planes[2][k]); }
+static lmb_vec3 plane_vec(float planes[3][LMB_TILE_PIXELS], int k)
+{
+    return vec3(planes[0][k], planes[1][k], planes[2][k]);
+}
 
 static void set_plane(float planes[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
 {
@@ -1123,12 +1149,13 @@ static void check_far(void)
     random_tile(&rng);
     groups.count = 50;
     for (int32_t k = 0; k < groups.count; ++k) {
-        set_group(k, mul3(random_unit(&rng), test_uniform(&rng, 2, 9)), random_unit(&rng), test_uniform(&rng, 0.1f, 0.5f), 0.4f, test_uniform(&rng, 0.1f, 9));
+        set_group(k, mul3(random_unit(&rng), test_uniform(&rng, 2, 9)), random_unit(&rng),
+                  test_uniform(&rng, 0.1f, 0.5f), 0.4f, test_uniform(&rng, 0.1f, 9));
     }
     for (int32_t j = 0; j < groups.count; ++j) {
         for (int k = 0; k < LMB_TILE_PIXELS - 2; ++k) {
-            float f = lmb_disc_factor(plane_vec(tile.position, k), plane_vec(tile.normal, k), group_vec(groups.position, j),
-                                      group_vec(groups.normal, j), groups.area[j]);
+            float f = lmb_disc_factor(plane_vec(tile.position, k), plane_vec(tile.normal, k),
+                                      group_vec(groups.position, j), group_vec(groups.normal, j), groups.area[j]);
             for (int c = 0; c < 3; ++c) {
                 want.rgb[c][k] += f * groups.flux[c][j];
             }
@@ -1261,7 +1288,7 @@ static void test_gather(void)
     check_gather_arguments();
 }
 
-/* --- occlusion -------------------------------------------------------------------------------------------------------- */
+/* --- occlusion ---------------------------------------------------------------------------------------------------- */
 
 static uint32_t depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
 static lmb_target eye;
@@ -1339,14 +1366,16 @@ static void check_wall(int32_t kind, int32_t format, int32_t steps)
             continue;
         }
         lmb_vec3 at = add3(from, mul3(sub3(p, from), 1.0f / (p.x + 1.0f))); /* where the segment passes x = 0 */
-        int inside = at.y < 0.75f && absf(at.z) < 0.75f, past = at.y > 0.85f || absf(at.z) > 0.85f;
+        int inside = at.y < 0.75f && absf(at.z)<0.75f, past = at.y> 0.85f || absf(at.z) > 0.85f;
         hidden += inside;
         leaks += inside && picture[1][i] != 0.0f;
         open += past;
         lost += past && picture[1][i] == 0.0f;
     }
     printf("  wall, %s, D%d, %d steps: %d of %d hidden pixels lit, %d of %d open ones dark\n",
-           kind == LMB_OCCLUSION_VIEW ? "view" : kind == LMB_OCCLUSION_NONE ? "none" : "view-world",
+           kind == LMB_OCCLUSION_VIEW   ? "view"
+           : kind == LMB_OCCLUSION_NONE ? "none"
+                                        : "view-world",
            format == LMB_DEPTH32F ? 32 : 16, (int)steps, leaks, hidden, lost, open);
     CHECK(hidden > 500 && open > 100);
     if (kind == LMB_OCCLUSION_NONE) {
@@ -1383,8 +1412,8 @@ static void check_grazing(int32_t kind, int32_t format, int orthographic)
             }
         }
     }
-    CHECK_MSG(dark == 0 && seen > 1000, "kind %d, format %d, %s: %d of %d pixels of a bare floor are dark", (int)kind, (int)format,
-              orthographic ? "orthographic" : "perspective", dark, seen);
+    CHECK_MSG(dark == 0 && seen > 1000, "kind %d, format %d, %s: %d of %d pixels of a bare floor are dark", (int)kind,
+              (int)format, orthographic ? "orthographic" : "perspective", dark, seen);
 }
 
 /* 16-bit depth says the same as 32-bit depth; the emitters' pairs are taken one by one. */

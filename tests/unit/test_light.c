@@ -9,14 +9,14 @@
 
 void test_light(void);
 
-#define PI 3.14159265358979323846
+#define PI       3.14159265358979323846
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
 
 enum { TRIANGLES = 4096, SIDE = 512, FRAME = 128, PIXELS = FRAME * FRAME };
 
 static const lmb_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
 
-/* --- a scene of two meshes: a floor or a solid, and a plate with a material of its own -------------------------------- */
+/* --- a scene of two meshes: a floor or a solid, and a plate with a material of its own ---------------------------- */
 
 static float corners[TRIANGLES][3][3], uvs[TRIANGLES][3][2];
 static struct {
@@ -55,7 +55,8 @@ static void world_triangle(lmb_vec3 a, lmb_vec3 b, lmb_vec3 c)
 static void world_quad(lmb_vec3 centre, lmb_vec3 u, lmb_vec3 v)
 {
     static const float uv[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
-    lmb_vec3 a = sub3(sub3(centre, u), v), b = sub3(add3(centre, u), v), c = add3(add3(centre, u), v), d = add3(sub3(centre, u), v);
+    lmb_vec3 a = sub3(sub3(centre, u), v), b = sub3(add3(centre, u), v), c = add3(add3(centre, u), v),
+             d = add3(sub3(centre, u), v);
     memcpy(uvs[world.count], uv, sizeof uv);
     world_triangle(a, b, c);
     world_triangle(a, c, d);
@@ -121,7 +122,7 @@ static void world_end(void)
     CHECK(lmb_scene_check(s) == LMB_OK);
 }
 
-/* --- lights and pictures ---------------------------------------------------------------------------------------------- */
+/* --- lights and pictures ------------------------------------------------------------------------------------------ */
 
 static lmb_light make_light(int32_t kind, lmb_vec3 at, lmb_vec3 along)
 {
@@ -216,19 +217,21 @@ static void shade(const lmb_view *v, const lmb_light *light, int32_t size)
     }
 }
 
-/* --- irradiance ------------------------------------------------------------------------------------------------------- */
+/* --- irradiance --------------------------------------------------------------------------------------------------- */
 
 /* V3: intensity x cosine / distance2, smoothstep of the angle's cosine between the cones; in double. */
 static double irradiance(const lmb_light *l, lmb_vec3 p, lmb_vec3 n)
 {
-    double d[3] = {(double)l->position.x - (double)p.x, (double)l->position.y - (double)p.y, (double)l->position.z - (double)p.z};
+    double d[3] = {(double)l->position.x - (double)p.x, (double)l->position.y - (double)p.y,
+                   (double)l->position.z - (double)p.z};
     double axis[3] = {(double)l->direction.x, (double)l->direction.y, (double)l->direction.z};
     double r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], r = sqrt(r2), share = 1.0;
     if (l->kind == LMB_LIGHT_DIRECTIONAL) {
         return fmax(0.0, -(axis[0] * (double)n.x + axis[1] * (double)n.y + axis[2] * (double)n.z));
     }
     if (l->kind == LMB_LIGHT_SPOT) {
-        double t = -(d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]) / r, wide = (double)l->cos_inner - (double)l->cos_outer;
+        double t = -(d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]) / r,
+               wide = (double)l->cos_inner - (double)l->cos_outer;
         t = fmin(fmax((t - (double)l->cos_outer) / fmax(wide, 1e-6), 0.0), 1.0);
         share = t * t * (3.0 - 2.0 * t);
     }
@@ -253,13 +256,15 @@ static void check_irradiance(const char *name, lmb_light light)
             peak = fmax(peak, want);
             least = fmin(least, want);
             for (int c = 0; c < 3; ++c) {
-                worst = fmax(worst, fabs((double)seen[i].open[c] - want * (double)light.intensity[c]) / (double)light.intensity[c]);
+                worst = fmax(worst, fabs((double)seen[i].open[c] - want * (double)light.intensity[c]) /
+                                        (double)light.intensity[c]);
             }
             ++pixels;
             dark += want > 0.0 && seen[i].open[0] == 0.0f;
         }
     }
-    printf("  irradiance, %-10s %.1e of the peak off the formula over %u pixels\n", name, worst / peak, (unsigned)pixels);
+    printf("  irradiance, %-10s %.1e of the peak off the formula over %u pixels\n", name, worst / peak,
+           (unsigned)pixels);
     CHECK_MSG(pixels > PIXELS / 4 && worst < 1e-5 * peak, "%s: %g of %g", name, worst, peak);
     if (light.kind == LMB_LIGHT_SPOT) {
         CHECK(least == 0.0); /* outside the cone, too */
@@ -289,19 +294,24 @@ static void check_cone(void)
     memset(&e, 0, sizeof e);
     CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1), t = (cosine - cos(PI * 40 / 180)) / (cos(PI * 20 / 180) - cos(PI * 40 / 180));
+        double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1),
+               t = (cosine - cos(PI * 40 / 180)) / (cos(PI * 20 / 180) - cos(PI * 40 / 180));
         t = fmin(fmax(t, 0.0), 1.0);
-        CHECK_MSG(fabs((double)e.rgb[0][k] - 2.0 * t * t * (3.0 - 2.0 * t)) < 1e-5, "cosine %g: %g", cosine, (double)e.rgb[0][k]);
+        CHECK_MSG(fabs((double)e.rgb[0][k] - 2.0 * t * t * (3.0 - 2.0 * t)) < 1e-5, "cosine %g: %g", cosine,
+                  (double)e.rgb[0][k]);
     }
     l = spot(vec3(0, 1, 0), vec3(0, -1, 0), 30, 30);
-    CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_OK); /* added to what is there */
+    CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) ==
+          LMB_OK); /* added to what is there */
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1), t = (cosine - cos(PI * 40 / 180)) / (cos(PI * 20 / 180) - cos(PI * 40 / 180));
+        double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1),
+               t = (cosine - cos(PI * 40 / 180)) / (cos(PI * 20 / 180) - cos(PI * 40 / 180));
         t = fmin(fmax(t, 0.0), 1.0);
         double want = 2.0 * t * t * (3.0 - 2.0 * t) + (cosine > cos(PI * 30 / 180) ? 2.0 : 0.0);
         CHECK_MSG(fabs((double)e.rgb[0][k] - want) < 1e-5, "hard, cosine %g: %g", cosine, (double)e.rgb[0][k]);
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* the surface itself turned away: smooth normals let no light through */
+    for (int k = 0; k < LMB_TILE_PIXELS;
+         ++k) { /* the surface itself turned away: smooth normals let no light through */
         tile.face[0][k] = -tile.face[0][k];
         tile.face[1][k] = -tile.face[1][k];
     }
@@ -322,7 +332,7 @@ static void test_irradiance(void)
     check_cone();
 }
 
-/* --- shadows ---------------------------------------------------------------------------------------------------------- */
+/* --- shadows ------------------------------------------------------------------------------------------------------ */
 
 /* The plate: half sides of 0.5 m, turned, 1 m over the floor. */
 static const lmb_vec3 plate_at = {0.1f, 1, -0.05f}, plate_u = {0.46f, 0, 0.2f}, plate_v = {-0.2f, 0, 0.46f};
@@ -403,8 +413,8 @@ static void check_shadow(const char *name, lmb_light light, int32_t size)
         farthest = differs ? fmax(farthest, texels) : farthest;
         CHECK(seen[i].shadowed[0] == 0.0f || memcmp(seen[i].shadowed, seen[i].open, sizeof seen[i].open) == 0);
     }
-    printf("  shadow, %-5s map %3d: %d wrong of %d, at most %.2f texels from the edge (%d pixels within one)\n", name, (int)size,
-           close + wrong, dark + lit, farthest, near_edge);
+    printf("  shadow, %-5s map %3d: %d wrong of %d, at most %.2f texels from the edge (%d pixels within one)\n", name,
+           (int)size, close + wrong, dark + lit, farthest, near_edge);
     CHECK_MSG(dark > 100 && lit > 1000, "%d dark, %d lit", dark, lit);
     CHECK_MSG(wrong == 0, "%s, map %d: %d pixels farther than a texel", name, (int)size, wrong);
     CHECK_MSG(close * 25 <= near_edge, "%s, map %d: %d of %d within a texel", name, (int)size, close, near_edge);
@@ -491,7 +501,7 @@ static void test_shadows(void)
     check_low_plate(cone);
 }
 
-/* --- no acne ---------------------------------------------------------------------------------------------------------- */
+/* --- no acne ------------------------------------------------------------------------------------------------------ */
 
 /* Pixels that face the light and are dark: on a convex body there must be none. */
 static int dark_pixels(int *facing, const lmb_view *v, const lmb_light *light, int32_t size)
@@ -524,7 +534,8 @@ static void check_convex(const char *name, int32_t size)
         }
     }
     printf("  convex %s, map %d: %d of %d lit pixels are dark\n", name, (int)size, dark, facing);
-    CHECK_MSG(facing > 10000 && dark == 0, "%s, map %d: %d of %d pixels that face the light are dark", name, (int)size, dark, facing);
+    CHECK_MSG(facing > 10000 && dark == 0, "%s, map %d: %d of %d pixels that face the light are dark", name, (int)size,
+              dark, facing);
 }
 
 /* Triangles of one plane, side by side and one over the other, at all turns. */
