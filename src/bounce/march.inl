@@ -6,6 +6,10 @@
  * the step beside them: d is affine over a plane, so an edge-on wall steps evenly and a silhouette does not. */
 #define JUMP 0.02f
 #define SLOPE 2.0f
+/* Square of how deep behind its front a thing is taken to reach, in lengths of the segment that it hides: through the
+ * middle of a ball a segment is half its hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact 0.190
+ * 0.073 0.088, bunny_room 0.081 0.076 0.112, cornell 0.051 0.036 0.030, grazing_sun 0.059 0.065 0.083. */
+#define DEPTH_2 0.25f
 
 /* A vector of pixels in the viewer's frame, and the depth plane of each one's surface. */
 typedef struct seen_from {
@@ -179,6 +183,14 @@ static inline lane march_share(const lmb_march_job *m, const seen_from *s, const
     return lane_mul(t, r->end);
 }
 
+/* d -> m along the view's axis. */
+static inline lane march_w(const lmb_march_job *m, lane d)
+{
+    d = lane_max(d, lane_splat(1e-9f));
+    return m->perspective ? lane_div(lane_splat(m->near_m), d)
+                          : lane_sub(lane_splat(m->far_m), lane_mul(d, lane_splat(m->far_m - m->near_m)));
+}
+
 static inline lane march_gap(lane a, lane b) { return lane_max(lane_sub(a, b), lane_sub(b, a)); }
 
 /* Between two samples on different sides of the viewer's surface: does the segment cross it there, or only pass
@@ -202,16 +214,39 @@ static inline lane_mask march_crosses(const lmb_march_job *m, const seen_from *s
     return lane_le(jump, lane_add(lane_mul(lane_splat(JUMP), lane_min(from_d, to_d)), lane_mul(lane_splat(SLOPE), slope)));
 }
 
+/* The point at share t of the segments, in the viewer's axes, m. */
+static inline lane3 march_point(const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
+{
+    lane3 p;
+    lane d = lane_add(s->d, lane_mul(lane_sub(r->end_d, s->d), t));
+    p.z = march_w(m, d);
+    lane wide = m->perspective ? p.z : lane_splat(1.0f);
+    lane px = lane_add(s->px, lane_mul(r->x, t)), py = lane_add(s->py, lane_mul(r->y, t));
+    p.x = lane_mul(lane_mul(lane_sub(px, lane_splat(m->middle_x)), lane_splat(1.0f / m->scale_x)), wide);
+    p.y = lane_mul(lane_mul(lane_sub(py, lane_splat(m->middle_y)), lane_splat(1.0f / m->scale_y)), wide);
+    return p;
+}
+
+/* A segment that was hidden from share `in` to `out`, never deeper than `gap` behind what hid it at its nearest: through
+ * it, or behind it? Nobody has seen the far side. Things are taken to be about as deep as they are wide: blocked where the
+ * segment comes nearer to the front than half its own hidden length. */
+static inline lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
+                                      lane gap)
+{
+    lane3 chord = lane3_sub(march_point(m, s, r, out), march_point(m, s, r, in));
+    return lane_lt(lane_mul(gap, gap), lane_mul(lane_splat(DEPTH_2), lane3_dot(chord, chord)));
+}
+
 /* Which of the wanted segments from the pixels to one emitter cross nothing that the viewer sees.            [V25]
  *
- * In the map a segment is straight and d is affine along it. It may pass behind something, unseen, and come out again:
- * that crosses no visible surface, so only a change of side without a silhouette blocks. */
+ * In the map a segment is straight and d is affine along it. A change of side across a surface that goes on blocks. Where
+ * it passes behind a silhouette and comes out again, march_through decides; an end that stays hidden is taken as open. */
 static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lane3 at, lane3 axis, lane_mask wanted)
 {
     const lane zero = lane_splat(0.0f);
     const march_run r = march_towards(m, s, at, axis);
     lane_mask open = wanted, hidden_before = lane_lt(zero, zero);
-    lane before = zero, stored_before = s->d;
+    lane before = zero, stored_before = s->d, in = zero, gap = lane_splat(1e9f);
     for (int i = 0; i < m->steps && mask_bits(open); ++i) {
         lane stored, t = march_share(m, s, &r, i);
         lane_mask hidden = lane_lt(zero, march_height(&stored, m, s, &r, t));
@@ -220,6 +255,17 @@ static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lane3 
         if (mask_bits(changed)) {
             lane_mask crosses = march_crosses(m, s, &r, before, t, stored_before, stored, hidden_before);
             open = mask_and(open, mask_not(mask_and(changed, crosses)));
+            lane middle = lane_mul(lane_add(before, t), lane_splat(0.5f));
+            lane_mask leaves = mask_and(mask_and(changed, hidden_before), open);
+            if (mask_bits(leaves)) {
+                open = mask_and(open, mask_not(mask_and(leaves, march_through(m, s, &r, in, middle, gap))));
+            }
+            in = lane_pick(changed, middle, in);
+            gap = lane_pick(changed, lane_splat(1e9f), gap);
+        }
+        if (mask_bits(mask_and(hidden, open))) {
+            lane d = lane_add(s->d, lane_mul(lane_sub(r.end_d, s->d), t));
+            gap = lane_pick(hidden, lane_min(gap, lane_sub(march_w(m, d), march_w(m, stored))), gap);
         }
         hidden_before = hidden;
         before = t;

@@ -3,18 +3,9 @@
  * Radius R, reflectance rho, a point light I at the centre: direct irradiance I / R2, radiance rho I / (pi R2); one
  * bounce arrives as rho I / R2 everywhere, since the form factor of any patch to any other is its area over 4 pi R2.
  * The mesh is inscribed, which raises all of it: by the mean of 1 / r3 over a facet, about 0.1 % here. */
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
-
-#include "../../src/base/vec.h"
-#include "../test.h"
+#include "../world.h"
 
 void test_sphere(void);
-
-#define PI 3.14159265358979323846
 
 enum {
     STACKS = 48,
@@ -28,74 +19,16 @@ enum {
 
 static const float albedo = 0.5f;
 
-static float corners[TRIANGLES][3][3];
-static struct {
-    lmb_mesh mesh;
-    lmb_material material;
-    lmb_instance instance;
-    lmb_light light;
-    lmb_scene scene;
-    uint32_t count;
-} world;
-
-static void add_triangle(const double a[3], const double b[3], const double c[3])
+static void make_sphere(void)
 {
-    const double *p[3] = {a, b, c};
-    for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < 3; ++k) {
-            corners[world.count][i][k] = (float)p[i][k];
-        }
-    }
-    ++world.count;
-}
-
-static void on_sphere(double out[3], int stack, int slice)
-{
-    double a = PI * stack / STACKS, b = 2.0 * PI * slice / SLICES;
-    out[0] = sin(a) * cos(b);
-    out[1] = cos(a);
-    out[2] = sin(a) * sin(b);
-}
-
-static void make_world(void)
-{
-    memset(&world, 0, sizeof world);
-    for (int i = 0; i < STACKS; ++i) {
-        for (int j = 0; j < SLICES; ++j) {
-            double a[3], b[3], c[3], d[3];
-            on_sphere(a, i, j);
-            on_sphere(b, i, j + 1);
-            on_sphere(c, i + 1, j + 1);
-            on_sphere(d, i + 1, j);
-            if (i > 0) {
-                add_triangle(a, b, c);
-            }
-            if (i + 1 < STACKS) {
-                add_triangle(a, c, d);
-            }
-        }
-    }
-    world.mesh.positions = corners;
-    world.mesh.triangle_count = world.count;
-    world.mesh.vertex_count = 3 * world.count;
-    world.material.albedo[0] = world.material.albedo[1] = world.material.albedo[2] = albedo;
-    world.material.alpha = 1.0f;
-    world.material.texture = -1;
-    world.material.flags = LMB_DOUBLE_SIDED;
-    world.instance.to_world.m[0] = world.instance.to_world.m[5] = world.instance.to_world.m[10] = 1.0f;
-    world.instance.to_world.m[15] = 1.0f;
-    world.instance.first_id = 1;
-    world.light.kind = LMB_LIGHT_POINT;
-    world.light.direction = vec3(0, -1, 0);
-    world.light.intensity[0] = world.light.intensity[1] = world.light.intensity[2] = 1.0f;
-    world.light.cos_inner = world.light.cos_outer = -1.0f;
-    world.scene.meshes = &world.mesh;
-    world.scene.materials = &world.material;
-    world.scene.instances = &world.instance;
-    world.scene.lights = &world.light;
-    world.scene.mesh_count = world.scene.material_count = world.scene.instance_count = world.scene.light_count = 1;
-    lmb_scene_bounds(&world.scene.bounds_min, &world.scene.bounds_max, &world.scene);
-    CHECK(world.count == TRIANGLES && lmb_scene_check(&world.scene) == LMB_OK);
+    static lmb_light lamp;
+    lamp = point_light(vec3(0, 0, 0));
+    lamp.intensity[0] = lamp.intensity[1] = lamp.intensity[2] = 1.0f;
+    world_begin(albedo, albedo, albedo);
+    world_sphere(vec3(0, 0, 0), 1.0f, STACKS, SLICES);
+    world.scene.lights = &lamp;
+    world.scene.light_count = 1;
+    CHECK(world_end() == LMB_OK && world.count == TRIANGLES);
 }
 
 /* --- rendering ---------------------------------------------------------------------------------------------------- */
@@ -112,6 +45,8 @@ static float picture[FRAME * FRAME * 3];
 static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t occlusion)
 {
     static const float ways[VIEWS][3] = {{1, 0, 0}, {-1, 0, 0}, {0.1f, 1, 0}, {0.1f, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    /* Off the centre, so that no symmetry helps; from there 95 degrees see a third of the sphere. */
+    const lmb_vec3 from = {0.05f, -0.03f, 0.3f};
     lmb_frame f;
     memset(&f, 0, sizeof f);
     memset(&stats, 0, sizeof stats);
@@ -131,12 +66,8 @@ static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t 
     f.groups = &groups;
     f.scratch = &scratch;
     f.stats = &stats;
-    /* Off the centre, so that no symmetry helps; from there 95 degrees see a third of the sphere. */
-    CHECK(lmb_view_look(&f.view, vec3(0.05f, -0.03f, 0.3f),
-                        vec3(0.05f + ways[view][0], ways[view][1] - 0.03f, 0.3f + ways[view][2]), vec3(0, 1, 0),
-                        (float)(95 * PI / 180), FRAME, FRAME) == LMB_OK);
-    CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, FRAME, FRAME, depth_memory, sizeof depth_memory) == LMB_OK);
-    CHECK(lmb_surface_init(&f.eye.id, LMB_ID32, FRAME, FRAME, id_memory, sizeof id_memory) == LMB_OK);
+    f.view = look(from, add3(from, vec3(ways[view][0], ways[view][1], ways[view][2])), 95, FRAME);
+    f.eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
     CHECK(lmb_surface_init(&f.out, LMB_RGB32F, FRAME, FRAME, picture, sizeof picture) == LMB_OK);
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
 }
@@ -193,7 +124,7 @@ void test_sphere(void)
         SKIP("integrating sphere: %d groups are too few for 1 %%", LMB_MAX_GROUPS);
         return;
     }
-    make_world();
+    make_sphere();
     d = measure(LMB_SHOW_DIRECT, 0, 0, LMB_OCCLUSION_NONE, (double)albedo / PI);
     tell("direct radiance", d);
     CHECK_MSG(d.most < 0.004 && fabs(d.ratio - 1.001) < 0.001, "%g %g", d.most, d.ratio);

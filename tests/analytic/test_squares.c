@@ -7,17 +7,9 @@
  * X = a/b, Y = c/b:
  *   F = 1/(2 pi) (atan(1/Y) - Y/sqrt(X2+Y2) atan(1/sqrt(X2+Y2)))
  * Rectangles that do not begin at the element are sums and differences of such. */
-#include <math.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
-
-#include "../../src/base/vec.h"
-#include "../test.h"
+#include "../world.h"
 
 void test_squares(void);
-
-#define PI 3.14159265358979323846
 
 enum { CUTS = 32, BLOCK = 4 }; /* discs along the emitter's side; discs along a group's side */
 
@@ -67,26 +59,15 @@ static void make_emitter(lmb_vec3 corner, lmb_vec3 u, lmb_vec3 v, lmb_vec3 axis)
         int gx = g % (CUTS / BLOCK), gy = g / (CUTS / BLOCK), k = groups.count++;
         lmb_vec3 at =
             add3(corner, add3(mul3(u, ((float)gx + 0.5f) * group_side), mul3(v, ((float)gy + 0.5f) * group_side)));
-        float place[3] = {at.x, at.y, at.z}, way[3] = {axis.x, axis.y, axis.z};
-        for (int c = 0; c < 3; ++c) {
-            groups.position[c][k] = place[c];
-            groups.normal[c][k] = way[c];
-            groups.flux[c][k] = group_side * group_side;
-        }
-        groups.area[k] = group_side * group_side;
-        groups.radius[k] = group_side * 0.70710678f;
+        set_group(&groups, k, at, axis, group_side * group_side, group_side * 0.70710678f);
+        groups.flux[0][k] = groups.flux[1][k] = groups.flux[2][k] = group_side * group_side;
         groups.first[k] = points.count;
         groups.members[k] = BLOCK * BLOCK;
         for (int i = 0; i < BLOCK * BLOCK; ++i) {
-            lmb_point *p = &points.data[points.count++];
             float x = ((float)(gx * BLOCK + i % BLOCK) + 0.5f) * side,
                   y = ((float)(gy * BLOCK + i / BLOCK) + 0.5f) * side;
-            memset(p, 0, sizeof *p);
-            p->position = add3(corner, add3(mul3(u, x), mul3(v, y)));
-            p->normal = axis;
-            p->axis_u = mul3(u, 0.5f * side);
-            p->axis_v = mul3(v, 0.5f * side);
-            p->flux[0] = p->flux[1] = p->flux[2] = side * side;
+            set_disc(&points.data[points.count++], add3(corner, add3(mul3(u, x), mul3(v, y))), axis,
+                     mul3(u, 0.5f * side), mul3(v, 0.5f * side), side * side);
         }
     }
 }

@@ -1,173 +1,50 @@
 /* test_bounce.c: first points, discs, groups and their gather, against formulas, integrals and exact rays. [V1-V28] */
-#include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include <lambent/lambent.h>
-
-#include "../../src/base/vec.h"
-#include "../test.h"
+#include "../world.h"
 
 void test_bounce(void);
 
-#define PI       3.14159265358979323846
-#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+enum { SIDE = 256, POINTS = 120000, FRAME = 128 };
 
-enum { TRIANGLES = 4096, SIDE = 256, POINTS = 120000, FRAME = 128 };
+/* --- scenes ------------------------------------------------------------------------------------------------------- */
 
-static const lmb_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
+static uint8_t colours[WORLD_TRIANGLES][3][4];
 
-/* --- a scene of one mesh ------------------------------------------------------------------------------------------ */
-
-static float corners[TRIANGLES][3][3], uvs[TRIANGLES][3][2];
-static uint8_t colours[TRIANGLES][3][4];
-static struct {
-    lmb_mesh mesh;
-    lmb_material material;
-    lmb_texture texture;
-    lmb_instance instance;
-    lmb_scene scene;
-} world;
-
-static void world_begin(float red, float green, float blue)
+/* With a colour at every vertex, white at first. */
+static void begin_coloured(float red, float green, float blue)
 {
-    memset(&world, 0, sizeof world);
     memset(colours, 255, sizeof colours);
-    world.material.albedo[0] = red;
-    world.material.albedo[1] = green;
-    world.material.albedo[2] = blue;
-    world.material.alpha = 1.0f;
-    world.material.texture = -1;
-    world.material.flags = LMB_DOUBLE_SIDED;
-}
-
-static void world_triangle(lmb_vec3 a, lmb_vec3 b, lmb_vec3 c)
-{
-    const lmb_vec3 p[3] = {a, b, c};
-    for (int i = 0; i < 3; ++i) {
-        corners[world.mesh.triangle_count][i][0] = p[i].x;
-        corners[world.mesh.triangle_count][i][1] = p[i].y;
-        corners[world.mesh.triangle_count][i][2] = p[i].z;
-    }
-    ++world.mesh.triangle_count;
-}
-
-/* Half sides u and v; the front is u x v. */
-static void world_quad(lmb_vec3 centre, lmb_vec3 u, lmb_vec3 v)
-{
-    lmb_vec3 a = sub3(sub3(centre, u), v), b = sub3(add3(centre, u), v), c = add3(add3(centre, u), v),
-             d = add3(sub3(centre, u), v);
-    world_triangle(a, b, c);
-    world_triangle(a, c, d);
-}
-
-static void world_box(lmb_vec3 centre, float half)
-{
-    const lmb_vec3 axis[3] = {X, Y, Z};
-    for (int i = 0; i < 6; ++i) {
-        lmb_vec3 out = mul3(axis[i / 2], i & 1 ? -half : half);
-        world_quad(add3(centre, out), mul3(axis[(i / 2 + 1) % 3], half), mul3(axis[(i / 2 + 2) % 3], half));
-    }
-}
-
-static lmb_vec3 on_sphere(int stack, int stacks, int slice, int slices)
-{
-    double a = PI * stack / stacks, b = 2.0 * PI * slice / slices;
-    return vec3((float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)));
-}
-
-static void world_sphere(lmb_vec3 centre, float radius, int stacks, int slices)
-{
-    for (int i = 0; i < stacks; ++i) {
-        for (int j = 0; j < slices; ++j) {
-            lmb_vec3 a = add3(centre, mul3(on_sphere(i, stacks, j, slices), radius));
-            lmb_vec3 b = add3(centre, mul3(on_sphere(i, stacks, j + 1, slices), radius));
-            lmb_vec3 c = add3(centre, mul3(on_sphere(i + 1, stacks, j + 1, slices), radius));
-            lmb_vec3 d = add3(centre, mul3(on_sphere(i + 1, stacks, j, slices), radius));
-            if (i > 0) {
-                world_triangle(a, b, c);
-            }
-            if (i + 1 < stacks) {
-                world_triangle(a, c, d);
-            }
-        }
-    }
-}
-
-static void world_end(void)
-{
-    lmb_scene *s = &world.scene;
-    world.mesh.positions = corners;
-    world.mesh.uvs = uvs;
-    world.mesh.colours = &colours[0][0][0];
-    world.mesh.vertex_count = 3 * world.mesh.triangle_count;
-    world.instance.to_world.m[0] = world.instance.to_world.m[5] = world.instance.to_world.m[10] = 1.0f;
-    world.instance.to_world.m[15] = 1.0f;
-    world.instance.first_id = 1;
-    s->meshes = &world.mesh;
-    s->materials = &world.material;
-    s->textures = &world.texture;
-    s->instances = &world.instance;
-    s->mesh_count = s->material_count = s->instance_count = 1;
-    s->texture_count = world.texture.texels != NULL;
-    lmb_scene_bounds(&s->bounds_min, &s->bounds_max, s);
-    CHECK(lmb_scene_check(s) == LMB_OK);
+    world_begin(red, green, blue);
+    world.mesh[0].colours = &colours[0][0][0];
 }
 
 /* A closed box of 2 m a side around the origin. */
 static void make_box(void)
 {
-    world_begin(0.6f, 0.4f, 0.2f);
+    begin_coloured(0.6f, 0.4f, 0.2f);
     world_box(vec3(0, 0, 0), 1.0f);
-    world_end();
+    CHECK(world_end() == LMB_OK);
 }
 
 /* The box with a ball and a crate in it: curved, near and far, six directions. */
 static void make_room(void)
 {
-    world_begin(0.6f, 0.4f, 0.2f);
+    begin_coloured(0.6f, 0.4f, 0.2f);
     world_box(vec3(0, 0, 0), 1.0f);
     world_sphere(vec3(0.4f, -0.6f, 0.3f), 0.35f, 12, 24);
     world_box(vec3(-0.5f, -0.8f, -0.4f), 0.2f);
-    world_end();
+    CHECK(world_end() == LMB_OK);
 }
 
 /* A floor of 4 m2 turned out of the map's grid: its edges do not all fall on one side of the texels' middles. */
 static void make_floor(void)
 {
     float c = 0.8829476f, s = 0.4694716f; /* 28 degrees */
-    world_begin(0.6f, 0.4f, 0.2f);
+    begin_coloured(0.6f, 0.4f, 0.2f);
     world_quad(vec3(0, 0, 0), vec3(s, 0, c), vec3(c, 0, -s));
-    world_end();
+    CHECK(world_end() == LMB_OK);
 }
-
-/* --- lights ------------------------------------------------------------------------------------------------------- */
-
-static lmb_light make_light(int32_t kind, lmb_vec3 at, lmb_vec3 along)
-{
-    lmb_light l;
-    memset(&l, 0, sizeof l);
-    l.kind = kind;
-    l.position = at;
-    l.direction = normalize3(along);
-    l.intensity[0] = 2.0f;
-    l.intensity[1] = 3.0f;
-    l.intensity[2] = 5.0f;
-    l.cos_inner = l.cos_outer = -1.0f;
-    return l;
-}
-
-static lmb_light spot(lmb_vec3 at, lmb_vec3 along, double inner_deg, double outer_deg)
-{
-    lmb_light l = make_light(LMB_LIGHT_SPOT, at, along);
-    l.cos_inner = (float)cos(inner_deg * PI / 180.0);
-    l.cos_outer = (float)cos(outer_deg * PI / 180.0);
-    return l;
-}
-
-static lmb_light point_light(lmb_vec3 at) { return make_light(LMB_LIGHT_POINT, at, vec3(0, -1, 0)); }
-static lmb_light sun(lmb_vec3 along) { return make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), along); }
 
 /* --- first points ------------------------------------------------------------------------------------------------- */
 
@@ -196,7 +73,7 @@ static void add_points(const lmb_light *light, int32_t size, const lmb_grouping 
     lmb_status status = lmb_light_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory);
     lmb_light_map_clear(&map);
     if (status == LMB_OK) {
-        status = lmb_light_map_draw(&map, k, &raster, &world.scene, 1, TRIANGLES, NULL);
+        status = lmb_light_map_draw(&map, k, &raster, &world.scene, 1, WORLD_TRIANGLES, NULL);
     }
     for (int32_t f = 0; f < map.faces && status == LMB_OK; ++f) {
         if ((map.drawn >> f) & 1u) {
@@ -261,7 +138,7 @@ static void check_flux(const char *name, lmb_light light, double power, double b
     for (int b = 0; b < COUNT(blocks); ++b) {
         only_points(&light, light.kind == LMB_LIGHT_POINT || light.cos_outer < 0.6f ? SIDE / 2 : SIDE, blocks[b]);
         for (int c = 0; c < 3; ++c) {
-            double flux = flux_of(c), want = power * (double)light.intensity[c] * (double)world.material.albedo[c];
+            double flux = flux_of(c), want = power * (double)light.intensity[c] * (double)world.material[0].albedo[c];
             first[c] = b == 0 ? flux : first[c];
             worst = fmax(worst, fabs(flux / want - 1.0));
             spread = fmax(spread, fabs(flux / first[c] - 1.0));
@@ -327,10 +204,10 @@ static void check_shadowed(void)
 {
     lmb_light light = spot(vec3(0, 0.9f, 0), vec3(0, -1, 0), 30, 40);
     uint32_t behind = 0, on_plate = 0, under = 0;
-    world_begin(0.5f, 0.5f, 0.5f);
+    begin_coloured(0.5f, 0.5f, 0.5f);
     world_box(vec3(0, 0, 0), 1.0f);
     world_quad(vec3(0.1f, 0, 0), vec3(0.3f, 0, 0), vec3(0, 0, -0.3f));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     only_points(&light, SIDE, 1);
     for (uint32_t i = 0; i < points.count; ++i) {
         lmb_vec3 p = points.data[i].position;
@@ -376,12 +253,12 @@ static void check_albedo(void)
     lmb_light l = sun(vec3(0, -1, 0));
     float worst = 0.0f, least = 1.0f, most = 0.0f;
     uint32_t grey = 0, dark = 0, bright = 0;
-    world_begin(1, 1, 1);
+    begin_coloured(1, 1, 1);
     world_quad(vec3(0, 0, 0), Z, X);
     for (int i = 0; i < 6; ++i) {
-        memset(colours[i / 3][i % 3], corners[i / 3][i % 3][0] > 0.0f ? 255 : 0, 3);
+        memset(colours[i / 3][i % 3], world.corners[i / 3][i % 3][0] > 0.0f ? 255 : 0, 3);
     }
-    world_end();
+    CHECK(world_end() == LMB_OK);
     only_points(&l, SIDE, 8);
     for (uint32_t i = 0; i < points.count; ++i) {
         float a = points.data[i].albedo[0];
@@ -392,16 +269,16 @@ static void check_albedo(void)
     CHECK_MSG(worst < 0.005f && least < 0.05f && most > 0.95f, "%g %g %g", (double)worst, (double)least, (double)most);
     memset(colours, 255, sizeof colours);
     for (int i = 0; i < 6; ++i) {
-        uvs[i / 3][i % 3][0] = corners[i / 3][i % 3][0] > 0.0f ? 1.0f : 0.0f;
-        uvs[i / 3][i % 3][1] = 0.5f;
+        world.uvs[i / 3][i % 3][0] = world.corners[i / 3][i % 3][0] > 0.0f ? 1.0f : 0.0f;
+        world.uvs[i / 3][i % 3][1] = 0.5f;
     }
     world.texture.texels = &texels[0][0];
     world.texture.width = 2;
     world.texture.height = world.texture.levels = 1;
     world.texture.wrap_s = LMB_WRAP_CLAMP;
     world.texture.filter = LMB_NEAREST;
-    world.material.texture = 0;
-    world_end();
+    world.material[0].texture = 0;
+    CHECK(world_end() == LMB_OK);
     only_points(&l, SIDE, 1);
     for (uint32_t i = 0; i < points.count; ++i) {
         const lmb_point *p = &points.data[i];
@@ -411,7 +288,6 @@ static void check_albedo(void)
     }
     CHECK_MSG(grey == 0 && dark > 1000 && dark + bright == points.count, "%u %u %u", (unsigned)grey, (unsigned)dark,
               (unsigned)bright);
-    memset(uvs, 0, sizeof uvs);
 }
 
 static void check_collect_limits(void)
@@ -473,9 +349,9 @@ static void check_distances(void)
 {
     lmb_light l = sun(vec3(0, -1, 0));
     lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
-    world_begin(0.5f, 0.5f, 0.5f);
+    begin_coloured(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), Z, X);
-    world_end();
+    CHECK(world_end() == LMB_OK);
     clear_points();
     add_points(&l, SIDE, &g, 1);
     double step = 16.0 * (double)map.view[0].half_width / SIDE;
@@ -526,15 +402,11 @@ static void hand_points(void)
     clear_points();
     points.count = 5;
     points.faces = 1;
-    memset(points.data, 0, 5 * sizeof *points.data);
     for (uint32_t i = 0; i < 5; ++i) {
         lmb_point *p = &points.data[i];
-        p->position = vec3(at[i][0], at[i][1], at[i][2]);
-        p->normal = Y;
-        p->flux[0] = p->flux[1] = p->flux[2] = (float)(i + 1);
+        set_disc(p, vec3(at[i][0], at[i][1], at[i][2]), Y, mul3(X, 0.1f * (float)(i + 1)), mul3(Z, 0.1f),
+                 (float)(i + 1));
         p->albedo[0] = p->albedo[1] = p->albedo[2] = 0.25f * (float)i;
-        p->axis_u = mul3(X, 0.1f * (float)(i + 1));
-        p->axis_v = mul3(Z, 0.1f);
         p->cell_x = (uint16_t)(i > 0 ? (i - 1) % 2 : 0);
         p->cell_y = (uint16_t)(i > 0 ? (i - 1) / 2 : 0);
         p->face = 1;
@@ -749,10 +621,10 @@ static void check_zones(void)
     lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 200, 8);
     uint32_t mixed = 0, used = 0;
     uint8_t zones[8][8];
-    world_begin(0.5f, 0.5f, 0.5f);
+    begin_coloured(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), Z, X);
     world_quad(vec3(0.13f, 1, 0.07f), mul3(Z, 0.41f), mul3(X, 0.41f));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     g.neighbour_m = 0.3f; /* V9: the plate is no neighbour of the floor, so neither stretches the other's reach */
     clear_points();
     add_points(&l, SIDE, &g, 1);
@@ -1091,18 +963,6 @@ static void test_factors(void)
 
 static lmb_gather_scratch gather_scratch;
 
-static lmb_vec3 plane_vec(float planes[3][LMB_TILE_PIXELS], int k)
-{
-    return vec3(planes[0][k], planes[1][k], planes[2][k]);
-}
-
-static void set_plane(float planes[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
-{
-    planes[0][k] = v.x;
-    planes[1][k] = v.y;
-    planes[2][k] = v.z;
-}
-
 /* 64 unrelated surface points around the origin; the last two without a surface. */
 static void random_tile(test_rng *rng)
 {
@@ -1118,20 +978,13 @@ static void random_tile(test_rng *rng)
     }
 }
 
-static void set_group(int32_t k, lmb_vec3 at, lmb_vec3 axis, float area, float radius, float flux)
+/* Of another flux in each channel. */
+static void emit(int32_t k, lmb_vec3 at, lmb_vec3 axis, float area, float radius, float flux)
 {
+    set_group(&groups, k, at, axis, area, radius);
     for (int c = 0; c < 3; ++c) {
         groups.flux[c][k] = flux * (float)(c + 1);
     }
-    groups.position[0][k] = at.x;
-    groups.position[1][k] = at.y;
-    groups.position[2][k] = at.z;
-    groups.normal[0][k] = axis.x;
-    groups.normal[1][k] = axis.y;
-    groups.normal[2][k] = axis.z;
-    groups.area[k] = area;
-    groups.radius[k] = radius;
-    groups.first[k] = groups.members[k] = 0;
 }
 
 static void gather(lmb_irradiance *out, const lmb_points *p, const lmb_occluder *o)
@@ -1149,8 +1002,8 @@ static void check_far(void)
     random_tile(&rng);
     groups.count = 50;
     for (int32_t k = 0; k < groups.count; ++k) {
-        set_group(k, mul3(random_unit(&rng), test_uniform(&rng, 2, 9)), random_unit(&rng),
-                  test_uniform(&rng, 0.1f, 0.5f), 0.4f, test_uniform(&rng, 0.1f, 9));
+        emit(k, mul3(random_unit(&rng), test_uniform(&rng, 2, 9)), random_unit(&rng), test_uniform(&rng, 0.1f, 0.5f),
+             0.4f, test_uniform(&rng, 0.1f, 9));
     }
     for (int32_t j = 0; j < groups.count; ++j) {
         for (int k = 0; k < LMB_TILE_PIXELS - 2; ++k) {
@@ -1181,16 +1034,12 @@ static void plate_points(float y)
 {
     clear_points();
     groups.count = 1;
-    set_group(0, vec3(0, y, 0), vec3(0, -1, 0), 4.0f, 1.4142136f, 8.0f);
+    emit(0, vec3(0, y, 0), vec3(0, -1, 0), 4.0f, 1.4142136f, 8.0f);
     groups.members[0] = 64;
     for (int i = 0; i < 64; ++i) {
-        lmb_point *p = &points.data[points.count++];
-        memset(p, 0, sizeof *p);
-        p->position = vec3(0.25f * (float)(i % 8) - 0.875f, y, 0.25f * (float)(i / 8) - 0.875f);
-        p->normal = vec3(0, -1, 0);
-        p->axis_u = mul3(X, 0.125f);
-        p->axis_v = mul3(Z, 0.125f);
-        p->flux[0] = p->flux[1] = p->flux[2] = 0.0625f * (float)(1 + i % 3);
+        lmb_vec3 at = vec3(0.25f * (float)(i % 8) - 0.875f, y, 0.25f * (float)(i / 8) - 0.875f);
+        set_disc(&points.data[points.count++], at, vec3(0, -1, 0), mul3(X, 0.125f), mul3(Z, 0.125f),
+                 0.0625f * (float)(1 + i % 3));
     }
 }
 
@@ -1296,10 +1145,9 @@ static float picture[2][FRAME * FRAME];
 static lmb_vec3 seen_at[FRAME * FRAME];
 static uint32_t seen_id[FRAME * FRAME];
 
-static lmb_view look(lmb_vec3 from, lmb_vec3 target, double fov_deg)
+static lmb_view look_near(lmb_vec3 from, lmb_vec3 target, double fov_deg)
 {
-    lmb_view v;
-    CHECK(lmb_view_look(&v, from, target, Y, (float)(fov_deg * PI / 180), FRAME, FRAME) == LMB_OK);
+    lmb_view v = look(from, target, fov_deg, FRAME);
     v.near_m = 0.05f;
     v.far_m = 50.0f;
     return v;
@@ -1307,12 +1155,8 @@ static lmb_view look(lmb_vec3 from, lmb_vec3 target, double fov_deg)
 
 static void draw_view(const lmb_view *v, int32_t format)
 {
-    memset(&eye, 0, sizeof eye);
-    CHECK(lmb_surface_init(&eye.depth, format, FRAME, FRAME, depth_memory, sizeof depth_memory) == LMB_OK);
-    CHECK(lmb_surface_init(&eye.id, LMB_ID32, FRAME, FRAME, id_memory, sizeof id_memory) == LMB_OK);
-    lmb_surface_clear(&eye.depth);
-    lmb_surface_clear(&eye.id);
-    CHECK(lmb_draw(&eye, lmb_kernels_pick(), &raster, v, &world.scene, 1, TRIANGLES, 0, NULL) == LMB_OK);
+    eye = target_of(format, FRAME, depth_memory, id_memory);
+    world_draw(&eye, &raster, v, 0);
 }
 
 /* Red irradiance of every pixel, by kind of occlusion. */
@@ -1343,19 +1187,19 @@ static void one_emitter(lmb_vec3 at, lmb_vec3 axis)
 {
     clear_points();
     groups.count = 1;
-    set_group(0, at, normalize3(axis), 1e-4f, 1e-3f, 1.0f);
+    emit(0, at, normalize3(axis), 1e-4f, 1e-3f, 1.0f);
 }
 
 /* V25, V26: a wall at x = 0, seen from its lit side, between floor pixels at x > 0 and an emitter at x < 0. */
 static void check_wall(int32_t kind, int32_t format, int32_t steps)
 {
     const lmb_vec3 from = {-1, 0.6f, 0};
-    lmb_view v = look(vec3(2.5f, 1.8f, 1.5f), vec3(0.3f, 0.3f, 0), 55);
+    lmb_view v = look_near(vec3(2.5f, 1.8f, 1.5f), vec3(0.3f, 0.3f, 0), 55);
     int hidden = 0, leaks = 0, open = 0, lost = 0;
-    world_begin(0.5f, 0.5f, 0.5f);
+    begin_coloured(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 3), mul3(X, 3));
     world_quad(vec3(0, 0.4f, 0), mul3(Y, 0.4f), mul3(Z, 0.8f));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     draw_view(&v, format);
     one_emitter(from, X);
     gather_view(picture[0], &v, LMB_OCCLUSION_NONE, 12);
@@ -1381,9 +1225,36 @@ static void check_wall(int32_t kind, int32_t format, int32_t steps)
     if (kind == LMB_OCCLUSION_NONE) {
         CHECK(leaks == hidden && lost == 0);
     } else {
+        /* The wall has no depth, but is taken to have some: of what passes close behind it most is lost. check_screen
+         * holds what must stay open. */
         CHECK_MSG(leaks * 100 <= hidden, "%d of %d", leaks, hidden);
-        CHECK_MSG(lost * 100 <= open * 2, "%d of %d", lost, open);
+        CHECK_MSG(lost < open, "%d of %d", lost, open);
     }
+}
+
+/* A small plate close to the viewer hides parts of segments far behind it: none of them is blocked. */
+static void check_screen(int32_t kind)
+{
+    const lmb_vec3 eye_at = {2.5f, 1.8f, 1.5f}, plate_at = {1.95f, 1.5f, 1.125f};
+    lmb_view v = look_near(eye_at, vec3(0.3f, 0.3f, 0), 55);
+    int lost = 0, seen = 0, hidden = 0;
+    begin_coloured(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 3), mul3(X, 3));
+    world_quad(plate_at, mul3(normalize3(cross3(v.back, Y)), 0.05f), mul3(Y, 0.05f));
+    CHECK(world_end() == LMB_OK);
+    draw_view(&v, LMB_DEPTH32F);
+    one_emitter(vec3(-1, 0.6f, 0), X);
+    gather_view(picture[0], &v, LMB_OCCLUSION_NONE, 12);
+    gather_view(picture[1], &v, kind, 32);
+    for (int i = 0; i < FRAME * FRAME; ++i) {
+        hidden += seen_id[i] > 2;
+        if (seen_id[i] == 1 || seen_id[i] == 2) {
+            seen += picture[0][i] > 0.0f;
+            lost += picture[1][i] != picture[0][i];
+        }
+    }
+    /* Segments that leave the floor right at the plate's rim in the picture may be cut off by its last sample. */
+    CHECK_MSG(seen > 1000 && hidden > 50 && lost * 500 < seen, "%d of %d dark behind a plate of %d pixels", lost, seen, hidden);
 }
 
 /* A floor seen at 1 to 5 degrees under an emitter: nothing is between. */
@@ -1391,13 +1262,13 @@ static void check_grazing(int32_t kind, int32_t format, int orthographic)
 {
     static const double degrees[] = {1, 2, 3, 5, 20};
     int dark = 0, seen = 0;
-    world_begin(0.5f, 0.5f, 0.5f);
+    begin_coloured(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 8), mul3(X, 8));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     for (int d = 0; d < COUNT(degrees); ++d) {
         for (int e = 0; e < 5; ++e) {
             double a = degrees[d] * PI / 180;
-            lmb_view v = look(vec3(0, (float)(5.0 * sin(a)), (float)(5.0 * cos(a))), vec3(0, 0, 0), 40);
+            lmb_view v = look_near(vec3(0, (float)(5.0 * sin(a)), (float)(5.0 * cos(a))), vec3(0, 0, 0), 40);
             if (orthographic) {
                 v.kind = LMB_ORTHOGRAPHIC;
                 v.half_width = v.half_height = 2.0f;
@@ -1420,7 +1291,7 @@ static void check_grazing(int32_t kind, int32_t format, int orthographic)
 static void check_depth_formats(int32_t kind)
 {
     test_rng rng = {21};
-    lmb_view v = look(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
+    lmb_view v = look_near(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
     int pairs = 0, differ = 0, hidden = 0;
     make_room();
     v.far_m = 4.0f;
@@ -1448,7 +1319,7 @@ static void check_depth_formats(int32_t kind)
 static void check_depth_layouts(void)
 {
     static float rows[FRAME * FRAME];
-    lmb_view v = look(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
+    lmb_view v = look_near(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
     make_room();
     one_emitter(vec3(-0.9f, -0.6f, 0.5f), X);
     draw_view(&v, LMB_DEPTH32F);
@@ -1466,7 +1337,7 @@ static void check_linear_occluded(void)
 {
     lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
     lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 64, 8);
-    lmb_view v = look(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
+    lmb_view v = look_near(vec3(0.7f, 0.5f, 0.8f), vec3(-0.2f, -0.5f, -0.3f), 75);
     lmb_occluder o;
     make_room();
     clear_points();
@@ -1484,6 +1355,8 @@ static void check_linear_occluded(void)
 static void test_occlusion(void)
 {
     static const int32_t kinds[] = {LMB_OCCLUSION_VIEW, LMB_OCCLUSION_VIEW_WORLD};
+    check_screen(LMB_OCCLUSION_VIEW);
+    check_screen(LMB_OCCLUSION_VIEW_WORLD);
     check_wall(LMB_OCCLUSION_NONE, LMB_DEPTH32F, 12);
     for (int k = 0; k < COUNT(kinds); ++k) {
         check_wall(kinds[k], LMB_DEPTH32F, 12);

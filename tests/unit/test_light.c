@@ -1,150 +1,11 @@
 /* test_light.c: direct light and its shadow test, against formulas and exact rays. [V3 V7 V29] */
-#include <math.h>
-#include <string.h>
-
-#include <lambent/lambent.h>
-
-#include "../../src/base/vec.h"
-#include "../test.h"
+#include "../world.h"
 
 void test_light(void);
 
-#define PI       3.14159265358979323846
-#define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
+enum { SIDE = 512, FRAME = 128, PIXELS = FRAME * FRAME };
 
-enum { TRIANGLES = 4096, SIDE = 512, FRAME = 128, PIXELS = FRAME * FRAME };
-
-static const lmb_vec3 X = {1, 0, 0}, Y = {0, 1, 0}, Z = {0, 0, 1};
-
-/* --- a scene of two meshes: a floor or a solid, and a plate with a material of its own ---------------------------- */
-
-static float corners[TRIANGLES][3][3], uvs[TRIANGLES][3][2];
-static struct {
-    lmb_mesh mesh[2];
-    lmb_material material[2];
-    lmb_texture texture;
-    lmb_instance instance[2];
-    lmb_scene scene;
-    uint32_t count, first; /* triangles; where the second mesh begins */
-} world;
-
-static void world_begin(void)
-{
-    memset(&world, 0, sizeof world);
-    memset(uvs, 0, sizeof uvs);
-    for (int i = 0; i < 2; ++i) {
-        world.material[i].albedo[0] = world.material[i].albedo[1] = world.material[i].albedo[2] = 0.5f;
-        world.material[i].alpha = 1.0f;
-        world.material[i].texture = -1;
-        world.material[i].flags = LMB_DOUBLE_SIDED;
-    }
-}
-
-static void world_triangle(lmb_vec3 a, lmb_vec3 b, lmb_vec3 c)
-{
-    const lmb_vec3 p[3] = {a, b, c};
-    for (int i = 0; i < 3; ++i) {
-        corners[world.count][i][0] = p[i].x;
-        corners[world.count][i][1] = p[i].y;
-        corners[world.count][i][2] = p[i].z;
-    }
-    ++world.count;
-}
-
-/* Half sides u and v, with the texture's (0, 0) at -u -v and (1, 1) at +u +v. */
-static void world_quad(lmb_vec3 centre, lmb_vec3 u, lmb_vec3 v)
-{
-    static const float uv[6][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
-    lmb_vec3 a = sub3(sub3(centre, u), v), b = sub3(add3(centre, u), v), c = add3(add3(centre, u), v),
-             d = add3(sub3(centre, u), v);
-    memcpy(uvs[world.count], uv, sizeof uv);
-    world_triangle(a, b, c);
-    world_triangle(a, c, d);
-}
-
-static void world_box(lmb_vec3 centre, float half)
-{
-    const lmb_vec3 axis[3] = {X, Y, Z};
-    for (int i = 0; i < 6; ++i) {
-        lmb_vec3 out = mul3(axis[i / 2], i & 1 ? -half : half);
-        world_quad(add3(centre, out), mul3(axis[(i / 2 + 1) % 3], half), mul3(axis[(i / 2 + 2) % 3], half));
-    }
-}
-
-static lmb_vec3 on_sphere(int stack, int stacks, int slice, int slices)
-{
-    double a = PI * stack / stacks, b = 2.0 * PI * slice / slices;
-    return vec3((float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)));
-}
-
-static void world_sphere(int stacks, int slices)
-{
-    for (int i = 0; i < stacks; ++i) {
-        for (int j = 0; j < slices; ++j) {
-            lmb_vec3 a = on_sphere(i, stacks, j, slices), b = on_sphere(i, stacks, j + 1, slices);
-            lmb_vec3 c = on_sphere(i + 1, stacks, j + 1, slices), d = on_sphere(i + 1, stacks, j, slices);
-            if (i > 0) {
-                world_triangle(a, b, c);
-            }
-            if (i + 1 < stacks) {
-                world_triangle(a, c, d);
-            }
-        }
-    }
-}
-
-static void world_plate(void) { world.first = world.count; }
-
-static void world_end(void)
-{
-    lmb_scene *s = &world.scene;
-    world.first = world.first > 0 ? world.first : world.count;
-    world.mesh[0].triangle_count = world.first;
-    world.mesh[1].triangle_count = world.count - world.first;
-    for (uint32_t i = 0; i < 2; ++i) {
-        world.mesh[i].positions = i ? corners[world.first] : corners[0];
-        world.mesh[i].uvs = i ? uvs[world.first] : uvs[0];
-        world.mesh[i].vertex_count = 3 * world.mesh[i].triangle_count;
-        memset(world.instance[i].to_world.m, 0, sizeof world.instance[i].to_world.m);
-        for (int d = 0; d < 4; ++d) {
-            world.instance[i].to_world.m[5 * d] = 1.0f;
-        }
-        world.instance[i].mesh = world.instance[i].material = i;
-        world.instance[i].first_id = i ? world.first + 1 : 1;
-    }
-    s->meshes = world.mesh;
-    s->materials = world.material;
-    s->textures = &world.texture;
-    s->instances = world.instance;
-    s->mesh_count = s->material_count = s->instance_count = 2;
-    s->texture_count = world.texture.texels != NULL;
-    lmb_scene_bounds(&s->bounds_min, &s->bounds_max, s);
-    CHECK(lmb_scene_check(s) == LMB_OK);
-}
-
-/* --- lights and pictures ------------------------------------------------------------------------------------------ */
-
-static lmb_light make_light(int32_t kind, lmb_vec3 at, lmb_vec3 along)
-{
-    lmb_light l;
-    memset(&l, 0, sizeof l);
-    l.kind = kind;
-    l.position = at;
-    l.direction = normalize3(along);
-    l.intensity[0] = 2.0f;
-    l.intensity[1] = 3.0f;
-    l.intensity[2] = 5.0f;
-    l.cos_inner = l.cos_outer = -1.0f;
-    return l;
-}
-
-static lmb_light spot(lmb_vec3 at, lmb_vec3 along, double inner_deg, double outer_deg)
-{
-    lmb_light l = make_light(LMB_LIGHT_SPOT, at, along);
-    l.cos_inner = (float)cos(inner_deg * PI / 180.0);
-    l.cos_outer = (float)cos(outer_deg * PI / 180.0);
-    return l;
-}
+/* --- pictures ----------------------------------------------------------------------------------------------------- */
 
 static uint32_t map_memory[6 * SIDE * SIDE * 2], depth_memory[PIXELS], id_memory[PIXELS];
 static lmb_light_map map;
@@ -158,30 +19,17 @@ static struct {
     float open[3], shadowed[3];
 } seen[PIXELS];
 
-static lmb_view look(lmb_vec3 from, lmb_vec3 target, double fov_deg)
-{
-    lmb_view v;
-    lmb_vec3 d = sub3(target, from);
-    lmb_vec3 up = absf(d.y) > 0.99f * length3(d) ? Z : Y;
-    CHECK(lmb_view_look(&v, from, target, up, (float)(fov_deg * PI / 180), FRAME, FRAME) == LMB_OK);
-    return v;
-}
-
 static void draw_map(const lmb_light *light, int32_t size)
 {
     CHECK(lmb_light_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
     CHECK(lmb_light_map_clear(&map) == LMB_OK);
-    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &raster, &world.scene, 1, TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &raster, &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
 }
 
 static void draw_view(const lmb_view *v)
 {
-    memset(&eye, 0, sizeof eye);
-    CHECK(lmb_surface_init(&eye.depth, LMB_DEPTH32F, FRAME, FRAME, depth_memory, sizeof depth_memory) == LMB_OK);
-    CHECK(lmb_surface_init(&eye.id, LMB_ID32, FRAME, FRAME, id_memory, sizeof id_memory) == LMB_OK);
-    lmb_surface_clear(&eye.depth);
-    lmb_surface_clear(&eye.id);
-    CHECK(lmb_draw(&eye, lmb_kernels_pick(), &raster, v, &world.scene, 1, TRIANGLES, LMB_CULL_BACK, NULL) == LMB_OK);
+    eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
+    world_draw(&eye, &raster, v, LMB_CULL_BACK);
 }
 
 static void shade_tile(const lmb_view *v, const lmb_light *light, int32_t x, int32_t y)
@@ -196,8 +44,8 @@ static void shade_tile(const lmb_view *v, const lmb_light *light, int32_t x, int
     CHECK(lmb_direct_tile(&shadowed, k, &tile, v, &world.scene, light, &map) == LMB_OK);
     for (int i = 0; i < LMB_TILE_PIXELS; ++i) {
         int32_t p = (y + i / LMB_TILE) * FRAME + x + i % LMB_TILE;
-        seen[p].at = vec3(tile.position[0][i], tile.position[1][i], tile.position[2][i]);
-        seen[p].normal = vec3(tile.normal[0][i], tile.normal[1][i], tile.normal[2][i]);
+        seen[p].at = plane_vec(tile.position, i);
+        seen[p].normal = plane_vec(tile.normal, i);
         seen[p].id = tile.id[i];
         for (int c = 0; c < 3; ++c) {
             seen[p].open[c] = open.rgb[c][i];
@@ -241,14 +89,14 @@ static double irradiance(const lmb_light *l, lmb_vec3 p, lmb_vec3 n)
 /* Open floor and a tilted plate: formula and picture agree; the whole cone is passed through. */
 static void check_irradiance(const char *name, lmb_light light)
 {
-    lmb_view v = look(vec3(0.5f, 3, 3), vec3(0, 0, 0), 60);
+    lmb_view v = look(vec3(0.5f, 3, 3), vec3(0, 0, 0), 60, FRAME);
     double worst = 0.0, peak = 0.0, least = 1e30;
     uint32_t dark = 0, pixels = 0;
-    world_begin();
+    world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
-    world_plate();
+    world_part();
     world_quad(vec3(-0.2f, 0.3f, -1.5f), mul3(X, 0.7f), vec3(0, 0.3f, -0.2f));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     shade(&v, &light, 256);
     for (int i = 0; i < PIXELS; ++i) {
         if (seen[i].id != 0) {
@@ -277,11 +125,11 @@ static void check_cone(void)
 {
     static lmb_tile tile;
     lmb_irradiance e;
-    lmb_view v = look(vec3(0, 2, 0), vec3(0, 0, 0), 60);
+    lmb_view v = look(vec3(0, 2, 0), vec3(0, 0, 0), 60, FRAME);
     lmb_light l = spot(vec3(0, 1, 0), vec3(0, -1, 0), 20, 40);
-    world_begin();
+    world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     memset(&tile, 0, sizeof tile);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* cosines from 1 down to 0.7 */
         double cosine = 1.0 - 0.3 * k / (LMB_TILE_PIXELS - 1), sine = sqrt(1.0 - cosine * cosine);
@@ -324,11 +172,11 @@ static void check_cone(void)
 
 static void test_irradiance(void)
 {
-    check_irradiance("point", make_light(LMB_LIGHT_POINT, vec3(0.3f, 1.2f, -0.4f), Y));
+    check_irradiance("point", point_light(vec3(0.3f, 1.2f, -0.4f)));
     check_irradiance("spot", spot(vec3(0.3f, 1.2f, -0.4f), vec3(-0.2f, -1, -0.3f), 20, 38));
     check_irradiance("wide spot", spot(vec3(0.3f, 0.7f, -0.4f), vec3(-0.2f, -1, -0.1f), 30, 62));
     check_irradiance("hard spot", spot(vec3(0.3f, 1.2f, -0.4f), vec3(-0.2f, -1, -0.3f), 30, 30));
-    check_irradiance("sun", make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), vec3(0.4f, -0.8f, -0.2f)));
+    check_irradiance("sun", sun(vec3(0.4f, -0.8f, -0.2f)));
     check_cone();
 }
 
@@ -339,11 +187,11 @@ static const lmb_vec3 plate_at = {0.1f, 1, -0.05f}, plate_u = {0.46f, 0, 0.2f}, 
 
 static void make_plate(void)
 {
-    world_begin();
+    world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
-    world_plate();
+    world_part();
     world_quad(plate_at, plate_u, plate_v);
-    world_end();
+    CHECK(world_end() == LMB_OK);
 }
 
 /* Where the way from p to the light passes the plate, in its half sides; 0 where it does not pass its height. */
@@ -393,7 +241,7 @@ static double texels_to_edge(lmb_vec3 p)
 /* V7: lit or dark as the exact ray says, up to a texel from the shadow's edge. */
 static void check_shadow(const char *name, lmb_light light, int32_t size)
 {
-    lmb_view v = look(vec3(1.2f, 2.6f, 2.4f), vec3(0, 0, 0), 60);
+    lmb_view v = look(vec3(1.2f, 2.6f, 2.4f), vec3(0, 0, 0), 60, FRAME);
     int wrong = 0, close = 0, near_edge = 0, dark = 0, lit = 0;
     double farthest = 0.0;
     make_plate();
@@ -424,7 +272,7 @@ static void check_shadow(const char *name, lmb_light light, int32_t size)
 static void check_mask(lmb_light light, int32_t size)
 {
     static uint8_t texels[64][4];
-    lmb_view v = look(vec3(0.4f, 0.9f, 2.0f), vec3(0, 0, 0), 60);
+    lmb_view v = look(vec3(0.4f, 0.9f, 2.0f), vec3(0, 0, 0), 60, FRAME);
     int wrong = 0, through = 0, stopped = 0, corner = 0;
     for (int i = 0; i < 64; ++i) {
         memset(texels[i], (i % 8 + i / 8) % 2 ? 255 : 0, 4);
@@ -438,7 +286,7 @@ static void check_mask(lmb_light light, int32_t size)
     world.material[1].texture = 0;
     world.material[1].alpha_cutoff = 0.5f;
     world.material[1].flags |= LMB_ALPHA_MASK;
-    world_end();
+    CHECK(world_end() == LMB_OK);
     shade(&v, &light, size);
     for (int i = 0; i < PIXELS; ++i) {
         double uv[2];
@@ -465,12 +313,12 @@ static void check_mask(lmb_light light, int32_t size)
 /* A plate 4 mm over a floor shadows it: the slack for rounding is far smaller. Seen through the gap. */
 static void check_low_plate(lmb_light light)
 {
-    lmb_view v = look(vec3(0.3f, 0.003f, 1.5f), vec3(0, 0.001f, 0), 3);
+    lmb_view v = look(vec3(0.3f, 0.003f, 1.5f), vec3(0, 0.001f, 0), 3, FRAME);
     int dark = 0, wrong = 0;
-    world_begin();
+    world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0.004f, 0), mul3(Z, 0.5f), mul3(X, 0.5f));
     world_quad(vec3(0, 0, 0), mul3(Z, 0.4f), mul3(X, 0.4f));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     shade(&v, &light, 256);
     for (int i = 0; i < PIXELS; ++i) {
         int inner = absf(seen[i].at.x) < 0.39f && absf(seen[i].at.z) < 0.39f;
@@ -485,18 +333,18 @@ static void check_low_plate(lmb_light light)
 static void test_shadows(void)
 {
     static const int32_t sizes[] = {64, 256, SIDE};
-    lmb_light sun = make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), vec3(0.3f, -0.8f, -0.2f));
-    lmb_light lamp = make_light(LMB_LIGHT_POINT, vec3(-0.3f, 2.2f, 0.3f), Y);
+    lmb_light day = sun(vec3(0.3f, -0.8f, -0.2f));
+    lmb_light lamp = point_light(vec3(-0.3f, 2.2f, 0.3f));
     lmb_light cone = spot(vec3(-0.6f, 2.5f, 0.4f), vec3(0.25f, -1, -0.15f), 25, 40);
     for (int i = 0; i < COUNT(sizes); ++i) {
-        check_shadow("sun", sun, sizes[i]);
+        check_shadow("sun", day, sizes[i]);
         check_shadow("point", lamp, sizes[i]);
         check_shadow("spot", cone, sizes[i]);
     }
-    check_mask(sun, SIDE);
+    check_mask(day, SIDE);
     check_mask(lamp, SIDE);
     check_mask(cone, 256);
-    check_low_plate(sun);
+    check_low_plate(day);
     check_low_plate(lamp);
     check_low_plate(cone);
 }
@@ -521,13 +369,13 @@ static void check_convex(const char *name, int32_t size)
     static const float eyes[][3] = {{3, 1, 2}, {-1, 3, -2}, {0.1f, -2.5f, 2.2f}};
     int dark = 0, facing = 0;
     for (int e = 0; e < COUNT(eyes); ++e) {
-        lmb_view v = look(vec3(eyes[e][0], eyes[e][1], eyes[e][2]), vec3(0, 0, 0), 45);
+        lmb_view v = look(vec3(eyes[e][0], eyes[e][1], eyes[e][2]), vec3(0, 0, 0), 45, FRAME);
         for (int d = 0; d < COUNT(degrees); ++d) {
             double a = degrees[d] * PI / 180;
             lmb_vec3 up = vec3((float)(sin(a) * 0.8), (float)cos(a), (float)(sin(a) * 0.6));
-            lmb_light l = make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), mul3(up, -1.0f));
+            lmb_light l = sun(mul3(up, -1.0f));
             dark += dark_pixels(&facing, &v, &l, size);
-            l = make_light(LMB_LIGHT_POINT, mul3(up, 3.0f), Y);
+            l = point_light(mul3(up, 3.0f));
             dark += dark_pixels(&facing, &v, &l, size);
             l = spot(mul3(up, 2.5f), mul3(up, -1.0f), 30, 45);
             dark += dark_pixels(&facing, &v, &l, size);
@@ -546,17 +394,17 @@ static void check_coplanar(void)
         double a = 0.35 * i, b = 0.2 + 0.13 * i;
         lmb_vec3 n = vec3((float)(sin(b) * cos(a)), (float)cos(b), (float)(sin(b) * sin(a)));
         lmb_vec3 u = normalize3(cross3(Z, n)), w = cross3(n, u), at = mul3(vec3(0.3f, 0.7f, -0.2f), (float)i);
-        lmb_view v = look(add3(at, add3(mul3(n, 2.5f), mul3(u, 1.5f))), at, 50);
-        world_begin();
+        lmb_view v = look(add3(at, add3(mul3(n, 2.5f), mul3(u, 1.5f))), at, 50, FRAME);
+        world_begin(0.5f, 0.5f, 0.5f);
         world_quad(at, mul3(u, 1.1f), mul3(w, 1.1f));
         world_quad(at, add3(mul3(u, 0.7f), mul3(w, 0.3f)), add3(mul3(w, 0.7f), mul3(u, -0.3f)));
-        world_end();
+        CHECK(world_end() == LMB_OK);
         for (int d = 1; d < 10; ++d) {
             double c = d * 9.9 * PI / 180; /* up to 89.1 degrees from the normal */
             lmb_vec3 up = add3(mul3(n, (float)cos(c)), mul3(add3(mul3(u, 0.8f), mul3(w, 0.6f)), (float)sin(c)));
-            lmb_light l = make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), mul3(up, -1.0f));
+            lmb_light l = sun(mul3(up, -1.0f));
             dark += dark_pixels(&facing, &v, &l, 64);
-            l = make_light(LMB_LIGHT_POINT, add3(at, mul3(up, 2.0f)), Y);
+            l = point_light(add3(at, mul3(up, 2.0f)));
             dark += dark_pixels(&facing, &v, &l, 64);
         }
     }
@@ -566,13 +414,13 @@ static void check_coplanar(void)
 /* A light 1 mm above a floor of 4 m: all of it is lit, by the formula. */
 static void check_low_light(void)
 {
-    lmb_light l = make_light(LMB_LIGHT_POINT, vec3(0.1f, 0.001f, 0.2f), Y);
-    lmb_view v = look(vec3(0.5f, 3, 2), vec3(0, 0, 0), 60);
+    lmb_light l = point_light(vec3(0.1f, 0.001f, 0.2f));
+    lmb_view v = look(vec3(0.5f, 3, 2), vec3(0, 0, 0), 60, FRAME);
     int dark = 0, facing = 0;
     double worst = 0.0;
-    world_begin();
+    world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
-    world_end();
+    CHECK(world_end() == LMB_OK);
     dark = dark_pixels(&facing, &v, &l, 256);
     for (int i = 0; i < PIXELS; ++i) {
         if (seen[i].id != 0) {
@@ -588,13 +436,13 @@ static void test_acne(void)
 {
     static const int32_t sizes[] = {16, 64, 256};
     for (int i = 0; i < COUNT(sizes); ++i) {
-        world_begin();
+        world_begin(0.5f, 0.5f, 0.5f);
         world_box(vec3(0, 0, 0), 0.7f);
-        world_end();
+        CHECK(world_end() == LMB_OK);
         check_convex("box", sizes[i]);
-        world_begin();
-        world_sphere(24, 48);
-        world_end();
+        world_begin(0.5f, 0.5f, 0.5f);
+        world_sphere(vec3(0, 0, 0), 1.0f, 24, 48);
+        CHECK(world_end() == LMB_OK);
         check_convex("sphere", sizes[i]);
     }
     check_coplanar();
