@@ -48,6 +48,9 @@ int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
 
 int pfm_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
 int pfm_encode(file_bytes *out, const image *in, report *r); /* little-endian, bottom row first */
+/* hdr_decode: Radiance RGBE from memory, coded either way or not at all, in any of its eight orientations, always 3
+ * channels; EXPOSURE and COLORCORR are divided out. At most 16 MiB and 1024 bytes a byte of file. */
+int hdr_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
 int hdr_encode(file_bytes *out, const image *in, report *r); /* Radiance RGBE, run-length coded */
 int ppm_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
 

@@ -29,15 +29,42 @@ static int check_version(gltf *g)
     return json_fail(&g->doc, asset, g->b->r, "version is not 2.x; export as glTF 2.0");
 }
 
-static int is_supported(const gltf *g, uint32_t name)
+/* MODEL_EXTENSION_: what becomes of the extension of this name. */
+static int extension_use(const gltf *g, uint32_t name)
 {
-    static const char *const known[] = {"KHR_lights_punctual", "KHR_texture_transform", "KHR_materials_unlit",
-                                        "KHR_mesh_quantization"};
+    static const struct {
+        const char *name;
+        int use;
+    } known[] = {{"KHR_lights_punctual", MODEL_EXTENSION_READ},
+                 {"KHR_texture_transform", MODEL_EXTENSION_FOLDED},
+                 {"KHR_materials_unlit", MODEL_EXTENSION_FOLDED},
+                 {"KHR_mesh_quantization", MODEL_EXTENSION_READ}};
     size_t i;
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
-        if (json_equals(&g->doc, name, known[i]))
-            return 1;
-    return 0;
+        if (json_equals(&g->doc, name, known[i].name))
+            return known[i].use;
+    return MODEL_EXTENSION_IGNORED;
+}
+
+/* Each name of a list once among the facts: of the required ones, which come first, and of those used. */
+static void list_extensions(gltf *g, uint32_t list, int required)
+{
+    model_facts *facts = &g->b->out->facts;
+    const uint32_t room = sizeof facts->extensions / sizeof facts->extensions[0];
+    model_extension one;
+    uint32_t i, k;
+    for (i = json_first(&g->doc, list); i != JSON_NONE; i = json_next(&g->doc, i)) {
+        memset(&one, 0, sizeof one);
+        json_string(one.name, sizeof one.name, &g->doc, i);
+        one.use = extension_use(g, i);
+        one.required = required;
+        for (k = 0; k < facts->extension_count && strcmp(facts->extensions[k].name, one.name) != 0; ++k)
+            continue;
+        if (k == room)
+            ++facts->extension_more;
+        else if (k == facts->extension_count)
+            facts->extensions[facts->extension_count++] = one;
+    }
 }
 
 /* Required and unknown is an error; used and unknown a note. */
@@ -48,17 +75,19 @@ static int check_extensions(gltf *g)
     char name[64];
     uint32_t i;
     for (i = json_first(&g->doc, required); i != JSON_NONE; i = json_next(&g->doc, i)) {
-        if (is_supported(g, i))
+        if (extension_use(g, i) != MODEL_EXTENSION_IGNORED)
             continue;
         json_string(name, sizeof name, &g->doc, i);
         return json_fail(&g->doc, i, g->b->r, "requires %s, which lambent does not read; export without it", name);
     }
     for (i = json_first(&g->doc, used); i != JSON_NONE; i = json_next(&g->doc, i)) {
-        if (is_supported(g, i))
+        if (extension_use(g, i) != MODEL_EXTENSION_IGNORED)
             continue;
         json_string(name, sizeof name, &g->doc, i);
         build_note(g->b, "extension %s is ignored", name);
     }
+    list_extensions(g, required, 1);
+    list_extensions(g, used, 0);
     return 1;
 }
 
@@ -563,6 +592,24 @@ static int make_tree(tree *t, gltf *g)
     return t->order && t->parent && t->world && walk(t, g) && place_nodes(t, g);
 }
 
+/* Counts as the document has them. */
+static void count_facts(gltf *g)
+{
+    model_facts *facts = &g->b->out->facts;
+    uint32_t i;
+    facts->nodes = g->nodes.count;
+    facts->meshes = g->meshes.count;
+    facts->materials = g->materials.count;
+    facts->textures = g->textures.count;
+    facts->images = g->images.count;
+    facts->lights = g->lights.count;
+    facts->cameras = g->cameras.count;
+    facts->animations = json_count(&g->doc, json_member(&g->doc, 0, "animations"));
+    facts->skins = json_count(&g->doc, json_member(&g->doc, 0, "skins"));
+    for (i = 0; i < g->meshes.count; ++i)
+        facts->primitives += json_count(&g->doc, json_member(&g->doc, g->meshes.items[i], "primitives"));
+}
+
 static int load_document(gltf *g)
 {
     tree t;
@@ -570,6 +617,7 @@ static int load_document(gltf *g)
         !gltf_materials(g) || !add_instances(&t, g) || !add_lights(&t, g) || !add_cameras(&t, g))
         return 0;
     tell_left_out(g);
+    count_facts(g);
     return 1;
 }
 
@@ -580,6 +628,7 @@ int gltf_load(model_build *b, const uint8_t *data, size_t size)
     int ok;
     memset(&g, 0, sizeof g);
     g.b = b;
+    b->out->facts.format = size >= 4 && memcmp(data, "glTF", 4) == 0 ? "GLB" : "glTF";
     if (!gltf_container(&g, data, size))
         return 0;
     ok = load_document(&g);

@@ -39,7 +39,7 @@ static int read_sampler(lmb_texture *out, gltf *g, uint32_t texture)
     return 1;
 }
 
-/* The file's bytes of images[index], likely a PNG; `place` names it. The caller calls file_free.
+/* The file's bytes of images[index], likely a PNG or a JPEG; `place` names it. The caller calls file_free.
  * 0: see `why`, or g->b->r where the model itself is damaged. */
 static int image_bytes(gltf_bytes *out, file_bytes *file, char place[64], gltf *g, uint32_t index, report *why)
 {
@@ -52,10 +52,7 @@ static int image_bytes(gltf_bytes *out, file_bytes *file, char place[64], gltf *
     } else if (!gltf_item(&view, g, &g->views, reference) || !gltf_view(out, g, view)) {
         return 0;
     }
-    if (out->size < 2 || out->data[0] != 0xFF || out->data[1] != 0xD8)
-        return 1;
-    file_free(file);
-    return report_fail(why, "%s is a JPEG; convert it to PNG", place);
+    return 1;
 }
 
 /* images[index], decoded, with mips if wanted; kept in image_texels for the next texture that shows it. */
@@ -94,7 +91,7 @@ static int image_mean(double *out, gltf *g, uint32_t index, report *why)
     if (g->image_metal[index] < 0) {
         if (!image_bytes(&bytes, &file, place, g, index, why))
             return 0;
-        ok = png_decode(&map, bytes.data, bytes.size, place, why);
+        ok = build_picture(&map, bytes.data, bytes.size, place, why);
         file_free(&file);
         if (!ok)
             return 0;

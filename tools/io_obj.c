@@ -581,5 +581,8 @@ int obj_load(model_build *b, const uint8_t *data, size_t size)
     if (!make_materials(&o) || !make_meshes(&o))
         return 0;
     tell_left_out(&o);
+    b->out->facts.format = "OBJ";
+    b->out->facts.vertices = o.n.v;
+    b->out->facts.materials = o.names.count - 1; /* the first stands for faces before any name */
     return 1;
 }

@@ -5,13 +5,15 @@
 #include <lambent/lambent.h>
 
 #include "verb_compare.h"
+#include "verb_info.h"
 #include "verb_render.h"
 
 static const char usage[] =
     "usage: lambent VERB ...\n"
     "\n"
-    "  render SCENE -o OUT      draw a scene (.gltf .glb .obj, or the built-in `demo`) with bounced light\n"
+    "  render SCENE -o OUT      draw a scene (.gltf .glb .obj .ply, or the built-in `demo`) with bounced light\n"
     "  compare A B              error figures of a picture against a reference\n"
+    "  info FILE                what is in a scene or a picture\n"
     "\n"
     "  lambent VERB --help      what a verb takes\n"
     "  lambent --version\n";
@@ -28,6 +30,9 @@ int main(int argc, char **argv)
     }
     if (argc >= 2 && strcmp(argv[1], "compare") == 0) {
         return verb_compare(argc - 1, argv + 1);
+    }
+    if (argc >= 2 && strcmp(argv[1], "info") == 0) {
+        return verb_info(argc - 1, argv + 1);
     }
     if (argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 || strcmp(argv[1], "-h") == 0)) {
         fputs(usage, stdout);

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io_ply.h"
+#include "io_jpeg.h"
 #include "model_build.h"
 
 void model_free(model *m)
@@ -43,8 +45,10 @@ static void *add_block(model *m, uint64_t count, size_t size)
     if (count > SIZE_MAX / size || !reserve_block(m))
         return NULL;
     block = calloc((size_t)count, size);
-    if (block)
+    if (block) {
         m->blocks[m->block_count++] = block;
+        m->facts.memory_bytes += count * size;
+    }
     return block;
 }
 
@@ -92,6 +96,7 @@ int build_read(model_build *b, file_bytes *out, const char *path, report *r)
     if (!file_read(out, path, r))
         return 0;
     b->budget += (uint64_t)out->size * MODEL_BYTES_PER_BYTE;
+    b->out->facts.neighbour_bytes += out->size;
     return 1;
 }
 
@@ -135,17 +140,23 @@ static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, c
         return NULL;
     }
     b->texel_budget -= bytes;
+    b->out->facts.texel_bytes += bytes;
     memcpy(texels, map->texels, (size_t)map->width * (size_t)map->height * 4);
     return texels;
 }
 
-int build_texels(model_build *b, lmb_texture *out, const uint8_t *png, size_t size, int mips, const char *name,
+int build_picture(bitmap *out, const uint8_t *data, size_t size, const char *name, report *why)
+{
+    return (is_jpeg(data, size) ? jpeg_decode : png_decode)(out, data, size, name, why);
+}
+
+int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int mips, const char *name,
                  report *why)
 {
     bitmap map;
     int32_t levels;
     uint8_t *texels;
-    if (!png_decode(&map, png, size, name, why))
+    if (!build_picture(&map, data, size, name, why))
         return 0;
     levels = mips ? lmb_texture_level_count(map.width, map.height) : 1;
     texels = keep_texels(b, &map, levels, name, why);
@@ -189,6 +200,22 @@ static void note_far_away(model_build *b)
                    distance);
 }
 
+/* What a reader left to count: the file has what the scene has, each mesh of one piece. */
+static void count_facts(model_build *b)
+{
+    model_facts *facts = &b->out->facts;
+    uint64_t vertices = 0;
+    uint32_t i;
+    for (i = 0; i < b->mesh_count; ++i)
+        vertices += b->meshes[i].vertex_count;
+    if (facts->meshes == 0)
+        facts->meshes = facts->primitives = b->mesh_count;
+    if (facts->vertices == 0)
+        facts->vertices = vertices;
+    if (facts->textures == 0)
+        facts->textures = facts->images = b->texture_count;
+}
+
 static int finish(model_build *b)
 {
     lmb_scene *scene = &b->out->scene;
@@ -211,6 +238,7 @@ static int finish(model_build *b)
         return report_fail(b->r, "%s: the scene that was read is not sound (%s); please report this file", b->path,
                            lmb_status_name(status));
     note_far_away(b);
+    count_facts(b);
     return 1;
 }
 
@@ -226,19 +254,22 @@ static int has_extension(const char *path, const char *extension)
     return 1;
 }
 
-/* glTF by its magic, its extension or a first brace; OBJ, which has no mark, by its extension alone. */
+/* glTF by its magic, its extension or a first brace; PLY by its first line or its extension; OBJ, which has no mark,
+ * by its extension alone. */
 static int load_content(model_build *b, const file_bytes *file)
 {
     size_t i = 0;
     if (file->size >= 4 && memcmp(file->data, "glTF", 4) == 0)
         return gltf_load(b, file->data, file->size);
+    if (ply_begins(file->data, file->size) || has_extension(b->path, ".ply"))
+        return ply_load(b, file->data, file->size);
     if (has_extension(b->path, ".obj"))
         return obj_load(b, file->data, file->size);
     while (i < file->size && strchr(" \t\r\n", file->data[i]) && file->data[i])
         ++i;
     if (has_extension(b->path, ".gltf") || has_extension(b->path, ".glb") || (i < file->size && file->data[i] == '{'))
         return gltf_load(b, file->data, file->size);
-    return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb or .obj file", b->path);
+    return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj or .ply file", b->path);
 }
 
 int model_load(model *out, const char *path, model_notes *notes, report *r)
@@ -260,6 +291,8 @@ int model_load(model *out, const char *path, model_notes *notes, report *r)
     b.texel_budget = MODEL_TEXEL_BYTES;
     if (!build_read(&b, &file, path, r))
         return 0;
+    out->facts.file_bytes = file.size;
+    out->facts.neighbour_bytes = 0;
     ok = load_content(&b, &file) && finish(&b);
     file_free(&file);
     model_free(&b.scratch);

@@ -16,11 +16,39 @@ typedef struct model_camera {
     float near_m, far_m;           /* far_m 0: not given */
 } model_camera;
 
+/* What becomes of a glTF extension; one that the file requires and lambent does not know is an error instead. */
+enum { MODEL_EXTENSION_IGNORED = 0, MODEL_EXTENSION_READ, MODEL_EXTENSION_FOLDED /* into what is read anyhow */ };
+
+typedef struct model_extension {
+    char name[64];
+    int use; /* MODEL_EXTENSION_ */
+    int required;
+} model_extension;
+
+/* What the file itself holds, drawn or not. 0 also where its format has no such thing. */
+typedef struct model_facts {
+    const char *format;        /* "glTF", "GLB", "OBJ", "PLY", a literal; NULL: its reader does not say */
+    uint32_t nodes, meshes, primitives;
+    uint64_t vertices;         /* as stored (of an OBJ: its v lines), of the meshes that are read */
+    uint32_t materials;        /* without the one for what names none */
+    uint32_t textures, images;
+    uint32_t lights, cameras;  /* described; scene and cameras have those that are placed */
+    uint32_t animations, skins;
+    model_extension extensions[32];
+    uint32_t extension_count;  /* listed above */
+    uint32_t extension_more;   /* not listed for lack of room */
+    uint64_t file_bytes;       /* the model's file */
+    uint64_t neighbour_bytes;  /* other files read for it; one that is read twice counts twice */
+    uint64_t memory_bytes;     /* of `blocks` */
+    uint64_t texel_bytes;      /* the textures' part of that, mips included */
+} model_facts;
+
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
 typedef struct model {
     lmb_scene scene; /* checked: lmb_scene_check(&scene) == LMB_OK */
     model_camera *cameras;
     uint32_t camera_count;
+    model_facts facts;
     void **blocks; /* every allocation, for model_free */
     uint32_t block_count, block_cap;
 } model;
@@ -31,7 +59,7 @@ typedef struct model_notes {
     uint32_t count;
 } model_notes;
 
-/* model_load: .gltf, .glb or .obj by content and extension. Returns 1, or 0 with `r` set and *out empty. */
+/* model_load: .gltf, .glb, .obj or .ply by content and extension. Returns 1, or 0 with `r` set and *out empty. */
 int model_load(model *out, const char *path, model_notes *notes, report *r);
 void model_free(model *m);
 

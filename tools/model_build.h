@@ -7,7 +7,7 @@
 
 #define MODEL_BYTES_PER_BYTE 96                  /* memory a reader may take for each byte of input ... */
 #define MODEL_BYTES_FREE     (16u << 20)         /* ... beside these */
-#define MODEL_TEXEL_BYTES    (UINT64_C(1) << 32) /* of all decoded textures: PNG packs up to a thousandfold */
+#define MODEL_TEXEL_BYTES    (UINT64_C(1) << 32) /* of all decoded textures: files pack up to a thousandfold */
 #define MODEL_PATH_MAX       4096                /* bytes of a path that a reader composes */
 
 /* A scene under construction; the arrays are blocks of `out`. */
@@ -44,9 +44,12 @@ int build_is_relative(const char *name);
 /* build_sibling: the path of `name`, relative to the model's file; 0 with `r` set where it is longer than `cap`. */
 int build_sibling(char *out, size_t cap, const model_build *b, const char *name, report *r);
 
-/* build_texels: decode a PNG into out->texels, width, height and, if `mips`, all levels; `name` for messages.
+/* build_picture: decode a PNG or a JPEG, known by its first bytes. The caller calls bitmap_free. */
+int build_picture(bitmap *out, const uint8_t *data, size_t size, const char *name, report *why);
+
+/* build_texels: decode a picture into out->texels, width, height and, if `mips`, all levels; `name` for messages.
  * 0 with `why` set, which need not end the loading. */
-int build_texels(model_build *b, lmb_texture *out, const uint8_t *png, size_t size, int mips, const char *name,
+int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int mips, const char *name,
                  report *why);
 
 /* The readers: fill the arrays of `b`; first_id and bounds are set afterwards. 1, or 0 with b->r set. */

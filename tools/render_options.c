@@ -8,7 +8,7 @@
 const char render_usage[] =
     "usage: lambent render SCENE -o OUT [options]\n"
     "\n"
-    "SCENE  .gltf, .glb, .obj, or `demo`, a built-in room.   OUT  .png .ppm (display), .pfm .hdr (linear)\n"
+    "SCENE  .gltf, .glb, .obj, .ply, or `demo`, a built-in room.   OUT  .png .ppm (display), .pfm .hdr (linear)\n"
     "\n"
     "view\n"
     "  --size WxH                 picture, px (default: height 480, width by the camera's aspect)\n"

@@ -57,7 +57,7 @@ check "the same command writes the same bytes" cmp "$dir/demo.pfm" "$dir/again.p
 check "stats are JSON" grep -q '^{' "$dir/stats.json"
 
 # Help and version go to stdout.
-for ask in --help --version "render --help" "compare --help"; do
+for ask in --help --version "render --help" "compare --help" "info --help"; do
     status 0 $ask
     check "lambent $ask says something" test -s "$dir/out.txt"
 done
@@ -66,6 +66,16 @@ done
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm"
 status 0 render demo --size 32x24 --light-map 64 -o "$dir/half.pfm"
 status 3 compare "$dir/demo.pfm" "$dir/half.pfm"
+
+# info: a scene and pictures, as text and as one JSON object on one line.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$dir/one.obj"
+status 0 info "$dir/one.obj"
+check "info counts the triangle" grep -q '^triangles  *1 placed, 1 unique$' "$dir/out.txt"
+for file in one.obj demo.png demo.ppm demo.pfm; do
+    status 0 info "$dir/$file" --json
+    check "info $file --json is one line" test "$(wc -l <"$dir/out.txt")" -eq 1
+    check "info $file --json is an object" grep -q '^{.*}$' "$dir/out.txt"
+done
 
 # Bad usage.
 status 2
@@ -79,6 +89,9 @@ status 2 render demo -o "$dir/bad.png" --show nonsense
 status 2 render demo -o "$dir/bad.png" --size
 status 2 render demo -o "$dir/bad.tiff"
 status 2 compare "$dir/demo.pfm"
+status 2 info
+status 2 info "$dir/demo.pfm" "$dir/demo.png"
+status 2 info "$dir/demo.pfm" --no-such-flag
 absent "$dir/bad.png"
 
 # What cannot be done leaves nothing behind.
@@ -92,6 +105,9 @@ mkdir "$dir/folder.png"
 status 1 render demo $small -o "$dir/folder.png"
 check "folder.png stays an empty folder" rmdir "$dir/folder.png"
 status 1 compare "$dir/demo.pfm" "$dir/nowhere.pfm"
+status 1 info "$dir/nowhere.glb"
+status 1 info "$dir/broken.glb" --json
+status 1 info "$dir/nowhere.png"
 left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
 finish

@@ -1,0 +1,231 @@
+/* test_jpeg.c: JPEG pictures: every kind against another decoder's pixels, refusals, and what damaged files do. */
+#include "../test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tools/io_jpeg.h"
+
+#include "jpeg_samples.inc"
+
+void test_jpeg(void);
+
+typedef struct sample {
+    const char *name;
+    const uint8_t *jpeg;
+    size_t size;
+    int32_t width, height, channels;
+    const uint8_t *pixels;
+} sample;
+
+#define SAMPLE(name, width, height, channels) \
+    {#name, name##_jpeg, sizeof name##_jpeg, width, height, channels, name##_pixels}
+
+static const sample samples[] = {
+    SAMPLE(baseline_420, 17, 13, 3),
+    SAMPLE(baseline_444, 17, 13, 3),
+    SAMPLE(baseline_422, 19, 9, 3),
+    SAMPLE(baseline_440, 9, 19, 3),
+    SAMPLE(baseline_411, 35, 5, 3),
+    SAMPLE(chroma_wider, 11, 11, 3),
+    SAMPLE(grey, 17, 13, 1),
+    SAMPLE(one_pixel, 1, 1, 3),
+    SAMPLE(narrow, 3, 18, 3),
+    SAMPLE(rgb, 10, 7, 3),
+    SAMPLE(coarse_16_bit, 17, 13, 3),
+    SAMPLE(three_scans, 17, 13, 3),
+    SAMPLE(restarts, 33, 17, 3),
+    SAMPLE(progressive_420, 33, 17, 3),
+    SAMPLE(progressive_444, 17, 13, 3),
+    SAMPLE(progressive_restarts, 17, 13, 3),
+    SAMPLE(progressive_grey, 17, 13, 1),
+};
+enum { SAMPLES = sizeof samples / sizeof samples[0], SAMPLE_MAX = 2048 };
+
+/* --- one file --- */
+
+/* From a block of exactly that size, so that a sanitizer sees the first byte read behind it. */
+static int decode_copy(bitmap *map, const uint8_t *data, size_t size, report *r)
+{
+    uint8_t *copy = malloc(size > 0 ? size : 1);
+    int ok = 0;
+    r->text[0] = '\0';
+    if (!copy) report_fail(r, "out of memory");
+    if (copy) {
+        memcpy(copy, data, size);
+        ok = jpeg_decode(map, copy, size, "j", r);
+    }
+    free(copy);
+    return ok;
+}
+
+/* A picture, or a reason and nothing else. Returns whether it was a picture; 2 where it was neither. */
+static int ends_cleanly(const uint8_t *data, size_t size)
+{
+    bitmap map;
+    report r;
+    int ok;
+    memset(&map, 0, sizeof map);
+    ok = decode_copy(&map, data, size, &r);
+    if (ok != (r.text[0] == '\0') || ok != (map.texels != NULL) || ok != (map.width > 0 && map.height > 0)) ok = 2;
+    bitmap_free(&map);
+    return ok;
+}
+
+/* --- pixels --- */
+
+static int difference(const sample *s, const bitmap *map)
+{
+    int32_t i, k, most = 0;
+    for (i = 0; i < s->width * s->height; ++i) {
+        for (k = 0; k < 3; ++k) {
+            int32_t expected = s->pixels[s->channels * i + (s->channels == 1 ? 0 : k)];
+            int32_t d = abs(map->texels[4 * i + k] - expected);
+            if (d > most) most = d;
+        }
+        if (map->texels[4 * i + 3] != 255) return 256;
+    }
+    return most;
+}
+
+static void check_pixels(const sample *s)
+{
+    bitmap map;
+    report r;
+    int ok = decode_copy(&map, s->jpeg, s->size, &r);
+    CHECK_MSG(ok, "%s: %s", s->name, r.text);
+    if (!ok) return;
+    CHECK_MSG(map.width == s->width && map.height == s->height, "%s: %dx%d", s->name, (int)map.width, (int)map.height);
+    if (map.width == s->width && map.height == s->height)
+        CHECK_MSG(difference(s, &map) <= 1, "%s: off by %d", s->name, difference(s, &map));
+    bitmap_free(&map);
+}
+
+/* --- damage --- */
+
+static void check_prefixes(const sample *s)
+{
+    size_t n;
+    int wrong = 0;
+    for (n = 0; n < s->size; ++n) wrong += ends_cleanly(s->jpeg, n) != 0;
+    CHECK_MSG(wrong == 0, "%s: %d prefixes", s->name, wrong);
+}
+
+/* Each byte: all bits turned over, and one. */
+static void check_flips(const sample *s)
+{
+    uint8_t copy[SAMPLE_MAX];
+    size_t i;
+    int wrong = 0;
+    memcpy(copy, s->jpeg, s->size);
+    for (i = 0; i < s->size; ++i) {
+        copy[i] ^= 0xFF;
+        wrong += ends_cleanly(copy, s->size) == 2;
+        copy[i] ^= (uint8_t)(0xFFu ^ 1u << i % 8);
+        wrong += ends_cleanly(copy, s->size) == 2;
+        copy[i] = s->jpeg[i];
+    }
+    CHECK_MSG(wrong == 0, "%s: %d flips", s->name, wrong);
+}
+
+/* --- refusals --- */
+
+/* Offset of the first marker of that kind. */
+static size_t find(const sample *s, int marker)
+{
+    size_t i = 0;
+    while (i + 2 < s->size && (s->jpeg[i] != 0xFF || s->jpeg[i + 1] != marker)) ++i;
+    return i;
+}
+
+/* With the byte at `at` behind a marker replaced, s is refused with these words. */
+static void refuses(const sample *s, int marker, size_t at, int value, const char *words)
+{
+    uint8_t copy[SAMPLE_MAX];
+    bitmap map;
+    report r;
+    int ok;
+    memcpy(copy, s->jpeg, s->size);
+    copy[find(s, marker) + at] = (uint8_t)value;
+    ok = decode_copy(&map, copy, s->size, &r);
+    CHECK_MSG(!ok && strstr(r.text, words), "%s: %s", words, r.text);
+    if (ok) bitmap_free(&map);
+}
+
+enum { FRAME = 0xC0, CODES = 0xC4, SCAN = 0xDA, QUANTIZERS = 0xDB, RESTART = 0xD0 };
+
+static void check_methods(void)
+{
+    const sample *s = &samples[0];
+    refuses(s, FRAME, 1, 0xC3, "lossless");
+    refuses(s, FRAME, 1, 0xC5, "hierarchical");
+    refuses(s, FRAME, 1, 0xC9, "arithmetic-coded");
+    refuses(s, FRAME, 1, 0xCA, "arithmetic-coded");
+    refuses(s, FRAME, 1, 0xC8, "extension");
+    refuses(s, FRAME, 4, 12, "12 bits a sample are not read");
+    refuses(s, FRAME, 6, 0, "height is not in the header");
+    refuses(s, FRAME, 5, 0xFF, "cannot fill 17 x 65293 pixels");
+    refuses(s, FRAME, 9, 1, "cannot hold 15 bytes");
+    refuses(s, FRAME, 11, 0x32, "sampling factor 3");
+    refuses(s, FRAME, 11, 0x52, "a sampling factor or a table does not exist");
+    refuses(s, FRAME, 11, 0x44, "more than 10 blocks in turn");
+    refuses(s, 0xD8, 1, 0xD9, "not a JPEG file");
+}
+
+static void check_structure(void)
+{
+    const sample *s = &samples[0], *progressive = &samples[13], *restarts = &samples[12];
+    refuses(s, QUANTIZERS, 5, 0, "a quantizer is 0");
+    refuses(s, QUANTIZERS, 4, 4, "no such quantization table");
+    refuses(s, CODES, 4, 0x20, "no such Huffman table");
+    refuses(s, SCAN, 5, 9, "a component that the frame has not");
+    refuses(s, SCAN, 7, 1, "one component twice");
+    refuses(s, SCAN, 6, 0x33, "its Huffman table is not there");
+    refuses(s, SCAN, 11, 1, "no such part of a picture");
+    refuses(s, SCAN, 1, 0xDC, "a height (DNL)");
+    refuses(restarts, RESTART, 1, 0xD1, "no restart marker 0 at byte");
+    refuses(progressive, SCAN, 13, 0x21, "lacks the one before it");
+}
+
+/* CMYK: a frame header of four components, its length right; and a Huffman code with three symbols of one bit. */
+static void check_made(void)
+{
+    static const uint8_t cmyk[] = {0xFF, 0xD8, 0xFF, 0xC0, 0, 20, 8, 0, 8, 0, 8, 4, 1, 0x11, 0, 2, 0x11, 0, 3, 0x11, 0,
+                                   4, 0x11, 0, 0xFF, 0xD9};
+    static const uint8_t crowded[] = {0xFF, 0xD8, 0xFF, 0xC4, 0, 22, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+                                      0, 1, 2, 3, 0xFF, 0xD9};
+    bitmap map;
+    report r;
+    CHECK(!decode_copy(&map, cmyk, sizeof cmyk, &r) && strstr(r.text, "a CMYK picture; convert it to RGB"));
+    CHECK(!decode_copy(&map, crowded, sizeof crowded, &r) && strstr(r.text, "more Huffman codes than"));
+    CHECK(!decode_copy(&map, crowded, 2, &r) && strstr(r.text, "ends at byte 2, before EOI"));
+}
+
+/* Fill bytes before a marker, a comment, and bytes behind the end are all as if they were not there. */
+static void check_extras(void)
+{
+    static const uint8_t extra[] = {0xFF, 0xD8, 0xFF, 0xFF, 0xFF, 0xFE, 0, 5, 'a', 0xFF, 0xD9, 0xFF};
+    const sample *s = &samples[1];
+    uint8_t copy[SAMPLE_MAX];
+    sample with = *s;
+    memcpy(copy, extra, sizeof extra);
+    memcpy(copy + sizeof extra, s->jpeg + 2, s->size - 2);
+    copy[sizeof extra + s->size - 2] = 0;
+    with.jpeg = copy;
+    with.size = sizeof extra + s->size - 1;
+    check_pixels(&with);
+}
+
+void test_jpeg(void)
+{
+    int i;
+    for (i = 0; i < SAMPLES; ++i) {
+        check_pixels(&samples[i]);
+        check_prefixes(&samples[i]);
+        check_flips(&samples[i]);
+    }
+    check_methods();
+    check_structure();
+    check_made();
+    check_extras();
+}

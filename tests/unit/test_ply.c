@@ -1,0 +1,563 @@
+/* test_ply.c: the PLY reader: every encoding and type with exact values, hostile counts, damage, known files. */
+#if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
+#define _XOPEN_SOURCE 700 /* mkstemp */
+#endif
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#ifndef _WIN32
+#include <unistd.h>
+#endif
+
+#include "../../tools/model.h"
+#include "../test.h"
+
+void test_ply(void);
+
+enum { PATH_SIZE = 512, FILE_MAX = 4096 };
+
+static char path[PATH_SIZE]; /* of the one file that is written over and over */
+static model loaded;
+static model_notes notes;
+static report problem;
+
+/* --- files --- */
+
+static void open_path(void)
+{
+#ifdef _WIN32
+    strcpy(path, "lambent_test.ply");
+#else
+    const char *parent = getenv("TMPDIR");
+    int fd;
+    snprintf(path, sizeof path, "%.400s/lambent_ply_XXXXXX", parent && *parent ? parent : "/tmp");
+    fd = mkstemp(path);
+    CHECK_MSG(fd >= 0, "no temporary file %s", path);
+    if (fd >= 0)
+        close(fd);
+#endif
+}
+
+static int load_path(const char *name)
+{
+    model_free(&loaded);
+    memset(&problem, 0, sizeof problem);
+    return model_load(&loaded, name, &notes, &problem);
+}
+
+static int load(const void *data, size_t size)
+{
+    FILE *f;
+    remove(path); /* a new file is quicker than a truncated one, which some systems flush */
+    f = fopen(path, "wb");
+    CHECK_MSG(f && fwrite(data, 1, size, f) == size, "cannot write %s", path);
+    if (f)
+        fclose(f);
+    return load_path(path);
+}
+
+static int load_text(const char *text) { return load(text, strlen(text)); }
+
+static int noted(const char *part)
+{
+    uint32_t i;
+    for (i = 0; i < notes.count; ++i)
+        if (strstr(notes.line[i], part))
+            return 1;
+    return 0;
+}
+
+#define CHECK_LOADS(call) CHECK_MSG(call, "%s", problem.text)
+
+/* A failure is one line that holds `part`, and leaves nothing behind. */
+static void check_fails(int ok, const char *part)
+{
+    CHECK_MSG(!ok, "loaded, but should say: %s", part);
+    CHECK_MSG(strstr(problem.text, part) != NULL, "\"%s\" lacks \"%s\"", problem.text, part);
+    CHECK(loaded.block_count == 0 && loaded.scene.mesh_count == 0 && !loaded.blocks);
+}
+
+/* --- a file written in any encoding --- */
+
+enum { TEXT, LITTLE, BIG, ENCODINGS };
+static const char *const encodings[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+
+static const struct {
+    const char *name, *alias;
+    uint32_t size;
+    int is_float;
+} types[] = {
+    {"char", "int8", 1, 0}, {"uchar", "uint8", 1, 0}, {"short", "int16", 2, 0},   {"ushort", "uint16", 2, 0},
+    {"int", "int32", 4, 0}, {"uint", "uint32", 4, 0}, {"float", "float32", 4, 1}, {"double", "float64", 8, 1},
+};
+enum { TYPES = sizeof types / sizeof types[0], UCHAR = 1, INT = 4, FLOAT = 6, DOUBLE = 7 };
+
+typedef struct writer {
+    uint8_t bytes[FILE_MAX];
+    size_t size;
+    int encoding;
+} writer;
+
+static void put_string(writer *w, const char *s)
+{
+    memcpy(w->bytes + w->size, s, strlen(s));
+    w->size += strlen(s);
+}
+
+static void put(writer *w, int type, double v)
+{
+    const uint32_t n = types[type].size;
+    uint64_t bits = types[type].is_float ? 0 : (uint64_t)(int64_t)v;
+    char text[40];
+    uint32_t i;
+    if (w->encoding == TEXT) {
+        snprintf(text, sizeof text, "%.17g ", v);
+        put_string(w, text);
+        return;
+    }
+    if (type == FLOAT) {
+        const float f = (float)v;
+        uint32_t low;
+        memcpy(&low, &f, 4);
+        bits = low;
+    } else if (type == DOUBLE) {
+        memcpy(&bits, &v, 8);
+    }
+    for (i = 0; i < n; ++i)
+        w->bytes[w->size + (w->encoding == BIG ? n - 1 - i : i)] = (uint8_t)(bits >> 8 * i);
+    w->size += n;
+}
+
+static void end_item(writer *w)
+{
+    if (w->encoding == TEXT)
+        put_string(w, "\n");
+}
+
+static void begin(writer *w, int encoding)
+{
+    memset(w, 0, sizeof *w);
+    w->encoding = encoding;
+    put_string(w, "ply\nformat ");
+    put_string(w, encodings[encoding]);
+    put_string(w, " 1.0\ncomment element face 99\nobj_info a b c d e f g h\n");
+}
+
+static void put_property(writer *w, const char *type, const char *name)
+{
+    put_string(w, "property ");
+    put_string(w, type);
+    put_string(w, " ");
+    put_string(w, name);
+    put_string(w, "\n");
+}
+
+static void put_face(writer *w, int count_type, int type, int n, const int *corners)
+{
+    int i;
+    put(w, count_type, n);
+    for (i = 0; i < n; ++i)
+        put(w, type, corners[i]);
+}
+
+/* --- what was loaded --- */
+
+static const lmb_mesh *mesh(void) { return &loaded.scene.meshes[0]; }
+
+static int is_position(uint32_t v, double x, double y, double z)
+{
+    const float *p = (const float *)mesh()->positions + 3 * (size_t)v;
+    return (double)p[0] == x && (double)p[1] == y && (double)p[2] == z;
+}
+
+static int are_indices(const uint16_t *expected, uint32_t triangles)
+{
+    return mesh()->triangle_count == triangles && mesh()->index_format == LMB_INDEX_U16 &&
+           memcmp(mesh()->indices, expected, 3 * triangles * sizeof *expected) == 0;
+}
+
+static int is_colour(uint32_t v, int r, int g, int b, int a)
+{
+    const uint8_t *c = mesh()->colours ? mesh()->colours + 4 * (size_t)v : NULL;
+    return c && c[0] == r && c[1] == g && c[2] == b && c[3] == a;
+}
+
+static int is_normal(uint32_t v, double x, double y, double z)
+{
+    lmb_vec3 n;
+    if (!mesh()->normals)
+        return 0;
+    n = lmb_octahedral_decode(mesh()->normals + 2 * (size_t)v);
+    return fabs((double)n.x - x) + fabs((double)n.y - y) + fabs((double)n.z - z) < 2e-4;
+}
+
+/* --- every encoding and type --- */
+
+/* A quad with positions, corner counts and corner numbers of the given types. */
+static void check_types(int encoding, int position, int count, int index, int alias)
+{
+    static const int corners[4] = {0, 1, 2, 3};
+    static const uint16_t expected[6] = {0, 1, 2, 0, 2, 3};
+    const char *list = alias ? "vertex_index" : "vertex_indices";
+    char line[80];
+    writer w;
+    int i;
+    begin(&w, encoding);
+    put_string(&w, "element vertex 4\n");
+    for (i = 0; i < 3; ++i)
+        put_property(&w, alias ? types[position].alias : types[position].name, i == 0 ? "x" : i == 1 ? "y" : "z");
+    snprintf(line, sizeof line, "element face 1\nproperty list %s %s %s\nend_header\n",
+             alias ? types[count].alias : types[count].name, types[index].name, list);
+    put_string(&w, line);
+    for (i = 0; i < 4; ++i, end_item(&w)) {
+        put(&w, position, i == 1 || i == 2 ? 100 : 1);
+        put(&w, position, i >= 2 ? (position % 2 && position < FLOAT ? 3 : -3) : 2);
+        put(&w, position, types[position].is_float ? 0.25 : 7);
+    }
+    put_face(&w, count, index, 4, corners);
+    CHECK_LOADS(load(w.bytes, w.size));
+    if (!loaded.blocks)
+        return;
+    CHECK_MSG(are_indices(expected, 2), "%s %d %d %d", encodings[encoding], position, count, index);
+    CHECK(mesh()->vertex_count == 4 && is_position(0, 1, 2, types[position].is_float ? 0.25 : 7));
+    CHECK(is_position(2, 100, position % 2 && position < FLOAT ? 3 : -3, types[position].is_float ? 0.25 : 7));
+}
+
+static void all_types(void)
+{
+    int encoding, a, b;
+    for (encoding = 0; encoding < ENCODINGS; ++encoding)
+        for (a = 0; a < TYPES; ++a)
+            for (b = 0; b < TYPES; ++b)
+                check_types(encoding, a, b, (a + b) % TYPES, a & 1);
+}
+
+/* Numbers at the ends of their types. */
+static void extremes(void)
+{
+    static const double least[] = {-128, 0, -32768, 0, -2147483648.0, 0};
+    static const double most[] = {127, 255, 32767, 65535, 2147483520.0, 4294967040.0}; /* that a float holds, too */
+    static const int corners[3] = {0, 1, 2};
+    int encoding, type, i;
+    writer w;
+    for (encoding = 0; encoding < ENCODINGS; ++encoding)
+        for (type = 0; type < FLOAT; ++type) {
+            begin(&w, encoding);
+            put_string(&w, "element vertex 3\n");
+            for (i = 0; i < 3; ++i)
+                put_property(&w, types[type].name, i == 0 ? "x" : i == 1 ? "y" : "z");
+            put_string(&w, "element face 1\nproperty list uchar uchar vertex_indices\nend_header\n");
+            for (i = 0; i < 9; ++i, i % 3 ? (void)0 : end_item(&w))
+                put(&w, type, i % 2 ? least[type] : most[type]);
+            put_face(&w, UCHAR, UCHAR, 3, corners);
+            CHECK_LOADS(load(w.bytes, w.size));
+            CHECK(loaded.blocks && is_position(0, most[type], least[type], most[type]));
+            CHECK(loaded.blocks && is_position(1, least[type], most[type], least[type]));
+        }
+}
+
+/* Everything at once: faces before vertices, properties in odd order, elements and lists of no interest between. */
+static size_t put_all(writer *w, int encoding)
+{
+    static const int dart[4] = {0, 1, 2, 4}, two[2] = {0, 1}, three[3] = {0, 2, 1};
+    static const double places[6][3] = {{2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}, {1e6, 1e6, 1e6}, {0, 0, 0}, {9, 9, 9}};
+    int i;
+    size_t header;
+    begin(w, encoding);
+    put_string(w, "element face 3\nproperty uchar flags\nproperty list ushort int vertex_index\n"
+                  "property list uchar float texcoord\nelement edge 2\nproperty int vertex1\nproperty int vertex2\n"
+                  "element nothing 4000000000\nelement vertex 6\nproperty float confidence\nproperty float z\n"
+                  "property double y\nproperty float x\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                  "property uchar red\nproperty float green\nproperty ushort blue\nproperty uchar alpha\n"
+                  "property list uchar int links\nproperty float texture_u\nproperty float texture_v\n"
+                  "property float u\nend_header\n");
+    header = w->size;
+    for (i = 0; i < 3; ++i, end_item(w)) {
+        put(w, UCHAR, 9);
+        put_face(w, 3, INT, i == 0 ? 4 : i == 1 ? 2 : 3, i == 0 ? dart : i == 1 ? two : three);
+        put_face(w, UCHAR, FLOAT, i == 1 ? 0 : 3, three);
+    }
+    for (i = 0; i < 2; ++i, end_item(w))
+        put_face(w, INT, INT, 1, two);
+    for (i = 0; i < 6; ++i, end_item(w)) {
+        put(w, FLOAT, 0.125);
+        put(w, FLOAT, places[i][2]);
+        put(w, DOUBLE, places[i][1]);
+        put(w, FLOAT, places[i][0]);
+        put(w, FLOAT, 0);
+        put(w, FLOAT, i == 1 ? 0 : 3);
+        put(w, FLOAT, i == 1 ? 0 : 4);
+        put(w, UCHAR, 10 * i);
+        put(w, FLOAT, 0.5 * i);
+        put(w, 3, 257 * i);
+        put(w, UCHAR, 200 + i);
+        put_face(w, UCHAR, INT, i % 3, three);
+        put(w, FLOAT, 0.25 * i);
+        put(w, FLOAT, 0.25);
+        put(w, FLOAT, 7);
+    }
+    return header;
+}
+
+static void everything(int encoding)
+{
+    static const uint16_t plain[3] = {0, 2, 1};
+    writer w;
+    const float *uvs;
+    const uint16_t *at;
+    put_all(&w, encoding);
+    CHECK_LOADS(load(w.bytes, w.size));
+    if (!loaded.blocks)
+        return;
+    at = (const uint16_t *)mesh()->indices;
+    uvs = (const float *)mesh()->uvs;
+    CHECK(mesh()->vertex_count == 4 && mesh()->triangle_count == 3 && memcmp(at + 6, plain, sizeof plain) == 0);
+    CHECK(!(at[0] == 0 && at[1] == 1 && at[2] == 2)); /* the dart is cut at its dent */
+    CHECK(is_position(0, 2, 0, 0) && is_position(2, 0, 2, 0) && is_position(3, 0, 0, 0)); /* 3 and 5 are not used */
+    CHECK((double)loaded.scene.bounds_max.x == 2);
+    CHECK(is_normal(0, 0, 0.6, 0.8) && is_normal(1, 0, 1, 0) && noted("without length, set to +Y: 1"));
+    CHECK(is_colour(0, 0, 0, 0, 200) && is_colour(1, 10, 128, 1, 201) && is_colour(3, 40, 255, 4, 204));
+    CHECK(uvs && (double)uvs[6] == 1 && (double)uvs[7] == 0.75 && (double)uvs[2] == 0.25);
+    CHECK(noted("other than vertex and face skipped: 2") && noted("fewer than 3 corners skipped: 1"));
+    CHECK(noted("no face uses left out: 2"));
+    CHECK(loaded.scene.material_count == 1 && loaded.scene.materials[0].flags == LMB_DOUBLE_SIDED);
+    CHECK(loaded.scene.materials[0].albedo[0] == 0.8f && loaded.scene.materials[0].texture == -1);
+    CHECK(loaded.scene.instance_count == 1 && loaded.scene.instances[0].to_world.m[15] == 1);
+}
+
+/* --- text --- */
+
+#define HEAD  "ply\nformat ascii 1.0\n"
+#define XYZ   "property float x\nproperty float y\nproperty float z\n"
+#define FACES "property list uchar int vertex_indices\n"
+#define TRI   HEAD "element vertex 3\n" XYZ "element face 1\n" FACES "end_header\n"
+#define THREE "0 0 0\n1 0 0\n0 1 0\n"
+
+static void text_forms(void)
+{
+    static const uint16_t expected[3] = {0, 1, 2};
+    CHECK_LOADS(load_text(TRI THREE "3 0 1 2"));
+    CHECK(loaded.blocks && are_indices(expected, 1) && !mesh()->normals && !mesh()->colours && !mesh()->uvs);
+    CHECK_LOADS(load_text(TRI "\n \t\n0 0 0 \r\n+1.0 0e5 -0\r\n\n0 1 0\n\n3\t0 1 2.0\n\n \n"));
+    CHECK(loaded.blocks && are_indices(expected, 1) && is_position(1, 1, 0, 0));
+    CHECK_LOADS(load_text("ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float y\r\n"
+                          "property float z\r\nelement face 1\r\nproperty list int int vertex_index\r\nend_header\r\n"
+                          "0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n"));
+    CHECK(loaded.blocks && are_indices(expected, 1));
+    CHECK_LOADS(load_text(TRI "nan 0 0\n1e300 -1e300 inf\n0 1 0\n3 0 1 2\n")); /* the library drops the triangle */
+    CHECK(loaded.blocks && isnan(((const float *)mesh()->positions)[0]));
+    CHECK(loaded.blocks && isinf(((const float *)mesh()->positions)[3]));
+    CHECK_LOADS(load_text(HEAD "element vertex 3\n" XYZ "property float red\nelement face 1\n" FACES
+                               "end_header\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n"));
+    CHECK(loaded.blocks && !mesh()->colours); /* one channel alone is no colour */
+}
+
+static void many_vertices(void)
+{
+    const uint32_t n = 65537;
+    char *text = malloc(32 * (size_t)n + 400), *at = text;
+    uint32_t i;
+    CHECK(text != NULL);
+    if (!text)
+        return;
+    at += sprintf(at, HEAD "element vertex %u\n" XYZ "element face %u\n" FACES "end_header\n", (unsigned)n,
+                  (unsigned)(n - 2));
+    for (i = 0; i < n; ++i)
+        at += sprintf(at, "%u 0 0\n", (unsigned)(i % 10));
+    for (i = 0; i + 2 < n; ++i)
+        at += sprintf(at, "3 %u %u %u\n", (unsigned)i, (unsigned)i + 1, (unsigned)i + 2);
+    CHECK_LOADS(load(text, (size_t)(at - text)));
+    CHECK(loaded.blocks && mesh()->index_format == LMB_INDEX_U32 && mesh()->vertex_count == n);
+    CHECK(loaded.blocks && ((const uint32_t *)mesh()->indices)[3 * (n - 2) - 1] == 65536);
+    free(text);
+}
+
+/* --- what is refused --- */
+
+static const struct {
+    const char *text, *says;
+} bad[] = {
+    {"ply", "not a model"},
+    {"ply\n", "line 2: the file ends in its header"},
+    {"ply\nformat ascii 1.0\nend_header", "line 3: the file ends in its header"},
+    {"ply\nformat ascii 1.1\n", "line 2: not a format of PLY 1.0"},
+    {"ply\nformat binary 1.0\n", "line 2: not a format of PLY 1.0"},
+    {HEAD "format ascii 1.0\n", "line 3: a second format"},
+    {"ply\nelement vertex 1\n", "line 2: the format must come first"},
+    {HEAD "elements vertex 1\n", "line 3: \"elements\" is not a line of a PLY header"},
+    {HEAD "element vertex\n", "line 3: not an element's name and count"},
+    {HEAD "element vertex -1\n", "line 3: not an element's name and count"},
+    {HEAD "element vertex 4294967296\n", "line 3: not an element's name and count"},
+    {HEAD "element vertex 1 2\n", "line 3: not an element's"},
+    {HEAD "element vertex 1\nelement vertex 1\n", "line 4: a second element vertex"},
+    {HEAD "property float x\n", "line 3: a property before any element"},
+    {HEAD "element vertex 1\nproperty float\n", "line 4: not a property's type and name"},
+    {HEAD "element vertex 1\nproperty list uchar x\n", "line 4: not a property's type and name"},
+    {HEAD "element vertex 1\nproperty half x\n", "line 4: property x is of no type"},
+    {HEAD "element vertex 1\nproperty list uchar int x\n", "line 4: x must not be a list"},
+    {HEAD "element face 1\nproperty int vertex_index\n", "line 4: vertex_index must be a list"},
+    {HEAD "element vertex 1\n" XYZ "property int x\n", "line 7: a second property x"},
+    {HEAD "element face 1\n" FACES "property list int int vertex_index\n", "both vertex_indices and vertex_index"},
+    {HEAD "element vertex 1\nproperty list uchar int a b c\n", "more words"},
+    {HEAD "end_header\n", "no faces; points and lines are not drawn"},
+    {HEAD "element vertex 1\n" XYZ "end_header\n0 0 0\n", "no faces; points and lines are not drawn"},
+    {HEAD "element vertex 3\n" XYZ "element face 0\n" FACES "end_header\n" THREE, "no faces; points"},
+    {HEAD "element vertex 3\n" XYZ "element face 1\n" FACES "end_header\n" THREE "2 0 1\n", "no face has 3 corners"},
+    {HEAD "element vertex 3\nproperty float x\nproperty float z\nelement face 1\n" FACES "end_header\n",
+     "no property y"},
+    {HEAD "element vertex 3\n" XYZ "element face 1\nproperty int a\nend_header\n", "no list vertex_indices"},
+    {TRI THREE "3 0 1 3\n", "line 13: vertex number 3, but there are 3 from 0"},
+    {TRI THREE "3 0 1 -1\n", "line 13: vertex number -1"},
+    {TRI THREE "3 0 1 1.5\n", "line 13: 1.5 is not of the type int"},
+    {TRI THREE "3 0 1 2 3\n", "line 13: \"3\" is one value more"},
+    {TRI THREE "3 0 1\n", "line 13: fewer values"},
+    {TRI THREE "256 0 1 2\n", "line 13: 256 is not of the type uchar"},
+    {TRI THREE "-3 0 1 2\n", "line 13: -3 is not of the type uchar"},
+    {TRI THREE "200 0 1 2\n", "line 13: a list of 200 values, which is more than the rest"},
+    {TRI THREE "3 0 1 two\n", "line 13: \"two\" is not a number"},
+    {TRI "0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n", "line 11: \"x\" is not a number"},
+    {TRI "0 0 0\n1 0\n0 1 0\n3 0 1 2\n", "line 11: fewer values"},
+    {TRI "0 0 0\n1 0 0 0\n0 1 0\n3 0 1 2\n", "line 11: \"0\" is one value more"},
+    {TRI THREE "3 0 1 2\n3 0 1 2\n", "bytes behind the last element"},
+    {HEAD "element vertex 4000000000\n" XYZ "element face 1\n" FACES "end_header\n" THREE, "4000000000 elements"},
+    {HEAD "element vertex 3\n" XYZ "element face 4294967295\n" FACES "end_header\n" THREE "3 0 1 2\n",
+     "4294967295 elements, which is more than the rest"},
+};
+
+static void refuses(void)
+{
+    char *text = malloc(40 * 600 + 100), *at;
+    size_t i;
+    for (i = 0; i < sizeof bad / sizeof bad[0]; ++i)
+        check_fails(load_text(bad[i].text), bad[i].says);
+    CHECK(text != NULL);
+    for (i = 0; text && i < 2; ++i) {
+        int k;
+        at = text + sprintf(text, HEAD "element a 1\n");
+        for (k = 0; k < 600; ++k)
+            at += sprintf(at, i ? "element b%d 1\n" : "property int b%d\n", k);
+        check_fails(load_text(text), i ? "more than 32 elements" : "more than 512 properties");
+    }
+    free(text);
+}
+
+static void refuses_bytes(void)
+{
+    static const struct {
+        const char *header;
+        int count_type;
+        double count;
+        const char *says;
+    } hostile[] = {
+        {"element face 1\nproperty list int int vertex_indices\n", INT, -1, "a list of -1 values"},
+        {"element face 1\nproperty list uint int vertex_indices\n", 5, 4294967295.0, "more than the rest"},
+        {"element face 1\nproperty list double int vertex_indices\n", DOUBLE, 2.5, "a list of 2.5 values"},
+        {"element face 1\nproperty list double int vertex_indices\n", DOUBLE, 1e300, "a list of 1e+300 values"},
+        {"element face 1\nproperty list float double vertex_indices\n", FLOAT, (double)NAN, "a list of"},
+        {"element face 4294967295\nproperty list uchar char vertex_indices\n", UCHAR, 3, "4294967295 elements, which"},
+    };
+    size_t i, k;
+    writer w;
+    for (i = 0; i < 2 * (sizeof hostile / sizeof hostile[0]); ++i) {
+        begin(&w, i % 2 ? BIG : LITTLE);
+        put_string(&w, "element vertex 3\n" XYZ);
+        put_string(&w, hostile[i / 2].header);
+        put_string(&w, "end_header\n");
+        for (k = 0; k < 9; ++k)
+            put(&w, FLOAT, (double)k);
+        put(&w, hostile[i / 2].count_type, hostile[i / 2].count);
+        put(&w, INT, 0);
+        check_fails(load(w.bytes, w.size), hostile[i / 2].says);
+        CHECK(strstr(problem.text, ": byte ") != NULL);
+    }
+}
+
+/* --- damage --- */
+
+static void prefixes(int encoding)
+{
+    writer w;
+    size_t n;
+    put_all(&w, encoding);
+    while (encoding == TEXT && (w.bytes[w.size - 1] == '\n' || w.bytes[w.size - 1] == ' '))
+        --w.size; /* a text is whole without its last line's end */
+    CHECK_LOADS(load(w.bytes, w.size));
+    for (n = 0; n < w.size; ++n)
+        CHECK_MSG(!load(w.bytes, n) && problem.text[0] && !loaded.blocks, "%s: %d of %d bytes", encodings[encoding],
+                  (int)n, (int)w.size);
+}
+
+/* A byte changed gives another scene, a sound one, or a message. */
+static void damage(int encoding)
+{
+    static const uint8_t flips[] = {1, 16, 128, 255};
+    writer w;
+    size_t n, k;
+    put_all(&w, encoding);
+    for (n = 0; n < w.size; ++n)
+        for (k = 0; k < sizeof flips; ++k) {
+            w.bytes[n] ^= flips[k];
+            if (load(w.bytes, w.size))
+                CHECK(lmb_scene_check(&loaded.scene) == LMB_OK && lmb_scene_triangles(&loaded.scene) > 0);
+            else
+                CHECK(problem.text[0] != '\0' && !strstr(problem.text, "please report"));
+            w.bytes[n] ^= flips[k];
+        }
+}
+
+/* --- real files --- */
+
+static const struct {
+    const char *name;
+    uint32_t vertices, triangles;
+    int normals;
+} known[] = {
+    {"lucy_100k.ply", 50002, 100000, 0},
+    {"rhino_3k.ply", 1691, 2999, 1},
+    {"rhino_60k.ply", 34654, 60000, 1},
+    {"stanford_bunny_2k.ply", 1017, 1999, 1},
+};
+
+static void known_files(void)
+{
+    const char *shared = getenv("LMB_SHARED");
+    char name[PATH_SIZE];
+    size_t i;
+    FILE *f;
+    if (!shared || !*shared)
+        shared = "../shared";
+    for (i = 0; i < sizeof known / sizeof known[0]; ++i) {
+        snprintf(name, sizeof name, "%.400s/data/meshes/%s", shared, known[i].name);
+        f = fopen(name, "rb");
+        if (!f) {
+            SKIP("%s is not there (LMB_SHARED names the folder)", name);
+            continue;
+        }
+        fclose(f);
+        CHECK_LOADS(load_path(name));
+        CHECK_MSG(lmb_scene_triangles(&loaded.scene) == known[i].triangles, "%s: %u", name,
+                  (unsigned)lmb_scene_triangles(&loaded.scene));
+        CHECK(loaded.blocks && mesh()->vertex_count == known[i].vertices && !mesh()->normals == !known[i].normals);
+    }
+}
+
+void test_ply(void)
+{
+    int encoding;
+    open_path();
+    all_types();
+    extremes();
+    text_forms();
+    many_vertices();
+    refuses();
+    refuses_bytes();
+    for (encoding = 0; encoding < ENCODINGS; ++encoding) {
+        everything(encoding);
+        prefixes(encoding);
+        damage(encoding);
+    }
+    known_files();
+    model_free(&loaded);
+    remove(path);
+}

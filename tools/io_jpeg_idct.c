@@ -1,0 +1,158 @@
+/* io_jpeg_idct.c: from JPEG's coefficients to samples, and from samples to RGBA.
+ *
+ * Rounding follows the integer transform and the smooth upsampling that most decoders agree on (libjpeg's "islow" and
+ * "fancy"), so that a texture has the same bytes here as elsewhere. */
+#include "io_jpeg.h"
+
+#include <string.h>
+
+/* v / 2^n, rounded down; C99 leaves the right shift of negative numbers to the compiler. */
+static int64_t shift_down(int64_t v, int n)
+{
+    return v >= 0 ? v >> n : -((-v + ((int64_t)1 << n) - 1) >> n);
+}
+
+static uint8_t clamp_byte(int64_t v)
+{
+    return (uint8_t)(v < 0 ? 0 : v > 255 ? 255 : v);
+}
+
+/* --- inverse cosine transform --- */
+
+/* c(k) = sqrt(2) cos(k pi / 16); factors of 2^13, rounded. */
+#define DCT_BITS 13
+enum {
+    C6          = 4433,  /*  c6                   */
+    C2_LESS_C6  = 6270,  /*  c2 - c6              */
+    C2_PLUS_C6  = 15137, /*  c2 + c6              */
+    C3          = 9633,  /*  c3                   */
+    IN7         = 2446,  /* -c1 + c3 + c5 - c7    */
+    IN5         = 16819, /*  c1 + c3 - c5 + c7    */
+    IN3         = 25172, /*  c1 + c3 + c5 - c7    */
+    IN1         = 12299, /*  c1 + c3 - c5 - c7    */
+    IN7_AND_IN1 = 7373,  /*  c3 - c7              */
+    IN5_AND_IN3 = 20995, /*  c1 + c3              */
+    IN7_AND_IN3 = 16069, /*  c3 + c5              */
+    IN5_AND_IN1 = 3196   /*  c3 - c5              */
+};
+
+/* Eight values, scaled by sqrt(8) * 2^13 (Loeffler, Ligtenberg, Moschytz 1989: 12 multiplications), in place.
+ * Each pass grows them by less than 2^17; from 2^31 (a coefficient times a 16-bit quantizer) the first leaves 2^48,
+ * 2^37 after its rounding, the second 2^54. */
+static void transform_8(int64_t x[8])
+{
+    int64_t turn = (x[2] + x[6]) * C6, cosine = turn + x[2] * C2_LESS_C6, sine = turn - x[6] * C2_PLUS_C6;
+    int64_t sum = (x[0] + x[4]) * (1 << DCT_BITS), difference = (x[0] - x[4]) * (1 << DCT_BITS);
+    int64_t even[4], odd[4];
+    int64_t all = (x[1] + x[3] + x[5] + x[7]) * C3;
+    int64_t a = (x[7] + x[1]) * IN7_AND_IN1, b = (x[5] + x[3]) * IN5_AND_IN3;
+    int64_t c = all - (x[7] + x[3]) * IN7_AND_IN3, d = all - (x[5] + x[1]) * IN5_AND_IN1;
+    int i;
+
+    even[0] = sum + cosine;
+    even[1] = difference + sine;
+    even[2] = difference - sine;
+    even[3] = sum - cosine;
+    odd[0] = x[1] * IN1 - a + d;
+    odd[1] = x[3] * IN3 - b + c;
+    odd[2] = x[5] * IN5 - b + d;
+    odd[3] = x[7] * IN7 - a + c;
+    for (i = 0; i < 4; ++i) {
+        x[i] = even[i] + odd[i];
+        x[7 - i] = even[i] - odd[i];
+    }
+}
+
+/* One column of the block, with two more bits than the result needs. */
+static void transform_column(int64_t *out, const int16_t *block, const uint16_t *quant)
+{
+    int64_t x[8];
+    int i, any = 0;
+    for (i = 0; i < 8; ++i) {
+        x[i] = (int64_t)block[8 * i] * quant[8 * i];
+        any |= i > 0 && x[i] != 0;
+    }
+    if (!any) { /* what the formula gives, and most columns are so */
+        for (i = 0; i < 8; ++i) out[8 * i] = x[0] * 4;
+        return;
+    }
+    transform_8(x);
+    for (i = 0; i < 8; ++i) out[8 * i] = shift_down(x[i] + (1 << (DCT_BITS - 3)), DCT_BITS - 2);
+}
+
+void jpeg_inverse_dct(uint8_t *out, size_t stride, const int16_t block[64], const uint16_t quant[64])
+{
+    int64_t rows[64];
+    int i, k;
+    for (i = 0; i < 8; ++i) transform_column(rows + i, block + i, quant + i);
+    for (i = 0; i < 8; ++i, out += stride) {
+        int64_t *x = rows + 8 * i;
+        transform_8(x);
+        for (k = 0; k < 8; ++k) /* 2 extra bits, and 8 = sqrt(8) twice */
+            out[k] = clamp_byte(shift_down(x[k] + (1 << (DCT_BITS + 4)), DCT_BITS + 5) + 128);
+    }
+}
+
+/* --- upsampling --- */
+
+static const uint8_t *sample_row(const jpeg_component *c, uint32_t y)
+{
+    return c->samples + (size_t)y * c->blocks_x * 8;
+}
+
+/* Twice as wide: 3/4 of the nearer sample, 1/4 of the farther. With `tall` the same is done between the rows. */
+static void smooth_wider(uint8_t *out, const jpeg_component *c, const uint8_t *near, const uint8_t *far, int tall)
+{
+    uint32_t i, step = tall ? 3 : 1, shift = tall ? 4 : 2, to_left = tall ? 8 : 1, to_right = tall ? 7 : 2;
+    uint32_t left, here, right;
+    here = left = near[0] * step + (tall ? far[0] : 0u);
+    for (i = 0; i < c->width; ++i, left = here, here = right) {
+        uint32_t next = i + 1 < c->width ? i + 1 : i;
+        right = near[next] * step + (tall ? far[next] : 0u);
+        out[2 * i] = (uint8_t)((3 * here + left + to_left) >> shift);
+        out[2 * i + 1] = (uint8_t)((3 * here + right + to_right) >> shift);
+    }
+}
+
+/* Row y of the picture from one component. `out` has room for width + 4. */
+static void upsample_row(uint8_t *out, const jpeg_reader *j, const jpeg_component *c, uint32_t y)
+{
+    uint32_t wider = j->h_max / c->h, taller = j->v_max / c->v, row = y / taller, x, other = row;
+    const uint8_t *near = sample_row(c, row), *far;
+
+    if (y % taller) other = row + 1 < c->height ? row + 1 : row;
+    else if (row > 0) other = row - 1;
+    far = sample_row(c, other);
+    if (wider == 2 && taller <= 2 && c->width > 2) {
+        smooth_wider(out, c, near, far, taller == 2);
+    } else if (wider == 1 && taller == 2) {
+        for (x = 0; x < j->width; ++x) out[x] = (uint8_t)((3u * near[x] + far[x] + 1u + y % 2) >> 2);
+    } else {
+        for (x = 0; x < j->width; ++x) out[x] = near[x / wider];
+    }
+}
+
+/* --- colour --- */
+
+/* JFIF's YCbCr, factors of 2^16: 1.402, 0.34414, 0.71414, 1.772. */
+static void ycc_to_rgb(uint8_t *texel, int32_t y, int32_t cb, int32_t cr)
+{
+    const int32_t half = 1 << 15;
+    texel[0] = clamp_byte(y + shift_down(91881 * cr + half, 16));
+    texel[1] = clamp_byte(y + shift_down(half - 22554 * cb - 46802 * cr, 16));
+    texel[2] = clamp_byte(y + shift_down(116130 * cb + half, 16));
+}
+
+void jpeg_colour_rows(uint8_t *texels, const jpeg_reader *j, int is_ycc, uint8_t *rows)
+{
+    size_t pitch = (size_t)j->width + 4;
+    uint32_t x, y, k;
+    for (y = 0; y < j->height; ++y) {
+        for (k = 0; k < j->count; ++k) upsample_row(rows + k * pitch, j, &j->components[k], y);
+        for (x = 0; x < j->width; ++x, texels += 4) {
+            for (k = 0; k < 3; ++k) texels[k] = rows[(j->count == 1 ? 0 : k * pitch) + x];
+            if (is_ycc) ycc_to_rgb(texels, texels[0], texels[1] - 128, texels[2] - 128);
+            texels[3] = 255;
+        }
+    }
+}
