@@ -264,7 +264,7 @@ static void json_of_gltf(const char *path, size_t png_size)
 static void names_of_any_bytes(void)
 {
     const char *path = put_text("n\xC3 \xC0\xAF\xE2\x82\xAC.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    char wanted[PATH_SIZE];
+    char wanted[PATH_SIZE + 32];
     if (!read_json(path))
         return;
     snprintf(wanted, sizeof wanted, "%s/n\xEF\xBF\xBD \xEF\xBF\xBD\xEF\xBF\xBD\xE2\x82\xAC.obj", folder);
