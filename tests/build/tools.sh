@@ -2,7 +2,7 @@
 #
 # need: fails and names the missing commands with the Debian packages that have them.
 # install: installs what is missing where apt-get and the right to use it are there; says what stays missing.
-all="clang wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips arm-none-eabi-gcc
+all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips arm-none-eabi-gcc
     qemu-system-arm"
 
 packages_of() {
@@ -12,15 +12,28 @@ packages_of() {
     arm-none-eabi-gcc) echo gcc-arm-none-eabi ;;
     qemu-system-arm) echo qemu-system-arm ;;
     qemu-*) echo qemu-user ;;
+    clang-sanitizers) echo "libclang-rt-$(clang -dumpversion 2>/dev/null | cut -d. -f1)-dev" | sed 's/--/-14-/' ;;
     wasm-ld) echo lld ;;
     node) echo nodejs ;;
     *) echo "$1" ;;
     esac
 }
 
+# clang's sanitizers come in a package of their own: asked by linking a program with them.
+sanitizes() {
+    program=${TMPDIR:-/tmp}/sanitizes.$$
+    echo 'int main(void) { return 0; }' | clang -x c -fsanitize=address,undefined -o "$program" - >/dev/null 2>&1
+    found=$?
+    rm -f "$program"
+    return $found
+}
+
 missing() {
     for command in "$@"; do
-        command -v "$command" >/dev/null 2>&1 || echo "$command"
+        case $command in
+        clang-sanitizers) sanitizes || echo "$command" ;;
+        *) command -v "$command" >/dev/null 2>&1 || echo "$command" ;;
+        esac
     done
 }
 
