@@ -137,6 +137,25 @@ static void test_grouping_ends(void)
     }
 }
 
+/* A point in the plane of a near quad, lifted by a rounding, sees its edge: no light (bright specks, once). A point that
+ * truly stands over it sees half the sky full of it. */
+static void test_flat_quads(void)
+{
+    const lmb_vec3 up = {0, 1, 0}, u = {0.01f, 0, 0}, v = {0, 0, 0.01f}, centre = {3, 1, -2};
+    const lmb_vec3 tilted = {0.0998334f, 0.9950042f, 0}; /* 0.1 rad off the quad's: the next facet of a curve */
+    for (int i = -3; i <= 3; ++i) {
+        lmb_vec3 at = {3.002f, 1.0f + (float)i * 1e-6f, -2.003f};
+        CHECK(lmb_quad_factor(at, up, up, centre, up, u, v) == 0.0f);
+        CHECK(lmb_quad_factor(at, up, up, centre, up, v, u) == 0.0f);
+        /* Above the plane by rounding, under a face whose horizon dips below it: the whole quad would count. */
+        CHECK(lmb_quad_factor(at, tilted, tilted, centre, up, u, v) == 0.0f);
+        CHECK(lmb_quad_factor(at, tilted, tilted, centre, up, v, u) == 0.0f);
+    }
+    lmb_vec3 over = {3, 1.001f, -2}, down = {0, -1, 0};
+    float full = lmb_quad_factor(over, down, down, centre, up, u, v) * 4.0f * 1e-4f;
+    CHECK_MSG(full > 0.95f && full <= 1.0f, "%g", (double)full);
+}
+
 /* Doubling the light doubles every gathered pixel, however dim it is, black walls and all. */
 static void test_doubling(float watts, int method)
 {
@@ -172,6 +191,7 @@ void test_contracts(void)
     test_begin_refuses();
     test_raster_refuses();
     test_grouping_ends();
+    test_flat_quads();
     for (int method = LMB_GROUP_ZONES; method <= LMB_GROUP_GREEDY; ++method) {
         test_doubling(1000.0f, method);
         test_doubling(1.0f, method);
