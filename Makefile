@@ -44,6 +44,8 @@ LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+FUZZ_SRC   := $(filter-out %/main_fuzz.c %/main_replay.c,$(wildcard tests/fuzz/*.c))
+REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 
 LIB  := $(B)/liblambent.a
@@ -80,7 +82,8 @@ $(TOOL): $(TOOL_OBJ) $(LIB)
 $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
 $(B)/demo: $(DEMO_OBJ)
-$(TOOL) $(B)/tests $(B)/golden $(B)/demo:
+$(B)/replay: $(REPLAY_OBJ) $(LIB)
+$(TOOL) $(B)/tests $(B)/golden $(B)/demo $(B)/replay:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -103,11 +106,11 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ)))
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
-CHECKS ?= unit analytic truth golden floors symbols stack headers layout one tables readme cli tiny
+CHECKS ?= unit analytic truth golden replay floors symbols stack headers layout one tables readme cli tiny
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -117,7 +120,7 @@ IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(C
 check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
 	@sh tests/build/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
-$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden
+$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden $(B)/replay
 	+@$(PART) $* $(MAKE) $*
 
 unit analytic truth: $(B)/tests
@@ -125,6 +128,9 @@ unit analytic truth: $(B)/tests
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden
+
+replay: $(B)/replay ## the fuzz targets on their corpus
+	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
 
 floors: ## includes only go down the house's floors
 	@$(IN_SH) tests/build/floors.sh
@@ -155,7 +161,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-.PHONY: size room-sizes rom asan tiny run-demo cross install
+.PHONY: size room-sizes rom asan fuzz tiny run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS=-Os LDFLAGS=
@@ -168,8 +174,22 @@ rom: room-sizes
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit analytic truth golden readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
+	+@$(MAKE) check CHECKS="unit analytic truth golden replay readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+
+FUZZER    := $(BUILD)/fuzz/fuzz
+FUZZ_LINE := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
+FUZZ_ALL  := $(FUZZ_SRC) $(filter-out tools/lambent.c,$(TOOL_SRC)) $(LIB_SRC)
+TARGETS   ?= png jpeg hdr pfm ppm inflate json gltf obj mtl ply
+MINUTES   ?= 1
+fuzz: $(FUZZER) ## each parser under libFuzzer for MINUTES=1 of CPU (TARGETS="png gltf ...")
+	@sh tests/build/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
+
+$(FUZZER): tests/fuzz/main_fuzz.c $(FUZZ_ALL) $(wildcard tools/*.[hi]* src/*/*.[hi]* include/*/*.h tests/fuzz/*.h)
+	@sh tests/build/tools.sh need clang clang-sanitizers
+	@mkdir -p $(@D)
+	@echo "FUZZ $@"
+	@clang $(FUZZ_LINE) $(WARNINGS) -Wno-missing-prototypes $(EXACT) -Iinclude $(filter %.c,$^) -o $@
 
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/build/tiny.sh

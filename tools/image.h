@@ -33,6 +33,9 @@ typedef struct file_bytes {
 int file_read(file_bytes *out, const char *path, report *r);
 void file_free(file_bytes *file);
 
+/* file_is_plain: a regular file, or a link to one; no folder, device or pipe. */
+int file_is_plain(const char *path, report *r);
+
 /* file_write: write `size` bytes to `path`, whole or not at all: to a temporary file beside it, flushed and closed
  * with every error checked, then renamed over it. Existing special files (/dev/stdout, pipes) are written directly. */
 int file_write(const char *path, const void *data, size_t size, report *r);

@@ -19,6 +19,12 @@
 #include <unistd.h>
 #endif
 
+#ifdef _WIN32
+#define IS_KIND(s, kind) (((s).st_mode & _S_IFMT) == _S_IF##kind)
+#else
+#define IS_KIND(s, kind) (((s).st_mode & S_IFMT) == S_IF##kind)
+#endif
+
 #define FILE_MAX (UINT64_C(1) << 32)
 
 enum { FIRST_READ = 1 << 16, NAME_TRIES = 1000, SUFFIX_MAX = 40 };
@@ -84,6 +90,14 @@ int file_read(file_bytes *out, const char *path, report *r)
     data = realloc(out->data, out->size ? out->size : 1);
     if (data) out->data = data;
     return 1;
+}
+
+int file_is_plain(const char *path, report *r)
+{
+    struct stat s;
+    errno = 0;
+    if (stat(path, &s) != 0) return report_fail(r, "%s: cannot be opened: %s", path, reason());
+    return IS_KIND(s, REG) || report_fail(r, "%s: not a file", path);
 }
 
 /* --- writing --- */
@@ -274,12 +288,6 @@ int file_write(const char *path, const void *data, size_t size, report *r)
     return write_over(path, &s, data, size, r);
 }
 
-#endif
-
-#ifdef _WIN32
-#define IS_KIND(s, kind) (((s).st_mode & _S_IFMT) == _S_IF##kind)
-#else
-#define IS_KIND(s, kind) (((s).st_mode & S_IFMT) == S_IF##kind)
 #endif
 
 int file_can_write(const char *path, report *r)

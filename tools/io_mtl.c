@@ -119,7 +119,7 @@ static int read_statement(lmb_material *out, obj_material *m, model_build *b, sl
     return 1;
 }
 
-static int read_library(model_build *b, obj_names *names, cursor c)
+int mtl_read(model_build *b, obj_names *names, cursor c)
 {
     uint32_t current = UINT32_MAX, slot;
     slice word, name;
@@ -157,7 +157,7 @@ int mtl_load(model_build *b, obj_names *names, slice file)
         build_note(b, "no material library (%.150s); its materials are grey", why.text);
         return 1;
     }
-    ok = read_library(b, names, text_open(bytes.data, bytes.size, path));
+    ok = mtl_read(b, names, text_open(bytes.data, bytes.size, path));
     file_free(&bytes);
     return ok;
 }

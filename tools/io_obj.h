@@ -47,6 +47,7 @@ uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot); /* UINT32
 
 /* io_mtl.c: read one library into b->materials, which stands beside `names`; a missing one is a note. */
 int mtl_load(model_build *b, obj_names *names, slice file);
+int mtl_read(model_build *b, obj_names *names, cursor text); /* the same from memory */
 /* Load the textures that materials name, each file once, into b->textures. */
 int mtl_textures(model_build *b, obj_names *names);
 

@@ -93,7 +93,7 @@ void build_note(model_build *b, const char *format, ...)
 
 int build_read(model_build *b, file_bytes *out, const char *path, report *r)
 {
-    if (!file_read(out, path, r))
+    if (!file_is_plain(path, r) || !file_read(out, path, r))
         return 0;
     b->budget += (uint64_t)out->size * MODEL_BYTES_PER_BYTE;
     b->out->facts.neighbour_bytes += out->size;
@@ -272,31 +272,37 @@ static int load_content(model_build *b, const file_bytes *file)
     return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj or .ply file", b->path);
 }
 
-int model_load(model *out, const char *path, model_notes *notes, report *r)
+int model_read(model *out, const char *path, const uint8_t *data, size_t size, model_notes *notes, report *r)
 {
+    const file_bytes file = {(uint8_t *)data, size};
     model_build b;
-    file_bytes file;
     model_notes unread;
     int ok;
     memset(out, 0, sizeof *out);
     memset(&b, 0, sizeof b);
-    if (!notes)
-        notes = &unread;
-    notes->count = 0;
     b.out = out;
-    b.notes = notes;
+    b.notes = notes ? notes : &unread;
+    b.notes->count = 0;
     b.r = r;
     b.path = path;
-    b.budget = MODEL_BYTES_FREE;
+    b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
     b.texel_budget = MODEL_TEXEL_BYTES;
-    if (!build_read(&b, &file, path, r))
-        return 0;
-    out->facts.file_bytes = file.size;
-    out->facts.neighbour_bytes = 0;
+    out->facts.file_bytes = size;
     ok = load_content(&b, &file) && finish(&b);
-    file_free(&file);
     model_free(&b.scratch);
     if (!ok)
         model_free(out);
+    return ok;
+}
+
+int model_load(model *out, const char *path, model_notes *notes, report *r)
+{
+    file_bytes file;
+    int ok;
+    memset(out, 0, sizeof *out);
+    if (!file_read(&file, path, r))
+        return 0;
+    ok = model_read(out, path, file.data, file.size, notes, r);
+    file_free(&file);
     return ok;
 }

@@ -61,6 +61,11 @@ typedef struct model_notes {
 
 /* model_load: .gltf, .glb, .obj or .ply by content and extension. Returns 1, or 0 with `r` set and *out empty. */
 int model_load(model *out, const char *path, model_notes *notes, report *r);
+
+/* model_read: the same from memory; `path` names it in messages, tells the format where the content does not, and is
+ * where files beside it are looked for. */
+int model_read(model *out, const char *path, const uint8_t *data, size_t size, model_notes *notes, report *r);
+
 void model_free(model *m);
 
 #endif

@@ -35,7 +35,8 @@ void *build_scratch(model_build *b, uint64_t count, size_t size);
 /* build_note: a line for the user; equal lines appear once, the sixteenth says that there were more. */
 void build_note(model_build *b, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* build_read: a whole file, whose size raises the budget. The caller calls file_free. */
+/* build_read: a whole file beside the model, whose size raises the budget: a plain one, as what a model names may be
+ * a device that never ends. The caller calls file_free. */
 int build_read(model_build *b, file_bytes *out, const char *path, report *r);
 
 /* build_is_relative: is this a path from the model's folder: no scheme, no drive, no root? */

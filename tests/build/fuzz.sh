@@ -1,0 +1,48 @@
+# fuzz.sh: runs each fuzz target for some CPU minutes: fuzz.sh FUZZER FOLDER MINUTES [TARGET...]
+#
+# Starts from tests/fuzz/corpus and the sample data where that is; what is found to be of use is kept in FOLDER/TARGET
+# for the next run, findings in FOLDER/TARGET-crash-* and the like. Goes in slices, because the engine's own limit
+# counts time on the wall. Ends with a line `N passed, N failed, N skipped`.
+fuzzer=$1 folder=$2 minutes=$3
+shift 3
+shared=${LMB_SHARED:-../shared}
+slice=${SLICE:-120}
+
+# User seconds that the finished children of this shell took.
+spent() { times | awk 'NR == 2 { split($1, t, /[ms]/); print int(t[1] * 60 + t[2]) }'; }
+
+# Sample files that the target reads.
+samples() {
+    case $1 in
+    png) ls "$shared"/data/textures/*.png "$shared"/data/meshes/*.png ;;
+    hdr | pfm) ls "$shared"/data/env/*."$1" ;;
+    gltf) ls "$shared"/data/gltf/*.glb "$shared"/data/scenes/*.glb "$shared"/truth/*/*.gltf ;;
+    obj | mtl) ls "$shared"/data/scenes/*."$1" ;;
+    esac 2>/dev/null
+}
+
+run() {
+    options="-timeout=25 -rss_limit_mb=4000 -max_len=$((1 << 16)) -print_final_stats=0 -verbosity=0"
+    [ ! -f "tests/fuzz/$1.dict" ] || options="$options -dict=tests/fuzz/$1.dict"
+    mkdir -p "$folder/$1" "$folder/samples/$1"
+    for file in $(samples "$1"); do
+        [ "$(wc -c <"$file")" -gt 65536 ] || cp "$file" "$folder/samples/$1/"
+    done
+    begun=$(spent)
+    while [ $(($(spent) - begun)) -lt $((minutes * 60)) ]; do
+        "$fuzzer" "$1" $options -max_total_time=$slice -artifact_prefix="$folder/$1-" "$folder/$1" \
+            "tests/fuzz/corpus/$1" "$folder/samples/$1" >"$folder/$1.log" 2>&1 || return 1
+    done
+}
+
+passed=0 failed=0
+for target in "$@"; do
+    if run "$target"; then
+        passed=$((passed + 1)) verdict="no finding"
+    else
+        failed=$((failed + 1)) verdict="$(grep -m 1 -E 'SUMMARY|does not hold' "$folder/$target.log")"
+    fi
+    echo "$target: $(($(spent) - begun)) s of CPU, $(ls "$folder/$target" | wc -l) inputs kept: $verdict"
+done
+echo "$passed passed, $failed failed, 0 skipped"
+[ "$failed" = 0 ]
