@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "io_ply.h"
-#include "io_jpeg.h"
 #include "model_build.h"
+#include "picture_read.h"
 
 void model_free(model *m)
 {
@@ -147,7 +147,7 @@ static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, c
 
 int build_picture(bitmap *out, const uint8_t *data, size_t size, const char *name, report *why)
 {
-    return (is_jpeg(data, size) ? jpeg_decode : png_decode)(out, data, size, name, why);
+    return picture_read_codes(out, data, size, name, why);
 }
 
 int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int mips, const char *name,

@@ -8,14 +8,15 @@
 #include <string.h>
 
 #include "image.h"
-#include "io_ppm_read.h"
 #include "metrics.h"
+#include "picture_read.h"
 
 static const char help_text[] =
     "usage: lambent compare A B [--mask DEPTH.pfm] [--classes C.pfm] [--json] [--max KEY=V,...] [--heat OUT.png]\n"
     "\n"
-    "How far picture A is from the truth B. Each is a .pfm, .png or .ppm, known by its content; 8-bit files are sRGB\n"
-    "and are decoded to linear light for the error figures. A pixel of A that is not finite counts as black.\n"
+    "How far picture A is from the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, known by its content;\n"
+    "8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that is not finite\n"
+    "counts as black.\n"
     "\n"
     "  trim           relative RMSE (rmse / mean of B) without the worst 1 % of pixels\n"
     "  rmse           relative RMSE; n90: how many pixels carry 90 % of the squared error\n"
@@ -228,39 +229,16 @@ static int picture_from_image(picture *out, const image *in)
     return 1;
 }
 
-static int picture_decode_8bit(picture *out, const file_bytes *file, const char *path, report *r)
-{
-    bitmap map = {0, 0, NULL};
-    int is_ppm = file->data[0] == 'P';
-    if (!(is_ppm ? ppm_decode : png_decode)(&map, file->data, file->size, path, r))
-        return 0;
-    out->width = map.width;
-    out->height = map.height;
-    int ok = picture_from_bitmap(out, &map) || report_fail(r, "%s: memory is short for its pixels", path);
-    bitmap_free(&map);
-    return ok;
-}
-
-static int picture_decode_float(picture *out, const file_bytes *file, const char *path, report *r)
-{
-    image img = {0, 0, 0, NULL};
-    if (!pfm_decode(&img, file->data, file->size, path, r))
-        return 0;
-    out->width = img.width;
-    out->height = img.height;
-    int ok = picture_from_image(out, &img) || report_fail(r, "%s: memory is short for its pixels", path);
-    image_free(&img);
-    return ok;
-}
-
 static int picture_decode(picture *out, const file_bytes *file, const char *path, report *r)
 {
-    const uint8_t *d = file->data;
-    if (file->size >= 2 && d[0] == 'P' && (d[1] == 'F' || d[1] == 'f'))
-        return picture_decode_float(out, file, path, r);
-    if (file->size >= 2 && ((d[0] == 'P' && d[1] == '6') || (d[0] == 0x89 && d[1] == 'P')))
-        return picture_decode_8bit(out, file, path, r);
-    return report_fail(r, "%s: not a .pfm, .png or binary .ppm picture", path);
+    stored_picture stored;
+    if (!picture_read(&stored, file->data, file->size, path, r))
+        return 0;
+    out->width = stored.width;
+    out->height = stored.height;
+    int ok = stored.codes.texels ? picture_from_bitmap(out, &stored.codes) : picture_from_image(out, &stored.light);
+    stored_picture_free(&stored);
+    return ok || report_fail(r, "%s: memory is short for its pixels", path);
 }
 
 static int picture_load(picture *out, const char *path, report *r)

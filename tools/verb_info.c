@@ -8,14 +8,15 @@
 #include <string.h>
 
 #include "image.h"
-#include "io_ppm_read.h"
 #include "model.h"
 #include "picture.h"
+#include "picture_read.h"
 
 static const char help_text[] =
     "usage: lambent info FILE [--json]\n"
     "\n"
-    "What is in a scene that `lambent render` reads, or in a picture (.png .ppm .pfm .hdr, by its ending).\n"
+    "What is in a scene that `lambent render` reads, or in a picture: PNG, JPEG, PPM, PGM,\n"
+    "PFM or Radiance HDR, known by its content.\n"
     "\n"
     "  nodes meshes      as the file has them, with the meshes' primitives\n"
     "  instances         primitives placed in the world\n"
@@ -30,8 +31,8 @@ static const char help_text[] =
     "  bytes             the file, others read for it, and memory when loaded\n"
     "  notes             what the reader left out or replaced\n"
     "\n"
-    "Pictures: least, largest and mean value of each channel as stored: codes 0 to 255 (PNG of 16 bits: their high\n"
-    "byte; palettes resolved), or linear light; values that are not finite are counted and left out.\n"
+    "Pictures: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high byte;\n"
+    "palettes resolved), or linear light; values that are not finite are counted and left out.\n"
     "\n"
     "  --json            one object on one line\n"
     "\n"
@@ -371,12 +372,12 @@ static void json_scene(FILE *out, const char *path, const model *m, const summar
     fputs("]}\n", out);
 }
 
-static int scene_info(FILE *out, const options *o, report *r)
+static int scene_info(FILE *out, const options *o, const file_bytes *file, report *r)
 {
     model_notes notes;
     model m;
     summary s;
-    if (!model_load(&m, o->path, &notes, r))
+    if (!model_read(&m, o->path, file->data, file->size, &notes, r))
         return 0;
     int ok = summarize(&s, &m) || report_fail(r, "%s: memory is short for its materials", o->path);
     if (ok)
@@ -404,8 +405,6 @@ static void add_value(picture_facts *p, int k, double v)
 static void measure_codes(picture_facts *p, const bitmap *map)
 {
     const size_t pixels = (size_t)map->width * (size_t)map->height;
-    p->width = map->width;
-    p->height = map->height;
     for (size_t i = 0; i < pixels; ++i)
         for (int k = 0; k < p->channels; ++k)
             add_value(p, k, map->texels[4 * i + (size_t)(p->channels == 2 && k == 1 ? 3 : k)]);
@@ -414,52 +413,27 @@ static void measure_codes(picture_facts *p, const bitmap *map)
 static void measure_floats(picture_facts *p, const image *img)
 {
     const size_t pixels = (size_t)img->width * (size_t)img->height, n = (size_t)img->channels;
-    p->width = img->width;
-    p->height = img->height;
-    p->channels = img->channels;
-    p->linear = 1;
     for (size_t i = 0; i < pixels; ++i)
         for (size_t k = 0; k < n; ++k)
             add_value(p, (int)k, (double)img->pixels[n * i + k]);
 }
 
-static int has_holes(const bitmap *map)
-{
-    const size_t pixels = (size_t)map->width * (size_t)map->height;
-    for (size_t i = 0; i < pixels; ++i)
-        if (map->texels[4 * i + 3] != 255)
-            return 1;
-    return 0;
-}
-
-/* Byte 25 of a PNG that was decoded is its colour type: 0 grey, 2 RGB, 3 palette, 4 grey and alpha, 6 RGBA. A colour
- * or palette entry that tRNS makes transparent adds an alpha channel where a pixel shows it. */
-static int png_channels(const uint8_t *data, const bitmap *map)
-{
-    const int type = data[25], colours = type == 0 || type == 4 ? 1 : 3;
-    return colours + (type >= 4 || has_holes(map));
-}
-
 static int measure_picture(picture_facts *p, const file_bytes *file, const char *path, report *r)
 {
-    static const char *const names[] = {"", "PNG", "PPM", "PFM", "HDR"};
-    const int format = picture_format(path);
-    image img = {0, 0, 0, NULL};
-    bitmap map = {0, 0, NULL};
-    p->format = names[format];
-    p->bytes = file->size;
-    if (picture_is_linear(format)) {
-        if (!(format == PICTURE_PFM ? pfm_decode : hdr_decode)(&img, file->data, file->size, path, r))
-            return 0;
-        measure_floats(p, &img);
-        image_free(&img);
-        return 1;
-    }
-    if (!(format == PICTURE_PNG ? png_decode : ppm_decode)(&map, file->data, file->size, path, r))
+    stored_picture stored;
+    if (!picture_read(&stored, file->data, file->size, path, r))
         return 0;
-    p->channels = format == PICTURE_PNG ? png_channels(file->data, &map) : 3;
-    measure_codes(p, &map);
-    bitmap_free(&map);
+    p->format = stored.format;
+    p->bytes = file->size;
+    p->width = stored.width;
+    p->height = stored.height;
+    p->channels = stored.channels;
+    p->linear = stored.light.pixels != NULL;
+    if (p->linear)
+        measure_floats(p, &stored.light);
+    else
+        measure_codes(p, &stored.codes);
+    stored_picture_free(&stored);
     return 1;
 }
 
@@ -512,17 +486,25 @@ static void json_picture(FILE *out, const char *path, const picture_facts *p)
     fputs("]}\n", out);
 }
 
-static int picture_info(FILE *out, const options *o, report *r)
+static int picture_info(FILE *out, const options *o, const file_bytes *file, report *r)
 {
-    file_bytes file = {NULL, 0};
     picture_facts p;
     memset(&p, 0, sizeof p);
+    if (!measure_picture(&p, file, o->path, r))
+        return 0;
+    (o->json ? json_picture : text_picture)(out, o->path, &p);
+    return 1;
+}
+
+/* A file that is read once, so that a pipe will do. What does not show its kind is what its name says. */
+static int file_info(FILE *out, const options *o, report *r)
+{
+    file_bytes file = {NULL, 0};
     if (!file_read(&file, o->path, r))
         return 0;
-    int ok = measure_picture(&p, &file, o->path, r);
+    int is_picture = picture_begins(file.data, file.size) || picture_format(o->path) != PICTURE_UNKNOWN;
+    int ok = (is_picture ? picture_info : scene_info)(out, o, &file, r);
     file_free(&file);
-    if (ok)
-        (o->json ? json_picture : text_picture)(out, o->path, &p);
     return ok;
 }
 
@@ -557,7 +539,7 @@ int info_to(FILE *out, FILE *err, int argc, char **argv)
         return status;
     if (o.help)
         fputs(help_text, out);
-    else if (!(picture_format(o.path) != PICTURE_UNKNOWN ? picture_info : scene_info)(out, &o, &r))
+    else if (!file_info(out, &o, &r))
         return complain(err, INFO_FAILED, "%s", r.text);
     if (fflush(out) != 0 || ferror(out))
         return complain(err, INFO_FAILED, "the figures could not be written");

@@ -18,6 +18,7 @@ enum { LMB_INDEX_NONE = 0, /* vertices in order, three a triangle */
 typedef struct lmb_mesh {
     const void *positions;
     const int16_t *normals;  /* octahedral, two a vertex (lmb_octahedral_encode); NULL: flat shading */
+    const int16_t *tangents; /* octahedral, towards larger u, for normal maps; NULL: each triangle's own */
     const void *uvs;         /* NULL: no texture coordinates, (0, 0) */
     const uint8_t *colours;  /* RGBA8, linear, multiplies the albedo; NULL: white */
     const void *indices;     /* uint16 or uint32; NULL with LMB_INDEX_NONE */
@@ -31,8 +32,9 @@ typedef struct lmb_mesh {
 enum { LMB_WRAP_REPEAT = 0, LMB_WRAP_CLAMP = 1, LMB_WRAP_MIRROR = 2 };
 enum { LMB_NEAREST = 0, LMB_BILINEAR = 1, LMB_TRILINEAR = 2 };
 
-/* Base colour image: RGBA8, colour sRGB-coded, alpha linear; level 0 first, each next level half the size (floor,
- * at least 1), tightly packed. lmb_texture_mips fills the levels. */
+/* An image: RGBA8; level 0 first, each next level half the size (floor, at least 1), tightly packed. A base colour is
+ * sRGB-coded with linear alpha: lmb_texture_mips fills its levels. A normal map is glTF's: R G B = 0 .. 255 stand for
+ * -1 .. 1 towards larger u, smaller v, and out of the surface: lmb_normal_map_mips fills its levels. */
 typedef struct lmb_texture {
     const uint8_t *texels;
     uint16_t width, height; /* of level 0; 1 .. LMB_MAX_SIDE, any size */
@@ -51,6 +53,8 @@ typedef struct lmb_material {
     float alpha_cutoff;
     int32_t texture;    /* index into scene->textures, or -1 */
     uint32_t flags;
+    uint32_t normal_map; /* index into scene->textures, where normal_scale is not 0 */
+    float normal_scale;  /* times the map's x and y; 0: no normal map */
 } lmb_material;
 
 /* A mesh placed in the world. Triangle t of it has the id first_id + t, in the draw order of the scene; the first
@@ -114,6 +118,9 @@ int32_t lmb_texture_level_count(int32_t width, int32_t height);
 /* lmb_texture_mips: fill levels 1.. from level 0 by a 2x2 box in linear light (alpha-weighted colour).
  * `texels` holds lmb_texture_bytes. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
+
+/* lmb_normal_map_mips: the same by plain means of the codes. */
+lmb_status lmb_normal_map_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels);
 
 /* lmb_octahedral_encode / _decode: unit vector <-> two int16 (Meyer et al. 2010); error under 4.4e-5 rad. */
 void lmb_octahedral_encode(int16_t out[2], lmb_vec3 unit);

@@ -25,9 +25,11 @@ size_t lmb_texture_bytes(int32_t width, int32_t height, int32_t levels)
     return texels * 4;
 }
 
+typedef void (*mean_of_four)(uint8_t out[4], const uint8_t *const from[4]);
+
 /* Mean of four texels: colour weighted by alpha, so that what is invisible does not bleed; where all four are
  * invisible, by 1 each. Alpha is linear: a rounded integer mean. */
-static void box_texel(uint8_t out[4], const uint8_t *const from[4])
+static void mean_colour(uint8_t out[4], const uint8_t *const from[4])
 {
     int32_t i, k, weight, weights = 0, alpha = from[0][3] + from[1][3] + from[2][3] + from[3][3];
     float sum[3] = {0.0f, 0.0f, 0.0f};
@@ -42,9 +44,17 @@ static void box_texel(uint8_t out[4], const uint8_t *const from[4])
     out[3] = (uint8_t)((alpha + 2) / 4);
 }
 
+/* Codes as they are, rounded: what looks a vector up makes it unit length. */
+static void mean_vector(uint8_t out[4], const uint8_t *const from[4])
+{
+    int32_t k;
+    for (k = 0; k < 4; ++k)
+        out[k] = (uint8_t)((from[0][k] + from[1][k] + from[2][k] + from[3][k] + 2) / 4);
+}
+
 /* One level from the one above it. A side halves rounding down, so an odd one's last texel has no part in it, and a
  * side of 1 is read twice. */
-static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t height)
+static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t height, mean_of_four mean)
 {
     int32_t x, y, to_width = maxi(width >> 1, 1), to_height = maxi(height >> 1, 1);
     for (y = 0; y < to_height; ++y) {
@@ -57,12 +67,12 @@ static void half_level(uint8_t *to, const uint8_t *from, int32_t width, int32_t 
             box[1] = row0 + x1;
             box[2] = row1 + x0;
             box[3] = row1 + x1;
-            box_texel(to, box);
+            mean(to, box);
         }
     }
 }
 
-lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels)
+static lmb_status fill_levels(uint8_t *texels, int32_t width, int32_t height, int32_t levels, mean_of_four mean)
 {
     int32_t i;
     if (!texels || lmb_texture_bytes(width, height, levels) == 0)
@@ -70,8 +80,18 @@ lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int3
     for (i = 1; i < levels; ++i) {
         int32_t from_width = maxi(width >> (i - 1), 1), from_height = maxi(height >> (i - 1), 1);
         uint8_t *to = texels + (size_t)from_width * (size_t)from_height * 4;
-        half_level(to, texels, from_width, from_height);
+        half_level(to, texels, from_width, from_height, mean);
         texels = to;
     }
     return LMB_OK;
+}
+
+lmb_status lmb_texture_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels)
+{
+    return fill_levels(texels, width, height, levels, mean_colour);
+}
+
+lmb_status lmb_normal_map_mips(uint8_t *texels, int32_t width, int32_t height, int32_t levels)
+{
+    return fill_levels(texels, width, height, levels, mean_vector);
 }

@@ -30,8 +30,8 @@ static lmb_status check_mesh(const lmb_mesh *m)
         return LMB_ERR_ARG;
     if (m->triangle_count && m->index_format != LMB_INDEX_NONE && !m->indices)
         return LMB_ERR_ARG;
-    if (!is_aligned(m->positions) || !is_aligned(m->normals) || !is_aligned(m->uvs) || !is_aligned(m->colours) ||
-        !is_aligned(m->indices))
+    if (!is_aligned(m->positions) || !is_aligned(m->normals) || !is_aligned(m->tangents) || !is_aligned(m->uvs) ||
+        !is_aligned(m->colours) || !is_aligned(m->indices))
         return LMB_ERR_ALIGN;
     if (m->position_format == LMB_POSITION_I16 && !(is_finite3(m->position_scale) && is_finite3(m->position_offset)))
         return LMB_ERR_ARG;
@@ -57,8 +57,10 @@ static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
 {
     if (m->albedo[0] < 0.0f || m->albedo[1] < 0.0f || m->albedo[2] < 0.0f)
         return LMB_ERR_ARG;
-    if (!are_finite(m->albedo, 3) || !is_finite(m->alpha) || !is_finite(m->alpha_cutoff))
+    if (!are_finite(m->albedo, 3) || !is_finite(m->alpha) || !is_finite(m->alpha_cutoff) || !is_finite(m->normal_scale))
         return LMB_ERR_ARG;
+    if (m->normal_scale != 0.0f && m->normal_map >= texture_count)
+        return LMB_ERR_SCENE;
     if (m->texture < -1 || (m->texture >= 0 && (uint32_t)m->texture >= texture_count))
         return LMB_ERR_SCENE;
     return LMB_OK;

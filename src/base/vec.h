@@ -57,4 +57,11 @@ static inline lmb_vec3 transform_point(const lmb_mat4 *t, lmb_vec3 p)
                 m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14]);
 }
 
+/* Does the transform turn left into right, and so the front of a triangle into its back? */
+static inline int is_mirrored(const lmb_mat4 *t)
+{
+    const float *m = t->m;
+    return dot3(cross3(vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6])), vec3(m[8], m[9], m[10])) < 0.0f;
+}
+
 #endif

@@ -45,6 +45,12 @@ static inline lmb_vec3 mesh_normal(const lmb_mesh *m, uint32_t vertex)
     return m->normals ? lmb_octahedral_decode(m->normals + (size_t)vertex * 2) : vec3(0.0f, 0.0f, 0.0f);
 }
 
+/* Unit vector towards larger u, model space, of a mesh that has the stream. */
+static inline lmb_vec3 mesh_tangent(const lmb_mesh *m, uint32_t vertex)
+{
+    return lmb_octahedral_decode(m->tangents + (size_t)vertex * 2);
+}
+
 /* Linear RGBA, 0 .. 1; white without a stream. */
 static inline void mesh_colour(const lmb_mesh *m, uint32_t vertex, float out[4])
 {

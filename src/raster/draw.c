@@ -34,12 +34,6 @@ static void set_row(float row[4], lmb_vec3 axis, float sign, const lmb_mat4 *t, 
     row[3] = dot3(a, sub3(vec3(m[12], m[13], m[14]), eye));
 }
 
-static int is_mirrored(const lmb_mat4 *t)
-{
-    const float *m = t->m;
-    return dot3(cross3(vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6])), vec3(m[8], m[9], m[10])) < 0.0f;
-}
-
 static void set_instance(draw_instance *d, const lmb_scene *scene, const lmb_instance *instance, const lmb_view *view,
                          uint32_t flags)
 {

@@ -37,10 +37,12 @@ static void fill_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, co
     lmb_fill_tile aside = *tile;
     lmb_resolve_job surface;
     lmb_resolve_alpha alpha;
+    lmb_triangle triangle;
     int32_t bytes = tile->depth_format == LMB_DEPTH16 ? 2 : 4, id_bytes = tile->id_format == LMB_ID16 ? 2 : 4;
-    if (!lmb_resolve_setup(&surface, &alpha, c->view, c->scene, job->id, x, y)) {
+    if (!lmb_triangle_fetch(&triangle, c->scene, job->id)) {
         return;
     }
+    lmb_resolve_setup(&surface, &alpha, c->view, &triangle, x, y);
     aside.depth = &copy.depth;
     aside.depth_step = LMB_TILE;
     copy_rows(&copy.depth, LMB_TILE, tile->depth, tile->depth_step, bytes);

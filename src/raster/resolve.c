@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#include "../base/poly.h"
 #include "../base/vertex.h"
+#include "paint.h"
 #include "target.h"
 #include "texture.h"
 
@@ -80,22 +80,16 @@ static void set_corners(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lm
     alpha->texture = t->material->texture;
 }
 
-int lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_scene *scene,
-                      uint32_t id, int32_t x, int32_t y)
+void lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_triangle *t,
+                       int32_t x, int32_t y)
 {
-    lmb_triangle t;
-    if (!lmb_triangle_fetch(&t, scene, id)) {
-        return 0;
-    }
-    job->id = id;
+    job->id = t->id;
     set_rays(job, view, x, y);
-    set_plane(job, &t, view);
-    set_corners(job, alpha, &t);
-    return 1;
+    set_plane(job, t, view);
+    set_corners(job, alpha, t);
 }
 
-/* Barycentrics of the triangle's plane under tile pixel (x, y), not clamped: for derivatives and holes. */
-static void plane_point(float *b1, float *b2, const lmb_resolve_job *job, float x, float y)
+void lmb_resolve_point(float *b1, float *b2, const lmb_resolve_job *job, float x, float y)
 {
     lmb_vec3 origin = add3(job->origin, add3(mul3(job->ox, x), mul3(job->oy, y)));
     lmb_vec3 ray = add3(job->direction, add3(mul3(job->rx, x), mul3(job->ry, y)));
@@ -106,19 +100,15 @@ static void plane_point(float *b1, float *b2, const lmb_resolve_job *job, float 
     *b2 = dot3(q, job->g2);
 }
 
-static float mix3(const float corner[3], float b1, float b2)
-{
-    return corner[0] + ((corner[1] - corner[0]) * b1 + (corner[2] - corner[0]) * b2);
-}
 
 static int opaque_at(const lmb_resolve_alpha *alpha, const lmb_scene *scene, const float u[3], const float v[3], float b1,
                      float b2)
 {
     b1 = clampf(b1, 0.0f, 1.0f);
     b2 = clampf(b2, 0.0f, 1.0f - b1);
-    float a = mix3(alpha->corner, b1, b2), texel[4];
+    float a = resolve_mix3(alpha->corner, b1, b2), texel[4];
     if (alpha->texture >= 0) {
-        lmb_texture_sample(texel, &scene->textures[alpha->texture], mix3(u, b1, b2), mix3(v, b1, b2), 0.0f);
+        lmb_texture_sample(texel, &scene->textures[alpha->texture], resolve_mix3(u, b1, b2), resolve_mix3(v, b1, b2), 0.0f);
         a *= texel[3];
     }
     return a >= alpha->cutoff;
@@ -128,7 +118,7 @@ int lmb_resolve_opaque(const lmb_resolve_job *job, const lmb_resolve_alpha *alph
                        float y)
 {
     float b1, b2;
-    plane_point(&b1, &b2, job, x, y);
+    lmb_resolve_point(&b1, &b2, job, x, y);
     return opaque_at(alpha, scene, job->uv[0], job->uv[1], b1, b2);
 }
 
@@ -150,41 +140,6 @@ int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1,
     alpha.cutoff = t->material->alpha_cutoff;
     alpha.texture = t->material->texture;
     return opaque_at(&alpha, scene, u, v, b1, b2);
-}
-
-/* Level of detail: the longer of the two pixel steps, in texels. */
-static float pixel_lod(const lmb_resolve_job *job, const lmb_texture *t, float x, float y)
-{
-    float b[3][2], size[2] = {(float)t->width, (float)t->height};
-    plane_point(&b[0][0], &b[0][1], job, x, y);
-    plane_point(&b[1][0], &b[1][1], job, x + 1.0f, y);
-    plane_point(&b[2][0], &b[2][1], job, x, y + 1.0f);
-    float longest = 0.0f;
-    for (int step = 1; step < 3; ++step) {
-        float d2 = 0.0f;
-        for (int c = 0; c < 2; ++c) {
-            float d = (mix3(job->uv[c], b[step][0], b[step][1]) - mix3(job->uv[c], b[0][0], b[0][1])) * size[c];
-            d2 += d * d;
-        }
-        longest = maxf(longest, d2);
-    }
-    return longest > 1.0f && longest < 1e30f ? 0.5f * lmb_log2(longest) : 0.0f;
-}
-
-static void paint_texture(lmb_tile *out, const lmb_resolve_job *job, const lmb_texture *t)
-{
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (out->id[k] == job->id) {
-            float texel[4], lod = 0.0f;
-            if (t->filter == LMB_TRILINEAR && t->levels > 1) {
-                lod = pixel_lod(job, t, (float)(k % LMB_TILE), (float)(k / LMB_TILE));
-            }
-            lmb_texture_sample(texel, t, out->uv[0][k], out->uv[1][k], lod);
-            for (int c = 0; c < 3; ++c) {
-                out->albedo[c][k] *= texel[c];
-            }
-        }
-    }
 }
 
 /* Ids of the tile's pixels inside window and frame; others 0. */
@@ -219,10 +174,9 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         if ((left >> k) & 1u) {
-            lmb_resolve_job job;
-            lmb_resolve_alpha alpha;
+            lmb_triangle triangle;
             uint32_t id = out->id[k];
-            int known = lmb_resolve_setup(&job, &alpha, view, scene, id, x, y);
+            int known = lmb_triangle_fetch(&triangle, scene, id);
             for (int j = k; j < LMB_TILE_PIXELS; ++j) {
                 if (out->id[j] == id) {
                     left &= ~((uint64_t)1 << j);
@@ -233,10 +187,11 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
                 }
             }
             if (known) {
+                lmb_resolve_job job;
+                lmb_resolve_alpha alpha;
+                lmb_resolve_setup(&job, &alpha, view, &triangle, x, y);
                 kernels->resolve(out, &job);
-                if (alpha.texture >= 0) {
-                    paint_texture(out, &job, &scene->textures[alpha.texture]);
-                }
+                lmb_paint_tile(out, &job, &triangle, scene);
             }
         }
     }

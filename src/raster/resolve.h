@@ -12,9 +12,18 @@ typedef struct lmb_resolve_alpha {
     int32_t texture;
 } lmb_resolve_alpha;
 
-/* The job of triangle `id` over the tile whose first pixel is (x, y); 0 where the id names none. */
-int lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_scene *scene,
-                      uint32_t id, int32_t x, int32_t y);
+/* The job of a triangle over the tile whose first pixel is (x, y). */
+void lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_triangle *t,
+                       int32_t x, int32_t y);
+
+/* Barycentrics of the triangle's plane under tile pixel (x, y), not clamped: for derivatives and holes. */
+void lmb_resolve_point(float *b1, float *b2, const lmb_resolve_job *job, float x, float y);
+
+/* A value given at the corners. */
+static inline float resolve_mix3(const float corner[3], float b1, float b2)
+{
+    return corner[0] + ((corner[1] - corner[0]) * b1 + (corner[2] - corner[0]) * b2);
+}
 
 /* Does the surface stand at pixel (x, y) of the tile, or is there a hole? */
 int lmb_resolve_opaque(const lmb_resolve_job *job, const lmb_resolve_alpha *alpha, const lmb_scene *scene, float x,

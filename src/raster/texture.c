@@ -1,4 +1,4 @@
-/* texture.c: a base colour image at a point: nearest, bilinear, trilinear; repeat, clamp, mirror. Floor 3.
+/* texture.c: an image at a point: nearest, bilinear, trilinear; repeat, clamp, mirror. Floor 3.
  *
  * Colours are decoded to linear light before they are mixed. glTF: (0, 0) is the first texel's corner. */
 #include "texture.h"
@@ -50,45 +50,75 @@ static int32_t wrap_texel(int32_t i, int32_t size, int wrap)
     }
 }
 
-static void add_texel(float out[4], const lmb_texture *t, const level *l, int32_t x, int32_t y, float weight)
+/* What the codes of R G B stand for. Alpha is linear. */
+enum { AS_COLOUR, AS_VECTOR };
+
+/* Where on a level, and what for. */
+typedef struct lookup {
+    const lmb_texture *texture;
+    float u, v;
+    int32_t codes;
+} lookup;
+
+static float decode(int32_t codes, uint8_t code)
 {
+    return codes == AS_COLOUR ? lmb_srgb_decode(code) : (float)code * (2.0f / 255.0f) - 1.0f;
+}
+
+static void add_texel(float out[4], const lookup *at, const level *l, int32_t x, int32_t y, float weight)
+{
+    const lmb_texture *t = at->texture;
     const uint8_t *p = l->texels + 4 * ((size_t)wrap_texel(y, l->height, t->wrap_t) * (size_t)l->width +
                                         (size_t)wrap_texel(x, l->width, t->wrap_s));
     for (int c = 0; c < 3; ++c) {
-        out[c] += weight * lmb_srgb_decode(p[c]);
+        out[c] += weight * decode(at->codes, p[c]);
     }
     out[3] += weight * ((float)p[3] * (1.0f / 255.0f));
 }
 
-static void sample_level(float out[4], const lmb_texture *t, int32_t n, float u, float v, float weight)
+static void sample_level(float out[4], const lookup *at, int32_t n, float weight)
 {
+    const lmb_texture *t = at->texture;
     level l = find_level(t, n);
-    float x = reduce(u, t->wrap_s) * (float)l.width, y = reduce(v, t->wrap_t) * (float)l.height;
+    float x = reduce(at->u, t->wrap_s) * (float)l.width, y = reduce(at->v, t->wrap_t) * (float)l.height;
     if (t->filter == LMB_NEAREST) {
-        add_texel(out, t, &l, (int32_t)x, (int32_t)y, weight);
+        add_texel(out, at, &l, (int32_t)x, (int32_t)y, weight);
         return;
     }
     float x0 = floorf(x - 0.5f), y0 = floorf(y - 0.5f);
     float fx = (x - 0.5f) - x0, fy = (y - 0.5f) - y0;
     int32_t ix = (int32_t)x0, iy = (int32_t)y0;
-    add_texel(out, t, &l, ix, iy, weight * ((1.0f - fx) * (1.0f - fy)));
-    add_texel(out, t, &l, ix + 1, iy, weight * (fx * (1.0f - fy)));
-    add_texel(out, t, &l, ix, iy + 1, weight * ((1.0f - fx) * fy));
-    add_texel(out, t, &l, ix + 1, iy + 1, weight * (fx * fy));
+    add_texel(out, at, &l, ix, iy, weight * ((1.0f - fx) * (1.0f - fy)));
+    add_texel(out, at, &l, ix + 1, iy, weight * (fx * (1.0f - fy)));
+    add_texel(out, at, &l, ix, iy + 1, weight * ((1.0f - fx) * fy));
+    add_texel(out, at, &l, ix + 1, iy + 1, weight * (fx * fy));
 }
 
-void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, float lod)
+static void sample(float out[4], const lookup *at, float lod)
 {
+    const lmb_texture *t = at->texture;
     out[0] = out[1] = out[2] = out[3] = 0.0f;
     if (t->filter != LMB_TRILINEAR || t->levels < 2 || !(lod > 0.0f)) {
-        sample_level(out, t, 0, u, v, 1.0f);
+        sample_level(out, at, 0, 1.0f);
         return;
     }
     lod = minf(lod, (float)(t->levels - 1));
     int32_t n = (int32_t)lod;
     float part = lod - (float)n;
-    sample_level(out, t, n, u, v, 1.0f - part);
+    sample_level(out, at, n, 1.0f - part);
     if (part > 0.0f) {
-        sample_level(out, t, n + 1, u, v, part);
+        sample_level(out, at, n + 1, part);
     }
+}
+
+void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, float lod)
+{
+    const lookup at = {t, u, v, AS_COLOUR};
+    sample(out, &at, lod);
+}
+
+void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod)
+{
+    const lookup at = {t, u, v, AS_VECTOR};
+    sample(out, &at, lod);
 }

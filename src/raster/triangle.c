@@ -28,6 +28,7 @@ int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
     if (instance == NULL) {
         return 0;
     }
+    out->id = id;
     out->instance = instance;
     out->mesh = &scene->meshes[instance->mesh];
     out->material = &scene->materials[instance->material];

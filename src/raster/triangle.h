@@ -10,6 +10,7 @@ typedef struct lmb_triangle {
     const lmb_instance *instance;
     const lmb_mesh *mesh;
     const lmb_material *material;
+    uint32_t id;
     uint32_t vertex[3]; /* of the mesh */
     lmb_vec3 corner[3]; /* world, m */
 } lmb_triangle;

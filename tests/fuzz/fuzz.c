@@ -28,9 +28,12 @@ void fuzz_check(int holds, const char *condition, const char *file, int line)
     }
 }
 
+uint32_t fuzz_failures;
+
 void fuzz_failed(const report *r, const char *begin)
 {
     size_t n = strlen(begin);
+    ++fuzz_failures;
     fuzz_require(strncmp(r->text, begin, n) == 0 && r->text[n] != '\0');
     for (const char *c = r->text; *c != '\0'; ++c) {
         fuzz_require((unsigned char)*c >= 32);

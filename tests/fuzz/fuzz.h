@@ -20,6 +20,7 @@ void fuzz_check(int holds, const char *condition, const char *file, int line);
 /* fuzz_failed: a failure says so in one line that begins with `begin`: the file's name, or the folder that it and
  * what stands beside it lie in. */
 void fuzz_failed(const report *r, const char *begin);
+extern uint32_t fuzz_failures; /* how often that was called */
 
 void fuzz_png(const uint8_t *data, size_t size);
 void fuzz_jpeg(const uint8_t *data, size_t size);

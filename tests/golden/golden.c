@@ -90,8 +90,8 @@ static uint32_t soup_texels[16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1];
 static lmb_texture soup_texture;
 static lmb_mesh soup_meshes[2];
 static const lmb_material soup_materials[2] = {
-    {{0.8f, 0.7f, 0.6f}, 1.0f, 0.0f, 0, LMB_DOUBLE_SIDED},
-    {{0.5f, 0.6f, 0.9f}, 1.0f, 0.5f, 0, LMB_DOUBLE_SIDED | LMB_ALPHA_MASK},
+    {{0.8f, 0.7f, 0.6f}, 1.0f, 0.0f, 0, LMB_DOUBLE_SIDED, 0, 0.0f},
+    {{0.5f, 0.6f, 0.9f}, 1.0f, 0.5f, 0, LMB_DOUBLE_SIDED | LMB_ALPHA_MASK, 0, 0.0f},
 };
 static lmb_instance soup_instances[2];
 static lmb_light soup_light;
@@ -228,6 +228,28 @@ static uint64_t case_resolve(int variant)
             h = hash_floats(h, t->face[0], 3 * 64);
             h = hash_floats(h, t->albedo[0], 3 * 64);
             h = hash_floats(h, t->depth, 64);
+        }
+    }
+    return h;
+}
+
+/* The image as a normal map too; back faces are met. */
+static uint64_t case_normal_map(int variant)
+{
+    lmb_target eye;
+    lmb_material bent[2] = {soup_materials[0], soup_materials[1]};
+    uint64_t h = hash_start;
+    make_soup(91u, 2.0f);
+    bent[0].normal_scale = 1.0f;
+    bent[1].normal_scale = 0.4f;
+    soup.materials = bent;
+    lmb_view v = soup_view(variant);
+    set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
+    lmb_draw(&eye, lmb_kernels_pick(), &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
+    for (int32_t y = 0; y < HEIGHT; y += 8) {
+        for (int32_t x = 0; x < WIDTH; x += 8) {
+            lmb_resolve_tile(&memory.scratch.tile, lmb_kernels_pick(), &v, &soup, &eye, x, y);
+            h = hash_floats(h, memory.scratch.tile.normal[0], 3 * 64);
         }
     }
     return h;

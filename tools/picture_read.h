@@ -1,0 +1,27 @@
+/* picture_read.h: any picture file, known by its content: PNG, JPEG, PPM, PGM, PFM or Radiance HDR. Files of other
+ * kinds are refused with a line that says what they are and what converts them. */
+#ifndef PICTURE_READ_H
+#define PICTURE_READ_H
+
+#include "image.h"
+
+/* A picture as its file stores it, as codes or as linear light. stored_picture_free releases it. */
+typedef struct stored_picture {
+    const char *format; /* "PNG" and so on */
+    int32_t width, height;
+    int32_t channels; /* 1 grey, 2 grey and alpha, 3 colour, 4 colour and alpha */
+    bitmap codes;     /* texels NULL: the file stores light */
+    image light;      /* pixels NULL: the file stores codes */
+} stored_picture;
+
+/* picture_begins: is this a picture, of a kind that is read or one that is only known by name? */
+int picture_begins(const uint8_t *data, size_t size);
+
+/* Both return 1, or 0 with `r` set and nothing allocated; `name` stands in messages. */
+int picture_read(stored_picture *out, const uint8_t *data, size_t size, const char *name, report *r);
+/* picture_read_codes: only pictures of codes, as textures are; linear light is refused. bitmap_free releases it. */
+int picture_read_codes(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
+
+void stored_picture_free(stored_picture *p);
+
+#endif
