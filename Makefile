@@ -44,7 +44,7 @@ LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
-FUZZ_SRC   := $(filter-out %/main_fuzz.c %/main_replay.c,$(wildcard tests/fuzz/*.c))
+FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 

@@ -1,6 +1,7 @@
-/* image.c: releases pictures. */
+/* image.c: what all pictures share: their end, and the sRGB curve. */
 #include "image.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 void image_free(image *img)
@@ -17,4 +18,10 @@ void bitmap_free(bitmap *map)
     free(map->texels);
     map->texels = NULL;
     map->width = map->height = 0;
+}
+
+double srgb_decode(int code)
+{
+    double c = code / 255.0;
+    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
 }

@@ -57,6 +57,9 @@ int hdr_decode(image *out, const uint8_t *data, size_t size, const char *name, r
 int hdr_encode(file_bytes *out, const image *in, report *r); /* Radiance RGBE, run-length coded */
 int ppm_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
 
+/* srgb_decode: linear light of an sRGB code 0 .. 255 (IEC 61966-2-1). */
+double srgb_decode(int code);
+
 void image_free(image *img);
 void bitmap_free(bitmap *map);
 

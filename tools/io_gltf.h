@@ -1,4 +1,4 @@
-/* io_gltf.h: what the four files of the glTF reader share: the document, its bytes, its accessors, its looks. */
+/* io_gltf.h: what the files of the glTF reader share: the document, its bytes, its accessors, its nodes, its looks. */
 #ifndef IO_GLTF_H
 #define IO_GLTF_H
 
@@ -17,42 +17,63 @@ typedef struct gltf_bytes {
     int ready; /* data and size are set */
 } gltf_bytes;
 
-/* How a material's base colour picks texture coordinates; the transform is folded into them at load. */
+/* How a material's images pick texture coordinates; the transform is folded into them at load. */
 typedef struct gltf_uv {
     uint32_t set; /* n of TEXCOORD_n; JSON_NONE: untextured */
     int moved;    /* m is not the identity */
     double m[6];  /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
 } gltf_uv;
 
+/* Of an image by its texels: channels as numbers, and as linear light. */
+typedef struct gltf_mean {
+    int known;
+    double blue, light[3]; /* 0 .. 1 */
+} gltf_mean;
+
 /* What was left out or stands for something else, told once at the end. */
 typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
-    uint32_t textures, blends, metals, metal_maps, unlit, emissive, other_maps; /* materials */
-    uint32_t ranges, skins, morphs;                                             /* lights, nodes, meshes */
+    uint32_t textures, blends, metals, metal_maps, unlit, emissive_maps; /* materials */
+    uint32_t occlusion_maps, odd_normal_maps;                                      /* materials */
+    uint32_t ranges, skins, morphs;                                                /* lights, nodes, meshes */
 } gltf_counts;
 
 typedef struct gltf {
     model_build *b;
     json doc;
     gltf_bytes chunk; /* the BIN chunk of a GLB */
-    gltf_list accessors, views, buffers, images, samplers, textures, materials, meshes, nodes, cameras, lights;
+    gltf_list accessors, views, buffers, images, samplers, textures, materials, meshes, nodes, cameras, skins, lights;
     gltf_bytes *buffer_bytes;
     file_bytes *files; /* external buffers, one slot a buffer */
     /* by accessor: streams already made, so that primitives share them */
     const void **positions, **uvs;
-    const int16_t **normals;
+    const int16_t **normals, **tangents;
     const uint8_t **colours;
     uint32_t *uv_owner;               /* the material that uvs[accessor] was made for */
     gltf_uv *material_uv;             /* by material */
-    int32_t *texture_slot;            /* by texture: index in b->textures, -1 unknown, -2 unreadable */
-    lmb_texture *image_texels;        /* by image: what is decoded already; texels NULL: nothing yet */
-    double *image_metal;              /* by image: mean of its metallic channel; negative: not known yet */
+    int32_t *slots[2];                /* by texture, as colour or normal map: index in b->textures, or SLOT_ */
+    lmb_texture *image_texels[2];     /* by image, the same: what is decoded already; texels NULL: nothing yet */
+    gltf_mean *image_means;           /* by image */
     uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
-    uint32_t *mesh_material;          /* by lambent mesh */
+    uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
     uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
     gltf_counts left_out;
     report texture_error; /* the first one */
 } gltf;
+
+/* Column-major, as glTF's; composed in double, so that deep trees lose nothing before binary32. */
+typedef struct gltf_matrix {
+    double m[16];
+} gltf_matrix;
+
+/* The part of the document that is drawn: nodes in drawing order, each with its way to the world. */
+typedef struct gltf_tree {
+    uint32_t *order; /* parents before children */
+    uint32_t count;
+    uint32_t *parent;   /* by node; JSON_NONE: a root */
+    gltf_matrix *world; /* by node; of those in `order` */
+    uint8_t *placed;    /* by node: is it in `order`? */
+} gltf_tree;
 
 /* An accessor whose every byte was found to be there. */
 typedef struct gltf_accessor {
@@ -80,11 +101,28 @@ int gltf_accessor_open(gltf_accessor *out, gltf *g, uint32_t accessor);
 int gltf_accessor_floats(float *out, const gltf *g, const gltf_accessor *a); /* count * components values */
 int gltf_accessor_indices(uint32_t *out, const gltf *g, const gltf_accessor *a);
 
+/* io_gltf_tree.c */
+int gltf_make_tree(gltf_tree *t, gltf *g);
+void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b);
+
+/* io_gltf_place.c: of the tree's nodes */
+int gltf_lights(const gltf_tree *t, gltf *g);
+int gltf_cameras(const gltf_tree *t, gltf *g);
+
 /* io_gltf_look.c */
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
 void gltf_default_material(gltf *g); /* makes default_material, once */
 
 /* io_gltf_mesh.c */
 int gltf_mesh(gltf *g, uint32_t mesh); /* fills mesh_first and mesh_size; once a mesh */
+/* An attribute's accessor: its index, opened, with `components` or `other` components and `count` elements (0: any).
+ * Absent: *index is JSON_NONE. */
+int gltf_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components, uint32_t other,
+                   uint32_t count);
+float *gltf_floats(gltf *g, const gltf_accessor *a); /* all values in scratch memory; NULL with the report set */
+
+/* io_gltf_skin.c */
+/* The meshes of a skinned node, posed by its joints: `size` new ones from b->mesh_count on, in world metres. */
+int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh);
 
 #endif

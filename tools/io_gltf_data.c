@@ -95,7 +95,7 @@ int gltf_lists(gltf *g)
     } all[] = {
         {&g->accessors, "accessors"}, {&g->views, "bufferViews"}, {&g->buffers, "buffers"},     {&g->images, "images"},
         {&g->samplers, "samplers"},   {&g->textures, "textures"}, {&g->materials, "materials"}, {&g->meshes, "meshes"},
-        {&g->nodes, "nodes"},         {&g->cameras, "cameras"},
+        {&g->nodes, "nodes"},         {&g->cameras, "cameras"}, {&g->skins, "skins"},
     };
     size_t i;
     for (i = 0; i < sizeof all / sizeof all[0]; ++i)
@@ -342,7 +342,7 @@ static int open_sparse(gltf_accessor *a, gltf *g, uint32_t sparse)
     return 1;
 }
 
-/* VEC3 -> 3; 0 for matrices and unknown words, which no attribute that lambent reads has. */
+/* VEC3 -> 3; 0 for unknown words and smaller matrices, which nothing that lambent reads has. */
 static uint32_t components_of(const json *doc, uint32_t type)
 {
     static const char *const names[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
@@ -350,7 +350,7 @@ static uint32_t components_of(const json *doc, uint32_t type)
     for (i = 0; i < 4; ++i)
         if (json_equals(doc, type, names[i]))
             return i + 1;
-    return 0;
+    return json_equals(doc, type, "MAT4") ? 16 : 0;
 }
 
 int gltf_accessor_open(gltf_accessor *out, gltf *g, uint32_t accessor)
@@ -368,7 +368,7 @@ int gltf_accessor_open(gltf_accessor *out, gltf *g, uint32_t accessor)
         return json_fail(doc, accessor, g->b->r, "componentType %u; glTF has 5120 to 5123, 5125 and 5126",
                          (unsigned)out->component);
     if (out->components == 0)
-        return json_fail(doc, accessor, g->b->r, "type must be SCALAR, VEC2, VEC3 or VEC4 here");
+        return json_fail(doc, accessor, g->b->r, "type must be SCALAR, VEC2, VEC3, VEC4 or MAT4 here");
     if (out->count == 0)
         return json_fail(doc, accessor, g->b->r, "count must be at least 1");
     if (json_member(doc, accessor, "bufferView") != JSON_NONE &&

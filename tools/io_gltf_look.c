@@ -55,10 +55,10 @@ static int image_bytes(gltf_bytes *out, file_bytes *file, char place[64], gltf *
     return 1;
 }
 
-/* images[index], decoded, with mips if wanted; kept in image_texels for the next texture that shows it. */
-static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int mips, report *why)
+/* images[index], decoded, with levels of its `kind` if wanted; kept for the next texture that shows it so. */
+static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int kind, int mips, report *why)
 {
-    lmb_texture *known = &g->image_texels[index];
+    lmb_texture *known = &g->image_texels[kind - 1][index];
     gltf_bytes bytes = {NULL, 0, 0};
     file_bytes file = {NULL, 0};
     char place[64];
@@ -66,7 +66,7 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int mips, rep
     if (!known->texels || (mips && known->levels == 1)) {
         if (!image_bytes(&bytes, &file, place, g, index, why))
             return 0;
-        ok = build_texels(g->b, known, bytes.data, bytes.size, mips, place, why);
+        ok = build_texels(g->b, known, bytes.data, bytes.size, mips ? kind : TEXELS_PLAIN, place, why);
         file_free(&file);
         if (!ok)
             return 0;
@@ -75,33 +75,6 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int mips, rep
     out->width = known->width;
     out->height = known->height;
     out->levels = mips ? known->levels : 1;
-    return 1;
-}
-
-/* Mean of the metallic (blue) channel of images[index], 0 .. 1; worked out once. */
-static int image_mean(double *out, gltf *g, uint32_t index, report *why)
-{
-    gltf_bytes bytes = {NULL, 0, 0};
-    file_bytes file = {NULL, 0};
-    bitmap map;
-    char place[64];
-    uint64_t sum = 0;
-    size_t i, n;
-    int ok;
-    if (g->image_metal[index] < 0) {
-        if (!image_bytes(&bytes, &file, place, g, index, why))
-            return 0;
-        ok = build_picture(&map, bytes.data, bytes.size, place, why);
-        file_free(&file);
-        if (!ok)
-            return 0;
-        n = (size_t)map.width * (size_t)map.height;
-        for (i = 0; i < n; ++i)
-            sum += map.texels[4 * i + 2];
-        bitmap_free(&map);
-        g->image_metal[index] = (double)sum / (255.0 * (double)n);
-    }
-    *out = g->image_metal[index];
     return 1;
 }
 
@@ -121,31 +94,84 @@ static int texture_image(uint32_t *out, gltf *g, uint32_t texture)
     return gltf_index(out, g, &g->images, json_member(&g->doc, texture, "source"));
 }
 
-/* Slot in the scene of textures[index]: made at first use; -1 where its image cannot be had. */
-static int texture_slot(int32_t *out, gltf *g, uint32_t index)
+static void measure(gltf_mean *out, const bitmap *map)
+{
+    const size_t n = (size_t)map->width * (size_t)map->height;
+    uint64_t counts[3][256];
+    size_t i;
+    int k, code;
+    memset(counts, 0, sizeof counts);
+    memset(out, 0, sizeof *out);
+    for (i = 0; i < n; ++i)
+        for (k = 0; k < 3; ++k)
+            ++counts[k][map->texels[4 * i + (size_t)k]];
+    for (code = 0; code < 256; ++code) {
+        out->blue += code / 255.0 * (double)counts[2][code] / (double)n;
+        for (k = 0; k < 3; ++k)
+            out->light[k] += srgb_decode(code) * (double)counts[k][code] / (double)n;
+    }
+    out->known = 1;
+}
+
+/* Means of the image that a texture info shows, worked out once; *out stays NULL where it cannot be had. */
+static int image_mean(const gltf_mean **out, gltf *g, uint32_t info)
+{
+    gltf_bytes bytes = {NULL, 0, 0};
+    file_bytes file = {NULL, 0};
+    bitmap map;
+    uint32_t texture, index;
+    char place[64];
+    report why;
+    int ok;
+    *out = NULL;
+    why.text[0] = '\0';
+    if (!gltf_item(&texture, g, &g->textures, json_member(&g->doc, info, "index")) ||
+        !texture_image(&index, g, texture))
+        return 0;
+    if (index == JSON_NONE)
+        return 1;
+    if (!g->image_means[index].known) {
+        if (!image_bytes(&bytes, &file, place, g, index, &why))
+            return leave_out(g, &why);
+        ok = build_picture(&map, bytes.data, bytes.size, place, &why);
+        file_free(&file);
+        if (!ok)
+            return leave_out(g, &why);
+        measure(&g->image_means[index], &map);
+        bitmap_free(&map);
+    }
+    *out = &g->image_means[index];
+    return 1;
+}
+
+enum { SLOT_UNKNOWN = -1, SLOT_NONE = -2 };
+
+/* Place in the scene of textures[index] as an image of that kind: made at first use; -1 where it cannot be had. */
+static int texture_slot(int32_t *out, gltf *g, uint32_t index, int kind)
 {
     const uint32_t node = g->textures.items[index];
+    int32_t *slot = &g->slots[kind - 1][index];
     lmb_texture made;
     uint32_t source;
     report why;
-    if (g->texture_slot[index] == -1) {
+    if (*slot == SLOT_UNKNOWN) {
         memset(&made, 0, sizeof made);
         why.text[0] = '\0';
-        g->texture_slot[index] = -2;
+        *slot = SLOT_NONE;
         if (!read_sampler(&made, g, node) || !texture_image(&source, g, node))
             return 0;
         if (source == JSON_NONE) {
             json_fail(&g->doc, node, &why, "no PNG or JPEG source");
             if (!leave_out(g, &why))
                 return 0;
-        } else if (image_decode(&made, g, source, made.filter == LMB_TRILINEAR, &why)) {
-            g->texture_slot[index] = (int32_t)g->b->texture_count;
+        } else if (image_decode(&made, g, source, kind, made.filter == LMB_TRILINEAR, &why)) {
+            *slot = (int32_t)g->b->texture_count;
             g->b->textures[g->b->texture_count++] = made;
         } else if (!leave_out(g, &why)) {
             return 0;
         }
     }
-    *out = g->texture_slot[index] < 0 ? -1 : g->texture_slot[index];
+    *out = *slot < 0 ? -1 : *slot;
     return 1;
 }
 
@@ -172,20 +198,21 @@ static int read_transform(gltf_uv *uv, gltf *g, uint32_t transform)
     return 1;
 }
 
-/* baseColorTexture: its slot and how it takes texture coordinates. */
-static int read_base_texture(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t info)
+/* A texture info: the place of its image of that kind, -1: none to be had, and how it takes texture coordinates. */
+static int read_texture(int32_t *slot, gltf_uv *uv, gltf *g, uint32_t info, int kind)
 {
     const json *doc = &g->doc;
     const uint32_t reference = json_member(doc, info, "index");
     uint32_t index, transform;
+    memset(uv, 0, sizeof *uv);
     uv->set = JSON_NONE;
     if (info == JSON_NONE)
         return 1;
     if (reference == JSON_NONE)
         return json_fail(doc, info, g->b->r, "index is missing");
-    if (!gltf_index(&index, g, &g->textures, reference) || !texture_slot(&out->texture, g, index))
+    if (!gltf_index(&index, g, &g->textures, reference) || !texture_slot(slot, g, index, kind))
         return 0;
-    if (out->texture < 0)
+    if (*slot < 0)
         return 1;
     uv->set = 0;
     if (!json_read_uint(&uv->set, doc, json_member(doc, info, "texCoord"), g->b->r))
@@ -194,32 +221,43 @@ static int read_base_texture(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t i
     return transform == JSON_NONE || read_transform(uv, g, transform);
 }
 
-static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
-
-/* *out: what a metallic map does on average; unchanged where its image cannot be had. */
-static int metallic_mean(double *out, gltf *g, uint32_t info)
+/* A mesh has one stream of texture coordinates: a normal map that wants others than the base colour is left out. */
+static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t info)
 {
-    uint32_t texture, index;
-    report why;
-    why.text[0] = '\0';
-    if (!gltf_item(&texture, g, &g->textures, json_member(&g->doc, info, "index")) ||
-        !texture_image(&index, g, texture))
+    gltf_uv own;
+    int32_t slot = -1;
+    double scale = 1;
+    if (!read_texture(&slot, &own, g, info, TEXELS_NORMALS) ||
+        !json_read_double(&scale, &g->doc, json_member(&g->doc, info, "scale"), g->b->r))
         return 0;
-    return index == JSON_NONE || image_mean(out, g, index, &why) || leave_out(g, &why);
+    if (slot < 0)
+        return 1;
+    if (uv->set == JSON_NONE)
+        *uv = own;
+    if (uv->set != own.set || uv->moved != own.moved || memcmp(uv->m, own.m, sizeof own.m) != 0) {
+        ++g->left_out.odd_normal_maps;
+        return 1;
+    }
+    out->normal_map = (uint32_t)slot;
+    out->normal_scale = scale > -1e6 && scale < 1e6 ? (float)scale : 0.0f;
+    return 1;
 }
+
+static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
 
 /* Metals have no diffuse light of their own; 0.04 of their colour stands for it while there is no glossy lobe. A
  * metallic map counts as its mean; one that cannot be had as no metal, because most surfaces are none. */
 static int read_metallic(double *diffuse, gltf *g, uint32_t pbr)
 {
     const uint32_t map = json_member(&g->doc, pbr, "metallicRoughnessTexture");
-    double metallic = 1, mean = 0;
+    const gltf_mean *mean;
+    double metallic = 1;
     if (!json_read_double(&metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r))
         return 0;
     if (map != JSON_NONE && metallic > 0) {
-        if (!metallic_mean(&mean, g, map))
+        if (!image_mean(&mean, g, map))
             return 0;
-        metallic *= mean;
+        metallic *= mean ? mean->blue : 0;
         ++g->left_out.metal_maps;
     }
     *diffuse = 1 - metallic > 0.04 ? 1 - metallic : 0.04;
@@ -245,16 +283,31 @@ static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
     return 1;
 }
 
-/* What the renderer has no use for, counted for the notes. */
-static int count_ignored(gltf *g, uint32_t material)
+/* Radiance: factor x KHR_materials_emissive_strength x the mean of the map, which cannot vary over a light. */
+static int read_emission(lmb_vec3 *out, gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
-    double emissive[3] = {0, 0, 0};
-    if (!json_read_doubles(emissive, 3, doc, json_member(doc, material, "emissiveFactor"), g->b->r))
+    const uint32_t map = json_member(doc, material, "emissiveTexture"),
+                   more = json_member(doc, json_member(doc, material, "extensions"), "KHR_materials_emissive_strength");
+    const gltf_mean *mean = NULL;
+    double factor[3] = {0, 0, 0}, strength = 1;
+    int k;
+    if (!json_read_doubles(factor, 3, doc, json_member(doc, material, "emissiveFactor"), g->b->r) ||
+        !json_read_double(&strength, doc, json_member(doc, more, "emissiveStrength"), g->b->r))
         return 0;
-    g->left_out.emissive += emissive[0] > 0 || emissive[1] > 0 || emissive[2] > 0;
-    g->left_out.other_maps += json_member(doc, material, "normalTexture") != JSON_NONE ||
-                              json_member(doc, material, "occlusionTexture") != JSON_NONE;
+    if (map != JSON_NONE && (factor[0] > 0 || factor[1] > 0 || factor[2] > 0)) {
+        if (!image_mean(&mean, g, map))
+            return 0;
+        ++g->left_out.emissive_maps;
+    }
+    for (k = 0; k < 3; ++k) {
+        factor[k] *= strength * (mean ? mean->light[k] : 1);
+        factor[k] = factor[k] > 0 && factor[k] < 1e30 ? factor[k] : 0;
+    }
+    out->x = (float)factor[0];
+    out->y = (float)factor[1];
+    out->z = (float)factor[2];
+    g->left_out.occlusion_maps += json_member(doc, material, "occlusionTexture") != JSON_NONE;
     return 1;
 }
 
@@ -268,7 +321,8 @@ static int read_material(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t mater
     if (!json_read_doubles(base, 4, doc, json_member(doc, pbr, "baseColorFactor"), g->b->r) ||
         !json_read_bool(&sided, doc, json_member(doc, material, "doubleSided"), g->b->r) ||
         !read_alpha(out, g, material) || (!unlit && !read_metallic(&diffuse, g, pbr)) ||
-        !read_base_texture(out, uv, g, json_member(doc, pbr, "baseColorTexture")) || !count_ignored(g, material))
+        !read_texture(&out->texture, uv, g, json_member(doc, pbr, "baseColorTexture"), TEXELS_COLOUR) ||
+        !read_normal_map(out, uv, g, json_member(doc, material, "normalTexture")))
         return 0;
     for (i = 0; i < 3; ++i)
         out->albedo[i] = clamp01(base[i] * diffuse);
@@ -286,26 +340,34 @@ static void plain_material(lmb_material *out)
     out->texture = -1;
 }
 
+/* Tables by texture and image, before any is read. */
+static int make_tables(gltf *g)
+{
+    uint32_t i, k;
+    for (k = 0; k < 2; ++k) {
+        g->slots[k] = (int32_t *)build_scratch(g->b, g->textures.count, sizeof *g->slots[k]);
+        g->image_texels[k] = (lmb_texture *)build_scratch(g->b, g->images.count, sizeof *g->image_texels[k]);
+        if (!g->slots[k] || !g->image_texels[k])
+            return 0;
+        for (i = 0; i < g->textures.count; ++i)
+            g->slots[k][i] = SLOT_UNKNOWN;
+    }
+    g->image_means = (gltf_mean *)build_scratch(g->b, g->images.count, sizeof *g->image_means);
+    g->b->textures = (lmb_texture *)build_keep(g->b, 2 * (uint64_t)g->textures.count, sizeof *g->b->textures);
+    return g->image_means && g->b->textures;
+}
+
 int gltf_materials(gltf *g)
 {
     const uint32_t n = g->materials.count;
     uint32_t i;
-    g->b->materials = (lmb_material *)build_keep(g->b, (uint64_t)n + 1, sizeof *g->b->materials);
-    g->b->textures = (lmb_texture *)build_keep(g->b, g->textures.count, sizeof *g->b->textures);
     g->material_uv = (gltf_uv *)build_scratch(g->b, (uint64_t)n + 1, sizeof *g->material_uv);
-    g->texture_slot = (int32_t *)build_scratch(g->b, g->textures.count, sizeof *g->texture_slot);
-    g->image_texels = (lmb_texture *)build_scratch(g->b, g->images.count, sizeof *g->image_texels);
-    g->image_metal = (double *)build_scratch(g->b, g->images.count, sizeof *g->image_metal);
-    if (!g->b->materials || !g->b->textures || !g->material_uv || !g->texture_slot || !g->image_texels ||
-        !g->image_metal)
+    if (!build_materials(g->b, (uint64_t)n + 1) || !g->material_uv || !make_tables(g))
         return 0;
-    for (i = 0; i < g->images.count; ++i)
-        g->image_metal[i] = -1;
-    for (i = 0; i < g->textures.count; ++i)
-        g->texture_slot[i] = -1;
     for (i = 0; i < n; ++i) {
         plain_material(&g->b->materials[i]);
-        if (!read_material(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i]))
+        if (!read_material(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i]) ||
+            !read_emission(&g->b->out->emission[i], g, g->materials.items[i]))
             return 0;
     }
     g->b->material_count = n;

@@ -7,10 +7,8 @@
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
-/* An attribute's accessor: its index, opened, with `components` or `other` components and `count` elements (0: any).
- * Absent: *index is JSON_NONE. */
-static int open_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components,
-                          uint32_t other, uint32_t count)
+int gltf_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components, uint32_t other,
+                   uint32_t count)
 {
     if (!gltf_index(index, g, &g->accessors, reference))
         return 0;
@@ -27,8 +25,7 @@ static int open_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t r
     return 1;
 }
 
-/* All values of an accessor in scratch memory; NULL with the report set. */
-static float *read_floats(gltf *g, const gltf_accessor *a)
+float *gltf_floats(gltf *g, const gltf_accessor *a)
 {
     float *values = (float *)build_scratch(g->b, (uint64_t)a->count * a->components, sizeof *values);
     return values && gltf_accessor_floats(values, g, a) ? values : NULL;
@@ -39,7 +36,7 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
     gltf_accessor a;
     uint32_t index;
     float *values;
-    if (!open_attribute(&a, &index, g, reference, 3, 3, 0))
+    if (!gltf_attribute(&a, &index, g, reference, 3, 3, 0))
         return 0;
     if (!g->positions[index]) {
         values = (float *)build_keep(g->b, (uint64_t)a.count * 3, sizeof *values);
@@ -74,12 +71,12 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
     uint32_t index, i;
     float *values;
     int16_t *codes;
-    if (!open_attribute(&a, &index, g, reference, 3, 3, out->vertex_count))
+    if (!gltf_attribute(&a, &index, g, reference, 3, 3, out->vertex_count))
         return 0;
     if (index == JSON_NONE)
         return 1;
     if (!g->normals[index]) {
-        values = read_floats(g, &a);
+        values = gltf_floats(g, &a);
         codes = (int16_t *)build_keep(g->b, (uint64_t)a.count * 2, sizeof *codes);
         if (!values || !codes)
             return 0;
@@ -89,6 +86,32 @@ static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
         g->normals[index] = codes;
     }
     out->normals = g->normals[index];
+    return 1;
+}
+
+/* Only where a normal map asks for them, and the texture coordinates stay as they are. */
+static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t material)
+{
+    gltf_accessor a;
+    uint32_t index, i, zeros = 0;
+    float *values;
+    int16_t *codes;
+    if (g->b->materials[material].normal_scale == 0.0f || g->material_uv[material].moved)
+        return 1;
+    if (!gltf_attribute(&a, &index, g, reference, 4, 4, out->vertex_count))
+        return 0;
+    if (index == JSON_NONE)
+        return 1;
+    if (!g->tangents[index]) {
+        values = gltf_floats(g, &a);
+        codes = (int16_t *)build_keep(g->b, (uint64_t)a.count * 2, sizeof *codes);
+        if (!values || !codes)
+            return 0;
+        for (i = 0; i < a.count; ++i)
+            lmb_octahedral_encode(codes + 2 * (size_t)i, unit_normal(values + 4 * (size_t)i, &zeros));
+        g->tangents[index] = codes;
+    }
+    out->tangents = g->tangents[index];
     return 1;
 }
 
@@ -118,7 +141,7 @@ static int read_uvs(lmb_mesh *out, gltf *g, uint32_t attributes, uint32_t materi
         return 1;
     snprintf(key, sizeof key, "TEXCOORD_%u", (unsigned)how->set);
     reference = json_member(&g->doc, attributes, key);
-    if (!open_attribute(&a, &index, g, reference, 2, 2, out->vertex_count))
+    if (!gltf_attribute(&a, &index, g, reference, 2, 2, out->vertex_count))
         return 0;
     if (index == JSON_NONE)
         return 1;
@@ -145,12 +168,12 @@ static int read_colours(lmb_mesh *out, gltf *g, uint32_t reference)
     uint32_t index, i, c;
     float *values;
     uint8_t *bytes;
-    if (!open_attribute(&a, &index, g, reference, 3, 4, out->vertex_count))
+    if (!gltf_attribute(&a, &index, g, reference, 3, 4, out->vertex_count))
         return 0;
     if (index == JSON_NONE)
         return 1;
     if (!g->colours[index]) {
-        values = read_floats(g, &a);
+        values = gltf_floats(g, &a);
         bytes = (uint8_t *)build_keep(g->b, a.count, 4);
         if (!values || !bytes)
             return 0;
@@ -266,10 +289,12 @@ static int read_primitive(gltf *g, uint32_t primitive)
     memset(out, 0, sizeof *out);
     if (!primitive_material(&material, g, primitive) || !read_positions(out, g, position) ||
         !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) || !read_uvs(out, g, attributes, material) ||
+        !read_tangents(out, g, json_member(&g->doc, attributes, "TANGENT"), material) ||
         !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) || !read_triangles(out, g, primitive, mode))
         return 0;
     if (out->triangle_count == 0)
         return 1;
+    g->mesh_primitive[g->b->mesh_count] = primitive;
     g->mesh_material[g->b->mesh_count++] = material;
     return 1;
 }

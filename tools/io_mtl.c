@@ -39,6 +39,25 @@ static int read_kd(lmb_material *out, obj_material *m, cursor *c, report *r)
     return 1;
 }
 
+/* Emitted radiance; what a colour may leave out, it may too. */
+static int read_ke(lmb_vec3 *out, cursor *c, report *r)
+{
+    double v[3] = {0, 0, 0};
+    slice token;
+    int i;
+    for (i = 0; i < 3 && text_token(&token, c); ++i) {
+        if (i == 0 && (slice_is(token, "spectral") || slice_is(token, "xyz")))
+            return 1;
+        if (!slice_number(&v[i], token))
+            return text_fail(c, r, "Ke takes numbers, 0 or more");
+        v[i] = v[i] > 0 && v[i] < 1e30 ? v[i] : 0;
+    }
+    out->x = (float)v[0];
+    out->y = (float)(i == 1 ? v[0] : v[1]);
+    out->z = (float)(i == 1 ? v[0] : v[2]);
+    return 1;
+}
+
 /* Values of a map's option; those of -o -s -t may be left away, so numbers are counted as they come. */
 static int option_values(slice option)
 {
@@ -110,6 +129,8 @@ static int read_statement(lmb_material *out, obj_material *m, model_build *b, sl
     double v;
     if (slice_is(word, "Kd"))
         return read_kd(out, m, c, b->r);
+    if (slice_is(word, "Ke"))
+        return read_ke(&b->out->emission[out - b->materials], c, b->r);
     if (slice_is(word, "map_Kd")) {
         skip_options(m, c);
         return read_path(&m->map, b, c);
@@ -174,7 +195,7 @@ static int load_map(int32_t *slot, model_build *b, const obj_names *names, uint3
         return report_fail(why, "%.100s: not a path from the model's folder", m->map);
     if (!build_sibling(path, sizeof path, b, m->map, why) || !build_read(b, &bytes, path, why))
         return 0;
-    ok = build_texels(b, to, bytes.data, bytes.size, 1, path, why);
+    ok = build_texels(b, to, bytes.data, bytes.size, TEXELS_COLOUR, path, why);
     file_free(&bytes);
     if (!ok)
         return 0;

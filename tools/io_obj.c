@@ -14,6 +14,7 @@
 
 #define NONE          UINT32_MAX
 #define MAX_LIBRARIES 64
+#define MAX_PROBES    256 /* of an index; half of it is empty, so that only a file made for it comes near */
 
 /* What a vertex is made of: numbers of v, vt, vn from 0; NONE: not given. */
 typedef struct corner {
@@ -52,6 +53,7 @@ typedef struct obj {
     corner *face;      /* scratch for one face: its corners, numbers, points and triangles */
     uint32_t *face_number, *face_cut, *face_links;
     double *face_points;
+    uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
     uint32_t points_lines, degenerate, overlapping, zero_normals;
 } obj;
 
@@ -262,18 +264,21 @@ static int read_corner(corner *out, const obj *o, slice token, cursor *c)
     return !vn.size || resolve(&out->vn, vn, o->n.vn, o->vn_count, "vn", c, o->b->r);
 }
 
-/* The number of a corner: that of an equal one, or a new one. The table was sized for all corners of the file. */
+/* The number of a corner: that of an equal one, or a new one. The table was sized for all corners of the file. One that
+ * finds no place nearby becomes a vertex of its own each time. */
 static uint32_t intern(obj *o, const corner *key)
 {
-    uint32_t hash = key->v * 0x9E3779B1u ^ key->vt * 0x85EBCA77u ^ key->vn * 0xC2B2AE3Du, slot;
+    uint32_t hash = key->v * 0x9E3779B1u ^ key->vt * 0x85EBCA77u ^ key->vn * 0xC2B2AE3Du, slot, probes = 0;
     hash ^= hash >> 15;
-    for (slot = hash & o->slot_mask; o->slots[slot] != 0; slot = (slot + 1) & o->slot_mask) {
+    for (slot = hash & o->slot_mask; o->slots[slot] && probes < MAX_PROBES; slot = (slot + 1) & o->slot_mask) {
         const corner *known = &o->corners[o->slots[slot] - 1];
         if (known->v == key->v && known->vt == key->vt && known->vn == key->vn)
             return o->slots[slot] - 1;
+        ++probes;
     }
-    o->corners[o->corner_count] = *key;
-    o->slots[slot] = ++o->corner_count;
+    o->corners[o->corner_count++] = *key;
+    if (!o->slots[slot])
+        o->slots[slot] = o->corner_count;
     return o->corner_count - 1;
 }
 
@@ -289,7 +294,7 @@ static void cut_face(obj *o, uint32_t n, int with_normals)
         for (k = 0; k < 3; ++k)
             o->face_points[3 * (size_t)i + k] = (double)o->v[3 * (size_t)o->face[i].v + k];
     }
-    if (!polygon_cut(o->face_cut, o->face_points, n, o->face_links))
+    if (!polygon_cut_within(o->face_cut, o->face_points, n, o->face_links, &o->cut_steps))
         ++o->overlapping;
     for (i = 0; i < n - 2; ++i) {
         triangle *t = &o->triangles[o->triangle_count++];
@@ -372,9 +377,8 @@ static int make_materials(obj *o)
 {
     uint32_t i, undefined = 0;
     model_build *b = o->b;
-    b->materials = (lmb_material *)build_keep(b, o->names.count, sizeof *b->materials);
     b->textures = (lmb_texture *)build_keep(b, o->names.count, sizeof *b->textures);
-    if (!b->materials || !b->textures)
+    if (!build_materials(b, o->names.count) || !b->textures)
         return 0;
     b->material_count = o->names.count;
     for (i = 0; i < o->names.count; ++i) {
@@ -558,7 +562,7 @@ static void tell_left_out(const obj *o)
 {
     note_count(o, "elements of points or lines skipped", o->points_lines);
     note_count(o, "faces with fewer than 3 corners skipped", o->degenerate);
-    note_count(o, "concave faces of over 1000 corners, which may overlap themselves", o->overlapping);
+    note_count(o, "concave faces too large or too tangled to cut well, which may overlap themselves", o->overlapping);
     note_count(o, "normals without length, set to +Y", o->zero_normals);
     note_count(o, "material libraries left out after the first 64", o->library_extra);
 }
@@ -569,6 +573,7 @@ int obj_load(model_build *b, const uint8_t *data, size_t size)
     cursor c = text_open(data, size, b->path);
     memset(&o, 0, sizeof o);
     o.b = b;
+    o.cut_steps = polygon_steps(size);
     o.n = count_all(c);
     if (o.n.triangles == 0)
         return report_fail(b->r, "%s: no faces; give a polygon model", b->path);

@@ -92,6 +92,7 @@ typedef struct ply {
     uint32_t *corner;   /* those corners' vertices; NULL in the first pass */
     double *points;     /* scratch for one face: its corners' places, triangles and links */
     uint32_t *cut, *links;
+    uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
     streams s;
     uint32_t degenerate, overlapping, zero_normals, unused;
 } ply;
@@ -592,7 +593,7 @@ static size_t cut_face(ply *p, size_t at)
     uint32_t i;
     for (i = 0; i < 3 * n; ++i)
         p->points[i] = (double)p->s.positions[3 * (size_t)p->corner[i / 3] + i % 3];
-    p->overlapping += !polygon_cut(p->cut, p->points, n, p->links);
+    p->overlapping += !polygon_cut_within(p->cut, p->points, n, p->links, &p->cut_steps);
     for (i = 0; i < 3 * (n - 2); ++i)
         set_index(p, at++, p->corner[p->cut[i]]);
     return at;
@@ -675,9 +676,8 @@ static int make_scene(ply *p)
     model_build *b = p->b;
     int k;
     b->meshes = (lmb_mesh *)build_keep(b, 1, sizeof *b->meshes);
-    b->materials = (lmb_material *)build_keep(b, 1, sizeof *b->materials);
     b->instances = (lmb_instance *)build_keep(b, 1, sizeof *b->instances);
-    if (!b->meshes || !b->materials || !b->instances)
+    if (!build_materials(b, 1) || !b->meshes || !b->instances)
         return 0;
     for (k = 0; k < 3; ++k)
         b->materials->albedo[k] = 0.8f;
@@ -704,7 +704,7 @@ static void tell_left_out(const ply *p)
         others += p->elements[i].kind == OTHER && p->elements[i].count > 0;
     note_count(p, "kinds of elements other than vertex and face skipped", others);
     note_count(p, "faces with fewer than 3 corners skipped", p->degenerate);
-    note_count(p, "concave faces of over 1000 corners, which may overlap themselves", p->overlapping);
+    note_count(p, "concave faces too large or too tangled to cut well, which may overlap themselves", p->overlapping);
     note_count(p, "vertices that no face uses left out", p->unused);
     note_count(p, "normals without length, set to +Y", p->zero_normals);
 }
@@ -722,6 +722,7 @@ int ply_load(model_build *b, const uint8_t *data, size_t size)
     p.begin = p.at = data;
     p.end = size ? data + size : data;
     p.line = 1;
+    p.cut_steps = polygon_steps(size);
     if (!read_header(&p) || !walk(&p) || !make_scene(&p))
         return 0;
     b->out->facts.format = "PLY";

@@ -71,6 +71,13 @@ void *build_keep(model_build *b, uint64_t count, size_t size) { return build_all
 
 void *build_scratch(model_build *b, uint64_t count, size_t size) { return build_alloc(b, &b->scratch, count, size); }
 
+int build_materials(model_build *b, uint64_t count)
+{
+    b->materials = (lmb_material *)build_keep(b, count, sizeof *b->materials);
+    b->out->emission = (lmb_vec3 *)build_keep(b, count, sizeof *b->out->emission);
+    return b->materials && b->out->emission;
+}
+
 void build_note(model_build *b, const char *format, ...)
 {
     model_notes *n = b->notes;
@@ -150,7 +157,7 @@ int build_picture(bitmap *out, const uint8_t *data, size_t size, const char *nam
     return picture_read_codes(out, data, size, name, why);
 }
 
-int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int mips, const char *name,
+int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int kind, const char *name,
                  report *why)
 {
     bitmap map;
@@ -158,15 +165,14 @@ int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t s
     uint8_t *texels;
     if (!build_picture(&map, data, size, name, why))
         return 0;
-    levels = mips ? lmb_texture_level_count(map.width, map.height) : 1;
+    levels = kind != TEXELS_PLAIN ? lmb_texture_level_count(map.width, map.height) : 1;
     texels = keep_texels(b, &map, levels, name, why);
     if (texels) {
         out->texels = texels;
         out->width = (uint16_t)map.width;
         out->height = (uint16_t)map.height;
         out->levels = (uint8_t)levels;
-        if (levels > 1)
-            lmb_texture_mips(texels, map.width, map.height, levels);
+        (kind == TEXELS_NORMALS ? lmb_normal_map_mips : lmb_texture_mips)(texels, map.width, map.height, levels);
     }
     bitmap_free(&map);
     return texels != NULL;
@@ -198,6 +204,17 @@ static void note_far_away(model_build *b)
     if (distance > 1000 * diagonal && diagonal > 0)
         build_note(b, "the scene is %.3g m across but %.3g m from the origin; move it there for precision", diagonal,
                    distance);
+}
+
+static void note_emission(model_build *b)
+{
+    uint32_t i, count = 0;
+    for (i = 0; i < b->material_count; ++i) {
+        const lmb_vec3 e = b->out->emission[i];
+        count += e.x > 0.0f || e.y > 0.0f || e.z > 0.0f;
+    }
+    if (count)
+        build_note(b, "emissive materials, which do not light the scene: %u", (unsigned)count);
 }
 
 /* What a reader left to count: the file has what the scene has, each mesh of one piece. */
@@ -238,6 +255,7 @@ static int finish(model_build *b)
         return report_fail(b->r, "%s: the scene that was read is not sound (%s); please report this file", b->path,
                            lmb_status_name(status));
     note_far_away(b);
+    note_emission(b);
     count_facts(b);
     return 1;
 }
@@ -254,25 +272,38 @@ static int has_extension(const char *path, const char *extension)
     return 1;
 }
 
+typedef int (*model_reader)(model_build *b, const uint8_t *data, size_t size);
+
 /* glTF by its magic, its extension or a first brace; PLY by its first line or its extension; OBJ, which has no mark,
- * by its extension alone. */
-static int load_content(model_build *b, const file_bytes *file)
+ * by its extension alone; else NULL. */
+static model_reader find_reader(const char *path, const file_bytes *file)
 {
     size_t i = 0;
     if (file->size >= 4 && memcmp(file->data, "glTF", 4) == 0)
-        return gltf_load(b, file->data, file->size);
-    if (ply_begins(file->data, file->size) || has_extension(b->path, ".ply"))
-        return ply_load(b, file->data, file->size);
-    if (has_extension(b->path, ".obj"))
-        return obj_load(b, file->data, file->size);
+        return gltf_load;
+    if (ply_begins(file->data, file->size) || has_extension(path, ".ply"))
+        return ply_load;
+    if (has_extension(path, ".obj"))
+        return obj_load;
     while (i < file->size && strchr(" \t\r\n", file->data[i]) && file->data[i])
         ++i;
-    if (has_extension(b->path, ".gltf") || has_extension(b->path, ".glb") || (i < file->size && file->data[i] == '{'))
-        return gltf_load(b, file->data, file->size);
-    return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj or .ply file", b->path);
+    return has_extension(path, ".gltf") || has_extension(path, ".glb") || (i < file->size && file->data[i] == '{')
+               ? gltf_load
+               : NULL;
 }
 
-int model_read(model *out, const char *path, const uint8_t *data, size_t size, model_notes *notes, report *r)
+static int load_content(model_build *b, const file_bytes *file)
+{
+    const model_reader read = find_reader(b->path, file);
+    if (!read)
+        return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj or .ply file", b->path);
+    if (b->scene && read != gltf_load)
+        return report_fail(b->r, "%s: --scene %.60s: only glTF files hold several", b->path, b->scene);
+    return read(b, file->data, file->size);
+}
+
+int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
+               report *r)
 {
     const file_bytes file = {(uint8_t *)data, size};
     model_build b;
@@ -285,6 +316,7 @@ int model_read(model *out, const char *path, const uint8_t *data, size_t size, m
     b.notes->count = 0;
     b.r = r;
     b.path = path;
+    b.scene = scene;
     b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
     b.texel_budget = MODEL_TEXEL_BYTES;
     out->facts.file_bytes = size;
@@ -295,14 +327,14 @@ int model_read(model *out, const char *path, const uint8_t *data, size_t size, m
     return ok;
 }
 
-int model_load(model *out, const char *path, model_notes *notes, report *r)
+int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r)
 {
     file_bytes file;
     int ok;
     memset(out, 0, sizeof *out);
     if (!file_read(&file, path, r))
         return 0;
-    ok = model_read(out, path, file.data, file.size, notes, r);
+    ok = model_read(out, path, scene, file.data, file.size, notes, r);
     file_free(&file);
     return ok;
 }

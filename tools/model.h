@@ -28,6 +28,8 @@ typedef struct model_extension {
 /* What the file itself holds, drawn or not. 0 also where its format has no such thing. */
 typedef struct model_facts {
     const char *format;        /* "glTF", "GLB", "OBJ", "PLY", a literal; NULL: its reader does not say */
+    uint32_t scenes, scene;    /* described; the one that was read, from 0 */
+    char scene_name[64];
     uint32_t nodes, meshes, primitives;
     uint64_t vertices;         /* as stored (of an OBJ: its v lines), of the meshes that are read */
     uint32_t materials;        /* without the one for what names none */
@@ -46,6 +48,7 @@ typedef struct model_facts {
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
 typedef struct model {
     lmb_scene scene; /* checked: lmb_scene_check(&scene) == LMB_OK */
+    lmb_vec3 *emission; /* by material: radiance that it gives off, W/(sr m2); read, not drawn */
     model_camera *cameras;
     uint32_t camera_count;
     model_facts facts;
@@ -59,12 +62,14 @@ typedef struct model_notes {
     uint32_t count;
 } model_notes;
 
-/* model_load: .gltf, .glb, .obj or .ply by content and extension. Returns 1, or 0 with `r` set and *out empty. */
-int model_load(model *out, const char *path, model_notes *notes, report *r);
+/* model_load: .gltf, .glb, .obj or .ply by content and extension; of several scenes the one of the name or number
+ * `scene`, or with NULL the file's own choice. Returns 1, or 0 with `r` set and *out empty. */
+int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r);
 
 /* model_read: the same from memory; `path` names it in messages, tells the format where the content does not, and is
  * where files beside it are looked for. */
-int model_read(model *out, const char *path, const uint8_t *data, size_t size, model_notes *notes, report *r);
+int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
+               report *r);
 
 void model_free(model *m);
 

@@ -17,6 +17,7 @@ typedef struct model_build {
     model_notes *notes;
     report *r;
     const char *path;      /* the model's file, as the user named it */
+    const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t texel_budget; /* the same for texels */
     lmb_mesh *meshes;
@@ -31,6 +32,9 @@ typedef struct model_build {
  * NULL with the report set where memory or the budget is short; never NULL otherwise, count 0 included. */
 void *build_keep(model_build *b, uint64_t count, size_t size);
 void *build_scratch(model_build *b, uint64_t count, size_t size);
+
+/* build_materials: room for `count` materials in b->materials, with their emission. */
+int build_materials(model_build *b, uint64_t count);
 
 /* build_note: a line for the user; equal lines appear once, the sixteenth says that there were more. */
 void build_note(model_build *b, const char *format, ...) REPORT_PRINTF(2, 3);
@@ -48,9 +52,12 @@ int build_sibling(char *out, size_t cap, const model_build *b, const char *name,
 /* build_picture: decode a PNG or a JPEG, known by its first bytes. The caller calls bitmap_free. */
 int build_picture(bitmap *out, const uint8_t *data, size_t size, const char *name, report *why);
 
-/* build_texels: decode a picture into out->texels, width, height and, if `mips`, all levels; `name` for messages.
+/* What an image's lower levels are means of; TEXELS_PLAIN has none. */
+enum { TEXELS_PLAIN = 0, TEXELS_COLOUR, TEXELS_NORMALS };
+
+/* build_texels: decode a picture into out->texels, width, height and the levels of its `kind`; `name` for messages.
  * 0 with `why` set, which need not end the loading. */
-int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int mips, const char *name,
+int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int kind, const char *name,
                  report *why);
 
 /* The readers: fill the arrays of `b`; first_id and bounds are set afterwards. 1, or 0 with b->r set. */

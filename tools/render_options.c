@@ -12,6 +12,7 @@ const char render_usage[] =
     "\n"
     "view\n"
     "  --size WxH                 picture, px (default: height 480, width by the camera's aspect)\n"
+    "  --scene NAME|N             of a file with several scenes (default: its own choice)\n"
     "  --camera NAME|N            one of the scene's cameras, by name or number from 0 (default: 0)\n"
     "  --eye X,Y,Z --target X,Y,Z [--up X,Y,Z] --fov DEG\n"
     "                             a camera of your own; fov is the vertical angle (default 45), up +Y\n"
@@ -203,6 +204,8 @@ static int parse_target(const char *text, render_options *o) { return o->has_tar
 static int parse_up(const char *text, render_options *o) { return parse_vec3(text, &o->up); }
 static int parse_out(const char *text, render_options *o) { return (o->out = text)[0] != '\0'; }
 static int parse_stats(const char *text, render_options *o) { return (o->stats = text)[0] != '\0'; }
+static int parse_scene(const char *text, render_options *o) { return (o->scene_name = text)[0] != '\0'; }
+
 static int parse_camera(const char *text, render_options *o) { return (o->camera = text)[0] != '\0'; }
 static int parse_backend(const char *text, render_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
 static int parse_steps(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->steps); }
@@ -274,6 +277,7 @@ static const struct flag {
 } flags[] = {
     {"-o", parse_out, "a file name"},
     {"--size", parse_size, "WxH, 1 .. 8192 each"},
+    {"--scene", parse_scene, "a scene's name or number"},
     {"--camera", parse_camera, "a camera's name or number"},
     {"--eye", parse_eye, "X,Y,Z"},
     {"--target", parse_target, "X,Y,Z"},

@@ -14,7 +14,8 @@ enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO };
 typedef struct render_options {
     const char *scene, *out, *stats;
     int32_t width, height; /* 0: default */
-    const char *camera;    /* name or number; NULL: the first */
+    const char *scene_name; /* of a file with several; NULL: its own choice */
+    const char *camera;     /* name or number; NULL: the first */
     int has_eye, has_target, has_fov;
     lmb_vec3 eye, target, up;
     float fov_deg;

@@ -190,13 +190,6 @@ static float *float_pixels(int32_t width, int32_t height, size_t channels)
     return count > SIZE_MAX / bytes ? NULL : malloc(count * bytes);
 }
 
-/* Code / 255 in linear light (IEC 61966-2-1). */
-static double srgb_decode(int code)
-{
-    double c = code / 255.0;
-    return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
-}
-
 static int picture_from_bitmap(picture *out, const bitmap *in)
 {
     size_t count = (size_t)in->width * (size_t)in->height;

@@ -13,16 +13,18 @@
 #include "picture_read.h"
 
 static const char help_text[] =
-    "usage: lambent info FILE [--json]\n"
+    "usage: lambent info FILE [--scene NAME|N] [--json]\n"
     "\n"
     "What is in a scene that `lambent render` reads, or in a picture: PNG, JPEG, PPM, PGM,\n"
     "PFM or Radiance HDR, known by its content.\n"
     "\n"
+    "  scenes            of a glTF file; read: the one that counts below (--scene chooses)\n"
     "  nodes meshes      as the file has them, with the meshes' primitives\n"
     "  instances         primitives placed in the world\n"
     "  triangles         placed: over all instances; unique: each mesh once\n"
     "  vertices          as stored, of the meshes that are placed\n"
     "  materials         in the file; drawn: those that an instance shows, and what they are\n"
+    "  emissive          materials that give off light: radiance, W/(sr m2); `render` does not light the scene with it\n"
     "  images textures   in the file; read: with size, mip levels and bytes in memory, shared by equal images\n"
     "  lights cameras    in the file; placed: by nodes; the number before a camera is for `render --camera`\n"
     "  extensions        read, folded into what is read anyhow, or ignored; a scene that requires one that is\n"
@@ -34,19 +36,21 @@ static const char help_text[] =
     "Pictures: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high byte;\n"
     "palettes resolved), or linear light; values that are not finite are counted and left out.\n"
     "\n"
+    "  --scene NAME|N    of a file with several scenes, by name or number from 0 (default: its own choice)\n"
     "  --json            one object on one line\n"
     "\n"
     "exit status: 0 done, 1 a file that cannot be read, 2 bad usage\n";
 
 typedef struct options {
     const char *path; /* NULL: not given */
+    const char *scene; /* NULL: the file's own choice */
     int json, help;
 } options;
 
 /* Figures that neither the file nor the scene states. */
 typedef struct summary {
     uint64_t unique_triangles;
-    uint32_t drawn, double_sided, masked, textured; /* materials */
+    uint32_t drawn, double_sided, masked, textured, normal_mapped, emissive; /* materials */
     uint32_t lights[3];                             /* by LMB_LIGHT_ */
     uint32_t orthographic;
 } summary;
@@ -145,10 +149,13 @@ static int count_materials(summary *s, const lmb_scene *scene)
         s->double_sided += (m->flags & LMB_DOUBLE_SIDED) != 0;
         s->masked += (m->flags & LMB_ALPHA_MASK) != 0;
         s->textured += m->texture >= 0;
+        s->normal_mapped += m->normal_scale != 0.0f;
     }
     free(seen);
     return 1;
 }
+
+static int is_emissive(lmb_vec3 radiance) { return radiance.x > 0.0f || radiance.y > 0.0f || radiance.z > 0.0f; }
 
 static int summarize(summary *s, const model *m)
 {
@@ -159,6 +166,8 @@ static int summarize(summary *s, const model *m)
         ++s->lights[m->scene.lights[i].kind];
     for (uint32_t i = 0; i < m->camera_count; ++i)
         s->orthographic += m->cameras[i].orthographic != 0;
+    for (uint32_t i = 0; i < m->scene.material_count; ++i)
+        s->emissive += is_emissive(m->emission[i]);
     return count_materials(s, &m->scene);
 }
 
@@ -186,6 +195,12 @@ static const char *format_name(const model_facts *f) { return f->format ? f->for
 static void text_counts(FILE *out, const model *m, const summary *s)
 {
     const model_facts *f = &m->facts;
+    if (f->scenes > 0) {
+        label(out, "scenes");
+        fprintf(out, "%u; read: %u%s", (unsigned)f->scenes, (unsigned)f->scene, f->scene_name[0] ? ", " : "");
+        plain_text(out, f->scene_name);
+        fputc('\n', out);
+    }
     label(out, "nodes");
     fprintf(out, "%u\n", (unsigned)f->nodes);
     label(out, "meshes");
@@ -199,8 +214,18 @@ static void text_counts(FILE *out, const model *m, const summary *s)
     label(out, "vertices");
     fprintf(out, "%" PRIu64 "\n", f->vertices);
     label(out, "materials");
-    fprintf(out, "%u; drawn: %u (%u double sided, %u masked, %u textured)\n", (unsigned)f->materials,
-            (unsigned)s->drawn, (unsigned)s->double_sided, (unsigned)s->masked, (unsigned)s->textured);
+    fprintf(out, "%u; drawn: %u (%u double sided, %u masked, %u textured, %u normal mapped)\n", (unsigned)f->materials,
+            (unsigned)s->drawn, (unsigned)s->double_sided, (unsigned)s->masked, (unsigned)s->textured,
+            (unsigned)s->normal_mapped);
+    label(out, "emissive");
+    fprintf(out, "%u\n", (unsigned)s->emissive);
+    for (uint32_t i = 0; i < m->scene.material_count; ++i) {
+        const lmb_vec3 e = m->emission[i];
+        if (is_emissive(e)) {
+            label(out, "");
+            fprintf(out, "%u: %.6g %.6g %.6g\n", (unsigned)i, (double)e.x, (double)e.y, (double)e.z);
+        }
+    }
 }
 
 static void text_textures(FILE *out, const model *m)
@@ -292,13 +317,23 @@ static void text_scene(FILE *out, const char *path, const model *m, const summar
 static void json_counts(FILE *out, const model *m, const summary *s)
 {
     const model_facts *f = &m->facts;
-    fprintf(out, "\"nodes\":%u,\"meshes\":%u,\"primitives\":%u,\"instances\":%u,", (unsigned)f->nodes,
+    fprintf(out, "\"scenes\":{\"count\":%u,\"read\":%u,\"name\":", (unsigned)f->scenes, (unsigned)f->scene);
+    json_text(out, f->scene_name);
+    fprintf(out, "},\"nodes\":%u,\"meshes\":%u,\"primitives\":%u,\"instances\":%u,", (unsigned)f->nodes,
             (unsigned)f->meshes, (unsigned)f->primitives, (unsigned)m->scene.instance_count);
     fprintf(out, "\"triangles\":{\"placed\":%u,\"unique\":%" PRIu64 "},\"vertices\":%" PRIu64 ",",
             (unsigned)lmb_scene_triangles(&m->scene), s->unique_triangles, f->vertices);
-    fprintf(out, "\"materials\":{\"count\":%u,\"drawn\":%u,\"double_sided\":%u,\"masked\":%u,\"textured\":%u},",
+    fprintf(out, "\"materials\":{\"count\":%u,\"drawn\":%u,\"double_sided\":%u,\"masked\":%u,\"textured\":%u,"
+                 "\"normal_mapped\":%u,\"emissive\":[",
             (unsigned)f->materials, (unsigned)s->drawn, (unsigned)s->double_sided, (unsigned)s->masked,
-            (unsigned)s->textured);
+            (unsigned)s->textured, (unsigned)s->normal_mapped);
+    for (uint32_t i = 0, n = 0; i < m->scene.material_count; ++i)
+        if (is_emissive(m->emission[i])) {
+            fprintf(out, "%s{\"material\":%u,", n++ ? "," : "", (unsigned)i);
+            json_vec3(out, "radiance", m->emission[i]);
+            fputc('}', out);
+        }
+    fputs("]},", out);
     fprintf(out, "\"lights\":{\"count\":%u,\"point\":%u,\"spot\":%u,\"directional\":%u},", (unsigned)f->lights,
             (unsigned)s->lights[LMB_LIGHT_POINT], (unsigned)s->lights[LMB_LIGHT_SPOT],
             (unsigned)s->lights[LMB_LIGHT_DIRECTIONAL]);
@@ -377,7 +412,7 @@ static int scene_info(FILE *out, const options *o, const file_bytes *file, repor
     model_notes notes;
     model m;
     summary s;
-    if (!model_read(&m, o->path, file->data, file->size, &notes, r))
+    if (!model_read(&m, o->path, o->scene, file->data, file->size, &notes, r))
         return 0;
     int ok = summarize(&s, &m) || report_fail(r, "%s: memory is short for its materials", o->path);
     if (ok)
@@ -518,6 +553,10 @@ static int parse_options(options *o, FILE *err, int argc, char **argv)
             o->json = 1;
         else if (!strcmp(argv[i], "--help"))
             o->help = 1;
+        else if (!strcmp(argv[i], "--scene") && i + 1 < argc)
+            o->scene = argv[++i];
+        else if (!strcmp(argv[i], "--scene"))
+            return complain(err, INFO_USAGE, "--scene: a scene's name or number is missing");
         else if (argv[i][0] == '-')
             return complain(err, INFO_USAGE, "unknown option '%s'; see lambent info --help", argv[i]);
         else if (o->path)

@@ -67,7 +67,7 @@ static int load_scene(job *j, report *r)
         return 1;
     }
     memset(&notes, 0, sizeof notes);
-    int ok = model_load(&j->loaded, j->o.scene, &notes, r);
+    int ok = model_load(&j->loaded, j->o.scene, j->o.scene_name, &notes, r);
     for (uint32_t i = 0; i < notes.count; ++i) {
         fprintf(stderr, "lambent: note: %s\n", notes.line[i]);
     }

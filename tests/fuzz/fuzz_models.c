@@ -50,7 +50,7 @@ static void try_model(const char *path, const uint8_t *data, size_t size)
     report r = {{0}};
     model m;
     model_notes notes;
-    if (model_read(&m, path, data, size, &notes, &r)) {
+    if (model_read(&m, path, NULL, data, size, &notes, &r)) {
         fuzz_require(r.text[0] == '\0' && lmb_scene_check(&m.scene) == LMB_OK);
         draw_scene(&m.scene);
         model_free(&m);
@@ -99,6 +99,7 @@ void fuzz_mtl(const uint8_t *data, size_t size)
     obj_names names = {named, slots, 3, 7};
     lmb_material materials[3];
     lmb_texture textures[3];
+    lmb_vec3 emission[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     model out;
     model_build b;
     model_notes notes;
@@ -112,6 +113,7 @@ void fuzz_mtl(const uint8_t *data, size_t size)
         obj_find(&names, named[i].name, &slot);
         slots[slot] = i + 1;
     }
+    out.emission = emission;
     b.out = &out;
     b.notes = &notes;
     b.r = &r;
@@ -128,6 +130,7 @@ void fuzz_mtl(const uint8_t *data, size_t size)
         for (int c = 0; c < 3; ++c) {
             fuzz_require(materials[i].albedo[c] >= 0.0f && materials[i].albedo[c] <= 1.0f);
         }
+        fuzz_require(emission[i].x >= 0.0f && emission[i].y >= 0.0f && emission[i].z >= 0.0f);
     }
     model_free(&b.scratch);
     model_free(&out);

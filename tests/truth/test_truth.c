@@ -162,7 +162,7 @@ static int stage_open(stage *s, const char *name, const char *sized_as)
     s->drawn.height = like.height;
     image_free(&like);
     path_of(path, name, "scene.gltf");
-    int ok = model_load(&s->loaded, path, &notes, &r);
+    int ok = model_load(&s->loaded, path, NULL, &notes, &r);
     CHECK_MSG(ok && s->loaded.camera_count > 0, "%s: %s", name, r.text);
     if (ok) {
         set_view(s);

@@ -1,67 +1,23 @@
 /* test_info.c: `lambent info`: facts of own small files, exact; its text, JSON and errors; counts of known scenes. */
-#if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
-#define _XOPEN_SOURCE 700 /* mkdtemp, rmdir */
-#endif
+#include "../folder.h"
+
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#ifndef _WIN32
-#include <unistd.h>
-#endif
 
 #include "../../tools/image.h"
 #include "../../tools/io_json.h"
 #include "../../tools/model.h"
 #include "../../tools/verb_info.h"
-#include "../test.h"
 
 void test_info(void);
 
-enum { PATH_SIZE = 512, FILES_MAX = 16, TEXT_MAX = 1 << 14 };
+enum { TEXT_MAX = 1 << 14 };
 
-static char folder[PATH_SIZE];
-static char written[FILES_MAX][PATH_SIZE];
-static int written_count;
+static folder place;
 static char said[TEXT_MAX], complained[TEXT_MAX]; /* by the last run of info */
 
 /* --- files and runs --- */
 
-static void open_folder(void)
-{
-#ifdef _WIN32
-    strcpy(folder, ".");
-#else
-    const char *parent = getenv("TMPDIR");
-    snprintf(folder, sizeof folder, "%.400s/lambent_info_XXXXXX", parent && *parent ? parent : "/tmp");
-    CHECK_MSG(mkdtemp(folder) != NULL, "no temporary folder %s", folder);
-#endif
-}
-
-static void close_folder(void)
-{
-    int i;
-    for (i = 0; i < written_count; ++i)
-        remove(written[i]);
-#ifndef _WIN32
-    rmdir(folder);
-#endif
-}
-
-/* Each file once; its path. */
-static const char *put_file(const char *name, const void *data, size_t size)
-{
-    char *path = written[written_count];
-    FILE *f;
-    CHECK(written_count + 1 < FILES_MAX);
-    snprintf(path, PATH_SIZE, "%.440s/%.60s", folder, name);
-    f = fopen(path, "wb");
-    CHECK_MSG(f && fwrite(data, 1, size, f) == size, "cannot write %s", path);
-    if (f)
-        fclose(f);
-    ++written_count;
-    return path;
-}
+static const char *put_file(const char *name, const void *data, size_t size) { return folder_put(&place, name, data, size); }
 
 static const char *put_text(const char *name, const char *text) { return put_file(name, text, strlen(text)); }
 
@@ -77,14 +33,14 @@ static void take_back(char *text, FILE *f)
 /* The exit status of `info FIRST SECOND`; what it printed is in said and complained. */
 static int info(const char *first, const char *second)
 {
-    char verb[] = "info", words[2][PATH_SIZE], *argv[3];
+    char verb[] = "info", words[2][FOLDER_PATH], *argv[3];
     FILE *out = tmpfile(), *err = tmpfile();
     int status;
     CHECK(out && err);
     if (!out || !err)
         return -1;
-    snprintf(words[0], PATH_SIZE, "%s", first ? first : "");
-    snprintf(words[1], PATH_SIZE, "%s", second ? second : "");
+    snprintf(words[0], FOLDER_PATH, "%s", first ? first : "");
+    snprintf(words[1], FOLDER_PATH, "%s", second ? second : "");
     argv[0] = verb;
     argv[1] = words[0];
     argv[2] = words[1];
@@ -138,7 +94,7 @@ static void facts_of_gltf(const char *path, size_t png_size)
     model_facts f;
     report r = {""};
     model m;
-    CHECK_MSG(model_load(&m, path, &notes, &r), "%s", r.text);
+    CHECK_MSG(model_load(&m, path, NULL, &notes, &r), "%s", r.text);
     f = m.facts;
     e = f.extensions;
     CHECK(f.format && strcmp(f.format, "glTF") == 0);
@@ -176,7 +132,7 @@ static void text_of_gltf(const char *path)
     static const char *const parts[] = {
         "all.gltf: glTF\n", "nodes        7\n", "meshes       1\n", "primitives   2\n", "instances    4\n",
         "triangles    4 placed, 2 unique\n", "vertices     6\n",
-        "materials    3; drawn: 2 (1 double sided, 1 masked, 1 textured)\n", "images       2\n",
+        "materials    3; drawn: 2 (1 double sided, 1 masked, 1 textured, 0 normal mapped)\n", "images       2\n",
         "textures     1; read: 1 (20 bytes)\n", " 0: 2x2, levels: 2, 20 bytes\n",
         "lights       2; placed: 3 (1 point, 2 spot, 0 directional)\n",
         "cameras      2; placed: 2 (1 perspective, 1 orthographic)\n",
@@ -227,7 +183,7 @@ static double number(const char *a, const char *b, const char *c, const char *d)
 
 static int is_text(uint32_t node, const char *wanted)
 {
-    char text[PATH_SIZE];
+    char text[FOLDER_PATH];
     json_string(text, sizeof text, &doc, node);
     return strcmp(text, wanted) == 0;
 }
@@ -264,10 +220,10 @@ static void json_of_gltf(const char *path, size_t png_size)
 static void names_of_any_bytes(void)
 {
     const char *path = put_text("n\xC3 \xC0\xAF\xE2\x82\xAC.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    char wanted[PATH_SIZE + 32];
+    char wanted[FOLDER_PATH + 32];
     if (!read_json(path))
         return;
-    snprintf(wanted, sizeof wanted, "%s/n\xEF\xBF\xBD \xEF\xBF\xBD\xEF\xBF\xBD\xE2\x82\xAC.obj", folder);
+    snprintf(wanted, sizeof wanted, "%s/n\xEF\xBF\xBD \xEF\xBF\xBD\xEF\xBF\xBD\xE2\x82\xAC.obj", place.path);
     CHECK(is_text(find("file", NULL, NULL, NULL), wanted));
     json_free(&doc);
 }
@@ -298,7 +254,7 @@ static void obj_file(void)
                                         "instances    2\n",
                                         "triangles    3 placed, 3 unique\n",
                                         "vertices     5\n",
-                                        "materials    2; drawn: 2 (2 double sided, 0 masked, 0 textured)\n",
+                                        "materials    2; drawn: 2 (2 double sided, 0 masked, 0 textured, 0 normal mapped)\n",
                                         "textures     0; read: 0 (0 bytes)\n",
                                         "bounds       min ",
                                         "bytes        91 file, 18 other files, "};
@@ -355,8 +311,8 @@ static void hdr_picture(void)
 /* white.png of the glTF test: 2x2, no alpha. */
 static void png_picture(void)
 {
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%.440s/white.png", folder);
+    char path[FOLDER_PATH];
+    snprintf(path, sizeof path, "%.440s/white.png", place.path);
     if (!read_json(path))
         return;
     CHECK(json_count(&doc, find("channels", NULL, NULL, NULL)) == 3 && number("width", NULL, NULL, NULL) == 2);
@@ -425,7 +381,7 @@ static void check_known(const char *path, size_t i)
     report r = {""};
     uint64_t unique = 0;
     uint32_t k;
-    CHECK_MSG(model_load(&m, path, &notes, &r), "%s", r.text);
+    CHECK_MSG(model_load(&m, path, NULL, &notes, &r), "%s", r.text);
     for (k = 0; k < m.scene.mesh_count; ++k)
         unique += m.scene.meshes[k].triangle_count;
     CHECK_MSG(unique == known[i].triangles, "%s: %u triangles", path, (unsigned)unique);
@@ -446,7 +402,7 @@ static void check_known(const char *path, size_t i)
 static void known_scenes(void)
 {
     const char *shared = getenv("LMB_SHARED");
-    char path[PATH_SIZE];
+    char path[FOLDER_PATH];
     size_t i;
     if (!shared || !*shared)
         shared = "../shared";
@@ -467,7 +423,7 @@ void test_info(void)
 {
     const char *path;
     size_t png_size;
-    open_folder();
+    folder_open(&place);
     path = put_everything(&png_size);
     facts_of_gltf(path, png_size);
     text_of_gltf(path);
@@ -481,5 +437,5 @@ void test_info(void)
     png_picture();
     errors();
     known_scenes();
-    close_folder();
+    folder_close(&place);
 }

@@ -1,14 +1,8 @@
 /* test_ply.c: the PLY reader: every encoding and type with exact values, hostile counts, damage, known files. */
-#if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
-#define _XOPEN_SOURCE 700 /* mkstemp */
-#endif
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#ifndef _WIN32
-#include <unistd.h>
-#endif
 
 #include "../../tools/model.h"
 #include "../test.h"
@@ -17,44 +11,15 @@ void test_ply(void);
 
 enum { PATH_SIZE = 512, FILE_MAX = 4096 };
 
-static char path[PATH_SIZE]; /* of the one file that is written over and over */
 static model loaded;
 static model_notes notes;
 static report problem;
 
-/* --- files --- */
-
-static void open_path(void)
-{
-#ifdef _WIN32
-    strcpy(path, "lambent_test.ply");
-#else
-    const char *parent = getenv("TMPDIR");
-    int fd;
-    snprintf(path, sizeof path, "%.400s/lambent_ply_XXXXXX", parent && *parent ? parent : "/tmp");
-    fd = mkstemp(path);
-    CHECK_MSG(fd >= 0, "no temporary file %s", path);
-    if (fd >= 0)
-        close(fd);
-#endif
-}
-
-static int load_path(const char *name)
+static int load(const void *data, size_t size)
 {
     model_free(&loaded);
     memset(&problem, 0, sizeof problem);
-    return model_load(&loaded, name, &notes, &problem);
-}
-
-static int load(const void *data, size_t size)
-{
-    FILE *f;
-    remove(path); /* a new file is quicker than a truncated one, which some systems flush */
-    f = fopen(path, "wb");
-    CHECK_MSG(f && fwrite(data, 1, size, f) == size, "cannot write %s", path);
-    if (f)
-        fclose(f);
-    return load_path(path);
+    return model_read(&loaded, "a", NULL, (const uint8_t *)data, size, &notes, &problem);
 }
 
 static int load_text(const char *text) { return load(text, strlen(text)); }
@@ -535,7 +500,9 @@ static void known_files(void)
             continue;
         }
         fclose(f);
-        CHECK_LOADS(load_path(name));
+        model_free(&loaded);
+        memset(&problem, 0, sizeof problem);
+        CHECK_LOADS(model_load(&loaded, name, NULL, &notes, &problem));
         CHECK_MSG(lmb_scene_triangles(&loaded.scene) == known[i].triangles, "%s: %u", name,
                   (unsigned)lmb_scene_triangles(&loaded.scene));
         CHECK(loaded.blocks && mesh()->vertex_count == known[i].vertices && !mesh()->normals == !known[i].normals);
@@ -545,7 +512,6 @@ static void known_files(void)
 void test_ply(void)
 {
     int encoding;
-    open_path();
     all_types();
     extremes();
     text_forms();
@@ -559,5 +525,4 @@ void test_ply(void)
     }
     known_files();
     model_free(&loaded);
-    remove(path);
 }

@@ -1,0 +1,275 @@
+/* test_gltf.c: glTF's several scenes, normal maps and tangents, emission, skins; and what says what to convert with. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tools/image.h"
+#include "../../tools/model.h"
+#include "../blob.h"
+#include "../test.h"
+
+void test_gltf(void);
+
+static char text[1 << 16];
+static model loaded;
+static model_notes notes;
+static report problem;
+static const char *wanted; /* scene of the next load; NULL: the file's own choice */
+
+static int load(const char *format, ...)
+{
+    va_list args;
+    int n;
+    va_start(args, format);
+    n = vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    CHECK(n > 0 && n < (int)sizeof text);
+    model_free(&loaded);
+    memset(&problem, 0, sizeof problem);
+    return model_read(&loaded, "a.gltf", wanted, (const uint8_t *)text, (size_t)n, &notes, &problem);
+}
+
+#define LOADS(...) CHECK_MSG(load(__VA_ARGS__), "%s", problem.text)
+
+static void refuses(int ok, const char *part)
+{
+    CHECK_MSG(!ok, "loaded, but should say: %s", part);
+    CHECK_MSG(strstr(problem.text, part) != NULL, "\"%s\" lacks \"%s\"", problem.text, part);
+    CHECK(!strchr(problem.text, '\n') && !loaded.blocks);
+}
+
+static int noted(const char *part)
+{
+    uint32_t i;
+    for (i = 0; i < notes.count; ++i)
+        if (strstr(notes.line[i], part))
+            return 1;
+    return 0;
+}
+
+static int near(float a, double b) { return fabs((double)a - b) <= 2e-4; }
+
+static int is_vec(lmb_vec3 v, double x, double y, double z) { return near(v.x, x) && near(v.y, y) && near(v.z, z); }
+
+#define ASSET "{\"asset\":{\"version\":\"2.0\"},"
+
+/* --- scenes --- */
+
+#define THREE_SCENES \
+    ASSET "\"scene\":1,\"scenes\":[{\"name\":\"day\",\"nodes\":[0]},{\"name\":\"night\",\"nodes\":[1,2]},{}]," \
+          "\"nodes\":[{\"camera\":0,\"name\":\"a\"},{\"camera\":0,\"name\":\"b\"},{\"camera\":0,\"name\":\"c\"}]," \
+          "\"cameras\":[{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"znear\":1}}]}"
+
+static void scenes(void)
+{
+    const model_facts *f = &loaded.facts;
+    LOADS(THREE_SCENES);
+    CHECK(f->scenes == 3 && f->scene == 1 && strcmp(f->scene_name, "night") == 0 && loaded.camera_count == 2);
+    wanted = "day";
+    LOADS(THREE_SCENES);
+    CHECK(f->scene == 0 && strcmp(f->scene_name, "day") == 0 && loaded.camera_count == 1);
+    CHECK(strcmp(loaded.cameras[0].name, "a") == 0);
+    wanted = "2";
+    LOADS(THREE_SCENES);
+    CHECK(f->scene == 2 && f->scene_name[0] == '\0' && loaded.camera_count == 0);
+    wanted = "3";
+    refuses(load(THREE_SCENES), "no scene `3`; it has 3, numbered from 0");
+    wanted = "dawn";
+    refuses(load(THREE_SCENES), "a.gltf: no scene `dawn`");
+    wanted = "-1";
+    refuses(load(THREE_SCENES), "no scene `-1`");
+    CHECK(!model_read(&loaded, "a.obj", "day", (const uint8_t *)"v 0 0 0\n", 8, &notes, &problem));
+    wanted = NULL;
+    refuses(load(ASSET "\"scene\":3,\"scenes\":[{}]}"), "scene: index 3, but there are 1");
+}
+
+/* --- one triangle with everything a material asks for --- */
+
+/* POSITION, NORMAL, TEXCOORD_0, TANGENT, then a 2x1 PNG of (128, 128, 255) and (255, 0, 0). */
+static void put_lookable(blob *b, size_t *png_size)
+{
+    static const float values[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0,
+                                   0, 1, 1, 0, 0, 1, 0, 3, 0, -1, 0, -2, 0, 1};
+    static const uint8_t rgb[] = {128, 128, 255, 255, 0, 0};
+    file_bytes png = {NULL, 0};
+    put_floats(b, values, (int)(sizeof values / sizeof values[0]));
+    CHECK(png_encode(&png, rgb, 2, 1, &problem));
+    memcpy(b->bytes + b->size, png.data, png.size);
+    b->size += png.size;
+    *png_size = png.size;
+    file_free(&png);
+}
+
+#define TRIANGLE \
+    "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":" \
+    "{\"POSITION\":0,\"NORMAL\":1,\"TEXCOORD_0\":2,\"TANGENT\":3},\"material\":0}]}]," \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}," \
+    "{\"bufferView\":0,\"byteOffset\":36,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}," \
+    "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}," \
+    "{\"bufferView\":0,\"byteOffset\":96,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"}]," \
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":144},{\"buffer\":0,\"byteOffset\":144,\"byteLength\":%u}]," \
+    "\"textures\":[{\"source\":0,\"sampler\":0}],\"samplers\":[{\"wrapS\":33071}],\"images\":[{\"bufferView\":1}]," \
+    "\"buffers\":[{\"byteLength\":%u,\"uri\":\"data:;base64,%s\"}],\"materials\":[{%s}]}"
+
+static int load_look(const char *material)
+{
+    blob b = {{0}, 0};
+    size_t png;
+    put_lookable(&b, &png);
+    return load(ASSET TRIANGLE, (unsigned)png, (unsigned)b.size, base64(b.bytes, b.size), material);
+}
+
+static void normal_maps(void)
+{
+    const lmb_material *m;
+    const lmb_texture *t;
+    CHECK_MSG(load_look("\"normalTexture\":{\"index\":0,\"scale\":0.5},\"pbrMetallicRoughness\":"
+                        "{\"baseColorTexture\":{\"index\":0},\"metallicFactor\":0}"), "%s", problem.text);
+    m = loaded.scene.materials;
+    t = loaded.scene.textures;
+    CHECK(m->normal_scale == 0.5f && m->texture >= 0 && (int32_t)m->normal_map != m->texture && loaded.scene.texture_count == 2);
+    if (loaded.scene.texture_count == 2) {
+        /* One image, two sets of levels: codes' means for normals, light's means for colours. */
+        const uint8_t *normal = t[m->normal_map].texels, *colour = t[m->texture].texels;
+        CHECK(memcmp(normal, colour, 8) == 0 && normal[8] == 192 && normal[9] == 64 && normal[10] == 128);
+        CHECK(colour[8] == 205 && t[m->normal_map].wrap_s == LMB_WRAP_CLAMP && t[m->normal_map].levels == 2);
+    }
+    CHECK(loaded.scene.meshes[0].tangents && loaded.scene.meshes[0].uvs);
+    if (loaded.scene.meshes[0].tangents) {
+        const int16_t *codes = loaded.scene.meshes[0].tangents;
+        CHECK(is_vec(lmb_octahedral_decode(codes), 1, 0, 0) && is_vec(lmb_octahedral_decode(codes + 2), 0, 1, 0));
+        CHECK(is_vec(lmb_octahedral_decode(codes + 4), 0, -1, 0));
+    }
+    CHECK_MSG(load_look("\"normalTexture\":{\"index\":0}"), "%s", problem.text);
+    CHECK(loaded.scene.materials[0].normal_scale == 1 && loaded.scene.materials[0].texture == -1);
+    CHECK(loaded.scene.meshes[0].uvs && loaded.scene.texture_count == 1);
+    CHECK_MSG(load_look("\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}"), "%s", problem.text);
+    CHECK(loaded.scene.materials[0].normal_scale == 0 && !loaded.scene.meshes[0].tangents);
+    CHECK_MSG(load_look("\"normalTexture\":{\"index\":0,\"texCoord\":1},"
+                        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}"), "%s", problem.text);
+    CHECK(loaded.scene.materials[0].normal_scale == 0 && noted("normal maps left out"));
+    CHECK_MSG(load_look("\"normalTexture\":{\"index\":0,\"extensions\":{\"KHR_texture_transform\":{\"rotation\":1}}}"),
+              "%s", problem.text);
+    CHECK(loaded.scene.materials[0].normal_scale == 1 && !loaded.scene.meshes[0].tangents); /* the triangle's own */
+    refuses(load_look("\"normalTexture\":{\"index\":1}"), "materials[0].normalTexture.index: index 1");
+    refuses(load_look("\"normalTexture\":{}"), "materials[0].normalTexture: index is missing");
+    CHECK_MSG(load_look("\"occlusionTexture\":{\"index\":0}"), "%s", problem.text);
+    CHECK(noted("occlusion maps ignored") && loaded.scene.texture_count == 0);
+}
+
+static void emission(void)
+{
+    const char *strong = "\"emissiveFactor\":[0.5,0.25,1],\"extensions\":{\"KHR_materials_emissive_strength\":"
+                         "{\"emissiveStrength\":8}}%s";
+    char material[512];
+    snprintf(material, sizeof material, strong, "");
+    CHECK_MSG(load_look(material), "%s", problem.text);
+    CHECK(is_vec(loaded.emission[0], 4, 2, 8) && noted("emissive materials, which do not light the scene: 1"));
+    snprintf(material, sizeof material, strong, ",\"emissiveTexture\":{\"index\":0}");
+    CHECK_MSG(load_look(material), "%s", problem.text);
+    /* Means in linear light: (0.21586 + 1) / 2, (0.21586 + 0) / 2, (1 + 0) / 2. */
+    CHECK(is_vec(loaded.emission[0], 4 * 0.60793, 2 * 0.10793, 8 * 0.5) && noted("emissive maps used by their mean: 1"));
+    CHECK_MSG(load_look("\"emissiveTexture\":{\"index\":0}"), "%s", problem.text);
+    CHECK(is_vec(loaded.emission[0], 0, 0, 0) && !noted("emissive"));
+    refuses(load_look("\"emissiveFactor\":[1,2]"), "emissiveFactor: must be an array of 3");
+    CHECK_MSG(load_look("\"emissiveFactor\":[-1,1e31,1]"), "%s", problem.text);
+    CHECK(is_vec(loaded.emission[0], 0, 0, 1));
+}
+
+/* --- skins --- */
+
+/* Two joints, each with its inverse bind matrix; three vertices: on the first, on the second, half on each. */
+static void put_skinned(blob *b)
+{
+    static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
+    static const float bind[2][16] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                                      {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5, 0, 0, 1}};
+    static const float weights[] = {1, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0};
+    static const uint8_t joints[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+    size_t i;
+    put_floats(b, triangle, 18);
+    put_floats(b, bind[0], 32);
+    put_floats(b, weights, 12);
+    for (i = 0; i < sizeof joints; ++i)
+        put_u8(b, joints[i]);
+}
+
+/* Node 0 shows the mesh, somewhere that must not count; joint 1 (node 2) is turned a quarter round z and moved. */
+#define SKINNED(SKIN, JOINT_1) \
+    ASSET "\"scenes\":[{\"nodes\":[0,1,2,3]}],\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[100,0,0]}," \
+          "{\"translation\":[0,0,7]},{" JOINT_1 "},{\"mesh\":0}]," \
+          "\"skins\":[" SKIN "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1," \
+          "\"JOINTS_0\":4,\"WEIGHTS_0\":3}}]}]," \
+          "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}," \
+          "{\"bufferView\":0,\"byteOffset\":36,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}," \
+          "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5126,\"count\":2,\"type\":\"MAT4\"}," \
+          "{\"bufferView\":0,\"byteOffset\":200,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"}," \
+          "{\"bufferView\":0,\"byteOffset\":248,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"}]," \
+          "\"bufferViews\":[{\"buffer\":0,\"byteLength\":260}]," \
+          "\"buffers\":[{\"byteLength\":260,\"uri\":\"data:;base64,%s\"}]}"
+
+#define QUARTER "\"rotation\":[0,0,0.70710678,0.70710678],\"translation\":[5,0,0]"
+
+static lmb_vec3 position(const lmb_instance *in, uint32_t vertex)
+{
+    const float *p = (const float *)loaded.scene.meshes[in->mesh].positions + 3 * (size_t)vertex, *m = in->to_world.m;
+    lmb_vec3 v;
+    v.x = m[0] * p[0] + m[4] * p[1] + m[8] * p[2] + m[12];
+    v.y = m[1] * p[0] + m[5] * p[1] + m[9] * p[2] + m[13];
+    v.z = m[2] * p[0] + m[6] * p[1] + m[10] * p[2] + m[14];
+    return v;
+}
+
+static void skins(void)
+{
+    const lmb_instance *in;
+    blob b = {{0}, 0};
+    put_skinned(&b);
+    LOADS(SKINNED("{\"joints\":[1,2],\"inverseBindMatrices\":2}", QUARTER), base64(b.bytes, b.size));
+    in = loaded.scene.instances;
+    CHECK(loaded.scene.instance_count == 2 && loaded.scene.mesh_count == 2 && loaded.facts.primitives == 1);
+    if (loaded.scene.instance_count == 2) {
+        /* Joint 2's matrix is T(5) R T(-5): (1, 0, 0) -> (-4, 0, 0) -> (0, -4, 0) -> (5, -4, 0). */
+        CHECK(is_vec(position(in, 0), 0, 0, 7) && is_vec(position(in, 1), 5, -4, 0));
+        /* (0, 1, 0): (0, 1, 7) by joint 1; (-5, 1) -> (-1, -5) -> (4, -5) by joint 2; half of each. */
+        CHECK(is_vec(position(in, 2), 2, -2, 3.5));
+        CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals), 1, 0, 0));
+        CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 2), 0, 1, 0));
+        CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 4), sqrt(0.5), sqrt(0.5), 0));
+        CHECK(is_vec(position(in + 1, 1), 1, 0, 0)); /* the same mesh without a skin stays */
+    }
+    CHECK(noted("skinned nodes posed") && loaded.facts.skins == 1);
+    LOADS(SKINNED("{\"joints\":[1,2]}", "\"translation\":[0,0,7]"), base64(b.bytes, b.size));
+    CHECK(is_vec(position(loaded.scene.instances, 1), 1, 0, 7)); /* no matrices: as if all were the identity */
+    refuses(load(SKINNED("{\"joints\":[1]}", QUARTER), base64(b.bytes, b.size)), "joint 1 at vertex 1, but the skin has 1");
+    refuses(load(SKINNED("{\"joints\":[]}", QUARTER), base64(b.bytes, b.size)), "skins[0]: a skin without joints");
+    refuses(load(SKINNED("{\"joints\":[1,9]}", QUARTER), base64(b.bytes, b.size)), "skins[0].joints[1]: index 9");
+    refuses(load(SKINNED("{\"joints\":[1,2,1],\"inverseBindMatrices\":2}", QUARTER), base64(b.bytes, b.size)),
+            "needs a MAT4 of floats for each of the 3 joints");
+    refuses(load(SKINNED("{\"joints\":[1,2],\"inverseBindMatrices\":3}", QUARTER), base64(b.bytes, b.size)), "MAT4");
+    refuses(load(SKINNED("", QUARTER), base64(b.bytes, b.size)), "nodes[0].skin: index 0, but there are 0");
+}
+
+/* --- what to convert with --- */
+
+static void conversions(void)
+{
+    refuses(load(ASSET "\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}"), "gltf-transform cp");
+    refuses(load(ASSET "\"extensionsRequired\":[\"EXT_meshopt_compression\"]}"), "gltfpack -noq");
+    refuses(load(ASSET "\"extensionsRequired\":[\"KHR_texture_basisu\"]}"), "gltf-transform ktxdecompress");
+    refuses(load(ASSET "\"extensionsRequired\":[\"EXT_texture_webp\"]}"), "gltf-transform png");
+    refuses(load(ASSET "\"extensionsRequired\":[\"EXT_texture_avif\"]}"), "gltf-transform png");
+    refuses(load(ASSET "\"extensionsRequired\":[\"KHR_no_such\"]}"), "extensionsRequired[0]: requires KHR_no_such");
+}
+
+void test_gltf(void)
+{
+    scenes();
+    normal_maps();
+    emission();
+    skins();
+    conversions();
+    model_free(&loaded);
+}

@@ -1,0 +1,225 @@
+/* io_gltf_place.c: cameras and punctual lights, placed by their nodes. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io_gltf.h"
+
+static lmb_vec3 to_vec3(double x, double y, double z)
+{
+    lmb_vec3 v;
+    v.x = (float)x;
+    v.y = (float)y;
+    v.z = (float)z;
+    return v;
+}
+
+/* v to length 1; 0 where it has none. */
+static int normalize(double v[3])
+{
+    const double d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    if (!(d > 1e-30 && d < 1e30))
+        return 0;
+    v[0] /= d;
+    v[1] /= d;
+    v[2] /= d;
+    return 1;
+}
+
+static void cross(double out[3], const double a[3], const double b[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+static int spot_cone(lmb_light *out, gltf *g, uint32_t light)
+{
+    const json *doc = &g->doc;
+    const uint32_t spot = json_member(doc, light, "spot");
+    double inner = 0, outer = 0.78539816339744831; /* pi / 4 */
+    if (!json_read_double(&inner, doc, json_member(doc, spot, "innerConeAngle"), g->b->r) ||
+        !json_read_double(&outer, doc, json_member(doc, spot, "outerConeAngle"), g->b->r))
+        return 0;
+    if (!(inner >= 0 && inner <= outer && outer > 0 && outer < 1.5709))
+        return json_fail(doc, spot, g->b->r, "needs 0 <= innerConeAngle <= outerConeAngle <= pi / 2");
+    out->kind = LMB_LIGHT_SPOT;
+    out->cos_inner = (float)cos(inner);
+    out->cos_outer = (float)cos(outer);
+    return 1;
+}
+
+static int light_kind(lmb_light *out, gltf *g, uint32_t light)
+{
+    const uint32_t type = json_member(&g->doc, light, "type");
+    out->kind = LMB_LIGHT_POINT;
+    out->cos_inner = 1.0f;
+    out->cos_outer = 0.0f;
+    if (json_equals(&g->doc, type, "spot"))
+        return spot_cone(out, g, light);
+    if (json_equals(&g->doc, type, "directional")) {
+        out->kind = LMB_LIGHT_DIRECTIONAL;
+        return 1;
+    }
+    return json_equals(&g->doc, type, "point") ||
+           json_fail(&g->doc, light, g->b->r, "type must be point, spot or directional");
+}
+
+/* A light of the document placed by a node: it shines along the node's -Z. */
+static int read_light(lmb_light *out, gltf *g, uint32_t light, const gltf_matrix *world, uint32_t node)
+{
+    const json *doc = &g->doc;
+    double colour[3] = {1, 1, 1}, intensity = 1, way[3];
+    int i;
+    memset(out, 0, sizeof *out);
+    if (!light_kind(out, g, light) || !json_read_doubles(colour, 3, doc, json_member(doc, light, "color"), g->b->r) ||
+        !json_read_double(&intensity, doc, json_member(doc, light, "intensity"), g->b->r))
+        return 0;
+    for (i = 0; i < 3; ++i) {
+        const double value = colour[i] * intensity;
+        if (!(value >= 0 && value <= 1e30))
+            return json_fail(doc, light, g->b->r, "color x intensity is no intensity");
+        out->intensity[i] = (float)value;
+        way[i] = -world->m[8 + i];
+    }
+    if (!normalize(way)) {
+        if (out->kind != LMB_LIGHT_POINT)
+            return json_fail(doc, node, g->b->r, "its light has no direction: the node's scale is 0");
+        way[2] = -1; /* a point light has no use for it; the scene wants unit length */
+        way[0] = way[1] = 0;
+    }
+    out->direction = to_vec3(way[0], way[1], way[2]);
+    out->position = to_vec3(world->m[12], world->m[13], world->m[14]);
+    g->left_out.ranges += json_member(doc, light, "range") != JSON_NONE;
+    return 1;
+}
+
+static uint32_t light_reference(const gltf *g, uint32_t node)
+{
+    const uint32_t extensions = json_member(&g->doc, node, "extensions");
+    return json_member(&g->doc, json_member(&g->doc, extensions, "KHR_lights_punctual"), "light");
+}
+
+int gltf_lights(const gltf_tree *t, gltf *g)
+{
+    const uint32_t extensions = json_member(&g->doc, 0, "extensions");
+    uint32_t i, light, total = 0;
+    if (!gltf_list_of(&g->lights, g,
+                      json_member(&g->doc, json_member(&g->doc, extensions, "KHR_lights_punctual"), "lights")))
+        return 0;
+    for (i = 0; i < t->count; ++i)
+        total += light_reference(g, g->nodes.items[t->order[i]]) != JSON_NONE;
+    g->b->lights = (lmb_light *)build_keep(g->b, total, sizeof *g->b->lights);
+    if (!g->b->lights)
+        return 0;
+    for (i = 0; i < t->count; ++i) {
+        const uint32_t index = t->order[i], node = g->nodes.items[index];
+        if (!gltf_item(&light, g, &g->lights, light_reference(g, node)))
+            return 0;
+        if (light == JSON_NONE)
+            continue;
+        if (!read_light(&g->b->lights[g->b->light_count++], g, light, &t->world[index], node))
+            return 0;
+    }
+    return 1;
+}
+
+/* Orthonormal axes of a node: back along its Z, up as near its Y as that allows; scale and mirroring drop out. */
+static int camera_axes(model_camera *out, gltf *g, const gltf_matrix *world, uint32_t node)
+{
+    double right[3], up[3], back[3];
+    int i;
+    for (i = 0; i < 3; ++i) {
+        up[i] = world->m[4 + i];
+        back[i] = world->m[8 + i];
+    }
+    cross(right, up, back);
+    if (!normalize(back) || !normalize(right))
+        return json_fail(&g->doc, node, g->b->r, "its camera has no direction: the node's scale is 0");
+    cross(up, back, right);
+    out->eye = to_vec3(world->m[12], world->m[13], world->m[14]);
+    out->right = to_vec3(right[0], right[1], right[2]);
+    out->up = to_vec3(up[0], up[1], up[2]);
+    out->back = to_vec3(back[0], back[1], back[2]);
+    return 1;
+}
+
+/* Above 0, and so in binary32. */
+static int is_length(double v) { return v > 1e-30 && v < 1e30; }
+
+static int read_perspective(model_camera *out, gltf *g, uint32_t camera)
+{
+    const json *doc = &g->doc;
+    double yfov = 0, aspect = 0, near_m = 0, far_m = 0;
+    if (!json_read_double(&yfov, doc, json_member(doc, camera, "yfov"), g->b->r) ||
+        !json_read_double(&aspect, doc, json_member(doc, camera, "aspectRatio"), g->b->r) ||
+        !json_read_double(&near_m, doc, json_member(doc, camera, "znear"), g->b->r) ||
+        !json_read_double(&far_m, doc, json_member(doc, camera, "zfar"), g->b->r))
+        return 0;
+    if (!(yfov > 1e-6 && yfov < 3.14159) || !is_length(near_m) || (aspect != 0 && !is_length(aspect)) ||
+        (far_m != 0 && !(is_length(far_m) && far_m > near_m)))
+        return json_fail(doc, camera, g->b->r, "needs 0 < yfov < pi, znear > 0, zfar > znear, aspectRatio > 0");
+    out->yfov_rad = (float)yfov;
+    out->aspect = (float)aspect;
+    out->near_m = (float)near_m;
+    out->far_m = (float)far_m;
+    return 1;
+}
+
+static int read_orthographic(model_camera *out, gltf *g, uint32_t camera)
+{
+    const json *doc = &g->doc;
+    double xmag = 0, ymag = 0, near_m = 0, far_m = 0;
+    if (!json_read_double(&xmag, doc, json_member(doc, camera, "xmag"), g->b->r) ||
+        !json_read_double(&ymag, doc, json_member(doc, camera, "ymag"), g->b->r) ||
+        !json_read_double(&near_m, doc, json_member(doc, camera, "znear"), g->b->r) ||
+        !json_read_double(&far_m, doc, json_member(doc, camera, "zfar"), g->b->r))
+        return 0;
+    if (!is_length(fabs(xmag)) || !is_length(fabs(ymag)) || !(near_m >= 0) || !is_length(far_m) || !(far_m > near_m))
+        return json_fail(doc, camera, g->b->r, "needs xmag and ymag other than 0, 0 <= znear < zfar");
+    out->orthographic = 1;
+    out->half_width = (float)fabs(xmag);
+    out->half_height = (float)fabs(ymag);
+    out->aspect = (float)fabs(xmag / ymag);
+    out->near_m = (float)near_m;
+    out->far_m = (float)far_m;
+    return 1;
+}
+
+/* Named as the node that places it, else as the camera itself, else by its number. */
+static int read_camera(model_camera *out, gltf *g, uint32_t camera, const gltf_matrix *world, uint32_t node)
+{
+    const json *doc = &g->doc;
+    const uint32_t flat = json_member(doc, camera, "orthographic"), deep = json_member(doc, camera, "perspective");
+    if (json_string(out->name, sizeof out->name, doc, json_member(doc, node, "name")) == 0 &&
+        json_string(out->name, sizeof out->name, doc, json_member(doc, camera, "name")) == 0)
+        snprintf(out->name, sizeof out->name, "camera %u", (unsigned)g->b->out->camera_count);
+    if (!camera_axes(out, g, world, node))
+        return 0;
+    if (json_equals(doc, json_member(doc, camera, "type"), "orthographic") && flat != JSON_NONE)
+        return read_orthographic(out, g, flat);
+    if (json_equals(doc, json_member(doc, camera, "type"), "perspective") && deep != JSON_NONE)
+        return read_perspective(out, g, deep);
+    return json_fail(doc, camera, g->b->r, "type must be perspective or orthographic, with the object of that name");
+}
+
+int gltf_cameras(const gltf_tree *t, gltf *g)
+{
+    uint32_t i, camera, total = 0;
+    model *out = g->b->out;
+    for (i = 0; i < t->count; ++i)
+        total += json_member(&g->doc, g->nodes.items[t->order[i]], "camera") != JSON_NONE;
+    out->cameras = (model_camera *)build_keep(g->b, total, sizeof *out->cameras);
+    if (!out->cameras)
+        return 0;
+    for (i = 0; i < t->count; ++i) {
+        const uint32_t index = t->order[i], node = g->nodes.items[index];
+        if (!gltf_item(&camera, g, &g->cameras, json_member(&g->doc, node, "camera")))
+            return 0;
+        if (camera == JSON_NONE)
+            continue;
+        if (!read_camera(&out->cameras[out->camera_count], g, camera, &t->world[index], node))
+            return 0;
+        ++out->camera_count;
+    }
+    return 1;
+}

@@ -1,0 +1,223 @@
+/* io_gltf_tree.c: the nodes of one scene of a glTF document in drawing order, each with its way to the world. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io_gltf.h"
+
+/* Fill parent[] from everyone's children; two parents are an error. */
+static int find_parents(gltf_tree *t, gltf *g)
+{
+    uint32_t i, c, child;
+    for (i = 0; i < g->nodes.count; ++i)
+        t->parent[i] = JSON_NONE;
+    for (i = 0; i < g->nodes.count; ++i) {
+        const uint32_t children = json_member(&g->doc, g->nodes.items[i], "children");
+        for (c = json_first(&g->doc, children); c != JSON_NONE; c = json_next(&g->doc, c)) {
+            if (!gltf_index(&child, g, &g->nodes, c))
+                return 0;
+            if (t->parent[child] != JSON_NONE)
+                return json_fail(&g->doc, c, g->b->r, "node %u already is a child of node %u; a node has one parent",
+                                 (unsigned)child, (unsigned)t->parent[child]);
+            t->parent[child] = i;
+        }
+    }
+    return 1;
+}
+
+/* Append a node, once: with one parent each, only a root named twice could come again. */
+static int push_root(uint32_t *stack, uint32_t *depth, const gltf_tree *t, const gltf *g, uint32_t reference, uint8_t *seen)
+{
+    uint32_t root;
+    if (!gltf_index(&root, g, &g->nodes, reference))
+        return 0;
+    if (t->parent[root] != JSON_NONE)
+        return json_fail(&g->doc, reference, g->b->r, "node %u is a child of node %u, not a root; export again",
+                         (unsigned)root, (unsigned)t->parent[root]);
+    if (seen[root])
+        return json_fail(&g->doc, reference, g->b->r, "node %u stands there twice", (unsigned)root);
+    seen[root] = 1;
+    stack[(*depth)++] = root;
+    return 1;
+}
+
+/* The stack's part from `from` on, turned round, so that the first comes off first. */
+static void reverse(uint32_t *stack, uint32_t from, uint32_t to)
+{
+    while (to - from > 1) {
+        const uint32_t swap = stack[from];
+        stack[from++] = stack[--to];
+        stack[to] = swap;
+    }
+}
+
+/* The scene that the user wants, by name or number; else the default one, else the first. */
+static int find_scene(uint32_t *out, gltf *g, const gltf_list *scenes)
+{
+    const char *wanted = g->b->scene;
+    char name[64], *end;
+    unsigned long number;
+    if (!wanted) {
+        if (!gltf_index(out, g, scenes, json_member(&g->doc, 0, "scene")))
+            return 0;
+        *out = *out == JSON_NONE ? 0 : *out;
+        return 1;
+    }
+    for (*out = 0; *out < scenes->count; ++*out) {
+        json_string(name, sizeof name, &g->doc, json_member(&g->doc, scenes->items[*out], "name"));
+        if (strcmp(name, wanted) == 0)
+            return 1;
+    }
+    number = strtoul(wanted, &end, 10);
+    if (*wanted < '0' || *wanted > '9' || *end != '\0' || number >= scenes->count)
+        return report_fail(g->b->r, "%s: no scene `%.60s`; it has %u, numbered from 0", g->b->path, wanted,
+                           (unsigned)scenes->count);
+    *out = (uint32_t)number;
+    return 1;
+}
+
+/* The roots of the scene; of a document without scenes, all there are. */
+static int push_roots(uint32_t *stack, uint32_t *depth, const gltf_tree *t, gltf *g, uint8_t *seen)
+{
+    model_facts *facts = &g->b->out->facts;
+    gltf_list scenes;
+    uint32_t i;
+    if (!gltf_list_of(&scenes, g, json_member(&g->doc, 0, "scenes")) || !find_scene(&facts->scene, g, &scenes))
+        return 0;
+    facts->scenes = scenes.count;
+    if (scenes.count == 0) {
+        for (i = 0; i < g->nodes.count; ++i)
+            if (t->parent[i] == JSON_NONE)
+                stack[(*depth)++] = i;
+    } else {
+        const uint32_t scene = scenes.items[facts->scene], nodes = json_member(&g->doc, scene, "nodes");
+        json_string(facts->scene_name, sizeof facts->scene_name, &g->doc, json_member(&g->doc, scene, "name"));
+        for (i = json_first(&g->doc, nodes); i != JSON_NONE; i = json_next(&g->doc, i))
+            if (!push_root(stack, depth, t, g, i, seen))
+                return 0;
+    }
+    reverse(stack, 0, *depth);
+    return 1;
+}
+
+/* A node on a cycle has a parent, and so has every other one on it: no root leads there. Walk up from each node with
+ * a mark; meeting the own mark again is a cycle, whether it is drawn or not. */
+static int refuse_cycles(const gltf_tree *t, gltf *g)
+{
+    uint32_t *mark = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *mark), i, up;
+    if (!mark)
+        return 0;
+    for (i = 0; i < g->nodes.count; ++i) {
+        for (up = i; up != JSON_NONE && mark[up] == 0; up = t->parent[up])
+            mark[up] = i + 1;
+        if (up != JSON_NONE && mark[up] == i + 1)
+            return json_fail(&g->doc, g->nodes.items[up], g->b->r, "is its own ancestor; export the file again");
+    }
+    return 1;
+}
+
+/* Depth first, children in their order. Each node is pushed once, so the stack needs one slot a node. */
+static int walk(gltf_tree *t, gltf *g)
+{
+    uint32_t *stack = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *stack), depth = 0, from, c, child;
+    uint8_t *seen = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
+    if (!stack || !seen || !find_parents(t, g) || !refuse_cycles(t, g) || !push_roots(stack, &depth, t, g, seen))
+        return 0;
+    while (depth > 0) {
+        const uint32_t node = stack[--depth];
+        const uint32_t children = json_member(&g->doc, g->nodes.items[node], "children");
+        t->order[t->count++] = node;
+        t->placed[node] = 1;
+        from = depth;
+        for (c = json_first(&g->doc, children); c != JSON_NONE; c = json_next(&g->doc, c)) {
+            if (!gltf_index(&child, g, &g->nodes, c))
+                return 0;
+            stack[depth++] = child;
+        }
+        reverse(stack, from, depth);
+    }
+    return 1;
+}
+
+/* Translation * rotation * scale; the quaternion x, y, z, w is normalised first. */
+static int compose(gltf_matrix *out, const double t[3], const double q[4], const double s[3])
+{
+    const double d = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    double x, y, z, w;
+    int i;
+    if (!(d > 1e-12))
+        return 0;
+    x = q[0] / d, y = q[1] / d, z = q[2] / d, w = q[3] / d;
+    out->m[0] = 1 - 2 * (y * y + z * z), out->m[1] = 2 * (x * y + z * w), out->m[2] = 2 * (x * z - y * w);
+    out->m[4] = 2 * (x * y - z * w), out->m[5] = 1 - 2 * (x * x + z * z), out->m[6] = 2 * (y * z + x * w);
+    out->m[8] = 2 * (x * z + y * w), out->m[9] = 2 * (y * z - x * w), out->m[10] = 1 - 2 * (x * x + y * y);
+    for (i = 0; i < 3; ++i) {
+        out->m[i] *= s[0];
+        out->m[4 + i] *= s[1];
+        out->m[8 + i] *= s[2];
+        out->m[12 + i] = t[i];
+    }
+    out->m[3] = out->m[7] = out->m[11] = 0;
+    out->m[15] = 1;
+    return 1;
+}
+
+static int local_matrix(gltf_matrix *out, gltf *g, uint32_t node)
+{
+    const json *doc = &g->doc;
+    const uint32_t whole = json_member(doc, node, "matrix");
+    double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
+    if (whole != JSON_NONE) {
+        if (!json_read_doubles(out->m, 16, doc, whole, g->b->r))
+            return 0;
+        if (out->m[3] != 0 || out->m[7] != 0 || out->m[11] != 0 || out->m[15] != 1)
+            return json_fail(doc, whole, g->b->r, "the last row must be 0 0 0 1");
+        return 1;
+    }
+    if (!json_read_doubles(t, 3, doc, json_member(doc, node, "translation"), g->b->r) ||
+        !json_read_doubles(q, 4, doc, json_member(doc, node, "rotation"), g->b->r) ||
+        !json_read_doubles(s, 3, doc, json_member(doc, node, "scale"), g->b->r))
+        return 0;
+    if (!compose(out, t, q, s))
+        return json_fail(doc, node, g->b->r, "rotation is no quaternion (its length is 0)");
+    return 1;
+}
+
+void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b)
+{
+    int row, column;
+    for (column = 0; column < 4; ++column)
+        for (row = 0; row < 4; ++row)
+            out->m[4 * column + row] = a->m[row] * b->m[4 * column] + a->m[4 + row] * b->m[4 * column + 1] +
+                                       a->m[8 + row] * b->m[4 * column + 2] + a->m[12 + row] * b->m[4 * column + 3];
+}
+
+/* The world gltf_matrix of every drawn node; each must fit binary32. */
+static int place_nodes(gltf_tree *t, gltf *g)
+{
+    uint32_t i, k;
+    for (i = 0; i < t->count; ++i) {
+        const uint32_t node = t->order[i], up = t->parent[node];
+        gltf_matrix local;
+        if (!local_matrix(&local, g, g->nodes.items[node]))
+            return 0;
+        if (up == JSON_NONE)
+            t->world[node] = local;
+        else
+            gltf_multiply(&t->world[node], &t->world[up], &local);
+        for (k = 0; k < 16; ++k)
+            if (!(fabs(t->world[node].m[k]) <= (double)FLT_MAX))
+                return json_fail(&g->doc, g->nodes.items[node], g->b->r, "its place in the world is not finite");
+    }
+    return 1;
+}
+int gltf_make_tree(gltf_tree *t, gltf *g)
+{
+    memset(t, 0, sizeof *t);
+    t->order = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *t->order);
+    t->parent = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *t->parent);
+    t->world = (gltf_matrix *)build_scratch(g->b, g->nodes.count, sizeof *t->world);
+    t->placed = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
+    return t->order && t->parent && t->world && t->placed && walk(t, g) && place_nodes(t, g);
+}
