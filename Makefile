@@ -46,6 +46,7 @@ TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lamben
 GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 
 LIB  := $(B)/liblambent.a
@@ -83,7 +84,8 @@ $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
-$(TOOL) $(B)/tests $(B)/golden $(B)/demo $(B)/replay:
+$(B)/decodes: $(DECODE_OBJ) $(LIB)
+$(TOOL) $(B)/tests $(B)/golden $(B)/demo $(B)/replay $(B)/decodes:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -106,7 +108,7 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ)))
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(DECODE_OBJ)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
@@ -161,7 +163,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-.PHONY: size room-sizes rom asan fuzz tiny run-demo cross install
+.PHONY: size room-sizes rom asan fuzz decodes large tiny run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS=-Os LDFLAGS=
@@ -182,7 +184,7 @@ FUZZ_LINE := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined 
 FUZZ_ALL  := $(FUZZ_SRC) $(filter-out tools/lambent.c,$(TOOL_SRC)) $(LIB_SRC)
 TARGETS   ?= png jpeg hdr pfm ppm inflate json gltf obj mtl ply
 MINUTES   ?= 1
-fuzz: $(FUZZER) ## each parser under libFuzzer for MINUTES=1 of CPU (TARGETS="png gltf ...")
+fuzz: $(FUZZER) ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
 	@sh tests/build/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
 
 $(FUZZER): tests/fuzz/main_fuzz.c $(FUZZ_ALL) $(wildcard tools/*.[hi]* src/*/*.[hi]* include/*/*.h tests/fuzz/*.h)
@@ -190,6 +192,12 @@ $(FUZZER): tests/fuzz/main_fuzz.c $(FUZZ_ALL) $(wildcard tools/*.[hi]* src/*/*.[
 	@mkdir -p $(@D)
 	@echo "FUZZ $@"
 	@clang $(FUZZ_LINE) $(WARNINGS) -Wno-missing-prototypes $(EXACT) -Iinclude $(filter %.c,$^) -o $@
+
+decodes: $(B)/decodes ## the picture decoders against netpbm, libjpeg-turbo and libvips
+	@$(IN_SH) tests/build/decodes.sh $(B)/decodes
+
+large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
+	@$(IN_SH) tests/build/large.sh
 
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/build/tiny.sh

@@ -1,4 +1,5 @@
-/* io_pfm.c: float pictures as PFM: a text header, then rows of floats from the bottom up. */
+/* io_pfm.c: float pictures as PFM: a text header, then rows of floats from the bottom up. Reading takes as much memory
+ * as the file has bytes. */
 #include "image.h"
 #include "io_bytes.h"
 
@@ -21,11 +22,20 @@ static int is_space(uint8_t c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
+/* Past white space and lines that begin with #, which some programs write. */
+static size_t skip_blanks(const uint8_t *data, size_t size, size_t at)
+{
+    int comment = 0;
+    for (; at < size && (comment || is_space(data[at]) || data[at] == '#'); ++at)
+        comment = data[at] == '#' || (comment && data[at] != '\n');
+    return at;
+}
+
 /* The next word of the header, and the one white space behind it. Returns the offset behind, or 0: none, too long. */
 static size_t read_word(char word[WORD_MAX + 1], const uint8_t *data, size_t size, size_t at)
 {
     size_t n = 0;
-    while (at < size && is_space(data[at])) ++at;
+    at = skip_blanks(data, size, at);
     for (; at < size && !is_space(data[at]); ++at) {
         if (n == WORD_MAX || data[at] < 33 || data[at] > 126) return 0;
         word[n++] = (char)data[at];

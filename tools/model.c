@@ -321,6 +321,8 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     b.texel_budget = MODEL_TEXEL_BYTES;
     out->facts.file_bytes = size;
     ok = load_content(&b, &file) && finish(&b);
+    out->facts.loading_bytes =
+        size + out->facts.neighbour_bytes + out->facts.memory_bytes + b.scratch.facts.memory_bytes;
     model_free(&b.scratch);
     if (!ok)
         model_free(out);

@@ -42,6 +42,7 @@ typedef struct model_facts {
     uint64_t file_bytes;       /* the model's file */
     uint64_t neighbour_bytes;  /* other files read for it; one that is read twice counts twice */
     uint64_t memory_bytes;     /* of `blocks` */
+    uint64_t loading_bytes;    /* while loading: of `blocks`, working memory and the files' own bytes */
     uint64_t texel_bytes;      /* the textures' part of that, mips included */
 } model_facts;
 

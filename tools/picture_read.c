@@ -33,8 +33,12 @@ static int is_pfm(const uint8_t *data, size_t size)
 static int is_hdr(const uint8_t *data, size_t size) { return size >= 2 && data[0] == '#' && data[1] == '?'; }
 
 static const picture_kind kinds[] = {
-    {"PNG", is_png, png_decode, NULL},      {"JPEG", is_jpeg, jpeg_decode, NULL}, {"PGM", is_grey_map, ppm_decode, NULL},
-    {"PPM", is_ppm, ppm_decode, NULL},      {"PFM", is_pfm, NULL, pfm_decode},    {"HDR", is_hdr, NULL, hdr_decode},
+    {"PNG", is_png, png_decode, NULL},
+    {"JPEG", is_jpeg, jpeg_decode, NULL},
+    {"PGM", is_grey_map, ppm_decode, NULL},
+    {"PPM", is_ppm, ppm_decode, NULL},
+    {"PFM", is_pfm, NULL, pfm_decode},
+    {"HDR", is_hdr, NULL, hdr_decode},
 };
 
 static const picture_kind *kind_of(const uint8_t *data, size_t size)

@@ -303,8 +303,8 @@ static void text_scene(FILE *out, const char *path, const model *m, const summar
     text_extensions(out, f);
     text_bounds(out, &m->scene);
     label(out, "bytes");
-    fprintf(out, "%" PRIu64 " file, %" PRIu64 " other files, %" PRIu64 " in memory\n", f->file_bytes,
-            f->neighbour_bytes, f->memory_bytes);
+    fprintf(out, "%" PRIu64 " file, %" PRIu64 " other files, %" PRIu64 " in memory, %" PRIu64 " while loading\n",
+            f->file_bytes, f->neighbour_bytes, f->memory_bytes, f->loading_bytes);
     label(out, "notes");
     fprintf(out, "%u\n", (unsigned)notes->count);
     for (uint32_t i = 0; i < notes->count; ++i) {
@@ -398,8 +398,9 @@ static void json_scene(FILE *out, const char *path, const model *m, const summar
     json_vec3(out, "max", m->scene.bounds_max);
     fputc(',', out);
     json_vec3(out, "size", extent(&m->scene));
-    fprintf(out, "},\"bytes\":{\"file\":%" PRIu64 ",\"other_files\":%" PRIu64 ",\"memory\":%" PRIu64 "},\"notes\":[",
-            f->file_bytes, f->neighbour_bytes, f->memory_bytes);
+    fprintf(out, "},\"bytes\":{\"file\":%" PRIu64 ",\"other_files\":%" PRIu64 ",\"memory\":%" PRIu64
+                 ",\"loading\":%" PRIu64 "},\"notes\":[",
+            f->file_bytes, f->neighbour_bytes, f->memory_bytes, f->loading_bytes);
     for (uint32_t i = 0; i < notes->count; ++i) {
         fputs(i ? "," : "", out);
         json_text(out, notes->line[i]);

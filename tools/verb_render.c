@@ -350,9 +350,11 @@ static int write_stats(const job *j, report *r)
                   (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
                   (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups);
     n += snprintf(text + n, sizeof text - (size_t)n,
-                  "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n  \"bytes\": %.0f,\n"
+                  "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
+                  "  \"bytes\": %.0f, \"model_bytes\": %.0f, \"loading_bytes\": %.0f,\n"
                   "  \"backend\": \"%s\"\n}\n",
                   s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0, (double)j->bytes,
+                  (double)j->loaded.facts.memory_bytes, (double)j->loaded.facts.loading_bytes,
                   lmb_kernels_name(j->frame.kernels));
     return file_write(j->o.stats, text, (size_t)n, r);
 }

@@ -1,4 +1,4 @@
-# fuzz.sh: runs each fuzz target for some CPU minutes: fuzz.sh FUZZER FOLDER MINUTES [TARGET...]
+# fuzz.sh: runs each fuzz target for some CPU minutes, 0: for five seconds: fuzz.sh FUZZER FOLDER MINUTES TARGET...
 #
 # Starts from tests/fuzz/corpus and the sample data where that is; what is found to be of use is kept in FOLDER/TARGET
 # for the next run, findings in FOLDER/TARGET-crash-* and the like. Goes in slices, because the engine's own limit
@@ -6,10 +6,13 @@
 fuzzer=$1 folder=$2 minutes=$3
 shift 3
 shared=${LMB_SHARED:-../shared}
-slice=${SLICE:-120}
+[ "$minutes" -gt 0 ] && slice=120 || slice=5
 
-# User seconds that the finished children of this shell took.
-spent() { times | awk 'NR == 2 { split($1, t, /[ms]/); print int(t[1] * 60 + t[2]) }'; }
+# seconds: user seconds that the finished children of this shell took. A pipe or $(...) would ask a shell of its own.
+count() {
+    times >"$folder/times"
+    seconds=$(awk 'NR == 2 { split($1, t, /[ms]/); print int(t[1] * 60 + t[2]) }' "$folder/times")
+}
 
 # Sample files that the target reads.
 samples() {
@@ -28,11 +31,14 @@ run() {
     for file in $(samples "$1"); do
         [ "$(wc -c <"$file")" -gt 65536 ] || cp "$file" "$folder/samples/$1/"
     done
-    begun=$(spent)
-    while [ $(($(spent) - begun)) -lt $((minutes * 60)) ]; do
+    count
+    begun=$seconds
+    while
         "$fuzzer" "$1" $options -max_total_time=$slice -artifact_prefix="$folder/$1-" "$folder/$1" \
             "tests/fuzz/corpus/$1" "$folder/samples/$1" >"$folder/$1.log" 2>&1 || return 1
-    done
+        count
+        [ $((seconds - begun)) -lt $((minutes * 60)) ]
+    do :; done
 }
 
 passed=0 failed=0
@@ -42,7 +48,8 @@ for target in "$@"; do
     else
         failed=$((failed + 1)) verdict="$(grep -m 1 -E 'SUMMARY|does not hold' "$folder/$target.log")"
     fi
-    echo "$target: $(($(spent) - begun)) s of CPU, $(ls "$folder/$target" | wc -l) inputs kept: $verdict"
+    count
+    echo "$target: $((seconds - begun)) s of CPU, $(ls "$folder/$target" | wc -l) inputs kept: $verdict"
 done
 echo "$passed passed, $failed failed, 0 skipped"
 [ "$failed" = 0 ]

@@ -3,7 +3,7 @@
 # need: fails and names the missing commands with the Debian packages that have them.
 # install: installs what is missing where apt-get and the right to use it are there; says what stays missing.
 all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips arm-none-eabi-gcc
-    qemu-system-arm"
+    qemu-system-arm djpeg cjpeg pngtopam vips"
 
 packages_of() {
     case $1 in
@@ -12,6 +12,9 @@ packages_of() {
     arm-none-eabi-gcc) echo gcc-arm-none-eabi ;;
     qemu-system-arm) echo qemu-system-arm ;;
     qemu-*) echo qemu-user ;;
+    djpeg | cjpeg) echo libjpeg-turbo-progs ;;
+    pngtopam) echo netpbm ;;
+    vips) echo libvips-tools ;;
     clang-sanitizers) echo "libclang-rt-$(clang -dumpversion 2>/dev/null | cut -d. -f1)-dev" | sed 's/--/-14-/' ;;
     wasm-ld) echo lld ;;
     node) echo nodejs ;;

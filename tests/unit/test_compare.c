@@ -6,7 +6,6 @@
 #include <string.h>
 #include <time.h>
 
-#include "../../tools/io_ppm_read.h"
 #include "../../tools/metrics.h"
 #include "../../tools/verb_compare.h"
 
@@ -327,28 +326,6 @@ static void test_size_mismatch(scratch *s)
     CHECK_MSG(strncmp(s->text, "lambent compare: ", 17) == 0, "%s", s->text);
 }
 
-static int ppm_status(const char *text, size_t size)
-{
-    bitmap map = {0, 0, NULL};
-    report r = {""};
-    int ok = ppm_decode(&map, (const uint8_t *)text, size, "t.ppm", &r);
-    CHECK(ok ? map.texels != NULL : r.text[0] && !map.texels);
-    free(map.texels);
-    return ok;
-}
-
-#define PPM_STATUS(text) ppm_status(text, sizeof text - 1)
-
-static void test_ppm_read(void)
-{
-    CHECK(PPM_STATUS("P6 1 1 255\nabc") && PPM_STATUS("P6#c\n1#d\r1\t\t255 abc"));
-    CHECK(!PPM_STATUS("P6 1 1 255\nab") && !PPM_STATUS("P6 1 1 255\nabcd") && !PPM_STATUS("P6 1 1 255"));
-    CHECK(!PPM_STATUS("P5 1 1 255\nabc") && !PPM_STATUS("P61 1 255\nabc") && !PPM_STATUS("P"));
-    CHECK(!PPM_STATUS("P6 0 1 255\n") && !PPM_STATUS("P6 -1 1 255\nabc") && !PPM_STATUS("P6 1 1 254\nabc"));
-    CHECK(!PPM_STATUS("P6 1 1 65535\nabcabc") && !PPM_STATUS("P6 99999999999 99999999999 255\nabc"));
-    CHECK(!PPM_STATUS("P6 1048576 1048576 255\nabc") && !PPM_STATUS("P6 # 1 1 255"));
-}
-
 void test_compare(void)
 {
     static pair p;
@@ -362,7 +339,6 @@ void test_compare(void)
     test_not_finite(&p);
     test_degenerate(&p);
     test_heat(&p);
-    test_ppm_read();
     if (!scratch_init(&s)) {
         SKIP("compare on files: no temporary folder can be written to");
         return;

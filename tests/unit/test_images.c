@@ -9,6 +9,8 @@
 #include <string.h>
 
 #include "../../tools/image.h"
+#include "../../tools/io_ppm_read.h"
+#include "../../tools/picture_read.h"
 
 #ifndef _WIN32
 #include <dirent.h>
@@ -680,8 +682,9 @@ static void check_png_headers(void)
     check_png_header(16, 0, 4, "0 x 2 pixels");
     check_png_header(20, 0, 4, "1 x 0 pixels");
     check_png_header(16, 0xffffffffu, 4, "4294967295 x 2 pixels");
-    check_png_header(16, 1u << 27, 4, "cannot fill 134217728 x 2 pixels"); /* no memory is taken for it */
-    check_png_header(20, 1u << 28, 4, "cannot fill");
+    check_png_header(16, 1u << 25, 4, "cannot fill 33554432 x 2 pixels"); /* no memory is taken for it */
+    check_png_header(20, 1u << 26, 4, "cannot fill");
+    check_png_header(16, 1u << 27, 4, "134217728 x 2 pixels");
     check_png_header(24, 3, 1, "with 3 bits");
     check_png_header(26, 1, 1, "compression 1");
     check_png_header(27, 64, 1, "filter 64");
@@ -750,6 +753,121 @@ static void check_ppm(void)
     CHECK(file.size == 17 && memcmp(file.data, "P6\n1 2\n255\nabcdef", 17) == 0);
     file_free(&file);
     CHECK(!ppm_encode(&file, NULL, 0, 2, &r) && !file.data && r.text[0]);
+}
+
+/* --- reading PPM --- */
+
+static int ppm_texels(bitmap *out, const char *text, size_t size)
+{
+    report r = {""};
+    uint8_t *copy = malloc(size); /* of just its size, so that a sanitizer sees a read behind the end */
+    int ok = 0;
+    memset(out, 0, sizeof *out);
+    if (copy) {
+        memcpy(copy, text, size);
+        ok = ppm_decode(out, copy, size, "t.ppm", &r);
+        CHECK(ok ? out->texels != NULL : strncmp(r.text, "t.ppm: ", 7) == 0 && !out->texels);
+    }
+    free(copy);
+    return ok;
+}
+
+/* Does the text give a picture of `width` pixels in a row whose first `n` texels' red, green and blue are `codes`? */
+static int gives_codes(const char *text, size_t size, int32_t width, const char *codes, size_t n)
+{
+    bitmap map;
+    int same = ppm_texels(&map, text, size) && map.width == width;
+    for (size_t i = 0; same && i < n; ++i)
+        same = memcmp(map.texels + 4 * i, codes + 3 * i, 3) == 0 && map.texels[4 * i + 3] == 255;
+    bitmap_free(&map);
+    return same;
+}
+
+static int refuses_ppm(const char *text, size_t size)
+{
+    bitmap map;
+    int ok = ppm_texels(&map, text, size);
+    bitmap_free(&map);
+    return !ok;
+}
+
+#define PPM_GIVES(text, width, codes) gives_codes(text, sizeof text - 1, width, codes, sizeof codes / 3)
+#define PPM_REFUSED(text)             refuses_ppm(text, sizeof text - 1)
+
+static void check_ppm_kinds(void)
+{
+    CHECK(PPM_GIVES("P6 1 1 255\nabc", 1, "abc") && PPM_GIVES("P6#c\n1#d\r1\t\t255 abc", 1, "abc"));
+    CHECK(PPM_GIVES("P5 2 1 255\nab", 2, "aaabbb"));
+    CHECK(PPM_GIVES("P3 2 1 255 97 98 99\n100 101 102\n", 2, "abcdef") && PPM_GIVES("P3 1 1 255 97 98 99", 1, "abc"));
+    CHECK(PPM_GIVES("P2 2 1 # grey\n255 # most\n097#a\n98 # end", 2, "aaabbb"));
+    /* 15 values widen exactly, 3 of 7 is 109.3, 1 of 2 is 127.5; 300 of 1000 is 76.5, halves go up */
+    CHECK(PPM_GIVES("P2 3 1 15 0 7 15", 3, "\0\0\0\x77\x77\x77\xFF\xFF\xFF"));
+    CHECK(PPM_GIVES("P3 1 1 7 3 0 7", 1, "\x6D\0\xFF") && PPM_GIVES("P2 1 1 2 1", 1, "\x80\x80\x80"));
+    CHECK(PPM_GIVES("P6 1 1 1000 \x01\x2C\x03\xE8\0\0", 1, "\x4D\xFF\0"));
+    /* of 65535 the high byte, where the nearest of 0x12FF would be 0x13 */
+    CHECK(PPM_GIVES("P6 1 1 65535 \x12\xFF\xFF\xFF\0\xFF", 1, "\x12\xFF\0"));
+    CHECK(PPM_GIVES("P5 1 1 256 \x01\0", 1, "\xFF\xFF\xFF") && PPM_GIVES("P2 1 1 65535 65279", 1, "\xFE\xFE\xFE"));
+}
+
+static void check_ppm_refusals(void)
+{
+    CHECK(PPM_REFUSED("P6 1 1 255\nab") && PPM_REFUSED("P6 1 1 255\nabcd") && PPM_REFUSED("P6 1 1 255"));
+    CHECK(PPM_REFUSED("P4 1 1 255\nabc") && PPM_REFUSED("P61 1 255\nabc") && PPM_REFUSED("P"));
+    CHECK(PPM_REFUSED("P6 0 1 255\n") && PPM_REFUSED("P6 -1 1 255\nabc") && PPM_REFUSED("P6 1 1 0\nabc"));
+    CHECK(PPM_REFUSED("P6 1 1 65536\nabcabc") && PPM_REFUSED("P6 99999999999 99999999999 255\nabc"));
+    CHECK(PPM_REFUSED("P6 1048576 1048576 255\nabc") && PPM_REFUSED("P6 # 1 1 255"));
+    CHECK(PPM_REFUSED("P6 1 1 254\nab\xFF") && PPM_REFUSED("P5 1 1 1000 \x03\xE9")); /* over the largest value */
+    CHECK(PPM_REFUSED("P5 1 1 65535 a") && PPM_REFUSED("P5 1 1 65535 abc"));
+    CHECK(PPM_REFUSED("P3 1 1 255 97 98") && PPM_REFUSED("P3 1 1 255 97 98 99 100") && PPM_REFUSED("P2 1 1 9 10"));
+    CHECK(PPM_REFUSED("P2 1 1 255 x") && PPM_REFUSED("P2 1 1 255 -1") && PPM_REFUSED("P2 1 1 255 1.0"));
+    CHECK(PPM_REFUSED("P2 16384 16384 255 1 2 3")); /* no memory is taken for it */
+}
+
+/* --- pictures by their content --- */
+
+static int says_of(const char *data, size_t size, const char *format, const char *part)
+{
+    stored_picture p;
+    report r = {""}, codes = {""};
+    bitmap map;
+    int refused = !picture_read(&p, (const uint8_t *)data, size, "x.png", &r) && !p.codes.texels && !p.light.pixels;
+    CHECK(!picture_read_codes(&map, (const uint8_t *)data, size, "x.png", &codes) && !map.texels);
+    CHECK_MSG(strcmp(r.text, codes.text) == 0, "%s", codes.text);
+    return refused && strncmp(r.text, "x.png: ", 7) == 0 && strstr(r.text, format) && strstr(r.text, part);
+}
+
+#define SAYS_OF(text, format, part) says_of(text, sizeof text - 1, format, part)
+
+static void check_foreign(void)
+{
+    static const char end_of_tga[] = "\0\0\2 any pixels \0\0\0\0\0\0\0\0TRUEVISION-XFILE.\0";
+    CHECK(SAYS_OF("RIFF\x10\0\0\0WEBPVP8 ", "WebP", "dwebp") && SAYS_OF("\0\0\0\x20" "ftypavif", "AVIF", "avifdec"));
+    CHECK(SAYS_OF("\xABKTX 20\xBB\r\n\x1A\n", "KTX2", "ktx extract") && SAYS_OF("DDS |", "DDS", "magick"));
+    CHECK(SAYS_OF("GIF89a", "GIF", "magick") && SAYS_OF("II*\0\x08", "TIFF", "magick"));
+    CHECK(SAYS_OF("\x76\x2F\x31\x01\2", "OpenEXR", "oiiotool") && SAYS_OF("P7\nWIDTH 1", "PAM", "pamtopng"));
+    CHECK(SAYS_OF(end_of_tga, "TGA", "magick"));
+    CHECK(SAYS_OF("RIFF\x10\0\0\0WAVE", "not a PNG", "by its first bytes") && SAYS_OF("", "not a PNG", "JPEG"));
+    CHECK(picture_begins((const uint8_t *)"GIF89a", 6) && !picture_begins((const uint8_t *)"o cube\nv 0 0 0", 14));
+    CHECK(!picture_begins((const uint8_t *)"ply\n", 4) && !picture_begins((const uint8_t *)"", 0));
+}
+
+static void check_stored(void)
+{
+    static const char hdr[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\0\x81";
+    static png_file f;
+    stored_picture p;
+    report r = {""};
+    bitmap map;
+    CHECK(picture_read(&p, (const uint8_t *)"P5 1 1 255 a", 12, "x", &r) && p.channels == 1 && p.width == 1);
+    CHECK(p.codes.texels && !p.light.pixels && strcmp(p.format, "PGM") == 0);
+    stored_picture_free(&p);
+    CHECK(picture_read(&p, (const uint8_t *)hdr, sizeof hdr - 1, "x", &r) && p.channels == 3 && p.height == 1);
+    CHECK(!p.codes.texels && p.light.pixels && p.light.pixels[0] == 1.0f && p.light.pixels[1] == 0.5f);
+    stored_picture_free(&p);
+    CHECK(!picture_read_codes(&map, (const uint8_t *)hdr, sizeof hdr - 1, "x", &r) && strstr(r.text, "linear light"));
+    build_plan(&f, "DE", 0);
+    CHECK(picture_read(&p, f.data, f.size, "x", &r) && p.channels == 1 && p.codes.height == 2);
+    stored_picture_free(&p);
 }
 
 /* --- PFM --- */
@@ -827,6 +945,7 @@ static int decode_pfm_text(image *out, const char *text, size_t size, report *r)
 
 static void check_pfm_text(void)
 {
+    static const char noted[] = "Pf # one\n#two\n1 1\n-1\n\0\0\0\0";
     static const char good[] = "PF \t1\r\n2 -2e0\n\0\0\200?\0\0\0@\0\0@@\0\0\200@\0\0\240@\0\0\300@";
     static const char *const bad[] = {"", "P", "PF", "PG\n1 1\n-1\n1234", " Pf\n1 1\n-1\n1234", "Pf\n1 1\n0\n1234",
                                       "Pf\n1 1\nnan\n1234", "Pf\n1 1\n1x\n1234", "Pf\n1 1\n-1e40\n1234",
@@ -837,6 +956,8 @@ static void check_pfm_text(void)
     image got;
     report r;
     size_t i;
+    CHECK(decode_pfm_text(&got, noted, sizeof noted - 1, &r) && got.width == 1 && got.pixels[0] == 0.0f);
+    image_free(&got);
     CHECK(decode_pfm_text(&got, good, sizeof good - 1, &r));
     CHECK(got.pixels && got.width == 1 && got.height == 2 && got.channels == 3);
     for (i = 0; got.pixels && i < 6; ++i) CHECK(got.pixels[i] == 2.0f * (float)(i < 3 ? i + 4 : i - 2));
@@ -1142,6 +1263,10 @@ void test_images(void)
     check_png_messages();
     check_png_written(&rng);
     check_ppm();
+    check_ppm_kinds();
+    check_ppm_refusals();
+    check_foreign();
+    check_stored();
     check_pfm_round(&rng);
     check_pfm_text();
     check_hdr(&rng);
