@@ -2,6 +2,7 @@
 #include "ear_clip.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The polygon seen along the axis that its normal follows best, counter-clockwise. */
 typedef struct flat {
@@ -66,59 +67,96 @@ static int same_place(const flat *f, uint32_t a, uint32_t b)
     return pa[f->u] == pb[f->u] && pa[f->v] == pb[f->v];
 }
 
-/* Is corner b of the remaining ring an ear: a left turn whose triangle holds no other corner? Corners in the same
- * place (bridges to holes) do not count. */
-static int is_ear(const flat *f, const uint32_t *next, uint32_t a, uint32_t b, uint32_t c)
+/* The corners that remain. */
+typedef struct ring {
+    const flat *f;
+    uint32_t *next, *prev, left;
+    uint64_t steps;                    /* comparisons of a corner with a triangle that may still be made */
+    uint8_t dull[POLYGON_MAX_CONCAVE]; /* found to be no ear; only a cut beside it asks again */
+} ring;
+
+/* Does the triangle hold corner p? One in the place of another (bridges to holes) does not count. */
+static int holds(const flat *f, uint32_t a, uint32_t b, uint32_t c, uint32_t p)
 {
+    return turn(f, a, b, p) >= 0 && turn(f, b, c, p) >= 0 && turn(f, c, a, p) >= 0 && !same_place(f, p, a) &&
+           !same_place(f, p, b) && !same_place(f, p, c);
+}
+
+/* Is corner b an ear: a left turn whose triangle holds no other corner? */
+static int is_ear(ring *r, uint32_t b)
+{
+    const uint32_t a = r->prev[b], c = r->next[b];
     uint32_t p;
-    if (!(turn(f, a, b, c) > 0))
+    if (!(turn(r->f, a, b, c) > 0))
         return 0;
-    for (p = next[c]; p != a; p = next[p]) {
-        if (same_place(f, p, a) || same_place(f, p, b) || same_place(f, p, c))
-            continue;
-        if (turn(f, a, b, p) >= 0 && turn(f, b, c, p) >= 0 && turn(f, c, a, p) >= 0)
+    for (p = r->next[c]; p != a && r->steps > 0; p = r->next[p], --r->steps)
+        if (holds(r->f, a, b, c, p))
             return 0;
-    }
     return 1;
 }
 
-/* A ring without an ear (it crosses itself, or rounding) loses its next corner all the same, so this ends. */
-static void cut_ears(uint32_t *out, const flat *f, uint32_t *links)
+/* The first ear from `at` on. A ring without one (it crosses itself, or rounding, or no steps are left) loses the next
+ * corner all the same, so this ends. Corners are asked twice, because one may have been in the way that is gone. */
+static uint32_t find_ear(ring *r, uint32_t at)
 {
-    uint32_t *next = links, *prev = links + f->n, left = f->n, at = 0, tried = 0, i;
-    for (i = 0; i < f->n; ++i) {
-        next[i] = (i + 1) % f->n;
-        prev[i] = (i + f->n - 1) % f->n;
-    }
-    while (left > 3) {
-        if (tried < left && !is_ear(f, next, prev[at], at, next[at])) {
-            at = next[at];
-            ++tried;
-            continue;
+    uint32_t round, tried;
+    for (round = 0; round < 2 && r->steps > 0; ++round) {
+        for (tried = 0; tried < r->left; ++tried, at = r->next[at]) {
+            if (!r->dull[at] && is_ear(r, at))
+                return at;
+            r->dull[at] = 1;
         }
-        *out++ = prev[at];
-        *out++ = at;
-        *out++ = next[at];
-        next[prev[at]] = next[at];
-        prev[next[at]] = prev[at];
-        at = next[next[at]]; /* not the neighbour: slivers around one corner */
-        --left;
-        tried = 0;
+        memset(r->dull, 0, sizeof r->dull);
     }
-    *out++ = prev[at];
+    return at;
+}
+
+/* A simple polygon takes about n^2 steps, and gets twice that if as many are left. 1 where they were enough. */
+static int cut_ears(uint32_t *out, const flat *f, uint32_t *links, uint64_t *steps)
+{
+    const uint64_t most = 2 * (uint64_t)f->n * f->n < *steps ? 2 * (uint64_t)f->n * f->n : *steps;
+    ring r;
+    uint32_t at = 0, i;
+    memset(&r, 0, sizeof r);
+    r.f = f;
+    r.next = links;
+    r.prev = links + f->n;
+    r.left = f->n;
+    r.steps = most;
+    for (i = 0; i < f->n; ++i) {
+        r.next[i] = (i + 1) % f->n;
+        r.prev[i] = (i + f->n - 1) % f->n;
+    }
+    for (; r.left > 3; --r.left) {
+        at = find_ear(&r, at);
+        *out++ = r.prev[at];
+        *out++ = at;
+        *out++ = r.next[at];
+        r.dull[r.prev[at]] = r.dull[r.next[at]] = 0;
+        r.next[r.prev[at]] = r.next[at];
+        r.prev[r.next[at]] = r.prev[at];
+        at = r.next[r.next[at]]; /* not the neighbour: slivers around one corner */
+    }
+    *out++ = r.prev[at];
     *out++ = at;
-    *out = next[at];
+    *out = r.next[at];
+    *steps -= most - r.steps;
+    return r.steps > 0;
 }
 
 int polygon_cut(uint32_t *out, const double *points, uint32_t n, uint32_t *links)
 {
+    uint64_t steps = UINT64_MAX;
+    return polygon_cut_within(out, points, n, links, &steps);
+}
+
+int polygon_cut_within(uint32_t *out, const double *points, uint32_t n, uint32_t *links, uint64_t *steps)
+{
     const flat f = flatten(points, n);
     const int concave = n > 3 && is_concave(&f);
     uint32_t i;
-    if (concave && n <= POLYGON_MAX_CONCAVE) {
-        cut_ears(out, &f, links);
-        return 1;
-    }
+    if (concave && n <= POLYGON_MAX_CONCAVE)
+        return cut_ears(out, &f, links, steps);
     for (i = 1; i + 1 < n; ++i) {
         *out++ = 0;
         *out++ = i;

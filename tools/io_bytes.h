@@ -13,6 +13,13 @@ static inline int picture_fits(uint64_t width, uint64_t height)
     return width > 0 && height > 0 && width <= PICTURE_MAX_PIXELS && height <= PICTURE_MAX_PIXELS / width;
 }
 
+/* Time is bounded by a file's size, so pixels are too where a format packs without bound: 8192 x 8192 for any file, and
+ * 64 for each byte beside them. */
+static inline int picture_is_paid(uint64_t width, uint64_t height, uint64_t bytes_of_file)
+{
+    return width * height <= (UINT64_C(1) << 26) + 64 * bytes_of_file;
+}
+
 static inline uint32_t get_u32_be(const uint8_t *p)
 {
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];

@@ -1,4 +1,5 @@
-/* io_hdr.c: float pictures as Radiance HDR, both ways: three mantissas and a shared exponent, run-length coded. */
+/* io_hdr.c: float pictures as Radiance HDR, both ways: three mantissas and a shared exponent, run-length coded.
+ * Reading takes at most 16 MiB and READ_BYTES_PER_BYTE times the file. */
 #include "image.h"
 #include "io_bytes.h"
 
@@ -164,7 +165,8 @@ typedef struct hdr_reader {
     const char *name;
     report *r;
     int has_format;
-    double scale[3]; /* what stored values are multiplied by */
+    double scale[3];  /* what stored values are multiplied by */
+    double unit[256]; /* by exponent: of the lowest bit of a mantissa, before that */
     int32_t lines, length;
     int columns, flip_x, flip_y;
 } hdr_reader;
@@ -331,12 +333,12 @@ static int get_line_rgbe(uint8_t *to, hdr_reader *h)
 }
 
 /* Without the half step that Radiance's own programs add, as most readers and hdr_encode have it. */
-static void get_rgbe(float out[3], const uint8_t rgbe[4], const double scale[3])
+static void get_rgbe(float out[3], const uint8_t rgbe[4], const hdr_reader *h)
 {
-    double unit = rgbe[3] ? ldexp(1.0, rgbe[3] - 136) : 0.0, v;
+    double v;
     int i;
     for (i = 0; i < 3; ++i) {
-        v = rgbe[i] * unit * scale[i];
+        v = rgbe[i] * h->unit[rgbe[3]] * h->scale[i];
         out[i] = v < (double)FLT_MAX ? (float)v : FLT_MAX;
     }
 }
@@ -348,7 +350,7 @@ static void place_line(image *out, const hdr_reader *h, int32_t line, const uint
         int32_t x = h->columns ? line : i, y = h->columns ? i : line;
         if (h->flip_x) x = out->width - 1 - x;
         if (h->flip_y) y = out->height - 1 - y;
-        get_rgbe(out->pixels + 3 * ((size_t)y * (size_t)out->width + (size_t)x), rgbe + 4 * (size_t)i, h->scale);
+        get_rgbe(out->pixels + 3 * ((size_t)y * (size_t)out->width + (size_t)x), rgbe + 4 * (size_t)i, h);
     }
 }
 
@@ -380,10 +382,11 @@ int hdr_decode(image *out, const uint8_t *data, size_t size, const char *name, r
     hdr_reader h;
     uint8_t *rgbe = NULL;
     uint64_t bytes; /* under 2^32: fits size_t everywhere */
-    int ok;
+    int ok, i;
 
     memset(out, 0, sizeof *out);
     memset(&h, 0, sizeof h);
+    for (i = 1; i < 256; ++i) h.unit[i] = ldexp(1.0, i - 136);
     h.begin = h.at = data;
     h.end = size ? data + size : data;
     h.name = name;

@@ -1,4 +1,4 @@
-/* io_inflate.c: zlib streams back into bytes (RFC 1950, RFC 1951). */
+/* io_inflate.c: zlib streams back into bytes (RFC 1950, RFC 1951). No memory but the caller's and 6 KiB of stack. */
 #include "image.h"
 #include "io_bytes.h"
 #include "io_deflate.h"
@@ -25,6 +25,7 @@ typedef struct inflater {
     uint8_t *out;
     size_t out_size, out_pos;
     decode_table litlen, dist;
+    int is_fixed; /* both hold the fixed codes: empty blocks of these take ten bits, too few to build them again */
 } inflater;
 
 /* After a refill at least 56 bits are there, or all that are left: enough for one length and distance, 48 bits. */
@@ -130,6 +131,8 @@ static int fixed_tables(inflater *s)
 {
     uint8_t lengths[DEFLATE_FIXED_LITLENS];
     uint32_t i;
+    if (s->is_fixed) return 1;
+    s->is_fixed = 1;
     for (i = 0; i < DEFLATE_FIXED_LITLENS; ++i) lengths[i] = deflate_fixed_bits(i);
     if (!build_table(&s->litlen, lengths, DEFLATE_FIXED_LITLENS)) return 0;
     memset(lengths, 5, 32); /* 32 codes fill the space; the last two must not occur */
@@ -162,6 +165,7 @@ static int dynamic_tables(inflater *s)
     uint8_t lengths[DEFLATE_FIXED_LITLENS + 32] = {0};
     uint32_t litlens = 257 + take(s, 5), dists = 1 + take(s, 5), metas = 4 + take(s, 4), i;
 
+    s->is_fixed = 0;
     if (s->bad || litlens > DEFLATE_LITLENS || dists > DEFLATE_DISTS) return 0;
     for (i = 0; i < metas; ++i) lengths[deflate_meta_order(i)] = (uint8_t)take(s, 3);
     if (s->bad || !build_table(&s->dist, lengths, DEFLATE_METAS)) return 0; /* lent until it is read itself */
@@ -205,6 +209,8 @@ static int copy_match(inflater *s, uint32_t length_symbol)
     from = to - distance;
     if (distance >= length) {
         memcpy(to, from, length);
+    } else if (distance == 1) {
+        memset(to, *from, length);
     } else {
         for (i = 0; i < length; ++i) to[i] = from[i]; /* overlapping: the run repeats itself */
     }

@@ -3,7 +3,9 @@
  * Memory beside the file: samples and texels, for progressive pictures the coefficients. A block takes at least two
  * bits of the file (one where progressive), fills up to 1024 / 9 pixels (three components of 4 x 1, 1 x 4 and 1 x 1)
  * and takes 64 bytes of samples and 128 of coefficients: all in all at most 2080 times the file, progressive 5184
- * times. Files too short for their blocks are refused before anything is allocated. Bytes behind EOI are ignored. */
+ * times; and as picture_is_paid, at most 832 times the file beside 832 MiB (13 bytes a pixel, the padding of narrow
+ * pictures aside). Files too short for their blocks are refused before anything is allocated. Bytes behind EOI are
+ * ignored. Time goes with pixels, bits and JPEG_IDLE_BLOCKS. */
 #include "io_jpeg.h"
 
 #include <inttypes.h>
@@ -210,6 +212,9 @@ static int read_shape(jpeg_reader *j, const jpeg_segment *s)
     if (!picture_fits(j->width, j->height))
         return report_fail(j->r, "%s: %" PRIu32 " x %" PRIu32 " pixels; 1 to 2^28 can be read", j->name, j->width,
                            j->height);
+    if (!picture_is_paid(j->width, j->height, j->size))
+        return report_fail(j->r, "%s: %" PRIu32 " x %" PRIu32 " pixels in %zu bytes; beyond 8192 x 8192 it may be 64 a"
+                           " byte; save it smaller", j->name, j->width, j->height, j->size);
     return 1;
 }
 
@@ -397,6 +402,7 @@ int jpeg_decode(bitmap *out, const uint8_t *data, size_t size, const char *name,
     j.name = name;
     j.r = r;
     j.adobe = -1;
+    j.idle = JPEG_IDLE_BLOCKS + 32 * (uint64_t)size;
     if (read_markers(&j)) out->texels = make_texels(&j);
     for (i = 0; i < JPEG_COMPONENTS; ++i) {
         free(j.components[i].samples);

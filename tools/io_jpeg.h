@@ -43,7 +43,12 @@ typedef struct jpeg_component {
     int32_t prediction;         /* DC of its last block */
 } jpeg_component;
 
-enum { JPEG_SOUND = 0, JPEG_NO_BITS, JPEG_NO_CODE };
+enum { JPEG_SOUND = 0, JPEG_NO_BITS, JPEG_NO_CODE, JPEG_IDLE };
+
+/* Blocks that refining scans may visit without a bit of their own, so that time is bounded by the file's size: these,
+ * and 32 for each byte. That is ten scans over any picture that picture_is_paid, in three components; pictures for
+ * people have two or three. */
+#define JPEG_IDLE_BLOCKS (UINT64_C(1) << 25)
 
 typedef struct jpeg_reader {
     const uint8_t *data;
@@ -56,6 +61,7 @@ typedef struct jpeg_reader {
     uint16_t quant[JPEG_TABLES][64]; /* rows of 8; the first entry is 0 while a table is not defined */
     jpeg_code dc[JPEG_TABLES], ac[JPEG_TABLES];
     uint32_t restart; /* MCUs between restart markers; 0: none */
+    uint64_t idle;    /* of JPEG_IDLE_BLOCKS and what the file adds: left for all further scans */
 
     jpeg_component *scan[JPEG_COMPONENTS]; /* of this scan, as is all below */
     uint32_t scan_count, first, last, high, low;

@@ -82,8 +82,15 @@ static void transform_column(int64_t *out, const int16_t *block, const uint16_t 
 
 void jpeg_inverse_dct(uint8_t *out, size_t stride, const int16_t block[64], const uint16_t quant[64])
 {
+    static const int16_t nothing[64];
     int64_t rows[64];
     int i, k;
+    if (memcmp(block + 1, nothing + 1, sizeof nothing - sizeof *nothing) == 0) { /* what the formula gives then */
+        const int64_t mean = (int64_t)block[0] * quant[0] * (4 << DCT_BITS);
+        const uint8_t v = clamp_byte(shift_down(mean + (1 << (DCT_BITS + 4)), DCT_BITS + 5) + 128);
+        for (i = 0; i < 8; ++i, out += stride) memset(out, v, 8);
+        return;
+    }
     for (i = 0; i < 8; ++i) transform_column(rows + i, block + i, quant + i);
     for (i = 0; i < 8; ++i, out += stride) {
         int64_t *x = rows + 8 * i;
@@ -127,32 +134,53 @@ static void upsample_row(uint8_t *out, const jpeg_reader *j, const jpeg_componen
         smooth_wider(out, c, near, far, taller == 2);
     } else if (wider == 1 && taller == 2) {
         for (x = 0; x < j->width; ++x) out[x] = (uint8_t)((3u * near[x] + far[x] + 1u + y % 2) >> 2);
+    } else if (wider == 1) {
+        memcpy(out, near, j->width);
     } else {
-        for (x = 0; x < j->width; ++x) out[x] = near[x / wider];
+        for (x = 0; x < j->width; ++x) out[x] = near[x >> (wider == 4 ? 2 : 1)];
     }
 }
 
 /* --- colour --- */
 
+/* v / 2^16 + y as a byte; 256 are added before the shift and taken off behind it, as |v| is under 256 * 2^16. */
+static uint8_t colour_byte(int32_t y, int32_t v)
+{
+    int32_t sum = y + ((v + (1 << 24)) >> 16) - 256;
+    return (uint8_t)(sum < 0 ? 0 : sum > 255 ? 255 : sum);
+}
+
 /* JFIF's YCbCr, factors of 2^16: 1.402, 0.34414, 0.71414, 1.772. */
 static void ycc_to_rgb(uint8_t *texel, int32_t y, int32_t cb, int32_t cr)
 {
     const int32_t half = 1 << 15;
-    texel[0] = clamp_byte(y + shift_down(91881 * cr + half, 16));
-    texel[1] = clamp_byte(y + shift_down(half - 22554 * cb - 46802 * cr, 16));
-    texel[2] = clamp_byte(y + shift_down(116130 * cb + half, 16));
+    texel[0] = colour_byte(y, 91881 * cr + half);
+    texel[1] = colour_byte(y, half - 22554 * cb - 46802 * cr);
+    texel[2] = colour_byte(y, 116130 * cb + half);
+}
+
+/* Three rows of samples, `pitch` apart, as they are or from YCbCr. */
+static void colour_row(uint8_t *texels, const uint8_t *row, size_t pitch, uint32_t n, int is_ycc)
+{
+    for (; n > 0; --n, ++row, texels += 4) {
+        const uint8_t a = row[0], b = row[pitch], c = row[2 * pitch];
+        if (is_ycc) {
+            ycc_to_rgb(texels, a, b - 128, c - 128);
+        } else {
+            texels[0] = a;
+            texels[1] = b;
+            texels[2] = c;
+        }
+        texels[3] = 255;
+    }
 }
 
 void jpeg_colour_rows(uint8_t *texels, const jpeg_reader *j, int is_ycc, uint8_t *rows)
 {
     size_t pitch = (size_t)j->width + 4;
-    uint32_t x, y, k;
-    for (y = 0; y < j->height; ++y) {
+    uint32_t y, k;
+    for (y = 0; y < j->height; ++y, texels += 4 * (size_t)j->width) {
         for (k = 0; k < j->count; ++k) upsample_row(rows + k * pitch, j, &j->components[k], y);
-        for (x = 0; x < j->width; ++x, texels += 4) {
-            for (k = 0; k < 3; ++k) texels[k] = rows[(j->count == 1 ? 0 : k * pitch) + x];
-            if (is_ycc) ycc_to_rgb(texels, texels[0], texels[1] - 128, texels[2] - 128);
-            texels[3] = 255;
-        }
+        colour_row(texels, rows, j->count == 1 ? 0 : pitch, j->width, is_ycc);
     }
 }

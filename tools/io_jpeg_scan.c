@@ -132,8 +132,13 @@ static uint32_t refine_until(jpeg_reader *j, int16_t *block, uint32_t k, uint32_
 /* As take_ac, but zeros are counted among the coefficients that were 0, and all others refined on the way. */
 static void refine_ac(jpeg_reader *j, jpeg_component *c, int16_t *block)
 {
+    static const int16_t nothing[64];
     uint32_t k = j->first, symbol;
     int value;
+    if (j->empty_run > 0) {
+        if (j->idle > 0) --j->idle;
+        else set_fault(j, JPEG_IDLE);
+    }
     while (!j->empty_run && k <= j->last) {
         symbol = take_symbol(j, c->ac);
         if (!(symbol & 15) && symbol >> 4 < 15) {
@@ -147,7 +152,7 @@ static void refine_ac(jpeg_reader *j, jpeg_component *c, int16_t *block)
         else block[jpeg_zigzag[k++]] = (int16_t)value;
     }
     if (j->empty_run > 0) {
-        refine_until(j, block, k, 64);
+        if (memcmp(block + 1, nothing + 1, sizeof nothing - sizeof *nothing) != 0) refine_until(j, block, k, 64);
         --j->empty_run;
     }
 }
@@ -167,14 +172,19 @@ static void take_block(jpeg_reader *j, jpeg_component *c, int16_t *block)
 /* Block x, y of a component; those outside are decoded and dropped. */
 static int read_block(jpeg_reader *j, jpeg_component *c, uint32_t x, uint32_t y)
 {
-    int16_t block[64] = {0};
+    int16_t own[64], *block = own;
     int inside = x < c->blocks_x && y < c->blocks_y;
     size_t stride = (size_t)c->blocks_x * 8, at = (size_t)y * c->blocks_x + x;
 
-    take_block(j, c, inside && j->progressive ? c->coefficients + 64 * at : block);
+    if (inside && j->progressive) block = c->coefficients + 64 * at;
+    else memset(own, 0, sizeof own);
+    take_block(j, c, block);
     if (j->fault == JPEG_NO_BITS)
         return report_fail(j->r, "%s: the scan ends at byte %zu, before the picture; the file is truncated or damaged",
                            j->name, j->at);
+    if (j->fault == JPEG_IDLE)
+        return report_fail(j->r, "%s: byte %zu: more scans over an empty picture than a file of %zu bytes may have;"
+                           " save it as a baseline JPEG", j->name, j->at, j->size);
     if (j->fault)
         return report_fail(j->r, "%s: no valid code just before byte %zu; the file is damaged", j->name, j->at);
     if (inside && !j->progressive) jpeg_inverse_dct(c->samples + (y * stride + x) * 8, stride, block, c->quant);
@@ -231,21 +241,31 @@ static uint32_t divide_up(uint32_t a, uint32_t b)
     return (a + b - 1) / b;
 }
 
+/* A first scan of details has nothing to do in an empty run's blocks: how many to pass over behind block `done`, up
+ * to the next restart marker. */
+static uint32_t skip_empty(jpeg_reader *j, uint32_t done, uint32_t total)
+{
+    uint32_t stop = j->restart ? done - done % j->restart + j->restart : total, n;
+    if (!j->progressive || j->first == 0 || j->high > 0) return 0;
+    n = (stop < total ? stop : total) - done - 1;
+    if (n > j->empty_run) n = j->empty_run;
+    j->empty_run -= n;
+    return n;
+}
+
 int jpeg_scan(jpeg_reader *j)
 {
     int alone = j->scan_count == 1;
     uint32_t columns = alone ? j->scan[0]->blocks_x : divide_up(j->width, 8 * j->h_max);
     uint32_t rows = alone ? j->scan[0]->blocks_y : divide_up(j->height, 8 * j->v_max);
-    uint32_t x, y, i, done = 0;
+    uint32_t i, done;
 
     j->bits = j->bit_count = j->empty_run = 0;
     j->fault = JPEG_SOUND;
     for (i = 0; i < j->scan_count; ++i) j->scan[i]->prediction = 0;
-    for (y = 0; y < rows; ++y) {
-        for (x = 0; x < columns; ++x, ++done) {
-            if (j->restart && done && done % j->restart == 0 && !read_restart(j, done / j->restart - 1)) return 0;
-            if (!read_mcu(j, x, y)) return 0;
-        }
+    for (done = 0; done < columns * rows; done += 1 + skip_empty(j, done, columns * rows)) {
+        if (j->restart && done && done % j->restart == 0 && !read_restart(j, done / j->restart - 1)) return 0;
+        if (!read_mcu(j, done % columns, done / columns)) return 0;
     }
     return end_bits(j);
 }

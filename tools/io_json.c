@@ -252,6 +252,30 @@ static int read_value(parser *s, int *complete)
     return 1;
 }
 
+/* Is the open container the value of a member "extras", or does it lie in one? */
+static int is_in_extras(const parser *s)
+{
+    static const char extras[] = "extras";
+    uint32_t i;
+    for (i = s->open; i != JSON_NONE; i = s->doc->nodes[i].parent) {
+        const json_node *n = &s->doc->nodes[i];
+        if (n->key_size == sizeof extras - 1 && memcmp(s->doc->text + n->key_start, extras, sizeof extras - 1) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* Behind a comma: another element, or the key of another member. */
+static int read_next(parser *s)
+{
+    const json_node *open = &s->doc->nodes[s->open];
+    if (open->kind == JSON_ARRAY)
+        return 1;
+    if (open->count == JSON_MAX_MEMBERS && !is_in_extras(s))
+        return syntax(s, "more than 1000 members in an object");
+    return read_key(s);
+}
+
 /* What follows a complete value: a comma, or the end of its container, which completes that one. */
 static int after_value(parser *s)
 {
@@ -259,7 +283,7 @@ static int after_value(parser *s)
         skip_space(s);
         if (peek(s) == ',') {
             ++s->at;
-            return s->doc->nodes[s->open].kind == JSON_ARRAY || read_key(s);
+            return read_next(s);
         }
         if (peek(s) != closing(s))
             return syntax(s, closing(s) == ']' ? "expected ',' or ']'" : "expected ',' or '}'");

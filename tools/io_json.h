@@ -1,7 +1,9 @@
 /* io_json.h: a strict JSON (RFC 8259) reader. The text stays where it is; nodes point into it.
  *
  * Nodes stand in document order in one array, sized by counting the text's commas and brackets first: at most
- * 32 bytes of memory a byte of text. At most 64 containers deep. No recursion. Text is passed through as UTF-8. */
+ * 32 bytes of memory a byte of text. At most 64 containers deep, and 1000 members an object, because finding one takes
+ * a walk; only what is or lies in a member "extras", which nobody searches, may have more. No recursion. Text is passed
+ * through as UTF-8. */
 #ifndef IO_JSON_H
 #define IO_JSON_H
 
@@ -11,8 +13,9 @@
 #include "report.h"
 
 enum { JSON_NULL, JSON_FALSE, JSON_TRUE, JSON_NUMBER, JSON_STRING, JSON_ARRAY, JSON_OBJECT };
-#define JSON_NONE      UINT32_MAX /* no such node; every function below takes it for an absent value */
-#define JSON_MAX_DEPTH 64
+#define JSON_NONE        UINT32_MAX /* no such node; every function below takes it for an absent value */
+#define JSON_MAX_DEPTH   64
+#define JSON_MAX_MEMBERS 1000
 
 typedef struct json_node {
     uint32_t start, size;         /* bytes of the value in the text; of a string: between its quotes */

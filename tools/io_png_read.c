@@ -1,7 +1,8 @@
 /* io_png_read.c: PNG pictures from memory, every colour type and depth, as 8-bit RGBA.
  *
  * Memory beside the file: a copy of its image data, the rows (at most 1032 times the image data, deflate's best) and
- * the texels (at most 32 times the rows, for 1-bit pictures), which are not taken before the rows have been inflated.
+ * the texels (at most 32 times the rows, for 1-bit pictures), which are not taken before the rows have been inflated:
+ * at most 12 bytes a pixel of which picture_is_paid, so 769 times the file beside 768 MiB, and time goes with them.
  * Bytes behind IEND are ignored; anything else that the specification forbids is refused. */
 #include "image.h"
 #include "io_png.h"
@@ -309,12 +310,41 @@ static int put_texel(const png_reader *p, uint8_t *texel, const uint8_t *row, si
     return 1;
 }
 
+/* A row of whole bytes without a transparent colour, `pitch` from texel to texel: the high bytes of its samples. */
+static void put_bytes(const png_reader *p, uint8_t *texel, size_t pitch, const uint8_t *row, uint32_t n)
+{
+    const size_t wide = p->depth / 8, all = p->channels * wide, next = p->channels < 3 ? 0 : wide;
+    const int has_alpha = p->channels % 2 == 0;
+    for (; n > 0; --n, row += all, texel += pitch) {
+        texel[0] = row[0];
+        texel[1] = row[next];
+        texel[2] = row[2 * next];
+        texel[3] = has_alpha ? row[all - wide] : 255;
+    }
+}
+
+/* Every dx-th texel from `to` on. 0, the report set, where there is no such colour. */
+static int put_row(png_reader *p, uint8_t *texels, png_pass s, size_t to, const uint8_t *row)
+{
+    uint32_t x;
+    if (p->depth >= 8 && p->colour != PALETTE && !p->has_key) {
+        put_bytes(p, texels + 4 * to, 4 * (size_t)s.dx, row, s.width);
+        return 1;
+    }
+    for (x = 0; x < s.width; ++x, to += s.dx) {
+        if (!put_texel(p, texels + 4 * to, row, x))
+            return report_fail(p->r, "%s: pixel %zu, %zu has a colour index outside the palette of %" PRIu32, p->name,
+                               to % p->width, to / p->width, p->palette_count);
+    }
+    return 1;
+}
+
 /* Undo the filters of one pass and spread its pixels. Returns the byte behind its rows, or NULL with the report set. */
 static uint8_t *unpack_pass(png_reader *p, uint8_t *texels, png_pass s, uint8_t *rows, const uint8_t *zeros)
 {
     size_t n = row_bytes(p, s.width), step = p->channels * p->depth < 8 ? 1 : p->channels * p->depth / 8;
     const uint8_t *above = zeros;
-    uint32_t x, y;
+    uint32_t y;
 
     if (s.width == 0) return rows;
     for (y = 0; y < s.height; ++y, above = rows + 1, rows += 1 + n) {
@@ -323,13 +353,7 @@ static uint8_t *unpack_pass(png_reader *p, uint8_t *texels, png_pass s, uint8_t 
             report_fail(p->r, "%s: row filter %d does not exist; the file is damaged", p->name, rows[0]);
             return NULL;
         }
-        for (x = 0; x < s.width; ++x, to += s.dx) {
-            if (!put_texel(p, texels + 4 * to, rows + 1, x)) {
-                report_fail(p->r, "%s: pixel %zu, %zu has a colour index outside the palette of %" PRIu32, p->name,
-                            to % p->width, to / p->width, p->palette_count);
-                return NULL;
-            }
-        }
+        if (!put_row(p, texels, s, to, rows + 1)) return NULL;
     }
     return rows;
 }
@@ -356,6 +380,11 @@ static uint8_t *inflate_rows(png_reader *p, size_t zeros, size_t size)
     if (size / DEFLATE_MAX_RATIO > p->idat_bytes) {
         report_fail(p->r, "%s: %" PRIu64 " bytes of image data cannot fill %" PRIu32 " x %" PRIu32 " pixels", p->name,
                     p->idat_bytes, p->width, p->height);
+        return NULL;
+    }
+    if (!picture_is_paid(p->width, p->height, p->size)) {
+        report_fail(p->r, "%s: %" PRIu32 " x %" PRIu32 " pixels in %zu bytes; beyond 8192 x 8192 it may be 64 a byte;"
+                    " save it smaller", p->name, p->width, p->height, p->size);
         return NULL;
     }
     joined = join_idat(p);

@@ -7,7 +7,7 @@ shift 3
 shared=${LMB_SHARED:-../shared}
 if [ $# -eq 0 ]; then
     for file in tests/fuzz/corpus/*/* "$shared"/data/gltf/* "$shared"/data/meshes/* "$shared"/data/scenes/* \
-        "$shared"/data/env/* "$shared"/data/textures/* "$shared"/truth/*/*.gltf; do
+        "$shared"/data/env/* "$shared"/data/textures/* "$shared"/truth/*.jpg "$shared"/truth/*/*.gltf; do
         [ ! -f "$file" ] || set -- "$@" "$file"
     done
 fi

@@ -120,7 +120,7 @@ size_t mutate(uint8_t *data, size_t size, size_t cap, uint64_t seed)
                                                cut_piece, copy_piece, change_number, change_number};
     patient p = {data, size, cap, {seed * UINT64_C(0x9E3779B97F4A7C15)}};
     test_random(&p.rng); /* the first number of a small state says little */
-    for (size_t left = 1 + below(&p, 1 + below(&p, 8)); left > 0 && p.size > 0; --left) {
+    for (size_t left = 1 + below(&p, 1 + below(&p, 8)) * below(&p, 2); left > 0 && p.size > 0; --left) {
         ways[below(&p, sizeof ways / sizeof ways[0])](&p);
     }
     return p.size;
