@@ -38,7 +38,7 @@ LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c src/map/voxel/*.c))
 TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/host/host.c
-TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth,tests/$(d)/test_*.c)))
+TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
@@ -46,6 +46,7 @@ TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lamben
 GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 
@@ -84,8 +85,9 @@ $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
+$(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
-$(TOOL) $(B)/tests $(B)/golden $(B)/demo $(B)/replay $(B)/decodes:
+$(TOOL) $(B)/tests $(B)/golden $(B)/demo $(B)/replay $(B)/hostile $(B)/decodes:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -108,11 +110,11 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(DECODE_OBJ)))
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) $(DECODE_OBJ)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
-CHECKS ?= unit analytic truth golden replay floors symbols stack headers layout one tables readme cli tiny
+CHECKS ?= unit analytic truth lanes golden replay hostile hostile-cli floors symbols stack headers layout one tables readme cli tiny
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -122,10 +124,10 @@ IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(C
 check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
 	@sh tests/build/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
-$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden $(B)/replay
+$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden $(B)/replay $(B)/hostile
 	+@$(PART) $* $(MAKE) $*
 
-unit analytic truth: $(B)/tests
+unit analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
@@ -133,6 +135,14 @@ golden: $(B)/golden ## small scenes' hashes against the committed ones
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
+
+PREFIXES  ?= 20
+MUTATIONS ?= 200
+hostile: $(B)/hostile ## cut and changed samples through every parser: PREFIXES=20 of each, MUTATIONS=200 of each kind
+	@sh tests/build/hostile.sh $< $(PREFIXES) $(MUTATIONS)
+
+hostile-cli: $(TOOL) ## absurd files through the whole tool
+	@$(IN_SH) tests/build/hostile_cli.sh
 
 floors: ## includes only go down the house's floors
 	@$(IN_SH) tests/build/floors.sh
@@ -176,7 +186,7 @@ rom: room-sizes
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit analytic truth golden replay readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
+	+@$(MAKE) check CHECKS="unit analytic truth golden replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 FUZZER    := $(BUILD)/fuzz/fuzz

@@ -133,7 +133,7 @@ static int image_mean(const gltf_mean **out, gltf *g, uint32_t info)
     if (!g->image_means[index].known) {
         if (!image_bytes(&bytes, &file, place, g, index, &why))
             return leave_out(g, &why);
-        ok = build_picture(&map, bytes.data, bytes.size, place, &why);
+        ok = build_picture(g->b, &map, bytes.data, bytes.size, place, &why);
         file_free(&file);
         if (!ok)
             return leave_out(g, &why);

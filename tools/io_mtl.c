@@ -5,13 +5,19 @@
 
 #include "io_obj.h"
 
-uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot)
+/* FNV-1a. */
+static uint32_t hash_text(const char *text, size_t size)
 {
     uint32_t hash = 2166136261u;
     size_t i;
-    for (i = 0; i < name.size; ++i)
-        hash = (hash ^ (uint8_t)name.at[i]) * 16777619u; /* FNV-1a */
-    for (*slot = hash & names->mask; names->slots[*slot] != 0; *slot = (*slot + 1) & names->mask) {
+    for (i = 0; i < size; ++i)
+        hash = (hash ^ (uint8_t)text[i]) * 16777619u;
+    return hash;
+}
+
+uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot)
+{
+    for (*slot = hash_text(name.at, name.size) & names->mask; names->slots[*slot] != 0; *slot = (*slot + 1) & names->mask) {
         const slice known = names->items[names->slots[*slot] - 1].name;
         if (known.size == name.size && memcmp(known.at, name.at, name.size) == 0)
             return names->slots[*slot] - 1;
@@ -205,27 +211,33 @@ static int load_map(int32_t *slot, model_build *b, const obj_names *names, uint3
     return 1;
 }
 
-/* An earlier material that shows the same map in the same way; `index` itself where there is none. */
-static uint32_t same_map(const obj_names *names, uint32_t index)
+/* The first material that shows the same map in the same way; `index` itself, which then stands in the index of maps,
+ * where there is none. */
+static uint32_t same_map(const obj_names *names, uint32_t *slots, uint32_t index)
 {
     const obj_material *m = &names->items[index];
-    uint32_t i;
-    for (i = 0; i < index; ++i)
-        if (names->items[i].map && strcmp(names->items[i].map, m->map) == 0 && names->items[i].wrap == m->wrap)
-            return i;
+    uint32_t slot = (hash_text(m->map, strlen(m->map)) ^ m->wrap) & names->mask;
+    for (; slots[slot] != 0; slot = (slot + 1) & names->mask) {
+        const obj_material *known = &names->items[slots[slot] - 1];
+        if (known->wrap == m->wrap && strcmp(known->map, m->map) == 0)
+            return slots[slot] - 1;
+    }
+    slots[slot] = index + 1;
     return index;
 }
 
 int mtl_textures(model_build *b, obj_names *names)
 {
-    uint32_t i, first, missing = 0;
+    uint32_t *slots = (uint32_t *)build_scratch(b, (uint64_t)names->mask + 1, sizeof *slots), i, first, missing = 0;
     report why, seen;
     seen.text[0] = '\0';
+    if (!slots)
+        return 0;
     for (i = 0; i < names->count; ++i) {
         lmb_material *out = &b->materials[i];
         if (!names->items[i].map)
             continue;
-        first = same_map(names, i);
+        first = same_map(names, slots, i);
         why.text[0] = '\0';
         if (first != i) {
             out->texture = b->materials[first].texture;

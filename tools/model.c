@@ -1,5 +1,6 @@
 /* model.c: owns a loaded model's memory, picks the reader by content, and finishes what a reader built. */
 #include <ctype.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -140,20 +141,25 @@ static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, c
                     LMB_MAX_SIDE);
         return NULL;
     }
-    if (bytes <= b->texel_budget)
-        texels = (uint8_t *)add_block(b->out, bytes, 1);
+    texels = (uint8_t *)add_block(b->out, bytes, 1);
     if (!texels) {
         report_fail(why, "%s: no memory left for textures; shrink them", name);
         return NULL;
     }
-    b->texel_budget -= bytes;
     b->out->facts.texel_bytes += bytes;
     memcpy(texels, map->texels, (size_t)map->width * (size_t)map->height * 4);
     return texels;
 }
 
-int build_picture(bitmap *out, const uint8_t *data, size_t size, const char *name, report *why)
+int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size, const char *name, report *why)
 {
+    const uint64_t pixels = picture_pixels(data, size);
+    memset(out, 0, sizeof *out);
+    b->pixel_budget += (uint64_t)size * MODEL_PIXELS_PER_BYTE;
+    if (pixels > b->pixel_budget)
+        return report_fail(why, "%s: %" PRIu64 " pixels are more than the model's pictures may still have, which is %"
+                           PRIu64 "; shrink them", name, pixels, b->pixel_budget);
+    b->pixel_budget -= pixels;
     return picture_read_codes(out, data, size, name, why);
 }
 
@@ -163,7 +169,7 @@ int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t s
     bitmap map;
     int32_t levels;
     uint8_t *texels;
-    if (!build_picture(&map, data, size, name, why))
+    if (!build_picture(b, &map, data, size, name, why))
         return 0;
     levels = kind != TEXELS_PLAIN ? lmb_texture_level_count(map.width, map.height) : 1;
     texels = keep_texels(b, &map, levels, name, why);
@@ -318,7 +324,7 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     b.path = path;
     b.scene = scene;
     b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
-    b.texel_budget = MODEL_TEXEL_BYTES;
+    b.pixel_budget = MODEL_FREE_PIXELS;
     out->facts.file_bytes = size;
     ok = load_content(&b, &file) && finish(&b);
     out->facts.loading_bytes =

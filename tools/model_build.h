@@ -7,7 +7,8 @@
 
 #define MODEL_BYTES_PER_BYTE 96                  /* memory a reader may take for each byte of input ... */
 #define MODEL_BYTES_FREE     (16u << 20)         /* ... beside these */
-#define MODEL_TEXEL_BYTES    (UINT64_C(1) << 32) /* of all decoded textures: files pack up to a thousandfold */
+#define MODEL_FREE_PIXELS    (UINT64_C(1) << 26) /* of all pictures that are decoded, and ... */
+#define MODEL_PIXELS_PER_BYTE 64                 /* ... for each byte of them; 8 bytes of memory each at most */
 #define MODEL_PATH_MAX       4096                /* bytes of a path that a reader composes */
 
 /* A scene under construction; the arrays are blocks of `out`. */
@@ -19,7 +20,7 @@ typedef struct model_build {
     const char *path;      /* the model's file, as the user named it */
     const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
     uint64_t budget;       /* bytes that may still be allocated */
-    uint64_t texel_budget; /* the same for texels */
+    uint64_t pixel_budget; /* pixels that may still be decoded */
     lmb_mesh *meshes;
     lmb_material *materials;
     lmb_texture *textures;
@@ -50,7 +51,7 @@ int build_is_relative(const char *name);
 int build_sibling(char *out, size_t cap, const model_build *b, const char *name, report *r);
 
 /* build_picture: decode a picture of codes (PNG, JPEG, PPM, PGM), known by its content. The caller calls bitmap_free. */
-int build_picture(bitmap *out, const uint8_t *data, size_t size, const char *name, report *why);
+int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size, const char *name, report *why);
 
 /* What an image's lower levels are means of; TEXELS_PLAIN has none. */
 enum { TEXELS_PLAIN = 0, TEXELS_COLOUR, TEXELS_NORMALS };

@@ -133,16 +133,16 @@ static int32_t png_channels(const uint8_t *data, const bitmap *map)
     return colours + (type >= 4 || has_holes(map));
 }
 
-/* The components that the frame header (SOF0 to SOF2, whole and in its place in a file that was decoded) names. Fill
- * bytes may stand before a marker. */
-static int32_t jpeg_channels(const uint8_t *data, size_t size)
+/* The frame header (SOF0 to SOF2) of bytes that begin as a JPEG's, at its marker and 10 bytes long; NULL: none found.
+ * Fill bytes may stand before a marker. */
+static const uint8_t *jpeg_frame(const uint8_t *data, size_t size)
 {
     size_t at = 2;
     while (size - at >= 10) {
         if (data[at + 1] == 0xFF) {
             ++at;
         } else if (data[at + 1] >= 0xC0 && data[at + 1] <= 0xC2) {
-            return data[at + 9];
+            return data + at;
         } else {
             const size_t skip = 2 + ((size_t)data[at + 2] << 8 | data[at + 3]);
             if (skip > size - at)
@@ -150,7 +150,14 @@ static int32_t jpeg_channels(const uint8_t *data, size_t size)
             at += skip;
         }
     }
-    return 3;
+    return NULL;
+}
+
+/* The components that the frame header names, of a file that was decoded. */
+static int32_t jpeg_channels(const uint8_t *data, size_t size)
+{
+    const uint8_t *frame = jpeg_frame(data, size);
+    return frame ? frame[9] : 3;
 }
 
 static int32_t code_channels(const picture_kind *kind, const uint8_t *data, size_t size, const bitmap *map)
@@ -188,6 +195,17 @@ int picture_read(stored_picture *out, const uint8_t *data, size_t size, const ch
     out->height = out->codes.height;
     out->channels = code_channels(kind, data, size, &out->codes);
     return 1;
+}
+
+uint64_t picture_pixels(const uint8_t *data, size_t size)
+{
+    if (is_png(data, size) && size >= 24)
+        return (uint64_t)get_u32_be(data + 16) * get_u32_be(data + 20);
+    if (is_jpeg(data, size)) {
+        const uint8_t *frame = jpeg_frame(data, size);
+        return frame ? (uint64_t)(frame[5] << 8 | frame[6]) * (uint64_t)(frame[7] << 8 | frame[8]) : 0;
+    }
+    return size;
 }
 
 int picture_read_codes(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r)

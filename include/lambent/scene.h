@@ -103,7 +103,7 @@ extern "C" {
  * numbered in order). Call it once after loading; every other function takes the scene as checked. */
 lmb_status lmb_scene_check(const lmb_scene *scene);
 
-/* lmb_scene_triangles: triangles over all instances; ids run 1 .. that. */
+/* lmb_scene_triangles: triangles over all instances of a checked scene; ids run 1 .. that. Cost: none. */
 uint32_t lmb_scene_triangles(const lmb_scene *scene);
 
 /* lmb_scene_bounds: the box of all placed, finite vertices; (0,0,0)-(0,0,0) for none. Cost: one pass over them. */

@@ -130,10 +130,11 @@ lmb_status lmb_scene_check(const lmb_scene *scene)
 
 uint32_t lmb_scene_triangles(const lmb_scene *scene)
 {
-    uint32_t i, sum = 0;
-    for (i = 0; scene && i < scene->instance_count; ++i)
-        sum += scene->meshes[scene->instances[i].mesh].triangle_count;
-    return sum;
+    const lmb_instance *last;
+    if (!scene || scene->instance_count == 0)
+        return 0;
+    last = &scene->instances[scene->instance_count - 1];
+    return last->first_id - 1 + scene->meshes[last->mesh].triangle_count;
 }
 
 static int is_sane_point(lmb_vec3 p) { return is_sane(p.x) && is_sane(p.y) && is_sane(p.z); }
