@@ -53,12 +53,12 @@ static void list_extensions(gltf *g, uint32_t list, int required)
     }
 }
 
-/* How to get rid of an extension that stands for compressed data. */
+/* How to get rid of an extension that stands for compressed data; NULL for others. */
 static const char *advice_for(const gltf *g, uint32_t name)
 {
     static const struct {
         const char *name, *advice;
-    } known[] = {{"KHR_draco_mesh_compression", "decompress it: gltf-transform cp IN.glb OUT.glb"},
+    } known[] = {{"KHR_draco_mesh_compression", GLTF_UNDO_DRACO},
                  {"EXT_meshopt_compression", "decompress it: gltfpack -noq -i IN.glb -o OUT.glb"},
                  {"KHR_texture_basisu", "make its KTX2 textures PNGs: gltf-transform ktxdecompress IN.glb OUT.glb"},
                  {"EXT_texture_webp", "make its textures PNGs: gltf-transform png IN.glb OUT.glb"},
@@ -67,7 +67,7 @@ static const char *advice_for(const gltf *g, uint32_t name)
     for (i = 0; i < sizeof known / sizeof known[0]; ++i)
         if (json_equals(&g->doc, name, known[i].name))
             return known[i].advice;
-    return "export without it";
+    return NULL;
 }
 
 /* Required and unknown is an error; used and unknown a note. */
@@ -82,13 +82,14 @@ static int check_extensions(gltf *g)
             continue;
         json_string(name, sizeof name, &g->doc, i);
         return json_fail(&g->doc, i, g->b->r, "requires %s, which lambent does not read; %s", name,
-                         advice_for(g, i));
+                         advice_for(g, i) ? advice_for(g, i) : "export without it");
     }
     for (i = json_first(&g->doc, used); i != JSON_NONE; i = json_next(&g->doc, i)) {
         if (extension_use(g, i) != MODEL_EXTENSION_IGNORED)
             continue;
         json_string(name, sizeof name, &g->doc, i);
-        build_note(g->b, "extension %s is ignored", name);
+        build_note(g->b, "extension %s is ignored%s%s", name, advice_for(g, i) ? "; " : "",
+                   advice_for(g, i) ? advice_for(g, i) : "");
     }
     list_extensions(g, required, 1);
     list_extensions(g, used, 0);
@@ -180,6 +181,7 @@ static void tell_left_out(gltf *g)
     note_count(g, "unlit materials treated as Lambertian", n->unlit);
     note_count(g, "emissive maps used by their mean", n->emissive_maps);
     note_count(g, "normal maps left out: their texture coordinates are not the base colour's", n->odd_normal_maps);
+    note_count(g, "textured primitives without the texture coordinates, of one texel's colour", n->without_uvs);
     note_count(g, "occlusion maps ignored: light is worked out here", n->occlusion_maps);
     note_count(g, "light ranges ignored", n->ranges);
     note_count(g, "skinned nodes posed by their joints as the file places them", n->skins);
@@ -214,6 +216,7 @@ static int make_tables(const gltf_tree *t, gltf *g)
     g->b->meshes = (lmb_mesh *)build_keep(g->b, meshes, sizeof *g->b->meshes);
     g->mesh_material = (uint32_t *)build_scratch(g->b, meshes, sizeof *g->mesh_material);
     g->mesh_primitive = (uint32_t *)build_scratch(g->b, meshes, sizeof *g->mesh_primitive);
+    g->mesh_influences = (gltf_influences *)build_scratch(g->b, meshes, sizeof *g->mesh_influences);
     g->mesh_first = (uint32_t *)build_scratch(g->b, g->meshes.count, sizeof *g->mesh_first);
     g->mesh_size = (uint32_t *)build_scratch(g->b, g->meshes.count, sizeof *g->mesh_size);
     g->positions = (const void **)build_scratch(g->b, accessors, sizeof *g->positions);
@@ -223,7 +226,6 @@ static int make_tables(const gltf_tree *t, gltf *g)
     g->colours = (const uint8_t **)build_scratch(g->b, accessors, sizeof *g->colours);
     g->uv_owner = (uint32_t *)build_scratch(g->b, accessors, sizeof *g->uv_owner);
     g->buffer_bytes = (gltf_bytes *)build_scratch(g->b, g->buffers.count, sizeof *g->buffer_bytes);
-    g->files = (file_bytes *)build_scratch(g->b, g->buffers.count, sizeof *g->files);
     for (i = 0; g->mesh_first && i < g->meshes.count; ++i)
         g->mesh_first[i] = JSON_NONE;
     return g->b->r->text[0] == '\0'; /* any that could not be had has said so */
@@ -258,7 +260,6 @@ static int load_document(gltf *g)
 int gltf_load(model_build *b, const uint8_t *data, size_t size)
 {
     gltf g;
-    uint32_t i;
     int ok;
     memset(&g, 0, sizeof g);
     g.b = b;
@@ -266,8 +267,6 @@ int gltf_load(model_build *b, const uint8_t *data, size_t size)
     if (!gltf_container(&g, data, size))
         return 0;
     ok = load_document(&g);
-    for (i = 0; g.files && i < g.buffers.count; ++i)
-        file_free(&g.files[i]);
     json_free(&g.doc);
     return ok;
 }

@@ -24,6 +24,12 @@ typedef struct gltf_uv {
     double m[6];  /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
 } gltf_uv;
 
+/* A primitive's joints and weights: four each a vertex and set. */
+typedef struct gltf_influences {
+    float **joints, **weights; /* by set; NULL: not read yet */
+    uint32_t sets;
+} gltf_influences;
+
 /* Of an image by its texels: channels as numbers, and as linear light. */
 typedef struct gltf_mean {
     int known;
@@ -34,7 +40,7 @@ typedef struct gltf_mean {
 typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, unlit, emissive_maps; /* materials */
-    uint32_t occlusion_maps, odd_normal_maps;                                      /* materials */
+    uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
     uint32_t ranges, skins, morphs;                                                /* lights, nodes, meshes */
 } gltf_counts;
 
@@ -43,8 +49,7 @@ typedef struct gltf {
     json doc;
     gltf_bytes chunk; /* the BIN chunk of a GLB */
     gltf_list accessors, views, buffers, images, samplers, textures, materials, meshes, nodes, cameras, skins, lights;
-    gltf_bytes *buffer_bytes;
-    file_bytes *files; /* external buffers, one slot a buffer */
+    gltf_bytes *buffer_bytes; /* by buffer */
     /* by accessor: streams already made, so that primitives share them */
     const void **positions, **uvs;
     const int16_t **normals, **tangents;
@@ -56,6 +61,7 @@ typedef struct gltf {
     gltf_mean *image_means;           /* by image */
     uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
     uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
+    gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
     uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
     gltf_counts left_out;
     report texture_error; /* the first one */
@@ -89,13 +95,15 @@ typedef struct gltf_accessor {
 
 enum { GLTF_I8 = 5120, GLTF_U8 = 5121, GLTF_I16 = 5122, GLTF_U16 = 5123, GLTF_U32 = 5125, GLTF_F32 = 5126 };
 
+#define GLTF_UNDO_DRACO "decompress it: gltf-transform cp IN.glb OUT.glb"
+
 /* io_gltf_data.c */
 int gltf_container(gltf *g, const uint8_t *data, size_t size); /* GLB or plain: parses the JSON */
 int gltf_lists(gltf *g);                                       /* all lists, except lights */
 int gltf_list_of(gltf_list *out, gltf *g, uint32_t array);     /* of any array, or of JSON_NONE: empty */
 int gltf_item(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference);  /* node an index points to */
 int gltf_index(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference); /* the index, checked */
-int gltf_uri(gltf_bytes *out, file_bytes *file, gltf *g, uint32_t uri, report *r); /* data: scratch; else file_free */
+int gltf_uri(gltf_bytes *out, gltf *g, uint32_t uri, report *r); /* bytes that stay until loading ends */
 int gltf_view(gltf_bytes *out, gltf *g, uint32_t view); /* bytes of a bufferView, by JSON node */
 int gltf_accessor_open(gltf_accessor *out, gltf *g, uint32_t accessor);
 int gltf_accessor_floats(float *out, const gltf *g, const gltf_accessor *a); /* count * components values */

@@ -199,10 +199,11 @@ static int percent_decode(char *text)
     return 1;
 }
 
-int gltf_uri(gltf_bytes *out, file_bytes *file, gltf *g, uint32_t uri, report *r)
+int gltf_uri(gltf_bytes *out, gltf *g, uint32_t uri, report *r)
 {
     const uint32_t raw = json_kind(&g->doc, uri) == JSON_STRING ? g->doc.nodes[uri].size : 0;
     char path[MODEL_PATH_MAX], *text;
+    file_bytes file;
     if (raw == 0)
         return json_fail(&g->doc, uri, r, "must be a URI");
     text = (char *)build_scratch(g->b, (uint64_t)raw + 1, 1);
@@ -216,10 +217,10 @@ int gltf_uri(gltf_bytes *out, file_bytes *file, gltf *g, uint32_t uri, report *r
                          raw < 80 ? (int)raw : 80, g->doc.text + g->doc.nodes[uri].start);
     if (!percent_decode(text))
         return json_fail(&g->doc, uri, r, "damaged %%-escape in the URI");
-    if (!build_sibling(path, sizeof path, g->b, text, r) || !build_read(g->b, file, path, r))
+    if (!build_sibling(path, sizeof path, g->b, text, r) || !build_read(g->b, &file, path, r))
         return 0;
-    out->data = file->data;
-    out->size = file->size;
+    out->data = file.data;
+    out->size = file.size;
     out->ready = 1;
     return 1;
 }
@@ -237,7 +238,7 @@ static int buffer_bytes(gltf_bytes *out, gltf *g, uint32_t index)
         if (!json_read_uint(&length, &g->doc, member, g->b->r))
             return 0;
         if (uri != JSON_NONE) {
-            if (!gltf_uri(bytes, &g->files[index], g, uri, g->b->r))
+            if (!gltf_uri(bytes, g, uri, g->b->r))
                 return 0;
         } else if (index == 0 && g->chunk.ready) {
             *bytes = g->chunk;

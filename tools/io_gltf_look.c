@@ -39,15 +39,15 @@ static int read_sampler(lmb_texture *out, gltf *g, uint32_t texture)
     return 1;
 }
 
-/* The file's bytes of images[index], likely a PNG or a JPEG; `place` names it. The caller calls file_free.
+/* The file's bytes of images[index], likely a PNG or a JPEG; `place` names it.
  * 0: see `why`, or g->b->r where the model itself is damaged. */
-static int image_bytes(gltf_bytes *out, file_bytes *file, char place[64], gltf *g, uint32_t index, report *why)
+static int image_bytes(gltf_bytes *out, char place[32], gltf *g, uint32_t index, report *why)
 {
     const uint32_t node = g->images.items[index], reference = json_member(&g->doc, node, "bufferView");
     uint32_t view;
-    json_path(place, 64, &g->doc, node);
+    snprintf(place, 32, "images[%u]", (unsigned)index); /* json_path would count the images before it */
     if (reference == JSON_NONE) {
-        if (!gltf_uri(out, file, g, json_member(&g->doc, node, "uri"), why))
+        if (!gltf_uri(out, g, json_member(&g->doc, node, "uri"), why))
             return 0;
     } else if (!gltf_item(&view, g, &g->views, reference) || !gltf_view(out, g, view)) {
         return 0;
@@ -60,14 +60,12 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int kind, int
 {
     lmb_texture *known = &g->image_texels[kind - 1][index];
     gltf_bytes bytes = {NULL, 0, 0};
-    file_bytes file = {NULL, 0};
-    char place[64];
+    char place[32];
     int ok;
     if (!known->texels || (mips && known->levels == 1)) {
-        if (!image_bytes(&bytes, &file, place, g, index, why))
+        if (!image_bytes(&bytes, place, g, index, why))
             return 0;
         ok = build_texels(g->b, known, bytes.data, bytes.size, mips ? kind : TEXELS_PLAIN, place, why);
-        file_free(&file);
         if (!ok)
             return 0;
     }
@@ -117,10 +115,9 @@ static void measure(gltf_mean *out, const bitmap *map)
 static int image_mean(const gltf_mean **out, gltf *g, uint32_t info)
 {
     gltf_bytes bytes = {NULL, 0, 0};
-    file_bytes file = {NULL, 0};
     bitmap map;
     uint32_t texture, index;
-    char place[64];
+    char place[32];
     report why;
     int ok;
     *out = NULL;
@@ -131,10 +128,9 @@ static int image_mean(const gltf_mean **out, gltf *g, uint32_t info)
     if (index == JSON_NONE)
         return 1;
     if (!g->image_means[index].known) {
-        if (!image_bytes(&bytes, &file, place, g, index, &why))
+        if (!image_bytes(&bytes, place, g, index, &why))
             return leave_out(g, &why);
         ok = build_picture(g->b, &map, bytes.data, bytes.size, place, &why);
-        file_free(&file);
         if (!ok)
             return leave_out(g, &why);
         measure(&g->image_means[index], &map);
@@ -161,7 +157,7 @@ static int texture_slot(int32_t *out, gltf *g, uint32_t index, int kind)
         if (!read_sampler(&made, g, node) || !texture_image(&source, g, node))
             return 0;
         if (source == JSON_NONE) {
-            json_fail(&g->doc, node, &why, "no PNG or JPEG source");
+            report_fail(&why, "%s: textures[%u]: no PNG or JPEG source", g->b->path, (unsigned)index);
             if (!leave_out(g, &why))
                 return 0;
         } else if (image_decode(&made, g, source, kind, made.filter == LMB_TRILINEAR, &why)) {

@@ -143,8 +143,10 @@ static int read_uvs(lmb_mesh *out, gltf *g, uint32_t attributes, uint32_t materi
     reference = json_member(&g->doc, attributes, key);
     if (!gltf_attribute(&a, &index, g, reference, 2, 2, out->vertex_count))
         return 0;
-    if (index == JSON_NONE)
+    if (index == JSON_NONE) {
+        ++g->left_out.without_uvs;
         return 1;
+    }
     owner = g->uvs[index] ? &g->material_uv[g->uv_owner[index]] : NULL;
     if (!owner || owner->moved != how->moved || (how->moved && memcmp(owner->m, how->m, sizeof how->m) != 0)) {
         values = (float *)build_keep(g->b, (uint64_t)a.count * 2, sizeof *values);
@@ -271,6 +273,18 @@ static int primitive_material(uint32_t *out, gltf *g, uint32_t primitive)
     return 1;
 }
 
+/* Geometry that only a Draco decoder can read has accessors without bytes, which would count as zeros. */
+static int refuse_draco(gltf *g, uint32_t primitive, uint32_t position)
+{
+    const uint32_t draco = json_member(&g->doc, json_member(&g->doc, primitive, "extensions"), "KHR_draco_mesh_compression");
+    uint32_t accessor;
+    if (!gltf_item(&accessor, g, &g->accessors, position))
+        return 0;
+    if (draco == JSON_NONE || json_member(&g->doc, accessor, "bufferView") != JSON_NONE)
+        return 1;
+    return json_fail(&g->doc, draco, g->b->r, "Draco geometry without a plain copy; %s", GLTF_UNDO_DRACO);
+}
+
 /* One primitive to the next free mesh; none for points, lines and what has no triangle. */
 static int read_primitive(gltf *g, uint32_t primitive)
 {
@@ -287,8 +301,9 @@ static int read_primitive(gltf *g, uint32_t primitive)
         return 1;
     }
     memset(out, 0, sizeof *out);
-    if (!primitive_material(&material, g, primitive) || !read_positions(out, g, position) ||
-        !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) || !read_uvs(out, g, attributes, material) ||
+    if (!refuse_draco(g, primitive, position) || !primitive_material(&material, g, primitive) ||
+        !read_positions(out, g, position) || !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) ||
+        !read_uvs(out, g, attributes, material) ||
         !read_tangents(out, g, json_member(&g->doc, attributes, "TANGENT"), material) ||
         !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) || !read_triangles(out, g, primitive, mode))
         return 0;

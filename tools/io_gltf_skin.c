@@ -13,12 +13,6 @@ typedef struct skin {
     uint32_t count;
 } skin;
 
-/* A primitive's influences: four joints and weights a vertex and set. */
-typedef struct influences {
-    float **joints, **weights; /* by set */
-    uint32_t sets;
-} influences;
-
 static int read_bind(skin *s, gltf *g, uint32_t node)
 {
     const uint32_t reference = json_member(&g->doc, node, "inverseBindMatrices");
@@ -65,11 +59,12 @@ static int read_skin(skin *s, gltf *g, const gltf_tree *t, uint32_t node)
     return read_bind(s, g, node);
 }
 
-/* JOINTS_n and WEIGHTS_n from 0 on, until one is missing. */
-static int read_influences(influences *out, gltf *g, uint32_t attributes, const skin *s, uint32_t vertices)
+/* JOINTS_n and WEIGHTS_n from 0 on, until one is missing; once a primitive. */
+static int read_influences(gltf_influences *out, gltf *g, uint32_t attributes, uint32_t vertices)
 {
     const uint32_t most = json_count(&g->doc, attributes);
-    uint64_t i;
+    if (out->joints)
+        return 1;
     out->joints = (float **)build_scratch(g->b, most, sizeof *out->joints);
     out->weights = (float **)build_scratch(g->b, most, sizeof *out->weights);
     if (!out->joints || !out->weights)
@@ -90,18 +85,27 @@ static int read_influences(influences *out, gltf *g, uint32_t attributes, const 
         out->weights[out->sets] = gltf_floats(g, &w);
         if (!out->joints[out->sets] || !out->weights[out->sets])
             return 0;
-        for (i = 0; i < 4 * (uint64_t)vertices; ++i) {
-            const float joint = out->joints[out->sets][i];
-            if (!(joint >= 0.0f && joint < (float)s->count))
-                return json_fail(&g->doc, j.node, g->b->r, "joint %g at vertex %u, but the skin has %u",
-                                 (double)joint, (unsigned)(i / 4), (unsigned)s->count);
-        }
     }
     return 1;
 }
 
+/* Two skins may show one primitive: its joints are held against each. */
+static int check_joints(const gltf *g, const gltf_influences *in, uint32_t primitive, const skin *s, uint32_t vertices)
+{
+    uint32_t set;
+    uint64_t i;
+    for (set = 0; set < in->sets; ++set)
+        for (i = 0; i < 4 * (uint64_t)vertices; ++i) {
+            const float joint = in->joints[set][i];
+            if (!(joint >= 0.0f && joint < (float)s->count))
+                return json_fail(&g->doc, primitive, g->b->r, "joint %g at vertex %u, but the skin has %u; export again",
+                                 (double)joint, (unsigned)(i / 4), (unsigned)s->count);
+        }
+    return 1;
+}
+
 /* The joints' mean by weight at a vertex; of a vertex without weights, the first joint. */
-static gltf_matrix blend(const influences *in, const skin *s, uint32_t vertex)
+static gltf_matrix blend(const gltf_influences *in, const skin *s, uint32_t vertex)
 {
     gltf_matrix sum = {{0}};
     double total = 0;
@@ -153,7 +157,7 @@ static lmb_vec3 turn(const gltf_matrix *a, lmb_vec3 v)
 }
 
 /* A new stream, each octahedral vector turned by its vertex's matrix; NULL with the report set. */
-static int16_t *pose_vectors(gltf *g, const int16_t *from, const influences *in, const skin *s, uint32_t count, int normals)
+static int16_t *pose_vectors(gltf *g, const int16_t *from, const gltf_influences *in, const skin *s, uint32_t count, int normals)
 {
     int16_t *to = (int16_t *)build_keep(g->b, (uint64_t)count * 2, sizeof *to);
     uint32_t i;
@@ -166,7 +170,7 @@ static int16_t *pose_vectors(gltf *g, const int16_t *from, const influences *in,
     return to;
 }
 
-static float *pose_positions(gltf *g, const float *from, const influences *in, const skin *s, uint32_t count)
+static float *pose_positions(gltf *g, const float *from, const gltf_influences *in, const skin *s, uint32_t count)
 {
     float *to = (float *)build_keep(g->b, (uint64_t)count * 3, sizeof *to);
     uint32_t i, k;
@@ -180,19 +184,22 @@ static float *pose_positions(gltf *g, const float *from, const influences *in, c
     return to;
 }
 
-/* One mesh's copy, posed; a primitive without influences stays as the first joint places it. */
-static int pose_mesh(lmb_mesh *out, gltf *g, const skin *s, uint32_t primitive)
+/* b->meshes[to] becomes `from`, posed; a primitive without influences stays as the first joint places it. */
+static int pose_mesh(gltf *g, uint32_t to, uint32_t from, const skin *s)
 {
-    const uint32_t n = out->vertex_count;
-    influences in;
-    if (!read_influences(&in, g, json_member(&g->doc, primitive, "attributes"), s, n))
+    lmb_mesh *out = &g->b->meshes[to];
+    gltf_influences *in = &g->mesh_influences[from];
+    const uint32_t primitive = g->mesh_primitive[from], n = g->b->meshes[from].vertex_count;
+    *out = g->b->meshes[from];
+    if (!read_influences(in, g, json_member(&g->doc, primitive, "attributes"), n) ||
+        !check_joints(g, in, primitive, s, n))
         return 0;
-    out->positions = pose_positions(g, (const float *)out->positions, &in, s, n);
+    out->positions = pose_positions(g, (const float *)out->positions, in, s, n);
     if (!out->positions)
         return 0;
-    if (out->normals && !(out->normals = pose_vectors(g, out->normals, &in, s, n, 1)))
+    if (out->normals && !(out->normals = pose_vectors(g, out->normals, in, s, n, 1)))
         return 0;
-    return !out->tangents || (out->tangents = pose_vectors(g, out->tangents, &in, s, n, 0));
+    return !out->tangents || (out->tangents = pose_vectors(g, out->tangents, in, s, n, 0));
 }
 
 int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh)
@@ -203,10 +210,9 @@ int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh)
         return 0;
     for (i = 0; i < g->mesh_size[mesh]; ++i) {
         const uint32_t from = g->mesh_first[mesh] + i, to = g->b->mesh_count;
-        g->b->meshes[to] = g->b->meshes[from];
         g->mesh_material[to] = g->mesh_material[from];
         g->mesh_primitive[to] = g->mesh_primitive[from];
-        if (!pose_mesh(&g->b->meshes[to], g, &s, g->mesh_primitive[from]))
+        if (!pose_mesh(g, to, from, &s))
             return 0;
         ++g->b->mesh_count;
     }

@@ -185,7 +185,6 @@ int mtl_load(model_build *b, obj_names *names, slice file)
         return 1;
     }
     ok = mtl_read(b, names, text_open(bytes.data, bytes.size, path));
-    file_free(&bytes);
     return ok;
 }
 
@@ -202,7 +201,6 @@ static int load_map(int32_t *slot, model_build *b, const obj_names *names, uint3
     if (!build_sibling(path, sizeof path, b, m->map, why) || !build_read(b, &bytes, path, why))
         return 0;
     ok = build_texels(b, to, bytes.data, bytes.size, TEXELS_COLOUR, path, why);
-    file_free(&bytes);
     if (!ok)
         return 0;
     to->wrap_s = to->wrap_t = m->wrap;

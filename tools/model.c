@@ -99,13 +99,82 @@ void build_note(model_build *b, const char *format, ...)
     memcpy(n->line[n->count++], line, sizeof line);
 }
 
+/* a//b and a/./b are a/b; ".." stays, as it may lead through a link. */
+static void tidy_path(char *path)
+{
+    char *to = path;
+    const char *from = path;
+    while (*from) {
+        const int at_start = from == path || from[-1] == '/';
+        if (at_start && from[0] == '.' && from[1] == '/')
+            from += 2;
+        else if (at_start && from != path && from[0] == '/')
+            ++from;
+        else
+            *to++ = *from++;
+    }
+    *to = '\0';
+}
+
+/* Room for one more file and its path; NULL with `r` set. */
+static build_neighbour *add_neighbour(model_build *b, const char *path, report *r)
+{
+    const size_t bytes = strlen(path) + 1;
+    build_neighbour *grown, *to;
+    if (b->neighbour_count == b->neighbour_cap) {
+        const uint32_t cap = b->neighbour_cap ? 2 * b->neighbour_cap : 16;
+        grown = cap > UINT32_MAX / 2 / sizeof *grown ? NULL : (build_neighbour *)realloc(b->neighbours, cap * sizeof *grown);
+        if (!grown)
+            return report_fail(r, "%s: out of memory; load a smaller model", path), NULL;
+        b->neighbours = grown;
+        b->neighbour_cap = cap;
+    }
+    to = &b->neighbours[b->neighbour_count];
+    memset(to, 0, sizeof *to);
+    to->path = (char *)malloc(bytes);
+    if (!to->path)
+        return report_fail(r, "%s: out of memory; load a smaller model", path), NULL;
+    memcpy(to->path, path, bytes);
+    return to;
+}
+
 int build_read(model_build *b, file_bytes *out, const char *path, report *r)
 {
-    if (!file_is_plain(path, r) || !file_read(out, path, r))
+    char tidy[MODEL_PATH_MAX];
+    build_neighbour *to;
+    uint32_t i;
+    snprintf(tidy, sizeof tidy, "%s", path);
+    tidy_path(tidy);
+    for (i = 0; i < b->neighbour_count; ++i)
+        if (strcmp(b->neighbours[i].path, tidy) == 0) {
+            *out = b->neighbours[i].file;
+            return 1;
+        }
+    if (!file_is_plain(path, r))
         return 0;
+    to = add_neighbour(b, tidy, r);
+    if (!to)
+        return 0;
+    if (!file_read(&to->file, path, r)) {
+        free(to->path);
+        return 0;
+    }
+    ++b->neighbour_count;
+    *out = to->file;
     b->budget += (uint64_t)out->size * MODEL_BYTES_PER_BYTE;
+    b->pixel_budget += (uint64_t)out->size * MODEL_PIXELS_PER_BYTE;
     b->out->facts.neighbour_bytes += out->size;
     return 1;
+}
+
+static void forget_neighbours(model_build *b)
+{
+    uint32_t i;
+    for (i = 0; i < b->neighbour_count; ++i) {
+        free(b->neighbours[i].path);
+        file_free(&b->neighbours[i].file);
+    }
+    free(b->neighbours);
 }
 
 int build_is_relative(const char *name)
@@ -155,7 +224,6 @@ int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size,
 {
     const uint64_t pixels = picture_pixels(data, size);
     memset(out, 0, sizeof *out);
-    b->pixel_budget += (uint64_t)size * MODEL_PIXELS_PER_BYTE;
     if (pixels > b->pixel_budget)
         return report_fail(why, "%s: %" PRIu64 " pixels are more than the model's pictures may still have, which is %"
                            PRIu64 "; shrink them", name, pixels, b->pixel_budget);
@@ -197,6 +265,70 @@ static int number_triangles(model_build *b)
                                (unsigned)LMB_MAX_TRIANGLES);
     }
     return 1;
+}
+
+#define EXACT_BOUNDS (UINT64_C(1) << 24) /* placed vertices up to which the scene's box is that of them all */
+
+/* The box of one mesh's finite vertices, by its eight corners; 0 where it has none. */
+static int mesh_corners(lmb_vec3 corners[8], const lmb_mesh *mesh)
+{
+    static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    lmb_instance alone;
+    lmb_scene one;
+    lmb_vec3 lo, hi;
+    int i;
+    memset(&alone, 0, sizeof alone);
+    memset(&one, 0, sizeof one);
+    alone.to_world = unit;
+    one.meshes = mesh;
+    one.instances = &alone;
+    one.mesh_count = one.instance_count = 1;
+    lmb_scene_bounds(&lo, &hi, &one);
+    for (i = 0; i < 8; ++i) {
+        corners[i].x = i & 1 ? hi.x : lo.x;
+        corners[i].y = i & 2 ? hi.y : lo.y;
+        corners[i].z = i & 4 ? hi.z : lo.z;
+    }
+    return mesh->vertex_count > 0;
+}
+
+/* The scene's box. Of many placed vertices it is that of the meshes' boxes: a small file may place a large mesh often. */
+static int set_bounds(model_build *b)
+{
+    lmb_scene *scene = &b->out->scene, boxes = *scene;
+    lmb_mesh *box = NULL;
+    lmb_vec3 *corners = NULL;
+    uint64_t placed = 0;
+    uint32_t i;
+    for (i = 0; i < b->instance_count; ++i)
+        placed += b->meshes[b->instances[i].mesh].vertex_count;
+    if (placed > EXACT_BOUNDS) {
+        box = (lmb_mesh *)build_scratch(b, b->mesh_count, sizeof *box);
+        corners = (lmb_vec3 *)build_scratch(b, 8 * (uint64_t)b->mesh_count, sizeof *corners);
+        if (!box || !corners)
+            return 0;
+        for (i = 0; i < b->mesh_count; ++i) {
+            box[i].positions = corners + 8 * (size_t)i;
+            box[i].vertex_count = mesh_corners(corners + 8 * (size_t)i, &b->meshes[i]) ? 8 : 0;
+        }
+        boxes.meshes = box;
+    }
+    lmb_scene_bounds(&scene->bounds_min, &scene->bounds_max, &boxes);
+    return 1;
+}
+
+/* Vertices that no triangle can be drawn with, over the meshes. */
+static void note_absurd_vertices(model_build *b)
+{
+    uint64_t absurd = 0;
+    uint32_t i, v;
+    for (i = 0; i < b->mesh_count; ++i) {
+        const float *p = (const float *)b->meshes[i].positions;
+        for (v = 0; v < b->meshes[i].vertex_count; ++v, p += 3)
+            absurd += !(fabsf(p[0]) < 1048576.0f && fabsf(p[1]) < 1048576.0f && fabsf(p[2]) < 1048576.0f);
+    }
+    if (absurd)
+        build_note(b, "vertices that are not finite or 2^20 m away, whose triangles are not drawn: %" PRIu64, absurd);
 }
 
 /* Far from the origin, binary32 has few bits left for the shape itself. */
@@ -255,12 +387,14 @@ static int finish(model_build *b)
     scene->texture_count = b->texture_count;
     scene->instance_count = b->instance_count;
     scene->light_count = b->light_count;
-    lmb_scene_bounds(&scene->bounds_min, &scene->bounds_max, scene);
+    if (!set_bounds(b))
+        return 0;
     status = lmb_scene_check(scene);
     if (status != LMB_OK)
         return report_fail(b->r, "%s: the scene that was read is not sound (%s); please report this file", b->path,
                            lmb_status_name(status));
     note_far_away(b);
+    note_absurd_vertices(b);
     note_emission(b);
     count_facts(b);
     return 1;
@@ -324,12 +458,13 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     b.path = path;
     b.scene = scene;
     b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
-    b.pixel_budget = MODEL_FREE_PIXELS;
+    b.pixel_budget = MODEL_FREE_PIXELS + (uint64_t)size * MODEL_PIXELS_PER_BYTE;
     out->facts.file_bytes = size;
     ok = load_content(&b, &file) && finish(&b);
     out->facts.loading_bytes =
         size + out->facts.neighbour_bytes + out->facts.memory_bytes + b.scratch.facts.memory_bytes;
     model_free(&b.scratch);
+    forget_neighbours(&b);
     if (!ok)
         model_free(out);
     return ok;

@@ -8,8 +8,14 @@
 #define MODEL_BYTES_PER_BYTE 96                  /* memory a reader may take for each byte of input ... */
 #define MODEL_BYTES_FREE     (16u << 20)         /* ... beside these */
 #define MODEL_FREE_PIXELS    (UINT64_C(1) << 26) /* of all pictures that are decoded, and ... */
-#define MODEL_PIXELS_PER_BYTE 64                 /* ... for each byte of them; 8 bytes of memory each at most */
+#define MODEL_PIXELS_PER_BYTE 64                 /* ... for each byte of the files; 8 bytes of memory each at most */
 #define MODEL_PATH_MAX       4096                /* bytes of a path that a reader composes */
+
+/* A file beside the model, by its path without doubled slashes and /./. */
+typedef struct build_neighbour {
+    char *path;
+    file_bytes file;
+} build_neighbour;
 
 /* A scene under construction; the arrays are blocks of `out`. */
 typedef struct model_build {
@@ -21,7 +27,9 @@ typedef struct model_build {
     const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t pixel_budget; /* pixels that may still be decoded */
-    lmb_mesh *meshes;
+    build_neighbour *neighbours; /* files read beside the model, each once */
+    uint32_t neighbour_count, neighbour_cap;
+    lmb_mesh *meshes; /* positions are LMB_POSITION_F32 */
     lmb_material *materials;
     lmb_texture *textures;
     lmb_instance *instances;
@@ -40,8 +48,8 @@ int build_materials(model_build *b, uint64_t count);
 /* build_note: a line for the user; equal lines appear once, the sixteenth says that there were more. */
 void build_note(model_build *b, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* build_read: a whole file beside the model, whose size raises the budget: a plain one, as what a model names may be
- * a device that never ends. The caller calls file_free. */
+/* build_read: a whole file beside the model: a plain one, as what a model names may be a device that never ends. It is
+ * read once, however often it is asked for, and raises the budgets once; the bytes stay until loading ends. */
 int build_read(model_build *b, file_bytes *out, const char *path, report *r);
 
 /* build_is_relative: is this a path from the model's folder: no scheme, no drive, no root? */

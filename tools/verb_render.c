@@ -22,6 +22,7 @@
 typedef struct job {
     render_options o;
     model loaded;
+    model_notes notes;
     lmb_scene scene; /* the loaded or built-in one, with the lights of this run */
     lmb_light sun;
     lmb_frame frame;
@@ -61,20 +62,31 @@ static void *take(job *j, size_t bytes, report *r)
 
 static int load_scene(job *j, report *r)
 {
-    model_notes notes;
     if (strcmp(j->o.scene, "demo") == 0) {
         j->scene = *demo_scene();
         return 1;
     }
-    memset(&notes, 0, sizeof notes);
-    int ok = model_load(&j->loaded, j->o.scene, j->o.scene_name, &notes, r);
-    for (uint32_t i = 0; i < notes.count; ++i) {
-        fprintf(stderr, "lambent: note: %s\n", notes.line[i]);
+    if (!model_load(&j->loaded, j->o.scene, j->o.scene_name, &j->notes, r)) {
+        return 0;
     }
-    if (ok) {
-        j->scene = j->loaded.scene;
+    j->scene = j->loaded.scene;
+    uint32_t lights = j->o.light_count > 0 ? 0 : j->scene.light_count;
+    if (lmb_scene_triangles(&j->scene) == 0) {
+        return report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
     }
-    return ok;
+    if (lights > LMB_MAX_LIGHTS) {
+        return report_fail(r, "%s: %u lights; this build draws up to %d at once, each with its own map; remove some, or "
+                           "give others by --light", j->o.scene, (unsigned)lights, LMB_MAX_LIGHTS);
+    }
+    return 1;
+}
+
+/* Once nothing but memory can fail: an error is a line on its own. */
+static void tell_notes(const job *j)
+{
+    for (uint32_t i = 0; i < j->notes.count; ++i) {
+        fprintf(stderr, "lambent: note: %s\n", j->notes.line[i]);
+    }
 }
 
 static void set_lights(job *j)
@@ -171,11 +183,8 @@ static int set_frame(job *j, report *r)
     if (!render_view(&f->view, &j->o, &j->loaded, &j->scene, r)) {
         return 0;
     }
+    tell_notes(j);
     set_lights(j);
-    if (j->scene.light_count > LMB_MAX_LIGHTS) {
-        return report_fail(r, "%s: %u lights; this build draws up to %d at once, each with its own map", j->o.scene,
-                           (unsigned)j->scene.light_count, LMB_MAX_LIGHTS);
-    }
     f->kernels = j->o.kernels;
     f->scene = &j->scene;
     f->show = j->o.show < SHOW_DEPTH ? j->o.show : LMB_SHOW_FULL;

@@ -1,14 +1,13 @@
-/* test_gltf.c: glTF's several scenes, normal maps and tangents, emission, skins; and what says what to convert with. */
+/* test_gltf.c: glTF's several scenes, normal maps and tangents, emission, skins; what says what to convert with; and
+ * that a small file stays small. */
+#include "../folder.h"
+
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../../tools/image.h"
 #include "../../tools/model.h"
 #include "../blob.h"
-#include "../test.h"
 
 void test_gltf(void);
 
@@ -183,11 +182,11 @@ static void emission(void)
 /* Two joints, each with its inverse bind matrix; three vertices: on the first, on the second, half on each. */
 static void put_skinned(blob *b)
 {
-    static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0};
+    static const float triangle[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 0.70710678f, 0.70710678f, 0, 1, 0, 0};
     static const float bind[2][16] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                                       {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5, 0, 0, 1}};
     static const float weights[] = {1, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0};
-    static const uint8_t joints[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+    static const uint8_t joints[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, /* a second set: */ 1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0};
     size_t i;
     put_floats(b, triangle, 18);
     put_floats(b, bind[0], 32);
@@ -197,18 +196,20 @@ static void put_skinned(blob *b)
 }
 
 /* Node 0 shows the mesh, somewhere that must not count; joint 1 (node 2) is turned a quarter round z and moved. */
-#define SKINNED(SKIN, JOINT_1) \
+#define SKINNED(SKIN, JOINT_1) SKINNED_BY("", SKIN, JOINT_1)
+#define SKINNED_BY(MORE, SKIN, JOINT_1) \
     ASSET "\"scenes\":[{\"nodes\":[0,1,2,3]}],\"nodes\":[{\"mesh\":0,\"skin\":0,\"translation\":[100,0,0]}," \
           "{\"translation\":[0,0,7]},{" JOINT_1 "},{\"mesh\":0}]," \
           "\"skins\":[" SKIN "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1," \
-          "\"JOINTS_0\":4,\"WEIGHTS_0\":3}}]}]," \
+          "\"JOINTS_0\":4,\"WEIGHTS_0\":3" MORE "}}]}]," \
           "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}," \
           "{\"bufferView\":0,\"byteOffset\":36,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}," \
           "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5126,\"count\":2,\"type\":\"MAT4\"}," \
           "{\"bufferView\":0,\"byteOffset\":200,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"}," \
-          "{\"bufferView\":0,\"byteOffset\":248,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"}]," \
-          "\"bufferViews\":[{\"buffer\":0,\"byteLength\":260}]," \
-          "\"buffers\":[{\"byteLength\":260,\"uri\":\"data:;base64,%s\"}]}"
+          "{\"bufferView\":0,\"byteOffset\":248,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"}," \
+          "{\"bufferView\":0,\"byteOffset\":260,\"componentType\":5121,\"count\":3,\"type\":\"VEC4\"}]," \
+          "\"bufferViews\":[{\"buffer\":0,\"byteLength\":272}]," \
+          "\"buffers\":[{\"byteLength\":272,\"uri\":\"data:;base64,%s\"}]}"
 
 #define QUARTER "\"rotation\":[0,0,0.70710678,0.70710678],\"translation\":[5,0,0]"
 
@@ -236,13 +237,22 @@ static void skins(void)
         /* (0, 1, 0): (0, 1, 7) by joint 1; (-5, 1) -> (-1, -5) -> (4, -5) by joint 2; half of each. */
         CHECK(is_vec(position(in, 2), 2, -2, 3.5));
         CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals), 1, 0, 0));
-        CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 2), 0, 1, 0));
+        CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 2), -sqrt(0.5), sqrt(0.5), 0));
         CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 4), sqrt(0.5), sqrt(0.5), 0));
         CHECK(is_vec(position(in + 1, 1), 1, 0, 0)); /* the same mesh without a skin stays */
     }
     CHECK(noted("skinned nodes posed") && loaded.facts.skins == 1);
     LOADS(SKINNED("{\"joints\":[1,2]}", "\"translation\":[0,0,7]"), base64(b.bytes, b.size));
     CHECK(is_vec(position(loaded.scene.instances, 1), 1, 0, 7)); /* no matrices: as if all were the identity */
+    /* Uneven scale: normals go by the inverse, transposed. */
+    LOADS(SKINNED("{\"joints\":[1,2]}", "\"scale\":[2,1,1]"), base64(b.bytes, b.size));
+    in = loaded.scene.instances;
+    CHECK(is_vec(lmb_octahedral_decode(loaded.scene.meshes[in->mesh].normals + 2), 0.4472136, 0.8944272, 0));
+    /* Two sets of the same weights: vertex 0 half on each joint, vertex 1 wholly on the second. */
+    LOADS(SKINNED_BY(",\"JOINTS_1\":5,\"WEIGHTS_1\":3", "{\"joints\":[1,2]}", "\"translation\":[8,0,0]"),
+          base64(b.bytes, b.size));
+    in = loaded.scene.instances;
+    CHECK(is_vec(position(in, 0), 4, 0, 3.5) && is_vec(position(in, 1), 9, 0, 0));
     refuses(load(SKINNED("{\"joints\":[1]}", QUARTER), base64(b.bytes, b.size)), "joint 1 at vertex 1, but the skin has 1");
     refuses(load(SKINNED("{\"joints\":[]}", QUARTER), base64(b.bytes, b.size)), "skins[0]: a skin without joints");
     refuses(load(SKINNED("{\"joints\":[1,9]}", QUARTER), base64(b.bytes, b.size)), "skins[0].joints[1]: index 9");
@@ -261,7 +271,78 @@ static void conversions(void)
     refuses(load(ASSET "\"extensionsRequired\":[\"KHR_texture_basisu\"]}"), "gltf-transform ktxdecompress");
     refuses(load(ASSET "\"extensionsRequired\":[\"EXT_texture_webp\"]}"), "gltf-transform png");
     refuses(load(ASSET "\"extensionsRequired\":[\"EXT_texture_avif\"]}"), "gltf-transform png");
+    refuses(load(ASSET "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+                       "\"extensions\":{\"KHR_draco_mesh_compression\":{}}}]}],\"accessors\":[{\"componentType\":5126,"
+                       "\"count\":3,\"type\":\"VEC3\"}]}"), "gltf-transform cp");
+    LOADS(ASSET "\"extensionsUsed\":[\"EXT_texture_webp\"]}");
+    CHECK(noted("EXT_texture_webp is ignored; make its textures PNGs: gltf-transform png"));
     refuses(load(ASSET "\"extensionsRequired\":[\"KHR_no_such\"]}"), "extensionsRequired[0]: requires KHR_no_such");
+}
+
+/* --- a small file stays small --- */
+
+/* However often and by whatever name a file beside the model is asked for, it is read once and pays once. */
+static void neighbours(void)
+{
+    folder place;
+    uint8_t bytes[64] = {0};
+    report r = {{0}};
+    model m;
+    const char *path;
+    const char *document =
+        ASSET "\"nodes\":[{\"mesh\":0}],\"buffers\":[{\"byteLength\":64,\"uri\":\"a.bin\"},"
+              "{\"byteLength\":64,\"uri\":\"./a.bin\"},{\"byteLength\":64,\"uri\":\".//././a.bin\"}],"
+              "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":1,\"byteLength\":36},{\"buffer\":2,"
+              "\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+              "\"VEC3\"},{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":2,"
+              "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+              "{\"POSITION\":0}},{\"attributes\":{\"POSITION\":1}},{\"attributes\":{\"POSITION\":2}}]}]}";
+    folder_open(&place);
+    folder_put(&place, "a.bin", bytes, sizeof bytes);
+    path = folder_put(&place, "a.gltf", document, strlen(document));
+    CHECK_MSG(model_load(&m, path, NULL, &notes, &r), "%s", r.text);
+    CHECK(m.scene.instance_count == 3 && m.facts.neighbour_bytes == 64);
+    model_free(&m);
+    folder_close(&place);
+}
+
+/* Accessors without bytes are zeros: of so many that memory runs away they are refused. */
+static void counts(void)
+{
+    refuses(load(ASSET "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+                       "\"accessors\":[{\"componentType\":5126,\"count\":4000000000,\"type\":\"VEC3\"}]}"),
+            "more than 96 bytes of memory a byte of file");
+}
+
+/* The budget of pixels: 2^26 and 64 for each byte of the file; a header alone asks for more. */
+static void pixels(void)
+{
+    static const uint8_t png[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R',
+                                  0, 0, 0x20, 0x40, 0, 0, 0x20, 0x40, 8, 2, 0, 0, 0, 0, 0, 0, 0};
+    LOADS(ASSET "\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],\"textures\":"
+                "[{\"source\":0}],\"images\":[{\"uri\":\"data:;base64,%s\"}]}", base64(png, sizeof png));
+    CHECK(noted("images[0]: 68161536 pixels are more than the model's pictures may still have"));
+}
+
+/* A mesh of 5,000 vertices placed 5,000 times: its box counts, not 25 million vertices. */
+static void many_places(void)
+{
+    enum { PLACES = 5000, VERTICES = 5000 };
+    size_t cap = PLACES * 40 + 4096, n = 0;
+    char *document = (char *)malloc(cap);
+    CHECK(document != NULL);
+    if (!document)
+        return;
+    n += (size_t)snprintf(document, cap, ASSET "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+                          "\"accessors\":[{\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"}],\"nodes\":[", VERTICES);
+    for (int i = 0; i < PLACES; ++i)
+        n += (size_t)snprintf(document + n, cap - n, "%s{\"mesh\":0,\"translation\":[%d,0,0]}", i ? "," : "", i);
+    n += (size_t)snprintf(document + n, cap - n, "]}");
+    model_free(&loaded);
+    memset(&problem, 0, sizeof problem);
+    CHECK_MSG(model_read(&loaded, "a.gltf", NULL, (const uint8_t *)document, n, &notes, &problem), "%s", problem.text);
+    CHECK(is_vec(loaded.scene.bounds_min, 0, 0, 0) && is_vec(loaded.scene.bounds_max, PLACES - 1, 0, 0));
+    free(document);
 }
 
 void test_gltf(void)
@@ -271,5 +352,9 @@ void test_gltf(void)
     emission();
     skins();
     conversions();
+    neighbours();
+    counts();
+    pixels();
+    many_places();
     model_free(&loaded);
 }
