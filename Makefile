@@ -186,7 +186,7 @@ rom: room-sizes
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit analytic truth golden replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
+	+@$(MAKE) check CHECKS="unit analytic truth lanes golden replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 FUZZER    := $(BUILD)/fuzz/fuzz
@@ -216,7 +216,7 @@ run-demo: $(B)/demo
 	@$(RUN) $(B)/demo
 
 # One machine a line: what it needs installed, its compiler, what runs its programs.
-CROSS := gcc clang aarch64 mips cortex-m web
+CROSS := gcc clang aarch64 mips cortex-m web web-simd
 cross-gcc:      NEEDS = gcc
 cross-gcc:      HOW   = CC=gcc
 cross-clang:    NEEDS = clang
@@ -229,6 +229,8 @@ cross-cortex-m: NEEDS = arm-none-eabi-gcc qemu-system-arm
 cross-cortex-m: HOW   = PORT=cortex-m
 cross-web:      NEEDS = clang wasm-ld node
 cross-web:      HOW   = PORT=web
+cross-web-simd: NEEDS = clang wasm-ld node
+cross-web-simd: HOW   = PORT=web CFLAGS="-O2 -msimd128"
 
 .PHONY: $(CROSS:%=cross-%)
 cross: $(CROSS:%=cross-%) ## golden pictures on other compilers and machines; installs what it needs where it can

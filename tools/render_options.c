@@ -41,7 +41,7 @@ const char render_usage[] =
     "  --show full|direct|indirect|irradiance|depth|normal|albedo   (default full; irradiance: bounced, before albedo)\n"
     "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
     "other\n"
-    "  --backend scalar           which machine's kernels (default: the best here)\n"
+    "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
     "  --stats FILE.json          time by stage, counts, bytes\n";
 
 static int parse_float(const char **p, float *out)

@@ -45,8 +45,11 @@ extern "C" {
 #endif
 
 /* lmb_kernels_pick: the best machine of this build for this processor. Never NULL.
- * lmb_kernels_named: by name ("scalar", ...), or NULL where the build or the processor lacks it. */
+ * lmb_kernels_at: all of them, i from 0, the best first and "scalar" last; NULL past the last and for i < 0.
+ * lmb_kernels_named: "scalar", "sse2", "avx2", "avx512", "neon" or "simd128"; NULL where the build, the processor or
+ * the system lacks it. */
 const lmb_kernels *lmb_kernels_pick(void);
+const lmb_kernels *lmb_kernels_at(int32_t i);
 const lmb_kernels *lmb_kernels_named(const char *name);
 const char *lmb_kernels_name(const lmb_kernels *kernels);
 

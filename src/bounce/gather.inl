@@ -42,10 +42,12 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #define SHARED 4u
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 
-static inline void gather_add(lmb_irradiance *inout, int k, lane weight, const float flux[3])
+/* Picked, not added as zeros: -0 + 0 is 0, so a lane's bytes would tell what its neighbours met. */
+static inline void gather_add(lmb_irradiance *inout, int k, lane_mask lit, lane weight, const float flux[3])
 {
     for (int c = 0; c < 3; ++c) {
-        lane_store(inout->rgb[c] + k, lane_add(lane_load(inout->rgb[c] + k), lane_mul(weight, lane_splat(flux[c]))));
+        lane old = lane_load(inout->rgb[c] + k);
+        lane_store(inout->rgb[c] + k, lane_pick(lit, lane_add(old, lane_mul(weight, lane_splat(flux[c]))), old));
     }
 }
 
@@ -159,7 +161,7 @@ static inline void gather_group(lmb_irradiance *inout, uint64_t *near_pixels, co
             lit = march(m, &from, at, axis, lit);
         }
         if (mask_bits(lit) && sees != SEES_NOTHING) {
-            gather_add(inout, k, lane_keep(lit, weight), flux);
+            gather_add(inout, k, lit, weight, flux);
         }
     }
 }
@@ -192,15 +194,6 @@ static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *ti
     return lane_load(w);
 }
 
-static inline lane_mask gather_flags(uint32_t bits)
-{
-    int32_t flag[LANES];
-    for (int i = 0; i < LANES; ++i) {
-        flag[i] = (int32_t)((bits >> i) & 1u);
-    }
-    return lanei_equal(lanei_load(flag), lanei_splat(1));
-}
-
 /* A vector of pixels against one disc; `shared` is what they see of it while it is not near. */
 static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int k, lane_mask hits, const lmb_point *d,
                                const lmb_march_job *m, const seen_from *from, lane_mask shared)
@@ -223,7 +216,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
         lit = mask_or(lit, m != NULL ? march(m, from, lane3_point(d->position), lane3_point(d->normal), own) : own);
     }
     if (mask_bits(lit)) {
-        gather_add(inout, k, lane_keep(lit, weight), d->flux);
+        gather_add(inout, k, lit, weight, d->flux);
     }
 }
 
@@ -237,8 +230,8 @@ static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lm
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t mine = (uint32_t)(pixels >> k) & ALL_LANES;
         if (mine != 0) {
-            const lane_mask hits = gather_flags(mine);
-            lane_mask shared = sees == SEES_NOTHING ? mask_not(lane_le(at.x, at.x)) : hits;
+            const lane_mask hits = mask_of_bits(mine);
+            lane_mask shared = sees == SEES_NOTHING ? mask_of_bits(0) : hits;
             seen_from from;
             if (m != NULL) {
                 from = march_begin(m, lane3_load(tile->position, k), lane3_load(tile->face, k));

@@ -1,4 +1,5 @@
-/* all_kernels.inl: every kernel by one machine's verbs. KERNEL(name) and MACHINE are the including file's. */
+/* all_kernels.inl: every kernel by one machine's verbs, and their table. KERNEL(name) and MACHINE, the name that
+ * lmb_kernels_named knows, are the including file's. */
 #include "../lane/kernels.h"
 #include "../lane/lane.h"
 
@@ -15,3 +16,8 @@ static float KERNEL(probe)(float one_and_bit)
     lane_store(r, lane_sub(lane_mul(a, a), lane_splat(1.00048828125f)));
     return r[0];
 }
+
+const lmb_kernels KERNEL(lmb_kernels) = {
+    MACHINE,        LANES,               KERNEL(fill),  KERNEL(resolve), KERNEL(direct),
+    KERNEL(gather), KERNEL(gather_near), KERNEL(blend), KERNEL(probe),
+};

@@ -1,8 +1,76 @@
-/* isa_pick.c: which machine's kernels, and do they compute what they should? Floor 9. */
+/* isa_pick.c: which machine's kernels, and do they compute what they should? Floor 9.
+ *
+ * On x86 the processor is asked, and the system: registers that it does not save across threads are not there. Asked
+ * each time: a call costs a few hundred cycles, a remembered answer would be data that changes. */
 #include "../base/exact.h"
 #include "../lane/kernels.h"
 
-const lmb_kernels *lmb_kernels_pick(void) { return &lmb_kernels_scalar; }
+#if LMB_HAVE_AVX2 || LMB_HAVE_AVX512
+#include <cpuid.h>
+
+/* XCR0: the register sets that the system saves. */
+static uint32_t saved_registers(void)
+{
+    uint32_t low, high;
+    __asm__ volatile("xgetbv" : "=a"(low), "=d"(high) : "c"(0));
+    return low;
+}
+
+/* Feature bits of leaf 7 and, by `saved`, their registers: 2 SSE, 4 AVX, 0xe0 AVX-512. */
+static int processor_has(uint32_t leaf_7, uint32_t saved)
+{
+    const uint32_t osxsave_avx = 1u << 27 | 1u << 28;
+    uint32_t a, b, c, d;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || (c & osxsave_avx) != osxsave_avx || (saved_registers() & saved) != saved) {
+        return 0;
+    }
+    return __get_cpuid_count(7, 0, &a, &b, &c, &d) && (b & leaf_7) == leaf_7;
+}
+#endif
+
+#if LMB_HAVE_AVX2
+static int has_avx2(void) { return processor_has(1u << 5, 0x06); }
+#endif
+#if LMB_HAVE_AVX512
+static int has_avx512(void) { return processor_has(1u << 5 | 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31, 0xe6); }
+#endif
+static int has_always(void) { return 1; }
+
+/* Fastest first. */
+static const struct machine {
+    const lmb_kernels *kernels;
+    int (*is_here)(void);
+} machines[] = {
+#if LMB_HAVE_AVX512
+    {&lmb_kernels_avx512, has_avx512},
+#endif
+#if LMB_HAVE_AVX2
+    {&lmb_kernels_avx2, has_avx2},
+#endif
+#if LMB_HAVE_SSE2
+    {&lmb_kernels_sse2, has_always},
+#endif
+#if LMB_HAVE_NEON
+    {&lmb_kernels_neon, has_always},
+#endif
+#if LMB_HAVE_SIMD128
+    {&lmb_kernels_simd128, has_always},
+#endif
+    {&lmb_kernels_scalar, has_always},
+};
+enum { MACHINES = sizeof machines / sizeof machines[0] };
+
+const lmb_kernels *lmb_kernels_at(int32_t i)
+{
+    for (int m = 0; m < MACHINES; ++m) {
+        if (machines[m].is_here() && i-- == 0) {
+            return machines[m].kernels;
+        }
+    }
+    return NULL;
+}
+
+const lmb_kernels *lmb_kernels_pick(void) { return lmb_kernels_at(0); }
 
 static int same_text(const char *a, const char *b)
 {
@@ -15,7 +83,11 @@ static int same_text(const char *a, const char *b)
 
 const lmb_kernels *lmb_kernels_named(const char *name)
 {
-    return name != NULL && same_text(name, lmb_kernels_scalar.name) ? &lmb_kernels_scalar : NULL;
+    const lmb_kernels *k = lmb_kernels_pick();
+    for (int32_t i = 1; k != NULL && (name == NULL || !same_text(name, k->name)); ++i) {
+        k = lmb_kernels_at(i);
+    }
+    return k;
 }
 
 const char *lmb_kernels_name(const lmb_kernels *kernels) { return kernels != NULL ? kernels->name : "?"; }
@@ -23,5 +95,10 @@ const char *lmb_kernels_name(const lmb_kernels *kernels) { return kernels != NUL
 lmb_status lmb_build_check(void)
 {
     volatile float one_and_bit = 1.000244140625f; /* 1 + 2^-12 */
-    return lmb_base_is_exact() && lmb_kernels_scalar.probe(one_and_bit) == 0.0f ? LMB_OK : LMB_ERR_BUILD;
+    int exact = lmb_base_is_exact();
+    const lmb_kernels *k;
+    for (int32_t i = 0; (k = lmb_kernels_at(i)) != NULL; ++i) {
+        exact = exact && k->probe(one_and_bit) == 0.0f;
+    }
+    return exact ? LMB_OK : LMB_ERR_BUILD;
 }

@@ -7,6 +7,8 @@
 #include <lambent/bounce.h>
 #include <lambent/compose.h>
 
+#include "machines.h"
+
 /* One tile of a target, by rows of 8: steps are in elements. */
 typedef struct lmb_fill_tile {
     void *depth, *id;
@@ -85,6 +87,8 @@ struct lmb_kernels {
     float (*probe)(float one_and_bit);
 };
 
-extern const lmb_kernels lmb_kernels_scalar;
+/* Those of this build: see machines.h. */
+extern const lmb_kernels lmb_kernels_scalar, lmb_kernels_sse2, lmb_kernels_avx2, lmb_kernels_avx512, lmb_kernels_neon,
+    lmb_kernels_simd128;
 
 #endif

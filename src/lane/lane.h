@@ -2,6 +2,35 @@
 #ifndef LMB_LANE_H
 #define LMB_LANE_H
 
+/* Column and row of a tile's pixels k, k + 1, ...: k is a multiple of LANES, and 16 lanes cover two rows. */
+static inline lane lane_column(int k)
+{
+    static const float column[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+    return lane_load(column + k % LMB_TILE);
+}
+
+static inline lane lane_row(int k)
+{
+#if LANES > LMB_TILE
+    static const float below[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+    return lane_add(lane_splat((float)(k / LMB_TILE)), lane_load(below));
+#else
+    return lane_splat((float)(k / LMB_TILE));
+#endif
+}
+
+/* at + per_x column + per_y row of the same pixels. */
+static inline lanei lanei_affine(int32_t at, int32_t per_x, int32_t per_y, int k)
+{
+    static const int32_t column[16] = {0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7};
+    lanei r = lanei_mul(lanei_splat(per_x), lanei_load(column + k % LMB_TILE));
+#if LANES > LMB_TILE
+    static const int32_t below[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
+    r = lanei_add(r, lanei_mul(lanei_splat(per_y), lanei_load(below)));
+#endif
+    return lanei_add(r, lanei_splat(at + per_y * (k / LMB_TILE)));
+}
+
 typedef struct lane3 {
     lane x, y, z;
 } lane3;

@@ -59,8 +59,9 @@ static inline lane lane_keep(lane_mask m, lane a) { EACH(a.v[i] = m.v[i] ? a.v[i
 static inline lane_mask mask_and(lane_mask a, lane_mask b) { EACH(a.v[i] &= b.v[i]); return a; }
 static inline lane_mask mask_or(lane_mask a, lane_mask b) { EACH(a.v[i] |= b.v[i]); return a; }
 static inline lane_mask mask_not(lane_mask a) { EACH(a.v[i] = ~a.v[i]); return a; }
-/* Bit i is lane i. */
+/* Bit i is lane i; bits past LANES are 0, or ignored. */
 static inline uint32_t mask_bits(lane_mask a) { uint32_t r = 0; EACH(r |= (a.v[i] & 1u) << i); return r; }
+static inline lane_mask mask_of_bits(uint32_t b) { lane_mask r; EACH(r.v[i] = (b >> i) & 1u ? ~0u : 0u); return r; }
 
 static inline lanei lanei_splat(int32_t a) { lanei r; EACH(r.v[i] = a); return r; }
 static inline lanei lanei_load(const int32_t *p) { lanei r; EACH(r.v[i] = p[i]); return r; }
@@ -78,14 +79,32 @@ static inline lanei lane_to_int(lane a) { lanei r; EACH(r.v[i] = (int32_t)a.v[i]
 static inline lane lane_trunc(lane a) { EACH(a.v[i] = (float)(int32_t)a.v[i]); return a; }
 static inline void lanei_store(int32_t *p, lanei a) { EACH(p[i] = a.v[i]); }
 
-/* 16-bit memory: depth and ids. Values are 0 .. 65535, whole. */
 static inline lane lane_gather_f32(const float *p, lanei at) { lane r; EACH(r.v[i] = p[at.v[i]]); return r; }
 static inline lane lane_gather_u16(const uint16_t *p, lanei at) { lane r; EACH(r.v[i] = (float)p[at.v[i]]); return r; }
-static inline lane lane_load_u16(const uint16_t *p) { lane r; EACH(r.v[i] = (float)p[i]); return r; }
-static inline void lane_store_u16(uint16_t *p, lane a) { EACH(p[i] = (uint16_t)a.v[i]); }
-/* Write `id` where the mask is set. */
-static inline void lane_put_u16(uint16_t *p, uint32_t id, lane_mask m) { EACH(if (m.v[i]) p[i] = (uint16_t)id); }
-static inline void lane_put_u32(uint32_t *p, uint32_t id, lane_mask m) { EACH(if (m.v[i]) p[i] = id); }
+
+/* Surfaces' memory. A machine wider than a tile's row covers the next row too: it lies `step` values further. 16-bit
+ * values are 0 .. 65535, whole. */
+static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
+static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }
+static inline lane lane_load_u16(const uint16_t *p, int32_t step)
+{
+    lane r;
+    (void)step;
+    EACH(r.v[i] = (float)p[i]);
+    return r;
+}
+static inline void lane_store_u16(uint16_t *p, int32_t step, lane a) { (void)step; EACH(p[i] = (uint16_t)a.v[i]); }
+/* Write `id` where the mask is set; elsewhere memory keeps its value, though it may be written again. */
+static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    (void)step;
+    EACH(if (m.v[i]) p[i] = (uint16_t)id);
+}
+static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    (void)step;
+    EACH(if (m.v[i]) p[i] = id);
+}
 
 #undef EACH
 #endif

@@ -48,8 +48,7 @@ static inline lane3 resolve_normal(const lmb_resolve_job *job, lane b1, lane b2)
 static inline void resolve_vector(lmb_tile *out, const lmb_resolve_job *job, int k, lane_mask mine)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
-    const float column[8] = {0, 1, 2, 3, 4, 5, 6, 7};
-    const lane x = lane_load(column + k % LMB_TILE), y = lane_splat((float)(k / LMB_TILE));
+    const lane x = lane_column(k), y = lane_row(k);
     const lane3 origin = resolve_affine(job->origin, job->ox, job->oy, x, y);
     const lane3 ray = resolve_affine(job->direction, job->rx, job->ry, x, y);
     const lane3 plane = lane3_splat(job->plane.x, job->plane.y, job->plane.z);

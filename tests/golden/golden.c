@@ -1,5 +1,7 @@
 /* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine, compiler and configuration.
  *
+ * Each case runs with every machine's kernels that can run here; a line names the ones whose hash is not the table's.
+ *
  * Freestanding and small (static memory under 200 KiB), so that a Cortex-M4F runs the very same list. A hash changes
  * only in a commit that explains the pixels. */
 #include <lambent/lambent.h>
@@ -21,6 +23,7 @@ static struct memory {
     lmb_render render;
 } memory;
 LMB_POINTS_ARRAY(points, POINTS, MAP / 4);
+static const lmb_kernels *kernels; /* those that the cases run with */
 
 /* --- hashing: every value as little-endian bytes ---------------------------------------------------------------------- */
 
@@ -208,7 +211,7 @@ static uint64_t case_raster(int variant)
     make_soup(17u + (uint32_t)variant, variant & 4 ? 2.0f : 4.5f);
     lmb_view v = soup_view(variant & 4);
     set_eye(&eye, HEIGHT, variant & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, variant & 2 ? LMB_ID32 : LMB_ID16);
-    lmb_draw(&eye, lmb_kernels_pick(), &memory.scratch.raster, &v, &soup, 1, 1000, LMB_CULL_BACK, NULL);
+    lmb_draw(&eye, kernels, &memory.scratch.raster, &v, &soup, 1, 1000, LMB_CULL_BACK, NULL);
     return hash_surface(hash_surface(hash_start, &eye.depth), &eye.id);
 }
 
@@ -219,11 +222,11 @@ static uint64_t case_resolve(int variant)
     make_soup(91u, 2.0f);
     lmb_view v = soup_view(variant);
     set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
-    lmb_draw(&eye, lmb_kernels_pick(), &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
+    lmb_draw(&eye, kernels, &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
             const lmb_tile *t = &memory.scratch.tile;
-            lmb_resolve_tile(&memory.scratch.tile, lmb_kernels_pick(), &v, &soup, &eye, x, y);
+            lmb_resolve_tile(&memory.scratch.tile, kernels, &v, &soup, &eye, x, y);
             h = hash_floats(h, t->position[0], 3 * 64);
             h = hash_floats(h, t->face[0], 3 * 64);
             h = hash_floats(h, t->albedo[0], 3 * 64);
@@ -245,10 +248,10 @@ static uint64_t case_normal_map(int variant)
     soup.materials = bent;
     lmb_view v = soup_view(variant);
     set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
-    lmb_draw(&eye, lmb_kernels_pick(), &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
+    lmb_draw(&eye, kernels, &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
-            lmb_resolve_tile(&memory.scratch.tile, lmb_kernels_pick(), &v, &soup, &eye, x, y);
+            lmb_resolve_tile(&memory.scratch.tile, kernels, &v, &soup, &eye, x, y);
             h = hash_floats(h, memory.scratch.tile.normal[0], 3 * 64);
         }
     }
@@ -270,7 +273,7 @@ static uint64_t case_light_map(int variant)
     int32_t size = variant == LMB_LIGHT_POINT ? 24 : MAP;
     lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
     lmb_light_map_clear(&map);
-    lmb_light_map_draw(&map, lmb_kernels_pick(), &memory.scratch.raster, &soup, 1, 1000, NULL);
+    lmb_light_map_draw(&map, kernels, &memory.scratch.raster, &soup, 1, 1000, NULL);
     uint64_t h = hash_start;
     for (int32_t f = 0; f < map.faces; ++f) {
         float power[3];
@@ -296,9 +299,9 @@ static uint64_t case_groups(int variant)
     lmb_light_map map;
     lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
     lmb_light_map_clear(&map);
-    lmb_light_map_draw(&map, lmb_kernels_pick(), &memory.scratch.raster, scene, 1, UINT32_MAX - 1, NULL);
+    lmb_light_map_draw(&map, kernels, &memory.scratch.raster, scene, 1, UINT32_MAX - 1, NULL);
     points.count = points.faces = 0;
-    lmb_status a = lmb_points_collect(&points, lmb_kernels_pick(), &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
+    lmb_status a = lmb_points_collect(&points, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
                                       MAP / 8, &how[variant]);
     uint64_t h = hash_u32(hash_points(hash_start), (uint32_t)a);
     h = hash_u32(h, (uint32_t)lmb_discs_join(&points, &map, &how[variant]));
@@ -311,7 +314,7 @@ static lmb_frame demo_frame(void)
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
+    f.kernels = kernels;
     f.scene = demo_scene();
     f.view = demo_view(WIDTH, HEIGHT);
     f.light_map = MAP;
@@ -376,22 +379,42 @@ static void write_hex(char *out, uint64_t v)
     out[16] = '\0';
 }
 
+static size_t append(char *line, size_t at, const char *text)
+{
+    while (*text != '\0') {
+        line[at++] = *text++;
+    }
+    line[at] = '\0';
+    return at;
+}
+
+/* `name hash`, where a machine's hash is wrong: that hash, WRONG and the machines. */
+static int run_case(char line[160], const struct golden *c)
+{
+    char wrong[64];
+    size_t n = append(line, 0, c->name), w = append(wrong, 0, "");
+    uint64_t shown = c->hash;
+    for (int32_t i = 0; (kernels = lmb_kernels_at(i)) != NULL; ++i) {
+        uint64_t hash = c->run(c->variant);
+        if (hash != c->hash) {
+            shown = hash;
+            w = append(wrong, append(wrong, w, " "), lmb_kernels_name(kernels));
+        }
+    }
+    n = append(line, n, " ");
+    write_hex(line + n, shown);
+    if (w > 0) {
+        append(line, append(line, n + 16, " WRONG"), wrong);
+    }
+    return w > 0;
+}
+
 int golden_run(void (*put)(const char *line))
 {
     int wrong = 0;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
-        char line[64];
-        uint64_t hash = cases[i].run(cases[i].variant);
-        size_t n = 0;
-        for (; cases[i].name[n] != '\0'; ++n) {
-            line[n] = cases[i].name[n];
-        }
-        line[n] = ' ';
-        write_hex(line + n + 1, hash);
-        if (hash != cases[i].hash) {
-            ++wrong;
-            memcpy(line + n + 17, " WRONG", 7);
-        }
+        char line[160];
+        wrong += run_case(line, &cases[i]);
         put(line);
     }
     return wrong;

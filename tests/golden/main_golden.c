@@ -1,7 +1,7 @@
-/* main_golden.c: runs the golden pictures on any port: a line `name hash` each, then the counts.
+/* main_golden.c: runs the golden pictures on any port: which machines, a line `name hash` each, then the counts.
  *
  * Freestanding: it runs where there is no libc. */
-#include <stdint.h>
+#include <lambent/raster.h>
 
 #include "../../platform/port.h"
 
@@ -27,8 +27,20 @@ static void put_number(uint32_t v)
     port_put(text + i);
 }
 
+static void put_machines(void)
+{
+    const lmb_kernels *kernels;
+    port_put("machines:");
+    for (int32_t i = 0; (kernels = lmb_kernels_at(i)) != NULL; ++i) {
+        port_put(" ");
+        port_put(lmb_kernels_name(kernels));
+    }
+    port_put("\n");
+}
+
 int main(void)
 {
+    put_machines();
     uint32_t wrong = (uint32_t)golden_run(put_line);
     put_number(line_count > wrong ? line_count - wrong : 0);
     port_put(" passed, ");

@@ -1,0 +1,13 @@
+/* isa_avx512.c: every kernel by AVX-512, sixteen pixels at a time. Floor 9. */
+#include "../base/exact.h"
+#include "../lane/machines.h"
+
+#if LMB_HAVE_AVX512
+#include "../lane/target_avx512.h"
+#include "../lane/lane_avx512.h"
+
+#define MACHINE "avx512"
+#define KERNEL(name) name##_avx512
+#include "all_kernels.inl"
+#include "../lane/target_end.h"
+#endif

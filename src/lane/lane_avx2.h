@@ -1,0 +1,102 @@
+/* lane_avx2.h: the lane verbs by AVX2, eight wide: a row of a tile. lane_scalar.h says what each must do. Floor 2.
+ *
+ * After target_avx2.h. Gathers are loads one by one: AVX2's own has no 16-bit form, and its 32-bit form measured no
+ * faster. */
+#ifndef LMB_LANE_AVX2_H
+#define LMB_LANE_AVX2_H
+
+#include "../base/vec.h"
+
+#define LANES 8
+
+typedef __m256 lane;
+typedef __m256i lanei;
+typedef __m256 lane_mask;
+
+static inline lane lane_splat(float a) { return _mm256_set1_ps(a); }
+static inline lane lane_load(const float *p) { return _mm256_loadu_ps(p); }
+static inline void lane_store(float *p, lane a) { _mm256_storeu_ps(p, a); }
+static inline lane lane_add(lane a, lane b) { return _mm256_add_ps(a, b); }
+static inline lane lane_sub(lane a, lane b) { return _mm256_sub_ps(a, b); }
+static inline lane lane_mul(lane a, lane b) { return _mm256_mul_ps(a, b); }
+static inline lane lane_div(lane a, lane b) { return _mm256_div_ps(a, b); }
+static inline lane lane_sqrt(lane a) { return _mm256_sqrt_ps(a); }
+static inline lane lane_min(lane a, lane b) { return _mm256_min_ps(a, b); }
+static inline lane lane_max(lane a, lane b) { return _mm256_max_ps(a, b); }
+static inline lane_mask lane_lt(lane a, lane b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
+static inline lane_mask lane_le(lane a, lane b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
+static inline lane lane_pick(lane_mask m, lane a, lane b) { return _mm256_blendv_ps(b, a, m); }
+static inline lane lane_keep(lane_mask m, lane a) { return _mm256_and_ps(m, a); }
+static inline lane_mask mask_and(lane_mask a, lane_mask b) { return _mm256_and_ps(a, b); }
+static inline lane_mask mask_or(lane_mask a, lane_mask b) { return _mm256_or_ps(a, b); }
+static inline lane_mask mask_not(lane_mask a) { return _mm256_xor_ps(a, _mm256_castsi256_ps(_mm256_set1_epi32(-1))); }
+static inline uint32_t mask_bits(lane_mask a) { return (uint32_t)_mm256_movemask_ps(a); }
+static inline lane_mask mask_of_bits(uint32_t b)
+{
+    const __m256i own = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    return _mm256_castsi256_ps(_mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32((int32_t)b), own), own));
+}
+
+static inline lanei lanei_splat(int32_t a) { return _mm256_set1_epi32(a); }
+static inline lanei lanei_load(const int32_t *p) { return _mm256_loadu_si256((const __m256i *)(const void *)p); }
+static inline void lanei_store(int32_t *p, lanei a) { _mm256_storeu_si256((__m256i *)(void *)p, a); }
+static inline lanei lanei_add(lanei a, lanei b) { return _mm256_add_epi32(a, b); }
+static inline lanei lanei_or(lanei a, lanei b) { return _mm256_or_si256(a, b); }
+static inline lanei lanei_and(lanei a, lanei b) { return _mm256_and_si256(a, b); }
+static inline lanei lanei_mul(lanei a, lanei b) { return _mm256_mullo_epi32(a, b); }
+static inline lanei lanei_shift(lanei a, int n) { return _mm256_srai_epi32(a, n); }
+static inline lane_mask lanei_not_negative(lanei a)
+{
+    return _mm256_castsi256_ps(_mm256_cmpgt_epi32(a, _mm256_set1_epi32(-1)));
+}
+static inline lane_mask lanei_equal(lanei a, lanei b) { return _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b)); }
+static inline lanei lane_to_int(lane a) { return _mm256_cvttps_epi32(a); }
+static inline lane lane_trunc(lane a) { return _mm256_cvtepi32_ps(_mm256_cvttps_epi32(a)); }
+
+static inline lane lane_gather_f32(const float *p, lanei at)
+{
+    int32_t i[8];
+    lanei_store(i, at);
+    return _mm256_setr_ps(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]);
+}
+static inline lane lane_gather_u16(const uint16_t *p, lanei at)
+{
+    int32_t i[8];
+    lanei_store(i, at);
+    return _mm256_cvtepi32_ps(
+        _mm256_setr_epi32(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]));
+}
+
+static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
+static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }
+static inline lane lane_load_u16(const uint16_t *p, int32_t step)
+{
+    (void)step;
+    return _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128((const __m128i *)(const void *)p)));
+}
+static inline __m128i avx2_narrow(__m256i a) /* 0 .. 65535 */
+{
+    return _mm_packus_epi32(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
+}
+static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
+{
+    (void)step;
+    _mm_storeu_si128((__m128i *)(void *)p, avx2_narrow(_mm256_cvttps_epi32(a)));
+}
+static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    __m128i *at = (__m128i *)(void *)p;
+    __m256i wide = _mm256_castps_si256(m);
+    __m128i narrow = _mm_packs_epi32(_mm256_castsi256_si128(wide), _mm256_extracti128_si256(wide, 1));
+    (void)step;
+    _mm_storeu_si128(at, _mm_blendv_epi8(_mm_loadu_si128(at), _mm_set1_epi16((short)id), narrow));
+}
+static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    __m256i *at = (__m256i *)(void *)p;
+    __m256i ids = _mm256_set1_epi32((int32_t)id);
+    (void)step;
+    _mm256_storeu_si256(at, _mm256_blendv_epi8(_mm256_loadu_si256(at), ids, _mm256_castps_si256(m)));
+}
+
+#endif

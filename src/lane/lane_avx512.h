@@ -1,0 +1,104 @@
+/* lane_avx512.h: the lane verbs by AVX-512, sixteen wide: two rows of a tile. lane_scalar.h says what each must do.
+ * Floor 2.
+ *
+ * After target_avx512.h. Masks are bits. The verbs for surfaces' memory take a row's eight values at a time, so that
+ * linear targets, whose rows lie apart, are no other case. */
+#ifndef LMB_LANE_AVX512_H
+#define LMB_LANE_AVX512_H
+
+#include "../base/vec.h"
+
+#define LANES 16
+
+typedef __m512 lane;
+typedef __m512i lanei;
+typedef __mmask16 lane_mask;
+
+static inline lane lane_splat(float a) { return _mm512_set1_ps(a); }
+static inline lane lane_load(const float *p) { return _mm512_loadu_ps(p); }
+static inline void lane_store(float *p, lane a) { _mm512_storeu_ps(p, a); }
+static inline lane lane_add(lane a, lane b) { return _mm512_add_ps(a, b); }
+static inline lane lane_sub(lane a, lane b) { return _mm512_sub_ps(a, b); }
+static inline lane lane_mul(lane a, lane b) { return _mm512_mul_ps(a, b); }
+static inline lane lane_div(lane a, lane b) { return _mm512_div_ps(a, b); }
+static inline lane lane_sqrt(lane a) { return _mm512_sqrt_ps(a); }
+static inline lane lane_min(lane a, lane b) { return _mm512_min_ps(a, b); }
+static inline lane lane_max(lane a, lane b) { return _mm512_max_ps(a, b); }
+static inline lane_mask lane_lt(lane a, lane b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+static inline lane_mask lane_le(lane a, lane b) { return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ); }
+static inline lane lane_pick(lane_mask m, lane a, lane b) { return _mm512_mask_blend_ps(m, b, a); }
+static inline lane lane_keep(lane_mask m, lane a) { return _mm512_maskz_mov_ps(m, a); }
+static inline lane_mask mask_and(lane_mask a, lane_mask b) { return (lane_mask)(a & b); }
+static inline lane_mask mask_or(lane_mask a, lane_mask b) { return (lane_mask)(a | b); }
+static inline lane_mask mask_not(lane_mask a) { return (lane_mask)(a ^ 0xffffu); }
+static inline uint32_t mask_bits(lane_mask a) { return a; }
+static inline lane_mask mask_of_bits(uint32_t b) { return (lane_mask)b; }
+
+static inline lanei lanei_splat(int32_t a) { return _mm512_set1_epi32(a); }
+static inline lanei lanei_load(const int32_t *p) { return _mm512_loadu_si512(p); }
+static inline void lanei_store(int32_t *p, lanei a) { _mm512_storeu_si512(p, a); }
+static inline lanei lanei_add(lanei a, lanei b) { return _mm512_add_epi32(a, b); }
+static inline lanei lanei_or(lanei a, lanei b) { return _mm512_or_si512(a, b); }
+static inline lanei lanei_and(lanei a, lanei b) { return _mm512_and_si512(a, b); }
+static inline lanei lanei_mul(lanei a, lanei b) { return _mm512_mullo_epi32(a, b); }
+static inline lanei lanei_shift(lanei a, int n) { return _mm512_srai_epi32(a, (unsigned)n); }
+static inline lane_mask lanei_not_negative(lanei a) { return _mm512_cmpge_epi32_mask(a, _mm512_setzero_si512()); }
+static inline lane_mask lanei_equal(lanei a, lanei b) { return _mm512_cmpeq_epi32_mask(a, b); }
+static inline lanei lane_to_int(lane a) { return _mm512_cvttps_epi32(a); }
+static inline lane lane_trunc(lane a) { return _mm512_cvtepi32_ps(_mm512_cvttps_epi32(a)); }
+
+static inline lane lane_gather_f32(const float *p, lanei at) { return _mm512_i32gather_ps(at, p, 4); }
+/* One by one: the machine gathers 32 bits at least, and would read past the end. */
+static inline lane lane_gather_u16(const uint16_t *p, lanei at)
+{
+    int32_t i[16];
+    lanei_store(i, at);
+    for (int k = 0; k < 16; ++k) {
+        i[k] = p[i[k]];
+    }
+    return _mm512_cvtepi32_ps(lanei_load(i));
+}
+
+static inline lane lane_load_rows(const float *p, int32_t step)
+{
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(p)), _mm256_loadu_ps(p + step), 1);
+}
+static inline void lane_store_rows(float *p, int32_t step, lane a)
+{
+    _mm256_storeu_ps(p, _mm512_castps512_ps256(a));
+    _mm256_storeu_ps(p + step, _mm512_extractf32x8_ps(a, 1));
+}
+static inline __m256i avx512_rows_u16(const uint16_t *p, int32_t step)
+{
+    __m128i upper = _mm_loadu_si128((const __m128i *)(const void *)p);
+    __m128i lower = _mm_loadu_si128((const __m128i *)(const void *)(p + step));
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(upper), lower, 1);
+}
+static inline void avx512_put_rows_u16(uint16_t *p, int32_t step, __m256i code)
+{
+    _mm_storeu_si128((__m128i *)(void *)p, _mm256_castsi256_si128(code));
+    _mm_storeu_si128((__m128i *)(void *)(p + step), _mm256_extracti128_si256(code, 1));
+}
+static inline lane lane_load_u16(const uint16_t *p, int32_t step)
+{
+    return _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(avx512_rows_u16(p, step)));
+}
+static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
+{
+    avx512_put_rows_u16(p, step, _mm512_cvtepi32_epi16(_mm512_cvttps_epi32(a)));
+}
+static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    avx512_put_rows_u16(p, step, _mm256_mask_blend_epi16(m, avx512_rows_u16(p, step), _mm256_set1_epi16((short)id)));
+}
+/* Blended in one piece: clang 14 takes the upper half of a mask apart through memory. */
+static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    __m256i *upper = (__m256i *)(void *)p, *lower = (__m256i *)(void *)(p + step);
+    __m512i old = _mm512_inserti32x8(_mm512_castsi256_si512(_mm256_loadu_si256(upper)), _mm256_loadu_si256(lower), 1);
+    __m512i now = _mm512_mask_blend_epi32(m, old, _mm512_set1_epi32((int32_t)id));
+    _mm256_storeu_si256(upper, _mm512_castsi512_si256(now));
+    _mm256_storeu_si256(lower, _mm512_extracti32x8_epi32(now, 1));
+}
+
+#endif

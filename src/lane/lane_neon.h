@@ -1,0 +1,96 @@
+/* lane_neon.h: the lane verbs by AArch64's NEON, four wide. lane_scalar.h says what each must do. Floor 2.
+ *
+ * NEON's own min and max make a NaN of any NaN: compare and pick instead. */
+#ifndef LMB_LANE_NEON_H
+#define LMB_LANE_NEON_H
+
+#include "../base/vec.h"
+
+#include <arm_neon.h>
+
+#define LANES 4
+
+typedef float32x4_t lane;
+typedef int32x4_t lanei;
+typedef uint32x4_t lane_mask;
+
+static inline lane lane_splat(float a) { return vdupq_n_f32(a); }
+static inline lane lane_load(const float *p) { return vld1q_f32(p); }
+static inline void lane_store(float *p, lane a) { vst1q_f32(p, a); }
+static inline lane lane_add(lane a, lane b) { return vaddq_f32(a, b); }
+static inline lane lane_sub(lane a, lane b) { return vsubq_f32(a, b); }
+static inline lane lane_mul(lane a, lane b) { return vmulq_f32(a, b); }
+static inline lane lane_div(lane a, lane b) { return vdivq_f32(a, b); }
+static inline lane lane_sqrt(lane a) { return vsqrtq_f32(a); }
+static inline lane lane_min(lane a, lane b) { return vbslq_f32(vcltq_f32(a, b), a, b); }
+static inline lane lane_max(lane a, lane b) { return vbslq_f32(vcgtq_f32(a, b), a, b); }
+static inline lane_mask lane_lt(lane a, lane b) { return vcltq_f32(a, b); }
+static inline lane_mask lane_le(lane a, lane b) { return vcleq_f32(a, b); }
+static inline lane lane_pick(lane_mask m, lane a, lane b) { return vbslq_f32(m, a, b); }
+static inline lane lane_keep(lane_mask m, lane a)
+{
+    return vreinterpretq_f32_u32(vandq_u32(m, vreinterpretq_u32_f32(a)));
+}
+static inline lane_mask mask_and(lane_mask a, lane_mask b) { return vandq_u32(a, b); }
+static inline lane_mask mask_or(lane_mask a, lane_mask b) { return vorrq_u32(a, b); }
+static inline lane_mask mask_not(lane_mask a) { return vmvnq_u32(a); }
+static inline uint32x4_t neon_own_bit(void)
+{
+    static const uint32_t own[4] = {1, 2, 4, 8};
+    return vld1q_u32(own);
+}
+static inline uint32_t mask_bits(lane_mask a) { return vaddvq_u32(vandq_u32(a, neon_own_bit())); }
+static inline lane_mask mask_of_bits(uint32_t b) { return vtstq_u32(vdupq_n_u32(b), neon_own_bit()); }
+
+static inline lanei lanei_splat(int32_t a) { return vdupq_n_s32(a); }
+static inline lanei lanei_load(const int32_t *p) { return vld1q_s32(p); }
+static inline void lanei_store(int32_t *p, lanei a) { vst1q_s32(p, a); }
+static inline lanei lanei_add(lanei a, lanei b) { return vaddq_s32(a, b); }
+static inline lanei lanei_or(lanei a, lanei b) { return vorrq_s32(a, b); }
+static inline lanei lanei_and(lanei a, lanei b) { return vandq_s32(a, b); }
+static inline lanei lanei_mul(lanei a, lanei b) { return vmulq_s32(a, b); }
+static inline lanei lanei_shift(lanei a, int n) { return vshlq_s32(a, vdupq_n_s32(-n)); }
+static inline lane_mask lanei_not_negative(lanei a) { return vcgezq_s32(a); }
+static inline lane_mask lanei_equal(lanei a, lanei b) { return vceqq_s32(a, b); }
+static inline lanei lane_to_int(lane a) { return vcvtq_s32_f32(a); }
+static inline lane lane_trunc(lane a) { return vcvtq_f32_s32(vcvtq_s32_f32(a)); }
+
+static inline lane lane_gather_f32(const float *p, lanei at)
+{
+    lane r = vdupq_n_f32(p[vgetq_lane_s32(at, 0)]);
+    r = vsetq_lane_f32(p[vgetq_lane_s32(at, 1)], r, 1);
+    r = vsetq_lane_f32(p[vgetq_lane_s32(at, 2)], r, 2);
+    return vsetq_lane_f32(p[vgetq_lane_s32(at, 3)], r, 3);
+}
+static inline lane lane_gather_u16(const uint16_t *p, lanei at)
+{
+    uint32x4_t r = vdupq_n_u32(p[vgetq_lane_s32(at, 0)]);
+    r = vsetq_lane_u32(p[vgetq_lane_s32(at, 1)], r, 1);
+    r = vsetq_lane_u32(p[vgetq_lane_s32(at, 2)], r, 2);
+    return vcvtq_f32_u32(vsetq_lane_u32(p[vgetq_lane_s32(at, 3)], r, 3));
+}
+
+static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
+static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }
+static inline lane lane_load_u16(const uint16_t *p, int32_t step)
+{
+    (void)step;
+    return vcvtq_f32_u32(vmovl_u16(vld1_u16(p)));
+}
+static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
+{
+    (void)step;
+    vst1_u16(p, vmovn_u32(vcvtq_u32_f32(a)));
+}
+static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    (void)step;
+    vst1_u16(p, vbsl_u16(vmovn_u32(m), vdup_n_u16((uint16_t)id), vld1_u16(p)));
+}
+static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    (void)step;
+    vst1q_u32(p, vbslq_u32(m, vdupq_n_u32(id), vld1q_u32(p)));
+}
+
+#endif

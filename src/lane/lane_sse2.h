@@ -1,0 +1,104 @@
+/* lane_sse2.h: the lane verbs by SSE2, four wide. lane_scalar.h says what each must do. Floor 2. */
+#ifndef LMB_LANE_SSE2_H
+#define LMB_LANE_SSE2_H
+
+#include "../base/vec.h"
+
+#include <emmintrin.h>
+
+#define LANES 4
+
+typedef __m128 lane;
+typedef __m128i lanei;
+typedef __m128 lane_mask;
+
+static inline lane lane_splat(float a) { return _mm_set1_ps(a); }
+static inline lane lane_load(const float *p) { return _mm_loadu_ps(p); }
+static inline void lane_store(float *p, lane a) { _mm_storeu_ps(p, a); }
+static inline lane lane_add(lane a, lane b) { return _mm_add_ps(a, b); }
+static inline lane lane_sub(lane a, lane b) { return _mm_sub_ps(a, b); }
+static inline lane lane_mul(lane a, lane b) { return _mm_mul_ps(a, b); }
+static inline lane lane_div(lane a, lane b) { return _mm_div_ps(a, b); }
+static inline lane lane_sqrt(lane a) { return _mm_sqrt_ps(a); }
+static inline lane lane_min(lane a, lane b) { return _mm_min_ps(a, b); }
+static inline lane lane_max(lane a, lane b) { return _mm_max_ps(a, b); }
+static inline lane_mask lane_lt(lane a, lane b) { return _mm_cmplt_ps(a, b); }
+static inline lane_mask lane_le(lane a, lane b) { return _mm_cmple_ps(a, b); }
+static inline lane lane_pick(lane_mask m, lane a, lane b) { return _mm_or_ps(_mm_and_ps(m, a), _mm_andnot_ps(m, b)); }
+static inline lane lane_keep(lane_mask m, lane a) { return _mm_and_ps(m, a); }
+static inline lane_mask mask_and(lane_mask a, lane_mask b) { return _mm_and_ps(a, b); }
+static inline lane_mask mask_or(lane_mask a, lane_mask b) { return _mm_or_ps(a, b); }
+static inline lane_mask mask_not(lane_mask a) { return _mm_xor_ps(a, _mm_castsi128_ps(_mm_set1_epi32(-1))); }
+static inline uint32_t mask_bits(lane_mask a) { return (uint32_t)_mm_movemask_ps(a); }
+static inline lane_mask mask_of_bits(uint32_t b)
+{
+    const __m128i own = _mm_setr_epi32(1, 2, 4, 8);
+    return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_and_si128(_mm_set1_epi32((int32_t)b), own), own));
+}
+
+static inline lanei lanei_splat(int32_t a) { return _mm_set1_epi32(a); }
+static inline lanei lanei_load(const int32_t *p) { return _mm_loadu_si128((const __m128i *)(const void *)p); }
+static inline void lanei_store(int32_t *p, lanei a) { _mm_storeu_si128((__m128i *)(void *)p, a); }
+static inline lanei lanei_add(lanei a, lanei b) { return _mm_add_epi32(a, b); }
+static inline lanei lanei_or(lanei a, lanei b) { return _mm_or_si128(a, b); }
+static inline lanei lanei_and(lanei a, lanei b) { return _mm_and_si128(a, b); }
+/* The low halves of the even and the odd lanes' products. */
+static inline lanei lanei_mul(lanei a, lanei b)
+{
+    __m128i even = _mm_mul_epu32(a, b), odd = _mm_mul_epu32(_mm_srli_epi64(a, 32), _mm_srli_epi64(b, 32));
+    return _mm_unpacklo_epi32(_mm_shuffle_epi32(even, _MM_SHUFFLE(0, 0, 2, 0)),
+                              _mm_shuffle_epi32(odd, _MM_SHUFFLE(0, 0, 2, 0)));
+}
+static inline lanei lanei_shift(lanei a, int n) { return _mm_srai_epi32(a, n); }
+static inline lane_mask lanei_not_negative(lanei a) { return _mm_castsi128_ps(_mm_cmpgt_epi32(a, _mm_set1_epi32(-1))); }
+static inline lane_mask lanei_equal(lanei a, lanei b) { return _mm_castsi128_ps(_mm_cmpeq_epi32(a, b)); }
+static inline lanei lane_to_int(lane a) { return _mm_cvttps_epi32(a); }
+static inline lane lane_trunc(lane a) { return _mm_cvtepi32_ps(_mm_cvttps_epi32(a)); }
+
+static inline lane lane_gather_f32(const float *p, lanei at)
+{
+    int32_t i[4];
+    lanei_store(i, at);
+    return _mm_setr_ps(p[i[0]], p[i[1]], p[i[2]], p[i[3]]);
+}
+static inline lane lane_gather_u16(const uint16_t *p, lanei at)
+{
+    int32_t i[4];
+    lanei_store(i, at);
+    return _mm_cvtepi32_ps(_mm_setr_epi32(p[i[0]], p[i[1]], p[i[2]], p[i[3]]));
+}
+
+static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
+static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }
+static inline lane lane_load_u16(const uint16_t *p, int32_t step)
+{
+    __m128i code = _mm_loadl_epi64((const __m128i *)(const void *)p);
+    (void)step;
+    return _mm_cvtepi32_ps(_mm_unpacklo_epi16(code, _mm_setzero_si128()));
+}
+/* SSE2 packs with signed saturation only: around the middle and back. */
+static inline void lane_store_u16(uint16_t *p, int32_t step, lane a)
+{
+    __m128i code = _mm_sub_epi32(_mm_cvttps_epi32(a), _mm_set1_epi32(32768));
+    (void)step;
+    _mm_storel_epi64((__m128i *)(void *)p, _mm_xor_si128(_mm_packs_epi32(code, code), _mm_set1_epi16(-32768)));
+}
+static inline __m128i sse2_blend(__m128i m, __m128i a, __m128i b)
+{
+    return _mm_or_si128(_mm_and_si128(m, a), _mm_andnot_si128(m, b));
+}
+static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    __m128i narrow = _mm_packs_epi32(_mm_castps_si128(m), _mm_castps_si128(m));
+    __m128i old = _mm_loadl_epi64((const __m128i *)(const void *)p);
+    (void)step;
+    _mm_storel_epi64((__m128i *)(void *)p, sse2_blend(narrow, _mm_set1_epi16((short)id), old));
+}
+static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
+{
+    __m128i *at = (__m128i *)(void *)p;
+    (void)step;
+    _mm_storeu_si128(at, sse2_blend(_mm_castps_si128(m), _mm_set1_epi32((int32_t)id), _mm_loadu_si128(at)));
+}
+
+#endif

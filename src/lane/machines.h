@@ -1,0 +1,68 @@
+/* machines.h: which machines' kernels this build has. Floor 2.
+ *
+ * Each LMB_HAVE_x may be defined as 0 or 1 on the command line; left alone, it is found out here. "Has" means compiled
+ * in: whether the processor can run it is isa_pick.c's question. The scalar kernels are always there; the tiny
+ * configuration has nothing else. */
+#ifndef LMB_LANE_MACHINES_H
+#define LMB_LANE_MACHINES_H
+
+#include <lambent/config.h>
+
+#if defined(LMB_CONFIG_TINY)
+#define LMB_MACHINE_X86  0
+#define LMB_MACHINE_NEON 0
+#define LMB_MACHINE_WASM 0
+#else
+/* gcc and clang: their intrinsics, and a target for a part of a file. gcc's headers of intrinsics want a libc. */
+#if defined(__SSE2__) && (defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 5 && __STDC_HOSTED__))
+#define LMB_MACHINE_X86 1
+#else
+#define LMB_MACHINE_X86 0
+#endif
+/* ARMv7's NEON flushes denormals: it takes the scalar lanes, as does the big-endian order of AArch64. */
+#if defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)
+#define LMB_MACHINE_NEON 1
+#else
+#define LMB_MACHINE_NEON 0
+#endif
+#if defined(__wasm_simd128__)
+#define LMB_MACHINE_WASM 1
+#else
+#define LMB_MACHINE_WASM 0
+#endif
+#endif
+
+#ifndef LMB_HAVE_SSE2
+#define LMB_HAVE_SSE2 LMB_MACHINE_X86
+#endif
+/* Wider than the command line asks for? Not with gcc for Windows, which aligns the stack to 16 bytes and still spills
+ * wide vectors by aligned moves (its bug 54412); nor where clang plays Microsoft's or Sony's compiler: its headers then
+ * hide what the command line has not. */
+#if defined(_WIN32) && !defined(__clang__)
+#define LMB_MACHINE_AVX2   0
+#define LMB_MACHINE_AVX512 0
+#elif (defined(_MSC_VER) || defined(__SCE__)) && !defined(__AVX2__)
+#define LMB_MACHINE_AVX2   0
+#define LMB_MACHINE_AVX512 0
+#elif (defined(_MSC_VER) || defined(__SCE__)) && \
+    !(defined(__AVX512BW__) && defined(__AVX512DQ__) && defined(__AVX512VL__))
+#define LMB_MACHINE_AVX2   LMB_MACHINE_X86
+#define LMB_MACHINE_AVX512 0
+#else
+#define LMB_MACHINE_AVX2   LMB_MACHINE_X86
+#define LMB_MACHINE_AVX512 LMB_MACHINE_X86
+#endif
+#ifndef LMB_HAVE_AVX2
+#define LMB_HAVE_AVX2 LMB_MACHINE_AVX2
+#endif
+#ifndef LMB_HAVE_AVX512
+#define LMB_HAVE_AVX512 LMB_MACHINE_AVX512
+#endif
+#ifndef LMB_HAVE_NEON
+#define LMB_HAVE_NEON LMB_MACHINE_NEON
+#endif
+#ifndef LMB_HAVE_SIMD128
+#define LMB_HAVE_SIMD128 LMB_MACHINE_WASM
+#endif
+
+#endif

@@ -1,0 +1,6 @@
+/* target_end.h: ends what target_avx2.h or target_avx512.h began. Floor 2. */
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif

@@ -1,0 +1,556 @@
+/* test_kernels.c: every kernel of every machine that runs here against scalar's, on random and hard inputs.
+ *
+ * Surfaces end where their memory ends, so that a sanitizer sees any read past them; what is around outputs stays. */
+#include <lambent/lambent.h>
+
+#include <string.h>
+
+#include "../../src/base/vec.h"
+#include "../../src/bounce/occlude.h"
+#include "../../src/lane/kernels.h"
+#include "seed.h"
+
+void test_kernels(void);
+
+enum { ROUNDS = 1500, CANARY = 0x5a };
+
+/* --- comparing -------------------------------------------------------------------------------------------------------- */
+
+static uint32_t bits_of(float v)
+{
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return bits;
+}
+
+static int is_nan(uint32_t bits) { return (bits & 0x7fffffffu) > 0x7f800000u; }
+
+/* First of n floats whose bits differ (a NaN is any NaN), or -1. */
+static int differ(const float *want, const float *got, int n)
+{
+    for (int i = 0; i < n; ++i) {
+        const uint32_t a = bits_of(want[i]), b = bits_of(got[i]);
+        if (a != b && !(is_nan(a) && is_nan(b))) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* What runs: a machine, a kernel, a seed. */
+typedef struct trial {
+    const lmb_kernels *kernels;
+    const char *kernel;
+    uint32_t seed;
+} trial;
+
+/* 1, or 0 and a line that says what differs and how to see it again. */
+static int same_floats(const trial *t, const char *what, const float *want, const float *got, int n)
+{
+    int i = differ(want, got, n);
+    if (i >= 0) {
+        printf("%s %s: %s[%d]: want %08x %g, got %08x %g; repeat: LANES_SEED=%u tests lanes\n", t->kernels->name,
+               t->kernel, what, i, (unsigned)bits_of(want[i]), (double)want[i], (unsigned)bits_of(got[i]), (double)got[i],
+               (unsigned)t->seed);
+    }
+    return i < 0;
+}
+
+static int same_bytes(const trial *t, const char *what, const void *want, const void *got, size_t n)
+{
+    for (size_t i = 0; i < n; ++i) {
+        if (((const uint8_t *)want)[i] != ((const uint8_t *)got)[i]) {
+            printf("%s %s: %s, byte %u: want %02x, got %02x; repeat: LANES_SEED=%u tests lanes\n", t->kernels->name,
+                   t->kernel, what, (unsigned)i, ((const uint8_t *)want)[i], ((const uint8_t *)got)[i], (unsigned)t->seed);
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* --- random inputs ---------------------------------------------------------------------------------------------------- */
+
+static float hard_float(test_rng *r)
+{
+    uint32_t bits = hard_bits[test_random(r) % HARD_COUNT];
+    float v;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
+/* One in `rare` is hard; 0: none is. */
+static float number(test_rng *r, float lo, float hi, uint32_t rare)
+{
+    return rare && test_random(r) % rare == 0 ? hard_float(r) : test_uniform(r, lo, hi);
+}
+
+static lmb_vec3 place(test_rng *r, float reach, uint32_t rare)
+{
+    return vec3(number(r, -reach, reach, rare), number(r, -reach, reach, rare), number(r, -reach, reach, rare));
+}
+
+static lmb_vec3 direction(test_rng *r) { return normalize3(place(r, 1.0f, 0)); }
+
+static void numbers(float *out, int n, test_rng *r, float lo, float hi, uint32_t rare)
+{
+    for (int i = 0; i < n; ++i) {
+        out[i] = number(r, lo, hi, rare);
+    }
+}
+
+static void set_pixel(float planes[3][LMB_TILE_PIXELS], int k, lmb_vec3 v)
+{
+    planes[0][k] = v.x;
+    planes[1][k] = v.y;
+    planes[2][k] = v.z;
+}
+
+/* Pixels anywhere, some without a surface. */
+static void make_tile(lmb_tile *t, test_rng *r, uint32_t rare)
+{
+    memset(t, 0, sizeof *t);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_pixel(t->position, k, place(r, 3.0f, rare));
+        set_pixel(t->face, k, direction(r));
+        set_pixel(t->normal, k, rare && test_random(r) % 9u == 0 ? place(r, 1.0f, 2) : direction(r));
+        t->id[k] = test_random(r) % 4u ? 1u + test_random(r) % 3u : test_random(r) % 2u ? 0u : 0x7fffffffu;
+        t->hits += t->id[k] != 0;
+    }
+    numbers(t->albedo[0], 3 * LMB_TILE_PIXELS, r, 0.0f, 1.0f, rare);
+    numbers(t->depth, LMB_TILE_PIXELS, r, 0.1f, 9.0f, rare);
+    numbers(t->uv[0], 2 * LMB_TILE_PIXELS, r, -2.0f, 2.0f, rare);
+}
+
+/* One whole flat surface, as the gather's shared visibility wants it. */
+static void make_flat_tile(lmb_tile *t, test_rng *r)
+{
+    const lmb_vec3 at = place(r, 2.0f, 0), n = direction(r);
+    const lmb_vec3 u = normalize3(cross3(n, direction(r))), v = cross3(n, u);
+    const float pixel = test_uniform(r, 0.01f, 0.1f);
+    make_tile(t, r, 0);
+    t->hits = LMB_TILE_PIXELS;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_pixel(t->position, k, add3(at, add3(mul3(u, pixel * (float)(k % 8)), mul3(v, pixel * (float)(k / 8)))));
+        set_pixel(t->face, k, n);
+        set_pixel(t->normal, k, n);
+        t->id[k] = 1;
+    }
+}
+
+/* --- fill ------------------------------------------------------------------------------------------------------------- */
+
+/* A tile's memory inside rows of `step`, `front` elements into a block that ends with the tile. */
+typedef struct fill_memory {
+    uint8_t *depth, *id;
+    int depth_step, id_step, front, depth_bytes, id_bytes, depth_size, id_size;
+} fill_memory;
+
+static void fill_memory_init(fill_memory *m, test_rng *r, int depth_bytes, int id_bytes)
+{
+    m->depth_step = test_random(r) % 2u ? LMB_TILE : LMB_TILE + (int)(test_random(r) % 20u);
+    m->id_step = test_random(r) % 2u ? LMB_TILE : LMB_TILE + (int)(test_random(r) % 20u);
+    m->front = (int)(test_random(r) % 5u);
+    m->depth_bytes = depth_bytes;
+    m->id_bytes = id_bytes;
+    m->depth_size = (m->front + 7 * m->depth_step + LMB_TILE) * depth_bytes;
+    m->id_size = (m->front + 7 * m->id_step + LMB_TILE) * id_bytes;
+    m->depth = malloc((size_t)m->depth_size);
+    m->id = malloc((size_t)m->id_size + 1);
+}
+
+/* Depths on a coarse grid, so that a triangle often meets its equal. */
+static void fill_memory_set(const fill_memory *m, test_rng r)
+{
+    for (int i = 0; i < m->depth_size / m->depth_bytes; ++i) {
+        const uint32_t step = test_random(&r) % 9u;
+        float d = (float)step * 0.125f;
+        uint16_t code = (uint16_t)(step * 8191u);
+        memcpy(m->depth + i * m->depth_bytes, m->depth_bytes == 4 ? (const void *)&d : (const void *)&code,
+               (size_t)m->depth_bytes);
+    }
+    for (int i = 0; i < m->id_size; ++i) {
+        m->id[i] = (uint8_t)test_random(&r);
+    }
+}
+
+static void fill_memory_free(const fill_memory *m)
+{
+    free(m->depth);
+    free(m->id);
+}
+
+static lmb_fill_tile fill_tile(const fill_memory *m, int depth_format, int id_format)
+{
+    lmb_fill_tile t;
+    t.depth = m->depth + m->front * m->depth_bytes;
+    t.id = id_format == LMB_FORMAT_NONE ? NULL : m->id + m->front * m->id_bytes;
+    t.depth_step = m->depth_step;
+    t.id_step = m->id_step;
+    t.depth_format = depth_format;
+    t.id_format = id_format;
+    return t;
+}
+
+static lmb_fill_job fill_job(test_rng *r, uint32_t rare)
+{
+    lmb_fill_job j;
+    for (int i = 0; i < 3; ++i) {
+        const int32_t reach = (int32_t)1 << (test_random(r) % 26u), span = 2 * reach + 1;
+        const int32_t x = (int32_t)(test_random(r) % 8u), y = (int32_t)(test_random(r) % 8u);
+        const int inside = test_random(r) % 3u == 0;
+        j.ex[i] = inside ? 0 : (int32_t)(test_random(r) % (uint32_t)span) - reach;
+        j.ey[i] = inside ? 0 : (int32_t)(test_random(r) % (uint32_t)span) - reach;
+        j.e[i] = inside ? 0 : -(j.ex[i] * x + j.ey[i] * y) + (int32_t)(test_random(r) % 3u) - 1;
+    }
+    const int grid = test_random(r) % 2u == 0;
+    j.d = grid ? (float)(test_random(r) % 9u) * 0.125f : number(r, 0.0f, 1.0f, rare);
+    j.dx = grid ? (float)(test_random(r) % 3u) * 0.125f : number(r, -0.2f, 0.2f, rare);
+    j.dy = grid ? 0.0f : number(r, -0.2f, 0.2f, rare);
+    j.d_min = number(r, 0.0f, 0.5f, rare);
+    j.d_max = number(r, 0.5f, 1.0f, rare);
+    j.d_scale = grid ? 65528.0f : number(r, 65534.0f, 70000.0f, rare);
+    j.d_bias = grid ? 0.0f : number(r, -9000.0f, 1.0f, rare);
+    j.id = test_random(r);
+    return j;
+}
+
+static void fill_rest_stays(const fill_memory *m, test_rng set)
+{
+    fill_memory before = *m;
+    before.depth = malloc((size_t)m->depth_size);
+    before.id = malloc((size_t)m->id_size + 1);
+    fill_memory_set(&before, set);
+    int depth_kept = 1, id_kept = 1;
+    for (int i = 0; i < m->depth_size; ++i) {
+        int at = i / m->depth_bytes - m->front;
+        depth_kept &= (at >= 0 && at % m->depth_step < LMB_TILE) || m->depth[i] == before.depth[i];
+    }
+    for (int i = 0; i < m->id_size; ++i) {
+        int at = i / m->id_bytes - m->front;
+        id_kept &= (at >= 0 && at % m->id_step < LMB_TILE) || m->id[i] == before.id[i];
+    }
+    CHECK(depth_kept);
+    CHECK(id_kept);
+    fill_memory_free(&before);
+}
+
+static int trial_fill(const trial *t, test_rng r)
+{
+    const int depth_format = test_random(&r) % 2u ? LMB_DEPTH16 : LMB_DEPTH32F;
+    const int id_format = test_random(&r) % 5u == 0 ? LMB_FORMAT_NONE : test_random(&r) % 2u ? LMB_ID16 : LMB_ID32;
+    fill_memory want, got;
+    fill_memory_init(&want, &r, depth_format == LMB_DEPTH16 ? 2 : 4, id_format == LMB_ID16 ? 2 : 4);
+    got = want;
+    got.depth = malloc((size_t)got.depth_size);
+    got.id = malloc((size_t)got.id_size + 1);
+    const test_rng set = r;
+    fill_memory_set(&want, set);
+    fill_memory_set(&got, set);
+    const lmb_fill_tile a = fill_tile(&want, depth_format, id_format), b = fill_tile(&got, depth_format, id_format);
+    for (int i = 0; i < 4; ++i) { /* one over the other */
+        const lmb_fill_job job = fill_job(&r, t->seed % 2u ? 6u : 0);
+        lmb_kernels_scalar.fill(&a, &job);
+        t->kernels->fill(&b, &job);
+    }
+    int equal = same_bytes(t, "depth", want.depth, got.depth, (size_t)want.depth_size) &&
+                same_bytes(t, "id", want.id, got.id, (size_t)want.id_size);
+    fill_rest_stays(&got, set);
+    fill_memory_free(&want);
+    fill_memory_free(&got);
+    return equal;
+}
+
+/* --- resolve, direct, blend ------------------------------------------------------------------------------------------- */
+
+static lmb_resolve_job resolve_job(test_rng *r, uint32_t rare)
+{
+    lmb_resolve_job j;
+    lmb_vec3 *vectors[] = {&j.origin, &j.ox, &j.oy, &j.direction, &j.rx, &j.ry, &j.eye, &j.corner, &j.plane, &j.g1,
+                           &j.g2};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) {
+        *vectors[i] = place(r, 2.0f, rare);
+    }
+    if (test_random(r) % 4u == 0) { /* the plane seen edge-on from some column or everywhere */
+        j.plane = vec3(0.0f, 0.0f, 1.0f);
+        j.direction.z = -(float)(test_random(r) % 8u) * (j.rx.z = (float)(test_random(r) % 2u) * 0.125f);
+        j.ry.z = 0.0f;
+    }
+    j.w_min = number(r, 0.1f, 2.0f, rare);
+    j.w_max = number(r, 2.0f, 9.0f, rare);
+    j.face = direction(r);
+    for (int i = 0; i < 3; ++i) {
+        j.normal[i] = test_random(r) % 8u ? direction(r) : vec3(0.0f, 0.0f, 0.0f);
+    }
+    numbers(j.albedo[0], 9, r, 0.0f, 1.0f, rare);
+    numbers(j.uv[0], 6, r, -4.0f, 4.0f, rare);
+    j.id = test_random(r) % 4u ? 1u + test_random(r) % 3u : 0x7fffffffu;
+    j.smooth = test_random(r) % 2u != 0;
+    return j;
+}
+
+/* An output with its surroundings. */
+#define GUARDED(type) \
+    struct { \
+        uint8_t before[64]; \
+        type it; \
+        uint8_t after[64]; \
+    }
+
+#define GUARD(pair) memset(&(pair), CANARY, sizeof(pair))
+
+static int canaries_stay(const uint8_t before[64], const uint8_t after[64])
+{
+    for (int i = 0; i < 64; ++i) {
+        if (before[i] != CANARY || after[i] != CANARY) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int trial_resolve(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_tile) want, got;
+    const uint32_t rare = t->seed % 2u ? 12u : 0;
+    GUARD(want);
+    GUARD(got);
+    make_tile(&want.it, &r, rare);
+    got.it = want.it;
+    const lmb_resolve_job job = resolve_job(&r, rare);
+    lmb_kernels_scalar.resolve(&want.it, &job);
+    t->kernels->resolve(&got.it, &job);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "position", want.it.position[0], got.it.position[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "face", want.it.face[0], got.it.face[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "normal", want.it.normal[0], got.it.normal[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "albedo", want.it.albedo[0], got.it.albedo[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "depth", want.it.depth, got.it.depth, LMB_TILE_PIXELS) &&
+           same_floats(t, "uv", want.it.uv[0], got.it.uv[0], 2 * LMB_TILE_PIXELS) &&
+           same_bytes(t, "id and the rest", want.it.id, got.it.id, sizeof want.it - offsetof(lmb_tile, id));
+}
+
+static int trial_direct(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_irradiance) want, got;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 12u : 0;
+    lmb_direct_job job;
+    GUARD(want);
+    GUARD(got);
+    make_tile(&tile, &r, rare);
+    job.position = place(&r, 3.0f, rare);
+    job.direction = direction(&r);
+    numbers(job.intensity, 3, &r, 0.0f, 9.0f, rare);
+    job.cos_outer = test_uniform(&r, 0.0f, 0.9f);
+    job.cone_scale = number(&r, 1.0f, 1e6f, rare);
+    job.kind = (int32_t)(t->seed / 2u % 3u);
+    lmb_kernels_scalar.direct(&want.it, &tile, &job);
+    t->kernels->direct(&got.it, &tile, &job);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
+}
+
+static int trial_blend(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_radiance) want, got;
+    static lmb_irradiance direct, indirect;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 12u : 0, which = t->seed / 2u % 4u;
+    GUARD(want);
+    GUARD(got);
+    make_tile(&tile, &r, rare);
+    numbers(direct.rgb[0], 3 * LMB_TILE_PIXELS, &r, 0.0f, 9.0f, rare);
+    numbers(indirect.rgb[0], 3 * LMB_TILE_PIXELS, &r, 0.0f, 9.0f, rare);
+    lmb_kernels_scalar.blend(&want.it, &tile, which & 1u ? NULL : &direct, which & 2u ? NULL : &indirect);
+    t->kernels->blend(&got.it, &tile, which & 1u ? NULL : &direct, which & 2u ? NULL : &indirect);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
+}
+
+/* --- gather ----------------------------------------------------------------------------------------------------------- */
+
+/* A viewer's depth map: a slope with steps and holes. Its memory ends with its last value. */
+typedef struct seen {
+    lmb_view view;
+    lmb_surface depth;
+    lmb_occluder occluder;
+    lmb_march_job job;
+    void *memory;
+} seen;
+
+static void seen_init(seen *s, test_rng *r)
+{
+    const int32_t width = 9 + (int32_t)(test_random(r) % 40u), height = 9 + (int32_t)(test_random(r) % 40u);
+    const int format = test_random(r) % 2u ? LMB_DEPTH16 : LMB_DEPTH32F;
+    const lmb_vec3 eye = vec3(0.0f, 0.0f, 5.0f), target = vec3(0.1f, 0.2f, 0.0f), up = vec3(0.0f, 1.0f, 0.0f);
+    lmb_view_look(&s->view, eye, target, up, 1.0f, width, height);
+    s->view.near_m = 0.1f;
+    s->view.far_m = 20.0f;
+    if (test_random(r) % 4u == 0) {
+        s->view.kind = LMB_ORTHOGRAPHIC;
+        s->view.half_width = s->view.half_height = 3.0f;
+    }
+    const size_t bytes = lmb_surface_bytes(format, width, height), count = bytes / (size_t)lmb_pixel_bytes(format);
+    s->memory = malloc(bytes);
+    lmb_surface_init(&s->depth, format, width, height, s->memory, bytes);
+    if (test_random(r) % 2u) {
+        s->depth.layout = LMB_LINEAR;
+        s->depth.stride_bytes = (width + 7) / 8 * 8 * lmb_pixel_bytes(format);
+    }
+    for (size_t i = 0; i < count; ++i) {
+        float d = i / 16u % 3u ? 0.02f + 0.00002f * (float)i : test_random(r) % 4u ? 0.03f : 0.0f;
+        if (format == LMB_DEPTH16) {
+            ((uint16_t *)s->memory)[i] = (uint16_t)(d * 60000.0f);
+        } else {
+            ((float *)s->memory)[i] = d;
+        }
+    }
+    s->occluder.view = &s->view;
+    s->occluder.depth = &s->depth;
+    s->occluder.kind = test_random(r) % 2u ? LMB_OCCLUSION_VIEW : LMB_OCCLUSION_VIEW_WORLD;
+    s->occluder.steps = 1 + (int32_t)(test_random(r) % 20u);
+    CHECK(lmb_march_setup(&s->job, &s->occluder) == 1);
+}
+
+/* Sums so far: among them zeros of both signs, which must not tell what a vector's other lanes met. */
+static void make_sums(lmb_irradiance *out, test_rng *r)
+{
+    float *sum = out->rgb[0];
+    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+        const uint32_t kind = test_random(r) % 4u;
+        sum[k] = kind == 0 ? 0.0f : kind == 1 ? -0.0f : test_uniform(r, 0.0f, 3.0f);
+    }
+}
+
+static void make_groups(lmb_groups *g, test_rng *r, uint32_t rare)
+{
+    memset(g, 0, sizeof *g);
+    g->count = (int32_t)(test_random(r) % 12u);
+    for (int32_t k = 0; k < g->count; ++k) {
+        const lmb_vec3 p = place(r, 3.0f, rare), n = direction(r);
+        const float at[3] = {p.x, p.y, p.z}, axis[3] = {n.x, n.y, n.z};
+        for (int c = 0; c < 3; ++c) {
+            g->position[c][k] = at[c];
+            g->normal[c][k] = axis[c];
+            g->flux[c][k] = number(r, 0.0f, 5.0f, rare);
+        }
+        g->area[k] = number(r, 0.0f, 1.0f, rare);
+        g->radius[k] = number(r, 0.0f, 1.5f, rare);
+    }
+}
+
+static void make_gather_tile(lmb_tile *tile, const trial *t, test_rng *r, uint32_t rare)
+{
+    if (t->seed % 3u == 0) {
+        make_flat_tile(tile, r);
+    } else {
+        make_tile(tile, r, rare);
+    }
+}
+
+static int trial_gather(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_irradiance) want, got;
+    static lmb_groups groups;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    seen s;
+    GUARD(want);
+    GUARD(got);
+    seen_init(&s, &r);
+    make_gather_tile(&tile, t, &r, rare);
+    make_groups(&groups, &r, rare);
+    make_sums(&want.it, &r);
+    got.it = want.it;
+    const size_t bytes = sizeof(uint64_t) * (size_t)groups.count;
+    uint64_t *near_want = malloc(bytes + 1), *near_got = malloc(bytes + 1);
+    const lmb_march_job *march = t->seed % 4u ? &s.job : NULL;
+    lmb_kernels_scalar.gather(&want.it, near_want, &tile, &groups, march);
+    t->kernels->gather(&got.it, near_got, &tile, &groups, march);
+    CHECK(canaries_stay(got.before, got.after));
+    int equal = same_bytes(t, "near pixels", near_want, near_got, bytes) &&
+                same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
+    free(near_want);
+    free(near_got);
+    free(s.memory);
+    return equal;
+}
+
+static lmb_point make_disc(test_rng *r, lmb_vec3 around, uint32_t rare)
+{
+    lmb_point p;
+    memset(&p, 0, sizeof p);
+    p.position = add3(around, place(r, 0.5f, rare));
+    p.normal = direction(r);
+    p.axis_u = mul3(normalize3(cross3(p.normal, direction(r))), test_uniform(r, 0.01f, 0.4f));
+    p.axis_v = mul3(cross3(p.normal, p.axis_u), test_uniform(r, 0.3f, 2.0f));
+    numbers(p.flux, 3, r, 0.0f, 5.0f, rare);
+    return p;
+}
+
+static int trial_gather_near(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_irradiance) want, got;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 20u : 0, count = 1u + test_random(&r) % 9u;
+    seen s;
+    GUARD(want);
+    GUARD(got);
+    seen_init(&s, &r);
+    make_gather_tile(&tile, t, &r, rare);
+    make_sums(&want.it, &r);
+    got.it = want.it;
+    lmb_point *discs = malloc(count * sizeof *discs);
+    const lmb_vec3 around = vec3(tile.position[0][27], tile.position[1][27], tile.position[2][27]);
+    for (uint32_t i = 0; i < count; ++i) {
+        discs[i] = make_disc(&r, around, rare);
+    }
+    const uint64_t all = (uint64_t)test_random(&r) << 32 | test_random(&r);
+    const uint64_t pixels = t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
+    const lmb_march_job *march = t->seed % 4u ? &s.job : NULL;
+    lmb_kernels_scalar.gather_near(&want.it, pixels, &tile, discs, count, march);
+    t->kernels->gather_near(&got.it, pixels, &tile, discs, count, march);
+    CHECK(canaries_stay(got.before, got.after));
+    int equal = same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
+    free(discs);
+    free(s.memory);
+    return equal;
+}
+
+/* --- all of them ------------------------------------------------------------------------------------------------------ */
+
+static const struct kernel {
+    const char *name;
+    int (*run)(const trial *t, test_rng r);
+} kernels[] = {
+    {"fill", trial_fill},     {"resolve", trial_resolve}, {"direct", trial_direct},
+    {"gather", trial_gather}, {"gather_near", trial_gather_near}, {"blend", trial_blend},
+};
+
+static void test_machine(const lmb_kernels *machine)
+{
+    const seed_range range = seeds(ROUNDS);
+    volatile float one_and_bit = 1.000244140625f;
+    CHECK_MSG(machine->probe(one_and_bit) == 0.0f, "%s is compiled with fused multiply-adds", machine->name);
+    CHECK(lmb_kernels_named(machine->name) == machine && LMB_TILE_PIXELS % machine->lanes == 0);
+    for (size_t i = 0; i < sizeof kernels / sizeof *kernels; ++i) {
+        int equal = 1;
+        for (uint32_t k = 0; k < range.count && equal; ++k) {
+            const trial t = {machine, kernels[i].name, range.first + k};
+            equal = kernels[i].run(&t, seed_rng(t.seed));
+            CHECK_MSG(equal, "%s of %s", kernels[i].name, machine->name);
+        }
+    }
+}
+
+void test_kernels(void)
+{
+    const lmb_kernels *machine;
+    for (int32_t i = 0; (machine = lmb_kernels_at(i)) != NULL; ++i) {
+        test_machine(machine);
+    }
+    CHECK(lmb_kernels_pick() == lmb_kernels_at(0) && lmb_kernels_at(-1) == NULL);
+    CHECK(lmb_kernels_named(NULL) == NULL && lmb_kernels_named("") == NULL && lmb_kernels_named("scalar2") == NULL);
+    CHECK(lmb_kernels_named("scalar") == &lmb_kernels_scalar);
+    CHECK(lmb_build_check() == LMB_OK);
+}

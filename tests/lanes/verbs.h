@@ -1,0 +1,56 @@
+/* verbs.h: every lane verb applied to one set of inputs: each machine's rows are held against scalar's. */
+#ifndef TEST_VERBS_H
+#define TEST_VERBS_H
+
+#include <stdint.h>
+
+/* Pixels of an input, the widest machine's vector; as two rows in memory, values between the rows' starts. */
+enum { VERB_LANES = 16, VERB_STEP = 11, VERB_SURFACE = 2 * VERB_STEP, VERB_TABLE = 40 };
+
+typedef struct verb_input {
+    float a[VERB_LANES], b[VERB_LANES], c[VERB_LANES]; /* anything at all */
+    float whole[VERB_LANES];                           /* in the range of int32 */
+    float code[VERB_LANES];                            /* 0 .. 65535, whole */
+    int32_t i[VERB_LANES], j[VERB_LANES];              /* |i|, |j| < 2^30, and often equal */
+    int32_t m[VERB_LANES], n[VERB_LANES];              /* |m n| < 2^31 */
+    int32_t at[VERB_LANES];                            /* 0 .. VERB_TABLE - 1 */
+    int32_t shift;                                     /* 0 .. 31 */
+    float table_f32[VERB_TABLE], surface_f32[VERB_SURFACE];
+    uint16_t table_u16[VERB_TABLE], surface_u16[VERB_SURFACE];
+    uint32_t surface_u32[VERB_SURFACE];
+    uint32_t bits, id;
+} verb_input;
+
+/* X(name, results): FLOAT: a NaN is any NaN, as processors differ in which one they make. */
+#define VERBS(X) \
+    X(splat, BITS) X(load, BITS) X(add, FLOAT) X(sub, FLOAT) X(mul, FLOAT) X(div, FLOAT) X(sqrt, FLOAT) X(min, BITS) \
+    X(max, BITS) X(lt, BITS) X(le, BITS) X(pick, BITS) X(keep, BITS) X(mask_and, BITS) X(mask_or, BITS) \
+    X(mask_not, BITS) X(mask_bits, BITS) X(mask_of_bits, BITS) X(i_splat, BITS) X(i_add, BITS) X(i_or, BITS) \
+    X(i_and, BITS) X(i_mul, BITS) X(i_shift, BITS) X(i_not_negative, BITS) X(i_equal, BITS) X(to_int, BITS) \
+    X(trunc, BITS) X(gather_f32, BITS) X(gather_u16, BITS) X(load_rows, BITS) X(load_u16, BITS) X(column, BITS) \
+    X(row, BITS) X(affine, BITS) X(dot, FLOAT)
+enum {
+#define VERB_NAME(name, results) VERB_##name,
+    VERBS(VERB_NAME)
+#undef VERB_NAME
+    VERB_COUNT
+};
+
+typedef struct verb_output {
+    uint32_t row[VERB_COUNT][VERB_LANES];
+    float stored_f32[VERB_SURFACE];
+    uint16_t stored_u16[VERB_SURFACE], put_u16[VERB_SURFACE];
+    uint32_t put_u32[VERB_SURFACE];
+} verb_output;
+
+void verbs_scalar(verb_output *out, const verb_input *in);
+void verbs_sse2(verb_output *out, const verb_input *in);
+void verbs_avx2(verb_output *out, const verb_input *in);
+void verbs_avx512(verb_output *out, const verb_input *in);
+void verbs_neon(verb_output *out, const verb_input *in);
+void verbs_simd128(verb_output *out, const verb_input *in);
+
+/* Inputs of hard and of random values; each machine's rows against scalar's. `run` is called only where it can run. */
+void verbs_compare(const char *machine, void (*run)(verb_output *out, const verb_input *in));
+
+#endif

@@ -1,0 +1,109 @@
+/* verbs.inl: one machine's verbs over one input: VERBS_RUN(name) is the including file's. */
+#include <string.h>
+
+#include "../../src/lane/lane.h"
+
+static inline void put_lane(uint32_t *row, lane a)
+{
+    float v[LANES];
+    lane_store(v, a);
+    memcpy(row, v, sizeof v);
+}
+
+static inline void put_lanei(uint32_t *row, lanei a)
+{
+    int32_t v[LANES];
+    lanei_store(v, a);
+    memcpy(row, v, sizeof v);
+}
+
+/* Masks have no common form in memory: what they pick is what counts. */
+static inline void put_mask(uint32_t *row, lane_mask a)
+{
+    put_lane(row, lane_pick(a, lane_splat(1.0f), lane_splat(-2.0f)));
+}
+
+static inline void run_floats(verb_output *out, const verb_input *in, int k)
+{
+    lane a = lane_load(in->a + k), b = lane_load(in->b + k), c = lane_load(in->c + k);
+    lane3 p, q;
+    p.x = q.z = a;
+    p.y = q.x = b;
+    p.z = q.y = c;
+    put_lane(out->row[VERB_splat] + k, lane_splat(in->a[0]));
+    put_lane(out->row[VERB_load] + k, a);
+    put_lane(out->row[VERB_add] + k, lane_add(a, b));
+    put_lane(out->row[VERB_sub] + k, lane_sub(a, b));
+    put_lane(out->row[VERB_mul] + k, lane_mul(a, b));
+    put_lane(out->row[VERB_div] + k, lane_div(a, b));
+    put_lane(out->row[VERB_sqrt] + k, lane_sqrt(a));
+    put_lane(out->row[VERB_min] + k, lane_min(a, b));
+    put_lane(out->row[VERB_max] + k, lane_max(a, b));
+    put_lane(out->row[VERB_dot] + k, lane3_dot(p, q));
+    put_lane(out->row[VERB_trunc] + k, lane_trunc(lane_load(in->whole + k)));
+    put_lanei(out->row[VERB_to_int] + k, lane_to_int(lane_load(in->whole + k)));
+    put_lane(out->row[VERB_column] + k, lane_column(k));
+    put_lane(out->row[VERB_row] + k, lane_row(k));
+}
+
+static inline void run_masks(verb_output *out, const verb_input *in, int k)
+{
+    lane a = lane_load(in->a + k), b = lane_load(in->b + k);
+    lane_mask own = mask_of_bits(in->bits >> k), less = lane_lt(a, b);
+    put_mask(out->row[VERB_lt] + k, less);
+    put_mask(out->row[VERB_le] + k, lane_le(a, b));
+    put_lane(out->row[VERB_pick] + k, lane_pick(own, a, b));
+    put_lane(out->row[VERB_keep] + k, lane_keep(own, a));
+    put_mask(out->row[VERB_mask_and] + k, mask_and(own, less));
+    put_mask(out->row[VERB_mask_or] + k, mask_or(own, less));
+    put_mask(out->row[VERB_mask_not] + k, mask_not(less));
+    put_mask(out->row[VERB_mask_of_bits] + k, own);
+    uint32_t bits = mask_bits(less), not_bits = mask_bits(mask_not(less));
+    for (int i = 0; i < LANES; ++i) { /* and nothing past LANES */
+        const uint32_t past = (bits | not_bits) >> (LANES - 1) << 2;
+        out->row[VERB_mask_bits][k + i] = (bits >> i & 1u) | (not_bits >> i & 1u) << 1 | past;
+    }
+}
+
+static inline void run_integers(verb_output *out, const verb_input *in, int k)
+{
+    lanei i = lanei_load(in->i + k), j = lanei_load(in->j + k);
+    put_lanei(out->row[VERB_i_splat] + k, lanei_splat(in->i[0]));
+    put_lanei(out->row[VERB_i_add] + k, lanei_add(i, j));
+    put_lanei(out->row[VERB_i_or] + k, lanei_or(i, j));
+    put_lanei(out->row[VERB_i_and] + k, lanei_and(i, j));
+    put_lanei(out->row[VERB_i_mul] + k, lanei_mul(lanei_load(in->m + k), lanei_load(in->n + k)));
+    put_lanei(out->row[VERB_i_shift] + k, lanei_shift(lanei_and(i, lanei_splat(0x7fffffff)), in->shift));
+    put_mask(out->row[VERB_i_not_negative] + k, lanei_not_negative(i));
+    put_mask(out->row[VERB_i_equal] + k, lanei_equal(i, j));
+    put_lanei(out->row[VERB_affine] + k, lanei_affine(in->i[0], in->m[0] >> 12, in->n[0] >> 12, k));
+}
+
+static inline void run_memory(verb_output *out, const verb_input *in, int k)
+{
+    const int p = k / 8 * VERB_STEP + k % 8;
+    lanei at = lanei_load(in->at + k);
+    lane_mask own = mask_of_bits(in->bits >> k);
+    put_lane(out->row[VERB_gather_f32] + k, lane_gather_f32(in->table_f32, at));
+    put_lane(out->row[VERB_gather_u16] + k, lane_gather_u16(in->table_u16, at));
+    put_lane(out->row[VERB_load_rows] + k, lane_load_rows(in->surface_f32 + p, VERB_STEP));
+    put_lane(out->row[VERB_load_u16] + k, lane_load_u16(in->surface_u16 + p, VERB_STEP));
+    lane_store_rows(out->stored_f32 + p, VERB_STEP, lane_load(in->a + k));
+    lane_store_u16(out->stored_u16 + p, VERB_STEP, lane_load(in->code + k));
+    lane_put_u16(out->put_u16 + p, VERB_STEP, in->id & 0xffffu, own);
+    lane_put_u32(out->put_u32 + p, VERB_STEP, in->id, own);
+}
+
+void VERBS_RUN(verb_output *out, const verb_input *in)
+{
+    memcpy(out->stored_f32, in->surface_f32, sizeof out->stored_f32);
+    memcpy(out->stored_u16, in->surface_u16, sizeof out->stored_u16);
+    memcpy(out->put_u16, in->surface_u16, sizeof out->put_u16);
+    memcpy(out->put_u32, in->surface_u32, sizeof out->put_u32);
+    for (int k = 0; k < VERB_LANES; k += LANES) {
+        run_floats(out, in, k);
+        run_masks(out, in, k);
+        run_integers(out, in, k);
+        run_memory(out, in, k);
+    }
+}
