@@ -183,11 +183,11 @@ static inline lmb_target target_of(int32_t depth_format, int32_t side, uint32_t 
     return t;
 }
 
-static inline void world_draw(lmb_target *t, lmb_raster_scratch *scratch, const lmb_view *v, uint32_t flags)
+static inline void world_draw(lmb_target *t, const lmb_view *v, uint32_t flags)
 {
     lmb_surface_clear(&t->depth);
     lmb_surface_clear(&t->id);
-    CHECK(lmb_draw(t, lmb_kernels_pick(), scratch, v, &world.scene, 1, WORLD_TRIANGLES, flags, NULL) == LMB_OK);
+    CHECK(lmb_draw(t, lmb_kernels_pick(), v, &world.scene, 1, WORLD_TRIANGLES, flags, NULL) == LMB_OK);
 }
 
 /* --- tiles, discs and groups -------------------------------------------------------------------------------------- */

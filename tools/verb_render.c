@@ -263,7 +263,7 @@ static int draw_attributes(job *j, report *r)
     lmb_surface z = f->out, *depth = NULL, *normal = NULL, *albedo = NULL;
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
-    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->scratch->raster, &f->view, &j->scene, 1, UINT32_MAX - 1,
+    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1,
                                  LMB_CULL_BACK, &j->stats);
     if (j->o.show == SHOW_DEPTH) {
         z.format = LMB_R32F;

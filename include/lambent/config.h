@@ -24,16 +24,6 @@
 #endif
 #endif
 
-/* Slots of the post-transform vertex cache in lmb_raster_scratch; a power of two, 21 bytes each.
- * A smaller cache costs transforms, never pixels. */
-#ifndef LMB_VERTEX_CACHE
-#ifdef LMB_CONFIG_TINY
-#define LMB_VERTEX_CACHE 64
-#else
-#define LMB_VERTEX_CACHE 512
-#endif
-#endif
-
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
@@ -41,20 +31,16 @@
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
-#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_VERTEX_CACHE < 1
+#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1
 #error "lambent: a capacity in config.h is below 1"
-#endif
-#if (LMB_VERTEX_CACHE & (LMB_VERTEX_CACHE - 1)) != 0
-#error "lambent: LMB_VERTEX_CACHE must be a power of two"
 #endif
 
 /* Two builds with different layouts must not link: the calls that take a struct of such a layout carry it in their
  * names. Capacities are therefore plain numbers, not expressions. */
-#define LMB_PASTE_(a, b, c, d) a##_g##b##_l##c##_v##d
-#define LMB_PASTE(a, b, c, d) LMB_PASTE_(a, b, c, d)
-#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_VERTEX_CACHE)
+#define LMB_PASTE_(a, b, c) a##_g##b##_l##c
+#define LMB_PASTE(a, b, c) LMB_PASTE_(a, b, c)
+#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS)
 #define lmb_build_check LMB_LAYOUT(lmb_build_check)
-#define lmb_draw LMB_LAYOUT(lmb_draw)
 #define lmb_group_points LMB_LAYOUT(lmb_group_points)
 #define lmb_gather_tile LMB_LAYOUT(lmb_gather_tile)
 #define lmb_render_begin LMB_LAYOUT(lmb_render_begin)

@@ -50,8 +50,8 @@ lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const 
 /* lmb_light_map_draw: lmb_draw into every face that is part of the map. Clear the faces first:
  * lmb_light_map_clear. The same returns as lmb_draw. */
 lmb_status lmb_light_map_clear(const lmb_light_map *map);
-lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kernels, lmb_raster_scratch *scratch,
-                              const lmb_scene *scene, uint32_t first_id, uint32_t count, lmb_stats *stats);
+lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
+                              uint32_t first_id, uint32_t count, lmb_stats *stats);
 
 /* lmb_light_texel_power: W per channel that a light of `intensity` sends through texel (x, y) of a face: intensity x
  * exact solid angle of the texel (or its area, directional), with the spot's fall-off averaged over 2x2 points.

@@ -18,13 +18,6 @@ typedef struct lmb_target {
     int32_t x0, y0;    /* px in the frame, multiples of LMB_TILE, >= 0 */
 } lmb_target;
 
-/* A draw's vertex cache: contents before a call mean nothing. 21 bytes a slot. */
-typedef struct lmb_raster_scratch {
-    uint32_t tag[LMB_VERTEX_CACHE];
-    float x[LMB_VERTEX_CACHE], y[LMB_VERTEX_CACHE], z[LMB_VERTEX_CACHE], w[LMB_VERTEX_CACHE];
-    uint8_t code[LMB_VERTEX_CACHE];
-} lmb_raster_scratch;
-
 /* Attributes of 8x8 pixels, planar: kernels read whole vectors of them. Pixel k is (k % 8, k / 8). 4 KiB. */
 typedef struct lmb_tile {
     float position[3][LMB_TILE_PIXELS]; /* world, m: on the plane of the pixel's own triangle */
@@ -66,10 +59,9 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  * then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
  * Triangles with a non-finite vertex, one more than 2^20 m away, or an index outside the mesh are dropped, counted.
  * Coverage: pixel centres, top-left rule, vertices snapped to 1/256 px: exact integers, no crack, no overlap.
- * Stack: under 2 KiB. Cost: vertices + covered tiles. Draws into different targets may run at once. */
-lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, lmb_raster_scratch *scratch,
-                    const lmb_view *view, const lmb_scene *scene, uint32_t first_id, uint32_t count, uint32_t flags,
-                    lmb_stats *stats);
+ * Stack: under 3 KiB. Cost: vertices + covered tiles. Draws into different targets may run at once. */
+lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                    uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats);
 
 /* lmb_resolve_tile: attributes of the tile whose first pixel is (x, y) of the frame.
  *

@@ -17,7 +17,6 @@ enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_I
 
 /* Everything that works on one band. Place it in fast RAM; one for each thread that draws bands. */
 typedef struct lmb_band_scratch {
-    lmb_raster_scratch raster;
     lmb_gather_scratch gather;
     lmb_tile tile;
     lmb_irradiance direct, indirect;

@@ -49,6 +49,29 @@ static inline int32_t maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 /* Finite and within the door's range of 2^20 m; false for NaN. */
 static inline int is_sane(float v) { return v > -1048576.0f && v < 1048576.0f; }
 
+/* Number of the lowest bit that is set, of bits that are not 0. */
+static inline int lowest_bit(uint32_t bits)
+{
+#if defined(__GNUC__)
+    return __builtin_ctz(bits);
+#else
+    int n = 0;
+    for (; (bits & 1u) == 0; bits >>= 1) {
+        ++n;
+    }
+    return n;
+#endif
+}
+
+/* Bits that are set, of 16. */
+static inline uint32_t count_bits_16(uint32_t bits)
+{
+    bits -= (bits >> 1) & 0x5555u;
+    bits = (bits & 0x3333u) + ((bits >> 2) & 0x3333u);
+    bits = (bits + (bits >> 4)) & 0x0f0fu;
+    return (bits + (bits >> 8)) & 31u;
+}
+
 /* Affine point transform: columns times coordinates, summed x, y, z, translation. */
 static inline lmb_vec3 transform_point(const lmb_mat4 *t, lmb_vec3 p)
 {

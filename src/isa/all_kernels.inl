@@ -3,7 +3,10 @@
 #include "../lane/kernels.h"
 #include "../lane/lane.h"
 
+#include "../raster/setup.inl"
 #include "../raster/fill.inl"
+#include "../raster/fill_small.inl"
+#include "../raster/fill_large.inl"
 #include "../raster/resolve.inl"
 #include "../light/direct.inl"
 #include "../bounce/gather.inl"
@@ -18,6 +21,7 @@ static float KERNEL(probe)(float one_and_bit)
 }
 
 const lmb_kernels KERNEL(lmb_kernels) = {
-    MACHINE,        LANES,               KERNEL(fill),  KERNEL(resolve), KERNEL(direct),
-    KERNEL(gather), KERNEL(gather_near), KERNEL(blend), KERNEL(probe),
+    MACHINE,         LANES,          KERNEL(setup),  KERNEL(fill_small),  KERNEL(fill_large),  KERNEL(fill),
+    KERNEL(resolve), KERNEL(direct), KERNEL(gather), KERNEL(gather_near), KERNEL(blend),
+    KERNEL(probe),
 };

@@ -26,6 +26,54 @@ typedef struct lmb_fill_job {
     uint32_t id;
 } lmb_fill_job;
 
+/* What every triangle of an instance goes through on its way to a window. Rows give metres along right, up and the
+ * view's axis, from the eye. */
+typedef struct lmb_setup_job {
+    float row[3][4];
+    float scale_x, scale_y; /* to half width 1 */
+    float guard_x, guard_y; /* how far past the frame's edge 24.8 reaches, in units of w */
+    float snap_x, snap_y;   /* x / w -> 24.8 */
+    float near_m, far_m, depth_scale;
+    int32_t orthographic;
+    int32_t cull;                /* 0: neither; -1: counter-clockwise triangles go, 1: clockwise ones */
+    int32_t origin_x, origin_y;  /* centre of the frame's pixel (0, 0), 24.8 from the frame's middle */
+    int32_t x0, y0, x1, y1;      /* the window's first and last pixels, in the frame */
+} lmb_setup_job;
+
+enum { LMB_BATCH = 16, LMB_SMALL_24_8 = 64 * 256 /* sides of a box under which edges fit 32 bits */ };
+
+/* LMB_BATCH triangles of one instance. Bit k of a set is triangle k. Those in `small` have what follows; the others of
+ * `in` are `dropped`, `other` (clipped or large: one by one, by setup.c) or invisible. */
+typedef struct lmb_batch {
+    float position[3][3][LMB_BATCH]; /* in: [corner][axis]; anything where the bit of `in` is not set */
+    uint32_t in;
+    uint32_t small, other, drawn, dropped; /* drawn: of neither of the latter, with area and not culled */
+    int32_t e[3][LMB_BATCH], ex[3][LMB_BATCH], ey[3][LMB_BATCH]; /* at the first pixel of the box's first tile */
+    int32_t x0[LMB_BATCH], y0[LMB_BATCH], x1[LMB_BATCH], y1[LMB_BATCH]; /* pixels of the frame, in the window */
+    double d[LMB_BATCH], dx[LMB_BATCH], dy[LMB_BATCH]; /* depth at the frame's middle; per px */
+    float d_min[LMB_BATCH], d_max[LMB_BATCH];
+} lmb_batch;
+
+/* Edge i is e >= 0 inside, in units of 1/256 px x px: e(x + 1) = e(x) + ex. */
+typedef struct lmb_setup {
+    int32_t ex[3], ey[3];
+    int64_t e_origin[3]; /* at the frame's middle + (0, 0) in 24.8, fill rule included, not yet divided by 256 */
+    double d_origin, d_x, d_y; /* depth at the middle; per px */
+    float d_min, d_max;
+    int32_t x_min, x_max, y_min, y_max; /* box, 24.8 */
+    int32_t back;        /* back face: clockwise in the picture */
+} lmb_setup;
+
+/* A window in memory: bytes from tile to tile and from one row of tiles to the next. */
+typedef struct lmb_fill_window {
+    lmb_fill_tile first;
+    int32_t depth_tile, depth_row, id_tile, id_row;
+    int32_t x0, y0;             /* px in the frame, of the first tile */
+    int32_t tiles_x, tiles_y;
+    int32_t origin_x, origin_y; /* as in lmb_setup_job */
+    float d_scale, d_bias;
+} lmb_fill_window;
+
 /* One triangle's attributes over a tile, everything relative to the eye.
  *   ray of pixel (x, y):  origin + ox x + oy y  +  w (direction + rx x + ry y)   with w along the view axis.
  * Perspective: the first part is 0; orthographic: the direction is constant. */
@@ -71,6 +119,12 @@ typedef struct lmb_march_job {
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
+    void (*setup)(lmb_batch *inout, const lmb_setup_job *job);
+    /* The batch's small triangles among `bits`, in order; triangle k has the id first_id + k. */
+    void (*fill_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits, uint32_t first_id);
+    /* One triangle of any size into the whole window. */
+    void (*fill_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
+    /* One triangle into one tile. */
     void (*fill)(const lmb_fill_tile *tile, const lmb_fill_job *job);
     void (*resolve)(lmb_tile *out, const lmb_resolve_job *job);
     /* W/m2 at each pixel if nothing shadowed it. */

@@ -2,6 +2,13 @@
 #ifndef LMB_LANE_H
 #define LMB_LANE_H
 
+/* For what only pays where the compiler sees its caller: arguments that are constants, structs that stay in registers. */
+#if defined(__GNUC__)
+#define LANE_INLINE static inline __attribute__((always_inline))
+#else
+#define LANE_INLINE static inline
+#endif
+
 /* Column and row of a tile's pixels k, k + 1, ...: k is a multiple of LANES, and 16 lanes cover two rows. */
 static inline lane lane_column(int k)
 {

@@ -12,6 +12,9 @@
 typedef __m256 lane;
 typedef __m256i lanei;
 typedef __m256 lane_mask;
+typedef struct laned {
+    __m256d lo, hi;
+} laned;
 
 static inline lane lane_splat(float a) { return _mm256_set1_ps(a); }
 static inline lane lane_load(const float *p) { return _mm256_loadu_ps(p); }
@@ -44,6 +47,11 @@ static inline lanei lanei_add(lanei a, lanei b) { return _mm256_add_epi32(a, b);
 static inline lanei lanei_or(lanei a, lanei b) { return _mm256_or_si256(a, b); }
 static inline lanei lanei_and(lanei a, lanei b) { return _mm256_and_si256(a, b); }
 static inline lanei lanei_mul(lanei a, lanei b) { return _mm256_mullo_epi32(a, b); }
+static inline lanei lanei_sub(lanei a, lanei b) { return _mm256_sub_epi32(a, b); }
+static inline lanei lanei_min(lanei a, lanei b) { return _mm256_min_epi32(a, b); }
+static inline lanei lanei_max(lanei a, lanei b) { return _mm256_max_epi32(a, b); }
+static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { return _mm256_blendv_epi8(b, a, _mm256_castps_si256(m)); }
+static inline lane_mask lanei_lt(lanei a, lanei b) { return _mm256_castsi256_ps(_mm256_cmpgt_epi32(b, a)); }
 static inline lanei lanei_shift(lanei a, int n) { return _mm256_srai_epi32(a, n); }
 static inline lane_mask lanei_not_negative(lanei a)
 {
@@ -51,7 +59,35 @@ static inline lane_mask lanei_not_negative(lanei a)
 }
 static inline lane_mask lanei_equal(lanei a, lanei b) { return _mm256_castsi256_ps(_mm256_cmpeq_epi32(a, b)); }
 static inline lanei lane_to_int(lane a) { return _mm256_cvttps_epi32(a); }
+static inline lane lane_from_int(lanei a) { return _mm256_cvtepi32_ps(a); }
 static inline lane lane_trunc(lane a) { return _mm256_cvtepi32_ps(_mm256_cvttps_epi32(a)); }
+
+#define AVX2_BOTH(f) a.lo = f(a.lo, b.lo), a.hi = f(a.hi, b.hi)
+static inline laned laned_add(laned a, laned b) { AVX2_BOTH(_mm256_add_pd); return a; }
+static inline laned laned_sub(laned a, laned b) { AVX2_BOTH(_mm256_sub_pd); return a; }
+static inline laned laned_mul(laned a, laned b) { AVX2_BOTH(_mm256_mul_pd); return a; }
+static inline laned laned_div(laned a, laned b) { AVX2_BOTH(_mm256_div_pd); return a; }
+#undef AVX2_BOTH
+static inline laned laned_splat(double a) { laned r; r.lo = r.hi = _mm256_set1_pd(a); return r; }
+static inline laned laned_from(lane a)
+{
+    laned r;
+    r.lo = _mm256_cvtps_pd(_mm256_castps256_ps128(a));
+    r.hi = _mm256_cvtps_pd(_mm256_extractf128_ps(a, 1));
+    return r;
+}
+static inline laned laned_from_int(lanei a)
+{
+    laned r;
+    r.lo = _mm256_cvtepi32_pd(_mm256_castsi256_si128(a));
+    r.hi = _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1));
+    return r;
+}
+static inline void laned_store(double *p, laned a)
+{
+    _mm256_storeu_pd(p, a.lo);
+    _mm256_storeu_pd(p + 4, a.hi);
+}
 
 static inline lane lane_gather_f32(const float *p, lanei at)
 {

@@ -13,6 +13,9 @@
 typedef __m512 lane;
 typedef __m512i lanei;
 typedef __mmask16 lane_mask;
+typedef struct laned {
+    __m512d lo, hi;
+} laned;
 
 static inline lane lane_splat(float a) { return _mm512_set1_ps(a); }
 static inline lane lane_load(const float *p) { return _mm512_loadu_ps(p); }
@@ -41,11 +44,44 @@ static inline lanei lanei_add(lanei a, lanei b) { return _mm512_add_epi32(a, b);
 static inline lanei lanei_or(lanei a, lanei b) { return _mm512_or_si512(a, b); }
 static inline lanei lanei_and(lanei a, lanei b) { return _mm512_and_si512(a, b); }
 static inline lanei lanei_mul(lanei a, lanei b) { return _mm512_mullo_epi32(a, b); }
+static inline lanei lanei_sub(lanei a, lanei b) { return _mm512_sub_epi32(a, b); }
+static inline lanei lanei_min(lanei a, lanei b) { return _mm512_min_epi32(a, b); }
+static inline lanei lanei_max(lanei a, lanei b) { return _mm512_max_epi32(a, b); }
+static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { return _mm512_mask_blend_epi32(m, b, a); }
+static inline lane_mask lanei_lt(lanei a, lanei b) { return _mm512_cmplt_epi32_mask(a, b); }
 static inline lanei lanei_shift(lanei a, int n) { return _mm512_srai_epi32(a, (unsigned)n); }
 static inline lane_mask lanei_not_negative(lanei a) { return _mm512_cmpge_epi32_mask(a, _mm512_setzero_si512()); }
 static inline lane_mask lanei_equal(lanei a, lanei b) { return _mm512_cmpeq_epi32_mask(a, b); }
 static inline lanei lane_to_int(lane a) { return _mm512_cvttps_epi32(a); }
+static inline lane lane_from_int(lanei a) { return _mm512_cvtepi32_ps(a); }
 static inline lane lane_trunc(lane a) { return _mm512_cvtepi32_ps(_mm512_cvttps_epi32(a)); }
+
+#define AVX512_BOTH(f) a.lo = f(a.lo, b.lo), a.hi = f(a.hi, b.hi)
+static inline laned laned_add(laned a, laned b) { AVX512_BOTH(_mm512_add_pd); return a; }
+static inline laned laned_sub(laned a, laned b) { AVX512_BOTH(_mm512_sub_pd); return a; }
+static inline laned laned_mul(laned a, laned b) { AVX512_BOTH(_mm512_mul_pd); return a; }
+static inline laned laned_div(laned a, laned b) { AVX512_BOTH(_mm512_div_pd); return a; }
+#undef AVX512_BOTH
+static inline laned laned_splat(double a) { laned r; r.lo = r.hi = _mm512_set1_pd(a); return r; }
+static inline laned laned_from(lane a)
+{
+    laned r;
+    r.lo = _mm512_cvtps_pd(_mm512_castps512_ps256(a));
+    r.hi = _mm512_cvtps_pd(_mm512_extractf32x8_ps(a, 1));
+    return r;
+}
+static inline laned laned_from_int(lanei a)
+{
+    laned r;
+    r.lo = _mm512_cvtepi32_pd(_mm512_castsi512_si256(a));
+    r.hi = _mm512_cvtepi32_pd(_mm512_extracti32x8_epi32(a, 1));
+    return r;
+}
+static inline void laned_store(double *p, laned a)
+{
+    _mm512_storeu_pd(p, a.lo);
+    _mm512_storeu_pd(p + 8, a.hi);
+}
 
 static inline lane lane_gather_f32(const float *p, lanei at) { return _mm512_i32gather_ps(at, p, 4); }
 /* One by one: the machine gathers 32 bits at least, and would read past the end. */

@@ -13,6 +13,9 @@
 typedef float32x4_t lane;
 typedef int32x4_t lanei;
 typedef uint32x4_t lane_mask;
+typedef struct laned {
+    float64x2_t lo, hi;
+} laned;
 
 static inline lane lane_splat(float a) { return vdupq_n_f32(a); }
 static inline lane lane_load(const float *p) { return vld1q_f32(p); }
@@ -49,11 +52,44 @@ static inline lanei lanei_add(lanei a, lanei b) { return vaddq_s32(a, b); }
 static inline lanei lanei_or(lanei a, lanei b) { return vorrq_s32(a, b); }
 static inline lanei lanei_and(lanei a, lanei b) { return vandq_s32(a, b); }
 static inline lanei lanei_mul(lanei a, lanei b) { return vmulq_s32(a, b); }
+static inline lanei lanei_sub(lanei a, lanei b) { return vsubq_s32(a, b); }
+static inline lanei lanei_min(lanei a, lanei b) { return vminq_s32(a, b); }
+static inline lanei lanei_max(lanei a, lanei b) { return vmaxq_s32(a, b); }
+static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { return vbslq_s32(m, a, b); }
+static inline lane_mask lanei_lt(lanei a, lanei b) { return vcltq_s32(a, b); }
 static inline lanei lanei_shift(lanei a, int n) { return vshlq_s32(a, vdupq_n_s32(-n)); }
 static inline lane_mask lanei_not_negative(lanei a) { return vcgezq_s32(a); }
 static inline lane_mask lanei_equal(lanei a, lanei b) { return vceqq_s32(a, b); }
 static inline lanei lane_to_int(lane a) { return vcvtq_s32_f32(a); }
+static inline lane lane_from_int(lanei a) { return vcvtq_f32_s32(a); }
 static inline lane lane_trunc(lane a) { return vcvtq_f32_s32(vcvtq_s32_f32(a)); }
+
+#define NEON_BOTH(f) a.lo = f(a.lo, b.lo), a.hi = f(a.hi, b.hi)
+static inline laned laned_add(laned a, laned b) { NEON_BOTH(vaddq_f64); return a; }
+static inline laned laned_sub(laned a, laned b) { NEON_BOTH(vsubq_f64); return a; }
+static inline laned laned_mul(laned a, laned b) { NEON_BOTH(vmulq_f64); return a; }
+static inline laned laned_div(laned a, laned b) { NEON_BOTH(vdivq_f64); return a; }
+#undef NEON_BOTH
+static inline laned laned_splat(double a) { laned r; r.lo = r.hi = vdupq_n_f64(a); return r; }
+static inline laned laned_from(lane a)
+{
+    laned r;
+    r.lo = vcvt_f64_f32(vget_low_f32(a));
+    r.hi = vcvt_high_f64_f32(a);
+    return r;
+}
+static inline laned laned_from_int(lanei a)
+{
+    laned r;
+    r.lo = vcvtq_f64_s64(vmovl_s32(vget_low_s32(a)));
+    r.hi = vcvtq_f64_s64(vmovl_high_s32(a));
+    return r;
+}
+static inline void laned_store(double *p, laned a)
+{
+    vst1q_f64(p, a.lo);
+    vst1q_f64(p + 2, a.hi);
+}
 
 static inline lane lane_gather_f32(const float *p, lanei at)
 {

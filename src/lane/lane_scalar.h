@@ -1,7 +1,7 @@
 /* lane_scalar.h: the lane verbs in plain C; the definition that every other machine equals. Floor 2.
  *
  * lane     LANES floats               lane_mask  all ones or all zeros per lane
- * lanei    LANES int32
+ * lanei    LANES int32                 laned      LANES doubles
  * min and max are SSE's rule: min(a, b) is a < b ? a : b, so a NaN in either operand gives b. */
 #ifndef LMB_LANE_SCALAR_H
 #define LMB_LANE_SCALAR_H
@@ -38,6 +38,9 @@ typedef struct lane {
 typedef struct lanei {
     int32_t v[LANES];
 } lanei;
+typedef struct laned {
+    double v[LANES];
+} laned;
 typedef struct lane_mask {
     uint32_t v[LANES];
 } lane_mask;
@@ -69,15 +72,31 @@ static inline lanei lanei_add(lanei a, lanei b) { EACH(a.v[i] = a.v[i] + b.v[i])
 static inline lanei lanei_or(lanei a, lanei b) { EACH(a.v[i] = a.v[i] | b.v[i]); return a; }
 static inline lanei lanei_and(lanei a, lanei b) { EACH(a.v[i] = a.v[i] & b.v[i]); return a; }
 static inline lanei lanei_mul(lanei a, lanei b) { EACH(a.v[i] = a.v[i] * b.v[i]); return a; }
-/* a >> n of values that are not negative. */
+static inline lanei lanei_sub(lanei a, lanei b) { EACH(a.v[i] = a.v[i] - b.v[i]); return a; }
+static inline lanei lanei_min(lanei a, lanei b) { EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lanei lanei_max(lanei a, lanei b) { EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { EACH(a.v[i] = m.v[i] ? a.v[i] : b.v[i]); return a; }
+static inline lane_mask lanei_lt(lanei a, lanei b) { lane_mask r; EACH(r.v[i] = a.v[i] < b.v[i] ? ~0u : 0u); return r; }
+/* floor(a / 2^n). */
 static inline lanei lanei_shift(lanei a, int n) { EACH(a.v[i] = a.v[i] >> n); return a; }
 static inline lane_mask lanei_not_negative(lanei a) { lane_mask r; EACH(r.v[i] = a.v[i] >= 0 ? ~0u : 0u); return r; }
 static inline lane_mask lanei_equal(lanei a, lanei b) { lane_mask r; EACH(r.v[i] = a.v[i] == b.v[i] ? ~0u : 0u); return r; }
 /* Truncates; the caller clamps to the int32 range first. */
 static inline lanei lane_to_int(lane a) { lanei r; EACH(r.v[i] = (int32_t)a.v[i]); return r; }
+static inline lane lane_from_int(lanei a) { lane r; EACH(r.v[i] = (float)a.v[i]); return r; }
 /* Toward zero, within the int32 range. */
 static inline lane lane_trunc(lane a) { EACH(a.v[i] = (float)(int32_t)a.v[i]); return a; }
 static inline void lanei_store(int32_t *p, lanei a) { EACH(p[i] = a.v[i]); }
+
+/* binary64, for what a triangle's depth plane needs. */
+static inline laned laned_splat(double a) { laned r; EACH(r.v[i] = a); return r; }
+static inline laned laned_from(lane a) { laned r; EACH(r.v[i] = (double)a.v[i]); return r; }
+static inline laned laned_from_int(lanei a) { laned r; EACH(r.v[i] = (double)a.v[i]); return r; }
+static inline void laned_store(double *p, laned a) { EACH(p[i] = a.v[i]); }
+static inline laned laned_add(laned a, laned b) { EACH(a.v[i] = a.v[i] + b.v[i]); return a; }
+static inline laned laned_sub(laned a, laned b) { EACH(a.v[i] = a.v[i] - b.v[i]); return a; }
+static inline laned laned_mul(laned a, laned b) { EACH(a.v[i] = a.v[i] * b.v[i]); return a; }
+static inline laned laned_div(laned a, laned b) { EACH(a.v[i] = a.v[i] / b.v[i]); return a; }
 
 static inline lane lane_gather_f32(const float *p, lanei at) { lane r; EACH(r.v[i] = p[at.v[i]]); return r; }
 static inline lane lane_gather_u16(const uint16_t *p, lanei at) { lane r; EACH(r.v[i] = (float)p[at.v[i]]); return r; }

@@ -14,6 +14,9 @@
 typedef v128_t lane;
 typedef v128_t lanei;
 typedef v128_t lane_mask;
+typedef struct laned {
+    v128_t lo, hi;
+} laned;
 
 static inline lane lane_splat(float a) { return wasm_f32x4_splat(a); }
 static inline lane lane_load(const float *p) { return wasm_v128_load(p); }
@@ -46,11 +49,44 @@ static inline lanei lanei_add(lanei a, lanei b) { return wasm_i32x4_add(a, b); }
 static inline lanei lanei_or(lanei a, lanei b) { return wasm_v128_or(a, b); }
 static inline lanei lanei_and(lanei a, lanei b) { return wasm_v128_and(a, b); }
 static inline lanei lanei_mul(lanei a, lanei b) { return wasm_i32x4_mul(a, b); }
+static inline lanei lanei_sub(lanei a, lanei b) { return wasm_i32x4_sub(a, b); }
+static inline lanei lanei_min(lanei a, lanei b) { return wasm_i32x4_min(a, b); }
+static inline lanei lanei_max(lanei a, lanei b) { return wasm_i32x4_max(a, b); }
+static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { return wasm_v128_bitselect(a, b, m); }
+static inline lane_mask lanei_lt(lanei a, lanei b) { return wasm_i32x4_lt(a, b); }
 static inline lanei lanei_shift(lanei a, int n) { return wasm_i32x4_shr(a, (uint32_t)n); }
 static inline lane_mask lanei_not_negative(lanei a) { return wasm_i32x4_ge(a, wasm_i32x4_const(0, 0, 0, 0)); }
 static inline lane_mask lanei_equal(lanei a, lanei b) { return wasm_i32x4_eq(a, b); }
 static inline lanei lane_to_int(lane a) { return wasm_i32x4_trunc_sat_f32x4(a); }
+static inline lane lane_from_int(lanei a) { return wasm_f32x4_convert_i32x4(a); }
 static inline lane lane_trunc(lane a) { return wasm_f32x4_convert_i32x4(wasm_i32x4_trunc_sat_f32x4(a)); }
+
+#define SIMD128_BOTH(f) a.lo = f(a.lo, b.lo), a.hi = f(a.hi, b.hi)
+static inline laned laned_add(laned a, laned b) { SIMD128_BOTH(wasm_f64x2_add); return a; }
+static inline laned laned_sub(laned a, laned b) { SIMD128_BOTH(wasm_f64x2_sub); return a; }
+static inline laned laned_mul(laned a, laned b) { SIMD128_BOTH(wasm_f64x2_mul); return a; }
+static inline laned laned_div(laned a, laned b) { SIMD128_BOTH(wasm_f64x2_div); return a; }
+#undef SIMD128_BOTH
+static inline laned laned_splat(double a) { laned r; r.lo = r.hi = wasm_f64x2_splat(a); return r; }
+static inline laned laned_from(lane a)
+{
+    laned r;
+    r.lo = wasm_f64x2_promote_low_f32x4(a);
+    r.hi = wasm_f64x2_promote_low_f32x4(wasm_i32x4_shuffle(a, a, 2, 3, 2, 3));
+    return r;
+}
+static inline laned laned_from_int(lanei a)
+{
+    laned r;
+    r.lo = wasm_f64x2_convert_low_i32x4(a);
+    r.hi = wasm_f64x2_convert_low_i32x4(wasm_i32x4_shuffle(a, a, 2, 3, 2, 3));
+    return r;
+}
+static inline void laned_store(double *p, laned a)
+{
+    wasm_v128_store(p, a.lo);
+    wasm_v128_store(p + 2, a.hi);
+}
 
 static inline lane lane_gather_f32(const float *p, lanei at)
 {

@@ -11,6 +11,9 @@
 typedef __m128 lane;
 typedef __m128i lanei;
 typedef __m128 lane_mask;
+typedef struct laned {
+    __m128d lo, hi;
+} laned;
 
 static inline lane lane_splat(float a) { return _mm_set1_ps(a); }
 static inline lane lane_load(const float *p) { return _mm_loadu_ps(p); }
@@ -49,11 +52,48 @@ static inline lanei lanei_mul(lanei a, lanei b)
     return _mm_unpacklo_epi32(_mm_shuffle_epi32(even, _MM_SHUFFLE(0, 0, 2, 0)),
                               _mm_shuffle_epi32(odd, _MM_SHUFFLE(0, 0, 2, 0)));
 }
+static inline lanei lanei_sub(lanei a, lanei b) { return _mm_sub_epi32(a, b); }
+static inline lane_mask lanei_lt(lanei a, lanei b) { return _mm_castsi128_ps(_mm_cmplt_epi32(a, b)); }
+static inline lanei lanei_pick(lane_mask m, lanei a, lanei b)
+{
+    __m128i bits = _mm_castps_si128(m);
+    return _mm_or_si128(_mm_and_si128(bits, a), _mm_andnot_si128(bits, b));
+}
+static inline lanei lanei_min(lanei a, lanei b) { return lanei_pick(lanei_lt(a, b), a, b); }
+static inline lanei lanei_max(lanei a, lanei b) { return lanei_pick(lanei_lt(b, a), a, b); }
 static inline lanei lanei_shift(lanei a, int n) { return _mm_srai_epi32(a, n); }
 static inline lane_mask lanei_not_negative(lanei a) { return _mm_castsi128_ps(_mm_cmpgt_epi32(a, _mm_set1_epi32(-1))); }
 static inline lane_mask lanei_equal(lanei a, lanei b) { return _mm_castsi128_ps(_mm_cmpeq_epi32(a, b)); }
 static inline lanei lane_to_int(lane a) { return _mm_cvttps_epi32(a); }
+static inline lane lane_from_int(lanei a) { return _mm_cvtepi32_ps(a); }
 static inline lane lane_trunc(lane a) { return _mm_cvtepi32_ps(_mm_cvttps_epi32(a)); }
+
+#define SSE2_BOTH(f) a.lo = f(a.lo, b.lo), a.hi = f(a.hi, b.hi)
+static inline laned laned_add(laned a, laned b) { SSE2_BOTH(_mm_add_pd); return a; }
+static inline laned laned_sub(laned a, laned b) { SSE2_BOTH(_mm_sub_pd); return a; }
+static inline laned laned_mul(laned a, laned b) { SSE2_BOTH(_mm_mul_pd); return a; }
+static inline laned laned_div(laned a, laned b) { SSE2_BOTH(_mm_div_pd); return a; }
+#undef SSE2_BOTH
+static inline laned laned_splat(double a) { laned r; r.lo = r.hi = _mm_set1_pd(a); return r; }
+static inline laned laned_from(lane a)
+{
+    laned r;
+    r.lo = _mm_cvtps_pd(a);
+    r.hi = _mm_cvtps_pd(_mm_movehl_ps(a, a));
+    return r;
+}
+static inline laned laned_from_int(lanei a)
+{
+    laned r;
+    r.lo = _mm_cvtepi32_pd(a);
+    r.hi = _mm_cvtepi32_pd(_mm_shuffle_epi32(a, _MM_SHUFFLE(3, 2, 3, 2)));
+    return r;
+}
+static inline void laned_store(double *p, laned a)
+{
+    _mm_storeu_pd(p, a.lo);
+    _mm_storeu_pd(p + 2, a.hi);
+}
 
 static inline lane lane_gather_f32(const float *p, lanei at)
 {

@@ -147,13 +147,13 @@ lmb_status lmb_light_map_clear(const lmb_light_map *map)
     return LMB_OK;
 }
 
-lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kernels, lmb_raster_scratch *scratch,
-                              const lmb_scene *scene, uint32_t first_id, uint32_t count, lmb_stats *stats)
+lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
+                              uint32_t first_id, uint32_t count, lmb_stats *stats)
 {
     lmb_status status = map == NULL ? LMB_ERR_ARG : LMB_OK;
     for (int32_t f = 0; status == LMB_OK && f < map->faces; ++f) {
         if ((map->drawn >> f) & 1u) {
-            status = lmb_draw(&map->face[f], kernels, scratch, &map->view[f], scene, first_id, count, 0, stats);
+            status = lmb_draw(&map->face[f], kernels, &map->view[f], scene, first_id, count, 0, stats);
         }
     }
     return status;

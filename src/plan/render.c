@@ -134,7 +134,7 @@ static lmb_status step_light_map(lmb_render *r, int32_t units)
     if (r->place == 0) {
         lmb_light_map_clear(&r->maps[r->light]);
     }
-    lmb_status status = lmb_light_map_draw(&r->maps[r->light], f->kernels, &f->scratch->raster, f->scene, r->place + 1,
+    lmb_status status = lmb_light_map_draw(&r->maps[r->light], f->kernels, f->scene, r->place + 1,
                                            (uint32_t)units * UNIT_TRIANGLES, f->stats);
     r->place += (uint32_t)units * UNIT_TRIANGLES;
     if (r->place >= r->triangles) {
@@ -209,14 +209,14 @@ static lmb_status step_view(lmb_render *r, int32_t units)
             lmb_surface_clear(&whole.id);
         }
     }
-    lmb_status status = lmb_draw(&whole, f->kernels, &f->scratch->raster, &f->view, f->scene, r->place + 1,
+    lmb_status status = lmb_draw(&whole, f->kernels, &f->view, f->scene, r->place + 1,
                                  (uint32_t)units * UNIT_TRIANGLES, LMB_CULL_BACK, f->stats);
     r->place += (uint32_t)units * UNIT_TRIANGLES;
     return status != LMB_OK ? status : r->place >= r->triangles ? LMB_OK : LMB_MORE;
 }
 
 /* Attributes of the band: in the whole frame's target, or drawn now into a band-sized one. */
-static lmb_status draw_band(const lmb_render *r, lmb_band_scratch *s, lmb_target *eye, int32_t band)
+static lmb_status draw_band(const lmb_render *r, lmb_target *eye, int32_t band)
 {
     const lmb_frame *f = &r->frame;
     if (is_whole(&eye->depth, &f->view)) {
@@ -225,7 +225,7 @@ static lmb_status draw_band(const lmb_render *r, lmb_band_scratch *s, lmb_target
     eye->y0 = band * LMB_TILE;
     lmb_surface_clear(&eye->depth);
     lmb_surface_clear(&eye->id);
-    return lmb_draw(eye, f->kernels, &s->raster, &f->view, f->scene, 1, r->triangles, LMB_CULL_BACK, NULL);
+    return lmb_draw(eye, f->kernels, &f->view, f->scene, 1, r->triangles, LMB_CULL_BACK, NULL);
 }
 
 /* SHOW_IRRADIANCE is what arrives before the albedo. */
@@ -272,7 +272,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
     const lmb_frame *f = &r->frame;
     lmb_target window = *eye;
     int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
-    lmb_status status = draw_band(r, scratch, &window, band);
+    lmb_status status = draw_band(r, &window, band);
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, &window, x, band * LMB_TILE);
         if (status == LMB_OK) {

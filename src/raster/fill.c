@@ -1,4 +1,4 @@
-/* fill.c: a set-up triangle into the tiles of a window. Floor 3.
+/* fill.c: a set-up triangle with holes into the tiles of a window. Floor 3.
  *
  * Tiles are out, partly covered or wholly inside each edge by the edge's value at the tile's corners. An edge that
  * the whole tile lies inside of is left out of the kernel (its sums become 0), which also keeps the kernel's sums in
@@ -31,7 +31,7 @@ static void copy_rows(void *to, int32_t to_step, const void *from, int32_t from_
 }
 
 /* Fill a copy of the tile, then keep only the changed pixels whose alpha passes. Opaque scenes never come here. */
-static void fill_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job, int32_t x, int32_t y)
+static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job, int32_t x, int32_t y)
 {
     tile_copy copy;
     lmb_fill_tile aside = *tile;
@@ -93,7 +93,7 @@ static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t h
     *last = mini(high_px, size - 1) >> 3; /* -1 >> 3 is -1: nothing */
 }
 
-void lmb_fill_triangle(const lmb_fill_context *c, const lmb_setup *s, uint32_t id, int masked)
+void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
 {
     const lmb_target *target = c->target;
     int32_t tx0, tx1, ty0, ty1;
@@ -104,8 +104,8 @@ void lmb_fill_triangle(const lmb_fill_context *c, const lmb_setup *s, uint32_t i
     job.dy = (float)s->d_y;
     job.d_min = s->d_min;
     job.d_max = s->d_max;
-    job.d_scale = c->d16_scale;
-    job.d_bias = c->d16_bias;
+    job.d_scale = c->window.d_scale;
+    job.d_bias = c->window.d_bias;
     job.id = id;
     for (int32_t ty = ty0; ty <= ty1; ++ty) {
         int32_t y = target->y0 + ty * LMB_TILE, y_24_8 = y * 256 + 128 - c->view->frame_height * 128;
@@ -118,11 +118,7 @@ void lmb_fill_triangle(const lmb_fill_context *c, const lmb_setup *s, uint32_t i
             if (enter_tile(&job, s, e)) {
                 lmb_fill_tile tile = lmb_target_tile(target, tx, ty);
                 job.d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
-                if (masked) {
-                    fill_masked(c, &tile, &job, target->x0 + tx * LMB_TILE, y);
-                } else {
-                    c->kernels->fill(&tile, &job);
-                }
+                fill_tile_masked(c, &tile, &job, target->x0 + tx * LMB_TILE, y);
             }
             for (int i = 0; i < 3; ++i) {
                 e[i] += (int64_t)s->ex[i] * LMB_TILE;

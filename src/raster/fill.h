@@ -1,4 +1,4 @@
-/* fill.h: a set-up triangle into the tiles of a window. Floor 3. */
+/* fill.h: a set-up triangle with holes into the tiles of a window. Floor 3. */
 #ifndef LMB_RASTER_FILL_H
 #define LMB_RASTER_FILL_H
 
@@ -11,10 +11,10 @@ typedef struct lmb_fill_context {
     const lmb_kernels *kernels;
     const lmb_view *view;
     const lmb_scene *scene;
-    float d16_scale, d16_bias;
+    lmb_fill_window window;
 } lmb_fill_context;
 
-/* masked: the triangle's material has holes: every pixel that passes is asked for its alpha. */
-void lmb_fill_triangle(const lmb_fill_context *context, const lmb_setup *setup, uint32_t id, int masked);
+/* A triangle whose material has holes: every pixel that passes is asked for its alpha. */
+void lmb_fill_masked(const lmb_fill_context *context, const lmb_setup *setup, uint32_t id);
 
 #endif

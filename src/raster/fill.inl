@@ -38,29 +38,116 @@ static inline lane_mask fill_depth(const lmb_fill_tile *tile, const lmb_fill_job
 /* Vectors beside each other in a row of tiles' pixels, and rows that one covers. */
 enum { FILL_ACROSS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, FILL_ROWS = LANES < LMB_TILE ? 1 : LANES / LMB_TILE };
 
-static void KERNEL(fill)(const lmb_fill_tile *tile, const lmb_fill_job *job)
+/* Float depth without ids has code of its own, but not on a machine of one lane, where size counts. */
+LANE_INLINE int fill_is_plain(const lmb_fill_tile *tile)
 {
-    lanei edge[3][FILL_ACROSS];
+    return LANES > 1 && tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE;
+}
+
+/* A triangle in registers. */
+typedef struct fill_triangle {
+    lanei step[3][FILL_ACROSS]; /* ex times the column, and ey times the second row of a vector that covers two */
     lane step_d[FILL_ACROSS];
-    for (int i = 0; i < FILL_ACROSS; ++i) {
-        for (int e = 0; e < 3; ++e) {
-            edge[e][i] = lanei_affine(job->e[e], job->ex[e], job->ey[e], i * LANES);
+    lane d_min, d_max;
+    float per_row;
+    int32_t ex[3], ey[3];
+    uint32_t id;
+} fill_triangle;
+
+/* Rows and vectors of a tile that the triangle's box covers. */
+typedef struct fill_box {
+    int32_t first_row, last_row, first, last;
+} fill_box;
+
+/* d + dy y at the rows of a vector that starts in row y. */
+LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y)
+{
+#if LANES > LMB_TILE
+    return lane_add(lane_splat(d), lane_mul(lane_splat(per_row), lane_row(y * LMB_TILE)));
+#else
+    return lane_splat(d + per_row * (float)y);
+#endif
+}
+
+/* One column of vectors down the rows. e: the edges at the tile's pixel (0, first_row); d: the depth at (0, 0). */
+LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *coding, const fill_triangle *t,
+                              const int32_t e[3], float d, const fill_box *box, int32_t i)
+{
+    const lanei down0 = lanei_splat(t->ey[0] * FILL_ROWS), down1 = lanei_splat(t->ey[1] * FILL_ROWS),
+                down2 = lanei_splat(t->ey[2] * FILL_ROWS);
+    lanei e0 = lanei_add(lanei_splat(e[0]), t->step[0][i]), e1 = lanei_add(lanei_splat(e[1]), t->step[1][i]),
+          e2 = lanei_add(lanei_splat(e[2]), t->step[2][i]);
+    for (int32_t y = box->first_row; y <= box->last_row; y += FILL_ROWS) {
+        lane_mask in = lanei_not_negative(lanei_or(lanei_or(e0, e1), e2));
+        lane depth = lane_add(fill_row_depth(d, t->per_row, y), t->step_d[i]);
+        depth = lane_min(lane_max(depth, t->d_min), t->d_max);
+        if (tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE) {
+            float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
+            lane old = lane_load_rows(p, tile->depth_step);
+            lane_store_rows(p, tile->depth_step, lane_pick(in, lane_max(depth, old), old));
+        } else if (mask_bits(in)) {
+            lane_mask pass = fill_depth(tile, coding, y * tile->depth_step + i * LANES, depth, in);
+            fill_id(tile, y * tile->id_step + i * LANES, t->id, pass);
         }
-        step_d[i] = lane_mul(lane_splat(job->dx), lane_column(i * LANES));
+        e0 = lanei_add(e0, down0);
+        e1 = lanei_add(e1, down1);
+        e2 = lanei_add(e2, down2);
     }
-    const lane d_min = lane_splat(job->d_min), d_max = lane_splat(job->d_max);
-    for (int y = 0; y < LMB_TILE; y += FILL_ROWS) {
-        const lane row_d = lane_add(lane_splat(job->d), lane_mul(lane_splat(job->dy), lane_row(y * LMB_TILE)));
-        for (int i = 0; i < FILL_ACROSS; ++i) {
-            lanei e = lanei_add(edge[0][i], lanei_splat(job->ey[0] * y));
-            e = lanei_or(e, lanei_add(edge[1][i], lanei_splat(job->ey[1] * y)));
-            e = lanei_or(e, lanei_add(edge[2][i], lanei_splat(job->ey[2] * y)));
-            lane_mask in = lanei_not_negative(e);
-            if (mask_bits(in)) {
-                lane d = lane_min(lane_max(lane_add(row_d, step_d[i]), d_min), d_max);
-                lane_mask pass = fill_depth(tile, job, y * tile->depth_step + i * LANES, d, in);
-                fill_id(tile, y * tile->id_step + i * LANES, job->id, pass);
+}
+
+/* A tile that no edge crosses. `clamped`: the plane may leave the triangle's range. */
+LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, int clamped)
+{
+    const lane_mask all = mask_of_bits(0xffffu);
+    for (int32_t y = 0; y < LMB_TILE; y += FILL_ROWS) {
+        const lane at = fill_row_depth(job->d, t->per_row, y);
+        for (int32_t i = 0; i < FILL_ACROSS; ++i) {
+            lane depth = lane_add(at, t->step_d[i]);
+            if (clamped) {
+                depth = lane_min(lane_max(depth, t->d_min), t->d_max);
+            }
+            if (tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE) {
+                float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
+                lane_store_rows(p, tile->depth_step, lane_max(depth, lane_load_rows(p, tile->depth_step)));
+            } else {
+                lane_mask pass = fill_depth(tile, job, y * tile->depth_step + i * LANES, depth, all);
+                fill_id(tile, y * tile->id_step + i * LANES, t->id, pass);
             }
         }
+    }
+}
+
+/* Are the plane's values at the tile's corners, and so (sums round monotonically) all between, within the range? */
+LANE_INLINE int fill_in_range(const lmb_fill_job *job)
+{
+    const float right = job->dx * (float)(LMB_TILE - 1), bottom = job->d + job->dy * (float)(LMB_TILE - 1), top = job->d;
+    const float a = top, b = top + right, c = bottom, d = bottom + right;
+    const float low = minf(minf(a, b), minf(c, d)), high = maxf(maxf(a, b), maxf(c, d));
+    return low >= job->d_min && high <= job->d_max;
+}
+
+LANE_INLINE void fill_set(fill_triangle *t, const int32_t ex[3], const int32_t ey[3], const lmb_fill_job *job)
+{
+    t->per_row = job->dy;
+    t->d_min = lane_splat(job->d_min);
+    t->d_max = lane_splat(job->d_max);
+    t->id = job->id;
+    t->ex[0] = ex[0], t->ex[1] = ex[1], t->ex[2] = ex[2];
+    t->ey[0] = ey[0], t->ey[1] = ey[1], t->ey[2] = ey[2];
+    for (int i = 0; i < FILL_ACROSS; ++i) {
+        t->step_d[i] = lane_mul(lane_splat(job->dx), lane_column(i * LANES));
+        t->step[0][i] = lanei_affine(0, ex[0], ey[0], i * LANES);
+        t->step[1][i] = lanei_affine(0, ex[1], ey[1], i * LANES);
+        t->step[2][i] = lanei_affine(0, ex[2], ey[2], i * LANES);
+    }
+}
+
+static void KERNEL(fill)(const lmb_fill_tile *tile, const lmb_fill_job *job)
+{
+    static const fill_box whole = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
+    fill_triangle t;
+    fill_set(&t, job->ex, job->ey, job);
+    for (int i = 0; i < FILL_ACROSS; ++i) {
+        fill_column(tile, job, &t, job->e, job->d, &whole, i);
     }
 }

@@ -8,6 +8,8 @@
  * exact there, so slivers keep their slope. (In binary32 a 300:1 sliver's slope lost 9 bits.) */
 #include "setup.h"
 
+#include "../base/vec.h"
+
 /* Inside on the line itself for top and left edges only: others lose 1 in E. */
 static int64_t fill_rule(int32_t ex, int32_t ey) { return ex > 0 || (ex == 0 && ey > 0) ? 0 : -1; }
 

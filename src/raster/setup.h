@@ -2,23 +2,13 @@
 #ifndef LMB_RASTER_SETUP_H
 #define LMB_RASTER_SETUP_H
 
-#include "../base/vec.h"
+#include "../lane/kernels.h"
 
 /* 24.8 fixed point, from the middle of the frame, y down. */
 typedef struct lmb_screen_vertex {
     int32_t x_24_8, y_24_8;
     float d;
 } lmb_screen_vertex;
-
-/* Edge i is e >= 0 inside, in units of 1/256 px x px: e(x + 1) = e(x) + ex. */
-typedef struct lmb_setup {
-    int32_t ex[3], ey[3];
-    int64_t e_origin[3]; /* at the frame's middle + (0, 0) in 24.8, fill rule included, not yet divided by 256 */
-    double d_origin, d_x, d_y; /* depth at the middle; per px */
-    float d_min, d_max;
-    int32_t x_min, x_max, y_min, y_max; /* box, 24.8 */
-    int32_t back;        /* back face: clockwise in the picture */
-} lmb_setup;
 
 /* 1, or 0 for a triangle without area. */
 int lmb_setup_triangle(lmb_setup *out, const lmb_screen_vertex *a, const lmb_screen_vertex *b,

@@ -37,6 +37,29 @@ lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t 
     return t;
 }
 
+lmb_fill_window lmb_target_window(const lmb_target *t, const lmb_view *view)
+{
+    const int32_t depth_bytes = lmb_pixel_bytes(t->depth.format), id_bytes = lmb_pixel_bytes(t->id.format);
+    const int tiled_depth = t->depth.layout == LMB_TILED, tiled_id = t->id.layout == LMB_TILED;
+    lmb_fill_window w;
+    w.first = lmb_target_tile(t, 0, 0);
+    w.depth_tile = depth_bytes * (tiled_depth ? LMB_TILE_PIXELS : LMB_TILE);
+    w.depth_row = t->depth.stride_bytes * (tiled_depth ? 1 : LMB_TILE);
+    w.id_tile = id_bytes * (tiled_id ? LMB_TILE_PIXELS : LMB_TILE);
+    w.id_row = t->id.stride_bytes * (tiled_id ? 1 : LMB_TILE);
+    w.tiles_x = (t->depth.width + LMB_TILE - 1) / LMB_TILE;
+    w.tiles_y = (t->depth.height + LMB_TILE - 1) / LMB_TILE;
+    w.x0 = t->x0;
+    w.y0 = t->y0;
+    w.origin_x = 128 - view->frame_width * 128;
+    w.origin_y = 128 - view->frame_height * 128;
+    w.d_scale = w.d_bias = 0.0f;
+    if (t->depth.format == LMB_DEPTH16) {
+        lmb_depth16_coding(&w.d_scale, &w.d_bias, view);
+    }
+    return w;
+}
+
 static int is_unit(lmb_vec3 v)
 {
     float d2 = dot3(v, v);

@@ -13,6 +13,9 @@ lmb_status lmb_target_check(const lmb_target *target, const lmb_view *view, uint
 /* Address one tile of a window. */
 lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t tile_y);
 
+/* The window as the fill kernels address it. */
+lmb_fill_window lmb_target_window(const lmb_target *target, const lmb_view *view);
+
 /* 16-bit depth codes: code = d * scale + bias. */
 void lmb_depth16_coding(float *scale, float *bias, const lmb_view *view);
 

@@ -3,7 +3,7 @@
 . tests/build/checks.sh
 
 mkdir -p "$B/layout"
-for call in lmb_draw lmb_group_points lmb_gather_tile lmb_render_begin lmb_build_check; do
+for call in lmb_group_points lmb_gather_tile lmb_render_begin lmb_build_check; do
     source=$B/layout/$call.c
     printf '#include <lambent/lambent.h>\ntypedef void (*any)(void);\nint main(void)\n{\n    volatile any p = (any)%s;\n    return p == 0;\n}\n' $call >"$source"
     check "$call links with the library's capacities" $CC $FLAGS -o "$B/layout/same" "$source" "$LIB" $LDLIBS

@@ -211,7 +211,7 @@ static uint64_t case_raster(int variant)
     make_soup(17u + (uint32_t)variant, variant & 4 ? 2.0f : 4.5f);
     lmb_view v = soup_view(variant & 4);
     set_eye(&eye, HEIGHT, variant & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, variant & 2 ? LMB_ID32 : LMB_ID16);
-    lmb_draw(&eye, kernels, &memory.scratch.raster, &v, &soup, 1, 1000, LMB_CULL_BACK, NULL);
+    lmb_draw(&eye, kernels, &v, &soup, 1, 1000, LMB_CULL_BACK, NULL);
     return hash_surface(hash_surface(hash_start, &eye.depth), &eye.id);
 }
 
@@ -222,7 +222,7 @@ static uint64_t case_resolve(int variant)
     make_soup(91u, 2.0f);
     lmb_view v = soup_view(variant);
     set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
-    lmb_draw(&eye, kernels, &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
+    lmb_draw(&eye, kernels, &v, &soup, 1, 1000, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
             const lmb_tile *t = &memory.scratch.tile;
@@ -248,7 +248,7 @@ static uint64_t case_normal_map(int variant)
     soup.materials = bent;
     lmb_view v = soup_view(variant);
     set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
-    lmb_draw(&eye, kernels, &memory.scratch.raster, &v, &soup, 1, 1000, 0, NULL);
+    lmb_draw(&eye, kernels, &v, &soup, 1, 1000, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
             lmb_resolve_tile(&memory.scratch.tile, kernels, &v, &soup, &eye, x, y);
@@ -273,7 +273,7 @@ static uint64_t case_light_map(int variant)
     int32_t size = variant == LMB_LIGHT_POINT ? 24 : MAP;
     lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
     lmb_light_map_clear(&map);
-    lmb_light_map_draw(&map, kernels, &memory.scratch.raster, &soup, 1, 1000, NULL);
+    lmb_light_map_draw(&map, kernels, &soup, 1, 1000, NULL);
     uint64_t h = hash_start;
     for (int32_t f = 0; f < map.faces; ++f) {
         float power[3];
@@ -299,7 +299,7 @@ static uint64_t case_groups(int variant)
     lmb_light_map map;
     lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
     lmb_light_map_clear(&map);
-    lmb_light_map_draw(&map, kernels, &memory.scratch.raster, scene, 1, UINT32_MAX - 1, NULL);
+    lmb_light_map_draw(&map, kernels, scene, 1, UINT32_MAX - 1, NULL);
     points.count = points.faces = 0;
     lmb_status a = lmb_points_collect(&points, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
                                       MAP / 8, &how[variant]);

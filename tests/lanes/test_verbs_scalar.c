@@ -121,7 +121,8 @@ static int same_output(const char *machine, uint32_t seed, const verb_input *in,
     const char *place = memcmp(want->stored_f32, got->stored_f32, sizeof want->stored_f32) ? "store_rows"
                         : memcmp(want->stored_u16, got->stored_u16, sizeof want->stored_u16) ? "store_u16"
                         : memcmp(want->put_u16, got->put_u16, sizeof want->put_u16) ? "put_u16"
-                        : memcmp(want->put_u32, got->put_u32, sizeof want->put_u32) ? "put_u32" : NULL;
+                        : memcmp(want->put_u32, got->put_u32, sizeof want->put_u32) ? "put_u32"
+                        : memcmp(want->d, got->d, sizeof want->d) ? "binary64" : NULL;
     if (place != NULL) {
         printf("%s: %s leaves other memory than scalar; repeat: LANES_SEED=%u tests lanes\n", machine, place,
                (unsigned)seed);

@@ -28,7 +28,8 @@ typedef struct verb_input {
     X(mask_not, BITS) X(mask_bits, BITS) X(mask_of_bits, BITS) X(i_splat, BITS) X(i_add, BITS) X(i_or, BITS) \
     X(i_and, BITS) X(i_mul, BITS) X(i_shift, BITS) X(i_not_negative, BITS) X(i_equal, BITS) X(to_int, BITS) \
     X(trunc, BITS) X(gather_f32, BITS) X(gather_u16, BITS) X(load_rows, BITS) X(load_u16, BITS) X(column, BITS) \
-    X(row, BITS) X(affine, BITS) X(dot, FLOAT)
+    X(row, BITS) X(affine, BITS) X(dot, FLOAT) X(i_sub, BITS) X(i_min, BITS) X(i_max, BITS) X(i_pick, BITS) \
+    X(i_lt, BITS) X(from_int, BITS)
 enum {
 #define VERB_NAME(name, results) VERB_##name,
     VERBS(VERB_NAME)
@@ -36,11 +37,15 @@ enum {
     VERB_COUNT
 };
 
+/* Verbs of binary64, on sane values. */
+enum { VERB_D_splat, VERB_D_add, VERB_D_sub, VERB_D_mul, VERB_D_div, VERB_D_from_int, VERB_D_COUNT };
+
 typedef struct verb_output {
     uint32_t row[VERB_COUNT][VERB_LANES];
     float stored_f32[VERB_SURFACE];
     uint16_t stored_u16[VERB_SURFACE], put_u16[VERB_SURFACE];
     uint32_t put_u32[VERB_SURFACE];
+    double d[VERB_D_COUNT][VERB_LANES];
 } verb_output;
 
 void verbs_scalar(verb_output *out, const verb_input *in);

@@ -73,10 +73,27 @@ static inline void run_integers(verb_output *out, const verb_input *in, int k)
     put_lanei(out->row[VERB_i_or] + k, lanei_or(i, j));
     put_lanei(out->row[VERB_i_and] + k, lanei_and(i, j));
     put_lanei(out->row[VERB_i_mul] + k, lanei_mul(lanei_load(in->m + k), lanei_load(in->n + k)));
-    put_lanei(out->row[VERB_i_shift] + k, lanei_shift(lanei_and(i, lanei_splat(0x7fffffff)), in->shift));
+    put_lanei(out->row[VERB_i_shift] + k, lanei_shift(i, in->shift));
+    put_lanei(out->row[VERB_i_sub] + k, lanei_sub(i, j));
+    put_lanei(out->row[VERB_i_min] + k, lanei_min(i, j));
+    put_lanei(out->row[VERB_i_max] + k, lanei_max(i, j));
+    put_lanei(out->row[VERB_i_pick] + k, lanei_pick(mask_of_bits(in->bits >> k), i, j));
+    put_mask(out->row[VERB_i_lt] + k, lanei_lt(i, j));
+    put_lane(out->row[VERB_from_int] + k, lane_from_int(i));
     put_mask(out->row[VERB_i_not_negative] + k, lanei_not_negative(i));
     put_mask(out->row[VERB_i_equal] + k, lanei_equal(i, j));
     put_lanei(out->row[VERB_affine] + k, lanei_affine(in->i[0], in->m[0] >> 12, in->n[0] >> 12, k));
+}
+
+static inline void run_doubles(verb_output *out, const verb_input *in, int k)
+{
+    laned a = laned_from(lane_load(in->whole + k)), i = laned_from_int(lanei_load(in->i + k));
+    laned_store(out->d[VERB_D_splat] + k, laned_splat(1.0 / 3.0));
+    laned_store(out->d[VERB_D_add] + k, laned_add(a, i));
+    laned_store(out->d[VERB_D_sub] + k, laned_sub(a, laned_mul(i, laned_splat(1e-9))));
+    laned_store(out->d[VERB_D_mul] + k, laned_mul(a, i));
+    laned_store(out->d[VERB_D_div] + k, laned_div(a, laned_add(laned_mul(i, i), laned_splat(1.0))));
+    laned_store(out->d[VERB_D_from_int] + k, i);
 }
 
 static inline void run_memory(verb_output *out, const verb_input *in, int k)
@@ -104,6 +121,7 @@ void VERBS_RUN(verb_output *out, const verb_input *in)
         run_floats(out, in, k);
         run_masks(out, in, k);
         run_integers(out, in, k);
+        run_doubles(out, in, k);
         run_memory(out, in, k);
     }
 }

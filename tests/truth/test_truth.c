@@ -229,7 +229,7 @@ static void draw_attribute(stage *s, int what)
     z.stride_bytes = z.width * 4;
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
-    CHECK(lmb_draw(&f->eye, f->kernels, &f->scratch->raster, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK,
+    CHECK(lmb_draw(&f->eye, f->kernels, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK,
                    NULL) == LMB_OK);
     for (int32_t band = 0; band < (f->view.frame_height + 7) / 8; ++band) {
         CHECK(lmb_gbuffer_band(what == DEPTH ? &z : NULL, what == NORMAL ? &f->out : NULL,

@@ -53,7 +53,6 @@ static uint32_t point_cells[SIDE * SIDE + 1];
 static lmb_points points;
 static uint32_t map_memory[6 * SIDE * SIDE * 2];
 static lmb_light_map map; /* of the light that add_points saw last */
-static lmb_raster_scratch raster;
 static lmb_tile tile;
 static lmb_groups groups;
 static lmb_stats stats;
@@ -73,7 +72,7 @@ static void add_points(const lmb_light *light, int32_t size, const lmb_grouping 
     lmb_status status = lmb_light_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory);
     lmb_light_map_clear(&map);
     if (status == LMB_OK) {
-        status = lmb_light_map_draw(&map, k, &raster, &world.scene, 1, WORLD_TRIANGLES, NULL);
+        status = lmb_light_map_draw(&map, k, &world.scene, 1, WORLD_TRIANGLES, NULL);
     }
     for (int32_t f = 0; f < map.faces && status == LMB_OK; ++f) {
         if ((map.drawn >> f) & 1u) {
@@ -1156,7 +1155,7 @@ static lmb_view look_near(lmb_vec3 from, lmb_vec3 target, double fov_deg)
 static void draw_view(const lmb_view *v, int32_t format)
 {
     eye = target_of(format, FRAME, depth_memory, id_memory);
-    world_draw(&eye, &raster, v, 0);
+    world_draw(&eye, v, 0);
 }
 
 /* Red irradiance of every pixel, by kind of occlusion. */

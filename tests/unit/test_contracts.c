@@ -93,13 +93,13 @@ static void test_raster_refuses(void)
     lmb_target t = f.eye;
     lmb_surface_clear(&t.depth);
     lmb_surface_clear(&t.id);
-    CHECK(lmb_draw(&t, f.kernels, &scratch.raster, &f.view, f.scene, 0, 5, 0, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw(&t, f.kernels, &f.view, f.scene, 0, 5, 0, NULL) == LMB_ERR_ARG);
     CHECK(lmb_resolve_tile(&scratch.tile, f.kernels, &f.view, f.scene, &t, 0, 0) == LMB_OK);
     memset(&t.depth, 0, sizeof t.depth);
     CHECK(lmb_resolve_tile(&scratch.tile, f.kernels, &f.view, f.scene, &t, 0, 0) == LMB_ERR_ARG);
     t = f.eye;
     t.id.stride_bytes += 1;
-    CHECK(lmb_draw(&t, f.kernels, &scratch.raster, &f.view, f.scene, 1, 5, 0, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw(&t, f.kernels, &f.view, f.scene, 1, 5, 0, NULL) == LMB_ERR_ARG);
     CHECK(lmb_light_map_bytes(1, 64, 99) == 0 && lmb_light_map_bytes(1, 60, LMB_ID16) == 0 &&
           lmb_light_map_bytes(7, 64, LMB_ID16) == 0 && lmb_light_map_bytes(6, 64, LMB_ID16) == 6 * 64 * 64 * 6);
     CHECK(lmb_points_bytes(100, 8) == 100 * sizeof(lmb_point) + 65 * 4 && lmb_points_bytes(1, LMB_MAX_SIDE + 1) == 0);

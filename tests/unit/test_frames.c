@@ -513,7 +513,7 @@ static void draw_maps(lmb_light_map maps[ALL_LIGHTS])
     for (int i = 0; i < LIGHTS; ++i) {
         lmb_light_map_init(&maps[i], &room_lights[i], &room, MAP, LMB_ID32, memory[i], sizeof memory[i]);
         lmb_light_map_clear(&maps[i]);
-        lmb_light_map_draw(&maps[i], lmb_kernels_pick(), &m.scratch.raster, &room, 1, UINT32_MAX, NULL);
+        lmb_light_map_draw(&maps[i], lmb_kernels_pick(), &room, 1, UINT32_MAX, NULL);
     }
 }
 
@@ -745,7 +745,7 @@ static void check_gbuffer(const lmb_scene *scene, lmb_view view)
     const lmb_kernels *k = lmb_kernels_pick();
     lmb_surface_clear(&f.eye.depth);
     lmb_surface_clear(&f.eye.id);
-    lmb_draw(&f.eye, k, &m.scratch.raster, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
+    lmb_draw(&f.eye, k, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
     set_gbuffer(s, gbuffer[0], &view);
     for (int32_t b = 0; b < bands; ++b) {
         failed += lmb_gbuffer_band(&s[0], &s[1], &s[2], &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
@@ -756,7 +756,7 @@ static void check_gbuffer(const lmb_scene *scene, lmb_view view)
         f.eye.y0 = 8 * b;
         lmb_surface_clear(&f.eye.depth);
         lmb_surface_clear(&f.eye.id);
-        lmb_draw(&f.eye, k, &m.scratch.raster, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
+        lmb_draw(&f.eye, k, &view, scene, 1, UINT32_MAX, LMB_CULL_BACK, NULL);
         failed += lmb_gbuffer_band(&s[0], NULL, &s[2], &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
         failed += lmb_gbuffer_band(NULL, &s[1], NULL, &m.scratch.tile, k, &view, scene, &f.eye, b) != LMB_OK;
     }
@@ -794,8 +794,8 @@ static void draw_light_map(lmb_light_map *map)
     lmb_status status = lmb_light_map_init(map, &room_lights[1], &room, MAP, LMB_ID32, m.map + CANARY, bytes);
     CHECK(status == LMB_OK && map->faces == 6 && map->drawn == 63 && map->size == MAP);
     CHECK(lmb_light_map_clear(map) == LMB_OK);
-    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &m.scratch.raster, &room, 1, 555, NULL) == LMB_OK);
-    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &m.scratch.raster, &room, 556, UINT32_MAX, NULL) == LMB_OK);
+    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &room, 1, 555, NULL) == LMB_OK);
+    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &room, 556, UINT32_MAX, NULL) == LMB_OK);
 }
 
 /* Texels with a surface; each face holds what lmb_draw gives in its view. */
@@ -810,7 +810,7 @@ static int check_faces(const lmb_light_map *map)
         lmb_surface_init(&t.id, LMB_ID32, MAP, MAP, id, sizeof id);
         lmb_surface_clear(&t.depth);
         lmb_surface_clear(&t.id);
-        lmb_draw(&t, lmb_kernels_pick(), &m.scratch.raster, &map->view[f], &room, 1, UINT32_MAX, 0, NULL);
+        lmb_draw(&t, lmb_kernels_pick(), &map->view[f], &room, 1, UINT32_MAX, 0, NULL);
         CHECK(memcmp(depth, map->face[f].depth.data, sizeof depth) == 0);
         CHECK(memcmp(id, map->face[f].id.data, sizeof id) == 0);
         for (int i = 0; i < MAP * MAP; ++i) {
@@ -860,7 +860,7 @@ static void test_light_map_arguments(void)
     CHECK(lmb_light_map_init(&map, light, &room, MAP, LMB_ID32, (uint8_t *)m.map + 2, 6 * MAP * MAP * 8) ==
           LMB_ERR_ALIGN);
     CHECK(memcmp(&map, &before, sizeof map) == 0);
-    CHECK(lmb_light_map_draw(NULL, lmb_kernels_pick(), &m.scratch.raster, &room, 1, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_light_map_draw(NULL, lmb_kernels_pick(), &room, 1, 1, NULL) == LMB_ERR_ARG);
     CHECK(lmb_light_map_clear(NULL) == LMB_ERR_ARG);
 }
 

@@ -9,7 +9,6 @@ enum { SIDE = 512, FRAME = 128, PIXELS = FRAME * FRAME };
 
 static uint32_t map_memory[6 * SIDE * SIDE * 2], depth_memory[PIXELS], id_memory[PIXELS];
 static lmb_light_map map;
-static lmb_raster_scratch raster;
 static lmb_target eye;
 
 /* What was seen, and the irradiance there without shadows [0] and with [1]. */
@@ -23,13 +22,13 @@ static void draw_map(const lmb_light *light, int32_t size)
 {
     CHECK(lmb_light_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
     CHECK(lmb_light_map_clear(&map) == LMB_OK);
-    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &raster, &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
 }
 
 static void draw_view(const lmb_view *v)
 {
     eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
-    world_draw(&eye, &raster, v, LMB_CULL_BACK);
+    world_draw(&eye, v, LMB_CULL_BACK);
 }
 
 static void shade_tile(const lmb_view *v, const lmb_light *light, int32_t x, int32_t y)

@@ -28,7 +28,6 @@ typedef struct stage {
 } stage;
 
 static stage st;
-static lmb_raster_scratch scratch;
 
 static lmb_vec3 vec(float x, float y, float z)
 {
@@ -86,7 +85,7 @@ static lmb_vec3 look(lmb_vec3 *face, lmb_vec3 eye)
     CHECK(lmb_surface_init(&st.target.id, LMB_ID32, SIDE, SIDE, st.id, sizeof st.id) == LMB_OK);
     lmb_surface_clear(&st.target.depth);
     lmb_surface_clear(&st.target.id);
-    CHECK(lmb_draw(&st.target, kernels, &scratch, &st.view, &st.scene, 1, 1, 0, NULL) == LMB_OK);
+    CHECK(lmb_draw(&st.target, kernels, &st.view, &st.scene, 1, 1, 0, NULL) == LMB_OK);
     CHECK(lmb_resolve_tile(&st.tile, kernels, &st.view, &st.scene, &st.target, 8, 8) == LMB_OK);
     CHECK(st.tile.id[0] == 1);
     *face = vec(st.tile.face[0][0], st.tile.face[1][0], st.tile.face[2][0]);

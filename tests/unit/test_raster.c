@@ -40,7 +40,6 @@ typedef struct stage {
 } stage;
 
 static stage st;
-static lmb_raster_scratch cache;
 static uint32_t depth_memory[2][PIXELS], id_memory[2][PIXELS];
 
 static const lmb_instance plain_instance = {{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, 0, 0, 1, 0};
@@ -126,7 +125,7 @@ static uint32_t code_at(const lmb_surface *s, int32_t x, int32_t y)
 
 static lmb_status draw(const lmb_target *t, uint32_t first, uint32_t count, uint32_t flags)
 {
-    return lmb_draw(t, lmb_kernels_pick(), &cache, &st.view, &st.scene, first, count, flags, &st.stats);
+    return lmb_draw(t, lmb_kernels_pick(), &st.view, &st.scene, first, count, flags, &st.stats);
 }
 
 static int32_t random_between(test_rng *r, int32_t lo, int32_t hi)
@@ -1069,13 +1068,12 @@ static void test_bad_arguments(void)
     put_neighbours();
     const lmb_kernels *k = lmb_kernels_pick();
     lmb_target t = window_of(0, LMB_DEPTH32F, LMB_ID32, LMB_TILED, box);
-    CHECK(lmb_draw(NULL, k, &cache, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_draw(&t, NULL, &cache, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_draw(&t, k, NULL, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_draw(&t, k, &cache, NULL, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_draw(&t, k, &cache, &st.view, NULL, 1, 8, 0, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw(NULL, k, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw(&t, NULL, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw(&t, k, NULL, &st.scene, 1, 8, 0, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_draw(&t, k, &st.view, NULL, 1, 8, 0, NULL) == LMB_ERR_ARG);
     CHECK(all_ids(&t, 0, 0));
-    CHECK(lmb_draw(&t, k, &cache, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_OK); /* no stats */
+    CHECK(lmb_draw(&t, k, &st.view, &st.scene, 1, 8, 0, NULL) == LMB_OK); /* no stats */
 }
 
 /* The memory around and in the target holds a pattern; a refused draw leaves all of it. */

@@ -194,7 +194,6 @@ static struct resolve_stage {
     lmb_target target;
 } st;
 static uint32_t depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
-static lmb_raster_scratch cache;
 static lmb_tile tile;
 
 static void set_scene(void)
@@ -220,7 +219,7 @@ static void draw_scene(void)
     lmb_surface_init(&st.target.id, LMB_ID32, FRAME, FRAME, id_memory, sizeof id_memory);
     lmb_surface_clear(&st.target.depth);
     lmb_surface_clear(&st.target.id);
-    lmb_draw(&st.target, lmb_kernels_pick(), &cache, &st.view, &st.scene, 1, 1, 0, NULL);
+    lmb_draw(&st.target, lmb_kernels_pick(), &st.view, &st.scene, 1, 1, 0, NULL);
 }
 
 static lmb_status resolve(int32_t x, int32_t y)

@@ -1,0 +1,98 @@
+/* fill_small.inl: a batch's small triangles into the tiles of a window, without leaving the machine's code.
+ *
+ * The same sums as fill.inl, value by value. Only the rows of a triangle's box are visited, only tiles that no edge
+ * leaves outside; for a float target without ids, which shadow maps are, every row is one load and one store without a
+ * branch. */
+
+/* The part of the box inside a tile that starts at (x, y). */
+LANE_INLINE fill_box small_cut(const lmb_batch *b, int k, int32_t x, int32_t y)
+{
+    fill_box box;
+    box.first_row = (b->y0[k] > y ? b->y0[k] - y : 0) & ~(FILL_ROWS - 1);
+    box.last_row = b->y1[k] < y + LMB_TILE ? b->y1[k] - y : LMB_TILE - 1;
+    box.first = FILL_ACROSS > 1 && b->x0[k] > x ? (b->x0[k] - x) / LANES : 0;
+    box.last = FILL_ACROSS > 1 && b->x1[k] < x + LMB_TILE ? (b->x1[k] - x) / LANES : FILL_ACROSS - 1;
+    return box;
+}
+
+/* What an edge can gain within a tile; where even that leaves it negative, the tile is outside. */
+LANE_INLINE int32_t small_reach(int32_t ex, int32_t ey)
+{
+    return (LMB_TILE - 1) * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
+}
+
+/* e0 .. e2: the edges at the tile's first pixel. */
+LANE_INLINE void small_tile(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, int32_t e0,
+                            int32_t e1, int32_t e2, const fill_box *box)
+{
+    const int32_t e[3] = {e0 + t->ey[0] * box->first_row, e1 + t->ey[1] * box->first_row, e2 + t->ey[2] * box->first_row};
+    for (int32_t i = box->first; i <= box->last; ++i) {
+        fill_column(tile, job, t, e, job->d, box, i);
+    }
+}
+
+/* The three edges are written out: gcc -O2 keeps a loop of three, and arrays in memory. */
+LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k,
+                            const fill_triangle *t, int depth_format, int id_format)
+{
+    const double d_origin = b->d[k], dx = b->dx[k], dy = b->dy[k];
+    const int32_t left = b->x0[k] & ~(LMB_TILE - 1), top = b->y0[k] & ~(LMB_TILE - 1), right = b->x1[k], bottom = b->y1[k];
+    const int32_t reach0 = small_reach(t->ex[0], t->ey[0]), reach1 = small_reach(t->ex[1], t->ey[1]),
+                  reach2 = small_reach(t->ex[2], t->ey[2]);
+    const int32_t down = (top - w->y0) / LMB_TILE, across = (left - w->x0) / LMB_TILE;
+    int32_t row0 = b->e[0][k], row1 = b->e[1][k], row2 = b->e[2][k];
+    uint8_t *depth_row = (uint8_t *)w->first.depth + (ptrdiff_t)down * w->depth_row + (ptrdiff_t)across * w->depth_tile;
+    uint8_t *id_row = id_format == LMB_FORMAT_NONE
+                          ? NULL
+                          : (uint8_t *)w->first.id + (ptrdiff_t)down * w->id_row + (ptrdiff_t)across * w->id_tile;
+    lmb_fill_tile tile = w->first;
+    tile.depth_format = depth_format;
+    tile.id_format = id_format;
+    for (int32_t y = top; y <= bottom; y += LMB_TILE) {
+        const double d_row = dy * ((y * 256 + w->origin_y) * (1.0 / 256.0));
+        int32_t e0 = row0, e1 = row1, e2 = row2;
+        tile.depth = depth_row;
+        tile.id = id_row;
+        for (int32_t x = left; x <= right; x += LMB_TILE) {
+            if (((e0 + reach0) | (e1 + reach1) | (e2 + reach2)) >= 0) {
+                const fill_box box = small_cut(b, k, x, y);
+                job->d = (float)(d_origin + dx * ((x * 256 + w->origin_x) * (1.0 / 256.0)) + d_row);
+                small_tile(&tile, job, t, e0, e1, e2, &box);
+            }
+            tile.depth = (uint8_t *)tile.depth + w->depth_tile;
+            tile.id = id_format == LMB_FORMAT_NONE ? NULL : (uint8_t *)tile.id + w->id_tile;
+            e0 += t->ex[0] * LMB_TILE;
+            e1 += t->ex[1] * LMB_TILE;
+            e2 += t->ex[2] * LMB_TILE;
+        }
+        depth_row += w->depth_row;
+        id_row = id_format == LMB_FORMAT_NONE ? NULL : id_row + w->id_row;
+        row0 += t->ey[0] * LMB_TILE;
+        row1 += t->ey[1] * LMB_TILE;
+        row2 += t->ey[2] * LMB_TILE;
+    }
+}
+
+static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
+{
+    const int plain = fill_is_plain(&w->first);
+    lmb_fill_job job;
+    job.d_scale = w->d_scale;
+    job.d_bias = w->d_bias;
+    for (; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit(bits);
+        const int32_t ex[3] = {b->ex[0][k], b->ex[1][k], b->ex[2][k]}, ey[3] = {b->ey[0][k], b->ey[1][k], b->ey[2][k]};
+        fill_triangle t;
+        job.dx = (float)b->dx[k];
+        job.dy = (float)b->dy[k];
+        job.d_min = b->d_min[k];
+        job.d_max = b->d_max[k];
+        job.id = first_id + (uint32_t)k;
+        fill_set(&t, ex, ey, &job);
+        if (plain) {
+            small_fill(w, &job, b, k, &t, LMB_DEPTH32F, LMB_FORMAT_NONE);
+        } else {
+            small_fill(w, &job, b, k, &t, w->first.depth_format, w->first.id_format);
+        }
+    }
+}

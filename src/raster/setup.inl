@@ -1,0 +1,174 @@
+/* setup.inl: a batch of triangles from positions to edges, box and depth plane, LANES triangles at a time.
+ *
+ * The arithmetic is draw.c's and setup.c's, value by value; here small triangles only, whose edges fit 32 bits: a box
+ * under 64 px a side (2^14 in 24.8) keeps products of differences under 2^29 up to the far corner of its tiles. */
+
+typedef struct setup_corner {
+    lanei x, y; /* 24.8 */
+    lane d;
+    lane_mask sane, out[5]; /* outside the near plane, left, right, top, bottom */
+} setup_corner;
+
+static inline lane setup_row(const float row[4], lane3 p)
+{
+    lane sum = lane_add(lane_mul(lane_splat(row[0]), p.x), lane_mul(lane_splat(row[1]), p.y));
+    return lane_add(lane_add(sum, lane_mul(lane_splat(row[2]), p.z)), lane_splat(row[3]));
+}
+
+static inline lane_mask setup_sane(lane v)
+{
+    return mask_and(lane_lt(lane_splat(-1048576.0f), v), lane_lt(v, lane_splat(1048576.0f)));
+}
+
+static inline lanei setup_floor(lane v)
+{
+    lanei i = lane_to_int(v);
+    return lanei_pick(lane_lt(v, lane_from_int(i)), lanei_sub(i, lanei_splat(1)), i);
+}
+
+static inline setup_corner setup_transform(const lmb_setup_job *job, float (*position)[LMB_BATCH], int k)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
+    lane3 p;
+    p.x = lane_load(position[0] + k);
+    p.y = lane_load(position[1] + k);
+    p.z = lane_load(position[2] + k);
+    lane along_x = setup_row(job->row[0], p), along_y = setup_row(job->row[1], p), along = setup_row(job->row[2], p);
+    lane x = lane_mul(along_x, lane_splat(job->scale_x)), y = lane_mul(along_y, lane_splat(job->scale_y));
+    lane w = along, z = lane_splat(job->near_m);
+    if (job->orthographic) {
+        z = lane_mul(lane_sub(lane_splat(job->far_m), along), lane_splat(job->depth_scale));
+        w = one;
+    }
+    lane wide = lane_mul(lane_splat(job->guard_x), w), high = lane_mul(lane_splat(job->guard_y), w);
+    setup_corner c;
+    c.sane = mask_and(mask_and(setup_sane(along_x), setup_sane(along_y)), setup_sane(along));
+    c.out[0] = lane_lt(lane_sub(w, z), zero);
+    c.out[1] = lane_lt(lane_add(wide, x), zero);
+    c.out[2] = lane_lt(lane_sub(wide, x), zero);
+    c.out[3] = lane_lt(lane_sub(high, y), zero);
+    c.out[4] = lane_lt(lane_add(high, y), zero);
+    /* What is clipped or insane is not used, and must not reach the conversion to int. */
+    lane_mask good = mask_and(c.sane, mask_not(mask_or(c.out[0], mask_or(mask_or(c.out[1], c.out[2]), mask_or(c.out[3], c.out[4])))));
+    lane inverse = lane_div(one, lane_pick(good, w, one));
+    x = lane_mul(lane_mul(lane_keep(good, x), inverse), lane_splat(job->snap_x));
+    y = lane_mul(lane_mul(lane_keep(good, y), inverse), lane_splat(job->snap_y));
+    c.x = setup_floor(lane_add(x, lane_splat(0.5f)));
+    c.y = setup_floor(lane_sub(lane_splat(0.5f), y));
+    c.d = lane_mul(lane_keep(good, z), inverse);
+    return c;
+}
+
+static inline lanei setup_min3(lanei a, lanei b, lanei c) { return lanei_min(a, lanei_min(b, c)); }
+static inline lanei setup_max3(lanei a, lanei b, lanei c) { return lanei_max(a, lanei_max(b, c)); }
+
+/* First and last pixels whose centres lie in a box's side, within the window. */
+static inline lanei setup_first(lanei low, int32_t origin, int32_t least)
+{
+    return lanei_max(lanei_shift(lanei_add(low, lanei_splat(255 - origin)), 8), lanei_splat(least));
+}
+
+static inline lanei setup_last(lanei high, int32_t origin, int32_t most)
+{
+    return lanei_min(lanei_shift(lanei_sub(high, lanei_splat(origin)), 8), lanei_splat(most));
+}
+
+/* Edge i from one corner to the next: floor(E / 256) at (x, y), where E counts the fill rule. */
+static inline void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corner *from, const setup_corner *to, lanei x, lanei y)
+{
+    const lanei zero = lanei_splat(0);
+    lanei ex = lanei_sub(from->y, to->y), ey = lanei_sub(to->x, from->x);
+    lane_mask on = mask_or(lanei_lt(zero, ex), mask_and(lanei_equal(ex, zero), lanei_lt(zero, ey)));
+    lanei e = lanei_add(lanei_mul(ex, lanei_sub(x, from->x)), lanei_mul(ey, lanei_sub(y, from->y)));
+    lanei_store(b->ex[i] + k, ex);
+    lanei_store(b->ey[i] + k, ey);
+    lanei_store(b->e[i] + k, lanei_shift(lanei_add(e, lanei_pick(on, zero, lanei_splat(-1))), 8));
+}
+
+static inline void setup_depth(lmb_batch *out, int k, const setup_corner *a, const setup_corner *b, const setup_corner *c,
+                               lanei area)
+{
+    const laned to_px = laned_splat(1.0 / 256.0);
+    laned ad = laned_from(a->d), bd = laned_sub(laned_from(b->d), ad), cd = laned_sub(laned_from(c->d), ad);
+    laned bx = laned_from_int(lanei_sub(b->x, a->x)), by = laned_from_int(lanei_sub(b->y, a->y));
+    laned cx = laned_from_int(lanei_sub(c->x, a->x)), cy = laned_from_int(lanei_sub(c->y, a->y));
+    laned per_px = laned_div(laned_splat(256.0), laned_from_int(area));
+    laned dx = laned_mul(laned_sub(laned_mul(bd, cy), laned_mul(cd, by)), per_px);
+    laned dy = laned_mul(laned_sub(laned_mul(cd, bx), laned_mul(bd, cx)), per_px);
+    laned d = laned_sub(ad, laned_mul(dx, laned_mul(laned_from_int(a->x), to_px)));
+    laned_store(out->d + k, laned_sub(d, laned_mul(dy, laned_mul(laned_from_int(a->y), to_px))));
+    laned_store(out->dx + k, dx);
+    laned_store(out->dy + k, dy);
+    lane_store(out->d_min + k, lane_min(a->d, lane_min(b->d, c->d)));
+    lane_store(out->d_max + k, lane_min(lane_splat(1.0f), lane_max(a->d, lane_max(b->d, c->d))));
+}
+
+/* Triangles k .. k + LANES - 1. */
+static inline void setup_lanes(lmb_batch *out, const lmb_setup_job *job, int k)
+{
+    const lanei zero = lanei_splat(0);
+    const lane_mask in = mask_of_bits(out->in >> k);
+    setup_corner a = setup_transform(job, out->position[0], k), b = setup_transform(job, out->position[1], k),
+                 c = setup_transform(job, out->position[2], k);
+    lane_mask sane = mask_and(in, mask_and(a.sane, mask_and(b.sane, c.sane)));
+    lane_mask any = mask_not(in), all = any;
+    for (int i = 0; i < 5; ++i) {
+        any = mask_or(any, mask_or(a.out[i], mask_or(b.out[i], c.out[i])));
+        all = mask_or(all, mask_and(a.out[i], mask_and(b.out[i], c.out[i])));
+    }
+    lane_mask whole = mask_and(sane, mask_not(any));
+    lanei x0 = setup_min3(a.x, b.x, c.x), x1 = setup_max3(a.x, b.x, c.x);
+    lanei y0 = setup_min3(a.y, b.y, c.y), y1 = setup_max3(a.y, b.y, c.y);
+    const lanei limit = lanei_splat(LMB_SMALL_24_8);
+    lane_mask small = mask_and(whole, mask_and(lanei_lt(lanei_sub(x1, x0), limit), lanei_lt(lanei_sub(y1, y0), limit)));
+    lanei bx = lanei_sub(b.x, a.x), by = lanei_sub(b.y, a.y), cx = lanei_sub(c.x, a.x), cy = lanei_sub(c.y, a.y);
+    /* Of the others the products may not fit: they are given none. */
+    bx = lanei_pick(small, bx, zero), by = lanei_pick(small, by, zero);
+    cx = lanei_pick(small, cx, zero), cy = lanei_pick(small, cy, zero);
+    lanei area = lanei_sub(lanei_mul(bx, cy), lanei_mul(cx, by));
+    lane_mask turned = lanei_lt(area, zero), shown = mask_and(small, mask_not(lanei_equal(area, zero)));
+    if (job->cull < 0) {
+        shown = mask_and(shown, mask_not(turned));
+    } else if (job->cull > 0) {
+        shown = mask_and(shown, turned);
+    }
+    out->dropped |= mask_bits(mask_and(in, mask_not(sane))) << k;
+    out->other |= mask_bits(mask_and(mask_and(sane, mask_not(all)), mask_not(small))) << k;
+    out->drawn |= mask_bits(shown) << k;
+    lanei px0 = setup_first(x0, job->origin_x, job->x0), px1 = setup_last(x1, job->origin_x, job->x1);
+    lanei py0 = setup_first(y0, job->origin_y, job->y0), py1 = setup_last(y1, job->origin_y, job->y1);
+    shown = mask_and(shown, mask_not(mask_or(lanei_lt(px1, px0), lanei_lt(py1, py0))));
+    uint32_t bits = mask_bits(shown);
+    if (bits == 0) {
+        return;
+    }
+    out->small |= bits << k;
+    /* What is not shown takes the place of corner a, so that no sum below leaves 32 bits. */
+    b.x = lanei_add(a.x, bx), b.y = lanei_add(a.y, by), c.x = lanei_add(a.x, cx), c.y = lanei_add(a.y, cy);
+    px0 = lanei_pick(shown, px0, lanei_splat(job->x0)), py0 = lanei_pick(shown, py0, lanei_splat(job->y0));
+    setup_corner second = b, third = c;
+    second.x = lanei_pick(turned, c.x, b.x), second.y = lanei_pick(turned, c.y, b.y), second.d = lane_pick(turned, c.d, b.d);
+    third.x = lanei_pick(turned, b.x, c.x), third.y = lanei_pick(turned, b.y, c.y), third.d = lane_pick(turned, b.d, c.d);
+    area = lanei_pick(turned, lanei_sub(zero, area), lanei_pick(shown, area, lanei_splat(1)));
+    lanei x = lanei_add(lanei_mul(lanei_shift(px0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_x));
+    lanei y = lanei_add(lanei_mul(lanei_shift(py0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_y));
+    x = lanei_pick(shown, x, a.x), y = lanei_pick(shown, y, a.y);
+    setup_edge_lanes(out, 0, k, &a, &second, x, y);
+    setup_edge_lanes(out, 1, k, &second, &third, x, y);
+    setup_edge_lanes(out, 2, k, &third, &a, x, y);
+    setup_depth(out, k, &a, &second, &third, area);
+    lanei_store(out->x0 + k, px0);
+    lanei_store(out->y0 + k, py0);
+    lanei_store(out->x1 + k, px1);
+    lanei_store(out->y1 + k, py1);
+}
+
+static void KERNEL(setup)(lmb_batch *inout, const lmb_setup_job *job)
+{
+    inout->small = inout->other = inout->drawn = inout->dropped = 0;
+    for (int k = 0; k < LMB_BATCH; k += LANES) {
+        if ((inout->in >> k) != 0) {
+            setup_lanes(inout, job, k);
+        }
+    }
+}

@@ -1,0 +1,131 @@
+/* test_draws.c: whole draws of random triangles by every machine that runs here against scalar's: small and large ones,
+ * clipped, edge-on and absurd, into each kind of window. What setup, fill_small and fill_large do together. */
+#include <lambent/lambent.h>
+
+#include <string.h>
+
+#include "../../src/lane/kernels.h"
+#include "seed.h"
+
+void test_draws(void);
+
+enum { ROUNDS = 400, FRAME = 160, TRIANGLES = 75, PIXELS = FRAME * FRAME };
+
+/* A scene of loose triangles under one view, and a window of the frame. */
+typedef struct draws {
+    float positions[9 * TRIANGLES];
+    lmb_mesh mesh;
+    lmb_material material;
+    lmb_instance instance;
+    lmb_scene scene;
+    lmb_view view;
+    int32_t x0, y0, width, height, depth_format, id_format, layout;
+    uint32_t flags;
+} draws;
+
+/* One kind of size a triangle: 0.01 to 6 m about a place that may be behind the eye. */
+static void make_triangle(float *p, test_rng *r)
+{
+    static const float sizes[] = {0.01f, 0.05f, 0.2f, 1.0f, 6.0f};
+    const float size = sizes[test_random(r) % 5u], x = test_uniform(r, -2, 2), y = test_uniform(r, -2, 2), z = test_uniform(r, -3, 4);
+    for (int k = 0; k < 9; k += 3) {
+        p[k] = x + test_uniform(r, -size, size);
+        p[k + 1] = y + test_uniform(r, -size, size);
+        p[k + 2] = z + test_uniform(r, -size, size);
+    }
+    switch (test_random(r) % 16u) {
+    case 0: p[8] = p[5] = p[2]; break;                                       /* flat before the camera */
+    case 1: memcpy(p + 6, p + 3, 3 * sizeof *p); break;                      /* no area */
+    case 2: p[test_random(r) % 9u] = hard_bits[test_random(r) % HARD_COUNT] % 2u ? 1e30f : -1e7f; break;
+    case 3: memset(p + test_random(r) % 9u, 0xff, sizeof *p); break;         /* NaN */
+    default: break;
+    }
+}
+
+static void make_draws(draws *d, test_rng *r)
+{
+    const lmb_vec3 eye = {0, 0, 3}, target = {0.1f, 0.05f, 0}, up = {0, 1, 0};
+    static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    memset(d, 0, sizeof *d);
+    for (int i = 0; i < TRIANGLES; ++i) {
+        make_triangle(d->positions + 9 * i, r);
+    }
+    d->mesh.positions = d->positions;
+    d->mesh.vertex_count = 3 * TRIANGLES;
+    d->mesh.triangle_count = TRIANGLES;
+    d->material.alpha = 1.0f;
+    d->material.texture = -1;
+    d->instance.to_world = unit;
+    d->instance.to_world.m[0] = test_random(r) % 2u ? 1.0f : -1.3f; /* mirrored */
+    d->instance.first_id = 1;
+    d->scene.meshes = &d->mesh;
+    d->scene.materials = &d->material;
+    d->scene.instances = &d->instance;
+    d->scene.mesh_count = d->scene.material_count = d->scene.instance_count = 1;
+    lmb_view_look(&d->view, eye, target, up, 0.9f, FRAME, FRAME);
+    d->view.kind = test_random(r) % 4u ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC;
+    d->view.near_m = 0.05f;
+    d->view.far_m = 20.0f;
+    d->x0 = (int32_t)(test_random(r) % 4u) * 16;
+    d->y0 = (int32_t)(test_random(r) % 4u) * 24;
+    d->width = 8 + (int32_t)(test_random(r) % (uint32_t)(FRAME - d->x0 - 7));
+    d->height = 8 + (int32_t)(test_random(r) % (uint32_t)(FRAME - d->y0 - 7));
+    d->depth_format = test_random(r) % 3u ? LMB_DEPTH32F : LMB_DEPTH16;
+    d->id_format = test_random(r) % 3u == 0 ? LMB_FORMAT_NONE : test_random(r) % 2u ? LMB_ID16 : LMB_ID32;
+    d->layout = test_random(r) % 3u ? LMB_TILED : LMB_LINEAR;
+    d->flags = test_random(r) % 2u ? LMB_CULL_BACK : 0;
+}
+
+/* Linear windows are rows of whole tiles' width. */
+static void make_surface(lmb_surface *s, const draws *d, int32_t format, void *memory, size_t bytes)
+{
+    CHECK(lmb_surface_init(s, format, d->width, d->height, memory, bytes) == LMB_OK);
+    if (d->layout == LMB_LINEAR) {
+        s->layout = LMB_LINEAR;
+        s->stride_bytes = (d->width + 7) / 8 * 8 * lmb_pixel_bytes(format);
+    }
+}
+
+static uint64_t draw_with(const lmb_kernels *machine, const draws *d, lmb_stats *stats)
+{
+    static uint32_t depth[PIXELS], id[PIXELS];
+    lmb_target t = {{0}, {0}, 0, 0};
+    uint64_t hash;
+    memset(depth, 0, sizeof depth);
+    memset(id, 0, sizeof id);
+    memset(stats, 0, sizeof *stats);
+    t.x0 = d->x0;
+    t.y0 = d->y0;
+    make_surface(&t.depth, d, d->depth_format, depth, sizeof depth);
+    if (d->id_format != LMB_FORMAT_NONE) {
+        make_surface(&t.id, d, d->id_format, id, sizeof id);
+    }
+    CHECK(lmb_draw(&t, machine, &d->view, &d->scene, 1, TRIANGLES, d->flags, stats) == LMB_OK);
+    hash = lmb_surface_hash(&t.depth);
+    return d->id_format == LMB_FORMAT_NONE ? hash : hash * 31u + lmb_surface_hash(&t.id);
+}
+
+static int same_stats(const lmb_stats *a, const lmb_stats *b)
+{
+    return a->triangles == b->triangles && a->triangles_drawn == b->triangles_drawn &&
+           a->triangles_dropped == b->triangles_dropped;
+}
+
+void test_draws(void)
+{
+    const seed_range range = seeds(ROUNDS);
+    const lmb_kernels *machine;
+    for (uint32_t k = 0; k < range.count; ++k) {
+        test_rng r = seed_rng(range.first + k);
+        draws d;
+        lmb_stats want, got;
+        make_draws(&d, &r);
+        const uint64_t hash = draw_with(&lmb_kernels_scalar, &d, &want);
+        CHECK(want.triangles == TRIANGLES);
+        for (int32_t i = 0; (machine = lmb_kernels_at(i)) != NULL && machine != &lmb_kernels_scalar; ++i) {
+            CHECK_MSG(draw_with(machine, &d, &got) == hash && same_stats(&want, &got),
+                      "a draw by %s; repeat: LANES_SEED=%u tests lanes", lmb_kernels_name(machine),
+                      (unsigned)(range.first + k));
+        }
+    }
+}
