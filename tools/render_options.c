@@ -42,6 +42,7 @@ const char render_usage[] =
     "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
     "other\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
+    "  --threads N                that draw bands; the picture does not depend on it (default: this machine's processors)\n"
     "  --stats FILE.json          time by stage, counts, bytes\n";
 
 static int parse_float(const char **p, float *out)
@@ -208,6 +209,7 @@ static int parse_scene(const char *text, render_options *o) { return (o->scene_n
 
 static int parse_camera(const char *text, render_options *o) { return (o->camera = text)[0] != '\0'; }
 static int parse_backend(const char *text, render_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
+static int parse_threads(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->threads); }
 static int parse_steps(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->steps); }
 
 static int parse_groups(const char *text, render_options *o)
@@ -298,7 +300,8 @@ static const struct flag {
     {"--steps", parse_steps, "1 .. 64"},
     {"--show", parse_show, "full, direct, indirect, irradiance, depth, normal or albedo"},
     {"--exposure", parse_exposure, "stops (-60 .. 60) or auto"},
-    {"--backend", parse_backend, "scalar"},
+    {"--backend", parse_backend, "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"},
+    {"--threads", parse_threads, "1 .. 64"},
     {"--stats", parse_stats, "a file name"},
 };
 

@@ -28,6 +28,7 @@ typedef struct render_options {
     int32_t exposure_auto;
     float exposure_ev;
     const lmb_kernels *kernels;
+    int32_t threads; /* 0: as many as there are processors */
     int help;
 } render_options;
 

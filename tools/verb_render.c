@@ -9,6 +9,7 @@
 #include <lambent/lambent.h>
 
 #include "../platform/host/host.h"
+#include "../platform/host/pool.h"
 #include "demo_scene.h"
 #include "model.h"
 #include "picture.h"
@@ -27,6 +28,8 @@ typedef struct job {
     lmb_light sun;
     lmb_frame frame;
     lmb_render *render;
+    lmb_band_scratch *scratches; /* one a thread */
+    int threads;
     lmb_stats stats;
     image linear;
     void *map_memory, *point_memory, *depth_memory, *id_memory;
@@ -42,7 +45,7 @@ static void job_free(job *j)
     free(j->depth_memory);
     free(j->id_memory);
     free(j->frame.groups);
-    free(j->frame.scratch);
+    free(j->scratches);
     free(j->render);
     image_free(&j->linear);
     model_free(&j->loaded);
@@ -162,7 +165,7 @@ static int take_frame(job *j, report *r)
     j->depth_memory = take(j, depth, r);
     j->id_memory = take(j, id, r);
     j->linear.pixels = take(j, out, r);
-    f->scratch = take(j, sizeof *f->scratch, r);
+    f->scratch = j->scratches = take(j, sizeof *j->scratches * (size_t)j->threads, r);
     j->render = take(j, sizeof *j->render, r);
     if (r->text[0] != '\0') {
         return 0;
@@ -185,6 +188,8 @@ static int set_frame(job *j, report *r)
     }
     tell_notes(j);
     set_lights(j);
+    j->threads = j->o.threads > 0 ? j->o.threads : pool_processors();
+    j->threads = j->threads > POOL_MAX ? POOL_MAX : j->threads;
     f->kernels = j->o.kernels;
     f->scene = &j->scene;
     f->show = j->o.show < SHOW_DEPTH ? j->o.show : LMB_SHOW_FULL;
@@ -228,6 +233,53 @@ static int explain(const job *j, lmb_status status, int stage, report *r)
     return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
 }
 
+/* The bands of a frame, shared out. */
+typedef struct band_work {
+    job *j;
+    lmb_status failed[POOL_MAX]; /* by worker */
+    double start, shown;
+    int watched;
+} band_work;
+
+/* Bands are taken in order, so the number of one tells how far the frame is. */
+static void draw_band(void *user, int band, int worker)
+{
+    band_work *work = user;
+    const lmb_render *render = work->j->render;
+    const lmb_frame *f = &render->frame;
+    lmb_status status = lmb_render_band(render, &work->j->scratches[worker], &f->eye, &f->out, band);
+    if (status != LMB_OK) {
+        work->failed[worker] = status;
+    }
+    if (worker == 0 && work->watched && host_seconds() - work->shown > 0.1) {
+        lmb_render at = *render;
+        at.place = (uint32_t)band;
+        show_progress(&at, work->start);
+        work->shown = host_seconds();
+    }
+}
+
+static lmb_status draw_bands(job *j, int watched, double *shown)
+{
+    const int bands = (j->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE;
+    band_work work;
+    memset(&work, 0, sizeof work);
+    work.j = j;
+    work.watched = watched;
+    work.start = host_seconds();
+    work.shown = work.start + 0.9; /* a second of silence first */
+    pool_run(j->threads, bands, draw_band, &work);
+    *shown = work.shown > work.start + 0.9 ? work.shown : *shown;
+    j->stats.bands = (uint32_t)bands;
+    j->stage_s[LMB_STAGE_BANDS] = host_seconds() - work.start;
+    for (int i = 0; i < POOL_MAX; ++i) {
+        if (work.failed[i] != LMB_OK) {
+            return work.failed[i];
+        }
+    }
+    return LMB_OK;
+}
+
 static int draw(job *j, report *r)
 {
     double start = host_seconds(), last = start, stage_start = start, shown = 0.0;
@@ -248,7 +300,11 @@ static int draw(job *j, report *r)
                 show_progress(j->render, stage_start);
                 shown = now;
             }
-        } while (status == LMB_MORE);
+        } while (status == LMB_MORE && stage < LMB_STAGE_BANDS);
+        if (status == LMB_MORE) {
+            before = LMB_STAGE_BANDS;
+            status = draw_bands(j, watched, &shown);
+        }
     }
     if (shown > 0.0) {
         fprintf(stderr, "\r%60s\r", "");

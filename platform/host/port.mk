@@ -1,4 +1,4 @@
 # host: the machine that compiles; libc and libm, programs run as they are.
 PORT_SRC    := platform/host/port_host.c
-PORT_LDLIBS := -lm
+PORT_LDLIBS := -lm -lpthread
 RUN         :=

@@ -1,0 +1,84 @@
+/* pool.c: POSIX threads that live as long as one pool_run; elsewhere the caller does it all. */
+#if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
+#define _XOPEN_SOURCE 700 /* sysconf, pthread */
+#endif
+#include "pool.h"
+
+#ifdef _WIN32
+
+int pool_processors(void) { return 1; }
+
+void pool_run(int threads, int count, pool_job job, void *user)
+{
+    (void)threads;
+    for (int i = 0; i < count; ++i) {
+        job(user, i, 0);
+    }
+}
+
+#else
+
+#include <pthread.h>
+#include <unistd.h>
+
+typedef struct pool {
+    pthread_mutex_t lock; /* of `next` */
+    int next, count;
+    pool_job job;
+    void *user;
+} pool;
+
+typedef struct worker {
+    pool *shared;
+    int number;
+    pthread_t thread;
+} worker;
+
+int pool_processors(void)
+{
+#ifdef _SC_NPROCESSORS_ONLN
+    long n = sysconf(_SC_NPROCESSORS_ONLN);
+    return n < 1 ? 1 : n > POOL_MAX ? POOL_MAX : (int)n;
+#else
+    return 1;
+#endif
+}
+
+static int take(pool *p)
+{
+    pthread_mutex_lock(&p->lock);
+    int i = p->next < p->count ? p->next++ : -1;
+    pthread_mutex_unlock(&p->lock);
+    return i;
+}
+
+static void *work(void *argument)
+{
+    worker *w = argument;
+    for (int i; (i = take(w->shared)) >= 0;) {
+        w->shared->job(w->shared->user, i, w->number);
+    }
+    return NULL;
+}
+
+void pool_run(int threads, int count, pool_job job, void *user)
+{
+    pool p = {PTHREAD_MUTEX_INITIALIZER, 0, count, job, user};
+    worker workers[POOL_MAX];
+    int started = 1;
+    threads = threads > count ? count : threads;
+    threads = threads > POOL_MAX ? POOL_MAX : threads;
+    for (int i = 0; i < POOL_MAX; ++i) {
+        workers[i].shared = &p;
+        workers[i].number = i;
+    }
+    while (started < threads && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0) {
+        ++started;
+    }
+    work(&workers[0]);
+    for (int i = 1; i < started; ++i) {
+        pthread_join(workers[i].thread, NULL);
+    }
+}
+
+#endif
