@@ -192,7 +192,7 @@ asan: ## the checks under address and undefined-behaviour sanitizers
 FUZZER    := $(BUILD)/fuzz/fuzz
 FUZZ_LINE := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
 FUZZ_ALL  := $(FUZZ_SRC) $(filter-out tools/lambent.c,$(TOOL_SRC)) $(LIB_SRC)
-TARGETS   ?= png jpeg hdr pfm ppm inflate json gltf obj mtl ply
+TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply
 MINUTES   ?= 1
 fuzz: $(FUZZER) ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
 	@sh tests/build/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)

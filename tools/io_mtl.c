@@ -1,23 +1,59 @@
-/* io_mtl.c: reads OBJ material libraries: diffuse colour, its map, and what is wholly transparent. */
+/* io_mtl.c: reads OBJ material libraries: diffuse colour, its map, emission, and what is wholly transparent. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "io_obj.h"
 
-/* FNV-1a. */
-static uint32_t hash_text(const char *text, size_t size)
+static uint64_t rotated(uint64_t v, int by) { return v << by | v >> (64 - by); }
+
+/* SipHash with one round a word and three at the end (Aumasson and Bernstein, 2012), the key's upper half 0. */
+static void hash_round(uint64_t v[4])
 {
-    uint32_t hash = 2166136261u;
+    v[0] += v[1];
+    v[2] += v[3];
+    v[1] = rotated(v[1], 13) ^ v[0];
+    v[3] = rotated(v[3], 16) ^ v[2];
+    v[0] = rotated(v[0], 32) + v[3];
+    v[2] += v[1];
+    v[3] = rotated(v[3], 21) ^ v[0];
+    v[1] = rotated(v[1], 17) ^ v[2];
+    v[2] = rotated(v[2], 32);
+}
+
+static void hash_word(uint64_t v[4], uint64_t word)
+{
+    v[3] ^= word;
+    hash_round(v);
+    v[0] ^= word;
+}
+
+uint64_t obj_hash(uint64_t key, const void *data, size_t size)
+{
+    uint64_t v[4] = {UINT64_C(0x736F6D6570736575), UINT64_C(0x646F72616E646F6D), UINT64_C(0x6C7967656E657261),
+                     UINT64_C(0x7465646279746573)};
+    const uint8_t *at = (const uint8_t *)data;
+    uint64_t word, last = (uint64_t)size << 56;
     size_t i;
+    v[0] ^= key;
+    v[2] ^= key;
+    for (; size >= 8; size -= 8, at += 8) {
+        memcpy(&word, at, 8);
+        hash_word(v, word);
+    }
     for (i = 0; i < size; ++i)
-        hash = (hash ^ (uint8_t)text[i]) * 16777619u;
-    return hash;
+        last |= (uint64_t)at[i] << 8 * i;
+    hash_word(v, last);
+    v[2] ^= 0xFF;
+    for (i = 0; i < 3; ++i)
+        hash_round(v);
+    return v[0] ^ v[1] ^ v[2] ^ v[3];
 }
 
 uint32_t obj_find(const obj_names *names, slice name, uint32_t *slot)
 {
-    for (*slot = hash_text(name.at, name.size) & names->mask; names->slots[*slot] != 0; *slot = (*slot + 1) & names->mask) {
+    *slot = (uint32_t)obj_hash(names->key, name.at, name.size) & names->mask;
+    for (; names->slots[*slot] != 0; *slot = (*slot + 1) & names->mask) {
         const slice known = names->items[names->slots[*slot] - 1].name;
         if (known.size == name.size && memcmp(known.at, name.at, name.size) == 0)
             return names->slots[*slot] - 1;
@@ -45,7 +81,7 @@ static int read_kd(lmb_material *out, obj_material *m, cursor *c, report *r)
     return 1;
 }
 
-/* Emitted radiance; what a colour may leave out, it may too. */
+/* Emitted radiance. */
 static int read_ke(lmb_vec3 *out, cursor *c, report *r)
 {
     double v[3] = {0, 0, 0};
@@ -58,9 +94,13 @@ static int read_ke(lmb_vec3 *out, cursor *c, report *r)
             return text_fail(c, r, "Ke takes numbers, 0 or more");
         v[i] = v[i] > 0 && v[i] < 1e30 ? v[i] : 0;
     }
+    if (i == 0)
+        return text_fail(c, r, "Ke needs three numbers, 0 or more");
+    for (; i < 3; ++i)
+        v[i] = v[0]; /* one number: white */
     out->x = (float)v[0];
-    out->y = (float)(i == 1 ? v[0] : v[1]);
-    out->z = (float)(i == 1 ? v[0] : v[2]);
+    out->y = (float)v[1];
+    out->z = (float)v[2];
     return 1;
 }
 
@@ -77,14 +117,30 @@ static int option_values(slice option)
                                                                                         : -1;
 }
 
-/* Step over a map's options; only -clamp matters. What is no option is the start of the name. */
-static void skip_options(obj_material *m, cursor *c)
+/* The index-th value of an option. */
+static void take_value(obj_material *m, obj_map *map, slice option, int index, slice value)
+{
+    double number;
+    if (slice_is(option, "-clamp"))
+        map->wrap = slice_is(value, "on") ? LMB_WRAP_CLAMP : LMB_WRAP_REPEAT;
+    if (!slice_number(&number, value))
+        return;
+    if (slice_is(option, "-s") && index < 2)
+        map->scale[index] = number;
+    if (slice_is(option, "-o") && index < 2)
+        map->offset[index] = number;
+    if ((slice_is(option, "-t") && number != 0) || (slice_is(option, "-mm") && number != index))
+        m->left_out |= OBJ_LEFT_OPTION; /* turbulence; base and gain, of which 0 and 1 change nothing */
+}
+
+/* A map's options. What is no option is the start of the name. */
+static void read_options(obj_material *m, obj_map *map, cursor *c)
 {
     slice token, value;
     double number;
     for (;;) {
         cursor before = *c;
-        int n, loose;
+        int n, i;
         if (!text_token(&token, c))
             return;
         n = slice_is(token, "-clamp") ? 1 : option_values(token);
@@ -92,16 +148,15 @@ static void skip_options(obj_material *m, cursor *c)
             *c = before;
             return;
         }
-        for (loose = n == 3; n > 0; --n) {
+        for (i = 0; i < n; ++i) {
             before = *c;
             if (!text_token(&value, c))
                 return;
-            if (loose && !slice_number(&number, value)) {
+            if (n == 3 && !slice_number(&number, value)) {
                 *c = before;
                 break;
             }
-            if (slice_is(token, "-clamp") && slice_is(value, "on"))
-                m->wrap = LMB_WRAP_CLAMP;
+            take_value(m, map, token, i, value);
         }
     }
 }
@@ -120,13 +175,44 @@ static int read_path(char **out, model_build *b, cursor *c)
     return 1;
 }
 
-/* d 0 and Tr 1 make a surface vanish; everything between is drawn opaque. */
-static void read_opacity(lmb_material *out, double visible)
+/* A map with its options; a statement without a name changes nothing. */
+static int read_map(obj_material *m, model_build *b, cursor *c)
 {
+    obj_map map = {NULL, {1, 1}, {0, 0}, LMB_WRAP_REPEAT};
+    read_options(m, &map, c);
+    if (!read_path(&map.path, b, c))
+        return 0;
+    if (map.path[0])
+        m->map = map;
+    return 1;
+}
+
+/* d 0 and Tr 1 make a surface vanish; everything between is drawn opaque. */
+static void read_opacity(lmb_material *out, obj_material *m, double visible)
+{
+    m->left_out &= (uint8_t)~OBJ_LEFT_OPACITY;
+    if (visible > 0 && visible < 1)
+        m->left_out |= OBJ_LEFT_OPACITY;
     if (visible > 0)
         return;
     out->alpha = 0.0f;
     out->flags |= LMB_ALPHA_MASK;
+}
+
+/* What a statement asks for that is not done; 0: nothing, or it is without a value. */
+static uint8_t left_out_by(slice word, cursor c)
+{
+    static const struct {
+        const char *word;
+        uint8_t left_out;
+    } known[] = {{"map_d", OBJ_LEFT_OPACITY_MAP}, {"map_Ke", OBJ_LEFT_EMISSION_MAP}, {"bump", OBJ_LEFT_BUMP},
+                 {"map_bump", OBJ_LEFT_BUMP},     {"map_Bump", OBJ_LEFT_BUMP},       {"norm", OBJ_LEFT_BUMP}};
+    slice token;
+    size_t i;
+    for (i = 0; i < sizeof known / sizeof known[0]; ++i)
+        if (slice_is(word, known[i].word))
+            return text_token(&token, &c) ? known[i].left_out : 0;
+    return 0;
 }
 
 static int read_statement(lmb_material *out, obj_material *m, model_build *b, slice word, cursor *c)
@@ -137,12 +223,11 @@ static int read_statement(lmb_material *out, obj_material *m, model_build *b, sl
         return read_kd(out, m, c, b->r);
     if (slice_is(word, "Ke"))
         return read_ke(&b->out->emission[out - b->materials], c, b->r);
-    if (slice_is(word, "map_Kd")) {
-        skip_options(m, c);
-        return read_path(&m->map, b, c);
-    }
+    if (slice_is(word, "map_Kd"))
+        return read_map(m, b, c);
+    m->left_out |= left_out_by(word, *c);
     if ((slice_is(word, "d") || slice_is(word, "Tr")) && text_token(&token, c) && slice_number(&v, token))
-        read_opacity(out, slice_is(word, "d") ? v : 1 - v);
+        read_opacity(out, m, slice_is(word, "d") ? v : 1 - v);
     return 1;
 }
 
@@ -150,6 +235,7 @@ int mtl_read(model_build *b, obj_names *names, cursor c)
 {
     uint32_t current = UINT32_MAX, slot;
     slice word, name;
+    names->map_key = obj_hash(names->map_key, c.at, (size_t)(c.end - c.at));
     do {
         if (!text_token(&word, &c))
             continue;
@@ -166,58 +252,46 @@ int mtl_read(model_build *b, obj_names *names, cursor c)
     return 1;
 }
 
-int mtl_load(model_build *b, obj_names *names, slice file)
+int mtl_find(file_bytes *out, char path[MODEL_PATH_MAX], model_build *b, slice name, report *why)
 {
-    char name[512], path[MODEL_PATH_MAX];
-    file_bytes bytes = {NULL, 0};
-    report why;
+    char text[512];
     size_t i;
-    int ok;
-    why.text[0] = '\0';
-    snprintf(name, sizeof name, "%.*s", file.size < sizeof name ? (int)file.size : (int)sizeof name - 1, file.at);
-    for (i = 0; name[i]; ++i)
-        if (name[i] == '\\')
-            name[i] = '/';
-    if (!build_is_relative(name))
-        report_fail(&why, "%.100s: not a path from the model's folder", name);
-    if (why.text[0] || !build_sibling(path, sizeof path, b, name, &why) || !build_read(b, &bytes, path, &why)) {
-        build_note(b, "no material library (%.150s); its materials are grey", why.text);
-        return 1;
-    }
-    ok = mtl_read(b, names, text_open(bytes.data, bytes.size, path));
-    return ok;
+    if (name.size >= sizeof text)
+        return report_fail(why, "%.40s ...: a name of %.0f bytes", name.at, (double)name.size);
+    for (i = 0; i < name.size; ++i)
+        text[i] = name.at[i] == '\\' ? '/' : name.at[i];
+    text[i] = '\0';
+    if (!build_is_relative(text))
+        return report_fail(why, "%.100s: not a path from the model's folder", text);
+    return build_sibling(path, MODEL_PATH_MAX, b, text, why) && build_read(b, out, path, why);
 }
 
-/* The map of materials[index]; the slot of an earlier material with the same map, or a new one. 0: see `why`. */
-static int load_map(int32_t *slot, model_build *b, const obj_names *names, uint32_t index, report *why)
+/* A map as a new texture, whose number is *slot. 0: see `why`. */
+static int load_map(int32_t *slot, model_build *b, const obj_map *map, report *why)
 {
-    const obj_material *m = &names->items[index];
     lmb_texture *to = &b->textures[b->texture_count];
     char path[MODEL_PATH_MAX];
     file_bytes bytes = {NULL, 0};
-    int ok;
-    if (!build_is_relative(m->map))
-        return report_fail(why, "%.100s: not a path from the model's folder", m->map);
-    if (!build_sibling(path, sizeof path, b, m->map, why) || !build_read(b, &bytes, path, why))
+    if (!build_is_relative(map->path))
+        return report_fail(why, "%.100s: not a path from the model's folder", map->path);
+    if (!build_sibling(path, sizeof path, b, map->path, why) || !build_read(b, &bytes, path, why) ||
+        !build_texels(b, to, bytes.data, bytes.size, TEXELS_COLOUR, path, why))
         return 0;
-    ok = build_texels(b, to, bytes.data, bytes.size, TEXELS_COLOUR, path, why);
-    if (!ok)
-        return 0;
-    to->wrap_s = to->wrap_t = m->wrap;
+    to->wrap_s = to->wrap_t = map->wrap;
     to->filter = LMB_TRILINEAR;
     *slot = (int32_t)b->texture_count++;
     return 1;
 }
 
-/* The first material that shows the same map in the same way; `index` itself, which then stands in the index of maps,
- * where there is none. */
+/* The first material that shows the same texture; `index` itself, which then stands in the index of maps, where there
+ * is none. How the texture is scaled and moved is in the meshes' coordinates. */
 static uint32_t same_map(const obj_names *names, uint32_t *slots, uint32_t index)
 {
-    const obj_material *m = &names->items[index];
-    uint32_t slot = (hash_text(m->map, strlen(m->map)) ^ m->wrap) & names->mask;
+    const obj_map *map = &names->items[index].map;
+    uint32_t slot = (uint32_t)obj_hash(names->map_key, map->path, strlen(map->path)) & names->mask;
     for (; slots[slot] != 0; slot = (slot + 1) & names->mask) {
-        const obj_material *known = &names->items[slots[slot] - 1];
-        if (known->wrap == m->wrap && strcmp(known->map, m->map) == 0)
+        const obj_map *known = &names->items[slots[slot] - 1].map;
+        if (known->wrap == map->wrap && strcmp(known->path, map->path) == 0)
             return slots[slot] - 1;
     }
     slots[slot] = index + 1;
@@ -233,13 +307,13 @@ int mtl_textures(model_build *b, obj_names *names)
         return 0;
     for (i = 0; i < names->count; ++i) {
         lmb_material *out = &b->materials[i];
-        if (!names->items[i].map)
+        if (!names->items[i].map.path)
             continue;
         first = same_map(names, slots, i);
         why.text[0] = '\0';
         if (first != i) {
             out->texture = b->materials[first].texture;
-        } else if (!load_map(&out->texture, b, names, i, &why)) {
+        } else if (!load_map(&out->texture, b, &names->items[i].map, &why)) {
             if (b->r->text[0])
                 return 0;
             if (missing++ == 0)
@@ -251,4 +325,24 @@ int mtl_textures(model_build *b, obj_names *names)
     if (missing)
         build_note(b, "textures left out, plain colour instead: %u (first: %.120s)", (unsigned)missing, seen.text);
     return 1;
+}
+
+void mtl_tell_left_out(model_build *b, const obj_names *names)
+{
+    static const struct {
+        uint8_t left_out;
+        const char *says;
+    } all[] = {{OBJ_LEFT_OPACITY, "materials partly transparent (d, Tr), drawn opaque"},
+               {OBJ_LEFT_OPACITY_MAP, "materials whose map of opacity (map_d) is left out"},
+               {OBJ_LEFT_EMISSION_MAP, "materials whose map of emission (map_Ke) is left out"},
+               {OBJ_LEFT_BUMP, "materials whose bump or normal map is left out"},
+               {OBJ_LEFT_OPTION, "materials whose map_Kd is drawn without its options -t or -mm"}};
+    size_t k;
+    for (k = 0; k < sizeof all / sizeof all[0]; ++k) {
+        uint32_t i, count = 0;
+        for (i = 0; i < names->count; ++i)
+            count += (names->items[i].left_out & all[k].left_out) != 0;
+        if (count)
+            build_note(b, "%s: %u", all[k].says, (unsigned)count);
+    }
 }

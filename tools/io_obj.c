@@ -335,11 +335,9 @@ static void use_material(obj *o, cursor *c)
     o->names.slots[slot] = o->names.count;
 }
 
-static void use_library(obj *o, cursor *c)
+static void add_library(obj *o, slice name)
 {
-    slice name;
     uint32_t i;
-    text_rest(&name, c);
     for (i = 0; i < o->library_count; ++i)
         if (o->libraries[i].size == name.size && memcmp(o->libraries[i].at, name.at, name.size) == 0)
             return;
@@ -364,13 +362,63 @@ static int read_line(obj *o, cursor *c)
         return read_face(o, c);
     if (slice_is(word, "usemtl"))
         use_material(o, c);
-    if (slice_is(word, "mtllib"))
-        use_library(o, c);
+    if (slice_is(word, "mtllib")) {
+        text_rest(&word, c);
+        add_library(o, word);
+    }
     o->points_lines += slice_is(word, "l") || slice_is(word, "p");
     return 1;
 }
 
 /* --- materials --- */
+
+/* The names in a line that is not one file's name as a whole; 0: there is one at most. */
+static int split_library(obj *o, slice line)
+{
+    cursor c = text_open((const uint8_t *)line.at, line.size, o->b->path);
+    slice name;
+    if (!text_token(&name, &c) || name.size == line.size)
+        return 0;
+    do
+        add_library(o, name);
+    while (text_token(&name, &c));
+    return 1;
+}
+
+/* A file that goes by several names is read once. */
+static int is_read_before(const uint8_t **before, uint32_t *count, const uint8_t *data)
+{
+    uint32_t i;
+    for (i = 0; i < *count; ++i)
+        if (before[i] == data)
+            return 1;
+    before[(*count)++] = data;
+    return 0;
+}
+
+static int load_libraries(obj *o)
+{
+    const uint8_t *before[MAX_LIBRARIES];
+    char path[MODEL_PATH_MAX];
+    uint32_t i, count = 0, missing = 0;
+    file_bytes file;
+    report why, first;
+    first.text[0] = '\0';
+    for (i = 0; i < o->library_count; ++i) {
+        why.text[0] = '\0';
+        if (mtl_find(&file, path, o->b, o->libraries[i], &why)) {
+            if (!is_read_before(before, &count, file.data) &&
+                !mtl_read(o->b, &o->names, text_open(file.data, file.size, path)))
+                return 0;
+        } else if (!split_library(o, o->libraries[i]) && missing++ == 0) {
+            first = why;
+        }
+    }
+    if (missing)
+        build_note(o->b, "material libraries left out, whose materials are grey: %u (first: %.120s)", (unsigned)missing,
+                   first.text);
+    return 1;
+}
 
 /* A middle grey until a library says more; double sided, because OBJ says nothing of sides. */
 static int make_materials(obj *o)
@@ -389,13 +437,13 @@ static int make_materials(obj *o)
         m->texture = -1;
         m->flags = LMB_DOUBLE_SIDED;
     }
-    for (i = 0; i < o->library_count; ++i)
-        if (!mtl_load(b, &o->names, o->libraries[i]))
-            return 0;
+    if (!load_libraries(o))
+        return 0;
     for (i = 1; i < o->names.count; ++i)
         undefined += !o->names.items[i].defined;
     if (undefined)
         build_note(b, "materials that no library describes, drawn grey: %u", (unsigned)undefined);
+    mtl_tell_left_out(b, &o->names);
     return mtl_textures(b, &o->names);
 }
 
@@ -474,8 +522,15 @@ static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
     return 1;
 }
 
+/* Scaled and moved as OBJ has them; downwards, v is 1 less that. */
+static void lay_map(float uv[2], const obj_map *map)
+{
+    uv[0] = sane_uv((double)uv[0] * map->scale[0] + map->offset[0]);
+    uv[1] = sane_uv((double)uv[1] * map->scale[1] + (1 - map->scale[1] - map->offset[1]));
+}
+
 /* Texture coordinates where the material has a texture; corners without them get (0, 0). */
-static int fill_uvs(lmb_mesh *out, const obj *o, const uint32_t *used)
+static int fill_uvs(lmb_mesh *out, const obj *o, const obj_map *map, const uint32_t *used)
 {
     float *uvs = (float *)build_keep(o->b, out->vertex_count, 2 * sizeof *uvs);
     uint32_t i;
@@ -483,8 +538,10 @@ static int fill_uvs(lmb_mesh *out, const obj *o, const uint32_t *used)
         return 0;
     for (i = 0; i < out->vertex_count; ++i) {
         const uint32_t vt = o->corners[used[i]].vt;
-        if (vt != NONE)
-            memcpy(uvs + 2 * (size_t)i, o->vt + 2 * (size_t)vt, 2 * sizeof *uvs);
+        if (vt == NONE)
+            continue;
+        memcpy(uvs + 2 * (size_t)i, o->vt + 2 * (size_t)vt, 2 * sizeof *uvs);
+        lay_map(uvs + 2 * (size_t)i, map);
     }
     out->uvs = uvs;
     out->uv_format = LMB_UV_F32;
@@ -512,7 +569,7 @@ static int fill_mesh(lmb_mesh *out, const obj *o, uint32_t group, const uint32_t
     out->vertex_count = number_corners(local, used, o, list, out->triangle_count);
     if (!fill_indices(out, o, local, list) || !fill_positions(out, o, used))
         return 0;
-    if (o->b->materials[group / 2].texture >= 0 && !fill_uvs(out, o, used))
+    if (o->b->materials[group / 2].texture >= 0 && !fill_uvs(out, o, &o->names.items[group / 2].map, used))
         return 0;
     if (group % 2 && !fill_normals(out, o, used))
         return 0;
@@ -577,6 +634,8 @@ int obj_load(model_build *b, const uint8_t *data, size_t size)
     o.n = count_all(c);
     if (o.n.triangles == 0)
         return report_fail(b->r, "%s: no faces; give a polygon model", b->path);
+    if (o.n.names)
+        o.names.key = o.names.map_key = obj_hash(0, data, size);
     if (!allocate(&o))
         return 0;
     do {

@@ -4,6 +4,7 @@
 
 #include <lambent/lambent.h>
 
+#include "../platform/host/host.h"
 #include "verb_compare.h"
 #include "verb_info.h"
 #include "verb_render.h"
@@ -20,6 +21,7 @@ static const char usage[] =
 
 int main(int argc, char **argv)
 {
+    host_outlive_file_limit();
     if (lmb_build_check() != LMB_OK) {
         fputs("lambent: this build does not compute like others (contraction, fast math or flushed denormals): pixels "
               "would differ; build with the Makefile's flags\n", stderr);

@@ -109,7 +109,7 @@ static int refuse(const uint8_t *data, size_t size, const char *name, report *r)
 {
     const foreign_kind *f = foreign_kind_of(data, size);
     if (f)
-        return report_fail(r, "%s: a %s picture, which is not read; convert it, for example: %s", name, f->format,
+        return report_fail(r, "%s: this picture is %s, which is not read; convert it, for example: %s", name, f->format,
                            f->advice);
     return report_fail(r, "%s: not a PNG, JPEG, PPM, PGM, PFM or Radiance HDR picture, by its first bytes", name);
 }
@@ -215,7 +215,7 @@ int picture_read_codes(bitmap *out, const uint8_t *data, size_t size, const char
     if (!kind)
         return refuse(data, size, name, r);
     if (!kind->read_codes)
-        return report_fail(r, "%s: a %s picture holds linear light, not codes of 8 bits; save it as PNG or JPEG", name,
+        return report_fail(r, "%s: this picture is %s, linear light instead of codes of 8 bits; save it as PNG or JPEG", name,
                            kind->format);
     return kind->read_codes(out, data, size, name, r);
 }

@@ -1,9 +1,10 @@
-/* host.c: the clock and the terminal of a desktop: POSIX, Windows, or plain C. */
+/* host.c: the clock, the terminal and the file limit of a desktop: POSIX, Windows, or plain C. */
 #if !defined(_WIN32)
-#define _POSIX_C_SOURCE 200112L
+#define _XOPEN_SOURCE 600 /* clock_gettime, isatty, SIGXFSZ */
 #endif
 #include "host.h"
 
+#include <signal.h>
 #include <stdio.h>
 #include <time.h>
 
@@ -20,4 +21,10 @@ double host_seconds(void)
                                                    : (double)clock() / CLOCKS_PER_SEC;
 }
 int host_watched(void) { return isatty(STDERR_FILENO); }
+#endif
+
+#if defined(SIGXFSZ)
+void host_outlive_file_limit(void) { signal(SIGXFSZ, SIG_IGN); }
+#else
+void host_outlive_file_limit(void) {}
 #endif

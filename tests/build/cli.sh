@@ -108,6 +108,29 @@ status 1 compare "$dir/demo.pfm" "$dir/nowhere.pfm"
 status 1 info "$dir/nowhere.glb"
 status 1 info "$dir/broken.glb" --json
 status 1 info "$dir/nowhere.png"
+
+# A limit on the size of files: a failed write like any other. Some shells count in 512 bytes, some in 1024.
+if (ulimit -f 8) 2>/dev/null; then
+    echo before >"$dir/kept.pfm"
+    (
+        ulimit -f 8
+        "$TOOL" render demo $small -o "$dir/kept.pfm" >"$dir/out.txt" 2>"$dir/err.txt"
+        echo $? >"$dir/status.txt"
+    )
+    check "a file beyond the limit: exit status 1" test "$(cat "$dir/status.txt")" = 1
+    check "a file beyond the limit: one line on stderr" test "$(wc -l <"$dir/err.txt")" -eq 1
+    check "a file beyond the limit is named" grep -q 'kept.pfm: cannot be written: ' "$dir/err.txt"
+    check "a file beyond the limit: what stood there stays" test "$(cat "$dir/kept.pfm")" = before
+else
+    skip "a limit on the size of files: this shell sets none"
+fi
 left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
+# The picture does not depend on how many threads draw it, nor on the machine's kernels.
+for option in "--threads 1" "--threads 3" "--backend scalar"; do
+    check "render demo $option" "$TOOL" render demo --size 64x48 --light-map 128 --exposure 0 $option -o "$dir/way.ppm"
+    cp "$dir/way.ppm" "$dir/way$((ways = ways + 1)).ppm"
+done
+check "threads change the picture" cmp "$dir/way1.ppm" "$dir/way2.ppm"
+check "a backend changes the picture" cmp "$dir/way1.ppm" "$dir/way3.ppm"
 finish

@@ -18,6 +18,7 @@ count() {
 samples() {
     case $1 in
     png) ls "$shared"/data/textures/*.png "$shared"/data/meshes/*.png ;;
+    picture) ls "$shared"/data/textures/* "$shared"/data/env/* ;;
     hdr | pfm) ls "$shared"/data/env/*."$1" ;;
     gltf) ls "$shared"/data/gltf/*.glb "$shared"/data/scenes/*.glb "$shared"/truth/*/*.gltf ;;
     obj | mtl) ls "$shared"/data/scenes/*."$1" ;;

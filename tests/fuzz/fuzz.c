@@ -5,9 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const fuzz_names[] = {"png", "jpeg", "hdr", "pfm", "ppm", "inflate", "json", "gltf", "obj", "mtl", "ply", NULL};
+const char *const fuzz_names[] = {"png",  "jpeg", "hdr", "pfm", "ppm", "picture", "inflate",
+                                  "json", "gltf", "obj", "mtl", "ply", NULL};
 
-static const fuzz_target targets[] = {fuzz_png,  fuzz_jpeg, fuzz_hdr, fuzz_pfm, fuzz_ppm, fuzz_inflate,
+static const fuzz_target targets[] = {fuzz_png,  fuzz_jpeg, fuzz_hdr, fuzz_pfm, fuzz_ppm, fuzz_picture, fuzz_inflate,
                                       fuzz_json, fuzz_gltf, fuzz_obj, fuzz_mtl, fuzz_ply};
 
 fuzz_target fuzz_find(const char *name)

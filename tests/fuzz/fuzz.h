@@ -1,4 +1,6 @@
-/* fuzz.h: the fuzz targets: one a parser, each on bytes that may be anything. The same functions replay a file. */
+/* fuzz.h: the fuzz targets: one a parser, each on bytes that may be anything. The same functions replay a file.
+ *
+ * Models lie in tests/fuzz/neighbours, whose files they may name, as seen from the repository's root: run there. */
 #ifndef FUZZ_H
 #define FUZZ_H
 
@@ -27,6 +29,7 @@ void fuzz_jpeg(const uint8_t *data, size_t size);
 void fuzz_hdr(const uint8_t *data, size_t size);
 void fuzz_pfm(const uint8_t *data, size_t size);
 void fuzz_ppm(const uint8_t *data, size_t size);
+void fuzz_picture(const uint8_t *data, size_t size);
 void fuzz_inflate(const uint8_t *data, size_t size);
 void fuzz_json(const uint8_t *data, size_t size);
 void fuzz_gltf(const uint8_t *data, size_t size);
@@ -34,7 +37,8 @@ void fuzz_obj(const uint8_t *data, size_t size);
 void fuzz_mtl(const uint8_t *data, size_t size);
 void fuzz_ply(const uint8_t *data, size_t size);
 
-/* fuzz_png_repair: put right checksums over whatever a mutation left of a PNG's chunks. */
-void fuzz_png_repair(uint8_t *data, size_t size);
+/* fuzz_repair: for a target that reads PNG, put right checksums over whatever a mutation left of one's chunks, unless
+ * the seed is a multiple of eight; without them nothing behind them would be reached. Other bytes stay. */
+void fuzz_repair(fuzz_target target, uint8_t *data, size_t size, uint64_t seed);
 
 #endif

@@ -6,14 +6,13 @@
 #include "../../tools/io_obj.h"
 #include "fuzz.h"
 
-#define FOLDER "no such folder/" /* so that no file beside the model is found */
+#define FOLDER "tests/fuzz/neighbours/" /* a.bin, a.mtl and a.png, for a model to name */
 
 enum { SIDE = 32, DRAWN = 2000 };
 
 /* A scene that was checked can be drawn and resolved, whatever its vertices are. */
 static void draw_scene(const lmb_scene *scene)
 {
-    static lmb_raster_scratch scratch;
     static uint32_t depth[SIDE * SIDE], id[SIDE * SIDE];
     const lmb_kernels *kernels = lmb_kernels_pick();
     lmb_vec3 lo = scene->bounds_min, hi = scene->bounds_max, up = {0, 1, 0};
@@ -30,7 +29,7 @@ static void draw_scene(const lmb_scene *scene)
     memset(id, 0, sizeof id);
     fuzz_require(lmb_surface_init(&target.depth, LMB_DEPTH32F, SIDE, SIDE, depth, sizeof depth) == LMB_OK);
     fuzz_require(lmb_surface_init(&target.id, LMB_ID32, SIDE, SIDE, id, sizeof id) == LMB_OK);
-    if (lmb_draw(&target, kernels, &scratch, &view, scene, 1, DRAWN, LMB_CULL_BACK, NULL) != LMB_OK) {
+    if (lmb_draw(&target, kernels, &view, scene, 1, DRAWN, LMB_CULL_BACK, NULL) != LMB_OK) {
         return;
     }
     for (int32_t i = 0; i < SIDE * SIDE / LMB_TILE_PIXELS; ++i) {
@@ -91,12 +90,25 @@ void fuzz_json(const uint8_t *data, size_t size)
     json_free(&doc);
 }
 
+/* What model_read does at its end. */
+static void free_build(model_build *b)
+{
+    for (uint32_t i = 0; i < b->neighbour_count; ++i) {
+        free(b->neighbours[i].path);
+        file_free(&b->neighbours[i].file);
+    }
+    free(b->neighbours);
+    model_free(&b->scratch);
+    model_free(b->out);
+}
+
 /* A library read for two materials that an OBJ file named. */
 void fuzz_mtl(const uint8_t *data, size_t size)
 {
-    obj_material named[3] = {{{"", 0}, NULL, 0, 0, 0}, {{"a", 1}, NULL, 0, 0, 0}, {{"red paint", 9}, NULL, 0, 0, 0}};
+    static const slice words[3] = {{"", 0}, {"a", 1}, {"red paint", 9}};
+    obj_material named[3];
     uint32_t slots[8] = {0}, slot;
-    obj_names names = {named, slots, 3, 7};
+    obj_names names = {named, slots, 3, 7, 1, 2};
     lmb_material materials[3];
     lmb_texture textures[3];
     lmb_vec3 emission[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
@@ -109,8 +121,10 @@ void fuzz_mtl(const uint8_t *data, size_t size)
     memset(materials, 0, sizeof materials);
     memset(textures, 0, sizeof textures);
     notes.count = 0;
+    memset(named, 0, sizeof named);
     for (uint32_t i = 0; i < 3; ++i) {
-        obj_find(&names, named[i].name, &slot);
+        named[i].name = words[i];
+        obj_find(&names, words[i], &slot);
         slots[slot] = i + 1;
     }
     out.emission = emission;
@@ -122,7 +136,8 @@ void fuzz_mtl(const uint8_t *data, size_t size)
     b.materials = materials;
     b.textures = textures;
     if (mtl_read(&b, &names, text_open(data, size, "input"))) {
-        fuzz_require(mtl_textures(&b, &names));
+        fuzz_require(mtl_textures(&b, &names) && r.text[0] == '\0');
+        mtl_tell_left_out(&b, &names);
     } else {
         fuzz_failed(&r, "input:");
     }
@@ -132,6 +147,5 @@ void fuzz_mtl(const uint8_t *data, size_t size)
         }
         fuzz_require(emission[i].x >= 0.0f && emission[i].y >= 0.0f && emission[i].z >= 0.0f);
     }
-    model_free(&b.scratch);
-    model_free(&out);
+    free_build(&b);
 }

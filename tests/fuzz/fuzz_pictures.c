@@ -6,6 +6,7 @@
 #include "../../tools/io_jpeg.h"
 #include "../../tools/io_png.h"
 #include "../../tools/io_ppm_read.h"
+#include "../../tools/picture_read.h"
 #include "fuzz.h"
 
 #define NAME "input"
@@ -90,9 +91,13 @@ void fuzz_png(const uint8_t *data, size_t size)
     }
 }
 
-void fuzz_png_repair(uint8_t *data, size_t size)
+void fuzz_repair(fuzz_target target, uint8_t *data, size_t size, uint64_t seed)
 {
     size_t at = PNG_SIGNATURE_BYTES;
+    if ((target != fuzz_png && target != fuzz_picture) || seed % 8 == 0 || size < at ||
+        memcmp(data, PNG_SIGNATURE, at) != 0) {
+        return;
+    }
     while (at < size && size - at >= PNG_CHUNK_FRAME) {
         uint32_t body = get_u32_be(data + at);
         if (body > size - at - PNG_CHUNK_FRAME) {
@@ -110,6 +115,39 @@ void fuzz_ppm(const uint8_t *data, size_t size) { try_bitmap(ppm_decode, data, s
 void fuzz_hdr(const uint8_t *data, size_t size) { try_image(hdr_decode, data, size); }
 
 void fuzz_pfm(const uint8_t *data, size_t size) { try_image(pfm_decode, data, size); }
+
+/* Of codes or of light, never both; its header's pixels are as many as it has, or more. */
+static void check_picture(const stored_picture *p, const uint8_t *data, size_t size)
+{
+    size_t pixels = (size_t)p->width * (size_t)p->height;
+    fuzz_require(p->format != NULL && p->width > 0 && p->height > 0 && p->channels >= 1 && p->channels <= 4);
+    fuzz_require((p->codes.texels == NULL) != (p->light.pixels == NULL));
+    if (p->codes.texels != NULL) {
+        fuzz_require(p->codes.width == p->width && p->codes.height == p->height);
+        fuzz_require(picture_pixels(data, size) >= pixels);
+        volatile uint8_t last = p->codes.texels[4 * pixels - 1];
+        (void)last;
+    } else {
+        fuzz_require(p->light.width == p->width && p->light.height == p->height && p->light.channels == p->channels);
+        volatile float last = p->light.pixels[pixels * (size_t)p->channels - 1];
+        (void)last;
+    }
+}
+
+/* Any kind, known by its first bytes, or named where it is not read. */
+void fuzz_picture(const uint8_t *data, size_t size)
+{
+    report r = {{0}};
+    stored_picture picture;
+    if (picture_read(&picture, data, size, NAME, &r)) {
+        fuzz_require(r.text[0] == '\0' && picture_begins(data, size));
+        check_picture(&picture, data, size);
+        stored_picture_free(&picture);
+    } else {
+        fuzz_require(picture.codes.texels == NULL && picture.light.pixels == NULL);
+        fuzz_failed(&r, NAME ":");
+    }
+}
 
 /* As a stream of a length that the first byte picks; and packed, whatever it is comes back. */
 void fuzz_inflate(const uint8_t *data, size_t size)

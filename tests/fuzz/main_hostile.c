@@ -98,7 +98,7 @@ static void run_prefix(kind *k, const file_bytes *file, const char *path, size_t
     run_case(k, file->data, size);
 }
 
-/* The damaged file in *out, to be freed. Seven of eight PNGs get right checksums, or none would be decoded. */
+/* The damaged file in *out, to be freed. */
 static size_t damage(uint8_t **out, const kind *k, const file_bytes *file, uint64_t seed)
 {
     size_t cap = mutate_cap(file->size), size;
@@ -106,9 +106,7 @@ static size_t damage(uint8_t **out, const kind *k, const file_bytes *file, uint6
     fuzz_require(*out != NULL);
     memcpy(*out, file->data, file->size);
     size = mutate(*out, file->size, cap, seed);
-    if (k->target == fuzz_png && seed % 8 != 0) {
-        fuzz_png_repair(*out, size);
-    }
+    fuzz_repair(k->target, *out, size, seed);
     return size;
 }
 
