@@ -157,12 +157,6 @@ static int add_instances(const gltf_tree *t, gltf *g)
     return 1;
 }
 
-static void note_count(gltf *g, const char *what, uint32_t count)
-{
-    if (count)
-        build_note(g->b, "%s: %u", what, (unsigned)count);
-}
-
 /* What a reader of the picture should know. */
 static void tell_left_out(gltf *g)
 {
@@ -170,23 +164,23 @@ static void tell_left_out(gltf *g)
     if (n->textures)
         build_note(g->b, "textures left out, plain colour instead: %u (first: %.120s)", (unsigned)n->textures,
                    g->texture_error.text);
-    note_count(g, "primitives of points or lines skipped", n->points_lines);
-    note_count(g, "primitives without POSITION skipped", n->without_positions);
-    note_count(g, "primitives with vertices left over, which are dropped", n->ragged);
-    note_count(g, "primitives without a material, drawn white", n->bare);
-    note_count(g, "normals without length, set to +Y", n->zero_normals);
-    note_count(g, "BLEND materials drawn as MASK with cutoff 0.5", n->blends);
-    note_count(g, "metallic materials, nearly black without a glossy lobe", n->metals);
-    note_count(g, "metallic maps used by their mean, 0 where one cannot be read", n->metal_maps);
-    note_count(g, "unlit materials treated as Lambertian", n->unlit);
-    note_count(g, "emissive maps used by their mean", n->emissive_maps);
-    note_count(g, "normal maps left out: their texture coordinates are not the base colour's", n->odd_normal_maps);
-    note_count(g, "textured primitives without the texture coordinates, of one texel's colour", n->without_uvs);
-    note_count(g, "occlusion maps ignored: light is worked out here", n->occlusion_maps);
-    note_count(g, "light ranges ignored", n->ranges);
-    note_count(g, "skinned nodes posed by their joints as the file places them", n->skins);
-    note_count(g, "primitives with morph targets, which are ignored", n->morphs);
-    note_count(g, "animations ignored", json_count(&g->doc, json_member(&g->doc, 0, "animations")));
+    build_note_count(g->b, "primitives of points or lines skipped", n->points_lines);
+    build_note_count(g->b, "primitives without POSITION skipped", n->without_positions);
+    build_note_count(g->b, "primitives with vertices left over, which are dropped", n->ragged);
+    build_note_count(g->b, "primitives without a material, drawn white", n->bare);
+    build_note_count(g->b, "normals without length, set to +Y", n->zero_normals);
+    build_note_count(g->b, "BLEND materials drawn as MASK with cutoff 0.5", n->blends);
+    build_note_count(g->b, "metallic materials, nearly black without a glossy lobe", n->metals);
+    build_note_count(g->b, "metallic maps used by their mean, 0 where one cannot be read", n->metal_maps);
+    build_note_count(g->b, "unlit materials treated as Lambertian", n->unlit);
+    build_note_count(g->b, "emissive maps used by their mean", n->emissive_maps);
+    build_note_count(g->b, "normal maps left out: their texture coordinates are not the base colour's", n->odd_normal_maps);
+    build_note_count(g->b, "textured primitives without the texture coordinates, of one texel's colour", n->without_uvs);
+    build_note_count(g->b, "occlusion maps ignored: light is worked out here", n->occlusion_maps);
+    build_note_count(g->b, "light ranges ignored", n->ranges);
+    build_note_count(g->b, "skinned nodes posed by their joints as the file places them", n->skins);
+    build_note_count(g->b, "primitives with morph targets, which are ignored", n->morphs);
+    build_note_count(g->b, "animations ignored", json_count(&g->doc, json_member(&g->doc, 0, "animations")));
 }
 
 /* Meshes that the scene may need: one a primitive, and as many again for each skinned node's own. */

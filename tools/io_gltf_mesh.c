@@ -50,81 +50,58 @@ static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
     return 1;
 }
 
-/* Normalised in double; what has no direction becomes +Y and is counted. */
-static lmb_vec3 unit_normal(const float *v, uint32_t *zeros)
+/* Vectors of three floats or more, made unit length, as octahedral codes; NULL with the report set. */
+static int16_t *encode_vectors(gltf *g, const gltf_accessor *a, uint32_t *zeros)
 {
-    double x = (double)v[0], y = (double)v[1], z = (double)v[2], d = sqrt(x * x + y * y + z * z);
-    lmb_vec3 n = {0.0f, 1.0f, 0.0f};
-    if (!(d > 1e-20 && d < 1e30)) {
-        ++*zeros;
-        return n;
+    const float *values = gltf_floats(g, a);
+    int16_t *codes = (int16_t *)build_keep(g->b, (uint64_t)a->count * 2, sizeof *codes);
+    uint32_t i;
+    for (i = 0; values && codes && i < a->count; ++i) {
+        const float *v = values + (size_t)i * a->components;
+        const double wide[3] = {(double)v[0], (double)v[1], (double)v[2]};
+        lmb_octahedral_encode(codes + 2 * (size_t)i, build_normal(wide, zeros));
     }
-    n.x = (float)(x / d);
-    n.y = (float)(y / d);
-    n.z = (float)(z / d);
-    return n;
+    return values ? codes : NULL;
 }
 
 static int read_normals(lmb_mesh *out, gltf *g, uint32_t reference)
 {
     gltf_accessor a;
-    uint32_t index, i;
-    float *values;
-    int16_t *codes;
+    uint32_t index;
     if (!gltf_attribute(&a, &index, g, reference, 3, 3, out->vertex_count))
         return 0;
     if (index == JSON_NONE)
         return 1;
-    if (!g->normals[index]) {
-        values = gltf_floats(g, &a);
-        codes = (int16_t *)build_keep(g->b, (uint64_t)a.count * 2, sizeof *codes);
-        if (!values || !codes)
-            return 0;
-        for (i = 0; i < a.count; ++i)
-            lmb_octahedral_encode(codes + 2 * (size_t)i,
-                                  unit_normal(values + 3 * (size_t)i, &g->left_out.zero_normals));
-        g->normals[index] = codes;
-    }
+    if (!g->normals[index])
+        g->normals[index] = encode_vectors(g, &a, &g->left_out.zero_normals);
     out->normals = g->normals[index];
-    return 1;
+    return out->normals != NULL;
 }
 
 /* Only where a normal map asks for them, and the texture coordinates stay as they are. */
 static int read_tangents(lmb_mesh *out, gltf *g, uint32_t reference, uint32_t material)
 {
     gltf_accessor a;
-    uint32_t index, i, zeros = 0;
-    float *values;
-    int16_t *codes;
+    uint32_t index, zeros = 0;
     if (g->b->materials[material].normal_scale == 0.0f || g->material_uv[material].moved)
         return 1;
     if (!gltf_attribute(&a, &index, g, reference, 4, 4, out->vertex_count))
         return 0;
     if (index == JSON_NONE)
         return 1;
-    if (!g->tangents[index]) {
-        values = gltf_floats(g, &a);
-        codes = (int16_t *)build_keep(g->b, (uint64_t)a.count * 2, sizeof *codes);
-        if (!values || !codes)
-            return 0;
-        for (i = 0; i < a.count; ++i)
-            lmb_octahedral_encode(codes + 2 * (size_t)i, unit_normal(values + 4 * (size_t)i, &zeros));
-        g->tangents[index] = codes;
-    }
+    if (!g->tangents[index])
+        g->tangents[index] = encode_vectors(g, &a, &zeros);
     out->tangents = g->tangents[index];
-    return 1;
+    return out->tangents != NULL;
 }
-
-/* 0 for what is not a number of use as a texture coordinate. */
-static float sane_uv(double v) { return v > -1e6 && v < 1e6 ? (float)v : 0.0f; }
 
 static void move_uvs(float *uv, uint32_t count, const gltf_uv *how)
 {
     uint32_t i;
     for (i = 0; i < count; ++i, uv += 2) {
         const double u = (double)uv[0], v = (double)uv[1], *m = how->m;
-        uv[0] = how->moved ? sane_uv(m[0] * u + m[1] * v + m[2]) : sane_uv(u);
-        uv[1] = how->moved ? sane_uv(m[3] * u + m[4] * v + m[5]) : sane_uv(v);
+        uv[0] = how->moved ? build_uv(m[0] * u + m[1] * v + m[2]) : build_uv(u);
+        uv[1] = how->moved ? build_uv(m[3] * u + m[4] * v + m[5]) : build_uv(v);
     }
 }
 

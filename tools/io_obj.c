@@ -163,9 +163,6 @@ static int read_numbers(double *out, int *count, int least, int most, cursor *c,
     return *count >= least || text_fail(c, r, "%d numbers where %d are needed; repair the line", *count, least);
 }
 
-/* A double beyond binary32's range becomes an infinity, which the library drops; the cast alone would not say so. */
-static float to_float(double v) { return v > 3.4e38 ? (float)INFINITY : v < -3.4e38 ? -(float)INFINITY : (float)v; }
-
 /* x y z, then perhaps a weight (ignored), or r g b taken as linear. */
 static int read_v(obj *o, cursor *c)
 {
@@ -175,7 +172,7 @@ static int read_v(obj *o, cursor *c)
     if (!read_numbers(v, &n, 3, 7, c, o->b->r))
         return 0;
     for (i = 0; i < 3; ++i)
-        o->v[3 * (size_t)o->v_count + (size_t)i] = to_float(v[i]);
+        o->v[3 * (size_t)o->v_count + (size_t)i] = build_float(v[i]);
     for (i = 0; colour && i < 4; ++i) {
         const double value = i < 3 && n >= 6 ? v[3 + i] : 1;
         colour[i] = value > 0 ? value < 1 ? (uint8_t)(value * 255 + 0.5) : 255 : 0;
@@ -184,8 +181,6 @@ static int read_v(obj *o, cursor *c)
     return 1;
 }
 
-static float sane_uv(double v) { return v > -1e6 && v < 1e6 ? (float)v : 0.0f; }
-
 /* OBJ counts v upwards from the image's foot, lambent downwards from its top. */
 static int read_vt(obj *o, cursor *c)
 {
@@ -193,26 +188,24 @@ static int read_vt(obj *o, cursor *c)
     int n;
     if (!read_numbers(v, &n, 1, 3, c, o->b->r))
         return 0;
-    o->vt[2 * (size_t)o->vt_count] = sane_uv(v[0]);
-    o->vt[2 * (size_t)o->vt_count + 1] = sane_uv(1 - v[1]);
+    o->vt[2 * (size_t)o->vt_count] = build_uv(v[0]);
+    o->vt[2 * (size_t)o->vt_count + 1] = build_uv(1 - v[1]);
     ++o->vt_count;
     return 1;
 }
 
 static int read_vn(obj *o, cursor *c)
 {
-    double v[3], d;
-    int n, i;
+    double v[3];
+    lmb_vec3 unit;
+    float *to = o->vn + 3 * (size_t)o->vn_count;
+    int n;
     if (!read_numbers(v, &n, 3, 3, c, o->b->r))
         return 0;
-    d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(d > 1e-20 && d < 1e30)) {
-        v[0] = v[2] = 0;
-        v[1] = d = 1;
-        ++o->zero_normals;
-    }
-    for (i = 0; i < 3; ++i)
-        o->vn[3 * (size_t)o->vn_count + (size_t)i] = (float)(v[i] / d);
+    unit = build_normal(v, &o->zero_normals);
+    to[0] = unit.x;
+    to[1] = unit.y;
+    to[2] = unit.z;
     ++o->vn_count;
     return 1;
 }
@@ -525,8 +518,8 @@ static int fill_positions(lmb_mesh *out, const obj *o, const uint32_t *used)
 /* Scaled and moved as OBJ has them; downwards, v is 1 less that. */
 static void lay_map(float uv[2], const obj_map *map)
 {
-    uv[0] = sane_uv((double)uv[0] * map->scale[0] + map->offset[0]);
-    uv[1] = sane_uv((double)uv[1] * map->scale[1] + (1 - map->scale[1] - map->offset[1]));
+    uv[0] = build_uv((double)uv[0] * map->scale[0] + map->offset[0]);
+    uv[1] = build_uv((double)uv[1] * map->scale[1] + (1 - map->scale[1] - map->offset[1]));
 }
 
 /* Texture coordinates where the material has a texture; corners without them get (0, 0). */
@@ -609,19 +602,13 @@ static int make_meshes(obj *o)
     return 1;
 }
 
-static void note_count(const obj *o, const char *what, uint32_t count)
-{
-    if (count)
-        build_note(o->b, "%s: %u", what, (unsigned)count);
-}
-
 static void tell_left_out(const obj *o)
 {
-    note_count(o, "elements of points or lines skipped", o->points_lines);
-    note_count(o, "faces with fewer than 3 corners skipped", o->degenerate);
-    note_count(o, "concave faces too large or too tangled to cut well, which may overlap themselves", o->overlapping);
-    note_count(o, "normals without length, set to +Y", o->zero_normals);
-    note_count(o, "material libraries left out after the first 64", o->library_extra);
+    build_note_count(o->b, "elements of points or lines skipped", o->points_lines);
+    build_note_count(o->b, "faces with fewer than 3 corners skipped", o->degenerate);
+    build_note_count(o->b, "concave faces too large or too tangled to cut well, which may overlap themselves", o->overlapping);
+    build_note_count(o->b, "normals without length, set to +Y", o->zero_normals);
+    build_note_count(o->b, "material libraries left out after the first 64", o->library_extra);
 }
 
 int obj_load(model_build *b, const uint8_t *data, size_t size)

@@ -497,11 +497,6 @@ static int allocate_vertices(ply *p)
     return s->positions && !s->normals == !normals && !s->colours == !colours && !s->uvs == !uvs;
 }
 
-/* A double beyond binary32's range becomes an infinity, which the library drops; the cast alone would not say so. */
-static float to_float(double v) { return v > 3.4e38 ? (float)INFINITY : v < -3.4e38 ? -(float)INFINITY : (float)v; }
-
-static float sane_uv(double v) { return v > -1e6 && v < 1e6 ? (float)v : 0.0f; }
-
 /* Floats run from 0 to 1, whole numbers from 0 to their type's largest. */
 static uint8_t colour_byte(double v, const property *prop)
 {
@@ -510,36 +505,22 @@ static uint8_t colour_byte(double v, const property *prop)
     return v > 0 ? v < 1 ? (uint8_t)(v * 255 + 0.5) : 255 : 0;
 }
 
-static void encode_normal(int16_t out[2], const double v[3], ply *p)
-{
-    const double d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    lmb_vec3 unit = {0, 1, 0};
-    if (d > 1e-20 && d < 1e30) {
-        unit.x = (float)(v[0] / d);
-        unit.y = (float)(v[1] / d);
-        unit.z = (float)(v[2] / d);
-    } else {
-        ++p->zero_normals;
-    }
-    lmb_octahedral_encode(out, unit);
-}
-
 /* PLY's second texture coordinate counts upwards from the image's foot, lambent's downwards from its top. */
 static void store_vertex(ply *p, size_t i, const double *values)
 {
     const streams *s = &p->s;
     int k;
     for (k = 0; k < 3; ++k)
-        s->positions[3 * i + (size_t)k] = to_float(values[X + k]);
+        s->positions[3 * i + (size_t)k] = build_float(values[X + k]);
     if (s->normals)
-        encode_normal(s->normals + 2 * i, values + NX, p);
+        lmb_octahedral_encode(s->normals + 2 * i, build_normal(values + NX, &p->zero_normals));
     for (k = 0; s->colours && k < 4; ++k) {
         const property *prop = p->vertex->roles[RED + k];
         s->colours[4 * i + (size_t)k] = prop ? colour_byte(values[RED + k], prop) : 255;
     }
     if (s->uvs) {
-        s->uvs[2 * i] = sane_uv(values[U]);
-        s->uvs[2 * i + 1] = sane_uv(1 - values[V]);
+        s->uvs[2 * i] = build_uv(values[U]);
+        s->uvs[2 * i + 1] = build_uv(1 - values[V]);
     }
 }
 
@@ -691,22 +672,16 @@ static int make_scene(ply *p)
     return fill_mesh(b->meshes, p);
 }
 
-static void note_count(const ply *p, const char *what, uint32_t count)
-{
-    if (count)
-        build_note(p->b, "%s: %u", what, (unsigned)count);
-}
-
 static void tell_left_out(const ply *p)
 {
     uint32_t i, others = 0;
     for (i = 0; i < p->element_count; ++i)
         others += p->elements[i].kind == OTHER && p->elements[i].count > 0;
-    note_count(p, "kinds of elements other than vertex and face skipped", others);
-    note_count(p, "faces with fewer than 3 corners skipped", p->degenerate);
-    note_count(p, "concave faces too large or too tangled to cut well, which may overlap themselves", p->overlapping);
-    note_count(p, "vertices that no face uses left out", p->unused);
-    note_count(p, "normals without length, set to +Y", p->zero_normals);
+    build_note_count(p->b, "kinds of elements other than vertex and face skipped", others);
+    build_note_count(p->b, "faces with fewer than 3 corners skipped", p->degenerate);
+    build_note_count(p->b, "concave faces too large or too tangled to cut well, which may overlap themselves", p->overlapping);
+    build_note_count(p->b, "vertices that no face uses left out", p->unused);
+    build_note_count(p->b, "normals without length, set to +Y", p->zero_normals);
 }
 
 int ply_begins(const uint8_t *data, size_t size)

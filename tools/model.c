@@ -99,6 +99,30 @@ void build_note(model_build *b, const char *format, ...)
     memcpy(n->line[n->count++], line, sizeof line);
 }
 
+void build_note_count(model_build *b, const char *what, uint32_t count)
+{
+    if (count)
+        build_note(b, "%s: %u", what, (unsigned)count);
+}
+
+float build_float(double v) { return v > 3.4e38 ? (float)INFINITY : v < -3.4e38 ? -(float)INFINITY : (float)v; }
+
+float build_uv(double v) { return v > -1e6 && v < 1e6 ? (float)v : 0.0f; }
+
+lmb_vec3 build_normal(const double v[3], uint32_t *zeros)
+{
+    const double d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    lmb_vec3 n = {0.0f, 1.0f, 0.0f};
+    if (!(d > 1e-20 && d < 1e30)) {
+        ++*zeros;
+        return n;
+    }
+    n.x = (float)(v[0] / d);
+    n.y = (float)(v[1] / d);
+    n.z = (float)(v[2] / d);
+    return n;
+}
+
 /* a//b and a/./b are a/b; ".." stays, as it may lead through a link. */
 static void tidy_path(char *path)
 {

@@ -48,6 +48,16 @@ int build_materials(model_build *b, uint64_t count);
 /* build_note: a line for the user; equal lines appear once, the sixteenth says that there were more. */
 void build_note(model_build *b, const char *format, ...) REPORT_PRINTF(2, 3);
 
+/* build_note_count: "WHAT: COUNT", where that is not 0. */
+void build_note_count(model_build *b, const char *what, uint32_t count);
+
+/* Numbers as files have them, for binary32: build_float: beyond its range an infinity, which the library drops, for the
+ * cast alone would not say so; build_uv: 0 for what is of no use as a texture coordinate; build_normal: unit length, +Y
+ * and one more in *zeros for what has no direction. */
+float build_float(double v);
+float build_uv(double v);
+lmb_vec3 build_normal(const double v[3], uint32_t *zeros);
+
 /* build_read: a whole file beside the model: a plain one, as what a model names may be a device that never ends. It is
  * read once, however often it is asked for, and raises the budgets once; the bytes stay until loading ends. */
 int build_read(model_build *b, file_bytes *out, const char *path, report *r);
