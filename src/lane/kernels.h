@@ -126,7 +126,8 @@ struct lmb_kernels {
     void (*fill_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
     /* One triangle into one tile. */
     void (*fill)(const lmb_fill_tile *tile, const lmb_fill_job *job);
-    void (*resolve)(lmb_tile *out, const lmb_resolve_job *job);
+    /* The pixels with the job's id; returns them, one bit a pixel. */
+    uint64_t (*resolve)(lmb_tile *out, const lmb_resolve_job *job);
     /* W/m2 at each pixel if nothing shadowed it. */
     void (*direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job);
     /* Far pairs are added; near ones flagged in near_pixels, one bit a pixel. */

@@ -42,7 +42,8 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
     if (!lmb_triangle_fetch(&triangle, c->scene, job->id)) {
         return;
     }
-    lmb_resolve_setup(&surface, &alpha, c->view, &triangle, x, y);
+    lmb_resolve_rays(&surface, c->view, x, y);
+    lmb_resolve_setup(&surface, &alpha, c->view, &triangle);
     aside.depth = &copy.depth;
     aside.depth_step = LMB_TILE;
     copy_rows(&copy.depth, LMB_TILE, tile->depth, tile->depth_step, bytes);

@@ -8,7 +8,7 @@
 #include "target.h"
 #include "texture.h"
 
-static void set_rays(lmb_resolve_job *job, const lmb_view *v, int32_t x, int32_t y)
+void lmb_resolve_rays(lmb_resolve_job *job, const lmb_view *v, int32_t x, int32_t y)
 {
     const lmb_vec3 none = vec3(0.0f, 0.0f, 0.0f);
     float per_x = 2.0f * v->half_width / (float)v->frame_width, per_y = 2.0f * v->half_height / (float)v->frame_height;
@@ -80,11 +80,9 @@ static void set_corners(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lm
     alpha->texture = t->material->texture;
 }
 
-void lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_triangle *t,
-                       int32_t x, int32_t y)
+void lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_triangle *t)
 {
     job->id = t->id;
-    set_rays(job, view, x, y);
     set_plane(job, t, view);
     set_corners(job, alpha, t);
 }
@@ -155,12 +153,22 @@ static void read_ids(lmb_tile *out, const lmb_target *target, int32_t frame_widt
     }
 }
 
+static int32_t count_hits(const lmb_tile *t)
+{
+    int32_t hits = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        hits += t->id[k] != 0;
+    }
+    return hits;
+}
+
 lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t x, int32_t y)
 {
     if (out == NULL || kernels == NULL || view == NULL || scene == NULL || target == NULL || target->id.data == NULL ||
-        lmb_target_check(target, view, 0) != LMB_OK || x < target->x0 || y < target->y0 || x >= target->x0 + target->id.width || y >= target->y0 + target->id.height ||
-        x % LMB_TILE != 0 || y % LMB_TILE != 0) {
+        lmb_target_check(target, view, 0) != LMB_OK || x < target->x0 || y < target->y0 ||
+        x >= target->x0 + target->id.width || y >= target->y0 + target->id.height || x % LMB_TILE != 0 ||
+        y % LMB_TILE != 0) {
         return LMB_ERR_ARG;
     }
     memset(out, 0, sizeof *out);
@@ -170,30 +178,23 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
     uint64_t left = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         left |= (uint64_t)(out->id[k] != 0) << k;
-        out->hits += out->id[k] != 0;
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if ((left >> k) & 1u) {
-            lmb_triangle triangle;
-            uint32_t id = out->id[k];
-            int known = lmb_triangle_fetch(&triangle, scene, id);
-            for (int j = k; j < LMB_TILE_PIXELS; ++j) {
-                if (out->id[j] == id) {
-                    left &= ~((uint64_t)1 << j);
-                    if (!known) { /* an id surface from another scene */
-                        out->id[j] = 0;
-                        --out->hits;
-                    }
-                }
-            }
-            if (known) {
-                lmb_resolve_job job;
-                lmb_resolve_alpha alpha;
-                lmb_resolve_setup(&job, &alpha, view, &triangle, x, y);
-                kernels->resolve(out, &job);
-                lmb_paint_tile(out, &job, &triangle, scene);
-            }
+    lmb_resolve_job job;
+    lmb_resolve_rays(&job, view, x, y);
+    for (int k = 0; k < LMB_TILE_PIXELS && left >> k != 0; ++k) {
+        lmb_triangle triangle;
+        lmb_resolve_alpha alpha;
+        if (((left >> k) & 1u) == 0) {
+            continue;
         }
+        if (!lmb_triangle_fetch(&triangle, scene, out->id[k])) {
+            out->id[k] = 0; /* an id surface from another scene */
+            continue;
+        }
+        lmb_resolve_setup(&job, &alpha, view, &triangle);
+        left &= ~kernels->resolve(out, &job);
+        lmb_paint_tile(out, &job, &triangle, scene);
     }
+    out->hits = count_hits(out);
     return LMB_OK;
 }

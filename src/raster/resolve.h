@@ -12,9 +12,9 @@ typedef struct lmb_resolve_alpha {
     int32_t texture;
 } lmb_resolve_alpha;
 
-/* The job of a triangle over the tile whose first pixel is (x, y). */
-void lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_triangle *t,
-                       int32_t x, int32_t y);
+/* The rays of the tile whose first pixel is (x, y); then, as often as needed, a triangle under them. */
+void lmb_resolve_rays(lmb_resolve_job *job, const lmb_view *view, int32_t x, int32_t y);
+void lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_triangle *t);
 
 /* Barycentrics of the triangle's plane under tile pixel (x, y), not clamped: for derivatives and holes. */
 void lmb_resolve_point(float *b1, float *b2, const lmb_resolve_job *job, float x, float y);

@@ -87,13 +87,17 @@ static inline void resolve_vector(lmb_tile *out, const lmb_resolve_job *job, int
     resolve_put(out->uv[1] + k, mine, resolve_mix(job->uv[1], b1, b2));
 }
 
-static void KERNEL(resolve)(lmb_tile *out, const lmb_resolve_job *job)
+static uint64_t KERNEL(resolve)(lmb_tile *out, const lmb_resolve_job *job)
 {
     const lanei id = lanei_splat((int32_t)job->id);
+    uint64_t pixels = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         lane_mask mine = lanei_equal(lanei_load((const int32_t *)out->id + k), id);
-        if (mask_bits(mine)) {
+        const uint64_t bits = mask_bits(mine);
+        if (bits != 0) {
             resolve_vector(out, job, k, mine);
+            pixels |= bits << k;
         }
     }
+    return pixels;
 }

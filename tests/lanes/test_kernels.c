@@ -317,10 +317,10 @@ static int trial_resolve(const trial *t, test_rng r)
     make_tile(&want.it, &r, rare);
     got.it = want.it;
     const lmb_resolve_job job = resolve_job(&r, rare);
-    lmb_kernels_scalar.resolve(&want.it, &job);
-    t->kernels->resolve(&got.it, &job);
+    const uint64_t pixels = lmb_kernels_scalar.resolve(&want.it, &job), bits = t->kernels->resolve(&got.it, &job);
     CHECK(canaries_stay(got.before, got.after));
-    return same_floats(t, "position", want.it.position[0], got.it.position[0], 3 * LMB_TILE_PIXELS) &&
+    return same_bytes(t, "pixels", &pixels, &bits, sizeof bits) &&
+           same_floats(t, "position", want.it.position[0], got.it.position[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "face", want.it.face[0], got.it.face[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "normal", want.it.normal[0], got.it.normal[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "albedo", want.it.albedo[0], got.it.albedo[0], 3 * LMB_TILE_PIXELS) &&
