@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../platform/host/host.h"
+#include "verb_bench.h"
 #include "verb_compare.h"
 #include "verb_info.h"
 #include "verb_render.h"
@@ -15,6 +16,7 @@ static const char usage[] =
     "  render SCENE -o OUT      draw a scene (.gltf .glb .obj .ply, or the built-in `demo`) with bounced light\n"
     "  compare A B              error figures of a picture against a reference\n"
     "  info FILE                what is in a scene or a picture\n"
+    "  bench raster             how fast this machine draws the fixed workload\n"
     "\n"
     "  lambent VERB --help      what a verb takes\n"
     "  lambent --version\n";
@@ -32,6 +34,9 @@ int main(int argc, char **argv)
     }
     if (argc >= 2 && strcmp(argv[1], "compare") == 0) {
         return verb_compare(argc - 1, argv + 1);
+    }
+    if (argc >= 2 && strcmp(argv[1], "bench") == 0) {
+        return verb_bench(argc - 1, argv + 1);
     }
     if (argc >= 2 && strcmp(argv[1], "info") == 0) {
         return verb_info(argc - 1, argv + 1);

@@ -6,6 +6,9 @@
 /* Seconds since some start, steadily rising. */
 double host_seconds(void);
 
+/* Seconds of processor time that the whole program took. */
+double host_cpu_seconds(void);
+
 /* Is stderr a terminal? */
 int host_watched(void);
 

@@ -133,4 +133,7 @@ for option in "--threads 1" "--threads 3" "--backend scalar"; do
 done
 check "threads change the picture" cmp "$dir/way1.ppm" "$dir/way2.ppm"
 check "a backend changes the picture" cmp "$dir/way1.ppm" "$dir/way3.ppm"
+# The fixed workload: its own quads need no files.
+check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
+check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
 finish

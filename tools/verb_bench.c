@@ -1,0 +1,281 @@
+/* verb_bench.c: `lambent bench raster`: the fixed raster workload, a line a case, as the other rasterizers print it. */
+#include "verb_bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../platform/host/host.h"
+#include "bench_scene.h"
+
+static const char help_text[] =
+    "usage: lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
+    "\n"
+    "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a frame\n"
+    "(clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a case's name; without one, all.\n"
+    "\n"
+    "  --data FOLDER    of bunny.mesh and sponza.mesh (default: the environment's BENCH_DATA)\n"
+    "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
+    "  --seconds S      of each case (default: 1.5)\n"
+    "  --linear         with depth copied into plain rows, which other programs read\n"
+    "  --json           one object a case and line\n"
+    "\n"
+    "exit status: 0 done, 1 a file that cannot be read, 2 bad usage\n";
+
+enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
+
+typedef struct options {
+    const char *folder;
+    const lmb_kernels *kernels;
+    const char *const *cases;
+    int case_count, linear, json, help;
+    double seconds;
+} options;
+
+/* One case's memory. */
+typedef struct canvas {
+    lmb_target target;
+    lmb_surface out; /* data NULL: depth only */
+    void *depth, *id, *rgba, *linear;
+    size_t linear_bytes;
+} canvas;
+
+/* Times of frames, s. */
+typedef struct timing {
+    double cpu[FRAMES_MAX], wall[FRAMES_MAX];
+    int count;
+} timing;
+
+/* --- one frame ------------------------------------------------------------------------------------------------------ */
+
+/* The colours go out as radiance does: sRGB-coded, tile by tile. */
+static void store_colours(const canvas *c, const bench_scene *s, const lmb_kernels *kernels)
+{
+    static lmb_tile tile;
+    static lmb_radiance radiance;
+    for (int32_t y = 0; y < s->view.frame_height; y += LMB_TILE) {
+        for (int32_t x = 0; x < s->view.frame_width; x += LMB_TILE) {
+            lmb_resolve_tile(&tile, kernels, &s->view, &s->scene, &c->target, x, y);
+            memcpy(radiance.rgb, tile.albedo, sizeof radiance.rgb);
+            lmb_store_tile(&c->out, 0, 0, &radiance, x, y, 0.0f);
+        }
+    }
+}
+
+static void draw_frame(const canvas *c, const bench_scene *s, const options *o, int cull)
+{
+    lmb_surface_clear(&c->target.depth);
+    if (c->id != NULL) {
+        lmb_surface_clear(&c->target.id);
+    }
+    lmb_draw(&c->target, o->kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, cull ? LMB_CULL_BACK : 0, NULL);
+    if (c->rgba != NULL) {
+        store_colours(c, s, o->kernels);
+    } else if (c->linear != NULL) {
+        lmb_depth_linearize(c->linear, c->linear_bytes, &c->target.depth);
+    }
+}
+
+/* --- one case ------------------------------------------------------------------------------------------------------- */
+
+static void canvas_free(canvas *c)
+{
+    free(c->depth);
+    free(c->id);
+    free(c->rgba);
+    free(c->linear);
+}
+
+static int canvas_make(canvas *c, const bench_case *k, const options *o, report *r)
+{
+    const int colours = k->look != BENCH_DEPTH;
+    const size_t pixels = (size_t)k->width * (size_t)k->height;
+    const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, k->width, k->height), id = lmb_surface_bytes(LMB_ID32, k->width, k->height);
+    memset(c, 0, sizeof *c);
+    c->depth = malloc(depth);
+    c->id = colours ? malloc(id) : NULL;
+    c->rgba = colours ? malloc(4 * pixels) : NULL;
+    c->linear = o->linear ? malloc(4 * pixels) : NULL;
+    c->linear_bytes = 4 * pixels;
+    if (c->depth == NULL || (colours && (c->id == NULL || c->rgba == NULL)) || (o->linear && c->linear == NULL)) {
+        canvas_free(c);
+        return report_fail(r, "%s: out of memory", k->name);
+    }
+    lmb_surface_init(&c->target.depth, LMB_DEPTH32F, k->width, k->height, c->depth, depth);
+    if (colours) {
+        lmb_surface_init(&c->target.id, LMB_ID32, k->width, k->height, c->id, id);
+        lmb_surface_init(&c->out, LMB_RGBA8, k->width, k->height, c->rgba, 4 * pixels);
+    }
+    return 1;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Two frames to warm up, then frames for the time asked for, each by itself. */
+static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, int cull)
+{
+    draw_frame(c, s, o, cull);
+    draw_frame(c, s, o, cull);
+    const double end = host_seconds() + o->seconds;
+    t->count = 0;
+    while ((host_seconds() < end || t->count < FRAMES_MIN) && t->count < FRAMES_MAX) {
+        const double wall = host_seconds(), cpu = host_cpu_seconds();
+        draw_frame(c, s, o, cull);
+        t->cpu[t->count] = host_cpu_seconds() - cpu;
+        t->wall[t->count++] = host_seconds() - wall;
+    }
+    qsort(t->cpu, (size_t)t->count, sizeof *t->cpu, by_value);
+    qsort(t->wall, (size_t)t->count, sizeof *t->wall, by_value);
+}
+
+static void print_case(const bench_case *k, const bench_scene *s, const timing *t, const options *o)
+{
+    const unsigned triangles = s->mesh.triangle_count;
+    const double least = t->cpu[0] * 1e3, middle = t->cpu[t->count / 2] * 1e3;
+    const double wall = t->wall[0] * 1e3, wall_middle = t->wall[t->count / 2] * 1e3, each = least * 1e6 / triangles;
+    printf(o->json ? "{\"case\":\"%s\",\"triangles\":%u,\"cpu_min_ms\":%.4f,\"wall_min_ms\":%.4f,\"cpu_med_ms\":%.4f,"
+                     "\"wall_med_ms\":%.4f,\"frames\":%d,\"ns_per_triangle\":%.2f,\"backend\":\"%s\"}\n"
+                   : "lambent,%s,tris=%u,cpu_min_ms=%.4f,wall_min_ms=%.4f,cpu_med_ms=%.4f,wall_med_ms=%.4f,n=%d,"
+                     "ns_per_tri=%.2f,backend=%s\n",
+           k->name, triangles, least, wall, middle, wall_middle, t->count, each, lmb_kernels_name(o->kernels));
+    fflush(stdout);
+}
+
+static int run_case(const bench_case *k, const options *o, report *r)
+{
+    static bench_scene s;
+    static timing t;
+    canvas c;
+    if (o->folder == NULL && k->scene < BENCH_FILL_PASS) {
+        return report_fail(r, "%s: where are bunny.mesh and sponza.mesh? Give --data FOLDER or set BENCH_DATA", k->name);
+    }
+    if (!bench_scene_load(&s, k, o->folder, r)) {
+        return 0;
+    }
+    const int ok = canvas_make(&c, k, o, r);
+    if (ok) {
+        measure(&t, &c, &s, o, k->cull);
+        print_case(k, &s, &t, o);
+        canvas_free(&c);
+    }
+    bench_scene_free(&s);
+    return ok;
+}
+
+/* --- the command line ----------------------------------------------------------------------------------------------- */
+
+static int is_wanted(const bench_case *k, const options *o)
+{
+    for (int i = 0; i < o->case_count; ++i) {
+        if (strstr(k->name, o->cases[i]) != NULL) {
+            return 1;
+        }
+    }
+    return o->case_count == 0;
+}
+
+/* The value behind an option, or NULL with `r` set. */
+static const char *value_of(int *i, int argc, char **argv, report *r)
+{
+    if (*i + 1 < argc) {
+        return argv[++*i];
+    }
+    report_fail(r, "%s: its value is missing; see lambent bench --help", argv[*i]);
+    return NULL;
+}
+
+static int parse_option(options *o, int *i, int argc, char **argv, report *r)
+{
+    const char *name = argv[*i], *value = NULL;
+    if (strcmp(name, "--help") == 0) {
+        return o->help = 1;
+    }
+    if (strcmp(name, "--linear") == 0) {
+        return o->linear = 1;
+    }
+    if (strcmp(name, "--json") == 0) {
+        return o->json = 1;
+    }
+    if (strcmp(name, "--data") != 0 && strcmp(name, "--backend") != 0 && strcmp(name, "--seconds") != 0) {
+        return report_fail(r, "unknown option '%s'; see lambent bench --help", name);
+    }
+    value = value_of(i, argc, argv, r);
+    if (value == NULL) {
+        return 0;
+    }
+    if (strcmp(name, "--data") == 0) {
+        o->folder = value;
+    } else if (strcmp(name, "--backend") == 0) {
+        o->kernels = lmb_kernels_named(value);
+        return o->kernels != NULL || report_fail(r, "--backend %s: not here; this machine's best is %s", value,
+                                                 lmb_kernels_name(lmb_kernels_pick()));
+    } else {
+        o->seconds = strtod(value, NULL);
+        return (o->seconds > 0.0 && o->seconds < 1e4) || report_fail(r, "--seconds %s: not a time over 0", value);
+    }
+    return 1;
+}
+
+/* Words that are no options are parts of cases' names; they are moved to the front of argv. */
+static int parse(options *o, int argc, char **argv, report *r)
+{
+    const char *folder = getenv("BENCH_DATA");
+    memset(o, 0, sizeof *o);
+    o->folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
+    o->kernels = lmb_kernels_pick();
+    o->seconds = 1.5;
+    o->cases = (const char *const *)argv;
+    for (int i = 1; i < argc; ++i) {
+        if (argv[i][0] != '-') {
+            argv[o->case_count++] = argv[i];
+        } else if (!parse_option(o, &i, argc, argv, r)) {
+            return 0;
+        }
+    }
+    if (o->help) {
+        return 1;
+    }
+    if (o->case_count == 0 || strcmp(o->cases[0], "raster") != 0) {
+        return report_fail(r, "what is to be measured? `lambent bench raster`; see lambent bench --help");
+    }
+    ++o->cases;
+    --o->case_count;
+    return 1;
+}
+
+static int run(const options *o, report *r)
+{
+    int wanted = 0;
+    for (int i = 0; i < bench_case_count; ++i) {
+        if (is_wanted(&bench_cases[i], o)) {
+            ++wanted;
+            if (!run_case(&bench_cases[i], o, r)) {
+                return 0;
+            }
+        }
+    }
+    return wanted > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
+}
+
+int verb_bench(int argc, char **argv)
+{
+    options o;
+    report r = {""};
+    if (!parse(&o, argc, argv, &r)) {
+        fprintf(stderr, "lambent bench: %s\n", r.text);
+        return 2;
+    }
+    if (o.help) {
+        fputs(help_text, stdout);
+        return 0;
+    }
+    if (!run(&o, &r)) {
+        fprintf(stderr, "lambent bench: %s\n", r.text);
+        return 1;
+    }
+    return 0;
+}
