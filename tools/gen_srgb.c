@@ -44,7 +44,7 @@ int main(void)
     int i;
     printf("/* srgb_table.inc: the sRGB curve's tables; printed by tools/gen_srgb.c, not edited by hand. */\n\n");
     printf("/* [c]: the smallest float that is coded c or more; 0 for c = 0. */\n");
-    printf("static const float srgb_threshold[256] = {\n");
+    printf("const float lmb_srgb_threshold[256] = {\n");
     for (i = 0; i < 256; ++i)
         print_value(i, i ? threshold(i, &margin) : 0.0f);
     printf("\n};\n\n/* [c]: the linear value of code c. */\nconst float lmb_srgb_linear[256] = {\n");

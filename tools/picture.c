@@ -70,7 +70,7 @@ static uint8_t *encode(const image *p, float exposure_ev)
                     tile.rgb[c][k] = p->pixels[((size_t)py * (size_t)p->width + (size_t)px) * 3 + (size_t)c];
                 }
             }
-            lmb_store_tile(&out, 0, 0, &tile, x, y, exposure_ev);
+            lmb_store_tile(&out, lmb_kernels_pick(), 0, 0, &tile, x, y, exposure_ev);
         }
     }
     for (size_t i = 0; i < pixels; ++i) { /* to RGB, in place */

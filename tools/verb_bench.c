@@ -57,7 +57,7 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
         for (int32_t x = 0; x < s->view.frame_width; x += LMB_TILE) {
             lmb_resolve_tile(&tile, kernels, &s->view, &s->scene, &c->target, x, y);
             memcpy(radiance.rgb, tile.albedo, sizeof radiance.rgb);
-            lmb_store_tile(&c->out, 0, 0, &radiance, x, y, 0.0f);
+            lmb_store_tile(&c->out, kernels, 0, 0, &radiance, x, y, 0.0f);
         }
     }
 }

@@ -23,8 +23,8 @@ lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const
  *             with an 8x8 ordered dither (Bayer 1973) fixed to the frame, so that bands meet without a seam.
  *   x, y      px in the frame of the tile's pixel 0; what lies outside the surface is not written.
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
-lmb_status lmb_store_tile(const lmb_surface *out, int32_t x0, int32_t y0, const lmb_radiance *in, int32_t x, int32_t y,
-                          float exposure_ev);
+lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, int32_t x0, int32_t y0,
+                          const lmb_radiance *in, int32_t x, int32_t y, float exposure_ev);
 
 #ifdef __cplusplus
 }

@@ -12,7 +12,7 @@ uint8_t lmb_srgb_encode(float linear)
 {
     int32_t code = 0, step;
     for (step = 128; step > 0; step >>= 1)
-        code += linear >= srgb_threshold[code + step] ? step : 0;
+        code += linear >= lmb_srgb_threshold[code + step] ? step : 0;
     return (uint8_t)code;
 }
 

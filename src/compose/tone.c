@@ -1,10 +1,10 @@
 /* tone.c: radiance -> the pixels of a display. Floor 7. */
 #include <lambent/compose.h>
 
-#include "../base/codec.h"
 #include "../base/poly.h"
 #include "../base/surface_check.h"
 #include "../base/vec.h"
+#include "../lane/kernels.h"
 
 /* Bayer's 8x8 index matrix (1973): 0 .. 63, each once. */
 static const uint8_t bayer[LMB_TILE_PIXELS] = {
@@ -19,40 +19,61 @@ static uint32_t dither(uint8_t code, uint32_t levels, int k)
     return ((uint32_t)code * levels * 128u + (2u * bayer[k] + 1u) * 255u) / (255u * 128u);
 }
 
-static void store_bytes(uint8_t *p, const uint8_t code[3], int32_t format)
+/* Pixels of a tile that a surface holds, and where the first of them goes. */
+typedef struct tile_part {
+    int32_t first_x, last_x, first_y, last_y; /* in the tile */
+    int32_t x, y;                             /* of the tile's pixel 0, in the surface */
+} tile_part;
+
+static uint8_t *row_of(const lmb_surface *out, const tile_part *p, int32_t y)
 {
-    p[0] = code[format == LMB_BGRA8 ? 2 : 0];
-    p[1] = code[1];
-    p[2] = code[format == LMB_BGRA8 ? 0 : 2];
-    p[3] = 255;
+    return (uint8_t *)out->data + (ptrdiff_t)(p->y + y) * out->stride_bytes;
 }
 
-static void store_pixel(const lmb_surface *out, int32_t x, int32_t y, const float linear[3], float gain, int k)
+static void store_linear(const lmb_surface *out, const tile_part *p, const lmb_radiance *in)
 {
-    uint8_t *row = (uint8_t *)out->data + (ptrdiff_t)y * out->stride_bytes, code[3];
-    if (out->format == LMB_RGB32F) {
-        float *p = (float *)(void *)row + 3 * x;
-        p[0] = linear[0];
-        p[1] = linear[1];
-        p[2] = linear[2];
-        return;
+    for (int32_t y = p->first_y; y <= p->last_y; ++y) {
+        float *to = (float *)(void *)row_of(out, p, y) + 3 * (p->x + p->first_x);
+        for (int32_t x = p->first_x; x <= p->last_x; ++x) {
+            for (int c = 0; c < 3; ++c) {
+                *to++ = in->rgb[c][y * LMB_TILE + x];
+            }
+        }
     }
-    for (int c = 0; c < 3; ++c) {
-        code[c] = lmb_srgb_encode(linear[c] * gain);
-    }
-    if (out->format == LMB_RGBA8 || out->format == LMB_BGRA8) {
-        store_bytes(row + 4 * x, code, out->format);
-        return;
-    }
-    uint32_t green_bits = out->format == LMB_RGB565 ? 6 : 5;
-    uint32_t red = dither(code[0], 31, k), green = dither(code[1], (1u << green_bits) - 1u, k), blue = dither(code[2], 31, k);
-    ((uint16_t *)(void *)row)[x] = (uint16_t)((red << (5 + green_bits)) | (green << 5) | blue);
 }
 
-lmb_status lmb_store_tile(const lmb_surface *out, int32_t x0, int32_t y0, const lmb_radiance *in, int32_t x, int32_t y,
-                          float exposure_ev)
+static void store_bytes(const lmb_surface *out, const tile_part *p, int32_t code[3][LMB_TILE_PIXELS])
 {
-    if (out == NULL || out->data == NULL || in == NULL || out->layout != LMB_LINEAR ||
+    const int32_t *first = code[out->format == LMB_BGRA8 ? 2 : 0], *last = code[out->format == LMB_BGRA8 ? 0 : 2];
+    for (int32_t y = p->first_y; y <= p->last_y; ++y) {
+        uint8_t *to = row_of(out, p, y) + 4 * (p->x + p->first_x);
+        for (int32_t k = y * LMB_TILE + p->first_x; k <= y * LMB_TILE + p->last_x; ++k, to += 4) {
+            to[0] = (uint8_t)first[k];
+            to[1] = (uint8_t)code[1][k];
+            to[2] = (uint8_t)last[k];
+            to[3] = 255;
+        }
+    }
+}
+
+static void store_dithered(const lmb_surface *out, const tile_part *p, int32_t code[3][LMB_TILE_PIXELS])
+{
+    const uint32_t green_bits = out->format == LMB_RGB565 ? 6 : 5;
+    for (int32_t y = p->first_y; y <= p->last_y; ++y) {
+        uint16_t *to = (uint16_t *)(void *)row_of(out, p, y) + p->x + p->first_x;
+        for (int32_t k = y * LMB_TILE + p->first_x; k <= y * LMB_TILE + p->last_x; ++k) {
+            uint32_t red = dither((uint8_t)code[0][k], 31, k), blue = dither((uint8_t)code[2][k], 31, k);
+            uint32_t green = dither((uint8_t)code[1][k], (1u << green_bits) - 1u, k);
+            *to++ = (uint16_t)((red << (5 + green_bits)) | (green << 5) | blue);
+        }
+    }
+}
+
+lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, int32_t x0, int32_t y0,
+                          const lmb_radiance *in, int32_t x, int32_t y, float exposure_ev)
+{
+    int32_t code[3][LMB_TILE_PIXELS];
+    if (out == NULL || kernels == NULL || out->data == NULL || in == NULL || out->layout != LMB_LINEAR ||
         !lmb_surface_is_sound(out)) {
         return LMB_ERR_ARG;
     }
@@ -60,13 +81,17 @@ lmb_status lmb_store_tile(const lmb_surface *out, int32_t x0, int32_t y0, const 
         out->format != LMB_RGB555) {
         return LMB_ERR_FORMAT;
     }
-    float gain = lmb_exp2(exposure_ev);
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        int32_t px = x + k % LMB_TILE - x0, py = y + k / LMB_TILE - y0;
-        if (px >= 0 && py >= 0 && px < out->width && py < out->height) {
-            float linear[3] = {in->rgb[0][k], in->rgb[1][k], in->rgb[2][k]};
-            store_pixel(out, px, py, linear, gain, k);
-        }
+    const tile_part part = {maxi(x0 - x, 0), mini(out->width - 1 - (x - x0), LMB_TILE - 1), maxi(y0 - y, 0),
+                            mini(out->height - 1 - (y - y0), LMB_TILE - 1), x - x0, y - y0};
+    if (out->format == LMB_RGB32F) {
+        store_linear(out, &part, in);
+        return LMB_OK;
+    }
+    kernels->encode(code, in, lmb_exp2(exposure_ev));
+    if (out->format == LMB_RGBA8 || out->format == LMB_BGRA8) {
+        store_bytes(out, &part, code);
+    } else {
+        store_dithered(out, &part, code);
     }
     return LMB_OK;
 }

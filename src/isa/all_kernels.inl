@@ -11,6 +11,7 @@
 #include "../light/direct.inl"
 #include "../bounce/gather.inl"
 #include "../compose/blend.inl"
+#include "../compose/encode.inl"
 
 static float KERNEL(probe)(float one_and_bit)
 {
@@ -23,5 +24,5 @@ static float KERNEL(probe)(float one_and_bit)
 const lmb_kernels KERNEL(lmb_kernels) = {
     MACHINE,         LANES,          KERNEL(setup),  KERNEL(fill_small),  KERNEL(fill_large),  KERNEL(fill),
     KERNEL(resolve), KERNEL(direct), KERNEL(gather), KERNEL(gather_near), KERNEL(blend),
-    KERNEL(probe),
+    KERNEL(encode),  KERNEL(probe),
 };

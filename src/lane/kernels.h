@@ -138,6 +138,8 @@ struct lmb_kernels {
                         uint32_t count, const lmb_march_job *march);
     void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                   const lmb_irradiance *indirect);
+    /* sRGB codes 0 .. 255 of radiance x gain. */
+    void (*encode)(int32_t code[3][LMB_TILE_PIXELS], const lmb_radiance *in, float gain);
     /* (1 + 2^-12)^2 - (1 + 2^-11) by this machine's verbs: 0, or 2^-24 where the compiler fused it. */
     float (*probe)(float one_and_bit);
 };

@@ -279,7 +279,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
             status = light_tile(r, scratch);
         }
         if (status == LMB_OK) {
-            status = lmb_store_tile(out, 0, out_y0, &scratch->radiance, x, band * LMB_TILE, f->exposure_ev);
+            status = lmb_store_tile(out, f->kernels, 0, out_y0, &scratch->radiance, x, band * LMB_TILE, f->exposure_ev);
         }
     }
     return status;

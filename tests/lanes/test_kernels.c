@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#include "../../src/base/codec.h"
 #include "../../src/base/vec.h"
 #include "../../src/bounce/occlude.h"
 #include "../../src/lane/kernels.h"
@@ -517,6 +518,28 @@ static int trial_gather_near(const trial *t, test_rng r)
     return equal;
 }
 
+/* --- encode ----------------------------------------------------------------------------------------------------------- */
+
+/* Around thresholds and anywhere, against the search through the table. */
+static int trial_encode(const trial *t, test_rng r)
+{
+    lmb_radiance in;
+    int32_t want[3][LMB_TILE_PIXELS], got[3][LMB_TILE_PIXELS];
+    const float gain = t->seed % 3u ? 1.0f : test_uniform(&r, 0.1f, 8.0f);
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            uint32_t bits = bits_of(lmb_srgb_threshold[1u + test_random(&r) % 255u]) + test_random(&r) % 5u - 2u;
+            memcpy(&in.rgb[c][k], &bits, sizeof bits);
+            if (test_random(&r) % 2u) {
+                in.rgb[c][k] = number(&r, -0.1f, 1.2f, 6);
+            }
+            want[c][k] = lmb_srgb_encode(in.rgb[c][k] * gain);
+        }
+    }
+    t->kernels->encode(got, &in, gain);
+    return same_bytes(t, "code", want, got, sizeof want);
+}
+
 /* --- all of them ------------------------------------------------------------------------------------------------------ */
 
 static const struct kernel {
@@ -525,6 +548,7 @@ static const struct kernel {
 } kernels[] = {
     {"fill", trial_fill},     {"resolve", trial_resolve}, {"direct", trial_direct},
     {"gather", trial_gather}, {"gather_near", trial_gather_near}, {"blend", trial_blend},
+    {"encode", trial_encode},
 };
 
 static void test_machine(const lmb_kernels *machine)
