@@ -38,10 +38,16 @@ static inline lane_mask fill_depth(const lmb_fill_tile *tile, const lmb_fill_job
 /* Vectors beside each other in a row of tiles' pixels, and rows that one covers. */
 enum { FILL_ACROSS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, FILL_ROWS = LANES < LMB_TILE ? 1 : LANES / LMB_TILE };
 
-/* Float depth without ids has code of its own, but not on a machine of one lane, where size counts. */
-LANE_INLINE int fill_is_plain(const lmb_fill_tile *tile)
+/* Float depth has code of its own, without ids and with 32-bit ones; but not on a machine of one lane, where size
+ * counts. */
+enum { FILL_ANY, FILL_PLAIN, FILL_ID32 };
+
+LANE_INLINE int fill_kind(const lmb_fill_tile *tile)
 {
-    return LANES > 1 && tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE;
+    if (LANES == 1 || tile->depth_format != LMB_DEPTH32F || tile->id_format == LMB_ID16) {
+        return FILL_ANY;
+    }
+    return tile->id_format == LMB_FORMAT_NONE ? FILL_PLAIN : FILL_ID32;
 }
 
 /* A triangle in registers. */

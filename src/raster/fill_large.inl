@@ -136,9 +136,9 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
 
 static void KERNEL(fill_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
-    if (fill_is_plain(&w->first)) {
-        large_fill(w, s, id, LMB_DEPTH32F, LMB_FORMAT_NONE);
-    } else {
-        large_fill(w, s, id, w->first.depth_format, w->first.id_format);
+    switch (fill_kind(&w->first)) {
+    case FILL_PLAIN: large_fill(w, s, id, LMB_DEPTH32F, LMB_FORMAT_NONE); break;
+    case FILL_ID32: large_fill(w, s, id, LMB_DEPTH32F, LMB_ID32); break;
+    default: large_fill(w, s, id, w->first.depth_format, w->first.id_format); break;
     }
 }

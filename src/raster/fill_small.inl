@@ -75,7 +75,7 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
 
 static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
-    const int plain = fill_is_plain(&w->first);
+    const int kind = fill_kind(&w->first);
     lmb_fill_job job;
     job.d_scale = w->d_scale;
     job.d_bias = w->d_bias;
@@ -89,10 +89,10 @@ static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uin
         job.d_max = b->d_max[k];
         job.id = first_id + (uint32_t)k;
         fill_set(&t, ex, ey, &job);
-        if (plain) {
-            small_fill(w, &job, b, k, &t, LMB_DEPTH32F, LMB_FORMAT_NONE);
-        } else {
-            small_fill(w, &job, b, k, &t, w->first.depth_format, w->first.id_format);
+        switch (kind) {
+        case FILL_PLAIN: small_fill(w, &job, b, k, &t, LMB_DEPTH32F, LMB_FORMAT_NONE); break;
+        case FILL_ID32: small_fill(w, &job, b, k, &t, LMB_DEPTH32F, LMB_ID32); break;
+        default: small_fill(w, &job, b, k, &t, w->first.depth_format, w->first.id_format); break;
         }
     }
 }
