@@ -28,9 +28,11 @@ $(error CONFIG=$(CONFIG): there are `default` and `tiny`)
 endif
 
 WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble-promotion
-EXACT    := -std=c99 -ffp-contract=off -fno-math-errno -fno-builtin-bcmp
+STD      ?= c99
+EXACT     = -std=$(STD) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp
 FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) -Iinclude
-COMPILE   = $(CC) $(FLAGS) -fstack-usage -MMD -MP
+DEPS     ?= -fstack-usage -MMD -MP
+COMPILE   = $(CC) $(FLAGS) $(DEPS)
 LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 
 # --- sources ---------------------------------------------------------------------------------------------------------
