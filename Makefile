@@ -133,7 +133,7 @@ unit analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
-	@$(RUN) $(B)/golden
+	@$(RUN) $(B)/golden$(EXE)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
@@ -234,12 +234,47 @@ cross-web:      HOW   = PORT=web
 cross-web-simd: NEEDS = clang wasm-ld node
 cross-web-simd: HOW   = PORT=web CFLAGS="-O2 -msimd128"
 
-.PHONY: $(CROSS:%=cross-%)
+
+# Those that a change is tried on now and then.
+CROSS_MORE := armhf armel mipsel powerpc ppc64 ppc64le riscv64 s390x i386 windows
+cross-armhf:    NEEDS = arm-linux-gnueabihf-gcc qemu-arm
+cross-armhf:    HOW   = CC=arm-linux-gnueabihf-gcc LDFLAGS=-static RUN=qemu-arm
+cross-armel:    NEEDS = arm-linux-gnueabi-gcc qemu-arm
+cross-armel:    HOW   = CC=arm-linux-gnueabi-gcc LDFLAGS=-static RUN=qemu-arm
+cross-mipsel:   NEEDS = mipsel-linux-gnu-gcc qemu-mipsel
+cross-mipsel:   HOW   = CC=mipsel-linux-gnu-gcc LDFLAGS=-static RUN=qemu-mipsel
+cross-powerpc:  NEEDS = powerpc-linux-gnu-gcc qemu-ppc
+cross-powerpc:  HOW   = CC=powerpc-linux-gnu-gcc LDFLAGS=-static RUN=qemu-ppc
+cross-ppc64:    NEEDS = powerpc64-linux-gnu-gcc qemu-ppc64
+cross-ppc64:    HOW   = CC=powerpc64-linux-gnu-gcc LDFLAGS=-static RUN=qemu-ppc64
+cross-ppc64le:  NEEDS = powerpc64le-linux-gnu-gcc qemu-ppc64le
+cross-ppc64le:  HOW   = CC=powerpc64le-linux-gnu-gcc LDFLAGS=-static RUN=qemu-ppc64le
+cross-riscv64:  NEEDS = riscv64-linux-gnu-gcc qemu-riscv64
+cross-riscv64:  HOW   = CC=riscv64-linux-gnu-gcc LDFLAGS=-static RUN=qemu-riscv64
+cross-s390x:    NEEDS = s390x-linux-gnu-gcc qemu-s390x
+cross-s390x:    HOW   = CC=s390x-linux-gnu-gcc STD=gnu99 LDFLAGS=-static RUN=qemu-s390x
+cross-i386:     NEEDS = gcc gcc-m32
+cross-i386:     HOW   = CC="gcc -m32 -msse2 -mfpmath=sse -I/usr/include/x86_64-linux-gnu"
+cross-windows:  NEEDS = x86_64-w64-mingw32-gcc wine64
+cross-windows:  HOW   = CC=x86_64-w64-mingw32-gcc EXE=.exe LDFLAGS=-static RUN="env WINEDEBUG=-all sh tests/build/wine.sh"
+
+define cross_sum
+	@LOGS=$(B)/check sh tests/build/part.sh same sh tests/build/same.sh $(1:%=$(B)/check/cross-%.log)
+	@sh tests/build/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log
+endef
+
+.PHONY: cross-all $(CROSS:%=cross-%) $(CROSS_MORE:%=cross-%)
 cross: $(CROSS:%=cross-%) ## golden pictures on other compilers and machines; installs what it needs where it can
-	@LOGS=$(B)/check sh tests/build/part.sh same sh tests/build/same.sh $(CROSS:%=$(B)/check/cross-%.log)
-	@sh tests/build/sum.sh $(CROSS:%=$(B)/check/cross-%.log) $(B)/check/same.log
+	$(call cross_sum,$(CROSS))
+
+cross-all: $(CROSS:%=cross-%) $(CROSS_MORE:%=cross-%) ## the same on seventeen
+	$(call cross_sum,$(CROSS) $(CROSS_MORE))
 
 $(CROSS:%=cross-%): cross-%: install
+	+@$(PART) cross-$* $(MAKE) golden BUILD=$(BUILD)/cross/$* $(HOW)
+
+$(CROSS_MORE:%=cross-%): cross-%:
+	@sh tests/build/tools.sh install $(NEEDS)
 	+@$(PART) cross-$* $(MAKE) golden BUILD=$(BUILD)/cross/$* $(HOW)
 
 install:

@@ -1,7 +1,8 @@
 # tools.sh: the outside tools of the cross checks: tools.sh need COMMAND... | tools.sh install
 #
 # need: fails and names the missing commands with the Debian packages that have them.
-# install: installs what is missing where apt-get and the right to use it are there; says what stays missing.
+# install [COMMAND...]: installs what is missing, of the usual ones or of these, where apt-get and the right to use it
+# are there; says what stays missing.
 all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips arm-none-eabi-gcc
     qemu-system-arm djpeg cjpeg pngtopam vips"
 
@@ -9,6 +10,16 @@ packages_of() {
     case $1 in
     aarch64-linux-gnu-gcc) echo gcc-aarch64-linux-gnu libc6-dev-arm64-cross ;;
     mips-linux-gnu-gcc) echo gcc-mips-linux-gnu libc6-dev-mips-cross ;;
+    arm-linux-gnueabihf-gcc) echo gcc-arm-linux-gnueabihf libc6-dev-armhf-cross ;;
+    arm-linux-gnueabi-gcc) echo gcc-arm-linux-gnueabi libc6-dev-armel-cross ;;
+    mipsel-linux-gnu-gcc) echo gcc-mipsel-linux-gnu libc6-dev-mipsel-cross ;;
+    powerpc-linux-gnu-gcc) echo gcc-powerpc-linux-gnu libc6-dev-powerpc-cross ;;
+    powerpc64-linux-gnu-gcc) echo gcc-powerpc64-linux-gnu libc6-dev-ppc64-cross ;;
+    powerpc64le-linux-gnu-gcc) echo gcc-powerpc64le-linux-gnu libc6-dev-ppc64el-cross ;;
+    riscv64-linux-gnu-gcc) echo gcc-riscv64-linux-gnu libc6-dev-riscv64-cross ;;
+    s390x-linux-gnu-gcc) echo gcc-s390x-linux-gnu libc6-dev-s390x-cross ;;
+    gcc-m32) echo gcc-12-multilib libc6-dev-i386 ;;
+    x86_64-w64-mingw32-gcc) echo gcc-mingw-w64-x86-64-win32 ;;
     arm-none-eabi-gcc) echo gcc-arm-none-eabi ;;
     qemu-system-arm) echo qemu-system-arm ;;
     qemu-*) echo qemu-user ;;
@@ -35,6 +46,9 @@ missing() {
     for command in "$@"; do
         case $command in
         clang-sanitizers) sanitizes || echo "$command" ;;
+        gcc-m32) echo 'int main(void) { return 0; }' | gcc -m32 -I/usr/include/x86_64-linux-gnu -x c -o /dev/null - \
+            >/dev/null 2>&1 || echo "$command" ;;
+        wine64) [ -x /usr/lib/wine/wine64 ] || command -v wine64 >/dev/null 2>&1 || echo "$command" ;;
         *) command -v "$command" >/dev/null 2>&1 || echo "$command" ;;
         esac
     done
@@ -54,13 +68,14 @@ need() {
 }
 
 install() {
-    lacking=$(missing $all)
+    wanted=${*:-$all}
+    lacking=$(missing $wanted)
     [ -n "$lacking" ] || return 0
     if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1; then
         export DEBIAN_FRONTEND=noninteractive
         { apt-get -q update && apt-get -q -y install --no-install-recommends $(packages $lacking); } >/dev/null 2>&1
     fi
-    need $all
+    need $wanted
     return 0
 }
 
