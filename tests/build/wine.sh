@@ -1,3 +1,7 @@
-# wine.sh: runs a 64-bit Windows program: wine.sh PROGRAM.exe; Debian keeps wine64 out of PATH.
+# wine.sh: runs a 64-bit Windows program: wine.sh PROGRAM.exe; its lines end as everywhere else. Debian keeps wine64 out
+# of PATH.
 wine=$(command -v wine64 || echo /usr/lib/wine/wine64)
-exec "$wine" "$@" 2>/dev/null
+said=$("$wine" "$@" 2>/dev/null)
+status=$?
+printf '%s\n' "$said" | tr -d '\r'
+exit $status
