@@ -13,6 +13,7 @@
 #include "../../tools/image.h"
 #include "../../tools/metrics.h"
 #include "../../tools/model.h"
+#include "../shared_file.h"
 #include "../test.h"
 
 void test_truth(void);
@@ -47,16 +48,9 @@ static int load_picture(image *out, const char *scene, const char *file)
 
 static int is_there(const char *scene)
 {
-    char path[PATH_SIZE];
-    FILE *f;
-    path_of(path, scene, "scene.gltf");
-    f = fopen(path, "rb");
-    if (f == NULL) {
-        SKIP("%s is not there (LMB_SHARED names the folder)", path);
-        return 0;
-    }
-    fclose(f);
-    return 1;
+    char path[SHARED_PATH], name[PATH_SIZE];
+    snprintf(name, sizeof name, "truth/%.60s/scene.gltf", scene);
+    return shared_file(path, name);
 }
 
 /* --- a scene, drawn as the tool draws it -------------------------------------------------------------------------- */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../tools/image.h"
+#include "../shared_file.h"
 
 void test_hdr(void);
 
@@ -277,20 +278,11 @@ static void check_known(const char *path, int32_t width, double peak)
 
 static void known_files(void)
 {
-    const char *shared = getenv("LMB_SHARED");
-    char path[512];
+    char path[SHARED_PATH], name[64];
     size_t i;
-    FILE *f;
-    if (!shared || !*shared) shared = "../shared";
     for (i = 0; i < sizeof known / sizeof known[0]; ++i) {
-        snprintf(path, sizeof path, "%.400s/data/env/%s", shared, known[i].name);
-        f = fopen(path, "rb");
-        if (!f) {
-            SKIP("%s is not there (LMB_SHARED names the folder)", path);
-            continue;
-        }
-        fclose(f);
-        check_known(path, known[i].width, known[i].peak);
+        snprintf(name, sizeof name, "data/env/%s", known[i].name);
+        if (shared_file(path, name)) check_known(path, known[i].width, known[i].peak);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "../../tools/io_json.h"
 #include "../../tools/model.h"
 #include "../../tools/verb_info.h"
+#include "../shared_file.h"
 
 void test_info(void);
 
@@ -401,21 +402,12 @@ static void check_known(const char *path, size_t i)
 
 static void known_scenes(void)
 {
-    const char *shared = getenv("LMB_SHARED");
-    char path[FOLDER_PATH];
+    char path[SHARED_PATH], name[64];
     size_t i;
-    if (!shared || !*shared)
-        shared = "../shared";
     for (i = 0; i < sizeof known / sizeof known[0]; ++i) {
-        FILE *f;
-        snprintf(path, sizeof path, "%.400s/data/%s", shared, known[i].path);
-        f = fopen(path, "rb");
-        if (!f) {
-            SKIP("%s is not there (LMB_SHARED names the folder)", path);
-            continue;
-        }
-        fclose(f);
-        check_known(path, i);
+        snprintf(name, sizeof name, "data/%s", known[i].path);
+        if (shared_file(path, name))
+            check_known(path, i);
     }
 }
 

@@ -6,9 +6,10 @@
 
 #include "../../tools/image.h"
 #include "../../tools/io_json.h"
-#include "../../tools/model.h"
 #include "../../tools/ear_clip.h"
 #include "../blob.h"
+#include "../model_case.h"
+#include "../shared_file.h"
 
 void test_models(void);
 
@@ -17,9 +18,6 @@ enum { TEXT_MAX = 1 << 16 };
 /* One run's folder, what was written there, and the model that was loaded last. */
 static folder place;
 static char text[TEXT_MAX];
-static model loaded;
-static model_notes notes;
-static report problem;
 
 /* --- files --- */
 
@@ -32,8 +30,7 @@ static int load(const char *name)
 {
     char path[FOLDER_PATH];
     path_of(path, name);
-    model_free(&loaded);
-    memset(&problem, 0, sizeof problem);
+    forget();
     return model_load(&loaded, path, NULL, &notes, &problem);
 }
 
@@ -48,25 +45,6 @@ static int load_text(const char *name, const char *format, ...)
     CHECK(n >= 0 && n < TEXT_MAX);
     put_file(name, text, (size_t)n);
     return load(name);
-}
-
-static int noted(const char *part)
-{
-    uint32_t i;
-    for (i = 0; i < notes.count; ++i)
-        if (strstr(notes.line[i], part))
-            return 1;
-    return 0;
-}
-
-#define CHECK_LOADS(call) CHECK_MSG(call, "%s", problem.text)
-
-/* A failure is one line that holds `part`, and leaves nothing behind. */
-static void check_fails(int ok, const char *part)
-{
-    CHECK_MSG(!ok, "loaded, but should say: %s", part);
-    CHECK_MSG(strstr(problem.text, part) != NULL, "\"%s\" lacks \"%s\"", problem.text, part);
-    CHECK(!strchr(problem.text, '\n') && loaded.block_count == 0 && loaded.scene.mesh_count == 0 && !loaded.blocks);
 }
 
 /* --- binary data --- */
@@ -1022,23 +1000,12 @@ static const struct {
 
 static void known_files(void)
 {
-    const char *shared = getenv("LMB_SHARED");
-    char path[FOLDER_PATH];
+    char path[SHARED_PATH];
     size_t i;
-    FILE *f;
-    if (!shared || !*shared)
-        shared = "../shared";
     for (i = 0; i < sizeof known / sizeof known[0]; ++i) {
-        snprintf(path, sizeof path, "%.400s/%s", shared, known[i].path);
-        f = fopen(path, "rb");
-        if (!f) {
-            SKIP("%s is not there (LMB_SHARED names the folder)", path);
+        if (!shared_file(path, known[i].path))
             continue;
-        }
-        fclose(f);
-        model_free(&loaded);
-        memset(&problem, 0, sizeof problem);
-        CHECK_LOADS(model_load(&loaded, path, NULL, &notes, &problem));
+        CHECK_LOADS(load_file(path));
         CHECK_MSG(lmb_scene_triangles(&loaded.scene) == known[i].triangles, "%s: %u", path,
                   (unsigned)lmb_scene_triangles(&loaded.scene));
         CHECK(loaded.scene.light_count == known[i].lights && loaded.camera_count == known[i].cameras);

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "../../tools/io_obj.h"
+#include "../model_case.h"
 
 void test_mtl(void);
 
@@ -13,9 +14,6 @@ enum { TEXT_MAX = 1 << 16, MANY = 2000 };
 
 /* One run's folder, and the model that was loaded last. */
 static folder place;
-static model loaded;
-static model_notes notes;
-static report problem;
 
 static void put(const char *name, const char *text) { folder_put(&place, name, text, strlen(text)); }
 
@@ -25,8 +23,7 @@ static int load(const char *uses)
     static char text[TEXT_MAX];
     int n = snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0.25\nvt 0.5 1\n%s", uses);
     CHECK(n >= 0 && n < TEXT_MAX);
-    model_free(&loaded);
-    memset(&problem, 0, sizeof problem);
+    forget();
     return model_load(&loaded, folder_put(&place, "m.obj", text, (size_t)n), NULL, &notes, &problem);
 }
 
@@ -35,17 +32,6 @@ static int load_library(const char *library)
 {
     put("m.mtl", library);
     return load("mtllib m.mtl\nusemtl a\n" FACE "usemtl b\n" FACE);
-}
-
-#define CHECK_LOADS(call) CHECK_MSG(call, "%s", problem.text)
-
-static int noted(const char *part)
-{
-    uint32_t i;
-    for (i = 0; i < notes.count; ++i)
-        if (strstr(notes.line[i], part))
-            return 1;
-    return 0;
 }
 
 static void put_picture(const char *name)

@@ -4,44 +4,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/model.h"
-#include "../test.h"
+#include "../model_case.h"
+#include "../shared_file.h"
 
 void test_ply(void);
 
 enum { PATH_SIZE = 512, FILE_MAX = 4096 };
 
-static model loaded;
-static model_notes notes;
-static report problem;
 
 static int load(const void *data, size_t size)
 {
-    model_free(&loaded);
-    memset(&problem, 0, sizeof problem);
+    forget();
     return model_read(&loaded, "a", NULL, (const uint8_t *)data, size, &notes, &problem);
 }
 
 static int load_text(const char *text) { return load(text, strlen(text)); }
-
-static int noted(const char *part)
-{
-    uint32_t i;
-    for (i = 0; i < notes.count; ++i)
-        if (strstr(notes.line[i], part))
-            return 1;
-    return 0;
-}
-
-#define CHECK_LOADS(call) CHECK_MSG(call, "%s", problem.text)
-
-/* A failure is one line that holds `part`, and leaves nothing behind. */
-static void check_fails(int ok, const char *part)
-{
-    CHECK_MSG(!ok, "loaded, but should say: %s", part);
-    CHECK_MSG(strstr(problem.text, part) != NULL, "\"%s\" lacks \"%s\"", problem.text, part);
-    CHECK(loaded.block_count == 0 && loaded.scene.mesh_count == 0 && !loaded.blocks);
-}
 
 /* --- a file written in any encoding --- */
 
@@ -486,23 +463,13 @@ static const struct {
 
 static void known_files(void)
 {
-    const char *shared = getenv("LMB_SHARED");
-    char name[PATH_SIZE];
+    char path[SHARED_PATH], name[64];
     size_t i;
-    FILE *f;
-    if (!shared || !*shared)
-        shared = "../shared";
     for (i = 0; i < sizeof known / sizeof known[0]; ++i) {
-        snprintf(name, sizeof name, "%.400s/data/meshes/%s", shared, known[i].name);
-        f = fopen(name, "rb");
-        if (!f) {
-            SKIP("%s is not there (LMB_SHARED names the folder)", name);
+        snprintf(name, sizeof name, "data/meshes/%s", known[i].name);
+        if (!shared_file(path, name))
             continue;
-        }
-        fclose(f);
-        model_free(&loaded);
-        memset(&problem, 0, sizeof problem);
-        CHECK_LOADS(model_load(&loaded, name, NULL, &notes, &problem));
+        CHECK_LOADS(load_file(path));
         CHECK_MSG(lmb_scene_triangles(&loaded.scene) == known[i].triangles, "%s: %u", name,
                   (unsigned)lmb_scene_triangles(&loaded.scene));
         CHECK(loaded.blocks && mesh()->vertex_count == known[i].vertices && !mesh()->normals == !known[i].normals);
