@@ -56,8 +56,10 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
     for (int32_t y = 0; y < s->view.frame_height; y += LMB_TILE) {
         for (int32_t x = 0; x < s->view.frame_width; x += LMB_TILE) {
             lmb_resolve_tile(&tile, kernels, &s->view, &s->scene, &c->target, x, y);
-            memcpy(radiance.rgb, tile.albedo, sizeof radiance.rgb);
-            lmb_store_tile(&c->out, kernels, 0, 0, &radiance, x, y, 0.0f);
+            if (tile.hits > 0) {
+                memcpy(radiance.rgb, tile.albedo, sizeof radiance.rgb);
+                lmb_store_tile(&c->out, kernels, 0, 0, &radiance, x, y, 0.0f);
+            }
         }
     }
 }
@@ -67,6 +69,7 @@ static void draw_frame(const canvas *c, const bench_scene *s, const options *o, 
     lmb_surface_clear(&c->target.depth);
     if (c->id != NULL) {
         lmb_surface_clear(&c->target.id);
+        lmb_surface_clear(&c->out);
     }
     lmb_draw(&c->target, o->kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, cull ? LMB_CULL_BACK : 0, NULL);
     if (c->rgba != NULL) {

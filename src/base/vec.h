@@ -63,6 +63,12 @@ static inline int lowest_bit(uint32_t bits)
 #endif
 }
 
+static inline int lowest_bit_64(uint64_t bits)
+{
+    const uint32_t low = (uint32_t)bits;
+    return low != 0 ? lowest_bit(low) : 32 + lowest_bit((uint32_t)(bits >> 32));
+}
+
 /* Bits that are set, of 16. */
 static inline uint32_t count_bits_16(uint32_t bits)
 {

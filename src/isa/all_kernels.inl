@@ -22,7 +22,9 @@ static float KERNEL(probe)(float one_and_bit)
 }
 
 const lmb_kernels KERNEL(lmb_kernels) = {
-    MACHINE,         LANES,          KERNEL(setup),  KERNEL(fill_small),  KERNEL(fill_large),  KERNEL(fill),
-    KERNEL(resolve), KERNEL(direct), KERNEL(gather), KERNEL(gather_near), KERNEL(blend),
+    MACHINE,         LANES,
+    KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large), KERNEL(fill),
+    KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve),
+    KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(blend),
     KERNEL(encode),  KERNEL(probe),
 };

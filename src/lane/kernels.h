@@ -74,24 +74,37 @@ typedef struct lmb_fill_window {
     float d_scale, d_bias;
 } lmb_fill_window;
 
-/* One triangle's attributes over a tile, everything relative to the eye.
- *   ray of pixel (x, y):  origin + ox x + oy y  +  w (direction + rx x + ry y)   with w along the view axis.
+/* A tile's rays, relative to the eye. Of pixel (x, y):
+ *   origin + ox x + oy y  +  w (direction + rx x + ry y)   with w along the view axis.
  * Perspective: the first part is 0; orthographic: the direction is constant. */
-typedef struct lmb_resolve_job {
+typedef struct lmb_rays {
     lmb_vec3 origin, ox, oy;
     lmb_vec3 direction, rx, ry;
-    lmb_vec3 eye;
-    lmb_vec3 corner;         /* vertex 0, relative to the eye */
-    lmb_vec3 plane;          /* normal of the triangle, any length */
-    float w_min, w_max;      /* of the triangle's corners */
-    lmb_vec3 g1, g2;         /* barycentrics: b1 = (p - corner).g1, b2 = (p - corner).g2 */
-    lmb_vec3 face;           /* unit normal, turned to the viewer */
-    lmb_vec3 normal[3];      /* at the corners */
-    float albedo[3][3];      /* [channel][corner] */
-    float uv[2][3];          /* [u, v][corner] */
-    uint32_t id;
-    int32_t smooth;          /* normal[] differs from face */
-} lmb_resolve_job;
+    lmb_vec3 eye, back;
+    float near_m;
+    int32_t perspective;
+} lmb_rays;
+
+/* Up to LMB_BATCH triangles of one instance that a tile shows: slot k of every array is one of them. What comes from
+ * the mesh is turned in place into what pixels are made of. Corners' values become the first and the others' differences
+ * from it, so that three equal ones give exactly their value. */
+typedef struct lmb_resolve_batch {
+    lmb_rays rays;
+    const lmb_instance *instance;
+    const lmb_mesh *mesh;
+    const lmb_material *material;
+    int32_t count;                     /* slots in use; the others hold numbers */
+    uint32_t id[LMB_BATCH];
+    int32_t slot[LMB_TILE_PIXELS];     /* of each pixel; -1: another's */
+    float corner[3][3][LMB_BATCH];     /* in: [corner][axis], model space. Out: corner 0 relative to the eye, then g1
+                                          and g2, which give barycentrics: b1 = (p - corner).g1, b2 = (p - corner).g2 */
+    float plane[3][LMB_BATCH];         /* out: unit normal */
+    float face[3][LMB_BATCH];          /* out: the same, turned to the viewer */
+    float w_min[LMB_BATCH], w_max[LMB_BATCH]; /* out: of the corners, along the view axis */
+    float normal[3][3][LMB_BATCH];     /* in: octahedral codes as [corner][0 .. 1]. Out: world, [corner][axis] */
+    float albedo[3][3][LMB_BATCH];     /* in: colour codes 0 .. 255. Out: reflectance, both [corner][channel] */
+    float uv[3][2][LMB_BATCH];         /* [corner][u, v] */
+} lmb_resolve_batch;
 
 /* One light over a tile. */
 typedef struct lmb_direct_job {
@@ -126,8 +139,11 @@ struct lmb_kernels {
     void (*fill_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
     /* One triangle into one tile. */
     void (*fill)(const lmb_fill_tile *tile, const lmb_fill_job *job);
-    /* The pixels with the job's id; returns them, one bit a pixel. */
-    uint64_t (*resolve)(lmb_tile *out, const lmb_resolve_job *job);
+    /* Slots for the first LMB_BATCH different ids of the batch's instance among the pixels of `left`, one bit a pixel;
+     * returns the pixels that got one. */
+    uint64_t (*resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left);
+    void (*resolve_setup)(lmb_resolve_batch *inout);
+    void (*resolve)(lmb_tile *out, const lmb_resolve_batch *batch);
     /* W/m2 at each pixel if nothing shadowed it. */
     void (*direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job);
     /* Far pairs are added; near ones flagged in near_pixels, one bit a pixel. */

@@ -60,6 +60,16 @@ static inline lane3 lane3_splat(float x, float y, float z)
     return r;
 }
 
+static inline lane3 lane3_of(lmb_vec3 v) { return lane3_splat(v.x, v.y, v.z); }
+
+static inline lane3 lane3_add(lane3 a, lane3 b)
+{
+    a.x = lane_add(a.x, b.x);
+    a.y = lane_add(a.y, b.y);
+    a.z = lane_add(a.z, b.z);
+    return a;
+}
+
 static inline lane3 lane3_sub(lane3 a, lane3 b)
 {
     a.x = lane_sub(a.x, b.x);
@@ -74,6 +84,23 @@ static inline lane3 lane3_scale(lane3 a, lane s)
     a.y = lane_mul(a.y, s);
     a.z = lane_mul(a.z, s);
     return a;
+}
+
+static inline lane3 lane3_pick(lane_mask m, lane3 a, lane3 b)
+{
+    a.x = lane_pick(m, a.x, b.x);
+    a.y = lane_pick(m, a.y, b.y);
+    a.z = lane_pick(m, a.z, b.z);
+    return a;
+}
+
+static inline lane3 lane3_cross(lane3 a, lane3 b)
+{
+    lane3 r;
+    r.x = lane_sub(lane_mul(a.y, b.z), lane_mul(a.z, b.y));
+    r.y = lane_sub(lane_mul(a.z, b.x), lane_mul(a.x, b.z));
+    r.z = lane_sub(lane_mul(a.x, b.y), lane_mul(a.y, b.x));
+    return r;
 }
 
 static inline lane lane3_dot(lane3 a, lane3 b)

@@ -102,6 +102,12 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     return _mm256_cvtepi32_ps(
         _mm256_setr_epi32(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]));
 }
+/* The halves of the table, and bit 3 of `at` says which. */
+static inline lane lane_table(const float *p, lanei at)
+{
+    return _mm256_blendv_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(p), at),
+                            _mm256_permutevar8x32_ps(_mm256_loadu_ps(p + 8), at), _mm256_castsi256_ps(_mm256_slli_epi32(at, 28)));
+}
 
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
 static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }

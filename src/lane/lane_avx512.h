@@ -94,6 +94,7 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     }
     return _mm512_cvtepi32_ps(lanei_load(i));
 }
+static inline lane lane_table(const float *p, lanei at) { return _mm512_permutexvar_ps(at, _mm512_loadu_ps(p)); }
 
 static inline lane lane_load_rows(const float *p, int32_t step)
 {

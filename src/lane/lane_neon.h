@@ -105,6 +105,7 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     r = vsetq_lane_u32(p[vgetq_lane_s32(at, 2)], r, 2);
     return vcvtq_f32_u32(vsetq_lane_u32(p[vgetq_lane_s32(at, 3)], r, 3));
 }
+static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
 static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }

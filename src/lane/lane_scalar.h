@@ -9,8 +9,9 @@
 #include "../base/vec.h"
 
 /* Four wide, like the narrowest machine; one where code size counts: 4 lanes written out cost a Cortex-M4F 14 KiB of
- * ROM and, spilled to the stack, 2.5 times the time. Pixels are the same: a lane never meets another. */
-#ifdef LMB_CONFIG_TINY
+ * ROM and, spilled to the stack, 2.5 times the time. Pixels are the same: a lane never meets another. One also where a
+ * file defines LANE_ONE, to ask a kernel's formula for a single thing. */
+#if defined(LMB_CONFIG_TINY) || defined(LANE_ONE)
 #define LANES 1
 #else
 #define LANES 4
@@ -100,6 +101,8 @@ static inline laned laned_div(laned a, laned b) { EACH(a.v[i] = a.v[i] / b.v[i])
 
 static inline lane lane_gather_f32(const float *p, lanei at) { lane r; EACH(r.v[i] = p[at.v[i]]); return r; }
 static inline lane lane_gather_u16(const uint16_t *p, lanei at) { lane r; EACH(r.v[i] = (float)p[at.v[i]]); return r; }
+/* Of a table of 16 values in memory; `at` is 0 .. 15. */
+static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
 /* Surfaces' memory. A machine wider than a tile's row covers the next row too: it lies `step` values further. 16-bit
  * values are 0 .. 65535, whole. */

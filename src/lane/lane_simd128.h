@@ -99,6 +99,7 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
         wasm_i32x4_make(p[wasm_i32x4_extract_lane(at, 0)], p[wasm_i32x4_extract_lane(at, 1)],
                         p[wasm_i32x4_extract_lane(at, 2)], p[wasm_i32x4_extract_lane(at, 3)]));
 }
+static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
 static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }

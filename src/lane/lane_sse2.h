@@ -107,6 +107,7 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     lanei_store(i, at);
     return _mm_cvtepi32_ps(_mm_setr_epi32(p[i[0]], p[i[1]], p[i[2]], p[i[3]]));
 }
+static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
 static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }

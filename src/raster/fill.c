@@ -30,20 +30,28 @@ static void copy_rows(void *to, int32_t to_step, const void *from, int32_t from_
     }
 }
 
+/* The triangle's own surface, and the rays of the tile at hand. */
+typedef struct masked_surface {
+    lmb_rays rays;
+    lmb_plane plane;
+    lmb_resolve_alpha alpha;
+} masked_surface;
+
+/* At pixel k of the tile: surface, or a hole? */
+static int stands_at(const masked_surface *s, const lmb_scene *scene, int k)
+{
+    float b1, b2;
+    lmb_resolve_point(&b1, &b2, &s->plane, &s->rays, (float)(k % LMB_TILE), (float)(k / LMB_TILE));
+    return lmb_resolve_opaque(&s->alpha, scene, b1, b2);
+}
+
 /* Fill a copy of the tile, then keep only the changed pixels whose alpha passes. Opaque scenes never come here. */
-static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job, int32_t x, int32_t y)
+static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
+                             const masked_surface *s)
 {
     tile_copy copy;
     lmb_fill_tile aside = *tile;
-    lmb_resolve_job surface;
-    lmb_resolve_alpha alpha;
-    lmb_triangle triangle;
     int32_t bytes = tile->depth_format == LMB_DEPTH16 ? 2 : 4, id_bytes = tile->id_format == LMB_ID16 ? 2 : 4;
-    if (!lmb_triangle_fetch(&triangle, c->scene, job->id)) {
-        return;
-    }
-    lmb_resolve_rays(&surface, c->view, x, y);
-    lmb_resolve_setup(&surface, &alpha, c->view, &triangle);
     aside.depth = &copy.depth;
     aside.depth_step = LMB_TILE;
     copy_rows(&copy.depth, LMB_TILE, tile->depth, tile->depth_step, bytes);
@@ -56,8 +64,7 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         uint8_t *was = (uint8_t *)tile->depth + ((k / LMB_TILE) * tile->depth_step + k % LMB_TILE) * bytes;
         const uint8_t *now = (const uint8_t *)&copy.depth + k * bytes;
-        if (memcmp(was, now, (size_t)bytes) != 0 &&
-            lmb_resolve_opaque(&surface, &alpha, c->scene, (float)(k % LMB_TILE), (float)(k / LMB_TILE))) {
+        if (memcmp(was, now, (size_t)bytes) != 0 && stands_at(s, c->scene, k)) {
             memcpy(was, now, (size_t)bytes);
             if (tile->id != NULL) {
                 memcpy((uint8_t *)tile->id + ((k / LMB_TILE) * tile->id_step + k % LMB_TILE) * id_bytes,
@@ -99,6 +106,14 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
     const lmb_target *target = c->target;
     int32_t tx0, tx1, ty0, ty1;
     lmb_fill_job job;
+    lmb_triangle triangle;
+    masked_surface surface;
+    if (!lmb_triangle_fetch(&triangle, c->scene, id)) {
+        return;
+    }
+    lmb_resolve_rays(&surface.rays, c->view, target->x0, target->y0);
+    lmb_resolve_plane(&surface.plane, &triangle, &surface.rays);
+    lmb_resolve_alpha_of(&surface.alpha, &triangle);
     tile_span(&tx0, &tx1, s->x_min, s->x_max, c->view->frame_width, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, c->view->frame_height, target->y0, target->depth.height);
     job.dx = (float)s->d_x;
@@ -119,7 +134,8 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
             if (enter_tile(&job, s, e)) {
                 lmb_fill_tile tile = lmb_target_tile(target, tx, ty);
                 job.d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
-                fill_tile_masked(c, &tile, &job, target->x0 + tx * LMB_TILE, y);
+                lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
+                fill_tile_masked(c, &tile, &job, &surface);
             }
             for (int i = 0; i < 3; ++i) {
                 e[i] += (int64_t)s->ex[i] * LMB_TILE;

@@ -5,22 +5,51 @@
 #include "../base/vertex.h"
 #include "texture.h"
 
+/* A slot's numbers, taken out of the batch. */
+typedef struct painted {
+    int32_t slot;
+    lmb_plane plane;
+    float uv[3][2]; /* corner 0, and the others' differences from it */
+} painted;
+
+static lmb_vec3 vector_of(const float (*v)[LMB_BATCH], int32_t slot) { return vec3(v[0][slot], v[1][slot], v[2][slot]); }
+
+static void take_slot(painted *p, const lmb_resolve_batch *b, int32_t slot)
+{
+    p->slot = slot;
+    p->plane.corner = vector_of(b->corner[0], slot);
+    p->plane.g1 = vector_of(b->corner[1], slot);
+    p->plane.g2 = vector_of(b->corner[2], slot);
+    p->plane.plane = vector_of(b->plane, slot);
+    p->plane.w_min = b->w_min[slot];
+    p->plane.w_max = b->w_max[slot];
+    for (int i = 0; i < 3; ++i) {
+        p->uv[i][0] = b->uv[i][0][slot];
+        p->uv[i][1] = b->uv[i][1][slot];
+    }
+}
+
+static float uv_at(const painted *p, int c, const float b[2])
+{
+    return p->uv[0][c] + (p->uv[1][c] * b[0] + p->uv[2][c] * b[1]);
+}
+
 /* Level of detail: the longer of the two pixel steps, in texels. */
-static float pixel_lod(const lmb_resolve_job *job, const lmb_texture *t, int32_t pixel)
+static float pixel_lod(const painted *p, const lmb_rays *rays, const lmb_texture *t, int32_t pixel)
 {
     float x = (float)(pixel % LMB_TILE), y = (float)(pixel / LMB_TILE);
     if (t->filter != LMB_TRILINEAR || t->levels < 2) {
         return 0.0f;
     }
     float b[3][2], size[2] = {(float)t->width, (float)t->height};
-    lmb_resolve_point(&b[0][0], &b[0][1], job, x, y);
-    lmb_resolve_point(&b[1][0], &b[1][1], job, x + 1.0f, y);
-    lmb_resolve_point(&b[2][0], &b[2][1], job, x, y + 1.0f);
+    lmb_resolve_point(&b[0][0], &b[0][1], &p->plane, rays, x, y);
+    lmb_resolve_point(&b[1][0], &b[1][1], &p->plane, rays, x + 1.0f, y);
+    lmb_resolve_point(&b[2][0], &b[2][1], &p->plane, rays, x, y + 1.0f);
     float longest = 0.0f;
     for (int step = 1; step < 3; ++step) {
         float d2 = 0.0f;
         for (int c = 0; c < 2; ++c) {
-            float d = (resolve_mix3(job->uv[c], b[step][0], b[step][1]) - resolve_mix3(job->uv[c], b[0][0], b[0][1])) * size[c];
+            float d = (uv_at(p, c, b[step]) - uv_at(p, c, b[0])) * size[c];
             d2 += d * d;
         }
         longest = maxf(longest, d2);
@@ -28,15 +57,21 @@ static float pixel_lod(const lmb_resolve_job *job, const lmb_texture *t, int32_t
     return longest > 1.0f && longest < 1e30f ? 0.5f * lmb_log2(longest) : 0.0f;
 }
 
-static void paint_colour(lmb_tile *out, const lmb_resolve_job *job, const lmb_texture *t)
+static void paint_colour(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *t)
 {
+    painted p;
+    p.slot = -1;
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (out->id[k] == job->id) {
-            float texel[4];
-            lmb_texture_sample(texel, t, out->uv[0][k], out->uv[1][k], pixel_lod(job, t, k));
-            for (int c = 0; c < 3; ++c) {
-                out->albedo[c][k] *= texel[c];
-            }
+        if (b->slot[k] < 0) {
+            continue;
+        }
+        if (b->slot[k] != p.slot) {
+            take_slot(&p, b, b->slot[k]);
+        }
+        float texel[4];
+        lmb_texture_sample(texel, t, out->uv[0][k], out->uv[1][k], pixel_lod(&p, &b->rays, t, k));
+        for (int c = 0; c < 3; ++c) {
+            out->albedo[c][k] *= texel[c];
         }
     }
 }
@@ -57,16 +92,15 @@ static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
 
 /* Of P(u, v): dP/du = (e1 dv2 - e2 dv1) / area and dP/dv = (e2 du1 - e1 du2) / area; only directions count here. 0 where
  * the coordinates have no area. */
-static int set_frame(tangent_frame *f, const lmb_resolve_job *job, const lmb_triangle *t)
+static int set_frame(tangent_frame *f, const painted *p, const lmb_triangle *t, lmb_vec3 face)
 {
-    const float *u = job->uv[0], *v = job->uv[1];
-    float du1 = u[1] - u[0], dv1 = v[1] - v[0], du2 = u[2] - u[0], dv2 = v[2] - v[0];
+    float du1 = p->uv[1][0], dv1 = p->uv[1][1], du2 = p->uv[2][0], dv2 = p->uv[2][1];
     float area = du1 * dv2 - du2 * dv1, sign = area < 0.0f ? -1.0f : 1.0f;
     int mirrored = is_mirrored(&t->instance->to_world);
     lmb_vec3 e1 = sub3(t->corner[1], t->corner[0]), e2 = sub3(t->corner[2], t->corner[0]);
     lmb_vec3 along_u = normalize3(mul3(sub3(mul3(e1, dv2), mul3(e2, dv1)), sign));
     lmb_vec3 against_v = mul3(sub3(mul3(e1, du2), mul3(e2, du1)), sign);
-    lmb_vec3 front = mirrored ? mul3(job->plane, -1.0f) : job->plane;
+    lmb_vec3 front = mirrored ? mul3(p->plane.plane, -1.0f) : p->plane.plane;
     if (!(area * area > 1e-30f) || !is_sane(area)) {
         return 0;
     }
@@ -77,16 +111,16 @@ static int set_frame(tangent_frame *f, const lmb_resolve_job *job, const lmb_tri
         }
     }
     f->turn = dot3(cross3(front, along_u), against_v) < 0.0f ? -1.0f : 1.0f;
-    f->side = dot3(front, job->face) < 0.0f ? -1.0f : 1.0f;
+    f->side = dot3(front, face) < 0.0f ? -1.0f : 1.0f;
     return 1;
 }
 
 /* The tangent at pixel `k`, made square to its normal; of any length where that leaves nothing. */
-static lmb_vec3 tangent_at(const tangent_frame *f, const lmb_resolve_job *job, lmb_vec3 normal, int32_t k)
+static lmb_vec3 tangent_at(const tangent_frame *f, const painted *p, const lmb_rays *rays, lmb_vec3 normal, int32_t k)
 {
     const lmb_vec3 *t = f->tangent;
     float b1, b2;
-    lmb_resolve_point(&b1, &b2, job, (float)(k % LMB_TILE), (float)(k / LMB_TILE));
+    lmb_resolve_point(&b1, &b2, &p->plane, rays, (float)(k % LMB_TILE), (float)(k / LMB_TILE));
     b1 = clampf(b1, 0.0f, 1.0f);
     b2 = clampf(b2, 0.0f, 1.0f - b1);
     lmb_vec3 mixed = add3(t[0], add3(mul3(sub3(t[1], t[0]), b1), mul3(sub3(t[2], t[0]), b2)));
@@ -102,21 +136,24 @@ static lmb_vec3 above_face(lmb_vec3 n, lmb_vec3 face)
     return rise < LEAST_RISE ? normalize3(add3(n, mul3(face, LEAST_RISE - rise))) : n;
 }
 
-static void paint_normal(lmb_tile *out, const lmb_resolve_job *job, const tangent_frame *f, const lmb_texture *map,
-                         float scale)
+/* The pixels of one triangle. */
+static void paint_normal(lmb_tile *out, const lmb_resolve_batch *b, const painted *p, const tangent_frame *f,
+                         const lmb_texture *map)
 {
+    const lmb_vec3 face = vector_of(b->face, p->slot);
+    const float scale = b->material->normal_scale;
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (out->id[k] != job->id) {
+        if (b->slot[k] != p->slot) {
             continue;
         }
         float code[4];
         lmb_vec3 n = mul3(vec3(out->normal[0][k], out->normal[1][k], out->normal[2][k]), f->side);
-        lmb_vec3 t = tangent_at(f, job, n, k), b = mul3(cross3(n, t), f->turn);
-        lmb_normal_map_sample(code, map, out->uv[0][k], out->uv[1][k], pixel_lod(job, map, k));
-        lmb_vec3 bent = add3(add3(mul3(t, code[0] * scale), mul3(b, code[1] * scale)), mul3(n, code[2]));
+        lmb_vec3 t = tangent_at(f, p, &b->rays, n, k), across = mul3(cross3(n, t), f->turn);
+        lmb_normal_map_sample(code, map, out->uv[0][k], out->uv[1][k], pixel_lod(p, &b->rays, map, k));
+        lmb_vec3 bent = add3(add3(mul3(t, code[0] * scale), mul3(across, code[1] * scale)), mul3(n, code[2]));
         float length2 = dot3(bent, bent);
         if (length2 > 1e-12f && is_sane(length2)) {
-            n = above_face(mul3(bent, f->side / sqrtf(length2)), job->face);
+            n = above_face(mul3(bent, f->side / sqrtf(length2)), face);
             out->normal[0][k] = n.x;
             out->normal[1][k] = n.y;
             out->normal[2][k] = n.z;
@@ -124,14 +161,26 @@ static void paint_normal(lmb_tile *out, const lmb_resolve_job *job, const tangen
     }
 }
 
-void lmb_paint_tile(lmb_tile *out, const lmb_resolve_job *job, const lmb_triangle *t, const lmb_scene *scene)
+static void paint_normals(lmb_tile *out, const lmb_resolve_batch *b, const lmb_scene *scene)
 {
-    const lmb_material *m = t->material;
-    tangent_frame frame;
-    if (m->texture >= 0) {
-        paint_colour(out, job, &scene->textures[m->texture]);
+    for (int32_t slot = 0; slot < b->count; ++slot) {
+        painted p;
+        tangent_frame frame;
+        lmb_triangle t;
+        take_slot(&p, b, slot);
+        if (lmb_triangle_fetch(&t, scene, b->id[slot]) && set_frame(&frame, &p, &t, vector_of(b->face, slot))) {
+            paint_normal(out, b, &p, &frame, &scene->textures[b->material->normal_map]);
+        }
     }
-    if (m->normal_scale != 0.0f && t->mesh->uvs != NULL && set_frame(&frame, job, t)) {
-        paint_normal(out, job, &frame, &scene->textures[m->normal_map], m->normal_scale);
+}
+
+void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_scene *scene)
+{
+    const lmb_material *m = batch->material;
+    if (m->texture >= 0) {
+        paint_colour(out, batch, &scene->textures[m->texture]);
+    }
+    if (m->normal_scale != 0.0f && batch->mesh->uvs != NULL) {
+        paint_normals(out, batch, scene);
     }
 }

@@ -1,4 +1,4 @@
-/* resolve.c: ids of a tile -> position, normal, albedo, each triangle once over the tile's pixels. Floor 3. */
+/* resolve.c: ids of a tile -> position, normal, albedo, sixteen triangles of an instance at a time. Floor 3. */
 #include "resolve.h"
 
 #include <string.h>
@@ -8,7 +8,14 @@
 #include "target.h"
 #include "texture.h"
 
-void lmb_resolve_rays(lmb_resolve_job *job, const lmb_view *v, int32_t x, int32_t y)
+#define LANE_ONE
+#include "../lane/lane_scalar.h"
+#include "../lane/lane.h"
+#include "plane.inl"
+
+/* --- one triangle ----------------------------------------------------------------------------------------------------- */
+
+void lmb_resolve_rays(lmb_rays *out, const lmb_view *v, int32_t x, int32_t y)
 {
     const lmb_vec3 none = vec3(0.0f, 0.0f, 0.0f);
     float per_x = 2.0f * v->half_width / (float)v->frame_width, per_y = 2.0f * v->half_height / (float)v->frame_height;
@@ -17,140 +24,192 @@ void lmb_resolve_rays(lmb_resolve_job *job, const lmb_view *v, int32_t x, int32_
     lmb_vec3 first = add3(mul3(v->right, sx), mul3(v->up, sy));
     lmb_vec3 step_x = mul3(v->right, per_x), step_y = mul3(v->up, -per_y);
     int perspective = v->kind == LMB_PERSPECTIVE;
-    job->eye = v->eye;
-    job->origin = perspective ? none : first;
-    job->ox = perspective ? none : step_x;
-    job->oy = perspective ? none : step_y;
-    job->direction = perspective ? sub3(first, v->back) : mul3(v->back, -1.0f);
-    job->rx = perspective ? step_x : none;
-    job->ry = perspective ? step_y : none;
+    out->eye = v->eye;
+    out->back = v->back;
+    out->near_m = v->near_m;
+    out->perspective = perspective;
+    out->origin = perspective ? none : first;
+    out->ox = perspective ? none : step_x;
+    out->oy = perspective ? none : step_y;
+    out->direction = perspective ? sub3(first, v->back) : mul3(v->back, -1.0f);
+    out->rx = perspective ? step_x : none;
+    out->ry = perspective ? step_y : none;
 }
 
-/* The plane and the barycentric gradients, scaled by the longest edge so that squares of tiny edges stay normal. */
-static void set_plane(lmb_resolve_job *job, const lmb_triangle *t, const lmb_view *v)
+static lmb_vec3 from_lanes(lane3 v)
 {
-    lmb_vec3 e1 = sub3(t->corner[1], t->corner[0]), e2 = sub3(t->corner[2], t->corner[0]);
-    float longest = sqrtf(maxf(dot3(e1, e1), dot3(e2, e2)));
-    float shrink = longest > 1e-12f ? 1.0f / longest : 0.0f;
-    e1 = mul3(e1, shrink);
-    e2 = mul3(e2, shrink);
-    lmb_vec3 n = cross3(e1, e2);
-    float nn = dot3(n, n), gain = nn > 1e-24f ? shrink / nn : 0.0f;
-    job->corner = sub3(t->corner[0], v->eye);
-    job->g1 = mul3(cross3(e2, n), gain);
-    job->g2 = mul3(cross3(n, e1), gain);
-    job->plane = nn > 1e-24f ? mul3(n, 1.0f / sqrtf(nn)) : v->back;
-    float seen = v->kind == LMB_PERSPECTIVE ? dot3(job->plane, job->corner) : -dot3(job->plane, v->back);
-    job->face = seen > 0.0f ? mul3(job->plane, -1.0f) : job->plane;
-    job->w_min = job->w_max = -dot3(v->back, job->corner);
-    for (int k = 1; k < 3; ++k) {
-        float w = -dot3(v->back, sub3(t->corner[k], v->eye));
-        job->w_min = minf(job->w_min, w);
-        job->w_max = maxf(job->w_max, w);
-    }
-    job->w_min = maxf(job->w_min, v->kind == LMB_PERSPECTIVE ? v->near_m : job->w_min);
-    job->w_max = maxf(job->w_max, job->w_min);
+    float x, y, z;
+    lane_store(&x, v.x);
+    lane_store(&y, v.y);
+    lane_store(&z, v.z);
+    return vec3(x, y, z);
 }
 
-/* Normals go by the cofactors of the transform: right for uneven scales, and mirrors only flip them. */
-static lmb_vec3 transform_normal(const lmb_mat4 *t, lmb_vec3 n)
+void lmb_resolve_plane(lmb_plane *out, const lmb_triangle *t, const lmb_rays *rays)
 {
-    const float *m = t->m;
-    lmb_vec3 a = vec3(m[0], m[1], m[2]), b = vec3(m[4], m[5], m[6]), c = vec3(m[8], m[9], m[10]);
-    return normalize3(add3(add3(mul3(cross3(b, c), n.x), mul3(cross3(c, a), n.y)), mul3(cross3(a, b), n.z)));
+    const lane3 corner[3] = {lane3_of(t->corner[0]), lane3_of(t->corner[1]), lane3_of(t->corner[2])};
+    const plane_lanes p = plane_setup(corner, rays);
+    out->corner = from_lanes(p.corner);
+    out->plane = from_lanes(p.plane);
+    out->g1 = from_lanes(p.g1);
+    out->g2 = from_lanes(p.g2);
+    lane_store(&out->w_min, p.w_min);
+    lane_store(&out->w_max, p.w_max);
 }
 
-static void set_corners(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_triangle *t)
+void lmb_resolve_point(float *b1, float *b2, const lmb_plane *p, const lmb_rays *rays, float x, float y)
 {
-    job->smooth = t->mesh->normals != NULL;
+    lmb_vec3 origin = add3(rays->origin, add3(mul3(rays->ox, x), mul3(rays->oy, y)));
+    lmb_vec3 ray = add3(rays->direction, add3(mul3(rays->rx, x), mul3(rays->ry, y)));
+    float slope = dot3(p->plane, ray);
+    float w = slope * slope < 1e-36f ? p->w_max : dot3(p->plane, sub3(p->corner, origin)) / slope;
+    lmb_vec3 q = sub3(add3(origin, mul3(ray, clampf(w, p->w_min, p->w_max))), p->corner);
+    *b1 = dot3(q, p->g1);
+    *b2 = dot3(q, p->g2);
+}
+
+void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *t)
+{
     for (int k = 0; k < 3; ++k) {
         float uv[2], colour[4];
         mesh_uv(t->mesh, t->vertex[k], uv);
         mesh_colour(t->mesh, t->vertex[k], colour);
-        job->uv[0][k] = uv[0];
-        job->uv[1][k] = uv[1];
-        for (int c = 0; c < 3; ++c) {
-            job->albedo[c][k] = t->material->albedo[c] * colour[c];
-        }
-        alpha->corner[k] = t->material->alpha * colour[3];
-        job->normal[k] = job->smooth ? transform_normal(&t->instance->to_world, mesh_normal(t->mesh, t->vertex[k]))
-                                     : job->face;
+        out->u[k] = uv[0];
+        out->v[k] = uv[1];
+        out->corner[k] = t->material->alpha * colour[3];
     }
-    alpha->cutoff = t->material->flags & LMB_ALPHA_MASK ? t->material->alpha_cutoff : 0.0f;
-    alpha->texture = t->material->texture;
+    out->cutoff = t->material->flags & LMB_ALPHA_MASK ? t->material->alpha_cutoff : 0.0f;
+    out->texture = t->material->texture;
 }
 
-void lmb_resolve_setup(lmb_resolve_job *job, lmb_resolve_alpha *alpha, const lmb_view *view, const lmb_triangle *t)
-{
-    job->id = t->id;
-    set_plane(job, t, view);
-    set_corners(job, alpha, t);
-}
-
-void lmb_resolve_point(float *b1, float *b2, const lmb_resolve_job *job, float x, float y)
-{
-    lmb_vec3 origin = add3(job->origin, add3(mul3(job->ox, x), mul3(job->oy, y)));
-    lmb_vec3 ray = add3(job->direction, add3(mul3(job->rx, x), mul3(job->ry, y)));
-    float slope = dot3(job->plane, ray);
-    float w = slope * slope < 1e-36f ? job->w_max : dot3(job->plane, sub3(job->corner, origin)) / slope;
-    lmb_vec3 q = sub3(add3(origin, mul3(ray, clampf(w, job->w_min, job->w_max))), job->corner);
-    *b1 = dot3(q, job->g1);
-    *b2 = dot3(q, job->g2);
-}
-
-
-static int opaque_at(const lmb_resolve_alpha *alpha, const lmb_scene *scene, const float u[3], const float v[3], float b1,
-                     float b2)
+int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2)
 {
     b1 = clampf(b1, 0.0f, 1.0f);
     b2 = clampf(b2, 0.0f, 1.0f - b1);
     float a = resolve_mix3(alpha->corner, b1, b2), texel[4];
     if (alpha->texture >= 0) {
-        lmb_texture_sample(texel, &scene->textures[alpha->texture], resolve_mix3(u, b1, b2), resolve_mix3(v, b1, b2), 0.0f);
+        lmb_texture_sample(texel, &scene->textures[alpha->texture], resolve_mix3(alpha->u, b1, b2),
+                           resolve_mix3(alpha->v, b1, b2), 0.0f);
         a *= texel[3];
     }
     return a >= alpha->cutoff;
 }
 
-int lmb_resolve_opaque(const lmb_resolve_job *job, const lmb_resolve_alpha *alpha, const lmb_scene *scene, float x,
-                       float y)
-{
-    float b1, b2;
-    lmb_resolve_point(&b1, &b2, job, x, y);
-    return opaque_at(alpha, scene, job->uv[0], job->uv[1], b1, b2);
-}
-
 int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1, float b2)
 {
     lmb_resolve_alpha alpha;
-    float u[3], v[3];
     if ((t->material->flags & LMB_ALPHA_MASK) == 0) {
         return 1;
     }
-    for (int k = 0; k < 3; ++k) {
-        float uv[2], colour[4];
-        mesh_uv(t->mesh, t->vertex[k], uv);
-        mesh_colour(t->mesh, t->vertex[k], colour);
-        u[k] = uv[0];
-        v[k] = uv[1];
-        alpha.corner[k] = t->material->alpha * colour[3];
-    }
-    alpha.cutoff = t->material->alpha_cutoff;
-    alpha.texture = t->material->texture;
-    return opaque_at(&alpha, scene, u, v, b1, b2);
+    lmb_resolve_alpha_of(&alpha, t);
+    return lmb_resolve_opaque(&alpha, scene, b1, b2);
 }
 
-/* Ids of the tile's pixels inside window and frame; others 0. */
-static void read_ids(lmb_tile *out, const lmb_target *target, int32_t frame_width, int32_t frame_height)
+/* --- a tile ----------------------------------------------------------------------------------------------------------- */
+
+/* One row of ids; returns those that are not 0, a bit each. */
+static uint32_t read_row(uint32_t *row, const lmb_fill_tile *t, int32_t y, int32_t width)
 {
-    lmb_fill_tile t = lmb_target_tile(target, (out->x - target->x0) / LMB_TILE, (out->y - target->y0) / LMB_TILE);
-    int32_t width = mini(target->x0 + target->depth.width, frame_width) - out->x;
-    int32_t height = mini(target->y0 + target->depth.height, frame_height) - out->y;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        int32_t x = k % LMB_TILE, y = k / LMB_TILE, at = y * t.id_step + x;
-        uint32_t id = t.id_format == LMB_ID16 ? ((const uint16_t *)t.id)[at] : ((const uint32_t *)t.id)[at];
-        out->id[k] = x < width && y < height ? id : 0;
+    uint32_t bits = 0;
+    for (int32_t x = 0; x < width; ++x) {
+        const int32_t at = y * t->id_step + x;
+        row[x] = t->id_format == LMB_ID16 ? ((const uint16_t *)t->id)[at] : ((const uint32_t *)t->id)[at];
+        bits |= (uint32_t)(row[x] != 0) << x;
     }
+    return bits;
+}
+
+/* Ids of the tile's pixels inside window and frame, the others' untouched; returns those that are not 0, a bit each. */
+static uint64_t read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, const lmb_view *v, int32_t x, int32_t y)
+{
+    const lmb_fill_tile t = lmb_target_tile(target, (x - target->x0) / LMB_TILE, (y - target->y0) / LMB_TILE);
+    const int32_t width = mini(target->x0 + target->depth.width, v->frame_width) - x;
+    const int32_t height = mini(target->y0 + target->depth.height, v->frame_height) - y;
+    uint64_t bits = 0;
+    for (int32_t row = 0; row < mini(height, LMB_TILE); ++row) {
+        uint32_t *to = id + row * LMB_TILE;
+        const uint32_t some = width < LMB_TILE ? read_row(to, &t, row, width) : read_row(to, &t, row, LMB_TILE);
+        bits |= (uint64_t)some << (row * LMB_TILE);
+    }
+    return bits;
+}
+
+/* The mesh's numbers at corner i of slot k. */
+static void fetch_corner(lmb_resolve_batch *b, uint32_t vertex, int i, int k)
+{
+    const lmb_mesh *mesh = b->mesh;
+    const lmb_vec3 p = mesh_position(mesh, vertex);
+    b->corner[i][0][k] = p.x;
+    b->corner[i][1][k] = p.y;
+    b->corner[i][2][k] = p.z;
+    if (mesh->normals != NULL) {
+        b->normal[i][0][k] = mesh->normals[2 * (size_t)vertex];
+        b->normal[i][1][k] = mesh->normals[2 * (size_t)vertex + 1];
+    }
+    if (mesh->colours != NULL) {
+        b->albedo[i][0][k] = mesh->colours[4 * (size_t)vertex];
+        b->albedo[i][1][k] = mesh->colours[4 * (size_t)vertex + 1];
+        b->albedo[i][2][k] = mesh->colours[4 * (size_t)vertex + 2];
+    }
+    if (mesh->uvs != NULL) {
+        float uv[2];
+        mesh_uv(mesh, vertex, uv);
+        b->uv[i][0][k] = uv[0];
+        b->uv[i][1][k] = uv[1];
+    }
+}
+
+/* All slots' triangles from the mesh; returns those with an index that points outside it, a bit each. The indices first:
+ * they are far apart in memory, and one by one each would be waited for. */
+static uint32_t fetch(lmb_resolve_batch *b)
+{
+    uint32_t vertex[LMB_BATCH][3], bad = 0;
+    for (int k = 0; k < b->count; ++k) {
+        const uint32_t first = 3 * (b->id[k] - b->instance->first_id);
+        for (uint32_t i = 0; i < 3; ++i) {
+            vertex[k][i] = mesh_index(b->mesh, first + i);
+            bad |= (uint32_t)(vertex[k][i] >= b->mesh->vertex_count) << k;
+        }
+    }
+    for (int k = 0; k < b->count; ++k) {
+        for (int i = 0; i < 3 && ((bad >> k) & 1u) == 0; ++i) {
+            fetch_corner(b, vertex[k][i], i, k);
+        }
+    }
+    return bad;
+}
+
+/* Pixels of slot k become nothing: their id comes from another scene. */
+static void drop_slot(lmb_tile *out, lmb_resolve_batch *b, int k)
+{
+    for (int i = 0; i < LMB_TILE_PIXELS; ++i) {
+        if (b->slot[i] == k) {
+            b->slot[i] = -1;
+            out->id[i] = 0;
+        }
+    }
+}
+
+/* As many of the triangles of the pixels `left` as go side by side; returns the pixels that are done. */
+static uint64_t resolve_some(lmb_tile *out, lmb_resolve_batch *b, const lmb_kernels *kernels, const lmb_scene *scene,
+                             uint64_t left)
+{
+    const int first = lowest_bit_64(left);
+    b->instance = lmb_instance_of(scene, out->id[first]);
+    if (b->instance == NULL) {
+        out->id[first] = 0;
+        return (uint64_t)1 << first;
+    }
+    b->mesh = &scene->meshes[b->instance->mesh];
+    b->material = &scene->materials[b->instance->material];
+    const uint64_t done = kernels->resolve_slots(b, out->id, left);
+    for (uint32_t bad = fetch(b); bad != 0; bad &= bad - 1) {
+        drop_slot(out, b, lowest_bit(bad));
+    }
+    kernels->resolve_setup(b);
+    kernels->resolve(out, b);
+    lmb_paint_tile(out, b, scene);
+    return done;
 }
 
 static int32_t count_hits(const lmb_tile *t)
@@ -174,27 +233,15 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
     memset(out, 0, sizeof *out);
     out->x = x;
     out->y = y;
-    read_ids(out, target, view->frame_width, view->frame_height);
-    uint64_t left = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        left |= (uint64_t)(out->id[k] != 0) << k;
-    }
-    lmb_resolve_job job;
-    lmb_resolve_rays(&job, view, x, y);
-    for (int k = 0; k < LMB_TILE_PIXELS && left >> k != 0; ++k) {
-        lmb_triangle triangle;
-        lmb_resolve_alpha alpha;
-        if (((left >> k) & 1u) == 0) {
-            continue;
+    uint64_t left = read_ids(out->id, target, view, x, y);
+    if (left != 0) {
+        lmb_resolve_batch batch;
+        memset(&batch, 0, sizeof batch); /* slots that are not used hold numbers */
+        lmb_resolve_rays(&batch.rays, view, x, y);
+        while (left != 0) {
+            left &= ~resolve_some(out, &batch, kernels, scene, left);
         }
-        if (!lmb_triangle_fetch(&triangle, scene, out->id[k])) {
-            out->id[k] = 0; /* an id surface from another scene */
-            continue;
-        }
-        lmb_resolve_setup(&job, &alpha, view, &triangle);
-        left &= ~kernels->resolve(out, &job);
-        lmb_paint_tile(out, &job, &triangle, scene);
+        out->hits = count_hits(out);
     }
-    out->hits = count_hits(out);
     return LMB_OK;
 }

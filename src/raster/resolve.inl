@@ -1,9 +1,174 @@
-/* resolve.inl: one triangle's attributes for the pixels of a tile that carry its id.
+/* resolve.inl: the attributes of a tile's pixels, from the triangles that they show.
  *
- * The position is where the pixel's ray meets the triangle's own plane: no depth read back, no snapping error off the
- * plane. On a plane seen edge-on the quotient is clamped to the triangle's own range of w. */
+ * First the different triangles get slots; then up to LMB_BATCH of them are set up side by side; then each vector of
+ * pixels looks its triangles' numbers up by slot. The position is where the pixel's ray meets the triangle's own plane:
+ * no depth read back, no snapping error off the plane. On a plane seen edge-on the quotient is clamped to the triangle's
+ * own range of w. */
+#include "plane.inl"
 
-static inline lane3 resolve_affine(lmb_vec3 at, lmb_vec3 per_x, lmb_vec3 per_y, lane x, lane y)
+/* --- slots ---------------------------------------------------------------------------------------------------------- */
+
+/* Pixels k .. k + LANES - 1 with `id` take the slot; returns them. */
+LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lanei wanted, lanei number)
+{
+    const lane_mask mine = lanei_equal(lanei_load((const int32_t *)id + k), wanted);
+    lanei_store(slot + k, lanei_pick(mine, number, lanei_load(slot + k)));
+    return mask_bits(mine);
+}
+
+/* `left` without the pixels of other instances. */
+LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id, uint64_t left)
+{
+    const lanei first = lanei_splat((int32_t)b->instance->first_id), count = lanei_splat((int32_t)b->mesh->triangle_count);
+    uint64_t own = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lanei n = lanei_sub(lanei_load((const int32_t *)id + k), first);
+        own |= (uint64_t)mask_bits(mask_and(lanei_not_negative(n), lanei_lt(n, count))) << k;
+    }
+    return left & own;
+}
+
+static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
+{
+    uint64_t taken = 0;
+    left = resolve_own(out, id, left);
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        lanei_store(out->slot + k, lanei_splat(-1));
+    }
+    out->count = 0;
+    while (left != 0 && out->count < LMB_BATCH) {
+        const uint32_t next = id[lowest_bit_64(left)];
+        const lanei wanted = lanei_splat((int32_t)next), number = lanei_splat(out->count);
+        uint64_t mine = 0;
+        for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+            mine |= (uint64_t)resolve_take(out->slot, id, k, wanted, number) << k;
+        }
+        out->id[out->count++] = next;
+        taken |= mine;
+        left &= ~mine;
+    }
+    return taken;
+}
+
+/* --- triangles ------------------------------------------------------------------------------------------------------ */
+
+LANE_INLINE lane3 resolve_load(float (*p)[LMB_BATCH], int k)
+{
+    lane3 r;
+    r.x = lane_load(p[0] + k);
+    r.y = lane_load(p[1] + k);
+    r.z = lane_load(p[2] + k);
+    return r;
+}
+
+LANE_INLINE void resolve_store(float (*p)[LMB_BATCH], int k, lane3 v)
+{
+    lane_store(p[0] + k, v.x);
+    lane_store(p[1] + k, v.y);
+    lane_store(p[2] + k, v.z);
+}
+
+/* Three columns times three coordinates, summed in their order. */
+LANE_INLINE lane3 resolve_columns(const lmb_vec3 column[3], lane3 p)
+{
+    return lane3_add(lane3_add(lane3_scale(lane3_of(column[0]), p.x), lane3_scale(lane3_of(column[1]), p.y)),
+                     lane3_scale(lane3_of(column[2]), p.z));
+}
+
+LANE_INLINE void resolve_planes(lmb_resolve_batch *b, const lmb_vec3 column[4], int k)
+{
+    lane3 corner[3];
+    for (int i = 0; i < 3; ++i) {
+        corner[i] = lane3_add(resolve_columns(column, resolve_load(b->corner[i], k)), lane3_of(column[3]));
+    }
+    const plane_lanes p = plane_setup(corner, &b->rays);
+    resolve_store(b->corner[0], k, p.corner);
+    resolve_store(b->corner[1], k, p.g1);
+    resolve_store(b->corner[2], k, p.g2);
+    resolve_store(b->plane, k, p.plane);
+    resolve_store(b->face, k, p.face);
+    lane_store(b->w_min + k, p.w_min);
+    lane_store(b->w_max + k, p.w_max);
+}
+
+LANE_INLINE lane3 resolve_unit(lane3 n)
+{
+    const lane d2 = lane3_dot(n, n), one = lane_splat(1.0f);
+    const lane_mask fine = lane_lt(lane_splat(1e-37f), d2);
+    return lane3_pick(fine, lane3_scale(n, lane_div(one, lane_sqrt(lane_pick(fine, d2, one)))), n);
+}
+
+/* As lmb_octahedral_decode. */
+LANE_INLINE lane3 resolve_octahedral(lane code_x, lane code_y)
+{
+    const lanei zero = lanei_splat(0), least = lanei_splat(-32767);
+    lanei x = lanei_max(lane_to_int(code_x), least), y = lanei_max(lane_to_int(code_y), least);
+    lanei z = lanei_sub(lanei_splat(32767), lanei_max(x, lanei_sub(zero, x)));
+    z = lanei_sub(z, lanei_max(y, lanei_sub(zero, y)));
+    const lanei fold = lanei_min(z, zero), back = lanei_sub(zero, fold);
+    x = lanei_add(x, lanei_pick(lanei_lt(x, zero), back, fold));
+    y = lanei_add(y, lanei_pick(lanei_lt(y, zero), back, fold));
+    lane3 n;
+    n.x = lane_from_int(x);
+    n.y = lane_from_int(y);
+    n.z = lane_from_int(z);
+    return resolve_unit(n);
+}
+
+/* Normals go by the cofactors of the transform: right for uneven scales, and mirrors only flip them. */
+LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3], int k)
+{
+    const lmb_vec3 cofactor[3] = {cross3(column[1], column[2]), cross3(column[2], column[0]), cross3(column[0], column[1])};
+    lane3 n[3];
+    for (int i = 0; i < 3; ++i) {
+        const lane3 own = resolve_octahedral(lane_load(b->normal[i][0] + k), lane_load(b->normal[i][1] + k));
+        n[i] = resolve_unit(resolve_columns(cofactor, own));
+        resolve_store(b->normal[i], k, i == 0 ? n[0] : lane3_sub(n[i], n[0]));
+    }
+}
+
+LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
+{
+    for (int c = 0; c < 3; ++c) {
+        lane v[3];
+        for (int i = 0; i < 3; ++i) {
+            const lane colour = lane_div(lane_load(b->albedo[i][c] + k), lane_splat(255.0f));
+            v[i] = lane_mul(lane_splat(b->material->albedo[c]), colour);
+            lane_store(b->albedo[i][c] + k, i == 0 ? v[0] : lane_sub(v[i], v[0]));
+        }
+    }
+}
+
+LANE_INLINE void resolve_uv(lmb_resolve_batch *b, int k)
+{
+    for (int c = 0; c < 2; ++c) {
+        const lane first = lane_load(b->uv[0][c] + k);
+        lane_store(b->uv[1][c] + k, lane_sub(lane_load(b->uv[1][c] + k), first));
+        lane_store(b->uv[2][c] + k, lane_sub(lane_load(b->uv[2][c] + k), first));
+    }
+}
+
+static void KERNEL(resolve_setup)(lmb_resolve_batch *inout)
+{
+    const float *m = inout->instance->to_world.m;
+    const lmb_vec3 column[4] = {vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]), vec3(m[12], m[13], m[14])};
+    for (int k = 0; k < inout->count; k += LANES) {
+        resolve_planes(inout, column, k);
+        if (inout->mesh->normals != NULL) {
+            resolve_normals(inout, column, k);
+        }
+        if (inout->mesh->colours != NULL) {
+            resolve_albedo(inout, k);
+        }
+        if (inout->mesh->uvs != NULL) {
+            resolve_uv(inout, k);
+        }
+    }
+}
+
+/* --- pixels --------------------------------------------------------------------------------------------------------- */
+
+LANE_INLINE lane3 resolve_affine(lmb_vec3 at, lmb_vec3 per_x, lmb_vec3 per_y, lane x, lane y)
 {
     lane3 r;
     r.x = lane_add(lane_splat(at.x), lane_add(lane_mul(lane_splat(per_x.x), x), lane_mul(lane_splat(per_y.x), y)));
@@ -12,92 +177,97 @@ static inline lane3 resolve_affine(lmb_vec3 at, lmb_vec3 per_x, lmb_vec3 per_y, 
     return r;
 }
 
-static inline void resolve_put(float *p, lane_mask mine, lane value)
+LANE_INLINE void resolve_put(float *p, lane_mask mine, lane value)
 {
     lane_store(p, lane_pick(mine, value, lane_load(p)));
 }
 
-/* Differences from corner 0, so that three equal corners give exactly their value. */
-static inline lane resolve_mix(const float corner[3], lane b1, lane b2)
+LANE_INLINE void resolve_put3(float (*p)[LMB_TILE_PIXELS], int k, lane_mask mine, lane3 v)
 {
-    return lane_add(lane_splat(corner[0]), lane_add(lane_mul(b1, lane_splat(corner[1] - corner[0])),
-                                                    lane_mul(b2, lane_splat(corner[2] - corner[0]))));
+    resolve_put(p[0] + k, mine, v.x);
+    resolve_put(p[1] + k, mine, v.y);
+    resolve_put(p[2] + k, mine, v.z);
+}
+
+LANE_INLINE lane3 resolve_look(const float (*p)[LMB_BATCH], lanei slot)
+{
+    lane3 r;
+    r.x = lane_table(p[0], slot);
+    r.y = lane_table(p[1], slot);
+    r.z = lane_table(p[2], slot);
+    return r;
+}
+
+/* Where in its triangle each pixel is. */
+typedef struct resolve_place {
+    lanei slot;
+    lane b1, b2;
+} resolve_place;
+
+LANE_INLINE lane resolve_mix(const float *first, const float *second, const float *third, const resolve_place *at)
+{
+    return lane_add(lane_table(first, at->slot), lane_add(lane_mul(at->b1, lane_table(second, at->slot)),
+                                                          lane_mul(at->b2, lane_table(third, at->slot))));
 }
 
 /* The interpolated normal, unit length, on the face normal's side; the face normal where it vanishes. */
-static inline lane3 resolve_normal(const lmb_resolve_job *job, lane b1, lane b2)
+LANE_INLINE lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *at, lane3 face)
 {
-    const lmb_vec3 *c = job->normal;
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), tiny = lane_splat(1e-12f);
-    const lane3 face = lane3_splat(job->face.x, job->face.y, job->face.z);
     lane3 n;
-    n.x = resolve_mix((const float[3]){c[0].x, c[1].x, c[2].x}, b1, b2);
-    n.y = resolve_mix((const float[3]){c[0].y, c[1].y, c[2].y}, b1, b2);
-    n.z = resolve_mix((const float[3]){c[0].z, c[1].z, c[2].z}, b1, b2);
+    n.x = resolve_mix(b->normal[0][0], b->normal[1][0], b->normal[2][0], at);
+    n.y = resolve_mix(b->normal[0][1], b->normal[1][1], b->normal[2][1], at);
+    n.z = resolve_mix(b->normal[0][2], b->normal[1][2], b->normal[2][2], at);
     lane d2 = lane3_dot(n, n);
     lane_mask fine = lane_lt(tiny, d2);
     lane scale = lane_div(one, lane_sqrt(lane_pick(fine, d2, one)));
     scale = lane_pick(lane_lt(lane3_dot(n, face), zero), lane_sub(zero, scale), scale);
-    n = lane3_scale(n, scale);
-    n.x = lane_pick(fine, n.x, face.x);
-    n.y = lane_pick(fine, n.y, face.y);
-    n.z = lane_pick(fine, n.z, face.z);
-    return n;
+    return lane3_pick(fine, lane3_scale(n, scale), face);
 }
 
-static inline void resolve_vector(lmb_tile *out, const lmb_resolve_job *job, int k, lane_mask mine)
+LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k, lanei slot, lane_mask mine)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
     const lane x = lane_column(k), y = lane_row(k);
-    const lane3 origin = resolve_affine(job->origin, job->ox, job->oy, x, y);
-    const lane3 ray = resolve_affine(job->direction, job->rx, job->ry, x, y);
-    const lane3 plane = lane3_splat(job->plane.x, job->plane.y, job->plane.z);
-    const lane3 corner = lane3_splat(job->corner.x, job->corner.y, job->corner.z);
+    const lane3 origin = resolve_affine(b->rays.origin, b->rays.ox, b->rays.oy, x, y);
+    const lane3 ray = resolve_affine(b->rays.direction, b->rays.rx, b->rays.ry, x, y);
+    const lane3 plane = resolve_look(b->plane, slot), corner = resolve_look(b->corner[0], slot);
 
     lane slope = lane3_dot(plane, ray);
     slope = lane_pick(lane_lt(lane_mul(slope, slope), lane_splat(1e-36f)), lane_splat(1e-18f), slope);
     lane w = lane_div(lane3_dot(plane, lane3_sub(corner, origin)), slope);
-    w = lane_min(lane_max(w, lane_splat(job->w_min)), lane_splat(job->w_max));
-    lane3 p;
-    p.x = lane_add(origin.x, lane_mul(ray.x, w));
-    p.y = lane_add(origin.y, lane_mul(ray.y, w));
-    p.z = lane_add(origin.z, lane_mul(ray.z, w));
+    w = lane_min(lane_max(w, lane_table(b->w_min, slot)), lane_table(b->w_max, slot));
+    const lane3 p = lane3_add(origin, lane3_scale(ray, w)), q = lane3_sub(p, corner), face = resolve_look(b->face, slot);
 
-    const lane3 q = lane3_sub(p, corner);
-    lane b1 = lane3_dot(q, lane3_splat(job->g1.x, job->g1.y, job->g1.z));
-    lane b2 = lane3_dot(q, lane3_splat(job->g2.x, job->g2.y, job->g2.z));
-    b1 = lane_min(lane_max(b1, zero), one);
-    b2 = lane_min(lane_max(b2, zero), lane_sub(one, b1));
+    resolve_place at;
+    at.slot = slot;
+    at.b1 = lane_min(lane_max(lane3_dot(q, resolve_look(b->corner[1], slot)), zero), one);
+    at.b2 = lane_min(lane_max(lane3_dot(q, resolve_look(b->corner[2], slot)), zero), lane_sub(one, at.b1));
 
-    const lane3 n = job->smooth ? resolve_normal(job, b1, b2) : lane3_splat(job->face.x, job->face.y, job->face.z);
     resolve_put(out->depth + k, mine, w);
-    resolve_put(out->position[0] + k, mine, lane_add(p.x, lane_splat(job->eye.x)));
-    resolve_put(out->position[1] + k, mine, lane_add(p.y, lane_splat(job->eye.y)));
-    resolve_put(out->position[2] + k, mine, lane_add(p.z, lane_splat(job->eye.z)));
-    resolve_put(out->face[0] + k, mine, lane_splat(job->face.x));
-    resolve_put(out->face[1] + k, mine, lane_splat(job->face.y));
-    resolve_put(out->face[2] + k, mine, lane_splat(job->face.z));
-    resolve_put(out->normal[0] + k, mine, n.x);
-    resolve_put(out->normal[1] + k, mine, n.y);
-    resolve_put(out->normal[2] + k, mine, n.z);
+    resolve_put3(out->position, k, mine, lane3_add(p, lane3_of(b->rays.eye)));
+    resolve_put3(out->face, k, mine, face);
+    resolve_put3(out->normal, k, mine, b->mesh->normals != NULL ? resolve_normal(b, &at, face) : face);
     for (int c = 0; c < 3; ++c) {
-        resolve_put(out->albedo[c] + k, mine, resolve_mix(job->albedo[c], b1, b2));
+        lane albedo = lane_splat(b->material->albedo[c]);
+        if (b->mesh->colours != NULL) {
+            albedo = resolve_mix(b->albedo[0][c], b->albedo[1][c], b->albedo[2][c], &at);
+        }
+        resolve_put(out->albedo[c] + k, mine, albedo);
     }
-    resolve_put(out->uv[0] + k, mine, resolve_mix(job->uv[0], b1, b2));
-    resolve_put(out->uv[1] + k, mine, resolve_mix(job->uv[1], b1, b2));
+    if (b->mesh->uvs != NULL) {
+        resolve_put(out->uv[0] + k, mine, resolve_mix(b->uv[0][0], b->uv[1][0], b->uv[2][0], &at));
+        resolve_put(out->uv[1] + k, mine, resolve_mix(b->uv[0][1], b->uv[1][1], b->uv[2][1], &at));
+    }
 }
 
-static uint64_t KERNEL(resolve)(lmb_tile *out, const lmb_resolve_job *job)
+static void KERNEL(resolve)(lmb_tile *out, const lmb_resolve_batch *batch)
 {
-    const lanei id = lanei_splat((int32_t)job->id);
-    uint64_t pixels = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        lane_mask mine = lanei_equal(lanei_load((const int32_t *)out->id + k), id);
-        const uint64_t bits = mask_bits(mine);
-        if (bits != 0) {
-            resolve_vector(out, job, k, mine);
-            pixels |= bits << k;
+        const lanei slot = lanei_load(batch->slot + k);
+        const lane_mask mine = lanei_not_negative(slot);
+        if (mask_bits(mine) != 0) {
+            resolve_vector(out, batch, k, lanei_max(slot, lanei_splat(0)), mine);
         }
     }
-    return pixels;
 }
