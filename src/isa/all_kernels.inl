@@ -8,6 +8,7 @@
 #include "../raster/fill_small.inl"
 #include "../raster/fill_large.inl"
 #include "../raster/resolve.inl"
+#include "../raster/texture.inl"
 #include "../light/direct.inl"
 #include "../bounce/gather.inl"
 #include "../compose/blend.inl"
@@ -24,7 +25,7 @@ static float KERNEL(probe)(float one_and_bit)
 const lmb_kernels KERNEL(lmb_kernels) = {
     MACHINE,         LANES,
     KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large), KERNEL(fill),
-    KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve),
+    KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve), KERNEL(texture),
     KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(blend),
     KERNEL(encode),  KERNEL(probe),
 };

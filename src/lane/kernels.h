@@ -144,6 +144,8 @@ struct lmb_kernels {
     uint64_t (*resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left);
     void (*resolve_setup)(lmb_resolve_batch *inout);
     void (*resolve)(lmb_tile *out, const lmb_resolve_batch *batch);
+    /* The albedo of pixels that have a slot times the texture's finest level, nearest or bilinear. */
+    void (*texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *texture);
     /* W/m2 at each pixel if nothing shadowed it. */
     void (*direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job);
     /* Far pairs are added; near ones flagged in near_pixels, one bit a pixel. */

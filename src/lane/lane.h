@@ -18,12 +18,10 @@ static inline lane lane_column(int k)
 
 static inline lane lane_row(int k)
 {
-#if LANES > LMB_TILE
-    static const float below[16] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1};
-    return lane_add(lane_splat((float)(k / LMB_TILE)), lane_load(below));
-#else
-    return lane_splat((float)(k / LMB_TILE));
-#endif
+    static const float row[LMB_TILE_PIXELS] = {
+        0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3, 3,
+        4, 4, 4, 4, 4, 4, 4, 4, 5, 5, 5, 5, 5, 5, 5, 5, 6, 6, 6, 6, 6, 6, 6, 6, 7, 7, 7, 7, 7, 7, 7, 7};
+    return lane_load(row + k);
 }
 
 /* at + per_x column + per_y row of the same pixels. */
@@ -37,6 +35,20 @@ static inline lanei lanei_affine(int32_t at, int32_t per_x, int32_t per_y, int k
 #endif
     return lanei_add(r, lanei_splat(at + per_y * (k / LMB_TILE)));
 }
+
+/* Four bytes each, at 4 * `at`: the first in the low bits, on every machine. A machine's header may have its own. */
+#ifndef LANE_GATHERS_RGBA
+static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
+{
+    int32_t i[LANES];
+    lanei_store(i, at);
+    for (int k = 0; k < LANES; ++k) {
+        const uint8_t *b = p + 4 * (ptrdiff_t)i[k];
+        i[k] = (int32_t)((uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24);
+    }
+    return lanei_load(i);
+}
+#endif
 
 typedef struct lane3 {
     lane x, y, z;

@@ -102,6 +102,11 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     return _mm256_cvtepi32_ps(
         _mm256_setr_epi32(p[i[0]], p[i[1]], p[i[2]], p[i[3]], p[i[4]], p[i[5]], p[i[6]], p[i[7]]));
 }
+#define LANE_GATHERS_RGBA 1
+static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
+{
+    return _mm256_i32gather_epi32((const int *)(const void *)p, at, 4);
+}
 /* The halves of the table, and bit 3 of `at` says which. */
 static inline lane lane_table(const float *p, lanei at)
 {

@@ -94,14 +94,24 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
     }
     return _mm512_cvtepi32_ps(lanei_load(i));
 }
+#define LANE_GATHERS_RGBA 1
+static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
 static inline lane lane_table(const float *p, lanei at) { return _mm512_permutexvar_ps(at, _mm512_loadu_ps(p)); }
 
+/* Rows of a tiled surface follow each other: one piece. Where `step` is a constant, so is the choice. */
 static inline lane lane_load_rows(const float *p, int32_t step)
 {
+    if (step == 8) {
+        return lane_load(p);
+    }
     return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(p)), _mm256_loadu_ps(p + step), 1);
 }
 static inline void lane_store_rows(float *p, int32_t step, lane a)
 {
+    if (step == 8) {
+        lane_store(p, a);
+        return;
+    }
     _mm256_storeu_ps(p, _mm512_castps512_ps256(a));
     _mm256_storeu_ps(p + step, _mm512_extractf32x8_ps(a, 1));
 }
@@ -131,6 +141,10 @@ static inline void lane_put_u16(uint16_t *p, int32_t step, uint32_t id, lane_mas
 /* Blended in one piece: clang 14 takes the upper half of a mask apart through memory. */
 static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mask m)
 {
+    if (step == 8) {
+        _mm512_storeu_si512(p, _mm512_mask_blend_epi32(m, _mm512_loadu_si512(p), _mm512_set1_epi32((int32_t)id)));
+        return;
+    }
     __m256i *upper = (__m256i *)(void *)p, *lower = (__m256i *)(void *)(p + step);
     __m512i old = _mm512_inserti32x8(_mm512_castsi256_si512(_mm256_loadu_si256(upper)), _mm256_loadu_si256(lower), 1);
     __m512i now = _mm512_mask_blend_epi32(m, old, _mm512_set1_epi32((int32_t)id));

@@ -16,6 +16,9 @@
 #else
 #define LANES 4
 #endif
+/* Masks are no instructions here: work that no lane wants is better branched around. */
+#define LANE_PLAIN 1
+
 #if LANES == 1
 #define EACH(...) \
     do { \

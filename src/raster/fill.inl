@@ -38,16 +38,32 @@ static inline lane_mask fill_depth(const lmb_fill_tile *tile, const lmb_fill_job
 /* Vectors beside each other in a row of tiles' pixels, and rows that one covers. */
 enum { FILL_ACROSS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, FILL_ROWS = LANES < LMB_TILE ? 1 : LANES / LMB_TILE };
 
-/* Float depth has code of its own, without ids and with 32-bit ones; but not on a machine of one lane, where size
+/* Tiled float depth has code of its own, without ids and with 32-bit ones; but not on a machine of one lane, where size
  * counts. */
 enum { FILL_ANY, FILL_PLAIN, FILL_ID32 };
 
 LANE_INLINE int fill_kind(const lmb_fill_tile *tile)
 {
-    if (LANES == 1 || tile->depth_format != LMB_DEPTH32F || tile->id_format == LMB_ID16) {
+    if (LANES == 1 || tile->depth_format != LMB_DEPTH32F || tile->depth_step != LMB_TILE) {
         return FILL_ANY;
     }
-    return tile->id_format == LMB_FORMAT_NONE ? FILL_PLAIN : FILL_ID32;
+    if (tile->id_format == LMB_FORMAT_NONE) {
+        return FILL_PLAIN;
+    }
+    return tile->id_format == LMB_ID32 && tile->id_step == LMB_TILE ? FILL_ID32 : FILL_ANY;
+}
+
+/* What the kind says, as constants for the compiler. */
+LANE_INLINE lmb_fill_tile fill_first(const lmb_fill_window *w, int kind)
+{
+    lmb_fill_tile tile = w->first;
+    if (kind != FILL_ANY) {
+        tile.depth_format = LMB_DEPTH32F;
+        tile.depth_step = LMB_TILE;
+        tile.id_format = kind == FILL_ID32 ? LMB_ID32 : LMB_FORMAT_NONE;
+        tile.id_step = LMB_TILE;
+    }
+    return tile;
 }
 
 /* A triangle in registers. */
@@ -75,6 +91,17 @@ LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y)
 #endif
 }
 
+/* Is a vector without a covered pixel better left out? Where masks are instructions, guessing it costs more. */
+LANE_INLINE int fill_skips(lane_mask in)
+{
+#if defined(LANE_PLAIN)
+    return mask_bits(in) == 0;
+#else
+    (void)in;
+    return 0;
+#endif
+}
+
 /* One column of vectors down the rows. e: the edges at the tile's pixel (0, first_row); d: the depth at (0, 0). */
 LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *coding, const fill_triangle *t,
                               const int32_t e[3], float d, const fill_box *box, int32_t i)
@@ -91,7 +118,7 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
             float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
             lane old = lane_load_rows(p, tile->depth_step);
             lane_store_rows(p, tile->depth_step, lane_pick(in, lane_max(depth, old), old));
-        } else if (mask_bits(in)) {
+        } else if (!fill_skips(in)) {
             lane_mask pass = fill_depth(tile, coding, y * tile->depth_step + i * LANES, depth, in);
             fill_id(tile, y * tile->id_step + i * LANES, t->id, pass);
         }

@@ -103,7 +103,7 @@ LANE_INLINE int32_t large_span(int32_t *first, int32_t low, int32_t high, int32_
     return high_px < low_px ? 0 : last - *first + 1;
 }
 
-LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32_t id, int depth_format, int id_format)
+LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32_t id, int kind)
 {
     int32_t tx, ty, across = large_span(&tx, s->x_min, s->x_max, w->origin_x, w->x0, w->tiles_x),
                     down = large_span(&ty, s->y_min, s->y_max, w->origin_y, w->y0, w->tiles_y);
@@ -122,11 +122,9 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
     fill_set(&t, s->ex, s->ey, &job);
     large_set(&edges, s, x_24_8, y_24_8);
     for (; across > 0 && down > 0; --down, ++ty, y_24_8 += LMB_TILE * 256) {
-        lmb_fill_tile tile = w->first;
-        tile.depth_format = depth_format;
-        tile.id_format = id_format;
+        lmb_fill_tile tile = fill_first(w, kind);
         tile.depth = (uint8_t *)w->first.depth + (ptrdiff_t)ty * w->depth_row + (ptrdiff_t)tx * w->depth_tile;
-        if (id_format != LMB_FORMAT_NONE) {
+        if (tile.id_format != LMB_FORMAT_NONE) {
             tile.id = (uint8_t *)w->first.id + (ptrdiff_t)ty * w->id_row + (ptrdiff_t)tx * w->id_tile;
         }
         large_row(w, s, &t, &edges, &tile, &job, x_24_8, across, s->d_y * (y_24_8 * (1.0 / 256.0)));
@@ -137,8 +135,8 @@ LANE_INLINE void large_fill(const lmb_fill_window *w, const lmb_setup *s, uint32
 static void KERNEL(fill_large)(const lmb_fill_window *w, const lmb_setup *s, uint32_t id)
 {
     switch (fill_kind(&w->first)) {
-    case FILL_PLAIN: large_fill(w, s, id, LMB_DEPTH32F, LMB_FORMAT_NONE); break;
-    case FILL_ID32: large_fill(w, s, id, LMB_DEPTH32F, LMB_ID32); break;
-    default: large_fill(w, s, id, w->first.depth_format, w->first.id_format); break;
+    case FILL_PLAIN: large_fill(w, s, id, FILL_PLAIN); break;
+    case FILL_ID32: large_fill(w, s, id, FILL_ID32); break;
+    default: large_fill(w, s, id, FILL_ANY); break;
     }
 }

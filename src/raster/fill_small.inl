@@ -33,7 +33,7 @@ LANE_INLINE void small_tile(const lmb_fill_tile *tile, const lmb_fill_job *job, 
 
 /* The three edges are written out: gcc -O2 keeps a loop of three, and arrays in memory. */
 LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k,
-                            const fill_triangle *t, int depth_format, int id_format)
+                            const fill_triangle *t, int kind)
 {
     const double d_origin = b->d[k], dx = b->dx[k], dy = b->dy[k];
     const int32_t left = b->x0[k] & ~(LMB_TILE - 1), top = b->y0[k] & ~(LMB_TILE - 1), right = b->x1[k], bottom = b->y1[k];
@@ -42,12 +42,9 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
     const int32_t down = (top - w->y0) / LMB_TILE, across = (left - w->x0) / LMB_TILE;
     int32_t row0 = b->e[0][k], row1 = b->e[1][k], row2 = b->e[2][k];
     uint8_t *depth_row = (uint8_t *)w->first.depth + (ptrdiff_t)down * w->depth_row + (ptrdiff_t)across * w->depth_tile;
-    uint8_t *id_row = id_format == LMB_FORMAT_NONE
-                          ? NULL
-                          : (uint8_t *)w->first.id + (ptrdiff_t)down * w->id_row + (ptrdiff_t)across * w->id_tile;
-    lmb_fill_tile tile = w->first;
-    tile.depth_format = depth_format;
-    tile.id_format = id_format;
+    lmb_fill_tile tile = fill_first(w, kind);
+    const int ids = tile.id_format != LMB_FORMAT_NONE;
+    uint8_t *id_row = ids ? (uint8_t *)w->first.id + (ptrdiff_t)down * w->id_row + (ptrdiff_t)across * w->id_tile : NULL;
     for (int32_t y = top; y <= bottom; y += LMB_TILE) {
         const double d_row = dy * ((y * 256 + w->origin_y) * (1.0 / 256.0));
         int32_t e0 = row0, e1 = row1, e2 = row2;
@@ -60,13 +57,13 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
                 small_tile(&tile, job, t, e0, e1, e2, &box);
             }
             tile.depth = (uint8_t *)tile.depth + w->depth_tile;
-            tile.id = id_format == LMB_FORMAT_NONE ? NULL : (uint8_t *)tile.id + w->id_tile;
+            tile.id = ids ? (uint8_t *)tile.id + w->id_tile : NULL;
             e0 += t->ex[0] * LMB_TILE;
             e1 += t->ex[1] * LMB_TILE;
             e2 += t->ex[2] * LMB_TILE;
         }
         depth_row += w->depth_row;
-        id_row = id_format == LMB_FORMAT_NONE ? NULL : id_row + w->id_row;
+        id_row = ids ? id_row + w->id_row : NULL;
         row0 += t->ey[0] * LMB_TILE;
         row1 += t->ey[1] * LMB_TILE;
         row2 += t->ey[2] * LMB_TILE;
@@ -90,9 +87,9 @@ static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uin
         job.id = first_id + (uint32_t)k;
         fill_set(&t, ex, ey, &job);
         switch (kind) {
-        case FILL_PLAIN: small_fill(w, &job, b, k, &t, LMB_DEPTH32F, LMB_FORMAT_NONE); break;
-        case FILL_ID32: small_fill(w, &job, b, k, &t, LMB_DEPTH32F, LMB_ID32); break;
-        default: small_fill(w, &job, b, k, &t, w->first.depth_format, w->first.id_format); break;
+        case FILL_PLAIN: small_fill(w, &job, b, k, &t, FILL_PLAIN); break;
+        case FILL_ID32: small_fill(w, &job, b, k, &t, FILL_ID32); break;
+        default: small_fill(w, &job, b, k, &t, FILL_ANY); break;
         }
     }
 }

@@ -34,11 +34,13 @@ static float uv_at(const painted *p, int c, const float b[2])
     return p->uv[0][c] + (p->uv[1][c] * b[0] + p->uv[2][c] * b[1]);
 }
 
+static int has_lod(const lmb_texture *t) { return t->filter == LMB_TRILINEAR && t->levels > 1; }
+
 /* Level of detail: the longer of the two pixel steps, in texels. */
 static float pixel_lod(const painted *p, const lmb_rays *rays, const lmb_texture *t, int32_t pixel)
 {
     float x = (float)(pixel % LMB_TILE), y = (float)(pixel / LMB_TILE);
-    if (t->filter != LMB_TRILINEAR || t->levels < 2) {
+    if (!has_lod(t)) {
         return 0.0f;
     }
     float b[3][2], size[2] = {(float)t->width, (float)t->height};
@@ -57,7 +59,7 @@ static float pixel_lod(const painted *p, const lmb_rays *rays, const lmb_texture
     return longest > 1.0f && longest < 1e30f ? 0.5f * lmb_log2(longest) : 0.0f;
 }
 
-static void paint_colour(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *t)
+static void paint_levels(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *t)
 {
     painted p;
     p.slot = -1;
@@ -174,11 +176,13 @@ static void paint_normals(lmb_tile *out, const lmb_resolve_batch *b, const lmb_s
     }
 }
 
-void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_scene *scene)
+void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_kernels *kernels, const lmb_scene *scene)
 {
     const lmb_material *m = batch->material;
-    if (m->texture >= 0) {
-        paint_colour(out, batch, &scene->textures[m->texture]);
+    if (m->texture >= 0 && has_lod(&scene->textures[m->texture])) {
+        paint_levels(out, batch, &scene->textures[m->texture]);
+    } else if (m->texture >= 0) {
+        kernels->texture(out, batch, &scene->textures[m->texture]);
     }
     if (m->normal_scale != 0.0f && batch->mesh->uvs != NULL) {
         paint_normals(out, batch, scene);

@@ -208,7 +208,7 @@ static uint64_t resolve_some(lmb_tile *out, lmb_resolve_batch *b, const lmb_kern
     }
     kernels->resolve_setup(b);
     kernels->resolve(out, b);
-    lmb_paint_tile(out, b, scene);
+    lmb_paint_tile(out, b, kernels, scene);
     return done;
 }
 

@@ -9,6 +9,7 @@
 #include "../../src/base/vec.h"
 #include "../../src/bounce/occlude.h"
 #include "../../src/lane/kernels.h"
+#include "../../src/raster/texture.h"
 #include "seed.h"
 
 void test_kernels(void);
@@ -263,32 +264,6 @@ static int trial_fill(const trial *t, test_rng r)
 
 /* --- resolve, direct, blend ------------------------------------------------------------------------------------------- */
 
-static lmb_resolve_job resolve_job(test_rng *r, uint32_t rare)
-{
-    lmb_resolve_job j;
-    lmb_vec3 *vectors[] = {&j.origin, &j.ox, &j.oy, &j.direction, &j.rx, &j.ry, &j.eye, &j.corner, &j.plane, &j.g1,
-                           &j.g2};
-    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) {
-        *vectors[i] = place(r, 2.0f, rare);
-    }
-    if (test_random(r) % 4u == 0) { /* the plane seen edge-on from some column or everywhere */
-        j.plane = vec3(0.0f, 0.0f, 1.0f);
-        j.direction.z = -(float)(test_random(r) % 8u) * (j.rx.z = (float)(test_random(r) % 2u) * 0.125f);
-        j.ry.z = 0.0f;
-    }
-    j.w_min = number(r, 0.1f, 2.0f, rare);
-    j.w_max = number(r, 2.0f, 9.0f, rare);
-    j.face = direction(r);
-    for (int i = 0; i < 3; ++i) {
-        j.normal[i] = test_random(r) % 8u ? direction(r) : vec3(0.0f, 0.0f, 0.0f);
-    }
-    numbers(j.albedo[0], 9, r, 0.0f, 1.0f, rare);
-    numbers(j.uv[0], 6, r, -4.0f, 4.0f, rare);
-    j.id = test_random(r) % 4u ? 1u + test_random(r) % 3u : 0x7fffffffu;
-    j.smooth = test_random(r) % 2u != 0;
-    return j;
-}
-
 /* An output with its surroundings. */
 #define GUARDED(type) \
     struct { \
@@ -309,25 +284,191 @@ static int canaries_stay(const uint8_t before[64], const uint8_t after[64])
     return 1;
 }
 
+/* What a batch points to, with streams that kernels never read. */
+typedef struct batch_world {
+    lmb_instance instance;
+    lmb_mesh mesh;
+    lmb_material material;
+} batch_world;
+
+static void make_world(batch_world *w, test_rng *r, uint32_t rare)
+{
+    static const int16_t normals[2] = {0, 0};
+    static const uint8_t colours[4] = {0, 0, 0, 0};
+    static const float uvs[2] = {0.0f, 0.0f};
+    memset(w, 0, sizeof *w);
+    numbers(w->instance.to_world.m, 16, r, -2.0f, 2.0f, rare);
+    w->instance.first_id = 1u + test_random(r) % 3u;
+    w->mesh.triangle_count = 1u + test_random(r) % 40u;
+    w->mesh.normals = test_random(r) % 2u ? normals : NULL;
+    w->mesh.colours = test_random(r) % 2u ? colours : NULL;
+    w->mesh.uvs = test_random(r) % 2u ? uvs : NULL;
+    numbers(w->material.albedo, 3, r, 0.0f, 1.0f, rare);
+}
+
+/* The batch's numbers are random: those of the mesh for resolve_setup, of set-up triangles for resolve. */
+static void make_batch(lmb_resolve_batch *b, const batch_world *w, test_rng *r, uint32_t rare)
+{
+    lmb_vec3 *vectors[] = {&b->rays.origin, &b->rays.ox, &b->rays.oy, &b->rays.direction, &b->rays.rx, &b->rays.ry, &b->rays.eye};
+    memset(b, 0, sizeof *b);
+    b->instance = &w->instance;
+    b->mesh = &w->mesh;
+    b->material = &w->material;
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; ++i) {
+        *vectors[i] = place(r, 2.0f, rare);
+    }
+    b->rays.back = direction(r);
+    b->rays.near_m = 0.1f;
+    b->rays.perspective = test_random(r) % 4u != 0;
+    b->count = 1 + (int32_t)(test_random(r) % LMB_BATCH);
+    numbers(b->corner[0][0], 9 * LMB_BATCH, r, -2.0f, 2.0f, rare);
+    numbers(b->uv[0][0], 6 * LMB_BATCH, r, -4.0f, 4.0f, rare);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        b->slot[k] = (int32_t)(test_random(r) % ((uint32_t)b->count + 1)) - 1;
+    }
+}
+
+/* Of a batch's array of rows, the slots in use. */
+static int same_slots(const trial *t, const char *what, const float *want, const float *got, int rows, int32_t count)
+{
+    int equal = 1;
+    for (int i = 0; i < rows && equal; ++i) {
+        equal = same_floats(t, what, want + i * LMB_BATCH, got + i * LMB_BATCH, count);
+    }
+    return equal;
+}
+
+static int trial_resolve_slots(const trial *t, test_rng r)
+{
+    static lmb_resolve_batch want, got;
+    batch_world w;
+    uint32_t id[LMB_TILE_PIXELS];
+    uint64_t left = (uint64_t)test_random(&r) << 32 | test_random(&r);
+    const uint32_t kinds = 1u + test_random(&r) % 50u;
+    make_world(&w, &r, 0);
+    make_batch(&want, &w, &r, 0);
+    got = want;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        id[k] = test_random(&r) % 16u ? test_random(&r) % kinds : 0xffffffffu - test_random(&r) % 2u;
+    }
+    const uint64_t a = lmb_kernels_scalar.resolve_slots(&want, id, left), b = t->kernels->resolve_slots(&got, id, left);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int taken = (int)(a >> k & 1u), own = id[k] - w.instance.first_id < w.mesh.triangle_count;
+        CHECK(taken == (want.slot[k] >= 0) && (!taken || (own && want.id[want.slot[k]] == id[k])));
+        CHECK(taken || !own || (left >> k & 1u) == 0 || want.count == LMB_BATCH);
+    }
+    return same_bytes(t, "taken", &a, &b, sizeof a) && same_bytes(t, "count", &want.count, &got.count, sizeof want.count) &&
+           same_bytes(t, "slot", want.slot, got.slot, sizeof want.slot) &&
+           same_bytes(t, "id", want.id, got.id, sizeof *want.id * (size_t)want.count);
+}
+
+static int trial_resolve_setup(const trial *t, test_rng r)
+{
+    static lmb_resolve_batch want, got;
+    const uint32_t rare = t->seed % 2u ? 12u : 0;
+    batch_world w;
+    make_world(&w, &r, rare);
+    make_batch(&want, &w, &r, rare);
+    for (int k = 0; k < LMB_BATCH; ++k) {
+        for (int i = 0; i < 9; ++i) {
+            want.normal[i / 3][i % 3][k] = (float)((int32_t)(test_random(&r) % 65536u) - 32768);
+            want.albedo[i / 3][i % 3][k] = (float)(test_random(&r) % 256u);
+        }
+        for (int i = 0; i < 3 && test_random(&r) % 8u == 0; ++i) { /* a triangle without area */
+            want.corner[2][i][k] = want.corner[1][i][k];
+        }
+    }
+    got = want;
+    lmb_kernels_scalar.resolve_setup(&want);
+    t->kernels->resolve_setup(&got);
+    return same_slots(t, "corner", want.corner[0][0], got.corner[0][0], 9, want.count) &&
+           same_slots(t, "plane", want.plane[0], got.plane[0], 3, want.count) &&
+           same_slots(t, "face", want.face[0], got.face[0], 3, want.count) &&
+           same_slots(t, "w_min", want.w_min, got.w_min, 1, want.count) &&
+           same_slots(t, "w_max", want.w_max, got.w_max, 1, want.count) &&
+           same_slots(t, "normal", want.normal[0][0], got.normal[0][0], 9, want.count) &&
+           same_slots(t, "albedo", want.albedo[0][0], got.albedo[0][0], 9, want.count) &&
+           same_slots(t, "uv", want.uv[0][0], got.uv[0][0], 6, want.count);
+}
+
 static int trial_resolve(const trial *t, test_rng r)
 {
     static GUARDED(lmb_tile) want, got;
+    static lmb_resolve_batch batch;
     const uint32_t rare = t->seed % 2u ? 12u : 0;
+    batch_world w;
     GUARD(want);
     GUARD(got);
     make_tile(&want.it, &r, rare);
     got.it = want.it;
-    const lmb_resolve_job job = resolve_job(&r, rare);
-    const uint64_t pixels = lmb_kernels_scalar.resolve(&want.it, &job), bits = t->kernels->resolve(&got.it, &job);
+    make_world(&w, &r, rare);
+    make_batch(&batch, &w, &r, rare);
+    numbers(batch.normal[0][0], 9 * LMB_BATCH, &r, -1.0f, 1.0f, rare);
+    numbers(batch.albedo[0][0], 9 * LMB_BATCH, &r, 0.0f, 1.0f, rare);
+    numbers(batch.w_min, LMB_BATCH, &r, 0.1f, 2.0f, rare);
+    numbers(batch.w_max, LMB_BATCH, &r, 2.0f, 9.0f, rare);
+    for (int k = 0; k < LMB_BATCH; ++k) {
+        const lmb_vec3 plane = direction(&r), face = direction(&r);
+        const int edge_on = test_random(&r) % 8u == 0; /* from some column, or everywhere */
+        batch.plane[0][k] = edge_on ? 0.0f : plane.x;
+        batch.plane[1][k] = edge_on ? 0.0f : plane.y;
+        batch.plane[2][k] = edge_on ? 1.0f : plane.z;
+        batch.face[0][k] = face.x;
+        batch.face[1][k] = face.y;
+        batch.face[2][k] = face.z;
+    }
+    if (test_random(&r) % 4u == 0) {
+        batch.rays.direction.z = -(float)(test_random(&r) % 8u) * (batch.rays.rx.z = (float)(test_random(&r) % 2u) * 0.125f);
+        batch.rays.ry.z = 0.0f;
+    }
+    lmb_kernels_scalar.resolve(&want.it, &batch);
+    t->kernels->resolve(&got.it, &batch);
     CHECK(canaries_stay(got.before, got.after));
-    return same_bytes(t, "pixels", &pixels, &bits, sizeof bits) &&
-           same_floats(t, "position", want.it.position[0], got.it.position[0], 3 * LMB_TILE_PIXELS) &&
+    return same_floats(t, "position", want.it.position[0], got.it.position[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "face", want.it.face[0], got.it.face[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "normal", want.it.normal[0], got.it.normal[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "albedo", want.it.albedo[0], got.it.albedo[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "depth", want.it.depth, got.it.depth, LMB_TILE_PIXELS) &&
            same_floats(t, "uv", want.it.uv[0], got.it.uv[0], 2 * LMB_TILE_PIXELS) &&
            same_bytes(t, "id and the rest", want.it.id, got.it.id, sizeof want.it - offsetof(lmb_tile, id));
+}
+
+/* Against the sampler that takes one pixel at a time. The image ends where its memory ends. */
+static int trial_texture(const trial *t, test_rng r)
+{
+    static lmb_tile want, got;
+    static lmb_resolve_batch batch;
+    const uint32_t rare = t->seed % 2u ? 12u : 0;
+    batch_world w;
+    lmb_texture texture;
+    memset(&texture, 0, sizeof texture);
+    make_tile(&want, &r, 0);
+    numbers(want.uv[0], 2 * LMB_TILE_PIXELS, &r, -3.0f, 3.0f, rare);
+    make_world(&w, &r, 0);
+    make_batch(&batch, &w, &r, 0);
+    got = want;
+    texture.width = (uint16_t)(1u + test_random(&r) % 9u);
+    texture.height = (uint16_t)(1u + test_random(&r) % 9u);
+    texture.levels = 1;
+    texture.wrap_s = (uint8_t)(test_random(&r) % 3u);
+    texture.wrap_t = (uint8_t)(test_random(&r) % 3u);
+    texture.filter = test_random(&r) % 2u ? LMB_NEAREST : LMB_BILINEAR;
+    const size_t bytes = lmb_texture_bytes(texture.width, texture.height, 1);
+    uint8_t *texels = malloc(bytes);
+    for (size_t i = 0; i < bytes; ++i) {
+        texels[i] = (uint8_t)test_random(&r);
+    }
+    texture.texels = texels;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float texel[4];
+        lmb_texture_sample(texel, &texture, want.uv[0][k], want.uv[1][k], 0.0f);
+        for (int c = 0; c < 3 && batch.slot[k] >= 0; ++c) {
+            want.albedo[c][k] *= texel[c];
+        }
+    }
+    t->kernels->texture(&got, &batch, &texture);
+    free(texels);
+    return same_bytes(t, "tile", &want, &got, sizeof want);
 }
 
 static int trial_direct(const trial *t, test_rng r)
@@ -546,8 +687,15 @@ static const struct kernel {
     const char *name;
     int (*run)(const trial *t, test_rng r);
 } kernels[] = {
-    {"fill", trial_fill},     {"resolve", trial_resolve}, {"direct", trial_direct},
-    {"gather", trial_gather}, {"gather_near", trial_gather_near}, {"blend", trial_blend},
+    {"fill", trial_fill},
+    {"resolve_slots", trial_resolve_slots},
+    {"resolve_setup", trial_resolve_setup},
+    {"resolve", trial_resolve},
+    {"texture", trial_texture},
+    {"direct", trial_direct},
+    {"gather", trial_gather},
+    {"gather_near", trial_gather_near},
+    {"blend", trial_blend},
     {"encode", trial_encode},
 };
 

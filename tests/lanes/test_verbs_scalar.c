@@ -53,6 +53,9 @@ static void make_memory(verb_input *in, test_rng *r)
     for (int k = 0; k < VERB_TABLE; ++k) {
         uint32_t bits = any_float(r);
         memcpy(&in->table_f32[k], &bits, sizeof bits);
+        for (int c = 0; c < 4; ++c) {
+            in->table_rgba[4 * k + c] = (uint8_t)test_random(r);
+        }
         in->table_u16[k] = (uint16_t)(k % 5 == 0 ? 65535u : test_random(r));
     }
     for (int k = 0; k < VERB_SURFACE; ++k) {

@@ -103,6 +103,8 @@ static inline void run_memory(verb_output *out, const verb_input *in, int k)
     lane_mask own = mask_of_bits(in->bits >> k);
     put_lane(out->row[VERB_gather_f32] + k, lane_gather_f32(in->table_f32, at));
     put_lane(out->row[VERB_gather_u16] + k, lane_gather_u16(in->table_u16, at));
+    put_lane(out->row[VERB_table] + k, lane_table(in->table_f32, lanei_and(at, lanei_splat(15))));
+    lanei_store((int32_t *)out->row[VERB_gather_rgba] + k, lanei_gather_rgba(in->table_rgba, at));
     put_lane(out->row[VERB_load_rows] + k, lane_load_rows(in->surface_f32 + p, VERB_STEP));
     put_lane(out->row[VERB_load_u16] + k, lane_load_u16(in->surface_u16 + p, VERB_STEP));
     lane_store_rows(out->stored_f32 + p, VERB_STEP, lane_load(in->a + k));
