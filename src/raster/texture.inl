@@ -1,6 +1,23 @@
 /* texture.inl: a base colour's finest level times the albedo of a tile's pixels, nearest or bilinear: as texture.c, value
  * by value. */
 #include "../base/codec.h"
+#include "texture.h"
+
+#if LANES == 1
+/* The sampler that takes one pixel at a time is there anyway, for holes. */
+static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float texel[4];
+        if (batch->slot[k] >= 0) {
+            lmb_texture_sample(texel, t, inout->uv[0][k], inout->uv[1][k], 0.0f);
+            inout->albedo[0][k] *= texel[0];
+            inout->albedo[1][k] *= texel[1];
+            inout->albedo[2][k] *= texel[2];
+        }
+    }
+}
+#else
 
 /* A level and how its edges go on. */
 typedef struct texture_level {
@@ -96,3 +113,4 @@ static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, con
         resolve_put(inout->albedo[2] + k, mine, lane_mul(lane_load(inout->albedo[2] + k), texel.z));
     }
 }
+#endif
