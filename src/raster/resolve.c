@@ -134,46 +134,79 @@ static uint64_t read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target,
     return bits;
 }
 
-/* The mesh's numbers at corner i of slot k. */
-static void fetch_corner(lmb_resolve_batch *b, uint32_t vertex, int i, int k)
+/* Vertex numbers of a batch, [corner][slot]. */
+typedef uint32_t corner_vertices[3][LMB_BATCH];
+
+static void fetch_positions(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
 {
-    const lmb_mesh *mesh = b->mesh;
-    const lmb_vec3 p = mesh_position(mesh, vertex);
-    b->corner[i][0][k] = p.x;
-    b->corner[i][1][k] = p.y;
-    b->corner[i][2][k] = p.z;
-    if (mesh->normals != NULL) {
-        b->normal[i][0][k] = mesh->normals[2 * (size_t)vertex];
-        b->normal[i][1][k] = mesh->normals[2 * (size_t)vertex + 1];
+    float (*to)[LMB_BATCH] = b->corner[i];
+    for (int k = 0; k < b->count; ++k) {
+        const lmb_vec3 p = mesh_position(b->mesh, vertex[k]);
+        to[0][k] = p.x;
+        to[1][k] = p.y;
+        to[2][k] = p.z;
     }
-    if (mesh->colours != NULL) {
-        b->albedo[i][0][k] = mesh->colours[4 * (size_t)vertex];
-        b->albedo[i][1][k] = mesh->colours[4 * (size_t)vertex + 1];
-        b->albedo[i][2][k] = mesh->colours[4 * (size_t)vertex + 2];
+}
+
+static void fetch_normals(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
+{
+    for (int k = 0; k < b->count; ++k) {
+        const int16_t *code = b->mesh->normals + 2 * (size_t)vertex[k];
+        b->normal[i][0][k] = code[0];
+        b->normal[i][1][k] = code[1];
     }
-    if (mesh->uvs != NULL) {
+}
+
+static void fetch_colours(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
+{
+    for (int k = 0; k < b->count; ++k) {
+        const uint8_t *code = b->mesh->colours + 4 * (size_t)vertex[k];
+        b->albedo[i][0][k] = code[0];
+        b->albedo[i][1][k] = code[1];
+        b->albedo[i][2][k] = code[2];
+    }
+}
+
+static void fetch_uvs(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
+{
+    for (int k = 0; k < b->count; ++k) {
         float uv[2];
-        mesh_uv(mesh, vertex, uv);
+        mesh_uv(b->mesh, vertex[k], uv);
         b->uv[i][0][k] = uv[0];
         b->uv[i][1][k] = uv[1];
     }
 }
 
-/* All slots' triangles from the mesh; returns those with an index that points outside it, a bit each. The indices first:
- * they are far apart in memory, and one by one each would be waited for. */
-static uint32_t fetch(lmb_resolve_batch *b)
+/* Vertex 0 stands for those that are not there; returns their slots, a bit each. */
+static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b)
 {
-    uint32_t vertex[LMB_BATCH][3], bad = 0;
+    uint32_t bad = 0;
     for (int k = 0; k < b->count; ++k) {
         const uint32_t first = 3 * (b->id[k] - b->instance->first_id);
         for (uint32_t i = 0; i < 3; ++i) {
-            vertex[k][i] = mesh_index(b->mesh, first + i);
-            bad |= (uint32_t)(vertex[k][i] >= b->mesh->vertex_count) << k;
+            const uint32_t v = mesh_index(b->mesh, first + i), outside = v >= b->mesh->vertex_count;
+            vertex[i][k] = outside ? 0 : v;
+            bad |= outside << k;
         }
     }
-    for (int k = 0; k < b->count; ++k) {
-        for (int i = 0; i < 3 && ((bad >> k) & 1u) == 0; ++i) {
-            fetch_corner(b, vertex[k][i], i, k);
+    return bad;
+}
+
+/* All slots' triangles from the mesh; returns the slots of those that are none, a bit each. */
+static uint32_t fetch(lmb_resolve_batch *b)
+{
+    corner_vertices vertex;
+    const uint32_t bad = fetch_indices(vertex, b);
+    for (int i = 0; i < 3 && b->mesh->vertex_count > 0; ++i) {
+        fetch_positions(b, i, vertex[i]);
+        if (b->mesh->normals != NULL) {
+            fetch_normals(b, i, vertex[i]);
+        }
+        if (b->mesh->colours != NULL) {
+            fetch_colours(b, i, vertex[i]);
+        }
+        if (b->mesh->uvs != NULL) {
+            fetch_uvs(b, i, vertex[i]);
         }
     }
     return bad;

@@ -139,12 +139,20 @@ LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
     }
 }
 
+/* Coordinates under 2^-60 count as 0: machines that flush denormals get the same. */
+LANE_INLINE lane resolve_coordinate(const float *p)
+{
+    const lane v = lane_load(p), tiny = lane_splat(8.6736174e-19f);
+    return lane_pick(mask_and(lane_lt(lane_splat(-8.6736174e-19f), v), lane_lt(v, tiny)), lane_splat(0.0f), v);
+}
+
 LANE_INLINE void resolve_uv(lmb_resolve_batch *b, int k)
 {
     for (int c = 0; c < 2; ++c) {
-        const lane first = lane_load(b->uv[0][c] + k);
-        lane_store(b->uv[1][c] + k, lane_sub(lane_load(b->uv[1][c] + k), first));
-        lane_store(b->uv[2][c] + k, lane_sub(lane_load(b->uv[2][c] + k), first));
+        const lane first = resolve_coordinate(b->uv[0][c] + k);
+        lane_store(b->uv[0][c] + k, first);
+        lane_store(b->uv[1][c] + k, lane_sub(resolve_coordinate(b->uv[1][c] + k), first));
+        lane_store(b->uv[2][c] + k, lane_sub(resolve_coordinate(b->uv[2][c] + k), first));
     }
 }
 
