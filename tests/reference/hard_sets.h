@@ -1,0 +1,23 @@
+/* hard_sets.h: random triangles of the kinds that rasterizers get wrong. */
+#ifndef HARD_SETS_H
+#define HARD_SETS_H
+
+#include <lambent/lambent.h>
+
+enum { HARD_TRIANGLES = 300, HARD_SETS = 19 };
+
+typedef struct hard_set {
+    const char *name;
+    int cull, steep; /* steep: planes that fall by much of their depth within a px */
+    float corners[HARD_TRIANGLES][3][3];
+    lmb_mesh mesh;
+    lmb_material material;
+    lmb_instance instance;
+    lmb_scene scene;
+    lmb_view view;
+} hard_set;
+
+/* Set i of HARD_SETS: each kind in perspective and orthographic, then a single triangle. Do not copy it. */
+void hard_set_make(hard_set *out, int i);
+
+#endif
