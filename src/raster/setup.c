@@ -5,7 +5,8 @@
  * by exactly ex a pixel. Over a tile that an edge crosses it stays under 2^27: int32.
  *
  * The depth plane is solved in binary64: the cross products of a 24-bit depth difference and a 23-bit distance are
- * exact there, so slivers keep their slope. (In binary32 a 300:1 sliver's slope lost 9 bits.) */
+ * exact there, so slivers keep their slope. (In binary32 a 300:1 sliver's slope lost 9 bits.) No corner's depth is
+ * above 1: the near plane leaves z <= w, and w times the rounded 1 / w rounds to 1 or less. */
 #include "setup.h"
 
 #include "../base/vec.h"
@@ -30,7 +31,7 @@ static void set_depth(lmb_setup *s, const lmb_screen_vertex *a, const lmb_screen
     s->d_y = (cd * bx - bd * cx) * per_px;
     s->d_origin = (double)a->d - s->d_x * (a->x_24_8 * (1.0 / 256.0)) - s->d_y * (a->y_24_8 * (1.0 / 256.0));
     s->d_min = minf(a->d, minf(b->d, c->d));
-    s->d_max = minf(1.0f, maxf(a->d, maxf(b->d, c->d)));
+    s->d_max = maxf(a->d, maxf(b->d, c->d));
 }
 
 int lmb_setup_triangle(lmb_setup *s, const lmb_screen_vertex *a, const lmb_screen_vertex *b,

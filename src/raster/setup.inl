@@ -100,7 +100,7 @@ static inline void setup_depth(lmb_batch *out, int k, const setup_corner *a, con
     laned_store(out->dx + k, dx);
     laned_store(out->dy + k, dy);
     lane_store(out->d_min + k, lane_min(a->d, lane_min(b->d, c->d)));
-    lane_store(out->d_max + k, lane_min(lane_splat(1.0f), lane_max(a->d, lane_max(b->d, c->d))));
+    lane_store(out->d_max + k, lane_max(a->d, lane_max(b->d, c->d)));
 }
 
 /* Triangles k .. k + LANES - 1. */
