@@ -65,6 +65,7 @@ static void make_memory(verb_input *in, test_rng *r)
     }
     in->bits = test_random(r);
     in->id = test_random(r);
+    in->step = test_random(r) % 2u ? 8 : 11;
 }
 
 static void make_input(verb_input *in, test_rng *r)
@@ -181,15 +182,16 @@ static void test_rules(void)
     CHECK(mask_bits(mask_of_bits(1u << (LANES - 1) | 1u << LANES)) == 1u << (LANES - 1));
 }
 
-static void test_rows(void)
+static void test_rows(int32_t step)
 {
     static verb_input in;
     static verb_output out;
     test_rng r = seed_rng(1);
     make_input(&in, &r);
+    in.step = step;
     verbs_scalar(&out, &in);
     for (int k = 0; k < VERB_LANES; ++k) {
-        const int p = k / 8 * VERB_STEP + k % 8, mine = in.bits >> k & 1u;
+        const int p = k / 8 * step + k % 8, mine = in.bits >> k & 1u;
         CHECK(out.row[VERB_column][k] == bits_of((float)(k % 8)) && out.row[VERB_row][k] == bits_of((float)(k / 8)));
         CHECK(out.row[VERB_i_mul][k] == (uint32_t)in.m[k] * (uint32_t)in.n[k]);
         CHECK(out.row[VERB_load_u16][k] == bits_of((float)in.surface_u16[p]));
@@ -197,7 +199,7 @@ static void test_rows(void)
         CHECK(out.put_u32[p] == (mine ? in.id : in.surface_u32[p]));
         CHECK(out.put_u16[p] == (mine ? (uint16_t)in.id : in.surface_u16[p]));
     }
-    for (int p = 8; p < VERB_STEP; ++p) {
+    for (int p = 8; p < step; ++p) {
         CHECK(out.stored_u16[p] == in.surface_u16[p] && out.put_u16[p] == in.surface_u16[p] &&
               out.put_u32[p] == in.surface_u32[p]);
     }
@@ -206,5 +208,6 @@ static void test_rows(void)
 void test_verbs_scalar(void)
 {
     test_rules();
-    test_rows();
+    test_rows(8);
+    test_rows(11);
 }

@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* Pixels of an input, the widest machine's vector; as two rows in memory, values between the rows' starts. */
-enum { VERB_LANES = 16, VERB_STEP = 11, VERB_SURFACE = 2 * VERB_STEP, VERB_TABLE = 40 };
+/* Pixels of an input, the widest machine's vector; as two rows in memory, values of both with what lies between. */
+enum { VERB_LANES = 16, VERB_SURFACE = 22, VERB_TABLE = 40 };
 
 typedef struct verb_input {
     float a[VERB_LANES], b[VERB_LANES], c[VERB_LANES]; /* anything at all */
@@ -15,6 +15,7 @@ typedef struct verb_input {
     int32_t m[VERB_LANES], n[VERB_LANES];              /* |m n| < 2^31 */
     int32_t at[VERB_LANES];                            /* 0 .. VERB_TABLE - 1 */
     int32_t shift;                                     /* 0 .. 31 */
+    int32_t step;                                      /* from row to row: 8 or 11 */
     float table_f32[VERB_TABLE], surface_f32[VERB_SURFACE];
     uint16_t table_u16[VERB_TABLE], surface_u16[VERB_SURFACE];
     uint32_t surface_u32[VERB_SURFACE];

@@ -98,19 +98,19 @@ static inline void run_doubles(verb_output *out, const verb_input *in, int k)
 
 static inline void run_memory(verb_output *out, const verb_input *in, int k)
 {
-    const int p = k / 8 * VERB_STEP + k % 8;
+    const int p = k / 8 * in->step + k % 8;
     lanei at = lanei_load(in->at + k);
     lane_mask own = mask_of_bits(in->bits >> k);
     put_lane(out->row[VERB_gather_f32] + k, lane_gather_f32(in->table_f32, at));
     put_lane(out->row[VERB_gather_u16] + k, lane_gather_u16(in->table_u16, at));
     put_lane(out->row[VERB_table] + k, lane_table(in->table_f32, lanei_and(at, lanei_splat(15))));
     lanei_store((int32_t *)out->row[VERB_gather_rgba] + k, lanei_gather_rgba(in->table_rgba, at));
-    put_lane(out->row[VERB_load_rows] + k, lane_load_rows(in->surface_f32 + p, VERB_STEP));
-    put_lane(out->row[VERB_load_u16] + k, lane_load_u16(in->surface_u16 + p, VERB_STEP));
-    lane_store_rows(out->stored_f32 + p, VERB_STEP, lane_load(in->a + k));
-    lane_store_u16(out->stored_u16 + p, VERB_STEP, lane_load(in->code + k));
-    lane_put_u16(out->put_u16 + p, VERB_STEP, in->id & 0xffffu, own);
-    lane_put_u32(out->put_u32 + p, VERB_STEP, in->id, own);
+    put_lane(out->row[VERB_load_rows] + k, lane_load_rows(in->surface_f32 + p, in->step));
+    put_lane(out->row[VERB_load_u16] + k, lane_load_u16(in->surface_u16 + p, in->step));
+    lane_store_rows(out->stored_f32 + p, in->step, lane_load(in->a + k));
+    lane_store_u16(out->stored_u16 + p, in->step, lane_load(in->code + k));
+    lane_put_u16(out->put_u16 + p, in->step, in->id & 0xffffu, own);
+    lane_put_u32(out->put_u32 + p, in->step, in->id, own);
 }
 
 void VERBS_RUN(verb_output *out, const verb_input *in)
