@@ -53,6 +53,16 @@ lmb_status lmb_light_map_clear(const lmb_light_map *map);
 lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
                               uint32_t first_id, uint32_t count, lmb_stats *stats);
 
+/* lmb_light_map_rows: clear and draw the tile rows `first` .. `past` - 1 of the map, all triangles. Rows are counted
+ * through its faces: row y of face f is f * size / 8 + y. Every row drawn once, in any pieces, makes the map that
+ * clear and draw make; pieces may be drawn at once, on any threads.
+ *
+ *   stats  a face's triangles count once: with its row 0. May be NULL.
+ * Cost: a piece sets up all triangles of the faces it meets, so few large pieces are best: one a thread.
+ * Returns LMB_OK, LMB_ERR_ARG (rows outside: then nothing was drawn), or what lmb_draw returns. */
+lmb_status lmb_light_map_rows(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
+                              int32_t first, int32_t past, lmb_stats *stats);
+
 /* lmb_light_texel_power: W per channel that a light of `intensity` sends through texel (x, y) of a face: intensity x
  * exact solid angle of the texel (or its area, directional), with the spot's fall-off averaged over 2x2 points.
  * Relative error of the solid angle under 1e-6 for maps of 16 texels or more. */

@@ -98,6 +98,25 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units);
 lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
                            const lmb_surface *out, int32_t band);
 
+/* lmb_render_has_parts: 1 where the stage at hand can be done in parts, by those who have threads; 0 where it goes by
+ * lmb_render_step: stages that are short, one that steps have begun, first points without room for four a block. */
+int32_t lmb_render_has_parts(const lmb_render *r);
+
+/* lmb_render_part: do one of `parts` equal shares: tile rows of all lights' maps (LMB_STAGE_LIGHT_MAP), of the next face
+ * of one (LMB_STAGE_POINTS), or of the frame (LMB_STAGE_VIEW). Shares may be done on any threads in any order. When
+ * each was done, once, lmb_render_parts_done goes on. The bytes are those of lmb_render_step.
+ *
+ *   scratch  one for each thread.
+ *   parts    at least 1. A share of a map sets up all of its triangles: one share a thread is best.
+ *   stats    added to; one for each thread, or NULL. frame.stats is left to lmb_render_parts_done.
+ * Returns LMB_OK; LMB_ERR_ARG (null, part outside, a stage without parts); or an error of the stage. */
+lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
+                           lmb_stats *stats);
+
+/* lmb_render_parts_done: all `parts` shares were done: go on to the next face or stage. The returns of
+ * lmb_render_step, and LMB_ERR_ARG for a stage without parts. */
+lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts);
+
 /* lmb_render_frame: begin and all the steps. `r` is caller's memory. */
 lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "points.h"
 
 #define ELEMENTS 4       /* a block's surfaces at most; more join the likest */
 #define COS_25 0.90630779f
@@ -128,6 +129,13 @@ static void make_point(lmb_point *out, const element *e, const lmb_light_map *ma
     out->axis_v = mul3(footprint(v, out->position, out->normal, step_y), fit * side_y);
 }
 
+static int32_t block_of(const lmb_grouping *grouping)
+{
+    return grouping != NULL && grouping->block != 0 ? grouping->block : LMB_TILE;
+}
+
+static int is_block(int32_t n) { return n == 1 || n == 2 || n == 4 || n == 8; }
+
 typedef struct collector {
     lmb_points *points;
     const lmb_scene *scene;
@@ -198,10 +206,10 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping)
 {
     collector c;
-    int32_t block = grouping != NULL && grouping->block != 0 ? grouping->block : LMB_TILE;
+    int32_t block = block_of(grouping);
     if (points == NULL || points->data == NULL || kernels == NULL || scratch == NULL || scene == NULL || light == NULL ||
         map == NULL || face < 0 || face >= map->faces || tile_y0 < 0 || tile_y1 > map->size / LMB_TILE ||
-        (block != 1 && block != 2 && block != 4 && block != 8)) {
+        !is_block(block)) {
         return LMB_ERR_ARG;
     }
     int32_t side = map->size / block;
@@ -221,6 +229,82 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
             return status;
         }
     }
-    points->cells[side * side] = points->count;
+    if (tile_y1 == map->size / LMB_TILE) {
+        points->cells[side * side] = points->count;
+    }
     return LMB_OK;
+}
+
+/* --- in parts ------------------------------------------------------------------------------------------------------- */
+
+/* Where a part's rows and cells lie. */
+typedef struct part_place {
+    int32_t first_row, past_row;    /* of tiles */
+    uint32_t first_cell, past_cell; /* of blocks */
+} part_place;
+
+static part_place place_part(const lmb_light_map *map, int32_t block, int32_t part, int32_t parts)
+{
+    const uint32_t cells_a_row = (uint32_t)((map->size / block) * (LMB_TILE / block));
+    int64_t first, past;
+    part_place p;
+    share_out(&first, &past, map->size / LMB_TILE, part, parts);
+    p.first_row = (int32_t)first;
+    p.past_row = (int32_t)past;
+    p.first_cell = (uint32_t)first * cells_a_row;
+    p.past_cell = (uint32_t)past * cells_a_row;
+    return p;
+}
+
+int lmb_points_have_room(const lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping)
+{
+    const int32_t block = block_of(grouping);
+    if (!is_block(block)) {
+        return 0;
+    }
+    const uint64_t side = (uint64_t)(map->size / block), cells = side * side;
+    return cells < points->cell_cap && ELEMENTS * cells <= points->cap - points->count;
+}
+
+lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
+                           const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
+                           int32_t part, int32_t parts, const lmb_grouping *grouping)
+{
+    const part_place p = place_part(map, block_of(grouping), part, parts);
+    lmb_points own = *points;
+    if (p.first_row == p.past_row) {
+        return LMB_OK;
+    }
+    own.data += points->count + ELEMENTS * p.first_cell;
+    own.cap = ELEMENTS * (p.past_cell - p.first_cell);
+    own.count = 0;
+    own.faces += p.first_row > 0; /* collecting row 0 counts the face itself */
+    lmb_status status =
+        lmb_points_collect(&own, kernels, scratch, scene, light, map, face, p.first_row, p.past_row, grouping);
+    if (status == LMB_OK) {
+        own.cells[p.first_cell] = own.count; /* it begins at the part's own 0: until the end its place holds the count */
+    }
+    return status;
+}
+
+void lmb_points_put_together(lmb_points *points, const lmb_light_map *map, int32_t parts, const lmb_grouping *grouping)
+{
+    const uint32_t so_far = points->count;
+    const int32_t side = map->size / block_of(grouping);
+    for (int32_t i = 0; i < parts; ++i) {
+        const part_place p = place_part(map, block_of(grouping), i, parts);
+        if (p.first_row == p.past_row) {
+            continue;
+        }
+        const uint32_t count = points->cells[p.first_cell];
+        memmove(points->data + points->count, points->data + so_far + ELEMENTS * p.first_cell,
+                count * sizeof *points->data);
+        points->cells[p.first_cell] = 0;
+        for (uint32_t c = p.first_cell; c < p.past_cell; ++c) {
+            points->cells[c] += points->count;
+        }
+        points->count += count;
+    }
+    points->cells[side * side] = points->count;
+    ++points->faces;
 }

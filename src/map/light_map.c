@@ -5,6 +5,7 @@
 
 #include "../base/poly.h"
 #include "../base/vec.h"
+#include "../raster/target.h"
 
 #define COS_50 0.64278761f   /* half angle up to which one perspective face serves a spot */
 #define CUBE_CORNER 0.9553167f /* rad between a cube face's axis and its corner */
@@ -154,6 +155,38 @@ lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kerne
     for (int32_t f = 0; status == LMB_OK && f < map->faces; ++f) {
         if ((map->drawn >> f) & 1u) {
             status = lmb_draw(&map->face[f], kernels, &map->view[f], scene, first_id, count, 0, stats);
+        }
+    }
+    return status;
+}
+
+/* The tile rows from .. to - 1 of one face. */
+static lmb_status draw_rows(const lmb_light_map *map, int32_t face, const lmb_kernels *kernels, const lmb_scene *scene,
+                            int32_t from, int32_t to, lmb_stats *stats)
+{
+    lmb_target window;
+    lmb_target_rows(&window, &map->face[face], from, to - from);
+    lmb_surface_clear(&window.depth);
+    lmb_surface_clear(&window.id);
+    if (((map->drawn >> face) & 1u) == 0) {
+        return LMB_OK;
+    }
+    return lmb_draw(&window, kernels, &map->view[face], scene, 1, UINT32_MAX - 1, 0, from == 0 ? stats : NULL);
+}
+
+lmb_status lmb_light_map_rows(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
+                              int32_t first, int32_t past, lmb_stats *stats)
+{
+    lmb_status status = LMB_OK;
+    if (map == NULL || kernels == NULL || scene == NULL || first < 0 || past < first ||
+        past > map->faces * (map->size / LMB_TILE)) {
+        return LMB_ERR_ARG;
+    }
+    const int32_t rows = map->size / LMB_TILE;
+    for (int32_t f = 0; f < map->faces && status == LMB_OK; ++f) {
+        const int32_t from = maxi(first - f * rows, 0), to = mini(past - f * rows, rows);
+        if (from < to) {
+            status = draw_rows(map, f, kernels, scene, from, to, stats);
         }
     }
     return status;

@@ -5,6 +5,7 @@
 
 #include "../base/surface_check.h"
 #include "../base/vec.h"
+#include "../bounce/points.h"
 #include "../raster/target.h"
 
 #define UNIT_TRIANGLES 1024u
@@ -191,23 +192,37 @@ static lmb_status step_groups(lmb_render *r)
 }
 
 /* The whole frame's depth: with ids where the eye holds them all, else depth alone for the occlusion. */
+static int view_target(lmb_target *out, const lmb_frame *f)
+{
+    *out = f->eye;
+    if (is_whole(&f->eye.depth, &f->view)) {
+        return 1;
+    }
+    const lmb_surface *map = occluding_depth(f);
+    memset(out, 0, sizeof *out);
+    if (map != NULL) {
+        out->depth = *map;
+    }
+    return map != NULL;
+}
+
+static void clear_target(const lmb_target *t)
+{
+    lmb_surface_clear(&t->depth);
+    if (t->id.data != NULL) {
+        lmb_surface_clear(&t->id);
+    }
+}
+
 static lmb_status step_view(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
-    lmb_target whole = f->eye;
-    if (!is_whole(&f->eye.depth, &f->view)) {
-        const lmb_surface *map = occluding_depth(f);
-        if (map == NULL) {
-            return LMB_OK;
-        }
-        memset(&whole, 0, sizeof whole);
-        whole.depth = *map;
+    lmb_target whole;
+    if (!view_target(&whole, f)) {
+        return LMB_OK;
     }
     if (r->place == 0) {
-        lmb_surface_clear(&whole.depth);
-        if (whole.id.data != NULL) {
-            lmb_surface_clear(&whole.id);
-        }
+        clear_target(&whole);
     }
     lmb_status status = lmb_draw(&whole, f->kernels, &f->view, f->scene, r->place + 1,
                                  (uint32_t)units * UNIT_TRIANGLES, LMB_CULL_BACK, f->stats);
@@ -319,6 +334,121 @@ static lmb_status step_bands(lmb_render *r, int32_t units)
     return r->place < (uint32_t)bands ? LMB_MORE : LMB_OK;
 }
 
+/* Tile rows counted through all faces of all lights' maps, so that many lights are shared out whole. */
+static lmb_status part_light_map(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats)
+{
+    const lmb_frame *f = &r->frame;
+    const int64_t rows = f->light_map / LMB_TILE;
+    int64_t first, past, all = 0, before = 0;
+    lmb_status status = LMB_OK;
+    for (uint32_t i = 0; i < f->scene->light_count; ++i) {
+        all += r->maps[i].faces * rows;
+    }
+    share_out(&first, &past, all, part, parts);
+    for (uint32_t i = 0; i < f->scene->light_count && status == LMB_OK; ++i) {
+        const int64_t own = r->maps[i].faces * rows;
+        const int64_t from = first > before ? first - before : 0, to = past - before < own ? past - before : own;
+        if (from < to) {
+            status = lmb_light_map_rows(&r->maps[i], f->kernels, f->scene, (int32_t)from, (int32_t)to, stats);
+        }
+        before += own;
+    }
+    return status;
+}
+
+static lmb_status part_view(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_target whole, window;
+    int64_t first, past;
+    share_out(&first, &past, band_count(&f->view), part, parts);
+    if (first >= past || !view_target(&whole, f)) {
+        return LMB_OK;
+    }
+    lmb_target_rows(&window, &whole, (int32_t)first, (int32_t)(past - first));
+    clear_target(&window);
+    return lmb_draw(&window, f->kernels, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, first == 0 ? stats : NULL);
+}
+
+/* A row of blocks of the face at hand. Faces that are no part of the map have no points. */
+static lmb_status part_points(const lmb_render *r, lmb_tile *tile, int32_t part, int32_t parts)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_light_map *map = &r->maps[r->light];
+    if (((map->drawn >> r->face) & 1u) == 0) {
+        return LMB_OK;
+    }
+    return lmb_points_part(&f->points, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, (int32_t)r->face,
+                           part, parts, &f->grouping);
+}
+
+/* The face's parts are done: LMB_MORE where another face waits. */
+static lmb_status end_parts_of_face(lmb_render *r, int32_t parts)
+{
+    lmb_frame *f = &r->frame;
+    const lmb_light_map *map = &r->maps[r->light];
+    const uint32_t before = f->points.count;
+    if ((map->drawn >> r->face) & 1u) {
+        lmb_points_put_together(&f->points, map, parts, &f->grouping);
+    }
+    if (f->stats != NULL) {
+        f->stats->first_points += f->points.count - before;
+    }
+    const lmb_status status = end_face(r);
+    return status != LMB_OK ? status : r->light < f->scene->light_count ? LMB_MORE : LMB_OK;
+}
+
+int32_t lmb_render_has_parts(const lmb_render *r)
+{
+    if (r == NULL || r->failed != LMB_OK) {
+        return 0;
+    }
+    switch (r->stage) {
+    case LMB_STAGE_LIGHT_MAP: return r->light == 0 && r->place == 0;
+    case LMB_STAGE_POINTS:
+        return wants_bounce(&r->frame) && r->place == 0 && r->light < r->frame.scene->light_count &&
+               lmb_points_have_room(&r->frame.points, &r->maps[r->light], &r->frame.grouping);
+    case LMB_STAGE_VIEW: return r->place == 0;
+    default: return 0;
+    }
+}
+
+lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
+                           lmb_stats *stats)
+{
+    if (!lmb_render_has_parts(r) || scratch == NULL || part < 0 || part >= parts) {
+        return LMB_ERR_ARG;
+    }
+    switch (r->stage) {
+    case LMB_STAGE_LIGHT_MAP: return part_light_map(r, part, parts, stats);
+    case LMB_STAGE_POINTS: return part_points(r, &scratch->tile, part, parts);
+    default: return part_view(r, part, parts, stats);
+    }
+}
+
+/* The stage is complete, or has failed. */
+static lmb_status end_stage(lmb_render *r, lmb_status status)
+{
+    if (status < 0) {
+        r->stage = LMB_STAGE_DONE;
+        r->failed = status;
+        return status;
+    }
+    if (status == LMB_OK) {
+        ++r->stage;
+        r->light = r->face = r->place = 0;
+    }
+    return r->stage == LMB_STAGE_DONE ? LMB_OK : LMB_MORE;
+}
+
+lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts)
+{
+    if (!lmb_render_has_parts(r) || parts < 1) {
+        return LMB_ERR_ARG;
+    }
+    return end_stage(r, r->stage == LMB_STAGE_POINTS ? end_parts_of_face(r, parts) : LMB_OK);
+}
+
 lmb_status lmb_render_step(lmb_render *r, int32_t units)
 {
     lmb_status status;
@@ -337,16 +467,7 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     case LMB_STAGE_BANDS: status = step_bands(r, units); break;
     default: return LMB_OK;
     }
-    if (status < 0) {
-        r->stage = LMB_STAGE_DONE;
-        r->failed = status;
-        return status;
-    }
-    if (status == LMB_OK) {
-        ++r->stage;
-        r->light = r->face = r->place = 0;
-    }
-    return r->stage == LMB_STAGE_DONE ? LMB_OK : LMB_MORE;
+    return end_stage(r, status);
 }
 
 lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame)

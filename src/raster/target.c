@@ -37,6 +37,23 @@ lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t 
     return t;
 }
 
+static void cut_rows(lmb_surface *s, int32_t first, int32_t count)
+{
+    const int32_t left = s->height - first * LMB_TILE;
+    s->data = tile_address(s, 0, first, 0);
+    s->height = left < count * LMB_TILE ? left : count * LMB_TILE;
+}
+
+void lmb_target_rows(lmb_target *out, const lmb_target *target, int32_t first, int32_t count)
+{
+    *out = *target;
+    out->y0 += first * LMB_TILE;
+    cut_rows(&out->depth, first, count);
+    if (out->id.data != NULL) {
+        cut_rows(&out->id, first, count);
+    }
+}
+
 lmb_fill_window lmb_target_window(const lmb_target *t, const lmb_view *view)
 {
     const int32_t depth_bytes = lmb_pixel_bytes(t->depth.format), id_bytes = lmb_pixel_bytes(t->id.format);

@@ -10,6 +10,10 @@ int lmb_view_is_sound(const lmb_view *view);
 /* LMB_OK where a scene of so many triangles can be drawn into the window; else what lmb_draw returns. */
 lmb_status lmb_target_check(const lmb_target *target, const lmb_view *view, uint32_t triangles);
 
+/* lmb_target_rows: the window of tile rows first .. first + count - 1 of a target, in the target's own memory; fewer
+ * where it ends before. 0 <= first < its tile rows, count >= 1. */
+void lmb_target_rows(lmb_target *out, const lmb_target *target, int32_t first, int32_t count);
+
 /* Address one tile of a window. */
 lmb_fill_tile lmb_target_tile(const lmb_target *target, int32_t tile_x, int32_t tile_y);
 

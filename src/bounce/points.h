@@ -1,0 +1,26 @@
+/* points.h: a face's first points collected in parts, each on a thread of its own. Floor 6. */
+#ifndef LMB_BOUNCE_POINTS_H
+#define LMB_BOUNCE_POINTS_H
+
+#include <lambent/bounce.h>
+
+/* Is there room for the parts of one more face, each with all the points its blocks can have? */
+int lmb_points_have_room(const lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping);
+
+/* lmb_points_part: lmb_points_collect of part `part` of `parts` of a face's rows, into that part's own place behind
+ * the points so far, whose count stands. Parts may be collected at once. The same returns. */
+lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
+                           const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
+                           int32_t part, int32_t parts, const lmb_grouping *grouping);
+
+/* lmb_points_put_together: close the gaps between the parts: the points and cells that lmb_points_collect leaves. */
+void lmb_points_put_together(lmb_points *points, const lmb_light_map *map, int32_t parts, const lmb_grouping *grouping);
+
+/* Share `part` of `parts` of n things: *first .. *past - 1. */
+static inline void share_out(int64_t *first, int64_t *past, int64_t n, int32_t part, int32_t parts)
+{
+    *first = n * part / parts;
+    *past = n * (part + 1) / parts;
+}
+
+#endif
