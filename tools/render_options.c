@@ -42,7 +42,7 @@ const char render_usage[] =
     "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
     "other\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
-    "  --threads N                that draw bands; the picture does not depend on it (default: this machine's processors)\n"
+    "  --threads N                that draw at once; the picture does not depend on it (default: the processors)\n"
     "  --stats FILE.json          time by stage, counts, bytes\n";
 
 static int parse_float(const char **p, float *out)

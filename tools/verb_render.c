@@ -9,14 +9,13 @@
 #include <lambent/lambent.h>
 
 #include "../platform/host/host.h"
-#include "../platform/host/pool.h"
+#include "crew.h"
 #include "demo_scene.h"
 #include "model.h"
 #include "picture.h"
 #include "render_options.h"
 #include "render_view.h"
 
-#define STAGES (LMB_STAGE_DONE + 1)
 #define MAP_TEXELS (2u << 20) /* over all lights' maps, by default: 16 MiB */
 
 /* One run, from the options to the picture. Everything here is freed by job_free. */
@@ -28,13 +27,12 @@ typedef struct job {
     lmb_light sun;
     lmb_frame frame;
     lmb_render *render;
-    lmb_band_scratch *scratches; /* one a thread */
-    int threads;
+    crew crew;
     lmb_stats stats;
     image linear;
     void *map_memory, *point_memory, *depth_memory, *id_memory;
     size_t bytes; /* of the above and the state */
-    double load_s, write_s, total_s, stage_s[STAGES];
+    double load_s, write_s, total_s;
     double indirect_share;
 } job;
 
@@ -45,7 +43,7 @@ static void job_free(job *j)
     free(j->depth_memory);
     free(j->id_memory);
     free(j->frame.groups);
-    free(j->scratches);
+    free(j->crew.scratches);
     free(j->render);
     image_free(&j->linear);
     model_free(&j->loaded);
@@ -165,7 +163,7 @@ static int take_frame(job *j, report *r)
     j->depth_memory = take(j, depth, r);
     j->id_memory = take(j, id, r);
     j->linear.pixels = take(j, out, r);
-    f->scratch = j->scratches = take(j, sizeof *j->scratches * (size_t)j->threads, r);
+    f->scratch = j->crew.scratches = take(j, sizeof *f->scratch * (size_t)j->crew.threads, r);
     j->render = take(j, sizeof *j->render, r);
     if (r->text[0] != '\0') {
         return 0;
@@ -188,8 +186,8 @@ static int set_frame(job *j, report *r)
     }
     tell_notes(j);
     set_lights(j);
-    j->threads = j->o.threads > 0 ? j->o.threads : pool_processors();
-    j->threads = j->threads > POOL_MAX ? POOL_MAX : j->threads;
+    j->crew.threads = j->o.threads > 0 ? j->o.threads : pool_processors();
+    j->crew.threads = j->crew.threads > POOL_MAX ? POOL_MAX : j->crew.threads;
     f->kernels = j->o.kernels;
     f->scene = &j->scene;
     f->show = j->o.show < SHOW_DEPTH ? j->o.show : LMB_SHOW_FULL;
@@ -223,6 +221,11 @@ static void show_progress(const lmb_render *render, double since)
     }
 }
 
+typedef struct watcher {
+    int32_t stage;
+    double start, stage_start, shown; /* s; shown 0: nothing was */
+} watcher;
+
 /* What stopped a frame, in words. The memory is sized here, so little can. */
 static int explain(const job *j, lmb_status status, int stage, report *r)
 {
@@ -233,83 +236,33 @@ static int explain(const job *j, lmb_status status, int stage, report *r)
     return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
 }
 
-/* The bands of a frame, shared out. */
-typedef struct band_work {
-    job *j;
-    lmb_status failed[POOL_MAX]; /* by worker */
-    double start, shown;
-    int watched;
-} band_work;
-
-/* Bands are taken in order, so the number of one tells how far the frame is. */
-static void draw_band(void *user, int band, int worker)
+/* A second of silence first, then ten times a second. */
+static void watch(void *user, const lmb_render *at)
 {
-    band_work *work = user;
-    const lmb_render *render = work->j->render;
-    const lmb_frame *f = &render->frame;
-    lmb_status status = lmb_render_band(render, &work->j->scratches[worker], &f->eye, &f->out, band);
-    if (status != LMB_OK) {
-        work->failed[worker] = status;
+    watcher *w = user;
+    const double now = host_seconds();
+    if (at->stage != w->stage) {
+        w->stage = at->stage;
+        w->stage_start = now;
     }
-    if (worker == 0 && work->watched && host_seconds() - work->shown > 0.1) {
-        lmb_render at = *render;
-        at.place = (uint32_t)band;
-        show_progress(&at, work->start);
-        work->shown = host_seconds();
+    if (now - w->start > 1.0 && now - w->shown > 0.1) {
+        show_progress(at, w->stage_start);
+        w->shown = now;
     }
-}
-
-static lmb_status draw_bands(job *j, int watched, double *shown)
-{
-    const int bands = (j->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE;
-    band_work work;
-    memset(&work, 0, sizeof work);
-    work.j = j;
-    work.watched = watched;
-    work.start = host_seconds();
-    work.shown = work.start + 0.9; /* a second of silence first */
-    pool_run(j->threads, bands, draw_band, &work);
-    *shown = work.shown > work.start + 0.9 ? work.shown : *shown;
-    j->stats.bands = (uint32_t)bands;
-    j->stage_s[LMB_STAGE_BANDS] = host_seconds() - work.start;
-    for (int i = 0; i < POOL_MAX; ++i) {
-        if (work.failed[i] != LMB_OK) {
-            return work.failed[i];
-        }
-    }
-    return LMB_OK;
 }
 
 static int draw(job *j, report *r)
 {
-    double start = host_seconds(), last = start, stage_start = start, shown = 0.0;
-    int watched = host_watched(), stage = LMB_STAGE_LIGHT_MAP, before = stage;
-    lmb_status status = lmb_render_begin(j->render, &j->frame);
-    if (status == LMB_OK) {
-        do {
-            before = j->render->stage;
-            status = lmb_render_step(j->render, 16);
-            double now = host_seconds();
-            j->stage_s[stage] += now - last;
-            if (j->render->stage != stage) {
-                stage = j->render->stage;
-                stage_start = now;
-            }
-            last = now;
-            if (watched && now - start > 1.0 && now - shown > 0.1) {
-                show_progress(j->render, stage_start);
-                shown = now;
-            }
-        } while (status == LMB_MORE && stage < LMB_STAGE_BANDS);
-        if (status == LMB_MORE) {
-            before = LMB_STAGE_BANDS;
-            status = draw_bands(j, watched, &shown);
-        }
-    }
-    if (shown > 0.0) {
+    watcher w = {LMB_STAGE_LIGHT_MAP, host_seconds(), 0.0, 0.0};
+    w.stage_start = w.start;
+    j->crew.tell = host_watched() ? watch : NULL;
+    j->crew.user = &w;
+    int32_t stage;
+    lmb_status status = crew_render(&j->crew, &stage, j->render, &j->frame);
+    if (w.shown > 0.0) {
         fprintf(stderr, "\r%60s\r", "");
     }
-    return status == LMB_OK || explain(j, status, before, r);
+    return status == LMB_OK || explain(j, status, stage, r);
 }
 
 /* Attributes instead of light: the view alone is drawn. */
@@ -405,7 +358,7 @@ static int write_stats(const job *j, report *r)
     n += snprintf(text + n, sizeof text - (size_t)n, "{\n  \"width\": %d, \"height\": %d,\n  \"seconds\": {\"load\": %.6f",
                   (int)j->frame.view.frame_width, (int)j->frame.view.frame_height, j->load_s);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->stage_s[i]);
+        n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->crew.stage_s[i]);
     }
     n += snprintf(text + n, sizeof text - (size_t)n, ", \"write\": %.6f, \"total\": %.6f},\n", j->write_s, j->total_s);
     n += snprintf(text + n, sizeof text - (size_t)n,
@@ -433,7 +386,7 @@ static void tell_demo(const job *j)
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
         at.stage = i;
         lmb_render_progress(&name, &at);
-        printf("  %-13s %8.1f ms\n", name, j->stage_s[i] * 1e3);
+        printf("  %-13s %8.1f ms\n", name, j->crew.stage_s[i] * 1e3);
     }
     printf("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
 }
@@ -456,7 +409,10 @@ static int measure_share(job *j, report *r)
     f.show = LMB_SHOW_DIRECT;
     f.stats = NULL;
     lmb_surface_init(&f.out, LMB_RGB32F, direct.width, direct.height, direct.pixels, bytes);
-    lmb_status status = lmb_render_frame(render, &f);
+    crew again = j->crew;
+    int32_t stage;
+    again.tell = NULL;
+    lmb_status status = crew_render(&again, &stage, render, &f);
     j->indirect_share = full > 0.0 ? 1.0 - mean(&direct) / full : 0.0;
     free(render);
     free(direct.pixels);

@@ -1,0 +1,121 @@
+/* crew.c: a frame's stages shared out among threads. */
+#include "crew.h"
+
+#include <string.h>
+
+#include "../platform/host/host.h"
+
+/* A stage under way. */
+typedef struct stage_work {
+    const crew *crew;
+    const lmb_render *render;
+    int parts;
+    lmb_status failed[POOL_MAX]; /* by worker, like counts */
+    lmb_stats counts[POOL_MAX];
+} stage_work;
+
+static void keep_failure(stage_work *w, int worker, lmb_status status)
+{
+    if (status != LMB_OK) {
+        w->failed[worker] = status;
+    }
+}
+
+static void tell(const crew *c, const lmb_render *r)
+{
+    if (c->tell != NULL) {
+        c->tell(c->user, r);
+    }
+}
+
+static void draw_part(void *user, int part, int worker)
+{
+    stage_work *w = user;
+    keep_failure(w, worker, lmb_render_part(w->render, &w->crew->scratches[worker], part, w->parts, &w->counts[worker]));
+}
+
+/* Bands are taken in order, so the number of one tells how far the frame is. */
+static void draw_band(void *user, int band, int worker)
+{
+    stage_work *w = user;
+    const lmb_frame *f = &w->render->frame;
+    keep_failure(w, worker, lmb_render_band(w->render, &w->crew->scratches[worker], &f->eye, &f->out, band));
+    w->counts[worker].bands += 1;
+    if (worker == 0 && w->crew->tell != NULL) {
+        lmb_render at = *w->render;
+        at.place = (uint32_t)band;
+        tell(w->crew, &at);
+    }
+}
+
+static lmb_status sum_up(const stage_work *w, lmb_stats *stats)
+{
+    lmb_status status = LMB_OK;
+    for (int i = 0; i < POOL_MAX; ++i) {
+        status = status != LMB_OK ? status : w->failed[i];
+        if (stats != NULL) {
+            stats->triangles += w->counts[i].triangles;
+            stats->triangles_drawn += w->counts[i].triangles_drawn;
+            stats->triangles_dropped += w->counts[i].triangles_dropped;
+            stats->bands += w->counts[i].bands;
+        }
+    }
+    return status;
+}
+
+/* The parts or bands of the stage at hand, by all threads at once. */
+static lmb_status share(const crew *c, const lmb_render *r, int parts, pool_job job)
+{
+    stage_work w;
+    memset(&w, 0, sizeof w);
+    w.crew = c;
+    w.render = r;
+    w.parts = parts;
+    tell(c, r);
+    pool_run(c->threads, parts, job, &w);
+    return sum_up(&w, r->frame.stats);
+}
+
+static lmb_status do_parts(const crew *c, lmb_render *r)
+{
+    const lmb_status status = share(c, r, c->threads, draw_part);
+    return status != LMB_OK ? status : lmb_render_parts_done(r, c->threads);
+}
+
+static lmb_status do_step(const crew *c, lmb_render *r)
+{
+    const lmb_status status = lmb_render_step(r, 16);
+    tell(c, r);
+    return status;
+}
+
+/* Up to the bands: with one thread by steps, so that it can be told how far it is. */
+static lmb_status do_stages(crew *c, lmb_render *r, int32_t *stage)
+{
+    lmb_status status = LMB_MORE;
+    while (status == LMB_MORE && r->stage < LMB_STAGE_BANDS) {
+        const double start = host_seconds();
+        *stage = r->stage;
+        status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
+        c->stage_s[*stage] += host_seconds() - start;
+    }
+    return status == LMB_MORE ? LMB_OK : status;
+}
+
+lmb_status crew_render(crew *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+{
+    const int bands = (frame->view.frame_height + LMB_TILE - 1) / LMB_TILE;
+    lmb_status status = lmb_render_begin(r, frame);
+    *stage = LMB_STAGE_LIGHT_MAP;
+    memset(c->stage_s, 0, sizeof c->stage_s);
+    if (status == LMB_OK) {
+        status = do_stages(c, r, stage);
+    }
+    if (status == LMB_OK) {
+        const double start = host_seconds();
+        *stage = LMB_STAGE_BANDS;
+        status = share(c, r, bands, draw_band);
+        c->stage_s[LMB_STAGE_BANDS] = host_seconds() - start;
+    }
+    return status;
+}
