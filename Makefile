@@ -39,7 +39,8 @@ LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 
 object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c src/map/voxel/*.c))
-TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/host/host.c platform/host/pool.c
+TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/host/host.c platform/host/pool.c \
+            platform/host/process.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 LIB_OBJ    := $(call object,$(LIB_SRC))

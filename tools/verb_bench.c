@@ -7,6 +7,7 @@
 
 #include "../platform/host/host.h"
 #include "bench_scene.h"
+#include "bench_threads.h"
 
 static const char help_text[] =
     "usage: lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
@@ -19,6 +20,8 @@ static const char help_text[] =
     "  --seconds S      of each case (default: 1.5)\n"
     "  --linear         with depth copied into plain rows, which other programs read\n"
     "  --json           one object a case and line\n"
+    "\n"
+    "lambent bench threads: what several threads gain; see its --help\n"
     "\n"
     "exit status: 0 done, 1 a file that cannot be read, 2 bad usage\n";
 
@@ -268,6 +271,9 @@ int verb_bench(int argc, char **argv)
 {
     options o;
     report r = {""};
+    if (argc >= 2 && strcmp(argv[1], "threads") == 0) {
+        return bench_threads(argc - 1, argv + 1);
+    }
     if (!parse(&o, argc, argv, &r)) {
         fprintf(stderr, "lambent bench: %s\n", r.text);
         return 2;
