@@ -47,6 +47,8 @@ LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_OBJ := $(call object,tests/golden/golden.c tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+WAYS_OBJ   := $(call object,tests/golden/golden.c tests/golden/main_ways.c tools/demo_scene.c tools/crew.c \
+              platform/host/host.c platform/host/pool.c) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
@@ -87,12 +89,13 @@ $(LIB): $(LIB_OBJ)
 $(TOOL): $(TOOL_OBJ) $(LIB)
 $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
+$(B)/ways: $(WAYS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
-$(TOOL) $(B)/tests $(B)/golden $(B)/demo $(B)/replay $(B)/hostile $(B)/decodes $(B)/reference:
+$(TOOL) $(B)/tests $(B)/golden $(B)/ways $(B)/demo $(B)/replay $(B)/hostile $(B)/decodes $(B)/reference:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -115,11 +118,11 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) $(DECODE_OBJ) $(REFERENCE_OBJ)))
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) $(DECODE_OBJ) $(REFERENCE_OBJ)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
-CHECKS ?= unit analytic truth lanes golden hard replay hostile hostile-cli floors symbols stack headers layout one tables readme cli tiny
+CHECKS ?= unit analytic truth lanes golden ways hard replay hostile hostile-cli floors symbols stack headers layout one tables readme cli tiny
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -129,7 +132,7 @@ IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(C
 check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
 	@sh tests/build/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
-$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden $(B)/reference $(B)/replay $(B)/hostile
+$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden $(B)/ways $(B)/reference $(B)/replay $(B)/hostile
 	+@$(PART) $* $(MAKE) $*
 
 unit analytic truth lanes: $(B)/tests
@@ -140,6 +143,9 @@ golden: $(B)/golden ## small scenes' hashes against the committed ones
 
 hard: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
 	@$(RUN) $(B)/reference hard
+
+ways: $(B)/ways ## the same hashes in pieces, in several orders, and on 1 .. 8 threads
+	@$(RUN) $(B)/ways$(EXE)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
@@ -194,7 +200,7 @@ rom: room-sizes
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit analytic truth lanes golden hard replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
+	+@$(MAKE) check CHECKS="unit analytic truth lanes golden ways hard replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 FUZZER    := $(BUILD)/fuzz/fuzz

@@ -1,22 +1,21 @@
-/* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine, compiler and configuration.
+/* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine and compiler, and in every
+ * configuration that the case fits.
  *
- * Each case runs with every machine's kernels that can run here; a line names the ones whose hash is not the table's.
+ * Each case runs with the kernels of every machine that can run here (or the way's); a line names the ones whose hash is not the table's.
  *
  * Freestanding and small (static memory under 200 KiB), so that a Cortex-M4F runs the very same list. A hash changes
  * only in a commit that explains the pixels. */
-#include <lambent/lambent.h>
+#include "golden.h"
 
 #include <string.h>
 
 #include "../../src/base/poly.h"
 #include "../../tools/demo_scene.h"
 
-int golden_run(void (*put)(const char *line));
-
-enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = 400, TRIANGLES = 40 };
+enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40 };
 
 static struct memory {
-    uint32_t depth[80 * 64], id[80 * 64], out[WIDTH * HEIGHT * 3];
+    uint32_t depth[88 * 64], id[88 * 64], out[WIDTH * HEIGHT * 3];
     uint32_t map[MAP * MAP * 2];
     lmb_groups groups;
     lmb_band_scratch scratch;
@@ -24,6 +23,7 @@ static struct memory {
 } memory;
 LMB_POINTS_ARRAY(points, POINTS, MAP / 4);
 static const lmb_kernels *kernels; /* those that the cases run with */
+static const golden_way *way;
 
 /* --- hashing: every value as little-endian bytes ---------------------------------------------------------------------- */
 
@@ -177,11 +177,40 @@ static lmb_view soup_view(int orthographic)
     return v;
 }
 
-static void set_eye(lmb_target *eye, int32_t height, int depth_format, int id_format)
+enum { TILED = 0, LINEAR = 8, PADDED = 16 };
+enum { PADDING = 8 }; /* pixels behind a row */
+
+/* Rows instead of tiles, one right behind the other or with a gap. */
+static void make_linear(lmb_surface *s, int layout)
+{
+    s->layout = LMB_LINEAR;
+    s->stride_bytes = (WIDTH + (layout == PADDED ? PADDING : 0)) * lmb_pixel_bytes(s->format);
+}
+
+/* What stands between a linear surface's rows is nobody's to write. */
+static int gaps_are_untouched(const lmb_surface *s)
+{
+    const int32_t row = WIDTH * lmb_pixel_bytes(s->format);
+    int good = 1;
+    for (int32_t y = 0; s->layout == LMB_LINEAR && y < s->height; ++y) {
+        for (int32_t i = row; i < s->stride_bytes; ++i) {
+            good &= ((const uint8_t *)s->data)[y * s->stride_bytes + i] == 0xa5;
+        }
+    }
+    return good;
+}
+
+static void set_eye(lmb_target *eye, int32_t height, int depth_format, int id_format, int layout)
 {
     memset(eye, 0, sizeof *eye);
+    memset(memory.depth, 0xa5, sizeof memory.depth);
+    memset(memory.id, 0xa5, sizeof memory.id);
     lmb_surface_init(&eye->depth, depth_format, WIDTH, height, memory.depth, sizeof memory.depth);
     lmb_surface_init(&eye->id, id_format, WIDTH, height, memory.id, sizeof memory.id);
+    if (layout != TILED) {
+        make_linear(&eye->depth, layout);
+        make_linear(&eye->id, layout);
+    }
     lmb_surface_clear(&eye->depth);
     lmb_surface_clear(&eye->id);
 }
@@ -204,15 +233,17 @@ static uint64_t case_functions(int variant)
     return h;
 }
 
-/* 0..3: depth 32F/16 x id 16/32; +4 orthographic; near plane and guard band are both met. */
+/* 0..3: depth 32F/16 x id 16/32; +4 orthographic; near plane and guard band are both met. LINEAR or PADDED on top:
+ * rows instead of tiles, the same pixels and so the same hash. */
 static uint64_t case_raster(int variant)
 {
     lmb_target eye;
-    make_soup(17u + (uint32_t)variant, variant & 4 ? 2.0f : 4.5f);
+    make_soup(17u + (uint32_t)(variant & 7), variant & 4 ? 2.0f : 4.5f);
     lmb_view v = soup_view(variant & 4);
-    set_eye(&eye, HEIGHT, variant & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, variant & 2 ? LMB_ID32 : LMB_ID16);
-    lmb_draw(&eye, kernels, &v, &soup, 1, 1000, LMB_CULL_BACK, NULL);
-    return hash_surface(hash_surface(hash_start, &eye.depth), &eye.id);
+    set_eye(&eye, HEIGHT, variant & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, variant & 2 ? LMB_ID32 : LMB_ID16, variant & ~7);
+    way->draw(&eye, kernels, &v, &soup, LMB_CULL_BACK, NULL);
+    uint64_t h = gaps_are_untouched(&eye.depth) && gaps_are_untouched(&eye.id) ? hash_start : 0;
+    return hash_surface(hash_surface(h, &eye.depth), &eye.id);
 }
 
 static uint64_t case_resolve(int variant)
@@ -220,9 +251,9 @@ static uint64_t case_resolve(int variant)
     lmb_target eye;
     uint64_t h = hash_start;
     make_soup(91u, 2.0f);
-    lmb_view v = soup_view(variant);
-    set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
-    lmb_draw(&eye, kernels, &v, &soup, 1, 1000, 0, NULL);
+    lmb_view v = soup_view(variant & 7);
+    set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, variant & ~7);
+    way->draw(&eye, kernels, &v, &soup, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
             const lmb_tile *t = &memory.scratch.tile;
@@ -247,8 +278,8 @@ static uint64_t case_normal_map(int variant)
     bent[1].normal_scale = 0.4f;
     soup.materials = bent;
     lmb_view v = soup_view(variant);
-    set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
-    lmb_draw(&eye, kernels, &v, &soup, 1, 1000, 0, NULL);
+    set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, TILED);
+    way->draw(&eye, kernels, &v, &soup, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
             lmb_resolve_tile(&memory.scratch.tile, kernels, &v, &soup, &eye, x, y);
@@ -272,8 +303,7 @@ static uint64_t case_light_map(int variant)
     soup_light = make_light(variant);
     int32_t size = variant == LMB_LIGHT_POINT ? 24 : MAP;
     lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
-    lmb_light_map_clear(&map);
-    lmb_light_map_draw(&map, kernels, &soup, 1, 1000, NULL);
+    way->draw_map(&map, kernels, &soup);
     uint64_t h = hash_start;
     for (int32_t f = 0; f < map.faces; ++f) {
         float power[3];
@@ -298,8 +328,7 @@ static uint64_t case_groups(int variant)
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
     lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
-    lmb_light_map_clear(&map);
-    lmb_light_map_draw(&map, kernels, scene, 1, UINT32_MAX - 1, NULL);
+    way->draw_map(&map, kernels, scene);
     points.count = points.faces = 0;
     lmb_status a = lmb_points_collect(&points, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
                                       MAP / 8, &how[variant]);
@@ -328,7 +357,7 @@ static lmb_frame demo_frame(void)
     f.points = points;
     f.groups = &memory.groups;
     f.scratch = &memory.scratch;
-    set_eye(&f.eye, HEIGHT, LMB_DEPTH32F, LMB_ID16);
+    set_eye(&f.eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, TILED);
     lmb_surface_init(&f.out, LMB_RGB32F, WIDTH, HEIGHT, memory.out, sizeof memory.out);
     return f;
 }
@@ -336,8 +365,9 @@ static lmb_frame demo_frame(void)
 static uint64_t case_show(int variant)
 {
     lmb_frame f = demo_frame();
-    f.show = variant;
-    lmb_status status = lmb_render_frame(&memory.render, &f);
+    f.show = variant & 7;
+    set_eye(&f.eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, variant & ~7);
+    lmb_status status = way->render(&memory.render, &f);
     return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
 }
 
@@ -346,7 +376,7 @@ static uint64_t case_occlusion(int variant)
     lmb_frame f = demo_frame();
     f.show = LMB_SHOW_INDIRECT;
     f.occlusion = variant;
-    lmb_status status = lmb_render_frame(&memory.render, &f);
+    lmb_status status = way->render(&memory.render, &f);
     return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
 }
 
@@ -356,9 +386,90 @@ static uint64_t case_format(int variant)
     lmb_frame f = demo_frame();
     f.exposure_ev = 0.5f;
     lmb_surface_init(&f.out, formats[variant], WIDTH, HEIGHT, memory.out, sizeof memory.out);
-    lmb_status status = lmb_render_frame(&memory.render, &f);
+    lmb_status status = way->render(&memory.render, &f);
     return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
 }
+
+/* --- what does not fit: the status, and what is left ------------------------------------------------------------------ */
+
+/* A map's first points of 4x4 or 1x1 texels where fewer fit: those so far stand. */
+static uint64_t case_full_points(int variant)
+{
+    static const lmb_grouping how = {LMB_GROUP_ZONES, 4, 0, 0, 0, 0, 0, 0};
+    const lmb_scene *scene = demo_scene();
+    lmb_light_map map;
+    lmb_points few = points;
+    lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
+    way->draw_map(&map, kernels, scene);
+    few.count = few.faces = 0;
+    few.cap = variant == 0 ? 100 : POINTS;
+    few.cell_cap = variant == 0 ? few.cell_cap : MAP / 4 * (MAP / 4);
+    lmb_status status = lmb_points_collect(&few, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
+                                           MAP / 8, &how);
+    points.count = few.count;
+    return hash_points(hash_u32(hash_start, (uint32_t)status));
+}
+
+/* The frame's: more points, maps or lights than there is room for. */
+static uint64_t case_full_frame(int variant)
+{
+    lmb_frame f = demo_frame();
+    lmb_light two[2];
+    lmb_scene lit = *f.scene;
+    lmb_surface_clear(&f.out);
+    two[0] = two[1] = lit.lights[0];
+    two[1].intensity[1] *= 0.5f;
+    lit.lights = two;
+    f.scene = &lit;
+    f.light_map = MAP / 2;
+    if (variant == 0) {
+        f.points.cap = 100;
+        f.light_map = MAP;
+    } else if (variant == 1) {
+        f.map_bytes -= MAP * MAP * 4;
+        f.light_map = MAP;
+    } else {
+        lit.light_count = 2; /* one is all that the small configuration takes */
+    }
+    lmb_status status = way->render(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
+/* As many groups as this configuration has, for discs that want more: zones, greedy, and one a disc. */
+static uint64_t case_full_groups(int variant)
+{
+    lmb_grouping how = {LMB_GROUP_ZONES, 4, LMB_MAX_GROUPS, 0, 0.05f, 0.3f, 0.999f, 0};
+    const lmb_scene *scene = demo_scene();
+    lmb_light_map map;
+    lmb_stats stats;
+    how.method = variant;
+    lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
+    way->draw_map(&map, kernels, scene);
+    points.count = points.faces = 0;
+    lmb_points_collect(&points, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0, MAP / 8, &how);
+    lmb_discs_join(&points, &map, &how);
+    memset(&stats, 0, sizeof stats);
+    memory.groups.count = 0;
+    lmb_status status = lmb_group_points(&memory.groups, &points, &how, &stats);
+    uint64_t h = hash_u32(hash_u32(hash_start, (uint32_t)status), points.count);
+    return hash_groups(hash_u32(h, stats.regroups));
+}
+
+/* --- ways ------------------------------------------------------------------------------------------------------------- */
+
+static lmb_status draw_whole(const lmb_target *target, const lmb_kernels *k, const lmb_view *view,
+                             const lmb_scene *scene, uint32_t flags, lmb_stats *stats)
+{
+    return lmb_draw(target, k, view, scene, 1, UINT32_MAX - 1, flags, stats);
+}
+
+static lmb_status draw_map_whole(const lmb_light_map *map, const lmb_kernels *k, const lmb_scene *scene)
+{
+    lmb_light_map_clear(map);
+    return lmb_light_map_draw(map, k, scene, 1, UINT32_MAX - 1, NULL);
+}
+
+const golden_way golden_whole = {draw_whole, draw_map_whole, lmb_render_frame, -1};
 
 /* --- the table -------------------------------------------------------------------------------------------------------- */
 
@@ -369,6 +480,13 @@ static const struct golden {
     uint64_t hash;
 } cases[] = {
 #include "golden_table.inc"
+#if LMB_MAX_GROUPS == 2048 && LMB_MAX_LIGHTS == 128
+#define CAPACITY_CASE(name, run, variant, here, tiny) {name, run, variant, here},
+#include "golden_capacity.inc"
+#elif LMB_MAX_GROUPS == 96 && LMB_MAX_LIGHTS == 1
+#define CAPACITY_CASE(name, run, variant, large, here) {name, run, variant, here},
+#include "golden_capacity.inc"
+#endif
 };
 
 static void write_hex(char *out, uint64_t v)
@@ -388,13 +506,27 @@ static size_t append(char *line, size_t at, const char *text)
     return at;
 }
 
+static int32_t machine_count(void)
+{
+    int32_t n = 0;
+    while (lmb_kernels_at(n) != NULL) {
+        ++n;
+    }
+    return n;
+}
+
 /* `name hash`, where a machine's hash is wrong: that hash, WRONG and the machines. */
 static int run_case(char line[160], const struct golden *c)
 {
     char wrong[64];
     size_t n = append(line, 0, c->name), w = append(wrong, 0, "");
     uint64_t shown = c->hash;
-    for (int32_t i = 0; (kernels = lmb_kernels_at(i)) != NULL; ++i) {
+    const int32_t count = machine_count();
+    for (int32_t i = 0; i < count; ++i) {
+        if (way->machine >= 0 && way->machine % count != i) {
+            continue;
+        }
+        kernels = lmb_kernels_at(i);
         uint64_t hash = c->run(c->variant);
         if (hash != c->hash) {
             shown = hash;
@@ -409,9 +541,10 @@ static int run_case(char line[160], const struct golden *c)
     return w > 0;
 }
 
-int golden_run(void (*put)(const char *line))
+int golden_run(const golden_way *how, void (*put)(const char *line))
 {
     int wrong = 0;
+    way = how;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         char line[160];
         wrong += run_case(line, &cases[i]);

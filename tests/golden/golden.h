@@ -1,0 +1,23 @@
+/* golden.h: the golden cases, and the ways in which they are drawn. */
+#ifndef GOLDEN_H
+#define GOLDEN_H
+
+#include <lambent/lambent.h>
+
+enum { GOLDEN_POINTS = 400 }; /* of the frames that do not ask for fewer */
+
+/* How cases draw. Every way has the same hashes. */
+typedef struct golden_way {
+    lmb_status (*draw)(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view,
+                       const lmb_scene *scene, uint32_t flags, lmb_stats *stats); /* all triangles */
+    lmb_status (*draw_map)(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene);
+    lmb_status (*render)(lmb_render *r, const lmb_frame *frame);
+    int32_t machine; /* lmb_kernels_at(this, modulo their number); -1: all of them */
+} golden_way;
+
+extern const golden_way golden_whole; /* each in one call */
+
+/* golden_run: all cases, with the way's machines, a line each to `put`; how many have another hash. */
+int golden_run(const golden_way *way, void (*put)(const char *line));
+
+#endif

@@ -1,0 +1,232 @@
+/* main_ways.c: the golden cases cut into pieces, in several orders and on 1 .. 8 threads: the same hashes each way.
+ *
+ * A line a way, with the lines of the cases that differ; ways take turns with the machines' kernels. Pictures go band by band, maps, views and targets row by row
+ * of tiles, and first points in parts; scratch holds noise before each piece. */
+#include <stdio.h>
+#include <string.h>
+
+#include "../../platform/host/pool.h"
+#include "../../src/raster/target.h"
+#include "../../tools/crew.h"
+#include "golden.h"
+
+enum { PIECES = 512, THREADS = 8, ROOM = 4 * 16 * 16 };
+
+/* --- orders ----------------------------------------------------------------------------------------------------------- */
+
+typedef enum order_kind { FORWARD = 0, BACKWARD, INTERLEAVED, SHUFFLED } order_kind;
+
+static const struct golden_order {
+    const char *name;
+    order_kind kind;
+    uint32_t seed;
+} orders[] = {
+    {"forward", FORWARD, 0},      {"backward", BACKWARD, 0},    {"interleaved", INTERLEAVED, 0},
+    {"shuffled 1", SHUFFLED, 1},  {"shuffled 22", SHUFFLED, 22}, {"shuffled 333", SHUFFLED, 333},
+};
+
+static int order_now, threads_now; /* threads 0: in order_now */
+static lmb_band_scratch scratches[THREADS];
+
+static void shuffle(int *p, int n, uint32_t seed)
+{
+    for (int i = n - 1; i > 0; --i) {
+        seed = seed * 1664525u + 1013904223u;
+        const int j = (int)((seed >> 8) % (uint32_t)(i + 1)), t = p[i];
+        p[i] = p[j];
+        p[j] = t;
+    }
+}
+
+static void set_order(int p[PIECES], int n)
+{
+    const struct golden_order *o = &orders[order_now];
+    const int odd = n / 2;
+    for (int i = 0; i < n; ++i) {
+        p[i] = o->kind == BACKWARD ? n - 1 - i : o->kind == INTERLEAVED ? (i < odd ? 2 * i + 1 : 2 * (i - odd)) : i;
+    }
+    if (o->kind == SHUFFLED) {
+        shuffle(p, n, o->seed);
+    }
+}
+
+/* All n pieces in the way of the moment. */
+static void do_pieces(int n, pool_job job, void *user)
+{
+    int p[PIECES];
+    if (threads_now > 0) {
+        pool_run(threads_now, n, job, user);
+        return;
+    }
+    set_order(p, n);
+    for (int i = 0; i < n; ++i) {
+        memset(scratches, 0x3c, sizeof scratches[0] * 2);
+        job(user, p[i], i & 1);
+    }
+}
+
+/* --- targets and maps ------------------------------------------------------------------------------------------------- */
+
+typedef struct draw_job {
+    const lmb_target *target;
+    const lmb_light_map *map;
+    const lmb_kernels *kernels;
+    const lmb_view *view;
+    const lmb_scene *scene;
+    uint32_t flags;
+    lmb_status status[THREADS];
+} draw_job;
+
+static lmb_status worst(const draw_job *d)
+{
+    lmb_status status = LMB_OK;
+    for (int i = 0; i < THREADS; ++i) {
+        status = status != LMB_OK ? status : d->status[i];
+    }
+    return status;
+}
+
+static void draw_row(void *user, int row, int worker)
+{
+    draw_job *d = user;
+    lmb_target window;
+    lmb_target_rows(&window, d->target, row, 1);
+    const lmb_status status = lmb_draw(&window, d->kernels, d->view, d->scene, 1, UINT32_MAX - 1, d->flags, NULL);
+    d->status[worker] = status != LMB_OK ? status : d->status[worker];
+}
+
+static lmb_status draw_rows(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view,
+                            const lmb_scene *scene, uint32_t flags, lmb_stats *stats)
+{
+    draw_job d = {target, NULL, kernels, view, scene, flags, {LMB_OK}};
+    (void)stats;
+    do_pieces((target->depth.height + LMB_TILE - 1) / LMB_TILE, draw_row, &d);
+    return worst(&d);
+}
+
+static void draw_map_row(void *user, int row, int worker)
+{
+    draw_job *d = user;
+    const lmb_status status = lmb_light_map_rows(d->map, d->kernels, d->scene, row, row + 1, NULL);
+    d->status[worker] = status != LMB_OK ? status : d->status[worker];
+}
+
+static lmb_status draw_map_rows(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene)
+{
+    draw_job d = {NULL, map, kernels, NULL, scene, 0, {LMB_OK}};
+    do_pieces(map->faces * map->size / LMB_TILE, draw_map_row, &d);
+    return worst(&d);
+}
+
+/* --- frames ----------------------------------------------------------------------------------------------------------- */
+
+static lmb_point point_room[ROOM];
+
+/* The frame with scratch of this way's own, and room to collect first points in parts. */
+static lmb_frame with_room(const lmb_frame *frame)
+{
+    lmb_frame f = *frame;
+    f.scratch = scratches;
+    if (f.points.cap == GOLDEN_POINTS) {
+        f.points.data = point_room;
+        f.points.cap = ROOM;
+    }
+    return f;
+}
+
+/* A stage's parts, or the bands, of a frame in the order of the moment. */
+typedef struct frame_job {
+    const lmb_render *render;
+    int parts;
+    lmb_status status;
+} frame_job;
+
+static void do_part(void *user, int part, int worker)
+{
+    frame_job *j = user;
+    const lmb_status status = lmb_render_part(j->render, &scratches[worker], part, j->parts, NULL);
+    j->status = status != LMB_OK ? status : j->status;
+}
+
+static void do_band(void *user, int band, int worker)
+{
+    frame_job *j = user;
+    const lmb_frame *f = &j->render->frame;
+    const lmb_status status = lmb_render_band(j->render, &scratches[worker], &f->eye, &f->out, band);
+    j->status = status != LMB_OK ? status : j->status;
+}
+
+static lmb_status render_in_order(lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_frame f = with_room(frame);
+    frame_job j = {r, 7, LMB_OK};
+    lmb_status status = lmb_render_begin(r, &f);
+    while (status >= 0 && r->stage < LMB_STAGE_BANDS) {
+        if (lmb_render_has_parts(r)) {
+            do_pieces(j.parts, do_part, &j);
+            status = j.status != LMB_OK ? j.status : lmb_render_parts_done(r, j.parts);
+        } else {
+            status = lmb_render_step(r, 3);
+        }
+    }
+    if (status >= 0) {
+        do_pieces((f.view.frame_height + LMB_TILE - 1) / LMB_TILE, do_band, &j);
+        status = j.status;
+    }
+    return status;
+}
+
+static lmb_status render_by_crew(lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_frame f = with_room(frame);
+    crew c;
+    int32_t stage;
+    memset(&c, 0, sizeof c);
+    memset(scratches, 0x3c, sizeof scratches);
+    c.threads = threads_now;
+    c.scratches = scratches;
+    return crew_render(&c, &stage, r, &f);
+}
+
+/* --- ways ------------------------------------------------------------------------------------------------------------- */
+
+static int cases;
+
+static void put_wrong(const char *line)
+{
+    ++cases;
+    if (strstr(line, " WRONG ") != NULL) {
+        printf("FAIL %s\n", line);
+    }
+}
+
+static int run_way(const char *name, int number, const golden_way *way)
+{
+    cases = 0;
+    const int wrong = golden_run(way, put_wrong);
+    printf("%s", name);
+    if (number > 0) {
+        printf(" %d", number);
+    }
+    printf(": %d cases, %d wrong\n", cases, wrong);
+    fflush(stdout);
+    return wrong > 0 || cases == 0;
+}
+
+int main(void)
+{
+    golden_way ordered = {draw_rows, draw_map_rows, render_in_order, 0};
+    golden_way threaded = {draw_rows, draw_map_rows, render_by_crew, 0};
+    const int order_count = sizeof orders / sizeof *orders;
+    int failed = 0;
+    for (order_now = 0; order_now < order_count; ++order_now) {
+        ordered.machine = order_now;
+        failed += run_way(orders[order_now].name, 0, &ordered);
+    }
+    for (threads_now = 1; threads_now <= THREADS; ++threads_now) {
+        threaded.machine = threads_now - 1;
+        failed += run_way("threads", threads_now, &threaded);
+    }
+    printf("%d passed, %d failed, 0 skipped\n", order_count + THREADS - failed, failed);
+    return failed > 0;
+}
