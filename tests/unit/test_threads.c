@@ -9,7 +9,7 @@
 
 void test_threads(void);
 
-enum { W = 40, H = 36, MAP = 64, SIDE = MAP / 8, POINTS = 4 * SIDE * SIDE, FACES = 7, THREADS = 8, PIECES = 1000 };
+enum { W = 40, H = 36, MAP = 64, SIDE = MAP / 8, POINTS = 4 * SIDE * SIDE, FACES = 7, THREADS = 8, PIECES = 20000 };
 
 /* --- the pool --------------------------------------------------------------------------------------------------------- */
 
@@ -112,6 +112,8 @@ static lmb_frame make_frame(int which, lmb_stats *stats)
     memset(m.points[which], 0, sizeof m.points[which]);
     memset(m.cells[which], 0x3c, sizeof m.cells[which]);
     memset(m.map, 0x3c, sizeof m.map);
+    memset(m.depth, 0x3c, sizeof m.depth); /* what an earlier frame left must not matter */
+    memset(m.id, 0x3c, sizeof m.id);
     return f;
 }
 
