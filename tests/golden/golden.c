@@ -1,7 +1,8 @@
 /* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine and compiler, and in every
  * configuration that the case fits.
  *
- * Each case runs with the kernels of every machine that can run here (or the way's); a line names the ones whose hash is not the table's.
+ * Each case runs with the kernels of every machine that can run here (or the way's); a line names the ones whose hash
+ * is not the table's.
  *
  * Freestanding and small (static memory under 200 KiB), so that a Cortex-M4F runs the very same list. A hash changes
  * only in a commit that explains the pixels. */

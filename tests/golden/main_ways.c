@@ -1,7 +1,7 @@
 /* main_ways.c: the golden cases cut into pieces, in several orders and on 1 .. 8 threads: the same hashes each way.
  *
- * A line a way, with the lines of the cases that differ; ways take turns with the machines' kernels. Pictures go band by band, maps, views and targets row by row
- * of tiles, and first points in parts; scratch holds noise before each piece. */
+ * A line a way, with the lines of the cases that differ; ways take turns with the machines' kernels. Pictures go band
+ * by band, maps and targets by rows of tiles, the stages of a frame in parts; scratch holds noise before each piece. */
 #include <stdio.h>
 #include <string.h>
 
