@@ -4,30 +4,43 @@
 #ifndef LMB_GATHER_FORMULA
 #define LMB_GATHER_FORMULA
 
+#define INVERSE_PI 0.31830989f
+
 /* One emitter, one vector of pixels. M = 1: W/m2 a watt.
  *
  * A disc of area A seen from r away, to second order in s = A / (pi r^2) (integrate cosP cosG / r^2 over the disc):
  *   E = (c - t s) / (pi r^2),  c = cosP cosG,  t = c (3 cos^2 G - 1) + g cos^2 G,  g = nP.nG.
  * c^2 / (c + t s) has the same expansion, stays positive for t >= 0 and equals 1 / (pi r^2 + A) on the axis of a
  * facing disc (t = c = 1), which is exact. For t < 0 the sum itself is kept. Both stay under cosG / s: nothing receives
- * more than the disc's own radiosity M / A times cosG. */
+ * more than the disc's own radiosity M / A times cosG.
+ *
+ * a = nP.to, b = -nG.to, i = 1 / r^2, against = -nP.nG, area_pi = A / pi; only where a and b are over 0. */
+static inline void disc_fraction(lane *top, lane *bottom, lane a, lane b, lane i, lane against, lane area_pi)
+{
+    const lane one = lane_splat(1.0f);
+    lane c = lane_mul(lane_mul(a, b), i), g2 = lane_mul(lane_mul(b, b), i), s = lane_mul(area_pi, i);
+    lane t = lane_sub(lane_mul(c, lane_sub(lane_mul(lane_splat(3.0f), g2), one)), lane_mul(against, g2));
+    lane ts = lane_mul(t, s);
+    lane_mask over = lane_le(lane_splat(0.0f), t);
+    lane cos_g = lane_mul(b, lane_sqrt(i));
+    lane base = lane_pick(over, lane_add(c, ts), one), sum = lane_pick(over, lane_mul(c, c), lane_sub(c, ts));
+    *top = lane_min(lane_mul(sum, s), lane_mul(cos_g, base));
+    *bottom = lane_mul(base, s);
+}
+
+/* 0 or NaN where i is 0. */
+static inline lane disc_value(lane top, lane bottom, lane i)
+{
+    return lane_mul(lane_mul(lane_splat(INVERSE_PI), i), lane_div(top, bottom));
+}
+
 static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area)
 {
-    const lane zero = lane_splat(0.0f), inverse_pi = lane_splat(0.31830989f);
-    lane i = lane_div(lane_splat(1.0f), r2);
-    lane a = lane3_dot(n, to), b = lane_sub(zero, lane3_dot(axis, to));
-    lane c = lane_mul(lane_mul(a, b), i), g2 = lane_mul(lane_mul(b, b), i);
-    lane s = lane_mul(lane_mul(area, inverse_pi), i);
-    lane t = lane_add(lane_mul(c, lane_sub(lane_mul(lane_splat(3.0f), g2), lane_splat(1.0f))),
-                      lane_mul(lane3_dot(n, axis), g2));
-    lane ts = lane_mul(t, s);
-    lane_mask over = lane_le(zero, t);
-    lane cos_g = lane_mul(b, lane_sqrt(i));
-    lane base = lane_pick(over, lane_add(c, ts), lane_splat(1.0f)), sum = lane_pick(over, lane_mul(c, c), lane_sub(c, ts));
-    lane_mask faces = mask_and(lane_lt(zero, a), lane_lt(zero, b));
-    lane top = lane_min(lane_mul(sum, s), lane_mul(cos_g, base)), bottom = lane_pick(faces, lane_mul(base, s), lane_splat(1.0f));
-    lane e = lane_mul(lane_mul(inverse_pi, i), lane_div(top, bottom));
-    return lane_keep(faces, e);
+    const lane zero = lane_splat(0.0f);
+    lane top, bottom, i = lane_div(lane_splat(1.0f), r2);
+    lane a = lane3_dot(n, to), b = lane_sub(zero, lane3_dot(axis, to)), against = lane_sub(zero, lane3_dot(n, axis));
+    disc_fraction(&top, &bottom, a, b, i, against, lane_mul(area, lane_splat(INVERSE_PI)));
+    return lane_keep(mask_and(lane_lt(zero, a), lane_lt(zero, b)), disc_value(top, bottom, i));
 }
 
 #endif
@@ -65,9 +78,37 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
  * Neighbouring pixels of one surface nearly always agree on what they see: the four corners of such a tile are asked
  * first, and only where they differ is each pixel asked. Lost is what fits between the corners. */
 
+/* For what is rarely or slowly done, so that its frame is not part of its caller's. */
+#if defined(__GNUC__)
+#define GATHER_APART __attribute__((noinline))
+#else
+#define GATHER_APART
+#endif
+
+/* march() from pixels whose planes of position and of face lie `plane` floats apart. */
+static GATHER_APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face, size_t plane,
+                                           lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
+{
+    lane3 p, n;
+    p.x = lane_load(position);
+    p.y = lane_load(position + plane);
+    p.z = lane_load(position + 2 * plane);
+    n.x = lane_load(face);
+    n.y = lane_load(face + plane);
+    n.z = lane_load(face + 2 * plane);
+    const seen_from from = march_begin(m, p, n);
+    return march(m, &from, at, axis, wanted);
+}
+
+static inline lane_mask tile_march(const lmb_march_job *m, const lmb_tile *tile, int k, lmb_vec3 at, lmb_vec3 axis,
+                                   lane_mask wanted)
+{
+    return gather_march(m, tile->position[0] + k, tile->face[0] + k, LMB_TILE_PIXELS, at, axis, wanted);
+}
+
 #define ALL_LANES (~0u >> (32 - LANES))
 enum { CORNERS = LANES < 4 ? 4 : LANES };
-enum { SEES_NOTHING, SEES_ALL, SEES_SOME };
+enum { SEES_NOTHING, SEES_ALL, SEES_SOME, SEES_UNKNOWN };
 
 typedef struct gather_corners {
     float position[3][CORNERS], face[3][CORNERS];
@@ -113,18 +154,17 @@ static inline lane3 corner_load(const float (*p)[CORNERS], int i)
 }
 
 /* What the tile's corners see of one emitter. */
-static int corners_see(const gather_corners *c, const lmb_march_job *m, lane3 at, lane3 axis)
+static GATHER_APART int corners_see(const gather_corners *c, const lmb_march_job *m, lmb_vec3 at, lmb_vec3 axis)
 {
     const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
     for (int i = 0; i < CORNERS && c->usable; i += LANES) {
-        lane3 p = corner_load(c->position, i), face = corner_load(c->face, i);
-        lane_mask faces = lane_lt(lane_splat(0.0f), lane3_dot(face, lane3_sub(at, p)));
+        lane3 to = lane3_sub(lane3_point(at), corner_load(c->position, i));
+        lane_mask faces = lane_lt(lane_splat(0.0f), lane3_dot(corner_load(c->face, i), to));
         if (mask_bits(faces) != full) {
             return SEES_SOME; /* the horizon passes through the tile */
         }
-        seen_from from = march_begin(m, p, face);
-        uint32_t open = mask_bits(march(m, &from, at, axis, faces));
+        uint32_t open = mask_bits(gather_march(m, c->position[0] + i, c->face[0] + i, CORNERS, at, axis, faces));
         none &= open == 0;
         all &= open == full;
     }
@@ -133,36 +173,160 @@ static int corners_see(const gather_corners *c, const lmb_march_job *m, lane3 at
 
 /* --- far pairs -------------------------------------------------------------------------------------------------------- */
 
-static inline void gather_group(lmb_irradiance *inout, uint64_t *near_pixels, const lmb_tile *tile, const lmb_groups *groups,
-                                int32_t j, const lmb_march_job *m, const gather_corners *corners)
+/* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
+ * after another, every machine waits most of the time, whatever its width. So each step is done for all groups of a
+ * block before the next: chains are short and many run side by side. 1.5 KiB of pairs at most. */
+enum { BLOCK = LANES > 8 ? 8 : LANES > 1 ? 16 : 4 };
+
+/* A block's groups, one beside the other: in lmb_groups a group's numbers lie LMB_MAX_GROUPS apart, a power of two, and
+ * so fall into one set of a cache, which holds fewer. */
+typedef struct gather_group {
+    lmb_vec3 at, back; /* back: against its normal */
+    float near2, area_pi;
+    float flux[3];
+} gather_group;
+
+static void gather_fetch(gather_group out[BLOCK], const lmb_groups *groups, int32_t first, int32_t count)
 {
-    const lane3 at = lane3_splat(groups->position[0][j], groups->position[1][j], groups->position[2][j]);
-    const lane3 axis = lane3_splat(groups->normal[0][j], groups->normal[1][j], groups->normal[2][j]);
-    const lane near2 = lane_splat(groups->radius[j] * GROUP_NEAR * (groups->radius[j] * GROUP_NEAR)), zero = lane_splat(0.0f);
-    const float flux[3] = {groups->flux[0][j], groups->flux[1][j], groups->flux[2][j]};
-    int sees = SEES_ALL, asked = m == NULL;
-    *near_pixels = 0;
+    for (int32_t i = 0; i < count; ++i) {
+        const int32_t j = first + i;
+        const float near_m = groups->radius[j] * GROUP_NEAR;
+        out[i].at = vec3(groups->position[0][j], groups->position[1][j], groups->position[2][j]);
+        out[i].back = vec3(-groups->normal[0][j], -groups->normal[1][j], -groups->normal[2][j]);
+        out[i].near2 = near_m * near_m;
+        out[i].area_pi = groups->area[j] * INVERSE_PI;
+        for (int c = 0; c < 3; ++c) {
+            out[i].flux[c] = groups->flux[c][j];
+        }
+    }
+}
+
+/* A vector of pixels with a block's groups. Only pairs in `lit` mean anything: groups that light any of the pixels. */
+typedef struct gather_pairs {
+    lane a[BLOCK], b[BLOCK], i[BLOCK]; /* of disc_fraction; i is 0 where a pixel gets nothing */
+    int32_t lit[BLOCK], count;
+} gather_pairs;
+
+/* Pixels without a surface have no normal, and so face nothing. */
+static inline lane3 gather_normals(const lmb_tile *tile, int k, lane_mask hits)
+{
+    lane3 n = lane3_load(tile->normal, k);
+    n.x = lane_keep(hits, n.x);
+    n.y = lane_keep(hits, n.y);
+    n.z = lane_keep(hits, n.z);
+    return n;
+}
+
+/* Pairs that face each other, over the horizon and not near; near ones are flagged. min(b, a) is a where a is NaN, and
+ * a pair with such a b comes to nothing by itself. */
+static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
+                               const gather_group *groups, int32_t group_count)
+{
+    const lane_mask hits = gather_hits(tile, k);
+    const uint32_t hit_bits = mask_bits(hits);
+    const lane3 p = lane3_load(tile->position, k), n = gather_normals(tile, k, hits), face = lane3_load(tile->face, k);
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
+    int32_t count = 0;
+    for (int32_t j = 0; j < group_count; ++j) {
+        const gather_group *g = &groups[j];
+        const lane3 to = lane3_sub(lane3_point(g->at), p);
+        const lane r2 = lane3_dot(to, to), a = lane3_dot(n, to), b = lane3_dot(lane3_point(g->back), to);
+        const lane_mask far = lane_le(lane_splat(g->near2), r2);
+        const lane_mask faces = mask_and(lane_lt(zero, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
+        const lane_mask lit = mask_and(far, faces);
+        const uint32_t near_bits = hit_bits & ~mask_bits(far);
+        out->a[j] = a;
+        out->b[j] = b;
+        out->i[j] = lane_keep(lit, lane_div(one, r2));
+        out->lit[count] = j;
+        count += mask_bits(lit) != 0;
+        if (near_bits != 0) {
+            near_pixels[j] |= (uint64_t)near_bits << k;
+        }
+    }
+    out->count = count;
+}
+
+/* Their fractions: top in place of a, bottom in place of b. */
+static inline void gather_weigh(gather_pairs *inout, const lmb_tile *tile, int k, const gather_group *groups)
+{
+    const lane3 n = lane3_load(tile->normal, k);
+    for (int32_t i = 0; i < inout->count; ++i) {
+        const int32_t j = inout->lit[i];
+        lane top, bottom;
+        disc_fraction(&top, &bottom, inout->a[j], inout->b[j], inout->i[j], lane3_dot(n, lane3_point(groups[j].back)),
+                      lane_splat(groups[j].area_pi));
+        inout->a[j] = top;
+        inout->b[j] = bottom;
+    }
+}
+
+static inline lane gather_weight(const gather_pairs *pairs, int32_t j)
+{
+    return disc_value(pairs->a[j], pairs->b[j], pairs->i[j]);
+}
+
+/* Picked as in gather_add, over sums that stay in registers. */
+static inline void gather_sum(lmb_irradiance *inout, int k, const gather_pairs *pairs, const gather_group *groups)
+{
+    lane r = lane_load(inout->rgb[0] + k), g = lane_load(inout->rgb[1] + k), b = lane_load(inout->rgb[2] + k);
+    for (int32_t i = 0; i < pairs->count; ++i) {
+        const int32_t j = pairs->lit[i];
+        const float *flux = groups[j].flux;
+        const lane weight = gather_weight(pairs, j);
+        const lane_mask lit = lane_lt(lane_splat(0.0f), weight);
+        r = lane_pick(lit, lane_add(r, lane_mul(weight, lane_splat(flux[0]))), r);
+        g = lane_pick(lit, lane_add(g, lane_mul(weight, lane_splat(flux[1]))), g);
+        b = lane_pick(lit, lane_add(b, lane_mul(weight, lane_splat(flux[2]))), b);
+    }
+    lane_store(inout->rgb[0] + k, r);
+    lane_store(inout->rgb[1] + k, g);
+    lane_store(inout->rgb[2] + k, b);
+}
+
+/* What may stand between, for one tile and one block. */
+typedef struct gather_blockers {
+    const lmb_march_job *m;
+    const gather_corners *corners;
+    uint8_t sees[BLOCK]; /* what the tile's corners see of each group, once asked */
+} gather_blockers;
+
+/* What is hidden gets nothing. */
+static GATHER_APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb_tile *tile, int k,
+                                     const gather_group *groups)
+{
+    for (int32_t i = 0; i < inout->count; ++i) {
+        const int32_t j = inout->lit[i];
+        const gather_group *g = &groups[j];
+        const lmb_vec3 axis = vec3(-g->back.x, -g->back.y, -g->back.z);
+        lane_mask lit = lane_lt(lane_splat(0.0f), gather_weight(inout, j));
+        uint8_t *sees = &blockers->sees[j];
+        if (mask_bits(lit) && *sees == SEES_UNKNOWN) {
+            *sees = (uint8_t)corners_see(blockers->corners, blockers->m, g->at, axis);
+        }
+        if (mask_bits(lit) && *sees == SEES_SOME) {
+            inout->i[j] = lane_keep(tile_march(blockers->m, tile, k, g->at, axis, lit), inout->i[j]);
+        } else if (*sees == SEES_NOTHING) {
+            inout->i[j] = lane_splat(0.0f);
+        }
+    }
+}
+
+static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, const lmb_tile *tile,
+                                const gather_group *groups, int32_t count, gather_blockers *blockers)
+{
+    gather_pairs pairs;
+    for (int32_t j = 0; j < count; ++j) {
+        near_pixels[j] = 0;
+        blockers->sees[j] = SEES_UNKNOWN;
+    }
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const lane3 p = lane3_load(tile->position, k), face = lane3_load(tile->face, k);
-        const lane_mask hits = gather_hits(tile, k);
-        lane3 to = lane3_sub(at, p);
-        lane r2 = lane3_dot(to, to);
-        lane_mask close = mask_and(hits, lane_lt(r2, near2));
-        *near_pixels |= (uint64_t)mask_bits(close) << k;
-        lane weight = disc_factor(to, lane_max(r2, near2), lane3_load(tile->normal, k), axis, lane_splat(groups->area[j]));
-        lane_mask lit = mask_and(mask_and(hits, mask_not(close)), lane_lt(zero, weight));
-        lit = mask_and(lit, lane_lt(zero, lane3_dot(face, to)));
-        if (mask_bits(lit) && !asked) {
-            sees = corners_see(corners, m, at, axis);
-            asked = 1;
+        gather_find(&pairs, near_pixels, tile, k, groups, count);
+        gather_weigh(&pairs, tile, k, groups);
+        if (blockers->m != NULL) {
+            gather_hide(&pairs, blockers, tile, k, groups);
         }
-        if (mask_bits(lit) && sees == SEES_SOME) {
-            seen_from from = march_begin(m, p, face);
-            lit = march(m, &from, at, axis, lit);
-        }
-        if (mask_bits(lit) && sees != SEES_NOTHING) {
-            gather_add(inout, k, lit, weight, flux);
-        }
+        gather_sum(inout, k, &pairs, groups);
     }
 }
 
@@ -170,9 +334,15 @@ static void KERNEL(gather)(lmb_irradiance *inout, uint64_t *near_pixels, const l
                            const lmb_march_job *m)
 {
     gather_corners corners;
+    gather_group block[BLOCK];
+    gather_blockers blockers;
+    blockers.m = m;
+    blockers.corners = &corners;
     gather_corners_set(&corners, tile, m);
-    for (int32_t j = 0; j < groups->count; ++j) {
-        gather_group(inout, &near_pixels[j], tile, groups, j, m, &corners);
+    for (int32_t j = 0; j < groups->count; j += BLOCK) {
+        const int32_t count = groups->count - j < BLOCK ? groups->count - j : BLOCK;
+        gather_fetch(block, groups, j, count);
+        gather_block(inout, near_pixels + j, tile, block, count, &blockers);
     }
 }
 
@@ -196,7 +366,7 @@ static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *ti
 
 /* A vector of pixels against one disc; `shared` is what they see of it while it is not near. */
 static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int k, lane_mask hits, const lmb_point *d,
-                               const lmb_march_job *m, const seen_from *from, lane_mask shared)
+                               const lmb_march_job *m, lane_mask shared)
 {
     const lane3 p = lane3_load(tile->position, k), n = lane3_load(tile->normal, k), face = lane3_load(tile->face, k);
     const lane zero = lane_splat(0.0f);
@@ -213,7 +383,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     lane_mask lit = mask_and(hits, lane_lt(zero, weight)), own = mask_and(lit, close);
     lit = mask_and(mask_and(mask_and(lit, mask_not(close)), shared), lane_lt(zero, lane3_dot(face, to)));
     if (mask_bits(own)) {
-        lit = mask_or(lit, m != NULL ? march(m, from, lane3_point(d->position), lane3_point(d->normal), own) : own);
+        lit = mask_or(lit, m != NULL ? tile_march(m, tile, k, d->position, d->normal, own) : own);
     }
     if (mask_bits(lit)) {
         gather_add(inout, k, lit, weight, d->flux);
@@ -225,22 +395,17 @@ static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lm
                                 uint32_t count, const lmb_march_job *m, const gather_corners *corners)
 {
     const lmb_point *middle = &discs[count / 2];
-    const lane3 at = lane3_point(middle->position), axis = lane3_point(middle->normal);
-    int sees = m == NULL ? SEES_ALL : corners_see(corners, m, at, axis);
+    int sees = m == NULL ? SEES_ALL : corners_see(corners, m, middle->position, middle->normal);
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t mine = (uint32_t)(pixels >> k) & ALL_LANES;
         if (mine != 0) {
             const lane_mask hits = mask_of_bits(mine);
             lane_mask shared = sees == SEES_NOTHING ? mask_of_bits(0) : hits;
-            seen_from from;
-            if (m != NULL) {
-                from = march_begin(m, lane3_load(tile->position, k), lane3_load(tile->face, k));
-            }
             if (sees == SEES_SOME) {
-                shared = march(m, &from, at, axis, hits);
+                shared = tile_march(m, tile, k, middle->position, middle->normal, hits);
             }
             for (uint32_t j = 0; j < count; ++j) {
-                gather_disc(inout, tile, k, hits, &discs[j], m, &from, shared);
+                gather_disc(inout, tile, k, hits, &discs[j], m, shared);
             }
         }
     }

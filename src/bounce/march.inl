@@ -241,10 +241,10 @@ static inline lane_mask march_through(const lmb_march_job *m, const seen_from *s
  *
  * In the map a segment is straight and d is affine along it. A change of side across a surface that goes on blocks. Where
  * it passes behind a silhouette and comes out again, march_through decides; an end that stays hidden is taken as open. */
-static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lane3 at, lane3 axis, lane_mask wanted)
+static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
 {
     const lane zero = lane_splat(0.0f);
-    const march_run r = march_towards(m, s, at, axis);
+    const march_run r = march_towards(m, s, lane3_splat(at.x, at.y, at.z), lane3_splat(axis.x, axis.y, axis.z));
     lane_mask open = wanted, hidden_before = lane_lt(zero, zero);
     lane before = zero, stored_before = s->d, in = zero, gap = lane_splat(1e9f);
     for (int i = 0; i < m->steps && mask_bits(open); ++i) {
