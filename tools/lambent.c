@@ -17,6 +17,7 @@ static const char usage[] =
     "  compare A B              error figures of a picture against a reference\n"
     "  info FILE                what is in a scene or a picture\n"
     "  bench raster             how fast this machine draws the fixed workload\n"
+    "  bench gather             how fast groups light pixels, against what this machine can do\n"
     "\n"
     "  lambent VERB --help      what a verb takes\n"
     "  lambent --version\n";

@@ -1,4 +1,4 @@
-/* verb_bench.c: `lambent bench raster`: the fixed raster workload, a line a case, as the other rasterizers print it. */
+/* verb_bench.c: `lambent bench`: the fixed raster workload, a line a case, as the other rasterizers print it; gather. */
 #include "verb_bench.h"
 
 #include <stdio.h>
@@ -6,20 +6,32 @@
 #include <string.h>
 
 #include "../platform/host/host.h"
+#include "bench_gather.h"
+#include "bench_rates.h"
 #include "bench_scene.h"
 #include "bench_threads.h"
 
 static const char help_text[] =
     "usage: lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
+    "       lambent bench gather [--backend NAME] [--seconds S] [--json]\n"
     "\n"
-    "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a frame\n"
-    "(clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a case's name; without one, all.\n"
+    "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a\n"
+    "frame (clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a case's name; without one,\n"
+    "all. fill-depth cases end with pixels a second and `share`, of the rate at which the back end reads, tests and\n"
+    "writes 16 KiB of depths in its cache.\n"
+    "\n"
+    "gather: the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. Prints\n"
+    "a line a back end: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what the same run finds\n"
+    "the machine can do with the kernel's own operations (`ops_per_vector`, counted by running it over verbs that count):\n"
+    "each operation is timed in registers alone (`cycles_per_op`), and for what it adds to a unit that multiplications,\n"
+    "additions, maxima or divisions keep busy. The most loaded unit's time is the bound (`unit`, `load_per_op`). Loads,\n"
+    "stores, masks, branches and waiting for results count as nothing. A cycle is that of a chain of integer operations.\n"
     "\n"
     "  --data FOLDER    of bunny.mesh and sponza.mesh (default: the environment's BENCH_DATA)\n"
-    "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
-    "  --seconds S      of each case (default: 1.5)\n"
+    "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128 (default: raster, this machine's best; gather, all)\n"
+    "  --seconds S      of each case, or back end (default: 1.5)\n"
     "  --linear         with depth copied into plain rows, which other programs read\n"
-    "  --json           one object a case and line\n"
+    "  --json           one object a line\n"
     "\n"
     "lambent bench threads: what several threads gain; see its --help\n"
     "\n"
@@ -29,9 +41,9 @@ enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
 
 typedef struct options {
     const char *folder;
-    const lmb_kernels *kernels;
+    const lmb_kernels *kernels; /* NULL: all in turn */
     const char *const *cases;
-    int case_count, linear, json, help;
+    int case_count, gather, linear, json, help;
     double seconds;
 } options;
 
@@ -47,6 +59,7 @@ typedef struct canvas {
 typedef struct timing {
     double cpu[FRAMES_MAX], wall[FRAMES_MAX];
     int count;
+    double peak; /* depths that the back end reads, tests and writes in a second, in cache; 0: not asked */
 } timing;
 
 /* --- one frame ------------------------------------------------------------------------------------------------------ */
@@ -121,18 +134,25 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
+/* Nothing but depths: what a machine's loads and stores bound. */
+static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
+
 /* Two frames to warm up, then frames for the time asked for, each by itself. */
-static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, int cull)
+static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, const bench_case *k)
 {
+    bench_rates rates;
+    const int cull = k->cull, with_peak = is_depth_fill(k) && bench_rates_begin(&rates, lmb_kernels_name(o->kernels));
     draw_frame(c, s, o, cull);
     draw_frame(c, s, o, cull);
     const double end = host_seconds() + o->seconds;
     t->count = 0;
+    t->peak = 0.0;
     while ((host_seconds() < end || t->count < FRAMES_MIN) && t->count < FRAMES_MAX) {
         const double wall = host_seconds(), cpu = host_cpu_seconds();
         draw_frame(c, s, o, cull);
         t->cpu[t->count] = host_cpu_seconds() - cpu;
         t->wall[t->count++] = host_seconds() - wall;
+        t->peak = with_peak ? bench_rates_store(&rates) : 0.0;
     }
     qsort(t->cpu, (size_t)t->count, sizeof *t->cpu, by_value);
     qsort(t->wall, (size_t)t->count, sizeof *t->wall, by_value);
@@ -143,11 +163,17 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
     const unsigned triangles = s->mesh.triangle_count;
     const double least = t->cpu[0] * 1e3, middle = t->cpu[t->count / 2] * 1e3;
     const double wall = t->wall[0] * 1e3, wall_middle = t->wall[t->count / 2] * 1e3, each = least * 1e6 / triangles;
+    const double pixels = (double)k->width * k->height * (triangles / 2) / t->cpu[0]; /* two triangles a layer */
     printf(o->json ? "{\"case\":\"%s\",\"triangles\":%u,\"cpu_min_ms\":%.4f,\"wall_min_ms\":%.4f,\"cpu_med_ms\":%.4f,"
-                     "\"wall_med_ms\":%.4f,\"frames\":%d,\"ns_per_triangle\":%.2f,\"backend\":\"%s\"}\n"
+                     "\"wall_med_ms\":%.4f,\"frames\":%d,\"ns_per_triangle\":%.2f,\"backend\":\"%s\""
                    : "lambent,%s,tris=%u,cpu_min_ms=%.4f,wall_min_ms=%.4f,cpu_med_ms=%.4f,wall_med_ms=%.4f,n=%d,"
-                     "ns_per_tri=%.2f,backend=%s\n",
+                     "ns_per_tri=%.2f,backend=%s",
            k->name, triangles, least, wall, middle, wall_middle, t->count, each, lmb_kernels_name(o->kernels));
+    if (t->peak > 0.0) {
+        printf(o->json ? ",\"pixels_per_s\":%.4g,\"peak\":%.4g,\"share\":%.4f" : ",pixels_per_s=%.4g,peak=%.4g,share=%.4f",
+               pixels, t->peak, pixels / t->peak);
+    }
+    puts(o->json ? "}" : "");
     fflush(stdout);
 }
 
@@ -164,7 +190,7 @@ static int run_case(const bench_case *k, const options *o, report *r)
     }
     const int ok = canvas_make(&c, k, o, r);
     if (ok) {
-        measure(&t, &c, &s, o, k->cull);
+        measure(&t, &c, &s, o, k);
         print_case(k, &s, &t, o);
         canvas_free(&c);
     }
@@ -232,7 +258,6 @@ static int parse(options *o, int argc, char **argv, report *r)
     const char *folder = getenv("BENCH_DATA");
     memset(o, 0, sizeof *o);
     o->folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
-    o->kernels = lmb_kernels_pick();
     o->seconds = 1.5;
     o->cases = (const char *const *)argv;
     for (int i = 1; i < argc; ++i) {
@@ -245,9 +270,11 @@ static int parse(options *o, int argc, char **argv, report *r)
     if (o->help) {
         return 1;
     }
-    if (o->case_count == 0 || strcmp(o->cases[0], "raster") != 0) {
-        return report_fail(r, "what is to be measured? `lambent bench raster`; see lambent bench --help");
+    o->gather = o->case_count == 1 && strcmp(o->cases[0], "gather") == 0;
+    if (!o->gather && (o->case_count == 0 || strcmp(o->cases[0], "raster") != 0)) {
+        return report_fail(r, "what is to be measured? `lambent bench raster` or `lambent bench gather`; see --help");
     }
+    o->kernels = o->kernels == NULL && !o->gather ? lmb_kernels_pick() : o->kernels;
     ++o->cases;
     --o->case_count;
     return 1;
@@ -256,6 +283,9 @@ static int parse(options *o, int argc, char **argv, report *r)
 static int run(const options *o, report *r)
 {
     int wanted = 0;
+    if (o->gather) {
+        return bench_gather(o->kernels, o->seconds, o->json, r);
+    }
     for (int i = 0; i < bench_case_count; ++i) {
         if (is_wanted(&bench_cases[i], o)) {
             ++wanted;

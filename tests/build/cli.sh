@@ -136,4 +136,20 @@ check "a backend changes the picture" cmp "$dir/way1.ppm" "$dir/way3.ppm"
 # The fixed workload: its own quads need no files.
 check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
 check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
+check "bench raster holds filling against a peak" sh -c '"$1" bench raster fill-depth-pass --seconds 0.01 --json | grep -q ",.pixels_per_s.:[1-9][^,]*,.peak.:[1-9][^,]*,.share.:[0-9.]*}$"' sh "$TOOL"
+# The gather, a line for each machine that is here; how fast is nobody's promise.
+n='[0-9.]*(e[+-][0-9]*)?' # a number
+ops="\\{(\"[a-z]+\":$n,?){7}\\}"
+line="^\\{\"case\":\"gather\",\"backend\":\"[a-z0-9]+\",\"pairs_per_s\":$n,\"cycles_per_pair\":$n,\"bound_cycles\":$n,\"share\":$n"
+line="$line,\"unit\":\"[a-z]+\",\"ghz\":$n,\"ops_per_vector\":$ops,\"cycles_per_op\":$ops,\"load_per_op\":$ops\\}\$"
+status 0 bench gather --seconds 0.01 --json
+machines=$(grep -c . "$dir/out.txt")
+check "bench gather prints one object a line" test "$machines" -eq "$(grep -cE "$line" "$dir/out.txt")"
+check "bench gather ends with the scalar lanes" sh -c 'tail -n 1 "$1" | grep -q "\"backend\":\"scalar\""' sh "$dir/out.txt"
+check "the gather's operations are counted" test "$machines" -eq "$(grep -c '"ops_per_vector":{"mul":[1-9][0-9.]*,"add":[1-9][0-9.]*,"max":[1-9][0-9.]*,"div":2.000,"cmp":[1-9].*"sqrt":1.000}' "$dir/out.txt")"
+status 0 bench gather --backend scalar --seconds 0.01
+check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' "$dir/out.txt"
+check "and no other" test "$(grep -c . "$dir/out.txt")" -eq 1
+status 2 bench gather --backend nothing
+status 2 bench gather bunny
 finish
