@@ -122,7 +122,8 @@ FORCE:
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
-CHECKS ?= unit analytic truth lanes golden ways hard replay hostile hostile-cli floors symbols stack headers layout one tables readme cli tiny
+CHECKS ?= unit analytic truth lanes golden ways hard replay hostile hostile-cli floors symbols stack headers layout guard \
+          one tables readme cli tiny
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -172,6 +173,9 @@ headers: ## each public header alone, as C99 and as C++
 
 layout: $(LIB) ## a program with other capacities than the library must not link
 	@$(IN_SH) tests/build/layout.sh
+
+guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: builds that would draw other pixels are refused
+	@$(IN_SH) tests/build/guard.sh
 
 one: ## a bare compiler command with all of src: builds, and the pictures are the same
 	@$(IN_SH) tests/build/one.sh

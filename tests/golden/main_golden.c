@@ -1,5 +1,7 @@
 /* main_golden.c: runs the golden pictures on any port: which machines, a line `name hash` each, then the counts.
  *
+ * A build that lmb_build_check refuses draws nothing. Where the port measures its stack, that is told too.
+ *
  * Freestanding: it runs where there is no libc. */
 #include "../../platform/port.h"
 #include "golden.h"
@@ -35,10 +37,29 @@ static void put_machines(void)
     port_put("\n");
 }
 
+static void put_stack(void)
+{
+    port_ram ram;
+    port_ram_used(&ram);
+    if (ram.size > 0) {
+        port_put("stack at its deepest: ");
+        put_number(ram.stack);
+        port_put(" bytes\n");
+    }
+}
+
 int main(void)
 {
+    lmb_status s = lmb_build_check();
+    if (s != LMB_OK) {
+        port_put("lmb_build_check: ");
+        port_put(lmb_status_name(s));
+        port_put("\n0 passed, 1 failed, 0 skipped\n");
+        return 1;
+    }
     put_machines();
     uint32_t wrong = (uint32_t)golden_run(&golden_whole, put_line);
+    put_stack();
     put_number(line_count > wrong ? line_count - wrong : 0);
     port_put(" passed, ");
     put_number(wrong);
