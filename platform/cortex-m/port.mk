@@ -1,4 +1,6 @@
-# cortex-m: a Cortex-M4F without operating system or libc, under qemu's mps2-an386; output by semihosting.
+# cortex-m: a Cortex-M with an FPU, without operating system or libc, under qemu; output by semihosting.
+# CORE: m4f (mps2-an386), m7 (mps2-an500), m55 with Helium (mps3-an547).
+CORE        ?= m4f
 ARM         ?= arm-none-eabi-
 override CC := $(ARM)gcc
 override AR := $(ARM)ar
@@ -6,16 +8,30 @@ override NM := $(ARM)nm
 override SIZE := $(ARM)size
 CFLAGS      ?= -Os
 
-PORT_SRC     := platform/cortex-m/start.c platform/freestanding/memory.c
-PORT_CFLAGS  := -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffunction-sections -fdata-sections \
+core_m4f := -mcpu=cortex-m4 -mfpu=fpv4-sp-d16
+core_m7  := -mcpu=cortex-m7 -mfpu=fpv5-d16
+core_m55 := -mcpu=cortex-m55
+ram_m4f := 0x20000000
+ram_m7  := 0x20000000
+ram_m55 := 0x21000000
+board_m4f := mps2-an386
+board_m7  := mps2-an500
+board_m55 := mps3-an547
+ifeq ($(origin core_$(CORE)),undefined)
+$(error CORE=$(CORE): there are `m4f`, `m7` and `m55`)
+endif
+
+PORT_SRC     := platform/cortex-m/start.c $(addprefix platform/freestanding/,bare.c floorf.c memory.c)
+PORT_CFLAGS  := $(core_$(CORE)) -mthumb -mfloat-abi=hard -ffunction-sections -fdata-sections \
                 -isystem platform/freestanding
-PORT_LDFLAGS  = -nostdlib -Wl,--gc-sections -Wl,--defsym,ram_bytes=$(RAM_BYTES) -T platform/cortex-m/m4f.ld
+PORT_LDFLAGS  = -nostdlib -Wl,--gc-sections -T platform/freestanding/bare.ld -Wl,--defsym,rom_origin=0 \
+                -Wl,--defsym,ram_origin=$(ram_$(CORE)) -Wl,--defsym,ram_bytes=$(RAM_BYTES)
 PORT_LDLIBS  := -lgcc
-RUN          := qemu-system-arm -M mps2-an386 -display none -monitor none -serial none -chardev stdio,id=console \
+RUN          := qemu-system-arm -M $(board_$(CORE)) -display none -monitor none -serial none -chardev stdio,id=console \
                 -semihosting-config enable=on,target=native,chardev=console -kernel
 
 # The demo must do with 256 KiB; the golden suite, built like the host's, takes what it takes.
-RAM_BYTES     = 4194304
+RAM_BYTES     = 2097152
 $(B)/demo: RAM_BYTES = 262144
 
 # A loop in memset that the compiler turns into a call of memset would never end.

@@ -1,0 +1,12 @@
+/* floorf.c: for processors whose FPU has a square root but no rounding to integers. */
+float floorf(float x);
+
+/* From 2^23 on a float is whole; NaN goes through. */
+float floorf(float x)
+{
+    float whole;
+    if (!(x > -8388608.0f && x < 8388608.0f))
+        return x;
+    whole = (float)(int)x;
+    return whole == x ? x : whole < x ? whole : whole - 1.0f;
+}

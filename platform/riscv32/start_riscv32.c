@@ -1,0 +1,32 @@
+/* start_riscv32.c: a riscv32 hart in machine mode: reset, semihosting. */
+#include "../freestanding/bare.h"
+
+void fault(void);
+
+/* mstatus.FS = 3: the float registers are there. */
+__asm__(".section .vectors, \"ax\"\n"
+        ".globl reset\n"
+        "reset:\n"
+        "\tlla sp, ram_end\n"
+        "\tli t0, 0x6000\n"
+        "\tcsrs mstatus, t0\n"
+        "\tcsrw fcsr, zero\n"
+        "\tlla t0, fault\n"
+        "\tcsrw mtvec, t0\n"
+        "\tj bare_run\n"
+        ".text\n");
+
+/* The address in mtvec is one of words. */
+__attribute__((aligned(4), used)) void fault(void) { bare_fault(); }
+
+/* Three instructions of four bytes each, in one page, are the call. */
+void semihost(uint32_t operation, const void *argument)
+{
+    register uint32_t a0 __asm__("a0") = operation;
+    register const void *a1 __asm__("a1") = argument;
+    __asm__ volatile(".option push\n\t.option norvc\n\t.balign 16\n\t"
+                     "slli x0, x0, 0x1f\n\tebreak\n\tsrai x0, x0, 7\n\t.option pop"
+                     : "+r"(a0)
+                     : "r"(a1)
+                     : "memory");
+}
