@@ -276,7 +276,7 @@ static void text_extensions(FILE *out, const model_facts *f)
 static void text_bounds(FILE *out, const lmb_scene *s)
 {
     const char *const names[] = {"bounds", "", ""}, *const ends[] = {"min", "max", "size"};
-    const lmb_vec3 rows[] = {s->bounds_min, s->bounds_max, extent(s)};
+    const lmb_vec3 rows[3] = {s->bounds_min, s->bounds_max, extent(s)};
     for (int i = 0; i < 3; ++i) {
         label(out, names[i]);
         fprintf(out, "%-4s %13.6g %13.6g %13.6g\n", ends[i], (double)rows[i].x, (double)rows[i].y, (double)rows[i].z);

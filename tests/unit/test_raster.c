@@ -1024,7 +1024,7 @@ static void check_bad(uint32_t dropped, const char *what)
 static void test_bad_vertices(void)
 {
     const int32_t box[4] = {0, 0, FRAME, FRAME};
-    static const struct {
+    const struct { /* not static: to tcc, NAN is no constant */
         float value;
         const char *name;
     } bad[] = {{NAN, "nan"},    {INFINITY, "infinity"}, {-INFINITY, "-infinity"},
