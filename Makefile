@@ -1,6 +1,6 @@
 # lambent: library, tool, checks and instruments. `make help` lists the targets; nothing is configured beforehand.
 #
-#   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
+#   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|riscv32|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
 #
 # Everything a build makes lies in $(BUILD)/$(CONFIG). CFLAGS and LDFLAGS are yours: what exactness needs comes after.
 
@@ -233,74 +233,39 @@ large: $(TOOL) ## ten million triangles from a file to a picture; time and memor
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/build/tiny.sh
 
+# For compilers whose programs nothing here can run.
+.PHONY: compiles
+compiles: $(LIB_OBJ)
+	@echo "$(words $(LIB_OBJ)) passed, 0 failed, 0 skipped"
+
 run-demo: $(B)/demo
 	@$(RUN) $(B)/demo
 
-# One machine a line: what it needs installed, its compiler, what runs its programs.
-CROSS := gcc clang aarch64 mips cortex-m web web-simd
-cross-gcc:      NEEDS = gcc
-cross-gcc:      HOW   = CC=gcc
-cross-clang:    NEEDS = clang
-cross-clang:    HOW   = CC=clang CFLAGS="-O3 -march=native"
-cross-aarch64:  NEEDS = aarch64-linux-gnu-gcc qemu-aarch64
-cross-aarch64:  HOW   = CC=aarch64-linux-gnu-gcc LDFLAGS=-static RUN=qemu-aarch64
-cross-mips:     NEEDS = mips-linux-gnu-gcc qemu-mips
-cross-mips:     HOW   = CC=mips-linux-gnu-gcc LDFLAGS=-static RUN=qemu-mips
-cross-cortex-m: NEEDS = arm-none-eabi-gcc qemu-system-arm
-cross-cortex-m: HOW   = PORT=cortex-m
-cross-web:      NEEDS = clang wasm-ld node
-cross-web:      HOW   = PORT=web
-cross-web-simd: NEEDS = clang wasm-ld node
-cross-web-simd: HOW   = PORT=web CFLAGS="-O2 -msimd128"
-
-
-# Those that a change is tried on now and then.
-CROSS_MORE := armhf armel mipsel powerpc ppc64 ppc64le riscv64 s390x i386 windows
-cross-armhf:    NEEDS = arm-linux-gnueabihf-gcc qemu-arm
-cross-armhf:    HOW   = CC=arm-linux-gnueabihf-gcc LDFLAGS=-static RUN=qemu-arm
-cross-armel:    NEEDS = arm-linux-gnueabi-gcc qemu-arm
-cross-armel:    HOW   = CC=arm-linux-gnueabi-gcc LDFLAGS=-static RUN=qemu-arm
-cross-mipsel:   NEEDS = mipsel-linux-gnu-gcc qemu-mipsel
-cross-mipsel:   HOW   = CC=mipsel-linux-gnu-gcc LDFLAGS=-static RUN=qemu-mipsel
-cross-powerpc:  NEEDS = powerpc-linux-gnu-gcc qemu-ppc
-cross-powerpc:  HOW   = CC=powerpc-linux-gnu-gcc LDFLAGS=-static RUN=qemu-ppc
-cross-ppc64:    NEEDS = powerpc64-linux-gnu-gcc qemu-ppc64
-cross-ppc64:    HOW   = CC=powerpc64-linux-gnu-gcc LDFLAGS=-static RUN=qemu-ppc64
-cross-ppc64le:  NEEDS = powerpc64le-linux-gnu-gcc qemu-ppc64le
-cross-ppc64le:  HOW   = CC=powerpc64le-linux-gnu-gcc LDFLAGS=-static RUN=qemu-ppc64le
-cross-riscv64:  NEEDS = riscv64-linux-gnu-gcc qemu-riscv64
-cross-riscv64:  HOW   = CC=riscv64-linux-gnu-gcc LDFLAGS=-static RUN=qemu-riscv64
-cross-s390x:    NEEDS = s390x-linux-gnu-gcc qemu-s390x
-cross-s390x:    HOW   = CC=s390x-linux-gnu-gcc STD=gnu99 LDFLAGS=-static RUN=qemu-s390x
-cross-i386:     NEEDS = gcc gcc-m32
-cross-i386:     HOW   = CC="gcc -m32 -msse2 -mfpmath=sse -I/usr/include/x86_64-linux-gnu"
-cross-windows:  NEEDS = x86_64-w64-mingw32-gcc wine64
-cross-windows:  HOW   = CC=x86_64-w64-mingw32-gcc EXE=.exe LDFLAGS=-static RUN="env WINEDEBUG=-all sh tests/build/wine.sh"
-
-CROSS_MORE_NEEDS := arm-linux-gnueabihf-gcc arm-linux-gnueabi-gcc mipsel-linux-gnu-gcc powerpc-linux-gnu-gcc \
-    powerpc64-linux-gnu-gcc powerpc64le-linux-gnu-gcc riscv64-linux-gnu-gcc s390x-linux-gnu-gcc gcc-m32 \
-    x86_64-w64-mingw32-gcc wine64 qemu-arm
+# MACHINES, MORE_MACHINES, and for each needs_NAME and how_NAME.
+include tests/build/machines.mk
 
 define cross_sum
 	@LOGS=$(B)/check sh tests/build/part.sh same sh tests/build/same.sh $(1:%=$(B)/check/cross-%.log)
-	@sh tests/build/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log
+	@LOGS=$(B)/check sh tests/build/part.sh stacks sh tests/build/stacks.sh 4096 $(1:%=$(BUILD)/cross/%)
+	@sh tests/build/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log $(B)/check/stacks.log
 endef
 
-.PHONY: cross-all install-more $(CROSS:%=cross-%) $(CROSS_MORE:%=cross-%)
-cross: $(CROSS:%=cross-%) ## golden pictures on other compilers and machines; installs what it needs where it can
-	$(call cross_sum,$(CROSS))
+.PHONY: cross-all install-more $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%)
+cross: $(MACHINES:%=cross-%) ## golden pictures on other compilers and machines; installs what it needs where it can
+	$(call cross_sum,$(MACHINES))
 
-cross-all: $(CROSS:%=cross-%) $(CROSS_MORE:%=cross-%) ## the same on seventeen
-	$(call cross_sum,$(CROSS) $(CROSS_MORE))
+cross-all: $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%) ## the same on all of tests/build/machines.mk
+	$(call cross_sum,$(MACHINES) $(MORE_MACHINES))
 
-$(CROSS:%=cross-%): install
-$(CROSS_MORE:%=cross-%): install-more
-$(CROSS:%=cross-%) $(CROSS_MORE:%=cross-%): cross-%:
-	+@$(PART) cross-$* $(MAKE) golden BUILD=$(BUILD)/cross/$* $(HOW)
+$(MACHINES:%=cross-%): install
+$(MORE_MACHINES:%=cross-%): install-more
+$(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%): NEEDS = $(needs_$(@:cross-%=%))
+$(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%): cross-%:
+	+@$(PART) cross-$* $(MAKE) $(or $(goal_$*),golden) BUILD=$(BUILD)/cross/$* $(how_$*)
 
 # One installer at a time: all that the machines of cross-all need.
 install-more: install
-	@sh tests/build/tools.sh install $(CROSS_MORE_NEEDS)
+	@sh tests/build/tools.sh install $(sort $(foreach m,$(MORE_MACHINES),$(needs_$(m))))
 
 install:
 	@sh tests/build/tools.sh install

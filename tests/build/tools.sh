@@ -4,7 +4,7 @@
 # install [COMMAND...]: installs what is missing, of the usual ones or of these, where apt-get and the right to use it
 # are there; says what stays missing.
 all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips arm-none-eabi-gcc
-    qemu-system-arm djpeg cjpeg pngtopam vips"
+    qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips"
 
 packages_of() {
     case $1 in
@@ -22,6 +22,8 @@ packages_of() {
     x86_64-w64-mingw32-gcc) echo gcc-mingw-w64-x86-64-win32 ;;
     arm-none-eabi-gcc) echo gcc-arm-none-eabi ;;
     qemu-system-arm) echo qemu-system-arm ;;
+    riscv64-unknown-elf-gcc) echo gcc-riscv64-unknown-elf ;;
+    qemu-system-riscv32) echo qemu-system-misc ;;
     qemu-*) echo qemu-user ;;
     djpeg | cjpeg) echo libjpeg-turbo-progs ;;
     pngtopam) echo netpbm ;;
