@@ -52,9 +52,12 @@ WAYS_OBJ   := $(call object,tests/golden/golden.c tests/golden/main_ways.c tools
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$(LIB_OBJ))
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+
+PROGRAMS := tests golden ways reference replay hostile audit-golden audit-replay
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
@@ -95,7 +98,9 @@ $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
-$(TOOL) $(B)/tests $(B)/golden $(B)/ways $(B)/demo $(B)/replay $(B)/hostile $(B)/decodes $(B)/reference:
+$(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
+$(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(B)/demo $(B)/decodes:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -118,11 +123,12 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) $(DECODE_OBJ) $(REFERENCE_OBJ)))
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
+    $(DECODE_OBJ) $(REFERENCE_OBJ) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
-CHECKS ?= unit analytic truth lanes golden ways hard replay hostile hostile-cli floors symbols stack headers layout guard \
+CHECKS ?= unit analytic truth lanes golden ways audit hard replay hostile hostile-cli floors symbols stack headers layout guard \
           one tables readme cli tiny
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
@@ -133,7 +139,7 @@ IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(C
 check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
 	@sh tests/build/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
-$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(B)/tests $(B)/golden $(B)/ways $(B)/reference $(B)/replay $(B)/hostile
+$(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(PROGRAMS:%=$(B)/%)
 	+@$(PART) $* $(MAKE) $*
 
 unit analytic truth lanes: $(B)/tests
@@ -150,6 +156,9 @@ ways: $(B)/ways ## the same hashes in pieces, in several orders, and on 1 .. 8 t
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
+
+audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numbers that int32 does not hold?
+	@$(RUN) $(B)/audit-golden && $(RUN) $(B)/audit-replay tests/fuzz/corpus/*/*
 
 PREFIXES  ?= 20
 MUTATIONS ?= 200

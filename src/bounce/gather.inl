@@ -6,6 +6,10 @@
 
 #define INVERSE_PI 0.31830989f
 
+/* Under this, m, a point counts as in a plane, not over it: a light that grazes so gives nothing, but its c^2 s would be
+ * a denormal, which some machines flush. */
+#define GRAZING_M 9.5367432e-7f
+
 /* One emitter, one vector of pixels. M = 1: W/m2 a watt.
  *
  * A disc of area A seen from r away, to second order in s = A / (pi r^2) (integrate cosP cosG / r^2 over the disc):
@@ -14,7 +18,7 @@
  * facing disc (t = c = 1), which is exact. For t < 0 the sum itself is kept. Both stay under cosG / s: nothing receives
  * more than the disc's own radiosity M / A times cosG.
  *
- * a = nP.to, b = -nG.to, i = 1 / r^2, against = -nP.nG, area_pi = A / pi; only where a and b are over 0. */
+ * a = nP.to, b = -nG.to, i = 1 / r^2, against = -nP.nG, area_pi = A / pi; only where a and b are over GRAZING_M. */
 static inline void disc_fraction(lane *top, lane *bottom, lane a, lane b, lane i, lane against, lane area_pi)
 {
     const lane one = lane_splat(1.0f);
@@ -36,11 +40,11 @@ static inline lane disc_value(lane top, lane bottom, lane i)
 
 static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area)
 {
-    const lane zero = lane_splat(0.0f);
-    lane top, bottom, i = lane_div(lane_splat(1.0f), r2);
-    lane a = lane3_dot(n, to), b = lane_sub(zero, lane3_dot(axis, to)), against = lane_sub(zero, lane3_dot(n, axis));
+    const lane zero = lane_splat(0.0f), grazing = lane_splat(GRAZING_M);
+    lane top, bottom, i = lane_div(lane_splat(1.0f), r2), against = lane_sub(zero, lane3_dot(n, axis));
+    lane a = lane_max(lane3_dot(n, to), grazing), b = lane_max(lane_sub(zero, lane3_dot(axis, to)), grazing);
     disc_fraction(&top, &bottom, a, b, i, against, lane_mul(area, lane_splat(INVERSE_PI)));
-    return lane_keep(mask_and(lane_lt(zero, a), lane_lt(zero, b)), disc_value(top, bottom, i));
+    return lane_keep(mask_and(lane_lt(grazing, a), lane_lt(grazing, b)), disc_value(top, bottom, i));
 }
 
 #endif
@@ -225,14 +229,14 @@ static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const l
     const lane_mask hits = gather_hits(tile, k);
     const uint32_t hit_bits = mask_bits(hits);
     const lane3 p = lane3_load(tile->position, k), n = gather_normals(tile, k, hits), face = lane3_load(tile->face, k);
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), grazing = lane_splat(GRAZING_M);
     int32_t count = 0;
     for (int32_t j = 0; j < group_count; ++j) {
         const gather_group *g = &groups[j];
         const lane3 to = lane3_sub(lane3_point(g->at), p);
         const lane r2 = lane3_dot(to, to), a = lane3_dot(n, to), b = lane3_dot(lane3_point(g->back), to);
         const lane_mask far = lane_le(lane_splat(g->near2), r2);
-        const lane_mask faces = mask_and(lane_lt(zero, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
+        const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
         const lane_mask lit = mask_and(far, faces);
         const uint32_t near_bits = hit_bits & ~mask_bits(far);
         out->a[j] = a;

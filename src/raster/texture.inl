@@ -3,8 +3,9 @@
 #include "../base/codec.h"
 #include "texture.h"
 
-#if LANES == 1
-/* The sampler that takes one pixel at a time is there anyway, for holes. */
+#if defined(LANE_PLAIN)
+/* Without vectors, the sampler that takes one pixel at a time: it is there anyway, for holes. Four lanes written out are
+ * a tenth faster, and 4.8 KB of stack on a Cortex-M4F. */
 static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
