@@ -71,7 +71,7 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
     static lmb_radiance radiance;
     for (int32_t y = 0; y < s->view.frame_height; y += LMB_TILE) {
         for (int32_t x = 0; x < s->view.frame_width; x += LMB_TILE) {
-            lmb_resolve_tile(&tile, kernels, &s->view, &s->scene, &c->target, x, y);
+            lmb_resolve_albedo(&tile, kernels, &s->view, &s->scene, &c->target, x, y);
             if (tile.hits > 0) {
                 memcpy(radiance.rgb, tile.albedo, sizeof radiance.rgb);
                 lmb_store_tile(&c->out, kernels, 0, 0, &radiance, x, y, 0.0f);

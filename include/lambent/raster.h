@@ -71,6 +71,11 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
 lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t x, int32_t y);
 
+/* lmb_resolve_albedo: the same for pictures without light: only id, x, y, hits, uv and albedo are set, the other planes
+ * mean nothing. */
+lmb_status lmb_resolve_albedo(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                              const lmb_target *target, int32_t x, int32_t y);
+
 #ifdef __cplusplus
 }
 #endif

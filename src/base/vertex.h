@@ -69,4 +69,27 @@ static inline uint32_t mesh_index(const lmb_mesh *m, uint32_t corner)
     return corner;
 }
 
+/* Hints that numbers are wanted soon: those of several triangles lie far apart, and each would be waited for. */
+#if defined(__GNUC__)
+#define MESH_SOON(p) __builtin_prefetch(p)
+#else
+#define MESH_SOON(p) ((void)(p))
+#endif
+
+static inline void mesh_index_soon(const lmb_mesh *m, uint32_t corner)
+{
+    MESH_SOON((const uint8_t *)m->indices + (size_t)corner * (m->index_format == LMB_INDEX_U16 ? 2 : 4));
+}
+
+static inline void mesh_vertex_soon(const lmb_mesh *m, uint32_t vertex)
+{
+    MESH_SOON((const uint8_t *)m->positions + (size_t)vertex * (m->position_format == LMB_POSITION_F32 ? 12 : 8));
+    if (m->colours != NULL) {
+        MESH_SOON(m->colours + (size_t)vertex * 4);
+    }
+    if (m->uvs != NULL) {
+        MESH_SOON((const uint8_t *)m->uvs + (size_t)vertex * (m->uv_format == LMB_UV_F32 ? 8 : 4));
+    }
+}
+
 #endif

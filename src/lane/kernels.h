@@ -93,6 +93,7 @@ typedef struct lmb_resolve_batch {
     const lmb_instance *instance;
     const lmb_mesh *mesh;
     const lmb_material *material;
+    int32_t albedo_only;               /* of the pixels: uv and albedo, nothing else */
     int32_t count;                     /* slots in use; the others hold numbers */
     uint32_t id[LMB_BATCH];
     int32_t slot[LMB_TILE_PIXELS];     /* of each pixel; -1: another's */

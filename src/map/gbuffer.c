@@ -51,7 +51,9 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
         return LMB_ERR_FORMAT;
     }
     for (int32_t x = target->x0; x < target->x0 + target->depth.width; x += LMB_TILE) {
-        lmb_status status = lmb_resolve_tile(tile, kernels, view, scene, target, x, band * LMB_TILE);
+        lmb_status status = depth == NULL && normal == NULL
+                                ? lmb_resolve_albedo(tile, kernels, view, scene, target, x, band * LMB_TILE)
+                                : lmb_resolve_tile(tile, kernels, view, scene, target, x, band * LMB_TILE);
         if (status != LMB_OK) {
             return status;
         }

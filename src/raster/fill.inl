@@ -81,13 +81,16 @@ typedef struct fill_box {
     int32_t first_row, last_row, first, last;
 } fill_box;
 
-/* d + dy y at the rows of a vector that starts in row y. */
-LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y)
+/* d + dy y at the rows of a vector that starts in row y. `row` is y: where all rows are drawn it is counted in float,
+ * as a conversion waits for whatever was in its register before. */
+LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y, float row)
 {
 #if LANES > LMB_TILE
+    (void)row;
     return lane_add(lane_splat(d), lane_mul(lane_splat(per_row), lane_row(y * LMB_TILE)));
 #else
-    return lane_splat(d + per_row * (float)y);
+    (void)y;
+    return lane_splat(d + per_row * row);
 #endif
 }
 
@@ -112,7 +115,7 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
           e2 = lanei_add(lanei_splat(e[2]), t->step[2][i]);
     for (int32_t y = box->first_row; y <= box->last_row; y += FILL_ROWS) {
         lane_mask in = lanei_not_negative(lanei_or(lanei_or(e0, e1), e2));
-        lane depth = lane_add(fill_row_depth(d, t->per_row, y), t->step_d[i]);
+        lane depth = lane_add(fill_row_depth(d, t->per_row, y, (float)y), t->step_d[i]);
         depth = lane_min(lane_max(depth, t->d_min), t->d_max);
         if (tile->depth_format == LMB_DEPTH32F && tile->id_format == LMB_FORMAT_NONE) {
             float *p = (float *)tile->depth + y * tile->depth_step + i * LANES;
@@ -132,8 +135,9 @@ LANE_INLINE void fill_column(const lmb_fill_tile *tile, const lmb_fill_job *codi
 LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, int clamped)
 {
     const lane_mask all = mask_of_bits(0xffffu);
-    for (int32_t y = 0; y < LMB_TILE; y += FILL_ROWS) {
-        const lane at = fill_row_depth(job->d, t->per_row, y);
+    float row = 0.0f;
+    for (int32_t y = 0; y < LMB_TILE; y += FILL_ROWS, row += (float)FILL_ROWS) {
+        const lane at = fill_row_depth(job->d, t->per_row, y, row);
         for (int32_t i = 0; i < FILL_ACROSS; ++i) {
             lane depth = lane_add(at, t->step_d[i]);
             if (clamped) {

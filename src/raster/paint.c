@@ -184,7 +184,7 @@ void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_ker
     } else if (m->texture >= 0) {
         kernels->texture(out, batch, &scene->textures[m->texture]);
     }
-    if (m->normal_scale != 0.0f && batch->mesh->uvs != NULL) {
+    if (m->normal_scale != 0.0f && batch->mesh->uvs != NULL && !batch->albedo_only) {
         paint_normals(out, batch, scene);
     }
 }

@@ -182,11 +182,17 @@ static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b
 {
     uint32_t bad = 0;
     for (int k = 0; k < b->count; ++k) {
+        if (b->mesh->indices != NULL) {
+            mesh_index_soon(b->mesh, 3 * (b->id[k] - b->instance->first_id));
+        }
+    }
+    for (int k = 0; k < b->count; ++k) {
         const uint32_t first = 3 * (b->id[k] - b->instance->first_id);
         for (uint32_t i = 0; i < 3; ++i) {
             const uint32_t v = mesh_index(b->mesh, first + i), outside = v >= b->mesh->vertex_count;
             vertex[i][k] = outside ? 0 : v;
             bad |= outside << k;
+            mesh_vertex_soon(b->mesh, vertex[i][k]);
         }
     }
     return bad;
@@ -199,7 +205,7 @@ static uint32_t fetch(lmb_resolve_batch *b)
     const uint32_t bad = fetch_indices(vertex, b);
     for (int i = 0; i < 3 && b->mesh->vertex_count > 0; ++i) {
         fetch_positions(b, i, vertex[i]);
-        if (b->mesh->normals != NULL) {
+        if (b->mesh->normals != NULL && !b->albedo_only) {
             fetch_normals(b, i, vertex[i]);
         }
         if (b->mesh->colours != NULL) {
@@ -254,8 +260,15 @@ static int32_t count_hits(const lmb_tile *t)
     return hits;
 }
 
-lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
-                            const lmb_target *target, int32_t x, int32_t y)
+/* From the first plane, or from albedo on. */
+static void clear_tile(lmb_tile *out, int albedo_only)
+{
+    const size_t from = albedo_only ? offsetof(lmb_tile, albedo) : 0;
+    memset((uint8_t *)out + from, 0, sizeof *out - from);
+}
+
+static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                          const lmb_target *target, int32_t x, int32_t y, int albedo_only)
 {
     if (out == NULL || kernels == NULL || view == NULL || scene == NULL || target == NULL || target->id.data == NULL ||
         lmb_target_check(target, view, 0) != LMB_OK || x < target->x0 || y < target->y0 ||
@@ -263,7 +276,7 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
         y % LMB_TILE != 0) {
         return LMB_ERR_ARG;
     }
-    memset(out, 0, sizeof *out);
+    clear_tile(out, albedo_only);
     out->x = x;
     out->y = y;
     uint64_t left = read_ids(out->id, target, view, x, y);
@@ -271,10 +284,23 @@ lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb
         lmb_resolve_batch batch;
         memset(&batch, 0, sizeof batch); /* slots that are not used hold numbers */
         lmb_resolve_rays(&batch.rays, view, x, y);
+        batch.albedo_only = albedo_only;
         while (left != 0) {
             left &= ~resolve_some(out, &batch, kernels, scene, left);
         }
         out->hits = count_hits(out);
     }
     return LMB_OK;
+}
+
+lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                            const lmb_target *target, int32_t x, int32_t y)
+{
+    return resolve(out, kernels, view, scene, target, x, y, 0);
+}
+
+lmb_status lmb_resolve_albedo(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
+                              const lmb_target *target, int32_t x, int32_t y)
+{
+    return resolve(out, kernels, view, scene, target, x, y, 1);
 }

@@ -162,7 +162,7 @@ static void KERNEL(resolve_setup)(lmb_resolve_batch *inout)
     const lmb_vec3 column[4] = {vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]), vec3(m[12], m[13], m[14])};
     for (int k = 0; k < inout->count; k += LANES) {
         resolve_planes(inout, column, k);
-        if (inout->mesh->normals != NULL) {
+        if (inout->mesh->normals != NULL && !inout->albedo_only) {
             resolve_normals(inout, column, k);
         }
         if (inout->mesh->colours != NULL) {
@@ -233,6 +233,22 @@ LANE_INLINE lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place
     return lane3_pick(fine, lane3_scale(n, scale), face);
 }
 
+/* What the triangle's colour is made of. */
+LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at, lane_mask mine)
+{
+    for (int c = 0; c < 3; ++c) {
+        lane albedo = lane_splat(b->material->albedo[c]);
+        if (b->mesh->colours != NULL) {
+            albedo = resolve_mix(b->albedo[0][c], b->albedo[1][c], b->albedo[2][c], at);
+        }
+        resolve_put(out->albedo[c] + k, mine, albedo);
+    }
+    if (b->mesh->uvs != NULL) {
+        resolve_put(out->uv[0] + k, mine, resolve_mix(b->uv[0][0], b->uv[1][0], b->uv[2][0], at));
+        resolve_put(out->uv[1] + k, mine, resolve_mix(b->uv[0][1], b->uv[1][1], b->uv[2][1], at));
+    }
+}
+
 LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k, lanei slot, lane_mask mine)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
@@ -245,27 +261,19 @@ LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k
     slope = lane_pick(lane_lt(lane_mul(slope, slope), lane_splat(1e-36f)), lane_splat(1e-18f), slope);
     lane w = lane_div(lane3_dot(plane, lane3_sub(corner, origin)), slope);
     w = lane_min(lane_max(w, lane_table(b->w_min, slot)), lane_table(b->w_max, slot));
-    const lane3 p = lane3_add(origin, lane3_scale(ray, w)), q = lane3_sub(p, corner), face = resolve_look(b->face, slot);
+    const lane3 p = lane3_add(origin, lane3_scale(ray, w)), q = lane3_sub(p, corner);
 
     resolve_place at;
     at.slot = slot;
     at.b1 = lane_min(lane_max(lane3_dot(q, resolve_look(b->corner[1], slot)), zero), one);
     at.b2 = lane_min(lane_max(lane3_dot(q, resolve_look(b->corner[2], slot)), zero), lane_sub(one, at.b1));
-
-    resolve_put(out->depth + k, mine, w);
-    resolve_put3(out->position, k, mine, lane3_add(p, lane3_of(b->rays.eye)));
-    resolve_put3(out->face, k, mine, face);
-    resolve_put3(out->normal, k, mine, b->mesh->normals != NULL ? resolve_normal(b, &at, face) : face);
-    for (int c = 0; c < 3; ++c) {
-        lane albedo = lane_splat(b->material->albedo[c]);
-        if (b->mesh->colours != NULL) {
-            albedo = resolve_mix(b->albedo[0][c], b->albedo[1][c], b->albedo[2][c], &at);
-        }
-        resolve_put(out->albedo[c] + k, mine, albedo);
-    }
-    if (b->mesh->uvs != NULL) {
-        resolve_put(out->uv[0] + k, mine, resolve_mix(b->uv[0][0], b->uv[1][0], b->uv[2][0], &at));
-        resolve_put(out->uv[1] + k, mine, resolve_mix(b->uv[0][1], b->uv[1][1], b->uv[2][1], &at));
+    resolve_colour(out, b, k, &at, mine);
+    if (!b->albedo_only) {
+        const lane3 face = resolve_look(b->face, slot);
+        resolve_put(out->depth + k, mine, w);
+        resolve_put3(out->position, k, mine, lane3_add(p, lane3_of(b->rays.eye)));
+        resolve_put3(out->face, k, mine, face);
+        resolve_put3(out->normal, k, mine, b->mesh->normals != NULL ? resolve_normal(b, &at, face) : face);
     }
 }
 

@@ -480,6 +480,27 @@ static void test_plain_attributes(void)
     CHECK(empty > 0 && empty < FRAME * FRAME);
 }
 
+/* lmb_resolve_albedo: the colours of lmb_resolve_tile, without the rest. */
+static void test_albedo_only(void)
+{
+    static lmb_tile only;
+    test_rng r = {25};
+    for (int n = 0; n < 20; ++n) {
+        random_scene(&r, n);
+        draw_scene();
+        for (int32_t at = 0; at < FRAME * FRAME; at += 8 * 8) {
+            const int32_t x = at / 8 % FRAME, y = at / 8 / FRAME * 8;
+            memset(&only, 0xa5, sizeof only);
+            CHECK(resolve(x, y) == LMB_OK);
+            CHECK(lmb_resolve_albedo(&only, lmb_kernels_pick(), &st.view, &st.scene, &st.target, x, y) == LMB_OK);
+            CHECK(only.x == x && only.y == y && only.hits == tile.hits);
+            CHECK(memcmp(only.albedo, tile.albedo, sizeof only.albedo) == 0 && memcmp(only.uv, tile.uv, sizeof only.uv) == 0 &&
+                  memcmp(only.id, tile.id, sizeof only.id) == 0);
+        }
+    }
+    CHECK(lmb_resolve_albedo(NULL, lmb_kernels_pick(), &st.view, &st.scene, &st.target, 0, 0) == LMB_ERR_ARG);
+}
+
 static void test_resolve_arguments(void)
 {
     static lmb_tile before;
@@ -599,6 +620,7 @@ void test_textures(void)
     test_against_double();
     test_attributes();
     test_plain_attributes();
+    test_albedo_only();
     test_resolve_arguments();
     test_levels();
     test_levels_recede();
