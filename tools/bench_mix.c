@@ -48,10 +48,10 @@ COUNTED(lane, lane_sqrt, BENCH_SQRT, (lane a), (a))
 void bench_mix_gather(double counts[BENCH_OPS], const lmb_tile *tile, const lmb_groups *groups)
 {
     static lmb_irradiance sums;
-    static uint64_t near_pixels[LMB_MAX_GROUPS];
+    static lmb_gather_scratch scratch;
     memset(&sums, 0, sizeof sums);
     memset(done, 0, sizeof done);
-    gather_counted(&sums, near_pixels, tile, groups, NULL);
+    gather_counted(&sums, &scratch, tile, groups, NULL);
     for (int op = 0; op < BENCH_OPS; ++op) {
         counts[op] = done[op] / (LMB_TILE_PIXELS / LANES) / groups->count;
     }

@@ -77,9 +77,10 @@ typedef struct lmb_occluder {
  * about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off screen or hidden does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
 enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2 };
 
-/* One pixel bit a near group: filled and read inside lmb_gather_tile. */
+/* Filled and read inside lmb_gather_tile. */
 typedef struct lmb_gather_scratch {
-    uint64_t near_pixels[LMB_MAX_GROUPS];
+    uint64_t near_pixels[LMB_MAX_GROUPS]; /* one pixel bit a near group */
+    float pairs[3][LMB_GATHER_PAIRS];     /* of a vector of pixels with a block of groups */
 } lmb_gather_scratch;
 
 #ifdef __cplusplus
@@ -125,7 +126,7 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
  * the disc's form factor to second order in its size; exact on the axis of a facing disc, never over M / A.
  * Near pair: each disc by the same formula, or its quad by Lambert's polygon formula clipped to the horizon.
  * Doubling every flux doubles `out` exactly. Returns LMB_OK or LMB_ERR_ARG.
- * Stack: 1.25 KiB in the tiny configuration, 4.5 KiB elsewhere, 5.5 KiB by AVX2 and AVX-512. */
+ * Stack: 1.25 KiB in the tiny configuration, under 4 KiB elsewhere. */
 lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_gather_scratch *scratch,
                            const lmb_tile *tile, const lmb_groups *groups, const lmb_points *points,
                            const lmb_occluder *occluder);

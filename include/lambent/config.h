@@ -29,6 +29,7 @@
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
+#define LMB_GATHER_PAIRS 128    /* pixels x groups that the gather takes together */
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
 #if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1

@@ -179,7 +179,7 @@ static GATHER_APART int corners_see(const gather_corners *c, const lmb_march_job
 
 /* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
  * after another, every machine waits most of the time, whatever its width. So each step is done for all groups of a
- * block before the next: chains are short and many run side by side. 1.5 KiB of pairs at most. */
+ * block before the next: chains are short and many run side by side. The pairs lie in the caller's scratch. */
 enum { BLOCK = LANES > 8 ? 8 : LANES > 1 ? 16 : 4 };
 
 /* A block's groups, one beside the other: in lmb_groups a group's numbers lie LMB_MAX_GROUPS apart, a power of two, and
@@ -206,8 +206,9 @@ static void gather_fetch(gather_group out[BLOCK], const lmb_groups *groups, int3
 }
 
 /* A vector of pixels with a block's groups. Only pairs in `lit` mean anything: groups that light any of the pixels. */
+enum { PAIR_A, PAIR_B, PAIR_I }; /* as in disc_fraction */
 typedef struct gather_pairs {
-    lane a[BLOCK], b[BLOCK], i[BLOCK]; /* of disc_fraction; i is 0 where a pixel gets nothing */
+    float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: LANES of each group; i is 0 where a pixel gets nothing */
     int32_t lit[BLOCK], count;
 } gather_pairs;
 
@@ -239,9 +240,9 @@ static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const l
         const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
         const lane_mask lit = mask_and(far, faces);
         const uint32_t near_bits = hit_bits & ~mask_bits(far);
-        out->a[j] = a;
-        out->b[j] = b;
-        out->i[j] = lane_keep(lit, lane_div(one, r2));
+        lane_store(out->of[PAIR_A] + j * LANES, a);
+        lane_store(out->of[PAIR_B] + j * LANES, b);
+        lane_store(out->of[PAIR_I] + j * LANES, lane_keep(lit, lane_div(one, r2)));
         out->lit[count] = j;
         count += mask_bits(lit) != 0;
         if (near_bits != 0) {
@@ -258,16 +259,17 @@ static inline void gather_weigh(gather_pairs *inout, const lmb_tile *tile, int k
     for (int32_t i = 0; i < inout->count; ++i) {
         const int32_t j = inout->lit[i];
         lane top, bottom;
-        disc_fraction(&top, &bottom, inout->a[j], inout->b[j], inout->i[j], lane3_dot(n, lane3_point(groups[j].back)),
+        disc_fraction(&top, &bottom, lane_load(inout->of[PAIR_A] + j * LANES), lane_load(inout->of[PAIR_B] + j * LANES),
+                      lane_load(inout->of[PAIR_I] + j * LANES), lane3_dot(n, lane3_point(groups[j].back)),
                       lane_splat(groups[j].area_pi));
-        inout->a[j] = top;
-        inout->b[j] = bottom;
+        lane_store(inout->of[PAIR_A] + j * LANES, top);
+        lane_store(inout->of[PAIR_B] + j * LANES, bottom);
     }
 }
 
 static inline lane gather_weight(const gather_pairs *pairs, int32_t j)
 {
-    return disc_value(pairs->a[j], pairs->b[j], pairs->i[j]);
+    return disc_value(lane_load(pairs->of[PAIR_A] + j * LANES), lane_load(pairs->of[PAIR_B] + j * LANES), lane_load(pairs->of[PAIR_I] + j * LANES));
 }
 
 /* Picked as in gather_add, over sums that stay in registers. */
@@ -309,44 +311,46 @@ static GATHER_APART void gather_hide(gather_pairs *inout, gather_blockers *block
             *sees = (uint8_t)corners_see(blockers->corners, blockers->m, g->at, axis);
         }
         if (mask_bits(lit) && *sees == SEES_SOME) {
-            inout->i[j] = lane_keep(tile_march(blockers->m, tile, k, g->at, axis, lit), inout->i[j]);
+            const lane_mask open = tile_march(blockers->m, tile, k, g->at, axis, lit);
+            lane_store(inout->of[PAIR_I] + j * LANES, lane_keep(open, lane_load(inout->of[PAIR_I] + j * LANES)));
         } else if (*sees == SEES_NOTHING) {
-            inout->i[j] = lane_splat(0.0f);
+            lane_store(inout->of[PAIR_I] + j * LANES, lane_splat(0.0f));
         }
     }
 }
 
-static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, const lmb_tile *tile,
+static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, gather_pairs *pairs, const lmb_tile *tile,
                                 const gather_group *groups, int32_t count, gather_blockers *blockers)
 {
-    gather_pairs pairs;
     for (int32_t j = 0; j < count; ++j) {
         near_pixels[j] = 0;
         blockers->sees[j] = SEES_UNKNOWN;
     }
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        gather_find(&pairs, near_pixels, tile, k, groups, count);
-        gather_weigh(&pairs, tile, k, groups);
+        gather_find(pairs, near_pixels, tile, k, groups, count);
+        gather_weigh(pairs, tile, k, groups);
         if (blockers->m != NULL) {
-            gather_hide(&pairs, blockers, tile, k, groups);
+            gather_hide(pairs, blockers, tile, k, groups);
         }
-        gather_sum(inout, k, &pairs, groups);
+        gather_sum(inout, k, pairs, groups);
     }
 }
 
-static void KERNEL(gather)(lmb_irradiance *inout, uint64_t *near_pixels, const lmb_tile *tile, const lmb_groups *groups,
+static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, const lmb_tile *tile, const lmb_groups *groups,
                            const lmb_march_job *m)
 {
+    gather_pairs pairs;
     gather_corners corners;
     gather_group block[BLOCK];
     gather_blockers blockers;
+    pairs.of = scratch->pairs;
     blockers.m = m;
     blockers.corners = &corners;
     gather_corners_set(&corners, tile, m);
     for (int32_t j = 0; j < groups->count; j += BLOCK) {
         const int32_t count = groups->count - j < BLOCK ? groups->count - j : BLOCK;
         gather_fetch(block, groups, j, count);
-        gather_block(inout, near_pixels + j, tile, block, count, &blockers);
+        gather_block(inout, scratch->near_pixels + j, &pairs, tile, block, count, &blockers);
     }
 }
 

@@ -149,8 +149,8 @@ struct lmb_kernels {
     void (*texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *texture);
     /* W/m2 at each pixel if nothing shadowed it. */
     void (*direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_direct_job *job);
-    /* Far pairs are added; near ones flagged in near_pixels, one bit a pixel. */
-    void (*gather)(lmb_irradiance *inout, uint64_t *near_pixels, const lmb_tile *tile, const lmb_groups *groups,
+    /* Far pairs are added; near ones flagged in scratch->near_pixels, one bit a pixel. */
+    void (*gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, const lmb_tile *tile, const lmb_groups *groups,
                    const lmb_march_job *march);
     /* The flagged pixels of one near group, through its discs. */
     void (*gather_near)(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
