@@ -112,7 +112,7 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
         return;
     }
     lmb_resolve_rays(&surface.rays, c->view, target->x0, target->y0);
-    lmb_resolve_plane(&surface.plane, &triangle, &surface.rays);
+    lmb_resolve_plane(&surface.plane, triangle.corner, &surface.rays);
     lmb_resolve_alpha_of(&surface.alpha, &triangle);
     tile_span(&tx0, &tx1, s->x_min, s->x_max, c->view->frame_width, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, c->view->frame_height, target->y0, target->depth.height);

@@ -45,12 +45,13 @@ static lmb_vec3 from_lanes(lane3 v)
     return vec3(x, y, z);
 }
 
-void lmb_resolve_plane(lmb_plane *out, const lmb_triangle *t, const lmb_rays *rays)
+void lmb_resolve_plane(lmb_plane *out, const lmb_vec3 corner[3], const lmb_rays *rays)
 {
-    const lane3 corner[3] = {lane3_of(t->corner[0]), lane3_of(t->corner[1]), lane3_of(t->corner[2])};
-    const plane_lanes p = plane_setup(corner, rays);
+    const lane3 c[3] = {lane3_of(corner[0]), lane3_of(corner[1]), lane3_of(corner[2])};
+    const plane_lanes p = plane_setup(c, rays);
     out->corner = from_lanes(p.corner);
     out->plane = from_lanes(p.plane);
+    out->face = from_lanes(p.face);
     out->g1 = from_lanes(p.g1);
     out->g2 = from_lanes(p.g2);
     lane_store(&out->w_min, p.w_min);

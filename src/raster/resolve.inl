@@ -5,6 +5,7 @@
  * no depth read back, no snapping error off the plane. On a plane seen edge-on the quotient is clamped to the triangle's
  * own range of w. */
 #include "plane.inl"
+#include "resolve.h"
 
 /* --- slots ---------------------------------------------------------------------------------------------------------- */
 
@@ -75,6 +76,36 @@ LANE_INLINE lane3 resolve_columns(const lmb_vec3 column[3], lane3 p)
                      lane3_scale(lane3_of(column[2]), p.z));
 }
 
+#if defined(LANE_PLAIN)
+static void resolve_put_vec(float (*p)[LMB_BATCH], int k, lmb_vec3 v)
+{
+    p[0][k] = v.x;
+    p[1][k] = v.y;
+    p[2][k] = v.z;
+}
+
+/* Without vectors one after the other, by the code that masked triangles need anyway. */
+LANE_INLINE void resolve_planes(lmb_resolve_batch *b, const lmb_vec3 column[4], int k)
+{
+    (void)column;
+    for (int slot = k; slot < k + LANES; ++slot) {
+        lmb_vec3 corner[3];
+        lmb_plane p;
+        for (int i = 0; i < 3; ++i) {
+            float (*c)[LMB_BATCH] = b->corner[i];
+            corner[i] = transform_point(&b->instance->to_world, vec3(c[0][slot], c[1][slot], c[2][slot]));
+        }
+        lmb_resolve_plane(&p, corner, &b->rays);
+        resolve_put_vec(b->corner[0], slot, p.corner);
+        resolve_put_vec(b->corner[1], slot, p.g1);
+        resolve_put_vec(b->corner[2], slot, p.g2);
+        resolve_put_vec(b->plane, slot, p.plane);
+        resolve_put_vec(b->face, slot, p.face);
+        b->w_min[slot] = p.w_min;
+        b->w_max[slot] = p.w_max;
+    }
+}
+#else
 LANE_INLINE void resolve_planes(lmb_resolve_batch *b, const lmb_vec3 column[4], int k)
 {
     lane3 corner[3];
@@ -90,6 +121,7 @@ LANE_INLINE void resolve_planes(lmb_resolve_batch *b, const lmb_vec3 column[4], 
     lane_store(b->w_min + k, p.w_min);
     lane_store(b->w_max + k, p.w_max);
 }
+#endif
 
 LANE_INLINE lane3 resolve_unit(lane3 n)
 {
