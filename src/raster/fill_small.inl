@@ -31,10 +31,31 @@ LANE_INLINE void small_tile(const lmb_fill_tile *tile, const lmb_fill_job *job, 
     }
 }
 
+/* A triangle whose box lies in one tile, as most do. */
+LANE_INLINE void small_one(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k, const fill_triangle *t,
+                           int kind)
+{
+    const int32_t x = b->x0[k] & ~(LMB_TILE - 1), y = b->y0[k] & ~(LMB_TILE - 1);
+    const ptrdiff_t down = (y - w->y0) / LMB_TILE, across = (x - w->x0) / LMB_TILE;
+    const double d_row = b->dy[k] * ((y * 256 + w->origin_y) * (1.0 / 256.0));
+    const fill_box box = small_cut(b, k, x, y);
+    lmb_fill_tile tile = fill_first(w, kind);
+    tile.depth = (uint8_t *)w->first.depth + down * w->depth_row + across * w->depth_tile;
+    if (tile.id_format != LMB_FORMAT_NONE) {
+        tile.id = (uint8_t *)w->first.id + down * w->id_row + across * w->id_tile;
+    }
+    job->d = (float)(b->d[k] + b->dx[k] * ((x * 256 + w->origin_x) * (1.0 / 256.0)) + d_row);
+    small_tile(&tile, job, t, b->e[0][k], b->e[1][k], b->e[2][k], &box);
+}
+
 /* The three edges are written out: gcc -O2 keeps a loop of three, and arrays in memory. */
 LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k,
                             const fill_triangle *t, int kind)
 {
+    if (LANES > 1 && ((b->x0[k] ^ b->x1[k]) | (b->y0[k] ^ b->y1[k])) < LMB_TILE) {
+        small_one(w, job, b, k, t, kind);
+        return;
+    }
     const double d_origin = b->d[k], dx = b->dx[k], dy = b->dy[k];
     const int32_t left = b->x0[k] & ~(LMB_TILE - 1), top = b->y0[k] & ~(LMB_TILE - 1), right = b->x1[k], bottom = b->y1[k];
     const int32_t reach0 = small_reach(t->ex[0], t->ey[0]), reach1 = small_reach(t->ex[1], t->ey[1]),
