@@ -140,8 +140,8 @@ struct lmb_kernels {
     void (*fill_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
     /* One triangle into one tile. */
     void (*fill)(const lmb_fill_tile *tile, const lmb_fill_job *job);
-    /* Slots for the first LMB_BATCH different ids of the batch's instance among the pixels of `left`, one bit a pixel;
-     * returns the pixels that got one. */
+    /* Slots for the first LMB_BATCH different ids of the batch's instance among the pixels of `left`, one bit a pixel,
+     * which has all pixels of an id or none; returns the pixels that got one. */
     uint64_t (*resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left);
     void (*resolve_setup)(lmb_resolve_batch *inout);
     void (*resolve)(lmb_tile *out, const lmb_resolve_batch *batch);

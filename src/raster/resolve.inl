@@ -29,6 +29,8 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
     return left & own;
 }
 
+/* Of an id, `left` has all pixels or none: before its first there is nothing to take. Four wide vectors are looked through
+ * faster than it takes to find where to begin. */
 static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
 {
     uint64_t taken = 0;
@@ -38,10 +40,11 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
     }
     out->count = 0;
     while (left != 0 && out->count < LMB_BATCH) {
-        const uint32_t next = id[lowest_bit_64(left)];
+        const int first = lowest_bit_64(left);
+        const uint32_t next = id[first];
         const lanei wanted = lanei_splat((int32_t)next), number = lanei_splat(out->count);
         uint64_t mine = 0;
-        for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        for (int k = LANES > LMB_TILE ? 0 : first & ~(LANES - 1); k < LMB_TILE_PIXELS; k += LANES) {
             mine |= (uint64_t)resolve_take(out->slot, id, k, wanted, number) << k;
         }
         out->id[out->count++] = next;
