@@ -59,7 +59,7 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  * then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
  * Triangles with a non-finite vertex, one more than 2^20 m away, or an index outside the mesh are dropped, counted.
  * Coverage: pixel centres, top-left rule, vertices snapped to 1/256 px: exact integers, no crack, no overlap.
- * Stack: under 3 KiB. Cost: vertices + covered tiles. Draws into different targets may run at once. */
+ * Stack: 3.6 to 4.3 KiB, with masked materials 4.5. Cost: vertices + covered tiles. Draws into different targets may run at once. */
 lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats);
 
@@ -67,7 +67,7 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
  *
  *   target  holds the tile, with ids.
  * Returns LMB_OK or LMB_ERR_ARG (null, no ids, tile outside the window or not on tiles): `out` is then untouched.
- * Cost: 64 pixels x different triangles among them. */
+ * Stack: 4.2 to 4.9 KiB. Cost: 64 pixels, and the set-up of the triangles among them, sixteen at a time. */
 lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t x, int32_t y);
 

@@ -68,7 +68,6 @@ static inline void gather_add(lmb_irradiance *inout, int k, lane_mask lit, lane 
     }
 }
 
-static inline lane3 lane3_point(lmb_vec3 v) { return lane3_splat(v.x, v.y, v.z); }
 static inline lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
 
 /* Lanes that carry a surface. */
@@ -163,7 +162,7 @@ static GATHER_APART int corners_see(const gather_corners *c, const lmb_march_job
     const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
     for (int i = 0; i < CORNERS && c->usable; i += LANES) {
-        lane3 to = lane3_sub(lane3_point(at), corner_load(c->position, i));
+        lane3 to = lane3_sub(lane3_of(at), corner_load(c->position, i));
         lane_mask faces = lane_lt(lane_splat(0.0f), lane3_dot(corner_load(c->face, i), to));
         if (mask_bits(faces) != full) {
             return SEES_SOME; /* the horizon passes through the tile */
@@ -188,24 +187,72 @@ typedef struct gather_group {
     lmb_vec3 at, back; /* back: against its normal */
     float near2, area_pi;
     float flux[3];
+    int32_t number; /* in lmb_groups */
 } gather_group;
 
-static void gather_fetch(gather_group out[BLOCK], const lmb_groups *groups, int32_t first, int32_t count)
+static void gather_fetch(gather_group *out, const lmb_groups *groups, int32_t j)
 {
-    for (int32_t i = 0; i < count; ++i) {
-        const int32_t j = first + i;
-        const float near_m = groups->radius[j] * GROUP_NEAR;
-        out[i].at = vec3(groups->position[0][j], groups->position[1][j], groups->position[2][j]);
-        out[i].back = vec3(-groups->normal[0][j], -groups->normal[1][j], -groups->normal[2][j]);
-        out[i].near2 = near_m * near_m;
-        out[i].area_pi = groups->area[j] * INVERSE_PI;
-        for (int c = 0; c < 3; ++c) {
-            out[i].flux[c] = groups->flux[c][j];
-        }
+    const float near_m = groups->radius[j] * GROUP_NEAR;
+    out->at = vec3(groups->position[0][j], groups->position[1][j], groups->position[2][j]);
+    out->back = vec3(-groups->normal[0][j], -groups->normal[1][j], -groups->normal[2][j]);
+    out->near2 = near_m * near_m;
+    out->area_pi = groups->area[j] * INVERSE_PI;
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = groups->flux[c][j];
     }
+    out->number = j;
 }
 
-/* A vector of pixels with a block's groups. Only pairs in `lit` mean anything: groups that light any of the pixels. */
+/* Where a tile's surfaces are. */
+typedef struct gather_ball {
+    lmb_vec3 centre;
+    float radius;
+} gather_ball;
+
+static gather_ball gather_ball_of(const lmb_tile *tile)
+{
+    lmb_vec3 low = vec3(3e38f, 3e38f, 3e38f), high = vec3(-3e38f, -3e38f, -3e38f);
+    gather_ball ball;
+    float r2 = 0.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const lmb_vec3 p = tile_vec(tile->position, k);
+        if (tile->id[k] != 0) {
+            low = vec3(minf(low.x, p.x), minf(low.y, p.y), minf(low.z, p.z));
+            high = vec3(maxf(high.x, p.x), maxf(high.y, p.y), maxf(high.z, p.z));
+        }
+    }
+    ball.centre = mul3(add3(low, high), 0.5f);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const lmb_vec3 d = sub3(tile_vec(tile->position, k), ball.centre);
+        r2 = tile->id[k] != 0 && !(dot3(d, d) < r2) ? dot3(d, d) : r2; /* a NaN stays, and nothing is dark then */
+    }
+    ball.radius = sqrtf(r2);
+    return ball;
+}
+
+/* Of the groups j .. j + LANES - 1 those that may light a pixel of the tile, or be near one, a bit each. The others turn
+ * their back to the whole ball: their pairs are exactly 0. A hundred-thousandth is far more than all rounding. */
+static uint32_t gather_awake(const gather_ball *ball, const lmb_groups *groups, int32_t j, int32_t count)
+{
+    const uint32_t here = count < LANES ? (1u << count) - 1 : ALL_LANES;
+    if (j + LANES > LMB_MAX_GROUPS) {
+        return here;
+    }
+    const lane radius = lane_splat(ball->radius), reach = lane_splat(1e-5f);
+    lane3 d, n;
+    d.x = lane_sub(lane_load(groups->position[0] + j), lane_splat(ball->centre.x));
+    d.y = lane_sub(lane_load(groups->position[1] + j), lane_splat(ball->centre.y));
+    d.z = lane_sub(lane_load(groups->position[2] + j), lane_splat(ball->centre.z));
+    n.x = lane_load(groups->normal[0] + j);
+    n.y = lane_load(groups->normal[1] + j);
+    n.z = lane_load(groups->normal[2] + j);
+    const lane distance = lane_sqrt(lane3_dot(d, d)), slack = lane_mul(lane_add(distance, radius), reach);
+    const lane ball_out = lane_add(radius, slack);
+    const lane near_m = lane_mul(lane_load(groups->radius + j), lane_splat(GROUP_NEAR));
+    const lane_mask behind = lane_lt(ball_out, lane3_dot(n, d)), far = lane_lt(lane_add(near_m, ball_out), distance);
+    return here & ~mask_bits(mask_and(behind, far));
+}
+
 enum { PAIR_A, PAIR_B, PAIR_I }; /* as in disc_fraction */
 typedef struct gather_pairs {
     float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: LANES of each group; i is 0 where a pixel gets nothing */
@@ -234,8 +281,8 @@ static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const l
     int32_t count = 0;
     for (int32_t j = 0; j < group_count; ++j) {
         const gather_group *g = &groups[j];
-        const lane3 to = lane3_sub(lane3_point(g->at), p);
-        const lane r2 = lane3_dot(to, to), a = lane3_dot(n, to), b = lane3_dot(lane3_point(g->back), to);
+        const lane3 to = lane3_sub(lane3_of(g->at), p);
+        const lane r2 = lane3_dot(to, to), a = lane3_dot(n, to), b = lane3_dot(lane3_of(g->back), to);
         const lane_mask far = lane_le(lane_splat(g->near2), r2);
         const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
         const lane_mask lit = mask_and(far, faces);
@@ -246,7 +293,7 @@ static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const l
         out->lit[count] = j;
         count += mask_bits(lit) != 0;
         if (near_bits != 0) {
-            near_pixels[j] |= (uint64_t)near_bits << k;
+            near_pixels[g->number] |= (uint64_t)near_bits << k;
         }
     }
     out->count = count;
@@ -260,7 +307,7 @@ static inline void gather_weigh(gather_pairs *inout, const lmb_tile *tile, int k
         const int32_t j = inout->lit[i];
         lane top, bottom;
         disc_fraction(&top, &bottom, lane_load(inout->of[PAIR_A] + j * LANES), lane_load(inout->of[PAIR_B] + j * LANES),
-                      lane_load(inout->of[PAIR_I] + j * LANES), lane3_dot(n, lane3_point(groups[j].back)),
+                      lane_load(inout->of[PAIR_I] + j * LANES), lane3_dot(n, lane3_of(groups[j].back)),
                       lane_splat(groups[j].area_pi));
         lane_store(inout->of[PAIR_A] + j * LANES, top);
         lane_store(inout->of[PAIR_B] + j * LANES, bottom);
@@ -323,7 +370,6 @@ static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, ga
                                 const gather_group *groups, int32_t count, gather_blockers *blockers)
 {
     for (int32_t j = 0; j < count; ++j) {
-        near_pixels[j] = 0;
         blockers->sees[j] = SEES_UNKNOWN;
     }
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
@@ -339,19 +385,30 @@ static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, ga
 static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, const lmb_tile *tile, const lmb_groups *groups,
                            const lmb_march_job *m)
 {
+    const gather_ball ball = gather_ball_of(tile);
     gather_pairs pairs;
     gather_corners corners;
     gather_group block[BLOCK];
     gather_blockers blockers;
+    int32_t filled = 0;
     pairs.of = scratch->pairs;
     blockers.m = m;
     blockers.corners = &corners;
     gather_corners_set(&corners, tile, m);
-    for (int32_t j = 0; j < groups->count; j += BLOCK) {
-        const int32_t count = groups->count - j < BLOCK ? groups->count - j : BLOCK;
-        gather_fetch(block, groups, j, count);
-        gather_block(inout, scratch->near_pixels + j, &pairs, tile, block, count, &blockers);
+    for (int32_t j = 0; j < groups->count; j += LANES) {
+        const int32_t count = groups->count - j < LANES ? groups->count - j : LANES;
+        for (int32_t i = 0; i < count; ++i) {
+            scratch->near_pixels[j + i] = 0;
+        }
+        for (uint32_t bits = gather_awake(&ball, groups, j, count); bits != 0; bits &= bits - 1) {
+            gather_fetch(&block[filled++], groups, j + lowest_bit(bits));
+            if (filled == BLOCK) {
+                gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &blockers);
+                filled = 0;
+            }
+        }
     }
+    gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &blockers);
 }
 
 /* --- near groups, disc by disc ---------------------------------------------------------------------------------------- */
@@ -381,10 +438,10 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     float uu = dot3(d->axis_u, d->axis_u), vv = dot3(d->axis_v, d->axis_v), uv = dot3(d->axis_u, d->axis_v);
     float area = 4.0f * sqrtf(maxf(uu * vv - uv * uv, 0.0f)), half2 = uu + vv + 2.0f * absf(uv);
     lane near2 = lane_splat(half2 * (LMB_NEAR * LMB_NEAR));
-    lane3 to = lane3_sub(lane3_point(d->position), p);
+    lane3 to = lane3_sub(lane3_of(d->position), p);
     lane r2 = lane3_dot(to, to);
     lane_mask close = mask_and(hits, lane_lt(r2, near2));
-    lane weight = disc_factor(to, lane_max(r2, near2), n, lane3_point(d->normal), lane_splat(area));
+    lane weight = disc_factor(to, lane_max(r2, near2), n, lane3_of(d->normal), lane_splat(area));
     if (mask_bits(close)) {
         weight = gather_quads(weight, close, tile, k, d);
     }

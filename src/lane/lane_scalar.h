@@ -72,11 +72,12 @@ static inline lane_mask mask_of_bits(uint32_t b) { lane_mask r; EACH(r.v[i] = (b
 
 static inline lanei lanei_splat(int32_t a) { lanei r; EACH(r.v[i] = a); return r; }
 static inline lanei lanei_load(const int32_t *p) { lanei r; EACH(r.v[i] = p[i]); return r; }
-static inline lanei lanei_add(lanei a, lanei b) { EACH(a.v[i] = a.v[i] + b.v[i]); return a; }
+/* Sums and products go round, as in registers. */
+static inline lanei lanei_add(lanei a, lanei b) { EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] + (uint32_t)b.v[i])); return a; }
 static inline lanei lanei_or(lanei a, lanei b) { EACH(a.v[i] = a.v[i] | b.v[i]); return a; }
 static inline lanei lanei_and(lanei a, lanei b) { EACH(a.v[i] = a.v[i] & b.v[i]); return a; }
-static inline lanei lanei_mul(lanei a, lanei b) { EACH(a.v[i] = a.v[i] * b.v[i]); return a; }
-static inline lanei lanei_sub(lanei a, lanei b) { EACH(a.v[i] = a.v[i] - b.v[i]); return a; }
+static inline lanei lanei_mul(lanei a, lanei b) { EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] * (uint32_t)b.v[i])); return a; }
+static inline lanei lanei_sub(lanei a, lanei b) { EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] - (uint32_t)b.v[i])); return a; }
 static inline lanei lanei_min(lanei a, lanei b) { EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline lanei lanei_max(lanei a, lanei b) { EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { EACH(a.v[i] = m.v[i] ? a.v[i] : b.v[i]); return a; }

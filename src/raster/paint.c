@@ -179,7 +179,7 @@ static void paint_normals(lmb_tile *out, const lmb_resolve_batch *b, const lmb_s
 void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_kernels *kernels, const lmb_scene *scene)
 {
     const lmb_material *m = batch->material;
-    if (m->texture >= 0 && has_lod(&scene->textures[m->texture])) {
+    if (m->texture >= 0 && has_lod(&scene->textures[m->texture]) && batch->mesh->uvs != NULL) {
         paint_levels(out, batch, &scene->textures[m->texture]);
     } else if (m->texture >= 0) {
         kernels->texture(out, batch, &scene->textures[m->texture]);

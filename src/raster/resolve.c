@@ -63,7 +63,7 @@ void lmb_resolve_point(float *b1, float *b2, const lmb_plane *p, const lmb_rays 
     lmb_vec3 origin = add3(rays->origin, add3(mul3(rays->ox, x), mul3(rays->oy, y)));
     lmb_vec3 ray = add3(rays->direction, add3(mul3(rays->rx, x), mul3(rays->ry, y)));
     float slope = dot3(p->plane, ray);
-    float w = slope * slope < 1e-36f ? p->w_max : dot3(p->plane, sub3(p->corner, origin)) / slope;
+    float w = dot3(p->plane, sub3(p->corner, origin)) / (slope * slope < 1e-36f ? 1e-18f : slope);
     lmb_vec3 q = sub3(add3(origin, mul3(ray, clampf(w, p->w_min, p->w_max))), p->corner);
     *b1 = dot3(q, p->g1);
     *b2 = dot3(q, p->g2);
@@ -193,7 +193,9 @@ static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b
             const uint32_t v = mesh_index(b->mesh, first + i), outside = v >= b->mesh->vertex_count;
             vertex[i][k] = outside ? 0 : v;
             bad |= outside << k;
-            mesh_vertex_soon(b->mesh, vertex[i][k]);
+            if (!outside) {
+                mesh_vertex_soon(b->mesh, v);
+            }
         }
     }
     return bad;

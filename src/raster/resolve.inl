@@ -174,11 +174,13 @@ LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
     }
 }
 
-/* Coordinates under 2^-60 count as 0: machines that flush denormals get the same. */
+/* What is not finite or absurd counts as 0, and so does what is under 2^-60: machines that flush denormals get the same. */
 LANE_INLINE lane resolve_coordinate(const float *p)
 {
-    const lane v = lane_load(p), tiny = lane_splat(8.6736174e-19f);
-    return lane_pick(mask_and(lane_lt(lane_splat(-8.6736174e-19f), v), lane_lt(v, tiny)), lane_splat(0.0f), v);
+    const lane v = lane_load(p), tiny = lane_splat(8.6736174e-19f), limit = lane_splat(1048576.0f);
+    const lane_mask large = mask_or(lane_le(tiny, v), lane_le(v, lane_splat(-8.6736174e-19f)));
+    const lane_mask sane = mask_and(lane_lt(lane_splat(-1048576.0f), v), lane_lt(v, limit));
+    return lane_keep(mask_and(large, sane), v);
 }
 
 LANE_INLINE void resolve_uv(lmb_resolve_batch *b, int k)

@@ -146,7 +146,7 @@ status 0 bench gather --seconds 0.01 --json
 machines=$(grep -c . "$dir/out.txt")
 check "bench gather prints one object a line" test "$machines" -eq "$(grep -cE "$line" "$dir/out.txt")"
 check "bench gather ends with the scalar lanes" sh -c 'tail -n 1 "$1" | grep -q "\"backend\":\"scalar\""' sh "$dir/out.txt"
-check "the gather's operations are counted" test "$machines" -eq "$(grep -c '"ops_per_vector":{"mul":[1-9][0-9.]*,"add":[1-9][0-9.]*,"max":[1-9][0-9.]*,"div":2.000,"cmp":[1-9].*"sqrt":1.000}' "$dir/out.txt")"
+check "the gather's operations are counted" test "$machines" -eq "$(grep -c '"ops_per_vector":{"mul":[1-9][0-9.]*,"add":[1-9][0-9.]*,"max":[1-9][0-9.]*,"div":2[.0-9]*,"cmp":[1-9].*"sqrt":1[.0-9]*}' "$dir/out.txt")"
 status 0 bench gather --backend scalar --seconds 0.01
 check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' "$dir/out.txt"
 check "and no other" test "$(grep -c . "$dir/out.txt")" -eq 1
