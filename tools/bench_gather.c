@@ -68,12 +68,12 @@ static void print_line(const lmb_kernels *kernels, double least, const bench_rat
     int unit = 0;
     const double cycles = least / pairs / r->cycle, bound = bench_rates_bound(&unit, r, counts) / r->machine->lanes;
     double alone[BENCH_OPS], load[BENCH_OPS];
-    printf(json ? "{\"case\":\"gather\",\"backend\":\"%s\",\"pairs_per_s\":%.4g,\"cycles_per_pair\":%.3f,"
-                  "\"bound_cycles\":%.3f,\"share\":%.4f,\"unit\":\"%s\",\"ghz\":%.3f"
-                : "lambent,gather,backend=%s,pairs_per_s=%.4g,cycles_per_pair=%.3f,bound_cycles=%.3f,share=%.4f,unit=%s,"
-                  "ghz=%.3f",
-           lmb_kernels_name(kernels), pairs / least, cycles, bound, bound / cycles, bench_op_names[unit],
-           1e-9 / r->cycle);
+    printf(
+        json ? "{\"case\":\"gather\",\"backend\":\"%s\",\"pairs_per_s\":%.4g,\"cycles_per_pair\":%.3f,"
+               "\"bound_cycles\":%.3f,\"share\":%.4f,\"unit\":\"%s\",\"ghz\":%.3f"
+             : "lambent,gather,backend=%s,pairs_per_s=%.4g,cycles_per_pair=%.3f,bound_cycles=%.3f,share=%.4f,unit=%s,"
+               "ghz=%.3f",
+        lmb_kernels_name(kernels), pairs / least, cycles, bound, bound / cycles, bench_op_names[unit], 1e-9 / r->cycle);
     for (int op = 0; op < BENCH_OPS; ++op) {
         alone[op] = bench_rates_op(r, op);
         load[op] = bench_rates_load(r, unit, op);

@@ -9,7 +9,8 @@
 #define BENCH_STEP_ADD(x, z, s)  x = lane_add(x, least);
 #define BENCH_STEP_MAX(x, z, s)  x = (s) & 1 ? lane_min(x, z) : lane_max(x, z);
 #define BENCH_STEP_CMP(x, z, s)  seen = mask_or(seen, lane_lt(x, z));
-#define BENCH_STEP_KEEP(x, z, s) x = lane_keep(lane_lt(least, x), x); /* a comparison, where x changes by nothing else */
+#define BENCH_STEP_KEEP(x, z, s) \
+    x = lane_keep(lane_lt(least, x), x); /* a comparison, where x changes by nothing else */
 #define BENCH_STEP_PICK(x, z, s) x = (s) & 1 ? lane_pick(some, x, z) : lane_pick(other, x, z);
 #define BENCH_STEP_DIV(x, z, s)  x = lane_div(high, x);
 #define BENCH_STEP_SQRT(x, z, s) x = lane_sqrt(lane_add(x, one)); /* alone it would come to rest at 1 */

@@ -18,8 +18,10 @@
 static const char help_text[] =
     "usage: lambent bench threads [--threads N] [--seconds S] [--data FOLDER] [--backend NAME]\n"
     "\n"
-    "Times the gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads (2), and\n"
-    "in N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is all\n"
+    "Times the gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads (2), "
+    "and\n"
+    "in N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is "
+    "all\n"
     "that this machine gives.\n"
     "\n"
     "  --threads N    2 .. 64\n"
@@ -29,7 +31,15 @@ static const char help_text[] =
     "\n"
     "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage\n";
 
-enum { WIDTH = 320, HEIGHT = 240, GATHER_MAP = 512, MAP = 2048, POINTS = 4 * 64 * 64, ROUNDS_MIN = 5, ROUNDS_MAX = 1000 };
+enum {
+    WIDTH = 320,
+    HEIGHT = 240,
+    GATHER_MAP = 512,
+    MAP = 2048,
+    POINTS = 4 * 64 * 64,
+    ROUNDS_MIN = 5,
+    ROUNDS_MAX = 1000
+};
 
 typedef struct options {
     const char *folder;
@@ -119,7 +129,8 @@ static void map_rows(void *user, int part, int worker)
     const map_job *m = w->user;
     const int32_t rows = MAP / LMB_TILE;
     (void)worker;
-    lmb_light_map_rows(&m->map, m->kernels, &m->scene.scene, rows * part / w->parts, rows * (part + 1) / w->parts, NULL);
+    lmb_light_map_rows(&m->map, m->kernels, &m->scene.scene, rows * part / w->parts, rows * (part + 1) / w->parts,
+                       NULL);
 }
 
 static void map_begin(map_job *m, int ids, const lmb_kernels *kernels)
@@ -206,10 +217,11 @@ static void print_turns(const bench_work *w, turns *t, const options *o)
     const double alone = least(t->alone, t->count), threads = least(t->threads, t->count),
                  processes = least(t->processes, t->count);
     const double by_threads = alone / threads, by_processes = o->threads * alone / processes;
-    printf("%-21s one thread %8.2f ms, %d threads %8.2f ms: x %.2f; %d processes: x %.2f; of processes %5.1f %% (median "
-           "%5.1f %%); %d turns, %s\n",
-           w->name, alone * 1e3, o->threads, threads * 1e3, by_threads, o->threads, by_processes,
-           by_threads / by_processes * 100.0, median_ratio(t, o->threads) * 100.0, t->count, lmb_kernels_name(o->kernels));
+    printf(
+        "%-21s one thread %8.2f ms, %d threads %8.2f ms: x %.2f; %d processes: x %.2f; of processes %5.1f %% (median "
+        "%5.1f %%); %d turns, %s\n",
+        w->name, alone * 1e3, o->threads, threads * 1e3, by_threads, o->threads, by_processes,
+        by_threads / by_processes * 100.0, median_ratio(t, o->threads) * 100.0, t->count, lmb_kernels_name(o->kernels));
     fflush(stdout);
 }
 
@@ -276,7 +288,8 @@ static int parse_value(options *o, const char *name, const char *value, report *
 {
     if (strcmp(name, "--threads") == 0) {
         o->threads = atoi(value);
-        return (o->threads >= 2 && o->threads <= POOL_MAX) || report_fail(r, "--threads %s: not 2 .. %d", value, POOL_MAX);
+        return (o->threads >= 2 && o->threads <= POOL_MAX) ||
+               report_fail(r, "--threads %s: not 2 .. %d", value, POOL_MAX);
     }
     if (strcmp(name, "--seconds") == 0) {
         o->seconds = strtod(value, NULL);

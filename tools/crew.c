@@ -31,7 +31,8 @@ static void tell(const crew *c, const lmb_render *r)
 static void draw_part(void *user, int part, int worker)
 {
     stage_work *w = user;
-    keep_failure(w, worker, lmb_render_part(w->render, &w->crew->scratches[worker], part, w->parts, &w->counts[worker]));
+    keep_failure(w, worker,
+                 lmb_render_part(w->render, &w->crew->scratches[worker], part, w->parts, &w->counts[worker]));
 }
 
 /* Bands are taken in order, so the number of one tells how far the frame is. */

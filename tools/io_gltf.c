@@ -174,8 +174,10 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "metallic maps used by their mean, 0 where one cannot be read", n->metal_maps);
     build_note_count(g->b, "unlit materials treated as Lambertian", n->unlit);
     build_note_count(g->b, "emissive maps used by their mean", n->emissive_maps);
-    build_note_count(g->b, "normal maps left out: their texture coordinates are not the base colour's", n->odd_normal_maps);
-    build_note_count(g->b, "textured primitives without the texture coordinates, of one texel's colour", n->without_uvs);
+    build_note_count(g->b, "normal maps left out: their texture coordinates are not the base colour's",
+                     n->odd_normal_maps);
+    build_note_count(g->b, "textured primitives without the texture coordinates, of one texel's colour",
+                     n->without_uvs);
     build_note_count(g->b, "occlusion maps ignored: light is worked out here", n->occlusion_maps);
     build_note_count(g->b, "light ranges ignored", n->ranges);
     build_note_count(g->b, "skinned nodes posed by their joints as the file places them", n->skins);

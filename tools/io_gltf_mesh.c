@@ -253,7 +253,8 @@ static int primitive_material(uint32_t *out, gltf *g, uint32_t primitive)
 /* Geometry that only a Draco decoder can read has accessors without bytes, which would count as zeros. */
 static int refuse_draco(gltf *g, uint32_t primitive, uint32_t position)
 {
-    const uint32_t draco = json_member(&g->doc, json_member(&g->doc, primitive, "extensions"), "KHR_draco_mesh_compression");
+    const uint32_t draco =
+        json_member(&g->doc, json_member(&g->doc, primitive, "extensions"), "KHR_draco_mesh_compression");
     uint32_t accessor;
     if (!gltf_item(&accessor, g, &g->accessors, position))
         return 0;

@@ -98,8 +98,9 @@ static int check_joints(const gltf *g, const gltf_influences *in, uint32_t primi
         for (i = 0; i < 4 * (uint64_t)vertices; ++i) {
             const float joint = in->joints[set][i];
             if (!(joint >= 0.0f && joint < (float)s->count))
-                return json_fail(&g->doc, primitive, g->b->r, "joint %g at vertex %u, but the skin has %u; export again",
-                                 (double)joint, (unsigned)(i / 4), (unsigned)s->count);
+                return json_fail(&g->doc, primitive, g->b->r,
+                                 "joint %g at vertex %u, but the skin has %u; export again", (double)joint,
+                                 (unsigned)(i / 4), (unsigned)s->count);
         }
     return 1;
 }
@@ -157,7 +158,8 @@ static lmb_vec3 turn(const gltf_matrix *a, lmb_vec3 v)
 }
 
 /* A new stream, each octahedral vector turned by its vertex's matrix; NULL with the report set. */
-static int16_t *pose_vectors(gltf *g, const int16_t *from, const gltf_influences *in, const skin *s, uint32_t count, int normals)
+static int16_t *pose_vectors(gltf *g, const int16_t *from, const gltf_influences *in, const skin *s, uint32_t count,
+                             int normals)
 {
     int16_t *to = (int16_t *)build_keep(g->b, (uint64_t)count * 2, sizeof *to);
     uint32_t i;

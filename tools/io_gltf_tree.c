@@ -27,7 +27,8 @@ static int find_parents(gltf_tree *t, gltf *g)
 }
 
 /* Append a node, once: with one parent each, only a root named twice could come again. */
-static int push_root(uint32_t *stack, uint32_t *depth, const gltf_tree *t, const gltf *g, uint32_t reference, uint8_t *seen)
+static int push_root(uint32_t *stack, uint32_t *depth, const gltf_tree *t, const gltf *g, uint32_t reference,
+                     uint8_t *seen)
 {
     uint32_t root;
     if (!gltf_index(&root, g, &g->nodes, reference))

@@ -606,7 +606,8 @@ static void tell_left_out(const obj *o)
 {
     build_note_count(o->b, "elements of points or lines skipped", o->points_lines);
     build_note_count(o->b, "faces with fewer than 3 corners skipped", o->degenerate);
-    build_note_count(o->b, "concave faces too large or too tangled to cut well, which may overlap themselves", o->overlapping);
+    build_note_count(o->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
+                     o->overlapping);
     build_note_count(o->b, "normals without length, set to +Y", o->zero_normals);
     build_note_count(o->b, "material libraries left out after the first 64", o->library_extra);
 }

@@ -679,7 +679,8 @@ static void tell_left_out(const ply *p)
         others += p->elements[i].kind == OTHER && p->elements[i].count > 0;
     build_note_count(p->b, "kinds of elements other than vertex and face skipped", others);
     build_note_count(p->b, "faces with fewer than 3 corners skipped", p->degenerate);
-    build_note_count(p->b, "concave faces too large or too tangled to cut well, which may overlap themselves", p->overlapping);
+    build_note_count(p->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
+                     p->overlapping);
     build_note_count(p->b, "vertices that no face uses left out", p->unused);
     build_note_count(p->b, "normals without length, set to +Y", p->zero_normals);
 }

@@ -147,7 +147,8 @@ static build_neighbour *add_neighbour(model_build *b, const char *path, report *
     build_neighbour *grown, *to;
     if (b->neighbour_count == b->neighbour_cap) {
         const uint32_t cap = b->neighbour_cap ? 2 * b->neighbour_cap : 16;
-        grown = cap > UINT32_MAX / 2 / sizeof *grown ? NULL : (build_neighbour *)realloc(b->neighbours, cap * sizeof *grown);
+        grown = cap > UINT32_MAX / 2 / sizeof *grown ? NULL
+                                                     : (build_neighbour *)realloc(b->neighbours, cap * sizeof *grown);
         if (!grown)
             return report_fail(r, "%s: out of memory; load a smaller model", path), NULL;
         b->neighbours = grown;

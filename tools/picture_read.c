@@ -215,8 +215,8 @@ int picture_read_codes(bitmap *out, const uint8_t *data, size_t size, const char
     if (!kind)
         return refuse(data, size, name, r);
     if (!kind->read_codes)
-        return report_fail(r, "%s: this picture is %s, linear light instead of codes of 8 bits; save it as PNG or JPEG", name,
-                           kind->format);
+        return report_fail(r, "%s: this picture is %s, linear light instead of codes of 8 bits; save it as PNG or JPEG",
+                           name, kind->format);
     return kind->read_codes(out, data, size, name, r);
 }
 

@@ -36,7 +36,8 @@ static float fitting_distance(const lmb_scene *s, const lmb_view *v, lmb_vec3 ce
     float away = 0.0f;
     for (int i = 0; i < 8; ++i) {
         lmb_vec3 c = bounds_corner(s, i);
-        float wide = fabsf(along(v->right, c, centre)) / v->half_width, high = fabsf(along(v->up, c, centre)) / v->half_height;
+        float wide = fabsf(along(v->right, c, centre)) / v->half_width,
+              high = fabsf(along(v->up, c, centre)) / v->half_height;
         away = fmaxf(away, along(v->back, c, centre) + 1.05f * fmaxf(wide, high));
     }
     return away;
@@ -106,7 +107,8 @@ static float from_eye(const lmb_scene *s, lmb_vec3 eye)
     float far2 = 0.0f;
     for (int i = 0; i < 8; ++i) {
         lmb_vec3 c = bounds_corner(s, i);
-        far2 = fmaxf(far2, (c.x - eye.x) * (c.x - eye.x) + (c.y - eye.y) * (c.y - eye.y) + (c.z - eye.z) * (c.z - eye.z));
+        far2 =
+            fmaxf(far2, (c.x - eye.x) * (c.x - eye.x) + (c.y - eye.y) * (c.y - eye.y) + (c.z - eye.z) * (c.z - eye.z));
     }
     return sqrtf(far2);
 }

@@ -15,17 +15,25 @@ static const char help_text[] =
     "usage: lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
     "       lambent bench gather [--backend NAME] [--seconds S] [--json]\n"
     "\n"
-    "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a\n"
-    "frame (clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a case's name; without one,\n"
+    "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median time of "
+    "a\n"
+    "frame (clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a case's name; without "
+    "one,\n"
     "all. fill-depth cases end with pixels a second and `share`, of the rate at which the back end reads, tests and\n"
     "writes 16 KiB of depths in its cache.\n"
     "\n"
-    "gather: the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. Prints\n"
-    "a line a back end: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what the same run finds\n"
-    "the machine can do with the kernel's own operations (`ops_per_vector`, counted by running it over verbs that count):\n"
-    "each operation is timed in registers alone (`cycles_per_op`), and for what it adds to a unit that multiplications,\n"
-    "additions, maxima or divisions keep busy. The most loaded unit's time is the bound (`unit`, `load_per_op`). Loads,\n"
-    "stores, masks, branches and waiting for results count as nothing. A cycle is that of a chain of integer operations.\n"
+    "gather: the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
+    "Prints\n"
+    "a line a back end: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what the same run "
+    "finds\n"
+    "the machine can do with the kernel's own operations (`ops_per_vector`, counted by running it over verbs that "
+    "count):\n"
+    "each operation is timed in registers alone (`cycles_per_op`), and for what it adds to a unit that "
+    "multiplications,\n"
+    "additions, maxima or divisions keep busy. The most loaded unit's time is the bound (`unit`, `load_per_op`). "
+    "Loads,\n"
+    "stores, masks, branches and waiting for results count as nothing. A cycle is that of a chain of integer "
+    "operations.\n"
     "\n"
     "  --data FOLDER    of bunny.mesh and sponza.mesh (default: the environment's BENCH_DATA)\n"
     "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128 (default: raster, this machine's best; gather, all)\n"
@@ -109,7 +117,8 @@ static int canvas_make(canvas *c, const bench_case *k, const options *o, report 
 {
     const int colours = k->look != BENCH_DEPTH;
     const size_t pixels = (size_t)k->width * (size_t)k->height;
-    const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, k->width, k->height), id = lmb_surface_bytes(LMB_ID32, k->width, k->height);
+    const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, k->width, k->height),
+                 id = lmb_surface_bytes(LMB_ID32, k->width, k->height);
     memset(c, 0, sizeof *c);
     c->depth = malloc(depth);
     c->id = colours ? malloc(id) : NULL;
@@ -170,7 +179,8 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
                      "ns_per_tri=%.2f,backend=%s",
            k->name, triangles, least, wall, middle, wall_middle, t->count, each, lmb_kernels_name(o->kernels));
     if (t->peak > 0.0) {
-        printf(o->json ? ",\"pixels_per_s\":%.4g,\"peak\":%.4g,\"share\":%.4f" : ",pixels_per_s=%.4g,peak=%.4g,share=%.4f",
+        printf(o->json ? ",\"pixels_per_s\":%.4g,\"peak\":%.4g,\"share\":%.4f"
+                       : ",pixels_per_s=%.4g,peak=%.4g,share=%.4f",
                pixels, t->peak, pixels / t->peak);
     }
     puts(o->json ? "}" : "");
@@ -183,7 +193,8 @@ static int run_case(const bench_case *k, const options *o, report *r)
     static timing t;
     canvas c;
     if (o->folder == NULL && k->scene < BENCH_FILL_PASS) {
-        return report_fail(r, "%s: where are bunny.mesh and sponza.mesh? Give --data FOLDER or set BENCH_DATA", k->name);
+        return report_fail(r, "%s: where are bunny.mesh and sponza.mesh? Give --data FOLDER or set BENCH_DATA",
+                           k->name);
     }
     if (!bench_scene_load(&s, k, o->folder, r)) {
         return 0;

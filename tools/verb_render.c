@@ -54,7 +54,8 @@ static void *take(job *j, size_t bytes, report *r)
     void *p = malloc(bytes > 0 ? bytes : 1);
     j->bytes += bytes;
     if (p == NULL) {
-        report_fail(r, "not enough memory: %.0f MiB more wanted; try a smaller --size or --light-map", (double)bytes / 1048576.0);
+        report_fail(r, "not enough memory: %.0f MiB more wanted; try a smaller --size or --light-map",
+                    (double)bytes / 1048576.0);
     }
     return p;
 }
@@ -76,8 +77,10 @@ static int load_scene(job *j, report *r)
         return report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
     }
     if (lights > LMB_MAX_LIGHTS) {
-        return report_fail(r, "%s: %u lights; this build draws up to %d at once, each with its own map; remove some, or "
-                           "give others by --light", j->o.scene, (unsigned)lights, LMB_MAX_LIGHTS);
+        return report_fail(r,
+                           "%s: %u lights; this build draws up to %d at once, each with its own map; remove some, or "
+                           "give others by --light",
+                           j->o.scene, (unsigned)lights, LMB_MAX_LIGHTS);
     }
     return 1;
 }
@@ -96,11 +99,13 @@ static void set_lights(job *j)
         j->scene.lights = j->o.lights;
         j->scene.light_count = j->o.light_count;
     } else if (j->scene.light_count == 0) {
-        lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL, 0};
+        lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL,
+                         0};
         j->sun = sun;
         j->scene.lights = &j->sun;
         j->scene.light_count = 1;
-        fprintf(stderr, "lambent: no light in %s: a sun of 3 W/m2 from the upper right; --light sets others\n", j->o.scene);
+        fprintf(stderr, "lambent: no light in %s: a sun of 3 W/m2 from the upper right; --light sets others\n",
+                j->o.scene);
     }
 }
 
@@ -144,7 +149,8 @@ static int take_points(job *j, report *r)
     uint32_t side = (uint32_t)(f->light_map / block);
     uint64_t n = (uint64_t)side * side * 4u * total_faces(&j->scene);
     if (n > 64000000u) {
-        return report_fail(r, "%.0f first points are too many; use a larger --block or a smaller --light-map", (double)n);
+        return report_fail(r, "%.0f first points are too many; use a larger --block or a smaller --light-map",
+                           (double)n);
     }
     n = n > 0 ? n : 1;
     size_t bytes = lmb_points_bytes((uint32_t)n, side);
@@ -215,7 +221,8 @@ static void show_progress(const lmb_render *render, double since)
     }
     bar[20] = '\0';
     if (render->stage == LMB_STAGE_BANDS && part > 0.02f) {
-        fprintf(stderr, "\r%-12s [%s] %3.0f %%  %.0f s left   ", name, bar, (double)part * 100.0, passed / (double)part - passed);
+        fprintf(stderr, "\r%-12s [%s] %3.0f %%  %.0f s left   ", name, bar, (double)part * 100.0,
+                passed / (double)part - passed);
     } else {
         fprintf(stderr, "\r%-12s [%s] %3.0f %%               ", name, bar, (double)part * 100.0);
     }
@@ -285,7 +292,8 @@ static int draw_attributes(job *j, report *r)
         albedo = &f->out;
     }
     for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
-        status = lmb_gbuffer_band(depth, normal, albedo, &f->scratch->tile, f->kernels, &f->view, &j->scene, &f->eye, band);
+        status =
+            lmb_gbuffer_band(depth, normal, albedo, &f->scratch->tile, f->kernels, &f->view, &j->scene, &f->eye, band);
     }
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", j->o.scene, lmb_status_name(status));
 }
@@ -355,24 +363,26 @@ static int write_stats(const job *j, report *r)
     char text[2048];
     int n = 0;
     const lmb_stats *s = &j->stats;
-    n += snprintf(text + n, sizeof text - (size_t)n, "{\n  \"width\": %d, \"height\": %d,\n  \"seconds\": {\"load\": %.6f",
-                  (int)j->frame.view.frame_width, (int)j->frame.view.frame_height, j->load_s);
+    n += snprintf(text + n, sizeof text - (size_t)n,
+                  "{\n  \"width\": %d, \"height\": %d,\n  \"seconds\": {\"load\": %.6f", (int)j->frame.view.frame_width,
+                  (int)j->frame.view.frame_height, j->load_s);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
         n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->crew.stage_s[i]);
     }
     n += snprintf(text + n, sizeof text - (size_t)n, ", \"write\": %.6f, \"total\": %.6f},\n", j->write_s, j->total_s);
-    n += snprintf(text + n, sizeof text - (size_t)n,
-                  "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
-                  "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n",
-                  (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
-                  (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
-                  (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups);
+    n += snprintf(
+        text + n, sizeof text - (size_t)n,
+        "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
+        "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n",
+        (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
+        (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
+        (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
                   "  \"bytes\": %.0f, \"model_bytes\": %.0f, \"loading_bytes\": %.0f,\n"
                   "  \"backend\": \"%s\"\n}\n",
-                  s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0, (double)j->bytes,
-                  (double)j->loaded.facts.memory_bytes, (double)j->loaded.facts.loading_bytes,
+                  s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0,
+                  (double)j->bytes, (double)j->loaded.facts.memory_bytes, (double)j->loaded.facts.loading_bytes,
                   lmb_kernels_name(j->frame.kernels));
     return file_write(j->o.stats, text, (size_t)n, r);
 }

@@ -74,7 +74,8 @@ typedef struct lmb_occluder {
 /* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps
  * of world space [V26]. Crossing is a change of side where the surface goes on. A segment that passes behind a silhouette
  * and comes out again is blocked if it came nearer to what hid it than half its hidden length: things are taken to be
- * about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off screen or hidden does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
+ * about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off screen or hidden
+ * does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
 enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2 };
 
 /* Filled and read inside lmb_gather_tile. */

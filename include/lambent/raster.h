@@ -55,11 +55,12 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  *   flags    LMB_CULL_BACK or 0.
  *   stats    counts triangles; may be NULL.
  *
- * Returns LMB_OK, LMB_ERR_ARG (null, id 0, window outside the frame or not on tiles, bad view or stride) or LMB_ERR_FORMAT, and
- * then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
+ * Returns LMB_OK, LMB_ERR_ARG (null, id 0, window outside the frame or not on tiles, bad view or stride) or
+ * LMB_ERR_FORMAT, and then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
  * Triangles with a non-finite vertex, one more than 2^20 m away, or an index outside the mesh are dropped, counted.
  * Coverage: pixel centres, top-left rule, vertices snapped to 1/256 px: exact integers, no crack, no overlap.
- * Stack: 3.6 to 4.3 KiB, with masked materials 4.5. Cost: vertices + covered tiles. Draws into different targets may run at once. */
+ * Stack: 3.6 to 4.3 KiB, with masked materials 4.5. Cost: vertices + covered tiles. Draws into different targets may
+ * run at once. */
 lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats);
 

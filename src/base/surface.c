@@ -206,7 +206,8 @@ static int32_t equal_pixels(const unsigned char *a, const unsigned char *b, int3
 int32_t lmb_surface_diff(int32_t *x, int32_t *y, const lmb_surface *a, const lmb_surface *b)
 {
     int32_t i, j, run, same, pixel;
-    if (!x || !y || !lmb_surface_is_sound(a) || !lmb_surface_is_sound(b) || a->width != b->width || a->height != b->height)
+    if (!x || !y || !lmb_surface_is_sound(a) || !lmb_surface_is_sound(b) || a->width != b->width ||
+        a->height != b->height)
         return LMB_ERR_ARG;
     if (a->format != b->format)
         return LMB_ERR_FORMAT;

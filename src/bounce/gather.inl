@@ -89,8 +89,8 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
 #endif
 
 /* march() from pixels whose planes of position and of face lie `plane` floats apart. */
-static GATHER_APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face, size_t plane,
-                                           lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
+static GATHER_APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face,
+                                           size_t plane, lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
 {
     lane3 p, n;
     p.x = lane_load(position);
@@ -316,7 +316,8 @@ static inline void gather_weigh(gather_pairs *inout, const lmb_tile *tile, int k
 
 static inline lane gather_weight(const gather_pairs *pairs, int32_t j)
 {
-    return disc_value(lane_load(pairs->of[PAIR_A] + j * LANES), lane_load(pairs->of[PAIR_B] + j * LANES), lane_load(pairs->of[PAIR_I] + j * LANES));
+    return disc_value(lane_load(pairs->of[PAIR_A] + j * LANES), lane_load(pairs->of[PAIR_B] + j * LANES),
+                      lane_load(pairs->of[PAIR_I] + j * LANES));
 }
 
 /* Picked as in gather_add, over sums that stay in registers. */
@@ -382,8 +383,8 @@ static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, ga
     }
 }
 
-static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, const lmb_tile *tile, const lmb_groups *groups,
-                           const lmb_march_job *m)
+static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, const lmb_tile *tile,
+                           const lmb_groups *groups, const lmb_march_job *m)
 {
     const gather_ball ball = gather_ball_of(tile);
     gather_pairs pairs;

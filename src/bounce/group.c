@@ -107,7 +107,8 @@ static void count_stats(lmb_stats *stats, const lmb_groups *groups, const lmb_po
     stats->discs += points->count;
     stats->groups += (uint32_t)groups->count;
     for (uint32_t i = 0; i < points->count; ++i) {
-        stats->flux_lit += (double)points->data[i].flux[0] + (double)points->data[i].flux[1] + (double)points->data[i].flux[2];
+        stats->flux_lit +=
+            (double)points->data[i].flux[0] + (double)points->data[i].flux[1] + (double)points->data[i].flux[2];
     }
     for (int32_t k = 0; k < groups->count; ++k) {
         stats->flux_grouped += (double)groups->flux[0][k] + (double)groups->flux[1][k] + (double)groups->flux[2][k];

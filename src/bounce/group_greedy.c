@@ -52,7 +52,8 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
             lmb_group_open(&g);
             first->link = groups;
             lmb_group_add(&g, first);
-            for (int round = 0; round < ROUNDS && join_round(&g, points, i + 1, groups, reach_m, grouping->cosine); ++round) {
+            for (int round = 0; round < ROUNDS && join_round(&g, points, i + 1, groups, reach_m, grouping->cosine);
+                 ++round) {
             }
             ++groups;
         }

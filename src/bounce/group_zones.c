@@ -16,7 +16,8 @@ static uint32_t zone_row_end(const lmb_points *points, uint32_t i, int32_t zone)
 {
     const lmb_point *d = &points->data[i];
     uint32_t end = i;
-    while (end < points->count && points->data[end].face == d->face && points->data[end].cell_y / zone == d->cell_y / zone) {
+    while (end < points->count && points->data[end].face == d->face &&
+           points->data[end].cell_y / zone == d->cell_y / zone) {
         ++end;
     }
     return end;

@@ -139,7 +139,8 @@ static inline march_run march_towards(const lmb_march_job *m, const seen_from *s
     r.end_y = py;
     r.end_d = d;
     /* An emitter turned away from the viewer is not in the map: no surface of its own to step over. */
-    r.end_rise = lane_sub(lane_sub(s->d, d), lane_sub(lane_splat(0.0f), lane_add(lane_mul(r.x, r.end_dx), lane_mul(r.y, r.end_dy))));
+    r.end_rise = lane_sub(lane_sub(s->d, d),
+                          lane_sub(lane_splat(0.0f), lane_add(lane_mul(r.x, r.end_dx), lane_mul(r.y, r.end_dy))));
     r.end_rise = lane_pick(level, r.end_rise, lane_splat(-1e30f));
     r.end = lane_min(march_inside(s->px, px, m->last_x + 1.0f), march_inside(s->py, py, m->last_y + 1.0f));
     const lane one = lane_splat(1.0f), zero = lane_splat(0.0f);
@@ -195,13 +196,14 @@ static inline lane march_gap(lane a, lane b) { return lane_max(lane_sub(a, b), l
 
 /* Between two samples on different sides of the viewer's surface: does the segment cross it there, or only pass
  * behind a silhouette? Halve the gap to about a pixel; a surface that then still jumps is two surfaces. */
-static inline lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from, lane to,
-                                      lane from_d, lane to_d, lane_mask from_hidden)
+static inline lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from,
+                                      lane to, lane from_d, lane to_d, lane_mask from_hidden)
 {
     for (int i = 0; i < 4; ++i) {
         lane stored, middle = lane_mul(lane_add(from, to), lane_splat(0.5f));
         lane_mask hidden = lane_lt(lane_splat(0.0f), march_height(&stored, m, s, r, middle));
-        lane_mask first = mask_not(mask_or(mask_and(hidden, mask_not(from_hidden)), mask_and(from_hidden, mask_not(hidden))));
+        lane_mask first =
+            mask_not(mask_or(mask_and(hidden, mask_not(from_hidden)), mask_and(from_hidden, mask_not(hidden))));
         from = lane_pick(first, middle, from);
         from_d = lane_pick(first, stored, from_d);
         to = lane_pick(first, to, middle);
@@ -211,7 +213,8 @@ static inline lane_mask march_crosses(const lmb_march_job *m, const seen_from *s
     march_height(&before, m, s, r, lane_sub(from, r->pixel));
     march_height(&after, m, s, r, lane_add(to, r->pixel));
     lane slope = lane_max(march_gap(before, from_d), march_gap(to_d, after));
-    return lane_le(jump, lane_add(lane_mul(lane_splat(JUMP), lane_min(from_d, to_d)), lane_mul(lane_splat(SLOPE), slope)));
+    return lane_le(jump,
+                   lane_add(lane_mul(lane_splat(JUMP), lane_min(from_d, to_d)), lane_mul(lane_splat(SLOPE), slope)));
 }
 
 /* The point at share t of the segments, in the viewer's axes, m. */
@@ -250,7 +253,8 @@ static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lmb_ve
     for (int i = 0; i < m->steps && mask_bits(open); ++i) {
         lane stored, t = march_share(m, s, &r, i);
         lane_mask hidden = lane_lt(zero, march_height(&stored, m, s, &r, t));
-        lane_mask changed = mask_or(mask_and(hidden, mask_not(hidden_before)), mask_and(hidden_before, mask_not(hidden)));
+        lane_mask changed =
+            mask_or(mask_and(hidden, mask_not(hidden_before)), mask_and(hidden_before, mask_not(hidden)));
         changed = mask_and(mask_and(changed, open), lane_lt(lane_splat((float)i), r.samples));
         if (mask_bits(changed)) {
             lane_mask crosses = march_crosses(m, s, &r, before, t, stored_before, stored, hidden_before);

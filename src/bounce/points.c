@@ -80,7 +80,8 @@ static element *find_element(element *e, int32_t *count, lmb_vec3 p, lmb_vec3 n,
 static void add_texel(element *e, const lmb_tile *t, int k, const float power[3], float x, float y)
 {
     float weight = power[0] + power[1] + power[2];
-    e->position = add3(e->position, mul3(sub3(vec3(t->position[0][k], t->position[1][k], t->position[2][k]), e->first), weight));
+    e->position =
+        add3(e->position, mul3(sub3(vec3(t->position[0][k], t->position[1][k], t->position[2][k]), e->first), weight));
     e->normal = add3(e->normal, mul3(vec3(t->face[0][k], t->face[1][k], t->face[2][k]), weight));
     for (int c = 0; c < 3; ++c) {
         e->power[c] += power[c];
@@ -150,7 +151,8 @@ static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_
     const lmb_view *v = &c->map->view[c->face];
     element e[ELEMENTS];
     int32_t count = 0;
-    float middle = 0.5f * (float)(c->block - 1), texel = 2.0f * maxf(v->half_width, v->half_height) / (float)c->map->size;
+    float middle = 0.5f * (float)(c->block - 1),
+          texel = 2.0f * maxf(v->half_width, v->half_height) / (float)c->map->size;
     for (int32_t y = 0; y < c->block; ++y) {
         for (int32_t x = 0; x < c->block; ++x) {
             int k = (by + y) * LMB_TILE + bx + x;
@@ -207,9 +209,9 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
 {
     collector c;
     int32_t block = block_of(grouping);
-    if (points == NULL || points->data == NULL || kernels == NULL || scratch == NULL || scene == NULL || light == NULL ||
-        map == NULL || face < 0 || face >= map->faces || tile_y0 < 0 || tile_y1 > map->size / LMB_TILE ||
-        !is_block(block)) {
+    if (points == NULL || points->data == NULL || kernels == NULL || scratch == NULL || scene == NULL ||
+        light == NULL || map == NULL || face < 0 || face >= map->faces || tile_y0 < 0 ||
+        tile_y1 > map->size / LMB_TILE || !is_block(block)) {
         return LMB_ERR_ARG;
     }
     int32_t side = map->size / block;
@@ -282,7 +284,8 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
     lmb_status status =
         lmb_points_collect(&own, kernels, scratch, scene, light, map, face, p.first_row, p.past_row, grouping);
     if (status == LMB_OK) {
-        own.cells[p.first_cell] = own.count; /* it begins at the part's own 0: until the end its place holds the count */
+        own.cells[p.first_cell] =
+            own.count; /* it begins at the part's own 0: until the end its place holds the count */
     }
     return status;
 }

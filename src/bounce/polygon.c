@@ -26,7 +26,8 @@ static int clip_horizon(lmb_vec3 out[5], const lmb_vec3 quad[4], lmb_vec3 n)
     return count;
 }
 
-float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u, lmb_vec3 v)
+float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u,
+                      lmb_vec3 v)
 {
     lmb_vec3 c = sub3(centre, at), side = cross3(u, v), corner[5], quad[4];
     float area = 4.0f * length3(side), height = -dot3(axis, c), sum = 0.0f;

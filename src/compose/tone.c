@@ -77,8 +77,8 @@ lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, in
         !lmb_surface_is_sound(out)) {
         return LMB_ERR_ARG;
     }
-    if (out->format != LMB_RGB32F && out->format != LMB_RGBA8 && out->format != LMB_BGRA8 && out->format != LMB_RGB565 &&
-        out->format != LMB_RGB555) {
+    if (out->format != LMB_RGB32F && out->format != LMB_RGBA8 && out->format != LMB_BGRA8 &&
+        out->format != LMB_RGB565 && out->format != LMB_RGB555) {
         return LMB_ERR_FORMAT;
     }
     const tile_part part = {maxi(x0 - x, 0), mini(out->width - 1 - (x - x0), LMB_TILE - 1), maxi(y0 - y, 0),

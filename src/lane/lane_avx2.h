@@ -50,7 +50,10 @@ static inline lanei lanei_mul(lanei a, lanei b) { return _mm256_mullo_epi32(a, b
 static inline lanei lanei_sub(lanei a, lanei b) { return _mm256_sub_epi32(a, b); }
 static inline lanei lanei_min(lanei a, lanei b) { return _mm256_min_epi32(a, b); }
 static inline lanei lanei_max(lanei a, lanei b) { return _mm256_max_epi32(a, b); }
-static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { return _mm256_blendv_epi8(b, a, _mm256_castps_si256(m)); }
+static inline lanei lanei_pick(lane_mask m, lanei a, lanei b)
+{
+    return _mm256_blendv_epi8(b, a, _mm256_castps_si256(m));
+}
 static inline lane_mask lanei_lt(lanei a, lanei b) { return _mm256_castsi256_ps(_mm256_cmpgt_epi32(b, a)); }
 static inline lanei lanei_shift(lanei a, int n) { return _mm256_srai_epi32(a, n); }
 static inline lane_mask lanei_not_negative(lanei a)
@@ -111,7 +114,8 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 static inline lane lane_table(const float *p, lanei at)
 {
     return _mm256_blendv_ps(_mm256_permutevar8x32_ps(_mm256_loadu_ps(p), at),
-                            _mm256_permutevar8x32_ps(_mm256_loadu_ps(p + 8), at), _mm256_castsi256_ps(_mm256_slli_epi32(at, 28)));
+                            _mm256_permutevar8x32_ps(_mm256_loadu_ps(p + 8), at),
+                            _mm256_castsi256_ps(_mm256_slli_epi32(at, 28)));
 }
 
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }

@@ -73,11 +73,23 @@ static inline lane_mask mask_of_bits(uint32_t b) { lane_mask r; EACH(r.v[i] = (b
 static inline lanei lanei_splat(int32_t a) { lanei r; EACH(r.v[i] = a); return r; }
 static inline lanei lanei_load(const int32_t *p) { lanei r; EACH(r.v[i] = p[i]); return r; }
 /* Sums and products go round, as in registers. */
-static inline lanei lanei_add(lanei a, lanei b) { EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] + (uint32_t)b.v[i])); return a; }
+static inline lanei lanei_add(lanei a, lanei b)
+{
+    EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] + (uint32_t)b.v[i]));
+    return a;
+}
 static inline lanei lanei_or(lanei a, lanei b) { EACH(a.v[i] = a.v[i] | b.v[i]); return a; }
 static inline lanei lanei_and(lanei a, lanei b) { EACH(a.v[i] = a.v[i] & b.v[i]); return a; }
-static inline lanei lanei_mul(lanei a, lanei b) { EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] * (uint32_t)b.v[i])); return a; }
-static inline lanei lanei_sub(lanei a, lanei b) { EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] - (uint32_t)b.v[i])); return a; }
+static inline lanei lanei_mul(lanei a, lanei b)
+{
+    EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] * (uint32_t)b.v[i]));
+    return a;
+}
+static inline lanei lanei_sub(lanei a, lanei b)
+{
+    EACH(a.v[i] = (int32_t)((uint32_t)a.v[i] - (uint32_t)b.v[i]));
+    return a;
+}
 static inline lanei lanei_min(lanei a, lanei b) { EACH(a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline lanei lanei_max(lanei a, lanei b) { EACH(a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i]); return a; }
 static inline lanei lanei_pick(lane_mask m, lanei a, lanei b) { EACH(a.v[i] = m.v[i] ? a.v[i] : b.v[i]); return a; }
@@ -85,7 +97,12 @@ static inline lane_mask lanei_lt(lanei a, lanei b) { lane_mask r; EACH(r.v[i] = 
 /* floor(a / 2^n). */
 static inline lanei lanei_shift(lanei a, int n) { EACH(a.v[i] = a.v[i] >> n); return a; }
 static inline lane_mask lanei_not_negative(lanei a) { lane_mask r; EACH(r.v[i] = a.v[i] >= 0 ? ~0u : 0u); return r; }
-static inline lane_mask lanei_equal(lanei a, lanei b) { lane_mask r; EACH(r.v[i] = a.v[i] == b.v[i] ? ~0u : 0u); return r; }
+static inline lane_mask lanei_equal(lanei a, lanei b)
+{
+    lane_mask r;
+    EACH(r.v[i] = a.v[i] == b.v[i] ? ~0u : 0u);
+    return r;
+}
 /* Truncates; the caller clamps to the int32 range first. */
 static inline lanei lane_to_int(lane a) { lanei r; EACH(r.v[i] = (int32_t)a.v[i]); return r; }
 static inline lane lane_from_int(lanei a) { lane r; EACH(r.v[i] = (float)a.v[i]); return r; }

@@ -91,7 +91,8 @@ static int ask_triangle(const lmb_scene *scene, uint32_t id, const lmb_receiver 
         return BESIDE;
     }
     /* The ray to the light in the triangle's edges: all of one sign when it passes inside. */
-    float e0 = dot3(at->towards, cross3(b, c)), e1 = dot3(at->towards, cross3(c, a)), e2 = dot3(at->towards, cross3(a, b));
+    float e0 = dot3(at->towards, cross3(b, c)), e1 = dot3(at->towards, cross3(c, a)),
+          e2 = dot3(at->towards, cross3(a, b));
     if (!((e0 >= 0.0f && e1 >= 0.0f && e2 >= 0.0f) || (e0 <= 0.0f && e1 <= 0.0f && e2 <= 0.0f))) {
         return BESIDE;
     }
@@ -115,10 +116,12 @@ static int lit_by_depth(const place *at, const lmb_receiver *r, int32_t x, int32
     if (d == 0.0f) {
         return 1;
     }
-    float sx = ((float)(2 * x + 1) / size - 1.0f) * v->half_width, sy = (1.0f - (float)(2 * y + 1) / size) * v->half_height;
+    float sx = ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
+          sy = (1.0f - (float)(2 * y + 1) / size) * v->half_height;
     lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy));
     int perspective = v->kind == LMB_PERSPECTIVE;
-    lmb_vec3 from = perspective ? v->eye : add3(v->eye, across), ray = perspective ? sub3(across, v->back) : mul3(v->back, -1.0f);
+    lmb_vec3 from = perspective ? v->eye : add3(v->eye, across),
+             ray = perspective ? sub3(across, v->back) : mul3(v->back, -1.0f);
     float slope = dot3(r->face, ray), texel = 2.0f * v->half_width / size * (perspective ? at->w : 1.0f);
     /* On a plane seen edge-on the texel's middle says nothing. Farther than 16 texels behind the point neither does the
      * plane of a curved surface; before it, a convex edge is. */

@@ -19,8 +19,8 @@ static void store(const lmb_surface *s, int32_t x, int32_t y, const float *a, co
     }
 }
 
-static void store_tile(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo, const lmb_view *v,
-                       const lmb_tile *t)
+static void store_tile(const lmb_surface *depth, const lmb_surface *normal, const lmb_surface *albedo,
+                       const lmb_view *v, const lmb_tile *t)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         int32_t x = t->x + k % LMB_TILE, y = t->y + k / LMB_TILE;

@@ -114,7 +114,8 @@ lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const 
     if ((uintptr_t)memory % 4 != 0) {
         return LMB_ERR_ALIGN;
     }
-    size_t depth_bytes = lmb_surface_bytes(LMB_DEPTH32F, size, size), id_bytes = lmb_surface_bytes(id_format, size, size);
+    size_t depth_bytes = lmb_surface_bytes(LMB_DEPTH32F, size, size),
+           id_bytes = lmb_surface_bytes(id_format, size, size);
     int32_t faces = lmb_light_map_faces(light);
     if (bytes < (size_t)faces * (depth_bytes + id_bytes)) {
         return LMB_ERR_CAPACITY;

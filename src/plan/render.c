@@ -57,7 +57,8 @@ static lmb_status check_eye(const lmb_frame *f)
 
 static lmb_status check_out(const lmb_surface *out, const lmb_view *v)
 {
-    if (out->data == NULL || out->width != v->frame_width || (out->height != v->frame_height && out->height != LMB_TILE)) {
+    if (out->data == NULL || out->width != v->frame_width ||
+        (out->height != v->frame_height && out->height != LMB_TILE)) {
         return LMB_ERR_ARG;
     }
     if (out->format < LMB_RGB565 || out->format > LMB_RGB32F || out->format == LMB_R32F || out->layout != LMB_LINEAR) {
@@ -148,7 +149,8 @@ static lmb_status step_light_map(lmb_render *r, int32_t units)
 static lmb_status end_face(lmb_render *r)
 {
     const lmb_light_map *map = &r->maps[r->light];
-    lmb_status status = (map->drawn >> r->face) & 1u ? lmb_discs_join(&r->frame.points, map, &r->frame.grouping) : LMB_OK;
+    lmb_status status =
+        (map->drawn >> r->face) & 1u ? lmb_discs_join(&r->frame.points, map, &r->frame.grouping) : LMB_OK;
     r->place = 0;
     if (++r->face >= (uint32_t)map->faces) {
         r->face = 0;
@@ -254,7 +256,8 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
     memset(&s->direct, 0, sizeof s->direct);
     memset(&s->indirect, 0, sizeof s->indirect);
     for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
-        status = lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, &f->scene->lights[i], &r->maps[i]);
+        status =
+            lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, &f->scene->lights[i], &r->maps[i]);
     }
     if (wants_bounce(f) && status == LMB_OK) {
         occluder.view = &f->view;
@@ -270,8 +273,8 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
     return status != LMB_OK ? status : lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, &s->indirect);
 }
 
-lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye, const lmb_surface *out,
-                           int32_t band)
+lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
+                           const lmb_surface *out, int32_t band)
 {
     if (r == NULL || scratch == NULL || eye == NULL || out == NULL || r->stage < LMB_STAGE_BANDS || band < 0 ||
         band >= band_count(&r->frame.view)) {
@@ -367,7 +370,8 @@ static lmb_status part_view(const lmb_render *r, int32_t part, int32_t parts, lm
     }
     lmb_target_rows(&window, &whole, (int32_t)first, (int32_t)(past - first));
     clear_target(&window);
-    return lmb_draw(&window, f->kernels, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, first == 0 ? stats : NULL);
+    return lmb_draw(&window, f->kernels, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK,
+                    first == 0 ? stats : NULL);
 }
 
 /* A row of blocks of the face at hand. Faces that are no part of the map have no points. */
@@ -488,7 +492,8 @@ float lmb_render_progress(const char **name, const lmb_render *r)
         *name = names[LMB_STAGE_DONE];
         return 1.0f;
     }
-    float lights = maxf((float)r->frame.scene->light_count, 1.0f), triangles = maxf((float)r->triangles, 1.0f), done = 0.0f;
+    float lights = maxf((float)r->frame.scene->light_count, 1.0f), triangles = maxf((float)r->triangles, 1.0f),
+          done = 0.0f;
     *name = names[r->stage];
     switch (r->stage) {
     case LMB_STAGE_LIGHT_MAP: done = ((float)r->light + (float)r->place / triangles) / lights; break;

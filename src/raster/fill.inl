@@ -157,7 +157,8 @@ LANE_INLINE void fill_inside(const lmb_fill_tile *tile, const lmb_fill_job *job,
 /* Are the plane's values at the tile's corners, and so (sums round monotonically) all between, within the range? */
 LANE_INLINE int fill_in_range(const lmb_fill_job *job)
 {
-    const float right = job->dx * (float)(LMB_TILE - 1), bottom = job->d + job->dy * (float)(LMB_TILE - 1), top = job->d;
+    const float right = job->dx * (float)(LMB_TILE - 1), bottom = job->d + job->dy * (float)(LMB_TILE - 1),
+                top = job->d;
     const float a = top, b = top + right, c = bottom, d = bottom + right;
     const float low = minf(minf(a, b), minf(c, d)), high = maxf(maxf(a, b), maxf(c, d));
     return low >= job->d_min && high <= job->d_max;

@@ -66,8 +66,9 @@ LANE_INLINE void large_crossed(const lmb_fill_tile *tile, const lmb_fill_job *jo
 }
 
 /* `count` tiles of a row; edges->at is at the first. */
-LANE_INLINE void large_row(const lmb_fill_window *w, const lmb_setup *s, const fill_triangle *t, const large_edges *edges,
-                           lmb_fill_tile *tile, lmb_fill_job *job, int32_t x_24_8, int32_t count, double d_row)
+LANE_INLINE void large_row(const lmb_fill_window *w, const lmb_setup *s, const fill_triangle *t,
+                           const large_edges *edges, lmb_fill_tile *tile, lmb_fill_job *job, int32_t x_24_8,
+                           int32_t count, double d_row)
 {
     large3 at = edges->at;
     int entered = 0;

@@ -25,15 +25,16 @@ LANE_INLINE int32_t small_reach(int32_t ex, int32_t ey)
 LANE_INLINE void small_tile(const lmb_fill_tile *tile, const lmb_fill_job *job, const fill_triangle *t, int32_t e0,
                             int32_t e1, int32_t e2, const fill_box *box)
 {
-    const int32_t e[3] = {e0 + t->ey[0] * box->first_row, e1 + t->ey[1] * box->first_row, e2 + t->ey[2] * box->first_row};
+    const int32_t e[3] = {e0 + t->ey[0] * box->first_row, e1 + t->ey[1] * box->first_row,
+                          e2 + t->ey[2] * box->first_row};
     for (int32_t i = box->first; i <= box->last; ++i) {
         fill_column(tile, job, t, e, job->d, box, i);
     }
 }
 
 /* A triangle whose box lies in one tile, as most do. */
-LANE_INLINE void small_one(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k, const fill_triangle *t,
-                           int kind)
+LANE_INLINE void small_one(const lmb_fill_window *w, lmb_fill_job *job, const lmb_batch *b, int k,
+                           const fill_triangle *t, int kind)
 {
     const int32_t x = b->x0[k] & ~(LMB_TILE - 1), y = b->y0[k] & ~(LMB_TILE - 1);
     const ptrdiff_t down = (y - w->y0) / LMB_TILE, across = (x - w->x0) / LMB_TILE;
@@ -57,7 +58,8 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
         return;
     }
     const double d_origin = b->d[k], dx = b->dx[k], dy = b->dy[k];
-    const int32_t left = b->x0[k] & ~(LMB_TILE - 1), top = b->y0[k] & ~(LMB_TILE - 1), right = b->x1[k], bottom = b->y1[k];
+    const int32_t left = b->x0[k] & ~(LMB_TILE - 1), top = b->y0[k] & ~(LMB_TILE - 1), right = b->x1[k],
+                  bottom = b->y1[k];
     const int32_t reach0 = small_reach(t->ex[0], t->ey[0]), reach1 = small_reach(t->ex[1], t->ey[1]),
                   reach2 = small_reach(t->ex[2], t->ey[2]);
     const int32_t down = (top - w->y0) / LMB_TILE, across = (left - w->x0) / LMB_TILE;
@@ -65,7 +67,8 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
     uint8_t *depth_row = (uint8_t *)w->first.depth + (ptrdiff_t)down * w->depth_row + (ptrdiff_t)across * w->depth_tile;
     lmb_fill_tile tile = fill_first(w, kind);
     const int ids = tile.id_format != LMB_FORMAT_NONE;
-    uint8_t *id_row = ids ? (uint8_t *)w->first.id + (ptrdiff_t)down * w->id_row + (ptrdiff_t)across * w->id_tile : NULL;
+    uint8_t *id_row =
+        ids ? (uint8_t *)w->first.id + (ptrdiff_t)down * w->id_row + (ptrdiff_t)across * w->id_tile : NULL;
     for (int32_t y = top; y <= bottom; y += LMB_TILE) {
         const double d_row = dy * ((y * 256 + w->origin_y) * (1.0 / 256.0));
         int32_t e0 = row0, e1 = row1, e2 = row2;

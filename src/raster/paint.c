@@ -12,7 +12,10 @@ typedef struct painted {
     float uv[3][2]; /* corner 0, and the others' differences from it */
 } painted;
 
-static lmb_vec3 vector_of(const float (*v)[LMB_BATCH], int32_t slot) { return vec3(v[0][slot], v[1][slot], v[2][slot]); }
+static lmb_vec3 vector_of(const float (*v)[LMB_BATCH], int32_t slot)
+{
+    return vec3(v[0][slot], v[1][slot], v[2][slot]);
+}
 
 static void take_slot(painted *p, const lmb_resolve_batch *b, int32_t slot)
 {
@@ -109,7 +112,8 @@ static int set_frame(tangent_frame *f, const painted *p, const lmb_triangle *t, 
     for (int k = 0; k < 3; ++k) {
         f->tangent[k] = along_u;
         if (t->mesh->tangents != NULL) {
-            f->tangent[k] = normalize3(transform_direction(&t->instance->to_world, mesh_tangent(t->mesh, t->vertex[k])));
+            f->tangent[k] =
+                normalize3(transform_direction(&t->instance->to_world, mesh_tangent(t->mesh, t->vertex[k])));
         }
     }
     f->turn = dot3(cross3(front, along_u), against_v) < 0.0f ? -1.0f : 1.0f;

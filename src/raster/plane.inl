@@ -46,7 +46,8 @@ LANE_INLINE plane_lanes plane_setup(const lane3 corner[3], const lmb_rays *rays)
     r.g1 = lane3_scale(lane3_cross(e2, n), gain);
     r.g2 = lane3_scale(lane3_cross(n, e1), gain);
     r.plane = lane3_pick(fine, lane3_scale(n, lane_div(one, lane_sqrt(nn))), back);
-    const lane turned = rays->perspective ? lane3_dot(r.plane, r.corner) : lane_mul(lane3_dot(r.plane, back), lane_splat(-1.0f));
+    const lane turned =
+        rays->perspective ? lane3_dot(r.plane, r.corner) : lane_mul(lane3_dot(r.plane, back), lane_splat(-1.0f));
     r.face = lane3_pick(lane_lt(zero, turned), lane3_scale(r.plane, lane_splat(-1.0f)), r.plane);
     plane_range(&r, seen, rays);
     return r;

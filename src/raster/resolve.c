@@ -121,7 +121,8 @@ static uint32_t read_row(uint32_t *row, const lmb_fill_tile *t, int32_t y, int32
 }
 
 /* Ids of the tile's pixels inside window and frame, the others' untouched; returns those that are not 0, a bit each. */
-static uint64_t read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, const lmb_view *v, int32_t x, int32_t y)
+static uint64_t read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, const lmb_view *v, int32_t x,
+                         int32_t y)
 {
     const lmb_fill_tile t = lmb_target_tile(target, (x - target->x0) / LMB_TILE, (y - target->y0) / LMB_TILE);
     const int32_t width = mini(target->x0 + target->depth.width, v->frame_width) - x;

@@ -20,7 +20,8 @@ LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lane
 /* `left` without the pixels of other instances. */
 LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id, uint64_t left)
 {
-    const lanei first = lanei_splat((int32_t)b->instance->first_id), count = lanei_splat((int32_t)b->mesh->triangle_count);
+    const lanei first = lanei_splat((int32_t)b->instance->first_id),
+                count = lanei_splat((int32_t)b->mesh->triangle_count);
     uint64_t own = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const lanei n = lanei_sub(lanei_load((const int32_t *)id + k), first);
@@ -153,7 +154,8 @@ LANE_INLINE lane3 resolve_octahedral(lane code_x, lane code_y)
 /* Normals go by the cofactors of the transform: right for uneven scales, and mirrors only flip them. */
 LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3], int k)
 {
-    const lmb_vec3 cofactor[3] = {cross3(column[1], column[2]), cross3(column[2], column[0]), cross3(column[0], column[1])};
+    const lmb_vec3 cofactor[3] = {cross3(column[1], column[2]), cross3(column[2], column[0]),
+                                  cross3(column[0], column[1])};
     lane3 n[3];
     for (int i = 0; i < 3; ++i) {
         const lane3 own = resolve_octahedral(lane_load(b->normal[i][0] + k), lane_load(b->normal[i][1] + k));
@@ -196,7 +198,8 @@ LANE_INLINE void resolve_uv(lmb_resolve_batch *b, int k)
 static void KERNEL(resolve_setup)(lmb_resolve_batch *inout)
 {
     const float *m = inout->instance->to_world.m;
-    const lmb_vec3 column[4] = {vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]), vec3(m[12], m[13], m[14])};
+    const lmb_vec3 column[4] = {vec3(m[0], m[1], m[2]), vec3(m[4], m[5], m[6]), vec3(m[8], m[9], m[10]),
+                                vec3(m[12], m[13], m[14])};
     for (int k = 0; k < inout->count; k += LANES) {
         resolve_planes(inout, column, k);
         if (inout->mesh->normals != NULL && !inout->albedo_only) {
@@ -271,7 +274,8 @@ LANE_INLINE lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place
 }
 
 /* What the triangle's colour is made of. */
-LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at, lane_mask mine)
+LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at,
+                                lane_mask mine)
 {
     for (int c = 0; c < 3; ++c) {
         lane albedo = lane_splat(b->material->albedo[c]);

@@ -18,13 +18,15 @@ static void set_edge(lmb_setup *s, int i, const lmb_screen_vertex *from, const l
 {
     s->ex[i] = from->y_24_8 - to->y_24_8;
     s->ey[i] = to->x_24_8 - from->x_24_8;
-    s->e_origin[i] = -(int64_t)s->ex[i] * from->x_24_8 - (int64_t)s->ey[i] * from->y_24_8 + fill_rule(s->ex[i], s->ey[i]);
+    s->e_origin[i] =
+        -(int64_t)s->ex[i] * from->x_24_8 - (int64_t)s->ey[i] * from->y_24_8 + fill_rule(s->ex[i], s->ey[i]);
 }
 
 static void set_depth(lmb_setup *s, const lmb_screen_vertex *a, const lmb_screen_vertex *b,
                       const lmb_screen_vertex *c, int64_t area)
 {
-    double bx = b->x_24_8 - a->x_24_8, by = b->y_24_8 - a->y_24_8, cx = c->x_24_8 - a->x_24_8, cy = c->y_24_8 - a->y_24_8;
+    double bx = b->x_24_8 - a->x_24_8, by = b->y_24_8 - a->y_24_8, cx = c->x_24_8 - a->x_24_8,
+           cy = c->y_24_8 - a->y_24_8;
     double bd = (double)b->d - (double)a->d, cd = (double)c->d - (double)a->d;
     double per_px = 256.0 / (double)area;
     s->d_x = (bd * cy - cd * by) * per_px;

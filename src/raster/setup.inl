@@ -49,7 +49,8 @@ static inline setup_corner setup_transform(const lmb_setup_job *job, float (*pos
     c.out[3] = lane_lt(lane_sub(high, y), zero);
     c.out[4] = lane_lt(lane_add(high, y), zero);
     /* What is clipped or insane is not used, and must not reach the conversion to int. */
-    lane_mask good = mask_and(c.sane, mask_not(mask_or(c.out[0], mask_or(mask_or(c.out[1], c.out[2]), mask_or(c.out[3], c.out[4])))));
+    lane_mask good = mask_and(
+        c.sane, mask_not(mask_or(c.out[0], mask_or(mask_or(c.out[1], c.out[2]), mask_or(c.out[3], c.out[4])))));
     lane inverse = lane_div(one, lane_pick(good, w, one));
     x = lane_mul(lane_mul(lane_keep(good, x), inverse), lane_splat(job->snap_x));
     y = lane_mul(lane_mul(lane_keep(good, y), inverse), lane_splat(job->snap_y));
@@ -74,7 +75,8 @@ static inline lanei setup_last(lanei high, int32_t origin, int32_t most)
 }
 
 /* Edge i from one corner to the next: floor(E / 256) at (x, y), where E counts the fill rule. */
-static inline void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corner *from, const setup_corner *to, lanei x, lanei y)
+static inline void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corner *from, const setup_corner *to,
+                                    lanei x, lanei y)
 {
     const lanei zero = lanei_splat(0);
     lanei ex = lanei_sub(from->y, to->y), ey = lanei_sub(to->x, from->x);
@@ -85,8 +87,8 @@ static inline void setup_edge_lanes(lmb_batch *b, int i, int k, const setup_corn
     lanei_store(b->e[i] + k, lanei_shift(lanei_add(e, lanei_pick(on, zero, lanei_splat(-1))), 8));
 }
 
-static inline void setup_depth(lmb_batch *out, int k, const setup_corner *a, const setup_corner *b, const setup_corner *c,
-                               lanei area)
+static inline void setup_depth(lmb_batch *out, int k, const setup_corner *a, const setup_corner *b,
+                               const setup_corner *c, lanei area)
 {
     const laned to_px = laned_splat(1.0 / 256.0);
     laned ad = laned_from(a->d), bd = laned_sub(laned_from(b->d), ad), cd = laned_sub(laned_from(c->d), ad);
@@ -147,8 +149,10 @@ static inline void setup_lanes(lmb_batch *out, const lmb_setup_job *job, int k)
     b.x = lanei_add(a.x, bx), b.y = lanei_add(a.y, by), c.x = lanei_add(a.x, cx), c.y = lanei_add(a.y, cy);
     px0 = lanei_pick(shown, px0, lanei_splat(job->x0)), py0 = lanei_pick(shown, py0, lanei_splat(job->y0));
     setup_corner second = b, third = c;
-    second.x = lanei_pick(turned, c.x, b.x), second.y = lanei_pick(turned, c.y, b.y), second.d = lane_pick(turned, c.d, b.d);
-    third.x = lanei_pick(turned, b.x, c.x), third.y = lanei_pick(turned, b.y, c.y), third.d = lane_pick(turned, b.d, c.d);
+    second.x = lanei_pick(turned, c.x, b.x), second.y = lanei_pick(turned, c.y, b.y),
+    second.d = lane_pick(turned, c.d, b.d);
+    third.x = lanei_pick(turned, b.x, c.x), third.y = lanei_pick(turned, b.y, c.y),
+    third.d = lane_pick(turned, b.d, c.d);
     area = lanei_pick(turned, lanei_sub(zero, area), lanei_pick(shown, area, lanei_splat(1)));
     lanei x = lanei_add(lanei_mul(lanei_shift(px0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_x));
     lanei y = lanei_add(lanei_mul(lanei_shift(py0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_y));

@@ -66,7 +66,8 @@ LANE_INLINE lanei texture_wrap(lanei i, lanei size, int32_t wrap)
 LANE_INLINE lane3 texture_add(lane3 sum, const texture_level *l, lanei x, lanei y, lane weight)
 {
     const lanei byte = lanei_splat(255);
-    const lanei at = lanei_add(lanei_mul(texture_wrap(y, l->height, l->wrap_t), l->width), texture_wrap(x, l->width, l->wrap_s));
+    const lanei at =
+        lanei_add(lanei_mul(texture_wrap(y, l->height, l->wrap_t), l->width), texture_wrap(x, l->width, l->wrap_s));
     const lanei texel = lanei_gather_rgba(l->texels, at);
     lane3 colour;
     colour.x = lane_gather_f32(lmb_srgb_linear, lanei_and(texel, byte));
@@ -82,7 +83,8 @@ LANE_INLINE lane3 texture_bilinear(const texture_level *l, lane x, lane y)
     y = lane_sub(y, half);
     const lane x0 = texture_floor(x), y0 = texture_floor(y), fx = lane_sub(x, x0), fy = lane_sub(y, y0);
     const lane gx = lane_sub(one, fx), gy = lane_sub(one, fy);
-    const lanei ix = lane_to_int(x0), iy = lane_to_int(y0), jx = lanei_add(ix, lanei_splat(1)), jy = lanei_add(iy, lanei_splat(1));
+    const lanei ix = lane_to_int(x0), iy = lane_to_int(y0), jx = lanei_add(ix, lanei_splat(1)),
+                jy = lanei_add(iy, lanei_splat(1));
     lane3 sum = lane3_splat(0.0f, 0.0f, 0.0f);
     sum = texture_add(sum, l, ix, iy, lane_mul(gx, gy));
     sum = texture_add(sum, l, jx, iy, lane_mul(fx, gy));
@@ -107,8 +109,9 @@ static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, con
         const lane x = lane_mul(texture_reduce(lane_load(inout->uv[0] + k), l.wrap_s), width);
         const lane y = lane_mul(texture_reduce(lane_load(inout->uv[1] + k), l.wrap_t), height);
         const lane3 none = lane3_splat(0.0f, 0.0f, 0.0f);
-        const lane3 texel = t->filter == LMB_NEAREST ? texture_add(none, &l, lane_to_int(x), lane_to_int(y), lane_splat(1.0f))
-                                                     : texture_bilinear(&l, x, y);
+        const lane3 texel = t->filter == LMB_NEAREST
+                                ? texture_add(none, &l, lane_to_int(x), lane_to_int(y), lane_splat(1.0f))
+                                : texture_bilinear(&l, x, y);
         resolve_put(inout->albedo[0] + k, mine, lane_mul(lane_load(inout->albedo[0] + k), texel.x));
         resolve_put(inout->albedo[1] + k, mine, lane_mul(lane_load(inout->albedo[1] + k), texel.y));
         resolve_put(inout->albedo[2] + k, mine, lane_mul(lane_load(inout->albedo[2] + k), texel.z));

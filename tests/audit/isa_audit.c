@@ -27,7 +27,8 @@ static uint64_t asked;
 static void met(const char *verb, const char *file, int line, float value)
 {
     int i = 0;
-    while (i < site_count && (sites[i].line != line || strcmp(sites[i].verb, verb) != 0 || strcmp(sites[i].file, file) != 0)) {
+    while (i < site_count &&
+           (sites[i].line != line || strcmp(sites[i].verb, verb) != 0 || strcmp(sites[i].file, file) != 0)) {
         ++i;
     }
     if (i == SITES) {
@@ -76,7 +77,8 @@ lane audit_whole(lane a, const char *verb, const char *file, int line)
 static void report(void)
 {
     for (int i = 0; i < site_count; ++i) {
-        printf("%s:%d: %s met %g, %lu times\n", sites[i].file, sites[i].line, sites[i].verb, (double)sites[i].example, sites[i].count);
+        printf("%s:%d: %s met %g, %lu times\n", sites[i].file, sites[i].line, sites[i].verb, (double)sites[i].example,
+               sites[i].count);
     }
     printf("%lu results audited\n%d passed, %d failed, 0 skipped\n", (unsigned long)asked, site_count == 0, site_count);
     fflush(stdout);
@@ -97,7 +99,10 @@ const lmb_kernels *lmb_kernels_at(int32_t i)
 }
 
 const lmb_kernels *lmb_kernels_pick(void) { return lmb_kernels_at(0); }
-const lmb_kernels *lmb_kernels_named(const char *name) { return name != NULL && strcmp(name, "audit") == 0 ? lmb_kernels_at(0) : NULL; }
+const lmb_kernels *lmb_kernels_named(const char *name)
+{
+    return name != NULL && strcmp(name, "audit") == 0 ? lmb_kernels_at(0) : NULL;
+}
 const char *lmb_kernels_name(const lmb_kernels *kernels) { return kernels != NULL ? kernels->name : "?"; }
 
 lmb_status lmb_build_check(void) { return LMB_OK; }

@@ -27,7 +27,8 @@ typedef struct draws {
 static void make_triangle(float *p, test_rng *r)
 {
     static const float sizes[] = {0.01f, 0.05f, 0.2f, 1.0f, 6.0f};
-    const float size = sizes[test_random(r) % 5u], x = test_uniform(r, -2, 2), y = test_uniform(r, -2, 2), z = test_uniform(r, -3, 4);
+    const float size = sizes[test_random(r) % 5u], x = test_uniform(r, -2, 2), y = test_uniform(r, -2, 2),
+                z = test_uniform(r, -3, 4);
     for (int k = 0; k < 9; k += 3) {
         p[k] = x + test_uniform(r, -size, size);
         p[k + 1] = y + test_uniform(r, -size, size);

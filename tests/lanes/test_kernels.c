@@ -52,8 +52,8 @@ static int same_floats(const trial *t, const char *what, const float *want, cons
     int i = differ(want, got, n);
     if (i >= 0) {
         printf("%s %s: %s[%d]: want %08x %g, got %08x %g; repeat: LANES_SEED=%u tests lanes\n", t->kernels->name,
-               t->kernel, what, i, (unsigned)bits_of(want[i]), (double)want[i], (unsigned)bits_of(got[i]), (double)got[i],
-               (unsigned)t->seed);
+               t->kernel, what, i, (unsigned)bits_of(want[i]), (double)want[i], (unsigned)bits_of(got[i]),
+               (double)got[i], (unsigned)t->seed);
     }
     return i < 0;
 }
@@ -63,7 +63,8 @@ static int same_bytes(const trial *t, const char *what, const void *want, const 
     for (size_t i = 0; i < n; ++i) {
         if (((const uint8_t *)want)[i] != ((const uint8_t *)got)[i]) {
             printf("%s %s: %s, byte %u: want %02x, got %02x; repeat: LANES_SEED=%u tests lanes\n", t->kernels->name,
-                   t->kernel, what, (unsigned)i, ((const uint8_t *)want)[i], ((const uint8_t *)got)[i], (unsigned)t->seed);
+                   t->kernel, what, (unsigned)i, ((const uint8_t *)want)[i], ((const uint8_t *)got)[i],
+                   (unsigned)t->seed);
             return 0;
         }
     }
@@ -309,7 +310,8 @@ static void make_world(batch_world *w, test_rng *r, uint32_t rare)
 /* The batch's numbers are random: those of the mesh for resolve_setup, of set-up triangles for resolve. */
 static void make_batch(lmb_resolve_batch *b, const batch_world *w, test_rng *r, uint32_t rare)
 {
-    lmb_vec3 *vectors[] = {&b->rays.origin, &b->rays.ox, &b->rays.oy, &b->rays.direction, &b->rays.rx, &b->rays.ry, &b->rays.eye};
+    lmb_vec3 *vectors[] = {&b->rays.origin, &b->rays.ox, &b->rays.oy, &b->rays.direction,
+                           &b->rays.rx,     &b->rays.ry, &b->rays.eye};
     memset(b, 0, sizeof *b);
     b->instance = &w->instance;
     b->mesh = &w->mesh;
@@ -358,7 +360,8 @@ static int trial_resolve_slots(const trial *t, test_rng r)
         CHECK(taken == (want.slot[k] >= 0) && (!taken || (own && want.id[want.slot[k]] == id[k])));
         CHECK(taken || !own || (left >> k & 1u) == 0 || want.count == LMB_BATCH);
     }
-    return same_bytes(t, "taken", &a, &b, sizeof a) && same_bytes(t, "count", &want.count, &got.count, sizeof want.count) &&
+    return same_bytes(t, "taken", &a, &b, sizeof a) &&
+           same_bytes(t, "count", &want.count, &got.count, sizeof want.count) &&
            same_bytes(t, "slot", want.slot, got.slot, sizeof want.slot) &&
            same_bytes(t, "id", want.id, got.id, sizeof *want.id * (size_t)want.count);
 }
@@ -419,7 +422,8 @@ static int trial_resolve(const trial *t, test_rng r)
         batch.face[2][k] = face.z;
     }
     if (test_random(&r) % 4u == 0) {
-        batch.rays.direction.z = -(float)(test_random(&r) % 8u) * (batch.rays.rx.z = (float)(test_random(&r) % 2u) * 0.125f);
+        batch.rays.direction.z =
+            -(float)(test_random(&r) % 8u) * (batch.rays.rx.z = (float)(test_random(&r) % 2u) * 0.125f);
         batch.rays.ry.z = 0.0f;
     }
     lmb_kernels_scalar.resolve(&want.it, &batch);

@@ -1253,7 +1253,8 @@ static void check_screen(int32_t kind)
         }
     }
     /* Segments that leave the floor right at the plate's rim in the picture may be cut off by its last sample. */
-    CHECK_MSG(seen > 1000 && hidden > 50 && lost * 500 < seen, "%d of %d dark behind a plate of %d pixels", lost, seen, hidden);
+    CHECK_MSG(seen > 1000 && hidden > 50 && lost * 500 < seen, "%d of %d dark behind a plate of %d pixels", lost, seen,
+              hidden);
 }
 
 /* A floor seen at 1 to 5 degrees under an emitter: nothing is between. */

@@ -108,7 +108,8 @@ static void normal_maps(void)
                         "{\"baseColorTexture\":{\"index\":0},\"metallicFactor\":0}"), "%s", problem.text);
     m = loaded.scene.materials;
     t = loaded.scene.textures;
-    CHECK(m->normal_scale == 0.5f && m->texture >= 0 && (int32_t)m->normal_map != m->texture && loaded.scene.texture_count == 2);
+    CHECK(m->normal_scale == 0.5f && m->texture >= 0 && (int32_t)m->normal_map != m->texture &&
+          loaded.scene.texture_count == 2);
     if (loaded.scene.texture_count == 2) {
         /* One image, two sets of levels: codes' means for normals, light's means for colours. */
         const uint8_t *normal = t[m->normal_map].texels, *colour = t[m->texture].texels;
@@ -149,7 +150,8 @@ static void emission(void)
     snprintf(material, sizeof material, strong, ",\"emissiveTexture\":{\"index\":0}");
     CHECK_MSG(load_look(material), "%s", problem.text);
     /* Means in linear light: (0.21586 + 1) / 2, (0.21586 + 0) / 2, (1 + 0) / 2. */
-    CHECK(is_vec(loaded.emission[0], 4 * 0.60793, 2 * 0.10793, 8 * 0.5) && noted("emissive maps used by their mean: 1"));
+    CHECK(is_vec(loaded.emission[0], 4 * 0.60793, 2 * 0.10793, 8 * 0.5) &&
+          noted("emissive maps used by their mean: 1"));
     CHECK_MSG(load_look("\"emissiveTexture\":{\"index\":0}"), "%s", problem.text);
     CHECK(is_vec(loaded.emission[0], 0, 0, 0) && !noted("emissive"));
     check_fails(load_look("\"emissiveFactor\":[1,2]"), "emissiveFactor: must be an array of 3");
@@ -166,7 +168,8 @@ static void put_skinned(blob *b)
     static const float bind[2][16] = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
                                       {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5, 0, 0, 1}};
     static const float weights[] = {1, 0, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0};
-    static const uint8_t joints[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, /* a second set: */ 1, 0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0};
+    static const uint8_t joints[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, /* a second set: */ 1,
+                                     0, 0, 0, 0, 1, 0, 0, 1, 1, 0, 0};
     size_t i;
     put_floats(b, triangle, 18);
     put_floats(b, bind[0], 32);
@@ -233,12 +236,14 @@ static void skins(void)
           base64(b.bytes, b.size));
     in = loaded.scene.instances;
     CHECK(is_vec(position(in, 0), 4, 0, 3.5) && is_vec(position(in, 1), 9, 0, 0));
-    check_fails(load(SKINNED("{\"joints\":[1]}", QUARTER), base64(b.bytes, b.size)), "joint 1 at vertex 1, but the skin has 1");
+    check_fails(load(SKINNED("{\"joints\":[1]}", QUARTER), base64(b.bytes, b.size)),
+                "joint 1 at vertex 1, but the skin has 1");
     check_fails(load(SKINNED("{\"joints\":[]}", QUARTER), base64(b.bytes, b.size)), "skins[0]: a skin without joints");
     check_fails(load(SKINNED("{\"joints\":[1,9]}", QUARTER), base64(b.bytes, b.size)), "skins[0].joints[1]: index 9");
     check_fails(load(SKINNED("{\"joints\":[1,2,1],\"inverseBindMatrices\":2}", QUARTER), base64(b.bytes, b.size)),
             "needs a MAT4 of floats for each of the 3 joints");
-    check_fails(load(SKINNED("{\"joints\":[1,2],\"inverseBindMatrices\":3}", QUARTER), base64(b.bytes, b.size)), "MAT4");
+    check_fails(load(SKINNED("{\"joints\":[1,2],\"inverseBindMatrices\":3}", QUARTER), base64(b.bytes, b.size)),
+                "MAT4");
     check_fails(load(SKINNED("", QUARTER), base64(b.bytes, b.size)), "nodes[0].skin: index 0, but there are 0");
 }
 
@@ -313,8 +318,10 @@ static void many_places(void)
     CHECK(document != NULL);
     if (!document)
         return;
-    n += (size_t)snprintf(document, cap, ASSET "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
-                          "\"accessors\":[{\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"}],\"nodes\":[", VERTICES);
+    n += (size_t)snprintf(document, cap,
+                          ASSET "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+                                "\"accessors\":[{\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"}],\"nodes\":[",
+                          VERTICES);
     for (int i = 0; i < PLACES; ++i)
         n += (size_t)snprintf(document + n, cap - n, "%s{\"mesh\":0,\"translation\":[%d,0,0]}", i ? "," : "", i);
     n += (size_t)snprintf(document + n, cap - n, "]}");

@@ -18,7 +18,10 @@ static char said[TEXT_MAX], complained[TEXT_MAX]; /* by the last run of info */
 
 /* --- files and runs --- */
 
-static const char *put_file(const char *name, const void *data, size_t size) { return folder_put(&place, name, data, size); }
+static const char *put_file(const char *name, const void *data, size_t size)
+{
+    return folder_put(&place, name, data, size);
+}
 
 static const char *put_text(const char *name, const char *text) { return put_file(name, text, strlen(text)); }
 
@@ -249,16 +252,17 @@ static void many_extensions(void)
 
 static void obj_file(void)
 {
-    static const char *const parts[] = {"box.obj: OBJ\n",
-                                        "nodes        0\n",
-                                        "meshes       2\n",
-                                        "instances    2\n",
-                                        "triangles    3 placed, 3 unique\n",
-                                        "vertices     5\n",
-                                        "materials    2; drawn: 2 (2 double sided, 0 masked, 0 textured, 0 normal mapped)\n",
-                                        "textures     0; read: 0 (0 bytes)\n",
-                                        "bounds       min ",
-                                        "bytes        91 file, 18 other files, "};
+    static const char *const parts[] = {
+        "box.obj: OBJ\n",
+        "nodes        0\n",
+        "meshes       2\n",
+        "instances    2\n",
+        "triangles    3 placed, 3 unique\n",
+        "vertices     5\n",
+        "materials    2; drawn: 2 (2 double sided, 0 masked, 0 textured, 0 normal mapped)\n",
+        "textures     0; read: 0 (0 bytes)\n",
+        "bounds       min ",
+        "bytes        91 file, 18 other files, "};
     put_text("box.mtl", "newmtl a\nKd 1 0 0\n");
     CHECK(info(put_text("box.obj", "mtllib box.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\n"
                                    "usemtl a\nf 1 2 3 4\nusemtl b\nf 1 2 5\n"),

@@ -24,7 +24,10 @@ static char text[TEXT_MAX];
 static void put_file(const char *name, const void *data, size_t size) { folder_put(&place, name, data, size); }
 
 /* A path in the folder, whether a file is there or not. */
-static void path_of(char path[FOLDER_PATH], const char *name) { snprintf(path, FOLDER_PATH, "%.440s/%.60s", place.path, name); }
+static void path_of(char path[FOLDER_PATH], const char *name)
+{
+    snprintf(path, FOLDER_PATH, "%.440s/%.60s", place.path, name);
+}
 
 static int load(const char *name)
 {

@@ -161,7 +161,8 @@ static void test_tangents(void)
 /* However far a map leans, the normal stays on the viewer's side of the face. */
 static void test_rise(void)
 {
-    static const uint8_t codes[6][3] = {{255, 0, 0}, {0, 0, 0}, {255, 255, 0}, {128, 128, 0}, {255, 128, 128}, {0, 255, 100}};
+    static const uint8_t codes[6][3] = {{255, 0, 0},   {0, 0, 0},       {255, 255, 0},
+                                        {128, 128, 0}, {255, 128, 128}, {0, 255, 100}};
     set_stage();
     for (int i = 0; i < 12; ++i) {
         lmb_vec3 face, n;
@@ -210,7 +211,8 @@ static vector expected(vector n, const double code[3])
     double du2 = (double)st.uvs[4] - (double)st.uvs[0], dv2 = (double)st.uvs[5] - (double)st.uvs[1];
     double area = du1 * dv2 - du2 * dv1;
     vector none = {0, 0, 0}, e1 = mix(position_of(1), -1, position_of(0)), e2 = mix(position_of(2), -1, position_of(0));
-    vector along_u = mix(mix(none, dv2 / area, e1), -dv1 / area, e2), along_v = mix(mix(none, du1 / area, e2), -du2 / area, e1);
+    vector along_u = mix(mix(none, dv2 / area, e1), -dv1 / area, e2),
+           along_v = mix(mix(none, du1 / area, e2), -du2 / area, e1);
     vector t = unit(mix(along_u, -dot(along_u, n), n)), b = cross(n, t);
     b = dot(b, along_v) > 0 ? mix(none, -1, b) : b;
     return unit(mix(mix(mix(none, code[0], t), code[1], b), code[2], n));
@@ -270,7 +272,8 @@ static void test_checks(void)
     st.material.normal_scale = 0.0f;
     st.mesh.tangents = (const int16_t *)(const void *)((const char *)st.tangents + 2);
     CHECK(lmb_scene_check(&st.scene) == LMB_ERR_ALIGN);
-    CHECK(lmb_normal_map_mips(texels, 2, 2, 2) == LMB_OK && texels[16] == 128 && texels[17] == 128 && texels[18] == 129);
+    CHECK(lmb_normal_map_mips(texels, 2, 2, 2) == LMB_OK && texels[16] == 128 && texels[17] == 128 &&
+          texels[18] == 129);
     CHECK(lmb_normal_map_mips(NULL, 2, 2, 2) == LMB_ERR_ARG && lmb_normal_map_mips(texels, 2, 2, 9) == LMB_ERR_ARG);
 }
 

@@ -110,7 +110,8 @@ static lmb_target draw(const lmb_kernels *k, int32_t x0, int32_t y0, int32_t wid
 /* Planes of pixel k of two tiles. */
 static int same_pixel(const lmb_tile *a, const lmb_tile *b, int k)
 {
-    int same = a->id[k] == b->id[k] && a->depth[k] == b->depth[k] && a->uv[0][k] == b->uv[0][k] && a->uv[1][k] == b->uv[1][k];
+    int same =
+        a->id[k] == b->id[k] && a->depth[k] == b->depth[k] && a->uv[0][k] == b->uv[0][k] && a->uv[1][k] == b->uv[1][k];
     for (int c = 0; c < 3; ++c) {
         same = same && a->position[c][k] == b->position[c][k] && a->face[c][k] == b->face[c][k] &&
                a->normal[c][k] == b->normal[c][k] && a->albedo[c][k] == b->albedo[c][k];
@@ -146,8 +147,8 @@ static void check_tile(const lmb_kernels *k, const lmb_target *t, int32_t x, int
         }
         wrong += only.id[i] != tile.id[i];
     }
-    CHECK_MSG(wrong == 0, "%s: %d values of tile %d %d differ in a window at %d %d", lmb_kernels_name(k), wrong, (int)x, (int)y,
-              (int)t->x0, (int)t->y0);
+    CHECK_MSG(wrong == 0, "%s: %d values of tile %d %d differ in a window at %d %d", lmb_kernels_name(k), wrong, (int)x,
+              (int)y, (int)t->x0, (int)t->y0);
 }
 
 static void test_windows(const lmb_kernels *k, test_rng *r)

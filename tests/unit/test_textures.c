@@ -494,8 +494,8 @@ static void test_albedo_only(void)
             CHECK(resolve(x, y) == LMB_OK);
             CHECK(lmb_resolve_albedo(&only, lmb_kernels_pick(), &st.view, &st.scene, &st.target, x, y) == LMB_OK);
             CHECK(only.x == x && only.y == y && only.hits == tile.hits);
-            CHECK(memcmp(only.albedo, tile.albedo, sizeof only.albedo) == 0 && memcmp(only.uv, tile.uv, sizeof only.uv) == 0 &&
-                  memcmp(only.id, tile.id, sizeof only.id) == 0);
+            CHECK(memcmp(only.albedo, tile.albedo, sizeof only.albedo) == 0 &&
+                  memcmp(only.uv, tile.uv, sizeof only.uv) == 0 && memcmp(only.id, tile.id, sizeof only.id) == 0);
         }
     }
     CHECK(lmb_resolve_albedo(NULL, lmb_kernels_pick(), &st.view, &st.scene, &st.target, 0, 0) == LMB_ERR_ARG);

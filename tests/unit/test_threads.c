@@ -133,7 +133,8 @@ static void test_crew(void)
     lmb_stats one, many;
     memset(&one, 0, sizeof one);
     lmb_frame f = make_frame(0, &one);
-    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && one.discs > 100 && one.triangles >= 7 * lmb_scene_triangles(&lit));
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && one.discs > 100 &&
+          one.triangles >= 7 * lmb_scene_triangles(&lit));
     for (int threads = 1; threads <= THREADS; ++threads) {
         crew c;
         int32_t stage;
