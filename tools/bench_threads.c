@@ -15,22 +15,6 @@
 #include "bench_scene.h"
 #include "demo_scene.h"
 
-static const char help_text[] =
-    "usage: lambent bench threads [--threads N] [--seconds S] [--data FOLDER] [--backend NAME]\n"
-    "\n"
-    "Times the gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads (2), "
-    "and\n"
-    "in N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is "
-    "all\n"
-    "that this machine gives.\n"
-    "\n"
-    "  --threads N    2 .. 64\n"
-    "  --seconds S    of each case (default: 4)\n"
-    "  --data FOLDER  of sponza.mesh (default: the environment's BENCH_DATA)\n"
-    "  --backend NAME scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage\n";
-
 enum {
     WIDTH = 320,
     HEIGHT = 240,
@@ -40,13 +24,6 @@ enum {
     ROUNDS_MIN = 5,
     ROUNDS_MAX = 1000
 };
-
-typedef struct options {
-    const char *folder;
-    const lmb_kernels *kernels;
-    int threads, help;
-    double seconds;
-} options;
 
 /* One work: `parts` pieces that may be done at once; as many as threads, or the work's own number. */
 typedef struct bench_work {
@@ -193,7 +170,7 @@ static int run_processes(const process *p, int count)
     return good;
 }
 
-static int take_turns(turns *t, bench_work *w, const process *p, const options *o)
+static int take_turns(turns *t, bench_work *w, const process *p, const threads_options *o)
 {
     const double end = host_seconds() + o->seconds;
     int good = 1;
@@ -212,7 +189,7 @@ static int take_turns(turns *t, bench_work *w, const process *p, const options *
     return good;
 }
 
-static void print_turns(const bench_work *w, turns *t, const options *o)
+static void print_turns(const bench_work *w, turns *t, const threads_options *o)
 {
     const double alone = least(t->alone, t->count), threads = least(t->threads, t->count),
                  processes = least(t->processes, t->count);
@@ -225,7 +202,7 @@ static void print_turns(const bench_work *w, turns *t, const options *o)
     fflush(stdout);
 }
 
-static int measure(bench_work *w, const options *o, report *r)
+static int measure(bench_work *w, const threads_options *o, report *r)
 {
     process p[POOL_MAX];
     static turns t;
@@ -246,7 +223,7 @@ static int measure(bench_work *w, const options *o, report *r)
 
 /* --- the cases ------------------------------------------------------------------------------------------------------ */
 
-static int measure_gather(const options *o, report *r)
+static int measure_gather(const threads_options *o, report *r)
 {
     gather_job *g = malloc(sizeof *g);
     bench_work w = {"gather-demo-320x240", gather_band, g, HEIGHT / LMB_TILE, 0};
@@ -259,7 +236,7 @@ static int measure_gather(const options *o, report *r)
     return ok;
 }
 
-static int measure_maps(const options *o, report *r)
+static int measure_maps(const threads_options *o, report *r)
 {
     static const bench_case of = {"sponzaL", BENCH_SPONZA_LIGHT, BENCH_DEPTH, MAP, MAP, 0};
     static const char *const names[2] = {"sponzaL-depth-2048", "sponzaL-depth-id-2048"};
@@ -282,72 +259,10 @@ static int measure_maps(const options *o, report *r)
     return ok;
 }
 
-/* --- the command line ----------------------------------------------------------------------------------------------- */
-
-static int parse_value(options *o, const char *name, const char *value, report *r)
+int bench_threads(const threads_options *o, report *r)
 {
-    if (strcmp(name, "--threads") == 0) {
-        o->threads = atoi(value);
-        return (o->threads >= 2 && o->threads <= POOL_MAX) ||
-               report_fail(r, "--threads %s: not 2 .. %d", value, POOL_MAX);
+    if (o->folder == NULL) {
+        return report_fail(r, "where is sponza.mesh? Give --data FOLDER or set BENCH_DATA");
     }
-    if (strcmp(name, "--seconds") == 0) {
-        o->seconds = strtod(value, NULL);
-        return (o->seconds > 0.0 && o->seconds < 1e4) || report_fail(r, "--seconds %s: not a time over 0", value);
-    }
-    if (strcmp(name, "--backend") == 0) {
-        o->kernels = lmb_kernels_named(value);
-        return o->kernels != NULL || report_fail(r, "--backend %s: not here; this machine's best is %s", value,
-                                                 lmb_kernels_name(lmb_kernels_pick()));
-    }
-    if (strcmp(name, "--data") == 0) {
-        o->folder = value;
-        return 1;
-    }
-    return report_fail(r, "unknown option '%s'; see lambent bench threads --help", name);
-}
-
-static int parse(options *o, int argc, char **argv, report *r)
-{
-    const char *folder = getenv("BENCH_DATA");
-    memset(o, 0, sizeof *o);
-    o->folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
-    o->kernels = lmb_kernels_pick();
-    o->threads = 2;
-    o->seconds = 4.0;
-    for (int i = 1; i < argc; i += 2) {
-        if (strcmp(argv[i], "--help") == 0) {
-            return o->help = 1;
-        }
-        if (i + 1 == argc) {
-            return report_fail(r, "%s: its value is missing, or it is none; see lambent bench threads --help", argv[i]);
-        }
-        if (!parse_value(o, argv[i], argv[i + 1], r)) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-int bench_threads(int argc, char **argv)
-{
-    options o;
-    report r = {""};
-    if (!parse(&o, argc, argv, &r)) {
-        fprintf(stderr, "lambent bench: %s\n", r.text);
-        return 2;
-    }
-    if (o.help) {
-        fputs(help_text, stdout);
-        return 0;
-    }
-    int ok = measure_gather(&o, &r);
-    if (ok) {
-        ok = o.folder != NULL ? measure_maps(&o, &r)
-                              : report_fail(&r, "where is sponza.mesh? Give --data FOLDER or set BENCH_DATA");
-    }
-    if (!ok) {
-        fprintf(stderr, "lambent bench: %s\n", r.text);
-    }
-    return !ok;
+    return measure_gather(o, r) && measure_maps(o, r);
 }

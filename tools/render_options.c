@@ -21,8 +21,7 @@ const char render_usage[] =
     "                             instead of the scene's lights; may be repeated, lights add up. KIND is spot, point\n"
     "                             or sun; position in metres, direction of travel; W/sr, sun W/m2; a spot's half\n"
     "                             angles in degrees (default 0,45)\n"
-    "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, less for many "
-    "lights)\n"
+    "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, less for many lights)\n"
     "bounce\n"
     "  --grouping zones|greedy|none   how lit points become groups (default zones)\n"
     "  --groups N                 groups at most (default 512)\n"
@@ -39,10 +38,8 @@ const char render_usage[] =
     "                             know what is off screen or hidden.\n"
     "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n"
     "picture\n"
-    "  --show full|direct|indirect|irradiance|depth|normal|albedo   (default full; irradiance: bounced, before "
-    "albedo)\n"
-    "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay "
-    "linear\n"
+    "  --show full|direct|indirect|irradiance|depth|normal|albedo   (default full; irradiance: bounced, before albedo)\n"
+    "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
     "other\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
     "  --threads N                that draw at once; the picture does not depend on it (default: the processors)\n"
@@ -150,8 +147,7 @@ static int parse_light(const char *text, lmb_light *out)
     }
     length = length < 1e-20 ? 1.0 : length;
     out->position = (lmb_vec3){p[0], p[1], p[2]};
-    out->direction =
-        (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length), (float)((double)d[2] / length)};
+    out->direction = (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length), (float)((double)d[2] / length)};
     memcpy(out->intensity, c, sizeof c);
     out->cos_inner = (float)cos((double)cone[0] * 3.14159265358979 / 180.0);
     out->cos_outer = (float)cos((double)cone[1] * 3.14159265358979 / 180.0);
@@ -161,8 +157,7 @@ static int parse_light(const char *text, lmb_light *out)
 static int parse_exposure(const char *text, render_options *o)
 {
     o->exposure_auto = strcmp(text, "auto") == 0;
-    return o->exposure_auto ||
-           (parse_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
+    return o->exposure_auto || (parse_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
 }
 
 static int parse_show(const char *text, render_options *o)

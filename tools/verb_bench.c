@@ -1,4 +1,4 @@
-/* verb_bench.c: `lambent bench`: the fixed raster workload, a line a case, as the other rasterizers print it; gather. */
+/* verb_bench.c: `lambent bench`: the fixed raster workload, the far gather, and what threads gain. */
 #include "verb_bench.h"
 
 #include <stdio.h>
@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../platform/host/host.h"
+#include "../platform/host/pool.h"
 #include "bench_gather.h"
 #include "bench_rates.h"
 #include "bench_scene.h"
@@ -14,45 +15,44 @@
 static const char help_text[] =
     "usage: lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
     "       lambent bench gather [--backend NAME] [--seconds S] [--json]\n"
+    "       lambent bench threads [--threads N] [--data FOLDER] [--backend NAME] [--seconds S]\n"
     "\n"
-    "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median time of "
-    "a\n"
-    "frame (clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a case's name; without "
-    "one,\n"
-    "all. fill-depth cases end with pixels a second and `share`, of the rate at which the back end reads, tests and\n"
-    "writes 16 KiB of depths in its cache.\n"
+    "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median\n"
+    "time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a\n"
+    "case's name; without one, all. fill-depth cases end with pixels a second and `share`, of the rate at\n"
+    "which the back end reads, tests and writes 16 KiB of depths in its cache.\n"
     "\n"
-    "gather: the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
-    "Prints\n"
-    "a line a back end: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what the same run "
-    "finds\n"
-    "the machine can do with the kernel's own operations (`ops_per_vector`, counted by running it over verbs that "
-    "count):\n"
-    "each operation is timed in registers alone (`cycles_per_op`), and for what it adds to a unit that "
-    "multiplications,\n"
-    "additions, maxima or divisions keep busy. The most loaded unit's time is the bound (`unit`, `load_per_op`). "
-    "Loads,\n"
-    "stores, masks, branches and waiting for results count as nothing. A cycle is that of a chain of integer "
-    "operations.\n"
+    "gather: the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one\n"
+    "group. Prints a line a back end: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is\n"
+    "what the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by\n"
+    "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for\n"
+    "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded\n"
+    "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results\n"
+    "count as nothing. A cycle is that of a chain of integer operations.\n"
+    "\n"
+    "threads: the gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N\n"
+    "threads, and in N processes at once, in turn. `of processes` is what the threads gain over what the\n"
+    "processes do: 100 % is all that this machine gives.\n"
     "\n"
     "  --data FOLDER    of bunny.mesh and sponza.mesh (default: the environment's BENCH_DATA)\n"
-    "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128 (default: raster, this machine's best; gather, all)\n"
-    "  --seconds S      of each case, or back end (default: 1.5)\n"
+    "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128 (default: this machine's best; gather: all)\n"
+    "  --seconds S      of each case, or back end (default: 1.5; threads: 4)\n"
+    "  --threads N      2 .. 64 (default: 2)\n"
     "  --linear         with depth copied into plain rows, which other programs read\n"
     "  --json           one object a line\n"
     "\n"
-    "lambent bench threads: what several threads gain; see its --help\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read, 2 bad usage\n";
+    "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage\n";
 
 enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
+
+enum { RASTER, GATHER, THREADS, NOTHING };
 
 typedef struct options {
     const char *folder;
     const lmb_kernels *kernels; /* NULL: all in turn */
     const char *const *cases;
-    int case_count, gather, linear, json, help;
-    double seconds;
+    int case_count, what, threads, linear, json, help;
+    double seconds; /* 0: as is usual */
 } options;
 
 /* One case's memory. */
@@ -231,9 +231,29 @@ static const char *value_of(int *i, int argc, char **argv, report *r)
     return NULL;
 }
 
+static int parse_value(options *o, const char *name, const char *value, report *r)
+{
+    if (strcmp(name, "--data") == 0) {
+        o->folder = value;
+        return 1;
+    }
+    if (strcmp(name, "--backend") == 0) {
+        o->kernels = lmb_kernels_named(value);
+        return o->kernels != NULL || report_fail(r, "--backend %s: not here; this machine's best is %s", value,
+                                                 lmb_kernels_name(lmb_kernels_pick()));
+    }
+    if (strcmp(name, "--threads") == 0) {
+        o->threads = atoi(value);
+        return (o->threads >= 2 && o->threads <= POOL_MAX) ||
+               report_fail(r, "--threads %s: not 2 .. %d", value, POOL_MAX);
+    }
+    o->seconds = strtod(value, NULL);
+    return (o->seconds > 0.0 && o->seconds < 1e4) || report_fail(r, "--seconds %s: not a time over 0", value);
+}
+
 static int parse_option(options *o, int *i, int argc, char **argv, report *r)
 {
-    const char *name = argv[*i], *value = NULL;
+    const char *name = argv[*i], *value;
     if (strcmp(name, "--help") == 0) {
         return o->help = 1;
     }
@@ -243,24 +263,23 @@ static int parse_option(options *o, int *i, int argc, char **argv, report *r)
     if (strcmp(name, "--json") == 0) {
         return o->json = 1;
     }
-    if (strcmp(name, "--data") != 0 && strcmp(name, "--backend") != 0 && strcmp(name, "--seconds") != 0) {
+    if (strcmp(name, "--data") != 0 && strcmp(name, "--backend") != 0 && strcmp(name, "--seconds") != 0 &&
+        strcmp(name, "--threads") != 0) {
         return report_fail(r, "unknown option '%s'; see lambent bench --help", name);
     }
     value = value_of(i, argc, argv, r);
-    if (value == NULL) {
-        return 0;
+    return value != NULL && parse_value(o, name, value, r);
+}
+
+/* The first word says what is measured; more of them only mean something to raster. */
+static int what_of(const options *o)
+{
+    static const char *const names[] = {"raster", "gather", "threads"};
+    int what = RASTER;
+    while (o->case_count > 0 && what < NOTHING && strcmp(o->cases[0], names[what]) != 0) {
+        ++what;
     }
-    if (strcmp(name, "--data") == 0) {
-        o->folder = value;
-    } else if (strcmp(name, "--backend") == 0) {
-        o->kernels = lmb_kernels_named(value);
-        return o->kernels != NULL || report_fail(r, "--backend %s: not here; this machine's best is %s", value,
-                                                 lmb_kernels_name(lmb_kernels_pick()));
-    } else {
-        o->seconds = strtod(value, NULL);
-        return (o->seconds > 0.0 && o->seconds < 1e4) || report_fail(r, "--seconds %s: not a time over 0", value);
-    }
-    return 1;
+    return o->case_count == 0 || (what != RASTER && o->case_count > 1) ? NOTHING : what;
 }
 
 /* Words that are no options are parts of cases' names; they are moved to the front of argv. */
@@ -269,7 +288,7 @@ static int parse(options *o, int argc, char **argv, report *r)
     const char *folder = getenv("BENCH_DATA");
     memset(o, 0, sizeof *o);
     o->folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
-    o->seconds = 1.5;
+    o->threads = 2;
     o->cases = (const char *const *)argv;
     for (int i = 1; i < argc; ++i) {
         if (argv[i][0] != '-') {
@@ -281,22 +300,20 @@ static int parse(options *o, int argc, char **argv, report *r)
     if (o->help) {
         return 1;
     }
-    o->gather = o->case_count == 1 && strcmp(o->cases[0], "gather") == 0;
-    if (!o->gather && (o->case_count == 0 || strcmp(o->cases[0], "raster") != 0)) {
-        return report_fail(r, "what is to be measured? `lambent bench raster` or `lambent bench gather`; see --help");
+    o->what = what_of(o);
+    if (o->what == NOTHING) {
+        return report_fail(r, "what is to be measured? `lambent bench raster`, `gather` or `threads`; see --help");
     }
-    o->kernels = o->kernels == NULL && !o->gather ? lmb_kernels_pick() : o->kernels;
+    o->kernels = o->kernels == NULL && o->what != GATHER ? lmb_kernels_pick() : o->kernels;
+    o->seconds = o->seconds > 0.0 ? o->seconds : o->what == THREADS ? 4.0 : 1.5;
     ++o->cases;
     --o->case_count;
     return 1;
 }
 
-static int run(const options *o, report *r)
+static int run_raster(const options *o, report *r)
 {
     int wanted = 0;
-    if (o->gather) {
-        return bench_gather(o->kernels, o->seconds, o->json, r);
-    }
     for (int i = 0; i < bench_case_count; ++i) {
         if (is_wanted(&bench_cases[i], o)) {
             ++wanted;
@@ -308,13 +325,20 @@ static int run(const options *o, report *r)
     return wanted > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
 }
 
+static int run(const options *o, report *r)
+{
+    const threads_options threads = {o->folder, o->kernels, o->threads, o->seconds};
+    switch (o->what) {
+    case GATHER: return bench_gather(o->kernels, o->seconds, o->json, r);
+    case THREADS: return bench_threads(&threads, r);
+    default: return run_raster(o, r);
+    }
+}
+
 int verb_bench(int argc, char **argv)
 {
     options o;
     report r = {""};
-    if (argc >= 2 && strcmp(argv[1], "threads") == 0) {
-        return bench_threads(argc - 1, argv + 1);
-    }
     if (!parse(&o, argc, argv, &r)) {
         fprintf(stderr, "lambent bench: %s\n", r.text);
         return 2;

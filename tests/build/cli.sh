@@ -137,6 +137,10 @@ check "a backend changes the picture" cmp "$dir/way1.ppm" "$dir/way3.ppm"
 check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
 check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
 check "bench raster holds filling against a peak" sh -c '"$1" bench raster fill-depth-pass --seconds 0.01 --json | grep -q ",.pixels_per_s.:[1-9][^,]*,.peak.:[1-9][^,]*,.share.:[0-9.]*}$"' sh "$TOOL"
+# Threads beside processes: wants more than one, and sponza.
+status 2 bench threads --threads 1
+status 2 bench threads gather
+BENCH_DATA= status 1 bench threads --seconds 0.01
 # The gather, a line for each machine that is here; how fast is nobody's promise.
 n='[0-9.]*(e[+-][0-9]*)?' # a number
 ops="\\{(\"[a-z]+\":$n,?){7}\\}"
