@@ -2,11 +2,8 @@
 # CORE: m4f (mps2-an386), m7 (mps2-an500), m55 with Helium (mps3-an547).
 CORE        ?= m4f
 ARM         ?= arm-none-eabi-
-override CC := $(ARM)gcc
-override AR := $(ARM)ar
-override NM := $(ARM)nm
-override SIZE := $(ARM)size
-CFLAGS      ?= -Os
+CROSS_PREFIX := $(ARM)
+include platform/freestanding/tools.mk
 
 core_m4f := -mcpu=cortex-m4 -mfpu=fpv4-sp-d16
 core_m7  := -mcpu=cortex-m7 -mfpu=fpv5-d16

@@ -1,11 +1,8 @@
 # riscv32: a 32-bit RISC-V with a single-precision FPU (RV32IMAFC), without operating system or libc, under qemu's
 # `virt`; output by semihosting.
 RISCV       ?= riscv64-unknown-elf-
-override CC := $(RISCV)gcc
-override AR := $(RISCV)ar
-override NM := $(RISCV)nm
-override SIZE := $(RISCV)size
-CFLAGS      ?= -Os
+CROSS_PREFIX := $(RISCV)
+include platform/freestanding/tools.mk
 
 PORT_SRC     := platform/riscv32/start_riscv32.c $(addprefix platform/freestanding/,bare.c floorf.c memory.c)
 PORT_CFLAGS  := -march=rv32imafc -mabi=ilp32f -mcmodel=medany -ffreestanding -fbuiltin -ffunction-sections \
