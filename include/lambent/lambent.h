@@ -8,6 +8,7 @@
 #include "scene.h"
 #include "raster.h"
 #include "map.h"
+#include "occlusion.h"
 #include "light.h"
 #include "bounce.h"
 #include "compose.h"

@@ -11,6 +11,7 @@
 #include "../raster/texture.inl"
 #include "../light/direct.inl"
 #include "../bounce/gather.inl"
+#include "../occlusion/crossed.inl"
 #include "../compose/blend.inl"
 #include "../compose/encode.inl"
 
@@ -26,6 +27,6 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     MACHINE,         LANES,
     KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large), KERNEL(fill),
     KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve), KERNEL(texture),
-    KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(blend),
-    KERNEL(encode),  KERNEL(probe),
+    KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(crossed),
+    KERNEL(blend),   KERNEL(encode),     KERNEL(probe),
 };

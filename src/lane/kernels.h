@@ -130,6 +130,13 @@ typedef struct lmb_march_job {
     int32_t kind, steps, perspective;
 } lmb_march_job;
 
+/* A triangle as a point `at` sees it: a segment from there along d crosses it where every edge . d >= 0 and
+ * normal . d > beyond. */
+typedef struct lmb_cross_job {
+    lmb_vec3 at, edge[3], normal;
+    float beyond; /* of `at` from the plane and the noise, m */
+} lmb_cross_job;
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -155,6 +162,8 @@ struct lmb_kernels {
     /* The flagged pixels of one near group, through its discs. */
     void (*gather_near)(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                         uint32_t count, const lmb_march_job *march);
+    /* Of `pixels`, one bit each, those whose segment to the point crosses the triangle. */
+    uint64_t (*crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_cross_job *job);
     void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                   const lmb_irradiance *indirect);
     /* sRGB codes 0 .. 255 of radiance x gain. */

@@ -665,6 +665,29 @@ static int trial_gather_near(const trial *t, test_rng r)
     return equal;
 }
 
+/* --- occlusion -------------------------------------------------------------------------------------------------------- */
+
+/* Planes through the pixels' own places now and then, so that sides are 0. */
+static int trial_crossed(const trial *t, test_rng r)
+{
+    static lmb_tile tile;
+    lmb_cross_job job;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    make_gather_tile(&tile, t, &r, rare);
+    job.at = place(&r, 2.0f, rare);
+    for (int i = 0; i < 3; ++i) {
+        const int k = (int)(test_random(&r) % LMB_TILE_PIXELS);
+        const lmb_vec3 p = vec3(tile.position[0][k], tile.position[1][k], tile.position[2][k]);
+        job.edge[i] = t->seed % 3u ? direction(&r) : cross3(sub3(p, job.at), direction(&r));
+    }
+    job.normal = direction(&r);
+    job.beyond = test_uniform(&r, -1.0f, 1.0f);
+    const uint64_t all = (uint64_t)test_random(&r) << 32 | test_random(&r);
+    const uint64_t pixels = t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
+    const uint64_t want = lmb_kernels_scalar.crossed(&tile, pixels, &job), got = t->kernels->crossed(&tile, pixels, &job);
+    return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
+}
+
 /* --- encode ----------------------------------------------------------------------------------------------------------- */
 
 /* Around thresholds and anywhere, against the search through the table. */
@@ -701,6 +724,7 @@ static const struct kernel {
     {"direct", trial_direct},
     {"gather", trial_gather},
     {"gather_near", trial_gather_near},
+    {"crossed", trial_crossed},
     {"blend", trial_blend},
     {"encode", trial_encode},
 };

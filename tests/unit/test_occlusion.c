@@ -1,0 +1,195 @@
+/* test_occlusion.c: what stands between a tile and a point: against every triangle in binary64, and what must not leak. */
+#include <math.h>
+
+#include "../world.h"
+
+void test_occlusion(void);
+
+static uint32_t memory[1 << 19];
+
+/* The world's triangles as blockers. */
+static lmb_blockers blockers_of_world(void)
+{
+    lmb_blockers b;
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_init(&b, world.count, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
+    return b;
+}
+
+static void minus(double out[3], const float a[3], lmb_vec3 b)
+{
+    out[0] = (double)a[0] - (double)b.x;
+    out[1] = (double)a[1] - (double)b.y;
+    out[2] = (double)a[2] - (double)b.z;
+}
+
+/* How surely a segment crosses a triangle: > 0 crosses, < 0 does not; near 0 either answer will do. Relative. */
+static double crosses(float tri[3][3], lmb_vec3 from, lmb_vec3 to)
+{
+    const float end[3] = {to.x, to.y, to.z};
+    double p[3][3], d[3], n[3], e[3], vol = 0.0;
+    minus(d, end, from);
+    for (int i = 0; i < 3; ++i) {
+        minus(p[i], tri[i], from);
+    }
+    for (int i = 0; i < 3; ++i) {
+        const double *a = p[(i + 1) % 3], *b = p[(i + 2) % 3];
+        double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+        double length = sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]);
+        e[i] = (c[0] * d[0] + c[1] * d[1] + c[2] * d[2]) / (length > 0.0 ? length : 1.0);
+        vol += i == 0 ? c[0] * p[0][0] + c[1] * p[0][1] + c[2] * p[0][2] : 0.0;
+    }
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        n[i] = (p[1][j] - p[0][j]) * (p[2][k] - p[0][k]) - (p[1][k] - p[0][k]) * (p[2][j] - p[0][j]);
+    }
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), side = vol < 0.0 ? -1.0 : 1.0;
+    const double ahead = fabs(vol) / length, past = side * (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]) / length - ahead;
+    double least = fmin(ahead, past);
+    for (int i = 0; i < 3; ++i) {
+        least = fmin(least, side * e[i]);
+    }
+    return least;
+}
+
+static lmb_vec3 random_point(test_rng *r, float half)
+{
+    const float x = test_uniform(r, -half, half), y = test_uniform(r, -half, half);
+    return vec3(x, y, test_uniform(r, -half, half));
+}
+
+static void fill_tile(lmb_tile *tile, lmb_vec3 middle, float half, test_rng *r)
+{
+    memset(tile, 0, sizeof *tile);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_plane(tile->position, k, add3(middle, random_point(r, half)));
+    }
+}
+
+/* Random triangles of all sizes, tiles of all sizes: each pixel's answer is that of all triangles one by one. */
+static void every_triangle(void)
+{
+    test_rng r = {77};
+    int blocked = 0, open = 0, wrong = 0;
+    for (int scene = 0; scene < 12; ++scene) {
+        const float size = scene % 3 == 0 ? 2.0f : scene % 3 == 1 ? 0.3f : 0.05f;
+        world_begin(1, 1, 1);
+        for (int i = 0; i < (scene % 3 == 0 ? 6 : 300); ++i) {
+            const lmb_vec3 at = random_point(&r, 1.0f);
+            const lmb_vec3 b = add3(at, random_point(&r, size)), c = add3(at, random_point(&r, size));
+            world_triangle(at, b, c);
+        }
+        lmb_blockers b = blockers_of_world();
+        for (int round = 0; round < 40; ++round) {
+            lmb_tile tile;
+            const lmb_vec3 at = random_point(&r, 1.5f);
+            const float half = round % 2 ? 0.01f : 0.7f;
+            fill_tile(&tile, random_point(&r, 1.0f), half, &r);
+            const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
+            const uint64_t got = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, asked, at);
+            CHECK((got & ~asked) == 0);
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                double surest = -1.0;
+                for (uint32_t i = 0; i < world.count; ++i) {
+                    surest = fmax(surest, crosses(world.corners[i], at, plane_vec(tile.position, k)));
+                }
+                if ((asked >> k & 1u) != 0 && fabs(surest) > 3e-5) {
+                    const int is = (int)(got >> k & 1u);
+                    wrong += is != (surest > 0.0);
+                    blocked += is;
+                    open += !is;
+                }
+            }
+        }
+    }
+    CHECK_MSG(wrong == 0, "%d wrong", wrong);
+    CHECK_MSG(blocked > 2000 && open > 2000, "%d blocked, %d open", blocked, open);
+}
+
+/* A sphere of many triangles has no gap: from outside nothing inside is seen; and its own points see what is above. */
+static void no_gap_no_acne(void)
+{
+    test_rng r = {5};
+    lmb_tile tile;
+    uint64_t leaks = 0, acne = 0;
+    world_begin(1, 1, 1);
+    world_sphere(vec3(0.3f, 0.1f, -0.2f), 1.0f, 48, 96);
+    lmb_blockers b = blockers_of_world();
+    for (int round = 0; round < 400; ++round) {
+        const lmb_vec3 out = normalize3(random_point(&r, 1.0f));
+        fill_tile(&tile, vec3(0.3f, 0.1f, -0.2f), 0.3f, &r);
+        leaks |= ~lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), mul3(out, 4.0f));
+        float(*t)[3] = world.corners[test_random(&r) % world.count];
+        const lmb_vec3 a = vec3(t[0][0], t[0][1], t[0][2]), u = sub3(vec3(t[1][0], t[1][1], t[1][2]), a),
+                       v = sub3(vec3(t[2][0], t[2][1], t[2][2]), a);
+        const lmb_vec3 n = normalize3(sub3(add3(a, mul3(add3(u, v), 0.33f)), vec3(0.3f, 0.1f, -0.2f)));
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* to the very edges */
+            const float s = (float)(k % 8) / 7.0f, q = (float)(k / 8) / 7.0f * (1.0f - s);
+            set_plane(tile.position, k, add3(a, add3(mul3(u, s), mul3(v, q))));
+        }
+        acne |= lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), add3(a, mul3(n, 3.0f)));
+    }
+    CHECK(leaks == 0);
+    CHECK(acne == 0);
+}
+
+/* Nothing, a full house, too little room; all triangles in one place, where no cut helps. */
+static void capacities(void)
+{
+    lmb_blockers b;
+    lmb_tile tile;
+    test_rng r = {9};
+    world_begin(1, 1, 1);
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_init(&b, 8, memory, lmb_blockers_bytes(8)) == LMB_OK);
+    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.node_count == 0);
+    fill_tile(&tile, vec3(0, 0, 0), 0.1f, &r);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
+    for (int i = 0; i < 9; ++i) {
+        world_triangle(vec3(-1, 0.5f, -1), vec3(2, 0.5f, -1), vec3(-1, 0.5f, 2));
+    }
+    world.first = 0;
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_ERR_CAPACITY);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
+    CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9)) == LMB_OK);
+    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count <= 17);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0)) == 5);
+    CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9) - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_blockers_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
+    CHECK(lmb_blockers_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);
+    CHECK(lmb_blockers_build(NULL, &world.scene) == LMB_ERR_ARG);
+}
+
+/* A masked triangle blocks where it stands. */
+static void holes(void)
+{
+    static const uint8_t half_open[8] = {255, 255, 255, 255, 255, 255, 255, 0};
+    lmb_tile tile;
+    memset(&tile, 0, sizeof tile);
+    world_begin(1, 1, 1);
+    world.texture.texels = half_open;
+    world.texture.width = 2;
+    world.texture.height = 1;
+    world.texture.levels = 1;
+    world.material[0].texture = 0;
+    world.material[0].flags |= LMB_ALPHA_MASK;
+    world.material[0].alpha_cutoff = 0.5f;
+    world_quad(vec3(0, 1, 0), Z, X);
+    lmb_blockers b = blockers_of_world();
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_plane(tile.position, k, vec3(0.5f * ((float)(k % 8) - 3.5f) / 4.0f, 0, 0.9f * ((float)(k / 8) - 3.5f) / 4.0f));
+    }
+    /* From straight above the plane's points lie over the pixels; u grows with z. */
+    const uint64_t blocked = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), vec3(0, 1000, 0));
+    CHECK_MSG(blocked == UINT64_C(0xffffffff), "%08x%08x", (unsigned)(blocked >> 32), (unsigned)blocked);
+}
+
+void test_occlusion(void)
+{
+    every_triangle();
+    no_gap_no_acne();
+    capacities();
+    holes();
+}
