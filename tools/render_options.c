@@ -170,15 +170,16 @@ static int parse_show(const char *text, render_options *o)
 
 static int parse_grouping(const char *text, render_options *o)
 {
-    static const char *const words[] = {"zones", "greedy", "none", NULL};
-    static const int32_t values[] = {LMB_GROUP_ZONES, LMB_GROUP_GREEDY, LMB_GROUP_NONE};
+    static const char *const words[] = {"cut", "zones", "greedy", "none", NULL};
+    static const int32_t values[] = {LMB_GROUP_CUT, LMB_GROUP_ZONES, LMB_GROUP_GREEDY, LMB_GROUP_NONE};
     return parse_word(text, words, values, &o->grouping.method);
 }
 
 static int parse_occlusion(const char *text, render_options *o)
 {
-    static const char *const words[] = {"none", "view", "view-world", NULL};
-    static const int32_t values[] = {LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW, LMB_OCCLUSION_VIEW_WORLD};
+    static const char *const words[] = {"exact", "none", "view", "view-world", NULL};
+    static const int32_t values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
+                                     LMB_OCCLUSION_VIEW_WORLD};
     return parse_word(text, words, values, &o->occlusion);
 }
 
@@ -220,6 +221,16 @@ static int parse_groups(const char *text, render_options *o)
 static int parse_number(const char *text, float low, float high, float *out)
 {
     return parse_floats(&text, out, 1) && *text == '\0' && *out >= low && *out <= high;
+}
+
+static int parse_error(const char *text, render_options *o)
+{
+    return parse_number(text, 1e-4f, 10.0f, &o->error);
+}
+
+static int parse_visible(const char *text, render_options *o)
+{
+    return parse_number(text, 1e-4f, 10.0f, &o->visible);
 }
 
 static int parse_neighbour(const char *text, render_options *o)
@@ -287,7 +298,9 @@ static const struct flag {
     {"--fov", parse_fov, "degrees, over 0 and under 179"},
     {"--light", add_light, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], at most 64 of them, angles <= 89"},
     {"--light-map", parse_light_map, "a multiple of 8, 8 .. 4096"},
-    {"--grouping", parse_grouping, "zones, greedy or none"},
+    {"--grouping", parse_grouping, "cut, zones, greedy or none"},
+    {"--error", parse_error, "a share, 0.0001 .. 10"},
+    {"--visible", parse_visible, "a share, 0.0001 .. 10"},
     {"--groups", parse_groups, "a number from 1 to the build's capacity (2048)"},
     {"--block", parse_block, "1, 2, 4 or 8"},
     {"--neighbour", parse_neighbour, "metres, 0 or more"},
@@ -296,7 +309,7 @@ static const struct flag {
     {"--cosine", parse_cosine, "a number from -1 to 1"},
     {"--misfits", parse_misfits, "keep or drop"},
     {"--centre", parse_centre, "barycentre or disc"},
-    {"--occlusion", parse_occlusion, "none, view or view-world"},
+    {"--occlusion", parse_occlusion, "exact, none, view or view-world"},
     {"--steps", parse_steps, "1 .. 64"},
     {"--show", parse_show, "full, direct, indirect, irradiance, depth, normal or albedo"},
     {"--exposure", parse_exposure, "stops (-60 .. 60) or auto"},

@@ -24,6 +24,7 @@ typedef struct render_options {
     int32_t show;
     int32_t light_map; /* 0: chosen */
     lmb_grouping grouping;
+    float error, visible; /* 0: default */
     int32_t occlusion, steps;
     int32_t exposure_auto;
     float exposure_ev;

@@ -30,7 +30,7 @@ typedef struct job {
     crew crew;
     lmb_stats stats;
     image linear;
-    void *map_memory, *point_memory, *depth_memory, *id_memory;
+    void *map_memory, *point_memory, *blocker_memory, *depth_memory, *id_memory;
     size_t bytes; /* of the above and the state */
     double load_s, write_s, total_s;
     double indirect_share;
@@ -40,6 +40,7 @@ static void job_free(job *j)
 {
     free(j->map_memory);
     free(j->point_memory);
+    free(j->blocker_memory);
     free(j->depth_memory);
     free(j->id_memory);
     free(j->frame.groups);
@@ -141,6 +142,27 @@ static int take_maps(job *j, report *r)
     return f->map_memory != NULL;
 }
 
+/* The tree of light, and of what blocks it. */
+static int take_tree(job *j, report *r)
+{
+    lmb_frame *f = &j->frame;
+    const uint32_t faces = total_faces(&j->scene), triangles = lmb_scene_triangles(&j->scene);
+    const size_t bytes = lmb_tree_bytes(faces, f->light_map), blocker_bytes = lmb_blockers_bytes(triangles);
+    if (bytes == 0) {
+        return report_fail(r, "--grouping cut: --light-map must be a power of two, 8 .. 4096, not %d",
+                           (int)f->light_map);
+    }
+    j->point_memory = take(j, bytes, r);
+    j->blocker_memory = take(j, f->occlusion == LMB_OCCLUSION_EXACT ? blocker_bytes : 0, r);
+    if (j->point_memory == NULL || j->blocker_memory == NULL) {
+        return 0;
+    }
+    if (f->occlusion == LMB_OCCLUSION_EXACT) {
+        lmb_blockers_init(&f->blockers, triangles, j->blocker_memory, blocker_bytes);
+    }
+    return lmb_tree_init(&f->tree, faces, f->light_map, j->point_memory, bytes) == LMB_OK;
+}
+
 /* Room for every block to hold all the surfaces that the library tells apart. */
 static int take_points(job *j, report *r)
 {
@@ -170,6 +192,7 @@ static int take_frame(job *j, report *r)
     j->id_memory = take(j, id, r);
     j->linear.pixels = take(j, out, r);
     f->scratch = j->crew.scratches = take(j, sizeof *f->scratch * (size_t)j->crew.threads, r);
+    if (f->scratch) memset(f->scratch, 0, sizeof *f->scratch * (size_t)j->crew.threads);
     j->render = take(j, sizeof *j->render, r);
     if (r->text[0] != '\0') {
         return 0;
@@ -200,12 +223,17 @@ static int set_frame(job *j, report *r)
     f->grouping = j->o.grouping;
     f->occlusion = j->o.occlusion;
     f->steps = j->o.steps;
+    f->error = j->o.error;
+    f->visible = j->o.visible;
     f->id_format = LMB_ID32;
     f->stats = &j->stats;
     if (j->o.show >= SHOW_DEPTH) {
         return take_frame(j, r);
     }
-    return take_maps(j, r) && (j->o.show == LMB_SHOW_DIRECT || take_points(j, r)) && take_frame(j, r);
+    return take_maps(j, r) &&
+           (j->o.show == LMB_SHOW_DIRECT ||
+            (f->grouping.method == LMB_GROUP_CUT ? take_tree(j, r) : take_points(j, r))) &&
+           take_frame(j, r);
 }
 
 /* --- drawing -------------------------------------------------------------------------------------------------------- */
@@ -363,6 +391,12 @@ static int write_stats(const job *j, report *r)
     char text[2048];
     int n = 0;
     const lmb_stats *s = &j->stats;
+    double nodes = 0, asked = 0;
+    for (int i = 0; i < j->crew.threads; ++i) {
+        nodes += (double)j->crew.scratches[i].gather.cut.nodes;
+        asked += (double)j->crew.scratches[i].gather.cut.asked;
+    }
+    fprintf(stderr, "NODES %g a tile, segments %g a pixel\n", nodes * 64 / (j->frame.view.frame_width * j->frame.view.frame_height), asked / (j->frame.view.frame_width * j->frame.view.frame_height));
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "{\n  \"width\": %d, \"height\": %d,\n  \"seconds\": {\"load\": %.6f", (int)j->frame.view.frame_width,
                   (int)j->frame.view.frame_height, j->load_s);

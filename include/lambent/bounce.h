@@ -48,7 +48,8 @@ typedef struct lmb_grouping {
     float cosine;           /* 0.9 a disc joins where the normals' cosine is at least this; -1: any    [V17] */
     uint32_t flags;         /* LMB_ZONES_STRICT                                                        [V20] */
 } lmb_grouping;
-enum { LMB_GROUP_ZONES = 0, LMB_GROUP_GREEDY = 1, LMB_GROUP_NONE = 2 };
+enum { LMB_GROUP_ZONES = 0, LMB_GROUP_GREEDY = 1, LMB_GROUP_NONE = 2,
+       LMB_GROUP_CUT = 3 /* lmb_render: each tile's own cut of the light's tree, see tree.h */ };
 enum { LMB_ZONES_STRICT = 1, /* discs that do not fit their zone's group are dropped; stats say how much flux */
        LMB_POINT_CENTRE = 2  /* a group stands at its first disc instead of the barycentre             [V22] */ };
 
@@ -76,7 +77,8 @@ typedef struct lmb_occluder {
  * and comes out again is blocked if it came nearer to what hid it than half its hidden length: things are taken to be
  * about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off screen or hidden
  * does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
-enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2 };
+enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2,
+       LMB_OCCLUSION_EXACT = 3 /* lmb_render with LMB_GROUP_CUT: all of the scene, see occlusion.h */ };
 
 /* Filled and read inside lmb_gather_tile. */
 typedef struct lmb_gather_scratch {

@@ -24,12 +24,23 @@
 #endif
 #endif
 
+/* Nodes of one tile's cut through the light's tree (lmb_cut). 20 bytes each. Full: the tile is lit by the nodes it has,
+ * coarser than asked for. */
+#ifndef LMB_MAX_CUT
+#ifdef LMB_CONFIG_TINY
+#define LMB_MAX_CUT 64
+#else
+#define LMB_MAX_CUT 8192
+#endif
+#endif
+
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_GATHER_PAIRS 128    /* pixels x groups that the gather takes together */
+#define LMB_CUT_BLOCK 64        /* nodes of a cut that are made ready together */
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
 #if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1

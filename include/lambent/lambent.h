@@ -11,6 +11,7 @@
 #include "occlusion.h"
 #include "light.h"
 #include "bounce.h"
+#include "tree.h"
 #include "compose.h"
 #include "render.h"
 

@@ -11,13 +11,17 @@
 
 #include "bounce.h"
 #include "compose.h"
+#include "tree.h"
 
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
 enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
 
 /* Everything that works on one band. Place it in fast RAM; one for each thread that draws bands. */
 typedef struct lmb_band_scratch {
-    lmb_gather_scratch gather;
+    union {
+        lmb_gather_scratch groups;
+        lmb_cut cut;
+    } gather;
     lmb_tile tile;
     lmb_irradiance direct, indirect;
     lmb_radiance radiance;
@@ -38,6 +42,8 @@ typedef struct lmb_frame {
     lmb_grouping grouping; /* zeros: defaults */
     int32_t occlusion;     /* LMB_OCCLUSION_* */
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
+    float error;           /* 0.02 where 0: LMB_GROUP_CUT: share of the bounced light that a pixel may be wrong by */
+    float visible;         /* 0.02 where 0: LMB_OCCLUSION_EXACT: share that is seen or not as one */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */
@@ -45,6 +51,8 @@ typedef struct lmb_frame {
     int32_t id_format;  /* LMB_ID32 (or 0), or LMB_ID16 for scenes under 65,536 triangles */
     lmb_points points;  /* data NULL: no bounced light */
     lmb_groups *groups; /* NULL: no bounced light */
+    lmb_tree tree;      /* LMB_GROUP_CUT: in place of points and groups; texel NULL: no bounced light */
+    lmb_blockers blockers; /* LMB_OCCLUSION_EXACT */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
     lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
     lmb_band_scratch *scratch;

@@ -8,11 +8,11 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "footprint.h"
 #include "points.h"
 
 #define ELEMENTS 4       /* a block's surfaces at most; more join the likest */
 #define COS_25 0.90630779f
-#define GRAZE 0.02f      /* cosine under which a texel's footprint is not stretched further */
 
 size_t lmb_points_bytes(uint32_t n, uint32_t side)
 {
@@ -95,16 +95,6 @@ static void add_texel(element *e, const lmb_tile *t, int k, const float power[3]
     ++e->count;
 }
 
-/* How the surface moves when the map moves by one texel along (sx, sy): the ray's plane slid along the ray. */
-static lmb_vec3 footprint(const lmb_view *v, lmb_vec3 p, lmb_vec3 n, lmb_vec3 step)
-{
-    lmb_vec3 ray = v->kind == LMB_PERSPECTIVE ? sub3(p, v->eye) : mul3(v->back, -1.0f);
-    float w = v->kind == LMB_PERSPECTIVE ? maxf(-dot3(v->back, ray), 0.0f) : 1.0f;
-    float slope = dot3(n, ray), least = GRAZE * length3(ray);
-    slope = slope < 0.0f ? minf(slope, -least) : maxf(slope, least);
-    return mul3(sub3(step, mul3(ray, dot3(n, step) / slope)), w);
-}
-
 /* Side of the quad, in texels, from the spread of the texels along one axis: exact for a full block. */
 static float spread(float sum, float sum2, float count)
 {
@@ -124,10 +114,9 @@ static void make_point(lmb_point *out, const element *e, const lmb_light_map *ma
         out->flux[c] = e->flux[c];
         out->albedo[c] = e->power[c] > 0.0f ? e->flux[c] / e->power[c] : 0.0f;
     }
-    lmb_vec3 step_x = mul3(v->right, 2.0f * v->half_width / (float)map->size);
-    lmb_vec3 step_y = mul3(v->up, 2.0f * v->half_height / (float)map->size);
-    out->axis_u = mul3(footprint(v, out->position, out->normal, step_x), fit * side_x);
-    out->axis_v = mul3(footprint(v, out->position, out->normal, step_y), fit * side_y);
+    footprint_sides(&out->axis_u, &out->axis_v, v, map->size, out->position, out->normal);
+    out->axis_u = mul3(out->axis_u, fit * side_x);
+    out->axis_v = mul3(out->axis_v, fit * side_y);
 }
 
 static int32_t block_of(const lmb_grouping *grouping)

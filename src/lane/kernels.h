@@ -6,6 +6,7 @@
 
 #include <lambent/bounce.h>
 #include <lambent/compose.h>
+#include <lambent/tree.h>
 
 #include "machines.h"
 
@@ -137,6 +138,12 @@ typedef struct lmb_cross_job {
     float beyond; /* of `at` from the plane and the noise, m */
 } lmb_cross_job;
 
+/* A tile's segments from a point, for asking boxes: 1 / (pixel - at) along each axis, at most 1e20 where that is 0. */
+typedef struct lmb_segments {
+    lmb_vec3 at;
+    float per[3][LMB_TILE_PIXELS];
+} lmb_segments;
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -162,8 +169,14 @@ struct lmb_kernels {
     /* The flagged pixels of one near group, through its discs. */
     void (*gather_near)(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                         uint32_t count, const lmb_march_job *march);
+    /* Emitters that some pixels see: added. `pairs` is scratch. */
+    void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,
+                       const lmb_emitter *emitters, int32_t count);
     /* Of `pixels`, one bit each, those whose segment to the point crosses the triangle. */
     uint64_t (*crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_cross_job *job);
+    void (*segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 at);
+    /* Of `pixels`, those whose segment meets the box. */
+    uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_box *box);
     void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                   const lmb_irradiance *indirect);
     /* sRGB codes 0 .. 255 of radiance x gain. */

@@ -98,6 +98,10 @@ static uint64_t standing(const lmb_blockers *b, const lmb_blocker *t, const lmb_
     return out;
 }
 
+/* Boxes asked by the pyramid alone; after them, each is asked by the segments themselves, which in a fine mesh mostly
+ * pass between its triangles. */
+#define BY_PYRAMID 16
+
 static uint64_t blocked_by_leaf(const lmb_blockers *b, const lmb_kernels *kernels, const lmb_tile *tile,
                                 uint64_t pixels, lmb_vec3 at, const lmb_box *leaf)
 {
@@ -113,32 +117,51 @@ static uint64_t blocked_by_leaf(const lmb_blockers *b, const lmb_kernels *kernel
     return blocked;
 }
 
+/* A node and the pixels whose segments may meet it. */
+typedef struct visit {
+    uint64_t pixels;
+    uint32_t node;
+} visit;
+
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
                           uint64_t pixels, lmb_vec3 at)
 {
-    uint32_t waiting[LMB_WALK_DEPTH];
+    visit waiting[LMB_WALK_DEPTH];
+    lmb_segments segments;
     uint64_t blocked = 0;
-    int count = 0;
+    int count = 0, asked = 0;
     if (pixels == 0 || blockers->node_count == 0) {
         return 0;
     }
     const pyramid p = pyramid_of(tile, pixels, at);
-    if (meets(&p, &blockers->node[0])) {
-        waiting[count++] = 0;
-    }
+    waiting[count].node = 0;
+    waiting[count++].pixels = pixels;
     while (count > 0) {
-        const lmb_box *node = &blockers->node[waiting[--count]];
+        const visit v = waiting[--count];
+        const lmb_box *node = &blockers->node[v.node];
+        uint64_t here = v.pixels & ~blocked;
+        if (here == 0 || !meets(&p, node)) {
+            continue;
+        }
+        if (++asked > BY_PYRAMID) {
+            if (asked == BY_PYRAMID + 1) {
+                kernels->segments(&segments, tile, at);
+            }
+            here = kernels->through(&segments, here, node);
+        }
+        if (here == 0) {
+            continue;
+        }
         if (node->count > 0) {
-            blocked |= blocked_by_leaf(blockers, kernels, tile, pixels & ~blocked, at, node);
+            blocked |= blocked_by_leaf(blockers, kernels, tile, here, at, node);
             if (blocked == pixels) {
                 break;
             }
             continue;
         }
         for (uint32_t i = 0; i < 2; ++i) {
-            if (meets(&p, &blockers->node[node->first + i])) {
-                waiting[count++] = node->first + i;
-            }
+            waiting[count].node = node->first + i;
+            waiting[count++].pixels = here;
         }
     }
     return blocked;

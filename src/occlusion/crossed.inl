@@ -1,4 +1,4 @@
-/* crossed.inl: which segments from a tile's pixels to a point cross one triangle. Lanes are pixels.           [V25]
+/* crossed.inl: which segments from a tile's pixels to a point cross a triangle, or a box. Lanes are pixels.   [V25]
  *
  * The edges' planes go through the point, so a segment crosses inside all three where its direction has the same side
  * of each; two triangles' planes through a shared edge are exactly opposite, so there is no gap between them. */
@@ -15,6 +15,52 @@ static uint64_t KERNEL(crossed)(const lmb_tile *tile, uint64_t pixels, const lmb
             const lane least = lane_min(lane_min(lane3_dot(e0, d), lane3_dot(e1, d)), lane3_dot(e2, d));
             const lane_mask inside = mask_and(lane_le(zero, least), lane_lt(beyond, lane3_dot(n, d)));
             out |= (uint64_t)(mask_bits(inside) & asked) << k;
+        }
+    }
+    return out;
+}
+
+/* 1 / d, as large as it may be. */
+static inline lane crossed_per(lane d)
+{
+    const lane thin = lane_splat(1e-20f), zero = lane_splat(0.0f);
+    const lane_mask back = lane_lt(d, zero);
+    const lane size = lane_max(lane_pick(back, lane_sub(zero, d), d), thin);
+    const lane per = lane_div(lane_splat(1.0f), size);
+    return lane_pick(back, lane_sub(zero, per), per);
+}
+
+static void KERNEL(segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 at)
+{
+    out->at = at;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lane3 d = lane3_sub(lane3_load(tile->position, k), lane3_of(at));
+        lane_store(out->per[0] + k, crossed_per(d.x));
+        lane_store(out->per[1] + k, crossed_per(d.y));
+        lane_store(out->per[2] + k, crossed_per(d.z));
+    }
+}
+
+static inline void crossed_slab(lane *from, lane *to, lane per, float low, float high)
+{
+    const lane a = lane_mul(lane_splat(low), per), b = lane_mul(lane_splat(high), per);
+    *from = lane_max(*from, lane_min(a, b));
+    *to = lane_min(*to, lane_max(a, b));
+}
+
+/* The box is wider than what it holds by more than all rounding here. */
+static uint64_t KERNEL(through)(const lmb_segments *segments, uint64_t pixels, const lmb_box *box)
+{
+    const lmb_vec3 low = sub3(box->low, segments->at), high = sub3(box->high, segments->at);
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t asked = (uint32_t)(pixels >> k) & (~0u >> (32 - LANES));
+        if (asked != 0) {
+            lane from = lane_splat(0.0f), to = lane_splat(1.0f);
+            crossed_slab(&from, &to, lane_load(segments->per[0] + k), low.x, high.x);
+            crossed_slab(&from, &to, lane_load(segments->per[1] + k), low.y, high.y);
+            crossed_slab(&from, &to, lane_load(segments->per[2] + k), low.z, high.z);
+            out |= (uint64_t)(mask_bits(lane_le(from, to)) & asked) << k;
         }
     }
     return out;

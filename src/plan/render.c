@@ -20,15 +20,23 @@ static int is_whole(const lmb_surface *s, const lmb_view *v)
 
 static int wants_direct(const lmb_frame *f) { return f->show == LMB_SHOW_FULL || f->show == LMB_SHOW_DIRECT; }
 
-static int wants_bounce(const lmb_frame *f)
+static int wants_cut(const lmb_frame *f)
 {
-    return f->show != LMB_SHOW_DIRECT && f->points.data != NULL && f->groups != NULL;
+    return f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT && f->tree.texel != NULL;
 }
+
+static int wants_groups(const lmb_frame *f)
+{
+    return f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT && f->points.data != NULL &&
+           f->groups != NULL;
+}
+
+static int wants_bounce(const lmb_frame *f) { return wants_cut(f) || wants_groups(f); }
 
 /* The depth map that occludes, or NULL. */
 static const lmb_surface *occluding_depth(const lmb_frame *f)
 {
-    if (f->occlusion == LMB_OCCLUSION_NONE || !wants_bounce(f)) {
+    if (f->occlusion == LMB_OCCLUSION_NONE || f->occlusion == LMB_OCCLUSION_EXACT || !wants_groups(f)) {
         return NULL;
     }
     return is_whole(&f->eye.depth, &f->view) ? &f->eye.depth : &f->eye_depth;
@@ -71,11 +79,15 @@ static lmb_status check_frame(const lmb_frame *f)
 {
     if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
         f->show > LMB_SHOW_IRRADIANCE || f->steps < 0 || f->steps > 64 || f->view.frame_width < 1 ||
-        f->view.frame_height < 1 || f->occlusion < LMB_OCCLUSION_NONE || f->occlusion > LMB_OCCLUSION_VIEW_WORLD) {
+        f->view.frame_height < 1 || f->occlusion < LMB_OCCLUSION_NONE || f->occlusion > LMB_OCCLUSION_EXACT || !(f->error > 0.0f) || !(f->visible > 0.0f)) {
         return LMB_ERR_ARG;
     }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {
         return LMB_ERR_CAPACITY;
+    }
+    if (wants_cut(f) ? f->tree.size != f->light_map || f->occlusion % LMB_OCCLUSION_EXACT != 0
+                     : f->occlusion == LMB_OCCLUSION_EXACT) {
+        return LMB_ERR_ARG;
     }
     if (f->id_format == LMB_ID16 && lmb_scene_triangles(f->scene) > 65535u) {
         return LMB_ERR_SCENE;
@@ -113,6 +125,9 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     lmb_frame *f = &r->frame;
     f->id_format = f->id_format != 0 ? f->id_format : LMB_ID32;
     f->steps = f->steps != 0 ? f->steps : 12;
+    f->error = f->error != 0.0f ? f->error : 0.02f;
+    f->visible = f->visible != 0.0f ? f->visible : 0.02f;
+    f->tree.faces = 0;
     f->points.count = 0;
     f->points.faces = 0;
     lmb_status status = check_frame(f);
@@ -149,8 +164,14 @@ static lmb_status step_light_map(lmb_render *r, int32_t units)
 static lmb_status end_face(lmb_render *r)
 {
     const lmb_light_map *map = &r->maps[r->light];
-    lmb_status status =
-        (map->drawn >> r->face) & 1u ? lmb_discs_join(&r->frame.points, map, &r->frame.grouping) : LMB_OK;
+    const int drawn = (map->drawn >> r->face) & 1u;
+    lmb_status status = LMB_OK;
+    if (wants_cut(&r->frame)) {
+        status = drawn ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
+        r->frame.tree.faces += drawn ? 1 : 0;
+    } else if (drawn) {
+        status = lmb_discs_join(&r->frame.points, map, &r->frame.grouping);
+    }
     r->place = 0;
     if (++r->face >= (uint32_t)map->faces) {
         r->face = 0;
@@ -170,7 +191,10 @@ static lmb_status step_points(lmb_render *r, int32_t units)
     uint32_t before = f->points.count;
     if ((map->drawn >> r->face) & 1u) {
         lmb_status status =
-            lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
+            wants_cut(f) ? lmb_tree_texels(&f->tree, f->kernels, &f->scratch->tile, f->scene,
+                                           &f->scene->lights[r->light], map, (int32_t)r->face, f->tree.faces,
+                                           (int32_t)r->place, last)
+                         : lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
                                (int32_t)r->face, (int32_t)r->place, last, &f->grouping);
         if (status != LMB_OK) {
             return status;
@@ -190,7 +214,10 @@ static lmb_status step_points(lmb_render *r, int32_t units)
 static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
-    return wants_bounce(f) ? lmb_group_points(f->groups, &f->points, &f->grouping, f->stats) : LMB_OK;
+    if (wants_cut(f)) {
+        return f->occlusion == LMB_OCCLUSION_EXACT ? lmb_blockers_build(&f->blockers, f->scene) : LMB_OK;
+    }
+    return wants_groups(f) ? lmb_group_points(f->groups, &f->points, &f->grouping, f->stats) : LMB_OK;
 }
 
 /* The whole frame's depth: with ids where the eye holds them all, else depth alone for the occlusion. */
@@ -252,6 +279,7 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
 {
     const lmb_frame *f = &r->frame;
     lmb_occluder occluder;
+    lmb_cutting cutting;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     memset(&s->indirect, 0, sizeof s->indirect);
@@ -259,12 +287,19 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
         status =
             lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, &f->scene->lights[i], &r->maps[i]);
     }
-    if (wants_bounce(f) && status == LMB_OK) {
+    if (wants_groups(f) && status == LMB_OK) {
         occluder.view = &f->view;
         occluder.depth = occluding_depth(f);
         occluder.kind = f->occlusion;
         occluder.steps = f->steps;
-        status = lmb_gather_tile(&s->indirect, f->kernels, &s->gather, &s->tile, f->groups, &f->points, &occluder);
+        status =
+            lmb_gather_tile(&s->indirect, f->kernels, &s->gather.groups, &s->tile, f->groups, &f->points, &occluder);
+    }
+    if (wants_cut(f) && status == LMB_OK) {
+        cutting.error = f->error;
+        cutting.visible = f->visible;
+        cutting.blockers = f->occlusion == LMB_OCCLUSION_EXACT ? &f->blockers : NULL;
+        status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->tree, &cutting);
     }
     if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
         show_irradiance(&s->radiance, &s->indirect);
@@ -382,6 +417,12 @@ static lmb_status part_points(const lmb_render *r, lmb_tile *tile, int32_t part,
     if (((map->drawn >> r->face) & 1u) == 0) {
         return LMB_OK;
     }
+    if (wants_cut(f)) {
+        int64_t first, past;
+        share_out(&first, &past, map->size / LMB_TILE, part, parts);
+        return lmb_tree_texels(&f->tree, f->kernels, tile, f->scene, &f->scene->lights[r->light], map,
+                               (int32_t)r->face, f->tree.faces, (int32_t)first, (int32_t)past);
+    }
     return lmb_points_part(&f->points, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, (int32_t)r->face,
                            part, parts, &f->grouping);
 }
@@ -392,7 +433,7 @@ static lmb_status end_parts_of_face(lmb_render *r, int32_t parts)
     lmb_frame *f = &r->frame;
     const lmb_light_map *map = &r->maps[r->light];
     const uint32_t before = f->points.count;
-    if ((map->drawn >> r->face) & 1u) {
+    if (wants_groups(f) && (map->drawn >> r->face) & 1u) {
         lmb_points_put_together(&f->points, map, parts, &f->grouping);
     }
     if (f->stats != NULL) {
@@ -411,7 +452,8 @@ int32_t lmb_render_has_parts(const lmb_render *r)
     case LMB_STAGE_LIGHT_MAP: return r->light == 0 && r->place == 0;
     case LMB_STAGE_POINTS:
         return wants_bounce(&r->frame) && r->place == 0 && r->light < r->frame.scene->light_count &&
-               lmb_points_have_room(&r->frame.points, &r->maps[r->light], &r->frame.grouping);
+               (wants_cut(&r->frame) ||
+                lmb_points_have_room(&r->frame.points, &r->maps[r->light], &r->frame.grouping));
     case LMB_STAGE_VIEW: return r->place == 0;
     default: return 0;
     }

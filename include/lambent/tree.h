@@ -1,0 +1,103 @@
+/* tree.h: the light's map as a tree, of which each tile of pixels takes its own cut. [V3 V6 V15 V27, DESIGN 4]
+ *
+ * Every lit texel of a map is a first point; four make a node, four nodes the next, up to one a face. Sums go upward
+ * from the finest texels, so no flux is lost and a fine map costs pixels only where they are near it. A tile goes down
+ * until what its nodes may be wrong by is under `error` of what they give. */
+#ifndef LMB_TREE_H
+#define LMB_TREE_H
+
+#include "bounce.h"
+#include "occlusion.h"
+
+/* A first point. 36 bytes. */
+typedef struct lmb_texel {
+    lmb_vec3 position, normal; /* m; unit, on the lit side */
+    float flux[3];             /* outgoing Lambertian power, W; all 0: no first point */
+} lmb_texel;
+
+/* The first points of a square of texels. 72 bytes. */
+typedef struct lmb_node {
+    lmb_vec3 centre, normal; /* means, weighted by flux; normal of unit length */
+    float flux[3], area;     /* sums, W and m2; flux 0: nothing */
+    lmb_vec3 low, high;      /* box of their positions */
+    float cosine;            /* of the widest angle between their normals and the mean; -1: any */
+    uint32_t texel;          /* one of them, near the centre: where visibility is asked for */
+} lmb_node;
+
+/* The caller's memory, shared out. Face f of all lights' maps, in order. */
+typedef struct lmb_tree {
+    lmb_texel *texel; /* face_cap x size x size, row by row */
+    lmb_node *node;   /* face_cap x (size^2 - 1) / 3: of each face the level of size / 2 first, its root last */
+    lmb_view *view;   /* face_cap */
+    int32_t size;     /* texels a side: a power of two */
+    uint32_t face_cap, faces;
+} lmb_tree;
+
+/* A node of a tile's cut, made ready for the gather. */
+typedef struct lmb_emitter {
+    lmb_vec3 position, back; /* back: against its normal */
+    float area_pi;           /* area / pi */
+    float flux[3];
+    uint64_t visible; /* the pixels that see it, a bit each */
+} lmb_emitter;
+
+/* Where a node is: level 0 are texels. */
+typedef struct lmb_tree_place {
+    uint16_t face, x, y, level;
+} lmb_tree_place;
+
+/* One tile's cut; one a thread. */
+typedef struct lmb_cut {
+    int32_t count;                     /* nodes, of which some are gone */
+    uint64_t visible[LMB_MAX_CUT];     /* the pixels that see it, a bit each */
+    lmb_tree_place place[LMB_MAX_CUT];
+    float value[LMB_MAX_CUT];          /* what it gives where it is seen, W/m2 */
+    float most[LMB_MAX_CUT];           /* the most that it can give */
+    float error[LMB_MAX_CUT];          /* what it may be wrong by as one disc */
+    int32_t next[LMB_MAX_CUT];         /* in its bucket */
+    uint64_t nodes, asked;             /* counted over all tiles: nodes of cuts, segments of pixels. Zero them yourself */
+    lmb_emitter emitter[LMB_CUT_BLOCK];
+    float pairs[3][LMB_GATHER_PAIRS];
+} lmb_cut;
+
+/* How tiles take their cut. */
+typedef struct lmb_cutting {
+    float error;   /* share of a pixel's bounced light that it may be wrong by where nothing blocks */
+    float visible; /* share that no node may exceed whose visibility is asked as one */
+    const lmb_blockers *blockers; /* NULL: everything is seen */
+} lmb_cutting;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_tree_bytes: memory of a tree of `faces` faces of size x size texels; 0 where that cannot be. */
+size_t lmb_tree_bytes(uint32_t faces, int32_t size);
+
+/* lmb_tree_init: share out `memory`; size: a power of two, 8 .. 4096. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN,
+ * LMB_ERR_CAPACITY. */
+lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes);
+
+/* lmb_tree_texels: the first points of the tile rows first .. past - 1 of one face of a light's map, into face `into`
+ * of the tree. Rows may be taken in any order, at once on any threads. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
+lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
+                           const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
+                           int32_t past);
+
+/* lmb_tree_sum: the nodes of one face, from its first points. */
+lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
+
+/* lmb_gather_cut: add what the tree's first points light to a tile's pixels.                          [V25 V27 V28]
+ *
+ * The tile is split by surfaces; each takes its own cut: the node with the largest error is replaced by its four until
+ * the errors' sum is at most cutting->error of the sum of what they give, or LMB_MAX_CUT nodes are reached. A node's
+ * error is the most it can give, times the second order of its size and bend: U min(1, R^2 / d^2 + sin^2 a).
+ * Visibility: each node's own texel, from every pixel. Texels near a pixel count as their exact quads.
+ * Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
+                          const lmb_tree *tree, const lmb_cutting *cutting);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,422 @@
+/* cut.c: each tile of pixels takes its own cut through the light's tree, and is lit by it. Floor 6.    [V25 V27 V28]
+ *
+ * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines and the least distance d between its box and
+ * the tile's. Seen as one disc it is wrong by second order in its size and bend: U min(1, R^2 / d^2 + sin^2 a), R half
+ * its box's diagonal, a the widest angle of its normals. The largest is divided first: buckets by the error's exponent
+ * and first bit find it without sorting, and give the same order everywhere. */
+#include <lambent/tree.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../lane/kernels.h"
+#include "footprint.h"
+#include "tree.h"
+
+#define INVERSE_PI   0.31830989f
+#define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
+#define FLAT         0.5f        /* height over a surface's first pixel, of the distance to it */
+#define TURNED       16.0f /* how much more a node counts that is asked at a point which faces away: its others may not */
+enum { BUCKETS = 512, NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
+
+/* The pixels of one surface in a tile. */
+typedef struct patch {
+    uint64_t pixels;
+    lmb_vec3 low, high, centre, half; /* box of their positions */
+    lmb_vec3 normal;                  /* mean */
+    float cosine, sine;               /* of the widest angle to the mean */
+} patch;
+
+static lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
+static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
+static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
+
+/* --- surfaces of a tile --------------------------------------------------------------------------------------------- */
+
+/* Of the pixels left, those on the surface of the first: normals within 25 degrees, near its plane. */
+static uint64_t same_surface(const lmb_tile *tile, uint64_t left)
+{
+    const int first = lowest_bit_64(left);
+    const lmb_vec3 at = tile_vec(tile->position, first), n = tile_vec(tile->face, first);
+    uint64_t out = 0;
+    for (uint64_t bits = left; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = sub3(tile_vec(tile->position, k), at);
+        const float height = dot3(n, d);
+        if (dot3(n, tile_vec(tile->face, k)) >= SAME_SURFACE && height * height <= FLAT * FLAT * dot3(d, d)) {
+            out |= (uint64_t)1 << k;
+        }
+    }
+    return out | (uint64_t)1 << first;
+}
+
+static void patch_of(patch *out, const lmb_tile *tile, uint64_t pixels)
+{
+    lmb_vec3 sum = vec3(0, 0, 0);
+    out->pixels = pixels;
+    out->low = out->high = tile_vec(tile->position, lowest_bit_64(pixels));
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        out->low = min3(out->low, tile_vec(tile->position, k));
+        out->high = max3(out->high, tile_vec(tile->position, k));
+        sum = add3(sum, tile_vec(tile->normal, k));
+    }
+    out->centre = mul3(add3(out->low, out->high), 0.5f);
+    out->half = mul3(sub3(out->high, out->low), 0.5f);
+    out->normal = normalize3(sum);
+    out->cosine = 1.0f;
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        out->cosine = minf(out->cosine, dot3(out->normal, tile_vec(tile->normal, lowest_bit_64(bits))));
+    }
+    out->sine = out->cosine > 0.0f ? sqrtf(maxf(1.0f - out->cosine * out->cosine, 0.0f)) : 1.0f;
+}
+
+/* --- one node against a patch --------------------------------------------------------------------------------------- */
+
+static float support(lmb_vec3 half, lmb_vec3 n)
+{
+    return absf(n.x) * half.x + absf(n.y) * half.y + absf(n.z) * half.z;
+}
+
+static float gap(float centre, float halves) { return maxf(absf(centre) - halves, 0.0f); }
+
+/* What a node gives the patch's middle, and what it may be wrong by. */
+typedef struct weight {
+    int faces; /* 0: all of it faces away */
+    float value, most, error;
+} weight;
+
+static weight weigh(const lmb_node *n, const lmb_texel *seen, const patch *p)
+{
+    weight w = {0, 0.0f, 0.0f, 0.0f};
+    const lmb_vec3 middle = mul3(add3(n->low, n->high), 0.5f), half = mul3(sub3(n->high, n->low), 0.5f);
+    const lmb_vec3 to = sub3(middle, p->centre);
+    const float reach = length3(to) + length3(half) + length3(p->half);
+    const float sine = n->cosine > 0.0f ? sqrtf(maxf(1.0f - n->cosine * n->cosine, 0.0f)) : 1.0f;
+    const float up = dot3(p->normal, to) + support(half, p->normal) + support(p->half, p->normal) + p->sine * reach;
+    const float out = support(half, n->normal) + support(p->half, n->normal) - dot3(n->normal, to) + sine * reach;
+    const float m = flux_sum(n->flux);
+    if (!(up > 0.0f) || !(out > 0.0f) || !(m > 0.0f)) {
+        return w;
+    }
+    const lmb_vec3 apart =
+        vec3(gap(to.x, half.x + p->half.x), gap(to.y, half.y + p->half.y), gap(to.z, half.z + p->half.z));
+    const float d2 = maxf(dot3(apart, apart), 1e-12f), d = sqrtf(d2);
+    w.most = m * INVERSE_PI / d2 * minf(up / d, 1.0f) * minf(out / d, 1.0f);
+    const float size = dot3(half, half) / d2 + sine * sine;
+    w.faces = 1;
+    w.error = w.most * minf(size, 1.0f);
+    const lmb_vec3 s = sub3(seen->position, p->centre);
+    if (dot3(seen->normal, s) >= 0.0f || dot3(p->normal, s) <= 0.0f) {
+        w.most *= TURNED;
+    }
+    w.value = m * lmb_disc_factor(p->centre, p->normal, n->centre, n->normal, n->area);
+    return w;
+}
+
+/* --- the cut -------------------------------------------------------------------------------------------------------- */
+
+typedef struct cutter {
+    lmb_cut *cut;
+    const lmb_tree *tree;
+    const lmb_tile *tile;
+    const lmb_kernels *kernels;
+    const lmb_cutting *cutting;
+    const patch *p;
+    float per_pixel;         /* 1 / pixels of the patch */
+    const float *key;        /* what the buckets go by: cut->error or cut->most */
+    int32_t bucket[BUCKETS]; /* the first of each, or NONE */
+    int highest;             /* no bucket over this has any */
+    double error, value;     /* sums; of value, what is seen */
+} cutter;
+
+static void node_at(lmb_node *out, const lmb_tree *tree, lmb_tree_place at)
+{
+    if (at.level > 0) {
+        *out = *tree_node(tree, at);
+    } else {
+        lmb_tree_texel_node(out, tree, at.face, at.x, at.y);
+    }
+}
+
+static weight weigh_at(lmb_tree_place at, const cutter *c)
+{
+    const int32_t size = c->tree->size;
+    lmb_node n;
+    node_at(&n, c->tree, at);
+    return weigh(&n, tree_texel(c->tree, at.face, (int32_t)n.texel % size, (int32_t)n.texel / size), c->p);
+}
+
+static int bucket_of(float key)
+{
+    uint32_t bits;
+    memcpy(&bits, &key, sizeof bits);
+    return (int)(bits >> 22) & (BUCKETS - 1);
+}
+
+/* Texels cannot be divided: they wait in no bucket. */
+static void wait(cutter *c, int32_t i)
+{
+    if (c->cut->place[i].level > 0) {
+        const int b = bucket_of(c->key[i]);
+        c->cut->next[i] = c->bucket[b];
+        c->bucket[b] = i;
+        c->highest = b > c->highest ? b : c->highest;
+    }
+}
+
+static int32_t largest(cutter *c)
+{
+    while (c->highest >= 0 && c->bucket[c->highest] == NONE) {
+        --c->highest;
+    }
+    return c->highest < 0 ? NONE : c->bucket[c->highest];
+}
+
+static void empty_buckets(cutter *c, const float *key)
+{
+    c->key = key;
+    c->highest = -1;
+    for (int b = 0; b < BUCKETS; ++b) {
+        c->bucket[b] = NONE;
+    }
+}
+
+static int32_t count_bits_64(uint64_t bits)
+{
+    uint32_t n = 0;
+    for (; bits != 0; bits >>= 16) {
+        n += count_bits_16((uint32_t)bits & 0xffffu);
+    }
+    return (int32_t)n;
+}
+
+static double seen_value(const cutter *c, int32_t i)
+{
+    return (double)(c->cut->value[i] * ((float)count_bits_64(c->cut->visible[i]) * c->per_pixel));
+}
+
+static void count_in(cutter *c, int32_t i, double sign)
+{
+    c->value += sign * seen_value(c, i);
+    c->error += sign * (double)c->cut->error[i];
+}
+
+static void put(cutter *c, int32_t i, lmb_tree_place at, weight w, uint64_t visible)
+{
+    c->cut->place[i] = at;
+    c->cut->error[i] = at.level > 0 ? w.error : 0.0f;
+    c->cut->value[i] = w.value;
+    c->cut->most[i] = w.most;
+    c->cut->visible[i] = visible;
+    count_in(c, i, 1.0);
+}
+
+static void ask(cutter *c, int32_t i)
+{
+    const int32_t size = c->tree->size;
+    const lmb_tree_place at = c->cut->place[i];
+    uint32_t texel = (uint32_t)at.y * (uint32_t)size + at.x;
+    if (at.level > 0) {
+        texel = tree_node(c->tree, at)->texel;
+    }
+    count_in(c, i, -1.0);
+    c->cut->visible[i] &= ~lmb_blocked_tile(
+        c->cutting->blockers, c->kernels, c->tile, c->cut->visible[i],
+        tree_texel(c->tree, at.face, (int32_t)texel % size, (int32_t)texel / size)->position);
+    c->cut->asked += (uint64_t)count_bits_64(c->p->pixels);
+    count_in(c, i, 1.0);
+}
+
+/* Put the four parts of the node in slot i in its place: the first in its slot, the others at the end. */
+static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
+{
+    const lmb_tree_place from = c->cut->place[i];
+    int32_t slot = i;
+    count_in(c, i, -1.0);
+    c->cut->place[i].level = GONE;
+    for (int k = 0; k < 4; ++k) {
+        lmb_tree_place at = from;
+        at.x = (uint16_t)(2 * from.x + (k & 1));
+        at.y = (uint16_t)(2 * from.y + (k >> 1));
+        at.level = (uint16_t)(from.level - 1);
+        const weight w = weigh_at(at, c);
+        if (w.faces) {
+            const int32_t to = slot >= 0 ? slot : c->cut->count++;
+            put(c, to, at, w, visible);
+            if (asks) {
+                ask(c, to);
+            }
+            wait(c, to);
+            slot = NONE;
+        }
+    }
+}
+
+static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; }
+
+/* Divide the one that can give most until none is over `share` of what is seen, or of `least`. */
+static void divide_by_most(cutter *c, float share, double least, int asks)
+{
+    int32_t i = largest(c);
+    while (i != NONE && has_room(c) &&
+           (double)c->cut->most[i] > (double)share * (c->value > least ? c->value : least)) {
+        c->bucket[c->highest] = c->cut->next[i];
+        divide(c, i, c->p->pixels, asks);
+        i = largest(c);
+    }
+}
+
+static void divide_by_error(cutter *c, float share)
+{
+    int32_t i = largest(c);
+    while (i != NONE && has_room(c) && c->error > (double)share * c->value) {
+        c->bucket[c->highest] = c->cut->next[i];
+        divide(c, i, c->cut->visible[i], 0);
+        i = largest(c);
+    }
+}
+
+static void begin(cutter *c)
+{
+    c->cut->count = 0;
+    c->error = c->value = 0.0;
+    empty_buckets(c, c->cut->most);
+    for (uint32_t f = 0; f < c->tree->faces && c->cut->count < LMB_MAX_CUT; ++f) {
+        lmb_tree_place root;
+        root.face = (uint16_t)f;
+        root.x = root.y = 0;
+        root.level = (uint16_t)tree_root_level(c->tree);
+        const weight w = weigh_at(root, c);
+        if (w.faces) {
+            put(c, c->cut->count, root, w, c->p->pixels);
+            wait(c, c->cut->count++);
+        }
+    }
+}
+
+/* First nodes so small that each may be seen or not as one; then, of those that are seen, smaller ones. */
+static void take_cut(cutter *c)
+{
+    begin(c);
+    if (c->cutting->blockers != NULL) {
+        divide_by_most(c, c->cutting->visible, 0.0, 0);
+        const double least = c->value / 256.0;
+        for (int32_t i = 0; i < c->cut->count; ++i) {
+            if (c->cut->place[i].level != GONE) {
+                ask(c, i);
+            }
+        }
+        divide_by_most(c, c->cutting->visible, least, 1);
+    }
+    empty_buckets(c, c->cut->error);
+    c->error = 0.0;
+    for (int32_t i = 0; i < c->cut->count; ++i) {
+        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+            c->error += (double)c->cut->error[i];
+            wait(c, i);
+        }
+    }
+    divide_by_error(c, c->cutting->error);
+}
+
+/* --- light ---------------------------------------------------------------------------------------------------------- */
+
+/* A texel so near that its shape counts: pixel by pixel. */
+static void add_near(lmb_irradiance *inout, const lmb_tile *tile, const lmb_node *n, lmb_vec3 u, lmb_vec3 v,
+                     uint64_t visible)
+{
+    const float uu = dot3(u, u), vv = dot3(v, v), half2 = uu + vv + 2.0f * absf(dot3(u, v));
+    for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 at = tile_vec(tile->position, k), normal = tile_vec(tile->normal, k), d = sub3(n->centre, at);
+        float f;
+        if (dot3(d, d) < LMB_NEAR * LMB_NEAR * half2) {
+            f = lmb_quad_factor(at, tile_vec(tile->face, k), normal, n->centre, n->normal, u, v);
+        } else {
+            f = dot3(tile_vec(tile->face, k), d) > 0.0f ? lmb_disc_factor(at, normal, n->centre, n->normal, n->area) : 0.0f;
+        }
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] += f * n->flux[c];
+        }
+    }
+}
+
+/* Is some of the patch near the texel's quad? */
+static int is_near(const patch *p, const lmb_node *n, lmb_vec3 u, lmb_vec3 v)
+{
+    const lmb_vec3 to = sub3(n->centre, p->centre);
+    const lmb_vec3 apart = vec3(gap(to.x, p->half.x), gap(to.y, p->half.y), gap(to.z, p->half.z));
+    return dot3(apart, apart) <
+           LMB_NEAR * LMB_NEAR * (dot3(u, u) + dot3(v, v) + 2.0f * absf(dot3(u, v)));
+}
+
+static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
+{
+    out->position = n->centre;
+    out->back = mul3(n->normal, -1.0f);
+    out->area_pi = n->area * INVERSE_PI;
+    memcpy(out->flux, n->flux, sizeof out->flux);
+    out->visible = visible;
+}
+
+static void light_patch(lmb_irradiance *inout, const cutter *c)
+{
+    const int32_t size = c->tree->size;
+    int32_t filled = 0;
+    for (int32_t i = 0; i < c->cut->count; ++i) {
+        const lmb_tree_place at = c->cut->place[i];
+        const uint64_t visible = c->cut->visible[i];
+        lmb_node n;
+        lmb_vec3 u, v;
+        if (at.level == GONE || visible == 0) {
+            continue;
+        }
+        node_at(&n, c->tree, at);
+        ++c->cut->nodes;
+        if (at.level == 0) {
+            footprint_sides(&u, &v, &c->tree->view[at.face], size, n.centre, n.normal);
+            u = mul3(u, 0.5f);
+            v = mul3(v, 0.5f);
+            if (is_near(c->p, &n, u, v)) {
+                add_near(inout, c->tile, &n, u, v, visible);
+                continue;
+            }
+        }
+        set_emitter(&c->cut->emitter[filled++], &n, visible);
+        if (filled == LMB_CUT_BLOCK) {
+            c->kernels->gather_cut(inout, c->cut->pairs, c->tile, c->cut->emitter, filled);
+            filled = 0;
+        }
+    }
+    c->kernels->gather_cut(inout, c->cut->pairs, c->tile, c->cut->emitter, filled);
+}
+
+lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
+                          const lmb_tree *tree, const lmb_cutting *cutting)
+{
+    uint64_t left = 0;
+    if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || tree == NULL || tree->texel == NULL ||
+        cutting == NULL || !(cutting->error > 0.0f) || !(cutting->visible > 0.0f)) {
+        return LMB_ERR_ARG;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        left |= (uint64_t)(tile->id[k] != 0) << k;
+    }
+    while (left != 0) {
+        patch p;
+        cutter c;
+        patch_of(&p, tile, same_surface(tile, left));
+        c.cut = scratch;
+        c.tree = tree;
+        c.tile = tile;
+        c.kernels = kernels;
+        c.cutting = cutting;
+        c.p = &p;
+        c.per_pixel = 1.0f / (float)count_bits_64(p.pixels);
+        take_cut(&c);
+        light_patch(inout, &c);
+        left &= ~p.pixels;
+    }
+    return LMB_OK;
+}

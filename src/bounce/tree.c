@@ -1,0 +1,179 @@
+/* tree.c: a light's map -> first points, and their sums upward. Floor 6.                            [V5 V6 V7 V15] */
+#include "tree.h"
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "footprint.h"
+
+size_t lmb_tree_bytes(uint32_t faces, int32_t size)
+{
+    if (size < LMB_TILE || size > 4096 || (size & (size - 1)) != 0 || faces == 0 || faces > 65535u) {
+        return 0;
+    }
+    const size_t face =
+        (size_t)size * (size_t)size * sizeof(lmb_texel) + tree_nodes(size) * sizeof(lmb_node) + sizeof(lmb_view);
+    return faces > (size_t)-1 / face ? 0 : faces * face;
+}
+
+lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes)
+{
+    const size_t needed = lmb_tree_bytes(faces, size);
+    if (out == NULL || memory == NULL || needed == 0) {
+        return LMB_ERR_ARG;
+    }
+    if ((uintptr_t)memory % 4 != 0) {
+        return LMB_ERR_ALIGN;
+    }
+    if (bytes < needed) {
+        return LMB_ERR_CAPACITY;
+    }
+    memset(out, 0, sizeof *out);
+    out->size = size;
+    out->face_cap = faces;
+    out->texel = (lmb_texel *)memory;
+    out->node = (lmb_node *)(void *)(out->texel + (size_t)faces * (size_t)size * (size_t)size);
+    out->view = (lmb_view *)(void *)(out->node + faces * tree_nodes(size));
+    return LMB_OK;
+}
+
+/* --- texels --------------------------------------------------------------------------------------------------------- */
+
+static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const float power[3])
+{
+    out->position = vec3(t->position[0][k], t->position[1][k], t->position[2][k]);
+    out->normal = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = power[c] * t->albedo[c][k];
+    }
+}
+
+lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
+                           const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
+                           int32_t past)
+{
+    lmb_status status = LMB_OK;
+    if (tree == NULL || tree->texel == NULL || kernels == NULL || scratch == NULL || scene == NULL || light == NULL ||
+        map == NULL || face < 0 || face >= map->faces || map->size != tree->size || first < 0 || past < first ||
+        past > map->size / LMB_TILE) {
+        return LMB_ERR_ARG;
+    }
+    if (into >= tree->face_cap) {
+        return LMB_ERR_CAPACITY;
+    }
+    if (first == 0) {
+        tree->view[into] = map->view[face];
+    }
+    for (int32_t i = first * map->size; i < past * map->size && status == LMB_OK; i += LMB_TILE) {
+        const int32_t x0 = i % map->size, y0 = i / map->size * LMB_TILE;
+        status = lmb_resolve_tile(scratch, kernels, &map->view[face], scene, &map->face[face], x0, y0);
+        for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
+            const int32_t x = x0 + k % LMB_TILE, y = y0 + k / LMB_TILE;
+            float power[3] = {0.0f, 0.0f, 0.0f};
+            if (scratch->id[k] != 0) {
+                lmb_light_texel_power(power, light, map, face, x, y);
+            }
+            set_texel(&tree->texel[((size_t)into * (size_t)map->size + (size_t)y) * (size_t)map->size + (size_t)x],
+                      scratch, k, power);
+        }
+    }
+    return status;
+}
+
+/* --- sums ----------------------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
+static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
+
+void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
+{
+    const lmb_texel *t = tree_texel(tree, face, x, y);
+    lmb_vec3 u, v;
+    memset(out, 0, sizeof *out);
+    if (!(flux_sum(t->flux) > 0.0f)) {
+        return;
+    }
+    footprint_sides(&u, &v, &tree->view[face], tree->size, t->position, t->normal);
+    memcpy(out->flux, t->flux, sizeof out->flux);
+    out->centre = out->low = out->high = t->position;
+    out->normal = t->normal;
+    out->area = length3(cross3(u, v));
+    out->cosine = 1.0f;
+    out->texel = (uint32_t)y * (uint32_t)tree->size + (uint32_t)x;
+}
+
+/* cos(a + b), or -1 where a + b is over 180 degrees. */
+static float cosine_of_sum(float a, float b)
+{
+    const float sines = sqrtf(maxf(1.0f - a * a, 0.0f) * maxf(1.0f - b * b, 0.0f));
+    return a + b <= 0.0f ? -1.0f : clampf(a * b - sines, -1.0f, 1.0f);
+}
+
+static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, uint32_t face)
+{
+    lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0), origin = vec3(0, 0, 0);
+    float weight = 0.0f, nearest = 3e38f;
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 4; ++i) {
+        const lmb_node *n = &child[i];
+        const float w = flux_sum(n->flux);
+        if (w > 0.0f) {
+            origin = weight > 0.0f ? origin : n->centre; /* differences, so that far from the world's middle nothing is lost */
+            out->low = weight > 0.0f ? min3(out->low, n->low) : n->low;
+            out->high = weight > 0.0f ? max3(out->high, n->high) : n->high;
+            centre = add3(centre, mul3(sub3(n->centre, origin), w));
+            normal = add3(normal, mul3(n->normal, w));
+            weight += w;
+            out->area += n->area;
+            for (int c = 0; c < 3; ++c) {
+                out->flux[c] += n->flux[c];
+            }
+        }
+    }
+    if (!(weight > 0.0f)) {
+        return;
+    }
+    out->centre = add3(origin, mul3(centre, 1.0f / weight));
+    out->normal = normalize3(normal);
+    out->cosine = dot3(normal, normal) > 0.0f ? 1.0f : -1.0f;
+    for (int i = 0; i < 4; ++i) {
+        if (flux_sum(child[i].flux) > 0.0f) {
+            const uint32_t size = (uint32_t)tree->size, at = child[i].texel;
+            const lmb_vec3 d = sub3(tree_texel(tree, face, (int32_t)(at % size), (int32_t)(at / size))->position,
+                                    out->centre);
+            out->cosine =
+                minf(out->cosine, cosine_of_sum(clampf(dot3(out->normal, child[i].normal), -1.0f, 1.0f), child[i].cosine));
+            if (dot3(d, d) < nearest) {
+                nearest = dot3(d, d);
+                out->texel = at;
+            }
+        }
+    }
+}
+
+lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
+{
+    if (tree == NULL || tree->texel == NULL || face >= tree->face_cap) {
+        return LMB_ERR_ARG;
+    }
+    for (int level = 1; level <= tree_root_level(tree); ++level) {
+        const int32_t side = tree->size >> level;
+        lmb_node *out = tree_level(tree, face, level);
+        const lmb_node *below = level > 1 ? tree_level(tree, face, level - 1) : NULL;
+        for (int32_t y = 0; y < side; ++y) {
+            for (int32_t x = 0; x < side; ++x) {
+                lmb_node child[4];
+                for (int32_t i = 0; i < 4; ++i) {
+                    const int32_t cx = 2 * x + (i & 1), cy = 2 * y + (i >> 1);
+                    if (below != NULL) {
+                        child[i] = below[cy * 2 * side + cx];
+                    } else {
+                        lmb_tree_texel_node(&child[i], tree, face, cx, cy);
+                    }
+                }
+                merge(&out[y * side + x], child, tree, face);
+            }
+        }
+    }
+    return LMB_OK;
+}
