@@ -9,10 +9,12 @@
 #include "bounce.h"
 #include "occlusion.h"
 
-/* A first point. 36 bytes. */
+/* A first point. 40 bytes. */
 typedef struct lmb_texel {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power, W; all 0: no first point */
+    uint8_t side[4];           /* how far its surface goes on from its middle: left, right, up, down, in 1/256 texel: 128
+                                  of a whole one; else to where its plane meets its neighbour's */
 } lmb_texel;
 
 /* The first points of a square of texels. 72 bytes. */

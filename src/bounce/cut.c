@@ -10,7 +10,6 @@
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
-#include "footprint.h"
 #include "tree.h"
 
 #define INVERSE_PI   0.31830989f
@@ -362,7 +361,6 @@ static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
 
 static void light_patch(lmb_irradiance *inout, const cutter *c)
 {
-    const int32_t size = c->tree->size;
     int32_t filled = 0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
         const lmb_tree_place at = c->cut->place[i];
@@ -372,12 +370,11 @@ static void light_patch(lmb_irradiance *inout, const cutter *c)
         if (at.level == GONE || visible == 0) {
             continue;
         }
-        node_at(&n, c->tree, at);
         ++c->cut->nodes;
-        if (at.level == 0) {
-            footprint_sides(&u, &v, &c->tree->view[at.face], size, n.centre, n.normal);
-            u = mul3(u, 0.5f);
-            v = mul3(v, 0.5f);
+        if (at.level > 0) {
+            n = *tree_node(c->tree, at);
+        } else {
+            lmb_tree_texel_quad(&n, &u, &v, c->tree, at.face, at.x, at.y);
             if (is_near(c->p, &n, u, v)) {
                 add_near(inout, c->tile, &n, u, v, visible);
                 continue;

@@ -6,6 +6,8 @@
 #include "../base/vec.h"
 #include "footprint.h"
 
+enum { WHOLE = 128, LEFT = 0, RIGHT, UP, DOWN };
+
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 {
     if (size < LMB_TILE || size > 4096 || (size & (size - 1)) != 0 || faces == 0 || faces > 65535u) {
@@ -46,6 +48,7 @@ static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const float powe
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = power[c] * t->albedo[c][k];
     }
+    memset(out->side, WHOLE, sizeof out->side);
 }
 
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
@@ -80,27 +83,102 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
     return status;
 }
 
-/* --- sums ----------------------------------------------------------------------------------------------------------- */
-
 static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
 static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
 {
-    const lmb_texel *t = tree_texel(tree, face, x, y);
     lmb_vec3 u, v;
+    lmb_tree_texel_quad(out, &u, &v, tree, face, x, y);
+}
+
+void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
+                         int32_t y)
+{
+    const lmb_texel *t = tree_texel(tree, face, x, y);
     memset(out, 0, sizeof *out);
+    *u = *v = vec3(0, 0, 0);
     if (!(flux_sum(t->flux) > 0.0f)) {
         return;
     }
-    footprint_sides(&u, &v, &tree->view[face], tree->size, t->position, t->normal);
-    memcpy(out->flux, t->flux, sizeof out->flux);
-    out->centre = out->low = out->high = t->position;
+    const float wide = (float)(t->side[LEFT] + t->side[RIGHT]), high = (float)(t->side[UP] + t->side[DOWN]);
+    const float right = (float)(t->side[RIGHT] - t->side[LEFT]), down = (float)(t->side[DOWN] - t->side[UP]);
+    footprint_sides(u, v, &tree->view[face], tree->size, t->position, t->normal);
+    out->centre = add3(t->position, sub3(mul3(*u, right / 512.0f), mul3(*v, down / 512.0f)));
+    out->low = out->high = out->centre;
+    *u = mul3(*u, wide / 512.0f);
+    *v = mul3(*v, high / 512.0f);
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = t->flux[c] * (wide * high / 65536.0f);
+    }
     out->normal = t->normal;
-    out->area = length3(cross3(u, v));
+    out->area = 4.0f * length3(cross3(*u, *v));
     out->cosine = 1.0f;
     out->texel = (uint32_t)y * (uint32_t)tree->size + (uint32_t)x;
 }
+
+/* --- where neighbours' planes meet ---------------------------------------------------------------------------------
+ *
+ * A texel's middle says which surface it shows; near an edge it shows two. Along the line through two texels' middles a
+ * plane's 1 / w (from a light's place) or w (of a sun) is linear, so two planes meet where the difference is 0: there the
+ * edge is, if it is between the middles. What one texel gains the other loses, and light through the map is conserved. */
+
+/* 1 / w or w of the plane through p with normal n, over the map's point (sx, sy) in its plane at distance 1. */
+static float slope_at(const lmb_view *v, const lmb_texel *t, float sx, float sy)
+{
+    const lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy)), p = sub3(t->position, v->eye);
+    if (v->kind == LMB_PERSPECTIVE) {
+        return dot3(t->normal, sub3(across, v->back)) / dot3(t->normal, p);
+    }
+    return dot3(t->normal, sub3(p, across)) / -dot3(t->normal, v->back);
+}
+
+static int same_plane(const lmb_texel *a, const lmb_texel *b)
+{
+    const lmb_vec3 d = sub3(b->position, a->position);
+    return dot3(a->normal, b->normal) > 0.9999f && absf(dot3(a->normal, d)) < 1e-3f * length3(d);
+}
+
+/* The edge between texel a and the next one, b, to its right or below: in 1/256 of the way, or WHOLE. */
+static int edge_between(const lmb_view *v, int32_t size, const lmb_texel *a, const lmb_texel *b, int32_t x, int32_t y,
+                        int below)
+{
+    const float px = 2.0f * v->half_width / (float)size, py = 2.0f * v->half_height / (float)size;
+    const float sx = (float)(2 * x + 1 - size) * 0.5f * px, sy = (float)(size - 2 * y - 1) * 0.5f * py;
+    const float tx = below ? sx : sx + px, ty = below ? sy - py : sy;
+    if (same_plane(a, b)) {
+        return WHOLE;
+    }
+    const float here = slope_at(v, a, sx, sy) - slope_at(v, b, sx, sy),
+                there = slope_at(v, a, tx, ty) - slope_at(v, b, tx, ty), share = here / (here - there);
+    return share > 0.0f && share < 1.0f && here * there < 0.0f ? mini(maxi((int)(share * 256.0f + 0.5f), 1), 255) : WHOLE;
+}
+
+static void set_sides(const lmb_tree *tree, uint32_t face)
+{
+    const int32_t size = tree->size;
+    const lmb_view *v = &tree->view[face];
+    lmb_texel *all = tree->texel + (size_t)face * (size_t)size * (size_t)size;
+    for (int32_t i = 0; i < size * size; ++i) {
+        const int32_t x = i % size, y = i / size;
+        lmb_texel *t = &all[i];
+        if (!(flux_sum(t->flux) > 0.0f)) {
+            continue;
+        }
+        if (x + 1 < size && flux_sum(t[1].flux) > 0.0f) {
+            const int at = edge_between(v, size, t, &t[1], x, y, 0);
+            t->side[RIGHT] = (uint8_t)at;
+            t[1].side[LEFT] = (uint8_t)(256 - at);
+        }
+        if (y + 1 < size && flux_sum(t[size].flux) > 0.0f) {
+            const int at = edge_between(v, size, t, &t[size], x, y, 1);
+            t->side[DOWN] = (uint8_t)at;
+            t[size].side[UP] = (uint8_t)(256 - at);
+        }
+    }
+}
+
+/* --- sums ----------------------------------------------------------------------------------------------------------- */
 
 /* cos(a + b), or -1 where a + b is over 180 degrees. */
 static float cosine_of_sum(float a, float b)
@@ -156,6 +234,7 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
     if (tree == NULL || tree->texel == NULL || face >= tree->face_cap) {
         return LMB_ERR_ARG;
     }
+    set_sides(tree, face);
     for (int level = 1; level <= tree_root_level(tree); ++level) {
         const int32_t side = tree->size >> level;
         lmb_node *out = tree_level(tree, face, level);

@@ -34,7 +34,9 @@ static inline int tree_root_level(const lmb_tree *t)
     return level;
 }
 
-/* A texel as a node of its own. */
+/* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. */
+void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
+                         int32_t y);
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y);
 
 static inline float flux_sum(const float flux[3]) { return flux[0] + flux[1] + flux[2]; }

@@ -100,7 +100,7 @@ static uint64_t standing(const lmb_blockers *b, const lmb_blocker *t, const lmb_
 
 /* Boxes asked by the pyramid alone; after them, each is asked by the segments themselves, which in a fine mesh mostly
  * pass between its triangles. */
-#define BY_PYRAMID 16
+#define BY_PYRAMID 24
 
 static uint64_t blocked_by_leaf(const lmb_blockers *b, const lmb_kernels *kernels, const lmb_tile *tile,
                                 uint64_t pixels, lmb_vec3 at, const lmb_box *leaf)
@@ -140,7 +140,7 @@ uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kerne
         const visit v = waiting[--count];
         const lmb_box *node = &blockers->node[v.node];
         uint64_t here = v.pixels & ~blocked;
-        if (here == 0 || !meets(&p, node)) {
+        if (here == 0 || (asked < BY_PYRAMID && !meets(&p, node))) {
             continue;
         }
         if (++asked > BY_PYRAMID) {
