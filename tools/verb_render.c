@@ -387,7 +387,7 @@ static double mean(const image *p)
 
 static int write_stats(const job *j, report *r)
 {
-    static const char *const names[] = {"light_maps", "first_points", "groups", "view", "bands"};
+    static const char *const names[] = {"light_maps", "blockers", "first_points", "groups", "view", "bands"};
     char text[2048];
     int n = 0;
     const lmb_stats *s = &j->stats;

@@ -76,6 +76,7 @@ typedef struct lmb_render {
 /* The stages, in order; lmb_render_progress names them. */
 typedef enum lmb_stage {
     LMB_STAGE_LIGHT_MAP = 0,
+    LMB_STAGE_BLOCKERS, /* LMB_OCCLUSION_EXACT */
     LMB_STAGE_POINTS,
     LMB_STAGE_GROUPS,
     LMB_STAGE_VIEW,

@@ -86,8 +86,14 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
                            const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
                            int32_t past);
 
-/* lmb_tree_sum: the nodes of one face, from its first points. */
-lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
+/* lmb_tree_sum: the nodes of one face, from its first points, once all its rows are there.
+ *
+ *   blockers  where one surface stands before another, the edge of the farther one is found to a 64th of a texel: by
+ *             segments from the light; NULL: it is taken to be half way between texels. (Whether a texel is lit, the map
+ *             alone says [V7].)
+ *   scratch   used with blockers only. */
+lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face, const lmb_kernels *kernels, lmb_tile *scratch,
+                        const lmb_blockers *blockers);
 
 /* lmb_gather_cut: add what the tree's first points light to a tile's pixels.                          [V25 V27 V28]
  *

@@ -161,13 +161,29 @@ static lmb_status step_light_map(lmb_render *r, int32_t units)
     return status != LMB_OK ? status : LMB_MORE;
 }
 
+static lmb_status step_blockers(lmb_render *r)
+{
+    lmb_frame *f = &r->frame;
+    return wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT ? lmb_blockers_build(&f->blockers, f->scene) : LMB_OK;
+}
+
+static const lmb_blockers *blockers_of(const lmb_frame *f)
+{
+    return f->occlusion == LMB_OCCLUSION_EXACT ? &f->blockers : NULL;
+}
+
+static lmb_status sum_face(lmb_frame *f)
+{
+    return lmb_tree_sum(&f->tree, f->tree.faces, f->kernels, &f->scratch->tile, blockers_of(f));
+}
+
 static lmb_status end_face(lmb_render *r)
 {
     const lmb_light_map *map = &r->maps[r->light];
     const int drawn = (map->drawn >> r->face) & 1u;
     lmb_status status = LMB_OK;
     if (wants_cut(&r->frame)) {
-        status = drawn ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
+        status = drawn ? sum_face(&r->frame) : LMB_OK;
         r->frame.tree.faces += drawn ? 1 : 0;
     } else if (drawn) {
         status = lmb_discs_join(&r->frame.points, map, &r->frame.grouping);
@@ -214,9 +230,6 @@ static lmb_status step_points(lmb_render *r, int32_t units)
 static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
-    if (wants_cut(f)) {
-        return f->occlusion == LMB_OCCLUSION_EXACT ? lmb_blockers_build(&f->blockers, f->scene) : LMB_OK;
-    }
     return wants_groups(f) ? lmb_group_points(f->groups, &f->points, &f->grouping, f->stats) : LMB_OK;
 }
 
@@ -298,7 +311,7 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
     if (wants_cut(f) && status == LMB_OK) {
         cutting.error = f->error;
         cutting.visible = f->visible;
-        cutting.blockers = f->occlusion == LMB_OCCLUSION_EXACT ? &f->blockers : NULL;
+        cutting.blockers = blockers_of(f);
         status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->tree, &cutting);
     }
     if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
@@ -507,6 +520,7 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     units = mini(maxi(units, 1), 1 << 20);
     switch (r->stage) {
     case LMB_STAGE_LIGHT_MAP: status = step_light_map(r, units); break;
+    case LMB_STAGE_BLOCKERS: status = step_blockers(r); break;
     case LMB_STAGE_POINTS: status = step_points(r, units); break;
     case LMB_STAGE_GROUPS: status = step_groups(r); break;
     case LMB_STAGE_VIEW: status = step_view(r, units); break;
@@ -529,7 +543,7 @@ lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame)
 
 float lmb_render_progress(const char **name, const lmb_render *r)
 {
-    static const char *const names[] = {"light maps", "first points", "groups", "view", "bands", "done"};
+    static const char *const names[] = {"light maps", "blockers", "first points", "groups", "view", "bands", "done"};
     if (r == NULL || r->stage < 0 || r->stage > LMB_STAGE_DONE) {
         *name = names[LMB_STAGE_DONE];
         return 1.0f;
