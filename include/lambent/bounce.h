@@ -10,7 +10,12 @@
 /* A pixel closer to a disc than this many half-diagonals of its quad gets the quad's exact form factor. */
 #define LMB_NEAR 2.8f
 
-/* A first point, and a disc once neighbours have joined it. 88 bytes. */
+/* A first point, and a disc once neighbours have joined it. 88 bytes.
+ *
+ * Its shape is a parameter of its area [V16]: from afar a square, a rectangle, an oval or a disc of 4 |u x v| give the
+ * same light to second order, and that number is all that is used of it; near by, its quad's corners count. So any
+ * shape may stand here as the quad of its area and extent: an oval of half axes a and b by |u| = sqrt(pi)/2 a,
+ * |v| = sqrt(pi)/2 b. */
 typedef struct lmb_point {
     lmb_vec3 position, normal; /* m; unit, on the lit side                                             [V5 V6] */
     float flux[3];             /* outgoing Lambertian power: reflectance x power received, W           [V28] */
@@ -46,12 +51,17 @@ typedef struct lmb_grouping {
     float join;             /* 0.5 points closer than this x mean distance join a disc, 0 < k <= 1     [V11] */
     float reach;            /* 3   a disc joins a group within this x the first disc's radius          [V17] */
     float cosine;           /* 0.9 a disc joins where the normals' cosine is at least this; -1: any    [V17] */
-    uint32_t flags;         /* LMB_ZONES_STRICT                                                        [V20] */
+    uint32_t flags;         /* LMB_ZONES_STRICT | LMB_POINT_CENTRE | LMB_NEAR_HEMISPHERE */
+    int32_t thin;           /* 1   of so many points one becomes a disc, <= LMB_MAX_THIN; the others join it [V14] */
 } lmb_grouping;
 enum { LMB_GROUP_ZONES = 0, LMB_GROUP_GREEDY = 1, LMB_GROUP_NONE = 2,
        LMB_GROUP_CUT = 3 /* lmb_render: each tile's own cut of the light's tree, see tree.h */ };
-enum { LMB_ZONES_STRICT = 1, /* discs that do not fit their zone's group are dropped; stats say how much flux */
-       LMB_POINT_CENTRE = 2  /* a group stands at its first disc instead of the barycentre             [V22] */ };
+enum { LMB_ZONES_STRICT = 1, /* discs that do not fit their zone's group are dropped; stats say how much flux
+                                                                                                       [V20] */
+       LMB_POINT_CENTRE = 2, /* a group stands at its first disc instead of the barycentre             [V22] */
+       LMB_NEAR_HEMISPHERE = 4 /* a point's neighbours are those over its surface, of any surface, not those that face
+                                  its way                                                              [V10] */ };
+#define LMB_MAX_THIN 64
 
 /* Level-2 groups, planar for the gather. Member discs of group k are points->data[first[k] .. first[k] + members[k]). */
 typedef struct lmb_groups {
@@ -105,8 +115,10 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
                               const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping);
 
-/* lmb_discs_join: the face collected last: mean neighbour distances, and close points join. In place; order kept.
- * Flux and area are sums, so both are conserved.                                              [V8 V9 V11 V12] */
+/* lmb_discs_join: the face collected last: mean neighbour distances, points thinned out where asked for, and close ones
+ * join. In place; order kept. Flux and area are sums, so both are conserved, also by `thin`.
+ * Returns LMB_OK or LMB_ERR_ARG.                                                      [V8 V9 V10 V11 V12 V14 V15]
+ * Thinned discs stay where the map has them: one in `thin` cells, on the lattice whose cells lie farthest apart. */
 lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping);
 
 /* lmb_group_points: groups of all discs by grouping->method; reorders the discs so that members lie together.

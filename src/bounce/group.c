@@ -118,8 +118,9 @@ static void count_stats(lmb_stats *stats, const lmb_groups *groups, const lmb_po
 /* Zones a side so that about `groups` zones cover the map: the first try; misfits make it more. */
 static int32_t first_zone(const lmb_points *points, const lmb_grouping *g)
 {
-    uint32_t zone = 1;
-    while (points->count / (zone * zone) > (uint32_t)g->groups) {
+    const uint64_t cells = (uint64_t)points->count * (uint64_t)maxi(g->thin, 1);
+    uint64_t zone = 1;
+    while (cells / (zone * zone) > (uint64_t)g->groups) {
         ++zone;
     }
     return (int32_t)zone;
@@ -144,7 +145,8 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
 {
     lmb_grouping g;
     if (out == NULL || points == NULL || points->data == NULL || grouping == NULL || grouping->groups < 0 ||
-        grouping->groups > LMB_MAX_GROUPS || grouping->method < LMB_GROUP_ZONES || grouping->method > LMB_GROUP_NONE) {
+        grouping->groups > LMB_MAX_GROUPS || grouping->method < LMB_GROUP_ZONES || grouping->method > LMB_GROUP_NONE ||
+        grouping->thin < 0 || grouping->thin > LMB_MAX_THIN) {
         return LMB_ERR_ARG;
     }
     g = *grouping;

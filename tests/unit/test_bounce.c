@@ -445,8 +445,57 @@ static void check_hand_joining(void)
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5 && absf(p->distance - 0.01f) < 1e-6f);
 }
 
+/* V9: 25 cm, 50 cm and 1 m over points 40 cm apart leave none, the four beside, and the diagonals too. */
+static void check_thresholds(void)
+{
+    static const struct {
+        float neighbour_m;
+        double mean;
+    } want[] = {{0.25f, 0.4}, {0.5f, 0.4}, {1.0f, 0.2 * (1.0 + 1.4142135623730951)}};
+    const double half = 0.2 * SIDE / 8; /* of a plane whose blocks are 40 cm */
+    lmb_light l = sun(vec3(0, -1, 0));
+    begin_coloured(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, (float)half), mul3(X, (float)half));
+    CHECK(world_end() == LMB_OK);
+    for (int i = 0; i < COUNT(want); ++i) {
+        lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+        g.neighbour_m = want[i].neighbour_m;
+        clear_points();
+        add_points(&l, SIDE, &g, 1);
+        double step = 16.0 * (double)map.view[0].half_width / SIDE;
+        CHECK_MSG(fabs(step - 0.4) < 0.01, "blocks of %g m", step); /* the map reaches a little beyond the plane */
+        CHECK_MSG(distance_error(want[i].mean * step / 0.4) < 1e-3, "within %g m: %g", (double)want[i].neighbour_m,
+                  distance_error(want[i].mean * step / 0.4));
+    }
+}
+
+/* V10: over the first point's surface lie, at its rim, the points of its plane, and one on a wall that faces another
+ * way; one below the plane does not count though it faces the same way, nor one beyond the threshold. */
+static void check_hemisphere(void)
+{
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    const lmb_point *p = points.data;
+    g.join = 1e-3f;
+    g.flags = LMB_NEAR_HEMISPHERE;
+    hand_points();
+    points.data[2].normal = mul3(X, -1.0f);
+    points.data[2].position.y = 0.75f; /* 1.25 m from the first */
+    points.data[3].position.y = -0.1f;
+    CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5);
+    CHECK_MSG(absf(p->distance - (0.01f + 1.25f + 1.4142136f) / 3.0f) < 1e-6f, "%g", (double)p->distance);
+    hand_points();
+    points.data[2].normal = mul3(X, -1.0f);
+    points.data[2].position.y = 0.75f;
+    points.data[3].position.y = -0.1f;
+    g.neighbour_m = 1.3f; /* leaves out the one across, at 1.414 */
+    CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5);
+    CHECK_MSG(absf(p->distance - (0.01f + 1.25f) / 2.0f) < 1e-6f, "%g", (double)p->distance);
+}
+
 static void test_discs(void)
 {
+    check_thresholds();
+    check_hemisphere();
     check_distances();
     check_joining();
     check_hand_joining();
@@ -736,8 +785,108 @@ static void check_repeats(void)
     }
 }
 
+/* --- fewer discs than points --------------------------------------------------------------------------------------- */
+
+/* In cells, squared: from each disc to the next of its face. */
+static int32_t least_step(void)
+{
+    int32_t least = 1 << 20;
+    for (uint32_t i = 0; i < points.count; ++i) {
+        for (uint32_t j = i + 1; j < points.count; ++j) {
+            int32_t x = points.data[i].cell_x - points.data[j].cell_x, y = points.data[i].cell_y - points.data[j].cell_y;
+            least = x * x + y * y < least ? x * x + y * y : least;
+        }
+    }
+    return least;
+}
+
+/* V14, V15: over a plane of 32 x 32 points: a disc of each `thin`, none much nearer to another than an even spread has
+ * it, each in the map's order and cells, and with the light of about as many points; nothing is lost. */
+static void check_thinned_plane(int32_t thin)
+{
+    const int32_t side = SIDE / 8, all = side * side;
+    lmb_light l = sun(vec3(0, -1, 0));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    uint32_t disordered = 0;
+    float most = 0.0f;
+    begin_coloured(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), Z, X);
+    CHECK(world_end() == LMB_OK);
+    clear_points();
+    add_points(&l, SIDE, &g, 0);
+    double flux = flux_of(0), area = total_area();
+    CHECK(points.count == (uint32_t)all);
+    g.thin = thin;
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    int32_t count = (int32_t)points.count;
+    CHECK_MSG(count * thin > all - side * thin / 2 && count * thin < all + side * thin / 2, "1 of %d: %d of %d",
+              (int)thin, (int)count, (int)all);
+    CHECK_MSG((double)least_step() >= 0.66 * thin, "1 of %d: %d", (int)thin, (int)least_step());
+    CHECK_MSG(fabs(flux_of(0) / flux - 1) < 1e-6 && fabs(total_area() / area - 1) < 1e-5, "1 of %d: %g %g", (int)thin,
+              flux_of(0) / flux - 1, total_area() / area - 1);
+    for (int32_t i = 0; i < count; ++i) {
+        const lmb_point *p = &points.data[i];
+        disordered += i > 0 && p->cell_y * side + p->cell_x <= p[-1].cell_y * side + p[-1].cell_x;
+        most = maxf(most, is_inner(p, side) ? p->flux[0] : 0.0f);
+    }
+    CHECK(disordered == 0);
+    CHECK_MSG((double)most < 2.5 * thin * flux / all, "1 of %d: one has %g times a point's", (int)thin,
+              (double)most * all / flux);
+}
+
+/* In a room: each surface keeps a disc, normals stay within what counts as one surface, nothing is lost. */
+static void check_thinned_room(void)
+{
+    lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    uint32_t off = 0;
+    make_box();
+    clear_points();
+    add_points(&l, SIDE, &g, 0);
+    double flux = flux_of(1), area = total_area();
+    uint32_t before = points.count;
+    g.thin = 10;
+    clear_points();
+    add_points(&l, SIDE, &g, 1);
+    for (uint32_t i = 0; i < points.count; ++i) {
+        lmb_vec3 q = points.data[i].position;
+        off += absf(dot3(points.data[i].normal, q) + 1.0f) > 1e-5f; /* walls do not mix */
+    }
+    CHECK_MSG(off == 0, "%u off the walls", (unsigned)off);
+    CHECK_MSG(fabs(flux_of(1) / flux - 1) < 1e-6 && fabs(total_area() / area - 1) < 1e-5, "%g", flux_of(1) / flux - 1);
+    CHECK_MSG(points.count > before / 11 && points.count < before / 5, "%u of %u", (unsigned)points.count,
+              (unsigned)before);
+    run_grouping("thinned", &g);
+    printf("  discs: 1 of 10 leaves %u of %u in a box, %d groups\n", (unsigned)points.count, (unsigned)before,
+           (int)groups.count);
+}
+
+static void check_thin_limits(void)
+{
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    static const int32_t bad[] = {-1, LMB_MAX_THIN + 1};
+    for (int i = 0; i < COUNT(bad); ++i) {
+        g.thin = bad[i];
+        hand_points();
+        CHECK(lmb_discs_join(&points, &map, &g) == LMB_ERR_ARG && points.count == 5);
+        CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_ERR_ARG && points.count == 5);
+    }
+}
+
+static void test_thinning(void)
+{
+    static const int32_t thin[] = {1, 2, 3, 5, 10, 33, LMB_MAX_THIN};
+    for (int i = 0; i < COUNT(thin); ++i) {
+        check_thinned_plane(thin[i]);
+    }
+    check_thinned_room();
+    check_thin_limits();
+}
+
 static void test_groups(void)
 {
+    test_thinning();
     if (LMB_MAX_GROUPS >= 512) {
         check_greedy(3.0f, 0.9f);
         check_greedy(2.0f, 0.95f);
@@ -1085,6 +1234,36 @@ static void check_near(void)
     CHECK(quads > 1000 && alone == 0.0f); /* no discs handed in: near groups give nothing */
 }
 
+/* V16: a square, a long rectangle and an oval's quad of one area: from afar the same bytes, near by each its own. */
+static void check_shapes(void)
+{
+    static const float sides[3][2] = {{0.125f, 0.125f}, {0.5f, 0.03125f}, {0.25f, 0.0625f}};
+    test_rng rng = {14};
+    lmb_irradiance far[3], near[3];
+    random_tile(&rng);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_plane(tile.position, k, vec3(test_uniform(&rng, -0.3f, 0.3f), 0, test_uniform(&rng, -0.3f, 0.3f)));
+    }
+    for (int s = 0; s < 3; ++s) {
+        clear_points();
+        set_disc(&points.data[points.count++], vec3(0, 3, 0), vec3(0, -1, 0), mul3(X, sides[s][0]), mul3(Z, sides[s][1]),
+                 2.0f);
+        lmb_grouping g = grouping_of(LMB_GROUP_NONE, 0, 8);
+        CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK && groups.area[0] == 0.0625f);
+        gather(&far[s], &points, NULL);
+        points.data[0].position.y = 0.2f;
+        CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK);
+        gather(&near[s], &points, NULL);
+    }
+    CHECK(memcmp(&far[0], &far[1], sizeof far[0]) == 0 && memcmp(&far[0], &far[2], sizeof far[0]) == 0);
+    CHECK(memcmp(&near[0], &near[1], sizeof near[0]) != 0 && memcmp(&near[0], &near[2], sizeof near[0]) != 0);
+    float most = 0.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        most = maxf(most, far[0].rgb[0][k]);
+    }
+    CHECK(most > 0.0f);
+}
+
 static void check_linear(const lmb_occluder *o)
 {
     lmb_irradiance once, twice;
@@ -1130,6 +1309,7 @@ static void test_gather(void)
     test_rng rng = {13};
     check_far();
     check_near();
+    check_shapes();
     random_tile(&rng);
     plate_points(0.3f);
     check_linear(NULL);
