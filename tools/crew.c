@@ -90,11 +90,11 @@ static lmb_status do_step(const crew *c, lmb_render *r)
     return status;
 }
 
-/* Up to the bands: with one thread by steps, so that it can be told how far it is. */
-static lmb_status do_stages(crew *c, lmb_render *r, int32_t *stage)
+/* The stages before `past`: with one thread by steps, so that it can be told how far it is. */
+static lmb_status do_stages(crew *c, lmb_render *r, int32_t *stage, int32_t past)
 {
     lmb_status status = LMB_MORE;
-    while (status == LMB_MORE && r->stage < LMB_STAGE_BANDS) {
+    while (status == LMB_MORE && r->stage < past) {
         const double start = host_seconds();
         *stage = r->stage;
         status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
@@ -103,20 +103,35 @@ static lmb_status do_stages(crew *c, lmb_render *r, int32_t *stage)
     return status == LMB_MORE ? LMB_OK : status;
 }
 
-lmb_status crew_render(crew *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+static lmb_status do_bands(crew *c, lmb_render *r, int32_t *stage)
 {
-    const int bands = (frame->view.frame_height + LMB_TILE - 1) / LMB_TILE;
-    lmb_status status = lmb_render_begin(r, frame);
+    const double start = host_seconds();
+    *stage = LMB_STAGE_BANDS;
+    lmb_status status = share(c, r, (r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE, draw_band);
+    c->stage_s[LMB_STAGE_BANDS] += host_seconds() - start;
+    return status;
+}
+
+lmb_status crew_light(crew *c, int32_t *stage, lmb_render *r, const lmb_frame *frame, int32_t past)
+{
+    const lmb_status status = lmb_render_begin(r, frame);
     *stage = LMB_STAGE_LIGHT_MAP;
     memset(c->stage_s, 0, sizeof c->stage_s);
+    return status != LMB_OK ? status : do_stages(c, r, stage, past);
+}
+
+lmb_status crew_render(crew *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_status status = crew_light(c, stage, r, frame, LMB_STAGE_BANDS);
+    return status != LMB_OK ? status : do_bands(c, r, stage);
+}
+
+lmb_status crew_again(crew *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+{
+    lmb_status status = lmb_render_again(r, frame);
+    *stage = LMB_STAGE_VIEW;
     if (status == LMB_OK) {
-        status = do_stages(c, r, stage);
+        status = do_stages(c, r, stage, LMB_STAGE_BANDS);
     }
-    if (status == LMB_OK) {
-        const double start = host_seconds();
-        *stage = LMB_STAGE_BANDS;
-        status = share(c, r, bands, draw_band);
-        c->stage_s[LMB_STAGE_BANDS] = host_seconds() - start;
-    }
-    return status;
+    return status != LMB_OK ? status : do_bands(c, r, stage);
 }

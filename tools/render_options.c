@@ -16,6 +16,7 @@ const char render_usage[] =
     "  --camera NAME|N            one of the scene's cameras, by name or number from 0 (default: 0)\n"
     "  --eye X,Y,Z --target X,Y,Z [--up X,Y,Z] --fov DEG\n"
     "                             a camera of your own; fov is the vertical angle (default 45), up +Y\n"
+    "  --stereo METRES            two eyes that far apart, left | right side by side, each --size; one light serves both\n"
     "light\n"
     "  --light KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]\n"
     "                             instead of the scene's lights; may be repeated, lights add up. KIND is spot, point\n"
@@ -26,11 +27,16 @@ const char render_usage[] =
     "  --grouping zones|greedy|none   how lit points become groups (default zones)\n"
     "  --groups N                 groups at most (default 512)\n"
     "  --block N                  texels a side of a first point: 1 2 4 8 (default 8)\n"
-    "  --neighbour METRES         points farther apart are no neighbours (default: any of the eight cells around)\n"
+    "  --neighbour METRES         points farther apart are no neighbours, say 0.25, 0.5 or 1 (default: any of the eight\n"
+    "                             cells around)\n"
+    "  --neighbourhood facing|hemisphere\n"
+    "                             neighbours are points that face the same way, or any over the surface (default facing)\n"
+    "  --thin N                   of N points one becomes a disc, evenly spread, and the others join it, 1 .. 64\n"
+    "                             (default 1)\n"
     "  --join K                   points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)\n"
     "  --reach X                  a disc joins a group within X x the first disc's radius (default 3)\n"
     "  --cosine C                 ... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)\n"
-    "  --misfits keep|drop        what does not fit its zone opens another group, or is lost (--stats: energy_kept)\n"
+    "  --misfits keep|drop        what does not fit its zone opens another group, or is lost; how much is said\n"
     "  --centre barycentre|disc   where a group stands (default barycentre)\n"
     "  --occlusion none|view|view-world\n"
     "                             what stands between groups and pixels: nothing, or what the viewer's depth map\n"
@@ -38,7 +44,13 @@ const char render_usage[] =
     "                             know what is off screen or hidden.\n"
     "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n"
     "picture\n"
-    "  --show full|direct|indirect|irradiance|depth|normal|albedo   (default full; irradiance: bounced, before albedo)\n"
+    "  --show full|direct|indirect|irradiance   (default full; irradiance: bounced, before albedo)\n"
+    "         depth|eye-distance|normal|albedo  of what the eye sees; metres along the view, and from the eye\n"
+    "         light-distance|points|groups      of the lights' maps, at their size, a row of faces a light: metres from\n"
+    "                             the light; first points by what they send, W/m2 (discs, where --join or --thin is\n"
+    "                             given); the number of the group that owns a texel, 0 in the dark, -1 where dropped\n"
+    "         occlusion           the share of the bounced light that --occlusion blocks\n"
+    "                             Display formats scale distances, near is bright, and give each group a colour.\n"
     "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
     "other\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
@@ -162,9 +174,12 @@ static int parse_exposure(const char *text, render_options *o)
 
 static int parse_show(const char *text, render_options *o)
 {
-    static const char *const words[] = {"full", "direct", "indirect", "irradiance", "depth", "normal", "albedo", NULL};
+    static const char *const words[] = {"full",           "direct",       "indirect", "irradiance", "depth",
+                                        "normal",         "albedo",       "eye-distance", "light-distance", "points",
+                                        "groups",         "occlusion",    NULL};
     static const int32_t values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT, LMB_SHOW_INDIRECT, LMB_SHOW_IRRADIANCE,
-                                     SHOW_DEPTH,    SHOW_NORMAL,     SHOW_ALBEDO};
+                                     SHOW_DEPTH,    SHOW_NORMAL,     SHOW_ALBEDO,       SHOW_EYE_DISTANCE,
+                                     SHOW_LIGHT_DISTANCE, SHOW_POINTS, SHOW_GROUPS, SHOW_OCCLUSION};
     return parse_word(text, words, values, &o->show);
 }
 
@@ -278,6 +293,21 @@ static int parse_centre(const char *text, render_options *o)
     return parse_flag_word(text, "barycentre", "disc", LMB_POINT_CENTRE, &o->grouping.flags);
 }
 
+static int parse_neighbourhood(const char *text, render_options *o)
+{
+    return parse_flag_word(text, "facing", "hemisphere", LMB_NEAR_HEMISPHERE, &o->grouping.flags);
+}
+
+static int parse_thin(const char *text, render_options *o)
+{
+    return parse_int(text, 1, LMB_MAX_THIN, &o->grouping.thin);
+}
+
+static int parse_stereo(const char *text, render_options *o)
+{
+    return parse_number(text, 0.0f, 1e6f, &o->stereo_m) && o->stereo_m > 0.0f;
+}
+
 static int add_light(const char *text, render_options *o)
 {
     return o->light_count < RENDER_LIGHTS && parse_light(text, &o->lights[o->light_count++]);
@@ -296,6 +326,7 @@ static const struct flag {
     {"--target", parse_target, "X,Y,Z"},
     {"--up", parse_up, "X,Y,Z"},
     {"--fov", parse_fov, "degrees, over 0 and under 179"},
+    {"--stereo", parse_stereo, "metres, over 0"},
     {"--light", add_light, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], at most 64 of them, angles <= 89"},
     {"--light-map", parse_light_map, "a multiple of 8, 8 .. 4096"},
     {"--grouping", parse_grouping, "cut, zones, greedy or none"},
@@ -304,6 +335,8 @@ static const struct flag {
     {"--groups", parse_groups, "a number from 1 to the build's capacity (2048)"},
     {"--block", parse_block, "1, 2, 4 or 8"},
     {"--neighbour", parse_neighbour, "metres, 0 or more"},
+    {"--neighbourhood", parse_neighbourhood, "facing or hemisphere"},
+    {"--thin", parse_thin, "a number from 1 to 64"},
     {"--join", parse_join, "a number from 0 to 1"},
     {"--reach", parse_reach, "a number over 0"},
     {"--cosine", parse_cosine, "a number from -1 to 1"},
@@ -311,7 +344,9 @@ static const struct flag {
     {"--centre", parse_centre, "barycentre or disc"},
     {"--occlusion", parse_occlusion, "exact, none, view or view-world"},
     {"--steps", parse_steps, "1 .. 64"},
-    {"--show", parse_show, "full, direct, indirect, irradiance, depth, normal or albedo"},
+    {"--show", parse_show,
+     "full, direct, indirect, irradiance, depth, eye-distance, normal, albedo, light-distance, points, groups or "
+     "occlusion"},
     {"--exposure", parse_exposure, "stops (-60 .. 60) or auto"},
     {"--backend", parse_backend, "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"},
     {"--threads", parse_threads, "1 .. 64"},
@@ -344,6 +379,15 @@ static int check_together(const render_options *o, report *r)
     }
     if (o->has_eye && o->camera != NULL) {
         return report_fail(r, "--camera and --eye exclude each other");
+    }
+    if (o->stereo_m > 0.0f && shows_map(o->show)) {
+        return report_fail(r, "--stereo: what lives in a light's map is one for both eyes; show it without");
+    }
+    if (o->grouping.method == LMB_GROUP_CUT && (o->show == SHOW_POINTS || o->show == SHOW_GROUPS)) {
+        return report_fail(r, "--show points and groups: a cut is each tile's own; use --grouping zones, greedy or none");
+    }
+    if (o->show == SHOW_OCCLUSION && o->occlusion == LMB_OCCLUSION_NONE) {
+        return report_fail(r, "--show occlusion wants an --occlusion other than none");
     }
     return 1;
 }

@@ -8,8 +8,13 @@
 
 #define RENDER_LIGHTS 64 /* --light given at most this often */
 
-/* --show beyond LMB_SHOW_*: attributes, not light. */
-enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO };
+/* --show beyond LMB_SHOW_*: the view's attributes; what lives in the lights' maps; how much light is blocked. */
+enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_EYE_DISTANCE };
+enum { SHOW_LIGHT_DISTANCE = 32, SHOW_POINTS, SHOW_GROUPS };
+enum { SHOW_OCCLUSION = 48 };
+
+static inline int shows_attribute(int32_t show) { return show >= SHOW_DEPTH && show <= SHOW_EYE_DISTANCE; }
+static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
 
 typedef struct render_options {
     const char *scene, *out, *stats;
@@ -21,6 +26,7 @@ typedef struct render_options {
     float fov_deg;
     lmb_light lights[RENDER_LIGHTS];
     uint32_t light_count;
+    float stereo_m; /* between the eyes; 0: one eye */
     int32_t show;
     int32_t light_map; /* 0: chosen */
     lmb_grouping grouping;

@@ -136,9 +136,19 @@ int render_view(lmb_view *v, render_options *o, const model *loaded, const lmb_s
             use_camera(o, v, c);
         }
     }
-    /* A near plane of the scene's own size where none is given: a millionth of what is seen. */
-    float reach = fmaxf(from_eye(scene, v->eye), 1e-4f);
-    v->near_m = v->near_m > 0.0f && loaded->camera_count > 0 && !o->has_eye ? v->near_m : 1e-4f * reach;
-    v->far_m = v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m ? v->far_m : v->near_m + 2.0f * reach;
+    v->near_m = loaded->camera_count > 0 && !o->has_eye ? v->near_m : 0.0f;
     return 1;
+}
+
+/* A near plane of the scene's own size where none is given: a ten-thousandth of what is seen. */
+lmb_view render_view_from(const lmb_view *middle, float right_m, const lmb_scene *scene)
+{
+    lmb_view v = *middle;
+    v.eye.x += right_m * v.right.x;
+    v.eye.y += right_m * v.right.y;
+    v.eye.z += right_m * v.right.z;
+    float reach = fmaxf(from_eye(scene, v.eye), 1e-4f);
+    v.near_m = v.near_m > 0.0f ? v.near_m : 1e-4f * reach;
+    v.far_m = v.kind == LMB_ORTHOGRAPHIC && v.far_m > v.near_m ? v.far_m : v.near_m + 2.0f * reach;
+    return v;
 }

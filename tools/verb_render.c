@@ -11,6 +11,7 @@
 #include "../platform/host/host.h"
 #include "crew.h"
 #include "demo_scene.h"
+#include "map_picture.h"
 #include "model.h"
 #include "picture.h"
 #include "render_options.h"
@@ -25,12 +26,15 @@ typedef struct job {
     model_notes notes;
     lmb_scene scene; /* the loaded or built-in one, with the lights of this run */
     lmb_light sun;
-    lmb_frame frame;
+    lmb_view middle; /* between the eyes */
+    int32_t eyes;    /* 1, or 2: side by side in the picture */
+    lmb_frame frame; /* its view and out: those of the eye at hand */
     lmb_render *render;
+    int lit;         /* the light stages of `render` are done */
     crew crew;
     lmb_stats stats;
     image linear;
-    void *map_memory, *point_memory, *blocker_memory, *depth_memory, *id_memory;
+    void *map_memory, *point_memory, *owner_memory, *blocker_memory, *depth_memory, *id_memory;
     size_t bytes; /* of the above and the state */
     double load_s, write_s, total_s;
     double indirect_share;
@@ -41,6 +45,7 @@ static void job_free(job *j)
     free(j->map_memory);
     free(j->point_memory);
     free(j->blocker_memory);
+    free(j->owner_memory);
     free(j->depth_memory);
     free(j->id_memory);
     free(j->frame.groups);
@@ -163,6 +168,19 @@ static int take_tree(job *j, report *r)
     return lmb_tree_init(&f->tree, faces, f->light_map, j->point_memory, bytes) == LMB_OK;
 }
 
+/* Who holds a texel's light: asked for only where it is shown. */
+static int take_owners(job *j, report *r)
+{
+    lmb_points *p = &j->frame.points;
+    const uint64_t texels = (uint64_t)j->frame.light_map * (uint64_t)j->frame.light_map * total_faces(&j->scene);
+    if (texels > UINT32_MAX / 16) {
+        return report_fail(r, "%.0f texels are too many to show; use a smaller --light-map", (double)texels);
+    }
+    p->owner = j->owner_memory = take(j, (size_t)texels * sizeof *p->owner, r);
+    p->owner_cap = (uint32_t)texels;
+    return p->owner != NULL;
+}
+
 /* Room for every block to hold all the surfaces that the library tells apart. */
 static int take_points(job *j, report *r)
 {
@@ -182,36 +200,80 @@ static int take_points(job *j, report *r)
            lmb_points_init(&f->points, (uint32_t)n, side, j->point_memory, bytes) == LMB_OK;
 }
 
+/* What holds the light that bounces, as far as it is shown. */
+static int take_light(job *j, report *r)
+{
+    if (j->o.show == LMB_SHOW_DIRECT || j->o.show == SHOW_LIGHT_DISTANCE) {
+        return 1;
+    }
+    if (j->frame.grouping.method == LMB_GROUP_CUT) {
+        return take_tree(j, r);
+    }
+    return take_points(j, r) && (!shows_map(j->o.show) || take_owners(j, r));
+}
+
+/* Where in a picture of all eyes one eye's goes. */
+static lmb_surface eye_surface(const job *j, const image *whole, int32_t eye)
+{
+    lmb_surface s;
+    memset(&s, 0, sizeof s);
+    s.data = whole->pixels + (size_t)eye * (size_t)(j->o.width * whole->channels);
+    s.width = j->o.width;
+    s.height = whole->height;
+    s.stride_bytes = whole->width * whole->channels * (int32_t)sizeof(float);
+    s.format = whole->channels == 1 ? LMB_R32F : LMB_RGB32F;
+    return s;
+}
+
+static void set_eye(const job *j, lmb_frame *f, const image *whole, int32_t eye)
+{
+    const float right_m = j->o.stereo_m * ((float)eye - 0.5f * (float)(j->eyes - 1));
+    f->view = render_view_from(&j->middle, right_m, &j->scene);
+    f->out = eye_surface(j, whole, eye);
+}
+
+static int take_picture(job *j, image *out, report *r)
+{
+    size_t bytes = (size_t)(j->o.width * j->eyes) * (size_t)j->o.height * 3 * sizeof(float);
+    out->pixels = take(j, bytes, r);
+    out->width = j->o.width * j->eyes;
+    out->height = j->o.height;
+    out->channels = 3;
+    if (out->pixels != NULL) {
+        memset(out->pixels, 0, bytes);
+    }
+    return out->pixels != NULL;
+}
+
 static int take_frame(job *j, report *r)
 {
     lmb_frame *f = &j->frame;
-    int32_t w = f->view.frame_width, h = f->view.frame_height;
+    int32_t w = j->o.width, h = j->o.height;
     size_t depth = lmb_surface_bytes(LMB_DEPTH32F, w, h), id = lmb_surface_bytes(f->id_format, w, h);
-    size_t out = (size_t)w * (size_t)h * 3 * sizeof(float);
     j->depth_memory = take(j, depth, r);
     j->id_memory = take(j, id, r);
-    j->linear.pixels = take(j, out, r);
     f->scratch = j->crew.scratches = take(j, sizeof *f->scratch * (size_t)j->crew.threads, r);
     if (f->scratch) memset(f->scratch, 0, sizeof *f->scratch * (size_t)j->crew.threads);
     j->render = take(j, sizeof *j->render, r);
-    if (r->text[0] != '\0') {
+    if (!take_picture(j, &j->linear, r) || r->text[0] != '\0') {
         return 0;
     }
-    memset(j->linear.pixels, 0, out);
-    j->linear.width = w;
-    j->linear.height = h;
-    j->linear.channels = 3;
     lmb_surface_init(&f->eye.depth, LMB_DEPTH32F, w, h, j->depth_memory, depth);
     lmb_surface_init(&f->eye.id, f->id_format, w, h, j->id_memory, id);
-    lmb_surface_init(&f->out, LMB_RGB32F, w, h, j->linear.pixels, out);
+    set_eye(j, f, &j->linear, 0);
     return 1;
 }
 
 static int set_frame(job *j, report *r)
 {
     lmb_frame *f = &j->frame;
-    if (!render_view(&f->view, &j->o, &j->loaded, &j->scene, r)) {
+    if (!render_view(&j->middle, &j->o, &j->loaded, &j->scene, r)) {
         return 0;
+    }
+    j->eyes = j->o.stereo_m > 0.0f ? 2 : 1;
+    if (j->o.width * j->eyes > LMB_MAX_SIDE) {
+        return report_fail(r, "--stereo: two views of %d px are wider than %d; try a smaller --size", (int)j->o.width,
+                           LMB_MAX_SIDE);
     }
     tell_notes(j);
     set_lights(j);
@@ -219,7 +281,7 @@ static int set_frame(job *j, report *r)
     j->crew.threads = j->crew.threads > POOL_MAX ? POOL_MAX : j->crew.threads;
     f->kernels = j->o.kernels;
     f->scene = &j->scene;
-    f->show = j->o.show < SHOW_DEPTH ? j->o.show : LMB_SHOW_FULL;
+    f->show = j->o.show < SHOW_DEPTH ? j->o.show : j->o.show == SHOW_OCCLUSION ? LMB_SHOW_IRRADIANCE : LMB_SHOW_FULL;
     f->grouping = j->o.grouping;
     f->occlusion = j->o.occlusion;
     f->steps = j->o.steps;
@@ -227,13 +289,13 @@ static int set_frame(job *j, report *r)
     f->visible = j->o.visible;
     f->id_format = LMB_ID32;
     f->stats = &j->stats;
-    if (j->o.show >= SHOW_DEPTH) {
+    if (shows_attribute(j->o.show)) {
         return take_frame(j, r);
     }
-    return take_maps(j, r) &&
-           (j->o.show == LMB_SHOW_DIRECT ||
-            (f->grouping.method == LMB_GROUP_CUT ? take_tree(j, r) : take_points(j, r))) &&
-           take_frame(j, r);
+    if (j->o.show == SHOW_POINTS && f->grouping.join <= 0.0f) {
+        f->grouping.join = 1e-30f; /* first points as they are: none is so near another */
+    }
+    return take_maps(j, r) && take_light(j, r) && take_frame(j, r);
 }
 
 /* --- drawing -------------------------------------------------------------------------------------------------------- */
@@ -286,6 +348,18 @@ static void watch(void *user, const lmb_render *at)
     }
 }
 
+/* The frame `how` for all eyes; the light's stages once a run. */
+static lmb_status draw_eyes(job *j, crew *c, int32_t *stage, lmb_frame how, const image *into)
+{
+    lmb_status status = LMB_OK;
+    for (int32_t eye = 0; eye < j->eyes && status == LMB_OK; ++eye) {
+        set_eye(j, &how, into, eye);
+        status = j->lit ? crew_again(c, stage, j->render, &how) : crew_render(c, stage, j->render, &how);
+        j->lit = 1;
+    }
+    return status;
+}
+
 static int draw(job *j, report *r)
 {
     watcher w = {LMB_STAGE_LIGHT_MAP, host_seconds(), 0.0, 0.0};
@@ -293,84 +367,172 @@ static int draw(job *j, report *r)
     j->crew.tell = host_watched() ? watch : NULL;
     j->crew.user = &w;
     int32_t stage;
-    lmb_status status = crew_render(&j->crew, &stage, j->render, &j->frame);
+    lmb_status status = draw_eyes(j, &j->crew, &stage, j->frame, &j->linear);
     if (w.shown > 0.0) {
         fprintf(stderr, "\r%60s\r", "");
     }
     return status == LMB_OK || explain(j, status, stage, r);
 }
 
-/* Attributes instead of light: the view alone is drawn. */
-static int draw_attributes(job *j, report *r)
+/* The same frame once more, shown otherwise, by the same light; neither told nor timed. */
+static int draw_once_more(job *j, image *out, lmb_frame how, report *r)
+{
+    crew again = j->crew;
+    int32_t stage;
+    again.tell = NULL;
+    how.stats = NULL;
+    if (!take_picture(j, out, r)) {
+        return 0;
+    }
+    lmb_status status = draw_eyes(j, &again, &stage, how, out);
+    return status == LMB_OK || explain(j, status, stage, r);
+}
+
+/* The share of the light that is blocked: 1 - with / without, over the sum of the channels. */
+static int draw_occlusion(job *j, report *r)
+{
+    image open = {0, 0, 0, NULL};
+    lmb_frame f = j->frame;
+    const size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
+    float *p = j->linear.pixels;
+    f.occlusion = LMB_OCCLUSION_NONE;
+    if (!draw(j, r) || !draw_once_more(j, &open, f, r)) {
+        image_free(&open);
+        return 0;
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const float *all = open.pixels + 3 * i;
+        const float with = p[3 * i] + p[3 * i + 1] + p[3 * i + 2], without = all[0] + all[1] + all[2];
+        p[i] = without > 0.0f ? fminf(fmaxf(1.0f - with / without, 0.0f), 1.0f) : 0.0f;
+    }
+    j->linear.channels = 1;
+    image_free(&open);
+    return 1;
+}
+
+/* The light's stages as far as they are shown, and their picture in place of the eye's. */
+static int draw_map(job *j, report *r)
+{
+    const int display = !picture_is_linear(picture_format(j->o.out));
+    const int32_t past = j->o.show == SHOW_GROUPS ? LMB_STAGE_VIEW
+                         : j->o.show == SHOW_POINTS ? LMB_STAGE_GROUPS : LMB_STAGE_POINTS;
+    int32_t stage;
+    lmb_status status = crew_light(&j->crew, &stage, j->render, &j->frame, past);
+    if (status != LMB_OK) {
+        return explain(j, status, stage, r);
+    }
+    image_free(&j->linear);
+    return j->o.show == SHOW_GROUPS   ? map_groups(&j->linear, j->render, display, r)
+           : j->o.show == SHOW_POINTS ? map_points(&j->linear, j->render, display, r)
+                                      : map_distances(&j->linear, j->render, r);
+}
+
+/* Attributes of what one eye sees, instead of light: the view alone is drawn. */
+static lmb_status draw_attribute(job *j)
 {
     lmb_frame *f = &j->frame;
-    lmb_surface z = f->out, *depth = NULL, *normal = NULL, *albedo = NULL;
+    const lmb_surface *depth = f->out.format == LMB_R32F ? &f->out : NULL;
+    const lmb_surface *normal = j->o.show == SHOW_NORMAL ? &f->out : NULL;
+    const lmb_surface *albedo = j->o.show == SHOW_ALBEDO ? &f->out : NULL;
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
-    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1,
-                                 LMB_CULL_BACK, &j->stats);
-    if (j->o.show == SHOW_DEPTH) {
-        z.format = LMB_R32F;
-        z.stride_bytes = z.width * 4;
-        j->linear.channels = 1;
-        depth = &z;
-    } else if (j->o.show == SHOW_NORMAL) {
-        normal = &f->out;
-    } else {
-        albedo = &f->out;
-    }
+    lmb_status status =
+        lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, &j->stats);
     for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
         status =
             lmb_gbuffer_band(depth, normal, albedo, &f->scratch->tile, f->kernels, &f->view, &j->scene, &f->eye, band);
     }
+    if (j->o.show == SHOW_EYE_DISTANCE) {
+        distance_of_depth(f->out.data, f->out.width, f->out.height, (size_t)j->linear.width, &f->view);
+    }
+    return status;
+}
+
+static int draw_attributes(job *j, report *r)
+{
+    lmb_status status = LMB_OK;
+    j->linear.channels = j->o.show == SHOW_DEPTH || j->o.show == SHOW_EYE_DISTANCE ? 1 : 3;
+    for (int32_t eye = 0; eye < j->eyes && status == LMB_OK; ++eye) {
+        set_eye(j, &j->frame, &j->linear, eye);
+        status = draw_attribute(j);
+    }
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", j->o.scene, lmb_status_name(status));
 }
 
-/* Display formats show attributes as pictures: depth near to white, normals with 0 at middle grey. */
-static int attributes_for_display(job *j, report *r)
+/* One channel becomes three. */
+static int widen(image *p, report *r)
 {
-    size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
-    float far_m = 1e-30f, *wide;
-    if (j->o.show == SHOW_NORMAL) {
-        for (size_t i = 0; i < 3 * n; ++i) {
-            j->linear.pixels[i] = 0.5f + 0.5f * j->linear.pixels[i];
-        }
-    }
-    if (j->o.show != SHOW_DEPTH) {
-        return 1;
-    }
-    wide = malloc(3 * n * sizeof *wide);
-    if (wide == NULL) {
-        return report_fail(r, "not enough memory for the picture; try a smaller --size");
-    }
-    for (size_t i = 0; i < n; ++i) {
-        far_m = fmaxf(far_m, j->linear.pixels[i]);
-    }
-    for (size_t i = 0; i < n; ++i) {
-        float d = j->linear.pixels[i];
-        wide[3 * i] = wide[3 * i + 1] = wide[3 * i + 2] = d > 0.0f ? 1.0f - 0.9f * d / far_m : 0.0f;
-    }
-    free(j->linear.pixels);
-    j->linear.pixels = wide;
-    j->linear.channels = 3;
-    return 1;
-}
-
-/* PFM keeps one channel; a Radiance picture has three. */
-static int depth_for_hdr(job *j, report *r)
-{
-    size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
+    const size_t n = (size_t)p->width * (size_t)p->height;
     float *wide = malloc(3 * n * sizeof *wide);
     if (wide == NULL) {
         return report_fail(r, "not enough memory for the picture; try a smaller --size");
     }
     for (size_t i = 0; i < n; ++i) {
-        wide[3 * i] = wide[3 * i + 1] = wide[3 * i + 2] = j->linear.pixels[i];
+        wide[3 * i] = wide[3 * i + 1] = wide[3 * i + 2] = p->pixels[i];
     }
-    free(j->linear.pixels);
-    j->linear.pixels = wide;
-    j->linear.channels = 3;
+    free(p->pixels);
+    p->pixels = wide;
+    p->channels = 3;
     return 1;
+}
+
+/* Depth from white at the eye to black at nothing. */
+static void grey_depths(image *p)
+{
+    const size_t n = (size_t)p->width * (size_t)p->height;
+    float far_m = 1e-30f;
+    for (size_t i = 0; i < n; ++i) {
+        far_m = fmaxf(far_m, p->pixels[i]);
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const float d = p->pixels[i];
+        p->pixels[i] = d > 0.0f ? 1.0f - 0.9f * d / far_m : 0.0f;
+    }
+}
+
+/* Distances in equal steps of grey from the nearest, white, to the farthest, which nothing at all stays darker than. */
+static void grey_distances(image *p)
+{
+    const size_t n = (size_t)p->width * (size_t)p->height;
+    float near_m = 1e30f, far_m = 0.0f;
+    for (size_t i = 0; i < n; ++i) {
+        const float d = p->pixels[i];
+        near_m = d > 0.0f ? fminf(near_m, d) : near_m;
+        far_m = fmaxf(far_m, d);
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const float d = p->pixels[i], part = far_m > near_m ? (d - near_m) / (far_m - near_m) : 0.0f;
+        p->pixels[i] = d > 0.0f ? (float)srgb_decode((int)(255.0f - 200.0f * part)) : 0.0f;
+    }
+    if (far_m > 0.0f) {
+        fprintf(stderr, "lambent: from %.4g m (white) to %.4g m (dark grey)\n", (double)near_m, (double)far_m);
+    }
+}
+
+/* Equal steps of the blocked share are equal steps of grey. */
+static void grey_shares(image *p)
+{
+    for (size_t i = 0; i < (size_t)p->width * (size_t)p->height; ++i) {
+        p->pixels[i] = (float)srgb_decode((int)(p->pixels[i] * 255.0f + 0.5f));
+    }
+}
+
+/* What is no light, for display formats; normals get 0 at middle grey. The others are in 0 .. 1 already. */
+static void grey_for_display(job *j)
+{
+    const size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
+    switch (j->o.show) {
+    case SHOW_DEPTH: grey_depths(&j->linear); break;
+    case SHOW_EYE_DISTANCE:
+    case SHOW_LIGHT_DISTANCE: grey_distances(&j->linear); break;
+    case SHOW_OCCLUSION: grey_shares(&j->linear); break;
+    case SHOW_NORMAL:
+        for (size_t i = 0; i < 3 * n; ++i) {
+            j->linear.pixels[i] = 0.5f + 0.5f * j->linear.pixels[i];
+        }
+        break;
+    default: break;
+    }
 }
 
 static double mean(const image *p)
@@ -398,8 +560,8 @@ static int write_stats(const job *j, report *r)
     }
     fprintf(stderr, "NODES %g a tile, segments %g a pixel\n", nodes * 64 / (j->frame.view.frame_width * j->frame.view.frame_height), asked / (j->frame.view.frame_width * j->frame.view.frame_height));
     n += snprintf(text + n, sizeof text - (size_t)n,
-                  "{\n  \"width\": %d, \"height\": %d,\n  \"seconds\": {\"load\": %.6f", (int)j->frame.view.frame_width,
-                  (int)j->frame.view.frame_height, j->load_s);
+                  "{\n  \"width\": %d, \"height\": %d, \"views\": %d,\n  \"seconds\": {\"load\": %.6f",
+                  (int)j->linear.width, (int)j->linear.height, (int)j->eyes, j->load_s);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
         n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->crew.stage_s[i]);
     }
@@ -425,8 +587,8 @@ static void tell_demo(const job *j)
 {
     const char *name;
     lmb_render at = *j->render;
-    printf("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->frame.view.frame_width,
-           (int)j->frame.view.frame_height, (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
+    printf("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->linear.width, (int)j->linear.height,
+           (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
         at.stage = i;
         lmb_render_progress(&name, &at);
@@ -438,29 +600,14 @@ static void tell_demo(const job *j)
 /* How much of the picture's light has bounced: the same frame again, direct light only, which costs little. */
 static int measure_share(job *j, report *r)
 {
-    double full = mean(&j->linear);
-    image direct;
-    lmb_render *render = malloc(sizeof *render);
+    const double full = mean(&j->linear);
+    image direct = {0, 0, 0, NULL};
     lmb_frame f = j->frame;
-    size_t bytes = (size_t)j->linear.width * (size_t)j->linear.height * 3 * sizeof(float);
-    direct = j->linear;
-    direct.pixels = malloc(bytes);
-    if (render == NULL || direct.pixels == NULL) {
-        free(render);
-        free(direct.pixels);
-        return report_fail(r, "not enough memory for the picture; try a smaller --size");
-    }
     f.show = LMB_SHOW_DIRECT;
-    f.stats = NULL;
-    lmb_surface_init(&f.out, LMB_RGB32F, direct.width, direct.height, direct.pixels, bytes);
-    crew again = j->crew;
-    int32_t stage;
-    again.tell = NULL;
-    lmb_status status = crew_render(&again, &stage, render, &f);
-    j->indirect_share = full > 0.0 ? 1.0 - mean(&direct) / full : 0.0;
-    free(render);
-    free(direct.pixels);
-    return status == LMB_OK || report_fail(r, "rendering stopped: %s", lmb_status_name(status));
+    const int ok = draw_once_more(j, &direct, f, r);
+    j->indirect_share = ok && full > 0.0 ? 1.0 - mean(&direct) / full : 0.0;
+    image_free(&direct);
+    return ok;
 }
 
 static int save(job *j, report *r)
@@ -469,8 +616,10 @@ static int save(job *j, report *r)
     int linear = picture_is_linear(picture_format(j->o.out));
     if (j->o.show >= SHOW_DEPTH) {
         ev = 0.0f;
-        if ((!linear && !attributes_for_display(j, r)) ||
-            (j->o.show == SHOW_DEPTH && picture_format(j->o.out) == PICTURE_HDR && !depth_for_hdr(j, r))) {
+        if (!linear) {
+            grey_for_display(j);
+        }
+        if (j->linear.channels == 1 && picture_format(j->o.out) != PICTURE_PFM && !widen(&j->linear, r)) {
             return 0;
         }
     } else if (j->o.exposure_auto && !linear) {
@@ -480,6 +629,24 @@ static int save(job *j, report *r)
     return picture_write(j->o.out, &j->linear, ev, r);
 }
 
+static int draw_what_is_shown(job *j, report *r)
+{
+    return shows_attribute(j->o.show)          ? draw_attributes(j, r)
+           : shows_map(j->o.show)              ? draw_map(j, r)
+           : j->o.show == SHOW_OCCLUSION       ? draw_occlusion(j, r)
+                                               : draw(j, r);
+}
+
+/* Strict zones: what they lost [V20]. */
+static void tell_loss(const job *j)
+{
+    const double lost = j->stats.flux_lit - j->stats.flux_grouped;
+    if ((j->frame.grouping.flags & LMB_ZONES_STRICT) && j->stats.groups > 0) {
+        fprintf(stderr, "lambent: note: --misfits drop lost %.3g %% of the light that bounces\n",
+                j->stats.flux_lit > 0.0 ? fmax(lost, 0.0) / j->stats.flux_lit * 100.0 : 0.0);
+    }
+}
+
 static int run(job *j, report *r)
 {
     double start = host_seconds();
@@ -487,9 +654,10 @@ static int run(job *j, report *r)
         return 0;
     }
     j->load_s = host_seconds() - start;
-    if (!set_frame(j, r) || !(j->o.show >= SHOW_DEPTH ? draw_attributes(j, r) : draw(j, r))) {
+    if (!set_frame(j, r) || !draw_what_is_shown(j, r)) {
         return 0;
     }
+    tell_loss(j);
     if (j->stats.triangles_dropped > 0) {
         fprintf(stderr, "lambent: note: %u triangles dropped: vertices not finite or over 2^20 m away\n",
                 (unsigned)j->stats.triangles_dropped);

@@ -34,13 +34,17 @@ typedef struct lmb_points {
     uint32_t *cells;
     uint32_t cell_cap; /* >= (map size / block)^2 + 1 */
     uint32_t faces;    /* collected so far */
+    uint32_t *owner;   /* NULL, or for each texel of each face, in order, rows from the top: which of `data` holds its
+                          light, through joining and grouping; LMB_NOBODY where there is none            [V33] */
+    uint32_t owner_cap, owner_count; /* texels */
 } lmb_points;
+#define LMB_NOBODY 0xffffffffu
 
 /* Static storage for n points from maps of `side` x `side` blocks: LMB_POINTS_ARRAY(points, 400, 16); */
 #define LMB_POINTS_ARRAY(name, n, side) \
     static lmb_point name##_data[n]; \
     static uint32_t name##_cells[(side) * (side) + 1]; \
-    static lmb_points name = {name##_data, (n), 0, name##_cells, (side) * (side) + 1, 0}
+    static lmb_points name = {name##_data, (n), 0, name##_cells, (side) * (side) + 1, 0, NULL, 0, 0}
 
 /* How first points become groups; zero means the default that stands beside each. */
 typedef struct lmb_grouping {
@@ -109,8 +113,8 @@ lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *mem
  *                                                                                             [V1 V2 V4 V5 V6 V7]
  * Every texel's flux is kept: the texels of a block that share a surface (normals within 25 degrees, planes within
  * a texel) make one first point, at most four a block; what fits none joins the likest.
- * Begin a face at tile_y0 = 0 and go on in order. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY when data or cells
- * are full: the points so far stand, the rest of the face is missing. */
+ * Begin a face at tile_y0 = 0 and go on in order. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY when data, cells or
+ * owners are full: the points so far stand, the rest of the face is missing. */
 lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
                               const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping);

@@ -5,7 +5,16 @@
  *     while (lmb_render_step(&r, 1000) == LMB_MORE) { ... }       or: lmb_render_frame(&r, &frame)
  *
  * Order [V34]: per light its map, first points, discs; groups; the viewer's depth; then band after band: attributes,
- * direct light, gathered light, picture. Steps of any size, and bands in any order, give the same bytes. */
+ * direct light, gathered light, picture. Steps of any size, and bands in any order, give the same bytes.
+ *
+ * What a frame keeps, and where [V33]; all of it is the caller's memory and plain structs:
+ *   light distances     r.maps[light], from LMB_STAGE_POINTS on: lmb_gbuffer_band over view[f] and face[f] gives metres
+ *   first points        lmb_points_collect, one light's face after another; once a frame's are joined:
+ *   incident light      frame.points, from LMB_STAGE_GROUPS on: data[i].flux / data[i].albedo is what arrives, W
+ *   groups              frame.groups, from LMB_STAGE_VIEW on; members of group k: points.data[first[k]] and on, each
+ *                       with its place in the map of its face [V15]. frame.points.owner: the disc of each texel
+ *   eye distances       frame.eye (or eye_depth), from LMB_STAGE_BANDS on: lmb_depth_view_z, or lmb_gbuffer_band
+ *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 
@@ -106,6 +115,18 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units);
  * `out` is the whole frame, or 8 rows that take the band. Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
 lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
                            const lmb_surface *out, int32_t band);
+
+/* lmb_render_again: another picture by the same light: the second eye's [V31], or the next of a viewer who moves while
+ * light and objects stand still. r goes back to LMB_STAGE_VIEW; maps, points, groups and trees stay, and are only
+ * read.
+ *
+ *   frame  kernels, view, show, occlusion, steps, error, visible, exposure_ev, eye, eye_depth, scratch, out, callback,
+ *          user and stats are taken from it; the rest stands as it was at lmb_render_begin.
+ * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
+ * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
+ * also where `frame` shows bounced light and r solved none, or asks for blockers that r did not build. On an error r is
+ * as it was. */
+lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_has_parts: 1 where the stage at hand can be done in parts, by those who have threads; 0 where it goes by
  * lmb_render_step: stages that are short, one that steps have begun, first points without room for four a block. */

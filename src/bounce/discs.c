@@ -8,7 +8,7 @@
 #define COS_25 0.90630779f
 #define SIN_25 0.42261826f
 #define RIM 1e-3f          /* sine of the angle under the plane at which a point still counts as on it */
-#define JOINED 0xffffffffu /* link of a point that has become part of a disc */
+#define KEPT 0x80000000u   /* in a link: what stands beside is the disc's next place */
 
 typedef struct neighbourhood {
     lmb_points *points;
@@ -83,10 +83,10 @@ static void join_neighbours(const neighbourhood *n, uint32_t i)
         cell_run(&begin, &end, n, at.cell_x, y, 1);
         for (uint32_t j = begin > i ? begin : i + 1; j < end; ++j) {
             lmb_point *q = &n->points->data[j];
-            if (q->link != JOINED && dot3(at.normal, q->normal) >= COS_25 &&
+            if (q->link == j && dot3(at.normal, q->normal) >= COS_25 &&
                 length3(sub3(at.position, q->position)) < n->join * at.distance) {
                 join_point(p, q);
-                q->link = JOINED;
+                q->link = i;
             }
         }
     }
@@ -169,7 +169,7 @@ static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
     lmb_point *data = n->points->data;
     const uint32_t count = n->points->count;
     for (uint32_t i = first; i < count; ++i) {
-        data[i].link = (data[i].cell_x + a * data[i].cell_y) % thin == 0 ? i : JOINED;
+        data[i].link = (data[i].cell_x + a * data[i].cell_y) % thin == 0 ? i : LMB_NOBODY;
     }
     for (uint32_t i = first; i < count; ++i) {
         data[i].link = data[i].link == i ? i : nearest_disc(n, i, reach);
@@ -179,9 +179,35 @@ static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
             join_point(&data[data[i].link], &data[i]);
         }
     }
-    for (uint32_t i = first; i < count; ++i) {
-        data[i].link = data[i].link == i ? 0 : JOINED;
+}
+
+/* Close the gaps that joined points leave, and tell their texels. Of links: a disc's is its own number, a joined point's
+ * is the disc's, or that of one that has joined it in turn. */
+static void close_gaps(lmb_points *points, uint32_t first, const lmb_light_map *map)
+{
+    lmb_point *data = points->data;
+    const uint32_t texels = points->owner != NULL ? (uint32_t)map->size * (uint32_t)map->size : 0;
+    uint32_t kept = first;
+    for (uint32_t i = first; i < points->count; ++i) {
+        data[i].link = data[data[i].link].link;
     }
+    for (uint32_t i = first; i < points->count; ++i) {
+        data[i].link = data[i].link == i ? KEPT | kept++ : data[i].link;
+    }
+    for (uint32_t t = points->owner_count - texels; t < points->owner_count; ++t) {
+        uint32_t *owner = &points->owner[t];
+        if (*owner != LMB_NOBODY) {
+            const uint32_t link = data[*owner].link;
+            *owner = (link & KEPT ? link : data[link].link) & ~KEPT;
+        }
+    }
+    kept = first;
+    for (uint32_t i = first; i < points->count; ++i) {
+        if (data[i].link & KEPT) {
+            data[kept++] = data[i];
+        }
+    }
+    points->count = kept;
 }
 
 lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping)
@@ -198,24 +224,19 @@ lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lm
     n.threshold = grouping != NULL ? grouping->neighbour_m : 0.0f;
     n.join = grouping != NULL && grouping->join > 0.0f ? grouping->join : 0.5f;
     n.hemisphere = grouping != NULL && (grouping->flags & LMB_NEAR_HEMISPHERE) != 0;
-    uint32_t first = points->cells[0], kept = first;
+    const uint32_t first = points->cells[0];
     for (uint32_t i = first; i < points->count; ++i) {
         points->data[i].distance = mean_distance(&n, i);
-        points->data[i].link = 0;
+        points->data[i].link = i;
     }
     if (thin > 1) {
         thin_out(&n, first, thin);
     }
     for (uint32_t i = first; i < points->count; ++i) {
-        if (points->data[i].link != JOINED) {
+        if (points->data[i].link == i) {
             join_neighbours(&n, i);
         }
     }
-    for (uint32_t i = first; i < points->count; ++i) {
-        if (points->data[i].link != JOINED) {
-            points->data[kept++] = points->data[i];
-        }
-    }
-    points->count = kept;
+    close_gaps(points, first, map);
     return LMB_OK;
 }

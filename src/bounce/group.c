@@ -19,6 +19,9 @@ static void sort_members(lmb_groups *out, lmb_points *points)
         uint32_t k = points->data[i].link;
         points->data[i].link = k == LMB_UNGROUPED ? total++ : out->first[k] + out->members[k]++;
     }
+    for (uint32_t t = 0; points->owner != NULL && t < points->owner_count; ++t) {
+        points->owner[t] = points->owner[t] != LMB_NOBODY ? points->data[points->owner[t]].link : LMB_NOBODY;
+    }
     for (uint32_t i = 0; i < points->count; ++i) {
         while (points->data[i].link != i) {
             uint32_t to = points->data[i].link;

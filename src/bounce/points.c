@@ -134,6 +134,14 @@ typedef struct collector {
     int32_t face, block;
 } collector;
 
+/* The texel's owner, or a place nobody reads. */
+static uint32_t *owner_of(const collector *c, uint32_t *nowhere, int32_t x, int32_t y)
+{
+    const uint32_t size = (uint32_t)c->map->size;
+    lmb_points *p = c->points;
+    return p->owner != NULL ? &p->owner[p->owner_count - size * size + (uint32_t)y * size + (uint32_t)x] : nowhere;
+}
+
 /* The block whose first texel is (bx, by) of the tile. */
 static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_t bx, int32_t by)
 {
@@ -146,6 +154,8 @@ static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_
         for (int32_t x = 0; x < c->block; ++x) {
             int k = (by + y) * LMB_TILE + bx + x;
             float power[3];
+            uint32_t nowhere, *owner = owner_of(c, &nowhere, tile->x + bx + x, tile->y + by + y);
+            *owner = LMB_NOBODY;
             if (tile->id[k] == 0) {
                 continue;
             }
@@ -154,7 +164,9 @@ static lmb_status collect_block(const collector *c, const lmb_tile *tile, int32_
                 lmb_vec3 p = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
                 lmb_vec3 n = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
                 float texel_m = texel * (v->kind == LMB_PERSPECTIVE ? tile->depth[k] : 1.0f);
-                add_texel(find_element(e, &count, p, n, texel_m), tile, k, power, (float)x - middle, (float)y - middle);
+                element *own = find_element(e, &count, p, n, texel_m);
+                add_texel(own, tile, k, power, (float)x - middle, (float)y - middle);
+                *owner = c->points->count + (uint32_t)(own - e);
             }
         }
     }
@@ -182,7 +194,7 @@ static lmb_status collect_block_row(const collector *c, const lmb_kernels *kerne
                                       y - y % LMB_TILE);
         }
         c->points->cells[(y / c->block) * side + x / c->block] = c->points->count;
-        if (status == LMB_OK && tile->hits > 0) {
+        if (status == LMB_OK && (tile->hits > 0 || c->points->owner != NULL)) {
             status = collect_block(c, tile, x % LMB_TILE, y % LMB_TILE);
         }
         if (status != LMB_OK) {
@@ -206,6 +218,13 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
     int32_t side = map->size / block;
     if ((uint32_t)side * (uint32_t)side + 1 > points->cell_cap) {
         return LMB_ERR_CAPACITY;
+    }
+    if (points->owner != NULL && tile_y0 == 0) {
+        const uint32_t texels = (uint32_t)map->size * (uint32_t)map->size;
+        if (texels > points->owner_cap - points->owner_count) {
+            return LMB_ERR_CAPACITY;
+        }
+        points->owner_count += texels;
     }
     points->faces += tile_y0 == 0;
     c.points = points;
@@ -253,8 +272,9 @@ int lmb_points_have_room(const lmb_points *points, const lmb_light_map *map, con
     if (!is_block(block)) {
         return 0;
     }
-    const uint64_t side = (uint64_t)(map->size / block), cells = side * side;
-    return cells < points->cell_cap && ELEMENTS * cells <= points->cap - points->count;
+    const uint64_t side = (uint64_t)(map->size / block), cells = side * side,
+                   texels = points->owner != NULL ? (uint64_t)map->size * (uint64_t)map->size : 0;
+    return texels <= points->owner_cap - points->owner_count && cells < points->cell_cap && ELEMENTS * cells <= points->cap - points->count;
 }
 
 lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
@@ -269,7 +289,10 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
     own.data += points->count + ELEMENTS * p.first_cell;
     own.cap = ELEMENTS * (p.past_cell - p.first_cell);
     own.count = 0;
-    own.faces += p.first_row > 0; /* collecting row 0 counts the face itself */
+    if (p.first_row > 0) { /* collecting row 0 counts the face itself */
+        ++own.faces;
+        own.owner_count += (uint32_t)map->size * (uint32_t)map->size;
+    }
     lmb_status status =
         lmb_points_collect(&own, kernels, scratch, scene, light, map, face, p.first_row, p.past_row, grouping);
     if (status == LMB_OK) {
@@ -277,6 +300,16 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
             own.count; /* it begins at the part's own 0: until the end its place holds the count */
     }
     return status;
+}
+
+/* Owners of a part's texels: from the part's own numbers to those of all. */
+static void move_owners(const lmb_points *points, const lmb_light_map *map, const part_place *p)
+{
+    const uint32_t row = (uint32_t)(map->size * LMB_TILE);
+    for (uint32_t i = (uint32_t)p->first_row * row; i < (uint32_t)p->past_row * row && points->owner != NULL; ++i) {
+        uint32_t *owner = &points->owner[points->owner_count + i];
+        *owner += *owner != LMB_NOBODY ? points->count : 0;
+    }
 }
 
 void lmb_points_put_together(lmb_points *points, const lmb_light_map *map, int32_t parts, const lmb_grouping *grouping)
@@ -292,11 +325,13 @@ void lmb_points_put_together(lmb_points *points, const lmb_light_map *map, int32
         memmove(points->data + points->count, points->data + so_far + ELEMENTS * p.first_cell,
                 count * sizeof *points->data);
         points->cells[p.first_cell] = 0;
+        move_owners(points, map, &p);
         for (uint32_t c = p.first_cell; c < p.past_cell; ++c) {
             points->cells[c] += points->count;
         }
         points->count += count;
     }
     points->cells[side * side] = points->count;
+    points->owner_count += points->owner != NULL ? (uint32_t)map->size * (uint32_t)map->size : 0;
     ++points->faces;
 }

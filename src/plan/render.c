@@ -10,6 +10,8 @@
 
 #define UNIT_TRIANGLES 1024u
 #define BAND_UNITS 8
+#define STEPS 12
+#define SHARE 0.02f
 
 static int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
 
@@ -124,12 +126,13 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     r->frame = *frame;
     lmb_frame *f = &r->frame;
     f->id_format = f->id_format != 0 ? f->id_format : LMB_ID32;
-    f->steps = f->steps != 0 ? f->steps : 12;
-    f->error = f->error != 0.0f ? f->error : 0.02f;
-    f->visible = f->visible != 0.0f ? f->visible : 0.02f;
+    f->steps = f->steps != 0 ? f->steps : STEPS;
+    f->error = f->error != 0.0f ? f->error : SHARE;
+    f->visible = f->visible != 0.0f ? f->visible : SHARE;
     f->tree.faces = 0;
     f->points.count = 0;
     f->points.faces = 0;
+    f->points.owner_count = 0;
     lmb_status status = check_frame(f);
     if (status == LMB_OK) {
         status = place_maps(r);
@@ -137,6 +140,57 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
     r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
     r->failed = status;
+    return status;
+}
+
+/* What belongs to the picture, not to the light. */
+static void set_picture(lmb_frame *f, const lmb_frame *from)
+{
+    f->kernels = from->kernels;
+    f->view = from->view;
+    f->show = from->show;
+    f->occlusion = from->occlusion;
+    f->steps = from->steps != 0 ? from->steps : STEPS;
+    f->error = from->error != 0.0f ? from->error : SHARE;
+    f->visible = from->visible != 0.0f ? from->visible : SHARE;
+    f->exposure_ev = from->exposure_ev;
+    f->eye = from->eye;
+    f->eye_depth = from->eye_depth;
+    f->scratch = from->scratch;
+    f->out = from->out;
+    f->callback = from->callback;
+    f->user = from->user;
+    f->stats = from->stats;
+}
+
+/* Was what the picture asks for solved with the light? Groups or a tree; the tree of blockers. */
+static int is_solved(const lmb_frame *f, const lmb_frame *before)
+{
+    const int exact = wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT;
+    return (!wants_bounce(f) || wants_bounce(before)) &&
+           (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->blockers.node_count > 0);
+}
+
+lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame)
+{
+    lmb_frame f;
+    if (r == NULL || frame == NULL || (r->failed == LMB_OK && r->stage < LMB_STAGE_VIEW)) {
+        return LMB_ERR_ARG;
+    }
+    if (r->failed != LMB_OK) {
+        return r->failed;
+    }
+    f = r->frame;
+    set_picture(&f, frame);
+    lmb_status status = check_frame(&f);
+    if (status == LMB_OK && !is_solved(&f, &r->frame)) {
+        status = LMB_ERR_ARG;
+    }
+    if (status == LMB_OK) {
+        r->frame = f;
+        r->stage = LMB_STAGE_VIEW;
+        r->light = r->face = r->place = 0;
+    }
     return status;
 }
 

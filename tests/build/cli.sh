@@ -46,6 +46,19 @@ check "demo.pfm is 64x48" test "$(sed -n 2p "$dir/demo.pfm")" = "64 48"
 for show in direct indirect irradiance depth normal albedo; do
     status 0 render demo $small --show $show -o "$dir/$show.pfm"
 done
+for show in occlusion eye-distance light-distance points groups; do
+    for extension in png pfm hdr; do
+        status 0 render demo $small --show $show -o "$dir/$show.$extension"
+    done
+done
+check "what the eye sees has the picture's size" test "$(sed -n 2p "$dir/eye-distance.pfm")" = "64 48"
+for show in light-distance points groups; do
+    check "$show has the map's size" test "$(sed -n 2p "$dir/$show.pfm")" = "64 64"
+done
+status 0 render demo $small --show light-distance --light point:0,1,0:0,-1,0:1,1,1 --light sun:0,0,0:0,-1,0:1,1,1 -o "$dir/two.pfm"
+check "a row of faces a light" test "$(sed -n 2p "$dir/two.pfm")" = "384 128"
+status 0 render demo $small --show eye-distance -o "$dir/eye-distance.png"
+check "distances say their range" grep -q '^lambent: from [0-9.]* m (white) to [0-9.]* m (dark grey)$' "$dir/err.txt"
 for grouping in greedy zones; do
     status 0 render demo $small --grouping $grouping -o "$dir/$grouping.pfm"
 done
@@ -55,6 +68,43 @@ done
 status 0 render demo $small --stats "$dir/stats.json" -o "$dir/again.pfm"
 check "the same command writes the same bytes" cmp "$dir/demo.pfm" "$dir/again.pfm"
 check "stats are JSON" grep -q '^{' "$dir/stats.json"
+
+# Strict zones say what they lose; the others lose nothing and say nothing.
+status 0 render demo $small --groups 40 --misfits drop -o "$dir/strict.pfm"
+check "strict zones say their loss" grep -q '^lambent: note: --misfits drop lost [1-9][0-9.]* % of the light' "$dir/err.txt"
+status 0 render demo $small --groups 40 --misfits keep -o "$dir/kept.pfm"
+check "kept misfits lose nothing" sh -c '! grep -q lost "$1"' sh "$dir/err.txt"
+
+# First points: fewer discs, another neighbourhood, thresholds.
+for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
+    status 0 render demo $small $option -o "$dir/option.pfm" --stats "$dir/option.json"
+    check "$option changes the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/demo.pfm" "$dir/option.pfm"
+done
+
+# Two eyes: each half is what one eye sees from there, and the light is found once.
+at() { echo "--eye $1,1.25,2.5 --target $1,1,-1 --fov 50"; }
+rows() { tail -c +"$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -v -tx1 | tr -d ' \n' | fold -w $((64 * 3 * 4 * 2)); }
+status 0 render demo $small $(at 0.5) --stereo 0.25 -o "$dir/both.pfm" --stats "$dir/both.json"
+status 0 render demo $small $(at 0.375) -o "$dir/left.pfm" --stats "$dir/left.json"
+status 0 render demo $small $(at 0.625) -o "$dir/right.pfm"
+check "two eyes side by side" test "$(sed -n 2p "$dir/both.pfm")" = "128 48"
+rows "$dir/both.pfm" >"$dir/both.txt"
+(rows "$dir/left.pfm"; echo) >"$dir/left.txt"
+(rows "$dir/right.pfm"; echo) >"$dir/right.txt"
+(sed -n 'p;n' "$dir/both.txt"; echo) | sed '/^$/d' >"$dir/left_half.txt"
+(sed -n 'n;p' "$dir/both.txt"; echo) | sed '/^$/d' >"$dir/right_half.txt"
+check "48 rows of an eye" test "$(grep -c . "$dir/left_half.txt")" -eq 48
+check "the left half is the left eye's picture" cmp "$dir/left.txt" "$dir/left_half.txt"
+check "the right half is the right eye's picture" cmp "$dir/right.txt" "$dir/right_half.txt"
+count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
+for what in first_points discs groups; do
+    check "two eyes: $what counted once" test "$(count "$dir/both.json" $what)" -eq "$(count "$dir/left.json" $what)"
+done
+check "two eyes: light's map once, view twice" test $((2 * $(count "$dir/both.json" triangles_read))) -eq $((3 * $(count "$dir/left.json" triangles_read)))
+check "two eyes: two views" test "$(count "$dir/both.json" views)" -eq 2
+for show in depth eye-distance normal albedo occlusion direct; do
+    status 0 render demo $small --stereo 0.1 --show $show -o "$dir/both.png"
+done
 
 # Help and version go to stdout.
 for ask in --help --version "render --help" "compare --help" "info --help"; do
@@ -86,6 +136,11 @@ status 2 render demo -o "$dir/bad.png" --no-such-flag
 status 2 render demo -o "$dir/bad.png" --size 64
 status 2 render demo -o "$dir/bad.png" --size 0x48
 status 2 render demo -o "$dir/bad.png" --show nonsense
+status 2 render demo -o "$dir/bad.png" --show groups --stereo 0.1
+status 2 render demo -o "$dir/bad.png" --show occlusion --occlusion none
+status 2 render demo -o "$dir/bad.png" --stereo 0
+status 2 render demo -o "$dir/bad.png" --thin 65
+status 2 render demo -o "$dir/bad.png" --neighbourhood none
 status 2 render demo -o "$dir/bad.png" --size
 status 2 render demo -o "$dir/bad.tiff"
 status 2 compare "$dir/demo.pfm"
@@ -99,6 +154,7 @@ printf 'no scene' >"$dir/broken.glb"
 status 1 render "$dir/nowhere.gltf" -o "$dir/bad.png"
 status 1 render "$dir/broken.glb" -o "$dir/bad.png"
 absent "$dir/bad.png"
+status 1 render demo --size 5000x8 --stereo 0.1 -o "$dir/bad.png"
 status 1 render demo $small -o "$dir/nowhere/demo.png"
 absent "$dir/nowhere"
 mkdir "$dir/folder.png"

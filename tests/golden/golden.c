@@ -317,14 +317,17 @@ static uint64_t case_light_map(int variant)
     return h;
 }
 
-/* Points, discs and groups of the demo room's spot. Variants: zones, greedy, strict zones, first discs as centres. */
+/* Points, discs and groups of the demo room's spot. Variants: zones, greedy, strict zones, first discs as centres; one
+ * disc of ten points, neighbours by hemisphere. */
 static uint64_t case_groups(int variant)
 {
-    static const lmb_grouping how[4] = {
-        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0},
-        {LMB_GROUP_GREEDY, 4, 90, 0.5f, 1.0f, 2.5f, 0.8f, 0},
-        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0.95f, LMB_ZONES_STRICT},
-        {LMB_GROUP_ZONES, 4, 40, 0, 0, 0, 0, LMB_POINT_CENTRE},
+    static const lmb_grouping how[6] = {
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0, 0},
+        {LMB_GROUP_GREEDY, 4, 90, 0.5f, 1.0f, 2.5f, 0.8f, 0, 0},
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0.95f, LMB_ZONES_STRICT, 0},
+        {LMB_GROUP_ZONES, 4, 40, 0, 0, 0, 0, LMB_POINT_CENTRE, 0},
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0, 10},
+        {LMB_GROUP_GREEDY, 4, 90, 0.25f, 0, 0, 0, LMB_NEAR_HEMISPHERE, 0},
     };
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
@@ -381,6 +384,21 @@ static uint64_t case_occlusion(int variant)
     return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
 }
 
+/* Two eyes 12 cm apart, one light. Variant: occlusion. */
+static uint64_t case_stereo(int variant)
+{
+    lmb_frame f = demo_frame();
+    uint64_t h = hash_start;
+    f.occlusion = variant;
+    for (int eye = 0; eye < 2; ++eye) {
+        f.view = demo_view(WIDTH, HEIGHT);
+        f.view.eye.x += eye == 0 ? -0.06f : 0.06f;
+        lmb_status status = eye == 0 ? way->render(&memory.render, &f) : way->again(&memory.render, &f);
+        h = hash_surface(hash_u32(h, (uint32_t)status), &f.out);
+    }
+    return h;
+}
+
 static uint64_t case_format(int variant)
 {
     static const uint8_t formats[4] = {LMB_RGB565, LMB_RGB555, LMB_RGBA8, LMB_BGRA8};
@@ -396,7 +414,7 @@ static uint64_t case_format(int variant)
 /* A map's first points of 4x4 or 1x1 texels where fewer fit: those so far stand. */
 static uint64_t case_full_points(int variant)
 {
-    static const lmb_grouping how = {LMB_GROUP_ZONES, 4, 0, 0, 0, 0, 0, 0};
+    static const lmb_grouping how = {LMB_GROUP_ZONES, 4, 0, 0, 0, 0, 0, 0, 0};
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
     lmb_points few = points;
@@ -439,7 +457,7 @@ static uint64_t case_full_frame(int variant)
 /* As many groups as this configuration has, for discs that want more: zones, greedy, and one a disc. */
 static uint64_t case_full_groups(int variant)
 {
-    lmb_grouping how = {LMB_GROUP_ZONES, 4, LMB_MAX_GROUPS, 0, 0.05f, 0.3f, 0.999f, 0};
+    lmb_grouping how = {LMB_GROUP_ZONES, 4, LMB_MAX_GROUPS, 0, 0.05f, 0.3f, 0.999f, 0, 0};
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
     lmb_stats stats;
@@ -470,7 +488,17 @@ static lmb_status draw_map_whole(const lmb_light_map *map, const lmb_kernels *k,
     return lmb_light_map_draw(map, k, scene, 1, UINT32_MAX - 1, NULL);
 }
 
-const golden_way golden_whole = {draw_whole, draw_map_whole, lmb_render_frame, -1};
+static lmb_status again_whole(lmb_render *r, const lmb_frame *frame)
+{
+    lmb_status status = lmb_render_again(r, frame);
+    while (status == LMB_OK && r->stage < LMB_STAGE_DONE) {
+        status = lmb_render_step(r, 64);
+        status = status == LMB_MORE ? LMB_OK : status;
+    }
+    return status;
+}
+
+const golden_way golden_whole = {draw_whole, draw_map_whole, lmb_render_frame, again_whole, -1};
 
 /* --- the table -------------------------------------------------------------------------------------------------------- */
 

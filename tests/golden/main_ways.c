@@ -156,11 +156,10 @@ static void do_band(void *user, int band, int worker)
     j->status = status != LMB_OK ? status : j->status;
 }
 
-static lmb_status render_in_order(lmb_render *r, const lmb_frame *frame)
+/* The stages that are left of a frame begun. */
+static lmb_status finish_in_order(lmb_render *r, lmb_status status)
 {
-    const lmb_frame f = with_room(frame);
     frame_job j = {r, 7, LMB_OK};
-    lmb_status status = lmb_render_begin(r, &f);
     while (status >= 0 && r->stage < LMB_STAGE_BANDS) {
         if (lmb_render_has_parts(r)) {
             do_pieces(j.parts, do_part, &j);
@@ -170,13 +169,27 @@ static lmb_status render_in_order(lmb_render *r, const lmb_frame *frame)
         }
     }
     if (status >= 0) {
-        do_pieces((f.view.frame_height + LMB_TILE - 1) / LMB_TILE, do_band, &j);
+        do_pieces((r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE, do_band, &j);
         status = j.status;
     }
     return status;
 }
 
-static lmb_status render_by_crew(lmb_render *r, const lmb_frame *frame)
+static lmb_status render_in_order(lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_frame f = with_room(frame);
+    return finish_in_order(r, lmb_render_begin(r, &f));
+}
+
+static lmb_status again_in_order(lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_frame f = with_room(frame);
+    return finish_in_order(r, lmb_render_again(r, &f));
+}
+
+typedef lmb_status (*crew_call)(crew *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
+
+static lmb_status by_crew(crew_call call, lmb_render *r, const lmb_frame *frame)
 {
     const lmb_frame f = with_room(frame);
     crew c;
@@ -185,8 +198,11 @@ static lmb_status render_by_crew(lmb_render *r, const lmb_frame *frame)
     memset(scratches, 0x3c, sizeof scratches);
     c.threads = threads_now;
     c.scratches = scratches;
-    return crew_render(&c, &stage, r, &f);
+    return call(&c, &stage, r, &f);
 }
+
+static lmb_status render_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_render, r, frame); }
+static lmb_status again_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_again, r, frame); }
 
 /* --- ways ------------------------------------------------------------------------------------------------------------- */
 
@@ -215,8 +231,8 @@ static int run_way(const char *name, int number, const golden_way *way)
 
 int main(void)
 {
-    golden_way ordered = {draw_rows, draw_map_rows, render_in_order, 0};
-    golden_way threaded = {draw_rows, draw_map_rows, render_by_crew, 0};
+    golden_way ordered = {draw_rows, draw_map_rows, render_in_order, again_in_order, 0};
+    golden_way threaded = {draw_rows, draw_map_rows, render_by_crew, again_by_crew, 0};
     const int order_count = sizeof orders / sizeof *orders;
     int failed = 0;
     for (order_now = 0; order_now < order_count; ++order_now) {

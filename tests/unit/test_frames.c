@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../../tools/demo_scene.h"
+#include "../../src/base/vec.h"
 #include "../test.h"
 
 void test_frames(void);
@@ -723,9 +724,256 @@ static void test_progress(void)
     CHECK(lmb_render_progress(&name, NULL) == 1.0f && name != NULL);
 }
 
-/* ---- the G-buffer ---- */
-
 static float gbuffer[2][7 * WIDTH * HEIGHT];
+
+/* ---- two eyes, one light ---- */
+
+enum { WIDE = 2 * WIDTH * HEIGHT * 3 };
+
+/* Side by side, and the second eye's frame. */
+static uint32_t wide[WIDE], right_depth[TARGET], right_id[TARGET];
+
+static lmb_view eye_view(int eye)
+{
+    lmb_view v = room_view(WIDTH, HEIGHT);
+    v.eye.x += eye == 0 ? -0.0625f : 0.0625f;
+    return v;
+}
+
+static lmb_surface half_of_wide(int eye)
+{
+    lmb_surface s;
+    memset(&s, 0, sizeof s);
+    s.data = wide + eye * WIDTH * 3;
+    s.width = WIDTH;
+    s.height = HEIGHT;
+    s.stride_bytes = 2 * WIDTH * 12;
+    s.format = LMB_RGB32F;
+    return s;
+}
+
+static void finish(lmb_render *r, int32_t units)
+{
+    lmb_status status = LMB_MORE;
+    while (status == LMB_MORE) {
+        status = lmb_render_step(r, units);
+    }
+    CHECK_MSG(status == LMB_OK, "%s", lmb_status_name(status));
+}
+
+/* Both halves against frames of their own, byte for byte. */
+static void check_halves(int occlusion)
+{
+    for (int eye = 0; eye < 2; ++eye) {
+        int wrong = 0;
+        lmb_frame f = plain_frame(&room, eye_view(eye), &reference);
+        f.occlusion = occlusion;
+        CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && lit_pixels(&reference) > FLOATS / 4);
+        for (int y = 0; y < HEIGHT; ++y) {
+            wrong += memcmp(wide + (2 * y + eye) * WIDTH * 3, reference.data + y * WIDTH * 3, WIDTH * 12) != 0;
+        }
+        CHECK_MSG(wrong == 0, "eye %d: %d rows differ", eye, wrong);
+    }
+    CHECK(memcmp(wide, wide + WIDTH * 3, WIDTH * 12) != 0); /* the eyes do not see the same */
+}
+
+/* V31: left, then right by what the left has solved; the light's stages are done, and counted, once. */
+static void check_stereo(int occlusion, int32_t units)
+{
+    lmb_stats left;
+    memset(&m.stats, 0, sizeof m.stats);
+    memset(wide, 0xa5, sizeof wide);
+    lmb_frame f = plain_frame(&room, eye_view(0), &other);
+    f.occlusion = occlusion;
+    f.out = half_of_wide(0);
+    CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
+    finish(&m.render, units);
+    left = m.stats;
+    const uint32_t all = lmb_scene_triangles(&room);
+    CHECK(left.groups > 0 && left.triangles == (FACES + 1) * all);
+    f.view = eye_view(1);
+    f.out = half_of_wide(1);
+    CHECK(lmb_render_again(&m.render, &f) == LMB_OK && m.render.stage == LMB_STAGE_VIEW);
+    finish(&m.render, units);
+    CHECK(m.stats.first_points == left.first_points && m.stats.discs == left.discs &&
+          m.stats.groups == left.groups && m.stats.flux_lit == left.flux_lit);
+    CHECK(m.stats.triangles == left.triangles + all && m.stats.bands == 2 * left.bands);
+    check_halves(occlusion);
+}
+
+/* Both eyes by turns: a copy, with depth and scratch of its own. */
+static void check_stereo_at_once(void)
+{
+    memset(wide, 0xa5, sizeof wide);
+    lmb_frame f = plain_frame(&room, eye_view(0), &other);
+    f.out = half_of_wide(0);
+    CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
+    while (m.render.stage < LMB_STAGE_VIEW) {
+        lmb_render_step(&m.render, 3);
+    }
+    m.copy = m.render;
+    f.view = eye_view(1);
+    f.out = half_of_wide(1);
+    f.scratch = &m.other_scratch;
+    f.eye.depth = target_surface(LMB_DEPTH32F, LMB_TILED, WIDTH, HEIGHT, right_depth);
+    f.eye.id = target_surface(LMB_ID32, LMB_TILED, WIDTH, HEIGHT, right_id);
+    CHECK(lmb_render_again(&m.copy, &f) == LMB_OK);
+    for (lmb_status a = LMB_MORE, b = LMB_MORE; a == LMB_MORE || b == LMB_MORE;) {
+        a = lmb_render_step(&m.render, 5);
+        b = lmb_render_step(&m.copy, 9);
+        CHECK(a >= 0 && b >= 0);
+    }
+    check_halves(LMB_OCCLUSION_VIEW);
+}
+
+/* Another thing shown by the same light; what was not solved cannot be. */
+static void check_other_shows(void)
+{
+    lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+    set_picture(&reference, LMB_RGB32F, WIDTH, HEIGHT);
+    f.out = reference.surface;
+    f.show = LMB_SHOW_DIRECT;
+    CHECK(lmb_render_again(&m.render, &f) == LMB_OK);
+    finish(&m.render, 64);
+    render_show(&third, LMB_SHOW_DIRECT, LMB_OCCLUSION_VIEW, LMB_GROUP_ZONES);
+    CHECK(same_picture(&reference, &third));
+    f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
+    f.show = LMB_SHOW_DIRECT;
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+    f.show = LMB_SHOW_FULL;
+    CHECK(lmb_render_again(&m.render, &f) == LMB_ERR_ARG && m.render.stage == LMB_STAGE_DONE);
+}
+
+/* Refused: the render stays as it was. */
+static void check_again_refused(void)
+{
+    lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other), bad;
+    CHECK(lmb_render_again(NULL, &f) == LMB_ERR_ARG);
+    CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
+    CHECK(lmb_render_again(&m.render, NULL) == LMB_ERR_ARG);
+    while (m.render.stage < LMB_STAGE_VIEW) {
+        CHECK(lmb_render_again(&m.render, &f) == LMB_ERR_ARG);
+        lmb_render_step(&m.render, 1000);
+    }
+    m.copy = m.render;
+    bad = f;
+    bad.out.width = WIDTH - 1;
+    CHECK(lmb_render_again(&m.render, &bad) == LMB_ERR_ARG);
+    bad = f;
+    bad.out.format = LMB_R32F;
+    CHECK(lmb_render_again(&m.render, &bad) == LMB_ERR_FORMAT);
+    bad = f;
+    bad.view.frame_width = WIDTH - 8;
+    CHECK(lmb_render_again(&m.render, &bad) == LMB_ERR_ARG);
+    bad = f;
+    bad.kernels = NULL;
+    CHECK(lmb_render_again(&m.render, &bad) == LMB_ERR_ARG);
+    CHECK(memcmp(&m.copy, &m.render, sizeof m.copy) == 0);
+    f.points.cap = 5;
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_ERR_CAPACITY);
+    CHECK(lmb_render_again(&m.render, &f) == LMB_ERR_CAPACITY);
+}
+
+static void test_again(void)
+{
+    check_stereo(LMB_OCCLUSION_NONE, 1 << 20);
+    check_stereo(LMB_OCCLUSION_VIEW, 1 << 20);
+    check_stereo(LMB_OCCLUSION_VIEW, 7);
+    check_stereo_at_once();
+    check_other_shows();
+    check_again_refused();
+}
+
+/* ---- what a frame keeps ---- */
+
+static float kept[MAP * MAP];
+
+/* V33: the distances of one face of a light's map, by the G-buffer of its view: where each texel's ray then ends lies
+ * on the room's bounds or within. */
+static int light_distances(const lmb_light_map *map, int32_t face)
+{
+    const lmb_view *v = &map->view[face];
+    int found = 0, out = 0;
+    lmb_surface s;
+    lmb_surface_init(&s, LMB_R32F, MAP, MAP, kept, sizeof kept);
+    for (int32_t b = 0; b < MAP / 8; ++b) {
+        CHECK(lmb_gbuffer_band(&s, NULL, NULL, &m.scratch.tile, lmb_kernels_pick(), v, &room, &map->face[face], b) ==
+              LMB_OK);
+    }
+    for (int i = 0; i < MAP * MAP; ++i) {
+        const float x = ((float)(i % MAP) + 0.5f) * 2.0f / MAP - 1.0f, y = 1.0f - ((float)(i / MAP) + 0.5f) * 2.0f / MAP;
+        const float scale = v->kind == LMB_PERSPECTIVE ? kept[i] : 1.0f, w = kept[i];
+        const lmb_vec3 across =
+            add3(mul3(v->right, x * v->half_width * scale), mul3(v->up, y * v->half_height * scale));
+        const lmb_vec3 at = sub3(add3(v->eye, across), mul3(v->back, w));
+        found += w > 0.0f;
+        out += w > 0.0f && (at.x < room.bounds_min.x - 1e-3f || at.x > room.bounds_max.x + 1e-3f ||
+                            at.y < room.bounds_min.y - 1e-3f || at.y > room.bounds_max.y + 1e-3f ||
+                            at.z < room.bounds_min.z - 1e-3f || at.z > room.bounds_max.z + 1e-3f);
+    }
+    CHECK_MSG(out == 0, "%d texels outside the room", out);
+    return found;
+}
+
+/* The discs and groups that the frame leaves: every disc in one group, in the map of its face; what goes out is what
+ * came in times the reflectance, and adds up to what the groups send. */
+static void check_kept_groups(const lmb_points *p, const lmb_groups *g)
+{
+    uint32_t members = 0, wrong = 0;
+    double flux = 0.0, sent = 0.0, came = 0.0;
+    for (int32_t k = 0; k < g->count; ++k) {
+        wrong += g->first[k] != members;
+        members += g->members[k];
+        sent += (double)g->flux[1][k];
+    }
+    for (uint32_t i = 0; i < p->count; ++i) {
+        const lmb_point *d = &p->data[i];
+        flux += (double)d->flux[1];
+        came += d->albedo[1] > 0.0f ? (double)(d->flux[1] / d->albedo[1]) : 0.0;
+        wrong += d->face < 1 || d->face > p->faces || d->cell_x >= MAP / BLOCK || d->cell_y >= MAP / BLOCK;
+    }
+    CHECK(wrong == 0 && members == p->count && g->count > 10 && p->faces == FACES);
+    CHECK(fabs(sent / flux - 1.0) < 1e-5 && came > flux);
+}
+
+/* The viewer's depth, kept whole, says the same as the G-buffer. */
+static void check_kept_depth(const lmb_frame *f)
+{
+    static uint32_t rows[TARGET];
+    float *z = gbuffer[0];
+    lmb_surface s;
+    double worst = 0.0;
+    lmb_surface_init(&s, LMB_R32F, WIDTH, HEIGHT, z, TARGET * 4);
+    for (int32_t b = 0; b < HEIGHT / 8; ++b) {
+        CHECK(lmb_gbuffer_band(&s, NULL, NULL, &m.scratch.tile, f->kernels, &f->view, &room, &f->eye, b) == LMB_OK);
+    }
+    CHECK(lmb_depth_linearize(rows, sizeof rows, &f->eye.depth) == LMB_OK);
+    for (int i = 0; i < TARGET; ++i) {
+        float d;
+        memcpy(&d, &rows[i], sizeof d);
+        worst = d > 0.0f ? fmax(worst, fabs((double)(lmb_depth_view_z(&f->view, d) / z[i]) - 1.0)) : worst;
+    }
+    CHECK_MSG(worst < 1e-3, "%g", worst);
+}
+
+static void test_buffers(void)
+{
+    lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
+    CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+    const lmb_render *r = &m.render;
+    int found = 0;
+    for (int i = 0; i < LIGHTS; ++i) {
+        for (int32_t face = 0; face < r->maps[i].faces; ++face) {
+            found += (r->maps[i].drawn >> face) & 1u ? light_distances(&r->maps[i], face) : 0;
+        }
+    }
+    CHECK_MSG(found > MAP * MAP / 2, "%d texels", found);
+    check_kept_groups(&r->frame.points, r->frame.groups);
+    check_kept_depth(&r->frame);
+}
+
+/* ---- the G-buffer ---- */
 
 static void set_gbuffer(lmb_surface s[3], float *at, const lmb_view *v)
 {
@@ -879,6 +1127,8 @@ void test_frames(void)
     test_few_points();
     test_band_arguments();
     test_progress();
+    test_again();
+    test_buffers();
     test_gbuffer();
     test_light_map();
     test_light_map_arguments();

@@ -70,7 +70,7 @@ static struct memory {
     uint32_t depth[W * 40], id[W * 40], map[FACES * MAP * MAP * 2];
     float out[2][W * H * 3];
     lmb_point points[2][FACES * POINTS];
-    uint32_t cells[2][SIDE * SIDE + 1];
+    uint32_t cells[2][SIDE * SIDE + 1], owner[2][FACES * MAP * MAP];
     lmb_groups groups;
     lmb_band_scratch scratch[THREADS];
     lmb_render render;
@@ -102,6 +102,8 @@ static lmb_frame make_frame(int which, lmb_stats *stats)
     f.points.cap = FACES * POINTS;
     f.points.cells = m.cells[which];
     f.points.cell_cap = SIDE * SIDE + 1;
+    f.points.owner = m.owner[which];
+    f.points.owner_cap = FACES * MAP * MAP;
     f.groups = &m.groups;
     f.scratch = m.scratch;
     f.stats = stats;
@@ -111,17 +113,19 @@ static lmb_frame make_frame(int which, lmb_stats *stats)
     memset(m.out[which], 0x3c, sizeof m.out[which]);
     memset(m.points[which], 0, sizeof m.points[which]);
     memset(m.cells[which], 0x3c, sizeof m.cells[which]);
+    memset(m.owner[which], 0, sizeof m.owner[which]);
     memset(m.map, 0x3c, sizeof m.map);
     memset(m.depth, 0x3c, sizeof m.depth); /* what an earlier frame left must not matter */
     memset(m.id, 0x3c, sizeof m.id);
     return f;
 }
 
-/* Two frames: the same picture, discs, cells of the last face, and counts. */
+/* Two frames: the same picture, discs, texels' owners, cells of the last face, and counts. */
 static int is_same(const lmb_stats *a, const lmb_stats *b)
 {
     return memcmp(m.out[0], m.out[1], sizeof m.out[0]) == 0 && memcmp(m.cells[0], m.cells[1], sizeof m.cells[0]) == 0 &&
-           memcmp(m.points[0], m.points[1], a->discs * sizeof(lmb_point)) == 0 && a->triangles == b->triangles &&
+           memcmp(m.points[0], m.points[1], a->discs * sizeof(lmb_point)) == 0 &&
+           memcmp(m.owner[0], m.owner[1], sizeof m.owner[0]) == 0 && a->triangles == b->triangles &&
            a->triangles_drawn == b->triangles_drawn && a->triangles_dropped == b->triangles_dropped &&
            a->first_points == b->first_points && a->discs == b->discs && a->groups == b->groups &&
            a->regroups == b->regroups && a->bands == b->bands && a->flux_lit == b->flux_lit &&
@@ -181,6 +185,14 @@ static void test_stages_with_parts(void)
     CHECK(lmb_render_begin(&m.render, &f) == LMB_OK && lmb_render_parts_done(&m.render, 1) == LMB_MORE);
     CHECK(m.render.stage == LMB_STAGE_POINTS && !lmb_render_has_parts(&m.render));
     ++m.render.frame.points.cap;
+    CHECK(lmb_render_has_parts(&m.render));
+    --m.render.frame.points.owner_cap;
+    CHECK(lmb_render_has_parts(&m.render));
+    m.render.frame.points.owner_cap = MAP * MAP - 1;
+    CHECK(!lmb_render_has_parts(&m.render) && lmb_render_step(&m.render, 1) == LMB_ERR_CAPACITY);
+    m.render.failed = LMB_OK;
+    m.render.stage = LMB_STAGE_POINTS;
+    m.render.frame.points.owner = NULL;
     CHECK(lmb_render_has_parts(&m.render));
     m.render.frame.grouping.block = 3;
     CHECK(!lmb_render_has_parts(&m.render));
