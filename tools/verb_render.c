@@ -11,6 +11,7 @@
 #include "../platform/host/host.h"
 #include "crew.h"
 #include "demo_scene.h"
+#include "grey.h"
 #include "map_picture.h"
 #include "model.h"
 #include "picture.h"
@@ -30,7 +31,7 @@ typedef struct job {
     int32_t eyes;    /* 1, or 2: side by side in the picture */
     lmb_frame frame; /* its view and out: those of the eye at hand */
     lmb_render *render;
-    int lit;         /* the light stages of `render` are done */
+    int lit; /* the light stages of `render` are done */
     crew crew;
     lmb_stats stats;
     image linear;
@@ -414,8 +415,9 @@ static int draw_occlusion(job *j, report *r)
 static int draw_map(job *j, report *r)
 {
     const int display = !picture_is_linear(picture_format(j->o.out));
-    const int32_t past = j->o.show == SHOW_GROUPS ? LMB_STAGE_VIEW
-                         : j->o.show == SHOW_POINTS ? LMB_STAGE_GROUPS : LMB_STAGE_POINTS;
+    const int32_t past = j->o.show == SHOW_GROUPS   ? LMB_STAGE_VIEW
+                         : j->o.show == SHOW_POINTS ? LMB_STAGE_GROUPS
+                                                    : LMB_STAGE_POINTS;
     int32_t stage;
     lmb_status status = crew_light(&j->crew, &stage, j->render, &j->frame, past);
     if (status != LMB_OK) {
@@ -459,78 +461,15 @@ static int draw_attributes(job *j, report *r)
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", j->o.scene, lmb_status_name(status));
 }
 
-/* One channel becomes three. */
-static int widen(image *p, report *r)
-{
-    const size_t n = (size_t)p->width * (size_t)p->height;
-    float *wide = malloc(3 * n * sizeof *wide);
-    if (wide == NULL) {
-        return report_fail(r, "not enough memory for the picture; try a smaller --size");
-    }
-    for (size_t i = 0; i < n; ++i) {
-        wide[3 * i] = wide[3 * i + 1] = wide[3 * i + 2] = p->pixels[i];
-    }
-    free(p->pixels);
-    p->pixels = wide;
-    p->channels = 3;
-    return 1;
-}
-
-/* Depth from white at the eye to black at nothing. */
-static void grey_depths(image *p)
-{
-    const size_t n = (size_t)p->width * (size_t)p->height;
-    float far_m = 1e-30f;
-    for (size_t i = 0; i < n; ++i) {
-        far_m = fmaxf(far_m, p->pixels[i]);
-    }
-    for (size_t i = 0; i < n; ++i) {
-        const float d = p->pixels[i];
-        p->pixels[i] = d > 0.0f ? 1.0f - 0.9f * d / far_m : 0.0f;
-    }
-}
-
-/* Distances in equal steps of grey from the nearest, white, to the farthest, which nothing at all stays darker than. */
-static void grey_distances(image *p)
-{
-    const size_t n = (size_t)p->width * (size_t)p->height;
-    float near_m = 1e30f, far_m = 0.0f;
-    for (size_t i = 0; i < n; ++i) {
-        const float d = p->pixels[i];
-        near_m = d > 0.0f ? fminf(near_m, d) : near_m;
-        far_m = fmaxf(far_m, d);
-    }
-    for (size_t i = 0; i < n; ++i) {
-        const float d = p->pixels[i], part = far_m > near_m ? (d - near_m) / (far_m - near_m) : 0.0f;
-        p->pixels[i] = d > 0.0f ? (float)srgb_decode((int)(255.0f - 200.0f * part)) : 0.0f;
-    }
-    if (far_m > 0.0f) {
-        fprintf(stderr, "lambent: from %.4g m (white) to %.4g m (dark grey)\n", (double)near_m, (double)far_m);
-    }
-}
-
-/* Equal steps of the blocked share are equal steps of grey. */
-static void grey_shares(image *p)
-{
-    for (size_t i = 0; i < (size_t)p->width * (size_t)p->height; ++i) {
-        p->pixels[i] = (float)srgb_decode((int)(p->pixels[i] * 255.0f + 0.5f));
-    }
-}
-
-/* What is no light, for display formats; normals get 0 at middle grey. The others are in 0 .. 1 already. */
+/* What is no light, for display formats. Reflectance, points and groups are in 0 .. 1 already. */
 static void grey_for_display(job *j)
 {
-    const size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
     switch (j->o.show) {
     case SHOW_DEPTH: grey_depths(&j->linear); break;
     case SHOW_EYE_DISTANCE:
     case SHOW_LIGHT_DISTANCE: grey_distances(&j->linear); break;
     case SHOW_OCCLUSION: grey_shares(&j->linear); break;
-    case SHOW_NORMAL:
-        for (size_t i = 0; i < 3 * n; ++i) {
-            j->linear.pixels[i] = 0.5f + 0.5f * j->linear.pixels[i];
-        }
-        break;
+    case SHOW_NORMAL: grey_normals(&j->linear); break;
     default: break;
     }
 }
@@ -619,7 +558,7 @@ static int save(job *j, report *r)
         if (!linear) {
             grey_for_display(j);
         }
-        if (j->linear.channels == 1 && picture_format(j->o.out) != PICTURE_PFM && !widen(&j->linear, r)) {
+        if (j->linear.channels == 1 && picture_format(j->o.out) != PICTURE_PFM && !image_widen(&j->linear, r)) {
             return 0;
         }
     } else if (j->o.exposure_auto && !linear) {
@@ -631,10 +570,10 @@ static int save(job *j, report *r)
 
 static int draw_what_is_shown(job *j, report *r)
 {
-    return shows_attribute(j->o.show)          ? draw_attributes(j, r)
-           : shows_map(j->o.show)              ? draw_map(j, r)
-           : j->o.show == SHOW_OCCLUSION       ? draw_occlusion(j, r)
-                                               : draw(j, r);
+    return shows_attribute(j->o.show)    ? draw_attributes(j, r)
+           : shows_map(j->o.show)        ? draw_map(j, r)
+           : j->o.show == SHOW_OCCLUSION ? draw_occlusion(j, r)
+                                         : draw(j, r);
 }
 
 /* Strict zones: what they lost [V20]. */

@@ -92,15 +92,14 @@ static void join_neighbours(const neighbourhood *n, uint32_t i)
     }
 }
 
-/* --- fewer discs than points [V14] ------------------------------------------------------------------------------------
+/* --- fewer discs than points [V14] -----------------------------------------------------------------------------------
  *
  * Of `thin` points one becomes a disc: those of the cells with x + a y = 0 (mod thin). That is a lattice with one cell
  * in `thin`, and `a` is the one that puts its cells farthest apart, so they spread evenly: thin = 10 gives the squares
  * of side sqrt 10 along (3, -1) and (1, 3). The other points join the nearest disc of their surface, so nothing is
  * lost; where a surface has none in reach, its point becomes one. */
 
-/* Squared length of the lattice's shortest step. Rows beyond sqrt(2 / sqrt 3 thin) cannot hold it (Minkowski, in the
- * plane: Hermite's constant); thin rows are more than enough. */
+/* Squared length of the lattice's shortest step; after `thin` rows the lattice repeats. */
 static int32_t shortest_step(int32_t a, int32_t thin)
 {
     int32_t shortest = thin * thin;
@@ -121,8 +120,8 @@ static int32_t lattice_of(int32_t thin)
     return best;
 }
 
-/* How far a lattice's cells are from the next, in cells: with steps b1 <= b2 of a reduced basis b1 >= 0.8 sqrt thin for
- * the best of each, so b2 <= 1.44 sqrt thin, and no cell is farther than half of sqrt(b1^2 + b2^2) < sqrt thin. */
+/* How far the lattice's nearest cell may be, in cells along x or y. Counted for each thin up to LMB_MAX_THIN: steps are
+ * 0.81 sqrt thin or longer, and no cell is farther than 0.71 sqrt thin from one; this is sqrt thin, rounded up. */
 static int32_t lattice_reach(int32_t thin)
 {
     int32_t reach = 1;
@@ -181,8 +180,8 @@ static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
     }
 }
 
-/* Close the gaps that joined points leave, and tell their texels. Of links: a disc's is its own number, a joined point's
- * is the disc's, or that of one that has joined it in turn. */
+/* Close the gaps that joined points leave, and tell their texels. Links: a disc's is its own number, a joined point's
+ * that of the disc, or of a point that has joined one in turn (thinned out first, then near another disc). */
 static void close_gaps(lmb_points *points, uint32_t first, const lmb_light_map *map)
 {
     lmb_point *data = points->data;

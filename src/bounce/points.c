@@ -274,7 +274,8 @@ int lmb_points_have_room(const lmb_points *points, const lmb_light_map *map, con
     }
     const uint64_t side = (uint64_t)(map->size / block), cells = side * side,
                    texels = points->owner != NULL ? (uint64_t)map->size * (uint64_t)map->size : 0;
-    return texels <= points->owner_cap - points->owner_count && cells < points->cell_cap && ELEMENTS * cells <= points->cap - points->count;
+    return texels <= points->owner_cap - points->owner_count && cells < points->cell_cap &&
+           ELEMENTS * cells <= points->cap - points->count;
 }
 
 lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,

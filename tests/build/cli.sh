@@ -75,11 +75,17 @@ check "strict zones say their loss" grep -q '^lambent: note: --misfits drop lost
 status 0 render demo $small --groups 40 --misfits keep -o "$dir/kept.pfm"
 check "kept misfits lose nothing" sh -c '! grep -q lost "$1"' sh "$dir/err.txt"
 
+# A number of the statistics.
+count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
+
 # First points: fewer discs, another neighbourhood, thresholds.
 for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
     status 0 render demo $small $option -o "$dir/option.pfm" --stats "$dir/option.json"
     check "$option changes the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/demo.pfm" "$dir/option.pfm"
 done
+
+status 0 render demo $small --thin 10 -o "$dir/option.pfm" --stats "$dir/option.json"
+check "--thin 10 leaves few discs" test $((4 * $(count "$dir/option.json" discs))) -lt "$(count "$dir/stats.json" discs)"
 
 # Two eyes: each half is what one eye sees from there, and the light is found once.
 at() { echo "--eye $1,1.25,2.5 --target $1,1,-1 --fov 50"; }
@@ -96,7 +102,6 @@ rows "$dir/both.pfm" >"$dir/both.txt"
 check "48 rows of an eye" test "$(grep -c . "$dir/left_half.txt")" -eq 48
 check "the left half is the left eye's picture" cmp "$dir/left.txt" "$dir/left_half.txt"
 check "the right half is the right eye's picture" cmp "$dir/right.txt" "$dir/right_half.txt"
-count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
 for what in first_points discs groups; do
     check "two eyes: $what counted once" test "$(count "$dir/both.json" $what)" -eq "$(count "$dir/left.json" $what)"
 done

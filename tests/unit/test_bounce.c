@@ -523,11 +523,11 @@ static lmb_vec3 group_vec(float planes[3][LMB_MAX_GROUPS], int32_t k)
     return vec3(planes[0][k], planes[1][k], planes[2][k]);
 }
 
-/* V12, V18, V19: everything about group k again, in double, from its members. */
+/* V12, V13, V18, V19: everything about group k again, in double, from its members. */
 static int group_is_its_members(int32_t k)
 {
     const lmb_point *m = points.data + groups.first[k];
-    double flux = 0, area = 0, albedo = 0, bary[3] = {0, 0, 0}, inside = 1;
+    double flux = 0, area = 0, albedo = 0, bary[3] = {0, 0, 0}, way[3] = {0, 0, 0}, inside = 1;
     lmb_vec3 centre = group_vec(groups.position, k);
     for (uint32_t i = 0; i < groups.members[k]; ++i) {
         double w = (double)m[i].flux[0] + (double)m[i].flux[1] + (double)m[i].flux[2];
@@ -537,6 +537,9 @@ static int group_is_its_members(int32_t k)
         bary[0] += w * (double)m[i].position.x;
         bary[1] += w * (double)m[i].position.y;
         bary[2] += w * (double)m[i].position.z;
+        way[0] += w * (double)m[i].normal.x;
+        way[1] += w * (double)m[i].normal.y;
+        way[2] += w * (double)m[i].normal.z;
         for (int c = 0; c < 4; ++c) {
             lmb_vec3 corner = add3(add3(m[i].position, mul3(m[i].axis_u, c & 1 ? 1.0f : -1.0f)),
                                    mul3(m[i].axis_v, c & 2 ? 1.0f : -1.0f));
@@ -544,6 +547,10 @@ static int group_is_its_members(int32_t k)
         }
     }
     double sum = (double)groups.flux[0][k] + (double)groups.flux[1][k] + (double)groups.flux[2][k];
+    double turn = sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    for (int c = 0; c < 3; ++c) { /* opposed members cancel: then any way will do */
+        inside *= turn < 1e-3 * flux || fabs(way[c] / turn - (double)groups.normal[c][k]) < 1e-3;
+    }
     double off = fabs(bary[0] / flux - (double)centre.x) + fabs(bary[1] / flux - (double)centre.y) +
                  fabs(bary[2] / flux - (double)centre.z);
     return groups.members[k] > 0 && inside > 0 && fabs(sum / flux - 1) < 1e-5 &&
@@ -1234,6 +1241,63 @@ static void check_near(void)
     CHECK(quads > 1000 && alone == 0.0f); /* no discs handed in: near groups give nothing */
 }
 
+/* Pixels under the box's ceiling that look down, from height y up. */
+static void ceiling_tile(float low)
+{
+    test_rng rng = {15};
+    random_tile(&rng);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float x = test_uniform(&rng, -0.9f, 0.9f), y = test_uniform(&rng, low, 0.9f), z = test_uniform(&rng, -0.9f, 0.9f);
+        set_plane(tile.position, k, vec3(x, y, z));
+        set_plane(tile.normal, k, vec3(0, -1, 0));
+        set_plane(tile.face, k, vec3(0, -1, 0));
+    }
+}
+
+/* The light of a lit patch of floor in groups by method and k; p: the discs, or NULL. */
+static void gather_level(lmb_irradiance *out, int32_t method, float join, int discs, float low)
+{
+    lmb_light l = spot(vec3(0, 0.9f, 0), vec3(0, -1, 0), 20, 25);
+    lmb_grouping g = grouping_of(method, 60, 8);
+    g.join = join;
+    clear_points();
+    add_points(&l, SIDE / 2, &g, 1);
+    CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK);
+    ceiling_tile(low);
+    gather(out, discs ? &points : NULL, NULL);
+}
+
+static double largest_difference(const lmb_irradiance *a, const lmb_irradiance *b)
+{
+    double worst = 0.0;
+    for (int k = 0; k < LMB_TILE_PIXELS - 2; ++k) {
+        worst = fmax(worst, fabs((double)a->rgb[0][k] / (double)b->rgb[0][k] - 1.0));
+    }
+    return worst;
+}
+
+/* V27: a pixel may be lit by first points, by discs, by groups, or by a mix: groups afar, their discs near by. From afar
+ * all are alike; near by, groups without their discs give nothing. */
+static void check_levels(void)
+{
+    lmb_irradiance by_points, by_discs, by_groups, mixed;
+    make_box();
+    gather_level(&by_points, LMB_GROUP_NONE, 1e-30f, 1, 0.0f);
+    int32_t first = groups.count;
+    gather_level(&by_discs, LMB_GROUP_NONE, 1.0f, 1, 0.0f);
+    int32_t second = groups.count;
+    gather_level(&by_groups, LMB_GROUP_ZONES, 1.0f, 0, 0.0f);
+    CHECK_MSG(first > second && second > groups.count, "%d points, %d discs, %d groups", (int)first, (int)second,
+              (int)groups.count);
+    CHECK_MSG(largest_difference(&by_discs, &by_points) < 0.01, "%g", largest_difference(&by_discs, &by_points));
+    CHECK_MSG(largest_difference(&by_groups, &by_points) < 0.02, "%g", largest_difference(&by_groups, &by_points));
+    gather_level(&by_points, LMB_GROUP_NONE, 1e-30f, 1, -0.95f);
+    gather_level(&mixed, LMB_GROUP_ZONES, 1.0f, 1, -0.95f);
+    gather_level(&by_groups, LMB_GROUP_ZONES, 1.0f, 0, -0.95f);
+    CHECK_MSG(largest_difference(&mixed, &by_points) < 0.15, "%g", largest_difference(&mixed, &by_points));
+    CHECK_MSG(largest_difference(&by_groups, &by_points) > 0.5, "%g", largest_difference(&by_groups, &by_points));
+}
+
 /* V16: a square, a long rectangle and an oval's quad of one area: from afar the same bytes, near by each its own. */
 static void check_shapes(void)
 {
@@ -1310,6 +1374,7 @@ static void test_gather(void)
     check_far();
     check_near();
     check_shapes();
+    check_levels();
     random_tile(&rng);
     plate_points(0.3f);
     check_linear(NULL);

@@ -518,7 +518,7 @@ static void draw_maps(lmb_light_map maps[ALL_LIGHTS])
     }
 }
 
-/* Each light's irradiance alone, summed in the lights' order, is what the frame's direct light is made of. */
+/* V3, V29: each light's irradiance alone, summed in the lights' order, is what the frame's direct light is made of. */
 static void test_sum_of_lights(void)
 {
     static lmb_irradiance sum, one;
@@ -554,7 +554,38 @@ static void test_sum_of_lights(void)
     CHECK(same_picture(&reference, built));
 }
 
-/* Direct light needs no points and no groups; full is direct and indirect. */
+static float gbuffer[2][7 * WIDTH * HEIGHT];
+
+static void set_gbuffer(lmb_surface s[3], float *at, const lmb_view *v)
+{
+    size_t pixels = (size_t)v->frame_width * (size_t)v->frame_height;
+    memset(at, 0xa5, 7 * WIDTH * HEIGHT * sizeof(float));
+    lmb_surface_init(&s[0], LMB_R32F, v->frame_width, v->frame_height, at, pixels * 4);
+    lmb_surface_init(&s[1], LMB_RGB32F, v->frame_width, v->frame_height, at + pixels, pixels * 12);
+    lmb_surface_init(&s[2], LMB_RGB32F, v->frame_width, v->frame_height, at + 4 * pixels, pixels * 12);
+}
+
+/* V28, V30: what goes to the viewer is what arrives times the reflectance, over pi. */
+static void test_reflected(void)
+{
+    float *albedo = gbuffer[0] + 4 * TARGET;
+    lmb_surface s[3];
+    double worst = 0.0;
+    render_show(&reference, LMB_SHOW_IRRADIANCE, LMB_OCCLUSION_VIEW, LMB_GROUP_ZONES);
+    render_show(&other, LMB_SHOW_INDIRECT, LMB_OCCLUSION_VIEW, LMB_GROUP_ZONES);
+    set_gbuffer(s, gbuffer[0], &m.render.frame.view);
+    for (int32_t b = 0; b < HEIGHT / 8; ++b) {
+        CHECK(lmb_gbuffer_band(NULL, NULL, &s[2], &m.scratch.tile, lmb_kernels_pick(), &m.render.frame.view, &room,
+                               &m.render.frame.eye, b) == LMB_OK);
+    }
+    for (int i = 0; i < FLOATS; ++i) {
+        const double want = (double)value_at(&reference, i) * (double)albedo[i] / 3.14159265358979;
+        worst = fmax(worst, fabs((double)value_at(&other, i) - want) / (want + 1e-9));
+    }
+    CHECK_MSG(worst < 1e-6 && lit_pixels(&other) > FLOATS / 2, "%g", worst);
+}
+
+/* V29: direct light needs no points and no groups; full is direct and indirect. */
 static void test_shows(void)
 {
     double worst = 0;
@@ -706,25 +737,26 @@ static void test_band_arguments(void)
     CHECK(other.data[0] == PATTERN && picture_keeps_rest(&other));
 }
 
+/* V34: maps, points, groups, view, bands, each once, in that order. */
 static void test_progress(void)
 {
     lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
     const char *name = NULL;
-    int wrong = 0, stage = -1;
+    int wrong = 0, stage = -1, stages = 0;
     float before = 0.0f;
     CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
     do {
         float now = lmb_render_progress(&name, &m.render);
         wrong += name == NULL || !(now >= 0.0f && now <= 1.0f) || m.render.stage < stage;
         wrong += m.render.stage == stage && now < before;
+        wrong += m.render.stage > stage + 1;
+        stages += m.render.stage != stage;
         stage = m.render.stage;
         before = now;
     } while (lmb_render_step(&m.render, 1) == LMB_MORE);
-    CHECK(wrong == 0 && lmb_render_progress(&name, &m.render) == 1.0f);
+    CHECK(wrong == 0 && stages == LMB_STAGE_DONE && lmb_render_progress(&name, &m.render) == 1.0f);
     CHECK(lmb_render_progress(&name, NULL) == 1.0f && name != NULL);
 }
-
-static float gbuffer[2][7 * WIDTH * HEIGHT];
 
 /* ---- two eyes, one light ---- */
 
@@ -975,15 +1007,6 @@ static void test_buffers(void)
 
 /* ---- the G-buffer ---- */
 
-static void set_gbuffer(lmb_surface s[3], float *at, const lmb_view *v)
-{
-    size_t pixels = (size_t)v->frame_width * (size_t)v->frame_height;
-    memset(at, 0xa5, 7 * WIDTH * HEIGHT * sizeof(float));
-    lmb_surface_init(&s[0], LMB_R32F, v->frame_width, v->frame_height, at, pixels * 4);
-    lmb_surface_init(&s[1], LMB_RGB32F, v->frame_width, v->frame_height, at + pixels, pixels * 12);
-    lmb_surface_init(&s[2], LMB_RGB32F, v->frame_width, v->frame_height, at + 4 * pixels, pixels * 12);
-}
-
 /* Bands from one whole target; then, last band first, each from a target of its own eight rows. */
 static void check_gbuffer(const lmb_scene *scene, lmb_view view)
 {
@@ -1121,6 +1144,7 @@ void test_frames(void)
     test_doubling();
     test_darkness();
     test_sum_of_lights();
+    test_reflected();
     test_shows();
     test_refused();
     test_exact_memory();

@@ -7,6 +7,7 @@
 #include "../../src/base/vec.h"
 #include "../../tools/crew.h"
 #include "../../tools/demo_scene.h"
+#include "../../tools/grey.h"
 #include "../../tools/map_picture.h"
 #include "../test.h"
 
@@ -295,6 +296,19 @@ static void test_first_points(void)
     image_free(&p);
 }
 
+/* Near is bright, nothing is black; shares and normals keep their ends. */
+static void test_greys(void)
+{
+    float far[5] = {2.0f, 0.0f, 1.0f, 1.5f, 3.0f}, share[3] = {0.0f, 1.0f, 0.5f}, normal[3] = {-1.0f, 0.0f, 1.0f};
+    image p = {5, 1, 1, far}, shares = {3, 1, 1, share}, normals = {1, 1, 3, normal};
+    grey_distances(&p);
+    CHECK(far[2] == 1.0f && far[2] > far[3] && far[3] > far[0] && far[0] > far[4] && far[4] > 0.0f && far[1] == 0.0f);
+    grey_shares(&shares);
+    CHECK(share[0] == 0.0f && share[1] == 1.0f && fabsf(share[2] - 0.2159f) < 1e-3f); /* 128 of 255 in sRGB */
+    grey_normals(&normals);
+    CHECK(normal[0] == 0.0f && normal[1] == 0.5f && normal[2] == 1.0f);
+}
+
 /* 64 lights' maps are no picture that the writers take. */
 static void test_too_large(void)
 {
@@ -315,5 +329,6 @@ void test_map_picture(void)
     test_owners();
     test_colours();
     test_first_points();
+    test_greys();
     test_too_large();
 }

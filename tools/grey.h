@@ -1,0 +1,22 @@
+/* grey.h: numbers that are no light, as greys for display formats: in place, linear light in 0 .. 1. */
+#ifndef GREY_H
+#define GREY_H
+
+#include "image.h"
+
+/* Of one channel, 0 where there is nothing, which stays black.
+ *
+ * grey_depths     white at the eye, in equal steps of light
+ * grey_distances  white at the nearest, in equal steps of grey; says the range on stderr
+ * grey_shares     0 .. 1 in equal steps of grey */
+void grey_depths(image *p);
+void grey_distances(image *p);
+void grey_shares(image *p);
+
+/* grey_normals: three channels of -1 .. 1; 0 is middle grey. */
+void grey_normals(image *p);
+
+/* image_widen: one channel becomes three. 1, or 0 with `r` set. */
+int image_widen(image *p, report *r);
+
+#endif
