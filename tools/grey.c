@@ -2,7 +2,6 @@
 #include "grey.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 int image_widen(image *p, report *r)
@@ -34,7 +33,7 @@ void grey_depths(image *p)
     }
 }
 
-void grey_distances(image *p)
+void grey_distances(image *p, float *nearest_m, float *farthest_m)
 {
     const size_t n = (size_t)p->width * (size_t)p->height;
     float near_m = 1e30f, far_m = 0.0f;
@@ -47,9 +46,8 @@ void grey_distances(image *p)
         const float d = p->pixels[i], part = far_m > near_m ? (d - near_m) / (far_m - near_m) : 0.0f;
         p->pixels[i] = d > 0.0f ? (float)srgb_decode((int)(255.0f - 200.0f * part)) : 0.0f;
     }
-    if (far_m > 0.0f) {
-        fprintf(stderr, "lambent: from %.4g m (white) to %.4g m (dark grey)\n", (double)near_m, (double)far_m);
-    }
+    *nearest_m = near_m;
+    *farthest_m = far_m;
 }
 
 void grey_shares(image *p)

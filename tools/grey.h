@@ -7,10 +7,10 @@
 /* Of one channel, 0 where there is nothing, which stays black.
  *
  * grey_depths     white at the eye, in equal steps of light
- * grey_distances  white at the nearest, in equal steps of grey; says the range on stderr
+ * grey_distances  white at the nearest, in equal steps of grey, and the range; farthest 0 where there is nothing
  * grey_shares     0 .. 1 in equal steps of grey */
 void grey_depths(image *p);
-void grey_distances(image *p);
+void grey_distances(image *p, float *nearest_m, float *farthest_m);
 void grey_shares(image *p);
 
 /* grey_normals: three channels of -1 .. 1; 0 is middle grey. */

@@ -464,10 +464,16 @@ static int draw_attributes(job *j, report *r)
 /* What is no light, for display formats. Reflectance, points and groups are in 0 .. 1 already. */
 static void grey_for_display(job *j)
 {
+    float near_m, far_m;
     switch (j->o.show) {
     case SHOW_DEPTH: grey_depths(&j->linear); break;
     case SHOW_EYE_DISTANCE:
-    case SHOW_LIGHT_DISTANCE: grey_distances(&j->linear); break;
+    case SHOW_LIGHT_DISTANCE:
+        grey_distances(&j->linear, &near_m, &far_m);
+        if (far_m > 0.0f) {
+            fprintf(stderr, "lambent: from %.4g m (white) to %.4g m (dark grey)\n", (double)near_m, (double)far_m);
+        }
+        break;
     case SHOW_OCCLUSION: grey_shares(&j->linear); break;
     case SHOW_NORMAL: grey_normals(&j->linear); break;
     default: break;

@@ -301,7 +301,9 @@ static void test_greys(void)
 {
     float far[5] = {2.0f, 0.0f, 1.0f, 1.5f, 3.0f}, share[3] = {0.0f, 1.0f, 0.5f}, normal[3] = {-1.0f, 0.0f, 1.0f};
     image p = {5, 1, 1, far}, shares = {3, 1, 1, share}, normals = {1, 1, 3, normal};
-    grey_distances(&p);
+    float nearest, farthest;
+    grey_distances(&p, &nearest, &farthest);
+    CHECK(nearest == 1.0f && farthest == 3.0f);
     CHECK(far[2] == 1.0f && far[2] > far[3] && far[3] > far[0] && far[0] > far[4] && far[4] > 0.0f && far[1] == 0.0f);
     grey_shares(&shares);
     CHECK(share[0] == 0.0f && share[1] == 1.0f && fabsf(share[2] - 0.2159f) < 1e-3f); /* 128 of 255 in sRGB */
