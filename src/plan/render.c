@@ -88,7 +88,7 @@ static lmb_status check_frame(const lmb_frame *f)
         return LMB_ERR_CAPACITY;
     }
     if (wants_cut(f) ? f->tree.size != f->light_map || f->occlusion % LMB_OCCLUSION_EXACT != 0
-                     : f->occlusion == LMB_OCCLUSION_EXACT) {
+                     : wants_groups(f) && f->occlusion == LMB_OCCLUSION_EXACT) {
         return LMB_ERR_ARG;
     }
     if (f->id_format == LMB_ID16 && lmb_scene_triangles(f->scene) > 65535u) {

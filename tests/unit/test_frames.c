@@ -765,6 +765,17 @@ enum { WIDE = 2 * WIDTH * HEIGHT * 3 };
 /* Side by side, and the second eye's frame. */
 static uint32_t wide[WIDE], right_depth[TARGET], right_id[TARGET];
 
+/* The light as a tree, of which tiles take their cut, and every triangle may block. */
+static void use_cut(lmb_frame *f)
+{
+    enum { FACE_BYTES = MAP * MAP * (sizeof(lmb_texel) + sizeof(lmb_node) / 3) + 64 * sizeof(lmb_view) };
+    static uint32_t tree[FACES * FACE_BYTES / 4], blockers[SIDES * SIDE_TRIANGLES * 128 / 4];
+    f->grouping.method = LMB_GROUP_CUT;
+    f->light_map = MAP;
+    CHECK(lmb_tree_init(&f->tree, FACES, MAP, tree, sizeof tree) == LMB_OK);
+    CHECK(lmb_blockers_init(&f->blockers, lmb_scene_triangles(f->scene), blockers, sizeof blockers) == LMB_OK);
+}
+
 static lmb_view eye_view(int eye)
 {
     lmb_view v = room_view(WIDTH, HEIGHT);
@@ -793,13 +804,23 @@ static void finish(lmb_render *r, int32_t units)
     CHECK_MSG(status == LMB_OK, "%s", lmb_status_name(status));
 }
 
+/* A frame of zones, or of a cut. */
+static lmb_frame stereo_frame(int eye, int occlusion, picture *out)
+{
+    lmb_frame f = plain_frame(&room, eye_view(eye), out);
+    f.occlusion = occlusion;
+    if (occlusion == LMB_OCCLUSION_EXACT) {
+        use_cut(&f);
+    }
+    return f;
+}
+
 /* Both halves against frames of their own, byte for byte. */
 static void check_halves(int occlusion)
 {
     for (int eye = 0; eye < 2; ++eye) {
         int wrong = 0;
-        lmb_frame f = plain_frame(&room, eye_view(eye), &reference);
-        f.occlusion = occlusion;
+        lmb_frame f = stereo_frame(eye, occlusion, &reference);
         CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && lit_pixels(&reference) > FLOATS / 4);
         for (int y = 0; y < HEIGHT; ++y) {
             wrong += memcmp(wide + (2 * y + eye) * WIDTH * 3, reference.data + y * WIDTH * 3, WIDTH * 12) != 0;
@@ -815,14 +836,13 @@ static void check_stereo(int occlusion, int32_t units)
     lmb_stats left;
     memset(&m.stats, 0, sizeof m.stats);
     memset(wide, 0xa5, sizeof wide);
-    lmb_frame f = plain_frame(&room, eye_view(0), &other);
-    f.occlusion = occlusion;
+    lmb_frame f = stereo_frame(0, occlusion, &other);
     f.out = half_of_wide(0);
     CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
     finish(&m.render, units);
     left = m.stats;
     const uint32_t all = lmb_scene_triangles(&room);
-    CHECK(left.groups > 0 && left.triangles == (FACES + 1) * all);
+    CHECK((left.groups > 0) == (occlusion != LMB_OCCLUSION_EXACT) && left.triangles == (FACES + 1) * all);
     f.view = eye_view(1);
     f.out = half_of_wide(1);
     CHECK(lmb_render_again(&m.render, &f) == LMB_OK && m.render.stage == LMB_STAGE_VIEW);
@@ -875,6 +895,21 @@ static void check_other_shows(void)
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
     f.show = LMB_SHOW_FULL;
     CHECK(lmb_render_again(&m.render, &f) == LMB_ERR_ARG && m.render.stage == LMB_STAGE_DONE);
+    /* Blockers that were built may be asked again; others cannot be. */
+    for (int built = 0; built < 2; ++built) {
+        f = stereo_frame(0, LMB_OCCLUSION_EXACT, &other);
+        f.show = LMB_SHOW_INDIRECT;
+        f.occlusion = built ? LMB_OCCLUSION_EXACT : LMB_OCCLUSION_NONE;
+        CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
+        f.occlusion = LMB_OCCLUSION_NONE;
+        CHECK(lmb_render_again(&m.render, &f) == LMB_OK);
+        finish(&m.render, 64);
+        f.occlusion = LMB_OCCLUSION_EXACT;
+        CHECK(lmb_render_again(&m.render, &f) == (built ? LMB_OK : LMB_ERR_ARG));
+        f.show = LMB_SHOW_DIRECT; /* asks for neither */
+        CHECK(lmb_render_again(&m.render, &f) == LMB_OK);
+        finish(&m.render, 64);
+    }
 }
 
 /* Refused: the render stays as it was. */
@@ -912,6 +947,7 @@ static void test_again(void)
     check_stereo(LMB_OCCLUSION_NONE, 1 << 20);
     check_stereo(LMB_OCCLUSION_VIEW, 1 << 20);
     check_stereo(LMB_OCCLUSION_VIEW, 7);
+    check_stereo(LMB_OCCLUSION_EXACT, 64);
     check_stereo_at_once();
     check_other_shows();
     check_again_refused();
