@@ -27,10 +27,10 @@ const char render_usage[] =
     "  --grouping zones|greedy|none   how lit points become groups (default zones)\n"
     "  --groups N                 groups at most (default 512)\n"
     "  --block N                  texels a side of a first point: 1 2 4 8 (default 8)\n"
-    "  --neighbour METRES         points farther apart are no neighbours, say 0.25, 0.5 or 1 (default: any of the eight\n"
-    "                             cells around)\n"
+    "  --neighbour METRES         points farther apart are no neighbours, say 0.25, 0.5 or 1 (default: any of the\n"
+    "                             eight cells around)\n"
     "  --neighbourhood facing|hemisphere\n"
-    "                             neighbours are points that face the same way, or any over the surface (default facing)\n"
+    "                             neighbours are points that face the same way (default), or any over the surface\n"
     "  --thin N                   of N points one becomes a disc, evenly spread, and the others join it, 1 .. 64\n"
     "                             (default 1)\n"
     "  --join K                   points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)\n"
@@ -46,9 +46,9 @@ const char render_usage[] =
     "picture\n"
     "  --show full|direct|indirect|irradiance   (default full; irradiance: bounced, before albedo)\n"
     "         depth|eye-distance|normal|albedo  of what the eye sees; metres along the view, and from the eye\n"
-    "         light-distance|points|groups      of the lights' maps, at their size, a row of faces a light: metres from\n"
-    "                             the light; first points by what they send, W/m2 (discs, where --join or --thin is\n"
-    "                             given); the number of the group that owns a texel, 0 in the dark, -1 where dropped\n"
+    "         light-distance|points|groups      of the lights' maps, at their size, a row of faces a light: metres\n"
+    "                             from the light; first points by what they send, W/m2 (discs, where --join or --thin\n"
+    "                             is given); the number of the group that owns a texel, 0 dark, -1 dropped\n"
     "         occlusion           the share of the bounced light that --occlusion blocks\n"
     "                             Display formats scale distances, near is bright, and give each group a colour.\n"
     "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
@@ -384,7 +384,7 @@ static int check_together(const render_options *o, report *r)
         return report_fail(r, "--stereo: what lives in a light's map is one for both eyes; show it without");
     }
     if (o->grouping.method == LMB_GROUP_CUT && (o->show == SHOW_POINTS || o->show == SHOW_GROUPS)) {
-        return report_fail(r, "--show points and groups: a cut is each tile's own; use --grouping zones, greedy or none");
+        return report_fail(r, "--show points, groups: a cut is each tile's own; use --grouping zones, greedy or none");
     }
     if (o->show == SHOW_OCCLUSION && o->occlusion == LMB_OCCLUSION_NONE) {
         return report_fail(r, "--show occlusion wants an --occlusion other than none");

@@ -792,7 +792,7 @@ static void check_repeats(void)
     }
 }
 
-/* --- fewer discs than points --------------------------------------------------------------------------------------- */
+/* --- fewer discs than points -------------------------------------------------------------------------------------- */
 
 /* In cells, squared: from each disc to the next of its face. */
 static int32_t least_step(void)
@@ -800,7 +800,8 @@ static int32_t least_step(void)
     int32_t least = 1 << 20;
     for (uint32_t i = 0; i < points.count; ++i) {
         for (uint32_t j = i + 1; j < points.count; ++j) {
-            int32_t x = points.data[i].cell_x - points.data[j].cell_x, y = points.data[i].cell_y - points.data[j].cell_y;
+            int32_t x = points.data[i].cell_x - points.data[j].cell_x;
+            int32_t y = points.data[i].cell_y - points.data[j].cell_y;
             least = x * x + y * y < least ? x * x + y * y : least;
         }
     }
@@ -1247,7 +1248,8 @@ static void ceiling_tile(float low)
     test_rng rng = {15};
     random_tile(&rng);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        float x = test_uniform(&rng, -0.9f, 0.9f), y = test_uniform(&rng, low, 0.9f), z = test_uniform(&rng, -0.9f, 0.9f);
+        float x = test_uniform(&rng, -0.9f, 0.9f), y = test_uniform(&rng, low, 0.9f);
+        float z = test_uniform(&rng, -0.9f, 0.9f);
         set_plane(tile.position, k, vec3(x, y, z));
         set_plane(tile.normal, k, vec3(0, -1, 0));
         set_plane(tile.face, k, vec3(0, -1, 0));
@@ -1276,8 +1278,8 @@ static double largest_difference(const lmb_irradiance *a, const lmb_irradiance *
     return worst;
 }
 
-/* V27: a pixel may be lit by first points, by discs, by groups, or by a mix: groups afar, their discs near by. From afar
- * all are alike; near by, groups without their discs give nothing. */
+/* V27: a pixel may be lit by first points, by discs, by groups, or by a mix: groups afar, their discs near by. From
+ * afar all are alike; near by, groups without their discs give nothing. */
 static void check_levels(void)
 {
     lmb_irradiance by_points, by_discs, by_groups, mixed;
@@ -1310,8 +1312,8 @@ static void check_shapes(void)
     }
     for (int s = 0; s < 3; ++s) {
         clear_points();
-        set_disc(&points.data[points.count++], vec3(0, 3, 0), vec3(0, -1, 0), mul3(X, sides[s][0]), mul3(Z, sides[s][1]),
-                 2.0f);
+        set_disc(&points.data[points.count++], vec3(0, 3, 0), vec3(0, -1, 0), mul3(X, sides[s][0]),
+                 mul3(Z, sides[s][1]), 2.0f);
         lmb_grouping g = grouping_of(LMB_GROUP_NONE, 0, 8);
         CHECK(lmb_group_points(&groups, &points, &g, NULL) == LMB_OK && groups.area[0] == 0.0625f);
         gather(&far[s], &points, NULL);

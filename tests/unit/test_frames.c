@@ -970,7 +970,8 @@ static int light_distances(const lmb_light_map *map, int32_t face)
               LMB_OK);
     }
     for (int i = 0; i < MAP * MAP; ++i) {
-        const float x = ((float)(i % MAP) + 0.5f) * 2.0f / MAP - 1.0f, y = 1.0f - ((float)(i / MAP) + 0.5f) * 2.0f / MAP;
+        const float x = ((float)(i % MAP) + 0.5f) * 2.0f / MAP - 1.0f;
+        const float y = 1.0f - ((float)(i / MAP) + 0.5f) * 2.0f / MAP;
         const float scale = v->kind == LMB_PERSPECTIVE ? kept[i] : 1.0f, w = kept[i];
         const lmb_vec3 across =
             add3(mul3(v->right, x * v->half_width * scale), mul3(v->up, y * v->half_height * scale));
