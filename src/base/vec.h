@@ -78,6 +78,15 @@ static inline uint32_t count_bits_16(uint32_t bits)
     return (bits + (bits >> 8)) & 31u;
 }
 
+static inline int32_t count_bits_64(uint64_t bits)
+{
+    uint32_t n = 0;
+    for (; bits != 0; bits >>= 16) {
+        n += count_bits_16((uint32_t)bits & 0xffffu);
+    }
+    return (int32_t)n;
+}
+
 /* Affine point transform: columns times coordinates, summed x, y, z, translation. */
 static inline lmb_vec3 transform_point(const lmb_mat4 *t, lmb_vec3 p)
 {

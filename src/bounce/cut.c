@@ -122,6 +122,7 @@ typedef struct cutter {
     const lmb_kernels *kernels;
     const lmb_cutting *cutting;
     const patch *p;
+    lmb_last_blockers last;
     float per_pixel;         /* 1 / pixels of the patch */
     const float *key;        /* what the buckets go by: cut->error or cut->most */
     int32_t bucket[BUCKETS]; /* the first of each, or NONE */
@@ -181,15 +182,6 @@ static void empty_buckets(cutter *c, const float *key)
     }
 }
 
-static int32_t count_bits_64(uint64_t bits)
-{
-    uint32_t n = 0;
-    for (; bits != 0; bits >>= 16) {
-        n += count_bits_16((uint32_t)bits & 0xffffu);
-    }
-    return (int32_t)n;
-}
-
 static double seen_value(const cutter *c, int32_t i)
 {
     return (double)(c->cut->value[i] * ((float)count_bits_64(c->cut->visible[i]) * c->per_pixel));
@@ -222,7 +214,7 @@ static void ask(cutter *c, int32_t i)
     count_in(c, i, -1.0);
     c->cut->visible[i] &= ~lmb_blocked_tile(
         c->cutting->blockers, c->kernels, c->tile, c->cut->visible[i],
-        tree_texel(c->tree, at.face, (int32_t)texel % size, (int32_t)texel / size)->position);
+        tree_texel(c->tree, at.face, (int32_t)texel % size, (int32_t)texel / size)->position, &c->last);
     c->cut->asked += (uint64_t)count_bits_64(c->p->pixels);
     count_in(c, i, 1.0);
 }
@@ -410,6 +402,7 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
         c.kernels = kernels;
         c.cutting = cutting;
         c.p = &p;
+        memset(&c.last, 0, sizeof c.last);
         c.per_pixel = 1.0f / (float)count_bits_64(p.pixels);
         take_cut(&c);
         light_patch(inout, &c);

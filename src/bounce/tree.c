@@ -191,7 +191,7 @@ static float lit_share(const edger *e, const pair *p, int from_a)
         tile->position[2][k] = at.z;
     }
     const uint64_t blocked =
-        lmb_blocked_tile(e->blockers, e->kernels, tile, ~UINT64_C(0), light_place(e->view, t));
+        lmb_blocked_tile(e->blockers, e->kernels, tile, ~UINT64_C(0), light_place(e->view, t), NULL);
     const float share = blocked == 0 ? 1.0f : (float)lowest_bit_64(blocked) / (float)LMB_TILE_PIXELS;
     return from_a ? share : 1.0f - share;
 }

@@ -28,5 +28,5 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large), KERNEL(fill),
     KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve), KERNEL(texture),
     KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(gather_cut),
-    KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(blend),   KERNEL(encode),     KERNEL(probe),
+    KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets), KERNEL(blend),   KERNEL(encode),     KERNEL(probe),
 };

@@ -138,6 +138,11 @@ typedef struct lmb_cross_job {
     float beyond; /* of `at` from the plane and the noise, m */
 } lmb_cross_job;
 
+/* The segments from a point to all of a box: 1 / distance to its upper and its lower end along each axis; not 0. */
+typedef struct lmb_pyramid {
+    float at[3], per_high[3], per_low[3];
+} lmb_pyramid;
+
 /* A tile's segments from a point, for asking boxes: 1 / (pixel - at) along each axis, at most 1e20 where that is 0. */
 typedef struct lmb_segments {
     lmb_vec3 at;
@@ -175,8 +180,10 @@ struct lmb_kernels {
     /* Of `pixels`, one bit each, those whose segment to the point crosses the triangle. */
     uint64_t (*crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_cross_job *job);
     void (*segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 at);
-    /* Of `pixels`, those whose segment meets the box. */
-    uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_box *box);
+    /* Of `pixels`, those whose segment meets box i. */
+    uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i);
+    /* The boxes that the pyramid may meet, a bit each. */
+    uint32_t (*meets)(const lmb_pyramid *pyramid, const lmb_boxes *boxes);
     void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                   const lmb_irradiance *indirect);
     /* sRGB codes 0 .. 255 of radiance x gain. */

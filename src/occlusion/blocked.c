@@ -6,31 +6,24 @@
 #include "../raster/resolve.h"
 #include "walk.h"
 
-/* The segments from a point to a box of pixels, as a box sees them. Along an axis a segment's place at its share t is
- * t d with d in [d0, d1]: it may meet [low, high] where t d1 >= low and t d0 <= high. Each is a bound on t: from below
- * where it says that t is at least something, else from above. */
-typedef struct pyramid {
-    float at[3];
-    float per_high[3], per_low[3]; /* 1 / d1, 1 / d0: neither is 0 */
-    int up[3], down[3];            /* d1 > 0, d0 < 0 */
-} pyramid;
-
+/* Leaves asked by the pyramid alone; after them each is asked by the segments themselves, which in a fine mesh mostly
+ * pass between its triangles. */
+#define BY_PYRAMID 4
+#define MUCH 16 /* pixels that a triangle blocks to be asked first by the next segments */
 #define THIN 1e-20f /* m: a pyramid is never thinner */
 
-static void pyramid_axis(pyramid *out, int axis, float at, float low, float high)
+static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
 {
     const float d1 = high - at, d0 = low - at;
     out->at[axis] = at;
     out->per_high[axis] = 1.0f / (absf(d1) < THIN ? THIN : d1);
     out->per_low[axis] = 1.0f / (absf(d0) < THIN ? -THIN : d0);
-    out->up[axis] = out->per_high[axis] > 0.0f;
-    out->down[axis] = out->per_low[axis] < 0.0f;
 }
 
-static pyramid pyramid_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
+static lmb_pyramid pyramid_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
     float low[3] = {3e38f, 3e38f, 3e38f}, high[3] = {-3e38f, -3e38f, -3e38f};
-    pyramid p;
+    lmb_pyramid p;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
@@ -42,22 +35,6 @@ static pyramid pyramid_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
     pyramid_axis(&p, 1, at.y, low[1], high[1]);
     pyramid_axis(&p, 2, at.z, low[2], high[2]);
     return p;
-}
-
-static inline void narrow(float *from, float *to, const pyramid *p, int axis, float low, float high)
-{
-    const float a = (low - p->at[axis]) * p->per_high[axis], b = (high - p->at[axis]) * p->per_low[axis];
-    *from = maxf(*from, maxf(p->up[axis] ? a : 0.0f, p->down[axis] ? b : 0.0f));
-    *to = minf(*to, minf(p->up[axis] ? 1.0f : a, p->down[axis] ? 1.0f : b));
-}
-
-static inline int meets(const pyramid *p, const lmb_box *box)
-{
-    float from = 0.0f, to = 1.0f;
-    narrow(&from, &to, p, 0, box->low.x, box->high.x);
-    narrow(&from, &to, p, 1, box->low.y, box->high.y);
-    narrow(&from, &to, p, 2, box->low.z, box->high.z);
-    return from <= to;
 }
 
 /* A triangle as the point sees it. 0 where the point lies in its plane. */
@@ -98,71 +75,98 @@ static uint64_t standing(const lmb_blockers *b, const lmb_blocker *t, const lmb_
     return out;
 }
 
-/* Boxes asked by the pyramid alone; after them, each is asked by the segments themselves, which in a fine mesh mostly
- * pass between its triangles. */
-#define BY_PYRAMID 24
+/* One walk. */
+typedef struct walk {
+    const lmb_blockers *b;
+    const lmb_kernels *kernels;
+    const lmb_tile *tile;
+    lmb_vec3 at;
+    lmb_last_blockers *last;
+    uint64_t left; /* pixels that nothing blocked yet */
+} walk;
 
-static uint64_t blocked_by_leaf(const lmb_blockers *b, const lmb_kernels *kernels, const lmb_tile *tile,
-                                uint64_t pixels, lmb_vec3 at, const lmb_box *leaf)
+/* Of `asked` those that one triangle blocks are done. */
+static void ask_triangle(walk *w, uint32_t triangle, uint64_t asked)
 {
-    uint64_t blocked = 0;
+    const lmb_blocker *t = &w->b->triangle[triangle];
     lmb_cross_job job;
-    for (uint32_t i = 0; i < leaf->count && blocked != pixels; ++i) {
-        const lmb_blocker *t = &b->triangle[leaf->first + i];
-        if (cross_job(&job, t, at, b->noise)) {
-            const uint64_t crossed = kernels->crossed(tile, pixels & ~blocked, &job);
-            blocked |= crossed != 0 && (t->id & LMB_BLOCKER_MASKED) ? standing(b, t, &job, tile, crossed) : crossed;
-        }
+    if (cross_job(&job, t, w->at, w->b->noise)) {
+        const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
+        w->left &= ~(crossed != 0 && (t->id & LMB_BLOCKER_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
     }
-    return blocked;
 }
 
-/* A node and the pixels whose segments may meet it. */
-typedef struct visit {
-    uint64_t pixels;
-    uint32_t node;
-} visit;
+/* To the front; the last falls off where it is not among them. */
+static void remember(lmb_last_blockers *last, uint32_t triangle)
+{
+    uint32_t moved = triangle + 1;
+    for (int i = 0; i < LMB_LAST_BLOCKERS; ++i) {
+        const uint32_t here = last->triangle[i];
+        last->triangle[i] = moved;
+        moved = here;
+        if (here == triangle + 1) {
+            return;
+        }
+    }
+}
+
+/* 1 where they alone block all. */
+static int ask_last(walk *w)
+{
+    for (int i = 0; i < LMB_LAST_BLOCKERS && w->last != NULL && w->last->triangle[i] != 0; ++i) {
+        const uint32_t triangle = w->last->triangle[i] - 1;
+        ask_triangle(w, triangle, w->left);
+        if (w->left == 0) {
+            remember(w->last, triangle);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void ask_leaf(walk *w, const lmb_boxes *node, int i, uint64_t asked)
+{
+    for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0; ++k) {
+        const uint64_t before = w->left;
+        ask_triangle(w, node->first[i] + k, asked);
+        if (w->last != NULL && count_bits_64(before & ~w->left) >= MUCH) {
+            remember(w->last, node->first[i] + k);
+        }
+    }
+}
 
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
-                          uint64_t pixels, lmb_vec3 at)
+                          uint64_t pixels, lmb_vec3 at, lmb_last_blockers *last)
 {
-    visit waiting[LMB_WALK_DEPTH];
+    uint32_t waiting[LMB_WALK_STACK];
     lmb_segments segments;
-    uint64_t blocked = 0;
-    int count = 0, asked = 0;
+    int count = 1, leaves = 0;
+    walk w = {blockers, kernels, tile, at, last, pixels};
     if (pixels == 0 || blockers->node_count == 0) {
         return 0;
     }
-    const pyramid p = pyramid_of(tile, pixels, at);
-    waiting[count].node = 0;
-    waiting[count++].pixels = pixels;
-    while (count > 0) {
-        const visit v = waiting[--count];
-        const lmb_box *node = &blockers->node[v.node];
-        uint64_t here = v.pixels & ~blocked;
-        if (here == 0 || (asked < BY_PYRAMID && !meets(&p, node))) {
-            continue;
-        }
-        if (++asked > BY_PYRAMID) {
-            if (asked == BY_PYRAMID + 1) {
-                kernels->segments(&segments, tile, at);
+    if (ask_last(&w)) {
+        return pixels;
+    }
+    const lmb_pyramid p = pyramid_of(tile, w.left, at);
+    waiting[0] = 0;
+    while (count > 0 && w.left != 0) {
+        const lmb_boxes *node = &blockers->node[waiting[--count]];
+        for (uint32_t bits = kernels->meets(&p, node); bits != 0 && w.left != 0; bits &= bits - 1) {
+            const int i = lowest_bit(bits);
+            uint64_t here = w.left;
+            if (node->count[i] == 0) {
+                waiting[count++] = node->first[i];
+                continue;
             }
-            here = kernels->through(&segments, here, node);
-        }
-        if (here == 0) {
-            continue;
-        }
-        if (node->count > 0) {
-            blocked |= blocked_by_leaf(blockers, kernels, tile, here, at, node);
-            if (blocked == pixels) {
-                break;
+            if (++leaves > BY_PYRAMID) {
+                if (leaves == BY_PYRAMID + 1) {
+                    kernels->segments(&segments, tile, at);
+                }
+                here = kernels->through(&segments, here, node, i);
             }
-            continue;
-        }
-        for (uint32_t i = 0; i < 2; ++i) {
-            waiting[count].node = node->first + i;
-            waiting[count++].pixels = here;
+            ask_leaf(&w, node, i, here);
         }
     }
-    return blocked;
+    return pixels & ~w.left;
 }

@@ -1,7 +1,8 @@
-/* build.c: a scene's triangles -> a tree of boxes, in the caller's arrays. Floor 4.
+/* build.c: a scene's triangles -> a tree of boxes, sixteen a node, in the caller's arrays. Floor 4.
  *
- * Top down, in place: a node's triangles are cut where the surface-area heuristic over 16 bins of their middles says
- * (Wald 2007); below a depth that only hostile scenes reach, by halves, so that the depth is bounded. */
+ * Top down, in place: a node's triangles are cut in two where the surface-area heuristic over 16 bins of their middles
+ * says (Wald 2007), then the part with the largest surface again, until there are sixteen. Below a depth that only
+ * hostile scenes reach cuts go by halves, so that the depth is bounded. */
 #include <lambent/occlusion.h>
 
 #include <string.h>
@@ -10,13 +11,13 @@
 #include "../raster/triangle.h"
 #include "walk.h"
 
-enum { BINS = 16, LEAF = 4, HALVES_FROM = LMB_WALK_DEPTH - 32 };
+enum { BINS = 16, LEAF = 4, HALVES_FROM = LMB_WALK_LEVELS - 8 };
 #define NOISE 3.8146973e-6f /* 2^-18 of the largest coordinate: some rounding steps of positions and planes */
 
 size_t lmb_blockers_bytes(uint32_t n)
 {
-    const size_t each = sizeof(lmb_blocker) + 2 * sizeof(lmb_box);
-    return n == 0 || n > ((size_t)-1) / each ? 0 : n * each;
+    const size_t each = sizeof(lmb_blocker) + sizeof(lmb_boxes) / 8, more = 8 * sizeof(lmb_boxes);
+    return n == 0 || n > ((size_t)-1 - more) / each ? 0 : n * sizeof(lmb_blocker) + (n / 8 + 8) * sizeof(lmb_boxes);
 }
 
 lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t bytes)
@@ -31,8 +32,9 @@ lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t
         return LMB_ERR_CAPACITY;
     }
     memset(out, 0, sizeof *out);
-    out->node = (lmb_box *)memory;
-    out->triangle = (lmb_blocker *)(void *)(out->node + 2 * (size_t)n);
+    out->node = (lmb_boxes *)memory;
+    out->node_cap = n / 8 + 8;
+    out->triangle = (lmb_blocker *)(void *)(out->node + out->node_cap);
     out->triangle_cap = n;
     return LMB_OK;
 }
@@ -200,18 +202,6 @@ static uint32_t part(lmb_blocker *t, uint32_t count, const cut *c)
     return below;
 }
 
-static void make_leaf(lmb_blockers *b, uint32_t at, uint32_t first, uint32_t count)
-{
-    span s = span_none();
-    for (uint32_t i = 0; i < count; ++i) {
-        s = span_join(s, span_of(&b->triangle[first + i]));
-    }
-    b->node[at].low = sub3(s.low, vec3(b->noise, b->noise, b->noise));
-    b->node[at].high = add3(s.high, vec3(b->noise, b->noise, b->noise));
-    b->node[at].first = first;
-    b->node[at].count = count;
-}
-
 /* The best cut of a node's triangles; cost 3e38: all lie in one place. */
 static cut find_cut(const lmb_blocker *t, uint32_t count)
 {
@@ -234,50 +224,112 @@ static cut find_cut(const lmb_blocker *t, uint32_t count)
     return best;
 }
 
-/* Cut a leaf in two, where that pays; 1 where it was. */
-static int divide(lmb_blockers *b, uint32_t at, int depth)
+/* --- nodes ---------------------------------------------------------------------------------------------------------- */
+
+/* Triangles that lie together. */
+typedef struct run {
+    span box;
+    uint32_t first, count;
+    int whole; /* no cut of it pays */
+} run;
+
+static run run_of(const lmb_blocker *t, uint32_t first, uint32_t count)
 {
-    lmb_box *node = &b->node[at];
-    lmb_blocker *t = b->triangle + node->first;
-    const uint32_t first = node->first, count = node->count, two = b->node_count;
-    span whole;
-    cut best;
-    if (count == 1) {
-        return 0;
+    run r;
+    r.box = span_none();
+    r.first = first;
+    r.count = count;
+    r.whole = count == 1;
+    for (uint32_t i = 0; i < count; ++i) {
+        r.box = span_join(r.box, span_of(&t[first + i]));
     }
-    whole.low = node->low;
-    whole.high = node->high;
+    return r;
+}
+
+/* Cut a run in two, the second into *more; 0 where that does not pay. */
+static int cut_run(lmb_blockers *b, run *r, run *more, int depth)
+{
+    lmb_blocker *t = b->triangle + r->first;
+    const run old = *r;
+    cut best;
     best.cost = 3e38f;
     if (depth < HALVES_FROM) {
-        best = find_cut(t, count);
+        best = find_cut(t, r->count);
     }
     /* Asking a box costs about what asking a triangle does. */
-    if (count <= LEAF && !(best.cost + half_area(&whole) < half_area(&whole) * (float)count)) {
+    if (r->count <= LEAF && !(best.cost + half_area(&r->box) < half_area(&r->box) * (float)r->count)) {
+        r->whole = 1;
         return 0;
     }
-    const uint32_t below = best.cost < 3e38f ? part(t, count, &best) : count / 2;
-    b->node_count += 2;
-    make_leaf(b, two, first, below);
-    make_leaf(b, two + 1, first + below, count - below);
-    node->first = two;
-    node->count = 0;
+    const uint32_t below = best.cost < 3e38f ? part(t, r->count, &best) : r->count / 2;
+    *r = run_of(b->triangle, old.first, below);
+    *more = run_of(b->triangle, old.first + below, old.count - below);
     return 1;
 }
 
-static void divide_all(lmb_blockers *b)
+/* The run to cut next: the largest box; or -1. */
+static int largest_run(const run *r, int count)
 {
-    uint32_t waiting[LMB_WALK_DEPTH];
-    uint8_t depth[LMB_WALK_DEPTH];
+    int best = -1;
+    for (int i = 0; i < count; ++i) {
+        if (!r[i].whole && (best < 0 || half_area(&r[best].box) < half_area(&r[i].box))) {
+            best = i;
+        }
+    }
+    return best;
+}
+
+static void set_box(lmb_boxes *node, int i, const run *r, float noise)
+{
+    const lmb_vec3 low = sub3(r->box.low, vec3(noise, noise, noise)), high = add3(r->box.high, vec3(noise, noise, noise));
+    node->low[0][i] = low.x;
+    node->low[1][i] = low.y;
+    node->low[2][i] = low.z;
+    node->high[0][i] = high.x;
+    node->high[1][i] = high.y;
+    node->high[2][i] = high.z;
+    node->first[i] = r->first;
+    node->count[i] = r->count;
+}
+
+/* Fill a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
+static void fill_node(lmb_blockers *b, uint32_t at, uint32_t first, uint32_t count, int depth)
+{
+    run r[LMB_BOXES];
+    int runs = 1, next;
+    r[0] = run_of(b->triangle, first, count);
+    while (runs < LMB_BOXES && (next = largest_run(r, runs)) >= 0) {
+        runs += cut_run(b, &r[next], &r[runs], depth);
+    }
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        if (i < runs) {
+            set_box(&b->node[at], i, &r[i], b->noise);
+        } else {
+            const run none = {span_none(), 0, 0, 1};
+            set_box(&b->node[at], i, &none, 0.0f);
+        }
+    }
+}
+
+/* Leaves that are too large become nodes, depth first. */
+static void grow(lmb_blockers *b)
+{
+    uint32_t waiting[LMB_WALK_STACK];
+    uint8_t depth[LMB_WALK_STACK];
     int count = 1;
     waiting[0] = 0;
     depth[0] = 0;
     while (count > 0) {
-        const uint32_t at = waiting[--count];
-        const uint8_t deep = depth[count];
-        if (divide(b, at, deep)) {
-            for (uint32_t i = 0; i < 2; ++i) {
-                waiting[count] = b->node[at].first + 1 - i;
-                depth[count++] = (uint8_t)(deep + 1);
+        lmb_boxes *node = &b->node[waiting[--count]];
+        const int deep = depth[count] + 1;
+        for (int i = 0; i < LMB_BOXES; ++i) {
+            if (node->count[i] > LEAF && b->node_count < b->node_cap) {
+                const uint32_t at = b->node_count++;
+                fill_node(b, at, node->first[i], node->count[i], deep);
+                node->first[i] = at;
+                node->count[i] = 0;
+                waiting[count] = at;
+                depth[count++] = (uint8_t)deep;
             }
         }
     }
@@ -295,9 +347,9 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene)
     }
     take_triangles(inout, scene);
     if (inout->triangle_count > 0) {
-        make_leaf(inout, 0, 0, inout->triangle_count);
+        fill_node(inout, 0, 0, inout->triangle_count, 0);
         inout->node_count = 1;
-        divide_all(inout);
+        grow(inout);
     }
     return LMB_OK;
 }

@@ -48,10 +48,38 @@ static inline void crossed_slab(lane *from, lane *to, lane per, float low, float
     *to = lane_min(*to, lane_max(a, b));
 }
 
-/* The box is wider than what it holds by more than all rounding here. */
-static uint64_t KERNEL(through)(const lmb_segments *segments, uint64_t pixels, const lmb_box *box)
+/* Along an axis a segment's place at its share t is t d with d in [d0, d1]: it may meet [low, high] where t d1 >= low and
+ * t d0 <= high. Each bounds t from below or from above, as the sign of d1 or d0 says, which is the same for all boxes. */
+static inline void crossed_narrow(lane *from, lane *to, float per, lane side)
 {
-    const lmb_vec3 low = sub3(box->low, segments->at), high = sub3(box->high, segments->at);
+    const lane t = lane_mul(side, lane_splat(per));
+    if (per > 0.0f) {
+        *from = lane_max(*from, t);
+    } else {
+        *to = lane_min(*to, t);
+    }
+}
+
+static uint32_t KERNEL(meets)(const lmb_pyramid *p, const lmb_boxes *boxes)
+{
+    uint32_t out = 0;
+    for (int i = 0; i < LMB_BOXES; i += LANES) {
+        lane from = lane_splat(0.0f), to = lane_splat(1.0f);
+        for (int c = 0; c < 3; ++c) {
+            const lane at = lane_splat(p->at[c]);
+            crossed_narrow(&from, &to, p->per_high[c], lane_sub(lane_load(boxes->low[c] + i), at));
+            crossed_narrow(&from, &to, -p->per_low[c], lane_sub(at, lane_load(boxes->high[c] + i)));
+        }
+        out |= mask_bits(lane_le(from, to)) << i;
+    }
+    return out;
+}
+
+/* The box is wider than what it holds by more than all rounding here. */
+static uint64_t KERNEL(through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i)
+{
+    const lmb_vec3 low = sub3(vec3(boxes->low[0][i], boxes->low[1][i], boxes->low[2][i]), segments->at);
+    const lmb_vec3 high = sub3(vec3(boxes->high[0][i], boxes->high[1][i], boxes->high[2][i]), segments->at);
     uint64_t out = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t asked = (uint32_t)(pixels >> k) & (~0u >> (32 - LANES));
