@@ -179,7 +179,11 @@ static GATHER_APART int corners_see(const gather_corners *c, const lmb_march_job
 /* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
  * after another, every machine waits most of the time, whatever its width. So each step is done for all groups of a
  * block before the next: chains are short and many run side by side. The pairs lie in the caller's scratch. */
-enum { BLOCK = LANES > 8 ? 8 : LANES > 1 ? 16 : 4 };
+#if defined(LANE_PLAIN)
+enum { BLOCK = LANES > 1 ? 8 : 4 };
+#else
+enum { BLOCK = LANES > 8 ? 8 : 16 };
+#endif
 
 /* A block's groups, one beside the other: in lmb_groups a group's numbers lie LMB_MAX_GROUPS apart, a power of two, and
  * so fall into one set of a cache, which holds fewer. */
