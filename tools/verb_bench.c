@@ -8,6 +8,7 @@
 #include "../platform/host/host.h"
 #include "../platform/host/pool.h"
 #include "bench_gather.h"
+#include "bench_mix.h"
 #include "bench_rates.h"
 #include "bench_scene.h"
 #include "bench_threads.h"
@@ -18,9 +19,15 @@ static const char help_text[] =
     "       lambent bench threads [--threads N] [--data FOLDER] [--backend NAME] [--seconds S]\n"
     "\n"
     "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median\n"
-    "time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8). A CASE is part of a\n"
-    "case's name; without one, all. fill-depth cases end with pixels a second and `share`, of the rate at\n"
-    "which the back end reads, tests and writes 16 KiB of depths in its cache.\n"
+    "time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound /\n"
+    "least time. A CASE is part of a case's name; without one, all. The bound is what the same run finds the\n"
+    "machine can do at most with the frame's own work, which is counted by drawing it once over verbs that\n"
+    "count: the longest (`by`) of the time that reading, testing and writing the frame's depths takes in 16 KiB\n"
+    "of cache (`depth`), and the times that its multiplications, additions, maxima, divisions, comparisons and\n"
+    "picks keep one unit busy (`mul`, `add`, `max`, `div`; as for gather). All of it as if every lane were of\n"
+    "use; integers, doubles, loads, masks, branches, clearing, and reading the mesh and textures count as\n"
+    "nothing; of plain C, whose lanes compilers join as they like, only depths count. fill-depth cases also tell\n"
+    "pixels a second and `peak`, the depths a second that the bound is of.\n"
     "\n"
     "gather: the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one\n"
     "group. Prints a line a back end: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is\n"
@@ -67,7 +74,9 @@ typedef struct canvas {
 typedef struct timing {
     double cpu[FRAMES_MAX], wall[FRAMES_MAX];
     int count;
-    double peak; /* depths that the back end reads, tests and writes in a second, in cache; 0: not asked */
+    double peak;    /* depths that the back end reads, tests and writes in a second, in cache */
+    double bound;   /* least time of a frame, s; 0: the back end's rates are not known */
+    const char *by; /* what takes it */
 } timing;
 
 /* --- one frame ------------------------------------------------------------------------------------------------------ */
@@ -88,16 +97,16 @@ static void store_colours(const canvas *c, const bench_scene *s, const lmb_kerne
     }
 }
 
-static void draw_frame(const canvas *c, const bench_scene *s, const options *o, int cull)
+static void draw_frame(const canvas *c, const bench_scene *s, const lmb_kernels *kernels, int cull)
 {
     lmb_surface_clear(&c->target.depth);
     if (c->id != NULL) {
         lmb_surface_clear(&c->target.id);
         lmb_surface_clear(&c->out);
     }
-    lmb_draw(&c->target, o->kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, cull ? LMB_CULL_BACK : 0, NULL);
+    lmb_draw(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, cull ? LMB_CULL_BACK : 0, NULL);
     if (c->rgba != NULL) {
-        store_colours(c, s, o->kernels);
+        store_colours(c, s, kernels);
     } else if (c->linear != NULL) {
         lmb_depth_linearize(c->linear, c->linear_bytes, &c->target.depth);
     }
@@ -146,22 +155,46 @@ static int by_value(const void *a, const void *b)
 /* Nothing but depths: what a machine's loads and stores bound. */
 static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
 
-/* Two frames to warm up, then frames for the time asked for, each by itself. */
-static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, const bench_case *k)
+/* The longest of what one frame keeps a unit, or loads and stores, busy with. */
+static void set_bound(timing *t, const canvas *c, const bench_scene *s, const bench_rates *r, int cull)
+{
+    double counts[BENCH_OPS];
+    int unit = 0;
+    draw_frame(c, s, bench_mix_begin(), cull);
+    const double depths = bench_mix_end(counts) / t->peak;
+    t->bound = depths;
+    t->by = "depth";
+    const double busy = bench_rates_bound(&unit, r, counts) / r->machine->lanes * r->cycle;
+    /* Plain C's lanes are what a compiler makes of them, here less and there more: its operations bound nothing. */
+    if (busy > depths && strcmp(r->machine->name, "scalar") != 0) {
+        t->bound = busy;
+        t->by = bench_op_names[unit];
+    }
+}
+
+/* Two frames to warm up, then frames for the time asked for, each by itself, and the machine's loops between them: both
+ * meet the same clock rate and the same neighbours. */
+static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, int cull)
 {
     bench_rates rates;
-    const int cull = k->cull, with_peak = is_depth_fill(k) && bench_rates_begin(&rates, lmb_kernels_name(o->kernels));
-    draw_frame(c, s, o, cull);
-    draw_frame(c, s, o, cull);
+    const int rated = bench_rates_begin(&rates, lmb_kernels_name(o->kernels));
+    draw_frame(c, s, o->kernels, cull);
+    draw_frame(c, s, o->kernels, cull);
     const double end = host_seconds() + o->seconds;
     t->count = 0;
-    t->peak = 0.0;
+    t->peak = t->bound = 0.0;
     while ((host_seconds() < end || t->count < FRAMES_MIN) && t->count < FRAMES_MAX) {
         const double wall = host_seconds(), cpu = host_cpu_seconds();
-        draw_frame(c, s, o, cull);
+        draw_frame(c, s, o->kernels, cull);
         t->cpu[t->count] = host_cpu_seconds() - cpu;
         t->wall[t->count++] = host_seconds() - wall;
-        t->peak = with_peak ? bench_rates_store(&rates) : 0.0;
+        if (rated) {
+            t->peak = bench_rates_store(&rates);
+            bench_rates_step(&rates);
+        }
+    }
+    if (rated) {
+        set_bound(t, c, s, &rates, cull);
     }
     qsort(t->cpu, (size_t)t->count, sizeof *t->cpu, by_value);
     qsort(t->wall, (size_t)t->count, sizeof *t->wall, by_value);
@@ -178,10 +211,12 @@ static void print_case(const bench_case *k, const bench_scene *s, const timing *
                    : "lambent,%s,tris=%u,cpu_min_ms=%.4f,wall_min_ms=%.4f,cpu_med_ms=%.4f,wall_med_ms=%.4f,n=%d,"
                      "ns_per_tri=%.2f,backend=%s",
            k->name, triangles, least, wall, middle, wall_middle, t->count, each, lmb_kernels_name(o->kernels));
-    if (t->peak > 0.0) {
-        printf(o->json ? ",\"pixels_per_s\":%.4g,\"peak\":%.4g,\"share\":%.4f"
-                       : ",pixels_per_s=%.4g,peak=%.4g,share=%.4f",
-               pixels, t->peak, pixels / t->peak);
+    if (is_depth_fill(k) && t->peak > 0.0) {
+        printf(o->json ? ",\"pixels_per_s\":%.4g,\"peak\":%.4g" : ",pixels_per_s=%.4g,peak=%.4g", pixels, t->peak);
+    }
+    if (t->bound > 0.0) {
+        printf(o->json ? ",\"bound_ms\":%.4f,\"by\":\"%s\",\"share\":%.4f" : ",bound_ms=%.4f,by=%s,share=%.4f",
+               t->bound * 1e3, t->by, t->bound / t->cpu[0]);
     }
     puts(o->json ? "}" : "");
     fflush(stdout);
@@ -201,7 +236,7 @@ static int run_case(const bench_case *k, const options *o, report *r)
     }
     const int ok = canvas_make(&c, k, o, r);
     if (ok) {
-        measure(&t, &c, &s, o, k);
+        measure(&t, &c, &s, o, k->cull);
         print_case(k, &s, &t, o);
         canvas_free(&c);
     }
