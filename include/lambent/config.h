@@ -41,6 +41,13 @@
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_GATHER_PAIRS 128    /* pixels x groups that the gather takes together */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are made ready together */
+/* Triangles of a tile that are resolved side by side, 170 bytes of lmb_tile each: as many as the widest machine has
+ * lanes. The tiny configuration has one. */
+#ifdef LMB_CONFIG_TINY
+#define LMB_SLOTS 4
+#else
+#define LMB_SLOTS 16
+#endif
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
 #if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1

@@ -25,7 +25,7 @@ static float KERNEL(probe)(float one_and_bit)
 
 const lmb_kernels KERNEL(lmb_kernels) = {
     MACHINE,         LANES,
-    KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large), KERNEL(fill),
+    KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large),
     KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve), KERNEL(texture),
     KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(gather_cut),
     KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets), KERNEL(blend),   KERNEL(encode),     KERNEL(probe),

@@ -41,18 +41,27 @@ typedef struct lmb_setup_job {
     int32_t x0, y0, x1, y1;      /* the window's first and last pixels, in the frame */
 } lmb_setup_job;
 
-enum { LMB_BATCH = 16, LMB_SMALL_24_8 = 64 * 256 /* sides of a box under which edges fit 32 bits */ };
+/* Triangles that are set up side by side: as many as the widest machine of the build has lanes, or twice four. A
+ * triangle takes 120 bytes of lmb_draw's stack. */
+#if LMB_HAVE_AVX512
+#define LMB_BATCH 16
+#elif defined(LMB_CONFIG_TINY)
+#define LMB_BATCH 4
+#else
+#define LMB_BATCH 8
+#endif
+
+enum { LMB_SMALL_24_8 = 64 * 256 /* sides of a box under which edges fit 32 bits */ };
 
 /* LMB_BATCH triangles of one instance. Bit k of a set is triangle k. Those in `small` have what follows; the others of
  * `in` are `dropped`, `other` (clipped or large: one by one, by setup.c) or invisible. */
 typedef struct lmb_batch {
-    float position[3][3][LMB_BATCH]; /* in: [corner][axis]; anything where the bit of `in` is not set */
-    uint32_t in;
-    uint32_t small, other, drawn, dropped; /* drawn: of neither of the latter, with area and not culled */
     int32_t e[3][LMB_BATCH], ex[3][LMB_BATCH], ey[3][LMB_BATCH]; /* at the first pixel of the box's first tile */
     int32_t x0[LMB_BATCH], y0[LMB_BATCH], x1[LMB_BATCH], y1[LMB_BATCH]; /* pixels of the frame, in the window */
     double d[LMB_BATCH], dx[LMB_BATCH], dy[LMB_BATCH]; /* depth at the frame's middle; per px */
     float d_min[LMB_BATCH], d_max[LMB_BATCH];
+    uint32_t in; /* there, and every index inside the mesh */
+    uint32_t small, other, drawn, dropped; /* drawn: of neither of the latter, with area and not culled */
 } lmb_batch;
 
 /* Edge i is e >= 0 inside, in units of 1/256 px x px: e(x + 1) = e(x) + ex. */
@@ -74,39 +83,6 @@ typedef struct lmb_fill_window {
     int32_t origin_x, origin_y; /* as in lmb_setup_job */
     float d_scale, d_bias;
 } lmb_fill_window;
-
-/* A tile's rays, relative to the eye. Of pixel (x, y):
- *   origin + ox x + oy y  +  w (direction + rx x + ry y)   with w along the view axis.
- * Perspective: the first part is 0; orthographic: the direction is constant. */
-typedef struct lmb_rays {
-    lmb_vec3 origin, ox, oy;
-    lmb_vec3 direction, rx, ry;
-    lmb_vec3 eye, back;
-    float near_m;
-    int32_t perspective;
-} lmb_rays;
-
-/* Up to LMB_BATCH triangles of one instance that a tile shows: slot k of every array is one of them. What comes from
- * the mesh is turned in place into what pixels are made of. Corners' values become the first and the others' differences
- * from it, so that three equal ones give exactly their value. */
-typedef struct lmb_resolve_batch {
-    lmb_rays rays;
-    const lmb_instance *instance;
-    const lmb_mesh *mesh;
-    const lmb_material *material;
-    int32_t albedo_only;               /* of the pixels: uv and albedo, nothing else */
-    int32_t count;                     /* slots in use; the others hold numbers */
-    uint32_t id[LMB_BATCH];
-    int32_t slot[LMB_TILE_PIXELS];     /* of each pixel; -1: another's */
-    float corner[3][3][LMB_BATCH];     /* in: [corner][axis], model space. Out: corner 0 relative to the eye, then g1
-                                          and g2, which give barycentrics: b1 = (p - corner).g1, b2 = (p - corner).g2 */
-    float plane[3][LMB_BATCH];         /* out: unit normal */
-    float face[3][LMB_BATCH];          /* out: the same, turned to the viewer */
-    float w_min[LMB_BATCH], w_max[LMB_BATCH]; /* out: of the corners, along the view axis */
-    float normal[3][3][LMB_BATCH];     /* in: octahedral codes as [corner][0 .. 1]. Out: world, [corner][axis] */
-    float albedo[3][3][LMB_BATCH];     /* in: colour codes 0 .. 255. Out: reflectance, both [corner][channel] */
-    float uv[3][2][LMB_BATCH];         /* [corner][u, v] */
-} lmb_resolve_batch;
 
 /* One light over a tile. */
 typedef struct lmb_direct_job {
@@ -152,14 +128,13 @@ typedef struct lmb_segments {
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
-    void (*setup)(lmb_batch *inout, const lmb_setup_job *job);
+    /* `count` triangles, up to LMB_BATCH, from the mesh's triangle `first` on. */
+    void (*setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first, uint32_t count);
     /* The batch's small triangles among `bits`, in order; triangle k has the id first_id + k. */
     void (*fill_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits, uint32_t first_id);
     /* One triangle of any size into the whole window. */
     void (*fill_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
-    /* One triangle into one tile. */
-    void (*fill)(const lmb_fill_tile *tile, const lmb_fill_job *job);
-    /* Slots for the first LMB_BATCH different ids of the batch's instance among the pixels of `left`, one bit a pixel,
+    /* Slots for the first LMB_SLOTS different ids of the batch's instance among the pixels of `left`, one bit a pixel,
      * which has all pixels of an id or none; returns the pixels that got one. */
     uint64_t (*resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left);
     void (*resolve_setup)(lmb_resolve_batch *inout);

@@ -1,28 +1,16 @@
 /* draw.c: a range of the scene's triangles into a window. Floor 3.
  *
  * Batches of LMB_BATCH triangles are transformed and set up side by side (setup.inl); small ones are filled in runs
- * (fill_small.inl). What is clipped, large or full of holes goes one by one through clip.c and setup.c, in its place in
- * the order. Corners are transformed anew for each triangle: looking shared ones up costs as much as it saves once eight
+ * (fill_small.inl). What is clipped, large or full of holes goes one by one through draw_one.c, in its place in the
+ * order. Corners are transformed anew for each triangle: looking shared ones up costs as much as it saves once eight
  * are transformed at a time (bunny, AVX2: 4.2 ms with a cache, 4.4 without), and takes memory. */
 #include <lambent/raster.h>
 
-#include <string.h>
-
-#include "../base/vertex.h"
-#include "clip.h"
-#include "fill.h"
+#include "draw_one.h"
 #include "target.h"
 #include "triangle.h"
 
 #define GUARD_PX 16383.0f /* from the frame's middle; one px of rounding short of what setup.c can take */
-
-/* One instance under one view. */
-typedef struct draw_instance {
-    lmb_setup_job job;
-    lmb_clip_guard guard;
-    int32_t mirrored, cull, masked;
-    const lmb_mesh *mesh;
-} draw_instance;
 
 static void set_row(float row[4], lmb_vec3 axis, float sign, const lmb_mat4 *t, lmb_vec3 eye)
 {
@@ -58,7 +46,8 @@ static void set_job(lmb_setup_job *job, const lmb_target *target, const lmb_view
     job->y1 = target->y0 + target->depth.height - 1;
 }
 
-static void set_instance(draw_instance *d, const lmb_fill_context *c, const lmb_instance *instance, uint32_t flags)
+static void set_instance(lmb_draw_instance *d, const lmb_fill_context *c, const lmb_instance *instance,
+                         uint32_t flags)
 {
     const lmb_material *material = &c->scene->materials[instance->material];
     set_job(&d->job, c->target, c->view, &instance->to_world);
@@ -69,121 +58,39 @@ static void set_instance(draw_instance *d, const lmb_fill_context *c, const lmb_
     d->job.cull = d->cull ? (d->mirrored ? -1 : 1) : 0;
     d->masked = (material->flags & LMB_ALPHA_MASK) != 0;
     d->mesh = &c->scene->meshes[instance->mesh];
-}
-
-static float row_point(const float row[4], lmb_vec3 p) { return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]; }
-
-static lmb_clip_vertex transform(const draw_instance *d, lmb_vec3 p)
-{
-    const lmb_setup_job *job = &d->job;
-    float x = row_point(job->row[0], p), y = row_point(job->row[1], p), w = row_point(job->row[2], p);
-    lmb_clip_vertex v;
-    v.x = x * job->scale_x;
-    v.y = y * job->scale_y;
-    v.z = job->orthographic ? (job->far_m - w) * job->depth_scale : job->near_m;
-    v.w = job->orthographic ? 1.0f : w;
-    v.code = lmb_clip_code(&v, &d->guard);
-    return v;
-}
-
-static lmb_screen_vertex snap(const draw_instance *d, const lmb_clip_vertex *v)
-{
-    lmb_screen_vertex s;
-    float inverse = 1.0f / v->w;
-    s.x_24_8 = (int32_t)floorf(v->x * inverse * d->job.snap_x + 0.5f);
-    s.y_24_8 = (int32_t)floorf(0.5f - v->y * inverse * d->job.snap_y);
-    s.d = v->z * inverse;
-    return s;
-}
-
-static int fill_polygon(const lmb_fill_context *c, const draw_instance *d, const lmb_clip_vertex *polygon, int n,
-                        uint32_t id)
-{
-    lmb_screen_vertex first = snap(d, &polygon[0]), before = snap(d, &polygon[1]);
-    int drawn = 0;
-    for (int i = 2; i < n; ++i) {
-        lmb_screen_vertex next = snap(d, &polygon[i]);
-        lmb_setup setup;
-        if (lmb_setup_triangle(&setup, &first, &before, &next) && !(d->cull && setup.back != d->mirrored)) {
-            if (d->masked) {
-                lmb_fill_masked(c, &setup, id);
-            } else {
-                c->kernels->fill_large(&c->window, &setup, id);
-            }
-            drawn = 1;
-        }
-        before = next;
-    }
-    return drawn;
-}
-
-/* A triangle of the batch that is clipped, large or full of holes; 1 where any of it is drawn. */
-static int draw_other(const lmb_fill_context *c, const draw_instance *d, const lmb_batch *batch, int k, uint32_t id)
-{
-    lmb_clip_vertex polygon[LMB_CLIP_MAX];
-    uint32_t any = 0;
-    int n = 3;
-    for (int i = 0; i < 3; ++i) {
-        const float (*p)[LMB_BATCH] = batch->position[i];
-        polygon[i] = transform(d, vec3(p[0][k], p[1][k], p[2][k]));
-        any |= polygon[i].code;
-    }
-    if (any) {
-        n = lmb_clip_polygon(polygon, any, &d->guard);
-    }
-    return n >= 3 && fill_polygon(c, d, polygon, n, id);
-}
-
-/* Corners of `count` triangles from `first` on; `in` has those whose every index is inside the mesh. */
-static void fetch(lmb_batch *batch, const lmb_mesh *mesh, uint32_t first, uint32_t count)
-{
-    batch->in = 0;
-    for (uint32_t k = 0; k < count; ++k) {
-        uint32_t sound = 1;
-        for (uint32_t i = 0; i < 3; ++i) {
-            uint32_t vertex = mesh_index(mesh, 3 * (first + k) + i);
-            lmb_vec3 p = vec3(0.0f, 0.0f, 0.0f);
-            if (vertex < mesh->vertex_count) {
-                p = mesh_position(mesh, vertex);
-            } else {
-                sound = 0;
-            }
-            batch->position[i][0][k] = p.x;
-            batch->position[i][1][k] = p.y;
-            batch->position[i][2][k] = p.z;
-        }
-        batch->in |= sound << k;
-    }
+    d->first_id = instance->first_id;
 }
 
 /* In order: runs of small triangles by the machine, the others one by one between them. */
-static void draw_batch(const lmb_fill_context *c, const draw_instance *d, lmb_batch *batch, uint32_t count, uint32_t id,
-                       lmb_stats *stats)
+static void draw_batch(const lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch, uint32_t count,
+                       uint32_t id, lmb_stats *stats)
 {
     uint32_t all = (1u << count) - 1, other, done = 0;
-    c->kernels->setup(batch, &d->job);
+    c->kernels->setup(batch, &d->job, d->mesh, id - d->first_id, count);
     other = batch->other | (d->masked ? batch->small : 0);
-    stats->triangles += count;
-    stats->triangles_dropped += count_bits_16((all & ~batch->in) | batch->dropped);
-    stats->triangles_drawn += count_bits_16(d->masked ? batch->drawn & ~batch->small : batch->drawn);
+    uint32_t drawn = count_bits_16(d->masked ? batch->drawn & ~batch->small : batch->drawn);
     for (uint32_t k = 0; other >> k != 0; ++k) {
         if ((other >> k) & 1u) {
             c->kernels->fill_small(&c->window, batch, batch->small & ~other & ((1u << k) - 1) & ~done, id);
             done = (1u << k) - 1;
-            stats->triangles_drawn += (uint32_t)draw_other(c, d, batch, (int)k, id + k);
+            drawn += (uint32_t)lmb_draw_one(c, d, id + k);
         }
     }
     c->kernels->fill_small(&c->window, batch, batch->small & ~other & ~done, id);
+    if (stats != NULL) {
+        stats->triangles += count;
+        stats->triangles_dropped += count_bits_16((all & ~batch->in) | batch->dropped);
+        stats->triangles_drawn += drawn;
+    }
 }
 
 static void draw_instance_range(const lmb_fill_context *c, lmb_batch *batch, const lmb_instance *instance,
                                 uint32_t first, uint32_t past, uint32_t flags, lmb_stats *stats)
 {
-    draw_instance d;
+    lmb_draw_instance d;
     set_instance(&d, c, instance, flags);
     while (first < past) {
         uint32_t count = past - first < LMB_BATCH ? past - first : LMB_BATCH;
-        fetch(batch, d.mesh, first - instance->first_id, count);
         draw_batch(c, &d, batch, count, first, stats);
         first += count;
     }
@@ -192,7 +99,6 @@ static void draw_instance_range(const lmb_fill_context *c, lmb_batch *batch, con
 lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats)
 {
-    lmb_stats unread;
     lmb_fill_context context;
     lmb_batch batch;
     if (target == NULL || kernels == NULL || view == NULL || scene == NULL || first_id == 0) {
@@ -202,8 +108,6 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
     if (status != LMB_OK) {
         return status;
     }
-    memset(&unread, 0, sizeof unread);
-    memset(&batch, 0, sizeof batch); /* a last batch's empty places hold numbers */
     context.target = target;
     context.kernels = kernels;
     context.view = view;
@@ -216,7 +120,7 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
         uint32_t own_past = instance->first_id + scene->meshes[instance->mesh].triangle_count;
         uint32_t from = first_id > instance->first_id ? first_id : instance->first_id;
         draw_instance_range(&context, &batch, instance, from, past < own_past ? past : own_past, flags,
-                            stats != NULL ? stats : &unread);
+                            stats);
     }
     return LMB_OK;
 }

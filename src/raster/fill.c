@@ -1,34 +1,11 @@
 /* fill.c: a set-up triangle with holes into the tiles of a window. Floor 3.
  *
  * Tiles are out, partly covered or wholly inside each edge by the edge's value at the tile's corners. An edge that
- * the whole tile lies inside of is left out of the kernel (its sums become 0), which also keeps the kernel's sums in
- * 32 bits. Depth is taken at each tile's first pixel in binary64, so windows and tile order change nothing. */
+ * the whole tile lies inside of is left out (its sums become 0), which also keeps the sums over the tile in 32 bits. Depth is taken at each tile's first pixel in binary64, so windows and tile order change nothing. */
 #include "fill.h"
-
-#include <string.h>
 
 #include "resolve.h"
 #include "target.h"
-
-/* A tile's own copy, for the masked path. */
-typedef struct tile_copy {
-    union {
-        float f32[LMB_TILE_PIXELS];
-        uint16_t u16[LMB_TILE_PIXELS];
-    } depth;
-    union {
-        uint32_t u32[LMB_TILE_PIXELS];
-        uint16_t u16[LMB_TILE_PIXELS];
-    } id;
-} tile_copy;
-
-static void copy_rows(void *to, int32_t to_step, const void *from, int32_t from_step, int32_t bytes)
-{
-    for (int y = 0; y < LMB_TILE; ++y) {
-        memcpy((uint8_t *)to + (ptrdiff_t)y * to_step * bytes, (const uint8_t *)from + (ptrdiff_t)y * from_step * bytes,
-               (size_t)(LMB_TILE * bytes));
-    }
-}
 
 /* The triangle's own surface, and the rays of the tile at hand. */
 typedef struct masked_surface {
@@ -37,38 +14,68 @@ typedef struct masked_surface {
     lmb_resolve_alpha alpha;
 } masked_surface;
 
-/* At pixel k of the tile: surface, or a hole? */
-static int stands_at(const masked_surface *s, const lmb_scene *scene, int k)
+/* At pixel (x, y) of the tile: surface, or a hole? */
+static int stands_at(const masked_surface *s, const lmb_scene *scene, int32_t x, int32_t y)
 {
     float b1, b2;
-    lmb_resolve_point(&b1, &b2, &s->plane, &s->rays, (float)(k % LMB_TILE), (float)(k / LMB_TILE));
+    lmb_resolve_point(&b1, &b2, &s->plane, &s->rays, (float)x, (float)y);
     return lmb_resolve_opaque(&s->alpha, scene, b1, b2);
 }
 
-/* Fill a copy of the tile, then keep only the changed pixels whose alpha passes. Opaque scenes never come here. */
+/* Value by value as fill.inl. */
+static float depth_at(const lmb_fill_job *job, int32_t x, int32_t y)
+{
+    const float d = (job->d + job->dy * (float)y) + job->dx * (float)x;
+    return minf(maxf(d, job->d_min), job->d_max);
+}
+
+static float code_of(const lmb_fill_job *job, float d)
+{
+    return floorf(maxf(minf(d * job->d_scale + job->d_bias, 65535.0f), 0.0f));
+}
+
+static void put_id(const lmb_fill_tile *tile, int32_t at, uint32_t id)
+{
+    if (tile->id_format == LMB_ID32) {
+        ((uint32_t *)tile->id)[at] = id;
+    } else if (tile->id_format == LMB_ID16) {
+        ((uint16_t *)tile->id)[at] = (uint16_t)id;
+    }
+}
+
+/* The triangle covers pixel (x, y): where it is nearer and no hole, it shows. */
+static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
+                       const masked_surface *s, int32_t x, int32_t y)
+{
+    const int32_t at = y * tile->depth_step + x;
+    const float d = depth_at(job, x, y);
+    if (tile->depth_format == LMB_DEPTH32F) {
+        float *was = (float *)tile->depth + at;
+        if (!(*was < d) || !stands_at(s, c->scene, x, y)) {
+            return;
+        }
+        *was = d;
+    } else {
+        uint16_t *was = (uint16_t *)tile->depth + at;
+        const float code = code_of(job, d);
+        if (!((float)*was < code) || !stands_at(s, c->scene, x, y)) {
+            return;
+        }
+        *was = (uint16_t)code;
+    }
+    put_id(tile, y * tile->id_step + x, job->id);
+}
+
+/* Pixels one by one: asking for alpha costs more than vectors would save, and opaque scenes never come here. */
 static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
                              const masked_surface *s)
 {
-    tile_copy copy;
-    lmb_fill_tile aside = *tile;
-    int32_t bytes = tile->depth_format == LMB_DEPTH16 ? 2 : 4, id_bytes = tile->id_format == LMB_ID16 ? 2 : 4;
-    aside.depth = &copy.depth;
-    aside.depth_step = LMB_TILE;
-    copy_rows(&copy.depth, LMB_TILE, tile->depth, tile->depth_step, bytes);
-    if (tile->id != NULL) {
-        aside.id = &copy.id;
-        aside.id_step = LMB_TILE;
-        copy_rows(&copy.id, LMB_TILE, tile->id, tile->id_step, id_bytes);
-    }
-    c->kernels->fill(&aside, job);
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        uint8_t *was = (uint8_t *)tile->depth + ((k / LMB_TILE) * tile->depth_step + k % LMB_TILE) * bytes;
-        const uint8_t *now = (const uint8_t *)&copy.depth + k * bytes;
-        if (memcmp(was, now, (size_t)bytes) != 0 && stands_at(s, c->scene, k)) {
-            memcpy(was, now, (size_t)bytes);
-            if (tile->id != NULL) {
-                memcpy((uint8_t *)tile->id + ((k / LMB_TILE) * tile->id_step + k % LMB_TILE) * id_bytes,
-                       (const uint8_t *)&copy.id + k * id_bytes, (size_t)id_bytes);
+    const int32_t *e = job->e, *ex = job->ex, *ey = job->ey;
+    for (int32_t y = 0; y < LMB_TILE; ++y) {
+        int32_t e0 = e[0] + ey[0] * y, e1 = e[1] + ey[1] * y, e2 = e[2] + ey[2] * y;
+        for (int32_t x = 0; x < LMB_TILE; ++x, e0 += ex[0], e1 += ex[1], e2 += ex[2]) {
+            if ((e0 | e1 | e2) >= 0) {
+                fill_pixel(c, tile, job, s, x, y);
             }
         }
     }

@@ -181,13 +181,3 @@ LANE_INLINE void fill_set(fill_triangle *t, const int32_t ex[3], const int32_t e
         t->step[2][i] = lanei_affine(0, ex[2], ey[2], i * LANES);
     }
 }
-
-static void KERNEL(fill)(const lmb_fill_tile *tile, const lmb_fill_job *job)
-{
-    static const fill_box whole = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
-    fill_triangle t;
-    fill_set(&t, job->ex, job->ey, job);
-    for (int i = 0; i < FILL_ACROSS; ++i) {
-        fill_column(tile, job, &t, job->e, job->d, &whole, i);
-    }
-}

@@ -12,7 +12,7 @@ typedef struct painted {
     float uv[3][2]; /* corner 0, and the others' differences from it */
 } painted;
 
-static lmb_vec3 vector_of(const float (*v)[LMB_BATCH], int32_t slot)
+static lmb_vec3 vector_of(const float (*v)[LMB_SLOTS], int32_t slot)
 {
     return vec3(v[0][slot], v[1][slot], v[2][slot]);
 }

@@ -137,11 +137,11 @@ static uint64_t read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target,
 }
 
 /* Vertex numbers of a batch, [corner][slot]. */
-typedef uint32_t corner_vertices[3][LMB_BATCH];
+typedef uint32_t corner_vertices[3][LMB_SLOTS];
 
-static void fetch_positions(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
+static void fetch_positions(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
 {
-    float (*to)[LMB_BATCH] = b->corner[i];
+    float (*to)[LMB_SLOTS] = b->corner[i];
     for (int k = 0; k < b->count; ++k) {
         const lmb_vec3 p = mesh_position(b->mesh, vertex[k]);
         to[0][k] = p.x;
@@ -150,7 +150,7 @@ static void fetch_positions(lmb_resolve_batch *b, int i, const uint32_t vertex[L
     }
 }
 
-static void fetch_normals(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
+static void fetch_normals(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
 {
     for (int k = 0; k < b->count; ++k) {
         const int16_t *code = b->mesh->normals + 2 * (size_t)vertex[k];
@@ -159,7 +159,7 @@ static void fetch_normals(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB
     }
 }
 
-static void fetch_colours(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
+static void fetch_colours(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
 {
     for (int k = 0; k < b->count; ++k) {
         const uint8_t *code = b->mesh->colours + 4 * (size_t)vertex[k];
@@ -169,7 +169,7 @@ static void fetch_colours(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB
     }
 }
 
-static void fetch_uvs(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_BATCH])
+static void fetch_uvs(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
 {
     for (int k = 0; k < b->count; ++k) {
         float uv[2];
@@ -223,20 +223,20 @@ static uint32_t fetch(lmb_resolve_batch *b)
 }
 
 /* Pixels of slot k become nothing: their id comes from another scene. */
-static void drop_slot(lmb_tile *out, lmb_resolve_batch *b, int k)
+static void drop_slot(lmb_tile *out, int k)
 {
     for (int i = 0; i < LMB_TILE_PIXELS; ++i) {
-        if (b->slot[i] == k) {
-            b->slot[i] = -1;
+        if (out->batch.slot[i] == k) {
+            out->batch.slot[i] = -1;
             out->id[i] = 0;
         }
     }
 }
 
 /* As many of the triangles of the pixels `left` as go side by side; returns the pixels that are done. */
-static uint64_t resolve_some(lmb_tile *out, lmb_resolve_batch *b, const lmb_kernels *kernels, const lmb_scene *scene,
-                             uint64_t left)
+static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lmb_scene *scene, uint64_t left)
 {
+    lmb_resolve_batch *b = &out->batch;
     const int first = lowest_bit_64(left);
     b->instance = lmb_instance_of(scene, out->id[first]);
     if (b->instance == NULL) {
@@ -247,7 +247,7 @@ static uint64_t resolve_some(lmb_tile *out, lmb_resolve_batch *b, const lmb_kern
     b->material = &scene->materials[b->instance->material];
     const uint64_t done = kernels->resolve_slots(b, out->id, left);
     for (uint32_t bad = fetch(b); bad != 0; bad &= bad - 1) {
-        drop_slot(out, b, lowest_bit(bad));
+        drop_slot(out, lowest_bit(bad));
     }
     kernels->resolve_setup(b);
     kernels->resolve(out, b);
@@ -268,7 +268,7 @@ static int32_t count_hits(const lmb_tile *t)
 static void clear_tile(lmb_tile *out, int albedo_only)
 {
     const size_t from = albedo_only ? offsetof(lmb_tile, albedo) : 0;
-    memset((uint8_t *)out + from, 0, sizeof *out - from);
+    memset((uint8_t *)out + from, 0, offsetof(lmb_tile, batch) - from);
 }
 
 static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
@@ -285,12 +285,12 @@ static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_v
     out->y = y;
     uint64_t left = read_ids(out->id, target, view, x, y);
     if (left != 0) {
-        lmb_resolve_batch batch;
-        memset(&batch, 0, sizeof batch); /* slots that are not used hold numbers */
-        lmb_resolve_rays(&batch.rays, view, x, y);
-        batch.albedo_only = albedo_only;
+        lmb_resolve_batch *batch = &out->batch;
+        memset(batch, 0, sizeof *batch); /* slots that are not used hold numbers */
+        lmb_resolve_rays(&batch->rays, view, x, y);
+        batch->albedo_only = albedo_only;
         while (left != 0) {
-            left &= ~resolve_some(out, &batch, kernels, scene, left);
+            left &= ~resolve_some(out, kernels, scene, left);
         }
         out->hits = count_hits(out);
     }

@@ -1,6 +1,6 @@
 /* resolve.inl: the attributes of a tile's pixels, from the triangles that they show.
  *
- * First the different triangles get slots; then up to LMB_BATCH of them are set up side by side; then each vector of
+ * First the different triangles get slots; then up to LMB_SLOTS of them are set up side by side; then each vector of
  * pixels looks its triangles' numbers up by slot. The position is where the pixel's ray meets the triangle's own plane:
  * no depth read back, no snapping error off the plane. On a plane seen edge-on the quotient is clamped to the triangle's
  * own range of w. */
@@ -40,7 +40,7 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
         lanei_store(out->slot + k, lanei_splat(-1));
     }
     out->count = 0;
-    while (left != 0 && out->count < LMB_BATCH) {
+    while (left != 0 && out->count < LMB_SLOTS) {
         const int first = lowest_bit_64(left);
         const uint32_t next = id[first];
         const lanei wanted = lanei_splat((int32_t)next), number = lanei_splat(out->count);
@@ -57,7 +57,7 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
 
 /* --- triangles ------------------------------------------------------------------------------------------------------ */
 
-LANE_INLINE lane3 resolve_load(float (*p)[LMB_BATCH], int k)
+LANE_INLINE lane3 resolve_load(float (*p)[LMB_SLOTS], int k)
 {
     lane3 r;
     r.x = lane_load(p[0] + k);
@@ -66,7 +66,7 @@ LANE_INLINE lane3 resolve_load(float (*p)[LMB_BATCH], int k)
     return r;
 }
 
-LANE_INLINE void resolve_store(float (*p)[LMB_BATCH], int k, lane3 v)
+LANE_INLINE void resolve_store(float (*p)[LMB_SLOTS], int k, lane3 v)
 {
     lane_store(p[0] + k, v.x);
     lane_store(p[1] + k, v.y);
@@ -81,7 +81,7 @@ LANE_INLINE lane3 resolve_columns(const lmb_vec3 column[3], lane3 p)
 }
 
 #if defined(LANE_PLAIN)
-static void resolve_put_vec(float (*p)[LMB_BATCH], int k, lmb_vec3 v)
+static void resolve_put_vec(float (*p)[LMB_SLOTS], int k, lmb_vec3 v)
 {
     p[0][k] = v.x;
     p[1][k] = v.y;
@@ -96,7 +96,7 @@ LANE_INLINE void resolve_planes(lmb_resolve_batch *b, const lmb_vec3 column[4], 
         lmb_vec3 corner[3];
         lmb_plane p;
         for (int i = 0; i < 3; ++i) {
-            float (*c)[LMB_BATCH] = b->corner[i];
+            float (*c)[LMB_SLOTS] = b->corner[i];
             corner[i] = transform_point(&b->instance->to_world, vec3(c[0][slot], c[1][slot], c[2][slot]));
         }
         lmb_resolve_plane(&p, corner, &b->rays);
@@ -237,7 +237,7 @@ LANE_INLINE void resolve_put3(float (*p)[LMB_TILE_PIXELS], int k, lane_mask mine
     resolve_put(p[2] + k, mine, v.z);
 }
 
-LANE_INLINE lane3 resolve_look(const float (*p)[LMB_BATCH], lanei slot)
+LANE_INLINE lane3 resolve_look(const float (*p)[LMB_SLOTS], lanei slot)
 {
     lane3 r;
     r.x = lane_table(p[0], slot);

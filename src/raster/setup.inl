@@ -1,13 +1,73 @@
 /* setup.inl: a batch of triangles from positions to edges, box and depth plane, LANES triangles at a time.
  *
- * The arithmetic is draw.c's and setup.c's, value by value; here small triangles only, whose edges fit 32 bits: a box
+ * The arithmetic is draw_one.c's and setup.c's, value by value; here small triangles only, whose edges fit 32 bits: a box
  * under 64 px a side (2^14 in 24.8) keeps products of differences under 2^29 up to the far corner of its tiles. */
+
+#include <string.h>
+
+#include "../base/vertex.h"
+
+/* Corners of a batch, m in model space. All are fetched before the first are used: a vector is loaded late from what
+ * was just stored number by number. */
+typedef struct setup_corners {
+    float position[3][3][LMB_BATCH]; /* [corner][axis] */
+} setup_corners;
+
+/* Triangle k; 1 where its every index is inside the mesh. */
+static inline uint32_t setup_fetch_one(setup_corners *out, uint32_t k, const lmb_mesh *mesh, uint32_t triangle)
+{
+    uint32_t sound = 1;
+    for (uint32_t i = 0; i < 3; ++i) {
+        const uint32_t vertex = mesh_index(mesh, 3 * triangle + i);
+        lmb_vec3 p = vec3(0.0f, 0.0f, 0.0f);
+        if (vertex < mesh->vertex_count) {
+            p = mesh_position(mesh, vertex);
+        } else {
+            sound = 0;
+        }
+        out->position[i][0][k] = p.x;
+        out->position[i][1][k] = p.y;
+        out->position[i][2][k] = p.z;
+    }
+    return sound;
+}
+
+/* `count` triangles from `first` on; returns those whose every index is inside the mesh, a bit each. */
+static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
+{
+    uint32_t in = 0;
+    if (count < LMB_BATCH) {
+        memset(out, 0, sizeof *out); /* empty places hold numbers */
+    }
+    for (uint32_t k = 0; k < count; ++k) {
+        in |= setup_fetch_one(out, k, mesh, first + k) << k;
+    }
+    return in;
+}
+
+/* In a loop compilers keep what does not change, two dozen vectors, on the stack. */
+#if defined(__GNUC__)
+#define SETUP_APART __attribute__((noinline))
+#else
+#define SETUP_APART
+#endif
+/* Without vectors a call is cheaper than three corners' lanes at once. */
+#if defined(LANE_PLAIN)
+#define SETUP_CORNER static
+#else
+#define SETUP_CORNER LANE_INLINE
+#endif
 
 typedef struct setup_corner {
     lanei x, y; /* 24.8 */
     lane d;
-    lane_mask sane, out[5]; /* outside the near plane, left, right, top, bottom */
 } setup_corner;
+
+/* What holds for the corners so far: all are sane; one is outside a plane; all are outside the near plane, left, right,
+ * top, bottom. */
+typedef struct setup_sides {
+    lane_mask sane, any, all[5];
+} setup_sides;
 
 static inline lane setup_row(const float row[4], lane3 p)
 {
@@ -26,7 +86,20 @@ static inline lanei setup_floor(lane v)
     return lanei_pick(lane_lt(v, lane_from_int(i)), lanei_sub(i, lanei_splat(1)), i);
 }
 
-static inline setup_corner setup_transform(const lmb_setup_job *job, float (*position)[LMB_BATCH], int k)
+/* A corner that lies so; returns where it is neither outside a plane nor insane. */
+LANE_INLINE lane_mask setup_side(setup_sides *inout, lane_mask sane, const lane_mask out[5])
+{
+    const lane_mask any = mask_or(out[0], mask_or(mask_or(out[1], out[2]), mask_or(out[3], out[4])));
+    inout->sane = mask_and(inout->sane, sane);
+    inout->any = mask_or(inout->any, any);
+    for (int i = 0; i < 5; ++i) {
+        inout->all[i] = mask_and(inout->all[i], out[i]);
+    }
+    return mask_and(sane, mask_not(any));
+}
+
+SETUP_CORNER setup_corner setup_transform(setup_sides *sides, const lmb_setup_job *job,
+                                         const float (*position)[LMB_BATCH], int k)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
     lane3 p;
@@ -41,16 +114,13 @@ static inline setup_corner setup_transform(const lmb_setup_job *job, float (*pos
         w = one;
     }
     lane wide = lane_mul(lane_splat(job->guard_x), w), high = lane_mul(lane_splat(job->guard_y), w);
-    setup_corner c;
-    c.sane = mask_and(mask_and(setup_sane(along_x), setup_sane(along_y)), setup_sane(along));
-    c.out[0] = lane_lt(lane_sub(w, z), zero);
-    c.out[1] = lane_lt(lane_add(wide, x), zero);
-    c.out[2] = lane_lt(lane_sub(wide, x), zero);
-    c.out[3] = lane_lt(lane_sub(high, y), zero);
-    c.out[4] = lane_lt(lane_add(high, y), zero);
+    const lane_mask out[5] = {lane_lt(lane_sub(w, z), zero), lane_lt(lane_add(wide, x), zero),
+                              lane_lt(lane_sub(wide, x), zero), lane_lt(lane_sub(high, y), zero),
+                              lane_lt(lane_add(high, y), zero)};
     /* What is clipped or insane is not used, and must not reach the conversion to int. */
-    lane_mask good = mask_and(
-        c.sane, mask_not(mask_or(c.out[0], mask_or(mask_or(c.out[1], c.out[2]), mask_or(c.out[3], c.out[4])))));
+    const lane_mask good = setup_side(
+        sides, mask_and(mask_and(setup_sane(along_x), setup_sane(along_y)), setup_sane(along)), out);
+    setup_corner c;
     lane inverse = lane_div(one, lane_pick(good, w, one));
     x = lane_mul(lane_mul(lane_keep(good, x), inverse), lane_splat(job->snap_x));
     y = lane_mul(lane_mul(lane_keep(good, y), inverse), lane_splat(job->snap_y));
@@ -105,20 +175,27 @@ static inline void setup_depth(lmb_batch *out, int k, const setup_corner *a, con
     lane_store(out->d_max + k, lane_max(a->d, lane_max(b->d, c->d)));
 }
 
+LANE_INLINE setup_corner setup_either(lane_mask m, const setup_corner *a, const setup_corner *b)
+{
+    setup_corner c;
+    c.x = lanei_pick(m, a->x, b->x);
+    c.y = lanei_pick(m, a->y, b->y);
+    c.d = lane_pick(m, a->d, b->d);
+    return c;
+}
+
 /* Triangles k .. k + LANES - 1. */
-static inline void setup_lanes(lmb_batch *out, const lmb_setup_job *job, int k)
+static SETUP_APART void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
 {
     const lanei zero = lanei_splat(0);
     const lane_mask in = mask_of_bits(out->in >> k);
-    setup_corner a = setup_transform(job, out->position[0], k), b = setup_transform(job, out->position[1], k),
-                 c = setup_transform(job, out->position[2], k);
-    lane_mask sane = mask_and(in, mask_and(a.sane, mask_and(b.sane, c.sane)));
-    lane_mask any = mask_not(in), all = any;
-    for (int i = 0; i < 5; ++i) {
-        any = mask_or(any, mask_or(a.out[i], mask_or(b.out[i], c.out[i])));
-        all = mask_or(all, mask_and(a.out[i], mask_and(b.out[i], c.out[i])));
-    }
-    lane_mask whole = mask_and(sane, mask_not(any));
+    setup_sides sides = {in, mask_not(in), {in, in, in, in, in}};
+    setup_corner a = setup_transform(&sides, job, corners->position[0], k),
+                 b = setup_transform(&sides, job, corners->position[1], k),
+                 c = setup_transform(&sides, job, corners->position[2], k);
+    const lane_mask hidden = mask_or(sides.all[0], mask_or(mask_or(sides.all[1], sides.all[2]),
+                                                           mask_or(sides.all[3], sides.all[4])));
+    const lane_mask sane = sides.sane, whole = mask_and(sane, mask_not(sides.any));
     lanei x0 = setup_min3(a.x, b.x, c.x), x1 = setup_max3(a.x, b.x, c.x);
     lanei y0 = setup_min3(a.y, b.y, c.y), y1 = setup_max3(a.y, b.y, c.y);
     const lanei limit = lanei_splat(LMB_SMALL_24_8);
@@ -135,7 +212,7 @@ static inline void setup_lanes(lmb_batch *out, const lmb_setup_job *job, int k)
         shown = mask_and(shown, turned);
     }
     out->dropped |= mask_bits(mask_and(in, mask_not(sane))) << k;
-    out->other |= mask_bits(mask_and(mask_and(sane, mask_not(all)), mask_not(small))) << k;
+    out->other |= mask_bits(mask_and(mask_and(sane, mask_not(hidden)), mask_not(small))) << k;
     out->drawn |= mask_bits(shown) << k;
     lanei px0 = setup_first(x0, job->origin_x, job->x0), px1 = setup_last(x1, job->origin_x, job->x1);
     lanei py0 = setup_first(y0, job->origin_y, job->y0), py1 = setup_last(y1, job->origin_y, job->y1);
@@ -148,11 +225,7 @@ static inline void setup_lanes(lmb_batch *out, const lmb_setup_job *job, int k)
     /* What is not shown takes the place of corner a, so that no sum below leaves 32 bits. */
     b.x = lanei_add(a.x, bx), b.y = lanei_add(a.y, by), c.x = lanei_add(a.x, cx), c.y = lanei_add(a.y, cy);
     px0 = lanei_pick(shown, px0, lanei_splat(job->x0)), py0 = lanei_pick(shown, py0, lanei_splat(job->y0));
-    setup_corner second = b, third = c;
-    second.x = lanei_pick(turned, c.x, b.x), second.y = lanei_pick(turned, c.y, b.y),
-    second.d = lane_pick(turned, c.d, b.d);
-    third.x = lanei_pick(turned, b.x, c.x), third.y = lanei_pick(turned, b.y, c.y),
-    third.d = lane_pick(turned, b.d, c.d);
+    const setup_corner second = setup_either(turned, &c, &b), third = setup_either(turned, &b, &c);
     area = lanei_pick(turned, lanei_sub(zero, area), lanei_pick(shown, area, lanei_splat(1)));
     lanei x = lanei_add(lanei_mul(lanei_shift(px0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_x));
     lanei y = lanei_add(lanei_mul(lanei_shift(py0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_y));
@@ -167,12 +240,13 @@ static inline void setup_lanes(lmb_batch *out, const lmb_setup_job *job, int k)
     lanei_store(out->y1 + k, py1);
 }
 
-static void KERNEL(setup)(lmb_batch *inout, const lmb_setup_job *job)
+static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first,
+                          uint32_t count)
 {
-    inout->small = inout->other = inout->drawn = inout->dropped = 0;
-    for (int k = 0; k < LMB_BATCH; k += LANES) {
-        if ((inout->in >> k) != 0) {
-            setup_lanes(inout, job, k);
-        }
+    setup_corners corners;
+    out->small = out->other = out->drawn = out->dropped = 0;
+    out->in = setup_fetch(&corners, mesh, first, count);
+    for (int k = 0; k < LMB_BATCH && out->in >> k != 0; k += LANES) {
+        setup_lanes(out, job, &corners, k);
     }
 }

@@ -140,129 +140,6 @@ static void make_flat_tile(lmb_tile *t, test_rng *r)
     }
 }
 
-/* --- fill ------------------------------------------------------------------------------------------------------------- */
-
-/* A tile's memory inside rows of `step`, `front` elements into a block that ends with the tile. */
-typedef struct fill_memory {
-    uint8_t *depth, *id;
-    int depth_step, id_step, front, depth_bytes, id_bytes, depth_size, id_size;
-} fill_memory;
-
-static void fill_memory_init(fill_memory *m, test_rng *r, int depth_bytes, int id_bytes)
-{
-    m->depth_step = test_random(r) % 2u ? LMB_TILE : LMB_TILE + (int)(test_random(r) % 20u);
-    m->id_step = test_random(r) % 2u ? LMB_TILE : LMB_TILE + (int)(test_random(r) % 20u);
-    m->front = (int)(test_random(r) % 5u);
-    m->depth_bytes = depth_bytes;
-    m->id_bytes = id_bytes;
-    m->depth_size = (m->front + 7 * m->depth_step + LMB_TILE) * depth_bytes;
-    m->id_size = (m->front + 7 * m->id_step + LMB_TILE) * id_bytes;
-    m->depth = malloc((size_t)m->depth_size);
-    m->id = malloc((size_t)m->id_size + 1);
-}
-
-/* Depths on a coarse grid, so that a triangle often meets its equal. */
-static void fill_memory_set(const fill_memory *m, test_rng r)
-{
-    for (int i = 0; i < m->depth_size / m->depth_bytes; ++i) {
-        const uint32_t step = test_random(&r) % 9u;
-        float d = (float)step * 0.125f;
-        uint16_t code = (uint16_t)(step * 8191u);
-        memcpy(m->depth + i * m->depth_bytes, m->depth_bytes == 4 ? (const void *)&d : (const void *)&code,
-               (size_t)m->depth_bytes);
-    }
-    for (int i = 0; i < m->id_size; ++i) {
-        m->id[i] = (uint8_t)test_random(&r);
-    }
-}
-
-static void fill_memory_free(const fill_memory *m)
-{
-    free(m->depth);
-    free(m->id);
-}
-
-static lmb_fill_tile fill_tile(const fill_memory *m, int depth_format, int id_format)
-{
-    lmb_fill_tile t;
-    t.depth = m->depth + m->front * m->depth_bytes;
-    t.id = id_format == LMB_FORMAT_NONE ? NULL : m->id + m->front * m->id_bytes;
-    t.depth_step = m->depth_step;
-    t.id_step = m->id_step;
-    t.depth_format = depth_format;
-    t.id_format = id_format;
-    return t;
-}
-
-static lmb_fill_job fill_job(test_rng *r, uint32_t rare)
-{
-    lmb_fill_job j;
-    for (int i = 0; i < 3; ++i) {
-        const int32_t reach = (int32_t)1 << (test_random(r) % 26u), span = 2 * reach + 1;
-        const int32_t x = (int32_t)(test_random(r) % 8u), y = (int32_t)(test_random(r) % 8u);
-        const int inside = test_random(r) % 3u == 0;
-        j.ex[i] = inside ? 0 : (int32_t)(test_random(r) % (uint32_t)span) - reach;
-        j.ey[i] = inside ? 0 : (int32_t)(test_random(r) % (uint32_t)span) - reach;
-        j.e[i] = inside ? 0 : -(j.ex[i] * x + j.ey[i] * y) + (int32_t)(test_random(r) % 3u) - 1;
-    }
-    const int grid = test_random(r) % 2u == 0;
-    j.d = grid ? (float)(test_random(r) % 9u) * 0.125f : number(r, 0.0f, 1.0f, rare);
-    j.dx = grid ? (float)(test_random(r) % 3u) * 0.125f : number(r, -0.2f, 0.2f, rare);
-    j.dy = grid ? 0.0f : number(r, -0.2f, 0.2f, rare);
-    j.d_min = number(r, 0.0f, 0.5f, rare);
-    j.d_max = number(r, 0.5f, 1.0f, rare);
-    j.d_scale = grid ? 65528.0f : number(r, 65534.0f, 70000.0f, rare);
-    j.d_bias = grid ? 0.0f : number(r, -9000.0f, 1.0f, rare);
-    j.id = test_random(r);
-    return j;
-}
-
-static void fill_rest_stays(const fill_memory *m, test_rng set)
-{
-    fill_memory before = *m;
-    before.depth = malloc((size_t)m->depth_size);
-    before.id = malloc((size_t)m->id_size + 1);
-    fill_memory_set(&before, set);
-    int depth_kept = 1, id_kept = 1;
-    for (int i = 0; i < m->depth_size; ++i) {
-        int at = i / m->depth_bytes - m->front;
-        depth_kept &= (at >= 0 && at % m->depth_step < LMB_TILE) || m->depth[i] == before.depth[i];
-    }
-    for (int i = 0; i < m->id_size; ++i) {
-        int at = i / m->id_bytes - m->front;
-        id_kept &= (at >= 0 && at % m->id_step < LMB_TILE) || m->id[i] == before.id[i];
-    }
-    CHECK(depth_kept);
-    CHECK(id_kept);
-    fill_memory_free(&before);
-}
-
-static int trial_fill(const trial *t, test_rng r)
-{
-    const int depth_format = test_random(&r) % 2u ? LMB_DEPTH16 : LMB_DEPTH32F;
-    const int id_format = test_random(&r) % 5u == 0 ? LMB_FORMAT_NONE : test_random(&r) % 2u ? LMB_ID16 : LMB_ID32;
-    fill_memory want, got;
-    fill_memory_init(&want, &r, depth_format == LMB_DEPTH16 ? 2 : 4, id_format == LMB_ID16 ? 2 : 4);
-    got = want;
-    got.depth = malloc((size_t)got.depth_size);
-    got.id = malloc((size_t)got.id_size + 1);
-    const test_rng set = r;
-    fill_memory_set(&want, set);
-    fill_memory_set(&got, set);
-    const lmb_fill_tile a = fill_tile(&want, depth_format, id_format), b = fill_tile(&got, depth_format, id_format);
-    for (int i = 0; i < 4; ++i) { /* one over the other */
-        const lmb_fill_job job = fill_job(&r, t->seed % 2u ? 6u : 0);
-        lmb_kernels_scalar.fill(&a, &job);
-        t->kernels->fill(&b, &job);
-    }
-    int equal = same_bytes(t, "depth", want.depth, got.depth, (size_t)want.depth_size) &&
-                same_bytes(t, "id", want.id, got.id, (size_t)want.id_size);
-    fill_rest_stays(&got, set);
-    fill_memory_free(&want);
-    fill_memory_free(&got);
-    return equal;
-}
-
 /* --- resolve, direct, blend ------------------------------------------------------------------------------------------- */
 
 /* An output with its surroundings. */
@@ -322,9 +199,9 @@ static void make_batch(lmb_resolve_batch *b, const batch_world *w, test_rng *r, 
     b->rays.back = direction(r);
     b->rays.near_m = 0.1f;
     b->rays.perspective = test_random(r) % 4u != 0;
-    b->count = 1 + (int32_t)(test_random(r) % LMB_BATCH);
-    numbers(b->corner[0][0], 9 * LMB_BATCH, r, -2.0f, 2.0f, rare);
-    numbers(b->uv[0][0], 6 * LMB_BATCH, r, -4.0f, 4.0f, rare);
+    b->count = 1 + (int32_t)(test_random(r) % LMB_SLOTS);
+    numbers(b->corner[0][0], 9 * LMB_SLOTS, r, -2.0f, 2.0f, rare);
+    numbers(b->uv[0][0], 6 * LMB_SLOTS, r, -4.0f, 4.0f, rare);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         b->slot[k] = (int32_t)(test_random(r) % ((uint32_t)b->count + 1)) - 1;
     }
@@ -335,7 +212,7 @@ static int same_slots(const trial *t, const char *what, const float *want, const
 {
     int equal = 1;
     for (int i = 0; i < rows && equal; ++i) {
-        equal = same_floats(t, what, want + i * LMB_BATCH, got + i * LMB_BATCH, count);
+        equal = same_floats(t, what, want + i * LMB_SLOTS, got + i * LMB_SLOTS, count);
     }
     return equal;
 }
@@ -358,7 +235,7 @@ static int trial_resolve_slots(const trial *t, test_rng r)
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int taken = (int)(a >> k & 1u), own = id[k] - w.instance.first_id < w.mesh.triangle_count;
         CHECK(taken == (want.slot[k] >= 0) && (!taken || (own && want.id[want.slot[k]] == id[k])));
-        CHECK(taken || !own || (left >> k & 1u) == 0 || want.count == LMB_BATCH);
+        CHECK(taken || !own || (left >> k & 1u) == 0 || want.count == LMB_SLOTS);
     }
     return same_bytes(t, "taken", &a, &b, sizeof a) &&
            same_bytes(t, "count", &want.count, &got.count, sizeof want.count) &&
@@ -373,7 +250,7 @@ static int trial_resolve_setup(const trial *t, test_rng r)
     batch_world w;
     make_world(&w, &r, rare);
     make_batch(&want, &w, &r, rare);
-    for (int k = 0; k < LMB_BATCH; ++k) {
+    for (int k = 0; k < LMB_SLOTS; ++k) {
         for (int i = 0; i < 9; ++i) {
             want.normal[i / 3][i % 3][k] = (float)((int32_t)(test_random(&r) % 65536u) - 32768);
             want.albedo[i / 3][i % 3][k] = (float)(test_random(&r) % 256u);
@@ -407,11 +284,11 @@ static int trial_resolve(const trial *t, test_rng r)
     got.it = want.it;
     make_world(&w, &r, rare);
     make_batch(&batch, &w, &r, rare);
-    numbers(batch.normal[0][0], 9 * LMB_BATCH, &r, -1.0f, 1.0f, rare);
-    numbers(batch.albedo[0][0], 9 * LMB_BATCH, &r, 0.0f, 1.0f, rare);
-    numbers(batch.w_min, LMB_BATCH, &r, 0.1f, 2.0f, rare);
-    numbers(batch.w_max, LMB_BATCH, &r, 2.0f, 9.0f, rare);
-    for (int k = 0; k < LMB_BATCH; ++k) {
+    numbers(batch.normal[0][0], 9 * LMB_SLOTS, &r, -1.0f, 1.0f, rare);
+    numbers(batch.albedo[0][0], 9 * LMB_SLOTS, &r, 0.0f, 1.0f, rare);
+    numbers(batch.w_min, LMB_SLOTS, &r, 0.1f, 2.0f, rare);
+    numbers(batch.w_max, LMB_SLOTS, &r, 2.0f, 9.0f, rare);
+    for (int k = 0; k < LMB_SLOTS; ++k) {
         const lmb_vec3 plane = direction(&r), face = direction(&r);
         const int edge_on = test_random(&r) % 8u == 0; /* from some column, or everywhere */
         batch.plane[0][k] = edge_on ? 0.0f : plane.x;
@@ -716,7 +593,6 @@ static const struct kernel {
     const char *name;
     int (*run)(const trial *t, test_rng r);
 } kernels[] = {
-    {"fill", trial_fill},
     {"resolve_slots", trial_resolve_slots},
     {"resolve_setup", trial_resolve_setup},
     {"resolve", trial_resolve},

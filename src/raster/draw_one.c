@@ -1,0 +1,67 @@
+/* draw_one.c: one triangle that is clipped, large or full of holes into a window. Floor 3.
+ *
+ * Its corners are read and transformed once more: few triangles come here, and a batch need not keep them. */
+#include "draw_one.h"
+
+#include "../base/vertex.h"
+
+static float row_point(const float row[4], lmb_vec3 p) { return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]; }
+
+static lmb_clip_vertex transform(const lmb_draw_instance *d, lmb_vec3 p)
+{
+    const lmb_setup_job *job = &d->job;
+    float x = row_point(job->row[0], p), y = row_point(job->row[1], p), w = row_point(job->row[2], p);
+    lmb_clip_vertex v;
+    v.x = x * job->scale_x;
+    v.y = y * job->scale_y;
+    v.z = job->orthographic ? (job->far_m - w) * job->depth_scale : job->near_m;
+    v.w = job->orthographic ? 1.0f : w;
+    v.code = lmb_clip_code(&v, &d->guard);
+    return v;
+}
+
+static lmb_screen_vertex snap(const lmb_draw_instance *d, const lmb_clip_vertex *v)
+{
+    lmb_screen_vertex s;
+    float inverse = 1.0f / v->w;
+    s.x_24_8 = (int32_t)floorf(v->x * inverse * d->job.snap_x + 0.5f);
+    s.y_24_8 = (int32_t)floorf(0.5f - v->y * inverse * d->job.snap_y);
+    s.d = v->z * inverse;
+    return s;
+}
+
+static int fill_polygon(const lmb_fill_context *c, const lmb_draw_instance *d, const lmb_clip_vertex *polygon,
+                        int n, uint32_t id)
+{
+    lmb_screen_vertex first = snap(d, &polygon[0]), before = snap(d, &polygon[1]);
+    int drawn = 0;
+    for (int i = 2; i < n; ++i) {
+        lmb_screen_vertex next = snap(d, &polygon[i]);
+        lmb_setup setup;
+        if (lmb_setup_triangle(&setup, &first, &before, &next) && !(d->cull && setup.back != d->mirrored)) {
+            if (d->masked) {
+                lmb_fill_masked(c, &setup, id);
+            } else {
+                c->kernels->fill_large(&c->window, &setup, id);
+            }
+            drawn = 1;
+        }
+        before = next;
+    }
+    return drawn;
+}
+
+int lmb_draw_one(const lmb_fill_context *c, const lmb_draw_instance *d, uint32_t id)
+{
+    lmb_clip_vertex polygon[LMB_CLIP_MAX];
+    uint32_t any = 0;
+    int n = 3;
+    for (uint32_t i = 0; i < 3; ++i) {
+        polygon[i] = transform(d, mesh_position(d->mesh, mesh_index(d->mesh, 3 * (id - d->first_id) + i)));
+        any |= polygon[i].code;
+    }
+    if (any) {
+        n = lmb_clip_polygon(polygon, any, &d->guard);
+    }
+    return n >= 3 && fill_polygon(c, d, polygon, n, id);
+}

@@ -1,0 +1,20 @@
+/* draw_one.h: one triangle, without a batch. Floor 3. */
+#ifndef LMB_RASTER_DRAW_ONE_H
+#define LMB_RASTER_DRAW_ONE_H
+
+#include "clip.h"
+#include "fill.h"
+
+/* One instance under one view. */
+typedef struct lmb_draw_instance {
+    lmb_setup_job job;
+    lmb_clip_guard guard;
+    int32_t mirrored, cull, masked;
+    const lmb_mesh *mesh;
+    uint32_t first_id;
+} lmb_draw_instance;
+
+/* The triangle `id`, of any size and place, whose corners are inside the mesh; 1 where any of it is drawn. */
+int lmb_draw_one(const lmb_fill_context *context, const lmb_draw_instance *d, uint32_t id);
+
+#endif
