@@ -31,7 +31,9 @@ WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble
 STD      ?= c99
 EXACT     = -std=$(STD) -ffp-contract=off -fno-math-errno -fno-builtin-bcmp
 FLAGS     = $(CFLAGS) $(PORT_CFLAGS) $(WARNINGS) $(EXACT) $(config_$(CONFIG)) -Iinclude
-DEPS     ?= -fstack-usage -MMD -MP
+# Who calls whom, and with how much stack: gcc tells since its version 10.
+CALLS    := $(shell $(CC) -fcallgraph-info=su -E -x c /dev/null >/dev/null 2>&1 && echo -fcallgraph-info=su)
+DEPS     ?= -fstack-usage $(CALLS) -MMD -MP
 COMPILE   = $(CC) $(FLAGS) $(DEPS)
 LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 
@@ -174,7 +176,7 @@ floors: ## includes only go down the house's floors
 symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
 	@$(IN_SH) tests/build/symbols.sh
 
-stack: $(LIB) ## stack of the hungriest functions; the budget is 4096 bytes each
+stack: $(LIB) ## stack of the hungriest functions and calls; the budget is 4096 bytes each
 	@$(IN_SH) tests/build/stack.sh 4096
 
 headers: ## each public header alone, as C99 and as C++

@@ -1,4 +1,5 @@
-# stacks.sh: the largest stack frame that each machine's compiler made, against a budget: stacks.sh BYTES BUILD...
+# stacks.sh: the largest stack frame that each machine's compiler made, and the call that takes the most with all that it
+# calls, against a budget: stacks.sh BYTES BUILD...
 #
 # At -O0 nothing shares a frame's slots, and no one ships it: told, not judged.
 . tests/build/checks.sh
@@ -12,7 +13,15 @@ for build in "$@"; do
     printf '  %-14s %s\n' "$(basename "$build")" "$largest"
     case $build in
     *-O0) ;;
-    *) check "$build: $largest; the budget is $budget bytes" test "${largest%% *}" -le "$budget" ;;
+    *)
+        check "$build: $largest; the budget is $budget bytes" test "${largest%% *}" -le "$budget"
+        calls=$(sh tests/build/calls.sh "$build" "$budget")
+        [ -n "$calls" ] || continue
+        printf '%s\n' "$calls" | sed -n '1s/^[a-z]*/                /p'
+        check "$build: calls over $budget bytes: $(printf '%s\n' "$calls" | sed -n 's/^over //p')" \
+            test "${calls#over}" = "$calls" -a "${calls#*
+over}" = "$calls"
+        ;;
     esac
 done
 finish
