@@ -103,7 +103,8 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
  *
  *   target  holds the tile, with ids.
  * Returns LMB_OK or LMB_ERR_ARG (null, no ids, tile outside the window or not on tiles): `out` is then untouched.
- * Stack: 0.9 to 2.3 KiB, by machine: the triangles lie in `out`. Cost: 64 pixels, and the set-up of the triangles among them, sixteen at a time. */
+ * Stack: 0.9 to 2.3 KiB, by machine: the triangles lie in `out`. Cost: 64 pixels, and the set-up of the triangles among
+ * them, sixteen at a time. */
 lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t x, int32_t y);
 
