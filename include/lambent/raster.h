@@ -29,9 +29,9 @@ typedef struct lmb_rays {
     int32_t perspective;
 } lmb_rays;
 
-/* Where lmb_resolve_tile works: up to LMB_SLOTS triangles of one instance that a tile shows: slot k of every array is one of them. What comes from
- * the mesh is turned in place into what pixels are made of. Corners' values become the first and the others' differences
- * from it, so that three equal ones give exactly their value. */
+/* Where lmb_resolve_tile works: up to LMB_SLOTS triangles of one instance that a tile shows. Slot k of every array is
+ * one of them. What comes from the mesh is turned in place into what pixels are made of. Corners' values become the
+ * first and the others' differences from it, so that three equal ones give exactly their value. */
 typedef struct lmb_resolve_batch {
     lmb_rays rays;
     const lmb_instance *instance;
@@ -94,8 +94,8 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  * LMB_ERR_FORMAT, and then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
  * Triangles with a non-finite vertex, one more than 2^20 m away, or an index outside the mesh are dropped, counted.
  * Coverage: pixel centres, top-left rule, vertices snapped to 1/256 px: exact integers, no crack, no overlap.
- * Stack: 2.5 to 3.8 KiB, by machine; 1.9 in the tiny configuration. Cost: vertices + covered tiles. Draws into different
- * targets may run at once. */
+ * Stack: 2.5 to 3.8 KiB, by machine; 1.9 in the tiny configuration. Cost: vertices + covered tiles. Draws into
+ * different targets may run at once. */
 lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats);
 

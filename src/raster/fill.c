@@ -1,7 +1,8 @@
 /* fill.c: a set-up triangle with holes into the tiles of a window. Floor 3.
  *
  * Tiles are out, partly covered or wholly inside each edge by the edge's value at the tile's corners. An edge that
- * the whole tile lies inside of is left out (its sums become 0), which also keeps the sums over the tile in 32 bits. Depth is taken at each tile's first pixel in binary64, so windows and tile order change nothing. */
+ * the whole tile lies inside of is left out (its sums become 0), which also keeps the sums over the tile in 32 bits.
+ * Depth is taken at each tile's first pixel in binary64, so windows and tile order change nothing. */
 #include "fill.h"
 
 #include "resolve.h"

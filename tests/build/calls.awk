@@ -11,7 +11,8 @@
         split(part[n], word, " ")
         bytes[name] = word[1] + 0
         kernel = name
-        if (kernel ~ /^src\/isa\/isa_/ && sub(/^.*:/, "", kernel) && sub(/_(scalar|sse2|avx2|avx512|neon|simd128)$/, "", kernel))
+        if (kernel ~ /^src\/isa\/isa_/ && sub(/^.*:/, "", kernel) &&
+            sub(/_(scalar|sse2|avx2|avx512|neon|simd128)$/, "", kernel))
             machines[kernel] = machines[kernel] " " name
     }
 }

@@ -1,5 +1,5 @@
-# stacks.sh: the largest stack frame that each machine's compiler made, and the call that takes the most with all that it
-# calls, against a budget: stacks.sh BYTES BUILD...
+# stacks.sh: the largest stack frame that each machine's compiler made, and the call that takes the most with all that
+# it calls, against a budget: stacks.sh BYTES BUILD...
 #
 # At -O0 nothing shares a frame's slots, and no one ships it: told, not judged.
 . tests/build/checks.sh
