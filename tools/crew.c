@@ -40,8 +40,12 @@ static void draw_band(void *user, int band, int worker)
 {
     stage_work *w = user;
     const lmb_frame *f = &w->render->frame;
-    keep_failure(w, worker, lmb_render_band(w->render, &w->crew->scratches[worker], &f->eye, &f->out, band));
+    lmb_band_scratch *scratch = &w->crew->scratches[worker];
+    memset(&scratch->counts, 0, sizeof scratch->counts);
+    keep_failure(w, worker, lmb_render_band(w->render, scratch, &f->eye, &f->out, band));
     w->counts[worker].bands += 1;
+    w->counts[worker].pairs += scratch->counts.pairs;
+    w->counts[worker].segments += scratch->counts.segments;
     if (worker == 0 && w->crew->tell != NULL) {
         lmb_render at = *w->render;
         at.place = (uint32_t)band;
@@ -59,6 +63,8 @@ static lmb_status sum_up(const stage_work *w, lmb_stats *stats)
             stats->triangles_drawn += w->counts[i].triangles_drawn;
             stats->triangles_dropped += w->counts[i].triangles_dropped;
             stats->bands += w->counts[i].bands;
+            stats->pairs += w->counts[i].pairs;
+            stats->segments += w->counts[i].segments;
         }
     }
     return status;

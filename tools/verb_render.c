@@ -254,7 +254,6 @@ static int take_frame(job *j, report *r)
     j->depth_memory = take(j, depth, r);
     j->id_memory = take(j, id, r);
     f->scratch = j->crew.scratches = take(j, sizeof *f->scratch * (size_t)j->crew.threads, r);
-    if (f->scratch) memset(f->scratch, 0, sizeof *f->scratch * (size_t)j->crew.threads);
     j->render = take(j, sizeof *j->render, r);
     if (!take_picture(j, &j->linear, r) || r->text[0] != '\0') {
         return 0;
@@ -498,12 +497,6 @@ static int write_stats(const job *j, report *r)
     char text[2048];
     int n = 0;
     const lmb_stats *s = &j->stats;
-    double nodes = 0, asked = 0;
-    for (int i = 0; i < j->crew.threads; ++i) {
-        nodes += (double)j->crew.scratches[i].gather.cut.nodes;
-        asked += (double)j->crew.scratches[i].gather.cut.asked;
-    }
-    fprintf(stderr, "NODES %g a tile, segments %g a pixel\n", nodes * 64 / (j->frame.view.frame_width * j->frame.view.frame_height), asked / (j->frame.view.frame_width * j->frame.view.frame_height));
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "{\n  \"width\": %d, \"height\": %d, \"views\": %d,\n  \"seconds\": {\"load\": %.6f",
                   (int)j->linear.width, (int)j->linear.height, (int)j->eyes, j->load_s);
@@ -514,10 +507,12 @@ static int write_stats(const job *j, report *r)
     n += snprintf(
         text + n, sizeof text - (size_t)n,
         "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
-        "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n",
+        "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n"
+        "  \"pairs\": %.0f, \"segments\": %.0f,\n",
         (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
         (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
-        (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups);
+        (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups,
+        (double)s->pairs, (double)s->segments);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
                   "  \"bytes\": %.0f, \"model_bytes\": %.0f, \"loading_bytes\": %.0f,\n"

@@ -34,6 +34,7 @@ typedef struct lmb_band_scratch {
     lmb_tile tile;
     lmb_irradiance direct, indirect;
     lmb_radiance radiance;
+    lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
 } lmb_band_scratch;
 
 /* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,

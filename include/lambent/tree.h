@@ -48,6 +48,8 @@ typedef struct lmb_tree_place {
     uint16_t face, x, y, level;
 } lmb_tree_place;
 
+enum { LMB_CUT_BUCKETS = 512 };
+
 /* One tile's cut; one a thread. */
 typedef struct lmb_cut {
     int32_t count;                     /* nodes, of which some are gone */
@@ -57,7 +59,7 @@ typedef struct lmb_cut {
     float most[LMB_MAX_CUT];           /* the most that it can give */
     float error[LMB_MAX_CUT];          /* what it may be wrong by as one disc */
     int32_t next[LMB_MAX_CUT];         /* in its bucket */
-    uint64_t nodes, asked;             /* counted over all tiles: nodes of cuts, segments of pixels. Zero them yourself */
+    int32_t bucket[LMB_CUT_BUCKETS];   /* the first of each, by exponent and first bit */
     lmb_emitter emitter[LMB_CUT_BLOCK];
     float pairs[3][LMB_GATHER_PAIRS];
 } lmb_cut;
@@ -67,6 +69,7 @@ typedef struct lmb_cutting {
     float error;   /* share of a pixel's bounced light that it may be wrong by where nothing blocks */
     float visible; /* share that no node may exceed whose visibility is asked as one */
     const lmb_blockers *blockers; /* NULL: everything is seen */
+    lmb_stats *stats;             /* counts pairs and segments; may be NULL */
 } lmb_cutting;
 
 #ifdef __cplusplus
@@ -86,14 +89,8 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
                            const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
                            int32_t past);
 
-/* lmb_tree_sum: the nodes of one face, from its first points, once all its rows are there.
- *
- *   blockers  where one surface stands before another, the edge of the farther one is found to a 64th of a texel: by
- *             segments from the light; NULL: it is taken to be half way between texels. (Whether a texel is lit, the map
- *             alone says [V7].)
- *   scratch   used with blockers only. */
-lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face, const lmb_kernels *kernels, lmb_tile *scratch,
-                        const lmb_blockers *blockers);
+/* lmb_tree_sum: the nodes of one face, from its first points, once all its rows are there. */
+lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
 
 /* lmb_gather_cut: add what the tree's first points light to a tile's pixels.                          [V25 V27 V28]
  *

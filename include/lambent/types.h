@@ -92,6 +92,7 @@ typedef struct lmb_stats {
     uint32_t groups;
     uint32_t regroups;          /* times grouping restarted because LMB_MAX_GROUPS was met */
     uint32_t bands;
+    uint64_t pairs, segments;   /* LMB_GROUP_CUT: pixels x nodes that light them; visibility asked for */
     double flux_lit;            /* W: outgoing power of all first points, sum of R, G, B */
     double flux_grouped;        /* W: the same over the groups; less only where strict zones drop some [V20] */
 } lmb_stats;

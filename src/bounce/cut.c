@@ -15,8 +15,9 @@
 #define INVERSE_PI   0.31830989f
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 #define FLAT         0.5f        /* height over a surface's first pixel, of the distance to it */
+#define DARK         0.25       /* of `visible`: under this share of what nothing blocked, errors do not count */
 #define TURNED       16.0f /* how much more a node counts that is asked at a point which faces away: its others may not */
-enum { BUCKETS = 512, NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
+enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 
 /* The pixels of one surface in a tile. */
 typedef struct patch {
@@ -125,7 +126,6 @@ typedef struct cutter {
     lmb_last_blockers last;
     float per_pixel;         /* 1 / pixels of the patch */
     const float *key;        /* what the buckets go by: cut->error or cut->most */
-    int32_t bucket[BUCKETS]; /* the first of each, or NONE */
     int highest;             /* no bucket over this has any */
     double error, value;     /* sums; of value, what is seen */
 } cutter;
@@ -151,7 +151,7 @@ static int bucket_of(float key)
 {
     uint32_t bits;
     memcpy(&bits, &key, sizeof bits);
-    return (int)(bits >> 22) & (BUCKETS - 1);
+    return (int)(bits >> 22) & (LMB_CUT_BUCKETS - 1);
 }
 
 /* Texels cannot be divided: they wait in no bucket. */
@@ -159,26 +159,26 @@ static void wait(cutter *c, int32_t i)
 {
     if (c->cut->place[i].level > 0) {
         const int b = bucket_of(c->key[i]);
-        c->cut->next[i] = c->bucket[b];
-        c->bucket[b] = i;
+        c->cut->next[i] = c->cut->bucket[b];
+        c->cut->bucket[b] = i;
         c->highest = b > c->highest ? b : c->highest;
     }
 }
 
 static int32_t largest(cutter *c)
 {
-    while (c->highest >= 0 && c->bucket[c->highest] == NONE) {
+    while (c->highest >= 0 && c->cut->bucket[c->highest] == NONE) {
         --c->highest;
     }
-    return c->highest < 0 ? NONE : c->bucket[c->highest];
+    return c->highest < 0 ? NONE : c->cut->bucket[c->highest];
 }
 
 static void empty_buckets(cutter *c, const float *key)
 {
     c->key = key;
     c->highest = -1;
-    for (int b = 0; b < BUCKETS; ++b) {
-        c->bucket[b] = NONE;
+    for (int b = 0; b < LMB_CUT_BUCKETS; ++b) {
+        c->cut->bucket[b] = NONE;
     }
 }
 
@@ -215,7 +215,9 @@ static void ask(cutter *c, int32_t i)
     c->cut->visible[i] &= ~lmb_blocked_tile(
         c->cutting->blockers, c->kernels, c->tile, c->cut->visible[i],
         tree_texel(c->tree, at.face, (int32_t)texel % size, (int32_t)texel / size)->position, &c->last);
-    c->cut->asked += (uint64_t)count_bits_64(c->p->pixels);
+    if (c->cutting->stats != NULL) {
+        c->cutting->stats->segments += (uint64_t)count_bits_64(c->p->pixels);
+    }
     count_in(c, i, 1.0);
 }
 
@@ -252,7 +254,7 @@ static void divide_by_most(cutter *c, float share, double least, int asks)
     int32_t i = largest(c);
     while (i != NONE && has_room(c) &&
            (double)c->cut->most[i] > (double)share * (c->value > least ? c->value : least)) {
-        c->bucket[c->highest] = c->cut->next[i];
+        c->cut->bucket[c->highest] = c->cut->next[i];
         divide(c, i, c->p->pixels, asks);
         i = largest(c);
     }
@@ -262,7 +264,7 @@ static void divide_by_error(cutter *c, float share)
 {
     int32_t i = largest(c);
     while (i != NONE && has_room(c) && c->error > (double)share * c->value) {
-        c->bucket[c->highest] = c->cut->next[i];
+        c->cut->bucket[c->highest] = c->cut->next[i];
         divide(c, i, c->cut->visible[i], 0);
         i = largest(c);
     }
@@ -292,7 +294,7 @@ static void take_cut(cutter *c)
     begin(c);
     if (c->cutting->blockers != NULL) {
         divide_by_most(c, c->cutting->visible, 0.0, 0);
-        const double least = c->value / 256.0;
+        const double least = c->value * (double)c->cutting->visible * DARK;
         for (int32_t i = 0; i < c->cut->count; ++i) {
             if (c->cut->place[i].level != GONE) {
                 ask(c, i);
@@ -354,6 +356,7 @@ static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
 static void light_patch(lmb_irradiance *inout, const cutter *c)
 {
     int32_t filled = 0;
+    uint64_t pairs = 0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
         const lmb_tree_place at = c->cut->place[i];
         const uint64_t visible = c->cut->visible[i];
@@ -362,7 +365,7 @@ static void light_patch(lmb_irradiance *inout, const cutter *c)
         if (at.level == GONE || visible == 0) {
             continue;
         }
-        ++c->cut->nodes;
+        pairs += (uint64_t)count_bits_64(visible);
         if (at.level > 0) {
             n = *tree_node(c->tree, at);
         } else {
@@ -379,6 +382,9 @@ static void light_patch(lmb_irradiance *inout, const cutter *c)
         }
     }
     c->kernels->gather_cut(inout, c->cut->pairs, c->tile, c->cut->emitter, filled);
+    if (c->cutting->stats != NULL) {
+        c->cutting->stats->pairs += pairs;
+    }
 }
 
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,

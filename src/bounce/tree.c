@@ -139,15 +139,6 @@ static int same_plane(const lmb_texel *a, const lmb_texel *b)
     return dot3(a->normal, b->normal) > 0.9999f && absf(dot3(a->normal, d)) < 1e-3f * length3(d);
 }
 
-/* Who finds edges: the map's view, and what may stand before it. */
-typedef struct edger {
-    const lmb_tree *tree;
-    const lmb_view *view;
-    const lmb_kernels *kernels;
-    const lmb_blockers *blockers;
-    lmb_tile *tile;
-} edger;
-
 /* Two neighbours: middles at (sx, sy) and (tx, ty), in the map's plane at distance 1 (m for suns). */
 typedef struct pair {
     lmb_texel *a, *b;
@@ -163,64 +154,24 @@ static float planes_meet(const lmb_view *v, const pair *p)
     return here * there < 0.0f && share > 0.0f && share < 1.0f ? share : 0.0f;
 }
 
-/* The surface of texel t over the map's point (x, y). */
-static lmb_vec3 on_plane(const lmb_view *v, const lmb_texel *t, float x, float y)
-{
-    const lmb_vec3 across = add3(mul3(v->right, x), mul3(v->up, y));
-    const float slope = slope_at(v, t, x, y);
-    return v->kind == LMB_PERSPECTIVE ? add3(v->eye, mul3(sub3(across, v->back), 1.0f / slope))
-                                      : sub3(add3(v->eye, across), mul3(v->back, slope));
-}
-
-/* From where a sun's light comes to a texel: so far that its segments to both ends are parallel to a hundredth. */
-static lmb_vec3 light_place(const lmb_view *v, const lmb_texel *t)
-{
-    return v->kind == LMB_PERSPECTIVE ? v->eye : add3(t->position, mul3(v->back, 100.0f * v->far_m));
-}
-
-/* How far the farther texel's surface is lit towards the nearer one: a 64th after the other. */
-static float lit_share(const edger *e, const pair *p, int from_a)
-{
-    const lmb_texel *t = from_a ? p->a : p->b;
-    lmb_tile *tile = e->tile;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float way = ((float)k + 0.5f) / (float)LMB_TILE_PIXELS, s = from_a ? way : 1.0f - way;
-        const lmb_vec3 at = on_plane(e->view, t, p->sx + (p->tx - p->sx) * s, p->sy + (p->ty - p->sy) * s);
-        tile->position[0][k] = at.x;
-        tile->position[1][k] = at.y;
-        tile->position[2][k] = at.z;
-    }
-    const uint64_t blocked =
-        lmb_blocked_tile(e->blockers, e->kernels, tile, ~UINT64_C(0), light_place(e->view, t), NULL);
-    const float share = blocked == 0 ? 1.0f : (float)lowest_bit_64(blocked) / (float)LMB_TILE_PIXELS;
-    return from_a ? share : 1.0f - share;
-}
-
-static float from_light(const lmb_view *v, const lmb_texel *t) { return -dot3(v->back, sub3(t->position, v->eye)); }
-
 /* Let a reach towards b up to an edge, and b towards a: both a 256th of a texel past it, so that a point in the very corner
  * meets no gap. */
-static void set_edge(const edger *e, const pair *p, int a_side, int b_side)
+static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
 {
-    if (same_plane(p->a, p->b)) {
-        return;
+    const float share = same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
+    if (share > 0.0f) {
+        const int at = (int)(share * 256.0f);
+        p->a->side[a_side] = (uint8_t)mini(at + 1, 255);
+        p->b->side[b_side] = (uint8_t)mini(256 - at, 255);
     }
-    float share = planes_meet(e->view, p);
-    if (share == 0.0f && e->blockers != NULL) {
-        share = lit_share(e, p, from_light(e->view, p->a) > from_light(e->view, p->b));
-    } else if (share == 0.0f) {
-        return;
-    }
-    const int at = (int)(share * 256.0f);
-    p->a->side[a_side] = (uint8_t)mini(at + 2, 255);
-    p->b->side[b_side] = (uint8_t)mini(257 - at, 255);
 }
 
-static void set_sides(const edger *e, uint32_t face)
+static void set_sides(const lmb_tree *tree, uint32_t face)
 {
-    const int32_t size = e->tree->size;
-    const float px = 2.0f * e->view->half_width / (float)size, py = 2.0f * e->view->half_height / (float)size;
-    lmb_texel *all = e->tree->texel + (size_t)face * (size_t)size * (size_t)size;
+    const int32_t size = tree->size;
+    const lmb_view *v = &tree->view[face];
+    const float px = 2.0f * v->half_width / (float)size, py = 2.0f * v->half_height / (float)size;
+    lmb_texel *all = tree->texel + (size_t)face * (size_t)size * (size_t)size;
     for (int32_t i = 0; i < size * size; ++i) {
         const int32_t x = i % size, y = i / size;
         pair p;
@@ -233,13 +184,13 @@ static void set_sides(const edger *e, uint32_t face)
         if (x + 1 < size && flux_sum(p.a[1].flux) > 0.0f) {
             p.b = p.a + 1;
             p.tx = p.sx + px;
-            set_edge(e, &p, RIGHT, LEFT);
+            set_edge(v, &p, RIGHT, LEFT);
         }
         if (y + 1 < size && flux_sum(p.a[size].flux) > 0.0f) {
             p.b = p.a + size;
             p.tx = p.sx;
             p.ty = p.sy - py;
-            set_edge(e, &p, DOWN, UP);
+            set_edge(v, &p, DOWN, UP);
         }
     }
 }
@@ -295,20 +246,12 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     }
 }
 
-lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face, const lmb_kernels *kernels, lmb_tile *scratch,
-                        const lmb_blockers *blockers)
+lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
 {
-    edger e;
-    if (tree == NULL || tree->texel == NULL || face >= tree->face_cap ||
-        (blockers != NULL && (kernels == NULL || scratch == NULL))) {
+    if (tree == NULL || tree->texel == NULL || face >= tree->face_cap) {
         return LMB_ERR_ARG;
     }
-    e.tree = tree;
-    e.view = &tree->view[face];
-    e.kernels = kernels;
-    e.blockers = blockers;
-    e.tile = scratch;
-    set_sides(&e, face);
+    set_sides(tree, face);
     for (int level = 1; level <= tree_root_level(tree); ++level) {
         const int32_t side = tree->size >> level;
         lmb_node *out = tree_level(tree, face, level);

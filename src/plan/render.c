@@ -226,18 +226,13 @@ static const lmb_blockers *blockers_of(const lmb_frame *f)
     return f->occlusion == LMB_OCCLUSION_EXACT ? &f->blockers : NULL;
 }
 
-static lmb_status sum_face(lmb_frame *f)
-{
-    return lmb_tree_sum(&f->tree, f->tree.faces, f->kernels, &f->scratch->tile, blockers_of(f));
-}
-
 static lmb_status end_face(lmb_render *r)
 {
     const lmb_light_map *map = &r->maps[r->light];
     const int drawn = (map->drawn >> r->face) & 1u;
     lmb_status status = LMB_OK;
     if (wants_cut(&r->frame)) {
-        status = drawn ? sum_face(&r->frame) : LMB_OK;
+        status = drawn ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
         r->frame.tree.faces += drawn ? 1 : 0;
     } else if (drawn) {
         status = lmb_discs_join(&r->frame.points, map, &r->frame.grouping);
@@ -365,6 +360,7 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
     if (wants_cut(f) && status == LMB_OK) {
         cutting.error = f->error;
         cutting.visible = f->visible;
+        cutting.stats = &s->counts;
         cutting.blockers = blockers_of(f);
         status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->tree, &cutting);
     }
@@ -425,12 +421,15 @@ static lmb_status step_bands(lmb_render *r, int32_t units)
     const int32_t bands = band_count(&r->frame.view);
     for (int32_t n = 0; (n == 0 || n + BAND_UNITS <= units) && r->place < (uint32_t)bands; n += BAND_UNITS) {
         int32_t band = (int32_t)r->place++;
+        memset(&r->frame.scratch->counts, 0, sizeof r->frame.scratch->counts);
         lmb_status status = lmb_render_band(r, r->frame.scratch, &r->frame.eye, &r->frame.out, band);
         if (status != LMB_OK) {
             return status;
         }
         if (r->frame.stats != NULL) {
             ++r->frame.stats->bands;
+            r->frame.stats->pairs += r->frame.scratch->counts.pairs;
+            r->frame.stats->segments += r->frame.scratch->counts.segments;
         }
         if (!hand_over(&r->frame, band)) {
             return LMB_OK;
