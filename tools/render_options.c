@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { CHOSEN = -1 }; /* by the other options */
+
 const char render_usage[] =
     "usage: lambent render SCENE -o OUT [options]\n"
     "\n"
@@ -24,7 +26,14 @@ const char render_usage[] =
     "                             angles in degrees (default 0,45)\n"
     "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, less for many lights)\n"
     "bounce\n"
-    "  --grouping zones|greedy|none   how lit points become groups (default zones)\n"
+    "  --quality draft|default|best\n"
+    "                             sets the next three; see README for each one's error and time\n"
+    "  --tree N                   first points a side of a light's map, a power of two, to an eighth of --light-map\n"
+    "  --error E                  share that a pixel's bounced light may be wrong by where nothing blocks it\n"
+    "  --visible V                what may be seen or blocked as one: at most this share of a pixel's bounced light\n"
+    "  --grouping cut|zones|greedy|none\n"
+    "                             cut (default): every 8x8 pixels take what they need of a tree of all lit points.\n"
+    "                             The others make one fixed set of groups; what follows to --steps is theirs:\n"
     "  --groups N                 groups at most (default 512)\n"
     "  --block N                  texels a side of a first point: 1 2 4 8 (default 8)\n"
     "  --neighbour METRES         points farther apart are no neighbours, say 0.25, 0.5 or 1 (default: any of the\n"
@@ -38,11 +47,13 @@ const char render_usage[] =
     "  --cosine C                 ... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)\n"
     "  --misfits keep|drop        what does not fit its zone opens another group, or is lost; how much is said\n"
     "  --centre barycentre|disc   where a group stands (default barycentre)\n"
-    "  --occlusion none|view|view-world\n"
-    "                             what stands between groups and pixels: nothing, or what the viewer's depth map\n"
-    "                             shows, marched in map space or in world space (default view). A depth map cannot\n"
-    "                             know what is off screen or hidden.\n"
-    "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n"
+    "  --occlusion exact|none|view|view-world\n"
+    "                             what stands between lit points and pixels: every triangle (cut's default); nothing;\n"
+    "                             or, for fixed groups, what the viewer's depth map shows, marched in map space or in\n"
+    "                             world space (their default: view): it cannot know what is off screen or hidden\n"
+    "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n";
+
+const char render_usage_more[] =
     "picture\n"
     "  --show full|direct|indirect|irradiance   (default full; irradiance: bounced, before albedo)\n"
     "         depth|eye-distance|normal|albedo  of what the eye sees; metres along the view, and from the eye\n"
@@ -238,6 +249,18 @@ static int parse_number(const char *text, float low, float high, float *out)
     return parse_floats(&text, out, 1) && *text == '\0' && *out >= low && *out <= high;
 }
 
+static int parse_quality(const char *text, render_options *o)
+{
+    static const char *const words[] = {"draft", "default", "best", NULL};
+    static const int32_t values[] = {QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST};
+    return parse_word(text, words, values, &o->quality);
+}
+
+static int parse_tree(const char *text, render_options *o)
+{
+    return parse_int(text, 8, 4096, &o->tree) && (o->tree & (o->tree - 1)) == 0;
+}
+
 static int parse_error(const char *text, render_options *o)
 {
     return parse_number(text, 1e-4f, 10.0f, &o->error);
@@ -330,6 +353,8 @@ static const struct flag {
     {"--light", add_light, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], at most 64 of them, angles <= 89"},
     {"--light-map", parse_light_map, "a multiple of 8, 8 .. 4096"},
     {"--grouping", parse_grouping, "cut, zones, greedy or none"},
+    {"--quality", parse_quality, "draft, default or best"},
+    {"--tree", parse_tree, "a power of two, 8 .. 4096"},
     {"--error", parse_error, "a share, 0.0001 .. 10"},
     {"--visible", parse_visible, "a share, 0.0001 .. 10"},
     {"--groups", parse_groups, "a number from 1 to the build's capacity (2048)"},
@@ -366,6 +391,31 @@ static int parse_flag(render_options *o, const char *name, const char *value, re
     return report_fail(r, "there is no option %s; lambent render --help lists them", name);
 }
 
+/* Figures of the presets: README, "How good it is". */
+static void choose(render_options *o)
+{
+    static const struct preset {
+        int32_t tree;
+        float error, visible;
+    } presets[] = {{256, 0.2f, 0.06f}, {128, 0.5f, 0.2f}, {1024, 0.05f, 0.015f}};
+    const struct preset *p = &presets[o->quality];
+    const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
+    if (o->grouping.method == CHOSEN) {
+        lmb_grouping plain; /* an option that fixed groups alone have asks for them */
+        memset(&plain, 0, sizeof plain);
+        plain.method = CHOSEN;
+        const int grouped = viewed || o->steps != 0 || o->show == SHOW_POINTS || o->show == SHOW_GROUPS ||
+                            memcmp(&plain, &o->grouping, sizeof plain) != 0;
+        o->grouping.method = grouped ? LMB_GROUP_ZONES : LMB_GROUP_CUT;
+    }
+    if (o->occlusion == CHOSEN) {
+        o->occlusion = o->grouping.method == LMB_GROUP_CUT ? LMB_OCCLUSION_EXACT : LMB_OCCLUSION_VIEW;
+    }
+    o->tree = o->tree > 0 ? o->tree : p->tree;
+    o->error = o->error > 0.0f ? o->error : p->error;
+    o->visible = o->visible > 0.0f ? o->visible : p->visible;
+}
+
 static int check_together(const render_options *o, report *r)
 {
     if (o->scene == NULL) {
@@ -389,6 +439,10 @@ static int check_together(const render_options *o, report *r)
     if (o->show == SHOW_OCCLUSION && o->occlusion == LMB_OCCLUSION_NONE) {
         return report_fail(r, "--show occlusion wants an --occlusion other than none");
     }
+    if ((o->grouping.method == LMB_GROUP_CUT) != (o->occlusion == LMB_OCCLUSION_EXACT) &&
+        o->occlusion != LMB_OCCLUSION_NONE) {
+        return report_fail(r, "--occlusion exact goes with --grouping cut; view and view-world with zones, greedy, none");
+    }
     return 1;
 }
 
@@ -397,7 +451,7 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
     memset(o, 0, sizeof *o);
     o->up.y = 1.0f;
     o->fov_deg = 45.0f;
-    o->occlusion = LMB_OCCLUSION_VIEW;
+    o->grouping.method = o->occlusion = CHOSEN;
     o->exposure_auto = 1;
     o->kernels = lmb_kernels_pick();
     for (int i = 1; i < argc; ++i) {
@@ -416,5 +470,6 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
             o->scene = argv[i];
         }
     }
+    choose(o);
     return check_together(o, r);
 }

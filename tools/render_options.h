@@ -16,6 +16,8 @@ enum { SHOW_OCCLUSION = 48 };
 static inline int shows_attribute(int32_t show) { return show >= SHOW_DEPTH && show <= SHOW_EYE_DISTANCE; }
 static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
 
+enum { QUALITY_DEFAULT, QUALITY_DRAFT, QUALITY_BEST };
+
 typedef struct render_options {
     const char *scene, *out, *stats;
     int32_t width, height; /* 0: default */
@@ -30,7 +32,9 @@ typedef struct render_options {
     int32_t show;
     int32_t light_map; /* 0: chosen */
     lmb_grouping grouping;
-    float error, visible; /* 0: default */
+    int32_t quality;      /* QUALITY_*: what the next three are where they are 0 */
+    int32_t tree;         /* first points a side of a light's tree */
+    float error, visible;
     int32_t occlusion, steps;
     int32_t exposure_auto;
     float exposure_ev;
@@ -39,7 +43,7 @@ typedef struct render_options {
     int help;
 } render_options;
 
-extern const char render_usage[];
+extern const char render_usage[], render_usage_more[]; /* one text: C99 asks for strings of 4,095 only */
 
 /* 1, or 0 with `r` set: bad usage. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);

@@ -153,10 +153,11 @@ static int take_tree(job *j, report *r)
 {
     lmb_frame *f = &j->frame;
     const uint32_t faces = total_faces(&j->scene), triangles = lmb_scene_triangles(&j->scene);
-    const size_t bytes = lmb_tree_bytes(faces, f->light_map), blocker_bytes = lmb_blockers_bytes(triangles);
-    if (bytes == 0) {
-        return report_fail(r, "--grouping cut: --light-map must be a power of two, 8 .. 4096, not %d",
-                           (int)f->light_map);
+    const int32_t finest = f->light_map < 4096 ? f->light_map : 4096, least = f->light_map / 8;
+    const int32_t size = j->o.tree > finest ? finest : j->o.tree < least ? least : j->o.tree;
+    const size_t bytes = lmb_tree_bytes(faces, size), blocker_bytes = lmb_blockers_bytes(triangles);
+    if (bytes == 0 || f->light_map % size != 0) {
+        return report_fail(r, "--grouping cut: --light-map must be a power of two, not %d", (int)f->light_map);
     }
     j->point_memory = take(j, bytes, r);
     j->blocker_memory = take(j, f->occlusion == LMB_OCCLUSION_EXACT ? blocker_bytes : 0, r);
@@ -166,7 +167,7 @@ static int take_tree(job *j, report *r)
     if (f->occlusion == LMB_OCCLUSION_EXACT) {
         lmb_blockers_init(&f->blockers, triangles, j->blocker_memory, blocker_bytes);
     }
-    return lmb_tree_init(&f->tree, faces, f->light_map, j->point_memory, bytes) == LMB_OK;
+    return lmb_tree_init(&f->tree, faces, size, j->point_memory, bytes) == LMB_OK;
 }
 
 /* Who holds a texel's light: asked for only where it is shown. */
@@ -632,6 +633,7 @@ int verb_render(int argc, char **argv)
     }
     if (j.o.help) {
         fputs(render_usage, stdout);
+        fputs(render_usage_more, stdout);
         return 0;
     }
     if (picture_format(j.o.out) == PICTURE_UNKNOWN) {

@@ -41,14 +41,43 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
 
 /* --- texels --------------------------------------------------------------------------------------------------------- */
 
-static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const float power[3])
+/* The point of a plane (any point of it, normal) over the map's (sx, sy) in its plane at distance 1 (m for suns). */
+static lmb_vec3 over(const lmb_view *v, lmb_vec3 on, lmb_vec3 normal, float sx, float sy)
 {
-    out->position = vec3(t->position[0][k], t->position[1][k], t->position[2][k]);
+    const lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy)), p = sub3(on, v->eye);
+    if (v->kind == LMB_PERSPECTIVE) {
+        const lmb_vec3 ray = sub3(across, v->back);
+        return add3(v->eye, mul3(ray, dot3(normal, p) / dot3(normal, ray)));
+    }
+    const float w = dot3(normal, sub3(p, across)) / -dot3(normal, v->back);
+    return add3(v->eye, sub3(across, mul3(v->back, w)));
+}
+
+/* A texel of the tree from a pixel of the map near its middle. */
+static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_light_map *coarse,
+                      int32_t face, int32_t x, int32_t y)
+{
+    const lmb_view *v = &coarse->view[face];
+    const float size = (float)coarse->size;
+    float power[3];
+    memset(out, 0, sizeof *out);
+    memset(out->side, WHOLE, sizeof out->side);
+    if (t->id[k] == 0) {
+        return;
+    }
+    lmb_light_texel_power(power, light, coarse, face, x, y);
     out->normal = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
+    out->position = over(v, vec3(t->position[0][k], t->position[1][k], t->position[2][k]), out->normal,
+                         ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
+                         (1.0f - (float)(2 * y + 1) / size) * v->half_height);
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = power[c] * t->albedo[c][k];
     }
-    memset(out->side, WHOLE, sizeof out->side);
+}
+
+static int divides(int32_t small, int32_t large)
+{
+    return large == small || large == 2 * small || large == 4 * small || large == 8 * small;
 }
 
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
@@ -57,13 +86,16 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
 {
     lmb_status status = LMB_OK;
     if (tree == NULL || tree->texel == NULL || kernels == NULL || scratch == NULL || scene == NULL || light == NULL ||
-        map == NULL || face < 0 || face >= map->faces || map->size != tree->size || first < 0 || past < first ||
+        map == NULL || face < 0 || face >= map->faces || !divides(tree->size, map->size) || first < 0 || past < first ||
         past > map->size / LMB_TILE) {
         return LMB_ERR_ARG;
     }
     if (into >= tree->face_cap) {
         return LMB_ERR_CAPACITY;
     }
+    const int32_t size = tree->size, each = map->size / size;
+    lmb_light_map coarse = *map;
+    coarse.size = size;
     if (first == 0) {
         tree->view[into] = map->view[face];
     }
@@ -72,19 +104,17 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
         status = lmb_resolve_tile(scratch, kernels, &map->view[face], scene, &map->face[face], x0, y0);
         for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
             const int32_t x = x0 + k % LMB_TILE, y = y0 + k / LMB_TILE;
-            float power[3] = {0.0f, 0.0f, 0.0f};
-            if (scratch->id[k] != 0) {
-                lmb_light_texel_power(power, light, map, face, x, y);
+            if (x % each == each / 2 && y % each == each / 2) {
+                set_texel(&tree->texel[((size_t)into * (size_t)size + (size_t)(y / each)) * (size_t)size +
+                                       (size_t)(x / each)],
+                          scratch, k, light, &coarse, face, x / each, y / each);
             }
-            set_texel(&tree->texel[((size_t)into * (size_t)map->size + (size_t)y) * (size_t)map->size + (size_t)x],
-                      scratch, k, power);
         }
     }
     return status;
 }
 
-static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
-static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
+/* --- a texel's quad ------------------------------------------------------------------------------------------------- */
 
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
 {
@@ -196,6 +226,9 @@ static void set_sides(const lmb_tree *tree, uint32_t face)
 }
 
 /* --- sums ----------------------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
+static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 
 /* cos(a + b), or -1 where a + b is over 180 degrees. */
 static float cosine_of_sum(float a, float b)

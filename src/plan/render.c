@@ -87,7 +87,7 @@ static lmb_status check_frame(const lmb_frame *f)
     if (f->scene->light_count > LMB_MAX_LIGHTS) {
         return LMB_ERR_CAPACITY;
     }
-    if (wants_cut(f) ? f->tree.size != f->light_map || f->occlusion % LMB_OCCLUSION_EXACT != 0
+    if (wants_cut(f) ? f->light_map % f->tree.size != 0 || f->light_map / f->tree.size > 8 || f->occlusion % LMB_OCCLUSION_EXACT != 0
                      : wants_groups(f) && f->occlusion == LMB_OCCLUSION_EXACT) {
         return LMB_ERR_ARG;
     }
