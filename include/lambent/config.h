@@ -34,6 +34,23 @@
 #endif
 #endif
 
+/* Nodes of many lights' tree that a tile's surface takes at most. 16 bytes each, in lmb_many_scratch. Full: they part no
+ * more, the error grows. */
+#ifndef LMB_MANY_CUT
+#ifdef LMB_CONFIG_TINY
+#define LMB_MANY_CUT 32
+#else
+#define LMB_MANY_CUT 1024
+#endif
+#endif
+
+/* Nodes of a cut that are tested for shadows and then light the pixels together. 56 bytes each, in lmb_many_scratch. */
+#ifdef LMB_CONFIG_TINY
+#define LMB_MANY_LAMPS 8
+#else
+#define LMB_MANY_LAMPS 32
+#endif
+
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
@@ -50,18 +67,19 @@
 #endif
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
-#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1
+#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MANY_CUT < 16
 #error "lambent: a capacity in config.h is below 1"
 #endif
 
 /* Two builds with different layouts must not link: the calls that take a struct of such a layout carry it in their
  * names. Capacities are therefore plain numbers, not expressions. */
-#define LMB_PASTE_(a, b, c) a##_g##b##_l##c
-#define LMB_PASTE(a, b, c) LMB_PASTE_(a, b, c)
-#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS)
+#define LMB_PASTE_(a, b, c, d) a##_g##b##_l##c##_m##d
+#define LMB_PASTE(a, b, c, d) LMB_PASTE_(a, b, c, d)
+#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_MANY_CUT)
 #define lmb_build_check LMB_LAYOUT(lmb_build_check)
 #define lmb_group_points LMB_LAYOUT(lmb_group_points)
 #define lmb_gather_tile LMB_LAYOUT(lmb_gather_tile)
+#define lmb_many_direct_tile LMB_LAYOUT(lmb_many_direct_tile)
 #define lmb_render_begin LMB_LAYOUT(lmb_render_begin)
 
 #endif

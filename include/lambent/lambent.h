@@ -10,6 +10,7 @@
 #include "map.h"
 #include "occlusion.h"
 #include "light.h"
+#include "many.h"
 #include "bounce.h"
 #include "tree.h"
 #include "compose.h"

@@ -21,6 +21,7 @@
 #include "bounce.h"
 #include "compose.h"
 #include "tree.h"
+#include "many.h"
 
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
 enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
@@ -35,6 +36,7 @@ typedef struct lmb_band_scratch {
     lmb_irradiance direct, indirect;
     lmb_radiance radiance;
     lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
+    lmb_many_scratch many;
 } lmb_band_scratch;
 
 /* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,
@@ -45,6 +47,8 @@ typedef int (*lmb_band_callback)(void *user, const lmb_surface *rows, int32_t y)
 typedef struct lmb_frame {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one machine's own on small targets */
     const lmb_scene *scene;     /* checked */
+    const lmb_many *many;       /* built: point lights beside the scene's, for direct light. NULL: none */
+    uint32_t many_bounce;       /* so many of the scene's lights, the last ones, stand for those: they only bounce */
     lmb_view view;
     /* how */
     int32_t show;          /* LMB_SHOW_* */
@@ -54,6 +58,7 @@ typedef struct lmb_frame {
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
     float error;           /* 0.02 where 0: LMB_GROUP_CUT: share of the bounced light that a pixel may be wrong by */
     float visible;         /* 0.02 where 0: LMB_OCCLUSION_EXACT: share that is seen or not as one */
+    float many_error;      /* 0.02 where 0: lmb_many_look's */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */
@@ -62,7 +67,7 @@ typedef struct lmb_frame {
     lmb_points points;  /* data NULL: no bounced light */
     lmb_groups *groups; /* NULL: no bounced light */
     lmb_tree tree;      /* LMB_GROUP_CUT: in place of points and groups; texel NULL: no bounced light */
-    lmb_blockers blockers; /* LMB_OCCLUSION_EXACT */
+    lmb_blockers blockers; /* LMB_OCCLUSION_EXACT, and shadows from `many`; triangle NULL: these cast none */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
     lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
     lmb_band_scratch *scratch;

@@ -10,6 +10,7 @@
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
 #include "../light/direct.inl"
+#include "../light/many.inl"
 #include "../bounce/gather.inl"
 #include "../occlusion/crossed.inl"
 #include "../compose/blend.inl"
@@ -28,5 +29,6 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large),
     KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve), KERNEL(texture),
     KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(gather_cut),
-    KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets), KERNEL(blend),   KERNEL(encode),     KERNEL(probe),
+    KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets),
+    KERNEL(many_bounds), KERNEL(many_shine), KERNEL(blend), KERNEL(encode), KERNEL(probe),
 };

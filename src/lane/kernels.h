@@ -7,6 +7,7 @@
 #include <lambent/bounce.h>
 #include <lambent/compose.h>
 #include <lambent/tree.h>
+#include <lambent/many.h>
 
 #include "machines.h"
 
@@ -92,6 +93,15 @@ typedef struct lmb_direct_job {
     int32_t kind;
 } lmb_direct_job;
 
+/* The pixels of a tile that take a cut of the lights' tree together. */
+typedef struct lmb_many_job {
+    lmb_vec3 middle, half; /* m: their box */
+    lmb_vec3 normal;       /* the first one's, unit */
+    float bend;            /* the others' normals differ from it by at most this, as vectors */
+} lmb_many_job;
+
+#define LMB_MANY_NEAR 1e30f /* the error of a node too near for a bound: it is parted first */
+
 /* The viewer's depth map as the gather reads it. */
 typedef struct lmb_march_job {
     const float *depth_32;    /* one of the two */
@@ -159,6 +169,13 @@ struct lmb_kernels {
     uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i);
     /* The boxes that the pyramid may meet, a bit each. */
     uint32_t (*meets)(const lmb_pyramid *pyramid, const lmb_boxes *boxes);
+    /* Of `count` <= 8 nodes from `first`: a bound of what one may be off for its lights (< 0: they light no pixel;
+     * LMB_MANY_NEAR) and about what it gives, both without shadows, W/m2. Writes up to 16 values each. */
+    void (*many_bounds)(float error[16], float light[16], const lmb_many *many, uint32_t first, uint32_t count,
+                        const lmb_many_job *job);
+    /* The lamps' light on `pixels` is added. */
+    void (*many_shine)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels, const lmb_many_lamp *lamps,
+                       int32_t count);
     void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
                   const lmb_irradiance *indirect);
     /* sRGB codes 0 .. 255 of radiance x gain. */

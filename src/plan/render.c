@@ -22,6 +22,8 @@ static int is_whole(const lmb_surface *s, const lmb_view *v)
 
 static int wants_direct(const lmb_frame *f) { return f->show == LMB_SHOW_FULL || f->show == LMB_SHOW_DIRECT; }
 
+static int wants_many(const lmb_frame *f) { return wants_direct(f) && f->many != NULL; }
+
 static int wants_cut(const lmb_frame *f)
 {
     return f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT && f->tree.texel != NULL;
@@ -86,6 +88,9 @@ static lmb_status check_frame(const lmb_frame *f)
     }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {
         return LMB_ERR_CAPACITY;
+    }
+    if (f->many_bounce > f->scene->light_count) {
+        return LMB_ERR_ARG;
     }
     if (wants_cut(f) ? f->light_map % f->tree.size != 0 || f->light_map / f->tree.size > 8 || f->occlusion % LMB_OCCLUSION_EXACT != 0
                      : wants_groups(f) && f->occlusion == LMB_OCCLUSION_EXACT) {
@@ -153,6 +158,7 @@ static void set_picture(lmb_frame *f, const lmb_frame *from)
     f->steps = from->steps != 0 ? from->steps : STEPS;
     f->error = from->error != 0.0f ? from->error : SHARE;
     f->visible = from->visible != 0.0f ? from->visible : SHARE;
+    f->many_error = from->many_error;
     f->exposure_ev = from->exposure_ev;
     f->eye = from->eye;
     f->eye_depth = from->eye_depth;
@@ -215,10 +221,13 @@ static lmb_status step_light_map(lmb_render *r, int32_t units)
     return status != LMB_OK ? status : LMB_MORE;
 }
 
+/* Many lights want them whatever is shown: another picture by the same light may show what this one does not. */
 static lmb_status step_blockers(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
-    return wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT ? lmb_blockers_build(&f->blockers, f->scene) : LMB_OK;
+    const int for_bounce = wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT;
+    const int for_many = f->many != NULL && f->blockers.triangle != NULL;
+    return for_bounce || for_many ? lmb_blockers_build(&f->blockers, f->scene) : LMB_OK;
 }
 
 static const lmb_blockers *blockers_of(const lmb_frame *f)
@@ -341,13 +350,20 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
 {
     const lmb_frame *f = &r->frame;
     lmb_occluder occluder;
+    lmb_many_look look;
     lmb_cutting cutting;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     memset(&s->indirect, 0, sizeof s->indirect);
-    for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
+    for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count - f->many_bounce && status == LMB_OK; ++i) {
         status =
             lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, &f->scene->lights[i], &r->maps[i]);
+    }
+    if (wants_many(f) && status == LMB_OK) {
+        look.many = f->many;
+        look.blockers = f->blockers.triangle != NULL ? &f->blockers : NULL;
+        look.error = f->many_error;
+        status = lmb_many_direct_tile(&s->direct, f->kernels, &s->many, &s->tile, &look);
     }
     if (wants_groups(f) && status == LMB_OK) {
         occluder.view = &f->view;

@@ -14,6 +14,7 @@
 #include "../../tools/demo_scene.h"
 
 enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40 };
+enum { LIGHT_CELLS = 20, MANY_LIGHTS = 600 };
 
 static struct memory {
     uint32_t depth[88 * 64], id[88 * 64], out[WIDTH * HEIGHT * 3];
@@ -21,6 +22,7 @@ static struct memory {
     lmb_groups groups;
     lmb_band_scratch scratch;
     lmb_render render;
+    uint64_t lights[LIGHT_CELLS * 450 / 8];
 } memory;
 LMB_POINTS_ARRAY(points, POINTS, MAP / 4);
 static const lmb_kernels *kernels; /* those that the cases run with */
@@ -407,6 +409,54 @@ static uint64_t case_format(int variant)
     lmb_surface_init(&f.out, formats[variant], WIDTH, HEIGHT, memory.out, sizeof memory.out);
     lmb_status status = way->render(&memory.render, &f);
     return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
+/* Lights all over the soup, in slices; among them clusters. */
+static lmb_status stream_lights(lmb_many *many)
+{
+    const lmb_vec3 low = {-2, -2, -2}, high = {2, 2, 3};
+    lmb_light slice[7];
+    lmb_status status = lmb_many_init(many, LIGHT_CELLS, low, high, 9.0f * MANY_LIGHTS, memory.lights,
+                                      sizeof memory.lights);
+    memset(slice, 0, sizeof slice);
+    for (int i = 0; i < MANY_LIGHTS && status == LMB_OK; i += 7) {
+        for (int k = 0; k < 7; ++k) {
+            const float reach = k < 3 ? 0.01f : 1.9f;
+            slice[k].position.x = random_float(-reach, reach);
+            slice[k].position.y = random_float(-reach, reach);
+            slice[k].position.z = 1.0f + random_float(-reach, reach);
+            for (int c = 0; c < 3; ++c) {
+                slice[k].intensity[c] = random_float(0.0f, 0.1f);
+            }
+        }
+        status = lmb_many_add(many, slice, 7);
+    }
+    return status == LMB_OK ? lmb_many_build(many) : status;
+}
+
+/* Many lights on the soup, with shadows (0) and without. LIGHT_CELLS never fill a cut of the least capacity. */
+static uint64_t case_many(int variant)
+{
+    lmb_frame f = demo_frame();
+    lmb_many many;
+    make_soup(57u, 1.6f);
+    soup.light_count = 0;
+    lmb_status status = stream_lights(&many);
+    uint64_t h = hash_u32(hash_u32(hash_start, (uint32_t)status), many.doubled);
+    for (uint32_t i = 0; i < many.node_count; ++i) {
+        h = hash_floats(hash_floats(h, many.node[i].intensity, 3), &many.node[i].position.x, 3);
+        h = hash_floats(hash_floats(h, &many.node[i].strongest.x, 3), &many.node[i].median.x, 3);
+    }
+    f.scene = &soup;
+    f.view = soup_view(0);
+    f.show = LMB_SHOW_DIRECT;
+    f.occlusion = LMB_OCCLUSION_NONE;
+    f.many = &many;
+    if (variant == 0) { /* in the map's memory: there is none */
+        lmb_blockers_init(&f.blockers, TRIANGLES, memory.map, sizeof memory.map);
+    }
+    status = way->render(&memory.render, &f);
+    return hash_surface(hash_u32(h, (uint32_t)status), &f.out);
 }
 
 /* --- what does not fit: the status, and what is left ------------------------------------------------------------------ */

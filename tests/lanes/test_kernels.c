@@ -150,6 +150,10 @@ static void make_flat_tile(lmb_tile *t, test_rng *r)
         uint8_t after[64]; \
     }
 
+typedef struct float_pair {
+    float a[16], b[16];
+} float_pair;
+
 #define GUARD(pair) memset(&(pair), CANARY, sizeof(pair))
 
 static int canaries_stay(const uint8_t before[64], const uint8_t after[64])
@@ -565,6 +569,74 @@ static int trial_crossed(const trial *t, test_rng r)
     return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
 }
 
+/* --- many lights ------------------------------------------------------------------------------------------------------ */
+
+/* Planes of nodes as far as kernels may read, and a tile's part that asks. */
+static int trial_many_bounds(const trial *t, test_rng r)
+{
+    enum { STEP = 64 };
+    static GUARDED(float_pair) want, got;
+    float plane[LMB_MANY_PLANES][STEP];
+    lmb_many many;
+    lmb_many_job job;
+    const uint32_t rare = t->seed % 2u ? 20u : 0, count = 1u + test_random(&r) % 8u;
+    const uint32_t first = test_random(&r) % (STEP - 16 - 8);
+    memset(&many, 0, sizeof many);
+    many.plane = plane[0];
+    many.plane_step = STEP;
+    numbers(plane[0], LMB_MANY_PLANES * STEP, &r, -3.0f, 3.0f, rare);
+    numbers(plane[LMB_MANY_HALF], 3 * STEP, &r, 0.0f, 0.5f, rare);
+    numbers(plane[LMB_MANY_POWER], STEP, &r, 0.0f, 5.0f, rare);
+    job.middle = place(&r, 2.0f, 0);
+    job.half = vec3(test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f));
+    job.normal = direction(&r);
+    job.bend = t->seed % 3u ? 0.0f : test_uniform(&r, 0.0f, 0.4f);
+    GUARD(want);
+    GUARD(got);
+    lmb_kernels_scalar.many_bounds(want.it.a, want.it.b, &many, first, count, &job);
+    t->kernels->many_bounds(got.it.a, got.it.b, &many, first, count, &job);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "error", want.it.a, got.it.a, (int)count) &&
+           same_floats(t, "light", want.it.b, got.it.b, (int)count);
+}
+
+static lmb_many_lamp make_lamp(test_rng *r, uint32_t rare)
+{
+    lmb_many_lamp lamp;
+    lamp.position = place(r, 3.0f, rare);
+    numbers(lamp.intensity, 3, r, 0.0f, 5.0f, rare);
+    lamp.spread = test_random(r) % 2u ? 0.0f : number(r, 0.0f, 0.5f, rare);
+    lamp.share[0] = test_uniform(r, 0.5f, 1.0f);
+    lamp.share[1] = 1.0f - lamp.share[0];
+    for (int i = 0; i < 2; ++i) {
+        lamp.seen[i] = (uint64_t)test_random(r) << 32 | test_random(r);
+    }
+    return lamp;
+}
+
+static int trial_many_shine(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_irradiance) want, got;
+    static lmb_tile tile;
+    lmb_many_lamp lamp[9];
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const int32_t count = (int32_t)(test_random(&r) % 10u);
+    GUARD(want);
+    GUARD(got);
+    make_gather_tile(&tile, t, &r, rare);
+    make_sums(&want.it, &r);
+    got.it = want.it;
+    for (int32_t i = 0; i < count; ++i) {
+        lamp[i] = make_lamp(&r, rare);
+    }
+    const uint64_t all = (uint64_t)test_random(&r) << 32 | test_random(&r);
+    const uint64_t pixels = t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
+    lmb_kernels_scalar.many_shine(&want.it, &tile, pixels, lamp, count);
+    t->kernels->many_shine(&got.it, &tile, pixels, lamp, count);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
+}
+
 /* --- encode ----------------------------------------------------------------------------------------------------------- */
 
 /* Around thresholds and anywhere, against the search through the table. */
@@ -601,6 +673,8 @@ static const struct kernel {
     {"gather", trial_gather},
     {"gather_near", trial_gather_near},
     {"crossed", trial_crossed},
+    {"many_bounds", trial_many_bounds},
+    {"many_shine", trial_many_shine},
     {"blend", trial_blend},
     {"encode", trial_encode},
 };

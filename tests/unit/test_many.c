@@ -1,0 +1,510 @@
+/* test_many.c: many point lights: the stream's cells, their tree, a tile's cut, its shadows. [V3 V29] */
+#include <stdlib.h>
+
+#include "../world.h"
+
+void test_many(void);
+
+enum { LIGHTS = 6000, CELLS = 512 };
+
+static lmb_light lights[LIGHTS], shuffled[LIGHTS];
+static const lmb_vec3 box_low = {-2, -1, -3}, box_high = {2, 3, 1};
+
+/* --- making them -------------------------------------------------------------------------------------------------- */
+
+/* A tree in memory of its own. */
+typedef struct grove {
+    lmb_many many;
+    void *memory;
+    size_t bytes;
+} grove;
+
+static void grove_begin(grove *g, uint32_t cells, float most)
+{
+    g->bytes = lmb_many_bytes(cells);
+    g->memory = malloc(g->bytes);
+    memset(g->memory, 0xa5, g->bytes);
+    CHECK(lmb_many_init(&g->many, cells, box_low, box_high, most, g->memory, g->bytes) == LMB_OK);
+}
+
+static void grove_make(grove *g, uint32_t cells, float most, const lmb_light *l, uint32_t count)
+{
+    grove_begin(g, cells, most);
+    CHECK(lmb_many_add(&g->many, l, count) == LMB_OK && lmb_many_build(&g->many) == LMB_OK);
+}
+
+static void grove_free(grove *g) { free(g->memory); }
+
+/* Anywhere, in clusters of millimetres, in one place, on the box's sides, at zeros of both signs, the same twice, and
+ * equally strong ones in different places. */
+static void make_lights(uint32_t count, test_rng *r)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        lmb_light *l = &lights[i];
+        *l = point_light(vec3(test_uniform(r, -2, 2), test_uniform(r, -1, 3), test_uniform(r, -3, 1)));
+        const uint32_t kind = test_random(r) % 8u;
+        if (kind < 3 && i > 0) {
+            l->position = add3(mul3(lights[i - 1].position, 0.999f), vec3(test_uniform(r, 0, 1e-3f), 0, 0));
+        } else if (kind == 3) {
+            l->position = vec3(i % 2 ? 0.0f : -0.0f, i % 3 ? -0.0f : 0.0f, 0.5f);
+        } else if (kind == 4) {
+            l->position.x = i % 2 ? 2.0f : -2.0f;
+        }
+        for (int c = 0; c < 3; ++c) {
+            l->intensity[c] = kind == 3 || kind == 6 ? 0.999f : test_uniform(r, 0.0f, 1.0f);
+        }
+        if (kind == 5 && i > 0) {
+            *l = lights[i - 1];
+        }
+    }
+}
+
+static void shuffle(uint32_t count, test_rng *r)
+{
+    memcpy(shuffled, lights, count * sizeof *lights);
+    for (uint32_t i = count - 1; i > 0; --i) {
+        const uint32_t j = test_random(r) % (i + 1);
+        const lmb_light swap = shuffled[i];
+        shuffled[i] = shuffled[j];
+        shuffled[j] = swap;
+    }
+}
+
+/* --- the stream --------------------------------------------------------------------------------------------------- */
+
+static int is_same_tree(const lmb_many *a, const lmb_many *b)
+{
+    return a->node_count == b->node_count && a->cell_count == b->cell_count && a->doubled == b->doubled &&
+           a->total == b->total && a->lights == b->lights &&
+           memcmp(a->node, b->node, a->node_count * sizeof *a->node) == 0 &&
+           memcmp(a->plane, b->plane, a->plane_step * LMB_MANY_PLANES * sizeof *a->plane) == 0;
+}
+
+/* Any order, any slices: the same bytes, over little room (one cell) and much (every light its own). */
+static void check_order(test_rng *r)
+{
+    static const uint32_t cells[] = {1, 7, CELLS, 2 * LIGHTS};
+    for (int k = 0; k < COUNT(cells); ++k) {
+        grove a, b;
+        make_lights(LIGHTS, r);
+        grove_make(&a, cells[k], 3.0f * LIGHTS, lights, LIGHTS);
+        for (int again = 0; again < 3; ++again) {
+            shuffle(LIGHTS, r);
+            grove_begin(&b, cells[k], 3.0f * LIGHTS);
+            for (uint32_t i = 0, n; i < LIGHTS; i += n) {
+                n = 1u + test_random(r) % 900u;
+                n = n < LIGHTS - i ? n : LIGHTS - i;
+                CHECK(lmb_many_add(&b.many, shuffled + i, n) == LMB_OK);
+            }
+            CHECK(lmb_many_build(&b.many) == LMB_OK);
+            CHECK_MSG(is_same_tree(&a.many, &b.many), "%u cells, order %d", (unsigned)cells[k], again);
+            grove_free(&b);
+        }
+        CHECK(a.many.cell_count <= cells[k] && a.many.lights == LIGHTS);
+        grove_free(&a);
+    }
+}
+
+/* In quanta nothing is lost, whatever merges. */
+static void check_sums(test_rng *r)
+{
+    grove g;
+    int64_t want[3] = {0, 0, 0}, got[3] = {0, 0, 0}, moment = 0, in_cells = 0, count = 0;
+    make_lights(LIGHTS, r);
+    grove_make(&g, 100, 3.0f * LIGHTS, lights, LIGHTS);
+    for (int i = 0; i < LIGHTS; ++i) {
+        int64_t sum = 0;
+        for (int c = 0; c < 3; ++c) {
+            const int64_t quanta = (int64_t)(lights[i].intensity[c] / g.many.quantum);
+            want[c] += quanta;
+            sum += quanta;
+        }
+        moment += ((sum >> 24) + 1) * (int64_t)((lights[i].position.y - box_low.y) / g.many.step);
+    }
+    for (uint32_t i = 0; i < g.many.cell_count; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            got[c] += g.many.cell[i].intensity[c];
+        }
+        in_cells += g.many.cell[i].moment[1];
+        count += g.many.cell[i].lights;
+    }
+    CHECK(g.many.doubled > 10 && count == LIGHTS);
+    CHECK(want[0] == got[0] && want[1] == got[1] && want[2] == got[2] && g.many.total == want[0] + want[1] + want[2]);
+    CHECK(moment == in_cells);
+    grove_free(&g);
+}
+
+/* The side is the least whose cells fit: with room for just these cells it is the same, with one less it is larger. */
+static void check_side(test_rng *r)
+{
+    grove a, b, c;
+    make_lights(LIGHTS, r);
+    grove_make(&a, CELLS, 3.0f * LIGHTS, lights, LIGHTS);
+    grove_make(&b, a.many.cell_count, 3.0f * LIGHTS, lights, LIGHTS);
+    grove_make(&c, a.many.cell_count - 1, 3.0f * LIGHTS, lights, LIGHTS);
+    CHECK(a.many.doubled > 0);
+    CHECK_MSG(b.many.doubled == a.many.doubled && c.many.doubled > a.many.doubled, "%u %u %u",
+              (unsigned)a.many.doubled, (unsigned)b.many.doubled, (unsigned)c.many.doubled);
+    CHECK(b.many.cell_count == a.many.cell_count && c.many.cell_count < a.many.cell_count);
+    grove_free(&a);
+    grove_free(&b);
+    grove_free(&c);
+}
+
+/* The one drawn by lot is light i in a share of cases that is its share of the intensity: 1 to 3, over 4,000 pairs. */
+static void check_lots(test_rng *r)
+{
+    int strong = 0;
+    for (int i = 0; i < 4000; ++i) {
+        grove g;
+        lmb_light l[2];
+        l[0] = point_light(vec3(test_uniform(r, -2, 2), 0, 0));
+        l[1] = point_light(vec3(0, 2, test_uniform(r, -3, 1)));
+        for (int c = 0; c < 3; ++c) {
+            l[i % 2].intensity[c] *= 3.0f;
+        }
+        grove_make(&g, 1, 100.0f, l, 2);
+        CHECK(g.many.node_count == 1 && memcmp(&g.many.node[0].strongest, &l[i % 2].position, sizeof(lmb_vec3)) == 0);
+        CHECK(fabs((double)g.many.node[0].share - 0.75) < 1e-6);
+        strong += memcmp(&g.many.node[0].median, &l[i % 2].position, sizeof(lmb_vec3)) == 0;
+        grove_free(&g);
+    }
+    CHECK_MSG(abs(strong - 3000) < 110, "%d of 4000", strong); /* four standard deviations of 27 */
+}
+
+static void check_refusals(void)
+{
+    grove g;
+    lmb_many before;
+    lmb_light l[6];
+    const float bad[] = {(float)NAN, (float)INFINITY, -1.0f};
+    grove_begin(&g, 4, 100.0f);
+    before = g.many;
+    const size_t bytes = lmb_many_bytes(4);
+    CHECK(lmb_many_bytes(0) == 0 && lmb_many_bytes((1u << 22) + 1) == 0);
+    CHECK(lmb_many_init(NULL, 4, box_low, box_high, 1, g.memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_many_init(&g.many, 4, box_high, box_low, 1, g.memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_many_init(&g.many, 4, box_low, vec3(2e6f, 5, 5), 1, g.memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_many_init(&g.many, 4, box_low, box_high, 0, g.memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_many_init(&g.many, 4, box_low, box_high, (float)NAN, g.memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_many_init(&g.many, 4, box_low, box_high, 1, (uint8_t *)g.memory + 2, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_many_init(&g.many, 4, box_low, box_high, 1, g.memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(memcmp(&before, &g.many, sizeof before) == 0);
+    for (int i = 0; i < 3; ++i) { /* bad numbers, and a place outside */
+        l[i] = point_light(vec3(0, 0, 0));
+        l[i].intensity[i] = bad[i];
+    }
+    l[3] = point_light(vec3(0, 3.001f, 0));
+    l[4] = point_light(vec3((float)NAN, 0, 0));
+    l[5] = point_light(vec3(0, 0, 0));
+    memset(l[5].intensity, 0, sizeof l[5].intensity);
+    CHECK(lmb_many_add(&g.many, l, 6) == LMB_OK && g.many.dropped == 6 && g.many.lights == 0 && g.many.cell_count == 0);
+    l[0] = spot(vec3(0, 0, 0), Y, 10, 20);
+    l[1] = sun(Y);
+    CHECK(lmb_many_add(&g.many, l, 2) == LMB_OK && g.many.dropped == 6 && g.many.lights == 0);
+    l[0] = point_light(vec3(0, 0, 0));
+    l[1] = point_light(vec3(1, 0, 0));
+    l[1].intensity[2] = 1e6f;
+    CHECK(lmb_many_add(&g.many, l, 2) == LMB_ERR_CAPACITY && g.many.lights == 1);
+    CHECK(lmb_many_add(NULL, l, 1) == LMB_ERR_ARG && lmb_many_add(&g.many, NULL, 1) == LMB_ERR_ARG);
+    CHECK(lmb_many_build(&g.many) == LMB_OK && lmb_many_build(&g.many) == LMB_ERR_ARG);
+    CHECK(lmb_many_add(&g.many, l, 1) == LMB_ERR_ARG); /* the stream has ended */
+    grove_free(&g);
+}
+
+/* --- the tree ----------------------------------------------------------------------------------------------------- */
+
+static float plane_at(const lmb_many *m, int plane, uint32_t i)
+{
+    return m->plane[(uint32_t)plane * m->plane_step + i];
+}
+
+/* Children share out their parent's cells, in order, lie in its box, and give its light. */
+static void check_parts(const lmb_many *m, uint32_t i)
+{
+    const lmb_many_node *node = &m->node[i];
+    uint32_t from = node->from, count = 0;
+    double light = 0.0;
+    for (uint32_t k = node->first; k < node->first + node->children; ++k) {
+        CHECK(m->node[k].from == from && m->node[k].past > from && k > i && k < m->node_count);
+        from = m->node[k].past;
+        count += m->node[k].lights;
+        light += (double)m->node[k].intensity[1];
+        for (int a = 0; a < 3; ++a) {
+            const float off = absf(plane_at(m, LMB_MANY_MIDDLE + a, k) - plane_at(m, LMB_MANY_MIDDLE + a, i));
+            CHECK(off + plane_at(m, LMB_MANY_HALF + a, k) <= plane_at(m, LMB_MANY_HALF + a, i) + 1e-6f);
+        }
+    }
+    CHECK(from == node->past && count == node->lights);
+    CHECK(fabs(light / (double)node->intensity[1] - 1.0) < 1e-6);
+}
+
+static void check_tree(test_rng *r)
+{
+    grove g;
+    uint32_t leaves = 0;
+    make_lights(LIGHTS, r);
+    grove_make(&g, CELLS, 3.0f * LIGHTS, lights, LIGHTS);
+    const lmb_many *m = &g.many;
+    CHECK(m->node_count < 2 * m->cell_count && m->node[0].from == 0 && m->node[0].past == m->cell_count);
+    for (uint32_t i = 0; i < m->node_count; ++i) {
+        leaves += m->node[i].children == 0;
+        CHECK(m->node[i].children != 1 && m->node[i].children <= 8);
+        CHECK(m->node[i].children > 0 || m->node[i].past == m->node[i].from + 1);
+        for (int a = 0; a < 3; ++a) {
+            CHECK(absf(plane_at(m, LMB_MANY_POSITION + a, i) - plane_at(m, LMB_MANY_MIDDLE + a, i)) <=
+                  plane_at(m, LMB_MANY_HALF + a, i) + 1e-6f);
+        }
+        if (m->node[i].children > 0) {
+            check_parts(m, i);
+        }
+    }
+    CHECK(leaves == m->cell_count);
+    grove_free(&g);
+}
+
+/* --- light -------------------------------------------------------------------------------------------------------- */
+
+static lmb_many_scratch scratch;
+
+/* A flat tile of 0.3 m, facing up. */
+static void make_floor_tile(lmb_tile *t, lmb_vec3 at)
+{
+    memset(t, 0, sizeof *t);
+    t->hits = LMB_TILE_PIXELS;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_plane(t->position, k, add3(at, vec3(0.04f * (float)(k % 8), 0, 0.04f * (float)(k / 8))));
+        set_plane(t->face, k, Y);
+        set_plane(t->normal, k, Y);
+        t->id[k] = 1;
+    }
+}
+
+/* The same by one light after the other. */
+static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32_t count, const lmb_blockers *blockers)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        out[k] = 0.0;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        lmb_irradiance e;
+        memset(&e, 0, sizeof e);
+        const lmb_view v = look(vec3(0, 5, 0), vec3(0, 0, 0), 60, 64);
+        CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), tile, &v, &world.scene, &lights[i], NULL) == LMB_OK);
+        const uint64_t blocked = blockers == NULL ? 0 : lmb_blocked_tile(blockers, lmb_kernels_pick(), tile, UINT64_MAX,
+                                                                         lights[i].position);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            out[k] += (blocked >> k & 1u) != 0 || tile->id[k] == 0 ? 0.0 : (double)e.rgb[1][k];
+        }
+    }
+}
+
+/* Root of the mean squared error over the mean, of green. */
+static double off(const lmb_irradiance *e, const double want[LMB_TILE_PIXELS])
+{
+    double sum = 0.0, mean = 0.0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        sum += ((double)e->rgb[1][k] - want[k]) * ((double)e->rgb[1][k] - want[k]);
+        mean += want[k] / LMB_TILE_PIXELS;
+    }
+    return sqrt(sum / LMB_TILE_PIXELS) / mean;
+}
+
+static double light_tile(lmb_irradiance *e, const lmb_tile *tile, const lmb_many *many, const lmb_blockers *blockers,
+                         float error, const double want[LMB_TILE_PIXELS])
+{
+    const lmb_many_look how = {many, blockers, error};
+    memset(e, 0, sizeof *e);
+    memset(&scratch, 0x5a, sizeof scratch); /* what is in it means nothing */
+    scratch.nodes = scratch.tests = 0;
+    CHECK(lmb_many_direct_tile(e, lmb_kernels_pick(), &scratch, tile, &how) == LMB_OK);
+    return off(e, want);
+}
+
+/* What the last tile's cut keeps of its sums, and where it stops: both rules hold, and nothing was parted in vain. */
+static void check_stop(float asked)
+{
+    double error = 0.0, light = 0.0;
+    for (int32_t i = 0; i < scratch.open + scratch.closed; ++i) {
+        const int32_t at = i < scratch.open ? i : LMB_MANY_CUT - 1 - (i - scratch.open);
+        error += (double)scratch.entry[at].error;
+        light += (double)scratch.entry[at].light;
+        CHECK(i >= scratch.open || scratch.entry[at].light <= asked * scratch.light);
+        CHECK(i < scratch.open || scratch.entry[at].error == 0.0f);
+    }
+    CHECK_MSG(fabs((double)scratch.error - error) <= 1e-4 * error + 1e-6 * light, "%g, %g", (double)scratch.error,
+              error);
+    CHECK_MSG(fabs((double)scratch.light / light - 1.0) < 1e-4, "%g, %g", (double)scratch.light, light);
+    CHECK(error <= 16.01 * (double)asked * light && scratch.allowed == asked);
+}
+
+/* Without shadows: lights in cells of their own, all taken, are the sum of lmb_direct_tile; cuts err by less than
+ * what they are asked for, and take the fewer nodes the more that is. */
+static void check_light(test_rng *r)
+{
+    static const float asked[] = {0.003f, 0.02f, 0.1f, 0.5f};
+    static lmb_tile tile;
+    double want[LMB_TILE_PIXELS];
+    lmb_irradiance e, again;
+    grove g, twice;
+    uint32_t nodes = UINT32_MAX;
+    make_lights(300, r);
+    make_floor_tile(&tile, vec3(-0.5f, -0.9f, -1.2f));
+    sum_lights(want, &tile, 300, NULL);
+    grove_make(&g, 400, 900.0f, lights, 300);
+    CHECK(light_tile(&e, &tile, &g.many, NULL, 1e-7f, want) < 1e-5);
+    const uint32_t all = scratch.nodes;
+    CHECK(all > 200 && all <= g.many.cell_count);
+    for (int i = 0; i < COUNT(asked); ++i) {
+        const double error = light_tile(&e, &tile, &g.many, NULL, asked[i], want);
+        printf("  error %.3f: %3u nodes of %u, off by %.4f\n", (double)asked[i], (unsigned)scratch.nodes, (unsigned)all,
+               error);
+        CHECK_MSG(error < (double)asked[i], "%g at %g", error, (double)asked[i]);
+        CHECK(scratch.nodes < nodes);
+        check_stop(asked[i]);
+        nodes = scratch.nodes;
+    }
+    for (int i = 0; i < 300; ++i) { /* twice the light: twice the sum, to the bit */
+        for (int c = 0; c < 3; ++c) {
+            lights[i].intensity[c] *= 2.0f;
+        }
+    }
+    light_tile(&again, &tile, &g.many, NULL, 0.02f, want);
+    grove_make(&twice, 400, 1800.0f, lights, 300);
+    light_tile(&e, &tile, &twice.many, NULL, 0.02f, want);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        CHECK(e.rgb[1][k] == 2.0f * again.rgb[1][k] && again.rgb[1][k] > 0.0f);
+    }
+    grove_free(&g);
+    grove_free(&twice);
+}
+
+/* A room full of lights, far more than a cut holds, asked for too much: the cut stops at its capacity. */
+static void check_full_cut(test_rng *r)
+{
+    static lmb_tile tile;
+    double want[LMB_TILE_PIXELS];
+    lmb_irradiance e;
+    grove g;
+    make_lights(LIGHTS, r);
+    make_floor_tile(&tile, vec3(0, 0, -1));
+    tile.id[9] = 0;
+    sum_lights(want, &tile, LIGHTS, NULL);
+    grove_make(&g, 2 * LIGHTS, 3.0f * LIGHTS, lights, LIGHTS);
+    const double error = light_tile(&e, &tile, &g.many, NULL, 1e-7f, want);
+    CHECK_MSG(scratch.nodes <= LMB_MANY_CUT && scratch.nodes > LMB_MANY_CUT - 8, "%u", (unsigned)scratch.nodes);
+    CHECK_MSG(error < 0.02, "%g", error);
+    CHECK(e.rgb[0][9] == 0.0f && e.rgb[0][8] > 0.0f);
+    grove_free(&g);
+}
+
+/* --- shadows ------------------------------------------------------------------------------------------------------ */
+
+/* A plate over a floor, lights above and below it. */
+static void check_shadows(test_rng *r)
+{
+    static uint64_t memory[200];
+    static lmb_tile tile;
+    lmb_blockers blockers;
+    lmb_irradiance e;
+    double want[LMB_TILE_PIXELS], worst = 0.0;
+    grove g;
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, -0.9f, -1), mul3(Z, 2), mul3(X, 2));
+    world_quad(vec3(0.1f, 0, -1), mul3(Z, 0.7f), mul3(X, 0.7f));
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_init(&blockers, 4, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    make_lights(1000, r);
+    grove_make(&g, 1500, 3000.0f, lights, 1000);
+    for (int i = 0; i < 64; ++i) {
+        make_floor_tile(&tile, vec3(-1.9f + 0.45f * (float)(i % 8), -0.9f, -2.9f + 0.45f * (float)(i / 8)));
+        sum_lights(want, &tile, 1000, &blockers);
+        worst = fmax(worst, light_tile(&e, &tile, &g.many, &blockers, 0.02f, want));
+        CHECK(scratch.tests > 0 && scratch.tests <= 2 * scratch.nodes);
+    }
+    printf("  1000 lights, a plate: worst of 64 tiles off by %.4f\n", worst);
+    CHECK_MSG(worst < 0.06, "%g", worst);
+    grove_free(&g);
+    /* Closed in: dark to the last bit. */
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_box(vec3(0, 1, -1), 0.3f);
+    CHECK(world_end() == LMB_OK);
+    static uint64_t more[400];
+    CHECK(lmb_blockers_init(&blockers, 12, more, sizeof more) == LMB_OK);
+    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    for (int i = 0; i < 100; ++i) {
+        lights[i].position = vec3(test_uniform(r, -0.2f, 0.2f), test_uniform(r, 0.8f, 1.2f),
+                                  test_uniform(r, -1.2f, -0.8f));
+    }
+    grove_make(&g, 200, 300.0f, lights, 100);
+    light_tile(&e, &tile, &g.many, &blockers, 0.02f, want);
+    CHECK(e.rgb[0][0] == 0.0f && e.rgb[1][27] == 0.0f && e.rgb[2][63] == 0.0f && scratch.tests > 0);
+    grove_free(&g);
+}
+
+/* --- those that stand for all ------------------------------------------------------------------------------------- */
+
+static void check_stand_ins(test_rng *r)
+{
+    lmb_light few[LMB_MAX_LIGHTS];
+    static const uint32_t caps[] = {1, 5, 40, 1000};
+    grove g, none;
+    make_lights(LIGHTS, r);
+    grove_make(&g, CELLS, 3.0f * LIGHTS, lights, LIGHTS);
+    for (int i = 0; i < COUNT(caps); ++i) {
+        const uint32_t cap = caps[i] < LMB_MAX_LIGHTS ? caps[i] : LMB_MAX_LIGHTS;
+        const uint32_t count = lmb_many_lights(few, caps[i], &g.many);
+        double sum = 0.0;
+        CHECK_MSG(count <= cap && count + 7 > cap, "%u of %u", (unsigned)count, (unsigned)cap);
+        for (uint32_t k = 0; k < count; ++k) {
+            int own = 0;
+            for (int n = 0; n < LIGHTS && !own; ++n) {
+                own = length3(sub3(few[k].position, lights[n].position)) < 1e-6f;
+            }
+            CHECK(own && few[k].kind == LMB_LIGHT_POINT);
+            sum += (double)few[k].intensity[2];
+        }
+        CHECK(fabs(sum / (double)g.many.node[0].intensity[2] - 1.0) < 1e-5);
+    }
+    grove_make(&none, 4, 1.0f, lights, 0);
+    CHECK(lmb_many_lights(few, 4, &none.many) == 0 && lmb_many_lights(NULL, 4, &g.many) == 0);
+    CHECK(lmb_many_lights(few, 0, &g.many) == 0 && lmb_many_lights(few, 4, NULL) == 0);
+    grove_free(&g);
+    grove_free(&none);
+}
+
+static void check_tile_refusals(void)
+{
+    static lmb_tile tile;
+    lmb_irradiance e;
+    grove g;
+    grove_make(&g, 4, 1.0f, lights, 0);
+    const lmb_many_look how = {&g.many, NULL, 0}, none = {NULL, NULL, 0};
+    make_floor_tile(&tile, vec3(0, 0, 0));
+    memset(&e, 0, sizeof e);
+    CHECK(lmb_many_direct_tile(&e, lmb_kernels_pick(), &scratch, &tile, &how) == LMB_OK && e.rgb[0][0] == 0.0f);
+    CHECK(lmb_many_direct_tile(NULL, lmb_kernels_pick(), &scratch, &tile, &how) == LMB_ERR_ARG);
+    CHECK(lmb_many_direct_tile(&e, NULL, &scratch, &tile, &how) == LMB_ERR_ARG);
+    CHECK(lmb_many_direct_tile(&e, lmb_kernels_pick(), NULL, &tile, &how) == LMB_ERR_ARG);
+    CHECK(lmb_many_direct_tile(&e, lmb_kernels_pick(), &scratch, NULL, &how) == LMB_ERR_ARG);
+    CHECK(lmb_many_direct_tile(&e, lmb_kernels_pick(), &scratch, &tile, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_many_direct_tile(&e, lmb_kernels_pick(), &scratch, &tile, &none) == LMB_ERR_ARG);
+    grove_free(&g);
+}
+
+void test_many(void)
+{
+    test_rng r = {11};
+    check_order(&r);
+    check_sums(&r);
+    check_side(&r);
+    check_lots(&r);
+    check_refusals();
+    check_tree(&r);
+    check_light(&r);
+    check_full_cut(&r);
+    check_shadows(&r);
+    check_stand_ins(&r);
+    check_tile_refusals();
+}
