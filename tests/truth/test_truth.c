@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include <lambent/lambent.h>
 
@@ -62,6 +63,8 @@ typedef struct stage {
     lmb_render *render;
     void *map_memory, *point_memory, *depth_memory, *id_memory;
     lmb_stats stats;
+    lmb_many many;
+    void *many_memory, *blocker_memory;
     image drawn, depth; /* depth: the truth's, the third channel marks surfaces */
 } stage;
 
@@ -139,8 +142,8 @@ static void take_frame(stage *s)
     f->stats = &s->stats;
 }
 
-/* `sized_as`: the truth picture that gives the size. */
-static int stage_open(stage *s, const char *name, const char *sized_as)
+/* A scene's file and view. `sized_as`: the truth picture that gives the size. */
+static int stage_load(stage *s, const char *name, const char *sized_as)
 {
     char path[PATH_SIZE];
     model_notes notes;
@@ -160,6 +163,14 @@ static int stage_open(stage *s, const char *name, const char *sized_as)
     CHECK_MSG(ok && s->loaded.camera_count > 0, "%s: %s", name, r.text);
     if (ok) {
         set_view(s);
+    }
+    return ok;
+}
+
+static int stage_open(stage *s, const char *name, const char *sized_as)
+{
+    const int ok = stage_load(s, name, sized_as);
+    if (ok) {
         take_maps(s);
         take_frame(s);
     }
@@ -168,6 +179,8 @@ static int stage_open(stage *s, const char *name, const char *sized_as)
 
 static void stage_close(stage *s)
 {
+    free(s->many_memory);
+    free(s->blocker_memory);
     free(s->map_memory);
     free(s->point_memory);
     free(s->depth_memory);
@@ -358,6 +371,95 @@ static void check_direct(const char *name, int barred)
     stage_close(&s);
 }
 
+/* --- many lights -------------------------------------------------------------------------------------------------- */
+
+enum { MANY_CELLS = 16384 };
+
+static double seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
+
+/* Each light as `parts` in a millimetre around its place, in a slice of their own. */
+static void stream(stage *s, int parts)
+{
+    static lmb_light slice[100];
+    const lmb_scene *scene = &s->loaded.scene;
+    const lmb_vec3 low = {0, 0, 0}, high = {10, 4, 10};
+    const size_t bytes = lmb_many_bytes(MANY_CELLS);
+    test_rng r = {5};
+    s->many_memory = take(bytes);
+    CHECK(lmb_many_init(&s->many, MANY_CELLS, low, high, 100.0f, s->many_memory, bytes) == LMB_OK);
+    double spent = 0.0;
+    for (uint32_t i = 0; i < scene->light_count; ++i) {
+        for (int k = 0; k < parts; ++k) {
+            slice[k] = scene->lights[i];
+            for (int c = 0; c < 3; ++c) {
+                slice[k].intensity[c] /= (float)parts;
+            }
+            if (parts > 1) {
+                slice[k].position.x += test_uniform(&r, -0.0005f, 0.0005f);
+                slice[k].position.y += test_uniform(&r, -0.0005f, 0.0005f);
+                slice[k].position.z += test_uniform(&r, -0.0005f, 0.0005f);
+            }
+        }
+        const double start = seconds();
+        CHECK(lmb_many_add(&s->many, slice, (uint32_t)parts) == LMB_OK);
+        spent += seconds() - start;
+    }
+    const double start = seconds();
+    CHECK(lmb_many_build(&s->many) == LMB_OK && s->many.dropped == 0);
+    printf("  %-17s %7u lights, %5u cells, %.1f MB, %.0f ns a light and %.1f ms for the tree\n", s->name,
+           (unsigned)s->many.lights, (unsigned)s->many.cell_count, (double)bytes * 1e-6,
+           spent * 1e9 / (double)s->many.lights, (seconds() - start) * 1e3);
+}
+
+/* The shadow tests that it took; 0 where the scene is not there. */
+static double check_many(const char *name, int parts)
+{
+    stage s;
+    image truth;
+    metrics m;
+    double tests = 0.0;
+    if (!stage_load(&s, name, "pt_direct.pfm")) {
+        return tests;
+    }
+    if (load_picture(&truth, name, "pt_direct.pfm") && load_picture(&s.depth, name, "pt_direct.pfm")) {
+        const uint32_t triangles = lmb_scene_triangles(&s.loaded.scene);
+        const size_t bytes = lmb_blockers_bytes(triangles);
+        stream(&s, parts);
+        s.loaded.scene.light_count = 0;
+        take_frame(&s);
+        s.blocker_memory = take(bytes);
+        CHECK(lmb_blockers_init(&s.frame.blockers, triangles, s.blocker_memory, bytes) == LMB_OK);
+        s.frame.many = &s.many;
+        s.frame.light_map = 8;
+        s.frame.occlusion = LMB_OCCLUSION_NONE;
+        for (int i = 0; i < s.depth.width * s.depth.height; ++i) {
+            s.depth.pixels[3 * i + 2] = 1.0f; /* a closed room: each pixel has a surface */
+        }
+        const double start = seconds();
+        stage_draw(&s, LMB_SHOW_DIRECT);
+        const double spent = seconds() - start;
+        if (measure(&m, &s, &truth)) {
+            tests = (double)s.frame.scratch->many.tests;
+            printf("  %-17s rmse %.4f, trim %.4f, mean %.4f, %.0f nodes and %.0f shadow tests a tile, %.2f s\n", name,
+                   m.rmse, m.trim, m.mean, (double)s.frame.scratch->many.nodes / 1024.0, tests / 1024.0, spent);
+            CHECK_MSG(m.rmse <= 0.015, "%s: rmse %g", name, m.rmse);
+            CHECK_MSG(m.mean >= 0.99 && m.mean <= 1.01, "%s: mean %g", name, m.mean);
+        }
+        image_free(&truth);
+    }
+    stage_close(&s);
+    return tests;
+}
+
+/* V3: 100 to 1,000,000 lights; the last are the 10,000 in a hundred parts each, in the same memory and time. */
+static void check_all_many(void)
+{
+    check_many("many_lights_100", 1);
+    check_many("many_lights_1000", 1);
+    const double once = check_many("many_lights_10000", 1), in_parts = check_many("many_lights_10000", 100);
+    CHECK_MSG(in_parts <= 1.1 * once, "%g shadow tests for a million lights, %g for 10,000", in_parts, once);
+}
+
 /* --- one bounce --------------------------------------------------------------------------------------------------- */
 
 /* V25, V27, V28: the indirect part of one bounce. */
@@ -437,6 +539,8 @@ void test_truth(void)
     for (int i = 0; i < COUNT(scenes); ++i) {
         check_direct(scenes[i].name, scenes[i].direct);
     }
+    printf(" many lights\n");
+    check_all_many();
     printf(" one bounce\n");
     for (int i = 0; i < COUNT(scenes); ++i) {
         if (scenes[i].indirect || getenv("LMB_TRUTH_ALL") != NULL) {
