@@ -1,13 +1,15 @@
 /* render_options.c: the command line of `lambent render`, strictly: every number whole, every word known. */
 #include "render_options.h"
 
+#include "many_lights.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { CHOSEN = -1 }; /* by the other options */
 
-const char render_usage[] =
+static const char usage_view[] =
     "usage: lambent render SCENE -o OUT [options]\n"
     "\n"
     "SCENE  .gltf, .glb, .obj, .ply, or `demo`, a built-in room.   OUT  .png .ppm (display), .pfm .hdr (linear)\n"
@@ -25,6 +27,16 @@ const char render_usage[] =
     "                             or sun; position in metres, direction of travel; W/sr, sun W/m2; a spot's half\n"
     "                             angles in degrees (default 0,45)\n"
     "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, less for many lights)\n"
+    "many lights\n"
+    "  --many-lights CELLS        point lights stream into at most CELLS cells of the world, and every 8x8 pixels take\n"
+    "                             what they need of a tree over those: direct light, shadows by every triangle.\n"
+    "                             Millions take the memory of thousands. By itself, with 16384 cells, where there are\n"
+    "                             more than 128 lights\n"
+    "  --light-error E            share of a pixel's light that one node of that tree may be wrong by (default 0.02)\n"
+    "  --bounce-lights N          lights with a map each that stand for the tree's when light bounces, 0 .. 128 (default\n"
+    "                             32)\n";
+
+static const char usage_bounce[] =
     "bounce\n"
     "  --quality draft|default|best\n"
     "                             sets the next three; see README for each one's error and time\n"
@@ -53,7 +65,7 @@ const char render_usage[] =
     "                             world space (their default: view): it cannot know what is off screen or hidden\n"
     "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n";
 
-const char render_usage_more[] =
+static const char usage_more[] =
     "picture\n"
     "  --show full|direct|indirect|irradiance   (default full; irradiance: bounced, before albedo)\n"
     "         depth|eye-distance|normal|albedo  of what the eye sees; metres along the view, and from the eye\n"
@@ -67,6 +79,8 @@ const char render_usage_more[] =
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
     "  --threads N                that draw at once; the picture does not depend on it (default: the processors)\n"
     "  --stats FILE.json          time by stage, counts, bytes\n";
+
+const char *const render_usage[RENDER_USAGE_PARTS] = {usage_view, usage_bounce, usage_more};
 
 static int parse_float(const char **p, float *out)
 {
@@ -221,6 +235,11 @@ static int parse_light_map(const char *text, render_options *o)
     return parse_int(text, 8, 4096, &o->light_map) && o->light_map % 8 == 0;
 }
 
+static int parse_many_lights(const char *text, render_options *o)
+{
+    return parse_int(text, 1, 1 << 22, &o->many_cells);
+}
+
 static int parse_fov(const char *text, render_options *o)
 {
     o->has_fov = parse_floats(&text, &o->fov_deg, 1) && *text == '\0' && o->fov_deg > 0.0f && o->fov_deg < 179.0f;
@@ -274,6 +293,16 @@ static int parse_visible(const char *text, render_options *o)
 static int parse_neighbour(const char *text, render_options *o)
 {
     return parse_number(text, 0.0f, 1e6f, &o->grouping.neighbour_m);
+}
+
+static int parse_light_error(const char *text, render_options *o)
+{
+    return parse_number(text, 1e-6f, 1.0f, &o->light_error);
+}
+
+static int parse_bounce_lights(const char *text, render_options *o)
+{
+    return parse_int(text, 0, LMB_MAX_LIGHTS, &o->bounce_lights);
 }
 
 /* 0 means the default to the library, so the least there is stands for it. */
@@ -352,6 +381,9 @@ static const struct flag {
     {"--stereo", parse_stereo, "metres, over 0"},
     {"--light", add_light, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], at most 64 of them, angles <= 89"},
     {"--light-map", parse_light_map, "a multiple of 8, 8 .. 4096"},
+    {"--many-lights", parse_many_lights, "a number of cells, 1 .. 4194304"},
+    {"--light-error", parse_light_error, "a number from 0.000001 to 1"},
+    {"--bounce-lights", parse_bounce_lights, "a number of lights, 0 .. 128"},
     {"--grouping", parse_grouping, "cut, zones, greedy or none"},
     {"--quality", parse_quality, "draft, default or best"},
     {"--tree", parse_tree, "a power of two, 8 .. 4096"},
@@ -450,6 +482,7 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     o->up.y = 1.0f;
+    o->bounce_lights = MANY_LIGHTS_BOUNCE;
     o->fov_deg = 45.0f;
     o->grouping.method = o->occlusion = CHOSEN;
     o->exposure_auto = 1;

@@ -36,6 +36,9 @@ typedef struct render_options {
     int32_t tree;         /* first points a side of a light's tree */
     float error, visible;
     int32_t occlusion, steps;
+    int32_t many_cells; /* 0: only where the scene has too many lights for maps */
+    float light_error;
+    int32_t bounce_lights;
     int32_t exposure_auto;
     float exposure_ev;
     const lmb_kernels *kernels;
@@ -43,7 +46,9 @@ typedef struct render_options {
     int help;
 } render_options;
 
-extern const char render_usage[], render_usage_more[]; /* one text: C99 asks for strings of 4,095 only */
+/* In parts: C99 asks compilers for strings of 4,095 characters only. */
+enum { RENDER_USAGE_PARTS = 3 };
+extern const char *const render_usage[RENDER_USAGE_PARTS];
 
 /* 1, or 0 with `r` set: bad usage. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);

@@ -12,6 +12,7 @@
 #include "crew.h"
 #include "demo_scene.h"
 #include "grey.h"
+#include "many_lights.h"
 #include "map_picture.h"
 #include "model.h"
 #include "picture.h"
@@ -29,6 +30,7 @@ typedef struct job {
     lmb_light sun;
     lmb_view middle; /* between the eyes */
     int32_t eyes;    /* 1, or 2: side by side in the picture */
+    many_lights many;
     lmb_frame frame; /* its view and out: those of the eye at hand */
     lmb_render *render;
     int lit; /* the light stages of `render` are done */
@@ -53,6 +55,7 @@ static void job_free(job *j)
     free(j->crew.scratches);
     free(j->render);
     image_free(&j->linear);
+    many_lights_free(&j->many);
     model_free(&j->loaded);
 }
 
@@ -79,17 +82,8 @@ static int load_scene(job *j, report *r)
         return 0;
     }
     j->scene = j->loaded.scene;
-    uint32_t lights = j->o.light_count > 0 ? 0 : j->scene.light_count;
-    if (lmb_scene_triangles(&j->scene) == 0) {
-        return report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
-    }
-    if (lights > LMB_MAX_LIGHTS) {
-        return report_fail(r,
-                           "%s: %u lights; this build draws up to %d at once, each with its own map; remove some, or "
-                           "give others by --light",
-                           j->o.scene, (unsigned)lights, LMB_MAX_LIGHTS);
-    }
-    return 1;
+    return lmb_scene_triangles(&j->scene) > 0 ||
+           report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
 }
 
 /* Once nothing but memory can fail: an error is a line on its own. */
@@ -114,6 +108,30 @@ static void set_lights(job *j)
         fprintf(stderr, "lambent: no light in %s: a sun of 3 W/m2 from the upper right; --light sets others\n",
                 j->o.scene);
     }
+}
+
+/* Point lights that are too many for maps, or that were asked to, go into a tree. */
+static int set_many_lights(job *j, report *r)
+{
+    const uint32_t bounce = j->o.show == LMB_SHOW_DIRECT ? 0 : (uint32_t)j->o.bounce_lights;
+    const uint32_t cells = j->o.many_cells > 0 ? (uint32_t)j->o.many_cells : MANY_LIGHTS_CELLS;
+    if (j->scene.light_count > LMB_MAX_LIGHTS || j->o.many_cells > 0) {
+        if (!many_lights_take(&j->many, &j->scene, cells, bounce, r)) {
+            return 0;
+        }
+    }
+    if (j->many.tree.lights > 0) {
+        j->frame.many = &j->many.tree;
+        j->frame.many_bounce = j->many.bounce;
+        j->frame.many_error = j->o.light_error;
+        fprintf(stderr, "lambent: %u point lights in %u cells; when light bounces, %u stand for them (--many-lights)\n",
+                (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count, (unsigned)j->many.bounce);
+    }
+    return j->scene.light_count <= LMB_MAX_LIGHTS ||
+           report_fail(r,
+                       "%s: %u lights that want a map; this build draws up to %d at once; remove spots or suns, give "
+                       "others by --light, or fewer --bounce-lights",
+                       j->o.scene, (unsigned)j->scene.light_count, LMB_MAX_LIGHTS);
 }
 
 /* --- memory --------------------------------------------------------------------------------------------------------- */
@@ -148,26 +166,33 @@ static int take_maps(job *j, report *r)
     return f->map_memory != NULL;
 }
 
-/* The tree of light, and of what blocks it. */
+/* What blocks light, for those that ask every triangle. */
+static int take_blockers(job *j, report *r)
+{
+    lmb_frame *f = &j->frame;
+    const uint32_t triangles = lmb_scene_triangles(&j->scene);
+    const size_t bytes = lmb_blockers_bytes(triangles);
+    if ((f->occlusion != LMB_OCCLUSION_EXACT || j->o.show == LMB_SHOW_DIRECT) && f->many == NULL) {
+        return 1;
+    }
+    j->blocker_memory = take(j, bytes, r);
+    return j->blocker_memory != NULL &&
+           lmb_blockers_init(&f->blockers, triangles, j->blocker_memory, bytes) == LMB_OK;
+}
+
+/* The tree of light. */
 static int take_tree(job *j, report *r)
 {
     lmb_frame *f = &j->frame;
-    const uint32_t faces = total_faces(&j->scene), triangles = lmb_scene_triangles(&j->scene);
+    const uint32_t faces = total_faces(&j->scene);
     const int32_t finest = f->light_map < 4096 ? f->light_map : 4096, least = f->light_map / 8;
     const int32_t size = j->o.tree > finest ? finest : j->o.tree < least ? least : j->o.tree;
-    const size_t bytes = lmb_tree_bytes(faces, size), blocker_bytes = lmb_blockers_bytes(triangles);
+    const size_t bytes = lmb_tree_bytes(faces, size);
     if (bytes == 0 || f->light_map % size != 0) {
         return report_fail(r, "--grouping cut: --light-map must be a power of two, not %d", (int)f->light_map);
     }
     j->point_memory = take(j, bytes, r);
-    j->blocker_memory = take(j, f->occlusion == LMB_OCCLUSION_EXACT ? blocker_bytes : 0, r);
-    if (j->point_memory == NULL || j->blocker_memory == NULL) {
-        return 0;
-    }
-    if (f->occlusion == LMB_OCCLUSION_EXACT) {
-        lmb_blockers_init(&f->blockers, triangles, j->blocker_memory, blocker_bytes);
-    }
-    return lmb_tree_init(&f->tree, faces, size, j->point_memory, bytes) == LMB_OK;
+    return j->point_memory != NULL && lmb_tree_init(&f->tree, faces, size, j->point_memory, bytes) == LMB_OK;
 }
 
 /* Who holds a texel's light: asked for only where it is shown. */
@@ -205,7 +230,7 @@ static int take_points(job *j, report *r)
 /* What holds the light that bounces, as far as it is shown. */
 static int take_light(job *j, report *r)
 {
-    if (j->o.show == LMB_SHOW_DIRECT || j->o.show == SHOW_LIGHT_DISTANCE) {
+    if (j->o.show == LMB_SHOW_DIRECT || j->o.show == SHOW_LIGHT_DISTANCE || total_faces(&j->scene) == 0) {
         return 1;
     }
     if (j->frame.grouping.method == LMB_GROUP_CUT) {
@@ -278,6 +303,9 @@ static int set_frame(job *j, report *r)
     }
     tell_notes(j);
     set_lights(j);
+    if (!shows_attribute(j->o.show) && !set_many_lights(j, r)) {
+        return 0;
+    }
     j->crew.threads = j->o.threads > 0 ? j->o.threads : pool_processors();
     j->crew.threads = j->crew.threads > POOL_MAX ? POOL_MAX : j->crew.threads;
     f->kernels = j->o.kernels;
@@ -296,7 +324,10 @@ static int set_frame(job *j, report *r)
     if (j->o.show == SHOW_POINTS && f->grouping.join <= 0.0f) {
         f->grouping.join = 1e-30f; /* first points as they are: none is so near another */
     }
-    return take_maps(j, r) && take_light(j, r) && take_frame(j, r);
+    if (total_faces(&j->scene) == 0) { /* no map, no bounce */
+        f->occlusion = LMB_OCCLUSION_NONE;
+    }
+    return take_maps(j, r) && take_blockers(j, r) && take_light(j, r) && take_frame(j, r);
 }
 
 /* --- drawing -------------------------------------------------------------------------------------------------------- */
@@ -492,12 +523,28 @@ static double mean(const image *p)
 
 /* --- reporting ------------------------------------------------------------------------------------------------------ */
 
+/* Nodes of the lights' tree that pixels took, and shadow tests, over all threads. */
+typedef struct asked_lights {
+    double nodes, tests;
+} asked_lights;
+
+static asked_lights sum_asked(const job *j)
+{
+    asked_lights sum = {0.0, 0.0};
+    for (int i = 0; i < j->crew.threads && j->many.tree.lights > 0; ++i) {
+        sum.nodes += (double)j->crew.scratches[i].many.nodes;
+        sum.tests += (double)j->crew.scratches[i].many.tests;
+    }
+    return sum;
+}
+
 static int write_stats(const job *j, report *r)
 {
     static const char *const names[] = {"light_maps", "blockers", "first_points", "groups", "view", "bands"};
     char text[2048];
     int n = 0;
     const lmb_stats *s = &j->stats;
+    const asked_lights lit = sum_asked(j);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "{\n  \"width\": %d, \"height\": %d, \"views\": %d,\n  \"seconds\": {\"load\": %.6f",
                   (int)j->linear.width, (int)j->linear.height, (int)j->eyes, j->load_s);
@@ -516,11 +563,15 @@ static int write_stats(const job *j, report *r)
         (double)s->pairs, (double)s->segments);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
+                  "  \"many_lights\": %u, \"light_cells\": %u, \"light_nodes\": %.0f, \"shadow_tests\": %.0f,\n"
+                  "  \"light_stream_s\": %.6f, \"light_tree_s\": %.6f,\n"
                   "  \"bytes\": %.0f, \"model_bytes\": %.0f, \"loading_bytes\": %.0f,\n"
                   "  \"backend\": \"%s\"\n}\n",
                   s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0,
-                  (double)j->bytes, (double)j->loaded.facts.memory_bytes, (double)j->loaded.facts.loading_bytes,
-                  lmb_kernels_name(j->frame.kernels));
+                  (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count, lit.nodes, lit.tests,
+                  j->many.stream_s, j->many.build_s,
+                  (double)(j->bytes + j->many.bytes), (double)j->loaded.facts.memory_bytes,
+                  (double)j->loaded.facts.loading_bytes, lmb_kernels_name(j->frame.kernels));
     return file_write(j->o.stats, text, (size_t)n, r);
 }
 
@@ -633,7 +684,9 @@ int verb_render(int argc, char **argv)
     }
     if (j.o.help) {
         fputs(render_usage, stdout);
-        fputs(render_usage_more, stdout);
+        for (int i = 0; i < RENDER_USAGE_PARTS; ++i) {
+            fputs(render_usage[i], stdout);
+        }
         return 0;
     }
     if (picture_format(j.o.out) == PICTURE_UNKNOWN) {

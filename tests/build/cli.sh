@@ -111,6 +111,48 @@ for show in depth eye-distance normal albedo occlusion direct; do
     status 0 render demo $small --stereo 0.1 --show $show -o "$dir/both.png"
 done
 
+# Many lights: a floor under 200 of them, in two orders. Too many for maps; the picture knows no order.
+many_lights() {
+    awk -v first="$1" -v step="$2" 'BEGIN {
+        printf "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":"
+        printf "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"intensity\":0.3}]}},\"scene\":0,\"nodes\":[{\"mesh\":0}"
+        for (i = first; i >= 0 && i < 200; i += step)
+            printf ",{\"translation\":[%g,%g,%g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}",
+                i % 17 / 10, 0.2 + i % 7 / 9, i % 23 / 12 - 1
+        printf "],\"scenes\":[{\"nodes\":[0"
+        for (i = 1; i <= 200; ++i) printf ",%d", i
+        printf "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,"
+        printf "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-2,0,-2],\"max\":[4,0,4]}],\"bufferViews\":"
+        printf "[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;"
+        printf "base64,AAAAwAAAAAAAAADAAAAAwAAAAAAAAIBAAACAQAAAAAAAAADA\"}]}"
+    }' >"$3"
+}
+many_lights 0 1 "$dir/many.gltf"
+many_lights 199 -1 "$dir/manyback.gltf"
+look="--size 64x48 --eye 0,3,3 --target 0,0,0"
+status 0 render "$dir/many.gltf" $look -o "$dir/many.pfm" --stats "$dir/many.json"
+check "render says what it does with many lights" grep -q '200 point lights in 200 cells' "$dir/err.txt"
+check "stats count the lights" grep -q '"many_lights": 200, "light_cells": 200, "light_nodes": [1-9]' "$dir/many.json"
+status 0 render "$dir/manyback.gltf" $look --threads 3 --backend scalar -o "$dir/manyback.pfm"
+check "the order of lights changes the picture" cmp "$dir/many.pfm" "$dir/manyback.pfm"
+status 0 render "$dir/many.gltf" $look --many-lights 50 -o "$dir/fewcells.pfm"
+check "--many-lights 50 takes as many cells at most" grep -q '200 point lights in [1-5][0-9] cells' "$dir/err.txt"
+status 0 compare "$dir/many.pfm" "$dir/fewcells.pfm" --max trim=0.1
+for n in 0 5; do
+    for show in direct full; do
+        status 0 render "$dir/many.gltf" $look --light-map 64 --show $show --bounce-lights $n -o "$dir/$show$n.pfm"
+    done
+done
+check "those that stand for many lights give no direct light" cmp "$dir/direct0.pfm" "$dir/direct5.pfm"
+check "without them nothing bounces" cmp "$dir/direct0.pfm" "$dir/full0.pfm"
+check "a floor lights nothing but itself" cmp "$dir/full0.pfm" "$dir/full5.pfm"
+status 0 render demo $small --light point:-0.5,2,0.5:0,-1,0:9,9,9 --many-lights 4 --show indirect -o "$dir/standin.pfm"
+status 0 render demo $small --light point:-0.5,2,0.5:0,-1,0:9,9,9 --show indirect -o "$dir/own.pfm"
+check "one light that stands for itself bounces as it does" cmp "$dir/standin.pfm" "$dir/own.pfm"
+status 2 render "$dir/many.gltf" --bounce-lights 129 -o "$dir/bad.pfm"
+status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
+status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
+
 # Help and version go to stdout.
 for ask in --help --version "render --help" "compare --help" "info --help"; do
     status 0 $ask
