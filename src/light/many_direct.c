@@ -74,6 +74,7 @@ typedef struct lit_surface {
     const lmb_many_look *look;
     lmb_many_job job;
     uint64_t pixels, corners;
+    lmb_last_blockers *last;
 } lit_surface;
 
 /* The outermost pixels along both diagonals. */
@@ -103,7 +104,7 @@ static uint64_t seen_from(const lit_surface *s, uint32_t *tests, lmb_vec3 at)
     if (blockers == NULL) {
         return s->pixels;
     }
-    const uint64_t blocked = lmb_blocked_tile(blockers, s->kernels, s->tile, s->corners, at);
+    const uint64_t blocked = lmb_blocked_tile(blockers, s->kernels, s->tile, s->corners, at, s->last);
     ++*tests;
     if (blocked == 0) {
         return s->pixels;
@@ -111,7 +112,8 @@ static uint64_t seen_from(const lit_surface *s, uint32_t *tests, lmb_vec3 at)
     if (blocked == s->corners) {
         return 0;
     }
-    return s->pixels & ~(blocked | lmb_blocked_tile(blockers, s->kernels, s->tile, s->pixels & ~s->corners, at));
+    return s->pixels & ~(blocked | lmb_blocked_tile(blockers, s->kernels, s->tile, s->pixels & ~s->corners, at,
+                                           s->last));
 }
 
 static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -167,12 +169,14 @@ lmb_status lmb_many_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernel
     if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || look == NULL || look->many == NULL) {
         return LMB_ERR_ARG;
     }
+    memset(&scratch->last, 0, sizeof scratch->last);
     uint64_t left = look->many->node_count > 0 ? pixels_of(tile) : 0;
     for (int n = 1; left != 0; ++n) {
         lit_surface s;
         s.kernels = kernels;
         s.tile = tile;
         s.look = look;
+        s.last = &scratch->last;
         s.pixels = n < SURFACES ? next_surface(tile, left) : left;
         s.corners = corners_of(s.pixels);
         s.job = job_of(tile, s.pixels);

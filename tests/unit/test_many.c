@@ -292,7 +292,7 @@ static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32
         const lmb_view v = look(vec3(0, 5, 0), vec3(0, 0, 0), 60, 64);
         CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), tile, &v, &world.scene, &lights[i], NULL) == LMB_OK);
         const uint64_t blocked = blockers == NULL ? 0 : lmb_blocked_tile(blockers, lmb_kernels_pick(), tile, UINT64_MAX,
-                                                                         lights[i].position);
+                                                                         lights[i].position, NULL);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             out[k] += (blocked >> k & 1u) != 0 || tile->id[k] == 0 ? 0.0 : (double)e.rgb[1][k];
         }
@@ -410,7 +410,7 @@ static void check_full_cut(test_rng *r)
 /* A plate over a floor, lights above and below it. */
 static void check_shadows(test_rng *r)
 {
-    static uint64_t memory[200];
+    static uint64_t memory[1000];
     static lmb_tile tile;
     lmb_blockers blockers;
     lmb_irradiance e;
@@ -437,7 +437,7 @@ static void check_shadows(test_rng *r)
     world_begin(0.5f, 0.5f, 0.5f);
     world_box(vec3(0, 1, -1), 0.3f);
     CHECK(world_end() == LMB_OK);
-    static uint64_t more[400];
+    static uint64_t more[1000];
     CHECK(lmb_blockers_init(&blockers, 12, more, sizeof more) == LMB_OK);
     CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
     for (int i = 0; i < 100; ++i) {
