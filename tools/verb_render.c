@@ -683,7 +683,9 @@ int verb_render(int argc, char **argv)
         return 2;
     }
     if (j.o.help) {
-        fputs(render_usage, stdout);
+        for (int i = 0; i < RENDER_USAGE_PARTS; ++i) {
+            fputs(render_usage[i], stdout);
+        }
         for (int i = 0; i < RENDER_USAGE_PARTS; ++i) {
             fputs(render_usage[i], stdout);
         }
