@@ -30,7 +30,7 @@
 #ifdef LMB_CONFIG_TINY
 #define LMB_MAX_CUT 64
 #else
-#define LMB_MAX_CUT 8192
+#define LMB_MAX_CUT 16384
 #endif
 #endif
 
