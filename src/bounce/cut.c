@@ -101,9 +101,16 @@ static weight weigh(const lmb_node *n, const lmb_texel *seen, const patch *p)
     }
     const lmb_vec3 apart =
         vec3(gap(to.x, half.x + p->half.x), gap(to.y, half.y + p->half.y), gap(to.z, half.z + p->half.z));
-    const float d2 = maxf(dot3(apart, apart), 1e-12f), d = sqrtf(d2);
+    /* A node that holds the patch may give any amount: so much that it is divided first, but not so much that the sum of
+     * errors keeps the rounding of it when it is gone. */
+    const float d2 = maxf(dot3(apart, apart), maxf(1e-6f * dot3(half, half), 1e-12f)), d = sqrtf(d2);
     w.most = m * INVERSE_PI / d2 * minf(up / d, 1.0f) * minf(out / d, 1.0f);
-    const float size = dot3(half, half) / d2 + sine * sine;
+    /* A node that a horizon goes through, the patch's or its own, is wrong by first order: of a quarter of U where its
+     * middle is on it and counts for nothing. */
+    const float over = 2.0f * (support(half, p->normal) + support(p->half, p->normal) + p->sine * reach),
+                before = 2.0f * (support(half, n->normal) + support(p->half, n->normal) + sine * reach);
+    const float second = dot3(half, half) / d2 + sine * sine;
+    const float size = up < over || out < before ? maxf(second, 0.25f) : second;
     w.faces = 1;
     w.error = w.most * minf(size, 1.0f);
     const lmb_vec3 s = sub3(seen->position, p->centre);
