@@ -67,18 +67,19 @@
 #endif
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
-#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MANY_CUT < 16
-#error "lambent: a capacity in config.h is below 1"
+#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MAX_CUT < 1 || LMB_MANY_CUT < 16
+#error "lambent: a capacity in config.h is too small"
 #endif
 
 /* Two builds with different layouts must not link: the calls that take a struct of such a layout carry it in their
  * names. Capacities are therefore plain numbers, not expressions. */
-#define LMB_PASTE_(a, b, c, d) a##_g##b##_l##c##_m##d
-#define LMB_PASTE(a, b, c, d) LMB_PASTE_(a, b, c, d)
-#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_MANY_CUT)
+#define LMB_PASTE_(a, b, c, d, e) a##_g##b##_l##c##_c##d##_m##e
+#define LMB_PASTE(a, b, c, d, e) LMB_PASTE_(a, b, c, d, e)
+#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_MAX_CUT, LMB_MANY_CUT)
 #define lmb_build_check LMB_LAYOUT(lmb_build_check)
 #define lmb_group_points LMB_LAYOUT(lmb_group_points)
 #define lmb_gather_tile LMB_LAYOUT(lmb_gather_tile)
+#define lmb_gather_cut LMB_LAYOUT(lmb_gather_cut)
 #define lmb_many_direct_tile LMB_LAYOUT(lmb_many_direct_tile)
 #define lmb_render_begin LMB_LAYOUT(lmb_render_begin)
 
