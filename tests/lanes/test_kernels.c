@@ -140,6 +140,13 @@ static void make_flat_tile(lmb_tile *t, test_rng *r)
     }
 }
 
+/* All of a tile's pixels, or few, or none, a bit each. */
+static uint64_t random_pixels(const trial *t, test_rng *r)
+{
+    const uint64_t all = (uint64_t)test_random(r) << 32 | test_random(r);
+    return t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
+}
+
 /* --- resolve, direct, blend ------------------------------------------------------------------------------------------- */
 
 /* An output with its surroundings. */
@@ -534,8 +541,7 @@ static int trial_gather_near(const trial *t, test_rng r)
     for (uint32_t i = 0; i < count; ++i) {
         discs[i] = make_disc(&r, around, rare);
     }
-    const uint64_t all = (uint64_t)test_random(&r) << 32 | test_random(&r);
-    const uint64_t pixels = t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
+    const uint64_t pixels = random_pixels(t, &r);
     const lmb_march_job *march = t->seed % 4u ? &s.job : NULL;
     lmb_kernels_scalar.gather_near(&want.it, pixels, &tile, discs, count, march);
     t->kernels->gather_near(&got.it, pixels, &tile, discs, count, march);
@@ -544,6 +550,54 @@ static int trial_gather_near(const trial *t, test_rng r)
     free(discs);
     free(s.memory);
     return equal;
+}
+
+typedef struct pair_memory {
+    float of[3][LMB_GATHER_PAIRS];
+} pair_memory;
+
+static lmb_emitter make_emitter(const trial *t, test_rng *r, uint32_t rare)
+{
+    lmb_emitter e;
+    e.position = place(r, 3.0f, rare);
+    e.back = direction(r);
+    e.area_pi = number(r, 0.0f, 1.0f, rare);
+    numbers(e.flux, 3, r, 0.0f, 5.0f, rare);
+    e.visible = random_pixels(t, r);
+    return e;
+}
+
+/* The emitters end where their memory ends: fewer than a block, more, none. Pixels that do not see an emitter get
+ * nothing of it. */
+static int trial_gather_cut(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_irradiance) want, got;
+    static GUARDED(pair_memory) pairs;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const int32_t count = (int32_t)(test_random(&r) % (t->seed % 8u ? 12u : LMB_CUT_BLOCK + 1u));
+    uint64_t lit = 0;
+    int kept = 1;
+    GUARD(want);
+    GUARD(got);
+    GUARD(pairs);
+    make_gather_tile(&tile, t, &r, rare);
+    make_sums(&want.it, &r);
+    const lmb_irradiance before = got.it = want.it;
+    lmb_emitter *emitters = malloc((size_t)count * sizeof *emitters + 1);
+    for (int32_t i = 0; i < count; ++i) {
+        emitters[i] = make_emitter(t, &r, rare);
+        lit |= emitters[i].visible;
+    }
+    lmb_kernels_scalar.gather_cut(&want.it, pairs.it.of, &tile, emitters, count);
+    t->kernels->gather_cut(&got.it, pairs.it.of, &tile, emitters, count);
+    free(emitters);
+    CHECK(canaries_stay(got.before, got.after));
+    CHECK(canaries_stay(pairs.before, pairs.after));
+    for (int i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
+        kept &= (lit >> i % LMB_TILE_PIXELS & 1u) != 0 || bits_of(before.rgb[0][i]) == bits_of(got.it.rgb[0][i]);
+    }
+    return kept && same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
 /* --- occlusion -------------------------------------------------------------------------------------------------------- */
@@ -563,10 +617,79 @@ static int trial_crossed(const trial *t, test_rng r)
     }
     job.normal = direction(&r);
     job.beyond = test_uniform(&r, -1.0f, 1.0f);
-    const uint64_t all = (uint64_t)test_random(&r) << 32 | test_random(&r);
-    const uint64_t pixels = t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
+    const uint64_t pixels = random_pixels(t, &r);
     const uint64_t want = lmb_kernels_scalar.crossed(&tile, pixels, &job), got = t->kernels->crossed(&tile, pixels, &job);
     return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
+}
+
+/* Points in the pixels' own planes along an axis now and then, so that differences are 0. */
+static int trial_segments(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_segments) want, got;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    lmb_vec3 at = place(&r, 2.0f, rare);
+    GUARD(want);
+    GUARD(got);
+    make_gather_tile(&tile, t, &r, rare);
+    at.x = t->seed % 3u ? at.x : tile.position[0][test_random(&r) % LMB_TILE_PIXELS];
+    at.z = t->seed % 7u ? at.z : tile.position[2][test_random(&r) % LMB_TILE_PIXELS];
+    lmb_kernels_scalar.segments(&want.it, &tile, at);
+    t->kernels->segments(&got.it, &tile, at);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "at", &want.it.at.x, &got.it.at.x, 3) &&
+           same_floats(t, "per", want.it.per[0], got.it.per[0], 3 * LMB_TILE_PIXELS);
+}
+
+/* Boxes of all sizes, some around the segments' common end, some without any thickness, some that hold nothing. */
+static void make_boxes(lmb_boxes *out, test_rng *r, lmb_vec3 end, uint32_t rare)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        const float half = test_random(r) % 4u == 0 ? 0.0f : test_uniform(r, -0.1f, 1.5f);
+        const lmb_vec3 middle = test_random(r) % 3u ? place(r, 2.0f, rare) : end;
+        const float at[3] = {middle.x, middle.y, middle.z};
+        for (int c = 0; c < 3; ++c) {
+            out->low[c][i] = at[c] - half * test_uniform(r, 0.0f, 1.0f);
+            out->high[c][i] = at[c] + half * test_uniform(r, 0.0f, 1.0f);
+        }
+    }
+}
+
+static int trial_through(const trial *t, test_rng r)
+{
+    static lmb_segments segments;
+    static lmb_tile tile;
+    static lmb_boxes boxes;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    make_gather_tile(&tile, t, &r, rare);
+    lmb_kernels_scalar.segments(&segments, &tile, place(&r, 2.0f, rare));
+    make_boxes(&boxes, &r, segments.at, rare);
+    const int i = (int)(test_random(&r) % LMB_BOXES);
+    const uint64_t pixels = random_pixels(t, &r);
+    const uint64_t want = lmb_kernels_scalar.through(&segments, pixels, &boxes, i),
+                   got = t->kernels->through(&segments, pixels, &boxes, i);
+    return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
+}
+
+/* 1 / d, as large as it may be. */
+static float per(float d) { return 1.0f / (absf(d) < 1e-20f ? (d < 0.0f ? -1e-20f : 1e-20f) : d); }
+
+static int trial_meets(const trial *t, test_rng r)
+{
+    static lmb_boxes boxes;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const lmb_vec3 at = place(&r, 2.0f, 0), low = place(&r, 2.0f, 0);
+    const float end[3] = {at.x, at.y, at.z}, from[3] = {low.x, low.y, low.z};
+    lmb_pyramid p;
+    for (int c = 0; c < 3; ++c) {
+        p.at[c] = end[c];
+        p.per_low[c] = per(t->seed % 5u == 0 && c == 1 ? 0.0f : from[c] - end[c]);
+        p.per_high[c] = per(from[c] + test_uniform(&r, 0.0f, 1.0f) - end[c]);
+    }
+    make_boxes(&boxes, &r, at, rare);
+    const uint32_t want = lmb_kernels_scalar.meets(&p, &boxes), got = t->kernels->meets(&p, &boxes);
+    return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
 }
 
 /* --- many lights ------------------------------------------------------------------------------------------------------ */
@@ -629,8 +752,7 @@ static int trial_many_shine(const trial *t, test_rng r)
     for (int32_t i = 0; i < count; ++i) {
         lamp[i] = make_lamp(&r, rare);
     }
-    const uint64_t all = (uint64_t)test_random(&r) << 32 | test_random(&r);
-    const uint64_t pixels = t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
+    const uint64_t pixels = random_pixels(t, &r);
     lmb_kernels_scalar.many_shine(&want.it, &tile, pixels, lamp, count);
     t->kernels->many_shine(&got.it, &tile, pixels, lamp, count);
     CHECK(canaries_stay(got.before, got.after));
@@ -672,7 +794,11 @@ static const struct kernel {
     {"direct", trial_direct},
     {"gather", trial_gather},
     {"gather_near", trial_gather_near},
+    {"gather_cut", trial_gather_cut},
     {"crossed", trial_crossed},
+    {"segments", trial_segments},
+    {"through", trial_through},
+    {"meets", trial_meets},
     {"many_bounds", trial_many_bounds},
     {"many_shine", trial_many_shine},
     {"blend", trial_blend},
