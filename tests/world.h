@@ -160,6 +160,13 @@ static inline lmb_light spot(lmb_vec3 at, lmb_vec3 along, double inner_deg, doub
 static inline lmb_light point_light(lmb_vec3 at) { return make_light(LMB_LIGHT_POINT, at, vec3(0, -1, 0)); }
 static inline lmb_light sun(lmb_vec3 along) { return make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), along); }
 
+/* Power for 1 W/sr: the mean of smoothstep over its width is 1/2. */
+static inline double cone_power(double inner_deg, double outer_deg)
+{
+    double inner = cos(inner_deg * PI / 180.0), outer = cos(outer_deg * PI / 180.0);
+    return 2.0 * PI * (1.0 - inner + 0.5 * (inner - outer));
+}
+
 /* --- views, square ------------------------------------------------------------------------------------------------ */
 
 /* Y is up, or Z within 2.6 degrees of the vertical. */

@@ -122,13 +122,6 @@ static double total_area(void)
     return sum;
 }
 
-/* Power for 1 W/sr: the mean of smoothstep over its width is 1/2. */
-static double cone_power(double inner_deg, double outer_deg)
-{
-    double inner = cos(inner_deg * PI / 180.0), outer = cos(outer_deg * PI / 180.0);
-    return 2.0 * PI * (1.0 - inner + 0.5 * (inner - outer));
-}
-
 /* V4, V28: outgoing power of all points = albedo x intensity x power, whatever the block. */
 static void check_flux(const char *name, lmb_light light, double power, double bound)
 {

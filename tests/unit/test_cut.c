@@ -1,0 +1,489 @@
+/* test_cut.c: each tile's cut of the light's tree, against every texel one by one. [V25 V27 V28] */
+#include <stdlib.h>
+
+#include "../every_texel.h"
+#include "../lit_tree.h"
+
+void test_cut(void);
+
+enum { FRAME = 64, BANDS = FRAME / LMB_TILE, PIXELS = FRAME * FRAME };
+
+static uint32_t depth_memory[PIXELS], id_memory[PIXELS], blocker_memory[1 << 16];
+static lmb_target eye;
+static lmb_tile tile;
+
+static lmb_stats stats;
+
+/* With a canary behind. */
+static struct {
+    lmb_cut it;
+    uint8_t after[64];
+} cut;
+
+static void begin_cut(void)
+{
+    memset(&cut, 0x5a, sizeof cut);
+    memset(&stats, 0, sizeof stats);
+}
+
+static int canary_stays(void)
+{
+    int good = 1;
+    for (size_t i = 0; i < sizeof cut.after; ++i) {
+        good &= cut.after[i] == 0x5a;
+    }
+    return good;
+}
+
+static lmb_cutting cutting_of(float error, const lmb_blockers *blockers)
+{
+    lmb_cutting c;
+    c.error = error;
+    c.visible = 0.02f;
+    c.blockers = blockers;
+    c.stats = &stats;
+    return c;
+}
+
+static void gather(lmb_irradiance *out, const lmb_cutting *how)
+{
+    memset(out, 0, sizeof *out);
+    CHECK(lmb_gather_cut(out, lmb_kernels_pick(), &cut.it, &tile, &lit, how) == LMB_OK);
+}
+
+/* --- rooms -------------------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 random_point(test_rng *r, float half)
+{
+    const float x = test_uniform(r, -half, half), y = test_uniform(r, -half, half);
+    return vec3(x, y, test_uniform(r, -half, half));
+}
+
+/* A closed room of 2 m a side with boxes, a ball, and plates that stand or float anywhere. */
+static void make_room(test_rng *r)
+{
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    for (int i = 0; i < 3; ++i) {
+        world_box(random_point(r, 0.7f), test_uniform(r, 0.1f, 0.3f));
+        const lmb_vec3 u = normalize3(random_point(r, 1.0f)), v = normalize3(cross3(u, random_point(r, 1.0f)));
+        world_quad(random_point(r, 0.8f), mul3(u, 0.3f), mul3(v, 0.2f));
+    }
+    world_sphere(random_point(r, 0.6f), 0.25f, 12, 24);
+    CHECK(world_end() == LMB_OK);
+}
+
+static lmb_light room_light(test_rng *r, int kind)
+{
+    const lmb_vec3 at = random_point(r, 0.8f);
+    return kind % 3 == 0 ? spot(at, sub3(random_point(r, 0.5f), at), 20, 45)
+                         : kind % 3 == 1 ? point_light(at) : spot(at, sub3(random_point(r, 0.5f), at), 30, 70);
+}
+
+static void draw_view(const lmb_view *v)
+{
+    eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
+    world_draw(&eye, v, 0);
+}
+
+static void take_tile(const lmb_view *v, int number)
+{
+    CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), v, &world.scene, &eye, number % BANDS * LMB_TILE,
+                           number / BANDS * LMB_TILE) == LMB_OK);
+}
+
+/* --- every texel -------------------------------------------------------------------------------------------------- */
+
+static texel_quad *quads;
+static int quad_count;
+
+static void take_quads(void)
+{
+    quads = realloc(quads, (size_t)lit.faces * (size_t)lit.size * (size_t)lit.size * sizeof *quads + 1);
+    quad_count = quads != NULL ? every_texel(quads, &lit) : 0;
+}
+
+/* Red light of all texels that `sees` lets through, or NULL for all. */
+static double sum_quads(int k, int (*sees)(lmb_vec3 from, lmb_vec3 to))
+{
+    const lmb_vec3 at = plane_vec(tile.position, k);
+    double sum = 0.0;
+    for (int i = 0; i < quad_count; ++i) {
+        const double f = texel_factor(&quads[i], &tile, k);
+        if (f > 0.0 && (sees == NULL || sees(at, quads[i].middle))) {
+            sum += f * (double)quads[i].n.flux[0];
+        }
+    }
+    return sum;
+}
+
+/* --- errors ------------------------------------------------------------------------------------------------------- */
+
+enum { ERRORS = 1 << 16 };
+
+static double got_all[ERRORS], want_all[ERRORS];
+static float errors[ERRORS];
+static int error_count;
+
+static void add_error(double got, double want)
+{
+    got_all[error_count] = got;
+    want_all[error_count++] = want;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of the pixels from `first` on: |got - want| / (want + rest x mean), so that light out of rounding alone, a millionth
+ * of the mean in a plane that is lit, does not count. All of them are sorted. */
+static void sort_errors(int first, double rest)
+{
+    double mean = 0.0;
+    for (int i = first; i < error_count; ++i) {
+        mean += want_all[i] / (error_count - first);
+    }
+    for (int i = first; i < error_count; ++i) {
+        errors[i] = (float)(fabs(got_all[i] - want_all[i]) / (want_all[i] + rest * mean));
+    }
+    qsort(errors, (size_t)error_count, sizeof *errors, by_size);
+}
+
+/* The error that this share of the pixels stays under. */
+static double error_at(double share)
+{
+    return error_count > 0 ? (double)errors[(int)(share * (error_count - 1))] : 0.0;
+}
+
+/* Without blockers: a view's pixels in every third tile. */
+static double compare_view(const lmb_view *v, const lmb_cutting *how)
+{
+    double pairs = 0.0;
+    draw_view(v);
+    for (int t = 0; t < BANDS * BANDS; t += 3) {
+        lmb_irradiance got;
+        take_tile(v, t);
+        gather(&got, how);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const double want = tile.id[k] != 0 ? sum_quads(k, NULL) : 0.0;
+            if (want > 0.0) {
+                add_error((double)got.rgb[0][k], want);
+                pairs += quad_count;
+            } else {
+                CHECK(got.rgb[0][k] == 0.0f);
+            }
+        }
+    }
+    return pairs;
+}
+
+/* V27: within `error` of all texels one by one, by a small share of them. */
+static void check_error(float error, double bound, double most_share)
+{
+    double pairs = 0.0;
+    error_count = 0;
+    begin_cut();
+    for (int room = 0; room < 6; ++room) {
+        test_rng r = {(uint64_t)(90 + room)};
+        const lmb_cutting how = cutting_of(error, NULL);
+        make_room(&r);
+        const lmb_light light = room_light(&r, room);
+        lit_begin((uint32_t)lmb_light_map_faces(&light), LIT_SMALL / 2, 0);
+        lit_add(&light);
+        take_quads();
+        const lmb_view v = look(mul3(random_point(&r, 1.0f), 0.9f), random_point(&r, 0.3f), 80, FRAME);
+        const int first = error_count;
+        pairs += compare_view(&v, &how);
+        sort_errors(first, 1e-3);
+    }
+    const double p999 = error_at(0.999), share = (double)stats.pairs / pairs;
+    printf("  error %.2f: p50 %.5f, p99.9 %.5f, most %.5f of %d pixels by %.1f %% of the pairs\n",
+           (double)error, error_at(0.5), p999, error_at(1.0), error_count, share * 100.0);
+    CHECK(error_count > 5000 && canary_stays());
+    CHECK_MSG(p999 <= bound, "%g", p999);
+    CHECK_MSG(share <= most_share, "%g", share);
+}
+
+/* --- a tile by hand ----------------------------------------------------------------------------------------------- */
+
+/* A floor of 8 x 8 pixels, `step` apart from (x, y, z). */
+static void floor_tile(lmb_vec3 at, float step)
+{
+    memset(&tile, 0, sizeof tile);
+    tile.hits = LMB_TILE_PIXELS;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_plane(tile.position, k, add3(at, vec3(step * (float)(k % 8), 0, step * (float)(k / 8))));
+        set_plane(tile.normal, k, Y);
+        set_plane(tile.face, k, Y);
+        tile.id[k] = 1;
+    }
+}
+
+/* The box of 2 m a side, lit on its walls and ceiling from its middle. */
+static void lit_box(void)
+{
+    const lmb_light light = point_light(vec3(0.1f, 0.2f, 0.3f));
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    CHECK(world_end() == LMB_OK);
+    lit_by(&light);
+}
+
+/* Finite, not negative, and within `bound` of all texels. */
+static void check_sane(const char *what, const lmb_irradiance *got, double bound)
+{
+    double worst = 0.0;
+    int good = canary_stays() && cut.it.count <= LMB_MAX_CUT;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += 9) {
+        const double want = sum_quads(k, NULL);
+        worst = fmax(worst, fabs((double)got->rgb[0][k] / want - 1.0));
+        good &= want > 0.0 && got->rgb[1][k] > 0.0f && got->rgb[2][k] < 1e3f;
+    }
+    CHECK_MSG(good && worst <= bound, "%s: %g with %d nodes", what, worst, (int)cut.it.count);
+}
+
+/* More nodes than there is room for: the tile is lit by those it has. */
+static void check_full(void)
+{
+    lmb_cutting how = cutting_of(1e-9f, NULL);
+    lmb_irradiance got;
+    lmb_blockers b;
+    lit_box();
+    take_quads();
+    CHECK(quad_count > 4 * LMB_MAX_CUT);
+    CHECK(lmb_blockers_init(&b, world.count, blocker_memory, sizeof blocker_memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
+    floor_tile(vec3(-0.3f, -1, -0.3f), 0.05f);
+    for (int blocked = 0; blocked < 2; ++blocked) {
+        begin_cut();
+        how.blockers = blocked ? &b : NULL;
+        how.visible = 1e-9f;
+        gather(&got, &how);
+        CHECK_MSG(cut.it.count + 3 > LMB_MAX_CUT, "%d", (int)cut.it.count);
+        check_sane(blocked ? "full, blocked" : "full", &got, 0.02);
+    }
+}
+
+/* The promise at the end of a cut: either no node can be divided, or none has room, or the errors' sum is under `error`
+ * of what the nodes give. Right on a lit wall too, where nodes that hold the tile may give any amount. */
+static void check_promise(void)
+{
+    static const float places[][3] = {{-0.3f, -1, -0.3f}, {-0.999f, -0.999f, -0.999f}, {0.5f, 0.99f, 0.5f}};
+    const lmb_cutting how = cutting_of(0.02f, NULL);
+    lmb_irradiance got;
+    lit_box();
+    for (int p = 0; p < 9; ++p) {
+        double error = 0.0, value = 0.0;
+        begin_cut();
+        floor_tile(vec3(places[p / 3][0], places[p / 3][1], places[p / 3][2]),
+                   p % 3 == 0 ? 0.0001f : 0.003f * (float)p);
+        gather(&got, &how);
+        for (int32_t i = 0; i < cut.it.count; ++i) {
+            const int is_node = cut.it.place[i].level != 0xffff;
+            error += is_node ? (double)cut.it.error[i] : 0.0;
+            value += is_node ? (double)cut.it.value[i] : 0.0;
+        }
+        CHECK_MSG(value > 0.0 && error <= 0.02 * 1.000001 * value, "tile %d: %g of %g", p, error, value);
+        CHECK(cut.it.count + 3 <= LMB_MAX_CUT && stats.pairs <= LMB_TILE_PIXELS * (uint64_t)cut.it.count && stats.segments == 0);
+    }
+}
+
+/* Doubled light is doubled, to the bit. */
+static void check_linear(void)
+{
+    const lmb_cutting how = cutting_of(0.02f, NULL);
+    lmb_irradiance once, twice;
+    int wrong = 0;
+    lit_box();
+    floor_tile(vec3(-0.3f, -1, -0.3f), 0.05f);
+    gather(&once, &how);
+    for (int32_t i = 0; i < (int32_t)lit.faces * lit.size * lit.size; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            lit.texel[i].flux[c] *= 2.0f;
+        }
+    }
+    for (uint32_t f = 0; f < lit.faces; ++f) {
+        lit_sum(f);
+    }
+    gather(&twice, &how);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        wrong += !(once.rgb[0][k] > 0.0f) || twice.rgb[0][k] != 2.0f * once.rgb[0][k];
+    }
+    CHECK_MSG(wrong == 0, "%d pixels not exactly doubled", wrong);
+}
+
+static int is_dark(const lmb_irradiance *e)
+{
+    int dark = 1;
+    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+        dark &= e->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] == 0.0f;
+    }
+    return dark;
+}
+
+/* No face, a face without light, one lit texel; no surface under the tile. What is there is added to. */
+static void check_small(void)
+{
+    const lmb_cutting how = cutting_of(0.02f, NULL);
+    lmb_irradiance got, more;
+    lit_box();
+    floor_tile(vec3(-0.3f, -1, -0.3f), 0.05f);
+    const uint32_t faces = lit.faces;
+    lit.faces = 0;
+    gather(&got, &how);
+    CHECK(is_dark(&got) && cut.it.count == 0);
+    lit.faces = faces;
+    const lmb_texel kept = lit.texel[3 * LIT_SMALL * LIT_SMALL - 7];
+    for (int32_t i = 0; i < (int32_t)faces * lit.size * lit.size; ++i) {
+        memset(lit.texel[i].flux, 0, sizeof lit.texel[i].flux);
+    }
+    for (int lights = 0; lights < 2; ++lights) { /* a texel of the ceiling */
+        for (uint32_t f = 0; f < faces; ++f) {
+            lit_sum(f);
+        }
+        take_quads();
+        gather(&got, &how);
+        CHECK(quad_count == lights && is_dark(&got) == !lights);
+        for (int k = 0; k < LMB_TILE_PIXELS && lights; ++k) {
+            CHECK(fabs((double)got.rgb[0][k] - sum_quads(k, NULL)) <= 1e-6 * sum_quads(k, NULL));
+        }
+        lit.texel[3 * LIT_SMALL * LIT_SMALL - 7] = kept;
+    }
+    more = got;
+    CHECK(lmb_gather_cut(&more, lmb_kernels_pick(), &cut.it, &tile, &lit, &how) == LMB_OK);
+    CHECK(more.rgb[0][9] == got.rgb[0][9] + got.rgb[0][9]);
+    memset(tile.id, 0, sizeof tile.id);
+    gather(&got, &how);
+    CHECK(is_dark(&got));
+}
+
+static void check_refused(void)
+{
+    lmb_cutting how = cutting_of(0.02f, NULL);
+    lmb_irradiance out;
+    lmb_tree none = lit;
+    const lmb_kernels *k = lmb_kernels_pick();
+    none.texel = NULL;
+    memset(&out, 0, sizeof out);
+    CHECK(lmb_gather_cut(NULL, k, &cut.it, &tile, &lit, &how) == LMB_ERR_ARG);
+    CHECK(lmb_gather_cut(&out, NULL, &cut.it, &tile, &lit, &how) == LMB_ERR_ARG);
+    CHECK(lmb_gather_cut(&out, k, NULL, &tile, &lit, &how) == LMB_ERR_ARG);
+    CHECK(lmb_gather_cut(&out, k, &cut.it, NULL, &lit, &how) == LMB_ERR_ARG);
+    CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, NULL, &how) == LMB_ERR_ARG);
+    CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, &none, &how) == LMB_ERR_ARG);
+    CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, &lit, NULL) == LMB_ERR_ARG);
+    how.error = 0.0f;
+    CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, &lit, &how) == LMB_ERR_ARG);
+    how = cutting_of(0.02f, NULL);
+    how.visible = -1.0f;
+    CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, &lit, &how) == LMB_ERR_ARG);
+    CHECK(is_dark(&out));
+}
+
+/* --- a wall with a door ------------------------------------------------------------------------------------------- */
+
+/* At x = 0, into the walls around it, open for z in DOOR_LOW .. DOOR_HIGH. */
+#define DOOR_LOW  -0.1f
+#define DOOR_HIGH 0.3f
+
+static void make_rooms(void)
+{
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    world_quad(vec3(0, 0, 0.5f * (DOOR_LOW - 1.1f)), mul3(Y, 1.1f), mul3(Z, 0.5f * (DOOR_LOW + 1.1f)));
+    world_quad(vec3(0, 0, 0.5f * (DOOR_HIGH + 1.1f)), mul3(Y, 1.1f), mul3(Z, 0.5f * (1.1f - DOOR_HIGH)));
+    CHECK(world_end() == LMB_OK);
+}
+
+/* Where a segment from x > 0 to x < 0 passes the wall. */
+static float passes(lmb_vec3 from, lmb_vec3 to) { return from.z + (to.z - from.z) * from.x / (from.x - to.x); }
+
+static float door_wider; /* m, on both sides */
+
+static int through_door(lmb_vec3 from, lmb_vec3 to)
+{
+    const float z = passes(from, to);
+    return z > DOOR_LOW - door_wider && z < DOOR_HIGH + door_wider;
+}
+
+typedef struct door_figures {
+    int dark, leaks;
+    double sum_got, sum_want; /* over the pixels that see light */
+} door_figures;
+
+static void compare_door(door_figures *d, const lmb_irradiance *got)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (tile.id[k] == 0 || tile.position[0][k] < 1e-3f) {
+            continue;
+        }
+        door_wider = 1e-5f;
+        if (sum_quads(k, through_door) == 0.0) {
+            ++d->dark;
+            d->leaks += got->rgb[0][k] != 0.0f;
+        } else {
+            door_wider = 0.0f;
+            add_error((double)got->rgb[0][k], sum_quads(k, through_door));
+            d->sum_got += got_all[error_count - 1];
+            d->sum_want += want_all[error_count - 1];
+        }
+    }
+}
+
+/* V25, V26: light in the room at x < 0 alone, and a view of the other. Where no lit texel is seen it is exactly dark;
+ * where some are, it is what they give, but for nodes that are seen or not as one. */
+static void check_door(float visible, double p95)
+{
+    const lmb_light light = spot(vec3(-0.3f, 0.2f, 0.1f), vec3(-1, -0.5f, 0.1f), 20, 45);
+    const lmb_view v = look(vec3(0.95f, 0.6f, -0.8f), vec3(0.2f, -0.7f, 0.3f), 90, FRAME);
+    lmb_cutting how = cutting_of(0.02f, NULL);
+    door_figures d = {0, 0, 0.0, 0.0};
+    lmb_blockers b;
+    int beyond = 0;
+    make_rooms();
+    lit_begin(1, LIT_SMALL / 2, 0);
+    lit_add(&light);
+    take_quads();
+    for (int i = 0; i < quad_count; ++i) {
+        beyond += quads[i].middle.x >= -1e-3f;
+    }
+    CHECK(lmb_blockers_init(&b, world.count, blocker_memory, sizeof blocker_memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
+    how.blockers = &b;
+    how.visible = visible;
+    draw_view(&v);
+    begin_cut();
+    error_count = 0;
+    for (int t = 0; t < BANDS * BANDS; ++t) {
+        lmb_irradiance got;
+        take_tile(&v, t);
+        gather(&got, &how);
+        compare_door(&d, &got);
+    }
+    sort_errors(0, 1e-2);
+    const double mean = d.sum_got / d.sum_want;
+    printf("  door, visible %.3f: %d pixels dark, %d leak; %d lit: p50 %.4f, p95 %.4f, p99.9 %.4f, mean %.4f; %.0f "
+           "segments a pixel\n",
+           (double)visible, d.dark, d.leaks, error_count, error_at(0.5), error_at(0.95), error_at(0.999), mean,
+           (double)stats.segments / PIXELS);
+    CHECK(beyond == 0 && canary_stays());
+    CHECK_MSG(d.dark > 300 && d.leaks == 0, "%d of %d", d.leaks, d.dark);
+    CHECK_MSG(error_count > 300 && error_at(0.95) <= p95, "%g", error_at(0.95));
+    CHECK_MSG(fabs(mean - 1.0) <= 0.01, "%g", mean);
+}
+
+void test_cut(void)
+{
+    check_error(0.02f, 0.01, 0.12);
+    check_error(0.1f, 0.05, 0.09);
+    check_full();
+    check_promise();
+    check_linear();
+    check_small();
+    check_refused();
+    check_door(0.02f, 0.05);
+    check_door(0.002f, 0.006);
+    free(quads);
+}

@@ -1,0 +1,351 @@
+/* test_tree.c: the tree over a light's map: energy, bounds, where texels end, what is refused.       [V5 V6 V7 V15] */
+#include "../lit_tree.h"
+
+void test_tree(void);
+
+enum { NOISE = 0x3c };
+
+/* --- scenes ------------------------------------------------------------------------------------------------------- */
+
+/* A closed box of 2 m a side; furnished: with a ball and a crate in it. */
+static void make_room(int furnished)
+{
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    if (furnished) {
+        world_sphere(vec3(0.4f, -0.6f, 0.3f), 0.35f, 12, 24);
+        world_box(vec3(-0.5f, -0.8f, -0.4f), 0.2f);
+    }
+    CHECK(world_end() == LMB_OK);
+}
+
+/* A floor of 4 m2, turned out of the map's grid. */
+static void make_floor(void)
+{
+    const float c = 0.8829476f, s = 0.4694716f; /* 28 degrees */
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_quad(vec3(0, 0, 0), vec3(s, 0, c), vec3(c, 0, -s));
+    CHECK(world_end() == LMB_OK);
+}
+
+/* --- energy ------------------------------------------------------------------------------------------------------- */
+
+typedef struct sums {
+    double texels[3], moved[3], roots[3]; /* W: as collected, once edges are moved, and at the top */
+    double moved_m2, roots_m2;
+} sums;
+
+static sums sum_all(void)
+{
+    sums s;
+    memset(&s, 0, sizeof s);
+    for (uint32_t f = 0; f < lit.faces; ++f) {
+        const lmb_node root = lit_node(f, 0, 0, tree_root_level(&lit));
+        for (int c = 0; c < 3; ++c) {
+            s.roots[c] += (double)root.flux[c];
+        }
+        s.roots_m2 += (double)root.area;
+        for (int32_t i = 0; i < lit.size * lit.size; ++i) {
+            const lmb_node n = lit_node(f, i % lit.size, i / lit.size, 0);
+            for (int c = 0; c < 3; ++c) {
+                s.texels[c] += (double)tree_texel(&lit, f, i % lit.size, i / lit.size)->flux[c];
+                s.moved[c] += (double)n.flux[c];
+            }
+            s.moved_m2 += (double)n.area;
+        }
+    }
+    return s;
+}
+
+/* V28: albedo x intensity x power, as collected; what one texel loses at an edge the other gains; sums lose nothing. */
+static void check_flux(const char *name, lmb_light light, double power)
+{
+    double worst = 0.0, lost = 0.0, summed = 0.0;
+    lit_by(&light);
+    const sums s = sum_all();
+    for (int c = 0; c < 3; ++c) {
+        const double want = power * (double)light.intensity[c] * (double)world.material[0].albedo[c];
+        worst = fmax(worst, fabs(s.texels[c] / want - 1.0));
+        lost = fmax(lost, fabs(s.moved[c] / s.texels[c] - 1.0));
+        summed = fmax(summed, fabs(s.roots[c] / s.moved[c] - 1.0));
+    }
+    printf("  flux, %-22s %.4f %% from closed form, edges %.4f %%, sums %.1e\n", name, worst * 100, lost * 100, summed);
+    CHECK_MSG(worst <= 2e-3, "%s: %g", name, worst);
+    CHECK_MSG(lost <= 1e-3, "%s: %g", name, lost);
+    CHECK_MSG(summed <= 2e-6, "%s: %g", name, summed);
+    CHECK_MSG(fabs(s.roots_m2 / s.moved_m2 - 1.0) <= 2e-6, "%s: %g of %g m2", name, s.roots_m2, s.moved_m2);
+}
+
+static void check_energy(void)
+{
+    make_room(0);
+    check_flux("spot 20-35", spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 35), cone_power(20, 35));
+    check_flux("spot 0-49", spot(vec3(0, 0, 0), vec3(1, 0.4f, 0.3f), 0, 49), cone_power(0, 49));
+    check_flux("spot 40-70, six faces", spot(vec3(0.1f, 0.5f, -0.2f), vec3(0.2f, -1, 0.3f), 40, 70),
+               cone_power(40, 70));
+    check_flux("point", point_light(vec3(0.1f, 0.2f, 0.3f)), 4.0 * PI);
+    const double room_m2 = sum_all().moved_m2;
+    CHECK_MSG(fabs(room_m2 / 24.0 - 1.0) < 2e-3, "%g m2 of 24", room_m2);
+    make_room(1);
+    check_flux("point, furnished", point_light(vec3(0.1f, 0.3f, -0.1f)), 4.0 * PI);
+    make_floor();
+    check_flux("sun overhead", sun(vec3(0, -1, 0)), 4.0);
+    check_flux("sun at 60 degrees", sun(vec3(0.8660254f, -0.5f, 0)), 2.0);
+}
+
+/* --- bounds ------------------------------------------------------------------------------------------------------- */
+
+typedef struct faults {
+    uint32_t nodes, outside, bent, strange, sums, empty;
+} faults;
+
+static int is_in(lmb_vec3 p, lmb_vec3 low, lmb_vec3 high)
+{
+    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
+}
+
+static lmb_vec3 stands_at(uint32_t face, const lmb_node *n)
+{
+    return tree_texel(&lit, face, (int32_t)n->texel % lit.size, (int32_t)n->texel / lit.size)->position;
+}
+
+/* The texel that stands for a node: lit, one of its own, and of those of its parts the nearest to its centre. */
+static int is_well_stood_for(const lmb_node *n, uint32_t face, int32_t x, int32_t y, int level)
+{
+    const int32_t tx = (int32_t)n->texel % lit.size, ty = (int32_t)n->texel / lit.size;
+    int good = tx >> level == x && ty >> level == y && flux_sum(tree_texel(&lit, face, tx, ty)->flux) > 0.0f;
+    for (int i = 0; i < 4; ++i) {
+        const lmb_node part = lit_node(face, 2 * x + i % 2, 2 * y + i / 2, level - 1);
+        good &= !(flux_sum(part.flux) > 0.0f) || length3(sub3(stands_at(face, &part), n->centre)) >=
+                                                     0.99999f * length3(sub3(stands_at(face, n), n->centre));
+    }
+    return good;
+}
+
+/* One node against every texel under it. */
+static void check_node(faults *f, uint32_t face, int32_t x, int32_t y, int level)
+{
+    const lmb_node n = lit_node(face, x, y, level);
+    const lmb_vec3 ulp = {1e-6f, 1e-6f, 1e-6f};
+    const int32_t side = 1 << level;
+    double flux = 0.0, area = 0.0;
+    uint32_t outside = 0, bent = 0;
+    for (int32_t i = 0; i < side * side; ++i) {
+        const lmb_node t = lit_node(face, x * side + i % side, y * side + i / side, 0);
+        if (flux_sum(t.flux) > 0.0f) {
+            flux += (double)flux_sum(t.flux);
+            area += (double)t.area;
+            outside += !is_in(t.centre, n.low, n.high);
+            bent += dot3(t.normal, n.normal) < n.cosine - 2e-5f;
+        }
+    }
+    f->empty += (flux > 0.0) != (flux_sum(n.flux) > 0.0f);
+    f->sums += fabs((double)flux_sum(n.flux) - flux) > 4e-6 * flux || fabs((double)n.area - area) > 4e-6 * area;
+    if (flux > 0.0) {
+        ++f->nodes;
+        f->outside += outside > 0 || !is_in(n.centre, sub3(n.low, ulp), add3(n.high, ulp));
+        f->bent += bent > 0 || absf(length3(n.normal) - 1.0f) > 1e-6f;
+        f->strange += !is_well_stood_for(&n, face, x, y, level);
+    }
+}
+
+/* V15: boxes, cones, sums and the texel that stands for the others, of every node. */
+static void check_bounds(const char *name, lmb_light light)
+{
+    faults f;
+    memset(&f, 0, sizeof f);
+    lit_by(&light);
+    for (uint32_t face = 0; face < lit.faces; ++face) {
+        for (int level = 1; level <= tree_root_level(&lit); ++level) {
+            const int32_t side = lit.size >> level;
+            for (int32_t i = 0; i < side * side; ++i) {
+                check_node(&f, face, i % side, i / side, level);
+            }
+        }
+    }
+    CHECK_MSG(f.nodes > 1000, "%s: %u nodes", name, (unsigned)f.nodes);
+    CHECK_MSG(f.outside == 0, "%s: %u boxes do not hold their texels", name, (unsigned)f.outside);
+    CHECK_MSG(f.bent == 0, "%s: %u cones do not hold their normals", name, (unsigned)f.bent);
+    CHECK_MSG(f.sums == 0, "%s: %u sums wrong", name, (unsigned)f.sums);
+    CHECK_MSG(f.strange == 0, "%s: %u nodes have the wrong texel stand for them", name, (unsigned)f.strange);
+    CHECK_MSG(f.empty == 0, "%s: %u nodes empty with light or lit without", name, (unsigned)f.empty);
+}
+
+/* --- order, and what is refused ----------------------------------------------------------------------------------- */
+
+/* Rows in any order, in any pieces, over any noise: the same bytes. */
+static void check_order(lmb_light light)
+{
+    static uint32_t first_memory[sizeof lit_memory / sizeof *lit_memory];
+    make_room(1);
+    lit_begin(6, LIT_SMALL, NOISE);
+    lit_add(&light);
+    const size_t bytes = lmb_tree_bytes(lit.faces, lit.size);
+    const uint32_t faces = lit.faces;
+    memcpy(first_memory, lit_memory, sizeof lit_memory);
+    lit_begin(6, LIT_SMALL, NOISE);
+    for (lit.faces = 0; lit.faces < faces; ++lit.faces) { /* a point light's faces are all drawn */
+        const int32_t rows = lit.size / LMB_TILE, face = (int32_t)lit.faces;
+        CHECK(lit_rows(&light, face, rows - 3, rows) == LMB_OK && lit_rows(&light, face, 1, 2) == LMB_OK);
+        CHECK(lit_rows(&light, face, 2, rows - 3) == LMB_OK && lit_rows(&light, face, 4, 4) == LMB_OK);
+        CHECK(lit_rows(&light, face, 0, 1) == LMB_OK);
+        lit_sum(lit.faces);
+    }
+    CHECK(faces == 6 && bytes <= sizeof lit_memory && memcmp(lit_memory, first_memory, sizeof lit_memory) == 0);
+    for (uint32_t f = 0; f < faces; ++f) {
+        lit_sum(f);
+    }
+    CHECK(memcmp(lit_memory, first_memory, sizeof lit_memory) == 0); /* summed twice */
+}
+
+static void check_refused(void)
+{
+    const lmb_light light = spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 35);
+    const lmb_kernels *k = lmb_kernels_pick();
+    const int32_t rows = LIT_SMALL / LMB_TILE;
+    lmb_tree t, other;
+    CHECK(lmb_tree_bytes(1, 8) == 64 * sizeof(lmb_texel) + 21 * sizeof(lmb_node) + sizeof(lmb_view));
+    CHECK(lmb_tree_bytes(0, 64) == 0 && lmb_tree_bytes(1, 4) == 0 && lmb_tree_bytes(1, 96) == 0);
+    CHECK(lmb_tree_bytes(1, 8192) == 0 && lmb_tree_bytes(1, -8) == 0 && lmb_tree_bytes(65536, 8) == 0);
+    const size_t bytes = lmb_tree_bytes(2, LIT_SMALL);
+    CHECK(lmb_tree_init(&t, 2, LIT_SMALL, lit_memory, bytes) == LMB_OK && t.faces == 0 && t.face_cap == 2);
+    CHECK(lmb_tree_init(&other, 2, LIT_SMALL, lit_memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_tree_init(&other, 2, LIT_SMALL, (char *)lit_memory + 2, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_tree_init(&other, 2, 100, lit_memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_tree_init(&other, 2, LIT_SMALL, NULL, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_tree_init(NULL, 2, LIT_SMALL, lit_memory, bytes) == LMB_ERR_ARG);
+    make_room(0);
+    lit_begin(2, LIT_SMALL, NOISE);
+    lit_draw(&light);
+    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 2, 0, rows) == LMB_ERR_CAPACITY);
+    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 1, 0, 0, rows) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, rows + 1) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 2, 1) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, NULL, 0, 0, 0, rows) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, NULL, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, rows) == LMB_ERR_ARG);
+    other = lit;
+    other.size = 2 * LIT_SMALL;
+    CHECK(lmb_tree_texels(&other, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_tree_sum(&lit, 2) == LMB_ERR_ARG && lmb_tree_sum(NULL, 0) == LMB_ERR_ARG);
+    size_t kept = 0;
+    while (kept < sizeof lit_memory && ((const uint8_t *)lit_memory)[kept] == NOISE) {
+        ++kept;
+    }
+    CHECK(kept == sizeof lit_memory); /* nothing was written */
+}
+
+/* --- where texels end --------------------------------------------------------------------------------------------- */
+
+/* Two plates of 4 x 2 m with normals a and b: both begin at the line `along` through the origin. */
+static void make_fold(lmb_vec3 along, lmb_vec3 a, lmb_vec3 b)
+{
+    const lmb_vec3 u = normalize3(cross3(along, a)), v = normalize3(cross3(b, along));
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_quad(u, u, mul3(along, 2.0f));
+    world_quad(v, v, mul3(along, -2.0f));
+    CHECK(world_end() == LMB_OK);
+}
+
+typedef struct ends {
+    uint32_t count, stray;
+    double worst; /* texels from the line */
+} ends;
+
+/* Lines that texels should end on: through `at`, along `along`. */
+typedef struct lines {
+    int32_t count;
+    lmb_vec3 at[4], along[4];
+} lines;
+
+static float off_lines(const lines *l, lmb_vec3 p)
+{
+    float least = 3e38f;
+    for (int i = 0; i < l->count; ++i) {
+        least = minf(least, length3(cross3(sub3(p, l->at[i]), l->along[i])));
+    }
+    return least;
+}
+
+/* A whole texel of the surface to the left, right, up and down. */
+static void whole_sides(lmb_vec3 step[4], int32_t x, int32_t y)
+{
+    const lmb_texel *t = tree_texel(&lit, 0, x, y);
+    lmb_node n;
+    lmb_vec3 u, v;
+    lmb_tree_texel_quad(&n, &u, &v, &lit, 0, x, y);
+    step[1] = mul3(u, 512.0f / (float)(t->side[0] + t->side[1]));
+    step[2] = mul3(v, 512.0f / (float)(t->side[2] + t->side[3]));
+    step[0] = mul3(step[1], -1.0f);
+    step[3] = mul3(step[2], -1.0f);
+}
+
+/* Texels on one side of the plane y = height, the map's rim left out: are their moved ends on the lines? Those that are
+ * moved without a line near are strays. */
+static ends measure_ends(const lines *l, float height, int over)
+{
+    ends e = {0, 0, 0.0};
+    for (int32_t i = 0; i < lit.size * lit.size; ++i) {
+        const lmb_texel *t = tree_texel(&lit, 0, i % lit.size, i / lit.size);
+        lmb_vec3 step[4];
+        if (!(flux_sum(t->flux) > 0.0f) || (t->position.y > height) != over) {
+            continue;
+        }
+        whole_sides(step, i % lit.size, i / lit.size);
+        for (int s = 0; s < 4; ++s) {
+            if (t->side[s] != 128) {
+                const lmb_vec3 end = add3(t->position, mul3(step[s], (float)t->side[s] / 256.0f));
+                ++e.count;
+                e.worst = fmax(e.worst, (double)(off_lines(l, end) / length3(step[s])));
+                e.stray += off_lines(l, t->position) > 1.1f * length3(step[s]);
+            }
+        }
+    }
+    return e;
+}
+
+static void check_ends(const char *name, const ends *e, double bound)
+{
+    const sums s = sum_all();
+    const double lost = fabs(s.moved[0] / s.texels[0] - 1.0);
+    printf("  %-21s %u ends within %.3f texel of their line, light kept to %.4f %%\n", name, (unsigned)e->count,
+           e->worst, lost * 100);
+    CHECK_MSG(e->count > 100 && e->worst < bound, "%s: %u ends, %g", name, (unsigned)e->count, e->worst);
+    CHECK_MSG(e->stray == 0, "%s: %u ends moved away from the line", name, (unsigned)e->stray);
+    CHECK_MSG(lost < 5e-4, "%s: %g", name, lost);
+}
+
+/* V16: at the line where two planes meet, their texels end; nowhere else. */
+static void check_fold(const char *name, lmb_light light, lmb_vec3 along)
+{
+    lines l;
+    l.count = 1;
+    l.at[0] = vec3(0, 0, 0);
+    l.along[0] = along;
+    lit_by(&light);
+    const ends e = measure_ends(&l, -9.0f, 1);
+    check_ends(name, &e, 0.02);
+}
+
+static void check_folds(void)
+{
+    const lmb_vec3 along = normalize3(vec3(0.35f, 0.1f, 1)), floor = normalize3(cross3(along, X));
+    const lmb_vec3 wall = normalize3(cross3(floor, along)), roof = normalize3(sub3(floor, wall));
+    make_fold(along, floor, wall); /* a corner */
+    check_fold("corner, spot", spot(vec3(1.2f, 1.1f, 0.4f), vec3(-1, -1, -0.2f), 20, 40), along);
+    check_fold("corner, sun", sun(vec3(-1, -0.7f, -0.2f)), along);
+    make_fold(along, floor, roof); /* flatter */
+    check_fold("flat, spot", spot(vec3(0.7f, 1.3f, 0.4f), vec3(-0.5f, -1, -0.2f), 20, 40), along);
+    check_fold("flat, sun", sun(vec3(-0.3f, -1, -0.2f)), along);
+}
+
+void test_tree(void)
+{
+    check_energy();
+    make_room(1);
+    check_bounds("spot", spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 45));
+    check_bounds("point", point_light(vec3(0.1f, 0.3f, -0.1f)));
+    check_bounds("sun", sun(vec3(0.4f, -1, 0.2f)));
+    check_order(point_light(vec3(0.1f, 0.3f, -0.1f)));
+    check_refused();
+    check_folds();
+}
