@@ -4,8 +4,8 @@
  * Each case runs with the kernels of every machine that can run here (or the way's); a line names the ones whose hash
  * is not the table's.
  *
- * Freestanding and small (static memory under 200 KiB), so that a Cortex-M4F runs the very same list. A hash changes
- * only in a commit that explains the pixels. */
+ * Freestanding and small (static memory under 256 KiB in the small configuration), so that a Cortex-M4F runs the very
+ * same list. A hash changes only in a commit that explains the pixels. */
 #include "golden.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@
 #include "../../src/base/poly.h"
 #include "../../tools/demo_scene.h"
 
-enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40 };
+enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40, TREE = 32 };
 enum { LIGHT_CELLS = 20, MANY_LIGHTS = 600 };
 
 static struct memory {
@@ -24,7 +24,18 @@ static struct memory {
     lmb_render render;
     uint64_t lights[LIGHT_CELLS * 450 / 8];
 } memory;
-LMB_POINTS_ARRAY(points, POINTS, MAP / 4);
+/* First points, or the tree of a light's map in their place: one face, or more that are smaller. */
+static union light_memory {
+    lmb_point points[POINTS];
+    struct {
+        lmb_texel texels[TREE * TREE];
+        lmb_node nodes[(TREE * TREE - 1) / 3];
+        lmb_view view;
+    } tree;
+} light_memory;
+static uint32_t point_cells[MAP / 4 * (MAP / 4) + 1];
+static lmb_points points = {light_memory.points, POINTS, 0, point_cells, MAP / 4 * (MAP / 4) + 1, 0, NULL, 0, 0};
+static uint32_t blocker_memory[TRIANGLES * 29 + 1024];
 static const lmb_kernels *kernels; /* those that the cases run with */
 static const golden_way *way;
 
@@ -459,6 +470,120 @@ static uint64_t case_many(int variant)
     return hash_surface(hash_u32(h, (uint32_t)status), &f.out);
 }
 
+/* --- cuts of the light's tree ----------------------------------------------------------------------------------------- */
+
+static void set_tree(lmb_tree *tree, uint32_t faces, int32_t size)
+{
+    memset(&light_memory, 0x3c, sizeof light_memory);
+    memset(tree, 0, sizeof *tree);
+    lmb_tree_init(tree, faces, size, &light_memory, sizeof light_memory);
+}
+
+static uint64_t hash_tree(uint64_t h, const lmb_tree *tree, uint32_t faces)
+{
+    const uint32_t texels = (uint32_t)(tree->size * tree->size);
+    for (uint32_t i = 0; i < faces * texels; ++i) {
+        const lmb_texel *t = &tree->texel[i];
+        h = hash_floats(h, &t->position.x, 3);
+        h = hash_floats(h, &t->normal.x, 3);
+        h = hash_floats(h, t->flux, 3);
+        for (int k = 0; k < 4; ++k) {
+            h = hash_u32(h, t->side[k]);
+        }
+    }
+    for (uint32_t i = 0; i < faces * ((texels - 1) / 3); ++i) {
+        const lmb_node *n = &tree->node[i];
+        h = hash_floats(h, &n->centre.x, 3);
+        h = hash_floats(h, &n->normal.x, 3);
+        h = hash_floats(h, n->flux, 3);
+        h = hash_floats(h, &n->area, 1);
+        h = hash_floats(h, &n->low.x, 3);
+        h = hash_floats(h, &n->high.x, 3);
+        h = hash_floats(h, &n->cosine, 1);
+        h = hash_u32(h, n->texel);
+    }
+    return h;
+}
+
+static lmb_blockers soup_blockers(void)
+{
+    lmb_blockers b;
+    memset(&b, 0, sizeof b);
+    lmb_blockers_init(&b, TRIANGLES, blocker_memory, sizeof blocker_memory);
+    return b;
+}
+
+/* A face's tree. Variant: the light's kind (a point's sixth face); + 4: of half as many texels a side as the map. */
+static uint64_t case_tree(int variant)
+{
+    const int32_t face = (variant & 3) == LMB_LIGHT_POINT ? 5 : 0, size = face > 0 ? 16 : TREE;
+    lmb_light_map map;
+    lmb_tree tree;
+    make_soup(33u, 2.0f);
+    soup_light = make_light(variant & 3);
+    lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
+    way->draw_map(&map, kernels, &soup);
+    set_tree(&tree, 1, variant & 4 ? size / 2 : size);
+    lmb_status a = lmb_tree_texels(&tree, kernels, &memory.scratch.tile, &soup, &soup_light, &map, face, 0, 0,
+                                   size / LMB_TILE);
+    lmb_status b = lmb_tree_sum(&tree, 0);
+    return hash_tree(hash_u32(hash_u32(hash_start, (uint32_t)a), (uint32_t)b), &tree, 1);
+}
+
+/* A soup lit by cuts of a tree of `size` x `size` texels a face. */
+static lmb_frame soup_frame(uint32_t faces, int32_t size)
+{
+    lmb_frame f = demo_frame();
+    make_soup(33u, 2.0f);
+    soup_light = make_light(LMB_LIGHT_SPOT);
+    f.scene = &soup;
+    f.view = soup_view(0);
+    f.show = LMB_SHOW_INDIRECT;
+    f.light_map = size;
+    f.grouping.method = LMB_GROUP_CUT;
+    memset(&f.points, 0, sizeof f.points);
+    f.groups = NULL;
+    set_tree(&f.tree, faces, size);
+    f.blockers = soup_blockers();
+    return f;
+}
+
+/* 64 texels: the small configuration holds every cut. Variant: occlusion. */
+static uint64_t case_cut(int variant)
+{
+    lmb_frame f = soup_frame(1, 8);
+    f.occlusion = variant;
+    lmb_status status = way->render(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
+/* Cuts of more nodes than the small configuration holds. */
+static uint64_t case_full_cut(int variant)
+{
+    lmb_frame f = soup_frame(1, TREE);
+    f.occlusion = variant;
+    lmb_status status = way->render(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
+/* A spot and one so wide that a cube's faces serve it; the whole picture. */
+static uint64_t case_cut_lights(int variant)
+{
+    lmb_frame f = soup_frame(7, 8);
+    lmb_light two[2];
+    two[0] = two[1] = soup_light;
+    two[1].position.x = -1.0f;
+    two[1].cos_inner = 0.5f;
+    two[1].cos_outer = 0.2f;
+    soup.lights = two;
+    soup.light_count = 2;
+    f.show = LMB_SHOW_FULL;
+    f.occlusion = variant;
+    lmb_surface_clear(&f.out);
+    lmb_status status = way->render(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
 /* --- what does not fit: the status, and what is left ------------------------------------------------------------------ */
 
 /* A map's first points of 4x4 or 1x1 texels where fewer fit: those so far stand. */
@@ -559,10 +684,10 @@ static const struct golden {
     uint64_t hash;
 } cases[] = {
 #include "golden_table.inc"
-#if LMB_MAX_GROUPS == 2048 && LMB_MAX_LIGHTS == 128
+#if LMB_MAX_GROUPS == 2048 && LMB_MAX_LIGHTS == 128 && LMB_MAX_CUT == 8192
 #define CAPACITY_CASE(name, run, variant, here, tiny) {name, run, variant, here},
 #include "golden_capacity.inc"
-#elif LMB_MAX_GROUPS == 96 && LMB_MAX_LIGHTS == 1
+#elif LMB_MAX_GROUPS == 96 && LMB_MAX_LIGHTS == 1 && LMB_MAX_CUT == 64
 #define CAPACITY_CASE(name, run, variant, large, here) {name, run, variant, here},
 #include "golden_capacity.inc"
 #endif
