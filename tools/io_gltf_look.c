@@ -280,7 +280,7 @@ static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
 }
 
 /* Radiance: factor x KHR_materials_emissive_strength x the mean of the map, which cannot vary over a light. */
-static int read_emission(lmb_vec3 *out, gltf *g, uint32_t material)
+static int read_emission(float out[3], gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
     const uint32_t map = json_member(doc, material, "emissiveTexture"),
@@ -298,11 +298,8 @@ static int read_emission(lmb_vec3 *out, gltf *g, uint32_t material)
     }
     for (k = 0; k < 3; ++k) {
         factor[k] *= strength * (mean ? mean->light[k] : 1);
-        factor[k] = factor[k] > 0 && factor[k] < 1e30 ? factor[k] : 0;
+        out[k] = factor[k] > 0 && factor[k] < 1e30 ? (float)factor[k] : 0.0f;
     }
-    out->x = (float)factor[0];
-    out->y = (float)factor[1];
-    out->z = (float)factor[2];
     g->left_out.occlusion_maps += json_member(doc, material, "occlusionTexture") != JSON_NONE;
     return 1;
 }
@@ -363,7 +360,7 @@ int gltf_materials(gltf *g)
     for (i = 0; i < n; ++i) {
         plain_material(&g->b->materials[i]);
         if (!read_material(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i]) ||
-            !read_emission(&g->b->out->emission[i], g, g->materials.items[i]))
+            !read_emission(g->b->materials[i].emission, g, g->materials.items[i]))
             return 0;
     }
     g->b->material_count = n;

@@ -82,7 +82,7 @@ static int read_kd(lmb_material *out, obj_material *m, cursor *c, report *r)
 }
 
 /* Emitted radiance. */
-static int read_ke(lmb_vec3 *out, cursor *c, report *r)
+static int read_ke(float out[3], cursor *c, report *r)
 {
     double v[3] = {0, 0, 0};
     slice token;
@@ -98,9 +98,8 @@ static int read_ke(lmb_vec3 *out, cursor *c, report *r)
         return text_fail(c, r, "Ke needs three numbers, 0 or more");
     for (; i < 3; ++i)
         v[i] = v[0]; /* one number: white */
-    out->x = (float)v[0];
-    out->y = (float)v[1];
-    out->z = (float)v[2];
+    for (i = 0; i < 3; ++i)
+        out[i] = (float)v[i];
     return 1;
 }
 
@@ -222,7 +221,7 @@ static int read_statement(lmb_material *out, obj_material *m, model_build *b, sl
     if (slice_is(word, "Kd"))
         return read_kd(out, m, c, b->r);
     if (slice_is(word, "Ke"))
-        return read_ke(&b->out->emission[out - b->materials], c, b->r);
+        return read_ke(out->emission, c, b->r);
     if (slice_is(word, "map_Kd"))
         return read_map(m, b, c);
     m->left_out |= left_out_by(word, *c);

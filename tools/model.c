@@ -75,8 +75,7 @@ void *build_scratch(model_build *b, uint64_t count, size_t size) { return build_
 int build_materials(model_build *b, uint64_t count)
 {
     b->materials = (lmb_material *)build_keep(b, count, sizeof *b->materials);
-    b->out->emission = (lmb_vec3 *)build_keep(b, count, sizeof *b->out->emission);
-    return b->materials && b->out->emission;
+    return b->materials != NULL;
 }
 
 void build_note(model_build *b, const char *format, ...)
@@ -373,11 +372,11 @@ static void note_emission(model_build *b)
 {
     uint32_t i, count = 0;
     for (i = 0; i < b->material_count; ++i) {
-        const lmb_vec3 e = b->out->emission[i];
-        count += e.x > 0.0f || e.y > 0.0f || e.z > 0.0f;
+        const float *e = b->materials[i].emission;
+        count += e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
     }
     if (count)
-        build_note(b, "emissive materials, which do not light the scene: %u", (unsigned)count);
+        build_note(b, "emissive materials, which light the scene with --grouping cut only: %u", (unsigned)count);
 }
 
 /* What a reader left to count: the file has what the scene has, each mesh of one piece. */

@@ -49,7 +49,6 @@ typedef struct model_facts {
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
 typedef struct model {
     lmb_scene scene; /* checked: lmb_scene_check(&scene) == LMB_OK */
-    lmb_vec3 *emission; /* by material: radiance that it gives off, W/(sr m2); read, not drawn */
     model_camera *cameras;
     uint32_t camera_count;
     model_facts facts;

@@ -42,7 +42,7 @@ typedef struct model_build {
 void *build_keep(model_build *b, uint64_t count, size_t size);
 void *build_scratch(model_build *b, uint64_t count, size_t size);
 
-/* build_materials: room for `count` materials in b->materials, with their emission. */
+/* build_materials: room for `count` materials in b->materials. */
 int build_materials(model_build *b, uint64_t count);
 
 /* build_note: a line for the user; equal lines appear once, the sixteenth says that there were more. */

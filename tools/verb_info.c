@@ -24,8 +24,8 @@ static const char help_text[] =
     "  triangles         placed: over all instances; unique: each mesh once\n"
     "  vertices          as stored, of the meshes that are placed\n"
     "  materials         in the file; drawn: those that an instance shows, and what they are\n"
-    "  emissive          materials that give off light: radiance, W/(sr m2); `render` does not light the scene with "
-    "it\n"
+    "  emissive          materials that give off light: radiance, W/(sr m2); `render --grouping cut` lights the scene "
+    "with it\n"
     "  images textures   in the file; read: with size, mip levels and bytes in memory, shared by equal images\n"
     "  lights cameras    in the file; placed: by nodes; the number before a camera is for `render --camera`\n"
     "  extensions        read, folded into what is read anyhow, or ignored; a scene that requires one that is\n"
@@ -156,7 +156,7 @@ static int count_materials(summary *s, const lmb_scene *scene)
     return 1;
 }
 
-static int is_emissive(lmb_vec3 radiance) { return radiance.x > 0.0f || radiance.y > 0.0f || radiance.z > 0.0f; }
+static int is_emissive(const float radiance[3]) { return radiance[0] > 0.0f || radiance[1] > 0.0f || radiance[2] > 0.0f; }
 
 static int summarize(summary *s, const model *m)
 {
@@ -168,7 +168,7 @@ static int summarize(summary *s, const model *m)
     for (uint32_t i = 0; i < m->camera_count; ++i)
         s->orthographic += m->cameras[i].orthographic != 0;
     for (uint32_t i = 0; i < m->scene.material_count; ++i)
-        s->emissive += is_emissive(m->emission[i]);
+        s->emissive += is_emissive(m->scene.materials[i].emission);
     return count_materials(s, &m->scene);
 }
 
@@ -221,10 +221,10 @@ static void text_counts(FILE *out, const model *m, const summary *s)
     label(out, "emissive");
     fprintf(out, "%u\n", (unsigned)s->emissive);
     for (uint32_t i = 0; i < m->scene.material_count; ++i) {
-        const lmb_vec3 e = m->emission[i];
+        const float *e = m->scene.materials[i].emission;
         if (is_emissive(e)) {
             label(out, "");
-            fprintf(out, "%u: %.6g %.6g %.6g\n", (unsigned)i, (double)e.x, (double)e.y, (double)e.z);
+            fprintf(out, "%u: %.6g %.6g %.6g\n", (unsigned)i, (double)e[0], (double)e[1], (double)e[2]);
         }
     }
 }
@@ -329,9 +329,11 @@ static void json_counts(FILE *out, const model *m, const summary *s)
             (unsigned)f->materials, (unsigned)s->drawn, (unsigned)s->double_sided, (unsigned)s->masked,
             (unsigned)s->textured, (unsigned)s->normal_mapped);
     for (uint32_t i = 0, n = 0; i < m->scene.material_count; ++i)
-        if (is_emissive(m->emission[i])) {
+        if (is_emissive(m->scene.materials[i].emission)) {
+            const float *e = m->scene.materials[i].emission;
+            const lmb_vec3 radiance = {e[0], e[1], e[2]};
             fprintf(out, "%s{\"material\":%u,", n++ ? "," : "", (unsigned)i);
-            json_vec3(out, "radiance", m->emission[i]);
+            json_vec3(out, "radiance", radiance);
             fputc('}', out);
         }
     fputs("]},", out);

@@ -55,6 +55,7 @@ typedef struct lmb_material {
     uint32_t flags;
     uint32_t normal_map; /* index into scene->textures, where normal_scale is not 0 */
     float normal_scale;  /* times the map's x and y; 0: no normal map */
+    float emission[3];   /* radiance that its front gives off, W/(sr m2); its back too where LMB_DOUBLE_SIDED */
 } lmb_material;
 
 /* A mesh placed in the world. Triangle t of it has the id first_id + t, in the draw order of the scene; the first
@@ -97,7 +98,7 @@ extern "C" {
 
 /* lmb_scene_check: is the scene safe to draw? Reads every struct (not the vertices; draws check each index).
  *
- * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles, negative albedo or intensity,
+ * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles, negative albedo, emission or intensity,
  * direction not of unit length, cones not 0 < cos_outer <= cos_inner <= 1, bounds the wrong way round), LMB_ERR_ALIGN
  * (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown format, wrap, filter, light kind), LMB_ERR_SCENE (index
  * outside, ids not numbered in order). Call it once after loading; every other function takes the scene as checked. */
