@@ -43,6 +43,8 @@ static const char usage_bounce[] =
     "  --tree N                   first points a side of a light's map, a power of two, to an eighth of --light-map\n"
     "  --error E                  share that a pixel's bounced light may be wrong by where nothing blocks it\n"
     "  --visible V                what may be seen or blocked as one: at most this share of a pixel's bounced light\n"
+    "  --bounces N                reflections of light, 1 .. 64 (default 1); above 1 with --grouping cut\n"
+    "  --elements N               pieces of the scene that reflect again, or shine (default 16384; a power of 4)\n"
     "  --grouping cut|zones|greedy|none\n"
     "                             cut (default): every 8x8 pixels take what they need of a tree of all lit points.\n"
     "                             The others make one fixed set of groups; what follows to --steps is theirs:\n"
@@ -290,6 +292,20 @@ static int parse_visible(const char *text, render_options *o)
     return parse_number(text, 1e-4f, 10.0f, &o->visible);
 }
 
+static int parse_bounces(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->bounces); }
+
+/* Rounded up to what the library takes: a power of 4. */
+static int parse_elements(const char *text, render_options *o)
+{
+    int32_t wanted;
+    if (!parse_int(text, 64, 1 << 24, &wanted)) {
+        return 0;
+    }
+    for (o->elements = 64; o->elements < wanted; o->elements *= 4) {
+    }
+    return 1;
+}
+
 static int parse_neighbour(const char *text, render_options *o)
 {
     return parse_number(text, 0.0f, 1e6f, &o->grouping.neighbour_m);
@@ -389,6 +405,8 @@ static const struct flag {
     {"--tree", parse_tree, "a power of two, 8 .. 4096"},
     {"--error", parse_error, "a share, 0.0001 .. 10"},
     {"--visible", parse_visible, "a share, 0.0001 .. 10"},
+    {"--bounces", parse_bounces, "a number from 1 to 64"},
+    {"--elements", parse_elements, "a number from 64 to 16777216"},
     {"--groups", parse_groups, "a number from 1 to the build's capacity (2048)"},
     {"--block", parse_block, "1, 2, 4 or 8"},
     {"--neighbour", parse_neighbour, "metres, 0 or more"},
@@ -455,6 +473,9 @@ static int check_together(const render_options *o, report *r)
     }
     if (o->out == NULL) {
         return report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
+    }
+    if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
+        return report_fail(r, "--bounces above 1 needs --grouping cut");
     }
     if (o->has_eye != o->has_target) {
         return report_fail(r, "--eye and --target go together");

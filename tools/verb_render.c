@@ -19,6 +19,7 @@
 #include "render_options.h"
 #include "render_view.h"
 
+#define ELEMENTS   16384
 #define MAP_TEXELS (2u << 20) /* over all lights' maps, by default: 16 MiB */
 
 /* One run, from the options to the picture. Everything here is freed by job_free. */
@@ -37,7 +38,7 @@ typedef struct job {
     crew crew;
     lmb_stats stats;
     image linear;
-    void *map_memory, *point_memory, *owner_memory, *blocker_memory, *depth_memory, *id_memory;
+    void *map_memory, *point_memory, *owner_memory, *blocker_memory, *element_memory, *depth_memory, *id_memory;
     size_t bytes; /* of the above and the state */
     double load_s, write_s, total_s;
     double indirect_share;
@@ -49,6 +50,7 @@ static void job_free(job *j)
     free(j->point_memory);
     free(j->blocker_memory);
     free(j->owner_memory);
+    free(j->element_memory);
     free(j->depth_memory);
     free(j->id_memory);
     free(j->frame.groups);
@@ -94,12 +96,22 @@ static void tell_notes(const job *j)
     }
 }
 
+static int shines(const lmb_scene *s)
+{
+    int any = 0;
+    for (uint32_t i = 0; i < s->material_count; ++i) {
+        const float *e = s->materials[i].emission;
+        any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
+    }
+    return any;
+}
+
 static void set_lights(job *j)
 {
     if (j->o.light_count > 0) {
         j->scene.lights = j->o.lights;
         j->scene.light_count = j->o.light_count;
-    } else if (j->scene.light_count == 0) {
+    } else if (j->scene.light_count == 0 && !(j->o.grouping.method == LMB_GROUP_CUT && shines(&j->scene))) {
         lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL,
                          0};
         j->sun = sun;
@@ -180,11 +192,22 @@ static int take_blockers(job *j, report *r)
            lmb_blockers_init(&f->blockers, triangles, j->blocker_memory, bytes) == LMB_OK;
 }
 
+static int take_elements(job *j, report *r)
+{
+    const uint32_t n = j->o.elements != 0 ? (uint32_t)j->o.elements : ELEMENTS;
+    if (j->o.bounces <= 1 && !shines(&j->scene)) {
+        return 1;
+    }
+    j->element_memory = take(j, lmb_elements_bytes(n), r);
+    return j->element_memory != NULL &&
+           lmb_elements_init(&j->frame.elements, n, j->element_memory, lmb_elements_bytes(n)) == LMB_OK;
+}
+
 /* The tree of light. */
 static int take_tree(job *j, report *r)
 {
     lmb_frame *f = &j->frame;
-    const uint32_t faces = total_faces(&j->scene);
+    const uint32_t lit = total_faces(&j->scene), faces = lit > 0 ? lit : 1;
     const int32_t finest = f->light_map < 4096 ? f->light_map : 4096, least = f->light_map / 8;
     const int32_t size = j->o.tree > finest ? finest : j->o.tree < least ? least : j->o.tree;
     const size_t bytes = lmb_tree_bytes(faces, size);
@@ -192,7 +215,8 @@ static int take_tree(job *j, report *r)
         return report_fail(r, "--grouping cut: --light-map must be a power of two, not %d", (int)f->light_map);
     }
     j->point_memory = take(j, bytes, r);
-    return j->point_memory != NULL && lmb_tree_init(&f->tree, faces, size, j->point_memory, bytes) == LMB_OK;
+    return j->point_memory != NULL && lmb_tree_init(&f->tree, faces, size, j->point_memory, bytes) == LMB_OK &&
+           take_elements(j, r);
 }
 
 /* Who holds a texel's light: asked for only where it is shown. */
@@ -284,6 +308,7 @@ static int take_frame(job *j, report *r)
     if (!take_picture(j, &j->linear, r) || r->text[0] != '\0') {
         return 0;
     }
+    memset(j->render, 0, sizeof *j->render);
     lmb_surface_init(&f->eye.depth, LMB_DEPTH32F, w, h, j->depth_memory, depth);
     lmb_surface_init(&f->eye.id, f->id_format, w, h, j->id_memory, id);
     set_eye(j, f, &j->linear, 0);
@@ -315,6 +340,7 @@ static int set_frame(job *j, report *r)
     f->occlusion = j->o.occlusion;
     f->steps = j->o.steps;
     f->error = j->o.error;
+    f->bounces = j->o.bounces;
     f->visible = j->o.visible;
     f->id_format = LMB_ID32;
     f->stats = &j->stats;
@@ -540,7 +566,8 @@ static asked_lights sum_asked(const job *j)
 
 static int write_stats(const job *j, report *r)
 {
-    static const char *const names[] = {"light_maps", "blockers", "first_points", "groups", "view", "bands"};
+    static const char *const names[] = {"light_maps", "blockers", "first_points", "groups",
+                                        "bounces",    "view",     "bands"};
     char text[2048];
     int n = 0;
     const lmb_stats *s = &j->stats;
@@ -556,11 +583,12 @@ static int write_stats(const job *j, report *r)
         text + n, sizeof text - (size_t)n,
         "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
         "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n"
-        "  \"pairs\": %.0f, \"segments\": %.0f,\n",
+        "  \"pairs\": %.0f, \"segments\": %.0f, \"elements\": %u, \"element_m\": %.6g,\n",
         (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
         (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
         (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups,
-        (double)s->pairs, (double)s->segments);
+        (double)s->pairs, (double)s->segments, (unsigned)j->render->frame.elements.count,
+        (double)j->render->frame.elements.side);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
                   "  \"many_lights\": %u, \"light_cells\": %u, \"light_nodes\": %.0f, \"shadow_tests\": %.0f,\n"

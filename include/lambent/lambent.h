@@ -13,6 +13,7 @@
 #include "many.h"
 #include "bounce.h"
 #include "tree.h"
+#include "elements.h"
 #include "compose.h"
 #include "render.h"
 

@@ -4,8 +4,9 @@
  *     lmb_render_begin(&r, &frame);        checks everything, writes no pixel
  *     while (lmb_render_step(&r, 1000) == LMB_MORE) { ... }       or: lmb_render_frame(&r, &frame)
  *
- * Order [V34]: per light its map, first points, discs; groups; the viewer's depth; then band after band: attributes,
- * direct light, gathered light, picture. Steps of any size, and bands in any order, give the same bytes.
+ * Order [V34]: per light its map, first points, discs; groups; bounces after the first; the viewer's depth; then band
+ * after band: attributes, direct light, gathered light, picture. Steps of any size, and bands in any
+ * order, give the same bytes.
  *
  * What a frame keeps, and where [V33]; all of it is the caller's memory and plain structs:
  *   light distances     r.maps[light], from LMB_STAGE_POINTS on: lmb_gbuffer_band over view[f] and face[f] gives metres
@@ -20,8 +21,9 @@
 
 #include "bounce.h"
 #include "compose.h"
-#include "tree.h"
+#include "elements.h"
 #include "many.h"
+#include "tree.h"
 
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
 enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
@@ -59,6 +61,7 @@ typedef struct lmb_frame {
     float error;           /* 0.02 where 0: LMB_GROUP_CUT: share of the bounced light that a pixel may be wrong by */
     float visible;         /* 0.02 where 0: LMB_OCCLUSION_EXACT: share that is seen or not as one */
     float many_error;      /* 0.02 where 0: lmb_many_look's */
+    int32_t bounces;       /* 1 where 0: how often light is reflected before the surface that is seen; LMB_GROUP_CUT */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */
@@ -68,6 +71,7 @@ typedef struct lmb_frame {
     lmb_groups *groups; /* NULL: no bounced light */
     lmb_tree tree;      /* LMB_GROUP_CUT: in place of points and groups; texel NULL: no bounced light */
     lmb_blockers blockers; /* LMB_OCCLUSION_EXACT, and shadows from `many`; triangle NULL: these cast none */
+    lmb_elements elements; /* for bounces > 1, and for materials that shine to light others; data NULL: neither */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
     lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
     lmb_band_scratch *scratch;
@@ -86,6 +90,7 @@ typedef struct lmb_render {
     lmb_status failed;           /* what stopped the frame: every later call returns it; LMB_OK while nothing did */
     uint32_t light, face, place; /* how far the stage is */
     uint32_t triangles;          /* of the scene */
+    int32_t shines;              /* 1 where a material gives off light */
 } lmb_render;
 
 /* The stages, in order; lmb_render_progress names them. */
@@ -94,6 +99,7 @@ typedef enum lmb_stage {
     LMB_STAGE_BLOCKERS, /* LMB_OCCLUSION_EXACT */
     LMB_STAGE_POINTS,
     LMB_STAGE_GROUPS,
+    LMB_STAGE_BOUNCES,
     LMB_STAGE_VIEW,
     LMB_STAGE_BANDS,
     LMB_STAGE_DONE
@@ -111,8 +117,9 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
- * A unit is 1,024 triangles of a draw or a row of light-map tiles; a band counts as 8 (and draws the whole scene into
- * its rows where the eye is band-sized); the discs of one face and the grouping are each one piece.
+ * A unit is 1,024 triangles of a draw, a row of light-map tiles or 64 elements of one bounce; a band counts as 8 (and
+ * draws the whole scene into its rows where the eye is band-sized); the discs of one face, the grouping and what is made
+ * of all triangles (blockers, elements) are each one piece.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 
@@ -139,7 +146,7 @@ lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
 int32_t lmb_render_has_parts(const lmb_render *r);
 
 /* lmb_render_part: do one of `parts` equal shares: tile rows of all lights' maps (LMB_STAGE_LIGHT_MAP), of the next face
- * of one (LMB_STAGE_POINTS), or of the frame (LMB_STAGE_VIEW). Shares may be done on any threads in any order. When
+ * of one (LMB_STAGE_POINTS), or of the frame (LMB_STAGE_VIEW); the elements of the next bounce (LMB_STAGE_BOUNCES). Shares may be done on any threads in any order. When
  * each was done, once, lmb_render_parts_done goes on. The bytes are those of lmb_render_step.
  *
  *   scratch  one for each thread.

@@ -31,6 +31,7 @@ typedef struct lmb_tree {
     lmb_texel *texel; /* face_cap x size x size, row by row */
     lmb_node *node;   /* face_cap x (size^2 - 1) / 3: of each face the level of size / 2 first, its root last */
     lmb_view *view;   /* face_cap */
+    const struct lmb_element *element; /* what the texels are, along the Z curve, where they are no texels of maps */
     int32_t size;     /* texels a side: a power of two */
     uint32_t face_cap, faces;
 } lmb_tree;
@@ -70,6 +71,8 @@ typedef struct lmb_cutting {
     float visible; /* share that no node may exceed whose visibility is asked as one */
     const lmb_blockers *blockers; /* NULL: everything is seen */
     lmb_stats *stats;             /* counts pairs and segments; may be NULL */
+    const lmb_irradiance *beside; /* counts to a pixel's light, for both shares; NULL: nothing. May be what is added to */
+    float least;                  /* so does this, W/m2, R + G + B */
 } lmb_cutting;
 
 #ifdef __cplusplus

@@ -132,6 +132,7 @@ typedef struct cutter {
     const patch *p;
     lmb_last_blockers last;
     float per_pixel;         /* 1 / pixels of the patch */
+    double beside;           /* what the pixels have beside the tree, in the mean */
     const float *key;        /* what the buckets go by: cut->error or cut->most */
     int highest;             /* no bucket over this has any */
     double error, value;     /* sums; of value, what is seen */
@@ -210,6 +211,23 @@ static void put(cutter *c, int32_t i, lmb_tree_place at, weight w, uint64_t visi
     count_in(c, i, 1.0);
 }
 
+/* Of `pixels`, those that do not have the point before them, or are not before it, by more than what a wall does not
+ * block: it does not block what lies on it, so who stands behind it must not be asked past it. */
+static uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen)
+{
+    const float noise = c->cutting->blockers->noise;
+    uint64_t out = 0;
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = sub3(seen->position, tile_vec(c->tile->position, k));
+        const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > noise;
+        out |= (uint64_t)!before << k;
+    }
+    return out;
+}
+
+/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are: see
+ * TURNED. */
 static void ask(cutter *c, int32_t i)
 {
     const int32_t size = c->tree->size;
@@ -218,10 +236,13 @@ static void ask(cutter *c, int32_t i)
     if (at.level > 0) {
         texel = tree_node(c->tree, at)->texel;
     }
+    const lmb_texel *seen = tree_texel(c->tree, at.face, (int32_t)texel % size, (int32_t)texel / size);
     count_in(c, i, -1.0);
-    c->cut->visible[i] &= ~lmb_blocked_tile(
-        c->cutting->blockers, c->kernels, c->tile, c->cut->visible[i],
-        tree_texel(c->tree, at.face, (int32_t)texel % size, (int32_t)texel / size)->position, &c->last);
+    if (c->tree->element != NULL) {
+        c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen);
+    }
+    c->cut->visible[i] &=
+        ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, c->cut->visible[i], seen->position, &c->last);
     if (c->cutting->stats != NULL) {
         c->cutting->stats->segments += (uint64_t)count_bits_64(c->p->pixels);
     }
@@ -260,7 +281,7 @@ static void divide_by_most(cutter *c, float share, double least, int asks)
 {
     int32_t i = largest(c);
     while (i != NONE && has_room(c) &&
-           (double)c->cut->most[i] > (double)share * (c->value > least ? c->value : least)) {
+           (double)c->cut->most[i] > (double)share * (c->beside + (c->value > least ? c->value : least))) {
         c->cut->bucket[c->highest] = c->cut->next[i];
         divide(c, i, c->p->pixels, asks);
         i = largest(c);
@@ -270,7 +291,7 @@ static void divide_by_most(cutter *c, float share, double least, int asks)
 static void divide_by_error(cutter *c, float share)
 {
     int32_t i = largest(c);
-    while (i != NONE && has_room(c) && c->error > (double)share * c->value) {
+    while (i != NONE && has_room(c) && c->error > (double)share * (c->beside + c->value)) {
         c->cut->bucket[c->highest] = c->cut->next[i];
         divide(c, i, c->cut->visible[i], 0);
         i = largest(c);
@@ -322,17 +343,45 @@ static void take_cut(cutter *c)
 
 /* --- light ---------------------------------------------------------------------------------------------------------- */
 
-/* A texel so near that its shape counts: pixel by pixel. */
-static void add_near(lmb_irradiance *inout, const lmb_tile *tile, const lmb_node *n, lmb_vec3 u, lmb_vec3 v,
-                     uint64_t visible)
+/* A texel's or an element's shape. */
+typedef struct leaf {
+    lmb_node node;
+    lmb_vec3 u, v;              /* half sides of a texel's quad */
+    const lmb_element *element; /* NULL: a texel */
+    float half2;                /* its farthest corner from its middle, squared */
+} leaf;
+
+static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
 {
-    const float uu = dot3(u, u), vv = dot3(v, v), half2 = uu + vv + 2.0f * absf(dot3(u, v));
+    lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
+    out->element = tree_element(tree, at.x, at.y);
+    out->half2 = out->element != NULL
+                     ? out->element->reach2
+                     : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
+}
+
+/* An element stands for what its middle sees: one whose middle is behind the wall that the point is on may reach through
+ * it, and gives nothing. */
+static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
+{
+    if (l->element == NULL) {
+        return lmb_quad_factor(at, face, normal, l->node.centre, l->node.normal, l->u, l->v);
+    }
+    return dot3(face, sub3(l->node.centre, at)) > 0.0f
+               ? lmb_triangle_factor(at, face, normal, l->element->corner, l->node.normal)
+               : 0.0f;
+}
+
+/* A leaf so near that its shape counts: pixel by pixel. */
+static void add_near(lmb_irradiance *inout, const lmb_tile *tile, const leaf *l, uint64_t visible)
+{
+    const lmb_node *n = &l->node;
     for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const lmb_vec3 at = tile_vec(tile->position, k), normal = tile_vec(tile->normal, k), d = sub3(n->centre, at);
         float f;
-        if (dot3(d, d) < LMB_NEAR * LMB_NEAR * half2) {
-            f = lmb_quad_factor(at, tile_vec(tile->face, k), normal, n->centre, n->normal, u, v);
+        if (dot3(d, d) < LMB_NEAR * LMB_NEAR * l->half2) {
+            f = leaf_factor(l, at, tile_vec(tile->face, k), normal);
         } else {
             f = dot3(tile_vec(tile->face, k), d) > 0.0f ? lmb_disc_factor(at, normal, n->centre, n->normal, n->area) : 0.0f;
         }
@@ -342,13 +391,12 @@ static void add_near(lmb_irradiance *inout, const lmb_tile *tile, const lmb_node
     }
 }
 
-/* Is some of the patch near the texel's quad? */
-static int is_near(const patch *p, const lmb_node *n, lmb_vec3 u, lmb_vec3 v)
+/* Is some of the patch near the leaf? */
+static int is_near(const patch *p, const leaf *l)
 {
-    const lmb_vec3 to = sub3(n->centre, p->centre);
+    const lmb_vec3 to = sub3(l->node.centre, p->centre);
     const lmb_vec3 apart = vec3(gap(to.x, p->half.x), gap(to.y, p->half.y), gap(to.z, p->half.z));
-    return dot3(apart, apart) <
-           LMB_NEAR * LMB_NEAR * (dot3(u, u) + dot3(v, v) + 2.0f * absf(dot3(u, v)));
+    return dot3(apart, apart) < LMB_NEAR * LMB_NEAR * l->half2;
 }
 
 static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
@@ -367,22 +415,23 @@ static void light_patch(lmb_irradiance *inout, const cutter *c)
     for (int32_t i = 0; i < c->cut->count; ++i) {
         const lmb_tree_place at = c->cut->place[i];
         const uint64_t visible = c->cut->visible[i];
-        lmb_node n;
-        lmb_vec3 u, v;
+        const lmb_node *n;
+        leaf l;
         if (at.level == GONE || visible == 0) {
             continue;
         }
         pairs += (uint64_t)count_bits_64(visible);
         if (at.level > 0) {
-            n = *tree_node(c->tree, at);
+            n = tree_node(c->tree, at);
         } else {
-            lmb_tree_texel_quad(&n, &u, &v, c->tree, at.face, at.x, at.y);
-            if (is_near(c->p, &n, u, v)) {
-                add_near(inout, c->tile, &n, u, v, visible);
+            leaf_at(&l, c->tree, at);
+            if (is_near(c->p, &l)) {
+                add_near(inout, c->tile, &l, visible);
                 continue;
             }
+            n = &l.node;
         }
-        set_emitter(&c->cut->emitter[filled++], &n, visible);
+        set_emitter(&c->cut->emitter[filled++], n, visible);
         if (filled == LMB_CUT_BLOCK) {
             c->kernels->gather_cut(inout, c->cut->pairs, c->tile, c->cut->emitter, filled);
             filled = 0;
@@ -392,6 +441,19 @@ static void light_patch(lmb_irradiance *inout, const cutter *c)
     if (c->cutting->stats != NULL) {
         c->cutting->stats->pairs += pairs;
     }
+}
+
+/* In the mean over the patch. */
+static double beside(const lmb_cutting *cutting, const patch *p, float per_pixel)
+{
+    double sum = 0.0;
+    for (uint64_t bits = cutting->beside != NULL ? p->pixels : 0; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        for (int c = 0; c < 3; ++c) {
+            sum += (double)cutting->beside->rgb[c][k];
+        }
+    }
+    return sum * (double)per_pixel + (double)cutting->least;
 }
 
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
@@ -417,6 +479,7 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
         c.p = &p;
         memset(&c.last, 0, sizeof c.last);
         c.per_pixel = 1.0f / (float)count_bits_64(p.pixels);
+        c.beside = beside(cutting, &p, c.per_pixel);
         take_cut(&c);
         light_patch(inout, &c);
         left &= ~p.pixels;

@@ -1,20 +1,20 @@
-/* polygon.c: the exact form factor from a point to a quad, clipped to the point's horizon. Floor 6.
+/* polygon.c: the exact form factor from a point to a quad or triangle, clipped to the point's horizon. Floor 6.
  *
  * Lambert (1760): E = B / 2 sum over edges of angle x (n . edge normal), the edge's plane through the point. Divided by
- * pi B here, and by the quad's area: W/m2 a watt of flux. */
+ * pi B here, and by the polygon's area: W/m2 a watt of flux. */
 #include <lambent/bounce.h>
 
 #include "../base/poly.h"
 #include "../base/vec.h"
 
-#define FLAT 1e-3f /* of the quad's half sides */
+#define FLAT 1e-3f /* of the half sides */
 
 /* Keep what lies above the horizon, n . v >= 0: at most one corner more. */
-static int clip_horizon(lmb_vec3 out[5], const lmb_vec3 quad[4], lmb_vec3 n)
+static int clip_horizon(lmb_vec3 out[5], const lmb_vec3 *corner, int corners, lmb_vec3 n)
 {
     int count = 0;
-    for (int i = 0; i < 4; ++i) {
-        lmb_vec3 a = quad[i], b = quad[(i + 1) & 3];
+    for (int i = 0; i < corners; ++i) {
+        lmb_vec3 a = corner[i], b = corner[i + 1 < corners ? i + 1 : 0];
         float ha = dot3(n, a), hb = dot3(n, b);
         if (ha >= 0.0f && count < 5) {
             out[count++] = a;
@@ -26,11 +26,27 @@ static int clip_horizon(lmb_vec3 out[5], const lmb_vec3 quad[4], lmb_vec3 n)
     return count;
 }
 
+/* 2 pi x the form factor of a polygon of up to four corners, relative to the point; negative one way round. */
+static float edges_sum(const lmb_vec3 *polygon, int corners, lmb_vec3 face, lmb_vec3 normal)
+{
+    lmb_vec3 corner[5];
+    float sum = 0.0f;
+    const int n = clip_horizon(corner, polygon, corners, face);
+    for (int i = 0; i < n; ++i) {
+        lmb_vec3 a = corner[i], b = corner[i + 1 < n ? i + 1 : 0], edge = cross3(a, b);
+        float sine = length3(edge);
+        if (sine > 1e-18f) {
+            sum += lmb_atan2(sine, dot3(a, b)) * (dot3(normal, edge) / sine);
+        }
+    }
+    return sum;
+}
+
 float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u,
                       lmb_vec3 v)
 {
-    lmb_vec3 c = sub3(centre, at), side = cross3(u, v), corner[5], quad[4];
-    float area = 4.0f * length3(side), height = -dot3(axis, c), sum = 0.0f;
+    lmb_vec3 c = sub3(centre, at), side = cross3(u, v), quad[4];
+    float area = 4.0f * length3(side), height = -dot3(axis, c);
     /* A point in the quad's own plane sees its edge. Rounding must not lift it: the factor would jump to 1 / area. */
     if (!(height > FLAT * (length3(u) + length3(v))) || !(area > 0.0f)) {
         return 0.0f;
@@ -39,14 +55,19 @@ float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 cent
     quad[1] = sub3(add3(c, u), v);
     quad[2] = add3(add3(c, u), v);
     quad[3] = add3(sub3(c, u), v);
-    int n = clip_horizon(corner, quad, face);
-    for (int i = 0; i < n; ++i) {
-        lmb_vec3 a = corner[i], b = corner[i + 1 < n ? i + 1 : 0], edge = cross3(a, b);
-        float sine = length3(edge);
-        if (sine > 1e-18f) {
-            sum += lmb_atan2(sine, dot3(a, b)) * (dot3(normal, edge) / sine);
-        }
-    }
+    float sum = edges_sum(quad, 4, face, normal);
     sum = dot3(side, axis) < 0.0f ? sum : -sum; /* the way round that the corners go, seen from the point */
     return maxf(sum, 0.0f) * 0.15915494f / area;
+}
+
+float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 corner[3], lmb_vec3 axis)
+{
+    const lmb_vec3 own[3] = {sub3(corner[0], at), sub3(corner[1], at), sub3(corner[2], at)};
+    const lmb_vec3 side = cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
+    const float area = 0.5f * length3(side);
+    if (!(area > 0.0f) || !(-dot3(axis, own[0]) > FLAT * sqrtf(area))) {
+        return 0.0f;
+    }
+    const float sum = edges_sum(own, 3, face, normal);
+    return maxf(dot3(side, axis) < 0.0f ? sum : -sum, 0.0f) * 0.15915494f / area;
 }

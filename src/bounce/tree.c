@@ -126,9 +126,19 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
                          int32_t y)
 {
     const lmb_texel *t = tree_texel(tree, face, x, y);
+    const lmb_element *element = tree_element(tree, x, y);
     memset(out, 0, sizeof *out);
     *u = *v = vec3(0, 0, 0);
     if (!(flux_sum(t->flux) > 0.0f)) {
+        return;
+    }
+    out->normal = t->normal;
+    out->cosine = 1.0f;
+    out->texel = (uint32_t)y * (uint32_t)tree->size + (uint32_t)x;
+    if (element != NULL) {
+        out->centre = out->low = out->high = t->position;
+        memcpy(out->flux, t->flux, sizeof out->flux);
+        out->area = element->area;
         return;
     }
     const float wide = (float)(t->side[LEFT] + t->side[RIGHT]), high = (float)(t->side[UP] + t->side[DOWN]);
@@ -141,10 +151,7 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = t->flux[c] * (wide * high / 65536.0f);
     }
-    out->normal = t->normal;
     out->area = 4.0f * length3(cross3(*u, *v));
-    out->cosine = 1.0f;
-    out->texel = (uint32_t)y * (uint32_t)tree->size + (uint32_t)x;
 }
 
 /* --- where neighbours' planes meet ---------------------------------------------------------------------------------
@@ -284,7 +291,9 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
     if (tree == NULL || tree->texel == NULL || face >= tree->face_cap) {
         return LMB_ERR_ARG;
     }
-    set_sides(tree, face);
+    if (tree->element == NULL) {
+        set_sides(tree, face);
+    }
     for (int level = 1; level <= tree_root_level(tree); ++level) {
         const int32_t side = tree->size >> level;
         lmb_node *out = tree_level(tree, face, level);

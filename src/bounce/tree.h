@@ -2,7 +2,7 @@
 #ifndef LMB_BOUNCE_TREE_H
 #define LMB_BOUNCE_TREE_H
 
-#include <lambent/tree.h>
+#include <lambent/elements.h>
 
 /* Nodes of a face of size x size texels: a quarter, a sixteenth, ... of the texels, down to one. */
 static inline size_t tree_nodes(int32_t size) { return ((size_t)size * (size_t)size - 1) / 3; }
@@ -32,6 +32,36 @@ static inline int tree_root_level(const lmb_tree *t)
         ++level;
     }
     return level;
+}
+
+/* Every other bit, from bit 0 on. */
+static inline uint32_t tree_even_bits(uint32_t v)
+{
+    v &= 0x55555555u;
+    v = (v | v >> 1) & 0x33333333u;
+    v = (v | v >> 2) & 0x0f0f0f0fu;
+    v = (v | v >> 4) & 0x00ff00ffu;
+    return (v | v >> 8) & 0xffffu;
+}
+
+static inline uint32_t tree_spread_bits(uint32_t v)
+{
+    v = (v | v << 8) & 0x00ff00ffu;
+    v = (v | v << 4) & 0x0f0f0f0fu;
+    v = (v | v << 2) & 0x33333333u;
+    return (v | v << 1) & 0x55555555u;
+}
+
+/* The texel, counted row by row, that is number i along the Z curve: 4^l neighbours there are a node of level l. */
+static inline size_t tree_along_z(const lmb_tree *t, uint32_t i)
+{
+    return (size_t)tree_even_bits(i >> 1) * (size_t)t->size + tree_even_bits(i);
+}
+
+/* The element that texel (x, y) is; NULL where it is a map's. */
+static inline const lmb_element *tree_element(const lmb_tree *t, int32_t x, int32_t y)
+{
+    return t->element == NULL ? NULL : &t->element[tree_spread_bits((uint32_t)x) | tree_spread_bits((uint32_t)y) << 1];
 }
 
 /* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. */

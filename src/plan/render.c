@@ -6,6 +6,7 @@
 #include "../base/surface_check.h"
 #include "../base/vec.h"
 #include "../bounce/points.h"
+#include "../raster/triangle.h"
 #include "../raster/target.h"
 
 #define UNIT_TRIANGLES 1024u
@@ -33,6 +34,23 @@ static int wants_groups(const lmb_frame *f)
 {
     return f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT && f->points.data != NULL &&
            f->groups != NULL;
+}
+
+static int shines(const lmb_scene *scene)
+{
+    int any = 0;
+    for (uint32_t i = 0; i < scene->material_count; ++i) {
+        const float *e = scene->materials[i].emission;
+        any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
+    }
+    return any;
+}
+
+/* Does light come from elements too? */
+static int wants_elements(const lmb_render *r)
+{
+    const lmb_frame *f = &r->frame;
+    return wants_cut(f) && f->elements.data != NULL && (f->bounces > 1 || r->shines);
 }
 
 static int wants_bounce(const lmb_frame *f) { return wants_cut(f) || wants_groups(f); }
@@ -86,6 +104,9 @@ static lmb_status check_frame(const lmb_frame *f)
         f->view.frame_height < 1 || f->occlusion < LMB_OCCLUSION_NONE || f->occlusion > LMB_OCCLUSION_EXACT || !(f->error > 0.0f) || !(f->visible > 0.0f)) {
         return LMB_ERR_ARG;
     }
+    if (f->bounces < 1 || (f->bounces > 1 && wants_bounce(f) && (!wants_cut(f) || f->elements.data == NULL))) {
+        return LMB_ERR_ARG;
+    }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {
         return LMB_ERR_CAPACITY;
     }
@@ -134,6 +155,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     f->steps = f->steps != 0 ? f->steps : STEPS;
     f->error = f->error != 0.0f ? f->error : SHARE;
     f->visible = f->visible != 0.0f ? f->visible : SHARE;
+    f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->tree.faces = 0;
     f->points.count = 0;
     f->points.faces = 0;
@@ -143,6 +165,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
         status = place_maps(r);
     }
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
+    r->shines = status == LMB_OK && shines(f->scene);
     r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
     r->failed = status;
     return status;
@@ -288,7 +311,57 @@ static lmb_status step_points(lmb_render *r, int32_t units)
 static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
+    if (wants_elements(r)) {
+        return lmb_elements_build(&f->elements, f->scene, &f->tree);
+    }
     return wants_groups(f) ? lmb_group_points(f->groups, &f->points, &f->grouping, f->stats) : LMB_OK;
+}
+
+static lmb_cutting cutting_of(const lmb_frame *f, lmb_stats *stats)
+{
+    lmb_cutting c;
+    memset(&c, 0, sizeof c);
+    c.error = f->error;
+    c.visible = f->visible;
+    c.blockers = blockers_of(f);
+    c.stats = stats;
+    return c;
+}
+
+/* Bounce r->light + 2: elements first .. past - 1 receive. The light's maps give the first share of it. */
+static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_t first, int32_t past,
+                          lmb_stats *stats)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_cutting cutting = cutting_of(f, stats);
+    return lmb_elements_receive(&f->elements, f->kernels, &scratch->gather.cut, &scratch->tile,
+                                r->light == 0 ? &f->tree : NULL, &cutting, first, past);
+}
+
+static int has_bounces(const lmb_render *r)
+{
+    return wants_elements(r) && r->light + 1 < (uint32_t)r->frame.bounces;
+}
+
+/* All elements have received. */
+static lmb_status end_bounce(lmb_render *r)
+{
+    r->place = 0;
+    ++r->light;
+    const lmb_status status = lmb_elements_send(&r->frame.elements, !has_bounces(r));
+    return status != LMB_OK ? status : has_bounces(r) ? LMB_MORE : LMB_OK;
+}
+
+static lmb_status step_bounces(lmb_render *r, int32_t units)
+{
+    if (!has_bounces(r)) {
+        return LMB_OK;
+    }
+    const int32_t tiles = lmb_elements_tiles(&r->frame.elements), first = (int32_t)r->place,
+                  past = tiles - first < units ? tiles : first + units;
+    const lmb_status status = receive(r, r->frame.scratch, first, past, r->frame.stats);
+    r->place = (uint32_t)past;
+    return status != LMB_OK ? status : past < tiles ? LMB_MORE : end_bounce(r);
 }
 
 /* The whole frame's depth: with ids where the eye holds them all, else depth alone for the occlusion. */
@@ -343,6 +416,35 @@ static lmb_status draw_band(const lmb_render *r, lmb_target *eye, int32_t band)
     return lmb_draw(eye, f->kernels, &f->view, f->scene, 1, r->triangles, LMB_CULL_BACK, NULL);
 }
 
+/* What the light's maps bounce, and what elements send. */
+static lmb_status gather_cuts(const lmb_render *r, lmb_band_scratch *s)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_cutting cutting = cutting_of(f, &s->counts);
+    lmb_status status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->tree, &cutting);
+    if (status == LMB_OK && wants_elements(r)) {
+        cutting.beside = &s->indirect;
+        status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->elements.tree, &cutting);
+    }
+    return status;
+}
+
+/* What surfaces give off towards the viewer. */
+static void add_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile)
+{
+    uint32_t id = 0;
+    const float *emission = NULL;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (tile->id[k] != 0 && tile->id[k] != id) {
+            id = tile->id[k];
+            emission = scene->materials[lmb_instance_of(scene, id)->material].emission;
+        }
+        for (int c = 0; c < 3 && tile->id[k] != 0; ++c) {
+            inout->rgb[c][k] += emission[c];
+        }
+    }
+}
+
 /* SHOW_IRRADIANCE is what arrives before the albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
 
@@ -351,7 +453,6 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
     const lmb_frame *f = &r->frame;
     lmb_occluder occluder;
     lmb_many_look look;
-    lmb_cutting cutting;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     memset(&s->indirect, 0, sizeof s->indirect);
@@ -374,17 +475,19 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
             lmb_gather_tile(&s->indirect, f->kernels, &s->gather.groups, &s->tile, f->groups, &f->points, &occluder);
     }
     if (wants_cut(f) && status == LMB_OK) {
-        cutting.error = f->error;
-        cutting.visible = f->visible;
-        cutting.stats = &s->counts;
-        cutting.blockers = blockers_of(f);
-        status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->tree, &cutting);
+        status = gather_cuts(r, s);
     }
     if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
         show_irradiance(&s->radiance, &s->indirect);
         return LMB_OK;
     }
-    return status != LMB_OK ? status : lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, &s->indirect);
+    if (status == LMB_OK) {
+        status = lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, &s->indirect);
+    }
+    if (status == LMB_OK && r->shines && wants_direct(f)) {
+        add_shine(&s->radiance, f->scene, &s->tile);
+    }
+    return status;
 }
 
 lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
@@ -509,6 +612,14 @@ static lmb_status part_points(const lmb_render *r, lmb_tile *tile, int32_t part,
                            part, parts, &f->grouping);
 }
 
+static lmb_status part_bounces(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
+                               lmb_stats *stats)
+{
+    int64_t first, past;
+    share_out(&first, &past, lmb_elements_tiles(&r->frame.elements), part, parts);
+    return receive(r, scratch, (int32_t)first, (int32_t)past, stats);
+}
+
 /* The face's parts are done: LMB_MORE where another face waits. */
 static lmb_status end_parts_of_face(lmb_render *r, int32_t parts)
 {
@@ -536,6 +647,7 @@ int32_t lmb_render_has_parts(const lmb_render *r)
         return wants_bounce(&r->frame) && r->place == 0 && r->light < r->frame.scene->light_count &&
                (wants_cut(&r->frame) ||
                 lmb_points_have_room(&r->frame.points, &r->maps[r->light], &r->frame.grouping));
+    case LMB_STAGE_BOUNCES: return has_bounces(r) && r->place == 0;
     case LMB_STAGE_VIEW: return r->place == 0;
     default: return 0;
     }
@@ -550,6 +662,7 @@ lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32
     switch (r->stage) {
     case LMB_STAGE_LIGHT_MAP: return part_light_map(r, part, parts, stats);
     case LMB_STAGE_POINTS: return part_points(r, &scratch->tile, part, parts);
+    case LMB_STAGE_BOUNCES: return part_bounces(r, scratch, part, parts, stats);
     default: return part_view(r, part, parts, stats);
     }
 }
@@ -574,7 +687,9 @@ lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts)
     if (!lmb_render_has_parts(r) || parts < 1) {
         return LMB_ERR_ARG;
     }
-    return end_stage(r, r->stage == LMB_STAGE_POINTS ? end_parts_of_face(r, parts) : LMB_OK);
+    return end_stage(r, r->stage == LMB_STAGE_POINTS    ? end_parts_of_face(r, parts)
+                        : r->stage == LMB_STAGE_BOUNCES ? end_bounce(r)
+                                                        : LMB_OK);
 }
 
 lmb_status lmb_render_step(lmb_render *r, int32_t units)
@@ -592,6 +707,7 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     case LMB_STAGE_BLOCKERS: status = step_blockers(r); break;
     case LMB_STAGE_POINTS: status = step_points(r, units); break;
     case LMB_STAGE_GROUPS: status = step_groups(r); break;
+    case LMB_STAGE_BOUNCES: status = step_bounces(r, units); break;
     case LMB_STAGE_VIEW: status = step_view(r, units); break;
     case LMB_STAGE_BANDS: status = step_bands(r, units); break;
     default: return LMB_OK;
@@ -612,7 +728,8 @@ lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame)
 
 float lmb_render_progress(const char **name, const lmb_render *r)
 {
-    static const char *const names[] = {"light maps", "blockers", "first points", "groups", "view", "bands", "done"};
+    static const char *const names[] = {"light maps", "blockers", "first points", "groups",
+                                        "bounces",    "view",     "bands",        "done"};
     if (r == NULL || r->stage < 0 || r->stage > LMB_STAGE_DONE) {
         *name = names[LMB_STAGE_DONE];
         return 1.0f;
@@ -623,6 +740,10 @@ float lmb_render_progress(const char **name, const lmb_render *r)
     switch (r->stage) {
     case LMB_STAGE_LIGHT_MAP: done = ((float)r->light + (float)r->place / triangles) / lights; break;
     case LMB_STAGE_POINTS: done = (float)r->light / lights; break;
+    case LMB_STAGE_BOUNCES:
+        done = ((float)r->light + (float)r->place / maxf((float)lmb_elements_tiles(&r->frame.elements), 1.0f)) /
+               maxf((float)(r->frame.bounces - 1), 1.0f);
+        break;
     case LMB_STAGE_VIEW: done = (float)r->place / triangles; break;
     case LMB_STAGE_BANDS: done = (float)r->place / (float)band_count(&r->frame.view); break;
     case LMB_STAGE_DONE: done = 1.0f; break;

@@ -1,0 +1,82 @@
+/* elements.h: a whole scene's surface as elements that light one another: every bounce after the first, and surfaces
+ * that shine by themselves. [DESIGN 4]
+ *
+ * A light's map holds only what the light sees. Here each triangle is cut into pieces, and each side of a piece that
+ * may be lit is an element: it receives light at its middle and sends it from its exact shape. The elements are summed
+ * into a tree as the texels of a map are, so the same cuts, with the same exact visibility, serve pixels and elements:
+ *
+ *     lmb_elements_build(&e, &scene, &lights);                           what shines by itself is in the tree
+ *     for (b = 1; b < bounces; ++b) {
+ *         lmb_elements_receive(&e, ..., b == 1 ? &lights : NULL, ..);    from the light's maps, then from each other
+ *         lmb_elements_send(&e, b + 1 == bounces);                       at last: all bounces together
+ *     }
+ *     lmb_gather_cut(.., &lights, ..); lmb_gather_cut(.., &e.tree, ..);  a pixel
+ */
+#ifndef LMB_ELEMENTS_H
+#define LMB_ELEMENTS_H
+
+#include "tree.h"
+
+/* One side of a piece of a triangle, or of several small triangles that lie together. 96 bytes. */
+typedef struct lmb_element {
+    lmb_vec3 corner[3];           /* of the piece, m; of several, of the largest */
+    float albedo[3], emission[3]; /* means over it; emission: radiance, W/(sr m2) */
+    float received[3], fresh[3];  /* irradiance of all bounces so far, and of the last, W/m2 */
+    float area;                   /* m2; of several, their sum */
+    float reach2;                 /* its farthest corner from its middle, squared, m2; 0: several */
+    uint32_t key;                 /* side of space it faces, then the place of its middle along a Z curve */
+} lmb_element;
+
+/* The elements, in the caller's memory. */
+typedef struct lmb_elements {
+    lmb_tree tree; /* of one face: its texel of Z order i is element i */
+    lmb_element *data;
+    uint32_t cap, count;
+    float side;  /* m: no piece is longer, and triangles under half of it may be taken together */
+    float level; /* W/m2, R + G + B: what the elements receive in the mean, about */
+} lmb_elements;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_elements_bytes: memory of n elements and their tree; n: a power of 4, 64 .. 2^24. 0 where that cannot be.
+ * 160 bytes each. */
+size_t lmb_elements_bytes(uint32_t n);
+
+/* lmb_elements_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). */
+lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t bytes);
+
+/* lmb_elements_build: the elements of a checked scene, and the tree of those that shine by themselves.
+ *
+ *   lights  the tree of the lights' maps, summed: only tells how bright the scene is. NULL: no lights.
+ *
+ * Triangles are halved at their longest edge until it is at most `side`. Of triangles under half of `side`, those that
+ * face one side of space and lie in one cell of half of `side` are one element, in the place of the largest. The area
+ * side^2 begins at what surely needs more than n elements and doubles until they fit, as in the end they always do: all
+ * area is kept. A single-sided material has no element at its back. Holes of masked materials are left out, measured
+ * at four points a piece. Triangles that lmb_draw would drop are left out.
+ * Cost: some passes over the triangles, about 1 us each, and a sort. Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const lmb_tree *lights);
+
+/* lmb_elements_tiles: 64 elements are gathered together: how many times. */
+int32_t lmb_elements_tiles(const lmb_elements *elements);
+
+/* lmb_elements_receive: what the elements of tiles first .. past - 1 receive from `lights` (NULL: nothing) and from the
+ * elements' own tree, into `fresh`. Any tiles in any order, at once on any threads with their own scratches.
+ *
+ *   cutting  error and visible as for pixels, but of an element's own light and `level` together: what is dark lights
+ *            little, and need not be known well.
+ * Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_kernels *kernels, lmb_cut *scratch,
+                                lmb_tile *tile, const lmb_tree *lights, const lmb_cutting *cutting, int32_t first,
+                                int32_t past);
+
+/* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces, and what shines by
+ * itself again. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_elements_send(lmb_elements *inout, int32_t last);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,166 @@
+/* test_radiosity.c: many bounces in closed rooms, and surfaces that shine, against what energy says. [DESIGN 4]
+ *
+ * In a closed room whose walls all reflect rho, light of power P makes them send P rho^k at the k-th reflection, so all
+ * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls shine alike, every point sends the same: N bounces
+ * are L (1 - rho^(N + 1)) / (1 - rho) everywhere. What is sealed off stays dark. */
+#include "../world.h"
+
+void test_radiosity(void);
+
+enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BLOCKERS = 64, BOUNCES = 12 };
+
+static const float rho = 0.5f;
+
+static uint32_t map_memory[FACES * MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
+static uint32_t tree_memory[FACES * (MAP * MAP * 16 + 64)], blocker_memory[BLOCKERS * 29];
+static uint32_t element_memory[ELEMENTS * 40 + 64];
+static lmb_band_scratch scratch;
+static lmb_render render;
+static float picture[FRAME * FRAME * 3];
+
+static void draw(lmb_vec3 from, lmb_vec3 to, int32_t show, int32_t bounces)
+{
+    lmb_frame f;
+    memset(&f, 0, sizeof f);
+    f.kernels = lmb_kernels_pick();
+    f.scene = &world.scene;
+    f.show = show;
+    f.light_map = MAP;
+    f.grouping.method = LMB_GROUP_CUT;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    f.bounces = bounces;
+    f.map_memory = map_memory;
+    f.map_bytes = sizeof map_memory;
+    f.scratch = &scratch;
+    f.view = look(from, to, 75, FRAME);
+    f.eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
+    CHECK(lmb_tree_init(&f.tree, FACES, MAP, tree_memory, sizeof tree_memory) == LMB_OK);
+    CHECK(lmb_blockers_init(&f.blockers, BLOCKERS, blocker_memory, sizeof blocker_memory) == LMB_OK);
+    CHECK(lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory) == LMB_OK);
+    CHECK(lmb_surface_init(&f.out, LMB_RGB32F, FRAME, FRAME, picture, sizeof picture) == LMB_OK);
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+}
+
+static void shine(int material, float radiance)
+{
+    for (int c = 0; c < 3; ++c) {
+        world.material[material].emission[c] = radiance * (float)(c + 1);
+    }
+}
+
+/* --- walls that shine ----------------------------------------------------------------------------------------------- */
+
+static void check_furnace(int32_t bounces)
+{
+    const double want = 3.0 * (1.0 - pow((double)rho, bounces + 1)) / (1.0 - (double)rho);
+    double most = 0.0, mean = 0.0;
+    world_begin(rho, rho, rho);
+    world_box(vec3(0.3f, -0.1f, 0.2f), 1.0f);
+    shine(0, 3.0f);
+    CHECK(world_end() == LMB_OK);
+    draw(vec3(-0.3f, 0.5f, 0.7f), vec3(0.9f, -0.8f, -0.4f), LMB_SHOW_FULL, bounces);
+    for (int i = 0; i < FRAME * FRAME * 3; ++i) {
+        const double off = (double)picture[i] / (want * (i % 3 + 1)) - 1.0;
+        most = fmax(most, fabs(off));
+        mean += off / (FRAME * FRAME * 3);
+    }
+    printf("  walls that shine, %2d bounces: %+.3f %% in the mean, %.3f %% off at most\n", (int)bounces, mean * 100,
+           most * 100);
+    CHECK_MSG(most < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, most);
+}
+
+/* --- a lamp in a room ----------------------------------------------------------------------------------------------- */
+
+/* A point, or a panel on the ceiling; 4 pi W a channel. */
+enum { LAMP, PANEL };
+
+/* With a closed block that stands through the floor and a wall, or none. */
+static void make_room(int light, int block)
+{
+    static lmb_light lamp;
+    lamp = point_light(vec3(0.2f, 0.5f, -0.1f));
+    lamp.intensity[0] = lamp.intensity[1] = lamp.intensity[2] = 1.0f;
+    world_begin(rho, rho, rho);
+    world_box(vec3(0, 0, 0), 1.0f);
+    if (block) {
+        world_box(vec3(0.7f, -0.8f, -0.3f), 0.35f);
+    }
+    if (light == LAMP) {
+        world.scene.lights = &lamp;
+        world.scene.light_count = 1;
+    } else {
+        world_part();
+        world_quad(vec3(-0.2f, 0.999f, 0), vec3(0.5f, 0, 0), vec3(0, 0, 0.5f));
+        world.material[1].flags = 0;
+        world.material[1].emission[0] = 4.0f;
+    }
+    CHECK(world_end() == LMB_OK);
+}
+
+/* Light that all elements received; W, one channel. What comes straight from a lamp is not in it. */
+static double received(void)
+{
+    const lmb_elements *e = &render.frame.elements;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < e->count; ++i) {
+        sum += (double)e->data[i].received[0] * (double)e->data[i].area;
+    }
+    return sum;
+}
+
+static void check_room(int light, int block, int32_t bounces)
+{
+    const double r = (double)rho, want = 4.0 * PI * (light == LAMP ? r : 1.0) * (1.0 - pow(r, bounces - 1)) / (1.0 - r);
+    make_room(light, block);
+    draw(vec3(0.8f, 0.8f, 0.8f), vec3(0, -0.5f, -0.3f), LMB_SHOW_IRRADIANCE, bounces);
+    printf("  %s in a room%s, %2d bounces: %.4f of its energy\n", light == LAMP ? "lamp" : "panel",
+           block ? " with a block" : "", (int)bounces, received() / want);
+    CHECK_MSG(fabs(received() / want - 1.0) < 0.01, "%d bounces: %g", (int)bounces, received() / want);
+}
+
+static int is_in_block(lmb_vec3 p)
+{
+    return absf(p.x - 0.7f) < 0.3501f && absf(p.y + 0.8f) < 0.3501f && absf(p.z + 0.3f) < 0.3501f;
+}
+
+/* Sides that look into the block, pieces of the room in it, and sides that look out of the room: all stay dark. Lit by
+ * the panel: a lamp's map sees texels that snapping moves by a 256th of their size, and so under the block's edge. */
+static void check_sealed(void)
+{
+    const lmb_elements *e = &render.frame.elements;
+    double inside = 0.0, outside = 0.0;
+    int count = 0, out_count = 0;
+    for (uint32_t i = 0; i < e->count; ++i) {
+        const lmb_element *p = &e->data[i];
+        const lmb_vec3 at = mul3(add3(add3(p->corner[0], p->corner[1]), p->corner[2]), 1.0f / 3.0f);
+        const uint32_t side = p->key >> 27;
+        const float off[3] = {at.x, at.y, at.z}, way = side & 1 ? -1.0f : 1.0f;
+        float ahead[3] = {at.x, at.y, at.z};
+        ahead[side / 2] += 0.001f * way;
+        if (is_in_block(vec3(ahead[0], ahead[1], ahead[2]))) {
+            inside += (double)p->received[0];
+            ++count;
+        } else if (off[side / 2] * way > 0.9999f) {
+            outside += (double)p->received[0];
+            ++out_count;
+        }
+    }
+    CHECK_MSG(count > 30 && inside == 0.0, "%d elements in the block received %g", count, inside);
+    CHECK_MSG(out_count > 300 && outside == 0.0, "%d elements outside received %g", out_count, outside);
+}
+
+void test_radiosity(void)
+{
+    if (LMB_MAX_CUT < 8192) {
+        SKIP("radiosity: cuts of %d nodes are too coarse for 1 %%", LMB_MAX_CUT);
+        return;
+    }
+    check_furnace(1);
+    check_furnace(BOUNCES);
+    check_room(LAMP, 0, 2);
+    check_room(LAMP, 0, BOUNCES);
+    check_room(LAMP, 1, BOUNCES);
+    check_room(PANEL, 0, BOUNCES);
+    check_room(PANEL, 1, BOUNCES);
+    check_sealed();
+}
