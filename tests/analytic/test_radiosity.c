@@ -3,7 +3,7 @@
  * In a closed room whose walls all reflect rho, light of power P makes them send P rho^k at the k-th reflection, so all
  * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls shine alike, every point sends the same: N bounces
  * are L (1 - rho^(N + 1)) / (1 - rho) everywhere. What is sealed off stays dark. */
-#include "../world.h"
+#include "facing.h"
 
 void test_radiosity(void);
 
@@ -12,13 +12,13 @@ enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BLOCKERS = 64, BOUNCES
 static const float rho = 0.5f;
 
 static uint32_t map_memory[FACES * MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
-static uint32_t tree_memory[FACES * (MAP * MAP * 16 + 64)], blocker_memory[BLOCKERS * 29];
+static uint32_t tree_memory[FACES * (MAP * MAP * 16 + 64)], blocker_memory[BLOCKERS * 29 + 2048];
 static uint32_t element_memory[ELEMENTS * 40 + 64];
 static lmb_band_scratch scratch;
 static lmb_render render;
 static float picture[FRAME * FRAME * 3];
 
-static void draw(lmb_vec3 from, lmb_vec3 to, int32_t show, int32_t bounces)
+static void draw_wide(lmb_vec3 from, lmb_vec3 to, double fov_deg, int32_t show, int32_t bounces)
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
@@ -32,13 +32,18 @@ static void draw(lmb_vec3 from, lmb_vec3 to, int32_t show, int32_t bounces)
     f.map_memory = map_memory;
     f.map_bytes = sizeof map_memory;
     f.scratch = &scratch;
-    f.view = look(from, to, 75, FRAME);
+    f.view = look(from, to, fov_deg, FRAME);
     f.eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
     CHECK(lmb_tree_init(&f.tree, FACES, MAP, tree_memory, sizeof tree_memory) == LMB_OK);
     CHECK(lmb_blockers_init(&f.blockers, BLOCKERS, blocker_memory, sizeof blocker_memory) == LMB_OK);
     CHECK(lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory) == LMB_OK);
     CHECK(lmb_surface_init(&f.out, LMB_RGB32F, FRAME, FRAME, picture, sizeof picture) == LMB_OK);
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+}
+
+static void draw(lmb_vec3 from, lmb_vec3 to, int32_t show, int32_t bounces)
+{
+    draw_wide(from, to, 75, show, bounces);
 }
 
 static void shine(int material, float radiance)
@@ -67,6 +72,34 @@ static void check_furnace(int32_t bounces)
     printf("  walls that shine, %2d bounces: %+.3f %% in the mean, %.3f %% off at most\n", (int)bounces, mean * 100,
            most * 100);
     CHECK_MSG(most < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, most);
+}
+
+/* --- a panel that shines ---------------------------------------------------------------------------------------------- */
+
+/* A unit square that shines down on another from height h, with no lamp. The view is centred, so that nothing depends
+ * on which way its pictures lie: E = pi L F. */
+static void check_panel(double h)
+{
+    const double eye = 0.4 * h, half = 0.45;
+    double most = 0.0, mean = 0.0;
+    world_begin(rho, rho, rho);
+    world_quad(vec3(0.5f, 0, 0.5f), vec3(0, 0, 0.5f), vec3(0.5f, 0, 0));
+    world_part();
+    world_quad(vec3(0.5f, (float)h, 0.5f), vec3(0.5f, 0, 0), vec3(0, 0, 0.5f));
+    world.material[1].flags = 0;
+    shine(1, 2.0f);
+    CHECK(world_end() == LMB_OK);
+    draw_wide(vec3(0.5f, (float)eye, 0.5f), vec3(0.5f, 0, 0.5f), 2.0 * atan(half / eye) * 180.0 / PI,
+              LMB_SHOW_IRRADIANCE, 1);
+    for (int i = 0; i < FRAME * FRAME; ++i) {
+        const double x = 0.5 + half * ((i % FRAME + 0.5) / FRAME * 2.0 - 1.0),
+                     z = 0.5 + half * ((i / FRAME + 0.5) / FRAME * 2.0 - 1.0);
+        const double off = (double)picture[3 * i + 1] / (PI * 4.0 * parallel_factor(x, z, h)) - 1.0;
+        most = fmax(most, fabs(off));
+        mean += off / (FRAME * FRAME);
+    }
+    printf("  panel at height %-4g %+.3f %% in the mean, %.3f %% off at most\n", h, mean * 100, most * 100);
+    CHECK_MSG(most < 0.01, "height %g: %g", h, most);
 }
 
 /* --- a lamp in a room ----------------------------------------------------------------------------------------------- */
@@ -157,6 +190,10 @@ void test_radiosity(void)
     }
     check_furnace(1);
     check_furnace(BOUNCES);
+    check_panel(2.0);
+    check_panel(1.0);
+    check_panel(0.3);
+    check_panel(0.05);
     check_room(LAMP, 0, 2);
     check_room(LAMP, 0, BOUNCES);
     check_room(LAMP, 1, BOUNCES);

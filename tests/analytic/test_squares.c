@@ -1,32 +1,18 @@
 /* test_squares.c: light between two unit squares, against Howell's closed forms. [V27]
  *
  * Form factors of a surface element (Howell, A Catalog of Radiation Heat Transfer Configuration Factors, B-3 and B-5):
- * over a corner of a parallel rectangle a x b at distance c, with A = a/c, B = b/c:
- *   F = 1/(2 pi) (A/sqrt(1+A2) atan(B/sqrt(1+A2)) + B/sqrt(1+B2) atan(A/sqrt(1+B2)))
+ * over a corner of a parallel rectangle: see facing.h;
  * and at distance c from the edge of a perpendicular rectangle, b along that edge from the element on, a high, with
  * X = a/b, Y = c/b:
  *   F = 1/(2 pi) (atan(1/Y) - Y/sqrt(X2+Y2) atan(1/sqrt(X2+Y2)))
  * Rectangles that do not begin at the element are sums and differences of such. */
-#include "../world.h"
+#include "facing.h"
 
 void test_squares(void);
 
 enum { CUTS = 32, BLOCK = 4 }; /* discs along the emitter's side; discs along a group's side */
 
 /* --- closed forms ------------------------------------------------------------------------------------------------- */
-
-static double parallel_corner(double a, double b, double c)
-{
-    double x = a / c, y = b / c, u = sqrt(1 + x * x), v = sqrt(1 + y * y);
-    return (x / u * atan(y / u) + y / v * atan(x / v)) / (2 * PI);
-}
-
-/* From (x, z) to the unit square at height h; negative sides subtract by the atan's sign. */
-static double parallel_factor(double x, double z, double h)
-{
-    return parallel_corner(x, z, h) + parallel_corner(1 - x, z, h) + parallel_corner(x, 1 - z, h) +
-           parallel_corner(1 - x, 1 - z, h);
-}
 
 static double upright_corner(double b, double c)
 {

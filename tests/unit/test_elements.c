@@ -1,0 +1,392 @@
+/* test_elements.c: a scene as elements: all of its area, in any capacity; light from them the same in any steps, parts
+ * and on any machine; what is refused. */
+#include "../world.h"
+
+void test_elements(void);
+
+enum { ELEMENTS = 1024, MAP = 32, FRAME = 24, FACES = 1, BLOCKERS = 64 };
+
+static uint32_t element_memory[ELEMENTS * 40 + 64];
+
+static double area_of(uint32_t i)
+{
+    float(*c)[3] = world.corners[i];
+    double u[3], v[3];
+    for (int k = 0; k < 3; ++k) {
+        u[k] = (double)c[1][k] - (double)c[0][k];
+        v[k] = (double)c[2][k] - (double)c[0][k];
+    }
+    return 0.5 * sqrt(pow(u[1] * v[2] - u[2] * v[1], 2) + pow(u[2] * v[0] - u[0] * v[2], 2) +
+                      pow(u[0] * v[1] - u[1] * v[0], 2));
+}
+
+static double world_area(uint32_t from, uint32_t to)
+{
+    double area = 0.0;
+    for (uint32_t i = from; i < to; ++i) {
+        area += area_of(i);
+    }
+    return area;
+}
+
+static double element_area(const lmb_elements *e)
+{
+    double area = 0.0;
+    for (uint32_t i = 0; i < e->count; ++i) {
+        area += (double)e->data[i].area;
+    }
+    return area;
+}
+
+static lmb_elements build(uint32_t n)
+{
+    lmb_elements e;
+    memset(&e, 0, sizeof e);
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_elements_init(&e, n, element_memory, sizeof element_memory) == LMB_OK);
+    CHECK(lmb_elements_build(&e, &world.scene, NULL) == LMB_OK);
+    return e;
+}
+
+/* --- memory --------------------------------------------------------------------------------------------------------- */
+
+static void test_memory(void)
+{
+    lmb_elements e;
+    static const uint32_t bad[] = {0, 1, 16, 63, 65, 128, 1 << 25, 1 << 26, 0xffffffffu};
+    for (int i = 0; i < COUNT(bad); ++i) {
+        CHECK_MSG(lmb_elements_bytes(bad[i]) == 0, "%u", (unsigned)bad[i]);
+        CHECK(lmb_elements_init(&e, bad[i], element_memory, sizeof element_memory) == LMB_ERR_ARG);
+    }
+    const size_t bytes = lmb_elements_bytes(64);
+    CHECK(bytes >= 64 * 156 && bytes <= 64 * 164);
+    CHECK(lmb_elements_init(NULL, 64, element_memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_elements_init(&e, 64, NULL, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_elements_init(&e, 64, (uint8_t *)element_memory + 2, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_elements_init(&e, 64, element_memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_elements_init(&e, 64, element_memory, bytes) == LMB_OK && e.cap == 64 && e.count == 0);
+    CHECK(lmb_elements_tiles(&e) == 0 && lmb_elements_tiles(NULL) == 0);
+    CHECK(lmb_elements_build(&e, NULL, NULL) == LMB_ERR_ARG && lmb_elements_build(NULL, &world.scene, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_elements_send(&e, 0) == LMB_ERR_ARG); /* not built */
+}
+
+/* --- area ----------------------------------------------------------------------------------------------------------- */
+
+/* Large and small, thin, crossing each other. */
+static void make_soup(uint32_t count, float span)
+{
+    test_rng r = {5};
+    world_begin(0.5f, 0.5f, 0.5f);
+    for (uint32_t i = 0; i < count; ++i) {
+        const float size = span * (i % 7 == 0 ? 1.0f : 0.02f);
+        lmb_vec3 p[3], at = vec3(test_uniform(&r, -span, span), test_uniform(&r, -span, span), test_uniform(&r, -span, span));
+        for (int k = 0; k < 3; ++k) {
+            p[k] = add3(at, vec3(test_uniform(&r, -size, size), test_uniform(&r, -size, size),
+                                 test_uniform(&r, -size, size)));
+        }
+        p[2] = i % 11 == 0 ? add3(p[0], mul3(sub3(p[1], p[0]), 0.499f)) : p[2];
+        world_triangle(p[0], p[1], p[2]);
+    }
+}
+
+static void check_area(const char *name, uint32_t n, double want)
+{
+    lmb_elements e = build(n);
+    const double got = element_area(&e);
+    int sorted = 1;
+    CHECK_MSG(e.count <= n && fabs(got / want - 1.0) < 1e-4, "%s, %u: %u elements of %g for %g", name, (unsigned)n,
+              (unsigned)e.count, got, want);
+    for (uint32_t i = 1; i < e.count; ++i) {
+        sorted &= e.data[i - 1].key <= e.data[i].key;
+    }
+    CHECK(sorted);
+    for (uint32_t i = 0; i < e.count; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const lmb_vec3 d = sub3(e.data[i].corner[(k + 1) % 3], e.data[i].corner[k]);
+            CHECK_MSG(length3(d) <= e.side * 1.0001f, "edge %g over %g", (double)length3(d), (double)e.side);
+        }
+    }
+}
+
+static void test_area(void)
+{
+    static const uint32_t counts[] = {64, 256, ELEMENTS};
+    for (int i = 0; i < COUNT(counts); ++i) {
+        make_soup(700, 3.0f);
+        check_area("soup", counts[i], 2.0 * world_area(0, 700));
+        make_soup(700, 300000.0f);
+        check_area("huge soup", counts[i], 2.0 * world_area(0, 700));
+        world_begin(0.5f, 0.5f, 0.5f);
+        world_sphere(vec3(100, 0, 0), 0.001f, 48, 90); /* 8460 triangles for 64 elements */
+        check_area("sphere", counts[i], 2.0 * world_area(0, world.count));
+        world_begin(0.5f, 0.5f, 0.5f);
+        world_box(vec3(0, 0, 0), 1.0f);
+        check_area("box", counts[i], 48.0);
+    }
+    CHECK_MSG(build(ELEMENTS).count > ELEMENTS / 3, "capacity is used");
+}
+
+/* What lmb_draw drops, and what has no area, is left out; an empty scene is dark. */
+static void test_dropped(void)
+{
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_triangle(vec3(0, 0, 0), vec3(NAN, 0, 0), vec3(0, 1, 0));
+    world_triangle(vec3(0, 0, 0), vec3(2e6f, 0, 0), vec3(0, 1, 0));
+    world_triangle(vec3(1, 2, 3), vec3(1, 2, 3), vec3(0, 1, 0));
+    lmb_elements e = build(64);
+    CHECK(e.count == 0 && e.level == 0.0f && lmb_elements_tiles(&e) == 0 && lmb_elements_send(&e, 1) == LMB_OK);
+}
+
+/* --- sides, holes, colours -------------------------------------------------------------------------------------------- */
+
+static double lit_above(const lmb_elements *e, float y)
+{
+    double area = 0.0;
+    for (uint32_t i = 0; i < e->count; ++i) {
+        area += e->data[i].key >> 27 == (y > 0.0f ? 2u : 3u) ? (double)e->data[i].area : 0.0;
+    }
+    return area;
+}
+
+static void test_sides(void)
+{
+    world_begin(0.5f, 0.5f, 0.5f);
+    world.material[0].flags = 0;
+    world.material[0].emission[1] = 2.0f;
+    world_quad(vec3(0, 0, 0), Z, X); /* front: up */
+    lmb_elements e = build(256);
+    CHECK(fabs(lit_above(&e, 1) - 4.0) < 1e-5 && lit_above(&e, -1) == 0.0);
+    double flux = 0.0;
+    for (uint32_t i = 0; i < e.cap; ++i) {
+        flux += (double)e.tree.texel[i].flux[1];
+    }
+    CHECK_MSG(fabs(flux / (PI * 2.0 * 4.0) - 1.0) < 1e-5, "%g W", flux);
+    CHECK_MSG(fabs((double)e.level - PI * 2.0) < 1e-4, "%g W/m2", (double)e.level);
+    world.instance[0].to_world.m[0] = -1.0f; /* a mirror keeps the front in front */
+    CHECK(lmb_elements_build(&e, &world.scene, NULL) == LMB_OK);
+    CHECK(fabs(lit_above(&e, 1) - 4.0) < 1e-5 && lit_above(&e, -1) == 0.0);
+    world.instance[0].to_world.m[0] = 1.0f;
+    world.material[0].flags = LMB_DOUBLE_SIDED;
+    CHECK(lmb_elements_build(&e, &world.scene, NULL) == LMB_OK);
+    CHECK(fabs(lit_above(&e, 1) - 4.0) < 1e-5 && fabs(lit_above(&e, -1) - 4.0) < 1e-5);
+}
+
+/* Left half white and solid, right half black and not there. */
+static void test_texture(void)
+{
+    static uint32_t texels[64];
+    for (int i = 0; i < 64; ++i) {
+        const uint8_t code[4] = {i % 8 < 4 ? 255 : 0, 255, 255, i % 8 < 4 ? 255 : 0};
+        memcpy(&texels[i], code, 4);
+    }
+    world_begin(0.5f, 0.5f, 0.5f);
+    world.texture.texels = (const uint8_t *)texels;
+    world.texture.width = world.texture.height = 8;
+    world.texture.levels = 1;
+    world.material[0].texture = 0;
+    world_quad(vec3(0, 0, 0), Z, X);
+    lmb_elements e = build(ELEMENTS);
+    double red = 0.0;
+    for (uint32_t i = 0; i < e.count; ++i) {
+        red += (double)(e.data[i].albedo[0] * e.data[i].area);
+    }
+    CHECK_MSG(fabs(red - 0.5 * 4.0) < 0.02, "%g", red);
+    world.material[0].flags |= LMB_ALPHA_MASK;
+    world.material[0].alpha_cutoff = 0.5f;
+    CHECK(lmb_elements_build(&e, &world.scene, NULL) == LMB_OK);
+    CHECK_MSG(fabs(element_area(&e) - 4.0) < 0.02, "%g", element_area(&e));
+}
+
+/* --- frames ----------------------------------------------------------------------------------------------------------- */
+
+static uint32_t map_memory[MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
+static uint32_t tree_memory[MAP * MAP * 16 + 64], blocker_memory[BLOCKERS * 29 + 2048];
+static lmb_band_scratch scratch;
+static lmb_render render;
+static float picture[FRAME * FRAME * 3], first_picture[FRAME * FRAME * 3];
+
+static lmb_frame make_frame(int32_t bounces)
+{
+    lmb_frame f;
+    memset(&f, 0, sizeof f);
+    f.kernels = lmb_kernels_pick();
+    f.scene = &world.scene;
+    f.light_map = MAP;
+    f.grouping.method = LMB_GROUP_CUT;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    f.bounces = bounces;
+    f.map_memory = map_memory;
+    f.map_bytes = sizeof map_memory;
+    f.scratch = &scratch;
+    f.view = look(vec3(0.2f, 0.3f, 0.9f), vec3(-0.1f, -0.2f, 0), 75, FRAME);
+    f.eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
+    CHECK(lmb_tree_init(&f.tree, FACES, MAP, tree_memory, sizeof tree_memory) == LMB_OK);
+    CHECK(lmb_blockers_init(&f.blockers, BLOCKERS, blocker_memory, sizeof blocker_memory) == LMB_OK);
+    CHECK(lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory) == LMB_OK);
+    CHECK(lmb_surface_init(&f.out, LMB_RGB32F, FRAME, FRAME, picture, sizeof picture) == LMB_OK);
+    return f;
+}
+
+static void make_room(int shines)
+{
+    static lmb_light lamp;
+    lamp = spot(vec3(0.2f, 0.8f, 0.1f), vec3(0, -1, 0), 20, 40);
+    world_begin(0.7f, 0.6f, 0.5f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    world_box(vec3(0.3f, -0.7f, -0.2f), 0.25f);
+    world_part();
+    world_quad(vec3(-0.5f, 0.9f, 0), vec3(0.2f, 0, 0), vec3(0, 0, 0.2f));
+    world.material[1].emission[2] = shines ? 3.0f : 0.0f;
+    world.scene.lights = &lamp;
+    world.scene.light_count = 1;
+    CHECK(world_end() == LMB_OK);
+}
+
+static void check_same(const char *how)
+{
+    CHECK_MSG(memcmp(picture, first_picture, sizeof picture) == 0, "%s: another picture", how);
+}
+
+static void render_parts(lmb_frame *f, int32_t parts)
+{
+    lmb_status status = lmb_render_begin(&render, f);
+    while (status >= 0 && render.stage < LMB_STAGE_BANDS) {
+        if (lmb_render_has_parts(&render)) {
+            for (int32_t i = parts - 1; i >= 0; --i) {
+                CHECK(lmb_render_part(&render, &scratch, i, parts, NULL) == LMB_OK);
+            }
+            status = lmb_render_parts_done(&render, parts);
+        } else {
+            status = lmb_render_step(&render, 3);
+        }
+    }
+    while (status == LMB_MORE) {
+        status = lmb_render_step(&render, 1);
+    }
+    CHECK(status == LMB_OK);
+}
+
+/* In one go, in small steps, in parts, by every machine, and as another view of what was solved. */
+static void test_ways(void)
+{
+    lmb_frame f;
+    make_room(1);
+    f = make_frame(3);
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+    memcpy(first_picture, picture, sizeof picture);
+    f = make_frame(3);
+    render_parts(&f, 3);
+    check_same("parts");
+    f = make_frame(3);
+    CHECK(lmb_render_begin(&render, &f) == LMB_OK);
+    while (lmb_render_step(&render, 1) == LMB_MORE) {
+        const char *name;
+        const float done = lmb_render_progress(&name, &render);
+        CHECK(done >= 0.0f && done <= 1.0f);
+    }
+    check_same("steps");
+    memset(picture, 0, sizeof picture);
+    CHECK(lmb_render_again(&render, &f) == LMB_OK);
+    while (lmb_render_step(&render, 100) == LMB_MORE) {
+    }
+    check_same("again");
+    for (int32_t i = 0; lmb_kernels_at(i) != NULL; ++i) {
+        f = make_frame(3);
+        f.kernels = lmb_kernels_at(i);
+        CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+        check_same(lmb_kernels_name(f.kernels));
+    }
+}
+
+static double mean_of_picture(void)
+{
+    double sum = 0.0;
+    for (int i = 0; i < FRAME * FRAME * 3; ++i) {
+        sum += (double)picture[i] / (FRAME * FRAME * 3);
+    }
+    return sum;
+}
+
+/* One bounce is what it is without elements; each more adds light, less and less. */
+static void test_counts(void)
+{
+    double mean[5];
+    lmb_frame f;
+    make_room(0);
+    f = make_frame(1);
+    memset(&f.elements, 0, sizeof f.elements);
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+    memcpy(first_picture, picture, sizeof picture);
+    for (int32_t b = 0; b < 5; ++b) {
+        f = make_frame(b);
+        CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+        mean[b] = mean_of_picture();
+        if (b <= 1) {
+            check_same("one bounce");
+        }
+    }
+    CHECK_MSG(mean[2] > 1.05 * mean[1] && mean[3] - mean[2] > 0.2 * (mean[2] - mean[1]) &&
+                  mean[3] - mean[2] < 0.8 * (mean[2] - mean[1]) && mean[4] - mean[3] < 0.8 * (mean[3] - mean[2]),
+              "%g %g %g %g", mean[1], mean[2], mean[3], mean[4]);
+}
+
+static void test_refusals(void)
+{
+    lmb_frame f;
+    lmb_cutting cutting;
+    make_room(0);
+    f = make_frame(-1);
+    CHECK(lmb_render_begin(&render, &f) == LMB_ERR_ARG);
+    f = make_frame(2);
+    memset(&f.elements, 0, sizeof f.elements);
+    CHECK(lmb_render_begin(&render, &f) == LMB_ERR_ARG);
+    f.show = LMB_SHOW_DIRECT; /* nothing bounces */
+    CHECK(lmb_render_begin(&render, &f) == LMB_OK);
+    world.material[1].emission[0] = -1.0f;
+    CHECK(lmb_scene_check(&world.scene) == LMB_ERR_ARG);
+    world.material[1].emission[0] = INFINITY;
+    CHECK(lmb_scene_check(&world.scene) == LMB_ERR_ARG);
+    world.material[1].emission[0] = 0.0f;
+    f = make_frame(2);
+    CHECK(lmb_elements_build(&f.elements, &world.scene, NULL) == LMB_OK);
+    memset(&cutting, 0, sizeof cutting);
+    cutting.error = cutting.visible = 0.1f;
+    const int32_t tiles = lmb_elements_tiles(&f.elements);
+    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, &cutting, 0,
+                               tiles + 1) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, &cutting, -1,
+                               tiles) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, NULL, 0, tiles) ==
+          LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, &cutting, 0, tiles) ==
+          LMB_OK);
+}
+
+/* A surface that shines shows its radiance, with every way of grouping. */
+static void test_shine(void)
+{
+    lmb_frame f;
+    int lit = 0;
+    make_room(1);
+    f = make_frame(1);
+    f.view = look(vec3(-0.5f, 0.2f, 0), vec3(-0.5f, 0.9f, 0), 20, FRAME);
+    f.show = LMB_SHOW_DIRECT;
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+    for (int i = 0; i < FRAME * FRAME; ++i) {
+        lit += picture[3 * i + 2] >= 3.0f;
+    }
+    CHECK_MSG(lit == FRAME * FRAME, "%d pixels shine", lit);
+}
+
+void test_elements(void)
+{
+    test_memory();
+    test_area();
+    test_dropped();
+    test_sides();
+    test_texture();
+    test_ways();
+    test_counts();
+    test_refusals();
+    test_shine();
+}
