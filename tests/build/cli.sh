@@ -78,6 +78,26 @@ check "kept misfits lose nothing" sh -c '! grep -q lost "$1"' sh "$dir/err.txt"
 # A number of the statistics.
 count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
 
+# More bounces add light, one is what there is without the option; what shines lights a scene without lamps.
+cut="--grouping cut --occlusion exact --light-map 32"
+status 0 render demo $small $cut -o "$dir/bounce.pfm"
+status 0 render demo $small $cut --bounces 1 -o "$dir/bounce1.pfm"
+check "--bounces 1 is the default" cmp "$dir/bounce.pfm" "$dir/bounce1.pfm"
+status 0 render demo $small $cut --bounces 3 --elements 200 --threads 2 -o "$dir/bounce3.pfm" --stats "$dir/bounce3.json"
+check "--bounces 3 changes the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/bounce.pfm" "$dir/bounce3.pfm"
+check "--elements holds" test "$(count "$dir/bounce3.json" elements)" -le 256 -a "$(count "$dir/bounce3.json" elements)" -gt 16
+status 0 render demo $small $cut --bounces 3 --elements 256 --threads 1 -o "$dir/option.pfm"
+check "threads do not change bounces" cmp "$dir/bounce3.pfm" "$dir/option.pfm"
+status 2 render demo $small --bounces 2 -o "$dir/option.pfm"
+status 2 render demo $small $cut --bounces 0 -o "$dir/option.pfm"
+printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >"$dir/shine.mtl"
+printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+    'f 1 2 3 4' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shine.obj"
+status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.5,2 --target 0,0.4,0 $cut -o "$dir/shine.pfm"
+check "a lamp is enough light" sh -c '! grep -q "no light in" "$1"' sh "$dir/err.txt"
+status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.9,0 --target 0,0,0.1 $cut --show irradiance -o "$dir/floor.pfm"
+check "its light is seen" test "$(tail -c 3072 "$dir/floor.pfm" | tr -d '\000' | wc -c)" -gt 2000
+
 # First points: fewer discs, another neighbourhood, thresholds.
 for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
     status 0 render demo $small $option -o "$dir/option.pfm" --stats "$dir/option.json"
