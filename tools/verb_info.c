@@ -156,7 +156,10 @@ static int count_materials(summary *s, const lmb_scene *scene)
     return 1;
 }
 
-static int is_emissive(const float radiance[3]) { return radiance[0] > 0.0f || radiance[1] > 0.0f || radiance[2] > 0.0f; }
+static int is_emissive(const float radiance[3])
+{
+    return radiance[0] > 0.0f || radiance[1] > 0.0f || radiance[2] > 0.0f;
+}
 
 static int summarize(summary *s, const model *m)
 {

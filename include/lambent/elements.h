@@ -59,7 +59,7 @@ lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t
  * Cost: some passes over the triangles, about 1 us each, and a sort. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const lmb_tree *lights);
 
-/* lmb_elements_tiles: 64 elements are gathered together: how many times. */
+/* lmb_elements_tiles: a unit of work is 64 elements: how many there are. */
 int32_t lmb_elements_tiles(const lmb_elements *elements);
 
 /* lmb_elements_receive: what the elements of tiles first .. past - 1 receive from `lights` (NULL: nothing) and from the

@@ -118,8 +118,8 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
  * A unit is 1,024 triangles of a draw, a row of light-map tiles or 64 elements of one bounce; a band counts as 8 (and
- * draws the whole scene into its rows where the eye is band-sized); the discs of one face, the grouping and what is made
- * of all triangles (blockers, elements) are each one piece.
+ * draws the whole scene into its rows where the eye is band-sized); the discs of one face, the grouping and what is
+ * made of all triangles (blockers, elements) are each one piece.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 
@@ -145,9 +145,10 @@ lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
  * lmb_render_step: stages that are short, one that steps have begun, first points without room for four a block. */
 int32_t lmb_render_has_parts(const lmb_render *r);
 
-/* lmb_render_part: do one of `parts` equal shares: tile rows of all lights' maps (LMB_STAGE_LIGHT_MAP), of the next face
- * of one (LMB_STAGE_POINTS), or of the frame (LMB_STAGE_VIEW); the elements of the next bounce (LMB_STAGE_BOUNCES). Shares may be done on any threads in any order. When
- * each was done, once, lmb_render_parts_done goes on. The bytes are those of lmb_render_step.
+/* lmb_render_part: do one of `parts` equal shares: tile rows of all lights' maps (LMB_STAGE_LIGHT_MAP), of the next
+ * face of one (LMB_STAGE_POINTS), or of the frame (LMB_STAGE_VIEW); the elements of the next bounce
+ * (LMB_STAGE_BOUNCES). Shares may be done on any threads in any order. When each was done, once, lmb_render_parts_done
+ * goes on. The bytes are those of lmb_render_step.
  *
  *   scratch  one for each thread.
  *   parts    at least 1. A share of a map sets up all of its triangles: one share a thread is best.

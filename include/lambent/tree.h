@@ -71,7 +71,7 @@ typedef struct lmb_cutting {
     float visible; /* share that no node may exceed whose visibility is asked as one */
     const lmb_blockers *blockers; /* NULL: everything is seen */
     lmb_stats *stats;             /* counts pairs and segments; may be NULL */
-    const lmb_irradiance *beside; /* counts to a pixel's light, for both shares; NULL: nothing. May be what is added to */
+    const lmb_irradiance *beside; /* counts to a pixel's light too, for both shares; may be what is added to; or NULL */
     float least;                  /* so does this, W/m2, R + G + B */
 } lmb_cutting;
 

@@ -226,8 +226,8 @@ static uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *s
     return out;
 }
 
-/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are: see
- * TURNED. */
+/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are:
+ * see TURNED. */
 static void ask(cutter *c, int32_t i)
 {
     const int32_t size = c->tree->size;
@@ -360,8 +360,8 @@ static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
                      : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
 }
 
-/* An element stands for what its middle sees: one whose middle is behind the wall that the point is on may reach through
- * it, and gives nothing. */
+/* An element stands for what its middle sees: one whose middle is behind the wall that the point is on may reach
+ * through it, and gives nothing. */
 static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
 {
     if (l->element == NULL) {

@@ -1,4 +1,4 @@
-/* elements.c: a scene's triangles -> elements of about one size, in an order in which neighbours lie together. Floor 6. */
+/* elements.c: a scene's triangles -> elements of about one size, neighbours beside each other. Floor 6. */
 #include <lambent/elements.h>
 
 #include <string.h>
@@ -13,7 +13,7 @@
 enum { HALVINGS = 48, SAMPLES = 4, CELLS = 1 << 20, Z_BITS = 9 };
 #define SPECK 1e-18f /* of twice an area, m2: under it a triangle has no usable normal */
 
-/* --- memory --------------------------------------------------------------------------------------------------------- */
+/* --- memory ------------------------------------------------------------------------------------------------------- */
 
 /* Texels a side; 0 where n is no power of 4 within bounds. */
 static int32_t side_of(uint32_t n)
@@ -49,7 +49,7 @@ lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t
     return lmb_tree_init(&out->tree, 1, side_of(n), out->data + n, bytes - n * sizeof(lmb_element));
 }
 
-/* --- how a piece looks ---------------------------------------------------------------------------------------------- */
+/* --- how a piece looks -------------------------------------------------------------------------------------------- */
 
 /* A triangle with what its pieces share. */
 typedef struct source {
@@ -161,7 +161,7 @@ static float look_at(float albedo[3], const source *s, const piece *p, float sha
     return (float)standing / SAMPLES;
 }
 
-/* --- pieces -> elements --------------------------------------------------------------------------------------------- */
+/* --- pieces -> elements ------------------------------------------------------------------------------------------- */
 
 /* Small triangles find their element by its cell, in a table as long as twice the elements; it lies where the tree's
  * nodes will be. */
@@ -293,7 +293,7 @@ static void add_piece(maker *m, const source *s, const piece *p, int small)
     }
 }
 
-/* --- cutting -------------------------------------------------------------------------------------------------------- */
+/* --- cutting ------------------------------------------------------------------------------------------------------ */
 
 /* The longest edge's square; it runs from corner *from to the next. */
 static float longest_edge(int *from, const piece *p)
@@ -374,7 +374,7 @@ static float scene_area(const lmb_scene *scene)
     return (float)area;
 }
 
-/* --- order ---------------------------------------------------------------------------------------------------------- */
+/* --- order -------------------------------------------------------------------------------------------------------- */
 
 /* Bits 0, 1, 2, .. to 0, 3, 6, .. */
 static uint32_t spread3(uint32_t v)
@@ -434,7 +434,7 @@ static void put_in_order(lmb_elements *e, const lmb_scene *scene)
     sort(e->data, e->count);
 }
 
-/* --- the tree ------------------------------------------------------------------------------------------------------- */
+/* --- the tree ----------------------------------------------------------------------------------------------------- */
 
 static void set_texels_of_tree(lmb_elements *e)
 {

@@ -7,16 +7,48 @@
 #include "../base/vec.h"
 #include "tree.h"
 
+static uint32_t minu(uint32_t a, uint32_t b) { return a < b ? a : b; }
+
 int32_t lmb_elements_tiles(const lmb_elements *elements)
 {
     return elements == NULL ? 0 : (int32_t)((elements->count + LMB_TILE_PIXELS - 1) / LMB_TILE_PIXELS);
 }
 
-/* 64 elements as if they were a tile's pixels. */
-static void set_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first)
+/* --- who receives together ------------------------------------------------------------------------------------------
+ *
+ * Elements that take one cut should lie close together: the cut is as fine as the nearest of them needs, and segments
+ * from far apart walk through everything between. Cornell, seconds a bounce by 4, 16, 64 at once: 0.5, 0.32, 0.36;
+ * bunny_room, where the curve jumps from walls to the bunny: 1.1, 2.9, 6.6. So 16 where they are a compact piece of
+ * surface, else 4. */
+
+enum { TOGETHER = 16, FEW = 4 };
+#define COMPACT 8.0f /* squared diagonal of their box, of their area: a square has 2, one of 4 x 1 4.25 */
+
+static int are_compact(const lmb_elements *e, uint32_t first, uint32_t count)
+{
+    const lmb_vec3 at = e->data[first].corner[0];
+    float low[3] = {at.x, at.y, at.z}, high[3] = {at.x, at.y, at.z}, area = 0.0f, diagonal2 = 0.0f;
+    for (uint32_t i = first; i < first + count && i < e->count; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const float p[3] = {e->data[i].corner[k].x, e->data[i].corner[k].y, e->data[i].corner[k].z};
+            for (int c = 0; c < 3; ++c) {
+                low[c] = minf(low[c], p[c]);
+                high[c] = maxf(high[c], p[c]);
+            }
+        }
+        area += e->data[i].area;
+    }
+    for (int c = 0; c < 3; ++c) {
+        diagonal2 += (high[c] - low[c]) * (high[c] - low[c]);
+    }
+    return diagonal2 <= COMPACT * area;
+}
+
+/* As if they were a tile's pixels. */
+static void set_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first, uint32_t count)
 {
     memset(tile, 0, sizeof *tile);
-    for (uint32_t k = 0; k < LMB_TILE_PIXELS && first + k < e->count; ++k) {
+    for (uint32_t k = 0; k < count && first + k < e->count; ++k) {
         const lmb_texel *t = &e->tree.texel[tree_along_z(&e->tree, first + k)];
         const float position[3] = {t->position.x, t->position.y, t->position.z};
         const float normal[3] = {t->normal.x, t->normal.y, t->normal.z};
@@ -30,14 +62,16 @@ static void set_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first)
     }
 }
 
+/* --- a bounce ------------------------------------------------------------------------------------------------------- */
+
 static lmb_status receive_tile(const lmb_elements *e, const lmb_kernels *kernels, lmb_cut *scratch, lmb_tile *tile,
-                               const lmb_tree *lights, lmb_cutting cutting, uint32_t first)
+                               const lmb_tree *lights, lmb_cutting cutting, uint32_t first, uint32_t count)
 {
     lmb_irradiance received, fresh;
     lmb_status status = LMB_OK;
     memset(&received, 0, sizeof received);
     memset(&fresh, 0, sizeof fresh);
-    set_tile(tile, e, first);
+    set_tile(tile, e, first, count);
     for (int32_t k = 0; k < tile->hits; ++k) {
         for (int c = 0; c < 3; ++c) {
             received.rgb[c][k] = e->data[first + (uint32_t)k].received[c];
@@ -69,8 +103,11 @@ lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_kernels 
         scratch == NULL || tile == NULL || cutting == NULL || first < 0 || past > lmb_elements_tiles(elements)) {
         return LMB_ERR_ARG;
     }
-    for (int32_t i = first; i < past && status == LMB_OK; ++i) {
-        status = receive_tile(elements, kernels, scratch, tile, lights, *cutting, (uint32_t)i * LMB_TILE_PIXELS);
+    const uint32_t end = minu((uint32_t)past * LMB_TILE_PIXELS, elements->count);
+    for (uint32_t i = (uint32_t)first * LMB_TILE_PIXELS; i < end && status == LMB_OK;) {
+        const uint32_t count = i % TOGETHER == 0 && are_compact(elements, i, TOGETHER) ? TOGETHER : FEW;
+        status = receive_tile(elements, kernels, scratch, tile, lights, *cutting, i, count);
+        i += count;
     }
     return status;
 }

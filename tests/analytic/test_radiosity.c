@@ -53,7 +53,7 @@ static void shine(int material, float radiance)
     }
 }
 
-/* --- walls that shine ----------------------------------------------------------------------------------------------- */
+/* --- walls that shine --------------------------------------------------------------------------------------------- */
 
 static void check_furnace(int32_t bounces)
 {
@@ -74,7 +74,7 @@ static void check_furnace(int32_t bounces)
     CHECK_MSG(most < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, most);
 }
 
-/* --- a panel that shines ---------------------------------------------------------------------------------------------- */
+/* --- a panel that shines ------------------------------------------------------------------------------------------ */
 
 /* A unit square that shines down on another from height h, with no lamp. The view is centred, so that nothing depends
  * on which way its pictures lie: E = pi L F. */
@@ -102,7 +102,7 @@ static void check_panel(double h)
     CHECK_MSG(most < 0.01, "height %g: %g", h, most);
 }
 
-/* --- a lamp in a room ----------------------------------------------------------------------------------------------- */
+/* --- a lamp in a room --------------------------------------------------------------------------------------------- */
 
 /* A point, or a panel on the ceiling; 4 pi W a channel. */
 enum { LAMP, PANEL };

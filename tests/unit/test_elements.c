@@ -48,7 +48,7 @@ static lmb_elements build(uint32_t n)
     return e;
 }
 
-/* --- memory --------------------------------------------------------------------------------------------------------- */
+/* --- memory ------------------------------------------------------------------------------------------------------- */
 
 static void test_memory(void)
 {
@@ -66,11 +66,18 @@ static void test_memory(void)
     CHECK(lmb_elements_init(&e, 64, element_memory, bytes - 1) == LMB_ERR_CAPACITY);
     CHECK(lmb_elements_init(&e, 64, element_memory, bytes) == LMB_OK && e.cap == 64 && e.count == 0);
     CHECK(lmb_elements_tiles(&e) == 0 && lmb_elements_tiles(NULL) == 0);
-    CHECK(lmb_elements_build(&e, NULL, NULL) == LMB_ERR_ARG && lmb_elements_build(NULL, &world.scene, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_elements_build(&e, NULL, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_elements_build(NULL, &world.scene, NULL) == LMB_ERR_ARG);
     CHECK(lmb_elements_send(&e, 0) == LMB_ERR_ARG); /* not built */
 }
 
-/* --- area ----------------------------------------------------------------------------------------------------------- */
+/* --- area --------------------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 random_point(test_rng *r, float half)
+{
+    const float x = test_uniform(r, -half, half), y = test_uniform(r, -half, half);
+    return vec3(x, y, test_uniform(r, -half, half));
+}
 
 /* Large and small, thin, crossing each other. */
 static void make_soup(uint32_t count, float span)
@@ -79,10 +86,10 @@ static void make_soup(uint32_t count, float span)
     world_begin(0.5f, 0.5f, 0.5f);
     for (uint32_t i = 0; i < count; ++i) {
         const float size = span * (i % 7 == 0 ? 1.0f : 0.02f);
-        lmb_vec3 p[3], at = vec3(test_uniform(&r, -span, span), test_uniform(&r, -span, span), test_uniform(&r, -span, span));
+        const lmb_vec3 at = random_point(&r, span);
+        lmb_vec3 p[3];
         for (int k = 0; k < 3; ++k) {
-            p[k] = add3(at, vec3(test_uniform(&r, -size, size), test_uniform(&r, -size, size),
-                                 test_uniform(&r, -size, size)));
+            p[k] = add3(at, random_point(&r, size));
         }
         p[2] = i % 11 == 0 ? add3(p[0], mul3(sub3(p[1], p[0]), 0.499f)) : p[2];
         world_triangle(p[0], p[1], p[2]);
@@ -137,7 +144,7 @@ static void test_dropped(void)
     CHECK(e.count == 0 && e.level == 0.0f && lmb_elements_tiles(&e) == 0 && lmb_elements_send(&e, 1) == LMB_OK);
 }
 
-/* --- sides, holes, colours -------------------------------------------------------------------------------------------- */
+/* --- sides, holes, colours ---------------------------------------------------------------------------------------- */
 
 static double lit_above(const lmb_elements *e, float y)
 {
@@ -197,7 +204,7 @@ static void test_texture(void)
     CHECK_MSG(fabs(element_area(&e) - 4.0) < 0.02, "%g", element_area(&e));
 }
 
-/* --- frames ----------------------------------------------------------------------------------------------------------- */
+/* --- frames ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t map_memory[MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
 static uint32_t tree_memory[MAP * MAP * 16 + 64], blocker_memory[BLOCKERS * 29 + 2048];
