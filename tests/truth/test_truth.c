@@ -14,6 +14,7 @@
 #include "../../tools/image.h"
 #include "../../tools/metrics.h"
 #include "../../tools/model.h"
+#include "../every_texel.h"
 #include "../shared_file.h"
 #include "../test.h"
 
@@ -61,7 +62,7 @@ typedef struct stage {
     model loaded;
     lmb_frame frame;
     lmb_render *render;
-    void *map_memory, *point_memory, *depth_memory, *id_memory;
+    void *map_memory, *point_memory, *tree_memory, *depth_memory, *id_memory;
     lmb_stats stats;
     lmb_many many;
     void *many_memory, *blocker_memory;
@@ -183,6 +184,7 @@ static void stage_close(stage *s)
     free(s->blocker_memory);
     free(s->map_memory);
     free(s->point_memory);
+    free(s->tree_memory);
     free(s->depth_memory);
     free(s->id_memory);
     free(s->render);
@@ -488,6 +490,151 @@ static void check_indirect(const char *name, int barred)
     stage_close(&s);
 }
 
+/* --- cuts of the light's tree ------------------------------------------------------------------------------------- */
+
+/* In place of groups: the tree of a map of `size` texels a side, and all triangles as blockers. */
+static void take_tree(stage *s, int32_t size, float error, float visible)
+{
+    const lmb_scene *scene = &s->loaded.scene;
+    lmb_frame *f = &s->frame;
+    const uint32_t triangles = lmb_scene_triangles(scene);
+    uint32_t faces = 0;
+    for (uint32_t i = 0; i < scene->light_count; ++i) {
+        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i]);
+    }
+    const size_t tree = lmb_tree_bytes(faces, size), blockers = lmb_blockers_bytes(triangles);
+    free(s->tree_memory);
+    free(s->blocker_memory);
+    s->tree_memory = take(tree);
+    s->blocker_memory = take(blockers);
+    CHECK(lmb_tree_init(&f->tree, faces, size, s->tree_memory, tree) == LMB_OK);
+    CHECK(lmb_blockers_init(&f->blockers, triangles, s->blocker_memory, blockers) == LMB_OK);
+    f->light_map = size;
+    f->grouping.method = LMB_GROUP_CUT;
+    f->occlusion = LMB_OCCLUSION_EXACT;
+    f->error = error;
+    f->visible = visible;
+}
+
+typedef struct cut_row {
+    const char *name;
+    int32_t map;
+    float error, visible;
+    double trim, rmse, leak; /* bounds; leak: of its distance from 1, where there is one */
+} cut_row;
+
+/* V3, V25: one bounce by cuts with exact visibility. */
+static void check_cut(const cut_row *row)
+{
+    stage s;
+    image truth;
+    metrics m;
+    if (!stage_open(&s, row->name, "pt_indirect1.pfm")) {
+        return;
+    }
+    if (load_picture(&s.depth, row->name, "gbuffer_depth.pfm") &&
+        load_picture(&truth, row->name, "pt_indirect1.pfm")) {
+        take_tree(&s, row->map, row->error, row->visible);
+        stage_draw(&s, LMB_SHOW_INDIRECT);
+        if (measure(&m, &s, &truth)) {
+            printf("  %-15s map %d, error %.2f: trim %.4f, rmse %.4f, e50 %.4f, mean %.4f, leak %.3f\n", row->name,
+                   (int)row->map, (double)row->error, m.trim, m.rmse, m.e50, m.mean, m.has_leak ? m.leak : 1.0);
+            CHECK_MSG(m.trim <= row->trim, "%s: trim %g", row->name, m.trim);
+            CHECK_MSG(m.rmse <= row->rmse, "%s: rmse %g", row->name, m.rmse);
+            CHECK_MSG(!m.has_leak || fabs(m.leak - 1.0) <= row->leak, "%s: leak %g", row->name, m.leak);
+            CHECK(m.nonfinite == 0);
+        }
+        image_free(&truth);
+    }
+    stage_close(&s);
+}
+
+/* One tile in SPARSE. */
+enum { SPARSE = 31 };
+
+typedef struct cut_errors {
+    float *of; /* a pixel each: |cut - every texel| */
+    double *want;
+    int count;
+    double all; /* texels x pixels */
+} cut_errors;
+
+static void tile_errors(cut_errors *e, stage *s, lmb_cut *cut, const texel_quad *quads, int quad_count)
+{
+    lmb_band_scratch *scratch = s->frame.scratch;
+    const lmb_tile *tile = &scratch->tile;
+    lmb_cutting how = {0.02f, 0.02f, NULL, NULL};
+    lmb_irradiance got;
+    memset(&got, 0, sizeof got);
+    how.stats = &s->stats;
+    CHECK(lmb_gather_cut(&got, s->frame.kernels, cut, tile, &s->render->frame.tree, &how) == LMB_OK);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        double want = 0.0;
+        for (int i = 0; i < quad_count && tile->id[k] != 0; ++i) {
+            want += texel_factor(&quads[i], tile, k) * (double)flux_sum(quads[i].n.flux);
+        }
+        if (tile->id[k] != 0) {
+            e->of[e->count] = (float)fabs((double)got.rgb[0][k] + (double)got.rgb[1][k] + (double)got.rgb[2][k] - want);
+            e->want[e->count++] = want;
+        }
+    }
+    e->all += (double)quad_count * tile->hits;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* Relative to the light, and a thousandth of its mean: what is a millionth of it is rounding. */
+static float error_at(cut_errors *e, double share)
+{
+    double mean = 0.0;
+    for (int i = 0; i < e->count; ++i) {
+        mean += e->want[i] / e->count;
+    }
+    for (int i = 0; i < e->count; ++i) {
+        e->of[i] = (float)((double)e->of[i] / (e->want[i] + 1e-3 * mean));
+    }
+    qsort(e->of, (size_t)e->count, sizeof *e->of, by_size);
+    return e->of[(int)(share * (e->count - 1))];
+}
+
+/* V27: without blockers, at error 0.02 from a map of 256 texels a side: against every texel, in one tile of 31. */
+static void check_cut_error(const char *name, double most_share)
+{
+    stage s;
+    cut_errors e = {NULL, NULL, 0, 0.0};
+    lmb_cut *cut = take(sizeof *cut);
+    if (stage_open(&s, name, "pt_indirect1.pfm")) {
+        const lmb_view *v = &s.frame.view;
+        const int32_t wide = v->frame_width / LMB_TILE, tiles = wide * (v->frame_height / LMB_TILE);
+        take_tree(&s, 256, 0.02f, 0.02f);
+        stage_draw(&s, LMB_SHOW_INDIRECT);
+        const lmb_tree *tree = &s.render->frame.tree;
+        texel_quad *quads = take(sizeof *quads * 65536u * tree->faces);
+        const int quad_count = every_texel(quads, tree);
+        memset(&s.stats, 0, sizeof s.stats);
+        e.of = take(sizeof *e.of * (size_t)tiles * LMB_TILE_PIXELS);
+        e.want = take(sizeof *e.want * (size_t)tiles * LMB_TILE_PIXELS);
+        for (int32_t t = SPARSE / 2; t < tiles; t += SPARSE) {
+            CHECK(lmb_resolve_tile(&s.frame.scratch->tile, s.frame.kernels, v, s.frame.scene, &s.frame.eye,
+                                   t % wide * LMB_TILE, t / wide * LMB_TILE) == LMB_OK);
+            tile_errors(&e, &s, cut, quads, quad_count);
+        }
+        const double p999 = (double)error_at(&e, 0.999), share = (double)s.stats.pairs / e.all;
+        printf("  %-15s p99.9 %.4f of %d pixels, by %.1f %% of the pairs\n", name, p999, e.count, share * 100.0);
+        CHECK_MSG(p999 <= 0.02, "%s: %g", name, p999);
+        CHECK_MSG(share <= most_share, "%s: %g", name, share);
+        free(quads);
+        stage_close(&s);
+    }
+    free(e.of);
+    free(e.want);
+    free(cut);
+}
+
 /* V30: the white furnace: rho I / (pi R2) and 1.5 times that, and the traced picture of the same mesh. */
 static void check_furnace(void)
 {
@@ -531,6 +678,18 @@ void test_truth(void)
     } scenes[] = {{"cornell", 1, 1},    {"corner_contact", 1, 0}, {"bunny_room", 1, 0},  {"corridor", 0, 0},
                   {"sponza", 0, 0},     {"point_room", 0, 0},     {"grazing_sun", 0, 0}, {"two_lights", 0, 0},
                   {"mixed_with", 0, 0}, {"mixed_without", 0, 0}};
+    /* The tool's default, and its best. */
+    static const cut_row cuts[] = {
+        {"cornell", 256, 0.2f, 0.06f, 0.05, 0.08, 0.3},
+        {"corridor", 256, 0.2f, 0.06f, 0.05, 0.08, 0.3},
+        {"corner_contact", 256, 0.2f, 0.06f, 0.05, 0.08, 0.3},
+        {"corridor", 1024, 0.05f, 0.015f, 0.015, 0.04, 0.1},
+    };
+    static const cut_row more_cuts[] = {
+        {"cornell", 1024, 0.05f, 0.015f, 0.015, 0.04, 0.1},
+        {"corner_contact", 1024, 0.05f, 0.015f, 0.015, 0.08, 0.3},
+        {"bunny_room", 1024, 0.05f, 0.015f, 0.015, 0.04, 0.1},
+    };
     printf(" G-buffer\n");
     for (int i = 0; i < COUNT(scenes); ++i) {
         check_gbuffer(scenes[i].name);
@@ -548,4 +707,16 @@ void test_truth(void)
         }
     }
     check_furnace();
+    printf(" one bounce by cuts\n");
+    for (int i = 0; i < COUNT(cuts); ++i) {
+        check_cut(&cuts[i]);
+    }
+    for (int i = 0; i < COUNT(more_cuts) && getenv("LMB_TRUTH_ALL") != NULL; ++i) {
+        check_cut(&more_cuts[i]);
+    }
+    printf(" cuts against every texel\n");
+    check_cut_error("cornell", 0.05);
+    for (int i = 0; i < COUNT(scenes) && getenv("LMB_TRUTH_ALL") != NULL; ++i) {
+        check_cut_error(scenes[i].name, 1.0);
+    }
 }
