@@ -563,9 +563,11 @@ static void tile_errors(cut_errors *e, stage *s, lmb_cut *cut, const texel_quad 
 {
     lmb_band_scratch *scratch = s->frame.scratch;
     const lmb_tile *tile = &scratch->tile;
-    lmb_cutting how = {0.02f, 0.02f, NULL, NULL};
+    lmb_cutting how;
     lmb_irradiance got;
     memset(&got, 0, sizeof got);
+    memset(&how, 0, sizeof how);
+    how.error = how.visible = 0.02f;
     how.stats = &s->stats;
     CHECK(lmb_gather_cut(&got, s->frame.kernels, cut, tile, &s->render->frame.tree, &how) == LMB_OK);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
