@@ -51,6 +51,12 @@
 #define LMB_MANY_LAMPS 32
 #endif
 
+/* 0: the kernels and lmb_render of this build know no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further
+ * bounces or surfaces that shine; frames that ask for them are refused. Saves 30 KiB of ROM on a Cortex-M4F. */
+#ifndef LMB_TREES
+#define LMB_TREES 1
+#endif
+
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */

@@ -12,6 +12,8 @@
 #include "../lane/kernels.h"
 #include "tree.h"
 
+#if LMB_TREES
+
 #define INVERSE_PI   0.31830989f
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 #define FLAT         0.5f        /* height over a surface's first pixel, of the distance to it */
@@ -486,3 +488,5 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
     }
     return LMB_OK;
 }
+
+#endif

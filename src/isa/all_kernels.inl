@@ -10,11 +10,14 @@
 #include "../raster/resolve.inl"
 #include "../raster/texture.inl"
 #include "../light/direct.inl"
-#include "../light/many.inl"
 #include "../bounce/gather.inl"
-#include "../occlusion/crossed.inl"
 #include "../compose/blend.inl"
 #include "../compose/encode.inl"
+#if LMB_TREES
+#include "../bounce/gather_cut.inl"
+#include "../light/many.inl"
+#include "../occlusion/crossed.inl"
+#endif
 
 static float KERNEL(probe)(float one_and_bit)
 {
@@ -28,7 +31,10 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     MACHINE,         LANES,
     KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large),
     KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve), KERNEL(texture),
-    KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(gather_cut),
-    KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets),
-    KERNEL(many_bounds), KERNEL(many_shine), KERNEL(blend), KERNEL(encode), KERNEL(probe),
+    KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(blend),
+    KERNEL(encode),  KERNEL(probe),
+#if LMB_TREES
+    KERNEL(gather_cut), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets), KERNEL(many_bounds),
+    KERNEL(many_shine),
+#endif
 };

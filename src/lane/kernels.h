@@ -159,6 +159,13 @@ struct lmb_kernels {
     /* The flagged pixels of one near group, through its discs. */
     void (*gather_near)(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                         uint32_t count, const lmb_march_job *march);
+    void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
+                  const lmb_irradiance *indirect);
+    /* sRGB codes 0 .. 255 of radiance x gain. */
+    void (*encode)(int32_t code[3][LMB_TILE_PIXELS], const lmb_radiance *in, float gain);
+    /* (1 + 2^-12)^2 - (1 + 2^-11) by this machine's verbs: 0, or 2^-24 where the compiler fused it. */
+    float (*probe)(float one_and_bit);
+#if LMB_TREES
     /* Emitters that some pixels see: added. `pairs` is scratch. */
     void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,
                        const lmb_emitter *emitters, int32_t count);
@@ -176,12 +183,7 @@ struct lmb_kernels {
     /* The lamps' light on `pixels` is added. */
     void (*many_shine)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels, const lmb_many_lamp *lamps,
                        int32_t count);
-    void (*blend)(lmb_radiance *out, const lmb_tile *tile, const lmb_irradiance *direct,
-                  const lmb_irradiance *indirect);
-    /* sRGB codes 0 .. 255 of radiance x gain. */
-    void (*encode)(int32_t code[3][LMB_TILE_PIXELS], const lmb_radiance *in, float gain);
-    /* (1 + 2^-12)^2 - (1 + 2^-11) by this machine's verbs: 0, or 2^-24 where the compiler fused it. */
-    float (*probe)(float one_and_bit);
+#endif
 };
 
 /* Those of this build: see machines.h. */

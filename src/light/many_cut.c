@@ -10,6 +10,8 @@
  * Entries that may yet be parted lie in the heap from the front of `entry`, cells from its back. */
 #include "many_cut.h"
 
+#if LMB_TREES
+
 /* Bounds are summed as if each were reached and all erred one way. In a sum of hundreds they are not: at 16 x the error
  * asked for, what is left of it is less than what the shadow tests leave. */
 #define SUM_OF_BOUNDS 16.0f
@@ -123,3 +125,5 @@ void lmb_many_cut(lmb_many_scratch *s, const lmb_kernels *kernels, const lmb_man
     order_by_light(s);
     part(s, kernels, look, job);
 }
+
+#endif

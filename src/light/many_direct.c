@@ -4,6 +4,8 @@
 #include "../base/vec.h"
 #include "many_cut.h"
 
+#if LMB_TREES
+
 #define SURFACES 4 /* of a tile that take a cut of their own; the last takes what is left */
 
 /* --- the tile's surfaces ------------------------------------------------------------------------------------------ */
@@ -186,3 +188,5 @@ lmb_status lmb_many_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernel
     }
     return LMB_OK;
 }
+
+#endif

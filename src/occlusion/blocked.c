@@ -6,6 +6,8 @@
 #include "../raster/resolve.h"
 #include "walk.h"
 
+#if LMB_TREES
+
 /* Leaves asked by the pyramid alone; after them each is asked by the segments themselves, which in a fine mesh mostly
  * pass between its triangles. */
 #define BY_PYRAMID 4
@@ -170,3 +172,5 @@ uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kerne
     }
     return pixels & ~w.left;
 }
+
+#endif

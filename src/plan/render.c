@@ -9,6 +9,21 @@
 #include "../raster/triangle.h"
 #include "../raster/target.h"
 
+/* A build without trees refuses frames that ask for them (check_frame), so none of these is ever called. */
+#if !LMB_TREES
+#undef lmb_gather_cut
+#undef lmb_many_direct_tile
+#define lmb_gather_cut(...)       LMB_ERR_ARG
+#define lmb_many_direct_tile(...) LMB_ERR_ARG
+#define lmb_blockers_build(...)   LMB_ERR_ARG
+#define lmb_tree_sum(...)         LMB_ERR_ARG
+#define lmb_tree_texels(...)      LMB_ERR_ARG
+#define lmb_elements_build(...)   LMB_ERR_ARG
+#define lmb_elements_receive(...) LMB_ERR_ARG
+#define lmb_elements_send(...)    LMB_ERR_ARG
+#define lmb_elements_tiles(...)   0
+#endif
+
 #define UNIT_TRIANGLES 1024u
 #define BAND_UNITS 8
 #define STEPS 12
@@ -101,7 +116,11 @@ static lmb_status check_frame(const lmb_frame *f)
 {
     if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
         f->show > LMB_SHOW_IRRADIANCE || f->steps < 0 || f->steps > 64 || f->view.frame_width < 1 ||
-        f->view.frame_height < 1 || f->occlusion < LMB_OCCLUSION_NONE || f->occlusion > LMB_OCCLUSION_EXACT || !(f->error > 0.0f) || !(f->visible > 0.0f)) {
+        f->view.frame_height < 1 || f->occlusion < LMB_OCCLUSION_NONE || f->occlusion > LMB_OCCLUSION_EXACT ||
+        !(f->error > 0.0f) || !(f->visible > 0.0f)) {
+        return LMB_ERR_ARG;
+    }
+    if (!LMB_TREES && (f->grouping.method == LMB_GROUP_CUT || f->many != NULL)) {
         return LMB_ERR_ARG;
     }
     if (f->bounces < 1 || (f->bounces > 1 && wants_bounce(f) && (!wants_cut(f) || f->elements.data == NULL))) {
@@ -113,7 +132,8 @@ static lmb_status check_frame(const lmb_frame *f)
     if (f->many_bounce > f->scene->light_count) {
         return LMB_ERR_ARG;
     }
-    if (wants_cut(f) ? f->light_map % f->tree.size != 0 || f->light_map / f->tree.size > 8 || f->occlusion % LMB_OCCLUSION_EXACT != 0
+    if (wants_cut(f) ? f->light_map % f->tree.size != 0 || f->light_map / f->tree.size > 8 ||
+                           f->occlusion % LMB_OCCLUSION_EXACT != 0
                      : wants_groups(f) && f->occlusion == LMB_OCCLUSION_EXACT) {
         return LMB_ERR_ARG;
     }
