@@ -106,12 +106,15 @@ static int shines(const lmb_scene *s)
     return any;
 }
 
+/* Is there light without lamps? */
+static int lights_itself(const job *j) { return j->o.grouping.method == LMB_GROUP_CUT && shines(&j->scene); }
+
 static void set_lights(job *j)
 {
     if (j->o.light_count > 0) {
         j->scene.lights = j->o.lights;
         j->scene.light_count = j->o.light_count;
-    } else if (j->scene.light_count == 0 && !(j->o.grouping.method == LMB_GROUP_CUT && shines(&j->scene))) {
+    } else if (j->scene.light_count == 0 && !lights_itself(j)) {
         lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL,
                          0};
         j->sun = sun;
@@ -254,7 +257,8 @@ static int take_points(job *j, report *r)
 /* What holds the light that bounces, as far as it is shown. */
 static int take_light(job *j, report *r)
 {
-    if (j->o.show == LMB_SHOW_DIRECT || j->o.show == SHOW_LIGHT_DISTANCE || total_faces(&j->scene) == 0) {
+    const int dark = total_faces(&j->scene) == 0 && !lights_itself(j);
+    if (j->o.show == LMB_SHOW_DIRECT || j->o.show == SHOW_LIGHT_DISTANCE || dark) {
         return 1;
     }
     if (j->frame.grouping.method == LMB_GROUP_CUT) {

@@ -7,7 +7,7 @@
  *
  *     lmb_elements_build(&e, &scene, &lights);                           what shines by itself is in the tree
  *     for (b = 1; b < bounces; ++b) {
- *         lmb_elements_receive(&e, ..., b == 1 ? &lights : NULL, ..);    from the light's maps, then from each other
+ *         lmb_elements_receive(&e, .., b == 1 ? &lights : NULL, ..);    from the light's maps, then from each other
  *         lmb_elements_send(&e, b + 1 == bounces);                       at last: all bounces together
  *     }
  *     lmb_gather_cut(.., &lights, ..); lmb_gather_cut(.., &e.tree, ..);  a pixel
@@ -36,6 +36,14 @@ typedef struct lmb_elements {
     float level; /* W/m2, R + G + B: what the elements receive in the mean, about */
 } lmb_elements;
 
+/* What a thread receives with; all of it is its own. */
+typedef struct lmb_receiver {
+    const lmb_kernels *kernels;
+    lmb_cut *cut;
+    lmb_tile *tile;
+    lmb_irradiance *received, *fresh;
+} lmb_receiver;
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -63,14 +71,13 @@ lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const
 int32_t lmb_elements_tiles(const lmb_elements *elements);
 
 /* lmb_elements_receive: what the elements of tiles first .. past - 1 receive from `lights` (NULL: nothing) and from the
- * elements' own tree, into `fresh`. Any tiles in any order, at once on any threads with their own scratches.
+ * elements' own tree, into `fresh`. Any tiles in any order, at once on any threads with their own receivers.
  *
  *   cutting  error and visible as for pixels, but of an element's own light and `level` together: what is dark lights
  *            little, and need not be known well.
  * Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_kernels *kernels, lmb_cut *scratch,
-                                lmb_tile *tile, const lmb_tree *lights, const lmb_cutting *cutting, int32_t first,
-                                int32_t past);
+lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_receiver *receiver, const lmb_tree *lights,
+                                const lmb_cutting *cutting, int32_t first, int32_t past);
 
 /* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces, and what shines by
  * itself again. LMB_OK or LMB_ERR_ARG. */

@@ -64,49 +64,53 @@ static void set_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first, uint
 
 /* --- a bounce ------------------------------------------------------------------------------------------------------- */
 
-static lmb_status receive_tile(const lmb_elements *e, const lmb_kernels *kernels, lmb_cut *scratch, lmb_tile *tile,
-                               const lmb_tree *lights, lmb_cutting cutting, uint32_t first, uint32_t count)
+static lmb_status receive_tile(const lmb_elements *e, const lmb_receiver *r, const lmb_tree *lights,
+                               lmb_cutting cutting, uint32_t first, uint32_t count)
 {
-    lmb_irradiance received, fresh;
     lmb_status status = LMB_OK;
-    memset(&received, 0, sizeof received);
-    memset(&fresh, 0, sizeof fresh);
-    set_tile(tile, e, first, count);
-    for (int32_t k = 0; k < tile->hits; ++k) {
+    memset(r->received, 0, sizeof *r->received);
+    memset(r->fresh, 0, sizeof *r->fresh);
+    set_tile(r->tile, e, first, count);
+    for (int32_t k = 0; k < r->tile->hits; ++k) {
         for (int c = 0; c < 3; ++c) {
-            received.rgb[c][k] = e->data[first + (uint32_t)k].received[c];
+            r->received->rgb[c][k] = e->data[first + (uint32_t)k].received[c];
         }
     }
     cutting.least = e->level;
-    cutting.beside = &received;
+    cutting.beside = r->received;
     if (lights != NULL) {
-        status = lmb_gather_cut(&fresh, kernels, scratch, tile, lights, &cutting);
-        cutting.beside = &fresh; /* with lights: the first bounce, when nothing was received before */
+        status = lmb_gather_cut(r->fresh, r->kernels, r->cut, r->tile, lights, &cutting);
+        cutting.beside = r->fresh; /* with lights: the first bounce, when nothing was received before */
     }
     if (status == LMB_OK) {
-        status = lmb_gather_cut(&fresh, kernels, scratch, tile, &e->tree, &cutting);
+        status = lmb_gather_cut(r->fresh, r->kernels, r->cut, r->tile, &e->tree, &cutting);
     }
-    for (int32_t k = 0; k < tile->hits; ++k) {
+    for (int32_t k = 0; k < r->tile->hits; ++k) {
         for (int c = 0; c < 3; ++c) {
-            e->data[first + (uint32_t)k].fresh[c] = fresh.rgb[c][k];
+            e->data[first + (uint32_t)k].fresh[c] = r->fresh->rgb[c][k];
         }
     }
     return status;
 }
 
-lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_kernels *kernels, lmb_cut *scratch,
-                                lmb_tile *tile, const lmb_tree *lights, const lmb_cutting *cutting, int32_t first,
-                                int32_t past)
+static int is_ready(const lmb_receiver *r)
+{
+    return r != NULL && r->kernels != NULL && r->cut != NULL && r->tile != NULL && r->received != NULL &&
+           r->fresh != NULL;
+}
+
+lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_receiver *receiver, const lmb_tree *lights,
+                                const lmb_cutting *cutting, int32_t first, int32_t past)
 {
     lmb_status status = LMB_OK;
-    if (elements == NULL || elements->data == NULL || elements->tree.element == NULL || kernels == NULL ||
-        scratch == NULL || tile == NULL || cutting == NULL || first < 0 || past > lmb_elements_tiles(elements)) {
+    if (elements == NULL || elements->data == NULL || elements->tree.element == NULL || !is_ready(receiver) ||
+        cutting == NULL || first < 0 || past > lmb_elements_tiles(elements)) {
         return LMB_ERR_ARG;
     }
     const uint32_t end = minu((uint32_t)past * LMB_TILE_PIXELS, elements->count);
     for (uint32_t i = (uint32_t)first * LMB_TILE_PIXELS; i < end && status == LMB_OK;) {
         const uint32_t count = i % TOGETHER == 0 && are_compact(elements, i, TOGETHER) ? TOGETHER : FEW;
-        status = receive_tile(elements, kernels, scratch, tile, lights, *cutting, i, count);
+        status = receive_tile(elements, receiver, lights, *cutting, i, count);
         i += count;
     }
     return status;

@@ -354,8 +354,13 @@ static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_
 {
     const lmb_frame *f = &r->frame;
     const lmb_cutting cutting = cutting_of(f, stats);
-    return lmb_elements_receive(&f->elements, f->kernels, &scratch->gather.cut, &scratch->tile,
-                                r->light == 0 ? &f->tree : NULL, &cutting, first, past);
+    lmb_receiver own;
+    own.kernels = f->kernels;
+    own.cut = &scratch->gather.cut;
+    own.tile = &scratch->tile;
+    own.received = &scratch->direct;
+    own.fresh = &scratch->indirect;
+    return lmb_elements_receive(&f->elements, &own, r->light == 0 ? &f->tree : NULL, &cutting, first, past);
 }
 
 static int has_bounces(const lmb_render *r)

@@ -88,7 +88,7 @@ check "--bounces 3 changes the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/boun
 check "--elements holds" test "$(count "$dir/bounce3.json" elements)" -le 256 -a "$(count "$dir/bounce3.json" elements)" -gt 16
 status 0 render demo $small $cut --bounces 3 --elements 256 --threads 1 -o "$dir/option.pfm"
 check "threads do not change bounces" cmp "$dir/bounce3.pfm" "$dir/option.pfm"
-status 2 render demo $small --bounces 2 -o "$dir/option.pfm"
+status 2 render demo $small --grouping zones --bounces 2 -o "$dir/option.pfm"
 status 2 render demo $small $cut --bounces 0 -o "$dir/option.pfm"
 printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >"$dir/shine.mtl"
 printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \

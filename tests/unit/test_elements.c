@@ -341,6 +341,8 @@ static void test_refusals(void)
 {
     lmb_frame f;
     lmb_cutting cutting;
+    const lmb_receiver own = {lmb_kernels_pick(), &scratch.gather.cut, &scratch.tile, &scratch.direct,
+                              &scratch.indirect};
     make_room(0);
     f = make_frame(-1);
     CHECK(lmb_render_begin(&render, &f) == LMB_ERR_ARG);
@@ -359,14 +361,11 @@ static void test_refusals(void)
     memset(&cutting, 0, sizeof cutting);
     cutting.error = cutting.visible = 0.1f;
     const int32_t tiles = lmb_elements_tiles(&f.elements);
-    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, &cutting, 0,
-                               tiles + 1) == LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, &cutting, -1,
-                               tiles) == LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, NULL, 0, tiles) ==
-          LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, f.kernels, &scratch.gather.cut, &scratch.tile, NULL, &cutting, 0, tiles) ==
-          LMB_OK);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, tiles + 1) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, -1, tiles) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, NULL, 0, tiles) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, NULL, NULL, &cutting, 0, tiles) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, tiles) == LMB_OK);
 }
 
 /* A surface that shines shows its radiance, with every way of grouping. */
