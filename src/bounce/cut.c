@@ -362,16 +362,10 @@ static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
                      : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
 }
 
-/* An element stands for what its middle sees: one whose middle is behind the wall that the point is on may reach
- * through it, and gives nothing. */
 static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
 {
-    if (l->element == NULL) {
-        return lmb_quad_factor(at, face, normal, l->node.centre, l->node.normal, l->u, l->v);
-    }
-    return dot3(face, sub3(l->node.centre, at)) > 0.0f
-               ? lmb_triangle_factor(at, face, normal, l->element->corner, l->node.normal)
-               : 0.0f;
+    return l->element != NULL ? lmb_triangle_factor(at, face, normal, l->element->corner, l->node.normal)
+                              : lmb_quad_factor(at, face, normal, l->node.centre, l->node.normal, l->u, l->v);
 }
 
 /* A leaf so near that its shape counts: pixel by pixel. */
