@@ -151,7 +151,7 @@ int32_t lmb_render_has_parts(const lmb_render *r);
  * goes on. The bytes are those of lmb_render_step.
  *
  *   scratch  one for each thread.
- *   parts    at least 1. A share of a map sets up all of its triangles: one share a thread is best.
+ *   parts    1 .. 65,535. A share of a map sets up all of its triangles: one share a thread is best.
  *   stats    added to; one for each thread, or NULL. frame.stats is left to lmb_render_parts_done.
  * Returns LMB_OK; LMB_ERR_ARG (null, part outside, a stage without parts); or an error of the stage. */
 lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,

@@ -123,7 +123,7 @@ static int32_t first_zone(const lmb_points *points, const lmb_grouping *g)
 {
     const uint64_t cells = (uint64_t)points->count * (uint64_t)maxi(g->thin, 1);
     uint64_t zone = 1;
-    while (cells / (zone * zone) > (uint64_t)g->groups) {
+    while (cells >= ((uint64_t)g->groups + 1) * (zone * zone)) {
         ++zone;
     }
     return (int32_t)zone;

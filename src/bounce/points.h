@@ -16,11 +16,17 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
 /* lmb_points_put_together: close the gaps between the parts: the points and cells that lmb_points_collect leaves. */
 void lmb_points_put_together(lmb_points *points, const lmb_light_map *map, int32_t parts, const lmb_grouping *grouping);
 
-/* Share `part` of `parts` of n things: *first .. *past - 1. */
+/* Share `part` of `parts` <= 65,535 of n things: *first .. *past - 1, from n part / parts on; in 32 bits, because small
+ * machines divide 64 by a routine of 700 bytes. */
+static inline int64_t share_edge(uint32_t n, uint32_t part, uint32_t parts)
+{
+    return (int64_t)(n / parts) * part + n % parts * part / parts;
+}
+
 static inline void share_out(int64_t *first, int64_t *past, int64_t n, int32_t part, int32_t parts)
 {
-    *first = n * part / parts;
-    *past = n * (part + 1) / parts;
+    *first = share_edge((uint32_t)n, (uint32_t)part, (uint32_t)parts);
+    *past = share_edge((uint32_t)n, (uint32_t)part + 1, (uint32_t)parts);
 }
 
 #endif

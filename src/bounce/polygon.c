@@ -60,6 +60,7 @@ float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 cent
     return maxf(sum, 0.0f) * 0.15915494f / area;
 }
 
+#if LMB_TREES
 float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 corner[3], lmb_vec3 axis)
 {
     const lmb_vec3 own[3] = {sub3(corner[0], at), sub3(corner[1], at), sub3(corner[2], at)};
@@ -71,3 +72,4 @@ float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb
     const float sum = edges_sum(own, 3, face, normal);
     return maxf(dot3(side, axis) < 0.0f ? sum : -sum, 0.0f) * 0.15915494f / area;
 }
+#endif
