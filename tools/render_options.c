@@ -65,7 +65,9 @@ static const char usage_bounce[] =
     "                             what stands between lit points and pixels: every triangle (cut's default); nothing;\n"
     "                             or, for fixed groups, what the viewer's depth map shows, marched in map space or in\n"
     "                             world space (their default: view): it cannot know what is off screen or hidden\n"
-    "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n";
+    "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n"
+    "  --gather full|half|quarter at every pixel (default), or at every second or fourth each way and between them\n"
+    "                             where surface and light go on; pixels that have no such neighbours are gathered too\n";
 
 static const char usage_more[] =
     "picture\n"
@@ -223,6 +225,13 @@ static int parse_occlusion(const char *text, render_options *o)
     static const int32_t values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
                                      LMB_OCCLUSION_VIEW_WORLD};
     return parse_word(text, words, values, &o->occlusion);
+}
+
+static int parse_gather(const char *text, render_options *o)
+{
+    static const char *const words[] = {"full", "half", "quarter", NULL};
+    static const int32_t values[] = {1, 2, 4};
+    return parse_word(text, words, values, &o->gather_step);
 }
 
 static int parse_block(const char *text, render_options *o)
@@ -419,6 +428,7 @@ static const struct flag {
     {"--centre", parse_centre, "barycentre or disc"},
     {"--occlusion", parse_occlusion, "exact, none, view or view-world"},
     {"--steps", parse_steps, "1 .. 64"},
+    {"--gather", parse_gather, "full, half or quarter"},
     {"--show", parse_show,
      "full, direct, indirect, irradiance, depth, eye-distance, normal, albedo, light-distance, points, groups or "
      "occlusion"},

@@ -40,6 +40,7 @@ typedef struct render_options {
     int32_t many_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
     int32_t bounce_lights;
+    int32_t gather_step; /* 1, 2, 4 */
     int32_t exposure_auto;
     float exposure_ev;
     const lmb_kernels *kernels;

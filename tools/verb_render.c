@@ -346,6 +346,7 @@ static int set_frame(job *j, report *r)
     f->error = j->o.error;
     f->bounces = j->o.bounces;
     f->visible = j->o.visible;
+    f->gather_step = j->o.gather_step;
     f->id_format = LMB_ID32;
     f->stats = &j->stats;
     if (shows_attribute(j->o.show)) {

@@ -13,6 +13,19 @@ typedef struct lmb_radiance {
 extern "C" {
 #endif
 
+/* Light gathered at every second or fourth pixel each way (step 2 or 4), for all of them.
+ *
+ * lmb_sparse_pixels: the pixels of a tile to gather, a bit each. Of its rows and columns 0, 2, 5, 7 or 0, 7: 16 or 4
+ * samples; and those that the four samples around them do not explain, because they lie on other surfaces. Tiles ask
+ * only themselves, and their samples reach to their edges: no seams. Any other step: all pixels.
+ * lmb_upsample_tile: set the others to the mean of the samples around them, by distance and by how far they are on the
+ * pixel's surface. Equal samples give exactly their value.
+ *
+ *   inout  the light at the pixels of `known`, which lmb_sparse_pixels gave.
+ * Returns the pixels, a bit each, whose samples differ by more than 40 %: they are not set, but to be gathered. */
+uint64_t lmb_sparse_pixels(const lmb_tile *tile, int32_t step);
+uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t known, int32_t step);
+
 /* lmb_compose_tile: albedo / pi x (direct + indirect). Either irradiance may be NULL. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect);

@@ -63,6 +63,7 @@
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_GATHER_PAIRS 128    /* pixels x groups that the gather takes together */
+#define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together where bounced light is upsampled */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are made ready together */
 /* Triangles of a tile that are resolved side by side, 170 bytes of lmb_tile each: as many as the widest machine has
  * lanes. The tiny configuration has one. */

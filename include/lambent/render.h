@@ -28,6 +28,14 @@
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
 enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
 
+/* Light gathered for some pixels of a block of tiles side by side. */
+typedef struct lmb_sparse {
+    lmb_tile together;                      /* those at hand: of positions, faces, normals and ids */
+    uint16_t place[LMB_TILE_PIXELS];        /* where they are in `light` */
+    int32_t count;                          /* of them */
+    lmb_irradiance light[LMB_SPARSE_TILES]; /* of the block's pixels */
+} lmb_sparse;
+
 /* Everything that works on one band. Place it in fast RAM; one for each thread that draws bands. */
 typedef struct lmb_band_scratch {
     union {
@@ -39,6 +47,7 @@ typedef struct lmb_band_scratch {
     lmb_radiance radiance;
     lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
     lmb_many_scratch many;
+    lmb_sparse sparse; /* where gather_step is over 1 */
 } lmb_band_scratch;
 
 /* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,
@@ -62,6 +71,7 @@ typedef struct lmb_frame {
     float visible;         /* 0.02 where 0: LMB_OCCLUSION_EXACT: share that is seen or not as one */
     float many_error;      /* 0.02 where 0: lmb_many_look's */
     int32_t bounces;       /* 1 where 0: how often light is reflected before the surface that is seen; LMB_GROUP_CUT */
+    int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way, upsampled: see lmb_upsample_tile */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */

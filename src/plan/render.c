@@ -8,6 +8,8 @@
 #include "../bounce/points.h"
 #include "../raster/triangle.h"
 #include "../raster/target.h"
+#include "sparse.h"
+#include "wants.h"
 
 /* A build without trees refuses frames that ask for them (check_frame), so none of these is ever called. */
 #if !LMB_TREES
@@ -31,26 +33,6 @@
 
 static int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
 
-static int is_whole(const lmb_surface *s, const lmb_view *v)
-{
-    return s->data != NULL && s->width == v->frame_width && s->height == v->frame_height;
-}
-
-static int wants_direct(const lmb_frame *f) { return f->show == LMB_SHOW_FULL || f->show == LMB_SHOW_DIRECT; }
-
-static int wants_many(const lmb_frame *f) { return wants_direct(f) && f->many != NULL; }
-
-static int wants_cut(const lmb_frame *f)
-{
-    return f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT && f->tree.texel != NULL;
-}
-
-static int wants_groups(const lmb_frame *f)
-{
-    return f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT && f->points.data != NULL &&
-           f->groups != NULL;
-}
-
 static int shines(const lmb_scene *scene)
 {
     int any = 0;
@@ -59,24 +41,6 @@ static int shines(const lmb_scene *scene)
         any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
     }
     return any;
-}
-
-/* Does light come from elements too? */
-static int wants_elements(const lmb_render *r)
-{
-    const lmb_frame *f = &r->frame;
-    return wants_cut(f) && f->elements.data != NULL && (f->bounces > 1 || r->shines);
-}
-
-static int wants_bounce(const lmb_frame *f) { return wants_cut(f) || wants_groups(f); }
-
-/* The depth map that occludes, or NULL. */
-static const lmb_surface *occluding_depth(const lmb_frame *f)
-{
-    if (f->occlusion == LMB_OCCLUSION_NONE || f->occlusion == LMB_OCCLUSION_EXACT || !wants_groups(f)) {
-        return NULL;
-    }
-    return is_whole(&f->eye.depth, &f->view) ? &f->eye.depth : &f->eye_depth;
 }
 
 static lmb_status check_eye(const lmb_frame *f)
@@ -126,6 +90,9 @@ static lmb_status check_frame(const lmb_frame *f)
     if (f->bounces < 1 || (f->bounces > 1 && wants_bounce(f) && (!wants_cut(f) || f->elements.data == NULL))) {
         return LMB_ERR_ARG;
     }
+    if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4) {
+        return LMB_ERR_ARG;
+    }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {
         return LMB_ERR_CAPACITY;
     }
@@ -163,6 +130,8 @@ static lmb_status place_maps(lmb_render *r)
     return LMB_OK;
 }
 
+static int32_t gather_step(const lmb_frame *f, int32_t step) { return step != 0 && wants_bounce(f) ? step : 1; }
+
 lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
 {
     if (r == NULL || frame == NULL) {
@@ -176,6 +145,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     f->error = f->error != 0.0f ? f->error : SHARE;
     f->visible = f->visible != 0.0f ? f->visible : SHARE;
     f->bounces = f->bounces != 0 ? f->bounces : 1;
+    f->gather_step = gather_step(f, f->gather_step);
     f->tree.faces = 0;
     f->points.count = 0;
     f->points.faces = 0;
@@ -202,6 +172,7 @@ static void set_picture(lmb_frame *f, const lmb_frame *from)
     f->error = from->error != 0.0f ? from->error : SHARE;
     f->visible = from->visible != 0.0f ? from->visible : SHARE;
     f->many_error = from->many_error;
+    f->gather_step = gather_step(f, from->gather_step);
     f->exposure_ev = from->exposure_ev;
     f->eye = from->eye;
     f->eye_depth = from->eye_depth;
@@ -273,11 +244,6 @@ static lmb_status step_blockers(lmb_render *r)
     return for_bounce || for_many ? lmb_blockers_build(&f->blockers, f->scene) : LMB_OK;
 }
 
-static const lmb_blockers *blockers_of(const lmb_frame *f)
-{
-    return f->occlusion == LMB_OCCLUSION_EXACT ? &f->blockers : NULL;
-}
-
 static lmb_status end_face(lmb_render *r)
 {
     const lmb_light_map *map = &r->maps[r->light];
@@ -335,17 +301,6 @@ static lmb_status step_groups(lmb_render *r)
         return lmb_elements_build(&f->elements, f->scene, &f->tree);
     }
     return wants_groups(f) ? lmb_group_points(f->groups, &f->points, &f->grouping, f->stats) : LMB_OK;
-}
-
-static lmb_cutting cutting_of(const lmb_frame *f, lmb_stats *stats)
-{
-    lmb_cutting c;
-    memset(&c, 0, sizeof c);
-    c.error = f->error;
-    c.visible = f->visible;
-    c.blockers = blockers_of(f);
-    c.stats = stats;
-    return c;
 }
 
 /* Bounce r->light + 2: elements first .. past - 1 receive. The light's maps give the first share of it. */
@@ -441,19 +396,6 @@ static lmb_status draw_band(const lmb_render *r, lmb_target *eye, int32_t band)
     return lmb_draw(eye, f->kernels, &f->view, f->scene, 1, r->triangles, LMB_CULL_BACK, NULL);
 }
 
-/* What the light's maps bounce, and what elements send. */
-static lmb_status gather_cuts(const lmb_render *r, lmb_band_scratch *s)
-{
-    const lmb_frame *f = &r->frame;
-    lmb_cutting cutting = cutting_of(f, &s->counts);
-    lmb_status status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->tree, &cutting);
-    if (status == LMB_OK && wants_elements(r)) {
-        cutting.beside = &s->indirect;
-        status = lmb_gather_cut(&s->indirect, f->kernels, &s->gather.cut, &s->tile, &f->elements.tree, &cutting);
-    }
-    return status;
-}
-
 /* What surfaces give off towards the viewer. */
 static void add_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile)
 {
@@ -473,14 +415,13 @@ static void add_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_til
 /* SHOW_IRRADIANCE is what arrives before the albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
 
-static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
+/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here. */
+static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
 {
     const lmb_frame *f = &r->frame;
-    lmb_occluder occluder;
     lmb_many_look look;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
-    memset(&s->indirect, 0, sizeof s->indirect);
     for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count - f->many_bounce && status == LMB_OK; ++i) {
         status =
             lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, &f->scene->lights[i], &r->maps[i]);
@@ -491,28 +432,36 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s)
         look.error = f->many_error;
         status = lmb_many_direct_tile(&s->direct, f->kernels, &s->many, &s->tile, &look);
     }
-    if (wants_groups(f) && status == LMB_OK) {
-        occluder.view = &f->view;
-        occluder.depth = occluding_depth(f);
-        occluder.kind = f->occlusion;
-        occluder.steps = f->steps;
-        status =
-            lmb_gather_tile(&s->indirect, f->kernels, &s->gather.groups, &s->tile, f->groups, &f->points, &occluder);
-    }
-    if (wants_cut(f) && status == LMB_OK) {
-        status = gather_cuts(r, s);
+    if (indirect == NULL && status == LMB_OK) {
+        indirect = &s->indirect;
+        memset(&s->indirect, 0, sizeof s->indirect);
+        status = lmb_render_gather(&s->indirect, r, s, &s->tile);
     }
     if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
-        show_irradiance(&s->radiance, &s->indirect);
+        show_irradiance(&s->radiance, indirect);
         return LMB_OK;
     }
     if (status == LMB_OK) {
-        status = lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, &s->indirect);
+        status = lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, indirect);
     }
     if (status == LMB_OK && r->shines && wants_direct(f)) {
         add_shine(&s->radiance, f->scene, &s->tile);
     }
     return status;
+}
+
+/* The bounced light of the tile at column x where that is gathered by blocks: with the first tile of each. Else NULL. */
+static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, lmb_band_scratch *s,
+                              const lmb_target *window, int32_t x, int32_t band)
+{
+    const lmb_frame *f = &r->frame;
+    const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
+    *out = f->gather_step > 1 ? &s->sparse.light[part] : NULL;
+    if (f->gather_step == 1 || part > 0) {
+        return LMB_OK;
+    }
+    const int32_t ahead = (f->view.frame_width - x + LMB_TILE - 1) / LMB_TILE;
+    return lmb_render_block(r, s, window, x, band * LMB_TILE, mini(LMB_SPARSE_TILES, ahead));
 }
 
 lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
@@ -534,9 +483,13 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
     int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
     lmb_status status = draw_band(r, &window, band);
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
-        status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, &window, x, band * LMB_TILE);
+        const lmb_irradiance *indirect;
+        status = block_light(&indirect, r, scratch, &window, x, band);
         if (status == LMB_OK) {
-            status = light_tile(r, scratch);
+            status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, &window, x, band * LMB_TILE);
+        }
+        if (status == LMB_OK) {
+            status = light_tile(r, scratch, indirect);
         }
         if (status == LMB_OK) {
             status = lmb_store_tile(out, f->kernels, 0, out_y0, &scratch->radiance, x, band * LMB_TILE, f->exposure_ev);

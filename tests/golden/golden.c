@@ -412,6 +412,16 @@ static uint64_t case_stereo(int variant)
     return h;
 }
 
+/* Bounced light at every second or fourth pixel. */
+static uint64_t case_gather(int variant)
+{
+    lmb_frame f = demo_frame();
+    f.show = LMB_SHOW_INDIRECT;
+    f.gather_step = variant;
+    lmb_status status = way->render(&memory.render, &f);
+    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+}
+
 static uint64_t case_format(int variant)
 {
     static const uint8_t formats[4] = {LMB_RGB565, LMB_RGB555, LMB_RGBA8, LMB_BGRA8};
