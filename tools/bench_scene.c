@@ -32,7 +32,7 @@ const int bench_case_count = sizeof bench_cases / sizeof *bench_cases;
 
 enum { TEXELS = 256, LAYERS = 32 };
 
-/* --- meshes --------------------------------------------------------------------------------------------------------- */
+/* --- meshes ------------------------------------------------------------------------------------------------------- */
 
 /* Bytes of a mesh file with these counts. */
 static uint64_t mesh_bytes(uint64_t vertices, uint64_t triangles) { return 8 + 32 * vertices + 12 * triangles; }
@@ -145,7 +145,7 @@ static void make_texture(bench_scene *s)
     s->material.texture = 0;
 }
 
-/* --- cameras -------------------------------------------------------------------------------------------------------- */
+/* --- cameras ------------------------------------------------------------------------------------------------------ */
 
 typedef struct camera {
     lmb_vec3 eye, target, up;
@@ -179,7 +179,7 @@ static void set_view(lmb_view *v, const bench_case *c)
     v->frame_height = c->height;
 }
 
-/* --- the whole ------------------------------------------------------------------------------------------------------ */
+/* --- the whole ---------------------------------------------------------------------------------------------------- */
 
 static int set_mesh(bench_scene *s, const bench_case *c, const char *folder, report *r)
 {

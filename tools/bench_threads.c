@@ -42,7 +42,7 @@ static void run_work(bench_work *w, int threads)
 
 static void run_alone(void *user) { run_work(user, 1); }
 
-/* --- gather --------------------------------------------------------------------------------------------------------- */
+/* --- gather ------------------------------------------------------------------------------------------------------- */
 
 typedef struct gather_job {
     uint32_t depth[WIDTH * HEIGHT], id[WIDTH * HEIGHT], map[GATHER_MAP * GATHER_MAP * 2];
@@ -91,7 +91,7 @@ static lmb_status gather_begin(gather_job *g, const lmb_kernels *kernels)
     return status < 0 ? status : LMB_OK;
 }
 
-/* --- a light's map -------------------------------------------------------------------------------------------------- */
+/* --- a light's map ------------------------------------------------------------------------------------------------ */
 
 typedef struct map_job {
     uint32_t depth[MAP * MAP], id[MAP * MAP];
@@ -124,7 +124,7 @@ static void map_begin(map_job *m, int ids, const lmb_kernels *kernels)
     }
 }
 
-/* --- in turn -------------------------------------------------------------------------------------------------------- */
+/* --- in turn ------------------------------------------------------------------------------------------------------ */
 
 /* Times in s, turn by turn. */
 typedef struct turns {
@@ -221,7 +221,7 @@ static int measure(bench_work *w, const threads_options *o, report *r)
     return 1;
 }
 
-/* --- the cases ------------------------------------------------------------------------------------------------------ */
+/* --- the cases ---------------------------------------------------------------------------------------------------- */
 
 static int measure_gather(const threads_options *o, report *r)
 {

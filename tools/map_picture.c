@@ -21,7 +21,7 @@ void distance_of_depth(float *pixels, int32_t width, int32_t height, size_t step
     }
 }
 
-/* --- the picture: a row of faces a light ------------------------------------------------------------------------------ */
+/* --- the picture: a row of faces a light -------------------------------------------------------------------------- */
 
 static int begin_picture(image *out, const lmb_render *render, int32_t channels, report *r)
 {
@@ -57,7 +57,7 @@ static int is_lit(const lmb_render *render, uint32_t light, int32_t face, int32_
     return power[0] + power[1] + power[2] > 0.0f;
 }
 
-/* --- distances -------------------------------------------------------------------------------------------------------- */
+/* --- distances ---------------------------------------------------------------------------------------------------- */
 
 static lmb_status face_distances(const image *out, const lmb_render *render, uint32_t light, int32_t face)
 {
@@ -100,7 +100,7 @@ int map_distances(image *out, const lmb_render *render, report *r)
     return status == LMB_OK || report_fail(r, "drawing stopped: %s", lmb_status_name(status));
 }
 
-/* --- a face's owners -------------------------------------------------------------------------------------------------- */
+/* --- a face's owners ---------------------------------------------------------------------------------------------- */
 
 typedef struct painter {
     const image *out;
@@ -141,7 +141,7 @@ static void paint_faces(const painter *p, paint_texel paint)
     }
 }
 
-/* --- first points ----------------------------------------------------------------------------------------------------- */
+/* --- first points ------------------------------------------------------------------------------------------------- */
 
 static float area_of(const lmb_point *p)
 {
@@ -244,7 +244,7 @@ int map_points(image *out, const lmb_render *render, int display, report *r)
     return 1;
 }
 
-/* --- groups ----------------------------------------------------------------------------------------------------------- */
+/* --- groups ------------------------------------------------------------------------------------------------------- */
 
 /* Linear light of a colour for number k: hues by golden section, so that numbers near each other lie far apart; three
  * brightnesses, since a row of groups further on the hue comes round again. No two numbers have the same. */

@@ -79,7 +79,7 @@ typedef struct timing {
     const char *by; /* what takes it */
 } timing;
 
-/* --- one frame ------------------------------------------------------------------------------------------------------ */
+/* --- one frame ---------------------------------------------------------------------------------------------------- */
 
 /* The colours go out as radiance does: sRGB-coded, tile by tile. */
 static void store_colours(const canvas *c, const bench_scene *s, const lmb_kernels *kernels)
@@ -112,7 +112,7 @@ static void draw_frame(const canvas *c, const bench_scene *s, const lmb_kernels 
     }
 }
 
-/* --- one case ------------------------------------------------------------------------------------------------------- */
+/* --- one case ----------------------------------------------------------------------------------------------------- */
 
 static void canvas_free(canvas *c)
 {
@@ -244,7 +244,7 @@ static int run_case(const bench_case *k, const options *o, report *r)
     return ok;
 }
 
-/* --- the command line ----------------------------------------------------------------------------------------------- */
+/* --- the command line --------------------------------------------------------------------------------------------- */
 
 static int is_wanted(const bench_case *k, const options *o)
 {

@@ -72,7 +72,7 @@ static void *take(job *j, size_t bytes, report *r)
     return p;
 }
 
-/* --- scene and lights ----------------------------------------------------------------------------------------------- */
+/* --- scene and lights --------------------------------------------------------------------------------------------- */
 
 static int load_scene(job *j, report *r)
 {
@@ -149,7 +149,7 @@ static int set_many_lights(job *j, report *r)
                        j->o.scene, (unsigned)j->scene.light_count, LMB_MAX_LIGHTS);
 }
 
-/* --- memory --------------------------------------------------------------------------------------------------------- */
+/* --- memory ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t total_faces(const lmb_scene *s)
 {
@@ -361,7 +361,7 @@ static int set_frame(job *j, report *r)
     return take_maps(j, r) && take_blockers(j, r) && take_light(j, r) && take_frame(j, r);
 }
 
-/* --- drawing -------------------------------------------------------------------------------------------------------- */
+/* --- drawing ------------------------------------------------------------------------------------------------------ */
 
 static void show_progress(const lmb_render *render, double since)
 {
@@ -552,7 +552,7 @@ static double mean(const image *p)
     return sum / (double)n;
 }
 
-/* --- reporting ------------------------------------------------------------------------------------------------------ */
+/* --- reporting ---------------------------------------------------------------------------------------------------- */
 
 /* Nodes of the lights' tree that pixels took, and shadow tests, over all threads. */
 typedef struct asked_lights {

@@ -13,7 +13,7 @@
 typedef struct lmb_texel {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power, W; all 0: no first point */
-    uint8_t side[4];           /* how far its surface goes on from its middle: left, right, up, down, in 1/256 texel: 128
+    uint8_t side[4];           /* how far its surface goes on from its middle: left, right, up, down, in 1/256: 128
                                   of a whole one; else to where its plane meets its neighbour's */
 } lmb_texel;
 
@@ -88,7 +88,8 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
 
 /* lmb_tree_texels: the first points of the tile rows first .. past - 1 of one face of a light's map, into face `into`
  * of the tree. A map of 2, 4 or 8 times the tree's size gives one texel in 2 x 2, 4 x 4 or 8 x 8, moved along its plane
- * to the middle: a fine map makes sharp shadows, which do not ask for as many first points. Rows may be taken in any order, at once on any threads. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
+ * to the middle: a fine map makes sharp shadows, which do not ask for as many first points.
+ * Rows may be taken in any order, at once on any threads. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
                            const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
                            int32_t past);

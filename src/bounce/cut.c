@@ -17,7 +17,7 @@
 #define INVERSE_PI   0.31830989f
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 #define FLAT         0.5f        /* height over a surface's first pixel, of the distance to it */
-#define DARK         0.25       /* of `visible`: under this share of what nothing blocked, errors do not count */
+#define DARK         0.25        /* of `visible`: under this share of what nothing blocked, errors do not count */
 #define TURNED       16.0f /* how much more a node counts that is asked at a point which faces away: its others may not */
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 
@@ -33,7 +33,7 @@ static lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3
 static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
 static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 
-/* --- surfaces of a tile --------------------------------------------------------------------------------------------- */
+/* --- surfaces of a tile ------------------------------------------------------------------------------------------- */
 
 /* Of the pixels left, those on the surface of the first: normals within 25 degrees, near its plane. */
 static uint64_t same_surface(const lmb_tile *tile, uint64_t left)
@@ -73,12 +73,9 @@ static void patch_of(patch *out, const lmb_tile *tile, uint64_t pixels)
     out->sine = out->cosine > 0.0f ? sqrtf(maxf(1.0f - out->cosine * out->cosine, 0.0f)) : 1.0f;
 }
 
-/* --- one node against a patch --------------------------------------------------------------------------------------- */
+/* --- one node against a patch ------------------------------------------------------------------------------------- */
 
-static float support(lmb_vec3 half, lmb_vec3 n)
-{
-    return absf(n.x) * half.x + absf(n.y) * half.y + absf(n.z) * half.z;
-}
+static float support(lmb_vec3 half, lmb_vec3 n) { return absf(n.x) * half.x + absf(n.y) * half.y + absf(n.z) * half.z; }
 
 static float gap(float centre, float halves) { return maxf(absf(centre) - halves, 0.0f); }
 
@@ -123,7 +120,7 @@ static weight weigh(const lmb_node *n, const lmb_texel *seen, const patch *p)
     return w;
 }
 
-/* --- the cut -------------------------------------------------------------------------------------------------------- */
+/* --- the cut ------------------------------------------------------------------------------------------------------ */
 
 typedef struct cutter {
     lmb_cut *cut;
@@ -133,11 +130,11 @@ typedef struct cutter {
     const lmb_cutting *cutting;
     const patch *p;
     lmb_last_blockers last;
-    float per_pixel;         /* 1 / pixels of the patch */
-    double beside;           /* what the pixels have beside the tree, in the mean */
-    const float *key;        /* what the buckets go by: cut->error or cut->most */
-    int highest;             /* no bucket over this has any */
-    double error, value;     /* sums; of value, what is seen */
+    float per_pixel;     /* 1 / pixels of the patch */
+    double beside;       /* what the pixels have beside the tree, in the mean */
+    const float *key;    /* what the buckets go by: cut->error or cut->most */
+    int highest;         /* no bucket over this has any */
+    double error, value; /* sums; of value, what is seen */
 } cutter;
 
 static void node_at(lmb_node *out, const lmb_tree *tree, lmb_tree_place at)
@@ -343,7 +340,7 @@ static void take_cut(cutter *c)
     divide_by_error(c, c->cutting->error);
 }
 
-/* --- light ---------------------------------------------------------------------------------------------------------- */
+/* --- light -------------------------------------------------------------------------------------------------------- */
 
 /* A texel's or an element's shape. */
 typedef struct leaf {
@@ -357,9 +354,8 @@ static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
 {
     lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
     out->element = tree_element(tree, at.x, at.y);
-    out->half2 = out->element != NULL
-                     ? out->element->reach2
-                     : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
+    out->half2 = out->element != NULL ? out->element->reach2
+                                      : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
 }
 
 static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
@@ -379,7 +375,8 @@ static void add_near(lmb_irradiance *inout, const lmb_tile *tile, const leaf *l,
         if (dot3(d, d) < LMB_NEAR * LMB_NEAR * l->half2) {
             f = leaf_factor(l, at, tile_vec(tile->face, k), normal);
         } else {
-            f = dot3(tile_vec(tile->face, k), d) > 0.0f ? lmb_disc_factor(at, normal, n->centre, n->normal, n->area) : 0.0f;
+            f = dot3(tile_vec(tile->face, k), d) > 0.0f ? lmb_disc_factor(at, normal, n->centre, n->normal, n->area)
+                                                        : 0.0f;
         }
         for (int c = 0; c < 3; ++c) {
             inout->rgb[c][k] += f * n->flux[c];

@@ -62,7 +62,7 @@ static void set_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first, uint
     }
 }
 
-/* --- a bounce ------------------------------------------------------------------------------------------------------- */
+/* --- a bounce ----------------------------------------------------------------------------------------------------- */
 
 static lmb_status receive_tile(const lmb_elements *e, const lmb_receiver *r, const lmb_tree *lights,
                                lmb_cutting cutting, uint32_t first, uint32_t count)

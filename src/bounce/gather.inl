@@ -174,7 +174,7 @@ static GATHER_APART int corners_see(const gather_corners *c, const lmb_march_job
     return !c->usable ? SEES_SOME : all ? SEES_ALL : none ? SEES_NOTHING : SEES_SOME;
 }
 
-/* --- far pairs -------------------------------------------------------------------------------------------------------- */
+/* --- far pairs ---------------------------------------------------------------------------------------------------- */
 
 /* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
  * after another, every machine waits most of the time, whatever its width. So each step is done for all groups of a
@@ -416,7 +416,7 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
     gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &blockers);
 }
 
-/* --- near groups, disc by disc ---------------------------------------------------------------------------------------- */
+/* --- near groups, disc by disc ------------------------------------------------------------------------------------ */
 
 /* The exact form factor for the few lanes so close to a disc that its shape matters. */
 static inline lane gather_quads(lane weight, lane_mask close, const lmb_tile *tile, int k, const lmb_point *disc)

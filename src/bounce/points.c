@@ -245,7 +245,7 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
     return LMB_OK;
 }
 
-/* --- in parts ------------------------------------------------------------------------------------------------------- */
+/* --- in parts ----------------------------------------------------------------------------------------------------- */
 
 /* Where a part's rows and cells lie. */
 typedef struct part_place {

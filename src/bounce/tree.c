@@ -39,7 +39,7 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
     return LMB_OK;
 }
 
-/* --- texels --------------------------------------------------------------------------------------------------------- */
+/* --- texels ------------------------------------------------------------------------------------------------------- */
 
 /* The point of a plane (any point of it, normal) over the map's (sx, sy) in its plane at distance 1 (m for suns). */
 static lmb_vec3 over(const lmb_view *v, lmb_vec3 on, lmb_vec3 normal, float sx, float sy)
@@ -67,9 +67,9 @@ static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light 
     }
     lmb_light_texel_power(power, light, coarse, face, x, y);
     out->normal = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
-    out->position = over(v, vec3(t->position[0][k], t->position[1][k], t->position[2][k]), out->normal,
-                         ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
-                         (1.0f - (float)(2 * y + 1) / size) * v->half_height);
+    out->position =
+        over(v, vec3(t->position[0][k], t->position[1][k], t->position[2][k]), out->normal,
+             ((float)(2 * x + 1) / size - 1.0f) * v->half_width, (1.0f - (float)(2 * y + 1) / size) * v->half_height);
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = power[c] * t->albedo[c][k];
     }
@@ -114,7 +114,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
     return status;
 }
 
-/* --- a texel's quad ------------------------------------------------------------------------------------------------- */
+/* --- a texel's quad ----------------------------------------------------------------------------------------------- */
 
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
 {
@@ -191,8 +191,7 @@ static float planes_meet(const lmb_view *v, const pair *p)
     return here * there < 0.0f && share > 0.0f && share < 1.0f ? share : 0.0f;
 }
 
-/* Let a reach towards b up to an edge, and b towards a: both a 256th of a texel past it, so that a point in the very corner
- * meets no gap. */
+/* Let a reach towards b up to an edge, and b towards a: rounded so that there is no gap between them. */
 static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
 {
     const float share = same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
@@ -232,7 +231,7 @@ static void set_sides(const lmb_tree *tree, uint32_t face)
     }
 }
 
-/* --- sums ----------------------------------------------------------------------------------------------------------- */
+/* --- sums --------------------------------------------------------------------------------------------------------- */
 
 static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
 static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
@@ -253,7 +252,8 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
         const lmb_node *n = &child[i];
         const float w = flux_sum(n->flux);
         if (w > 0.0f) {
-            origin = weight > 0.0f ? origin : n->centre; /* differences, so that far from the world's middle nothing is lost */
+            origin = weight > 0.0f ? origin
+                                   : n->centre; /* differences, so that far from the world's middle nothing is lost */
             out->low = weight > 0.0f ? min3(out->low, n->low) : n->low;
             out->high = weight > 0.0f ? max3(out->high, n->high) : n->high;
             centre = add3(centre, mul3(sub3(n->centre, origin), w));
@@ -274,10 +274,10 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     for (int i = 0; i < 4; ++i) {
         if (flux_sum(child[i].flux) > 0.0f) {
             const uint32_t size = (uint32_t)tree->size, at = child[i].texel;
-            const lmb_vec3 d = sub3(tree_texel(tree, face, (int32_t)(at % size), (int32_t)(at / size))->position,
-                                    out->centre);
-            out->cosine =
-                minf(out->cosine, cosine_of_sum(clampf(dot3(out->normal, child[i].normal), -1.0f, 1.0f), child[i].cosine));
+            const lmb_vec3 d =
+                sub3(tree_texel(tree, face, (int32_t)(at % size), (int32_t)(at / size))->position, out->centre);
+            out->cosine = minf(out->cosine,
+                               cosine_of_sum(clampf(dot3(out->normal, child[i].normal), -1.0f, 1.0f), child[i].cosine));
             if (dot3(d, d) < nearest) {
                 nearest = dot3(d, d);
                 out->texel = at;

@@ -20,7 +20,7 @@ static const grid *grid_of(int32_t step) { return step == 2 ? &half : step == 4 
 
 static lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
 
-/* --- a pixel between its samples ------------------------------------------------------------------------------------ */
+/* --- a pixel between its samples ---------------------------------------------------------------------------------- */
 
 #define ALIKE    0.90f /* least cosine between the normals of a pixel and a sample */
 #define FLAT     0.3f  /* most that either lies over the other's plane, of the distance between them */
@@ -82,7 +82,7 @@ uint64_t lmb_sparse_pixels(const lmb_tile *tile, int32_t step)
     return out;
 }
 
-/* --- light ---------------------------------------------------------------------------------------------------------- */
+/* --- light -------------------------------------------------------------------------------------------------------- */
 
 static float brightness(const lmb_irradiance *light, int s)
 {

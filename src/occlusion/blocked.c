@@ -11,8 +11,8 @@
 /* Leaves asked by the pyramid alone; after them each is asked by the segments themselves, which in a fine mesh mostly
  * pass between its triangles. */
 #define BY_PYRAMID 4
-#define MUCH 16 /* pixels that a triangle blocks to be asked first by the next segments */
-#define THIN 1e-20f /* m: a pyramid is never thinner */
+#define MUCH       16     /* pixels that a triangle blocks to be asked first by the next segments */
+#define THIN       1e-20f /* m: a pyramid is never thinner */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
 {
@@ -94,7 +94,8 @@ static void ask_triangle(walk *w, uint32_t triangle, uint64_t asked)
     lmb_cross_job job;
     if (cross_job(&job, t, w->at, w->b->noise)) {
         const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
-        w->left &= ~(crossed != 0 && (t->id & LMB_BLOCKER_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
+        w->left &=
+            ~(crossed != 0 && (t->id & LMB_BLOCKER_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
     }
 }
 

@@ -39,7 +39,7 @@ lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t
     return LMB_OK;
 }
 
-/* --- triangles ------------------------------------------------------------------------------------------------------ */
+/* --- triangles ---------------------------------------------------------------------------------------------------- */
 
 static float largest3(lmb_vec3 v) { return maxf(maxf(absf(v.x), absf(v.y)), absf(v.z)); }
 
@@ -80,7 +80,7 @@ static void take_triangles(lmb_blockers *inout, const lmb_scene *scene)
     inout->noise = largest * NOISE;
 }
 
-/* --- boxes ---------------------------------------------------------------------------------------------------------- */
+/* --- boxes -------------------------------------------------------------------------------------------------------- */
 
 static float axis3(lmb_vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
@@ -224,7 +224,7 @@ static cut find_cut(const lmb_blocker *t, uint32_t count)
     return best;
 }
 
-/* --- nodes ---------------------------------------------------------------------------------------------------------- */
+/* --- nodes -------------------------------------------------------------------------------------------------------- */
 
 /* Triangles that lie together. */
 typedef struct run {
@@ -281,7 +281,8 @@ static int largest_run(const run *r, int count)
 
 static void set_box(lmb_boxes *node, int i, const run *r, float noise)
 {
-    const lmb_vec3 low = sub3(r->box.low, vec3(noise, noise, noise)), high = add3(r->box.high, vec3(noise, noise, noise));
+    const lmb_vec3 low = sub3(r->box.low, vec3(noise, noise, noise)),
+                   high = add3(r->box.high, vec3(noise, noise, noise));
     node->low[0][i] = low.x;
     node->low[1][i] = low.y;
     node->low[2][i] = low.z;

@@ -27,9 +27,9 @@
 #endif
 
 #define UNIT_TRIANGLES 1024u
-#define BAND_UNITS 8
-#define STEPS 12
-#define SHARE 0.02f
+#define BAND_UNITS     8
+#define STEPS          12
+#define SHARE          0.02f
 
 static int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
 
@@ -274,11 +274,11 @@ static lmb_status step_points(lmb_render *r, int32_t units)
     uint32_t before = f->points.count;
     if ((map->drawn >> r->face) & 1u) {
         lmb_status status =
-            wants_cut(f) ? lmb_tree_texels(&f->tree, f->kernels, &f->scratch->tile, f->scene,
-                                           &f->scene->lights[r->light], map, (int32_t)r->face, f->tree.faces,
-                                           (int32_t)r->place, last)
-                         : lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
-                               (int32_t)r->face, (int32_t)r->place, last, &f->grouping);
+            wants_cut(f)
+                ? lmb_tree_texels(&f->tree, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
+                                  (int32_t)r->face, f->tree.faces, (int32_t)r->place, last)
+                : lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light],
+                                     map, (int32_t)r->face, (int32_t)r->place, last, &f->grouping);
         if (status != LMB_OK) {
             return status;
         }
@@ -304,8 +304,7 @@ static lmb_status step_groups(lmb_render *r)
 }
 
 /* Bounce r->light + 2: elements first .. past - 1 receive. The light's maps give the first share of it. */
-static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_t first, int32_t past,
-                          lmb_stats *stats)
+static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_t first, int32_t past, lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
     const lmb_cutting cutting = cutting_of(f, stats);
@@ -318,10 +317,7 @@ static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_
     return lmb_elements_receive(&f->elements, &own, r->light == 0 ? &f->tree : NULL, &cutting, first, past);
 }
 
-static int has_bounces(const lmb_render *r)
-{
-    return wants_elements(r) && r->light + 1 < (uint32_t)r->frame.bounces;
-}
+static int has_bounces(const lmb_render *r) { return wants_elements(r) && r->light + 1 < (uint32_t)r->frame.bounces; }
 
 /* All elements have received. */
 static lmb_status end_bounce(lmb_render *r)
@@ -377,8 +373,8 @@ static lmb_status step_view(lmb_render *r, int32_t units)
     if (r->place == 0) {
         clear_target(&whole);
     }
-    lmb_status status = lmb_draw(&whole, f->kernels, &f->view, f->scene, r->place + 1,
-                                 (uint32_t)units * UNIT_TRIANGLES, LMB_CULL_BACK, f->stats);
+    lmb_status status = lmb_draw(&whole, f->kernels, &f->view, f->scene, r->place + 1, (uint32_t)units * UNIT_TRIANGLES,
+                                 LMB_CULL_BACK, f->stats);
     r->place += (uint32_t)units * UNIT_TRIANGLES;
     return status != LMB_OK ? status : r->place >= r->triangles ? LMB_OK : LMB_MORE;
 }
@@ -583,8 +579,8 @@ static lmb_status part_points(const lmb_render *r, lmb_tile *tile, int32_t part,
     if (wants_cut(f)) {
         int64_t first, past;
         share_out(&first, &past, map->size / LMB_TILE, part, parts);
-        return lmb_tree_texels(&f->tree, f->kernels, tile, f->scene, &f->scene->lights[r->light], map,
-                               (int32_t)r->face, f->tree.faces, (int32_t)first, (int32_t)past);
+        return lmb_tree_texels(&f->tree, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, (int32_t)r->face,
+                               f->tree.faces, (int32_t)first, (int32_t)past);
     }
     return lmb_points_part(&f->points, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, (int32_t)r->face,
                            part, parts, &f->grouping);
@@ -620,14 +616,17 @@ int32_t lmb_render_has_parts(const lmb_render *r)
         return 0;
     }
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP: return r->light == 0 && r->place == 0;
+    case LMB_STAGE_LIGHT_MAP:
+        return r->light == 0 && r->place == 0;
     case LMB_STAGE_POINTS:
         return wants_bounce(&r->frame) && r->place == 0 && r->light < r->frame.scene->light_count &&
-               (wants_cut(&r->frame) ||
-                lmb_points_have_room(&r->frame.points, &r->maps[r->light], &r->frame.grouping));
-    case LMB_STAGE_BOUNCES: return has_bounces(r) && r->place == 0;
-    case LMB_STAGE_VIEW: return r->place == 0;
-    default: return 0;
+               (wants_cut(&r->frame) || lmb_points_have_room(&r->frame.points, &r->maps[r->light], &r->frame.grouping));
+    case LMB_STAGE_BOUNCES:
+        return has_bounces(r) && r->place == 0;
+    case LMB_STAGE_VIEW:
+        return r->place == 0;
+    default:
+        return 0;
     }
 }
 
@@ -638,10 +637,14 @@ lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32
         return LMB_ERR_ARG;
     }
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP: return part_light_map(r, part, parts, stats);
-    case LMB_STAGE_POINTS: return part_points(r, &scratch->tile, part, parts);
-    case LMB_STAGE_BOUNCES: return part_bounces(r, scratch, part, parts, stats);
-    default: return part_view(r, part, parts, stats);
+    case LMB_STAGE_LIGHT_MAP:
+        return part_light_map(r, part, parts, stats);
+    case LMB_STAGE_POINTS:
+        return part_points(r, &scratch->tile, part, parts);
+    case LMB_STAGE_BOUNCES:
+        return part_bounces(r, scratch, part, parts, stats);
+    default:
+        return part_view(r, part, parts, stats);
     }
 }
 
@@ -681,14 +684,29 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     }
     units = mini(maxi(units, 1), 1 << 20);
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP: status = step_light_map(r, units); break;
-    case LMB_STAGE_BLOCKERS: status = step_blockers(r); break;
-    case LMB_STAGE_POINTS: status = step_points(r, units); break;
-    case LMB_STAGE_GROUPS: status = step_groups(r); break;
-    case LMB_STAGE_BOUNCES: status = step_bounces(r, units); break;
-    case LMB_STAGE_VIEW: status = step_view(r, units); break;
-    case LMB_STAGE_BANDS: status = step_bands(r, units); break;
-    default: return LMB_OK;
+    case LMB_STAGE_LIGHT_MAP:
+        status = step_light_map(r, units);
+        break;
+    case LMB_STAGE_BLOCKERS:
+        status = step_blockers(r);
+        break;
+    case LMB_STAGE_POINTS:
+        status = step_points(r, units);
+        break;
+    case LMB_STAGE_GROUPS:
+        status = step_groups(r);
+        break;
+    case LMB_STAGE_BOUNCES:
+        status = step_bounces(r, units);
+        break;
+    case LMB_STAGE_VIEW:
+        status = step_view(r, units);
+        break;
+    case LMB_STAGE_BANDS:
+        status = step_bands(r, units);
+        break;
+    default:
+        return LMB_OK;
     }
     return end_stage(r, status);
 }
@@ -716,16 +734,27 @@ float lmb_render_progress(const char **name, const lmb_render *r)
           done = 0.0f;
     *name = names[r->stage];
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP: done = ((float)r->light + (float)r->place / triangles) / lights; break;
-    case LMB_STAGE_POINTS: done = (float)r->light / lights; break;
+    case LMB_STAGE_LIGHT_MAP:
+        done = ((float)r->light + (float)r->place / triangles) / lights;
+        break;
+    case LMB_STAGE_POINTS:
+        done = (float)r->light / lights;
+        break;
     case LMB_STAGE_BOUNCES:
         done = ((float)r->light + (float)r->place / maxf((float)lmb_elements_tiles(&r->frame.elements), 1.0f)) /
                maxf((float)(r->frame.bounces - 1), 1.0f);
         break;
-    case LMB_STAGE_VIEW: done = (float)r->place / triangles; break;
-    case LMB_STAGE_BANDS: done = (float)r->place / (float)band_count(&r->frame.view); break;
-    case LMB_STAGE_DONE: done = 1.0f; break;
-    default: break;
+    case LMB_STAGE_VIEW:
+        done = (float)r->place / triangles;
+        break;
+    case LMB_STAGE_BANDS:
+        done = (float)r->place / (float)band_count(&r->frame.view);
+        break;
+    case LMB_STAGE_DONE:
+        done = 1.0f;
+        break;
+    default:
+        break;
     }
     return minf(done, 1.0f);
 }

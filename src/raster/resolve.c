@@ -13,7 +13,7 @@
 #include "../lane/lane.h"
 #include "plane.inl"
 
-/* --- one triangle ----------------------------------------------------------------------------------------------------- */
+/* --- one triangle ------------------------------------------------------------------------------------------------- */
 
 void lmb_resolve_rays(lmb_rays *out, const lmb_view *v, int32_t x, int32_t y)
 {
@@ -106,7 +106,7 @@ int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1,
     return lmb_resolve_opaque(&alpha, scene, b1, b2);
 }
 
-/* --- a tile ----------------------------------------------------------------------------------------------------------- */
+/* --- a tile ------------------------------------------------------------------------------------------------------- */
 
 /* One row of ids; returns those that are not 0, a bit each. */
 static uint32_t read_row(uint32_t *row, const lmb_fill_tile *t, int32_t y, int32_t width)

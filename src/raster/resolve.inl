@@ -7,7 +7,7 @@
 #include "plane.inl"
 #include "resolve.h"
 
-/* --- slots ---------------------------------------------------------------------------------------------------------- */
+/* --- slots -------------------------------------------------------------------------------------------------------- */
 
 /* Pixels k .. k + LANES - 1 with `id` take the slot; returns them. */
 LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lanei wanted, lanei number)
@@ -55,7 +55,7 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
     return taken;
 }
 
-/* --- triangles ------------------------------------------------------------------------------------------------------ */
+/* --- triangles ---------------------------------------------------------------------------------------------------- */
 
 LANE_INLINE lane3 resolve_load(float (*p)[LMB_SLOTS], int k)
 {
@@ -214,7 +214,7 @@ static void KERNEL(resolve_setup)(lmb_resolve_batch *inout)
     }
 }
 
-/* --- pixels --------------------------------------------------------------------------------------------------------- */
+/* --- pixels ------------------------------------------------------------------------------------------------------- */
 
 LANE_INLINE lane3 resolve_affine(lmb_vec3 at, lmb_vec3 per_x, lmb_vec3 per_y, lane x, lane y)
 {

@@ -1,5 +1,6 @@
 # rom.sh: the ROM that bounced light takes: rooms raster, map, light and bounce whole, with the parts of the others and
-# of the compiler's run time that they need, linked, without trees (LMB_TREES 0): rom.sh BUDGET_BYTES; CC FLAGS B NM SIZE in the environment.
+# of the compiler's run time that they need, linked,
+# without trees (LMB_TREES 0): rom.sh BUDGET_BYTES; CC FLAGS B NM SIZE in the environment.
 . tests/build/checks.sh
 budget=$1
 

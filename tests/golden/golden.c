@@ -39,7 +39,7 @@ static uint32_t blocker_memory[TRIANGLES * 29 + 1024];
 static const lmb_kernels *kernels; /* those that the cases run with */
 static const golden_way *way;
 
-/* --- hashing: every value as little-endian bytes ---------------------------------------------------------------------- */
+/* --- hashing: every value as little-endian bytes ------------------------------------------------------------------ */
 
 static uint64_t hash_u32(uint64_t h, uint32_t v)
 {
@@ -99,7 +99,7 @@ static uint64_t hash_groups(uint64_t h)
     return h;
 }
 
-/* --- a scene of random triangles, some masked, some textured ---------------------------------------------------------- */
+/* --- a scene of random triangles, some masked, some textured ------------------------------------------------------ */
 
 static float soup_positions[TRIANGLES * 9], soup_uvs[TRIANGLES * 6];
 static uint32_t soup_colours[TRIANGLES * 3];
@@ -229,7 +229,7 @@ static void set_eye(lmb_target *eye, int32_t height, int depth_format, int id_fo
     lmb_surface_clear(&eye->id);
 }
 
-/* --- cases ------------------------------------------------------------------------------------------------------------ */
+/* --- cases -------------------------------------------------------------------------------------------------------- */
 
 static uint64_t case_functions(int variant)
 {
@@ -480,7 +480,7 @@ static uint64_t case_many(int variant)
     return hash_surface(hash_u32(h, (uint32_t)status), &f.out);
 }
 
-/* --- cuts of the light's tree ----------------------------------------------------------------------------------------- */
+/* --- cuts of the light's tree ------------------------------------------------------------------------------------- */
 
 static void set_tree(lmb_tree *tree, uint32_t faces, int32_t size)
 {
@@ -594,7 +594,7 @@ static uint64_t case_cut_lights(int variant)
     return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
 }
 
-/* --- what does not fit: the status, and what is left ------------------------------------------------------------------ */
+/* --- what does not fit: the status, and what is left -------------------------------------------------------------- */
 
 /* A map's first points of 4x4 or 1x1 texels where fewer fit: those so far stand. */
 static uint64_t case_full_points(int variant)
@@ -659,7 +659,7 @@ static uint64_t case_full_groups(int variant)
     return hash_groups(hash_u32(h, stats.regroups));
 }
 
-/* --- ways ------------------------------------------------------------------------------------------------------------- */
+/* --- ways --------------------------------------------------------------------------------------------------------- */
 
 static lmb_status draw_whole(const lmb_target *target, const lmb_kernels *k, const lmb_view *view,
                              const lmb_scene *scene, uint32_t flags, lmb_stats *stats)
@@ -685,7 +685,7 @@ static lmb_status again_whole(lmb_render *r, const lmb_frame *frame)
 
 const golden_way golden_whole = {draw_whole, draw_map_whole, lmb_render_frame, again_whole, -1};
 
-/* --- the table -------------------------------------------------------------------------------------------------------- */
+/* --- the table ---------------------------------------------------------------------------------------------------- */
 
 static const struct golden {
     const char *name;

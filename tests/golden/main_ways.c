@@ -12,7 +12,7 @@
 
 enum { PIECES = 512, THREADS = 8, ROOM = 4 * 16 * 16 };
 
-/* --- orders ----------------------------------------------------------------------------------------------------------- */
+/* --- orders ------------------------------------------------------------------------------------------------------- */
 
 typedef enum order_kind { FORWARD = 0, BACKWARD, INTERLEAVED, SHUFFLED } order_kind;
 
@@ -65,7 +65,7 @@ static void do_pieces(int n, pool_job job, void *user)
     }
 }
 
-/* --- targets and maps ------------------------------------------------------------------------------------------------- */
+/* --- targets and maps --------------------------------------------------------------------------------------------- */
 
 typedef struct draw_job {
     const lmb_target *target;
@@ -118,7 +118,7 @@ static lmb_status draw_map_rows(const lmb_light_map *map, const lmb_kernels *ker
     return worst(&d);
 }
 
-/* --- frames ----------------------------------------------------------------------------------------------------------- */
+/* --- frames ------------------------------------------------------------------------------------------------------- */
 
 static lmb_point point_room[ROOM];
 
@@ -204,7 +204,7 @@ static lmb_status by_crew(crew_call call, lmb_render *r, const lmb_frame *frame)
 static lmb_status render_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_render, r, frame); }
 static lmb_status again_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_again, r, frame); }
 
-/* --- ways ------------------------------------------------------------------------------------------------------------- */
+/* --- ways --------------------------------------------------------------------------------------------------------- */
 
 static int cases;
 

@@ -16,7 +16,7 @@ void test_kernels(void);
 
 enum { ROUNDS = 1500, CANARY = 0x5a };
 
-/* --- comparing -------------------------------------------------------------------------------------------------------- */
+/* --- comparing ---------------------------------------------------------------------------------------------------- */
 
 static uint32_t bits_of(float v)
 {
@@ -71,7 +71,7 @@ static int same_bytes(const trial *t, const char *what, const void *want, const 
     return 1;
 }
 
-/* --- random inputs ---------------------------------------------------------------------------------------------------- */
+/* --- random inputs ------------------------------------------------------------------------------------------------ */
 
 static float hard_float(test_rng *r)
 {
@@ -147,7 +147,7 @@ static uint64_t random_pixels(const trial *t, test_rng *r)
     return t->seed % 5u == 0 ? UINT64_MAX : all & all >> (t->seed % 40u);
 }
 
-/* --- resolve, direct, blend ------------------------------------------------------------------------------------------- */
+/* --- resolve, direct, blend --------------------------------------------------------------------------------------- */
 
 /* An output with its surroundings. */
 #define GUARDED(type) \
@@ -402,7 +402,7 @@ static int trial_blend(const trial *t, test_rng r)
     return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
-/* --- gather ----------------------------------------------------------------------------------------------------------- */
+/* --- gather ------------------------------------------------------------------------------------------------------- */
 
 /* A viewer's depth map: a slope with steps and holes. Its memory ends with its last value. */
 typedef struct seen {
@@ -600,7 +600,7 @@ static int trial_gather_cut(const trial *t, test_rng r)
     return kept && same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
-/* --- occlusion -------------------------------------------------------------------------------------------------------- */
+/* --- occlusion ---------------------------------------------------------------------------------------------------- */
 
 /* Planes through the pixels' own places now and then, so that sides are 0. */
 static int trial_crossed(const trial *t, test_rng r)
@@ -692,7 +692,7 @@ static int trial_meets(const trial *t, test_rng r)
     return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
 }
 
-/* --- many lights ------------------------------------------------------------------------------------------------------ */
+/* --- many lights -------------------------------------------------------------------------------------------------- */
 
 /* Planes of nodes as far as kernels may read, and a tile's part that asks. */
 static int trial_many_bounds(const trial *t, test_rng r)
@@ -759,7 +759,7 @@ static int trial_many_shine(const trial *t, test_rng r)
     return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
-/* --- encode ----------------------------------------------------------------------------------------------------------- */
+/* --- encode ------------------------------------------------------------------------------------------------------- */
 
 /* Around thresholds and anywhere, against the search through the table. */
 static int trial_encode(const trial *t, test_rng r)
@@ -781,7 +781,7 @@ static int trial_encode(const trial *t, test_rng r)
     return same_bytes(t, "code", want, got, sizeof want);
 }
 
-/* --- all of them ------------------------------------------------------------------------------------------------------ */
+/* --- all of them -------------------------------------------------------------------------------------------------- */
 
 static const struct kernel {
     const char *name;

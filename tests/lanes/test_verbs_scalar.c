@@ -21,7 +21,7 @@ static const struct verb {
 #undef VERB_LINE
 };
 
-/* --- inputs ----------------------------------------------------------------------------------------------------------- */
+/* --- inputs ------------------------------------------------------------------------------------------------------- */
 
 static float float_of(uint32_t bits)
 {
@@ -99,7 +99,7 @@ static void make_hard(verb_input *in, test_rng *r, uint32_t pair)
     }
 }
 
-/* --- other machines --------------------------------------------------------------------------------------------------- */
+/* --- other machines ----------------------------------------------------------------------------------------------- */
 
 static int same(uint32_t a, uint32_t b, int results)
 {
@@ -162,7 +162,7 @@ void verbs_compare(const char *machine, void (*run)(verb_output *out, const verb
     }
 }
 
-/* --- scalar itself, on what its comments promise ---------------------------------------------------------------------- */
+/* --- scalar itself, on what its comments promise ------------------------------------------------------------------ */
 
 static void test_rules(void)
 {

@@ -29,7 +29,7 @@ static const struct setting {
 };
 enum { BRUTE, SETTINGS = sizeof settings / sizeof *settings };
 
-/* --- a frame and its memory ----------------------------------------------------------------------------------------- */
+/* --- a frame and its memory --------------------------------------------------------------------------------------- */
 
 typedef struct state {
     uint32_t map[2 * MAP * MAP], depth[SIDE * SIDE], id[SIDE * SIDE];
@@ -76,7 +76,7 @@ static void draw(state *s, float *out, const lmb_scene *scene, const lmb_view *v
     }
 }
 
-/* --- scenes that move ----------------------------------------------------------------------------------------------- */
+/* --- scenes that move --------------------------------------------------------------------------------------------- */
 
 typedef struct moving {
     const char *name;
@@ -146,7 +146,7 @@ static void move(moving *m, int frame)
     }
 }
 
-/* --- figures -------------------------------------------------------------------------------------------------------- */
+/* --- figures ------------------------------------------------------------------------------------------------------ */
 
 typedef struct figures {
     double steps, flicker, worst; /* sums of squares; the largest RMSE over brute force's */

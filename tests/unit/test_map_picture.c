@@ -131,7 +131,7 @@ static int has_size(const image *p, int32_t channels)
     return p->width == MAP * (LIGHTS > 1 ? 6 : 1) && p->height == MAP * LIGHTS && p->channels == channels;
 }
 
-/* --- distances -------------------------------------------------------------------------------------------------------- */
+/* --- distances ---------------------------------------------------------------------------------------------------- */
 
 static int texels, wrong;
 
@@ -157,7 +157,7 @@ static void test_distances(void)
     image_free(&p);
 }
 
-/* --- groups ----------------------------------------------------------------------------------------------------------- */
+/* --- groups ------------------------------------------------------------------------------------------------------- */
 
 static double owned[LMB_MAX_GROUPS + 2]; /* W by number: [0] dropped, [k + 1] group k */
 static double lost;                      /* W of texels that are lit, yet belong to nobody */
@@ -255,7 +255,7 @@ static void test_colours(void)
     image_free(&n);
 }
 
-/* --- first points ----------------------------------------------------------------------------------------------------- */
+/* --- first points ------------------------------------------------------------------------------------------------- */
 
 /* The exitance of some point of the texel's cell. */
 static void see_point(const seen *s)

@@ -137,7 +137,7 @@ static void uneven_light(int32_t step)
     CHECK(lmb_upsample_tile(&light, &tile, known, step) == (between & ~known));
 }
 
-/* --- frames --------------------------------------------------------------------------------------------------------- */
+/* --- frames ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t depth[SIDE * SIDE], id[SIDE * SIDE], map_memory[2 * MAP * MAP];
 static float full[SIDE * SIDE * 3], sparse[SIDE * SIDE * 3], again[SIDE * SIDE * 3];

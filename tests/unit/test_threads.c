@@ -11,7 +11,7 @@ void test_threads(void);
 
 enum { W = 40, H = 36, MAP = 64, SIDE = MAP / 8, POINTS = 4 * SIDE * SIDE, FACES = 7, THREADS = 8, PIECES = 20000 };
 
-/* --- the pool --------------------------------------------------------------------------------------------------------- */
+/* --- the pool ----------------------------------------------------------------------------------------------------- */
 
 typedef struct tally {
     unsigned char times[THREADS][PIECES]; /* by worker: no two threads write one */
@@ -64,7 +64,7 @@ static void test_pool(void)
     CHECK(pool_processors() >= 1 && pool_processors() <= POOL_MAX);
 }
 
-/* --- a frame with lights of one and of six faces ---------------------------------------------------------------------- */
+/* --- a frame with lights of one and of six faces ------------------------------------------------------------------ */
 
 static struct memory {
     uint32_t depth[W * 40], id[W * 40], map[FACES * MAP * MAP * 2];
@@ -152,7 +152,7 @@ static void test_crew(void)
     }
 }
 
-/* --- parts ------------------------------------------------------------------------------------------------------------ */
+/* --- parts -------------------------------------------------------------------------------------------------------- */
 
 static void check_refusals(lmb_render *r)
 {
