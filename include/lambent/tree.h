@@ -21,7 +21,7 @@ typedef struct lmb_texel {
 typedef struct lmb_node {
     lmb_vec3 centre, normal; /* means, weighted by flux; normal of unit length */
     float flux[3], area;     /* sums, W and m2; flux 0: nothing */
-    lmb_vec3 low, high;      /* box of their positions */
+    lmb_vec3 low, high;      /* box of their quads */
     float cosine;            /* of the widest angle between their normals and the mean; -1: any */
     uint32_t texel;          /* one of them, near the centre: where visibility is asked for */
 } lmb_node;

@@ -18,6 +18,7 @@
 #define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
 #define FLAT         0.5f        /* height over a surface's first pixel, of the distance to it */
 #define DARK         0.25        /* of `visible`: under this share of what nothing blocked, errors do not count */
+#define SECOND       0.5f  /* of R^2 / d^2: boxes hold whole texels, of which discs are right to second order already */
 #define TURNED       16.0f /* how much more a node counts that is asked at a point which faces away: its others may not */
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 
@@ -108,7 +109,7 @@ static weight weigh(const lmb_node *n, const lmb_texel *seen, const patch *p)
      * middle is on it and counts for nothing. */
     const float over = 2.0f * (support(half, p->normal) + support(p->half, p->normal) + p->sine * reach),
                 before = 2.0f * (support(half, n->normal) + support(p->half, n->normal) + sine * reach);
-    const float second = dot3(half, half) / d2 + sine * sine;
+    const float second = SECOND * dot3(half, half) / d2 + sine * sine;
     const float size = up < over || out < before ? maxf(second, 0.25f) : second;
     w.faces = 1;
     w.error = w.most * minf(size, 1.0f);

@@ -145,9 +145,11 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
     const float right = (float)(t->side[RIGHT] - t->side[LEFT]), down = (float)(t->side[DOWN] - t->side[UP]);
     footprint_sides(u, v, &tree->view[face], tree->size, t->position, t->normal);
     out->centre = add3(t->position, sub3(mul3(*u, right / 512.0f), mul3(*v, down / 512.0f)));
-    out->low = out->high = out->centre;
     *u = mul3(*u, wide / 512.0f);
     *v = mul3(*v, high / 512.0f);
+    const lmb_vec3 reach = vec3(absf(u->x) + absf(v->x), absf(u->y) + absf(v->y), absf(u->z) + absf(v->z));
+    out->low = sub3(out->centre, reach);
+    out->high = add3(out->centre, reach);
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = t->flux[c] * (wide * high / 65536.0f);
     }
