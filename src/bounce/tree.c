@@ -116,6 +116,9 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
 
 /* --- a texel's quad ----------------------------------------------------------------------------------------------- */
 
+static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
+static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
+
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
 {
     lmb_vec3 u, v;
@@ -136,7 +139,10 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
     out->cosine = 1.0f;
     out->texel = (uint32_t)y * (uint32_t)tree->size + (uint32_t)x;
     if (element != NULL) {
-        out->centre = out->low = out->high = t->position;
+        out->centre = t->position;
+        /* Of several joined specks the largest one's: what is left out are specks beside it. */
+        out->low = min3(t->position, min3(min3(element->corner[0], element->corner[1]), element->corner[2]));
+        out->high = max3(t->position, max3(max3(element->corner[0], element->corner[1]), element->corner[2]));
         memcpy(out->flux, t->flux, sizeof out->flux);
         out->area = element->area;
         return;
@@ -234,9 +240,6 @@ static void set_sides(const lmb_tree *tree, uint32_t face)
 }
 
 /* --- sums --------------------------------------------------------------------------------------------------------- */
-
-static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
-static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 
 /* cos(a + b), or -1 where a + b is over 180 degrees. */
 static float cosine_of_sum(float a, float b)
