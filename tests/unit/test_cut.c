@@ -66,7 +66,8 @@ static void make_room(test_rng *r)
     world_begin(0.6f, 0.4f, 0.2f);
     world_box(vec3(0, 0, 0), 1.0f);
     for (int i = 0; i < 3; ++i) {
-        world_box(random_point(r, 0.7f), test_uniform(r, 0.1f, 0.3f));
+        const float half = test_uniform(r, 0.1f, 0.3f);
+        world_box(random_point(r, 0.7f), half);
         const lmb_vec3 u = normalize3(random_point(r, 1.0f)), v = normalize3(cross3(u, random_point(r, 1.0f)));
         world_quad(random_point(r, 0.8f), mul3(u, 0.3f), mul3(v, 0.2f));
     }
