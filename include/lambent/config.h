@@ -25,7 +25,7 @@
 #endif
 
 /* Nodes of one tile's cut through the light's tree (lmb_cut). 20 bytes each. Full: the tile is lit by the nodes it has,
- * coarser than asked for. */
+ * coarser than asked for. At least 6 x LMB_MAX_LIGHTS: every face of every map has its root in it. */
 #ifndef LMB_MAX_CUT
 #ifdef LMB_CONFIG_TINY
 #define LMB_MAX_CUT 64
@@ -74,7 +74,7 @@
 #endif
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
-#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MAX_CUT < 1 || LMB_MANY_CUT < 16
+#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MAX_CUT < 6 * LMB_MAX_LIGHTS || LMB_MANY_CUT < 16
 #error "lambent: a capacity in config.h is too small"
 #endif
 

@@ -1,22 +1,21 @@
 /* cut.c: each tile of pixels takes its own cut through the light's tree, and is lit by it. Floor 6.    [V25 V27 V28]
  *
- * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines and the least distance d between its box and
- * the tile's. Seen as one disc it is wrong by second order in its size and bend: U min(1, R^2 / d^2 + sin^2 a), R half
- * its box's diagonal, a the widest angle of its normals. The largest is divided first: buckets by the error's exponent
- * and first bit find it without sorting, and give the same order everywhere. */
+ * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines and the least distance d between its box
+ * and the surface's. Seen as one disc it is wrong by second order in its size and bend: U min(1, R^2 / 2 d^2 + sin^2 a),
+ * R half its box's diagonal, a the widest angle of its normals; by first order where a horizon goes through it. The
+ * largest is divided first: buckets by exponent and first bit find it without sorting, in the same order everywhere. */
 #include <lambent/tree.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
+#include "../raster/tile.h"
 #include "tree.h"
 
 #if LMB_TREES
 
 #define INVERSE_PI   0.31830989f
-#define SAME_SURFACE 0.90630779f /* cosine of 25 degrees */
-#define FLAT         0.5f        /* height over a surface's first pixel, of the distance to it */
 #define DARK         0.25        /* of `visible`: under this share of what nothing blocked, errors do not count */
 #define SECOND       0.5f  /* of R^2 / d^2: boxes hold whole texels, of which discs are right to second order already */
 #define TURNED       16.0f /* how much more a node counts that is asked at a point which faces away: its others may not */
@@ -30,39 +29,13 @@ typedef struct patch {
     float cosine, sine;               /* of the widest angle to the mean */
 } patch;
 
-static lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
-static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
-static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
-
-/* --- surfaces of a tile ------------------------------------------------------------------------------------------- */
-
-/* Of the pixels left, those on the surface of the first: normals within 25 degrees, near its plane. */
-static uint64_t same_surface(const lmb_tile *tile, uint64_t left)
-{
-    const int first = lowest_bit_64(left);
-    const lmb_vec3 at = tile_vec(tile->position, first), n = tile_vec(tile->face, first);
-    uint64_t out = 0;
-    for (uint64_t bits = left; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        const lmb_vec3 d = sub3(tile_vec(tile->position, k), at);
-        const float height = dot3(n, d);
-        if (dot3(n, tile_vec(tile->face, k)) >= SAME_SURFACE && height * height <= FLAT * FLAT * dot3(d, d)) {
-            out |= (uint64_t)1 << k;
-        }
-    }
-    return out | (uint64_t)1 << first;
-}
-
 static void patch_of(patch *out, const lmb_tile *tile, uint64_t pixels)
 {
     lmb_vec3 sum = vec3(0, 0, 0);
     out->pixels = pixels;
-    out->low = out->high = tile_vec(tile->position, lowest_bit_64(pixels));
+    tile_box(&out->low, &out->high, tile, pixels);
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        out->low = min3(out->low, tile_vec(tile->position, k));
-        out->high = max3(out->high, tile_vec(tile->position, k));
-        sum = add3(sum, tile_vec(tile->normal, k));
+        sum = add3(sum, tile_vec(tile->normal, lowest_bit_64(bits)));
     }
     out->centre = mul3(add3(out->low, out->high), 0.5f);
     out->half = mul3(sub3(out->high, out->low), 0.5f);
@@ -453,18 +426,14 @@ static double beside(const lmb_cutting *cutting, const patch *p, float per_pixel
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
                           const lmb_tree *tree, const lmb_cutting *cutting)
 {
-    uint64_t left = 0;
     if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || tree == NULL || tree->texel == NULL ||
         cutting == NULL || !(cutting->error > 0.0f) || !(cutting->visible > 0.0f)) {
         return LMB_ERR_ARG;
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        left |= (uint64_t)(tile->id[k] != 0) << k;
-    }
-    while (left != 0) {
+    for (uint64_t left = tile_pixels(tile); left != 0;) {
         patch p;
         cutter c;
-        patch_of(&p, tile, same_surface(tile, left));
+        patch_of(&p, tile, tile_surface(tile, left));
         c.cut = scratch;
         c.tree = tree;
         c.tile = tile;

@@ -11,7 +11,6 @@
 #include "tree.h"
 
 enum { HALVINGS = 48, SAMPLES = 4, CELLS = 1 << 20, Z_BITS = 9 };
-#define SPECK 1e-18f /* of twice an area, m2: under it a triangle has no usable normal */
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
@@ -78,8 +77,6 @@ static lmb_vec3 middle(const lmb_vec3 corner[3])
     return add3(corner[0], mul3(d, 1.0f / 3.0f));
 }
 
-static float largest3(lmb_vec3 v) { return maxf(maxf(absf(v.x), absf(v.y)), absf(v.z)); }
-
 static void set_texels(source *s)
 {
     const lmb_material *m = s->triangle.material;
@@ -96,23 +93,11 @@ static void set_texels(source *s)
 static int open_source(source *out, const lmb_scene *scene, uint32_t id)
 {
     lmb_triangle *t = &out->triangle;
-    if (!lmb_triangle_fetch(t, scene, id)) {
+    if (!lmb_triangle_fetch(t, scene, id) || !lmb_triangle_shape(&out->normal, &out->area, t)) {
         return 0;
     }
-    for (int k = 0; k < 3; ++k) {
-        if (!is_sane(t->corner[k].x) || !is_sane(t->corner[k].y) || !is_sane(t->corner[k].z)) {
-            return 0;
-        }
-    }
-    const lmb_vec3 n = across(t->corner);
-    const float longest = largest3(n);
-    if (!(longest > SPECK)) {
-        return 0;
-    }
-    const lmb_vec3 scaled = mul3(n, 1.0f / longest); /* so that no square is too small or too large */
     out->scene = scene;
-    out->area = 0.5f * longest * length3(scaled);
-    out->normal = mul3(normalize3(scaled), is_mirrored(&t->instance->to_world) ? -1.0f : 1.0f);
+    out->normal = mul3(out->normal, is_mirrored(&t->instance->to_world) ? -1.0f : 1.0f);
     for (int k = 0; k < 3; ++k) {
         mesh_uv(t->mesh, t->vertex[k], out->uv[k]);
         mesh_colour(t->mesh, t->vertex[k], out->colour[k]);

@@ -50,6 +50,7 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #endif
 
 #ifdef KERNEL
+#include "../raster/tile.h"
 #include "march.inl"
 
 /* A group is near within this many of its radii: then its discs are read one by one. Trim on cornell, two_lights,
@@ -67,8 +68,6 @@ static inline void gather_add(lmb_irradiance *inout, int k, lane_mask lit, lane 
         lane_store(inout->rgb[c] + k, lane_pick(lit, lane_add(old, lane_mul(weight, lane_splat(flux[c]))), old));
     }
 }
-
-static inline lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
 
 /* Lanes that carry a surface. */
 static inline lane_mask gather_hits(const lmb_tile *tile, int k)

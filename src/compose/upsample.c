@@ -1,7 +1,7 @@
 /* upsample.c: a tile's light from that of some of its pixels, wherever they lie on its pixels' surfaces. Floor 7. [ours] */
 #include <lambent/compose.h>
 
-#include "../base/vec.h"
+#include "../raster/tile.h"
 
 /* Of 8 rows or columns those that are sampled; for each, the sampled one before it and its share of the way to the next.
  * Both ends are among them: so no tile asks another, and where tiles meet, two sampled rows do, and there is no seam. */
@@ -17,8 +17,6 @@ static const grid quarter = {2, {0, 7, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
                              {0.0f, 1.0f / 7.0f, 2.0f / 7.0f, 3.0f / 7.0f, 4.0f / 7.0f, 5.0f / 7.0f, 6.0f / 7.0f, 1.0f}};
 
 static const grid *grid_of(int32_t step) { return step == 2 ? &half : step == 4 ? &quarter : NULL; }
-
-static lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
 
 /* --- a pixel between its samples ---------------------------------------------------------------------------------- */
 

@@ -1,7 +1,7 @@
 /* many_direct.c: a tile's surfaces, lit by their cuts of many lights: shadow tests, then light. Floor 5.    [V3 V29] */
 #include <string.h>
 
-#include "../base/vec.h"
+#include "../raster/tile.h"
 #include "many_cut.h"
 
 #if LMB_TREES
@@ -10,56 +10,16 @@
 
 /* --- the tile's surfaces ------------------------------------------------------------------------------------------ */
 
-static lmb_vec3 pixel_vec(const float planes[3][LMB_TILE_PIXELS], int k)
-{
-    return vec3(planes[0][k], planes[1][k], planes[2][k]);
-}
-
-/* Of one surface: normals within 25 degrees, and not farther over the first pixel's plane than half the distance. */
-static int is_with(const lmb_tile *tile, int first, int k)
-{
-    const lmb_vec3 n = pixel_vec(tile->normal, first);
-    const lmb_vec3 d = sub3(pixel_vec(tile->position, k), pixel_vec(tile->position, first));
-    const float over = dot3(n, d);
-    return dot3(n, pixel_vec(tile->normal, k)) > 0.9063f && over * over <= 0.25f * dot3(d, d);
-}
-
-/* Those of `left` that are of one surface with its first. */
-static uint64_t next_surface(const lmb_tile *tile, uint64_t left)
-{
-    const int first = lowest_bit_64(left);
-    uint64_t of = 0;
-    for (int k = first; k < LMB_TILE_PIXELS; ++k) {
-        if ((left >> k & 1u) != 0 && is_with(tile, first, k)) {
-            of |= UINT64_C(1) << k;
-        }
-    }
-    return of;
-}
-
-static uint64_t pixels_of(const lmb_tile *tile)
-{
-    uint64_t r = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        r |= (uint64_t)(tile->id[k] != 0) << k;
-    }
-    return r;
-}
-
 static lmb_many_job job_of(const lmb_tile *tile, uint64_t pixels)
 {
     lmb_many_job job;
-    const int first = lowest_bit_64(pixels);
-    lmb_vec3 low = pixel_vec(tile->position, first), high = low;
+    lmb_vec3 low, high;
     float bend2 = 0.0f;
-    job.normal = pixel_vec(tile->normal, first);
-    for (int k = first; k < LMB_TILE_PIXELS; ++k) {
-        if ((pixels >> k & 1u) != 0) {
-            const lmb_vec3 p = pixel_vec(tile->position, k), turn = sub3(pixel_vec(tile->normal, k), job.normal);
-            low = vec3(minf(low.x, p.x), minf(low.y, p.y), minf(low.z, p.z));
-            high = vec3(maxf(high.x, p.x), maxf(high.y, p.y), maxf(high.z, p.z));
-            bend2 = maxf(bend2, dot3(turn, turn));
-        }
+    tile_box(&low, &high, tile, pixels);
+    job.normal = tile_vec(tile->normal, lowest_bit_64(pixels));
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const lmb_vec3 turn = sub3(tile_vec(tile->normal, lowest_bit_64(bits)), job.normal);
+        bend2 = maxf(bend2, dot3(turn, turn));
     }
     job.middle = mul3(add3(low, high), 0.5f);
     job.half = mul3(sub3(high, low), 0.5f);
@@ -114,8 +74,8 @@ static uint64_t seen_from(const lit_surface *s, uint32_t *tests, lmb_vec3 at)
     if (blocked == s->corners) {
         return 0;
     }
-    return s->pixels & ~(blocked | lmb_blocked_tile(blockers, s->kernels, s->tile, s->pixels & ~s->corners, at,
-                                           s->last));
+    const uint64_t others = s->pixels & ~s->corners;
+    return s->pixels & ~(blocked | lmb_blocked_tile(blockers, s->kernels, s->tile, others, at, s->last));
 }
 
 static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -127,7 +87,8 @@ static int is_one_place(const lmb_many_node *node, const lmb_many_job *job)
     return is_same_place(node->strongest, node->median) || 12288.0f * node->spread < dot3(to, to);
 }
 
-/* Two tests; one, by lot, where the node gives less than a quarter of what may be wrong: that saves a third of the tests and adds 3 % to the error. */
+/* Two tests; one, by lot, where the node gives less than a quarter of what may be wrong: that saves a third of the tests
+ * and adds 3 % to the error. */
 static void test_lamp(lmb_many_lamp *lamp, const lit_surface *s, const lmb_many_node *node, int is_weak,
                       uint32_t *tests)
 {
@@ -172,14 +133,14 @@ lmb_status lmb_many_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernel
         return LMB_ERR_ARG;
     }
     memset(&scratch->last, 0, sizeof scratch->last);
-    uint64_t left = look->many->node_count > 0 ? pixels_of(tile) : 0;
+    uint64_t left = look->many->node_count > 0 ? tile_pixels(tile) : 0;
     for (int n = 1; left != 0; ++n) {
         lit_surface s;
         s.kernels = kernels;
         s.tile = tile;
         s.look = look;
         s.last = &scratch->last;
-        s.pixels = n < SURFACES ? next_surface(tile, left) : left;
+        s.pixels = n < SURFACES ? tile_surface(tile, left) : left;
         s.corners = corners_of(s.pixels);
         s.job = job_of(tile, s.pixels);
         lmb_many_cut(scratch, kernels, look, &s.job);

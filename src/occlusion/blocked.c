@@ -4,6 +4,7 @@
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../raster/resolve.h"
+#include "../raster/tile.h"
 #include "walk.h"
 
 #if LMB_TREES
@@ -24,18 +25,12 @@ static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float 
 
 static lmb_pyramid pyramid_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
-    float low[3] = {3e38f, 3e38f, 3e38f}, high[3] = {-3e38f, -3e38f, -3e38f};
+    lmb_vec3 low, high;
     lmb_pyramid p;
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        for (int c = 0; c < 3; ++c) {
-            low[c] = minf(low[c], tile->position[c][k]);
-            high[c] = maxf(high[c], tile->position[c][k]);
-        }
-    }
-    pyramid_axis(&p, 0, at.x, low[0], high[0]);
-    pyramid_axis(&p, 1, at.y, low[1], high[1]);
-    pyramid_axis(&p, 2, at.z, low[2], high[2]);
+    tile_box(&low, &high, tile, pixels);
+    pyramid_axis(&p, 0, at.x, low.x, high.x);
+    pyramid_axis(&p, 1, at.y, low.y, high.y);
+    pyramid_axis(&p, 2, at.z, low.z, high.z);
     return p;
 }
 
@@ -67,7 +62,7 @@ static uint64_t standing(const lmb_blockers *b, const lmb_blocker *t, const lmb_
     }
     for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        const lmb_vec3 d = sub3(vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]), job->at);
+        const lmb_vec3 d = sub3(tile_vec(tile->position, k), job->at);
         const float e0 = dot3(job->edge[0], d), e1 = dot3(job->edge[1], d), e2 = dot3(job->edge[2], d);
         const float sum = e0 + e1 + e2;
         if (sum > 0.0f && lmb_triangle_opaque(&triangle, b->scene, e1 / sum, e2 / sum)) {

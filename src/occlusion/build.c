@@ -41,25 +41,14 @@ lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-static float largest3(lmb_vec3 v) { return maxf(maxf(absf(v.x), absf(v.y)), absf(v.z)); }
 
 /* 1 where the triangle can block. */
 static int take_triangle(lmb_blocker *out, const lmb_triangle *t)
 {
-    lmb_vec3 n = cross3(sub3(t->corner[1], t->corner[0]), sub3(t->corner[2], t->corner[0]));
-    for (int i = 0; i < 3; ++i) {
-        if (!is_sane(t->corner[i].x) || !is_sane(t->corner[i].y) || !is_sane(t->corner[i].z)) {
-            return 0;
-        }
-        out->corner[i] = t->corner[i];
-    }
-    const float longest = largest3(n);
-    if (!(longest > 1e-18f)) {
-        return 0; /* its square would be no normal number: a speck that no pixel's segment meets */
-    }
-    out->normal = normalize3(mul3(n, 1.0f / longest));
+    float area;
+    memcpy(out->corner, t->corner, sizeof out->corner);
     out->id = t->id | (t->material->flags & LMB_ALPHA_MASK ? LMB_BLOCKER_MASKED : 0);
-    return 1;
+    return lmb_triangle_shape(&out->normal, &area, t);
 }
 
 static void take_triangles(lmb_blockers *inout, const lmb_scene *scene)
@@ -83,8 +72,6 @@ static void take_triangles(lmb_blockers *inout, const lmb_scene *scene)
 /* --- boxes -------------------------------------------------------------------------------------------------------- */
 
 static float axis3(lmb_vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-static lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
-static lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 
 typedef struct span {
     lmb_vec3 low, high;

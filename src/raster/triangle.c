@@ -42,3 +42,21 @@ int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
     }
     return 1;
 }
+
+int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
+{
+    const lmb_vec3 n = cross3(sub3(t->corner[1], t->corner[0]), sub3(t->corner[2], t->corner[0]));
+    const float longest = largest3(n);
+    for (int k = 0; k < 3; ++k) {
+        if (!is_sane(t->corner[k].x) || !is_sane(t->corner[k].y) || !is_sane(t->corner[k].z)) {
+            return 0;
+        }
+    }
+    if (!(longest > 1e-18f)) {
+        return 0;
+    }
+    const lmb_vec3 scaled = mul3(n, 1.0f / longest); /* so that no square is too small or too large */
+    *normal = normalize3(scaled);
+    *area = 0.5f * longest * length3(scaled);
+    return 1;
+}

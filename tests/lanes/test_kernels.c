@@ -595,7 +595,8 @@ static int trial_gather_cut(const trial *t, test_rng r)
     CHECK(canaries_stay(got.before, got.after));
     CHECK(canaries_stay(pairs.before, pairs.after));
     for (int i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
-        kept &= (lit >> i % LMB_TILE_PIXELS & 1u) != 0 || bits_of(before.rgb[0][i]) == bits_of(got.it.rgb[0][i]);
+        const int c = i / LMB_TILE_PIXELS, k = i % LMB_TILE_PIXELS;
+        kept &= (lit >> k & 1u) != 0 || bits_of(before.rgb[c][k]) == bits_of(got.it.rgb[c][k]);
     }
     return kept && same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }

@@ -1,0 +1,53 @@
+/* tile.h: what several rooms ask of a tile's pixels. Sets of pixels are 64 bits, one each. Floor 3. */
+#ifndef LMB_RASTER_TILE_H
+#define LMB_RASTER_TILE_H
+
+#include <lambent/raster.h>
+
+#include "../base/vec.h"
+
+#define TILE_COS_25 0.90630779f
+#define TILE_FLAT   0.5f /* height over a surface's first pixel, of the distance to it */
+
+static inline lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
+
+/* Those with a surface. */
+static inline uint64_t tile_pixels(const lmb_tile *tile)
+{
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        out |= (uint64_t)(tile->id[k] != 0) << k;
+    }
+    return out;
+}
+
+/* Of the pixels left, those on the surface of the first: normals within 25 degrees, near its plane. */
+static inline uint64_t tile_surface(const lmb_tile *tile, uint64_t left)
+{
+    const int first = lowest_bit_64(left);
+    const lmb_vec3 at = tile_vec(tile->position, first), n = tile_vec(tile->face, first);
+    uint64_t out = (uint64_t)1 << first;
+    for (uint64_t bits = left; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = sub3(tile_vec(tile->position, k), at);
+        const float height = dot3(n, d);
+        if (dot3(n, tile_vec(tile->face, k)) >= TILE_COS_25 && height * height <= TILE_FLAT * TILE_FLAT * dot3(d, d)) {
+            out |= (uint64_t)1 << k;
+        }
+    }
+    return out;
+}
+
+/* The box of their positions; of none, one that holds nothing. */
+static inline void tile_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_tile *tile, uint64_t pixels)
+{
+    *low = vec3(3e38f, 3e38f, 3e38f);
+    *high = vec3(-3e38f, -3e38f, -3e38f);
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const lmb_vec3 p = tile_vec(tile->position, lowest_bit_64(bits));
+        *low = min3(*low, p);
+        *high = max3(*high, p);
+    }
+}
+
+#endif
