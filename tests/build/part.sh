@@ -1,4 +1,4 @@
-# part.sh: run one part of the checks, keep its log, show one line: part.sh NAME COMMAND...
+# part.sh: run one part of the checks, keep its log, show one line and its seconds: part.sh NAME COMMAND...
 #
 # The command's last line `N passed, N failed, N skipped` counts (a prefix is fine); one that is missing, or an exit
 # status that it does not explain, counts as one failed. LOGS: folder for NAME.log. NEEDS: commands without which the
@@ -9,6 +9,7 @@ log=${LOGS:?}/$name.log
 mkdir -p "$LOGS"
 needs=${NEEDS:-}
 unset LOGS NEEDS
+begun=$(date +%s)
 counts='[0-9][0-9]* passed, [0-9][0-9]* failed, [0-9][0-9]* skipped'
 
 if missing=$(sh tests/build/tools.sh need $needs 2>&1); then
@@ -33,5 +34,5 @@ case "$V/$line" in
 /*", 0 failed,"*) shown=$(grep '^skipped: ' "$log") ;;
 *) shown=$(cat "$log") ;;
 esac
-printf '%s%-14s %s\n' "${shown:+$shown
-}" "$name" "$line"
+printf '%s%-14s %s, %d s\n' "${shown:+$shown
+}" "$name" "$line" $(($(date +%s) - begun))
