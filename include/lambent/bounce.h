@@ -153,12 +153,15 @@ lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lm
 /* lmb_disc_factor: the far formula for one pair, per unit flux (1/m2); 0 where either faces away.
  * lmb_quad_factor: the near one: the exact form factor of a quad, corners centre +- u +- v, over its area. `face` is
  * the receiver's horizon, `normal` what it is lit by (the same on flat surfaces); `axis` the side that shines. 0 from
- * behind, and within a thousandth of its size of its plane. lmb_triangle_factor: the same of a
- * triangle. */
+ * behind, and within a thousandth of its size of its plane. lmb_triangle_factor: the same of a triangle.
+ * lmb_polygon_factor: the form factor itself, per unit of exitance, of a convex polygon of 3 .. 8 corners,
+ * counter-clockwise on the side that shines; fewer or more: 0. */
 float lmb_disc_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, float area);
 float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u,
                       lmb_vec3 v);
 float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 corner[3], lmb_vec3 axis);
+float lmb_polygon_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 *corner, int corners,
+                         lmb_vec3 axis);
 
 #ifdef __cplusplus
 }

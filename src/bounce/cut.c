@@ -11,6 +11,7 @@
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../raster/tile.h"
+#include "footprint.h"
 #include "tree.h"
 
 #if LMB_TREES
@@ -322,14 +323,22 @@ typedef struct leaf {
     lmb_vec3 u, v;              /* half sides of a texel's quad */
     const lmb_element *element; /* NULL: a texel */
     float half2;                /* its farthest corner from its middle, squared */
+    int is_crease;              /* planes meet in it: its shape is no quad */
 } leaf;
 
 static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
 {
     lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
     out->element = tree_element(tree, at.x, at.y);
-    out->half2 = out->element != NULL ? out->element->reach2
-                                      : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
+    out->is_crease = out->element == NULL && !tree_is_whole(tree_texel(tree, at.face, at.x, at.y));
+    if (out->is_crease) {
+        const lmb_vec3 half = mul3(sub3(out->node.high, out->node.low), 0.5f);
+        out->half2 = dot3(half, half);
+    } else {
+        out->half2 = out->element != NULL
+                         ? out->element->reach2
+                         : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
+    }
 }
 
 static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
@@ -338,23 +347,66 @@ static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 nor
                               : lmb_quad_factor(at, face, normal, l->node.centre, l->node.normal, l->u, l->v);
 }
 
-/* A leaf so near that its shape counts: pixel by pixel. */
-static void add_near(lmb_irradiance *inout, const lmb_tile *tile, const leaf *l, uint64_t visible)
+static uint64_t near_pixels(const lmb_tile *tile, const leaf *l, uint64_t visible)
 {
-    const lmb_node *n = &l->node;
+    uint64_t out = 0;
     for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        const lmb_vec3 at = tile_vec(tile->position, k), normal = tile_vec(tile->normal, k), d = sub3(n->centre, at);
-        float f;
-        if (dot3(d, d) < LMB_NEAR * LMB_NEAR * l->half2) {
-            f = leaf_factor(l, at, tile_vec(tile->face, k), normal);
-        } else {
-            f = dot3(tile_vec(tile->face, k), d) > 0.0f ? lmb_disc_factor(at, normal, n->centre, n->normal, n->area)
-                                                        : 0.0f;
+        const lmb_vec3 d = sub3(l->node.centre, tile_vec(tile->position, k));
+        out |= (uint64_t)(dot3(d, d) < LMB_NEAR * LMB_NEAR * l->half2) << k;
+    }
+    return out;
+}
+
+static void add_flux(lmb_irradiance *inout, int k, float factor, const float flux[3])
+{
+    for (int c = 0; c < 3; ++c) {
+        inout->rgb[c][k] += factor * flux[c];
+    }
+}
+
+/* A texel where planes meet, as its plane shows it. 0: nothing added, it runs away from its light too steeply. */
+static int add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, uint64_t pixels)
+{
+    const lmb_texel *t = tree_texel(c->tree, at.face, at.x, at.y);
+    lmb_vec3 corner[CREASE_CORNERS], u, v;
+    footprint_sides(&u, &v, &c->tree->view[at.face], c->tree->size, t->position, t->normal);
+    const float per_area = 1.0f / length3(cross3(u, v));
+    for (int part = 0; part < CREASE_PARTS; ++part) {
+        const int corners = lmb_crease_part(corner, c->tree, at, part);
+        if (corners < 0 && part == 0) {
+            return 0;
         }
-        for (int c = 0; c < 3; ++c) {
-            inout->rgb[c][k] += f * n->flux[c];
+        for (uint64_t bits = corners > 0 ? pixels : 0; bits != 0; bits &= bits - 1) {
+            const int k = lowest_bit_64(bits);
+            const float f = lmb_polygon_factor(tile_vec(c->tile->position, k), tile_vec(c->tile->face, k),
+                                               tile_vec(c->tile->normal, k), corner, corners, t->normal);
+            add_flux(inout, k, f * per_area, t->flux);
         }
+    }
+    return 1;
+}
+
+/* A leaf so near that its shape counts: pixel by pixel. */
+static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, const leaf *l, uint64_t visible)
+{
+    const lmb_tile *tile = c->tile;
+    const lmb_node *n = &l->node;
+    const uint64_t near = near_pixels(tile, l, visible);
+    if (l->is_crease && near != 0 && add_crease(inout, c, at, near)) {
+        visible &= ~near;
+    }
+    for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 to = tile_vec(tile->position, k), normal = tile_vec(tile->normal, k),
+                       face = tile_vec(tile->face, k);
+        float f = 0.0f;
+        if (near >> k & 1u) {
+            f = leaf_factor(l, to, face, normal);
+        } else if (dot3(face, sub3(n->centre, to)) > 0.0f) {
+            f = lmb_disc_factor(to, normal, n->centre, n->normal, n->area);
+        }
+        add_flux(inout, k, f, n->flux);
     }
 }
 
@@ -393,7 +445,7 @@ static void light_patch(lmb_irradiance *inout, const cutter *c)
         } else {
             leaf_at(&l, c->tree, at);
             if (is_near(c->p, &l)) {
-                add_near(inout, c->tile, &l, visible);
+                add_near(inout, c, at, &l, visible);
                 continue;
             }
             n = &l.node;

@@ -1,10 +1,22 @@
-/* footprint.h: a step of a light's map as a step on the surface that it shows. Floor 6. */
+/* footprint.h: a place or a step of a light's map, on the surface that it shows. Floor 6. */
 #ifndef LMB_BOUNCE_FOOTPRINT_H
 #define LMB_BOUNCE_FOOTPRINT_H
 
 #include "../base/vec.h"
 
 #define GRAZE 0.02f /* cosine under which a texel's footprint is not stretched further */
+
+/* The point of a plane (any point of it, normal) over the map's (sx, sy) in its plane at distance 1 (m for suns). */
+static inline lmb_vec3 footprint_over(const lmb_view *v, lmb_vec3 on, lmb_vec3 normal, float sx, float sy)
+{
+    const lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy)), p = sub3(on, v->eye);
+    if (v->kind == LMB_PERSPECTIVE) {
+        const lmb_vec3 ray = sub3(across, v->back);
+        return add3(v->eye, mul3(ray, dot3(normal, p) / dot3(normal, ray)));
+    }
+    const float w = dot3(normal, sub3(p, across)) / -dot3(normal, v->back);
+    return add3(v->eye, sub3(across, mul3(v->back, w)));
+}
 
 /* How the surface moves when the map moves by one texel along (sx, sy): the ray's plane slid along the ray. */
 static inline lmb_vec3 footprint(const lmb_view *v, lmb_vec3 p, lmb_vec3 n, lmb_vec3 step)

@@ -7,29 +7,30 @@
 #include "../base/poly.h"
 #include "../base/vec.h"
 
+enum { CORNERS = LMB_TREES ? 8 : 4 };
 #define FLAT 1e-3f /* of the half sides */
 
 /* Keep what lies above the horizon, n . v >= 0: at most one corner more. */
-static int clip_horizon(lmb_vec3 out[5], const lmb_vec3 *corner, int corners, lmb_vec3 n)
+static int clip_horizon(lmb_vec3 out[CORNERS + 1], const lmb_vec3 *corner, int corners, lmb_vec3 n)
 {
     int count = 0;
     for (int i = 0; i < corners; ++i) {
         lmb_vec3 a = corner[i], b = corner[i + 1 < corners ? i + 1 : 0];
         float ha = dot3(n, a), hb = dot3(n, b);
-        if (ha >= 0.0f && count < 5) {
+        if (ha >= 0.0f && count <= CORNERS) {
             out[count++] = a;
         }
-        if ((ha >= 0.0f) != (hb >= 0.0f) && count < 5) {
+        if ((ha >= 0.0f) != (hb >= 0.0f) && count <= CORNERS) {
             out[count++] = add3(a, mul3(sub3(b, a), ha / (ha - hb)));
         }
     }
     return count;
 }
 
-/* 2 pi x the form factor of a polygon of up to four corners, relative to the point; negative one way round. */
+/* 2 pi x the form factor of a convex polygon, corners relative to the point; negative one way round. */
 static float edges_sum(const lmb_vec3 *polygon, int corners, lmb_vec3 face, lmb_vec3 normal)
 {
-    lmb_vec3 corner[5];
+    lmb_vec3 corner[CORNERS + 1];
     float sum = 0.0f;
     const int n = clip_horizon(corner, polygon, corners, face);
     for (int i = 0; i < n; ++i) {
@@ -61,6 +62,21 @@ float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 cent
 }
 
 #if LMB_TREES
+float lmb_polygon_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 *corner, int corners,
+                         lmb_vec3 axis)
+{
+    lmb_vec3 own[CORNERS];
+    float reach2 = 0.0f;
+    for (int i = 0; i < corners && i < CORNERS; ++i) {
+        own[i] = sub3(corner[i], at);
+        reach2 = maxf(reach2, dot3(sub3(own[i], own[0]), sub3(own[i], own[0])));
+    }
+    if (corners < 3 || corners > CORNERS || !(-dot3(axis, own[0]) > FLAT * sqrtf(reach2))) {
+        return 0.0f;
+    }
+    return maxf(-edges_sum(own, corners, face, normal), 0.0f) * 0.15915494f;
+}
+
 float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 corner[3], lmb_vec3 axis)
 {
     const lmb_vec3 own[3] = {sub3(corner[0], at), sub3(corner[1], at), sub3(corner[2], at)};

@@ -6,8 +6,6 @@
 #include "../base/vec.h"
 #include "footprint.h"
 
-enum { WHOLE = 128, LEFT = 0, RIGHT, UP, DOWN };
-
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 {
     if (size < LMB_TILE || size > 4096 || (size & (size - 1)) != 0 || faces == 0 || faces > 65535u) {
@@ -41,18 +39,6 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
 
-/* The point of a plane (any point of it, normal) over the map's (sx, sy) in its plane at distance 1 (m for suns). */
-static lmb_vec3 over(const lmb_view *v, lmb_vec3 on, lmb_vec3 normal, float sx, float sy)
-{
-    const lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy)), p = sub3(on, v->eye);
-    if (v->kind == LMB_PERSPECTIVE) {
-        const lmb_vec3 ray = sub3(across, v->back);
-        return add3(v->eye, mul3(ray, dot3(normal, p) / dot3(normal, ray)));
-    }
-    const float w = dot3(normal, sub3(p, across)) / -dot3(normal, v->back);
-    return add3(v->eye, sub3(across, mul3(v->back, w)));
-}
-
 /* A texel of the tree from a pixel of the map near its middle. */
 static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_light_map *coarse,
                       int32_t face, int32_t x, int32_t y)
@@ -61,14 +47,14 @@ static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light 
     const float size = (float)coarse->size;
     float power[3];
     memset(out, 0, sizeof *out);
-    memset(out->side, WHOLE, sizeof out->side);
+    memset(out->side, SIDE_WHOLE, sizeof out->side);
     if (t->id[k] == 0) {
         return;
     }
     lmb_light_texel_power(power, light, coarse, face, x, y);
     out->normal = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
     out->position =
-        over(v, vec3(t->position[0][k], t->position[1][k], t->position[2][k]), out->normal,
+        footprint_over(v, vec3(t->position[0][k], t->position[1][k], t->position[2][k]), out->normal,
              ((float)(2 * x + 1) / size - 1.0f) * v->half_width, (1.0f - (float)(2 * y + 1) / size) * v->half_height);
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = power[c] * t->albedo[c][k];
@@ -122,6 +108,22 @@ void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int
     lmb_tree_texel_quad(out, &u, &v, tree, face, x, y);
 }
 
+/* Of its own cell and of those neighbours' of which it may have a part. u, v: whole sides. */
+static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
+{
+    float reach[4];
+    for (int i = 0; i < 4; ++i) {
+        reach[i] = t->side[i] == SIDE_WHOLE ? 0.5f : 1.5f;
+    }
+    const float right = reach[SIDE_RIGHT] - reach[SIDE_LEFT], up = reach[SIDE_UP] - reach[SIDE_DOWN];
+    const lmb_vec3 centre = add3(t->position, mul3(add3(mul3(u, right), mul3(v, up)), 0.5f));
+    u = mul3(u, 0.5f * (reach[SIDE_LEFT] + reach[SIDE_RIGHT]));
+    v = mul3(v, 0.5f * (reach[SIDE_UP] + reach[SIDE_DOWN]));
+    const lmb_vec3 half = vec3(absf(u.x) + absf(v.x), absf(u.y) + absf(v.y), absf(u.z) + absf(v.z));
+    out->low = sub3(centre, half);
+    out->high = add3(centre, half);
+}
+
 void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
                          int32_t y)
 {
@@ -144,96 +146,18 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
         out->area = element->area;
         return;
     }
-    const float wide = (float)(t->side[LEFT] + t->side[RIGHT]), high = (float)(t->side[UP] + t->side[DOWN]);
-    const float right = (float)(t->side[RIGHT] - t->side[LEFT]), down = (float)(t->side[DOWN] - t->side[UP]);
+    const uint8_t *side = t->side;
+    const float wide = (float)(side[SIDE_LEFT] + side[SIDE_RIGHT]), right = (float)(side[SIDE_RIGHT] - side[SIDE_LEFT]),
+                high = (float)(side[SIDE_UP] + side[SIDE_DOWN]), down = (float)(side[SIDE_DOWN] - side[SIDE_UP]);
     footprint_sides(u, v, &tree->view[face], tree->size, t->position, t->normal);
+    set_box(out, t, *u, *v);
     out->centre = add3(t->position, sub3(mul3(*u, right / 512.0f), mul3(*v, down / 512.0f)));
     *u = mul3(*u, wide / 512.0f);
     *v = mul3(*v, high / 512.0f);
-    const lmb_vec3 reach = vec3(absf(u->x) + absf(v->x), absf(u->y) + absf(v->y), absf(u->z) + absf(v->z));
-    out->low = sub3(out->centre, reach);
-    out->high = add3(out->centre, reach);
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = t->flux[c] * (wide * high / 65536.0f);
     }
     out->area = 4.0f * length3(cross3(*u, *v));
-}
-
-/* --- where neighbours' planes meet ---------------------------------------------------------------------------------
- *
- * A texel's middle says which surface it shows; near an edge it shows two. Along the line through two texels' middles a
- * plane's 1 / w (from a light's place) or w (of a sun) is linear, so two planes meet where the difference is 0: there the
- * edge is, if it is between the middles. What one texel gains the other loses, and light through the map is conserved. */
-
-/* 1 / w or w of the plane through p with normal n, over the map's point (sx, sy) in its plane at distance 1. */
-static float slope_at(const lmb_view *v, const lmb_texel *t, float sx, float sy)
-{
-    const lmb_vec3 across = add3(mul3(v->right, sx), mul3(v->up, sy)), p = sub3(t->position, v->eye);
-    if (v->kind == LMB_PERSPECTIVE) {
-        return dot3(t->normal, sub3(across, v->back)) / dot3(t->normal, p);
-    }
-    return dot3(t->normal, sub3(p, across)) / -dot3(t->normal, v->back);
-}
-
-static int same_plane(const lmb_texel *a, const lmb_texel *b)
-{
-    const lmb_vec3 d = sub3(b->position, a->position);
-    return dot3(a->normal, b->normal) > 0.9999f && absf(dot3(a->normal, d)) < 1e-3f * length3(d);
-}
-
-/* Two neighbours: middles at (sx, sy) and (tx, ty), in the map's plane at distance 1 (m for suns). */
-typedef struct pair {
-    lmb_texel *a, *b;
-    float sx, sy, tx, ty;
-} pair;
-
-/* Where the two planes meet, as a share of the way from a to b; 0: nowhere between. */
-static float planes_meet(const lmb_view *v, const pair *p)
-{
-    const float here = slope_at(v, p->a, p->sx, p->sy) - slope_at(v, p->b, p->sx, p->sy),
-                there = slope_at(v, p->a, p->tx, p->ty) - slope_at(v, p->b, p->tx, p->ty);
-    const float share = here / (here - there);
-    return here * there < 0.0f && share > 0.0f && share < 1.0f ? share : 0.0f;
-}
-
-/* Let a reach towards b up to an edge, and b towards a: rounded so that there is no gap between them. */
-static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
-{
-    const float share = same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
-    if (share > 0.0f) {
-        const int at = (int)(share * 256.0f);
-        p->a->side[a_side] = (uint8_t)mini(at + 1, 255);
-        p->b->side[b_side] = (uint8_t)mini(256 - at, 255);
-    }
-}
-
-static void set_sides(const lmb_tree *tree, uint32_t face)
-{
-    const int32_t size = tree->size;
-    const lmb_view *v = &tree->view[face];
-    const float px = 2.0f * v->half_width / (float)size, py = 2.0f * v->half_height / (float)size;
-    lmb_texel *all = tree->texel + (size_t)face * (size_t)size * (size_t)size;
-    for (int32_t i = 0; i < size * size; ++i) {
-        const int32_t x = i % size, y = i / size;
-        pair p;
-        p.a = &all[i];
-        p.sx = p.tx = (float)(2 * x + 1 - size) * 0.5f * px;
-        p.sy = p.ty = (float)(size - 2 * y - 1) * 0.5f * py;
-        if (!(flux_sum(p.a->flux) > 0.0f)) {
-            continue;
-        }
-        if (x + 1 < size && flux_sum(p.a[1].flux) > 0.0f) {
-            p.b = p.a + 1;
-            p.tx = p.sx + px;
-            set_edge(v, &p, RIGHT, LEFT);
-        }
-        if (y + 1 < size && flux_sum(p.a[size].flux) > 0.0f) {
-            p.b = p.a + size;
-            p.tx = p.sx;
-            p.ty = p.sy - py;
-            set_edge(v, &p, DOWN, UP);
-        }
-    }
 }
 
 /* --- sums --------------------------------------------------------------------------------------------------------- */
@@ -294,7 +218,7 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
         return LMB_ERR_ARG;
     }
     if (tree->element == NULL) {
-        set_sides(tree, face);
+        lmb_crease_find(tree, face);
     }
     for (int level = 1; level <= tree_root_level(tree); ++level) {
         const int32_t side = tree->size >> level;

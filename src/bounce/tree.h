@@ -64,6 +64,23 @@ static inline const lmb_element *tree_element(const lmb_tree *t, int32_t x, int3
     return t->element == NULL ? NULL : &t->element[tree_spread_bits((uint32_t)x) | tree_spread_bits((uint32_t)y) << 1];
 }
 
+/* lmb_texel.side: towards which neighbour; and its value where no edge is. */
+enum { SIDE_LEFT, SIDE_RIGHT, SIDE_UP, SIDE_DOWN, SIDE_WHOLE = 128 };
+
+static inline int tree_is_whole(const lmb_texel *t)
+{
+    return t->side[0] == SIDE_WHOLE && t->side[1] == SIDE_WHOLE && t->side[2] == SIDE_WHOLE && t->side[3] == SIDE_WHOLE;
+}
+
+/* Find the edges between a face's texels: sets their sides. */
+void lmb_crease_find(const lmb_tree *tree, uint32_t face);
+
+/* Part 0 .. CREASE_PARTS - 1 of the exact shape of texel (x, y), which is not whole: corners, counter-clockwise seen from
+ * the light; returns their number, 0: nothing. The first in its own cell, the others in its neighbours'. -1: there is no
+ * exact shape of so steep a plane. */
+enum { CREASE_PARTS = 5, CREASE_CORNERS = 8 };
+int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part);
+
 /* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. */
 void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
                          int32_t y);

@@ -314,6 +314,115 @@ static void check_ends(const char *name, const ends *e, double bound)
     CHECK_MSG(lost < 5e-4, "%s: %g", name, lost);
 }
 
+/* --- what shape they have there ------------------------------------------------------------------------------------ */
+
+/* Where a point is in the map, in texels from its middle. */
+static void in_map(double out[2], const lmb_view *v, lmb_vec3 p)
+{
+    const lmb_vec3 d = sub3(p, v->eye);
+    const double w = v->kind == LMB_PERSPECTIVE ? -(double)dot3(d, v->back) : 1.0;
+    out[0] = (double)dot3(d, v->right) / w / (double)v->half_width * lit.size / 2;
+    out[1] = (double)dot3(d, v->up) / w / (double)v->half_height * lit.size / 2;
+}
+
+/* In texels; over 0 counter-clockwise. */
+static double area_in_map(const lmb_vec3 *corner, int corners)
+{
+    double sum = 0.0;
+    for (int i = 0; i < corners; ++i) {
+        double p[2], q[2];
+        in_map(p, &lit.view[0], corner[i]);
+        in_map(q, &lit.view[0], corner[(i + 1) % corners]);
+        sum += 0.5 * (p[0] * q[1] - p[1] * q[0]);
+    }
+    return sum;
+}
+
+static double taken[LIT_SIDE * LIT_SIDE]; /* of each cell, by all texels' parts */
+
+static void take_parts(lmb_tree_place at)
+{
+    static const int32_t step[CREASE_PARTS] = {0, -1, 1, -LIT_SIDE, LIT_SIDE};
+    const lmb_texel *t = tree_texel(&lit, 0, at.x, at.y);
+    const int32_t i = at.y * LIT_SIDE + at.x;
+    lmb_vec3 corner[CREASE_CORNERS];
+    taken[i] += tree_is_whole(t) ? 1.0 : 0.0;
+    for (int part = 0; part < CREASE_PARTS && !tree_is_whole(t); ++part) {
+        const int corners = lmb_crease_part(corner, &lit, at, part);
+        CHECK(corners == 0 || (corners >= 3 && corners <= CREASE_CORNERS));
+        const double area = area_in_map(corner, corners);
+        CHECK_MSG(area > -1e-3, "part %d of %d %d: %g", part, at.x, at.y, area);
+        taken[i + step[part]] += area;
+    }
+}
+
+/* All of every cell is some texel's and none of it two texels'; where three planes meet, almost. The map's rim and that
+ * of what is lit left out. */
+static void check_parts(const char *name, double bound)
+{
+    double worst = 0.0;
+    int edges = 0;
+    CHECK(lit.size == LIT_SIDE);
+    memset(taken, 0, sizeof taken);
+    for (int32_t i = 0; i < LIT_SIDE * LIT_SIDE; ++i) {
+        const lmb_tree_place at = {0, (uint16_t)(i % LIT_SIDE), (uint16_t)(i / LIT_SIDE), 0};
+        if (flux_sum(tree_texel(&lit, 0, at.x, at.y)->flux) > 0.0f) {
+            take_parts(at);
+        }
+    }
+    for (int32_t i = 0; i < LIT_SIDE * LIT_SIDE; ++i) {
+        const int32_t x = i % LIT_SIDE, y = i / LIT_SIDE;
+        int inside = x > 0 && y > 0 && x < LIT_SIDE - 1 && y < LIT_SIDE - 1;
+        for (int k = 0; k < 9 && inside; ++k) {
+            inside = flux_sum(tree_texel(&lit, 0, x + k % 3 - 1, y + k / 3 - 1)->flux) > 0.0f;
+        }
+        if (inside) {
+            worst = fmax(worst, fabs(taken[i] - 1.0));
+            edges += !tree_is_whole(tree_texel(&lit, 0, x, y));
+        }
+    }
+    printf("  %-21s %d texels at edges, cells shared out to %.4f\n", name, edges, worst);
+    CHECK_MSG(edges > 100 && worst < bound, "%s: %d, %g", name, edges, worst);
+}
+
+/* A corner lit by a sun shines evenly: from the floor beside it, what the wall's texels give by their exact shapes against
+ * the wall as one square; and by rectangles, for what that would be. */
+static void check_beside(lmb_vec3 along, lmb_vec3 floor, lmb_vec3 wall)
+{
+    const lmb_vec3 out = normalize3(cross3(along, floor)), up = normalize3(cross3(wall, along));
+    double worst = 0.0, rectangles = 0.0;
+    for (int place = 0; place < 24; ++place) {
+        const lmb_vec3 at = add3(mul3(along, -0.3f + 0.027f * (float)place), mul3(out, 0.004f));
+        double exact = 0.0, rough = 0.0, level = 0.0;
+        for (int32_t i = 0; i < LIT_SIDE * LIT_SIDE; ++i) {
+            const lmb_tree_place p = {0, (uint16_t)(i % LIT_SIDE), (uint16_t)(i / LIT_SIDE), 0};
+            const lmb_texel *t = tree_texel(&lit, 0, p.x, p.y);
+            lmb_vec3 corner[CREASE_CORNERS], u, v;
+            lmb_node n;
+            if (!(t->flux[0] > 0.0f) || dot3(t->normal, wall) < 0.99f) {
+                continue;
+            }
+            lmb_tree_texel_quad(&n, &u, &v, &lit, 0, p.x, p.y);
+            const double quad = (double)(n.flux[0] * lmb_quad_factor(at, floor, floor, n.centre, n.normal, u, v));
+            const double exitance = (double)(n.flux[0] / n.area);
+            level = fmax(level, exitance);
+            rough += quad;
+            exact += tree_is_whole(t) ? quad : 0.0;
+            for (int part = 0; part < CREASE_PARTS && !tree_is_whole(t); ++part) {
+                const int corners = lmb_crease_part(corner, &lit, p, part);
+                exact += exitance * (double)lmb_polygon_factor(at, floor, floor, corner, corners, t->normal);
+            }
+        }
+        const double want =
+            level * (double)lmb_quad_factor(at, floor, floor, up, wall, mul3(along, 2.0f), up) * 8.0;
+        worst = fmax(worst, fabs(exact / want - 1.0));
+        rectangles = fmax(rectangles, fabs(rough / want - 1.0));
+    }
+    printf("  beside a corner: %.4f from the wall as one square (%.4f by rectangles)\n", worst, rectangles);
+    CHECK_MSG(worst < 0.02, "%g", worst);
+    CHECK(rectangles > 5.0 * worst);
+}
+
 /* V16: at the line where two planes meet, their texels end; nowhere else. */
 static void check_fold(const char *name, lmb_light light, lmb_vec3 along)
 {
@@ -324,6 +433,7 @@ static void check_fold(const char *name, lmb_light light, lmb_vec3 along)
     lit_by(&light);
     const ends e = measure_ends(&l, -9.0f, 1);
     check_ends(name, &e, 0.02);
+    check_parts(name, 2e-3);
 }
 
 static void check_folds(void)
@@ -333,6 +443,10 @@ static void check_folds(void)
     make_fold(along, floor, wall); /* a corner */
     check_fold("corner, spot", spot(vec3(1.2f, 1.1f, 0.4f), vec3(-1, -1, -0.2f), 20, 40), along);
     check_fold("corner, sun", sun(vec3(-1, -0.7f, -0.2f)), along);
+    make_fold(mul3(along, -1.0f), floor, wall); /* seen from inside */
+    check_fold("room, spot", spot(vec3(1.2f, 1.1f, 0.4f), vec3(-1, -1, -0.2f), 20, 40), along);
+    check_fold("room, sun", sun(vec3(-1, -0.7f, -0.2f)), along);
+    check_beside(mul3(along, -1.0f), floor, wall);
     make_fold(along, floor, roof); /* flatter */
     check_fold("flat, spot", spot(vec3(0.7f, 1.3f, 0.4f), vec3(-0.5f, -1, -0.2f), 20, 40), along);
     check_fold("flat, sun", sun(vec3(-0.3f, -1, -0.2f)), along);
