@@ -2,6 +2,8 @@
 #ifndef TEST_EVERY_TEXEL_H
 #define TEST_EVERY_TEXEL_H
 
+#include <string.h>
+
 #include "../src/base/vec.h"
 #include "../src/bounce/tree.h"
 
@@ -10,6 +12,8 @@ typedef struct texel_quad {
     lmb_node n;
     lmb_vec3 u, v, middle; /* half sides; where visibility is asked */
     float near2;           /* m2: nearer than this its shape counts */
+    const lmb_tree *tree;
+    lmb_tree_place at;
 } texel_quad;
 
 /* Room for all texels of the tree; returns how many are lit. */
@@ -21,15 +25,40 @@ static inline int every_texel(texel_quad *out, const lmb_tree *tree)
         for (int32_t i = 0; i < per_face; ++i) {
             const int32_t x = i % tree->size, y = i / tree->size;
             texel_quad *q = &out[count];
+            memset(&q->at, 0, sizeof q->at);
+            q->tree = tree;
+            q->at.face = (uint16_t)face;
+            q->at.x = (uint16_t)x;
+            q->at.y = (uint16_t)y;
             lmb_tree_texel_quad(&q->n, &q->u, &q->v, tree, face, x, y);
             if (flux_sum(q->n.flux) > 0.0f) {
                 q->middle = tree_texel(tree, face, x, y)->position;
                 q->near2 = LMB_NEAR * LMB_NEAR * (dot3(q->u, q->u) + dot3(q->v, q->v) + 2.0f * absf(dot3(q->u, q->v)));
+                if (!tree_is_whole(tree_texel(tree, face, x, y))) {
+                    const lmb_vec3 half = mul3(sub3(q->n.high, q->n.low), 0.5f);
+                    q->near2 = LMB_NEAR * LMB_NEAR * dot3(half, half);
+                }
                 ++count;
             }
         }
     }
     return count;
+}
+
+/* A texel's exact shape where planes meet in it; under 0: it has none. W/m2 a watt of its quad. */
+static inline double crease_factor(const texel_quad *q, lmb_vec3 at, lmb_vec3 face, lmb_vec3 n)
+{
+    const lmb_texel *t = tree_texel(q->tree, q->at.face, q->at.x, q->at.y);
+    lmb_vec3 corner[CREASE_CORNERS];
+    double sum = tree_is_whole(t) ? -1.0 : 0.0;
+    for (int part = 0; part < CREASE_PARTS && sum >= 0.0; ++part) {
+        const int corners = lmb_crease_part(corner, q->tree, q->at, part);
+        if (corners < 0 && part == 0) {
+            return -1.0;
+        }
+        sum += corners > 0 ? (double)lmb_polygon_factor(at, face, n, corner, corners, t->normal) : 0.0;
+    }
+    return sum / (double)q->n.area;
 }
 
 /* W/m2 a watt at pixel k. */
@@ -39,7 +68,9 @@ static inline double texel_factor(const texel_quad *q, const lmb_tile *tile, int
     const lmb_vec3 face = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
     const lmb_vec3 n = vec3(tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]), d = sub3(q->n.centre, at);
     if (dot3(d, d) < q->near2) {
-        return (double)lmb_quad_factor(at, face, n, q->n.centre, q->n.normal, q->u, q->v);
+        const double crease = crease_factor(q, at, face, n);
+        return crease >= 0.0 ? crease
+                             : (double)lmb_quad_factor(at, face, n, q->n.centre, q->n.normal, q->u, q->v);
     }
     return dot3(face, d) > 0.0f ? (double)lmb_disc_factor(at, n, q->n.centre, q->n.normal, q->n.area) : 0.0;
 }

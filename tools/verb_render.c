@@ -719,9 +719,6 @@ int verb_render(int argc, char **argv)
         for (int i = 0; i < RENDER_USAGE_PARTS; ++i) {
             fputs(render_usage[i], stdout);
         }
-        for (int i = 0; i < RENDER_USAGE_PARTS; ++i) {
-            fputs(render_usage[i], stdout);
-        }
         return 0;
     }
     if (picture_format(j.o.out) == PICTURE_UNKNOWN) {

@@ -175,9 +175,11 @@ status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
 
 # Help and version go to stdout.
-for ask in --help --version "render --help" "compare --help" "info --help"; do
+status 0 --version
+check "lambent --version says something" test -s "$dir/out.txt"
+for ask in --help "render --help" "compare --help" "info --help" "bench --help"; do
     status 0 $ask
-    check "lambent $ask says something" test -s "$dir/out.txt"
+    check "lambent $ask says something, once" test "$(grep -c '^usage:' "$dir/out.txt")" -eq 1
 done
 
 # compare: equal, different, sizes differ.
