@@ -430,7 +430,7 @@ static void set_texels_of_tree(lmb_elements *e)
         t->position = middle(from->corner);
         t->normal = vec3(from->fresh[0], from->fresh[1], from->fresh[2]);
         for (int c = 0; c < 3; ++c) {
-            t->flux[c] = LMB_PI * from->area * from->emission[c];
+            t->flux[c] = flux_or_none(LMB_PI * from->area * from->emission[c]);
             from->received[c] = from->fresh[c] = 0.0f;
         }
     }

@@ -126,8 +126,8 @@ lmb_status lmb_elements_send(lmb_elements *inout, int32_t last)
         lmb_texel *t = &inout->tree.texel[tree_along_z(&inout->tree, i)];
         for (int c = 0; c < 3; ++c) {
             e->received[c] += e->fresh[c];
-            t->flux[c] = e->albedo[c] * e->area * (last ? e->received[c] : e->fresh[c]);
-            t->flux[c] += last ? LMB_PI * e->area * e->emission[c] : 0.0f;
+            const float sent = e->albedo[c] * e->area * (last ? e->received[c] : e->fresh[c]);
+            t->flux[c] = flux_or_none(sent + (last ? LMB_PI * e->area * e->emission[c] : 0.0f));
         }
     }
     return lmb_tree_sum(&inout->tree, 0);

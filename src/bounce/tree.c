@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../raster/tile.h"
 #include "footprint.h"
 
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
@@ -39,7 +40,17 @@ lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memo
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
 
-/* A texel of the tree from a pixel of the map near its middle. */
+/* Did a place move along its plane by no more than a footprint may be stretched? Near the plane's horizon it runs away
+ * from the light or comes out behind it; in a sun's plane seen edge-on it runs along the rays. False for NaN. */
+static int is_near_by(const lmb_view *v, lmb_vec3 from, lmb_vec3 to, int32_t size)
+{
+    const int is_cone = v->kind == LMB_PERSPECTIVE;
+    const float w = is_cone ? dot3(v->back, sub3(v->eye, from)) : 1.0f;
+    const float moved = is_cone ? dot3(v->back, sub3(v->eye, to)) : 1.0f;
+    return moved > 0.5f * w && length3(sub3(to, from)) * GRAZE < 2.0f * v->half_width / (float)size * w;
+}
+
+/* A texel of the tree from a pixel of the map near its middle: there, or at the pixel where its plane is edge-on. */
 static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_light_map *coarse,
                       int32_t face, int32_t x, int32_t y)
 {
@@ -53,11 +64,12 @@ static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light 
     }
     lmb_light_texel_power(power, light, coarse, face, x, y);
     out->normal = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
-    out->position =
-        footprint_over(v, vec3(t->position[0][k], t->position[1][k], t->position[2][k]), out->normal,
-             ((float)(2 * x + 1) / size - 1.0f) * v->half_width, (1.0f - (float)(2 * y + 1) / size) * v->half_height);
+    const lmb_vec3 at = tile_vec(t->position, k);
+    const lmb_vec3 moved = footprint_over(v, at, out->normal, ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
+                                          (1.0f - (float)(2 * y + 1) / size) * v->half_height);
+    out->position = is_near_by(v, at, moved, coarse->size) ? moved : at;
     for (int c = 0; c < 3; ++c) {
-        out->flux[c] = power[c] * t->albedo[c][k];
+        out->flux[c] = flux_or_none(power[c] * t->albedo[c][k]);
     }
 }
 

@@ -86,6 +86,9 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
                          int32_t y);
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y);
 
+/* Under 2^-80 W is nothing, as in a light's map: what flux divides stays finite, and kernels meet no denormal. */
+static inline float flux_or_none(float w) { return w < 8.2718061e-25f ? 0.0f : w; }
+
 static inline float flux_sum(const float flux[3]) { return flux[0] + flux[1] + flux[2]; }
 
 #endif

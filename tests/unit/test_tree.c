@@ -452,6 +452,82 @@ static void check_folds(void)
     check_fold("flat, sun", sun(vec3(-0.3f, -1, -0.2f)), along);
 }
 
+/* --- coarser than the map ------------------------------------------------------------------------------------------ */
+
+/* A tree of one face from a map of `each` times its texels. */
+static void lit_coarse(const lmb_light *light, int32_t each)
+{
+    const int32_t size = LIT_SIDE / each;
+    lit_begin(1, size, NOISE);
+    CHECK(lmb_light_map_init(&lit_map, light, &world.scene, LIT_SIDE, LMB_ID32, lit_map_memory,
+                             sizeof lit_map_memory) == LMB_OK);
+    CHECK(lit_map.faces == 1);
+    lmb_light_map_clear(&lit_map);
+    CHECK(lmb_light_map_draw(&lit_map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lit_rows(light, 0, 0, LIT_SIDE / LMB_TILE) == LMB_OK);
+    lit_sum(0);
+    lit.faces = 1;
+}
+
+/* Lit texels in front of the light, within `reach` of the world's middle and in the plane they are on. */
+static void check_coarse(const char *name, lmb_light light, float reach)
+{
+    for (int32_t each = 1; each <= 8; each *= 2) {
+        uint32_t count = 0, strays = 0;
+        lit_coarse(&light, each);
+        for (int32_t i = 0; i < lit.size * lit.size; ++i) {
+            const lmb_texel *t = tree_texel(&lit, 0, i % lit.size, i / lit.size);
+            const float ahead = dot3(light.direction, sub3(t->position, light.position));
+            if (flux_sum(t->flux) > 0.0f) {
+                ++count;
+                strays += !(largest3(t->position) <= reach) || (light.kind == LMB_LIGHT_SPOT && !(ahead > 0.0f));
+            }
+        }
+        CHECK_MSG(count > 200 && strays == 0, "%s, a %d-th: %u of %u texels astray", name, (int)each, (unsigned)strays,
+                  (unsigned)count);
+    }
+}
+
+/* Planes whose horizon the light sees, or that it sees edge-on: texels moved to their middles stay on this side of it. */
+static void check_horizons(void)
+{
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 5000), mul3(X, 5000));
+    CHECK(world_end() == LMB_OK);
+    for (int i = 0; i < 12; ++i) {
+        check_coarse("street lamp", spot(vec3(0, 2, 0), vec3(0.3f, -0.05f * (float)i, 1), 20, 45), 10000.0f);
+    }
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 4), mul3(X, 4));
+    world_quad(vec3(0, 2, 4), mul3(X, 4), mul3(Y, 4));
+    CHECK(world_end() == LMB_OK);
+    for (int i = 0; i < 12; ++i) {
+        check_coarse("lamp on a wall", spot(vec3(0, 0.01f, 0), vec3(0.3f, 0.03f * (float)i, 1), 20, 45), 8.0f);
+        check_coarse("sun along a wall", sun(vec3(0.0001f * (float)i, -1, 0.00002f)), 8.0f);
+    }
+}
+
+/* What is all but black is black: sums of it would be 0 / 0. */
+static void check_dim(void)
+{
+    static const float albedo[] = {1e-10f, 1e-20f, 1e-30f, 1e-38f, 1e-42f};
+    for (int i = 0; i < COUNT(albedo); ++i) {
+        const lmb_light light = point_light(vec3(0.1f, 0.2f, 0.3f));
+        make_room(0);
+        for (int c = 0; c < 3; ++c) {
+            world.material[0].albedo[c] = albedo[i];
+        }
+        lit_by(&light);
+        for (uint32_t f = 0; f < lit.faces; ++f) {
+            const lmb_node root = lit_node(f, 0, 0, tree_root_level(&lit));
+            CHECK_MSG(largest3(root.centre) <= 1.001f && root.centre.x == root.centre.x, "albedo %g: centre %g",
+                      (double)albedo[i], (double)root.centre.x);
+            CHECK(i > 0 || flux_sum(root.flux) > 0.0f);
+            CHECK(flux_sum(root.flux) == 0.0f || flux_sum(root.flux) > 1e-25f);
+        }
+    }
+}
+
 void test_tree(void)
 {
     check_energy();
@@ -462,4 +538,6 @@ void test_tree(void)
     check_order(point_light(vec3(0.1f, 0.3f, -0.1f)));
     check_refused();
     check_folds();
+    check_horizons();
+    check_dim();
 }
