@@ -104,7 +104,7 @@ lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_receiver
 {
     lmb_status status = LMB_OK;
     if (elements == NULL || elements->data == NULL || elements->tree.element == NULL || !is_ready(receiver) ||
-        cutting == NULL || first < 0 || past > lmb_elements_tiles(elements)) {
+        cutting == NULL || first < 0 || past < first || past > lmb_elements_tiles(elements)) {
         return LMB_ERR_ARG;
     }
     const uint32_t end = minu((uint32_t)past * LMB_TILE_PIXELS, elements->count);

@@ -363,6 +363,8 @@ static void test_refusals(void)
     const int32_t tiles = lmb_elements_tiles(&f.elements);
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, tiles + 1) == LMB_ERR_ARG);
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, -1, tiles) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 1, 0) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, -1) == LMB_ERR_ARG);
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, NULL, 0, tiles) == LMB_ERR_ARG);
     CHECK(lmb_elements_receive(&f.elements, NULL, NULL, &cutting, 0, tiles) == LMB_ERR_ARG);
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, tiles) == LMB_OK);
