@@ -24,7 +24,7 @@
 #endif
 #endif
 
-/* Nodes of one tile's cut through the light's tree (lmb_cut). 20 bytes each. Full: the tile is lit by the nodes it has,
+/* Nodes of one tile's cut through the light's tree (lmb_cut). 32 bytes each. Full: the tile is lit by the nodes it has,
  * coarser than asked for. At least 6 x LMB_MAX_LIGHTS: every face of every map has its root in it. */
 #ifndef LMB_MAX_CUT
 #ifdef LMB_CONFIG_TINY

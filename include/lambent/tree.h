@@ -101,7 +101,8 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
  *
  * The tile is split by surfaces; each takes its own cut: the node with the largest error is replaced by its four until
  * the errors' sum is at most cutting->error of the sum of what they give, or LMB_MAX_CUT nodes are reached. A node's
- * error is the most it can give, times the second order of its size and bend: U min(1, R^2 / d^2 + sin^2 a).
+ * error is the most it can give, times the second order of its size and bend: U min(1, R^2 / 2 d^2 + sin^2 a), and at
+ * least a quarter of it where a horizon goes through the node.
  * Visibility: each node's own texel, from every pixel. Texels near a pixel count as their exact quads.
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,

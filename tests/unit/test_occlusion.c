@@ -162,6 +162,47 @@ static void capacities(void)
     CHECK(lmb_blockers_build(NULL, &world.scene) == LMB_ERR_ARG);
 }
 
+/* Fives of triangles far apart take more nodes than there are: the rest lies in large boxes, with the same answers. And
+ * these do not depend on what blocked before, be it right or wrong. */
+static void few_nodes(void)
+{
+    test_rng r = {31};
+    int wrong = 0, blocked = 0, other = 0;
+    lmb_last_blockers last;
+    memset(&last, 0, sizeof last);
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 256; ++i) { /* a grid: sixteen in each box of the root, one in each of theirs */
+        const lmb_vec3 at = vec3((float)(i % 16) / 8.0f - 1.0f, (float)(i / 16) / 8.0f - 1.0f, 0.0f);
+        for (int k = 0; k < 5; ++k) {
+            world_triangle(add3(at, random_point(&r, 0.05f)), add3(at, random_point(&r, 0.05f)),
+                           add3(at, random_point(&r, 0.05f)));
+        }
+    }
+    lmb_blockers b = blockers_of_world(), all = b;
+    CHECK_MSG(b.node_count == b.node_cap, "%u of %u nodes", (unsigned)b.node_count, (unsigned)b.node_cap);
+    static lmb_boxes one; /* everything in one box */
+    all.node = &one;
+    memset(&one, 0, sizeof one);
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            one.low[c][i] = i == 0 ? -9.0f : 3e38f;
+            one.high[c][i] = i == 0 ? 9.0f : -3e38f;
+        }
+    }
+    one.count[0] = b.triangle_count;
+    for (int round = 0; round < 60; ++round) {
+        lmb_tile tile;
+        const lmb_vec3 at = random_point(&r, 1.5f);
+        fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
+        const uint64_t got = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, NULL);
+        wrong += got != lmb_blocked_tile(&all, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, NULL);
+        other += got != lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, &last);
+        blocked += got != 0 && ~got != 0;
+    }
+    CHECK_MSG(wrong == 0 && other == 0 && blocked > 10, "%d and %d of 60 wrong, %d mixed", wrong, other, blocked);
+    CHECK(last.triangle[0] != 0);
+}
+
 /* A masked triangle blocks where it stands. */
 static void holes(void)
 {
@@ -191,5 +232,6 @@ void test_occlusion(void)
     every_triangle();
     no_gap_no_acne();
     capacities();
+    few_nodes();
     holes();
 }
