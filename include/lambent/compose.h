@@ -22,7 +22,8 @@ extern "C" {
  * pixel's surface. Equal samples give exactly their value.
  *
  *   inout  the light at the pixels of `known`, which lmb_sparse_pixels gave.
- * Returns the pixels, a bit each, whose samples differ by more than 40 %: they are not set, but to be gathered. */
+ * Returns the pixels, a bit each, whose samples differ by more than 40 %: they are not set, but to be gathered. Both
+ * calls: none for null. */
 uint64_t lmb_sparse_pixels(const lmb_tile *tile, int32_t step);
 uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t known, int32_t step);
 

@@ -124,7 +124,7 @@ lmb_status lmb_many_init(lmb_many *out, uint32_t cells, lmb_vec3 low, lmb_vec3 h
  *
  * What lmb_many_build makes of them depends on the lights alone, not on their order or on the slices they come in.
  * Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY where the sum of intensities passes 4 to 8 times `most`, or a light
- * has 2 to 4 times that in a channel: those before are in.
+ * has 2 to 4 times `most` in a channel: those before are in.
  * Cost: about 100 ns a light. */
 lmb_status lmb_many_add(lmb_many *inout, const lmb_light *lights, uint32_t count);
 

@@ -72,7 +72,7 @@ uint64_t lmb_sparse_pixels(const lmb_tile *tile, int32_t step)
 {
     const grid *g = grid_of(step);
     uint64_t out = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+    for (int k = 0; tile != NULL && k < LMB_TILE_PIXELS; ++k) {
         if (tile->id[k] != 0 && (g == NULL || is_sample(g, k) || !(between_of(g, tile, k).sum >= ENOUGH))) {
             out |= (uint64_t)1 << k;
         }
@@ -121,6 +121,9 @@ uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t
 {
     const grid *g = grid_of(step);
     uint64_t uneven = 0;
+    if (inout == NULL || tile == NULL) {
+        return 0;
+    }
     for (int k = 0; g != NULL && k < LMB_TILE_PIXELS; ++k) {
         if (tile->id[k] != 0 && (known >> k & 1u) == 0) {
             const between b = between_of(g, tile, k);

@@ -140,7 +140,7 @@ uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kerne
     lmb_segments segments;
     int count = 1, leaves = 0;
     walk w = {blockers, kernels, tile, at, last, pixels};
-    if (pixels == 0 || blockers->node_count == 0) {
+    if (blockers == NULL || kernels == NULL || tile == NULL || pixels == 0 || blockers->node_count == 0) {
         return 0;
     }
     if (ask_last(&w)) {

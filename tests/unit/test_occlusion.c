@@ -156,6 +156,9 @@ static void capacities(void)
     CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9)) == LMB_OK);
     CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
     CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), NULL) == 5);
+    CHECK(lmb_blocked_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), NULL) == 0);
+    CHECK(lmb_blocked_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), NULL) == 0);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), NULL) == 0);
     CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9) - 1) == LMB_ERR_CAPACITY);
     CHECK(lmb_blockers_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_blockers_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);

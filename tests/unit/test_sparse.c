@@ -215,6 +215,8 @@ static void compare_frames(int32_t step)
 static void refused(void)
 {
     lmb_frame f = frame_of(full, 3);
+    CHECK(lmb_sparse_pixels(NULL, 2) == 0 && lmb_sparse_pixels(NULL, 1) == 0);
+    CHECK(lmb_upsample_tile(NULL, &tile, 0, 2) == 0 && lmb_upsample_tile(&light, NULL, 0, 2) == 0);
     CHECK(lmb_render_begin(&render, &f) == LMB_ERR_ARG);
     f.gather_step = -1;
     CHECK(lmb_render_begin(&render, &f) == LMB_ERR_ARG);
