@@ -7,6 +7,7 @@
 #include "../base/vec.h"
 
 #define TILE_COS_25 0.90630779f
+#define TILE_GAP    0.6f /* two parts with a gap of the rest are two surfaces */
 #define TILE_FLAT   0.5f /* height over a surface's first pixel, of the distance to it */
 
 static inline lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
@@ -21,8 +22,20 @@ static inline uint64_t tile_pixels(const lmb_tile *tile)
     return out;
 }
 
-/* Of the pixels left, those on the surface of the first: normals within 25 degrees, near its plane. */
-static inline uint64_t tile_surface(const lmb_tile *tile, uint64_t left)
+/* The box of their positions; of none, one that holds nothing. */
+static inline void tile_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_tile *tile, uint64_t pixels)
+{
+    *low = vec3(3e38f, 3e38f, 3e38f);
+    *high = vec3(-3e38f, -3e38f, -3e38f);
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const lmb_vec3 p = tile_vec(tile->position, lowest_bit_64(bits));
+        *low = min3(*low, p);
+        *high = max3(*high, p);
+    }
+}
+
+/* Of the pixels left, those on the plane of the first: normals within 25 degrees. */
+static inline uint64_t tile_plane(const lmb_tile *tile, uint64_t left)
 {
     const int first = lowest_bit_64(left);
     const lmb_vec3 at = tile_vec(tile->position, first), n = tile_vec(tile->face, first);
@@ -38,16 +51,41 @@ static inline uint64_t tile_surface(const lmb_tile *tile, uint64_t left)
     return out;
 }
 
-/* The box of their positions; of none, one that holds nothing. */
-static inline void tile_box(lmb_vec3 *low, lmb_vec3 *high, const lmb_tile *tile, uint64_t pixels)
+/* Of some pixels, those nearer to the first than to the one farthest from it. */
+static inline uint64_t tile_near_half(const lmb_tile *tile, uint64_t pixels)
 {
-    *low = vec3(3e38f, 3e38f, 3e38f);
-    *high = vec3(-3e38f, -3e38f, -3e38f);
+    const lmb_vec3 first = tile_vec(tile->position, lowest_bit_64(pixels));
+    lmb_vec3 far = first;
+    uint64_t out = 0;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        const lmb_vec3 p = tile_vec(tile->position, lowest_bit_64(bits));
-        *low = min3(*low, p);
-        *high = max3(*high, p);
+        const lmb_vec3 p = tile_vec(tile->position, lowest_bit_64(bits)), d = sub3(p, first), e = sub3(far, first);
+        far = dot3(d, d) > dot3(e, e) ? p : far;
     }
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 p = tile_vec(tile->position, k), d = sub3(p, first), e = sub3(p, far);
+        out |= (uint64_t)(dot3(d, d) <= dot3(e, e)) << k;
+    }
+    return out;
+}
+
+static inline float tile_extent(const lmb_tile *tile, uint64_t pixels)
+{
+    lmb_vec3 low, high;
+    tile_box(&low, &high, tile, pixels);
+    return pixels != 0 ? length3(sub3(high, low)) : 0.0f;
+}
+
+/* Of the pixels left, those on one surface with the first: on its plane, and no wide gap between. What is asked of a
+ * surface is asked of its box: a floor before and behind a table would ask it of the table's place too. */
+static inline uint64_t tile_surface(const lmb_tile *tile, uint64_t left)
+{
+    uint64_t out = tile_plane(tile, left), half = tile_near_half(tile, out);
+    while (tile_extent(tile, half) + tile_extent(tile, out & ~half) < TILE_GAP * tile_extent(tile, out)) {
+        out = half;
+        half = tile_near_half(tile, out);
+    }
+    return out;
 }
 
 #endif
