@@ -35,6 +35,12 @@ static inline int wants_elements(const lmb_render *r)
     return wants_cut(f) && f->elements.data != NULL && (f->bounces > 1 || r->shines);
 }
 
+/* Is there another bounce to go, of those by elements? */
+static inline int has_bounces(const lmb_render *r)
+{
+    return wants_elements(r) && r->light + 1 < (uint32_t)r->frame.bounces;
+}
+
 /* The depth map that occludes, or NULL. */
 static inline const lmb_surface *occluding_depth(const lmb_frame *f)
 {

@@ -1,0 +1,126 @@
+/* begin.c: the start of a frame, or of another picture by the same light. Floor 8.                         [V31 V33] */
+#include <string.h>
+
+#include "stages.h"
+#include "wants.h"
+
+#define STEPS 12
+#define SHARE 0.02f
+
+static int shines(const lmb_scene *scene)
+{
+    int any = 0;
+    for (uint32_t i = 0; i < scene->material_count; ++i) {
+        const float *e = scene->materials[i].emission;
+        any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
+    }
+    return any;
+}
+
+/* Share the map memory out: one light's map after another. */
+static lmb_status place_maps(lmb_render *r)
+{
+    const lmb_frame *f = &r->frame;
+    uint8_t *place = (uint8_t *)f->map_memory;
+    size_t left = f->map_bytes;
+    for (uint32_t i = 0; i < f->scene->light_count; ++i) {
+        const lmb_light *light = &f->scene->lights[i];
+        size_t need = lmb_light_map_bytes(lmb_light_map_faces(light), f->light_map, f->id_format);
+        lmb_status status = lmb_light_map_init(&r->maps[i], light, f->scene, f->light_map, f->id_format, place, left);
+        if (status != LMB_OK) {
+            return status;
+        }
+        place += need;
+        left -= need;
+    }
+    return LMB_OK;
+}
+
+/* Where a picture's numbers are 0. */
+static void set_defaults(lmb_frame *f)
+{
+    f->steps = f->steps != 0 ? f->steps : STEPS;
+    f->error = f->error != 0.0f ? f->error : SHARE;
+    f->visible = f->visible != 0.0f ? f->visible : SHARE;
+    f->gather_step = f->gather_step != 0 && wants_bounce(f) ? f->gather_step : 1;
+}
+
+lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
+{
+    if (r == NULL || frame == NULL) {
+        return LMB_ERR_ARG;
+    }
+    memset(r, 0, sizeof *r);
+    r->frame = *frame;
+    lmb_frame *f = &r->frame;
+    f->id_format = f->id_format != 0 ? f->id_format : LMB_ID32;
+    f->bounces = f->bounces != 0 ? f->bounces : 1;
+    set_defaults(f);
+    f->tree.faces = 0;
+    f->points.count = 0;
+    f->points.faces = 0;
+    f->points.owner_count = 0;
+    lmb_status status = lmb_render_check(f);
+    if (status == LMB_OK) {
+        status = place_maps(r);
+    }
+    r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
+    r->shines = status == LMB_OK && shines(f->scene);
+    r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
+    r->failed = status;
+    return status;
+}
+
+/* What belongs to the picture, not to the light. */
+static void set_picture(lmb_frame *f, const lmb_frame *from)
+{
+    f->kernels = from->kernels;
+    f->view = from->view;
+    f->show = from->show;
+    f->occlusion = from->occlusion;
+    f->steps = from->steps;
+    f->error = from->error;
+    f->visible = from->visible;
+    f->many_error = from->many_error;
+    f->gather_step = from->gather_step;
+    f->exposure_ev = from->exposure_ev;
+    f->eye = from->eye;
+    f->eye_depth = from->eye_depth;
+    f->scratch = from->scratch;
+    f->out = from->out;
+    f->callback = from->callback;
+    f->user = from->user;
+    f->stats = from->stats;
+}
+
+/* Was what the picture asks for solved with the light? Groups or a tree; the tree of blockers. */
+static int is_solved(const lmb_frame *f, const lmb_frame *before)
+{
+    const int exact = wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT;
+    return (!wants_bounce(f) || wants_bounce(before)) &&
+           (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->blockers.node_count > 0);
+}
+
+lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame)
+{
+    lmb_frame f;
+    if (r == NULL || frame == NULL || (r->failed == LMB_OK && r->stage < LMB_STAGE_VIEW)) {
+        return LMB_ERR_ARG;
+    }
+    if (r->failed != LMB_OK) {
+        return r->failed;
+    }
+    f = r->frame;
+    set_picture(&f, frame);
+    set_defaults(&f);
+    lmb_status status = lmb_render_check(&f);
+    if (status == LMB_OK && !is_solved(&f, &r->frame)) {
+        status = LMB_ERR_ARG;
+    }
+    if (status == LMB_OK) {
+        r->frame = f;
+        r->stage = LMB_STAGE_VIEW;
+        r->light = r->face = r->place = 0;
+    }
+    return status;
+}

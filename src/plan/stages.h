@@ -1,0 +1,67 @@
+/* stages.h: what the files of this room ask of each other. Floor 8. */
+#ifndef LMB_PLAN_STAGES_H
+#define LMB_PLAN_STAGES_H
+
+#include <lambent/render.h>
+
+/* A build without trees refuses frames that ask for them (lmb_render_check), so none of these is ever called. */
+#if !LMB_TREES
+#undef lmb_gather_cut
+#undef lmb_many_direct_tile
+#define lmb_gather_cut(...)       LMB_ERR_ARG
+#define lmb_many_direct_tile(...) LMB_ERR_ARG
+#define lmb_blockers_build(...)   LMB_ERR_ARG
+#define lmb_tree_sum(...)         LMB_ERR_ARG
+#define lmb_tree_texels(...)      LMB_ERR_ARG
+#define lmb_elements_build(...)   LMB_ERR_ARG
+#define lmb_elements_receive(...) LMB_ERR_ARG
+#define lmb_elements_send(...)    LMB_ERR_ARG
+#define lmb_elements_tiles(...)   0
+#endif
+
+#define UNIT_TRIANGLES 1024u /* of a draw, for one unit of a step's work */
+
+static inline int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
+
+/* --- is it sound? ------------------------------------------------------------------------------------------------- */
+
+lmb_status lmb_render_check(const lmb_frame *frame);
+
+/* The picture's surface: of the whole frame, or of one band. */
+lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *view);
+
+/* --- stages ------------------------------------------------------------------------------------------------------- */
+
+/* A step does up to `units` of the stage at hand, moves r->light, face and place on, and returns LMB_MORE, LMB_OK when
+ * the stage is complete, or an error. A part is what lmb_render_part says, of the stage at hand. */
+
+/* LMB_STAGE_LIGHT_MAP .. LMB_STAGE_BOUNCES. */
+lmb_status lmb_render_solve(lmb_render *r, int32_t units);
+lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
+                                 lmb_stats *stats);
+
+/* All parts at hand are done: LMB_MORE where the stage has another face or bounce. */
+lmb_status lmb_render_solve_on(lmb_render *r, int32_t parts);
+
+/* LMB_STAGE_VIEW. */
+lmb_status lmb_render_view(lmb_render *r, int32_t units);
+lmb_status lmb_render_view_part(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats);
+
+/* LMB_STAGE_BANDS. */
+lmb_status lmb_render_bands(lmb_render *r, int32_t units);
+
+/* --- of a band ---------------------------------------------------------------------------------------------------- */
+
+/* Depth and ids of the band: in the whole frame's target, or drawn at once into a band-sized one. */
+lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *eye, int32_t band);
+
+/* Add the bounced light of a tile's pixels. LMB_OK, or what the gather returns. */
+lmb_status lmb_render_gather(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *scratch,
+                             const lmb_tile *tile);
+
+/* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on. r->frame.gather_step is 2
+ * or 4. scratch->tile is written. */
+lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *target, int32_t x,
+                            int32_t y, int32_t tiles);
+
+#endif
