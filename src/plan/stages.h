@@ -6,17 +6,18 @@
 
 /* A build without trees refuses frames that ask for them (lmb_render_check), so none of these is ever called. */
 #if !LMB_TREES
+#define never(call) ((void)sizeof(call), LMB_ERR_ARG)
 #undef lmb_gather_cut
 #undef lmb_many_direct_tile
-#define lmb_gather_cut(...)       LMB_ERR_ARG
-#define lmb_many_direct_tile(...) LMB_ERR_ARG
-#define lmb_blockers_build(...)   LMB_ERR_ARG
-#define lmb_tree_sum(...)         LMB_ERR_ARG
-#define lmb_tree_texels(...)      LMB_ERR_ARG
-#define lmb_elements_build(...)   LMB_ERR_ARG
-#define lmb_elements_receive(...) LMB_ERR_ARG
-#define lmb_elements_send(...)    LMB_ERR_ARG
-#define lmb_elements_tiles(...)   0
+#define lmb_gather_cut(...)       never(LMB_LAYOUT(lmb_gather_cut)(__VA_ARGS__))
+#define lmb_many_direct_tile(...) never(LMB_LAYOUT(lmb_many_direct_tile)(__VA_ARGS__))
+#define lmb_blockers_build(...)   never(lmb_blockers_build(__VA_ARGS__))
+#define lmb_tree_sum(...)         never(lmb_tree_sum(__VA_ARGS__))
+#define lmb_tree_texels(...)      never(lmb_tree_texels(__VA_ARGS__))
+#define lmb_elements_build(...)   never(lmb_elements_build(__VA_ARGS__))
+#define lmb_elements_receive(...) never(lmb_elements_receive(__VA_ARGS__))
+#define lmb_elements_send(...)    never(lmb_elements_send(__VA_ARGS__))
+#define lmb_elements_tiles(...)   never(lmb_elements_tiles(__VA_ARGS__))
 #endif
 
 #define UNIT_TRIANGLES 1024u /* of a draw, for one unit of a step's work */
