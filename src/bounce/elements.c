@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "../base/memory_check.h"
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../base/vertex.h"
@@ -33,14 +34,12 @@ size_t lmb_elements_bytes(uint32_t n)
 lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t bytes)
 {
     const size_t needed = lmb_elements_bytes(n);
-    if (out == NULL || memory == NULL || needed == 0) {
+    if (out == NULL || needed == 0) {
         return LMB_ERR_ARG;
     }
-    if ((uintptr_t)memory % 4 != 0) {
-        return LMB_ERR_ALIGN;
-    }
-    if (bytes < needed) {
-        return LMB_ERR_CAPACITY;
+    const lmb_status status = check_memory(memory, bytes, needed);
+    if (status != LMB_OK) {
+        return status;
     }
     memset(out, 0, sizeof *out);
     out->data = (lmb_element *)memory;

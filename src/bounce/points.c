@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "footprint.h"
 #include "points.h"
@@ -25,14 +26,12 @@ size_t lmb_points_bytes(uint32_t n, uint32_t side)
 
 lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *memory, size_t bytes)
 {
-    if (out == NULL || memory == NULL || n == 0 || side == 0 || side > LMB_MAX_SIDE) {
+    if (out == NULL || n == 0 || side == 0 || side > LMB_MAX_SIDE) {
         return LMB_ERR_ARG;
     }
-    if ((uintptr_t)memory % 4 != 0) {
-        return LMB_ERR_ALIGN;
-    }
-    if (lmb_points_bytes(n, side) == 0 || bytes < lmb_points_bytes(n, side)) {
-        return LMB_ERR_CAPACITY;
+    const lmb_status status = check_memory(memory, bytes, lmb_points_bytes(n, side));
+    if (status != LMB_OK) {
+        return status;
     }
     memset(out, 0, sizeof *out);
     out->data = (lmb_point *)memory;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "../raster/tile.h"
 #include "footprint.h"
@@ -20,14 +21,12 @@ size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes)
 {
     const size_t needed = lmb_tree_bytes(faces, size);
-    if (out == NULL || memory == NULL || needed == 0) {
+    if (out == NULL || needed == 0) {
         return LMB_ERR_ARG;
     }
-    if ((uintptr_t)memory % 4 != 0) {
-        return LMB_ERR_ALIGN;
-    }
-    if (bytes < needed) {
-        return LMB_ERR_CAPACITY;
+    const lmb_status status = check_memory(memory, bytes, needed);
+    if (status != LMB_OK) {
+        return status;
     }
     memset(out, 0, sizeof *out);
     out->size = size;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "../base/memory_check.h"
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../raster/target.h"
@@ -108,24 +109,22 @@ static void fit_views(lmb_light_map *map, const lmb_light *light, const lmb_scen
 lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
                               int32_t id_format, void *memory, size_t bytes)
 {
-    if (out == NULL || light == NULL || scene == NULL || memory == NULL || !is_map(size, id_format)) {
+    if (out == NULL || light == NULL || scene == NULL || !is_map(size, id_format)) {
         return LMB_ERR_ARG;
-    }
-    if ((uintptr_t)memory % 4 != 0) {
-        return LMB_ERR_ALIGN;
     }
     size_t depth_bytes = lmb_surface_bytes(LMB_DEPTH32F, size, size),
            id_bytes = lmb_surface_bytes(id_format, size, size);
     int32_t faces = lmb_light_map_faces(light);
-    if (bytes < (size_t)faces * (depth_bytes + id_bytes)) {
-        return LMB_ERR_CAPACITY;
+    lmb_status status = check_memory(memory, bytes, (size_t)faces * (depth_bytes + id_bytes));
+    if (status != LMB_OK) {
+        return status;
     }
     memset(out, 0, sizeof *out);
     out->faces = faces;
     out->size = size;
     for (int32_t f = 0; f < faces; ++f) {
         uint8_t *place = (uint8_t *)memory + (size_t)f * (depth_bytes + id_bytes);
-        lmb_status status = lmb_surface_init(&out->face[f].depth, LMB_DEPTH32F, size, size, place, depth_bytes);
+        status = lmb_surface_init(&out->face[f].depth, LMB_DEPTH32F, size, size, place, depth_bytes);
         if (status == LMB_OK) {
             status = lmb_surface_init(&out->face[f].id, id_format, size, size, place + depth_bytes, id_bytes);
         }

@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "../raster/triangle.h"
 #include "walk.h"
@@ -22,14 +23,12 @@ size_t lmb_blockers_bytes(uint32_t n)
 
 lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t bytes)
 {
-    if (out == NULL || memory == NULL || n == 0 || n > LMB_MAX_TRIANGLES / 2) {
+    if (out == NULL || n == 0 || n > LMB_MAX_TRIANGLES / 2) {
         return LMB_ERR_ARG;
     }
-    if ((uintptr_t)memory % 4 != 0) {
-        return LMB_ERR_ALIGN;
-    }
-    if (lmb_blockers_bytes(n) == 0 || bytes < lmb_blockers_bytes(n)) {
-        return LMB_ERR_CAPACITY;
+    const lmb_status status = check_memory(memory, bytes, lmb_blockers_bytes(n));
+    if (status != LMB_OK) {
+        return status;
     }
     memset(out, 0, sizeof *out);
     out->node = (lmb_boxes *)memory;
@@ -40,7 +39,6 @@ lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t
 }
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
-
 
 /* 1 where the triangle can block. */
 static int take_triangle(lmb_blocker *out, const lmb_triangle *t)

@@ -1,0 +1,19 @@
+/* memory_check.h: may arrays lie in the memory that a caller gave? Floor 1. */
+#ifndef LMB_BASE_MEMORY_CHECK_H
+#define LMB_BASE_MEMORY_CHECK_H
+
+#include <lambent/types.h>
+
+/* For arrays of 32-bit numbers. needed 0: more than this machine can address. */
+static inline lmb_status check_memory(const void *memory, size_t bytes, size_t needed)
+{
+    if (memory == NULL) {
+        return LMB_ERR_ARG;
+    }
+    if ((uintptr_t)memory % 4 != 0) {
+        return LMB_ERR_ALIGN;
+    }
+    return needed == 0 || bytes < needed ? LMB_ERR_CAPACITY : LMB_OK;
+}
+
+#endif
