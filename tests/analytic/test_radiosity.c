@@ -3,41 +3,20 @@
  * In a closed room whose walls all reflect rho, light of power P makes them send P rho^k at the k-th reflection, so all
  * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls shine alike, every point sends the same: N bounces
  * are L (1 - rho^(N + 1)) / (1 - rho) everywhere. What is sealed off stays dark. */
+enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BLOCKERS = 64, BOUNCES = 12 };
+
+#include "../bounce_frame.h"
 #include "facing.h"
 
 void test_radiosity(void);
 
-enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BLOCKERS = 64, BOUNCES = 12 };
-
 static const float rho = 0.5f;
-
-static uint32_t map_memory[FACES * MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
-static uint32_t tree_memory[FACES * (MAP * MAP * 16 + 64)], blocker_memory[BLOCKERS * 29 + 2048];
-static uint32_t element_memory[ELEMENTS * 40 + 64];
-static lmb_band_scratch scratch;
-static lmb_render render;
-static float picture[FRAME * FRAME * 3];
 
 static void draw_wide(lmb_vec3 from, lmb_vec3 to, double fov_deg, int32_t show, int32_t bounces)
 {
-    lmb_frame f;
-    memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
-    f.scene = &world.scene;
+    const lmb_view view = look(from, to, fov_deg, FRAME);
+    lmb_frame f = bounce_frame(&view, bounces);
     f.show = show;
-    f.light_map = MAP;
-    f.grouping.method = LMB_GROUP_CUT;
-    f.occlusion = LMB_OCCLUSION_EXACT;
-    f.bounces = bounces;
-    f.map_memory = map_memory;
-    f.map_bytes = sizeof map_memory;
-    f.scratch = &scratch;
-    f.view = look(from, to, fov_deg, FRAME);
-    f.eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
-    CHECK(lmb_tree_init(&f.tree, FACES, MAP, tree_memory, sizeof tree_memory) == LMB_OK);
-    CHECK(lmb_blockers_init(&f.blockers, BLOCKERS, blocker_memory, sizeof blocker_memory) == LMB_OK);
-    CHECK(lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory) == LMB_OK);
-    CHECK(lmb_surface_init(&f.out, LMB_RGB32F, FRAME, FRAME, picture, sizeof picture) == LMB_OK);
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
 }
 

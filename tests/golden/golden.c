@@ -379,13 +379,19 @@ static lmb_frame demo_frame(void)
     return f;
 }
 
+/* Drawn the way's way: its status and picture. */
+static uint64_t hash_frame(uint64_t h, const lmb_frame *f)
+{
+    lmb_status status = way->render(&memory.render, f);
+    return hash_surface(hash_u32(h, (uint32_t)status), &f->out);
+}
+
 static uint64_t case_show(int variant)
 {
     lmb_frame f = demo_frame();
     f.show = variant & 7;
     set_eye(&f.eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, variant & ~7);
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 static uint64_t case_occlusion(int variant)
@@ -393,8 +399,7 @@ static uint64_t case_occlusion(int variant)
     lmb_frame f = demo_frame();
     f.show = LMB_SHOW_INDIRECT;
     f.occlusion = variant;
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 /* Two eyes 12 cm apart, one light. Variant: occlusion. */
@@ -418,8 +423,7 @@ static uint64_t case_gather(int variant)
     lmb_frame f = demo_frame();
     f.show = LMB_SHOW_INDIRECT;
     f.gather_step = variant;
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 static uint64_t case_format(int variant)
@@ -428,8 +432,7 @@ static uint64_t case_format(int variant)
     lmb_frame f = demo_frame();
     f.exposure_ev = 0.5f;
     lmb_surface_init(&f.out, formats[variant], WIDTH, HEIGHT, memory.out, sizeof memory.out);
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 /* Lights all over the soup, in slices; among them clusters. */
@@ -476,8 +479,7 @@ static uint64_t case_many(int variant)
     if (variant == 0) { /* in the map's memory: there is none */
         lmb_blockers_init(&f.blockers, TRIANGLES, memory.map, sizeof memory.map);
     }
-    status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(h, (uint32_t)status), &f.out);
+    return hash_frame(h, &f);
 }
 
 /* --- cuts of the light's tree ------------------------------------------------------------------------------------- */
@@ -563,8 +565,7 @@ static uint64_t case_cut(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
     f.occlusion = variant;
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 /* Cuts of more nodes than the small configuration holds. */
@@ -572,8 +573,7 @@ static uint64_t case_full_cut(int variant)
 {
     lmb_frame f = soup_frame(1, TREE);
     f.occlusion = variant;
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 /* A spot and one so wide that a cube's faces serve it; the whole picture. */
@@ -590,8 +590,7 @@ static uint64_t case_cut_lights(int variant)
     f.show = LMB_SHOW_FULL;
     f.occlusion = variant;
     lmb_surface_clear(&f.out);
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 /* --- what does not fit: the status, and what is left -------------------------------------------------------------- */
@@ -635,8 +634,7 @@ static uint64_t case_full_frame(int variant)
     } else {
         lit.light_count = 2; /* one is all that the small configuration takes */
     }
-    lmb_status status = way->render(&memory.render, &f);
-    return hash_surface(hash_u32(hash_start, (uint32_t)status), &f.out);
+    return hash_frame(hash_start, &f);
 }
 
 /* As many groups as this configuration has, for discs that want more: zones, greedy, and one a disc. */

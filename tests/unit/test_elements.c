@@ -1,12 +1,10 @@
 /* test_elements.c: a scene as elements: all of its area, in any capacity; light from them the same in any steps, parts
  * and on any machine; what is refused. */
-#include "../world.h"
-
-void test_elements(void);
-
 enum { ELEMENTS = 1024, MAP = 32, FRAME = 24, FACES = 1, BLOCKERS = 64 };
 
-static uint32_t element_memory[ELEMENTS * 40 + 64];
+#include "../bounce_frame.h"
+
+void test_elements(void);
 
 static double area_of(uint32_t i)
 {
@@ -206,32 +204,12 @@ static void test_texture(void)
 
 /* --- frames ------------------------------------------------------------------------------------------------------- */
 
-static uint32_t map_memory[MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
-static uint32_t tree_memory[MAP * MAP * 16 + 64], blocker_memory[BLOCKERS * 29 + 2048];
-static lmb_band_scratch scratch;
-static lmb_render render;
-static float picture[FRAME * FRAME * 3], first_picture[FRAME * FRAME * 3];
+static float first_picture[FRAME * FRAME * 3];
 
 static lmb_frame make_frame(int32_t bounces)
 {
-    lmb_frame f;
-    memset(&f, 0, sizeof f);
-    f.kernels = lmb_kernels_pick();
-    f.scene = &world.scene;
-    f.light_map = MAP;
-    f.grouping.method = LMB_GROUP_CUT;
-    f.occlusion = LMB_OCCLUSION_EXACT;
-    f.bounces = bounces;
-    f.map_memory = map_memory;
-    f.map_bytes = sizeof map_memory;
-    f.scratch = &scratch;
-    f.view = look(vec3(0.2f, 0.3f, 0.9f), vec3(-0.1f, -0.2f, 0), 75, FRAME);
-    f.eye = target_of(LMB_DEPTH32F, FRAME, depth_memory, id_memory);
-    CHECK(lmb_tree_init(&f.tree, FACES, MAP, tree_memory, sizeof tree_memory) == LMB_OK);
-    CHECK(lmb_blockers_init(&f.blockers, BLOCKERS, blocker_memory, sizeof blocker_memory) == LMB_OK);
-    CHECK(lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory) == LMB_OK);
-    CHECK(lmb_surface_init(&f.out, LMB_RGB32F, FRAME, FRAME, picture, sizeof picture) == LMB_OK);
-    return f;
+    const lmb_view view = look(vec3(0.2f, 0.3f, 0.9f), vec3(-0.1f, -0.2f, 0), 75, FRAME);
+    return bounce_frame(&view, bounces);
 }
 
 static void make_room(int shines)
