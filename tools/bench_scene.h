@@ -32,9 +32,9 @@ typedef struct bench_scene {
     void *made;      /* colours, texels or quads */
 } bench_scene;
 
-/* bench_scene_load: `folder` has bunny.mesh and sponza.mesh (the fill cases need neither). A mesh file is little-endian:
- * vertex and triangle counts (uint32), then positions and normals (3 floats each), texture coordinates (2), indices
- * (3 uint32). 1, or 0 with `r` set and nothing allocated. */
+/* bench_scene_load: `folder` has bunny.mesh and sponza.mesh (the fill cases need neither). A mesh file is
+ * little-endian: vertex and triangle counts (uint32), then positions and normals (3 floats each), texture coordinates
+ * (2), indices (3 uint32). 1, or 0 with `r` set and nothing allocated. */
 int bench_scene_load(bench_scene *out, const bench_case *c, const char *folder, report *r);
 void bench_scene_free(bench_scene *s);
 

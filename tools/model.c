@@ -316,7 +316,7 @@ static int mesh_corners(lmb_vec3 corners[8], const lmb_mesh *mesh)
     return mesh->vertex_count > 0;
 }
 
-/* The scene's box. Of many placed vertices it is that of the meshes' boxes: a small file may place a large mesh often. */
+/* The scene's box: of many placed vertices that of the meshes' boxes, as a small file may place a large mesh often. */
 static int set_bounds(model_build *b)
 {
     lmb_scene *scene = &b->out->scene, boxes = *scene;

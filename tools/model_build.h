@@ -68,7 +68,7 @@ int build_is_relative(const char *name);
 /* build_sibling: the path of `name`, relative to the model's file; 0 with `r` set where it is longer than `cap`. */
 int build_sibling(char *out, size_t cap, const model_build *b, const char *name, report *r);
 
-/* build_picture: decode a picture of codes (PNG, JPEG, PPM, PGM), known by its content. The caller calls bitmap_free. */
+/* build_picture: decode a picture of codes (PNG, JPEG, PPM, PGM), known by its content; free it with bitmap_free. */
 int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size, const char *name, report *why);
 
 /* What an image's lower levels are means of; TEXELS_PLAIN has none. */

@@ -20,20 +20,24 @@ static const char usage_view[] =
     "  --camera NAME|N            one of the scene's cameras, by name or number from 0 (default: 0)\n"
     "  --eye X,Y,Z --target X,Y,Z [--up X,Y,Z] --fov DEG\n"
     "                             a camera of your own; fov is the vertical angle (default 45), up +Y\n"
-    "  --stereo METRES            two eyes that far apart, left | right side by side, each --size; one light serves both\n"
+    "  --stereo METRES            two eyes that far apart, left | right side by side, each --size; "
+    "one light serves both\n"
     "light\n"
     "  --light KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]\n"
     "                             instead of the scene's lights; may be repeated, lights add up. KIND is spot, point\n"
     "                             or sun; position in metres, direction of travel; W/sr, sun W/m2; a spot's half\n"
     "                             angles in degrees (default 0,45)\n"
-    "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, less for many lights)\n"
+    "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, "
+    "less for many lights)\n"
     "many lights\n"
-    "  --many-lights CELLS        point lights stream into at most CELLS cells of the world, and every 8x8 pixels take\n"
+    "  --many-lights CELLS        point lights stream into at most CELLS cells of the world, and "
+    "every 8x8 pixels take\n"
     "                             what they need of a tree over those: direct light, shadows by every triangle.\n"
     "                             Millions take the memory of thousands. By itself, with 16384 cells, where there are\n"
     "                             more than 128 lights\n"
     "  --light-error E            share of a pixel's light that one node of that tree may be wrong by (default 0.02)\n"
-    "  --bounce-lights N          lights with a map each that stand for the tree's when light bounces, 0 .. 128 (default\n"
+    "  --bounce-lights N          lights with a map each that stand for the tree's when light bounces, "
+    "0 .. 128 (default\n"
     "                             32)\n";
 
 static const char usage_bounce[] =
@@ -67,7 +71,8 @@ static const char usage_bounce[] =
     "                             world space (their default: view): it cannot know what is off screen or hidden\n"
     "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n"
     "  --gather full|half|quarter at every pixel (default), or at every second or fourth each way and between them\n"
-    "                             where surface and light go on; pixels that have no such neighbours are gathered too\n";
+    "                             where surface and light go on; pixels that have no such neighbours "
+    "are gathered too\n";
 
 static const char usage_more[] =
     "picture\n"
@@ -78,7 +83,8 @@ static const char usage_more[] =
     "                             is given); the number of the group that owns a texel, 0 dark, -1 dropped\n"
     "         occlusion           the share of the bounced light that --occlusion blocks\n"
     "                             Display formats scale distances, near is bright, and give each group a colour.\n"
-    "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). .pfm and .hdr stay linear\n"
+    "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). "
+    ".pfm and .hdr stay linear\n"
     "other\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
     "  --threads N                that draw at once; the picture does not depend on it (default: the processors)\n"
@@ -188,7 +194,8 @@ static int parse_light(const char *text, lmb_light *out)
     }
     length = length < 1e-20 ? 1.0 : length;
     out->position = (lmb_vec3){p[0], p[1], p[2]};
-    out->direction = (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length), (float)((double)d[2] / length)};
+    out->direction = (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length),
+                                (float)((double)d[2] / length)};
     memcpy(out->intensity, c, sizeof c);
     out->cos_inner = (float)cos((double)cone[0] * 3.14159265358979 / 180.0);
     out->cos_outer = (float)cos((double)cone[1] * 3.14159265358979 / 180.0);
@@ -198,7 +205,8 @@ static int parse_light(const char *text, lmb_light *out)
 static int parse_exposure(const char *text, render_options *o)
 {
     o->exposure_auto = strcmp(text, "auto") == 0;
-    return o->exposure_auto || (parse_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
+    return o->exposure_auto ||
+           (parse_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
 }
 
 static int parse_show(const char *text, render_options *o)
@@ -504,7 +512,8 @@ static int check_together(const render_options *o, report *r)
     }
     if ((o->grouping.method == LMB_GROUP_CUT) != (o->occlusion == LMB_OCCLUSION_EXACT) &&
         o->occlusion != LMB_OCCLUSION_NONE) {
-        return report_fail(r, "--occlusion exact goes with --grouping cut; view and view-world with zones, greedy, none");
+        return report_fail(r,
+                           "--occlusion exact goes with --grouping cut; view and view-world with zones, greedy, none");
     }
     return 1;
 }

@@ -67,7 +67,7 @@ enum { LMB_ZONES_STRICT = 1, /* discs that do not fit their zone's group are dro
                                   its way                                                              [V10] */ };
 #define LMB_MAX_THIN 64
 
-/* Level-2 groups, planar for the gather. Member discs of group k are points->data[first[k] .. first[k] + members[k]). */
+/* Level-2 groups, planar for the gather. Member discs of group k: points->data[first[k] .. first[k] + members[k]). */
 typedef struct lmb_groups {
     int32_t count;
     float position[3][LMB_MAX_GROUPS], normal[3][LMB_MAX_GROUPS]; /*                                   [V13 V18 V19] */
@@ -87,10 +87,10 @@ typedef struct lmb_occluder {
     int32_t steps;            /* samples along a segment, 1 .. 64 */
 } lmb_occluder;
 /* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps
- * of world space [V26]. Crossing is a change of side where the surface goes on. A segment that passes behind a silhouette
- * and comes out again is blocked if it came nearer to what hid it than half its hidden length: things are taken to be
- * about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off screen or hidden
- * does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
+ * of world space [V26]. Crossing is a change of side where the surface goes on. A segment that passes behind a
+ * silhouette and comes out again is blocked if it came nearer to what hid it than half its hidden length: things are
+ * taken to be about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off
+ * screen or hidden does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
 enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2,
        LMB_OCCLUSION_EXACT = 3 /* lmb_render with LMB_GROUP_CUT: all of the scene, see occlusion.h */ };
 

@@ -34,8 +34,8 @@
 #endif
 #endif
 
-/* Nodes of many lights' tree that a tile's surface takes at most. 16 bytes each, in lmb_many_scratch. Full: they part no
- * more, the error grows. */
+/* Nodes of many lights' tree that a tile's surface takes at most. 16 bytes each, in lmb_many_scratch. Full: they part
+ * no more, the error grows. */
 #ifndef LMB_MANY_CUT
 #ifdef LMB_CONFIG_TINY
 #define LMB_MANY_CUT 32

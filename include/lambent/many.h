@@ -134,8 +134,8 @@ lmb_status lmb_many_build(lmb_many *inout);
 /* lmb_many_lights: a few lights that stand for all, for what needs a map of each: light that bounces.            [V3]
  *
  *   out  up to `cap` point lights; cap is clamped to LMB_MAX_LIGHTS.
- * Each stands where one of its lights does, drawn by intensity, and has all of theirs. The node whose intensity x size^2
- * is largest parts, as long as its parts fit. Returns how many there are; 0 for null or an empty tree. */
+ * Each stands where one of its lights does, drawn by intensity, and has all of theirs. The node whose intensity x
+ * size^2 is largest parts, as long as its parts fit. Returns how many there are; 0 for null or an empty tree. */
 uint32_t lmb_many_lights(lmb_light *out, uint32_t cap, const lmb_many *many);
 
 /* lmb_many_direct_tile: add the direct irradiance of all lights to a tile's pixels.                        [V3 V29]
@@ -146,9 +146,9 @@ uint32_t lmb_many_lights(lmb_light *out, uint32_t cap, const lmb_many *many);
  *
  * The tile's pixels are split into surfaces; each takes its own cut. Nodes part until the sum of their bounds
  * I cos / d^2 x min(1, R^2 / d^2) is within 16 look->error of all light (R a node's half diagonal, d its least
- * distance; bounds are far from reached), and until none that has parts gives more than look->error of it. A node lights
- * each pixel by I cos / d^2 from the mean place of its lights; whether it is seen is asked of its strongest light and of one drawn
- * by intensity. A tile's surface whose four corners agree shares the answer.
+ * distance; bounds are far from reached), and until none that has parts gives more than look->error of it. A node
+ * lights each pixel by I cos / d^2 from the mean place of its lights; whether it is seen is asked of its strongest
+ * light and of one drawn by intensity. A tile's surface whose four corners agree shares the answer.
  * Measured in rooms with 100 to 1,000,000 lights (truth/many_lights_*): at 0.02 the picture's relative RMSE is 0.012 to
  * 0.014, at 0.01 0.007 to 0.010.
  * Returns LMB_OK or LMB_ERR_ARG. Stack: under 1 KiB. */

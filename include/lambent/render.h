@@ -71,7 +71,7 @@ typedef struct lmb_frame {
     float visible;         /* 0.02 where 0: LMB_OCCLUSION_EXACT: share that is seen or not as one */
     float many_error;      /* 0.02 where 0: lmb_many_look's */
     int32_t bounces;       /* 1 where 0: how often light is reflected before the surface that is seen; LMB_GROUP_CUT */
-    int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way, upsampled: see lmb_upsample_tile */
+    int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */

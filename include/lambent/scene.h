@@ -99,9 +99,10 @@ extern "C" {
 /* lmb_scene_check: is the scene safe to draw? Reads every struct (not the vertices; draws check each index).
  *
  * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles, negative albedo, emission or
- * intensity, direction not of unit length, cones not 0 < cos_outer <= cos_inner <= 1, bounds the wrong way round), LMB_ERR_ALIGN
- * (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown format, wrap, filter, light kind), LMB_ERR_SCENE (index
- * outside, ids not numbered in order). Call it once after loading; every other function takes the scene as checked. */
+ * intensity, direction not of unit length, cones not 0 < cos_outer <= cos_inner <= 1, bounds the wrong way round),
+ * LMB_ERR_ALIGN (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown format, wrap, filter, light kind),
+ * LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once after loading; every other function takes the
+ * scene as checked. */
 lmb_status lmb_scene_check(const lmb_scene *scene);
 
 /* lmb_scene_triangles: triangles over all instances of a checked scene; ids run 1 .. that. Cost: none. */

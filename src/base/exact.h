@@ -1,4 +1,4 @@
-/* exact.h: refuses builds whose bytes would differ, at compile time. lmb_build_check asks the rest at run time. Floor 1. */
+/* exact.h: refuses to compile where bytes would differ; lmb_build_check asks the rest at run time. Floor 1. */
 #ifndef LMB_BASE_EXACT_H
 #define LMB_BASE_EXACT_H
 

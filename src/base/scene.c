@@ -59,7 +59,8 @@ static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
         return LMB_ERR_ARG;
     if (m->emission[0] < 0.0f || m->emission[1] < 0.0f || m->emission[2] < 0.0f)
         return LMB_ERR_ARG;
-    if (!are_finite(m->albedo, 3) || !are_finite(m->emission, 3) || !is_finite(m->alpha) || !is_finite(m->alpha_cutoff) || !is_finite(m->normal_scale))
+    if (!are_finite(m->albedo, 3) || !are_finite(m->emission, 3) || !is_finite(m->alpha) ||
+        !is_finite(m->alpha_cutoff) || !is_finite(m->normal_scale))
         return LMB_ERR_ARG;
     if (m->normal_scale != 0.0f && m->normal_map >= texture_count)
         return LMB_ERR_SCENE;

@@ -1,10 +1,10 @@
 /* crease.c: where two planes show in one texel of a light's map: its sides, and its exact shape. Floor 6.       [V15]
  *
  * A texel's middle says which surface it shows; near an edge it shows two. Along the line through two texels' middles a
- * plane's 1 / w (from a light's place) or w (of a sun) is linear, so two planes meet where the difference is 0: there the
- * edge is, if it is between the middles. What one texel gains the other loses, and light through the map is conserved.
- * From afar a texel is a rectangle with sides there. From near it is what its plane shows of its own cell of the map and
- * of its neighbours', each cut along the lines where planes meet, however they run. */
+ * plane's 1 / w (from a light's place) or w (of a sun) is linear, so two planes meet where the difference is 0: there
+ * the edge is, if it is between the middles. What one texel gains the other loses: light through the map is conserved.
+ * From afar a texel is a rectangle with sides there. From near it is what its plane shows of its own cell of the map
+ * and of its neighbours', each cut along the lines where planes meet, however they run. */
 #include "tree.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
 /* cut.c: each tile of pixels takes its own cut through the light's tree, and is lit by it. Floor 6.    [V25 V27 V28]
  *
  * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines and the least distance d between its box
- * and the surface's. Seen as one disc it is wrong by second order in its size and bend: U min(1, R^2 / 2 d^2 + sin^2 a),
+ * and the surface's. Seen as one disc it is wrong by second order in size and bend: U min(1, R^2 / 2 d^2 + sin^2 a),
  * R half its box's diagonal, a the widest angle of its normals; by first order where a horizon goes through it. The
  * largest is divided first: buckets by exponent and first bit find it without sorting, in the same order everywhere. */
 #include <lambent/tree.h>
@@ -19,7 +19,7 @@
 #define INVERSE_PI   0.31830989f
 #define DARK         0.25        /* of `visible`: under this share of what nothing blocked, errors do not count */
 #define SECOND       0.5f  /* of R^2 / d^2: boxes hold whole texels, of which discs are right to second order already */
-#define TURNED       16.0f /* how much more a node counts that is asked at a point which faces away: its others may not */
+#define TURNED       16.0f /* how much more a node counts whose point that is asked faces away: its others may not */
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 
 /* The pixels of one surface in a tile. */
@@ -75,8 +75,8 @@ static weight weigh(const lmb_node *n, const lmb_texel *seen, const patch *p)
     }
     const lmb_vec3 apart =
         vec3(gap(to.x, half.x + p->half.x), gap(to.y, half.y + p->half.y), gap(to.z, half.z + p->half.z));
-    /* A node that holds the patch may give any amount: so much that it is divided first, but not so much that the sum of
-     * errors keeps the rounding of it when it is gone. */
+    /* A node that holds the patch may give any amount: so much that it is divided first, but not so much that the sum
+     * of errors keeps the rounding of it when it is gone. */
     const float d2 = maxf(dot3(apart, apart), maxf(1e-6f * dot3(half, half), 1e-12f)), d = sqrtf(d2);
     w.most = m * INVERSE_PI / d2 * minf(up / d, 1.0f) * minf(out / d, 1.0f);
     /* A node that a horizon goes through, the patch's or its own, is wrong by first order: of a quarter of U where its

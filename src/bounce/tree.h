@@ -75,9 +75,9 @@ static inline int tree_is_whole(const lmb_texel *t)
 /* Find the edges between a face's texels: sets their sides. */
 void lmb_crease_find(const lmb_tree *tree, uint32_t face);
 
-/* Part 0 .. CREASE_PARTS - 1 of the exact shape of texel (x, y), which is not whole: corners, counter-clockwise seen from
- * the light; returns their number, 0: nothing. The first in its own cell, the others in its neighbours'. -1: there is no
- * exact shape of so steep a plane. */
+/* Part 0 .. CREASE_PARTS - 1 of the exact shape of texel (x, y), which is not whole: corners, counter-clockwise seen
+ * from the light; returns their number, 0: nothing. The first in its own cell, the others in its neighbours'. -1: there
+ * is no exact shape of so steep a plane. */
 enum { CREASE_PARTS = 5, CREASE_CORNERS = 8 };
 int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part);
 

@@ -1,10 +1,10 @@
-/* upsample.c: a tile's light from that of some of its pixels, wherever they lie on its pixels' surfaces. Floor 7. [ours] */
+/* upsample.c: a tile's light from that of some of its pixels, by the surfaces they lie on. Floor 7.       [ours] */
 #include <lambent/compose.h>
 
 #include "../raster/tile.h"
 
-/* Of 8 rows or columns those that are sampled; for each, the sampled one before it and its share of the way to the next.
- * Both ends are among them: so no tile asks another, and where tiles meet, two sampled rows do, and there is no seam. */
+/* Of 8 rows or columns those that are sampled; for each, the sampled one before it and its share of the way to the
+ * next. Both ends are among them: so no tile asks another, and where tiles meet, two sampled rows do: no seam. */
 typedef struct grid {
     int32_t n, at[4];
     int32_t before[LMB_TILE];
@@ -14,7 +14,8 @@ typedef struct grid {
 static const grid half = {4, {0, 2, 5, 7}, {0, 0, 1, 1, 1, 2, 2, 2},
                           {0.0f, 0.5f, 0.0f, 1.0f / 3.0f, 2.0f / 3.0f, 0.0f, 0.5f, 1.0f}};
 static const grid quarter = {2, {0, 7, 0, 0}, {0, 0, 0, 0, 0, 0, 0, 0},
-                             {0.0f, 1.0f / 7.0f, 2.0f / 7.0f, 3.0f / 7.0f, 4.0f / 7.0f, 5.0f / 7.0f, 6.0f / 7.0f, 1.0f}};
+                             {0.0f, 1.0f / 7.0f, 2.0f / 7.0f, 3.0f / 7.0f, 4.0f / 7.0f, 5.0f / 7.0f, 6.0f / 7.0f,
+                              1.0f}};
 
 static const grid *grid_of(int32_t step) { return step == 2 ? &half : step == 4 ? &quarter : NULL; }
 

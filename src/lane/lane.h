@@ -1,8 +1,8 @@
-/* lane.h: small formulas over the lane verbs that several kernels share. Include after a machine's lane header. Floor 2. */
+/* lane.h: small formulas over the lane verbs, for several kernels. Include after a machine's lane header. Floor 2. */
 #ifndef LMB_LANE_H
 #define LMB_LANE_H
 
-/* For what only pays where the compiler sees its caller: arguments that are constants, structs that stay in registers. */
+/* For what only pays where the compiler sees its caller: constants for arguments, structs that stay in registers. */
 #if defined(__GNUC__)
 #define LANE_INLINE static inline __attribute__((always_inline))
 #else

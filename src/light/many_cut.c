@@ -2,10 +2,11 @@
  *
  * A node stands for its lights in two ways, and each sets how far the tree is parted. As a place: I cos / d^2 from the
  * mean of its lights errs by about its bound x R^2 / d^2, the first order being gone; I cos / d^2 is harmonic, so
- * lights spread evenly to all sides err by less yet. As a shadow: two tests speak for all of its lights, so what one node
- * gives is what may be wrong at once. Measured on 100, 1,000 and 10,000 lights in a room with boxes, the second matters more:
- * with it a quarter of the shadow tests give the same error. The nodes lie in a heap, the worst on top: first by the
- * bounds, until their sum is small; then by light, until none gives much. Both by the tests' front of speed and error.
+ * lights spread evenly to all sides err by less yet. As a shadow: two tests speak for all of its lights, so what one
+ * node gives is what may be wrong at once. Measured on 100, 1,000 and 10,000 lights in a room with boxes, the second
+ * matters more: with it a quarter of the shadow tests give the same error. The nodes lie in a heap, the worst on top:
+ * first by the bounds, until their sum is small; then by light, until none gives much. Both by the tests' front of
+ * speed and error.
  *
  * Entries that may yet be parted lie in the heap from the front of `entry`, cells from its back. */
 #include "many_cut.h"

@@ -87,8 +87,8 @@ static int is_one_place(const lmb_many_node *node, const lmb_many_job *job)
     return is_same_place(node->strongest, node->median) || 12288.0f * node->spread < dot3(to, to);
 }
 
-/* Two tests; one, by lot, where the node gives less than a quarter of what may be wrong: that saves a third of the tests
- * and adds 3 % to the error. */
+/* Two tests; one, by lot, where the node gives less than a quarter of what may be wrong: that saves a third of the
+ * tests and adds 3 % to the error. */
 static void test_lamp(lmb_many_lamp *lamp, const lit_surface *s, const lmb_many_node *node, int is_weak,
                       uint32_t *tests)
 {

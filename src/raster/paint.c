@@ -1,4 +1,4 @@
-/* paint.c: the images on a triangle, for the pixels of a tile that carry its id: base colour and normal map. Floor 3. */
+/* paint.c: a triangle's images for the tile's pixels with its id: base colour and normal map. Floor 3. */
 #include "paint.h"
 
 #include "../base/poly.h"
@@ -95,8 +95,8 @@ static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
                 mul3(vec3(m[8], m[9], m[10]), d.z));
 }
 
-/* Of P(u, v): dP/du = (e1 dv2 - e2 dv1) / area and dP/dv = (e2 du1 - e1 du2) / area; only directions count here. 0 where
- * the coordinates have no area. */
+/* Of P(u, v): dP/du = (e1 dv2 - e2 dv1) / area and dP/dv = (e2 du1 - e1 du2) / area; only directions count. 0 where the
+ * coordinates have no area. */
 static int set_frame(tangent_frame *f, const painted *p, const lmb_triangle *t, lmb_vec3 face)
 {
     float du1 = p->uv[1][0], dv1 = p->uv[1][1], du2 = p->uv[2][0], dv2 = p->uv[2][1];

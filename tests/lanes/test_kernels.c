@@ -619,7 +619,8 @@ static int trial_crossed(const trial *t, test_rng r)
     job.normal = direction(&r);
     job.beyond = test_uniform(&r, -1.0f, 1.0f);
     const uint64_t pixels = random_pixels(t, &r);
-    const uint64_t want = lmb_kernels_scalar.crossed(&tile, pixels, &job), got = t->kernels->crossed(&tile, pixels, &job);
+    const uint64_t want = lmb_kernels_scalar.crossed(&tile, pixels, &job),
+                   got = t->kernels->crossed(&tile, pixels, &job);
     return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
 }
 

@@ -137,7 +137,7 @@ static void test_grouping_ends(void)
     }
 }
 
-/* A point in the plane of a near quad, lifted by a rounding, sees its edge: no light (bright specks, once). A point that
+/* A point in the plane of a near quad, lifted by a rounding, sees its edge: no light, no bright specks. A point that
  * truly stands over it sees half the sky full of it. */
 static void test_flat_quads(void)
 {

@@ -375,7 +375,7 @@ static void check_light(test_rng *r)
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         CHECK(e.rgb[1][k] == 2.0f * again.rgb[1][k] && again.rgb[1][k] > 0.0f);
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* the surface itself turned away: smooth normals let no light through */
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* the surface turned away: smooth normals let no light through */
         set_plane(tile.face, k, k % 2 ? vec3(0, -1, 0) : Y);
     }
     light_tile(&again, &tile, &twice.many, NULL, 0.02f, want);

@@ -54,7 +54,8 @@ static int emits(uint32_t material, float x, float y, float z)
 static void emission(void)
 {
     CHECK_LOADS(load_library("newmtl a\nKe 17 12.5 4\nnewmtl b\nKe 3\n"));
-    CHECK(emits(0, 0, 0, 0) && emits(1, 17, 12.5f, 4) && emits(2, 3, 3, 3) && noted("light the scene with --grouping cut only: 2"));
+    CHECK(emits(0, 0, 0, 0) && emits(1, 17, 12.5f, 4) && emits(2, 3, 3, 3) &&
+          noted("light the scene with --grouping cut only: 2"));
     CHECK_LOADS(load_library("newmtl a\nKe 2 1\nnewmtl b\nKe -1 1e39 0.5\n"));
     CHECK(emits(1, 2, 1, 2) && emits(2, 0, 0, 0.5f) && noted("light the scene with --grouping cut only: 2"));
     CHECK_LOADS(load_library("newmtl a\nKe 0 0 0\nnewmtl b\nKe 0 7 0\n"));

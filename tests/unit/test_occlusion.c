@@ -1,4 +1,4 @@
-/* test_occlusion.c: what stands between a tile and a point: against every triangle in binary64, and what must not leak. */
+/* test_occlusion.c: what stands between a tile and a point, against all triangles in binary64; what must not leak. */
 #include <math.h>
 
 #include "../world.h"
@@ -223,7 +223,8 @@ static void holes(void)
     world_quad(vec3(0, 1, 0), Z, X);
     lmb_blockers b = blockers_of_world();
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        set_plane(tile.position, k, vec3(0.5f * ((float)(k % 8) - 3.5f) / 4.0f, 0, 0.9f * ((float)(k / 8) - 3.5f) / 4.0f));
+        set_plane(tile.position, k,
+                  vec3(0.5f * ((float)(k % 8) - 3.5f) / 4.0f, 0, 0.9f * ((float)(k / 8) - 3.5f) / 4.0f));
     }
     /* From straight above the plane's points lie over the pixels; u grows with z. */
     const uint64_t blocked = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), vec3(0, 1000, 0), NULL);

@@ -1,4 +1,4 @@
-/* test_sparse.c: light gathered at some pixels: even light stays, surfaces do not mix, lone pixels are asked themselves. */
+/* test_sparse.c: light gathered at some pixels: even light stays, surfaces do not mix, lone pixels are asked. */
 #include "../world.h"
 
 void test_sparse(void);
@@ -76,10 +76,13 @@ static void even_light(int32_t step)
 }
 
 /* Each brighter downward; the second far brighter. */
-static float two_lights(int k, int border) { return (k % 8 >= border ? 50.0f : 0.5f) * (1.0f + 0.03f * (float)(k / 8)); }
+static float two_lights(int k, int border)
+{
+    return (k % 8 >= border ? 50.0f : 0.5f) * (1.0f + 0.03f * (float)(k / 8));
+}
 
-/* Two surfaces, the border in each column in turn: what lies on one takes nothing of the other's light. `wall`: they meet
- * in a corner; else the second lies 10 cm under the first. */
+/* Two surfaces, the border in each column in turn: what lies on one takes nothing of the other's light. `wall`: they
+ * meet in a corner; else the second lies 10 cm under the first. */
 static void two_surfaces(int32_t step, int wall)
 {
     int wrong = 0, asked = 0;
@@ -87,7 +90,8 @@ static void two_surfaces(int32_t step, int wall)
         flat_tile();
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             if (k % 8 >= border && wall) {
-                set_plane(tile.position, k, vec3(0.01f * (float)border, 0.01f * (float)(k / 8), 0.01f * (float)(k % 8 - border)));
+                set_plane(tile.position, k,
+                          vec3(0.01f * (float)border, 0.01f * (float)(k / 8), 0.01f * (float)(k % 8 - border)));
                 set_plane(tile.face, k, mul3(X, -1.0f));
                 set_plane(tile.normal, k, mul3(X, -1.0f));
             } else if (k % 8 >= border) {
@@ -182,7 +186,7 @@ static void render_backward(const lmb_frame *f)
     }
 }
 
-/* What was asked has the full picture's bytes, the rest is near it. Without occlusion a pixel's light is its own matter. */
+/* What was asked has the full picture's bytes, the rest is near it. Without occlusion a pixel's light is its own. */
 static void compare_frames(int32_t step)
 {
     lmb_frame f = frame_of(full, 1);

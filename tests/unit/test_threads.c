@@ -1,4 +1,4 @@
-/* test_threads.c: who does what when a frame is shared out: the pool's pieces, a stage's parts, a map's rows, counts. */
+/* test_threads.c: who does what of a frame shared out: the pool's pieces, a stage's parts, a map's rows, counts. */
 #include <string.h>
 
 #include <lambent/lambent.h>
@@ -78,7 +78,7 @@ static struct memory {
 static lmb_light lights[2];
 static lmb_scene lit;
 
-/* Which: of two places for pictures and points. The small configuration has one light: the point light, of six faces. */
+/* Which: of two places for pictures and points. The small configuration has one light: the point's, of six faces. */
 static lmb_frame make_frame(int which, lmb_stats *stats)
 {
     lmb_frame f;

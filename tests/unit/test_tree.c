@@ -314,7 +314,7 @@ static void check_ends(const char *name, const ends *e, double bound)
     CHECK_MSG(lost < 5e-4, "%s: %g", name, lost);
 }
 
-/* --- what shape they have there ------------------------------------------------------------------------------------ */
+/* --- what shape they have there ----------------------------------------------------------------------------------- */
 
 /* Where a point is in the map, in texels from its middle. */
 static void in_map(double out[2], const lmb_view *v, lmb_vec3 p)
@@ -385,8 +385,8 @@ static void check_parts(const char *name, double bound)
     CHECK_MSG(edges > 100 && worst < bound, "%s: %d, %g", name, edges, worst);
 }
 
-/* A corner lit by a sun shines evenly: from the floor beside it, what the wall's texels give by their exact shapes against
- * the wall as one square; and by rectangles, for what that would be. */
+/* A corner lit by a sun shines evenly: from the floor beside it, what the wall's texels give by their exact shapes
+ * against the wall as one square; and by rectangles, for what that would be. */
 static void check_beside(lmb_vec3 along, lmb_vec3 floor, lmb_vec3 wall)
 {
     const lmb_vec3 out = normalize3(cross3(along, floor)), up = normalize3(cross3(wall, along));
