@@ -437,13 +437,15 @@ static int draw(job *j, report *r)
     return status == LMB_OK || explain(j, status, stage, r);
 }
 
-/* The same frame once more, shown otherwise, by the same light; neither told nor timed. */
+/* The same frame once more with another occlusion, by the same light where elements send none, for theirs was solved by
+ * it; neither told nor timed. */
 static int draw_once_more(job *j, image *out, lmb_frame how, report *r)
 {
     crew again = j->crew;
     int32_t stage;
     again.tell = NULL;
     how.stats = NULL;
+    j->lit = how.elements.data == NULL;
     if (!take_picture(j, out, r)) {
         return 0;
     }

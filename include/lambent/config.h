@@ -51,8 +51,8 @@
 #define LMB_MANY_LAMPS 32
 #endif
 
-/* 0: the kernels and lmb_render of this build know no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further
- * bounces or surfaces that shine; frames that ask for them are refused. Saves 30 KiB of ROM on a Cortex-M4F. */
+/* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that shine.
+ * Their functions are not there, and frames that ask for them are refused. Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_TREES
 #define LMB_TREES 1
 #endif

@@ -143,12 +143,12 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * light and objects stand still. r goes back to LMB_STAGE_VIEW; maps, points, groups and trees stay, and are only
  * read.
  *
- *   frame  kernels, view, show, occlusion, steps, error, visible, exposure_ev, eye, eye_depth, scratch, out, callback,
- *          user and stats are taken from it; the rest stands as it was at lmb_render_begin.
+ *   frame  kernels, view, show, occlusion, steps, error, visible, many_error, gather_step, exposure_ev, eye, eye_depth,
+ *          scratch, out, callback, user and stats are taken from it; the rest stands as it was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
- * also where `frame` shows bounced light and r solved none, or asks for blockers that r did not build. On an error r is
- * as it was. */
+ * also where `frame` shows bounced light and r solved none, or solved more bounces than one by another occlusion, error
+ * or visible, or asks for blockers that r did not build. On an error r is as it was. */
 lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_has_parts: 1 where the stage at hand can be done in parts, by those who have threads; 0 where it goes by

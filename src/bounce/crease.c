@@ -12,6 +12,8 @@
 #include "../base/vec.h"
 #include "footprint.h"
 
+#if LMB_TREES
+
 #define STEEP 0.25f /* of the middle's 1 / w: at corners of less the plane runs away from the light */
 
 /* A place of the map, in its plane at distance 1 (m for suns). */
@@ -199,6 +201,9 @@ int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_t
         where.x = (uint16_t)(at.x + (side == SIDE_RIGHT) - (side == SIDE_LEFT));
         where.y = (uint16_t)(at.y + (side == SIDE_DOWN) - (side == SIDE_UP));
     }
+    if (v->kind == LMB_PERSPECTIVE && !(slope_at(v, own, middle) > 0.0f)) {
+        return -1;
+    }
     cell_at(&c, tree, where);
     const int corners = represents(&c, own) ? shape_in(flat, &c, v, tree->size, where, middle, own) : 0;
     for (int i = 0; i < corners; ++i) {
@@ -210,3 +215,5 @@ int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_t
     }
     return corners;
 }
+
+#endif

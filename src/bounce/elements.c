@@ -11,6 +11,8 @@
 #include "../raster/texture.h"
 #include "tree.h"
 
+#if LMB_TREES
+
 enum { HALVINGS = 48, SAMPLES = 4, CELLS = 1 << 20, Z_BITS = 9 };
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
@@ -471,3 +473,5 @@ lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const
     set_level(inout, lights);
     return LMB_OK;
 }
+
+#endif

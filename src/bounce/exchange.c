@@ -7,6 +7,8 @@
 #include "../base/vec.h"
 #include "tree.h"
 
+#if LMB_TREES
+
 static uint32_t minu(uint32_t a, uint32_t b) { return a < b ? a : b; }
 
 int32_t lmb_elements_tiles(const lmb_elements *elements)
@@ -132,3 +134,5 @@ lmb_status lmb_elements_send(lmb_elements *inout, int32_t last)
     }
     return lmb_tree_sum(&inout->tree, 0);
 }
+
+#endif

@@ -8,6 +8,8 @@
 #include "../raster/tile.h"
 #include "footprint.h"
 
+#if LMB_TREES
+
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 {
     if (size < LMB_TILE || size > 4096 || (size & (size - 1)) != 0 || faces == 0 || faces > 65535u) {
@@ -252,3 +254,5 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
     }
     return LMB_OK;
 }
+
+#endif

@@ -12,6 +12,8 @@
 #include "../raster/triangle.h"
 #include "walk.h"
 
+#if LMB_TREES
+
 enum { BINS = 16, LEAF = 4, HALVES_FROM = LMB_WALK_LEVELS - 8 };
 #define NOISE 3.8146973e-6f /* 2^-18 of the largest coordinate: some rounding steps of positions and planes */
 
@@ -309,7 +311,7 @@ static void grow(lmb_blockers *b)
         lmb_boxes *node = &b->node[waiting[--count]];
         const int deep = depth[count] + 1;
         for (int i = 0; i < LMB_BOXES; ++i) {
-            if (node->count[i] > LEAF && b->node_count < b->node_cap) {
+            if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_WALK_LEVELS) {
                 const uint32_t at = b->node_count++;
                 fill_node(b, at, node->first[i], node->count[i], deep);
                 node->first[i] = at;
@@ -339,3 +341,5 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene)
     }
     return LMB_OK;
 }
+
+#endif

@@ -93,11 +93,14 @@ static void set_picture(lmb_frame *f, const lmb_frame *from)
     f->stats = from->stats;
 }
 
-/* Was what the picture asks for solved with the light? Groups or a tree; the tree of blockers. */
-static int is_solved(const lmb_frame *f, const lmb_frame *before)
+/* Was what the picture asks for solved with the light? Groups or a tree; the tree of blockers; and bounces between
+ * elements, by the same rules. */
+static int is_solved(const lmb_frame *f, const lmb_render *r)
 {
+    const lmb_frame *before = &r->frame;
     const int exact = wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT;
-    return (!wants_bounce(f) || wants_bounce(before)) &&
+    const int same = f->occlusion == before->occlusion && f->error == before->error && f->visible == before->visible;
+    return (!wants_bounce(f) || wants_bounce(before)) && (same || !wants_bounce(f) || !wants_elements(r)) &&
            (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->blockers.node_count > 0);
 }
 
@@ -114,7 +117,7 @@ lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame)
     set_picture(&f, frame);
     set_defaults(&f);
     lmb_status status = lmb_render_check(&f);
-    if (status == LMB_OK && !is_solved(&f, &r->frame)) {
+    if (status == LMB_OK && !is_solved(&f, r)) {
         status = LMB_ERR_ARG;
     }
     if (status == LMB_OK) {

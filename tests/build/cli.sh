@@ -174,6 +174,8 @@ status 2 render "$dir/many.gltf" --bounce-lights 129 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
 
+status 0 render demo $small --bounces 3 --show occlusion -o "$dir/blocked.pfm"
+
 # Help and version go to stdout.
 status 0 --version
 check "lambent --version says something" test -s "$dir/out.txt"

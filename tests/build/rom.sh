@@ -4,7 +4,7 @@
 budget=$1
 
 objects=$(find "$B/obj/src" -name '*.o' | sort)
-rooms=$(printf '%s\n' "$objects" | grep -E '/src/(raster|map|light|bounce)/' | grep -vE '/(tree|crease|cut|elements|exchange|many[a-z_]*)\.o$')
+rooms=$(printf '%s\n' "$objects" | grep -E '/src/(raster|map|light|bounce)/' | grep -vE '/many[a-z_]*\.o$')
 roots=$($NM $rooms | awk '$2 == "T" { print "-Wl,-u," $3 }' | sort -u)
 check "the rooms link" $CC $FLAGS -nostdlib -o "$B/rom.elf" -Wl,--gc-sections -Wl,-e,lmb_kernels_pick $roots \
     -Wl,--unresolved-symbols=ignore-all $objects -lgcc

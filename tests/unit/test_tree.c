@@ -452,7 +452,7 @@ static void check_folds(void)
     check_fold("flat, sun", sun(vec3(-0.3f, -1, -0.2f)), along);
 }
 
-/* --- coarser than the map ------------------------------------------------------------------------------------------ */
+/* --- coarser than the map ----------------------------------------------------------------------------------------- */
 
 /* A tree of one face from a map of `each` times its texels. */
 static void lit_coarse(const lmb_light *light, int32_t each)
@@ -488,7 +488,7 @@ static void check_coarse(const char *name, lmb_light light, float reach)
     }
 }
 
-/* Planes whose horizon the light sees, or that it sees edge-on: texels moved to their middles stay on this side of it. */
+/* Planes that the light sees to the horizon, or edge-on: texels moved to their middles stay before it. */
 static void check_horizons(void)
 {
     world_begin(0.5f, 0.5f, 0.5f);
