@@ -34,7 +34,7 @@ static inline int every_texel(texel_quad *out, const lmb_tree *tree)
             if (flux_sum(q->n.flux) > 0.0f) {
                 q->middle = tree_texel(tree, face, x, y)->position;
                 q->near2 = LMB_NEAR * LMB_NEAR * (dot3(q->u, q->u) + dot3(q->v, q->v) + 2.0f * absf(dot3(q->u, q->v)));
-                if (!tree_is_whole(tree_texel(tree, face, x, y))) {
+                if (!tree_is_whole(tree_texel(tree, face, x, y)) && lmb_crease_share(tree, q->at) >= 0.0f) {
                     const lmb_vec3 half = mul3(sub3(q->n.high, q->n.low), 0.5f);
                     q->near2 = LMB_NEAR * LMB_NEAR * dot3(half, half);
                 }
@@ -50,13 +50,13 @@ static inline double crease_factor(const texel_quad *q, lmb_vec3 at, lmb_vec3 fa
 {
     const lmb_texel *t = tree_texel(q->tree, q->at.face, q->at.x, q->at.y);
     lmb_vec3 corner[CREASE_CORNERS];
-    double sum = tree_is_whole(t) ? -1.0 : 0.0;
-    for (int part = 0; part < CREASE_PARTS && sum >= 0.0; ++part) {
+    double sum = 0.0;
+    if (tree_is_whole(t) || lmb_crease_share(q->tree, q->at) < 0.0f) {
+        return -1.0;
+    }
+    for (int part = 0; part < CREASE_PARTS; ++part) {
         const int corners = lmb_crease_part(corner, q->tree, q->at, part);
-        if (corners < 0 && part == 0) {
-            return -1.0;
-        }
-        sum += corners > 0 ? (double)lmb_polygon_factor(at, face, n, corner, corners, t->normal) : 0.0;
+        sum += (double)lmb_polygon_factor(at, face, n, corner, corners, t->normal);
     }
     return sum / (double)q->n.area;
 }

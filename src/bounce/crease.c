@@ -185,14 +185,13 @@ static int represents(const cell *c, const lmb_texel *a)
     return found;
 }
 
-int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part)
+/* Part 0: of the texel's own cell; 1 .. 4: of its neighbours'. */
+static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part)
 {
     const lmb_view *v = &tree->view[at.face];
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
-    const place middle = middle_of(v, tree->size, at.x, at.y);
     const int side = part - 1;
     lmb_tree_place where = at;
-    place flat[CREASE_CORNERS];
     cell c;
     if (part > 0) {
         if (own->side[side] == SIDE_WHOLE) {
@@ -201,17 +200,45 @@ int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_t
         where.x = (uint16_t)(at.x + (side == SIDE_RIGHT) - (side == SIDE_LEFT));
         where.y = (uint16_t)(at.y + (side == SIDE_DOWN) - (side == SIDE_UP));
     }
-    if (v->kind == LMB_PERSPECTIVE && !(slope_at(v, own, middle) > 0.0f)) {
-        return -1;
-    }
     cell_at(&c, tree, where);
-    const int corners = represents(&c, own) ? shape_in(flat, &c, v, tree->size, where, middle, own) : 0;
-    for (int i = 0; i < corners; ++i) {
-        if (v->kind == LMB_PERSPECTIVE ? slope_at(v, own, flat[i]) < STEEP * slope_at(v, own, middle)
-                                       : dot3(own->normal, v->back) < GRAZE) {
-            return -1;
+    return represents(&c, own) ? shape_in(out, &c, v, tree->size, where, middle_of(v, tree->size, at.x, at.y), own) : 0;
+}
+
+static int is_steep(const lmb_view *v, const lmb_texel *own, place middle, place corner)
+{
+    const float there = slope_at(v, own, middle);
+    return v->kind == LMB_PERSPECTIVE ? !(there > 0.0f) || slope_at(v, own, corner) < STEEP * there
+                                      : dot3(own->normal, v->back) < GRAZE;
+}
+
+float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at)
+{
+    const lmb_view *v = &tree->view[at.face];
+    const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
+    const place middle = middle_of(v, tree->size, at.x, at.y);
+    const float wide = 2.0f * v->half_width / (float)tree->size, high = 2.0f * v->half_height / (float)tree->size;
+    float twice = 0.0f;
+    for (int part = 0; part < CREASE_PARTS; ++part) {
+        place p[CREASE_CORNERS];
+        const int corners = part_of(p, tree, at, part);
+        for (int i = 0; i < corners; ++i) {
+            const int k = i + 1 < corners ? i + 1 : 0;
+            if (is_steep(v, own, middle, p[i])) {
+                return -1.0f;
+            }
+            twice += (p[i].x - p[0].x) * (p[k].y - p[0].y) - (p[k].x - p[0].x) * (p[i].y - p[0].y);
         }
-        corner[i] = footprint_over(v, own->position, own->normal, flat[i].x, flat[i].y);
+    }
+    return 0.5f * twice / (wide * high);
+}
+
+int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part)
+{
+    const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
+    place flat[CREASE_CORNERS];
+    const int corners = part_of(flat, tree, at, part);
+    for (int i = 0; i < corners; ++i) {
+        corner[i] = footprint_over(&tree->view[at.face], own->position, own->normal, flat[i].x, flat[i].y);
     }
     return corners;
 }

@@ -330,7 +330,8 @@ static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
 {
     lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
     out->element = tree_element(tree, at.x, at.y);
-    out->is_crease = out->element == NULL && !tree_is_whole(tree_texel(tree, at.face, at.x, at.y));
+    out->is_crease = out->element == NULL && !tree_is_whole(tree_texel(tree, at.face, at.x, at.y)) &&
+                     lmb_crease_share(tree, at) >= 0.0f;
     if (out->is_crease) {
         const lmb_vec3 half = mul3(sub3(out->node.high, out->node.low), 0.5f);
         out->half2 = dot3(half, half);
@@ -365,8 +366,8 @@ static void add_flux(lmb_irradiance *inout, int k, float factor, const float flu
     }
 }
 
-/* A texel where planes meet, as its plane shows it. 0: nothing added, it runs away from its light too steeply. */
-static int add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, uint64_t pixels)
+/* A texel where planes meet, as its plane shows it. */
+static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, uint64_t pixels)
 {
     const lmb_texel *t = tree_texel(c->tree, at.face, at.x, at.y);
     lmb_vec3 corner[CREASE_CORNERS], u, v;
@@ -374,9 +375,6 @@ static int add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at,
     const float per_area = 1.0f / length3(cross3(u, v));
     for (int part = 0; part < CREASE_PARTS; ++part) {
         const int corners = lmb_crease_part(corner, c->tree, at, part);
-        if (corners < 0 && part == 0) {
-            return 0;
-        }
         for (uint64_t bits = corners > 0 ? pixels : 0; bits != 0; bits &= bits - 1) {
             const int k = lowest_bit_64(bits);
             const float f = lmb_polygon_factor(tile_vec(c->tile->position, k), tile_vec(c->tile->face, k),
@@ -384,7 +382,6 @@ static int add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at,
             add_flux(inout, k, f * per_area, t->flux);
         }
     }
-    return 1;
 }
 
 /* A leaf so near that its shape counts: pixel by pixel. */
@@ -393,7 +390,8 @@ static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, 
     const lmb_tile *tile = c->tile;
     const lmb_node *n = &l->node;
     const uint64_t near = near_pixels(tile, l, visible);
-    if (l->is_crease && near != 0 && add_crease(inout, c, at, near)) {
+    if (l->is_crease && near != 0) {
+        add_crease(inout, c, at, near);
         visible &= ~near;
     }
     for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {

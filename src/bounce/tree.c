@@ -10,6 +10,8 @@
 
 #if LMB_TREES
 
+#define ROUNDING 3e-7f /* of a cosine */
+
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 {
     if (size < LMB_TILE || size > 4096 || (size & (size - 1)) != 0 || faces == 0 || faces > 65535u) {
@@ -167,34 +169,56 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
     out->centre = add3(t->position, sub3(mul3(*u, right / 512.0f), mul3(*v, down / 512.0f)));
     *u = mul3(*u, wide / 512.0f);
     *v = mul3(*v, high / 512.0f);
-    for (int c = 0; c < 3; ++c) {
-        out->flux[c] = t->flux[c] * (wide * high / 65536.0f);
-    }
+    float share = 1.0f;
     out->area = 4.0f * length3(cross3(*u, *v));
+    if (!tree_is_whole(t)) {
+        const lmb_tree_place at = {(uint16_t)face, (uint16_t)x, (uint16_t)y, 0};
+        const float exact = lmb_crease_share(tree, at), rectangle = wide * high / 65536.0f;
+        share = exact < 0.0f ? rectangle : exact;
+        out->area *= share / rectangle;
+    }
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = t->flux[c] * share;
+    }
 }
 
 /* --- sums --------------------------------------------------------------------------------------------------------- */
 
-/* cos(a + b), or -1 where a + b is over 180 degrees. */
+/* cos(a + b) or less; -1 where a + b is over 180 degrees. */
 static float cosine_of_sum(float a, float b)
 {
+    a -= ROUNDING;
+    b -= ROUNDING;
     const float sines = sqrtf(maxf(1.0f - a * a, 0.0f) * maxf(1.0f - b * b, 0.0f));
     return a + b <= 0.0f ? -1.0f : clampf(a * b - sines, -1.0f, 1.0f);
+}
+
+/* Are all normals the one of the first, to the bit? */
+static int is_flat(const lmb_node child[4], const lmb_node *first)
+{
+    int flat = 1;
+    for (int i = 0; i < 4; ++i) {
+        const lmb_vec3 a = child[i].normal, b = first->normal;
+        flat &= !(flux_sum(child[i].flux) > 0.0f) ||
+                (child[i].cosine == 1.0f && a.x == b.x && a.y == b.y && a.z == b.z);
+    }
+    return flat;
 }
 
 static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, uint32_t face)
 {
     lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0), origin = vec3(0, 0, 0);
+    const lmb_node *first = NULL;
     float weight = 0.0f, nearest = 3e38f;
     memset(out, 0, sizeof *out);
     for (int i = 0; i < 4; ++i) {
         const lmb_node *n = &child[i];
         const float w = flux_sum(n->flux);
         if (w > 0.0f) {
-            origin = weight > 0.0f ? origin
-                                   : n->centre; /* differences, so that far from the world's middle nothing is lost */
-            out->low = weight > 0.0f ? min3(out->low, n->low) : n->low;
-            out->high = weight > 0.0f ? max3(out->high, n->high) : n->high;
+            out->low = first != NULL ? min3(out->low, n->low) : n->low;
+            out->high = first != NULL ? max3(out->high, n->high) : n->high;
+            first = first != NULL ? first : n;
+            origin = first->centre; /* differences, so that far from the world's middle nothing is lost */
             centre = add3(centre, mul3(sub3(n->centre, origin), w));
             normal = add3(normal, mul3(n->normal, w));
             weight += w;
@@ -204,19 +228,20 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
             }
         }
     }
-    if (!(weight > 0.0f)) {
+    if (first == NULL) {
         return;
     }
+    const int flat = is_flat(child, first);
     out->centre = add3(origin, mul3(centre, 1.0f / weight));
-    out->normal = normalize3(normal);
+    out->normal = flat ? first->normal : normalize3(normal);
     out->cosine = dot3(normal, normal) > 0.0f ? 1.0f : -1.0f;
     for (int i = 0; i < 4; ++i) {
         if (flux_sum(child[i].flux) > 0.0f) {
             const uint32_t size = (uint32_t)tree->size, at = child[i].texel;
             const lmb_vec3 d =
                 sub3(tree_texel(tree, face, (int32_t)(at % size), (int32_t)(at / size))->position, out->centre);
-            out->cosine = minf(out->cosine,
-                               cosine_of_sum(clampf(dot3(out->normal, child[i].normal), -1.0f, 1.0f), child[i].cosine));
+            const float turn = clampf(dot3(out->normal, child[i].normal), -1.0f, 1.0f);
+            out->cosine = flat ? 1.0f : minf(out->cosine, cosine_of_sum(turn, child[i].cosine));
             if (dot3(d, d) < nearest) {
                 nearest = dot3(d, d);
                 out->texel = at;

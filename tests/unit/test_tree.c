@@ -136,7 +136,7 @@ static void check_node(faults *f, uint32_t face, int32_t x, int32_t y, int level
             flux += (double)flux_sum(t.flux);
             area += (double)t.area;
             outside += !is_in(t.centre, n.low, n.high);
-            bent += dot3(t.normal, n.normal) < n.cosine - 2e-5f;
+            bent += dot3(t.normal, n.normal) < n.cosine - 1e-6f;
         }
     }
     f->empty += (flux > 0.0) != (flux_sum(n.flux) > 0.0f);
