@@ -280,7 +280,8 @@ LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k
     for (int c = 0; c < 3; ++c) {
         lane albedo = lane_splat(b->material->albedo[c]);
         if (b->mesh->colours != NULL) {
-            albedo = resolve_mix(b->albedo[0][c], b->albedo[1][c], b->albedo[2][c], at);
+            /* A mix of nothing and something may be rounded under nothing. */
+            albedo = lane_max(lane_splat(0.0f), resolve_mix(b->albedo[0][c], b->albedo[1][c], b->albedo[2][c], at));
         }
         resolve_put(out->albedo[c] + k, mine, albedo);
     }

@@ -211,6 +211,35 @@ static void test_wild_coordinates(const lmb_kernels *k)
     }
 }
 
+/* One corner has some of a colour, the others none, and the edge between these goes through pixels' middles: no rounding
+ * takes a pixel under 0 or over 1. */
+static void test_colours(const lmb_kernels *k, test_rng *r)
+{
+    uint8_t colours[12] = {77, 0, 255, 255, 0, 0, 255, 255, 0, 0, 255, 255};
+    int on_edge = 0;
+    make_world(r);
+    memset(w.indices[1] + 3, 0, sizeof w.indices[1] - 3 * sizeof w.indices[1][0]);
+    for (int m = 0; m < MESHES; m += m == 0 ? 2 : 1) {
+        memset(w.indices[m], 0, sizeof w.indices[m]);
+    }
+    for (int turn = 0; turn < 100; ++turn) {
+        const float side = test_uniform(r, 0.3f, 0.8f), way = turn % 2 ? 1.0f : -1.0f;
+        const float at[9] = {side * way, side * way, test_uniform(r, -1, 1), side,  -side, test_uniform(r, -1, 1),
+                             -side,      side,       test_uniform(r, -1, 1)};
+        colours[0] = (uint8_t)(1 + turn);
+        memcpy(w.colours[1], colours, sizeof colours);
+        memcpy(w.positions[1], at, sizeof at);
+        resolve_whole(k);
+        for (int i = 0; i < PIXELS; ++i) {
+            const lmb_tile *tile = &whole[i / LMB_TILE_PIXELS];
+            const float a = tile->albedo[0][i % LMB_TILE_PIXELS];
+            CHECK_MSG(a >= 0.0f && a <= 1.0f + 1e-6f, "%s: %g", lmb_kernels_name(k), (double)a);
+            on_edge += tile->id[i % LMB_TILE_PIXELS] != 0 && a < 1e-6f;
+        }
+    }
+    CHECK(on_edge > 100);
+}
+
 void test_resolve(void)
 {
     const lmb_kernels *k;
@@ -221,5 +250,6 @@ void test_resolve(void)
         test_bad_ids(k);
         make_world(&r);
         test_wild_coordinates(k);
+        test_colours(k, &r);
     }
 }
