@@ -58,6 +58,7 @@ AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 MOVING_OBJ := $(call object,tests/moving/main_moving.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
+BRUTE_OBJ  := $(call object,tests/figures/main_brute.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden ways reference replay hostile audit-golden audit-replay
@@ -102,9 +103,10 @@ $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
 $(B)/moving: $(MOVING_OBJ) $(LIB)
+$(B)/brute: $(BRUTE_OBJ) $(LIB)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(B)/demo $(B)/decodes $(B)/moving:
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(B)/demo $(B)/decodes $(B)/moving $(B)/brute:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -128,7 +130,7 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 FORCE:
 
 -include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
-    $(DECODE_OBJ) $(REFERENCE_OBJ) $(MOVING_OBJ) $(AUDITED)))
+    $(DECODE_OBJ) $(REFERENCE_OBJ) $(MOVING_OBJ) $(BRUTE_OBJ) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
@@ -204,7 +206,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-.PHONY: size room-sizes rom asan fuzz decodes reference moving large tiny run-demo cross install
+.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute large tiny run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS='-Os -DLMB_TREES=0' LDFLAGS=
@@ -242,6 +244,16 @@ reference: $(B)/reference ## coverage and depth of the raster workload against t
 
 moving: $(B)/moving ## a light and a crate that move: what the cut adds to the change from frame to frame
 	@$(RUN) $(B)/moving
+
+figures: $(TOOL) ## bounced light against truth: errors, work, time (SCENES="cornell ..." QUALITIES="draft ...")
+	@$(IN_SH) tests/figures/truth.sh
+
+times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS="1 2", FRAME=64x64)
+	@$(IN_SH) tests/figures/times.sh
+
+STEP ?= 17
+brute: $(B)/brute ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
+	@$(RUN) $(B)/brute $(STEP) $(SCENES)
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/build/large.sh
