@@ -8,12 +8,12 @@ truth=${LMB_SHARED:-../shared}/truth
 work=$B/figures
 mkdir -p "$work"
 
-# What a preset owes: trim of all scenes, full RMSE where no few pixels decide it, light in the dark of two rooms.
+# What a preset owes: trim, full RMSE where no handful of pixels decides it, light in the dark of the two rooms.
 bars_of() {
     case $1/$2 in
-    default/sponza) echo trim=0.12 ;;
+    default/cornell | default/bunny_room | default/corner_contact) echo trim=0.05 ;;
     default/corridor) echo trim=0.05,leak=0.3 ;;
-    default/*) echo trim=0.05 ;;
+    default/sponza) echo trim=0.12 ;;
     best/cornell | best/bunny_room) echo trim=0.015,rmse=0.04 ;;
     best/corridor) echo trim=0.015,rmse=0.04,leak=0.1 ;;
     best/corner_contact) echo trim=0.015,rmse=0.08 ;;
