@@ -2,11 +2,7 @@
 #
 # SCENES, QUALITIES: which. LMB_SHARED: the folder with truth/ (default ../shared). The figures are truth/compare.py's,
 # which knows nothing of the tool. A row passes where it keeps the bars below; rows without bars are shown only.
-. tests/build/checks.sh
-
-truth=${LMB_SHARED:-../shared}/truth
-work=$B/figures
-mkdir -p "$work"
+. tests/figures/draw.sh
 
 # What a preset owes: trim, full RMSE where no handful of pixels decides it, light in the dark of the two rooms.
 bars_of() {
@@ -24,21 +20,9 @@ bars_of() {
 # A PFM's second line: `256 256`.
 size_of() { dd if="$1" bs=32 count=1 2>/dev/null | sed -n '2s/ /x/p'; }
 
-figure() { sed -n "s/.*\"$1\": \([0-9.]*\).*/\1/p" "$work/stats.json" | tail -n 1; }
-
-# The user seconds of a command on one thread: `times` tells a subshell what its children took.
-draw() {
-    (
-        "$TOOL" render "$truth/$1/scene.gltf" -o "$work/$1-$2.pfm" --show indirect --quality "$2" --threads 1 \
-            --size "$(size_of "$truth/$1/pt_indirect1.pfm")" --stats "$work/stats.json" >"$work/said" 2>&1 || exit
-        times >"$work/times" # not into a pipe: that would be another shell's
-        awk 'NR == 2 { split($1, t, "m"); printf "%.2f\n", 60 * t[1] + t[2] }' "$work/times"
-    )
-}
-
 compare() {
     bars=$(bars_of "$2" "$1")
-    python3 "$truth/compare.py" "$work/$1-$2.pfm" "$truth/$1/pt_indirect1.pfm" --mask "$truth/$1/gbuffer_depth.pfm" \
+    python3 "$truth/compare.py" "$work/drawn.pfm" "$truth/$1/pt_indirect1.pfm" --mask "$truth/$1/gbuffer_depth.pfm" \
         --classes "$truth/$1/classes.pfm" ${bars:+--max "$bars"} | tee "$work/compared"
 }
 
@@ -52,19 +36,18 @@ cells() {
 }
 
 row() {
-    if ! seconds=$(draw "$1" "$2"); then
+    if ! draw "$1" "$2" 1 "$(size_of "$truth/$1/pt_indirect1.pfm")" indirect; then
         fail "$1, $2: $(head -n 1 "$work/said")"
         return
     fi
     said=$(compare "$1" "$2")
-    printf '| %s | %s | %s | %s | %s | %s |\n' "$1" "$2" "$(cells)" "$(figure pairs)" "$(figure segments)" "$seconds"
+    echo "| $1 | $2 | $(cells) | $(figure pairs) | $(figure segments) | $(cat "$work/user") |"
     case $said in
     *bound* | *NONFINITE* | "") fail "$1, $2:$said" ;;
     *) pass ;;
     esac
 }
 
-[ -f "$truth/compare.py" ] || { skip "$truth is not there (LMB_SHARED names its folder)"; finish; }
 command -v python3 >/dev/null || { skip "no python3 for $truth/compare.py"; finish; }
 
 echo "| scene | quality | trim | rmse | n90 | e50 | e95 | e99 | mean | leak | pairs | segments | user s |"
