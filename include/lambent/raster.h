@@ -47,7 +47,8 @@ typedef struct lmb_resolve_batch {
     float face[3][LMB_SLOTS];          /* out: the same, turned to the viewer */
     float w_min[LMB_SLOTS], w_max[LMB_SLOTS]; /* out: of the corners, along the view axis */
     float normal[3][3][LMB_SLOTS];     /* in: octahedral codes as [corner][0 .. 1]. Out: world, [corner][axis] */
-    float albedo[3][3][LMB_SLOTS];     /* in: colour codes 0 .. 255. Out: reflectance, both [corner][channel] */
+    uint32_t colour[3][LMB_SLOTS];     /* in: of each corner, four codes 0 .. 255, red in the low bits */
+    float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
     float uv[3][2][LMB_SLOTS];         /* [corner][u, v] */
 } lmb_resolve_batch;
 

@@ -69,6 +69,22 @@ static inline uint32_t mesh_index(const lmb_mesh *m, uint32_t corner)
     return corner;
 }
 
+/* Those of a triangle. */
+static inline void mesh_triangle(const lmb_mesh *m, uint32_t triangle, uint32_t vertex[3])
+{
+    const size_t first = (size_t)triangle * 3;
+    if (m->index_format == LMB_INDEX_U32) {
+        const uint32_t *index = (const uint32_t *)m->indices + first;
+        vertex[0] = index[0];
+        vertex[1] = index[1];
+        vertex[2] = index[2];
+        return;
+    }
+    vertex[0] = mesh_index(m, 3 * triangle);
+    vertex[1] = mesh_index(m, 3 * triangle + 1);
+    vertex[2] = mesh_index(m, 3 * triangle + 2);
+}
+
 /* Hints that numbers are wanted soon: those of several triangles lie far apart, and each would be waited for. */
 #if defined(__GNUC__)
 #define MESH_SOON(p) __builtin_prefetch(p)

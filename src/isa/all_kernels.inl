@@ -30,7 +30,8 @@ static float KERNEL(probe)(float one_and_bit)
 const lmb_kernels KERNEL(lmb_kernels) = {
     MACHINE,         LANES,
     KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large),
-    KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve), KERNEL(texture),
+    KERNEL(resolve_shown), KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve),
+    KERNEL(texture),
     KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(blend),
     KERNEL(encode),  KERNEL(probe),
 #if LMB_TREES

@@ -144,6 +144,8 @@ struct lmb_kernels {
     void (*fill_small)(const lmb_fill_window *window, const lmb_batch *batch, uint32_t bits, uint32_t first_id);
     /* One triangle of any size into the whole window. */
     void (*fill_large)(const lmb_fill_window *window, const lmb_setup *setup, uint32_t id);
+    /* Pixels whose id is not 0, a bit each. */
+    uint64_t (*resolve_shown)(const uint32_t id[LMB_TILE_PIXELS]);
     /* Slots for the first LMB_SLOTS different ids of the batch's instance among the pixels of `left`, one bit a pixel,
      * which has all pixels of an id or none; returns the pixels that got one. */
     uint64_t (*resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left);

@@ -108,74 +108,83 @@ int lmb_triangle_opaque(const lmb_triangle *t, const lmb_scene *scene, float b1,
 
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
-/* One row of ids; returns those that are not 0, a bit each. */
-static uint32_t read_row(uint32_t *row, const lmb_fill_tile *t, int32_t y, int32_t width)
-{
-    uint32_t bits = 0;
-    for (int32_t x = 0; x < width; ++x) {
-        const int32_t at = y * t->id_step + x;
-        row[x] = t->id_format == LMB_ID16 ? ((const uint16_t *)t->id)[at] : ((const uint32_t *)t->id)[at];
-        bits |= (uint32_t)(row[x] != 0) << x;
-    }
-    return bits;
-}
-
-/* Ids of the tile's pixels inside window and frame, the others' untouched; returns those that are not 0, a bit each. */
-static uint64_t read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, const lmb_view *v, int32_t x,
-                         int32_t y)
+/* Ids of the tile's pixels inside window and frame, the others' untouched. */
+static void read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, const lmb_view *v, int32_t x, int32_t y)
 {
     const lmb_fill_tile t = lmb_target_tile(target, (x - target->x0) / LMB_TILE, (y - target->y0) / LMB_TILE);
-    const int32_t width = mini(target->x0 + target->depth.width, v->frame_width) - x;
-    const int32_t height = mini(target->y0 + target->depth.height, v->frame_height) - y;
-    uint64_t bits = 0;
-    for (int32_t row = 0; row < mini(height, LMB_TILE); ++row) {
-        uint32_t *to = id + row * LMB_TILE;
-        const uint32_t some = width < LMB_TILE ? read_row(to, &t, row, width) : read_row(to, &t, row, LMB_TILE);
-        bits |= (uint64_t)some << (row * LMB_TILE);
+    const int32_t width = mini(mini(target->x0 + target->depth.width, v->frame_width) - x, LMB_TILE);
+    const int32_t height = mini(mini(target->y0 + target->depth.height, v->frame_height) - y, LMB_TILE);
+    if (t.id_format == LMB_ID32 && t.id_step == LMB_TILE && width == LMB_TILE && height == LMB_TILE) {
+        memcpy(id, t.id, LMB_TILE_PIXELS * sizeof *id);
+        return;
     }
-    return bits;
-}
-
-/* Vertex numbers of a batch, [corner][slot]. */
-typedef uint32_t corner_vertices[3][LMB_SLOTS];
-
-static void fetch_positions(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
-{
-    float (*to)[LMB_SLOTS] = b->corner[i];
-    for (int k = 0; k < b->count; ++k) {
-        const lmb_vec3 p = mesh_position(b->mesh, vertex[k]);
-        to[0][k] = p.x;
-        to[1][k] = p.y;
-        to[2][k] = p.z;
+    for (int32_t row = 0; row < height; ++row) {
+        for (int32_t column = 0; column < width; ++column) {
+            const int32_t at = row * t.id_step + column;
+            id[row * LMB_TILE + column] =
+                t.id_format == LMB_ID16 ? ((const uint16_t *)t.id)[at] : ((const uint32_t *)t.id)[at];
+        }
     }
 }
 
-static void fetch_normals(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
+/* Vertex numbers of a batch, [slot][corner]. */
+typedef uint32_t corner_vertices[LMB_SLOTS][3];
+
+static void put_position(lmb_resolve_batch *b, int i, int k, lmb_vec3 p)
+{
+    b->corner[i][0][k] = p.x;
+    b->corner[i][1][k] = p.y;
+    b->corner[i][2][k] = p.z;
+}
+
+static void fetch_positions(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        const int16_t *code = b->mesh->normals + 2 * (size_t)vertex[k];
-        b->normal[i][0][k] = code[0];
-        b->normal[i][1][k] = code[1];
+        put_position(b, 0, k, mesh_position(b->mesh, vertex[k][0]));
+        put_position(b, 1, k, mesh_position(b->mesh, vertex[k][1]));
+        put_position(b, 2, k, mesh_position(b->mesh, vertex[k][2]));
     }
 }
 
-static void fetch_colours(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
+static void put_normal(lmb_resolve_batch *b, int i, int k, const int16_t *code)
+{
+    b->normal[i][0][k] = code[0];
+    b->normal[i][1][k] = code[1];
+}
+
+static void fetch_normals(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        const uint8_t *code = b->mesh->colours + 4 * (size_t)vertex[k];
-        b->albedo[i][0][k] = code[0];
-        b->albedo[i][1][k] = code[1];
-        b->albedo[i][2][k] = code[2];
+        put_normal(b, 0, k, b->mesh->normals + 2 * (size_t)vertex[k][0]);
+        put_normal(b, 1, k, b->mesh->normals + 2 * (size_t)vertex[k][1]);
+        put_normal(b, 2, k, b->mesh->normals + 2 * (size_t)vertex[k][2]);
     }
 }
 
-static void fetch_uvs(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLOTS])
+static uint32_t colour_at(const lmb_mesh *m, uint32_t vertex)
+{
+    const uint8_t *code = m->colours + 4 * (size_t)vertex;
+    return (uint32_t)code[0] | (uint32_t)code[1] << 8 | (uint32_t)code[2] << 16 | (uint32_t)code[3] << 24;
+}
+
+static void fetch_colours(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        float uv[2];
-        mesh_uv(b->mesh, vertex[k], uv);
-        b->uv[i][0][k] = uv[0];
-        b->uv[i][1][k] = uv[1];
+        b->colour[0][k] = colour_at(b->mesh, vertex[k][0]);
+        b->colour[1][k] = colour_at(b->mesh, vertex[k][1]);
+        b->colour[2][k] = colour_at(b->mesh, vertex[k][2]);
+    }
+}
+
+static void fetch_uvs(lmb_resolve_batch *b, corner_vertices vertex)
+{
+    for (int k = 0; k < b->count; ++k) {
+        for (int i = 0; i < 3; ++i) {
+            float uv[2];
+            mesh_uv(b->mesh, vertex[k][i], uv);
+            b->uv[i][0][k] = uv[0];
+            b->uv[i][1][k] = uv[1];
+        }
     }
 }
 
@@ -183,23 +192,30 @@ static void fetch_uvs(lmb_resolve_batch *b, int i, const uint32_t vertex[LMB_SLO
 static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b)
 {
     uint32_t bad = 0;
-    for (int k = 0; k < b->count; ++k) {
-        if (b->mesh->indices != NULL) {
-            mesh_index_soon(b->mesh, 3 * (b->id[k] - b->instance->first_id));
-        }
+    for (int k = 0; k < b->count && b->mesh->indices != NULL; ++k) {
+        mesh_index_soon(b->mesh, 3 * (b->id[k] - b->instance->first_id));
     }
     for (int k = 0; k < b->count; ++k) {
-        const uint32_t first = 3 * (b->id[k] - b->instance->first_id);
-        for (uint32_t i = 0; i < 3; ++i) {
-            const uint32_t v = mesh_index(b->mesh, first + i), outside = v >= b->mesh->vertex_count;
-            vertex[i][k] = outside ? 0 : v;
-            bad |= outside << k;
-            if (!outside) {
-                mesh_vertex_soon(b->mesh, v);
+        mesh_triangle(b->mesh, b->id[k] - b->instance->first_id, vertex[k]);
+        for (int i = 0; i < 3; ++i) {
+            if (vertex[k][i] >= b->mesh->vertex_count) {
+                bad |= 1u << k;
+                vertex[k][i] = 0;
+            } else {
+                mesh_vertex_soon(b->mesh, vertex[k][i]);
             }
         }
     }
     return bad;
+}
+
+/* Slots that are not used hold numbers. */
+static void fetch_nothing(lmb_resolve_batch *b)
+{
+    memset(b->corner, 0, sizeof b->corner);
+    memset(b->normal, 0, sizeof b->normal);
+    memset(b->colour, 0, sizeof b->colour);
+    memset(b->uv, 0, sizeof b->uv);
 }
 
 /* All slots' triangles from the mesh; returns the slots of those that are none, a bit each. */
@@ -207,17 +223,21 @@ static uint32_t fetch(lmb_resolve_batch *b)
 {
     corner_vertices vertex;
     const uint32_t bad = fetch_indices(vertex, b);
-    for (int i = 0; i < 3 && b->mesh->vertex_count > 0; ++i) {
-        fetch_positions(b, i, vertex[i]);
-        if (b->mesh->normals != NULL && !b->albedo_only) {
-            fetch_normals(b, i, vertex[i]);
-        }
-        if (b->mesh->colours != NULL) {
-            fetch_colours(b, i, vertex[i]);
-        }
-        if (b->mesh->uvs != NULL) {
-            fetch_uvs(b, i, vertex[i]);
-        }
+    if (b->count < LMB_SLOTS) {
+        fetch_nothing(b);
+    }
+    if (b->mesh->vertex_count == 0) {
+        return bad;
+    }
+    fetch_positions(b, vertex);
+    if (b->mesh->normals != NULL && !b->albedo_only) {
+        fetch_normals(b, vertex);
+    }
+    if (b->mesh->colours != NULL) {
+        fetch_colours(b, vertex);
+    }
+    if (b->mesh->uvs != NULL) {
+        fetch_uvs(b, vertex);
     }
     return bad;
 }
@@ -255,15 +275,6 @@ static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lm
     return done;
 }
 
-static int32_t count_hits(const lmb_tile *t)
-{
-    int32_t hits = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        hits += t->id[k] != 0;
-    }
-    return hits;
-}
-
 /* From the first plane, or from albedo on. */
 static void clear_tile(lmb_tile *out, int albedo_only)
 {
@@ -283,16 +294,16 @@ static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_v
     clear_tile(out, albedo_only);
     out->x = x;
     out->y = y;
-    uint64_t left = read_ids(out->id, target, view, x, y);
+    read_ids(out->id, target, view, x, y);
+    uint64_t left = kernels->resolve_shown(out->id);
     if (left != 0) {
         lmb_resolve_batch *batch = &out->batch;
-        memset(batch, 0, sizeof *batch); /* slots that are not used hold numbers */
         lmb_resolve_rays(&batch->rays, view, x, y);
         batch->albedo_only = albedo_only;
         while (left != 0) {
             left &= ~resolve_some(out, kernels, scene, left);
         }
-        out->hits = count_hits(out);
+        out->hits = count_bits_64(kernels->resolve_shown(out->id));
     }
     return LMB_OK;
 }

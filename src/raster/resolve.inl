@@ -17,6 +17,16 @@ LANE_INLINE uint32_t resolve_take(int32_t *slot, const uint32_t *id, int k, lane
     return mask_bits(mine);
 }
 
+/* Pixels whose id is not 0, a bit each. */
+static uint64_t KERNEL(resolve_shown)(const uint32_t id[LMB_TILE_PIXELS])
+{
+    uint64_t none = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        none |= (uint64_t)mask_bits(lanei_equal(lanei_load((const int32_t *)id + k), lanei_splat(0))) << k;
+    }
+    return ~none;
+}
+
 /* `left` without the pixels of other instances. */
 LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id, uint64_t left)
 {
@@ -169,7 +179,9 @@ LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
     for (int c = 0; c < 3; ++c) {
         lane v[3];
         for (int i = 0; i < 3; ++i) {
-            const lane colour = lane_div(lane_load(b->albedo[i][c] + k), lane_splat(255.0f));
+            const lanei code = lanei_load((const int32_t *)b->colour[i] + k);
+            const lane colour =
+                lane_div(lane_from_int(lanei_and(lanei_shift(code, 8 * c), lanei_splat(255))), lane_splat(255.0f));
             v[i] = lane_mul(lane_splat(b->material->albedo[c]), colour);
             lane_store(b->albedo[i][c] + k, i == 0 ? v[0] : lane_sub(v[i], v[0]));
         }

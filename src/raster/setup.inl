@@ -13,36 +13,48 @@ typedef struct setup_corners {
     float position[3][3][LMB_BATCH]; /* [corner][axis] */
 } setup_corners;
 
-/* Triangle k; 1 where its every index is inside the mesh. */
-static inline uint32_t setup_fetch_one(setup_corners *out, uint32_t k, const lmb_mesh *mesh, uint32_t triangle)
+/* Corner i of triangle k; 1 where the mesh has such a vertex. */
+LANE_INLINE uint32_t setup_fetch_corner(setup_corners *out, int i, uint32_t k, const lmb_mesh *mesh, uint32_t vertex)
 {
-    uint32_t sound = 1;
-    for (uint32_t i = 0; i < 3; ++i) {
-        const uint32_t vertex = mesh_index(mesh, 3 * triangle + i);
-        lmb_vec3 p = vec3(0.0f, 0.0f, 0.0f);
-        if (vertex < mesh->vertex_count) {
-            p = mesh_position(mesh, vertex);
-        } else {
-            sound = 0;
-        }
-        out->position[i][0][k] = p.x;
-        out->position[i][1][k] = p.y;
-        out->position[i][2][k] = p.z;
+    if (vertex >= mesh->vertex_count) {
+        out->position[i][0][k] = out->position[i][1][k] = out->position[i][2][k] = 0.0f;
+        return 0;
     }
-    return sound;
+    const lmb_vec3 p = mesh_position(mesh, vertex);
+    out->position[i][0][k] = p.x;
+    out->position[i][1][k] = p.y;
+    out->position[i][2][k] = p.z;
+    return 1;
 }
 
 /* `count` triangles from `first` on; returns those whose every index is inside the mesh, a bit each. */
-static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
+LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
     uint32_t in = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        uint32_t vertex[3];
+        mesh_triangle(mesh, first + k, vertex);
+        const uint32_t a = setup_fetch_corner(out, 0, k, mesh, vertex[0]),
+                       b = setup_fetch_corner(out, 1, k, mesh, vertex[1]),
+                       c = setup_fetch_corner(out, 2, k, mesh, vertex[2]);
+        in |= (a & b & c) << k;
+    }
+    return in;
+}
+
+/* The same, with code of its own for the usual formats; but not on a machine of one lane, where size counts. */
+static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
+{
     if (count < LMB_BATCH) {
         memset(out, 0, sizeof *out); /* empty places hold numbers */
     }
-    for (uint32_t k = 0; k < count; ++k) {
-        in |= setup_fetch_one(out, k, mesh, first + k) << k;
+    if (LANES > 1 && mesh->index_format == LMB_INDEX_U32 && mesh->position_format == LMB_POSITION_F32) {
+        lmb_mesh usual = *mesh;
+        usual.index_format = LMB_INDEX_U32;
+        usual.position_format = LMB_POSITION_F32;
+        return setup_fetch_all(out, &usual, first, count);
     }
-    return in;
+    return setup_fetch_all(out, mesh, first, count);
 }
 
 /* In a loop compilers keep what does not change, two dozen vectors, on the stack. */

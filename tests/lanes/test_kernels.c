@@ -228,6 +228,18 @@ static int same_slots(const trial *t, const char *what, const float *want, const
     return equal;
 }
 
+static int trial_resolve_shown(const trial *t, test_rng r)
+{
+    uint32_t id[LMB_TILE_PIXELS];
+    uint64_t want = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        id[k] = test_random(&r) % 2u ? 0u : test_random(&r) % 2u ? 0x80000000u : 1u + test_random(&r) % 9u;
+        want |= (uint64_t)(id[k] != 0) << k;
+    }
+    const uint64_t a = lmb_kernels_scalar.resolve_shown(id), b = t->kernels->resolve_shown(id);
+    return same_bytes(t, "scalar's", &want, &a, sizeof a) && same_bytes(t, "shown", &want, &b, sizeof b);
+}
+
 static int trial_resolve_slots(const trial *t, test_rng r)
 {
     static lmb_resolve_batch want, got;
@@ -264,7 +276,9 @@ static int trial_resolve_setup(const trial *t, test_rng r)
     for (int k = 0; k < LMB_SLOTS; ++k) {
         for (int i = 0; i < 9; ++i) {
             want.normal[i / 3][i % 3][k] = (float)((int32_t)(test_random(&r) % 65536u) - 32768);
-            want.albedo[i / 3][i % 3][k] = (float)(test_random(&r) % 256u);
+        }
+        for (int i = 0; i < 3; ++i) {
+            want.colour[i][k] = test_random(&r);
         }
         for (int i = 0; i < 3 && test_random(&r) % 8u == 0; ++i) { /* a triangle without area */
             want.corner[2][i][k] = want.corner[1][i][k];
@@ -789,6 +803,7 @@ static const struct kernel {
     const char *name;
     int (*run)(const trial *t, test_rng r);
 } kernels[] = {
+    {"resolve_shown", trial_resolve_shown},
     {"resolve_slots", trial_resolve_slots},
     {"resolve_setup", trial_resolve_setup},
     {"resolve", trial_resolve},
