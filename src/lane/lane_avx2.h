@@ -86,6 +86,17 @@ static inline laned laned_from_int(lanei a)
     r.hi = _mm256_cvtepi32_pd(_mm256_extracti128_si256(a, 1));
     return r;
 }
+static inline lane lane_from_double(laned a)
+{
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(a.lo)), _mm256_cvtpd_ps(a.hi), 1);
+}
+static inline laned laned_load(const double *p)
+{
+    laned r;
+    r.lo = _mm256_loadu_pd(p);
+    r.hi = _mm256_loadu_pd(p + 4);
+    return r;
+}
 static inline void laned_store(double *p, laned a)
 {
     _mm256_storeu_pd(p, a.lo);

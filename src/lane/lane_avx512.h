@@ -77,6 +77,17 @@ static inline laned laned_from_int(lanei a)
     r.hi = _mm512_cvtepi32_pd(_mm512_extracti32x8_epi32(a, 1));
     return r;
 }
+static inline lane lane_from_double(laned a)
+{
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a.lo)), _mm512_cvtpd_ps(a.hi), 1);
+}
+static inline laned laned_load(const double *p)
+{
+    laned r;
+    r.lo = _mm512_loadu_pd(p);
+    r.hi = _mm512_loadu_pd(p + 8);
+    return r;
+}
 static inline void laned_store(double *p, laned a)
 {
     _mm512_storeu_pd(p, a.lo);

@@ -85,6 +85,14 @@ static inline laned laned_from_int(lanei a)
     r.hi = vcvtq_f64_s64(vmovl_high_s32(a));
     return r;
 }
+static inline lane lane_from_double(laned a) { return vcvt_high_f32_f64(vcvt_f32_f64(a.lo), a.hi); }
+static inline laned laned_load(const double *p)
+{
+    laned r;
+    r.lo = vld1q_f64(p);
+    r.hi = vld1q_f64(p + 2);
+    return r;
+}
 static inline void laned_store(double *p, laned a)
 {
     vst1q_f64(p, a.lo);

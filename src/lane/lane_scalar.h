@@ -114,6 +114,9 @@ static inline void lanei_store(int32_t *p, lanei a) { EACH(p[i] = a.v[i]); }
 static inline laned laned_splat(double a) { laned r; EACH(r.v[i] = a); return r; }
 static inline laned laned_from(lane a) { laned r; EACH(r.v[i] = (double)a.v[i]); return r; }
 static inline laned laned_from_int(lanei a) { laned r; EACH(r.v[i] = (double)a.v[i]); return r; }
+/* Rounded to nearest. */
+static inline lane lane_from_double(laned a) { lane r; EACH(r.v[i] = (float)a.v[i]); return r; }
+static inline laned laned_load(const double *p) { laned r; EACH(r.v[i] = p[i]); return r; }
 static inline void laned_store(double *p, laned a) { EACH(p[i] = a.v[i]); }
 static inline laned laned_add(laned a, laned b) { EACH(a.v[i] = a.v[i] + b.v[i]); return a; }
 static inline laned laned_sub(laned a, laned b) { EACH(a.v[i] = a.v[i] - b.v[i]); return a; }

@@ -82,6 +82,17 @@ static inline laned laned_from_int(lanei a)
     r.hi = wasm_f64x2_convert_low_i32x4(wasm_i32x4_shuffle(a, a, 2, 3, 2, 3));
     return r;
 }
+static inline lane lane_from_double(laned a)
+{
+    return wasm_i32x4_shuffle(wasm_f32x4_demote_f64x2_zero(a.lo), wasm_f32x4_demote_f64x2_zero(a.hi), 0, 1, 4, 5);
+}
+static inline laned laned_load(const double *p)
+{
+    laned r;
+    r.lo = wasm_v128_load(p);
+    r.hi = wasm_v128_load(p + 2);
+    return r;
+}
 static inline void laned_store(double *p, laned a)
 {
     wasm_v128_store(p, a.lo);

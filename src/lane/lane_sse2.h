@@ -89,6 +89,14 @@ static inline laned laned_from_int(lanei a)
     r.hi = _mm_cvtepi32_pd(_mm_shuffle_epi32(a, _MM_SHUFFLE(3, 2, 3, 2)));
     return r;
 }
+static inline lane lane_from_double(laned a) { return _mm_movelh_ps(_mm_cvtpd_ps(a.lo), _mm_cvtpd_ps(a.hi)); }
+static inline laned laned_load(const double *p)
+{
+    laned r;
+    r.lo = _mm_loadu_pd(p);
+    r.hi = _mm_loadu_pd(p + 2);
+    return r;
+}
 static inline void laned_store(double *p, laned a)
 {
     _mm_storeu_pd(p, a.lo);

@@ -83,11 +83,11 @@ typedef struct fill_box {
     int32_t first_row, last_row, first, last;
 } fill_box;
 
-/* d + dy y at the rows of a vector that starts in row y. `row` is y: where all rows are drawn it is counted in float,
- * as a conversion waits for whatever was in its register before. */
+/* d + dy y at the rows of a vector that starts in row y. `row` is y, for machines of less than a row: where all rows are
+ * drawn it is counted in float, as a conversion waits for whatever was in its register before. */
 LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y, float row)
 {
-#if LANES > LMB_TILE
+#if LANES >= LMB_TILE
     (void)row;
     return lane_add(lane_splat(d), lane_mul(lane_splat(per_row), lane_row(y * LMB_TILE)));
 #else

@@ -94,10 +94,24 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
     }
 }
 
+#if LANES >= LMB_TILE
+#include "fill_parts.inl"
+#endif
+
 static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
 {
     const int kind = fill_kind(&w->first);
     lmb_fill_job job;
+#if LANES >= LMB_TILE
+    if (kind != FILL_ANY && !parts_are_wide(b, bits)) {
+        if (kind == FILL_PLAIN) {
+            parts_fill(w, b, bits, first_id, FILL_PLAIN);
+        } else {
+            parts_fill(w, b, bits, first_id, FILL_ID32);
+        }
+        return;
+    }
+#endif
     job.d_scale = w->d_scale;
     job.d_bias = w->d_bias;
     for (; bits != 0; bits &= bits - 1) {

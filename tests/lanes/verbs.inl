@@ -94,6 +94,8 @@ static inline void run_doubles(verb_output *out, const verb_input *in, int k)
     laned_store(out->d[VERB_D_mul] + k, laned_mul(a, i));
     laned_store(out->d[VERB_D_div] + k, laned_div(a, laned_add(laned_mul(i, i), laned_splat(1.0))));
     laned_store(out->d[VERB_D_from_int] + k, i);
+    laned_store(out->d[VERB_D_load] + k, laned_load(out->d[VERB_D_mul] + k));
+    put_lane(out->row[VERB_from_double] + k, lane_from_double(laned_mul(i, laned_splat(1.0 / 3.0))));
 }
 
 static inline void run_memory(verb_output *out, const verb_input *in, int k)
