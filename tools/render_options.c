@@ -46,6 +46,8 @@ static const char usage_bounce[] =
     "                             sets the next three; see README for each one's error and time\n"
     "  --tree N                   first points a side of a light's map, a power of two, to an eighth of --light-map\n"
     "  --error E                  share that a pixel's bounced light may be wrong by where nothing blocks it\n"
+    "  --error-bound E            the same as a proof, for each pixel: takes many times as long (one bounce; with\n"
+    "                             --occlusion none also where it takes every texel)\n"
     "  --visible V                what may be seen or blocked as one: at most this share of a pixel's bounced light\n"
     "  --bounces N                reflections of light, 1 .. 64 (default 1); above 1 with --grouping cut\n"
     "  --elements N               pieces of the scene that reflect again, or shine (default 16384; a power of 4)\n"
@@ -304,6 +306,12 @@ static int parse_error(const char *text, render_options *o)
     return parse_number(text, 1e-4f, 10.0f, &o->error);
 }
 
+static int parse_error_bound(const char *text, render_options *o)
+{
+    o->proven = 1;
+    return parse_error(text, o);
+}
+
 static int parse_visible(const char *text, render_options *o)
 {
     return parse_number(text, 1e-4f, 10.0f, &o->visible);
@@ -421,6 +429,7 @@ static const struct flag {
     {"--quality", parse_quality, "draft, default or best"},
     {"--tree", parse_tree, "a power of two, 8 .. 4096"},
     {"--error", parse_error, "a share, 0.0001 .. 10"},
+    {"--error-bound", parse_error_bound, "a share, 0.0001 .. 10"},
     {"--visible", parse_visible, "a share, 0.0001 .. 10"},
     {"--bounces", parse_bounces, "a number from 1 to 64"},
     {"--elements", parse_elements, "a number from 64 to 16777216"},

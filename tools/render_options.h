@@ -35,6 +35,7 @@ typedef struct render_options {
     int32_t quality;      /* QUALITY_*: what the next three are where they are 0 */
     int32_t tree;         /* first points a side of a light's tree */
     float error, visible;
+    int proven;
     int32_t bounces, elements; /* 0: default */
     int32_t occlusion, steps;
     int32_t many_cells; /* 0: only where the scene has too many lights for maps */

@@ -344,6 +344,7 @@ static int set_frame(job *j, report *r)
     f->occlusion = j->o.occlusion;
     f->steps = j->o.steps;
     f->error = j->o.error;
+    f->proven = j->o.proven;
     f->bounces = j->o.bounces;
     f->visible = j->o.visible;
     f->gather_step = j->o.gather_step;
@@ -437,15 +438,15 @@ static int draw(job *j, report *r)
     return status == LMB_OK || explain(j, status, stage, r);
 }
 
-/* The same frame once more with another occlusion, by the same light where elements send none, for theirs was solved by
- * it; neither told nor timed. */
+/* The same frame once more, shown otherwise, by the same light: but elements that send theirs do it by one occlusion.
+ * Neither told nor timed. */
 static int draw_once_more(job *j, image *out, lmb_frame how, report *r)
 {
     crew again = j->crew;
     int32_t stage;
     again.tell = NULL;
     how.stats = NULL;
-    j->lit = how.elements.data == NULL;
+    j->lit = how.elements.data == NULL || how.occlusion == j->frame.occlusion;
     if (!take_picture(j, out, r)) {
         return 0;
     }

@@ -69,6 +69,7 @@ typedef struct lmb_frame {
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
     float error;           /* 0.02 where 0: LMB_GROUP_CUT: share of the bounced light that a pixel may be wrong by */
     float visible;         /* 0.02 where 0: LMB_OCCLUSION_EXACT: share that is seen or not as one */
+    int32_t proven;        /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cutting's */
     float many_error;      /* 0.02 where 0: lmb_many_look's */
     int32_t bounces;       /* 1 where 0: how often light is reflected before the surface that is seen; LMB_GROUP_CUT */
     int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile */
@@ -143,8 +144,8 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * light and objects stand still. r goes back to LMB_STAGE_VIEW; maps, points, groups and trees stay, and are only
  * read.
  *
- *   frame  kernels, view, show, occlusion, steps, error, visible, many_error, gather_step, exposure_ev, eye, eye_depth,
- *          scratch, out, callback, user and stats are taken from it; the rest stands as it was at lmb_render_begin.
+ *   frame  kernels, view, show, occlusion, steps, error, visible, proven, many_error, gather_step, exposure_ev, eye,
+ *          eye_depth, scratch, out, callback, user and stats are taken from it; the rest stands as it was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
  * also where `frame` shows bounced light and r solved none, or solved more bounces than one by another occlusion, error

@@ -1,9 +1,7 @@
 /* cut.c: each tile of pixels takes its own cut through the light's tree, and is lit by it. Floor 6.    [V25 V27 V28]
  *
- * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines and the least distance d between its box
- * and the surface's. Seen as one disc it is wrong by second order in size and bend: U min(1, R^2 / 2 d^2 + sin^2 a),
- * R half its box's diagonal, a the widest angle of its normals; by first order where a horizon goes through it. The
- * largest is divided first: buckets by exponent and first bit find it without sorting, in the same order everywhere. */
+ * What a node may be wrong by is weigh.h's. The largest is divided first: buckets by exponent and first bit find it
+ * without sorting, in the same order everywhere. */
 #include <lambent/tree.h>
 
 #include <string.h>
@@ -12,88 +10,13 @@
 #include "../lane/kernels.h"
 #include "../raster/tile.h"
 #include "footprint.h"
-#include "tree.h"
+#include "weigh.h"
 
 #if LMB_TREES
 
-#define INVERSE_PI   0.31830989f
-#define DARK         0.25        /* of `visible`: under this share of what nothing blocked, errors do not count */
-#define SECOND       0.5f  /* of R^2 / d^2: boxes hold whole texels, of which discs are right to second order already */
-#define TURNED       16.0f /* how much more a node counts whose point that is asked faces away: its others may not */
+#define INVERSE_PI 0.31830989f
+#define DARK       0.25 /* of `visible`: under this share of what nothing blocked, errors do not count */
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
-
-/* The pixels of one surface in a tile. */
-typedef struct patch {
-    uint64_t pixels;
-    lmb_vec3 low, high, centre, half; /* box of their positions */
-    lmb_vec3 normal;                  /* mean */
-    float cosine, sine;               /* of the widest angle to the mean */
-} patch;
-
-static void patch_of(patch *out, const lmb_tile *tile, uint64_t pixels)
-{
-    lmb_vec3 sum = vec3(0, 0, 0);
-    out->pixels = pixels;
-    tile_box(&out->low, &out->high, tile, pixels);
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        sum = add3(sum, tile_vec(tile->normal, lowest_bit_64(bits)));
-    }
-    out->centre = mul3(add3(out->low, out->high), 0.5f);
-    out->half = mul3(sub3(out->high, out->low), 0.5f);
-    out->normal = normalize3(sum);
-    out->cosine = 1.0f;
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        out->cosine = minf(out->cosine, dot3(out->normal, tile_vec(tile->normal, lowest_bit_64(bits))));
-    }
-    out->sine = out->cosine > 0.0f ? sqrtf(maxf(1.0f - out->cosine * out->cosine, 0.0f)) : 1.0f;
-}
-
-/* --- one node against a patch ------------------------------------------------------------------------------------- */
-
-static float support(lmb_vec3 half, lmb_vec3 n) { return absf(n.x) * half.x + absf(n.y) * half.y + absf(n.z) * half.z; }
-
-static float gap(float centre, float halves) { return maxf(absf(centre) - halves, 0.0f); }
-
-/* What a node gives the patch's middle, and what it may be wrong by. */
-typedef struct weight {
-    int faces; /* 0: all of it faces away */
-    float value, most, error;
-} weight;
-
-static weight weigh(const lmb_node *n, const lmb_texel *seen, const patch *p)
-{
-    weight w = {0, 0.0f, 0.0f, 0.0f};
-    const lmb_vec3 middle = mul3(add3(n->low, n->high), 0.5f), half = mul3(sub3(n->high, n->low), 0.5f);
-    const lmb_vec3 to = sub3(middle, p->centre);
-    const float reach = length3(to) + length3(half) + length3(p->half);
-    const float sine = n->cosine > 0.0f ? sqrtf(maxf(1.0f - n->cosine * n->cosine, 0.0f)) : 1.0f;
-    const float up = dot3(p->normal, to) + support(half, p->normal) + support(p->half, p->normal) + p->sine * reach;
-    const float out = support(half, n->normal) + support(p->half, n->normal) - dot3(n->normal, to) + sine * reach;
-    const float m = flux_sum(n->flux);
-    if (!(up > 0.0f) || !(out > 0.0f) || !(m > 0.0f)) {
-        return w;
-    }
-    const lmb_vec3 apart =
-        vec3(gap(to.x, half.x + p->half.x), gap(to.y, half.y + p->half.y), gap(to.z, half.z + p->half.z));
-    /* A node that holds the patch may give any amount: so much that it is divided first, but not so much that the sum
-     * of errors keeps the rounding of it when it is gone. */
-    const float d2 = maxf(dot3(apart, apart), maxf(1e-6f * dot3(half, half), 1e-12f)), d = sqrtf(d2);
-    w.most = m * INVERSE_PI / d2 * minf(up / d, 1.0f) * minf(out / d, 1.0f);
-    /* A node that a horizon goes through, the patch's or its own, is wrong by first order: of a quarter of U where its
-     * middle is on it and counts for nothing. */
-    const float over = 2.0f * (support(half, p->normal) + support(p->half, p->normal) + p->sine * reach),
-                before = 2.0f * (support(half, n->normal) + support(p->half, n->normal) + sine * reach);
-    const float second = SECOND * dot3(half, half) / d2 + sine * sine;
-    const float size = up < over || out < before ? maxf(second, 0.25f) : second;
-    w.faces = 1;
-    w.error = w.most * minf(size, 1.0f);
-    const lmb_vec3 s = sub3(seen->position, p->centre);
-    if (dot3(seen->normal, s) >= 0.0f || dot3(p->normal, s) <= 0.0f) {
-        w.most *= TURNED;
-    }
-    w.value = m * lmb_disc_factor(p->centre, p->normal, n->centre, n->normal, n->area);
-    return w;
-}
 
 /* --- the cut ------------------------------------------------------------------------------------------------------ */
 
@@ -126,7 +49,8 @@ static weight weigh_at(lmb_tree_place at, const cutter *c)
     const int32_t size = c->tree->size;
     lmb_node n;
     node_at(&n, c->tree, at);
-    return weigh(&n, tree_texel(c->tree, at.face, (int32_t)n.texel % size, (int32_t)n.texel / size), c->p);
+    const lmb_texel *seen = tree_texel(c->tree, at.face, (int32_t)n.texel % size, (int32_t)n.texel / size);
+    return c->cutting->proven ? lmb_weigh_proven(&n, seen, c->p) : lmb_weigh(&n, seen, c->p);
 }
 
 static int bucket_of(float key)
@@ -201,7 +125,7 @@ static uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *s
 }
 
 /* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are:
- * see TURNED. */
+ * see weigh.c's TURNED. */
 static void ask(cutter *c, int32_t i)
 {
     const int32_t size = c->tree->size;
@@ -272,6 +196,18 @@ static void divide_by_error(cutter *c, float share)
     }
 }
 
+/* Large errors that came and went leave their rounding in the sum: a proof counts it anew. */
+static int is_proven(cutter *c)
+{
+    c->error = 0.0;
+    for (int32_t i = 0; i < c->cut->count; ++i) {
+        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+            c->error += (double)c->cut->error[i];
+        }
+    }
+    return c->error <= (double)c->cutting->error * (c->beside + c->value);
+}
+
 static void begin(cutter *c)
 {
     c->cut->count = 0;
@@ -312,7 +248,9 @@ static void take_cut(cutter *c)
             wait(c, i);
         }
     }
-    divide_by_error(c, c->cutting->error);
+    do {
+        divide_by_error(c, c->cutting->error);
+    } while (c->cutting->proven && !is_proven(c) && has_room(c) && largest(c) != NONE);
 }
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
@@ -412,7 +350,7 @@ static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, 
 static int is_near(const patch *p, const leaf *l)
 {
     const lmb_vec3 to = sub3(l->node.centre, p->centre);
-    const lmb_vec3 apart = vec3(gap(to.x, p->half.x), gap(to.y, p->half.y), gap(to.z, p->half.z));
+    const lmb_vec3 apart = boxes_apart(to, p->half, vec3(0, 0, 0));
     return dot3(apart, apart) < LMB_NEAR * LMB_NEAR * l->half2;
 }
 
@@ -425,52 +363,93 @@ static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
     out->visible = visible;
 }
 
-static void light_patch(lmb_irradiance *inout, const cutter *c)
+/* Emitters on their way to the gather, a block at a time. */
+typedef struct stream {
+    lmb_irradiance *inout;
+    const cutter *c;
+    uint64_t pairs;
+    int32_t filled;
+} stream;
+
+static void flush(stream *s)
 {
-    int32_t filled = 0;
-    uint64_t pairs = 0;
-    for (int32_t i = 0; i < c->cut->count; ++i) {
-        const lmb_tree_place at = c->cut->place[i];
-        const uint64_t visible = c->cut->visible[i];
-        const lmb_node *n;
-        leaf l;
-        if (at.level == GONE || visible == 0) {
-            continue;
+    const cutter *c = s->c;
+    c->kernels->gather_cut(s->inout, c->cut->pairs, c->tile, c->cut->emitter, s->filled);
+    s->filled = 0;
+}
+
+static void light_by(stream *s, lmb_tree_place at, uint64_t visible)
+{
+    const cutter *c = s->c;
+    const lmb_node *n;
+    leaf l;
+    s->pairs += (uint64_t)count_bits_64(visible);
+    if (at.level > 0) {
+        n = tree_node(c->tree, at);
+    } else {
+        leaf_at(&l, c->tree, at);
+        if (is_near(c->p, &l)) {
+            add_near(s->inout, c, at, &l, visible);
+            return;
         }
-        pairs += (uint64_t)count_bits_64(visible);
-        if (at.level > 0) {
-            n = tree_node(c->tree, at);
-        } else {
-            leaf_at(&l, c->tree, at);
-            if (is_near(c->p, &l)) {
-                add_near(inout, c, at, &l, visible);
-                continue;
-            }
-            n = &l.node;
-        }
-        set_emitter(&c->cut->emitter[filled++], n, visible);
-        if (filled == LMB_CUT_BLOCK) {
-            c->kernels->gather_cut(inout, c->cut->pairs, c->tile, c->cut->emitter, filled);
-            filled = 0;
-        }
+        n = &l.node;
     }
-    c->kernels->gather_cut(inout, c->cut->pairs, c->tile, c->cut->emitter, filled);
-    if (c->cutting->stats != NULL) {
-        c->cutting->stats->pairs += pairs;
+    set_emitter(&c->cut->emitter[s->filled++], n, visible);
+    if (s->filled == LMB_CUT_BLOCK) {
+        flush(s);
     }
 }
 
-/* In the mean over the patch. */
+/* Where no cut that there is room for is proven, and nothing blocks: every texel. */
+static void light_by_all(stream *s)
+{
+    const int32_t size = s->c->tree->size;
+    for (int64_t i = 0; i < (int64_t)s->c->tree->faces * size * size; ++i) {
+        const int32_t within = (int32_t)(i % ((int64_t)size * size));
+        lmb_tree_place at;
+        at.face = (uint16_t)(i / ((int64_t)size * size));
+        at.x = (uint16_t)(within % size);
+        at.y = (uint16_t)(within / size);
+        at.level = 0;
+        if (flux_sum(tree_texel(s->c->tree, at.face, at.x, at.y)->flux) > 0.0f) {
+            light_by(s, at, s->c->p->pixels);
+        }
+    }
+}
+
+static void light_patch(lmb_irradiance *inout, cutter *c)
+{
+    stream s;
+    s.inout = inout;
+    s.c = c;
+    s.pairs = 0;
+    s.filled = 0;
+    if (c->cutting->proven && c->cutting->blockers == NULL && !is_proven(c)) {
+        light_by_all(&s);
+    } else {
+        for (int32_t i = 0; i < c->cut->count; ++i) {
+            if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+                light_by(&s, c->cut->place[i], c->cut->visible[i]);
+            }
+        }
+    }
+    flush(&s);
+    if (c->cutting->stats != NULL) {
+        c->cutting->stats->pairs += s.pairs;
+    }
+}
+
+/* In the mean over the patch: what proves nothing of its pixels. */
 static double beside(const lmb_cutting *cutting, const patch *p, float per_pixel)
 {
     double sum = 0.0;
-    for (uint64_t bits = cutting->beside != NULL ? p->pixels : 0; bits != 0; bits &= bits - 1) {
+    for (uint64_t bits = cutting->beside != NULL && !cutting->proven ? p->pixels : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
             sum += (double)cutting->beside->rgb[c][k];
         }
     }
-    return sum * (double)per_pixel + (double)cutting->least;
+    return sum * (double)per_pixel + (cutting->proven ? 0.0 : (double)cutting->least);
 }
 
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
@@ -483,7 +462,7 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
     for (uint64_t left = tile_pixels(tile); left != 0;) {
         patch p;
         cutter c;
-        patch_of(&p, tile, tile_surface(tile, left));
+        lmb_patch_of(&p, tile, tile_surface(tile, left));
         c.cut = scratch;
         c.tree = tree;
         c.tile = tile;

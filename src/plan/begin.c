@@ -81,6 +81,7 @@ static void set_picture(lmb_frame *f, const lmb_frame *from)
     f->steps = from->steps;
     f->error = from->error;
     f->visible = from->visible;
+    f->proven = from->proven;
     f->many_error = from->many_error;
     f->gather_step = from->gather_step;
     f->exposure_ev = from->exposure_ev;
@@ -99,7 +100,8 @@ static int is_solved(const lmb_frame *f, const lmb_render *r)
 {
     const lmb_frame *before = &r->frame;
     const int exact = wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT;
-    const int same = f->occlusion == before->occlusion && f->error == before->error && f->visible == before->visible;
+    const int same = f->occlusion == before->occlusion && f->error == before->error && f->visible == before->visible &&
+                     f->proven == before->proven;
     return (!wants_bounce(f) || wants_bounce(before)) && (same || !wants_bounce(f) || !wants_elements(r)) &&
            (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->blockers.node_count > 0);
 }

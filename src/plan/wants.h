@@ -56,6 +56,7 @@ static inline lmb_cutting cutting_of(const lmb_frame *f, lmb_stats *stats)
     memset(&c, 0, sizeof c);
     c.error = f->error;
     c.visible = f->visible;
+    c.proven = f->proven;
     c.blockers = f->occlusion == LMB_OCCLUSION_EXACT ? &f->blockers : NULL;
     c.stats = stats;
     return c;

@@ -174,6 +174,9 @@ status 2 render "$dir/many.gltf" --bounce-lights 129 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
 
+status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect -o "$dir/proven.pfm"
+status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o "$dir/ruled.pfm"
+status 0 compare "$dir/proven.pfm" "$dir/ruled.pfm"
 status 0 render demo $small --bounces 3 --show occlusion -o "$dir/blocked.pfm"
 
 # Help and version go to stdout.

@@ -568,6 +568,7 @@ static void tile_errors(cut_errors *e, stage *s, lmb_cut *cut, const texel_quad 
     memset(&got, 0, sizeof got);
     memset(&how, 0, sizeof how);
     how.error = how.visible = 0.02f;
+    how.proven = s->frame.proven;
     how.stats = &s->stats;
     CHECK(lmb_gather_cut(&got, s->frame.kernels, cut, tile, &s->render->frame.tree, &how) == LMB_OK);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -603,8 +604,9 @@ static float error_at(cut_errors *e, double share)
     return e->of[(int)(share * (e->count - 1))];
 }
 
-/* V27: without blockers, at error 0.02 from a map of 256 texels a side: against every texel, in one tile of 31. */
-static void check_cut_error(const char *name, double most_share)
+/* V27: without blockers, at error 0.02 from a map of 256 texels a side: against every texel, in one tile of 31. By the
+ * rule all but a thousandth of the pixels hold it, proven all. */
+static void check_cut_error(const char *name, int proven, double most_share)
 {
     stage s;
     cut_errors e = {NULL, NULL, 0, 0.0};
@@ -617,6 +619,7 @@ static void check_cut_error(const char *name, double most_share)
         const lmb_tree *tree = &s.render->frame.tree;
         texel_quad *quads = take(sizeof *quads * 65536u * tree->faces);
         const int quad_count = every_texel(quads, tree);
+        s.frame.proven = proven;
         memset(&s.stats, 0, sizeof s.stats);
         e.of = take(sizeof *e.of * (size_t)tiles * LMB_TILE_PIXELS);
         e.want = take(sizeof *e.want * (size_t)tiles * LMB_TILE_PIXELS);
@@ -625,8 +628,9 @@ static void check_cut_error(const char *name, double most_share)
                                    t % wide * LMB_TILE, t / wide * LMB_TILE) == LMB_OK);
             tile_errors(&e, &s, cut, quads, quad_count);
         }
-        const double p999 = (double)error_at(&e, 0.999), share = (double)s.stats.pairs / e.all;
-        printf("  %-15s p99.9 %.4f of %d pixels, by %.1f %% of the pairs\n", name, p999, e.count, share * 100.0);
+        const double p999 = (double)error_at(&e, proven ? 1.0 : 0.999), share = (double)s.stats.pairs / e.all;
+        printf("  %-15s %s %.4f of %d pixels, by %.1f %% of the pairs\n", name, proven ? "proven, most" : "p99.9", p999,
+               e.count, share * 100.0);
         CHECK_MSG(p999 <= 0.02, "%s: %g", name, p999);
         CHECK_MSG(share <= most_share, "%s: %g", name, share);
         free(quads);
@@ -717,8 +721,9 @@ void test_truth(void)
         check_cut(&more_cuts[i]);
     }
     printf(" cuts against every texel\n");
-    check_cut_error("cornell", 0.05);
+    check_cut_error("cornell", 0, 0.05);
     for (int i = 0; i < COUNT(scenes) && getenv("LMB_TRUTH_ALL") != NULL; ++i) {
-        check_cut_error(scenes[i].name, 1.0);
+        check_cut_error(scenes[i].name, 0, strcmp(scenes[i].name, "sponza") == 0 ? 0.16 : 1.0);
+        check_cut_error(scenes[i].name, 1, 1.0);
     }
 }
