@@ -43,13 +43,13 @@ typedef struct lmb_resolve_batch {
     int32_t slot[LMB_TILE_PIXELS];     /* of each pixel; -1: another's */
     float corner[3][3][LMB_SLOTS];     /* in: [corner][axis], model space. Out: corner 0 relative to the eye, then g1
                                           and g2, which give barycentrics: b1 = (p - corner).g1, b2 = (p - corner).g2 */
+    float normal[3][3][LMB_SLOTS];     /* in: octahedral codes as [corner][0 .. 1]. Out: world, [corner][axis] */
+    uint32_t colour[3][LMB_SLOTS];     /* in: of each corner, four codes 0 .. 255, red in the low bits */
+    float uv[3][2][LMB_SLOTS];         /* [corner][u, v] */
     float plane[3][LMB_SLOTS];         /* out: unit normal */
     float face[3][LMB_SLOTS];          /* out: the same, turned to the viewer */
     float w_min[LMB_SLOTS], w_max[LMB_SLOTS]; /* out: of the corners, along the view axis */
-    float normal[3][3][LMB_SLOTS];     /* in: octahedral codes as [corner][0 .. 1]. Out: world, [corner][axis] */
-    uint32_t colour[3][LMB_SLOTS];     /* in: of each corner, four codes 0 .. 255, red in the low bits */
     float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
-    float uv[3][2][LMB_SLOTS];         /* [corner][u, v] */
 } lmb_resolve_batch;
 
 /* Attributes of 8x8 pixels, planar: kernels read whole vectors of them. Pixel k is (k % 8, k / 8). 4 KiB, and 3 KiB to

@@ -80,9 +80,9 @@ static inline void mesh_triangle(const lmb_mesh *m, uint32_t triangle, uint32_t 
         vertex[2] = index[2];
         return;
     }
-    vertex[0] = mesh_index(m, 3 * triangle);
-    vertex[1] = mesh_index(m, 3 * triangle + 1);
-    vertex[2] = mesh_index(m, 3 * triangle + 2);
+    for (uint32_t i = 0; i < 3; ++i) {
+        vertex[i] = mesh_index(m, 3 * triangle + i);
+    }
 }
 
 /* Hints that numbers are wanted soon: those of several triangles lie far apart, and each would be waited for. */

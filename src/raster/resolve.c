@@ -130,34 +130,26 @@ static void read_ids(uint32_t id[LMB_TILE_PIXELS], const lmb_target *target, con
 /* Vertex numbers of a batch, [slot][corner]. */
 typedef uint32_t corner_vertices[LMB_SLOTS][3];
 
-static void put_position(lmb_resolve_batch *b, int i, int k, lmb_vec3 p)
-{
-    b->corner[i][0][k] = p.x;
-    b->corner[i][1][k] = p.y;
-    b->corner[i][2][k] = p.z;
-}
-
 static void fetch_positions(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        put_position(b, 0, k, mesh_position(b->mesh, vertex[k][0]));
-        put_position(b, 1, k, mesh_position(b->mesh, vertex[k][1]));
-        put_position(b, 2, k, mesh_position(b->mesh, vertex[k][2]));
+        for (int i = 0; i < 3; ++i) {
+            const lmb_vec3 p = mesh_position(b->mesh, vertex[k][i]);
+            b->corner[i][0][k] = p.x;
+            b->corner[i][1][k] = p.y;
+            b->corner[i][2][k] = p.z;
+        }
     }
-}
-
-static void put_normal(lmb_resolve_batch *b, int i, int k, const int16_t *code)
-{
-    b->normal[i][0][k] = code[0];
-    b->normal[i][1][k] = code[1];
 }
 
 static void fetch_normals(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        put_normal(b, 0, k, b->mesh->normals + 2 * (size_t)vertex[k][0]);
-        put_normal(b, 1, k, b->mesh->normals + 2 * (size_t)vertex[k][1]);
-        put_normal(b, 2, k, b->mesh->normals + 2 * (size_t)vertex[k][2]);
+        for (int i = 0; i < 3; ++i) {
+            const int16_t *code = b->mesh->normals + 2 * (size_t)vertex[k][i];
+            b->normal[i][0][k] = code[0];
+            b->normal[i][1][k] = code[1];
+        }
     }
 }
 
@@ -170,9 +162,9 @@ static uint32_t colour_at(const lmb_mesh *m, uint32_t vertex)
 static void fetch_colours(lmb_resolve_batch *b, corner_vertices vertex)
 {
     for (int k = 0; k < b->count; ++k) {
-        b->colour[0][k] = colour_at(b->mesh, vertex[k][0]);
-        b->colour[1][k] = colour_at(b->mesh, vertex[k][1]);
-        b->colour[2][k] = colour_at(b->mesh, vertex[k][2]);
+        for (int i = 0; i < 3; ++i) {
+            b->colour[i][k] = colour_at(b->mesh, vertex[k][i]);
+        }
     }
 }
 
@@ -209,13 +201,11 @@ static uint32_t fetch_indices(corner_vertices vertex, const lmb_resolve_batch *b
     return bad;
 }
 
-/* Slots that are not used hold numbers. */
+/* Slots that are not used hold numbers: from corners to uvs. */
 static void fetch_nothing(lmb_resolve_batch *b)
 {
-    memset(b->corner, 0, sizeof b->corner);
-    memset(b->normal, 0, sizeof b->normal);
-    memset(b->colour, 0, sizeof b->colour);
-    memset(b->uv, 0, sizeof b->uv);
+    const size_t from = offsetof(lmb_resolve_batch, corner), past = offsetof(lmb_resolve_batch, plane);
+    memset((uint8_t *)b + from, 0, past - from);
 }
 
 /* All slots' triangles from the mesh; returns the slots of those that are none, a bit each. */

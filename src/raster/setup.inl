@@ -34,10 +34,11 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
     for (uint32_t k = 0; k < count; ++k) {
         uint32_t vertex[3];
         mesh_triangle(mesh, first + k, vertex);
-        const uint32_t a = setup_fetch_corner(out, 0, k, mesh, vertex[0]),
-                       b = setup_fetch_corner(out, 1, k, mesh, vertex[1]),
-                       c = setup_fetch_corner(out, 2, k, mesh, vertex[2]);
-        in |= (a & b & c) << k;
+        uint32_t all = 1;
+        for (int i = 0; i < 3; ++i) {
+            all &= setup_fetch_corner(out, i, k, mesh, vertex[i]);
+        }
+        in |= all << k;
     }
     return in;
 }
