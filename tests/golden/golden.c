@@ -13,8 +13,9 @@
 #include "../../src/base/poly.h"
 #include "../../tools/demo_scene.h"
 
+
 enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40, TREE = 32 };
-enum { LIGHT_CELLS = 20, MANY_LIGHTS = 600 };
+enum { LIGHT_CELLS = 20, MANY_LIGHTS = 600, ELEMENTS = 64 };
 
 static struct memory {
     uint32_t depth[88 * 64], id[88 * 64], out[WIDTH * HEIGHT * 3];
@@ -35,7 +36,7 @@ static union light_memory {
 } light_memory;
 static uint32_t point_cells[MAP / 4 * (MAP / 4) + 1];
 static lmb_points points = {light_memory.points, POINTS, 0, point_cells, MAP / 4 * (MAP / 4) + 1, 0, NULL, 0, 0};
-static uint32_t blocker_memory[TRIANGLES * 29 + 1024];
+static uint32_t blocker_memory[TRIANGLES * 29 + 1024], element_memory[ELEMENTS * 40 + 64];
 static const lmb_kernels *kernels; /* those that the cases run with */
 static const golden_way *way;
 
@@ -573,6 +574,30 @@ static uint64_t case_full_cut(int variant)
 {
     lmb_frame f = soup_frame(1, TREE);
     f.occlusion = variant;
+    return hash_frame(hash_start, &f);
+}
+
+/* The same with an error that is proven. */
+static uint64_t case_cut_proven(int variant)
+{
+    lmb_frame f = soup_frame(1, 8);
+    (void)variant;
+    f.proven = 1;
+    f.error = 0.1f;
+    return hash_frame(hash_start, &f);
+}
+
+/* Three bounces between the soup's elements; the whole picture. Variant 1: a part of it shines. */
+static uint64_t case_bounces(int variant)
+{
+    lmb_frame f = soup_frame(1, 8);
+    lmb_material shining[2] = {soup_materials[0], soup_materials[1]};
+    shining[1].emission[0] = shining[1].emission[2] = (float)variant;
+    soup.materials = shining;
+    f.show = LMB_SHOW_FULL;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    f.bounces = 3;
+    lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory);
     return hash_frame(hash_start, &f);
 }
 
