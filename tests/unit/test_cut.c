@@ -481,7 +481,6 @@ static void check_door(float visible, double p95)
 void test_cut(void)
 {
     check_error(0.02f, 1, 0.02, 1.0);
-    check_error(0.1f, 1, 0.1, 1.0);
     check_error(0.5f, 1, 0.5, 0.7);
     check_error(0.02f, 0, 0.01, 0.12);
     check_error(0.1f, 0, 0.05, 0.09);
