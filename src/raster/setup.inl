@@ -13,8 +13,15 @@ typedef struct setup_corners {
     float position[3][3][LMB_BATCH]; /* [corner][axis] */
 } setup_corners;
 
+/* Without vectors a call is cheaper than three corners' lanes at once. */
+#if defined(LANE_PLAIN)
+#define SETUP_CORNER static
+#else
+#define SETUP_CORNER LANE_INLINE
+#endif
+
 /* Corner i of triangle k; 1 where the mesh has such a vertex. */
-LANE_INLINE uint32_t setup_fetch_corner(setup_corners *out, int i, uint32_t k, const lmb_mesh *mesh, uint32_t vertex)
+SETUP_CORNER uint32_t setup_fetch_corner(setup_corners *out, int i, uint32_t k, const lmb_mesh *mesh, uint32_t vertex)
 {
     if (vertex >= mesh->vertex_count) {
         out->position[i][0][k] = out->position[i][1][k] = out->position[i][2][k] = 0.0f;
@@ -34,11 +41,10 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
     for (uint32_t k = 0; k < count; ++k) {
         uint32_t vertex[3];
         mesh_triangle(mesh, first + k, vertex);
-        uint32_t all = 1;
-        for (int i = 0; i < 3; ++i) {
-            all &= setup_fetch_corner(out, i, k, mesh, vertex[i]);
-        }
-        in |= all << k;
+        const uint32_t a = setup_fetch_corner(out, 0, k, mesh, vertex[0]),
+                       b = setup_fetch_corner(out, 1, k, mesh, vertex[1]),
+                       c = setup_fetch_corner(out, 2, k, mesh, vertex[2]);
+        in |= (a & b & c) << k;
     }
     return in;
 }
@@ -63,12 +69,6 @@ static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uin
 #define SETUP_APART __attribute__((noinline))
 #else
 #define SETUP_APART
-#endif
-/* Without vectors a call is cheaper than three corners' lanes at once. */
-#if defined(LANE_PLAIN)
-#define SETUP_CORNER static
-#else
-#define SETUP_CORNER LANE_INLINE
 #endif
 
 typedef struct setup_corner {
