@@ -181,7 +181,7 @@ static double compare_view(const lmb_view *v, const lmb_cutting *how)
     return pairs;
 }
 
-/* V27: within `error` of all texels one by one, by a small share of them: all but one pixel of a thousand; proven: all. */
+/* V27: within `error` of all texels one by one, by a small share of them: 999 pixels of 1,000; proven: all. */
 static void check_error(float error, int proven, double bound, double most_share)
 {
     double pairs = 0.0;
