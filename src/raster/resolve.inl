@@ -270,8 +270,15 @@ LANE_INLINE lane resolve_mix(const float *first, const float *second, const floa
                                                           lane_mul(at->b2, lane_table(third, at->slot))));
 }
 
+/* Without vectors every lane of every step would have its own place on one stack frame. */
+#if defined(LANE_PLAIN) && defined(__GNUC__)
+#define RESOLVE_PART static __attribute__((noinline))
+#else
+#define RESOLVE_PART LANE_INLINE
+#endif
+
 /* The interpolated normal, unit length, on the face normal's side; the face normal where it vanishes. */
-LANE_INLINE lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *at, lane3 face)
+RESOLVE_PART lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *at, lane3 face)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), tiny = lane_splat(1e-12f);
     lane3 n;
@@ -286,7 +293,7 @@ LANE_INLINE lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place
 }
 
 /* What the triangle's colour is made of. */
-LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at,
+RESOLVE_PART void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at,
                                 lane_mask mine)
 {
     for (int c = 0; c < 3; ++c) {
