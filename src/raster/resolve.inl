@@ -270,8 +270,8 @@ LANE_INLINE lane resolve_mix(const float *first, const float *second, const floa
                                                           lane_mul(at->b2, lane_table(third, at->slot))));
 }
 
-/* Without vectors every lane of every step would have its own place on one stack frame. */
-#if defined(LANE_PLAIN) && defined(__GNUC__)
+/* Without vectors each of four lanes of every step has its own place on the stack frame. */
+#if defined(LANE_PLAIN) && LANES > 1 && defined(__GNUC__)
 #define RESOLVE_PART static __attribute__((noinline))
 #else
 #define RESOLVE_PART LANE_INLINE
@@ -293,7 +293,7 @@ RESOLVE_PART lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_plac
 }
 
 /* What the triangle's colour is made of. */
-RESOLVE_PART void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at,
+LANE_INLINE void resolve_colour(lmb_tile *out, const lmb_resolve_batch *b, int k, const resolve_place *at,
                                 lane_mask mine)
 {
     for (int c = 0; c < 3; ++c) {
