@@ -96,18 +96,8 @@ static void tell_notes(const job *j)
     }
 }
 
-static int shines(const lmb_scene *s)
-{
-    int any = 0;
-    for (uint32_t i = 0; i < s->material_count; ++i) {
-        const float *e = s->materials[i].emission;
-        any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
-    }
-    return any;
-}
-
 /* Is there light without lamps? */
-static int lights_itself(const job *j) { return j->o.grouping.method == LMB_GROUP_CUT && shines(&j->scene); }
+static int lights_itself(const job *j) { return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_shines(&j->scene); }
 
 static void set_lights(job *j)
 {
@@ -198,7 +188,7 @@ static int take_blockers(job *j, report *r)
 static int take_elements(job *j, report *r)
 {
     const uint32_t n = j->o.elements != 0 ? (uint32_t)j->o.elements : ELEMENTS;
-    if (j->o.bounces <= 1 && !shines(&j->scene)) {
+    if (j->o.bounces <= 1 && !lmb_scene_shines(&j->scene)) {
         return 1;
     }
     j->element_memory = take(j, lmb_elements_bytes(n), r);

@@ -108,6 +108,9 @@ lmb_status lmb_scene_check(const lmb_scene *scene);
 /* lmb_scene_triangles: triangles over all instances of a checked scene; ids run 1 .. that. Cost: none. */
 uint32_t lmb_scene_triangles(const lmb_scene *scene);
 
+/* lmb_scene_shines: 1 where some material gives off light, for which a frame wants elements; else 0. */
+int lmb_scene_shines(const lmb_scene *scene);
+
 /* lmb_scene_bounds: the box of all placed, finite vertices; (0,0,0)-(0,0,0) for none. Cost: one pass over them. */
 void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene);
 

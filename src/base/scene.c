@@ -140,6 +140,16 @@ uint32_t lmb_scene_triangles(const lmb_scene *scene)
     return last->first_id - 1 + scene->meshes[last->mesh].triangle_count;
 }
 
+int lmb_scene_shines(const lmb_scene *scene)
+{
+    int any = 0;
+    for (uint32_t i = 0; scene != NULL && i < scene->material_count; ++i) {
+        const float *e = scene->materials[i].emission;
+        any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
+    }
+    return any;
+}
+
 static int is_sane_point(lmb_vec3 p) { return is_sane(p.x) && is_sane(p.y) && is_sane(p.z); }
 
 /* World positions that are not finite or beyond 2^20 m do not count: draws drop their triangles. */

@@ -7,16 +7,6 @@
 #define STEPS 12
 #define SHARE 0.02f
 
-static int shines(const lmb_scene *scene)
-{
-    int any = 0;
-    for (uint32_t i = 0; i < scene->material_count; ++i) {
-        const float *e = scene->materials[i].emission;
-        any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
-    }
-    return any;
-}
-
 /* Share the map memory out: one light's map after another. */
 static lmb_status place_maps(lmb_render *r)
 {
@@ -65,7 +55,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
         status = place_maps(r);
     }
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
-    r->shines = status == LMB_OK && shines(f->scene);
+    r->shines = status == LMB_OK && lmb_scene_shines(f->scene);
     r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
     r->failed = status;
     return status;

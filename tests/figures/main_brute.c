@@ -18,12 +18,10 @@
 
 #include "../../src/lane/kernels.h"
 #include "../../src/raster/tile.h"
-#include "../../tools/image.h"
 #include "../../tools/metrics.h"
-#include "../../tools/model.h"
 #include "../../tools/render_options.h"
 #include "../every_texel.h"
-#include "../shared_file.h"
+#include "../truth_scene.h"
 
 int test_passed, test_failed, test_skipped;
 
@@ -66,50 +64,20 @@ static double seconds_now(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
 /* --- a scene ------------------------------------------------------------------------------------------------------ */
 
-static int load_picture(image *out, const char *scene, const char *file)
-{
-    char name[128], path[SHARED_PATH];
-    file_bytes bytes;
-    report r = {""};
-    snprintf(name, sizeof name, "truth/%.60s/%.60s", scene, file);
-    int ok = shared_file(path, name);
-    if (ok) {
-        ok = file_read(&bytes, path, &r) && pfm_decode(out, bytes.data, bytes.size, path, &r);
-        CHECK_MSG(ok, "%s", r.text);
-        file_free(&bytes);
-    }
-    return ok;
-}
-
 static int load(work *w)
 {
-    char name[128], path[SHARED_PATH];
+    char path[SHARED_PATH];
     model_notes notes;
     report r = {""};
     memset(&notes, 0, sizeof notes);
-    snprintf(name, sizeof name, "truth/%.60s/scene.gltf", w->scene);
-    if (!shared_file(path, name) || !load_picture(&w->truth, w->scene, "pt_indirect1.pfm") ||
-        !load_picture(&w->surface, w->scene, "gbuffer_depth.pfm")) {
+    truth_path(path, w->scene, "scene.gltf");
+    if (!truth_is_there(w->scene) || !truth_picture(&w->truth, w->scene, "pt_indirect1.pfm") ||
+        !truth_picture(&w->surface, w->scene, "gbuffer_depth.pfm")) {
         return 0;
     }
     const int ok = model_load(&w->loaded, path, NULL, &notes, &r) && w->loaded.camera_count > 0;
     CHECK_MSG(ok, "%s: %s", w->scene, r.text);
     return ok;
-}
-
-static void set_view(lmb_view *v, const model_camera *c, const image *like)
-{
-    v->eye = c->eye;
-    v->right = c->right;
-    v->up = c->up;
-    v->back = c->back;
-    v->kind = LMB_PERSPECTIVE;
-    v->half_height = tanf(0.5f * c->yfov_rad);
-    v->half_width = v->half_height * (float)like->width / (float)like->height;
-    v->near_m = c->near_m > 0.0f ? c->near_m : 1e-3f;
-    v->far_m = 1000.0f;
-    v->frame_width = like->width;
-    v->frame_height = like->height;
 }
 
 static void set_frame(work *w)
@@ -130,7 +98,7 @@ static void set_frame(work *w)
                  pixels = (size_t)width * (size_t)height * 3 * sizeof(float);
     f->kernels = lmb_kernels_pick();
     f->scene = scene;
-    set_view(&f->view, &w->loaded.cameras[0], &w->truth);
+    truth_view(&f->view, &w->loaded.cameras[0], &w->truth);
     f->show = LMB_SHOW_INDIRECT;
     f->light_map = MAP;
     f->grouping.method = LMB_GROUP_CUT;

@@ -11,49 +11,13 @@
 
 #include <lambent/lambent.h>
 
-#include "../../tools/image.h"
 #include "../../tools/metrics.h"
-#include "../../tools/model.h"
 #include "../every_texel.h"
-#include "../shared_file.h"
-#include "../test.h"
+#include "../truth_scene.h"
 
 void test_truth(void);
 
 #define COUNT(a) ((int)(sizeof(a) / sizeof *(a)))
-
-enum { PATH_SIZE = 512 };
-
-/* --- files -------------------------------------------------------------------------------------------------------- */
-
-static void path_of(char path[PATH_SIZE], const char *scene, const char *file)
-{
-    const char *shared = getenv("LMB_SHARED");
-    snprintf(path, PATH_SIZE, "%.300s/truth/%.60s/%.60s", shared != NULL && *shared != '\0' ? shared : "../shared",
-             scene, file);
-}
-
-static int load_picture(image *out, const char *scene, const char *file)
-{
-    char path[PATH_SIZE];
-    file_bytes bytes;
-    report r = {""};
-    path_of(path, scene, file);
-    int ok = file_read(&bytes, path, &r);
-    if (ok) {
-        ok = pfm_decode(out, bytes.data, bytes.size, path, &r);
-        file_free(&bytes);
-    }
-    CHECK_MSG(ok, "%s", r.text);
-    return ok;
-}
-
-static int is_there(const char *scene)
-{
-    char path[SHARED_PATH], name[PATH_SIZE];
-    snprintf(name, sizeof name, "truth/%.60s/scene.gltf", scene);
-    return shared_file(path, name);
-}
 
 /* --- a scene, drawn as the tool draws it -------------------------------------------------------------------------- */
 
@@ -77,23 +41,6 @@ static void *take(size_t bytes)
         exit(1);
     }
     return p;
-}
-
-static void set_view(stage *s)
-{
-    const model_camera *c = &s->loaded.cameras[0];
-    lmb_view *v = &s->frame.view;
-    v->eye = c->eye;
-    v->right = c->right;
-    v->up = c->up;
-    v->back = c->back;
-    v->kind = LMB_PERSPECTIVE;
-    v->half_height = tanf(0.5f * c->yfov_rad);
-    v->half_width = v->half_height * (float)s->drawn.width / (float)s->drawn.height;
-    v->near_m = c->near_m > 0.0f ? c->near_m : 1e-3f;
-    v->far_m = 1000.0f;
-    v->frame_width = s->drawn.width;
-    v->frame_height = s->drawn.height;
 }
 
 /* 1024 texels a side, less where faces are many: 2 M texels in all. */
@@ -146,24 +93,24 @@ static void take_frame(stage *s)
 /* A scene's file and view. `sized_as`: the truth picture that gives the size. */
 static int stage_load(stage *s, const char *name, const char *sized_as)
 {
-    char path[PATH_SIZE];
+    char path[SHARED_PATH];
     model_notes notes;
     report r = {""};
     image like;
     memset(s, 0, sizeof *s);
     memset(&notes, 0, sizeof notes);
     s->name = name;
-    if (!is_there(name) || !load_picture(&like, name, sized_as)) {
+    if (!truth_is_there(name) || !truth_picture(&like, name, sized_as)) {
         return 0;
     }
     s->drawn.width = like.width;
     s->drawn.height = like.height;
     image_free(&like);
-    path_of(path, name, "scene.gltf");
+    truth_path(path, name, "scene.gltf");
     int ok = model_load(&s->loaded, path, NULL, &notes, &r);
     CHECK_MSG(ok && s->loaded.camera_count > 0, "%s: %s", name, r.text);
     if (ok) {
-        set_view(s);
+        truth_view(&s->frame.view, &s->loaded.cameras[0], &s->drawn);
     }
     return ok;
 }
@@ -277,7 +224,7 @@ static void check_gbuffer(const char *name)
         image truth;
         int n = s.drawn.width * s.drawn.height, same = 0;
         draw_attribute(&s, what);
-        if (load_picture(&truth, name, files[what])) {
+        if (truth_picture(&truth, name, files[what])) {
             for (int i = 0; i < n; ++i) {
                 same += is_same(what, s.drawn.pixels + (what == DEPTH ? i : 3 * i), truth.pixels + 3 * i);
             }
@@ -356,7 +303,7 @@ static void check_direct(const char *name, int barred)
     if (!stage_open(&s, name, "cycles_direct.pfm")) {
         return;
     }
-    if (load_picture(&s.depth, name, "gbuffer_depth.pfm") && load_picture(&truth, name, "cycles_direct.pfm")) {
+    if (truth_picture(&s.depth, name, "gbuffer_depth.pfm") && truth_picture(&truth, name, "cycles_direct.pfm")) {
         stage_draw(&s, LMB_SHOW_DIRECT);
         if (measure(&m, &s, &truth)) {
             direct_figures d = compare_direct(&s, &truth);
@@ -423,7 +370,7 @@ static double check_many(const char *name, int parts)
     if (!stage_load(&s, name, "pt_direct.pfm")) {
         return tests;
     }
-    if (load_picture(&truth, name, "pt_direct.pfm") && load_picture(&s.depth, name, "pt_direct.pfm")) {
+    if (truth_picture(&truth, name, "pt_direct.pfm") && truth_picture(&s.depth, name, "pt_direct.pfm")) {
         const uint32_t triangles = lmb_scene_triangles(&s.loaded.scene);
         const size_t bytes = lmb_blockers_bytes(triangles);
         stream(&s, parts);
@@ -473,7 +420,7 @@ static void check_indirect(const char *name, int barred)
     if (!stage_open(&s, name, "pt_indirect1.pfm")) {
         return;
     }
-    if (load_picture(&s.depth, name, "gbuffer_depth.pfm") && load_picture(&truth, name, "pt_indirect1.pfm")) {
+    if (truth_picture(&s.depth, name, "gbuffer_depth.pfm") && truth_picture(&truth, name, "pt_indirect1.pfm")) {
         stage_draw(&s, LMB_SHOW_INDIRECT);
         if (measure(&m, &s, &truth)) {
             printf("  %-15s trim %.4f, e50 %.4f, e95 %.4f, mean %.4f, %u groups\n", name, m.trim, m.e50, m.e95, m.mean,
@@ -532,8 +479,8 @@ static void check_cut(const cut_row *row)
     if (!stage_open(&s, row->name, "pt_indirect1.pfm")) {
         return;
     }
-    if (load_picture(&s.depth, row->name, "gbuffer_depth.pfm") &&
-        load_picture(&truth, row->name, "pt_indirect1.pfm")) {
+    if (truth_picture(&s.depth, row->name, "gbuffer_depth.pfm") &&
+        truth_picture(&truth, row->name, "pt_indirect1.pfm")) {
         take_tree(&s, row->map, row->error, row->visible);
         stage_draw(&s, LMB_SHOW_INDIRECT);
         if (measure(&m, &s, &truth)) {
@@ -659,7 +606,7 @@ static void check_furnace(void)
         double off = 0.0, off_truth = 0.0, mean = 0.0;
         int n = s.drawn.width * s.drawn.height;
         stage_draw(&s, rows[r].show);
-        if (!load_picture(&truth, "furnace_sphere", rows[r].file)) {
+        if (!truth_picture(&truth, "furnace_sphere", rows[r].file)) {
             continue;
         }
         for (int i = 0; i < n; ++i) {

@@ -629,6 +629,17 @@ static void scene_extent(void)
     CHECK(lo.x == 0.0f && lo.z == 0.0f && hi.x == 0.0f && hi.y == 0.0f && lmb_scene_triangles(&s.scene) == 0);
 }
 
+static void scene_that_shines(void)
+{
+    small_scene s;
+    make_scene(&s);
+    CHECK(!lmb_scene_shines(&s.scene) && !lmb_scene_shines(NULL));
+    s.materials[0].emission[2] = 1e-38f;
+    CHECK(lmb_scene_shines(&s.scene));
+    s.scene.material_count = 0;
+    CHECK(!lmb_scene_shines(&s.scene));
+}
+
 /* Streams stand in arrays of 32-bit words so that they are aligned; their halves are written as such. */
 static void vertex_streams(void)
 {
@@ -754,6 +765,7 @@ void test_base(void)
     views();
     scenes_refused();
     scene_extent();
+    scene_that_shines();
     vertex_streams();
     mip_sizes();
     mips_of_constants();
