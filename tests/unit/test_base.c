@@ -634,7 +634,7 @@ static void scene_that_shines(void)
     small_scene s;
     make_scene(&s);
     CHECK(!lmb_scene_shines(&s.scene) && !lmb_scene_shines(NULL));
-    s.materials[0].emission[2] = 1e-38f;
+    s.material.emission[2] = 1e-38f;
     CHECK(lmb_scene_shines(&s.scene));
     s.scene.material_count = 0;
     CHECK(!lmb_scene_shines(&s.scene));
