@@ -62,13 +62,39 @@ LANE_INLINE lanei texture_wrap(lanei i, lanei size, int32_t wrap)
     return lanei_pick(before, lanei_add(i, size), lanei_pick(past, lanei_sub(i, size), i));
 }
 
-/* sum + weight * texel. */
-LANE_INLINE lane3 texture_add(lane3 sum, const texture_level *l, lanei x, lanei y, lane weight)
+/* The texels of a tile's pixels, and where between them each pixel is. */
+typedef struct texture_found {
+    int32_t texel[4][LMB_TILE_PIXELS]; /* upper left, upper right, lower left, lower right; nearest: the first */
+    float fx[LMB_TILE_PIXELS], fy[LMB_TILE_PIXELS];
+} texture_found;
+
+LANE_INLINE lanei texture_texel(const texture_level *l, lanei x, lanei y)
 {
-    const lanei byte = lanei_splat(255);
-    const lanei at =
-        lanei_add(lanei_mul(texture_wrap(y, l->height, l->wrap_t), l->width), texture_wrap(x, l->width, l->wrap_s));
-    const lanei texel = lanei_gather_rgba(l->texels, at);
+    const lanei row = lanei_mul(texture_wrap(y, l->height, l->wrap_t), l->width);
+    return lanei_gather_rgba(l->texels, lanei_add(row, texture_wrap(x, l->width, l->wrap_s)));
+}
+
+/* At texel coordinates x, y, pixels k .. k + LANES - 1. */
+LANE_INLINE void texture_find(texture_found *out, int k, const texture_level *l, lane x, lane y)
+{
+    const lane half = lane_splat(0.5f);
+    x = lane_sub(x, half);
+    y = lane_sub(y, half);
+    const lane x0 = texture_floor(x), y0 = texture_floor(y);
+    const lanei one = lanei_splat(1), ix = lane_to_int(x0), iy = lane_to_int(y0), jx = lanei_add(ix, one),
+                jy = lanei_add(iy, one);
+    lane_store(out->fx + k, lane_sub(x, x0));
+    lane_store(out->fy + k, lane_sub(y, y0));
+    lanei_store(out->texel[0] + k, texture_texel(l, ix, iy));
+    lanei_store(out->texel[1] + k, texture_texel(l, jx, iy));
+    lanei_store(out->texel[2] + k, texture_texel(l, ix, jy));
+    lanei_store(out->texel[3] + k, texture_texel(l, jx, jy));
+}
+
+/* sum + weight * texel. */
+LANE_INLINE lane3 texture_add(lane3 sum, const int32_t *code, lane weight)
+{
+    const lanei texel = lanei_load(code), byte = lanei_splat(255);
     lane3 colour;
     colour.x = lane_gather_f32(lmb_srgb_linear, lanei_and(texel, byte));
     colour.y = lane_gather_f32(lmb_srgb_linear, lanei_and(lanei_shift(texel, 8), byte));
@@ -76,45 +102,45 @@ LANE_INLINE lane3 texture_add(lane3 sum, const texture_level *l, lanei x, lanei 
     return lane3_add(sum, lane3_scale(colour, weight));
 }
 
-LANE_INLINE lane3 texture_bilinear(const texture_level *l, lane x, lane y)
+LANE_INLINE lane3 texture_bilinear(const texture_found *f, int k)
 {
-    const lane half = lane_splat(0.5f), one = lane_splat(1.0f);
-    x = lane_sub(x, half);
-    y = lane_sub(y, half);
-    const lane x0 = texture_floor(x), y0 = texture_floor(y), fx = lane_sub(x, x0), fy = lane_sub(y, y0);
+    const lane one = lane_splat(1.0f), fx = lane_load(f->fx + k), fy = lane_load(f->fy + k);
     const lane gx = lane_sub(one, fx), gy = lane_sub(one, fy);
-    const lanei ix = lane_to_int(x0), iy = lane_to_int(y0), jx = lanei_add(ix, lanei_splat(1)),
-                jy = lanei_add(iy, lanei_splat(1));
     lane3 sum = lane3_splat(0.0f, 0.0f, 0.0f);
-    sum = texture_add(sum, l, ix, iy, lane_mul(gx, gy));
-    sum = texture_add(sum, l, jx, iy, lane_mul(fx, gy));
-    sum = texture_add(sum, l, ix, jy, lane_mul(gx, fy));
-    return texture_add(sum, l, jx, jy, lane_mul(fx, fy));
+    sum = texture_add(sum, f->texel[0] + k, lane_mul(gx, gy));
+    sum = texture_add(sum, f->texel[1] + k, lane_mul(fx, gy));
+    sum = texture_add(sum, f->texel[2] + k, lane_mul(gx, fy));
+    return texture_add(sum, f->texel[3] + k, lane_mul(fx, fy));
 }
 
+/* All texels are asked for before the first is decoded: one wait for what is not in cache instead of one a vector. */
 static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
 {
-    const lane width = lane_splat((float)t->width), height = lane_splat((float)t->height);
-    texture_level l;
-    l.texels = t->texels;
-    l.width = lanei_splat(t->width);
-    l.height = lanei_splat(t->height);
-    l.wrap_s = t->wrap_s;
-    l.wrap_t = t->wrap_t;
+    const lane width = lane_splat((float)t->width), height = lane_splat((float)t->height), one = lane_splat(1.0f);
+    const lane3 none = lane3_splat(0.0f, 0.0f, 0.0f);
+    const texture_level l = {t->texels, lanei_splat(t->width), lanei_splat(t->height), t->wrap_s, t->wrap_t};
+    const int nearest = t->filter == LMB_NEAREST;
+    texture_found found;
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const lane_mask mine = lanei_not_negative(lanei_load(batch->slot + k));
-        if (mask_bits(mine) == 0) {
-            continue;
+        if (mask_bits(mine) != 0) {
+            const lane x = lane_mul(texture_reduce(lane_load(inout->uv[0] + k), l.wrap_s), width);
+            const lane y = lane_mul(texture_reduce(lane_load(inout->uv[1] + k), l.wrap_t), height);
+            if (nearest) {
+                lanei_store(found.texel[0] + k, texture_texel(&l, lane_to_int(x), lane_to_int(y)));
+            } else {
+                texture_find(&found, k, &l, x, y);
+            }
         }
-        const lane x = lane_mul(texture_reduce(lane_load(inout->uv[0] + k), l.wrap_s), width);
-        const lane y = lane_mul(texture_reduce(lane_load(inout->uv[1] + k), l.wrap_t), height);
-        const lane3 none = lane3_splat(0.0f, 0.0f, 0.0f);
-        const lane3 texel = t->filter == LMB_NEAREST
-                                ? texture_add(none, &l, lane_to_int(x), lane_to_int(y), lane_splat(1.0f))
-                                : texture_bilinear(&l, x, y);
-        resolve_put(inout->albedo[0] + k, mine, lane_mul(lane_load(inout->albedo[0] + k), texel.x));
-        resolve_put(inout->albedo[1] + k, mine, lane_mul(lane_load(inout->albedo[1] + k), texel.y));
-        resolve_put(inout->albedo[2] + k, mine, lane_mul(lane_load(inout->albedo[2] + k), texel.z));
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lane_mask mine = lanei_not_negative(lanei_load(batch->slot + k));
+        if (mask_bits(mine) != 0) {
+            const lane3 texel = nearest ? texture_add(none, found.texel[0] + k, one) : texture_bilinear(&found, k);
+            resolve_put(inout->albedo[0] + k, mine, lane_mul(lane_load(inout->albedo[0] + k), texel.x));
+            resolve_put(inout->albedo[1] + k, mine, lane_mul(lane_load(inout->albedo[1] + k), texel.y));
+            resolve_put(inout->albedo[2] + k, mine, lane_mul(lane_load(inout->albedo[2] + k), texel.z));
+        }
     }
 }
 #endif
