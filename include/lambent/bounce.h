@@ -97,7 +97,7 @@ enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD 
 /* Filled and read inside lmb_gather_tile. */
 typedef struct lmb_gather_scratch {
     uint64_t near_pixels[LMB_MAX_GROUPS]; /* one pixel bit a near group */
-    float pairs[3][LMB_GATHER_PAIRS];     /* of a vector of pixels with a block of groups */
+    float pairs[3][LMB_GATHER_PAIRS];     /* of a block of groups with as many pixels as are taken together */
 } lmb_gather_scratch;
 
 #ifdef __cplusplus

@@ -51,6 +51,13 @@
 #define LMB_MANY_LAMPS 32
 #endif
 
+/* Pixels x groups that the gather takes together. 12 bytes each, in lmb_gather_scratch and lmb_cut. */
+#ifdef LMB_CONFIG_TINY
+#define LMB_GATHER_PAIRS 128
+#else
+#define LMB_GATHER_PAIRS 256
+#endif
+
 /* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that shine.
  * Their functions are not there, and frames that ask for them are refused. Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_TREES
@@ -62,7 +69,6 @@
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
-#define LMB_GATHER_PAIRS 128    /* pixels x groups that the gather takes together */
 #define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together where bounced light is upsampled */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are made ready together */
 /* Triangles of a tile that are resolved side by side, 170 bytes of lmb_tile each: as many as the widest machine has

@@ -50,6 +50,8 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #endif
 
 #ifdef KERNEL
+#include <string.h>
+
 #include "../raster/tile.h"
 #include "march.inl"
 
@@ -177,11 +179,13 @@ static GATHER_APART int corners_see(const gather_corners *c, const lmb_march_job
 
 /* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
  * after another, every machine waits most of the time, whatever its width. So each step is done for all groups of a
- * block before the next: chains are short and many run side by side. The pairs lie in the caller's scratch. */
+ * block before the next: chains are short and many run side by side. The pairs lie in the caller's scratch. Narrow
+ * machines look from two vectors of pixels at a time: what a group brings is read once for both. */
 #if defined(LANE_PLAIN)
-enum { BLOCK = LANES > 1 ? 8 : 4 };
+enum { VECTORS = 1, WIDE = LANES, BLOCK = LANES > 1 ? 8 : 4 };
 #else
-enum { BLOCK = LANES > 8 ? 8 : 16 };
+enum { VECTORS = LANES > 8 ? 1 : 2, WIDE = VECTORS * LANES };
+enum { BLOCK = LMB_GATHER_PAIRS < 16 * WIDE || LANES > 8 ? 8 : 16 };
 #endif
 
 /* A block's groups, one beside the other: in lmb_groups a group's numbers lie LMB_MAX_GROUPS apart, a power of two, and
@@ -218,10 +222,9 @@ static gather_ball gather_ball_of(const lmb_tile *tile)
     gather_ball ball;
     float r2 = 0.0f;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const lmb_vec3 p = tile_vec(tile->position, k);
         if (tile->id[k] != 0) {
-            low = vec3(minf(low.x, p.x), minf(low.y, p.y), minf(low.z, p.z));
-            high = vec3(maxf(high.x, p.x), maxf(high.y, p.y), maxf(high.z, p.z));
+            low = min3(low, tile_vec(tile->position, k));
+            high = max3(high, tile_vec(tile->position, k));
         }
     }
     ball.centre = mul3(add3(low, high), 0.5f);
@@ -258,43 +261,65 @@ static uint32_t gather_awake(const gather_ball *ball, const lmb_groups *groups, 
 
 enum { PAIR_A, PAIR_B, PAIR_I }; /* as in disc_fraction */
 typedef struct gather_pairs {
-    float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: LANES of each group; i is 0 where a pixel gets nothing */
+    float (*of)[LMB_GATHER_PAIRS]; /* [PAIR_..]: WIDE of each group; i is 0 where a pixel gets nothing */
     int32_t lit[BLOCK], count;
 } gather_pairs;
 
+/* A vector of pixels that look at a block of groups. */
+typedef struct gather_pixels {
+    lane3 p, n, face;
+    uint32_t hit_bits;
+} gather_pixels;
+
 /* Pixels without a surface have no normal, and so face nothing. */
-static inline lane3 gather_normals(const lmb_tile *tile, int k, lane_mask hits)
+LANE_INLINE gather_pixels gather_look(const lmb_tile *tile, int k)
 {
-    lane3 n = lane3_load(tile->normal, k);
-    n.x = lane_keep(hits, n.x);
-    n.y = lane_keep(hits, n.y);
-    n.z = lane_keep(hits, n.z);
-    return n;
+    const lane_mask hits = gather_hits(tile, k);
+    gather_pixels out;
+    out.p = lane3_load(tile->position, k);
+    out.n = lane3_load(tile->normal, k);
+    out.n.x = lane_keep(hits, out.n.x);
+    out.n.y = lane_keep(hits, out.n.y);
+    out.n.z = lane_keep(hits, out.n.z);
+    out.face = lane3_load(tile->face, k);
+    out.hit_bits = mask_bits(hits);
+    return out;
 }
 
-/* Pairs that face each other, over the horizon and not near; near ones are flagged. min(b, a) is a where a is NaN, and
- * a pair with such a b comes to nothing by itself. */
+/* Of one group the pairs that face each other, over the horizon and not near, stored at pair `at`; their bits returned,
+ * and the near ones' in near_bits. min(b, a) is a where a is NaN; a pair with such a b comes to nothing by itself. */
+LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const gather_pixels *px,
+                                 const gather_group *g, int at)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), grazing = lane_splat(GRAZING_M);
+    const lane3 to = lane3_sub(lane3_of(g->at), px->p);
+    const lane r2 = lane3_dot(to, to), a = lane3_dot(px->n, to), b = lane3_dot(lane3_of(g->back), to);
+    const lane_mask far = lane_le(lane_splat(g->near2), r2);
+    const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(px->face, to)));
+    const lane_mask lit = mask_and(far, faces);
+    lane_store(out->of[PAIR_A] + at, a);
+    lane_store(out->of[PAIR_B] + at, b);
+    lane_store(out->of[PAIR_I] + at, lane_keep(lit, lane_div(one, r2)));
+    *near_bits = px->hit_bits & ~mask_bits(far);
+    return mask_bits(lit);
+}
+
+/* Near pixels are flagged. */
 static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
                                const gather_group *groups, int32_t group_count)
 {
-    const lane_mask hits = gather_hits(tile, k);
-    const uint32_t hit_bits = mask_bits(hits);
-    const lane3 p = lane3_load(tile->position, k), n = gather_normals(tile, k, hits), face = lane3_load(tile->face, k);
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), grazing = lane_splat(GRAZING_M);
+    const gather_pixels first = gather_look(tile, k), second = gather_look(tile, k + WIDE - LANES);
     int32_t count = 0;
     for (int32_t j = 0; j < group_count; ++j) {
         const gather_group *g = &groups[j];
-        const lane3 to = lane3_sub(lane3_of(g->at), p);
-        const lane r2 = lane3_dot(to, to), a = lane3_dot(n, to), b = lane3_dot(lane3_of(g->back), to);
-        const lane_mask far = lane_le(lane_splat(g->near2), r2);
-        const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
-        const lane_mask lit = mask_and(far, faces);
-        const uint32_t near_bits = hit_bits & ~mask_bits(far);
-        lane_store(out->of[PAIR_A] + j * LANES, a);
-        lane_store(out->of[PAIR_B] + j * LANES, b);
-        lane_store(out->of[PAIR_I] + j * LANES, lane_keep(lit, lane_div(one, r2)));
+        uint32_t near_bits, lit = gather_face(out, &near_bits, &first, g, j * WIDE);
+        if (VECTORS > 1) {
+            uint32_t more;
+            lit |= gather_face(out, &more, &second, g, j * WIDE + LANES);
+            near_bits |= more << (LANES & 31);
+        }
         out->lit[count] = j;
-        count += mask_bits(lit) != 0;
+        count += lit != 0;
         if (near_bits != 0) {
             near_pixels[g->number] |= (uint64_t)near_bits << k;
         }
@@ -302,43 +327,75 @@ static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const l
     out->count = count;
 }
 
+LANE_INLINE void gather_weigh_one(gather_pairs *inout, int at, lane3 n, const gather_group *g)
+{
+    lane top, bottom;
+    disc_fraction(&top, &bottom, lane_load(inout->of[PAIR_A] + at), lane_load(inout->of[PAIR_B] + at),
+                  lane_load(inout->of[PAIR_I] + at), lane3_dot(n, lane3_of(g->back)), lane_splat(g->area_pi));
+    lane_store(inout->of[PAIR_A] + at, top);
+    lane_store(inout->of[PAIR_B] + at, bottom);
+}
+
 /* Their fractions: top in place of a, bottom in place of b. */
 static inline void gather_weigh(gather_pairs *inout, const lmb_tile *tile, int k, const gather_group *groups)
 {
-    const lane3 n = lane3_load(tile->normal, k);
+    const lane3 first = lane3_load(tile->normal, k), second = lane3_load(tile->normal, k + WIDE - LANES);
     for (int32_t i = 0; i < inout->count; ++i) {
         const int32_t j = inout->lit[i];
-        lane top, bottom;
-        disc_fraction(&top, &bottom, lane_load(inout->of[PAIR_A] + j * LANES), lane_load(inout->of[PAIR_B] + j * LANES),
-                      lane_load(inout->of[PAIR_I] + j * LANES), lane3_dot(n, lane3_of(groups[j].back)),
-                      lane_splat(groups[j].area_pi));
-        lane_store(inout->of[PAIR_A] + j * LANES, top);
-        lane_store(inout->of[PAIR_B] + j * LANES, bottom);
+        gather_weigh_one(inout, j * WIDE, first, &groups[j]);
+        if (VECTORS > 1) {
+            gather_weigh_one(inout, j * WIDE + LANES, second, &groups[j]);
+        }
     }
 }
 
-static inline lane gather_weight(const gather_pairs *pairs, int32_t j)
+static inline lane gather_weight(const gather_pairs *pairs, int at)
 {
-    return disc_value(lane_load(pairs->of[PAIR_A] + j * LANES), lane_load(pairs->of[PAIR_B] + j * LANES),
-                      lane_load(pairs->of[PAIR_I] + j * LANES));
+    return disc_value(lane_load(pairs->of[PAIR_A] + at), lane_load(pairs->of[PAIR_B] + at),
+                      lane_load(pairs->of[PAIR_I] + at));
 }
 
-/* Picked as in gather_add, over sums that stay in registers. */
+/* sum + weight * flux where a pixel gets some; picked as in gather_add, over sums that stay in registers. */
+LANE_INLINE lane3 gather_sum_one(lane3 sum, lane weight, const float flux[3])
+{
+    const lane_mask lit = lane_lt(lane_splat(0.0f), weight);
+    lane3 more;
+    more.x = lane_add(sum.x, lane_mul(weight, lane_splat(flux[0])));
+    more.y = lane_add(sum.y, lane_mul(weight, lane_splat(flux[1])));
+    more.z = lane_add(sum.z, lane_mul(weight, lane_splat(flux[2])));
+    return lane3_pick(lit, more, sum);
+}
+
+LANE_INLINE lane3 gather_get(const lmb_irradiance *sums, int k)
+{
+    lane3 r;
+    r.x = lane_load(sums->rgb[0] + k);
+    r.y = lane_load(sums->rgb[1] + k);
+    r.z = lane_load(sums->rgb[2] + k);
+    return r;
+}
+
+LANE_INLINE void gather_put(lmb_irradiance *out, int k, lane3 sum)
+{
+    lane_store(out->rgb[0] + k, sum.x);
+    lane_store(out->rgb[1] + k, sum.y);
+    lane_store(out->rgb[2] + k, sum.z);
+}
+
 static inline void gather_sum(lmb_irradiance *inout, int k, const gather_pairs *pairs, const gather_group *groups)
 {
-    lane r = lane_load(inout->rgb[0] + k), g = lane_load(inout->rgb[1] + k), b = lane_load(inout->rgb[2] + k);
+    lane3 first = gather_get(inout, k), second = gather_get(inout, k + WIDE - LANES);
     for (int32_t i = 0; i < pairs->count; ++i) {
         const int32_t j = pairs->lit[i];
-        const float *flux = groups[j].flux;
-        const lane weight = gather_weight(pairs, j);
-        const lane_mask lit = lane_lt(lane_splat(0.0f), weight);
-        r = lane_pick(lit, lane_add(r, lane_mul(weight, lane_splat(flux[0]))), r);
-        g = lane_pick(lit, lane_add(g, lane_mul(weight, lane_splat(flux[1]))), g);
-        b = lane_pick(lit, lane_add(b, lane_mul(weight, lane_splat(flux[2]))), b);
+        first = gather_sum_one(first, gather_weight(pairs, j * WIDE), groups[j].flux);
+        if (VECTORS > 1) {
+            second = gather_sum_one(second, gather_weight(pairs, j * WIDE + LANES), groups[j].flux);
+        }
     }
-    lane_store(inout->rgb[0] + k, r);
-    lane_store(inout->rgb[1] + k, g);
-    lane_store(inout->rgb[2] + k, b);
+    gather_put(inout, k, first);
+    if (VECTORS > 1) {
+        gather_put(inout, k + LANES, second);
+    }
 }
 
 /* What may stand between, for one tile and one block. */
@@ -352,20 +409,20 @@ typedef struct gather_blockers {
 static GATHER_APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb_tile *tile, int k,
                                      const gather_group *groups)
 {
-    for (int32_t i = 0; i < inout->count; ++i) {
-        const int32_t j = inout->lit[i];
+    for (int32_t i = 0; i < inout->count * VECTORS; ++i) {
+        const int32_t j = inout->lit[i / VECTORS], v = i % VECTORS * LANES, at = j * WIDE + v;
         const gather_group *g = &groups[j];
         const lmb_vec3 axis = vec3(-g->back.x, -g->back.y, -g->back.z);
-        lane_mask lit = lane_lt(lane_splat(0.0f), gather_weight(inout, j));
+        lane_mask lit = lane_lt(lane_splat(0.0f), gather_weight(inout, at));
         uint8_t *sees = &blockers->sees[j];
         if (mask_bits(lit) && *sees == SEES_UNKNOWN) {
             *sees = (uint8_t)corners_see(blockers->corners, blockers->m, g->at, axis);
         }
         if (mask_bits(lit) && *sees == SEES_SOME) {
-            const lane_mask open = tile_march(blockers->m, tile, k, g->at, axis, lit);
-            lane_store(inout->of[PAIR_I] + j * LANES, lane_keep(open, lane_load(inout->of[PAIR_I] + j * LANES)));
+            const lane_mask open = tile_march(blockers->m, tile, k + v, g->at, axis, lit);
+            lane_store(inout->of[PAIR_I] + at, lane_keep(open, lane_load(inout->of[PAIR_I] + at)));
         } else if (*sees == SEES_NOTHING) {
-            lane_store(inout->of[PAIR_I] + j * LANES, lane_splat(0.0f));
+            lane_store(inout->of[PAIR_I] + at, lane_splat(0.0f));
         }
     }
 }
@@ -376,7 +433,7 @@ static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, ga
     for (int32_t j = 0; j < count; ++j) {
         blockers->sees[j] = SEES_UNKNOWN;
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+    for (int k = 0; k < LMB_TILE_PIXELS; k += WIDE) {
         gather_find(pairs, near_pixels, tile, k, groups, count);
         gather_weigh(pairs, tile, k, groups);
         if (blockers->m != NULL) {
@@ -399,11 +456,9 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
     blockers.m = m;
     blockers.corners = &corners;
     gather_corners_set(&corners, tile, m);
+    memset(scratch->near_pixels, 0, (size_t)groups->count * sizeof *scratch->near_pixels);
     for (int32_t j = 0; j < groups->count; j += LANES) {
         const int32_t count = groups->count - j < LANES ? groups->count - j : LANES;
-        for (int32_t i = 0; i < count; ++i) {
-            scratch->near_pixels[j + i] = 0;
-        }
         for (uint32_t bits = gather_awake(&ball, groups, j, count); bits != 0; bits &= bits - 1) {
             gather_fetch(&block[filled++], groups, j + lowest_bit(bits));
             if (filled == BLOCK) {

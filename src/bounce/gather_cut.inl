@@ -21,12 +21,13 @@ static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER
                 block[j].flux[c] = e->flux[c];
             }
         }
-        for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        for (int k = 0; k < LMB_TILE_PIXELS; k += WIDE) {
             gather_find(&pairs, &none, tile, k, block, n);
             gather_weigh(&pairs, tile, k, block);
-            for (int32_t j = 0; j < n; ++j) {
-                const lane_mask sees = mask_of_bits((uint32_t)(emitters[i + j].visible >> k) & ALL_LANES);
-                lane_store(pairs.of[PAIR_I] + j * LANES, lane_keep(sees, lane_load(pairs.of[PAIR_I] + j * LANES)));
+            for (int32_t at = 0; at < n * WIDE; at += LANES) {
+                const uint64_t visible = emitters[i + at / WIDE].visible >> (k + at % WIDE);
+                const lane_mask sees = mask_of_bits((uint32_t)visible & ALL_LANES);
+                lane_store(pairs.of[PAIR_I] + at, lane_keep(sees, lane_load(pairs.of[PAIR_I] + at)));
             }
             gather_sum(inout, k, &pairs, block);
         }
