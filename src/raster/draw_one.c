@@ -5,6 +5,8 @@
 
 #include "../base/vertex.h"
 
+#define SNAP_MAX 4194304.0f /* 24.8: LMB_MAX_FRAME px from the middle, which is what setup.c takes */
+
 static float row_point(const float row[4], lmb_vec3 p) { return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]; }
 
 static lmb_clip_vertex transform(const lmb_draw_instance *d, lmb_vec3 p)
@@ -20,12 +22,15 @@ static lmb_clip_vertex transform(const lmb_draw_instance *d, lmb_vec3 p)
     return v;
 }
 
+/* A corner cut where x or y was huge beside w lies on the guard band only as well as binary32 puts it there. */
+static int32_t to_24_8(float v) { return (int32_t)minf(maxf(floorf(v), -SNAP_MAX), SNAP_MAX); }
+
 static lmb_screen_vertex snap(const lmb_draw_instance *d, const lmb_clip_vertex *v)
 {
     lmb_screen_vertex s;
     float inverse = 1.0f / v->w;
-    s.x_24_8 = (int32_t)floorf(v->x * inverse * d->job.snap_x + 0.5f);
-    s.y_24_8 = (int32_t)floorf(0.5f - v->y * inverse * d->job.snap_y);
+    s.x_24_8 = to_24_8(v->x * inverse * d->job.snap_x + 0.5f);
+    s.y_24_8 = to_24_8(0.5f - v->y * inverse * d->job.snap_y);
     s.d = v->z * inverse;
     return s;
 }

@@ -82,20 +82,20 @@ static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *til
     }
 }
 
-/* 1 and the job's edges, or 0 where the tile lies outside one. e is each edge at the tile's first pixel. */
-static int enter_tile(lmb_fill_job *job, const lmb_setup *s, const int64_t e[3])
+/* 1 and the job's edges, or 0 where the tile lies outside one. (x, y): the tile's first pixel, 24.8. */
+static int enter_tile(lmb_fill_job *job, const lmb_setup *s, int32_t x_24_8, int32_t y_24_8)
 {
-    const int64_t reach = LMB_TILE - 1;
+    const int32_t reach = LMB_TILE - 1;
     for (int i = 0; i < 3; ++i) {
-        int64_t ex = s->ex[i], ey = s->ey[i];
-        int64_t low = e[i] + reach * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
-        int64_t high = e[i] + reach * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
-        if (high < 0) {
+        const int32_t ex = s->ex[i], ey = s->ey[i];
+        const int64_t e = setup_edge(s, i, x_24_8, y_24_8);
+        const int64_t low = e + reach * ((ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
+        if (e + reach * ((ex > 0 ? ex : 0) + (ey > 0 ? ey : 0)) < 0) {
             return 0;
         }
-        job->e[i] = low >= 0 ? 0 : (int32_t)e[i];
-        job->ex[i] = low >= 0 ? 0 : s->ex[i];
-        job->ey[i] = low >= 0 ? 0 : s->ey[i];
+        job->e[i] = low >= 0 ? 0 : (int32_t)e;
+        job->ex[i] = low >= 0 ? 0 : ex;
+        job->ey[i] = low >= 0 ? 0 : ey;
     }
     return 1;
 }
@@ -134,19 +134,12 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
     for (int32_t ty = ty0; ty <= ty1; ++ty) {
         int32_t y = target->y0 + ty * LMB_TILE, y_24_8 = y * 256 + 128 - c->view->frame_height * 128;
         int32_t x = target->x0 + tx0 * LMB_TILE, x_24_8 = x * 256 + 128 - c->view->frame_width * 128;
-        int64_t e[3];
-        for (int i = 0; i < 3; ++i) {
-            e[i] = setup_edge(s, i, x_24_8, y_24_8);
-        }
         for (int32_t tx = tx0; tx <= tx1; ++tx, x_24_8 += LMB_TILE * 256) {
-            if (enter_tile(&job, s, e)) {
+            if (enter_tile(&job, s, x_24_8, y_24_8)) {
                 lmb_fill_tile tile = lmb_target_tile(target, tx, ty);
                 job.d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
                 lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
                 fill_tile_masked(c, &tile, &job, &surface);
-            }
-            for (int i = 0; i < 3; ++i) {
-                e[i] += (int64_t)s->ex[i] * LMB_TILE;
             }
         }
     }

@@ -133,12 +133,15 @@ static int clip(const lmb_view *v, clip_corner polygon[CORNERS])
 
 /* --- to the screen ------------------------------------------------------------------------------------------------ */
 
+/* 24.8, at most 16384 px from the middle, whatever binary32 made of a corner on the guard band. */
+static int64_t snapped(float v) { return (int64_t)fminf(fmaxf(floorf(v), -4194304.0f), 4194304.0f); }
+
 static screen_corner to_screen(const lmb_view *v, const clip_corner *c)
 {
     const float inverse = 1.0f / c->w;
     screen_corner s;
-    s.x = (int64_t)floorf(c->x * inverse * (float)(v->frame_width * 128) + 0.5f);
-    s.y = (int64_t)floorf(0.5f - c->y * inverse * (float)(v->frame_height * 128));
+    s.x = snapped(c->x * inverse * (float)(v->frame_width * 128) + 0.5f);
+    s.y = snapped(0.5f - c->y * inverse * (float)(v->frame_height * 128));
     s.d_drawn = c->z * inverse;
     s.d = c->z_exact / c->w_exact;
     return s;
