@@ -48,7 +48,7 @@ typedef struct lmb_view {
     lmb_vec3 eye;
     lmb_vec3 right, up, back;
     float half_width, half_height; /* perspective: tangents of the half angles; orthographic: metres */
-    float near_m, far_m;           /* > 0; far_m is used by orthographic views and 16-bit depth */
+    float near_m, far_m;           /* over 1e-30, like widths; far_m: for orthographic views, 16-bit depth */
     int32_t kind;                  /* LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC */
     int32_t frame_width, frame_height; /* px of the whole frame, <= LMB_MAX_FRAME */
 } lmb_view;

@@ -83,10 +83,13 @@ static int is_unit(lmb_vec3 v)
     return d2 > 0.99f && d2 < 1.01f;
 }
 
+/* So that 1 / a length is a number. */
+#define LEAST_M 1e-30f
+
 int lmb_view_is_sound(const lmb_view *v)
 {
-    return v->half_width > 0.0f && v->half_height > 0.0f && v->half_width < 1e30f && v->half_height < 1e30f &&
-           v->near_m > 0.0f && is_unit(v->right) && is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) &&
+    return v->half_width > LEAST_M && v->half_height > LEAST_M && v->half_width < 1e30f && v->half_height < 1e30f &&
+           v->near_m > LEAST_M && is_unit(v->right) && is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) &&
            is_sane(v->eye.y) && is_sane(v->eye.z) && v->frame_width > 0 && v->frame_height > 0 &&
            v->frame_width <= LMB_MAX_FRAME && v->frame_height <= LMB_MAX_FRAME &&
            (v->kind == LMB_PERSPECTIVE || (v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m));
@@ -118,7 +121,7 @@ lmb_status lmb_target_check(const lmb_target *t, const lmb_view *view, uint32_t 
         return LMB_ERR_ARG;
     }
     if ((d->format != LMB_DEPTH32F && d->format != LMB_DEPTH16) ||
-        (d->format == LMB_DEPTH16 && view->far_m <= view->near_m)) {
+        (d->format == LMB_DEPTH16 && !(view->far_m > view->near_m))) {
         return LMB_ERR_FORMAT;
     }
     if (!lmb_surface_is_sound(d) || !is_window(t, view)) {

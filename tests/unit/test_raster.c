@@ -1121,6 +1121,7 @@ static void test_bad_targets(void)
     REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = 0.1f, LMB_ERR_ARG); /* an orthographic view needs far too */
     st.view = axis_view(LMB_PERSPECTIVE, FRAME);
     REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = 0.1f, LMB_ERR_FORMAT);
+    REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = NAN, LMB_ERR_FORMAT);
 #undef REFUSED
 }
 
@@ -1139,6 +1140,8 @@ static void test_bad_views(void)
     REFUSED(st.view.half_width = 0.0f);
     REFUSED(st.view.half_height = -1.0f);
     REFUSED(st.view.half_width = NAN);
+    REFUSED(st.view.half_width = 1e-39f); /* 1 / it is infinite */
+    REFUSED(st.view.near_m = 1e-39f);
     REFUSED(st.view.near_m = 0.0f);
     REFUSED(st.view.near_m = NAN);
     REFUSED(st.view.far_m = st.view.near_m);
