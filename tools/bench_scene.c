@@ -52,8 +52,8 @@ static int load_mesh(bench_scene *s, const char *folder, const char *name, repor
     const uint8_t *data = s->file.data;
     const uint64_t vertices = s->file.size >= 8 ? get_u32_le(data) : 0,
                    triangles = s->file.size >= 8 ? get_u32_le(data + 4) : 0;
-    if (vertices == 0 || mesh_bytes(vertices, triangles) != s->file.size) {
-        return report_fail(r, "%s: %u vertices and %u triangles do not make %zu bytes; fetch it again", path,
+    if (vertices == 0 || triangles == 0 || mesh_bytes(vertices, triangles) != s->file.size) {
+        return report_fail(r, "%s: %u vertices and %u triangles are no mesh of %zu bytes; fetch it again", path,
                            (unsigned)vertices, (unsigned)triangles, s->file.size);
     }
     s->mesh.vertex_count = (uint32_t)vertices;

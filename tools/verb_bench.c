@@ -256,6 +256,15 @@ static int is_wanted(const bench_case *k, const options *o)
     return o->case_count == 0;
 }
 
+static int wanted_count(const options *o)
+{
+    int count = 0;
+    for (int i = 0; i < bench_case_count; ++i) {
+        count += is_wanted(&bench_cases[i], o);
+    }
+    return count;
+}
+
 /* The value behind an option, or NULL with `r` set. */
 static const char *value_of(int *i, int argc, char **argv, report *r)
 {
@@ -277,13 +286,16 @@ static int parse_value(options *o, const char *name, const char *value, report *
         return o->kernels != NULL || report_fail(r, "--backend %s: not here; this machine's best is %s", value,
                                                  lmb_kernels_name(lmb_kernels_pick()));
     }
+    char *end;
+    const double number = strtod(value, &end);
+    const int whole = end != value && *end == 0; /* nothing stands behind it */
     if (strcmp(name, "--threads") == 0) {
-        o->threads = atoi(value);
-        return (o->threads >= 2 && o->threads <= POOL_MAX) ||
+        o->threads = number >= 2.0 && number <= POOL_MAX ? (int)number : 0;
+        return (whole && o->threads > 0 && o->threads == number) ||
                report_fail(r, "--threads %s: not 2 .. %d", value, POOL_MAX);
     }
-    o->seconds = strtod(value, NULL);
-    return (o->seconds > 0.0 && o->seconds < 1e4) || report_fail(r, "--seconds %s: not a time over 0", value);
+    o->seconds = number;
+    return (whole && o->seconds > 0.0 && o->seconds < 1e4) || report_fail(r, "--seconds %s: not a time over 0", value);
 }
 
 static int parse_option(options *o, int *i, int argc, char **argv, report *r)
@@ -317,13 +329,21 @@ static int what_of(const options *o)
     return o->case_count == 0 || (what != RASTER && o->case_count > 1) ? NOTHING : what;
 }
 
+/* An option that what is measured has no use for, or NULL. */
+static const char *idle_option(const options *o)
+{
+    return o->threads > 0 && o->what != THREADS  ? "--threads"
+           : o->linear && o->what != RASTER      ? "--linear"
+           : o->json && o->what == THREADS       ? "--json"
+                                                 : NULL;
+}
+
 /* Words that are no options are parts of cases' names; they are moved to the front of argv. */
 static int parse(options *o, int argc, char **argv, report *r)
 {
     const char *folder = getenv("BENCH_DATA");
     memset(o, 0, sizeof *o);
     o->folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
-    o->threads = 2;
     o->cases = (const char *const *)argv;
     for (int i = 1; i < argc; ++i) {
         if (argv[i][0] != '-') {
@@ -339,25 +359,25 @@ static int parse(options *o, int argc, char **argv, report *r)
     if (o->what == NOTHING) {
         return report_fail(r, "what is to be measured? `lambent bench raster`, `gather` or `threads`; see --help");
     }
+    if (idle_option(o) != NULL) {
+        return report_fail(r, "%s means nothing to `%s`; see --help", idle_option(o), o->cases[0]);
+    }
+    o->threads = o->threads > 0 ? o->threads : 2;
     o->kernels = o->kernels == NULL && o->what != GATHER ? lmb_kernels_pick() : o->kernels;
     o->seconds = o->seconds > 0.0 ? o->seconds : o->what == THREADS ? 4.0 : 1.5;
     ++o->cases;
     --o->case_count;
-    return 1;
+    return o->what != RASTER || wanted_count(o) > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
 }
 
 static int run_raster(const options *o, report *r)
 {
-    int wanted = 0;
     for (int i = 0; i < bench_case_count; ++i) {
-        if (is_wanted(&bench_cases[i], o)) {
-            ++wanted;
-            if (!run_case(&bench_cases[i], o, r)) {
-                return 0;
-            }
+        if (is_wanted(&bench_cases[i], o) && !run_case(&bench_cases[i], o, r)) {
+            return 0;
         }
     }
-    return wanted > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
+    return 1;
 }
 
 static int run(const options *o, report *r)

@@ -268,9 +268,18 @@ check "a backend changes the picture" cmp "$dir/way1.ppm" "$dir/way3.ppm"
 check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
 check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
 check "bench raster holds filling against a peak" sh -c '"$1" bench raster fill-depth-pass --seconds 0.01 --json | grep -q ",.pixels_per_s.:[1-9][^,]*,.peak.:[1-9][^,]*,.*.share.:[0-9.]*}$"' sh "$TOOL"
+status 2 bench raster nonsense
+status 2 bench raster fill-depth --seconds 1x
+status 2 bench raster fill-depth --seconds 0.01 --threads 2
+mkdir -p "$dir/flat" # one vertex at 0 and no triangle
+printf '\001\000\000\000' >"$dir/flat/bunny.mesh"
+head -c 36 /dev/zero >>"$dir/flat/bunny.mesh"
+status 1 bench raster bunny-depth-1024 --data "$dir/flat" --seconds 0.01
 # Threads beside processes: wants more than one, and sponza.
 status 2 bench threads --threads 1
 status 2 bench threads gather
+status 2 bench threads --threads 2x
+status 2 bench threads --json
 BENCH_DATA= status 1 bench threads --seconds 0.01
 # The gather, a line for each machine that is here; how fast is nobody's promise.
 n='[0-9.]*(e[+-][0-9]*)?' # a number
@@ -287,4 +296,5 @@ check "bench gather --backend measures that one" grep -q '^lambent,gather,backen
 check "and no other" test "$(grep -c . "$dir/out.txt")" -eq 1
 status 2 bench gather --backend nothing
 status 2 bench gather bunny
+status 2 bench gather --linear
 finish
