@@ -64,6 +64,11 @@
 #define LMB_TREES 1
 #endif
 
+/* 0: this build has no probes (lambent/probe.h). Saves 6 KiB of ROM on a Cortex-M4F. */
+#ifndef LMB_PROBES
+#define LMB_PROBES 1
+#endif
+
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */

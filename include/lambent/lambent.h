@@ -14,6 +14,7 @@
 #include "bounce.h"
 #include "tree.h"
 #include "elements.h"
+#include "probe.h"
 #include "compose.h"
 #include "render.h"
 

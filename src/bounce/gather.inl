@@ -82,15 +82,8 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
  * Neighbouring pixels of one surface nearly always agree on what they see: the four corners of such a tile are asked
  * first, and only where they differ is each pixel asked. Lost is what fits between the corners. */
 
-/* For what is rarely or slowly done, so that its frame is not part of its caller's. */
-#if defined(__GNUC__)
-#define GATHER_APART __attribute__((noinline))
-#else
-#define GATHER_APART
-#endif
-
 /* march() from pixels whose planes of position and of face lie `plane` floats apart. */
-static GATHER_APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face,
+LANE_APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face,
                                            size_t plane, lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
 {
     lane3 p, n;
@@ -158,7 +151,7 @@ static inline lane3 corner_load(const float (*p)[CORNERS], int i)
 }
 
 /* What the tile's corners see of one emitter. */
-static GATHER_APART int corners_see(const gather_corners *c, const lmb_march_job *m, lmb_vec3 at, lmb_vec3 axis)
+LANE_APART int corners_see(const gather_corners *c, const lmb_march_job *m, lmb_vec3 at, lmb_vec3 axis)
 {
     const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
@@ -406,7 +399,7 @@ typedef struct gather_blockers {
 } gather_blockers;
 
 /* What is hidden gets nothing. */
-static GATHER_APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb_tile *tile, int k,
+LANE_APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb_tile *tile, int k,
                                      const gather_group *groups)
 {
     for (int32_t i = 0; i < inout->count * VECTORS; ++i) {

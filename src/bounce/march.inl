@@ -155,7 +155,7 @@ static inline march_run march_towards(const lmb_march_job *m, const seen_from *s
  *
  * Both heights are taken over the pixel's own surface plane, the stored one at its texel's middle. So a flat receiver
  * never shadows itself, however grazing the view, and no bias needs tuning. */
-static inline lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
+LANE_APART lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
 {
     const lane zero = lane_splat(0.0f), half = lane_splat(0.5f);
     lane x = lane_add(s->px, lane_mul(r->x, t)), y = lane_add(s->py, lane_mul(r->y, t));

@@ -18,6 +18,10 @@
 #include "../light/many.inl"
 #include "../occlusion/crossed.inl"
 #endif
+#if LMB_PROBES
+#include "../probe/remap.inl"
+#include "../probe/cosine.inl"
+#endif
 
 static float KERNEL(probe)(float one_and_bit)
 {
@@ -37,5 +41,8 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #if LMB_TREES
     KERNEL(gather_cut), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets), KERNEL(many_bounds),
     KERNEL(many_shine),
+#endif
+#if LMB_PROBES
+    KERNEL(remap), KERNEL(cosine),
 #endif
 };

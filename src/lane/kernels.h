@@ -8,6 +8,7 @@
 #include <lambent/compose.h>
 #include <lambent/tree.h>
 #include <lambent/many.h>
+#include <lambent/probe.h>
 
 #include "machines.h"
 
@@ -135,6 +136,24 @@ typedef struct lmb_segments {
     float per[3][LMB_TILE_PIXELS];
 } lmb_segments;
 
+/* The world from one place, by direction. */
+typedef struct lmb_remap_job {
+    const void *texels;
+    const float *log8, (*log16)[256];
+    const uint16_t *direction; /* 3 planes of `count` */
+    int32_t format, count, blend, shape;
+    int32_t side, cube_at;     /* the cube's level, and its first texel */
+    lmb_vec3 from_centre, from_middle; /* to the place, m */
+    float outside2;            /* |from_middle|^2 - radius^2: < 0 */
+    float to_low[3], to_high[3]; /* the box's walls from the place */
+    float ray_width;           /* of a direction's texel, rad */
+    int32_t ground_levels, ground_from; /* 0: no ground; its first texel */
+    float height;              /* over the ground, m */
+    float ground_x, ground_z, ground_width_m, ground_depth_m, ground_per_x, ground_per_z;
+    float ground_columns[16], ground_rows[16], ground_at[16]; /* by level; from the ground's first texel */
+    float ground_limit[16];    /* rays wider than this read the next level, m */
+} lmb_remap_job;
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -185,6 +204,13 @@ struct lmb_kernels {
     /* The lamps' light on `pixels` is added. */
     void (*many_shine)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels, const lmb_many_lamp *lamps,
                        int32_t count);
+#endif
+#if LMB_PROBES
+    /* Radiance of each direction, 3 planes. */
+    void (*remap)(float *out, const lmb_remap_job *job);
+    /* Irradiance by normal; `direction`: of the lights, 3 planes. */
+    void (*cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TILE_PIXELS], const lmb_probe_lights *lights,
+                   const float *direction);
 #endif
 };
 

@@ -9,6 +9,13 @@
 #define LANE_INLINE static inline
 #endif
 
+/* For what is rarely or slowly done, so that its frame is not part of its caller's. */
+#if defined(__GNUC__)
+#define LANE_APART static __attribute__((noinline))
+#else
+#define LANE_APART static
+#endif
+
 /* Column and row of a tile's pixels k, k + 1, ...: k is a multiple of LANES, and 16 lanes cover two rows. */
 static inline lane lane_column(int k)
 {
@@ -47,6 +54,17 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
         i[k] = (int32_t)((uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24);
     }
     return lanei_load(i);
+}
+#endif
+
+/* Four floats each, at 4 * `at`. A machine's header may have its own. */
+#ifndef LANE_GATHERS_RGBA_F32
+static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
+{
+    at = lanei_mul(at, lanei_splat(4));
+    for (int c = 0; c < 4; ++c) {
+        out[c] = lane_gather_f32(p + c, at);
+    }
 }
 #endif
 

@@ -121,6 +121,25 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 {
     return _mm256_i32gather_epi32((const int *)(const void *)p, at, 4);
 }
+/* Eight rows of four, turned. */
+#define LANE_GATHERS_RGBA_F32 1
+static inline __m256 lane_two_rows(const float *low, const float *high)
+{
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+}
+static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
+{
+    int32_t i[8];
+    lanei_store(i, _mm256_slli_epi32(at, 2));
+    const __m256 a = lane_two_rows(p + i[0], p + i[4]), b = lane_two_rows(p + i[1], p + i[5]),
+                 c = lane_two_rows(p + i[2], p + i[6]), d = lane_two_rows(p + i[3], p + i[7]);
+    const __m256 ab = _mm256_unpacklo_ps(a, b), cd = _mm256_unpacklo_ps(c, d), ab_high = _mm256_unpackhi_ps(a, b),
+                 cd_high = _mm256_unpackhi_ps(c, d);
+    out[0] = _mm256_shuffle_ps(ab, cd, 0x44);
+    out[1] = _mm256_shuffle_ps(ab, cd, 0xee);
+    out[2] = _mm256_shuffle_ps(ab_high, cd_high, 0x44);
+    out[3] = _mm256_shuffle_ps(ab_high, cd_high, 0xee);
+}
 /* The halves of the table, and bit 3 of `at` says which. */
 static inline lane lane_table(const float *p, lanei at)
 {

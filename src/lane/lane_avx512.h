@@ -107,6 +107,27 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
 }
 #define LANE_GATHERS_RGBA 1
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
+/* Sixteen rows of four, turned. */
+#define LANE_GATHERS_RGBA_F32 1
+static inline __m512 lane_four_rows(const float *p, const int32_t *at)
+{
+    const __m512 a = _mm512_castps128_ps512(_mm_loadu_ps(p + at[0]));
+    const __m512 b = _mm512_insertf32x4(a, _mm_loadu_ps(p + at[4]), 1);
+    return _mm512_insertf32x4(_mm512_insertf32x4(b, _mm_loadu_ps(p + at[8]), 2), _mm_loadu_ps(p + at[12]), 3);
+}
+static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
+{
+    int32_t i[16];
+    lanei_store(i, _mm512_slli_epi32(at, 2));
+    const __m512 a = lane_four_rows(p, i), b = lane_four_rows(p, i + 1), c = lane_four_rows(p, i + 2),
+                 d = lane_four_rows(p, i + 3);
+    const __m512 ab = _mm512_unpacklo_ps(a, b), cd = _mm512_unpacklo_ps(c, d), ab_high = _mm512_unpackhi_ps(a, b),
+                 cd_high = _mm512_unpackhi_ps(c, d);
+    out[0] = _mm512_shuffle_ps(ab, cd, 0x44);
+    out[1] = _mm512_shuffle_ps(ab, cd, 0xee);
+    out[2] = _mm512_shuffle_ps(ab_high, cd_high, 0x44);
+    out[3] = _mm512_shuffle_ps(ab_high, cd_high, 0xee);
+}
 static inline lane lane_table(const float *p, lanei at) { return _mm512_permutexvar_ps(at, _mm512_loadu_ps(p)); }
 
 /* Rows of a tiled surface follow each other: one piece. Where `step` is a constant, so is the choice. */

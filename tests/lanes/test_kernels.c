@@ -797,6 +797,85 @@ static int trial_encode(const trial *t, test_rng r)
     return same_bytes(t, "code", want, got, sizeof want);
 }
 
+/* --- probes ------------------------------------------------------------------------------------------------------- */
+
+enum { WORLD_FACE = 12, WORLD_GROUND = 20, WORLD_WORDS = 40000, PROBE_HEIGHT = 8, PROBE_COUNT = 128 };
+
+/* A world of random pictures, faces missing and ground blank now and then, in the middle of a guarded memory. */
+static int make_surroundings(lmb_world *out, uint32_t *memory, const trial *t, test_rng *r)
+{
+    static float face[6][WORLD_FACE * WORLD_FACE * 3], ground[WORLD_GROUND * WORLD_GROUND * 4];
+    lmb_world_pictures p;
+    memset(&p, 0, sizeof p);
+    p.face_size = 1 + (int32_t)(test_random(r) % WORLD_FACE);
+    for (int i = 0; i < 6; ++i) {
+        numbers(face[i], WORLD_FACE * WORLD_FACE * 3, r, 0.0f, 120.0f, t->seed % 2u ? 20u : 0);
+        p.face[i] = test_random(r) % 8u ? face[i] : NULL;
+    }
+    numbers(ground, WORLD_GROUND * WORLD_GROUND * 4, r, 0.0f, 2.0f, t->seed % 2u ? 20u : 0);
+    p.ground = t->seed % 5u ? ground : NULL;
+    p.ground_width = 1 + (int32_t)(test_random(r) % WORLD_GROUND);
+    p.ground_height = 1 + (int32_t)(test_random(r) % WORLD_GROUND);
+    p.ground_x = p.ground_z = test_uniform(r, -20.0f, 0.0f);
+    p.ground_width_m = test_uniform(r, 1.0f, 40.0f);
+    p.ground_depth_m = test_uniform(r, 1.0f, 40.0f);
+    p.ground_y = test_uniform(r, -2.0f, 0.0f);
+    p.centre = vec3(0.0f, 1.0f, 0.0f);
+    p.shape = t->seed % 3u ? LMB_WORLD_SPHERE : LMB_WORLD_BOX;
+    p.radius = test_uniform(r, 2.0f, 30.0f);
+    p.low = vec3(-8.0f, -3.0f, -5.0f);
+    p.high = vec3(9.0f, 7.0f, 12.0f);
+    const int32_t format = (int32_t)(t->seed % 7u % 3u);
+    return lmb_world_bytes(&p, format) <= WORLD_WORDS * sizeof *memory &&
+           lmb_world_init(out, &p, format, memory, lmb_world_bytes(&p, format)) == LMB_OK;
+}
+
+typedef struct probe_map {
+    float rgb[3 * PROBE_COUNT];
+} probe_map;
+
+static int trial_remap(const trial *t, test_rng r)
+{
+    static uint32_t texels[WORLD_WORDS], directions[4096];
+    static GUARDED(probe_map) want, got;
+    lmb_world world;
+    lmb_probe_table table;
+    GUARD(want);
+    GUARD(got);
+    const lmb_vec3 at = vec3(test_uniform(&r, -12.0f, 12.0f), test_uniform(&r, -3.0f, 9.0f),
+                             test_uniform(&r, -12.0f, 12.0f));
+    const int32_t blend = t->seed % 4u == 3u;
+    const float start = test_uniform(&r, -180.0f, 0.0f);
+    const lmb_status made =
+        lmb_probe_table_init(&table, 2 * PROBE_HEIGHT, PROBE_HEIGHT, start, directions, sizeof directions);
+    CHECK(made == LMB_OK && make_surroundings(&world, texels, t, &r));
+    CHECK(lmb_probe_remap(want.it.rgb, &lmb_kernels_scalar, &world, &table, at, blend) == LMB_OK);
+    CHECK(lmb_probe_remap(got.it.rgb, t->kernels, &world, &table, at, blend) == LMB_OK);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "rgb", want.it.rgb, got.it.rgb, 3 * PROBE_COUNT);
+}
+
+typedef struct probe_normals {
+    float xyz[3][LMB_TILE_PIXELS];
+} probe_normals;
+
+static int trial_cosine(const trial *t, test_rng r)
+{
+    static GUARDED(probe_normals) want, got;
+    static probe_normals normal;
+    static lmb_probe_lights lights;
+    static float at[3 * LMB_PROBE_TEXELS];
+    GUARD(want);
+    GUARD(got);
+    numbers(normal.xyz[0], 3 * LMB_TILE_PIXELS, &r, -1.0f, 1.0f, t->seed % 2u ? 20u : 0);
+    numbers(lights.rgbw[0], 4 * LMB_PROBE_TEXELS, &r, 0.0f, 9.0f, t->seed % 4u ? 0 : 20u);
+    numbers(at, 3 * LMB_PROBE_TEXELS, &r, -1.0f, 1.0f, 0);
+    lmb_kernels_scalar.cosine(want.it.xyz, normal.xyz, &lights, at);
+    t->kernels->cosine(got.it.xyz, normal.xyz, &lights, at);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "rgb", want.it.xyz[0], got.it.xyz[0], 3 * LMB_TILE_PIXELS);
+}
+
 /* --- all of them -------------------------------------------------------------------------------------------------- */
 
 static const struct kernel {
@@ -820,6 +899,8 @@ static const struct kernel {
     {"many_shine", trial_many_shine},
     {"blend", trial_blend},
     {"encode", trial_encode},
+    {"remap", trial_remap},
+    {"cosine", trial_cosine},
 };
 
 static void test_machine(const lmb_kernels *machine)

@@ -1,0 +1,26 @@
+/* cosine.inl: irradiance of normals from lights all around: pi times their mean by max(0, n . d).               [S14]
+ *
+ * Lanes are normals. */
+
+static void KERNEL(cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TILE_PIXELS],
+                           const lmb_probe_lights *lights, const float *direction)
+{
+    const float *x = direction, *y = x + LMB_PROBE_TEXELS, *z = y + LMB_PROBE_TEXELS;
+    const lane zero = lane_splat(0.0f);
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lane3 n = {lane_load(normal[0] + k), lane_load(normal[1] + k), lane_load(normal[2] + k)};
+        lane3 sum = {zero, zero, zero};
+        lane weight = zero;
+        for (int j = 0; j < LMB_PROBE_TEXELS; ++j) {
+            const lane cosine = lane_max(lane3_dot(n, lane3_splat(x[j], y[j], z[j])), zero);
+            sum.x = lane_add(sum.x, lane_mul(cosine, lane_splat(lights->rgbw[0][j])));
+            sum.y = lane_add(sum.y, lane_mul(cosine, lane_splat(lights->rgbw[1][j])));
+            sum.z = lane_add(sum.z, lane_mul(cosine, lane_splat(lights->rgbw[2][j])));
+            weight = lane_add(weight, lane_mul(cosine, lane_splat(lights->rgbw[3][j])));
+        }
+        const lane scale = lane_div(lane_splat(3.14159274f), weight);
+        lane_store(out[0] + k, lane_mul(sum.x, scale));
+        lane_store(out[1] + k, lane_mul(sum.y, scale));
+        lane_store(out[2] + k, lane_mul(sum.z, scale));
+    }
+}

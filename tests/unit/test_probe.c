@@ -1,0 +1,362 @@
+/* test_probe.c: worlds seen from elsewhere, and what their light comes to. Requirements S1-S14, S25. */
+#include <lambent/lambent.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/base/vec.h"
+#include "../../src/probe/cube.h"
+#include "../test.h"
+
+void test_probe(void);
+
+enum { FACE = 64, GROUND = 32, WIDTH = 128, HEIGHT = 64, COUNT = WIDTH * HEIGHT, CUBE = 8 };
+enum { CUBE_TEXELS = 6 * CUBE * CUBE };
+
+/* --- a world of formulas ------------------------------------------------------------------------------------------ */
+
+typedef struct stage {
+    float face[6][FACE * FACE * 3], ground[GROUND * GROUND * 4], map[3 * COUNT], cube[3 * CUBE_TEXELS];
+    lmb_world_pictures pictures;
+    lmb_world world;
+    lmb_probe_table table;
+    lmb_probe_lights lights;
+    void *world_memory, *table_memory;
+} stage;
+
+/* Smooth, and different all around. */
+static float sky(int c, lmb_vec3 d)
+{
+    const float x = d.x, y = d.y, z = d.z;
+    return c == 0   ? 1.0f + 0.5f * x + 0.25f * y * z
+           : c == 1 ? 0.8f + 0.3f * z - 0.2f * x * y
+                    : 0.6f - 0.3f * y + 0.2f * x * z;
+}
+
+static void paint_sky(stage *s)
+{
+    for (int i = 0; i < 6 * FACE * FACE; ++i) {
+        const int face = i / (FACE * FACE), at = i % (FACE * FACE);
+        const lmb_vec3 d = cube_direction(face, at % FACE, at / FACE, FACE);
+        for (int c = 0; c < 3; ++c) {
+            s->face[face][3 * at + c] = sky(c, d);
+        }
+    }
+}
+
+static stage *stage_make(void)
+{
+    stage *s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        abort();
+    }
+    paint_sky(s);
+    for (int i = 0; i < 6; ++i) {
+        s->pictures.face[i] = s->face[i];
+    }
+    s->pictures.face_size = FACE;
+    s->pictures.radius = 50.0f;
+    s->pictures.centre = vec3(0.0f, 1.5f, 0.0f);
+    s->pictures.middle = s->pictures.centre;
+    s->table_memory = malloc(lmb_probe_table_bytes(WIDTH, HEIGHT));
+    const size_t bytes = lmb_probe_table_bytes(WIDTH, HEIGHT);
+    CHECK(lmb_probe_table_init(&s->table, WIDTH, HEIGHT, -180.0f, s->table_memory, bytes) == LMB_OK);
+    return s;
+}
+
+static lmb_status make_world(stage *s, int32_t format)
+{
+    const size_t bytes = lmb_world_bytes(&s->pictures, format);
+    free(s->world_memory);
+    s->world_memory = malloc(bytes);
+    return lmb_world_init(&s->world, &s->pictures, format, s->world_memory, bytes);
+}
+
+static void stage_free(stage *s)
+{
+    free(s->world_memory);
+    free(s->table_memory);
+    free(s);
+}
+
+static lmb_vec3 direction_of(const stage *s, int k)
+{
+    const uint16_t *d = s->table.direction + k;
+    return vec3((float)d[0] * (2.0f / 65535.0f) - 1.0f, (float)d[COUNT] * (2.0f / 65535.0f) - 1.0f,
+                (float)d[2 * COUNT] * (2.0f / 65535.0f) - 1.0f);
+}
+
+static void see_from(stage *s, lmb_vec3 at, int32_t blend)
+{
+    CHECK(lmb_probe_remap(s->map, lmb_kernels_pick(), &s->world, &s->table, at, blend) == LMB_OK);
+}
+
+/* --- codes -------------------------------------------------------------------------------------------------------- */
+
+/* S4: back within a step of the code, over [0, 99]. */
+static void log_codes(void)
+{
+    const float step[2] = {1.0f / 65535.0f, 1.0f / 255.0f};
+    int within = 1, rises = 1;
+    float last = -1.0f;
+    for (int i = 0; i <= 9900; ++i) {
+        const float c = 0.01f * (float)i, e = lmb_world_encode(c), back = lmb_world_decode(e);
+        within &= fabsf(back - c) <= 2e-5f * (c + 0.101f);
+        rises &= e > last;
+        last = e;
+        for (int k = 0; k < 2; ++k) {
+            const float coded = floorf(e / step[k] + 0.5f) * step[k];
+            within &= fabsf(lmb_world_decode(coded) - c) <= 2.302585f * 3.0f * step[k] * (c + 0.101f);
+        }
+    }
+    CHECK(within && rises);
+    CHECK(lmb_world_encode(-1.0f) == lmb_world_encode(0.0f) && lmb_world_encode(NAN) == lmb_world_encode(0.0f));
+    CHECK(lmb_world_encode(1e30f) <= 1.0f && lmb_world_decode(2.0f) == lmb_world_decode(1.0f));
+    CHECK(lmb_world_decode(NAN) < 1e-6f);
+}
+
+/* --- one place ---------------------------------------------------------------------------------------------------- */
+
+/* S6: from the centre, each direction sees what the cube shows along it. */
+static void identity(stage *s, int32_t format, float most)
+{
+    float worst = 0.0f;
+    CHECK(make_world(s, format) == LMB_OK);
+    see_from(s, s->pictures.centre, 0);
+    for (int k = 0; k < COUNT; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            worst = maxf(worst, fabsf(s->map[c * COUNT + k] - sky(c, direction_of(s, k))));
+        }
+    }
+    CHECK_MSG(worst < most, "%g", (double)worst);
+}
+
+/* The far world's point by double arithmetic. */
+static lmb_vec3 far_point(const lmb_world_pictures *p, lmb_vec3 at, lmb_vec3 d)
+{
+    double t = 1e30;
+    const double o[3] = {at.x, at.y, at.z}, r[3] = {d.x, d.y, d.z};
+    if (p->shape == LMB_WORLD_SPHERE) {
+        const double middle[3] = {p->middle.x, p->middle.y, p->middle.z};
+        const double m[3] = {o[0] - middle[0], o[1] - middle[1], o[2] - middle[2]};
+        const double radius = p->radius;
+        const double a = r[0] * r[0] + r[1] * r[1] + r[2] * r[2], b = m[0] * r[0] + m[1] * r[1] + m[2] * r[2],
+                     c = m[0] * m[0] + m[1] * m[1] + m[2] * m[2] - radius * radius;
+        t = (-b + sqrt(b * b - a * c)) / a;
+    } else {
+        const double low[3] = {p->low.x, p->low.y, p->low.z}, high[3] = {p->high.x, p->high.y, p->high.z};
+        for (int i = 0; i < 3; ++i) {
+            const double wall = ((r[i] > 0 ? high[i] : low[i]) - o[i]) / r[i];
+            t = wall < t ? wall : t;
+        }
+    }
+    return vec3((float)(o[0] + t * r[0]), (float)(o[1] + t * r[1]), (float)(o[2] + t * r[2]));
+}
+
+/* S5 S6: from elsewhere, the patch's direction from the centre. */
+static void elsewhere(stage *s, lmb_vec3 at)
+{
+    float worst = 0.0f;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, at, 0);
+    for (int k = 0; k < COUNT; ++k) {
+        const lmb_vec3 q = far_point(&s->pictures, at, direction_of(s, k));
+        for (int c = 0; c < 3; ++c) {
+            worst = maxf(worst, fabsf(s->map[c * COUNT + k] - sky(c, normalize3(sub3(q, s->pictures.centre)))));
+        }
+    }
+    CHECK_MSG(worst < 0.006f, "%g", (double)worst);
+}
+
+/* --- ground ------------------------------------------------------------------------------------------------------- */
+
+static void paint_ground(stage *s, float alpha)
+{
+    for (int i = 0; i < GROUND * GROUND; ++i) {
+        s->ground[4 * i] = 2.0f + 0.05f * (float)(i % GROUND);
+        s->ground[4 * i + 1] = 3.0f + 0.05f * (float)(i / GROUND);
+        s->ground[4 * i + 2] = 1.0f;
+        s->ground[4 * i + 3] = alpha;
+    }
+    s->pictures.ground = s->ground;
+    s->pictures.ground_width = s->pictures.ground_height = GROUND;
+    s->pictures.ground_x = s->pictures.ground_z = -16.0f;
+    s->pictures.ground_width_m = s->pictures.ground_depth_m = 32.0f;
+    s->pictures.ground_y = 0.0f;
+}
+
+/* S7: straight down lies the ground under the object, upwards there is none; where it is blank the far world shows. */
+static void ground_and_sky(stage *s)
+{
+    const lmb_vec3 at = vec3(5.0f, 1.0f, -3.0f);
+    const int down = (HEIGHT - 1) * WIDTH;
+    paint_ground(s, 1.0f);
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, at, 0);
+    CHECK(fabsf(s->map[down] - (2.0f + 0.05f * 20.5f)) < 0.05f);
+    CHECK(fabsf(s->map[COUNT + down] - (3.0f + 0.05f * 12.5f)) < 0.05f);
+    CHECK(fabsf(s->map[2 * COUNT + down] - 1.0f) < 1e-5f && fabsf(s->map[2 * COUNT] - sky(2, vec3(0, 1, 0))) < 0.02f);
+    see_from(s, at, 1); /* S7's variant: the mean of both */
+    const lmb_vec3 q = far_point(&s->pictures, at, direction_of(s, down));
+    const float far = sky(2, normalize3(sub3(q, s->pictures.centre)));
+    CHECK(fabsf(s->map[2 * COUNT + down] - 0.5f * (1.0f + far)) < 0.01f);
+    see_from(s, vec3(5.0f, 0.0f, -3.0f), 0); /* on it: none is seen */
+    CHECK(fabsf(s->map[2 * COUNT + down] - 1.0f) > 0.05f);
+    paint_ground(s, 0.0f);
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, at, 0);
+    CHECK(fabsf(s->map[2 * COUNT + down] - far) < 0.01f);
+    /* S2: the ground fills what the cube lacks, and beyond it is nothing. */
+    paint_ground(s, 1.0f);
+    s->pictures.ground_y = -60.0f; /* under the far world */
+    s->pictures.face[3] = NULL;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, vec3(0.0f, 1.5f, 0.0f), 0);
+    CHECK(fabsf(s->map[2 * COUNT + down] - 1.0f) < 0.02f);
+    s->pictures.ground = NULL;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, vec3(0.0f, 1.5f, 0.0f), 0);
+    CHECK(s->map[down] == 0.0f && s->map[COUNT + down] == 0.0f);
+    s->pictures.face[3] = s->face[3];
+}
+
+/* --- light -------------------------------------------------------------------------------------------------------- */
+
+static void paint_all(stage *s, float radiance)
+{
+    for (int i = 0; i < 6 * FACE * FACE * 3; ++i) {
+        s->face[i / (FACE * FACE * 3)][i % (FACE * FACE * 3)] = radiance;
+    }
+}
+
+static float farthest(const float *v, int n, float from)
+{
+    float worst = 0.0f;
+    for (int i = 0; i < n; ++i) {
+        worst = maxf(worst, fabsf(v[i] - from));
+    }
+    return worst;
+}
+
+/* A world of one radiance gives pi times that, to 1e-6, by each filter and from any place. */
+static void one_radiance(stage *s)
+{
+    const float pi = 3.14159265f;
+    float harmonics[3][LMB_SH_25];
+    paint_all(s, 1.0f);
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, vec3(20.0f, 3.0f, -11.0f), 0);
+    CHECK(farthest(s->map, 3 * COUNT, 1.0f) < 1e-6f);
+    CHECK(lmb_probe_reduce(&s->lights, s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
+    const float off = farthest(s->cube, 3 * CUBE_TEXELS, pi);
+    CHECK_MSG(off < 1e-6f * pi, "%g", (double)off);
+    CHECK(lmb_probe_sh(harmonics, s->map, &s->table) == LMB_OK);
+    for (int32_t terms = 9; terms <= 25; terms += terms == 9 ? 7 : 9) {
+        CHECK(lmb_probe_sh_cube(s->cube, CUBE, (const float (*)[LMB_SH_25])harmonics, terms) == LMB_OK);
+        CHECK_MSG(farthest(s->cube, 3 * CUBE_TEXELS, pi) < 1e-6f * pi, "%d terms: %g", (int)terms,
+                  (double)farthest(s->cube, 3 * CUBE_TEXELS, pi));
+    }
+    paint_sky(s);
+}
+
+/* Bands 0 to 2 are all that the sky has: harmonics are exact and show each band's factor; sixteen terms are nine. */
+static void known_irradiance(stage *s)
+{
+    float harmonics[3][LMB_SH_25], nine[3 * CUBE_TEXELS], worst_sh = 0.0f, worst_cosine = 0.0f;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, s->pictures.centre, 0);
+    CHECK(lmb_probe_sh(harmonics, s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_sh_cube(nine, CUBE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_9) == LMB_OK);
+    CHECK(lmb_probe_sh_cube(s->cube, CUBE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_16) == LMB_OK);
+    CHECK(memcmp(nine, s->cube, sizeof nine) == 0);
+    CHECK(lmb_probe_reduce(&s->lights, s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
+    for (int i = 0; i < CUBE_TEXELS; ++i) {
+        const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);
+        const float pi = 3.14159265f, one = 2.0f / 3.0f * pi, two = pi / 4.0f;
+        const float want[3] = {pi + one * 0.5f * n.x + two * 0.25f * n.y * n.z,
+                               0.8f * pi + one * 0.3f * n.z - two * 0.2f * n.x * n.y,
+                               0.6f * pi - one * 0.3f * n.y + two * 0.2f * n.x * n.z};
+        for (int c = 0; c < 3; ++c) {
+            worst_sh = maxf(worst_sh, fabsf(nine[c * CUBE_TEXELS + i] - want[c]));
+            worst_cosine = maxf(worst_cosine, fabsf(s->cube[c * CUBE_TEXELS + i] - want[c]));
+        }
+    }
+    CHECK_MSG(worst_sh < 0.002f && worst_cosine < 0.008f, "%g %g", (double)worst_sh, (double)worst_cosine);
+}
+
+/* No step across the seam at 180 degrees, the poles, or the world's own edges, larger than inside a face. */
+static void no_seams(stage *s)
+{
+    float inside = 0.0f, seam = 0.0f, pole = 0.0f;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    see_from(s, vec3(9.0f, 2.0f, 4.0f), 0);
+    for (int y = 0; y < HEIGHT; ++y) {
+        const float *row = s->map + y * WIDTH;
+        for (int x = 0; x + 1 < WIDTH; ++x) {
+            inside = maxf(inside, fabsf(row[x + 1] - row[x]));
+        }
+        seam = maxf(seam, fabsf(row[0] - row[WIDTH - 1]));
+    }
+    for (int x = 0; x < WIDTH; ++x) {
+        pole = maxf(pole, fabsf(s->map[x] - s->map[(x + WIDTH / 2) % WIDTH]));
+    }
+    CHECK_MSG(seam <= inside && pole <= inside, "%g %g %g", (double)inside, (double)seam, (double)pole);
+}
+
+/* --- refusals ----------------------------------------------------------------------------------------------------- */
+
+static void refusals(stage *s)
+{
+    lmb_world_pictures *p = &s->pictures;
+    const size_t bytes = lmb_world_bytes(p, LMB_WORLD_LOG8);
+    CHECK(bytes > 0 && lmb_world_bytes(p, LMB_WORLD_F32) == 4 * bytes && lmb_world_bytes(NULL, 0) == 0);
+    CHECK(lmb_world_init(&s->world, p, 3, s->world_memory, bytes) == LMB_ERR_FORMAT);
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, (uint8_t *)s->world_memory + 2, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, NULL, bytes) == LMB_ERR_ARG);
+    p->radius = 0.0f;
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
+    p->radius = 50.0f;
+    p->centre.x = 51.0f; /* outside what it is the picture of */
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
+    p->centre.x = 0.0f;
+    p->face_size = 0;
+    CHECK(lmb_world_bytes(p, LMB_WORLD_LOG8) == 0);
+    p->face_size = FACE;
+    CHECK(lmb_probe_table_bytes(128, 60) == 0 && lmb_probe_table_bytes(16, 8) > 0);
+    CHECK(lmb_probe_table_bytes(2048, 1024) == 0);
+    CHECK(lmb_probe_table_init(&s->table, WIDTH, HEIGHT, NAN, s->table_memory, 1u << 20) == LMB_ERR_ARG);
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    CHECK(lmb_probe_remap(s->map, lmb_kernels_pick(), &s->world, &s->table, vec3(NAN, 0, 0), 0) == LMB_ERR_ARG);
+    CHECK(lmb_probe_remap(NULL, lmb_kernels_pick(), &s->world, &s->table, vec3(0, 0, 0), 0) == LMB_ERR_ARG);
+    CHECK(lmb_probe_cosine(s->cube, 65, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);
+    /* A place outside the far world counts as the nearest one inside. */
+    see_from(s, vec3(400.0f, 1.5f, 0.0f), 0);
+    const float outside = s->map[COUNT / 2];
+    see_from(s, vec3(0.999f * 50.0f, 1.5f, 0.0f), 0);
+    CHECK(fabsf(outside - s->map[COUNT / 2]) < 1e-4f);
+}
+
+void test_probe(void)
+{
+    stage *s = stage_make();
+    log_codes();
+    identity(s, LMB_WORLD_F32, 0.003f);
+    identity(s, LMB_WORLD_LOG16, 0.003f);
+    identity(s, LMB_WORLD_LOG8, 0.04f);
+    elsewhere(s, vec3(20.0f, 3.0f, -11.0f));
+    s->pictures.shape = LMB_WORLD_BOX;
+    s->pictures.low = vec3(-30.0f, -10.0f, -20.0f);
+    s->pictures.high = vec3(40.0f, 15.0f, 25.0f);
+    elsewhere(s, vec3(-12.0f, 3.0f, 7.0f));
+    s->pictures.shape = LMB_WORLD_SPHERE;
+    one_radiance(s);
+    known_irradiance(s);
+    no_seams(s);
+    ground_and_sky(s);
+    refusals(s);
+    stage_free(s);
+}
