@@ -62,6 +62,7 @@ typedef struct lmb_probe_share {
 /* Directions of a latitude-longitude map's texels, built once a size. In the caller's memory. [S9 S10] */
 typedef struct lmb_probe_table {
     int32_t width, height;
+    float start;         /* longitude of the left edge, rad */
     uint16_t *direction; /* 3 planes of width x height: x, y, z as 65535 (d + 1) / 2 */
     float *area;         /* height: the solid angle of a row's texels, sr */
     float *wave;         /* 9 planes of width: cos m a, m = 0 .. 4, then sin m a, m = 1 .. 4, a the longitude */
@@ -81,6 +82,13 @@ typedef struct lmb_probe_lights {
     float rgbw[4][LMB_PROBE_TEXELS];     /* radiance x solid angle, W/m2; the solid angle itself, sr */
     float shared[LMB_PROBE_BORDERED][4]; /* scratch */
 } lmb_probe_lights;
+
+/* Kernels of a blur, for maps of one size. [S11] */
+typedef struct lmb_probe_blur {
+    int32_t width, height, terms; /* terms 0: one kernel for all rows; 1, 2: products fitted for each */
+    float *column;                /* [term][row of the result][2 height]: weights of rows, then of rows past a pole */
+    float *row;                   /* [term][row of the result][width]: weights by lag */
+} lmb_probe_blur;
 
 #ifdef __cplusplus
 extern "C" {
@@ -104,7 +112,8 @@ lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, in
 float lmb_world_encode(float c);
 float lmb_world_decode(float e);
 
-/* lmb_probe_table_bytes: memory of a table; 0 for sizes that are none: height 8 .. 512, a multiple of 8, width twice that. */
+/* lmb_probe_table_bytes: memory of a table; 0 for sizes that are none. Height 8 .. 512, a multiple of 8, and width
+ * twice that. */
 size_t lmb_probe_table_bytes(int32_t width, int32_t height);
 
 /* lmb_probe_table_init: directions by latitude from the north (+y) down, and by longitude. start_deg: longitude of the
@@ -139,6 +148,27 @@ lmb_status lmb_probe_cosine(float *cube, int32_t n, const lmb_kernels *kernels, 
  * third band, so 16 gives what 9 gives. Sharp lights overshoot: results may be negative, and are not clamped. */
 lmb_status lmb_probe_sh(float coefficient[3][LMB_SH_25], const float *map, const lmb_probe_table *table);
 lmb_status lmb_probe_sh_cube(float *cube, int32_t n, const float coefficient[3][LMB_SH_25], int32_t terms);
+
+/* lmb_probe_blur_bytes, lmb_probe_blur_init: a blur's kernels, once a size: 2 height + width floats a row and term.
+ *
+ *   terms  0: cos by latitude, then by longitude, as the source has it; 1 or 2: fitted for each row
+ * LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY. Fitting costs 100 height^2 width operations. */
+size_t lmb_probe_blur_bytes(const lmb_probe_table *table, int32_t terms);
+lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table, int32_t terms, void *memory,
+                               size_t bytes);
+
+/* lmb_probe_blur_map: irradiance by direction, a map of the same size. [S11 S12 S13]
+ *
+ *   line  scratch, 4 x width floats
+ * A world of one radiance gives pi times that. */
+lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernels, const float *map,
+                              const lmb_probe_blur *blur);
+
+/* lmb_probe_halve: a map of half the width and height; may be in place. The table is the larger map's. */
+lmb_status lmb_probe_halve(float *out, const float *map, const lmb_probe_table *table);
+
+/* lmb_probe_map_cube: a map read bilinearly at n x n x 6 directions, round the seam and over the poles. [S14] */
+lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lmb_probe_table *table);
 
 #ifdef __cplusplus
 }

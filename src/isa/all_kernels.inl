@@ -21,6 +21,7 @@
 #if LMB_PROBES
 #include "../probe/remap.inl"
 #include "../probe/cosine.inl"
+#include "../probe/blur.inl"
 #endif
 
 static float KERNEL(probe)(float one_and_bit)
@@ -43,6 +44,6 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(many_shine),
 #endif
 #if LMB_PROBES
-    KERNEL(remap), KERNEL(cosine),
+    KERNEL(remap), KERNEL(cosine), KERNEL(blur),
 #endif
 };

@@ -154,6 +154,14 @@ typedef struct lmb_remap_job {
     float ground_limit[16];    /* rays wider than this read the next level, m */
 } lmb_remap_job;
 
+/* One row of a blur. */
+typedef struct lmb_blur_job {
+    const float *map;     /* a plane, height rows of width */
+    const float *column;  /* weights of the rows; over: of those past a pole too, half a turn on */
+    const float *row;     /* by lag, a full turn */
+    int32_t width, height, over;
+} lmb_blur_job;
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -211,6 +219,8 @@ struct lmb_kernels {
     /* Irradiance by normal; `direction`: of the lights, 3 planes. */
     void (*cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TILE_PIXELS], const lmb_probe_lights *lights,
                    const float *direction);
+    /* Added to a row; `line`: scratch, 4 x width. */
+    void (*blur)(float *inout, float *line, const lmb_blur_job *job);
 #endif
 };
 

@@ -1,7 +1,7 @@
 /* remap.inl: what a place sees of the world, by direction.                                                     [S5-S8]
  *
  * Lanes are directions. A ray meets the far world at q, which the cube shows along q - centre; and the ground, if it
- * goes down to it within the picture. Both are read bilinearly, from a level whose texels are about as wide as the ray. */
+ * goes down to it within the picture. Both are read bilinearly, from a level whose texels are about as wide as it. */
 
 typedef struct remap_colour {
     lane3 rgb; /* times alpha */

@@ -140,17 +140,18 @@ lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t hei
     const size_t w = (size_t)width, h = (size_t)height;
     out->width = width;
     out->height = height;
+    out->start = start_deg * (LMB_PI / 180.0f);
     out->direction = (uint16_t *)memory;
     out->area = (float *)memory + 3 * w * h / 2;
     out->wave = out->area + h;
     out->legendre = out->wave + WAVES * w;
     out->light = out->legendre + LEGENDRE * h;
     out->share = (lmb_probe_share *)(void *)(out->light + 3 * LMB_PROBE_TEXELS);
-    set_waves(out, start_deg * (LMB_PI / 180.0f));
+    set_waves(out, out->start);
     set_areas(out);
     set_legendre(out);
     set_lights(out);
-    set_shares(out, start_deg * (LMB_PI / 180.0f));
+    set_shares(out, out->start);
     set_directions(out, out->wave + w, out->wave + 5 * w);
     return LMB_OK;
 }

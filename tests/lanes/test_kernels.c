@@ -876,6 +876,37 @@ static int trial_cosine(const trial *t, test_rng r)
     return same_floats(t, "rgb", want.it.xyz[0], got.it.xyz[0], 3 * LMB_TILE_PIXELS);
 }
 
+typedef struct probe_row {
+    float v[32];
+} probe_row;
+
+/* Maps whose last column is where their memory ends. */
+static int trial_blur(const trial *t, test_rng r)
+{
+    static GUARDED(probe_row) want, got;
+    lmb_blur_job job;
+    float column[32], row[32], line[128];
+    GUARD(want);
+    GUARD(got);
+    job.height = t->seed % 2u ? 8 : 16;
+    job.width = 2 * job.height;
+    job.over = t->seed % 3u == 0;
+    float *map = malloc((size_t)(job.width * job.height) * sizeof *map);
+    numbers(map, job.width * job.height, &r, 0.0f, 9.0f, t->seed % 4u ? 0 : 20u);
+    numbers(column, 32, &r, -1.0f, 1.0f, 0);
+    numbers(row, 32, &r, -1.0f, 1.0f, 0);
+    numbers(want.it.v, 32, &r, 0.0f, 1.0f, 0);
+    got.it = want.it;
+    job.map = map;
+    job.column = column;
+    job.row = row;
+    lmb_kernels_scalar.blur(want.it.v, line, &job);
+    t->kernels->blur(got.it.v, line, &job);
+    free(map);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "row", want.it.v, got.it.v, 32);
+}
+
 /* --- all of them -------------------------------------------------------------------------------------------------- */
 
 static const struct kernel {
@@ -901,6 +932,7 @@ static const struct kernel {
     {"encode", trial_encode},
     {"remap", trial_remap},
     {"cosine", trial_cosine},
+    {"blur", trial_blur},
 };
 
 static void test_machine(const lmb_kernels *machine)

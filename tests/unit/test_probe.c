@@ -261,6 +261,58 @@ static void one_radiance(stage *s)
     paint_sky(s);
 }
 
+/* The same of blurs, at a quarter of the map's size; the sky comes out as well as they can. */
+static void blurred(stage *s)
+{
+    static const float most[3] = {0.03f, 0.055f, 0.006f}; /* of the mean */
+    const size_t table_bytes = lmb_probe_table_bytes(WIDTH / 2, HEIGHT / 2);
+    float half[3 * COUNT / 4], out[3 * COUNT / 4], line[2 * WIDTH];
+    lmb_probe_table table;
+    void *table_memory = malloc(table_bytes);
+    CHECK(lmb_probe_table_init(&table, WIDTH / 2, HEIGHT / 2, -90.0f, table_memory, table_bytes) == LMB_OK);
+    for (int32_t terms = 0; terms <= 2; ++terms) {
+        lmb_probe_blur blur;
+        const size_t bytes = lmb_probe_blur_bytes(&table, terms);
+        void *memory = malloc(bytes);
+        CHECK(lmb_probe_blur_init(&blur, &table, terms, memory, bytes) == LMB_OK);
+        CHECK(lmb_probe_blur_init(&blur, &table, terms, memory, bytes - 4) == LMB_ERR_CAPACITY);
+        for (int i = 0; i < 3 * COUNT / 4; ++i) {
+            half[i] = 1.0f;
+        }
+        CHECK(lmb_probe_blur_map(out, line, lmb_kernels_pick(), half, &blur) == LMB_OK);
+        CHECK(farthest(out, 3 * COUNT / 4, 3.14159265f) < 4e-6f);
+        CHECK(lmb_probe_remap(half, lmb_kernels_pick(), &s->world, &table, s->pictures.centre, 0) == LMB_OK);
+        CHECK(lmb_probe_blur_map(out, line, lmb_kernels_pick(), half, &blur) == LMB_OK);
+        CHECK(lmb_probe_map_cube(s->cube, CUBE, out, &table) == LMB_OK);
+        float worst = 0.0f;
+        for (int i = 0; i < CUBE_TEXELS; ++i) {
+            const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);
+            worst = maxf(worst, fabsf(s->cube[i] - (3.14159265f + 1.04719755f * n.x + 0.19634954f * n.y * n.z)));
+        }
+        CHECK_MSG(worst < most[terms] * 3.14159265f, "%d terms: %g", (int)terms, (double)worst);
+        free(memory);
+    }
+    CHECK(lmb_probe_blur_bytes(&table, 3) == 0 && lmb_probe_blur_bytes(NULL, 1) == 0);
+    CHECK(lmb_probe_blur_map(out, line, lmb_kernels_pick(), out, NULL) == LMB_ERR_ARG);
+    free(table_memory);
+}
+
+/* Half the size, the same light. */
+static void halved(const stage *s)
+{
+    static float half[3 * COUNT / 4];
+    double whole = 0.0, after = 0.0;
+    CHECK(lmb_probe_halve(half, s->map, &s->table) == LMB_OK);
+    for (int i = 0; i < COUNT; ++i) {
+        whole += (double)s->map[i] * (double)s->table.area[i / WIDTH];
+    }
+    for (int i = 0; i < COUNT / 4; ++i) {
+        const int y = i / (WIDTH / 2);
+        after += (double)half[i] * 2.0 * (double)(s->table.area[2 * y] + s->table.area[2 * y + 1]);
+    }
+    CHECK(fabs(whole - after) < 1e-5 * whole);
+}
+
 /* Bands 0 to 2 are all that the sky has: harmonics are exact and show each band's factor; sixteen terms are nine. */
 static void known_irradiance(stage *s)
 {
@@ -355,6 +407,8 @@ void test_probe(void)
     s->pictures.shape = LMB_WORLD_SPHERE;
     one_radiance(s);
     known_irradiance(s);
+    halved(s);
+    blurred(s);
     no_seams(s);
     ground_and_sky(s);
     refusals(s);
