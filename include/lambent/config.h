@@ -76,6 +76,13 @@
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together where bounced light is upsampled */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are made ready together */
+/* Nodes of a cut that are weighed side by side, 96 bytes of lmb_cut each: as many as the widest machine has lanes, and
+ * at least four, the parts of one. */
+#ifdef LMB_CONFIG_TINY
+#define LMB_WEIGH_NODES 4
+#else
+#define LMB_WEIGH_NODES 16
+#endif
 /* Triangles of a tile that are resolved side by side, 170 bytes of lmb_tile each: as many as the widest machine has
  * lanes. The tiny configuration has one. */
 #ifdef LMB_CONFIG_TINY

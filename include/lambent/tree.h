@@ -44,6 +44,26 @@ typedef struct lmb_emitter {
     uint64_t visible; /* the pixels that see it, a bit each */
 } lmb_emitter;
 
+/* Planes of the numbers by which nodes are weighed; vectors are three planes. */
+enum {
+    LMB_WEIGH_CENTRE = 0,
+    LMB_WEIGH_NORMAL = 3,
+    LMB_WEIGH_LOW = 6,
+    LMB_WEIGH_HIGH = 9,
+    LMB_WEIGH_SEEN = 12,        /* where its visibility is asked, and the normal there */
+    LMB_WEIGH_SEEN_NORMAL = 15,
+    LMB_WEIGH_FLUX = 18,        /* R + G + B */
+    LMB_WEIGH_AREA = 19,
+    LMB_WEIGH_COSINE = 20,
+    LMB_WEIGH_PLANES = 21
+};
+
+/* Nodes side by side, and what they were found to give the tile: value and most as in lmb_cut, and error. */
+typedef struct lmb_weighed {
+    float node[LMB_WEIGH_PLANES][LMB_WEIGH_NODES];
+    float value[LMB_WEIGH_NODES], most[LMB_WEIGH_NODES], error[LMB_WEIGH_NODES];
+} lmb_weighed;
+
 /* Where a node is: level 0 are texels. */
 typedef struct lmb_tree_place {
     uint16_t face, x, y, level;
@@ -61,6 +81,7 @@ typedef struct lmb_cut {
     float error[LMB_MAX_CUT];          /* what it may be wrong by as one disc */
     int32_t next[LMB_MAX_CUT];         /* in its bucket */
     int32_t bucket[LMB_CUT_BUCKETS];   /* the first of each, by exponent and first bit */
+    lmb_weighed weighed;
     lmb_emitter emitter[LMB_CUT_BLOCK];
     float pairs[3][LMB_GATHER_PAIRS];
 } lmb_cut;

@@ -1,7 +1,7 @@
 /* cut.c: each tile of pixels takes its own cut through the light's tree, and is lit by it. Floor 6.    [V25 V27 V28]
  *
- * What a node may be wrong by is weigh.h's. The largest is divided first: buckets by exponent and first bit find it
- * without sorting, in the same order everywhere. */
+ * What a node may be wrong by is weigh.inl's. The largest is divided first: buckets by exponent and first bit find
+ * it without sorting, in the same order everywhere. */
 #include <lambent/tree.h>
 
 #include <string.h>
@@ -10,13 +10,15 @@
 #include "../lane/kernels.h"
 #include "../raster/tile.h"
 #include "footprint.h"
-#include "weigh.h"
+#include "patch.h"
+#include "tree.h"
 
 #if LMB_TREES
 
 #define INVERSE_PI 0.31830989f
 #define DARK       0.25 /* of `visible`: under this share of what nothing blocked, errors do not count */
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
+enum { AHEAD = LMB_WEIGH_NODES / 4 /* nodes whose parts are weighed together */ };
 
 /* --- the cut ------------------------------------------------------------------------------------------------------ */
 
@@ -26,31 +28,65 @@ typedef struct cutter {
     const lmb_tile *tile;
     const lmb_kernels *kernels;
     const lmb_cutting *cutting;
-    const patch *p;
+    const lmb_patch *p;
     lmb_last_blockers last;
     float per_pixel;     /* 1 / pixels of the patch */
     double beside;       /* what the pixels have beside the tree, in the mean */
+    int32_t ahead[AHEAD]; /* slots whose parts are weighed, four each, and not yet put; or NONE */
+    uint32_t faces;      /* of the weighed, those that do not face away */
     const float *key;    /* what the buckets go by: cut->error or cut->most */
     int highest;         /* no bucket over this has any */
     double error, value; /* sums; of value, what is seen */
 } cutter;
 
-static void node_at(lmb_node *out, const lmb_tree *tree, lmb_tree_place at)
+static void set_vector(lmb_weighed *out, int plane, int k, lmb_vec3 v)
 {
-    if (at.level > 0) {
-        *out = *tree_node(tree, at);
-    } else {
-        lmb_tree_texel_node(out, tree, at.face, at.x, at.y);
-    }
+    out->node[plane][k] = v.x;
+    out->node[plane + 1][k] = v.y;
+    out->node[plane + 2][k] = v.z;
 }
 
-static weight weigh_at(lmb_tree_place at, const cutter *c)
+/* Node k of those that are weighed together. */
+static void set_weighed(lmb_weighed *out, int k, const lmb_tree *tree, lmb_tree_place at)
 {
-    const int32_t size = c->tree->size;
-    lmb_node n;
-    node_at(&n, c->tree, at);
-    const lmb_texel *seen = tree_texel(c->tree, at.face, (int32_t)n.texel % size, (int32_t)n.texel / size);
-    return c->cutting->proven ? lmb_weigh_proven(&n, seen, c->p) : lmb_weigh(&n, seen, c->p);
+    lmb_node texel;
+    const lmb_node *n = &texel;
+    if (at.level > 0) {
+        n = tree_node(tree, at);
+    } else {
+        lmb_tree_texel_node(&texel, tree, at.face, at.x, at.y);
+    }
+    const lmb_texel *seen = tree_texel(tree, at.face, 0, 0) + n->texel;
+    set_vector(out, LMB_WEIGH_CENTRE, k, n->centre);
+    set_vector(out, LMB_WEIGH_NORMAL, k, n->normal);
+    set_vector(out, LMB_WEIGH_LOW, k, n->low);
+    set_vector(out, LMB_WEIGH_HIGH, k, n->high);
+    set_vector(out, LMB_WEIGH_SEEN, k, seen->position);
+    set_vector(out, LMB_WEIGH_SEEN_NORMAL, k, seen->normal);
+    out->node[LMB_WEIGH_FLUX][k] = flux_sum(n->flux);
+    out->node[LMB_WEIGH_AREA][k] = n->area;
+    out->node[LMB_WEIGH_COSINE][k] = n->cosine;
+}
+
+static lmb_tree_place part_at(lmb_tree_place from, int k)
+{
+    lmb_tree_place at = from;
+    at.x = (uint16_t)(2 * from.x + (k & 1));
+    at.y = (uint16_t)(2 * from.y + (k >> 1));
+    at.level = (uint16_t)(from.level - 1);
+    return at;
+}
+
+/* Up to the next whole vector there is nothing. */
+static void weigh(cutter *c, int count)
+{
+    lmb_weighed *w = &c->cut->weighed;
+    for (int k = count; k % c->kernels->lanes != 0; ++k) {
+        for (int i = 0; i < LMB_WEIGH_PLANES; ++i) {
+            w->node[i][k] = 0.0f;
+        }
+    }
+    c->faces = c->kernels->weigh(w, count, c->p, c->cutting->proven);
 }
 
 static int bucket_of(float key)
@@ -99,12 +135,14 @@ static void count_in(cutter *c, int32_t i, double sign)
     c->error += sign * (double)c->cut->error[i];
 }
 
-static void put(cutter *c, int32_t i, lmb_tree_place at, weight w, uint64_t visible)
+/* Node k of the weighed into slot i. */
+static void put(cutter *c, int32_t i, lmb_tree_place at, int k, uint64_t visible)
 {
+    const lmb_weighed *w = &c->cut->weighed;
     c->cut->place[i] = at;
-    c->cut->error[i] = at.level > 0 ? w.error : 0.0f;
-    c->cut->value[i] = w.value;
-    c->cut->most[i] = w.most;
+    c->cut->error[i] = at.level > 0 ? w->error[k] : 0.0f;
+    c->cut->value[i] = w->value[k];
+    c->cut->most[i] = w->most[k];
     c->cut->visible[i] = visible;
     count_in(c, i, 1.0);
 }
@@ -128,13 +166,9 @@ static uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *s
  * see weigh.c's TURNED. */
 static void ask(cutter *c, int32_t i)
 {
-    const int32_t size = c->tree->size;
     const lmb_tree_place at = c->cut->place[i];
-    uint32_t texel = (uint32_t)at.y * (uint32_t)size + at.x;
-    if (at.level > 0) {
-        texel = tree_node(c->tree, at)->texel;
-    }
-    const lmb_texel *seen = tree_texel(c->tree, at.face, (int32_t)texel % size, (int32_t)texel / size);
+    const lmb_texel *seen = at.level > 0 ? tree_texel(c->tree, at.face, 0, 0) + tree_node(c->tree, at)->texel
+                                         : tree_texel(c->tree, at.face, at.x, at.y);
     count_in(c, i, -1.0);
     if (c->tree->element != NULL) {
         c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen);
@@ -147,22 +181,54 @@ static void ask(cutter *c, int32_t i)
     count_in(c, i, 1.0);
 }
 
+/* Weigh the parts of the node in slot i, and of those next in line: nine of ten are divided next. */
+static void weigh_parts(cutter *c, int32_t i)
+{
+    const int most = maxi(c->kernels->lanes / 4, 1);
+    int count = 0, b = c->highest;
+    for (int k = 0; k < AHEAD; ++k) {
+        c->ahead[k] = NONE;
+    }
+    for (int32_t next = i; next != NONE && count < most; ++count) {
+        for (int k = 0; k < 4; ++k) {
+            set_weighed(&c->cut->weighed, 4 * count + k, c->tree, part_at(c->cut->place[next], k));
+        }
+        c->ahead[count] = next;
+        next = next == i ? c->cut->bucket[b] : c->cut->next[next];
+        while (next == NONE && --b >= 0) {
+            next = c->cut->bucket[b];
+        }
+    }
+    weigh(c, 4 * count);
+}
+
+/* The first of the four parts of the node in slot i, among the weighed. */
+static int parts_of(cutter *c, int32_t i)
+{
+    int k = 0;
+    while (k < AHEAD && c->ahead[k] != i) {
+        ++k;
+    }
+    if (k == AHEAD) {
+        weigh_parts(c, i);
+        k = 0;
+    }
+    c->ahead[k] = NONE;
+    return 4 * k;
+}
+
 /* Put the four parts of the node in slot i in its place: the first in its slot, the others at the end. */
 static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 {
     const lmb_tree_place from = c->cut->place[i];
+    const int first = parts_of(c, i);
     int32_t slot = i;
     count_in(c, i, -1.0);
     c->cut->place[i].level = GONE;
     for (int k = 0; k < 4; ++k) {
-        lmb_tree_place at = from;
-        at.x = (uint16_t)(2 * from.x + (k & 1));
-        at.y = (uint16_t)(2 * from.y + (k >> 1));
-        at.level = (uint16_t)(from.level - 1);
-        const weight w = weigh_at(at, c);
-        if (w.faces) {
+        if (c->faces >> (first + k) & 1u) {
             const int32_t to = slot >= 0 ? slot : c->cut->count++;
-            put(c, to, at, w, visible);
+            put(c, to, part_at(from, k), first + k, visible);
             if (asks) {
                 ask(c, to);
             }
@@ -208,21 +274,31 @@ static int is_proven(cutter *c)
     return c->error <= (double)c->cutting->error * (c->beside + c->value);
 }
 
+/* The faces' roots. */
 static void begin(cutter *c)
 {
     c->cut->count = 0;
     c->error = c->value = 0.0;
     empty_buckets(c, c->cut->most);
-    for (uint32_t f = 0; f < c->tree->faces && c->cut->count < LMB_MAX_CUT; ++f) {
-        lmb_tree_place root;
-        root.face = (uint16_t)f;
-        root.x = root.y = 0;
-        root.level = (uint16_t)tree_root_level(c->tree);
-        const weight w = weigh_at(root, c);
-        if (w.faces) {
-            put(c, c->cut->count, root, w, c->p->pixels);
-            wait(c, c->cut->count++);
+    for (uint32_t first = 0; first < c->tree->faces; first += LMB_WEIGH_NODES) {
+        lmb_tree_place root[LMB_WEIGH_NODES];
+        const int count = mini((int32_t)(c->tree->faces - first), LMB_WEIGH_NODES);
+        for (int k = 0; k < count; ++k) {
+            root[k].face = (uint16_t)(first + (uint32_t)k);
+            root[k].x = root[k].y = 0;
+            root[k].level = (uint16_t)tree_root_level(c->tree);
+            set_weighed(&c->cut->weighed, k, c->tree, root[k]);
         }
+        weigh(c, count);
+        for (int k = 0; k < count && c->cut->count < LMB_MAX_CUT; ++k) {
+            if (c->faces >> k & 1u) {
+                put(c, c->cut->count, root[k], k, c->p->pixels);
+                wait(c, c->cut->count++);
+            }
+        }
+    }
+    for (int k = 0; k < AHEAD; ++k) {
+        c->ahead[k] = NONE;
     }
 }
 
@@ -347,7 +423,7 @@ static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, 
 }
 
 /* Is some of the patch near the leaf? */
-static int is_near(const patch *p, const leaf *l)
+static int is_near(const lmb_patch *p, const leaf *l)
 {
     const lmb_vec3 to = sub3(l->node.centre, p->centre);
     const lmb_vec3 apart = boxes_apart(to, p->half, vec3(0, 0, 0));
@@ -440,7 +516,7 @@ static void light_patch(lmb_irradiance *inout, cutter *c)
 }
 
 /* In the mean over the patch: what proves nothing of its pixels. */
-static double beside(const lmb_cutting *cutting, const patch *p, float per_pixel)
+static double beside(const lmb_cutting *cutting, const lmb_patch *p, float per_pixel)
 {
     double sum = 0.0;
     for (uint64_t bits = cutting->beside != NULL && !cutting->proven ? p->pixels : 0; bits != 0; bits &= bits - 1) {
@@ -460,7 +536,7 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
         return LMB_ERR_ARG;
     }
     for (uint64_t left = tile_pixels(tile); left != 0;) {
-        patch p;
+        lmb_patch p;
         cutter c;
         lmb_patch_of(&p, tile, tile_surface(tile, left));
         c.cut = scratch;

@@ -15,6 +15,7 @@
 #include "../compose/encode.inl"
 #if LMB_TREES
 #include "../bounce/gather_cut.inl"
+#include "../bounce/weigh.inl"
 #include "../light/many.inl"
 #include "../occlusion/crossed.inl"
 #endif
@@ -40,8 +41,8 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(blend),
     KERNEL(encode),  KERNEL(probe),
 #if LMB_TREES
-    KERNEL(gather_cut), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets), KERNEL(many_bounds),
-    KERNEL(many_shine),
+    KERNEL(gather_cut), KERNEL(weigh), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets),
+    KERNEL(many_bounds), KERNEL(many_shine),
 #endif
 #if LMB_PROBES
     KERNEL(remap), KERNEL(cosine), KERNEL(blur),

@@ -103,6 +103,15 @@ typedef struct lmb_many_job {
 
 #define LMB_MANY_NEAR 1e30f /* the error of a node too near for a bound: it is parted first */
 
+/* The pixels of one surface in a tile. */
+typedef struct lmb_patch {
+    uint64_t pixels;
+    lmb_vec3 centre, half; /* of the box of their positions */
+    lmb_vec3 normal;       /* mean */
+    float sine;            /* of the widest angle between theirs and the mean; 1 over 90 degrees */
+    float face_sine;       /* the same of theirs and of their faces' */
+} lmb_patch;
+
 /* The viewer's depth map as the gather reads it. */
 typedef struct lmb_march_job {
     const float *depth_32;    /* one of the two */
@@ -198,6 +207,9 @@ struct lmb_kernels {
     /* Emitters that some pixels see: added. `pairs` is scratch. */
     void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,
                        const lmb_emitter *emitters, int32_t count);
+    /* Nodes 0 .. count - 1 against the patch: sets what they give, at most, and their errors. Returns those that do not
+     * face away, a bit each; what is set for the others means nothing. proven: see weigh.inl. Writes whole vectors. */
+    uint32_t (*weigh)(lmb_weighed *inout, int32_t count, const lmb_patch *patch, int32_t proven);
     /* Of `pixels`, one bit each, those whose segment to the point crosses the triangle. */
     uint64_t (*crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_cross_job *job);
     void (*segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 at);

@@ -138,4 +138,26 @@ static inline lane lane3_dot(lane3 a, lane3 b)
     return lane_add(lane_add(lane_mul(a.x, b.x), lane_mul(a.y, b.y)), lane_mul(a.z, b.z));
 }
 
+static inline lane lane_abs(lane a) { return lane_max(a, lane_sub(lane_splat(0.0f), a)); }
+
+static inline lane3 lane3_abs(lane3 a)
+{
+    a.x = lane_abs(a.x);
+    a.y = lane_abs(a.y);
+    a.z = lane_abs(a.z);
+    return a;
+}
+
+/* Between two boxes: how far along each axis one ends before the other begins. `to`: from one's middle to the other's;
+ * halves: the sum of both's. */
+static inline lane3 lane3_gap(lane3 to, lane3 halves)
+{
+    const lane zero = lane_splat(0.0f);
+    lane3 g = lane3_sub(lane3_abs(to), halves);
+    g.x = lane_max(g.x, zero);
+    g.y = lane_max(g.y, zero);
+    g.z = lane_max(g.z, zero);
+    return g;
+}
+
 #endif

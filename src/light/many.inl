@@ -10,27 +10,6 @@ static inline lane3 many_load3(const lmb_many *many, uint32_t plane, uint32_t at
     return r;
 }
 
-static inline lane many_abs(lane a) { return lane_max(a, lane_sub(lane_splat(0.0f), a)); }
-
-static inline lane3 many_abs3(lane3 a)
-{
-    a.x = many_abs(a.x);
-    a.y = many_abs(a.y);
-    a.z = many_abs(a.z);
-    return a;
-}
-
-/* Between two boxes: how far along each axis one ends before the other begins. */
-static inline lane3 many_gap(lane3 between, lane3 halves)
-{
-    const lane zero = lane_splat(0.0f);
-    lane3 g = lane3_sub(many_abs3(between), halves);
-    g.x = lane_max(g.x, zero);
-    g.y = lane_max(g.y, zero);
-    g.z = lane_max(g.z, zero);
-    return g;
-}
-
 /* A millionth over the plane is in it: with that, and lights of 2^-60 W/sr or more, products stay normal numbers. */
 static inline lane many_cosine(lane c) { return lane_keep(lane_lt(lane_splat(0x1p-20f), c), c); }
 
@@ -49,9 +28,9 @@ static void KERNEL(many_bounds)(float error[16], float light[16], const lmb_many
         const lane power = lane_load(many->plane + LMB_MANY_POWER * many->plane_step + at);
         const lane3 own = many_load3(many, LMB_MANY_HALF, at), halves = lane3_add(own, half);
         const lane3 between = lane3_sub(many_load3(many, LMB_MANY_MIDDLE, at), middle);
-        const lane3 gap = many_gap(between, halves);
+        const lane3 gap = lane3_gap(between, halves);
         const lane gap2 = lane3_dot(gap, gap), d2 = lane_max(gap2, least), own2 = lane3_dot(own, own);
-        const lane rise = lane_add(lane3_dot(n, between), lane3_dot(many_abs3(n), halves));
+        const lane rise = lane_add(lane3_dot(n, between), lane3_dot(lane3_abs(n), halves));
         const lane cosine = lane_min(lane_add(many_cosine(lane_div(rise, lane_sqrt(d2))), bend), one);
         const lane upper = lane_div(lane_mul(power, cosine), d2);
         const lane3 to = lane3_sub(many_load3(many, LMB_MANY_POSITION, at), middle);

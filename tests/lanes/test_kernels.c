@@ -615,6 +615,64 @@ static int trial_gather_cut(const trial *t, test_rng r)
     return kept && same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
+/* A node anywhere or where the patch is; its box has a volume, is flat, a line or a point. */
+static void make_weighed_node(lmb_weighed *out, int k, test_rng *r, const lmb_patch *p, uint32_t rare)
+{
+    const uint32_t flat = test_random(r) % 8u;
+    const lmb_vec3 centre = test_random(r) % 8u ? place(r, 3.0f, rare) : p->centre, normal = direction(r);
+    float half[3];
+    const lmb_vec3 seen = add3(centre, place(r, 0.2f, rare)), turned = direction(r);
+    const float at[3] = {centre.x, centre.y, centre.z}, n[3] = {normal.x, normal.y, normal.z};
+    const float s[3] = {seen.x, seen.y, seen.z}, sn[3] = {turned.x, turned.y, turned.z};
+    for (int c = 0; c < 3; ++c) {
+        half[c] = flat >> c & 1u ? 0.0f : number(r, 0.0f, 0.3f, rare);
+        out->node[LMB_WEIGH_CENTRE + c][k] = at[c];
+        out->node[LMB_WEIGH_NORMAL + c][k] = n[c];
+        out->node[LMB_WEIGH_LOW + c][k] = at[c] - half[c];
+        out->node[LMB_WEIGH_HIGH + c][k] = at[c] + half[c];
+        out->node[LMB_WEIGH_SEEN + c][k] = s[c];
+        out->node[LMB_WEIGH_SEEN_NORMAL + c][k] = sn[c];
+    }
+    out->node[LMB_WEIGH_FLUX][k] = test_random(r) % 8u ? number(r, 0.0f, 5.0f, rare) : 0.0f;
+    out->node[LMB_WEIGH_AREA][k] = number(r, 0.0f, 0.5f, rare);
+    out->node[LMB_WEIGH_COSINE][k] = test_random(r) % 3u ? number(r, -1.0f, 1.0f, rare) : 1.0f;
+}
+
+/* The weights of those that do not face away; the others' bytes are the machine's own. */
+static int trial_weigh(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_weighed) want, got;
+    lmb_patch p;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const int32_t count = (int32_t)(test_random(&r) % LMB_WEIGH_NODES) + 1, proven = t->seed % 4u < 2u;
+    int equal = 1;
+    GUARD(want);
+    GUARD(got);
+    p.pixels = ~(uint64_t)0;
+    p.centre = place(&r, 2.0f, 0);
+    p.half = vec3(test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f));
+    p.normal = direction(&r);
+    p.sine = t->seed % 3u ? 0.0f : test_uniform(&r, 0.0f, 1.0f);
+    p.face_sine = maxf(p.sine, t->seed % 5u ? 0.0f : test_uniform(&r, 0.0f, 1.0f));
+    for (int k = 0; k < LMB_WEIGH_NODES; ++k) {
+        make_weighed_node(&want.it, k, &r, &p, rare);
+    }
+    got.it = want.it;
+    const uint32_t own = count < 32 ? (1u << count) - 1u : ~0u;
+    const uint32_t faces = lmb_kernels_scalar.weigh(&want.it, count, &p, proven) & own,
+                   also = t->kernels->weigh(&got.it, count, &p, proven) & own;
+    CHECK(canaries_stay(got.before, got.after));
+    for (int k = 0; k < count; ++k) {
+        if (faces >> k & 1u) {
+            equal &= same_floats(t, "value", &want.it.value[k], &got.it.value[k], 1) &&
+                     same_floats(t, "most", &want.it.most[k], &got.it.most[k], 1) &&
+                     same_floats(t, "error", &want.it.error[k], &got.it.error[k], 1);
+        }
+    }
+    return equal && same_bytes(t, "faces", &faces, &also, sizeof faces) &&
+           same_floats(t, "node", want.it.node[0], got.it.node[0], LMB_WEIGH_PLANES * LMB_WEIGH_NODES);
+}
+
 /* --- occlusion ---------------------------------------------------------------------------------------------------- */
 
 /* Planes through the pixels' own places now and then, so that sides are 0. */
@@ -922,6 +980,7 @@ static const struct kernel {
     {"gather", trial_gather},
     {"gather_near", trial_gather_near},
     {"gather_cut", trial_gather_cut},
+    {"weigh", trial_weigh},
     {"crossed", trial_crossed},
     {"segments", trial_segments},
     {"through", trial_through},
