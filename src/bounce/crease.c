@@ -29,14 +29,26 @@ static place middle_of(const lmb_view *v, int32_t size, int32_t x, int32_t y)
     return out;
 }
 
-/* 1 / w or w of the texel's plane over a place. */
-static float slope_at(const lmb_view *v, const lmb_texel *t, place s)
+/* What the slopes of all planes over one place have in common: a ray of the map, or a sun's place across it. */
+static inline lmb_vec3 ray_at(const lmb_view *v, place s)
 {
-    const lmb_vec3 across = add3(mul3(v->right, s.x), mul3(v->up, s.y)), p = sub3(t->position, v->eye);
-    if (v->kind == LMB_PERSPECTIVE) {
-        return dot3(t->normal, sub3(across, v->back)) / dot3(t->normal, p);
-    }
-    return dot3(t->normal, sub3(p, across)) / -dot3(t->normal, v->back);
+    const lmb_vec3 across = add3(mul3(v->right, s.x), mul3(v->up, s.y));
+    return v->kind == LMB_PERSPECTIVE ? sub3(across, v->back) : across;
+}
+
+/* 1 / w or w of the texel's plane along a ray. */
+static inline float slope_along(const lmb_view *v, const lmb_texel *t, lmb_vec3 ray)
+{
+    const lmb_vec3 p = sub3(t->position, v->eye);
+    return v->kind == LMB_PERSPECTIVE ? dot3(t->normal, ray) / dot3(t->normal, p)
+                                      : dot3(t->normal, sub3(p, ray)) / -dot3(t->normal, v->back);
+}
+
+/* Over a place of the map: how far plane a is before plane b, in those. */
+static inline float before_at(const lmb_view *v, const lmb_texel *a, const lmb_texel *b, place s)
+{
+    const lmb_vec3 ray = ray_at(v, s);
+    return slope_along(v, a, ray) - slope_along(v, b, ray);
 }
 
 static int same_plane(const lmb_texel *a, const lmb_texel *b)
@@ -56,8 +68,7 @@ typedef struct pair {
 /* Where the two planes meet, as a share of the way from a to b; 0: nowhere between. */
 static float planes_meet(const lmb_view *v, const pair *p)
 {
-    const float here = slope_at(v, p->a, p->from) - slope_at(v, p->b, p->from),
-                there = slope_at(v, p->a, p->to) - slope_at(v, p->b, p->to);
+    const float here = before_at(v, p->a, p->b, p->from), there = before_at(v, p->a, p->b, p->to);
     const float share = here / (here - there);
     return here * there < 0.0f && share > 0.0f && share < 1.0f ? share : 0.0f;
 }
@@ -138,11 +149,16 @@ static void cell_at(cell *out, const lmb_tree *tree, lmb_tree_place at)
 static int clip_to(place *inout, int corners, const lmb_view *v, const lmb_texel *a, const lmb_texel *b, place middle)
 {
     place out[CREASE_CORNERS];
+    float h[CREASE_CORNERS];
     int count = 0;
-    const float inner = slope_at(v, a, middle) - slope_at(v, b, middle);
+    const float inner = before_at(v, a, b, middle);
     for (int i = 0; i < corners; ++i) {
-        const place p = inout[i], q = inout[i + 1 < corners ? i + 1 : 0];
-        const float hp = slope_at(v, a, p) - slope_at(v, b, p), hq = slope_at(v, a, q) - slope_at(v, b, q);
+        h[i] = before_at(v, a, b, inout[i]);
+    }
+    for (int i = 0; i < corners; ++i) {
+        const int next = i + 1 < corners ? i + 1 : 0;
+        const place p = inout[i], q = inout[next];
+        const float hp = h[i], hq = h[next];
         const int p_in = hp * inner >= 0.0f, q_in = hq * inner >= 0.0f;
         if (p_in && count < CREASE_CORNERS) {
             out[count++] = p;
@@ -204,11 +220,18 @@ static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_pla
     return represents(&c, own) ? shape_in(out, &c, v, tree->size, where, middle_of(v, tree->size, at.x, at.y), own) : 0;
 }
 
-static int is_steep(const lmb_view *v, const lmb_texel *own, place middle, place corner)
+/* Does the plane run away from the light, at the texel's middle or from there to one of the corners? */
+static int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const place *corner, int corners)
 {
-    const float there = slope_at(v, own, middle);
-    return v->kind == LMB_PERSPECTIVE ? !(there > 0.0f) || slope_at(v, own, corner) < STEEP * there
-                                      : dot3(own->normal, v->back) < GRAZE;
+    if (v->kind != LMB_PERSPECTIVE) {
+        return corners > 0 && dot3(own->normal, v->back) < GRAZE;
+    }
+    const float there = slope_along(v, own, ray_at(v, middle));
+    int steep = corners > 0 && !(there > 0.0f);
+    for (int i = 0; i < corners; ++i) {
+        steep |= slope_along(v, own, ray_at(v, corner[i])) < STEEP * there;
+    }
+    return steep;
 }
 
 float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at)
@@ -221,11 +244,11 @@ float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at)
     for (int part = 0; part < CREASE_PARTS; ++part) {
         place p[CREASE_CORNERS];
         const int corners = part_of(p, tree, at, part);
+        if (is_steep(v, own, middle, p, corners)) {
+            return -1.0f;
+        }
         for (int i = 0; i < corners; ++i) {
             const int k = i + 1 < corners ? i + 1 : 0;
-            if (is_steep(v, own, middle, p[i])) {
-                return -1.0f;
-            }
             twice += (p[i].x - p[0].x) * (p[k].y - p[0].y) - (p[k].x - p[0].x) * (p[i].y - p[0].y);
         }
     }

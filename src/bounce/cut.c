@@ -342,10 +342,8 @@ typedef struct leaf {
 
 static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
 {
-    lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
+    out->is_crease = lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
     out->element = tree_element(tree, at.x, at.y);
-    out->is_crease = out->element == NULL && !tree_is_whole(tree_texel(tree, at.face, at.x, at.y)) &&
-                     lmb_crease_share(tree, at) >= 0.0f;
     if (out->is_crease) {
         const lmb_vec3 half = mul3(sub3(out->node.high, out->node.low), 0.5f);
         out->half2 = dot3(half, half);

@@ -139,15 +139,15 @@ static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
     out->high = add3(centre, half);
 }
 
-void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
-                         int32_t y)
+int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
+                        int32_t y)
 {
     const lmb_texel *t = tree_texel(tree, face, x, y);
     const lmb_element *element = tree_element(tree, x, y);
     memset(out, 0, sizeof *out);
     *u = *v = vec3(0, 0, 0);
     if (!(flux_sum(t->flux) > 0.0f)) {
-        return;
+        return 0;
     }
     out->normal = t->normal;
     out->cosine = 1.0f;
@@ -159,7 +159,7 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
         out->high = max3(t->position, max3(max3(element->corner[0], element->corner[1]), element->corner[2]));
         memcpy(out->flux, t->flux, sizeof out->flux);
         out->area = element->area;
-        return;
+        return 0;
     }
     const uint8_t *side = t->side;
     const float wide = (float)(side[SIDE_LEFT] + side[SIDE_RIGHT]), right = (float)(side[SIDE_RIGHT] - side[SIDE_LEFT]),
@@ -170,16 +170,19 @@ void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree
     *u = mul3(*u, wide / 512.0f);
     *v = mul3(*v, high / 512.0f);
     float share = 1.0f;
+    int is_crease = 0;
     out->area = 4.0f * length3(cross3(*u, *v));
     if (!tree_is_whole(t)) {
         const lmb_tree_place at = {(uint16_t)face, (uint16_t)x, (uint16_t)y, 0};
         const float exact = lmb_crease_share(tree, at), rectangle = wide * high / 65536.0f;
-        share = exact < 0.0f ? rectangle : exact;
+        is_crease = exact >= 0.0f;
+        share = is_crease ? exact : rectangle;
         out->area *= share / rectangle;
     }
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = t->flux[c] * share;
     }
+    return is_crease;
 }
 
 /* --- sums --------------------------------------------------------------------------------------------------------- */

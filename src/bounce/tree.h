@@ -84,9 +84,9 @@ float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at);
 int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part);
 
 /* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. Where planes meet in it
- * the flux is that of its exact shape. */
-void lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
-                         int32_t y);
+ * the flux is that of its exact shape, which is no quad: returns 1. */
+int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
+                        int32_t y);
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y);
 
 /* Under 2^-80 W is nothing, as in a light's map: what flux divides stays finite, and kernels meet no denormal. */
