@@ -163,7 +163,7 @@ static uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *s
 }
 
 /* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are:
- * see weigh.c's TURNED. */
+ * see weigh.inl's TURNED. */
 static void ask(cutter *c, int32_t i)
 {
     const lmb_tree_place at = c->cut->place[i];
@@ -173,11 +173,11 @@ static void ask(cutter *c, int32_t i)
     if (c->tree->element != NULL) {
         c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen);
     }
+    if (c->cutting->stats != NULL) {
+        c->cutting->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
+    }
     c->cut->visible[i] &=
         ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, c->cut->visible[i], seen->position, &c->last);
-    if (c->cutting->stats != NULL) {
-        c->cutting->stats->segments += (uint64_t)count_bits_64(c->p->pixels);
-    }
     count_in(c, i, 1.0);
 }
 

@@ -353,6 +353,42 @@ static void test_refusals(void)
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, tiles) == LMB_OK);
 }
 
+/* A wall beside a floor that shines: two of its rows lie under the floor's plane and are not asked what they see. */
+static void test_asked(void)
+{
+    lmb_blockers blockers;
+    lmb_cutting cutting;
+    lmb_stats stats;
+    lmb_tile *wall = &scratch.tile;
+    world_begin(0.5f, 0.5f, 0.5f);
+    world.material[0].flags = 0;
+    world.material[0].emission[1] = 2.0f;
+    world_quad(vec3(0, 0, 0), Z, X);
+    lmb_elements e = build(64);
+    CHECK(lmb_blockers_init(&blockers, BLOCKERS, blocker_memory, sizeof blocker_memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    memset(wall, 0, sizeof *wall);
+    wall->hits = LMB_TILE_PIXELS;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        wall->position[0][k] = 3.0f;
+        wall->position[1][k] = 0.1f * ((float)(k / LMB_TILE) - 1.5f);
+        wall->position[2][k] = 0.1f * (float)(k % LMB_TILE);
+        wall->normal[0][k] = wall->face[0][k] = -1.0f;
+        wall->depth[k] = 1.0f;
+        wall->id[k] = 1;
+    }
+    memset(&stats, 0, sizeof stats);
+    memset(&cutting, 0, sizeof cutting);
+    memset(&scratch.indirect, 0, sizeof scratch.indirect);
+    cutting.error = cutting.visible = 100.0f; /* all of it as one node */
+    cutting.blockers = &blockers;
+    cutting.stats = &stats;
+    CHECK(lmb_gather_cut(&scratch.indirect, lmb_kernels_pick(), &scratch.gather.cut, wall, &e.tree, &cutting) ==
+          LMB_OK);
+    CHECK_MSG(stats.segments == 6 * LMB_TILE && stats.pairs == stats.segments, "%u segments, %u pairs",
+              (unsigned)stats.segments, (unsigned)stats.pairs);
+}
+
 /* A surface that shines shows its radiance, with every way of grouping. */
 static void test_shine(void)
 {
@@ -379,5 +415,6 @@ void test_elements(void)
     test_ways();
     test_counts();
     test_refusals();
+    test_asked();
     test_shine();
 }
