@@ -53,6 +53,7 @@ float picture_auto_exposure(const image *p)
 /* Display codes by the library's own tone curve, tile by tile. */
 static uint8_t *encode(const image *p, float exposure_ev)
 {
+    const lmb_kernels *kernels = lmb_kernels_pick();
     size_t pixels = (size_t)p->width * (size_t)p->height;
     uint8_t *rgba = malloc(pixels * 4);
     lmb_surface out;
@@ -70,7 +71,7 @@ static uint8_t *encode(const image *p, float exposure_ev)
                     tile.rgb[c][k] = p->pixels[((size_t)py * (size_t)p->width + (size_t)px) * 3 + (size_t)c];
                 }
             }
-            lmb_store_tile(&out, lmb_kernels_pick(), 0, 0, &tile, x, y, exposure_ev);
+            lmb_store_tile(&out, kernels, 0, 0, &tile, x, y, exposure_ev);
         }
     }
     for (size_t i = 0; i < pixels; ++i) { /* to RGB, in place */

@@ -1,7 +1,8 @@
 /* isa_pick.c: which machine's kernels, and do they compute what they should? Floor 9.
  *
  * On x86 the processor is asked, and the system: registers that it does not save across threads are not there. Asked
- * each time: a call costs a few hundred cycles, a remembered answer would be data that changes. */
+ * each time: a remembered answer would be data that changes. A call costs a few hundred cycles, in a virtual machine,
+ * which the question leaves, over ten thousand: ask once a frame, not once a tile. */
 #include "../base/exact.h"
 #include "../lane/kernels.h"
 
