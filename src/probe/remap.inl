@@ -51,13 +51,11 @@ LANE_INLINE remap_colour remap_four(const lmb_remap_job *job, const lanei at[4],
     return sum;
 }
 
-LANE_INLINE lane remap_abs(lane a) { return lane_max(a, lane_sub(lane_splat(0.0f), a)); }
-
 /* What the cube shows along d, of any length but 0. As cube_face. */
 LANE_INLINE remap_colour remap_cube(const lmb_remap_job *job, lane3 d)
 {
     const lane zero = lane_splat(0.0f), half_n = lane_splat(0.5f * (float)job->side);
-    const lane x = remap_abs(d.x), y = remap_abs(d.y), z = remap_abs(d.z);
+    const lane x = lane_abs(d.x), y = lane_abs(d.y), z = lane_abs(d.z);
     const lane_mask on_x = mask_and(lane_le(y, x), lane_le(z, x)), on_y = mask_and(mask_not(on_x), lane_le(z, y));
     const lane_mask up_x = lane_lt(zero, d.x), up_y = lane_lt(zero, d.y), up_z = lane_lt(zero, d.z);
     const lane most = lane_pick(on_x, x, lane_pick(on_y, y, z)), less_x = lane_sub(zero, d.x),
