@@ -42,15 +42,15 @@ enum { TILES, WHITE, RED, TEAL, STONE, CLAY, BRASS, WOOD, CANVAS, MATERIALS };
 static const char *const material_name[MATERIALS] = {"floor tiles", "white plaster", "red wall", "teal wall", "plinth",
                                                      "sphere and block", "knot", "frame", "painting"};
 static const lmb_material materials[MATERIALS] = {
-    {{0.95f, 0.95f, 0.95f}, 1.0f, 0.0f, 0, 0, 0, 0.0f, {0, 0, 0}},
-    {{0.78f, 0.77f, 0.75f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
-    {{0.80f, 0.14f, 0.05f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
-    {{0.05f, 0.44f, 0.54f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
-    {{0.74f, 0.73f, 0.70f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
-    {{0.84f, 0.83f, 0.81f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
-    {{0.80f, 0.52f, 0.13f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
-    {{0.16f, 0.09f, 0.05f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
-    {{1.00f, 1.00f, 1.00f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}},
+    {{0.95f, 0.95f, 0.95f}, 1.0f, 0.0f, 0, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.78f, 0.77f, 0.75f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.80f, 0.14f, 0.05f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.05f, 0.44f, 0.54f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.74f, 0.73f, 0.70f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.84f, 0.83f, 0.81f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.80f, 0.52f, 0.13f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.16f, 0.09f, 0.05f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{1.00f, 1.00f, 1.00f}, 1.0f, 0.0f, -1, 0, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
 };
 
 static lmb_instance instances[MAX_INSTANCES];
@@ -625,8 +625,9 @@ static void print_materials(void)
         printf("    {{");
         for (k = 0; k < 3; ++k) {
             print_float(materials[i].albedo[k]);
-            printf(k < 2 ? ", " : "}, 1.0f, 0.0f, %" PRId32 ", 0, 0, 0.0f, {0, 0, 0}}, /* ", materials[i].texture);
+            printf(k < 2 ? ", " : "}, 1.0f, 0.0f, %" PRId32 ", 0, 0, 0.0f, ", materials[i].texture);
         }
+        printf("{0, 0, 0}, {0, 0, 0}, 0.0f}, /* ");
         printf("%s */\n", material_name[i]);
     }
     printf("};\n\n");

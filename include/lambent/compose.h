@@ -31,6 +31,10 @@ uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect);
 
+/* lmb_compose_gloss: of the pixels with a lobe, scale what is there by 1 - F(n.v) and add the lobe's radiance. LMB_OK or
+ * LMB_ERR_ARG. Not there in builds without trees. */
+lmb_status lmb_compose_gloss(lmb_radiance *inout, const lmb_gloss *gloss);
+
 /* lmb_store_tile: write a tile into a surface whose pixel (0, 0) is frame pixel (x0, y0).
  *
  *   out       LMB_RGB32F: radiance as it is. Others: x 2^exposure_ev, clipped to 0..1, sRGB-coded; RGB565 and RGB555

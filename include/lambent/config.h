@@ -58,7 +58,8 @@
 #define LMB_GATHER_PAIRS 256
 #endif
 
-/* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that shine.
+/* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that shine;
+ * a material's lobe is as if it were not there.
  * Their functions are not there, and frames that ask for them are refused. Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_TREES
 #define LMB_TREES 1

@@ -1,4 +1,4 @@
-/* light.h: direct light with its shadow test, Lambertian. [V7 V29] */
+/* light.h: direct light with its shadow test, Lambertian; and the lobe of what is glossy. [V7 V29] */
 #ifndef LMB_LIGHT_H
 #define LMB_LIGHT_H
 
@@ -8,6 +8,23 @@
 typedef struct lmb_irradiance {
     float rgb[3][LMB_TILE_PIXELS];
 } lmb_irradiance;
+
+/* The glossy lobe of a tile's pixels and what it sends towards the viewer; planar like lmb_tile. 2.8 KiB.
+ *
+ * f = D V F: GGX (Walter et al. 2007), height-correlated Smith shadowing (Heitz 2014), Schlick's Fresnel. A light without
+ * area gives f E, E the irradiance that it adds. A disc gives f E with the mean of D over the half vectors to it in place
+ * of D: whatever its size, never more than its own radiance times V F 4 n.l n.v. src/light/lobe.inl derives it.
+ * Beside the lobe diffuse light is scaled by 1 - F(n.v): together they reflect 1.01 of white light at most, 0.02 at
+ * least less than a white Lambertian where rough and lit from everywhere (unit/gloss). What a lobe misses is what
+ * bounced light misses: surfaces that no lamp and no element lights; and light that was glossy before. */
+typedef struct lmb_gloss {
+    uint64_t pixels;                    /* that have a lobe, a bit each; of the others the numbers mean nothing */
+    float specular[3][LMB_TILE_PIXELS]; /* F0 */
+    float alpha2[LMB_TILE_PIXELS];
+    float towards[3][LMB_TILE_PIXELS];  /* the viewer, unit */
+    float facing[LMB_TILE_PIXELS];      /* cosine to it, at least 0.001 */
+    float rgb[3][LMB_TILE_PIXELS];      /* radiance, W/(m2 sr); 0 where there is no lobe */
+} lmb_gloss;
 
 #ifdef __cplusplus
 extern "C" {
@@ -28,6 +45,19 @@ extern "C" {
 lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_tile *tile,
                            const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
                            const lmb_light_map *map);
+
+/* What follows is not there in builds without trees (LMB_TREES 0): these take every material as without a lobe. */
+
+/* lmb_gloss_tile: the lobes of a tile that was resolved for `view`, with no light yet: sets all of `out` and returns 1;
+ * or, where no pixel has one (and for null), 0 and out->pixels = 0 alone. */
+int lmb_gloss_tile(lmb_gloss *out, const lmb_tile *tile, const lmb_view *view, const lmb_scene *scene);
+
+/* lmb_gloss_direct: add what the lobes make of one light.
+ *
+ *   lit  the irradiance of this light alone, with its shadow: lmb_direct_tile added it to zeros.
+ * Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_gloss_direct(lmb_gloss *inout, const lmb_kernels *kernels, const lmb_tile *tile,
+                            const lmb_irradiance *lit, const lmb_light *light);
 
 #ifdef __cplusplus
 }

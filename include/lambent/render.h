@@ -15,7 +15,12 @@
  *   groups              frame.groups, from LMB_STAGE_VIEW on; members of group k: points.data[first[k]] and on, each
  *                       with its place in the map of its face [V15]. frame.points.owner: the disc of each texel
  *   eye distances       frame.eye (or eye_depth), from LMB_STAGE_BANDS on: lmb_depth_view_z, or lmb_gbuffer_band
- *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile */
+ *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile
+ *
+ * Glossy materials (lmb_material.specular; builds with trees) get their lobe's light from the scene's lights, and from
+ * bounced light by LMB_GROUP_CUT. Fixed groups and `many` light them as if they had none: beside the diffuse light that
+ * they take from it, there is no reflection of those. Tiles that show a lobe are gathered at each pixel, whatever
+ * gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 
@@ -48,6 +53,7 @@ typedef struct lmb_band_scratch {
     lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
     lmb_many_scratch many;
     lmb_sparse sparse; /* where gather_step is over 1 */
+    lmb_gloss gloss;   /* where a material has a lobe */
 } lmb_band_scratch;
 
 /* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,
@@ -102,6 +108,7 @@ typedef struct lmb_render {
     uint32_t light, face, place; /* how far the stage is */
     uint32_t triangles;          /* of the scene */
     int32_t shines;              /* 1 where a material gives off light */
+    int32_t is_glossy;           /* 1 where one has a lobe, in builds with trees */
 } lmb_render;
 
 /* The stages, in order; lmb_render_progress names them. */

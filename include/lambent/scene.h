@@ -46,7 +46,12 @@ typedef struct lmb_texture {
 enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
        LMB_ALPHA_MASK = 2    /* holes where alpha < alpha_cutoff: takes the masked path */ };
 
-/* Lambertian surface. Diffuse albedo per channel is 0 .. 1; albedo x texture x vertex colour [V2]. */
+/* Least alpha = roughness^2 of a lobe: a point light's highlight stays under 3,200 times its reflectance, and a lobe's
+ * numbers far from what binary32 holds. */
+#define LMB_LEAST_ALPHA 0.01f
+
+/* Lambertian surface. Diffuse albedo per channel is 0 .. 1; albedo x texture x vertex colour [V2]. Beside it, where
+ * `specular` is not 0, one glossy lobe towards the viewer: lmb_gloss. Light that bounces on is the diffuse part alone. */
 typedef struct lmb_material {
     float albedo[3];
     float alpha;        /* times texture alpha times vertex alpha */
@@ -56,6 +61,8 @@ typedef struct lmb_material {
     uint32_t normal_map; /* index into scene->textures, where normal_scale is not 0 */
     float normal_scale;  /* times the map's x and y; 0: no normal map */
     float emission[3];   /* radiance that its front gives off, W/(sr m2); its back too where LMB_DOUBLE_SIDED */
+    float specular[3];   /* the lobe's reflectance where the surface faces the viewer, F0, 0 .. 1; all 0: no lobe */
+    float roughness;     /* 0 .. 1; alpha = roughness^2, at least LMB_LEAST_ALPHA */
 } lmb_material;
 
 /* A mesh placed in the world. Triangle t of it has the id first_id + t, in the draw order of the scene; the first
@@ -99,7 +106,7 @@ extern "C" {
 /* lmb_scene_check: is the scene safe to draw? Reads every struct (not the vertices; draws check each index).
  *
  * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles, negative albedo, emission or
- * intensity, direction not of unit length, cones not 0 < cos_outer <= cos_inner <= 1, bounds the wrong way round),
+ * intensity, specular or roughness outside 0 .. 1, direction not of unit length, cones not 0 < cos_outer <= cos_inner <= 1, bounds the wrong way round),
  * LMB_ERR_ALIGN (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown format, wrap, filter, light kind),
  * LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once after loading; every other function takes the
  * scene as checked. */
@@ -110,6 +117,9 @@ uint32_t lmb_scene_triangles(const lmb_scene *scene);
 
 /* lmb_scene_shines: 1 where some material gives off light, for which a frame wants elements; else 0. */
 int lmb_scene_shines(const lmb_scene *scene);
+
+/* lmb_scene_is_glossy: 1 where some material has a lobe; else 0. */
+int lmb_scene_is_glossy(const lmb_scene *scene);
 
 /* lmb_scene_bounds: the box of all placed, finite vertices; (0,0,0)-(0,0,0) for none. Cost: one pass over them. */
 void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene);

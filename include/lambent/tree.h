@@ -96,6 +96,7 @@ typedef struct lmb_cutting {
     lmb_stats *stats;             /* counts pairs and segments; may be NULL */
     const lmb_irradiance *beside; /* counts to a pixel's light too, for both shares; may be what is added to; or NULL */
     float least;                  /* so does this, W/m2, R + G + B */
+    lmb_gloss *gloss;             /* the tile's lobes: what they make of the nodes is added; NULL: none */
 } lmb_cutting;
 
 #ifdef __cplusplus

@@ -53,11 +53,15 @@ static lmb_status check_texture(const lmb_texture *t)
     return LMB_OK;
 }
 
+static int is_share(float v) { return v >= 0.0f && v <= 1.0f; }
+
 static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
 {
     if (m->albedo[0] < 0.0f || m->albedo[1] < 0.0f || m->albedo[2] < 0.0f)
         return LMB_ERR_ARG;
     if (m->emission[0] < 0.0f || m->emission[1] < 0.0f || m->emission[2] < 0.0f)
+        return LMB_ERR_ARG;
+    if (!is_share(m->specular[0]) || !is_share(m->specular[1]) || !is_share(m->specular[2]) || !is_share(m->roughness))
         return LMB_ERR_ARG;
     if (!are_finite(m->albedo, 3) || !are_finite(m->emission, 3) || !is_finite(m->alpha) ||
         !is_finite(m->alpha_cutoff) || !is_finite(m->normal_scale))
@@ -146,6 +150,16 @@ int lmb_scene_shines(const lmb_scene *scene)
     for (uint32_t i = 0; scene != NULL && i < scene->material_count; ++i) {
         const float *e = scene->materials[i].emission;
         any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
+    }
+    return any;
+}
+
+int lmb_scene_is_glossy(const lmb_scene *scene)
+{
+    int any = 0;
+    for (uint32_t i = 0; scene != NULL && i < scene->material_count; ++i) {
+        const float *f = scene->materials[i].specular;
+        any |= f[0] > 0.0f || f[1] > 0.0f || f[2] > 0.0f;
     }
     return any;
 }

@@ -8,6 +8,7 @@
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
+#include "../light/gloss.h"
 #include "../raster/tile.h"
 #include "footprint.h"
 #include "patch.h"
@@ -16,6 +17,7 @@
 #if LMB_TREES
 
 #define INVERSE_PI 0.31830989f
+#define PI         3.14159265f
 #define DARK       0.25 /* of `visible`: under this share of what nothing blocked, errors do not count */
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 enum { AHEAD = LMB_WEIGH_NODES / 4 /* nodes whose parts are weighed together */ };
@@ -396,7 +398,20 @@ static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at
     }
 }
 
-/* A leaf so near that its shape counts: pixel by pixel. */
+/* What the pixel's lobe makes of a leaf that gives `factor` W/m2 a watt: as much solid angle in its middle's direction. */
+static void add_gloss(const cutter *c, int k, const lmb_node *n, float factor)
+{
+    lmb_gloss *gloss = c->cutting->gloss;
+    if (gloss != NULL && (gloss->pixels >> k & 1u) != 0 && factor > 0.0f) {
+        const lmb_vec3 to = sub3(n->centre, tile_vec(c->tile->position, k));
+        const float cosine = dot3(tile_vec(c->tile->normal, k), to) / sqrtf(maxf(dot3(to, to), 1e-12f));
+        const float angle = minf(PI * n->area * factor / maxf(cosine, 0.1f), 2.0f * PI);
+        lmb_gloss_add(gloss, c->tile, k, to, angle,
+                      vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
+    }
+}
+
+/* A leaf so near that its shape counts: pixel by pixel. Lobes see a crease as its disc. */
 static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
@@ -404,6 +419,11 @@ static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, 
     const uint64_t near = near_pixels(tile, l, visible);
     if (l->is_crease && near != 0) {
         add_crease(inout, c, at, near);
+        for (uint64_t bits = c->cutting->gloss != NULL ? near : 0; bits != 0; bits &= bits - 1) {
+            const int k = lowest_bit_64(bits);
+            add_gloss(c, k, n, lmb_disc_factor(tile_vec(tile->position, k), tile_vec(tile->normal, k), n->centre,
+                                               n->normal, n->area));
+        }
         visible &= ~near;
     }
     for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
@@ -417,6 +437,7 @@ static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, 
             f = lmb_disc_factor(to, normal, n->centre, n->normal, n->area);
         }
         add_flux(inout, k, f, n->flux);
+        add_gloss(c, k, n, f);
     }
 }
 
@@ -449,6 +470,9 @@ static void flush(stream *s)
 {
     const cutter *c = s->c;
     c->kernels->gather_cut(s->inout, c->cut->pairs, c->tile, c->cut->emitter, s->filled);
+    if (c->cutting->gloss != NULL) {
+        c->kernels->gloss_cut(c->cutting->gloss, c->tile, c->cut->emitter, s->filled);
+    }
     s->filled = 0;
 }
 

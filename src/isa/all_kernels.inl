@@ -16,6 +16,8 @@
 #if LMB_TREES
 #include "../bounce/gather_cut.inl"
 #include "../bounce/weigh.inl"
+#include "../light/lobe.inl"
+#include "../bounce/gather_gloss.inl"
 #include "../light/many.inl"
 #include "../occlusion/crossed.inl"
 #endif
@@ -42,7 +44,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(encode),  KERNEL(probe),
 #if LMB_TREES
     KERNEL(gather_cut), KERNEL(weigh), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets),
-    KERNEL(many_bounds), KERNEL(many_shine),
+    KERNEL(many_bounds), KERNEL(gloss_direct), KERNEL(gloss_cut), KERNEL(many_shine),
 #endif
 #if LMB_PROBES
     KERNEL(remap), KERNEL(cosine), KERNEL(blur),

@@ -221,6 +221,10 @@ struct lmb_kernels {
      * LMB_MANY_NEAR) and about what it gives, both without shadows, W/m2. Writes up to 16 values each. */
     void (*many_bounds)(float error[16], float light[16], const lmb_many *many, uint32_t first, uint32_t count,
                         const lmb_many_job *job);
+    /* What the lobes make of one light that brings `lit`: added. */
+    void (*gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const lmb_irradiance *lit, const lmb_light *light);
+    /* And of emitters that some pixels see. */
+    void (*gloss_cut)(lmb_gloss *inout, const lmb_tile *tile, const lmb_emitter *emitters, int32_t count);
     /* The lamps' light on `pixels` is added. */
     void (*many_shine)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels, const lmb_many_lamp *lamps,
                        int32_t count);

@@ -27,16 +27,34 @@ static void add_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_til
 /* SHOW_IRRADIANCE is what arrives before the albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
 
-/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here. */
+/* One of the scene's lights. With lobes its irradiance is wanted by itself; added to the others' it is the same sum. */
+static lmb_status light_by(const lmb_render *r, lmb_band_scratch *s, uint32_t i, lmb_gloss *gloss)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_light *light = &f->scene->lights[i];
+    if (gloss == NULL) {
+        return lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, light, &r->maps[i]);
+    }
+    memset(&s->indirect, 0, sizeof s->indirect);
+    lmb_status status = lmb_direct_tile(&s->indirect, f->kernels, &s->tile, &f->view, f->scene, light, &r->maps[i]);
+    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+        s->direct.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] +=
+            s->indirect.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
+    }
+    return status == LMB_OK ? lmb_gloss_direct(gloss, f->kernels, &s->tile, &s->indirect, light) : status;
+}
+
+/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here, always
+ * where there are lobes. */
 static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
 {
     const lmb_frame *f = &r->frame;
+    lmb_gloss *gloss = wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene) ? &s->gloss : NULL;
     lmb_many_look look;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count - f->many_bounce && status == LMB_OK; ++i) {
-        status =
-            lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, &f->scene->lights[i], &r->maps[i]);
+        status = light_by(r, s, i, gloss);
     }
     if (wants_many(f) && status == LMB_OK) {
         look.many = f->many;
@@ -44,10 +62,10 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb
         look.error = f->many_error;
         status = lmb_many_direct_tile(&s->direct, f->kernels, &s->many, &s->tile, &look);
     }
-    if (indirect == NULL && status == LMB_OK) {
+    if ((indirect == NULL || gloss != NULL) && status == LMB_OK) {
         indirect = &s->indirect;
         memset(&s->indirect, 0, sizeof s->indirect);
-        status = lmb_render_gather(&s->indirect, r, s, &s->tile);
+        status = lmb_render_gather(&s->indirect, gloss, r, s, &s->tile);
     }
     if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
         show_irradiance(&s->radiance, indirect);
@@ -55,6 +73,9 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb
     }
     if (status == LMB_OK) {
         status = lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, indirect);
+    }
+    if (status == LMB_OK && gloss != NULL) {
+        status = lmb_compose_gloss(&s->radiance, gloss);
     }
     if (status == LMB_OK && r->shines && wants_direct(f)) {
         add_shine(&s->radiance, f->scene, &s->tile);

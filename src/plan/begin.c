@@ -56,6 +56,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     }
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
     r->shines = status == LMB_OK && lmb_scene_shines(f->scene);
+    r->is_glossy = LMB_TREES && status == LMB_OK && lmb_scene_is_glossy(f->scene);
     r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
     r->failed = status;
     return status;

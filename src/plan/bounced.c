@@ -3,10 +3,12 @@
 #include "wants.h"
 
 /* What the light's maps bounce, and what elements send. */
-static lmb_status gather_cuts(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const lmb_tile *tile)
+static lmb_status gather_cuts(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *s,
+                              const lmb_tile *tile)
 {
     const lmb_frame *f = &r->frame;
     lmb_cutting cutting = cutting_of(f, &s->counts);
+    cutting.gloss = gloss;
     lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cutting);
     if (status == LMB_OK && wants_elements(r)) {
         cutting.beside = inout;
@@ -15,12 +17,13 @@ static lmb_status gather_cuts(lmb_irradiance *inout, const lmb_render *r, lmb_ba
     return status;
 }
 
-lmb_status lmb_render_gather(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s, const lmb_tile *tile)
+lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *s,
+                             const lmb_tile *tile)
 {
     const lmb_frame *f = &r->frame;
     lmb_occluder occluder;
     if (wants_cut(f)) {
-        return gather_cuts(inout, r, s, tile);
+        return gather_cuts(inout, gloss, r, s, tile);
     }
     if (!wants_groups(f)) {
         return LMB_OK;

@@ -6,6 +6,7 @@
 
 #include "../base/vec.h"
 #include "stages.h"
+#include "wants.h"
 
 /* What a gather reads of a pixel. */
 static void put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
@@ -24,7 +25,7 @@ static lmb_status gather_together(const lmb_render *r, lmb_band_scratch *s)
     lmb_sparse *sparse = &s->sparse;
     memset(&s->indirect, 0, sizeof s->indirect);
     const lmb_status status =
-        sparse->count > 0 ? lmb_render_gather(&s->indirect, r, s, &sparse->together) : LMB_OK;
+        sparse->count > 0 ? lmb_render_gather(&s->indirect, NULL, r, s, &sparse->together) : LMB_OK;
     for (int32_t i = 0; i < sparse->count; ++i) {
         lmb_irradiance *light = &sparse->light[sparse->place[i] / LMB_TILE_PIXELS];
         for (int c = 0; c < 3; ++c) {
@@ -65,6 +66,9 @@ lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *s, const lmb_
             status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, target, x + part * LMB_TILE, y);
             if (status != LMB_OK) {
                 return status;
+            }
+            if (wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene)) {
+                continue;
             }
             pixels = lmb_sparse_pixels(&s->tile, f->gather_step);
             if (pass > 0) {

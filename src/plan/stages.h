@@ -11,6 +11,9 @@
 #undef lmb_many_direct_tile
 #define lmb_gather_cut(...)       never(LMB_LAYOUT(lmb_gather_cut)(__VA_ARGS__))
 #define lmb_many_direct_tile(...) never(LMB_LAYOUT(lmb_many_direct_tile)(__VA_ARGS__))
+#define lmb_gloss_tile(...)       (never(lmb_gloss_tile(__VA_ARGS__)) == LMB_OK)
+#define lmb_gloss_direct(...)     never(lmb_gloss_direct(__VA_ARGS__))
+#define lmb_compose_gloss(...)    never(lmb_compose_gloss(__VA_ARGS__))
 #define lmb_blockers_build(...)   never(lmb_blockers_build(__VA_ARGS__))
 #define lmb_tree_sum(...)         never(lmb_tree_sum(__VA_ARGS__))
 #define lmb_tree_texels(...)      never(lmb_tree_texels(__VA_ARGS__))
@@ -56,12 +59,13 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units);
 /* Depth and ids of the band: in the whole frame's target, or drawn at once into a band-sized one. */
 lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *eye, int32_t band);
 
-/* Add the bounced light of a tile's pixels. LMB_OK, or what the gather returns. */
-lmb_status lmb_render_gather(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *scratch,
+/* Add the bounced light of a tile's pixels, and what its lobes make of it, NULL: without. LMB_OK, or what the gather
+ * returns. */
+lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_tile *tile);
 
-/* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on. r->frame.gather_step is 2
- * or 4. scratch->tile is written. */
+/* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on which show no lobe.
+ * r->frame.gather_step is 2 or 4. scratch->tile and gloss are written. */
 lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *target, int32_t x,
                             int32_t y, int32_t tiles);
 

@@ -35,6 +35,9 @@ static inline int wants_elements(const lmb_render *r)
     return wants_cut(f) && f->elements.data != NULL && (f->bounces > 1 || r->shines);
 }
 
+/* Do lobes count? */
+static inline int wants_gloss(const lmb_render *r) { return r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE; }
+
 /* Is there another bounce to go, of those by elements? */
 static inline int has_bounces(const lmb_render *r)
 {

@@ -108,8 +108,8 @@ static uint32_t soup_texels[16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1];
 static lmb_texture soup_texture;
 static lmb_mesh soup_meshes[2];
 static const lmb_material soup_materials[2] = {
-    {{0.8f, 0.7f, 0.6f}, 1.0f, 0.0f, 0, LMB_DOUBLE_SIDED, 0, 0.0f, {0, 0, 0}},
-    {{0.5f, 0.6f, 0.9f}, 1.0f, 0.5f, 0, LMB_DOUBLE_SIDED | LMB_ALPHA_MASK, 0, 0.0f, {0, 0, 0}},
+    {{0.8f, 0.7f, 0.6f}, 1.0f, 0.0f, 0, LMB_DOUBLE_SIDED, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.5f, 0.6f, 0.9f}, 1.0f, 0.5f, 0, LMB_DOUBLE_SIDED | LMB_ALPHA_MASK, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
 };
 static lmb_instance soup_instances[2];
 static lmb_light soup_light;
