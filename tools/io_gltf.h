@@ -33,7 +33,7 @@ typedef struct gltf_influences {
 /* Of an image by its texels: channels as numbers, and as linear light. */
 typedef struct gltf_mean {
     int known;
-    double blue, light[3]; /* 0 .. 1 */
+    double green, blue, light[3]; /* 0 .. 1 */
 } gltf_mean;
 
 /* What was left out or stands for something else, told once at the end. */

@@ -104,6 +104,7 @@ static void measure(gltf_mean *out, const bitmap *map)
         for (k = 0; k < 3; ++k)
             ++counts[k][map->texels[4 * i + (size_t)k]];
     for (code = 0; code < 256; ++code) {
+        out->green += code / 255.0 * (double)counts[1][code] / (double)n;
         out->blue += code / 255.0 * (double)counts[2][code] / (double)n;
         for (k = 0; k < 3; ++k)
             out->light[k] += srgb_decode(code) * (double)counts[k][code] / (double)n;
@@ -241,24 +242,49 @@ static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t inf
 
 static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
 
-/* Metals have no diffuse light of their own; 0.04 of their colour stands for it while there is no glossy lobe. A
- * metallic map counts as its mean; one that cannot be had as no metal, because most surfaces are none. */
-static int read_metallic(double *diffuse, gltf *g, uint32_t pbr)
+/* How much of a metal, and how rough, both 0 .. 1. A map counts as its mean; one that cannot be had as no metal, because
+ * most surfaces are none. */
+static int read_metallic(double *metallic, double *rough, gltf *g, uint32_t pbr)
 {
     const uint32_t map = json_member(&g->doc, pbr, "metallicRoughnessTexture");
     const gltf_mean *mean;
-    double metallic = 1;
-    if (!json_read_double(&metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r))
+    *metallic = *rough = 1;
+    if (!json_read_double(metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r) ||
+        !json_read_double(rough, &g->doc, json_member(&g->doc, pbr, "roughnessFactor"), g->b->r))
         return 0;
-    if (map != JSON_NONE && metallic > 0) {
+    if (map != JSON_NONE && *metallic > 0) {
         if (!image_mean(&mean, g, map))
             return 0;
-        metallic *= mean ? mean->blue : 0;
+        *metallic *= mean ? mean->blue : 0;
+        *rough *= mean ? mean->green : 1;
         ++g->left_out.metal_maps;
     }
-    *diffuse = 1 - metallic > 0.04 ? 1 - metallic : 0.04;
-    g->left_out.metals += metallic >= 0.5;
+    g->left_out.metals += *metallic >= 0.5;
     return 1;
+}
+
+/* The lobe beside albedo x (1 - metallic): 0.04 of a dielectric, a metal's own colour; of a textured metal its mean. */
+static void set_lobe(model_lobe *out, const gltf *g, const lmb_material *m, const double base[3], double metallic,
+                     double rough)
+{
+    gltf_mean mean;
+    bitmap map;
+    int k;
+    metallic = (double)clamp01(metallic);
+    for (k = 0; k < 3; ++k)
+        mean.light[k] = 1;
+    if (m->texture >= 0 && metallic > 0) {
+        memset(&map, 0, sizeof map);
+        map.texels = (uint8_t *)(uintptr_t)g->b->textures[m->texture].texels; /* only read */
+        map.width = g->b->textures[m->texture].width;
+        map.height = g->b->textures[m->texture].height;
+        measure(&mean, &map);
+    }
+    for (k = 0; k < 3; ++k) {
+        out->albedo[k] = clamp01(base[k] * (1 - metallic));
+        out->specular[k] = clamp01(0.04 + (base[k] * mean.light[k] - 0.04) * metallic);
+    }
+    out->roughness = clamp01(rough);
 }
 
 static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
@@ -304,21 +330,25 @@ static int read_emission(float out[3], gltf *g, uint32_t material)
     return 1;
 }
 
-static int read_material(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t material)
+/* Metals have no diffuse light of their own; without their lobe 0.04 of their colour stands for it. */
+static int read_material(lmb_material *out, model_lobe *lobe, gltf_uv *uv, gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
     const uint32_t pbr = json_member(doc, material, "pbrMetallicRoughness");
     const int unlit = json_member(doc, json_member(doc, material, "extensions"), "KHR_materials_unlit") != JSON_NONE;
-    double base[4] = {1, 1, 1, 1}, diffuse = 1;
+    double base[4] = {1, 1, 1, 1}, metallic = 0, rough = 1, diffuse;
     int sided = 0, i;
     if (!json_read_doubles(base, 4, doc, json_member(doc, pbr, "baseColorFactor"), g->b->r) ||
         !json_read_bool(&sided, doc, json_member(doc, material, "doubleSided"), g->b->r) ||
-        !read_alpha(out, g, material) || (!unlit && !read_metallic(&diffuse, g, pbr)) ||
+        !read_alpha(out, g, material) || (!unlit && !read_metallic(&metallic, &rough, g, pbr)) ||
         !read_texture(&out->texture, uv, g, json_member(doc, pbr, "baseColorTexture"), TEXELS_COLOUR) ||
         !read_normal_map(out, uv, g, json_member(doc, material, "normalTexture")))
         return 0;
+    diffuse = 1 - metallic > 0.04 ? 1 - metallic : 0.04;
     for (i = 0; i < 3; ++i)
-        out->albedo[i] = clamp01(base[i] * diffuse);
+        lobe->albedo[i] = out->albedo[i] = clamp01(base[i] * diffuse);
+    if (!unlit)
+        set_lobe(lobe, g, out, base, metallic, rough);
     out->alpha = clamp01(base[3]);
     out->flags |= sided ? LMB_DOUBLE_SIDED : 0;
     g->left_out.unlit += (uint32_t)unlit;
@@ -354,12 +384,13 @@ int gltf_materials(gltf *g)
 {
     const uint32_t n = g->materials.count;
     uint32_t i;
+    g->b->out->lobes = (model_lobe *)build_keep(g->b, (uint64_t)n + 1, sizeof *g->b->out->lobes);
     g->material_uv = (gltf_uv *)build_scratch(g->b, (uint64_t)n + 1, sizeof *g->material_uv);
-    if (!build_materials(g->b, (uint64_t)n + 1) || !g->material_uv || !make_tables(g))
+    if (!build_materials(g->b, (uint64_t)n + 1) || !g->material_uv || !g->b->out->lobes || !make_tables(g))
         return 0;
     for (i = 0; i < n; ++i) {
         plain_material(&g->b->materials[i]);
-        if (!read_material(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i]) ||
+        if (!read_material(&g->b->materials[i], &g->b->out->lobes[i], &g->material_uv[i], g, g->materials.items[i]) ||
             !read_emission(g->b->materials[i].emission, g, g->materials.items[i]))
             return 0;
     }
@@ -368,12 +399,15 @@ int gltf_materials(gltf *g)
     return 1;
 }
 
-/* glTF's own default is a metal, which would be nearly black here: white serves those who named no material. */
+/* glTF's own default is a metal, which would be nearly black here: white without a lobe serves those who named no material. */
 void gltf_default_material(gltf *g)
 {
+    int k;
     if (g->default_material != JSON_NONE)
         return;
     g->default_material = g->b->material_count++;
     plain_material(&g->b->materials[g->default_material]);
+    for (k = 0; k < 3; ++k)
+        g->b->out->lobes[g->default_material].albedo[k] = 1.0f;
     g->material_uv[g->default_material].set = JSON_NONE;
 }

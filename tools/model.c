@@ -505,3 +505,15 @@ int model_load(model *out, const char *path, const char *scene, model_notes *not
     file_free(&file);
     return ok;
 }
+
+/* The model owns its materials; only the scene's view of them is const. */
+int model_make_glossy(model *m)
+{
+    lmb_material *materials = (lmb_material *)(uintptr_t)m->scene.materials;
+    for (uint32_t i = 0; m->lobes && i < m->scene.material_count; ++i) {
+        memcpy(materials[i].albedo, m->lobes[i].albedo, sizeof materials[i].albedo);
+        memcpy(materials[i].specular, m->lobes[i].specular, sizeof materials[i].specular);
+        materials[i].roughness = m->lobes[i].roughness;
+    }
+    return m->lobes != NULL;
+}

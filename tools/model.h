@@ -46,11 +46,17 @@ typedef struct model_facts {
     uint64_t texel_bytes;      /* the textures' part of that, mips included */
 } model_facts;
 
+/* A material with its glossy lobe: what model_make_glossy puts in. */
+typedef struct model_lobe {
+    float albedo[3], specular[3], roughness;
+} model_lobe;
+
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
 typedef struct model {
     lmb_scene scene; /* checked: lmb_scene_check(&scene) == LMB_OK */
     model_camera *cameras;
     uint32_t camera_count;
+    model_lobe *lobes; /* by material; NULL: the format has none */
     model_facts facts;
     void **blocks; /* every allocation, for model_free */
     uint32_t block_count, block_cap;
@@ -70,6 +76,9 @@ int model_load(model *out, const char *path, const char *scene, model_notes *not
  * where files beside it are looked for. */
 int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
                report *r);
+
+/* model_make_glossy: give the materials their lobes. 0 where the format has none. */
+int model_make_glossy(model *m);
 
 void model_free(model *m);
 

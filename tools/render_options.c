@@ -78,6 +78,9 @@ static const char usage_bounce[] =
 
 static const char usage_more[] =
     "picture\n"
+    "  --glossy                   glTF's materials with their highlights and reflections, by metallic, roughness and\n"
+    "                             base colour (maps by their means); reflections of bounced light by --grouping cut.\n"
+    "                             Without it materials are Lambertian; those of OBJ, PLY and `demo` always are\n"
     "  --show full|direct|indirect|irradiance   (default full; irradiance: bounced, before albedo)\n"
     "         depth|eye-distance|normal|albedo  of what the eye sees; metres along the view, and from the eye\n"
     "         light-distance|points|groups      of the lights' maps, at their size, a row of faces a light: metres\n"
@@ -541,7 +544,9 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
             o->help = 1;
             return 1;
         }
-        if (argv[i][0] == '-' && argv[i][1] != '\0') {
+        if (strcmp(argv[i], "--glossy") == 0) {
+            o->glossy = 1;
+        } else if (argv[i][0] == '-' && argv[i][1] != '\0') {
             if (!parse_flag(o, argv[i], i + 1 < argc ? argv[i + 1] : NULL, r)) {
                 return 0;
             }

@@ -42,6 +42,7 @@ typedef struct render_options {
     float light_error;
     int32_t bounce_lights;
     int32_t gather_step; /* 1, 2, 4 */
+    int glossy;          /* materials get their lobe */
     int32_t exposure_auto;
     float exposure_ev;
     const lmb_kernels *kernels;

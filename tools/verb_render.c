@@ -78,10 +78,13 @@ static int load_scene(job *j, report *r)
 {
     if (strcmp(j->o.scene, "demo") == 0) {
         j->scene = *demo_scene();
-        return 1;
+        return !j->o.glossy || report_fail(r, "--glossy: the demo's materials have no lobe; give a glTF scene");
     }
     if (!model_load(&j->loaded, j->o.scene, j->o.scene_name, &j->notes, r)) {
         return 0;
+    }
+    if (j->o.glossy && !model_make_glossy(&j->loaded)) {
+        return report_fail(r, "--glossy: %s: only glTF's materials have a lobe", j->o.scene);
     }
     j->scene = j->loaded.scene;
     return lmb_scene_triangles(&j->scene) > 0 ||
