@@ -19,6 +19,7 @@
 #define INVERSE_PI 0.31830989f
 #define PI         3.14159265f
 #define DARK       0.25 /* of `visible`: under this share of what nothing blocked, errors do not count */
+enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 enum { AHEAD = LMB_WEIGH_NODES / 4 /* nodes whose parts are weighed together */ };
 
@@ -429,32 +430,61 @@ static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at
     }
 }
 
-/* What the pixel's lobe makes of a leaf that gives `factor` W/m2 a watt: as much solid angle in its middle's direction. */
-static void add_gloss(const cutter *c, int k, const lmb_node *n, float factor)
+/* Part i of SIDE^2 equal ones of a leaf: its middle. A triangle's lie in SIDE rows of 1, 3, 5, ... */
+static lmb_vec3 part_at(const leaf *l, int i)
 {
-    lmb_gloss *gloss = c->cutting->gloss;
-    if (gloss != NULL && (gloss->pixels >> k & 1u) != 0 && factor > 0.0f) {
-        const lmb_vec3 to = sub3(n->centre, tile_vec(c->tile->position, k));
-        const float cosine = dot3(tile_vec(c->tile->normal, k), to) / sqrtf(maxf(dot3(to, to), 1e-12f));
-        const float angle = minf(PI * n->area * factor / maxf(cosine, 0.1f), 2.0f * PI);
-        lmb_gloss_add(gloss, c->tile, k, to, angle,
-                      vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
+    if (l->element == NULL) {
+        const float x = (float)(2 * (i % SIDE) + 1 - SIDE) / (float)SIDE,
+                    y = (float)(2 * (i / SIDE) + 1 - SIDE) / (float)SIDE;
+        return add3(l->node.centre, add3(mul3(l->u, x), mul3(l->v, y)));
+    }
+    const lmb_vec3 *corner = l->element->corner;
+    int row = 0;
+    while ((row + 1) * (row + 1) <= i) {
+        ++row;
+    }
+    const int at = i - row * row; /* even: a corner of the part points to corner 0, odd: away from it */
+    const float down = ((float)row + (at & 1 ? 1.0f / 3.0f : 2.0f / 3.0f)) / (float)SIDE;
+    const float across = ((float)(at / 2) + (at & 1 ? 2.0f / 3.0f : 1.0f / 3.0f)) / (float)SIDE;
+    return add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), down), mul3(sub3(corner[2], corner[1]), across)));
+}
+
+/* What the pixel's lobe makes of a near leaf, by discs of its parts: by one the leaf's middle would show as a spot. */
+static void add_gloss(const cutter *c, int k, const leaf *l)
+{
+    const lmb_vec3 at = tile_vec(c->tile->position, k), face = tile_vec(c->tile->face, k),
+                   normal = tile_vec(c->tile->normal, k);
+    const lmb_node *n = &l->node;
+    const float share = 1.0f / (float)(SIDE * SIDE), area = n->area * share;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const lmb_vec3 part = part_at(l, i), to = sub3(part, at);
+        const float factor = share * lmb_disc_factor(at, normal, part, n->normal, area);
+        if (dot3(face, to) > 0.0f && factor > 0.0f) {
+            const float r2 = maxf(dot3(to, to), 1e-12f), size = area / (r2 + area * INVERSE_PI);
+            lmb_gloss_add(c->cutting->gloss, c->tile, k, to, size * maxf(-dot3(n->normal, to), 0.0f) / sqrtf(r2),
+                          vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
+        }
     }
 }
 
-/* A leaf so near that its shape counts: pixel by pixel. Lobes see a crease as its disc. */
+/* Those of some pixels that have a lobe. */
+static void add_near_gloss(const cutter *c, const leaf *l, uint64_t pixels)
+{
+    const uint64_t own = c->cutting->gloss != NULL ? c->cutting->gloss->pixels & pixels : 0;
+    for (uint64_t bits = own; bits != 0; bits &= bits - 1) {
+        add_gloss(c, lowest_bit_64(bits), l);
+    }
+}
+
+/* A leaf so near that its shape counts: pixel by pixel. */
 static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
     const lmb_node *n = &l->node;
     const uint64_t near = near_pixels(tile, l, visible);
+    add_near_gloss(c, l, visible);
     if (l->is_crease && near != 0) {
         add_crease(inout, c, at, near);
-        for (uint64_t bits = c->cutting->gloss != NULL ? near : 0; bits != 0; bits &= bits - 1) {
-            const int k = lowest_bit_64(bits);
-            add_gloss(c, k, n, lmb_disc_factor(tile_vec(tile->position, k), tile_vec(tile->normal, k), n->centre,
-                                               n->normal, n->area));
-        }
         visible &= ~near;
     }
     for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
@@ -468,7 +498,6 @@ static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, 
             f = lmb_disc_factor(to, normal, n->centre, n->normal, n->area);
         }
         add_flux(inout, k, f, n->flux);
-        add_gloss(c, k, n, f);
     }
 }
 

@@ -9,7 +9,8 @@
  * is 2 a2 / (pi root (root + q)), without a difference of near numbers.
  * The directions to a disc of solid angle w are as many half vectors as w / (4 l.h) (Walter et al. 2007, equation 14),
  * and as many slopes as that over (n.h)^3: they are taken as a circle of this area, t^2 = w / (4 pi l.h (n.h)^3). Wrong is
- * only the shape: seen at an angle the disc's circle of slopes is an ellipse.
+ * only the shape: seen at an angle the disc's circle of slopes is an ellipse. A disc that fills much of the sky is no circle
+ * at all: as nothing reflects more than the disc's own radiance, D V is at most 1 / (n.l w).
  *
  * Discs stand for surfaces that go on beside them. Where the lobe is sharper than a disc, circles side by side would show,
  * with gaps and overlaps: so alpha is not let under half of t: what is left of the pattern is 10 % and under. */
@@ -63,7 +64,9 @@ static inline lane lobe_value(lane *rise, const lobe_pixels *p, lane3 to, lane w
     const lane by_l = lane_mul(nl, lane_sqrt(lane_add(p->a2, lane_mul(rest, lane_mul(nv, nv)))));
     const lane by_v = lane_mul(nv, lane_sqrt(lane_add(p->a2, lane_mul(rest, lane_mul(nl, nl)))));
     const lane v = lane_div(lane_splat(0.15915494f), lane_add(by_l, by_v)); /* / pi, of the density */
-    const lane value = lane_mul(lane_mul(lane_div(top, bottom), lane_mul(hc, hc)), v);
+    const lane mean = lane_mul(lane_mul(lane_div(top, bottom), lane_mul(hc, hc)), v);
+    const lane most = lane_div(one, lane_mul(nl, lane_max(w, lane_splat(LOBE_LEAST2))));
+    const lane value = lane_min(mean, most);
     const lane low = lane_max(lane_sub(one, lane_mul(lane_splat(0.5f), lane_sqrt(hh))), lane_splat(LOBE_RISE));
     const lane low2 = lane_mul(low, low);
     *rise = lane_mul(lane_mul(low2, low2), low);

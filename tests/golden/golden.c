@@ -601,6 +601,25 @@ static uint64_t case_bounces(int variant)
     return hash_frame(hash_start, &f);
 }
 
+/* Materials with lobes, lit by a spot and by what it bounces; the whole picture. Variant 1: one of the two is diffuse, and
+ * every second pixel is gathered. */
+static uint64_t case_glossy(int variant)
+{
+    lmb_frame f = soup_frame(1, 8);
+    lmb_material shiny[2] = {soup_materials[0], soup_materials[1]};
+    for (int c = 0; c < 3; ++c) {
+        shiny[0].specular[c] = variant ? 0.0f : 0.04f;
+        shiny[1].specular[c] = 0.9f - 0.2f * (float)c;
+    }
+    shiny[0].roughness = 0.7f;
+    shiny[1].roughness = 0.3f;
+    soup.materials = shiny;
+    f.show = LMB_SHOW_FULL;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    f.gather_step = variant ? 2 : 1;
+    return hash_frame(hash_start, &f);
+}
+
 /* A spot and one so wide that a cube's faces serve it; the whole picture. */
 static uint64_t case_cut_lights(int variant)
 {
