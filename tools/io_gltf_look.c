@@ -242,8 +242,8 @@ static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t inf
 
 static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
 
-/* How much of a metal, and how rough, both 0 .. 1. A map counts as its mean; one that cannot be had as no metal, because
- * most surfaces are none. */
+/* How much of a metal, and how rough, both 0 .. 1. A map counts as its mean; one that cannot be had as no metal,
+ * because most surfaces are none. */
 static int read_metallic(double *metallic, double *rough, gltf *g, uint32_t pbr)
 {
     const uint32_t map = json_member(&g->doc, pbr, "metallicRoughnessTexture");
@@ -399,7 +399,8 @@ int gltf_materials(gltf *g)
     return 1;
 }
 
-/* glTF's own default is a metal, which would be nearly black here: white without a lobe serves those who named no material. */
+/* glTF's own default is a metal, which would be nearly black here: white without a lobe serves those who named no
+ * material. */
 void gltf_default_material(gltf *g)
 {
     int k;

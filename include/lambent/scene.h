@@ -51,7 +51,8 @@ enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's v
 #define LMB_LEAST_ALPHA 0.01f
 
 /* Lambertian surface. Diffuse albedo per channel is 0 .. 1; albedo x texture x vertex colour [V2]. Beside it, where
- * `specular` is not 0, one glossy lobe towards the viewer: lmb_gloss. Light that bounces on is the diffuse part alone. */
+ * `specular` is not 0, one glossy lobe towards the viewer: lmb_gloss. Light that bounces on is the diffuse part
+ * alone. */
 typedef struct lmb_material {
     float albedo[3];
     float alpha;        /* times texture alpha times vertex alpha */
@@ -106,10 +107,10 @@ extern "C" {
 /* lmb_scene_check: is the scene safe to draw? Reads every struct (not the vertices; draws check each index).
  *
  * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles, negative albedo, emission or
- * intensity, specular or roughness outside 0 .. 1, direction not of unit length, cones not 0 < cos_outer <= cos_inner <= 1, bounds the wrong way round),
- * LMB_ERR_ALIGN (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown format, wrap, filter, light kind),
- * LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once after loading; every other function takes the
- * scene as checked. */
+ * intensity, specular or roughness outside 0 .. 1, direction not of unit length, cones not 0 < cos_outer <= cos_inner
+ * <= 1, bounds the wrong way round), LMB_ERR_ALIGN (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown format,
+ * wrap, filter, light kind), LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once after loading;
+ * every other function takes the scene as checked. */
 lmb_status lmb_scene_check(const lmb_scene *scene);
 
 /* lmb_scene_triangles: triangles over all instances of a checked scene; ids run 1 .. that. Cost: none. */

@@ -86,9 +86,9 @@ static lmb_vec3 weighed_vector(const lmb_weighed *w, int plane, int k)
     return vec3(w->node[plane][k], w->node[plane + 1][k], w->node[plane + 2][k]);
 }
 
-/* A node counts by what the lobe makes of it too, in shares of what a white Lambertian would: pi D V F, in the mean over
- * as far as node and patch reach. That part is wrong by how far the lobe's middle value is from its mean over the node.
- * A rule, not a proof: what is proven is the irradiance. */
+/* A node counts by what the lobe makes of it too, in shares of what a white Lambertian would: pi D V F, in the mean
+ * over as far as node and patch reach. That part is wrong by how far the lobe's middle value is from its mean over
+ * the node. A rule, not a proof: what is proven is the irradiance. */
 static void weigh_lobe(cutter *c, int k)
 {
     lmb_weighed *w = &c->cut->weighed;
@@ -431,7 +431,7 @@ static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at
 }
 
 /* Part i of SIDE^2 equal ones of a leaf: its middle. A triangle's lie in SIDE rows of 1, 3, 5, ... */
-static lmb_vec3 part_at(const leaf *l, int i)
+static lmb_vec3 leaf_part(const leaf *l, int i)
 {
     if (l->element == NULL) {
         const float x = (float)(2 * (i % SIDE) + 1 - SIDE) / (float)SIDE,
@@ -449,15 +449,19 @@ static lmb_vec3 part_at(const leaf *l, int i)
     return add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), down), mul3(sub3(corner[2], corner[1]), across)));
 }
 
-/* What the pixel's lobe makes of a near leaf, by discs of its parts: by one the leaf's middle would show as a spot. */
+/* What the pixel's lobe makes of a near leaf, by discs of its parts: by one the leaf's middle would show as a spot.
+ * Nearer to its plane than a part is wide, a mirror shows less of it than there is. */
 static void add_gloss(const cutter *c, int k, const leaf *l)
 {
     const lmb_vec3 at = tile_vec(c->tile->position, k), face = tile_vec(c->tile->face, k),
                    normal = tile_vec(c->tile->normal, k);
     const lmb_node *n = &l->node;
     const float share = 1.0f / (float)(SIDE * SIDE), area = n->area * share;
+    if (dot3(n->normal, sub3(n->centre, at)) >= 0.0f) {
+        return; /* on its plane or behind it: most of a surface's near leaves are its own */
+    }
     for (int i = 0; i < SIDE * SIDE; ++i) {
-        const lmb_vec3 part = part_at(l, i), to = sub3(part, at);
+        const lmb_vec3 part = leaf_part(l, i), to = sub3(part, at);
         const float factor = share * lmb_disc_factor(at, normal, part, n->normal, area);
         if (dot3(face, to) > 0.0f && factor > 0.0f) {
             const float r2 = maxf(dot3(to, to), 1e-12f), size = area / (r2 + area * INVERSE_PI);

@@ -1,9 +1,10 @@
-/* gather_gloss.inl: a cut of the light's tree -> what the glossy lobes of the pixels that see its nodes make of it. Lanes
- * are pixels.
+/* gather_gloss.inl: a cut of the light's tree -> what the glossy lobes of the pixels that see its nodes make of it.
+ * Lanes are pixels.
  *
  * The disc is gather.inl's, the lobe lobe.inl's: include both first. */
 
-/* Solid angle of a disc: facing and on the axis it is what disc_fraction sees of it, pi s / (1 + s), s = A / (pi r^2). */
+/* Solid angle of a disc: facing and on the axis it is what disc_fraction sees of it, pi s / (1 + s), s = A / (pi
+ * r^2). */
 static inline lane gloss_angle(lane b, lane i, lane area_pi)
 {
     const lane s = lane_mul(area_pi, i), pi = lane_splat(3.14159265f);

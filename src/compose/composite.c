@@ -16,9 +16,9 @@ lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const
 
 #if LMB_TREES
 
-/* What the lobe takes is no longer there for the diffuse light below it. It takes about what it would reflect of light from
- * everywhere: F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5, Schlick's F flattened by roughness, fitted to the lobe of F0 = 0.04:
- * that is 0.01 too little at most, between smooth and rough, and 0.13 too much, where it grazes. */
+/* What the lobe takes is no longer there for the diffuse light below it. It takes about what it would reflect of
+ * light from everywhere: F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5, Schlick's F flattened by roughness, fitted to the
+ * lobe of F0 = 0.04: that is 0.01 too little at most, between smooth and rough, and 0.13 too much, where it grazes. */
 lmb_status lmb_compose_gloss(lmb_radiance *inout, const lmb_gloss *gloss)
 {
     if (inout == NULL || gloss == NULL) {

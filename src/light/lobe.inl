@@ -1,20 +1,20 @@
 /* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc.
  *
- * A disc is asked for its mean. Let s be the slope (tangent of the angle to n) of the half vector h = (l + v) / |l + v|.
- * GGX's density of slopes, a2 / (pi (a2 + s^2)^2), is what a sphere's surface becomes by stereographic projection, with
- * s = alpha tan(angle / 2): and this takes circles to circles. So the share of all slopes that lies in a circle of radius
- * t around s is that of a cap of the sphere, exactly:
+ * A disc is asked for its mean. Let s be the slope (tangent of the angle to n) of the half vector h = (l + v) / |l +
+ * v|. GGX's density of slopes, a2 / (pi (a2 + s^2)^2), is what a sphere's surface becomes by stereographic
+ * projection, with s = alpha tan(angle / 2): and this takes circles to circles. So the share of all slopes that lies
+ * in a circle of radius t around s is that of a cap of the sphere, exactly:
  *   share = (1 - q / root) / 2,  q = a2 + s^2 - t^2,  root = sqrt(q^2 + 4 a2 t^2),
- * and the mean density in it is share / (pi t^2): the density itself for t = 0, at most 1 / (pi t^2). For q >= 0 the same
- * is 2 a2 / (pi root (root + q)), without a difference of near numbers.
+ * and the mean density in it is share / (pi t^2): the density itself for t = 0, at most 1 / (pi t^2). For q >= 0 the
+ * same is 2 a2 / (pi root (root + q)), without a difference of near numbers.
  * The directions to a disc of solid angle w are as many half vectors as w / (4 l.h) (Walter et al. 2007, equation 14),
- * and as many slopes as that over (n.h)^3: they are taken as a circle of this area, t^2 = w / (4 pi l.h (n.h)^3). Wrong is
- * only the shape: seen at an angle the disc's circle of slopes is an ellipse. A disc that fills much of the sky is no circle
- * at all: as nothing reflects more than the disc's own radiance, D V is at most 1 / (n.l w).
+ * and as many slopes as that over (n.h)^3: they are taken as a circle of this area, t^2 = w / (4 pi l.h (n.h)^3).
+ * Wrong is only the shape: seen at an angle the disc's circle of slopes is an ellipse. A disc that fills much of the
+ * sky is no circle at all: as nothing reflects more than the disc's own radiance, D V is at most 1 / (n.l w).
  *
- * Discs stand for surfaces that go on beside them. Where the lobe is sharper than a disc, discs side by side would show,
- * with gaps and overlaps: so alpha^2 grows by a part of t^2. An even wall of 64 texels in a floor of roughness 0.1 | 0.2
- * (unit/gloss) is off by 20 | 8 % at its worst by 1/4, by 14 | 1 % by 1/2, by 8 | 2 % by 1. */
+ * Discs stand for surfaces that go on beside them. Where the lobe is sharper than a disc, discs side by side would
+ * show, with gaps and overlaps: so alpha^2 grows by a part of t^2. An even wall of 64 texels in a floor of roughness
+ * 0.1 | 0.2 (unit/gloss) is off by 20 | 8 % at its worst by 1/4, by 14 | 1 % by 1/2, by 8 | 2 % by 1. */
 #ifndef LMB_LOBE_FORMULA
 #define LMB_LOBE_FORMULA
 

@@ -44,8 +44,8 @@ static lmb_status light_by(const lmb_render *r, lmb_band_scratch *s, uint32_t i,
     return status == LMB_OK ? lmb_gloss_direct(gloss, f->kernels, &s->tile, &s->indirect, light) : status;
 }
 
-/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here, always
- * where there are lobes. */
+/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
+ * always where there are lobes. */
 static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
 {
     const lmb_frame *f = &r->frame;

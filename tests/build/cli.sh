@@ -31,6 +31,9 @@ absent() { [ ! -e "$1" ] && pass || fail "$1 should not be there"; }
 
 small="--size 64x48 --light-map 64 --exposure 0"
 
+# Only glTF has lobes.
+status 1 render demo $small --glossy -o "$dir/glossy.png"
+
 # Each format by its extension, whole.
 for extension in png ppm pfm hdr; do
     status 0 render demo $small -o "$dir/demo.$extension"

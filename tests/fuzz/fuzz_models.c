@@ -52,6 +52,8 @@ static void try_model(const char *path, const uint8_t *data, size_t size)
     if (model_read(&m, path, NULL, data, size, &notes, &r)) {
         fuzz_require(r.text[0] == '\0' && lmb_scene_check(&m.scene) == LMB_OK);
         draw_scene(&m.scene);
+        model_make_glossy(&m);
+        fuzz_require(lmb_scene_check(&m.scene) == LMB_OK);
         model_free(&m);
     } else {
         fuzz_require(m.blocks == NULL && m.scene.meshes == NULL);

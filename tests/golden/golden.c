@@ -601,8 +601,8 @@ static uint64_t case_bounces(int variant)
     return hash_frame(hash_start, &f);
 }
 
-/* Materials with lobes, lit by a spot and by what it bounces; the whole picture. Variant 1: one of the two is diffuse, and
- * every second pixel is gathered. */
+/* Materials with lobes, lit by a spot and by what it bounces; the whole picture. Variant 1: one of the two is
+ * diffuse, and every second pixel is gathered. */
 static uint64_t case_glossy(int variant)
 {
     lmb_frame f = soup_frame(1, 8);

@@ -12,10 +12,15 @@ enum { FRAME = 64, MAP = 64, FACES = 1, ELEMENTS = 256, BLOCKERS = 512 };
 static lmb_gloss gloss;
 static lmb_tile tile;
 
+static double least_alpha2(double roughness)
+{
+    const double alpha = fmax(roughness * roughness, (double)LMB_LEAST_ALPHA);
+    return alpha * alpha;
+}
+
 /* One pixel at the origin under +Z with a lobe. */
 static void set_lobe(double roughness, float f0, lmb_vec3 towards)
 {
-    const double alpha = roughness * roughness > (double)LMB_LEAST_ALPHA ? roughness * roughness : (double)LMB_LEAST_ALPHA;
     memset(&gloss, 0, sizeof gloss);
     memset(&tile, 0, sizeof tile);
     set_plane(tile.normal, 0, Z);
@@ -23,7 +28,7 @@ static void set_lobe(double roughness, float f0, lmb_vec3 towards)
     set_plane(gloss.towards, 0, towards);
     tile.id[0] = 1;
     gloss.pixels = 1;
-    gloss.alpha2[0] = (float)(alpha * alpha);
+    gloss.alpha2[0] = (float)least_alpha2(roughness);
     gloss.facing[0] = towards.z;
     for (int c = 0; c < 3; ++c) {
         gloss.specular[c][0] = f0;
@@ -36,12 +41,6 @@ static lmb_vec3 at_angle(double theta, double phi)
 }
 
 /* --- the lobe itself ---------------------------------------------------------------------------------------------- */
-
-static double least_alpha2(double roughness)
-{
-    const double alpha = roughness * roughness > (double)LMB_LEAST_ALPHA ? roughness * roughness : (double)LMB_LEAST_ALPHA;
-    return alpha * alpha;
-}
 
 /* What of light from everywhere the lobe sends to a viewer at this angle: half vectors by GGX's own density D n.h, over
  * which f n.l becomes f n.l 4 l.h / (D n.h). */
@@ -77,8 +76,9 @@ static double left_over(double theta)
     return (double)one.rgb[0][0];
 }
 
-/* White light from everywhere. A metal that reflects all (F0 = 1): at most 1; smooth nearly that, except where it grazes;
- * at roughness 1 what single scattering leaves. A white dielectric (F0 = 0.04), lobe and diffuse: 0.84 to 1.02. */
+/* White light from everywhere. A metal that reflects all (F0 = 1): at most 1; smooth nearly that, except where it
+ * grazes; at roughness 1 what single scattering leaves. A white dielectric (F0 = 0.04), lobe and diffuse: 0.84 to
+ * 1.02. */
 static void white_furnace(void)
 {
     static const double roughness[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 1.0}, degrees[] = {0, 30, 60, 75, 80, 85};
@@ -143,7 +143,8 @@ static double disc_exact(double a2, lmb_vec3 l, lmb_vec3 v, double r)
     return sum / all;
 }
 
-/* The worst of discs all around the mirror's direction, as a share of what a disc there gives; the viewer at `theta`. */
+/* The worst of discs all around the mirror's direction, as a share of what a disc there gives; the viewer at `theta`.
+ *  */
 static double disc_error(double *middle, double roughness, double r, double theta)
 {
     const double w = 2.0 * PI * (1.0 - 1.0 / sqrt(1.0 + r * r)), a2 = least_alpha2(roughness);
@@ -257,8 +258,8 @@ static void lobe_or_none(void)
     }
 }
 
-/* All of the picture has a lobe: whatever the step, every pixel is gathered. And a second picture by the same light is as
- * one that was drawn afresh. */
+/* All of the picture has a lobe: whatever the step, every pixel is gathered. And a second picture by the same light
+ * is as one that was drawn afresh. */
 static void steps_and_again(void)
 {
     lmb_frame f = room(0.5f, 0.4f);
@@ -298,8 +299,8 @@ static double shown(double roughness, lmb_vec3 at, lmb_vec3 towards)
     return sum / (STEPS * STEPS);
 }
 
-/* A floor that reflects everything, before a white wall in the sun: wherever the reflected ray meets the wall well inside,
- * the floor is as bright as the integral, whatever the nodes and texels in between. */
+/* A floor that reflects everything, before a white wall in the sun: wherever the reflected ray meets the wall well
+ * inside, the floor is as bright as the integral, whatever the nodes and texels in between. */
 static void mirrored_wall(float roughness, double low, double high)
 {
     static lmb_light light;
@@ -326,11 +327,13 @@ static void mirrored_wall(float roughness, double low, double high)
     f.occlusion = LMB_OCCLUSION_NONE;
     draw(plain, &f);
     for (int i = 0; i < FRAME * FRAME; ++i) {
-        const float sx = ((float)(i % FRAME) + 0.5f) / FRAME * 2.0f - 1.0f, sy = 1.0f - ((float)(i / FRAME) + 0.5f) / FRAME * 2.0f;
+        const float sx = ((float)(i % FRAME) + 0.5f) / FRAME * 2.0f - 1.0f,
+                    sy = 1.0f - ((float)(i / FRAME) + 0.5f) / FRAME * 2.0f;
         lmb_vec3 ray = sub3(add3(mul3(v.right, sx * v.half_width), mul3(v.up, sy * v.half_height)), v.back);
         const lmb_vec3 p = add3(eye_at, mul3(ray, -eye_at.y / ray.y));
         const float t = (-2.0f - p.z) / ray.z, x = p.x + ray.x * t, y = -ray.y * t;
-        if (i % 7 == 0 && ray.y < 0.0f && p.z > -1.9f && p.z < 1.9f && absf(p.x) < 1.9f && absf(x) < 1.2f && y > 0.8f && y < 3.2f) {
+        if (i % 7 == 0 && ray.y < 0.0f && absf(p.z) < 1.9f && absf(p.x) < 1.9f && absf(x) < 1.2f &&
+            absf(y - 2.0f) < 1.2f) {
             const double share = (double)(plain[3 * i + 1] / wall) /
                                  shown((double)roughness, p, normalize3(mul3(ray, -1.0f)));
             least = fmin(least, share);

@@ -166,6 +166,43 @@ static void emission(void)
     CHECK(gives_off(0, 0, 1));
 }
 
+static int has_lobe(double albedo, double f0, double roughness)
+{
+    const lmb_material *m = &loaded.scene.materials[0];
+    return fabs((double)m->albedo[1] - albedo) < 1e-4 && fabs((double)m->specular[1] - f0) < 1e-4 &&
+           fabs((double)m->roughness - roughness) < 1e-6;
+}
+
+/* No lobe at first; then base x (1 - metallic) below mix(0.04, base, metallic), of a textured metal the image's mean.
+ *  */
+static void lobes(void)
+{
+    static const struct {
+        const char *material;
+        double before, albedo, f0, roughness;
+    } cases[] = {
+        {"\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,1,1],\"metallicFactor\":0,\"roughnessFactor\":0.25}",
+         0.5, 0.5, 0.04, 0.25},
+        {"\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,1,1]}", 0.02, 0, 0.5, 1},
+        {"\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,1,1],\"metallicFactor\":0.25,\"roughnessFactor\":9}",
+         0.375, 0.375, 0.155, 1},
+        {"\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}", 0.04, 0, 0.10793, 1},
+        {"\"pbrMetallicRoughness\":{\"metallicFactor\":5,\"baseColorFactor\":[1,30,1,1]}", 1, 0, 1, 1},
+        {"\"extensions\":{\"KHR_materials_unlit\":{}}", 1, 1, 0, 0},
+    };
+    for (int i = 0; i < (int)(sizeof cases / sizeof *cases); ++i) {
+        const int ok = load_look(cases[i].material);
+        CHECK_MSG(ok, "%s", problem.text);
+        if (!ok)
+            continue;
+        CHECK_MSG(has_lobe(cases[i].before, 0, 0), "material %d", i);
+        CHECK(model_make_glossy(&loaded) && lmb_scene_check(&loaded.scene) == LMB_OK);
+        CHECK_MSG(has_lobe(cases[i].albedo, cases[i].f0, cases[i].roughness), "material %d, with its lobe", i);
+    }
+    forget();
+    CHECK(!model_make_glossy(&loaded));
+}
+
 /* --- skins --- */
 
 /* Two joints, each with its inverse bind matrix; three vertices: on the first, on the second, half on each. */
@@ -343,6 +380,7 @@ void test_gltf(void)
     scenes();
     normal_maps();
     emission();
+    lobes();
     skins();
     conversions();
     neighbours();
