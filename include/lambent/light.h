@@ -13,12 +13,12 @@ typedef struct lmb_irradiance {
  *
  * f = D V F: GGX (Walter et al. 2007), height-correlated Smith shadowing (Heitz 2014), Schlick's Fresnel. A light
  * without area gives f E, E the irradiance that it adds. A disc gives f E with the mean of D over the half vectors to
- * it in place of D: whatever its size, never more than its own radiance times V F 4 n.l n.v. src/light/lobe.inl
- * derives it. Beside the lobe diffuse light is scaled by 1 - (F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5): a white
- * dielectric (F0 0.04) reflects 0.84 to 1.02 of white light from everywhere. A metal (F0 1) reflects all where
- * smooth, and 0.3 to 0.6 at roughness 1, for want of light that the roughness reflects twice. What a lobe shows of
- * other surfaces is their diffuse light, as far as it bounces: where no lamp and no element shines they are dark in
- * it, and glossy things lack their gloss. */
+ * it in place of D: whatever its size, no more than its own radiance times F. src/light/lobe.inl derives it.
+ * Beside the lobe diffuse light is scaled by 1 - (F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5): a white dielectric
+ * (F0 0.04) reflects 0.84 to 1.02 of white light from everywhere. A metal (F0 1) reflects all where smooth, and 0.3 to
+ * 0.6 at roughness 1, for want of light that the roughness reflects twice.
+ * What a lobe shows of other surfaces is their diffuse light, as far as it bounces: where no lamp and no element shines
+ * they are dark in it, and glossy things lack their gloss. */
 typedef struct lmb_gloss {
     uint64_t pixels;                    /* that have a lobe, a bit each; of the others the numbers mean nothing */
     float specular[3][LMB_TILE_PIXELS]; /* F0 */

@@ -347,6 +347,62 @@ static void mirrored_wall(float roughness, double low, double high)
     CHECK(count > 100 && least > low && most < high);
 }
 
+/* One lamp by hand: light 1, 2, 3 W/m2 from above, by every machine: what the factor says. Pixels that are dark, or
+ * without a lobe, get nothing. */
+static void one_lamp(void)
+{
+    const lmb_light lamp = point_light(vec3(0.3f, 0.2f, 2.0f));
+    const lmb_kernels *kernels;
+    lmb_view v = look(vec3(-0.2f, 0, 3), vec3(0, 0, 0), 40.0, FRAME);
+    (void)room(0.3f, 0.5f);
+    for (int32_t i = 0; (kernels = lmb_kernels_at(i)) != NULL; ++i) {
+        lmb_irradiance lit;
+        int good = 0, none = 0;
+        memset(&lit, 0, sizeof lit);
+        memset(&tile, 0, sizeof tile);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            set_plane(tile.position, k, vec3(0.1f * (float)(k % 8), 0.1f * (float)(k / 8), 0));
+            set_plane(tile.face, k, Z);
+            set_plane(tile.normal, k, Z);
+            tile.id[k] = k % 3 ? 1 : world.instance[1].first_id; /* of the second material, without a lobe */
+            for (int c = 0; c < 3; ++c) {
+                lit.rgb[c][k] = k % 5 ? (float)(c + 1) : 0.0f;
+            }
+        }
+        CHECK(lmb_gloss_tile(&gloss, &tile, &v, &world.scene) == 1);
+        CHECK(lmb_gloss_direct(&gloss, kernels, &tile, &lit, &lamp) == LMB_OK);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const float f = lmb_gloss_factor(&gloss, &tile, k, sub3(lamp.position, plane_vec(tile.position, k)), 0.0f);
+            const float wanted = k % 3 && k % 5 ? 2.0f * f : 0.0f;
+            good += absf(gloss.rgb[1][k] - wanted) <= 1e-5f * wanted && (wanted > 0.01f || wanted == 0.0f);
+            none += gloss.rgb[1][k] == 0.0f;
+        }
+        CHECK_MSG(good == LMB_TILE_PIXELS && none == 30, "%d good, %d dark", good, none);
+    }
+    v.kind = LMB_ORTHOGRAPHIC;
+    v.back = Y;
+    CHECK(lmb_gloss_tile(&gloss, &tile, &v, &world.scene) == 1 && gloss.towards[1][1] == 1.0f);
+}
+
+/* Black things with a lobe show the lamp, and each other's light. */
+static void black_lobes(void)
+{
+    double mean[2];
+    for (int32_t show = LMB_SHOW_DIRECT; show <= LMB_SHOW_INDIRECT; ++show) {
+        lmb_frame f = room(0.5f, 0.6f);
+        for (int c = 0; c < 3; ++c) {
+            world.material[0].albedo[c] = 0.0f;
+            world.material[1].albedo[c] = 0.8f;
+        }
+        f.show = show;
+        draw(plain, &f);
+        world.material[0].specular[0] = world.material[0].specular[1] = world.material[0].specular[2] = 0.0f;
+        draw(other, &f);
+        mean[show - LMB_SHOW_DIRECT] = mean_of(plain) - mean_of(other);
+    }
+    CHECK_MSG(mean[0] > 1e-4 && mean[1] > 1e-4, "%g, %g", mean[0], mean[1]);
+}
+
 static void refusals(void)
 {
     static const float bad[] = {-0.1f, 1.01f, NAN, INFINITY};
@@ -373,5 +429,7 @@ void test_gloss(void)
     mirrored_wall(0.1f, 0.85, 1.15);
     mirrored_wall(0.2f, 0.98, 1.01);
     mirrored_wall(0.4f, 0.99, 1.01);
+    one_lamp();
+    black_lobes();
     refusals();
 }
