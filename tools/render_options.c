@@ -78,9 +78,9 @@ static const char usage_bounce[] =
 
 static const char usage_more[] =
     "picture\n"
-    "  --glossy                   glTF's materials with their highlights and reflections, by metallic, roughness and\n"
-    "                             base colour (maps by their means); reflections of bounced light by --grouping cut.\n"
-    "                             Without it materials are Lambertian; those of OBJ, PLY and `demo` always are\n"
+    "  --glossy                   glTF's materials with highlights and reflections, by metallic, roughness and base\n"
+    "                             colour (maps by their means): of the lamps with maps, and of what bounces, by\n"
+    "                             --grouping cut. Else, and in OBJ, PLY and `demo`, materials are Lambertian\n"
     "  --show full|direct|indirect|irradiance   (default full; irradiance: bounced, before albedo)\n"
     "         depth|eye-distance|normal|albedo  of what the eye sees; metres along the view, and from the eye\n"
     "         light-distance|points|groups      of the lights' maps, at their size, a row of faces a light: metres\n"

@@ -17,10 +17,9 @@
  *   eye distances       frame.eye (or eye_depth), from LMB_STAGE_BANDS on: lmb_depth_view_z, or lmb_gbuffer_band
  *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile
  *
- * Glossy materials (lmb_material.specular; builds with trees) get their lobe's light from the scene's lights, and from
- * bounced light by LMB_GROUP_CUT. Fixed groups and `many` light them as if they had none: beside the diffuse light that
- * they take from it, there is no reflection of those. Tiles that show a lobe are gathered at each pixel, whatever
- * gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
+ * Glossy materials (lmb_material.specular; builds with trees) reflect the scene's lights, and bounced light by
+ * LMB_GROUP_CUT; fixed groups and `many` reach their diffuse part alone. Tiles that show a lobe are gathered at each pixel,
+ * whatever gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 

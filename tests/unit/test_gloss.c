@@ -92,8 +92,8 @@ static void white_furnace(void)
         most_both = fmax(both, most_both);
         least_both = fmin(both, least_both);
     }
-    printf("  white furnace: metals %.3f .. %.3f, smooth ones from %.3f; dielectrics %.3f .. %.3f\n", least, most, smooth,
-           least_both, most_both);
+    printf("  white furnace: metals %.3f .. %.3f, smooth ones from %.3f; dielectrics %.3f .. %.3f\n", least, most,
+           smooth, least_both, most_both);
     CHECK(most < 1.0005 && least > 0.3 && smooth > 0.96);
     CHECK(most_both < 1.02 && least_both > 0.84);
 }
