@@ -621,9 +621,9 @@ static void make_weighed_node(lmb_weighed *out, int k, test_rng *r, const lmb_pa
     const uint32_t flat = test_random(r) % 8u;
     const lmb_vec3 centre = test_random(r) % 8u ? place(r, 3.0f, rare) : p->centre, normal = direction(r);
     float half[3];
-    const lmb_vec3 seen = add3(centre, place(r, 0.2f, rare)), turned = direction(r);
+    const lmb_vec3 point = add3(centre, place(r, 0.2f, rare)), turned = direction(r);
     const float at[3] = {centre.x, centre.y, centre.z}, n[3] = {normal.x, normal.y, normal.z};
-    const float s[3] = {seen.x, seen.y, seen.z}, sn[3] = {turned.x, turned.y, turned.z};
+    const float s[3] = {point.x, point.y, point.z}, sn[3] = {turned.x, turned.y, turned.z};
     for (int c = 0; c < 3; ++c) {
         half[c] = flat >> c & 1u ? 0.0f : number(r, 0.0f, 0.3f, rare);
         out->node[LMB_WEIGH_CENTRE + c][k] = at[c];
