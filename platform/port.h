@@ -1,4 +1,4 @@
-/* port.h: what a program needs from the machine it runs on; each platform/ folder has its own start-up that gives it. */
+/* port.h: what a program needs from the machine it runs on; each platform/ folder has a start-up that gives it. */
 #ifndef PORT_H
 #define PORT_H
 

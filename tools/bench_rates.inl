@@ -4,7 +4,7 @@
  * from memory, so that no compiler works anything out beforehand; values stay between 1 and 2. */
 #include "bench_rates.h"
 
-/* One operation on x. z is another value that changes, some and other are masks: no step makes one before it pointless. */
+/* One operation on x. z is another value that changes, some and other are masks: each step needs the one before. */
 #define BENCH_STEP_MUL(x, z, s)  x = lane_mul(x, one);
 #define BENCH_STEP_ADD(x, z, s)  x = lane_add(x, least);
 #define BENCH_STEP_MAX(x, z, s)  x = (s) & 1 ? lane_min(x, z) : lane_max(x, z);

@@ -91,6 +91,7 @@ static const char usage_more[] =
     "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). "
     ".pfm and .hdr stay linear\n"
     "other\n"
+    "  --profile exact            the only one: the same bytes on every machine\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
     "  --threads N                that draw at once; the picture does not depend on it (default: the processors)\n"
     "  --stats FILE.json          time by stage, counts, bytes\n";
@@ -278,6 +279,13 @@ static int parse_stats(const char *text, render_options *o) { return (o->stats =
 static int parse_scene(const char *text, render_options *o) { return (o->scene_name = text)[0] != '\0'; }
 
 static int parse_camera(const char *text, render_options *o) { return (o->camera = text)[0] != '\0'; }
+/* For command lines that name it. */
+static int parse_profile(const char *text, render_options *o)
+{
+    (void)o;
+    return strcmp(text, "exact") == 0;
+}
+
 static int parse_backend(const char *text, render_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
 static int parse_threads(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->threads); }
 static int parse_steps(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->steps); }
@@ -453,6 +461,7 @@ static const struct flag {
      "full, direct, indirect, irradiance, depth, eye-distance, normal, albedo, light-distance, points, groups or "
      "occlusion"},
     {"--exposure", parse_exposure, "stops (-60 .. 60) or auto"},
+    {"--profile", parse_profile, "exact (there is no other)"},
     {"--backend", parse_backend, "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"},
     {"--threads", parse_threads, "1 .. 64"},
     {"--stats", parse_stats, "a file name"},

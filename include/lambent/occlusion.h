@@ -65,7 +65,7 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene);
  *
  * A triangle blocks where the segment crosses it with both ends farther than `noise` from its plane: so none blocks
  * points of its own, and nothing is tuned. Triangles that share an edge leave no gap. The segments' own tests decide;
- * the walk only leaves out what none can meet. Null: nothing blocks. Cost: 0.1 to 1 us.                          [V25] */
+ * the walk only leaves out what none can meet. Null: nothing blocks. Cost: 0.1 to 1 us.                     [V25] */
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
                           uint64_t pixels, lmb_vec3 at, lmb_last_blockers *last);
 

@@ -52,8 +52,8 @@ typedef struct lmb_resolve_batch {
     float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
 } lmb_resolve_batch;
 
-/* Attributes of 8x8 pixels, planar: kernels read whole vectors of them. Pixel k is (k % 8, k / 8). 4 KiB, and 3.2 KiB to
- * work in (1.1 in the tiny configuration), which mean nothing before or after. */
+/* Attributes of 8x8 pixels, planar: kernels read whole vectors of them. Pixel k is (k % 8, k / 8). 4 KiB, and 3.2 KiB
+ * to work in (1.1 in the tiny configuration), which mean nothing before or after. */
 typedef struct lmb_tile {
     float position[3][LMB_TILE_PIXELS]; /* world, m: on the plane of the pixel's own triangle */
     float face[3][LMB_TILE_PIXELS];     /* unit normal of the triangle, turned to the viewer */

@@ -18,8 +18,8 @@
  *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile
  *
  * Glossy materials (lmb_material.specular; builds with trees) reflect the scene's lights, and bounced light by
- * LMB_GROUP_CUT; fixed groups and `many` reach their diffuse part alone. Tiles that show a lobe are gathered at each pixel,
- * whatever gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
+ * LMB_GROUP_CUT; fixed groups and `many` reach their diffuse part alone. Tiles that show a lobe are gathered at each
+ * pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 
@@ -151,7 +151,8 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * read.
  *
  *   frame  kernels, view, show, occlusion, steps, error, visible, proven, many_error, gather_step, exposure_ev, eye,
- *          eye_depth, scratch, out, callback, user and stats are taken from it; the rest stands as it was at lmb_render_begin.
+ *          eye_depth, scratch, out, callback, user and stats are taken from it; the rest stands as it was at
+ *          lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
  * also where `frame` shows bounced light and r solved none, or solved more bounces than one by another occlusion, error

@@ -90,7 +90,7 @@ typedef struct lmb_cut {
 typedef struct lmb_cutting {
     float error;   /* share of a pixel's bounced light that it may be wrong by where nothing blocks */
     float visible; /* share that no node may exceed whose visibility is asked as one */
-    int32_t proven; /* 1: `error` is a bound that no pixel exceeds where nothing blocks, at any number of nodes; 0: a rule
+    int32_t proven; /* 1: `error` is a bound that no pixel exceeds where nothing blocks, by any number of nodes; 0: rule
                        that holds for all but a few pixels, by a tenth of them */
     const lmb_blockers *blockers; /* NULL: everything is seen */
     lmb_stats *stats;             /* counts pairs and segments; may be NULL */

@@ -6,8 +6,8 @@
 
 #define INVERSE_PI 0.31830989f
 
-/* Under this, m, a point counts as in a plane, not over it: a light that grazes so gives nothing, but its c^2 s would be
- * a denormal, which some machines flush. */
+/* Under this, m, a point counts as in a plane, not over it: a light that grazes so gives nothing, but its c^2 s would
+ * be a denormal, which some machines flush. */
 #define GRAZING_M 9.5367432e-7f
 
 /* One emitter, one vector of pixels. M = 1: W/m2 a watt.
@@ -229,8 +229,8 @@ static gather_ball gather_ball_of(const lmb_tile *tile)
     return ball;
 }
 
-/* Of the groups j .. j + LANES - 1 those that may light a pixel of the tile, or be near one, a bit each. The others turn
- * their back to the whole ball: their pairs are exactly 0. A hundred-thousandth is far more than all rounding. */
+/* Of the groups j .. j + LANES - 1 those that may light a pixel of the tile, or be near one, a bit each. The others
+ * turn their back to the whole ball: their pairs are exactly 0. A hundred-thousandth is far more than all rounding. */
 static uint32_t gather_awake(const gather_ball *ball, const lmb_groups *groups, int32_t j, int32_t count)
 {
     const uint32_t here = count < LANES ? (1u << count) - 1 : ALL_LANES;

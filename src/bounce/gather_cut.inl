@@ -1,4 +1,4 @@
-/* gather_cut.inl: a cut of the light's tree -> irradiance of the pixels that see its nodes. Lanes are pixels.  [V27 V28]
+/* gather_cut.inl: a cut of the light's tree -> irradiance of the pixels that see its nodes. Lanes are pixels. [V27 V28]
  *
  * The steps are gather.inl's: include it first. */
 static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER_PAIRS], const lmb_tile *tile,

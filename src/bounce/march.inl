@@ -7,8 +7,8 @@
 #define JUMP 0.02f
 #define SLOPE 2.0f
 /* Square of how deep behind its front a thing is taken to reach, in lengths of the segment that it hides: through the
- * middle of a ball a segment is half its hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact 0.190
- * 0.073 0.088, bunny_room 0.081 0.076 0.112, cornell 0.051 0.036 0.030, grazing_sun 0.059 0.065 0.083. */
+ * middle of a ball a segment is half its hidden length behind the front. Trim at 0 / 1/2 / 1 length: corner_contact
+ * 0.190 0.073 0.088, bunny_room 0.081 0.076 0.112, cornell 0.051 0.036 0.030, grazing_sun 0.059 0.065 0.083. */
 #define DEPTH_2 0.25f
 
 /* A vector of pixels in the viewer's frame, and the depth plane of each one's surface. */
@@ -230,9 +230,9 @@ static inline lane3 march_point(const lmb_march_job *m, const seen_from *s, cons
     return p;
 }
 
-/* A segment that was hidden from share `in` to `out`, never deeper than `gap` behind what hid it at its nearest: through
- * it, or behind it? Nobody has seen the far side. Things are taken to be about as deep as they are wide: blocked where the
- * segment comes nearer to the front than half its own hidden length. */
+/* A segment that was hidden from share `in` to `out`, never deeper than `gap` behind what hid it at its nearest:
+ * through it, or behind it? Nobody has seen the far side. Things are taken to be about as deep as they are wide:
+ * blocked where the segment comes nearer to the front than half its own hidden length. */
 static inline lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
                                       lane gap)
 {
@@ -242,8 +242,9 @@ static inline lane_mask march_through(const lmb_march_job *m, const seen_from *s
 
 /* Which of the wanted segments from the pixels to one emitter cross nothing that the viewer sees.            [V25]
  *
- * In the map a segment is straight and d is affine along it. A change of side across a surface that goes on blocks. Where
- * it passes behind a silhouette and comes out again, march_through decides; an end that stays hidden is taken as open. */
+ * In the map a segment is straight and d is affine along it. A change of side across a surface that goes on blocks.
+ * Where it passes behind a silhouette and comes out again, march_through decides; an end that stays hidden is taken as
+ * open. */
 static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
 {
     const lane zero = lane_splat(0.0f);

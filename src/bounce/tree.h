@@ -77,14 +77,14 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face);
 
 /* The exact shape of a texel which is not whole: lmb_crease_share is its area in the map, in texels; under 0: its plane
  * runs away from the light too steeply, it has none. lmb_crease_part is part 0 .. CREASE_PARTS - 1 of it: corners,
- * counter-clockwise seen from the light; returns their number, 0: nothing. The first lies in its own cell, the others in
- * its neighbours'. */
+ * counter-clockwise seen from the light; returns their number, 0: nothing. The first lies in its own cell, the others
+ * in its neighbours'. */
 enum { CREASE_PARTS = 5, CREASE_CORNERS = 8 };
 float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at);
 int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part);
 
-/* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. Where planes meet in it
- * the flux is that of its exact shape, which is no quad: returns 1. */
+/* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. Where planes meet in
+ * it the flux is that of its exact shape, which is no quad: returns 1. */
 int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
                         int32_t y);
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y);

@@ -1,7 +1,7 @@
 /* encode.inl: linear values -> sRGB codes, the same as lmb_srgb_encode, LANES at a time.
  *
- * A guess of the curve (in codes, not rounded) that is off by less than half leaves two codes, the guess rounded down and
- * the next; the threshold between them decides, exactly. */
+ * A guess of the curve (in codes, not rounded) that is off by less than half leaves two codes, the guess rounded down
+ * and the next; the threshold between them decides, exactly. */
 #include "../base/codec.h"
 
 /* 0 .. 254. The curve is 255 (1.055 x^(1/2.4) - 0.055): in sqrt(x) a polynomial of degree 4 comes within 0.19 codes. */

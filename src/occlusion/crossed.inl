@@ -48,8 +48,9 @@ static inline void crossed_slab(lane *from, lane *to, lane per, float low, float
     *to = lane_min(*to, lane_max(a, b));
 }
 
-/* Along an axis a segment's place at its share t is t d with d in [d0, d1]: it may meet [low, high] where t d1 >= low and
- * t d0 <= high. Each bounds t from below or from above, as the sign of d1 or d0 says, which is the same for all boxes. */
+/* Along an axis a segment's place at its share t is t d with d in [d0, d1]: it may meet [low, high] where t d1 >= low
+ * and t d0 <= high. Each bounds t from below or from above, as the sign of d1 or d0 says, which is the same for all
+ * boxes. */
 static inline void crossed_narrow(lane *from, lane *to, float per, lane side)
 {
     const lane t = lane_mul(side, lane_splat(per));

@@ -60,7 +60,7 @@ LANE_INLINE lmb_fill_tile fill_first(const lmb_fill_window *w, int kind)
     if (kind != FILL_ANY) {
         tile.depth_format = LMB_DEPTH32F;
         tile.id_format = kind == FILL_ID32 ? LMB_ID32 : LMB_FORMAT_NONE;
-#if !defined(LANE_PLAIN) /* gcc -O2 would join four plain stores, and then wait for them at the next load: 1.8 times as slow */
+#if !defined(LANE_PLAIN) /* gcc -O2 would join four plain stores, and wait for them at the next load: 1.8 times slower */
         tile.depth_step = LMB_TILE;
         tile.id_step = LMB_TILE;
 #endif
@@ -83,8 +83,8 @@ typedef struct fill_box {
     int32_t first_row, last_row, first, last;
 } fill_box;
 
-/* d + dy y at the rows of a vector that starts in row y. `row` is y, for machines of less than a row: where all rows are
- * drawn it is counted in float, as a conversion waits for whatever was in its register before. */
+/* d + dy y at the rows of a vector that starts in row y. `row` is y, for machines of less than a row: where all rows
+ * are drawn it is counted in float, as a conversion waits for whatever was in its register before. */
 LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y, float row)
 {
 #if LANES >= LMB_TILE

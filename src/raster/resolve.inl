@@ -2,8 +2,8 @@
  *
  * First the different triangles get slots; then up to LMB_SLOTS of them are set up side by side; then each vector of
  * pixels looks its triangles' numbers up by slot. The position is where the pixel's ray meets the triangle's own plane:
- * no depth read back, no snapping error off the plane. On a plane seen edge-on the quotient is clamped to the triangle's
- * own range of w. */
+ * no depth read back, no snapping error off the plane. On a plane seen edge-on the quotient is clamped to the
+ * triangle's own range of w. */
 #include "plane.inl"
 #include "resolve.h"
 
@@ -40,8 +40,8 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
     return left & own;
 }
 
-/* Of an id, `left` has all pixels or none: before its first there is nothing to take. Four wide vectors are looked through
- * faster than it takes to find where to begin. */
+/* Of an id, `left` has all pixels or none: before its first there is nothing to take. Four wide vectors are looked
+ * through faster than it takes to find where to begin. */
 static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
 {
     uint64_t taken = 0;
@@ -188,7 +188,8 @@ LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
     }
 }
 
-/* What is not finite or absurd counts as 0, and so does what is under 2^-60: machines that flush denormals get the same. */
+/* What is not finite or absurd counts as 0, and so does what is under 2^-60: machines that flush denormals get the
+ * same. */
 LANE_INLINE lane resolve_coordinate(const float *p)
 {
     const lane v = lane_load(p), tiny = lane_splat(8.6736174e-19f), limit = lane_splat(1048576.0f);

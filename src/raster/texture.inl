@@ -1,11 +1,11 @@
-/* texture.inl: a base colour's finest level times the albedo of a tile's pixels, nearest or bilinear: as texture.c, value
- * by value. */
+/* texture.inl: a base colour's finest level times the albedo of a tile's pixels, nearest or bilinear: as texture.c,
+ * value by value. */
 #include "../base/codec.h"
 #include "texture.h"
 
 #if defined(LANE_PLAIN)
-/* Without vectors, the sampler that takes one pixel at a time: it is there anyway, for holes. Four lanes written out are
- * a tenth faster, and 4.8 KB of stack on a Cortex-M4F. */
+/* Without vectors, the sampler that takes one pixel at a time: it is there anyway, for holes. Four lanes written out
+ * are a tenth faster, and 4.8 KB of stack on a Cortex-M4F. */
 static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {

@@ -170,6 +170,7 @@ done
 check "those that stand for many lights give no direct light" cmp "$dir/direct0.pfm" "$dir/direct5.pfm"
 check "without them nothing bounces" cmp "$dir/direct0.pfm" "$dir/full0.pfm"
 check "a floor lights nothing but itself" cmp "$dir/full0.pfm" "$dir/full5.pfm"
+status 2 render demo $small --profile fast -o "$dir/bad.pfm"
 status 0 render demo $small --light point:-0.5,2,0.5:0,-1,0:9,9,9 --many-lights 4 --show indirect -o "$dir/standin.pfm"
 status 0 render demo $small --light point:-0.5,2,0.5:0,-1,0:9,9,9 --show indirect -o "$dir/own.pfm"
 check "one light that stands for itself bounces as it does" cmp "$dir/standin.pfm" "$dir/own.pfm"
@@ -261,7 +262,7 @@ fi
 left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
 # The picture does not depend on how many threads draw it, nor on the machine's kernels.
-for option in "--threads 1" "--threads 3" "--backend scalar"; do
+for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
     check "render demo $option" "$TOOL" render demo --size 64x48 --light-map 128 --exposure 0 $option -o "$dir/way.ppm"
     cp "$dir/way.ppm" "$dir/way$((ways = ways + 1)).ppm"
 done

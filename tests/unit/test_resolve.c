@@ -211,8 +211,8 @@ static void test_wild_coordinates(const lmb_kernels *k)
     }
 }
 
-/* One corner has some of a colour, the others none, and the edge between these goes through pixels' middles: no rounding
- * takes a pixel under 0 or over 1. */
+/* One corner has some of a colour, the others none, and the edge between these goes through pixels' middles: no
+ * rounding takes a pixel under 0 or over 1. */
 static void test_colours(const lmb_kernels *k, test_rng *r)
 {
     uint8_t colours[12] = {77, 0, 255, 255, 0, 0, 255, 255, 0, 0, 255, 255};
