@@ -2,6 +2,7 @@
 #include "render_options.h"
 
 #include "many_lights.h"
+#include "option_value.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -98,52 +99,6 @@ static const char usage_more[] =
 
 const char *const render_usage[RENDER_USAGE_PARTS] = {usage_view, usage_bounce, usage_more};
 
-static int parse_float(const char **p, float *out)
-{
-    char *end;
-    double v = strtod(*p, &end);
-    if (end == *p || !(fabs(v) < 1e30)) {
-        return 0;
-    }
-    *out = (float)v;
-    *p = end;
-    return 1;
-}
-
-/* `count` numbers with commas between; *p stops behind them. */
-static int parse_floats(const char **p, float *out, int count)
-{
-    for (int i = 0; i < count; ++i) {
-        if ((i > 0 && *(*p)++ != ',') || !parse_float(p, &out[i])) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-static int parse_vec3(const char *text, lmb_vec3 *out)
-{
-    float v[3];
-    if (!parse_floats(&text, v, 3) || *text != '\0') {
-        return 0;
-    }
-    out->x = v[0];
-    out->y = v[1];
-    out->z = v[2];
-    return 1;
-}
-
-static int parse_int(const char *text, int32_t low, int32_t high, int32_t *out)
-{
-    char *end;
-    long v = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || v < low || v > high) {
-        return 0;
-    }
-    *out = (int32_t)v;
-    return 1;
-}
-
 static int parse_size(const char *text, render_options *o)
 {
     char *end;
@@ -186,11 +141,11 @@ static int parse_light(const char *text, lmb_light *out)
             text += strlen(kinds[i]);
         }
     }
-    if (out->kind < 0 || !parse_floats(&text, p, 3) || *text++ != ':' || !parse_floats(&text, d, 3) || *text++ != ':' ||
-        !parse_floats(&text, c, 3)) {
+    if (out->kind < 0 || !option_floats(&text, p, 3) || *text++ != ':' || !option_floats(&text, d, 3) || *text++ != ':' ||
+        !option_floats(&text, c, 3)) {
         return 0;
     }
-    if (*text == ':' && (++text, !parse_floats(&text, cone, 2))) {
+    if (*text == ':' && (++text, !option_floats(&text, cone, 2))) {
         return 0;
     }
     double length = sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
@@ -212,7 +167,7 @@ static int parse_exposure(const char *text, render_options *o)
 {
     o->exposure_auto = strcmp(text, "auto") == 0;
     return o->exposure_auto ||
-           (parse_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
+           (option_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
 }
 
 static int parse_show(const char *text, render_options *o)
@@ -257,23 +212,23 @@ static int parse_block(const char *text, render_options *o)
 
 static int parse_light_map(const char *text, render_options *o)
 {
-    return parse_int(text, 8, 4096, &o->light_map) && o->light_map % 8 == 0;
+    return option_int(text, 8, 4096, &o->light_map) && o->light_map % 8 == 0;
 }
 
 static int parse_many_lights(const char *text, render_options *o)
 {
-    return parse_int(text, 1, 1 << 22, &o->many_cells);
+    return option_int(text, 1, 1 << 22, &o->many_cells);
 }
 
 static int parse_fov(const char *text, render_options *o)
 {
-    o->has_fov = parse_floats(&text, &o->fov_deg, 1) && *text == '\0' && o->fov_deg > 0.0f && o->fov_deg < 179.0f;
+    o->has_fov = option_floats(&text, &o->fov_deg, 1) && *text == '\0' && o->fov_deg > 0.0f && o->fov_deg < 179.0f;
     return o->has_fov;
 }
 
-static int parse_eye(const char *text, render_options *o) { return o->has_eye = parse_vec3(text, &o->eye); }
-static int parse_target(const char *text, render_options *o) { return o->has_target = parse_vec3(text, &o->target); }
-static int parse_up(const char *text, render_options *o) { return parse_vec3(text, &o->up); }
+static int parse_eye(const char *text, render_options *o) { return o->has_eye = option_vec3(text, &o->eye); }
+static int parse_target(const char *text, render_options *o) { return o->has_target = option_vec3(text, &o->target); }
+static int parse_up(const char *text, render_options *o) { return option_vec3(text, &o->up); }
 static int parse_out(const char *text, render_options *o) { return (o->out = text)[0] != '\0'; }
 static int parse_stats(const char *text, render_options *o) { return (o->stats = text)[0] != '\0'; }
 static int parse_scene(const char *text, render_options *o) { return (o->scene_name = text)[0] != '\0'; }
@@ -287,17 +242,17 @@ static int parse_profile(const char *text, render_options *o)
 }
 
 static int parse_backend(const char *text, render_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
-static int parse_threads(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->threads); }
-static int parse_steps(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->steps); }
+static int parse_threads(const char *text, render_options *o) { return option_int(text, 1, 64, &o->threads); }
+static int parse_steps(const char *text, render_options *o) { return option_int(text, 1, 64, &o->steps); }
 
 static int parse_groups(const char *text, render_options *o)
 {
-    return parse_int(text, 1, LMB_MAX_GROUPS, &o->grouping.groups);
+    return option_int(text, 1, LMB_MAX_GROUPS, &o->grouping.groups);
 }
 
 static int parse_number(const char *text, float low, float high, float *out)
 {
-    return parse_floats(&text, out, 1) && *text == '\0' && *out >= low && *out <= high;
+    return option_floats(&text, out, 1) && *text == '\0' && *out >= low && *out <= high;
 }
 
 static int parse_quality(const char *text, render_options *o)
@@ -309,7 +264,7 @@ static int parse_quality(const char *text, render_options *o)
 
 static int parse_tree(const char *text, render_options *o)
 {
-    return parse_int(text, 8, 4096, &o->tree) && (o->tree & (o->tree - 1)) == 0;
+    return option_int(text, 8, 4096, &o->tree) && (o->tree & (o->tree - 1)) == 0;
 }
 
 static int parse_error(const char *text, render_options *o)
@@ -328,13 +283,13 @@ static int parse_visible(const char *text, render_options *o)
     return parse_number(text, 1e-4f, 10.0f, &o->visible);
 }
 
-static int parse_bounces(const char *text, render_options *o) { return parse_int(text, 1, 64, &o->bounces); }
+static int parse_bounces(const char *text, render_options *o) { return option_int(text, 1, 64, &o->bounces); }
 
 /* Rounded up to what the library takes: a power of 4. */
 static int parse_elements(const char *text, render_options *o)
 {
     int32_t wanted;
-    if (!parse_int(text, 64, 1 << 24, &wanted)) {
+    if (!option_int(text, 64, 1 << 24, &wanted)) {
         return 0;
     }
     for (o->elements = 64; o->elements < wanted; o->elements *= 4) {
@@ -354,7 +309,7 @@ static int parse_light_error(const char *text, render_options *o)
 
 static int parse_bounce_lights(const char *text, render_options *o)
 {
-    return parse_int(text, 0, LMB_MAX_LIGHTS, &o->bounce_lights);
+    return option_int(text, 0, LMB_MAX_LIGHTS, &o->bounce_lights);
 }
 
 /* 0 means the default to the library, so the least there is stands for it. */
@@ -404,7 +359,7 @@ static int parse_neighbourhood(const char *text, render_options *o)
 
 static int parse_thin(const char *text, render_options *o)
 {
-    return parse_int(text, 1, LMB_MAX_THIN, &o->grouping.thin);
+    return option_int(text, 1, LMB_MAX_THIN, &o->grouping.thin);
 }
 
 static int parse_stereo(const char *text, render_options *o)

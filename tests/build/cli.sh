@@ -268,6 +268,29 @@ for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
 done
 check "threads change the picture" cmp "$dir/way1.ppm" "$dir/way2.ppm"
 check "a backend changes the picture" cmp "$dir/way1.ppm" "$dir/way3.ppm"
+# A world of one radiance gives pi times that to every normal, from any place, by any filter.
+one='\000\000\200\077'
+{ printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 18 ]; do printf "$one"; i=$((i + 1)); done; } > "$dir/white.pfm"
+{ printf 'PF\n1 1\n-1.0\n'; printf "$one$one$one"; } > "$dir/facepx.pfm"
+for filter in cosine sh9 sh16 sh25 blur blur1 blur2; do
+    status 0 relight --world "$dir/white.pfm" --at 30,2,-9 --filter $filter --faces 3 --cube "$dir/cube.pfm"
+    check "relight --filter $filter is pi" sh -c '"$1" info "$2" | grep -c "min 3.14159 .*max 3.14159 " | grep -qx 3' sh "$TOOL" "$dir/cube.pfm"
+done
+status 0 relight --world "$dir/face" --world-box -1,-1,-1,1,1,1 --cube "$dir/cube.png" --map "$dir/map.pfm"
+check "where faces are missing it is dark" sh -c '"$1" info "$2" | grep -q "red   min 0 *max 0.9"' sh "$TOOL" "$dir/map.pfm"
+for option in "--storage log8" "--storage log16" "--overlap mean" "--backend scalar" "--ground $dir/facepx.pfm --ground-size 4,4"; do
+    status 0 relight --world "$dir/white.pfm" $option --cube "$dir/cube.pfm"
+done
+status 1 relight --world "$dir/nowhere" --cube "$dir/bad.pfm"
+status 1 relight --world "$dir/facepx.pfm" --cube "$dir/bad.pfm"
+status 1 relight --world "$dir/white.pfm" --world-centre 9,0,0 --world-sphere 0,0,0,5 --cube "$dir/bad.pfm"
+status 1 relight --world "$dir/white.pfm" --ground "$dir/nowhere.png" --cube "$dir/bad.pfm"
+status 2 relight --world "$dir/white.pfm"
+status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.txt"
+status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --faces 65
+status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --filter sh4
+status 2 relight --cube "$dir/bad.pfm"
+status 0 relight --help
 # The fixed workload: its own quads need no files.
 check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
 check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"

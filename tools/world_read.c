@@ -1,0 +1,243 @@
+/* world_read.c: picture files -> a world's cube and ground, as linear floats. */
+#include "world_read.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "picture_read.h"
+
+enum { MOST_SIDE = 4096 };
+
+/* --- pictures ----------------------------------------------------------------------------------------------------- */
+
+static int read_picture(stored_picture *out, const char *path, report *r)
+{
+    file_bytes bytes;
+    if (!file_read(&bytes, path, r)) {
+        return 0;
+    }
+    const int ok = picture_read(out, bytes.data, bytes.size, path, r);
+    file_free(&bytes);
+    return ok;
+}
+
+/* Linear RGB and alpha of a pixel. */
+static void pixel_at(float out[4], const stored_picture *p, size_t at)
+{
+    out[3] = 1.0f;
+    for (int c = 0; c < 3; ++c) {
+        if (p->light.pixels != NULL) {
+            out[c] = p->light.pixels[p->light.channels == 1 ? at : 3 * at + (size_t)c];
+        } else {
+            out[c] = (float)srgb_decode(p->codes.texels[4 * at + (size_t)c]);
+        }
+    }
+    if (p->light.pixels == NULL) {
+        out[3] = (float)p->codes.texels[4 * at + 3] * (1.0f / 255.0f);
+    }
+}
+
+/* Room for a face, or 0 and `r` set. */
+static int take_face(float **out, int32_t side, const char *path, report *r)
+{
+    *out = malloc(3 * (size_t)side * (size_t)side * sizeof **out);
+    return *out != NULL || report_fail(r, "%s: out of memory", path);
+}
+
+/* --- one file ----------------------------------------------------------------------------------------------------- */
+
+/* The square whose corner is pixel (x0, y0). */
+static void copy_face(float *face, int32_t side, const stored_picture *p, int32_t x0, int32_t y0)
+{
+    for (int32_t i = 0; i < side * side; ++i) {
+        float rgba[4];
+        pixel_at(rgba, p, (size_t)(y0 + i / side) * (size_t)p->width + (size_t)(x0 + i % side));
+        memcpy(face + 3 * (size_t)i, rgba, 3 * sizeof *face);
+    }
+}
+
+static int read_strip(lmb_world_pictures *out, world_pictures *own, const stored_picture *p, const char *path,
+                      report *r)
+{
+    const int down = p->height > p->width;
+    const int32_t side = down ? p->width : p->height;
+    out->face_size = side;
+    for (int i = 0; i < 6; ++i) {
+        if (!take_face(&own->face[i], side, path, r)) {
+            return 0;
+        }
+        copy_face(own->face[i], side, p, down ? 0 : i * side, down ? i * side : 0);
+        out->face[i] = own->face[i];
+    }
+    return 1;
+}
+
+/* Bilinear, round the seam. */
+static void sphere_at(double sum[3], const stored_picture *p, const double d[3])
+{
+    const double pi = 3.14159265358979, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const double u = (0.5 + atan2(d[0], -d[2]) / (2 * pi)) * p->width - 0.5,
+                 v = acos(d[1] / length) / pi * p->height - 0.5;
+    const double x0 = floor(u), y0 = floor(v), fx = u - x0, fy = v - y0;
+    for (int k = 0; k < 4; ++k) {
+        const int32_t x = ((int32_t)x0 + (k & 1) + p->width) % p->width;
+        int32_t y = (int32_t)y0 + (k >> 1);
+        float rgba[4];
+        y = y < 0 ? 0 : y >= p->height ? p->height - 1 : y;
+        pixel_at(rgba, p, (size_t)y * (size_t)p->width + (size_t)x);
+        for (int c = 0; c < 3; ++c) {
+            sum[c] += 0.25 * (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy) * (double)rgba[c];
+        }
+    }
+}
+
+/* As lambent/probe.h says. */
+static void face_point(double d[3], int face, double s, double t)
+{
+    const double p[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+    memcpy(d, p[face], sizeof p[face]);
+}
+
+/* Each texel is the mean of four places. */
+static int read_sphere(lmb_world_pictures *out, world_pictures *own, const stored_picture *p, const char *path,
+                       report *r)
+{
+    const int32_t side = p->width / 4 > 0 ? p->width / 4 : 1;
+    out->face_size = side;
+    for (int i = 0; i < 6; ++i) {
+        if (!take_face(&own->face[i], side, path, r)) {
+            return 0;
+        }
+        for (int32_t at = 0; at < side * side; ++at) {
+            double sum[3] = {0, 0, 0}, d[3];
+            for (int k = 0; k < 4; ++k) {
+                face_point(d, i, (2 * (at % side) + 0.5 + (k & 1)) / side - 1,
+                           (2 * (at / side) + 0.5 + (k >> 1)) / side - 1);
+                sphere_at(sum, p, d);
+            }
+            for (int c = 0; c < 3; ++c) {
+                own->face[i][3 * (size_t)at + (size_t)c] = (float)sum[c];
+            }
+        }
+        out->face[i] = own->face[i];
+    }
+    return 1;
+}
+
+static int read_one(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
+{
+    stored_picture p;
+    int ok;
+    if (!read_picture(&p, path, r)) {
+        return 0;
+    }
+    if (p.height == 6 * p.width || p.width == 6 * p.height) {
+        ok = read_strip(out, own, &p, path, r);
+    } else if (p.width == 2 * p.height) {
+        ok = read_sphere(out, own, &p, path, r);
+    } else {
+        ok = report_fail(r, "%s: %d x %d pixels are no world; six faces are N x 6N or 6N x N, the whole sphere 2N x N",
+                         path, (int)p.width, (int)p.height);
+    }
+    stored_picture_free(&p);
+    if (ok && out->face_size > MOST_SIDE) {
+        return report_fail(r, "%s: faces of %d pixels; at most %d", path, (int)out->face_size, MOST_SIDE);
+    }
+    return ok;
+}
+
+/* --- six files ---------------------------------------------------------------------------------------------------- */
+
+static int is_there(const char *path)
+{
+    report unread = {""};
+    return file_is_plain(path, &unread);
+}
+
+/* Where face i may be; 0 where it is not. */
+static int find_face(char *path, size_t size, const char *prefix, int i)
+{
+    static const char *const names[6] = {"px", "nx", "py", "ny", "pz", "nz"};
+    static const char *const kinds[4] = {"pfm", "hdr", "png", "jpg"};
+    for (int k = 0; k < 4; ++k) {
+        const int n = snprintf(path, size, "%s%s.%s", prefix, names[i], kinds[k]);
+        if (n > 0 && (size_t)n < size && is_there(path)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static int read_face(lmb_world_pictures *out, world_pictures *own, int i, const char *path, report *r)
+{
+    stored_picture p;
+    if (!read_picture(&p, path, r)) {
+        return 0;
+    }
+    int ok = p.width == p.height && p.width <= MOST_SIDE && (out->face_size == 0 || out->face_size == p.width);
+    if (!ok) {
+        report_fail(r, "%s: %d x %d pixels; faces are square, of one size, at most %d", path, (int)p.width,
+                    (int)p.height, MOST_SIDE);
+    } else if ((ok = take_face(&own->face[i], p.width, path, r)) != 0) {
+        out->face_size = p.width;
+        copy_face(own->face[i], p.width, &p, 0, 0);
+        out->face[i] = own->face[i];
+    }
+    stored_picture_free(&p);
+    return ok;
+}
+
+static int read_six(lmb_world_pictures *out, world_pictures *own, const char *prefix, report *r)
+{
+    char path[4096];
+    for (int i = 0; i < 6; ++i) {
+        if (find_face(path, sizeof path, prefix, i) && !read_face(out, own, i, path, r)) {
+            return 0;
+        }
+    }
+    return out->face_size > 0 ||
+           report_fail(r, "%s: no such file, and no face %spx.png (.pfm .hdr .jpg; px nx py ny pz nz)", prefix, prefix);
+}
+
+/* --- all ---------------------------------------------------------------------------------------------------------- */
+
+int world_read_cube(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
+{
+    out->face_size = 0;
+    return is_there(path) ? read_one(out, own, path, r) : read_six(out, own, path, r);
+}
+
+int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
+{
+    stored_picture p;
+    if (!read_picture(&p, path, r)) {
+        return 0;
+    }
+    const size_t pixels = (size_t)p.width * (size_t)p.height;
+    int ok = p.width <= LMB_MAX_SIDE && p.height <= LMB_MAX_SIDE;
+    if (!ok) {
+        report_fail(r, "%s: %d x %d pixels; a ground is at most %d a side", path, (int)p.width, (int)p.height,
+                    LMB_MAX_SIDE);
+    } else if ((own->ground = malloc(4 * pixels * sizeof *own->ground)) == NULL) {
+        ok = report_fail(r, "%s: out of memory", path);
+    }
+    for (size_t i = 0; ok && i < pixels; ++i) {
+        pixel_at(own->ground + 4 * i, &p, i);
+    }
+    out->ground = own->ground;
+    out->ground_width = p.width;
+    out->ground_height = p.height;
+    stored_picture_free(&p);
+    return ok;
+}
+
+void world_pictures_free(world_pictures *own)
+{
+    for (int i = 0; i < 6; ++i) {
+        free(own->face[i]);
+    }
+    free(own->ground);
+    memset(own, 0, sizeof *own);
+}
