@@ -121,7 +121,7 @@ static double off_by(const float *cube, const image *truth, double *largest)
     double sum = 0.0, mean = 0.0, peak = 0.0;
     *largest = 0.0;
     for (int i = 0; i < 3 * TEXELS; ++i) {
-        const double want = truth->pixels[i], d = (double)cube[i % 3 * TEXELS + i / 3] - want;
+        const double want = (double)truth->pixels[i], d = (double)cube[i % 3 * TEXELS + i / 3] - want;
         sum += d * d;
         mean += want;
         peak = want > peak ? want : peak;

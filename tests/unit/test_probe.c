@@ -132,26 +132,43 @@ static void identity(stage *s, int32_t format, float most)
     CHECK_MSG(worst < most, "%g", (double)worst);
 }
 
+typedef struct exact {
+    double v[3];
+} exact;
+
+static exact exact_of(lmb_vec3 p)
+{
+    const exact e = {{(double)p.x, (double)p.y, (double)p.z}};
+    return e;
+}
+
+static double exact_dot(exact a, exact b) { return a.v[0] * b.v[0] + a.v[1] * b.v[1] + a.v[2] * b.v[2]; }
+
+/* How far along r the sphere or the box is from o. */
+static double far_distance(const lmb_world_pictures *p, exact o, exact r)
+{
+    double t = 1e30;
+    if (p->shape == LMB_WORLD_SPHERE) {
+        const exact middle = exact_of(p->middle);
+        const exact m = {{o.v[0] - middle.v[0], o.v[1] - middle.v[1], o.v[2] - middle.v[2]}};
+        const double radius = (double)p->radius, a = exact_dot(r, r), b = exact_dot(m, r),
+                     c = exact_dot(m, m) - radius * radius;
+        return (-b + sqrt(b * b - a * c)) / a;
+    }
+    const exact low = exact_of(p->low), high = exact_of(p->high);
+    for (int i = 0; i < 3; ++i) {
+        const double wall = ((r.v[i] > 0 ? high.v[i] : low.v[i]) - o.v[i]) / r.v[i];
+        t = wall < t ? wall : t;
+    }
+    return t;
+}
+
 /* The far world's point by double arithmetic. */
 static lmb_vec3 far_point(const lmb_world_pictures *p, lmb_vec3 at, lmb_vec3 d)
 {
-    double t = 1e30;
-    const double o[3] = {at.x, at.y, at.z}, r[3] = {d.x, d.y, d.z};
-    if (p->shape == LMB_WORLD_SPHERE) {
-        const double middle[3] = {p->middle.x, p->middle.y, p->middle.z};
-        const double m[3] = {o[0] - middle[0], o[1] - middle[1], o[2] - middle[2]};
-        const double radius = p->radius;
-        const double a = r[0] * r[0] + r[1] * r[1] + r[2] * r[2], b = m[0] * r[0] + m[1] * r[1] + m[2] * r[2],
-                     c = m[0] * m[0] + m[1] * m[1] + m[2] * m[2] - radius * radius;
-        t = (-b + sqrt(b * b - a * c)) / a;
-    } else {
-        const double low[3] = {p->low.x, p->low.y, p->low.z}, high[3] = {p->high.x, p->high.y, p->high.z};
-        for (int i = 0; i < 3; ++i) {
-            const double wall = ((r[i] > 0 ? high[i] : low[i]) - o[i]) / r[i];
-            t = wall < t ? wall : t;
-        }
-    }
-    return vec3((float)(o[0] + t * r[0]), (float)(o[1] + t * r[1]), (float)(o[2] + t * r[2]));
+    const exact o = exact_of(at), r = exact_of(d);
+    const double t = far_distance(p, o, r);
+    return vec3((float)(o.v[0] + t * r.v[0]), (float)(o.v[1] + t * r.v[1]), (float)(o.v[2] + t * r.v[2]));
 }
 
 /* S5 S6: from elsewhere, the patch's direction from the centre. */
