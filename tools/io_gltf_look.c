@@ -263,28 +263,51 @@ static int read_metallic(double *metallic, double *rough, gltf *g, uint32_t pbr)
     return 1;
 }
 
-/* The lobe beside albedo x (1 - metallic): 0.04 of a dielectric, a metal's own colour; of a textured metal its mean. */
-static void set_lobe(model_lobe *out, const gltf *g, const lmb_material *m, const double base[3], double metallic,
-                     double rough)
+/* Means of the image that a texture info shows, from the texture that was made of it; worked out once an image. */
+static int texture_mean(const gltf_mean **out, gltf *g, uint32_t info, const lmb_texture *made)
 {
-    gltf_mean mean;
+    uint32_t texture, index;
     bitmap map;
+    if (!gltf_item(&texture, g, &g->textures, json_member(&g->doc, info, "index")) ||
+        !texture_image(&index, g, texture))
+        return 0;
+    if (!g->image_means[index].known) {
+        memset(&map, 0, sizeof map);
+        map.texels = (uint8_t *)(uintptr_t)made->texels; /* only read */
+        map.width = made->width;
+        map.height = made->height;
+        measure(&g->image_means[index], &map);
+    }
+    *out = &g->image_means[index];
+    return 1;
+}
+
+/* The lobe beside albedo x (1 - metallic): 0.04 of a dielectric, a metal's own colour; of a textured metal its mean. */
+static void set_lobe(model_lobe *out, const double colour[3], const double base[3], double metallic, double rough)
+{
     int k;
     metallic = (double)clamp01(metallic);
-    for (k = 0; k < 3; ++k)
-        mean.light[k] = 1;
-    if (m->texture >= 0 && metallic > 0) {
-        memset(&map, 0, sizeof map);
-        map.texels = (uint8_t *)(uintptr_t)g->b->textures[m->texture].texels; /* only read */
-        map.width = g->b->textures[m->texture].width;
-        map.height = g->b->textures[m->texture].height;
-        measure(&mean, &map);
-    }
     for (k = 0; k < 3; ++k) {
         out->albedo[k] = clamp01(base[k] * (1 - metallic));
-        out->specular[k] = clamp01(0.04 + (base[k] * mean.light[k] - 0.04) * metallic);
+        out->specular[k] = clamp01(0.04 + (colour[k] - 0.04) * metallic);
     }
     out->roughness = clamp01(rough);
+}
+
+static int read_lobe(model_lobe *out, gltf *g, const lmb_material *m, const double base[3], double metallic,
+                     double rough, uint32_t map)
+{
+    double colour[3] = {base[0], base[1], base[2]};
+    const gltf_mean *mean;
+    int k;
+    if (m->texture >= 0 && metallic > 0) {
+        if (!texture_mean(&mean, g, map, &g->b->textures[m->texture]))
+            return 0;
+        for (k = 0; k < 3; ++k)
+            colour[k] *= mean->light[k];
+    }
+    set_lobe(out, colour, base, metallic, rough);
+    return 1;
 }
 
 static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
@@ -347,8 +370,8 @@ static int read_material(lmb_material *out, model_lobe *lobe, gltf_uv *uv, gltf 
     diffuse = 1 - metallic > 0.04 ? 1 - metallic : 0.04;
     for (i = 0; i < 3; ++i)
         lobe->albedo[i] = out->albedo[i] = clamp01(base[i] * diffuse);
-    if (!unlit)
-        set_lobe(lobe, g, out, base, metallic, rough);
+    if (!unlit && !read_lobe(lobe, g, out, base, metallic, rough, json_member(doc, pbr, "baseColorTexture")))
+        return 0;
     out->alpha = clamp01(base[3]);
     out->flags |= sided ? LMB_DOUBLE_SIDED : 0;
     g->left_out.unlit += (uint32_t)unlit;
