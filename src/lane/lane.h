@@ -16,6 +16,13 @@
 #define LANE_APART static
 #endif
 
+/* A part of a long formula. Without vectors each of four lanes of every step has its own place on the stack frame. */
+#if defined(LANE_PLAIN) && LANES > 1
+#define LANE_PART LANE_APART
+#else
+#define LANE_PART LANE_INLINE
+#endif
+
 /* Column and row of a tile's pixels k, k + 1, ...: k is a multiple of LANES, and 16 lanes cover two rows. */
 static inline lane lane_column(int k)
 {

@@ -9,7 +9,7 @@ typedef struct remap_colour {
 } remap_colour;
 
 /* Texel `at` of the world, weighted. */
-LANE_INLINE void remap_add(remap_colour *sum, const lmb_remap_job *job, lanei at, lane weight)
+LANE_PART void remap_add(remap_colour *sum, const lmb_remap_job *job, lanei at, lane weight)
 {
     const lanei byte = lanei_splat(255), four = lanei_mul(at, lanei_splat(4));
     lane c[4];
@@ -40,7 +40,7 @@ LANE_INLINE void remap_add(remap_colour *sum, const lmb_remap_job *job, lanei at
 }
 
 /* Four texels: at, to its right, under it, under that one. fx, fy: where between them. */
-LANE_INLINE remap_colour remap_four(const lmb_remap_job *job, const lanei at[4], lane fx, lane fy)
+LANE_PART remap_colour remap_four(const lmb_remap_job *job, const lanei at[4], lane fx, lane fy)
 {
     const lane one = lane_splat(1.0f), zero = lane_splat(0.0f), gx = lane_sub(one, fx), gy = lane_sub(one, fy);
     remap_colour sum = {{zero, zero, zero}, zero};
@@ -52,7 +52,7 @@ LANE_INLINE remap_colour remap_four(const lmb_remap_job *job, const lanei at[4],
 }
 
 /* What the cube shows along d, of any length but 0. As cube_face. */
-LANE_INLINE remap_colour remap_cube(const lmb_remap_job *job, lane3 d)
+LANE_PART remap_colour remap_cube(const lmb_remap_job *job, lane3 d)
 {
     const lane zero = lane_splat(0.0f), half_n = lane_splat(0.5f * (float)job->side);
     const lane x = lane_abs(d.x), y = lane_abs(d.y), z = lane_abs(d.z);
@@ -82,7 +82,7 @@ LANE_INLINE remap_colour remap_cube(const lmb_remap_job *job, lane3 d)
 }
 
 /* How far the far world is along d. */
-LANE_INLINE lane remap_far(const lmb_remap_job *job, lane3 d)
+LANE_PART lane remap_far(const lmb_remap_job *job, lane3 d)
 {
     const lane zero = lane_splat(0.0f);
     if (job->shape == LMB_WORLD_SPHERE) {
@@ -103,7 +103,7 @@ LANE_INLINE lane remap_far(const lmb_remap_job *job, lane3 d)
 }
 
 /* The ground's picture at metres x, z from its corner; `wide`: the ray's width there, m. */
-LANE_INLINE remap_colour remap_ground(const lmb_remap_job *job, lane x, lane z, lane wide)
+LANE_PART remap_colour remap_ground(const lmb_remap_job *job, lane x, lane z, lane wide)
 {
     const lane half = lane_splat(0.5f), zero = lane_splat(0.0f);
     lanei level = lanei_splat(0);
@@ -129,7 +129,7 @@ LANE_INLINE remap_colour remap_ground(const lmb_remap_job *job, lane x, lane z, 
 }
 
 /* Where `near` leaves something to see, `far`. */
-LANE_INLINE lane3 remap_over(remap_colour near, remap_colour far)
+LANE_PART lane3 remap_over(remap_colour near, remap_colour far)
 {
     return lane3_add(near.rgb, lane3_scale(far.rgb, lane_sub(lane_splat(1.0f), near.alpha)));
 }
@@ -140,7 +140,7 @@ typedef struct remap_hit {
 } remap_hit;
 
 /* The ground as far as rays meet its picture. */
-LANE_INLINE remap_hit remap_fall(const lmb_remap_job *job, lane3 d)
+LANE_PART remap_hit remap_fall(const lmb_remap_job *job, lane3 d)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), down = lane_sub(zero, d.y);
     const lane_mask falls = lane_lt(lane_splat(1e-5f), down);
@@ -169,7 +169,7 @@ LANE_INLINE remap_hit remap_fall(const lmb_remap_job *job, lane3 d)
 }
 
 /* Both candidates: the nearer over the other, or their mean where a ray meets both. */
-LANE_INLINE lane3 remap_mix(const lmb_remap_job *job, const remap_hit *ground, remap_colour cube, lane far)
+LANE_PART lane3 remap_mix(const lmb_remap_job *job, const remap_hit *ground, remap_colour cube, lane far)
 {
     const lane one = lane_splat(1.0f), ground_alpha = ground->colour.alpha;
     if (job->blend) {
@@ -182,7 +182,7 @@ LANE_INLINE lane3 remap_mix(const lmb_remap_job *job, const remap_hit *ground, r
 }
 
 /* What a vector of rays sees. Where the ground is near and whole the cube need not be read, nor does it count. */
-LANE_INLINE lane3 remap_see(const lmb_remap_job *job, lane3 d)
+LANE_PART lane3 remap_see(const lmb_remap_job *job, lane3 d)
 {
     const lane far = remap_far(job, d), whole = lane_splat(0.99999f);
     remap_hit ground = {{{lane_splat(0.0f), lane_splat(0.0f), lane_splat(0.0f)}, lane_splat(0.0f)}, lane_splat(0.0f)};

@@ -271,15 +271,8 @@ LANE_INLINE lane resolve_mix(const float *first, const float *second, const floa
                                                           lane_mul(at->b2, lane_table(third, at->slot))));
 }
 
-/* Without vectors each of four lanes of every step has its own place on the stack frame. */
-#if defined(LANE_PLAIN) && LANES > 1 && defined(__GNUC__)
-#define RESOLVE_PART static __attribute__((noinline))
-#else
-#define RESOLVE_PART LANE_INLINE
-#endif
-
 /* The interpolated normal, unit length, on the face normal's side; the face normal where it vanishes. */
-RESOLVE_PART lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *at, lane3 face)
+LANE_PART lane3 resolve_normal(const lmb_resolve_batch *b, const resolve_place *at, lane3 face)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), tiny = lane_splat(1e-12f);
     lane3 n;
