@@ -1,8 +1,9 @@
-/* option_value.c: numbers and vectors of command lines. */
+/* option_value.c: numbers, vectors and words of command lines, and the tables that name options. */
 #include "option_value.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 int option_float(const char **p, float *out)
 {
@@ -47,4 +48,91 @@ int option_int(const char *text, int32_t low, int32_t high, int32_t *out)
     }
     *out = (int32_t)v;
     return 1;
+}
+
+int option_number(const char *text, float low, float high, float *out)
+{
+    return option_floats(&text, out, 1) && *text == '\0' && *out >= low && *out <= high;
+}
+
+int option_size(const char *text, int32_t *width, int32_t *height)
+{
+    char *end;
+    const long w = strtol(text, &end, 10);
+    if (end == text || (*end != 'x' && *end != 'X')) {
+        return 0;
+    }
+    text = end + 1;
+    const long h = strtol(text, &end, 10);
+    if (end == text || *end != '\0' || w < 1 || h < 1 || w > LMB_MAX_SIDE || h > LMB_MAX_SIDE) {
+        return 0;
+    }
+    *width = (int32_t)w;
+    *height = (int32_t)h;
+    return 1;
+}
+
+int option_word(const char *text, const char *const *words, const int32_t *values, int32_t *out)
+{
+    for (int i = 0; words[i] != NULL; ++i) {
+        if (strcmp(text, words[i]) == 0) {
+            *out = values != NULL ? values[i] : i;
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* KIND:P:D:RGB[:INNER,OUTER] */
+int option_light(const char *text, lmb_light *out)
+{
+    static const char *const kinds[] = {"spot:", "point:", "sun:"};
+    static const int32_t values[] = {LMB_LIGHT_SPOT, LMB_LIGHT_POINT, LMB_LIGHT_DIRECTIONAL};
+    float p[3], d[3], c[3], cone[2] = {0.0f, 45.0f};
+    memset(out, 0, sizeof *out);
+    out->kind = -1;
+    for (int i = 0; i < 3 && out->kind < 0; ++i) {
+        if (strncmp(text, kinds[i], strlen(kinds[i])) == 0) {
+            out->kind = values[i];
+            text += strlen(kinds[i]);
+        }
+    }
+    if (out->kind < 0 || !option_floats(&text, p, 3) || *text++ != ':' || !option_floats(&text, d, 3) ||
+        *text++ != ':' || !option_floats(&text, c, 3)) {
+        return 0;
+    }
+    if (*text == ':' && (++text, !option_floats(&text, cone, 2))) {
+        return 0;
+    }
+    double length = sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
+    if (*text != '\0' || c[0] < 0.0f || c[1] < 0.0f || c[2] < 0.0f || cone[0] < 0.0f || cone[1] < cone[0] ||
+        cone[1] <= 0.0f || cone[1] > 89.0f || (length < 1e-20 && out->kind != LMB_LIGHT_POINT)) {
+        return 0;
+    }
+    length = length < 1e-20 ? 1.0 : length;
+    out->position = (lmb_vec3){p[0], p[1], p[2]};
+    out->direction = (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length),
+                                (float)((double)d[2] / length)};
+    memcpy(out->intensity, c, sizeof c);
+    out->cos_inner = (float)cos((double)cone[0] * 3.14159265358979 / 180.0);
+    out->cos_outer = (float)cos((double)cone[1] * 3.14159265358979 / 180.0);
+    return 1;
+}
+
+/* --- tables ------------------------------------------------------------------------------------------------------- */
+
+int option_find(const void *table, size_t entry_bytes, size_t count, char **argv, int at, report *r)
+{
+    for (size_t i = 0; i < count; ++i) {
+        const option_name *of = (const option_name *)(const void *)((const char *)table + i * entry_bytes);
+        if (strcmp(argv[at], of->name) == 0) {
+            return argv[at + 1] != NULL ? (int)i : report_fail(r, "%s wants a value: %s", of->name, of->wants) - 1;
+        }
+    }
+    return report_fail(r, "there is no option %s; lambent %s --help lists them", argv[at], argv[0]) - 1;
+}
+
+int option_refuse(const option_name *of, const char *value, report *r)
+{
+    return report_fail(r, "%s: `%s` is not %s", of->name, value, of->wants);
 }

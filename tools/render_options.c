@@ -4,8 +4,6 @@
 #include "many_lights.h"
 #include "option_value.h"
 
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { CHOSEN = -1 }; /* by the other options */
@@ -101,73 +99,14 @@ const char *const render_usage[RENDER_USAGE_PARTS] = {usage_view, usage_bounce, 
 
 static int parse_size(const char *text, render_options *o)
 {
-    char *end;
-    long w = strtol(text, &end, 10), h = 0;
-    if (end == text || (*end != 'x' && *end != 'X')) {
-        return 0;
-    }
-    text = end + 1;
-    h = strtol(text, &end, 10);
-    if (end == text || *end != '\0' || w < 1 || h < 1 || w > LMB_MAX_SIDE || h > LMB_MAX_SIDE) {
-        return 0;
-    }
-    o->width = (int32_t)w;
-    o->height = (int32_t)h;
-    return 1;
-}
-
-static int parse_word(const char *text, const char *const *words, const int32_t *values, int32_t *out)
-{
-    for (int i = 0; words[i] != NULL; ++i) {
-        if (strcmp(text, words[i]) == 0) {
-            *out = values[i];
-            return 1;
-        }
-    }
-    return 0;
-}
-
-/* KIND:P:D:RGB[:INNER,OUTER] */
-static int parse_light(const char *text, lmb_light *out)
-{
-    static const char *const kinds[] = {"spot:", "point:", "sun:"};
-    static const int32_t values[] = {LMB_LIGHT_SPOT, LMB_LIGHT_POINT, LMB_LIGHT_DIRECTIONAL};
-    float p[3], d[3], c[3], cone[2] = {0.0f, 45.0f};
-    memset(out, 0, sizeof *out);
-    out->kind = -1;
-    for (int i = 0; i < 3 && out->kind < 0; ++i) {
-        if (strncmp(text, kinds[i], strlen(kinds[i])) == 0) {
-            out->kind = values[i];
-            text += strlen(kinds[i]);
-        }
-    }
-    if (out->kind < 0 || !option_floats(&text, p, 3) || *text++ != ':' || !option_floats(&text, d, 3) || *text++ != ':' ||
-        !option_floats(&text, c, 3)) {
-        return 0;
-    }
-    if (*text == ':' && (++text, !option_floats(&text, cone, 2))) {
-        return 0;
-    }
-    double length = sqrt((double)d[0] * (double)d[0] + (double)d[1] * (double)d[1] + (double)d[2] * (double)d[2]);
-    if (*text != '\0' || c[0] < 0.0f || c[1] < 0.0f || c[2] < 0.0f || cone[0] < 0.0f || cone[1] < cone[0] ||
-        cone[1] <= 0.0f || cone[1] > 89.0f || (length < 1e-20 && out->kind != LMB_LIGHT_POINT)) {
-        return 0;
-    }
-    length = length < 1e-20 ? 1.0 : length;
-    out->position = (lmb_vec3){p[0], p[1], p[2]};
-    out->direction = (lmb_vec3){(float)((double)d[0] / length), (float)((double)d[1] / length),
-                                (float)((double)d[2] / length)};
-    memcpy(out->intensity, c, sizeof c);
-    out->cos_inner = (float)cos((double)cone[0] * 3.14159265358979 / 180.0);
-    out->cos_outer = (float)cos((double)cone[1] * 3.14159265358979 / 180.0);
-    return 1;
+    return option_size(text, &o->view.width, &o->view.height);
 }
 
 static int parse_exposure(const char *text, render_options *o)
 {
     o->exposure_auto = strcmp(text, "auto") == 0;
     return o->exposure_auto ||
-           (option_floats(&text, &o->exposure_ev, 1) && *text == '\0' && fabsf(o->exposure_ev) <= 60.0f);
+           (option_number(text, -60.0f, 60.0f, &o->exposure_ev));
 }
 
 static int parse_show(const char *text, render_options *o)
@@ -178,14 +117,14 @@ static int parse_show(const char *text, render_options *o)
     static const int32_t values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT, LMB_SHOW_INDIRECT, LMB_SHOW_IRRADIANCE,
                                      SHOW_DEPTH,    SHOW_NORMAL,     SHOW_ALBEDO,       SHOW_EYE_DISTANCE,
                                      SHOW_LIGHT_DISTANCE, SHOW_POINTS, SHOW_GROUPS, SHOW_OCCLUSION};
-    return parse_word(text, words, values, &o->show);
+    return option_word(text, words, values, &o->show);
 }
 
 static int parse_grouping(const char *text, render_options *o)
 {
     static const char *const words[] = {"cut", "zones", "greedy", "none", NULL};
     static const int32_t values[] = {LMB_GROUP_CUT, LMB_GROUP_ZONES, LMB_GROUP_GREEDY, LMB_GROUP_NONE};
-    return parse_word(text, words, values, &o->grouping.method);
+    return option_word(text, words, values, &o->grouping.method);
 }
 
 static int parse_occlusion(const char *text, render_options *o)
@@ -193,21 +132,21 @@ static int parse_occlusion(const char *text, render_options *o)
     static const char *const words[] = {"exact", "none", "view", "view-world", NULL};
     static const int32_t values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
                                      LMB_OCCLUSION_VIEW_WORLD};
-    return parse_word(text, words, values, &o->occlusion);
+    return option_word(text, words, values, &o->occlusion);
 }
 
 static int parse_gather(const char *text, render_options *o)
 {
     static const char *const words[] = {"full", "half", "quarter", NULL};
     static const int32_t values[] = {1, 2, 4};
-    return parse_word(text, words, values, &o->gather_step);
+    return option_word(text, words, values, &o->gather_step);
 }
 
 static int parse_block(const char *text, render_options *o)
 {
     static const char *const words[] = {"1", "2", "4", "8", NULL};
     static const int32_t values[] = {1, 2, 4, 8};
-    return parse_word(text, words, values, &o->grouping.block);
+    return option_word(text, words, values, &o->grouping.block);
 }
 
 static int parse_light_map(const char *text, render_options *o)
@@ -220,15 +159,19 @@ static int parse_many_lights(const char *text, render_options *o)
     return option_int(text, 1, 1 << 22, &o->many_cells);
 }
 
-static int parse_fov(const char *text, render_options *o)
+static int parse_fov(const char *text, render_options *o) { return view_option_fov(text, &o->view); }
+
+static int parse_eye(const char *text, render_options *o)
 {
-    o->has_fov = option_floats(&text, &o->fov_deg, 1) && *text == '\0' && o->fov_deg > 0.0f && o->fov_deg < 179.0f;
-    return o->has_fov;
+    return o->view.has_eye = option_vec3(text, &o->view.eye);
 }
 
-static int parse_eye(const char *text, render_options *o) { return o->has_eye = option_vec3(text, &o->eye); }
-static int parse_target(const char *text, render_options *o) { return o->has_target = option_vec3(text, &o->target); }
-static int parse_up(const char *text, render_options *o) { return option_vec3(text, &o->up); }
+static int parse_target(const char *text, render_options *o)
+{
+    return o->view.has_target = option_vec3(text, &o->view.target);
+}
+
+static int parse_up(const char *text, render_options *o) { return option_vec3(text, &o->view.up); }
 static int parse_out(const char *text, render_options *o) { return (o->out = text)[0] != '\0'; }
 static int parse_stats(const char *text, render_options *o) { return (o->stats = text)[0] != '\0'; }
 static int parse_scene(const char *text, render_options *o) { return (o->scene_name = text)[0] != '\0'; }
@@ -250,16 +193,11 @@ static int parse_groups(const char *text, render_options *o)
     return option_int(text, 1, LMB_MAX_GROUPS, &o->grouping.groups);
 }
 
-static int parse_number(const char *text, float low, float high, float *out)
-{
-    return option_floats(&text, out, 1) && *text == '\0' && *out >= low && *out <= high;
-}
-
 static int parse_quality(const char *text, render_options *o)
 {
     static const char *const words[] = {"draft", "default", "best", NULL};
     static const int32_t values[] = {QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST};
-    return parse_word(text, words, values, &o->quality);
+    return option_word(text, words, values, &o->quality);
 }
 
 static int parse_tree(const char *text, render_options *o)
@@ -269,7 +207,7 @@ static int parse_tree(const char *text, render_options *o)
 
 static int parse_error(const char *text, render_options *o)
 {
-    return parse_number(text, 1e-4f, 10.0f, &o->error);
+    return option_number(text, 1e-4f, 10.0f, &o->error);
 }
 
 static int parse_error_bound(const char *text, render_options *o)
@@ -280,7 +218,7 @@ static int parse_error_bound(const char *text, render_options *o)
 
 static int parse_visible(const char *text, render_options *o)
 {
-    return parse_number(text, 1e-4f, 10.0f, &o->visible);
+    return option_number(text, 1e-4f, 10.0f, &o->visible);
 }
 
 static int parse_bounces(const char *text, render_options *o) { return option_int(text, 1, 64, &o->bounces); }
@@ -299,12 +237,12 @@ static int parse_elements(const char *text, render_options *o)
 
 static int parse_neighbour(const char *text, render_options *o)
 {
-    return parse_number(text, 0.0f, 1e6f, &o->grouping.neighbour_m);
+    return option_number(text, 0.0f, 1e6f, &o->grouping.neighbour_m);
 }
 
 static int parse_light_error(const char *text, render_options *o)
 {
-    return parse_number(text, 1e-6f, 1.0f, &o->light_error);
+    return option_number(text, 1e-6f, 1.0f, &o->light_error);
 }
 
 static int parse_bounce_lights(const char *text, render_options *o)
@@ -315,19 +253,19 @@ static int parse_bounce_lights(const char *text, render_options *o)
 /* 0 means the default to the library, so the least there is stands for it. */
 static int parse_join(const char *text, render_options *o)
 {
-    int ok = parse_number(text, 0.0f, 1.0f, &o->grouping.join);
+    int ok = option_number(text, 0.0f, 1.0f, &o->grouping.join);
     o->grouping.join = o->grouping.join > 0.0f ? o->grouping.join : 1e-30f;
     return ok;
 }
 
 static int parse_reach(const char *text, render_options *o)
 {
-    return parse_number(text, 0.01f, 1e6f, &o->grouping.reach);
+    return option_number(text, 0.01f, 1e6f, &o->grouping.reach);
 }
 
 static int parse_cosine(const char *text, render_options *o)
 {
-    int ok = parse_number(text, -1.0f, 1.0f, &o->grouping.cosine);
+    int ok = option_number(text, -1.0f, 1.0f, &o->grouping.cosine);
     o->grouping.cosine = o->grouping.cosine != 0.0f ? o->grouping.cosine : 1e-30f;
     return ok;
 }
@@ -364,76 +302,61 @@ static int parse_thin(const char *text, render_options *o)
 
 static int parse_stereo(const char *text, render_options *o)
 {
-    return parse_number(text, 0.0f, 1e6f, &o->stereo_m) && o->stereo_m > 0.0f;
+    return option_number(text, 0.0f, 1e6f, &o->stereo_m) && o->stereo_m > 0.0f;
 }
 
 static int add_light(const char *text, render_options *o)
 {
-    return o->light_count < RENDER_LIGHTS && parse_light(text, &o->lights[o->light_count++]);
+    return o->light_count < RENDER_LIGHTS && option_light(text, &o->lights[o->light_count++]);
 }
 
 static const struct flag {
-    const char *name;
+    option_name of;
     int (*parse)(const char *text, render_options *o);
-    const char *wants;
 } flags[] = {
-    {"-o", parse_out, "a file name"},
-    {"--size", parse_size, "WxH, 1 .. 8192 each"},
-    {"--scene", parse_scene, "a scene's name or number"},
-    {"--camera", parse_camera, "a camera's name or number"},
-    {"--eye", parse_eye, "X,Y,Z"},
-    {"--target", parse_target, "X,Y,Z"},
-    {"--up", parse_up, "X,Y,Z"},
-    {"--fov", parse_fov, "degrees, over 0 and under 179"},
-    {"--stereo", parse_stereo, "metres, over 0"},
-    {"--light", add_light, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], at most 64 of them, angles <= 89"},
-    {"--light-map", parse_light_map, "a multiple of 8, 8 .. 4096"},
-    {"--many-lights", parse_many_lights, "a number of cells, 1 .. 4194304"},
-    {"--light-error", parse_light_error, "a number from 0.000001 to 1"},
-    {"--bounce-lights", parse_bounce_lights, "a number of lights, 0 .. 128"},
-    {"--grouping", parse_grouping, "cut, zones, greedy or none"},
-    {"--quality", parse_quality, "draft, default or best"},
-    {"--tree", parse_tree, "a power of two, 8 .. 4096"},
-    {"--error", parse_error, "a share, 0.0001 .. 10"},
-    {"--error-bound", parse_error_bound, "a share, 0.0001 .. 10"},
-    {"--visible", parse_visible, "a share, 0.0001 .. 10"},
-    {"--bounces", parse_bounces, "a number from 1 to 64"},
-    {"--elements", parse_elements, "a number from 64 to 16777216"},
-    {"--groups", parse_groups, "a number from 1 to the build's capacity (2048)"},
-    {"--block", parse_block, "1, 2, 4 or 8"},
-    {"--neighbour", parse_neighbour, "metres, 0 or more"},
-    {"--neighbourhood", parse_neighbourhood, "facing or hemisphere"},
-    {"--thin", parse_thin, "a number from 1 to 64"},
-    {"--join", parse_join, "a number from 0 to 1"},
-    {"--reach", parse_reach, "a number over 0"},
-    {"--cosine", parse_cosine, "a number from -1 to 1"},
-    {"--misfits", parse_misfits, "keep or drop"},
-    {"--centre", parse_centre, "barycentre or disc"},
-    {"--occlusion", parse_occlusion, "exact, none, view or view-world"},
-    {"--steps", parse_steps, "1 .. 64"},
-    {"--gather", parse_gather, "full, half or quarter"},
-    {"--show", parse_show,
-     "full, direct, indirect, irradiance, depth, eye-distance, normal, albedo, light-distance, points, groups or "
-     "occlusion"},
-    {"--exposure", parse_exposure, "stops (-60 .. 60) or auto"},
-    {"--profile", parse_profile, "exact (there is no other)"},
-    {"--backend", parse_backend, "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"},
-    {"--threads", parse_threads, "1 .. 64"},
-    {"--stats", parse_stats, "a file name"},
+    {{"-o", "a file name"}, parse_out},
+    {{"--size", "WxH, 1 .. 8192 each"}, parse_size},
+    {{"--scene", "a scene's name or number"}, parse_scene},
+    {{"--camera", "a camera's name or number"}, parse_camera},
+    {{"--eye", "X,Y,Z"}, parse_eye},
+    {{"--target", "X,Y,Z"}, parse_target},
+    {{"--up", "X,Y,Z"}, parse_up},
+    {{"--fov", "degrees, over 0 and under 179"}, parse_fov},
+    {{"--stereo", "metres, over 0"}, parse_stereo},
+    {{"--light", "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], at most 64 of them, angles <= 89"}, add_light},
+    {{"--light-map", "a multiple of 8, 8 .. 4096"}, parse_light_map},
+    {{"--many-lights", "a number of cells, 1 .. 4194304"}, parse_many_lights},
+    {{"--light-error", "a number from 0.000001 to 1"}, parse_light_error},
+    {{"--bounce-lights", "a number of lights, 0 .. 128"}, parse_bounce_lights},
+    {{"--grouping", "cut, zones, greedy or none"}, parse_grouping},
+    {{"--quality", "draft, default or best"}, parse_quality},
+    {{"--tree", "a power of two, 8 .. 4096"}, parse_tree},
+    {{"--error", "a share, 0.0001 .. 10"}, parse_error},
+    {{"--error-bound", "a share, 0.0001 .. 10"}, parse_error_bound},
+    {{"--visible", "a share, 0.0001 .. 10"}, parse_visible},
+    {{"--bounces", "a number from 1 to 64"}, parse_bounces},
+    {{"--elements", "a number from 64 to 16777216"}, parse_elements},
+    {{"--groups", "a number from 1 to the build's capacity (2048)"}, parse_groups},
+    {{"--block", "1, 2, 4 or 8"}, parse_block},
+    {{"--neighbour", "metres, 0 or more"}, parse_neighbour},
+    {{"--neighbourhood", "facing or hemisphere"}, parse_neighbourhood},
+    {{"--thin", "a number from 1 to 64"}, parse_thin},
+    {{"--join", "a number from 0 to 1"}, parse_join},
+    {{"--reach", "a number over 0"}, parse_reach},
+    {{"--cosine", "a number from -1 to 1"}, parse_cosine},
+    {{"--misfits", "keep or drop"}, parse_misfits},
+    {{"--centre", "barycentre or disc"}, parse_centre},
+    {{"--occlusion", "exact, none, view or view-world"}, parse_occlusion},
+    {{"--steps", "1 .. 64"}, parse_steps},
+    {{"--gather", "full, half or quarter"}, parse_gather},
+    {{"--show", "full, direct, indirect, irradiance, depth, eye-distance, normal, albedo, light-distance, points, "
+                "groups or occlusion"}, parse_show},
+    {{"--exposure", "stops (-60 .. 60) or auto"}, parse_exposure},
+    {{"--profile", "exact (there is no other)"}, parse_profile},
+    {{"--backend", "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"}, parse_backend},
+    {{"--threads", "1 .. 64"}, parse_threads},
+    {{"--stats", "a file name"}, parse_stats},
 };
-
-static int parse_flag(render_options *o, const char *name, const char *value, report *r)
-{
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; ++i) {
-        if (strcmp(name, flags[i].name) == 0) {
-            if (value == NULL) {
-                return report_fail(r, "%s wants a value: %s", name, flags[i].wants);
-            }
-            return flags[i].parse(value, o) || report_fail(r, "%s: `%s` is not %s", name, value, flags[i].wants);
-        }
-    }
-    return report_fail(r, "there is no option %s; lambent render --help lists them", name);
-}
 
 /* Figures of the presets: README, "How good it is". */
 static void choose(render_options *o)
@@ -471,10 +394,10 @@ static int check_together(const render_options *o, report *r)
     if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
         return report_fail(r, "--bounces above 1 needs --grouping cut");
     }
-    if (o->has_eye != o->has_target) {
-        return report_fail(r, "--eye and --target go together");
+    if (!view_options_check(&o->view, r)) {
+        return 0;
     }
-    if (o->has_eye && o->camera != NULL) {
+    if (o->view.has_eye && o->camera != NULL) {
         return report_fail(r, "--camera and --eye exclude each other");
     }
     if (o->stereo_m > 0.0f && shows_map(o->show)) {
@@ -497,9 +420,8 @@ static int check_together(const render_options *o, report *r)
 int render_options_parse(render_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
-    o->up.y = 1.0f;
+    view_options_init(&o->view);
     o->bounce_lights = MANY_LIGHTS_BOUNCE;
-    o->fov_deg = 45.0f;
     o->grouping.method = o->occlusion = CHOSEN;
     o->exposure_auto = 1;
     o->kernels = lmb_kernels_pick();
@@ -511,10 +433,10 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
         if (strcmp(argv[i], "--glossy") == 0) {
             o->glossy = 1;
         } else if (argv[i][0] == '-' && argv[i][1] != '\0') {
-            if (!parse_flag(o, argv[i], i + 1 < argc ? argv[i + 1] : NULL, r)) {
+            const int f = option_find(flags, sizeof *flags, sizeof flags / sizeof *flags, argv, i, r);
+            if (f < 0 || (!flags[f].parse(argv[++i], o) && !option_refuse(&flags[f].of, argv[i], r))) {
                 return 0;
             }
-            ++i;
         } else if (o->scene != NULL) {
             return report_fail(r, "one scene at a time: `%s` and `%s`", o->scene, argv[i]);
         } else {

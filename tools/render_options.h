@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "report.h"
+#include "view_options.h"
 
 #define RENDER_LIGHTS 64 /* --light given at most this often */
 
@@ -20,12 +21,9 @@ enum { QUALITY_DEFAULT, QUALITY_DRAFT, QUALITY_BEST };
 
 typedef struct render_options {
     const char *scene, *out, *stats;
-    int32_t width, height; /* 0: default */
+    view_options view;
     const char *scene_name; /* of a file with several; NULL: its own choice */
     const char *camera;     /* name or number; NULL: the first */
-    int has_eye, has_target, has_fov;
-    lmb_vec3 eye, target, up;
-    float fov_deg;
     lmb_light lights[RENDER_LIGHTS];
     uint32_t light_count;
     float stereo_m; /* between the eyes; 0: one eye */

@@ -7,10 +7,7 @@
 
 /* render_view: the view the options ask for; sets o->width and height where they were left open. `scene` is what is
  * drawn, `loaded` what the file held. Says on stderr when it had to choose. near_m is 0 where the file gives none:
- * render_view_from goes on. 1, or 0 with `r` set. */
+ * view_from goes on. 1, or 0 with `r` set. */
 int render_view(lmb_view *out, render_options *o, const model *loaded, const lmb_scene *scene, report *r);
-
-/* render_view_from: `middle` moved right_m metres to its right, with the near and far plane of where it then stands. */
-lmb_view render_view_from(const lmb_view *middle, float right_m, const lmb_scene *scene);
 
 #endif

@@ -48,7 +48,7 @@ static const char help_text[] =
     "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage\n";
 
 enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
-static const char *const filter_names[FILTERS] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2"};
+static const char *const filter_names[FILTERS + 1] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2", NULL};
 
 typedef struct options {
     const char *world, *ground, *cube, *map;
@@ -61,17 +61,6 @@ typedef struct options {
 } options;
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
-
-static int one_of(const char *text, const char *const *words, int count, int32_t *out)
-{
-    for (int i = 0; i < count; ++i) {
-        if (strcmp(text, words[i]) == 0) {
-            *out = i;
-            return 1;
-        }
-    }
-    return 0;
-}
 
 static int all_floats(const char *text, float *out, int count)
 {
@@ -109,7 +98,7 @@ static int parse_map(const char *text, options *o) { return picture_format(o->ma
 static int parse_centre(const char *text, options *o) { return option_vec3(text, &o->place.centre); }
 static int parse_at(const char *text, options *o) { return o->has_at = option_vec3(text, &o->at); }
 static int parse_faces(const char *text, options *o) { return option_int(text, 1, 64, &o->faces); }
-static int parse_filter(const char *text, options *o) { return one_of(text, filter_names, FILTERS, &o->filter); }
+static int parse_filter(const char *text, options *o) { return option_word(text, filter_names, NULL, &o->filter); }
 static int parse_backend(const char *text, options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
 
 static int parse_ground_size(const char *text, options *o)
@@ -126,51 +115,37 @@ static int parse_ground_height(const char *text, options *o) { return all_floats
 
 static int parse_storage(const char *text, options *o)
 {
-    static const char *const words[] = {"f32", "log16", "log8"}; /* in the order of LMB_WORLD_ */
-    return one_of(text, words, 3, &o->format);
+    static const char *const words[] = {"f32", "log16", "log8", NULL}; /* in the order of LMB_WORLD_ */
+    return option_word(text, words, NULL, &o->format);
 }
 
 static int parse_overlap(const char *text, options *o)
 {
-    static const char *const words[] = {"nearer", "mean"};
-    return one_of(text, words, 2, &o->blend);
+    static const char *const words[] = {"nearer", "mean", NULL};
+    return option_word(text, words, NULL, &o->blend);
 }
 
 static const struct flag {
-    const char *name;
+    option_name of;
     int (*parse)(const char *text, options *o);
-    const char *wants;
 } flags[] = {
-    {"--world", parse_world, "a file, or what six files' names begin with"},
-    {"--world-centre", parse_centre, "X,Y,Z"},
-    {"--world-sphere", parse_sphere, "X,Y,Z,R with R over 0"},
-    {"--world-box", parse_box, "X0,Y0,Z0,X1,Y1,Z1, the smaller ones first"},
-    {"--ground", parse_ground, "a file"},
-    {"--ground-size", parse_ground_size, "W,D over 0"},
-    {"--ground-centre", parse_ground_centre, "X,Z"},
-    {"--ground-height", parse_ground_height, "a number"},
-    {"--storage", parse_storage, "f32, log16 or log8"},
-    {"--overlap", parse_overlap, "nearer or mean"},
-    {"--at", parse_at, "X,Y,Z"},
-    {"--filter", parse_filter, "cosine, sh9, sh16, sh25, blur, blur1 or blur2"},
-    {"--cube", parse_cube, "a file name ending in .pfm, .hdr, .png or .ppm"},
-    {"--faces", parse_faces, "1 .. 64"},
-    {"--map", parse_map, "a file name ending in .pfm, .hdr, .png or .ppm"},
-    {"--backend", parse_backend, "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"},
+    {{"--world", "a file, or what six files' names begin with"}, parse_world},
+    {{"--world-centre", "X,Y,Z"}, parse_centre},
+    {{"--world-sphere", "X,Y,Z,R with R over 0"}, parse_sphere},
+    {{"--world-box", "X0,Y0,Z0,X1,Y1,Z1, the smaller ones first"}, parse_box},
+    {{"--ground", "a file"}, parse_ground},
+    {{"--ground-size", "W,D over 0"}, parse_ground_size},
+    {{"--ground-centre", "X,Z"}, parse_ground_centre},
+    {{"--ground-height", "a number"}, parse_ground_height},
+    {{"--storage", "f32, log16 or log8"}, parse_storage},
+    {{"--overlap", "nearer or mean"}, parse_overlap},
+    {{"--at", "X,Y,Z"}, parse_at},
+    {{"--filter", "cosine, sh9, sh16, sh25, blur, blur1 or blur2"}, parse_filter},
+    {{"--cube", "a file name ending in .pfm, .hdr, .png or .ppm"}, parse_cube},
+    {{"--faces", "1 .. 64"}, parse_faces},
+    {{"--map", "a file name ending in .pfm, .hdr, .png or .ppm"}, parse_map},
+    {{"--backend", "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"}, parse_backend},
 };
-
-static int parse_flag(options *o, const char *name, const char *value, report *r)
-{
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; ++i) {
-        if (strcmp(name, flags[i].name) == 0) {
-            if (value == NULL) {
-                return report_fail(r, "%s wants a value: %s", name, flags[i].wants);
-            }
-            return flags[i].parse(value, o) || report_fail(r, "%s: `%s` is not %s", name, value, flags[i].wants);
-        }
-    }
-    return report_fail(r, "there is no option %s; lambent relight --help lists them", name);
-}
 
 /* What follows from what was given. */
 static int complete(options *o, report *r)
@@ -208,7 +183,8 @@ static int parse(options *o, int argc, char **argv, report *r)
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
             return o->help = 1;
         }
-        if (!parse_flag(o, argv[i], i + 1 < argc ? argv[i + 1] : NULL, r)) {
+        const int f = option_find(flags, sizeof *flags, sizeof flags / sizeof *flags, argv, i, r);
+        if (f < 0 || (!flags[f].parse(argv[i + 1], o) && !option_refuse(&flags[f].of, argv[i + 1], r))) {
             return 0;
         }
     }

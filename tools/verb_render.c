@@ -265,8 +265,8 @@ static lmb_surface eye_surface(const job *j, const image *whole, int32_t eye)
 {
     lmb_surface s;
     memset(&s, 0, sizeof s);
-    s.data = whole->pixels + (size_t)eye * (size_t)(j->o.width * whole->channels);
-    s.width = j->o.width;
+    s.data = whole->pixels + (size_t)eye * (size_t)(j->o.view.width * whole->channels);
+    s.width = j->o.view.width;
     s.height = whole->height;
     s.stride_bytes = whole->width * whole->channels * (int32_t)sizeof(float);
     s.format = whole->channels == 1 ? LMB_R32F : LMB_RGB32F;
@@ -276,16 +276,16 @@ static lmb_surface eye_surface(const job *j, const image *whole, int32_t eye)
 static void set_eye(const job *j, lmb_frame *f, const image *whole, int32_t eye)
 {
     const float right_m = j->o.stereo_m * ((float)eye - 0.5f * (float)(j->eyes - 1));
-    f->view = render_view_from(&j->middle, right_m, &j->scene);
+    f->view = view_from(&j->middle, right_m, &j->scene);
     f->out = eye_surface(j, whole, eye);
 }
 
 static int take_picture(job *j, image *out, report *r)
 {
-    size_t bytes = (size_t)(j->o.width * j->eyes) * (size_t)j->o.height * 3 * sizeof(float);
+    size_t bytes = (size_t)(j->o.view.width * j->eyes) * (size_t)j->o.view.height * 3 * sizeof(float);
     out->pixels = take(j, bytes, r);
-    out->width = j->o.width * j->eyes;
-    out->height = j->o.height;
+    out->width = j->o.view.width * j->eyes;
+    out->height = j->o.view.height;
     out->channels = 3;
     if (out->pixels != NULL) {
         memset(out->pixels, 0, bytes);
@@ -296,7 +296,7 @@ static int take_picture(job *j, image *out, report *r)
 static int take_frame(job *j, report *r)
 {
     lmb_frame *f = &j->frame;
-    int32_t w = j->o.width, h = j->o.height;
+    int32_t w = j->o.view.width, h = j->o.view.height;
     size_t depth = lmb_surface_bytes(LMB_DEPTH32F, w, h), id = lmb_surface_bytes(f->id_format, w, h);
     j->depth_memory = take(j, depth, r);
     j->id_memory = take(j, id, r);
@@ -319,9 +319,9 @@ static int set_frame(job *j, report *r)
         return 0;
     }
     j->eyes = j->o.stereo_m > 0.0f ? 2 : 1;
-    if (j->o.width * j->eyes > LMB_MAX_SIDE) {
-        return report_fail(r, "--stereo: two views of %d px are wider than %d; try a smaller --size", (int)j->o.width,
-                           LMB_MAX_SIDE);
+    if (j->o.view.width * j->eyes > LMB_MAX_SIDE) {
+        return report_fail(r, "--stereo: two views of %d px are wider than %d; try a smaller --size",
+                           (int)j->o.view.width, LMB_MAX_SIDE);
     }
     tell_notes(j);
     set_lights(j);

@@ -1,0 +1,116 @@
+/* view_options.c: views that the command line describes, and views that frame a scene. */
+#include "view_options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "option_value.h"
+
+/* --- command line ------------------------------------------------------------------------------------------------- */
+
+void view_options_init(view_options *out)
+{
+    memset(out, 0, sizeof *out);
+    out->up.y = 1.0f;
+    out->fov_deg = 45.0f;
+}
+
+int view_option_fov(const char *text, view_options *o)
+{
+    return option_number(text, 0.0f, 178.999f, &o->fov_deg) && o->fov_deg > 0.0f;
+}
+
+int view_options_check(const view_options *o, report *r)
+{
+    return o->has_eye == o->has_target || report_fail(r, "--eye and --target go together");
+}
+
+/* --- views -------------------------------------------------------------------------------------------------------- */
+
+void view_size(view_options *o, float aspect)
+{
+    if (o->width == 0) {
+        o->height = 480;
+        o->width = (int32_t)lrintf(480.0f * (aspect > 0.0f ? aspect : 4.0f / 3.0f));
+        o->width = o->width < 1 ? 1 : o->width > LMB_MAX_SIDE ? LMB_MAX_SIDE : o->width;
+    }
+}
+
+static lmb_vec3 bounds_corner(const lmb_scene *s, int i)
+{
+    lmb_vec3 c = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
+                  i & 4 ? s->bounds_max.z : s->bounds_min.z};
+    return c;
+}
+
+static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
+{
+    return axis.x * (a.x - b.x) + axis.y * (a.y - b.y) + axis.z * (a.z - b.z);
+}
+
+/* How far back the eye must stand from `centre` for every corner of the bounds to fit, with a little air. */
+static float fitting_distance(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
+{
+    float away = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        lmb_vec3 c = bounds_corner(s, i);
+        float wide = fabsf(along(v->right, c, centre)) / v->half_width,
+              high = fabsf(along(v->up, c, centre)) / v->half_height;
+        away = fmaxf(away, along(v->back, c, centre) + 1.05f * fmaxf(wide, high));
+    }
+    return away;
+}
+
+/* The whole scene, from a little above and to the side. */
+int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char *name, report *r)
+{
+    lmb_vec3 lo = scene->bounds_min, hi = scene->bounds_max;
+    lmb_vec3 centre = {(lo.x + hi.x) * 0.5f, (lo.y + hi.y) * 0.5f, (lo.z + hi.z) * 0.5f};
+    lmb_vec3 from = {centre.x + 0.45f, centre.y + 0.35f, centre.z + 0.82f};
+    view_size(o, 0.0f);
+    if (!(hi.x > lo.x || hi.y > lo.y || hi.z > lo.z)) {
+        return report_fail(r, "%s: nothing to see: the scene has no extent", name);
+    }
+    if (lmb_view_look(v, from, centre, o->up, 0.698f, o->width, o->height) != LMB_OK) {
+        return report_fail(r, "%s: no view frames the scene; give --eye and --target", name);
+    }
+    float away = fitting_distance(scene, v, centre);
+    v->eye.x = centre.x + away * v->back.x;
+    v->eye.y = centre.y + away * v->back.y;
+    v->eye.z = centre.z + away * v->back.z;
+    fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", name, (double)v->eye.x,
+            (double)v->eye.y, (double)v->eye.z);
+    return 1;
+}
+
+int view_look(lmb_view *v, view_options *o, report *r)
+{
+    view_size(o, 0.0f);
+    return lmb_view_look(v, o->eye, o->target, o->up, o->fov_deg * 0.017453293f, o->width, o->height) == LMB_OK ||
+           report_fail(r, "--eye, --target and --up do not make a view: they must not lie on one line");
+}
+
+static float from_eye(const lmb_scene *s, lmb_vec3 eye)
+{
+    float far2 = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        lmb_vec3 c = bounds_corner(s, i);
+        far2 =
+            fmaxf(far2, (c.x - eye.x) * (c.x - eye.x) + (c.y - eye.y) * (c.y - eye.y) + (c.z - eye.z) * (c.z - eye.z));
+    }
+    return sqrtf(far2);
+}
+
+/* A near plane of the scene's own size where none is given: a ten-thousandth of what is seen. */
+lmb_view view_from(const lmb_view *middle, float right_m, const lmb_scene *scene)
+{
+    lmb_view v = *middle;
+    v.eye.x += right_m * v.right.x;
+    v.eye.y += right_m * v.right.y;
+    v.eye.z += right_m * v.right.z;
+    float reach = fmaxf(from_eye(scene, v.eye), 1e-4f);
+    v.near_m = v.near_m > 0.0f ? v.near_m : 1e-4f * reach;
+    v.far_m = v.kind == LMB_ORTHOGRAPHIC && v.far_m > v.near_m ? v.far_m : v.near_m + 2.0f * reach;
+    return v;
+}
