@@ -70,6 +70,14 @@
 #define LMB_PROBES 1
 #endif
 
+/* Who uses materials' lobes. */
+#define LMB_LOBES (LMB_TREES || LMB_PROBES)
+
+/* Places whose cubes an lmb_probe_cache knows: 36 bytes each. When full, the one used longest ago makes room. */
+#ifndef LMB_MAX_PROBES
+#define LMB_MAX_PROBES 64
+#endif
+
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */

@@ -16,6 +16,7 @@
 #include "elements.h"
 #include "probe.h"
 #include "compose.h"
+#include "relight.h"
 #include "render.h"
 
 #endif

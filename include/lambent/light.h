@@ -48,7 +48,7 @@ lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, co
                            const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
                            const lmb_light_map *map);
 
-/* What follows is not there in builds without trees (LMB_TREES 0): these take every material as without a lobe. */
+/* What follows is not there in builds without trees and probes: these take every material as without a lobe. */
 
 /* lmb_gloss_tile: the lobes of a tile that was resolved for `view`, with no light yet: sets all of `out` and returns 1;
  * or, where no pixel has one (and for null), 0 and out->pixels = 0 alone. */

@@ -3,7 +3,10 @@
  *     lmb_world_init(&world, &pictures, format, memory, bytes);       once, and when the world changes
  *     lmb_probe_table_init(&table, 128, 64, 0.0f, memory, bytes);     once a size
  *     per object: lmb_probe_remap(map, ...);                          what its place sees, latitude by longitude
- *                 lmb_probe_cosine(cube, ...) or lmb_probe_sh(...);   irradiance by normal
+ *                 lmb_probe_reduce(...), lmb_probe_cosine(...);       irradiance by normal: or lmb_probe_sh, _blur
+ *                 lmb_probe_reflect(...);                             what rough surfaces mirror
+ *                 lmb_probe_cube_init(&cube, ...);                    either one, ready to be looked up
+ *     per tile:   lmb_probe_light_tile, lmb_probe_gloss_tile, lmb_probe_background: or relight.h does it all
  *
  * Cubes have six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the
  * direction is (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1). */
@@ -32,6 +35,7 @@ typedef struct lmb_world_pictures {
     lmb_vec3 middle;      /* of the sphere */
     float radius;         /* m */
     lmb_vec3 low, high;   /* of the box */
+    uint32_t revision;    /* raise when the world changes: cubes of before are stale [S20] */
 } lmb_world_pictures;
 
 #define LMB_WORLD_LEVELS 14
@@ -90,6 +94,61 @@ typedef struct lmb_probe_blur {
     float *row;                   /* [term][row of the result][width]: weights by lag */
 } lmb_probe_blur;
 
+/* A cube of n x n x 6 texels with a border of one that shows the next face's: no lookup knows an edge. */
+typedef struct lmb_probe_cube {
+    const float *texel; /* RGBA, faces of (n + 2) x (n + 2); in the caller's memory */
+    int32_t side;       /* n */
+} lmb_probe_cube;
+
+/* The world, and how it is asked. */
+typedef struct lmb_world_look {
+    const lmb_world *world;
+    float ray_width; /* rad: of a pixel. Levels with texels at least as wide are read */
+    int32_t blend;   /* as lmb_probe_remap's */
+} lmb_world_look;
+
+/* When an object's cubes are computed anew: once it is more than radius_m from where they were, or when it moved at all
+ * and `every` frames have passed. Radius 0: each frame until it rests. [S18] */
+typedef struct lmb_probe_policy {
+    float radius_m; /* say LMB_PROBE_RADIUS */
+    int32_t every;  /* 0: never for time alone */
+} lmb_probe_policy;
+
+#define LMB_PROBE_RADIUS 0.15f
+
+enum { LMB_PROBE_FREE = 0, LMB_PROBE_OWNED, LMB_PROBE_NAMED };
+
+/* One place whose cubes are kept. */
+typedef struct lmb_probe_slot {
+    lmb_vec3 place;
+    uint32_t owner, world; /* the object; the world's revision */
+    uint32_t frame, used;  /* when it was computed, and last asked for */
+    int32_t kind;          /* LMB_PROBE_ */
+    int32_t known;         /* 1: was computed */
+} lmb_probe_slot;
+
+/* Which cubes are where: the cubes themselves are the caller's, one set a slot. [S18-S20] */
+typedef struct lmb_probe_cache {
+    lmb_probe_slot slot[LMB_MAX_PROBES];
+    int32_t count; /* of them in use by this cache */
+    lmb_probe_policy policy;
+    uint32_t kept, computed; /* answers so far */
+} lmb_probe_cache;
+
+/* What lmb_probe_cache_ask answers. */
+typedef struct lmb_probe_answer {
+    int32_t slot;    /* whose cubes to use */
+    int32_t compute; /* 1: compute them first, for */
+    lmb_vec3 place;
+} lmb_probe_answer;
+
+/* Where rays are looked after. 5.3 KiB, which mean nothing before and after. */
+typedef struct lmb_probe_rays {
+    lmb_vec3 n[LMB_TILE_PIXELS], across[LMB_TILE_PIXELS], along[LMB_TILE_PIXELS];
+    float origin[3][LMB_TILE_PIXELS], direction[3][LMB_TILE_PIXELS], seen[3][LMB_TILE_PIXELS];
+    float sum[3][LMB_TILE_PIXELS];
+} lmb_probe_rays;
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -101,7 +160,7 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format);
 /* lmb_world_init: the pictures and their levels into `memory`, coded.
  *
  * The centre lies inside the sphere or box. Missing faces and blank ground are alpha 0: a ray that meets them goes on
- * to the other candidate, then sees nothing. Radiance that is not finite, or negative, counts as 0; over 100 as 100
+ * to the other candidate, then sees nothing. Radiance that is not finite, or under 1e-12, counts as 0; over 100 as 100
  * where it is coded. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_FORMAT, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Cost: 4/3 of the
  * texels. */
 lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, int32_t format, void *memory,
@@ -169,6 +228,51 @@ lmb_status lmb_probe_halve(float *out, const float *map, const lmb_probe_table *
 
 /* lmb_probe_map_cube: a map read bilinearly at n x n x 6 directions, round the seam and over the poles. [S14] */
 lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lmb_probe_table *table);
+
+/* lmb_probe_reflect: the radiance that a surface mirrors, by the direction in which a mirror would look.     [S16 S22]
+ *
+ *   cube       3 planes of 6 n x n texels; n: 1 .. 256. lmb_probe_gloss_side gives the n that shows a roughness: 64
+ *              from 0.1 on, 32 from 0.2, 16 from 0.35, 8 from 0.6; 0 under 0.1, where pixels look at the world itself.
+ *   roughness  0 .. 1; alpha = roughness^2, under LMB_LEAST_ALPHA: a mirror's.
+ * The lobe is that of lmb_gloss seen from straight above, by 48 rays as wide as their shares; a mirror's texels are
+ * means of 36 rays: against path-traced truth of a world with small lamps 1 % rmse away from silhouettes. LMB_OK or
+ * LMB_ERR_ARG. Cost: about 25 cycles a ray by AVX2. */
+int32_t lmb_probe_gloss_side(float roughness);
+lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                             const lmb_world_look *look, lmb_vec3 at, float roughness);
+
+/* lmb_probe_cube_bytes, lmb_probe_cube_init: a cube in planes made ready to be looked up. n: 1 .. 256. 9.4 KiB for 8.
+ * LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY. */
+size_t lmb_probe_cube_bytes(int32_t n);
+lmb_status lmb_probe_cube_init(lmb_probe_cube *out, const float *planes, int32_t n, void *memory, size_t bytes);
+
+/* lmb_probe_light_tile: add a cube's irradiance by normal to `pixels` of a tile, a bit each. [S21]
+ * lmb_probe_gloss_tile: add what their lobes make of the radiance that a cube holds by reflected direction: times
+ * F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5, which lmb_compose_gloss takes from their diffuse light. Without a cube each
+ * pixel looks at the world from where it is. [S17 S22]
+ *
+ *   inout  of lmb_gloss_tile.
+ *   look   read where cube is NULL.
+ * Bilinear. What an object hides from itself is not known. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube);
+lmb_status lmb_probe_gloss_tile(lmb_gloss *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
+                                const lmb_world_look *look);
+
+/* lmb_probe_cache_init: `slots` 1 .. LMB_MAX_PROBES. lmb_probe_cache_name: keep cubes for a place: objects within the
+ * policy's radius of it use them. Its slot; -1 where no slot would be left for objects, or the place is absurd.
+ * lmb_probe_cache_ask: whose cubes does object `owner`, now `at`, use in this frame? The nearest named place's within
+ * the radius; else its own; without one, a free slot, or the one that was asked for longest ago. LMB_OK or
+ * LMB_ERR_ARG: then *out and the cache are as they were. Cost: slots. */
+lmb_status lmb_probe_cache_init(lmb_probe_cache *out, int32_t slots, const lmb_probe_policy *policy);
+int32_t lmb_probe_cache_name(lmb_probe_cache *inout, lmb_vec3 place);
+lmb_status lmb_probe_cache_ask(lmb_probe_answer *out, lmb_probe_cache *inout, uint32_t owner, lmb_vec3 at,
+                               uint32_t world_revision, uint32_t frame);
+
+/* lmb_probe_background: set the pixels of a tile without a surface to the radiance that the view sees there. */
+lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                const lmb_tile *tile, const lmb_view *view, const lmb_world_look *look);
 
 #ifdef __cplusplus
 }

@@ -47,10 +47,12 @@ static inline lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x)
 static inline lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 static inline float largest3(lmb_vec3 v) { return maxf(maxf(absf(v.x), absf(v.y)), absf(v.z)); }
 static inline int32_t mini(int32_t a, int32_t b) { return a < b ? a : b; }
+static inline int32_t clampi(int32_t v, int32_t lo, int32_t hi) { return v < lo ? lo : v > hi ? hi : v; }
 static inline int32_t maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 
 /* Finite and within the door's range of 2^20 m; false for NaN. */
 static inline int is_sane(float v) { return v > -1048576.0f && v < 1048576.0f; }
+static inline int is_place(lmb_vec3 at) { return is_sane(at.x) && is_sane(at.y) && is_sane(at.z); }
 
 /* Number of the lowest bit that is set, of bits that are not 0. */
 static inline int lowest_bit(uint32_t bits)

@@ -3,6 +3,8 @@
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
+#include "../light/gloss.h"
+#include "../raster/triangle.h"
 
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect)
@@ -14,11 +16,27 @@ lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const
     return LMB_OK;
 }
 
-#if LMB_TREES
+lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile)
+{
+    uint32_t id = 0;
+    const float *emission = NULL;
+    if (inout == NULL || scene == NULL || tile == NULL) {
+        return LMB_ERR_ARG;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (tile->id[k] != 0 && tile->id[k] != id) {
+            id = tile->id[k];
+            emission = scene->materials[lmb_instance_of(scene, id)->material].emission;
+        }
+        for (int c = 0; c < 3 && tile->id[k] != 0; ++c) {
+            inout->rgb[c][k] += emission[c];
+        }
+    }
+    return LMB_OK;
+}
 
-/* What the lobe takes is no longer there for the diffuse light below it. It takes about what it would reflect of
- * light from everywhere: F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5, Schlick's F flattened by roughness, fitted to the
- * lobe of F0 = 0.04: that is 0.01 too little at most, between smooth and rough, and 0.13 too much, where it grazes. */
+#if LMB_LOBES
+
 lmb_status lmb_compose_gloss(lmb_radiance *inout, const lmb_gloss *gloss)
 {
     if (inout == NULL || gloss == NULL) {
@@ -26,12 +44,8 @@ lmb_status lmb_compose_gloss(lmb_radiance *inout, const lmb_gloss *gloss)
     }
     for (uint64_t bits = gloss->pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        const float low = maxf(1.0f - gloss->facing[k], 0.0f), low2 = low * low;
-        const float smooth = maxf(1.0f - sqrtf(gloss->alpha2[k]), 0.0f);
-        const float rise = low2 * low2 * low * (smooth * smooth * smooth);
         for (int c = 0; c < 3; ++c) {
-            const float f0 = gloss->specular[c][k], taken = minf(f0 + (1.0f - f0) * rise, 1.0f);
-            inout->rgb[c][k] = inout->rgb[c][k] * (1.0f - taken) + gloss->rgb[c][k];
+            inout->rgb[c][k] = inout->rgb[c][k] * (1.0f - gloss_share(gloss, c, k)) + gloss->rgb[c][k];
         }
     }
     return LMB_OK;

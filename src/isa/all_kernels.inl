@@ -16,10 +16,14 @@
 #if LMB_TREES
 #include "../bounce/gather_cut.inl"
 #include "../bounce/weigh.inl"
-#include "../light/lobe.inl"
-#include "../bounce/gather_gloss.inl"
 #include "../light/many.inl"
 #include "../occlusion/crossed.inl"
+#endif
+#if LMB_LOBES
+#include "../light/lobe.inl"
+#endif
+#if LMB_TREES
+#include "../bounce/gather_gloss.inl"
 #endif
 #if LMB_PROBES
 #include "../probe/remap.inl"
@@ -44,9 +48,12 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(encode),  KERNEL(probe),
 #if LMB_TREES
     KERNEL(gather_cut), KERNEL(weigh), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets),
-    KERNEL(many_bounds), KERNEL(gloss_direct), KERNEL(gloss_cut), KERNEL(many_shine),
+    KERNEL(many_bounds), KERNEL(gloss_cut), KERNEL(many_shine),
+#endif
+#if LMB_LOBES
+    KERNEL(gloss_direct),
 #endif
 #if LMB_PROBES
-    KERNEL(remap), KERNEL(cosine), KERNEL(blur),
+    KERNEL(remap), KERNEL(see), KERNEL(look), KERNEL(cosine), KERNEL(blur),
 #endif
 };

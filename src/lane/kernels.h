@@ -145,23 +145,24 @@ typedef struct lmb_segments {
     float per[3][LMB_TILE_PIXELS];
 } lmb_segments;
 
-/* The world from one place, by direction. */
-typedef struct lmb_remap_job {
+/* The world, for rays of one width. */
+typedef struct lmb_world_job {
     const void *texels;
     const float *log8, (*log16)[256];
-    const uint16_t *direction; /* 3 planes of `count` */
-    int32_t format, count, blend, shape;
-    int32_t side, cube_at;     /* the cube's level, and its first texel */
-    lmb_vec3 from_centre, from_middle; /* to the place, m */
-    float outside2;            /* |from_middle|^2 - radius^2: < 0 */
-    float to_low[3], to_high[3]; /* the box's walls from the place */
-    float ray_width;           /* of a direction's texel, rad */
+    int32_t format, blend, shape;
+    int32_t means;              /* 1: rays are averaged over texels; else each by itself, smoothly */
+    int32_t side, cube_at;      /* the cube's level, and its first texel */
+    lmb_vec3 centre, middle;    /* of the cube; of the sphere */
+    float radius2, reach;       /* of the sphere, squared; of places inside it, from its middle */
+    lmb_vec3 low, high;         /* the box */
+    lmb_vec3 reach_low, reach_high; /* of places inside it */
+    float ray_width;            /* rad */
     int32_t ground_levels, ground_from; /* 0: no ground; its first texel */
-    float height;              /* over the ground, m */
-    float ground_x, ground_z, ground_width_m, ground_depth_m, ground_per_x, ground_per_z;
+    lmb_vec3 ground;            /* its corner of least x and z, at its height */
+    float ground_width_m, ground_depth_m, ground_per_x, ground_per_z;
     float ground_columns[16], ground_rows[16], ground_at[16]; /* by level; from the ground's first texel */
-    float ground_limit[16];    /* rays wider than this read the next level, m */
-} lmb_remap_job;
+    float ground_limit[16];     /* rays wider than this read the next level, m */
+} lmb_world_job;
 
 /* One row of a blur. */
 typedef struct lmb_blur_job {
@@ -221,17 +222,24 @@ struct lmb_kernels {
      * LMB_MANY_NEAR) and about what it gives, both without shadows, W/m2. Writes up to 16 values each. */
     void (*many_bounds)(float error[16], float light[16], const lmb_many *many, uint32_t first, uint32_t count,
                         const lmb_many_job *job);
-    /* What the lobes make of one light that brings `lit`: added. */
-    void (*gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const lmb_irradiance *lit, const lmb_light *light);
-    /* And of emitters that some pixels see. */
+    /* What lobes make of emitters that some pixels see: added. */
     void (*gloss_cut)(lmb_gloss *inout, const lmb_tile *tile, const lmb_emitter *emitters, int32_t count);
     /* The lamps' light on `pixels` is added. */
     void (*many_shine)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels, const lmb_many_lamp *lamps,
                        int32_t count);
 #endif
+#if LMB_LOBES
+    /* What the lobes make of one light that brings `lit`: added. */
+    void (*gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const lmb_irradiance *lit, const lmb_light *light);
+#endif
 #if LMB_PROBES
-    /* Radiance of each direction, 3 planes. */
-    void (*remap)(float *out, const lmb_remap_job *job);
+    /* Radiance of each of `count` directions from one place, 3 planes; `direction`: as lmb_probe_table's. */
+    void (*remap)(float *out, const uint16_t *direction, int32_t count, lmb_vec3 at, const lmb_world_job *job);
+    /* Of one ray a pixel; directions are of unit length. */
+    void (*see)(float out[3][LMB_TILE_PIXELS], float origin[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS],
+                const lmb_world_job *job);
+    /* What the job's cube alone shows along a direction of any length. */
+    void (*look)(float out[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS], const lmb_world_job *job);
     /* Irradiance by normal; `direction`: of the lights, 3 planes. */
     void (*cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TILE_PIXELS], const lmb_probe_lights *lights,
                    const float *direction);

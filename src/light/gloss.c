@@ -6,7 +6,7 @@
 #include "../raster/triangle.h"
 #include "gloss.h"
 
-#if LMB_TREES
+#if LMB_LOBES
 
 #define LANE_ONE
 #include "../lane/lane_scalar.h"

@@ -2,47 +2,14 @@
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../raster/triangle.h"
+#include "lit.h"
 #include "stages.h"
 #include "wants.h"
 
 #define BAND_UNITS 8
 
-/* What surfaces give off towards the viewer. */
-static void add_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile)
-{
-    uint32_t id = 0;
-    const float *emission = NULL;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (tile->id[k] != 0 && tile->id[k] != id) {
-            id = tile->id[k];
-            emission = scene->materials[lmb_instance_of(scene, id)->material].emission;
-        }
-        for (int c = 0; c < 3 && tile->id[k] != 0; ++c) {
-            inout->rgb[c][k] += emission[c];
-        }
-    }
-}
-
 /* SHOW_IRRADIANCE is what arrives before the albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
-
-/* One of the scene's lights. With lobes its irradiance is wanted by itself; added to the others' it is the same sum. */
-static lmb_status light_by(const lmb_render *r, lmb_band_scratch *s, uint32_t i, lmb_gloss *gloss)
-{
-    const lmb_frame *f = &r->frame;
-    const lmb_light *light = &f->scene->lights[i];
-    if (gloss == NULL) {
-        return lmb_direct_tile(&s->direct, f->kernels, &s->tile, &f->view, f->scene, light, &r->maps[i]);
-    }
-    memset(&s->indirect, 0, sizeof s->indirect);
-    lmb_status status = lmb_direct_tile(&s->indirect, f->kernels, &s->tile, &f->view, f->scene, light, &r->maps[i]);
-    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-        s->direct.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] +=
-            s->indirect.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
-    }
-    return status == LMB_OK ? lmb_gloss_direct(gloss, f->kernels, &s->tile, &s->indirect, light) : status;
-}
 
 /* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
  * always where there are lobes. */
@@ -50,11 +17,12 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb
 {
     const lmb_frame *f = &r->frame;
     lmb_gloss *gloss = wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene) ? &s->gloss : NULL;
+    const lit_tile lit = {f->kernels, f->scene, &f->view, &s->tile};
     lmb_many_look look;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count - f->many_bounce && status == LMB_OK; ++i) {
-        status = light_by(r, s, i, gloss);
+        status = lmb_lit_add(&s->direct, gloss, &s->indirect, &lit, i, &r->maps[i]);
     }
     if (wants_many(f) && status == LMB_OK) {
         look.many = f->many;
@@ -78,7 +46,7 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb
         status = lmb_compose_gloss(&s->radiance, gloss);
     }
     if (status == LMB_OK && r->shines && wants_direct(f)) {
-        add_shine(&s->radiance, f->scene, &s->tile);
+        status = lmb_compose_shine(&s->radiance, f->scene, &s->tile);
     }
     return status;
 }

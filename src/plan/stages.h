@@ -12,7 +12,6 @@
 #define lmb_gather_cut(...)       never(LMB_LAYOUT(lmb_gather_cut)(__VA_ARGS__))
 #define lmb_many_direct_tile(...) never(LMB_LAYOUT(lmb_many_direct_tile)(__VA_ARGS__))
 #define lmb_gloss_tile(...)       (never(lmb_gloss_tile(__VA_ARGS__)) == LMB_OK)
-#define lmb_gloss_direct(...)     never(lmb_gloss_direct(__VA_ARGS__))
 #define lmb_compose_gloss(...)    never(lmb_compose_gloss(__VA_ARGS__))
 #define lmb_blockers_build(...)   never(lmb_blockers_build(__VA_ARGS__))
 #define lmb_tree_sum(...)         never(lmb_tree_sum(__VA_ARGS__))

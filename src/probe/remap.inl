@@ -1,6 +1,6 @@
-/* remap.inl: what a place sees of the world, by direction.                                                     [S5-S8]
+/* remap.inl: what rays see of the world: by direction from one place, or a ray a pixel.                  [S5-S8, S17]
  *
- * Lanes are directions. A ray meets the far world at q, which the cube shows along q - centre; and the ground, if it
+ * Lanes are rays. A ray meets the far world at q, which the cube shows along q - centre; and the ground, if it
  * goes down to it within the picture. Both are read bilinearly, from a level whose texels are about as wide as it. */
 
 typedef struct remap_colour {
@@ -9,7 +9,7 @@ typedef struct remap_colour {
 } remap_colour;
 
 /* Texel `at` of the world, weighted. */
-LANE_PART void remap_add(remap_colour *sum, const lmb_remap_job *job, lanei at, lane weight)
+LANE_PART void remap_add(remap_colour *sum, const lmb_world_job *job, lanei at, lane weight)
 {
     const lanei byte = lanei_splat(255), four = lanei_mul(at, lanei_splat(4));
     lane c[4];
@@ -40,7 +40,7 @@ LANE_PART void remap_add(remap_colour *sum, const lmb_remap_job *job, lanei at, 
 }
 
 /* Four texels: at, to its right, under it, under that one. fx, fy: where between them. */
-LANE_PART remap_colour remap_four(const lmb_remap_job *job, const lanei at[4], lane fx, lane fy)
+LANE_PART remap_colour remap_four(const lmb_world_job *job, const lanei at[4], lane fx, lane fy)
 {
     const lane one = lane_splat(1.0f), zero = lane_splat(0.0f), gx = lane_sub(one, fx), gy = lane_sub(one, fy);
     remap_colour sum = {{zero, zero, zero}, zero};
@@ -51,8 +51,15 @@ LANE_PART remap_colour remap_four(const lmb_remap_job *job, const lanei at[4], l
     return sum;
 }
 
-/* What the cube shows along d, of any length but 0. As cube_face. */
-LANE_PART remap_colour remap_cube(const lmb_remap_job *job, lane3 d)
+/* Where a ray meets the cube: its face, and its place there in texels of the bordered face, less one half: 0.5 ..
+ * n + 0.5. */
+typedef struct remap_spot {
+    lanei face;
+    lane x, y;
+} remap_spot;
+
+/* Along d, of any length but 0. As cube_face. */
+LANE_PART void remap_meet(remap_spot *out, const lmb_world_job *job, lane3 d)
 {
     const lane zero = lane_splat(0.0f), half_n = lane_splat(0.5f * (float)job->side);
     const lane x = lane_abs(d.x), y = lane_abs(d.y), z = lane_abs(d.z);
@@ -62,40 +69,120 @@ LANE_PART remap_colour remap_cube(const lmb_remap_job *job, lane3 d)
                less_y = lane_sub(zero, d.y), less_z = lane_sub(zero, d.z);
     const lane s = lane_pick(on_x, lane_pick(up_x, less_z, d.z), lane_pick(on_y, d.x, lane_pick(up_z, d.x, less_x)));
     const lane t = lane_pick(on_y, lane_pick(up_y, d.z, less_z), less_y);
-    const lanei face =
+    out->face =
         lanei_pick(on_x, lanei_pick(up_x, lanei_splat(0), lanei_splat(1)),
                    lanei_pick(on_y, lanei_pick(up_y, lanei_splat(2), lanei_splat(3)),
                               lanei_pick(up_z, lanei_splat(4), lanei_splat(5))));
-    /* In texels of the bordered face, less one half: 0.5 .. n + 0.5. */
     const lane middle = lane_add(half_n, lane_splat(0.5f));
     const lane scale = lane_div(half_n, lane_max(most, lane_splat(1e-20f)));
-    const lane fx = lane_add(lane_mul(s, scale), middle), fy = lane_add(lane_mul(t, scale), middle);
-    const lane x0 = lane_trunc(fx), y0 = lane_trunc(fy);
+    out->x = lane_add(lane_mul(s, scale), middle);
+    out->y = lane_add(lane_mul(t, scale), middle);
+}
+
+/* Texel (x, y) of the spot's bordered face. */
+LANE_PART lanei remap_texel(const lmb_world_job *job, const remap_spot *spot, lane x, lane y)
+{
+    const lanei row = lanei_splat(job->side + 2);
+    return lanei_add(lanei_mul(lanei_add(lanei_mul(spot->face, row), lane_to_int(y)), row),
+                     lanei_add(lane_to_int(x), lanei_splat(job->cube_at)));
+}
+
+/* Weights of three texels in a row, at t -0.5 .. 0.5 from the second: the parabola that has their means. */
+LANE_INLINE void remap_parabola(lane weight[3], lane t)
+{
+    const lane half = lane_splat(0.5f), odd = lane_mul(half, t);
+    const lane even = lane_sub(lane_mul(half, lane_mul(t, t)), lane_splat(1.0f / 24.0f));
+    weight[0] = lane_sub(even, odd);
+    weight[1] = lane_sub(lane_splat(1.0f), lane_add(even, even));
+    weight[2] = lane_add(even, odd);
+}
+
+/* For rays whose mean over a texel or more is wanted: what blurs least. Never negative. */
+LANE_PART remap_colour remap_nine(const lmb_world_job *job, const remap_spot *spot)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f),
+               n = lane_splat((float)job->side);
+    const lane x = lane_min(lane_max(lane_trunc(lane_add(spot->x, half)), one), n),
+               y = lane_min(lane_max(lane_trunc(lane_add(spot->y, half)), one), n);
+    const lanei middle = remap_texel(job, spot, x, y);
+    remap_colour sum = {{zero, zero, zero}, zero};
+    lane across[3], down[3];
+    remap_parabola(across, lane_sub(spot->x, x));
+    remap_parabola(down, lane_sub(spot->y, y));
+    for (int i = 0; i < 9; ++i) {
+        const lanei at = lanei_add(middle, lanei_splat((i / 3 - 1) * (job->side + 2) + i % 3 - 1));
+        remap_add(&sum, job, at, lane_mul(across[i % 3], down[i / 3]));
+    }
+    sum.rgb.x = lane_max(sum.rgb.x, zero);
+    sum.rgb.y = lane_max(sum.rgb.y, zero);
+    sum.rgb.z = lane_max(sum.rgb.z, zero);
+    sum.alpha = lane_min(lane_max(sum.alpha, zero), one);
+    return sum;
+}
+
+/* What the cube shows along d. */
+LANE_PART remap_colour remap_cube(const lmb_world_job *job, lane3 d)
+{
     const lanei row = lanei_splat(job->side + 2), one = lanei_splat(1);
+    remap_spot spot;
     lanei at[4];
-    at[0] = lanei_add(lanei_mul(lanei_add(lanei_mul(face, row), lane_to_int(y0)), row),
-                      lanei_add(lane_to_int(x0), lanei_splat(job->cube_at)));
+    remap_meet(&spot, job, d);
+    if (job->means) {
+        return remap_nine(job, &spot);
+    }
+    const lane x0 = lane_trunc(spot.x), y0 = lane_trunc(spot.y);
+    at[0] = remap_texel(job, &spot, x0, y0);
     at[1] = lanei_add(at[0], one);
     at[2] = lanei_add(at[0], row);
     at[3] = lanei_add(at[2], one);
-    return remap_four(job, at, lane_sub(fx, x0), lane_sub(fy, y0));
+    return remap_four(job, at, lane_sub(spot.x, x0), lane_sub(spot.y, y0));
+}
+
+/* Where rays begin, as the formulas want it. */
+typedef struct remap_place {
+    lane3 from_centre, from_middle; /* of the cube, of the sphere, m */
+    lane outside2;                  /* |from_middle|^2 - radius^2: < 0 */
+    lane3 to_low, to_high;          /* the box's walls */
+    lane3 from_ground;              /* its corner */
+} remap_place;
+
+/* Places outside the far world are pulled in to the nearest inside. */
+LANE_PART void remap_stand(remap_place *out, const lmb_world_job *job, lane3 at)
+{
+    if (job->shape == LMB_WORLD_SPHERE) {
+        const lane3 d = lane3_sub(at, lane3_of(job->middle));
+        const lane length = lane_sqrt(lane3_dot(d, d)), reach = lane_splat(job->reach);
+        const lane_mask outside = lane_lt(reach, length);
+        const lane shrunk = lane_div(reach, lane_pick(outside, length, lane_splat(1.0f)));
+        at = lane3_pick(outside, lane3_add(lane3_of(job->middle), lane3_scale(d, shrunk)), at);
+    } else {
+        const lane3 low = lane3_of(job->reach_low), high = lane3_of(job->reach_high);
+        at.x = lane_max(lane_min(at.x, high.x), low.x);
+        at.y = lane_max(lane_min(at.y, high.y), low.y);
+        at.z = lane_max(lane_min(at.z, high.z), low.z);
+    }
+    out->from_centre = lane3_sub(at, lane3_of(job->centre));
+    out->from_middle = lane3_sub(at, lane3_of(job->middle));
+    out->outside2 = lane_sub(lane3_dot(out->from_middle, out->from_middle), lane_splat(job->radius2));
+    out->to_low = lane3_sub(lane3_of(job->low), at);
+    out->to_high = lane3_sub(lane3_of(job->high), at);
+    out->from_ground = lane3_sub(at, lane3_of(job->ground));
 }
 
 /* How far the far world is along d. */
-LANE_PART lane remap_far(const lmb_remap_job *job, lane3 d)
+LANE_PART lane remap_far(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane zero = lane_splat(0.0f);
     if (job->shape == LMB_WORLD_SPHERE) {
-        const lane b = lane3_dot(lane3_of(job->from_middle), d);
-        const lane inner = lane_sub(lane_mul(b, b), lane_splat(job->outside2));
+        const lane b = lane3_dot(from->from_middle, d);
+        const lane inner = lane_sub(lane_mul(b, b), from->outside2);
         return lane_sub(lane_sqrt(lane_max(inner, zero)), b);
     }
-    const float *low = job->to_low, *high = job->to_high;
-    const lane axis[3] = {d.x, d.y, d.z};
+    const lane low[3] = {from->to_low.x, from->to_low.y, from->to_low.z},
+               high[3] = {from->to_high.x, from->to_high.y, from->to_high.z}, axis[3] = {d.x, d.y, d.z};
     lane t = lane_splat(1e20f);
     for (int i = 0; i < 3; ++i) {
-        const lane_mask up = lane_lt(zero, axis[i]);
-        const lane wall = lane_pick(up, lane_splat(high[i]), lane_splat(low[i]));
+        const lane wall = lane_pick(lane_lt(zero, axis[i]), high[i], low[i]);
         const lane_mask along = lane_lt(lane_splat(1e-10f), lane_mul(axis[i], axis[i]));
         t = lane_min(t, lane_pick(along, lane_div(wall, lane_pick(along, axis[i], lane_splat(1.0f))), t));
     }
@@ -103,7 +190,7 @@ LANE_PART lane remap_far(const lmb_remap_job *job, lane3 d)
 }
 
 /* The ground's picture at metres x, z from its corner; `wide`: the ray's width there, m. */
-LANE_PART remap_colour remap_ground(const lmb_remap_job *job, lane x, lane z, lane wide)
+LANE_PART remap_colour remap_ground(const lmb_world_job *job, lane x, lane z, lane wide)
 {
     const lane half = lane_splat(0.5f), zero = lane_splat(0.0f);
     lanei level = lanei_splat(0);
@@ -140,18 +227,18 @@ typedef struct remap_hit {
 } remap_hit;
 
 /* The ground as far as rays meet its picture. */
-LANE_PART remap_hit remap_fall(const lmb_remap_job *job, lane3 d)
+LANE_PART remap_hit remap_fall(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), down = lane_sub(zero, d.y);
-    const lane_mask falls = lane_lt(lane_splat(1e-5f), down);
+    const lane_mask falls = mask_and(lane_lt(lane_splat(1e-5f), down), lane_lt(zero, from->from_ground.y));
     remap_hit hit = {{{zero, zero, zero}, zero}, zero};
     if (mask_bits(falls) == 0) {
         return hit;
     }
     const lane per_down = lane_div(one, lane_pick(falls, down, one));
-    hit.distance = lane_mul(lane_splat(job->height), per_down);
-    const lane x = lane_add(lane_splat(job->ground_x), lane_mul(d.x, hit.distance)),
-               z = lane_add(lane_splat(job->ground_z), lane_mul(d.z, hit.distance));
+    hit.distance = lane_keep(falls, lane_mul(from->from_ground.y, per_down));
+    const lane x = lane_add(from->from_ground.x, lane_mul(d.x, hit.distance)),
+               z = lane_add(from->from_ground.z, lane_mul(d.z, hit.distance));
     const lane_mask inside = mask_and(mask_and(lane_le(zero, x), lane_le(x, lane_splat(job->ground_width_m))),
                                       mask_and(lane_le(zero, z), lane_le(z, lane_splat(job->ground_depth_m))));
     const lane_mask met = mask_and(falls, inside);
@@ -169,7 +256,7 @@ LANE_PART remap_hit remap_fall(const lmb_remap_job *job, lane3 d)
 }
 
 /* Both candidates: the nearer over the other, or their mean where a ray meets both. */
-LANE_PART lane3 remap_mix(const lmb_remap_job *job, const remap_hit *ground, remap_colour cube, lane far)
+LANE_PART lane3 remap_mix(const lmb_world_job *job, const remap_hit *ground, remap_colour cube, lane far)
 {
     const lane one = lane_splat(1.0f), ground_alpha = ground->colour.alpha;
     if (job->blend) {
@@ -182,18 +269,18 @@ LANE_PART lane3 remap_mix(const lmb_remap_job *job, const remap_hit *ground, rem
 }
 
 /* What a vector of rays sees. Where the ground is near and whole the cube need not be read, nor does it count. */
-LANE_PART lane3 remap_see(const lmb_remap_job *job, lane3 d)
+LANE_PART lane3 remap_see(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
-    const lane far = remap_far(job, d), whole = lane_splat(0.99999f);
+    const lane far = remap_far(job, from, d), whole = lane_splat(0.99999f);
     remap_hit ground = {{{lane_splat(0.0f), lane_splat(0.0f), lane_splat(0.0f)}, lane_splat(0.0f)}, lane_splat(0.0f)};
     if (job->ground_levels > 0) {
-        ground = remap_fall(job, d);
+        ground = remap_fall(job, from, d);
     }
     const lane_mask hides = mask_and(lane_lt(ground.distance, far), lane_lt(whole, ground.colour.alpha));
     if (!job->blend && mask_bits(mask_not(hides)) == 0) {
         return ground.colour.rgb;
     }
-    const remap_colour cube = remap_cube(job, lane3_add(lane3_scale(d, far), lane3_of(job->from_centre)));
+    const remap_colour cube = remap_cube(job, lane3_add(lane3_scale(d, far), from->from_centre));
     const lane3 seen = remap_mix(job, &ground, cube, far);
     return job->blend ? seen : lane3_pick(hides, ground.colour.rgb, seen);
 }
@@ -204,14 +291,40 @@ LANE_INLINE lane remap_code(const uint16_t *p)
     return lane_sub(lane_mul(lane_load_u16(p, LMB_TILE), lane_splat(2.0f / 65535.0f)), lane_splat(1.0f));
 }
 
-static void KERNEL(remap)(float *out, const lmb_remap_job *job)
+static void KERNEL(remap)(float *out, const uint16_t *direction, int32_t count, lmb_vec3 at, const lmb_world_job *job)
 {
-    const uint16_t *x = job->direction, *y = x + job->count, *z = y + job->count;
-    for (int32_t k = 0; k < job->count; k += LANES) {
+    const uint16_t *x = direction, *y = x + count, *z = y + count;
+    remap_place from;
+    remap_stand(&from, job, lane3_of(at));
+    for (int32_t k = 0; k < count; k += LANES) {
         const lane3 d = {remap_code(x + k), remap_code(y + k), remap_code(z + k)};
-        const lane3 seen = remap_see(job, d);
+        const lane3 seen = remap_see(job, &from, d);
         lane_store(out + k, seen.x);
-        lane_store(out + job->count + k, seen.y);
-        lane_store(out + 2 * job->count + k, seen.z);
+        lane_store(out + count + k, seen.y);
+        lane_store(out + 2 * count + k, seen.z);
+    }
+}
+
+LANE_INLINE void remap_store(float out[3][LMB_TILE_PIXELS], int k, lane3 v)
+{
+    lane_store(out[0] + k, v.x);
+    lane_store(out[1] + k, v.y);
+    lane_store(out[2] + k, v.z);
+}
+
+static void KERNEL(see)(float out[3][LMB_TILE_PIXELS], float origin[3][LMB_TILE_PIXELS],
+                        float direction[3][LMB_TILE_PIXELS], const lmb_world_job *job)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        remap_place from;
+        remap_stand(&from, job, lane3_load((const float (*)[LMB_TILE_PIXELS])origin, k));
+        remap_store(out, k, remap_see(job, &from, lane3_load((const float (*)[LMB_TILE_PIXELS])direction, k)));
+    }
+}
+
+static void KERNEL(look)(float out[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS], const lmb_world_job *job)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        remap_store(out, k, remap_cube(job, lane3_load((const float (*)[LMB_TILE_PIXELS])direction, k)).rgb);
     }
 }

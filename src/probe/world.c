@@ -97,7 +97,8 @@ void lmb_world_texel(float out[4], const lmb_world *w, size_t at)
     }
 }
 
-static float sane_radiance(float c) { return c > 0.0f && c < 1e30f ? c : 0.0f; }
+/* What is darker than any lamp's reflection is dark: its products stay far from denormals. */
+static float sane_radiance(float c) { return c > 1e-12f && c < 1e30f ? c : 0.0f; }
 
 static size_t face_texel(const lmb_world_level *l, int32_t face, int32_t x, int32_t y)
 {

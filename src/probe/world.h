@@ -1,10 +1,13 @@
-/* world.h: one texel of the world. Floor 6. */
+/* world.h: one texel of the world, and all of it for the kernels. Floor 6. */
 #ifndef LMB_PROBE_WORLD_H
 #define LMB_PROBE_WORLD_H
 
-#include <lambent/probe.h>
+#include "../lane/kernels.h"
 
 /* RGB radiance and alpha of texel `at`. */
 void lmb_world_texel(float out[4], const lmb_world *world, size_t at);
+
+/* What kernels ask of the world for rays so wide, rad. */
+void lmb_world_ask(lmb_world_job *out, const lmb_world *world, float ray_width, int32_t blend);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include <lambent/lambent.h>
 
+#include "../../src/probe/cube.h"
 #include "../truth_scene.h"
 
 void test_relight(void);
@@ -171,6 +172,60 @@ static void filters_alone(stage *s)
     }
 }
 
+/* --- mirrors ------------------------------------------------------------------------------------------------------ */
+
+enum { MIRROR = 64, MIRRORED = 6 * MIRROR * MIRROR };
+
+/* What the texel's ray meets: the far sphere, the ground's picture, or ground that no picture shows. */
+static int class_of(lmb_vec3 at, int32_t i)
+{
+    const lmb_vec3 d = cube_direction(i / (MIRROR * MIRROR), i % MIRROR, i / MIRROR % MIRROR, MIRROR);
+    const float t = d.y < 0.0f ? at.y / -d.y : 1e9f, x = at.x + d.x * t, z = at.z + d.z * t;
+    return x * x + z * z > 150.0f * 150.0f ? 0 : fabsf(x) <= 100.0f && fabsf(z) <= 100.0f ? 1 : 2;
+}
+
+/* 1 where all texels around, over the edges of faces too, meet the same: away from silhouettes. */
+static int is_inside(lmb_vec3 at, int32_t i)
+{
+    const int32_t face = i / (MIRROR * MIRROR), own = class_of(at, i);
+    int same = own != 2;
+    for (int k = 0; k < 9 && same; ++k) {
+        const int32_t x = i % MIRROR + k % 3 - 1, y = i / MIRROR % MIRROR + k / 3 - 1;
+        const cube_place p = cube_border(face, x, y, MIRROR);
+        same = class_of(at, (p.face * MIRROR + p.y) * MIRROR + p.x) == own;
+    }
+    return same;
+}
+
+/* S17: what a mirror at a place shows, unblurred. */
+static void mirror_at(stage *s, int place)
+{
+    static float cube[3 * MIRRORED];
+    static lmb_probe_rays rays;
+    const lmb_world_look look = {&s->world, 0.0f, 0};
+    char file[40];
+    image truth = {0};
+    double sum = 0.0, mean = 0.0;
+    int count = 0;
+    snprintf(file, sizeof file, "pos%d_radiance.pfm", place + 1);
+    CHECK(lmb_probe_reflect(cube, MIRROR, &rays, lmb_kernels_pick(), &look, places[place], 0.0f) == LMB_OK);
+    if (load(&truth, file)) {
+        for (int32_t i = 0; i < MIRRORED; ++i) {
+            const int inside = is_inside(places[place], i);
+            for (int c = 0; c < 3 && inside; ++c) {
+                const double want = (double)truth.pixels[3 * i + c], d = (double)cube[c * MIRRORED + i] - want;
+                sum += d * d;
+                mean += want;
+                ++count;
+            }
+        }
+        const double rmse = sqrt(sum * count) / mean;
+        printf("  mirror at place %d: %.4f over %.1f %% of its texels\n", place + 1, rmse, count / (0.03 * MIRRORED));
+        CHECK_MSG(rmse <= 0.03, "place %d: %.4f", place + 1, rmse);
+    }
+    image_free(&truth);
+}
+
 static void with_remap(stage *s, const char *what, int32_t format, const double bar[METHODS])
 {
     lmb_world_pictures p;
@@ -182,6 +237,9 @@ static void with_remap(stage *s, const char *what, int32_t format, const double 
         for (int i = 0; i < PLACES; ++i) {
             light(s, places[i]);
             compare(s, what, i, bar);
+            if (format == LMB_WORLD_F32) {
+                mirror_at(s, i);
+            }
         }
     }
     free(s->ground);

@@ -1,0 +1,161 @@
+/* reflect.c: what a rough surface mirrors of the world, by reflected direction, as a cube. Floor 6.      [S16 S17 S22]
+ *
+ * The lobe of lmb_gloss for a viewer straight above, about a direction: D(h) G(l) / 4, that is rays in proportion to
+ * D / 4, weighed by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of the lobe (filtered
+ * importance sampling, Krivanek and Colbert 2008). That viewers who look along the surface see a longer lobe is left
+ * out, as in all such cubes. */
+#include <string.h>
+
+#include "../base/poly.h"
+#include "cube.h"
+#include "world.h"
+
+#if LMB_PROBES
+
+enum { RINGS = 6, AROUND = 8, RAYS = RINGS * AROUND };
+enum { FINE = 6 }; /* a mirror's rays each way in a texel: means over texels, as pictures have them */
+
+/* A ray about +z: one of AROUND in its ring. */
+typedef struct lobe_ray {
+    lmb_vec3 to;
+    float weight, width; /* rad */
+} lobe_ray;
+
+/* Ring i holds 1 / RINGS of D, at its middle: tan^2 of the half vector's angle is a2 u / (1 - u). Its rays lie half a
+ * step round from the next ring's. */
+static float set_rays(lobe_ray out[RAYS], float alpha)
+{
+    const float a2 = alpha * alpha;
+    float sum = 0.0f;
+    for (int i = 0; i < RAYS; ++i) {
+        const int ring = i / AROUND;
+        const float u = ((float)ring + 0.5f) / (float)RINGS, tan2 = a2 * u / (1.0f - u), cos2 = 1.0f / (1.0f + tan2);
+        const float z = 2.0f * cos2 - 1.0f, round = sqrtf(maxf(1.0f - z * z, 0.0f));
+        const float angle = 2.0f * LMB_PI * (((float)(i % AROUND) + 0.5f * (float)(ring % 2)) / (float)AROUND);
+        const float t = cos2 * (a2 - 1.0f) + 1.0f, d = a2 / (LMB_PI * (t * t));
+        out[i].to = vec3(round * lmb_cos(angle), round * lmb_sin(angle), z);
+        out[i].weight = z > 0.0f ? 2.0f * z / (z + sqrtf(a2 + (1.0f - a2) * (z * z))) : 0.0f;
+        out[i].width = sqrtf(4.0f / (d * (float)RAYS));
+        sum += out[i].weight;
+    }
+    return sum;
+}
+
+/* Two directions at right angles to n and each other. */
+static void frame_of(lmb_vec3 *across, lmb_vec3 *along, lmb_vec3 n)
+{
+    const lmb_vec3 up = absf(n.y) < 0.9f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
+    *across = normalize3(cross3(up, n));
+    *along = cross3(n, *across);
+}
+
+static void set_tile(lmb_probe_rays *t, int32_t first, int32_t n, lmb_vec3 at)
+{
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t i = mini(first + k, 6 * n * n - 1);
+        t->n[k] = cube_direction(i / (n * n), i % n, i / n % n, n);
+        frame_of(&t->across[k], &t->along[k], t->n[k]);
+        t->origin[0][k] = at.x;
+        t->origin[1][k] = at.y;
+        t->origin[2][k] = at.z;
+    }
+    memset(t->sum, 0, sizeof t->sum);
+}
+
+static void point_ray(lmb_probe_rays *t, const lobe_ray *ray)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const lmb_vec3 n = t->n[k], a = t->across[k], b = t->along[k];
+        t->direction[0][k] = a.x * ray->to.x + b.x * ray->to.y + n.x * ray->to.z;
+        t->direction[1][k] = a.y * ray->to.x + b.y * ray->to.y + n.y * ray->to.z;
+        t->direction[2][k] = a.z * ray->to.x + b.z * ray->to.y + n.z * ray->to.z;
+    }
+}
+
+static void point_fine(lmb_probe_rays *t, int32_t first, int32_t n, int32_t part)
+{
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t i = mini(first + k, 6 * n * n - 1), x = FINE * (i % n) + part % FINE,
+                      y = FINE * (i / n % n) + part / FINE;
+        const lmb_vec3 d = cube_direction(i / (n * n), x, y, FINE * n);
+        t->direction[0][k] = d.x;
+        t->direction[1][k] = d.y;
+        t->direction[2][k] = d.z;
+    }
+}
+
+static void add_seen(lmb_probe_rays *t, float weight, const lmb_kernels *kernels, const lmb_world_job *job)
+{
+    kernels->see(t->seen, t->origin, t->direction, job);
+    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+        t->sum[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] +=
+            weight * t->seen[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
+    }
+}
+
+static void store(float *cube, const lmb_probe_rays *t, int32_t first, int32_t texels, float scale)
+{
+    for (int32_t k = 0; k < LMB_TILE_PIXELS && first + k < texels; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            cube[c * texels + first + k] = t->sum[c][k] * scale;
+        }
+    }
+}
+
+int32_t lmb_probe_gloss_side(float roughness)
+{
+    return roughness < 0.1f ? 0 : roughness < 0.2f ? 64 : roughness < 0.35f ? 32 : roughness < 0.6f ? 16 : 8;
+}
+
+static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *kernels, const lmb_world_look *look,
+                   lmb_vec3 at)
+{
+    lmb_world_job job;
+    lmb_world_ask(&job, look->world, 0.5f * LMB_PI / (float)(FINE * n), look->blend);
+    job.means = 1;
+    for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
+        set_tile(t, first, n, at);
+        for (int32_t part = 0; part < FINE * FINE; ++part) {
+            point_fine(t, first, n, part);
+            add_seen(t, 1.0f, kernels, &job);
+        }
+        store(cube, t, first, 6 * n * n, 1.0f / (float)(FINE * FINE));
+    }
+}
+
+static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *kernels, const lmb_world_look *look,
+                 lmb_vec3 at, float alpha)
+{
+    lobe_ray rays[RAYS];
+    const float weights = set_rays(rays, alpha);
+    for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
+        set_tile(t, first, n, at);
+        for (int i = 0; i < RAYS; ++i) {
+            if (rays[i].weight > 0.0f) {
+                lmb_world_job job;
+                lmb_world_ask(&job, look->world, rays[i].width, look->blend);
+                point_ray(t, &rays[i]);
+                add_seen(t, rays[i].weight, kernels, &job);
+            }
+        }
+        store(cube, t, first, 6 * n * n, 1.0f / weights);
+    }
+}
+
+lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                             const lmb_world_look *look, lmb_vec3 at, float roughness)
+{
+    if (cube == NULL || scratch == NULL || kernels == NULL || look == NULL || look->world == NULL ||
+        lmb_probe_cube_bytes(n) == 0 || !is_place(at) || !(roughness >= 0.0f && roughness <= 1.0f)) {
+        return LMB_ERR_ARG;
+    }
+    const float alpha = roughness * roughness;
+    if (alpha < LMB_LEAST_ALPHA) {
+        mirror(cube, n, scratch, kernels, look, at);
+    } else {
+        blur(cube, n, scratch, kernels, look, at, alpha);
+    }
+    return LMB_OK;
+}
+
+#endif

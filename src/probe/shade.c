@@ -1,0 +1,176 @@
+/* shade.c: small cubes with borders, and what a tile's pixels take from them. Floor 6.                   [S17 S21 S22] */
+#include "../base/memory_check.h"
+#include "../light/gloss.h"
+#include "../raster/resolve.h"
+#include "../raster/tile.h"
+#include "cube.h"
+#include "world.h"
+
+#if LMB_PROBES
+
+/* --- cubes -------------------------------------------------------------------------------------------------------- */
+
+size_t lmb_probe_cube_bytes(int32_t n)
+{
+    return n < 1 || n > 256 ? 0 : 6 * (size_t)(n + 2) * (size_t)(n + 2) * 4 * sizeof(float);
+}
+
+static size_t texel_at(int32_t face, int32_t x, int32_t y, int32_t n)
+{
+    return (size_t)((face * (n + 2) + y + 1) * (n + 2) + x + 1);
+}
+
+/* A border's texel is the one that its own place meets; a corner's the mean of the three that meet there, so that the
+ * three faces agree at it. */
+static void set_border(float (*texel)[4], int32_t n)
+{
+    const int32_t side = n + 2, around = 4 * (n + 1);
+    for (int32_t i = 0; i < 6 * around; ++i) {
+        const int32_t face = i / around, k = i % (n + 1), edge = i % around / (n + 1);
+        const int32_t x = edge == 0 ? k : edge == 1 ? n : edge == 2 ? n - 1 - k : -1;
+        const int32_t y = edge == 0 ? -1 : edge == 1 ? k : edge == 2 ? n : n - 1 - k;
+        const cube_place p = cube_border(face, x, y, n);
+        for (int c = 0; c < 4; ++c) {
+            texel[texel_at(face, x, y, n)][c] = texel[texel_at(p.face, p.x, p.y, n)][c];
+        }
+    }
+    for (int32_t i = 0; i < 24; ++i) {
+        const int32_t face = i / 4, x = i & 1 ? n : -1, y = i & 2 ? n : -1;
+        const int32_t in_x = clampi(x, 0, n - 1), in_y = clampi(y, 0, n - 1);
+        for (int c = 0; c < 4; ++c) {
+            texel[(face * side + y + 1) * side + x + 1][c] =
+                (texel[texel_at(face, in_x, in_y, n)][c] + texel[texel_at(face, x, in_y, n)][c] +
+                 texel[texel_at(face, in_x, y, n)][c]) * (1.0f / 3.0f);
+        }
+    }
+}
+
+lmb_status lmb_probe_cube_init(lmb_probe_cube *out, const float *planes, int32_t n, void *memory, size_t bytes)
+{
+    if (out == NULL || planes == NULL || lmb_probe_cube_bytes(n) == 0) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_status status = check_memory(memory, bytes, lmb_probe_cube_bytes(n));
+    if (status != LMB_OK) {
+        return status;
+    }
+    float (*texel)[4] = (float (*)[4])memory;
+    for (int32_t i = 0; i < 6 * n * n; ++i) {
+        float *to = texel[texel_at(i / (n * n), i % n, i / n % n, n)];
+        to[0] = planes[i];
+        to[1] = planes[6 * n * n + i];
+        to[2] = planes[12 * n * n + i];
+        to[3] = 1.0f;
+    }
+    set_border(texel, n);
+    out->texel = (const float *)memory;
+    out->side = n;
+    return LMB_OK;
+}
+
+static void ask_cube(lmb_world_job *out, const lmb_probe_cube *cube)
+{
+    out->texels = cube->texel;
+    out->format = LMB_WORLD_F32;
+    out->side = cube->side;
+    out->cube_at = 0;
+    out->means = 0;
+}
+
+/* --- a tile's pixels ---------------------------------------------------------------------------------------------- */
+
+lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube)
+{
+    lmb_world_job job;
+    if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || cube == NULL || cube->texel == NULL) {
+        return LMB_ERR_ARG;
+    }
+    ask_cube(&job, cube);
+    kernels->look(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->normal, &job);
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] += scratch->seen[c][k];
+        }
+    }
+    return LMB_OK;
+}
+
+/* The way on of what comes from the viewer. Pixels without a lobe get any direction. */
+static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_gloss *gloss, const lmb_tile *tile)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int has = (int)(gloss->pixels >> k & 1u);
+        const lmb_vec3 n = tile_vec(tile->normal, k), v = has ? tile_vec(gloss->towards, k) : n;
+        const lmb_vec3 r = has ? sub3(mul3(n, 2.0f * dot3(n, v)), v) : vec3(0.0f, 1.0f, 0.0f);
+        out[0][k] = r.x;
+        out[1][k] = r.y;
+        out[2][k] = r.z;
+    }
+}
+
+lmb_status lmb_probe_gloss_tile(lmb_gloss *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
+                                const lmb_world_look *look)
+{
+    lmb_world_job job;
+    if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL ||
+        (cube == NULL ? look == NULL || look->world == NULL : cube->texel == NULL)) {
+        return LMB_ERR_ARG;
+    }
+    reflect(scratch->direction, inout, tile);
+    if (cube != NULL) {
+        ask_cube(&job, cube);
+        kernels->look(scratch->seen, scratch->direction, &job);
+    } else {
+        lmb_world_ask(&job, look->world, look->ray_width, look->blend);
+        kernels->see(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->position, scratch->direction, &job);
+    }
+    for (uint64_t bits = pixels & inout->pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] += gloss_share(inout, c, k) * scratch->seen[c][k];
+        }
+    }
+    return LMB_OK;
+}
+
+/* The rays of a tile's pixels from the eye: unit directions. */
+static void view_rays(lmb_probe_rays *out, const lmb_view *view, int32_t x, int32_t y)
+{
+    lmb_rays rays;
+    lmb_resolve_rays(&rays, view, x, y);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const float across = (float)(k % LMB_TILE), down = (float)(k / LMB_TILE);
+        const lmb_vec3 from = add3(rays.origin, add3(mul3(rays.ox, across), mul3(rays.oy, down)));
+        const lmb_vec3 at = add3(view->eye, from);
+        const lmb_vec3 to = normalize3(add3(rays.direction, add3(mul3(rays.rx, across), mul3(rays.ry, down))));
+        out->origin[0][k] = at.x;
+        out->origin[1][k] = at.y;
+        out->origin[2][k] = at.z;
+        out->direction[0][k] = to.x;
+        out->direction[1][k] = to.y;
+        out->direction[2][k] = to.z;
+    }
+}
+
+lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                const lmb_tile *tile, const lmb_view *view, const lmb_world_look *look)
+{
+    lmb_world_job job;
+    if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || view == NULL || look == NULL || look->world == NULL) {
+        return LMB_ERR_ARG;
+    }
+    view_rays(scratch, view, tile->x, tile->y);
+    lmb_world_ask(&job, look->world, look->ray_width, look->blend);
+    kernels->see(scratch->seen, scratch->origin, scratch->direction, &job);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        for (int c = 0; c < 3 && tile->id[k] == 0; ++c) {
+            inout[c][k] = scratch->seen[c][k];
+        }
+    }
+    return LMB_OK;
+}
+
+#endif

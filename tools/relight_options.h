@@ -1,0 +1,49 @@
+/* relight_options.h: what `lambent relight` was asked for. */
+#ifndef RELIGHT_OPTIONS_H
+#define RELIGHT_OPTIONS_H
+
+#include <lambent/lambent.h>
+
+#include "report.h"
+#include "view_options.h"
+
+enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16 }; /* --at and --keep; --light: given at most so often */
+
+enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
+extern const char *const relight_filters[FILTERS + 1];
+
+typedef struct relight_options {
+    /* the world */
+    const char *world, *ground;
+    lmb_world_pictures place; /* all but the pictures */
+    float ground_size[2], ground_centre[2];
+    int32_t format, blend;
+    int has_far, has_ground_centre;
+    /* what is in it */
+    const char *object, *path;
+    lmb_vec3 at[RELIGHT_PLACES], keep[RELIGHT_PLACES];
+    int32_t at_count, keep_count;
+    float scale_m;       /* of the object's longest side; 0: as its file says */
+    float roughness, f0; /* < 0: its materials' own */
+    int per_part;
+    lmb_light lights[RELIGHT_LIGHTS];
+    int32_t light_count;
+    lmb_probe_policy policy;
+    /* how and where to */
+    int32_t filter, faces, show;
+    view_options view;
+    const char *out, *cube, *map;
+    int exposure_auto;
+    float exposure_ev;
+    const lmb_kernels *kernels;
+    int help;
+} relight_options;
+
+/* In parts: C99 asks compilers for strings of 4,095 characters only. */
+enum { RELIGHT_USAGE_PARTS = 2 };
+extern const char *const relight_usage[RELIGHT_USAGE_PARTS];
+
+/* 1, or 0 with `r` set: bad usage. */
+int relight_options_parse(relight_options *out, int argc, char **argv, report *r);
+
+#endif
