@@ -64,7 +64,7 @@ static lmb_status filter(relight_light *w, const relight_options *o, int32_t n)
         return lmb_probe_map_cube(w->cube, n, w->blurred, &w->table[2]);
     }
     if (o->filter == FILTER_COSINE) {
-        lmb_probe_reduce(&w->lights, w->map, &w->table[0]);
+        lmb_probe_reduce(&w->lights, o->kernels, w->map, &w->table[0]);
         return lmb_probe_cosine(w->cube, n, o->kernels, &w->lights, &w->table[0]);
     }
     lmb_probe_sh(harmonics, w->map, &w->table[0]);

@@ -40,8 +40,8 @@ static const char usage_world[] =
 
 static const char usage_object[] =
     "objects\n"
-    "  --object FILE              .gltf .glb .obj .ply: stands with the middle of its box's bottom at --at, and is lit\n"
-    "                             as its box's middle is\n"
+    "  --object FILE              .gltf .glb .obj .ply: stands with the middle of its box's bottom at --at, and is\n"
+    "                             lit as its box's middle is\n"
     "  --at X,Y,Z                 again and again: one more of it, up to 32\n"
     "  --scale M                  its longest side, m (default: as the file says)\n"
     "  --roughness R              0 (a mirror) .. 1 (default: glTF's materials' own, else 0.4)\n"
@@ -200,7 +200,10 @@ static int parse_exposure(const char *text, relight_options *o)
     return o->exposure_auto || option_number(text, -60.0f, 60.0f, &o->exposure_ev);
 }
 
-static int parse_backend(const char *text, relight_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
+static int parse_backend(const char *text, relight_options *o)
+{
+    return (o->kernels = lmb_kernels_named(text)) != NULL;
+}
 
 static const struct flag {
     option_name of;

@@ -84,7 +84,7 @@ enum { LMB_SH_9 = 9, LMB_SH_16 = 16, LMB_SH_25 = 25 };
 /* All that a place sees as 6 x 8 x 8 directions with their light. */
 typedef struct lmb_probe_lights {
     float rgbw[4][LMB_PROBE_TEXELS];     /* radiance x solid angle, W/m2; the solid angle itself, sr */
-    float shared[LMB_PROBE_BORDERED][4]; /* scratch */
+    float shared[LMB_PROBE_BORDERED + 1][4]; /* scratch; vectors reach one past the last */
 } lmb_probe_lights;
 
 /* Kernels of a blur, for maps of one size. [S11] */
@@ -191,7 +191,8 @@ lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_wor
                            lmb_vec3 at, int32_t blend);
 
 /* lmb_probe_reduce: a map's light, two by two texels shared among the nine nearest of 6 x 8 x 8 directions. */
-lmb_status lmb_probe_reduce(lmb_probe_lights *out, const float *map, const lmb_probe_table *table);
+lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, const float *map,
+                            const lmb_probe_table *table);
 
 /* lmb_probe_cosine: irradiance of n x n x 6 normals (texel centres): pi times the lights' mean by cosine, so that a
  * world of one radiance gives pi times that. [S14 S25]

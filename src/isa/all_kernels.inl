@@ -27,6 +27,7 @@
 #endif
 #if LMB_PROBES
 #include "../probe/remap.inl"
+#include "../probe/share.inl"
 #include "../probe/cosine.inl"
 #include "../probe/blur.inl"
 #endif
@@ -54,6 +55,6 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(gloss_direct),
 #endif
 #if LMB_PROBES
-    KERNEL(remap), KERNEL(see), KERNEL(look), KERNEL(cosine), KERNEL(blur),
+    KERNEL(remap), KERNEL(see), KERNEL(look), KERNEL(share), KERNEL(cosine), KERNEL(blur),
 #endif
 };

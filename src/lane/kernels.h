@@ -240,6 +240,8 @@ struct lmb_kernels {
                 const lmb_world_job *job);
     /* What the job's cube alone shows along a direction of any length. */
     void (*look)(float out[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS], const lmb_world_job *job);
+    /* A map's light, added to lmb_probe_lights' `shared`. */
+    void (*share)(float (*shared)[4], const float *map, const lmb_probe_table *table);
     /* Irradiance by normal; `direction`: of the lights, 3 planes. */
     void (*cosine)(float out[3][LMB_TILE_PIXELS], float normal[3][LMB_TILE_PIXELS], const lmb_probe_lights *lights,
                    const float *direction);

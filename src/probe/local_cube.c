@@ -8,32 +8,6 @@
 
 enum { SIDE = LMB_PROBE_SIDE + 2 }; /* with a border */
 
-/* Of a parabola through the middles of three texels in a row, at t -0.5 .. 0.5 from the second. */
-static void parabola(float weight[3], uint8_t code)
-{
-    const float t = (float)code * (1.0f / 255.0f) - 0.5f;
-    weight[0] = 0.5f * t * (t - 1.0f);
-    weight[1] = 1.0f - t * t;
-    weight[2] = 0.5f * t * (t + 1.0f);
-}
-
-/* Among the nine texels around its place, so that the lights' sum, mean place and spread are its own: whatever is
- * smooth over three texels comes out right. To four (their spread is wider) is off by a half more, to one by two to
- * three times. */
-static void share(float shared[][4], const lmb_probe_share *at, const float light[4])
-{
-    float across[3], down[3];
-    float (*to)[4] = &shared[at->slot];
-    parabola(across, at->x);
-    parabola(down, at->y);
-    for (int i = 0; i < 9; ++i) {
-        const float weight = across[i % 3] * down[i / 3];
-        for (int c = 0; c < 4; ++c) {
-            to[i / 3 * SIDE + i % 3][c] += weight * light[c];
-        }
-    }
-}
-
 /* A border's share goes to the texel that its direction meets. */
 static void fold(lmb_probe_lights *inout)
 {
@@ -51,23 +25,14 @@ static void fold(lmb_probe_lights *inout)
     }
 }
 
-lmb_status lmb_probe_reduce(lmb_probe_lights *out, const float *map, const lmb_probe_table *table)
+lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, const float *map,
+                            const lmb_probe_table *table)
 {
-    if (out == NULL || map == NULL || table == NULL) {
+    if (out == NULL || kernels == NULL || map == NULL || table == NULL) {
         return LMB_ERR_ARG;
     }
-    const int32_t width = table->width, count = width * table->height;
     memset(out->shared, 0, sizeof out->shared);
-    for (int32_t i = 0; i < count / 4; ++i) {
-        const int32_t y = 2 * (i / (width / 2)), at = y * width + 2 * (i % (width / 2));
-        float light[4];
-        light[3] = 2.0f * (table->area[y] + table->area[y + 1]);
-        for (int c = 0; c < 3; ++c) {
-            const float *row = map + (size_t)c * (size_t)count + at;
-            light[c] = (row[0] + row[1]) * table->area[y] + (row[width] + row[width + 1]) * table->area[y + 1];
-        }
-        share(out->shared, &table->share[i], light);
-    }
+    kernels->share(out->shared, map, table);
     fold(out);
     return LMB_OK;
 }

@@ -1,4 +1,4 @@
-/* shade.c: small cubes with borders, and what a tile's pixels take from them. Floor 6.                   [S17 S21 S22] */
+/* shade.c: small cubes with borders, and what a tile's pixels take from them. Floor 6.                  [S17 S21 S22] */
 #include "../base/memory_check.h"
 #include "../light/gloss.h"
 #include "../raster/resolve.h"
@@ -159,7 +159,8 @@ lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays 
                                 const lmb_tile *tile, const lmb_view *view, const lmb_world_look *look)
 {
     lmb_world_job job;
-    if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || view == NULL || look == NULL || look->world == NULL) {
+    if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || view == NULL || look == NULL ||
+        look->world == NULL) {
         return LMB_ERR_ARG;
     }
     view_rays(scratch, view, tile->x, tile->y);

@@ -109,7 +109,7 @@ static void light(stage *s, lmb_vec3 at)
     const lmb_kernels *kernels = lmb_kernels_pick();
     float harmonics[3][LMB_SH_25];
     CHECK(lmb_probe_remap(s->map, kernels, &s->world, &s->table, at, 0) == LMB_OK);
-    CHECK(lmb_probe_reduce(&s->lights, s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_reduce(&s->lights, kernels, s->map, &s->table) == LMB_OK);
     CHECK(lmb_probe_cosine(s->cube[COSINE], SIDE, kernels, &s->lights, &s->table) == LMB_OK);
     CHECK(lmb_probe_sh(harmonics, s->map, &s->table) == LMB_OK);
     lmb_probe_sh_cube(s->cube[SH_9], SIDE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_9);

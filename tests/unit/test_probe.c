@@ -265,7 +265,7 @@ static void one_radiance(stage *s)
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
     see_from(s, vec3(20.0f, 3.0f, -11.0f), 0);
     CHECK(farthest(s->map, 3 * COUNT, 1.0f) < 1e-6f);
-    CHECK(lmb_probe_reduce(&s->lights, s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_reduce(&s->lights, lmb_kernels_pick(), s->map, &s->table) == LMB_OK);
     CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
     const float off = farthest(s->cube, 3 * CUBE_TEXELS, pi);
     CHECK_MSG(off < 1e-6f * pi, "%g", (double)off);
@@ -340,7 +340,7 @@ static void known_irradiance(stage *s)
     CHECK(lmb_probe_sh_cube(nine, CUBE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_9) == LMB_OK);
     CHECK(lmb_probe_sh_cube(s->cube, CUBE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_16) == LMB_OK);
     CHECK(memcmp(nine, s->cube, sizeof nine) == 0);
-    CHECK(lmb_probe_reduce(&s->lights, s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_reduce(&s->lights, lmb_kernels_pick(), s->map, &s->table) == LMB_OK);
     CHECK(lmb_probe_cosine(s->cube, CUBE, lmb_kernels_pick(), &s->lights, &s->table) == LMB_OK);
     for (int i = 0; i < CUBE_TEXELS; ++i) {
         const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);

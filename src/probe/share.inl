@@ -1,0 +1,56 @@
+/* share.inl: a map's light, two by two texels, among the nine nearest of 6 x 8 x 8 directions.                    [S14]
+ *
+ * So that the lights' sum, mean place and spread are their own: whatever is smooth over three texels comes out right.
+ * To four (their spread is wider) is off by a half more, to one by two to three times.
+ *
+ * Three texels in a row are twelve numbers side by side, and with a fourth of weight 0 whole vectors of any machine.
+ * Lanes are those numbers. */
+
+enum { SHARE_LANES = 16, SHARE_SIDE = LMB_PROBE_SIDE + 2 };
+
+/* Of the parabola through the middles of three texels, at t -0.5 .. 0.5 from the second: square t^2 + line t + flat. */
+static const float share_square[SHARE_LANES] = {0.5f, 0.5f, 0.5f, 0.5f, -1, -1, -1, -1, 0.5f, 0.5f, 0.5f, 0.5f},
+                   share_line[SHARE_LANES] = {-0.5f, -0.5f, -0.5f, -0.5f, 0, 0, 0, 0, 0.5f, 0.5f, 0.5f, 0.5f},
+                   share_flat[SHARE_LANES] = {0, 0, 0, 0, 1, 1, 1, 1};
+
+LANE_INLINE float share_place(uint8_t code) { return (float)code * (1.0f / 255.0f) - 0.5f; }
+
+/* Of four texels, red, green, blue and their solid angle, four times over. */
+LANE_INLINE void share_light(float light[SHARE_LANES], const float *at, size_t plane, int32_t width,
+                             const float area[2])
+{
+    light[3] = 2.0f * (area[0] + area[1]);
+    for (int c = 0; c < 3; ++c) {
+        const float *row = at + (size_t)c * plane;
+        light[c] = (row[0] + row[1]) * area[0] + (row[width] + row[width + 1]) * area[1];
+    }
+    for (int c = 4; c < SHARE_LANES; ++c) {
+        light[c] = light[c - 4];
+    }
+}
+
+LANE_INLINE void share_add(float *to, const lmb_probe_share *at, const float light[SHARE_LANES])
+{
+    const float t = share_place(at->y), down[3] = {0.5f * t * (t - 1.0f), 1.0f - t * t, 0.5f * t * (t + 1.0f)};
+    const lane x = lane_splat(share_place(at->x)), x2 = lane_mul(x, x);
+    for (int k = 0; k < SHARE_LANES; k += LANES) {
+        const lane across = lane_add(lane_add(lane_mul(lane_load(share_square + k), x2),
+                                              lane_mul(lane_load(share_line + k), x)), lane_load(share_flat + k));
+        const lane value = lane_mul(across, lane_load(light + k));
+        for (int i = 0; i < 3; ++i) {
+            float *row = to + 4 * SHARE_SIDE * i + k;
+            lane_store(row, lane_add(lane_load(row), lane_mul(lane_splat(down[i]), value)));
+        }
+    }
+}
+
+static void KERNEL(share)(float (*shared)[4], const float *map, const lmb_probe_table *table)
+{
+    const int32_t width = table->width, count = width * table->height;
+    float light[SHARE_LANES];
+    for (int32_t i = 0; i < count / 4; ++i) {
+        const int32_t y = 2 * (i / (width / 2)), at = y * width + 2 * (i % (width / 2));
+        share_light(light, map + at, (size_t)count, width, table->area + y);
+        share_add(shared[table->share[i].slot], &table->share[i], light);
+    }
+}
