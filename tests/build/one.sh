@@ -2,7 +2,7 @@
 . tests/build/checks.sh
 
 mkdir -p "$B"
-check "$CC src/*/*.c" $CC -Iinclude -o "$B/one" src/*/*.c tests/golden/golden.c tools/demo_scene.c tests/golden/main_golden.c \
+check "$CC src/*/*.c" $CC -Iinclude -o "$B/one" src/*/*.c tests/golden/golden*.c tools/demo_scene.c tests/golden/main_golden.c \
     platform/host/port_host.c $LDLIBS
 if [ $failed -eq 0 ]; then
     check "golden pictures of a build without flags" "$B/one"

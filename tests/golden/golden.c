@@ -6,19 +6,20 @@
  *
  * Freestanding and small (static memory under 256 KiB in the small configuration), so that a Cortex-M4F runs the very
  * same list. A hash changes only in a commit that explains the pixels. */
-#include "golden.h"
+#include "golden_cases.h"
 
+#include <stddef.h>
 #include <string.h>
 
 #include "../../src/base/poly.h"
 #include "../../tools/demo_scene.h"
 
-
-enum { WIDTH = 80, HEIGHT = 60, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40, TREE = 32 };
+enum { WIDTH = GOLDEN_WIDTH, HEIGHT = GOLDEN_HEIGHT, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40, TREE = 32 };
 enum { LIGHT_CELLS = 20, MANY_LIGHTS = 600, ELEMENTS = 64 };
 
 static struct memory {
-    uint32_t depth[88 * 64], id[88 * 64], out[WIDTH * HEIGHT * 3];
+    uint32_t depth[88 * 64], id[88 * 64];
+    uint32_t out[WIDTH * HEIGHT * 3]; /* from here on: golden_first */
     uint32_t map[MAP * MAP * 2];
     lmb_groups groups;
     lmb_band_scratch scratch;
@@ -37,12 +38,12 @@ static union light_memory {
 static uint32_t point_cells[MAP / 4 * (MAP / 4) + 1];
 static lmb_points points = {light_memory.points, POINTS, 0, point_cells, MAP / 4 * (MAP / 4) + 1, 0, NULL, 0, 0};
 static uint32_t blocker_memory[TRIANGLES * 29 + 1024], element_memory[ELEMENTS * 40 + 64];
-static const lmb_kernels *kernels; /* those that the cases run with */
+const lmb_kernels *golden_kernels;
 static const golden_way *way;
 
 /* --- hashing: every value as little-endian bytes ------------------------------------------------------------------ */
 
-static uint64_t hash_u32(uint64_t h, uint32_t v)
+uint64_t golden_hash_u32(uint64_t h, uint32_t v)
 {
     for (int i = 0; i < 4; ++i) {
         h = (h ^ ((v >> (8 * i)) & 255u)) * UINT64_C(0x100000001b3);
@@ -50,36 +51,34 @@ static uint64_t hash_u32(uint64_t h, uint32_t v)
     return h;
 }
 
-static uint64_t hash_floats(uint64_t h, const float *v, size_t n)
+uint64_t golden_hash_floats(uint64_t h, const float *v, size_t n)
 {
     for (size_t i = 0; i < n; ++i) {
         uint32_t bits;
         memcpy(&bits, &v[i], sizeof bits);
-        h = hash_u32(h, bits);
+        h = golden_hash_u32(h, bits);
     }
     return h;
 }
 
-static const uint64_t hash_start = UINT64_C(0xcbf29ce484222325);
-
 static uint64_t hash_surface(uint64_t h, const lmb_surface *s)
 {
     uint64_t own = lmb_surface_hash(s);
-    return hash_u32(hash_u32(h, (uint32_t)own), (uint32_t)(own >> 32));
+    return golden_hash_u32(golden_hash_u32(h, (uint32_t)own), (uint32_t)(own >> 32));
 }
 
 static uint64_t hash_points(uint64_t h)
 {
     for (uint32_t i = 0; i < points.count; ++i) {
         const lmb_point *p = &points.data[i];
-        h = hash_floats(h, &p->position.x, 3);
-        h = hash_floats(h, &p->normal.x, 3);
-        h = hash_floats(h, p->flux, 3);
-        h = hash_floats(h, p->albedo, 3);
-        h = hash_floats(h, &p->axis_u.x, 3);
-        h = hash_floats(h, &p->axis_v.x, 3);
-        h = hash_floats(h, &p->distance, 1);
-        h = hash_u32(h, p->cell_x | (uint32_t)p->cell_y << 16);
+        h = golden_hash_floats(h, &p->position.x, 3);
+        h = golden_hash_floats(h, &p->normal.x, 3);
+        h = golden_hash_floats(h, p->flux, 3);
+        h = golden_hash_floats(h, p->albedo, 3);
+        h = golden_hash_floats(h, &p->axis_u.x, 3);
+        h = golden_hash_floats(h, &p->axis_v.x, 3);
+        h = golden_hash_floats(h, &p->distance, 1);
+        h = golden_hash_u32(h, p->cell_x | (uint32_t)p->cell_y << 16);
     }
     return h;
 }
@@ -89,13 +88,13 @@ static uint64_t hash_groups(uint64_t h)
     const lmb_groups *g = &memory.groups;
     for (int32_t k = 0; k < g->count; ++k) {
         for (int c = 0; c < 3; ++c) {
-            h = hash_floats(h, &g->position[c][k], 1);
-            h = hash_floats(h, &g->normal[c][k], 1);
-            h = hash_floats(h, &g->flux[c][k], 1);
+            h = golden_hash_floats(h, &g->position[c][k], 1);
+            h = golden_hash_floats(h, &g->normal[c][k], 1);
+            h = golden_hash_floats(h, &g->flux[c][k], 1);
         }
-        h = hash_floats(h, &g->area[k], 1);
-        h = hash_floats(h, &g->radius[k], 1);
-        h = hash_u32(h, g->members[k]);
+        h = golden_hash_floats(h, &g->area[k], 1);
+        h = golden_hash_floats(h, &g->radius[k], 1);
+        h = golden_hash_u32(h, g->members[k]);
     }
     return h;
 }
@@ -117,7 +116,7 @@ static lmb_scene soup;
 
 static uint32_t random_state;
 
-static float random_float(float lo, float hi)
+float golden_random(float lo, float hi)
 {
     random_state = random_state * 1664525u + 1013904223u;
     return lo + (hi - lo) * ((float)(random_state >> 8) * (1.0f / 16777216.0f));
@@ -140,19 +139,19 @@ static void make_texture(void)
     lmb_texture_mips(t, 16, 16, 5);
 }
 
-static void make_soup(uint32_t seed, float span)
+lmb_scene *golden_soup(uint32_t seed, float span)
 {
     static const lmb_instance instance = {
         {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, 0, 0, 1, 0};
     random_state = seed;
     for (int i = 0; i < TRIANGLES * 9; ++i) {
-        soup_positions[i] = random_float(-span, span);
+        soup_positions[i] = golden_random(-span, span);
     }
     for (int i = 0; i < TRIANGLES * 6; ++i) {
-        soup_uvs[i] = random_float(-2.0f, 3.0f);
+        soup_uvs[i] = golden_random(-2.0f, 3.0f);
     }
     for (int i = 0; i < TRIANGLES * 3 * 4; ++i) {
-        ((uint8_t *)soup_colours)[i] = (uint8_t)random_float(0.0f, 256.0f);
+        ((uint8_t *)soup_colours)[i] = (uint8_t)golden_random(0.0f, 256.0f);
     }
     make_texture();
     for (int m = 0; m < 2; ++m) {
@@ -175,9 +174,10 @@ static void make_soup(uint32_t seed, float span)
     soup.mesh_count = soup.material_count = soup.instance_count = 2;
     soup.texture_count = soup.light_count = 1;
     lmb_scene_bounds(&soup.bounds_min, &soup.bounds_max, &soup);
+    return &soup;
 }
 
-static lmb_view soup_view(int orthographic)
+lmb_view golden_soup_view(int orthographic)
 {
     lmb_view v;
     lmb_vec3 eye = {0.3f, 0.2f, 4.0f}, target = {0, 0, 0}, up = {0, 1, 0};
@@ -230,11 +230,24 @@ static void set_eye(lmb_target *eye, int32_t height, int depth_format, int id_fo
     lmb_surface_clear(&eye->id);
 }
 
+lmb_target golden_eye(int depth_format, int id_format)
+{
+    lmb_target eye;
+    set_eye(&eye, HEIGHT, depth_format, id_format, TILED);
+    return eye;
+}
+
+typedef char first_is_there[sizeof memory - offsetof(struct memory, out) >= sizeof ((golden_space *)0)->first ? 1 : -1];
+typedef char second_is_there[sizeof light_memory >= sizeof ((golden_space *)0)->second ? 1 : -1];
+
+void *golden_first(void) { return memset(memory.out, 0x3c, sizeof memory - offsetof(struct memory, out)); }
+void *golden_second(void) { return memset(&light_memory, 0x3c, sizeof light_memory); }
+
 /* --- cases -------------------------------------------------------------------------------------------------------- */
 
 static uint64_t case_functions(int variant)
 {
-    uint64_t h = hash_start;
+    uint64_t h = GOLDEN_START;
     (void)variant;
     for (int i = -600; i <= 600; ++i) {
         float x = (float)i * 0.0103f, v[5];
@@ -243,7 +256,7 @@ static uint64_t case_functions(int variant)
         v[2] = lmb_atan2(x, 1.5f - x * x);
         v[3] = lmb_log2(x * x + 1e-6f);
         v[4] = lmb_exp2(x);
-        h = hash_floats(h, v, 5);
+        h = golden_hash_floats(h, v, 5);
     }
     return h;
 }
@@ -253,30 +266,30 @@ static uint64_t case_functions(int variant)
 static uint64_t case_raster(int variant)
 {
     lmb_target eye;
-    make_soup(17u + (uint32_t)(variant & 7), variant & 4 ? 2.0f : 4.5f);
-    lmb_view v = soup_view(variant & 4);
+    golden_soup(17u + (uint32_t)(variant & 7), variant & 4 ? 2.0f : 4.5f);
+    lmb_view v = golden_soup_view(variant & 4);
     set_eye(&eye, HEIGHT, variant & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, variant & 2 ? LMB_ID32 : LMB_ID16, variant & ~7);
-    way->draw(&eye, kernels, &v, &soup, LMB_CULL_BACK, NULL);
-    uint64_t h = gaps_are_untouched(&eye.depth) && gaps_are_untouched(&eye.id) ? hash_start : 0;
+    way->draw(&eye, golden_kernels, &v, &soup, LMB_CULL_BACK, NULL);
+    uint64_t h = gaps_are_untouched(&eye.depth) && gaps_are_untouched(&eye.id) ? GOLDEN_START : 0;
     return hash_surface(hash_surface(h, &eye.depth), &eye.id);
 }
 
 static uint64_t case_resolve(int variant)
 {
     lmb_target eye;
-    uint64_t h = hash_start;
-    make_soup(91u, 2.0f);
-    lmb_view v = soup_view(variant & 7);
+    uint64_t h = GOLDEN_START;
+    golden_soup(91u, 2.0f);
+    lmb_view v = golden_soup_view(variant & 7);
     set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, variant & ~7);
-    way->draw(&eye, kernels, &v, &soup, 0, NULL);
+    way->draw(&eye, golden_kernels, &v, &soup, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
             const lmb_tile *t = &memory.scratch.tile;
-            lmb_resolve_tile(&memory.scratch.tile, kernels, &v, &soup, &eye, x, y);
-            h = hash_floats(h, t->position[0], 3 * 64);
-            h = hash_floats(h, t->face[0], 3 * 64);
-            h = hash_floats(h, t->albedo[0], 3 * 64);
-            h = hash_floats(h, t->depth, 64);
+            lmb_resolve_tile(&memory.scratch.tile, golden_kernels, &v, &soup, &eye, x, y);
+            h = golden_hash_floats(h, t->position[0], 3 * 64);
+            h = golden_hash_floats(h, t->face[0], 3 * 64);
+            h = golden_hash_floats(h, t->albedo[0], 3 * 64);
+            h = golden_hash_floats(h, t->depth, 64);
         }
     }
     return h;
@@ -287,18 +300,18 @@ static uint64_t case_normal_map(int variant)
 {
     lmb_target eye;
     lmb_material bent[2] = {soup_materials[0], soup_materials[1]};
-    uint64_t h = hash_start;
-    make_soup(91u, 2.0f);
+    uint64_t h = GOLDEN_START;
+    golden_soup(91u, 2.0f);
     bent[0].normal_scale = 1.0f;
     bent[1].normal_scale = 0.4f;
     soup.materials = bent;
-    lmb_view v = soup_view(variant);
+    lmb_view v = golden_soup_view(variant);
     set_eye(&eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, TILED);
-    way->draw(&eye, kernels, &v, &soup, 0, NULL);
+    way->draw(&eye, golden_kernels, &v, &soup, 0, NULL);
     for (int32_t y = 0; y < HEIGHT; y += 8) {
         for (int32_t x = 0; x < WIDTH; x += 8) {
-            lmb_resolve_tile(&memory.scratch.tile, kernels, &v, &soup, &eye, x, y);
-            h = hash_floats(h, memory.scratch.tile.normal[0], 3 * 64);
+            lmb_resolve_tile(&memory.scratch.tile, golden_kernels, &v, &soup, &eye, x, y);
+            h = golden_hash_floats(h, memory.scratch.tile.normal[0], 3 * 64);
         }
     }
     return h;
@@ -314,18 +327,18 @@ static lmb_light make_light(int kind)
 static uint64_t case_light_map(int variant)
 {
     lmb_light_map map;
-    make_soup(33u, 2.0f);
+    golden_soup(33u, 2.0f);
     soup_light = make_light(variant);
     int32_t size = variant == LMB_LIGHT_POINT ? 24 : MAP;
     lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
-    way->draw_map(&map, kernels, &soup);
-    uint64_t h = hash_start;
+    way->draw_map(&map, golden_kernels, &soup);
+    uint64_t h = GOLDEN_START;
     for (int32_t f = 0; f < map.faces; ++f) {
         float power[3];
         h = hash_surface(hash_surface(h, &map.face[f].depth), &map.face[f].id);
         for (int32_t i = 0; i < size; i += 3) {
             lmb_light_texel_power(power, &soup_light, &map, f, i, size - 1 - i);
-            h = hash_floats(h, power, 3);
+            h = golden_hash_floats(h, power, 3);
         }
     }
     return h;
@@ -346,14 +359,15 @@ static uint64_t case_groups(int variant)
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
     lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
-    way->draw_map(&map, kernels, scene);
+    way->draw_map(&map, golden_kernels, scene);
     points.count = points.faces = 0;
-    lmb_status a = lmb_points_collect(&points, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
-                                      MAP / 8, &how[variant]);
-    uint64_t h = hash_u32(hash_points(hash_start), (uint32_t)a);
-    h = hash_u32(h, (uint32_t)lmb_discs_join(&points, &map, &how[variant]));
+    lmb_status a =
+        lmb_points_collect(&points, golden_kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0, MAP / 8,
+                           &how[variant]);
+    uint64_t h = golden_hash_u32(hash_points(GOLDEN_START), (uint32_t)a);
+    h = golden_hash_u32(h, (uint32_t)lmb_discs_join(&points, &map, &how[variant]));
     h = hash_points(h);
-    h = hash_u32(h, (uint32_t)lmb_group_points(&memory.groups, &points, &how[variant], NULL));
+    h = golden_hash_u32(h, (uint32_t)lmb_group_points(&memory.groups, &points, &how[variant], NULL));
     return hash_groups(h);
 }
 
@@ -361,7 +375,7 @@ static lmb_frame demo_frame(void)
 {
     lmb_frame f;
     memset(&f, 0, sizeof f);
-    f.kernels = kernels;
+    f.kernels = golden_kernels;
     f.scene = demo_scene();
     f.view = demo_view(WIDTH, HEIGHT);
     f.light_map = MAP;
@@ -384,7 +398,7 @@ static lmb_frame demo_frame(void)
 static uint64_t hash_frame(uint64_t h, const lmb_frame *f)
 {
     lmb_status status = way->render(&memory.render, f);
-    return hash_surface(hash_u32(h, (uint32_t)status), &f->out);
+    return hash_surface(golden_hash_u32(h, (uint32_t)status), &f->out);
 }
 
 static uint64_t case_show(int variant)
@@ -392,7 +406,7 @@ static uint64_t case_show(int variant)
     lmb_frame f = demo_frame();
     f.show = variant & 7;
     set_eye(&f.eye, HEIGHT, LMB_DEPTH32F, LMB_ID16, variant & ~7);
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 static uint64_t case_occlusion(int variant)
@@ -400,20 +414,20 @@ static uint64_t case_occlusion(int variant)
     lmb_frame f = demo_frame();
     f.show = LMB_SHOW_INDIRECT;
     f.occlusion = variant;
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* Two eyes 12 cm apart, one light. Variant: occlusion. */
 static uint64_t case_stereo(int variant)
 {
     lmb_frame f = demo_frame();
-    uint64_t h = hash_start;
+    uint64_t h = GOLDEN_START;
     f.occlusion = variant;
     for (int eye = 0; eye < 2; ++eye) {
         f.view = demo_view(WIDTH, HEIGHT);
         f.view.eye.x += eye == 0 ? -0.06f : 0.06f;
         lmb_status status = eye == 0 ? way->render(&memory.render, &f) : way->again(&memory.render, &f);
-        h = hash_surface(hash_u32(h, (uint32_t)status), &f.out);
+        h = hash_surface(golden_hash_u32(h, (uint32_t)status), &f.out);
     }
     return h;
 }
@@ -424,7 +438,7 @@ static uint64_t case_gather(int variant)
     lmb_frame f = demo_frame();
     f.show = LMB_SHOW_INDIRECT;
     f.gather_step = variant;
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 static uint64_t case_format(int variant)
@@ -433,7 +447,7 @@ static uint64_t case_format(int variant)
     lmb_frame f = demo_frame();
     f.exposure_ev = 0.5f;
     lmb_surface_init(&f.out, formats[variant], WIDTH, HEIGHT, memory.out, sizeof memory.out);
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* Lights all over the soup, in slices; among them clusters. */
@@ -447,11 +461,11 @@ static lmb_status stream_lights(lmb_many *many)
     for (int i = 0; i < MANY_LIGHTS && status == LMB_OK; i += 7) {
         for (int k = 0; k < 7; ++k) {
             const float reach = k < 3 ? 0.01f : 1.9f;
-            slice[k].position.x = random_float(-reach, reach);
-            slice[k].position.y = random_float(-reach, reach);
-            slice[k].position.z = 1.0f + random_float(-reach, reach);
+            slice[k].position.x = golden_random(-reach, reach);
+            slice[k].position.y = golden_random(-reach, reach);
+            slice[k].position.z = 1.0f + golden_random(-reach, reach);
             for (int c = 0; c < 3; ++c) {
-                slice[k].intensity[c] = random_float(0.0f, 0.1f);
+                slice[k].intensity[c] = golden_random(0.0f, 0.1f);
             }
         }
         status = lmb_many_add(many, slice, 7);
@@ -464,16 +478,16 @@ static uint64_t case_many(int variant)
 {
     lmb_frame f = demo_frame();
     lmb_many many;
-    make_soup(57u, 1.6f);
+    golden_soup(57u, 1.6f);
     soup.light_count = 0;
     lmb_status status = stream_lights(&many);
-    uint64_t h = hash_u32(hash_u32(hash_start, (uint32_t)status), many.doubled);
+    uint64_t h = golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)status), many.doubled);
     for (uint32_t i = 0; i < many.node_count; ++i) {
-        h = hash_floats(hash_floats(h, many.node[i].intensity, 3), &many.node[i].position.x, 3);
-        h = hash_floats(hash_floats(h, &many.node[i].strongest.x, 3), &many.node[i].median.x, 3);
+        h = golden_hash_floats(golden_hash_floats(h, many.node[i].intensity, 3), &many.node[i].position.x, 3);
+        h = golden_hash_floats(golden_hash_floats(h, &many.node[i].strongest.x, 3), &many.node[i].median.x, 3);
     }
     f.scene = &soup;
-    f.view = soup_view(0);
+    f.view = golden_soup_view(0);
     f.show = LMB_SHOW_DIRECT;
     f.occlusion = LMB_OCCLUSION_NONE;
     f.many = &many;
@@ -497,23 +511,23 @@ static uint64_t hash_tree(uint64_t h, const lmb_tree *tree, uint32_t faces)
     const uint32_t texels = (uint32_t)(tree->size * tree->size);
     for (uint32_t i = 0; i < faces * texels; ++i) {
         const lmb_texel *t = &tree->texel[i];
-        h = hash_floats(h, &t->position.x, 3);
-        h = hash_floats(h, &t->normal.x, 3);
-        h = hash_floats(h, t->flux, 3);
+        h = golden_hash_floats(h, &t->position.x, 3);
+        h = golden_hash_floats(h, &t->normal.x, 3);
+        h = golden_hash_floats(h, t->flux, 3);
         for (int k = 0; k < 4; ++k) {
-            h = hash_u32(h, t->side[k]);
+            h = golden_hash_u32(h, t->side[k]);
         }
     }
     for (uint32_t i = 0; i < faces * ((texels - 1) / 3); ++i) {
         const lmb_node *n = &tree->node[i];
-        h = hash_floats(h, &n->centre.x, 3);
-        h = hash_floats(h, &n->normal.x, 3);
-        h = hash_floats(h, n->flux, 3);
-        h = hash_floats(h, &n->area, 1);
-        h = hash_floats(h, &n->low.x, 3);
-        h = hash_floats(h, &n->high.x, 3);
-        h = hash_floats(h, &n->cosine, 1);
-        h = hash_u32(h, n->texel);
+        h = golden_hash_floats(h, &n->centre.x, 3);
+        h = golden_hash_floats(h, &n->normal.x, 3);
+        h = golden_hash_floats(h, n->flux, 3);
+        h = golden_hash_floats(h, &n->area, 1);
+        h = golden_hash_floats(h, &n->low.x, 3);
+        h = golden_hash_floats(h, &n->high.x, 3);
+        h = golden_hash_floats(h, &n->cosine, 1);
+        h = golden_hash_u32(h, n->texel);
     }
     return h;
 }
@@ -532,25 +546,25 @@ static uint64_t case_tree(int variant)
     const int32_t face = (variant & 3) == LMB_LIGHT_POINT ? 5 : 0, size = face > 0 ? 16 : TREE;
     lmb_light_map map;
     lmb_tree tree;
-    make_soup(33u, 2.0f);
+    golden_soup(33u, 2.0f);
     soup_light = make_light(variant & 3);
     lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
-    way->draw_map(&map, kernels, &soup);
+    way->draw_map(&map, golden_kernels, &soup);
     set_tree(&tree, 1, variant & 4 ? size / 2 : size);
-    lmb_status a = lmb_tree_texels(&tree, kernels, &memory.scratch.tile, &soup, &soup_light, &map, face, 0, 0,
+    lmb_status a = lmb_tree_texels(&tree, golden_kernels, &memory.scratch.tile, &soup, &soup_light, &map, face, 0, 0,
                                    size / LMB_TILE);
     lmb_status b = lmb_tree_sum(&tree, 0);
-    return hash_tree(hash_u32(hash_u32(hash_start, (uint32_t)a), (uint32_t)b), &tree, 1);
+    return hash_tree(golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)a), (uint32_t)b), &tree, 1);
 }
 
 /* A soup lit by cuts of a tree of `size` x `size` texels a face. */
 static lmb_frame soup_frame(uint32_t faces, int32_t size)
 {
     lmb_frame f = demo_frame();
-    make_soup(33u, 2.0f);
+    golden_soup(33u, 2.0f);
     soup_light = make_light(LMB_LIGHT_SPOT);
     f.scene = &soup;
-    f.view = soup_view(0);
+    f.view = golden_soup_view(0);
     f.show = LMB_SHOW_INDIRECT;
     f.light_map = size;
     f.grouping.method = LMB_GROUP_CUT;
@@ -566,7 +580,7 @@ static uint64_t case_cut(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
     f.occlusion = variant;
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* Cuts of more nodes than the small configuration holds. */
@@ -574,7 +588,7 @@ static uint64_t case_full_cut(int variant)
 {
     lmb_frame f = soup_frame(1, TREE);
     f.occlusion = variant;
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* The same with an error that is proven. */
@@ -584,7 +598,7 @@ static uint64_t case_cut_proven(int variant)
     (void)variant;
     f.proven = 1;
     f.error = 0.1f;
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* Three bounces between the soup's elements; the whole picture. Variant 1: a part of it shines. */
@@ -598,7 +612,7 @@ static uint64_t case_bounces(int variant)
     f.occlusion = LMB_OCCLUSION_EXACT;
     f.bounces = 3;
     lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory);
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* Materials with lobes, lit by a spot and by what it bounces; the whole picture. Variant 1: one of the two is
@@ -617,7 +631,7 @@ static uint64_t case_glossy(int variant)
     f.show = LMB_SHOW_FULL;
     f.occlusion = LMB_OCCLUSION_EXACT;
     f.gather_step = variant ? 2 : 1;
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* A spot and one so wide that a cube's faces serve it; the whole picture. */
@@ -634,7 +648,7 @@ static uint64_t case_cut_lights(int variant)
     f.show = LMB_SHOW_FULL;
     f.occlusion = variant;
     lmb_surface_clear(&f.out);
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* --- what does not fit: the status, and what is left -------------------------------------------------------------- */
@@ -647,14 +661,15 @@ static uint64_t case_full_points(int variant)
     lmb_light_map map;
     lmb_points few = points;
     lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
-    way->draw_map(&map, kernels, scene);
+    way->draw_map(&map, golden_kernels, scene);
     few.count = few.faces = 0;
     few.cap = variant == 0 ? 100 : POINTS;
     few.cell_cap = variant == 0 ? few.cell_cap : MAP / 4 * (MAP / 4);
-    lmb_status status = lmb_points_collect(&few, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0,
-                                           MAP / 8, &how);
+    lmb_status status =
+        lmb_points_collect(&few, golden_kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0, MAP / 8,
+                           &how);
     points.count = few.count;
-    return hash_points(hash_u32(hash_start, (uint32_t)status));
+    return hash_points(golden_hash_u32(GOLDEN_START, (uint32_t)status));
 }
 
 /* The frame's: more points, maps or lights than there is room for. */
@@ -678,7 +693,7 @@ static uint64_t case_full_frame(int variant)
     } else {
         lit.light_count = 2; /* one is all that the small configuration takes */
     }
-    return hash_frame(hash_start, &f);
+    return hash_frame(GOLDEN_START, &f);
 }
 
 /* As many groups as this configuration has, for discs that want more: zones, greedy, and one a disc. */
@@ -690,15 +705,16 @@ static uint64_t case_full_groups(int variant)
     lmb_stats stats;
     how.method = variant;
     lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
-    way->draw_map(&map, kernels, scene);
+    way->draw_map(&map, golden_kernels, scene);
     points.count = points.faces = 0;
-    lmb_points_collect(&points, kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0, MAP / 8, &how);
+    lmb_points_collect(&points, golden_kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0, MAP / 8,
+                       &how);
     lmb_discs_join(&points, &map, &how);
     memset(&stats, 0, sizeof stats);
     memory.groups.count = 0;
     lmb_status status = lmb_group_points(&memory.groups, &points, &how, &stats);
-    uint64_t h = hash_u32(hash_u32(hash_start, (uint32_t)status), points.count);
-    return hash_groups(hash_u32(h, stats.regroups));
+    uint64_t h = golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)status), points.count);
+    return hash_groups(golden_hash_u32(h, stats.regroups));
 }
 
 /* --- ways --------------------------------------------------------------------------------------------------------- */
@@ -782,11 +798,11 @@ static int run_case(char line[160], const struct golden *c)
         if (way->machine >= 0 && way->machine % count != i) {
             continue;
         }
-        kernels = lmb_kernels_at(i);
+        golden_kernels = lmb_kernels_at(i);
         uint64_t hash = c->run(c->variant);
         if (hash != c->hash) {
             shown = hash;
-            w = append(wrong, append(wrong, w, " "), lmb_kernels_name(kernels));
+            w = append(wrong, append(wrong, w, " "), lmb_kernels_name(golden_kernels));
         }
     }
     n = append(line, n, " ");

@@ -1,0 +1,40 @@
+/* golden_cases.h: what the files of golden cases share: a scene, memory, hashes. */
+#ifndef GOLDEN_CASES_H
+#define GOLDEN_CASES_H
+
+#include "golden.h"
+
+enum { GOLDEN_WIDTH = 80, GOLDEN_HEIGHT = 60 };
+
+#define GOLDEN_START UINT64_C(0xcbf29ce484222325)
+
+extern const lmb_kernels *golden_kernels; /* those that the cases run with */
+
+/* FNV-1a of little-endian bytes. */
+uint64_t golden_hash_u32(uint64_t h, uint32_t v);
+uint64_t golden_hash_floats(uint64_t h, const float *v, size_t n);
+
+/* Forty triangles in two instances, with textures, holes and colours, and where they are seen from. */
+lmb_scene *golden_soup(uint32_t seed, float span);
+lmb_view golden_soup_view(int orthographic);
+float golden_random(float low, float high); /* goes on from the soup's seed */
+
+/* GOLDEN_WIDTH x GOLDEN_HEIGHT, depth and ids cleared; the same memory each time. */
+lmb_target golden_eye(int depth_format, int id_format);
+
+/* Memory of cases, besides the eye's: two pieces, 8-byte aligned, the same each time, filled with 0x3c. A case that
+ * wants more than there is in the small configuration (130 and 64 KiB) stops the program's building. */
+typedef struct golden_space {
+    uint64_t first[130 * 128], second[64 * 128];
+} golden_space;
+void *golden_first(void);
+void *golden_second(void);
+#define GOLDEN_FITS(type, piece) \
+    typedef char type##_fits[sizeof(type) <= sizeof ((golden_space *)0)->piece ? 1 : -1]
+
+#if LMB_PROBES
+uint64_t case_probe(int variant);  /* golden_probe.c */
+uint64_t case_relit(int variant);
+#endif
+
+#endif
