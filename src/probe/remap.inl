@@ -130,7 +130,9 @@ LANE_PART remap_colour remap_cube(const lmb_world_job *job, lane3 d)
     if (job->means) {
         return remap_nine(job, &spot);
     }
-    const lane x0 = lane_trunc(spot.x), y0 = lane_trunc(spot.y);
+    const lane zero = lane_splat(0.0f), last = lane_splat((float)job->side); /* for NaN too */
+    const lane x0 = lane_min(lane_max(lane_trunc(spot.x), zero), last),
+               y0 = lane_min(lane_max(lane_trunc(spot.y), zero), last);
     at[0] = remap_texel(job, &spot, x0, y0);
     at[1] = lanei_add(at[0], one);
     at[2] = lanei_add(at[0], row);

@@ -9,6 +9,7 @@
 #include "../../src/base/vec.h"
 #include "../../src/bounce/occlude.h"
 #include "../../src/lane/kernels.h"
+#include "../../src/probe/world.h"
 #include "../../src/raster/texture.h"
 #include "seed.h"
 
@@ -917,6 +918,61 @@ typedef struct probe_normals {
     float xyz[3][LMB_TILE_PIXELS];
 } probe_normals;
 
+/* Rays from all over, in the world and out of it, and the world alone, smoothly and by means. */
+static int trial_see(const trial *t, test_rng r)
+{
+    static uint32_t texels[WORLD_WORDS];
+    static GUARDED(probe_normals) want[2], got[2];
+    static probe_normals origin, direction;
+    lmb_world world;
+    lmb_world_job job;
+    for (int i = 0; i < 2; ++i) {
+        GUARD(want[i]);
+        GUARD(got[i]);
+    }
+    CHECK(make_surroundings(&world, texels, t, &r));
+    lmb_world_ask(&job, &world, test_uniform(&r, 0.0f, 1.0f), t->seed % 4u == 3u);
+    job.means = t->seed % 5u == 2u;
+    numbers(origin.xyz[0], 3 * LMB_TILE_PIXELS, &r, -12.0f, 12.0f, t->seed % 4u ? 0 : 20u);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        lmb_vec3 d = vec3(test_uniform(&r, -1.0f, 1.0f), test_uniform(&r, -1.0f, 1.0f), test_uniform(&r, -1.0f, 1.0f));
+        d = k % 9 == 0 ? vec3(0.0f, k % 2 ? 1.0f : -1.0f, 0.0f) : normalize3(d);
+        direction.xyz[0][k] = d.x;
+        direction.xyz[1][k] = d.y;
+        direction.xyz[2][k] = d.z;
+    }
+    lmb_kernels_scalar.see(want[0].it.xyz, origin.xyz, direction.xyz, &job);
+    t->kernels->see(got[0].it.xyz, origin.xyz, direction.xyz, &job);
+    lmb_kernels_scalar.look(want[1].it.xyz, direction.xyz, &job);
+    t->kernels->look(got[1].it.xyz, direction.xyz, &job);
+    CHECK(canaries_stay(got[0].before, got[0].after) && canaries_stay(got[1].before, got[1].after));
+    return same_floats(t, "seen", want[0].it.xyz[0], got[0].it.xyz[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "looked", want[1].it.xyz[0], got[1].it.xyz[0], 3 * LMB_TILE_PIXELS);
+}
+
+typedef struct probe_shares {
+    float rgbw[LMB_PROBE_BORDERED + 1][4];
+} probe_shares;
+
+static int trial_share(const trial *t, test_rng r)
+{
+    static GUARDED(probe_shares) want, got;
+    static uint32_t memory[4096];
+    static float map[3 * PROBE_COUNT];
+    lmb_probe_table table;
+    GUARD(want);
+    GUARD(got);
+    const float start = test_uniform(&r, -180.0f, 0.0f);
+    CHECK(lmb_probe_table_init(&table, 2 * PROBE_HEIGHT, PROBE_HEIGHT, start, memory, sizeof memory) == LMB_OK);
+    numbers(map, 3 * PROBE_COUNT, &r, 0.0f, 9.0f, t->seed % 4u ? 0 : 20u);
+    numbers(want.it.rgbw[0], 4 * (LMB_PROBE_BORDERED + 1), &r, 0.0f, 1.0f, 0);
+    got.it = want.it;
+    lmb_kernels_scalar.share(want.it.rgbw, map, &table);
+    t->kernels->share(got.it.rgbw, map, &table);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "shares", want.it.rgbw[0], got.it.rgbw[0], 4 * (LMB_PROBE_BORDERED + 1));
+}
+
 static int trial_cosine(const trial *t, test_rng r)
 {
     static GUARDED(probe_normals) want, got;
@@ -990,6 +1046,8 @@ static const struct kernel {
     {"blend", trial_blend},
     {"encode", trial_encode},
     {"remap", trial_remap},
+    {"see", trial_see},
+    {"share", trial_share},
     {"cosine", trial_cosine},
     {"blur", trial_blur},
 };
