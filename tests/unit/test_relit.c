@@ -1,0 +1,327 @@
+/* test_relit.c: cubes as they are looked up, and objects drawn in the light of their places. Requirements S15-S24. */
+#include <lambent/lambent.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/probe/cube.h"
+#include "../world.h"
+
+void test_relit(void);
+
+enum { FACE = 16, SIDE = 8, TEXELS = 6 * SIDE * SIDE, PIXELS = 64 };
+
+/* Two probes over one world: of a place each. */
+typedef struct stage {
+    float face[6][FACE * FACE * 3], planes[3 * TEXELS];
+    lmb_world_pictures pictures;
+    lmb_world world;
+    lmb_probe_table table;
+    float map[3 * 64 * 32];
+    lmb_probe_lights lights;
+    lmb_probe_rays rays;
+    uint32_t world_memory[40000], table_memory[12000], cube[2][2][6 * (SIDE + 2) * (SIDE + 2) * 4];
+    lmb_probe probe[2];
+    uint16_t probe_of[2];
+    lmb_light_map light_map;
+    uint32_t light_memory[6 * 64 * 64 * 2];
+    uint32_t depth[PIXELS * PIXELS], id[PIXELS * PIXELS];
+    float out[3][PIXELS * PIXELS * 3]; /* by LMB_RELIGHT_ */
+    lmb_relight relight;
+    lmb_relight_scratch scratch;
+} stage;
+
+/* radiance(direction), W/(m2 sr). */
+static void make_world(stage *s, float (*radiance)(int c, lmb_vec3 d))
+{
+    for (int i = 0; i < 6 * FACE * FACE * 3; ++i) {
+        const int at = i / 3, face = at / (FACE * FACE);
+        const lmb_vec3 d = cube_direction(face, at % FACE, at / FACE % FACE, FACE);
+        s->face[face][i - 3 * FACE * FACE * face] = radiance(i % 3, d);
+        s->pictures.face[face] = s->face[face];
+    }
+    s->pictures.face_size = FACE;
+    s->pictures.radius = 10.0f;
+    CHECK(lmb_world_init(&s->world, &s->pictures, LMB_WORLD_F32, s->world_memory, sizeof s->world_memory) == LMB_OK);
+    CHECK(lmb_probe_table_init(&s->table, 64, 32, -180.0f, s->table_memory, sizeof s->table_memory) == LMB_OK);
+}
+
+static void make_probe(stage *s, int i, lmb_vec3 at, float roughness)
+{
+    const lmb_kernels *k = lmb_kernels_pick();
+    const lmb_world_look look = {&s->world, 0.0f, 0};
+    memset(&s->probe[i], 0, sizeof s->probe[i]);
+    CHECK(lmb_probe_remap(s->map, k, &s->world, &s->table, at, 0) == LMB_OK);
+    CHECK(lmb_probe_reduce(&s->lights, k, s->map, &s->table) == LMB_OK);
+    CHECK(lmb_probe_cosine(s->planes, SIDE, k, &s->lights, &s->table) == LMB_OK);
+    CHECK(lmb_probe_cube_init(&s->probe[i].irradiance, s->planes, SIDE, s->cube[i][0], sizeof s->cube[i][0]) == LMB_OK);
+    if (lmb_probe_gloss_side(roughness) > 0) {
+        CHECK(lmb_probe_reflect(s->planes, SIDE, &s->rays, k, &look, at, roughness) == LMB_OK);
+        CHECK(lmb_probe_cube_init(&s->probe[i].gloss, s->planes, SIDE, s->cube[i][1], sizeof s->cube[i][1]) == LMB_OK);
+    }
+}
+
+/* Two balls at x -1.2 and 1.2, an instance each, white, from 5 m in front. */
+static void make_balls(stage *s, float f0, float roughness)
+{
+    world_begin(1.0f, 1.0f, 1.0f);
+    for (int i = 0; i < 2; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            world.material[i].specular[c] = f0;
+        }
+        world.material[i].roughness = roughness;
+    }
+    world_sphere(vec3(-1.2f, 0.0f, 0.0f), 1.0f, 24, 48);
+    world_part();
+    world_sphere(vec3(1.2f, 0.0f, 0.0f), 1.0f, 24, 48);
+    CHECK(world_end() == LMB_OK);
+    lmb_relight *r = &s->relight;
+    memset(r, 0, sizeof *r);
+    r->kernels = lmb_kernels_pick();
+    r->scene = &world.scene;
+    r->world = &s->world;
+    r->probes = s->probe;
+    r->probe_of = s->probe_of;
+    r->probe_count = 2;
+    r->view = look(vec3(0.0f, 0.0f, 5.0f), vec3(0, 0, 0), 50.0, PIXELS);
+    r->view.near_m = 0.1f;
+    r->eye = target_of(LMB_DEPTH32F, PIXELS, s->depth, s->id);
+    world_draw(&r->eye, &r->view, LMB_CULL_BACK);
+    s->probe_of[0] = 0;
+    s->probe_of[1] = 1;
+}
+
+static lmb_status draw(stage *s, int32_t show)
+{
+    lmb_surface out;
+    lmb_status status = LMB_OK;
+    s->relight.show = show;
+    CHECK(lmb_surface_init(&out, LMB_RGB32F, PIXELS, PIXELS, s->out[show], sizeof s->out[show]) == LMB_OK);
+    for (int32_t band = PIXELS / LMB_TILE - 1; band >= 0 && status == LMB_OK; --band) {
+        status = lmb_relight_band(&s->relight, &s->scratch, &out, band);
+    }
+    return status;
+}
+
+static const float *pixel(const stage *s, int32_t show, int x, int y) { return s->out[show] + 3 * (y * PIXELS + x); }
+
+/* --- a white world ------------------------------------------------------------------------------------------------ */
+
+static float white(int c, lmb_vec3 d)
+{
+    (void)c;
+    (void)d;
+    return 1.0f;
+}
+
+/* White things in a white world cannot be seen, smooth or rough, by cube or by the world itself. */
+static void furnace(stage *s)
+{
+    static const float roughness[] = {0.0f, 0.3f, 1.0f};
+    make_world(s, white);
+    for (int i = 0; i < 3; ++i) {
+        float worst = 0.0f;
+        make_probe(s, 0, vec3(-1.2f, 0, 0), roughness[i]);
+        make_probe(s, 1, vec3(1.2f, 0, 0), roughness[i]);
+        make_balls(s, i == 1 ? 0.6f : 0.04f, roughness[i]);
+        CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
+        for (int k = 0; k < 3 * PIXELS * PIXELS; ++k) {
+            worst = maxf(worst, fabsf(s->out[LMB_RELIGHT_BOTH][k] - 1.0f));
+        }
+        CHECK_MSG(worst < 2e-6f, "roughness %g: %g", (double)roughness[i], (double)worst);
+    }
+}
+
+/* --- a world of colours ------------------------------------------------------------------------------------------- */
+
+static float colours(int c, lmb_vec3 d) { return 1.0f + 0.8f * (c == 0 ? d.x : c == 1 ? d.y : d.z); }
+
+/* S24: normal and gloss are the two parts of both; S22: gloss is stronger where the surface grazes. */
+static void parts(stage *s)
+{
+    float worst = 0.0f, middle, rim;
+    make_world(s, colours);
+    make_probe(s, 0, vec3(-1.2f, 0, 0), 0.3f);
+    make_probe(s, 1, vec3(1.2f, 0, 0), 0.0f);
+    make_balls(s, 0.04f, 0.0f);
+    world.material[0].roughness = 0.3f;
+    for (int32_t show = 0; show < 3; ++show) {
+        CHECK(draw(s, show) == LMB_OK);
+    }
+    for (int k = 0; k < 3 * PIXELS * PIXELS; ++k) {
+        const float a = s->out[LMB_RELIGHT_NORMAL][k], b = s->out[LMB_RELIGHT_GLOSS][k];
+        worst = a != b ? maxf(worst, fabsf(a + b - s->out[LMB_RELIGHT_BOTH][k])) : worst; /* behind: the same world */
+    }
+    CHECK_MSG(worst < 1e-6f, "%g", (double)worst);
+    middle = pixel(s, LMB_RELIGHT_GLOSS, PIXELS * 3 / 4 - 2, PIXELS / 2)[1];
+    rim = pixel(s, LMB_RELIGHT_GLOSS, PIXELS * 3 / 4 - 2, 17)[1];
+    CHECK_MSG(rim > 2.0f * middle && middle > 0.01f, "%g %g", (double)rim, (double)middle);
+}
+
+/* S17: a flat mirror shows what lies along the reflected ray from where the view meets it, by Schlick's share. */
+static void mirror(stage *s)
+{
+    const lmb_vec3 u = vec3(2.0f, 0.0f, 0.0f), v = vec3(0.0f, 1.2f, -0.9f), n = normalize3(cross3(u, v));
+    make_balls(s, 0.04f, 0.0f);
+    const lmb_view *view = &s->relight.view;
+    world_begin(0.0f, 0.0f, 0.0f);
+    world.material[0].specular[0] = world.material[0].specular[1] = world.material[0].specular[2] = 0.04f;
+    world_quad(vec3(0.0f, 0.0f, 0.0f), u, v);
+    CHECK(world_end() == LMB_OK);
+    s->probe_of[0] = 1; /* looks at the world itself */
+    world_draw(&s->relight.eye, view, 0);
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
+    for (int y = 20; y < 50; y += 7) {
+        const int x = y + 5;
+        const lmb_vec3 d = normalize3(vec3((2.0f * ((float)x + 0.5f) / PIXELS - 1.0f) * view->half_width,
+                                           (1.0f - 2.0f * ((float)y + 0.5f) / PIXELS) * view->half_height, -1.0f));
+        const lmb_vec3 at = add3(view->eye, mul3(d, -dot3(view->eye, n) / dot3(d, n)));
+        const lmb_vec3 r = sub3(d, mul3(n, 2.0f * dot3(n, d)));
+        const float c = dot3(at, r), far = -c + sqrtf(c * c - dot3(at, at) + 100.0f), low = 1.0f + dot3(n, d);
+        const lmb_vec3 seen = normalize3(add3(at, mul3(r, far)));
+        for (int k = 0; k < 3; ++k) {
+            const float want = colours(k, seen) * (0.04f + 0.96f * 0.970299f * powf(low, 5.0f)); /* alpha: 0.01 */
+            CHECK_MSG(fabsf(pixel(s, 0, x, y)[k] - want) < 0.01f * want, "%d, %d: %g, not %g", x, k,
+                      (double)pixel(s, 0, x, y)[k], (double)want);
+        }
+    }
+}
+
+/* S21: a ball's top is lit from above: pi (1 + 0.8 x 2/3 n.y) / pi there. S15: each by its own probe. */
+static void normals(stage *s)
+{
+    make_balls(s, 0.0f, 0.5f);
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
+    const float *top = pixel(s, 0, 15, 18), *bottom = pixel(s, 0, 15, 45);
+    CHECK(top[1] > 1.3f && top[1] < 1.0f + 0.8f * 2.0f / 3.0f && bottom[1] > 0.46f && bottom[1] < 0.7f);
+    const float front = pixel(s, 0, 48, 32)[2];
+    CHECK_MSG(fabsf(front - (1.0f + 0.8f * 2.0f / 3.0f)) < 0.02f, "%g", (double)front);
+    s->probe_of[1] = 0;
+    memset(s->cube[0][0], 0, sizeof s->cube[0][0]); /* the first one's probe goes dark: both are */
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
+    CHECK(pixel(s, 0, 48, 32)[2] == 0.0f && pixel(s, 0, 16, 32)[2] == 0.0f);
+}
+
+/* Behind, the view's rays see the world: at its centre along them. */
+static void background(stage *s)
+{
+    const lmb_view *v = &s->relight.view;
+    s->relight.view.eye = vec3(0.0f, 0.0f, 0.0f); /* nothing else of it matters to the sky */
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
+    const float x = (2.0f * 2.5f / PIXELS - 1.0f) * v->half_width, y = (1.0f - 2.0f * 3.5f / PIXELS) * v->half_height;
+    const lmb_vec3 d = normalize3(vec3(x, y, -1.0f));
+    for (int c = 0; c < 3; ++c) {
+        CHECK(fabsf(pixel(s, 0, 2, 3)[c] - colours(c, d)) < 0.01f);
+    }
+}
+
+/* A lamp in a world without light, and its shadow. */
+static float black(int c, lmb_vec3 d) { return 0.0f * white(c, d); }
+
+static void lamp(stage *s)
+{
+    const lmb_kernels *k = lmb_kernels_pick();
+    lmb_light light = sun(vec3(1.0f, 0.0f, 0.0f));
+    make_world(s, black);
+    make_probe(s, 0, vec3(0, 0, 0), 0.5f);
+    make_probe(s, 1, vec3(0, 0, 0), 0.5f);
+    make_balls(s, 0.0f, 0.5f);
+    world.scene.lights = &light;
+    world.scene.light_count = 1;
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
+    const float alone = pixel(s, 0, 40, 32)[0];
+    CHECK(alone > 0.2f && pixel(s, 0, 1, 1)[0] == 0.0f);
+    CHECK(lmb_light_map_init(&s->light_map, &light, &world.scene, 64, LMB_ID32, s->light_memory,
+                             sizeof s->light_memory) == LMB_OK);
+    CHECK(lmb_light_map_clear(&s->light_map) == LMB_OK);
+    CHECK(lmb_light_map_draw(&s->light_map, k, &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    s->relight.maps = &s->light_map;
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
+    const float shaded = pixel(s, 0, 40, 32)[0], left = pixel(s, 0, 6, 32)[0]; /* the left one shades the right one */
+    CHECK_MSG(shaded == 0.0f && left > 0.1f, "%g %g", (double)shaded, (double)left);
+}
+
+/* --- cubes -------------------------------------------------------------------------------------------------------- */
+
+/* The red that a direction finds. */
+static float found(const lmb_probe_cube *cube, lmb_vec3 d)
+{
+    static lmb_probe_rays rays;
+    static lmb_tile tile;
+    lmb_irradiance e;
+    memset(&e, 0, sizeof e);
+    tile.normal[0][9] = d.x;
+    tile.normal[1][9] = d.y;
+    tile.normal[2][9] = d.z;
+    CHECK(lmb_probe_light_tile(&e, &rays, lmb_kernels_pick(), &tile, 1u << 9, cube) == LMB_OK);
+    CHECK(e.rgb[0][8] == 0.0f);
+    return e.rgb[0][9];
+}
+
+/* No step across a cube's edges and corners is larger than inside a face: rings over faces of noise. */
+static void no_edges(stage *s)
+{
+    static const lmb_vec3 axis[3] = {{0, 0, 1}, {0.3f, 1, 0.2f}, {1, -1, 0}}; /* the last rings through two corners */
+    lmb_probe_cube cube;
+    uint32_t random = 77u;
+    for (int i = 0; i < 3 * TEXELS; ++i) {
+        random = random * 1664525u + 1013904223u;
+        s->planes[i] = (float)(random >> 8) * (1.0f / 16777216.0f);
+    }
+    CHECK(lmb_probe_cube_init(&cube, s->planes, SIDE, s->cube[0][0], sizeof s->cube[0][0]) == LMB_OK);
+    for (int ring = 0; ring < 3; ++ring) {
+        const lmb_vec3 n = normalize3(axis[ring]), u = normalize3(cross3(n, vec3(0.1f, 0.2f, 1.0f))), v = cross3(n, u);
+        float last = found(&cube, u), worst = 0.0f;
+        for (int i = 1; i <= 2000; ++i) {
+            const double a = 2.0 * PI * i / 2000.0;
+            const float here = found(&cube, add3(mul3(u, (float)cos(a)), mul3(v, (float)sin(a))));
+            worst = maxf(worst, fabsf(here - last));
+            last = here;
+        }
+        CHECK_MSG(worst < 0.045f, "%d: %g", ring, (double)worst); /* 2000 steps of texels 32 a turn: 1/62 of a texel */
+    }
+    const lmb_vec3 corner = vec3(1.0f, 1.0f, 1.0f);
+    const float a = found(&cube, add3(corner, vec3(1e-4f, 0, 0))), b = found(&cube, add3(corner, vec3(0, 1e-4f, 0))),
+                c = found(&cube, add3(corner, vec3(0, 0, 1e-4f)));
+    CHECK(fabsf(a - b) < 1e-3f && fabsf(b - c) < 1e-3f);
+}
+
+static void refusals(stage *s)
+{
+    lmb_surface out;
+    float *planes = s->planes;
+    lmb_probe_cube cube;
+    CHECK(lmb_probe_cube_bytes(0) == 0 && lmb_probe_cube_bytes(257) == 0 && lmb_probe_cube_bytes(8) == 9600);
+    CHECK(lmb_probe_cube_init(&cube, planes, 8, s->cube, 9599) == LMB_ERR_CAPACITY);
+    CHECK(lmb_probe_cube_init(&cube, NULL, 8, s->cube, 9600) == LMB_ERR_ARG);
+    make_balls(s, 0.04f, 0.5f);
+    CHECK(lmb_surface_init(&out, LMB_RGB32F, PIXELS, PIXELS, s->out[0], sizeof s->out[0]) == LMB_OK);
+    CHECK(lmb_relight_band(&s->relight, &s->scratch, &out, PIXELS / LMB_TILE) == LMB_ERR_ARG);
+    CHECK(lmb_relight_band(&s->relight, &s->scratch, NULL, 0) == LMB_ERR_FORMAT);
+    s->probe_of[1] = 2;
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_ERR_ARG);
+    s->probe_of[1] = 1;
+    s->probe[1].irradiance.texel = NULL;
+    CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_ERR_ARG);
+    const lmb_world_look look = {&s->world, 0.0f, 0};
+    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &look, vec3(0, 0, 0), 1.5f) == LMB_ERR_ARG);
+    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &look, vec3(NAN, 0, 0), 0.5f) == LMB_ERR_ARG);
+}
+
+void test_relit(void)
+{
+    stage *s = calloc(1, sizeof *s);
+    CHECK(s != NULL);
+    if (s != NULL) {
+        furnace(s);
+        parts(s);
+        mirror(s);
+        normals(s);
+        background(s);
+        lamp(s);
+        no_edges(s);
+        refusals(s);
+    }
+    free(s);
+}
