@@ -12,8 +12,7 @@ static inline lane gloss_angle(lane b, lane i, lane area_pi)
     return lane_mul(pi, lane_mul(cosine, lane_div(s, lane_add(lane_splat(1.0f), s))));
 }
 
-static inline lane3 gloss_emitter(lane3 sum, const lobe_pixels *px, lane3 at, lane3 face, lane_mask sees,
-                                  const lmb_emitter *e)
+static inline lane3 gloss_emitter(lane3 sum, const lobe_pixels *px, lane3 at, lane3 face, const lmb_emitter *e)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), grazing = lane_splat(GRAZING_M);
     const lane3 to = lane3_sub(lane3_of(e->position), at), back = lane3_of(e->back);
@@ -24,7 +23,7 @@ static inline lane3 gloss_emitter(lane3 sum, const lobe_pixels *px, lane3 at, la
     lane3 light;
     disc_fraction(&top, &bottom, a, b, i, lane3_dot(px->n, back), area_pi);
     const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
-    const lane weight = lane_keep(mask_and(sees, faces), disc_value(top, bottom, i));
+    const lane weight = lane_keep(faces, disc_value(top, bottom, i));
     light.x = lane_mul(weight, lane_splat(e->flux[0]));
     light.y = lane_mul(weight, lane_splat(e->flux[1]));
     light.z = lane_mul(weight, lane_splat(e->flux[2]));
@@ -44,7 +43,7 @@ static void KERNEL(gloss_cut)(lmb_gloss *inout, const lmb_tile *tile, const lmb_
         for (int32_t j = 0; j < count; ++j) {
             const uint32_t sees = (uint32_t)(emitters[j].visible >> k) & own;
             if (sees != 0) {
-                sum = gloss_emitter(sum, &px, at, face, mask_of_bits(sees), &emitters[j]);
+                sum = lane3_pick(mask_of_bits(sees), gloss_emitter(sum, &px, at, face, &emitters[j]), sum);
             }
         }
         lobe_store(inout, k, sum);

@@ -105,7 +105,7 @@ static inline void lobe_store(lmb_gloss *out, int k, lane3 sum)
 
 #ifdef KERNEL
 
-/* Pixels without a lobe get no light, and so stay 0. */
+/* Pixels without a lobe stay as they are. */
 static void KERNEL(gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const lmb_irradiance *lit,
                                  const lmb_light *light)
 {
@@ -113,15 +113,13 @@ static void KERNEL(gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const l
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const lane_mask own = mask_of_bits((uint32_t)(inout->pixels >> k) & ALL_LANES);
         const lobe_pixels p = lobe_load(inout, tile, k);
-        lane3 to = lane3_splat(-light->direction.x, -light->direction.y, -light->direction.z), e;
+        const lane3 sum = lobe_sum(inout, k), e = lane3_load(lit->rgb, k);
+        lane3 to = lane3_splat(-light->direction.x, -light->direction.y, -light->direction.z);
         if (light->kind != LMB_LIGHT_DIRECTIONAL) {
             to = lane3_sub(lane3_of(light->position), lane3_load(tile->position, k));
             to = lane3_scale(to, lane_sqrt(lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-12f)))));
         }
-        e.x = lane_keep(own, lane_load(lit->rgb[0] + k));
-        e.y = lane_keep(own, lane_load(lit->rgb[1] + k));
-        e.z = lane_keep(own, lane_load(lit->rgb[2] + k));
-        lobe_store(inout, k, lobe_add(lobe_sum(inout, k), &p, to, lane_splat(0.0f), e));
+        lobe_store(inout, k, lane3_pick(own, lobe_add(sum, &p, to, lane_splat(0.0f), e), sum));
     }
 }
 

@@ -463,9 +463,9 @@ static void seen_init(seen *s, test_rng *r)
 }
 
 /* Sums so far: among them zeros of both signs, which must not tell what a vector's other lanes met. */
-static void make_sums(lmb_irradiance *out, test_rng *r)
+static void make_sums(float out[3][LMB_TILE_PIXELS], test_rng *r)
 {
-    float *sum = out->rgb[0];
+    float *sum = out[0];
     for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
         const uint32_t kind = test_random(r) % 4u;
         sum[k] = kind == 0 ? 0.0f : kind == 1 ? -0.0f : test_uniform(r, 0.0f, 3.0f);
@@ -510,7 +510,7 @@ static int trial_gather(const trial *t, test_rng r)
     seen_init(&s, &r);
     make_gather_tile(&tile, t, &r, rare);
     make_groups(&groups, &r, rare);
-    make_sums(&want.it, &r);
+    make_sums(want.it.rgb, &r);
     got.it = want.it;
     static GUARDED(lmb_gather_scratch) near_want, near_got;
     const size_t bytes = sizeof(uint64_t) * (size_t)groups.count;
@@ -549,7 +549,7 @@ static int trial_gather_near(const trial *t, test_rng r)
     GUARD(got);
     seen_init(&s, &r);
     make_gather_tile(&tile, t, &r, rare);
-    make_sums(&want.it, &r);
+    make_sums(want.it.rgb, &r);
     got.it = want.it;
     lmb_point *discs = malloc(count * sizeof *discs);
     const lmb_vec3 around = vec3(tile.position[0][27], tile.position[1][27], tile.position[2][27]);
@@ -597,7 +597,7 @@ static int trial_gather_cut(const trial *t, test_rng r)
     GUARD(got);
     GUARD(pairs);
     make_gather_tile(&tile, t, &r, rare);
-    make_sums(&want.it, &r);
+    make_sums(want.it.rgb, &r);
     const lmb_irradiance before = got.it = want.it;
     lmb_emitter *emitters = malloc((size_t)count * sizeof *emitters + 1);
     for (int32_t i = 0; i < count; ++i) {
@@ -672,6 +672,85 @@ static int trial_weigh(const trial *t, test_rng r)
     }
     return equal && same_bytes(t, "faces", &faces, &also, sizeof faces) &&
            same_floats(t, "node", want.it.node[0], got.it.node[0], LMB_WEIGH_PLANES * LMB_WEIGH_NODES);
+}
+
+/* --- gloss -------------------------------------------------------------------------------------------------------- */
+
+/* Lobes sharp and wide, with sums so far. Those of pixels that have none are as random. */
+static void make_gloss(lmb_gloss *out, const trial *t, test_rng *r, uint32_t rare)
+{
+    memset(out, 0, sizeof *out);
+    out->pixels = random_pixels(t, r);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const float roughness = test_uniform(r, 0.1f, 1.0f), alpha = roughness * roughness;
+        set_pixel(out->towards, k, direction(r));
+        out->alpha2[k] = rare && test_random(r) % rare == 0 ? hard_float(r) : alpha * alpha;
+    }
+    numbers(out->specular[0], 3 * LMB_TILE_PIXELS, r, 0.0f, 1.0f, rare);
+    numbers(out->facing, LMB_TILE_PIXELS, r, 0.001f, 1.0f, rare);
+    make_sums(out->rgb, r);
+}
+
+/* The same light on every machine; and what lights none of `lit`'s pixels left its sum and all else as it was. */
+static int same_gloss(const trial *t, const lmb_gloss *want, const lmb_gloss *got, const lmb_gloss *before,
+                      uint64_t lit)
+{
+    int kept = 1;
+    for (int i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
+        const int c = i / LMB_TILE_PIXELS, k = i % LMB_TILE_PIXELS;
+        kept &= (lit >> k & 1u) != 0 || bits_of(before->rgb[c][k]) == bits_of(got->rgb[c][k]);
+    }
+    CHECK_MSG(kept, "%s %s lights pixels that it should not", t->kernels->name, t->kernel);
+    return kept && same_floats(t, "rgb", want->rgb[0], got->rgb[0], 3 * LMB_TILE_PIXELS) &&
+           same_bytes(t, "lobes", before, got, offsetof(lmb_gloss, rgb));
+}
+
+static int trial_gloss_direct(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_gloss) want, got;
+    static lmb_irradiance lit;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    lmb_light light;
+    GUARD(want);
+    GUARD(got);
+    memset(&light, 0, sizeof light);
+    make_gather_tile(&tile, t, &r, rare);
+    make_gloss(&want.it, t, &r, rare);
+    numbers(lit.rgb[0], 3 * LMB_TILE_PIXELS, &r, 0.0f, 9.0f, rare);
+    light.position = place(&r, 3.0f, rare);
+    light.direction = direction(&r);
+    light.kind = (int32_t)(t->seed / 2u % 3u);
+    const lmb_gloss before = got.it = want.it;
+    lmb_kernels_scalar.gloss_direct(&want.it, &tile, &lit, &light);
+    t->kernels->gloss_direct(&got.it, &tile, &lit, &light);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_gloss(t, &want.it, &got.it, &before, before.pixels);
+}
+
+/* The emitters end where their memory ends. */
+static int trial_gloss_cut(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_gloss) want, got;
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const int32_t count = (int32_t)(test_random(&r) % 10u);
+    uint64_t lit = 0;
+    GUARD(want);
+    GUARD(got);
+    make_gather_tile(&tile, t, &r, rare);
+    make_gloss(&want.it, t, &r, rare);
+    const lmb_gloss before = got.it = want.it;
+    lmb_emitter *emitters = malloc((size_t)count * sizeof *emitters + 1);
+    for (int32_t i = 0; i < count; ++i) {
+        emitters[i] = make_emitter(t, &r, rare);
+        lit |= emitters[i].visible;
+    }
+    lmb_kernels_scalar.gloss_cut(&want.it, &tile, emitters, count);
+    t->kernels->gloss_cut(&got.it, &tile, emitters, count);
+    free(emitters);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_gloss(t, &want.it, &got.it, &before, lit & before.pixels);
 }
 
 /* --- occlusion ---------------------------------------------------------------------------------------------------- */
@@ -822,7 +901,7 @@ static int trial_many_shine(const trial *t, test_rng r)
     GUARD(want);
     GUARD(got);
     make_gather_tile(&tile, t, &r, rare);
-    make_sums(&want.it, &r);
+    make_sums(want.it.rgb, &r);
     got.it = want.it;
     for (int32_t i = 0; i < count; ++i) {
         lamp[i] = make_lamp(&r, rare);
@@ -1037,6 +1116,8 @@ static const struct kernel {
     {"gather_near", trial_gather_near},
     {"gather_cut", trial_gather_cut},
     {"weigh", trial_weigh},
+    {"gloss_direct", trial_gloss_direct},
+    {"gloss_cut", trial_gloss_cut},
     {"crossed", trial_crossed},
     {"segments", trial_segments},
     {"through", trial_through},
