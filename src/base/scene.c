@@ -1,6 +1,8 @@
 /* scene.c: is a scene safe to draw, how many triangles, how large. Floor 1. */
 #include <lambent/scene.h>
 
+#include <stddef.h>
+
 #include "vec.h"
 #include "vertex.h"
 
@@ -144,25 +146,20 @@ uint32_t lmb_scene_triangles(const lmb_scene *scene)
     return last->first_id - 1 + scene->meshes[last->mesh].triangle_count;
 }
 
-int lmb_scene_shines(const lmb_scene *scene)
+/* Is the colour that lies `at` bytes into materials anything but black in one of them? */
+static int any_coloured(const lmb_scene *scene, size_t at)
 {
     int any = 0;
     for (uint32_t i = 0; scene != NULL && i < scene->material_count; ++i) {
-        const float *e = scene->materials[i].emission;
-        any |= e[0] > 0.0f || e[1] > 0.0f || e[2] > 0.0f;
+        const float *c = (const float *)((const char *)&scene->materials[i] + at);
+        any |= c[0] > 0.0f || c[1] > 0.0f || c[2] > 0.0f;
     }
     return any;
 }
 
-int lmb_scene_is_glossy(const lmb_scene *scene)
-{
-    int any = 0;
-    for (uint32_t i = 0; scene != NULL && i < scene->material_count; ++i) {
-        const float *f = scene->materials[i].specular;
-        any |= f[0] > 0.0f || f[1] > 0.0f || f[2] > 0.0f;
-    }
-    return any;
-}
+int lmb_scene_shines(const lmb_scene *scene) { return any_coloured(scene, offsetof(lmb_material, emission)); }
+
+int lmb_scene_is_glossy(const lmb_scene *scene) { return any_coloured(scene, offsetof(lmb_material, specular)); }
 
 static int is_sane_point(lmb_vec3 p) { return is_sane(p.x) && is_sane(p.y) && is_sane(p.z); }
 

@@ -634,10 +634,13 @@ static void scene_that_shines(void)
     small_scene s;
     make_scene(&s);
     CHECK(!lmb_scene_shines(&s.scene) && !lmb_scene_shines(NULL));
+    CHECK(!lmb_scene_is_glossy(&s.scene) && !lmb_scene_is_glossy(NULL));
     s.material.emission[2] = 1e-38f;
-    CHECK(lmb_scene_shines(&s.scene));
+    CHECK(lmb_scene_shines(&s.scene) && !lmb_scene_is_glossy(&s.scene));
+    s.material.specular[0] = 1e-38f;
+    CHECK(lmb_scene_is_glossy(&s.scene));
     s.scene.material_count = 0;
-    CHECK(!lmb_scene_shines(&s.scene));
+    CHECK(!lmb_scene_shines(&s.scene) && !lmb_scene_is_glossy(&s.scene));
 }
 
 /* Streams stand in arrays of 32-bit words so that they are aligned; their halves are written as such. */
