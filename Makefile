@@ -160,8 +160,8 @@ golden: $(B)/golden ## small scenes' hashes against the committed ones
 hard: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
 	@$(RUN) $(B)/reference hard
 
-ways: $(B)/ways ## the same hashes in pieces, in several orders, and on 1 .. 8 threads
-	@$(RUN) $(B)/ways$(EXE)
+ways: $(B)/ways ## the same hashes in pieces, in several orders, and on 1 .. 8 threads; WAYS=all: by every machine each
+	@$(RUN) $(B)/ways$(EXE) $(WAYS)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*

@@ -13,7 +13,7 @@ typedef struct golden_way {
     lmb_status (*draw_map)(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene);
     lmb_status (*render)(lmb_render *r, const lmb_frame *frame);
     lmb_status (*again)(lmb_render *r, const lmb_frame *frame); /* lmb_render_again, and all that follows */
-    int32_t machine; /* lmb_kernels_at(this, modulo their number); -1: all of them */
+    int32_t machine; /* case k: lmb_kernels_at(this + k, modulo their number); -1: all of them */
 } golden_way;
 
 extern const golden_way golden_whole; /* each in one call */
