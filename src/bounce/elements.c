@@ -13,7 +13,12 @@
 
 #if LMB_TREES
 
-enum { HALVINGS = 48, SAMPLES = 4, CELLS = 1 << 20, Z_BITS = 9 };
+enum {
+    HALVINGS = 32, /* of a triangle, the longest edge each time: 2^31 pieces of about one size, and 2^24 are the most */
+    SAMPLES = 4,
+    CELLS = 1 << 20,
+    Z_BITS = 9
+};
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 

@@ -133,12 +133,46 @@ static void ask_leaf(walk *w, const lmb_boxes *node, int i, uint64_t asked)
     }
 }
 
+/* The tile's segments to one point, in parts as they are needed. */
+typedef struct rays {
+    lmb_pyramid pyramid;
+    lmb_segments segments;
+    int leaves; /* asked so far; segments: from BY_PYRAMID + 1 on */
+} rays;
+
+/* A node whose leaves are asked; of its children those that wait, box i as bit LMB_BOXES - 1 - i. */
+typedef struct branch {
+    uint32_t node, children;
+} branch;
+
+static uint32_t ask_node(walk *w, rays *r, const lmb_boxes *node)
+{
+    uint32_t children = 0;
+    for (uint32_t bits = w->kernels->meets(&r->pyramid, node); bits != 0 && w->left != 0; bits &= bits - 1) {
+        const int i = lowest_bit(bits);
+        uint64_t here = w->left;
+        if (node->count[i] == 0) {
+            children |= 1u << (LMB_BOXES - 1 - i);
+            continue;
+        }
+        if (++r->leaves > BY_PYRAMID) {
+            if (r->leaves == BY_PYRAMID + 1) {
+                w->kernels->segments(&r->segments, w->tile, w->at);
+            }
+            here = w->kernels->through(&r->segments, here, node, i);
+        }
+        ask_leaf(w, node, i, here);
+    }
+    return children;
+}
+
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
                           uint64_t pixels, lmb_vec3 at, lmb_last_blockers *last)
 {
-    uint32_t waiting[LMB_WALK_STACK];
-    lmb_segments segments;
-    int count = 1, leaves = 0;
+    branch waiting[LMB_WALK_LEVELS];
+    rays r;
+    int count = 0;
+    uint32_t here = 0;
     walk w = {blockers, kernels, tile, at, last, pixels};
     if (blockers == NULL || kernels == NULL || tile == NULL || pixels == 0 || blockers->node_count == 0) {
         return 0;
@@ -146,27 +180,20 @@ uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kerne
     if (ask_last(&w)) {
         return pixels;
     }
-    const lmb_pyramid p = pyramid_of(tile, w.left, at);
-    waiting[0] = 0;
-    while (count > 0 && w.left != 0) {
-        const lmb_boxes *node = &blockers->node[waiting[--count]];
-        for (uint32_t bits = kernels->meets(&p, node); bits != 0 && w.left != 0; bits &= bits - 1) {
-            const int i = lowest_bit(bits);
-            uint64_t here = w.left;
-            if (node->count[i] == 0) {
-                waiting[count++] = node->first[i];
-                continue;
-            }
-            if (++leaves > BY_PYRAMID) {
-                if (leaves == BY_PYRAMID + 1) {
-                    kernels->segments(&segments, tile, at);
-                }
-                here = kernels->through(&segments, here, node, i);
-            }
-            ask_leaf(&w, node, i, here);
+    r.pyramid = pyramid_of(tile, w.left, at);
+    r.leaves = 0;
+    for (;;) {
+        waiting[count].node = here;
+        waiting[count].children = ask_node(&w, &r, &blockers->node[here]);
+        count += waiting[count].children != 0;
+        if (count == 0 || w.left == 0) {
+            return pixels & ~w.left;
         }
+        branch *up = &waiting[count - 1];
+        here = blockers->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
+        up->children &= up->children - 1;
+        count -= up->children == 0;
     }
-    return pixels & ~w.left;
 }
 
 #endif
