@@ -35,33 +35,45 @@ static int is_sound(const lmb_world_pictures *p, int32_t format)
                                   p->ground_height <= 8192));
 }
 
-/* Both kinds of levels; returns the texels of all. */
-static size_t set_levels(lmb_world *w, const lmb_world_pictures *p)
+/* The faces' levels from texel *end on, which moves behind them; returns how many. */
+static int32_t set_cube(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
 {
-    size_t at = 0;
-    w->cube_levels = w->ground_levels = 0;
-    for (int32_t n = p->face_size; n >= 1 && w->cube_levels < LMB_WORLD_LEVELS; n /= 2) {
-        const lmb_world_level level = {(uint32_t)at, n, n};
-        w->cube[w->cube_levels++] = level;
-        at += 6 * (size_t)(n + 2) * (size_t)(n + 2);
+    int32_t count = 0;
+    for (int32_t n = p->face_size; n >= 1 && count < LMB_WORLD_LEVELS; n /= 2) {
+        const lmb_world_level level = {(uint32_t)*end, n, n};
+        out[count++] = level;
+        *end += 6 * (size_t)(n + 2) * (size_t)(n + 2);
     }
-    for (int32_t x = p->ground_width, y = p->ground_height; p->ground != NULL && w->ground_levels < LMB_WORLD_LEVELS;) {
-        const lmb_world_level level = {(uint32_t)at, x, y};
-        w->ground[w->ground_levels++] = level;
-        at += (size_t)x * (size_t)y;
+    return count;
+}
+
+/* The same of the ground's; 0 without one. */
+static int32_t set_ground(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
+{
+    int32_t count = 0;
+    for (int32_t x = p->ground_width, y = p->ground_height; p->ground != NULL && count < LMB_WORLD_LEVELS;) {
+        const lmb_world_level level = {(uint32_t)*end, x, y};
+        out[count++] = level;
+        *end += (size_t)x * (size_t)y;
         if (x == 1 && y == 1) {
             break;
         }
         x = maxi(x / 2, 1);
         y = maxi(y / 2, 1);
     }
-    return at;
+    return count;
 }
 
 size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format)
 {
-    lmb_world w;
-    return is_sound(pictures, format) ? set_levels(&w, pictures) * texel_bytes(format) : 0;
+    lmb_world_level level[LMB_WORLD_LEVELS];
+    size_t texels = 0;
+    if (!is_sound(pictures, format)) {
+        return 0;
+    }
+    set_cube(level, &texels, pictures);
+    set_ground(level, &texels, pictures);
+    return texels * texel_bytes(format);
 }
 
 /* --- texels ------------------------------------------------------------------------------------------------------- */
@@ -226,6 +238,7 @@ static void set_codes(lmb_world *w)
 lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, int32_t format, void *memory,
                           size_t bytes)
 {
+    size_t end = 0;
     if (out == NULL || pictures == NULL) {
         return LMB_ERR_ARG;
     }
@@ -243,7 +256,8 @@ lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, in
     out->format = format;
     out->pictures = *pictures;
     set_codes(out);
-    set_levels(out, pictures);
+    out->cube_levels = set_cube(out->cube, &end, pictures);
+    out->ground_levels = set_ground(out->ground, &end, pictures);
     take_faces(out, pictures);
     set_border(out, &out->cube[0]);
     for (int32_t i = 1; i < out->cube_levels; ++i) {
