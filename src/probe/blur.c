@@ -197,10 +197,13 @@ lmb_status lmb_probe_halve(float *out, const float *map, const lmb_probe_table *
         return LMB_ERR_ARG;
     }
     const int32_t w = table->width, h = table->height;
-    for (int32_t i = 0; i < 3 * (h / 2) * (w / 2); ++i) {
-        const int32_t x = 2 * (i % (w / 2)), y = 2 * (i / (w / 2));
-        const float *from = map + (size_t)y * (size_t)w + x, a = table->area[y % h], b = table->area[y % h + 1];
-        out[i] = ((from[0] + from[1]) * a + (from[w] + from[w + 1]) * b) / (2.0f * (a + b));
+    for (int32_t i = 0; i < 3 * (h / 2); ++i) {
+        const float *from = map + (size_t)(2 * i) * (size_t)w, a = table->area[2 * i % h],
+                    b = table->area[2 * i % h + 1], whole = 2.0f * (a + b);
+        float *to = out + (size_t)i * (size_t)(w / 2);
+        for (int32_t x = 0; x < w / 2; ++x) {
+            to[x] = ((from[2 * x] + from[2 * x + 1]) * a + (from[w + 2 * x] + from[w + 2 * x + 1]) * b) / whole;
+        }
     }
     return LMB_OK;
 }
