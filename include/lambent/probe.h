@@ -235,7 +235,7 @@ lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lm
  *   cube       3 planes of 6 n x n texels; n: 1 .. 256. lmb_probe_gloss_side gives the n that shows a roughness: 64
  *              from 0.1 on, 32 from 0.2, 16 from 0.35, 8 from 0.6; 0 under 0.1, where pixels look at the world itself.
  *   roughness  0 .. 1; alpha = roughness^2, under LMB_LEAST_ALPHA: a mirror's.
- * The lobe is that of lmb_gloss seen from straight above, by 48 rays as wide as their shares; a mirror's texels are
+ * The lobe is that of lmb_gloss seen from straight above, by 64 rays down to its horizon; a mirror's texels are
  * means of 36 rays: against path-traced truth of a world with small lamps 1 % rmse away from silhouettes. LMB_OK or
  * LMB_ERR_ARG. Cost: about 25 cycles a ray by AVX2. */
 int32_t lmb_probe_gloss_side(float roughness);

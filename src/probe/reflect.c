@@ -12,7 +12,7 @@
 
 #if LMB_PROBES
 
-enum { RINGS = 6, AROUND = 8, RAYS = RINGS * AROUND };
+enum { RINGS = 8, AROUND = 8, RAYS = RINGS * AROUND };
 enum { FINE = 6 }; /* a mirror's rays each way in a texel: means over texels, as pictures have them */
 
 /* A ray about +z: one of AROUND in its ring. */
@@ -21,21 +21,26 @@ typedef struct lobe_ray {
     float weight, width; /* rad */
 } lobe_ray;
 
-/* Ring i holds 1 / RINGS of D, at its middle: tan^2 of the half vector's angle is a2 u / (1 - u). Its rays lie half a
- * step round from the next ring's. */
+/* Texels are 1 to 2 times as wide as what is asked for, and a bilinear read spreads them over twice that: asked is the
+ * root of a half of a ray's share. */
+static const float share_read = 0.7f;
+
+/* Ring i holds 1 / RINGS of D down to the horizon, at its middle: tan^2 of the half vector's angle is a2 u / (1 - u),
+ * and 1 at the horizon. Its rays lie half a step round from the next ring's. */
 static float set_rays(lobe_ray out[RAYS], float alpha)
 {
-    const float a2 = alpha * alpha;
+    const float a2 = alpha * alpha, horizon = 1.0f / (1.0f + a2);
     float sum = 0.0f;
     for (int i = 0; i < RAYS; ++i) {
         const int ring = i / AROUND;
-        const float u = ((float)ring + 0.5f) / (float)RINGS, tan2 = a2 * u / (1.0f - u), cos2 = 1.0f / (1.0f + tan2);
+        const float u = horizon * (((float)ring + 0.5f) / (float)RINGS), tan2 = a2 * u / (1.0f - u),
+                    cos2 = 1.0f / (1.0f + tan2);
         const float z = 2.0f * cos2 - 1.0f, round = sqrtf(maxf(1.0f - z * z, 0.0f));
         const float angle = 2.0f * LMB_PI * (((float)(i % AROUND) + 0.5f * (float)(ring % 2)) / (float)AROUND);
         const float t = cos2 * (a2 - 1.0f) + 1.0f, d = a2 / (LMB_PI * (t * t));
         out[i].to = vec3(round * lmb_cos(angle), round * lmb_sin(angle), z);
-        out[i].weight = z > 0.0f ? 2.0f * z / (z + sqrtf(a2 + (1.0f - a2) * (z * z))) : 0.0f;
-        out[i].width = sqrtf(4.0f / (d * (float)RAYS));
+        out[i].weight = 2.0f * z / (z + sqrtf(a2 + (1.0f - a2) * (z * z)));
+        out[i].width = share_read * sqrtf(4.0f * horizon / (d * (float)RAYS));
         sum += out[i].weight;
     }
     return sum;
@@ -131,12 +136,10 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
         set_tile(t, first, n, at);
         for (int i = 0; i < RAYS; ++i) {
-            if (rays[i].weight > 0.0f) {
-                lmb_world_job job;
-                lmb_world_ask(&job, look->world, rays[i].width, look->blend);
-                point_ray(t, &rays[i]);
-                add_seen(t, rays[i].weight, kernels, &job);
-            }
+            lmb_world_job job;
+            lmb_world_ask(&job, look->world, rays[i].width, look->blend);
+            point_ray(t, &rays[i]);
+            add_seen(t, rays[i].weight, kernels, &job);
         }
         store(cube, t, first, 6 * n * n, 1.0f / weights);
     }

@@ -292,8 +292,10 @@ static void print_row(const gloss *g, int i)
            1e3 * g->seconds[i], 20.0 * sum[0], 20.0 * sum[1], 100.0 * worst);
     for (int p = PLACES; p < WORLDS; ++p) {
         printf(" %.2f (%.2f) |", 100.0 * g->rmse[p][i][0], 100.0 * g->rmse[p][i][1]);
+        worst = g->rmse[p][i][0] > worst ? g->rmse[p][i][0] : worst;
     }
     printf("\n");
+    CHECK_MSG(i < NARROW || worst <= 0.06, "roughness %.1f: %.4f", (double)roughness[i], worst);
 }
 
 void relight_tell_gloss(relight_stage *s)
