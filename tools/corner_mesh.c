@@ -1,0 +1,236 @@
+/* corner_mesh.c: which triangles meet at a vertex, and what happens to them when an edge collapses. */
+#include "corner_mesh.h"
+
+#include <string.h>
+
+/* A collapse may turn a triangle by 78 degrees at most (cosine 0.2), and may not make it a needle. */
+#define TURN_COS2   0.04
+#define NEEDLE      0.04 /* twice the area over the square of the longest side; 0.87 is equilateral */
+
+static dvec place(const corner_mesh *m, uint32_t c) { return m->places[m->vertex[c]]; }
+
+dvec corner_mesh_normal(const corner_mesh *m, uint32_t c)
+{
+    return dvec_turn(place(m, c), place(m, corner_after(c)), place(m, corner_before(c)));
+}
+
+/* --- edges -----------------------------------------------------------------------------------------------------------*/
+
+static uint32_t end_of(const corner_mesh *m, uint32_t c, int high)
+{
+    const uint32_t a = m->vertex[c], b = m->vertex[corner_after(c)];
+    return (a < b) == high ? b : a;
+}
+
+/* One pass of a counting sort, which keeps the order of equals. `starts`: vertex_count + 1. */
+static void sort_edges(const corner_mesh *m, uint32_t *out, const uint32_t *in, uint32_t n, uint32_t *starts, int high)
+{
+    uint32_t i, v;
+    memset(starts, 0, ((size_t)m->vertex_count + 1) * sizeof *starts);
+    for (i = 0; i < n; ++i)
+        ++starts[end_of(m, in[i], high) + 1];
+    for (v = 0; v < m->vertex_count; ++v)
+        starts[v + 1] += starts[v];
+    for (i = 0; i < n; ++i)
+        out[starts[end_of(m, in[i], high)]++] = in[i];
+}
+
+uint32_t *corner_mesh_edges(const corner_mesh *m, tally *t)
+{
+    const uint32_t n = 3 * m->live;
+    uint32_t *edges = tally_take(t, n, sizeof *edges), *work = tally_take(t, n, sizeof *work);
+    uint32_t *starts = tally_take(t, (uint64_t)m->vertex_count + 1, sizeof *starts);
+    uint32_t c, k = 0;
+    if (edges && work && starts) {
+        for (c = 0; c < m->corner_count; ++c)
+            if (m->vertex[c] != CORNER_NONE)
+                edges[k++] = c;
+        sort_edges(m, work, edges, n, starts, 1);
+        sort_edges(m, edges, work, n, starts, 0);
+    } else {
+        tally_give(t, edges, n, sizeof *edges);
+        edges = NULL;
+    }
+    tally_give(t, work, n, sizeof *work);
+    tally_give(t, starts, (uint64_t)m->vertex_count + 1, sizeof *starts);
+    return edges;
+}
+
+/* --- lists -----------------------------------------------------------------------------------------------------------*/
+
+static void unlink_corner(corner_mesh *m, uint32_t c)
+{
+    const uint32_t v = m->vertex[c], next = m->next[c], prior = m->prior[c];
+    if (next != CORNER_NONE)
+        m->prior[next] = prior;
+    if (prior != CORNER_NONE)
+        m->next[prior] = next;
+    else
+        m->first[v] = next;
+    --m->valence[v];
+    m->vertex[c] = CORNER_NONE;
+}
+
+void corner_mesh_drop(corner_mesh *m, uint32_t c)
+{
+    const uint32_t t = c / 3 * 3;
+    unlink_corner(m, t);
+    unlink_corner(m, t + 1);
+    unlink_corner(m, t + 2);
+    --m->live;
+}
+
+/* The corner's triangle has vertex v beside the corner. */
+static int touches(const corner_mesh *m, uint32_t c, uint32_t v)
+{
+    return m->vertex[corner_after(c)] == v || m->vertex[corner_before(c)] == v;
+}
+
+/* All corners of b become corners of a. */
+static void relabel(corner_mesh *m, uint32_t a, uint32_t b)
+{
+    uint32_t c, last = CORNER_NONE;
+    for (c = m->first[b]; c != CORNER_NONE; c = m->next[c]) {
+        m->vertex[c] = a;
+        last = c;
+    }
+    if (last == CORNER_NONE)
+        return;
+    m->next[last] = m->first[a];
+    if (m->first[a] != CORNER_NONE)
+        m->prior[m->first[a]] = last;
+    m->first[a] = m->first[b];
+    m->first[b] = CORNER_NONE;
+    m->valence[a] += m->valence[b];
+    m->valence[b] = 0;
+}
+
+static void join_looks(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
+{
+    const dvec edge = dvec_sub(m->places[b], m->places[a]);
+    double s = dvec_dot(dvec_sub(at, m->places[a]), edge) / dvec_dot(edge, edge);
+    int k;
+    s = s > 0 ? s < 1 ? s : 1 : 0; /* no edge (0 / 0): a's */
+    for (k = 0; k < 6; ++k)
+        m->looks[a][k] = (float)((1 - s) * (double)m->looks[a][k] + s * (double)m->looks[b][k]);
+}
+
+void corner_mesh_join(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
+{
+    uint32_t c, next;
+    for (c = m->first[b]; c != CORNER_NONE; c = next) {
+        next = m->next[c];
+        if (touches(m, c, a))
+            corner_mesh_drop(m, c);
+    }
+    relabel(m, a, b);
+    join_looks(m, a, b, at);
+    m->places[a] = at;
+    m->border[a] |= m->border[b];
+}
+
+/* --- guards ----------------------------------------------------------------------------------------------------------*/
+
+/* Marks the vertices around a but b with the epoch, and those that face the edge a b with one more; how many triangles
+ * the edge has. */
+static uint32_t mark_around(corner_mesh *m, uint32_t a, uint32_t b)
+{
+    uint32_t c, faces = 0;
+    m->epoch += 2;
+    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c]) {
+        m->mark[m->vertex[corner_after(c)]] = m->epoch;
+        m->mark[m->vertex[corner_before(c)]] = m->epoch;
+    }
+    m->mark[b] = 0;
+    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c]) {
+        const uint32_t after = m->vertex[corner_after(c)], before = m->vertex[corner_before(c)];
+        if (after == b || before == b) {
+            m->mark[after == b ? before : after] = m->epoch + 1;
+            ++faces;
+        }
+    }
+    return faces;
+}
+
+/* The faces of edge a b would leave a third vertex with nothing, or with two triangles back to back. */
+static int strands(const corner_mesh *m, uint32_t c, uint32_t a)
+{
+    const uint32_t v = m->vertex[m->vertex[corner_after(c)] == a ? corner_before(c) : corner_after(c)];
+    return m->valence[v] <= (m->border[v] ? 1u : 3u);
+}
+
+static int links_agree(corner_mesh *m, uint32_t a, uint32_t b)
+{
+    const uint32_t faces = mark_around(m, a, b);
+    uint32_t c;
+    if (faces == 2 && m->border[a] && m->border[b])
+        return 0;
+    for (c = m->first[b]; c != CORNER_NONE; c = m->next[c]) {
+        if (m->mark[m->vertex[corner_after(c)]] == m->epoch || m->mark[m->vertex[corner_before(c)]] == m->epoch)
+            return 0;
+        if (touches(m, c, a) && strands(m, c, a))
+            return 0;
+    }
+    return faces > 0;
+}
+
+static double larger(double a, double b) { return a > b ? a : b; }
+
+static double longest_side2(dvec a, dvec b, dvec c)
+{
+    const dvec ab = dvec_sub(b, a), bc = dvec_sub(c, b), ca = dvec_sub(a, c);
+    return larger(dvec_dot(ab, ab), larger(dvec_dot(bc, bc), dvec_dot(ca, ca)));
+}
+
+/* The triangle of corner c stays a triangle, on the same side, when the corner moves. One without area, before, has no
+ * side to lose. */
+static int survives(const corner_mesh *m, uint32_t c, dvec at)
+{
+    const dvec p = place(m, c), q = place(m, corner_after(c)), r = place(m, corner_before(c));
+    const dvec before = dvec_turn(p, q, r), after = dvec_turn(at, q, r);
+    const double b2 = dvec_dot(before, before), a2 = dvec_dot(after, after), both = dvec_dot(before, after);
+    const double side_b = longest_side2(p, q, r), side_a = longest_side2(at, q, r);
+    if (b2 > 0 && !(both > 0 && both * both > TURN_COS2 * b2 * a2))
+        return 0;
+    return a2 > 0 && (a2 > NEEDLE * NEEDLE * side_a * side_a || a2 * side_b * side_b >= b2 * side_a * side_a);
+}
+
+static int all_survive(const corner_mesh *m, uint32_t a, uint32_t without, dvec at)
+{
+    uint32_t c;
+    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c])
+        if (!touches(m, c, without) && !survives(m, c, at))
+            return 0;
+    return 1;
+}
+
+int corner_mesh_can_join(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
+{
+    return m->valence[a] + m->valence[b] <= CORNER_STAR && links_agree(m, a, b) && all_survive(m, a, b, at)
+        && all_survive(m, b, a, at);
+}
+
+/* --- parts -----------------------------------------------------------------------------------------------------------*/
+
+static uint32_t add_triangles(const corner_mesh *m, uint32_t v, uint32_t *part, uint32_t n, uint32_t cap)
+{
+    uint32_t c, i;
+    for (c = m->first[v]; c != CORNER_NONE; c = m->next[c]) {
+        for (i = 0; i < n && part[i] != c / 3 * 3; ++i)
+            continue;
+        if (i == cap)
+            return cap + 1;
+        if (i == n)
+            part[n++] = c / 3 * 3;
+    }
+    return n;
+}
+
+uint32_t corner_mesh_part(const corner_mesh *m, uint32_t v, uint32_t *part, uint32_t cap)
+{
+    uint32_t n = add_triangles(m, v, part, 0, cap), i, k;
+    for (i = 0; i < n && n <= cap; ++i)
+        for (k = 0; k < 3 && n <= cap; ++k)
+            n = add_triangles(m, m->vertex[part[i] + k], part, n, cap);
+    return n <= cap ? n : 0;
+}

@@ -1,0 +1,31 @@
+/* edge_heap.h: the edges of a mesh, the cheapest first. */
+#ifndef EDGE_HEAP_H
+#define EDGE_HEAP_H
+
+#include <stdint.h>
+
+/* Orders by cost, then by vertices, then by stamp: no two entries are equal, so that the order in which they come out
+ * depends on nothing else. */
+typedef struct heap_edge {
+    double cost; /* no NaN */
+    uint32_t a, b, stamp;
+} heap_edge;
+
+/* The caller's array. */
+typedef struct edge_heap {
+    heap_edge *edges;
+    uint32_t count, cap;
+} edge_heap;
+
+int edge_is_before(const heap_edge *e, const heap_edge *f);
+
+/* edge_heap_push: count < cap. */
+void edge_heap_push(edge_heap *h, heap_edge e);
+
+/* edge_heap_pop: count > 0. */
+heap_edge edge_heap_pop(edge_heap *h);
+
+/* edge_heap_order: after the caller wrote `edges` and `count` itself. */
+void edge_heap_order(edge_heap *h);
+
+#endif

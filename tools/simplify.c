@@ -1,0 +1,324 @@
+/* simplify.c: collapses the edge whose quadric error is least until few enough triangles are left. */
+#include "simplify.h"
+
+#include <string.h>
+
+#include "corner_mesh.h"
+#include "edge_heap.h"
+#include "hull_point.h"
+#include "quadric.h"
+
+/* A border edge holds its place like three squares over it. */
+#define BORDER_WEIGHT 3
+/* Of a quadric's trace: what draws the point to the edge's middle where the planes leave it free, as on a flat face; so
+ * little that a corner of three planes stays where it is. */
+#define DRAW 1e-6
+/* Of the area times the edge's square: what a flat place's collapses cost, so that short edges go first. */
+#define LENGTH_COST 1e-6
+/* Passes over the edges that a guard refused, while that still yields collapses. */
+#define PASSES 16
+/* Parts of so few triangles may vanish. */
+#define PART 16
+
+typedef struct simplifier {
+    corner_mesh mesh;
+    quadric *quadrics;  /* of a vertex: planes of the faces and borders that have come together in it, by area */
+    uint32_t *stamps;   /* of a vertex: how often it moved */
+    edge_heap heap;
+    half_space *spaces; /* CORNER_STAR * 3 */
+    double slack;       /* metres that may be rounding */
+    int around;
+    tally memory;
+    simplify_facts *facts;
+} simplifier;
+
+static uint32_t edge_room(const simplifier *s) { return s->mesh.corner_count + s->mesh.corner_count / 4 + 64; }
+
+/* --- quadrics --------------------------------------------------------------------------------------------------------*/
+
+static void add_to(simplifier *s, uint32_t v, quadric q) { s->quadrics[v] = quadric_sum(s->quadrics[v], q); }
+
+static void add_faces(simplifier *s)
+{
+    const corner_mesh *m = &s->mesh;
+    uint32_t c;
+    for (c = 0; c < m->corner_count; c += 3) {
+        dvec n;
+        quadric q;
+        if (m->vertex[c] == CORNER_NONE)
+            continue;
+        n = corner_mesh_normal(m, c);
+        q = quadric_plane(dvec_unit(n), m->places[m->vertex[c]], dvec_length(n) / 2);
+        add_to(s, m->vertex[c], q);
+        add_to(s, m->vertex[c + 1], q);
+        add_to(s, m->vertex[c + 2], q);
+    }
+}
+
+/* Out of the surface, across the border that corner c starts. */
+static dvec border_normal(const corner_mesh *m, uint32_t c)
+{
+    const dvec along = dvec_sub(m->places[m->vertex[corner_after(c)]], m->places[m->vertex[c]]);
+    return dvec_unit(dvec_cross(along, corner_mesh_normal(m, c)));
+}
+
+static void add_borders(simplifier *s, const uint32_t *edges)
+{
+    const corner_mesh *m = &s->mesh;
+    uint32_t i, k;
+    for (i = 0; i < 3 * m->live; i = k) {
+        const uint32_t a = m->vertex[edges[i]], b = m->vertex[corner_after(edges[i])];
+        const dvec along = dvec_sub(m->places[b], m->places[a]);
+        quadric q;
+        for (k = i + 1; k < 3 * m->live && corner_mesh_is_edge(m, edges[k], a, b); ++k)
+            continue;
+        if (k - i == 2)
+            continue;
+        q = quadric_plane(border_normal(m, edges[i]), m->places[a], BORDER_WEIGHT * dvec_dot(along, along));
+        add_to(s, a, q);
+        add_to(s, b, q);
+    }
+}
+
+/* --- where to, and what it costs -------------------------------------------------------------------------------------*/
+
+/* The outer sides of the triangles at v. */
+static int add_spaces(simplifier *s, uint32_t v, int n)
+{
+    const corner_mesh *m = &s->mesh;
+    uint32_t c;
+    for (c = m->first[v]; c != CORNER_NONE && n < 2 * CORNER_STAR; c = m->next[c]) {
+        half_space h;
+        h.normal = dvec_unit(corner_mesh_normal(m, c));
+        h.least = dvec_dot(h.normal, m->places[v]);
+        if (dvec_dot(h.normal, h.normal) > 0)
+            s->spaces[n++] = h;
+    }
+    return n;
+}
+
+static int place_around(simplifier *s, uint32_t a, uint32_t b, quadric q, dvec middle, dvec *at)
+{
+    int n;
+    if (s->mesh.valence[a] + s->mesh.valence[b] > CORNER_STAR)
+        return 0;
+    n = add_spaces(s, b, add_spaces(s, a, 0));
+    return hull_point(at, q, middle, s->spaces, n, s->slack);
+}
+
+/* A border vertex pulls an inner one to its place, for borders are lines that stay. */
+static int place_near(const simplifier *s, uint32_t a, uint32_t b, quadric q, dvec middle, dvec *at)
+{
+    const corner_mesh *m = &s->mesh;
+    if (m->border[a] != m->border[b])
+        *at = m->places[m->border[a] ? a : b];
+    else if (!quadric_least(at, q, middle))
+        *at = middle;
+    return 1;
+}
+
+static int place_edge(simplifier *s, uint32_t a, uint32_t b, dvec *at, double *cost)
+{
+    const corner_mesh *m = &s->mesh;
+    const quadric q = quadric_sum(s->quadrics[a], s->quadrics[b]);
+    const dvec middle = dvec_mix(m->places[a], m->places[b], 0.5), along = dvec_sub(m->places[b], m->places[a]);
+    const double trace = quadric_trace(q);
+    const quadric drawn = quadric_drawn(q, middle, trace > 0 ? DRAW * trace : 1);
+    if (s->around ? !place_around(s, a, b, drawn, middle, at) : !place_near(s, a, b, drawn, middle, at))
+        return 0;
+    *cost = quadric_error(q, *at) + LENGTH_COST * trace * dvec_dot(along, along);
+    return *cost < HUGE_VAL;
+}
+
+/* --- the heap --------------------------------------------------------------------------------------------------------*/
+
+static int is_stale(const simplifier *s, const heap_edge *e) { return s->stamps[e->a] + s->stamps[e->b] != e->stamp; }
+
+/* An edge has one entry that is not stale, so what is left fits with a fifth to spare. */
+static void sweep(simplifier *s)
+{
+    uint32_t i, n = 0;
+    for (i = 0; i < s->heap.count; ++i)
+        if (!is_stale(s, &s->heap.edges[i]))
+            s->heap.edges[n++] = s->heap.edges[i];
+    s->heap.count = n;
+    edge_heap_order(&s->heap);
+}
+
+static void push(simplifier *s, uint32_t a, uint32_t b, double cost)
+{
+    heap_edge e;
+    e.cost = cost;
+    e.a = a < b ? a : b;
+    e.b = a < b ? b : a;
+    e.stamp = s->stamps[a] + s->stamps[b];
+    if (s->heap.count == s->heap.cap)
+        sweep(s);
+    if (s->heap.count < s->heap.cap)
+        edge_heap_push(&s->heap, e);
+}
+
+static void push_edge(simplifier *s, uint32_t a, uint32_t b)
+{
+    dvec at;
+    double cost;
+    if (place_edge(s, a, b, &at, &cost))
+        push(s, a, b, cost);
+}
+
+/* All edges there are. 0: no memory. */
+static int fill(simplifier *s)
+{
+    const corner_mesh *m = &s->mesh;
+    uint32_t *edges = corner_mesh_edges(m, &s->memory), n = 3 * m->live, i, k;
+    s->heap.count = 0;
+    for (i = 0; i < n && edges; i = k) {
+        const uint32_t a = m->vertex[edges[i]], b = m->vertex[corner_after(edges[i])];
+        for (k = i + 1; k < n && corner_mesh_is_edge(m, edges[k], a, b); ++k)
+            continue;
+        push_edge(s, a, b);
+    }
+    tally_give(&s->memory, edges, n, sizeof *edges);
+    return edges != NULL;
+}
+
+/* --- collapse --------------------------------------------------------------------------------------------------------*/
+
+static void collapse(simplifier *s, uint32_t a, uint32_t b, dvec at)
+{
+    corner_mesh *m = &s->mesh;
+    uint32_t c, k;
+    add_to(s, a, s->quadrics[b]);
+    corner_mesh_join(m, a, b, at);
+    ++s->stamps[a];
+    ++s->stamps[b];
+    ++s->facts->collapses;
+    m->epoch += 2;
+    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c])
+        for (k = 1; k < 3; ++k) {
+            const uint32_t v = m->vertex[k == 1 ? corner_after(c) : corner_before(c)];
+            if (m->mark[v] != m->epoch) {
+                m->mark[v] = m->epoch;
+                push_edge(s, a, v);
+            }
+        }
+}
+
+/* What it costs that a part is gone: its surface is as far from any other as it is large. */
+static double part_cost(const corner_mesh *m, const uint32_t *part, uint32_t n)
+{
+    double area = 0, across = 0;
+    uint32_t i, k;
+    for (i = 0; i < n; ++i) {
+        area += dvec_length(corner_mesh_normal(m, part[i])) / 2;
+        for (k = 0; k < 3; ++k) {
+            const dvec d = dvec_sub(m->places[m->vertex[part[i] + k]], m->places[m->vertex[part[0]]]);
+            across = dvec_dot(d, d) > across ? dvec_dot(d, d) : across;
+        }
+    }
+    return area * across;
+}
+
+/* A small part that can't collapse goes when it is the cheapest thing to lose; the last part stays. */
+static void vanish(simplifier *s, const heap_edge *e)
+{
+    corner_mesh *m = &s->mesh;
+    uint32_t part[PART], n = s->around ? 0 : corner_mesh_part(m, e->a, part, PART), i;
+    double cost;
+    if (!n || n == m->live)
+        return;
+    cost = part_cost(m, part, n);
+    if (cost > e->cost) {
+        push(s, e->a, e->b, cost);
+        return;
+    }
+    for (i = 0; i < n; ++i) {
+        uint32_t k;
+        for (k = 0; k < 3; ++k)
+            ++s->stamps[m->vertex[part[i] + k]];
+        corner_mesh_drop(m, part[i]);
+    }
+    ++s->facts->vanished;
+}
+
+/* The faces around an edge may have moved since it was pushed: what costs more by that waits for its turn. */
+static void take(simplifier *s, heap_edge e)
+{
+    dvec at;
+    double cost;
+    if (is_stale(s, &e) || !place_edge(s, e.a, e.b, &at, &cost))
+        return;
+    if (cost > e.cost)
+        push(s, e.a, e.b, cost);
+    else if (corner_mesh_can_join(&s->mesh, e.a, e.b, at))
+        collapse(s, e.a, e.b, at);
+    else
+        vanish(s, &e);
+}
+
+static int reduce(simplifier *s, uint32_t triangles)
+{
+    uint32_t pass, before = UINT32_MAX;
+    for (pass = 0; pass < PASSES && s->mesh.live > triangles && s->mesh.live < before; ++pass) {
+        before = s->mesh.live;
+        if (!fill(s))
+            return 0;
+        while (s->mesh.live > triangles && s->heap.count)
+            take(s, edge_heap_pop(&s->heap));
+    }
+    return 1;
+}
+
+/* --- all of it -------------------------------------------------------------------------------------------------------*/
+
+static int prepare(simplifier *s)
+{
+    corner_mesh *m = &s->mesh;
+    uint32_t *edges = corner_mesh_edges(m, &s->memory), v;
+    double reach = 0;
+    s->quadrics = tally_take(&s->memory, m->vertex_count, sizeof *s->quadrics);
+    s->stamps = tally_take(&s->memory, m->vertex_count, sizeof *s->stamps);
+    s->spaces = tally_take(&s->memory, 2 * CORNER_STAR, sizeof *s->spaces);
+    if (edges && s->quadrics && s->stamps && s->spaces) {
+        add_faces(s);
+        add_borders(s, edges);
+    }
+    for (v = 0; v < m->vertex_count; ++v)
+        reach = dvec_dot(m->places[v], m->places[v]) > reach ? dvec_dot(m->places[v], m->places[v]) : reach;
+    s->slack = 1e-10 * sqrt(reach);
+    tally_give(&s->memory, edges, 3 * (uint64_t)m->live, sizeof *edges);
+    s->heap.cap = edge_room(s);
+    s->heap.edges = tally_take(&s->memory, s->heap.cap, sizeof *s->heap.edges);
+    return edges && s->quadrics && s->stamps && s->spaces && s->heap.edges;
+}
+
+static void release(simplifier *s)
+{
+    const uint32_t vertices = s->mesh.vertex_count;
+    tally_give(&s->memory, s->heap.edges, s->heap.cap, sizeof *s->heap.edges);
+    tally_give(&s->memory, s->quadrics, vertices, sizeof *s->quadrics);
+    tally_give(&s->memory, s->stamps, vertices, sizeof *s->stamps);
+    tally_give(&s->memory, s->spaces, 2 * CORNER_STAR, sizeof *s->spaces);
+    corner_mesh_free(&s->mesh, &s->memory);
+}
+
+int simplify_mesh(triangle_mesh *out, const triangle_mesh *in, uint32_t triangles, int around, simplify_facts *facts,
+                  report *r)
+{
+    simplifier s;
+    int ok;
+    memset(&s, 0, sizeof s);
+    memset(out, 0, sizeof *out);
+    memset(facts, 0, sizeof *facts);
+    s.facts = facts;
+    s.around = around;
+    ok = corner_mesh_build(&s.mesh, in, facts, &s.memory, r)
+        && (s.mesh.live <= triangles || (prepare(&s) && reduce(&s, triangles)))
+        && corner_mesh_write(&s.mesh, out, in->colours != NULL, &s.memory);
+    release(&s);
+    facts->memory_bytes = s.memory.highest;
+    if (ok)
+        return 1;
+    triangle_mesh_free(out);
+    return report_fail(r, "not enough memory to simplify %u triangles", (unsigned)in->triangle_count);
+}
