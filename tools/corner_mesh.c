@@ -105,6 +105,36 @@ static void relabel(corner_mesh *m, uint32_t a, uint32_t b)
     m->valence[b] = 0;
 }
 
+/* Triangles of the edge a b. */
+static uint32_t faces_of(const corner_mesh *m, uint32_t a, uint32_t b)
+{
+    uint32_t c, n = 0;
+    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c])
+        n += (uint32_t)touches(m, c, b);
+    return n;
+}
+
+static uint8_t has_border(const corner_mesh *m, uint32_t v)
+{
+    uint32_t c;
+    for (c = m->first[v]; c != CORNER_NONE; c = m->next[c])
+        if (faces_of(m, v, m->vertex[corner_after(c)]) != 2 || faces_of(m, v, m->vertex[corner_before(c)]) != 2)
+            return 1;
+    return 0;
+}
+
+/* Where a border edge has collapsed, its hole may have closed. */
+static void mend_borders(corner_mesh *m, uint32_t a)
+{
+    uint32_t c;
+    m->border[a] = has_border(m, a);
+    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c]) {
+        const uint32_t v = m->vertex[corner_after(c)], w = m->vertex[corner_before(c)];
+        m->border[v] = m->border[v] && has_border(m, v);
+        m->border[w] = m->border[w] && has_border(m, w);
+    }
+}
+
 static void join_looks(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
 {
     const dvec edge = dvec_sub(m->places[b], m->places[a]);
@@ -126,30 +156,25 @@ void corner_mesh_join(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
     relabel(m, a, b);
     join_looks(m, a, b, at);
     m->places[a] = at;
-    m->border[a] |= m->border[b];
+    if (m->border[a] || m->border[b])
+        mend_borders(m, a);
 }
 
 /* --- guards ----------------------------------------------------------------------------------------------------------*/
 
-/* Marks the vertices around a but b with the epoch, and those that face the edge a b with one more; how many triangles
- * the edge has. */
-static uint32_t mark_around(corner_mesh *m, uint32_t a, uint32_t b)
+/* Marks the vertices around a but b with the epoch, and those that face the edge a b with one more. */
+static void mark_around(corner_mesh *m, uint32_t a, uint32_t b)
 {
-    uint32_t c, faces = 0;
+    uint32_t c;
     m->epoch += 2;
     for (c = m->first[a]; c != CORNER_NONE; c = m->next[c]) {
         m->mark[m->vertex[corner_after(c)]] = m->epoch;
         m->mark[m->vertex[corner_before(c)]] = m->epoch;
     }
     m->mark[b] = 0;
-    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c]) {
-        const uint32_t after = m->vertex[corner_after(c)], before = m->vertex[corner_before(c)];
-        if (after == b || before == b) {
-            m->mark[after == b ? before : after] = m->epoch + 1;
-            ++faces;
-        }
-    }
-    return faces;
+    for (c = m->first[a]; c != CORNER_NONE; c = m->next[c])
+        if (touches(m, c, b))
+            m->mark[m->vertex[m->vertex[corner_after(c)] == b ? corner_before(c) : corner_after(c)]] = m->epoch + 1;
 }
 
 /* The faces of edge a b would leave a third vertex with nothing, or with two triangles back to back. */
@@ -159,19 +184,31 @@ static int strands(const corner_mesh *m, uint32_t c, uint32_t a)
     return m->valence[v] <= (m->border[v] ? 1u : 3u);
 }
 
+/* v is a neighbour of a and of b, and faces none of their edge's triangles: joining a and b closes the three-sided hole
+ * a b v, or a tunnel's last ring. */
+static int is_hole(const corner_mesh *m, uint32_t a, uint32_t b, uint32_t v)
+{
+    return faces_of(m, a, b) == 1 && faces_of(m, a, v) == 1 && faces_of(m, b, v) == 1;
+}
+
 static int links_agree(corner_mesh *m, uint32_t a, uint32_t b)
 {
-    const uint32_t faces = mark_around(m, a, b);
+    const uint32_t faces = faces_of(m, a, b);
     uint32_t c;
-    if (faces == 2 && m->border[a] && m->border[b])
+    int k;
+    if (!faces || (faces == 2 && m->border[a] && m->border[b]))
         return 0;
+    mark_around(m, a, b);
     for (c = m->first[b]; c != CORNER_NONE; c = m->next[c]) {
-        if (m->mark[m->vertex[corner_after(c)]] == m->epoch || m->mark[m->vertex[corner_before(c)]] == m->epoch)
-            return 0;
+        for (k = 0; k < 2; ++k) {
+            const uint32_t v = m->vertex[k ? corner_after(c) : corner_before(c)];
+            if (m->mark[v] == m->epoch && !is_hole(m, a, b, v))
+                return 0;
+        }
         if (touches(m, c, a) && strands(m, c, a))
             return 0;
     }
-    return faces > 0;
+    return 1;
 }
 
 static double larger(double a, double b) { return a > b ? a : b; }
