@@ -3,71 +3,96 @@
 
 #include "triangle_tree.h"
 
-#define ROUNDS 8         /* a round's moves change which triangle is nearest; later rounds find little */
 #define UNUSED UINT32_MAX
-#define ENOUGH 1e-6      /* of the mesh's size: what may stick out */
+#define ROUNDS 4    /* searches for the nearest triangles; later ones find new ones, but little: two sides of a thin
+                       sheet that pass through each other then push each other apart */
+#define SWEEPS 8    /* over what a search found. Steps of a part of the way, the last the whole one: moves that serve */
+#define STEP   0.15 /* many vertices at once overshoot by a tenth less */
+#define ENOUGH 1e-6 /* of the mesh's size: what may stick out */
 
-/* Towards `from`, so that the triangle's point n gets there with the least moves of its corners: a corner moves in
- * proportion to its weight. */
-static void reach(triangle_mesh *m, const nearest *n, dvec step)
+typedef struct sticker {
+    nearest on;  /* the simple mesh; its triangle UNUSED: no triangle has the vertex, or it is not finite */
+    dvec normal; /* of the faces at the vertex, by area */
+} sticker;
+
+static dvec vertex_of(const triangle_mesh *m, uint32_t v) { return dvec_read(m->positions + 3 * (size_t)v); }
+
+static void find_normals(sticker *found, const triangle_mesh *inner)
+{
+    uint32_t i, k;
+    for (i = 0; i < inner->vertex_count; ++i)
+        found[i].on.triangle = UNUSED;
+    for (i = 0; i < inner->triangle_count; ++i) {
+        const uint32_t *v = inner->indices + 3 * (size_t)i;
+        const dvec n = dvec_turn(vertex_of(inner, v[0]), vertex_of(inner, v[1]), vertex_of(inner, v[2]));
+        if (!(dvec_dot(n, n) < HUGE_VAL))
+            continue;
+        for (k = 0; k < 3; ++k) {
+            found[v[k]].normal = dvec_add(found[v[k]].normal, n);
+            found[v[k]].on.triangle = 0;
+        }
+    }
+}
+
+/* Over the nearest triangle, and on the outside of what it belongs to: a vertex whose normal points back at the
+ * triangle belongs to the other side of a thin sheet, or to something inside. */
+static int sticks_out(const sticker *s, dvec p)
+{
+    return s->on.triangle != UNUSED && s->on.height > 0 && dvec_dot(s->normal, dvec_sub(p, s->on.point)) >= 0;
+}
+
+/* The nearest triangle of each vertex. How far sticks out what sticks out most. */
+static double search(sticker *found, const triangle_tree *tree, const triangle_mesh *inner)
+{
+    double most = 0;
+    uint32_t v, guess = 0;
+    for (v = 0; v < inner->vertex_count; ++v) {
+        const dvec p = vertex_of(inner, v);
+        if (found[v].on.triangle == UNUSED)
+            continue;
+        found[v].on = triangle_tree_nearest(tree, p, guess);
+        guess = found[v].on.triangle;
+        if (sticks_out(&found[v], p) && found[v].on.distance2 > most)
+            most = found[v].on.distance2;
+    }
+    return sqrt(most);
+}
+
+/* Moves the triangle's point by `step` with the least moves of its corners: in proportion to their weights. */
+static void move_point(triangle_mesh *m, const nearest *n, dvec step)
 {
     const double *w = n->weight, all = w[0] * w[0] + w[1] * w[1] + w[2] * w[2];
     int k;
     for (k = 0; k < 3; ++k) {
-        float *p = m->positions + 3 * (size_t)m->indices[3 * (size_t)n->triangle + (size_t)k];
-        const dvec to = dvec_add(dvec_read(p), dvec_mul(step, w[k] / all));
+        const uint32_t v = m->indices[3 * (size_t)n->triangle + (size_t)k];
+        const dvec to = dvec_add(vertex_of(m, v), dvec_mul(step, w[k] / all));
+        float *p = m->positions + 3 * (size_t)v;
         p[0] = (float)to.x;
         p[1] = (float)to.y;
         p[2] = (float)to.z;
     }
 }
 
-static dvec place_on(const triangle_mesh *m, const nearest *n)
+static dvec moved_point(const triangle_mesh *m, const nearest *n)
 {
-    dvec sum = dvec_of(0, 0, 0);
-    int k;
-    for (k = 0; k < 3; ++k)
-        sum = dvec_add(sum, dvec_mul(dvec_read(m->positions + 3 * (size_t)m->indices[3 * (size_t)n->triangle + (size_t)k]),
-                                     n->weight[k]));
-    return sum;
+    const uint32_t *v = m->indices + 3 * (size_t)n->triangle;
+    const dvec ab = dvec_add(dvec_mul(vertex_of(m, v[0]), n->weight[0]), dvec_mul(vertex_of(m, v[1]), n->weight[1]));
+    return dvec_add(ab, dvec_mul(vertex_of(m, v[2]), n->weight[2]));
 }
 
-/* Found for the vertices that triangles have: others, and what is not finite, get no triangle. */
-static void mark_used(nearest *found, const triangle_mesh *inner)
+/* One projection after the other (Kaczmarz 1937): where a triangle has moved for one vertex, the next needs the rest. */
+static void sweep(triangle_mesh *simple, const sticker *found, const triangle_mesh *inner, double step)
 {
-    uint32_t i;
-    for (i = 0; i < inner->vertex_count; ++i)
-        found[i].triangle = UNUSED;
-    for (i = 0; i < 3 * inner->triangle_count; ++i) {
-        const dvec p = dvec_read(inner->positions + 3 * (size_t)inner->indices[i]);
-        if (dvec_dot(p, p) < HUGE_VAL)
-            found[inner->indices[i]].triangle = 0;
-    }
-}
-
-/* How far sticks out what sticks out most. Where a triangle was moved for an earlier vertex, a later one near it needs
- * only the rest. */
-static double round_of_moves(triangle_mesh *simple, const triangle_tree *tree, nearest *found, const triangle_mesh *inner)
-{
-    double most = 0;
     uint32_t v;
-    uint32_t guess = 0;
-    for (v = 0; v < inner->vertex_count; ++v)
-        if (found[v].triangle != UNUSED) {
-            found[v] = triangle_tree_nearest(tree, dvec_read(inner->positions + 3 * (size_t)v), guess);
-            guess = found[v].triangle;
-        }
     for (v = 0; v < inner->vertex_count; ++v) {
-        const dvec p = dvec_read(inner->positions + 3 * (size_t)v), out = dvec_unit(dvec_sub(p, found[v].point));
-        const double lack = dvec_dot(dvec_sub(p, place_on(simple, &found[v])), out);
-        const double distance = sqrt(found[v].distance2);
-        if (found[v].triangle == UNUSED || !(found[v].height > 0))
+        const dvec p = vertex_of(inner, v), out = dvec_unit(dvec_sub(p, found[v].on.point));
+        double lack;
+        if (!sticks_out(&found[v], p))
             continue;
-        most = distance > most ? distance : most;
+        lack = dvec_dot(dvec_sub(p, moved_point(simple, &found[v].on)), out);
         if (lack > 0)
-            reach(simple, &found[v], dvec_mul(out, lack));
+            move_point(simple, &found[v].on, dvec_mul(out, lack * step));
     }
-    return most;
 }
 
 static double size_of(const tree_box *b)
@@ -78,17 +103,19 @@ static double size_of(const tree_box *b)
 int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t)
 {
     triangle_tree tree;
-    nearest *found = tally_take(t, inner->vertex_count, sizeof *found);
+    sticker *found = tally_take(t, inner->vertex_count, sizeof *found);
     const int ok = triangle_tree_build(&tree, simple, t) && found;
-    int i;
-    if (ok)
-        mark_used(found, inner);
+    int round, i;
     *outside = 0;
-    for (i = 0; ok && simple->triangle_count && i < ROUNDS; ++i) {
-        *outside = round_of_moves(simple, &tree, found, inner);
-        triangle_tree_fit(&tree);
-        if (*outside <= ENOUGH * size_of(&tree.boxes[0]))
-            break;
+    if (ok && simple->triangle_count) {
+        find_normals(found, inner);
+        *outside = search(found, &tree, inner);
+        for (round = 0; round < ROUNDS && *outside > ENOUGH * size_of(&tree.boxes[0]); ++round) {
+            for (i = 1; i <= SWEEPS; ++i)
+                sweep(simple, found, inner, i < SWEEPS ? STEP : 1);
+            triangle_tree_fit(&tree);
+            *outside = search(found, &tree, inner);
+        }
     }
     triangle_tree_free(&tree, t);
     tally_give(t, found, inner->vertex_count, sizeof *found);

@@ -5,7 +5,7 @@
 
 #include "corner_mesh.h"
 #include "edge_heap.h"
-#include "hull_point.h"
+#include "enclose.h"
 #include "quadric.h"
 
 /* A border edge holds its place like three squares over it. */
@@ -25,8 +25,6 @@ typedef struct simplifier {
     quadric *quadrics;  /* of a vertex: planes of the faces and borders that have come together in it, by area */
     uint32_t *stamps;   /* of a vertex: how often it moved */
     edge_heap heap;
-    half_space *spaces; /* CORNER_STAR * 3 */
-    double slack;       /* metres that may be rounding */
     int around;
     tally memory;
     simplify_facts *facts;
@@ -82,50 +80,18 @@ static void add_borders(simplifier *s, const uint32_t *edges)
 
 /* --- where to, and what it costs -------------------------------------------------------------------------------------*/
 
-/* The outer sides of the triangles at v. */
-static int add_spaces(simplifier *s, uint32_t v, int n)
-{
-    const corner_mesh *m = &s->mesh;
-    uint32_t c;
-    for (c = m->first[v]; c != CORNER_NONE && n < 2 * CORNER_STAR; c = m->next[c]) {
-        half_space h;
-        h.normal = dvec_unit(corner_mesh_normal(m, c));
-        h.least = dvec_dot(h.normal, m->places[v]);
-        if (dvec_dot(h.normal, h.normal) > 0)
-            s->spaces[n++] = h;
-    }
-    return n;
-}
-
-static int place_around(simplifier *s, uint32_t a, uint32_t b, quadric q, dvec middle, dvec *at)
-{
-    int n;
-    if (s->mesh.valence[a] + s->mesh.valence[b] > CORNER_STAR)
-        return 0;
-    n = add_spaces(s, b, add_spaces(s, a, 0));
-    return hull_point(at, q, middle, s->spaces, n, s->slack);
-}
-
-/* A border vertex pulls an inner one to its place, for borders are lines that stay. */
-static int place_near(const simplifier *s, uint32_t a, uint32_t b, quadric q, dvec middle, dvec *at)
-{
-    const corner_mesh *m = &s->mesh;
-    if (m->border[a] != m->border[b])
-        *at = m->places[m->border[a] ? a : b];
-    else if (!quadric_least(at, q, middle))
-        *at = middle;
-    return 1;
-}
-
-static int place_edge(simplifier *s, uint32_t a, uint32_t b, dvec *at, double *cost)
+/* Where the edge's vertices meet, and the error there. A border vertex pulls an inner one to its place, for borders are
+ * lines that stay. */
+static int place_edge(const simplifier *s, uint32_t a, uint32_t b, dvec *at, double *cost)
 {
     const corner_mesh *m = &s->mesh;
     const quadric q = quadric_sum(s->quadrics[a], s->quadrics[b]);
     const dvec middle = dvec_mix(m->places[a], m->places[b], 0.5), along = dvec_sub(m->places[b], m->places[a]);
     const double trace = quadric_trace(q);
-    const quadric drawn = quadric_drawn(q, middle, trace > 0 ? DRAW * trace : 1);
-    if (s->around ? !place_around(s, a, b, drawn, middle, at) : !place_near(s, a, b, drawn, middle, at))
-        return 0;
+    if (m->border[a] != m->border[b])
+        *at = m->places[m->border[a] ? a : b];
+    else if (!(trace > 0) || !quadric_least(at, quadric_drawn(q, middle, DRAW * trace), middle))
+        *at = middle;
     *cost = quadric_error(q, *at) + LENGTH_COST * trace * dvec_dot(along, along);
     return *cost < HUGE_VAL;
 }
@@ -241,16 +207,13 @@ static void vanish(simplifier *s, const heap_edge *e)
     ++s->facts->vanished;
 }
 
-/* The faces around an edge may have moved since it was pushed: what costs more by that waits for its turn. */
 static void take(simplifier *s, heap_edge e)
 {
     dvec at;
     double cost;
     if (is_stale(s, &e) || !place_edge(s, e.a, e.b, &at, &cost))
         return;
-    if (cost > e.cost)
-        push(s, e.a, e.b, cost);
-    else if (corner_mesh_can_join(&s->mesh, e.a, e.b, at))
+    if (corner_mesh_can_join(&s->mesh, e.a, e.b, at))
         collapse(s, e.a, e.b, at);
     else
         vanish(s, &e);
@@ -274,22 +237,17 @@ static int reduce(simplifier *s, uint32_t triangles)
 static int prepare(simplifier *s)
 {
     corner_mesh *m = &s->mesh;
-    uint32_t *edges = corner_mesh_edges(m, &s->memory), v;
-    double reach = 0;
+    uint32_t *edges = corner_mesh_edges(m, &s->memory);
     s->quadrics = tally_take(&s->memory, m->vertex_count, sizeof *s->quadrics);
     s->stamps = tally_take(&s->memory, m->vertex_count, sizeof *s->stamps);
-    s->spaces = tally_take(&s->memory, 2 * CORNER_STAR, sizeof *s->spaces);
-    if (edges && s->quadrics && s->stamps && s->spaces) {
+    if (edges && s->quadrics && s->stamps) {
         add_faces(s);
         add_borders(s, edges);
     }
-    for (v = 0; v < m->vertex_count; ++v)
-        reach = dvec_dot(m->places[v], m->places[v]) > reach ? dvec_dot(m->places[v], m->places[v]) : reach;
-    s->slack = 1e-10 * sqrt(reach);
     tally_give(&s->memory, edges, 3 * (uint64_t)m->live, sizeof *edges);
     s->heap.cap = edge_room(s);
     s->heap.edges = tally_take(&s->memory, s->heap.cap, sizeof *s->heap.edges);
-    return edges && s->quadrics && s->stamps && s->spaces && s->heap.edges;
+    return edges && s->quadrics && s->stamps && s->heap.edges;
 }
 
 static void release(simplifier *s)
@@ -298,7 +256,6 @@ static void release(simplifier *s)
     tally_give(&s->memory, s->heap.edges, s->heap.cap, sizeof *s->heap.edges);
     tally_give(&s->memory, s->quadrics, vertices, sizeof *s->quadrics);
     tally_give(&s->memory, s->stamps, vertices, sizeof *s->stamps);
-    tally_give(&s->memory, s->spaces, 2 * CORNER_STAR, sizeof *s->spaces);
     corner_mesh_free(&s->mesh, &s->memory);
 }
 
@@ -316,6 +273,8 @@ int simplify_mesh(triangle_mesh *out, const triangle_mesh *in, uint32_t triangle
         && (s.mesh.live <= triangles || (prepare(&s) && reduce(&s, triangles)))
         && corner_mesh_write(&s.mesh, out, in->colours != NULL, &s.memory);
     release(&s);
+    if (ok && around == SIMPLIFY_AROUND && facts->collapses)
+        ok = mesh_enclose(out, in, &facts->outside, &s.memory);
     facts->memory_bytes = s.memory.highest;
     if (ok)
         return 1;
