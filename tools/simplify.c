@@ -263,18 +263,22 @@ int simplify_mesh(triangle_mesh *out, const triangle_mesh *in, uint32_t triangle
                   report *r)
 {
     simplifier s;
+    triangle_mesh inner;
     int ok;
     memset(&s, 0, sizeof s);
+    memset(&inner, 0, sizeof inner);
     memset(out, 0, sizeof *out);
     memset(facts, 0, sizeof *facts);
     s.facts = facts;
     s.around = around;
     ok = corner_mesh_build(&s.mesh, in, facts, &s.memory, r)
+        && (around != SIMPLIFY_AROUND || corner_mesh_write(&s.mesh, &inner, 0, &s.memory))
         && (s.mesh.live <= triangles || (prepare(&s) && reduce(&s, triangles)))
         && corner_mesh_write(&s.mesh, out, in->colours != NULL, &s.memory);
     release(&s);
     if (ok && around == SIMPLIFY_AROUND && facts->collapses)
-        ok = mesh_enclose(out, in, &facts->outside, &s.memory);
+        ok = mesh_enclose(out, &inner, &facts->outside, &s.memory);
+    triangle_mesh_free(&inner);
     facts->memory_bytes = s.memory.highest;
     if (ok)
         return 1;
