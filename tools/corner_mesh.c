@@ -14,7 +14,7 @@ dvec corner_mesh_normal(const corner_mesh *m, uint32_t c)
     return dvec_turn(place(m, c), place(m, corner_after(c)), place(m, corner_before(c)));
 }
 
-/* --- edges -----------------------------------------------------------------------------------------------------------*/
+/* --- edges --- */
 
 static uint32_t end_of(const corner_mesh *m, uint32_t c, int high)
 {
@@ -56,7 +56,7 @@ uint32_t *corner_mesh_edges(const corner_mesh *m, tally *t)
     return edges;
 }
 
-/* --- lists -----------------------------------------------------------------------------------------------------------*/
+/* --- lists --- */
 
 static void unlink_corner(corner_mesh *m, uint32_t c)
 {
@@ -160,7 +160,7 @@ void corner_mesh_join(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
         mend_borders(m, a);
 }
 
-/* --- guards ----------------------------------------------------------------------------------------------------------*/
+/* --- guards --- */
 
 /* Marks the vertices around a but b with the epoch, and those that face the edge a b with one more. */
 static void mark_around(corner_mesh *m, uint32_t a, uint32_t b)
@@ -247,7 +247,7 @@ int corner_mesh_can_join(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
         && all_survive(m, b, a, at);
 }
 
-/* --- parts -----------------------------------------------------------------------------------------------------------*/
+/* --- parts --- */
 
 static uint32_t add_triangles(const corner_mesh *m, uint32_t v, uint32_t *part, uint32_t n, uint32_t cap)
 {

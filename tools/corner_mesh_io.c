@@ -12,7 +12,7 @@ static int is_finite3(const float *p)
     return 1;
 }
 
-/* --- welding ---------------------------------------------------------------------------------------------------------*/
+/* --- welding --- */
 
 static uint32_t hash3(const float *p)
 {
@@ -49,7 +49,7 @@ static uint32_t slot_of(const uint32_t *table, uint32_t size, const float *posit
 }
 
 /* same[v]: the number of v's place, counted in the order of their first vertices; CORNER_NONE: not finite. */
-static int weld(uint32_t *same, uint32_t *count, const triangle_mesh *in, tally *t)
+static int weld(uint32_t *same, uint32_t *count, const triangle_mesh *in, simplify_facts *facts, tally *t)
 {
     const uint32_t size = table_size(in->vertex_count);
     uint32_t *table = tally_take(t, size, sizeof *table), v;
@@ -68,13 +68,14 @@ static int weld(uint32_t *same, uint32_t *count, const triangle_mesh *in, tally 
             same[v] = (*count)++;
         } else {
             same[v] = same[table[slot]];
+            ++facts->welded;
         }
     }
     tally_give(t, table, size, sizeof *table);
     return 1;
 }
 
-/* --- in --------------------------------------------------------------------------------------------------------------*/
+/* --- in --- */
 
 static int take_all(corner_mesh *m, uint32_t vertices, uint32_t corners, tally *t)
 {
@@ -213,11 +214,12 @@ static void finish_looks(corner_mesh *m, const triangle_mesh *in, const uint32_t
     }
 }
 
-static int build_welded(corner_mesh *m, const triangle_mesh *in, uint32_t *same, tally *t, report *r)
+static int build_welded(corner_mesh *m, const triangle_mesh *in, uint32_t *same, simplify_facts *facts, tally *t,
+                        report *r)
 {
     uint32_t count, *edges = NULL;
     float *shares = NULL;
-    int ok = weld(same, &count, in, t) && take_all(m, count, 3 * in->triangle_count, t)
+    int ok = weld(same, &count, in, facts, t) && take_all(m, count, 3 * in->triangle_count, t)
         && (shares = tally_take(t, count, sizeof *shares)) != NULL;
     if (ok) {
         m->origin = middle(in, same);
@@ -242,14 +244,13 @@ int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *f
         return report_fail(r, "%u triangles of %u vertices are too many to simplify", (unsigned)in->triangle_count,
                            (unsigned)in->vertex_count);
     same = tally_take(t, in->vertex_count, sizeof *same);
-    ok = same && build_welded(m, in, same, t, r);
+    ok = same && build_welded(m, in, same, facts, t, r);
     tally_give(t, same, in->vertex_count, sizeof *same);
     facts->dropped = in->triangle_count - m->live;
-    facts->welded = in->vertex_count - m->vertex_count;
     return ok ? 1 : report_fail(r, "not enough memory to simplify %u triangles", (unsigned)in->triangle_count);
 }
 
-/* --- out -------------------------------------------------------------------------------------------------------------*/
+/* --- out --- */
 
 static void write_vertex(const corner_mesh *m, triangle_mesh *out, uint32_t v, uint32_t to)
 {

@@ -80,7 +80,7 @@ static dvec moved_point(const triangle_mesh *m, const nearest *n)
     return dvec_add(ab, dvec_mul(vertex_of(m, v[2]), n->weight[2]));
 }
 
-/* One projection after the other (Kaczmarz 1937): where a triangle has moved for one vertex, the next needs the rest. */
+/* One projection after the other (Kaczmarz 1937): where a triangle has moved for one vertex, the next needs less. */
 static void sweep(triangle_mesh *simple, const sticker *found, const triangle_mesh *inner, double step)
 {
     uint32_t v;
@@ -95,10 +95,7 @@ static void sweep(triangle_mesh *simple, const sticker *found, const triangle_me
     }
 }
 
-static double size_of(const tree_box *b)
-{
-    return dvec_length(dvec_sub(dvec_read(b->high), dvec_read(b->low)));
-}
+static double size_of(const tree_box *b) { return dvec_length(dvec_sub(dvec_read(b->high), dvec_read(b->low))); }
 
 int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t)
 {

@@ -8,8 +8,9 @@
 #include "enclose.h"
 #include "quadric.h"
 
-/* A border edge holds its place like three squares over it. */
-#define BORDER_WEIGHT 3
+/* A border edge holds its place like the square over it. With 3, 10 or 100 the rims of many small holes take the
+ * triangles that the rest needs: a rhino of 800 holes misses 0.46, 0.57, 0.99 % of its pixels instead of 0.40. */
+#define BORDER_WEIGHT 1
 /* Of a quadric's trace: what draws the point to the edge's middle where the planes leave it free, as on a flat face; so
  * little that a corner of three planes stays where it is. */
 #define DRAW 1e-6
@@ -32,7 +33,7 @@ typedef struct simplifier {
 
 static uint32_t edge_room(const simplifier *s) { return s->mesh.corner_count + s->mesh.corner_count / 4 + 64; }
 
-/* --- quadrics --------------------------------------------------------------------------------------------------------*/
+/* --- quadrics --- */
 
 static void add_to(simplifier *s, uint32_t v, quadric q) { s->quadrics[v] = quadric_sum(s->quadrics[v], q); }
 
@@ -78,7 +79,7 @@ static void add_borders(simplifier *s, const uint32_t *edges)
     }
 }
 
-/* --- where to, and what it costs -------------------------------------------------------------------------------------*/
+/* --- where to, and what it costs --- */
 
 /* Where the edge's vertices meet, and the error there. A border vertex pulls an inner one to its place, for borders are
  * lines that stay. */
@@ -96,7 +97,7 @@ static int place_edge(const simplifier *s, uint32_t a, uint32_t b, dvec *at, dou
     return *cost < HUGE_VAL;
 }
 
-/* --- the heap --------------------------------------------------------------------------------------------------------*/
+/* --- the heap --- */
 
 static int is_stale(const simplifier *s, const heap_edge *e) { return s->stamps[e->a] + s->stamps[e->b] != e->stamp; }
 
@@ -148,7 +149,7 @@ static int fill(simplifier *s)
     return edges != NULL;
 }
 
-/* --- collapse --------------------------------------------------------------------------------------------------------*/
+/* --- collapse --- */
 
 static void collapse(simplifier *s, uint32_t a, uint32_t b, dvec at)
 {
@@ -232,7 +233,7 @@ static int reduce(simplifier *s, uint32_t triangles)
     return 1;
 }
 
-/* --- all of it -------------------------------------------------------------------------------------------------------*/
+/* --- all of it --- */
 
 static int prepare(simplifier *s)
 {

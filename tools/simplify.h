@@ -32,7 +32,8 @@ typedef struct simplify_facts {
 /* simplify_mesh: `in` down to `triangles` triangles, by edge collapse in the order of quadric error.
  *
  *   out        overwritten; triangle_mesh_free releases it. Vertices of one place are one vertex, with the mean of
- *              their normals and colours: a hard edge gets a smooth normal. An open border keeps its line.
+ *              their normals and colours: a hard edge gets a smooth normal. A straight border stays, a
+ *              curved one is kept as well as the faces are; a small hole closes.
  *   triangles  may be missed upwards: where one more collapse would fold the surface over, tear it or close a tunnel,
  *              the result keeps more. Never missed by an input that has as few: that is welded, and else as it was.
  *   around     SIMPLIFY_NEAR or SIMPLIFY_AROUND. Around needs faces that are turned outwards.

@@ -11,7 +11,7 @@ static const float *corner(const triangle_mesh *m, uint32_t triangle, int k)
     return m->positions + 3 * (size_t)m->indices[3 * (size_t)triangle + (size_t)k];
 }
 
-/* --- build -----------------------------------------------------------------------------------------------------------*/
+/* --- build --- */
 
 static double centre(const triangle_mesh *m, uint32_t t, int axis)
 {
@@ -164,7 +164,7 @@ void triangle_tree_free(triangle_tree *tree, tally *t)
     memset(tree, 0, sizeof *tree);
 }
 
-/* --- search ----------------------------------------------------------------------------------------------------------*/
+/* --- search --- */
 
 static double clamp01(double v) { return v > 0 ? v < 1 ? v : 1 : 0; }
 
@@ -270,9 +270,9 @@ nearest triangle_tree_nearest(const triangle_tree *tree, dvec from, uint32_t gue
         if (i >= leaves - 1) {
             search_leaf(tree, &best, i - (leaves - 1), from);
         } else {
-            const int right_first = box_distance2(&tree->boxes[left + 1], from) < box_distance2(&tree->boxes[left], from);
-            stack[depth++] = right_first ? left : left + 1;
-            stack[depth++] = right_first ? left + 1 : left;
+            const double l2 = box_distance2(&tree->boxes[left], from), r2 = box_distance2(&tree->boxes[left + 1], from);
+            stack[depth++] = r2 < l2 ? left : left + 1; /* later */
+            stack[depth++] = r2 < l2 ? left + 1 : left;
         }
     }
     return best;

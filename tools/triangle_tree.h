@@ -22,7 +22,7 @@ typedef struct nearest {
     double distance2; /* HUGE_VAL: the mesh is empty */
     double weight[3]; /* of the triangle's corners */
     dvec point;
-    double height;    /* over the triangle's plane, where several triangles are as near the one with the largest |height| */
+    double height;    /* over the triangle's plane; of triangles that are as near, the one with the largest |height| */
     uint32_t triangle;
 } nearest;
 
