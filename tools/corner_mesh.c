@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-/* A collapse may turn a triangle by 78 degrees at most (cosine 0.2), and may not make it a needle. */
+/* A collapse may turn a triangle by 78 degrees at most (cosine 0.2), and may not make it a needle; one that is a needle
+ * may become half as wide, or the sides of a long thin prism could never lose a triangle. */
 #define TURN_COS2   0.04
 #define NEEDLE      0.04 /* twice the area over the square of the longest side; 0.87 is equilateral */
 
@@ -114,9 +115,12 @@ static uint32_t faces_of(const corner_mesh *m, uint32_t a, uint32_t b)
     return n;
 }
 
+/* A hub of many triangles keeps its flag, because nothing else looks at all of its triangles either. */
 static uint8_t has_border(const corner_mesh *m, uint32_t v)
 {
     uint32_t c;
+    if (m->valence[v] > CORNER_STAR)
+        return m->border[v];
     for (c = m->first[v]; c != CORNER_NONE; c = m->next[c])
         if (faces_of(m, v, m->vertex[corner_after(c)]) != 2 || faces_of(m, v, m->vertex[corner_before(c)]) != 2)
             return 1;
@@ -130,8 +134,10 @@ static void mend_borders(corner_mesh *m, uint32_t a)
     m->border[a] = has_border(m, a);
     for (c = m->first[a]; c != CORNER_NONE; c = m->next[c]) {
         const uint32_t v = m->vertex[corner_after(c)], w = m->vertex[corner_before(c)];
-        m->border[v] = m->border[v] && has_border(m, v);
-        m->border[w] = m->border[w] && has_border(m, w);
+        if (m->border[v])
+            m->border[v] = has_border(m, v);
+        if (m->border[w])
+            m->border[w] = has_border(m, w);
     }
 }
 
@@ -156,7 +162,8 @@ void corner_mesh_join(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
     relabel(m, a, b);
     join_looks(m, a, b, at);
     m->places[a] = at;
-    if (m->border[a] || m->border[b])
+    m->border[a] |= m->border[b];
+    if (m->border[a])
         mend_borders(m, a);
 }
 
@@ -229,7 +236,7 @@ static int survives(const corner_mesh *m, uint32_t c, dvec at)
     const double side_b = longest_side2(p, q, r), side_a = longest_side2(at, q, r);
     if (b2 > 0 && !(both > 0 && both * both > TURN_COS2 * b2 * a2))
         return 0;
-    return a2 > 0 && (a2 > NEEDLE * NEEDLE * side_a * side_a || a2 * side_b * side_b >= b2 * side_a * side_a);
+    return a2 > 0 && (a2 > NEEDLE * NEEDLE * side_a * side_a || 4 * a2 * side_b * side_b >= b2 * side_a * side_a);
 }
 
 static int all_survive(const corner_mesh *m, uint32_t a, uint32_t without, dvec at)

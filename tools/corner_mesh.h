@@ -14,7 +14,6 @@
 typedef struct corner_mesh {
     uint32_t vertex_count, corner_count; /* as built; nothing moves */
     uint32_t live;                       /* triangles */
-    dvec origin;                         /* of `places`, so that a mesh far away loses no digits */
     dvec *places;
     float (*looks)[6];      /* normal, colour */
     uint32_t *vertex;       /* of a corner; CORNER_NONE: its triangle is gone */

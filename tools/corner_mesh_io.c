@@ -107,25 +107,6 @@ void corner_mesh_free(corner_mesh *m, tally *t)
     memset(m, 0, sizeof *m);
 }
 
-/* The middle of the box around the vertices that are finite. */
-static dvec middle(const triangle_mesh *in, const uint32_t *same)
-{
-    double low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-    uint32_t v;
-    int k, any = 0;
-    for (v = 0; v < in->vertex_count; ++v) {
-        if (same[v] == CORNER_NONE)
-            continue;
-        for (k = 0; k < 3; ++k) {
-            const double p = (double)in->positions[3 * (size_t)v + (size_t)k];
-            low[k] = any && low[k] < p ? low[k] : p;
-            high[k] = any && high[k] > p ? high[k] : p;
-        }
-        any = 1;
-    }
-    return dvec_of((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2);
-}
-
 /* Places, and the sums of the looks of the vertices there. */
 static void read_vertices(corner_mesh *m, const triangle_mesh *in, const uint32_t *same)
 {
@@ -136,7 +117,7 @@ static void read_vertices(corner_mesh *m, const triangle_mesh *in, const uint32_
         float *look;
         if (same[v] == CORNER_NONE)
             continue;
-        m->places[same[v]] = dvec_sub(dvec_read(in->positions + at), m->origin);
+        m->places[same[v]] = dvec_read(in->positions + at);
         look = m->looks[same[v]];
         for (k = 0; k < 3 && in->normals && is_finite3(in->normals + at); ++k)
             look[k] += in->normals[at + (size_t)k];
@@ -222,7 +203,6 @@ static int build_welded(corner_mesh *m, const triangle_mesh *in, uint32_t *same,
     int ok = weld(same, &count, in, facts, t) && take_all(m, count, 3 * in->triangle_count, t)
         && (shares = tally_take(t, count, sizeof *shares)) != NULL;
     if (ok) {
-        m->origin = middle(in, same);
         read_vertices(m, in, same);
         ok = read_triangles(m, in, same, r) && (edges = corner_mesh_edges(m, t)) != NULL;
     }
@@ -254,7 +234,7 @@ int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *f
 
 static void write_vertex(const corner_mesh *m, triangle_mesh *out, uint32_t v, uint32_t to)
 {
-    const dvec p = dvec_add(m->places[v], m->origin), n = dvec_unit(dvec_read(m->looks[v]));
+    const dvec p = m->places[v], n = dvec_unit(dvec_read(m->looks[v]));
     const size_t at = 3 * (size_t)to;
     out->positions[at] = (float)p.x;
     out->positions[at + 1] = (float)p.y;

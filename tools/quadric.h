@@ -4,7 +4,8 @@
 
 #include "dvec.h"
 
-/* Error at p: p'A p + 2 b'p + c, weight times square metres. */
+/* Error at p: p'A p + 2 b'p + c, weight times square metres. Its rounding is that of a distance of 1e-8 times the
+ * distance to the origin: less than that of the binary32 positions that come in. */
 typedef struct quadric {
     double xx, xy, xz, yy, yz, zz; /* A */
     dvec b;

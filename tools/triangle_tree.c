@@ -4,6 +4,7 @@
 #include <string.h>
 
 #define LEAF 4   /* triangles, at most */
+#define PI 3.141592653589793
 #define TIE 1e-9 /* of a squared distance: rounding between triangles that share the nearest point */
 
 static const float *corner(const triangle_mesh *m, uint32_t triangle, int k)
@@ -191,6 +192,14 @@ static void try_edge(nearest *best, dvec p, const dvec v[3], int k)
     best->weight[3 - k - l] = 0;
 }
 
+/* Between two directions, to 7e-5 (Abramowitz and Stegun 4.4.45): libm's differs from machine to machine. */
+static double angle(dvec a, dvec b)
+{
+    const double c = dvec_dot(dvec_unit(a), dvec_unit(b)), x = fabs(c) < 1 ? fabs(c) : 1;
+    const double acute = sqrt(1 - x) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293)));
+    return c < 0 ? PI - acute : acute;
+}
+
 /* The foot of p on the plane where it is inside the triangle, else the nearest point of the three edges. */
 static nearest nearest_of_triangle(const triangle_mesh *m, uint32_t t, dvec p)
 {
@@ -202,19 +211,23 @@ static nearest nearest_of_triangle(const triangle_mesh *m, uint32_t t, dvec p)
     n.triangle = t;
     n.distance2 = HUGE_VAL;
     n.point = p;
-    n.height = length2 > 0 ? dvec_dot(dvec_sub(p, v[0]), turn) / sqrt(length2) : 0;
+    n.normal = dvec_unit(turn);
     for (k = 0; k < 3; ++k) {
         const double w = dvec_dot(dvec_turn(p, v[(k + 1) % 3], v[(k + 2) % 3]), turn);
         n.weight[k] = length2 > 0 ? w / length2 : 0;
         inside &= w >= 0;
     }
     if (inside) {
-        n.distance2 = n.height * n.height;
-        n.point = dvec_sub(p, dvec_mul(turn, n.height / sqrt(length2)));
+        const double height = dvec_dot(dvec_sub(p, v[0]), n.normal);
+        n.distance2 = height * height;
+        n.point = dvec_sub(p, dvec_mul(n.normal, height));
         return n;
     }
     for (k = 0; k < 3; ++k)
         try_edge(&n, p, v, k);
+    for (k = 0; k < 3; ++k)
+        if (n.weight[k] > 1 - TIE)
+            n.normal = dvec_mul(n.normal, angle(dvec_sub(v[(k + 1) % 3], v[k]), dvec_sub(v[(k + 2) % 3], v[k])) / PI);
     return n;
 }
 
@@ -231,24 +244,31 @@ static double box_distance2(const tree_box *b, dvec p)
     return sum;
 }
 
-/* Nearer; or as near, and better to tell the side by (Baerentzen and Aanaes 2005 say why: beside an edge or a corner
- * the plane that p is farthest off has its sign right); or as good, and first. */
-static void take_if_better(nearest *best, const nearest *n)
+/* Nearer; or as near: then both have the point, and their normals, weighted by their angles there, add up to one that
+ * tells the side right (Baerentzen and Aanaes 2005). */
+static void take_if_nearer(nearest *best, const nearest *n)
 {
     const double slack = TIE * best->distance2;
+    const dvec sum = dvec_add(best->normal, n->normal);
     if (n->distance2 > best->distance2 + slack)
         return;
-    if (n->distance2 < best->distance2 - slack || fabs(n->height) > fabs(best->height)
-        || (!(fabs(n->height) < fabs(best->height)) && n->triangle < best->triangle))
+    if (n->distance2 < best->distance2 - slack) {
         *best = *n;
+        return;
+    }
+    if (n->triangle < best->triangle)
+        *best = *n;
+    best->normal = sum;
 }
 
-static void search_leaf(const triangle_tree *tree, nearest *best, uint32_t leaf, dvec from)
+/* All of a leaf but the guess, which the search began with. */
+static void search_leaf(const triangle_tree *tree, nearest *best, uint32_t leaf, dvec from, uint32_t guess)
 {
     uint32_t i;
     for (i = share(tree, tree->levels - 1, leaf); i < share(tree, tree->levels - 1, leaf + 1); ++i) {
         const nearest n = nearest_of_triangle(tree->mesh, tree->order[i], from);
-        take_if_better(best, &n);
+        if (n.triangle != guess)
+            take_if_nearer(best, &n);
     }
 }
 
@@ -268,7 +288,7 @@ nearest triangle_tree_nearest(const triangle_tree *tree, dvec from, uint32_t gue
         if (box_distance2(&tree->boxes[i], from) > best.distance2 * (1 + TIE))
             continue;
         if (i >= leaves - 1) {
-            search_leaf(tree, &best, i - (leaves - 1), from);
+            search_leaf(tree, &best, i - (leaves - 1), from, guess);
         } else {
             const double l2 = box_distance2(&tree->boxes[left], from), r2 = box_distance2(&tree->boxes[left + 1], from);
             stack[depth++] = r2 < l2 ? left : left + 1; /* later */

@@ -19,10 +19,10 @@ typedef struct triangle_tree {
 } triangle_tree;
 
 typedef struct nearest {
-    double distance2; /* HUGE_VAL: the mesh is empty */
+    double distance2; /* HUGE_VAL: the mesh is empty, or the other point not finite */
     double weight[3]; /* of the triangle's corners */
     dvec point;
-    double height;    /* over the triangle's plane; of triangles that are as near, the one with the largest |height| */
+    dvec normal;      /* there; of a corner or an edge that of its triangles by their angles, without a length */
     uint32_t triangle;
 } nearest;
 
@@ -34,8 +34,14 @@ void triangle_tree_fit(triangle_tree *tree);
 
 void triangle_tree_free(triangle_tree *tree, tally *t);
 
-/* triangle_tree_nearest: `guess` is a triangle that may be near, any number below triangle_count: the answer is the
- * same, only sooner found. */
+/* triangle_tree_nearest: `guess` is a triangle that may be near, any number below triangle_count, so that the answer is
+ * sooner found. */
 nearest triangle_tree_nearest(const triangle_tree *tree, dvec from, uint32_t guess);
+
+/* nearest_is_outside: the other point is in front of the surface. */
+static inline int nearest_is_outside(const nearest *n, dvec from)
+{
+    return dvec_dot(n->normal, dvec_sub(from, n->point)) > 0;
+}
 
 #endif
