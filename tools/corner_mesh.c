@@ -133,11 +133,9 @@ static void mend_borders(corner_mesh *m, uint32_t a)
     uint32_t c;
     m->border[a] = has_border(m, a);
     for (c = m->first[a]; c != CORNER_NONE; c = m->next[c]) {
-        const uint32_t v = m->vertex[corner_after(c)], w = m->vertex[corner_before(c)];
+        const uint32_t v = m->vertex[corner_after(c)]; /* around a closed hole each follows a somewhere */
         if (m->border[v])
             m->border[v] = has_border(m, v);
-        if (m->border[w])
-            m->border[w] = has_border(m, w);
     }
 }
 
@@ -192,7 +190,7 @@ static int strands(const corner_mesh *m, uint32_t c, uint32_t a)
 }
 
 /* v is a neighbour of a and of b, and faces none of their edge's triangles: joining a and b closes the three-sided hole
- * a b v, or a tunnel's last ring. */
+ * a b v; where their edges have more faces, it would pinch off what the ring a b v goes around. */
 static int is_hole(const corner_mesh *m, uint32_t a, uint32_t b, uint32_t v)
 {
     return faces_of(m, a, b) == 1 && faces_of(m, a, v) == 1 && faces_of(m, b, v) == 1;
@@ -203,7 +201,7 @@ static int links_agree(corner_mesh *m, uint32_t a, uint32_t b)
     const uint32_t faces = faces_of(m, a, b);
     uint32_t c;
     int k;
-    if (!faces || (faces == 2 && m->border[a] && m->border[b]))
+    if (faces == 2 && m->border[a] && m->border[b])
         return 0;
     mark_around(m, a, b);
     for (c = m->first[b]; c != CORNER_NONE; c = m->next[c]) {

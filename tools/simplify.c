@@ -16,8 +16,6 @@
 #define DRAW 1e-6
 /* Of the area times the edge's square: what a flat place's collapses cost, so that short edges go first. */
 #define LENGTH_COST 1e-6
-/* Passes over the edges that a guard refused, while that still yields collapses. */
-#define PASSES 16
 /* Parts of so few triangles may vanish. */
 #define PART 16
 
@@ -133,20 +131,17 @@ static void push_edge(simplifier *s, uint32_t a, uint32_t b)
         push(s, a, b, cost);
 }
 
-/* All edges there are. 0: no memory. */
-static int fill(simplifier *s)
+/* All edges there are; `edges`: corner_mesh_edges. */
+static void fill(simplifier *s, const uint32_t *edges)
 {
     const corner_mesh *m = &s->mesh;
-    uint32_t *edges = corner_mesh_edges(m, &s->memory), n = 3 * m->live, i, k;
-    s->heap.count = 0;
-    for (i = 0; i < n && edges; i = k) {
+    uint32_t i, k;
+    for (i = 0; i < 3 * m->live; i = k) {
         const uint32_t a = m->vertex[edges[i]], b = m->vertex[corner_after(edges[i])];
-        for (k = i + 1; k < n && corner_mesh_is_edge(m, edges[k], a, b); ++k)
+        for (k = i + 1; k < 3 * m->live && corner_mesh_is_edge(m, edges[k], a, b); ++k)
             continue;
         push_edge(s, a, b);
     }
-    tally_give(&s->memory, edges, n, sizeof *edges);
-    return edges != NULL;
 }
 
 /* --- collapse --- */
@@ -220,35 +215,37 @@ static void take(simplifier *s, heap_edge e)
         vanish(s, &e);
 }
 
-static int reduce(simplifier *s, uint32_t triangles)
-{
-    uint32_t pass, before = UINT32_MAX;
-    for (pass = 0; pass < PASSES && s->mesh.live > triangles && s->mesh.live < before; ++pass) {
-        before = s->mesh.live;
-        if (!fill(s))
-            return 0;
-        while (s->mesh.live > triangles && s->heap.count)
-            take(s, edge_heap_pop(&s->heap));
-    }
-    return 1;
-}
-
 /* --- all of it --- */
 
+/* 0: no memory. */
 static int prepare(simplifier *s)
 {
     corner_mesh *m = &s->mesh;
     uint32_t *edges = corner_mesh_edges(m, &s->memory);
-    s->quadrics = tally_take(&s->memory, m->vertex_count, sizeof *s->quadrics);
-    s->stamps = tally_take(&s->memory, m->vertex_count, sizeof *s->stamps);
-    if (edges && s->quadrics && s->stamps) {
-        add_faces(s);
-        add_borders(s, edges);
-    }
-    tally_give(&s->memory, edges, 3 * (uint64_t)m->live, sizeof *edges);
+    int ok;
     s->heap.cap = edge_room(s);
     s->heap.edges = tally_take(&s->memory, s->heap.cap, sizeof *s->heap.edges);
-    return edges && s->quadrics && s->stamps && s->heap.edges;
+    s->quadrics = tally_take(&s->memory, m->vertex_count, sizeof *s->quadrics);
+    s->stamps = tally_take(&s->memory, m->vertex_count, sizeof *s->stamps);
+    ok = edges && s->heap.edges && s->quadrics && s->stamps;
+    if (ok) {
+        add_faces(s);
+        add_borders(s, edges);
+        fill(s, edges);
+    }
+    tally_give(&s->memory, edges, 3 * (uint64_t)m->live, sizeof *edges);
+    return ok;
+}
+
+static int reduce(simplifier *s, uint32_t triangles)
+{
+    if (s->mesh.live <= triangles)
+        return 1;
+    if (!prepare(s))
+        return 0;
+    while (s->mesh.live > triangles && s->heap.count)
+        take(s, edge_heap_pop(&s->heap));
+    return 1;
 }
 
 static void release(simplifier *s)
@@ -274,8 +271,7 @@ int simplify_mesh(triangle_mesh *out, const triangle_mesh *in, uint32_t triangle
     s.around = around;
     ok = corner_mesh_build(&s.mesh, in, facts, &s.memory, r)
         && (around != SIMPLIFY_AROUND || corner_mesh_write(&s.mesh, &inner, 0, &s.memory))
-        && (s.mesh.live <= triangles || (prepare(&s) && reduce(&s, triangles)))
-        && corner_mesh_write(&s.mesh, out, in->colours != NULL, &s.memory);
+        && reduce(&s, triangles) && corner_mesh_write(&s.mesh, out, in->colours != NULL, &s.memory);
     release(&s);
     if (ok && around == SIMPLIFY_AROUND && facts->collapses)
         ok = mesh_enclose(out, &inner, &facts->outside, &s.memory);

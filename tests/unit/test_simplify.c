@@ -1,4 +1,5 @@
 /* test_simplify.c: simpler meshes: their count, shape, borders, parts and looks; hostile input. */
+#include "../../tools/corner_mesh.h"
 #include "../../tools/quadric.h"
 #include "../mesh_shapes.h"
 
@@ -248,12 +249,19 @@ static void check_parts(void)
     triangle_mesh_free(&out);
 }
 
-/* A sheet as large as the ball costs more to lose than the ball's finer triangles. */
+/* A triangle with two sides lies flat, so that no collapse of it would cost anything, but none is allowed: as large as
+ * the ball, it costs more to lose than the ball's finer triangles. */
 static void check_large_part(void)
 {
-    triangle_mesh in = joined(sphere(10), placed(field(1, 0), 1.0f, 2, 0, 0));
-    triangle_mesh out = simple(&in, 400, SIMPLIFY_NEAR, &facts);
-    CHECK(!facts.vanished && out.triangle_count == 400);
+    triangle_mesh leaf = room_for(3, 2), in, out;
+    add_vertex(&leaf, 2, 0, 0);
+    add_vertex(&leaf, 3, 0, 0);
+    add_vertex(&leaf, 2, 1, 0);
+    add_triangle(&leaf, 0, 1, 2);
+    add_triangle(&leaf, 0, 2, 1);
+    in = joined(sphere(10), leaf);
+    out = simple(&in, 100, SIMPLIFY_NEAR, &facts);
+    CHECK(!facts.vanished && out.triangle_count == 100);
     triangle_mesh_free(&in);
     triangle_mesh_free(&out);
 }
@@ -286,6 +294,68 @@ static void check_same(void)
         triangle_mesh_free(&in);
         triangle_mesh_free(&out);
     }
+}
+
+/* --- what may become one vertex --- */
+
+/* Vertex 12 in the middle of a flat field, 13 to its right; the sheet's other end is over there. */
+static void check_turning(corner_mesh *m)
+{
+    CHECK(corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.5, 0)));
+    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.5, 0.1, 0)));   /* turns triangles over */
+    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.5, 2)));   /* sets them on edge */
+    CHECK(!corner_mesh_can_join(m, 12, 13, dvec_of(0.6, 0.254, 0))); /* makes needles */
+}
+
+/* Without two squares that have a corner each at the ends of edge 12 - 13, that edge is all there is between them. */
+static void check_pinching(void)
+{
+    triangle_mesh in = field(4, 0);
+    corner_mesh m;
+    tally t = {0, 0};
+    report r;
+    uint32_t i, n = 0;
+    memset(&r, 0, sizeof r);
+    CHECK(corner_mesh_build(&m, &in, &facts, &t, &r));
+    check_turning(&m);
+    corner_mesh_free(&m, &t);
+    for (i = 0; i < in.triangle_count; ++i)
+        if (i / 2 != 5 && i / 2 != 11) {
+            memmove(in.indices + 3 * n, in.indices + 3 * i, 3 * sizeof(uint32_t));
+            ++n;
+        }
+    in.triangle_count = n;
+    CHECK(corner_mesh_build(&m, &in, &facts, &t, &r));
+    CHECK(m.border[12] && m.border[13] && !corner_mesh_can_join(&m, 12, 13, dvec_of(0.6, 0.5, 0)));
+    corner_mesh_free(&m, &t);
+    CHECK(!t.bytes);
+    triangle_mesh_free(&in);
+}
+
+/* A ball with one triangle missing: a join closes it, and no border is left. */
+static void check_closing(void)
+{
+    triangle_mesh in = sphere(4);
+    corner_mesh m;
+    tally t = {0, 0};
+    report r;
+    uint32_t v, a = CORNER_NONE, b = 0, borders = 0;
+    memset(&r, 0, sizeof r);
+    in.triangle_count--;
+    CHECK(corner_mesh_build(&m, &in, &facts, &t, &r));
+    for (v = 0; v < m.vertex_count; ++v)
+        if (m.border[v]) {
+            b = a == CORNER_NONE ? b : v;
+            a = a == CORNER_NONE ? v : a;
+            ++borders;
+        }
+    CHECK(borders == 3 && corner_mesh_can_join(&m, a, b, dvec_mix(m.places[a], m.places[b], 0.5)));
+    corner_mesh_join(&m, a, b, dvec_mix(m.places[a], m.places[b], 0.5));
+    for (v = 0, borders = 0; v < m.vertex_count; ++v)
+        borders += m.first[v] != CORNER_NONE && m.border[v];
+    CHECK_MSG(!borders, "%u", (unsigned)borders);
+    corner_mesh_free(&m, &t);
+    triangle_mesh_free(&in);
 }
 
 /* --- hostile --- */
@@ -382,6 +452,9 @@ static void check_wheel(void)
 {
     enum { SPOKES = 3000 };
     triangle_mesh in = room_for(SPOKES + 1, SPOKES);
+    corner_mesh m;
+    tally t = {0, 0};
+    report r;
     uint32_t i;
     add_vertex(&in, 0, 0, 0);
     for (i = 0; i < SPOKES; ++i)
@@ -389,6 +462,10 @@ static void check_wheel(void)
     for (i = 0; i < SPOKES; ++i)
         add_triangle(&in, 0, 1 + i, 1 + (i + 1) % SPOKES);
     check_both(&in, 24, 22, 24);
+    memset(&r, 0, sizeof r);
+    CHECK(corner_mesh_build(&m, &in, &facts, &t, &r));
+    CHECK(!corner_mesh_can_join(&m, 0, 1, dvec_mix(m.places[0], m.places[1], 0.01))); /* too many triangles to look at */
+    corner_mesh_free(&m, &t);
     triangle_mesh_free(&in);
 }
 
@@ -450,6 +527,8 @@ void test_simplify(void)
     check_parts();
     check_large_part();
     check_same();
+    check_pinching();
+    check_closing();
     check_few();
     check_not_finite();
     check_odd();
