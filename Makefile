@@ -59,8 +59,9 @@ AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 MOVING_OBJ := $(call object,tests/moving/main_moving.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
-BRUTE_OBJ  := $(call object,tests/figures/main_brute.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
-RELIGHT_OBJ := $(call object,tests/figures/main_relight.c $(sort $(wildcard tests/figures/relight_*.c))) \
+# tests/figures/main_NAME.c and what is named NAME_*.c beside it: the program figures-NAME.
+FIGURES    := $(patsubst tests/figures/main_%.c,%,$(sort $(wildcard tests/figures/main_*.c)))
+figures_of  = $(call object,$(wildcard tests/figures/main_$(1).c tests/figures/$(1)_*.c)) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 
@@ -106,11 +107,10 @@ $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
 $(B)/moving: $(MOVING_OBJ) $(LIB)
-$(B)/brute: $(BRUTE_OBJ) $(LIB)
-$(B)/relight-figures: $(RELIGHT_OBJ) $(LIB)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(B)/demo $(B)/decodes $(B)/moving $(B)/brute $(B)/relight-figures:
+$(foreach f,$(FIGURES),$(eval $(B)/figures-$(f): $(call figures_of,$(f)) $(LIB)))
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/decodes $(B)/moving:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -134,7 +134,7 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 FORCE:
 
 -include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
-    $(DECODE_OBJ) $(REFERENCE_OBJ) $(MOVING_OBJ) $(BRUTE_OBJ) $(RELIGHT_OBJ) $(AUDITED)))
+    $(DECODE_OBJ) $(REFERENCE_OBJ) $(MOVING_OBJ) $(foreach f,$(FIGURES),$(call figures_of,$(f))) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
@@ -212,7 +212,8 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute relight-figures large tiny run-demo cross install
+.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute relight-figures simplify large tiny \
+    run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS='-Os -DLMB_TREES=0 -DLMB_PROBES=0' LDFLAGS=
@@ -258,11 +259,14 @@ times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREAD
 	@$(IN_SH) tests/figures/times.sh
 
 STEP ?= 17
-brute: $(B)/brute ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
-	@$(RUN) $(B)/brute $(STEP) $(SCENES)
+brute: $(B)/figures-brute ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
+	@$(RUN) $(B)/figures-brute $(STEP) $(SCENES)
 
-relight-figures: $(B)/relight-figures ## objects lit by their world: each filter's errors and time, outdoor maps, gloss
+relight-figures: $(B)/figures-relight ## objects lit by their world: each filter's errors and time, outdoor maps, gloss
 	@$(IN_SH) tests/figures/relight.sh
+
+simplify: $(B)/figures-simplify ## what simpler meshes lose and add, against bars: distances, silhouettes, time of a million
+	@$(RUN) $(B)/figures-simplify
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/build/large.sh

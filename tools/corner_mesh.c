@@ -57,6 +57,14 @@ uint32_t *corner_mesh_edges(const corner_mesh *m, tally *t)
     return edges;
 }
 
+uint32_t corner_mesh_edge_end(const corner_mesh *m, const uint32_t *edges, uint32_t i)
+{
+    const uint32_t low = end_of(m, edges[i], 0), high = end_of(m, edges[i], 1);
+    for (++i; i < 3 * m->live && end_of(m, edges[i], 0) == low && end_of(m, edges[i], 1) == high; ++i)
+        continue;
+    return i;
+}
+
 /* --- lists --- */
 
 static void unlink_corner(corner_mesh *m, uint32_t c)

@@ -38,12 +38,8 @@ void corner_mesh_free(corner_mesh *m, tally *t);
  * edge stand together, edges in the order of their vertices. 3 * live of them; NULL: no memory. */
 uint32_t *corner_mesh_edges(const corner_mesh *m, tally *t);
 
-/* corner_mesh_is_edge: the edge from corner c has the vertices a and b, either way round. */
-static inline int corner_mesh_is_edge(const corner_mesh *m, uint32_t c, uint32_t a, uint32_t b)
-{
-    const uint32_t from = m->vertex[c], to = m->vertex[corner_after(c)];
-    return (from == a && to == b) || (from == b && to == a);
-}
+/* corner_mesh_edge_end: edges[i] starts an edge; where in `edges` the next one starts. The difference is its faces. */
+uint32_t corner_mesh_edge_end(const corner_mesh *m, const uint32_t *edges, uint32_t i);
 
 /* corner_mesh_normal: of the triangle of corner c, twice its area long. */
 dvec corner_mesh_normal(const corner_mesh *m, uint32_t c);

@@ -164,13 +164,11 @@ static int read_triangles(corner_mesh *m, const triangle_mesh *in, const uint32_
 
 static void find_borders(corner_mesh *m, const uint32_t *edges)
 {
-    uint32_t i, k;
-    for (i = 0; i < 3 * m->live; i = k) {
-        const uint32_t a = m->vertex[edges[i]], b = m->vertex[corner_after(edges[i])];
-        for (k = i + 1; k < 3 * m->live && corner_mesh_is_edge(m, edges[k], a, b); ++k)
-            continue;
-        if (k - i != 2)
-            m->border[a] = m->border[b] = 1;
+    uint32_t i, end;
+    for (i = 0; i < 3 * m->live; i = end) {
+        end = corner_mesh_edge_end(m, edges, i);
+        if (end - i != 2)
+            m->border[m->vertex[edges[i]]] = m->border[m->vertex[corner_after(edges[i])]] = 1;
     }
 }
 

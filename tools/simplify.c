@@ -29,7 +29,14 @@ typedef struct simplifier {
     simplify_facts *facts;
 } simplifier;
 
-static uint32_t edge_room(const simplifier *s) { return s->mesh.corner_count + s->mesh.corner_count / 4 + 64; }
+/* Room for a quarter more edges than there are, so that a sweep of the stale ones makes room for many. */
+static uint32_t edge_room(const corner_mesh *m, const uint32_t *edges)
+{
+    uint32_t i, n = 0;
+    for (i = 0; i < 3 * m->live; i = corner_mesh_edge_end(m, edges, i))
+        ++n;
+    return n + n / 4 + 64;
+}
 
 /* --- quadrics --- */
 
@@ -62,14 +69,13 @@ static dvec border_normal(const corner_mesh *m, uint32_t c)
 static void add_borders(simplifier *s, const uint32_t *edges)
 {
     const corner_mesh *m = &s->mesh;
-    uint32_t i, k;
-    for (i = 0; i < 3 * m->live; i = k) {
+    uint32_t i, end;
+    for (i = 0; i < 3 * m->live; i = end) {
         const uint32_t a = m->vertex[edges[i]], b = m->vertex[corner_after(edges[i])];
         const dvec along = dvec_sub(m->places[b], m->places[a]);
         quadric q;
-        for (k = i + 1; k < 3 * m->live && corner_mesh_is_edge(m, edges[k], a, b); ++k)
-            continue;
-        if (k - i == 2)
+        end = corner_mesh_edge_end(m, edges, i);
+        if (end - i == 2)
             continue;
         q = quadric_plane(border_normal(m, edges[i]), m->places[a], BORDER_WEIGHT * dvec_dot(along, along));
         add_to(s, a, q);
@@ -99,7 +105,7 @@ static int place_edge(const simplifier *s, uint32_t a, uint32_t b, dvec *at, dou
 
 static int is_stale(const simplifier *s, const heap_edge *e) { return s->stamps[e->a] + s->stamps[e->b] != e->stamp; }
 
-/* An edge has one entry that is not stale, so what is left fits with a fifth to spare. */
+/* An edge has one entry that is not stale, and there are fewer and fewer edges: a fifth of the room gets free. */
 static void sweep(simplifier *s)
 {
     uint32_t i, n = 0;
@@ -131,17 +137,13 @@ static void push_edge(simplifier *s, uint32_t a, uint32_t b)
         push(s, a, b, cost);
 }
 
-/* All edges there are; `edges`: corner_mesh_edges. */
+/* All edges there are. */
 static void fill(simplifier *s, const uint32_t *edges)
 {
     const corner_mesh *m = &s->mesh;
-    uint32_t i, k;
-    for (i = 0; i < 3 * m->live; i = k) {
-        const uint32_t a = m->vertex[edges[i]], b = m->vertex[corner_after(edges[i])];
-        for (k = i + 1; k < 3 * m->live && corner_mesh_is_edge(m, edges[k], a, b); ++k)
-            continue;
-        push_edge(s, a, b);
-    }
+    uint32_t i;
+    for (i = 0; i < 3 * m->live; i = corner_mesh_edge_end(m, edges, i))
+        push_edge(s, m->vertex[edges[i]], m->vertex[corner_after(edges[i])]);
 }
 
 /* --- collapse --- */
@@ -223,7 +225,7 @@ static int prepare(simplifier *s)
     corner_mesh *m = &s->mesh;
     uint32_t *edges = corner_mesh_edges(m, &s->memory);
     int ok;
-    s->heap.cap = edge_room(s);
+    s->heap.cap = edges ? edge_room(m, edges) : 0;
     s->heap.edges = tally_take(&s->memory, s->heap.cap, sizeof *s->heap.edges);
     s->quadrics = tally_take(&s->memory, m->vertex_count, sizeof *s->quadrics);
     s->stamps = tally_take(&s->memory, m->vertex_count, sizeof *s->stamps);

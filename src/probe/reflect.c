@@ -109,7 +109,7 @@ static void store(float *cube, const lmb_probe_rays *t, int32_t first, int32_t t
 
 int32_t lmb_probe_gloss_side(float roughness)
 {
-    return roughness < 0.1f ? 0 : roughness < 0.2f ? 64 : roughness < 0.35f ? 32 : roughness < 0.6f ? 16 : 8;
+    return roughness < 0.1f ? 0 : roughness < 0.3f ? 64 : roughness < 0.6f ? 16 : 8;
 }
 
 static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *kernels, const lmb_world_look *look,
