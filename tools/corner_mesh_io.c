@@ -184,10 +184,7 @@ static void finish_looks(corner_mesh *m, const triangle_mesh *in, const uint32_t
         int k;
         for (c = m->first[v]; c != CORNER_NONE && !in->normals; c = m->next[c])
             n = dvec_add(n, corner_mesh_normal(m, c));
-        n = dvec_unit(n);
-        m->looks[v][0] = (float)n.x;
-        m->looks[v][1] = (float)n.y;
-        m->looks[v][2] = (float)n.z;
+        dvec_write(m->looks[v], dvec_unit(n));
         for (k = 3; k < 6; ++k)
             m->looks[v][k] /= shares[v];
     }
@@ -232,14 +229,9 @@ int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *f
 
 static void write_vertex(const corner_mesh *m, triangle_mesh *out, uint32_t v, uint32_t to)
 {
-    const dvec p = m->places[v], n = dvec_unit(dvec_read(m->looks[v]));
     const size_t at = 3 * (size_t)to;
-    out->positions[at] = (float)p.x;
-    out->positions[at + 1] = (float)p.y;
-    out->positions[at + 2] = (float)p.z;
-    out->normals[at] = (float)n.x;
-    out->normals[at + 1] = (float)n.y;
-    out->normals[at + 2] = (float)n.z;
+    dvec_write(out->positions + at, m->places[v]);
+    dvec_write(out->normals + at, dvec_unit(dvec_read(m->looks[v])));
     if (out->colours)
         memcpy(out->colours + at, m->looks[v] + 3, 3 * sizeof(float));
 }

@@ -2,6 +2,7 @@
 #ifndef DVEC_H
 #define DVEC_H
 
+#include <float.h>
 #include <math.h>
 
 typedef struct dvec {
@@ -18,6 +19,19 @@ static inline dvec dvec_of(double x, double y, double z)
 }
 
 static inline dvec dvec_read(const float *p) { return dvec_of((double)p[0], (double)p[1], (double)p[2]); }
+/* Within binary32, which has no conversion for what is beyond it. */
+static inline float dvec_narrow(double v)
+{
+    return v > (double)FLT_MAX ? FLT_MAX : v > -(double)FLT_MAX ? (float)v : -FLT_MAX;
+}
+
+static inline void dvec_write(float *p, dvec v)
+{
+    p[0] = dvec_narrow(v.x);
+    p[1] = dvec_narrow(v.y);
+    p[2] = dvec_narrow(v.z);
+}
+
 static inline dvec dvec_add(dvec a, dvec b) { return dvec_of(a.x + b.x, a.y + b.y, a.z + b.z); }
 static inline dvec dvec_sub(dvec a, dvec b) { return dvec_of(a.x - b.x, a.y - b.y, a.z - b.z); }
 static inline dvec dvec_mul(dvec a, double s) { return dvec_of(a.x * s, a.y * s, a.z * s); }

@@ -65,11 +65,7 @@ static void move_point(triangle_mesh *m, const nearest *n, dvec step)
     int k;
     for (k = 0; k < 3; ++k) {
         const uint32_t v = m->indices[3 * (size_t)n->triangle + (size_t)k];
-        const dvec to = dvec_add(vertex_of(m, v), dvec_mul(step, w[k] / all));
-        float *p = m->positions + 3 * (size_t)v;
-        p[0] = (float)to.x;
-        p[1] = (float)to.y;
-        p[2] = (float)to.z;
+        dvec_write(m->positions + 3 * (size_t)v, dvec_add(vertex_of(m, v), dvec_mul(step, w[k] / all)));
     }
 }
 

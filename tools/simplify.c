@@ -259,6 +259,16 @@ static void release(simplifier *s)
     corner_mesh_free(&s->mesh, &s->memory);
 }
 
+/* The welded input, which the result is to enclose. */
+static int keep_inner(simplifier *s, triangle_mesh *inner)
+{
+    if (!corner_mesh_write(&s->mesh, inner, 0, &s->memory))
+        return 0;
+    tally_add(&s->memory, (uint64_t)inner->vertex_count * 6 * sizeof(float));
+    tally_add(&s->memory, (uint64_t)inner->triangle_count * 3 * sizeof(uint32_t));
+    return 1;
+}
+
 int simplify_mesh(triangle_mesh *out, const triangle_mesh *in, uint32_t triangles, int around, simplify_facts *facts,
                   report *r)
 {
@@ -272,7 +282,7 @@ int simplify_mesh(triangle_mesh *out, const triangle_mesh *in, uint32_t triangle
     s.facts = facts;
     s.around = around;
     ok = corner_mesh_build(&s.mesh, in, facts, &s.memory, r)
-        && (around != SIMPLIFY_AROUND || corner_mesh_write(&s.mesh, &inner, 0, &s.memory))
+        && (around != SIMPLIFY_AROUND || keep_inner(&s, &inner))
         && reduce(&s, triangles) && corner_mesh_write(&s.mesh, out, in->colours != NULL, &s.memory);
     release(&s);
     if (ok && around == SIMPLIFY_AROUND && facts->collapses)

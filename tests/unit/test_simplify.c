@@ -500,7 +500,7 @@ static void check_globe(void)
 
 static void check_extremes(void)
 {
-    static const float scales[] = {1e38f, 1e-18f, 1e-38f};
+    static const float scales[] = {3.4e38f, 1e-18f, 1e-38f};
     int i;
     for (i = 0; i < 3; ++i) {
         triangle_mesh in = placed(sphere(6), scales[i], 0, 0, 0);
