@@ -38,7 +38,8 @@ static void find_normals(sticker *found, const triangle_mesh *inner)
  * triangle belongs to the other side of a thin sheet, or to something inside. */
 static int sticks_out(const sticker *s, dvec p)
 {
-    return s->on.triangle != UNUSED && nearest_is_outside(&s->on, p) && dvec_dot(s->normal, dvec_sub(p, s->on.point)) >= 0;
+    return s->on.triangle != UNUSED && nearest_is_outside(&s->on, p)
+        && dvec_dot(s->normal, dvec_sub(p, s->on.point)) >= 0;
 }
 
 /* The nearest triangle of each vertex. How far sticks out what sticks out most. */
