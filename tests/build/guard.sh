@@ -4,7 +4,7 @@
 # The golden program, linked with one file that was compiled wrongly, must say LMB_ERR_BUILD and draw nothing.
 . tests/build/checks.sh
 mkdir -p "$B/guard"
-golden="$B/obj/tests/golden/golden.o $B/obj/tests/golden/main_golden.o $B/obj/tools/demo_scene.o
+golden="$(ls "$B"/obj/tests/golden/golden*.o) $B/obj/tests/golden/main_golden.o $B/obj/tools/demo_scene.o
     $B/obj/platform/host/port_host.o"
 
 # compiles FILE FLAG...: after the house's own flags, so that they win.
