@@ -35,6 +35,7 @@ void *golden_second(void);
 #if LMB_PROBES
 uint64_t case_probe(int variant);  /* golden_probe.c */
 uint64_t case_relit(int variant);
+uint64_t case_small_probe(int variant);
 #endif
 
 #endif

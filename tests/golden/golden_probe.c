@@ -154,4 +154,44 @@ uint64_t case_relit(int variant)
     return golden_hash_u32(h, (uint32_t)status);
 }
 
+/* A world with its ground, and all that one object's update takes, with a map of 48 x 24: under 64 KiB. */
+typedef struct small_update {
+    uint32_t world_memory[1400], table_memory[4000];
+    lmb_world world;
+    lmb_probe_table table;
+    lmb_probe_lights lights;
+    union {
+        float map[3 * 48 * 24];
+        struct {
+            float planes[3 * 6 * 8 * 8];
+            uint32_t cube[6 * 10 * 10 * 4];
+        } after; /* the map became lights */
+    } step;
+} small_update;
+GOLDEN_FITS(small_update, second);
+
+/* What a small device does for an object that moved. */
+uint64_t case_small_probe(int variant)
+{
+    static const lmb_vec3 at = {1.5f, -1.0f, 3.0f};
+    probe_space *pictures = golden_first(); /* these may lie in flash */
+    small_update *s = golden_second();
+    lmb_world_pictures p;
+    lmb_probe_cube cube;
+    (void)variant;
+    set_pictures(&p, pictures, LMB_WORLD_SPHERE);
+    lmb_status status = lmb_probe_table_init(&s->table, 48, 24, -180.0f, s->table_memory, sizeof s->table_memory);
+    if (status == LMB_OK) {
+        status = lmb_world_init(&s->world, &p, LMB_WORLD_LOG8, s->world_memory, sizeof s->world_memory);
+    }
+    if (status == LMB_OK) {
+        lmb_probe_remap(s->step.map, golden_kernels, &s->world, &s->table, at, 0);
+        lmb_probe_reduce(&s->lights, golden_kernels, s->step.map, &s->table);
+        lmb_probe_cosine(s->step.after.planes, 8, golden_kernels, &s->lights, &s->table);
+        status = lmb_probe_cube_init(&cube, s->step.after.planes, 8, s->step.after.cube, sizeof s->step.after.cube);
+    }
+    return golden_hash_floats(golden_hash_u32(GOLDEN_START, (uint32_t)status),
+                              (const float *)(const void *)s->step.after.cube, 6 * 10 * 10 * 4);
+}
+
 #endif
