@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "demo_field.h"
+
 #define PLAIN_F0 0.04f       /* of glass, plastic, skin */
 #define PLAIN_ROUGHNESS 0.4f /* where the file says nothing */
 
@@ -127,7 +129,9 @@ int figures_load(figures *f, const relight_options *o, uint32_t count, report *r
 {
     model_notes notes = {0};
     memset(f, 0, sizeof *f);
-    if (!model_load(&f->loaded, o->object, NULL, &notes, r)) {
+    if (strcmp(o->object, "demo") == 0) {
+        f->loaded.scene = *demo_field_figure();
+    } else if (!model_load(&f->loaded, o->object, NULL, &notes, r)) {
         return 0;
     }
     for (uint32_t i = 0; i < notes.count; ++i) {

@@ -2,12 +2,17 @@
 #include "relight_light.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+#include "demo_field.h"
 
 /* --- once --------------------------------------------------------------------------------------------------------- */
 
 static int make_world(relight_light *w, relight_options *o, report *r)
 {
-    if (!world_read_cube(&o->place, &w->pictures, o->world, r) ||
+    const int built_in = strcmp(o->world, "demo") == 0;
+    if (!(built_in ? demo_field_pictures(&o->place, &w->pictures, r)
+                   : world_read_cube(&o->place, &w->pictures, o->world, r)) ||
         (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r))) {
         return 0;
     }

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "demo_field.h"
 #include "option_value.h"
 #include "picture.h"
 
@@ -16,7 +17,7 @@ static const char usage_world[] =
     "world\n"
     "  --world FILE|PREFIX        one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole\n"
     "                             sphere, twice as wide as high; or six files, PREFIXpx PREFIXnx ... PREFIXnz\n"
-    "                             (.pfm .hdr .png .jpg), of which some may be missing\n"
+    "                             (.pfm .hdr .png .jpg), of which some may be missing; or `demo`, a built-in field\n"
     "  --world-centre X,Y,Z       where it was taken (default 0,0,0)\n"
     "  --world-sphere X,Y,Z,R     what is far lies on this sphere (default: 100 m around the centre)\n"
     "  --world-box X0,Y0,Z0,X1,Y1,Z1\n"
@@ -40,8 +41,8 @@ static const char usage_world[] =
 
 static const char usage_object[] =
     "objects\n"
-    "  --object FILE              .gltf .glb .obj .ply: stands with the middle of its box's bottom at --at, and is\n"
-    "                             lit as its box's middle is\n"
+    "  --object FILE              .gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's\n"
+    "                             bottom at --at, and is lit as its box's middle is\n"
     "  --at X,Y,Z                 again and again: one more of it, up to 32\n"
     "  --scale M                  its longest side, m (default: as the file says)\n"
     "  --roughness R              0 (a mirror) .. 1 (default: glTF's materials' own, else 0.4)\n"
@@ -311,6 +312,9 @@ int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
         if (f < 0 || (!flags[f].parse(argv[++i], o) && !option_refuse(&flags[f].of, argv[i], r))) {
             return 0;
         }
+    }
+    if (o->world != NULL && strcmp(o->world, "demo") == 0) {
+        demo_field_options(o);
     }
     complete(o);
     return check_together(o, r);

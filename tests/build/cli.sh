@@ -291,6 +291,34 @@ status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --faces 65
 status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --filter sh4
 status 2 relight --cube "$dir/bad.pfm"
 status 0 relight --help
+# Objects in the built-in world: normal and gloss are the parts of both, on every machine; places along a path.
+field="relight --world demo --object demo --size 48x24 --exposure 0"
+for show in both normal gloss; do
+    status 0 $field --show $show -o "$dir/field-$show.pfm"
+done
+check "gloss alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[0-9]"' sh "$TOOL" "$dir/field-gloss.pfm" "$dir/field-both.pfm"
+status 0 $field --backend scalar -o "$dir/field-scalar.pfm"
+check "a backend changes the field" cmp "$dir/field-both.pfm" "$dir/field-scalar.pfm"
+status 0 $field --at 3,0,1 --roughness 0 --f0 0.9 --per-part --light sun:0,0,0:-1,-1,0:2,2,2 --cube "$dir/cube.pfm" -o "$dir/field.png"
+printf '# a walk\n0,0,0\n0.1,0,0\n\n 1,0,0 \n1,0,0' >"$dir/path.txt"
+status 0 $field --path "$dir/path.txt" -o "$dir/walk.ppm"
+check "a walk keeps its light while it is near" grep -q '^light computed 2 times, kept 2 times$' "$dir/out.txt"
+check "a walk has a picture a place" sh -c 'test -s "$1/walk-0000.ppm" && test -s "$1/walk-0003.ppm" && ! test -e "$1/walk-0004.ppm"' sh "$dir"
+status 0 $field --path "$dir/path.txt" --reuse 0 -o "$dir/walk.ppm"
+check "a walk without reuse is computed until it rests" grep -q '^light computed 3 times, kept 1 times$' "$dir/out.txt"
+status 0 $field --path "$dir/path.txt" --reuse 5 --keep 0,0.9,0 -o "$dir/walk.ppm"
+check "a named place serves the whole walk" grep -q '^light computed 1 times, kept 3 times$' "$dir/out.txt"
+printf '0,0,0\n1,2\n' >"$dir/path.txt"
+status 1 $field --path "$dir/path.txt" -o "$dir/bad.ppm"
+check "a path's error names its line" grep -q 'path.txt:2: `1,2` is not X,Y,Z' "$dir/err.txt"
+status 1 $field --path "$dir/nowhere" -o "$dir/bad.ppm"
+status 1 relight --world demo --object "$dir/nowhere.glb" -o "$dir/bad.ppm"
+status 2 $field --path "$dir/path.txt" --at 0,0,0 -o "$dir/bad.ppm"
+status 2 relight --world demo --object demo
+status 2 $field --eye 0,1,2 -o "$dir/bad.ppm"
+status 2 $field --roughness 2 -o "$dir/bad.ppm"
+status 2 $field -o "$dir/bad.gif"
+check "nothing was left behind" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$dir"
 # The fixed workload: its own quads need no files.
 check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
 check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
