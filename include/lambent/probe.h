@@ -73,6 +73,7 @@ typedef struct lmb_probe_table {
     float *legendre;     /* 15 planes of height: what harmonics l, m >= 0 are besides their wave; l 0 .. 4, m 0 .. l */
     lmb_probe_share *share; /* width / 2 x height / 2 */
     float *light;        /* 3 planes of LMB_PROBE_TEXELS: the directions of lmb_probe_lights */
+    uint16_t *fold;      /* LMB_PROBE_BORDERED: the texel that each of the cube with its borders belongs to */
 } lmb_probe_table;
 
 enum { LMB_SH_9 = 9, LMB_SH_16 = 16, LMB_SH_25 = 25 };

@@ -6,21 +6,13 @@
 
 #if LMB_PROBES
 
-enum { SIDE = LMB_PROBE_SIDE + 2 }; /* with a border */
-
 /* A border's share goes to the texel that its direction meets. */
-static void fold(lmb_probe_lights *inout)
+static void fold(lmb_probe_lights *inout, const lmb_probe_table *table)
 {
-    const int32_t n = LMB_PROBE_SIDE;
     memset(inout->rgbw, 0, sizeof inout->rgbw);
     for (int32_t i = 0; i < LMB_PROBE_BORDERED; ++i) {
-        const int32_t face = i / (SIDE * SIDE), x = i % SIDE - 1, y = i / SIDE % SIDE - 1;
-        cube_place p = {face, x, y};
-        if (x < 0 || y < 0 || x >= n || y >= n) {
-            p = cube_border(face, x, y, n);
-        }
         for (int c = 0; c < 4; ++c) {
-            inout->rgbw[c][(p.face * n + p.y) * n + p.x] += inout->shared[i][c];
+            inout->rgbw[c][table->fold[i]] += inout->shared[i][c];
         }
     }
 }
@@ -33,7 +25,7 @@ lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, c
     }
     memset(out->shared, 0, sizeof out->shared);
     kernels->share(out->shared, map, table);
-    fold(out);
+    fold(out, table);
     return LMB_OK;
 }
 

@@ -44,13 +44,18 @@ LANE_INLINE void share_add(float *to, const lmb_probe_share *at, const float lig
     }
 }
 
+/* Eight at a time: a vector that is read as soon as its numbers were written waits for them. */
 static void KERNEL(share)(float (*shared)[4], const float *map, const lmb_probe_table *table)
 {
     const int32_t width = table->width, count = width * table->height;
-    float light[SHARE_LANES];
-    for (int32_t i = 0; i < count / 4; ++i) {
+    float light[8][SHARE_LANES];
+    for (int32_t i = 0; i < count / 4; i += 8) {
         const int32_t y = 2 * (i / (width / 2)), at = y * width + 2 * (i % (width / 2));
-        share_light(light, map + at, (size_t)count, width, table->area + y);
-        share_add(shared[table->share[i].slot], &table->share[i], light);
+        for (int32_t k = 0; k < 8; ++k) {
+            share_light(light[k], map + at + 2 * k, (size_t)count, width, table->area + y);
+        }
+        for (int32_t k = 0; k < 8; ++k) {
+            share_add(shared[table->share[i + k].slot], &table->share[i + k], light[k]);
+        }
     }
 }

@@ -17,7 +17,8 @@ static int is_size(int32_t width, int32_t height)
 static size_t table_words(int32_t width, int32_t height)
 {
     const size_t w = (size_t)width, h = (size_t)height;
-    return 3 * w * h / 2 + h + WAVES * w + LEGENDRE * h + w / 2 * (h / 2) + 3 * LMB_PROBE_TEXELS;
+    return 3 * w * h / 2 + h + WAVES * w + LEGENDRE * h + w / 2 * (h / 2) + 3 * LMB_PROBE_TEXELS +
+           LMB_PROBE_BORDERED / 2;
 }
 
 size_t lmb_probe_table_bytes(int32_t width, int32_t height)
@@ -127,6 +128,17 @@ static void set_shares(lmb_probe_table *t, float start)
     }
 }
 
+static void set_fold(lmb_probe_table *t)
+{
+    enum { N = LMB_PROBE_SIDE, SIDE = N + 2 };
+    for (int32_t i = 0; i < LMB_PROBE_BORDERED; ++i) {
+        const int32_t face = i / (SIDE * SIDE), x = i % SIDE - 1, y = i / SIDE % SIDE - 1;
+        const cube_place own = {face, x, y};
+        const cube_place p = x < 0 || y < 0 || x >= N || y >= N ? cube_border(face, x, y, N) : own;
+        t->fold[i] = (uint16_t)((p.face * N + p.y) * N + p.x);
+    }
+}
+
 lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t height, float start_deg, void *memory,
                                 size_t bytes)
 {
@@ -147,11 +159,13 @@ lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t hei
     out->legendre = out->wave + WAVES * w;
     out->light = out->legendre + LEGENDRE * h;
     out->share = (lmb_probe_share *)(void *)(out->light + 3 * LMB_PROBE_TEXELS);
+    out->fold = (uint16_t *)(void *)(out->share + w / 2 * (h / 2));
     set_waves(out, out->start);
     set_areas(out);
     set_legendre(out);
     set_lights(out);
     set_shares(out, out->start);
+    set_fold(out);
     set_directions(out, out->wave + w, out->wave + 5 * w);
     return LMB_OK;
 }
