@@ -78,6 +78,16 @@
 #define LMB_MAX_PROBES 64
 #endif
 
+/* 0: this build has no mixed reality (lambent/mixed.h, lambent/env.h). Saves 20 KiB of ROM on a Cortex-M4F. */
+#ifndef LMB_MIXED
+#define LMB_MIXED 1
+#endif
+
+/* Planes that are found in one picture. 112 bytes each, in lmb_planes. Full: the smaller ones stay plain surface. */
+#ifndef LMB_MAX_PLANES
+#define LMB_MAX_PLANES 24
+#endif
+
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */

@@ -15,6 +15,7 @@
 #include "tree.h"
 #include "elements.h"
 #include "probe.h"
+#include "env.h"
 #include "compose.h"
 #include "relight.h"
 #include "render.h"

@@ -9,7 +9,7 @@
 #include "../base/memory_check.h"
 #include "../base/poly.h"
 #include "../lane/kernels.h"
-#include "cube.h"
+#include "../map/cube.h"
 
 #if LMB_PROBES
 

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "../lane/kernels.h"
-#include "cube.h"
+#include "../map/cube.h"
 
 #if LMB_PROBES
 

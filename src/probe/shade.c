@@ -3,7 +3,7 @@
 #include "../light/gloss.h"
 #include "../raster/resolve.h"
 #include "../raster/tile.h"
-#include "cube.h"
+#include "../map/cube.h"
 #include "world.h"
 
 #if LMB_PROBES

@@ -3,7 +3,7 @@
 
 #include "../base/memory_check.h"
 #include "../base/poly.h"
-#include "cube.h"
+#include "../map/cube.h"
 #include "world.h"
 
 /* Radiance that is coded as 0 or 1, and log2 of 10. */

@@ -8,7 +8,7 @@
 
 #include <lambent/lambent.h>
 
-#include "../../src/probe/cube.h"
+#include "../../src/map/cube.h"
 #include "../truth_scene.h"
 
 void test_relight(void);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "../../src/base/vec.h"
-#include "../../src/probe/cube.h"
+#include "../../src/map/cube.h"
 #include "../test.h"
 
 void test_probe(void);

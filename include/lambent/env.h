@@ -1,0 +1,41 @@
+/* env.h: a cube of light from far away, with levels: RGBA half floats in the caller's memory. [M14 M19 M22]
+ *
+ * Six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the direction is
+ * (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1). Each level halves the one before, down to one texel. */
+#ifndef LMB_ENV_H
+#define LMB_ENV_H
+
+#include "types.h"
+
+#define LMB_ENV_LEVELS 12 /* of faces of 2048 texels a side, the largest */
+
+typedef struct lmb_env {
+    uint16_t *texels;            /* R, G, B radiance, W/(m2 sr), and A = 1, as binary16; level after level */
+    int32_t size, levels;        /* texels of a face's side: a power of two */
+    uint32_t at[LMB_ENV_LEVELS]; /* the first texel of each level; face f of it begins f n n texels on */
+} lmb_env;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_env_bytes: memory of a cube; 0 for a size that is no power of two, 1 .. 2048. */
+size_t lmb_env_bytes(int32_t size);
+
+/* lmb_env_init: an unlit cube in `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+lmb_status lmb_env_init(lmb_env *out, int32_t size, void *memory, size_t bytes);
+
+/* lmb_env_set: a texel of level 0. What is negative or no number is 0, what is over 65504 is 65504. */
+void lmb_env_set(const lmb_env *env, int32_t face, int32_t x, int32_t y, const float rgb[3]);
+
+/* lmb_env_mips: the other levels, each texel the mean of four.                                                [M19] */
+void lmb_env_mips(const lmb_env *env);
+
+/* lmb_env_sample: radiance from `direction` (any length but 0) within a cone, tan_half the tangent of its half angle:
+ * between the two levels whose texels are next to that wide, bilinearly across the faces' edges. */
+void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float tan_half);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
