@@ -216,7 +216,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
     run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
-	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS='-Os -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_MIXED=0' LDFLAGS=
+	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS='-Os -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_MIXED=0 -DLMB_VOXELS=0' LDFLAGS=
 
 room-sizes: $(LIB)
 	@$(IN_SH) tests/build/size.sh

@@ -78,6 +78,11 @@
 #define LMB_MAX_PROBES 64
 #endif
 
+/* 0: this build has no voxels and cones (lambent/voxel.h). */
+#ifndef LMB_VOXELS
+#define LMB_VOXELS 1
+#endif
+
 /* 0: this build has no mixed reality (lambent/mixed.h, lambent/env.h). Saves 20 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_MIXED
 #define LMB_MIXED 1

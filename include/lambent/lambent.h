@@ -14,6 +14,7 @@
 #include "bounce.h"
 #include "tree.h"
 #include "elements.h"
+#include "voxel.h"
 #include "probe.h"
 #include "env.h"
 #include "compose.h"

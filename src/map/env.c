@@ -7,7 +7,7 @@
 #include "../base/memory_check.h"
 #include "cube.h"
 
-#if LMB_MIXED
+#if LMB_MIXED || LMB_VOXELS
 
 static int32_t level_count(int32_t size)
 {

@@ -1,0 +1,170 @@
+/* voxel.h: a scene's surfaces and their light as a sparse octree, and cones that are traced through it.
+ *                                                                                        [M6-M8 M11-M13 M20-M22]
+ *     lmb_voxels_init(&v, cap, LMB_VOXELS_THREE, memory, bytes);    once
+ *     lmb_voxels_build(&v, &low, &high, depth, parts, count);       when geometry changes
+ *     lmb_voxels_inject(&v, field, texels, count);                  when light changes: first points of the lights' maps
+ *     lmb_voxels_filter(&v, field);  lmb_voxels_delta(&v);
+ *     lmb_cones_init(&cones, &v, 19);                               once a build
+ *     per tile: lmb_cones_diffuse(..), lmb_cones_glossy(..)
+ *
+ * A voxel does not hold a colour and an alpha, but sums over the surfaces in it, by the six directions that they face: so
+ * a parent is exactly the mean of its children, no light is lost on the way up, a thin wall does not shine through from
+ * its back, and it covers as much of a wide cone as of a narrow one. */
+#ifndef LMB_VOXEL_H
+#define LMB_VOXEL_H
+
+#include "env.h"
+#include "tree.h"
+
+enum { LMB_VOXEL_WITHOUT = 0, LMB_VOXEL_WITH = 1, /* worlds: without and with the virtual object; and fields of light */
+       LMB_VOXEL_DELTA = 2                        /* a field of light only: with - without [M11 M12] */ };
+enum { LMB_VOXELS_ONE = 1,  /* world WITHOUT and its light */
+       LMB_VOXELS_THREE = 3 /* both worlds, and three fields of light */ };
+enum { LMB_VOXEL_MIN_DEPTH = 4, LMB_VOXEL_MAX_DEPTH = 10 }; /* leaves a side: 2^depth */
+
+#define LMB_VOXEL_COVER 8  /* floats of a voxel's geometry: x y z 0 of its coverage, x y z 0 of its normal */
+#define LMB_VOXEL_LIGHT 24 /* floats of a voxel's light: R G B 0 by direction, +x -x +y -y +z -z */
+
+/* The octree, in the caller's memory. Voxels 0 .. 7 are empty space; then all voxels of 1, 2^3, 4^3, 8^3 and 16^3 a
+ * side, x first; then eight at a time (x + 2 y + 4 z) the children of those that have some. Areas are in units of a
+ * leaf's face, and of a voxel n leaves wide the mean over its leaves: a wall through it has coverage 1 / n. */
+typedef struct lmb_voxels {
+    uint32_t *child;  /* of each voxel the first of eight; 0: empty, or a leaf */
+    float *cover[2];  /* LMB_VOXEL_COVER x cap, by world. Coverage: area seen along each axis, of the side that shows
+                         more. Normal: the sum of areas by their front side */
+    float *light[3];  /* LMB_VOXEL_LIGHT x cap, by field: radiance x area seen from that direction, W/sr */
+    uint32_t cap, count;
+    int32_t worlds;   /* 1 or 2 */
+    lmb_vec3 low;     /* m: the cube's corner */
+    float leaf;       /* m: a leaf's side */
+    int32_t depth, asked; /* less than asked: the pool was too small, and leaves are larger */
+    double area;      /* m2 of all that was built */
+    double flux[2], lost[2]; /* W, R + G + B, by world: injected; and what found no leaf */
+} lmb_voxels;
+
+/* Triangles first_id .. first_id + count - 1 of a scene, and whether they are part of each world. */
+typedef struct lmb_voxel_part {
+    const lmb_scene *scene;
+    uint32_t first_id, count;
+    int32_t in[2];
+} lmb_voxel_part;
+
+enum { LMB_CONE_STEPS = 64, LMB_CONE_MOST = 37, LMB_CONE_WIDTHS = 4 };
+
+/* One sample of a cone: of every cone as wide, at the same distance. */
+typedef struct lmb_cone_step {
+    float at, length; /* m along the axis; leaves */
+    float finer;      /* share of `level`; the rest is of the next */
+    int32_t level;    /* 0: leaves */
+} lmb_cone_step;
+
+typedef struct lmb_cone_width {
+    float tangent; /* of half the opening */
+    int32_t count;
+    lmb_cone_step step[LMB_CONE_STEPS];
+} lmb_cone_width;
+
+/* Cones over a hemisphere, each of the same share of its cosine-weighted whole. 6 KiB. */
+typedef struct lmb_cones {
+    int32_t count;
+    lmb_cone_width width[LMB_CONE_WIDTHS];   /* of each ring of cones */
+    int32_t ring[LMB_CONE_MOST];
+    float direction[LMB_CONE_MOST][3];       /* along two tangents and the normal */
+} lmb_cones;
+
+/* What is traced: light of one field through one world. */
+typedef struct lmb_cone_trace {
+    const lmb_kernels *kernels;
+    const lmb_voxels *voxels;
+    int32_t field;      /* whose light: LMB_VOXEL_WITHOUT, _WITH or _DELTA */
+    int32_t world;      /* whose surfaces cover: LMB_VOXEL_WITHOUT or _WITH */
+    const lmb_env *env; /* what shows where nothing covers; NULL: darkness [M22] */
+} lmb_cone_trace;
+
+/* What 64 cones see. */
+typedef struct lmb_cone_seen {
+    float rgb[3][LMB_TILE_PIXELS]; /* radiance, W/(m2 sr): the mean over the cone */
+    float open[LMB_TILE_PIXELS];   /* share of the cone that no surface covers, 0 .. 1 */
+} lmb_cone_seen;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_voxels_bytes: memory of a pool of `cap` voxels; fields: LMB_VOXELS_ONE (132 bytes each) or LMB_VOXELS_THREE
+ * (356). 0 where that cannot be: the first 4,689 are always there, and at most 2^26. */
+size_t lmb_voxels_bytes(uint32_t cap, int32_t fields);
+
+/* lmb_voxels_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *memory, size_t bytes);
+
+/* lmb_voxels_build: the surfaces of checked scenes as voxels of a cube around the box low .. high; light is 0. [M6 M8]
+ *
+ *   depth  2^depth leaves along the cube's side
+ *   parts  triangles; what lies outside the box is left out, as is what lmb_draw would drop
+ *
+ * Triangles are cut by the leaves' faces, so areas are exact; they are added in units of 2^-18 of a leaf's face, which
+ * no order of triangles changes. Empty space takes no voxels. Where the pool is full all begins again with leaves twice
+ * as wide, until it fits, as 16 a side always do: out->depth says so. Holes of masked materials count by four points a
+ * triangle.
+ * Returns LMB_OK or LMB_ERR_ARG. Cost: 0.1 us a triangle and leaf that meet. */
+lmb_status lmb_voxels_build(lmb_voxels *inout, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth,
+                            const lmb_voxel_part *parts, int32_t count);
+
+/* lmb_voxels_dark: takes a field's light out again, for other lights. */
+lmb_status lmb_voxels_dark(lmb_voxels *inout, int32_t field);
+
+/* lmb_voxels_inject: adds first points' flux to the leaves that they lie in.                              [M7 M10]
+ *
+ *   field   LMB_VOXEL_WITHOUT or LMB_VOXEL_WITH
+ *   texels  of a tree (lmb_tree_texels), all of its faces one after the other, or by hand; flux 0 is no first point
+ *
+ * Each adds its flux, as outgoing radiance x area, to the three directions that its normal faces. One without a leaf
+ * there goes to a leaf beside it; where there is none its flux counts as lost. */
+lmb_status lmb_voxels_inject(lmb_voxels *inout, int32_t field, const lmb_texel *texels, size_t count);
+
+/* lmb_voxels_filter: a field's light from the leaves upward: each voxel the mean of its eight.                [M13] */
+lmb_status lmb_voxels_filter(lmb_voxels *inout, int32_t field);
+
+/* lmb_voxels_delta: with - without, of both filtered fields, exactly 0 where they are equal.             [M11 M12] */
+lmb_status lmb_voxels_delta(lmb_voxels *inout);
+
+/* lmb_voxels_sum: a field's light over all leaves by direction, W: pi x radiance x area seen from there. Of a first
+ * point it is flux x the part of the normal along each direction; so a filter may be checked, and an injection. */
+void lmb_voxels_sum(double out[6][3], const lmb_voxels *voxels, int32_t field);
+
+/* lmb_voxels_at: the voxel of `level` (0: leaves) at a place; 0: empty space. */
+uint32_t lmb_voxels_at(const lmb_voxels *voxels, lmb_vec3 at, int32_t level);
+
+/* lmb_cones_init: cones for one build's leaves; count: 7, 19 or 37. LMB_OK or LMB_ERR_ARG.                   [M21]
+ * lmb_cone_width_init: the steps of cones whose half opening has this tangent, 0.01 .. 2. */
+lmb_status lmb_cones_init(lmb_cones *out, const lmb_voxels *voxels, int32_t count);
+lmb_status lmb_cone_width_init(lmb_cone_width *out, const lmb_voxels *voxels, float tangent);
+
+/* lmb_cone_tangent: the narrow cone that holds half of a lobe of this roughness (scene.h): reflection turns twice as
+ * fast as a normal, and half of GGX's normals are within atan(alpha): 2 alpha / (1 - alpha^2), at most 1. */
+float lmb_cone_tangent(float roughness);
+
+/* lmb_cones_trace: one cone from each pixel of a tile that has a surface (tile->depth > 0), along `direction`, unit, 3
+ * planes. The others see nothing. Any threads at once. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_cones_trace(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
+                           const lmb_tile *tile, float direction[3][LMB_TILE_PIXELS]);
+
+/* lmb_cones_diffuse: add what all cones bring to a tile: irradiance, W/m2, by shading normals.           [M21 M22]
+ *
+ *   open  NULL, or the share of the cosine-weighted hemisphere that nothing covers, for each pixel: set
+ * Pixels without a surface stay. Doubling all light doubles what is added. */
+lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS], const lmb_cone_trace *trace,
+                             const lmb_cones *cones, const lmb_tile *tile);
+
+/* lmb_cones_glossy: the radiance that one narrow cone sees along the mirrored view.                      [M20 M22]
+ *
+ *   eye    where the tile is seen from, m
+ *   width  by lmb_cone_tangent of the roughness */
+lmb_status lmb_cones_glossy(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
+                            const lmb_tile *tile, lmb_vec3 eye);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
