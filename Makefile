@@ -268,6 +268,9 @@ relight-figures: $(B)/figures-relight ## objects lit by their world: each filter
 simplify: $(B)/figures-simplify ## what simpler meshes lose and add, against bars: distances, silhouettes, time of a million
 	@$(RUN) $(B)/figures-simplify
 
+voxels: $(B)/figures-voxel ## one bounce by cones through voxels: errors, time, memory (SCENES="cornell ...")
+	@$(RUN) $(B)/figures-voxel $(SCENES)
+
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/build/large.sh
 

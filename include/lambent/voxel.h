@@ -29,7 +29,7 @@ enum { LMB_VOXEL_MIN_DEPTH = 4, LMB_VOXEL_MAX_DEPTH = 10 }; /* leaves a side: 2^
  * side, x first; then eight at a time (x + 2 y + 4 z) the children of those that have some. Areas are in units of a
  * leaf's face, and of a voxel n leaves wide the mean over its leaves: a wall through it has coverage 1 / n. */
 typedef struct lmb_voxels {
-    uint32_t *child;  /* of each voxel the first of eight; 0: empty, or a leaf */
+    float *child;     /* of each voxel the first of eight, a whole number; 0: empty, or a leaf */
     float *cover[2];  /* LMB_VOXEL_COVER x cap, by world. Coverage: area seen along each axis, of the side that shows
                          more. Normal: the sum of areas by their front side */
     float *light[3];  /* LMB_VOXEL_LIGHT x cap, by field: radiance x area seen from that direction, W/sr */
@@ -49,7 +49,7 @@ typedef struct lmb_voxel_part {
     int32_t in[2];
 } lmb_voxel_part;
 
-enum { LMB_CONE_STEPS = 64, LMB_CONE_MOST = 37, LMB_CONE_WIDTHS = 4 };
+enum { LMB_CONE_STEPS = 256, LMB_CONE_MOST = 37, LMB_CONE_WIDTHS = 4 };
 
 /* One sample of a cone: of every cone as wide, at the same distance. */
 typedef struct lmb_cone_step {
@@ -64,7 +64,7 @@ typedef struct lmb_cone_width {
     lmb_cone_step step[LMB_CONE_STEPS];
 } lmb_cone_width;
 
-/* Cones over a hemisphere, each of the same share of its cosine-weighted whole. 6 KiB. */
+/* Cones over a hemisphere, each of the same share of its cosine-weighted whole. 17 KiB. */
 typedef struct lmb_cones {
     int32_t count;
     lmb_cone_width width[LMB_CONE_WIDTHS];   /* of each ring of cones */
@@ -92,7 +92,7 @@ extern "C" {
 #endif
 
 /* lmb_voxels_bytes: memory of a pool of `cap` voxels; fields: LMB_VOXELS_ONE (132 bytes each) or LMB_VOXELS_THREE
- * (356). 0 where that cannot be: the first 4,689 are always there, and at most 2^26. */
+ * (356). 0 where that cannot be: the first 4,689 are always there, and at most 2^24. */
 size_t lmb_voxels_bytes(uint32_t cap, int32_t fields);
 
 /* lmb_voxels_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */

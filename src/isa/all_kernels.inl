@@ -31,6 +31,9 @@
 #include "../probe/cosine.inl"
 #include "../probe/blur.inl"
 #endif
+#if LMB_VOXELS
+#include "../map/voxel/cone.inl"
+#endif
 
 static float KERNEL(probe)(float one_and_bit)
 {
@@ -56,5 +59,8 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #endif
 #if LMB_PROBES
     KERNEL(remap), KERNEL(see), KERNEL(look), KERNEL(share), KERNEL(cosine), KERNEL(blur),
+#endif
+#if LMB_VOXELS
+    KERNEL(cone),
 #endif
 };

@@ -9,6 +9,7 @@
 #include <lambent/tree.h>
 #include <lambent/many.h>
 #include <lambent/probe.h>
+#include <lambent/voxel.h>
 
 #include "machines.h"
 
@@ -172,6 +173,15 @@ typedef struct lmb_blur_job {
     int32_t width, height, over;
 } lmb_blur_job;
 
+/* Cones of one width through a tree of voxels. */
+typedef struct lmb_cone_job {
+    const float *child, *cover, *light; /* as in lmb_voxels */
+    const lmb_cone_step *step;
+    int32_t steps, depth;
+    lmb_vec3 low;
+    float per_leaf, leaf; /* 1 / m, m */
+} lmb_cone_job;
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -247,6 +257,11 @@ struct lmb_kernels {
                    const float *direction);
     /* Added to a row; `line`: scratch, 4 x width. */
     void (*blur)(float *inout, float *line, const lmb_blur_job *job);
+#endif
+#if LMB_VOXELS
+    /* A cone from each pixel of the tile, along `direction`; what pixels without a surface see means nothing. */
+    void (*cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_tile *tile,
+                 float direction[3][LMB_TILE_PIXELS]);
 #endif
 };
 

@@ -1,0 +1,215 @@
+/* cone.inl: what cones see of voxels.                                                                        [M20-M22]
+ *
+ * Lanes are pixels; a cone's samples lie at the same distances for all of them, so levels are no lanes' matter.
+ *
+ * A sample is read between eight voxels' middles of two levels. With d the cone's axis, per leaf of way along it:
+ *   coverage  C = sum |d_a| cover_a      how often a ray meets a surface
+ *   light     E = sum |d_a| light_a of the side that faces the viewer: radiance x how often
+ * Coverages add up to 1, then all is hidden: surfaces that follow each other in a sample or on the way are taken to lie
+ * side by side. So a wall is whole whatever level it is read from, and half a wall is half: exponentials would need a
+ * wall to be several times as thick as it is.
+ *   Where normals point to the axes' sides of d and against it, |d_a| cover_a counts axes along which the surface turns
+ * away: E has none of those. With N the mean normal, what shows is V = C - sum of |d_a N_a| over axes with another sign
+ * than N . d, and E / V the surfaces' radiance: for one flat, evenly lit surface exactly.
+ *   The pixel's own plane is known: voxels behind it are left out, and those that it goes through lose the coverage that
+ * it alone has there. */
+
+typedef struct cone_rays {
+    lane3 origin, way, towards; /* leaves from the cube's corner; |way|; the pixels' faces' normals */
+    lane3 own;                  /* |towards| */
+    lane half;                  /* of a voxel one wide along `towards` */
+    lanei side[3];              /* lobe 0 or 1, 2 or 3, 4 or 5: the one that faces the viewer */
+} cone_rays;
+
+typedef struct cone_sum {
+    lane3 cover, normal, light;
+} cone_sum;
+
+/* The cells beside a place along one axis, and whether they are in the cube. */
+typedef struct cone_axis {
+    lanei cell[2];
+    lane_mask inside[2];
+    lane weight[2];
+    lane middle; /* of the first, voxels */
+} cone_axis;
+
+/* 256 weights between two middles: their products are no denormals. */
+LANE_INLINE cone_axis cone_axis_of(lane at, int32_t level, int32_t depth)
+{
+    const int32_t last = (1 << (depth - level)) - 1;
+    const lane one = lane_splat(1.0f), scaled = lane_mul(at, lane_splat(1.0f / (float)(1 << level)));
+    /* One more, so that trunc is floor. */
+    const lane from = lane_min(lane_max(lane_add(scaled, lane_splat(0.5f)), lane_splat(0.0f)),
+                               lane_splat((float)last + 2.0f));
+    const lane first = lane_trunc(from);
+    const lane f = lane_mul(lane_trunc(lane_mul(lane_sub(from, first), lane_splat(256.0f))), lane_splat(1.0f / 256.0f));
+    const lanei cell = lanei_sub(lane_to_int(first), lanei_splat(1)), zero = lanei_splat(0), end = lanei_splat(last);
+    const lanei next = lanei_add(cell, lanei_splat(1));
+    cone_axis r;
+    r.inside[0] = mask_and(lanei_not_negative(cell), lanei_not_negative(lanei_sub(end, cell)));
+    r.inside[1] = lanei_not_negative(lanei_sub(end, next));
+    r.cell[0] = lanei_min(lanei_max(cell, zero), end);
+    r.cell[1] = lanei_min(next, end);
+    r.weight[0] = lane_sub(one, f);
+    r.weight[1] = f;
+    r.middle = lane_sub(first, lane_splat(0.5f));
+    return r;
+}
+
+/* The voxels of cells; under 8 where there is none. */
+LANE_INLINE lanei cone_voxel(const lmb_cone_job *job, int32_t levels, lanei x, lanei y, lanei z)
+{
+    static const int32_t base[5] = {8, 9, 17, 81, 593};
+    const int32_t below = levels > 4 ? levels - 4 : 0, full = levels - below;
+    const lanei one = lanei_splat(1), row = lanei_splat(1 << full);
+    lanei at = lanei_add(lanei_mul(lanei_add(lanei_mul(lanei_shift(z, below), row), lanei_shift(y, below)), row),
+                         lanei_add(lanei_shift(x, below), lanei_splat(base[full])));
+    for (int32_t bit = below - 1; bit >= 0; --bit) {
+        const lanei octant =
+            lanei_add(lanei_and(lanei_shift(x, bit), one),
+                      lanei_add(lanei_mul(lanei_and(lanei_shift(y, bit), one), lanei_splat(2)),
+                                lanei_mul(lanei_and(lanei_shift(z, bit), one), lanei_splat(4))));
+        at = lanei_add(lane_to_int(lane_gather_f32(job->child, at)), octant);
+    }
+    return at;
+}
+
+/* What the pixel's own plane leaves of an axis' coverage. */
+LANE_INLINE lane cone_less(lane cover, lane own) { return lane_max(lane_sub(cover, own), lane_splat(0.0f)); }
+
+LANE_INLINE lane cone_within(lane a, lane most) { return lane_max(lane_min(a, most), lane_sub(lane_splat(0.0f), most)); }
+
+/* One voxel's part. own: what the plane that goes through it has of each axis; 0 for others. */
+LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, lanei at, lane weight, lane own)
+{
+    lane c[4], n[4], light[4];
+    const lanei two = lanei_add(at, at), six = lanei_mul(at, lanei_splat(6));
+    lane_gather_rgba_f32(c, job->cover, two);
+    lane_gather_rgba_f32(n, job->cover, lanei_add(two, lanei_splat(1)));
+    const lane way[3] = {rays->way.x, rays->way.y, rays->way.z};
+    const lane mine[3] = {rays->own.x, rays->own.y, rays->own.z};
+    for (int k = 0; k < 3; ++k) {
+        c[k] = cone_less(c[k], lane_mul(own, mine[k]));
+        n[k] = lane_mul(cone_within(n[k], c[k]), weight);
+        c[k] = lane_mul(c[k], weight);
+    }
+    sum->cover.x = lane_add(sum->cover.x, c[0]);
+    sum->cover.y = lane_add(sum->cover.y, c[1]);
+    sum->cover.z = lane_add(sum->cover.z, c[2]);
+    sum->normal.x = lane_add(sum->normal.x, n[0]);
+    sum->normal.y = lane_add(sum->normal.y, n[1]);
+    sum->normal.z = lane_add(sum->normal.z, n[2]);
+    for (int k = 0; k < 3; ++k) {
+        const lane share = lane_mul(weight, way[k]);
+        lane_gather_rgba_f32(light, job->light, lanei_add(six, rays->side[k]));
+        sum->light.x = lane_add(sum->light.x, lane_mul(light[0], share));
+        sum->light.y = lane_add(sum->light.y, lane_mul(light[1], share));
+        sum->light.z = lane_add(sum->light.z, lane_mul(light[2], share));
+    }
+}
+
+/* A level at `at`, leaves from the corner. */
+LANE_PART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, lane3 at, int32_t level,
+                          float share)
+{
+    const float wide = (float)(1 << level);
+    const lane zero = lane_splat(0.0f), reach = lane_mul(rays->half, lane_splat(wide));
+    const cone_axis x = cone_axis_of(at.x, level, job->depth), y = cone_axis_of(at.y, level, job->depth),
+                    z = cone_axis_of(at.z, level, job->depth);
+    for (int k = 0; k < 8; ++k) {
+        const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
+        const lane_mask inside = mask_and(x.inside[i], mask_and(y.inside[j], z.inside[l]));
+        lanei voxel = cone_voxel(job, job->depth - level, x.cell[i], y.cell[j], z.cell[l]);
+        voxel = lanei_pick(inside, voxel, lanei_splat(0));
+        if (mask_bits(lanei_lt(lanei_splat(7), voxel)) == 0) {
+            continue;
+        }
+        const lane3 middle = {lane_mul(lane_add(x.middle, lane_splat((float)i)), lane_splat(wide)),
+                              lane_mul(lane_add(y.middle, lane_splat((float)j)), lane_splat(wide)),
+                              lane_mul(lane_add(z.middle, lane_splat((float)l)), lane_splat(wide))};
+        const lane height = lane3_dot(lane3_sub(middle, rays->origin), rays->towards);
+        lane weight = lane_mul(lane_mul(x.weight[i], y.weight[j]), lane_mul(z.weight[l], lane_splat(share)));
+        weight = lane_keep(lane_le(lane_sub(zero, reach), height), weight);
+        cone_add(sum, job, rays, voxel, weight, lane_keep(lane_lt(height, reach), lane_splat(1.0f / wide)));
+    }
+}
+
+/* What shows of C, see above. */
+LANE_INLINE lane cone_shown(lane cover, lane3 normal, lane3 d)
+{
+    const lane zero = lane_splat(0.0f);
+    const lane part[3] = {lane_mul(normal.x, d.x), lane_mul(normal.y, d.y), lane_mul(normal.z, d.z)};
+    const lane sum = lane_add(lane_add(part[0], part[1]), part[2]);
+    lane shown = cover;
+    for (int k = 0; k < 3; ++k) {
+        const lane turned = lane_pick(lane_lt(sum, zero), lane_max(part[k], zero), lane_max(lane_sub(zero, part[k]), zero));
+        shown = lane_sub(shown, turned);
+    }
+    return lane_max(shown, lane_add(lane_mul(cover, lane_splat(0.1f)), lane_splat(1e-12f)));
+}
+
+LANE_PART lane cone_follow(lane3 *rgb, const lmb_cone_job *job, const cone_rays *rays, lane3 d)
+{
+    const lane zero = lane_splat(0.0f);
+    const float side = (float)(1 << job->depth);
+    lane open = lane_splat(1.0f);
+    *rgb = lane3_splat(0.0f, 0.0f, 0.0f);
+    for (int32_t i = 0; i < job->steps; ++i) {
+        const lmb_cone_step *step = &job->step[i];
+        const lane3 at = lane3_add(rays->origin, lane3_scale(d, lane_splat(step->at * job->per_leaf)));
+        const lane low = lane_min(lane_min(at.x, at.y), at.z), high = lane_max(lane_max(at.x, at.y), at.z);
+        cone_sum sum = {*rgb, *rgb, *rgb};
+        if (mask_bits(mask_and(lane_le(zero, low), lane_le(high, lane_splat(side)))) == 0) {
+            continue;
+        }
+        sum.cover = sum.normal = sum.light = lane3_splat(0.0f, 0.0f, 0.0f);
+        cone_level(&sum, job, rays, at, step->level, step->finer);
+        if (step->finer < 1.0f) {
+            cone_level(&sum, job, rays, at, step->level + 1, 1.0f - step->finer);
+        }
+        const lane cover = lane3_dot(sum.cover, rays->way);
+        const lane taken = lane_min(open, lane_mul(cover, lane_splat(step->length)));
+        const lane scale = lane_div(taken, cone_shown(cover, sum.normal, d));
+        *rgb = lane3_add(*rgb, lane3_scale(sum.light, scale));
+        open = lane_sub(open, taken);
+        if (mask_bits(lane_lt(lane_splat(1.0f / 1024.0f), open)) == 0) {
+            break;
+        }
+    }
+    return open;
+}
+
+/* Parts of a direction under 2^-12 are none: what they are multiplied with stays normal. */
+LANE_INLINE lane cone_part(lane d) { return lane_keep(lane_lt(lane_splat(1.0f / 4096.0f), d), d); }
+
+static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_tile *tile,
+                         float direction[3][LMB_TILE_PIXELS])
+{
+    const lane zero = lane_splat(0.0f);
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const lane3 d = {lane_load(direction[0] + k), lane_load(direction[1] + k), lane_load(direction[2] + k)};
+        const lane3 at = {lane_load(tile->position[0] + k), lane_load(tile->position[1] + k),
+                          lane_load(tile->position[2] + k)};
+        const lane along[3] = {d.x, d.y, d.z};
+        cone_rays rays;
+        lane3 rgb;
+        rays.origin = lane3_scale(lane3_sub(at, lane3_of(job->low)), lane_splat(job->per_leaf));
+        rays.way = lane3_abs(d);
+        rays.way.x = cone_part(rays.way.x);
+        rays.way.y = cone_part(rays.way.y);
+        rays.way.z = cone_part(rays.way.z);
+        rays.towards.x = lane_load(tile->face[0] + k);
+        rays.towards.y = lane_load(tile->face[1] + k);
+        rays.towards.z = lane_load(tile->face[2] + k);
+        rays.own = lane3_abs(rays.towards);
+        rays.half = lane_mul(lane_add(lane_add(rays.own.x, rays.own.y), rays.own.z), lane_splat(0.5f));
+        for (int i = 0; i < 3; ++i) {
+            rays.side[i] = lanei_pick(lane_lt(along[i], zero), lanei_splat(2 * i), lanei_splat(2 * i + 1));
+        }
+        const lane open = cone_follow(&rgb, job, &rays, d);
+        lane_store(out->rgb[0] + k, rgb.x);
+        lane_store(out->rgb[1] + k, rgb.y);
+        lane_store(out->rgb[2] + k, rgb.z);
+        lane_store(out->open + k, open);
+    }
+}

@@ -1,0 +1,50 @@
+/* filter.c: light from the leaves upward, and the difference of two worlds' light. Floor 4.              [M11 M12 M13] */
+#include "../../base/poly.h"
+#include "octree.h"
+
+#if LMB_VOXELS
+
+/* Less is none: a cone's weights may take 2^-50 of it, and kernels meet no denormal. */
+static const float least = 5.421011e-20f; /* 2^-64 */
+
+lmb_status lmb_voxels_filter(lmb_voxels *v, int32_t field)
+{
+    if (v == NULL || field < 0 || field >= LMB_VOXELS_THREE || v->light[field] == NULL || v->count == 0) {
+        return LMB_ERR_ARG;
+    }
+    float *light = v->light[field];
+    lmb_octree_mean(v, light, LMB_VOXEL_LIGHT);
+    for (size_t i = 0; i < (size_t)v->count * LMB_VOXEL_LIGHT; ++i) {
+        light[i] = absf(light[i]) < least ? 0.0f : light[i];
+    }
+    return LMB_OK;
+}
+
+lmb_status lmb_voxels_delta(lmb_voxels *v)
+{
+    if (v == NULL || v->worlds != 2 || v->count == 0) {
+        return LMB_ERR_ARG;
+    }
+    for (size_t i = 0; i < (size_t)v->count * LMB_VOXEL_LIGHT; ++i) {
+        const float d = v->light[LMB_VOXEL_WITH][i] - v->light[LMB_VOXEL_WITHOUT][i];
+        v->light[LMB_VOXEL_DELTA][i] = absf(d) < least ? 0.0f : d;
+    }
+    return LMB_OK;
+}
+
+/* Leaves, and empty voxels that hold nothing. */
+void lmb_voxels_sum(double out[6][3], const lmb_voxels *v, int32_t field)
+{
+    const double scale = (double)LMB_PI * (double)v->leaf * (double)v->leaf;
+    for (int i = 0; i < 18; ++i) {
+        out[i / 3][i % 3] = 0.0;
+    }
+    for (uint32_t at = octree_base(OCTREE_FULL); at < v->count; ++at) {
+        const float *light = v->light[field] + (size_t)at * LMB_VOXEL_LIGHT;
+        for (int i = 0; i < 18 && v->child[at] == 0.0f; ++i) {
+            out[i / 3][i % 3] += scale * (double)light[4 * (i / 3) + i % 3];
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,299 @@
+/* voxelize.c: triangles -> how much of a leaf they cover, seen along each axis. Floor 4.                         [M6] */
+#include <string.h>
+
+#include "../../raster/resolve.h"
+#include "octree.h"
+
+#if LMB_VOXELS
+
+enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MOST = 32 /* leaf faces in a leaf */ };
+
+/* Areas are whole numbers of these, and their sums up to MOST exact: no order of triangles changes them. */
+static const float unit_area = 1.0f / 262144.0f;
+
+/* A convex polygon, in leaves. */
+typedef struct polygon {
+    int count;
+    float at[CORNERS][3];
+} polygon;
+
+typedef struct builder {
+    lmb_voxels *v;
+    const int32_t *in; /* which worlds */
+    float share;       /* of the triangle that stands */
+    float front;       /* 1; -1 where the instance mirrors */
+    int full;
+} builder;
+
+/* --- cutting ------------------------------------------------------------------------------------------------------ */
+
+static void put(polygon *p, const float at[3])
+{
+    if (p->count < CORNERS) {
+        memcpy(p->at[p->count++], at, sizeof p->at[0]);
+    }
+}
+
+/* Both sides of the plane where the axis is `cut`. Edges are cut from their lower end, so that two polygons that share
+ * one get the same corner. */
+static void split(polygon *below, polygon *above, const polygon *p, int axis, float cut)
+{
+    below->count = above->count = 0;
+    for (int i = 0; i < p->count; ++i) {
+        const float *a = p->at[i], *b = p->at[i + 1 < p->count ? i + 1 : 0];
+        if (a[axis] <= cut) {
+            put(below, a);
+        }
+        if (a[axis] >= cut) {
+            put(above, a);
+        }
+        if ((a[axis] < cut && b[axis] > cut) || (a[axis] > cut && b[axis] < cut)) {
+            const float *low = a[axis] < b[axis] ? a : b, *high = low == a ? b : a;
+            const float t = (cut - low[axis]) / (high[axis] - low[axis]);
+            float at[3];
+            for (int k = 0; k < 3; ++k) {
+                at[k] = k == axis ? cut : low[k] + (high[k] - low[k]) * t;
+            }
+            put(below, at);
+            put(above, at);
+        }
+    }
+}
+
+typedef struct span {
+    int32_t first, last; /* cells */
+} span;
+
+/* What of the polygon lies in the cube along an axis: cut off what does not. */
+static span span_of(polygon *p, int axis, int32_t side)
+{
+    polygon whole, rest;
+    float low = 3e38f, high = -3e38f;
+    span s;
+    for (int i = 0; i < p->count; ++i) {
+        low = minf(low, p->at[i][axis]);
+        high = maxf(high, p->at[i][axis]);
+    }
+    if (low < 0.0f) {
+        whole = *p;
+        split(&rest, p, &whole, axis, 0.0f);
+    }
+    if (high > (float)side) {
+        whole = *p;
+        split(p, &rest, &whole, axis, (float)side);
+    }
+    s.first = (int32_t)clampf(low, 0.0f, (float)side);
+    s.last = mini((int32_t)clampf(high, -1.0f, (float)side), side - 1);
+    return s;
+}
+
+/* Takes the part under cell + 1 off `rest`. */
+static void take(polygon *out, polygon *rest, int axis, int32_t cell, int32_t last)
+{
+    if (cell == last) {
+        *out = *rest;
+        return;
+    }
+    const polygon whole = *rest;
+    split(out, rest, &whole, axis, (float)(cell + 1));
+}
+
+/* --- adding up ---------------------------------------------------------------------------------------------------- */
+
+/* Half the sum of the fan's cross products: the area seen along each axis, with its sign. */
+static lmb_vec3 area_of(const polygon *p)
+{
+    lmb_vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+    const float *o = p->at[0];
+    for (int i = 1; i + 1 < p->count; ++i) {
+        const float *a = p->at[i], *b = p->at[i + 1];
+        sum = add3(sum, cross3(vec3(a[0] - o[0], a[1] - o[1], a[2] - o[2]), vec3(b[0] - o[0], b[1] - o[1], b[2] - o[2])));
+    }
+    return mul3(sum, 0.5f);
+}
+
+static void add_area(float *to, float area)
+{
+    *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MOST);
+}
+
+/* While all is built a voxel's geometry is area by direction, +x -x +y -y +z -z. */
+static void add_leaf(builder *b, const polygon *p, octree_cell c)
+{
+    if (p->count < 3) {
+        return;
+    }
+    const lmb_vec3 sum = mul3(area_of(p), b->share * b->front);
+    const float area[3] = {sum.x, sum.y, sum.z};
+    const uint32_t at = lmb_octree_leaf(b->v, c);
+    if (at == 0) {
+        b->full = 1;
+        return;
+    }
+    b->v->area += (double)length3(sum);
+    for (int32_t w = 0; w < b->v->worlds; ++w) {
+        float *cover = b->v->cover[w] + (size_t)at * LMB_VOXEL_COVER;
+        for (int k = 0; k < 3 && b->in[w]; ++k) {
+            add_area(&cover[2 * k + (area[k] < 0.0f)], absf(area[k]));
+        }
+    }
+}
+
+static void add_row(builder *b, polygon *rest, octree_cell c)
+{
+    const span s = span_of(rest, 0, 1 << b->v->depth);
+    polygon p;
+    for (c.x = s.first; c.x <= s.last && !b->full; ++c.x) {
+        take(&p, rest, 0, c.x, s.last);
+        add_leaf(b, &p, c);
+    }
+}
+
+static void add_slice(builder *b, polygon *rest, octree_cell c)
+{
+    const span s = span_of(rest, 1, 1 << b->v->depth);
+    polygon p;
+    for (c.y = s.first; c.y <= s.last && !b->full; ++c.y) {
+        take(&p, rest, 1, c.y, s.last);
+        if (p.count > 0) {
+            add_row(b, &p, c);
+        }
+    }
+}
+
+static void add_polygon(builder *b, polygon *rest)
+{
+    const span s = span_of(rest, 2, 1 << b->v->depth);
+    octree_cell c = {0, 0, 0};
+    polygon p;
+    for (c.z = s.first; c.z <= s.last && !b->full; ++c.z) {
+        take(&p, rest, 2, c.z, s.last);
+        if (p.count > 0) {
+            add_slice(b, &p, c);
+        }
+    }
+}
+
+/* --- triangles ---------------------------------------------------------------------------------------------------- */
+
+/* How much of a masked triangle stands: of its middle, and half way to its corners. */
+static float standing(const lmb_triangle *t, const lmb_scene *scene)
+{
+    static const float at[SAMPLES][2] = {{1.0f / 3.0f, 1.0f / 3.0f}, {2.0f / 3.0f, 1.0f / 6.0f},
+                                         {1.0f / 6.0f, 2.0f / 3.0f}, {1.0f / 6.0f, 1.0f / 6.0f}};
+    int n = 0;
+    for (int i = 0; i < SAMPLES; ++i) {
+        n += lmb_triangle_opaque(t, scene, at[i][0], at[i][1]);
+    }
+    return (float)n / SAMPLES;
+}
+
+static void add_triangle(builder *b, const lmb_scene *scene, uint32_t id)
+{
+    lmb_triangle t;
+    polygon p;
+    if (!lmb_triangle_fetch(&t, scene, id)) {
+        return;
+    }
+    p.count = 3;
+    for (int k = 0; k < 3; ++k) {
+        if (!is_sane(t.corner[k].x) || !is_sane(t.corner[k].y) || !is_sane(t.corner[k].z)) {
+            return;
+        }
+        const lmb_vec3 at = octree_place(b->v, t.corner[k]);
+        p.at[k][0] = at.x;
+        p.at[k][1] = at.y;
+        p.at[k][2] = at.z;
+    }
+    b->share = standing(&t, scene);
+    b->front = is_mirrored(&t.instance->to_world) ? -1.0f : 1.0f;
+    add_polygon(b, &p);
+}
+
+static void begin(lmb_voxels *v, int32_t depth)
+{
+    v->leaf *= (float)(1 << (v->depth - depth));
+    v->depth = depth;
+    v->count = OCTREE_SPARSE;
+    v->area = 0.0;
+    memset(v->child, 0, OCTREE_SPARSE * sizeof *v->child);
+    for (int32_t w = 0; w < v->worlds; ++w) {
+        memset(v->cover[w], 0, OCTREE_SPARSE * LMB_VOXEL_COVER * sizeof(float));
+    }
+}
+
+/* 1 where all fits. */
+static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
+{
+    builder b = {v, NULL, 1.0f, 1.0f, 0};
+    for (int32_t i = 0; i < count && !b.full; ++i) {
+        const lmb_voxel_part *p = &parts[i];
+        const uint32_t all = lmb_scene_triangles(p->scene);
+        b.in = p->in;
+        for (uint32_t n = 0; n < p->count && p->first_id + n <= all && !b.full; ++n) {
+            add_triangle(&b, p->scene, p->first_id + n);
+        }
+    }
+    return !b.full;
+}
+
+/* Areas by direction become coverage and normals. */
+static void finish(float *cover, uint32_t count)
+{
+    for (float *c = cover; count > 0; --count, c += LMB_VOXEL_COVER) {
+        float most[3], normal[3];
+        for (int k = 0; k < 3; ++k) {
+            most[k] = maxf(c[2 * k], c[2 * k + 1]);
+            normal[k] = c[2 * k] - c[2 * k + 1];
+        }
+        memcpy(c, most, sizeof most);
+        memcpy(c + 4, normal, sizeof normal);
+        c[3] = c[7] = 0.0f;
+    }
+}
+
+static int parts_are_sound(const lmb_voxel_part *parts, int32_t count)
+{
+    int sound = 1;
+    for (int32_t i = 0; i < count; ++i) {
+        sound &= parts[i].scene != NULL && parts[i].first_id > 0;
+    }
+    return sound;
+}
+
+/* The box takes all but one and a half leaves of the longest side: surfaces on it lie well inside the leaves, so that
+ * no rounding puts their light into others. */
+static void set_cube(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth)
+{
+    const lmb_vec3 size = sub3(*high, *low), middle = add3(*low, mul3(size, 0.5f));
+    v->asked = v->depth = depth;
+    v->leaf = maxf(largest3(size), 1e-6f) / ((float)(1 << depth) - 1.5f);
+    const float half = 0.5f * v->leaf * (float)(1 << depth);
+    v->low = sub3(middle, vec3(half, half, half));
+}
+
+lmb_status lmb_voxels_build(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth,
+                            const lmb_voxel_part *parts, int32_t count)
+{
+    if (v == NULL || v->child == NULL || low == NULL || high == NULL || parts == NULL || count < 0 ||
+        depth < LMB_VOXEL_MIN_DEPTH || depth > LMB_VOXEL_MAX_DEPTH || !(low->x <= high->x) || !(low->y <= high->y) ||
+        !(low->z <= high->z) || !is_sane(largest3(*low)) || !is_sane(largest3(*high)) ||
+        !parts_are_sound(parts, count)) {
+        return LMB_ERR_ARG;
+    }
+    set_cube(v, low, high, depth);
+    for (begin(v, depth); !add_parts(v, parts, count);) {
+        begin(v, v->depth - 1);
+    }
+    v->area *= (double)v->leaf * (double)v->leaf;
+    for (int32_t w = 0; w < v->worlds; ++w) {
+        lmb_octree_mean(v, v->cover[w], LMB_VOXEL_COVER);
+        finish(v->cover[w], v->count);
+    }
+    for (int32_t f = 0; f < (v->worlds == 1 ? LMB_VOXELS_ONE : LMB_VOXELS_THREE); ++f) {
+        lmb_voxels_dark(v, f);
+    }
+    return LMB_OK;
+}
+
+#endif
