@@ -54,6 +54,7 @@ enum { LMB_CONE_STEPS = 256, LMB_CONE_MOST = 37, LMB_CONE_WIDTHS = 4 };
 /* One sample of a cone: of every cone as wide, at the same distance. */
 typedef struct lmb_cone_step {
     float at, length; /* m along the axis; leaves */
+    float spread;     /* by how much it widens to either side, of the way */
     float finer;      /* share of `level`; the rest is of the next */
     int32_t level;    /* 0: leaves */
 } lmb_cone_step;

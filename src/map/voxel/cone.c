@@ -12,7 +12,11 @@
 
 /* A cone t away is 2 t tan wide, and is read from voxels that wide, at least a leaf; a step is STEP of that. Middles of
  * steps: from t on, m with m - t = STEP tan m. */
-static const float step_share = 0.5f, width_share = 1.0f;
+#ifndef SS
+#define SS 0.5f
+#define WS 1.0f
+#endif
+static const float step_share = SS, width_share = WS;
 
 static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
 {
@@ -27,6 +31,7 @@ static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
         const float middle = maxf(t / (1.0f - share * tangent * width_share), t + 0.5f * share);
         const float level = clampf(lmb_log2(maxf(2.0f * middle * tangent * width_share, 1.0f)), 0.0f,
                                    (float)(v->depth - 1));
+        s->spread = 2.0f * middle * tangent * width_share > 1.0f ? 2.0f * tangent * width_share : 0.0f;
         s->level = mini((int32_t)level, v->depth - 2);
         s->finer = 1.0f - (level - (float)s->level);
         s->at = middle * v->leaf;

@@ -15,14 +15,17 @@
  * it alone has there. */
 
 typedef struct cone_rays {
-    lane3 origin, way, towards; /* leaves from the cube's corner; |way|; the pixels' faces' normals */
-    lane3 own;                  /* |towards| */
-    lane half;                  /* of a voxel one wide along `towards` */
-    lanei side[3];              /* lobe 0 or 1, 2 or 3, 4 or 5: the one that faces the viewer */
+    lane3 origin, towards; /* leaves from the cube's corner; the pixels' faces' normals */
+    lane3 own;             /* |towards| */
+    lane half;             /* of a voxel one wide along `towards` */
+    lanei side[3];         /* lobe 0 or 1, 2 or 3, 4 or 5: the one that faces the viewer */
+    lane front[3], back[3]; /* how far rays go against it, and with it */
+    int both[3];            /* some rays go with it */
 } cone_rays;
 
 typedef struct cone_sum {
     lane3 cover, normal, light;
+    lane space; /* how much of the sample is in front of the pixel's plane */
 } cone_sum;
 
 /* The cells beside a place along one axis, and whether they are in the cube. */
@@ -86,7 +89,6 @@ LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays 
     const lanei two = lanei_add(at, at), six = lanei_mul(at, lanei_splat(6));
     lane_gather_rgba_f32(c, job->cover, two);
     lane_gather_rgba_f32(n, job->cover, lanei_add(two, lanei_splat(1)));
-    const lane way[3] = {rays->way.x, rays->way.y, rays->way.z};
     const lane mine[3] = {rays->own.x, rays->own.y, rays->own.z};
     for (int k = 0; k < 3; ++k) {
         c[k] = cone_less(c[k], lane_mul(own, mine[k]));
@@ -100,11 +102,14 @@ LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays 
     sum->normal.y = lane_add(sum->normal.y, n[1]);
     sum->normal.z = lane_add(sum->normal.z, n[2]);
     for (int k = 0; k < 3; ++k) {
-        const lane share = lane_mul(weight, way[k]);
-        lane_gather_rgba_f32(light, job->light, lanei_add(six, rays->side[k]));
-        sum->light.x = lane_add(sum->light.x, lane_mul(light[0], share));
-        sum->light.y = lane_add(sum->light.y, lane_mul(light[1], share));
-        sum->light.z = lane_add(sum->light.z, lane_mul(light[2], share));
+        for (int b = 0; b <= rays->both[k]; ++b) {
+            const lane share = lane_mul(weight, b ? rays->back[k] : rays->front[k]);
+            const lanei lobe = b ? lanei_sub(lanei_splat(4 * k + 1), rays->side[k]) : rays->side[k];
+            lane_gather_rgba_f32(light, job->light, lanei_add(six, lobe));
+            sum->light.x = lane_add(sum->light.x, lane_mul(light[0], share));
+            sum->light.y = lane_add(sum->light.y, lane_mul(light[1], share));
+            sum->light.z = lane_add(sum->light.z, lane_mul(light[2], share));
+        }
     }
 }
 
@@ -114,6 +119,7 @@ LANE_PART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_ray
 {
     const float wide = (float)(1 << level);
     const lane zero = lane_splat(0.0f), reach = lane_mul(rays->half, lane_splat(wide));
+    const lane per_reach = lane_div(lane_splat(0.5f), lane_max(reach, lane_splat(0.25f)));
     const cone_axis x = cone_axis_of(at.x, level, job->depth), y = cone_axis_of(at.y, level, job->depth),
                     z = cone_axis_of(at.z, level, job->depth);
     for (int k = 0; k < 8; ++k) {
@@ -121,15 +127,17 @@ LANE_PART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_ray
         const lane_mask inside = mask_and(x.inside[i], mask_and(y.inside[j], z.inside[l]));
         lanei voxel = cone_voxel(job, job->depth - level, x.cell[i], y.cell[j], z.cell[l]);
         voxel = lanei_pick(inside, voxel, lanei_splat(0));
-        if (mask_bits(lanei_lt(lanei_splat(7), voxel)) == 0) {
-            continue;
-        }
         const lane3 middle = {lane_mul(lane_add(x.middle, lane_splat((float)i)), lane_splat(wide)),
                               lane_mul(lane_add(y.middle, lane_splat((float)j)), lane_splat(wide)),
                               lane_mul(lane_add(z.middle, lane_splat((float)l)), lane_splat(wide))};
         const lane height = lane3_dot(lane3_sub(middle, rays->origin), rays->towards);
         lane weight = lane_mul(lane_mul(x.weight[i], y.weight[j]), lane_mul(z.weight[l], lane_splat(share)));
-        weight = lane_keep(lane_le(lane_sub(zero, reach), height), weight);
+        weight = lane_keep(lane_lt(lane_sub(zero, reach), height), weight);
+        const lane front = lane_min(lane_add(lane_mul(height, per_reach), lane_splat(0.5f)), lane_splat(1.0f));
+        sum->space = lane_add(sum->space, lane_mul(weight, lane_max(front, zero)));
+        if (mask_bits(lanei_lt(lanei_splat(7), voxel)) == 0) {
+            continue;
+        }
         cone_add(sum, job, rays, voxel, weight, lane_keep(lane_lt(height, reach), lane_splat(1.0f / wide)));
     }
 }
@@ -142,45 +150,83 @@ LANE_INLINE lane cone_shown(lane cover, lane3 normal, lane3 d)
     const lane sum = lane_add(lane_add(part[0], part[1]), part[2]);
     lane shown = cover;
     for (int k = 0; k < 3; ++k) {
-        const lane turned = lane_pick(lane_lt(sum, zero), lane_max(part[k], zero), lane_max(lane_sub(zero, part[k]), zero));
-        shown = lane_sub(shown, turned);
+        const lane against = lane_pick(lane_lt(sum, zero), part[k], lane_sub(zero, part[k]));
+        shown = lane_sub(shown, lane_max(against, zero));
     }
     return lane_max(shown, lane_add(lane_mul(cover, lane_splat(0.1f)), lane_splat(1e-12f)));
 }
 
-LANE_PART lane cone_follow(lane3 *rgb, const lmb_cone_job *job, const cone_rays *rays, lane3 d)
+/* A cone that widens by `spread` on either side is read as rays that go apart, d_a + spread x with x as dense as a tent
+ * over -1 .. 1. The mean of |d_a + spread x| is spread (1/3 + q^2 - q^3 / 3), q = |d_a| / spread, up to q = 1; what of
+ * it goes forward and what back differ by d_a. Without this a cone would pass between walls that it is wider than. */
+LANE_PART void cone_part(cone_rays *rays, lane3 d, float spread)
 {
-    const lane zero = lane_splat(0.0f);
+    const lane zero = lane_splat(0.0f), along[3] = {lane_abs(d.x), lane_abs(d.y), lane_abs(d.z)};
+    for (int k = 0; k < 3; ++k) {
+        lane mean = along[k];
+        if (spread > 0.0f) {
+            const lane q = lane_min(lane_mul(along[k], lane_splat(1.0f / spread)), lane_splat(1.0f));
+            const lane bent = lane_add(lane_splat(1.0f / 3.0f),
+                                       lane_mul(lane_mul(q, q), lane_sub(lane_splat(1.0f),
+                                                                         lane_mul(q, lane_splat(1.0f / 3.0f)))));
+            mean = lane_pick(lane_lt(along[k], lane_splat(spread)), lane_mul(bent, lane_splat(spread)), mean);
+        }
+        const lane back = lane_mul(lane_sub(mean, along[k]), lane_splat(0.5f));
+        /* Under 2^-12 is none: what it is multiplied with stays a normal number. */
+        rays->back[k] = lane_keep(lane_lt(lane_splat(1.0f / 4096.0f), back), back);
+        rays->front[k] = lane_sub(mean, rays->back[k]);
+        rays->front[k] = lane_keep(lane_lt(lane_splat(1.0f / 4096.0f), rays->front[k]), rays->front[k]);
+        rays->both[k] = mask_bits(lane_lt(zero, rays->back[k])) != 0;
+    }
+}
+
+/* One step: what it adds, and what it leaves open. */
+LANE_PART lane cone_step(lane3 *rgb, const lmb_cone_job *job, const cone_rays *rays, lane3 at, lane3 d, int32_t i,
+                         lane open)
+{
+    const lmb_cone_step *step = &job->step[i];
+    cone_sum sum;
+    sum.cover = sum.normal = sum.light = lane3_splat(0.0f, 0.0f, 0.0f);
+    sum.space = lane_splat(0.0f);
+    cone_level(&sum, job, rays, at, step->level, step->finer);
+    if (step->finer < 1.0f) {
+        cone_level(&sum, job, rays, at, step->level + 1, 1.0f - step->finer);
+    }
+    const lane3 way = {lane_add(rays->front[0], rays->back[0]), lane_add(rays->front[1], rays->back[1]),
+                       lane_add(rays->front[2], rays->back[2])};
+    const lane cover = lane3_dot(sum.cover, way);
+    const lane space = lane_max(sum.space, lane_splat(0.25f));
+    const lane taken = lane_min(open, lane_div(lane_mul(cover, lane_splat(step->length * KK)), space));
+    const lane scale = lane_div(taken, cone_shown(cover, sum.normal, d));
+    *rgb = lane3_add(*rgb, lane3_scale(sum.light, scale));
+    return lane_sub(open, taken);
+}
+
+LANE_PART lane cone_follow(lane3 *rgb, const lmb_cone_job *job, cone_rays *rays, lane3 d)
+{
     const float side = (float)(1 << job->depth);
+    float spread = -1.0f;
     lane open = lane_splat(1.0f);
     *rgb = lane3_splat(0.0f, 0.0f, 0.0f);
     for (int32_t i = 0; i < job->steps; ++i) {
         const lmb_cone_step *step = &job->step[i];
+        const float margin = (float)(1 << step->level); /* half a voxel of the coarser level still has a part */
         const lane3 at = lane3_add(rays->origin, lane3_scale(d, lane_splat(step->at * job->per_leaf)));
         const lane low = lane_min(lane_min(at.x, at.y), at.z), high = lane_max(lane_max(at.x, at.y), at.z);
-        cone_sum sum = {*rgb, *rgb, *rgb};
-        if (mask_bits(mask_and(lane_le(zero, low), lane_le(high, lane_splat(side)))) == 0) {
+        if (mask_bits(mask_and(lane_lt(lane_splat(-margin), low), lane_lt(high, lane_splat(side + margin)))) == 0) {
             continue;
         }
-        sum.cover = sum.normal = sum.light = lane3_splat(0.0f, 0.0f, 0.0f);
-        cone_level(&sum, job, rays, at, step->level, step->finer);
-        if (step->finer < 1.0f) {
-            cone_level(&sum, job, rays, at, step->level + 1, 1.0f - step->finer);
+        if (step->spread != spread) {
+            spread = step->spread;
+            cone_part(rays, d, spread);
         }
-        const lane cover = lane3_dot(sum.cover, rays->way);
-        const lane taken = lane_min(open, lane_mul(cover, lane_splat(step->length)));
-        const lane scale = lane_div(taken, cone_shown(cover, sum.normal, d));
-        *rgb = lane3_add(*rgb, lane3_scale(sum.light, scale));
-        open = lane_sub(open, taken);
+        open = cone_step(rgb, job, rays, at, d, i, open);
         if (mask_bits(lane_lt(lane_splat(1.0f / 1024.0f), open)) == 0) {
             break;
         }
     }
     return open;
 }
-
-/* Parts of a direction under 2^-12 are none: what they are multiplied with stays normal. */
-LANE_INLINE lane cone_part(lane d) { return lane_keep(lane_lt(lane_splat(1.0f / 4096.0f), d), d); }
 
 static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_tile *tile,
                          float direction[3][LMB_TILE_PIXELS])
@@ -194,10 +240,6 @@ static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_
         cone_rays rays;
         lane3 rgb;
         rays.origin = lane3_scale(lane3_sub(at, lane3_of(job->low)), lane_splat(job->per_leaf));
-        rays.way = lane3_abs(d);
-        rays.way.x = cone_part(rays.way.x);
-        rays.way.y = cone_part(rays.way.y);
-        rays.way.z = cone_part(rays.way.z);
         rays.towards.x = lane_load(tile->face[0] + k);
         rays.towards.y = lane_load(tile->face[1] + k);
         rays.towards.z = lane_load(tile->face[2] + k);

@@ -261,15 +261,16 @@ static int parts_are_sound(const lmb_voxel_part *parts, int32_t count)
     return sound;
 }
 
-/* The box takes all but one and a half leaves of the longest side: surfaces on it lie well inside the leaves, so that
- * no rounding puts their light into others. */
+#ifndef FRAC
+#define FRAC (1.0f/24.0f)
+#endif
 static void set_cube(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth)
 {
-    const lmb_vec3 size = sub3(*high, *low), middle = add3(*low, mul3(size, 0.5f));
+    const lmb_vec3 size = sub3(*high, *low);
+    const float side = maxf(largest3(size), 1e-6f) / (1.0f - 2.0f * FRAC);
     v->asked = v->depth = depth;
-    v->leaf = maxf(largest3(size), 1e-6f) / ((float)(1 << depth) - 1.5f);
-    const float half = 0.5f * v->leaf * (float)(1 << depth);
-    v->low = sub3(middle, vec3(half, half, half));
+    v->leaf = side / (float)(1 << depth);
+    v->low = sub3(*low, vec3(side * FRAC, side * FRAC, side * FRAC));
 }
 
 lmb_status lmb_voxels_build(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth,
