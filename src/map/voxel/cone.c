@@ -14,9 +14,10 @@
  * steps: from t on, m with m - t = STEP tan m. */
 #ifndef SS
 #define SS 0.5f
-#define WS 1.0f
+#define WS 0.6f
+#define KK 1.1f
 #endif
-static const float step_share = SS, width_share = WS;
+static const float step_share = SS, width_share = WS, cover_share = KK;
 
 static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
 {
@@ -35,8 +36,8 @@ static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
         s->level = mini((int32_t)level, v->depth - 2);
         s->finer = 1.0f - (level - (float)s->level);
         s->at = middle * v->leaf;
-        s->length = 2.0f * (middle - t);
-        t += s->length;
+        s->length = 2.0f * (middle - t) * cover_share;
+        t += 2.0f * (middle - t);
     }
     return 1;
 }

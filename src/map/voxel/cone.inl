@@ -196,7 +196,7 @@ LANE_PART lane cone_step(lane3 *rgb, const lmb_cone_job *job, const cone_rays *r
                        lane_add(rays->front[2], rays->back[2])};
     const lane cover = lane3_dot(sum.cover, way);
     const lane space = lane_max(sum.space, lane_splat(0.25f));
-    const lane taken = lane_min(open, lane_div(lane_mul(cover, lane_splat(step->length * KK)), space));
+    const lane taken = lane_min(open, lane_div(lane_mul(cover, lane_splat(step->length)), space));
     const lane scale = lane_div(taken, cone_shown(cover, sum.normal, d));
     *rgb = lane3_add(*rgb, lane3_scale(sum.light, scale));
     return lane_sub(open, taken);
