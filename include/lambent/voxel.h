@@ -22,7 +22,8 @@ enum { LMB_VOXELS_ONE = 1,  /* world WITHOUT and its light */
        LMB_VOXELS_THREE = 3 /* both worlds, and three fields of light */ };
 enum { LMB_VOXEL_MIN_DEPTH = 4, LMB_VOXEL_MAX_DEPTH = 10 }; /* leaves a side: 2^depth */
 
-#define LMB_VOXEL_COVER 8  /* floats of a voxel's geometry: x y z 0 of its coverage, x y z 0 of its normal */
+#define LMB_VOXEL_COVER 12 /* floats of a voxel's geometry: coverage by direction, +x -x +y -y +z -z 0 0; x y z 0 of the
+                              normal of what is double-sided */
 #define LMB_VOXEL_LIGHT 24 /* floats of a voxel's light: R G B 0 by direction, +x -x +y -y +z -z */
 
 /* The octree, in the caller's memory. Voxels 0 .. 7 are empty space; then all voxels of 1, 2^3, 4^3, 8^3 and 16^3 a
@@ -30,8 +31,8 @@ enum { LMB_VOXEL_MIN_DEPTH = 4, LMB_VOXEL_MAX_DEPTH = 10 }; /* leaves a side: 2^
  * leaf's face, and of a voxel n leaves wide the mean over its leaves: a wall through it has coverage 1 / n. */
 typedef struct lmb_voxels {
     float *child;     /* of each voxel the first of eight, a whole number; 0: empty, or a leaf */
-    float *cover[2];  /* LMB_VOXEL_COVER x cap, by world. Coverage: area seen along each axis, of the side that shows
-                         more. Normal: the sum of areas by their front side */
+    float *cover[2];  /* LMB_VOXEL_COVER x cap, by world. Coverage: the area that is seen from there. Of double-sided
+                         surfaces, what more of is seen from one side; normal: the difference of both sides */
     float *light[3];  /* LMB_VOXEL_LIGHT x cap, by field: radiance x area seen from that direction, W/sr */
     uint32_t cap, count;
     int32_t worlds;   /* 1 or 2 */
@@ -92,8 +93,8 @@ typedef struct lmb_cone_seen {
 extern "C" {
 #endif
 
-/* lmb_voxels_bytes: memory of a pool of `cap` voxels; fields: LMB_VOXELS_ONE (132 bytes each) or LMB_VOXELS_THREE
- * (356). 0 where that cannot be: the first 4,689 are always there, and at most 2^24. */
+/* lmb_voxels_bytes: memory of a pool of `cap` voxels; fields: LMB_VOXELS_ONE (148 bytes each) or LMB_VOXELS_THREE
+ * (388). 0 where that cannot be: the first 4,689 are always there, and at most 2^24. */
 size_t lmb_voxels_bytes(uint32_t cap, int32_t fields);
 
 /* lmb_voxels_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */

@@ -19,12 +19,15 @@ typedef struct cone_rays {
     lane3 own;             /* |towards| */
     lane half;             /* of a voxel one wide along `towards` */
     lanei side[3];         /* lobe 0 or 1, 2 or 3, 4 or 5: the one that faces the viewer */
+    lane_mask along[3];    /* rays go to larger numbers */
     lane front[3], back[3]; /* how far rays go against it, and with it */
     int both[3];            /* some rays go with it */
 } cone_rays;
 
 typedef struct cone_sum {
-    lane3 cover, normal, light;
+    lane3 front, back;    /* coverage against the rays, and with them */
+    lane3 normal, sheets; /* of all, and of what is double-sided */
+    lane3 light;
     lane space; /* how much of the sample is in front of the pixel's plane */
 } cone_sum;
 
@@ -77,30 +80,39 @@ LANE_INLINE lanei cone_voxel(const lmb_cone_job *job, int32_t levels, lanei x, l
     return at;
 }
 
-/* What the pixel's own plane leaves of an axis' coverage. */
-LANE_INLINE lane cone_less(lane cover, lane own) { return lane_max(lane_sub(cover, own), lane_splat(0.0f)); }
+/* a less b, towards 0; not past it. */
+LANE_INLINE lane cone_less(lane a, lane b)
+{
+    const lane zero = lane_splat(0.0f);
+    return lane_sub(a, lane_max(lane_min(a, b), lane_sub(zero, b)));
+}
 
-LANE_INLINE lane cone_within(lane a, lane most) { return lane_max(lane_min(a, most), lane_sub(lane_splat(0.0f), most)); }
+LANE_INLINE void cone_add_axis(lane *front, lane *back, lane *normal, lane *sheets, const lane pair[2], lane sheet,
+                               lane_mask along, lane weight, lane own)
+{
+    const lane of_plane = lane_min(lane_abs(sheet), own); /* what the pixel's own plane has of it */
+    const lane plus = lane_sub(pair[0], of_plane), minus = lane_sub(pair[1], of_plane);
+    const lane left = cone_less(sheet, own);
+    *front = lane_add(*front, lane_mul(lane_pick(along, minus, plus), weight));
+    *back = lane_add(*back, lane_mul(lane_pick(along, plus, minus), weight));
+    *normal = lane_add(*normal, lane_mul(lane_add(lane_sub(pair[0], pair[1]), left), weight));
+    *sheets = lane_add(*sheets, lane_mul(left, weight));
+}
 
 /* One voxel's part. own: what the plane that goes through it has of each axis; 0 for others. */
 LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, lanei at, lane weight, lane own)
 {
-    lane c[4], n[4], light[4];
-    const lanei two = lanei_add(at, at), six = lanei_mul(at, lanei_splat(6));
-    lane_gather_rgba_f32(c, job->cover, two);
-    lane_gather_rgba_f32(n, job->cover, lanei_add(two, lanei_splat(1)));
-    const lane mine[3] = {rays->own.x, rays->own.y, rays->own.z};
-    for (int k = 0; k < 3; ++k) {
-        c[k] = cone_less(c[k], lane_mul(own, mine[k]));
-        n[k] = lane_mul(cone_within(n[k], c[k]), weight);
-        c[k] = lane_mul(c[k], weight);
-    }
-    sum->cover.x = lane_add(sum->cover.x, c[0]);
-    sum->cover.y = lane_add(sum->cover.y, c[1]);
-    sum->cover.z = lane_add(sum->cover.z, c[2]);
-    sum->normal.x = lane_add(sum->normal.x, n[0]);
-    sum->normal.y = lane_add(sum->normal.y, n[1]);
-    sum->normal.z = lane_add(sum->normal.z, n[2]);
+    lane xy[4], z[4], n[4], light[4];
+    const lanei three = lanei_mul(at, lanei_splat(3)), six = lanei_add(three, three);
+    lane_gather_rgba_f32(xy, job->cover, three);
+    lane_gather_rgba_f32(z, job->cover, lanei_add(three, lanei_splat(1)));
+    lane_gather_rgba_f32(n, job->cover, lanei_add(three, lanei_splat(2)));
+    cone_add_axis(&sum->front.x, &sum->back.x, &sum->normal.x, &sum->sheets.x, xy, n[0], rays->along[0], weight,
+                  lane_mul(own, rays->own.x));
+    cone_add_axis(&sum->front.y, &sum->back.y, &sum->normal.y, &sum->sheets.y, xy + 2, n[1], rays->along[1], weight,
+                  lane_mul(own, rays->own.y));
+    cone_add_axis(&sum->front.z, &sum->back.z, &sum->normal.z, &sum->sheets.z, z, n[2], rays->along[2], weight,
+                  lane_mul(own, rays->own.z));
     for (int k = 0; k < 3; ++k) {
         for (int b = 0; b <= rays->both[k]; ++b) {
             const lane share = lane_mul(weight, b ? rays->back[k] : rays->front[k]);
@@ -143,12 +155,14 @@ LANE_PART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_ray
 }
 
 /* What shows of C, see above. */
-LANE_INLINE lane cone_shown(lane cover, lane3 normal, lane3 d)
+LANE_INLINE lane cone_shown(lane cover, lane3 sheets, lane3 d, const lane back[3])
 {
     const lane zero = lane_splat(0.0f);
-    const lane part[3] = {lane_mul(normal.x, d.x), lane_mul(normal.y, d.y), lane_mul(normal.z, d.z)};
+    const lane part[3] = {lane_mul(sheets.x, d.x), lane_mul(sheets.y, d.y), lane_mul(sheets.z, d.z)};
     const lane sum = lane_add(lane_add(part[0], part[1]), part[2]);
-    lane shown = cover;
+    const lane3 one_way = lane3_abs(sheets);
+    lane shown = lane_sub(cover, lane_add(lane_add(lane_mul(back[0], one_way.x), lane_mul(back[1], one_way.y)),
+                                          lane_mul(back[2], one_way.z)));
     for (int k = 0; k < 3; ++k) {
         const lane against = lane_pick(lane_lt(sum, zero), part[k], lane_sub(zero, part[k]));
         shown = lane_sub(shown, lane_max(against, zero));
@@ -186,18 +200,21 @@ LANE_PART lane cone_step(lane3 *rgb, const lmb_cone_job *job, const cone_rays *r
 {
     const lmb_cone_step *step = &job->step[i];
     cone_sum sum;
-    sum.cover = sum.normal = sum.light = lane3_splat(0.0f, 0.0f, 0.0f);
+    sum.front = sum.back = sum.normal = sum.sheets = sum.light = lane3_splat(0.0f, 0.0f, 0.0f);
     sum.space = lane_splat(0.0f);
     cone_level(&sum, job, rays, at, step->level, step->finer);
     if (step->finer < 1.0f) {
         cone_level(&sum, job, rays, at, step->level + 1, 1.0f - step->finer);
     }
-    const lane3 way = {lane_add(rays->front[0], rays->back[0]), lane_add(rays->front[1], rays->back[1]),
-                       lane_add(rays->front[2], rays->back[2])};
-    const lane cover = lane3_dot(sum.cover, way);
+    const lane3 met = {lane_add(lane_mul(sum.front.x, rays->front[0]), lane_mul(sum.back.x, rays->back[0])),
+                       lane_add(lane_mul(sum.front.y, rays->front[1]), lane_mul(sum.back.y, rays->back[1])),
+                       lane_add(lane_mul(sum.front.z, rays->front[2]), lane_mul(sum.back.z, rays->back[2]))};
+    const lane cover = lane_add(lane_add(met.x, met.y), met.z);
+    const lane crossed =
+        lane_min(cover, lane_max(lane_sqrt(lane3_dot(met, met)), lane_abs(lane3_dot(sum.normal, d))));
     const lane space = lane_max(sum.space, lane_splat(0.25f));
-    const lane taken = lane_min(open, lane_div(lane_mul(cover, lane_splat(step->length)), space));
-    const lane scale = lane_div(taken, cone_shown(cover, sum.normal, d));
+    const lane taken = lane_min(open, lane_div(lane_mul(crossed, lane_splat(step->length)), space));
+    const lane scale = lane_div(taken, cone_shown(cover, sum.sheets, d, rays->back));
     *rgb = lane3_add(*rgb, lane3_scale(sum.light, scale));
     return lane_sub(open, taken);
 }
@@ -246,7 +263,8 @@ static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_
         rays.own = lane3_abs(rays.towards);
         rays.half = lane_mul(lane_add(lane_add(rays.own.x, rays.own.y), rays.own.z), lane_splat(0.5f));
         for (int i = 0; i < 3; ++i) {
-            rays.side[i] = lanei_pick(lane_lt(along[i], zero), lanei_splat(2 * i), lanei_splat(2 * i + 1));
+            rays.along[i] = lane_lt(zero, along[i]);
+            rays.side[i] = lanei_pick(rays.along[i], lanei_splat(2 * i + 1), lanei_splat(2 * i));
         }
         const lane open = cone_follow(&rgb, job, &rays, d);
         lane_store(out->rgb[0] + k, rgb.x);

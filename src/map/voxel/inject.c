@@ -26,7 +26,7 @@ lmb_status lmb_voxels_dark(lmb_voxels *v, int32_t field)
 static int is_covered(const lmb_voxels *v, int32_t world, uint32_t at)
 {
     const float *c = v->cover[world] + (size_t)at * LMB_VOXEL_COVER;
-    return at >= 8 && c[0] + c[1] + c[2] > 0.0f;
+    return at >= 8 && c[0] + c[1] + c[2] + c[3] + c[4] + c[5] > 0.0f;
 }
 
 /* A leaf that surfaces cover: the first point's own, or one beside it along its normal. A texel's place and a triangle's

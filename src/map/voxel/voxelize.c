@@ -22,6 +22,7 @@ typedef struct builder {
     const int32_t *in; /* which worlds */
     float share;       /* of the triangle that stands */
     float front;       /* 1; -1 where the instance mirrors */
+    int twice;         /* double-sided */
     int full;
 } builder;
 
@@ -117,7 +118,8 @@ static void add_area(float *to, float area)
     *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MOST);
 }
 
-/* While all is built a voxel's geometry is area by direction, +x -x +y -y +z -z. */
+/* While all is built a voxel's geometry is area by the direction that its front faces, +x -x +y -y +z -z: of what is
+ * single-sided, then of what is double-sided. */
 static void add_leaf(builder *b, const polygon *p, octree_cell c)
 {
     if (p->count < 3) {
@@ -132,7 +134,7 @@ static void add_leaf(builder *b, const polygon *p, octree_cell c)
     }
     b->v->area += (double)length3(sum);
     for (int32_t w = 0; w < b->v->worlds; ++w) {
-        float *cover = b->v->cover[w] + (size_t)at * LMB_VOXEL_COVER;
+        float *cover = b->v->cover[w] + (size_t)at * LMB_VOXEL_COVER + (b->twice ? 6 : 0);
         for (int k = 0; k < 3 && b->in[w]; ++k) {
             add_area(&cover[2 * k + (area[k] < 0.0f)], absf(area[k]));
         }
@@ -207,6 +209,7 @@ static void add_triangle(builder *b, const lmb_scene *scene, uint32_t id)
     }
     b->share = standing(&t, scene);
     b->front = is_mirrored(&t.instance->to_world) ? -1.0f : 1.0f;
+    b->twice = (t.material->flags & LMB_DOUBLE_SIDED) != 0;
     add_polygon(b, &p);
 }
 
@@ -225,7 +228,7 @@ static void begin(lmb_voxels *v, int32_t depth)
 /* 1 where all fits. */
 static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
 {
-    builder b = {v, NULL, 1.0f, 1.0f, 0};
+    builder b = {v, NULL, 1.0f, 1.0f, 0, 0};
     for (int32_t i = 0; i < count && !b.full; ++i) {
         const lmb_voxel_part *p = &parts[i];
         const uint32_t all = lmb_scene_triangles(p->scene);
@@ -237,18 +240,19 @@ static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
     return !b.full;
 }
 
-/* Areas by direction become coverage and normals. */
+/* Areas become what is seen of them. Both sides of a thing thinner than a voxel are seen one at a time. */
 static void finish(float *cover, uint32_t count)
 {
     for (float *c = cover; count > 0; --count, c += LMB_VOXEL_COVER) {
-        float most[3], normal[3];
+        float normal[3];
         for (int k = 0; k < 3; ++k) {
-            most[k] = maxf(c[2 * k], c[2 * k + 1]);
-            normal[k] = c[2 * k] - c[2 * k + 1];
+            const float most = maxf(c[6 + 2 * k], c[7 + 2 * k]);
+            normal[k] = c[6 + 2 * k] - c[7 + 2 * k];
+            c[2 * k] += most;
+            c[2 * k + 1] += most;
         }
-        memcpy(c, most, sizeof most);
-        memcpy(c + 4, normal, sizeof normal);
-        c[3] = c[7] = 0.0f;
+        memcpy(c + 8, normal, sizeof normal);
+        c[6] = c[7] = c[11] = 0.0f;
     }
 }
 
