@@ -2,14 +2,14 @@
  *                                                                                        [M6-M8 M11-M13 M20-M22]
  *     lmb_voxels_init(&v, cap, LMB_VOXELS_THREE, memory, bytes);    once
  *     lmb_voxels_build(&v, &low, &high, depth, parts, count);       when geometry changes
- *     lmb_voxels_inject(&v, field, texels, count);                  when light changes: first points of the lights' maps
+ *     lmb_voxels_inject(&v, field, texels, count);                 when light changes: first points of the lights' maps
  *     lmb_voxels_filter(&v, field);  lmb_voxels_delta(&v);
  *     lmb_cones_init(&cones, &v, 19);                               once a build
  *     per tile: lmb_cones_diffuse(..), lmb_cones_glossy(..)
  *
- * A voxel does not hold a colour and an alpha, but sums over the surfaces in it, by the six directions that they face: so
- * a parent is exactly the mean of its children, no light is lost on the way up, a thin wall does not shine through from
- * its back, and it covers as much of a wide cone as of a narrow one. */
+ * A voxel does not hold a colour and an alpha, but sums over the surfaces in it, by the six directions that they face:
+ * so a parent is exactly the mean of its children, no light is lost on the way up, a thin wall does not shine through
+ * from its back, and it covers as much of a wide cone as of a narrow one. */
 #ifndef LMB_VOXEL_H
 #define LMB_VOXEL_H
 
@@ -102,8 +102,9 @@ lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *
 
 /* lmb_voxels_build: the surfaces of checked scenes as voxels of a cube around the box low .. high; light is 0. [M6 M8]
  *
- *   depth  2^depth leaves along the cube's side
- *   parts  triangles; what lies outside the box is left out, as is what lmb_draw would drop
+ *   depth  2^depth leaves along the cube's side, which is 1.2 times the box's longest
+ *   parts  triangles; what lies outside the cube is left out, as is what lmb_draw would drop. What is single-sided hides
+ *          and shows from its front alone: right for closed things, which otherwise count twice from afar
  *
  * Triangles are cut by the leaves' faces, so areas are exact; they are added in units of 2^-18 of a leaf's face, which
  * no order of triangles changes. Empty space takes no voxels. Where the pool is full all begins again with leaves twice

@@ -1,8 +1,8 @@
 /* test_voxels.c: cones through voxels against closed forms. [M6-M8 M13 M21]
  *
- * The integrating sphere (see test_sphere.c): one bounce is albedo x I / R2 everywhere. A plane under a sphere: a sphere
- * of radius r whose centre is h over the plane, d from the pixel, covers r2 h / d3 of the cosine-weighted hemisphere. A
- * closed room of one radiance: pi times that everywhere, and nothing open. */
+ * The integrating sphere (see test_sphere.c): one bounce is albedo x I / R2 everywhere. A plane under a sphere: a
+ * sphere of radius r whose centre is h over the plane, d from the pixel, covers r2 h / d3 of the cosine-weighted
+ * hemisphere. A closed room of one radiance: pi times that everywhere, and nothing open. */
 #include "../lit_tree.h"
 
 #include <stdlib.h>
@@ -73,7 +73,8 @@ static void check_sphere(void *memory, size_t bytes, int32_t depth, int count)
     CHECK(lmb_cones_init(&cones, &voxels, count) == LMB_OK);
     for (int n = 0; n < 8; ++n) {
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            const lmb_vec3 at = on_sphere((int)(test_random(&r) % STACKS), STACKS, (int)(test_random(&r) % SLICES), SLICES);
+            const int stack = (int)(test_random(&r) % STACKS), slice = (int)(test_random(&r) % SLICES);
+            const lmb_vec3 at = on_sphere(stack, STACKS, slice, SLICES);
             set_pixel(k, mul3(at, 0.999f), mul3(at, -1.0f));
         }
         see(&light, NULL);
@@ -97,7 +98,8 @@ static void make_room(lmb_vec3 half)
     world_begin(0.5f, 0.5f, 0.5f);
     for (int i = 0; i < 6; ++i) {
         const int a = i / 2, b = (a + 1) % 3, c = (a + 2) % 3;
-        const lmb_vec3 out = mul3(axis[a], i & 1 ? -1.0f : 1.0f), u = mul3(axis[b], side[b]), v = mul3(axis[c], side[c]);
+        const lmb_vec3 out = mul3(axis[a], i & 1 ? -1.0f : 1.0f), u = mul3(axis[b], side[b]),
+                       v = mul3(axis[c], side[c]);
         world_quad(mul3(out, side[a]), u, v);
         for (int k = 0; k < ROOM_SIDE * ROOM_SIDE; ++k) {
             lmb_texel *t = &room_texels[i * ROOM_SIDE * ROOM_SIDE + k];

@@ -1,4 +1,4 @@
-/* voxelize.c: triangles -> how much of a leaf they cover, seen along each axis. Floor 4.                         [M6] */
+/* voxelize.c: triangles -> how much of a leaf they cover, seen along each axis. Floor 4.                        [M6] */
 #include <string.h>
 
 #include "../../raster/resolve.h"
@@ -108,7 +108,9 @@ static lmb_vec3 area_of(const polygon *p)
     const float *o = p->at[0];
     for (int i = 1; i + 1 < p->count; ++i) {
         const float *a = p->at[i], *b = p->at[i + 1];
-        sum = add3(sum, cross3(vec3(a[0] - o[0], a[1] - o[1], a[2] - o[2]), vec3(b[0] - o[0], b[1] - o[1], b[2] - o[2])));
+        const lmb_vec3 to_a = vec3(a[0] - o[0], a[1] - o[1], a[2] - o[2]),
+                       to_b = vec3(b[0] - o[0], b[1] - o[1], b[2] - o[2]);
+        sum = add3(sum, cross3(to_a, to_b));
     }
     return mul3(sum, 0.5f);
 }
@@ -265,16 +267,15 @@ static int parts_are_sound(const lmb_voxel_part *parts, int32_t count)
     return sound;
 }
 
-#ifndef FRAC
-#define FRAC (1.0f/24.0f)
-#endif
+/* The box begins a twelfth of the cube's side from its corner, and along its longest axis ends as far from the other:
+ * so walls on it are 1/3 or 2/3 into their voxels on every level but the coarsest three. There no rounding puts their
+ * light into others; and walls at the outer ends of voxels would be read too late on every level (see cone.c). */
 static void set_cube(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth)
 {
-    const lmb_vec3 size = sub3(*high, *low);
-    const float side = maxf(largest3(size), 1e-6f) / (1.0f - 2.0f * FRAC);
+    const float side = maxf(largest3(sub3(*high, *low)), 1e-6f) * 1.2f, margin = side / 12.0f;
     v->asked = v->depth = depth;
     v->leaf = side / (float)(1 << depth);
-    v->low = sub3(*low, vec3(side * FRAC, side * FRAC, side * FRAC));
+    v->low = sub3(*low, vec3(margin, margin, margin));
 }
 
 lmb_status lmb_voxels_build(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth,
