@@ -74,6 +74,18 @@ typedef struct lmb_cones {
     float direction[LMB_CONE_MOST][3];       /* along two tangents and the normal */
 } lmb_cones;
 
+/* What 64 cones see. */
+typedef struct lmb_cone_seen {
+    float rgb[3][LMB_TILE_PIXELS]; /* radiance, W/(m2 sr): the mean over the cone */
+    float open[LMB_TILE_PIXELS];   /* share of the cone that no surface covers, 0 .. 1 */
+} lmb_cone_seen;
+
+/* Where a thread aims its cones. 2.5 KiB; means nothing before or after. */
+typedef struct lmb_cone_scratch {
+    float tangent[3][LMB_TILE_PIXELS], direction[3][LMB_TILE_PIXELS];
+    lmb_cone_seen seen;
+} lmb_cone_scratch;
+
 /* What is traced: light of one field through one world. */
 typedef struct lmb_cone_trace {
     const lmb_kernels *kernels;
@@ -81,13 +93,8 @@ typedef struct lmb_cone_trace {
     int32_t field;      /* whose light: LMB_VOXEL_WITHOUT, _WITH or _DELTA */
     int32_t world;      /* whose surfaces cover: LMB_VOXEL_WITHOUT or _WITH */
     const lmb_env *env; /* what shows where nothing covers; NULL: darkness [M22] */
+    lmb_cone_scratch *scratch; /* one a thread */
 } lmb_cone_trace;
-
-/* What 64 cones see. */
-typedef struct lmb_cone_seen {
-    float rgb[3][LMB_TILE_PIXELS]; /* radiance, W/(m2 sr): the mean over the cone */
-    float open[LMB_TILE_PIXELS];   /* share of the cone that no surface covers, 0 .. 1 */
-} lmb_cone_seen;
 
 #ifdef __cplusplus
 extern "C" {
@@ -103,8 +110,8 @@ lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *
 /* lmb_voxels_build: the surfaces of checked scenes as voxels of a cube around the box low .. high; light is 0. [M6 M8]
  *
  *   depth  2^depth leaves along the cube's side, which is 1.2 times the box's longest
- *   parts  triangles; what lies outside the cube is left out, as is what lmb_draw would drop. What is single-sided hides
- *          and shows from its front alone: right for closed things, which otherwise count twice from afar
+ *   parts  triangles; what lies outside the cube is left out, as is what lmb_draw would drop. What is single-sided
+ *          hides and shows from its front alone: right for closed things, which otherwise count twice from afar
  *
  * Triangles are cut by the leaves' faces, so areas are exact; they are added in units of 2^-18 of a leaf's face, which
  * no order of triangles changes. Empty space takes no voxels. Where the pool is full all begins again with leaves twice

@@ -13,6 +13,7 @@ enum { STACKS = 48, SLICES = 96, CAP = 400000, ROOM_SIDE = 100 };
 
 static lmb_voxels voxels;
 static lmb_cones cones;
+static lmb_cone_scratch cone_scratch;
 static lmb_tile tile;
 
 static void build(void *memory, size_t bytes, int32_t depth)
@@ -34,7 +35,8 @@ static void set_pixel(int k, lmb_vec3 at, lmb_vec3 normal)
 
 static void see(lmb_irradiance *light, float open[LMB_TILE_PIXELS])
 {
-    const lmb_cone_trace how = {lmb_kernels_pick(), &voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, NULL};
+    const lmb_cone_trace how = {lmb_kernels_pick(), &voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, NULL,
+                                &cone_scratch};
     memset(light, 0, sizeof *light);
     CHECK(lmb_cones_diffuse(light, open, &how, &cones, &tile) == LMB_OK);
 }

@@ -26,6 +26,7 @@ typedef struct work {
     lmb_tree tree;
     lmb_voxels voxels;
     lmb_cones cones;
+    lmb_cone_scratch scratch;
     lmb_tile tile;
     double map_seconds, tree_seconds, build_seconds, inject_seconds, filter_seconds, eye_seconds, cone_seconds;
     double voxel_bytes, all_bytes;
@@ -154,7 +155,7 @@ static void make_voxels(work *w, int32_t depth, uint32_t cap)
 static void trace(work *w, float *out)
 {
     const lmb_scene *scene = &w->loaded.scene;
-    const lmb_cone_trace how = {lmb_kernels_pick(), &w->voxels, 0, 0, NULL};
+    const lmb_cone_trace how = {lmb_kernels_pick(), &w->voxels, 0, 0, NULL, &w->scratch};
     const int32_t width = w->view.frame_width, height = w->view.frame_height;
     double from = seconds_now();
     for (int32_t i = 0; i < (width + 7) / 8 * ((height + 7) / 8); ++i) {

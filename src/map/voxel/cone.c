@@ -103,7 +103,7 @@ static int is_sound(const lmb_cone_trace *t)
 {
     return t != NULL && t->kernels != NULL && t->voxels != NULL && t->voxels->count > 0 && t->field >= 0 &&
            t->field < LMB_VOXELS_THREE && t->voxels->light[t->field] != NULL && t->world >= 0 &&
-           t->world < t->voxels->worlds;
+           t->world < t->voxels->worlds && t->scratch != NULL;
 }
 
 static void follow(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width, const lmb_tile *tile,
@@ -187,27 +187,26 @@ static void aim(float out[3][LMB_TILE_PIXELS], const lmb_tile *tile, float tange
 lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS], const lmb_cone_trace *trace,
                              const lmb_cones *cones, const lmb_tile *tile)
 {
-    float tangent[3][LMB_TILE_PIXELS], direction[3][LMB_TILE_PIXELS];
-    lmb_cone_seen seen;
     if (inout == NULL || !is_sound(trace) || cones == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
     const float share = 1.0f / (float)cones->count;
+    lmb_cone_scratch *s = trace->scratch;
     if (open != NULL) {
         memset(open, 0, LMB_TILE_PIXELS * sizeof *open);
     }
-    set_tangents(tangent, tile);
+    set_tangents(s->tangent, tile);
     for (int32_t i = 0; i < cones->count; ++i) {
         const lmb_cone_width *width = &cones->width[cones->ring[i]];
-        aim(direction, tile, tangent, cones->direction[i]);
-        follow(&seen, trace, width, tile, direction);
-        finish(&seen, trace, width->tangent, tile, direction);
+        aim(s->direction, tile, s->tangent, cones->direction[i]);
+        follow(&s->seen, trace, width, tile, s->direction);
+        finish(&s->seen, trace, width->tangent, tile, s->direction);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             for (int c = 0; c < 3; ++c) {
-                inout->rgb[c][k] += LMB_PI * share * seen.rgb[c][k];
+                inout->rgb[c][k] += LMB_PI * share * s->seen.rgb[c][k];
             }
             if (open != NULL) {
-                open[k] += share * seen.open[k];
+                open[k] += share * s->seen.open[k];
             }
         }
     }
@@ -217,10 +216,10 @@ lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS],
 lmb_status lmb_cones_glossy(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
                             const lmb_tile *tile, lmb_vec3 eye)
 {
-    float direction[3][LMB_TILE_PIXELS];
     if (out == NULL || !is_sound(trace) || width == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
+    float (*direction)[LMB_TILE_PIXELS] = trace->scratch->direction;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const lmb_vec3 n = at_pixel(tile->normal, k), d = normalize3(sub3(at_pixel(tile->position, k), eye));
         set_pixel(direction, k, sub3(d, mul3(n, 2.0f * dot3(n, d))));

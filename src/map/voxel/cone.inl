@@ -3,7 +3,7 @@
  * Lanes are pixels; a cone's samples lie at the same distances for all of them, so levels are no lanes' matter.
  *
  * A sample is read between eight voxels' middles of two levels. With d the cone's axis, per leaf of way along it:
- *   coverage  C = sum |d_a| cover_a of the side that faces the viewer: how often a ray meets a surface, see cone_crossed
+ *   coverage  C = sum |d_a| cover_a of the side that faces the viewer: how often a ray meets a surface (cone_crossed)
  *   light     E = sum |d_a| light_a of that side: radiance x how often
  * What rays meet adds up to 1, then all is hidden: surfaces that follow each other in a sample or on the way are taken
  * to lie side by side. So a wall is whole whatever level it is read from, and half a wall is half: exponentials would
@@ -14,51 +14,42 @@
  * there, and what is left is divided by the sample's share in front of it. */
 
 typedef struct cone_rays {
-    lane3 origin, towards; /* leaves from the cube's corner; the pixels' faces' normals */
-    lane3 own;             /* |towards| */
-    lane half;             /* of a voxel one wide along `towards` */
-    lanei side[3];         /* lobe 0 or 1, 2 or 3, 4 or 5: the one that faces the viewer */
-    lane_mask along[3];    /* rays go to larger numbers */
-    lane front[3], back[3]; /* how far rays go against it, and with it */
-    int both[3];            /* some rays go with it */
+    lane3 origin, towards;  /* leaves from the cube's corner; the pixels' faces' normals */
+    lane3 d;                /* the axis */
+    lane front[3], back[3]; /* how far rays go along it, and against it */
+    int32_t both;           /* bit k: some go against it along axis k */
 } cone_rays;
 
 typedef struct cone_sum {
-    lane3 front, back;    /* coverage against the rays, and with them */
-    lane3 normal, sheets; /* of all, and of what is double-sided */
+    lane3 front, back; /* coverage against the rays, and with them */
+    lane3 sheets;      /* the normal of what is double-sided */
     lane3 light;
     lane space; /* how much of the sample is in front of the pixel's plane */
 } cone_sum;
 
-/* The cells beside a place along one axis, and whether they are in the cube. */
+/* The first of the two cells beside a place along an axis, from -1 on, and how near the second is: in 256 steps, so
+ * that products of weights are no denormals. */
 typedef struct cone_axis {
-    lanei cell[2];
-    lane_mask inside[2];
-    lane weight[2];
-    lane middle; /* of the first, voxels */
+    lanei cell;
+    lane second;
 } cone_axis;
 
-/* 256 weights between two middles: their products are no denormals. */
 LANE_INLINE cone_axis cone_axis_of(lane at, int32_t level, int32_t depth)
 {
-    const int32_t last = (1 << (depth - level)) - 1;
-    const lane one = lane_splat(1.0f), scaled = lane_mul(at, lane_splat(1.0f / (float)(1 << level)));
+    const float side = (float)(1 << (depth - level));
+    const lane scaled = lane_mul(at, lane_splat(1.0f / (float)(1 << level)));
     /* One more, so that trunc is floor. */
-    const lane from = lane_min(lane_max(lane_add(scaled, lane_splat(0.5f)), lane_splat(0.0f)),
-                               lane_splat((float)last + 2.0f));
+    const lane from = lane_min(lane_max(lane_add(scaled, lane_splat(0.5f)), lane_splat(0.0f)), lane_splat(side + 1.0f));
     const lane first = lane_trunc(from);
-    const lane f = lane_mul(lane_trunc(lane_mul(lane_sub(from, first), lane_splat(256.0f))), lane_splat(1.0f / 256.0f));
-    const lanei cell = lanei_sub(lane_to_int(first), lanei_splat(1)), zero = lanei_splat(0), end = lanei_splat(last);
-    const lanei next = lanei_add(cell, lanei_splat(1));
     cone_axis r;
-    r.inside[0] = mask_and(lanei_not_negative(cell), lanei_not_negative(lanei_sub(end, cell)));
-    r.inside[1] = lanei_not_negative(lanei_sub(end, next));
-    r.cell[0] = lanei_min(lanei_max(cell, zero), end);
-    r.cell[1] = lanei_min(next, end);
-    r.weight[0] = lane_sub(one, f);
-    r.weight[1] = f;
-    r.middle = lane_sub(first, lane_splat(0.5f));
+    r.cell = lanei_sub(lane_to_int(first), lanei_splat(1));
+    r.second = lane_mul(lane_trunc(lane_mul(lane_sub(from, first), lane_splat(256.0f))), lane_splat(1.0f / 256.0f));
     return r;
+}
+
+LANE_INLINE lane cone_weight(const cone_axis *a, int i)
+{
+    return i ? a->second : lane_sub(lane_splat(1.0f), a->second);
 }
 
 /* The voxels of cells; under 8 where there is none. */
@@ -66,7 +57,13 @@ LANE_INLINE lanei cone_voxel(const lmb_cone_job *job, int32_t levels, lanei x, l
 {
     static const int32_t base[5] = {8, 9, 17, 81, 593};
     const int32_t below = levels > 4 ? levels - 4 : 0, full = levels - below;
-    const lanei one = lanei_splat(1), row = lanei_splat(1 << full);
+    const lanei one = lanei_splat(1), row = lanei_splat(1 << full), end = lanei_splat((1 << levels) - 1);
+    const lane_mask inside =
+        lanei_not_negative(lanei_or(lanei_or(lanei_or(x, y), z),
+                                    lanei_or(lanei_or(lanei_sub(end, x), lanei_sub(end, y)), lanei_sub(end, z))));
+    x = lanei_and(x, end);
+    y = lanei_and(y, end);
+    z = lanei_and(z, end);
     lanei at = lanei_add(lanei_mul(lanei_add(lanei_mul(lanei_shift(z, below), row), lanei_shift(y, below)), row),
                          lanei_add(lanei_shift(x, below), lanei_splat(base[full])));
     for (int32_t bit = below - 1; bit >= 0; --bit) {
@@ -76,80 +73,82 @@ LANE_INLINE lanei cone_voxel(const lmb_cone_job *job, int32_t levels, lanei x, l
                                 lanei_mul(lanei_and(lanei_shift(z, bit), one), lanei_splat(4))));
         at = lanei_add(lane_to_int(lane_gather_f32(job->child, at)), octant);
     }
-    return at;
+    return lanei_pick(inside, at, lanei_splat(0));
 }
 
-/* a less b, towards 0; not past it. */
-LANE_INLINE lane cone_less(lane a, lane b)
+/* Coverage along one axis; own: what the pixel's own plane has of it, if it is there. */
+LANE_INLINE void cone_add_axis(lane *front, lane *back, lane *sheets, const lane pair[2], lane sheet, lane d,
+                               lane weight, lane own)
 {
     const lane zero = lane_splat(0.0f);
-    return lane_sub(a, lane_max(lane_min(a, b), lane_sub(zero, b)));
-}
-
-LANE_INLINE void cone_add_axis(lane *front, lane *back, lane *normal, lane *sheets, const lane pair[2], lane sheet,
-                               lane_mask along, lane weight, lane own)
-{
-    const lane of_plane = lane_min(lane_abs(sheet), own); /* what the pixel's own plane has of it */
-    const lane plus = lane_sub(pair[0], of_plane), minus = lane_sub(pair[1], of_plane);
-    const lane left = cone_less(sheet, own);
+    const lane_mask along = lane_lt(zero, d);
+    const lane mine = lane_min(lane_abs(sheet), own);
+    const lane plus = lane_sub(pair[0], mine), minus = lane_sub(pair[1], mine);
+    const lane left = lane_sub(sheet, lane_pick(lane_lt(sheet, zero), lane_sub(zero, mine), mine));
     *front = lane_add(*front, lane_mul(lane_pick(along, minus, plus), weight));
     *back = lane_add(*back, lane_mul(lane_pick(along, plus, minus), weight));
-    *normal = lane_add(*normal, lane_mul(lane_add(lane_sub(pair[0], pair[1]), left), weight));
     *sheets = lane_add(*sheets, lane_mul(left, weight));
 }
 
-/* One voxel's part. own: what the plane that goes through it has of each axis; 0 for others. */
+LANE_INLINE void cone_add_light(lane3 *sum, const lmb_cone_job *job, lanei at, lane d, int axis, int back, lane share)
+{
+    const lane_mask along = lane_lt(lane_splat(0.0f), d);
+    const lanei even = lanei_splat(2 * axis), odd = lanei_splat(2 * axis + 1);
+    lane light[4];
+    lane_gather_rgba_f32(light, job->light, lanei_add(at, lanei_pick(along, back ? even : odd, back ? odd : even)));
+    sum->x = lane_add(sum->x, lane_mul(light[0], share));
+    sum->y = lane_add(sum->y, lane_mul(light[1], share));
+    sum->z = lane_add(sum->z, lane_mul(light[2], share));
+}
+
+/* One voxel's part. own: what a plane across the voxel has of coverage; 0 for voxels without the pixel's own. */
 LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, lanei at, lane weight, lane own)
 {
-    lane xy[4], z[4], n[4], light[4];
+    const lane d[3] = {rays->d.x, rays->d.y, rays->d.z};
+    const lane3 mine = lane3_scale(lane3_abs(rays->towards), own);
     const lanei three = lanei_mul(at, lanei_splat(3)), six = lanei_add(three, three);
-    lane_gather_rgba_f32(xy, job->cover, three);
-    lane_gather_rgba_f32(z, job->cover, lanei_add(three, lanei_splat(1)));
-    lane_gather_rgba_f32(n, job->cover, lanei_add(three, lanei_splat(2)));
-    cone_add_axis(&sum->front.x, &sum->back.x, &sum->normal.x, &sum->sheets.x, xy, n[0], rays->along[0], weight,
-                  lane_mul(own, rays->own.x));
-    cone_add_axis(&sum->front.y, &sum->back.y, &sum->normal.y, &sum->sheets.y, xy + 2, n[1], rays->along[1], weight,
-                  lane_mul(own, rays->own.y));
-    cone_add_axis(&sum->front.z, &sum->back.z, &sum->normal.z, &sum->sheets.z, z, n[2], rays->along[2], weight,
-                  lane_mul(own, rays->own.z));
+    lane pair[4], sheet[4];
+    lane_gather_rgba_f32(sheet, job->cover, lanei_add(three, lanei_splat(2)));
+    lane_gather_rgba_f32(pair, job->cover, three);
+    cone_add_axis(&sum->front.x, &sum->back.x, &sum->sheets.x, pair, sheet[0], d[0], weight, mine.x);
+    cone_add_axis(&sum->front.y, &sum->back.y, &sum->sheets.y, pair + 2, sheet[1], d[1], weight, mine.y);
+    lane_gather_rgba_f32(pair, job->cover, lanei_add(three, lanei_splat(1)));
+    cone_add_axis(&sum->front.z, &sum->back.z, &sum->sheets.z, pair, sheet[2], d[2], weight, mine.z);
     for (int k = 0; k < 3; ++k) {
-        for (int b = 0; b <= rays->both[k]; ++b) {
-            const lane share = lane_mul(weight, b ? rays->back[k] : rays->front[k]);
-            const lanei lobe = b ? lanei_sub(lanei_splat(4 * k + 1), rays->side[k]) : rays->side[k];
-            lane_gather_rgba_f32(light, job->light, lanei_add(six, lobe));
-            sum->light.x = lane_add(sum->light.x, lane_mul(light[0], share));
-            sum->light.y = lane_add(sum->light.y, lane_mul(light[1], share));
-            sum->light.z = lane_add(sum->light.z, lane_mul(light[2], share));
+        cone_add_light(&sum->light, job, six, d[k], k, 0, lane_mul(weight, rays->front[k]));
+        if (rays->both >> k & 1) {
+            cone_add_light(&sum->light, job, six, d[k], k, 1, lane_mul(weight, rays->back[k]));
         }
     }
 }
 
 /* A level at `at`, leaves from the corner. */
-LANE_PART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, lane3 at, int32_t level,
-                          float share)
+LANE_APART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, const lane3 *at,
+                           int32_t level, float share)
 {
     const float wide = (float)(1 << level);
-    const lane zero = lane_splat(0.0f), reach = lane_mul(rays->half, lane_splat(wide));
-    const lane per_reach = lane_div(lane_splat(0.5f), lane_max(reach, lane_splat(0.25f)));
-    const cone_axis x = cone_axis_of(at.x, level, job->depth), y = cone_axis_of(at.y, level, job->depth),
-                    z = cone_axis_of(at.z, level, job->depth);
+    const lane zero = lane_splat(0.0f), half = lane_splat(0.5f);
+    const lane3 reaches = lane3_abs(rays->towards);
+    const lane reach = lane_mul(lane_add(lane_add(reaches.x, reaches.y), reaches.z), lane_splat(0.5f * wide));
+    const cone_axis x = cone_axis_of(at->x, level, job->depth), y = cone_axis_of(at->y, level, job->depth),
+                    z = cone_axis_of(at->z, level, job->depth);
     for (int k = 0; k < 8; ++k) {
         const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
-        const lane_mask inside = mask_and(x.inside[i], mask_and(y.inside[j], z.inside[l]));
-        lanei voxel = cone_voxel(job, job->depth - level, x.cell[i], y.cell[j], z.cell[l]);
-        voxel = lanei_pick(inside, voxel, lanei_splat(0));
-        const lane3 middle = {lane_mul(lane_add(x.middle, lane_splat((float)i)), lane_splat(wide)),
-                              lane_mul(lane_add(y.middle, lane_splat((float)j)), lane_splat(wide)),
-                              lane_mul(lane_add(z.middle, lane_splat((float)l)), lane_splat(wide))};
+        const lanei cx = lanei_add(x.cell, lanei_splat(i)), cy = lanei_add(y.cell, lanei_splat(j)),
+                    cz = lanei_add(z.cell, lanei_splat(l));
+        const lane3 middle = {lane_mul(lane_add(lane_from_int(cx), half), lane_splat(wide)),
+                              lane_mul(lane_add(lane_from_int(cy), half), lane_splat(wide)),
+                              lane_mul(lane_add(lane_from_int(cz), half), lane_splat(wide))};
         const lane height = lane3_dot(lane3_sub(middle, rays->origin), rays->towards);
-        lane weight = lane_mul(lane_mul(x.weight[i], y.weight[j]), lane_mul(z.weight[l], lane_splat(share)));
-        weight = lane_keep(lane_lt(lane_sub(zero, reach), height), weight);
-        const lane front = lane_min(lane_add(lane_mul(height, per_reach), lane_splat(0.5f)), lane_splat(1.0f));
-        sum->space = lane_add(sum->space, lane_mul(weight, lane_max(front, zero)));
-        if (mask_bits(lanei_lt(lanei_splat(7), voxel)) == 0) {
-            continue;
+        const lane front = lane_add(lane_div(lane_mul(height, half), lane_max(reach, half)), half);
+        const lane all = lane_mul(lane_mul(cone_weight(&x, i), cone_weight(&y, j)),
+                                  lane_mul(cone_weight(&z, l), lane_splat(share)));
+        const lane weight = lane_keep(lane_lt(lane_sub(zero, reach), height), all);
+        const lanei voxel = cone_voxel(job, job->depth - level, cx, cy, cz);
+        sum->space = lane_add(sum->space, lane_mul(weight, lane_min(lane_max(front, zero), lane_splat(1.0f))));
+        if (mask_bits(lanei_lt(lanei_splat(7), voxel)) != 0) {
+            cone_add(sum, job, rays, voxel, weight, lane_keep(lane_lt(height, reach), lane_splat(1.0f / wide)));
         }
-        cone_add(sum, job, rays, voxel, weight, lane_keep(lane_lt(height, reach), lane_splat(1.0f / wide)));
     }
 }
 
@@ -188,70 +187,78 @@ LANE_INLINE lane cone_shown(lane cover, lane3 sheets, lane3 d, const lane back[3
 
 /* A cone that widens by `spread` on either side is read as rays that go apart, d_a + spread x with x as dense as a tent
  * over -1 .. 1. The mean of |d_a + spread x| is spread (1/3 + q^2 - q^3 / 3), q = |d_a| / spread, up to q = 1; what of
- * it goes forward and what back differ by d_a. Without this a cone would pass between walls that it is wider than. */
-LANE_PART void cone_part(cone_rays *rays, lane3 d, float spread)
+ * it goes forward and what back differ by d_a. Without this a cone would pass between walls that it is wider than.
+ * Parts under 2^-12 are none: what they are multiplied with stays a normal number. */
+LANE_APART void cone_spread(cone_rays *rays, float spread)
 {
-    const lane zero = lane_splat(0.0f), along[3] = {lane_abs(d.x), lane_abs(d.y), lane_abs(d.z)};
+    const lane least = lane_splat(1.0f / 4096.0f), one = lane_splat(1.0f), third = lane_splat(1.0f / 3.0f);
+    const lane along[3] = {lane_abs(rays->d.x), lane_abs(rays->d.y), lane_abs(rays->d.z)};
+    rays->both = 0;
     for (int k = 0; k < 3; ++k) {
         lane mean = along[k];
         if (spread > 0.0f) {
-            const lane q = lane_min(lane_mul(along[k], lane_splat(1.0f / spread)), lane_splat(1.0f));
-            const lane bent = lane_add(lane_splat(1.0f / 3.0f),
-                                       lane_mul(lane_mul(q, q), lane_sub(lane_splat(1.0f),
-                                                                         lane_mul(q, lane_splat(1.0f / 3.0f)))));
+            const lane q = lane_min(lane_mul(along[k], lane_splat(1.0f / spread)), one);
+            const lane bent = lane_add(third, lane_mul(lane_mul(q, q), lane_sub(one, lane_mul(q, third))));
             mean = lane_pick(lane_lt(along[k], lane_splat(spread)), lane_mul(bent, lane_splat(spread)), mean);
         }
-        const lane back = lane_mul(lane_sub(mean, along[k]), lane_splat(0.5f));
-        /* Under 2^-12 is none: what it is multiplied with stays a normal number. */
-        rays->back[k] = lane_keep(lane_lt(lane_splat(1.0f / 4096.0f), back), back);
-        rays->front[k] = lane_sub(mean, rays->back[k]);
-        rays->front[k] = lane_keep(lane_lt(lane_splat(1.0f / 4096.0f), rays->front[k]), rays->front[k]);
-        rays->both[k] = mask_bits(lane_lt(zero, rays->back[k])) != 0;
+        const lane back = lane_mul(lane_sub(mean, along[k]), lane_splat(0.5f)), front = lane_sub(mean, back);
+        rays->back[k] = lane_keep(lane_lt(least, back), back);
+        rays->front[k] = lane_keep(lane_lt(least, front), front);
+        rays->both |= (mask_bits(lane_lt(least, back)) != 0) << k;
     }
 }
 
-/* One step: what it adds, and what it leaves open. */
-LANE_PART lane cone_step(lane3 *rgb, const lmb_cone_job *job, const cone_rays *rays, lane3 at, lane3 d, int32_t i,
-                         lane open)
+/* Of what was added up along one axis: the normal's part, from sums by whether rays go along it. */
+LANE_INLINE lane cone_normal(lane front, lane back, lane sheets, lane d)
 {
-    const lmb_cone_step *step = &job->step[i];
-    cone_sum sum;
-    sum.front = sum.back = sum.normal = sum.sheets = sum.light = lane3_splat(0.0f, 0.0f, 0.0f);
-    sum.space = lane_splat(0.0f);
-    cone_level(&sum, job, rays, at, step->level, step->finer);
-    if (step->finer < 1.0f) {
-        cone_level(&sum, job, rays, at, step->level + 1, 1.0f - step->finer);
-    }
-    const lane3 met = {lane_add(lane_mul(sum.front.x, rays->front[0]), lane_mul(sum.back.x, rays->back[0])),
-                       lane_add(lane_mul(sum.front.y, rays->front[1]), lane_mul(sum.back.y, rays->back[1])),
-                       lane_add(lane_mul(sum.front.z, rays->front[2]), lane_mul(sum.back.z, rays->back[2]))};
-    const lane cover = lane_add(lane_add(met.x, met.y), met.z), crossed = cone_crossed(cover, met, sum.normal, d);
-    const lane space = lane_max(sum.space, lane_splat(0.25f));
-    const lane taken = lane_min(open, lane_div(lane_mul(crossed, lane_splat(step->length)), space));
-    const lane scale = lane_div(taken, cone_shown(cover, sum.sheets, d, rays->back));
-    *rgb = lane3_add(*rgb, lane3_scale(sum.light, scale));
+    const lane difference = lane_sub(back, front);
+    return lane_add(lane_pick(lane_lt(lane_splat(0.0f), d), difference, lane_sub(front, back)), sheets);
+}
+
+/* What a step adds, and what it leaves open. */
+LANE_APART lane cone_weigh(lane3 *rgb, const cone_sum *sum, const cone_rays *rays, float length, lane open)
+{
+    const lane3 d = rays->d;
+    const lane3 met = {lane_add(lane_mul(sum->front.x, rays->front[0]), lane_mul(sum->back.x, rays->back[0])),
+                       lane_add(lane_mul(sum->front.y, rays->front[1]), lane_mul(sum->back.y, rays->back[1])),
+                       lane_add(lane_mul(sum->front.z, rays->front[2]), lane_mul(sum->back.z, rays->back[2]))};
+    const lane3 normal = {cone_normal(sum->front.x, sum->back.x, sum->sheets.x, d.x),
+                          cone_normal(sum->front.y, sum->back.y, sum->sheets.y, d.y),
+                          cone_normal(sum->front.z, sum->back.z, sum->sheets.z, d.z)};
+    const lane cover = lane_add(lane_add(met.x, met.y), met.z), crossed = cone_crossed(cover, met, normal, d);
+    const lane space = lane_max(sum->space, lane_splat(0.25f));
+    const lane taken = lane_min(open, lane_div(lane_mul(crossed, lane_splat(length)), space));
+    *rgb = lane3_add(*rgb, lane3_scale(sum->light, lane_div(taken, cone_shown(cover, sum->sheets, d, rays->back))));
     return lane_sub(open, taken);
 }
 
-LANE_PART lane cone_follow(lane3 *rgb, const lmb_cone_job *job, cone_rays *rays, lane3 d)
+LANE_PART lane cone_follow(lane3 *rgb, const lmb_cone_job *job, cone_rays *rays)
 {
     const float side = (float)(1 << job->depth);
+    const lane3 dark = lane3_splat(0.0f, 0.0f, 0.0f);
     float spread = -1.0f;
     lane open = lane_splat(1.0f);
-    *rgb = lane3_splat(0.0f, 0.0f, 0.0f);
+    *rgb = dark;
     for (int32_t i = 0; i < job->steps; ++i) {
         const lmb_cone_step *step = &job->step[i];
         const float margin = (float)(1 << step->level); /* half a voxel of the coarser level still has a part */
-        const lane3 at = lane3_add(rays->origin, lane3_scale(d, lane_splat(step->at * job->per_leaf)));
+        const lane3 at = lane3_add(rays->origin, lane3_scale(rays->d, lane_splat(step->at * job->per_leaf)));
         const lane low = lane_min(lane_min(at.x, at.y), at.z), high = lane_max(lane_max(at.x, at.y), at.z);
         if (mask_bits(mask_and(lane_lt(lane_splat(-margin), low), lane_lt(high, lane_splat(side + margin)))) == 0) {
             continue;
         }
         if (step->spread != spread) {
             spread = step->spread;
-            cone_part(rays, d, spread);
+            cone_spread(rays, spread);
         }
-        open = cone_step(rgb, job, rays, at, d, i, open);
+        cone_sum sum;
+        sum.front = sum.back = sum.sheets = sum.light = dark;
+        sum.space = lane_splat(0.0f);
+        cone_level(&sum, job, rays, &at, step->level, step->finer);
+        if (step->finer < 1.0f) {
+            cone_level(&sum, job, rays, &at, step->level + 1, 1.0f - step->finer);
+        }
+        open = cone_weigh(rgb, &sum, rays, step->length, open);
         if (mask_bits(lane_lt(lane_splat(1.0f / 1024.0f), open)) == 0) {
             break;
         }
@@ -262,28 +269,22 @@ LANE_PART lane cone_follow(lane3 *rgb, const lmb_cone_job *job, cone_rays *rays,
 static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_tile *tile,
                          float direction[3][LMB_TILE_PIXELS])
 {
-    const lane zero = lane_splat(0.0f);
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
-        const lane3 d = {lane_load(direction[0] + k), lane_load(direction[1] + k), lane_load(direction[2] + k)};
-        const lane3 at = {lane_load(tile->position[0] + k), lane_load(tile->position[1] + k),
-                          lane_load(tile->position[2] + k)};
-        const lane along[3] = {d.x, d.y, d.z};
         cone_rays rays;
-        lane3 rgb;
+        lane3 at, rgb;
+        at.x = lane_load(tile->position[0] + k);
+        at.y = lane_load(tile->position[1] + k);
+        at.z = lane_load(tile->position[2] + k);
         rays.origin = lane3_scale(lane3_sub(at, lane3_of(job->low)), lane_splat(job->per_leaf));
         rays.towards.x = lane_load(tile->face[0] + k);
         rays.towards.y = lane_load(tile->face[1] + k);
         rays.towards.z = lane_load(tile->face[2] + k);
-        rays.own = lane3_abs(rays.towards);
-        rays.half = lane_mul(lane_add(lane_add(rays.own.x, rays.own.y), rays.own.z), lane_splat(0.5f));
-        for (int i = 0; i < 3; ++i) {
-            rays.along[i] = lane_lt(zero, along[i]);
-            rays.side[i] = lanei_pick(rays.along[i], lanei_splat(2 * i + 1), lanei_splat(2 * i));
-        }
-        const lane open = cone_follow(&rgb, job, &rays, d);
+        rays.d.x = lane_load(direction[0] + k);
+        rays.d.y = lane_load(direction[1] + k);
+        rays.d.z = lane_load(direction[2] + k);
+        lane_store(out->open + k, cone_follow(&rgb, job, &rays));
         lane_store(out->rgb[0] + k, rgb.x);
         lane_store(out->rgb[1] + k, rgb.y);
         lane_store(out->rgb[2] + k, rgb.z);
-        lane_store(out->open + k, open);
     }
 }
