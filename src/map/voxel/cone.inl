@@ -216,7 +216,7 @@ LANE_INLINE lane cone_normal(lane front, lane back, lane sheets, lane d)
 }
 
 /* What a step adds, and what it leaves open. */
-LANE_APART lane cone_weigh(lane3 *rgb, const cone_sum *sum, const cone_rays *rays, float length, lane open)
+LANE_APART lane cone_weigh(lmb_cone_seen *out, int k, const cone_sum *sum, const cone_rays *rays, float length, lane open)
 {
     const lane3 d = rays->d;
     const lane3 met = {lane_add(lane_mul(sum->front.x, rays->front[0]), lane_mul(sum->back.x, rays->back[0])),
@@ -228,40 +228,53 @@ LANE_APART lane cone_weigh(lane3 *rgb, const cone_sum *sum, const cone_rays *ray
     const lane cover = lane_add(lane_add(met.x, met.y), met.z), crossed = cone_crossed(cover, met, normal, d);
     const lane space = lane_max(sum->space, lane_splat(0.25f));
     const lane taken = lane_min(open, lane_div(lane_mul(crossed, lane_splat(length)), space));
-    *rgb = lane3_add(*rgb, lane3_scale(sum->light, lane_div(taken, cone_shown(cover, sum->sheets, d, rays->back))));
+    const lane scale = lane_div(taken, cone_shown(cover, sum->sheets, d, rays->back));
+    lane_store(out->rgb[0] + k, lane_add(lane_load(out->rgb[0] + k), lane_mul(sum->light.x, scale)));
+    lane_store(out->rgb[1] + k, lane_add(lane_load(out->rgb[1] + k), lane_mul(sum->light.y, scale)));
+    lane_store(out->rgb[2] + k, lane_add(lane_load(out->rgb[2] + k), lane_mul(sum->light.z, scale)));
     return lane_sub(open, taken);
 }
 
-LANE_PART lane cone_follow(lane3 *rgb, const lmb_cone_job *job, cone_rays *rays)
+LANE_APART lane cone_step(lmb_cone_seen *out, int k, const lmb_cone_job *job, const cone_rays *rays,
+                          const lmb_cone_step *step, lane open)
 {
-    const float side = (float)(1 << job->depth);
-    const lane3 dark = lane3_splat(0.0f, 0.0f, 0.0f);
+    const lane3 at = lane3_add(rays->origin, lane3_scale(rays->d, lane_splat(step->at * job->per_leaf)));
+    cone_sum sum;
+    sum.front = sum.back = sum.sheets = sum.light = lane3_splat(0.0f, 0.0f, 0.0f);
+    sum.space = lane_splat(0.0f);
+    cone_level(&sum, job, rays, &at, step->level, step->finer);
+    if (step->finer < 1.0f) {
+        cone_level(&sum, job, rays, &at, step->level + 1, 1.0f - step->finer);
+    }
+    return cone_weigh(out, k, &sum, rays, step->length, open);
+}
+
+/* Is one of the samples in the cube, or up to half a voxel of the coarser level beside it, which it still reads? */
+LANE_APART int cone_is_inside(const lmb_cone_job *job, const cone_rays *rays, const lmb_cone_step *step)
+{
+    const float margin = (float)(1 << step->level), side = (float)(1 << job->depth) + margin;
+    const lane3 at = lane3_add(rays->origin, lane3_scale(rays->d, lane_splat(step->at * job->per_leaf)));
+    const lane low = lane_min(lane_min(at.x, at.y), at.z), high = lane_max(lane_max(at.x, at.y), at.z);
+    return mask_bits(mask_and(lane_lt(lane_splat(-margin), low), lane_lt(high, lane_splat(side)))) != 0;
+}
+
+LANE_PART lane cone_follow(lmb_cone_seen *out, int k, const lmb_cone_job *job, cone_rays *rays)
+{
     float spread = -1.0f;
     lane open = lane_splat(1.0f);
-    *rgb = dark;
-    for (int32_t i = 0; i < job->steps; ++i) {
+    for (int c = 0; c < 3; ++c) {
+        lane_store(out->rgb[c] + k, lane_splat(0.0f));
+    }
+    for (int32_t i = 0; i < job->steps && mask_bits(lane_lt(lane_splat(1.0f / 1024.0f), open)) != 0; ++i) {
         const lmb_cone_step *step = &job->step[i];
-        const float margin = (float)(1 << step->level); /* half a voxel of the coarser level still has a part */
-        const lane3 at = lane3_add(rays->origin, lane3_scale(rays->d, lane_splat(step->at * job->per_leaf)));
-        const lane low = lane_min(lane_min(at.x, at.y), at.z), high = lane_max(lane_max(at.x, at.y), at.z);
-        if (mask_bits(mask_and(lane_lt(lane_splat(-margin), low), lane_lt(high, lane_splat(side + margin)))) == 0) {
+        if (!cone_is_inside(job, rays, step)) {
             continue;
         }
         if (step->spread != spread) {
             spread = step->spread;
             cone_spread(rays, spread);
         }
-        cone_sum sum;
-        sum.front = sum.back = sum.sheets = sum.light = dark;
-        sum.space = lane_splat(0.0f);
-        cone_level(&sum, job, rays, &at, step->level, step->finer);
-        if (step->finer < 1.0f) {
-            cone_level(&sum, job, rays, &at, step->level + 1, 1.0f - step->finer);
-        }
-        open = cone_weigh(rgb, &sum, rays, step->length, open);
-        if (mask_bits(lane_lt(lane_splat(1.0f / 1024.0f), open)) == 0) {
-            break;
-        }
+        open = cone_step(out, k, job, rays, step, open);
     }
     return open;
 }
@@ -271,7 +284,7 @@ static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_
 {
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         cone_rays rays;
-        lane3 at, rgb;
+        lane3 at;
         at.x = lane_load(tile->position[0] + k);
         at.y = lane_load(tile->position[1] + k);
         at.z = lane_load(tile->position[2] + k);
@@ -282,9 +295,6 @@ static void KERNEL(cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_
         rays.d.x = lane_load(direction[0] + k);
         rays.d.y = lane_load(direction[1] + k);
         rays.d.z = lane_load(direction[2] + k);
-        lane_store(out->open + k, cone_follow(&rgb, job, &rays));
-        lane_store(out->rgb[0] + k, rgb.x);
-        lane_store(out->rgb[1] + k, rgb.y);
-        lane_store(out->rgb[2] + k, rgb.z);
+        lane_store(out->open + k, cone_follow(out, k, job, &rays));
     }
 }
