@@ -37,5 +37,8 @@ uint64_t case_probe(int variant);  /* golden_probe.c */
 uint64_t case_relit(int variant);
 uint64_t case_small_probe(int variant);
 #endif
+#if LMB_VOXELS && !defined(LMB_CONFIG_TINY)
+uint64_t case_voxels(int variant); /* golden_voxel.c */
+#endif
 
 #endif

@@ -95,6 +95,13 @@ static lmb_vec3 place(test_rng *r, float reach, uint32_t rare)
 
 static lmb_vec3 direction(test_rng *r) { return normalize3(place(r, 1.0f, 0)); }
 
+/* Or along one. */
+static lmb_vec3 direction_of_axis(test_rng *r)
+{
+    const lmb_vec3 axis[3] = {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}};
+    return test_random(r) % 4u ? direction(r) : axis[test_random(r) % 3u];
+}
+
 static void numbers(float *out, int n, test_rng *r, float lo, float hi, uint32_t rare)
 {
     for (int i = 0; i < n; ++i) {
@@ -1100,6 +1107,81 @@ static int trial_blur(const trial *t, test_rng r)
     return same_floats(t, "row", want.it.v, got.it.v, 32);
 }
 
+/* --- voxels ------------------------------------------------------------------------------------------------------- */
+
+enum { TREE_VOXELS = 4689 + 8 * 200, TREE_DEPTH = 6, TREE_STEPS = 12 };
+
+/* A tree of random numbers: what lies in it need not be of any scene. */
+typedef struct voxel_tree {
+    float child[TREE_VOXELS], cover[TREE_VOXELS][LMB_VOXEL_COVER], light[TREE_VOXELS][LMB_VOXEL_LIGHT];
+} voxel_tree;
+
+static void make_voxels(voxel_tree *v, test_rng *r)
+{
+    uint32_t next = 4689;
+    memset(v, 0, sizeof *v);
+    for (uint32_t at = 593; at < TREE_VOXELS; ++at) {
+        const int has = test_random(r) % (at < 4689 ? 16u : 3u) == 0;
+        if (has && next + 8 <= TREE_VOXELS) {
+            v->child[at] = (float)next;
+            next += 8;
+        }
+    }
+    for (uint32_t at = 8; at < TREE_VOXELS; ++at) {
+        if (test_random(r) % 2u == 0) {
+            numbers(v->cover[at], LMB_VOXEL_COVER, r, 0.0f, 1.0f, 0);
+            numbers(v->light[at], LMB_VOXEL_LIGHT, r, 0.0f, 9.0f, 0);
+            for (int k = 8; k < 11; ++k) {
+                v->cover[at][k] -= 0.5f;
+            }
+        }
+    }
+}
+
+/* A depth below 6 cuts the same tree off, so that every level is the last of some tree. */
+static int trial_cone(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_cone_seen) want, got;
+    static voxel_tree *tree;
+    static lmb_tile tile;
+    static float direction[3][LMB_TILE_PIXELS];
+    lmb_cone_step step[TREE_STEPS];
+    lmb_cone_job job;
+    GUARD(want);
+    GUARD(got);
+    if (tree == NULL) {
+        test_rng own = {7};
+        tree = malloc(sizeof *tree);
+        make_voxels(tree, &own);
+    }
+    memset(&job, 0, sizeof job);
+    job.child = tree->child;
+    job.cover = tree->cover[0];
+    job.light = tree->light[0];
+    job.step = step;
+    job.steps = 1 + (int32_t)(t->seed % TREE_STEPS);
+    job.depth = 4 + (int32_t)(test_random(&r) % (TREE_DEPTH - 3));
+    job.low = place(&r, 3.0f, 0);
+    job.leaf = test_uniform(&r, 0.02f, 0.3f);
+    job.per_leaf = 1.0f / job.leaf;
+    make_tile(&tile, &r, t->seed % 4u ? 0 : 20u);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_pixel(direction, k, direction_of_axis(&r));
+    }
+    for (int i = 0; i < job.steps; ++i) {
+        step[i].at = test_uniform(&r, 0.0f, 6.0f);
+        step[i].length = test_uniform(&r, 0.1f, 8.0f);
+        step[i].spread = test_random(&r) % 2u ? test_uniform(&r, 0.0f, 0.8f) : 0.0f;
+        step[i].level = (int32_t)(test_random(&r) % (uint32_t)(job.depth - 1));
+        step[i].finer = test_random(&r) % 4u ? test_uniform(&r, 0.0f, 1.0f) : 1.0f;
+    }
+    lmb_kernels_scalar.cone(&want.it, &job, &tile, direction);
+    t->kernels->cone(&got.it, &job, &tile, direction);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "open", want.it.open, got.it.open, LMB_TILE_PIXELS);
+}
+
 /* --- all of them -------------------------------------------------------------------------------------------------- */
 
 static const struct kernel {
@@ -1131,6 +1213,7 @@ static const struct kernel {
     {"share", trial_share},
     {"cosine", trial_cosine},
     {"blur", trial_blur},
+    {"cone", trial_cone},
 };
 
 static void test_machine(const lmb_kernels *machine)

@@ -215,8 +215,10 @@ LANE_INLINE lane cone_normal(lane front, lane back, lane sheets, lane d)
     return lane_add(lane_pick(lane_lt(lane_splat(0.0f), d), difference, lane_sub(front, back)), sheets);
 }
 
-/* What a step adds, and what it leaves open. */
-LANE_APART lane cone_weigh(lmb_cone_seen *out, int k, const cone_sum *sum, const cone_rays *rays, float length, lane open)
+/* What a step adds, and what it leaves open: under 1/1024 is none, for each lane alone, so that none knows when the
+ * others are done. */
+LANE_APART lane cone_weigh(lmb_cone_seen *out, int k, const cone_sum *sum, const cone_rays *rays, float length,
+                           lane open)
 {
     const lane3 d = rays->d;
     const lane3 met = {lane_add(lane_mul(sum->front.x, rays->front[0]), lane_mul(sum->back.x, rays->back[0])),
@@ -232,7 +234,8 @@ LANE_APART lane cone_weigh(lmb_cone_seen *out, int k, const cone_sum *sum, const
     lane_store(out->rgb[0] + k, lane_add(lane_load(out->rgb[0] + k), lane_mul(sum->light.x, scale)));
     lane_store(out->rgb[1] + k, lane_add(lane_load(out->rgb[1] + k), lane_mul(sum->light.y, scale)));
     lane_store(out->rgb[2] + k, lane_add(lane_load(out->rgb[2] + k), lane_mul(sum->light.z, scale)));
-    return lane_sub(open, taken);
+    const lane left = lane_sub(open, taken);
+    return lane_keep(lane_lt(lane_splat(1.0f / 1024.0f), left), left);
 }
 
 LANE_APART lane cone_step(lmb_cone_seen *out, int k, const lmb_cone_job *job, const cone_rays *rays,
@@ -265,7 +268,7 @@ LANE_PART lane cone_follow(lmb_cone_seen *out, int k, const lmb_cone_job *job, c
     for (int c = 0; c < 3; ++c) {
         lane_store(out->rgb[c] + k, lane_splat(0.0f));
     }
-    for (int32_t i = 0; i < job->steps && mask_bits(lane_lt(lane_splat(1.0f / 1024.0f), open)) != 0; ++i) {
+    for (int32_t i = 0; i < job->steps && mask_bits(lane_lt(lane_splat(0.0f), open)) != 0; ++i) {
         const lmb_cone_step *step = &job->step[i];
         if (!cone_is_inside(job, rays, step)) {
             continue;
