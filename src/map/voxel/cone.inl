@@ -83,7 +83,7 @@ LANE_INLINE void cone_add_axis(lane *front, lane *back, lane *sheets, const lane
     const lane zero = lane_splat(0.0f);
     const lane_mask along = lane_lt(zero, d);
     const lane mine = lane_min(lane_abs(sheet), own);
-    const lane plus = lane_sub(pair[0], mine), minus = lane_sub(pair[1], mine);
+    const lane plus = lane_max(lane_sub(pair[0], mine), zero), minus = lane_max(lane_sub(pair[1], mine), zero);
     const lane left = lane_sub(sheet, lane_pick(lane_lt(sheet, zero), lane_sub(zero, mine), mine));
     *front = lane_add(*front, lane_mul(lane_pick(along, minus, plus), weight));
     *back = lane_add(*back, lane_mul(lane_pick(along, plus, minus), weight));
