@@ -2,7 +2,8 @@
  *                                                                                   [M6-M8 M11-M13 M20-M22, DESIGN 6]
  *     voxel [SCENE...]        cornell and corridor have bars
  *
- * Seconds are of one core, on this machine; shares of a frame's peak memory are of what this program takes for it. */
+ * Seconds are of one core. `x`: times what one bounce by cuts with exact occlusion takes for its pixels (the tool's
+ * default). Closed forms: tests/analytic/test_voxels.c. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +16,10 @@
 
 int test_passed, test_failed, test_skipped;
 
-enum { MAP = 512 };
+enum { MAP = 512, CUT_MAP = 256, CAP = 1 << 22 };
+
+/* What the tool's default quality asks of cuts. */
+static const float cut_error = 0.2f, cut_visible = 0.06f;
 
 typedef struct work {
     const char *scene;
@@ -23,13 +27,16 @@ typedef struct work {
     image truth, surface;
     lmb_view view;
     lmb_target eye;
-    lmb_tree tree;
+    lmb_tree tree, cut_tree; /* every texel, for voxels; and of bounced light */
+    lmb_blockers blockers;
+    lmb_cut cut;
     lmb_voxels voxels;
     lmb_cones cones;
     lmb_cone_scratch scratch;
     lmb_tile tile;
-    double map_seconds, tree_seconds, build_seconds, inject_seconds, filter_seconds, eye_seconds, cone_seconds;
-    double voxel_bytes, all_bytes;
+    double map_seconds, tree_seconds, cut_tree_seconds, build_seconds, inject_seconds, filter_seconds, eye_seconds,
+        seconds;      /* `seconds`: of the picture, by cones or by cuts */
+    double all_bytes; /* besides voxels */
     void *memory[32]; /* all that was taken */
     int taken;
 } work;
@@ -101,6 +108,16 @@ static void draw_eye(work *w)
     w->eye_seconds = lap(&from);
 }
 
+static void add_faces(work *w, lmb_tree *tree, const lmb_light *light, const lmb_light_map *map)
+{
+    for (int32_t f = 0; f < map->faces; ++f) {
+        if ((map->drawn >> f & 1u) != 0) {
+            CHECK(lmb_tree_texels(tree, lmb_kernels_pick(), &w->tile, &w->loaded.scene, light, map, f, tree->faces++, 0,
+                                  MAP / LMB_TILE) == LMB_OK);
+        }
+    }
+}
+
 /* First points of all lights' maps. */
 static void draw_lights(work *w)
 {
@@ -110,8 +127,9 @@ static void draw_lights(work *w)
     for (uint32_t i = 0; i < scene->light_count; ++i) {
         faces += (uint32_t)lmb_light_map_faces(&scene->lights[i]);
     }
-    const size_t bytes = lmb_tree_bytes(faces, MAP);
+    const size_t bytes = lmb_tree_bytes(faces, MAP), cut_bytes = lmb_tree_bytes(faces, CUT_MAP);
     CHECK(lmb_tree_init(&w->tree, faces, MAP, take(w, bytes), bytes) == LMB_OK);
+    CHECK(lmb_tree_init(&w->cut_tree, faces, CUT_MAP, take(w, cut_bytes), cut_bytes) == LMB_OK);
     for (uint32_t i = 0; i < scene->light_count; ++i) {
         const lmb_light *light = &scene->lights[i];
         const int32_t own = lmb_light_map_faces(light);
@@ -122,24 +140,24 @@ static void draw_lights(work *w)
         lmb_light_map_clear(&map);
         CHECK(lmb_light_map_draw(&map, kernels, scene, 1, lmb_scene_triangles(scene), NULL) == LMB_OK);
         w->map_seconds += lap(&from);
-        for (int32_t f = 0; f < own; ++f) {
-            if ((map.drawn >> f & 1u) != 0) {
-                CHECK(lmb_tree_texels(&w->tree, kernels, &w->tile, scene, light, &map, f, w->tree.faces++, 0,
-                                      MAP / LMB_TILE) == LMB_OK);
-            }
-        }
+        add_faces(w, &w->tree, light, &map);
         w->tree_seconds += lap(&from);
+        add_faces(w, &w->cut_tree, light, &map);
+        w->cut_tree_seconds += lap(&from);
     }
+    double from = seconds_now();
+    for (uint32_t f = 0; f < w->cut_tree.faces; ++f) {
+        CHECK(lmb_tree_sum(&w->cut_tree, f) == LMB_OK);
+    }
+    w->cut_tree_seconds += lap(&from);
 }
 
-static void make_voxels(work *w, int32_t depth, uint32_t cap)
+static void make_voxels(work *w, void *memory, uint32_t cap, int32_t depth)
 {
     const lmb_scene *scene = &w->loaded.scene;
     const lmb_voxel_part part = {scene, 1, lmb_scene_triangles(scene), {1, 1}};
-    const size_t bytes = lmb_voxels_bytes(cap, LMB_VOXELS_ONE);
     lmb_voxels *v = &w->voxels;
-    w->voxel_bytes = (double)bytes;
-    CHECK(lmb_voxels_init(v, cap, LMB_VOXELS_ONE, take(w, bytes), bytes) == LMB_OK);
+    CHECK(lmb_voxels_init(v, cap, LMB_VOXELS_ONE, memory, lmb_voxels_bytes(cap, LMB_VOXELS_ONE)) == LMB_OK);
     double from = seconds_now();
     CHECK(lmb_voxels_build(v, &scene->bounds_min, &scene->bounds_max, depth, &part, 1) == LMB_OK);
     w->build_seconds = lap(&from);
@@ -149,23 +167,60 @@ static void make_voxels(work *w, int32_t depth, uint32_t cap)
     w->filter_seconds = lap(&from);
 }
 
+static double voxel_bytes(const work *w) { return (double)lmb_voxels_bytes(w->voxels.count, LMB_VOXELS_ONE); }
+
+/* M7, M13: flux in the voxels against the map's, and the root's mean against the leaves' sum. */
+static void check_energy(const work *w)
+{
+    const lmb_voxels *v = &w->voxels;
+    double want[6] = {0, 0, 0, 0, 0, 0}, got[6][3], flux = 0.0, off = 0.0, most = 0.0;
+    for (size_t i = 0; i < (size_t)w->tree.faces * MAP * MAP; ++i) {
+        const lmb_texel *t = &w->tree.texel[i];
+        const float n[3] = {t->normal.x, t->normal.y, t->normal.z};
+        flux += (double)t->flux[0] + (double)t->flux[1] + (double)t->flux[2];
+        for (int k = 0; k < 3; ++k) {
+            want[2 * k + (n[k] < 0.0f)] += (double)t->flux[0] * fabs((double)n[k]);
+        }
+    }
+    lmb_voxels_sum(got, v, 0);
+    for (int k = 0; k < 6; ++k) {
+        off = fmax(off, fabs(got[k][0] - want[k]));
+        most = fmax(most, want[k]);
+    }
+    printf("  %-11s energy: %.6f W of %.6f injected, %.2g lost; leaves by direction off by %.2g\n", w->scene,
+           v->flux[0], flux, v->lost[0] / flux, off / most);
+    CHECK(fabs(v->flux[0] / flux - 1.0) <= 0.02 && off <= 0.02 * most);
+}
+
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
-/* Radiance of one bounce, three floats a pixel. */
-static void trace(work *w, float *out)
+/* One bounce on a tile: by cones, or by the cut of exact bounced light. */
+static void light_tile(work *w, lmb_irradiance *light, int by_cuts)
 {
-    const lmb_scene *scene = &w->loaded.scene;
-    const lmb_cone_trace how = {lmb_kernels_pick(), &w->voxels, 0, 0, NULL, &w->scratch};
-    const int32_t width = w->view.frame_width, height = w->view.frame_height;
+    const lmb_cone_trace cones = {lmb_kernels_pick(), &w->voxels, 0, 0, NULL, &w->scratch};
+    lmb_cutting cutting;
+    memset(&cutting, 0, sizeof cutting);
+    cutting.error = cut_error;
+    cutting.visible = cut_visible;
+    cutting.blockers = &w->blockers;
+    memset(light, 0, sizeof *light);
+    if (by_cuts) {
+        CHECK(lmb_gather_cut(light, cones.kernels, &w->cut, &w->tile, &w->cut_tree, &cutting) == LMB_OK);
+    } else {
+        CHECK(lmb_cones_diffuse(light, NULL, &cones, &w->cones, &w->tile) == LMB_OK);
+    }
+}
+
+/* Radiance of one bounce, three floats a pixel. */
+static void draw(work *w, float *out, int by_cuts)
+{
+    const int32_t width = w->view.frame_width, height = w->view.frame_height, across = (width + 7) / 8;
     double from = seconds_now();
-    for (int32_t i = 0; i < (width + 7) / 8 * ((height + 7) / 8); ++i) {
-        const int32_t x = i % ((width + 7) / 8) * 8, y = i / ((width + 7) / 8) * 8;
+    for (int32_t i = 0; i < across * ((height + 7) / 8); ++i) {
+        const int32_t x = i % across * 8, y = i / across * 8;
         lmb_irradiance light;
-        memset(&light, 0, sizeof light);
-        CHECK(lmb_resolve_tile(&w->tile, how.kernels, &w->view, scene, &w->eye, x, y) == LMB_OK);
-        if (w->tile.hits > 0) {
-            CHECK(lmb_cones_diffuse(&light, NULL, &how, &w->cones, &w->tile) == LMB_OK);
-        }
+        CHECK(lmb_resolve_tile(&w->tile, lmb_kernels_pick(), &w->view, &w->loaded.scene, &w->eye, x, y) == LMB_OK);
+        light_tile(w, &light, by_cuts);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             const int32_t px = x + k % 8, py = y + k / 8;
             for (int c = 0; c < 3 && px < width && py < height; ++c) {
@@ -173,7 +228,7 @@ static void trace(work *w, float *out)
             }
         }
     }
-    w->cone_seconds = lap(&from);
+    w->seconds = lap(&from);
 }
 
 static void dump(const work *w, const float *pixels, int32_t depth, int cones)
@@ -208,53 +263,114 @@ static void against_truth(work *w, const float *pixels, const char *what, int ha
         CHECK_MSG(0, "%s", r.text);
         return;
     }
-    printf("  %-11s %-22s rmse %.3f  trim %.3f  e50 %.3f  e95 %.3f  mean %.3f  leak %.2f\n", w->scene, what, m.rmse,
+    printf("  %-11s %-26s rmse %.3f  trim %.3f  e50 %.3f  e95 %.3f  mean %.3f  leak %.2f\n", w->scene, what, m.rmse,
            m.trim, m.e50, m.e95, m.mean, m.leak);
     CHECK_MSG(!has_bars || m.rmse <= 0.45, "%s: rmse %g", w->scene, m.rmse);
     CHECK_MSG(!has_bars || m.e50 <= 0.20, "%s: e50 %g", w->scene, m.e50);
 }
 
-static void bounce(const char *scene, int has_bars)
+static void take_blockers(work *w)
 {
-    static const int32_t depths[] = {6, 7};
+    const uint32_t triangles = lmb_scene_triangles(&w->loaded.scene);
+    const size_t bytes = lmb_blockers_bytes(triangles);
+    CHECK(lmb_blockers_init(&w->blockers, triangles, take(w, bytes), bytes) == LMB_OK);
+    CHECK(lmb_blockers_build(&w->blockers, &w->loaded.scene) == LMB_OK);
+}
+
+static void say_stages(const work *w)
+{
+    const lmb_voxels *v = &w->voxels;
+    printf("  %-11s %4d^3: %7u voxels, %6.1f MB; build %6.1f ms, inject %5.1f, filter %5.1f\n", w->scene, 1 << v->depth,
+           (unsigned)v->count, voxel_bytes(w) * 1e-6, w->build_seconds * 1e3, w->inject_seconds * 1e3,
+           w->filter_seconds * 1e3);
+}
+
+static void bounce(work *w, const char *scene, void *memory, int has_bars)
+{
     static const int32_t counts[] = {7, 19, 37};
-    static work w;
-    if (!load(&w, scene)) {
+    char what[40];
+    if (!load(w, scene)) {
         return;
     }
-    float *pixels = take(&w, (size_t)w.truth.width * (size_t)w.truth.height * 3 * sizeof *pixels);
-    truth_view(&w.view, &w.loaded.cameras[0], &w.truth);
-    draw_eye(&w);
-    draw_lights(&w);
-    for (int d = 0; d < 2; ++d) {
-        make_voxels(&w, depths[d], 1u << 21);
-        const lmb_voxels *v = &w.voxels;
-        printf("  %s, depth %d of %d: %u voxels, %.1f MB; area %.5f m2; flux %.6f W, %.2g of it lost; build %.1f ms, "
-               "inject %.1f, filter %.1f\n", scene, (int)v->depth, (int)v->asked, (unsigned)v->count,
-               (double)v->count * 148e-6, v->area, v->flux[0], v->lost[0] / (v->flux[0] + v->lost[0]), w.build_seconds * 1e3,
-               w.inject_seconds * 1e3, w.filter_seconds * 1e3);
+    float *pixels = take(w, (size_t)w->truth.width * (size_t)w->truth.height * 3 * sizeof *pixels);
+    truth_view(&w->view, &w->loaded.cameras[0], &w->truth);
+    draw_eye(w);
+    draw_lights(w);
+    take_blockers(w);
+    draw(w, pixels, 1);
+    const double by_cuts = w->seconds;
+    snprintf(what, sizeof what, "cuts, %.2f s", by_cuts);
+    against_truth(w, pixels, what, 0);
+    for (int32_t depth = 5; depth <= 8; ++depth) {
+        make_voxels(w, memory, CAP, depth);
+        say_stages(w);
         for (int n = 0; n < 3; ++n) {
-            char what[32];
-            CHECK(lmb_cones_init(&w.cones, v, counts[n]) == LMB_OK);
-            trace(&w, pixels);
-            snprintf(what, sizeof what, "%d^3, %d cones, %.2f s", 1 << v->depth, (int)counts[n], w.cone_seconds);
-            against_truth(&w, pixels, what, has_bars && v->depth == 7 && counts[n] == 19);
-            dump(&w, pixels, v->depth, counts[n]);
+            CHECK(lmb_cones_init(&w->cones, &w->voxels, counts[n]) == LMB_OK);
+            if (depth == 7 || counts[n] == 19) {
+                draw(w, pixels, 0);
+                snprintf(what, sizeof what, "%2d cones, %.2f s, %.1f x", (int)counts[n], w->seconds,
+                         w->seconds / by_cuts);
+                against_truth(w, pixels, what, has_bars && depth == 7 && counts[n] == 19);
+                dump(w, pixels, depth, counts[n]);
+            }
+        }
+        if (depth == 7) {
+            check_energy(w);
         }
     }
-    close_scene(&w);
+    close_scene(w);
+}
+
+/* --- a frame of 640x480 ------------------------------------------------------------------------------------------- */
+
+static void frame(work *w, const char *scene, void *memory)
+{
+    if (!load(w, scene)) {
+        return;
+    }
+    image like = w->truth;
+    like.width = 640;
+    like.height = 480;
+    float *pixels = take(w, (size_t)like.width * (size_t)like.height * 3 * sizeof *pixels);
+    truth_view(&w->view, &w->loaded.cameras[0], &like);
+    draw_eye(w);
+    draw_lights(w);
+    take_blockers(w);
+    make_voxels(w, memory, CAP, 7);
+    CHECK(lmb_cones_init(&w->cones, &w->voxels, 19) == LMB_OK);
+    draw(w, pixels, 0);
+    const double all = w->map_seconds + w->tree_seconds + w->build_seconds + w->inject_seconds + w->filter_seconds +
+                       w->eye_seconds + w->seconds;
+    printf("  %s at 640x480, 128^3, 19 cones: %.2f s: light's map %.1f ms, first points %.1f, voxels %.1f, "
+           "injection %.1f, filter %.1f, eye %.1f, cones %.0f\n", scene, all, w->map_seconds * 1e3, w->tree_seconds * 1e3,
+           w->build_seconds * 1e3, w->inject_seconds * 1e3, w->filter_seconds * 1e3, w->eye_seconds * 1e3,
+           w->seconds * 1e3);
+    printf("  voxels take %.1f MB, %.0f %% of the frame's memory\n", voxel_bytes(w) * 1e-6,
+           100.0 * voxel_bytes(w) / (voxel_bytes(w) + w->all_bytes));
+    const double by_cones = w->seconds;
+    draw(w, pixels, 1);
+    printf("  by cuts the pixels take %.0f ms and their tree %.1f: cones take %.1f times that\n", w->seconds * 1e3,
+           w->cut_tree_seconds * 1e3, by_cones / w->seconds);
+    close_scene(w);
 }
 
 int main(int argc, char **argv)
 {
-    if (argc > 1) {
-        for (int i = 1; i < argc; ++i) {
-            bounce(argv[i], 0);
-        }
-    } else {
-        bounce("cornell", 1);
-        bounce("corridor", 1);
+    static work w;
+    void *memory = malloc(lmb_voxels_bytes(CAP, LMB_VOXELS_ONE));
+    if (memory == NULL) {
+        printf("not enough memory\n");
+        return 1;
     }
+    for (int i = 1; i < argc; ++i) {
+        bounce(&w, argv[i], memory, 0);
+    }
+    if (argc == 1) {
+        bounce(&w, "cornell", memory, 1);
+        bounce(&w, "corridor", memory, 1);
+        frame(&w, "cornell", memory);
+    }
+    free(memory);
     printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);
     return test_failed > 0;
 }
