@@ -122,42 +122,30 @@ LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays 
     }
 }
 
-/* How high the first of the eight voxels' middles is over the pixel's plane. */
-LANE_INLINE lane cone_height(const cone_rays *rays, const cone_axis *x, const cone_axis *y, const cone_axis *z,
-                             float wide)
-{
-    const lane half = lane_splat(0.5f), w = lane_splat(wide);
-    const lane3 middle = {lane_mul(lane_add(lane_from_int(x->cell), half), w),
-                          lane_mul(lane_add(lane_from_int(y->cell), half), w),
-                          lane_mul(lane_add(lane_from_int(z->cell), half), w)};
-    return lane3_dot(lane3_sub(middle, rays->origin), rays->towards);
-}
-
 /* A level at `at`, leaves from the corner. */
 LANE_APART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, const lane3 *at,
                            int32_t level, float share)
 {
     const float wide = (float)(1 << level);
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f);
-    const lane3 reaches = lane3_abs(rays->towards), rise = lane3_scale(rays->towards, lane_splat(wide));
+    const lane zero = lane_splat(0.0f), half = lane_splat(0.5f);
+    const lane3 reaches = lane3_abs(rays->towards);
     const lane reach = lane_mul(lane_add(lane_add(reaches.x, reaches.y), reaches.z), lane_splat(0.5f * wide));
-    const lane per_reach = lane_div(half, lane_max(reach, half));
     const cone_axis x = cone_axis_of(at->x, level, job->depth), y = cone_axis_of(at->y, level, job->depth),
                     z = cone_axis_of(at->z, level, job->depth);
-    const lane first = cone_height(rays, &x, &y, &z, wide);
     for (int k = 0; k < 8; ++k) {
         const int i = k & 1, j = k >> 1 & 1, l = k >> 2;
         const lanei cx = lanei_add(x.cell, lanei_splat(i)), cy = lanei_add(y.cell, lanei_splat(j)),
                     cz = lanei_add(z.cell, lanei_splat(l));
-        const lane height = lane_add(lane_add(first, lane_mul(rise.x, lane_splat((float)i))),
-                                     lane_add(lane_mul(rise.y, lane_splat((float)j)),
-                                              lane_mul(rise.z, lane_splat((float)l))));
-        const lane front = lane_min(lane_max(lane_add(lane_mul(height, per_reach), half), zero), one);
+        const lane3 middle = {lane_mul(lane_add(lane_from_int(cx), half), lane_splat(wide)),
+                              lane_mul(lane_add(lane_from_int(cy), half), lane_splat(wide)),
+                              lane_mul(lane_add(lane_from_int(cz), half), lane_splat(wide))};
+        const lane height = lane3_dot(lane3_sub(middle, rays->origin), rays->towards);
+        const lane front = lane_add(lane_div(lane_mul(height, half), lane_max(reach, half)), half);
         const lane all = lane_mul(lane_mul(cone_weight(&x, i), cone_weight(&y, j)),
                                   lane_mul(cone_weight(&z, l), lane_splat(share)));
         const lane weight = lane_keep(lane_lt(lane_sub(zero, reach), height), all);
         const lanei voxel = cone_voxel(job, job->depth - level, cx, cy, cz);
-        sum->space = lane_add(sum->space, lane_mul(weight, front));
+        sum->space = lane_add(sum->space, lane_mul(weight, lane_min(lane_max(front, zero), lane_splat(1.0f))));
         if (mask_bits(lanei_lt(lanei_splat(7), voxel)) != 0) {
             cone_add(sum, job, rays, voxel, weight, lane_keep(lane_lt(height, reach), lane_splat(1.0f / wide)));
         }
