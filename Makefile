@@ -212,7 +212,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute relight-figures simplify large tiny \
+.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute voxels relight-figures simplify large tiny \
     run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
