@@ -212,11 +212,14 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute voxels relight-figures simplify large tiny \
-    run-demo cross install
+# What bounced light does without.
+WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0
+
+.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute voxels relight-figures \
+    relief-figures simplify large tiny run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
-	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m CFLAGS='-Os -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_MIXED=0 -DLMB_VOXELS=0' LDFLAGS=
+	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m LDFLAGS= CFLAGS='-Os $(WITHOUT)'
 
 room-sizes: $(LIB)
 	@$(IN_SH) tests/build/size.sh
@@ -232,7 +235,7 @@ asan: ## the checks under address and undefined-behaviour sanitizers
 FUZZER    := $(BUILD)/fuzz/fuzz
 FUZZ_LINE := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
 FUZZ_ALL  := $(FUZZ_SRC) $(filter-out tools/lambent.c,$(TOOL_SRC)) $(LIB_SRC)
-TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply
+TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr
 MINUTES   ?= 1
 fuzz: $(FUZZER) ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
 	@sh tests/build/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
@@ -270,6 +273,10 @@ simplify: $(B)/figures-simplify ## what simpler meshes lose and add, against bar
 
 voxels: $(B)/figures-voxel ## one bounce by cones through voxels: errors, time, memory (SCENES="cornell ...")
 	@$(RUN) $(B)/figures-voxel $(SCENES)
+
+RELIEFS ?= quality speed
+relief-figures: $(B)/figures-relief ## reliefs against their complex models: errors, speed (RELIEFS="quality speed")
+	@$(RUN) $(B)/figures-relief $(RELIEFS)
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/build/large.sh

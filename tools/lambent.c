@@ -9,6 +9,7 @@
 #include "verb_compare.h"
 #include "verb_info.h"
 #include "verb_relight.h"
+#include "verb_relief.h"
 #include "verb_render.h"
 
 static const char usage[] =
@@ -16,6 +17,7 @@ static const char usage[] =
     "\n"
     "  render SCENE -o OUT      draw a scene (.gltf .glb .obj .ply, or the built-in `demo`) with bounced light\n"
     "  relight --world WORLD    the light at a place of a world that was seen from another, as a small cube map\n"
+    "  relief bake|render       a complex model as a simple one that carries its surface\n"
     "  compare A B              error figures of a picture against a reference\n"
     "  info FILE                what is in a scene or a picture\n"
     "  bench raster             how fast this machine draws the fixed workload\n"
@@ -37,6 +39,9 @@ int main(int argc, char **argv)
     }
     if (argc >= 2 && strcmp(argv[1], "relight") == 0) {
         return verb_relight(argc - 1, argv + 1);
+    }
+    if (argc >= 2 && strcmp(argv[1], "relief") == 0) {
+        return verb_relief(argc - 1, argv + 1);
     }
     if (argc >= 2 && strcmp(argv[1], "compare") == 0) {
         return verb_compare(argc - 1, argv + 1);

@@ -93,6 +93,22 @@
 #define LMB_MAX_PLANES 24
 #endif
 
+/* 0: this build has no reliefs (lambent/relief.h). Saves about 10 KiB of ROM on a Cortex-M4F. */
+#ifndef LMB_RELIEF
+#define LMB_RELIEF 1
+#endif
+
+/* Reference views of one relief. 224 bytes each, in lmb_relief. More: the file is refused. */
+#ifndef LMB_RELIEF_VIEWS
+#ifdef LMB_CONFIG_TINY
+#define LMB_RELIEF_VIEWS 16
+#else
+#define LMB_RELIEF_VIEWS 64
+#endif
+#endif
+
+#define LMB_RELIEF_LOOKS 8 /* of them, that a tile looks at */
+
 /* Limits that are part of the arithmetic, not of memory: see src/raster/setup.c for what depends on them. */
 #define LMB_MAX_SIDE 8192       /* px of a surface's side; larger frames go by windows */
 #define LMB_MAX_FRAME 16384     /* px of a frame's side, over all its windows */

@@ -17,6 +17,7 @@
 #include "voxel.h"
 #include "probe.h"
 #include "env.h"
+#include "relief.h"
 #include "compose.h"
 #include "relight.h"
 #include "render.h"

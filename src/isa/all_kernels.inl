@@ -34,6 +34,9 @@
 #if LMB_VOXELS
 #include "../map/voxel/cone.inl"
 #endif
+#if LMB_RELIEF
+#include "../relief/warp.inl"
+#endif
 
 static float KERNEL(probe)(float one_and_bit)
 {
@@ -62,5 +65,8 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #endif
 #if LMB_VOXELS
     KERNEL(cone),
+#endif
+#if LMB_RELIEF
+    KERNEL(relief_rank), KERNEL(relief_warp),
 #endif
 };

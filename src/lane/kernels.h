@@ -10,6 +10,7 @@
 #include <lambent/many.h>
 #include <lambent/probe.h>
 #include <lambent/voxel.h>
+#include <lambent/relief.h>
 
 #include "machines.h"
 
@@ -182,6 +183,23 @@ typedef struct lmb_cone_job {
     float per_leaf, leaf; /* 1 / m, m */
 } lmb_cone_job;
 
+/* One tile over a relief. */
+typedef struct lmb_relief_job {
+    const lmb_relief_view *view[LMB_RELIEF_LOOKS]; /* that its pixels look at; ranking: not read */
+    int32_t count, format;
+    int32_t aligned;     /* the first of them look most as the eye does */
+    int32_t steps, pick, sampling, keep;
+    int32_t as_is;       /* the winner's own place, whether or not it is on the ray */
+    lmb_vec3 eye, back;  /* the eye's, not a view's */
+    int32_t perspective;
+    float pixel;         /* m of a pixel's side; perspective: at 1 m */
+} lmb_relief_job;
+
+/* What became of its pixels, a bit each; those of neither are as they were. */
+typedef struct lmb_relief_found {
+    uint64_t hit, missed;
+} lmb_relief_found;
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -262,6 +280,13 @@ struct lmb_kernels {
     /* A cone from each pixel of the tile, along `direction`; what pixels without a surface see means nothing. */
     void (*cone)(lmb_cone_seen *out, const lmb_cone_job *job, const lmb_tile *tile,
                  float direction[3][LMB_TILE_PIXELS]);
+#endif
+#if LMB_RELIEF
+    /* The three views that suit each pixel best get a vote each, added. */
+    void (*relief_rank)(uint8_t votes[LMB_RELIEF_VIEWS], const lmb_tile *tile, const lmb_relief *relief,
+                        const lmb_relief_job *job);
+    /* The pixels that hit the complex surface get it; no other changes. */
+    void (*relief_warp)(lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job);
 #endif
 };
 

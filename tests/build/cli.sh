@@ -319,6 +319,34 @@ status 2 $field --eye 0,1,2 -o "$dir/bad.ppm"
 status 2 $field --roughness 2 -o "$dir/bad.ppm"
 status 2 $field -o "$dir/bad.gif"
 check "nothing was left behind" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$dir"
+# A box with a pit, as six triangles more than a cube has, on a box of its own.
+printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv 0 0 0.3\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n' >"$dir/pit.obj"
+printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >"$dir/box.obj"
+printf '# eye, target, degrees\n0 0 5 0 0 0 40\n\n3 2 4 0 0 0 40\n' >"$dir/cameras.txt"
+status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --simple "$dir/box.obj" --size 32
+check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* bytes' "$dir/out.txt"
+status 0 relief render "$dir/pit.lmr" -o "$dir/pit.png" --eye 1.5,2,5 --target 0,0,0 --size 64x64 --compare "$dir/pit.obj"
+check "relief render --compare shows both" grep -q 'pixels, ms  *[0-9.]*  *[0-9.]*$' "$dir/out.txt"
+status 0 relief render "$dir/pit.lmr" -o "$dir/pit.pfm" --pick eye-ray --sampling nearest --show depth --size 40x30 --with "$dir/box.obj" --light point:3,3,3:0,-1,0:90,90,90
+for views in 14 greedy:5 "$dir/cameras.txt"; do
+    status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --triangles 20 --size 16 --packed --views $views
+    status 0 relief render "$dir/pit.lmr" -o "$dir/pit.ppm" --size 40x30 --light-map 0 --steps 1 --looks 2 --keep 1
+done
+status 1 relief bake "$dir/nowhere.obj" -o "$dir/bad.lmr"
+status 1 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --views "$dir/nowhere.txt"
+status 1 relief render "$dir/box.obj" -o "$dir/bad.png"
+status 1 relief render "$dir/pit.lmr" -o "$dir/bad.png" --compare "$dir/nowhere.obj"
+status 2 relief
+status 2 relief bake "$dir/pit.obj"
+status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --size 7
+status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --views 65
+status 2 relief render "$dir/pit.lmr"
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --pick q
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --eye 1,2,3
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --light-map 12
+status 0 relief --help
+status 0 relief bake --help
+status 0 relief render --help
 # The fixed workload: its own quads need no files.
 check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
 check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"

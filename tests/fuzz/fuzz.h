@@ -36,6 +36,7 @@ void fuzz_gltf(const uint8_t *data, size_t size);
 void fuzz_obj(const uint8_t *data, size_t size);
 void fuzz_mtl(const uint8_t *data, size_t size);
 void fuzz_ply(const uint8_t *data, size_t size);
+void fuzz_lmr(const uint8_t *data, size_t size);
 
 /* fuzz_repair: for a target that reads PNG, put right checksums over whatever a mutation left of one's chunks, unless
  * the seed is a multiple of eight; without them nothing behind them would be reached. Other bytes stay. */

@@ -40,5 +40,8 @@ uint64_t case_small_probe(int variant);
 #if LMB_VOXELS && !defined(LMB_CONFIG_TINY)
 uint64_t case_voxels(int variant); /* golden_voxel.c */
 #endif
+#if LMB_RELIEF
+uint64_t case_relief(int variant); /* golden_relief.c */
+#endif
 
 #endif

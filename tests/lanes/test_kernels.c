@@ -11,6 +11,7 @@
 #include "../../src/lane/kernels.h"
 #include "../../src/probe/world.h"
 #include "../../src/raster/texture.h"
+#include "../small_relief.h"
 #include "seed.h"
 
 void test_kernels(void);
@@ -1182,6 +1183,64 @@ static int trial_cone(const trial *t, test_rng r)
            same_floats(t, "open", want.it.open, got.it.open, LMB_TILE_PIXELS);
 }
 
+/* --- reliefs ------------------------------------------------------------------------------------------------------ */
+
+enum { RELIEF_SIDE = 16 };
+
+/* Pixels near the cube around a sphere, or far from it, or nowhere. */
+static void make_relief_tile(lmb_tile *tile, test_rng *r, uint32_t rare)
+{
+    make_tile(tile, r, rare);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (test_random(r) % 8u) {
+            const lmb_vec3 d = direction(r);
+            set_pixel(tile->position, k, mul3(d, test_uniform(r, 0.9f, 1.3f)));
+            set_pixel(tile->normal, k, d);
+        }
+    }
+}
+
+static lmb_view relief_eye(test_rng *r)
+{
+    lmb_view v = small_view((int)(test_random(r) % SMALL_VIEWS), RELIEF_SIDE);
+    if (test_random(r) % 2u) {
+        lmb_view_look(&v, mul3(direction(r), 4.0f), place(r, 0.3f, 0), vec3(0.1f, 1.0f, 0.2f), 0.7f, 64, 48);
+    }
+    return v;
+}
+
+static int trial_relief(const trial *t, test_rng r)
+{
+    static uint32_t file[SMALL_WORDS(RELIEF_SIDE)];
+    static GUARDED(lmb_tile) want, got;
+    static lmb_relief relief;
+    const size_t bytes = small_relief(file, (int32_t)(t->seed & 1u), RELIEF_SIDE);
+    const lmb_relief_how how = {(int32_t)(t->seed % 7u), (int32_t)(t->seed >> 1 & 1u), (int32_t)(t->seed >> 2 & 1u),
+                                (int32_t)(t->seed % 9u), (int32_t)(t->seed % 4u)};
+    lmb_relief_stats stats[2];
+    if (t->seed % 5u == 0) { /* texels that no baker writes */
+        for (size_t i = SMALL_WORDS(RELIEF_SIDE) - SMALL_VIEWS * 3 * RELIEF_SIDE * RELIEF_SIDE; i < bytes / 4; ++i) {
+            file[i] = test_random(&r);
+        }
+    }
+    CHECK(lmb_relief_open(&relief, file, bytes) == LMB_OK);
+    const lmb_view view = relief_eye(&r);
+    memset(stats, 0, sizeof stats);
+    GUARD(want);
+    GUARD(got);
+    make_relief_tile(&want.it, &r, t->seed % 4u ? 0 : 25u);
+    got.it = want.it;
+    CHECK(lmb_relief_tile(&want.it, &stats[0], &lmb_kernels_scalar, &relief, &view, &how) == LMB_OK);
+    CHECK(lmb_relief_tile(&got.it, &stats[1], t->kernels, &relief, &view, &how) == LMB_OK);
+    CHECK(canaries_stay(got.before, got.after));
+    return same_floats(t, "position", want.it.position[0], got.it.position[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "normal", want.it.normal[0], got.it.normal[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "albedo", want.it.albedo[0], got.it.albedo[0], 3 * LMB_TILE_PIXELS) &&
+           same_floats(t, "depth", want.it.depth, got.it.depth, LMB_TILE_PIXELS) &&
+           same_bytes(t, "ids", want.it.id, got.it.id, sizeof got.it.id) &&
+           same_bytes(t, "counts", &stats[0], &stats[1], sizeof stats[0]);
+}
+
 /* --- all of them -------------------------------------------------------------------------------------------------- */
 
 static const struct kernel {
@@ -1214,6 +1273,7 @@ static const struct kernel {
     {"cosine", trial_cosine},
     {"blur", trial_blur},
     {"cone", trial_cone},
+    {"relief", trial_relief},
 };
 
 static void test_machine(const lmb_kernels *machine)

@@ -1,0 +1,130 @@
+/* relief.h: a complex model's surface on a simple one: reference views of it, looked up pixel by pixel. [P1-P12]
+ *
+ *     lmb_relief_open(&relief, file, bytes);            in place: a .lmr in flash or RAM, made by `lambent relief bake`
+ *     lmb_relief_scene(&scene, &relief);                its simple model, to draw
+ *     lmb_draw, lmb_resolve_tile                        as ever
+ *     lmb_relief_tile(&tile, ...);                      position, normal, albedo, depth of the complex surface
+ *     direct light, gathers, lmb_blend_tile             as ever
+ *
+ * A .lmr, version 1. All but the texels is in the byte order that word 1 tells; offsets are bytes from the file's
+ * start, multiples of 4.
+ *   word  0  the bytes L M R 1            word  8  offset of positions, 3 floats a vertex
+ *         1  0x01020304                         9  of normals, octahedral, 2 int16 a vertex
+ *         2  bytes of the file                 10  of colours, RGBA8 linear; 0: none
+ *         3  LMB_RELIEF_FULL or _PACKED        11  of indices, 3 a triangle
+ *         4  views, 1 .. LMB_RELIEF_VIEWS      12  LMB_INDEX_U16 or LMB_INDEX_U32
+ *         5  offset of their records           13  float: how far the complex surface may lie from the simple one, m
+ *         6  vertices of the simple model      14  0
+ *         7  triangles                         15  0
+ * A view's record, 20 words: eye, right, up, back (3 floats each), half_width, half_height, near_m, far_m, as lmb_view
+ * has them; LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC; width, height, texels, 2 .. 4096; offset of its texels.
+ * An orthographic view shows all of the model. Texels, row by row from the top, the low byte first on every machine:
+ *   FULL    three planes: depth code 1 .. 2^24 - 1, 0 nothing; R G B (sRGB) and 255; normal, two int16
+ *   PACKED  two planes: 16 bits of depth, then B5 G6 R5 above them; normal, two int8, in a plane of 16-bit words that
+ *           ends on a multiple of 4 bytes                                                                       [P10]
+ * Normals are octahedral (of int8: code / 127), world axes. Depth d of lmb_view is least + code (1 - least) / most, with
+ * least 0 (orthographic) or near_m / far_m (perspective), and most the largest code. */
+#ifndef LMB_RELIEF_H
+#define LMB_RELIEF_H
+
+#include "map.h"
+
+enum { LMB_RELIEF_FULL = 0, LMB_RELIEF_PACKED = 1 };
+enum { LMB_RELIEF_HEADER_WORDS = 16, LMB_RELIEF_VIEW_WORDS = 20 };
+
+/* A reference view, ready to look things up in. Texel (i, j) has its middle at (i, j). */
+typedef struct lmb_relief_view {
+    const uint8_t *texels;
+    int32_t width, height, perspective;
+    float to_view[4][4];  /* times (x, y, z, 1): u w, v w, d w, w, in texels; orthographic: w is 1 */
+    lmb_vec3 corner, per_u, per_v; /* a texel's place: corner + u per_u + v per_v; perspective: the ray's direction */
+    lmb_vec3 eye, back;   /* along the ray by m from the eye's plane: place - m back; perspective: eye + m ray */
+    float least, per_code; /* d of a depth code */
+    float z_at_0, z_per_d; /* m along the axis: orthographic z_at_0 + z_per_d d; perspective near_m / d */
+    float near_m;
+    float texel;          /* m of a texel's side; perspective: at 1 m */
+} lmb_relief_view;
+
+typedef struct lmb_relief {
+    lmb_relief_view view[LMB_RELIEF_VIEWS];
+    int32_t views, format;
+    float reach;          /* m: how far the complex surface may lie from the simple one */
+    lmb_mesh mesh;        /* the simple model; its streams lie in the file */
+    lmb_material material;
+    lmb_instance instance;
+    lmb_vec3 low, high;   /* of the simple model */
+} lmb_relief;
+
+enum { LMB_RELIEF_NEAREST_P = 0, LMB_RELIEF_EYE_RAY = 1 };
+
+/* How to look things up. Zeros: the default. */
+typedef struct lmb_relief_how {
+    int32_t steps;    /* looks a pixel takes: 1: once, at the simple surface, as the source has it; 6 where 0, to 32 */
+    int32_t pick;     /* which candidate wins: nearest to P, or to the eye's ray [P5] */
+    int32_t sampling; /* 0: between texels; 1: the nearest texel as it is */
+    int32_t views;    /* that a pixel looks at: 1 .. 8; 6 where 0 */
+    int32_t keep;     /* the best of these go on and are blended: 1 .. 3; 3 where 0 */
+} lmb_relief_how;
+
+/* Pixels so far, added up. */
+typedef struct lmb_relief_stats {
+    uint64_t pixels;  /* of the simple model */
+    uint64_t hits;    /* show the complex surface */
+    uint64_t missed;  /* whose ray passes it: cleared */
+    uint64_t holes;   /* that no view answers for: as the simple model has them [P12] */
+} lmb_relief_stats;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_relief_open: look through a .lmr and say where everything is. Nothing is copied: `data` stays as long as `out`.
+ *
+ * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmr of version 1, cut
+ * off, the other byte order: lmb_relief_swap; a view or offset that is none), LMB_ERR_CAPACITY (more views than
+ * LMB_RELIEF_VIEWS): then `out` is untouched. Every file that it takes is safe to draw: draws check each index. */
+lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes);
+
+/* lmb_relief_swap: turn a file of the other byte order into one of this machine's, in RAM. Files of its own stay.
+ * LMB_OK, or what lmb_relief_open says of such a file; then what `data` holds means nothing. */
+lmb_status lmb_relief_swap(void *data, size_t bytes);
+
+/* lmb_relief_scene: the simple model as a scene without lights. Points into `relief`. */
+void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
+
+/* lmb_relief_tile: the complex surface in place of the simple one.                              [P2 P3 P4 P5 P6 P12]
+ *
+ *   inout  resolved for `view` from a target with nothing but the simple model. Position, face, normal, albedo and
+ *          depth become the complex surface's; pixels whose ray passes it are cleared.
+ *   stats  added to; may be NULL.
+ *   how    NULL: the default.
+ * The views that a tile looks at are those that see its simple surface best. At a point of the eye's ray each gives the
+ * surface that it shows there; the nearest of them says how far to go along the ray for the next look [P5]; texels
+ * beyond a jump of depth count for nothing [P12]. Where the way no longer changes, the best three are blended. A point
+ * that some view sees through is no surface.
+ * Returns LMB_OK or LMB_ERR_ARG. Cost: 64 pixels x views x steps, whatever the complex model had. */
+lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_kernels *kernels,
+                           const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how);
+
+/* lmb_relief_nearer: of two tiles at one place the nearer surface of each pixel, into `inout`.                  [P11]
+ * Ids of `other` become LMB_MAX_TRIANGLES, so that no scene takes them for its own. */
+void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other);
+
+/* lmb_relief_shadow_rows: the light's map of a relief: tile rows `first` .. `past` - 1, all faces below each other as
+ * in lmb_light_map_rows, of a map that lmb_light_map_draw filled with the simple model: float depth becomes the complex
+ * surface's.                                                                                                     [P7]
+ *   tile   scratch
+ * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT (16-bit depth). */
+lmb_status lmb_relief_shadow_rows(const lmb_light_map *map, lmb_tile *tile, const lmb_kernels *kernels,
+                                  const lmb_relief *relief, const lmb_relief_how *how, int32_t first, int32_t past);
+
+/* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: those of the relief itself
+ * and of other surfaces alike.                                                                               [P8 P9]
+ * A pixel is lit as far as the four texels around its place are: each against the pixel's own plane there, and
+ * half a texel and more for what the plane does not know. Most of the four decide. */
+uint64_t lmb_relief_lit(const lmb_light_map *map, const lmb_light *light, const lmb_tile *tile);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

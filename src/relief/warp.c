@@ -1,0 +1,167 @@
+/* warp.c: a tile of the simple model becomes one of the complex surface: which views, then the kernel. Floor 6.
+ * [P2 P3 P5 P6 P11 P12] */
+#include <lambent/relief.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../lane/kernels.h"
+#include "../raster/target.h"
+
+#if LMB_RELIEF
+
+enum { STEPS = 6, MOST_STEPS = 32, LOOKS = 6, KEEP = 3 };
+
+static int in_range(int32_t v, int32_t most) { return v >= 0 && v <= most; }
+
+static int is_how(const lmb_relief_how *h)
+{
+    return in_range(h->steps, MOST_STEPS) && in_range(h->pick, LMB_RELIEF_EYE_RAY) && in_range(h->sampling, 1) &&
+           in_range(h->views, LMB_RELIEF_LOOKS) && in_range(h->keep, KEEP);
+}
+
+/* All but the views. What shows texels as they are takes one view's word. */
+static void set_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how)
+{
+    const float wide = 2.0f * view->half_width / (float)view->frame_width,
+                high = 2.0f * view->half_height / (float)view->frame_height;
+    job->count = 0;
+    job->format = relief->format;
+    job->steps = how->steps != 0 ? how->steps : STEPS;
+    job->pick = how->pick;
+    job->sampling = how->sampling;
+    job->as_is = job->steps == 1 || job->sampling;
+    job->keep = job->as_is ? 1 : how->keep != 0 ? how->keep : KEEP;
+    job->eye = view->eye;
+    job->back = view->back;
+    job->perspective = view->kind == LMB_PERSPECTIVE;
+    job->pixel = maxf(wide, high);
+}
+
+/* The views that look most as the eye does: they see past what it sees past. */
+static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_relief *relief, int32_t most)
+{
+    int k = 0;
+    while (tile->id[k] == 0) {
+        ++k;
+    }
+    const lmb_vec3 at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
+    const lmb_vec3 towards = job->perspective ? normalize3(sub3(job->eye, at)) : job->back;
+    while (job->count < mini(most, relief->views)) {
+        float best = -2.0f;
+        const lmb_relief_view *which = NULL;
+        for (int32_t i = 0; i < relief->views; ++i) {
+            const lmb_relief_view *v = &relief->view[i];
+            const float d = dot3(towards, v->perspective ? normalize3(sub3(v->eye, at)) : v->back);
+            int known = 0;
+            for (int32_t c = 0; c < job->count; ++c) {
+                known |= job->view[c] == v;
+            }
+            if (!known && d > best) {
+                best = d;
+                which = v;
+            }
+        }
+        job->view[job->count++] = which;
+    }
+}
+
+/* Those that suit most pixels; of equals the first. */
+static void choose_views(lmb_relief_job *job, const lmb_tile *tile, const lmb_kernels *kernels,
+                         const lmb_relief *relief, int32_t most)
+{
+    uint8_t votes[LMB_RELIEF_VIEWS];
+    memset(votes, 0, sizeof votes);
+    kernels->relief_rank(votes, tile, relief, job);
+    add_aligned(job, tile, relief, most < 4 ? 1 : 2);
+    job->aligned = job->count;
+    for (int32_t i = 0; i < job->count; ++i) {
+        votes[job->view[i] - relief->view] = 0;
+    }
+    while (job->count < most) {
+        int32_t first = 0;
+        for (int32_t i = 1; i < relief->views; ++i) {
+            first = votes[i] > votes[first] ? i : first;
+        }
+        if (votes[first] == 0) {
+            return;
+        }
+        job->view[job->count++] = &relief->view[first];
+        votes[first] = 0;
+    }
+}
+
+static void clear_pixel(lmb_tile *t, int k)
+{
+    for (int c = 0; c < 3; ++c) {
+        t->position[c][k] = t->face[c][k] = t->normal[c][k] = t->albedo[c][k] = 0.0f;
+    }
+    t->depth[k] = t->uv[0][k] = t->uv[1][k] = 0.0f;
+    t->id[k] = 0;
+    --t->hits;
+}
+
+static void add_stats(lmb_relief_stats *stats, const lmb_relief_found *found, int32_t pixels)
+{
+    const uint64_t all = (uint64_t)pixels, hits = (uint64_t)count_bits_64(found->hit),
+                   missed = (uint64_t)count_bits_64(found->missed);
+    stats->pixels += all;
+    stats->hits += hits;
+    stats->missed += missed;
+    stats->holes += all - hits - missed;
+}
+
+lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_kernels *kernels,
+                           const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how)
+{
+    const lmb_relief_how usual = {0, 0, 0, 0, 0};
+    lmb_relief_job job;
+    lmb_relief_found found = {0, 0};
+    how = how != NULL ? how : &usual;
+    if (inout == NULL || kernels == NULL || relief == NULL || view == NULL || !lmb_view_is_sound(view) ||
+        !is_how(how)) {
+        return LMB_ERR_ARG;
+    }
+    const int32_t pixels = inout->hits;
+    if (pixels == 0) {
+        return LMB_OK;
+    }
+    set_job(&job, relief, view, how);
+    choose_views(&job, inout, kernels, relief, how->views != 0 ? how->views : LOOKS);
+    if (job.count > 0) {
+        kernels->relief_warp(&found, inout, &job);
+    }
+    for (uint64_t bits = found.missed; bits != 0; bits &= bits - 1) {
+        clear_pixel(inout, lowest_bit_64(bits));
+    }
+    if (stats != NULL) {
+        add_stats(stats, &found, pixels);
+    }
+    return LMB_OK;
+}
+
+static void take_pixel(lmb_tile *t, const lmb_tile *from, int k)
+{
+    for (int c = 0; c < 3; ++c) {
+        t->position[c][k] = from->position[c][k];
+        t->face[c][k] = from->face[c][k];
+        t->normal[c][k] = from->normal[c][k];
+        t->albedo[c][k] = from->albedo[c][k];
+    }
+    t->depth[k] = from->depth[k];
+    t->uv[0][k] = from->uv[0][k];
+    t->uv[1][k] = from->uv[1][k];
+    t->hits += t->id[k] == 0;
+    t->id[k] = LMB_MAX_TRIANGLES;
+}
+
+void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (other->id[k] != 0 && (inout->id[k] == 0 || other->depth[k] < inout->depth[k])) {
+            take_pixel(inout, other, k);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,669 @@
+/* warp.inl: the complex surface along the eye's rays, by what reference views show of it.                 [P3-P6 P12]
+ *
+ * Lanes are pixels. With q on a pixel's ray, a view has q at texel (u, v) with depth d, and shows depth s there: a
+ * candidate. f = d - s is over 0 where q is before what the view shows, under 0 where it is behind. Between texels s is
+ * bilinear, so f changes along the ray at a known rate: the ray meets the view's surface about -f / rate further on. */
+#define RELIEF_JUMP   4.0f  /* texels: neighbours farther apart in depth are two surfaces */
+#define RELIEF_TURNED 0.02f /* a surface that rises along the ray by less is turned away from the eye */
+#define RELIEF_BEFORE 0.1f   /* pixels that a point may be before the surface, and ... */
+#define RELIEF_BEHIND 0.5f  /* ... behind it, to be on it */
+#define RELIEF_ROUNDS 3     /* surfaces that a ray may have passed closely, and the one that it meets */
+#define RELIEF_AS_EYE 0.5f  /* cosine, to the eye's ray, of views that tell what comes behind */
+#define RELIEF_SAME   0.99999f /* the same of a view that looks along the eye's own ray */
+#define RELIEF_NEAR   1.0f  /* texels that a view's candidate may be worse than the best to be looked at again, ... */
+#define RELIEF_FAR    4.0f  /* ... unless the best is so far off */
+#define RELIEF_SETTLED 0.3f /* pixels that a step has for the next to be the last */
+#define RELIEF_WORST  1e30f
+
+typedef struct relief_ray {
+    lane3 from, along; /* the simple surface's point; unit */
+    lane3 normal;      /* of the simple surface */
+    lane pixel;        /* m of a pixel's side there */
+} relief_ray;
+
+/* What a view has to say of a point. */
+typedef struct relief_look {
+    lane u, v, d;     /* the point's place */
+    lane gap;         /* m, along the view's axis, from the point on to what is shown there */
+    lane step;        /* m, along the eye's ray, to it */
+    lane off;         /* m, from the point (or the ray) to the candidate */
+    lane s;           /* its depth */
+    lanei at;         /* the texel, or the upper left of four, and ... */
+    lane fu, fv;      /* ... where between them */
+    lane_mask of[4];  /* which of them are on the candidate's surface */
+    lane_mask some;   /* the view shows something there */
+    lane_mask shown;  /* a candidate: that, turned to the eye */
+    lane_mask whole;  /* all four texels are of its surface */
+    lane_mask free;   /* the view sees through the point, in all four texels */
+} relief_look;
+
+static inline lane relief_row(const float row[4], lane3 q)
+{
+    const lane3 a = lane3_splat(row[0], row[1], row[2]);
+    return lane_add(lane3_dot(a, q), lane_splat(row[3]));
+}
+
+/* How fast a view's numbers change along a direction. */
+static inline lane relief_rate(const float row[4], lane3 along)
+{
+    return lane3_dot(lane3_splat(row[0], row[1], row[2]), along);
+}
+
+/* The view's depth codes at texels. */
+static inline lanei relief_code(const lmb_relief_job *job, const lmb_relief_view *view, lanei at)
+{
+    return lanei_and(lanei_gather_rgba(view->texels, at),
+                     lanei_splat(job->format == LMB_RELIEF_FULL ? 0xffffff : 0xffff));
+}
+
+static inline lane relief_depth(const lmb_relief_view *view, lanei code)
+{
+    return lane_add(lane_splat(view->least), lane_mul(lane_from_int(code), lane_splat(view->per_code)));
+}
+
+/* m along the axis a unit of depth. */
+static inline lane relief_metres(const lmb_relief_view *view, lane d)
+{
+    if (!view->perspective) {
+        return lane_splat(0.0f - view->z_per_d);
+    }
+    return lane_div(lane_splat(view->near_m), lane_max(lane_mul(d, d), lane_splat(1e-12f)));
+}
+
+/* The depth that RELIEF_JUMP texels are. */
+static inline lane relief_jump(const lmb_relief_view *view, lane d)
+{
+    const float texels = RELIEF_JUMP * view->texel;
+    return view->perspective ? lane_mul(lane_splat(texels), d) : lane_splat(texels / (0.0f - view->z_per_d));
+}
+
+static inline lane3 relief_towards(const lmb_relief_view *view, lane3 q)
+{
+    if (!view->perspective) {
+        return lane3_of(view->back);
+    }
+    const lane3 to = lane3_sub(lane3_of(view->eye), q);
+    return lane3_scale(to, lane_div(lane_splat(1.0f), lane_sqrt(lane_max(lane3_dot(to, to), lane_splat(1e-20f)))));
+}
+
+/* Where q is in the view; 0 < w keeps quotients finite. Returns where that is inside the picture. */
+LANE_PART lane_mask relief_project(relief_look *out, lane *per_w, const lmb_relief_view *view, lane3 q)
+{
+    const lane zero = lane_splat(0.0f);
+    lane_mask inside;
+    out->u = relief_row(view->to_view[0], q);
+    out->v = relief_row(view->to_view[1], q);
+    out->d = relief_row(view->to_view[2], q);
+    *per_w = lane_splat(1.0f);
+    if (view->perspective) {
+        const lane w = relief_row(view->to_view[3], q);
+        const lane_mask before = lane_lt(lane_splat(1e-6f * view->near_m), w);
+        *per_w = lane_div(lane_splat(1.0f), lane_pick(before, w, lane_splat(1.0f)));
+        out->u = lane_mul(out->u, *per_w);
+        out->v = lane_mul(out->v, *per_w);
+        out->d = lane_keep(before, lane_mul(out->d, *per_w));
+    }
+    inside = mask_and(mask_and(lane_le(zero, out->u), lane_le(out->u, lane_splat((float)(view->width - 1)))),
+                      mask_and(lane_le(zero, out->v), lane_le(out->v, lane_splat((float)(view->height - 1)))));
+    out->u = lane_keep(inside, out->u);
+    out->v = lane_keep(inside, out->v);
+    return view->perspective ? mask_and(inside, lane_lt(zero, out->d)) : inside;
+}
+
+/* The texel to the upper left, and where between it and the next q is. */
+static inline lanei relief_texel(lane *fu, lane *fv, const lmb_relief_view *view, lane u, lane v)
+{
+    const lane u0 = lane_min(lane_trunc(u), lane_splat((float)(view->width - 2))),
+               v0 = lane_min(lane_trunc(v), lane_splat((float)(view->height - 2)));
+    *fu = lane_sub(u, u0);
+    *fv = lane_sub(v, v0);
+    return lanei_add(lanei_mul(lane_to_int(v0), lanei_splat(view->width)), lane_to_int(u0));
+}
+
+/* Where the texels at u, v show the surface: at d = s. */
+static inline lane3 relief_place(const lmb_relief_view *view, lane u, lane v, lane s)
+{
+    const lane3 across = lane3_add(lane3_of(view->corner), lane3_add(lane3_scale(lane3_of(view->per_u), u),
+                                                                     lane3_scale(lane3_of(view->per_v), v)));
+    if (view->perspective) {
+        const lane z = lane_div(lane_splat(view->near_m), lane_max(s, lane_splat(1e-12f)));
+        return lane3_add(lane3_of(view->eye), lane3_scale(across, z));
+    }
+    const lane z = lane_add(lane_splat(view->z_at_0), lane_mul(s, lane_splat(view->z_per_d)));
+    return lane3_sub(across, lane3_scale(lane3_of(view->back), z));
+}
+
+/* Four texels' depths, of those of the surface nearest to d; of others: of the nearest texel. Returns where there is
+ * one. */
+LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view)
+{
+    const lane d = out->d;
+    const lanei below = lanei_add(out->at, lanei_splat(view->width)), one = lanei_splat(1);
+    /* All four are on their way before the first is wanted. */
+    const lanei code[4] = {relief_code(job, view, out->at), relief_code(job, view, lanei_add(out->at, one)),
+                           relief_code(job, view, below), relief_code(job, view, lanei_add(below, one))};
+    const lane jump = relief_jump(view, d);
+    lane least = lane_splat(RELIEF_WORST), near = d;
+    lane_mask some = lane_lt(least, least);
+    out->free = mask_not(some);
+    for (int k = 0; k < 4; ++k) {
+        s[k] = relief_depth(view, code[k]);
+        out->of[k] = lanei_lt(lanei_splat(0), code[k]);
+        const lane far = lane_abs(lane_sub(s[k], d));
+        const lane_mask nearer = mask_and(out->of[k], lane_lt(far, least));
+        out->free = mask_and(out->free, mask_or(mask_not(out->of[k]), lane_lt(s[k], lane_sub(d, jump))));
+        least = lane_pick(nearer, far, least);
+        near = lane_pick(nearer, s[k], near);
+        some = mask_or(some, nearer);
+    }
+    for (int k = 0; k < 4; ++k) {
+        out->of[k] = mask_and(out->of[k], lane_le(lane_abs(lane_sub(s[k], near)), jump));
+        s[k] = lane_pick(out->of[k], s[k], near);
+    }
+    return some;
+}
+
+/* The candidate's distance from q; or from the eye's ray. */
+static inline lane relief_off(const lmb_relief_job *job, const relief_ray *ray, lane3 to)
+{
+    if (job->pick == LMB_RELIEF_EYE_RAY) {
+        to = lane3_sub(to, lane3_scale(ray->along, lane3_dot(to, ray->along)));
+    }
+    return lane_sqrt(lane3_dot(to, to));
+}
+
+/* Orthographic views show all of the model, so there is nothing beside their pictures. */
+static inline lane_mask relief_free(const lmb_relief_view *view, lane_mask inside, lane_mask free)
+{
+    return view->perspective ? mask_and(inside, free) : mask_or(mask_not(inside), free);
+}
+
+/* The four texels' shares, of those that show the candidate's surface. Half of all: its edge, on average, as texels
+ * show what is in their middle. */
+static inline lane relief_cover(const relief_look *look)
+{
+    const lane one = lane_splat(1.0f), gu = lane_sub(one, look->fu), gv = lane_sub(one, look->fv);
+    const lane upper = lane_add(lane_keep(look->of[0], gu), lane_keep(look->of[1], look->fu)),
+               lower = lane_add(lane_keep(look->of[2], gu), lane_keep(look->of[3], look->fu));
+    return lane_add(lane_mul(upper, gv), lane_mul(lower, look->fv));
+}
+
+/* Between texels. */
+LANE_APART void relief_look_between(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
+                                   const relief_ray *ray, lane3 q)
+{
+    lane s[4], per_w;
+    const lane_mask inside = relief_project(out, &per_w, view, q);
+    out->at = relief_texel(&out->fu, &out->fv, view, out->u, out->v);
+    const lane_mask some = relief_gather(s, out, job, view);
+    const lane across = lane_sub(s[1], s[0]), down = lane_sub(s[2], s[0]),
+               twist = lane_sub(lane_sub(s[3], s[2]), across);
+    const lane su = lane_add(across, lane_mul(twist, out->fv)), sv = lane_add(down, lane_mul(twist, out->fu));
+    out->s = lane_add(s[0], lane_add(lane_mul(su, out->fu), lane_mul(down, out->fv)));
+    const lane dw = relief_rate(view->to_view[3], ray->along);
+    const lane du = lane_mul(lane_sub(relief_rate(view->to_view[0], ray->along), lane_mul(out->u, dw)), per_w),
+               dv = lane_mul(lane_sub(relief_rate(view->to_view[1], ray->along), lane_mul(out->v, dw)), per_w),
+               dd = lane_mul(lane_sub(relief_rate(view->to_view[2], ray->along), lane_mul(out->d, dw)), per_w);
+    const lane rate = lane_sub(dd, lane_add(lane_mul(su, du), lane_mul(sv, dv)));
+    const lane metres = relief_metres(view, out->d), f = lane_sub(out->d, out->s);
+    const lane_mask turned = lane_lt(lane_mul(rate, metres), lane_splat(-RELIEF_TURNED));
+    out->gap = lane_mul(f, metres);
+    out->step = lane_div(f, lane_pick(turned, lane_sub(lane_splat(0.0f), rate), lane_splat(1.0f)));
+    out->some = mask_and(inside, some);
+    out->shown = mask_and(mask_and(out->some, turned), lane_le(lane_splat(0.5f), relief_cover(out)));
+    out->free = relief_free(view, inside, out->free);
+    out->whole = mask_and(mask_and(out->of[0], out->of[1]), mask_and(out->of[2], out->of[3]));
+    out->off = relief_off(job, ray, lane3_scale(relief_towards(view, q), out->gap));
+}
+
+/* The nearest texel as it is. */
+LANE_APART void relief_look_nearest(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
+                                   const relief_ray *ray, lane3 q)
+{
+    lane per_w;
+    const lane_mask inside = relief_project(out, &per_w, view, q);
+    out->u = lane_trunc(lane_add(out->u, lane_splat(0.5f)));
+    out->v = lane_trunc(lane_add(out->v, lane_splat(0.5f)));
+    out->at = lanei_add(lanei_mul(lane_to_int(out->v), lanei_splat(view->width)), lane_to_int(out->u));
+    out->fu = out->fv = lane_splat(0.0f);
+    const lanei code = relief_code(job, view, out->at);
+    out->s = relief_depth(view, code);
+    const lane3 to = lane3_sub(relief_place(view, out->u, out->v, out->s), q);
+    const lane_mask some = lanei_lt(lanei_splat(0), code);
+    out->gap = lane_mul(lane_sub(out->d, out->s), relief_metres(view, out->d));
+    out->step = lane3_dot(to, ray->along);
+    out->off = relief_off(job, ray, to);
+    out->some = out->shown = out->whole = mask_and(inside, some);
+    const lane_mask past = lane_lt(out->s, lane_sub(out->d, relief_jump(view, out->d)));
+    out->free = relief_free(view, inside, mask_or(mask_not(some), past));
+}
+
+static inline void relief_look_at(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
+                                  const relief_ray *ray, lane3 q)
+{
+    if (job->sampling) {
+        relief_look_nearest(out, job, view, ray, q);
+    } else {
+        relief_look_between(out, job, view, ray, q);
+    }
+}
+
+/* --- which views -------------------------------------------------------------------------------------------------- */
+
+/* The best three of all so far. */
+typedef struct relief_best {
+    lane value[3]; /* falling */
+    lanei view[3];
+} relief_best;
+
+static inline relief_best relief_none(void)
+{
+    relief_best b;
+    for (int i = 0; i < 3; ++i) {
+        b.value[i] = lane_splat(-RELIEF_WORST);
+        b.view[i] = lanei_splat(-1);
+    }
+    return b;
+}
+
+static inline void relief_insert(relief_best *b, lane value, lanei view)
+{
+    for (int i = 0; i < 3; ++i) {
+        const lane_mask over = lane_lt(b->value[i], value);
+        const lane was = b->value[i];
+        const lanei who = b->view[i];
+        b->value[i] = lane_pick(over, value, was);
+        b->view[i] = lanei_pick(over, view, who);
+        value = lane_pick(over, was, value);
+        view = lanei_pick(over, who, view);
+    }
+}
+
+LANE_PART void relief_ray_of(relief_ray *r, const lmb_tile *tile, const lmb_relief_job *job, int k)
+{
+    const lane3 back = lane3_of(job->back), zero = lane3_splat(0.0f, 0.0f, 0.0f);
+    r->from = lane3_load(tile->position, k);
+    r->normal = lane3_load(tile->normal, k);
+    r->along = lane3_sub(zero, back);
+    r->pixel = lane_splat(job->pixel);
+    if (job->perspective) {
+        const lane3 to = lane3_sub(r->from, lane3_of(job->eye));
+        const lane length = lane_sqrt(lane_max(lane3_dot(to, to), lane_splat(1e-20f)));
+        r->along = lane3_scale(to, lane_div(lane_splat(1.0f), length));
+        r->pixel = lane_mul(r->pixel, length);
+    }
+}
+
+/* How well a view suits a pixel: by how it faces its surface, and looks as the eye does; pick by the ray: the latter
+ * first. */
+LANE_PART lane relief_suits(const lmb_relief_job *job, const lmb_relief_view *view, const relief_ray *ray)
+{
+    const lane3 towards = relief_towards(view, ray->from);
+    const lane faces = lane3_dot(ray->normal, towards), as_eye = lane_sub(lane_splat(0.0f),
+                                                                         lane3_dot(ray->along, towards));
+    const lane worth = lane_add(faces, lane_mul(as_eye, lane_splat(job->pick == LMB_RELIEF_EYE_RAY ? 8.0f : 0.5f)));
+    relief_look at;
+    lane per_w;
+    if (!view->perspective) {
+        return worth;
+    }
+    return lane_pick(relief_project(&at, &per_w, view, ray->from), worth, lane_splat(-100.0f));
+}
+
+static void KERNEL(relief_rank)(uint8_t votes[LMB_RELIEF_VIEWS], const lmb_tile *tile, const lmb_relief *relief,
+                                const lmb_relief_job *job)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        relief_ray ray;
+        relief_ray_of(&ray, tile, job, k);
+        relief_best b = relief_none();
+        int32_t view[LANES];
+        for (int32_t i = 0; i < relief->views; ++i) {
+            relief_insert(&b, relief_suits(job, &relief->view[i], &ray), lanei_splat(i));
+        }
+        for (int i = 0; i < 3; ++i) {
+            lanei_store(view, b.view[i]);
+            for (int n = 0; n < LANES; ++n) {
+                votes[view[n] >= 0 ? view[n] : 0] += view[n] >= 0 && tile->id[k + n] != 0;
+            }
+        }
+    }
+}
+
+/* --- the way along the ray ---------------------------------------------------------------------------------------- */
+
+/* A vector of pixels on its way. */
+typedef struct relief_way {
+    relief_ray ray;
+    lane t;          /* m from the simple surface */
+    uint32_t ask[LMB_RELIEF_LOOKS];  /* pixels that each view is asked for, a bit each ... */
+    uint32_t kept[LMB_RELIEF_LOOKS]; /* ... and those for which it was among the best */
+    lane_mask live, moving;
+} relief_way;
+
+/* What the last look of a way says of the surface. */
+typedef struct relief_found {
+    lane worth;      /* of the best candidate in the end ... */
+    lane3 candidate; /* ... its place ... */
+    lane_mask met;   /* ... and whether it is where the ray is */
+    lane_mask seen_through;
+    lane_mask passed;  /* some view has the point before what it shows */
+    lane as_eye, onward; /* m to what the view shows that looks most as the eye does; as_eye: how much */
+    lane weight, step; /* sums over the views that agree */
+    lane3 codes, normal;
+} relief_found;
+
+/* What counts against a candidate, m: its distance, a slanted view, a jump beside it. */
+static inline lane relief_against(const lmb_relief_job *job, const lmb_relief_view *view, const relief_look *look,
+                                  lane faces)
+{
+    const lane texel = lane_splat(view->texel), one = lane_splat(1.0f);
+    if (job->pick == LMB_RELIEF_EYE_RAY) {
+        return look->off;
+    }
+    return lane_add(lane_add(look->off, lane_mul(texel, lane_mul(lane_splat(0.5f), lane_sub(one, faces)))),
+                    lane_pick(look->whole, lane_splat(0.0f), texel));
+}
+
+static inline lane3 relief_here(const relief_way *w)
+{
+    return lane3_add(w->ray.from, lane3_scale(w->ray.along, w->t));
+}
+
+/* The best candidates' views, of pixels that move. */
+LANE_APART void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_best *best)
+{
+    const uint32_t moving = mask_bits(w->moving);
+    for (int32_t i = 0; i < job->count; ++i) {
+        uint32_t among = 0;
+        for (int k = 0; k < job->keep; ++k) {
+            among |= mask_bits(lanei_equal(best->view[k], lanei_splat(i)));
+        }
+        w->kept[i] = (w->kept[i] & ~moving) | (among & moving);
+    }
+}
+
+/* One look of the pixels that move: how far to go. Who has nothing to say near the best candidate so far is not asked
+ * again, unless that is far off in the end. Three times the gap is more than any surface wants that a view sees as well
+ * as the eye. */
+LANE_APART lane relief_advance(relief_way *w, const lmb_relief_job *job)
+{
+    const lane3 q = relief_here(w);
+    const lane zero = lane_splat(0.0f), texel = lane_splat(job->view[0]->texel);
+    const uint32_t moving = mask_bits(w->moving);
+    lane step = zero;
+    relief_best best = relief_none();
+    for (int32_t i = 0; i < job->count; ++i) {
+        const lmb_relief_view *view = job->view[i];
+        const lane_mask asked = mask_and(w->moving, mask_of_bits(w->ask[i]));
+        relief_look look;
+        if (mask_bits(asked) == 0) {
+            continue;
+        }
+        relief_look_at(&look, job, view, &w->ray, q);
+        const lane faces = lane3_dot(w->ray.normal, relief_towards(view, q));
+        const lane worth = lane_pick(mask_and(asked, look.shown),
+                                     lane_sub(zero, relief_against(job, view, &look, faces)),
+                                     lane_splat(-RELIEF_WORST));
+        const lane most = lane_add(lane_mul(lane_splat(3.0f), lane_abs(look.gap)), lane_splat(view->texel));
+        const lane_mask over = lane_lt(best.value[0], worth);
+        step = lane_pick(over, lane_max(lane_min(look.step, most), lane_sub(zero, most)), step);
+        relief_insert(&best, worth, lanei_splat(i));
+        const lane least = lane_sub(best.value[0], lane_mul(lane_splat(RELIEF_NEAR), texel));
+        w->ask[i] &= ~moving | mask_bits(lane_le(least, worth));
+    }
+    const uint32_t far = moving & mask_bits(lane_lt(best.value[0], lane_mul(lane_splat(-RELIEF_FAR), texel)));
+    for (int32_t i = 0; i < job->count; ++i) {
+        w->ask[i] |= far;
+    }
+    relief_keep(w, job, &best);
+    return step;
+}
+
+/* --- the surface -------------------------------------------------------------------------------------------------- */
+
+/* A signed number of `bits` bits at bit `from`. */
+static inline lane relief_signed(lanei word, int from, int bits)
+{
+    return lane_from_int(lanei_shift(lanei_mul(word, lanei_splat((int32_t)(1u << (32 - from - bits)))), 32 - bits));
+}
+
+static inline lane relief_bits(lanei word, int from, int bits, float scale)
+{
+    return lane_mul(lane_from_int(lanei_and(lanei_shift(word, from), lanei_splat((1 << bits) - 1))), lane_splat(scale));
+}
+
+/* sRGB codes 0 .. 255. */
+static inline lane3 relief_codes(const lmb_relief_job *job, const lmb_relief_view *view, lanei at)
+{
+    lane3 c;
+    if (job->format == LMB_RELIEF_FULL) {
+        const lanei word = lanei_gather_rgba(view->texels + 4 * (size_t)view->width * (size_t)view->height, at);
+        c.x = relief_bits(word, 0, 8, 1.0f);
+        c.y = relief_bits(word, 8, 8, 1.0f);
+        c.z = relief_bits(word, 16, 8, 1.0f);
+    } else {
+        const lanei word = lanei_gather_rgba(view->texels, at);
+        c.x = relief_bits(word, 16, 5, 255.0f / 31.0f);
+        c.y = relief_bits(word, 21, 6, 255.0f / 63.0f);
+        c.z = relief_bits(word, 27, 5, 255.0f / 31.0f);
+    }
+    return c;
+}
+
+/* On the octahedron |x| + |y| + |z| = 1: as lmb_octahedral_decode, not yet of unit length. */
+static inline lane3 relief_normal(const lmb_relief_job *job, const lmb_relief_view *view, lanei at)
+{
+    const size_t texels = (size_t)view->width * (size_t)view->height;
+    const int full = job->format == LMB_RELIEF_FULL;
+    const lane most = lane_splat(full ? 32767.0f : 127.0f), zero = lane_splat(0.0f);
+    lane3 n;
+    if (full) {
+        const lanei word = lanei_gather_rgba(view->texels + 8 * texels, at);
+        n.x = relief_signed(word, 0, 16);
+        n.y = relief_signed(word, 16, 16);
+    } else {
+        const lanei word = lanei_gather_rgba(view->texels + 4 * texels, lanei_shift(at, 1));
+        const lane_mask odd = lanei_lt(lanei_splat(0), lanei_and(at, lanei_splat(1)));
+        n.x = lane_pick(odd, relief_signed(word, 16, 8), relief_signed(word, 0, 8));
+        n.y = lane_pick(odd, relief_signed(word, 24, 8), relief_signed(word, 8, 8));
+    }
+    n.x = lane_max(n.x, lane_sub(zero, most));
+    n.y = lane_max(n.y, lane_sub(zero, most));
+    n.z = lane_sub(lane_sub(most, lane_abs(n.x)), lane_abs(n.y));
+    const lane fold = lane_min(n.z, zero), back = lane_sub(zero, fold);
+    n.x = lane_add(n.x, lane_pick(lane_lt(n.x, zero), back, fold));
+    n.y = lane_add(n.y, lane_pick(lane_lt(n.y, zero), back, fold));
+    return lane3_scale(n, lane_splat(full ? 1.0f / 32767.0f : 1.0f / 127.0f));
+}
+
+/* Weighted colour and normal of the texels that show the candidate's surface. */
+LANE_APART void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb_relief_view *view,
+                            const relief_look *look, lane weight)
+{
+    const lane one = lane_splat(1.0f), gu = lane_sub(one, look->fu), gv = lane_sub(one, look->fv);
+    const lane part[4] = {lane_mul(gu, gv), lane_mul(look->fu, gv), lane_mul(gu, look->fv),
+                          lane_mul(look->fu, look->fv)};
+    const int32_t next[4] = {0, 1, view->width, view->width + 1};
+    const int texels = job->sampling ? 1 : 4;
+    for (int k = 0; k < texels; ++k) {
+        const lanei at = lanei_add(look->at, lanei_splat(next[k]));
+        const lane share = job->sampling ? weight : lane_keep(look->of[k], lane_mul(weight, part[k]));
+        f->weight = lane_add(f->weight, share);
+        f->codes = lane3_add(f->codes, lane3_scale(relief_codes(job, view, at), share));
+        f->normal = lane3_add(f->normal, lane3_scale(relief_normal(job, view, at), share));
+        f->step = lane_add(f->step, lane_mul(share, look->step));
+    }
+}
+
+/* How much a view's word counts: by how it faces the surface, how near its own is, and whether all texels show it. */
+static inline lane relief_weight(const lmb_relief_job *job, const lmb_relief_view *view, const relief_look *look,
+                                 lane faces)
+{
+    const lane one = lane_splat(1.0f), f = lane_max(faces, lane_splat(0.05f));
+    const lane reach = lane_splat(1.0f / (1.5f * view->texel));
+    const lane near = lane_max(lane_sub(one, lane_mul(lane_abs(look->gap), reach)), lane_splat(0.0f));
+    if (job->keep == 1) {
+        return one;
+    }
+    return lane_mul(lane_mul(f, f), lane_mul(near, lane_pick(look->whole, one, lane_splat(0.02f))));
+}
+
+static inline void relief_clear(relief_found *f)
+{
+    const lane zero = lane_splat(0.0f);
+    f->met = f->seen_through = f->passed = lane_lt(zero, zero);
+    f->worth = lane_splat(-RELIEF_WORST);
+    f->as_eye = lane_splat(RELIEF_AS_EYE);
+    f->onward = f->weight = f->step = zero;
+    f->candidate = f->codes = f->normal = lane3_splat(0.0f, 0.0f, 0.0f);
+}
+
+/* The last look: the kept ones say what the surface is, the others whether it can be there. */
+LANE_APART void relief_arrive(relief_found *f, const relief_way *w, const lmb_relief_job *job)
+{
+    const lane zero = lane_splat(0.0f), worst = lane_splat(-RELIEF_WORST);
+    const lane before = lane_mul(lane_splat(RELIEF_BEFORE), w->ray.pixel),
+               behind = lane_mul(lane_splat(-RELIEF_BEHIND), w->ray.pixel);
+    const lane same = lane_splat(job->pick == LMB_RELIEF_EYE_RAY ? RELIEF_SAME : 2.0f);
+    const lane3 q = relief_here(w);
+    relief_clear(f);
+    for (int32_t i = 0; i < job->count; ++i) {
+        const lmb_relief_view *view = job->view[i];
+        const lane_mask kept = mask_and(w->live, mask_of_bits(w->kept[i]));
+        relief_look look;
+        const lane_mask asked = i < job->aligned ? w->live : mask_and(w->live, mask_of_bits(w->ask[i]));
+        if (mask_bits(asked) == 0) {
+            continue;
+        }
+        relief_look_at(&look, job, view, &w->ray, q);
+        const lane3 towards = relief_towards(view, q);
+        const lane as_eye = lane_sub(zero, lane3_dot(towards, w->ray.along));
+        const lane_mask ahead = mask_and(mask_and(asked, look.some), lane_lt(before, look.gap));
+        const lane_mask free = mask_and(asked, look.free);
+        const lane_mask better = mask_and(ahead, lane_lt(f->as_eye, as_eye));
+        f->passed = mask_or(f->passed, mask_or(free, ahead));
+        f->seen_through = mask_or(f->seen_through, job->as_is ? mask_and(free, lane_lt(same, as_eye)) : free);
+        f->as_eye = lane_pick(better, as_eye, f->as_eye);
+        f->onward = lane_pick(better, lane_max(look.gap, lane_splat(view->texel)), f->onward);
+        const lane faces = lane3_dot(w->ray.normal, towards);
+        const lane_mask says = mask_and(mask_and(asked, kept), look.shown);
+        if (mask_bits(says) == 0) {
+            continue;
+        }
+        const lane worth = lane_pick(says, lane_sub(zero, relief_against(job, view, &look, faces)), worst);
+        const lane_mask over = lane_lt(f->worth, worth);
+        f->worth = lane_pick(over, worth, f->worth);
+        f->candidate = lane3_pick(over, relief_place(view, look.u, look.v, look.s), f->candidate);
+        const lane_mask met = mask_and(lane_le(look.gap, before), lane_le(behind, look.gap));
+        f->met = mask_or(mask_and(over, met), mask_and(f->met, mask_not(over)));
+        relief_paint(f, job, view, &look, lane_keep(says, relief_weight(job, view, &look, faces)));
+    }
+}
+
+LANE_APART void relief_set_out(relief_way *w, const lmb_tile *tile, const lmb_relief_job *job, int k)
+{
+    int32_t id[LANES];
+    for (int i = 0; i < LANES; ++i) {
+        id[i] = tile->id[k + i] != 0;
+    }
+    relief_ray_of(&w->ray, tile, job, k);
+    w->live = w->moving = lanei_lt(lanei_splat(0), lanei_load(id));
+    w->t = lane_splat(0.0f);
+    for (int i = 0; i < LMB_RELIEF_LOOKS; ++i) {
+        w->kept[i] = 0;
+    }
+}
+
+/* Colour between two codes: a quarter of a code off at most, exact at codes. */
+static inline lane relief_linear(lane code)
+{
+    const lane whole = lane_min(lane_max(lane_trunc(code), lane_splat(0.0f)), lane_splat(254.0f));
+    const lanei at = lane_to_int(whole);
+    const lane low = lane_gather_f32(lmb_srgb_linear, at), high = lane_gather_f32(lmb_srgb_linear + 1, at);
+    const lane part = lane_sub(code, whole);
+    return lane_add(lane_mul(low, lane_sub(lane_splat(1.0f), part)), lane_mul(high, part));
+}
+
+static inline void relief_put(float (*planes)[LMB_TILE_PIXELS], int k, lane_mask m, lane3 v)
+{
+    const lane3 was = lane3_load((const float (*)[LMB_TILE_PIXELS])planes, k);
+    lane_store(planes[0] + k, lane_pick(m, v.x, was.x));
+    lane_store(planes[1] + k, lane_pick(m, v.y, was.y));
+    lane_store(planes[2] + k, lane_pick(m, v.z, was.z));
+}
+
+LANE_APART void relief_store(lmb_tile *out, const relief_way *w, const relief_found *f, const lmb_relief_job *job,
+                             lane_mask hit, int k)
+{
+    const lane per = lane_div(lane_splat(1.0f), lane_pick(hit, f->weight, lane_splat(1.0f)));
+    const lane3 codes = lane3_scale(f->codes, per), n = resolve_unit(f->normal);
+    const lane3 on_ray = lane3_add(relief_here(w), lane3_scale(w->ray.along, lane_mul(f->step, per)));
+    const lane3 place = job->as_is ? f->candidate : on_ray;
+    const lane depth = lane_sub(lane_splat(0.0f), lane3_dot(lane3_sub(place, lane3_of(job->eye)), lane3_of(job->back)));
+    lane3 albedo;
+    albedo.x = relief_linear(codes.x);
+    albedo.y = relief_linear(codes.y);
+    albedo.z = relief_linear(codes.z);
+    relief_put(out->position, k, hit, place);
+    relief_put(out->face, k, hit, n);
+    relief_put(out->normal, k, hit, n);
+    relief_put(out->albedo, k, hit, albedo);
+    lane_store(out->depth + k, lane_pick(hit, depth, lane_load(out->depth + k)));
+}
+
+/* Each pixel until it moves by little. */
+LANE_APART void relief_travel(relief_way *w, const lmb_relief_job *job)
+{
+    const lane near = lane_mul(lane_splat(RELIEF_SETTLED), w->ray.pixel);
+    w->moving = w->live;
+    for (int32_t i = 0; i < LMB_RELIEF_LOOKS; ++i) {
+        w->ask[i] = ~0u;
+    }
+    lane step = relief_advance(w, job);
+    for (int32_t i = 1; i < job->steps; ++i) {
+        w->t = lane_add(w->t, lane_keep(w->moving, step));
+        w->moving = mask_and(w->moving, lane_lt(near, lane_abs(step)));
+        if (mask_bits(w->moving) == 0 || i + 1 == job->steps) {
+            return;
+        }
+        step = relief_advance(w, job);
+    }
+}
+
+/* Where the way has led: who hits the surface, who has passed all there is, and who goes on. 0 where nobody does. */
+LANE_APART int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job, int k,
+                          int last)
+{
+    relief_found f;
+    relief_arrive(&f, w, job);
+    const lane_mask some = mask_and(w->live, lane_lt(lane_splat(1e-6f), f.weight));
+    const lane_mask here = job->as_is ? some : mask_and(some, mask_or(f.met, mask_not(f.passed)));
+    const lane_mask hit = mask_and(here, mask_not(f.seen_through));
+    const lane_mask passed = mask_and(mask_and(w->live, f.passed), mask_not(hit));
+    const lane_mask on = mask_and(passed, lane_lt(lane_splat(RELIEF_AS_EYE), f.as_eye));
+    relief_store(inout, w, &f, job, hit, k);
+    out->hit |= (uint64_t)mask_bits(hit) << k;
+    out->missed |= (uint64_t)mask_bits(last ? passed : mask_and(passed, mask_not(on))) << k;
+    w->live = on;
+    w->t = lane_add(w->t, lane_keep(on, f.onward));
+    w->ray.normal = lane3_sub(lane3_splat(0.0f, 0.0f, 0.0f), w->ray.along);
+    return mask_bits(on) != 0;
+}
+
+/* A ray that passes a surface goes on to what the view shows there that looks most as the eye does. */
+static void KERNEL(relief_warp)(lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job)
+{
+    const int rounds = job->as_is ? 1 : RELIEF_ROUNDS;
+    out->hit = out->missed = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        relief_way w;
+        int goes_on;
+        relief_set_out(&w, inout, job, k);
+        goes_on = mask_bits(w.live) != 0;
+        for (int round = 1; goes_on && round <= rounds; ++round) {
+            relief_travel(&w, job);
+            goes_on = relief_end(&w, out, inout, job, k, round == rounds);
+        }
+    }
+}

@@ -1,0 +1,24 @@
+/* relief_compare.h: how far a picture of a relief is from one of the complex model. */
+#ifndef RELIEF_COMPARE_H
+#define RELIEF_COMPARE_H
+
+#include "relief_draw.h"
+
+/* Percentiles are over pixels that both cover; -1 where there is none. */
+typedef struct relief_figures {
+    double silhouette_px;   /* median distance from a pixel on one's outline to the other's, both ways */
+    double iou;             /* covered by both / by either */
+    double lost, added;     /* covered by the truth alone, by the test alone / by the truth */
+    double depth_50, depth_95; /* |difference| / diagonal */
+    double normal_50, normal_95; /* degrees */
+    double psnr_db;         /* of light without cast shadows: sRGB codes, full scale 255 */
+    double shadowed_db;     /* with them */
+    double albedo_db;       /* of reflectance alone */
+    double lit;             /* share of them whose light or shadow is the same */
+} relief_figures;
+
+/* relief_measure: both of one size, one view, one light. 1, or 0 with `r` set (memory). */
+int relief_measure(relief_figures *out, const relief_frame *test, const relief_frame *truth, double diagonal,
+                   report *r);
+
+#endif

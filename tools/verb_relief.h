@@ -1,0 +1,11 @@
+/* verb_relief.h: `lambent relief`. */
+#ifndef VERB_RELIEF_H
+#define VERB_RELIEF_H
+
+/* argv[0] is the verb. The exit status: 0 done, 1 files, 2 usage. */
+int verb_relief(int argc, char **argv);
+
+/* The same, argv[0] being "bake". */
+int verb_relief_bake(int argc, char **argv);
+
+#endif

@@ -1,0 +1,291 @@
+/* verb_relief_bake.c: `lambent relief bake`: a complex model -> views of it and a simple model, in one file. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "model.h"
+#include "option_value.h"
+#include "relief_bake.h"
+#include "relief_model.h"
+#include "verb_relief.h"
+
+static const char help_text[] =
+    "usage: lambent relief bake MODEL -o OUT.lmr [options]\n"
+    "\n"
+    "Views of a complex model, for drawing it as a simple one that carries its surface.\n"
+    "\n"
+    "  -o FILE               what `lambent relief render` draws, in place from flash too\n"
+    "  --views N             from N sides: 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64\n"
+    "          greedy:N      of 98 sides the N that see most\n"
+    "          FILE          cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, target, degrees)\n"
+    "  --size PX             texels of a view's side, 8 .. 4096 (default 256)\n"
+    "  --packed              6 bytes a texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal\n"
+    "  --triangles N         of the simple model (default 3000), made by edge collapse so that it encloses the complex\n"
+    "                        one; what sticks out of it is cut off\n"
+    "  --simple FILE         a simple model of your own, as it is: around the complex one, but near to it\n"
+    "\n"
+    "Meshes without normals get smooth ones. Says how much of the surface no view sees: that will be filled with the\n"
+    "simple model's.\n"
+    "\n"
+    "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage\n";
+
+typedef struct options {
+    const char *model, *out, *simple, *views_file;
+    int32_t views, size, triangles, greedy, format;
+    int help;
+} options;
+
+static int parse_out(const char *text, options *o) { return (o->out = text)[0] != '\0'; }
+static int parse_simple(const char *text, options *o) { return (o->simple = text)[0] != '\0'; }
+static int parse_size(const char *text, options *o) { return option_int(text, 8, 4096, &o->size); }
+static int parse_triangles(const char *text, options *o) { return option_int(text, 4, 10000000, &o->triangles); }
+
+static int parse_views(const char *text, options *o)
+{
+    o->greedy = strncmp(text, "greedy:", 7) == 0;
+    o->views_file = NULL;
+    if (option_int(text + 7 * o->greedy, 1, LMB_RELIEF_VIEWS, &o->views)) {
+        return 1;
+    }
+    o->views_file = text;
+    return !o->greedy && text[0] != '\0' && strspn(text, "-0123456789") != strlen(text);
+}
+
+static const struct flag {
+    option_name of;
+    int (*parse)(const char *text, options *o);
+} flags[] = {
+    {{"-o", "a file name"}, parse_out},
+    {{"--views", "1 .. 64, greedy:N, or a file of cameras"}, parse_views},
+    {{"--size", "8 .. 4096"}, parse_size},
+    {{"--triangles", "4 .. 10000000"}, parse_triangles},
+    {{"--simple", "a model's file"}, parse_simple},
+};
+
+static int parse_one(options *o, char **argv, int *at, report *r)
+{
+    if (strcmp(argv[*at], "--help") == 0 || strcmp(argv[*at], "-h") == 0) {
+        return o->help = 1;
+    }
+    if (strcmp(argv[*at], "--packed") == 0) {
+        o->format = LMB_RELIEF_PACKED;
+        return 1;
+    }
+    if (argv[*at][0] != '-') {
+        if (o->model != NULL) {
+            return report_fail(r, "one model at a time: %s and %s", o->model, argv[*at]);
+        }
+        o->model = argv[*at];
+        return 1;
+    }
+    const int f = option_find(flags, sizeof *flags, sizeof flags / sizeof *flags, argv, *at, r);
+    ++*at;
+    return f >= 0 && (flags[f].parse(argv[*at], o) || option_refuse(&flags[f].of, argv[*at], r));
+}
+
+static int parse(options *o, int argc, char **argv, report *r)
+{
+    memset(o, 0, sizeof *o);
+    o->views = 26;
+    o->size = 256;
+    o->triangles = 3000;
+    o->format = LMB_RELIEF_FULL;
+    for (int i = 1; i < argc && !o->help; ++i) {
+        if (!parse_one(o, argv, &i, r)) {
+            return 0;
+        }
+    }
+    if (!o->help && o->model == NULL) {
+        return report_fail(r, "no model given");
+    }
+    return o->help || o->out != NULL || report_fail(r, "no output given; add -o FILE.lmr");
+}
+
+/* --- work --------------------------------------------------------------------------------------------------------- */
+
+typedef struct work {
+    model loaded, loaded_simple;
+    triangle_mesh mesh, simple;
+    relief_scene flat;
+    lmb_scene scene; /* what the views show: the model itself, with normals */
+    lmb_mesh *meshes;
+    lmb_view view[LMB_RELIEF_VIEWS];
+    int32_t views;
+    relief_bake bake;
+    file_bytes file;
+} work;
+
+static void work_free(work *w)
+{
+    model_free(&w->loaded);
+    model_free(&w->loaded_simple);
+    triangle_mesh_free(&w->mesh);
+    triangle_mesh_free(&w->simple);
+    relief_scene_free(&w->flat);
+    relief_bake_free(&w->bake);
+    file_free(&w->file);
+    free(w->meshes);
+    free(w);
+}
+
+static int load(model *out, triangle_mesh *mesh, const char *path, report *r)
+{
+    static model_notes notes;
+    memset(&notes, 0, sizeof notes);
+    if (!model_load(out, path, NULL, &notes, r)) {
+        return 0;
+    }
+    if (lmb_scene_triangles(&out->scene) == 0) {
+        return report_fail(r, "%s: nothing to bake: no triangles", path);
+    }
+    return relief_flatten(mesh, &out->scene, r);
+}
+
+static int load_complex(work *w, const options *o, report *r)
+{
+    if (!load(&w->loaded, &w->mesh, o->model, r) || !relief_scene_of(&w->flat, &w->mesh, r)) {
+        return 0;
+    }
+    w->meshes = malloc(w->loaded.scene.mesh_count * sizeof *w->meshes);
+    if (w->meshes == NULL) {
+        return report_fail(r, "%s: out of memory", o->model);
+    }
+    relief_smooth(&w->scene, w->meshes, &w->loaded.scene, &w->flat);
+    return 1;
+}
+
+static int make_simple(work *w, const options *o, report *r)
+{
+    simplify_facts facts;
+    if (o->simple != NULL) {
+        return load(&w->loaded_simple, &w->simple, o->simple, r);
+    }
+    if (!simplify_mesh(&w->simple, &w->mesh, (uint32_t)o->triangles, SIMPLIFY_AROUND, &facts, r)) {
+        return 0;
+    }
+    if (facts.outside > 0.0) {
+        fprintf(stderr, "lambent: note: the complex model sticks out of the simple one by %.3g m\n", facts.outside);
+    }
+    return 1;
+}
+
+/* A line of a file of cameras: 1, 0 where it is none, -1 where it is empty. */
+static int read_camera(lmb_view *v, const char *line, const work *w, int32_t size)
+{
+    double f[7];
+    char more;
+    const char *c = line + strspn(line, " \t\r");
+    if (*c == '\0' || *c == '#') {
+        return -1;
+    }
+    if (sscanf(c, "%lf %lf %lf %lf %lf %lf %lf %c", f, f + 1, f + 2, f + 3, f + 4, f + 5, f + 6, &more) != 7 ||
+        !(f[6] > 0.0 && f[6] < 179.0)) {
+        return 0;
+    }
+    const lmb_vec3 eye = {(float)f[0], (float)f[1], (float)f[2]}, target = {(float)f[3], (float)f[4], (float)f[5]};
+    const lmb_vec3 y = {0.0f, 1.0f, 0.0f}, z = {0.0f, 0.0f, 1.0f};
+    const float fov = (float)(f[6] * 0.017453292519943295);
+    return (lmb_view_look(v, eye, target, y, fov, size, size) == LMB_OK ||
+            lmb_view_look(v, eye, target, z, fov, size, size) == LMB_OK) &&
+           relief_reach(v, &w->mesh);
+}
+
+static int read_cameras(work *w, const options *o, report *r)
+{
+    file_bytes file;
+    int number = 0;
+    if (!file_read(&file, o->views_file, r)) {
+        return 0;
+    }
+    char *text = malloc(file.size + 1), *line = text;
+    if (text != NULL) {
+        memcpy(text, file.data, file.size);
+        text[file.size] = '\0';
+    }
+    file_free(&file);
+    while (line != NULL && r->text[0] == '\0') {
+        char *end = strchr(line, '\n');
+        lmb_view v;
+        if (end != NULL) {
+            *end++ = '\0';
+        }
+        const int found = read_camera(&v, line, w, o->size);
+        ++number;
+        if (found == 0 || (found > 0 && w->views == LMB_RELIEF_VIEWS)) {
+            report_fail(r, found ? "%s, line %d: over %d cameras" : "%s, line %d: not EX EY EZ TX TY TZ FOV",
+                        o->views_file, number, LMB_RELIEF_VIEWS);
+        } else if (found > 0) {
+            w->view[w->views++] = v;
+        }
+        line = end;
+    }
+    free(text);
+    return r->text[0] == '\0' && (w->views > 0 || report_fail(r, "%s: no cameras in it", o->views_file));
+}
+
+static int choose_views(work *w, const options *o, report *r)
+{
+    lmb_vec3 direction[LMB_RELIEF_VIEWS];
+    if (o->views_file != NULL) {
+        return read_cameras(w, o, r);
+    }
+    relief_directions(direction, o->views);
+    if (o->greedy && !relief_greedy(direction, o->views, &w->mesh, &w->scene, o->size, r)) {
+        return 0;
+    }
+    for (w->views = 0; w->views < o->views; ++w->views) {
+        w->view[w->views] = relief_fit(&w->mesh, direction[w->views], o->size);
+    }
+    return 1;
+}
+
+static void tell(const work *w, const options *o, const relief_coverage *c)
+{
+    printf("%s: %u triangles as %u, %d views of %d x %d, %.0f bytes\n", o->out, (unsigned)w->mesh.triangle_count,
+           (unsigned)w->simple.triangle_count, (int)w->views, (int)o->size, (int)o->size, (double)w->file.size);
+    printf("surface that no view sees: %.2f %%; none within 60 degrees of its normal: %.2f %%\n", 100.0 * c->unseen,
+           100.0 * c->slanted);
+}
+
+static int bake(work *w, const options *o, report *r)
+{
+    relief_coverage coverage;
+    if (!file_can_write(o->out, r) || !load_complex(w, o, r) || !choose_views(w, o, r) || !make_simple(w, o, r)) {
+        return 0;
+    }
+    w->bake.format = o->format;
+    for (int32_t i = 0; i < w->views; ++i) {
+        if (!relief_add(&w->bake, &w->scene, &w->view[i], r)) {
+            return 0;
+        }
+    }
+    if (!relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, 0.0f, r) ||
+        !file_write(o->out, w->file.data, w->file.size, r)) {
+        return 0;
+    }
+    tell(w, o, &coverage);
+    return 1;
+}
+
+int verb_relief_bake(int argc, char **argv)
+{
+    report r = {""};
+    options o;
+    if (!parse(&o, argc, argv, &r)) {
+        fprintf(stderr, "lambent relief bake: %s; lambent relief bake --help lists all\n", r.text);
+        return 2;
+    }
+    if (o.help) {
+        fputs(help_text, stdout);
+        return 0;
+    }
+    work *w = calloc(1, sizeof *w);
+    const int ok = w != NULL ? bake(w, &o, &r) : report_fail(&r, "out of memory");
+    if (!ok) {
+        fprintf(stderr, "lambent: %s\n", r.text);
+    }
+    if (w != NULL) {
+        work_free(w);
+    }
+    return ok ? 0 : 1;
+}
