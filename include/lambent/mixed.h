@@ -1,0 +1,141 @@
+/* mixed.h: a virtual object in one photo with depth: what is there, where it stands, and how the photo answers. [M1-M24]
+ *
+ *     lmb_cloud_init(&cloud, &camera, depth, memory, bytes);      points, noise                             [M1]
+ *     lmb_cloud_normals(&cloud);                                  normals                                   [M2]
+ *     lmb_planes_find(&planes, &cloud, memory, bytes);            planes and whose each pixel is            [M3 M4]
+ *     lmb_real_mesh_build(&mesh, &cloud, &planes, 4, ...);        the real scene as triangles               [M4]
+ *     lmb_env_fold(&env, photo, width, height);                   light from where no picture is            [M14-M19]
+ *     per tile: lmb_real_tile, direct light with and without the object, lmb_delta_tile                     [M23 M24]
+ *
+ * Space: the camera's own, metres: it stands at 0, x to the right, y up, and looks down -z. */
+#ifndef LMB_MIXED_H
+#define LMB_MIXED_H
+
+#include "env.h"
+#include "light.h"
+
+/* A camera with square or other pixels, their centres at whole numbers: column = fx x / z + cx, row = fy y / z + cy, with
+ * z ahead and y down. */
+typedef struct lmb_pinhole {
+    int32_t width, height; /* px, 1 .. LMB_MAX_SIDE */
+    float fx, fy, cx, cy;  /* px; fx, fy over 0 */
+} lmb_pinhole;
+
+/* Depth as points, in the caller's memory, 16 bytes a pixel. Planes are affine in 1 / distance over the picture, and what
+ * sensors that measure by disparity get wrong is about even in it: so distances are kept, fitted and compared as their
+ * inverses. */
+typedef struct lmb_cloud {
+    lmb_pinhole camera;
+    float *inverse;   /* 1/m along the axis, by pixel; 0: not measured */
+    lmb_vec3 *normal; /* unit, towards the camera; 0, 0, 0: unknown */
+    float noise;      /* 1/m: standard deviation of `inverse`, beside a millimetre of distance */
+} lmb_cloud;
+
+#define LMB_NEAREST_CAP 8 /* neighbours that one point is asked for at most */
+
+/* Points in no order, sorted into a fixed number of cells. In the caller's memory. */
+#define LMB_POINT_CELLS 32 /* a side */
+typedef struct lmb_point_grid {
+    const lmb_vec3 *point; /* the caller's */
+    uint32_t *first;       /* LMB_POINT_CELLS^3 + 1: a cell's first in `order` */
+    uint32_t *order;
+    uint32_t count;        /* of finite ones */
+    lmb_vec3 low;
+    float cell;            /* m */
+} lmb_point_grid;
+
+/* A flat part of the real scene: points p with normal . p = -distance. */
+typedef struct lmb_flat {
+    lmb_vec3 normal;              /* unit, towards the camera */
+    float distance;               /* of the camera from it, m, over 0 */
+    float slope[3];               /* 1 / distance of pixel (x, y) is slope . (x', y', 1): see lmb_cloud_ray */
+    lmb_vec3 centre;              /* the mean of its surface                                                  [M5] */
+    lmb_vec3 across, along;       /* unit, in it: level with the camera's x; normal x across */
+    float low[2], high[2];        /* m from the centre, across and along: the box of its pixels */
+    int32_t pixels;
+    int32_t x0, y0, x1, y1;       /* px: the box of them, x1 and y1 behind the last */
+} lmb_flat;
+
+typedef struct lmb_planes {
+    lmb_flat plane[LMB_MAX_PLANES]; /* the largest picture first */
+    int32_t count;
+    uint8_t *label;  /* by pixel: 1 + its plane, or 0; holes inside a plane are its own */
+    int32_t *queue;  /* scratch */
+} lmb_planes;
+
+/* The real scene as one mesh: a flat square a cell of pixels, two triangles each. In the caller's memory. */
+typedef struct lmb_real_mesh {
+    float *positions;    /* 3 x 4 a cell */
+    uint8_t *colours;    /* RGBA8 x 4 a cell: albedo, linear */
+    uint32_t *indices;   /* 6 a cell */
+    uint8_t *label;      /* a cell: 1 + its plane, or 0 */
+    int32_t *cell;       /* of each step x step pixels: its cell, or -1 */
+    int32_t step, columns, rows, count; /* px; cells a row and rows of the picture; cells that are there */
+    int32_t plane_cell[LMB_MAX_PLANES]; /* one of each plane's, or -1 */
+} lmb_real_mesh;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_cloud_bytes: memory of a cloud; 0 for a bad size. */
+size_t lmb_cloud_bytes(int32_t width, int32_t height);
+
+/* lmb_cloud_init: distances as points.                                                                        [M1]
+ *
+ *   depth_m  width x height along the camera's axis, rows from the top; what is not in 0.01 .. 1000 m is not measured
+ * The noise is asked of the picture itself: of second differences, which planes have none of. Normals are unknown
+ * before lmb_cloud_normals. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+lmb_status lmb_cloud_init(lmb_cloud *out, const lmb_pinhole *camera, const float *depth_m, void *memory, size_t bytes);
+
+/* lmb_cloud_ray: the ray of pixel (x, y): (x', y', -1). Its point is that times the distance. */
+lmb_vec3 lmb_cloud_ray(const lmb_pinhole *camera, float x, float y);
+
+/* lmb_cloud_point: what was measured at a pixel; 0, 0, 0 for nothing. */
+lmb_vec3 lmb_cloud_point(const lmb_cloud *cloud, int32_t x, int32_t y);
+
+/* lmb_cloud_sigma: standard deviation of an inverse distance, 1/m. */
+float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse);
+
+/* lmb_cloud_normals: the plane through each point and what surrounds it, in two rounds: what a surface of 75 degrees or
+ * less can reach, then what lies on the first round's plane. Fewer than 6 points: unknown. LMB_OK or LMB_ERR_ARG.    [M2]
+ * Cost: 2 x 49 points a pixel. */
+lmb_status lmb_cloud_normals(const lmb_cloud *cloud);
+
+/* lmb_cloud_nearest: pixels (y x width + x) of the k points nearest in space, the nearest first, of the 5 x 5 around; k
+ * up to LMB_NEAREST_CAP. Returns how many there are.                                                          [M3] */
+int32_t lmb_cloud_nearest(int32_t *out, int32_t k, const lmb_cloud *cloud, int32_t x, int32_t y);
+
+/* lmb_point_grid_bytes, lmb_point_grid_init: points in no order; those that are not finite are left out. LMB_OK,
+ * LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY. */
+size_t lmb_point_grid_bytes(uint32_t count);
+lmb_status lmb_point_grid_init(lmb_point_grid *out, const lmb_vec3 *points, uint32_t count, void *memory, size_t bytes);
+
+/* lmb_point_grid_nearest: the k of them nearest to `at`, the nearest first, of equals the earlier. Returns how many. */
+int32_t lmb_point_grid_nearest(uint32_t *out, int32_t k, const lmb_point_grid *grid, lmb_vec3 at);
+
+/* lmb_planes_bytes: memory of the search, 5 bytes a pixel; 0 for a bad size. */
+size_t lmb_planes_bytes(int32_t width, int32_t height);
+
+/* lmb_planes_find: the planes of a cloud with normals.                                                      [M3 M4 M5]
+ *
+ * Grown from points whose nearest all face the same way, over points within three standard deviations, fitted again as
+ * they double, joined where they are one, and fitted to what is left within 2.5 deviations. A plane has at least one
+ * pixel of 256 of the picture, and 32. None is LMB_OK with count 0. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or
+ * LMB_ERR_CAPACITY. Cost: some 60 operations a pixel. */
+lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory, size_t bytes);
+
+/* lmb_planes_floor: the plane that an object would stand on: the largest surface of those that face up, within 70
+ * degrees of the camera's up; where none does, the largest. -1 where there are none. */
+int32_t lmb_planes_floor(const lmb_planes *planes);
+
+/* lmb_planes_anchor: where on plane p the ray of pixel (x, y) meets it. 0 where it does not. */
+int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y);
+
+/* lmb_planes_move: move the cloud's points onto their planes, and fill the holes inside them.                   [M4] */
+void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

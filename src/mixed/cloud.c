@@ -1,0 +1,107 @@
+/* cloud.c: a picture of distances as points, and how far they can be trusted. Floor 6.                         [M1] */
+#include <string.h>
+
+#include "../base/memory_check.h"
+#include "../base/vec.h"
+#include <lambent/mixed.h>
+
+#if LMB_MIXED
+
+#define NEAREST_M 0.01f
+#define FARTHEST_M 1000.0f
+#define LEAST_NOISE 2e-5f    /* 1/m */
+#define MOST_NOISE 0.02f
+#define DEPTH_STEP_M 0.001f  /* what distances are stored in, and a sensor's best */
+
+enum { REACH = 4, BINS = 512 }; /* px between the points of a second difference */
+
+size_t lmb_cloud_bytes(int32_t width, int32_t height)
+{
+    if (width < 1 || height < 1 || width > LMB_MAX_SIDE || height > LMB_MAX_SIDE) {
+        return 0;
+    }
+    return (size_t)width * (size_t)height * (sizeof(float) + sizeof(lmb_vec3));
+}
+
+lmb_vec3 lmb_cloud_ray(const lmb_pinhole *camera, float x, float y)
+{
+    return vec3((x - camera->cx) / camera->fx, (camera->cy - y) / camera->fy, -1.0f);
+}
+
+lmb_vec3 lmb_cloud_point(const lmb_cloud *cloud, int32_t x, int32_t y)
+{
+    const float inverse = cloud->inverse[(size_t)y * (size_t)cloud->camera.width + (size_t)x];
+    return inverse > 0.0f ? mul3(lmb_cloud_ray(&cloud->camera, (float)x, (float)y), 1.0f / inverse) : vec3(0, 0, 0);
+}
+
+/* A step of distance s is s / z^2 of its inverse. */
+float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse)
+{
+    return cloud->noise + DEPTH_STEP_M * inverse * inverse;
+}
+
+/* The second difference of three inverses in line; negative where one is missing. */
+static float bend(const float *at, ptrdiff_t step)
+{
+    const float a = at[-step], b = at[0], c = at[step];
+    return a > 0.0f && b > 0.0f && c > 0.0f ? absf(a - 2.0f * b + c) : -1.0f;
+}
+
+static void count_bend(uint32_t *bins, uint32_t *count, float v)
+{
+    if (v >= 0.0f) {
+        ++bins[mini((int32_t)(minf(v, 1.0f) * (float)BINS / (2.5f * MOST_NOISE)), BINS - 1)];
+        ++*count;
+    }
+}
+
+/* Over planes second differences are nothing but noise, of sqrt(1 + 4 + 1) its deviation; most of most pictures is flat
+ * over 8 px, and edges are few enough not to move the median. Half of what is normally distributed is within 0.6745. */
+static float find_noise(const lmb_cloud *cloud)
+{
+    uint32_t bins[BINS] = {0}, count = 0, sum = 0;
+    const int32_t w = cloud->camera.width, h = cloud->camera.height;
+    int32_t i = 0;
+    for (int32_t y = REACH; y < h - REACH; y += 2) {
+        for (int32_t x = REACH; x < w - REACH; x += 2) {
+            const float *at = cloud->inverse + (size_t)y * (size_t)w + (size_t)x;
+            count_bend(bins, &count, bend(at, REACH));
+            count_bend(bins, &count, bend(at, REACH * (ptrdiff_t)w));
+        }
+    }
+    while (i < BINS - 1 && (sum += bins[i]) < count / 2 + 1) {
+        ++i;
+    }
+    const float median = ((float)i + 0.5f) * 2.5f * MOST_NOISE / (float)BINS;
+    return count == 0 || i == 0 ? LEAST_NOISE : clampf(median / (0.6745f * 2.4494897f), LEAST_NOISE, MOST_NOISE);
+}
+
+static int is_camera(const lmb_pinhole *c)
+{
+    return c->fx > 1e-3f && c->fy > 1e-3f && c->fx < 1e6f && c->fy < 1e6f && is_sane(c->cx) && is_sane(c->cy);
+}
+
+lmb_status lmb_cloud_init(lmb_cloud *out, const lmb_pinhole *camera, const float *depth_m, void *memory, size_t bytes)
+{
+    if (out == NULL || camera == NULL || depth_m == NULL || !is_camera(camera) ||
+        lmb_cloud_bytes(camera->width, camera->height) == 0) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_status status = check_memory(memory, bytes, lmb_cloud_bytes(camera->width, camera->height));
+    if (status != LMB_OK) {
+        return status;
+    }
+    const size_t pixels = (size_t)camera->width * (size_t)camera->height;
+    out->camera = *camera;
+    out->inverse = memory;
+    out->normal = (lmb_vec3 *)(void *)(out->inverse + pixels);
+    for (size_t i = 0; i < pixels; ++i) {
+        const int known = depth_m[i] >= NEAREST_M && depth_m[i] <= FARTHEST_M;
+        out->inverse[i] = known ? 1.0f / depth_m[i] : 0.0f;
+    }
+    memset(out->normal, 0, pixels * sizeof *out->normal);
+    out->noise = find_noise(out);
+    return LMB_OK;
+}
+
+#endif

@@ -1,0 +1,50 @@
+/* plane_fit.h: least squares of inverse distances over a picture, about a place of it. Floor 6. */
+#ifndef LMB_MIXED_PLANE_FIT_H
+#define LMB_MIXED_PLANE_FIT_H
+
+#include "../base/vec.h"
+#include <lambent/mixed.h>
+
+/* Weighted sums. Rays are taken from (x0, y0) and inverses from q0, near which the points lie: else the squares of what
+ * they have in common would drown what they differ by. */
+typedef struct plane_fit {
+    float x0, y0, q0;
+    float w, x, y, xx, xy, yy, q, xq, yq;
+} plane_fit;
+
+static inline plane_fit plane_fit_at(float x0, float y0, float q0)
+{
+    const plane_fit f = {x0, y0, q0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    return f;
+}
+
+static inline void plane_fit_add(plane_fit *f, float ray_x, float ray_y, float inverse, float weight)
+{
+    const float x = ray_x - f->x0, y = ray_y - f->y0, q = inverse - f->q0, wx = weight * x, wy = weight * y;
+    f->w += weight;
+    f->x += wx;
+    f->y += wy;
+    f->xx += wx * x;
+    f->xy += wx * y;
+    f->yy += wy * y;
+    f->q += weight * q;
+    f->xq += wx * q;
+    f->yq += wy * q;
+}
+
+/* plane_fit_join: the sums of both, which have one place. */
+void plane_fit_join(plane_fit *into, const plane_fit *from);
+
+/* plane_fit_solve: inverse = slope . (ray x, ray y, 1). 0 where the points are too few or in line. */
+int plane_fit_solve(float slope[3], const plane_fit *f);
+
+/* The plane's inverse distance along a ray; not positive where the ray does not meet it. */
+static inline float plane_inverse(const float slope[3], float ray_x, float ray_y)
+{
+    return slope[0] * ray_x + slope[1] * ray_y + slope[2];
+}
+
+/* plane_normal: unit, towards the camera; *distance of the camera from the plane. */
+lmb_vec3 plane_normal(float *distance, const float slope[3]);
+
+#endif

@@ -1,0 +1,332 @@
+/* planes.c: planes in a cloud: grown from where neighbours face one way, fitted, joined. Floor 6.         [M3 M4] */
+#include "planes.h"
+
+#include <string.h>
+
+#include "../base/memory_check.h"
+
+#if LMB_MIXED
+
+#define SAME_WAY 0.9781476f   /* cosine of 12 degrees: neighbours of a point inside a plane */
+#define GROWS_OVER 0.9063078f /* of 25: what noise may turn a point's normal by */
+#define ONE_PLANE 0.9975641f  /* of 4 */
+#define REACH_OFF 3.0f        /* standard deviations */
+
+enum { SEED_STEP = 6, SEED_NEAREST = 8, FIRST_FIT = 48 }; /* px, points, points */
+
+size_t lmb_planes_bytes(int32_t width, int32_t height)
+{
+    return lmb_cloud_bytes(width, height) / sizeof(float) / 4 * (sizeof(int32_t) + 1);
+}
+
+/* --- growing ------------------------------------------------------------------------------------------------------ */
+
+typedef struct grower {
+    lmb_planes *planes;
+    const lmb_cloud *cloud;
+    plane_fit sums;
+    float slope[3];
+    lmb_vec3 normal;
+    int32_t count; /* pixels in the queue: all of the region */
+    uint8_t label;
+} grower;
+
+static int is_free(uint8_t label) { return label == 0 || label == LABEL_TRIED; }
+
+/* Do the nearest of a point all face as it does? */
+static int is_seed(const lmb_cloud *cloud, int32_t x, int32_t y)
+{
+    int32_t near[SEED_NEAREST];
+    const lmb_vec3 n = cloud->normal[(size_t)y * (size_t)cloud->camera.width + (size_t)x];
+    const int32_t count = lmb_cloud_nearest(near, SEED_NEAREST, cloud, x, y);
+    if (count < SEED_NEAREST / 2 || dot3(n, n) == 0.0f) {
+        return 0;
+    }
+    for (int32_t i = 0; i < count; ++i) {
+        if (dot3(cloud->normal[near[i]], n) < SAME_WAY) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void add_pixel(grower *g, int32_t at, lmb_vec3 ray)
+{
+    const float q = g->cloud->inverse[at], sigma = lmb_cloud_sigma(g->cloud, q);
+    plane_fit_add(&g->sums, ray.x, ray.y, q, g->cloud->noise * g->cloud->noise / (sigma * sigma));
+    g->planes->label[at] = g->label;
+    g->planes->queue[g->count++] = at;
+}
+
+static void ask_pixel(grower *g, int32_t x, int32_t y)
+{
+    const lmb_pinhole *c = &g->cloud->camera;
+    if (x < 0 || y < 0 || x >= c->width || y >= c->height) {
+        return;
+    }
+    const int32_t at = y * c->width + x;
+    const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
+    if (is_free(g->planes->label[at]) && g->cloud->inverse[at] > 0.0f &&
+        dot3(g->cloud->normal[at], g->normal) >= GROWS_OVER &&
+        plane_off(g->cloud, g->slope, g->cloud->inverse[at], ray) <= REACH_OFF) {
+        add_pixel(g, at, ray);
+    }
+}
+
+/* The plane through one point. */
+static void begin(grower *g, int32_t x, int32_t y)
+{
+    const int32_t at = y * g->cloud->camera.width + x;
+    const lmb_vec3 ray = lmb_cloud_ray(&g->cloud->camera, (float)x, (float)y), n = g->cloud->normal[at];
+    const float scale = g->cloud->inverse[at] / dot3(n, ray);
+    g->normal = n;
+    g->slope[0] = n.x * scale;
+    g->slope[1] = n.y * scale;
+    g->slope[2] = -n.z * scale;
+    g->sums = plane_fit_at(ray.x, ray.y, g->cloud->inverse[at]);
+    g->count = 0;
+    add_pixel(g, at, ray);
+}
+
+/* Everything that hangs together with the first pixel; the plane follows what it has found each time that doubles. */
+static void grow(grower *g, int32_t x, int32_t y)
+{
+    int32_t next_fit = FIRST_FIT;
+    float distance;
+    begin(g, x, y);
+    for (int32_t i = 0; i < g->count; ++i) {
+        const int32_t px = g->planes->queue[i] % g->cloud->camera.width, py = g->planes->queue[i] / g->cloud->camera.width;
+        ask_pixel(g, px - 1, py);
+        ask_pixel(g, px + 1, py);
+        ask_pixel(g, px, py - 1);
+        ask_pixel(g, px, py + 1);
+        if (g->count >= next_fit) {
+            if (plane_fit_solve(g->slope, &g->sums)) {
+                g->normal = plane_normal(&distance, g->slope);
+            }
+            next_fit = 2 * g->count;
+        }
+    }
+    (void)plane_fit_solve(g->slope, &g->sums);
+}
+
+static void relabel(lmb_planes *planes, const lmb_cloud *cloud, uint8_t from, uint8_t to)
+{
+    const size_t pixels = (size_t)cloud->camera.width * (size_t)cloud->camera.height;
+    for (size_t i = 0; i < pixels; ++i) {
+        planes->label[i] = planes->label[i] == from ? to : planes->label[i];
+    }
+}
+
+/* A region that is large enough becomes a plane; where there is no room, in place of the smallest. */
+static void keep(grower *g, int32_t least)
+{
+    lmb_planes *p = g->planes;
+    int32_t at = p->count;
+    for (int32_t i = 0; p->count == LMB_MAX_PLANES && i < LMB_MAX_PLANES; ++i) {
+        at = at == LMB_MAX_PLANES || p->plane[i].pixels < p->plane[at].pixels ? i : at;
+    }
+    const int fits = g->count >= least && (at == p->count || p->plane[at].pixels < g->count);
+    if (fits && at < p->count) {
+        relabel(p, g->cloud, (uint8_t)(at + 1), LABEL_TRIED);
+    }
+    for (int32_t i = 0; i < g->count; ++i) {
+        p->label[p->queue[i]] = fits ? (uint8_t)(at + 1) : LABEL_TRIED;
+    }
+    if (fits) {
+        p->plane[at].pixels = g->count;
+        memcpy(p->plane[at].slope, g->slope, sizeof g->slope);
+        p->count += at == p->count;
+    }
+}
+
+static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t least)
+{
+    grower g;
+    memset(&g, 0, sizeof g);
+    g.planes = planes;
+    g.cloud = cloud;
+    g.label = LABEL_HOLE;
+    for (int32_t y = SEED_STEP / 2; y < cloud->camera.height; y += SEED_STEP) {
+        for (int32_t x = SEED_STEP / 2; x < cloud->camera.width; x += SEED_STEP) {
+            if (planes->label[y * cloud->camera.width + x] == 0 && is_seed(cloud, x, y)) {
+                grow(&g, x, y);
+                keep(&g, least);
+            }
+        }
+    }
+    relabel(planes, cloud, LABEL_TRIED, 0);
+}
+
+/* --- fitting and joining ------------------------------------------------------------------------------------------ */
+
+/* Sums of rows first: 8192 terms at most go into one float before they meet the rest. */
+int planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
+{
+    const lmb_flat *p = &planes->plane[label - 1];
+    const lmb_pinhole *c = &cloud->camera;
+    const lmb_vec3 middle = lmb_cloud_ray(c, 0.5f * (float)(p->x0 + p->x1), 0.5f * (float)(p->y0 + p->y1));
+    plane_fit all = plane_fit_at(middle.x, middle.y, plane_inverse(p->slope, middle.x, middle.y));
+    for (int32_t y = p->y0; y < p->y1; ++y) {
+        plane_fit row = plane_fit_at(all.x0, all.y0, all.q0);
+        for (int32_t x = p->x0; x < p->x1; ++x) {
+            const int32_t at = y * c->width + x;
+            const float q = cloud->inverse[at];
+            const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
+            if (planes->label[at] == label && q > 0.0f && plane_off(cloud, p->slope, q, ray) <= off) {
+                const float sigma = lmb_cloud_sigma(cloud, q);
+                plane_fit_add(&row, ray.x, ray.y, q, cloud->noise * cloud->noise / (sigma * sigma));
+            }
+        }
+        plane_fit_join(&all, &row);
+    }
+    return plane_fit_solve(slope, &all);
+}
+
+static void fit_all(lmb_planes *planes, const lmb_cloud *cloud)
+{
+    for (int32_t i = 0; i < planes->count; ++i) {
+        float slope[3];
+        if (planes_fit(slope, planes, cloud, i + 1, 2.5f)) {
+            memcpy(planes->plane[i].slope, slope, sizeof slope);
+        }
+    }
+    planes_measure(planes, cloud);
+}
+
+/* One surface that something stands in front of: facing one way, and each on the other's continuation. */
+static int are_one(const lmb_cloud *cloud, const lmb_flat *a, const lmb_flat *b)
+{
+    const lmb_vec3 at = mul3(b->centre, -1.0f / b->centre.z);
+    const float q = -1.0f / b->centre.z;
+    return dot3(a->normal, b->normal) >= ONE_PLANE && plane_off(cloud, a->slope, q, at) <= REACH_OFF;
+}
+
+static void remove_plane(lmb_planes *planes, const lmb_cloud *cloud, int32_t i, uint8_t into)
+{
+    relabel(planes, cloud, (uint8_t)(i + 1), into);
+    for (--planes->count; i < planes->count; ++i) {
+        planes->plane[i] = planes->plane[i + 1];
+        relabel(planes, cloud, (uint8_t)(i + 2), (uint8_t)(i + 1));
+    }
+}
+
+static void join_all(lmb_planes *planes, const lmb_cloud *cloud)
+{
+    for (int32_t i = 0; i < planes->count; ++i) {
+        for (int32_t k = i + 1; k < planes->count;) {
+            if (are_one(cloud, &planes->plane[i], &planes->plane[k]) &&
+                are_one(cloud, &planes->plane[k], &planes->plane[i])) {
+                remove_plane(planes, cloud, k, (uint8_t)(i + 1));
+            } else {
+                ++k;
+            }
+        }
+    }
+}
+
+static void drop_small(lmb_planes *planes, const lmb_cloud *cloud, int32_t least)
+{
+    for (int32_t i = planes->count - 1; i >= 0; --i) {
+        if (planes->plane[i].pixels < least) {
+            remove_plane(planes, cloud, i, 0);
+        }
+    }
+}
+
+/* The largest first; of equals the one found first. Labels follow. */
+static void sort_planes(lmb_planes *planes, const lmb_cloud *cloud)
+{
+    for (int32_t i = 0; i < planes->count; ++i) {
+        int32_t best = i;
+        for (int32_t k = i + 1; k < planes->count; ++k) {
+            best = planes->plane[k].pixels > planes->plane[best].pixels ? k : best;
+        }
+        if (best != i) {
+            const lmb_flat swap = planes->plane[i];
+            planes->plane[i] = planes->plane[best];
+            planes->plane[best] = swap;
+            relabel(planes, cloud, (uint8_t)(i + 1), LABEL_TRIED);
+            relabel(planes, cloud, (uint8_t)(best + 1), (uint8_t)(i + 1));
+            relabel(planes, cloud, LABEL_TRIED, (uint8_t)(best + 1));
+        }
+    }
+}
+
+/* --- the whole ---------------------------------------------------------------------------------------------------- */
+
+lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory, size_t bytes)
+{
+    if (out == NULL || cloud == NULL || cloud->inverse == NULL) {
+        return LMB_ERR_ARG;
+    }
+    const int32_t w = cloud->camera.width, h = cloud->camera.height;
+    const int32_t least = maxi(w * h / 256, 32);
+    const lmb_status status = check_memory(memory, bytes, lmb_planes_bytes(w, h));
+    if (status != LMB_OK) {
+        return status;
+    }
+    memset(out, 0, sizeof *out);
+    out->queue = memory;
+    out->label = (uint8_t *)(out->queue + (size_t)w * (size_t)h);
+    memset(out->label, 0, (size_t)w * (size_t)h);
+    grow_all(out, cloud, least);
+    planes_measure(out, cloud);
+    fit_all(out, cloud);
+    join_all(out, cloud);
+    planes_measure(out, cloud);
+    fit_all(out, cloud);
+    planes_outline(out, cloud);
+    planes_measure(out, cloud);
+    fit_all(out, cloud);
+    drop_small(out, cloud, least);
+    sort_planes(out, cloud);
+    return LMB_OK;
+}
+
+int32_t lmb_planes_floor(const lmb_planes *planes)
+{
+    int32_t best = -1;
+    float most = 0.0f;
+    for (int32_t i = 0; i < planes->count; ++i) {
+        const lmb_flat *p = &planes->plane[i];
+        const float area = (p->high[0] - p->low[0]) * (p->high[1] - p->low[1]) * (p->normal.y - 0.34202014f);
+        if (area > most) {
+            most = area;
+            best = i;
+        }
+    }
+    return best >= 0 || planes->count == 0 ? best : 0;
+}
+
+int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y)
+{
+    const lmb_vec3 ray = lmb_cloud_ray(camera, x, y);
+    if (p < 0 || p >= planes->count) {
+        return 0;
+    }
+    const float inverse = plane_inverse(planes->plane[p].slope, ray.x, ray.y);
+    if (!(inverse > 1e-3f)) {
+        return 0;
+    }
+    *out = mul3(ray, 1.0f / inverse);
+    return 1;
+}
+
+void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes)
+{
+    const lmb_pinhole *c = &cloud->camera;
+    for (int32_t y = 0; y < c->height; ++y) {
+        for (int32_t x = 0; x < c->width; ++x) {
+            const size_t at = (size_t)y * (size_t)c->width + (size_t)x;
+            if (planes->label[at] != 0) {
+                const lmb_flat *p = &planes->plane[planes->label[at] - 1];
+                const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
+                cloud->inverse[at] = maxf(plane_inverse(p->slope, ray.x, ray.y), 0.0f);
+                cloud->normal[at] = p->normal;
+            }
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,24 @@
+/* planes.h: what finding planes and drawing their outlines share. Floor 6. */
+#ifndef LMB_MIXED_PLANES_H
+#define LMB_MIXED_PLANES_H
+
+#include "plane_fit.h"
+
+enum { LABEL_TRIED = 254, LABEL_HOLE = 255 }; /* beside 0 and planes: grew to nothing; looked at */
+
+/* How far off a plane an inverse distance is, in standard deviations. */
+static inline float plane_off(const lmb_cloud *cloud, const float slope[3], float inverse, lmb_vec3 ray)
+{
+    return absf(inverse - plane_inverse(slope, ray.x, ray.y)) / lmb_cloud_sigma(cloud, inverse);
+}
+
+/* planes_fit: a plane's pixels, those within `off` deviations; 0 where there is no plane in them. */
+int planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off);
+
+/* planes_outline: give each pixel to the plane it lies on, and holes to the plane around them.                 [M4] */
+void planes_outline(lmb_planes *planes, const lmb_cloud *cloud);
+
+/* planes_measure: everything of lmb_flat beside `slope`, from the labels.                                      [M5] */
+void planes_measure(lmb_planes *planes, const lmb_cloud *cloud);
+
+#endif
