@@ -212,11 +212,11 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-# What bounced light does without.
-WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0
-
 .PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute voxels relight-figures \
     relief-figures simplify large tiny run-demo cross install
+size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
+	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
+	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m LDFLAGS= CFLAGS='-Os $(WITHOUT)'
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m LDFLAGS= CFLAGS='-Os $(WITHOUT)'
@@ -270,6 +270,12 @@ relight-figures: $(B)/figures-relight ## objects lit by their world: each filter
 
 simplify: $(B)/figures-simplify ## what simpler meshes lose and add, against bars: distances, silhouettes, time of a million
 	@$(RUN) $(B)/figures-simplify
+
+planes: $(B)/figures-planes ## planes found in noisy depth against known ones, and across frames of one world
+	@$(RUN) $(B)/figures-planes
+
+mixed: $(B)/figures-mixed ## a virtual object in a photo of which all is known, against path-traced truth
+	@$(RUN) $(B)/figures-mixed
 
 voxels: $(B)/figures-voxel ## one bounce by cones through voxels: errors, time, memory (SCENES="cornell ...")
 	@$(RUN) $(B)/figures-voxel $(SCENES)

@@ -46,6 +46,8 @@ int file_can_write(const char *path, report *r);
 /* png_decode: PNG from memory; `name` stands in messages. Colour types 0 2 3 4 6, depths 1 2 4 8 16, tRNS,
  * interlaced or not; 16 bits keep their high byte. */
 int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
+/* png_decode_16: a grey PNG of 16 bits, nothing else: the high byte as red, the low one as green. */
+int png_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 /* png_encode: 8-bit RGB from rows of RGB bytes, deflate-compressed with adaptive filters. Allocates *out. */
 int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
 

@@ -30,6 +30,7 @@ typedef struct png_reader {
     report *r;
     uint32_t width, height, depth, colour, channels;
     int interlaced;
+    int split; /* 16-bit greys: both bytes, as red and green */
     uint8_t palette[256][4];
     uint32_t palette_count;
     int has_key;         /* tRNS was there */
@@ -327,6 +328,10 @@ static void put_bytes(const png_reader *p, uint8_t *texel, size_t pitch, const u
 static int put_row(png_reader *p, uint8_t *texels, png_pass s, size_t to, const uint8_t *row)
 {
     uint32_t x;
+    if (p->split) {
+        for (x = 0; x < s.width; ++x, to += s.dx) memcpy(texels + 4 * to, row + 2 * (size_t)x, 2);
+        return 1;
+    }
     if (p->depth >= 8 && p->colour != PALETTE && !p->has_key) {
         put_bytes(p, texels + 4 * to, 4 * (size_t)s.dx, row, s.width);
         return 1;
@@ -423,7 +428,7 @@ static uint8_t *unpack(png_reader *p)
     return texels;
 }
 
-int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r)
+static int decode(bitmap *out, const uint8_t *data, size_t size, int split, const char *name, report *r)
 {
     png_reader p;
     memset(out, 0, sizeof *out);
@@ -432,10 +437,23 @@ int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, 
     p.size = size;
     p.name = name;
     p.r = r;
+    p.split = split;
     if (!read_chunks(&p)) return 0;
+    if (split && (p.colour != GREY || p.depth != 16))
+        return report_fail(r, "%s: not a grey PNG of 16 bits", name);
     out->texels = unpack(&p);
     if (!out->texels) return 0;
     out->width = (int32_t)p.width;
     out->height = (int32_t)p.height;
     return 1;
+}
+
+int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r)
+{
+    return decode(out, data, size, 0, name, r);
+}
+
+int png_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r)
+{
+    return decode(out, data, size, 1, name, r);
 }
