@@ -12,7 +12,7 @@
 #define LMB_MIXED_H
 
 #include "env.h"
-#include "light.h"
+#include "compose.h"
 
 /* A camera with square or other pixels, their centres at whole numbers: column = fx x / z + cx, row = fy y / z + cy, with
  * z ahead and y down. */
@@ -134,6 +134,84 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
 
 /* lmb_planes_move: move the cloud's points onto their planes, and fill the holes inside them.                   [M4] */
 void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes);
+
+/* lmb_real_mesh_bytes: memory of the real scene's mesh, 96 bytes a cell of step x step pixels; 0 for a bad size. */
+size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step);
+
+/* lmb_real_mesh_build: a square for each cell of pixels that mostly have a surface.                             [M4]
+ *
+ *   cloud   with normals, moved onto its planes
+ *   step    px, 1 .. 64
+ * Cells of one plane meet without a gap, for their corners are the same numbers; others' squares go through their mean
+ * point along their mean normal, and leave cracks. Colours are white: lmb_real_mesh_colour. Returns LMB_OK, LMB_ERR_ARG,
+ * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t step,
+                               void *memory, size_t bytes);
+
+/* lmb_real_mesh_draw: it as a mesh of a scene. Its triangles 2 c and 2 c + 1 are cell c. */
+lmb_mesh lmb_real_mesh_draw(const lmb_real_mesh *mesh);
+
+/* lmb_real_mesh_colour: the albedo of cell c. */
+void lmb_real_mesh_colour(const lmb_real_mesh *mesh, int32_t c, const float albedo[3]);
+
+/* lmb_photo_view: the view whose frame holds the photo's pixel (0, 0) as its pixel (*x0, *y0), multiples of LMB_TILE.
+ * Frames' axes go through their middles, so this one reaches farther than the photo on one side. cx and cy count to
+ * half a pixel: round them first (lmb_pinhole_round), that rays are the same. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera);
+void lmb_pinhole_round(lmb_pinhole *camera);
+
+/* lmb_real_tile: the real surfaces of 8 x 8 pixels from (x, y) of the photo on, as if they had been drawn: planes where
+ * their pixels are, else cells, else single points. tile->x and y are the photo's. id: of a triangle of the mesh, which
+ * is the scene's first instance. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh,
+                         int32_t x, int32_t y);
+
+/* lmb_env_fold: the cube that one picture allows.                                                      [M14-M19]
+ *
+ *   rgb  width x height x 3, linear, rows from the top
+ * The picture is cut into thirds. Its middle is what lies ahead (-z) and, turned over, behind (+z); what is left of the
+ * middle, right of it, over and under it are the sides. *Ours:* each side takes its whole edge of the picture, widening
+ * from the middle outwards, so that nothing is left over and the five faces meet without a seam. */
+lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height);
+
+/* lmb_env_brightest: unit, where the most light comes from, over the plane that faces `up`, at least 30 degrees high. */
+lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up);
+
+/* lmb_env_irradiance: W/m2 that a surface facing `normal` gets, nothing being in the way: pi times the mean of a cone. */
+void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
+
+/* lmb_two_maps: a light's maps without and with the object: the same views, so that each texel stands for the same
+ * incident power in both.                                                                                       [M9]
+ *
+ *   maps   set: [0] without, [1] with
+ *   scene  the real scene's triangles have ids 1 .. real, the object's come after them
+ *   bytes  of memory: twice lmb_light_map_bytes
+ * Returns what lmb_light_map_init and lmb_light_map_draw return. */
+lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_kernels *kernels, const lmb_light *light,
+                        const lmb_scene *scene, uint32_t real, int32_t size, void *memory, size_t bytes);
+
+/* lmb_real_albedo: what a surface must reflect to look as the photo has it: pi x radiance / irradiance, within
+ * LMB_ALBEDO_LEAST .. LMB_ALBEDO_MOST; 0.5 where there is no irradiance. */
+#define LMB_ALBEDO_LEAST 0.02f
+#define LMB_ALBEDO_MOST 0.95f
+float lmb_real_albedo(float radiance, float irradiance);
+
+/* lmb_delta_tile: the photo with what the object changes on real surfaces.                              [M23 M24]
+ *
+ *   inout    the photo's radiance; where without and with are equal it stays as it is, bit for bit
+ *   without, with   irradiance
+ * Adds albedo / pi x (with - without), of the albedo that `without` and the photo tell; no channel goes under 0. Pixels
+ * without a surface stay. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
+                          const lmb_irradiance *with);
+
+/* lmb_object_tile: put the object's pixels over the photo's, where nothing real is in front of them.          [M24]
+ *
+ *   object, real  tiles of the same pixels
+ *   cloud         its noise: what is not nearer than two deviations does not hide
+ * Returns the pixels that show the object, a bit each. */
+uint64_t lmb_object_tile(lmb_radiance *inout, const lmb_radiance *light, const lmb_tile *object, const lmb_tile *real,
+                         const lmb_cloud *cloud);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,59 @@
+/* delta.c: what an object changes: light's maps without and with it, and the photo's answer. Floor 6.  [M9 M23 M24] */
+#include "../base/poly.h"
+#include "../base/vec.h"
+#include <lambent/mixed.h>
+
+#if LMB_MIXED
+
+static lmb_status draw_map(lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene, uint32_t count)
+{
+    const lmb_status status = lmb_light_map_clear(map);
+    return status != LMB_OK || count == 0 ? status : lmb_light_map_draw(map, kernels, scene, 1, count, NULL);
+}
+
+lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_kernels *kernels, const lmb_light *light,
+                        const lmb_scene *scene, uint32_t real, int32_t size, void *memory, size_t bytes)
+{
+    if (maps == NULL || kernels == NULL || light == NULL || scene == NULL || memory == NULL) {
+        return LMB_ERR_ARG;
+    }
+    for (int32_t i = 0; i < 2; ++i) {
+        char *at = (char *)memory + (size_t)i * (bytes / 8 * 4);
+        lmb_status status = lmb_light_map_init(&maps[i], light, scene, size, LMB_ID32, at, bytes / 8 * 4);
+        if (status == LMB_OK) {
+            status = draw_map(&maps[i], kernels, scene, i == 0 ? real : lmb_scene_triangles(scene));
+        }
+        if (status != LMB_OK) {
+            return status;
+        }
+    }
+    return LMB_OK;
+}
+
+float lmb_real_albedo(float radiance, float irradiance)
+{
+    if (!(irradiance > 1e-6f)) {
+        return 0.5f;
+    }
+    return clampf(LMB_PI * radiance / irradiance, LMB_ALBEDO_LEAST, LMB_ALBEDO_MOST);
+}
+
+lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
+                          const lmb_irradiance *with)
+{
+    if (inout == NULL || real == NULL || without == NULL || with == NULL) {
+        return LMB_ERR_ARG;
+    }
+    for (int32_t c = 0; c < 3; ++c) {
+        for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const float delta = with->rgb[c][k] - without->rgb[c][k], photo = inout->rgb[c][k];
+            if (real->id[k] != 0 && delta != 0.0f) {
+                const float albedo = lmb_real_albedo(photo, without->rgb[c][k]);
+                inout->rgb[c][k] = maxf(photo + albedo * (1.0f / LMB_PI) * delta, 0.0f);
+            }
+        }
+    }
+    return LMB_OK;
+}
+
+#endif

@@ -1,0 +1,110 @@
+/* envfold.c: light from where no picture was taken, folded from the one there is. Floor 6.                 [M14-M19] */
+#include "../base/poly.h"
+#include "../base/vec.h"
+#include "../map/cube.h"
+#include <lambent/mixed.h>
+
+#if LMB_MIXED
+
+#define LEAST_HEIGHT 0.5f /* sine of 30 degrees */
+#define INNER 0.16666667f /* of the picture, from its middle to the middle third's edge */
+
+enum { SUB = 4, BRIGHT_SIDE = 8 }; /* samples of a texel each way; texels a side that are compared */
+
+/* Where in the picture, 0 .. 1 each way, a point of the cube's surface lies. The half width of what is seen grows from a
+ * sixth at the front edge of a side to a half at its back edge. */
+static void fold(float *u, float *v, lmb_vec3 p, int32_t face)
+{
+    const float m = face >= 4 ? INNER : INNER + (1.0f + p.z) * INNER;
+    *u = 0.5f + p.x * m;
+    *v = 0.5f - p.y * m;
+}
+
+static const float *pixel_at(const float *rgb, int32_t width, int32_t height, float u, float v)
+{
+    const int32_t x = mini(maxi((int32_t)(u * (float)width), 0), width - 1),
+                  y = mini(maxi((int32_t)(v * (float)height), 0), height - 1);
+    return rgb + 3 * ((size_t)y * (size_t)width + (size_t)x);
+}
+
+static void fold_texel(float out[3], const lmb_env *env, const float *rgb, int32_t width, int32_t height, cube_place at)
+{
+    const int32_t n = SUB * env->size;
+    out[0] = out[1] = out[2] = 0.0f;
+    for (int32_t k = 0; k < SUB * SUB; ++k) {
+        float u, v;
+        const int32_t x = SUB * at.x + k % SUB, y = SUB * at.y + k / SUB;
+        fold(&u, &v, cube_point(at.face, cube_coordinate(x, n), cube_coordinate(y, n)), at.face);
+        const float *p = pixel_at(rgb, width, height, u, v);
+        for (int32_t c = 0; c < 3; ++c) {
+            out[c] += p[c] > 0.0f && p[c] < 1e6f ? p[c] * (1.0f / (SUB * SUB)) : 0.0f;
+        }
+    }
+}
+
+lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height)
+{
+    if (env == NULL || env->texels == NULL || rgb == NULL || width < 1 || height < 1) {
+        return LMB_ERR_ARG;
+    }
+    const int32_t n = env->size;
+    for (int32_t i = 0; i < 6 * n * n; ++i) {
+        const cube_place at = {i / (n * n), i % n, i / n % n};
+        float sum[3];
+        fold_texel(sum, env, rgb, width, height, at);
+        lmb_env_set(env, at.face, at.x, at.y, sum);
+    }
+    lmb_env_mips(env);
+    return LMB_OK;
+}
+
+/* --- coarse questions --------------------------------------------------------------------------------------------- */
+
+static float brightness(const lmb_env *env, lmb_vec3 d)
+{
+    float rgb[3];
+    lmb_env_sample(rgb, env, d, 1.0f / (float)BRIGHT_SIDE);
+    return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2];
+}
+
+static lmb_vec3 direction_of(int32_t i)
+{
+    const int32_t n = BRIGHT_SIDE;
+    return cube_direction(i / (n * n), i % n, i / n % n, n);
+}
+
+/* The mean of the directions by the square of how far they outshine the mean: of one lamp that, and of several
+ * something between that favours the brightest. Raised where it is too low to shadow anything but the horizon. */
+lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up)
+{
+    float mean = 0.0f;
+    lmb_vec3 sum = vec3(0, 0, 0);
+    for (int32_t i = 0; i < 6 * BRIGHT_SIDE * BRIGHT_SIDE; ++i) {
+        mean += brightness(env, direction_of(i)) * (1.0f / (6 * BRIGHT_SIDE * BRIGHT_SIDE));
+    }
+    for (int32_t i = 0; i < 6 * BRIGHT_SIDE * BRIGHT_SIDE; ++i) {
+        const lmb_vec3 d = direction_of(i);
+        const float more = maxf(brightness(env, d) - mean, 0.0f);
+        sum = dot3(d, up) > 0.0f ? add3(sum, mul3(d, more * more)) : sum;
+    }
+    if (!(dot3(sum, sum) > 1e-12f)) {
+        return up;
+    }
+    sum = normalize3(sum);
+    const float height = dot3(sum, up);
+    if (height >= LEAST_HEIGHT) {
+        return sum;
+    }
+    const lmb_vec3 level = normalize3(sub3(sum, mul3(up, height)));
+    return add3(mul3(level, 0.8660254f), mul3(up, LEAST_HEIGHT));
+}
+
+void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal)
+{
+    lmb_env_sample(out, env, normal, 1.0f);
+    for (int32_t c = 0; c < 3; ++c) {
+        out[c] *= LMB_PI;
+    }
+}
+
+#endif

@@ -1,0 +1,128 @@
+/* real_tile.c: the photo's own surfaces, as tiles that light can ask. Floor 6.                                 [M4] */
+#include <string.h>
+
+#include "planes.h"
+
+#if LMB_MIXED
+
+void lmb_pinhole_round(lmb_pinhole *camera)
+{
+    camera->cx = floorf(2.0f * camera->cx + 0.5f) * 0.5f;
+    camera->cy = floorf(2.0f * camera->cy + 0.5f) * 0.5f;
+}
+
+/* A side of the frame: the photo's pixels from *at on, the axis in the middle. */
+static int32_t frame_side(int32_t *at, float centre, int32_t size)
+{
+    const int32_t twice = (int32_t)floorf(2.0f * centre + 1.5f); /* 2 (centre + 0.5), which is whole */
+    *at = size > twice ? (size - twice + LMB_TILE - 1) / LMB_TILE * LMB_TILE : 0;
+    return 2 * *at + twice;
+}
+
+lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera)
+{
+    if (out == NULL || x0 == NULL || y0 == NULL || camera == NULL || !(absf(camera->cx) < (float)LMB_MAX_SIDE) ||
+        !(absf(camera->cy) < (float)LMB_MAX_SIDE)) {
+        return LMB_ERR_ARG;
+    }
+    memset(out, 0, sizeof *out);
+    out->right = vec3(1, 0, 0);
+    out->up = vec3(0, 1, 0);
+    out->back = vec3(0, 0, 1);
+    out->kind = LMB_PERSPECTIVE;
+    out->near_m = 0.01f;
+    out->far_m = 1000.0f;
+    out->frame_width = frame_side(x0, camera->cx, camera->width);
+    out->frame_height = frame_side(y0, camera->cy, camera->height);
+    out->half_width = 0.5f * (float)out->frame_width / camera->fx;
+    out->half_height = 0.5f * (float)out->frame_height / camera->fy;
+    return out->frame_width <= LMB_MAX_FRAME && out->frame_height <= LMB_MAX_FRAME ? LMB_OK : LMB_ERR_ARG;
+}
+
+/* The corners of a cell are on its plane. */
+static lmb_vec3 cell_corner(const lmb_real_mesh *mesh, int32_t c, int32_t k)
+{
+    const float *at = mesh->positions + 12 * (size_t)c + 3 * (size_t)k;
+    return vec3(at[0], at[1], at[2]);
+}
+
+typedef struct surface {
+    lmb_vec3 position, face, normal;
+    uint32_t id;
+} surface;
+
+/* Pixels of no plane lie on their cell, so that it does not shadow them where noise has put them behind it; those far
+ * from it, beyond an edge, stay where they were measured. */
+static void put_on_cell(surface *s, const lmb_real_mesh *mesh, const lmb_cloud *cloud, int32_t c, lmb_vec3 ray, float q)
+{
+    const lmb_vec3 a = cell_corner(mesh, c, 0);
+    const lmb_vec3 n = normalize3(cross3(sub3(cell_corner(mesh, c, 1), a), sub3(cell_corner(mesh, c, 2), a)));
+    const float on = dot3(n, ray) / dot3(n, a); /* 1 / distance of the cell's plane */
+    if (on > 0.0f && absf(on - q) <= 4.0f * lmb_cloud_sigma(cloud, q) + 0.02f * q) {
+        s->position = mul3(ray, 1.0f / on);
+        s->face = dot3(n, ray) > 0.0f ? mul3(n, -1.0f) : n;
+    }
+}
+
+static int surface_at(surface *s, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh, int32_t x,
+                      int32_t y)
+{
+    const int32_t at = y * cloud->camera.width + x;
+    const lmb_vec3 ray = lmb_cloud_ray(&cloud->camera, (float)x, (float)y);
+    const float q = cloud->inverse[at];
+    const uint8_t label = planes->label[at];
+    int32_t c = mesh->cell[y / mesh->step * mesh->columns + x / mesh->step];
+    if (!(q > 0.0f)) {
+        return 0;
+    }
+    s->position = mul3(ray, 1.0f / q);
+    s->normal = cloud->normal[at];
+    if (!(dot3(s->normal, ray) < 0.0f)) {
+        s->normal = mul3(normalize3(ray), -1.0f);
+    }
+    s->face = s->normal;
+    if (label != 0 && (c < 0 || mesh->label[c] != label)) {
+        c = mesh->plane_cell[label - 1];
+    } else if (label == 0 && c >= 0 && mesh->label[c] == 0) {
+        put_on_cell(s, mesh, cloud, c, ray, q);
+        s->normal = dot3(s->normal, s->face) > 0.0f ? s->normal : s->face;
+    }
+    s->id = c >= 0 ? 1 + 2 * (uint32_t)c : 1;
+    return 1;
+}
+
+static void put_pixel(lmb_tile *out, int32_t k, const surface *s)
+{
+    const float p[3] = {s->position.x, s->position.y, s->position.z}, f[3] = {s->face.x, s->face.y, s->face.z},
+                n[3] = {s->normal.x, s->normal.y, s->normal.z};
+    for (int32_t i = 0; i < 3; ++i) {
+        out->position[i][k] = p[i];
+        out->face[i][k] = f[i];
+        out->normal[i][k] = n[i];
+    }
+    out->depth[k] = -s->position.z;
+    out->id[k] = s->id;
+    ++out->hits;
+}
+
+lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh,
+                         int32_t x, int32_t y)
+{
+    if (out == NULL || cloud == NULL || planes == NULL || mesh == NULL || x < 0 || y < 0 || x % LMB_TILE != 0 ||
+        y % LMB_TILE != 0 || x >= cloud->camera.width || y >= cloud->camera.height) {
+        return LMB_ERR_ARG;
+    }
+    memset(out, 0, sizeof *out);
+    out->x = x;
+    out->y = y;
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        surface s;
+        const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
+        if (px < cloud->camera.width && py < cloud->camera.height && surface_at(&s, cloud, planes, mesh, px, py)) {
+            put_pixel(out, k, &s);
+        }
+    }
+    return LMB_OK;
+}
+
+#endif
