@@ -8,6 +8,7 @@
 #include "verb_bench.h"
 #include "verb_compare.h"
 #include "verb_info.h"
+#include "verb_mix.h"
 #include "verb_relight.h"
 #include "verb_relief.h"
 #include "verb_render.h"
@@ -18,6 +19,7 @@ static const char usage[] =
     "  render SCENE -o OUT      draw a scene (.gltf .glb .obj .ply, or the built-in `demo`) with bounced light\n"
     "  relight --world WORLD    the light at a place of a world that was seen from another, as a small cube map\n"
     "  relief bake|render       a complex model as a simple one that carries its surface\n"
+    "  mix --frame PHOTO        a virtual object in one photo with depth\n"
     "  compare A B              error figures of a picture against a reference\n"
     "  info FILE                what is in a scene or a picture\n"
     "  bench raster             how fast this machine draws the fixed workload\n"
@@ -42,6 +44,8 @@ int main(int argc, char **argv)
     }
     if (argc >= 2 && strcmp(argv[1], "relief") == 0) {
         return verb_relief(argc - 1, argv + 1);
+    if (argc >= 2 && strcmp(argv[1], "mix") == 0) {
+        return verb_mix(argc - 1, argv + 1);
     }
     if (argc >= 2 && strcmp(argv[1], "compare") == 0) {
         return verb_compare(argc - 1, argv + 1);

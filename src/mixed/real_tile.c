@@ -11,9 +11,10 @@ void lmb_pinhole_round(lmb_pinhole *camera)
     camera->cy = floorf(2.0f * camera->cy + 0.5f) * 0.5f;
 }
 
-/* A side of the frame: the photo's pixels from *at on, the axis in the middle. */
-static int32_t frame_side(int32_t *at, float centre, int32_t size)
+/* A side of the frame: the photo's pixels from *at on, whole tiles of them, the axis in the middle. */
+static int32_t frame_side(int32_t *at, float centre, int32_t pixels)
 {
+    const int32_t size = (pixels + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
     const int32_t twice = (int32_t)floorf(2.0f * centre + 1.5f); /* 2 (centre + 0.5), which is whole */
     *at = size > twice ? (size - twice + LMB_TILE - 1) / LMB_TILE * LMB_TILE : 0;
     return 2 * *at + twice;

@@ -1,0 +1,197 @@
+/* mix_draw.c: the photo's answer and the object over it, tile by tile. */
+#include "mix_job.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Everything that one tile is made in. */
+typedef struct drawing {
+    lmb_view view;
+    int32_t x0, y0; /* of the photo in the view's frame */
+    lmb_target eye; /* the object's */
+    lmb_tile real, object;
+    lmb_irradiance without, with, lit;
+    lmb_radiance light, photo;
+} drawing;
+
+static int make_image(image *out, int32_t width, int32_t height, report *r)
+{
+    out->width = width;
+    out->height = height;
+    out->channels = 3;
+    out->pixels = calloc(3 * (size_t)width * (size_t)height, sizeof(float));
+    return out->pixels != NULL || report_fail(r, "out of memory");
+}
+
+/* --- the object's depth and ids ----------------------------------------------------------------------------------- */
+
+static int draw_object(drawing *d, mix_job *j, report *r)
+{
+    const int32_t w = (j->frame.camera.width + LMB_TILE - 1) / LMB_TILE * LMB_TILE,
+                  h = (j->frame.camera.height + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
+    const size_t depth_bytes = lmb_surface_bytes(LMB_DEPTH32F, w, h), id_bytes = lmb_surface_bytes(LMB_ID32, w, h);
+    void *depth = mix_take(j, depth_bytes, r), *id = mix_take(j, id_bytes, r);
+    if (depth == NULL || id == NULL) {
+        return 0;
+    }
+    if (lmb_photo_view(&d->view, &d->x0, &d->y0, &j->frame.camera) != LMB_OK) {
+        return report_fail(r, "intrinsics: the camera's axis is too far outside the photo");
+    }
+    lmb_surface_init(&d->eye.depth, LMB_DEPTH32F, w, h, depth, depth_bytes);
+    lmb_surface_init(&d->eye.id, LMB_ID32, w, h, id, id_bytes);
+    d->eye.x0 = d->x0;
+    d->eye.y0 = d->y0;
+    if (j->object_triangles == 0) {
+        return 1;
+    }
+    const lmb_status status = lmb_draw(&d->eye, j->o.kernels, &d->view, &j->scene, j->real_triangles + 1,
+                                       j->object_triangles, LMB_CULL_BACK, NULL);
+    return status == LMB_OK || report_fail(r, "the object cannot be drawn: %s", lmb_status_name(status));
+}
+
+/* --- light -------------------------------------------------------------------------------------------------------- */
+
+/* What comes from far away, nothing being in its way. */
+static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile *tile)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (tile->id[k] != 0) {
+            float rgb[3];
+            const lmb_vec3 n = {tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]};
+            lmb_env_irradiance(rgb, env, n);
+            for (int c = 0; c < 3; ++c) {
+                inout->rgb[c][k] += rgb[c];
+            }
+        }
+    }
+}
+
+static void add_lamps(lmb_irradiance *inout, const mix_job *j, const drawing *d, const lmb_tile *tile, int with)
+{
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        lmb_direct_tile(inout, j->o.kernels, tile, &d->view, &j->scene, &j->lights[i], &j->maps[i][with]);
+    }
+}
+
+/* --- tiles -------------------------------------------------------------------------------------------------------- */
+
+static void get_photo(lmb_radiance *out, const image *p, int32_t x, int32_t y)
+{
+    memset(out, 0, sizeof *out);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
+        for (int c = 0; c < 3 && px < p->width && py < p->height; ++c) {
+            out->rgb[c][k] = p->pixels[3 * ((size_t)py * (size_t)p->width + (size_t)px) + (size_t)c];
+        }
+    }
+}
+
+static void put_tile(image *p, const lmb_radiance *in, int32_t x, int32_t y)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
+        for (int c = 0; c < 3 && px < p->width && py < p->height; ++c) {
+            p->pixels[3 * ((size_t)py * (size_t)p->width + (size_t)px) + (size_t)c] = in->rgb[c][k];
+        }
+    }
+}
+
+static void answer(drawing *d, const mix_job *j)
+{
+    memset(&d->without, 0, sizeof d->without);
+    memset(&d->with, 0, sizeof d->with);
+    add_around(&d->without, &j->env, &d->real);
+    add_around(&d->with, &j->env, &d->real);
+    add_lamps(&d->without, j, d, &d->real, 0);
+    add_lamps(&d->with, j, d, &d->real, 1);
+    lmb_delta_tile(&d->photo, &d->real, &d->without, &d->with);
+}
+
+static void light_object(drawing *d, const mix_job *j)
+{
+    memset(&d->lit, 0, sizeof d->lit);
+    add_around(&d->lit, &j->env, &d->object);
+    add_lamps(&d->lit, j, d, &d->object, 1);
+    lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
+}
+
+/* What is asked for instead of the whole: differences of real pixels, or the object's own. */
+static void choose(drawing *d, const mix_job *j, uint64_t shown)
+{
+    lmb_radiance before;
+    if (j->o.show == MIX_FINAL) {
+        return;
+    }
+    get_photo(&before, &j->frame.light, d->real.x, d->real.y);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int is_object = (int)(shown >> k & 1);
+        for (int c = 0; c < 3; ++c) {
+            const float v = d->photo.rgb[c][k];
+            d->photo.rgb[c][k] = j->o.show == MIX_OBJECT ? (is_object ? v : 0.0f) : is_object ? 0.0f : v - before.rgb[c][k];
+        }
+    }
+}
+
+static void draw_tile(drawing *d, mix_job *j, int32_t x, int32_t y)
+{
+    uint64_t shown = 0;
+    get_photo(&d->photo, &j->frame.light, x, y);
+    lmb_real_tile(&d->real, &j->cloud, &j->planes, &j->real, x, y);
+    answer(d, j);
+    if (lmb_resolve_tile(&d->object, j->o.kernels, &d->view, &j->scene, &d->eye, d->x0 + x, d->y0 + y) == LMB_OK &&
+        d->object.hits > 0) {
+        light_object(d, j);
+        shown = lmb_object_tile(&d->photo, &d->light, &d->object, &d->real, &j->cloud);
+    }
+    choose(d, j, shown);
+    put_tile(&j->picture, &d->photo, x, y);
+}
+
+int mix_draw(mix_job *j, report *r)
+{
+    drawing *d = mix_take(j, sizeof *d, r);
+    if (d == NULL || !make_image(&j->picture, j->frame.light.width, j->frame.light.height, r) || !draw_object(d, j, r)) {
+        return 0;
+    }
+    for (int32_t y = 0; y < j->picture.height; y += LMB_TILE) {
+        for (int32_t x = 0; x < j->picture.width; x += LMB_TILE) {
+            draw_tile(d, j, x, y);
+        }
+    }
+    return 1;
+}
+
+/* --- other pictures ----------------------------------------------------------------------------------------------- */
+
+int mix_show_planes(mix_job *j, report *r)
+{
+    static const float colours[6][3] = {{0.9f, 0.2f, 0.15f}, {0.15f, 0.7f, 0.2f}, {0.15f, 0.3f, 0.9f},
+                                        {0.9f, 0.7f, 0.1f},  {0.7f, 0.2f, 0.8f},  {0.1f, 0.7f, 0.8f}};
+    if (!make_image(&j->picture, j->frame.light.width, j->frame.light.height, r)) {
+        return 0;
+    }
+    for (size_t i = 0; i < (size_t)j->picture.width * (size_t)j->picture.height; ++i) {
+        const uint8_t label = j->planes.label[i];
+        const float *p = j->frame.light.pixels + 3 * i;
+        const float grey = 0.2f + 0.8f * (p[0] + p[1] + p[2]) / 3.0f, dark = label > 6 ? 0.55f : 1.0f;
+        for (size_t c = 0; c < 3; ++c) {
+            j->picture.pixels[3 * i + c] = label == 0 ? 0.3f * grey : dark * grey * colours[(label - 1) % 6][c];
+        }
+    }
+    return 1;
+}
+
+int mix_show_env(mix_job *j, report *r)
+{
+    const int32_t n = j->env.size;
+    if (!make_image(&j->picture, n, 6 * n, r)) {
+        return 0;
+    }
+    for (int32_t i = 0; i < 6 * n * n; ++i) {
+        const float s = (2.0f * (float)(i % n) + 1.0f) / (float)n - 1.0f,
+                    t = (2.0f * (float)(i / n % n) + 1.0f) / (float)n - 1.0f;
+        const lmb_vec3 all[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+        lmb_env_sample(j->picture.pixels + 3 * i, &j->env, all[i / (n * n)], 0.0f);
+    }
+    return 1;
+}

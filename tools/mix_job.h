@@ -1,0 +1,51 @@
+/* mix_job.h: one run of `lambent mix`: the photo, what is in it, what is put into it, its light. */
+#ifndef MIX_JOB_H
+#define MIX_JOB_H
+
+#include <lambent/lambent.h>
+
+#include "mix_options.h"
+#include "model.h"
+
+enum { MIX_BLOCKS = 64 };
+
+/* mix_job_free releases what it points to. */
+typedef struct mix_job {
+    mix_options o;
+    mix_frame frame;
+    lmb_cloud cloud;
+    lmb_planes planes;
+    lmb_real_mesh real;
+    lmb_mat4 from_world; /* to the camera's space */
+    model object;
+    model_notes notes;
+    lmb_scene scene;     /* the real mesh is instance 0, the object's instances come after it */
+    uint32_t real_triangles, object_triangles;
+    lmb_vec3 anchor, up;
+    int32_t floor;       /* the plane that the object stands on, or -1 */
+    float gap_m;         /* how far the measured depth about the anchor is from where the object stands */
+    lmb_env env;
+    lmb_light lights[MIX_LIGHTS];
+    lmb_light_map maps[MIX_LIGHTS][2]; /* without, with */
+    int32_t light_count;
+    image picture;       /* linear */
+    void *blocks[MIX_BLOCKS];
+    int block_count;
+} mix_job;
+
+/* mix_take: zeroed memory that lives as long as the job; NULL with `r` set. */
+void *mix_take(mix_job *j, size_t bytes, report *r);
+
+/* The steps, in order. Each 1, or 0 with `r` set. */
+int mix_find_planes(mix_job *j, report *r); /* cloud, planes, mesh of the real scene */
+int mix_place(mix_job *j, report *r);       /* the object, and the scene of both */
+int mix_light(mix_job *j, report *r);       /* environment, lights and their maps */
+int mix_draw(mix_job *j, report *r);        /* the picture */
+
+/* mix_show_planes, mix_show_env: the picture instead of mix_draw's. */
+int mix_show_planes(mix_job *j, report *r);
+int mix_show_env(mix_job *j, report *r);
+
+void mix_job_free(mix_job *j);
+
+#endif

@@ -1,0 +1,242 @@
+/* mix_place.c: where the virtual object stands, and the scene of it and the real surfaces. */
+#include "mix_job.h"
+
+#include <math.h>
+#include <string.h>
+
+/* --- matrices: columns, as the library has them ------------------------------------------------------------------- */
+
+static lmb_mat4 multiply(const lmb_mat4 *a, const lmb_mat4 *b)
+{
+    lmb_mat4 out;
+    for (int c = 0; c < 4; ++c) {
+        for (int r = 0; r < 4; ++r) {
+            double sum = 0.0;
+            for (int k = 0; k < 4; ++k) {
+                sum += (double)a->m[4 * k + r] * (double)b->m[4 * c + k];
+            }
+            out.m[4 * c + r] = (float)sum;
+        }
+    }
+    return out;
+}
+
+static lmb_mat4 of_axes(lmb_vec3 x, lmb_vec3 y, lmb_vec3 z, lmb_vec3 at)
+{
+    const lmb_mat4 m = {{x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, at.x, at.y, at.z, 1}};
+    return m;
+}
+
+static lmb_vec3 scaled(lmb_vec3 v, float s)
+{
+    const lmb_vec3 out = {v.x * s, v.y * s, v.z * s};
+    return out;
+}
+
+static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+static lmb_vec3 cross(lmb_vec3 a, lmb_vec3 b)
+{
+    const lmb_vec3 out = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    return out;
+}
+
+/* A pose's inverse; its camera looks along +z with y down, the library's along -z with y up. */
+static lmb_mat4 world_to_camera(const double pose[16])
+{
+    lmb_mat4 m;
+    memset(&m, 0, sizeof m);
+    for (int r = 0; r < 3; ++r) {
+        const double sign = r == 0 ? 1.0 : -1.0;
+        double at = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            m.m[4 * c + r] = (float)(sign * pose[4 * c + r]);
+            at -= pose[4 * c + r] * pose[4 * c + 3];
+        }
+        m.m[12 + r] = (float)(sign * at);
+    }
+    m.m[15] = 1.0f;
+    return m;
+}
+
+static const lmb_mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+
+/* --- where -------------------------------------------------------------------------------------------------------- */
+
+/* The plane of the pixel, or what was measured there, upright like the floor. */
+static int stand_at_pixel(mix_job *j, report *r)
+{
+    const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
+    const int32_t x = (int32_t)j->o.at_px[0], y = (int32_t)j->o.at_px[1];
+    if (!(j->o.at_px[0] >= 0.0f && j->o.at_px[1] >= 0.0f) || x >= w || y >= h) {
+        return report_fail(r, "--at %g,%g: the photo has %d x %d pixels", (double)j->o.at_px[0], (double)j->o.at_px[1],
+                           (int)w, (int)h);
+    }
+    const int32_t label = j->planes.label[y * w + x], upright = lmb_planes_floor(&j->planes);
+    j->floor = label - 1;
+    if (label > 0) {
+        j->up = j->planes.plane[j->floor].normal;
+        return lmb_planes_anchor(&j->anchor, &j->planes, &j->frame.camera, j->floor, j->o.at_px[0], j->o.at_px[1]);
+    }
+    j->anchor = lmb_cloud_point(&j->cloud, x, y);
+    j->up = upright >= 0 ? j->planes.plane[upright].normal : (lmb_vec3){0, 1, 0};
+    return j->anchor.z < 0.0f ||
+           report_fail(r, "--at %d,%d: neither a plane nor any depth there; lambent mix --show planes shows them", (int)x,
+                       (int)y);
+}
+
+static int stand_at_centre(mix_job *j, report *r)
+{
+    j->floor = lmb_planes_floor(&j->planes);
+    if (j->floor < 0) {
+        return report_fail(r, "no plane in the depth to stand on; say where by --at X,Y");
+    }
+    j->up = j->planes.plane[j->floor].normal;
+    j->anchor = j->planes.plane[j->floor].centre;
+    return 1;
+}
+
+/* The median of how far the measured points about the anchor are from the plane through it. */
+static float gap(const mix_job *j)
+{
+    float far[81];
+    int n = 0;
+    const lmb_pinhole *c = &j->frame.camera;
+    const int x0 = (int)floorf(c->cx - c->fx * j->anchor.x / j->anchor.z + 0.5f),
+              y0 = (int)floorf(c->cy + c->fy * j->anchor.y / j->anchor.z + 0.5f);
+    for (int k = 0; k < 81; ++k) {
+        const int x = x0 + k % 9 - 4, y = y0 + k / 9 - 4;
+        if (x < 0 || y < 0 || x >= c->width || y >= c->height || !(j->frame.depth[y * c->width + x] > 0.0f)) {
+            continue;
+        }
+        const lmb_vec3 p = scaled(lmb_cloud_ray(c, (float)x, (float)y), j->frame.depth[y * c->width + x]);
+        const float d = fabsf(dot(p, j->up) - dot(j->anchor, j->up));
+        int at = n++;
+        for (; at > 0 && far[at - 1] > d; --at) {
+            far[at] = far[at - 1];
+        }
+        far[at] = d;
+    }
+    return n > 0 ? far[n / 2] : 0.0f;
+}
+
+/* Upright on the plane, +Z towards the viewer, then turned. */
+static lmb_mat4 upright(const mix_job *j, float scale)
+{
+    const float turn = j->o.turn_deg * 0.017453293f;
+    lmb_vec3 z = scaled(j->anchor, -1.0f);
+    const float d = dot(z, j->up);
+    z = (lmb_vec3){z.x - d * j->up.x, z.y - d * j->up.y, z.z - d * j->up.z};
+    if (dot(z, z) < 1e-12f) {
+        z = fabsf(j->up.x) < 0.9f ? cross((lmb_vec3){1, 0, 0}, j->up) : cross((lmb_vec3){0, 1, 0}, j->up);
+    }
+    z = scaled(z, 1.0f / sqrtf(dot(z, z)));
+    const lmb_vec3 x = cross(j->up, z), zx = scaled(x, sinf(turn)), zz = scaled(z, cosf(turn));
+    const lmb_vec3 turned = {zx.x + zz.x, zx.y + zz.y, zx.z + zz.z};
+    return of_axes(scaled(cross(j->up, turned), scale), scaled(j->up, scale), scaled(turned, scale), j->anchor);
+}
+
+/* A quarter of the plane's shorter side for the object's longest; half a metre where there is no plane. */
+static float chosen_scale(const mix_job *j)
+{
+    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
+    const float size = fmaxf(fmaxf(hi.x - lo.x, hi.y - lo.y), hi.z - lo.z);
+    float room = 2.0f;
+    if (j->floor >= 0) {
+        const lmb_flat *p = &j->planes.plane[j->floor];
+        room = fminf(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    }
+    return j->o.scale > 0.0f ? j->o.scale : 0.25f * room / fmaxf(size, 1e-9f);
+}
+
+/* The middle of the mesh's foot goes to the anchor. */
+static lmb_mat4 object_to_camera(mix_job *j)
+{
+    if (j->o.at == MIX_AT_WORLD) {
+        return j->from_world;
+    }
+    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
+    const lmb_mat4 stand = upright(j, chosen_scale(j));
+    lmb_mat4 foot = identity;
+    foot.m[12] = -0.5f * (lo.x + hi.x);
+    foot.m[13] = -lo.y;
+    foot.m[14] = -0.5f * (lo.z + hi.z);
+    return multiply(&stand, &foot);
+}
+
+/* --- the scene ---------------------------------------------------------------------------------------------------- */
+
+/* The real mesh before the object's own: everything of the object moves up by one. */
+static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
+{
+    const lmb_scene *s = &j->object.scene;
+    lmb_mesh *meshes = mix_take(j, (s->mesh_count + 1) * sizeof *meshes, r);
+    lmb_material *materials = mix_take(j, (s->material_count + 1) * sizeof *materials, r);
+    lmb_instance *instances = mix_take(j, (s->instance_count + 1) * sizeof *instances, r);
+    if (meshes == NULL || materials == NULL || instances == NULL) {
+        return 0;
+    }
+    meshes[0] = lmb_real_mesh_draw(&j->real);
+    materials[0].albedo[0] = materials[0].albedo[1] = materials[0].albedo[2] = materials[0].alpha = 1.0f;
+    materials[0].texture = -1;
+    materials[0].flags = LMB_DOUBLE_SIDED;
+    instances[0].to_world = identity;
+    instances[0].first_id = 1;
+    j->real_triangles = meshes[0].triangle_count;
+    for (uint32_t i = 0; i < s->mesh_count; ++i) {
+        meshes[i + 1] = s->meshes[i];
+    }
+    for (uint32_t i = 0; i < s->material_count; ++i) {
+        materials[i + 1] = s->materials[i];
+    }
+    for (uint32_t i = 0; i < s->instance_count; ++i) {
+        lmb_instance *to = &instances[i + 1];
+        *to = s->instances[i];
+        to->to_world = multiply(place, &to->to_world);
+        ++to->mesh;
+        ++to->material;
+        to->first_id += j->real_triangles;
+    }
+    j->object_triangles = lmb_scene_triangles(s);
+    j->scene = *s;
+    j->scene.meshes = meshes;
+    j->scene.materials = materials;
+    j->scene.instances = instances;
+    ++j->scene.mesh_count;
+    ++j->scene.material_count;
+    ++j->scene.instance_count;
+    j->scene.lights = NULL;
+    j->scene.light_count = 0;
+    lmb_scene_bounds(&j->scene.bounds_min, &j->scene.bounds_max, &j->scene);
+    return lmb_scene_check(&j->scene) == LMB_OK ||
+           report_fail(r, "%s: too large where it stands; --scale sets metres of a unit", j->o.object);
+}
+
+int mix_place(mix_job *j, report *r)
+{
+    j->from_world = identity;
+    j->floor = -1;
+    if (j->frame.has_pose) {
+        j->from_world = world_to_camera(j->frame.pose);
+    } else {
+        j->from_world.m[0] = 1.0f;
+    }
+    if (j->o.object == NULL) {
+        j->up = (lmb_vec3){0, 1, 0};
+        if (j->planes.count > 0) {
+            j->up = j->planes.plane[lmb_planes_floor(&j->planes)].normal;
+        }
+        return join_scene(j, &identity, r);
+    }
+    if (!model_load(&j->object, j->o.object, NULL, &j->notes, r)) {
+        return 0;
+    }
+    if (j->o.at == MIX_AT_WORLD) {
+        j->up = (lmb_vec3){0, 1, 0};
+    } else if (!(j->o.at == MIX_AT_PIXEL ? stand_at_pixel(j, r) : stand_at_centre(j, r))) {
+        return 0;
+    }
+    j->gap_m = j->o.at == MIX_AT_WORLD ? 0.0f : gap(j);
+    const lmb_mat4 place = object_to_camera(j);
+    return join_scene(j, &place, r);
+}

@@ -1,0 +1,134 @@
+/* verb_mix.c: `lambent mix`: a virtual object in one photo with depth. */
+#include "verb_mix.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "mix_job.h"
+#include "picture.h"
+
+void *mix_take(mix_job *j, size_t bytes, report *r)
+{
+    void *p = j->block_count < MIX_BLOCKS ? calloc(1, bytes > 0 ? bytes : 1) : NULL;
+    if (p == NULL) {
+        report_fail(r, "not enough memory: %.0f MiB more wanted", (double)bytes / 1048576.0);
+        return NULL;
+    }
+    return j->blocks[j->block_count++] = p;
+}
+
+void mix_job_free(mix_job *j)
+{
+    mix_frame_free(&j->frame);
+    model_free(&j->object);
+    image_free(&j->picture);
+    for (int i = 0; i < j->block_count; ++i) {
+        free(j->blocks[i]);
+    }
+    free(j);
+}
+
+/* --- planes ------------------------------------------------------------------------------------------------------- */
+
+static int find_cloud(mix_job *j, report *r)
+{
+    const lmb_pinhole *c = &j->frame.camera;
+    const size_t a = lmb_cloud_bytes(c->width, c->height), b = lmb_planes_bytes(c->width, c->height);
+    void *cloud = mix_take(j, a, r), *planes = mix_take(j, b, r);
+    if (cloud == NULL || planes == NULL) {
+        return 0;
+    }
+    if (lmb_cloud_init(&j->cloud, c, j->frame.depth, cloud, a) != LMB_OK || lmb_cloud_normals(&j->cloud) != LMB_OK ||
+        lmb_planes_find(&j->planes, &j->cloud, planes, b) != LMB_OK) {
+        return report_fail(r, "the photo's camera or size is none that can be used");
+    }
+    return 1;
+}
+
+int mix_find_planes(mix_job *j, report *r)
+{
+    const int32_t step = 4;
+    lmb_pinhole_round(&j->frame.camera);
+    if (!find_cloud(j, r)) {
+        return 0;
+    }
+    lmb_planes_move(&j->cloud, &j->planes);
+    const size_t bytes = lmb_real_mesh_bytes(j->frame.camera.width, j->frame.camera.height, step);
+    void *mesh = mix_take(j, bytes, r);
+    return mesh != NULL &&
+           (lmb_real_mesh_build(&j->real, &j->cloud, &j->planes, step, mesh, bytes) == LMB_OK ||
+            report_fail(r, "the photo is too large"));
+}
+
+/* --- the whole ---------------------------------------------------------------------------------------------------- */
+
+static void tell(const mix_job *j)
+{
+    for (uint32_t i = 0; i < j->notes.count; ++i) {
+        fprintf(stderr, "lambent: note: %s\n", j->notes.line[i]);
+    }
+    if (j->o.object != NULL && j->floor >= 0) {
+        const lmb_flat *p = &j->planes.plane[j->floor];
+        fprintf(stderr, "lambent: %d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, within %.1f mm "
+                        "of the measured depth\n",
+                (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
+                (double)(p->high[1] - p->low[1]), -(double)j->anchor.z, 1000.0 * (double)j->gap_m);
+    }
+}
+
+static float exposure(const mix_job *j)
+{
+    if (!isnan(j->o.exposure_ev)) {
+        return j->o.exposure_ev;
+    }
+    return j->frame.photo.codes.texels != NULL ? 0.0f : picture_auto_exposure(&j->frame.light);
+}
+
+static int make_picture(mix_job *j, report *r)
+{
+    if (j->o.show == MIX_PLANES) {
+        return mix_show_planes(j, r);
+    }
+    if (!mix_place(j, r) || !mix_light(j, r)) {
+        return 0;
+    }
+    return j->o.show == MIX_ENV ? mix_show_env(j, r) : mix_draw(j, r);
+}
+
+static int mix(mix_job *j, report *r)
+{
+    if (!file_can_write(j->o.out, r) || !mix_frame_read(&j->frame, &j->o.source, r) || !mix_find_planes(j, r) ||
+        !make_picture(j, r)) {
+        return 0;
+    }
+    tell(j);
+    return picture_write(j->o.out, &j->picture, exposure(j), r);
+}
+
+int verb_mix(int argc, char **argv)
+{
+    report r = {""};
+    mix_job *j = calloc(1, sizeof *j);
+    if (j == NULL) {
+        fputs("lambent: out of memory\n", stderr);
+        return 1;
+    }
+    if (!mix_options_parse(&j->o, argc, argv, &r)) {
+        fprintf(stderr, "lambent mix: %s\n", r.text);
+        free(j);
+        return 2;
+    }
+    if (j->o.help) {
+        fputs(mix_help, stdout);
+        free(j);
+        return 0;
+    }
+    const int ok = mix(j, &r);
+    if (!ok) {
+        fprintf(stderr, "lambent: %s\n", r.text);
+    }
+    mix_job_free(j);
+    return ok ? 0 : 1;
+}
