@@ -1,6 +1,7 @@
 /* mix_draw.c: the photo's answer and the object over it, tile by tile. */
 #include "mix_job.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -163,6 +164,19 @@ int mix_draw(mix_job *j, report *r)
 
 /* --- other pictures ----------------------------------------------------------------------------------------------- */
 
+static void tell_planes(const mix_job *j)
+{
+    fprintf(stderr, "lambent: depth is noisy by %.4f 1/m\n", (double)j->cloud.noise);
+    for (int32_t i = 0; i < j->planes.count; ++i) {
+        const lmb_flat *p = &j->planes.plane[i];
+        fprintf(stderr, "lambent: plane %2d: %.2f x %.2f m, %.3f m from the camera, faces %.3f,%.3f,%.3f; %d pixels about "
+                        "%d,%d\n",
+                (int)i + 1, (double)(p->high[0] - p->low[0]), (double)(p->high[1] - p->low[1]), (double)p->distance,
+                (double)p->normal.x, (double)p->normal.y, (double)p->normal.z, (int)p->pixels,
+                (int)((p->x0 + p->x1) / 2), (int)((p->y0 + p->y1) / 2));
+    }
+}
+
 int mix_show_planes(mix_job *j, report *r)
 {
     static const float colours[6][3] = {{0.9f, 0.2f, 0.15f}, {0.15f, 0.7f, 0.2f}, {0.15f, 0.3f, 0.9f},
@@ -170,6 +184,7 @@ int mix_show_planes(mix_job *j, report *r)
     if (!make_image(&j->picture, j->frame.light.width, j->frame.light.height, r)) {
         return 0;
     }
+    tell_planes(j);
     for (size_t i = 0; i < (size_t)j->picture.width * (size_t)j->picture.height; ++i) {
         const uint8_t label = j->planes.label[i];
         const float *p = j->frame.light.pixels + 3 * i;

@@ -85,14 +85,31 @@ static int stand_at_pixel(mix_job *j, report *r)
                        (int)y);
 }
 
+/* A quarter of the plane's shorter side for the object's longest; half a metre where there is no plane. */
+static float chosen_scale(const mix_job *j)
+{
+    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
+    const float size = fmaxf(fmaxf(hi.x - lo.x, hi.y - lo.y), hi.z - lo.z);
+    float room = 2.0f;
+    if (j->floor >= 0) {
+        const lmb_flat *p = &j->planes.plane[j->floor];
+        room = fminf(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    }
+    return j->o.scale > 0.0f ? j->o.scale : 0.25f * room / fmaxf(size, 1e-9f);
+}
+
+/* The middle of the plane, or beside what already stands there. */
 static int stand_at_centre(mix_job *j, report *r)
 {
+    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
     j->floor = lmb_planes_floor(&j->planes);
     if (j->floor < 0) {
         return report_fail(r, "no plane in the depth to stand on; say where by --at X,Y");
     }
     j->up = j->planes.plane[j->floor].normal;
     j->anchor = j->planes.plane[j->floor].centre;
+    const float radius = 0.6f * chosen_scale(j) * hypotf(hi.x - lo.x, hi.z - lo.z);
+    lmb_planes_clear(&j->anchor, &j->planes, &j->frame.camera, j->floor, radius);
     return 1;
 }
 
@@ -134,19 +151,6 @@ static lmb_mat4 upright(const mix_job *j, float scale)
     const lmb_vec3 x = cross(j->up, z), zx = scaled(x, sinf(turn)), zz = scaled(z, cosf(turn));
     const lmb_vec3 turned = {zx.x + zz.x, zx.y + zz.y, zx.z + zz.z};
     return of_axes(scaled(cross(j->up, turned), scale), scaled(j->up, scale), scaled(turned, scale), j->anchor);
-}
-
-/* A quarter of the plane's shorter side for the object's longest; half a metre where there is no plane. */
-static float chosen_scale(const mix_job *j)
-{
-    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
-    const float size = fmaxf(fmaxf(hi.x - lo.x, hi.y - lo.y), hi.z - lo.z);
-    float room = 2.0f;
-    if (j->floor >= 0) {
-        const lmb_flat *p = &j->planes.plane[j->floor];
-        room = fminf(p->high[0] - p->low[0], p->high[1] - p->low[1]);
-    }
-    return j->o.scale > 0.0f ? j->o.scale : 0.25f * room / fmaxf(size, 1e-9f);
 }
 
 /* The middle of the mesh's foot goes to the anchor. */

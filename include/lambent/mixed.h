@@ -119,18 +119,24 @@ size_t lmb_planes_bytes(int32_t width, int32_t height);
 
 /* lmb_planes_find: the planes of a cloud with normals.                                                      [M3 M4 M5]
  *
- * Grown from points whose nearest all face the same way, over points within three standard deviations, fitted again as
- * they double, joined where they are one, and fitted to what is left within 2.5 deviations. A plane has at least one
+ * Grown from points whose nearest all face the same way, over points within 4.5 standard deviations, fitted again as
+ * they double, joined where they are one, and fitted to what is left within 4 deviations. A plane has at least one
  * pixel of 256 of the picture, and 32. None is LMB_OK with count 0. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or
  * LMB_ERR_CAPACITY. Cost: some 60 operations a pixel. */
 lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory, size_t bytes);
 
-/* lmb_planes_floor: the plane that an object would stand on: the largest surface of those that face up, within 70
- * degrees of the camera's up; where none does, the largest. -1 where there are none. */
+/* lmb_planes_floor: the plane that an object would stand on: the one with the largest picture of those that face up,
+ * within 70 degrees of the camera's up, the less the more it turns away; where none does, the largest. -1 where there are
+ * none. */
 int32_t lmb_planes_floor(const lmb_planes *planes);
 
 /* lmb_planes_anchor: where on plane p the ray of pixel (x, y) meets it. 0 where it does not. */
 int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y);
+
+/* lmb_planes_clear: the place on plane p nearest to its centre about which the picture shows nothing but the plane,
+ * radius_m far. *Ours:* the middle of a table is where things stand. 0 where there is none. Pixels are tried in steps
+ * of four. */
+int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float radius_m);
 
 /* lmb_planes_move: move the cloud's points onto their planes, and fill the holes inside them.                   [M4] */
 void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes);

@@ -3,7 +3,7 @@
 
 #if LMB_MIXED
 
-#define BELONGS_OFF 3.0f
+#define BELONGS_OFF 4.5f
 #define TURNED 0.7071068f /* cosine of 45 degrees: a point that faces elsewhere is another surface's */
 
 enum { NEAR_PX = 8, SPECK = 12 };

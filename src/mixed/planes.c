@@ -10,9 +10,13 @@
 #define SAME_WAY 0.9781476f   /* cosine of 12 degrees: neighbours of a point inside a plane */
 #define GROWS_OVER 0.9063078f /* of 25: what noise may turn a point's normal by */
 #define ONE_PLANE 0.9975641f  /* of 4 */
-#define REACH_OFF 3.0f        /* standard deviations */
+#define REACH_OFF 4.5f        /* standard deviations from pixel to pixel: over a hand's breadth sensors err by more */
+#define JOIN_OFF 7.0f
+#define APART_OFF 3.5f
+#define FIT_OFF 4.0f
 
-enum { SEED_STEP = 6, SEED_NEAREST = 8, FIRST_FIT = 48 }; /* px, points, points */
+enum { SEED_STEP = 6, SEED_NEAREST = 8, FIRST_FIT = 48, /* px, points, points */
+       TOUCH_PX = 6, TOUCH_PAIRS = 24, CLEAR_STEP = 4 };
 
 size_t lmb_planes_bytes(int32_t width, int32_t height)
 {
@@ -187,19 +191,45 @@ static void fit_all(lmb_planes *planes, const lmb_cloud *cloud)
 {
     for (int32_t i = 0; i < planes->count; ++i) {
         float slope[3];
-        if (planes_fit(slope, planes, cloud, i + 1, 2.5f)) {
+        if (planes_fit(slope, planes, cloud, i + 1, FIT_OFF)) {
             memcpy(planes->plane[i].slope, slope, sizeof slope);
         }
     }
     planes_measure(planes, cloud);
 }
 
-/* One surface that something stands in front of: facing one way, and each on the other's continuation. */
-static int are_one(const lmb_cloud *cloud, const lmb_flat *a, const lmb_flat *b)
+/* How many pairs of pixels a few apart are of planes i and k, i < k; 255: as many or more. */
+typedef struct touching {
+    uint8_t pairs[LMB_MAX_PLANES][LMB_MAX_PLANES];
+} touching;
+
+static void add_pair(touching *t, uint8_t a, uint8_t b)
+{
+    if (a != 0 && b != 0 && a != b) {
+        uint8_t *pairs = &t->pairs[mini(a, b) - 1][maxi(a, b) - 1];
+        *pairs = (uint8_t)mini(*pairs + 1, 255);
+    }
+}
+
+static void find_touching(touching *t, const lmb_planes *planes, const lmb_pinhole *c)
+{
+    memset(t, 0, sizeof *t);
+    for (int32_t y = 0; y < c->height; ++y) {
+        const uint8_t *row = planes->label + (size_t)y * (size_t)c->width;
+        for (int32_t x = 0; x < c->width; ++x) {
+            add_pair(t, row[x], x + TOUCH_PX < c->width ? row[x + TOUCH_PX] : 0);
+            add_pair(t, row[x], y + TOUCH_PX < c->height ? row[x + TOUCH_PX * c->width] : 0);
+        }
+    }
+}
+
+/* Both face one way, and each lies on the other's continuation: parts of one surface that a sensor has bent, or that
+ * something stands in front of, which must agree better. */
+static int are_one(const lmb_cloud *cloud, const lmb_flat *a, const lmb_flat *b, float off)
 {
     const lmb_vec3 at = mul3(b->centre, -1.0f / b->centre.z);
     const float q = -1.0f / b->centre.z;
-    return dot3(a->normal, b->normal) >= ONE_PLANE && plane_off(cloud, a->slope, q, at) <= REACH_OFF;
+    return dot3(a->normal, b->normal) >= ONE_PLANE && plane_off(cloud, a->slope, q, at) <= off;
 }
 
 static void remove_plane(lmb_planes *planes, const lmb_cloud *cloud, int32_t i, uint8_t into)
@@ -211,18 +241,22 @@ static void remove_plane(lmb_planes *planes, const lmb_cloud *cloud, int32_t i, 
     }
 }
 
-static void join_all(lmb_planes *planes, const lmb_cloud *cloud)
+/* The first two planes that are one. */
+static int join_two(lmb_planes *planes, const lmb_cloud *cloud)
 {
+    touching t;
+    find_touching(&t, planes, &cloud->camera);
     for (int32_t i = 0; i < planes->count; ++i) {
-        for (int32_t k = i + 1; k < planes->count;) {
-            if (are_one(cloud, &planes->plane[i], &planes->plane[k]) &&
-                are_one(cloud, &planes->plane[k], &planes->plane[i])) {
+        for (int32_t k = i + 1; k < planes->count; ++k) {
+            const float off = t.pairs[i][k] >= TOUCH_PAIRS ? JOIN_OFF : APART_OFF;
+            if (are_one(cloud, &planes->plane[i], &planes->plane[k], off) &&
+                are_one(cloud, &planes->plane[k], &planes->plane[i], off)) {
                 remove_plane(planes, cloud, k, (uint8_t)(i + 1));
-            } else {
-                ++k;
+                return 1;
             }
         }
     }
+    return 0;
 }
 
 static void drop_small(lmb_planes *planes, const lmb_cloud *cloud, int32_t least)
@@ -273,9 +307,10 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     grow_all(out, cloud, least);
     planes_measure(out, cloud);
     fit_all(out, cloud);
-    join_all(out, cloud);
-    planes_measure(out, cloud);
-    fit_all(out, cloud);
+    while (join_two(out, cloud)) {
+        planes_measure(out, cloud);
+        fit_all(out, cloud);
+    }
     planes_outline(out, cloud);
     planes_measure(out, cloud);
     fit_all(out, cloud);
@@ -290,9 +325,9 @@ int32_t lmb_planes_floor(const lmb_planes *planes)
     float most = 0.0f;
     for (int32_t i = 0; i < planes->count; ++i) {
         const lmb_flat *p = &planes->plane[i];
-        const float area = (p->high[0] - p->low[0]) * (p->high[1] - p->low[1]) * (p->normal.y - 0.34202014f);
-        if (area > most) {
-            most = area;
+        const float size = (float)p->pixels * (p->normal.y - 0.34202014f);
+        if (size > most) {
+            most = size;
             best = i;
         }
     }
@@ -311,6 +346,58 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
     }
     *out = mul3(ray, 1.0f / inverse);
     return 1;
+}
+
+/* --- a place to stand --------------------------------------------------------------------------------------------- */
+
+static int is_of(const lmb_planes *planes, const lmb_pinhole *c, int32_t p, lmb_vec3 at)
+{
+    if (!(at.z < -1e-3f)) {
+        return 0;
+    }
+    const float x = c->cx - c->fx * at.x / at.z + 0.5f, y = c->cy + c->fy * at.y / at.z + 0.5f;
+    return x >= 0.0f && y >= 0.0f && x < (float)c->width && y < (float)c->height &&
+           planes->label[(int32_t)y * c->width + (int32_t)x] == p + 1;
+}
+
+/* Sixteen points on the circle and on one half as wide. */
+static int is_clear(const lmb_planes *planes, const lmb_pinhole *c, int32_t p, lmb_vec3 at, float radius)
+{
+    static const float turn[8][2] = {{1, 0}, {0.7071f, 0.7071f}, {0, 1}, {-0.7071f, 0.7071f},
+                                     {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
+    const lmb_flat *plane = &planes->plane[p];
+    for (int32_t k = 0; k < 16; ++k) {
+        const float r = k < 8 ? radius : 0.5f * radius;
+        const lmb_vec3 out = add3(mul3(plane->across, r * turn[k % 8][0]), mul3(plane->along, r * turn[k % 8][1]));
+        if (!is_of(planes, c, p, add3(at, out))) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float radius_m)
+{
+    float least = 1e30f;
+    if (p < 0 || p >= planes->count) {
+        return 0;
+    }
+    const lmb_flat *plane = &planes->plane[p];
+    for (int32_t y = plane->y0; y < plane->y1; y += CLEAR_STEP) {
+        for (int32_t x = plane->x0; x < plane->x1; x += CLEAR_STEP) {
+            lmb_vec3 at;
+            if (planes->label[y * camera->width + x] != p + 1 ||
+                !lmb_planes_anchor(&at, planes, camera, p, (float)x, (float)y)) {
+                continue;
+            }
+            const lmb_vec3 d = sub3(at, plane->centre);
+            if (dot3(d, d) < least && is_clear(planes, camera, p, at, radius_m)) {
+                least = dot3(d, d);
+                *out = at;
+            }
+        }
+    }
+    return least < 1e30f;
 }
 
 void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes)

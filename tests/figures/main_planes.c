@@ -185,18 +185,23 @@ static true_plane in_world(const lmb_flat *f, const double pose[16])
     return p;
 }
 
-/* Planes of both that lie within 5 cm and 10 degrees of each other are taken for the same wall. */
+/* Of each of a frame's planes the nearest of the other's, where that is within 5 cm and 10 degrees: the same wall. */
 static void compare_frames(const true_plane *a, int a_count, const true_plane *b, int b_count, double *worst, int *shared)
 {
     for (int i = 0; i < a_count; ++i) {
+        double nearest = 0.05, turned = -1.0;
         for (int k = 0; k < b_count; ++k) {
             const lmb_vec3 n = {(float)b[k].n[0], (float)b[k].n[1], (float)b[k].n[2]};
-            const double angle = angle_deg(a[i].n, n);
-            if (angle < 10.0 && fabs(a[i].d - b[k].d) < 0.05) {
-                printf("  shared: angle %.3f deg, offset %.1f mm\n", angle, 1000.0 * fabs(a[i].d - b[k].d));
-                *worst = angle > *worst ? angle : *worst;
-                ++*shared;
+            const double angle = angle_deg(a[i].n, n), off = fabs(a[i].d - b[k].d);
+            if (angle < 10.0 && off < nearest) {
+                nearest = off;
+                turned = angle;
             }
+        }
+        if (turned >= 0.0) {
+            printf("  shared: angle %.3f deg, offset %.1f mm\n", turned, 1000.0 * nearest);
+            *worst = turned > *worst ? turned : *worst;
+            ++*shared;
         }
     }
 }
@@ -220,8 +225,8 @@ static void judge_frames(work *w, const char *folder)
         }
         find(w, &f.camera, f.depth);
         for (int k = 0; k < w->planes.count; ++k) {
-            /* The larger ones: walls, floor and furniture. */
-            if (w->planes.plane[k].pixels > WIDTH * HEIGHT / 50) {
+            /* The larger ones: walls, floor, ceiling. */
+            if (w->planes.plane[k].pixels > WIDTH * HEIGHT / 25) {
                 planes[i][count[i]++] = in_world(&w->planes.plane[k], f.pose);
             }
         }
