@@ -67,6 +67,17 @@ static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile
     }
 }
 
+/* What comes from around and from surfaces, behind what is in its way. */
+static void add_cones(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t world)
+{
+    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env};
+    if (j->voxels.count == 0) {
+        add_around(inout, &j->env, tile);
+    } else {
+        lmb_cones_diffuse(inout, NULL, &trace, &j->cones, tile);
+    }
+}
+
 static void add_lamps(lmb_irradiance *inout, const mix_job *j, const drawing *d, const lmb_tile *tile, int with)
 {
     for (int32_t i = 0; i < j->light_count; ++i) {
@@ -101,8 +112,8 @@ static void answer(drawing *d, const mix_job *j)
 {
     memset(&d->without, 0, sizeof d->without);
     memset(&d->with, 0, sizeof d->with);
-    add_around(&d->without, &j->env, &d->real);
-    add_around(&d->with, &j->env, &d->real);
+    add_cones(&d->without, j, &d->real, LMB_VOXEL_WITHOUT);
+    add_cones(&d->with, j, &d->real, LMB_VOXEL_WITH);
     add_lamps(&d->without, j, d, &d->real, 0);
     add_lamps(&d->with, j, d, &d->real, 1);
     lmb_delta_tile(&d->photo, &d->real, &d->without, &d->with);
@@ -111,7 +122,7 @@ static void answer(drawing *d, const mix_job *j)
 static void light_object(drawing *d, const mix_job *j)
 {
     memset(&d->lit, 0, sizeof d->lit);
-    add_around(&d->lit, &j->env, &d->object);
+    add_cones(&d->lit, j, &d->object, LMB_VOXEL_WITH);
     add_lamps(&d->lit, j, d, &d->object, 1);
     lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
 }

@@ -28,6 +28,9 @@ typedef struct mix_job {
     lmb_light lights[MIX_LIGHTS];
     lmb_light_map maps[MIX_LIGHTS][2]; /* without, with */
     int32_t light_count;
+    lmb_voxels voxels;   /* about the object; count 0: there is none */
+    lmb_cones cones;
+    lmb_cone_width gloss;
     image picture;       /* linear */
     void *blocks[MIX_BLOCKS];
     int block_count;
@@ -40,6 +43,7 @@ void *mix_take(mix_job *j, size_t bytes, report *r);
 int mix_find_planes(mix_job *j, report *r); /* cloud, planes, mesh of the real scene */
 int mix_place(mix_job *j, report *r);       /* the object, and the scene of both */
 int mix_light(mix_job *j, report *r);       /* environment, lights and their maps */
+int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
 
 /* mix_show_planes, mix_show_env: the picture instead of mix_draw's. */

@@ -36,7 +36,7 @@ const char mix_help[] =
     "                             ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed\n"
     "  --world FILE               what is around, a panorama or cube (default: folded from the photo)\n"
     "  --roughness R              0 .. 1: the planes mirror, as if varnished (default: they do not)\n"
-    "  --light-map N              texels a side, a multiple of 8 (default 1024)\n"
+    "  --light-map N              texels a side, a power of two (default 1024)\n"
     "  --voxels D                 4 .. 10: 2^D voxels a side (default 7)\n"
     "output\n"
     "  -o OUT                     .png .ppm .pfm .hdr\n"
@@ -92,7 +92,7 @@ static int parse_light(const char *text, mix_options *o)
 
 static int parse_light_map(const char *text, mix_options *o)
 {
-    return option_int(text, 8, 4096, &o->light_map) && o->light_map % 8 == 0;
+    return option_int(text, 8, 4096, &o->light_map) && (o->light_map & (o->light_map - 1)) == 0;
 }
 
 static int parse_show(const char *text, mix_options *o)
@@ -117,7 +117,7 @@ static const struct flag {
     {{"--light", "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], KIND spot, point or sun, at most eight times"}, parse_light},
     {{"--world", "a file, or what six files' names begin with"}, parse_world},
     {{"--roughness", "0 .. 1"}, parse_roughness},
-    {{"--light-map", "a multiple of 8, 8 .. 4096"}, parse_light_map},
+    {{"--light-map", "a power of two, 8 .. 4096"}, parse_light_map},
     {{"--voxels", "4 .. 10"}, parse_voxels},
     {{"--show", "final, delta, planes, voxels, env or object"}, parse_show},
     {{"-o", "a file name ending in .png, .ppm, .pfm or .hdr"}, parse_out},

@@ -94,7 +94,7 @@ static int make_picture(mix_job *j, report *r)
     if (!mix_place(j, r) || !mix_light(j, r)) {
         return 0;
     }
-    return j->o.show == MIX_ENV ? mix_show_env(j, r) : mix_draw(j, r);
+    return j->o.show == MIX_ENV ? mix_show_env(j, r) : mix_voxels(j, r) && mix_draw(j, r);
 }
 
 static int mix(mix_job *j, report *r)

@@ -11,8 +11,8 @@
 #ifndef LMB_MIXED_H
 #define LMB_MIXED_H
 
-#include "env.h"
 #include "compose.h"
+#include "voxel.h"
 
 /* A camera with square or other pixels, their centres at whole numbers: column = fx x / z + cx, row = fy y / z + cy, with
  * z ahead and y down. */
@@ -195,6 +195,14 @@ void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
  * Returns what lmb_light_map_init and lmb_light_map_draw return. */
 lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_kernels *kernels, const lmb_light *light,
                         const lmb_scene *scene, uint32_t real, int32_t size, void *memory, size_t bytes);
+
+/* lmb_around_inject: what surfaces throw back of the light of `env`, nothing being in its way, added to a field's leaves
+ * beside what lamps give them (lmb_voxels_inject of the lights' maps).                                          [M7]
+ *
+ * In the picture real surfaces then shine about as the photo has them, which is more than their lamps' light. Builds with
+ * LMB_VOXELS. Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_around_inject(lmb_voxels *inout, int32_t field, const lmb_scene *scene, uint32_t first_id,
+                             uint32_t count, const lmb_env *env);
 
 /* lmb_real_albedo: what a surface must reflect to look as the photo has it: pi x radiance / irradiance, within
  * LMB_ALBEDO_LEAST .. LMB_ALBEDO_MOST; 0.5 where there is no irradiance. */
