@@ -70,9 +70,9 @@ static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile
 /* What comes from around and from surfaces, behind what is in its way. */
 static void add_cones(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t world)
 {
-    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env};
+    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world]};
     if (j->voxels.count == 0) {
-        add_around(inout, &j->env, tile);
+        add_around(inout, &j->env[0], tile);
     } else {
         lmb_cones_diffuse(inout, NULL, &trace, &j->cones, tile);
     }
@@ -209,7 +209,7 @@ int mix_show_planes(mix_job *j, report *r)
 
 int mix_show_env(mix_job *j, report *r)
 {
-    const int32_t n = j->env.size;
+    const int32_t n = j->env[0].size;
     if (!make_image(&j->picture, n, 6 * n, r)) {
         return 0;
     }
@@ -217,7 +217,7 @@ int mix_show_env(mix_job *j, report *r)
         const float s = (2.0f * (float)(i % n) + 1.0f) / (float)n - 1.0f,
                     t = (2.0f * (float)(i / n % n) + 1.0f) / (float)n - 1.0f;
         const lmb_vec3 all[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
-        lmb_env_sample(j->picture.pixels + 3 * i, &j->env, all[i / (n * n)], 0.0f);
+        lmb_env_sample(j->picture.pixels + 3 * i, &j->env[0], all[i / (n * n)], 0.0f);
     }
     return 1;
 }

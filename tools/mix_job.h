@@ -24,7 +24,7 @@ typedef struct mix_job {
     lmb_vec3 anchor, up;
     int32_t floor;       /* the plane that the object stands on, or -1 */
     float gap_m;         /* how far the measured depth about the anchor is from where the object stands */
-    lmb_env env;
+    lmb_env env[2];      /* around the scene without and with the object */
     lmb_light lights[MIX_LIGHTS];
     lmb_light_map maps[MIX_LIGHTS][2]; /* without, with */
     int32_t light_count;

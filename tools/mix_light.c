@@ -59,9 +59,9 @@ static void fill_env(const mix_job *j, const lmb_world_pictures *p)
                         t = (2.0f * (float)(SUB * y + k / SUB) + 1.0f) / (SUB * ENV_SIZE) - 1.0f;
             add_seen(sum, p, turned(&to_world, direction_of(face, s, t)));
         }
-        lmb_env_set(&j->env, face, x, y, sum);
+        lmb_env_set(&j->env[0], face, x, y, sum);
     }
-    lmb_env_mips(&j->env);
+    lmb_env_mips(&j->env[0]);
 }
 
 static int read_world(mix_job *j, report *r)
@@ -81,12 +81,14 @@ static int read_world(mix_job *j, report *r)
 static int make_env(mix_job *j, report *r)
 {
     const size_t bytes = lmb_env_bytes(ENV_SIZE);
-    void *memory = mix_take(j, bytes, r);
-    if (memory == NULL || lmb_env_init(&j->env, ENV_SIZE, memory, bytes) != LMB_OK) {
-        return 0;
+    for (int i = 0; i < 2; ++i) {
+        void *memory = mix_take(j, bytes, r);
+        if (memory == NULL || lmb_env_init(&j->env[i], ENV_SIZE, memory, bytes) != LMB_OK) {
+            return 0;
+        }
     }
     return j->o.world != NULL ? read_world(j, r)
-                              : lmb_env_fold(&j->env, j->frame.light.pixels, j->frame.light.width,
+                              : lmb_env_fold(&j->env[0], j->frame.light.pixels, j->frame.light.width,
                                              j->frame.light.height) == LMB_OK;
 }
 
@@ -97,13 +99,13 @@ static void guess_sun(mix_job *j)
 {
     float around[3];
     lmb_light *sun = &j->lights[0];
-    const lmb_vec3 from = lmb_env_brightest(&j->env, j->up);
+    const lmb_vec3 from = lmb_env_brightest(&j->env[0], j->up);
     const float height = from.x * j->up.x + from.y * j->up.y + from.z * j->up.z;
     memset(sun, 0, sizeof *sun);
     sun->kind = LMB_LIGHT_DIRECTIONAL;
     sun->direction = (lmb_vec3){-from.x, -from.y, -from.z};
     sun->cos_inner = sun->cos_outer = 1.0f;
-    lmb_env_irradiance(around, &j->env, j->up);
+    lmb_env_irradiance(around, &j->env[0], j->up);
     for (int c = 0; c < 3; ++c) {
         sun->intensity[c] = SUN_SHARE * around[c] / height;
     }

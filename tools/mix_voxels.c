@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TREE_SIZE = 512, CONES = 19 };
+enum { TREE_SIZE = 512, CONES = 19, BOUNCES = 2 };
 
 /* The cube around the object is so many times as wide as it is. */
 #define ROOM 6.0f
@@ -29,7 +29,7 @@ static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, co
         float rgb[3];
         const lmb_vec3 n = {tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]};
         if (tile->id[k] != 0) {
-            lmb_env_irradiance(rgb, &j->env, n);
+            lmb_env_irradiance(rgb, &j->env[0], n);
             for (int c = 0; c < 3; ++c) {
                 out->rgb[c][k] += rgb[c];
             }
@@ -120,15 +120,24 @@ static int build(mix_job *j, report *r)
 
 /* --- their light -------------------------------------------------------------------------------------------------- */
 
-static int inject_map(mix_job *j, lmb_tree *tree, lmb_tile *scratch, int32_t light, int32_t with)
+/* What is injected, and where the maps' first points are made. */
+typedef struct points {
+    lmb_tree tree;
+    lmb_tile *scratch;
+    lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
+    size_t real_count, object_count;
+    double real_flux[3], far_flux[3]; /* W: of all real surfaces that are seen; of those outside the cube */
+} points;
+
+static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
 {
     const lmb_light_map *map = &j->maps[light][with];
     for (int32_t f = 0; f < map->faces; ++f) {
         if ((map->drawn >> f & 1u) != 0) {
-            tree->faces = 1;
-            if (lmb_tree_texels(tree, j->o.kernels, scratch, &j->scene, &j->lights[light], map, f, 0, 0,
-                                tree->size / LMB_TILE) != LMB_OK ||
-                lmb_voxels_inject(&j->voxels, with, tree->texel, (size_t)tree->size * (size_t)tree->size) != LMB_OK) {
+            const size_t size = (size_t)p->tree.size;
+            if (lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, f, 0, 0,
+                                p->tree.size / LMB_TILE) != LMB_OK ||
+                lmb_voxels_inject(&j->voxels, with, p->tree.texel, size * size) != LMB_OK) {
                 return 0;
             }
         }
@@ -136,38 +145,125 @@ static int inject_map(mix_job *j, lmb_tree *tree, lmb_tile *scratch, int32_t lig
     return 1;
 }
 
-static int inject_lamps(mix_job *j, report *r)
+static int inject_maps(mix_job *j, points *p, int32_t with)
 {
-    const int32_t size = j->o.light_map < TREE_SIZE ? j->o.light_map : j->o.light_map / 8 > TREE_SIZE ? j->o.light_map / 8
-                                                                                                      : TREE_SIZE;
-    const size_t bytes = lmb_tree_bytes(1, size);
-    lmb_tree tree;
-    lmb_tile *scratch = mix_take(j, sizeof *scratch, r);
-    void *memory = mix_take(j, bytes, r);
-    if (scratch == NULL || memory == NULL) {
-        return 0;
-    }
-    if (lmb_tree_init(&tree, 1, size, memory, bytes) != LMB_OK) {
-        return report_fail(r, "--light-map: a power of two, not %d", (int)j->o.light_map);
-    }
     for (int32_t i = 0; i < j->light_count; ++i) {
-        if (!inject_map(j, &tree, scratch, i, 0) || !inject_map(j, &tree, scratch, i, 1)) {
-            return report_fail(r, "--light %d: its map cannot be taken into voxels", (int)i + 1);
+        if (!inject_map(j, p, i, with)) {
+            return 0;
         }
     }
     return 1;
 }
 
-static int inject_around(mix_job *j, report *r)
+/* What is not seen darkens as what is seen does in the mean: the picture's surroundings are folded from the picture. */
+static void dim_around(mix_job *j, const points *p)
 {
-    for (int32_t field = 0; field < 2; ++field) {
-        const uint32_t count = j->real_triangles + (field == LMB_VOXEL_WITH ? j->object_triangles : 0);
-        if (lmb_around_inject(&j->voxels, field, &j->scene, 1, count, &j->env) != LMB_OK ||
-            lmb_voxels_filter(&j->voxels, field) != LMB_OK) {
-            return report_fail(r, "voxels cannot take their light");
+    float share[3];
+    for (int c = 0; c < 3; ++c) {
+        double sum = p->far_flux[c];
+        for (size_t i = 0; i < p->real_count; ++i) {
+            sum += (double)p->again[i].flux[c];
+        }
+        share[c] = p->real_flux[c] > 0.0 ? (float)(sum / p->real_flux[c]) : 1.0f;
+    }
+    lmb_env_dim(&j->env[1], &j->env[0], share);
+}
+
+/* Light that is thrown back changes what else is thrown back: the world with the object is lit again, by what its points
+ * receive. The other one is what the photo shows and stays. */
+static int inject_again(mix_job *j, points *p)
+{
+    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1]},
+                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0]};
+    lmb_texel *object = p->again + p->real_count;
+    int ok;
+    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
+    memcpy(object, p->object, p->object_count * sizeof *object);
+    ok = lmb_around_relight(p->again, p->real_count, &with, &without, &j->cones, p->scratch) == LMB_OK &&
+         lmb_around_relight(object, p->object_count, &with, NULL, &j->cones, p->scratch) == LMB_OK;
+    if (ok) {
+        dim_around(j, p);
+    }
+    return ok && lmb_voxels_dark(&j->voxels, LMB_VOXEL_WITH) == LMB_OK && inject_maps(j, p, LMB_VOXEL_WITH) &&
+           lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITH, p->again, p->real_count + p->object_count) == LMB_OK &&
+           lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITH) == LMB_OK;
+}
+
+static int inject_all(mix_job *j, points *p, report *r)
+{
+    int ok = inject_maps(j, p, LMB_VOXEL_WITHOUT) && inject_maps(j, p, LMB_VOXEL_WITH) &&
+             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITHOUT, p->real, p->real_count) == LMB_OK &&
+             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITH, p->real, p->real_count) == LMB_OK &&
+             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITH, p->object, p->object_count) == LMB_OK &&
+             lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITHOUT) == LMB_OK &&
+             lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITH) == LMB_OK;
+    const float same[3] = {1.0f, 1.0f, 1.0f};
+    lmb_env_dim(&j->env[1], &j->env[0], same);
+    for (int i = 0; ok && i < BOUNCES; ++i) {
+        ok = inject_again(j, p);
+    }
+    return (ok && lmb_voxels_delta(&j->voxels) == LMB_OK) || report_fail(r, "voxels cannot take their light");
+}
+
+/* Only what lies in the cube: the rest would find no leaf. */
+static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
+{
+    const float side = v->leaf * (float)(1 << v->depth);
+    size_t n = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const lmb_vec3 at = {all[i].position.x - v->low.x, all[i].position.y - v->low.y,
+                             all[i].position.z - v->low.z};
+        if (at.x > 0.0f && at.y > 0.0f && at.z > 0.0f && at.x < side && at.y < side && at.z < side) {
+            all[n++] = all[i];
         }
     }
-    return lmb_voxels_delta(&j->voxels) == LMB_OK;
+    return n;
+}
+
+static void add_flux(double sum[3], const lmb_texel *all, size_t count)
+{
+    for (size_t i = 0; i < 3 * count; ++i) {
+        sum[i % 3] += (double)all[i / 3].flux[i % 3];
+    }
+}
+
+static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uint32_t first_id, uint32_t triangles, report *r)
+{
+    const float leaf = j->voxels.leaf;
+    const size_t cap = lmb_around_points(NULL, 0, &j->scene, first_id, triangles, leaf, &j->env[0]);
+    lmb_texel *out = mix_take(j, cap * sizeof *out, r);
+    if (out != NULL) {
+        lmb_around_points(out, cap, &j->scene, first_id, triangles, leaf, &j->env[0]);
+        add_flux(all_flux, out, cap);
+        *count = inside(out, cap, &j->voxels);
+    }
+    return out;
+}
+
+static int light_voxels(mix_job *j, report *r)
+{
+    const int32_t map = j->o.light_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
+    const size_t bytes = lmb_tree_bytes(1, size);
+    double object_flux[3] = {0, 0, 0}, near_flux[3] = {0, 0, 0};
+    points p;
+    memset(&p, 0, sizeof p);
+    void *memory = mix_take(j, bytes, r);
+    p.scratch = mix_take(j, sizeof *p.scratch, r);
+    p.real = take_points(&p.real_count, p.real_flux, j, 1, j->real_triangles, r);
+    p.object = take_points(&p.object_count, object_flux, j, j->real_triangles + 1, j->object_triangles, r);
+    p.again = mix_take(j, (p.real_count + p.object_count) * sizeof *p.again, r);
+    if (memory == NULL || p.scratch == NULL || p.real == NULL || p.object == NULL || p.again == NULL) {
+        return 0;
+    }
+    if (lmb_tree_init(&p.tree, 1, size, memory, bytes) != LMB_OK) {
+        return report_fail(r, "--light-map: a power of two, not %d", (int)map);
+    }
+    p.tree.faces = 1;
+    add_flux(near_flux, p.real, p.real_count);
+    for (int c = 0; c < 3; ++c) {
+        p.far_flux[c] = p.real_flux[c] - near_flux[c];
+    }
+    return inject_all(j, &p, r);
 }
 
 int mix_voxels(mix_job *j, report *r)
@@ -175,5 +271,5 @@ int mix_voxels(mix_job *j, report *r)
     if (j->object_triangles == 0) {
         return 1;
     }
-    return colour_real(j, r) && build(j, r) && inject_lamps(j, r) && inject_around(j, r);
+    return colour_real(j, r) && build(j, r) && light_voxels(j, r);
 }

@@ -196,13 +196,21 @@ void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
 lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_kernels *kernels, const lmb_light *light,
                         const lmb_scene *scene, uint32_t real, int32_t size, void *memory, size_t bytes);
 
-/* lmb_around_inject: what surfaces throw back of the light of `env`, nothing being in its way, added to a field's leaves
- * beside what lamps give them (lmb_voxels_inject of the lights' maps).                                          [M7]
+/* lmb_around_points: what triangles throw back of the light of `env`, nothing being in its way, as first points that
+ * lmb_voxels_inject takes beside those of the lights' maps.                                                     [M7]
  *
- * In the picture real surfaces then shine about as the photo has them, which is more than their lamps' light. Builds with
- * LMB_VOXELS. Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_around_inject(lmb_voxels *inout, int32_t field, const lmb_scene *scene, uint32_t first_id,
-                             uint32_t count, const lmb_env *env);
+ *   leaf  m: triangles are parted until their parts are no longer than that, or 64 to a side
+ * By this light and the lamps' real surfaces shine about as the photo has them. Returns how many points there are; `cap`
+ * of them are written, 0 to ask. Builds with LMB_VOXELS have it, and what follows.
+ *
+ * lmb_around_relight: the same points by what reaches them through voxels: each flux times the share of the light `with`
+ * to the light `without`; or, where `without` is NULL, to that of with->env with nothing in its way. What the object
+ * blocks and throws back so comes to bounce again. LMB_OK or LMB_ERR_ARG. Cost: one or two lmb_cones_diffuse for each 64.
+ */
+size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uint32_t first_id, uint32_t count,
+                         float leaf, const lmb_env *env);
+lmb_status lmb_around_relight(lmb_texel *inout, size_t count, const lmb_cone_trace *with, const lmb_cone_trace *without,
+                              const lmb_cones *cones, lmb_tile *scratch);
 
 /* lmb_real_albedo: what a surface must reflect to look as the photo has it: pi x radiance / irradiance, within
  * LMB_ALBEDO_LEAST .. LMB_ALBEDO_MOST; 0.5 where there is no irradiance. */

@@ -96,6 +96,14 @@ void lmb_env_mips(const lmb_env *env)
     }
 }
 
+void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3])
+{
+    const size_t texels = lmb_env_bytes(from->size) / (4 * sizeof(uint16_t));
+    for (size_t i = 0; i < 4 * texels; ++i) {
+        out->texels[i] = i % 4 == 3 ? HALF_ONE : half_encode(half_decode(from->texels[i]) * share[i % 4]);
+    }
+}
+
 /* --- what a cone sees --------------------------------------------------------------------------------------------- */
 
 static void add_texel(float out[3], const lmb_env *env, int32_t level, cube_place p, float weight)

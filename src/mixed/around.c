@@ -1,0 +1,186 @@
+/* around.c: what surfaces throw back of the light around them, as first points for voxels. Floor 6.             [M7] */
+#include <string.h>
+
+#include "../base/poly.h"
+#include "../base/vec.h"
+#include "../raster/texture.h"
+#include "../raster/triangle.h"
+#include <lambent/mixed.h>
+
+#if LMB_MIXED && LMB_VOXELS
+
+#define MOST_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
+
+enum { MOST_PARTS = 64 }; /* a triangle's side is divided by at most */
+
+/* Of three corners' values, the one at barycentrics (b1, b2). */
+static float mix(float a, float b, float c, float b1, float b2) { return a + (b - a) * b1 + (c - a) * b2; }
+
+static void corner_uv(float out[2], const lmb_mesh *m, uint32_t vertex)
+{
+    for (int i = 0; i < 2; ++i) {
+        out[i] = m->uv_format == LMB_UV_U16
+                     ? (float)((const uint16_t *)m->uvs)[2 * (size_t)vertex + (size_t)i] * m->uv_scale[i] / 65535.0f
+                     : ((const float *)m->uvs)[2 * (size_t)vertex + (size_t)i];
+    }
+}
+
+static void albedo_at(float out[3], const lmb_triangle *t, const lmb_scene *scene, float b1, float b2)
+{
+    const lmb_mesh *m = t->mesh;
+    float texel[4] = {1, 1, 1, 1};
+    if (t->material->texture >= 0 && m->uvs != NULL) {
+        const lmb_texture *texture = &scene->textures[t->material->texture];
+        float uv[3][2];
+        for (int k = 0; k < 3; ++k) {
+            corner_uv(uv[k], m, t->vertex[k]);
+        }
+        lmb_texture_sample(texel, texture, mix(uv[0][0], uv[1][0], uv[2][0], b1, b2),
+                           mix(uv[0][1], uv[1][1], uv[2][1], b1, b2), (float)(texture->levels - 1));
+    }
+    for (int c = 0; c < 3; ++c) {
+        float colour = 1.0f;
+        if (m->colours != NULL) {
+            const uint8_t *at = m->colours + c;
+            colour = mix((float)at[4 * (size_t)t->vertex[0]], (float)at[4 * (size_t)t->vertex[1]],
+                         (float)at[4 * (size_t)t->vertex[2]], b1, b2) * (1.0f / 255.0f);
+        }
+        out[c] = clampf(t->material->albedo[c] * colour * texel[c], 0.0f, 1.0f);
+    }
+}
+
+/* A triangle in n x n alike parts: part (i, j) stands upright where i + j < n, upside down else. */
+typedef struct parts {
+    const lmb_triangle *triangle;
+    const lmb_scene *scene;
+    lmb_vec3 normal;
+    float area, light[3]; /* of a part, m2; W/m2 that reaches it */
+    int32_t n;
+} parts;
+
+static void part_at(lmb_texel *out, const parts *p, int32_t i, int32_t j)
+{
+    const int up = i + j < p->n;
+    const float step = 1.0f / (float)p->n, third = up ? 1.0f / 3.0f : 2.0f / 3.0f;
+    const float x = (float)(up ? i : p->n - 1 - i) + third, y = (float)(up ? j : p->n - 1 - j) + third;
+    const lmb_vec3 *c = p->triangle->corner;
+    float albedo[3];
+    albedo_at(albedo, p->triangle, p->scene, x * step, y * step);
+    memset(out, 0, sizeof *out);
+    out->position = add3(c[0], add3(mul3(sub3(c[1], c[0]), x * step), mul3(sub3(c[2], c[0]), y * step)));
+    out->normal = p->normal;
+    for (int k = 0; k < 3; ++k) {
+        out->flux[k] = albedo[k] * p->light[k] * p->area;
+    }
+}
+
+/* Returns how many parts there are; those that fit are written. */
+static size_t put_triangle(lmb_texel *out, size_t cap, const lmb_triangle *t, const lmb_scene *scene, float leaf,
+                           const lmb_env *env)
+{
+    parts p = {t, scene, {0, 0, 0}, 0.0f, {0, 0, 0}, 1};
+    if (!lmb_triangle_shape(&p.normal, &p.area, t)) {
+        return 0;
+    }
+    const float side = maxf(length3(sub3(t->corner[1], t->corner[0])), length3(sub3(t->corner[2], t->corner[0])));
+    p.n = (int32_t)minf(side / leaf, (float)(MOST_PARTS - 1)) + 1;
+    p.area /= (float)(p.n * p.n);
+    const size_t count = (size_t)p.n * (size_t)p.n;
+    if (cap > 0) {
+        lmb_env_irradiance(p.light, env, p.normal);
+    }
+    for (size_t k = 0; k < count && k < cap; ++k) {
+        part_at(&out[k], &p, (int32_t)k % p.n, (int32_t)k / p.n);
+    }
+    return count;
+}
+
+size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uint32_t first_id, uint32_t count,
+                         float leaf, const lmb_env *env)
+{
+    size_t n = 0;
+    if (scene == NULL || env == NULL || !(leaf > 0.0f) || (out == NULL && cap > 0)) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        lmb_triangle t;
+        if (lmb_triangle_fetch(&t, scene, first_id + i)) {
+            n += put_triangle(n < cap ? out + n : NULL, n < cap ? cap - n : 0, &t, scene, leaf, env);
+        }
+    }
+    return n;
+}
+
+/* --- light that comes again --------------------------------------------------------------------------------------- */
+
+static void put_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
+{
+    const float p[3] = {from->position.x, from->position.y, from->position.z},
+                n[3] = {from->normal.x, from->normal.y, from->normal.z};
+    for (int32_t i = 0; i < 3; ++i) {
+        tile->position[i][k] = p[i];
+        tile->face[i][k] = tile->normal[i][k] = n[i];
+    }
+    tile->depth[k] = 1.0f;
+    tile->id[k] = 1;
+}
+
+/* What a point received: through the world without the object, or with nothing in the way. */
+static void received(float out[3], const lmb_irradiance *before, int32_t k, const lmb_texel *point, const lmb_env *env)
+{
+    for (int c = 0; c < 3 && before != NULL; ++c) {
+        out[c] = before->rgb[c][k];
+    }
+    if (before == NULL) {
+        lmb_env_irradiance(out, env, point->normal);
+    }
+}
+
+static void relight(lmb_texel *inout, const lmb_irradiance *before, const lmb_irradiance *now, int32_t k,
+                    const lmb_env *env)
+{
+    float was[3];
+    received(was, before, k, inout, env);
+    for (int c = 0; c < 3; ++c) {
+        const float ratio = was[c] > 1e-9f ? clampf(now->rgb[c][k] / was[c], 0.0f, MOST_RATIO) : 1.0f;
+        inout->flux[c] *= ratio;
+    }
+}
+
+static lmb_status relight_tile(lmb_texel *inout, int32_t n, const lmb_cone_trace *with, const lmb_cone_trace *without,
+                               const lmb_cones *cones, lmb_tile *scratch)
+{
+    lmb_irradiance before, now;
+    memset(scratch, 0, sizeof *scratch);
+    memset(&before, 0, sizeof before);
+    memset(&now, 0, sizeof now);
+    for (int32_t k = 0; k < n; ++k) {
+        put_point(scratch, k, &inout[k]);
+    }
+    lmb_status status = lmb_cones_diffuse(&now, NULL, with, cones, scratch);
+    if (status == LMB_OK && without != NULL) {
+        status = lmb_cones_diffuse(&before, NULL, without, cones, scratch);
+    }
+    for (int32_t k = 0; k < n && status == LMB_OK; ++k) {
+        relight(&inout[k], without != NULL ? &before : NULL, &now, k, with->env);
+    }
+    return status;
+}
+
+lmb_status lmb_around_relight(lmb_texel *inout, size_t count, const lmb_cone_trace *with, const lmb_cone_trace *without,
+                              const lmb_cones *cones, lmb_tile *scratch)
+{
+    if ((inout == NULL && count > 0) || with == NULL || with->env == NULL || cones == NULL || scratch == NULL) {
+        return LMB_ERR_ARG;
+    }
+    for (size_t i = 0; i < count; i += LMB_TILE_PIXELS) {
+        const int32_t n = count - i < LMB_TILE_PIXELS ? (int32_t)(count - i) : LMB_TILE_PIXELS;
+        const lmb_status status = relight_tile(inout + i, n, with, without, cones, scratch);
+        if (status != LMB_OK) {
+            return status;
+        }
+    }
+    return LMB_OK;
+}
+
+#endif
