@@ -8,7 +8,7 @@
 enum { TREE_SIZE = 512, CONES = 19, BOUNCES = 2 };
 
 /* The cube around the object is so many times as wide as it is. */
-#define ROOM 6.0f
+#define ROOM 4.0f
 
 /* --- real surfaces' colours --------------------------------------------------------------------------------------- */
 
