@@ -1,17 +1,20 @@
 /* mix_draw.c: the photo's answer and the object over it, tile by tile. */
-#include "mix_job.h"
+#include "mix_cones.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "picture.h"
 
 /* Everything that one tile is made in. */
 typedef struct drawing {
     lmb_view view;
     int32_t x0, y0; /* of the photo in the view's frame */
     lmb_target eye; /* the object's */
-    lmb_tile real, object;
-    lmb_irradiance without, with, lit;
+    mix_batch batch;
+    lmb_tile object;
+    lmb_irradiance lit;
     lmb_radiance light, photo;
 } drawing;
 
@@ -52,32 +55,6 @@ static int draw_object(drawing *d, mix_job *j, report *r)
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
-/* What comes from far away, nothing being in its way. */
-static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile *tile)
-{
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (tile->id[k] != 0) {
-            float rgb[3];
-            const lmb_vec3 n = {tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]};
-            lmb_env_irradiance(rgb, env, n);
-            for (int c = 0; c < 3; ++c) {
-                inout->rgb[c][k] += rgb[c];
-            }
-        }
-    }
-}
-
-/* What comes from around and from surfaces, behind what is in its way. */
-static void add_cones(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t world)
-{
-    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world]};
-    if (j->voxels.count == 0) {
-        add_around(inout, &j->env[0], tile);
-    } else {
-        lmb_cones_diffuse(inout, NULL, &trace, &j->cones, tile);
-    }
-}
-
 static void add_lamps(lmb_irradiance *inout, const mix_job *j, const drawing *d, const lmb_tile *tile, int with)
 {
     for (int32_t i = 0; i < j->light_count; ++i) {
@@ -108,55 +85,64 @@ static void put_tile(image *p, const lmb_radiance *in, int32_t x, int32_t y)
     }
 }
 
-static void answer(drawing *d, const mix_job *j)
-{
-    memset(&d->without, 0, sizeof d->without);
-    memset(&d->with, 0, sizeof d->with);
-    add_cones(&d->without, j, &d->real, LMB_VOXEL_WITHOUT);
-    add_cones(&d->with, j, &d->real, LMB_VOXEL_WITH);
-    add_lamps(&d->without, j, d, &d->real, 0);
-    add_lamps(&d->with, j, d, &d->real, 1);
-    lmb_delta_tile(&d->photo, &d->real, &d->without, &d->with);
-}
-
 static void light_object(drawing *d, const mix_job *j)
 {
     memset(&d->lit, 0, sizeof d->lit);
-    add_cones(&d->lit, j, &d->object, LMB_VOXEL_WITH);
+    mix_cones_tile(&d->lit, j, &d->object);
     add_lamps(&d->lit, j, d, &d->object, 1);
     lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
 }
 
 /* What is asked for instead of the whole: differences of real pixels, or the object's own. */
-static void choose(drawing *d, const mix_job *j, uint64_t shown)
+static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t shown)
 {
     lmb_radiance before;
     if (j->o.show == MIX_FINAL) {
         return;
     }
-    get_photo(&before, &j->frame.light, d->real.x, d->real.y);
+    get_photo(&before, &j->frame.light, real->x, real->y);
+    /* Round middle grey where a picture cannot hold what is negative. */
+    const float zero = j->o.show == MIX_DELTA && !picture_is_linear(picture_format(j->o.out)) ? 0.2140411f : 0.0f;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int is_object = (int)(shown >> k & 1);
         for (int c = 0; c < 3; ++c) {
             const float v = d->photo.rgb[c][k];
-            d->photo.rgb[c][k] = j->o.show == MIX_OBJECT ? (is_object ? v : 0.0f) : is_object ? 0.0f : v - before.rgb[c][k];
+            d->photo.rgb[c][k] = j->o.show == MIX_OBJECT ? (is_object ? v : 0.0f)
+                                 : is_object             ? zero
+                                                         : zero + v - before.rgb[c][k];
         }
     }
 }
 
-static void draw_tile(drawing *d, mix_job *j, int32_t x, int32_t y)
+static void draw_tile(drawing *d, mix_job *j, int32_t i)
 {
     uint64_t shown = 0;
-    get_photo(&d->photo, &j->frame.light, x, y);
-    lmb_real_tile(&d->real, &j->cloud, &j->planes, &j->real, x, y);
-    answer(d, j);
-    if (lmb_resolve_tile(&d->object, j->o.kernels, &d->view, &j->scene, &d->eye, d->x0 + x, d->y0 + y) == LMB_OK &&
-        d->object.hits > 0) {
-        light_object(d, j);
-        shown = lmb_object_tile(&d->photo, &d->light, &d->object, &d->real, &j->cloud);
+    const lmb_tile *real = &d->batch.real[i];
+    get_photo(&d->photo, &j->frame.light, real->x, real->y);
+    for (int32_t with = 0; with < 2; ++with) {
+        add_lamps(&d->batch.light[with][i], j, d, real, with);
     }
-    choose(d, j, shown);
-    put_tile(&j->picture, &d->photo, x, y);
+    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
+    if (lmb_resolve_tile(&d->object, j->o.kernels, &d->view, &j->scene, &d->eye, d->x0 + real->x, d->y0 + real->y) ==
+            LMB_OK && d->object.hits > 0) {
+        light_object(d, j);
+        shown = lmb_object_tile(&d->photo, &d->light, &d->object, real, &j->cloud);
+    }
+    choose(d, j, real, shown);
+    put_tile(&j->picture, &d->photo, real->x, real->y);
+}
+
+/* Tiles of one row, from x on. */
+static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
+{
+    mix_batch *b = &d->batch;
+    for (b->count = 0; b->count < MIX_BATCH && x < j->picture.width; x += LMB_TILE) {
+        lmb_real_tile(&b->real[b->count++], &j->cloud, &j->planes, &j->real, x, y);
+    }
+    mix_cones_batch(b, j);
+    for (int32_t i = 0; i < b->count; ++i) {
+        draw_tile(d, j, i);
+    }
 }
 
 int mix_draw(mix_job *j, report *r)
@@ -166,8 +152,8 @@ int mix_draw(mix_job *j, report *r)
         return 0;
     }
     for (int32_t y = 0; y < j->picture.height; y += LMB_TILE) {
-        for (int32_t x = 0; x < j->picture.width; x += LMB_TILE) {
-            draw_tile(d, j, x, y);
+        for (int32_t x = 0; x < j->picture.width; x += MIX_BATCH * LMB_TILE) {
+            draw_batch(d, j, x, y);
         }
     }
     return 1;

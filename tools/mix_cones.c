@@ -1,0 +1,101 @@
+/* mix_cones.c: light from around, by cones from some pixels of tiles side by side. */
+#include "mix_cones.h"
+
+#include <string.h>
+
+enum { STEP = 4 };
+
+/* What comes from far away, nothing being in its way: of scenes without an object nothing else is asked. */
+static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile *tile)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if (tile->id[k] != 0) {
+            float rgb[3];
+            const lmb_vec3 n = {tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]};
+            lmb_env_irradiance(rgb, env, n);
+            for (int c = 0; c < 3; ++c) {
+                inout->rgb[c][k] += rgb[c];
+            }
+        }
+    }
+}
+
+static void add_cones(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t world)
+{
+    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world]};
+    lmb_cones_diffuse(inout, NULL, &trace, &j->cones, tile);
+}
+
+void mix_cones_tile(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile)
+{
+    add_cones(inout, j, tile, LMB_VOXEL_WITH);
+}
+
+/* Trace the pixels that were put together, and put their light where they are from. */
+static void flush(mix_batch *b, const mix_job *j)
+{
+    for (int32_t world = 0; world < 2 && b->gathered > 0; ++world) {
+        lmb_irradiance light;
+        memset(&light, 0, sizeof light);
+        add_cones(&light, j, &b->together, world);
+        for (int32_t k = 0; k < b->gathered; ++k) {
+            for (int c = 0; c < 3; ++c) {
+                b->light[world][b->from[k] / LMB_TILE_PIXELS].rgb[c][b->from[k] % LMB_TILE_PIXELS] = light.rgb[c][k];
+            }
+        }
+    }
+    memset(&b->together, 0, sizeof b->together);
+    b->gathered = 0;
+}
+
+static void put_pixel(mix_batch *b, const mix_job *j, int32_t tile, int32_t pixel)
+{
+    const lmb_tile *from = &b->real[tile];
+    lmb_tile *to = &b->together;
+    const int32_t k = b->gathered;
+    for (int c = 0; c < 3; ++c) {
+        to->position[c][k] = from->position[c][pixel];
+        to->face[c][k] = from->face[c][pixel];
+        to->normal[c][k] = from->normal[c][pixel];
+    }
+    to->depth[k] = from->depth[pixel];
+    to->id[k] = from->id[pixel];
+    b->from[k] = tile * LMB_TILE_PIXELS + pixel;
+    if (++b->gathered == LMB_TILE_PIXELS) {
+        flush(b, j);
+    }
+}
+
+static void put_pixels(mix_batch *b, const mix_job *j, int32_t tile, uint64_t pixels)
+{
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        if ((pixels >> k & 1) != 0 && b->real[tile].id[k] != 0) {
+            put_pixel(b, j, tile, k);
+        }
+    }
+}
+
+void mix_cones_batch(mix_batch *b, const mix_job *j)
+{
+    uint64_t known[MIX_BATCH], more;
+    memset(b->light, 0, sizeof b->light);
+    if (j->voxels.count == 0) {
+        for (int32_t i = 0; i < 2 * b->count; ++i) {
+            add_around(&b->light[i / b->count][i % b->count], &j->env[0], &b->real[i % b->count]);
+        }
+        return;
+    }
+    memset(&b->together, 0, sizeof b->together);
+    b->gathered = 0;
+    for (int32_t i = 0; i < b->count; ++i) {
+        known[i] = lmb_sparse_pixels(&b->real[i], STEP);
+        put_pixels(b, j, i, known[i]);
+    }
+    flush(b, j);
+    for (int32_t i = 0; i < b->count; ++i) {
+        more = lmb_upsample_tile(&b->light[0][i], &b->real[i], known[i], STEP);
+        more |= lmb_upsample_tile(&b->light[1][i], &b->real[i], known[i], STEP);
+        put_pixels(b, j, i, more);
+    }
+    flush(b, j);
+}
