@@ -16,6 +16,7 @@ typedef struct drawing {
     lmb_tile object;
     lmb_irradiance lit;
     lmb_radiance light, photo;
+    lmb_cone_seen seen[2];
 } drawing;
 
 static int make_image(image *out, int32_t width, int32_t height, report *r)
@@ -114,6 +115,16 @@ static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t 
     }
 }
 
+static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
+{
+    const lmb_vec3 eye = {0, 0, 0};
+    for (int32_t world = 0; world < 2; ++world) {
+        const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world]};
+        lmb_cones_glossy(&d->seen[world], &trace, &j->gloss, real, eye);
+    }
+    lmb_mirror_tile(&d->photo, real, &j->planes, &j->frame.camera, j->floor, &d->seen[0], &d->seen[1], j->o.specular);
+}
+
 static void draw_tile(drawing *d, mix_job *j, int32_t i)
 {
     uint64_t shown = 0;
@@ -123,6 +134,9 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
         add_lamps(&d->batch.light[with][i], j, d, real, with);
     }
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
+    if (j->o.specular > 0.0f && j->voxels.count > 0 && real->hits > 0) {
+        mirror(d, j, real);
+    }
     if (lmb_resolve_tile(&d->object, j->o.kernels, &d->view, &j->scene, &d->eye, d->x0 + real->x, d->y0 + real->y) ==
             LMB_OK && d->object.hits > 0) {
         light_object(d, j);

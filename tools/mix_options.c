@@ -35,7 +35,8 @@ const char mix_help[] =
     "                             cones; in the frame's world, or without a pose the camera's (x right, y up, -z\n"
     "                             ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed\n"
     "  --world FILE               what is around, a panorama or cube (default: folded from the photo)\n"
-    "  --roughness R              0 .. 1: the planes mirror, as if varnished (default: they do not)\n"
+    "  --roughness R[,F]          0 .. 1: the plane under the object mirrors it, as if varnished (default: it does\n"
+    "                             not); F: how much of what it sees straight down, 0 .. 1 (default 0.04)\n"
     "  --light-map N              texels a side, a power of two (default 1024)\n"
     "  --voxels D                 4 .. 10: 2^D voxels a side (default 7)\n"
     "output\n"
@@ -64,7 +65,6 @@ static int parse_world(const char *text, mix_options *o) { return (o->world = te
 static int parse_out(const char *text, mix_options *o) { return picture_format(o->out = text) != PICTURE_UNKNOWN; }
 static int parse_scale(const char *text, mix_options *o) { return option_number(text, 1e-6f, 1e6f, &o->scale); }
 static int parse_turn(const char *text, mix_options *o) { return option_number(text, -3600.0f, 3600.0f, &o->turn_deg); }
-static int parse_roughness(const char *text, mix_options *o) { return option_number(text, 0.0f, 1.0f, &o->roughness); }
 static int parse_voxels(const char *text, mix_options *o) { return option_int(text, 4, 10, &o->depth); }
 static int parse_exposure(const char *text, mix_options *o) { return option_number(text, -60.0f, 60.0f, &o->exposure_ev); }
 static int parse_backend(const char *text, mix_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
@@ -88,6 +88,17 @@ static int parse_at(const char *text, mix_options *o)
 static int parse_light(const char *text, mix_options *o)
 {
     return o->light_count < MIX_LIGHTS && option_light(text, &o->lights[o->light_count++]);
+}
+
+static int parse_roughness(const char *text, mix_options *o)
+{
+    float v[2] = {0.0f, 0.04f};
+    if (!all_floats(text, v, 1) && !all_floats(text, v, 2)) {
+        return 0;
+    }
+    o->roughness = v[0];
+    o->specular = v[1];
+    return v[0] >= 0.0f && v[0] <= 1.0f && v[1] > 0.0f && v[1] <= 1.0f;
 }
 
 static int parse_light_map(const char *text, mix_options *o)
@@ -116,7 +127,7 @@ static const struct flag {
     {{"--turn", "degrees"}, parse_turn},
     {{"--light", "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], KIND spot, point or sun, at most eight times"}, parse_light},
     {{"--world", "a file, or what six files' names begin with"}, parse_world},
-    {{"--roughness", "0 .. 1"}, parse_roughness},
+    {{"--roughness", "R or R,F, 0 .. 1"}, parse_roughness},
     {{"--light-map", "a power of two, 8 .. 4096"}, parse_light_map},
     {{"--voxels", "4 .. 10"}, parse_voxels},
     {{"--show", "final, delta, planes, voxels, env or object"}, parse_show},
@@ -150,7 +161,6 @@ int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
     memset(out, 0, sizeof *out);
     out->light_map = 1024;
     out->depth = 7;
-    out->roughness = 1.0f;
     out->exposure_ev = NAN;
     out->kernels = lmb_kernels_pick();
     for (int i = 1; i < argc; i += 2) {

@@ -22,7 +22,8 @@ typedef struct mix_options {
     lmb_light lights[MIX_LIGHTS];
     int32_t light_count;
     int32_t show, light_map, depth; /* depth: of the voxels */
-    float roughness;  /* of the planes; 1: not glossy */
+    float roughness;  /* of the plane's varnish, and its reflectance */
+    float specular;   /* 0: there is none */
     float exposure_ev;
     int help;
     const lmb_kernels *kernels;

@@ -205,8 +205,8 @@ lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_kernels *kernels, const
  *
  * lmb_around_relight: the same points by what reaches them through voxels: each flux times the share of the light `with`
  * to the light `without`; or, where `without` is NULL, to that of with->env with nothing in its way. What the object
- * blocks and throws back so comes to bounce again. LMB_OK or LMB_ERR_ARG. Cost: one or two lmb_cones_diffuse for each 64.
- */
+ * blocks and throws back so comes to bounce again. Points that follow each other within four leaves have one answer.
+ * LMB_OK or LMB_ERR_ARG. Cost: one or two lmb_cones_diffuse for each 64 answers. */
 size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uint32_t first_id, uint32_t count,
                          float leaf, const lmb_env *env);
 lmb_status lmb_around_relight(lmb_texel *inout, size_t count, const lmb_cone_trace *with, const lmb_cone_trace *without,
@@ -226,6 +226,15 @@ float lmb_real_albedo(float radiance, float irradiance);
  * without a surface stay. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
                           const lmb_irradiance *with);
+
+/* lmb_mirror_tile: add what a varnish on plane p (-1: on every plane) shows of the object and hides behind it: Schlick's
+ * share of with - without.                                                                                [M20 M24]
+ *
+ *   without, with  what narrow cones along the mirrored view see: lmb_cones_glossy
+ *   specular       share where the surface faces the camera; LMB_OK or LMB_ERR_ARG */
+lmb_status lmb_mirror_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_planes *planes,
+                           const lmb_pinhole *camera, int32_t p, const lmb_cone_seen *without,
+                           const lmb_cone_seen *with, float specular);
 
 /* lmb_object_tile: put the object's pixels over the photo's, where nothing real is in front of them.          [M24]
  *

@@ -11,6 +11,9 @@
 
 #define MOST_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
 
+#define SAME_WAY 0.98f    /* cosine between the normals of points with one answer */
+#define NEAR_LEAVES 4.0f  /* and how far apart they are */
+
 enum { MOST_PARTS = 64 }; /* a triangle's side is divided by at most */
 
 /* Of three corners' values, the one at barycentrics (b1, b2). */
@@ -136,33 +139,53 @@ static void received(float out[3], const lmb_irradiance *before, int32_t k, cons
     }
 }
 
-static void relight(lmb_texel *inout, const lmb_irradiance *before, const lmb_irradiance *now, int32_t k,
-                    const lmb_env *env)
+/* Points that follow each other, face one way and lie close together: the first answers for all. */
+typedef struct runs {
+    size_t first[LMB_TILE_PIXELS + 1]; /* and where the next one would begin */
+    int32_t count;
+} runs;
+
+static size_t run_end(const lmb_texel *all, size_t first, size_t count, float near)
 {
-    float was[3];
-    received(was, before, k, inout, env);
+    size_t i = first + 1;
+    for (; i < count; ++i) {
+        const lmb_vec3 d = sub3(all[i].position, all[first].position);
+        if (dot3(d, d) > near * near || dot3(all[i].normal, all[first].normal) < SAME_WAY) {
+            break;
+        }
+    }
+    return i;
+}
+
+static void scale_run(lmb_texel *inout, size_t first, size_t past, const float was[3], const float now[3])
+{
     for (int c = 0; c < 3; ++c) {
-        const float ratio = was[c] > 1e-9f ? clampf(now->rgb[c][k] / was[c], 0.0f, MOST_RATIO) : 1.0f;
-        inout->flux[c] *= ratio;
+        const float ratio = was[c] > 1e-9f ? clampf(now[c] / was[c], 0.0f, MOST_RATIO) : 1.0f;
+        for (size_t i = first; i < past; ++i) {
+            inout[i].flux[c] *= ratio;
+        }
     }
 }
 
-static lmb_status relight_tile(lmb_texel *inout, int32_t n, const lmb_cone_trace *with, const lmb_cone_trace *without,
-                               const lmb_cones *cones, lmb_tile *scratch)
+static lmb_status relight_runs(lmb_texel *inout, const runs *r, const lmb_cone_trace *with,
+                               const lmb_cone_trace *without, const lmb_cones *cones, lmb_tile *scratch)
 {
     lmb_irradiance before, now;
     memset(scratch, 0, sizeof *scratch);
     memset(&before, 0, sizeof before);
     memset(&now, 0, sizeof now);
-    for (int32_t k = 0; k < n; ++k) {
-        put_point(scratch, k, &inout[k]);
+    for (int32_t k = 0; k < r->count; ++k) {
+        put_point(scratch, k, &inout[r->first[k]]);
     }
     lmb_status status = lmb_cones_diffuse(&now, NULL, with, cones, scratch);
     if (status == LMB_OK && without != NULL) {
         status = lmb_cones_diffuse(&before, NULL, without, cones, scratch);
     }
-    for (int32_t k = 0; k < n && status == LMB_OK; ++k) {
-        relight(&inout[k], without != NULL ? &before : NULL, &now, k, with->env);
+    for (int32_t k = 0; k < r->count && status == LMB_OK; ++k) {
+        float was[3];
+        const float light[3] = {now.rgb[0][k], now.rgb[1][k], now.rgb[2][k]};
+        received(was, without != NULL ? &before : NULL, k, &inout[r->first[k]], with->env);
+        scale_run(inout, r->first[k], r->first[k + 1], was, light);
     }
     return status;
 }
@@ -170,17 +193,21 @@ static lmb_status relight_tile(lmb_texel *inout, int32_t n, const lmb_cone_trace
 lmb_status lmb_around_relight(lmb_texel *inout, size_t count, const lmb_cone_trace *with, const lmb_cone_trace *without,
                               const lmb_cones *cones, lmb_tile *scratch)
 {
-    if ((inout == NULL && count > 0) || with == NULL || with->env == NULL || cones == NULL || scratch == NULL) {
+    lmb_status status = LMB_OK;
+    if ((inout == NULL && count > 0) || with == NULL || with->voxels == NULL || with->env == NULL || cones == NULL ||
+        scratch == NULL) {
         return LMB_ERR_ARG;
     }
-    for (size_t i = 0; i < count; i += LMB_TILE_PIXELS) {
-        const int32_t n = count - i < LMB_TILE_PIXELS ? (int32_t)(count - i) : LMB_TILE_PIXELS;
-        const lmb_status status = relight_tile(inout + i, n, with, without, cones, scratch);
-        if (status != LMB_OK) {
-            return status;
+    for (size_t i = 0; i < count && status == LMB_OK;) {
+        runs r;
+        for (r.count = 0; r.count < LMB_TILE_PIXELS && i < count; ++r.count) {
+            r.first[r.count] = i;
+            i = run_end(inout, i, count, NEAR_LEAVES * with->voxels->leaf);
         }
+        r.first[r.count] = i;
+        status = relight_runs(inout, &r, with, without, cones, scratch);
     }
-    return LMB_OK;
+    return status;
 }
 
 #endif

@@ -56,4 +56,36 @@ lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_i
     return LMB_OK;
 }
 
+/* --- mirror image ------------------------------------------------------------------------------------------------- */
+
+static float schlick(const lmb_tile *real, int32_t k, float specular)
+{
+    const lmb_vec3 p = vec3(real->position[0][k], real->position[1][k], real->position[2][k]),
+                   n = vec3(real->normal[0][k], real->normal[1][k], real->normal[2][k]);
+    const float m = 1.0f - clampf(-dot3(normalize3(p), n), 0.0f, 1.0f), m2 = m * m;
+    return specular + (1.0f - specular) * (m2 * m2 * m);
+}
+
+lmb_status lmb_mirror_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_planes *planes,
+                           const lmb_pinhole *camera, int32_t p, const lmb_cone_seen *without,
+                           const lmb_cone_seen *with, float specular)
+{
+    if (inout == NULL || real == NULL || planes == NULL || camera == NULL || without == NULL || with == NULL) {
+        return LMB_ERR_ARG;
+    }
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE;
+        const int32_t label = real->id[k] != 0 ? planes->label[y * camera->width + x] : 0;
+        if (label == 0 || (p >= 0 && label != p + 1)) {
+            continue;
+        }
+        const float share = schlick(real, k, specular);
+        for (int32_t c = 0; c < 3; ++c) {
+            const float delta = with->rgb[c][k] - without->rgb[c][k];
+            inout->rgb[c][k] = delta != 0.0f ? maxf(inout->rgb[c][k] + share * delta, 0.0f) : inout->rgb[c][k];
+        }
+    }
+    return LMB_OK;
+}
+
 #endif
