@@ -39,7 +39,7 @@ static int draw_object(drawing *d, mix_job *j, report *r)
     if (depth == NULL || id == NULL) {
         return 0;
     }
-    if (lmb_photo_view(&d->view, &d->x0, &d->y0, &j->frame.camera) != LMB_OK) {
+    if (lmb_photo_view(&d->view, &d->x0, &d->y0, &j->frame.camera, &j->axes) != LMB_OK) {
         return report_fail(r, "intrinsics: the camera's axis is too far outside the photo");
     }
     lmb_surface_init(&d->eye.depth, LMB_DEPTH32F, w, h, depth, depth_bytes);
@@ -151,7 +151,7 @@ static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
 {
     mix_batch *b = &d->batch;
     for (b->count = 0; b->count < MIX_BATCH && x < j->picture.width; x += LMB_TILE) {
-        lmb_real_tile(&b->real[b->count++], &j->cloud, &j->planes, &j->real, x, y);
+        lmb_real_tile(&b->real[b->count++], &j->cloud, &j->planes, &j->real, &j->axes, x, y);
     }
     mix_cones_batch(b, j);
     for (int32_t i = 0; i < b->count; ++i) {

@@ -16,12 +16,13 @@ typedef struct mix_job {
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh real;
-    lmb_mat4 from_world; /* to the camera's space */
+    lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
+    lmb_mat4 from_world; /* to the scene's space */
     model object;
     model_notes notes;
     lmb_scene scene;     /* the real mesh is instance 0, the object's instances come after it */
     uint32_t real_triangles, object_triangles;
-    lmb_vec3 anchor, up;
+    lmb_vec3 anchor, up; /* in the camera's space */
     int32_t floor;       /* the plane that the object stands on, or -1 */
     float gap_m;         /* how far the measured depth about the anchor is from where the object stands */
     lmb_env env[2];      /* around the scene without and with the object */
@@ -40,8 +41,8 @@ typedef struct mix_job {
 void *mix_take(mix_job *j, size_t bytes, report *r);
 
 /* The steps, in order. Each 1, or 0 with `r` set. */
-int mix_find_planes(mix_job *j, report *r); /* cloud, planes, mesh of the real scene */
-int mix_place(mix_job *j, report *r);       /* the object, and the scene of both */
+int mix_find_planes(mix_job *j, report *r); /* cloud and planes */
+int mix_place(mix_job *j, report *r);       /* the object, the real scene's mesh, and the scene of both */
 int mix_light(mix_job *j, report *r);       /* environment, lights and their maps */
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */

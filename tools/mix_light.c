@@ -89,31 +89,33 @@ static int make_env(mix_job *j, report *r)
     }
     return j->o.world != NULL ? read_world(j, r)
                               : lmb_env_fold(&j->env[0], j->frame.light.pixels, j->frame.light.width,
-                                             j->frame.light.height) == LMB_OK;
+                                             j->frame.light.height, &j->axes) == LMB_OK;
 }
 
 /* --- lamps -------------------------------------------------------------------------------------------------------- */
+
+static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /* From where the surroundings are brightest; as strong as SUN_SHARE says, for a photo does not: lamps are clipped. */
 static void guess_sun(mix_job *j)
 {
     float around[3];
     lmb_light *sun = &j->lights[0];
-    const lmb_vec3 from = lmb_env_brightest(&j->env[0], j->up);
-    const float height = from.x * j->up.x + from.y * j->up.y + from.z * j->up.z;
+    const lmb_vec3 up = {0, 1, 0}, from = lmb_env_brightest(&j->env[0], up);
+    const lmb_axes *a = &j->axes;
     memset(sun, 0, sizeof *sun);
     sun->kind = LMB_LIGHT_DIRECTIONAL;
     sun->direction = (lmb_vec3){-from.x, -from.y, -from.z};
     sun->cos_inner = sun->cos_outer = 1.0f;
-    lmb_env_irradiance(around, &j->env[0], j->up);
+    lmb_env_irradiance(around, &j->env[0], up);
     for (int c = 0; c < 3; ++c) {
-        sun->intensity[c] = SUN_SHARE * around[c] / height;
+        sun->intensity[c] = SUN_SHARE * around[c] / from.y;
     }
     j->light_count = 1;
     fprintf(stderr, "lambent: no light given: guessed a sun from where the surroundings are brightest, "
                     "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space\n",
-            (double)sun->direction.x, (double)sun->direction.y, (double)sun->direction.z, (double)sun->intensity[0],
-            (double)sun->intensity[1], (double)sun->intensity[2]);
+            -(double)along(a->right, from), -(double)along(a->up, from), -(double)along(a->back, from),
+            (double)sun->intensity[0], (double)sun->intensity[1], (double)sun->intensity[2]);
 }
 
 static void place_lamps(mix_job *j)

@@ -35,12 +35,6 @@ static lmb_vec3 scaled(lmb_vec3 v, float s)
 
 static float dot(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-static lmb_vec3 cross(lmb_vec3 a, lmb_vec3 b)
-{
-    const lmb_vec3 out = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-    return out;
-}
-
 /* A pose's inverse; its camera looks along +z with y down, the library's along -z with y up. */
 static lmb_mat4 world_to_camera(const double pose[16])
 {
@@ -137,24 +131,18 @@ static float gap(const mix_job *j)
     return n > 0 ? far[n / 2] : 0.0f;
 }
 
-/* Upright on the plane, +Z towards the viewer, then turned. */
+/* Upright in the scene's space, +Z towards the viewer, then turned. */
 static lmb_mat4 upright(const mix_job *j, float scale)
 {
-    const float turn = j->o.turn_deg * 0.017453293f;
-    lmb_vec3 z = scaled(j->anchor, -1.0f);
-    const float d = dot(z, j->up);
-    z = (lmb_vec3){z.x - d * j->up.x, z.y - d * j->up.y, z.z - d * j->up.z};
-    if (dot(z, z) < 1e-12f) {
-        z = fabsf(j->up.x) < 0.9f ? cross((lmb_vec3){1, 0, 0}, j->up) : cross((lmb_vec3){0, 1, 0}, j->up);
-    }
-    z = scaled(z, 1.0f / sqrtf(dot(z, z)));
-    const lmb_vec3 x = cross(j->up, z), zx = scaled(x, sinf(turn)), zz = scaled(z, cosf(turn));
-    const lmb_vec3 turned = {zx.x + zz.x, zx.y + zz.y, zx.z + zz.z};
-    return of_axes(scaled(cross(j->up, turned), scale), scaled(j->up, scale), scaled(turned, scale), j->anchor);
+    const lmb_vec3 at = lmb_axes_turn(&j->axes, j->anchor);
+    const float far = hypotf(at.x, at.z), turn = j->o.turn_deg * 0.017453293f + (far > 0.0f ? atan2f(-at.x, -at.z) : 0.0f);
+    const lmb_vec3 x = {cosf(turn) * scale, 0, -sinf(turn) * scale}, y = {0, scale, 0},
+                   z = {sinf(turn) * scale, 0, cosf(turn) * scale};
+    return of_axes(x, y, z, at);
 }
 
 /* The middle of the mesh's foot goes to the anchor. */
-static lmb_mat4 object_to_camera(mix_job *j)
+static lmb_mat4 object_to_scene(mix_job *j)
 {
     if (j->o.at == MIX_AT_WORLD) {
         return j->from_world;
@@ -170,6 +158,16 @@ static lmb_mat4 object_to_camera(mix_job *j)
 
 /* --- the scene ---------------------------------------------------------------------------------------------------- */
 
+static int build_real(mix_job *j, report *r)
+{
+    const int32_t step = 4;
+    const size_t bytes = lmb_real_mesh_bytes(j->frame.camera.width, j->frame.camera.height, step);
+    void *mesh = mix_take(j, bytes, r);
+    return mesh != NULL &&
+           (lmb_real_mesh_build(&j->real, &j->cloud, &j->planes, step, &j->axes, mesh, bytes) == LMB_OK ||
+            report_fail(r, "the photo is too large"));
+}
+
 /* The real mesh before the object's own: everything of the object moves up by one. */
 static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
 {
@@ -178,6 +176,9 @@ static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
     lmb_material *materials = mix_take(j, (s->material_count + 1) * sizeof *materials, r);
     lmb_instance *instances = mix_take(j, (s->instance_count + 1) * sizeof *instances, r);
     if (meshes == NULL || materials == NULL || instances == NULL) {
+        return 0;
+    }
+    if (!build_real(j, r)) {
         return 0;
     }
     meshes[0] = lmb_real_mesh_draw(&j->real);
@@ -216,31 +217,35 @@ static int join_scene(mix_job *j, const lmb_mat4 *place, report *r)
            report_fail(r, "%s: too large where it stands; --scale sets metres of a unit", j->o.object);
 }
 
+/* The scene's space stands upright on what the object stands on, or on the floor. */
+static void turn_scene(mix_job *j)
+{
+    const lmb_mat4 camera = j->frame.has_pose ? world_to_camera(j->frame.pose) : identity;
+    j->axes = lmb_axes_upright(j->up);
+    const lmb_mat4 turn = of_axes(j->axes.right, j->axes.up, j->axes.back, (lmb_vec3){0, 0, 0});
+    j->from_world = multiply(&turn, &camera);
+}
+
+static void stand_on_floor(mix_job *j)
+{
+    const int32_t floor = lmb_planes_floor(&j->planes);
+    j->up = floor >= 0 ? j->planes.plane[floor].normal : (lmb_vec3){0, 1, 0};
+}
+
 int mix_place(mix_job *j, report *r)
 {
-    j->from_world = identity;
     j->floor = -1;
-    if (j->frame.has_pose) {
-        j->from_world = world_to_camera(j->frame.pose);
-    } else {
-        j->from_world.m[0] = 1.0f;
-    }
+    stand_on_floor(j);
     if (j->o.object == NULL) {
-        j->up = (lmb_vec3){0, 1, 0};
-        if (j->planes.count > 0) {
-            j->up = j->planes.plane[lmb_planes_floor(&j->planes)].normal;
-        }
+        turn_scene(j);
         return join_scene(j, &identity, r);
     }
-    if (!model_load(&j->object, j->o.object, NULL, &j->notes, r)) {
+    if (!model_load(&j->object, j->o.object, NULL, &j->notes, r) ||
+        (j->o.at == MIX_AT_PIXEL && !stand_at_pixel(j, r)) || (j->o.at == MIX_AT_CENTRE && !stand_at_centre(j, r))) {
         return 0;
     }
-    if (j->o.at == MIX_AT_WORLD) {
-        j->up = (lmb_vec3){0, 1, 0};
-    } else if (!(j->o.at == MIX_AT_PIXEL ? stand_at_pixel(j, r) : stand_at_centre(j, r))) {
-        return 0;
-    }
+    turn_scene(j);
     j->gap_m = j->o.at == MIX_AT_WORLD ? 0.0f : gap(j);
-    const lmb_mat4 place = object_to_camera(j);
+    const lmb_mat4 place = object_to_scene(j);
     return join_scene(j, &place, r);
 }

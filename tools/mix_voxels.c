@@ -61,12 +61,12 @@ static int colour_real(mix_job *j, report *r)
     lmb_view view;
     int32_t x0, y0;
     if (cells == NULL || tile == NULL || light == NULL ||
-        lmb_photo_view(&view, &x0, &y0, &j->frame.camera) != LMB_OK) {
+        lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes) != LMB_OK) {
         return report_fail(r, "intrinsics: the camera's axis is too far outside the photo");
     }
     for (int32_t y = 0; y < j->frame.light.height; y += LMB_TILE) {
         for (int32_t x = 0; x < j->frame.light.width; x += LMB_TILE) {
-            lmb_real_tile(tile, &j->cloud, &j->planes, &j->real, x, y);
+            lmb_real_tile(tile, &j->cloud, &j->planes, &j->real, &j->axes, x, y);
             light_tile(light, j, tile, &view);
             add_tile(cells, j, tile, light);
         }
@@ -89,12 +89,23 @@ static void object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j)
     lmb_scene_bounds(low, high, &object);
 }
 
+/* The floor near the upper side of its leaves: so much of the height under it that what stands on it starts another
+ * leaf, and shares none with the floor's light. */
+static float leaf_under(float height, float leaf)
+{
+    return (floorf(height / leaf) + 0.75f) * leaf;
+}
+
 static int build(mix_job *j, report *r)
 {
     lmb_vec3 low, high;
     object_box(&low, &high, j);
     const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), half = 0.5f * ROOM * size;
-    const lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
+    const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
+    lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
+    if (j->floor >= 0) {
+        middle.y = foot.y + half - leaf_under(half - (middle.y - foot.y), 2.0f * half / (float)(1 << j->o.depth));
+    }
     const lmb_vec3 from = {middle.x - half, middle.y - half, middle.z - half},
                    to = {middle.x + half, middle.y + half, middle.z + half};
     const lmb_voxel_part parts[2] = {{&j->scene, 1, j->real_triangles, {1, 1}},

@@ -7,7 +7,9 @@
  *     lmb_env_fold(&env, photo, width, height);                   light from where no picture is            [M14-M19]
  *     per tile: lmb_real_tile, direct light with and without the object, lmb_delta_tile                     [M23 M24]
  *
- * Space: the camera's own, metres: it stands at 0, x to the right, y up, and looks down -z. */
+ * Clouds and planes are in the camera's own space: metres, it stands at 0, x to the right, y up, and looks down -z. What
+ * is drawn and lit is in the scene's, which is the same turned about the camera, so that the object's floor is level
+ * (lmb_axes_upright): voxels then keep the floor's light apart from what stands on it. */
 #ifndef LMB_MIXED_H
 #define LMB_MIXED_H
 
@@ -20,6 +22,11 @@ typedef struct lmb_pinhole {
     int32_t width, height; /* px, 1 .. LMB_MAX_SIDE */
     float fx, fy, cx, cy;  /* px; fx, fy over 0 */
 } lmb_pinhole;
+
+/* The camera's axes in the scene's space. */
+typedef struct lmb_axes {
+    lmb_vec3 right, up, back;
+} lmb_axes;
 
 /* Depth as points, in the caller's memory, 16 bytes a pixel. Planes are affine in 1 / distance over the picture, and what
  * sensors that measure by disparity get wrong is about even in it: so distances are kept, fitted and compared as their
@@ -88,6 +95,11 @@ size_t lmb_cloud_bytes(int32_t width, int32_t height);
  * before lmb_cloud_normals. Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_cloud_init(lmb_cloud *out, const lmb_pinhole *camera, const float *depth_m, void *memory, size_t bytes);
 
+/* lmb_axes_upright: the scene's space in which `up` (unit, the camera's space) is +y, and the camera looks about -z.
+ * lmb_axes_turn: a vector of the camera's space in it. */
+lmb_axes lmb_axes_upright(lmb_vec3 up);
+lmb_vec3 lmb_axes_turn(const lmb_axes *axes, lmb_vec3 v);
+
 /* lmb_cloud_ray: the ray of pixel (x, y): (x', y', -1). Its point is that times the distance. */
 lmb_vec3 lmb_cloud_ray(const lmb_pinhole *camera, float x, float y);
 
@@ -152,7 +164,7 @@ size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step);
  * point along their mean normal, and leave cracks. Colours are white: lmb_real_mesh_colour. Returns LMB_OK, LMB_ERR_ARG,
  * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t step,
-                               void *memory, size_t bytes);
+                               const lmb_axes *axes, void *memory, size_t bytes);
 
 /* lmb_real_mesh_draw: it as a mesh of a scene. Its triangles 2 c and 2 c + 1 are cell c. */
 lmb_mesh lmb_real_mesh_draw(const lmb_real_mesh *mesh);
@@ -163,14 +175,14 @@ void lmb_real_mesh_colour(const lmb_real_mesh *mesh, int32_t c, const float albe
 /* lmb_photo_view: the view whose frame holds the photo's pixel (0, 0) as its pixel (*x0, *y0), multiples of LMB_TILE.
  * Frames' axes go through their middles, so this one reaches farther than the photo on one side. cx and cy count to
  * half a pixel: round them first (lmb_pinhole_round), that rays are the same. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera);
+lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera, const lmb_axes *axes);
 void lmb_pinhole_round(lmb_pinhole *camera);
 
 /* lmb_real_tile: the real surfaces of 8 x 8 pixels from (x, y) of the photo on, as if they had been drawn: planes where
  * their pixels are, else cells, else single points. tile->x and y are the photo's. id: of a triangle of the mesh, which
  * is the scene's first instance. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh,
-                         int32_t x, int32_t y);
+                         const lmb_axes *axes, int32_t x, int32_t y);
 
 /* lmb_env_fold: the cube that one picture allows.                                                      [M14-M19]
  *
@@ -178,7 +190,7 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
  * The picture is cut into thirds. Its middle is what lies ahead (-z) and, turned over, behind (+z); what is left of the
  * middle, right of it, over and under it are the sides. *Ours:* each side takes its whole edge of the picture, widening
  * from the middle outwards, so that nothing is left over and the five faces meet without a seam. */
-lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height);
+lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height, const lmb_axes *axes);
 
 /* lmb_env_brightest: unit, where the most light comes from, over the plane that faces `up`, at least 30 degrees high. */
 lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up);

@@ -23,6 +23,23 @@ size_t lmb_cloud_bytes(int32_t width, int32_t height)
     return (size_t)width * (size_t)height * (sizeof(float) + sizeof(lmb_vec3));
 }
 
+/* Across: the camera's x as far as it is level; where it stands upright, straight back. */
+lmb_axes lmb_axes_upright(lmb_vec3 up)
+{
+    const lmb_vec3 side = absf(up.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, 1);
+    const lmb_vec3 x = normalize3(sub3(side, mul3(up, dot3(side, up)))), z = cross3(x, up);
+    lmb_axes a;
+    a.right = vec3(x.x, up.x, z.x);
+    a.up = vec3(x.y, up.y, z.y);
+    a.back = vec3(x.z, up.z, z.z);
+    return a;
+}
+
+lmb_vec3 lmb_axes_turn(const lmb_axes *axes, lmb_vec3 v)
+{
+    return add3(add3(mul3(axes->right, v.x), mul3(axes->up, v.y)), mul3(axes->back, v.z));
+}
+
 lmb_vec3 lmb_cloud_ray(const lmb_pinhole *camera, float x, float y)
 {
     return vec3((x - camera->cx) / camera->fx, (camera->cy - y) / camera->fy, -1.0f);

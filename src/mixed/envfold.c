@@ -11,13 +11,14 @@
 
 enum { SUB = 4, BRIGHT_SIDE = 8 }; /* samples of a texel each way; texels a side that are compared */
 
-/* Where in the picture, 0 .. 1 each way, a point of the cube's surface lies. The half width of what is seen grows from a
- * sixth at the front edge of a side to a half at its back edge. */
-static void fold(float *u, float *v, lmb_vec3 p, int32_t face)
+/* Where in the picture, 0 .. 1 each way, a direction of the camera's space lies: on the cube, the half width of what is
+ * seen grows from a sixth at the front edge of a side to a half at its back edge. */
+static void fold(float *u, float *v, lmb_vec3 d)
 {
-    const float m = face >= 4 ? INNER : INNER + (1.0f + p.z) * INNER;
-    *u = 0.5f + p.x * m;
-    *v = 0.5f - p.y * m;
+    const float x = absf(d.x), y = absf(d.y), z = absf(d.z), far = maxf(maxf(x, y), z);
+    const float m = z >= x && z >= y ? INNER : INNER + (1.0f + d.z / far) * INNER;
+    *u = 0.5f + d.x / far * m;
+    *v = 0.5f - d.y / far * m;
 }
 
 static const float *pixel_at(const float *rgb, int32_t width, int32_t height, float u, float v)
@@ -27,31 +28,40 @@ static const float *pixel_at(const float *rgb, int32_t width, int32_t height, fl
     return rgb + 3 * ((size_t)y * (size_t)width + (size_t)x);
 }
 
-static void fold_texel(float out[3], const lmb_env *env, const float *rgb, int32_t width, int32_t height, cube_place at)
+/* A picture, and the rows of lmb_axes: what turns the scene's space into the camera's. */
+typedef struct picture {
+    const float *rgb;
+    int32_t width, height;
+    const lmb_axes *axes;
+} picture;
+
+static void fold_texel(float out[3], const lmb_env *env, const picture *from, cube_place at)
 {
     const int32_t n = SUB * env->size;
     out[0] = out[1] = out[2] = 0.0f;
     for (int32_t k = 0; k < SUB * SUB; ++k) {
         float u, v;
         const int32_t x = SUB * at.x + k % SUB, y = SUB * at.y + k / SUB;
-        fold(&u, &v, cube_point(at.face, cube_coordinate(x, n), cube_coordinate(y, n)), at.face);
-        const float *p = pixel_at(rgb, width, height, u, v);
+        const lmb_vec3 d = cube_point(at.face, cube_coordinate(x, n), cube_coordinate(y, n));
+        fold(&u, &v, vec3(dot3(from->axes->right, d), dot3(from->axes->up, d), dot3(from->axes->back, d)));
+        const float *p = pixel_at(from->rgb, from->width, from->height, u, v);
         for (int32_t c = 0; c < 3; ++c) {
             out[c] += p[c] > 0.0f && p[c] < 1e6f ? p[c] * (1.0f / (SUB * SUB)) : 0.0f;
         }
     }
 }
 
-lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height)
+lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height, const lmb_axes *axes)
 {
-    if (env == NULL || env->texels == NULL || rgb == NULL || width < 1 || height < 1) {
+    const picture from = {rgb, width, height, axes};
+    if (env == NULL || env->texels == NULL || rgb == NULL || axes == NULL || width < 1 || height < 1) {
         return LMB_ERR_ARG;
     }
     const int32_t n = env->size;
     for (int32_t i = 0; i < 6 * n * n; ++i) {
         const cube_place at = {i / (n * n), i % n, i / n % n};
         float sum[3];
-        fold_texel(sum, env, rgb, width, height, at);
+        fold_texel(sum, env, &from, at);
         lmb_env_set(env, at.face, at.x, at.y, sum);
     }
     lmb_env_mips(env);

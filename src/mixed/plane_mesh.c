@@ -118,15 +118,23 @@ static void mean_slope(float slope[3], const mean *m, const lmb_pinhole *c, cell
 
 /* --- the mesh ----------------------------------------------------------------------------------------------------- */
 
+/* What cells are made of. */
+typedef struct maker {
+    const lmb_cloud *cloud;
+    const lmb_planes *planes;
+    const lmb_axes *axes;
+} maker;
+
 /* Its corners lie at the corners of its pixels: counter-clockwise as the camera sees them. */
-static void put_cell(lmb_real_mesh *out, const lmb_pinhole *c, const float slope[3], cell_box b, uint8_t label)
+static void put_cell(lmb_real_mesh *out, const maker *m, const float slope[3], cell_box b, uint8_t label)
 {
     const int32_t xs[4] = {b.x0, b.x0, b.x1, b.x1}, ys[4] = {b.y0, b.y1, b.y1, b.y0};
     float *at = out->positions + (size_t)CELL_FLOATS * (size_t)out->count;
     static const uint32_t corner[CELL_INDICES] = {0, 1, 2, 0, 2, 3};
     for (int32_t k = 0; k < 4; ++k) {
-        const lmb_vec3 ray = lmb_cloud_ray(c, (float)xs[k] - 0.5f, (float)ys[k] - 0.5f);
-        const lmb_vec3 p = mul3(ray, 1.0f / maxf(plane_inverse(slope, ray.x, ray.y), 1e-3f));
+        const lmb_vec3 ray = lmb_cloud_ray(&m->cloud->camera, (float)xs[k] - 0.5f, (float)ys[k] - 0.5f);
+        const float inverse = maxf(plane_inverse(slope, ray.x, ray.y), 1e-3f);
+        const lmb_vec3 p = lmb_axes_turn(m->axes, mul3(ray, 1.0f / inverse));
         at[3 * k] = p.x;
         at[3 * k + 1] = p.y;
         at[3 * k + 2] = p.z;
@@ -142,30 +150,32 @@ static void put_cell(lmb_real_mesh *out, const lmb_pinhole *c, const float slope
     ++out->count;
 }
 
-static void build_cell(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t i, int32_t j)
+static void build_cell(lmb_real_mesh *out, const maker *from, int32_t i, int32_t j)
 {
-    const cell_box b = box_of(&cloud->camera, out->step, i, j);
-    const uint8_t label = plane_of(planes, &cloud->camera, b);
+    const lmb_pinhole *c = &from->cloud->camera;
+    const cell_box b = box_of(c, out->step, i, j);
+    const uint8_t label = plane_of(from->planes, c, b);
     out->cell[j * out->columns + i] = -1;
     if (label != 0) {
         out->cell[j * out->columns + i] = out->count;
-        put_cell(out, &cloud->camera, planes->plane[label - 1].slope, b, label);
+        put_cell(out, from, from->planes->plane[label - 1].slope, b, label);
         return;
     }
-    const mean m = mean_of(planes, cloud, b);
+    const mean m = mean_of(from->planes, from->cloud, b);
     if (4 * m.count >= (b.x1 - b.x0) * (b.y1 - b.y0)) {
         float slope[3];
-        mean_slope(slope, &m, &cloud->camera, b);
+        mean_slope(slope, &m, c, b);
         out->cell[j * out->columns + i] = out->count;
-        put_cell(out, &cloud->camera, slope, b, 0);
+        put_cell(out, from, slope, b, 0);
     }
 }
 
 lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t step,
-                               void *memory, size_t bytes)
+                               const lmb_axes *axes, void *memory, size_t bytes)
 {
-    if (out == NULL || cloud == NULL || planes == NULL || cloud->inverse == NULL || planes->label == NULL || step < 1 ||
-        step > 64) {
+    const maker from = {cloud, planes, axes};
+    if (out == NULL || axes == NULL || cloud == NULL || planes == NULL || cloud->inverse == NULL ||
+        planes->label == NULL || step < 1 || step > 64) {
         return LMB_ERR_ARG;
     }
     const lmb_pinhole *c = &cloud->camera;
@@ -188,7 +198,7 @@ lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const
     }
     for (int32_t j = 0; j < out->rows; ++j) {
         for (int32_t i = 0; i < out->columns; ++i) {
-            build_cell(out, cloud, planes, i, j);
+            build_cell(out, &from, i, j);
         }
     }
     return LMB_OK;

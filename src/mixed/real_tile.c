@@ -20,16 +20,16 @@ static int32_t frame_side(int32_t *at, float centre, int32_t pixels)
     return 2 * *at + twice;
 }
 
-lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera)
+lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera, const lmb_axes *axes)
 {
-    if (out == NULL || x0 == NULL || y0 == NULL || camera == NULL || !(absf(camera->cx) < (float)LMB_MAX_SIDE) ||
+    if (out == NULL || x0 == NULL || y0 == NULL || camera == NULL || axes == NULL || !(absf(camera->cx) < (float)LMB_MAX_SIDE) ||
         !(absf(camera->cy) < (float)LMB_MAX_SIDE)) {
         return LMB_ERR_ARG;
     }
     memset(out, 0, sizeof *out);
-    out->right = vec3(1, 0, 0);
-    out->up = vec3(0, 1, 0);
-    out->back = vec3(0, 0, 1);
+    out->right = axes->right;
+    out->up = axes->up;
+    out->back = axes->back;
     out->kind = LMB_PERSPECTIVE;
     out->near_m = 0.01f;
     out->far_m = 1000.0f;
@@ -48,44 +48,55 @@ static lmb_vec3 cell_corner(const lmb_real_mesh *mesh, int32_t c, int32_t k)
 }
 
 typedef struct surface {
-    lmb_vec3 position, face, normal;
+    lmb_vec3 position, face, normal; /* in the scene's space */
+    float depth;
     uint32_t id;
 } surface;
 
+/* What tiles are made of. */
+typedef struct maker {
+    const lmb_cloud *cloud;
+    const lmb_planes *planes;
+    const lmb_real_mesh *mesh;
+    const lmb_axes *axes;
+} maker;
+
 /* Pixels of no plane lie on their cell, so that it does not shadow them where noise has put them behind it; those far
  * from it, beyond an edge, stay where they were measured. */
-static void put_on_cell(surface *s, const lmb_real_mesh *mesh, const lmb_cloud *cloud, int32_t c, lmb_vec3 ray, float q)
+static void put_on_cell(surface *s, const maker *m, int32_t c, lmb_vec3 ray, float q)
 {
-    const lmb_vec3 a = cell_corner(mesh, c, 0);
-    const lmb_vec3 n = normalize3(cross3(sub3(cell_corner(mesh, c, 1), a), sub3(cell_corner(mesh, c, 2), a)));
+    const lmb_vec3 a = cell_corner(m->mesh, c, 0);
+    const lmb_vec3 n = normalize3(cross3(sub3(cell_corner(m->mesh, c, 1), a), sub3(cell_corner(m->mesh, c, 2), a)));
     const float on = dot3(n, ray) / dot3(n, a); /* 1 / distance of the cell's plane */
-    if (on > 0.0f && absf(on - q) <= 4.0f * lmb_cloud_sigma(cloud, q) + 0.02f * q) {
+    if (on > 0.0f && absf(on - q) <= 4.0f * lmb_cloud_sigma(m->cloud, q) + 0.02f * q) {
         s->position = mul3(ray, 1.0f / on);
+        s->depth = 1.0f / on;
         s->face = dot3(n, ray) > 0.0f ? mul3(n, -1.0f) : n;
     }
 }
 
-static int surface_at(surface *s, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh, int32_t x,
-                      int32_t y)
+static int surface_at(surface *s, const maker *m, int32_t x, int32_t y)
 {
-    const int32_t at = y * cloud->camera.width + x;
-    const lmb_vec3 ray = lmb_cloud_ray(&cloud->camera, (float)x, (float)y);
-    const float q = cloud->inverse[at];
-    const uint8_t label = planes->label[at];
-    int32_t c = mesh->cell[y / mesh->step * mesh->columns + x / mesh->step];
+    const lmb_pinhole *camera = &m->cloud->camera;
+    const int32_t at = y * camera->width + x;
+    const lmb_vec3 ray = lmb_axes_turn(m->axes, lmb_cloud_ray(camera, (float)x, (float)y));
+    const float q = m->cloud->inverse[at];
+    const uint8_t label = m->planes->label[at];
+    int32_t c = m->mesh->cell[y / m->mesh->step * m->mesh->columns + x / m->mesh->step];
     if (!(q > 0.0f)) {
         return 0;
     }
-    s->position = mul3(ray, 1.0f / q);
-    s->normal = cloud->normal[at];
+    s->depth = 1.0f / q;
+    s->position = mul3(ray, s->depth);
+    s->normal = lmb_axes_turn(m->axes, m->cloud->normal[at]);
     if (!(dot3(s->normal, ray) < 0.0f)) {
         s->normal = mul3(normalize3(ray), -1.0f);
     }
     s->face = s->normal;
-    if (label != 0 && (c < 0 || mesh->label[c] != label)) {
-        c = mesh->plane_cell[label - 1];
-    } else if (label == 0 && c >= 0 && mesh->label[c] == 0) {
-        put_on_cell(s, mesh, cloud, c, ray, q);
+    if (label != 0 && (c < 0 || m->mesh->label[c] != label)) {
+        c = m->mesh->plane_cell[label - 1];
+    } else if (label == 0 && c >= 0 && m->mesh->label[c] == 0) {
+        put_on_cell(s, m, c, ray, q);
         s->normal = dot3(s->normal, s->face) > 0.0f ? s->normal : s->face;
     }
     s->id = c >= 0 ? 1 + 2 * (uint32_t)c : 1;
@@ -101,16 +112,17 @@ static void put_pixel(lmb_tile *out, int32_t k, const surface *s)
         out->face[i][k] = f[i];
         out->normal[i][k] = n[i];
     }
-    out->depth[k] = -s->position.z;
+    out->depth[k] = s->depth;
     out->id[k] = s->id;
     ++out->hits;
 }
 
 lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes *planes, const lmb_real_mesh *mesh,
-                         int32_t x, int32_t y)
+                         const lmb_axes *axes, int32_t x, int32_t y)
 {
-    if (out == NULL || cloud == NULL || planes == NULL || mesh == NULL || x < 0 || y < 0 || x % LMB_TILE != 0 ||
-        y % LMB_TILE != 0 || x >= cloud->camera.width || y >= cloud->camera.height) {
+    const maker m = {cloud, planes, mesh, axes};
+    if (out == NULL || axes == NULL || cloud == NULL || planes == NULL || mesh == NULL || x < 0 || y < 0 ||
+        x % LMB_TILE != 0 || y % LMB_TILE != 0 || x >= cloud->camera.width || y >= cloud->camera.height) {
         return LMB_ERR_ARG;
     }
     memset(out, 0, sizeof *out);
@@ -119,7 +131,7 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         surface s;
         const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
-        if (px < cloud->camera.width && py < cloud->camera.height && surface_at(&s, cloud, planes, mesh, px, py)) {
+        if (px < cloud->camera.width && py < cloud->camera.height && surface_at(&s, &m, px, py)) {
             put_pixel(out, k, &s);
         }
     }

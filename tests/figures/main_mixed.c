@@ -127,11 +127,11 @@ static void our_shadow(uint8_t *out, mix_job *j)
     static lmb_irradiance light[2];
     lmb_view view;
     int32_t x0, y0;
-    lmb_photo_view(&view, &x0, &y0, &j->frame.camera);
+    lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes);
     for (int i = 0; i < PIXELS / LMB_TILE_PIXELS; ++i) {
         const int x = i % (SIDE / LMB_TILE) * LMB_TILE, y = i / (SIDE / LMB_TILE) * LMB_TILE;
         memset(light, 0, sizeof light);
-        lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, x, y);
+        lmb_real_tile(&tile, &j->cloud, &j->planes, &j->real, &j->axes, x, y);
         for (int k = 0; k < 2; ++k) {
             lmb_direct_tile(&light[k], j->o.kernels, &tile, &view, &j->scene, &j->lights[0], &j->maps[0][k]);
         }
