@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { TREE_SIZE = 512, CONES = 19, BOUNCES = 2 };
+enum { TREE_SIZE = 512, CONES = 19, TURNS = 4 };
 
 /* The cube around the object is so many times as wide as it is. */
 #define ROOM 4.0f
@@ -180,38 +180,49 @@ static void dim_around(mix_job *j, const points *p)
     lmb_env_dim(&j->env[1], &j->env[0], share);
 }
 
-/* Light that is thrown back changes what else is thrown back: the world with the object is lit again, by what its points
- * receive. The other one is what the photo shows and stays. */
-static int inject_again(mix_job *j, points *p)
+/* The field with the object: lamps' light, and what its points throw back now. */
+static int inject_with(mix_job *j, points *p)
 {
-    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1]},
-                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0]};
-    lmb_texel *object = p->again + p->real_count;
-    int ok;
-    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
-    memcpy(object, p->object, p->object_count * sizeof *object);
-    ok = lmb_around_relight(p->again, p->real_count, &with, &without, &j->cones, p->scratch) == LMB_OK &&
-         lmb_around_relight(object, p->object_count, &with, NULL, &j->cones, p->scratch) == LMB_OK;
-    if (ok) {
-        dim_around(j, p);
-    }
-    return ok && lmb_voxels_dark(&j->voxels, LMB_VOXEL_WITH) == LMB_OK && inject_maps(j, p, LMB_VOXEL_WITH) &&
+    return lmb_voxels_dark(&j->voxels, LMB_VOXEL_WITH) == LMB_OK && inject_maps(j, p, LMB_VOXEL_WITH) &&
            lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITH, p->again, p->real_count + p->object_count) == LMB_OK &&
            lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITH) == LMB_OK;
 }
 
+static int relight_real(mix_job *j, points *p)
+{
+    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1]},
+                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0]};
+    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
+    if (lmb_around_relight(p->again, p->real_count, &with, &without, &j->cones, p->scratch) != LMB_OK) {
+        return 0;
+    }
+    dim_around(j, p);
+    return 1;
+}
+
+static int relight_object(mix_job *j, points *p)
+{
+    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1]};
+    lmb_texel *object = p->again + p->real_count;
+    memcpy(object, p->object, p->object_count * sizeof *object);
+    return lmb_around_relight(object, p->object_count, &with, NULL, &j->cones, p->scratch) == LMB_OK;
+}
+
+/* The world without the object is what the photo shows. The one with it begins with an object that throws nothing back:
+ * first the floor darkens beneath it, then it is lit by that floor, and so on in turns. From a bright beginning the gap
+ * between both would stay bright for as many turns as light bounces there. */
 static int inject_all(mix_job *j, points *p, report *r)
 {
-    int ok = inject_maps(j, p, LMB_VOXEL_WITHOUT) && inject_maps(j, p, LMB_VOXEL_WITH) &&
-             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITHOUT, p->real, p->real_count) == LMB_OK &&
-             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITH, p->real, p->real_count) == LMB_OK &&
-             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITH, p->object, p->object_count) == LMB_OK &&
-             lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITHOUT) == LMB_OK &&
-             lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITH) == LMB_OK;
     const float same[3] = {1.0f, 1.0f, 1.0f};
+    int ok = inject_maps(j, p, LMB_VOXEL_WITHOUT) &&
+             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITHOUT, p->real, p->real_count) == LMB_OK &&
+             lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITHOUT) == LMB_OK;
     lmb_env_dim(&j->env[1], &j->env[0], same);
-    for (int i = 0; ok && i < BOUNCES; ++i) {
-        ok = inject_again(j, p);
+    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
+    memset(p->again + p->real_count, 0, p->object_count * sizeof *p->again);
+    ok = ok && inject_with(j, p);
+    for (int i = 0; ok && i < TURNS; ++i) {
+        ok = (i % 2 == 0 ? relight_real(j, p) : relight_object(j, p)) && inject_with(j, p);
     }
     return (ok && lmb_voxels_delta(&j->voxels) == LMB_OK) || report_fail(r, "voxels cannot take their light");
 }
