@@ -32,6 +32,7 @@ typedef struct mix_job {
     lmb_voxels voxels;   /* about the object; count 0: there is none */
     lmb_cones cones;
     lmb_cone_width gloss;
+    lmb_cone_scratch *scratch;
     image picture;       /* linear */
     void *blocks[MIX_BLOCKS];
     int block_count;

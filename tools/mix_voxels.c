@@ -190,8 +190,8 @@ static int inject_with(mix_job *j, points *p)
 
 static int relight_real(mix_job *j, points *p)
 {
-    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1]},
-                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0]};
+    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch},
+                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0], j->scratch};
     memcpy(p->again, p->real, p->real_count * sizeof *p->again);
     if (lmb_around_relight(p->again, p->real_count, &with, &without, &j->cones, p->scratch) != LMB_OK) {
         return 0;
@@ -202,7 +202,7 @@ static int relight_real(mix_job *j, points *p)
 
 static int relight_object(mix_job *j, points *p)
 {
-    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1]};
+    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch};
     lmb_texel *object = p->again + p->real_count;
     memcpy(object, p->object, p->object_count * sizeof *object);
     return lmb_around_relight(object, p->object_count, &with, NULL, &j->cones, p->scratch) == LMB_OK;
@@ -271,10 +271,11 @@ static int light_voxels(mix_job *j, report *r)
     memset(&p, 0, sizeof p);
     void *memory = mix_take(j, bytes, r);
     p.scratch = mix_take(j, sizeof *p.scratch, r);
+    j->scratch = mix_take(j, sizeof *j->scratch, r);
     p.real = take_points(&p.real_count, p.real_flux, j, 1, j->real_triangles, r);
     p.object = take_points(&p.object_count, object_flux, j, j->real_triangles + 1, j->object_triangles, r);
     p.again = mix_take(j, (p.real_count + p.object_count) * sizeof *p.again, r);
-    if (memory == NULL || p.scratch == NULL || p.real == NULL || p.object == NULL || p.again == NULL) {
+    if (memory == NULL || p.scratch == NULL || j->scratch == NULL || p.real == NULL || p.object == NULL || p.again == NULL) {
         return 0;
     }
     if (lmb_tree_init(&p.tree, 1, size, memory, bytes) != LMB_OK) {
