@@ -132,17 +132,23 @@ static void place_lamps(mix_job *j)
     j->light_count = j->o.light_count;
 }
 
+static int draw_map(const mix_job *j, const lmb_light_map *map, uint32_t count)
+{
+    return lmb_light_map_clear(map) == LMB_OK &&
+           (count == 0 || lmb_light_map_draw(map, j->o.kernels, &j->scene, 1, count, NULL) == LMB_OK);
+}
+
 static int draw_maps(mix_job *j, report *r)
 {
     for (int32_t i = 0; i < j->light_count; ++i) {
-        const size_t bytes =
-            2 * lmb_light_map_bytes(lmb_light_map_faces(&j->lights[i]), j->o.light_map, LMB_ID32);
+        const size_t bytes = 2 * lmb_light_map_bytes(lmb_light_map_faces(&j->lights[i]), j->o.light_map, LMB_ID32);
         void *memory = mix_take(j, bytes, r);
         if (memory == NULL) {
             return 0;
         }
-        if (lmb_two_maps(j->maps[i], j->o.kernels, &j->lights[i], &j->scene, j->real_triangles, j->o.light_map, memory,
-                         bytes) != LMB_OK) {
+        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, j->o.light_map, memory, bytes) != LMB_OK ||
+            !draw_map(j, &j->maps[i][0], j->real_triangles) ||
+            !draw_map(j, &j->maps[i][1], j->real_triangles + j->object_triangles)) {
             return report_fail(r, "--light %d cannot be drawn", (int)i + 1);
         }
     }

@@ -198,15 +198,15 @@ lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up);
 /* lmb_env_irradiance: W/m2 that a surface facing `normal` gets, nothing being in the way: pi times the mean of a cone. */
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
 
-/* lmb_two_maps: a light's maps without and with the object: the same views, so that each texel stands for the same
- * incident power in both.                                                                                       [M9]
+/* lmb_two_maps: a light's maps without [0] and with [1] the object: the same views, so that each texel stands for the
+ * same incident power in both.                                                                                  [M9]
  *
- *   maps   set: [0] without, [1] with
- *   scene  the real scene's triangles have ids 1 .. real, the object's come after them
+ *   scene  of both: the real mesh is its first instance, the object's come after it
  *   bytes  of memory: twice lmb_light_map_bytes
- * Returns what lmb_light_map_init and lmb_light_map_draw return. */
-lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_kernels *kernels, const lmb_light *light,
-                        const lmb_scene *scene, uint32_t real, int32_t size, void *memory, size_t bytes);
+ * Clear both (lmb_light_map_clear), then draw the real mesh's ids into the first and all into the second
+ * (lmb_light_map_draw). Returns what lmb_light_map_init returns. */
+lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
+                        void *memory, size_t bytes);
 
 /* lmb_around_points: what triangles throw back of the light of `env`, nothing being in its way, as first points that
  * lmb_voxels_inject takes beside those of the lights' maps.                                                     [M7]

@@ -47,7 +47,7 @@ static int fit_around(float out[3], const around *a, const float *slope)
             }
         }
     }
-    return count >= LEAST_POINTS && plane_fit_solve(out, &f);
+    return count >= LEAST_POINTS && lmb_plane_fit_solve(out, &f);
 }
 
 static lmb_vec3 normal_at(const lmb_cloud *cloud, int32_t x, int32_t y)
@@ -66,7 +66,7 @@ static lmb_vec3 normal_at(const lmb_cloud *cloud, int32_t x, int32_t y)
         return vec3(0, 0, 0);
     }
     const int again = fit_around(slope, &a, first);
-    return plane_normal(&distance, again ? slope : first);
+    return lmb_plane_normal(&distance, again ? slope : first);
 }
 
 lmb_status lmb_cloud_normals(const lmb_cloud *cloud)

@@ -5,29 +5,17 @@
 
 #if LMB_MIXED
 
-static lmb_status draw_map(lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene, uint32_t count)
+lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
+                        void *memory, size_t bytes)
 {
-    const lmb_status status = lmb_light_map_clear(map);
-    return status != LMB_OK || count == 0 ? status : lmb_light_map_draw(map, kernels, scene, 1, count, NULL);
-}
-
-lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_kernels *kernels, const lmb_light *light,
-                        const lmb_scene *scene, uint32_t real, int32_t size, void *memory, size_t bytes)
-{
-    if (maps == NULL || kernels == NULL || light == NULL || scene == NULL || memory == NULL) {
+    const size_t half = bytes / 8 * 4;
+    if (maps == NULL || memory == NULL) {
         return LMB_ERR_ARG;
     }
-    for (int32_t i = 0; i < 2; ++i) {
-        char *at = (char *)memory + (size_t)i * (bytes / 8 * 4);
-        lmb_status status = lmb_light_map_init(&maps[i], light, scene, size, LMB_ID32, at, bytes / 8 * 4);
-        if (status == LMB_OK) {
-            status = draw_map(&maps[i], kernels, scene, i == 0 ? real : lmb_scene_triangles(scene));
-        }
-        if (status != LMB_OK) {
-            return status;
-        }
-    }
-    return LMB_OK;
+    const lmb_status status = lmb_light_map_init(&maps[0], light, scene, size, LMB_ID32, memory, half);
+    return status != LMB_OK
+               ? status
+               : lmb_light_map_init(&maps[1], light, scene, size, LMB_ID32, (char *)memory + half, half);
 }
 
 float lmb_real_albedo(float radiance, float irradiance)

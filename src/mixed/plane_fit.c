@@ -6,7 +6,7 @@
 
 #if LMB_MIXED
 
-void plane_fit_join(plane_fit *into, const plane_fit *from)
+void lmb_plane_fit_join(plane_fit *into, const plane_fit *from)
 {
     into->w += from->w;
     into->x += from->x;
@@ -19,7 +19,7 @@ void plane_fit_join(plane_fit *into, const plane_fit *from)
     into->yq += from->yq;
 }
 
-int plane_fit_solve(float slope[3], const plane_fit *f)
+int lmb_plane_fit_solve(float slope[3], const plane_fit *f)
 {
     if (!(f->w > 0.0f)) {
         return 0;
@@ -36,7 +36,7 @@ int plane_fit_solve(float slope[3], const plane_fit *f)
     return 1;
 }
 
-lmb_vec3 plane_normal(float *distance, const float slope[3])
+lmb_vec3 lmb_plane_normal(float *distance, const float slope[3])
 {
     const lmb_vec3 n = vec3(-slope[0], -slope[1], slope[2]);
     const float length = length3(n);

@@ -32,11 +32,11 @@ static inline void plane_fit_add(plane_fit *f, float ray_x, float ray_y, float i
     f->yq += wy * q;
 }
 
-/* plane_fit_join: the sums of both, which have one place. */
-void plane_fit_join(plane_fit *into, const plane_fit *from);
+/* lmb_plane_fit_join: the sums of both, which have one place. */
+void lmb_plane_fit_join(plane_fit *into, const plane_fit *from);
 
-/* plane_fit_solve: inverse = slope . (ray x, ray y, 1). 0 where the points are too few or in line. */
-int plane_fit_solve(float slope[3], const plane_fit *f);
+/* lmb_plane_fit_solve: inverse = slope . (ray x, ray y, 1). 0 where the points are too few or in line. */
+int lmb_plane_fit_solve(float slope[3], const plane_fit *f);
 
 /* The plane's inverse distance along a ray; not positive where the ray does not meet it. */
 static inline float plane_inverse(const float slope[3], float ray_x, float ray_y)
@@ -44,7 +44,7 @@ static inline float plane_inverse(const float slope[3], float ray_x, float ray_y
     return slope[0] * ray_x + slope[1] * ray_y + slope[2];
 }
 
-/* plane_normal: unit, towards the camera; *distance of the camera from the plane. */
-lmb_vec3 plane_normal(float *distance, const float slope[3]);
+/* lmb_plane_normal: unit, towards the camera; *distance of the camera from the plane. */
+lmb_vec3 lmb_plane_normal(float *distance, const float slope[3]);
 
 #endif

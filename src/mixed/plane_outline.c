@@ -139,7 +139,7 @@ static void fill_holes(lmb_planes *p, const lmb_cloud *cloud)
     }
 }
 
-void planes_outline(lmb_planes *planes, const lmb_cloud *cloud)
+void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud)
 {
     settle(planes, cloud);
     spread(planes, cloud);
@@ -230,12 +230,12 @@ static void find_boxes(lmb_planes *planes, const lmb_pinhole *c)
     }
 }
 
-void planes_measure(lmb_planes *planes, const lmb_cloud *cloud)
+void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud)
 {
     find_boxes(planes, &cloud->camera);
     for (int32_t i = 0; i < planes->count; ++i) {
         lmb_flat *p = &planes->plane[i];
-        p->normal = plane_normal(&p->distance, p->slope);
+        p->normal = lmb_plane_normal(&p->distance, p->slope);
         set_axes(p);
         find_centre(p, planes, &cloud->camera, i + 1);
         find_extent(p, planes, &cloud->camera, i + 1);

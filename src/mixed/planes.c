@@ -105,13 +105,13 @@ static void grow(grower *g, int32_t x, int32_t y)
         ask_pixel(g, px, py - 1);
         ask_pixel(g, px, py + 1);
         if (g->count >= next_fit) {
-            if (plane_fit_solve(g->slope, &g->sums)) {
-                g->normal = plane_normal(&distance, g->slope);
+            if (lmb_plane_fit_solve(g->slope, &g->sums)) {
+                g->normal = lmb_plane_normal(&distance, g->slope);
             }
             next_fit = 2 * g->count;
         }
     }
-    (void)plane_fit_solve(g->slope, &g->sums);
+    (void)lmb_plane_fit_solve(g->slope, &g->sums);
 }
 
 static void relabel(lmb_planes *planes, const lmb_cloud *cloud, uint8_t from, uint8_t to)
@@ -165,7 +165,7 @@ static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t least)
 /* --- fitting and joining ------------------------------------------------------------------------------------------ */
 
 /* Sums of rows first: 8192 terms at most go into one float before they meet the rest. */
-int planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
+int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off)
 {
     const lmb_flat *p = &planes->plane[label - 1];
     const lmb_pinhole *c = &cloud->camera;
@@ -182,20 +182,20 @@ int planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud,
                 plane_fit_add(&row, ray.x, ray.y, q, cloud->noise * cloud->noise / (sigma * sigma));
             }
         }
-        plane_fit_join(&all, &row);
+        lmb_plane_fit_join(&all, &row);
     }
-    return plane_fit_solve(slope, &all);
+    return lmb_plane_fit_solve(slope, &all);
 }
 
 static void fit_all(lmb_planes *planes, const lmb_cloud *cloud)
 {
     for (int32_t i = 0; i < planes->count; ++i) {
         float slope[3];
-        if (planes_fit(slope, planes, cloud, i + 1, FIT_OFF)) {
+        if (lmb_planes_fit(slope, planes, cloud, i + 1, FIT_OFF)) {
             memcpy(planes->plane[i].slope, slope, sizeof slope);
         }
     }
-    planes_measure(planes, cloud);
+    lmb_planes_measure(planes, cloud);
 }
 
 /* How many pairs of pixels a few apart are of planes i and k, i < k; 255: as many or more. */
@@ -305,14 +305,14 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     out->label = (uint8_t *)(out->queue + (size_t)w * (size_t)h);
     memset(out->label, 0, (size_t)w * (size_t)h);
     grow_all(out, cloud, least);
-    planes_measure(out, cloud);
+    lmb_planes_measure(out, cloud);
     fit_all(out, cloud);
     while (join_two(out, cloud)) {
-        planes_measure(out, cloud);
+        lmb_planes_measure(out, cloud);
         fit_all(out, cloud);
     }
-    planes_outline(out, cloud);
-    planes_measure(out, cloud);
+    lmb_planes_outline(out, cloud);
+    lmb_planes_measure(out, cloud);
     fit_all(out, cloud);
     drop_small(out, cloud, least);
     sort_planes(out, cloud);

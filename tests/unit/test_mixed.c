@@ -1,0 +1,457 @@
+/* test_mixed.c: points, planes, the real scene's mesh, the folded environment, and what an object changes. M1-M24. */
+#include <lambent/lambent.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/base/half.h"
+#include "../test.h"
+
+void test_mixed(void);
+
+enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
+
+static const lmb_pinhole camera = {WIDTH, HEIGHT, 80.0f, 80.0f, 47.5f, 35.5f};
+
+typedef struct stage {
+    float depth[PIXELS];
+    lmb_cloud cloud;
+    lmb_planes planes;
+    lmb_real_mesh mesh;
+    lmb_tile tile;
+    uint32_t cloud_memory[PIXELS * 4], plane_memory[PIXELS * 5 / 4], mesh_memory[PIXELS / 16 * 24 + 64];
+} stage;
+
+/* --- points ------------------------------------------------------------------------------------------------------- */
+
+static void test_points(stage *s)
+{
+    for (int i = 0; i < PIXELS; ++i) {
+        s->depth[i] = 2.0f;
+    }
+    s->depth[0] = 0.0f;
+    s->depth[1] = NAN;
+    s->depth[2] = -1.0f;
+    CHECK(lmb_cloud_init(&s->cloud, &camera, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_OK);
+    const lmb_vec3 p = lmb_cloud_point(&s->cloud, 87, 35), none = lmb_cloud_point(&s->cloud, 1, 0);
+    CHECK_MSG(fabsf(p.x - 2.0f * 39.5f / 80.0f) < 1e-6f && fabsf(p.y - 2.0f * 0.5f / 80.0f) < 1e-6f && p.z == -2.0f,
+              "%g %g %g", (double)p.x, (double)p.y, (double)p.z);
+    CHECK(none.x == 0.0f && none.y == 0.0f && none.z == 0.0f);
+    CHECK(s->cloud.inverse[0] == 0.0f && s->cloud.inverse[1] == 0.0f && s->cloud.inverse[2] == 0.0f);
+    lmb_cloud_normals(&s->cloud);
+    CHECK(s->cloud.normal[PIXELS / 2].z > 0.99999f && s->cloud.normal[0].z == 0.0f);
+}
+
+static void test_refusals(stage *s)
+{
+    lmb_pinhole bad = camera;
+    CHECK(lmb_cloud_bytes(0, 5) == 0 && lmb_cloud_bytes(5, LMB_MAX_SIDE + 1) == 0);
+    CHECK(lmb_cloud_init(&s->cloud, &camera, s->depth, s->cloud_memory, 16 * PIXELS - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_cloud_init(&s->cloud, &camera, NULL, s->cloud_memory, sizeof s->cloud_memory) == LMB_ERR_ARG);
+    bad.fx = 0.0f;
+    CHECK(lmb_cloud_init(&s->cloud, &bad, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_ERR_ARG);
+    bad.fx = NAN;
+    CHECK(lmb_cloud_init(&s->cloud, &bad, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_ERR_ARG);
+    CHECK(lmb_planes_find(&s->planes, &s->cloud, s->plane_memory, 5 * PIXELS - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_real_mesh_bytes(WIDTH, HEIGHT, 0) == 0);
+}
+
+/* --- neighbours --------------------------------------------------------------------------------------------------- */
+
+static float far2(lmb_vec3 a, lmb_vec3 b)
+{
+    const float x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+    return x * x + y * y + z * z;
+}
+
+/* Against all pairs: how many points are nearer than the answer's last, and how many answers are not. */
+static int is_right(const lmb_vec3 *points, uint32_t count, const uint32_t *found, int32_t k, lmb_vec3 at)
+{
+    uint32_t nearer = 0;
+    for (int32_t i = 1; i < k; ++i) {
+        if (far2(points[found[i]], at) < far2(points[found[i - 1]], at)) {
+            return 0;
+        }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        nearer += far2(points[i], at) < far2(points[found[k - 1]], at);
+    }
+    return nearer <= (uint32_t)k - 1;
+}
+
+static void test_grid(void)
+{
+    enum { COUNT = 700 };
+    static lmb_vec3 points[COUNT];
+    static uint32_t memory[LMB_POINT_CELLS * LMB_POINT_CELLS * LMB_POINT_CELLS + 1 + COUNT];
+    uint32_t found[LMB_NEAREST_CAP];
+    lmb_point_grid grid;
+    test_rng rng = {5};
+    for (int i = 0; i < COUNT; ++i) { /* half of them in a lump */
+        const float wide = i % 2 == 0 ? 3.0f : 0.1f;
+        points[i] = (lmb_vec3){test_uniform(&rng, -wide, wide), test_uniform(&rng, -wide, wide),
+                               test_uniform(&rng, -wide, wide)};
+    }
+    CHECK(lmb_point_grid_init(&grid, points, COUNT, memory, sizeof memory) == LMB_OK && grid.count == COUNT);
+    for (int i = 0; i < 60; ++i) {
+        const float wide = i % 3 == 0 ? 9.0f : 2.0f; /* outside all cells too */
+        const lmb_vec3 at = {test_uniform(&rng, -wide, wide), test_uniform(&rng, -wide, wide), 0.1f};
+        const int32_t k = lmb_point_grid_nearest(found, 1 + i % LMB_NEAREST_CAP, &grid, at);
+        CHECK(k == 1 + i % LMB_NEAREST_CAP && is_right(points, COUNT, found, k, at));
+    }
+    points[7].x = NAN;
+    CHECK(lmb_point_grid_init(&grid, points, 8, memory, sizeof memory) == LMB_OK && grid.count == 7);
+    CHECK(lmb_point_grid_nearest(found, 8, &grid, points[0]) == 7 && found[0] == 0);
+    CHECK(lmb_point_grid_init(&grid, points, 0, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_point_grid_nearest(found, 8, &grid, points[0]) == 0);
+}
+
+static void test_picture_neighbours(stage *s)
+{
+    int32_t found[LMB_NEAREST_CAP];
+    for (int i = 0; i < PIXELS; ++i) {
+        s->depth[i] = i % WIDTH > 50 ? 1.0f : 2.0f;
+    }
+    s->depth[10 * WIDTH + 9] = 0.0f;
+    lmb_cloud_init(&s->cloud, &camera, s->depth, s->cloud_memory, sizeof s->cloud_memory);
+    CHECK(lmb_cloud_nearest(found, 8, &s->cloud, 10, 10) == 8);
+    for (int i = 0; i < 8; ++i) {
+        CHECK(found[i] != 10 * WIDTH + 9);
+    }
+    CHECK(found[0] == 9 * WIDTH + 10 || found[0] == 10 * WIDTH + 11 || found[0] == 11 * WIDTH + 10);
+    CHECK(lmb_cloud_nearest(found, 8, &s->cloud, 9, 10) == 0);
+    CHECK(lmb_cloud_nearest(found, 4, &s->cloud, 50, 30) == 4);
+    for (int i = 0; i < 4; ++i) { /* the metre between both is farther than any of the same side */
+        CHECK(found[i] % WIDTH <= 50);
+    }
+    CHECK(lmb_cloud_nearest(found, 8, &s->cloud, 0, 0) == 8);
+}
+
+/* --- planes ------------------------------------------------------------------------------------------------------- */
+
+/* A floor half a metre under the camera and a wall 2.5 m ahead, with noise in 1 / distance, one pixel of twenty missing. */
+static void draw_corner(stage *s, float noise)
+{
+    test_rng rng = {3};
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH));
+        const float floor = ray.y < -0.01f ? -0.5f / ray.y : 1e9f, z = floor < 2.5f ? floor : 2.5f;
+        s->depth[i] = 1.0f / (1.0f / z + test_uniform(&rng, -noise, noise));
+        s->depth[i] = test_random(&rng) % 20 == 0 ? 0.0f : s->depth[i];
+    }
+}
+
+static int find_planes(stage *s)
+{
+    return lmb_cloud_init(&s->cloud, &camera, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_OK &&
+           lmb_cloud_normals(&s->cloud) == LMB_OK &&
+           lmb_planes_find(&s->planes, &s->cloud, s->plane_memory, sizeof s->plane_memory) == LMB_OK;
+}
+
+static void test_corner(stage *s)
+{
+    draw_corner(s, 0.004f);
+    CHECK(find_planes(s) && s->planes.count == 2);
+    const int32_t p = lmb_planes_floor(&s->planes);
+    const lmb_flat *floor = &s->planes.plane[p], *wall = &s->planes.plane[1 - p];
+    CHECK_MSG(floor->normal.y > 0.9998f && fabsf(floor->distance - 0.5f) < 0.005f, "%g %g", (double)floor->normal.y,
+              (double)floor->distance);
+    CHECK_MSG(wall->normal.z > 0.9999f && fabsf(wall->distance - 2.5f) < 0.01f, "%g %g", (double)wall->normal.z,
+              (double)wall->distance);
+    CHECK(fabsf(floor->centre.y + 0.5f) < 0.01f && floor->high[0] > 0.5f && floor->low[0] < -0.5f);
+    int wrong = 0, holes = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH));
+        const int label = 1 + (ray.y < -0.2f ? p : 1 - p);
+        wrong += s->planes.label[i] != label;
+        holes += s->depth[i] == 0.0f && s->planes.label[i] == 0;
+    }
+    CHECK_MSG(wrong < PIXELS / 50 && holes < 8, "%d wrong, %d holes", wrong, holes);
+    lmb_planes_move(&s->cloud, &s->planes);
+    const lmb_vec3 moved = lmb_cloud_point(&s->cloud, 48, 70);
+    CHECK_MSG(fabsf(moved.y + 0.5f) < 0.005f, "%g", (double)moved.y);
+    lmb_vec3 at;
+    CHECK(lmb_planes_anchor(&at, &s->planes, &camera, p, 48.0f, 70.0f) && fabsf(at.y - moved.y) < 1e-5f);
+    CHECK(!lmb_planes_anchor(&at, &s->planes, &camera, p, 48.0f, 0.0f)); /* over the horizon */
+    CHECK(!lmb_planes_anchor(&at, &s->planes, &camera, 2, 48.0f, 70.0f));
+    CHECK(lmb_planes_clear(&at, &s->planes, &camera, p, 0.2f) && !lmb_planes_clear(&at, &s->planes, &camera, p, 9.0f));
+}
+
+/* Nothing measured, one pixel, all at one distance, and nothing flat. */
+static void test_no_planes(stage *s)
+{
+    static const lmb_pinhole one = {1, 1, 80.0f, 80.0f, 0.0f, 0.0f};
+    test_rng rng = {1};
+    memset(s->depth, 0, sizeof s->depth);
+    CHECK(find_planes(s) && s->planes.count == 0 && lmb_planes_floor(&s->planes) == -1);
+    s->depth[0] = 1.0f;
+    CHECK(lmb_cloud_init(&s->cloud, &one, s->depth, s->cloud_memory, sizeof s->cloud_memory) == LMB_OK);
+    CHECK(lmb_cloud_normals(&s->cloud) == LMB_OK && s->cloud.normal[0].z == 0.0f);
+    CHECK(lmb_planes_find(&s->planes, &s->cloud, s->plane_memory, sizeof s->plane_memory) == LMB_OK &&
+          s->planes.count == 0);
+    for (int i = 0; i < PIXELS; ++i) {
+        s->depth[i] = 3.0f;
+    }
+    CHECK(find_planes(s) && s->planes.count == 1 && s->planes.plane[0].pixels == PIXELS);
+    CHECK(fabsf(s->planes.plane[0].distance - 3.0f) < 1e-4f && s->planes.plane[0].normal.z > 0.999999f);
+    for (int i = 0; i < PIXELS; ++i) {
+        s->depth[i] = test_uniform(&rng, 0.5f, 5.0f);
+    }
+    CHECK(find_planes(s) && s->planes.count <= 1); /* no crash, next to nothing found */
+}
+
+/* --- the mesh ----------------------------------------------------------------------------------------------------- */
+
+static void test_mesh(stage *s)
+{
+    const lmb_axes axes = lmb_axes_upright((lmb_vec3){0, 1, 0});
+    draw_corner(s, 0.0f);
+    find_planes(s);
+    lmb_planes_move(&s->cloud, &s->planes);
+    CHECK(lmb_real_mesh_bytes(WIDTH, HEIGHT, 4) <= sizeof s->mesh_memory);
+    CHECK(lmb_real_mesh_build(&s->mesh, &s->cloud, &s->planes, 4, &axes, s->mesh_memory, sizeof s->mesh_memory) ==
+          LMB_OK);
+    CHECK(s->mesh.count == PIXELS / 16);
+    int off = 0, gaps = 0;
+    for (int c = 0; c < s->mesh.count; ++c) {
+        const lmb_flat *p = &s->planes.plane[s->mesh.label[c] - 1];
+        const float *a = s->mesh.positions + 12 * c;
+        for (int k = 0; k < 4; ++k) {
+            off += fabsf(a[3 * k] * p->normal.x + a[3 * k + 1] * p->normal.y + a[3 * k + 2] * p->normal.z + p->distance) >
+                   1e-4f;
+        }
+        /* Cells of one plane side by side share two corners, bit for bit. */
+        if ((c + 1) % s->mesh.columns != 0 && s->mesh.label[c] == s->mesh.label[c + 1]) {
+            gaps += memcmp(a + 9, a + 12, 12) != 0 || memcmp(a + 6, a + 15, 12) != 0;
+        }
+    }
+    CHECK_MSG(off == 0 && gaps == 0, "%d off, %d gaps", off, gaps);
+    CHECK(lmb_real_tile(&s->tile, &s->cloud, &s->planes, &s->mesh, &axes, 40, 64) == LMB_OK && s->tile.hits == 64);
+    CHECK(fabsf(s->tile.position[1][20] + 0.5f) < 1e-3f && s->tile.face[1][20] > 0.9999f && s->tile.id[20] > 0);
+    CHECK(lmb_real_tile(&s->tile, &s->cloud, &s->planes, &s->mesh, &axes, 41, 64) == LMB_ERR_ARG);
+}
+
+/* A photo's pixel and the frame's show the same ray, wherever the axis is. */
+static void test_view(void)
+{
+    static const float centres[3] = {47.5f, 30.0f, 61.5f};
+    const lmb_axes axes = lmb_axes_upright((lmb_vec3){0, 1, 0});
+    for (int i = 0; i < 3; ++i) {
+        lmb_pinhole c = camera;
+        lmb_view v;
+        int32_t x0, y0;
+        c.cx = centres[i] + 0.1f;
+        lmb_pinhole_round(&c);
+        CHECK(c.cx == centres[i]);
+        CHECK(lmb_photo_view(&v, &x0, &y0, &c, &axes) == LMB_OK && x0 % LMB_TILE == 0 && y0 % LMB_TILE == 0);
+        CHECK(x0 + WIDTH <= v.frame_width && y0 + HEIGHT <= v.frame_height);
+        const float x = ((2.0f * ((float)x0 + 10.0f) + 1.0f) / (float)v.frame_width - 1.0f) * v.half_width;
+        CHECK_MSG(fabsf(x - lmb_cloud_ray(&c, 10.0f, 0.0f).x) < 1e-6f, "%g", (double)x);
+    }
+}
+
+/* --- environment -------------------------------------------------------------------------------------------------- */
+
+static void test_half(void)
+{
+    int wrong = 0;
+    for (uint32_t code = 0; code < 0x7c00u; ++code) {
+        wrong += half_encode(half_decode((uint16_t)code)) != code;
+    }
+    CHECK(wrong == 0);
+    CHECK(half_decode(HALF_ONE) == 1.0f && half_encode(-1.0f) == 0 && half_encode(NAN) == 0 && half_encode(1e9f) == 0x7bff);
+    CHECK(half_encode(1.0f + 1.0f / 2048.0f) == HALF_ONE && half_encode(1.0f + 3.0f / 2048.0f) == HALF_ONE + 2);
+}
+
+/* Left, right, top and bottom of a picture go to their sides, its middle ahead and behind. */
+static void test_fold(void)
+{
+    enum { SIZE = 16, SIDE = 90 };
+    static uint32_t memory[SIZE * SIZE * 6 * 3];
+    static float rgb[SIDE * SIDE * 3];
+    static const lmb_vec3 to[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    static const float want[6] = {2.0f, 1.0f, 3.0f, 4.0f, 5.0f, 5.0f};
+    const lmb_axes axes = lmb_axes_upright((lmb_vec3){0, 1, 0});
+    lmb_env env;
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const int x = i % SIDE - SIDE / 2, y = i / SIDE - SIDE / 2, ax = x < 0 ? -1 - x : x, ay = y < 0 ? -1 - y : y;
+        const float v = ax < SIDE / 6 && ay < SIDE / 6 ? 5.0f : ax > ay ? (x < 0 ? 1.0f : 2.0f) : y < 0 ? 3.0f : 4.0f;
+        rgb[3 * i] = rgb[3 * i + 1] = rgb[3 * i + 2] = v;
+    }
+    CHECK(lmb_env_bytes(12) == 0 && lmb_env_bytes(0) == 0 && lmb_env_bytes(4096) == 0);
+    CHECK(lmb_env_init(&env, SIZE, memory, lmb_env_bytes(SIZE) - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_env_init(&env, SIZE, memory, sizeof memory) == LMB_OK && env.levels == 5);
+    CHECK(lmb_env_fold(&env, rgb, SIDE, SIDE, &axes) == LMB_OK);
+    for (int i = 0; i < 6; ++i) {
+        float seen[3];
+        lmb_env_sample(seen, &env, to[i], 0.0f);
+        CHECK_MSG(seen[0] == want[i] && seen[2] == want[i], "side %d: %g", i, (double)seen[0]);
+        lmb_env_sample(seen, &env, to[i], 1.0f); /* the level of one texel a face, a face's own mean there */
+        CHECK_MSG(fabsf(seen[1] - want[i]) < 0.05f, "side %d: %g", i, (double)seen[1]);
+    }
+}
+
+static void test_brightest(void)
+{
+    enum { SIZE = 8 };
+    static uint32_t memory[SIZE * SIZE * 6 * 3];
+    const float lamp[3] = {9, 9, 9}, up_share[3] = {0.5f, 1.0f, 1.0f};
+    lmb_env env;
+    float seen[3];
+    lmb_env_init(&env, SIZE, memory, sizeof memory);
+    lmb_env_set(&env, 2, 3, 4, lamp);
+    lmb_env_mips(&env);
+    lmb_vec3 d = lmb_env_brightest(&env, (lmb_vec3){0, 1, 0});
+    CHECK_MSG(d.y > 0.97f, "%g", (double)d.y);
+    memset(memory, 0, sizeof memory);
+    lmb_env_set(&env, 0, 4, 4, lamp); /* level with the floor: raised to 30 degrees */
+    lmb_env_set(&env, 0, 4, 3, lamp);
+    lmb_env_mips(&env);
+    d = lmb_env_brightest(&env, (lmb_vec3){0, 1, 0});
+    CHECK_MSG(fabsf(d.y - 0.5f) < 1e-3f && d.x > 0.8f, "%g %g", (double)d.x, (double)d.y);
+    lmb_env_dim(&env, &env, up_share);
+    lmb_env_sample(seen, &env, (lmb_vec3){1.0f, -0.1f, -0.1f}, 0.0f);
+    CHECK(seen[0] > 0.0f && seen[0] == 0.5f * seen[1] && seen[1] == seen[2]);
+}
+
+/* --- what changes ------------------------------------------------------------------------------------------------- */
+
+static void test_delta(stage *s)
+{
+    lmb_irradiance without, with;
+    lmb_radiance photo, before;
+    memset(&s->tile, 0, sizeof s->tile);
+    for (int i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
+        before.rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS] = 0.1f + 0.003f * (float)(i % LMB_TILE_PIXELS);
+        without.rgb[i / LMB_TILE_PIXELS][i % LMB_TILE_PIXELS] = 2.0f;
+        s->tile.id[i % LMB_TILE_PIXELS] = 1;
+    }
+    s->tile.id[7] = 0;
+    photo = before;
+    with = without;
+    CHECK(lmb_delta_tile(&photo, &s->tile, &without, &with) == LMB_OK && memcmp(&photo, &before, sizeof photo) == 0);
+    with.rgb[0][3] = 1.0f; /* half the light: half the picture */
+    with.rgb[0][4] = 0.0f;
+    with.rgb[0][5] = 4.0f;
+    with.rgb[0][7] = 0.0f;
+    CHECK(lmb_delta_tile(&photo, &s->tile, &without, &with) == LMB_OK);
+    CHECK(fabsf(photo.rgb[0][3] - 0.5f * before.rgb[0][3]) < 1e-6f && photo.rgb[0][4] < 1e-6f);
+    CHECK(fabsf(photo.rgb[0][5] - 2.0f * before.rgb[0][5]) < 1e-6f && photo.rgb[0][7] == before.rgb[0][7]);
+    CHECK(lmb_real_albedo(9.0f, 1.0f) == LMB_ALBEDO_MOST && lmb_real_albedo(0.0f, 1.0f) == LMB_ALBEDO_LEAST);
+    CHECK(lmb_real_albedo(1.0f, 0.0f) == 0.5f);
+}
+
+/* What is nearer hides the object, what is as near as noise can tell does not. */
+static void test_hidden(stage *s)
+{
+    static lmb_tile object;
+    static lmb_radiance photo, light;
+    memset(&s->tile, 0, sizeof s->tile);
+    memset(&object, 0, sizeof object);
+    memset(&photo, 0, sizeof photo);
+    s->cloud.noise = 0.001f;
+    for (int k = 0; k < 4; ++k) {
+        object.id[k] = k != 3;
+        object.depth[k] = 2.0f;
+        light.rgb[1][k] = 1.0f;
+        s->tile.id[k] = k != 2;
+        s->tile.depth[k] = k == 0 ? 1.9f : 1.999f;
+    }
+    CHECK(lmb_object_tile(&photo, &light, &object, &s->tile, &s->cloud) == 6);
+    CHECK(photo.rgb[1][0] == 0.0f && photo.rgb[1][1] == 1.0f && photo.rgb[1][2] == 1.0f && photo.rgb[1][3] == 0.0f);
+}
+
+static const lmb_vec3 box[4] = {{-1, 0, -3}, {1, 0, -3}, {0, 1, -3}, {0, 0, -5}};
+
+/* Both maps of each kind of light have the same views: so a texel's power is the same number. */
+static void test_two_maps(void)
+{
+    enum { SIZE = 16 };
+    static uint32_t memory[2 * 6 * SIZE * SIZE * 2];
+    lmb_scene scene;
+    lmb_light light = {{0, 2, -3}, {0, -1, 0}, {1, 2, 3}, 0.9f, 0.8f, LMB_LIGHT_SPOT, 0};
+    memset(&scene, 0, sizeof scene);
+    scene.bounds_min = (lmb_vec3){-1, 0, -5};
+    scene.bounds_max = (lmb_vec3){1, 1, -3};
+    for (light.kind = LMB_LIGHT_POINT; light.kind <= LMB_LIGHT_DIRECTIONAL; ++light.kind) {
+        lmb_light_map maps[2];
+        float power[2][3];
+        CHECK(lmb_two_maps(maps, &light, &scene, SIZE, memory, sizeof memory) == LMB_OK);
+        CHECK(memcmp(maps[0].view, maps[1].view, sizeof maps[0].view) == 0);
+        for (int i = 0; i < 2; ++i) {
+            lmb_light_texel_power(power[i], &light, &maps[i], 0, 3, 5);
+        }
+        CHECK(memcmp(power[0], power[1], sizeof power[0]) == 0 && power[0][2] > 0.0f);
+    }
+    CHECK(lmb_two_maps(NULL, &light, &scene, SIZE, memory, sizeof memory) == LMB_ERR_ARG);
+}
+
+/* A triangle throws back albedo x light x area, in however many parts. */
+static void test_around(void)
+{
+    static uint32_t env_memory[8 * 8 * 6 * 3], triangle[3] = {0, 1, 2};
+    static lmb_texel points[4096];
+    lmb_material material;
+    lmb_mesh mesh;
+    lmb_instance instance;
+    lmb_scene scene;
+    lmb_env env;
+    const float white[3] = {1, 1, 1};
+    memset(&material, 0, sizeof material);
+    memset(&mesh, 0, sizeof mesh);
+    memset(&instance, 0, sizeof instance);
+    memset(&scene, 0, sizeof scene);
+    material.albedo[0] = material.albedo[1] = material.albedo[2] = 0.5f;
+    material.texture = -1;
+    mesh.positions = box;
+    mesh.indices = triangle;
+    mesh.vertex_count = 4;
+    mesh.triangle_count = 1;
+    mesh.index_format = LMB_INDEX_U32;
+    instance.to_world.m[0] = instance.to_world.m[5] = instance.to_world.m[10] = instance.to_world.m[15] = 1.0f;
+    instance.first_id = 1;
+    scene.meshes = &mesh;
+    scene.materials = &material;
+    scene.instances = &instance;
+    scene.mesh_count = scene.material_count = scene.instance_count = 1;
+    lmb_env_init(&env, 8, env_memory, sizeof env_memory);
+    for (int i = 0; i < 6 * 64; ++i) {
+        lmb_env_set(&env, i / 64, i % 8, i / 8 % 8, white);
+    }
+    lmb_env_mips(&env);
+    for (float leaf = 3.0f; leaf > 0.05f; leaf *= 0.4f) {
+        double sum = 0.0;
+        const size_t n = lmb_around_points(points, 4096, &scene, 1, 1, leaf, &env);
+        CHECK(n == lmb_around_points(NULL, 0, &scene, 1, 1, leaf, &env));
+        for (size_t i = 0; i < n; ++i) {
+            sum += (double)points[i].flux[0];
+            CHECK(points[i].position.y > 0.0f && points[i].position.z == -3.0f && points[i].normal.z == 1.0f);
+        }
+        CHECK_MSG(fabs(sum - 0.5 * 3.14159265) < 1e-3, "%g of %d parts", sum, (int)n);
+    }
+}
+
+void test_mixed(void)
+{
+    stage *s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        abort();
+    }
+    test_points(s);
+    test_refusals(s);
+    test_grid();
+    test_picture_neighbours(s);
+    test_corner(s);
+    test_no_planes(s);
+    test_mesh(s);
+    test_view();
+    test_half();
+    test_fold();
+    test_brightest();
+    test_delta(s);
+    test_hidden(s);
+    test_two_maps();
+    test_around();
+    free(s);
+}
