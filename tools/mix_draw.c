@@ -162,7 +162,8 @@ static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
 int mix_draw(mix_job *j, report *r)
 {
     drawing *d = mix_take(j, sizeof *d, r);
-    if (d == NULL || !make_image(&j->picture, j->frame.light.width, j->frame.light.height, r) || !draw_object(d, j, r)) {
+    if (d == NULL || !make_image(&j->picture, j->frame.light.width, j->frame.light.height, r) ||
+        !draw_object(d, j, r)) {
         return 0;
     }
     for (int32_t y = 0; y < j->picture.height; y += LMB_TILE) {
@@ -180,8 +181,8 @@ static void tell_planes(const mix_job *j)
     fprintf(stderr, "lambent: depth is noisy by %.4f 1/m\n", (double)j->cloud.noise);
     for (int32_t i = 0; i < j->planes.count; ++i) {
         const lmb_flat *p = &j->planes.plane[i];
-        fprintf(stderr, "lambent: plane %2d: %.2f x %.2f m, %.3f m from the camera, faces %.3f,%.3f,%.3f; %d pixels about "
-                        "%d,%d\n",
+        fprintf(stderr, "lambent: plane %2d: %.2f x %.2f m, %.3f m from the camera, faces %.3f,%.3f,%.3f; %d pixels "
+                        "about %d,%d\n",
                 (int)i + 1, (double)(p->high[0] - p->low[0]), (double)(p->high[1] - p->low[1]), (double)p->distance,
                 (double)p->normal.x, (double)p->normal.y, (double)p->normal.z, (int)p->pixels,
                 (int)((p->x0 + p->x1) / 2), (int)((p->y0 + p->y1) / 2));

@@ -11,8 +11,8 @@ const char mix_help[] =
     "usage: lambent mix --frame PREFIX --object MESH -o OUT [options]\n"
     "       lambent mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
     "\n"
-    "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is around,\n"
-    "and lets the photo answer with its shadow, its colour and its mirror image. Metres.\n"
+    "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is\n"
+    "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.\n"
     "\n"
     "photo\n"
     "  --frame PREFIX             PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy,\n"
@@ -25,8 +25,8 @@ const char mix_help[] =
     "object\n"
     "  --object MESH              .gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in\n"
     "  --scale M                  m of a unit of the mesh (default: a quarter of the plane's shorter side in all)\n"
-    "  --at X,Y                   stands on what is at this pixel (default: near the middle of the plane that an object\n"
-    "                             would stand on, the largest that faces up, where nothing else stands)\n"
+    "  --at X,Y                   stands on what is at this pixel (default: near the middle of the largest plane that\n"
+    "                             faces up, where nothing else stands)\n"
     "  --at world                 is where the mesh has it, in the world of the frame's camera_to_world\n"
     "  --turn DEG                 about its upright axis (default 0: +Z towards the viewer)\n"
     "light\n"
@@ -47,7 +47,7 @@ const char mix_help[] =
     "         voxels              the light in them as the camera sees it\n"
     "         env                 the surroundings as a cube, faces +x -x +y -y +z -z from the top\n"
     "         object              alone, before black\n"
-    "  --exposure EV              stops, for .png and .ppm (default 0 for photos of codes, else so that nothing clips)\n"
+    "  --exposure EV              stops, for .png and .ppm (default 0; where the photo is linear, so that it fits)\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
     "\n"
     "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage\n";
@@ -66,8 +66,12 @@ static int parse_out(const char *text, mix_options *o) { return picture_format(o
 static int parse_scale(const char *text, mix_options *o) { return option_number(text, 1e-6f, 1e6f, &o->scale); }
 static int parse_turn(const char *text, mix_options *o) { return option_number(text, -3600.0f, 3600.0f, &o->turn_deg); }
 static int parse_voxels(const char *text, mix_options *o) { return option_int(text, 4, 10, &o->depth); }
-static int parse_exposure(const char *text, mix_options *o) { return option_number(text, -60.0f, 60.0f, &o->exposure_ev); }
 static int parse_backend(const char *text, mix_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
+
+static int parse_exposure(const char *text, mix_options *o)
+{
+    return option_number(text, -60.0f, 60.0f, &o->exposure_ev);
+}
 
 static int parse_depth_scale(const char *text, mix_options *o)
 {
@@ -125,7 +129,8 @@ static const struct flag {
     {{"--scale", "metres over 0"}, parse_scale},
     {{"--at", "X,Y or world"}, parse_at},
     {{"--turn", "degrees"}, parse_turn},
-    {{"--light", "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], KIND spot, point or sun, at most eight times"}, parse_light},
+    {{"--light", "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], KIND spot, point or sun, at most eight times"},
+     parse_light},
     {{"--world", "a file, or what six files' names begin with"}, parse_world},
     {{"--roughness", "R or R,F, 0 .. 1"}, parse_roughness},
     {{"--light-map", "a power of two, 8 .. 4096"}, parse_light_map},

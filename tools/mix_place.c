@@ -75,8 +75,8 @@ static int stand_at_pixel(mix_job *j, report *r)
     j->anchor = lmb_cloud_point(&j->cloud, x, y);
     j->up = upright >= 0 ? j->planes.plane[upright].normal : (lmb_vec3){0, 1, 0};
     return j->anchor.z < 0.0f ||
-           report_fail(r, "--at %d,%d: neither a plane nor any depth there; lambent mix --show planes shows them", (int)x,
-                       (int)y);
+           report_fail(r, "--at %d,%d: neither a plane nor any depth there; lambent mix --show planes shows them",
+                       (int)x, (int)y);
 }
 
 /* A quarter of the plane's shorter side for the object's longest; half a metre where there is no plane. */
@@ -135,7 +135,8 @@ static float gap(const mix_job *j)
 static lmb_mat4 upright(const mix_job *j, float scale)
 {
     const lmb_vec3 at = lmb_axes_turn(&j->axes, j->anchor);
-    const float far = hypotf(at.x, at.z), turn = j->o.turn_deg * 0.017453293f + (far > 0.0f ? atan2f(-at.x, -at.z) : 0.0f);
+    const float viewer = hypotf(at.x, at.z) > 0.0f ? atan2f(-at.x, -at.z) : 0.0f;
+    const float turn = j->o.turn_deg * 0.017453293f + viewer;
     const lmb_vec3 x = {cosf(turn) * scale, 0, -sinf(turn) * scale}, y = {0, scale, 0},
                    z = {sinf(turn) * scale, 0, cosf(turn) * scale};
     return of_axes(x, y, z, at);

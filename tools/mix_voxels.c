@@ -10,6 +10,9 @@ enum { TREE_SIZE = 512, CONES = 19, TURNS = 4 };
 /* The cube around the object is so many times as wide as it is. */
 #define ROOM 4.0f
 
+/* Leaves within which points have one answer. */
+#define NEAR_LEAVES 4.0f
+
 /* --- real surfaces' colours --------------------------------------------------------------------------------------- */
 
 /* Sums of a row of cells. */
@@ -123,8 +126,8 @@ static int build(mix_job *j, report *r)
         return report_fail(r, "the object is too large or too small for voxels; --scale sets metres of a unit");
     }
     if (j->voxels.depth < j->voxels.asked) {
-        fprintf(stderr, "lambent: voxels: %u are not enough for %d a side; they are coarser, %d a side\n", (unsigned)cap,
-                1 << j->voxels.asked, 1 << j->voxels.depth);
+        fprintf(stderr, "lambent: voxels: %u are not enough for %d a side; they are coarser, %d a side\n",
+                (unsigned)cap, 1 << j->voxels.asked, 1 << j->voxels.depth);
     }
     return 1;
 }
@@ -135,6 +138,7 @@ static int build(mix_job *j, report *r)
 typedef struct points {
     lmb_tree tree;
     lmb_tile *scratch;
+    lmb_around_scratch *around;
     lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
     size_t real_count, object_count;
     double real_flux[3], far_flux[3]; /* W: of all real surfaces that are seen; of those outside the cube */
@@ -188,24 +192,39 @@ static int inject_with(mix_job *j, points *p)
            lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITH) == LMB_OK;
 }
 
-static int relight_real(mix_job *j, points *p)
+/* Points by what they receive now, against what they did: without the object, or of all that is around. */
+static int relight(mix_job *j, points *p, lmb_texel *inout, size_t count, int is_real)
 {
     const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch},
-                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0], j->scratch};
-    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
-    if (lmb_around_relight(p->again, p->real_count, &with, &without, &j->cones, p->scratch) != LMB_OK) {
-        return 0;
+                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0],
+                                    j->scratch};
+    for (size_t i = 0; i < count;) {
+        i = lmb_around_gather(p->around, inout, i, count, NEAR_LEAVES * j->voxels.leaf);
+        if (lmb_cones_diffuse(&p->around->now, NULL, &with, &j->cones, &p->around->tile) != LMB_OK ||
+            (is_real &&
+             lmb_cones_diffuse(&p->around->before, NULL, &without, &j->cones, &p->around->tile) != LMB_OK) ||
+            lmb_around_scale(inout, p->around, is_real ? NULL : &j->env[1]) != LMB_OK) {
+            return 0;
+        }
     }
-    dim_around(j, p);
     return 1;
+}
+
+static int relight_real(mix_job *j, points *p)
+{
+    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
+    const int ok = relight(j, p, p->again, p->real_count, 1);
+    if (ok) {
+        dim_around(j, p);
+    }
+    return ok;
 }
 
 static int relight_object(mix_job *j, points *p)
 {
-    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch};
     lmb_texel *object = p->again + p->real_count;
     memcpy(object, p->object, p->object_count * sizeof *object);
-    return lmb_around_relight(object, p->object_count, &with, NULL, &j->cones, p->scratch) == LMB_OK;
+    return relight(j, p, object, p->object_count, 0);
 }
 
 /* The world without the object is what the photo shows. The one with it begins with an object that throws nothing back:
@@ -249,7 +268,8 @@ static void add_flux(double sum[3], const lmb_texel *all, size_t count)
     }
 }
 
-static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uint32_t first_id, uint32_t triangles, report *r)
+static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uint32_t first_id, uint32_t triangles,
+                              report *r)
 {
     const float leaf = j->voxels.leaf;
     const size_t cap = lmb_around_points(NULL, 0, &j->scene, first_id, triangles, leaf, &j->env[0]);
@@ -271,11 +291,13 @@ static int light_voxels(mix_job *j, report *r)
     memset(&p, 0, sizeof p);
     void *memory = mix_take(j, bytes, r);
     p.scratch = mix_take(j, sizeof *p.scratch, r);
+    p.around = mix_take(j, sizeof *p.around, r);
     j->scratch = mix_take(j, sizeof *j->scratch, r);
     p.real = take_points(&p.real_count, p.real_flux, j, 1, j->real_triangles, r);
     p.object = take_points(&p.object_count, object_flux, j, j->real_triangles + 1, j->object_triangles, r);
     p.again = mix_take(j, (p.real_count + p.object_count) * sizeof *p.again, r);
-    if (memory == NULL || p.scratch == NULL || j->scratch == NULL || p.real == NULL || p.object == NULL || p.again == NULL) {
+    if (memory == NULL || p.scratch == NULL || p.around == NULL || j->scratch == NULL || p.real == NULL ||
+        p.object == NULL || p.again == NULL) {
         return 0;
     }
     if (lmb_tree_init(&p.tree, 1, size, memory, bytes) != LMB_OK) {

@@ -66,8 +66,8 @@ static void tell(const mix_job *j)
     }
     if (j->o.object != NULL && j->floor >= 0) {
         const lmb_flat *p = &j->planes.plane[j->floor];
-        fprintf(stderr, "lambent: %d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, within %.1f mm "
-                        "of the measured depth\n",
+        fprintf(stderr, "lambent: %d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, within "
+                        "%.1f mm of the measured depth\n",
                 (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
                 (double)(p->high[1] - p->low[1]), -(double)j->anchor.z, 1000.0 * (double)j->gap_m);
     }

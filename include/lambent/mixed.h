@@ -1,4 +1,5 @@
-/* mixed.h: a virtual object in one photo with depth: what is there, where it stands, and how the photo answers. [M1-M24]
+/* mixed.h: a virtual object in one photo with depth: what is there, where it stands, and how the photo answers.
+ * [M1-M24]
  *
  *     lmb_cloud_init(&cloud, &camera, depth, memory, bytes);      points, noise                             [M1]
  *     lmb_cloud_normals(&cloud);                                  normals                                   [M2]
@@ -7,17 +8,17 @@
  *     lmb_env_fold(&env, photo, width, height);                   light from where no picture is            [M14-M19]
  *     per tile: lmb_real_tile, direct light with and without the object, lmb_delta_tile                     [M23 M24]
  *
- * Clouds and planes are in the camera's own space: metres, it stands at 0, x to the right, y up, and looks down -z. What
- * is drawn and lit is in the scene's, which is the same turned about the camera, so that the object's floor is level
- * (lmb_axes_upright): voxels then keep the floor's light apart from what stands on it. */
+ * Clouds and planes are in the camera's own space: metres, it stands at 0, x to the right, y up, and looks down -z.
+ * What is drawn and lit is in the scene's, which is the same turned about the camera, so that the object's floor is
+ * level (lmb_axes_upright): voxels then keep the floor's light apart from what stands on it. */
 #ifndef LMB_MIXED_H
 #define LMB_MIXED_H
 
 #include "compose.h"
 #include "voxel.h"
 
-/* A camera with square or other pixels, their centres at whole numbers: column = fx x / z + cx, row = fy y / z + cy, with
- * z ahead and y down. */
+/* A camera with square or other pixels, their centres at whole numbers: column = fx x / z + cx, row = fy y / z + cy,
+ * with z ahead and y down. */
 typedef struct lmb_pinhole {
     int32_t width, height; /* px, 1 .. LMB_MAX_SIDE */
     float fx, fy, cx, cy;  /* px; fx, fy over 0 */
@@ -28,9 +29,9 @@ typedef struct lmb_axes {
     lmb_vec3 right, up, back;
 } lmb_axes;
 
-/* Depth as points, in the caller's memory, 16 bytes a pixel. Planes are affine in 1 / distance over the picture, and what
- * sensors that measure by disparity get wrong is about even in it: so distances are kept, fitted and compared as their
- * inverses. */
+/* Depth as points, in the caller's memory, 16 bytes a pixel. Planes are affine in 1 / distance over the picture, and
+ * what sensors that measure by disparity get wrong is about even in it: so distances are kept, fitted and compared as
+ * their inverses. */
 typedef struct lmb_cloud {
     lmb_pinhole camera;
     float *inverse;   /* 1/m along the axis, by pixel; 0: not measured */
@@ -81,6 +82,14 @@ typedef struct lmb_real_mesh {
     int32_t plane_cell[LMB_MAX_PLANES]; /* one of each plane's, or -1 */
 } lmb_real_mesh;
 
+/* First points that are lit again. 9 KiB. */
+typedef struct lmb_around_scratch {
+    lmb_tile tile;
+    lmb_irradiance before, now;
+    size_t first[LMB_TILE_PIXELS + 1]; /* of each answer's points, and where the next one would begin */
+    int32_t count;
+} lmb_around_scratch;
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -110,7 +119,7 @@ lmb_vec3 lmb_cloud_point(const lmb_cloud *cloud, int32_t x, int32_t y);
 float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse);
 
 /* lmb_cloud_normals: the plane through each point and what surrounds it, in two rounds: what a surface of 75 degrees or
- * less can reach, then what lies on the first round's plane. Fewer than 6 points: unknown. LMB_OK or LMB_ERR_ARG.    [M2]
+ * less can reach, then what lies on the first round's plane. Fewer than 6 points: unknown. LMB_OK or LMB_ERR_ARG. [M2]
  * Cost: 2 x 49 points a pixel. */
 lmb_status lmb_cloud_normals(const lmb_cloud *cloud);
 
@@ -138,8 +147,8 @@ size_t lmb_planes_bytes(int32_t width, int32_t height);
 lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory, size_t bytes);
 
 /* lmb_planes_floor: the plane that an object would stand on: the one with the largest picture of those that face up,
- * within 70 degrees of the camera's up, the less the more it turns away; where none does, the largest. -1 where there are
- * none. */
+ * within 70 degrees of the camera's up, the less the more it turns away; where none does, the largest. -1 where there
+ * are none. */
 int32_t lmb_planes_floor(const lmb_planes *planes);
 
 /* lmb_planes_anchor: where on plane p the ray of pixel (x, y) meets it. 0 where it does not. */
@@ -161,8 +170,8 @@ size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step);
  *   cloud   with normals, moved onto its planes
  *   step    px, 1 .. 64
  * Cells of one plane meet without a gap, for their corners are the same numbers; others' squares go through their mean
- * point along their mean normal, and leave cracks. Colours are white: lmb_real_mesh_colour. Returns LMB_OK, LMB_ERR_ARG,
- * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+ * point along their mean normal, and leave cracks. Colours are white: lmb_real_mesh_colour. Returns LMB_OK,
+ * LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_real_mesh_build(lmb_real_mesh *out, const lmb_cloud *cloud, const lmb_planes *planes, int32_t step,
                                const lmb_axes *axes, void *memory, size_t bytes);
 
@@ -192,10 +201,12 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
  * from the middle outwards, so that nothing is left over and the five faces meet without a seam. */
 lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height, const lmb_axes *axes);
 
-/* lmb_env_brightest: unit, where the most light comes from, over the plane that faces `up`, at least 30 degrees high. */
+/* lmb_env_brightest: unit, where the most light comes from, over the plane that faces `up`, at least 30 degrees
+ * high. */
 lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up);
 
-/* lmb_env_irradiance: W/m2 that a surface facing `normal` gets, nothing being in the way: pi times the mean of a cone. */
+/* lmb_env_irradiance: W/m2 that a surface facing `normal` gets, nothing being in the way: pi times the mean of a
+ * cone. */
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
 
 /* lmb_two_maps: a light's maps without [0] and with [1] the object: the same views, so that each texel stands for the
@@ -212,17 +223,19 @@ lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb
  * lmb_voxels_inject takes beside those of the lights' maps.                                                     [M7]
  *
  *   leaf  m: triangles are parted until their parts are no longer than that, or 64 to a side
- * By this light and the lamps' real surfaces shine about as the photo has them. Returns how many points there are; `cap`
- * of them are written, 0 to ask. Builds with LMB_VOXELS have it, and what follows.
+ * By this light and the lamps' real surfaces shine about as the photo has them. Returns how many points there are;
+ * `cap` of them are written, 0 to ask. Builds with LMB_VOXELS have it, and what follows.
  *
- * lmb_around_relight: the same points by what reaches them through voxels: each flux times the share of the light `with`
- * to the light `without`; or, where `without` is NULL, to that of with->env with nothing in its way. What the object
- * blocks and throws back so comes to bounce again. Points that follow each other within four leaves have one answer.
- * LMB_OK or LMB_ERR_ARG. Cost: one or two lmb_cones_diffuse for each 64 answers. */
+ * lmb_around_gather, lmb_around_scale: the same points by what reaches them through voxels, so that what the object
+ * blocks and throws back comes to bounce again. Points from `from` on, of which those that follow each other, face one
+ * way and lie within near_m have one answer, become scratch->tile, 64 answers at most; the caller adds what they get
+ * without and with the object to scratch->before and ->now (lmb_cones_diffuse); then each flux is scaled by the share
+ * of the second to the first. Where `env` is given, to its light with nothing in the way. lmb_around_gather returns the
+ * first point that it did not take, lmb_around_scale LMB_OK or LMB_ERR_ARG. */
 size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uint32_t first_id, uint32_t count,
                          float leaf, const lmb_env *env);
-lmb_status lmb_around_relight(lmb_texel *inout, size_t count, const lmb_cone_trace *with, const lmb_cone_trace *without,
-                              const lmb_cones *cones, lmb_tile *scratch);
+size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m);
+lmb_status lmb_around_scale(lmb_texel *inout, const lmb_around_scratch *scratch, const lmb_env *env);
 
 /* lmb_real_albedo: what a surface must reflect to look as the photo has it: pi x radiance / irradiance, within
  * LMB_ALBEDO_LEAST .. LMB_ALBEDO_MOST; 0.5 where there is no irradiance. */
@@ -239,8 +252,8 @@ float lmb_real_albedo(float radiance, float irradiance);
 lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
                           const lmb_irradiance *with);
 
-/* lmb_mirror_tile: add what a varnish on plane p (-1: on every plane) shows of the object and hides behind it: Schlick's
- * share of with - without.                                                                                [M20 M24]
+/* lmb_mirror_tile: add what a varnish on plane p (-1: on every plane) shows of the object and hides behind it:
+ * Schlick's share of with - without.                                                                         [M20 M24]
  *
  *   without, with  what narrow cones along the mirrored view see: lmb_cones_glossy
  *   specular       share where the surface faces the camera; LMB_OK or LMB_ERR_ARG */

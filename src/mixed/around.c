@@ -12,7 +12,6 @@
 #define MOST_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
 
 #define SAME_WAY 0.98f    /* cosine between the normals of points with one answer */
-#define NEAR_LEAVES 4.0f  /* and how far apart they are */
 
 enum { MOST_PARTS = 64 }; /* a triangle's side is divided by at most */
 
@@ -128,23 +127,7 @@ static void put_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
     tile->id[k] = 1;
 }
 
-/* What a point received: through the world without the object, or with nothing in the way. */
-static void received(float out[3], const lmb_irradiance *before, int32_t k, const lmb_texel *point, const lmb_env *env)
-{
-    for (int c = 0; c < 3 && before != NULL; ++c) {
-        out[c] = before->rgb[c][k];
-    }
-    if (before == NULL) {
-        lmb_env_irradiance(out, env, point->normal);
-    }
-}
-
 /* Points that follow each other, face one way and lie close together: the first answers for all. */
-typedef struct runs {
-    size_t first[LMB_TILE_PIXELS + 1]; /* and where the next one would begin */
-    int32_t count;
-} runs;
-
 static size_t run_end(const lmb_texel *all, size_t first, size_t count, float near)
 {
     size_t i = first + 1;
@@ -167,47 +150,37 @@ static void scale_run(lmb_texel *inout, size_t first, size_t past, const float w
     }
 }
 
-static lmb_status relight_runs(lmb_texel *inout, const runs *r, const lmb_cone_trace *with,
-                               const lmb_cone_trace *without, const lmb_cones *cones, lmb_tile *scratch)
+size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m)
 {
-    lmb_irradiance before, now;
-    memset(scratch, 0, sizeof *scratch);
-    memset(&before, 0, sizeof before);
-    memset(&now, 0, sizeof now);
-    for (int32_t k = 0; k < r->count; ++k) {
-        put_point(scratch, k, &inout[r->first[k]]);
+    if (out == NULL || (points == NULL && count > 0)) {
+        return count;
     }
-    lmb_status status = lmb_cones_diffuse(&now, NULL, with, cones, scratch);
-    if (status == LMB_OK && without != NULL) {
-        status = lmb_cones_diffuse(&before, NULL, without, cones, scratch);
+    memset(&out->tile, 0, sizeof out->tile);
+    memset(&out->before, 0, sizeof out->before);
+    memset(&out->now, 0, sizeof out->now);
+    for (out->count = 0; out->count < LMB_TILE_PIXELS && from < count; ++out->count) {
+        put_point(&out->tile, out->count, &points[from]);
+        out->first[out->count] = from;
+        from = run_end(points, from, count, near_m);
     }
-    for (int32_t k = 0; k < r->count && status == LMB_OK; ++k) {
-        float was[3];
-        const float light[3] = {now.rgb[0][k], now.rgb[1][k], now.rgb[2][k]};
-        received(was, without != NULL ? &before : NULL, k, &inout[r->first[k]], with->env);
-        scale_run(inout, r->first[k], r->first[k + 1], was, light);
-    }
-    return status;
+    out->first[out->count] = from;
+    return from;
 }
 
-lmb_status lmb_around_relight(lmb_texel *inout, size_t count, const lmb_cone_trace *with, const lmb_cone_trace *without,
-                              const lmb_cones *cones, lmb_tile *scratch)
+lmb_status lmb_around_scale(lmb_texel *inout, const lmb_around_scratch *scratch, const lmb_env *env)
 {
-    lmb_status status = LMB_OK;
-    if ((inout == NULL && count > 0) || with == NULL || with->voxels == NULL || with->env == NULL || cones == NULL ||
-        scratch == NULL) {
+    if (inout == NULL || scratch == NULL) {
         return LMB_ERR_ARG;
     }
-    for (size_t i = 0; i < count && status == LMB_OK;) {
-        runs r;
-        for (r.count = 0; r.count < LMB_TILE_PIXELS && i < count; ++r.count) {
-            r.first[r.count] = i;
-            i = run_end(inout, i, count, NEAR_LEAVES * with->voxels->leaf);
+    for (int32_t k = 0; k < scratch->count; ++k) {
+        float was[3] = {scratch->before.rgb[0][k], scratch->before.rgb[1][k], scratch->before.rgb[2][k]};
+        const float now[3] = {scratch->now.rgb[0][k], scratch->now.rgb[1][k], scratch->now.rgb[2][k]};
+        if (env != NULL) {
+            lmb_env_irradiance(was, env, inout[scratch->first[k]].normal);
         }
-        r.first[r.count] = i;
-        status = relight_runs(inout, &r, with, without, cones, scratch);
+        scale_run(inout, scratch->first[k], scratch->first[k + 1], was, now);
     }
-    return status;
+    return LMB_OK;
 }
 
 #endif

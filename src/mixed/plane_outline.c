@@ -12,8 +12,8 @@ static const int32_t step_x[4] = {-1, 1, 0, 0}, step_y[4] = {0, 0, -1, 1};
 
 /* --- whose pixel -------------------------------------------------------------------------------------------------- */
 
-/* Of its own plane and those a few pixels away the one that the point lies on best: growth runs over edges by as much as
- * noise allows. */
+/* Of its own plane and those a few pixels away the one that the point lies on best: growth runs over edges by as much
+ * as noise allows. */
 static uint8_t best_of_near(const lmb_planes *p, const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &cloud->camera;
@@ -156,8 +156,8 @@ static void set_axes(lmb_flat *p)
     p->along = cross3(p->normal, p->across);
 }
 
-/* A pixel's piece of the plane, in units that all pixels of one plane share: its area goes with the cube of the distance
- * (z^2 of the pixel, z more for the slant n . ray = -distance / z). */
+/* A pixel's piece of the plane, in units that all pixels of one plane share: its area goes with the cube of the
+ * distance (z^2 of the pixel, z more for the slant n . ray = -distance / z). */
 typedef struct middle {
     float x, y, z, weight;
 } middle;

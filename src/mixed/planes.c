@@ -99,7 +99,7 @@ static void grow(grower *g, int32_t x, int32_t y)
     float distance;
     begin(g, x, y);
     for (int32_t i = 0; i < g->count; ++i) {
-        const int32_t px = g->planes->queue[i] % g->cloud->camera.width, py = g->planes->queue[i] / g->cloud->camera.width;
+        const int32_t at = g->planes->queue[i], px = at % g->cloud->camera.width, py = at / g->cloud->camera.width;
         ask_pixel(g, px - 1, py);
         ask_pixel(g, px + 1, py);
         ask_pixel(g, px, py - 1);

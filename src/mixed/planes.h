@@ -15,10 +15,10 @@ static inline float plane_off(const lmb_cloud *cloud, const float slope[3], floa
 /* lmb_planes_fit: a plane's pixels, those within `off` deviations; 0 where there is no plane in them. */
 int lmb_planes_fit(float slope[3], const lmb_planes *planes, const lmb_cloud *cloud, int32_t label, float off);
 
-/* lmb_planes_outline: give each pixel to the plane it lies on, and holes to the plane around them.                 [M4] */
+/* lmb_planes_outline: give each pixel to the plane it lies on, and holes to the plane around them.             [M4] */
 void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud);
 
-/* lmb_planes_measure: everything of lmb_flat beside `slope`, from the labels.                                      [M5] */
+/* lmb_planes_measure: everything of lmb_flat beside `slope`, from the labels.                                  [M5] */
 void lmb_planes_measure(lmb_planes *planes, const lmb_cloud *cloud);
 
 #endif

@@ -22,8 +22,8 @@ static int32_t frame_side(int32_t *at, float centre, int32_t pixels)
 
 lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera, const lmb_axes *axes)
 {
-    if (out == NULL || x0 == NULL || y0 == NULL || camera == NULL || axes == NULL || !(absf(camera->cx) < (float)LMB_MAX_SIDE) ||
-        !(absf(camera->cy) < (float)LMB_MAX_SIDE)) {
+    if (out == NULL || x0 == NULL || y0 == NULL || camera == NULL || axes == NULL ||
+        !(absf(camera->cx) < (float)LMB_MAX_SIDE) || !(absf(camera->cy) < (float)LMB_MAX_SIDE)) {
         return LMB_ERR_ARG;
     }
     memset(out, 0, sizeof *out);

@@ -2,10 +2,10 @@
  *
  *     mixed [SHARED [OUT.pfm]]        where SHARED holds truth/mixed_without and mixed_with (default ../shared)
  *
- * The photo is the truth's picture without the two objects, its depth that picture's; both objects are the ones that the
- * truth has, where it has them, and the lamp is its lamp. All that reaches the photo is what `lambent mix` makes of it.
- * Bars: 0.85 of the shadow in common (IoU); the sign of what changes right where the truth changes by more than 2 % of
- * its mean. The error is printed beside that of the photo left as it is. */
+ * The photo is the truth's picture without the two objects, its depth that picture's; both objects are the ones that
+ * the truth has, where it has them, and the lamp is its lamp. All that reaches the photo is what `lambent mix` makes
+ * of it. Bars: 0.85 of the shadow in common (IoU); the sign of what changes right where the truth changes by more than
+ * 2 % of its mean. The error is printed beside that of the photo left as it is. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -213,8 +213,8 @@ static void judge_delta(const truth *t, const mix_job *j)
             }
         }
     }
-    printf("sign: right at %d of %d pixels (%.2f %%): darker %d, not %d; brighter %d, not %d; unchanged %d\n", right, asked,
-           100.0 * right / asked, darker[1], darker[0], brighter[1], brighter[0], blank);
+    printf("sign: right at %d of %d pixels (%.2f %%): darker %d, not %d; brighter %d, not %d; unchanged %d\n", right,
+           asked, 100.0 * right / asked, darker[1], darker[0], brighter[1], brighter[0], blank);
     CHECK(right == asked);
 }
 

@@ -2,9 +2,10 @@
  *
  *     planes [SHARED]     where SHARED holds data/rgbd (default ../shared)
  *
- * Rooms of known planes as a Kinect sees them: noise of 1.2 mm + 1.9 mm/m2 (z - 0.4 m)^2 (Nguyen et al. 2012), one pixel
- * of twenty missing. Bars: angle 0.5 degrees, offset 5 mm at the plane's middle, 0.9 of pixels in common (IoU).
- * Then frames of one world with their poses: each plane that two frames share must face the same way within a degree. */
+ * Rooms of known planes as a Kinect sees them: noise of 1.2 mm + 1.9 mm/m2 (z - 0.4 m)^2 (Nguyen et al. 2012), one
+ * pixel of twenty missing. Bars: angle 0.5 degrees, offset 5 mm at the plane's middle, 0.9 of pixels in common (IoU).
+ * Then frames of one world with their poses: each plane that two frames share must face the same way within a
+ * degree. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +34,8 @@ typedef struct work {
 
 static void find(work *w, const lmb_pinhole *camera, const float *depth)
 {
-    const size_t a = lmb_cloud_bytes(camera->width, camera->height), b = lmb_planes_bytes(camera->width, camera->height);
+    const size_t a = lmb_cloud_bytes(camera->width, camera->height),
+                 b = lmb_planes_bytes(camera->width, camera->height);
     w->memory[0] = malloc(a);
     w->memory[1] = malloc(b);
     if (w->memory[0] == NULL || w->memory[1] == NULL ||
@@ -186,7 +188,8 @@ static true_plane in_world(const lmb_flat *f, const double pose[16])
 }
 
 /* Of each of a frame's planes the nearest of the other's, where that is within 5 cm and 10 degrees: the same wall. */
-static void compare_frames(const true_plane *a, int a_count, const true_plane *b, int b_count, double *worst, int *shared)
+static void compare_frames(const true_plane *a, int a_count, const true_plane *b, int b_count, double *worst,
+                           int *shared)
 {
     for (int i = 0; i < a_count; ++i) {
         double nearest = 0.05, turned = -1.0;
