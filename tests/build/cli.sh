@@ -347,6 +347,44 @@ status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --light-map 12
 status 0 relief --help
 status 0 relief bake --help
 status 0 relief render --help
+# One photo of a wall, 24 x 24, grey, 2 m away; and what may not be there.
+half='\000\000\000\077'
+two='\000\000\000\100'
+{ printf 'PF\n24 24\n-1.0\n'; i=0; while [ $i -lt 1728 ]; do printf "$half"; i=$((i + 1)); done; } > "$dir/photo.pfm"
+{ printf 'Pf\n24 24\n-1.0\n'; i=0; while [ $i -lt 576 ]; do printf "$two"; i=$((i + 1)); done; } > "$dir/wall.pfm"
+{ printf 'Pf\n24 24\n-1.0\n'; head -c 2304 /dev/zero; } > "$dir/blind.pfm"
+printf 'v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n' > "$dir/tent.obj"
+seen="--photo $dir/photo.pfm --depth $dir/wall.pfm --intrinsics 30,30,11.5,11.5"
+tent="--object $dir/tent.obj --scale 0.2 --at 8,12 --light-map 64 --voxels 4"
+status 0 mix $seen -o "$dir/same.pfm"
+check "without an object the photo stays as it is" cmp "$dir/photo.pfm" "$dir/same.pfm"
+status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 -o "$dir/mixed.pfm"
+check "an object changes the photo" sh -c '! cmp -s "$1" "$2"' sh "$dir/photo.pfm" "$dir/mixed.pfm"
+status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --backend scalar -o "$dir/scalar.pfm"
+check "a backend changes the mixed picture" cmp "$dir/mixed.pfm" "$dir/scalar.pfm"
+status 0 mix $seen $tent --show delta -o "$dir/delta.pfm"
+check "the delta is darker somewhere" sh -c '"$1" info "$2" | grep -q "red   min -0"' sh "$TOOL" "$dir/delta.pfm"
+for show in final delta planes voxels env object; do
+    status 0 mix $seen $tent --show $show --roughness 0.2,0.5 -o "$dir/mixed.png"
+done
+status 0 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/same.pfm"
+check "nor does a photo without depth change" cmp "$dir/photo.pfm" "$dir/same.pfm"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 --object "$dir/tent.obj" -o "$dir/bad.png"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/facepx.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/demo.png" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix --photo "$dir/nowhere.pfm" --depth "$dir/wall.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" --intrinsics 0,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix $seen --object "$dir/nowhere.obj" -o "$dir/bad.png"
+status 1 mix $seen --object "$dir/tent.obj" --at 24,0 -o "$dir/bad.png"
+status 1 mix --frame "$dir/nowhere" -o "$dir/bad.png"
+status 2 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" -o "$dir/bad.png"
+status 2 mix --photo "$dir/photo.pfm" -o "$dir/bad.png"
+status 2 mix $seen
+status 2 mix $seen -o "$dir/bad.png" --show nonsense
+status 2 mix $seen -o "$dir/bad.png" --light-map 100
+status 2 mix $seen -o "$dir/bad.png" --roughness 2
+status 2 mix $seen -o "$dir/bad.png" --show object
+status 0 mix --help
 # The fixed workload: its own quads need no files.
 check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
 check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
