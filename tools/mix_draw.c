@@ -1,7 +1,6 @@
 /* mix_draw.c: the photo's answer and the object over it, tile by tile. */
 #include "mix_cones.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -19,7 +18,7 @@ typedef struct drawing {
     lmb_cone_seen seen[2];
 } drawing;
 
-static int make_image(image *out, int32_t width, int32_t height, report *r)
+int mix_image(image *out, int32_t width, int32_t height, report *r)
 {
     out->width = width;
     out->height = height;
@@ -162,7 +161,7 @@ static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
 int mix_draw(mix_job *j, report *r)
 {
     drawing *d = mix_take(j, sizeof *d, r);
-    if (d == NULL || !make_image(&j->picture, j->frame.light.width, j->frame.light.height, r) ||
+    if (d == NULL || !mix_image(&j->picture, j->frame.light.width, j->frame.light.height, r) ||
         !draw_object(d, j, r)) {
         return 0;
     }
@@ -170,55 +169,6 @@ int mix_draw(mix_job *j, report *r)
         for (int32_t x = 0; x < j->picture.width; x += MIX_BATCH * LMB_TILE) {
             draw_batch(d, j, x, y);
         }
-    }
-    return 1;
-}
-
-/* --- other pictures ----------------------------------------------------------------------------------------------- */
-
-static void tell_planes(const mix_job *j)
-{
-    fprintf(stderr, "lambent: depth is noisy by %.4f 1/m\n", (double)j->cloud.noise);
-    for (int32_t i = 0; i < j->planes.count; ++i) {
-        const lmb_flat *p = &j->planes.plane[i];
-        fprintf(stderr, "lambent: plane %2d: %.2f x %.2f m, %.3f m from the camera, faces %.3f,%.3f,%.3f; %d pixels "
-                        "about %d,%d\n",
-                (int)i + 1, (double)(p->high[0] - p->low[0]), (double)(p->high[1] - p->low[1]), (double)p->distance,
-                (double)p->normal.x, (double)p->normal.y, (double)p->normal.z, (int)p->pixels,
-                (int)((p->x0 + p->x1) / 2), (int)((p->y0 + p->y1) / 2));
-    }
-}
-
-int mix_show_planes(mix_job *j, report *r)
-{
-    static const float colours[6][3] = {{0.9f, 0.2f, 0.15f}, {0.15f, 0.7f, 0.2f}, {0.15f, 0.3f, 0.9f},
-                                        {0.9f, 0.7f, 0.1f},  {0.7f, 0.2f, 0.8f},  {0.1f, 0.7f, 0.8f}};
-    if (!make_image(&j->picture, j->frame.light.width, j->frame.light.height, r)) {
-        return 0;
-    }
-    tell_planes(j);
-    for (size_t i = 0; i < (size_t)j->picture.width * (size_t)j->picture.height; ++i) {
-        const uint8_t label = j->planes.label[i];
-        const float *p = j->frame.light.pixels + 3 * i;
-        const float grey = 0.2f + 0.8f * (p[0] + p[1] + p[2]) / 3.0f, dark = label > 6 ? 0.55f : 1.0f;
-        for (size_t c = 0; c < 3; ++c) {
-            j->picture.pixels[3 * i + c] = label == 0 ? 0.3f * grey : dark * grey * colours[(label - 1) % 6][c];
-        }
-    }
-    return 1;
-}
-
-int mix_show_env(mix_job *j, report *r)
-{
-    const int32_t n = j->env[0].size;
-    if (!make_image(&j->picture, n, 6 * n, r)) {
-        return 0;
-    }
-    for (int32_t i = 0; i < 6 * n * n; ++i) {
-        const float s = (2.0f * (float)(i % n) + 1.0f) / (float)n - 1.0f,
-                    t = (2.0f * (float)(i / n % n) + 1.0f) / (float)n - 1.0f;
-        const lmb_vec3 all[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
-        lmb_env_sample(j->picture.pixels + 3 * i, &j->env[0], all[i / (n * n)], 0.0f);
     }
     return 1;
 }

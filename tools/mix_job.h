@@ -48,9 +48,13 @@ int mix_light(mix_job *j, report *r);       /* environment, lights and their map
 int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
 int mix_draw(mix_job *j, report *r);        /* the picture */
 
-/* mix_show_planes, mix_show_env: the picture instead of mix_draw's. */
+/* The picture instead of mix_draw's. */
 int mix_show_planes(mix_job *j, report *r);
 int mix_show_env(mix_job *j, report *r);
+int mix_show_voxels(mix_job *j, report *r);
+
+/* mix_image: black, 3 channels. */
+int mix_image(image *out, int32_t width, int32_t height, report *r);
 
 void mix_job_free(mix_job *j);
 

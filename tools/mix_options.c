@@ -155,8 +155,8 @@ static int complete(const mix_options *o, report *r)
     if (o->out == NULL) {
         return report_fail(r, "no output given; add -o FILE.png");
     }
-    if (o->object == NULL && o->show == MIX_OBJECT) {
-        return report_fail(r, "--show object: no object given; add --object MESH");
+    if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {
+        return report_fail(r, "--show: no object given; add --object MESH");
     }
     return 1;
 }

@@ -271,7 +271,7 @@ static void add_flux(double sum[3], const lmb_texel *all, size_t count)
 static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uint32_t first_id, uint32_t triangles,
                               report *r)
 {
-    const float leaf = j->voxels.leaf;
+    const float leaf = 0.5f * j->voxels.leaf; /* so that leaves get about even shares */
     const size_t cap = lmb_around_points(NULL, 0, &j->scene, first_id, triangles, leaf, &j->env[0]);
     lmb_texel *out = mix_take(j, cap * sizeof *out, r);
     if (out != NULL) {

@@ -89,7 +89,10 @@ static int make_picture(mix_job *j, report *r)
     if (!mix_place(j, r) || !mix_light(j, r)) {
         return 0;
     }
-    return j->o.show == MIX_ENV ? mix_show_env(j, r) : mix_voxels(j, r) && mix_draw(j, r);
+    if (j->o.show == MIX_ENV) {
+        return mix_show_env(j, r);
+    }
+    return mix_voxels(j, r) && (j->o.show == MIX_VOXELS ? mix_show_voxels(j, r) : mix_draw(j, r));
 }
 
 static int mix(mix_job *j, report *r)
