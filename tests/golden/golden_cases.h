@@ -37,6 +37,10 @@ uint64_t case_probe(int variant);  /* golden_probe.c */
 uint64_t case_relit(int variant);
 uint64_t case_small_probe(int variant);
 #endif
+#if LMB_MIXED
+uint64_t case_mixed(int variant);  /* golden_mixed.c */
+uint64_t case_folded(int variant);
+#endif
 #if LMB_VOXELS && !defined(LMB_CONFIG_TINY)
 uint64_t case_voxels(int variant); /* golden_voxel.c */
 #endif
