@@ -34,6 +34,7 @@ typedef struct mix_job {
     lmb_cone_width gloss;
     lmb_cone_scratch *scratch;
     image picture;       /* linear */
+    double read_s, planes_s, place_s, light_s, voxels_s, draw_s;
     void *blocks[MIX_BLOCKS];
     int block_count;
 } mix_job;

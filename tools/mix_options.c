@@ -24,7 +24,7 @@ const char mix_help[] =
     "  --intrinsics FX,FY,CX,CY   px; the middle of the first pixel is 0,0\n"
     "object\n"
     "  --object MESH              .gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in\n"
-    "  --scale M                  m of a unit of the mesh (default: a quarter of the plane's shorter side in all)\n"
+    "  --scale M                  m of a unit of the mesh (default: a sixth of the plane's shorter side in all)\n"
     "  --at X,Y                   stands on what is at this pixel (default: near the middle of the largest plane that\n"
     "                             faces up, where nothing else stands)\n"
     "  --at world                 is where the mesh has it, in the world of the frame's camera_to_world\n"
@@ -48,6 +48,7 @@ const char mix_help[] =
     "         env                 the surroundings as a cube, faces +x -x +y -y +z -z from the top\n"
     "         object              alone, before black\n"
     "  --exposure EV              stops, for .png and .ppm (default 0; where the photo is linear, so that it fits)\n"
+    "  --stats FILE.json          planes, voxels, seconds by stage\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
     "\n"
     "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage\n";
@@ -62,6 +63,7 @@ static int parse_photo(const char *text, mix_options *o) { return (o->source.pho
 static int parse_depth(const char *text, mix_options *o) { return (o->source.depth = text)[0] != '\0'; }
 static int parse_object(const char *text, mix_options *o) { return (o->object = text)[0] != '\0'; }
 static int parse_world(const char *text, mix_options *o) { return (o->world = text)[0] != '\0'; }
+static int parse_stats(const char *text, mix_options *o) { return (o->stats = text)[0] != '\0'; }
 static int parse_out(const char *text, mix_options *o) { return picture_format(o->out = text) != PICTURE_UNKNOWN; }
 static int parse_scale(const char *text, mix_options *o) { return option_number(text, 1e-6f, 1e6f, &o->scale); }
 static int parse_turn(const char *text, mix_options *o) { return option_number(text, -3600.0f, 3600.0f, &o->turn_deg); }
@@ -138,6 +140,7 @@ static const struct flag {
     {{"--show", "final, delta, planes, voxels, env or object"}, parse_show},
     {{"-o", "a file name ending in .png, .ppm, .pfm or .hdr"}, parse_out},
     {{"--exposure", "stops, -60 .. 60"}, parse_exposure},
+    {{"--stats", "a file"}, parse_stats},
     {{"--backend", "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"}, parse_backend},
 };
 

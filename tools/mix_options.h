@@ -14,7 +14,7 @@ enum { MIX_AT_CENTRE = 0, /* of the plane that it would stand on */
 
 typedef struct mix_options {
     mix_source source;
-    const char *object, *world, *out;
+    const char *object, *world, *out, *stats;
     float scale;      /* m of a unit of the mesh; 0: chosen */
     float turn_deg;
     int32_t at;

@@ -79,17 +79,17 @@ static int stand_at_pixel(mix_job *j, report *r)
                        (int)x, (int)y);
 }
 
-/* A quarter of the plane's shorter side for the object's longest; half a metre where there is no plane. */
+/* A sixth of the plane's shorter side for the object's longest; half a metre where there is no plane. */
 static float chosen_scale(const mix_job *j)
 {
     const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
     const float size = fmaxf(fmaxf(hi.x - lo.x, hi.y - lo.y), hi.z - lo.z);
-    float room = 2.0f;
+    float room = 3.0f;
     if (j->floor >= 0) {
         const lmb_flat *p = &j->planes.plane[j->floor];
         room = fminf(p->high[0] - p->low[0], p->high[1] - p->low[1]);
     }
-    return j->o.scale > 0.0f ? j->o.scale : 0.25f * room / fmaxf(size, 1e-9f);
+    return j->o.scale > 0.0f ? j->o.scale : room / 6.0f / fmaxf(size, 1e-9f);
 }
 
 /* The middle of the plane, or beside what already stands there. */
@@ -102,8 +102,11 @@ static int stand_at_centre(mix_job *j, report *r)
     }
     j->up = j->planes.plane[j->floor].normal;
     j->anchor = j->planes.plane[j->floor].centre;
-    const float radius = 0.6f * chosen_scale(j) * hypotf(hi.x - lo.x, hi.z - lo.z);
-    lmb_planes_clear(&j->anchor, &j->planes, &j->frame.camera, j->floor, radius);
+    /* Where it is too crowded for the object, where it is least so. */
+    float radius = 0.6f * chosen_scale(j) * hypotf(hi.x - lo.x, hi.z - lo.z);
+    for (int i = 0; i < 4 && !lmb_planes_clear(&j->anchor, &j->planes, &j->frame.camera, j->floor, radius); ++i) {
+        radius *= 0.6f;
+    }
     return 1;
 }
 

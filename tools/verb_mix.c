@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../platform/host/host.h"
 #include "mix_job.h"
 #include "picture.h"
 
@@ -81,28 +82,62 @@ static float exposure(const mix_job *j)
     return j->frame.photo.codes.texels != NULL ? 0.0f : picture_auto_exposure(&j->frame.light);
 }
 
-static int make_picture(mix_job *j, report *r)
+/* Seconds since *from, which becomes now. */
+static double lap(double *from)
+{
+    const double now = host_seconds(), was = *from;
+    *from = now;
+    return now - was;
+}
+
+static int make_picture(mix_job *j, double *from, report *r)
 {
     if (j->o.show == MIX_PLANES) {
         return mix_show_planes(j, r);
     }
-    if (!mix_place(j, r) || !mix_light(j, r)) {
-        return 0;
-    }
+    int ok = mix_place(j, r);
+    j->place_s = lap(from);
+    ok = ok && mix_light(j, r);
+    j->light_s = lap(from);
     if (j->o.show == MIX_ENV) {
-        return mix_show_env(j, r);
+        return ok && mix_show_env(j, r);
     }
-    return mix_voxels(j, r) && (j->o.show == MIX_VOXELS ? mix_show_voxels(j, r) : mix_draw(j, r));
+    ok = ok && mix_voxels(j, r);
+    j->voxels_s = lap(from);
+    ok = ok && (j->o.show == MIX_VOXELS ? mix_show_voxels(j, r) : mix_draw(j, r));
+    j->draw_s = lap(from);
+    return ok;
+}
+
+static int write_stats(const mix_job *j, report *r)
+{
+    char text[1024];
+    const lmb_voxels *v = &j->voxels;
+    const int n = snprintf(text, sizeof text,
+                           "{\n  \"planes\": %d,\n  \"stands_on\": %d,\n  \"gap_m\": %.6f,\n  \"noise_per_m\": %.6f,\n"
+                           "  \"voxels\": %u,\n  \"voxels_a_side\": %d,\n  \"leaf_m\": %.6f,\n"
+                           "  \"pool_bytes\": %.0f,\n  \"read_s\": %.4f,\n  \"planes_s\": %.4f,\n  \"place_s\": %.4f,\n"
+                           "  \"light_s\": %.4f,\n  \"voxels_s\": %.4f,\n  \"draw_s\": %.4f\n}\n",
+                           (int)j->planes.count, (int)j->floor + 1, (double)j->gap_m, (double)j->cloud.noise,
+                           (unsigned)v->count, v->count > 0 ? 1 << v->depth : 0, (double)v->leaf,
+                           (double)lmb_voxels_bytes(v->cap, LMB_VOXELS_THREE), j->read_s, j->planes_s, j->place_s,
+                           j->light_s, j->voxels_s, j->draw_s);
+    return file_write(j->o.stats, text, (size_t)n, r);
 }
 
 static int mix(mix_job *j, report *r)
 {
-    if (!file_can_write(j->o.out, r) || !mix_frame_read(&j->frame, &j->o.source, r) || !mix_find_planes(j, r) ||
-        !make_picture(j, r)) {
+    double from = host_seconds();
+    int ok = file_can_write(j->o.out, r) && (j->o.stats == NULL || file_can_write(j->o.stats, r)) &&
+             mix_frame_read(&j->frame, &j->o.source, r);
+    j->read_s = lap(&from);
+    ok = ok && mix_find_planes(j, r);
+    j->planes_s = lap(&from);
+    if (!ok || !make_picture(j, &from, r)) {
         return 0;
     }
     tell(j);
-    return picture_write(j->o.out, &j->picture, exposure(j), r);
+    return picture_write(j->o.out, &j->picture, exposure(j), r) && (j->o.stats == NULL || write_stats(j, r));
 }
 
 int verb_mix(int argc, char **argv)

@@ -362,6 +362,8 @@ status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 -o "$dir/mixed.pfm"
 check "an object changes the photo" sh -c '! cmp -s "$1" "$2"' sh "$dir/photo.pfm" "$dir/mixed.pfm"
 status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --backend scalar -o "$dir/scalar.pfm"
 check "a backend changes the mixed picture" cmp "$dir/mixed.pfm" "$dir/scalar.pfm"
+status 0 mix $seen $tent --stats "$dir/mix.json" -o "$dir/mixed.hdr"
+check "--stats of mix names the planes" grep -q '"planes": 1,' "$dir/mix.json"
 status 0 mix $seen $tent --show delta -o "$dir/delta.pfm"
 check "the delta is darker somewhere" sh -c '"$1" info "$2" | grep -q "red   min -0"' sh "$TOOL" "$dir/delta.pfm"
 for show in final delta planes voxels env object; do
