@@ -114,6 +114,18 @@ static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t 
     }
 }
 
+/* Does a tile show the plane that is varnished? */
+static int is_varnished(const mix_job *j, const lmb_tile *real)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS && j->o.specular > 0.0f && j->voxels.count > 0; ++k) {
+        const int32_t at = (real->y + k / LMB_TILE) * j->frame.camera.width + real->x + k % LMB_TILE;
+        if (real->id[k] != 0 && j->planes.label[at] != 0 && (j->floor < 0 || j->planes.label[at] == j->floor + 1)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
 static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
 {
     const lmb_vec3 eye = {0, 0, 0};
@@ -133,7 +145,7 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
         add_lamps(&d->batch.light[with][i], j, d, real, with);
     }
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
-    if (j->o.specular > 0.0f && j->voxels.count > 0 && real->hits > 0) {
+    if (is_varnished(j, real)) {
         mirror(d, j, real);
     }
     if (lmb_resolve_tile(&d->object, j->o.kernels, &d->view, &j->scene, &d->eye, d->x0 + real->x, d->y0 + real->y) ==

@@ -162,7 +162,7 @@ int mix_light(mix_job *j, report *r)
     }
     if (j->o.light_count > 0) {
         place_lamps(j);
-    } else {
+    } else if (j->object_triangles > 0) {
         guess_sun(j);
     }
     j->scene.lights = j->lights;

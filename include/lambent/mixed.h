@@ -224,7 +224,7 @@ lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb
  *
  *   leaf  m: triangles are parted until their parts are no longer than that, or 64 to a side
  * By this light and the lamps' real surfaces shine about as the photo has them. Returns how many points there are;
- * `cap` of them are written, 0 to ask. Builds with LMB_VOXELS have it, and what follows.
+ * `cap` of them are written, 0 to ask.
  *
  * lmb_around_gather, lmb_around_scale: the same points by what reaches them through voxels, so that what the object
  * blocks and throws back comes to bounce again. Points from `from` on, of which those that follow each other, face one

@@ -7,7 +7,7 @@
 #include "../raster/triangle.h"
 #include <lambent/mixed.h>
 
-#if LMB_MIXED && LMB_VOXELS
+#if LMB_MIXED
 
 #define MOST_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
 

@@ -218,8 +218,21 @@ static void judge_delta(const truth *t, const mix_job *j)
     CHECK(right == asked);
 }
 
+/* Both maps have the same views, so texels stand for the same power; and what is taken into voxels stays there. */
+static void judge_energy(const mix_job *j)
+{
+    CHECK(memcmp(j->maps[0][0].view, j->maps[0][1].view, sizeof j->maps[0][0].view) == 0);
+    for (int i = 0; i < 2; ++i) {
+        const double all = j->voxels.flux[i] + j->voxels.lost[i];
+        printf("energy %s the object: %.3f W, %.2f %% of it lost\n", i == 0 ? "without" : "with", all,
+               100.0 * j->voxels.lost[i] / all);
+        CHECK(j->voxels.lost[i] <= 0.02 * all);
+    }
+}
+
 static void judge(const truth *t, mix_job *j)
 {
+    judge_energy(j);
     judge_shadow(t, j);
     judge_delta(t, j);
     printf("composite: relative RMSE %.4f (photo as it is: %.4f); where the surface is the same %.4f (%.4f)\n",
