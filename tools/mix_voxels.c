@@ -113,7 +113,8 @@ static int build(mix_job *j, report *r)
                    to = {middle.x + half, middle.y + half, middle.z + half};
     const lmb_voxel_part parts[2] = {{&j->scene, 1, j->real_triangles, {1, 1}},
                                      {&j->scene, j->real_triangles + 1, j->object_triangles, {0, 1}}};
-    const uint32_t cap = 1u << (j->o.depth < 7 ? 18 : j->o.depth == 7 ? 19 : 21);
+    const int32_t bits = 2 * j->o.depth + 4; /* surfaces take some six of a square of leaves */
+    const uint32_t cap = 1u << (bits < 14 ? 14 : bits > 22 ? 22 : bits);
     const size_t bytes = lmb_voxels_bytes(cap, LMB_VOXELS_THREE);
     void *memory = mix_take(j, bytes, r);
     if (memory == NULL) {
@@ -141,6 +142,7 @@ typedef struct points {
     lmb_around_scratch *around;
     lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
     size_t real_count, object_count;
+    lmb_vec3 about; /* the object's middle */
     double real_flux[3], far_flux[3]; /* W: of all real surfaces that are seen; of those outside the cube */
 } points;
 
@@ -199,7 +201,7 @@ static int relight(mix_job *j, points *p, lmb_texel *inout, size_t count, int is
                          without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0],
                                     j->scratch};
     for (size_t i = 0; i < count;) {
-        i = lmb_around_gather(p->around, inout, i, count, NEAR_LEAVES * j->voxels.leaf);
+        i = lmb_around_gather(p->around, inout, i, count, NEAR_LEAVES * j->voxels.leaf, p->about);
         if (lmb_cones_diffuse(&p->around->now, NULL, &with, &j->cones, &p->around->tile) != LMB_OK ||
             (is_real &&
              lmb_cones_diffuse(&p->around->before, NULL, &without, &j->cones, &p->around->tile) != LMB_OK) ||
@@ -287,6 +289,7 @@ static int light_voxels(mix_job *j, report *r)
     const int32_t map = j->o.light_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
     const size_t bytes = lmb_tree_bytes(1, size);
     double object_flux[3] = {0, 0, 0}, near_flux[3] = {0, 0, 0};
+    lmb_vec3 low, high;
     points p;
     memset(&p, 0, sizeof p);
     void *memory = mix_take(j, bytes, r);
@@ -304,6 +307,8 @@ static int light_voxels(mix_job *j, report *r)
         return report_fail(r, "--light-map: a power of two, not %d", (int)map);
     }
     p.tree.faces = 1;
+    object_box(&low, &high, j);
+    p.about = (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
     add_flux(near_flux, p.real, p.real_count);
     for (int c = 0; c < 3; ++c) {
         p.far_flux[c] = p.real_flux[c] - near_flux[c];

@@ -227,14 +227,15 @@ lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb
  * `cap` of them are written, 0 to ask.
  *
  * lmb_around_gather, lmb_around_scale: the same points by what reaches them through voxels, so that what the object
- * blocks and throws back comes to bounce again. Points from `from` on, of which those that follow each other, face one
- * way and lie within near_m have one answer, become scratch->tile, 64 answers at most; the caller adds what they get
- * without and with the object to scratch->before and ->now (lmb_cones_diffuse); then each flux is scaled by the share
- * of the second to the first. Where `env` is given, to its light with nothing in the way. lmb_around_gather returns the
- * first point that it did not take, lmb_around_scale LMB_OK or LMB_ERR_ARG. */
+ * blocks and throws back comes to bounce again. Points from `from` on become scratch->tile, 64 answers at most: those
+ * that follow each other, face one way and lie within near_m, or 0.15 of their distance from `about`, have one. The
+ * caller adds what they get without and with the object to scratch->before and ->now (lmb_cones_diffuse); then each
+ * flux is scaled by the share of the second to the first. Where `env` is given, to its light with nothing in the way.
+ * lmb_around_gather returns the first point that it did not take, lmb_around_scale LMB_OK or LMB_ERR_ARG. */
 size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uint32_t first_id, uint32_t count,
                          float leaf, const lmb_env *env);
-size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m);
+size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m,
+                         lmb_vec3 about);
 lmb_status lmb_around_scale(lmb_texel *inout, const lmb_around_scratch *scratch, const lmb_env *env);
 
 /* lmb_real_albedo: what a surface must reflect to look as the photo has it: pi x radiance / irradiance, within

@@ -11,6 +11,7 @@
 
 #define MOST_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
 
+#define FAR_SHARE 0.15f   /* of the distance from the object: how far apart points with one answer are */
 #define SAME_WAY 0.98f    /* cosine between the normals of points with one answer */
 
 enum { MOST_PARTS = 64 }; /* a triangle's side is divided by at most */
@@ -150,7 +151,8 @@ static void scale_run(lmb_texel *inout, size_t first, size_t past, const float w
     }
 }
 
-size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m)
+size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m,
+                         lmb_vec3 about)
 {
     if (out == NULL || (points == NULL && count > 0)) {
         return count;
@@ -161,7 +163,8 @@ size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_
     for (out->count = 0; out->count < LMB_TILE_PIXELS && from < count; ++out->count) {
         put_point(&out->tile, out->count, &points[from]);
         out->first[out->count] = from;
-        from = run_end(points, from, count, near_m);
+        const float far = length3(sub3(points[from].position, about));
+        from = run_end(points, from, count, maxf(near_m, FAR_SHARE * far));
     }
     out->first[out->count] = from;
     return from;

@@ -434,6 +434,39 @@ static void test_around(void)
     }
 }
 
+/* Points close together have one answer, that scales all of them; as much light as before leaves the bits alone. */
+static void test_again(void)
+{
+    enum { COUNT = 100 };
+    static lmb_texel points[COUNT], before[COUNT];
+    static lmb_around_scratch scratch;
+    const lmb_vec3 about = {0, 0, 0};
+    memset(points, 0, sizeof points);
+    for (int i = 0; i < COUNT; ++i) {
+        points[i].position = (lmb_vec3){0.01f * (float)(i % 10) + (float)(i / 10), 0.0f, 0.0f};
+        points[i].normal = (lmb_vec3){0, i < 50 ? 1.0f : -1.0f, 0};
+        points[i].flux[0] = points[i].flux[1] = points[i].flux[2] = 0.1f + 0.01f * (float)i;
+    }
+    memcpy(before, points, sizeof before);
+    CHECK(lmb_around_gather(&scratch, points, 0, COUNT, 0.5f, about) == COUNT);
+    CHECK_MSG(scratch.count <= 10 && scratch.tile.normal[1][0] == 1.0f && scratch.tile.depth[0] > 0.0f, "%d",
+              (int)scratch.count);
+    for (int k = 0; k < scratch.count; ++k) {
+        scratch.before.rgb[0][k] = scratch.now.rgb[0][k] = 0.7f;
+        scratch.before.rgb[1][k] = 2.0f;
+        scratch.now.rgb[1][k] = 1.0f;
+        scratch.now.rgb[2][k] = 1.0f; /* of nothing before */
+    }
+    CHECK(lmb_around_scale(points, &scratch, NULL) == LMB_OK);
+    for (int i = 0; i < COUNT; ++i) {
+        CHECK(points[i].flux[0] == before[i].flux[0] && points[i].flux[1] == 0.5f * before[i].flux[1] &&
+              points[i].flux[2] == before[i].flux[2]);
+    }
+    CHECK(lmb_around_gather(&scratch, points, 0, 10, 1e-4f, (lmb_vec3){0.05f, 0, 0}) == 10 && scratch.count == 10);
+    CHECK(lmb_around_gather(&scratch, points, COUNT, COUNT, 1.0f, about) == COUNT && scratch.count == 0);
+    CHECK(lmb_around_scale(NULL, &scratch, NULL) == LMB_ERR_ARG);
+}
+
 void test_mixed(void)
 {
     stage *s = calloc(1, sizeof *s);
@@ -455,5 +488,6 @@ void test_mixed(void)
     test_hidden(s);
     test_two_maps();
     test_around();
+    test_again();
     free(s);
 }
