@@ -40,7 +40,7 @@ LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 # --- sources ---------------------------------------------------------------------------------------------------------
 
 object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
-LIB_SRC  := $(sort $(wildcard src/*/*.c src/map/voxel/*.c))
+LIB_SRC  := $(sort $(wildcard src/*/*.c))
 TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/host/host.c platform/host/pool.c \
             platform/host/process.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
@@ -212,11 +212,8 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
-.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute voxels relight-figures \
-    relief-figures simplify large tiny run-demo cross install
-size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
-	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
-	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m LDFLAGS= CFLAGS='-Os $(WITHOUT)'
+.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute simplify \
+    relight-figures relief-figures planes mixed voxels large tiny run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m LDFLAGS= CFLAGS='-Os $(WITHOUT)'

@@ -28,6 +28,14 @@ static const char usage[] =
     "  lambent VERB --help      what a verb takes\n"
     "  lambent --version\n";
 
+static const struct verb {
+    const char *name;
+    int (*run)(int argc, char **argv);
+} verbs[] = {
+    {"render", verb_render},   {"relight", verb_relight}, {"relief", verb_relief}, {"mix", verb_mix},
+    {"compare", verb_compare}, {"bench", verb_bench},     {"info", verb_info},
+};
+
 int main(int argc, char **argv)
 {
     host_outlive_file_limit();
@@ -36,25 +44,10 @@ int main(int argc, char **argv)
               "would differ; build with the Makefile's flags\n", stderr);
         return 1;
     }
-    if (argc >= 2 && strcmp(argv[1], "render") == 0) {
-        return verb_render(argc - 1, argv + 1);
-    }
-    if (argc >= 2 && strcmp(argv[1], "relight") == 0) {
-        return verb_relight(argc - 1, argv + 1);
-    }
-    if (argc >= 2 && strcmp(argv[1], "relief") == 0) {
-        return verb_relief(argc - 1, argv + 1);
-    if (argc >= 2 && strcmp(argv[1], "mix") == 0) {
-        return verb_mix(argc - 1, argv + 1);
-    }
-    if (argc >= 2 && strcmp(argv[1], "compare") == 0) {
-        return verb_compare(argc - 1, argv + 1);
-    }
-    if (argc >= 2 && strcmp(argv[1], "bench") == 0) {
-        return verb_bench(argc - 1, argv + 1);
-    }
-    if (argc >= 2 && strcmp(argv[1], "info") == 0) {
-        return verb_info(argc - 1, argv + 1);
+    for (size_t i = 0; argc >= 2 && i < sizeof verbs / sizeof *verbs; ++i) {
+        if (strcmp(argv[1], verbs[i].name) == 0) {
+            return verbs[i].run(argc - 1, argv + 1);
+        }
     }
     if (argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 || strcmp(argv[1], "-h") == 0)) {
         fputs(usage, stdout);

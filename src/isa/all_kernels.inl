@@ -32,7 +32,7 @@
 #include "../probe/blur.inl"
 #endif
 #if LMB_VOXELS
-#include "../map/voxel/cone.inl"
+#include "../voxel/cone.inl"
 #endif
 #if LMB_RELIEF
 #include "../relief/warp.inl"

@@ -1,9 +1,9 @@
-# one.sh: `cc src/*/*.c src/map/voxel/*.c` is a build of lambent: no flags but the include folder, and the golden
+# one.sh: `cc src/*/*.c` is a build of lambent: no flags but the include folder, and the golden
 # pictures are the same.
 . tests/build/checks.sh
 
 mkdir -p "$B"
-check "$CC src/*/*.c src/map/voxel/*.c" $CC -Iinclude -o "$B/one" src/*/*.c src/map/voxel/*.c \
+check "$CC src/*/*.c" $CC -Iinclude -o "$B/one" src/*/*.c \
     tests/golden/golden*.c tools/demo_scene.c tests/golden/main_golden.c platform/host/port_host.c $LDLIBS
 if [ $failed -eq 0 ]; then
     check "golden pictures of a build without flags" "$B/one"

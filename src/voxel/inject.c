@@ -1,7 +1,7 @@
 /* inject.c: first points of the lights' maps -> light of leaves, by the directions it leaves in. Floor 4.   [M7 M10] */
 #include <string.h>
 
-#include "../../base/poly.h"
+#include "../base/poly.h"
 #include "octree.h"
 
 #if LMB_VOXELS

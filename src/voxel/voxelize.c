@@ -1,7 +1,7 @@
 /* voxelize.c: triangles -> how much of a leaf they cover, seen along each axis. Floor 4.                        [M6] */
 #include <string.h>
 
-#include "../../raster/resolve.h"
+#include "../raster/resolve.h"
 #include "octree.h"
 
 #if LMB_VOXELS

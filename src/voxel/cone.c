@@ -2,8 +2,8 @@
  *                                                                                                          [M20-M22] */
 #include <string.h>
 
-#include "../../base/poly.h"
-#include "../../lane/kernels.h"
+#include "../base/poly.h"
+#include "../lane/kernels.h"
 #include "octree.h"
 
 #if LMB_VOXELS

@@ -6,7 +6,7 @@
 
 #include <lambent/voxel.h>
 
-#include "../../base/vec.h"
+#include "../base/vec.h"
 
 enum { OCTREE_FULL = 4, OCTREE_SPARSE = 4689 /* the first voxel that is stored only where something is */ };
 

@@ -1,5 +1,5 @@
 /* filter.c: light from the leaves upward, and the difference of two worlds' light. Floor 4.            [M11 M12 M13] */
-#include "../../base/poly.h"
+#include "../base/poly.h"
 #include "octree.h"
 
 #if LMB_VOXELS

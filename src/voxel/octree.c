@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "../../base/memory_check.h"
+#include "../base/memory_check.h"
 
 #if LMB_VOXELS
 
