@@ -212,6 +212,9 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
+# What bounced light does without.
+WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0
+
 .PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute simplify \
     relight-figures relief-figures planes mixed voxels large tiny run-demo cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
