@@ -9,7 +9,7 @@
 #include "relight_figures.h"
 #include "relight_path.h"
 
-enum { LIGHT_MAP = 512, SIDE = 8 };
+enum { LIGHT_MAP = 512 };
 
 /* The cubes of one of the cache's slots. */
 typedef struct slot_cubes {
@@ -50,14 +50,15 @@ static void *take(size_t bytes, report *r)
 static int light_slot(stage *s, int32_t slot, lmb_vec3 at, report *r)
 {
     slot_cubes *c = &s->cubes[slot];
-    const size_t bytes = lmb_probe_cube_bytes(SIDE);
+    const int32_t side = s->o->faces;
+    const size_t bytes = lmb_probe_cube_bytes(side);
     memset(c->is_known, 0, sizeof c->is_known);
-    if (!relight_light_at(s->light, s->o, at, SIDE, r) ||
+    if (!relight_light_at(s->light, s->o, at, side, r) ||
         (c->irradiance == NULL && (c->irradiance = take(bytes, r)) == NULL)) {
         return 0;
     }
     for (int32_t i = 0; i < s->figures.glosses; ++i) {
-        lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSES + i].irradiance, s->light->cube, SIDE, c->irradiance,
+        lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSES + i].irradiance, s->light->cube, side, c->irradiance,
                             bytes);
     }
     return 1;
@@ -186,7 +187,7 @@ static int draw_along(stage *s, report *r)
                s->cache.kept - kept == s->figures.owners ? "kept" : "computed");
     }
     printf("light computed %u times, kept %u times\n", (unsigned)s->cache.computed, (unsigned)s->cache.kept);
-    return 1;
+    return (fflush(stdout) == 0 && !ferror(stdout)) || report_fail(r, "standard output: cannot be written");
 }
 
 /* --- before the first --------------------------------------------------------------------------------------------- */

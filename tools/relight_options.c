@@ -1,6 +1,7 @@
 /* relight_options.c: the command line of `lambent relight`. */
 #include "relight_options.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "demo_field.h"
@@ -17,7 +18,8 @@ static const char usage_world[] =
     "world\n"
     "  --world FILE|PREFIX        one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole\n"
     "                             sphere, twice as wide as high; or six files, PREFIXpx PREFIXnx ... PREFIXnz\n"
-    "                             (.pfm .hdr .png .jpg), of which some may be missing; or `demo`, a built-in field\n"
+    "                             (.pfm .hdr .png .jpg), of which some may be missing; or `demo`, a built-in\n"
+    "                             field with places of its own\n"
     "  --world-centre X,Y,Z       where it was taken (default 0,0,0)\n"
     "  --world-sphere X,Y,Z,R     what is far lies on this sphere (default: 100 m around the centre)\n"
     "  --world-box X0,Y0,Z0,X1,Y1,Z1\n"
@@ -131,9 +133,14 @@ static int parse_overlap(const char *text, relight_options *o)
 
 /* --- places and light --------------------------------------------------------------------------------------------- */
 
+int relight_place(const char *text, lmb_vec3 *out)
+{
+    return option_vec3(text, out) && fabsf(out->x) <= 1e6f && fabsf(out->y) <= 1e6f && fabsf(out->z) <= 1e6f;
+}
+
 static int add_place(const char *text, lmb_vec3 *places, int32_t *count)
 {
-    return *count < RELIGHT_PLACES && option_vec3(text, &places[(*count)++]);
+    return *count < RELIGHT_PLACES && relight_place(text, &places[(*count)++]);
 }
 
 static int parse_at(const char *text, relight_options *o) { return add_place(text, o->at, &o->at_count); }
@@ -220,7 +227,7 @@ static const struct flag {
     {{"--ground-height", "a number"}, parse_ground_height},
     {{"--storage", "f32, log16 or log8"}, parse_storage},
     {{"--overlap", "nearer or mean"}, parse_overlap},
-    {{"--at", "X,Y,Z, at most 32 of them"}, parse_at},
+    {{"--at", "X,Y,Z within 1,000,000 m, at most 32 of them"}, parse_at},
     {{"--filter", "cosine, sh9, sh16, sh25, blur, blur1 or blur2"}, parse_filter},
     {{"--cube", "a file name ending in .pfm, .hdr, .png or .ppm"}, parse_cube},
     {{"--faces", "1 .. 64"}, parse_faces},
@@ -234,7 +241,7 @@ static const struct flag {
     {{"--path", "a file"}, parse_path},
     {{"--reuse", "metres, 0 or more"}, parse_reuse},
     {{"--every", "a number of pictures, at least 1"}, parse_every},
-    {{"--keep", "X,Y,Z, at most 32 of them"}, parse_keep},
+    {{"--keep", "X,Y,Z within 1,000,000 m, at most 32 of them"}, parse_keep},
     {{"-o", "a file name ending in .png, .ppm, .pfm or .hdr"}, parse_out},
     {{"--size", "WxH, 1 .. 8192 each"}, parse_size},
     {{"--eye", "X,Y,Z"}, parse_eye},

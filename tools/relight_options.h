@@ -43,6 +43,9 @@ typedef struct relight_options {
 enum { RELIGHT_USAGE_PARTS = 2 };
 extern const char *const relight_usage[RELIGHT_USAGE_PARTS];
 
+/* X,Y,Z within 1,000,000 m. 1, or 0 where the text is none. */
+int relight_place(const char *text, lmb_vec3 *out);
+
 /* 1, or 0 with `r` set: bad usage. */
 int relight_options_parse(relight_options *out, int argc, char **argv, report *r);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "image.h"
-#include "option_value.h"
+#include "relight_options.h"
 
 enum { LONGEST = 200, MOST = 10000 };
 
@@ -40,8 +40,8 @@ static int read_places(place_list *out, const char *text, size_t size, const cha
             if (out->count == MOST) {
                 return report_fail(r, "%s:%u: over %d places", path, (unsigned)line, MOST);
             }
-            if (!option_vec3(word, &out->place[out->count++])) {
-                return report_fail(r, "%s:%u: `%s` is not X,Y,Z", path, (unsigned)line, word);
+            if (!relight_place(word, &out->place[out->count++])) {
+                return report_fail(r, "%s:%u: `%s` is not X,Y,Z within 1,000,000 m", path, (unsigned)line, word);
             }
         }
         at += length + 1;

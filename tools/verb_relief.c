@@ -23,7 +23,7 @@ static const char help_text[] =
     "  --eye X,Y,Z --target X,Y,Z --up X,Y,Z --fov DEG    (default: the whole model from a little above)\n"
     "  --size WxH                 (default 640x480)\n"
     "surface\n"
-    "  --pick p|eye-ray           which candidate wins: nearest to the simple surface, or to the eye's ray (default p)\n"
+    "  --pick p|eye-ray           which candidate wins: nearest to the simple surface (default), or to the eye's ray\n"
     "  --sampling bilinear|nearest\n"
     "  --steps N                  looks a pixel takes, 1 .. 32 (default 6); 1: once, from the simple surface\n"
     "  --looks N                  views a pixel looks at, 1 .. 8 (default 6)\n"

@@ -215,6 +215,8 @@ int world_read_ground(lmb_world_pictures *out, world_pictures *own, const char *
     if (!read_picture(&p, path, r)) {
         return 0;
     }
+    free(own->ground); /* the built-in world has one */
+    own->ground = NULL;
     const size_t pixels = (size_t)p.width * (size_t)p.height;
     int ok = p.width <= LMB_MAX_SIDE && p.height <= LMB_MAX_SIDE;
     if (!ok) {

@@ -162,7 +162,8 @@ typedef struct lmb_world_job {
     int32_t ground_levels, ground_from; /* 0: no ground; its first texel */
     lmb_vec3 ground;            /* its corner of least x and z, at its height */
     float ground_width_m, ground_depth_m, ground_per_x, ground_per_z;
-    float ground_columns[16], ground_rows[16], ground_at[16]; /* by level; from the ground's first texel */
+    float ground_columns[16], ground_rows[16]; /* by level */
+    int32_t ground_at[16];      /* from the ground's first texel */
     float ground_limit[16];     /* rays wider than this read the next level, m */
 } lmb_world_job;
 

@@ -61,9 +61,6 @@ static lmb_status add_probes(const lmb_relight *r, lmb_relight_scratch *s, int i
     for (uint64_t left = tile_pixels(&s->tile); left != 0 && status == LMB_OK;) {
         uint16_t probe;
         const uint64_t pixels = with_same_probe(&probe, r, &s->tile, left);
-        if (probe >= r->probe_count) {
-            return LMB_ERR_ARG;
-        }
         status = add_probe(r, s, pixels, &r->probes[probe], is_glossy);
         left &= ~pixels;
     }
@@ -85,6 +82,16 @@ static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_g
         memset(gloss->rgb, 0, sizeof gloss->rgb);
     }
     return status;
+}
+
+/* Has every instance a probe with light? */
+static int has_probes(const lmb_relight *r)
+{
+    int sound = 1;
+    for (uint32_t i = 0; i < r->scene->instance_count && sound; ++i) {
+        sound = r->probe_of[i] < r->probe_count && r->probes[r->probe_of[i]].irradiance.texel != NULL;
+    }
+    return sound;
 }
 
 static lmb_status relight_tile(const lmb_relight *r, lmb_relight_scratch *s)
@@ -114,7 +121,7 @@ lmb_status lmb_relight_band(const lmb_relight *r, lmb_relight_scratch *scratch, 
 {
     if (r == NULL || scratch == NULL || r->kernels == NULL || r->scene == NULL || r->probes == NULL ||
         r->probe_of == NULL || band < 0 || band >= (r->view.frame_height + LMB_TILE - 1) / LMB_TILE ||
-        r->show < LMB_RELIGHT_BOTH || r->show > LMB_RELIGHT_GLOSS) {
+        r->show < LMB_RELIGHT_BOTH || r->show > LMB_RELIGHT_GLOSS || !has_probes(r)) {
         return LMB_ERR_ARG;
     }
     if (!lmb_surface_is_sound(out)) {

@@ -6,7 +6,7 @@
 
 #if LMB_PROBES
 
-#define INSIDE 0.999f /* a place outside the far world is pulled in to this share of its size */
+#define INSIDE 0.999f /* of the far world's size: where a place outside is pulled in to; or as far as the centre is */
 
 static void set_cube(lmb_world_job *job, const lmb_world *w)
 {
@@ -23,11 +23,11 @@ static void set_cube(lmb_world_job *job, const lmb_world *w)
     job->centre = p->centre;
     job->middle = p->middle;
     job->radius2 = p->radius * p->radius;
-    job->reach = INSIDE * p->radius;
+    job->reach = maxf(INSIDE * p->radius, length3(sub3(p->centre, p->middle)));
     job->low = p->low;
     job->high = p->high;
-    job->reach_low = sub3(middle, half);
-    job->reach_high = add3(middle, half);
+    job->reach_low = min3(sub3(middle, half), p->centre);
+    job->reach_high = max3(add3(middle, half), p->centre);
 }
 
 /* A level's limit is a texel and a half of its own: the next one's would be nearer in size. */
@@ -48,7 +48,7 @@ static void set_ground(lmb_world_job *job, const lmb_world *w)
         const lmb_world_level *l = &w->ground[i];
         job->ground_columns[i] = (float)l->width;
         job->ground_rows[i] = (float)l->height;
-        job->ground_at[i] = (float)(l->at - w->ground[0].at);
+        job->ground_at[i] = (int32_t)(l->at - w->ground[0].at);
         job->ground_limit[i] =
             1.41421356f * maxf(p->ground_width_m / (float)l->width, p->ground_depth_m / (float)l->height);
     }
@@ -67,6 +67,9 @@ void lmb_world_ask(lmb_world_job *out, const lmb_world *world, float ray_width, 
     set_ground(out, world);
 }
 
+/* Nothing is nearer to 0 than a millionth of a micrometre: kernels meet no denormals. */
+static float no_speck(float v) { return absf(v) < 1e-12f ? 0.0f : v; }
+
 lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_world *world, const lmb_probe_table *table,
                            lmb_vec3 at, int32_t blend)
 {
@@ -75,6 +78,7 @@ lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_wor
         return LMB_ERR_ARG;
     }
     lmb_world_ask(&job, world, LMB_PI / (float)table->height, blend);
+    at = vec3(no_speck(at.x), no_speck(at.y), no_speck(at.z));
     kernels->remap(map, table->direction, table->width * table->height, at, &job);
     return LMB_OK;
 }

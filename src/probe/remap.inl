@@ -102,8 +102,8 @@ LANE_PART remap_colour remap_nine(const lmb_world_job *job, const remap_spot *sp
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f),
                n = lane_splat((float)job->side);
-    const lane x = lane_min(lane_max(lane_trunc(lane_add(spot->x, half)), one), n),
-               y = lane_min(lane_max(lane_trunc(lane_add(spot->y, half)), one), n);
+    const lane x = lane_trunc(lane_min(lane_max(lane_add(spot->x, half), one), n)),
+               y = lane_trunc(lane_min(lane_max(lane_add(spot->y, half), one), n));
     const lanei middle = remap_texel(job, spot, x, y);
     remap_colour sum = {{zero, zero, zero}, zero};
     lane across[3], down[3];
@@ -131,8 +131,8 @@ LANE_PART remap_colour remap_cube(const lmb_world_job *job, lane3 d)
         return remap_nine(job, &spot);
     }
     const lane zero = lane_splat(0.0f), last = lane_splat((float)job->side); /* for NaN too */
-    const lane x0 = lane_min(lane_max(lane_trunc(spot.x), zero), last),
-               y0 = lane_min(lane_max(lane_trunc(spot.y), zero), last);
+    const lane x0 = lane_trunc(lane_min(lane_max(spot.x, zero), last)),
+               y0 = lane_trunc(lane_min(lane_max(spot.y, zero), last));
     at[0] = remap_texel(job, &spot, x0, y0);
     at[1] = lanei_add(at[0], one);
     at[2] = lanei_add(at[0], row);
@@ -195,10 +195,11 @@ LANE_PART lane remap_far(const lmb_world_job *job, const remap_place *from, lane
 LANE_PART remap_colour remap_ground(const lmb_world_job *job, lane x, lane z, lane wide)
 {
     const lane half = lane_splat(0.5f), zero = lane_splat(0.0f);
-    lanei level = lanei_splat(0);
+    lanei level = lanei_splat(0), first = lanei_splat(job->ground_from);
     for (int i = 0; i + 1 < job->ground_levels; ++i) {
         const lane_mask finer = lane_lt(lane_splat(job->ground_limit[i]), wide);
         level = lanei_pick(finer, lanei_splat(i + 1), level);
+        first = lanei_pick(finer, lanei_splat(job->ground_from + job->ground_at[i + 1]), first);
     }
     const lane columns = lane_table(job->ground_columns, level), rows = lane_table(job->ground_rows, level);
     const lane last_x = lane_sub(columns, lane_splat(1.0f)), last_y = lane_sub(rows, lane_splat(1.0f));
@@ -208,7 +209,6 @@ LANE_PART remap_colour remap_ground(const lmb_world_job *job, lane x, lane z, la
     const lanei one = lanei_splat(1), width = lane_to_int(columns);
     const lanei right = lanei_min(one, lanei_sub(lane_to_int(last_x), lane_to_int(x0)));
     const lanei under = lanei_mul(lanei_min(one, lanei_sub(lane_to_int(last_y), lane_to_int(y0))), width);
-    const lanei first = lanei_add(lane_to_int(lane_table(job->ground_at, level)), lanei_splat(job->ground_from));
     lanei at[4];
     at[0] = lanei_add(first, lanei_add(lanei_mul(lane_to_int(y0), width), lane_to_int(x0)));
     at[1] = lanei_add(at[0], right);
@@ -232,7 +232,7 @@ typedef struct remap_hit {
 LANE_PART remap_hit remap_fall(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), down = lane_sub(zero, d.y);
-    const lane_mask falls = mask_and(lane_lt(lane_splat(1e-5f), down), lane_lt(zero, from->from_ground.y));
+    const lane_mask falls = mask_and(lane_lt(lane_splat(1e-5f), down), lane_lt(lane_splat(1e-6f), from->from_ground.y));
     remap_hit hit = {{{zero, zero, zero}, zero}, zero};
     if (mask_bits(falls) == 0) {
         return hit;

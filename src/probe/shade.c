@@ -1,4 +1,4 @@
-/* shade.c: small cubes with borders, and what a tile's pixels take from them. Floor 6.                  [S17 S21 S22] */
+/* shade.c: small cubes with borders, and what a tile's pixels take from them. Floor 6.                [S17 S21 S22] */
 #include "../base/memory_check.h"
 #include "../light/gloss.h"
 #include "../raster/resolve.h"
@@ -91,7 +91,7 @@ lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, 
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
-            inout->rgb[c][k] += scratch->seen[c][k];
+            inout->rgb[c][k] += maxf(scratch->seen[c][k], 0.0f); /* filters may overshoot beside sharp lights */
         }
     }
     return LMB_OK;

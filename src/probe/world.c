@@ -187,7 +187,7 @@ static void take_ground(lmb_world *w, const lmb_world_pictures *p)
     for (size_t i = 0; i < texels; ++i) {
         const float *from = p->ground + 4 * i;
         const float rgba[4] = {sane_radiance(from[0]), sane_radiance(from[1]), sane_radiance(from[2]),
-                               from[3] > 0.0f ? minf(from[3], 1.0f) : 0.0f};
+                               from[3] > 1e-5f ? minf(from[3], 1.0f) : 0.0f};
         put(w, w->ground[0].at + i, rgba);
     }
 }
@@ -212,6 +212,9 @@ static void halve_ground(lmb_world *w, const lmb_world_level *to, const lmb_worl
 static int is_inside(const lmb_world_pictures *p)
 {
     const lmb_vec3 c = p->centre;
+    if (!is_place(c) || !is_place(p->middle) || !is_place(p->low) || !is_place(p->high)) {
+        return 0;
+    }
     if (p->shape == LMB_WORLD_SPHERE) {
         return is_sane(p->radius) && p->radius > 0.0f && length3(sub3(c, p->middle)) < p->radius;
     }

@@ -317,6 +317,12 @@ status 2 $field --path "$dir/path.txt" --at 0,0,0 -o "$dir/bad.ppm"
 status 2 relight --world demo --object demo
 status 2 $field --eye 0,1,2 -o "$dir/bad.ppm"
 status 2 $field --roughness 2 -o "$dir/bad.ppm"
+status 2 $field --at 3e6,0,0 -o "$dir/bad.ppm"
+status 0 $field --ground "$dir/facepx.pfm" --faces 4 --at 0,0,0 -o "$dir/field.png"
+if [ -e /dev/full ]; then
+    printf '0,0,0\n' >"$dir/path.txt"
+    check "a full disk is an error of a walk" sh -c '! "$1" relight --world demo --object demo --size 16x8 --path "$2" -o "$3" >/dev/full 2>/dev/null' sh "$TOOL" "$dir/path.txt" "$dir/walk.ppm"
+fi
 status 2 $field -o "$dir/bad.gif"
 check "nothing was left behind" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$dir"
 # A box with a pit, as six triangles more than a cube has, on a box of its own.

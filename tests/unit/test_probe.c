@@ -7,6 +7,7 @@
 
 #include "../../src/base/vec.h"
 #include "../../src/map/cube.h"
+#include "../../src/probe/world.h"
 #include "../test.h"
 
 void test_probe(void);
@@ -116,6 +117,39 @@ static void log_codes(void)
     CHECK(lmb_world_decode(NAN) < 1e-6f);
 }
 
+/* As they are stored: each within a step, 0 .. 99. */
+static void stored_codes(stage *s)
+{
+    const float step[2] = {1.0f / 65535.0f, 1.0f / 255.0f};
+    for (int i = 0; i < FACE * FACE; ++i) {
+        s->face[0][3 * i] = s->face[0][3 * i + 1] = s->face[0][3 * i + 2] = 99.0f * (float)i / (float)(FACE * FACE - 1);
+    }
+    for (int k = 0; k < 2; ++k) {
+        int within = 1;
+        CHECK(make_world(s, LMB_WORLD_LOG16 + k) == LMB_OK);
+        for (int i = 0; i < FACE * FACE; ++i) {
+            float rgba[4];
+            const float c = s->face[0][3 * i];
+            lmb_world_texel(rgba, &s->world, (size_t)((i / FACE + 1) * (FACE + 2) + i % FACE + 1));
+            within &= fabsf(rgba[1] - c) <= 2.302585f * 3.0f * step[k] * (c + 0.101f) && rgba[3] == 1.0f;
+        }
+        CHECK(within);
+    }
+    paint_sky(s);
+}
+
+/* Sixteen harmonics are nine for irradiance: the clamped cosine has no third band; 25 add its fourth, -1 / 48. */
+static void bands(void)
+{
+    double third = 0.0, fourth = 0.0;
+    for (int i = 0; i < 100000; ++i) {
+        const double x = (i + 0.5) / 100000.0;
+        third += x * (5.0 * x * x * x - 3.0 * x) / 2.0 / 100000.0;
+        fourth += x * (35.0 * x * x * x * x - 30.0 * x * x + 3.0) / 8.0 / 100000.0;
+    }
+    CHECK(fabs(third) < 1e-9 && fabs(fourth + 1.0 / 48.0) < 1e-9);
+}
+
 /* --- one place ---------------------------------------------------------------------------------------------------- */
 
 /* S6: from the centre, each direction sees what the cube shows along it. */
@@ -130,6 +164,21 @@ static void identity(stage *s, int32_t format, float most)
         }
     }
     CHECK_MSG(worst < most, "%g", (double)worst);
+}
+
+/* A centre by the wall is a place like others: nothing is pulled in. */
+static void centre_by_the_wall(stage *s)
+{
+    const lmb_vec3 low = s->pictures.low, high = s->pictures.high, centre = s->pictures.centre;
+    s->pictures.shape = LMB_WORLD_BOX;
+    s->pictures.low = vec3(-50.0f, centre.y - 0.001f, -50.0f);
+    s->pictures.high = vec3(50.0f, 30.0f, 50.0f);
+    identity(s, LMB_WORLD_F32, 0.003f);
+    s->pictures.low.x = -INFINITY;
+    CHECK(make_world(s, LMB_WORLD_F32) == LMB_ERR_ARG);
+    s->pictures.low = low;
+    s->pictures.high = high;
+    s->pictures.shape = LMB_WORLD_SPHERE;
 }
 
 typedef struct exact {
@@ -370,7 +419,9 @@ static void no_seams(stage *s)
         seam = maxf(seam, fabsf(row[0] - row[WIDTH - 1]));
     }
     for (int x = 0; x < WIDTH; ++x) {
+        const float *last = s->map + (HEIGHT - 1) * WIDTH;
         pole = maxf(pole, fabsf(s->map[x] - s->map[(x + WIDTH / 2) % WIDTH]));
+        pole = maxf(pole, fabsf(last[x] - last[(x + WIDTH / 2) % WIDTH]));
     }
     CHECK_MSG(seam <= inside && pole <= inside, "%g %g %g", (double)inside, (double)seam, (double)pole);
 }
@@ -413,10 +464,13 @@ void test_probe(void)
 {
     stage *s = stage_make();
     log_codes();
+    stored_codes(s);
+    bands();
     identity(s, LMB_WORLD_F32, 0.003f);
     identity(s, LMB_WORLD_LOG16, 0.003f);
-    identity(s, LMB_WORLD_LOG8, 0.04f);
+    identity(s, LMB_WORLD_LOG8, 0.026f); /* half a step of 1.85 */
     elsewhere(s, vec3(20.0f, 3.0f, -11.0f));
+    centre_by_the_wall(s);
     s->pictures.shape = LMB_WORLD_BOX;
     s->pictures.low = vec3(-30.0f, -10.0f, -20.0f);
     s->pictures.high = vec3(40.0f, 15.0f, 25.0f);
