@@ -342,7 +342,8 @@ static void frame(work *w, const char *scene, void *memory)
     const double all = w->map_seconds + w->tree_seconds + w->build_seconds + w->inject_seconds + w->filter_seconds +
                        w->eye_seconds + w->seconds;
     printf("  %s at 640x480, 128^3, 19 cones: %.2f s: light's map %.1f ms, first points %.1f, voxels %.1f, "
-           "injection %.1f, filter %.1f, eye %.1f, cones %.0f\n", scene, all, w->map_seconds * 1e3, w->tree_seconds * 1e3,
+           "injection %.1f, filter %.1f, eye %.1f, cones %.0f\n",
+            scene, all, w->map_seconds * 1e3, w->tree_seconds * 1e3,
            w->build_seconds * 1e3, w->inject_seconds * 1e3, w->filter_seconds * 1e3, w->eye_seconds * 1e3,
            w->seconds * 1e3);
     printf("  voxels take %.1f MB, %.0f %% of the frame's memory\n", voxel_bytes(w) * 1e-6,

@@ -92,7 +92,7 @@ static uint64_t hash_cones(uint64_t h, const lmb_voxels *v, const lmb_scene *sou
     return h;
 }
 
-/* Variant: how deep it is asked to be; + 16 m: half of the cube. Where the cube is small the pool holds fewer levels. */
+/* Variant: how deep it is asked to be; + 16 m: half of the cube. Where that is small the pool holds fewer levels. */
 uint64_t case_voxels(int variant)
 {
     const float half = (float)(variant / 16);
