@@ -218,9 +218,9 @@ static void quality_of(const char *name, subject *s, report *r)
         }
         printf("%-6s %-16s outline %5.2f px iou %.4f -%.4f +%.4f  depth %.3f %% %.3f %%  normal %.2f %.1f deg  "
                "light %.2f dB shadowed %.2f albedo %.2f dB  lit %.4f  holes %.4f missed %.4f\n",
-                name, ways[w].name, sum.silhouette_px, sum.iou, sum.lost, sum.added,
+               name, ways[w].name, sum.silhouette_px, sum.iou, sum.lost, sum.added,
                100.0 * sum.depth_50, 100.0 * sum.depth_95, sum.normal_50, sum.normal_95,
-                sum.psnr_db, sum.shadowed_db, sum.albedo_db,
+               sum.psnr_db, sum.shadowed_db, sum.albedo_db,
                sum.lit, (double)stats.holes / (double)stats.pixels, (double)stats.missed / (double)stats.pixels);
         if (w == 0) {
             hold_bars(name, &sum);
