@@ -110,7 +110,7 @@ $(B)/moving: $(MOVING_OBJ) $(LIB)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(FIGURES),$(eval $(B)/figures-$(f): $(call figures_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/decodes $(B)/moving:
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/decodes $(B)/moving $(B)/fuzzer:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -232,19 +232,18 @@ asan: ## the checks under address and undefined-behaviour sanitizers
 	+@$(MAKE) check CHECKS="unit truth ways golden analytic lanes hard replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
-FUZZER    := $(BUILD)/fuzz/fuzz
-FUZZ_LINE := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all
-FUZZ_ALL  := $(FUZZ_SRC) $(filter-out tools/lambent.c,$(TOOL_SRC)) $(LIB_SRC)
+FUZZER     := $(BUILD)/fuzz/default/fuzzer
+FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
+              -Wno-missing-prototypes
+FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr
 MINUTES   ?= 1
-fuzz: $(FUZZER) ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
+fuzz: ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
+	+@sh tests/build/tools.sh need clang clang-sanitizers \
+	    && $(MAKE) $(FUZZER) BUILD=$(BUILD)/fuzz CC=clang CFLAGS="$(FUZZ_FLAGS)" LDFLAGS=-fsanitize=fuzzer
 	@sh tests/build/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
 
-$(FUZZER): tests/fuzz/main_fuzz.c $(FUZZ_ALL) $(wildcard tools/*.[hi]* src/*/*.[hi]* include/*/*.h tests/fuzz/*.h)
-	@sh tests/build/tools.sh need clang clang-sanitizers
-	@mkdir -p $(@D)
-	@echo "FUZZ $@"
-	@clang $(FUZZ_LINE) $(WARNINGS) -Wno-missing-prototypes $(EXACT) -Iinclude $(filter %.c,$^) -o $@
+$(B)/fuzzer: $(FUZZ_OBJ) $(LIB)
 
 decodes: $(B)/decodes ## the picture decoders against netpbm, libjpeg-turbo and libvips
 	@$(IN_SH) tests/build/decodes.sh $(B)/decodes
