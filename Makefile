@@ -229,7 +229,7 @@ rom: room-sizes
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit truth ways golden analytic lanes hard replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
+	+@$(MAKE) check CHECKS="unit ways golden analytic lanes hard replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 FUZZER     := $(BUILD)/fuzz/default/fuzzer

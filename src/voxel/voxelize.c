@@ -242,19 +242,19 @@ static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
     return !b.full;
 }
 
-/* Areas become what is seen of them. Both sides of a thing thinner than a voxel are seen one at a time. */
+/* Areas become what is seen of them. Both sides of a thing thinner than a voxel are seen one at a time. From the last
+ * axis on: where a normal goes, its axis' areas have been read. */
 static void finish(float *cover, uint32_t count)
 {
-    for (float *c = cover; count > 0; --count, c += LMB_VOXEL_COVER) {
-        float normal[3];
-        for (int k = 0; k < 3; ++k) {
-            const float most = maxf(c[6 + 2 * k], c[7 + 2 * k]);
-            normal[k] = c[6 + 2 * k] - c[7 + 2 * k];
+    for (int k = 2; k >= 0; --k) {
+        float *c = cover;
+        for (uint32_t i = 0; i < count; ++i, c += LMB_VOXEL_COVER) {
+            const float plus = c[6 + 2 * k], minus = c[7 + 2 * k], most = maxf(plus, minus);
+            c[6 + 2 * k] = c[7 + 2 * k] = 0.0f;
+            c[8 + k] = plus - minus;
             c[2 * k] += most;
             c[2 * k + 1] += most;
         }
-        memcpy(c + 8, normal, sizeof normal);
-        c[6] = c[7] = c[11] = 0.0f;
     }
 }
 
