@@ -22,5 +22,6 @@
 #include "compose.h"
 #include "relight.h"
 #include "render.h"
+#include "plan.h"
 
 #endif

@@ -96,7 +96,31 @@ typedef struct lmb_frame {
     lmb_band_callback callback;
     void *user;
     lmb_stats *stats; /* may be NULL */
+    float dim; /* 0, or radiance, W/(sr m2): lights whose bounced light together stays under it at every pixel, proven,
+                  do not bounce. For a display at exposure e, 0.00015 / 2^e is half a step of black in 8 bits */
+    int32_t everything; /* 1: leave nothing out and keep nothing: the same bytes, for those who doubt it */
 } lmb_frame;
+
+/* What of a frame does without, though it is asked for: it would change no byte of a picture. lmb_plan says why. */
+enum {
+    LMB_OMIT_BOUNCE = 1 /* nothing is lit, or nothing reflects */
+};
+
+/* What stands as the last frame left it: lmb_render_next. */
+enum {
+    LMB_KEEP_BLOCKERS = 1,
+    LMB_KEEP_POINTS = 2,  /* and groups */
+    LMB_KEEP_BOUNCES = 4, /* elements and their light */
+    LMB_KEEP_VIEW = 8
+};
+
+/* A light of a frame. */
+enum {
+    LMB_LIGHT_DARK = 1,       /* gives nothing: no map, no light */
+    LMB_LIGHT_MAP_KEPT = 2,   /* as the last frame left it */
+    LMB_LIGHT_TEXELS_KEPT = 4, /* and its faces of the tree */
+    LMB_LIGHT_DIM = 8         /* does not bounce: lmb_frame.dim */
+};
 
 /* The state of a frame under way. */
 typedef struct lmb_render {
@@ -108,6 +132,10 @@ typedef struct lmb_render {
     uint32_t triangles;          /* of the scene */
     int32_t shines;              /* 1 where a material gives off light */
     int32_t is_glossy;           /* 1 where one has a lobe, in builds with trees */
+    uint32_t omits, keeps;       /* LMB_OMIT_*, LMB_KEEP_* */
+    float dimmed;                /* radiance that lights that are too dim to bounce leave out, at most */
+    uint8_t light_state[LMB_MAX_LIGHTS]; /* LMB_LIGHT_*, bits */
+    uint32_t revision, lights_revision, look_revision, light_revision[LMB_MAX_LIGHTS]; /* of what was drawn */
 } lmb_render;
 
 /* The stages, in order; lmb_render_progress names them. */
@@ -158,6 +186,19 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * also where `frame` shows bounced light and r solved none, or solved more bounces than one by another occlusion, error
  * or visible, or asks for blockers that r did not build. On an error r is as it was. */
 lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
+
+/* lmb_render_next: begin the next frame of an animation: lmb_render_begin that keeps what did not change since r's last
+ * frame, by the scene's revisions and the frame's settings. The bytes are those of lmb_render_begin.
+ *
+ *   r      of the last frame, done or not; or all 0: then it is the first.
+ *   frame  whole, as for lmb_render_begin. What is kept lies in its memory: give the same each frame, and write none of
+ *          it between them. Other memory, another size or scene: that part is made again.
+ * Kept are: a light's map while nothing moved and its own and the lights' revision stand; its first points where also
+ * the look stands; groups where all lights' do; the tree of blockers while nothing moved, whatever lights do; bounces
+ * where all of it stands; the viewer's depth and ids (a whole frame's) while nothing and the viewer did not move.
+ * Direct and bounced light of the pixels are always gathered. Returns what lmb_render_begin does. Not there in builds
+ * without plan. */
+lmb_status lmb_render_next(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_has_parts: 1 where the stage at hand can be done in parts, by those who have threads; 0 where it goes by
  * lmb_render_step: stages that are short, one that steps have begun, first points without room for four a block. */

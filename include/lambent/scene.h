@@ -85,7 +85,7 @@ typedef struct lmb_light {
     float intensity[3]; /* W/sr; directional: W/m2 on a plane facing the light */
     float cos_inner, cos_outer;
     int32_t kind;
-    uint32_t revision;
+    uint32_t revision; /* raise when it changes: of this place in scene->lights */
 } lmb_light;
 
 typedef struct lmb_scene {
@@ -96,8 +96,10 @@ typedef struct lmb_scene {
     const lmb_light *lights;
     uint32_t mesh_count, material_count, texture_count, instance_count, light_count;
     lmb_vec3 bounds_min, bounds_max; /* of all placed vertices, world metres: lmb_scene_bounds */
-    uint32_t revision;               /* raise when anything but the lights changed */
-    uint32_t lights_revision;
+    uint32_t revision;        /* raise when anything changed that the next two do not tell */
+    uint32_t lights_revision; /* raise when lights came, went or changed; for changes of one, its own is enough */
+    uint32_t look_revision;   /* raise where only colours changed: albedo, emission, specular, roughness, texels without
+                                 holes; what is seen and what blocks stands as it was */
 } lmb_scene;
 
 #ifdef __cplusplus

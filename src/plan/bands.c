@@ -13,7 +13,7 @@ static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy
 
 /* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
  * always where there are lobes. */
-static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
+APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
 {
     const lmb_frame *f = &r->frame;
     lmb_gloss *gloss = wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene) ? &s->gloss : NULL;
@@ -22,7 +22,9 @@ static lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
     for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count - f->many_bounce && status == LMB_OK; ++i) {
-        status = lmb_lit_add(&s->direct, gloss, &s->indirect, &lit, i, &r->maps[i]);
+        if (!light_is(r, i, LMB_LIGHT_DARK)) {
+            status = lmb_lit_add(&s->direct, gloss, &s->indirect, &lit, i, &r->maps[i]);
+        }
     }
     if (wants_many(f) && status == LMB_OK) {
         look.many = f->many;
@@ -57,8 +59,9 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
 {
     const lmb_frame *f = &r->frame;
     const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
-    *out = f->gather_step > 1 ? &s->sparse.light[part] : NULL;
-    if (f->gather_step == 1 || part > 0) {
+    const int sparse = f->gather_step > 1 && !omits(r, LMB_OMIT_BOUNCE);
+    *out = sparse ? &s->sparse.light[part] : NULL;
+    if (!sparse || part > 0) {
         return LMB_OK;
     }
     const int32_t ahead = (f->view.frame_width - x + LMB_TILE - 1) / LMB_TILE;
@@ -100,7 +103,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
 }
 
 /* 1 to go on. */
-static int hand_over(const lmb_frame *f, int32_t band)
+APART int hand_over(const lmb_frame *f, int32_t band)
 {
     lmb_surface rows = f->out;
     int32_t y = band * LMB_TILE;

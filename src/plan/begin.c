@@ -27,8 +27,9 @@ static lmb_status place_maps(lmb_render *r)
 }
 
 /* Where a picture's numbers are 0. */
-static void set_defaults(lmb_frame *f)
+void lmb_render_defaults(lmb_frame *f)
 {
+    f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->steps = f->steps != 0 ? f->steps : STEPS;
     f->error = f->error != 0.0f ? f->error : SHARE;
     f->visible = f->visible != 0.0f ? f->visible : SHARE;
@@ -44,8 +45,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     r->frame = *frame;
     lmb_frame *f = &r->frame;
     f->id_format = f->id_format != 0 ? f->id_format : LMB_ID32;
-    f->bounces = f->bounces != 0 ? f->bounces : 1;
-    set_defaults(f);
+    lmb_render_defaults(f);
     f->tree.faces = 0;
     f->points.count = 0;
     f->points.faces = 0;
@@ -57,6 +57,11 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
     r->triangles = status == LMB_OK ? lmb_scene_triangles(f->scene) : 0;
     r->shines = status == LMB_OK && lmb_scene_shines(f->scene);
     r->is_glossy = LMB_TREES && status == LMB_OK && lmb_scene_is_glossy(f->scene);
+#if LMB_PLAN
+    if (status == LMB_OK) {
+        lmb_render_omit(r);
+    }
+#endif
     r->stage = status == LMB_OK ? LMB_STAGE_LIGHT_MAP : LMB_STAGE_DONE;
     r->failed = status;
     return status;
@@ -108,13 +113,14 @@ lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame)
     }
     f = r->frame;
     set_picture(&f, frame);
-    set_defaults(&f);
+    lmb_render_defaults(&f);
     lmb_status status = lmb_render_check(&f);
     if (status == LMB_OK && !is_solved(&f, r)) {
         status = LMB_ERR_ARG;
     }
     if (status == LMB_OK) {
         r->frame = f;
+        r->keeps &= ~(uint32_t)LMB_KEEP_VIEW;
         r->stage = LMB_STAGE_VIEW;
         r->light = r->face = r->place = 0;
     }

@@ -22,6 +22,9 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_
 {
     const lmb_frame *f = &r->frame;
     lmb_occluder occluder;
+    if (omits(r, LMB_OMIT_BOUNCE)) {
+        return LMB_OK;
+    }
     if (wants_cut(f)) {
         return gather_cuts(inout, gloss, r, s, tile);
     }

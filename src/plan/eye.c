@@ -33,7 +33,7 @@ lmb_status lmb_render_view(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
     lmb_target whole;
-    if (!view_target(&whole, f)) {
+    if (keeps(r, LMB_KEEP_VIEW) || !view_target(&whole, f)) {
         return LMB_OK;
     }
     if (r->place == 0) {

@@ -4,6 +4,16 @@
 #include "stages.h"
 #include "wants.h"
 
+static int points_have_parts(const lmb_render *r)
+{
+    const lmb_frame *f = &r->frame;
+    if (!wants_bounce(f) || omits(r, LMB_OMIT_BOUNCE) || keeps(r, LMB_KEEP_POINTS) || r->place != 0 ||
+        r->light == f->scene->light_count || light_is(r, r->light, LMB_LIGHT_TEXELS_KEPT | LMB_LIGHT_DIM)) {
+        return 0;
+    }
+    return wants_cut(f) || lmb_points_have_room(&f->points, &r->maps[r->light], &f->grouping);
+}
+
 int32_t lmb_render_has_parts(const lmb_render *r)
 {
     if (r == NULL || r->failed != LMB_OK) {
@@ -13,12 +23,11 @@ int32_t lmb_render_has_parts(const lmb_render *r)
     case LMB_STAGE_LIGHT_MAP:
         return r->light == 0 && r->place == 0;
     case LMB_STAGE_POINTS:
-        return wants_bounce(&r->frame) && r->place == 0 && r->light < r->frame.scene->light_count &&
-               (wants_cut(&r->frame) || lmb_points_have_room(&r->frame.points, &r->maps[r->light], &r->frame.grouping));
+        return points_have_parts(r);
     case LMB_STAGE_BOUNCES:
         return has_bounces(r) && r->place == 0;
     case LMB_STAGE_VIEW:
-        return r->place == 0;
+        return r->place == 0 && !keeps(r, LMB_KEEP_VIEW);
     default:
         return 0;
     }

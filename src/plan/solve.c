@@ -12,6 +12,10 @@ static lmb_status step_light_map(lmb_render *r, int32_t units)
     if (r->light == f->scene->light_count) {
         return LMB_OK;
     }
+    if (light_is(r, r->light, LMB_LIGHT_MAP_KEPT)) {
+        ++r->light;
+        return LMB_MORE;
+    }
     if (r->place == 0) {
         lmb_light_map_clear(&r->maps[r->light]);
     }
@@ -25,13 +29,15 @@ static lmb_status step_light_map(lmb_render *r, int32_t units)
     return status != LMB_OK ? status : LMB_MORE;
 }
 
-/* Many lights want them whatever is shown: another picture by the same light may show what this one does not. */
 static lmb_status step_blockers(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
-    const int for_bounce = wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT;
-    const int for_many = f->many != NULL && f->blockers.triangle != NULL;
-    return for_bounce || for_many ? lmb_blockers_build(&f->blockers, f->scene) : LMB_OK;
+    if (!wants_blockers(f) || keeps(r, LMB_KEEP_BLOCKERS)) {
+        return LMB_OK;
+    }
+    const lmb_status status = lmb_blockers_build(&f->blockers, f->scene);
+    f->blockers.hull.count = f->everything ? 0 : f->blockers.hull.count;
+    return status;
 }
 
 static lmb_status end_face(lmb_render *r)
@@ -56,8 +62,14 @@ static lmb_status end_face(lmb_render *r)
 static lmb_status step_points(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
-    if (!wants_bounce(f) || r->light == f->scene->light_count) {
+    if (!wants_bounce(f) || omits(r, LMB_OMIT_BOUNCE) || keeps(r, LMB_KEEP_POINTS) ||
+        r->light == f->scene->light_count) {
         return LMB_OK;
+    }
+    if (light_is(r, r->light, LMB_LIGHT_TEXELS_KEPT | LMB_LIGHT_DIM)) {
+        f->tree.faces += wants_cut(f) ? faces_that_bounce(r, r->light) : 0;
+        ++r->light;
+        return LMB_MORE;
     }
     const lmb_light_map *map = &r->maps[r->light];
     int32_t rows = map->size / LMB_TILE, last = mini(rows, (int32_t)r->place + units);
@@ -88,9 +100,12 @@ static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
     if (wants_elements(r)) {
-        return lmb_elements_build(&f->elements, f->scene, &f->tree);
+        return keeps(r, LMB_KEEP_BOUNCES) ? LMB_OK : lmb_elements_build(&f->elements, f->scene, &f->tree);
     }
-    return wants_groups(f) ? lmb_group_points(f->groups, &f->points, &f->grouping, f->stats) : LMB_OK;
+    if (!wants_groups(f) || keeps(r, LMB_KEEP_POINTS)) {
+        return LMB_OK;
+    }
+    return lmb_group_points(f->groups, &f->points, &f->grouping, f->stats);
 }
 
 /* Bounce r->light + 2: elements first .. past - 1 receive. The light's maps give the first share of it. */
@@ -146,19 +161,25 @@ lmb_status lmb_render_solve(lmb_render *r, int32_t units)
 
 /* --- in parts ----------------------------------------------------------------------------------------------------- */
 
+/* Of a light whose map is drawn. */
+static int64_t rows_of(const lmb_render *r, uint32_t light)
+{
+    const int64_t rows = r->frame.light_map / LMB_TILE;
+    return light_is(r, light, LMB_LIGHT_MAP_KEPT) ? 0 : r->maps[light].faces * rows;
+}
+
 /* Tile rows counted through all faces of all lights' maps, so that many lights are shared out whole. */
 static lmb_status part_light_map(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
-    const int64_t rows = f->light_map / LMB_TILE;
     int64_t first, past, all = 0, before = 0;
     lmb_status status = LMB_OK;
     for (uint32_t i = 0; i < f->scene->light_count; ++i) {
-        all += r->maps[i].faces * rows;
+        all += rows_of(r, i);
     }
     share_out(&first, &past, all, part, parts);
     for (uint32_t i = 0; i < f->scene->light_count && status == LMB_OK; ++i) {
-        const int64_t own = r->maps[i].faces * rows;
+        const int64_t own = rows_of(r, i);
         const int64_t from = first > before ? first - before : 0, to = past - before < own ? past - before : own;
         if (from < to) {
             status = lmb_light_map_rows(&r->maps[i], f->kernels, f->scene, (int32_t)from, (int32_t)to, stats);

@@ -39,6 +39,13 @@ lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *v)
     return lmb_surface_is_sound(out) ? LMB_OK : LMB_ERR_ARG;
 }
 
+/* A tree takes one texel in 1 x 1, 2 x 2, 4 x 4 or 8 x 8 of its lights' maps. */
+static int fits_tree(const lmb_frame *f)
+{
+    const int32_t each = f->light_map / f->tree.size;
+    return each * f->tree.size == f->light_map && (each == 1 || each == 2 || each == 4 || each == 8);
+}
+
 lmb_status lmb_render_check(const lmb_frame *f)
 {
     if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
@@ -62,8 +69,7 @@ lmb_status lmb_render_check(const lmb_frame *f)
     if (f->many_bounce > f->scene->light_count) {
         return LMB_ERR_ARG;
     }
-    if (wants_cut(f) ? f->light_map % f->tree.size != 0 || f->light_map / f->tree.size > 8 ||
-                           f->occlusion % LMB_OCCLUSION_EXACT != 0
+    if (wants_cut(f) ? !fits_tree(f) || f->occlusion % LMB_OCCLUSION_EXACT != 0
                      : wants_groups(f) && f->occlusion == LMB_OCCLUSION_EXACT) {
         return LMB_ERR_ARG;
     }

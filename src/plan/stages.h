@@ -30,8 +30,17 @@ static inline int32_t band_count(const lmb_view *v) { return (v->frame_height + 
 
 lmb_status lmb_render_check(const lmb_frame *frame);
 
+/* Set the numbers that are 0 to what 0 stands for. */
+void lmb_render_defaults(lmb_frame *frame);
+
 /* The picture's surface: of the whole frame, or of one band. */
 lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *view);
+
+/* --- what is left out, what is kept ------------------------------------------------------------------------------ */
+
+/* Of a frame that begins: set r->omits, light_state and the revisions; clear what no scene's box lies in of
+ * r->maps[].drawn, and is_glossy and shines where nothing drawn is. */
+void lmb_render_omit(lmb_render *r);
 
 /* --- stages ------------------------------------------------------------------------------------------------------- */
 

@@ -28,11 +28,29 @@ static inline int wants_groups(const lmb_frame *f)
 
 static inline int wants_bounce(const lmb_frame *f) { return wants_cut(f) || wants_groups(f); }
 
+/* What is left out and what is kept; nothing in builds without plan. */
+static inline int omits(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->omits & what) != 0; }
+static inline int keeps(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->keeps & what) != 0; }
+static inline int light_is(const lmb_render *r, uint32_t light, uint32_t what)
+{
+    return LMB_PLAN && (r->light_state[light] & what) != 0;
+}
+
+/* How many of a light's faces have first points. */
+static inline uint32_t faces_that_bounce(const lmb_render *r, uint32_t light)
+{
+    uint32_t n = 0;
+    for (uint32_t bits = light_is(r, light, LMB_LIGHT_DIM) ? 0 : r->maps[light].drawn; bits != 0; bits &= bits - 1) {
+        ++n;
+    }
+    return n;
+}
+
 /* Does light come from elements too? */
 static inline int wants_elements(const lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
-    return wants_cut(f) && f->elements.data != NULL && (f->bounces > 1 || r->shines);
+    return !omits(r, LMB_OMIT_BOUNCE) && wants_cut(f) && f->elements.data != NULL && (f->bounces > 1 || r->shines);
 }
 
 /* Do lobes count? */
@@ -41,7 +59,13 @@ static inline int wants_gloss(const lmb_render *r) { return r->is_glossy && r->f
 /* Is there another bounce to go, of those by elements? */
 static inline int has_bounces(const lmb_render *r)
 {
-    return wants_elements(r) && r->light + 1 < (uint32_t)r->frame.bounces;
+    return wants_elements(r) && !keeps(r, LMB_KEEP_BOUNCES) && r->light + 1 < (uint32_t)r->frame.bounces;
+}
+
+/* Many lights want them whatever is shown: another picture by the same light may show what this one does not. */
+static inline int wants_blockers(const lmb_frame *f)
+{
+    return (wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT) || (f->many != NULL && f->blockers.triangle != NULL);
 }
 
 /* The depth map that occludes, or NULL. */

@@ -1,0 +1,192 @@
+/* plan.h: a frame before it is drawn: which stages it runs and which it leaves out, why, what each costs; and the
+ * settings that meet a budget. [DESIGN 4]
+ *
+ *     lmb_render_begin(&r, &frame);          or lmb_render_next: checks everything, writes no pixel
+ *     lmb_plan_frame(&plan, &r, NULL);       what r will do: stages, operations, work, bytes
+ *
+ * A frame leaves out only what can change no byte of its picture; which it was asked for is in lmb_frame. With a
+ * budget, settings are chosen by what a few tiles of the scene itself tell:
+ *
+ *     lmb_render_look(&look, &r, ...);         a few settings by a few tiles of a frame that is solved: facts
+ *     lmb_plan_choose(&settings, &facts, &budget);
+ *
+ * All of it is a function of scene, view and numbers: no clock, the same on every machine. Work is counted in units:
+ * one is the time of a pixel gathering a node's light. How many a machine does in a second is the caller's to measure
+ * (`lambent bench --calibrate`). */
+#ifndef LMB_PLAN_H
+#define LMB_PLAN_H
+
+#include "render.h"
+
+/* Operations that stages are counted in. */
+typedef enum lmb_op {
+    LMB_OP_TRIANGLES = 0, /* set up for a face of a map, or for the view */
+    LMB_OP_TEXELS,        /* of depth and ids, cleared and filled */
+    LMB_OP_BLOCKERS,      /* triangles put into the tree of boxes */
+    LMB_OP_RESOLVED,      /* texels or pixels whose surface is looked up */
+    LMB_OP_SUMMED,        /* first points summed up into nodes, or joined and grouped */
+    LMB_OP_ELEMENTS,      /* triangles cut into pieces that light one another */
+    LMB_OP_LIT,           /* pixels times lights */
+    LMB_OP_CUTS,          /* tiles that take their part of a tree, or of the groups */
+    LMB_OP_PAIRS,         /* pixels times nodes that light them */
+    LMB_OP_SEGMENTS,      /* asked whether something stands between */
+    LMB_OP_LOBES,         /* pixels times what their lobes are asked about */
+    LMB_OP_STORED,        /* pixels written */
+    LMB_OPS
+} lmb_op;
+
+/* Stages as a plan tells them. */
+typedef enum lmb_plan_stage {
+    LMB_PLAN_MAPS = 0,  /* the lights' maps */
+    LMB_PLAN_BLOCKERS,  /* the tree of what blocks */
+    LMB_PLAN_POINTS,    /* first points, and their tree or groups */
+    LMB_PLAN_BOUNCES,   /* elements: later bounces, and surfaces that shine */
+    LMB_PLAN_VIEW,      /* depth and ids of what the viewer sees */
+    LMB_PLAN_RESOLVE,   /* attributes of the pixels */
+    LMB_PLAN_DIRECT,    /* light from the lamps, with shadows */
+    LMB_PLAN_GATHER,    /* bounced light */
+    LMB_PLAN_OCCLUSION, /* what stands between bounced light and pixels */
+    LMB_PLAN_LOBES,     /* highlights and reflections */
+    LMB_PLAN_SHINE,     /* what surfaces give off by themselves */
+    LMB_PLAN_STORE,     /* composed and written */
+    LMB_PLAN_STAGES
+} lmb_plan_stage;
+
+/* Why a stage, or a light's map, is not there. All but the last two change no byte. */
+typedef enum lmb_why {
+    LMB_WHY_RUNS = 0,
+    LMB_WHY_NOT_SHOWN,   /* the picture does not show it */
+    LMB_WHY_NOT_ASKED,   /* the settings ask for none, or there is no memory for it */
+    LMB_WHY_EMPTY,       /* there is no triangle */
+    LMB_WHY_NO_LIGHT,    /* no light, or none that gives any, meets a triangle */
+    LMB_WHY_BLACK,       /* nothing that is drawn reflects */
+    LMB_WHY_NO_LOBE,     /* nothing that is drawn is glossy */
+    LMB_WHY_NO_EMISSION, /* nothing that is drawn shines by itself */
+    LMB_WHY_KEPT,        /* stands as the last frame left it */
+    LMB_WHY_CONVEX,      /* a convex, empty room: nothing stands between what is in it */
+    LMB_WHY_PAST,        /* a light: all of the scene lies past its faces */
+    LMB_WHY_DIM,         /* a light: what bounces of it is under half a display step everywhere: bounded */
+    LMB_WHY_BUDGET,      /* left out to meet a budget: by an estimated error */
+    LMB_WHYS
+} lmb_why;
+
+/* Is an omission known to change nothing? */
+typedef enum lmb_proof { LMB_PROOF_RUNS = 0, LMB_PROOF_EXACT, LMB_PROOF_BOUND, LMB_PROOF_ESTIMATE } lmb_proof;
+
+typedef struct lmb_plan_row {
+    int32_t why, proof;  /* lmb_why, lmb_proof */
+    float bound;         /* the most that a pixel of the picture may change by, radiance, where proof is BOUND */
+    double op[LMB_OPS];  /* predicted counts */
+    double work;         /* units */
+    uint64_t bytes;      /* that the stage's results take */
+} lmb_plan_row;
+
+/* Settings of bounced light by LMB_GROUP_CUT; the fields of lmb_frame and lmb_tree of the same names. */
+typedef struct lmb_settings {
+    int32_t light_map, tree;
+    float error, visible;
+    int32_t gather_step, occlusion;
+} lmb_settings;
+
+/* What looks at some tiles of a solved frame found: LMB_FACT_RUNGS settings of `error`, each twice the last, with
+ * `visible` LMB_FACT_VISIBLE of it, by LMB_FACT_TREES trees, each half as fine as the last. Errors are lmb_look_error's
+ * against the finest setting of the finest tree. */
+enum { LMB_FACT_RUNGS = 6, LMB_FACT_TREES = 3, LMB_FACT_STEPS = 3 };
+#define LMB_FACT_FINEST  0.025f
+#define LMB_FACT_VISIBLE 0.3f
+typedef struct lmb_facts {
+    double triangles, faces, tiles, lights; /* of the scene; drawn, of maps; of the frame; that light directly */
+    double bounces, elements;               /* as the frame asks for; cap: 0 where there are none */
+    float shown;                            /* pixels with a surface, of all */
+    int32_t wanted_map;                     /* texels a side of a map whose texels are as fine as the picture */
+    int32_t tree;                           /* texels a side of the finest */
+    float pairs[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS]; /* a shown pixel, by gather_step 1, 2 and 4 */
+    float segments[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS];
+    float error[LMB_FACT_TREES][LMB_FACT_RUNGS]; /* by gather_step 1 */
+    float step_error[LMB_FACT_STEPS];            /* against that */
+    float open_error, open_pairs;           /* without occlusion against with it; pairs over those with it */
+    int32_t convex;                         /* 1: nothing stands between */
+} lmb_facts;
+
+/* What a frame may cost; 0: no limit. */
+typedef struct lmb_budget {
+    double work;    /* units */
+    float error;    /* as lmb_facts has it */
+    uint64_t bytes; /* of maps, tree, blockers, elements, view, picture and one thread's scratch */
+} lmb_budget;
+
+/* Settings for a budget, and what they are thought to cost. */
+typedef struct lmb_choice {
+    lmb_settings settings;
+    double work, op[LMB_OPS];
+    float error;
+    uint64_t bytes;
+    int32_t meets; /* 1: all of the budget */
+} lmb_choice;
+
+/* The light of some tiles, by one setting. */
+enum { LMB_LOOK_BLOCKS = 40, LMB_LOOK_PIXELS = LMB_LOOK_BLOCKS * LMB_SPARSE_TILES * LMB_TILE_PIXELS };
+typedef struct lmb_look {
+    float light[LMB_LOOK_PIXELS][3]; /* W/m2; below 0: no surface */
+    double pixels, pairs, segments;  /* with a surface; counted over them */
+    float shown;                     /* pixels with a surface, of all of the frame's */
+} lmb_look;
+
+typedef struct lmb_plan {
+    lmb_plan_row row[LMB_PLAN_STAGES];
+    uint8_t light[LMB_MAX_LIGHTS]; /* lmb_why of each light's map */
+    uint32_t faces, faces_drawn;   /* of the lights' maps: there, and drawn in this frame */
+    double work;                   /* units: sum over the rows */
+    uint64_t bytes;                /* sum over the rows, with scratch and picture */
+} lmb_plan;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_plan_frame: what a frame that began, and has not gone on, will do.
+ *
+ *   begun  by lmb_render_begin or lmb_render_next; read.
+ *   facts  NULL: pairs and segments of the gather, which only a look can tell, count as 0; so do their cost.
+ * Counts of triangles, texels, pixels, tiles and lights are exact, for frames drawn in one piece (parts set up all
+ * triangles each) without holes in masks. Returns LMB_OK, or LMB_ERR_ARG (null; a frame that failed or has gone on).
+ * Cost: a pass over instances, lights and, where that may be convex, triangles. */
+lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_facts *facts);
+
+/* lmb_plan_units: the work of one operation; 0 for other numbers. */
+double lmb_plan_units(int32_t op);
+
+/* lmb_render_look: bounced light of LMB_LOOK_BLOCKS blocks of four tiles, spread over the frame, as its settings of the
+ * moment (error, visible, occlusion, gather_step) have it.
+ *
+ *   r  a frame by LMB_GROUP_CUT, at LMB_STAGE_BANDS, with a whole frame's eye; read. lmb_render_again changes settings.
+ * Returns LMB_OK or LMB_ERR_ARG. Cost: that of 160 tiles. */
+lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch);
+
+/* lmb_look_error: how far `a` is from `b`: root of the mean square over the pixels' channels, without the worst 1 % of
+ * the pixels, over the mean of b. 0 where b is dark. */
+float lmb_look_error(const lmb_look *a, const lmb_look *b);
+
+/* lmb_facts_count: pairs and segments of all the frame's pixels by `facts`, for a frame's settings. */
+void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *frame);
+
+/* lmb_plan_choose: settings whose estimated error is least within budget->work and bytes; where budget->error is given,
+ * those of least work among those that keep it too. Where nothing does, the nearest: out->meets is 0 and the numbers
+ * say how far it is.
+ *
+ *   fixed  bytes that no setting changes: picture, view, scratch, blockers, elements.
+ *   most   texels a side of the largest map that may be chosen. Trees finer than the look's are not: what they take
+ *          is not known.
+ * Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_budget *budget, uint64_t fixed,
+                           int32_t most);
+
+/* lmb_why_name, lmb_op_name, lmb_plan_stage_name: in a few words; "?" for other numbers. Never NULL. */
+const char *lmb_why_name(int32_t why);
+const char *lmb_op_name(int32_t op);
+const char *lmb_plan_stage_name(int32_t stage);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
