@@ -99,7 +99,7 @@ typedef struct lmb_many_scratch {
     float error, light; /* sums over the cut */
     float allowed;      /* of look->error, or the default */
     lmb_many_lamp lamp[LMB_MANY_LAMPS];
-    lmb_last_blockers last;
+    lmb_walk walk;
     uint32_t nodes, tests; /* counted up: nodes taken over all cuts, shadow tests asked. Zero them yourself */
 } lmb_many_scratch;
 

@@ -146,18 +146,25 @@ size_t lmb_planes_bytes(int32_t width, int32_t height);
  * LMB_ERR_CAPACITY. Cost: some 60 operations a pixel. */
 lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory, size_t bytes);
 
-/* lmb_planes_floor: the plane that an object would stand on: the one with the largest picture of those that face up,
- * within 70 degrees of the camera's up, the less the more it turns away; where none does, the largest. -1 where there
- * are none. */
+/* lmb_planes_up: which way is up, unit, in the camera's space. A photo does not know; the camera's own up is a guess,
+ * and the largest plane that is near to level by it, a floor or a ceiling, a better one. */
+lmb_vec3 lmb_planes_up(const lmb_planes *planes);
+
+/* lmb_planes_floor: the plane that an object would stand on: the one with the largest picture of those that face up:
+ * within 25 degrees of lmb_planes_up and 70 of the camera's up, the less the more it turns away. -1 where none does. */
 int32_t lmb_planes_floor(const lmb_planes *planes);
 
 /* lmb_planes_anchor: where on plane p the ray of pixel (x, y) meets it. 0 where it does not. */
 int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y);
 
-/* lmb_planes_clear: the place on plane p nearest to its centre about which the picture shows nothing but the plane,
- * radius_m far. *Ours:* the middle of a table is where things stand. 0 where there is none. Pixels are tried in steps
- * of four. */
-int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float radius_m);
+/* lmb_planes_clear: where on plane p a cylinder stands free: the picture shows nothing but the plane at its foot, has
+ * room for all of it, and nothing that was measured is in front of it. The plane's centre where that is so, else the
+ * place nearest to it, by pixels in steps of four. *Ours:* the middle of a table is where things stand. 0 where there
+ * is none.                                                                                                     [M5]
+ *
+ *   radius_m, height_m   the cylinder's; height 0 asks for its foot alone */
+int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *cloud, int32_t p, float radius_m,
+                     float height_m);
 
 /* lmb_planes_move: move the cloud's points onto their planes, and fill the holes inside them.                   [M4] */
 void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes);
@@ -248,13 +255,13 @@ float lmb_real_albedo(float radiance, float irradiance);
  *
  *   inout    the photo's radiance; where without and with are equal it stays as it is, bit for bit
  *   without, with   irradiance
- * Adds albedo / pi x (with - without), of the albedo that `without` and the photo tell; no channel goes under 0. Pixels
- * without a surface stay. LMB_OK or LMB_ERR_ARG. */
+ * More light adds albedo / pi x (with - without), of the albedo that `without` and the photo tell; less takes the same
+ * share from the photo as from the light. Pixels without a surface stay. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
                           const lmb_irradiance *with);
 
 /* lmb_mirror_tile: add what a varnish on plane p (-1: on every plane) shows of the object and hides behind it:
- * Schlick's share of with - without.                                                                         [M20 M24]
+ * Schlick's share of with - without; what it hides is at most half of the photo.                          [M20 M24]
  *
  *   without, with  what narrow cones along the mirrored view see: lmb_cones_glossy
  *   specular       share where the surface faces the camera; LMB_OK or LMB_ERR_ARG */

@@ -23,6 +23,14 @@ typedef struct lmb_boxes {
     uint32_t first[LMB_BOXES], count[LMB_BOXES];
 } lmb_boxes;
 
+/* Planes with all of a scene on their fronts: a convex room, where no surface stands between two points. count 0: the
+ * scene is none, or has more planes. */
+typedef struct lmb_hull {
+    int32_t count;
+    float reach, slack; /* m: the largest coordinate in it; how far rounding may lift a point behind a plane */
+    lmb_vec3 normal[LMB_HULL_PLANES], at[LMB_HULL_PLANES];
+} lmb_hull;
+
 /* The tree, in the caller's memory. node[0] is the root; node_count 0: nothing blocks. */
 typedef struct lmb_blockers {
     lmb_blocker *triangle;
@@ -30,13 +38,22 @@ typedef struct lmb_blockers {
     uint32_t triangle_cap, triangle_count, node_cap, node_count;
     float noise; /* m: how far rounding may lift a point of a surface off its plane */
     const lmb_scene *scene; /* for the holes of masked triangles */
+    lmb_hull hull;
 } lmb_blockers;
 
-/* Triangles that blocked much when asked last: what blocks a segment often blocks the next. All 0 to begin with. */
+/* A tile's segments from a point, for asking boxes: 1 / (pixel - at) along each axis, at most 1e20 where that is 0. */
+typedef struct lmb_segments {
+    lmb_vec3 at;
+    float per[3][LMB_TILE_PIXELS];
+} lmb_segments;
+
+/* What a walk keeps, one a thread: the triangles that blocked much when asked last, as what blocks a segment often
+ * blocks the next. `last` is all 0 to begin with. */
 enum { LMB_LAST_BLOCKERS = 4 };
-typedef struct lmb_last_blockers {
-    uint32_t triangle[LMB_LAST_BLOCKERS]; /* number in lmb_blockers + 1, the latest first; 0: none */
-} lmb_last_blockers;
+typedef struct lmb_walk {
+    uint32_t last[LMB_LAST_BLOCKERS]; /* number in lmb_blockers + 1, the latest first; 0: none */
+    lmb_segments segments;
+} lmb_walk;
 
 #ifdef __cplusplus
 extern "C" {
@@ -61,13 +78,22 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene);
  *
  *   pixels  those that ask, a bit each; others' bits come back 0. They need a position.
  *   at      the point: on a surface, or a light's place.
- *   last    asked first, and kept up; for the same blockers only. NULL: none. The answer does not depend on it.
+ *   walk    its `last` are asked first, and kept up; for the same blockers only. The answer does not depend on them.
  *
  * A triangle blocks where the segment crosses it with both ends farther than `noise` from its plane: so none blocks
  * points of its own, and nothing is tuned. Triangles that share an edge leave no gap. The segments' own tests decide;
  * the walk only leaves out what none can meet. Null: nothing blocks. Cost: 0.1 to 1 us.                     [V25] */
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
-                          uint64_t pixels, lmb_vec3 at, lmb_last_blockers *last);
+                          uint64_t pixels, lmb_vec3 at, lmb_walk *walk);
+
+/* lmb_hull_find: the hull of a checked scene whose triangles are all on its planes, with its fronts to the scene; else
+ * out->count is 0. lmb_blockers_build does it too. Cost: three passes over the triangles, or as far as the first 17
+ * planes.
+ * lmb_hull_holds: 1 where a point is in the hull; 0 also where there is none. lmb_hull_pixels: those of a tile's
+ * `pixels` that are. Between two of these lmb_blocked_tile finds nothing, to the bit: src/occlusion/hull.c says why. */
+void lmb_hull_find(lmb_hull *out, const lmb_scene *scene);
+int lmb_hull_holds(const lmb_hull *hull, lmb_vec3 at);
+uint64_t lmb_hull_pixels(const lmb_hull *hull, const lmb_tile *tile, uint64_t pixels);
 
 #ifdef __cplusplus
 }

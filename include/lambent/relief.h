@@ -4,7 +4,7 @@
  *     lmb_relief_scene(&scene, &relief);                its simple model, to draw
  *     lmb_draw, lmb_resolve_tile                        as ever
  *     lmb_relief_tile(&tile, ...);                      position, normal, albedo, depth of the complex surface
- *     direct light, gathers, lmb_blend_tile             as ever
+ *     direct light, gathers, lmb_compose_tile           as ever
  *
  * A .lmr, version 1. All but the texels is in the byte order that word 1 tells; offsets are bytes from the file's
  * start, multiples of 4.
@@ -13,7 +13,7 @@
  *         2  bytes of the file                 10  of colours, RGBA8 linear; 0: none
  *         3  LMB_RELIEF_FULL or _PACKED        11  of indices, 3 a triangle
  *         4  views, 1 .. LMB_RELIEF_VIEWS      12  LMB_INDEX_U16 or LMB_INDEX_U32
- *         5  offset of their records           13  float: how far the complex surface may lie from the simple one, m
+ *         5  offset of their records           13  0
  *         6  vertices of the simple model      14  0
  *         7  triangles                         15  0
  * A view's record, 20 words: eye, right, up, back (3 floats each), half_width, half_height, near_m, far_m, as lmb_view
@@ -22,8 +22,8 @@
  *   FULL    three planes: depth code 1 .. 2^24 - 1, 0 nothing; R G B (sRGB) and 255; normal, two int16
  *   PACKED  two planes: 16 bits of depth, then B5 G6 R5 above them; normal, two int8, in a plane of 16-bit words that
  *           ends on a multiple of 4 bytes                                                                       [P10]
- * Normals are octahedral (of int8: code / 127), world axes. Depth d of lmb_view is least + code (1 - least) / most, with
- * least 0 (orthographic) or near_m / far_m (perspective), and most the largest code. */
+ * Normals are octahedral (of int8: code / 127), world axes. Depth d of lmb_view is least + code (1 - least) / most,
+ * with least 0 (orthographic) or near_m / far_m (perspective), and most the largest code. */
 #ifndef LMB_RELIEF_H
 #define LMB_RELIEF_H
 
@@ -48,7 +48,6 @@ typedef struct lmb_relief_view {
 typedef struct lmb_relief {
     lmb_relief_view view[LMB_RELIEF_VIEWS];
     int32_t views, format;
-    float reach;          /* m: how far the complex surface may lie from the simple one */
     lmb_mesh mesh;        /* the simple model; its streams lie in the file */
     lmb_material material;
     lmb_instance instance;
@@ -70,7 +69,7 @@ typedef struct lmb_relief_how {
 typedef struct lmb_relief_stats {
     uint64_t pixels;  /* of the simple model */
     uint64_t hits;    /* show the complex surface */
-    uint64_t missed;  /* whose ray passes it: cleared */
+    uint64_t missed;  /* whose ray passes it into the open: cleared */
     uint64_t holes;   /* that no view answers for: as the simple model has them [P12] */
 } lmb_relief_stats;
 
@@ -121,7 +120,7 @@ lmb_status lmb_relief_shadow_rows(const lmb_light_map *map, lmb_tile *tile, cons
 /* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: those of the relief itself
  * and of other surfaces alike.                                                                               [P8 P9]
  * A pixel is lit as far as the four texels around its place are: each against the pixel's own plane there, and
- * half a texel and more for what the plane does not know. Most of the four decide. */
+ * a texel for what the plane does not know. Most of the four decide. */
 uint64_t lmb_relief_lit(const lmb_light_map *map, const lmb_light *light, const lmb_tile *tile);
 
 #ifdef __cplusplus

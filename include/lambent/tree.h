@@ -83,7 +83,10 @@ typedef struct lmb_cut {
     int32_t bucket[LMB_CUT_BUCKETS];   /* the first of each, by exponent and first bit */
     lmb_weighed weighed;
     lmb_emitter emitter[LMB_CUT_BLOCK];
-    float pairs[3][LMB_GATHER_PAIRS];
+    union {
+        float pairs[3][LMB_GATHER_PAIRS]; /* while it lights */
+        lmb_walk walk;                    /* while it is taken */
+    } use;
 } lmb_cut;
 
 /* How tiles take their cut. */

@@ -55,7 +55,7 @@ enum { LMB_CONE_STEPS = 256, LMB_CONE_MOST = 37, LMB_CONE_WIDTHS = 4 };
 /* One sample of a cone: of every cone as wide, at the same distance. */
 typedef struct lmb_cone_step {
     float at, length; /* m along the axis; leaves */
-    float spread;     /* by how much it widens to either side, of the way */
+    float apart;      /* 1 / leaves of the way, where rays to voxels may be told from the axis; else 0 */
     float finer;      /* share of `level`; the rest is of the next */
     int32_t level;    /* 0: leaves */
 } lmb_cone_step;
@@ -66,7 +66,7 @@ typedef struct lmb_cone_width {
     lmb_cone_step step[LMB_CONE_STEPS];
 } lmb_cone_width;
 
-/* Cones over a hemisphere, each of the same share of its cosine-weighted whole. 17 KiB. */
+/* Cones over a hemisphere, each of the same share of its cosine-weighted whole. 20.6 KiB. */
 typedef struct lmb_cones {
     int32_t count;
     lmb_cone_width width[LMB_CONE_WIDTHS];   /* of each ring of cones */
@@ -94,6 +94,9 @@ typedef struct lmb_cone_trace {
     int32_t world;      /* whose surfaces cover: LMB_VOXEL_WITHOUT or _WITH */
     const lmb_env *env; /* what shows where nothing covers; NULL: darkness [M22] */
     lmb_cone_scratch *scratch; /* one a thread */
+    int32_t faced;      /* 1: pixels' faces are their triangles' fronts, never backs of what is double-sided. What they
+                           touch then hides what is behind it: a floor is not seen through from under what stands
+                           on it */
 } lmb_cone_trace;
 
 #ifdef __cplusplus

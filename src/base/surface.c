@@ -91,7 +91,9 @@ int lmb_surface_is_sound(const lmb_surface *s)
         return s->layout == LMB_LINEAR && (s->stride_bytes >= s->width * lmb_pixel_bytes(s->format) ||
                                            s->stride_bytes <= -s->width * lmb_pixel_bytes(s->format));
     least = packed_stride(s->format, s->width);
-    return s->stride_bytes >= (s->layout == LMB_TILED ? least : least / LMB_TILE);
+    /* Draws count in rows of tiles, eight of pixels: those must fit 32 bits too. */
+    return s->stride_bytes >= (s->layout == LMB_TILED ? least : least / LMB_TILE) &&
+           s->stride_bytes <= INT32_MAX / LMB_TILE;
 }
 
 /* The run of pixels that starts at (x, y), x a multiple of 8. */

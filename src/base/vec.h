@@ -11,6 +11,13 @@
 float sqrtf(float);  /* the two that src/ takes from libm: both correctly rounded everywhere */
 float floorf(float);
 
+/* For what is rarely or slowly done, so that its frame is not part of its caller's. */
+#if defined(__GNUC__)
+#define APART static __attribute__((noinline))
+#else
+#define APART static
+#endif
+
 static inline lmb_vec3 vec3(float x, float y, float z)
 {
     lmb_vec3 v;

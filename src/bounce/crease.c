@@ -222,7 +222,7 @@ static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_pla
 }
 
 /* Does the plane run away from the light, at the texel's middle or from there to one of the corners? */
-static int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const place *corner, int corners)
+APART int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const place *corner, int corners)
 {
     if (v->kind != LMB_PERSPECTIVE) {
         return corners > 0 && dot3(own->normal, v->back) < GRAZE;

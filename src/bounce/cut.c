@@ -32,7 +32,7 @@ typedef struct cutter {
     const lmb_kernels *kernels;
     const lmb_cutting *cutting;
     const lmb_patch *p;
-    lmb_last_blockers last;
+    uint64_t in_hull;    /* pixels of the patch in a convex room: nothing stands between them and others in it */
     float per_pixel;     /* 1 / pixels of the patch */
     int lobe;            /* a pixel whose lobe stands for the patch's; NONE: they have none */
     double beside;       /* what the pixels have beside the tree, in the mean */
@@ -183,7 +183,7 @@ static void put(cutter *c, int32_t i, lmb_tree_place at, int k, uint64_t visible
 
 /* Of `pixels`, those that do not have the point before them, or are not before it, by more than what a wall does not
  * block: it does not block what lies on it, so who stands behind it must not be asked past it. */
-static uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen)
+APART uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen)
 {
     const float noise = c->cutting->blockers->noise;
     uint64_t out = 0;
@@ -210,8 +210,12 @@ static void ask(cutter *c, int32_t i)
     if (c->cutting->stats != NULL) {
         c->cutting->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
     }
+    uint64_t asked = c->cut->visible[i];
+    if ((asked & c->in_hull) != 0 && lmb_hull_holds(&c->cutting->blockers->hull, seen->position)) {
+        asked &= ~c->in_hull;
+    }
     c->cut->visible[i] &=
-        ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, c->cut->visible[i], seen->position, &c->last);
+        ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, asked, seen->position, &c->cut->use.walk);
     count_in(c, i, 1.0);
 }
 
@@ -309,7 +313,7 @@ static int is_proven(cutter *c)
 }
 
 /* The faces' roots. */
-static void begin(cutter *c)
+APART void begin(cutter *c)
 {
     c->cut->count = 0;
     c->error = c->value = 0.0;
@@ -481,7 +485,7 @@ static void add_near_gloss(const cutter *c, const leaf *l, uint64_t pixels)
 }
 
 /* A leaf so near that its shape counts: pixel by pixel. */
-static void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, const leaf *l, uint64_t visible)
+APART void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
     const lmb_node *n = &l->node;
@@ -533,7 +537,7 @@ typedef struct stream {
 static void flush(stream *s)
 {
     const cutter *c = s->c;
-    c->kernels->gather_cut(s->inout, c->cut->pairs, c->tile, c->cut->emitter, s->filled);
+    c->kernels->gather_cut(s->inout, c->cut->use.pairs, c->tile, c->cut->emitter, s->filled);
     if (c->cutting->gloss != NULL) {
         c->kernels->gloss_cut(c->cutting->gloss, c->tile, c->cut->emitter, s->filled);
     }
@@ -579,7 +583,7 @@ static void light_by_all(stream *s)
     }
 }
 
-static void light_patch(lmb_irradiance *inout, cutter *c)
+APART void light_patch(lmb_irradiance *inout, cutter *c)
 {
     stream s;
     s.inout = inout;
@@ -641,7 +645,8 @@ lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb
         c.kernels = kernels;
         c.cutting = cutting;
         c.p = &p;
-        memset(&c.last, 0, sizeof c.last);
+        memset(scratch->use.walk.last, 0, sizeof scratch->use.walk.last);
+        c.in_hull = cutting->blockers != NULL ? lmb_hull_pixels(&cutting->blockers->hull, tile, p.pixels) : 0;
         c.per_pixel = 1.0f / (float)count_bits_64(p.pixels);
         c.beside = beside(cutting, &p, c.per_pixel);
         c.lobe = lobe_of(cutting, &p);

@@ -300,40 +300,69 @@ static float longest_edge(int *from, const piece *p)
     return longest;
 }
 
-/* The half behind the middle of the edge from `from` goes to `half`, the other stays. */
-static void halve(piece *inout, piece *half, int from)
+/* A halving on the way down to a piece: the edge's corner that is not the piece's, and which half the piece lies in. */
+typedef struct turn {
+    lmb_vec3 corner;
+    float b1, b2;
+    int from, first;
+} turn;
+
+/* Corner k of the piece becomes what the turn keeps, and the other way round. */
+static void exchange_corner(piece *p, turn *t, int k)
 {
-    const int to = (from + 1) % 3;
-    const lmb_vec3 at = add3(inout->corner[from], mul3(sub3(inout->corner[to], inout->corner[from]), 0.5f));
-    const float b1 = 0.5f * (inout->b1[from] + inout->b1[to]), b2 = 0.5f * (inout->b2[from] + inout->b2[to]);
-    *half = *inout;
-    half->corner[from] = inout->corner[to] = at;
-    half->b1[from] = inout->b1[to] = b1;
-    half->b2[from] = inout->b2[to] = b2;
+    const turn kept = *t;
+    t->corner = p->corner[k];
+    t->b1 = p->b1[k];
+    t->b2 = p->b2[k];
+    p->corner[k] = kept.corner;
+    p->b1[k] = kept.b1;
+    p->b2[k] = kept.b2;
 }
 
+/* Into the half behind the middle of the edge from `from`. */
+static void enter_second(piece *p, turn *t, int from)
+{
+    const int to = (from + 1) % 3;
+    t->corner = add3(p->corner[from], mul3(sub3(p->corner[to], p->corner[from]), 0.5f));
+    t->b1 = 0.5f * (p->b1[from] + p->b1[to]);
+    t->b2 = 0.5f * (p->b2[from] + p->b2[to]);
+    t->from = from;
+    t->first = 0;
+    exchange_corner(p, t, from);
+}
+
+/* From the second half into the first; 0 where that is done too: the piece is whole again. */
+static int enter_first(piece *p, turn *t)
+{
+    const int done = t->first, to = (t->from + 1) % 3;
+    if (!done) {
+        exchange_corner(p, t, t->from); /* t: the middle */
+    }
+    exchange_corner(p, t, to);
+    t->first = 1;
+    return !done;
+}
+
+/* Turns instead of pieces that wait: 28 bytes of stack a halving, not 60. */
 static void add_source(maker *m, const source *s)
 {
-    static const float b1[3] = {0, 1, 0}, b2[3] = {0, 0, 1};
-    piece waiting[HALVINGS];
-    int count = 1, from = 0;
-    memcpy(waiting[0].corner, s->triangle.corner, sizeof waiting[0].corner);
-    memcpy(waiting[0].b1, b1, sizeof b1);
-    memcpy(waiting[0].b2, b2, sizeof b2);
-    if (longest_edge(&from, &waiting[0]) * 4.0f < m->side2) {
-        add_piece(m, s, &waiting[0], 1);
+    turn turns[HALVINGS];
+    piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
+    int depth = 0, from = 0;
+    memcpy(p.corner, s->triangle.corner, sizeof p.corner);
+    if (longest_edge(&from, &p) * 4.0f < m->side2) {
+        add_piece(m, s, &p, 1);
         return;
     }
-    while (count > 0 && !m->full) {
-        piece *p = &waiting[count - 1];
-        if (count < HALVINGS && longest_edge(&from, p) > m->side2) {
-            halve(p, p + 1, from);
-            ++count;
-        } else {
-            add_piece(m, s, p, 0);
-            --count;
+    do {
+        while (depth < HALVINGS && longest_edge(&from, &p) > m->side2) {
+            enter_second(&p, &turns[depth++], from);
         }
-    }
+        add_piece(m, s, &p, 0);
+        while (depth > 0 && !enter_first(&p, &turns[depth - 1])) {
+            --depth;
+        }
+    } while (depth > 0 && !m->full);
 }
 
 /* 1 where all fits. */

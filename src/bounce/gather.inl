@@ -82,9 +82,9 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
  * Neighbouring pixels of one surface nearly always agree on what they see: the four corners of such a tile are asked
  * first, and only where they differ is each pixel asked. Lost is what fits between the corners. */
 
-/* march() from pixels whose planes of position and of face lie `plane` floats apart. */
-LANE_APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face,
-                                           size_t plane, lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
+/* From pixels whose planes of position and of face lie `plane` floats apart. */
+LANE_APART void gather_aim(seen_from *from, march_run *run, const lmb_march_job *m, const float *position,
+                           const float *face, size_t plane, lmb_vec3 at, lmb_vec3 axis)
 {
     lane3 p, n;
     p.x = lane_load(position);
@@ -93,8 +93,18 @@ LANE_APART lane_mask gather_march(const lmb_march_job *m, const float *position,
     n.x = lane_load(face);
     n.y = lane_load(face + plane);
     n.z = lane_load(face + 2 * plane);
-    const seen_from from = march_begin(m, p, n);
-    return march(m, &from, at, axis, wanted);
+    const lane3 start = march_begin(from, m, p, n);
+    march_towards(run, m, from, start, lane3_of(at), lane3_of(axis));
+}
+
+/* march() from there. */
+APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face, size_t plane,
+                             lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
+{
+    seen_from from;
+    march_run run;
+    gather_aim(&from, &run, m, position, face, plane, at, axis);
+    return march(m, &from, &run, wanted);
 }
 
 static inline lane_mask tile_march(const lmb_march_job *m, const lmb_tile *tile, int k, lmb_vec3 at, lmb_vec3 axis,
@@ -151,7 +161,7 @@ static inline lane3 corner_load(const float (*p)[CORNERS], int i)
 }
 
 /* What the tile's corners see of one emitter. */
-LANE_APART int corners_see(const gather_corners *c, const lmb_march_job *m, lmb_vec3 at, lmb_vec3 axis)
+APART int corners_see(const gather_corners *c, const lmb_march_job *m, lmb_vec3 at, lmb_vec3 axis)
 {
     const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
@@ -399,8 +409,8 @@ typedef struct gather_blockers {
 } gather_blockers;
 
 /* What is hidden gets nothing. */
-LANE_APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb_tile *tile, int k,
-                                     const gather_group *groups)
+APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb_tile *tile, int k,
+                       const gather_group *groups)
 {
     for (int32_t i = 0; i < inout->count * VECTORS; ++i) {
         const int32_t j = inout->lit[i / VECTORS], v = i % VECTORS * LANES, at = j * WIDE + v;

@@ -13,7 +13,7 @@
 
 /* A vector of pixels in the viewer's frame, and the depth plane of each one's surface. */
 typedef struct seen_from {
-    lane x, y, w;     /* m along right, up, the axis */
+    lane w;           /* m along the axis */
     lane px, py, d;   /* place in the map */
     lane dx, dy;      /* the surface's own plane: d per px */
 } seen_from;
@@ -59,17 +59,15 @@ static inline lane_mask march_plane(lane *dx, lane *dy, const lmb_march_job *m, 
     return lane_lt(bottom, least);
 }
 
-static inline seen_from march_begin(const lmb_march_job *m, lane3 position, lane3 face)
+/* Returns the pixels in the viewer's axes, m. */
+static inline lane3 march_begin(seen_from *out, const lmb_march_job *m, lane3 position, lane3 face)
 {
-    seen_from s;
     lane3 v = march_view(m, position);
     v.z = lane_max(v.z, lane_splat(m->near_m));
-    s.x = v.x;
-    s.y = v.y;
-    s.w = v.z;
-    march_place(&s.px, &s.py, &s.d, m, v);
-    march_plane(&s.dx, &s.dy, m, v, face);
-    return s;
+    out->w = v.z;
+    march_place(&out->px, &out->py, &out->d, m, v);
+    march_plane(&out->dx, &out->dy, m, v, face);
+    return v;
 }
 
 /* Share of the segment from (px, py) that lies inside the frame, along one axis. */
@@ -105,17 +103,28 @@ static inline lane march_read(const lmb_march_job *m, lane x, lane y)
 
 /* A run of segments in the map: from each pixel of a vector towards one emitter. */
 typedef struct march_run {
-    lane x, y;     /* px, over the whole segment */
     lane rise;     /* d of the segment's end over the pixel's own surface plane */
     lane end_x, end_y, end_d;       /* the emitter's place */
     lane end_dx, end_dy, end_rise;  /* its plane: d per px; d of the segment's start over it */
     lane w_end;    /* m along the view's axis */
     lane end;      /* share of the segment that lies inside the frame */
-    lane pixel;    /* share of it that is one px */
     lane samples;  /* one a px of it, at most m->steps */
 } march_run;
 
-static inline march_run march_towards(const lmb_march_job *m, const seen_from *s, lane3 at, lane3 axis)
+/* Over the whole segments, px. */
+static inline lane march_x(const seen_from *s, const march_run *r) { return lane_sub(r->end_x, s->px); }
+static inline lane march_y(const seen_from *s, const march_run *r) { return lane_sub(r->end_y, s->py); }
+
+/* The larger side of a segment's box in the map, px. */
+static inline lane march_length(const seen_from *s, const march_run *r)
+{
+    const lane zero = lane_splat(0.0f), x = march_x(s, r), y = march_y(s, r);
+    return lane_max(lane_max(x, lane_sub(zero, x)), lane_max(y, lane_sub(zero, y)));
+}
+
+/* From `start`, in the viewer's axes. */
+static inline void march_towards(march_run *out, const lmb_march_job *m, const seen_from *s, lane3 start, lane3 at,
+                                 lane3 axis)
 {
     march_run r;
     lane3 v = march_view(m, at);
@@ -123,31 +132,28 @@ static inline march_run march_towards(const lmb_march_job *m, const seen_from *s
     if (m->perspective) { /* cut where the segment passes the near plane */
         lane near_m = lane_splat(m->near_m);
         lane_mask behind = lane_lt(v.z, near_m);
-        lane run = lane_pick(behind, lane_sub(s->w, v.z), lane_splat(1.0f));
-        lane share = lane_pick(behind, lane_div(lane_sub(s->w, near_m), run), lane_splat(1.0f));
-        v.x = lane_add(s->x, lane_mul(lane_sub(v.x, s->x), share));
-        v.y = lane_add(s->y, lane_mul(lane_sub(v.y, s->y), share));
-        v.z = lane_max(lane_add(s->w, lane_mul(lane_sub(v.z, s->w), share)), near_m);
+        lane run = lane_pick(behind, lane_sub(start.z, v.z), lane_splat(1.0f));
+        lane share = lane_pick(behind, lane_div(lane_sub(start.z, near_m), run), lane_splat(1.0f));
+        v.x = lane_add(start.x, lane_mul(lane_sub(v.x, start.x), share));
+        v.y = lane_add(start.y, lane_mul(lane_sub(v.y, start.y), share));
+        v.z = lane_max(lane_add(start.z, lane_mul(lane_sub(v.z, start.z), share)), near_m);
     }
     lane px, py, d;
     march_place(&px, &py, &d, m, v);
-    r.x = lane_sub(px, s->px);
-    r.y = lane_sub(py, s->py);
-    r.rise = lane_sub(lane_sub(d, s->d), lane_add(lane_mul(r.x, s->dx), lane_mul(r.y, s->dy)));
     r.w_end = v.z;
     r.end_x = px;
     r.end_y = py;
     r.end_d = d;
+    const lane x = march_x(s, &r), y = march_y(s, &r);
+    r.rise = lane_sub(lane_sub(d, s->d), lane_add(lane_mul(x, s->dx), lane_mul(y, s->dy)));
     /* An emitter turned away from the viewer is not in the map: no surface of its own to step over. */
     r.end_rise = lane_sub(lane_sub(s->d, d),
-                          lane_sub(lane_splat(0.0f), lane_add(lane_mul(r.x, r.end_dx), lane_mul(r.y, r.end_dy))));
+                          lane_sub(lane_splat(0.0f), lane_add(lane_mul(x, r.end_dx), lane_mul(y, r.end_dy))));
     r.end_rise = lane_pick(level, r.end_rise, lane_splat(-1e30f));
     r.end = lane_min(march_inside(s->px, px, m->last_x + 1.0f), march_inside(s->py, py, m->last_y + 1.0f));
-    const lane one = lane_splat(1.0f), zero = lane_splat(0.0f);
-    lane length = lane_max(lane_max(r.x, lane_sub(zero, r.x)), lane_max(r.y, lane_sub(zero, r.y)));
-    r.pixel = lane_div(one, lane_max(length, one));
-    r.samples = lane_trunc(lane_min(lane_add(lane_mul(length, r.end), one), lane_splat((float)m->steps)));
-    return r;
+    r.samples = lane_trunc(
+        lane_min(lane_add(lane_mul(march_length(s, &r), r.end), lane_splat(1.0f)), lane_splat((float)m->steps)));
+    *out = r;
 }
 
 /* The stored d at share t of the segments, and how far it stands over them: positive, and the viewer's surface hides
@@ -155,10 +161,10 @@ static inline march_run march_towards(const lmb_march_job *m, const seen_from *s
  *
  * Both heights are taken over the pixel's own surface plane, the stored one at its texel's middle. So a flat receiver
  * never shadows itself, however grazing the view, and no bias needs tuning. */
-LANE_APART lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
+APART lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
 {
     const lane zero = lane_splat(0.0f), half = lane_splat(0.5f);
-    lane x = lane_add(s->px, lane_mul(r->x, t)), y = lane_add(s->py, lane_mul(r->y, t));
+    lane x = lane_add(s->px, lane_mul(march_x(s, r), t)), y = lane_add(s->py, lane_mul(march_y(s, r), t));
     x = lane_trunc(lane_min(lane_max(x, zero), lane_splat(m->last_x)));
     y = lane_trunc(lane_min(lane_max(y, zero), lane_splat(m->last_y)));
     *stored = march_read(m, x, y);
@@ -196,8 +202,8 @@ static inline lane march_gap(lane a, lane b) { return lane_max(lane_sub(a, b), l
 
 /* Between two samples on different sides of the viewer's surface: does the segment cross it there, or only pass
  * behind a silhouette? Halve the gap to about a pixel; a surface that then still jumps is two surfaces. */
-static inline lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from,
-                                      lane to, lane from_d, lane to_d, lane_mask from_hidden)
+LANE_APART lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from, lane to,
+                                   lane from_d, lane to_d, lane_mask from_hidden)
 {
     for (int i = 0; i < 4; ++i) {
         lane stored, middle = lane_mul(lane_add(from, to), lane_splat(0.5f));
@@ -209,9 +215,10 @@ static inline lane_mask march_crosses(const lmb_march_job *m, const seen_from *s
         to = lane_pick(first, to, middle);
         to_d = lane_pick(first, to_d, stored);
     }
+    const lane one = lane_splat(1.0f), pixel = lane_div(one, lane_max(march_length(s, r), one));
     lane before, after, jump = march_gap(from_d, to_d);
-    march_height(&before, m, s, r, lane_sub(from, r->pixel));
-    march_height(&after, m, s, r, lane_add(to, r->pixel));
+    march_height(&before, m, s, r, lane_sub(from, pixel));
+    march_height(&after, m, s, r, lane_add(to, pixel));
     lane slope = lane_max(march_gap(before, from_d), march_gap(to_d, after));
     return lane_le(jump,
                    lane_add(lane_mul(lane_splat(JUMP), lane_min(from_d, to_d)), lane_mul(lane_splat(SLOPE), slope)));
@@ -224,7 +231,7 @@ static inline lane3 march_point(const lmb_march_job *m, const seen_from *s, cons
     lane d = lane_add(s->d, lane_mul(lane_sub(r->end_d, s->d), t));
     p.z = march_w(m, d);
     lane wide = m->perspective ? p.z : lane_splat(1.0f);
-    lane px = lane_add(s->px, lane_mul(r->x, t)), py = lane_add(s->py, lane_mul(r->y, t));
+    lane px = lane_add(s->px, lane_mul(march_x(s, r), t)), py = lane_add(s->py, lane_mul(march_y(s, r), t));
     p.x = lane_mul(lane_mul(lane_sub(px, lane_splat(m->middle_x)), lane_splat(1.0f / m->scale_x)), wide);
     p.y = lane_mul(lane_mul(lane_sub(py, lane_splat(m->middle_y)), lane_splat(1.0f / m->scale_y)), wide);
     return p;
@@ -245,31 +252,30 @@ static inline lane_mask march_through(const lmb_march_job *m, const seen_from *s
  * In the map a segment is straight and d is affine along it. A change of side across a surface that goes on blocks.
  * Where it passes behind a silhouette and comes out again, march_through decides; an end that stays hidden is taken as
  * open. */
-static inline lane_mask march(const lmb_march_job *m, const seen_from *s, lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
+static inline lane_mask march(const lmb_march_job *m, const seen_from *s, const march_run *r, lane_mask wanted)
 {
     const lane zero = lane_splat(0.0f);
-    const march_run r = march_towards(m, s, lane3_splat(at.x, at.y, at.z), lane3_splat(axis.x, axis.y, axis.z));
     lane_mask open = wanted, hidden_before = lane_lt(zero, zero);
     lane before = zero, stored_before = s->d, in = zero, gap = lane_splat(1e9f);
     for (int i = 0; i < m->steps && mask_bits(open); ++i) {
-        lane stored, t = march_share(m, s, &r, i);
-        lane_mask hidden = lane_lt(zero, march_height(&stored, m, s, &r, t));
+        lane stored, t = march_share(m, s, r, i);
+        lane_mask hidden = lane_lt(zero, march_height(&stored, m, s, r, t));
         lane_mask changed =
             mask_or(mask_and(hidden, mask_not(hidden_before)), mask_and(hidden_before, mask_not(hidden)));
-        changed = mask_and(mask_and(changed, open), lane_lt(lane_splat((float)i), r.samples));
+        changed = mask_and(mask_and(changed, open), lane_lt(lane_splat((float)i), r->samples));
         if (mask_bits(changed)) {
-            lane_mask crosses = march_crosses(m, s, &r, before, t, stored_before, stored, hidden_before);
+            lane_mask crosses = march_crosses(m, s, r, before, t, stored_before, stored, hidden_before);
             open = mask_and(open, mask_not(mask_and(changed, crosses)));
             lane middle = lane_mul(lane_add(before, t), lane_splat(0.5f));
             lane_mask leaves = mask_and(mask_and(changed, hidden_before), open);
             if (mask_bits(leaves)) {
-                open = mask_and(open, mask_not(mask_and(leaves, march_through(m, s, &r, in, middle, gap))));
+                open = mask_and(open, mask_not(mask_and(leaves, march_through(m, s, r, in, middle, gap))));
             }
             in = lane_pick(changed, middle, in);
             gap = lane_pick(changed, lane_splat(1e9f), gap);
         }
         if (mask_bits(mask_and(hidden, open))) {
-            lane d = lane_add(s->d, lane_mul(lane_sub(r.end_d, s->d), t));
+            lane d = lane_add(s->d, lane_mul(lane_sub(r->end_d, s->d), t));
             gap = lane_pick(hidden, lane_min(gap, lane_sub(march_w(m, d), march_w(m, stored))), gap);
         }
         hidden_before = hidden;

@@ -49,7 +49,7 @@ typedef struct lmb_setup_job {
  * triangle takes 120 bytes of lmb_draw's stack. */
 #if LMB_HAVE_AVX512
 #define LMB_BATCH 16
-#elif defined(LMB_CONFIG_TINY)
+#elif LMB_PLAIN_LANES == 1
 #define LMB_BATCH 4
 #else
 #define LMB_BATCH 8
@@ -141,12 +141,6 @@ typedef struct lmb_pyramid {
     float at[3], per_high[3], per_low[3];
 } lmb_pyramid;
 
-/* A tile's segments from a point, for asking boxes: 1 / (pixel - at) along each axis, at most 1e20 where that is 0. */
-typedef struct lmb_segments {
-    lmb_vec3 at;
-    float per[3][LMB_TILE_PIXELS];
-} lmb_segments;
-
 /* The world, for rays of one width. */
 typedef struct lmb_world_job {
     const void *texels;
@@ -182,6 +176,7 @@ typedef struct lmb_cone_job {
     int32_t steps, depth;
     lmb_vec3 low;
     float per_leaf, leaf; /* 1 / m, m */
+    int32_t faced;        /* as in lmb_cone_trace */
 } lmb_cone_job;
 
 /* One tile over a relief. */
@@ -191,6 +186,7 @@ typedef struct lmb_relief_job {
     int32_t aligned;     /* the first of them look most as the eye does */
     int32_t steps, pick, sampling, keep;
     int32_t as_is;       /* the winner's own place, whether or not it is on the ray */
+    int32_t outside;     /* some view is orthographic: it shows all of the model, and what is beside that is open */
     lmb_vec3 eye, back;  /* the eye's, not a view's */
     int32_t perspective;
     float pixel;         /* m of a pixel's side; perspective: at 1 m */

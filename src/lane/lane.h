@@ -9,16 +9,16 @@
 #define LANE_INLINE static inline
 #endif
 
-/* For what is rarely or slowly done, so that its frame is not part of its caller's. */
-#if defined(__GNUC__)
-#define LANE_APART static __attribute__((noinline))
+/* APART where lanes are wide. The frame of one is small, and a call takes ROM. */
+#if LANES > 1
+#define LANE_APART APART
 #else
-#define LANE_APART static
+#define LANE_APART static inline
 #endif
 
 /* A part of a long formula. Without vectors each of four lanes of every step has its own place on the stack frame. */
 #if defined(LANE_PLAIN) && LANES > 1
-#define LANE_PART LANE_APART
+#define LANE_PART APART
 #else
 #define LANE_PART LANE_INLINE
 #endif

@@ -8,13 +8,13 @@
 
 #include "../base/vec.h"
 
-/* Four wide, like the narrowest machine; one where code size counts: 4 lanes written out cost a Cortex-M4F 14 KiB of
- * ROM and, spilled to the stack, 2.5 times the time. Pixels are the same: a lane never meets another. One also where a
- * file defines LANE_ONE, to ask a kernel's formula for a single thing. */
-#if defined(LMB_CONFIG_TINY) || defined(LANE_ONE)
+#include "machines.h"
+
+/* One where a file defines LANE_ONE, to ask a kernel's formula for a single thing. */
+#if defined(LANE_ONE)
 #define LANES 1
 #else
-#define LANES 4
+#define LANES LMB_PLAIN_LANES
 #endif
 /* Masks are no instructions here: work that no lane wants is better branched around. */
 #define LANE_PLAIN 1

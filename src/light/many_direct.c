@@ -36,7 +36,7 @@ typedef struct lit_surface {
     const lmb_many_look *look;
     lmb_many_job job;
     uint64_t pixels, corners;
-    lmb_last_blockers *last;
+    lmb_walk *walk;
 } lit_surface;
 
 /* The outermost pixels along both diagonals. */
@@ -66,7 +66,7 @@ static uint64_t seen_from(const lit_surface *s, uint32_t *tests, lmb_vec3 at)
     if (blockers == NULL) {
         return s->pixels;
     }
-    const uint64_t blocked = lmb_blocked_tile(blockers, s->kernels, s->tile, s->corners, at, s->last);
+    const uint64_t blocked = lmb_blocked_tile(blockers, s->kernels, s->tile, s->corners, at, s->walk);
     ++*tests;
     if (blocked == 0) {
         return s->pixels;
@@ -75,7 +75,7 @@ static uint64_t seen_from(const lit_surface *s, uint32_t *tests, lmb_vec3 at)
         return 0;
     }
     const uint64_t others = s->pixels & ~s->corners;
-    return s->pixels & ~(blocked | lmb_blocked_tile(blockers, s->kernels, s->tile, others, at, s->last));
+    return s->pixels & ~(blocked | lmb_blocked_tile(blockers, s->kernels, s->tile, others, at, s->walk));
 }
 
 static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -132,14 +132,14 @@ lmb_status lmb_many_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernel
     if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || look == NULL || look->many == NULL) {
         return LMB_ERR_ARG;
     }
-    memset(&scratch->last, 0, sizeof scratch->last);
+    memset(scratch->walk.last, 0, sizeof scratch->walk.last);
     uint64_t left = look->many->node_count > 0 ? tile_pixels(tile) : 0;
     for (int n = 1; left != 0; ++n) {
         lit_surface s;
         s.kernels = kernels;
         s.tile = tile;
         s.look = look;
-        s.last = &scratch->last;
+        s.walk = &scratch->walk;
         s.pixels = n < SURFACES ? tile_surface(tile, left) : left;
         s.corners = corners_of(s.pixels);
         s.job = job_of(tile, s.pixels);

@@ -119,7 +119,12 @@ static void add_texel(float out[3], const lmb_env *env, int32_t level, cube_plac
 static void sample_level(float out[3], const lmb_env *env, int32_t level, lmb_vec3 d, float weight)
 {
     float s, t;
-    const int32_t n = env->size >> level, face = cube_face(&s, &t, d);
+    const int32_t n = env->size >> level;
+    const float length2 = dot3(d, d);
+    if (!(length2 > 0.0f && length2 < 1e30f)) {
+        d = vec3(0.0f, 0.0f, -1.0f); /* nowhere, or no number: ahead */
+    }
+    const int32_t face = cube_face(&s, &t, d);
     const float x = (s + 1.0f) * 0.5f * (float)n - 0.5f, y = (t + 1.0f) * 0.5f * (float)n - 0.5f;
     const float x0 = floorf(x), y0 = floorf(y);
     for (int32_t k = 0; k < 4; ++k) {

@@ -5,6 +5,8 @@
 
 #if LMB_MIXED
 
+#define MIRRORED 0.5f
+
 lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
                         void *memory, size_t bytes)
 {
@@ -23,7 +25,8 @@ float lmb_real_albedo(float radiance, float irradiance)
     if (!(irradiance > 1e-6f)) {
         return 0.5f;
     }
-    return clampf(LMB_PI * radiance / irradiance, LMB_ALBEDO_LEAST, LMB_ALBEDO_MOST);
+    return radiance > 0.0f ? clampf(LMB_PI * radiance / irradiance, LMB_ALBEDO_LEAST, LMB_ALBEDO_MOST)
+                           : LMB_ALBEDO_LEAST;
 }
 
 lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
@@ -35,9 +38,11 @@ lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_i
     for (int32_t c = 0; c < 3; ++c) {
         for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
             const float delta = with->rgb[c][k] - without->rgb[c][k], photo = inout->rgb[c][k];
-            if (real->id[k] != 0 && delta != 0.0f) {
-                const float albedo = lmb_real_albedo(photo, without->rgb[c][k]);
-                inout->rgb[c][k] = maxf(photo + albedo * (1.0f / LMB_PI) * delta, 0.0f);
+            if (real->id[k] != 0 && delta < 0.0f) {
+                /* Light that is taken away is a share of what the photo shows, whatever albedo that asks for. */
+                inout->rgb[c][k] = photo * maxf(with->rgb[c][k] / without->rgb[c][k], 0.0f);
+            } else if (real->id[k] != 0 && delta > 0.0f) {
+                inout->rgb[c][k] = photo + lmb_real_albedo(photo, without->rgb[c][k]) * (1.0f / LMB_PI) * delta;
             }
         }
     }
@@ -52,6 +57,13 @@ static float schlick(const lmb_tile *real, int32_t k, float specular)
                    n = vec3(real->normal[0][k], real->normal[1][k], real->normal[2][k]);
     const float m = 1.0f - clampf(-dot3(normalize3(p), n), 0.0f, 1.0f), m2 = m * m;
     return specular + (1.0f - specular) * (m2 * m2 * m);
+}
+
+/* A photo shows at least what a varnish mirrors in it, and its own colour under that: so no more than MIRRORED of it
+ * can go. Without that dark or colourful floors would turn black or gaudy where something hides a bright wall. */
+static float mirrored(float photo, float share, float delta)
+{
+    return photo + maxf(share * delta, -MIRRORED * photo);
 }
 
 lmb_status lmb_mirror_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_planes *planes,
@@ -70,7 +82,7 @@ lmb_status lmb_mirror_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_
         const float share = schlick(real, k, specular);
         for (int32_t c = 0; c < 3; ++c) {
             const float delta = with->rgb[c][k] - without->rgb[c][k];
-            inout->rgb[c][k] = delta != 0.0f ? maxf(inout->rgb[c][k] + share * delta, 0.0f) : inout->rgb[c][k];
+            inout->rgb[c][k] = delta != 0.0f ? mirrored(inout->rgb[c][k], share, delta) : inout->rgb[c][k];
         }
     }
     return LMB_OK;

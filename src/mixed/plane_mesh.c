@@ -19,7 +19,9 @@ size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step)
         return 0;
     }
     const size_t cells = (size_t)parts_of(width, step) * (size_t)parts_of(height, step);
-    return cells * (CELL_FLOATS * sizeof(float) + CELL_COLOURS + CELL_INDICES * sizeof(uint32_t) + sizeof(int32_t) + 4);
+    const size_t each =
+        CELL_FLOATS * sizeof(float) + CELL_COLOURS + CELL_INDICES * sizeof(uint32_t) + sizeof(int32_t) + 4;
+    return cells > (size_t)-1 / each ? 0 : cells * each; /* 32-bit machines */
 }
 
 /* --- one cell ----------------------------------------------------------------------------------------------------- */

@@ -16,7 +16,7 @@
 #define FIT_OFF 4.0f
 
 enum { SEED_STEP = 6, SEED_NEAREST = 8, FIRST_FIT = 48, /* px, points, points */
-       TOUCH_PX = 6, TOUCH_PAIRS = 24, CLEAR_STEP = 4 };
+       TOUCH_PX = 6, TOUCH_PAIRS = 24 };
 
 size_t lmb_planes_bytes(int32_t width, int32_t height)
 {
@@ -317,87 +317,6 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     drop_small(out, cloud, least);
     sort_planes(out, cloud);
     return LMB_OK;
-}
-
-int32_t lmb_planes_floor(const lmb_planes *planes)
-{
-    int32_t best = -1;
-    float most = 0.0f;
-    for (int32_t i = 0; i < planes->count; ++i) {
-        const lmb_flat *p = &planes->plane[i];
-        const float size = (float)p->pixels * (p->normal.y - 0.34202014f);
-        if (size > most) {
-            most = size;
-            best = i;
-        }
-    }
-    return best >= 0 || planes->count == 0 ? best : 0;
-}
-
-int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y)
-{
-    const lmb_vec3 ray = lmb_cloud_ray(camera, x, y);
-    if (p < 0 || p >= planes->count) {
-        return 0;
-    }
-    const float inverse = plane_inverse(planes->plane[p].slope, ray.x, ray.y);
-    if (!(inverse > 1e-3f)) {
-        return 0;
-    }
-    *out = mul3(ray, 1.0f / inverse);
-    return 1;
-}
-
-/* --- a place to stand --------------------------------------------------------------------------------------------- */
-
-static int is_of(const lmb_planes *planes, const lmb_pinhole *c, int32_t p, lmb_vec3 at)
-{
-    if (!(at.z < -1e-3f)) {
-        return 0;
-    }
-    const float x = c->cx - c->fx * at.x / at.z + 0.5f, y = c->cy + c->fy * at.y / at.z + 0.5f;
-    return x >= 0.0f && y >= 0.0f && x < (float)c->width && y < (float)c->height &&
-           planes->label[(int32_t)y * c->width + (int32_t)x] == p + 1;
-}
-
-/* Sixteen points on the circle and on one half as wide. */
-static int is_clear(const lmb_planes *planes, const lmb_pinhole *c, int32_t p, lmb_vec3 at, float radius)
-{
-    static const float turn[8][2] = {{1, 0}, {0.7071f, 0.7071f}, {0, 1}, {-0.7071f, 0.7071f},
-                                     {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
-    const lmb_flat *plane = &planes->plane[p];
-    for (int32_t k = 0; k < 16; ++k) {
-        const float r = k < 8 ? radius : 0.5f * radius;
-        const lmb_vec3 out = add3(mul3(plane->across, r * turn[k % 8][0]), mul3(plane->along, r * turn[k % 8][1]));
-        if (!is_of(planes, c, p, add3(at, out))) {
-            return 0;
-        }
-    }
-    return 1;
-}
-
-int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float radius_m)
-{
-    float least = 1e30f;
-    if (p < 0 || p >= planes->count) {
-        return 0;
-    }
-    const lmb_flat *plane = &planes->plane[p];
-    for (int32_t y = plane->y0; y < plane->y1; y += CLEAR_STEP) {
-        for (int32_t x = plane->x0; x < plane->x1; x += CLEAR_STEP) {
-            lmb_vec3 at;
-            if (planes->label[y * camera->width + x] != p + 1 ||
-                !lmb_planes_anchor(&at, planes, camera, p, (float)x, (float)y)) {
-                continue;
-            }
-            const lmb_vec3 d = sub3(at, plane->centre);
-            if (dot3(d, d) < least && is_clear(planes, camera, p, at, radius_m)) {
-                least = dot3(d, d);
-                *out = at;
-            }
-        }
-    }
-    return least < 1e30f;
 }
 
 void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes)

@@ -51,13 +51,24 @@ static int cross_job(lmb_cross_job *out, const lmb_blocker *t, lmb_vec3 at, floa
     return 1;
 }
 
+/* 0 where there is no such triangle. */
+APART int alpha_of(lmb_resolve_alpha *out, const lmb_blockers *b, uint32_t id)
+{
+    lmb_triangle triangle;
+    if (!lmb_triangle_fetch(&triangle, b->scene, id)) {
+        return 0;
+    }
+    lmb_resolve_alpha_of(out, &triangle);
+    return 1;
+}
+
 /* Of the pixels whose segments cross a triangle with holes, those that do so where it stands. */
 static uint64_t standing(const lmb_blockers *b, const lmb_blocker *t, const lmb_cross_job *job, const lmb_tile *tile,
                          uint64_t crossed)
 {
     uint64_t out = 0;
-    lmb_triangle triangle;
-    if (!lmb_triangle_fetch(&triangle, b->scene, t->id & ~LMB_BLOCKER_MASKED)) {
+    lmb_resolve_alpha alpha;
+    if (!alpha_of(&alpha, b, t->id & ~LMB_BLOCKER_MASKED)) {
         return 0;
     }
     for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
@@ -65,7 +76,7 @@ static uint64_t standing(const lmb_blockers *b, const lmb_blocker *t, const lmb_
         const lmb_vec3 d = sub3(tile_vec(tile->position, k), job->at);
         const float e0 = dot3(job->edge[0], d), e1 = dot3(job->edge[1], d), e2 = dot3(job->edge[2], d);
         const float sum = e0 + e1 + e2;
-        if (sum > 0.0f && lmb_triangle_opaque(&triangle, b->scene, e1 / sum, e2 / sum)) {
+        if (sum > 0.0f && lmb_resolve_opaque(&alpha, b->scene, e1 / sum, e2 / sum)) {
             out |= (uint64_t)1 << k;
         }
     }
@@ -78,7 +89,7 @@ typedef struct walk {
     const lmb_kernels *kernels;
     const lmb_tile *tile;
     lmb_vec3 at;
-    lmb_last_blockers *last;
+    lmb_walk *kept;
     uint64_t left; /* pixels that nothing blocked yet */
 } walk;
 
@@ -95,12 +106,12 @@ static void ask_triangle(walk *w, uint32_t triangle, uint64_t asked)
 }
 
 /* To the front; the last falls off where it is not among them. */
-static void remember(lmb_last_blockers *last, uint32_t triangle)
+static void remember(uint32_t last[LMB_LAST_BLOCKERS], uint32_t triangle)
 {
     uint32_t moved = triangle + 1;
     for (int i = 0; i < LMB_LAST_BLOCKERS; ++i) {
-        const uint32_t here = last->triangle[i];
-        last->triangle[i] = moved;
+        const uint32_t here = last[i];
+        last[i] = moved;
         moved = here;
         if (here == triangle + 1) {
             return;
@@ -111,11 +122,11 @@ static void remember(lmb_last_blockers *last, uint32_t triangle)
 /* 1 where they alone block all. */
 static int ask_last(walk *w)
 {
-    for (int i = 0; i < LMB_LAST_BLOCKERS && w->last != NULL && w->last->triangle[i] != 0; ++i) {
-        const uint32_t triangle = w->last->triangle[i] - 1;
+    for (int i = 0; i < LMB_LAST_BLOCKERS && w->kept->last[i] != 0; ++i) {
+        const uint32_t triangle = w->kept->last[i] - 1;
         ask_triangle(w, triangle, w->left);
         if (w->left == 0) {
-            remember(w->last, triangle);
+            remember(w->kept->last, triangle);
             return 1;
         }
     }
@@ -127,17 +138,16 @@ static void ask_leaf(walk *w, const lmb_boxes *node, int i, uint64_t asked)
     for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0; ++k) {
         const uint64_t before = w->left;
         ask_triangle(w, node->first[i] + k, asked);
-        if (w->last != NULL && count_bits_64(before & ~w->left) >= MUCH) {
-            remember(w->last, node->first[i] + k);
+        if (count_bits_64(before & ~w->left) >= MUCH) {
+            remember(w->kept->last, node->first[i] + k);
         }
     }
 }
 
-/* The tile's segments to one point, in parts as they are needed. */
+/* The tile's segments to one point as a whole. */
 typedef struct rays {
     lmb_pyramid pyramid;
-    lmb_segments segments;
-    int leaves; /* asked so far; segments: from BY_PYRAMID + 1 on */
+    int leaves; /* asked so far; the walk has segments from BY_PYRAMID + 1 on */
 } rays;
 
 /* A node whose leaves are asked; of its children those that wait, box i as bit LMB_BOXES - 1 - i. */
@@ -157,9 +167,9 @@ static uint32_t ask_node(walk *w, rays *r, const lmb_boxes *node)
         }
         if (++r->leaves > BY_PYRAMID) {
             if (r->leaves == BY_PYRAMID + 1) {
-                w->kernels->segments(&r->segments, w->tile, w->at);
+                w->kernels->segments(&w->kept->segments, w->tile, w->at);
             }
-            here = w->kernels->through(&r->segments, here, node, i);
+            here = w->kernels->through(&w->kept->segments, here, node, i);
         }
         ask_leaf(w, node, i, here);
     }
@@ -167,14 +177,15 @@ static uint32_t ask_node(walk *w, rays *r, const lmb_boxes *node)
 }
 
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
-                          uint64_t pixels, lmb_vec3 at, lmb_last_blockers *last)
+                          uint64_t pixels, lmb_vec3 at, lmb_walk *kept)
 {
     branch waiting[LMB_WALK_LEVELS];
     rays r;
     int count = 0;
     uint32_t here = 0;
-    walk w = {blockers, kernels, tile, at, last, pixels};
-    if (blockers == NULL || kernels == NULL || tile == NULL || pixels == 0 || blockers->node_count == 0) {
+    walk w = {blockers, kernels, tile, at, kept, pixels};
+    if (blockers == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 ||
+        blockers->node_count == 0) {
         return 0;
     }
     if (ask_last(&w)) {

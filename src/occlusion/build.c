@@ -15,7 +15,6 @@
 #if LMB_TREES
 
 enum { BINS = 16, LEAF = 4, HALVES_FROM = LMB_WALK_LEVELS - 8 };
-#define NOISE 3.8146973e-6f /* 2^-18 of the largest coordinate: some rounding steps of positions and planes */
 
 size_t lmb_blockers_bytes(uint32_t n)
 {
@@ -66,7 +65,7 @@ static void take_triangles(lmb_blockers *inout, const lmb_scene *scene)
             ++inout->triangle_count;
         }
     }
-    inout->noise = largest * NOISE;
+    inout->noise = largest * LMB_BLOCKER_NOISE;
 }
 
 /* --- boxes -------------------------------------------------------------------------------------------------------- */
@@ -299,26 +298,44 @@ static void fill_node(lmb_blockers *b, uint32_t at, uint32_t first, uint32_t cou
     }
 }
 
-/* Leaves that are too large become nodes, depth first. */
+/* A node on the way down from the root; of its children those that are nodes and wait, box i as bit
+ * LMB_BOXES - 1 - i. */
+typedef struct branch {
+    uint32_t node, children;
+} branch;
+
+/* Leaves of a node that are too large become nodes, on level `deep`. */
+static branch branch_at(lmb_blockers *b, uint32_t at, int deep)
+{
+    lmb_boxes *node = &b->node[at];
+    branch out = {at, 0};
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_WALK_LEVELS) {
+            const uint32_t child = b->node_count++;
+            fill_node(b, child, node->first[i], node->count[i], deep);
+            node->first[i] = child;
+            node->count[i] = 0;
+            out.children |= 1u << (LMB_BOXES - 1 - i);
+        }
+    }
+    return out;
+}
+
+/* Depth first, the last child before the others. */
 static void grow(lmb_blockers *b)
 {
-    uint32_t waiting[LMB_WALK_STACK];
-    uint8_t depth[LMB_WALK_STACK];
-    int count = 1;
-    waiting[0] = 0;
-    depth[0] = 0;
-    while (count > 0) {
-        lmb_boxes *node = &b->node[waiting[--count]];
-        const int deep = depth[count] + 1;
-        for (int i = 0; i < LMB_BOXES; ++i) {
-            if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_WALK_LEVELS) {
-                const uint32_t at = b->node_count++;
-                fill_node(b, at, node->first[i], node->count[i], deep);
-                node->first[i] = at;
-                node->count[i] = 0;
-                waiting[count] = at;
-                depth[count++] = (uint8_t)deep;
-            }
+    branch way[LMB_WALK_LEVELS];
+    int depth = 0;
+    way[0] = branch_at(b, 0, 1);
+    while (depth >= 0) {
+        branch *up = &way[depth];
+        if (up->children == 0) {
+            --depth;
+        } else {
+            const int i = LMB_BOXES - 1 - lowest_bit(up->children);
+            up->children &= up->children - 1;
+            ++depth;
+            way[depth] = branch_at(b, b->node[up->node].first[i], depth + 1);
         }
     }
 }
@@ -329,6 +346,7 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene)
         return LMB_ERR_ARG;
     }
     inout->node_count = inout->triangle_count = 0;
+    inout->hull.count = 0;
     inout->scene = scene;
     if (lmb_scene_triangles(scene) > inout->triangle_cap) {
         return LMB_ERR_CAPACITY;
@@ -338,6 +356,9 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene)
         fill_node(inout, 0, 0, inout->triangle_count, 0);
         inout->node_count = 1;
         grow(inout);
+    }
+    if (LMB_PLAN) {
+        lmb_hull_find(&inout->hull, scene);
     }
     return LMB_OK;
 }

@@ -109,19 +109,28 @@ static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t h
     *last = mini(high_px, size - 1) >> 3; /* -1 >> 3 is -1: nothing */
 }
 
+/* All but the rays of a tile; 0 where there is no such triangle. */
+APART int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_t id)
+{
+    lmb_triangle triangle;
+    if (!lmb_triangle_fetch(&triangle, c->scene, id)) {
+        return 0;
+    }
+    lmb_resolve_rays(&out->rays, c->view, c->target->x0, c->target->y0);
+    lmb_resolve_plane(&out->plane, triangle.corner, &out->rays);
+    lmb_resolve_alpha_of(&out->alpha, &triangle);
+    return 1;
+}
+
 void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
 {
     const lmb_target *target = c->target;
     int32_t tx0, tx1, ty0, ty1;
     lmb_fill_job job;
-    lmb_triangle triangle;
     masked_surface surface;
-    if (!lmb_triangle_fetch(&triangle, c->scene, id)) {
+    if (!set_surface(&surface, c, id)) {
         return;
     }
-    lmb_resolve_rays(&surface.rays, c->view, target->x0, target->y0);
-    lmb_resolve_plane(&surface.plane, triangle.corner, &surface.rays);
-    lmb_resolve_alpha_of(&surface.alpha, &triangle);
     tile_span(&tx0, &tx1, s->x_min, s->x_max, c->view->frame_width, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, c->view->frame_height, target->y0, target->depth.height);
     job.dx = (float)s->d_x;

@@ -60,7 +60,8 @@ LANE_INLINE lmb_fill_tile fill_first(const lmb_fill_window *w, int kind)
     if (kind != FILL_ANY) {
         tile.depth_format = LMB_DEPTH32F;
         tile.id_format = kind == FILL_ID32 ? LMB_ID32 : LMB_FORMAT_NONE;
-#if !defined(LANE_PLAIN) /* gcc -O2 would join four plain stores, and wait for them at the next load: 1.8 times slower */
+/* gcc -O2 would join four plain stores, and wait for them at the next load: 1.8 times slower. */
+#if !defined(LANE_PLAIN)
         tile.depth_step = LMB_TILE;
         tile.id_step = LMB_TILE;
 #endif

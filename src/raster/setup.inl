@@ -64,13 +64,6 @@ static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uin
     return setup_fetch_all(out, mesh, first, count);
 }
 
-/* In a loop compilers keep what does not change, two dozen vectors, on the stack. */
-#if defined(__GNUC__)
-#define SETUP_APART __attribute__((noinline))
-#else
-#define SETUP_APART
-#endif
-
 typedef struct setup_corner {
     lanei x, y; /* 24.8 */
     lane d;
@@ -111,7 +104,7 @@ LANE_INLINE lane_mask setup_side(setup_sides *inout, lane_mask sane, const lane_
     return mask_and(sane, mask_not(any));
 }
 
-SETUP_CORNER setup_corner setup_transform(setup_sides *sides, const lmb_setup_job *job,
+APART setup_corner setup_transform(setup_sides *sides, const lmb_setup_job *job,
                                          const float (*position)[LMB_BATCH], int k)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
@@ -197,8 +190,9 @@ LANE_INLINE setup_corner setup_either(lane_mask m, const setup_corner *a, const 
     return c;
 }
 
-/* Triangles k .. k + LANES - 1. */
-static SETUP_APART void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
+/* Triangles k .. k + LANES - 1. In KERNEL(setup)'s loop compilers would keep what does not change, two dozen vectors,
+ * on the stack. */
+APART void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
 {
     const lanei zero = lanei_splat(0);
     const lane_mask in = mask_of_bits(out->in >> k);
@@ -235,9 +229,13 @@ static SETUP_APART void setup_lanes(lmb_batch *out, const lmb_setup_job *job, co
         return;
     }
     out->small |= bits << k;
+    lanei_store(out->x1 + k, px1);
+    lanei_store(out->y1 + k, py1);
     /* What is not shown takes the place of corner a, so that no sum below leaves 32 bits. */
     b.x = lanei_add(a.x, bx), b.y = lanei_add(a.y, by), c.x = lanei_add(a.x, cx), c.y = lanei_add(a.y, cy);
     px0 = lanei_pick(shown, px0, lanei_splat(job->x0)), py0 = lanei_pick(shown, py0, lanei_splat(job->y0));
+    lanei_store(out->x0 + k, px0);
+    lanei_store(out->y0 + k, py0);
     const setup_corner second = setup_either(turned, &c, &b), third = setup_either(turned, &b, &c);
     area = lanei_pick(turned, lanei_sub(zero, area), lanei_pick(shown, area, lanei_splat(1)));
     lanei x = lanei_add(lanei_mul(lanei_shift(px0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_x));
@@ -247,10 +245,6 @@ static SETUP_APART void setup_lanes(lmb_batch *out, const lmb_setup_job *job, co
     setup_edge_lanes(out, 1, k, &second, &third, x, y);
     setup_edge_lanes(out, 2, k, &third, &a, x, y);
     setup_depth(out, k, &a, &second, &third, area);
-    lanei_store(out->x0 + k, px0);
-    lanei_store(out->y0 + k, py0);
-    lanei_store(out->x1 + k, px1);
-    lanei_store(out->y1 + k, py1);
 }
 
 static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first,

@@ -25,6 +25,13 @@ static level find_level(const lmb_texture *t, int32_t n)
     return l;
 }
 
+/* floorf of what is sane: no call, so that less is kept for callers. */
+static float floor_of(float v)
+{
+    const float whole = (float)(int32_t)v;
+    return whole > v ? whole - 1.0f : whole;
+}
+
 /* Into one period, so that texel numbers stay small: [0, 1), or [0, 2) for mirrored ones. */
 static float reduce(float u, int wrap)
 {
@@ -33,8 +40,8 @@ static float reduce(float u, int wrap)
     }
     switch (wrap) {
     case LMB_WRAP_CLAMP: return clampf(u, 0.0f, 1.0f);
-    case LMB_WRAP_MIRROR: return u - 2.0f * floorf(u * 0.5f);
-    default: return u - floorf(u);
+    case LMB_WRAP_MIRROR: return u - 2.0f * floor_of(u * 0.5f);
+    default: return u - floor_of(u);
     }
 }
 
@@ -53,72 +60,81 @@ static int32_t wrap_texel(int32_t i, int32_t size, int wrap)
 /* What the codes of R G B stand for. Alpha is linear. */
 enum { AS_COLOUR, AS_VECTOR };
 
-/* Where on a level, and what for. */
-typedef struct lookup {
-    const lmb_texture *texture;
-    float u, v;
-    int32_t codes;
-} lookup;
-
 static float decode(int32_t codes, uint8_t code)
 {
     return codes == AS_COLOUR ? lmb_srgb_decode(code) : (float)code * (2.0f / 255.0f) - 1.0f;
 }
 
-static void add_texel(float out[4], const lookup *at, const level *l, int32_t x, int32_t y, float weight)
-{
-    const lmb_texture *t = at->texture;
-    const uint8_t *p = l->texels + 4 * ((size_t)wrap_texel(y, l->height, t->wrap_t) * (size_t)l->width +
-                                        (size_t)wrap_texel(x, l->width, t->wrap_s));
-    for (int c = 0; c < 3; ++c) {
-        out[c] += weight * decode(at->codes, p[c]);
-    }
-    out[3] += weight * ((float)p[3] * (1.0f / 255.0f));
-}
+/* Up to four texels of a level, and how much each counts. */
+typedef struct footprint {
+    level from;
+    int32_t x, y, count;
+    float share[4]; /* upper left, upper right, lower left, lower right; nearest: the first */
+} footprint;
 
-static void sample_level(float out[4], const lookup *at, int32_t n, float weight)
+static footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, float weight)
 {
-    const lmb_texture *t = at->texture;
-    level l = find_level(t, n);
-    float x = reduce(at->u, t->wrap_s) * (float)l.width, y = reduce(at->v, t->wrap_t) * (float)l.height;
+    footprint f;
+    f.from = find_level(t, n);
+    const float x = reduce(u, t->wrap_s) * (float)f.from.width, y = reduce(v, t->wrap_t) * (float)f.from.height;
     if (t->filter == LMB_NEAREST) {
-        add_texel(out, at, &l, (int32_t)x, (int32_t)y, weight);
-        return;
+        f.count = 1;
+        f.x = (int32_t)x;
+        f.y = (int32_t)y;
+        f.share[0] = weight;
+        return f;
     }
-    float x0 = floorf(x - 0.5f), y0 = floorf(y - 0.5f);
-    float fx = (x - 0.5f) - x0, fy = (y - 0.5f) - y0;
-    int32_t ix = (int32_t)x0, iy = (int32_t)y0;
-    add_texel(out, at, &l, ix, iy, weight * ((1.0f - fx) * (1.0f - fy)));
-    add_texel(out, at, &l, ix + 1, iy, weight * (fx * (1.0f - fy)));
-    add_texel(out, at, &l, ix, iy + 1, weight * ((1.0f - fx) * fy));
-    add_texel(out, at, &l, ix + 1, iy + 1, weight * (fx * fy));
+    const float x0 = floor_of(x - 0.5f), y0 = floor_of(y - 0.5f);
+    const float fx = (x - 0.5f) - x0, fy = (y - 0.5f) - y0;
+    f.count = 4;
+    f.x = (int32_t)x0;
+    f.y = (int32_t)y0;
+    f.share[0] = weight * ((1.0f - fx) * (1.0f - fy));
+    f.share[1] = weight * (fx * (1.0f - fy));
+    f.share[2] = weight * ((1.0f - fx) * fy);
+    f.share[3] = weight * (fx * fy);
+    return f;
 }
 
-static void sample(float out[4], const lookup *at, float lod)
+static void add_texels(float out[4], const lmb_texture *t, const footprint *f, int32_t codes)
 {
-    const lmb_texture *t = at->texture;
-    out[0] = out[1] = out[2] = out[3] = 0.0f;
-    if (t->filter != LMB_TRILINEAR || t->levels < 2 || !(lod > 0.0f)) {
-        sample_level(out, at, 0, 1.0f);
-        return;
+    for (int k = 0; k < f->count; ++k) {
+        const int32_t x = wrap_texel(f->x + (k & 1), f->from.width, t->wrap_s),
+                      y = wrap_texel(f->y + (k >> 1), f->from.height, t->wrap_t);
+        const uint8_t *p = f->from.texels + 4 * ((size_t)y * (size_t)f->from.width + (size_t)x);
+        for (int c = 0; c < 3; ++c) {
+            out[c] += f->share[k] * decode(codes, p[c]);
+        }
+        out[3] += f->share[k] * ((float)p[3] * (1.0f / 255.0f));
     }
-    lod = minf(lod, (float)(t->levels - 1));
-    int32_t n = (int32_t)lod;
-    float part = lod - (float)n;
-    sample_level(out, at, n, 1.0f - part);
-    if (part > 0.0f) {
-        sample_level(out, at, n + 1, part);
+}
+
+/* One loop for both levels of a trilinear one, with all inside: masked triangles are asked far down the stack. */
+static void sample(float out[4], const lmb_texture *t, int32_t codes, float u, float v, float lod)
+{
+    int32_t n = 0;
+    float part = 0.0f;
+    out[0] = out[1] = out[2] = out[3] = 0.0f;
+    if (t->filter == LMB_TRILINEAR && t->levels > 1 && lod > 0.0f) {
+        lod = minf(lod, (float)(t->levels - 1));
+        n = (int32_t)lod;
+        part = lod - (float)n;
+    }
+    for (float weight = 1.0f - part;; weight = part, part = 0.0f, ++n) {
+        const footprint f = find_texels(t, n, u, v, weight);
+        add_texels(out, t, &f, codes);
+        if (!(part > 0.0f)) {
+            return;
+        }
     }
 }
 
 void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, float lod)
 {
-    const lookup at = {t, u, v, AS_COLOUR};
-    sample(out, &at, lod);
+    sample(out, t, AS_COLOUR, u, v, lod);
 }
 
 void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod)
 {
-    const lookup at = {t, u, v, AS_VECTOR};
-    sample(out, &at, lod);
+    sample(out, t, AS_VECTOR, u, v, lod);
 }

@@ -62,10 +62,12 @@ LANE_INLINE lanei texture_wrap(lanei i, lanei size, int32_t wrap)
     return lanei_pick(before, lanei_add(i, size), lanei_pick(past, lanei_sub(i, size), i));
 }
 
-/* The texels of a tile's pixels, and where between them each pixel is. */
+enum { TEXTURE_RUN = LMB_TILE_PIXELS / 2 };
+
+/* The texels of a run of pixels, and where between them each pixel is. */
 typedef struct texture_found {
-    int32_t texel[4][LMB_TILE_PIXELS]; /* upper left, upper right, lower left, lower right; nearest: the first */
-    float fx[LMB_TILE_PIXELS], fy[LMB_TILE_PIXELS];
+    int32_t texel[4][TEXTURE_RUN]; /* upper left, upper right, lower left, lower right; nearest: the first */
+    float fx[TEXTURE_RUN], fy[TEXTURE_RUN];
 } texture_found;
 
 LANE_INLINE lanei texture_texel(const texture_level *l, lanei x, lanei y)
@@ -113,34 +115,44 @@ LANE_INLINE lane3 texture_bilinear(const texture_found *f, int k)
     return texture_add(sum, f->texel[3] + k, lane_mul(fx, fy));
 }
 
-/* All texels are asked for before the first is decoded: one wait for what is not in cache instead of one a vector. */
-static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
+/* Pixels first .. first + TEXTURE_RUN - 1. All their texels are asked for before one is decoded: one wait for what is
+ * not in cache instead of one a vector. */
+APART void texture_run(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t, int first)
 {
     const lane width = lane_splat((float)t->width), height = lane_splat((float)t->height), one = lane_splat(1.0f);
     const lane3 none = lane3_splat(0.0f, 0.0f, 0.0f);
     const texture_level l = {t->texels, lanei_splat(t->width), lanei_splat(t->height), t->wrap_s, t->wrap_t};
     const int nearest = t->filter == LMB_NEAREST;
     texture_found found;
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+    for (int i = 0; i < TEXTURE_RUN; i += LANES) {
+        const int k = first + i;
         const lane_mask mine = lanei_not_negative(lanei_load(batch->slot + k));
         if (mask_bits(mine) != 0) {
             const lane x = lane_mul(texture_reduce(lane_load(inout->uv[0] + k), l.wrap_s), width);
             const lane y = lane_mul(texture_reduce(lane_load(inout->uv[1] + k), l.wrap_t), height);
             if (nearest) {
-                lanei_store(found.texel[0] + k, texture_texel(&l, lane_to_int(x), lane_to_int(y)));
+                lanei_store(found.texel[0] + i, texture_texel(&l, lane_to_int(x), lane_to_int(y)));
             } else {
-                texture_find(&found, k, &l, x, y);
+                texture_find(&found, i, &l, x, y);
             }
         }
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+    for (int i = 0; i < TEXTURE_RUN; i += LANES) {
+        const int k = first + i;
         const lane_mask mine = lanei_not_negative(lanei_load(batch->slot + k));
         if (mask_bits(mine) != 0) {
-            const lane3 texel = nearest ? texture_add(none, found.texel[0] + k, one) : texture_bilinear(&found, k);
+            const lane3 texel = nearest ? texture_add(none, found.texel[0] + i, one) : texture_bilinear(&found, i);
             resolve_put(inout->albedo[0] + k, mine, lane_mul(lane_load(inout->albedo[0] + k), texel.x));
             resolve_put(inout->albedo[1] + k, mine, lane_mul(lane_load(inout->albedo[1] + k), texel.y));
             resolve_put(inout->albedo[2] + k, mine, lane_mul(lane_load(inout->albedo[2] + k), texel.z));
         }
+    }
+}
+
+static void KERNEL(texture)(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t)
+{
+    for (int first = 0; first < LMB_TILE_PIXELS; first += TEXTURE_RUN) {
+        texture_run(inout, batch, t, first);
     }
 }
 #endif

@@ -9,7 +9,7 @@
 #if LMB_RELIEF
 
 enum { MAGIC, ORDER, SIZE, FORMAT, VIEWS, RECORDS, VERTICES, TRIANGLES, POSITIONS, NORMALS, COLOURS, INDICES,
-       INDEX_FORMAT, REACH }; /* words of the header */
+       INDEX_FORMAT, NONE }; /* words of the header */
 enum { V_KIND = 16, V_WIDTH, V_HEIGHT, V_TEXELS }; /* words of a view's record, after its 16 floats */
 enum { HEADER_BYTES = 4 * LMB_RELIEF_HEADER_WORDS, VIEW_BYTES = 4 * LMB_RELIEF_VIEW_WORDS, MAX_SIDE = 4096 };
 
@@ -163,10 +163,9 @@ static lmb_status check_header(const source *s)
 {
     const uint32_t format = header(s, FORMAT), views = header(s, VIEWS), index = header(s, INDEX_FORMAT),
                    vertices = header(s, VERTICES), triangles = header(s, TRIANGLES);
-    const float reach = float_at(s, 4 * REACH);
     if (header(s, SIZE) > s->bytes || (format != LMB_RELIEF_FULL && format != LMB_RELIEF_PACKED) || views == 0 ||
         vertices > MOST_COUNT || triangles > MOST_COUNT || (index != LMB_INDEX_U16 && index != LMB_INDEX_U32) ||
-        !(reach >= 0.0f && reach < 1048576.0f)) {
+        (header(s, NONE) | header(s, NONE + 1) | header(s, NONE + 2)) != 0) {
         return LMB_ERR_FORMAT;
     }
     if (!holds_array(s, POSITIONS, vertices, 12) || !holds_array(s, NORMALS, vertices, 4) ||
@@ -255,7 +254,6 @@ lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes)
     memset(out, 0, sizeof *out);
     out->views = (int32_t)header(&s, VIEWS);
     out->format = (int32_t)header(&s, FORMAT);
-    out->reach = float_at(&s, 4 * REACH);
     for (int32_t i = 0; i < out->views; ++i) {
         const uint64_t at = header(&s, RECORDS) + (uint64_t)i * VIEW_BYTES;
         const lmb_view v = view_at(&s, at);

@@ -11,7 +11,7 @@
 
 #if LMB_RELIEF
 
-#define SLACK   0.75f /* texels a receiver may lie behind what the map shows and still be lit */
+#define SLACK   1.0f  /* texels a receiver may lie behind what the map shows and still be lit */
 #define STEEP   4.0f  /* the plane of a receiver tells its depth this many texels from its own at most */
 #define EDGE_ON 1e-3f
 

@@ -25,7 +25,7 @@ static void set_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_vie
 {
     const float wide = 2.0f * view->half_width / (float)view->frame_width,
                 high = 2.0f * view->half_height / (float)view->frame_height;
-    job->count = 0;
+    job->count = job->outside = 0;
     job->format = relief->format;
     job->steps = how->steps != 0 ? how->steps : STEPS;
     job->pick = how->pick;
@@ -42,7 +42,7 @@ static void set_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_vie
 static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_relief *relief, int32_t most)
 {
     int k = 0;
-    while (tile->id[k] == 0) {
+    while (k < LMB_TILE_PIXELS - 1 && tile->id[k] == 0) {
         ++k;
     }
     const lmb_vec3 at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
@@ -57,7 +57,7 @@ static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_rel
             for (int32_t c = 0; c < job->count; ++c) {
                 known |= job->view[c] == v;
             }
-            if (!known && d > best) {
+            if (!known && (which == NULL || d > best)) { /* a place that is no number still has views */
                 best = d;
                 which = v;
             }
@@ -128,6 +128,9 @@ lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_k
     }
     set_job(&job, relief, view, how);
     choose_views(&job, inout, kernels, relief, how->views != 0 ? how->views : LOOKS);
+    for (int32_t i = 0; i < job.count; ++i) {
+        job.outside |= !job.view[i]->perspective;
+    }
     if (job.count > 0) {
         kernels->relief_warp(&found, inout, &job);
     }

@@ -10,6 +10,8 @@
 #define RELIEF_ROUNDS 3     /* surfaces that a ray may have passed closely, and the one that it meets */
 #define RELIEF_AS_EYE 0.5f  /* cosine, to the eye's ray, of views that tell what comes behind */
 #define RELIEF_SAME   0.99999f /* the same of a view that looks along the eye's own ray */
+#define RELIEF_EQUAL  0.01f /* texels within which candidates are equally near: the first view's wins */
+#define RELIEF_RIM    0.01f /* texels that a point may be outside the outermost texels' middles, by rounding */
 #define RELIEF_NEAR   1.0f  /* texels that a view's candidate may be worse than the best to be looked at again, ... */
 #define RELIEF_FAR    4.0f  /* ... unless the best is so far off */
 #define RELIEF_SETTLED 0.3f /* pixels that a step has for the next to be the last */
@@ -25,6 +27,7 @@ typedef struct relief_ray {
 typedef struct relief_look {
     lane u, v, d;     /* the point's place */
     lane gap;         /* m, along the view's axis, from the point on to what is shown there */
+    lane on;          /* the same where the point is past that surface's edge: to what is shown behind it */
     lane step;        /* m, along the eye's ray, to it */
     lane off;         /* m, from the point (or the ray) to the candidate */
     lane s;           /* its depth */
@@ -35,6 +38,7 @@ typedef struct relief_look {
     lane_mask shown;  /* a candidate: that, turned to the eye */
     lane_mask whole;  /* all four texels are of its surface */
     lane_mask free;   /* the view sees through the point, in all four texels */
+    lane_mask empty;  /* in one of them it shows nothing at all */
 } relief_look;
 
 static inline lane relief_row(const float row[4], lane3 q)
@@ -70,6 +74,16 @@ static inline lane relief_metres(const lmb_relief_view *view, lane d)
     return lane_div(lane_splat(view->near_m), lane_max(lane_mul(d, d), lane_splat(1e-12f)));
 }
 
+/* How wide a texel of the view is at q, m. */
+static inline lane relief_texel_at(const lmb_relief_view *view, lane3 q)
+{
+    if (!view->perspective) {
+        return lane_splat(view->texel);
+    }
+    const lane ahead = lane3_dot(lane3_sub(lane3_of(view->eye), q), lane3_of(view->back));
+    return lane_mul(lane_splat(view->texel), lane_max(ahead, lane_splat(view->near_m)));
+}
+
 /* The depth that RELIEF_JUMP texels are. */
 static inline lane relief_jump(const lmb_relief_view *view, lane d)
 {
@@ -89,7 +103,8 @@ static inline lane3 relief_towards(const lmb_relief_view *view, lane3 q)
 /* Where q is in the view; 0 < w keeps quotients finite. Returns where that is inside the picture. */
 LANE_PART lane_mask relief_project(relief_look *out, lane *per_w, const lmb_relief_view *view, lane3 q)
 {
-    const lane zero = lane_splat(0.0f);
+    const lane zero = lane_splat(0.0f), rim = lane_splat(-RELIEF_RIM);
+    const lane right = lane_splat((float)(view->width - 1)), bottom = lane_splat((float)(view->height - 1));
     lane_mask inside;
     out->u = relief_row(view->to_view[0], q);
     out->v = relief_row(view->to_view[1], q);
@@ -103,10 +118,10 @@ LANE_PART lane_mask relief_project(relief_look *out, lane *per_w, const lmb_reli
         out->v = lane_mul(out->v, *per_w);
         out->d = lane_keep(before, lane_mul(out->d, *per_w));
     }
-    inside = mask_and(mask_and(lane_le(zero, out->u), lane_le(out->u, lane_splat((float)(view->width - 1)))),
-                      mask_and(lane_le(zero, out->v), lane_le(out->v, lane_splat((float)(view->height - 1)))));
-    out->u = lane_keep(inside, out->u);
-    out->v = lane_keep(inside, out->v);
+    inside = mask_and(mask_and(lane_le(rim, out->u), lane_le(out->u, lane_sub(right, rim))),
+                      mask_and(lane_le(rim, out->v), lane_le(out->v, lane_sub(bottom, rim))));
+    out->u = lane_max(lane_min(lane_keep(inside, out->u), right), zero);
+    out->v = lane_max(lane_min(lane_keep(inside, out->v), bottom), zero);
     return view->perspective ? mask_and(inside, lane_lt(zero, out->d)) : inside;
 }
 
@@ -133,8 +148,8 @@ static inline lane3 relief_place(const lmb_relief_view *view, lane u, lane v, la
     return lane3_sub(across, lane3_scale(lane3_of(view->back), z));
 }
 
-/* Four texels' depths, of those of the surface nearest to d; of others: of the nearest texel. Returns where there is
- * one. */
+/* Four texels' depths, of those of the surface nearest to d; of others: of the nearest texel. out->on: the nearest
+ * depth behind that surface, under 0 for none. Returns where there is a surface. */
 LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view)
 {
     const lane d = out->d;
@@ -146,9 +161,11 @@ LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_
     lane least = lane_splat(RELIEF_WORST), near = d;
     lane_mask some = lane_lt(least, least);
     out->free = mask_not(some);
+    out->empty = some;
     for (int k = 0; k < 4; ++k) {
         s[k] = relief_depth(view, code[k]);
         out->of[k] = lanei_lt(lanei_splat(0), code[k]);
+        out->empty = mask_or(out->empty, mask_not(out->of[k]));
         const lane far = lane_abs(lane_sub(s[k], d));
         const lane_mask nearer = mask_and(out->of[k], lane_lt(far, least));
         out->free = mask_and(out->free, mask_or(mask_not(out->of[k]), lane_lt(s[k], lane_sub(d, jump))));
@@ -156,11 +173,28 @@ LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_
         near = lane_pick(nearer, s[k], near);
         some = mask_or(some, nearer);
     }
+    out->on = lane_splat(-1.0f);
     for (int k = 0; k < 4; ++k) {
+        const lane_mask behind = mask_and(out->of[k], lane_lt(s[k], lane_sub(near, jump)));
+        out->on = lane_max(out->on, lane_pick(behind, s[k], lane_splat(-1.0f)));
         out->of[k] = mask_and(out->of[k], lane_le(lane_abs(lane_sub(s[k], near)), jump));
         s[k] = lane_pick(out->of[k], s[k], near);
     }
     return some;
+}
+
+/* A vector of pixels on its way. */
+typedef struct relief_way {
+    relief_ray ray;
+    lane t;          /* m from the simple surface */
+    uint32_t ask[LMB_RELIEF_LOOKS];  /* pixels that each view is asked for, a bit each ... */
+    uint32_t kept[LMB_RELIEF_LOOKS]; /* ... and those for which it was among the best */
+    lane_mask live, moving;
+} relief_way;
+
+static inline lane3 relief_here(const relief_way *w)
+{
+    return lane3_add(w->ray.from, lane3_scale(w->ray.along, w->t));
 }
 
 /* The candidate's distance from q; or from the eye's ray. */
@@ -189,9 +223,11 @@ static inline lane relief_cover(const relief_look *look)
 }
 
 /* Between texels. */
-LANE_APART void relief_look_between(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
-                                   const relief_ray *ray, lane3 q)
+APART void relief_look_between(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
+                                    const relief_way *w)
 {
+    const relief_ray *ray = &w->ray;
+    const lane3 q = relief_here(w);
     lane s[4], per_w;
     const lane_mask inside = relief_project(out, &per_w, view, q);
     out->at = relief_texel(&out->fu, &out->fv, view, out->u, out->v);
@@ -210,16 +246,22 @@ LANE_APART void relief_look_between(relief_look *out, const lmb_relief_job *job,
     out->gap = lane_mul(f, metres);
     out->step = lane_div(f, lane_pick(turned, lane_sub(lane_splat(0.0f), rate), lane_splat(1.0f)));
     out->some = mask_and(inside, some);
-    out->shown = mask_and(mask_and(out->some, turned), lane_le(lane_splat(0.5f), relief_cover(out)));
+    out->empty = relief_free(view, inside, out->empty);
+    const lane_mask covers = lane_le(lane_splat(0.5f), relief_cover(out));
+    const lane_mask off_edge = mask_and(mask_not(covers), lane_le(lane_splat(0.0f), out->on));
+    out->on = lane_pick(off_edge, lane_mul(lane_sub(out->d, out->on), metres), out->gap);
+    out->shown = mask_and(mask_and(out->some, turned), covers);
     out->free = relief_free(view, inside, out->free);
     out->whole = mask_and(mask_and(out->of[0], out->of[1]), mask_and(out->of[2], out->of[3]));
     out->off = relief_off(job, ray, lane3_scale(relief_towards(view, q), out->gap));
 }
 
 /* The nearest texel as it is. */
-LANE_APART void relief_look_nearest(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
-                                   const relief_ray *ray, lane3 q)
+APART void relief_look_nearest(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
+                                    const relief_way *w)
 {
+    const relief_ray *ray = &w->ray;
+    const lane3 q = relief_here(w);
     lane per_w;
     const lane_mask inside = relief_project(out, &per_w, view, q);
     out->u = lane_trunc(lane_add(out->u, lane_splat(0.5f)));
@@ -230,21 +272,23 @@ LANE_APART void relief_look_nearest(relief_look *out, const lmb_relief_job *job,
     out->s = relief_depth(view, code);
     const lane3 to = lane3_sub(relief_place(view, out->u, out->v, out->s), q);
     const lane_mask some = lanei_lt(lanei_splat(0), code);
-    out->gap = lane_mul(lane_sub(out->d, out->s), relief_metres(view, out->d));
+    out->gap = out->on = lane_mul(lane_sub(out->d, out->s), relief_metres(view, out->d));
     out->step = lane3_dot(to, ray->along);
     out->off = relief_off(job, ray, to);
     out->some = out->shown = out->whole = mask_and(inside, some);
     const lane_mask past = lane_lt(out->s, lane_sub(out->d, relief_jump(view, out->d)));
     out->free = relief_free(view, inside, mask_or(mask_not(some), past));
+    out->empty = relief_free(view, inside, mask_not(some));
 }
 
+/* From where the way is. */
 static inline void relief_look_at(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
-                                  const relief_ray *ray, lane3 q)
+                                  const relief_way *w)
 {
     if (job->sampling) {
-        relief_look_nearest(out, job, view, ray, q);
+        relief_look_nearest(out, job, view, w);
     } else {
-        relief_look_between(out, job, view, ray, q);
+        relief_look_between(out, job, view, w);
     }
 }
 
@@ -332,15 +376,6 @@ static void KERNEL(relief_rank)(uint8_t votes[LMB_RELIEF_VIEWS], const lmb_tile 
 
 /* --- the way along the ray ---------------------------------------------------------------------------------------- */
 
-/* A vector of pixels on its way. */
-typedef struct relief_way {
-    relief_ray ray;
-    lane t;          /* m from the simple surface */
-    uint32_t ask[LMB_RELIEF_LOOKS];  /* pixels that each view is asked for, a bit each ... */
-    uint32_t kept[LMB_RELIEF_LOOKS]; /* ... and those for which it was among the best */
-    lane_mask live, moving;
-} relief_way;
-
 /* What the last look of a way says of the surface. */
 typedef struct relief_found {
     lane worth;      /* of the best candidate in the end ... */
@@ -354,24 +389,18 @@ typedef struct relief_found {
 } relief_found;
 
 /* What counts against a candidate, m: its distance, a slanted view, a jump beside it. */
-static inline lane relief_against(const lmb_relief_job *job, const lmb_relief_view *view, const relief_look *look,
-                                  lane faces)
+static inline lane relief_against(const lmb_relief_job *job, lane texel, const relief_look *look, lane faces)
 {
-    const lane texel = lane_splat(view->texel), one = lane_splat(1.0f);
+    const lane one = lane_splat(1.0f);
     if (job->pick == LMB_RELIEF_EYE_RAY) {
-        return look->off;
+        return lane_max(lane_sub(look->off, lane_mul(lane_splat(RELIEF_EQUAL), texel)), lane_splat(0.0f));
     }
     return lane_add(lane_add(look->off, lane_mul(texel, lane_mul(lane_splat(0.5f), lane_sub(one, faces)))),
                     lane_pick(look->whole, lane_splat(0.0f), texel));
 }
 
-static inline lane3 relief_here(const relief_way *w)
-{
-    return lane3_add(w->ray.from, lane3_scale(w->ray.along, w->t));
-}
-
 /* The best candidates' views, of pixels that move. */
-LANE_APART void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_best *best)
+APART void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_best *best)
 {
     const uint32_t moving = mask_bits(w->moving);
     for (int32_t i = 0; i < job->count; ++i) {
@@ -386,10 +415,10 @@ LANE_APART void relief_keep(relief_way *w, const lmb_relief_job *job, const reli
 /* One look of the pixels that move: how far to go. Who has nothing to say near the best candidate so far is not asked
  * again, unless that is far off in the end. Three times the gap is more than any surface wants that a view sees as well
  * as the eye. */
-LANE_APART lane relief_advance(relief_way *w, const lmb_relief_job *job)
+APART lane relief_advance(relief_way *w, const lmb_relief_job *job)
 {
     const lane3 q = relief_here(w);
-    const lane zero = lane_splat(0.0f), texel = lane_splat(job->view[0]->texel);
+    const lane zero = lane_splat(0.0f), texel = relief_texel_at(job->view[0], q);
     const uint32_t moving = mask_bits(w->moving);
     lane step = zero;
     relief_best best = relief_none();
@@ -400,12 +429,12 @@ LANE_APART lane relief_advance(relief_way *w, const lmb_relief_job *job)
         if (mask_bits(asked) == 0) {
             continue;
         }
-        relief_look_at(&look, job, view, &w->ray, q);
-        const lane faces = lane3_dot(w->ray.normal, relief_towards(view, q));
+        relief_look_at(&look, job, view, w);
+        const lane faces = lane3_dot(w->ray.normal, relief_towards(view, q)), own = relief_texel_at(view, q);
         const lane worth = lane_pick(mask_and(asked, look.shown),
-                                     lane_sub(zero, relief_against(job, view, &look, faces)),
+                                     lane_sub(zero, relief_against(job, own, &look, faces)),
                                      lane_splat(-RELIEF_WORST));
-        const lane most = lane_add(lane_mul(lane_splat(3.0f), lane_abs(look.gap)), lane_splat(view->texel));
+        const lane most = lane_add(lane_mul(lane_splat(3.0f), lane_abs(look.gap)), own);
         const lane_mask over = lane_lt(best.value[0], worth);
         step = lane_pick(over, lane_max(lane_min(look.step, most), lane_sub(zero, most)), step);
         relief_insert(&best, worth, lanei_splat(i));
@@ -478,7 +507,7 @@ static inline lane3 relief_normal(const lmb_relief_job *job, const lmb_relief_vi
 }
 
 /* Weighted colour and normal of the texels that show the candidate's surface. */
-LANE_APART void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb_relief_view *view,
+APART void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb_relief_view *view,
                             const relief_look *look, lane weight)
 {
     const lane one = lane_splat(1.0f), gu = lane_sub(one, look->fu), gv = lane_sub(one, look->fv);
@@ -497,11 +526,10 @@ LANE_APART void relief_paint(relief_found *f, const lmb_relief_job *job, const l
 }
 
 /* How much a view's word counts: by how it faces the surface, how near its own is, and whether all texels show it. */
-static inline lane relief_weight(const lmb_relief_job *job, const lmb_relief_view *view, const relief_look *look,
-                                 lane faces)
+static inline lane relief_weight(const lmb_relief_job *job, lane texel, const relief_look *look, lane faces)
 {
     const lane one = lane_splat(1.0f), f = lane_max(faces, lane_splat(0.05f));
-    const lane reach = lane_splat(1.0f / (1.5f * view->texel));
+    const lane reach = lane_div(one, lane_mul(lane_splat(1.5f), texel));
     const lane near = lane_max(lane_sub(one, lane_mul(lane_abs(look->gap), reach)), lane_splat(0.0f));
     if (job->keep == 1) {
         return one;
@@ -519,49 +547,54 @@ static inline void relief_clear(relief_found *f)
     f->candidate = f->codes = f->normal = lane3_splat(0.0f, 0.0f, 0.0f);
 }
 
-/* The last look: the kept ones say what the surface is, the others whether it can be there. */
-LANE_APART void relief_arrive(relief_found *f, const relief_way *w, const lmb_relief_job *job)
+/* What view i, which looked where the way is now, says of the pixels `asked`. */
+APART void relief_hear(relief_found *f, const relief_way *w, const lmb_relief_job *job, int32_t i,
+                            const relief_look *look, lane_mask asked)
 {
+    const lmb_relief_view *view = job->view[i];
     const lane zero = lane_splat(0.0f), worst = lane_splat(-RELIEF_WORST);
     const lane before = lane_mul(lane_splat(RELIEF_BEFORE), w->ray.pixel),
                behind = lane_mul(lane_splat(-RELIEF_BEHIND), w->ray.pixel);
     const lane same = lane_splat(job->pick == LMB_RELIEF_EYE_RAY ? RELIEF_SAME : 2.0f);
-    const lane3 q = relief_here(w);
+    const lane3 q = relief_here(w), towards = relief_towards(view, q);
+    const lane texel = relief_texel_at(view, q);
+    const lane as_eye = lane_sub(zero, lane3_dot(towards, w->ray.along));
+    const lane_mask ahead = mask_and(mask_and(asked, look->some), lane_lt(before, look->on));
+    const lane_mask free = mask_and(asked, look->free);
+    const lane_mask better = mask_and(ahead, lane_lt(f->as_eye, as_eye));
+    f->passed = mask_or(f->passed, mask_or(free, ahead));
+    f->seen_through = mask_or(f->seen_through, job->as_is ? mask_and(free, lane_lt(same, as_eye)) : free);
+    f->as_eye = lane_pick(better, as_eye, f->as_eye);
+    f->onward = lane_pick(better, lane_max(look->on, texel), f->onward);
+    const lane faces = lane3_dot(w->ray.normal, towards);
+    const lane_mask says = mask_and(mask_and(asked, mask_and(w->live, mask_of_bits(w->kept[i]))), look->shown);
+    if (mask_bits(says) == 0) {
+        return;
+    }
+    const lane worth = lane_pick(says, lane_sub(zero, relief_against(job, texel, look, faces)), worst);
+    const lane_mask over = lane_lt(f->worth, worth);
+    f->worth = lane_pick(over, worth, f->worth);
+    f->candidate = lane3_pick(over, relief_place(view, look->u, look->v, look->s), f->candidate);
+    const lane_mask met = mask_and(look->whole, mask_and(lane_le(look->gap, before), lane_le(behind, look->gap)));
+    f->met = mask_or(mask_and(over, met), mask_and(f->met, mask_not(over)));
+    relief_paint(f, job, view, look, lane_keep(says, relief_weight(job, texel, look, faces)));
+}
+
+/* The last look: the kept ones say what the surface is, the others whether it can be there. */
+APART void relief_arrive(relief_found *f, const relief_way *w, const lmb_relief_job *job)
+{
     relief_clear(f);
     for (int32_t i = 0; i < job->count; ++i) {
-        const lmb_relief_view *view = job->view[i];
-        const lane_mask kept = mask_and(w->live, mask_of_bits(w->kept[i]));
-        relief_look look;
         const lane_mask asked = i < job->aligned ? w->live : mask_and(w->live, mask_of_bits(w->ask[i]));
-        if (mask_bits(asked) == 0) {
-            continue;
+        relief_look look;
+        if (mask_bits(asked) != 0) {
+            relief_look_at(&look, job, job->view[i], w);
+            relief_hear(f, w, job, i, &look, asked);
         }
-        relief_look_at(&look, job, view, &w->ray, q);
-        const lane3 towards = relief_towards(view, q);
-        const lane as_eye = lane_sub(zero, lane3_dot(towards, w->ray.along));
-        const lane_mask ahead = mask_and(mask_and(asked, look.some), lane_lt(before, look.gap));
-        const lane_mask free = mask_and(asked, look.free);
-        const lane_mask better = mask_and(ahead, lane_lt(f->as_eye, as_eye));
-        f->passed = mask_or(f->passed, mask_or(free, ahead));
-        f->seen_through = mask_or(f->seen_through, job->as_is ? mask_and(free, lane_lt(same, as_eye)) : free);
-        f->as_eye = lane_pick(better, as_eye, f->as_eye);
-        f->onward = lane_pick(better, lane_max(look.gap, lane_splat(view->texel)), f->onward);
-        const lane faces = lane3_dot(w->ray.normal, towards);
-        const lane_mask says = mask_and(mask_and(asked, kept), look.shown);
-        if (mask_bits(says) == 0) {
-            continue;
-        }
-        const lane worth = lane_pick(says, lane_sub(zero, relief_against(job, view, &look, faces)), worst);
-        const lane_mask over = lane_lt(f->worth, worth);
-        f->worth = lane_pick(over, worth, f->worth);
-        f->candidate = lane3_pick(over, relief_place(view, look.u, look.v, look.s), f->candidate);
-        const lane_mask met = mask_and(lane_le(look.gap, before), lane_le(behind, look.gap));
-        f->met = mask_or(mask_and(over, met), mask_and(f->met, mask_not(over)));
-        relief_paint(f, job, view, &look, lane_keep(says, relief_weight(job, view, &look, faces)));
     }
 }
 
-LANE_APART void relief_set_out(relief_way *w, const lmb_tile *tile, const lmb_relief_job *job, int k)
+APART void relief_set_out(relief_way *w, const lmb_tile *tile, const lmb_relief_job *job, int k)
 {
     int32_t id[LANES];
     for (int i = 0; i < LANES; ++i) {
@@ -593,7 +626,7 @@ static inline void relief_put(float (*planes)[LMB_TILE_PIXELS], int k, lane_mask
     lane_store(planes[2] + k, lane_pick(m, v.z, was.z));
 }
 
-LANE_APART void relief_store(lmb_tile *out, const relief_way *w, const relief_found *f, const lmb_relief_job *job,
+APART void relief_store(lmb_tile *out, const relief_way *w, const relief_found *f, const lmb_relief_job *job,
                              lane_mask hit, int k)
 {
     const lane per = lane_div(lane_splat(1.0f), lane_pick(hit, f->weight, lane_splat(1.0f)));
@@ -613,7 +646,7 @@ LANE_APART void relief_store(lmb_tile *out, const relief_way *w, const relief_fo
 }
 
 /* Each pixel until it moves by little. */
-LANE_APART void relief_travel(relief_way *w, const lmb_relief_job *job)
+APART void relief_travel(relief_way *w, const lmb_relief_job *job)
 {
     const lane near = lane_mul(lane_splat(RELIEF_SETTLED), w->ray.pixel);
     w->moving = w->live;
@@ -631,20 +664,40 @@ LANE_APART void relief_travel(relief_way *w, const lmb_relief_job *job)
     }
 }
 
-/* Where the way has led: who hits the surface, who has passed all there is, and who goes on. 0 where nobody does. */
-LANE_APART int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job, int k,
+/* Which of these pixels' ways end over open ground: a view that looks about as the eye does shows nothing there. */
+APART lane_mask relief_open(const relief_way *w, const lmb_relief_job *job, lane_mask of)
+{
+    lane_mask open = mask_and(of, mask_not(of));
+    for (int32_t i = 0; i < job->count && mask_bits(of) != 0; ++i) {
+        const lane3 towards = relief_towards(job->view[i], relief_here(w));
+        const lane as_eye = lane_sub(lane_splat(0.0f), lane3_dot(towards, w->ray.along));
+        relief_look look;
+        relief_look_at(&look, job, job->view[i], w);
+        open = mask_or(open, mask_and(mask_and(of, look.empty), lane_lt(lane_splat(RELIEF_AS_EYE), as_eye)));
+    }
+    return open;
+}
+
+/* Where the way has led: who hits the surface, who has passed all there is, and who goes on. 0 where nobody does. Whose
+ * way ends where no view that looks as the eye does has anything to show takes what is nearest, unless the ground there
+ * is open: what other views see past need not be past for the eye. */
+APART int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job, int k,
                           int last)
 {
     relief_found f;
     relief_arrive(&f, w, job);
     const lane_mask some = mask_and(w->live, lane_lt(lane_splat(1e-6f), f.weight));
     const lane_mask here = job->as_is ? some : mask_and(some, mask_or(f.met, mask_not(f.passed)));
-    const lane_mask hit = mask_and(here, mask_not(f.seen_through));
-    const lane_mask passed = mask_and(mask_and(w->live, f.passed), mask_not(hit));
+    const lane_mask clear = mask_and(here, mask_not(f.seen_through));
+    const lane_mask passed = mask_and(mask_and(w->live, f.passed), mask_not(clear));
     const lane_mask on = mask_and(passed, lane_lt(lane_splat(RELIEF_AS_EYE), f.as_eye));
+    const int away = last && job->outside; /* still on the way: round a model that has an outside, nothing more comes */
+    const lane_mask ends = last && !away ? passed : mask_and(passed, mask_not(on));
+    const lane_mask open = relief_open(w, job, ends);
+    const lane_mask hit = mask_or(clear, mask_and(mask_and(ends, some), mask_not(open)));
     relief_store(inout, w, &f, job, hit, k);
     out->hit |= (uint64_t)mask_bits(hit) << k;
-    out->missed |= (uint64_t)mask_bits(last ? passed : mask_and(passed, mask_not(on))) << k;
+    out->missed |= (uint64_t)mask_bits(away ? mask_or(open, on) : open) << k;
     w->live = on;
     w->t = lane_add(w->t, lane_keep(on, f.onward));
     w->ray.normal = lane3_sub(lane3_splat(0.0f, 0.0f, 0.0f), w->ray.along);

@@ -14,7 +14,7 @@
  * steps are as long as these voxels are wide: longest without gaps, since weights between middles add up to 1.
  * COVER: on its way through a wall a cone goes on widening, so that what it reads of it adds up to 0.75 .. 1.3, by
  * where the wall lies in its voxels; over 1 is lost, and so 1.15 times it comes nearest to whole in the mean (a closed
- * room leaves 17 % open by 1, 10 % by 1.15; a sphere's shadow grows with it). */
+ * room leaves 18 % open by 1, 11 % by 1.15, 10 % by 1.2; a sphere's shadow grows with it). */
 static const float step_share = 1.0f, width_share = 0.5f, cover_share = 1.15f;
 
 static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
@@ -30,7 +30,7 @@ static int set_steps(lmb_cone_width *out, const lmb_voxels *v)
         const float middle = maxf(t / (1.0f - share * tangent * width_share), t + 0.5f * share);
         const float level = clampf(lmb_log2(maxf(2.0f * middle * tangent * width_share, 1.0f)), 0.0f,
                                    (float)(v->depth - 1));
-        s->spread = 2.0f * middle * tangent * width_share > 1.0f ? 2.0f * tangent * width_share : 0.0f;
+        s->apart = 2.0f * middle * tangent * width_share > 1.0f ? 1.0f / middle : 0.0f;
         s->level = mini((int32_t)level, v->depth - 2);
         s->finer = 1.0f - (level - (float)s->level);
         s->at = middle * v->leaf;
@@ -120,6 +120,7 @@ static void follow(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_co
     job.low = v->low;
     job.leaf = v->leaf;
     job.per_leaf = 1.0f / v->leaf;
+    job.faced = trace->faced;
     trace->kernels->cone(out, &job, tile, direction);
 }
 

@@ -1,0 +1,147 @@
+/* plane_place.c: which plane an object stands on, and where on it. Floor 6.                                     [M5] */
+#include "planes.h"
+
+#if LMB_MIXED
+
+#define LEAST_UP 0.34202014f /* cosine of 70 degrees: what a floor may be turned from the camera's up */
+#define LEVEL 0.90630779f    /* of 25: from what is up in the picture */
+
+enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
+
+/* Floors and ceilings: of a camera that looks level they are the planes with the largest |y|, and one that is turned by
+ * less than 45 degrees leaves them that. Squares, because there is more wall than floor in most pictures. */
+lmb_vec3 lmb_planes_up(const lmb_planes *planes)
+{
+    lmb_vec3 up = vec3(0, 1, 0);
+    float most = 0.0f;
+    for (int32_t i = 0; i < planes->count; ++i) {
+        const lmb_flat *p = &planes->plane[i];
+        const float level = maxf(absf(p->normal.y) - LEAST_UP, 0.0f), size = (float)p->pixels * level * level;
+        if (size > most) {
+            most = size;
+            up = p->normal.y < 0.0f ? mul3(p->normal, -1.0f) : p->normal;
+        }
+    }
+    return up;
+}
+
+int32_t lmb_planes_floor(const lmb_planes *planes)
+{
+    const lmb_vec3 up = lmb_planes_up(planes);
+    int32_t best = -1;
+    float most = 0.0f;
+    for (int32_t i = 0; i < planes->count; ++i) {
+        const lmb_flat *p = &planes->plane[i];
+        const float size = (float)p->pixels * minf(dot3(p->normal, up) - LEVEL, p->normal.y - LEAST_UP);
+        if (size > most) {
+            most = size;
+            best = i;
+        }
+    }
+    return best;
+}
+
+int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y)
+{
+    const lmb_vec3 ray = lmb_cloud_ray(camera, x, y);
+    if (p < 0 || p >= planes->count) {
+        return 0;
+    }
+    const float inverse = plane_inverse(planes->plane[p].slope, ray.x, ray.y);
+    if (!(inverse > 1e-3f)) {
+        return 0;
+    }
+    *out = mul3(ray, 1.0f / inverse);
+    return 1;
+}
+
+/* --- a place to stand --------------------------------------------------------------------------------------------- */
+
+/* An upright thing that asks for its place. */
+typedef struct standing {
+    const lmb_planes *planes;
+    const lmb_cloud *cloud;
+    int32_t p;
+    float radius, height; /* m */
+} standing;
+
+/* The pixel that shows a point, or -1. */
+static int32_t pixel_of(const lmb_pinhole *c, lmb_vec3 at)
+{
+    if (!(at.z < -1e-3f)) {
+        return -1;
+    }
+    const float x = c->cx - c->fx * at.x / at.z + 0.5f, y = c->cy + c->fy * at.y / at.z + 0.5f;
+    return x >= 0.0f && y >= 0.0f && x < (float)c->width && y < (float)c->height
+               ? (int32_t)y * c->width + (int32_t)x
+               : -1;
+}
+
+/* The rim's k-th point, `radius` out and `height` over a place on the plane. */
+static lmb_vec3 rim_point(const standing *s, lmb_vec3 at, int32_t k, float radius, float height)
+{
+    static const float turn[RIM][2] = {{1, 0}, {0.7071f, 0.7071f}, {0, 1}, {-0.7071f, 0.7071f},
+                                       {-1, 0}, {-0.7071f, -0.7071f}, {0, -1}, {0.7071f, -0.7071f}};
+    const lmb_flat *plane = &s->planes->plane[s->p];
+    const lmb_vec3 out = add3(mul3(plane->across, radius * turn[k][0]), mul3(plane->along, radius * turn[k][1]));
+    return add3(add3(at, out), mul3(plane->normal, height));
+}
+
+/* Is the plane to be seen on the circle and on one half as wide? */
+static int foot_is_clear(const standing *s, lmb_vec3 at)
+{
+    for (int32_t k = 0; k < 2 * RIM; ++k) {
+        const float radius = k < RIM ? s->radius : 0.5f * s->radius;
+        const int32_t pixel = pixel_of(&s->cloud->camera, rim_point(s, at, k % RIM, radius, 0.0f));
+        if (pixel < 0 || s->planes->label[pixel] != s->p + 1) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Is what stands there in the picture, half way up and at its top, and nothing measured in front of it? */
+static int body_is_clear(const standing *s, lmb_vec3 at)
+{
+    for (int32_t k = 0; k < 2 * RIM && s->height > 0.0f; ++k) {
+        const lmb_vec3 rim = rim_point(s, at, k % RIM, s->radius, k < RIM ? s->height : 0.5f * s->height);
+        const int32_t pixel = pixel_of(&s->cloud->camera, rim);
+        const float q = pixel < 0 ? 0.0f : s->cloud->inverse[pixel];
+        if (pixel < 0 || q + 1.0f / rim.z > 2.0f * lmb_cloud_sigma(s->cloud, q)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *cloud, int32_t p, float radius_m,
+                     float height_m)
+{
+    const standing s = {planes, cloud, p, radius_m, height_m};
+    float least = 1e30f;
+    if (p < 0 || p >= planes->count) {
+        return 0;
+    }
+    const lmb_flat *plane = &planes->plane[p];
+    if (foot_is_clear(&s, plane->centre) && body_is_clear(&s, plane->centre)) {
+        *out = plane->centre;
+        return 1;
+    }
+    for (int32_t y = plane->y0; y < plane->y1; y += CLEAR_STEP) {
+        for (int32_t x = plane->x0; x < plane->x1; x += CLEAR_STEP) {
+            lmb_vec3 at;
+            if (planes->label[y * cloud->camera.width + x] != p + 1 ||
+                !lmb_planes_anchor(&at, planes, &cloud->camera, p, (float)x, (float)y)) {
+                continue;
+            }
+            const lmb_vec3 d = sub3(at, plane->centre);
+            if (dot3(d, d) < least && foot_is_clear(&s, at) && body_is_clear(&s, at)) {
+                least = dot3(d, d);
+                *out = at;
+            }
+        }
+    }
+    return least < 1e30f;
+}
+
+#endif
