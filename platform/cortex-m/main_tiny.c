@@ -4,7 +4,7 @@
 #include <lambent/lambent.h>
 
 #include "../../tools/demo_scene.h"
-#include "../port.h"
+#include "../port_say.h"
 
 enum { WIDTH = 160, HEIGHT = 120, MAP_SIZE = 128, MAP_BLOCKS = MAP_SIZE / 8, POINTS = 400 };
 
@@ -56,50 +56,6 @@ static lmb_status draw(lmb_surface *out)
     return s;
 }
 
-static void put_hex(uint64_t v)
-{
-    char text[17];
-    int i;
-    for (i = 0; i < 16; ++i)
-        text[i] = "0123456789abcdef"[(v >> (60 - 4 * i)) & 15];
-    text[16] = 0;
-    port_put(text);
-}
-
-static void put_number(uint32_t v)
-{
-    char text[11];
-    int i = 10;
-    text[i] = 0;
-    do
-        text[--i] = (char)('0' + v % 10);
-    while (v /= 10);
-    port_put(text + i);
-}
-
-static void put_count(const char *name, uint32_t v)
-{
-    port_put(name);
-    put_number(v);
-}
-
-static int report_ram(void)
-{
-    port_ram ram;
-    uint32_t total;
-    port_ram_used(&ram);
-    total = ram.data + ram.bss + ram.stack;
-    if (!ram.size)
-        return 0;
-    put_count("ram ", total);
-    put_count(" of ", ram.size);
-    put_count(" bytes: data ", ram.data);
-    put_count(", bss ", ram.bss);
-    put_count(", stack ", ram.stack);
-    port_put("\n");
-    return total >= ram.size;
-}
-
 int main(void)
 {
     lmb_surface out;
@@ -109,11 +65,11 @@ int main(void)
         port_put("\n");
         return 1;
     }
-    put_count("triangles ", stats.triangles_drawn);
-    put_count(", first points ", stats.first_points);
-    put_count(", groups ", stats.groups);
+    say_count("triangles ", stats.triangles_drawn);
+    say_count(", first points ", stats.first_points);
+    say_count(", groups ", stats.groups);
     port_put("\ndemo-160x120-rgb565 ");
-    put_hex(lmb_surface_hash(&out));
+    say_hex(lmb_surface_hash(&out));
     port_put("\n");
-    return report_ram();
+    return say_ram();
 }

@@ -24,7 +24,8 @@ PORT_CFLAGS  := $(core_$(CORE)) -mthumb -mfloat-abi=hard -ffunction-sections -fd
 PORT_LDFLAGS  = -nostdlib -Wl,--gc-sections -T platform/freestanding/bare.ld -Wl,--defsym,rom_origin=0 \
                 -Wl,--defsym,ram_origin=$(ram_$(CORE)) -Wl,--defsym,ram_bytes=$(RAM_BYTES)
 PORT_LDLIBS  := -lgcc
-RUN          := qemu-system-arm -M $(board_$(CORE)) -display none -monitor none -serial none -chardev stdio,id=console \
+BOARD        ?= $(board_$(CORE))
+RUN           = qemu-system-arm -M $(BOARD) -display none -monitor none -serial none -chardev stdio,id=console \
                 -semihosting-config enable=on,target=native,chardev=console -kernel
 
 # The demo must do with 256 KiB; the golden suite, built like the host's, takes what it takes.

@@ -12,6 +12,13 @@ double host_cpu_seconds(void);
 /* Is stderr a terminal? */
 int host_watched(void);
 
+/* The processor's name, as the system tells it; "" where it does not. */
+void host_processor(char *out, int size);
+
+/* host_make_folders: the folders of a path, up to its last separator, as far as they are not there. What fails shows
+ * when a file is to be written there. */
+void host_make_folders(const char *path);
+
 /* From now on a file that grows beyond the user's limit is a failed write, no longer the program's end. */
 void host_outlive_file_limit(void);
 
