@@ -9,7 +9,7 @@
 /* Masks count as they do where they are instructions. */
 #undef LANE_PLAIN
 
-static double done[BENCH_OPS], touched;
+static double done[BENCH_OPS], touched, reads;
 
 /* Multiplying by what belongs to a group alone counts as well. */
 #define COUNTED(result, verb, op, arguments, values) \
@@ -39,6 +39,25 @@ static inline void counted_lane_store_rows(float *p, int32_t step, lane a)
     lane_store_rows(p, step, a);
 }
 
+/* Places that a lane chooses: four floats, or one. */
+static inline void counted_lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
+{
+    reads += LANES;
+    for (int c = 0; c < 4; ++c) {
+        out[c] = lane_gather_f32(p + c, lanei_mul(at, lanei_splat(4)));
+    }
+}
+
+static inline lane counted_lane_gather_f32(const float *p, lanei at)
+{
+    reads += LANES;
+    return lane_gather_f32(p, at);
+}
+
+#define LANE_GATHERS_RGBA_F32 1
+#define lane_gather_rgba_f32 counted_lane_gather_rgba_f32
+#define lane_gather_f32 counted_lane_gather_f32
+
 #define lane_mul counted_lane_mul
 #define lane_add counted_lane_add
 #define lane_sub counted_lane_sub
@@ -61,7 +80,7 @@ extern const lmb_kernels lmb_kernels_counted;
 static void begin(void)
 {
     memset(done, 0, sizeof done);
-    touched = 0.0;
+    touched = reads = 0.0;
 }
 
 void bench_mix_gather(double counts[BENCH_OPS], const lmb_tile *tile, const lmb_groups *groups)
@@ -89,3 +108,5 @@ double bench_mix_end(double counts[BENCH_OPS])
     }
     return touched;
 }
+
+double bench_mix_reads(void) { return reads; }

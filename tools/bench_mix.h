@@ -14,4 +14,7 @@ void bench_mix_gather(double counts[BENCH_OPS], const lmb_tile *tile, const lmb_
 const lmb_kernels *bench_mix_begin(void);
 double bench_mix_end(double counts[BENCH_OPS]);
 
+/* bench_mix_reads: how often lanes read four floats, or one, from a place of their own since bench_mix_begin. */
+double bench_mix_reads(void);
+
 #endif

@@ -76,6 +76,16 @@ double bench_rates_store(bench_rates *r)
     return 1.0 / r->store;
 }
 
+double bench_rates_read(bench_rates *r)
+{
+    static float in[IN_CACHE];
+    float out[16];
+    const double start = host_seconds();
+    r->machine->read(out, in, IN_CACHE, ROUNDS);
+    keep_least(&r->read, (host_seconds() - start) / ((double)ROUNDS * r->machine->lanes));
+    return 1.0 / r->read;
+}
+
 int bench_rates_begin(bench_rates *out, const char *name)
 {
     out->machine = NULL;
@@ -84,7 +94,7 @@ int bench_rates_begin(bench_rates *out, const char *name)
             out->machine = machines[i];
         }
     }
-    out->cycle = out->store = never;
+    out->cycle = out->store = out->read = never;
     for (int a = 0; a < BENCH_OPS; ++a) {
         out->alone[a] = never;
         for (int unit = 0; unit < BENCH_UNITS; ++unit) {

@@ -26,6 +26,8 @@ typedef struct bench_machine {
     bench_loop *alone[BENCH_OPS], *beside[BENCH_UNITS][BENCH_OPS]; /* [that keeps its unit busy][beside] */
     /* Reads `count` depths, tests each and writes it by the test's outcome, as filling does; `rounds` times. */
     void (*store)(float *inout, uint32_t count, uint32_t rounds);
+    /* Adds up four floats from a place of each lane's own among `count`, a power of two, `rounds` times. */
+    void (*read)(float *out, const float *in, int32_t count, uint32_t rounds);
 } bench_machine;
 
 /* Operations of a round on each chain, and of the one beside in all. Rows of 16 floats that a loop reads: 1, a tiny
@@ -40,7 +42,7 @@ typedef struct bench_rates {
     const bench_machine *machine;
     double cycle;                                            /* a cycle */
     double alone[BENCH_OPS], beside[BENCH_UNITS][BENCH_OPS]; /* a round */
-    double store;                                            /* a value */
+    double store, read;                                      /* a value; four floats of one lane */
 } bench_rates;
 
 /* bench_rates_begin: 0 where `name` is no machine of this build. */
@@ -49,6 +51,8 @@ int bench_rates_begin(bench_rates *out, const char *name);
 void bench_rates_step(bench_rates *inout);
 /* Depths a second that the machine has at best read, tested and written in its cache, 16 KiB, after one more try. */
 double bench_rates_store(bench_rates *inout);
+/* Places a second that the machine's lanes have at best read four floats from in its cache, after one more try. */
+double bench_rates_read(bench_rates *inout);
 /* Cycles of one operation on a vector. */
 double bench_rates_op(const bench_rates *r, int op);
 /* Cycles that one of `op` adds to the unit that `unit` keeps busy. */

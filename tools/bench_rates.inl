@@ -2,6 +2,9 @@
  *
  * KERNEL(name), MACHINE and CHAINS, half of the operations under way, are the including file's. What goes in is read
  * from memory, so that no compiler works anything out beforehand; values stay between 1 and 2. */
+#include <lambent/types.h>
+
+#include "../src/lane/lane.h"
 #include "bench_rates.h"
 
 /* One operation on x. z is another value that changes, some and other are masks: each step needs the one before. */
@@ -77,6 +80,22 @@ static void KERNEL(store_loop)(float *inout, uint32_t count, uint32_t rounds)
     }
 }
 
+/* Each lane goes its own way through the table: steps of 37 places from where it begins. */
+static void KERNEL(read_loop)(float *out, const float *in, int32_t count, uint32_t rounds)
+{
+    int32_t first[LANES];
+    lane four[4], sum = lane_splat(0.0f);
+    for (int k = 0; k < LANES; ++k) {
+        first[k] = 11 * k;
+    }
+    for (lanei at = lanei_load(first); rounds != 0; --rounds) {
+        lane_gather_rgba_f32(four, in, at);
+        sum = lane_add(sum, lane_add(lane_add(four[0], four[1]), lane_add(four[2], four[3])));
+        at = lanei_and(lanei_add(at, lanei_splat(37)), lanei_splat(count / 4 - 1));
+    }
+    lane_store(out, sum);
+}
+
 #define BENCH_ENTRY(A, ROUND, B) [BENCH_##A][BENCH_##B] = KERNEL(loop_##A##_##B),
 const bench_machine KERNEL(bench_machine) = {
     MACHINE, LANES, 2 * CHAINS,
@@ -85,4 +104,5 @@ const bench_machine KERNEL(bench_machine) = {
      [BENCH_SQRT] = KERNEL(loop_SQRT)},
     {BENCH_ALL_UNITS(BENCH_ENTRY)},
     KERNEL(store_loop),
+    KERNEL(read_loop),
 };

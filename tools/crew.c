@@ -21,6 +21,8 @@ static void keep_failure(stage_work *w, int worker, lmb_status status)
     }
 }
 
+static double now(const crew *c) { return c->clock != NULL ? c->clock() : host_seconds(); }
+
 static void tell(const crew *c, const lmb_render *r)
 {
     if (c->tell != NULL) {
@@ -35,11 +37,14 @@ static void draw_part(void *user, int part, int worker)
                  lmb_render_part(w->render, &w->crew->scratches[worker], part, w->parts, &w->counts[worker]));
 }
 
+static int band_step(const crew *c) { return c->every > 1 ? c->every : 1; }
+
 /* Bands are taken in order, so the number of one tells how far the frame is. */
-static void draw_band(void *user, int band, int worker)
+static void draw_band(void *user, int part, int worker)
 {
     stage_work *w = user;
     const lmb_frame *f = &w->render->frame;
+    const int band = part * band_step(w->crew);
     lmb_band_scratch *scratch = &w->crew->scratches[worker];
     memset(&scratch->counts, 0, sizeof scratch->counts);
     keep_failure(w, worker, lmb_render_band(w->render, scratch, &f->eye, &f->out, band));
@@ -101,20 +106,21 @@ static lmb_status do_stages(crew *c, lmb_render *r, int32_t *stage, int32_t past
 {
     lmb_status status = LMB_MORE;
     while (status == LMB_MORE && r->stage < past) {
-        const double start = host_seconds();
+        const double start = now(c);
         *stage = r->stage;
         status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
-        c->stage_s[*stage] += host_seconds() - start;
+        c->stage_s[*stage] += now(c) - start;
     }
     return status == LMB_MORE ? LMB_OK : status;
 }
 
 static lmb_status do_bands(crew *c, lmb_render *r, int32_t *stage)
 {
-    const double start = host_seconds();
+    const double start = now(c);
     *stage = LMB_STAGE_BANDS;
-    lmb_status status = share(c, r, (r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE, draw_band);
-    c->stage_s[LMB_STAGE_BANDS] += host_seconds() - start;
+    const int bands = (r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE, step = band_step(c);
+    lmb_status status = share(c, r, (bands + step - 1) / step, draw_band);
+    c->stage_s[LMB_STAGE_BANDS] += now(c) - start;
     return status;
 }
 

@@ -12,6 +12,8 @@ typedef struct crew {
     lmb_band_scratch *scratches;  /* one a thread */
     void (*tell)(void *user, const lmb_render *r); /* from the calling thread, now and then; or NULL */
     void *user;
+    double (*clock)(void);          /* s; NULL: the time that passes */
+    int32_t every;                  /* one band in so many is drawn; 0, 1: all */
     double stage_s[LMB_STAGE_DONE]; /* of the last frame and its further views, s */
 } crew;
 

@@ -28,6 +28,7 @@ static const lmb_scene scene = {
     DEMO_BOUNDS_MAX,
     0,
     0,
+    0,
 };
 
 const lmb_scene *demo_scene(void)

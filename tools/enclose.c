@@ -94,7 +94,7 @@ static void sweep(triangle_mesh *simple, const sticker *found, const triangle_me
 
 static double size_of(const tree_box *b) { return dvec_length(dvec_sub(dvec_read(b->high), dvec_read(b->low))); }
 
-int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t)
+static int enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, int rounds, tally *t)
 {
     triangle_tree tree;
     sticker *found = tally_take(t, inner->vertex_count, sizeof *found);
@@ -104,7 +104,7 @@ int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outs
     if (ok && simple->triangle_count) {
         find_normals(found, inner);
         *outside = search(found, &tree, inner);
-        for (round = 0; round < ROUNDS && *outside > ENOUGH * size_of(&tree.boxes[0]); ++round) {
+        for (round = 0; round < rounds && *outside > ENOUGH * size_of(&tree.boxes[0]); ++round) {
             for (i = 1; i <= SWEEPS; ++i)
                 sweep(simple, found, inner, i < SWEEPS ? STEP : 1);
             triangle_tree_fit(&tree);
@@ -114,4 +114,14 @@ int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outs
     triangle_tree_free(&tree, t);
     tally_give(t, found, inner->vertex_count, sizeof *found);
     return ok;
+}
+
+int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t)
+{
+    return enclose(simple, inner, outside, ROUNDS, t);
+}
+
+int mesh_outside(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t)
+{
+    return enclose(simple, inner, outside, 0, t);
 }

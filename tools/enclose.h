@@ -16,4 +16,7 @@
  * 0: no memory. */
 int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t);
 
+/* mesh_outside: only says how far a vertex of `inner` sticks out. */
+int mesh_outside(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t);
+
 #endif

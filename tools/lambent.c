@@ -9,6 +9,7 @@
 #include "verb_compare.h"
 #include "verb_info.h"
 #include "verb_mix.h"
+#include "verb_plan.h"
 #include "verb_relight.h"
 #include "verb_relief.h"
 #include "verb_render.h"
@@ -20,10 +21,13 @@ static const char usage[] =
     "  relight --world WORLD    the light at a place of a world that was seen from another, as a small cube map\n"
     "  relief bake|render       a complex model as a simple one that carries its surface\n"
     "  mix --frame PHOTO        a virtual object in one photo with depth\n"
+    "  plan SCENE               what a picture takes and what it does without, why, work and memory\n"
     "  compare A B              error figures of a picture against a reference\n"
     "  info FILE                what is in a scene or a picture\n"
+    "  bench SCENE              speed against error: what each setting costs and buys, as a table or an HTML page\n"
     "  bench raster             how fast this machine draws the fixed workload\n"
     "  bench gather             how fast groups light pixels, against what this machine can do\n"
+    "  bench hard               what renderers get wrong, tried on this machine: a table of figures and bounds\n"
     "\n"
     "  lambent VERB --help      what a verb takes\n"
     "  lambent --version\n";
@@ -33,6 +37,7 @@ static const struct verb {
     int (*run)(int argc, char **argv);
 } verbs[] = {
     {"render", verb_render},   {"relight", verb_relight}, {"relief", verb_relief}, {"mix", verb_mix},
+    {"plan", verb_plan},
     {"compare", verb_compare}, {"bench", verb_bench},     {"info", verb_info},
 };
 

@@ -22,7 +22,7 @@ static void add_around(lmb_irradiance *inout, const lmb_env *env, const lmb_tile
 
 static void add_cones(lmb_irradiance *inout, const mix_job *j, const lmb_tile *tile, int32_t world)
 {
-    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch};
+    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch, 1};
     lmb_cones_diffuse(inout, NULL, &trace, &j->cones, tile);
 }
 

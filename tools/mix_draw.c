@@ -130,7 +130,7 @@ static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
 {
     const lmb_vec3 eye = {0, 0, 0};
     for (int32_t world = 0; world < 2; ++world) {
-        const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch};
+        const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch, 1};
         lmb_cones_glossy(&d->seen[world], &trace, &j->gloss, real, eye);
     }
     lmb_mirror_tile(&d->photo, real, &j->planes, &j->frame.camera, j->floor, &d->seen[0], &d->seen[1], j->o.specular);

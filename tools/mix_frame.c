@@ -63,58 +63,53 @@ static int read_photo(mix_frame *f, const char *path, report *r)
 
 /* --- depth -------------------------------------------------------------------------------------------------------- */
 
-static int right_size(const mix_frame *f, int32_t width, int32_t height, const char *path, report *r)
-{
-    return (width == f->photo.width && height == f->photo.height) ||
-           report_fail(r, "%s: %d x %d pixels, the photo has %d x %d; depth must be registered to it", path, (int)width,
-                       (int)height, (int)f->photo.width, (int)f->photo.height);
-}
-
-static int take_depth(mix_frame *f, const char *path, report *r)
-{
-    f->depth = malloc((size_t)f->photo.width * (size_t)f->photo.height * sizeof(float));
-    return f->depth != NULL || report_fail(r, "%s: out of memory", path);
-}
-
-static int depth_of_png(mix_frame *f, const file_bytes *file, float scale, const char *path, report *r)
+/* 16-bit grey codes as numbers, one channel. */
+static int grey_of_png(image *out, const file_bytes *file, const char *path, report *r)
 {
     bitmap codes;
     if (!png_decode_16(&codes, file->data, file->size, path, r)) {
         return 0;
     }
     const size_t pixels = (size_t)codes.width * (size_t)codes.height;
-    const int ok = right_size(f, codes.width, codes.height, path, r) && take_depth(f, path, r);
-    for (size_t i = 0; ok && i < pixels; ++i) {
-        f->depth[i] = (float)(codes.texels[4 * i] << 8 | codes.texels[4 * i + 1]) * scale;
+    out->width = codes.width;
+    out->height = codes.height;
+    out->channels = 1;
+    out->pixels = malloc(pixels * sizeof(float));
+    for (size_t i = 0; out->pixels != NULL && i < pixels; ++i) {
+        out->pixels[i] = (float)(codes.texels[4 * i] << 8 | codes.texels[4 * i + 1]);
     }
     bitmap_free(&codes);
-    return ok;
+    return out->pixels != NULL || report_fail(r, "%s: out of memory", path);
 }
 
-static int depth_of_pfm(mix_frame *f, const file_bytes *file, float scale, const char *path, report *r)
+/* The first channel, in metres. */
+static int take_depth(mix_frame *f, const image *in, float scale, const char *path, report *r)
 {
-    image in;
-    if (!pfm_decode(&in, file->data, file->size, path, r)) {
-        return 0;
+    const size_t pixels = (size_t)in->width * (size_t)in->height;
+    if (in->width != f->photo.width || in->height != f->photo.height) {
+        return report_fail(r, "%s: %d x %d pixels, the photo has %d x %d; depth must be registered to it", path,
+                           (int)in->width, (int)in->height, (int)f->photo.width, (int)f->photo.height);
     }
-    const size_t pixels = (size_t)in.width * (size_t)in.height;
-    const int ok = right_size(f, in.width, in.height, path, r) && take_depth(f, path, r);
-    for (size_t i = 0; ok && i < pixels; ++i) {
-        f->depth[i] = in.pixels[(size_t)in.channels * i] * scale;
+    f->depth = malloc(pixels * sizeof(float));
+    for (size_t i = 0; f->depth != NULL && i < pixels; ++i) {
+        f->depth[i] = in->pixels[(size_t)in->channels * i] * scale;
     }
-    image_free(&in);
-    return ok;
+    return f->depth != NULL || report_fail(r, "%s: out of memory", path);
 }
 
 static int read_depth(mix_frame *f, const char *path, float scale, report *r)
 {
     file_bytes file;
+    image in;
     if (!file_read(&file, path, r)) {
         return 0;
     }
     const int is_pfm = file.size > 2 && file.data[0] == 'P';
-    const int ok = is_pfm ? depth_of_pfm(f, &file, scale > 0.0f ? scale : 1.0f, path, r)
-                          : depth_of_png(f, &file, scale > 0.0f ? scale : 0.001f, path, r);
+    int ok = is_pfm ? pfm_decode(&in, file.data, file.size, path, r) : grey_of_png(&in, &file, path, r);
+    if (ok) {
+        ok = take_depth(f, &in, scale > 0.0f ? scale : is_pfm ? 1.0f : 0.001f, path, r);
+        image_free(&in);
+    }
     file_free(&file);
     return ok;
 }

@@ -24,7 +24,10 @@ typedef struct mix_job {
     uint32_t real_triangles, object_triangles;
     lmb_vec3 anchor, up; /* in the camera's space */
     int32_t floor;       /* the plane that the object stands on, or -1 */
-    float gap_m;         /* how far the measured depth about the anchor is from where the object stands */
+    int faces_up;        /* it does, or was named */
+    float scale;         /* m of a unit of the mesh */
+    int inside;          /* the picture has room for all of it */
+    float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
     lmb_env env[2];      /* around the scene without and with the object */
     lmb_light lights[MIX_LIGHTS];
     lmb_light_map maps[MIX_LIGHTS][2]; /* without, with */
@@ -34,7 +37,7 @@ typedef struct mix_job {
     lmb_cone_width gloss;
     lmb_cone_scratch *scratch;
     image picture;       /* linear */
-    double read_s, planes_s, place_s, light_s, voxels_s, draw_s;
+    double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */
     void *blocks[MIX_BLOCKS];
     int block_count;
 } mix_job;

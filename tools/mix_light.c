@@ -112,6 +112,9 @@ static void guess_sun(mix_job *j)
         sun->intensity[c] = SUN_SHARE * around[c] / from.y;
     }
     j->light_count = 1;
+    if (j->o.is_quiet) {
+        return;
+    }
     fprintf(stderr, "lambent: no light given: guessed a sun from where the surroundings are brightest, "
                     "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space\n",
             -(double)along(a->right, from), -(double)along(a->up, from), -(double)along(a->back, from),

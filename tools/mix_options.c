@@ -24,7 +24,7 @@ const char mix_help[] =
     "  --intrinsics FX,FY,CX,CY   px; the middle of the first pixel is 0,0\n"
     "object\n"
     "  --object MESH              .gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in\n"
-    "  --scale M                  m of a unit of the mesh (default: a sixth of the plane's shorter side in all)\n"
+    "  --scale M                  m of a unit of the mesh (default: a sixth of the plane's side in all, or what fits)\n"
     "  --at X,Y                   stands on what is at this pixel (default: near the middle of the largest plane that\n"
     "                             faces up, where nothing else stands)\n"
     "  --at world                 is where the mesh has it, in the world of the frame's camera_to_world\n"
@@ -39,6 +39,7 @@ const char mix_help[] =
     "                             not); F: how much of what it sees straight down, 0 .. 1 (default 0.04)\n"
     "  --light-map N              texels a side, a power of two (default 1024)\n"
     "  --voxels D                 4 .. 10: 2^D voxels a side (default 7)\n"
+    "  --cones N                  7, 19 or 37 a hemisphere (default 19)\n"
     "output\n"
     "  -o OUT                     .png .ppm .pfm .hdr\n"
     "  --show final               the photo with the object (default)\n"
@@ -68,6 +69,14 @@ static int parse_out(const char *text, mix_options *o) { return picture_format(o
 static int parse_scale(const char *text, mix_options *o) { return option_number(text, 1e-6f, 1e6f, &o->scale); }
 static int parse_turn(const char *text, mix_options *o) { return option_number(text, -3600.0f, 3600.0f, &o->turn_deg); }
 static int parse_voxels(const char *text, mix_options *o) { return option_int(text, 4, 10, &o->depth); }
+
+static int parse_cones(const char *text, mix_options *o)
+{
+    static const char *const words[] = {"7", "19", "37", NULL};
+    static const int32_t values[] = {7, 19, 37};
+    return option_word(text, words, values, &o->cones);
+}
+
 static int parse_backend(const char *text, mix_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
 
 static int parse_exposure(const char *text, mix_options *o)
@@ -137,6 +146,7 @@ static const struct flag {
     {{"--roughness", "R or R,F, 0 .. 1"}, parse_roughness},
     {{"--light-map", "a power of two, 8 .. 4096"}, parse_light_map},
     {{"--voxels", "4 .. 10"}, parse_voxels},
+    {{"--cones", "7, 19 or 37"}, parse_cones},
     {{"--show", "final, delta, planes, voxels, env or object"}, parse_show},
     {{"-o", "a file name ending in .png, .ppm, .pfm or .hdr"}, parse_out},
     {{"--exposure", "stops, -60 .. 60"}, parse_exposure},
@@ -169,6 +179,7 @@ int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
     memset(out, 0, sizeof *out);
     out->light_map = 1024;
     out->depth = 7;
+    out->cones = 19;
     out->exposure_ev = NAN;
     out->kernels = lmb_kernels_pick();
     for (int i = 1; i < argc; i += 2) {

@@ -22,10 +22,11 @@ typedef struct mix_options {
     lmb_light lights[MIX_LIGHTS];
     int32_t light_count;
     int32_t show, light_map, depth; /* depth: of the voxels */
+    int32_t cones;    /* 7, 19 or 37 */
     float roughness;  /* of the plane's varnish, and its reflectance */
     float specular;   /* 0: there is none */
     float exposure_ev;
-    int help;
+    int help, is_quiet; /* is_quiet: what is guessed is not said */
     const lmb_kernels *kernels;
 } mix_options;
 

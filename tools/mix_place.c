@@ -2,6 +2,7 @@
 #include "mix_job.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* --- matrices: columns, as the library has them ------------------------------------------------------------------- */
@@ -53,85 +54,136 @@ static lmb_mat4 world_to_camera(const double pose[16])
     return m;
 }
 
+static int by_size(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+static float median(float *values, size_t count)
+{
+    qsort(values, count, sizeof *values, by_size);
+    return values[count / 2];
+}
+
 static const lmb_mat4 identity = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
 
 /* --- where -------------------------------------------------------------------------------------------------------- */
 
-/* The plane of the pixel, or what was measured there, upright like the floor. */
+/* Of the object's box, in its own units. */
+typedef struct extent {
+    float radius, height, longest; /* radius: of the upright cylinder that holds it, and a fifth more */
+} extent;
+
+static extent extent_of(const mix_job *j)
+{
+    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
+    const extent e = {0.6f * hypotf(hi.x - lo.x, hi.z - lo.z), hi.y - lo.y,
+                      fmaxf(fmaxf(hi.x - lo.x, hi.y - lo.y), hi.z - lo.z)};
+    return e;
+}
+
+/* A sixth of the plane's mean side for the object's longest; half a metre where there is no plane. */
+static float chosen_scale(const mix_job *j)
+{
+    float room = 3.0f;
+    if (j->floor >= 0) {
+        const lmb_flat *p = &j->planes.plane[j->floor];
+        room = sqrtf((p->high[0] - p->low[0]) * (p->high[1] - p->low[1]));
+    }
+    return j->o.scale > 0.0f ? j->o.scale : room / 6.0f / fmaxf(extent_of(j).longest, 1e-9f);
+}
+
+/* The plane of the pixel, or what was measured there, upright. */
 static int stand_at_pixel(mix_job *j, report *r)
 {
     const int32_t w = j->frame.camera.width, h = j->frame.camera.height;
-    const int32_t x = (int32_t)j->o.at_px[0], y = (int32_t)j->o.at_px[1];
-    if (!(j->o.at_px[0] >= 0.0f && j->o.at_px[1] >= 0.0f) || x >= w || y >= h) {
+    if (!(j->o.at_px[0] >= 0.0f && j->o.at_px[1] >= 0.0f && j->o.at_px[0] < (float)w && j->o.at_px[1] < (float)h)) {
         return report_fail(r, "--at %g,%g: the photo has %d x %d pixels", (double)j->o.at_px[0], (double)j->o.at_px[1],
                            (int)w, (int)h);
     }
-    const int32_t label = j->planes.label[y * w + x], upright = lmb_planes_floor(&j->planes);
+    const int32_t x = (int32_t)j->o.at_px[0], y = (int32_t)j->o.at_px[1];
+    const int32_t label = j->planes.label[y * w + x];
     j->floor = label - 1;
+    j->faces_up = 1; /* or was asked for */
+    j->scale = chosen_scale(j);
     if (label > 0) {
         j->up = j->planes.plane[j->floor].normal;
-        return lmb_planes_anchor(&j->anchor, &j->planes, &j->frame.camera, j->floor, j->o.at_px[0], j->o.at_px[1]);
+        lmb_planes_anchor(&j->anchor, &j->planes, &j->frame.camera, j->floor, j->o.at_px[0], j->o.at_px[1]);
+    } else {
+        j->anchor = lmb_cloud_point(&j->cloud, x, y);
     }
-    j->anchor = lmb_cloud_point(&j->cloud, x, y);
-    j->up = upright >= 0 ? j->planes.plane[upright].normal : (lmb_vec3){0, 1, 0};
     return j->anchor.z < 0.0f ||
            report_fail(r, "--at %d,%d: neither a plane nor any depth there; lambent mix --show planes shows them",
                        (int)x, (int)y);
 }
 
-/* A sixth of the plane's shorter side for the object's longest; half a metre where there is no plane. */
-static float chosen_scale(const mix_job *j)
+/* The middle of the plane, or beside what already stands there: where all of the object is in the picture and nothing
+ * in front of it. Where there is no such place the object becomes smaller, unless its size was asked for; then where
+ * its foot alone is seen, or most of it is. */
+static void stand_free(mix_job *j)
 {
-    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
-    const float size = fmaxf(fmaxf(hi.x - lo.x, hi.y - lo.y), hi.z - lo.z);
-    float room = 3.0f;
-    if (j->floor >= 0) {
-        const lmb_flat *p = &j->planes.plane[j->floor];
-        room = fminf(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    enum { SIZES = 6 };
+    const extent e = extent_of(j);
+    const float most = j->scale, least = j->o.scale > 0.0f ? most : 0.0f; /* of its size */
+    float scale = most;
+    for (int i = 0; i < SIZES; ++i) {
+        if (lmb_planes_clear(&j->anchor, &j->planes, &j->cloud, j->floor, e.radius * scale,
+                             e.height * fmaxf(scale, least))) {
+            j->scale = fmaxf(scale, least);
+            return;
+        }
+        scale *= 0.75f;
     }
-    return j->o.scale > 0.0f ? j->o.scale : room / 6.0f / fmaxf(size, 1e-9f);
+    scale = most;
+    for (int i = 0; i < SIZES; ++i) {
+        if (lmb_planes_clear(&j->anchor, &j->planes, &j->cloud, j->floor, e.radius * scale, 0.0f)) {
+            return;
+        }
+        scale *= 0.75f;
+    }
 }
 
-/* The middle of the plane, or beside what already stands there. */
 static int stand_at_centre(mix_job *j, report *r)
 {
-    const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
     j->floor = lmb_planes_floor(&j->planes);
+    j->faces_up = j->floor >= 0;
+    j->floor = j->floor < 0 && j->planes.count > 0 ? 0 : j->floor;
     if (j->floor < 0) {
         return report_fail(r, "no plane in the depth to stand on; say where by --at X,Y");
     }
     j->up = j->planes.plane[j->floor].normal;
     j->anchor = j->planes.plane[j->floor].centre;
-    /* Where it is too crowded for the object, where it is least so. */
-    float radius = 0.6f * chosen_scale(j) * hypotf(hi.x - lo.x, hi.z - lo.z);
-    for (int i = 0; i < 4 && !lmb_planes_clear(&j->anchor, &j->planes, &j->frame.camera, j->floor, radius); ++i) {
-        radius *= 0.6f;
-    }
+    j->scale = chosen_scale(j);
+    stand_free(j);
     return 1;
 }
 
-/* The median of how far the measured points about the anchor are from the plane through it. */
-static float gap(const mix_job *j)
+/* How much farther than the surface that the object stands on what was measured is, at the pixels of its foot: the
+ * median, so that noise counts as little as there are many of them. Along the camera's axis. */
+static float gap(mix_job *j, report *r)
 {
-    float far[81];
-    int n = 0;
     const lmb_pinhole *c = &j->frame.camera;
+    const float radius = extent_of(j).radius * j->scale, slope = dot(j->anchor, j->up);
+    const int reach = (int)fminf(fmaxf(radius * c->fx / -j->anchor.z, 4.0f), 200.0f);
     const int x0 = (int)floorf(c->cx - c->fx * j->anchor.x / j->anchor.z + 0.5f),
               y0 = (int)floorf(c->cy + c->fy * j->anchor.y / j->anchor.z + 0.5f);
-    for (int k = 0; k < 81; ++k) {
-        const int x = x0 + k % 9 - 4, y = y0 + k / 9 - 4;
-        if (x < 0 || y < 0 || x >= c->width || y >= c->height || !(j->frame.depth[y * c->width + x] > 0.0f)) {
-            continue;
+    float *off = mix_take(j, (size_t)(2 * reach + 1) * (size_t)(2 * reach + 1) * sizeof *off, r);
+    size_t n = 0;
+    for (int y = y0 - reach; off != NULL && y <= y0 + reach; ++y) {
+        for (int x = x0 - reach; x <= x0 + reach; ++x) {
+            if (x < 0 || y < 0 || x >= c->width || y >= c->height || !(j->frame.depth[y * c->width + x] > 0.0f)) {
+                continue;
+            }
+            const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
+            const float at = slope / dot(ray, j->up);
+            const lmb_vec3 p = scaled(ray, at), d = {p.x - j->anchor.x, p.y - j->anchor.y, p.z - j->anchor.z};
+            if (dot(d, d) <= radius * radius || (x == x0 && y == y0)) {
+                off[n++] = j->frame.depth[y * c->width + x] - at;
+            }
         }
-        const lmb_vec3 p = scaled(lmb_cloud_ray(c, (float)x, (float)y), j->frame.depth[y * c->width + x]);
-        const float d = fabsf(dot(p, j->up) - dot(j->anchor, j->up));
-        int at = n++;
-        for (; at > 0 && far[at - 1] > d; --at) {
-            far[at] = far[at - 1];
-        }
-        far[at] = d;
     }
-    return n > 0 ? far[n / 2] : 0.0f;
+    return n > 0 ? median(off, n) : NAN;
 }
 
 /* Upright in the scene's space, +Z towards the viewer, then turned. */
@@ -152,7 +204,7 @@ static lmb_mat4 object_to_scene(mix_job *j)
         return j->from_world;
     }
     const lmb_vec3 lo = j->object.scene.bounds_min, hi = j->object.scene.bounds_max;
-    const lmb_mat4 stand = upright(j, chosen_scale(j));
+    const lmb_mat4 stand = upright(j, j->scale);
     lmb_mat4 foot = identity;
     foot.m[12] = -0.5f * (lo.x + hi.x);
     foot.m[13] = -lo.y;
@@ -230,16 +282,37 @@ static void turn_scene(mix_job *j)
     j->from_world = multiply(&turn, &camera);
 }
 
-static void stand_on_floor(mix_job *j)
+/* Is the box of what the object covers in the picture? */
+static int is_inside(const mix_job *j)
+{
+    const lmb_pinhole *c = &j->frame.camera;
+    lmb_scene object = j->scene;
+    lmb_vec3 low, high;
+    ++object.instances;
+    --object.instance_count;
+    lmb_scene_bounds(&low, &high, &object);
+    for (int i = 0; i < 8; ++i) {
+        const lmb_vec3 p = {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
+        const float ahead = -dot(j->axes.back, p), x = c->cx + c->fx * dot(j->axes.right, p) / ahead,
+                    y = c->cy - c->fy * dot(j->axes.up, p) / ahead;
+        if (!(ahead > 0.0f) || x < -0.5f || y < -0.5f || x > (float)c->width - 0.5f || y > (float)c->height - 0.5f) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Of the floor, or, where none is seen, what else tells. */
+static void set_up(mix_job *j)
 {
     const int32_t floor = lmb_planes_floor(&j->planes);
-    j->up = floor >= 0 ? j->planes.plane[floor].normal : (lmb_vec3){0, 1, 0};
+    j->up = floor >= 0 ? j->planes.plane[floor].normal : lmb_planes_up(&j->planes);
 }
 
 int mix_place(mix_job *j, report *r)
 {
     j->floor = -1;
-    stand_on_floor(j);
+    set_up(j);
     if (j->o.object == NULL) {
         turn_scene(j);
         return join_scene(j, &identity, r);
@@ -249,7 +322,11 @@ int mix_place(mix_job *j, report *r)
         return 0;
     }
     turn_scene(j);
-    j->gap_m = j->o.at == MIX_AT_WORLD ? 0.0f : gap(j);
+    j->gap_m = j->o.at == MIX_AT_WORLD ? NAN : gap(j, r);
     const lmb_mat4 place = object_to_scene(j);
-    return join_scene(j, &place, r);
+    if (!join_scene(j, &place, r)) {
+        return 0;
+    }
+    j->inside = is_inside(j);
+    return 1;
 }

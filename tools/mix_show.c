@@ -100,7 +100,7 @@ typedef struct look {
 
 int mix_show_voxels(mix_job *j, report *r)
 {
-    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, NULL, j->scratch};
+    const lmb_cone_trace trace = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, NULL, j->scratch, 1};
     look *l = mix_take(j, sizeof *l, r);
     const int32_t w = j->frame.light.width, h = j->frame.light.height;
     if (l == NULL || !mix_image(&j->picture, w, h, r)) {

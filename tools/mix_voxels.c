@@ -3,9 +3,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { TREE_SIZE = 512, CONES = 19, TURNS = 4 };
+#include "../platform/host/host.h"
+
+enum { TREE_SIZE = 512, TURNS = 4 };
 
 /* The cube around the object is so many times as wide as it is. */
 #define ROOM 4.0f
@@ -122,11 +125,11 @@ static int build(mix_job *j, report *r)
     }
     if (lmb_voxels_init(&j->voxels, cap, LMB_VOXELS_THREE, memory, bytes) != LMB_OK ||
         lmb_voxels_build(&j->voxels, &from, &to, j->o.depth, parts, 2) != LMB_OK ||
-        lmb_cones_init(&j->cones, &j->voxels, CONES) != LMB_OK ||
+        lmb_cones_init(&j->cones, &j->voxels, j->o.cones) != LMB_OK ||
         lmb_cone_width_init(&j->gloss, &j->voxels, lmb_cone_tangent(j->o.roughness)) != LMB_OK) {
         return report_fail(r, "the object is too large or too small for voxels; --scale sets metres of a unit");
     }
-    if (j->voxels.depth < j->voxels.asked) {
+    if (j->voxels.depth < j->voxels.asked && !j->o.is_quiet) {
         fprintf(stderr, "lambent: voxels: %u are not enough for %d a side; they are coarser, %d a side\n",
                 (unsigned)cap, 1 << j->voxels.asked, 1 << j->voxels.depth);
     }
@@ -197,9 +200,9 @@ static int inject_with(mix_job *j, points *p)
 /* Points by what they receive now, against what they did: without the object, or of all that is around. */
 static int relight(mix_job *j, points *p, lmb_texel *inout, size_t count, int is_real)
 {
-    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch},
+    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch, 1},
                          without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0],
-                                    j->scratch};
+                                    j->scratch, 1};
     for (size_t i = 0; i < count;) {
         i = lmb_around_gather(p->around, inout, i, count, NEAR_LEAVES * j->voxels.leaf, p->about);
         if (lmb_cones_diffuse(&p->around->now, NULL, &with, &j->cones, &p->around->tile) != LMB_OK ||
@@ -270,6 +273,52 @@ static void add_flux(double sum[3], const lmb_texel *all, size_t count)
     }
 }
 
+/* Which points have one answer: those of one cube of NEAR_LEAVES that face about the same way. */
+typedef struct sorter {
+    uint64_t key;
+    uint32_t at;
+} sorter;
+
+static uint64_t key_of(const lmb_texel *t, const lmb_voxels *v)
+{
+    const float per = 1.0f / (NEAR_LEAVES * v->leaf * 0.57735f), at[3] = {t->position.x, t->position.y, t->position.z},
+                low[3] = {v->low.x, v->low.y, v->low.z}, n[3] = {t->normal.x, t->normal.y, t->normal.z};
+    uint64_t key = 0;
+    for (int i = 0; i < 3; ++i) {
+        key = key << 12 | ((uint64_t)((at[i] - low[i]) * per) & 0xfff);
+    }
+    for (int i = 0; i < 3; ++i) {
+        key = key << 4 | (uint64_t)(fminf(fmaxf(n[i], -1.0f), 1.0f) * 6.5f + 7.0f);
+    }
+    return key;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const sorter *x = a, *y = b;
+    return x->key != y->key ? (x->key > y->key) - (x->key < y->key) : (x->at > y->at) - (x->at < y->at);
+}
+
+/* Meshes have their triangles in any order; those that lie together are to be asked together. */
+static int sort_points(mix_job *j, lmb_texel *all, size_t count, report *r)
+{
+    sorter *order = mix_take(j, count * sizeof *order, r);
+    lmb_texel *copy = mix_take(j, count * sizeof *copy, r);
+    if (order == NULL || copy == NULL) {
+        return 0;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        order[i].key = key_of(&all[i], &j->voxels);
+        order[i].at = (uint32_t)i;
+    }
+    qsort(order, count, sizeof *order, by_key);
+    memcpy(copy, all, count * sizeof *copy);
+    for (size_t i = 0; i < count; ++i) {
+        all[i] = copy[order[i].at];
+    }
+    return 1;
+}
+
 static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uint32_t first_id, uint32_t triangles,
                               report *r)
 {
@@ -299,6 +348,9 @@ static int light_voxels(mix_job *j, report *r)
     p.real = take_points(&p.real_count, p.real_flux, j, 1, j->real_triangles, r);
     p.object = take_points(&p.object_count, object_flux, j, j->real_triangles + 1, j->object_triangles, r);
     p.again = mix_take(j, (p.real_count + p.object_count) * sizeof *p.again, r);
+    if (p.object != NULL && !sort_points(j, p.object, p.object_count, r)) {
+        return 0;
+    }
     if (memory == NULL || p.scratch == NULL || p.around == NULL || j->scratch == NULL || p.real == NULL ||
         p.object == NULL || p.again == NULL) {
         return 0;
@@ -321,5 +373,13 @@ int mix_voxels(mix_job *j, report *r)
     if (j->object_triangles == 0) {
         return 1;
     }
-    return colour_real(j, r) && build(j, r) && light_voxels(j, r);
+    if (!colour_real(j, r)) {
+        return 0;
+    }
+    const double from = host_seconds();
+    if (!build(j, r)) {
+        return 0;
+    }
+    j->build_s = host_seconds() - from;
+    return light_voxels(j, r);
 }

@@ -50,8 +50,8 @@ float picture_auto_exposure(const image *p)
     return 0.0f;
 }
 
-/* Display codes by the library's own tone curve, tile by tile. */
-static uint8_t *encode(const image *p, float exposure_ev)
+/* By the library's own tone curve, tile by tile. */
+uint8_t *picture_codes(const image *p, float exposure_ev)
 {
     const lmb_kernels *kernels = lmb_kernels_pick();
     size_t pixels = (size_t)p->width * (size_t)p->height;
@@ -89,7 +89,7 @@ int picture_write(const char *path, const image *p, float exposure_ev, report *r
     if (picture_is_linear(format)) {
         ok = format == PICTURE_PFM ? pfm_encode(&file, p, r) : hdr_encode(&file, p, r);
     } else {
-        uint8_t *rgb = encode(p, exposure_ev);
+        uint8_t *rgb = picture_codes(p, exposure_ev);
         if (rgb == NULL) {
             return report_fail(r, "%s: not enough memory for the picture; try a smaller --size", path);
         }

@@ -2,6 +2,8 @@
 #ifndef PICTURE_H
 #define PICTURE_H
 
+#include <stdint.h>
+
 #include "image.h"
 
 enum { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_PPM, PICTURE_PFM, PICTURE_HDR };
@@ -12,6 +14,9 @@ int picture_is_linear(int format);
 
 /* The stops that bring the brightest hundredth of the pixels just under white; 0 for a black frame. */
 float picture_auto_exposure(const image *linear);
+
+/* picture_codes: three display codes a pixel. The caller's to free; NULL where memory is short. */
+uint8_t *picture_codes(const image *linear, float exposure_ev);
 
 /* Write, whole or not at all. exposure_ev counts for display formats. 1, or 0 with `r` set. */
 int picture_write(const char *path, const image *linear, float exposure_ev, report *r);

@@ -252,7 +252,7 @@ static void put_indices(writer *w, const triangle_mesh *m)
 }
 
 /* Where everything lies; w->data NULL: only counts. */
-static void put_file(writer *w, const relief_bake *bake, const triangle_mesh *m, float reach, size_t total)
+static void put_file(writer *w, const relief_bake *bake, const triangle_mesh *m, size_t total)
 {
     const uint32_t views = (uint32_t)bake->views, records = 4 * LMB_RELIEF_HEADER_WORDS;
     uint32_t head[LMB_RELIEF_HEADER_WORDS] = {0, 0x01020304u, (uint32_t)total, (uint32_t)bake->format, views, records};
@@ -265,7 +265,6 @@ static void put_file(writer *w, const relief_bake *bake, const triangle_mesh *m,
     head[10] = m->colours != NULL ? head[9] + 4 * m->vertex_count : 0;
     head[11] = head[9] + (m->colours != NULL ? 8 : 4) * m->vertex_count;
     head[12] = m->vertex_count > 65536u ? LMB_INDEX_U32 : LMB_INDEX_U16;
-    head[13] = float_word(reach);
     at = head[11] + (m->vertex_count > 65536u ? 12 * m->triangle_count : (3 * m->triangle_count + 1) / 2 * 4);
     put_words(w, head, LMB_RELIEF_HEADER_WORDS);
     for (int32_t i = 0; i < bake->views; ++i) {
@@ -283,7 +282,7 @@ static void put_file(writer *w, const relief_bake *bake, const triangle_mesh *m,
     }
 }
 
-int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh *simple, float reach, report *r)
+int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh *simple, report *r)
 {
     writer w = {NULL, 0};
     double texels = 0.0;
@@ -293,13 +292,13 @@ int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh 
     if (texels + 40.0 * simple->vertex_count + 12.0 * simple->triangle_count > 2e9) {
         return report_fail(r, "over 2 GB: fewer or smaller views");
     }
-    put_file(&w, bake, simple, reach, 0);
+    put_file(&w, bake, simple, 0);
     out->size = w.at;
     out->data = w.data = malloc(w.at);
     w.at = 0;
     if (out->data == NULL) {
         return report_fail(r, "not enough memory for a file of %.0f bytes", (double)out->size);
     }
-    put_file(&w, bake, simple, reach, out->size);
+    put_file(&w, bake, simple, out->size);
     return 1;
 }

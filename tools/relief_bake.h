@@ -55,8 +55,8 @@ int relief_add_planes(relief_bake *bake, const lmb_view *view, const float *dept
 /* relief_cover: how well the views see a mesh. */
 int relief_cover(relief_coverage *out, const relief_bake *bake, const triangle_mesh *mesh, report *r);
 
-/* relief_encode: the file. reach: see lambent/relief.h. Allocates *out. */
-int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh *simple, float reach, report *r);
+/* relief_encode: the file. Allocates *out. */
+int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh *simple, report *r);
 
 void relief_bake_free(relief_bake *bake);
 

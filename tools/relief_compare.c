@@ -85,7 +85,7 @@ static double angle(const float *a, const float *b)
     return acos(dot < -1.0 ? -1.0 : dot > 1.0 ? 1.0 : dot) * DEGREES;
 }
 
-static double squared(const float *a, const float *b)
+double relief_squared(const float *a, const float *b)
 {
     double sum = 0.0;
     for (int c = 0; c < 3; ++c) {
@@ -112,9 +112,9 @@ static void measure_pixels(relief_figures *out, float *depth, float *normal, con
         if (a->depth[i] > 0.0f && b->depth[i] > 0.0f) {
             depth[n] = (float)(fabs((double)a->depth[i] - (double)b->depth[i]) / diagonal);
             normal[n] = (float)angle(a->normal + 3 * i, b->normal + 3 * i);
-            open += squared(a->open + 3 * i, b->open + 3 * i);
-            rgb += squared(a->rgb + 3 * i, b->rgb + 3 * i);
-            albedo += squared(a->albedo + 3 * i, b->albedo + 3 * i);
+            open += relief_squared(a->open + 3 * i, b->open + 3 * i);
+            rgb += relief_squared(a->rgb + 3 * i, b->rgb + 3 * i);
+            albedo += relief_squared(a->albedo + 3 * i, b->albedo + 3 * i);
             same += a->lit[i] == b->lit[i];
             ++n;
         }

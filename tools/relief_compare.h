@@ -17,6 +17,9 @@ typedef struct relief_figures {
     double lit;             /* share of them whose light or shadow is the same */
 } relief_figures;
 
+/* relief_squared: the squared difference of two colours, sRGB codes, summed over R G B. */
+double relief_squared(const float *a, const float *b);
+
 /* relief_measure: both of one size, one view, one light. 1, or 0 with `r` set (memory). */
 int relief_measure(relief_figures *out, const relief_frame *test, const relief_frame *truth, double diagonal,
                    report *r);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../platform/host/host.h"
+#include "relief_bounce.h"
 
 /* One kind of geometry: what its pixels are resolved from, and its light's map. */
 typedef struct layer {
@@ -20,7 +21,8 @@ typedef struct work {
     lmb_scene simple;
     layer plain, relief; /* scene NULL: there is none */
     lmb_tile tile, other;
-    lmb_irradiance direct, open, ambient;
+    lmb_irradiance direct, open, indirect;
+    relief_bounce bounce;
     lmb_radiance radiance, open_radiance;
 } work;
 
@@ -139,6 +141,21 @@ static lmb_status light_tile(work *w)
     return status;
 }
 
+/* What the light sends on, and what comes from everywhere. */
+static lmb_status bounce_tile(work *w)
+{
+    uint64_t of_relief = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int is_relief = w->plain.scene == NULL || w->tile.id[k] == LMB_MAX_TRIANGLES;
+        of_relief |= (uint64_t)(w->relief.scene != NULL && is_relief) << k;
+        for (int c = 0; c < 3; ++c) {
+            w->indirect.rgb[c][k] = w->shot->ambient;
+        }
+    }
+    return w->shot->bounce == 0 ? LMB_OK : relief_bounce_tile(&w->indirect, &w->bounce, w->shot->kernels, &w->tile,
+                                                              of_relief);
+}
+
 static void store(work *w)
 {
     relief_frame *f = w->out;
@@ -166,10 +183,13 @@ static lmb_status draw_tile(work *w, int32_t x, int32_t y)
         status = light_tile(w);
     }
     if (status == LMB_OK && w->shot->light != NULL) {
-        status = lmb_compose_tile(&w->radiance, w->shot->kernels, &w->tile, &w->direct, &w->ambient);
+        status = bounce_tile(w);
     }
     if (status == LMB_OK && w->shot->light != NULL) {
-        status = lmb_compose_tile(&w->open_radiance, w->shot->kernels, &w->tile, &w->open, &w->ambient);
+        status = lmb_compose_tile(&w->radiance, w->shot->kernels, &w->tile, &w->direct, &w->indirect);
+    }
+    if (status == LMB_OK && w->shot->light != NULL) {
+        status = lmb_compose_tile(&w->open_radiance, w->shot->kernels, &w->tile, &w->open, &w->indirect);
     }
     store(w);
     return status;
@@ -189,6 +209,11 @@ static int draw(work *w, report *r)
     relief_frame *f = w->out;
     double since = host_cpu_seconds(), now;
     if (w->shot->light != NULL && w->shot->light_map > 0 && !draw_maps(w, r)) {
+        return 0;
+    }
+    if (w->shot->light != NULL && w->shot->bounce > 0 &&
+        !relief_bounce_make(&w->bounce, w->shot->kernels, w->plain.scene, w->relief.scene, w->shot->light,
+                            w->shot->bounce, r)) {
         return 0;
     }
     now = host_cpu_seconds();
@@ -226,9 +251,6 @@ static int begin(work *w, report *r)
         lmb_relief_scene(&w->simple, s->relief);
         w->relief.scene = &w->simple;
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        w->ambient.rgb[0][k] = w->ambient.rgb[1][k] = w->ambient.rgb[2][k] = s->ambient;
-    }
     return r->text[0] == '\0' && (w->plain.scene == NULL || take_layer(w, &w->plain, r)) &&
            (w->relief.scene == NULL || take_layer(w, &w->relief, r));
 }
@@ -252,6 +274,7 @@ int relief_shoot(relief_frame *out, const relief_shot *shot, report *r)
     const int ok = begin(w, r) && draw(w, r);
     layer_free(&w->plain);
     layer_free(&w->relief);
+    relief_bounce_free(&w->bounce);
     free(w);
     if (!ok) {
         relief_frame_free(out);

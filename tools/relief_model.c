@@ -93,7 +93,12 @@ static uint32_t slot_of(const triangle_mesh *m, uint32_t *slots, uint32_t mask, 
     lmb_vec3 p = get(m->positions + 3 * (size_t)v);
     p = add3(p, vec3(0.0f, 0.0f, 0.0f)); /* -0 is 0 */
     memcpy(bits, &p, sizeof bits);
-    at = (bits[0] * 0x9E3779B1u ^ bits[1] * 0x85EBCA77u ^ bits[2] * 0xC2B2AE3Du) >> 3 & mask;
+    if (!is_place(p)) {
+        return v; /* equal to nothing */
+    }
+    at = bits[0] * 0x9E3779B1u ^ bits[1] * 0x85EBCA77u ^ bits[2] * 0xC2B2AE3Du;
+    at = (at ^ at >> 16) * 0x85EBCA6Bu; /* whole numbers differ in their upper bits alone */
+    at = (at ^ at >> 13) & mask;
     for (;; at = (at + 1) & mask) {
         if (slots[at] == UINT32_MAX) {
             slots[at] = v;
@@ -101,9 +106,6 @@ static uint32_t slot_of(const triangle_mesh *m, uint32_t *slots, uint32_t mask, 
         const lmb_vec3 q = get(m->positions + 3 * (size_t)slots[at]);
         if (q.x == p.x && q.y == p.y && q.z == p.z) {
             return slots[at];
-        }
-        if (slots[at] == v) { /* not a number: equal to nothing */
-            return v;
         }
     }
 }

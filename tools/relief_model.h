@@ -26,8 +26,8 @@ int relief_flatten(triangle_mesh *out, const lmb_scene *scene, report *r);
 int relief_scene_of(relief_scene *out, const triangle_mesh *mesh, report *r);
 void relief_scene_free(relief_scene *s);
 
-/* relief_smooth: the same scene with the normals of `flat`, which relief_flatten and relief_scene_of made of it, where a
- * mesh of it has none and stands as it is. `meshes` holds scene->mesh_count; the scene and `flat` stay. */
+/* relief_smooth: the same scene with the normals of `flat`, which relief_flatten and relief_scene_of made of it, where
+ * a mesh of it has none and stands as it is. `meshes` holds scene->mesh_count; the scene and `flat` stay. */
 void relief_smooth(lmb_scene *out, lmb_mesh *meshes, const lmb_scene *scene, const relief_scene *flat);
 
 /* relief_divide: each triangle in four, at the middles of its edges. `out` is a mesh of its own. */

@@ -7,7 +7,9 @@
 
 #include "../src/base/vec.h"
 
-enum { CANDIDATES = 98 };
+enum { CANDIDATES = 98, TURNS = 30 };
+
+#define UPRIGHT 0.97f
 
 #define MARGIN_TEXELS 2.0f /* of nothing around the mesh, so that its edge has neighbours */
 
@@ -31,6 +33,26 @@ static void extent(const triangle_mesh *m, lmb_vec3 axis, float *low, float *hig
     }
 }
 
+/* Turned about its axis so that the picture is as small as it can be, upright where that is about as good: its texels
+ * are the finer. */
+static void turn_view(lmb_view *v, const triangle_mesh *mesh)
+{
+    const lmb_vec3 right = v->right, up = v->up;
+    float least = 3e38f;
+    for (int i = 0; i < TURNS; ++i) {
+        const float a = 1.57079633f * (float)i / (float)TURNS, c = cosf(a), s = sinf(a);
+        const lmb_vec3 x = add3(mul3(right, c), mul3(up, s)), y = sub3(mul3(up, c), mul3(right, s));
+        float x0, x1, y0, y1;
+        extent(mesh, x, &x0, &x1);
+        extent(mesh, y, &y0, &y1);
+        if ((x1 - x0) * (y1 - y0) < least) {
+            least = (i == 0 ? UPRIGHT : 1.0f) * (x1 - x0) * (y1 - y0);
+            v->right = normalize3(x);
+            v->up = normalize3(y);
+        }
+    }
+}
+
 lmb_view relief_fit(const triangle_mesh *mesh, lmb_vec3 direction, int32_t size)
 {
     const lmb_vec3 up = fabsf(direction.y) > 0.99f ? vec3(0.0f, 0.0f, 1.0f) : vec3(0.0f, 1.0f, 0.0f);
@@ -41,6 +63,7 @@ lmb_view relief_fit(const triangle_mesh *mesh, lmb_vec3 direction, int32_t size)
     v.back = normalize3(direction);
     v.right = normalize3(cross3(up, v.back));
     v.up = normalize3(cross3(v.back, v.right));
+    turn_view(&v, mesh);
     extent(mesh, v.right, &x0, &x1);
     extent(mesh, v.up, &y0, &y1);
     extent(mesh, v.back, &z0, &z1);
@@ -130,7 +153,7 @@ static float sees(const relief_bake *bake, const relief_picture *p, lmb_vec3 at,
     const uint32_t code = code_at(bake, p, (int32_t)x, (int32_t)y);
     const float texel =
         2.0f * unit * maxf(v->half_width / (float)v->frame_width, v->half_height / (float)v->frame_height);
-    const float slope = sqrtf(1.0f - cosine * cosine) / cosine;
+    const float slope = sqrtf(maxf(1.0f - cosine * cosine, 0.0f)) / cosine;
     return code != 0 && depth_of(bake, v, code) > w - texel * (0.5f + slope) ? cosine : 0.0f;
 }
 
@@ -153,7 +176,10 @@ int relief_cover(relief_coverage *out, const relief_bake *bake, const triangle_m
         lmb_vec3 at, n;
         const double own = (double)triangle_of(mesh, t, &at, &n);
         float best = 0.0f;
-        for (int32_t i = 0; i < bake->views && own > 0.0; ++i) {
+        if (!(own > 0.0 && own < HUGE_VAL)) { /* a corner that is no number draws nothing */
+            continue;
+        }
+        for (int32_t i = 0; i < bake->views; ++i) {
             best = maxf(best, sees(bake, &bake->picture[i], at, n));
         }
         area += own;

@@ -58,7 +58,7 @@ int relight_light_make(relight_light *w, relight_options *o, report *r)
 
 /* --- per place ---------------------------------------------------------------------------------------------------- */
 
-static lmb_status filter(relight_light *w, const relight_options *o, int32_t n)
+int relight_light_filter(relight_light *w, const relight_options *o, int32_t n)
 {
     static const int32_t terms[] = {0, LMB_SH_9, LMB_SH_16, LMB_SH_25};
     float harmonics[3][LMB_SH_25];
@@ -66,20 +66,20 @@ static lmb_status filter(relight_light *w, const relight_options *o, int32_t n)
         lmb_probe_halve(w->half, w->map, &w->table[0]);
         lmb_probe_halve(w->half, w->half, &w->table[1]);
         lmb_probe_blur_map(w->blurred, w->line, o->kernels, w->half, &w->blur);
-        return lmb_probe_map_cube(w->cube, n, w->blurred, &w->table[2]);
+        return lmb_probe_map_cube(w->cube, n, w->blurred, &w->table[2]) == LMB_OK;
     }
     if (o->filter == FILTER_COSINE) {
         lmb_probe_reduce(&w->lights, o->kernels, w->map, &w->table[0]);
-        return lmb_probe_cosine(w->cube, n, o->kernels, &w->lights, &w->table[0]);
+        return lmb_probe_cosine(w->cube, n, o->kernels, &w->lights, &w->table[0]) == LMB_OK;
     }
     lmb_probe_sh(harmonics, w->map, &w->table[0]);
-    return lmb_probe_sh_cube(w->cube, n, (const float (*)[LMB_SH_25])harmonics, terms[o->filter]);
+    return lmb_probe_sh_cube(w->cube, n, (const float (*)[LMB_SH_25])harmonics, terms[o->filter]) == LMB_OK;
 }
 
 int relight_light_at(relight_light *w, const relight_options *o, lmb_vec3 at, int32_t n, report *r)
 {
     return (lmb_probe_remap(w->map, o->kernels, &w->world, &w->table[0], at, o->blend) == LMB_OK &&
-            filter(w, o, n) == LMB_OK) ||
+            relight_light_filter(w, o, n)) ||
            report_fail(r, "--at: numbers over 1,000,000 m");
 }
 

@@ -24,6 +24,8 @@ typedef struct relight_light {
  * `map`, and its irradiance by the filter, n x n x 6, into `cube`. 1, or 0 with `r` set. */
 int relight_light_make(relight_light *out, relight_options *o, report *r);
 int relight_light_at(relight_light *inout, const relight_options *o, lmb_vec3 at, int32_t n, report *r);
+/* relight_light_filter: of `map` as it is. 1, or 0. */
+int relight_light_filter(relight_light *inout, const relight_options *o, int32_t n);
 void relight_light_free(relight_light *w);
 
 #endif

@@ -95,7 +95,20 @@ static const char usage_more[] =
     "  --threads N                that draw at once; the picture does not depend on it (default: the processors)\n"
     "  --stats FILE.json          time by stage, counts, bytes\n";
 
-const char *const render_usage[RENDER_USAGE_PARTS] = {usage_view, usage_bounce, usage_more};
+static const char usage_budget[] =
+    "budget\n"
+    "  --budget-error E           bounced light may be that far off: RMSE over its mean, without the worst "
+    "1 % of pixels\n"
+    "  --budget-ms T              a frame may take that long here: T x the rate of `lambent bench --calibrate`\n"
+    "  --budget-work N            the same in units, one a pixel lit by one node: the same choice on every machine\n"
+    "  --budget-bytes N[KiB|MiB]  of maps, trees, view, picture and one thread's scratch\n"
+    "                             With any of them --light-map, --tree, --error, --visible, --gather and --occlusion\n"
+    "                             are chosen: the least error within them, or the least work that keeps\n"
+    "                             --budget-error. What is chosen, and by how much it falls short, is said;\n"
+    "                             `lambent plan` shows the reckoning\n"
+    "  --rate UNITS               units of work a second, in place of measuring them\n";
+
+const char *const render_usage[RENDER_USAGE_PARTS] = {usage_view, usage_bounce, usage_more, usage_budget};
 
 static int parse_size(const char *text, render_options *o)
 {
@@ -305,6 +318,38 @@ static int parse_stereo(const char *text, render_options *o)
     return option_number(text, 0.0f, 1e6f, &o->stereo_m) && o->stereo_m > 0.0f;
 }
 
+static int parse_budget_error(const char *text, render_options *o)
+{
+    return option_number(text, 1e-5f, 10.0f, &o->budget.error);
+}
+
+static int parse_budget_ms(const char *text, render_options *o)
+{
+    return option_number(text, 1e-3f, 1e9f, &o->budget_ms);
+}
+
+static int parse_budget_work(const char *text, render_options *o)
+{
+    float work;
+    const int ok = option_number(text, 1.0f, 1e18f, &work);
+    o->budget.work = ok ? (double)work : 0.0;
+    return ok;
+}
+
+static int parse_budget_bytes(const char *text, render_options *o)
+{
+    const char *p = text;
+    float n;
+    if (!option_float(&p, &n) || !(n >= 1.0f) || n > 1e15f) {
+        return 0;
+    }
+    const double unit = strcmp(p, "KiB") == 0 ? 1024.0 : strcmp(p, "MiB") == 0 ? 1048576.0 : 1.0;
+    o->budget.bytes = (uint64_t)((double)n * unit);
+    return *p == '\0' || unit > 1.0;
+}
+
+static int parse_rate(const char *text, render_options *o) { return option_number(text, 1.0f, 1e15f, &o->rate); }
+
 static int add_light(const char *text, render_options *o)
 {
     return o->light_count < RENDER_LIGHTS && option_light(text, &o->lights[o->light_count++]);
@@ -356,6 +401,11 @@ static const struct flag {
     {{"--backend", "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"}, parse_backend},
     {{"--threads", "1 .. 64"}, parse_threads},
     {{"--stats", "a file name"}, parse_stats},
+    {{"--budget-error", "a share, 0.00001 .. 10"}, parse_budget_error},
+    {{"--budget-ms", "milliseconds, 0.001 or more"}, parse_budget_ms},
+    {{"--budget-work", "a number of units, 1 or more"}, parse_budget_work},
+    {{"--budget-bytes", "a number of bytes, or of KiB or MiB: 100KiB"}, parse_budget_bytes},
+    {{"--rate", "units of work a second, 1 or more"}, parse_rate},
 };
 
 /* Figures of the presets: README, "How good it is". */
@@ -383,12 +433,39 @@ static void choose(render_options *o)
     o->visible = o->visible > 0.0f ? o->visible : p->visible;
 }
 
-static int check_together(const render_options *o, report *r)
+static int check_budget(const render_options *o, report *r)
+{
+    if (!has_budget(&o->budget, o->budget_ms)) {
+        return 1;
+    }
+    if (o->grouping.method != LMB_GROUP_CUT || o->proven) {
+        return report_fail(r, "--budget-*: settings are chosen for --grouping cut, without --error-bound");
+    }
+    if (o->show == SHOW_OCCLUSION || shows_attribute(o->show) || shows_map(o->show) || o->show == LMB_SHOW_DIRECT) {
+        return report_fail(r, "--budget-*: settings are chosen for bounced light; --show full, indirect or irradiance");
+    }
+    if (o->budget.work > 0.0 && o->budget_ms > 0.0f) {
+        return report_fail(r, "--budget-ms and --budget-work exclude each other: one is the other times the rate");
+    }
+    return 1;
+}
+
+static int check_together(const render_options *o, int plans, report *r)
 {
     if (o->scene == NULL) {
-        return report_fail(r, "no scene given; try: lambent render demo -o demo.png");
+        return report_fail(r, plans ? "no scene given; try: lambent plan demo"
+                                    : "no scene given; try: lambent render demo -o demo.png");
     }
-    if (o->out == NULL) {
+    if (!check_budget(o, r)) {
+        return 0;
+    }
+    if (plans && o->out != NULL) {
+        return report_fail(r, "-o: a plan draws nothing; `lambent render` does");
+    }
+    if (!plans && o->json) {
+        return report_fail(r, "--json: is of `lambent plan`; --stats FILE.json tells what was drawn");
+    }
+    if (o->out == NULL && !plans) {
         return report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
     }
     if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
@@ -425,6 +502,7 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
     o->grouping.method = o->occlusion = CHOSEN;
     o->exposure_auto = 1;
     o->kernels = lmb_kernels_pick();
+    const int plans = strcmp(argv[0], "plan") == 0;
     for (int i = 1; i < argc; ++i) {
         if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
             o->help = 1;
@@ -432,6 +510,8 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
         }
         if (strcmp(argv[i], "--glossy") == 0) {
             o->glossy = 1;
+        } else if (strcmp(argv[i], "--json") == 0) {
+            o->json = 1;
         } else if (argv[i][0] == '-' && argv[i][1] != '\0') {
             const int f = option_find(flags, sizeof *flags, sizeof flags / sizeof *flags, argv, i, r);
             if (f < 0 || (!flags[f].parse(argv[++i], o) && !option_refuse(&flags[f].of, argv[i], r))) {
@@ -444,5 +524,5 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
         }
     }
     choose(o);
-    return check_together(o, r);
+    return check_together(o, plans, r);
 }

@@ -15,6 +15,12 @@ enum { SHOW_LIGHT_DISTANCE = 32, SHOW_POINTS, SHOW_GROUPS };
 enum { SHOW_OCCLUSION = 48 };
 
 static inline int shows_attribute(int32_t show) { return show >= SHOW_DEPTH && show <= SHOW_EYE_DISTANCE; }
+/* Are settings to be chosen? */
+static inline int has_budget(const lmb_budget *b, float ms)
+{
+    return b->work > 0.0 || b->error > 0.0f || b->bytes > 0 || ms > 0.0f;
+}
+
 static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
 
 enum { QUALITY_DEFAULT, QUALITY_DRAFT, QUALITY_BEST };
@@ -45,14 +51,18 @@ typedef struct render_options {
     float exposure_ev;
     const lmb_kernels *kernels;
     int32_t threads; /* 0: as many as there are processors */
+    lmb_budget budget; /* zeros: none */
+    float budget_ms;   /* 0: none */
+    float rate;        /* units of work a second and thread; 0: measured where it is wanted */
+    int json;          /* of `plan` */
     int help;
 } render_options;
 
 /* In parts: C99 asks compilers for strings of 4,095 characters only. */
-enum { RENDER_USAGE_PARTS = 3 };
+enum { RENDER_USAGE_PARTS = 4 };
 extern const char *const render_usage[RENDER_USAGE_PARTS];
 
-/* 1, or 0 with `r` set: bad usage. */
+/* For `render`, and for `plan`, which has no output. 1, or 0 with `r` set: bad usage. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);
 
 #endif

@@ -18,3 +18,9 @@ int report_fail(report *r, const char *format, ...)
     }
     return 0;
 }
+
+int report_end(const report *r, const char *verb, int status)
+{
+    fprintf(stderr, "lambent %s: %s\n", verb, r->text);
+    return status;
+}

@@ -19,4 +19,7 @@ typedef struct report {
  * a parser can `return report_fail(...)`. */
 int report_fail(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
+/* report_end: tell the line, behind `lambent VERB: `, and return what the verb exits with: `status`. */
+int report_end(const report *r, const char *verb, int status);
+
 #endif

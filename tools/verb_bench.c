@@ -1,22 +1,29 @@
-/* verb_bench.c: `lambent bench`: the fixed raster workload, the far gather, and what threads gain. */
+/* verb_bench.c: `lambent bench`: the raster workload, the far gather, threads, hard cases; all else is swept. */
 #include "verb_bench.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../platform/host/host.h"
 #include "../platform/host/pool.h"
+#include "bench_calibrate.h"
 #include "bench_gather.h"
+#include "bench_hard.h"
 #include "bench_mix.h"
 #include "bench_rates.h"
 #include "bench_scene.h"
 #include "bench_threads.h"
+#include "verb_bench_sweep.h"
 
 static const char help_text[] =
-    "usage: lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
+    "usage: lambent bench SCENE|relight|relief|mix ...      speed against error; see lambent bench SCENE --help\n"
+    "       lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
     "       lambent bench gather [--backend NAME] [--seconds S] [--json]\n"
     "       lambent bench threads [--threads N] [--data FOLDER] [--backend NAME] [--seconds S]\n"
+    "       lambent bench hard [ROOM] [--backend NAME] [--json]\n"
+    "       lambent bench --calibrate [--threads N]   units of work a second, by which --budget-ms reckons\n"
     "\n"
     "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median\n"
     "time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound /\n"
@@ -41,6 +48,11 @@ static const char help_text[] =
     "threads, and in N processes at once, in turn. `of processes` is what the threads gain over what the\n"
     "processes do: 100 % is all that this machine gives.\n"
     "\n"
+    "hard: what renderers get wrong, tried here: a line a case, with its figure and what that may be at most.\n"
+    "`exact` is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms\n"
+    "in double, whose bound lies a little over what was found. A ROOM is raster, shadow, bounce, probe, relief,\n"
+    "mixed or all. A few seconds; exit status 1 where a figure is past its bound.\n"
+    "\n"
     "  --data FOLDER    of bunny.mesh and sponza.mesh (default: the environment's BENCH_DATA)\n"
     "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128 (default: this machine's best; gather: all)\n"
     "  --seconds S      of each case, or back end (default: 1.5; threads: 4)\n"
@@ -52,7 +64,7 @@ static const char help_text[] =
 
 enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
 
-enum { RASTER, GATHER, THREADS, NOTHING };
+enum { RASTER, GATHER, THREADS, HARD, NOTHING };
 
 typedef struct options {
     const char *folder;
@@ -318,15 +330,16 @@ static int parse_option(options *o, int *i, int argc, char **argv, report *r)
     return value != NULL && parse_value(o, name, value, r);
 }
 
-/* The first word says what is measured; more of them only mean something to raster. */
+/* The first word says what is measured; more of them only mean something to raster, one more to hard. */
 static int what_of(const options *o)
 {
-    static const char *const names[] = {"raster", "gather", "threads"};
+    static const char *const names[] = {"raster", "gather", "threads", "hard"};
     int what = RASTER;
     while (o->case_count > 0 && what < NOTHING && strcmp(o->cases[0], names[what]) != 0) {
         ++what;
     }
-    return o->case_count == 0 || (what != RASTER && o->case_count > 1) ? NOTHING : what;
+    const int most = what == RASTER ? INT_MAX : what == HARD ? 2 : 1;
+    return o->case_count == 0 || o->case_count > most ? NOTHING : what;
 }
 
 /* An option that what is measured has no use for, or NULL. */
@@ -335,6 +348,7 @@ static const char *idle_option(const options *o)
     return o->threads > 0 && o->what != THREADS  ? "--threads"
            : o->linear && o->what != RASTER      ? "--linear"
            : o->json && o->what == THREADS       ? "--json"
+           : o->seconds > 0.0 && o->what == HARD ? "--seconds"
                                                  : NULL;
 }
 
@@ -357,7 +371,7 @@ static int parse(options *o, int argc, char **argv, report *r)
     }
     o->what = what_of(o);
     if (o->what == NOTHING) {
-        return report_fail(r, "what is to be measured? `lambent bench raster`, `gather` or `threads`; see --help");
+        return report_fail(r, "what is to be measured? `lambent bench raster`, `gather`, `threads` or `hard`; see --help");
     }
     if (idle_option(o) != NULL) {
         return report_fail(r, "%s means nothing to `%s`; see --help", idle_option(o), o->cases[0]);
@@ -386,12 +400,29 @@ static int run(const options *o, report *r)
     switch (o->what) {
     case GATHER: return bench_gather(o->kernels, o->seconds, o->json, r);
     case THREADS: return bench_threads(&threads, r);
+    case HARD: return bench_hard(o->kernels, o->case_count > 0 ? o->cases[0] : NULL, o->json, r);
     default: return run_raster(o, r);
     }
 }
 
+/* A first word that is no workload's name is a scene, or a verb that is swept. */
+static int is_swept(int argc, char **argv)
+{
+    options o;
+    memset(&o, 0, sizeof o);
+    o.cases = (const char *const *)argv + 1;
+    o.case_count = 1;
+    return argc > 1 && argv[1][0] != '-' && what_of(&o) == NOTHING;
+}
+
 int verb_bench(int argc, char **argv)
 {
+    if (is_swept(argc, argv)) {
+        return verb_bench_sweep(argc, argv);
+    }
+    if (argc > 1 && strcmp(argv[1], "--calibrate") == 0) {
+        return verb_calibrate(argc, argv);
+    }
     options o;
     report r = {""};
     if (!parse(&o, argc, argv, &r)) {

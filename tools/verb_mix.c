@@ -60,17 +60,49 @@ int mix_find_planes(mix_job *j, report *r)
 
 /* --- the whole ---------------------------------------------------------------------------------------------------- */
 
+/* NaN: no pixel of the foot has a depth. */
+static void tell_gap(const mix_job *j)
+{
+    if (isnan(j->gap_m)) {
+        fputs("where no depth was measured", stderr);
+    } else {
+        fprintf(stderr, "within %.1f mm of the measured depth", 1000.0 * fabs((double)j->gap_m));
+    }
+}
+
+static void tell_place(const mix_job *j)
+{
+    const float near = -j->anchor.z;
+    if (j->floor < 0) {
+        fprintf(stderr, "lambent: the object stands on no plane, %.2f m away, ", (double)near);
+        tell_gap(j);
+        fputc('\n', stderr);
+        return;
+    }
+    const lmb_flat *p = &j->planes.plane[j->floor];
+    fprintf(stderr, "lambent: %d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, ",
+            (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
+            (double)(p->high[1] - p->low[1]), (double)near);
+    tell_gap(j);
+    fprintf(stderr, "; --scale %.4g\n", (double)j->scale);
+    if (!j->faces_up) {
+        fprintf(stderr, "lambent: no plane faces up; that is the largest, a wall or a ceiling that faces "
+                        "%.2f,%.2f,%.2f; --at X,Y names another, --show planes shows them\n",
+                (double)p->normal.x, (double)p->normal.y, (double)p->normal.z);
+    }
+}
+
 static void tell(const mix_job *j)
 {
     for (uint32_t i = 0; i < j->notes.count; ++i) {
         fprintf(stderr, "lambent: note: %s\n", j->notes.line[i]);
     }
-    if (j->o.object != NULL && j->floor >= 0) {
-        const lmb_flat *p = &j->planes.plane[j->floor];
-        fprintf(stderr, "lambent: %d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, within "
-                        "%.1f mm of the measured depth\n",
-                (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
-                (double)(p->high[1] - p->low[1]), -(double)j->anchor.z, 1000.0 * (double)j->gap_m);
+    if (j->o.object == NULL || j->o.at == MIX_AT_WORLD) {
+        return;
+    }
+    tell_place(j);
+    if (!j->inside) {
+        fputs("lambent: part of the object is off the picture; --at X,Y sets its place and --scale its size\n", stderr);
     }
 }
 
@@ -111,17 +143,23 @@ static int make_picture(mix_job *j, double *from, report *r)
 
 static int write_stats(const mix_job *j, report *r)
 {
-    char text[1024];
+    char text[1024], gap[32] = "null";
     const lmb_voxels *v = &j->voxels;
-    const int n = snprintf(text, sizeof text,
-                           "{\n  \"planes\": %d,\n  \"stands_on\": %d,\n  \"gap_m\": %.6f,\n  \"noise_per_m\": %.6f,\n"
-                           "  \"voxels\": %u,\n  \"voxels_a_side\": %d,\n  \"leaf_m\": %.6f,\n"
-                           "  \"pool_bytes\": %.0f,\n  \"read_s\": %.4f,\n  \"planes_s\": %.4f,\n  \"place_s\": %.4f,\n"
-                           "  \"light_s\": %.4f,\n  \"voxels_s\": %.4f,\n  \"draw_s\": %.4f\n}\n",
-                           (int)j->planes.count, (int)j->floor + 1, (double)j->gap_m, (double)j->cloud.noise,
-                           (unsigned)v->count, v->count > 0 ? 1 << v->depth : 0, (double)v->leaf,
-                           (double)lmb_voxels_bytes(v->cap, LMB_VOXELS_THREE), j->read_s, j->planes_s, j->place_s,
-                           j->light_s, j->voxels_s, j->draw_s);
+    if (!isnan(j->gap_m)) {
+        snprintf(gap, sizeof gap, "%.6f", (double)j->gap_m);
+    }
+    const int n = snprintf(
+        text, sizeof text,
+        "{\n  \"planes\": %d,\n  \"stands_on\": %d,\n  \"faces_up\": %s,\n  \"in_picture\": %s,\n"
+        "  \"scale\": %.6g,\n  \"gap_m\": %s,\n  \"noise_per_m\": %.6f,\n  \"voxels\": %u,\n"
+        "  \"voxels_a_side\": %d,\n  \"leaf_m\": %.6f,\n  \"pool_bytes\": %.0f,\n  \"used_bytes\": %.0f,\n"
+        "  \"read_s\": %.4f,\n  \"planes_s\": %.4f,\n  \"place_s\": %.4f,\n  \"light_s\": %.4f,\n"
+        "  \"build_s\": %.4f,\n  \"voxels_s\": %.4f,\n  \"draw_s\": %.4f\n}\n",
+        (int)j->planes.count, (int)j->floor + 1, j->faces_up ? "true" : "false", j->inside ? "true" : "false",
+        (double)j->scale, gap, (double)j->cloud.noise, (unsigned)v->count,
+        v->count > 0 ? 1 << v->depth : 0, (double)v->leaf, (double)lmb_voxels_bytes(v->cap, LMB_VOXELS_THREE),
+        (double)lmb_voxels_bytes(v->count, LMB_VOXELS_THREE), j->read_s, j->planes_s, j->place_s, j->light_s,
+        j->build_s, j->voxels_s, j->draw_s);
     return file_write(j->o.stats, text, (size_t)n, r);
 }
 
@@ -145,13 +183,12 @@ int verb_mix(int argc, char **argv)
     report r = {""};
     mix_job *j = calloc(1, sizeof *j);
     if (j == NULL) {
-        fputs("lambent: out of memory\n", stderr);
-        return 1;
+        report_fail(&r, "out of memory");
+        return report_end(&r, "mix", 1);
     }
     if (!mix_options_parse(&j->o, argc, argv, &r)) {
-        fprintf(stderr, "lambent mix: %s\n", r.text);
         free(j);
-        return 2;
+        return report_end(&r, "mix", 2);
     }
     if (j->o.help) {
         fputs(mix_help, stdout);
@@ -159,9 +196,6 @@ int verb_mix(int argc, char **argv)
         return 0;
     }
     const int ok = mix(j, &r);
-    if (!ok) {
-        fprintf(stderr, "lambent: %s\n", r.text);
-    }
     mix_job_free(j);
-    return ok ? 0 : 1;
+    return ok ? 0 : report_end(&r, "mix", 1);
 }

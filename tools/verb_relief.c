@@ -33,6 +33,7 @@ static const char help_text[] =
     "  --light-map N              texels a side of its shadow map, a multiple of 8 (default 1024); 0: no shadows\n"
     "  --ambient E                irradiance from everywhere, W/m2 (default 0.3)\n"
     "  --with SCENE               other geometry in the same picture: both shadow and hide each other\n"
+    "  --bounce                   light once reflected, too, by the other geometry and the simple model\n"
     "output\n"
     "  -o IMG                     .png .ppm .pfm .hdr\n"
     "  --show full|depth|normal|albedo|lit\n"
@@ -42,6 +43,7 @@ static const char help_text[] =
     "\n"
     "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage\n";
 
+enum { BOUNCE_MAP = 256 }; /* texels a side */
 enum { SHOW_FULL, SHOW_DEPTH, SHOW_NORMAL, SHOW_ALBEDO, SHOW_LIT };
 
 typedef struct options {
@@ -49,7 +51,7 @@ typedef struct options {
     view_options view;
     lmb_relief_how how;
     lmb_light light;
-    int has_light, help;
+    int has_light, bounce, help;
     int32_t light_map, show;
     float ambient, exposure_ev;
     const lmb_kernels *kernels;
@@ -129,6 +131,9 @@ static int parse_one(options *o, char **argv, int *at, report *r)
     if (strcmp(argv[*at], "--help") == 0 || strcmp(argv[*at], "-h") == 0) {
         return o->help = 1;
     }
+    if (strcmp(argv[*at], "--bounce") == 0) {
+        return o->bounce = 1;
+    }
     if (argv[*at][0] != '-') {
         if (o->file != NULL) {
             return report_fail(r, "one relief at a time: %s and %s", o->file, argv[*at]);
@@ -155,6 +160,9 @@ static int parse(options *o, int argc, char **argv, report *r)
     }
     if (!o->help && o->file == NULL) {
         return report_fail(r, "no relief given; lambent relief bake makes one");
+    }
+    if (o->compare != NULL && o->with != NULL) {
+        return report_fail(r, "--compare draws the complex model alone: without --with");
     }
     return o->help || ((o->out != NULL || report_fail(r, "no output given; add -o FILE.png")) &&
                        view_options_check(&o->view, r));
@@ -323,6 +331,7 @@ static int render(work *w, options *o, report *r)
     shot.light = o->has_light ? &o->light : &w->sun;
     shot.light_map = o->light_map;
     shot.ambient = o->ambient;
+    shot.bounce = o->bounce ? BOUNCE_MAP : 0;
     if (!relief_shoot(&f, &shot, r)) {
         return 0;
     }
@@ -337,8 +346,7 @@ static int verb_render_relief(int argc, char **argv)
     report r = {""};
     options o;
     if (!parse(&o, argc, argv, &r)) {
-        fprintf(stderr, "lambent relief render: %s\n", r.text);
-        return 2;
+        return report_end(&r, "relief render", 2);
     }
     if (o.help) {
         fputs(help_text, stdout);
@@ -346,13 +354,10 @@ static int verb_render_relief(int argc, char **argv)
     }
     work *w = calloc(1, sizeof *w);
     const int ok = w != NULL ? render(w, &o, &r) : report_fail(&r, "out of memory");
-    if (!ok) {
-        fprintf(stderr, "lambent: %s\n", r.text);
-    }
     if (w != NULL) {
         work_free(w);
     }
-    return ok ? 0 : 1;
+    return ok ? 0 : report_end(&r, "relief render", 1);
 }
 
 int verb_relief(int argc, char **argv)

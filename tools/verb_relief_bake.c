@@ -3,14 +3,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "enclose.h"
 #include "model.h"
 #include "option_value.h"
 #include "relief_bake.h"
 #include "relief_model.h"
+#include "relief_photos.h"
 #include "verb_relief.h"
 
 static const char help_text[] =
     "usage: lambent relief bake MODEL -o OUT.lmr [options]\n"
+    "       lambent relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]\n"
     "\n"
     "Views of a complex model, for drawing it as a simple one that carries its surface.\n"
     "\n"
@@ -22,7 +25,12 @@ static const char help_text[] =
     "  --packed              6 bytes a texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal\n"
     "  --triangles N         of the simple model (default 3000), made by edge collapse so that it encloses the\n"
     "                        complex one; what sticks out of it is cut off\n"
-    "  --simple FILE         a simple model of your own, as it is: around the complex one, but near to it\n"
+    "  --simple FILE         a simple model of your own, near to the complex one; moved out where that sticks out\n"
+    "  --as-is               leaves it as it is\n"
+    "\n"
+    "  --frame PREFIX        a photo as a view: PREFIX.color.png, .depth.png and .json, as `lambent mix --help` tells,\n"
+    "                        with camera_to_world where there are several (y down). `render --show albedo` shows it\n"
+    "  --block M             its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)\n"
     "\n"
     "Meshes without normals get smooth ones. Says how much of the surface no view sees: that will be filled with the\n"
     "simple model's.\n"
@@ -32,12 +40,20 @@ static const char help_text[] =
 typedef struct options {
     const char *model, *out, *simple, *views_file;
     int32_t views, size, triangles, greedy, format;
-    int help;
+    int as_is, help;
+    const char *frame[LMB_RELIEF_VIEWS]; /* photos' */
+    int32_t frames;
+    float block;
 } options;
 
 static int parse_out(const char *text, options *o) { return (o->out = text)[0] != '\0'; }
 static int parse_simple(const char *text, options *o) { return (o->simple = text)[0] != '\0'; }
 static int parse_size(const char *text, options *o) { return option_int(text, 8, 4096, &o->size); }
+static int parse_block(const char *text, options *o) { return option_number(text, 1e-4f, 1e4f, &o->block); }
+static int parse_frame(const char *text, options *o)
+{
+    return text[0] != '\0' && o->frames < LMB_RELIEF_VIEWS && (o->frame[o->frames++] = text) != NULL;
+}
 static int parse_triangles(const char *text, options *o) { return option_int(text, 4, 10000000, &o->triangles); }
 
 static int parse_views(const char *text, options *o)
@@ -60,6 +76,8 @@ static const struct flag {
     {{"--size", "8 .. 4096"}, parse_size},
     {{"--triangles", "4 .. 10000000"}, parse_triangles},
     {{"--simple", "a model's file"}, parse_simple},
+    {{"--frame", "a photo's PREFIX, at most 64 times"}, parse_frame},
+    {{"--block", "metres, 0.0001 .. 10000"}, parse_block},
 };
 
 static int parse_one(options *o, char **argv, int *at, report *r)
@@ -70,6 +88,9 @@ static int parse_one(options *o, char **argv, int *at, report *r)
     if (strcmp(argv[*at], "--packed") == 0) {
         o->format = LMB_RELIEF_PACKED;
         return 1;
+    }
+    if (strcmp(argv[*at], "--as-is") == 0) {
+        return o->as_is = 1;
     }
     if (argv[*at][0] != '-') {
         if (o->model != NULL) {
@@ -95,8 +116,11 @@ static int parse(options *o, int argc, char **argv, report *r)
             return 0;
         }
     }
-    if (!o->help && o->model == NULL) {
-        return report_fail(r, "no model given");
+    if (!o->help && (o->model != NULL) == (o->frames > 0)) {
+        return report_fail(r, o->frames > 0 ? "a model or photos, not both" : "no model given");
+    }
+    if (!o->help && o->as_is && o->simple == NULL) {
+        return report_fail(r, "--as-is needs --simple FILE");
     }
     return o->help || o->out != NULL || report_fail(r, "no output given; add -o FILE.lmr");
 }
@@ -154,18 +178,49 @@ static int load_complex(work *w, const options *o, report *r)
     return 1;
 }
 
+static void tell_outside(double outside)
+{
+    if (outside > 0.0) {
+        fprintf(stderr, "lambent: note: the complex model sticks out of the simple one by %.3g m\n", outside);
+    }
+}
+
+/* The user's own; moved outwards, its vertices at one place become one. */
+static int load_simple(work *w, const options *o, report *r)
+{
+    triangle_mesh own;
+    simplify_facts facts;
+    tally held = {0, 0};
+    double outside = 0.0;
+    if (!load(&w->loaded_simple, &own, o->simple, r)) {
+        return 0;
+    }
+    if (o->as_is) {
+        w->simple = own;
+    } else {
+        const int ok = simplify_mesh(&w->simple, &own, own.triangle_count, SIMPLIFY_NEAR, &facts, r);
+        triangle_mesh_free(&own);
+        if (!ok) {
+            return 0;
+        }
+    }
+    if (!(o->as_is ? mesh_outside : mesh_enclose)(&w->simple, &w->mesh, &outside, &held)) {
+        return report_fail(r, "%s: out of memory", o->simple);
+    }
+    tell_outside(outside);
+    return 1;
+}
+
 static int make_simple(work *w, const options *o, report *r)
 {
     simplify_facts facts;
     if (o->simple != NULL) {
-        return load(&w->loaded_simple, &w->simple, o->simple, r);
+        return load_simple(w, o, r);
     }
     if (!simplify_mesh(&w->simple, &w->mesh, (uint32_t)o->triangles, SIMPLIFY_AROUND, &facts, r)) {
         return 0;
     }
-    if (facts.outside > 0.0) {
-        fprintf(stderr, "lambent: note: the complex model sticks out of the simple one by %.3g m\n", facts.outside);
-    }
+    tell_outside(facts.outside);
     return 1;
 }
 
@@ -259,7 +314,7 @@ static int bake(work *w, const options *o, report *r)
             return 0;
         }
     }
-    if (!relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, 0.0f, r) ||
+    if (!relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, r) ||
         !file_write(o->out, w->file.data, w->file.size, r)) {
         return 0;
     }
@@ -267,25 +322,61 @@ static int bake(work *w, const options *o, report *r)
     return 1;
 }
 
+/* --- photos ------------------------------------------------------------------------------------------------------- */
+
+static int add_photos(work *w, const options *o, relief_photo *photo, report *r)
+{
+    for (int32_t i = 0; i < o->frames; ++i) {
+        if (!relief_photo_read(&photo[i], o->frame[i], r)) {
+            return 0;
+        }
+    }
+    const float side = o->block > 0.0f ? o->block : relief_photo_size(photo, o->frames) / 24.0f;
+    if (!relief_blocks(&w->simple, photo, o->frames, side, r)) {
+        return 0;
+    }
+    for (int32_t i = 0; i < o->frames; ++i) {
+        const relief_photo *p = &photo[i];
+        if (!relief_add_planes(&w->bake, &p->view, p->depth, p->normal, p->colour, 0, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int bake_photos(work *w, const options *o, report *r)
+{
+    relief_photo photo[LMB_RELIEF_VIEWS];
+    memset(photo, 0, sizeof photo);
+    w->bake.format = o->format;
+    const int ok = file_can_write(o->out, r) && add_photos(w, o, photo, r) &&
+                   relief_encode(&w->file, &w->bake, &w->simple, r) &&
+                   file_write(o->out, w->file.data, w->file.size, r);
+    for (int32_t i = 0; i < o->frames; ++i) {
+        relief_photo_free(&photo[i]);
+    }
+    if (ok) {
+        printf("%s: %d photos on %u triangles, %.0f bytes\n", o->out, (int)o->frames,
+               (unsigned)w->simple.triangle_count, (double)w->file.size);
+    }
+    return ok;
+}
+
 int verb_relief_bake(int argc, char **argv)
 {
     report r = {""};
     options o;
     if (!parse(&o, argc, argv, &r)) {
-        fprintf(stderr, "lambent relief bake: %s; lambent relief bake --help lists all\n", r.text);
-        return 2;
+        return report_end(&r, "relief bake", 2);
     }
     if (o.help) {
         fputs(help_text, stdout);
         return 0;
     }
     work *w = calloc(1, sizeof *w);
-    const int ok = w != NULL ? bake(w, &o, &r) : report_fail(&r, "out of memory");
-    if (!ok) {
-        fprintf(stderr, "lambent: %s\n", r.text);
-    }
+    const int ok = w != NULL ? (o.frames > 0 ? bake_photos : bake)(w, &o, &r) : report_fail(&r, "out of memory");
     if (w != NULL) {
         work_free(w);
     }
-    return ok ? 0 : 1;
+    return ok ? 0 : report_end(&r, "relief bake", 1);
 }

@@ -57,8 +57,7 @@ int verb_relight(int argc, char **argv)
     report r = {""};
     relight_options o;
     if (!relight_options_parse(&o, argc, argv, &r)) {
-        fprintf(stderr, "lambent relight: %s\n", r.text);
-        return 2;
+        return report_end(&r, "relight", 2);
     }
     if (o.help) {
         for (int i = 0; i < RELIGHT_USAGE_PARTS; ++i) {
@@ -68,12 +67,9 @@ int verb_relight(int argc, char **argv)
     }
     relight_light *w = calloc(1, sizeof *w);
     const int ok = w != NULL ? relight(w, &o, &r) : report_fail(&r, "out of memory");
-    if (!ok) {
-        fprintf(stderr, "lambent relight: %s\n", r.text);
-    }
     if (w != NULL) {
         relight_light_free(w);
         free(w);
     }
-    return ok ? 0 : 1;
+    return ok ? 0 : report_end(&r, "relight", 1);
 }

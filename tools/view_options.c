@@ -79,8 +79,10 @@ int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char 
     v->eye.x = centre.x + away * v->back.x;
     v->eye.y = centre.y + away * v->back.y;
     v->eye.z = centre.z + away * v->back.z;
-    fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", name, (double)v->eye.x,
-            (double)v->eye.y, (double)v->eye.z);
+    if (!o->is_quiet) {
+        fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", name, (double)v->eye.x,
+                (double)v->eye.y, (double)v->eye.z);
+    }
     return 1;
 }
 

@@ -11,6 +11,7 @@ typedef struct view_options {
     int has_eye, has_target;
     lmb_vec3 eye, target, up;
     float fov_deg;
+    int is_quiet; /* nothing is said on stderr */
 } view_options;
 
 /* Up +Y, 45 degrees, nothing else chosen. */

@@ -1,0 +1,38 @@
+/* bench_options.h: the command line of `lambent bench SCENE`, and of relight, relief and mix. */
+#ifndef BENCH_OPTIONS_H
+#define BENCH_OPTIONS_H
+
+#include "bench_subject.h"
+
+enum { BENCH_SWEEPS = 4, BENCH_VALUES = 64 };
+
+/* --sweep NAME=V,V,...: an option of the subject's verb. */
+typedef struct bench_range {
+    char name[40];                  /* with its dashes */
+    char text[BENCH_WORDS];         /* the values, each ended by 0 */
+    const char *value[BENCH_VALUES];
+    int count;
+} bench_range;
+
+typedef struct bench_options {
+    const bench_subject *subject;
+    const char *html, *csv, *json, *svg; /* NULL: not wanted */
+    const char *truth, *cache;     /* NULL: its own; the usual folder */
+    char *given[BENCH_ARGS];       /* the subject's own words, as given */
+    int given_count;
+    bench_range range[BENCH_SWEEPS];
+    int ranges;
+    int32_t runs, ledger; /* ledger: one band in so many, 0: none */
+    int help;
+    char names[3][1024];  /* of -o */
+} bench_options;
+
+/* bench_options_parse: argv[0] is the subject, or its first word. 1, or 0 with `r` set: bad usage. */
+int bench_options_parse(bench_options *out, const bench_subject *subject, int argc, char **argv, report *r);
+
+/* bench_options_line: the subject's verb with what was given, as large as `like`, or (NULL) as usual. */
+int bench_options_line(bench_line *out, const bench_options *o, const image *like, report *r);
+
+extern const char bench_help[];
+
+#endif

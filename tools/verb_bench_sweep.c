@@ -1,0 +1,83 @@
+/* verb_bench_sweep.c: `lambent bench SCENE`: speed against error, as a table and as files. */
+#include "verb_bench_sweep.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "bench_chart.h"
+#include "bench_html.h"
+#include "bench_sweep.h"
+#include "bench_table.h"
+
+static int can_write(const bench_options *o, report *r)
+{
+    const char *const paths[] = {o->html, o->csv, o->json, o->svg};
+    for (int i = 0; i < 4; ++i) {
+        if (paths[i] != NULL && !file_can_write(paths[i], r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int write_one(const char *path, void (*fill)(page *out, const bench_report *b), const bench_report *b, report *r)
+{
+    page p;
+    memset(&p, 0, sizeof p);
+    fill(&p, b);
+    const int ok = path == NULL || page_write(&p, path, r);
+    page_free(&p);
+    return ok;
+}
+
+static void fill_svg(page *out, const bench_report *b) { bench_chart(out, b, 900, 420, 1); }
+
+static int tell(const bench_report *b, report *r)
+{
+    page p;
+    memset(&p, 0, sizeof p);
+    bench_table(&p, b);
+    const int ok = !p.is_short && fputs(p.data, stdout) >= 0 && fflush(stdout) == 0;
+    page_free(&p);
+    return ok || report_fail(r, "standard output: cannot be written");
+}
+
+static int sweep_and_write(const bench_options *o, report *r)
+{
+    bench_report b;
+    memset(&b, 0, sizeof b);
+    const int ok = can_write(o, r) && bench_sweep(&b, o, r) && write_one(o->html, bench_html, &b, r) &&
+                   write_one(o->csv, bench_csv, &b, r) && write_one(o->json, bench_json, &b, r) &&
+                   write_one(o->svg, fill_svg, &b, r) && tell(&b, r);
+    bench_report_free(&b);
+    return ok;
+}
+
+static const bench_subject *subject_of(const char *word)
+{
+    return strcmp(word, "relight") == 0  ? &bench_relight
+           : strcmp(word, "relief") == 0 ? &bench_relief
+           : strcmp(word, "mix") == 0    ? &bench_mixed
+                                         : &bench_render;
+}
+
+int verb_bench_sweep(int argc, char **argv)
+{
+    static bench_options o; /* too large for a small stack */
+    report r = {""};
+    const bench_subject *subject = subject_of(argv[1]);
+    const int words = subject == &bench_render ? 1 : 2;
+    if (!bench_options_parse(&o, subject, argc - words, argv + words, &r) || (!o.help && !bench_check(&o, &r))) {
+        fprintf(stderr, "lambent bench: %s\n", r.text);
+        return 2;
+    }
+    if (o.help) {
+        printf("%s%s", subject->help, bench_help);
+        return 0;
+    }
+    if (!sweep_and_write(&o, &r)) {
+        fprintf(stderr, "lambent bench: %s\n", r.text);
+        return 1;
+    }
+    return 0;
+}
