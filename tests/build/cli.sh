@@ -259,6 +259,22 @@ if (ulimit -f 8) 2>/dev/null; then
 else
     skip "a limit on the size of files: this shell sets none"
 fi
+# Killed at any moment: what stood there stays, or the new file is there, whole (a PFM of 64 x 48 has 36,879 bytes).
+"$TOOL" render demo $small -o "$dir/whole.pfm" >/dev/null 2>&1
+for wait in 0 0.02 0.05 0.1 0.2; do
+    echo before >"$dir/killed.pfm"
+    "$TOOL" render demo $small -o "$dir/killed.pfm" >/dev/null 2>&1 &
+    sleep $wait 2>/dev/null
+    kill -9 $! 2>/dev/null
+    wait $! 2>/dev/null
+    check "killed after $wait s: a whole file" sh -c 'test "$(cat "$1")" = before || cmp -s "$1" "$2"' sh "$dir/killed.pfm" \
+        "$dir/whole.pfm"
+done
+find "$dir" -name '*killed*tmp*' -exec rm -f {} +
+
+# A reader that goes away: the tool ends, with its own status or by the signal, and does not go on.
+check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^room"' sh "$TOOL"
+
 left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
 # The picture does not depend on how many threads draw it, nor on the machine's kernels.
@@ -331,9 +347,31 @@ printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1
 printf '# eye, target, degrees\n0 0 5 0 0 0 40\n\n3 2 4 0 0 0 40\n' >"$dir/cameras.txt"
 status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --simple "$dir/box.obj" --size 32
 check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* bytes' "$dir/out.txt"
+sed 's/1/0.9/g' "$dir/box.obj" | sed 's/^f.*//' >"$dir/less.obj"
+grep '^f' "$dir/box.obj" >>"$dir/less.obj"
+status 0 relief bake "$dir/pit.obj" -o "$dir/less.lmr" --simple "$dir/less.obj" --as-is --size 16
+check "a simple model that is too small is told" grep -q 'sticks out of the simple one by 0.1[67]' "$dir/err.txt"
+status 0 relief bake "$dir/pit.obj" -o "$dir/less.lmr" --simple "$dir/less.obj" --size 16
+check "and else moved outwards" sh -c '! grep -q "sticks out" "$1"' sh "$dir/err.txt"
+# Views in perspective: a world a thousand times as large gives the same picture, to the bit.
+awk '/^v /{print "v", $2 * 1024, $3 * 1024, $4 * 1024; next} {print}' "$dir/pit.obj" >"$dir/vast.obj"
+printf '%s\n' '-4 0 0 0 0 0 45' '4 0 0 0 0 0 45' '0 4 1 0 0 0 45' '0 -4 1 0 0 0 45' '0 0 4 0 0 0 45' '2 2 3 0 0 0 45' >"$dir/views.txt"
+awk '{print $1 * 1024, $2 * 1024, $3 * 1024, $4, $5, $6, $7}' "$dir/views.txt" >"$dir/vast.txt"
+for size in pit vast; do
+    status 0 relief bake "$dir/$size.obj" --views "$dir/$(test $size = pit && echo views || echo vast).txt" --size 64 -o "$dir/seen.lmr"
+    status 0 relief render "$dir/seen.lmr" --eye $(test $size = pit && echo 1.5,2,5 || echo 1536,2048,5120) --target 0,0,0 \
+        --size 64x64 --show normal -o "$dir/$size-normal.pfm"
+done
+check "a relief of any size looks the same" cmp -s "$dir/pit-normal.pfm" "$dir/vast-normal.pfm"
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --with "$dir/box.obj" --compare "$dir/pit.obj"
 status 0 relief render "$dir/pit.lmr" -o "$dir/pit.png" --eye 1.5,2,5 --target 0,0,0 --size 64x64 --compare "$dir/pit.obj"
 check "relief render --compare shows both" grep -q 'pixels, ms  *[0-9.]*  *[0-9.]*$' "$dir/out.txt"
 status 0 relief render "$dir/pit.lmr" -o "$dir/pit.pfm" --pick eye-ray --sampling nearest --show depth --size 40x30 --with "$dir/box.obj" --light point:3,3,3:0,-1,0:90,90,90
+printf 'v -4 -1 4\nv 4 -1 4\nv 4 -1 -4\nv -4 -1 -4\nf 1 2 3 4\n' >"$dir/floor.obj"
+for more in '' --bounce; do
+    status 0 relief render "$dir/pit.lmr" -o "$dir/floor$more.pfm" --with "$dir/floor.obj" --ambient 0 --size 40x30 $more
+done
+check "bounced light adds some" sh -c '! cmp -s "$1" "$2"' sh "$dir/floor.pfm" "$dir/floor--bounce.pfm"
 for views in 14 greedy:5 "$dir/cameras.txt"; do
     status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --triangles 20 --size 16 --packed --views $views
     status 0 relief render "$dir/pit.lmr" -o "$dir/pit.ppm" --size 40x30 --light-map 0 --steps 1 --looks 2 --keep 1
@@ -341,11 +379,13 @@ done
 status 1 relief bake "$dir/nowhere.obj" -o "$dir/bad.lmr"
 status 1 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --views "$dir/nowhere.txt"
 status 1 relief render "$dir/box.obj" -o "$dir/bad.png"
+check "who failed is told" grep -q '^lambent relief render: ' "$dir/err.txt"
 status 1 relief render "$dir/pit.lmr" -o "$dir/bad.png" --compare "$dir/nowhere.obj"
 status 2 relief
 status 2 relief bake "$dir/pit.obj"
 status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --size 7
 status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --views 65
+status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --as-is
 status 2 relief render "$dir/pit.lmr"
 status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --pick q
 status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --eye 1,2,3
@@ -378,12 +418,41 @@ done
 status 0 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/same.pfm"
 check "nor does a photo without depth change" cmp "$dir/photo.pfm" "$dir/same.pfm"
 status 1 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 --object "$dir/tent.obj" -o "$dir/bad.png"
+check "where nothing is measured, mix says what to do" grep -q "no plane in the depth to stand on; say where by --at X,Y" "$dir/err.txt"
+# Stored pictures come out with the same codes; of ours, as the same file.
+far() { printf 'Pf\n%d %d\n-1.0\n' "$1" "$2"; head -c $(($1 * $2 * 4)) /dev/zero; }
+far 64 48 >"$dir/far.pfm"
+status 0 mix --photo "$dir/demo.png" --depth "$dir/far.pfm" --intrinsics 30,30,9,6 -o "$dir/same.png"
+check "a PNG comes out as it went in" cmp "$dir/demo.png" "$dir/same.png"
+far 19 13 >"$dir/far.pfm"
+status 0 mix --photo tests/fuzz/corpus/jpeg/baseline_420.jpg --depth "$dir/far.pfm" --intrinsics 30,30,9,6 -o "$dir/same.png"
+check "a JPEG's pixels come out as they went in" sh -c '"$1" compare "$2" "$3" | grep -q "exact 247 of 247"' sh "$TOOL" tests/fuzz/corpus/jpeg/baseline_420.jpg "$dir/same.png"
+# One pixel, of which a plane cannot be told; where it stands is asked.
+{ printf 'PF\n1 1\n-1.0\n'; printf "$half$half$half"; } >"$dir/photo1.pfm"
+{ printf 'Pf\n1 1\n-1.0\n'; printf "$two"; } >"$dir/depth1.pfm"
+dot="--photo $dir/photo1.pfm --depth $dir/depth1.pfm --intrinsics 30,30,0,0"
+status 0 mix $dot -o "$dir/same.pfm"
+check "one pixel comes out as it went in" cmp "$dir/photo1.pfm" "$dir/same.pfm"
+status 1 mix $dot --object "$dir/tent.obj" -o "$dir/bad.png"
+status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+# A wall alone: the object stands on it, and that is said.
+status 0 mix $seen --object "$dir/tent.obj" --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "that no plane faces up is said" grep -q "no plane faces up" "$dir/err.txt"
+status 0 mix $seen --object "$dir/tent.obj" --scale 1.5 --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "that the object is off the picture is said" grep -q "part of the object is off the picture" "$dir/err.txt"
+# Surroundings that shine in one colour light the object in that colour alone.
+{ printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 6 ]; do printf "$one\000\000\000\000\000\000\000\000"; i=$((i + 1)); done; } > "$dir/red.pfm"
+status 0 mix $seen $tent --world "$dir/red.pfm" --show object -o "$dir/mixed.pfm"
+check "--world lights the object" sh -c '"$1" info "$2" | grep -q "red   min 0 *max [0-9.]*[1-9]"' sh "$TOOL" "$dir/mixed.pfm"
+check "--world lights it in its own colour" sh -c '"$1" info "$2" | grep -q "green min 0 *max 0 "' sh "$TOOL" "$dir/mixed.pfm"
+status 1 mix $seen $tent --world "$dir/nowhere.pfm" -o "$dir/bad.png"
 status 1 mix --photo "$dir/photo.pfm" --depth "$dir/facepx.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
 status 1 mix --photo "$dir/photo.pfm" --depth "$dir/demo.png" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
 status 1 mix --photo "$dir/nowhere.pfm" --depth "$dir/wall.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
 status 1 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" --intrinsics 0,30,11.5,11.5 -o "$dir/bad.png"
 status 1 mix $seen --object "$dir/nowhere.obj" -o "$dir/bad.png"
 status 1 mix $seen --object "$dir/tent.obj" --at 24,0 -o "$dir/bad.png"
+status 1 mix $seen --object "$dir/tent.obj" --at 3e9,5 -o "$dir/bad.png"
 status 1 mix --frame "$dir/nowhere" -o "$dir/bad.png"
 status 2 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" -o "$dir/bad.png"
 status 2 mix --photo "$dir/photo.pfm" -o "$dir/bad.png"
@@ -423,7 +492,96 @@ check "the gather's operations are counted" test "$machines" -eq "$(grep -c '"op
 status 0 bench gather --backend scalar --seconds 0.01
 check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' "$dir/out.txt"
 check "and no other" test "$(grep -c . "$dir/out.txt")" -eq 1
+# Every figure of a room on a line, and within its bound.
+status 0 bench hard raster
+check "bench hard prints a line a case" test "$(grep -c '^raster ' "$dir/out.txt")" -ge 20
+status 0 bench hard mixed --json --backend scalar
+check "bench hard --json says which hold" test "$(grep -c ',"holds":true}$' "$dir/out.txt")" -ge 8
+status 1 bench hard nowhere
+status 2 bench hard raster shadow
+status 2 bench hard --seconds 1
+
 status 2 bench gather --backend nothing
 status 2 bench gather bunny
 status 2 bench gather --linear
+# Speed against error: a sweep as table, CSV, JSON, SVG and one page.
+sweep="demo --size 24x16 --runs 1 --cache $dir/kept"
+status 0 bench $sweep --sweep tree=8,16,32 --light-map 64 --ledger 1 -o "$dir/swept" --svg "$dir/swept.svg"
+check "bench prints a line a setting" test "$(grep -cE '^(front|knee|     ) .*--tree (8|16|32) ' "$dir/out.txt")" -eq 3
+check "bench prints the ledger" grep -q '^error ledger of --tree 8' "$dir/out.txt"
+check "CSV: a head and three lines of as many columns" sh -c 'awk -F, "NR == 1 { n = NF } NF != n { exit 1 } END { exit NR != 4 }" "$1"' sh "$dir/swept.csv"
+check "JSON has the settings" grep -q '"setting": "--tree 32", .*"same_bytes": null' "$dir/swept.json"
+check "the page is whole, with pictures in it" sh -c 'tail -n 1 "$1" | grep -q "</html>$" && grep -q "src=\"data:image/png;base64,iVBOR" "$1"' sh "$dir/swept.html"
+check "the page asks for nothing else" sh -c '! grep -qE "<script|<link|url\(|src=\"[^d]" "$1"' sh "$dir/swept.html"
+check "SVG is whole" sh -c 'head -c 5 "$1" | grep -q "<svg " && tail -n 1 "$1" | grep -q "</svg>$"' sh "$dir/swept.svg"
+check "each setting has its command" grep -q '<pre>lambent render --show indirect --threads 1 --size 160x120 demo --size 24x16 --light-map 64 -o picture.pfm --tree 8$' "$dir/swept.html"
+check "the truth is kept, once" test "$(ls "$dir/kept" | wc -l)" -eq 1
+cp "$dir/kept/"*.pfm "$dir/truth24.pfm"
+status 0 bench $sweep --sweep tree=64 --light-map 64 --ledger 0
+check "by the scene and its settings" test "$(ls "$dir/kept" | wc -l)" -eq 1
+status 0 bench demo --runs 1 --light-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 --ledger 0
+check "a truth of one's own gives the size" grep -q -- '--size 24x16' "$dir/out.txt"
+# Refused before the work, whole or not at all.
+status 1 bench demo --size 4000x4000 -o "$dir/no/such/folder"
+status 1 bench demo --size 24x16 --truth "$dir/truth24.pfm" --truth "$dir/nothing.pfm"
+status 1 bench demo --size 32x16 --light-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 -o "$dir/unequal"
+absent "$dir/unequal.html"
+status 1 bench "$dir/nowhere.glb" -o "$dir/unequal"
+absent "$dir/unequal.csv"
+status 2 bench demo --light-map 64 --sweep tree=8,3
+status 2 bench demo --sweep tree
+status 2 bench demo --runs 0
+status 2 bench demo --stats x.json
+status 2 bench demo --tree
+for ask in demo relight relief mix; do
+    status 0 bench $ask --help
+    check "bench $ask --help says something, once" test "$(grep -c '^usage:' "$dir/out.txt")" -eq 1
+done
+status 0 bench relight --world demo --runs 1 --sweep filter=cosine,sh9,blur --csv "$dir/filters.csv"
+check "filters in their order" sh -c 'awk -F, "NR == 1 { for (i = 1; \$i != \"trim\"; ++i); next } { e[NR] = \$i } END { exit !(e[2] < e[3] && e[3] < e[4]) }" "$1"' sh "$dir/filters.csv"
+status 1 bench relight --world "$dir/nowhere.pfm" --runs 1
+status 0 bench relief "$dir/pit.obj" --runs 1 --size 16 --triangles 20 --sweep views=6,14
+check "reliefs by views" test "$(grep -c -- '--views' "$dir/out.txt")" -eq 2
+status 0 bench mix $seen --object "$dir/tent.obj" --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --runs 1 --sweep voxels=4,5 --truth "$dir/mixed.pfm"
+status 2 bench mix $seen --show planes
+# --- plan: what is left out and why; budgets ---
+
+plan="--size 32x24 --light-map 64 --threads 1"
+status 0 plan demo $plan
+check "a plan says that nothing is glossy" grep -q "^lobes .*left out (exact): nothing that is drawn is glossy" "$dir/out.txt"
+check "a plan counts bounced light" grep -q "^bounced light .*tiles' cuts, .* pairs" "$dir/out.txt"
+status 0 plan demo $plan --light point:0,1,0:0,-1,0:0,0,0
+check "a plan says that a lamp of 0 W gives nothing" grep -q "^bounced light .*(exact): no light meets a triangle" "$dir/out.txt"
+status 0 plan demo $plan --show direct --json
+check "a plan's JSON says what is not shown" \
+    grep -q '"stage": "bounced light", "runs": false, "why": "the picture does not show it", "proof": "exact"' "$dir/out.txt"
+printf '%s\n' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'f 4 3 2 1' 'f 1 2 6 5' >"$dir/corner.obj"
+corner="$dir/corner.obj --size 32x24 --threads 1 --eye 1,2,4 --target 0,0.4,0 --light point:0.3,1.5,0.2:0,-1,0:9,9,9"
+status 0 plan $corner --budget-bytes 100KiB
+check "100 KiB are too few, and by how much" grep -q "no setting meets the budget; the nearest takes [0-9.]* x the bytes" "$dir/out.txt"
+status 0 plan $corner --budget-ms 16 --rate 1e4
+check "so are 160 units" grep -q "no setting meets the budget; the nearest takes [0-9.e+]* x the work" "$dir/out.txt"
+status 0 plan --help
+check "plan --help has budgets and examples" sh -c 'grep -q -- --budget-bytes "$1" && grep -q "lambent plan demo" "$1"' sh "$dir/out.txt"
+status 2 plan
+status 2 plan demo -o "$dir/plan.png"
+status 2 plan demo --show depth
+status 2 plan demo --budget-error 0.1 --grouping zones
+status 2 plan demo --budget-ms 16 --budget-work 1e6
+status 2 plan demo --budget-bytes 100kB
+status 2 render demo --json -o "$dir/plan.png"
+status 2 render demo --budget-error 0.1 --show direct -o "$dir/plan.png"
+status 1 plan "$dir/nowhere.gltf"
+absent "$dir/plan.png"
+
+# What is chosen for a budget is said as options that draw the same picture.
+status 0 render $corner --exposure 0 --budget-error 0.4 -o "$dir/budget.pfm"
+check "an easy budget is met" grep -q "^lambent: the budget is met" "$dir/err.txt"
+chosen=$(sed -n 's/^lambent: chosen: \(.*\): error about.*/\1/p' "$dir/err.txt")
+status 0 render $corner --exposure 0 $chosen -o "$dir/chosen.pfm"
+check "the chosen settings draw the same: $chosen" cmp -s "$dir/budget.pfm" "$dir/chosen.pfm"
+status 0 bench --calibrate --threads 1
+check "calibrating gives a rate" grep -q "^[0-9.e+]* units of work a second, threads: 1 " "$dir/out.txt"
+status 2 bench --calibrate demo
+
 finish

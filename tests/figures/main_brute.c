@@ -148,7 +148,7 @@ typedef struct gatherer {
     lmb_irradiance *light;
     lmb_vec3 middle, half;
     uint64_t pixels;
-    lmb_last_blockers last;
+    lmb_walk walk;
     lmb_emitter *emitter;
     float (*memory)[LMB_GATHER_PAIRS];
     int32_t waiting;
@@ -226,7 +226,7 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
         const int near = is_near(&g, q);
         const uint64_t asked = near ? g.pixels : facing(&g, q);
         const uint64_t seen = asked & ~lmb_blocked_tile(&w->render.frame.blockers, w->frame.kernels, tile, asked,
-                                                        q->middle, &g.last);
+                                                        q->middle, &g.walk);
         sum->segments += count_bits_64(asked);
         sum->seen += count_bits_64(seen);
         if (near) {

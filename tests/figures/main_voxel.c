@@ -11,6 +11,8 @@
 
 #include <lambent/lambent.h>
 
+#include "../../tools/bench_mix.h"
+#include "../../tools/bench_rates.h"
 #include "../../tools/metrics.h"
 #include "../truth_scene.h"
 
@@ -197,7 +199,7 @@ static void check_energy(const work *w)
 /* One bounce on a tile: by cones, or by the cut of exact bounced light. */
 static void light_tile(work *w, lmb_irradiance *light, int by_cuts)
 {
-    const lmb_cone_trace cones = {lmb_kernels_pick(), &w->voxels, 0, 0, NULL, &w->scratch};
+    const lmb_cone_trace cones = {lmb_kernels_pick(), &w->voxels, 0, 0, NULL, &w->scratch, 0};
     lmb_cutting cutting;
     memset(&cutting, 0, sizeof cutting);
     cutting.error = cut_error;
@@ -323,8 +325,66 @@ static void bounce(work *w, const char *scene, void *memory, int has_bars)
 
 /* --- a frame of 640x480 ------------------------------------------------------------------------------------------- */
 
+/* Cones of every sixteenth tile: their seconds. */
+static double trace_some(work *w, const lmb_kernels *kernels)
+{
+    const int32_t across = (w->view.frame_width + 7) / 8, down = (w->view.frame_height + 7) / 8;
+    const lmb_cone_trace trace = {kernels, &w->voxels, 0, 0, NULL, &w->scratch, 0};
+    double spent = 0.0;
+    for (int32_t i = 0; i < across * down; i += 16) {
+        lmb_irradiance light;
+        memset(&light, 0, sizeof light);
+        CHECK(lmb_resolve_tile(&w->tile, lmb_kernels_pick(), &w->view, &w->loaded.scene, &w->eye, i % across * 8,
+                               i / across * 8) == LMB_OK);
+        double from = seconds_now();
+        CHECK(lmb_cones_diffuse(&light, NULL, &trace, &w->cones, &w->tile) == LMB_OK);
+        spent += lap(&from);
+    }
+    return spent;
+}
+
+/* Against what their operations take at least by what the same run finds the machine can do (bench gather), and what
+ * their reads do: four floats, or one, from a place of each lane's own, out of a table that the first cache holds. By
+ * turns, so that both meet the same clock rate and the same neighbours. */
+static void say_share(work *w)
+{
+    bench_rates rates;
+    double counts[BENCH_OPS], least = 1e30, per_second = 0.0;
+    int unit = 0;
+    if (!bench_rates_begin(&rates, lmb_kernels_name(lmb_kernels_pick()))) {
+        printf("  %s: its rates are not known\n", lmb_kernels_name(lmb_kernels_pick()));
+        return;
+    }
+    for (int i = 0; i < 5; ++i) {
+        const double spent = trace_some(w, lmb_kernels_pick());
+        least = spent < least ? spent : least;
+        bench_rates_step(&rates);
+        per_second = bench_rates_read(&rates);
+    }
+    trace_some(w, bench_mix_begin());
+    bench_mix_end(counts);
+    const double bound = bench_rates_bound(&unit, &rates, counts) / rates.machine->lanes * rates.cycle,
+                 reads = bench_mix_reads() / per_second;
+    printf("  of the cones' time their arithmetic takes at least %.0f %% (%s), their reads %.0f %% at best (%s, "
+           "%.2f GHz, %.2g reads/s)\n",
+           100.0 * bound / least, bench_op_names[unit], 100.0 * reads / least, rates.machine->name, 1e-9 / rates.cycle,
+           per_second);
+}
+
+static void say_frame(const work *w, const char *scene)
+{
+    const double all = w->map_seconds + w->tree_seconds + w->build_seconds + w->inject_seconds + w->filter_seconds +
+                       w->eye_seconds + w->seconds;
+    printf("  %s at 640x480, %d^3, 19 cones: %.2f s: light's map %.1f ms, first points %.1f, voxels %.1f, "
+           "injection %.1f, filter %.1f, eye %.1f, cones %.0f; %u voxels, %.1f MB\n",
+           scene, 1 << w->voxels.depth, all, w->map_seconds * 1e3, w->tree_seconds * 1e3, w->build_seconds * 1e3,
+           w->inject_seconds * 1e3, w->filter_seconds * 1e3, w->eye_seconds * 1e3, w->seconds * 1e3,
+           (unsigned)w->voxels.count, voxel_bytes(w) * 1e-6);
+}
+
 static void frame(work *w, const char *scene, void *memory)
 {
+    double by_cones = 0.0;
     if (!load(w, scene)) {
         return;
     }
@@ -336,22 +396,21 @@ static void frame(work *w, const char *scene, void *memory)
     draw_eye(w);
     draw_lights(w);
     take_blockers(w);
-    make_voxels(w, memory, CAP, 7);
-    CHECK(lmb_cones_init(&w->cones, &w->voxels, 19) == LMB_OK);
-    draw(w, pixels, 0);
-    const double all = w->map_seconds + w->tree_seconds + w->build_seconds + w->inject_seconds + w->filter_seconds +
-                       w->eye_seconds + w->seconds;
-    printf("  %s at 640x480, 128^3, 19 cones: %.2f s: light's map %.1f ms, first points %.1f, voxels %.1f, "
-           "injection %.1f, filter %.1f, eye %.1f, cones %.0f\n",
-            scene, all, w->map_seconds * 1e3, w->tree_seconds * 1e3,
-           w->build_seconds * 1e3, w->inject_seconds * 1e3, w->filter_seconds * 1e3, w->eye_seconds * 1e3,
-           w->seconds * 1e3);
-    printf("  voxels take %.1f MB, %.0f %% of the frame's memory\n", voxel_bytes(w) * 1e-6,
-           100.0 * voxel_bytes(w) / (voxel_bytes(w) + w->all_bytes));
-    const double by_cones = w->seconds;
+    for (int32_t depth = 5; depth <= 8; ++depth) {
+        make_voxels(w, memory, CAP, depth);
+        CHECK(lmb_cones_init(&w->cones, &w->voxels, 19) == LMB_OK);
+        draw(w, pixels, 0);
+        say_frame(w, scene);
+        if (depth == 7) {
+            by_cones = w->seconds;
+            printf("  voxels take %.1f MB, %.0f %% of the frame's memory\n", voxel_bytes(w) * 1e-6,
+                   100.0 * voxel_bytes(w) / (voxel_bytes(w) + w->all_bytes));
+            say_share(w);
+        }
+    }
     draw(w, pixels, 1);
-    printf("  by cuts the pixels take %.0f ms and their tree %.1f: cones take %.1f times that\n", w->seconds * 1e3,
-           w->cut_tree_seconds * 1e3, by_cones / w->seconds);
+    printf("  by cuts the pixels take %.0f ms and their tree %.1f: cones of 128^3 take %.1f times that\n",
+           w->seconds * 1e3, w->cut_tree_seconds * 1e3, by_cones / w->seconds);
     close_scene(w);
 }
 

@@ -1,4 +1,5 @@
-/* fuzz.h: the fuzz targets: one a parser, each on bytes that may be anything. The same functions replay a file.
+/* fuzz.h: the fuzz targets: one a parser, one for the library, each on bytes that may be anything. The same functions
+ * replay a file.
  *
  * Models lie in tests/fuzz/neighbours, whose files they may name, as seen from the repository's root: run there. */
 #ifndef FUZZ_H
@@ -37,6 +38,8 @@ void fuzz_obj(const uint8_t *data, size_t size);
 void fuzz_mtl(const uint8_t *data, size_t size);
 void fuzz_ply(const uint8_t *data, size_t size);
 void fuzz_lmr(const uint8_t *data, size_t size);
+void fuzz_cli(const uint8_t *data, size_t size);
+void fuzz_api(const uint8_t *data, size_t size);
 
 /* fuzz_repair: for a target that reads PNG, put right checksums over whatever a mutation left of one's chunks, unless
  * the seed is a multiple of eight; without them nothing behind them would be reached. Other bytes stay. */

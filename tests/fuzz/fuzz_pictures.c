@@ -78,6 +78,7 @@ static void try_rows(const uint8_t *data, size_t size)
         put_chunk(&at, "IDAT", packed, packed_size);
         put_chunk(&at, "IEND", NULL, 0);
         try_bitmap(png_decode, file, (size_t)(at - file));
+        try_bitmap(png_decode_16, file, (size_t)(at - file));
     }
     free(file);
     free(packed);
@@ -86,6 +87,7 @@ static void try_rows(const uint8_t *data, size_t size)
 void fuzz_png(const uint8_t *data, size_t size)
 {
     try_bitmap(png_decode, data, size);
+    try_bitmap(png_decode_16, data, size);
     if (size < PNG_SIGNATURE_BYTES || memcmp(data, PNG_SIGNATURE, PNG_SIGNATURE_BYTES) != 0) {
         try_rows(data, size);
     }

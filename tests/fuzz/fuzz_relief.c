@@ -10,8 +10,9 @@
 enum { SIDE = 16 };
 
 /* Every pixel is one of three kinds, and numbers stay numbers. */
-static void draw(const lmb_relief *relief)
+static void draw(const lmb_relief *relief, const lmb_relief_how *how)
 {
+    enum { TILES = SIDE / LMB_TILE };
     static uint32_t depth[SIDE * SIDE], id[SIDE * SIDE];
     static lmb_tile tile;
     lmb_target target;
@@ -29,10 +30,10 @@ static void draw(const lmb_relief *relief)
         return;
     }
     lmb_draw(&target, lmb_kernels_pick(), &view, &scene, 1, relief->mesh.triangle_count, 0, NULL);
-    for (int32_t at = 0; at < SIDE * SIDE; at += SIDE * LMB_TILE / 2) {
-        fuzz_require(lmb_resolve_tile(&tile, lmb_kernels_pick(), &view, &scene, &target, at / LMB_TILE % 2 * LMB_TILE,
-                                      at / (SIDE * LMB_TILE) * LMB_TILE) == LMB_OK);
-        fuzz_require(lmb_relief_tile(&tile, &stats, lmb_kernels_pick(), relief, &view, NULL) == LMB_OK);
+    for (int32_t at = 0; at < TILES * TILES; ++at) {
+        fuzz_require(lmb_resolve_tile(&tile, lmb_kernels_pick(), &view, &scene, &target, at % TILES * LMB_TILE,
+                                      at / TILES * LMB_TILE) == LMB_OK);
+        fuzz_require(lmb_relief_tile(&tile, &stats, lmb_kernels_pick(), relief, &view, how) == LMB_OK);
     }
     fuzz_require(stats.hits + stats.missed + stats.holes == stats.pixels);
 }
@@ -48,7 +49,12 @@ void fuzz_lmr(const uint8_t *data, size_t size)
     const lmb_status swapped = lmb_relief_swap(copy, size), opened = lmb_relief_open(&relief, copy, size);
     fuzz_require((swapped == LMB_OK) == (opened == LMB_OK || opened == LMB_ERR_CAPACITY));
     if (opened == LMB_OK) {
-        draw(&relief);
+        static const lmb_relief_how once = {.steps = 1}, own = {.pick = LMB_RELIEF_EYE_RAY, .sampling = 1},
+                                    most = {.steps = 32, .pick = LMB_RELIEF_EYE_RAY, .views = 8, .keep = 1};
+        draw(&relief, NULL);
+        draw(&relief, &once);
+        draw(&relief, &own);
+        draw(&relief, &most);
     }
     free(copy);
 }

@@ -75,7 +75,7 @@ static const lmb_texel *first_points(const lmb_scene *soup)
 static uint64_t hash_cones(uint64_t h, const lmb_voxels *v, const lmb_scene *soup)
 {
     cone_space *s = golden_second();
-    const lmb_cone_trace trace = {golden_kernels, v, 0, 0, NULL, &s->scratch};
+    const lmb_cone_trace trace = {golden_kernels, v, 0, 0, NULL, &s->scratch, 0};
     const lmb_view view = golden_soup_view(0);
     const lmb_target eye = golden_eye(LMB_DEPTH32F, LMB_ID16);
     lmb_draw(&eye, golden_kernels, &view, soup, 1, TRIANGLES, 0, NULL);

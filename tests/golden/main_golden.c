@@ -3,7 +3,7 @@
  * A build that lmb_build_check refuses draws nothing. Where the port measures its stack, that is told too.
  *
  * Freestanding: it runs where there is no libc. */
-#include "../../platform/port.h"
+#include "../../platform/port_say.h"
 #include "golden.h"
 
 static uint32_t line_count;
@@ -13,17 +13,6 @@ static void put_line(const char *line)
     port_put(line);
     port_put("\n");
     ++line_count;
-}
-
-static void put_number(uint32_t v)
-{
-    char text[11];
-    int i = 10;
-    text[i] = 0;
-    do
-        text[--i] = (char)('0' + v % 10);
-    while (v /= 10);
-    port_put(text + i);
 }
 
 static void put_machines(void)
@@ -43,7 +32,7 @@ static void put_stack(void)
     port_ram_used(&ram);
     if (ram.size > 0) {
         port_put("stack at its deepest: ");
-        put_number(ram.stack);
+        say_number(ram.stack);
         port_put(" bytes\n");
     }
 }
@@ -60,9 +49,9 @@ int main(void)
     put_machines();
     uint32_t wrong = (uint32_t)golden_run(&golden_whole, put_line);
     put_stack();
-    put_number(line_count > wrong ? line_count - wrong : 0);
+    say_number(line_count > wrong ? line_count - wrong : 0);
     port_put(" passed, ");
-    put_number(wrong);
+    say_number(wrong);
     port_put(" failed, 0 skipped\n");
     return wrong > 0 || !line_count;
 }

@@ -3,7 +3,7 @@
  * A line a way, with the lines of the cases that differ. Cases take turns with the machines' kernels, and each case
  * from way to way: so every machine meets every number of threads, and every case. `ways all`: every machine each way.
  * Pictures go band by band, maps and targets by rows of tiles, the stages of a frame in parts; scratch holds noise
- * before each piece. */
+ * before each piece. Frames also leave nothing out, and keep all of one before. */
 #include <stdio.h>
 #include <string.h>
 
@@ -206,6 +206,29 @@ static lmb_status by_crew(crew_call call, lmb_render *r, const lmb_frame *frame)
 static lmb_status render_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_render, r, frame); }
 static lmb_status again_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_again, r, frame); }
 
+#if LMB_PLAN
+/* Nothing is left out. */
+static lmb_status render_everything(lmb_render *r, const lmb_frame *frame)
+{
+    lmb_frame f = with_room(frame);
+    f.everything = 1;
+    return finish_in_order(r, lmb_render_begin(r, &f));
+}
+
+/* As the second frame of an animation where nothing moves: all of the light is the first's. */
+static lmb_status render_kept(lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_frame f = with_room(frame);
+    memset(r, 0, sizeof *r);
+    lmb_status status = finish_in_order(r, lmb_render_next(r, &f));
+    if (status >= 0 && r->stage == LMB_STAGE_BANDS) {
+        lmb_surface_clear(&f.out);
+        status = finish_in_order(r, lmb_render_next(r, &f));
+    }
+    return status;
+}
+#endif
+
 /* --- ways --------------------------------------------------------------------------------------------------------- */
 
 static int cases;
@@ -246,6 +269,16 @@ int main(int argc, char **argv)
         threaded.machine = all ? -1 : threads_now - 1;
         failed += run_way("threads", threads_now, &threaded);
     }
-    printf("%d passed, %d failed, 0 skipped\n", order_count + THREADS - failed, failed);
+    int plans = 0;
+#if LMB_PLAN
+    golden_way planned[2] = {{draw_rows, draw_map_rows, render_everything, again_in_order, 1},
+                             {draw_rows, draw_map_rows, render_kept, again_in_order, 2}};
+    order_now = threads_now = 0;
+    for (plans = 0; plans < 2; ++plans) {
+        planned[plans].machine = all ? -1 : plans + 1;
+        failed += run_way(plans == 0 ? "nothing left out" : "all kept", 0, &planned[plans]);
+    }
+#endif
+    printf("%d passed, %d failed, 0 skipped\n", order_count + THREADS + plans - failed, failed);
     return failed > 0;
 }

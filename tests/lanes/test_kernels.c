@@ -1165,6 +1165,7 @@ static int trial_cone(const trial *t, test_rng r)
     job.low = place(&r, 3.0f, 0);
     job.leaf = test_uniform(&r, 0.02f, 0.3f);
     job.per_leaf = 1.0f / job.leaf;
+    job.faced = (int32_t)(t->seed / TREE_STEPS % 2);
     make_tile(&tile, &r, t->seed % 4u ? 0 : 20u);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         set_pixel(direction, k, direction_of_axis(&r));
@@ -1172,7 +1173,7 @@ static int trial_cone(const trial *t, test_rng r)
     for (int i = 0; i < job.steps; ++i) {
         step[i].at = test_uniform(&r, 0.0f, 6.0f);
         step[i].length = test_uniform(&r, 0.1f, 8.0f);
-        step[i].spread = test_random(&r) % 2u ? test_uniform(&r, 0.0f, 0.8f) : 0.0f;
+        step[i].apart = test_random(&r) % 2u ? test_uniform(&r, 0.01f, 1.0f) : 0.0f;
         step[i].level = (int32_t)(test_random(&r) % (uint32_t)(job.depth - 1));
         step[i].finer = test_random(&r) % 4u ? test_uniform(&r, 0.0f, 1.0f) : 1.0f;
     }

@@ -1,4 +1,5 @@
-/* main.c: runs the tests: tests [GROUP | NAME]...   without words, all of them.
+/* main.c: runs the tests: tests [GROUP | NAME]... [K/N]   without words, all of them; K/N: of these each N-th, from the
+ * K-th on.
  *
  * The Makefile lists them in tests.inc, a line TEST(group, name) for each tests/GROUP/test_NAME.c. */
 #include "../test.h"
@@ -23,8 +24,7 @@ enum { TEST_COUNT = sizeof tests / sizeof tests[0] };
 
 static int is_wanted(const struct test *t, int argc, char **argv)
 {
-    int i;
-    for (i = 1; i < argc; ++i)
+    for (int i = 1; i < argc; ++i)
         if (!strcmp(argv[i], t->group) || !strcmp(argv[i], t->name))
             return 1;
     return argc < 2;
@@ -47,11 +47,13 @@ static void run(const struct test *t)
 
 int main(int argc, char **argv)
 {
-    int i, wanted = 0;
-    for (i = 0; i < TEST_COUNT; ++i)
-        if (is_wanted(&tests[i], argc, argv)) {
+    int wanted = 0, first = 1, each = 1;
+    if (argc > 2 && sscanf(argv[argc - 1], "%d/%d", &first, &each) == 2 && first > 0 && each >= first) {
+        --argc;
+    }
+    for (int i = 0; i < TEST_COUNT; ++i)
+        if (is_wanted(&tests[i], argc, argv) && wanted++ % each == first - 1) {
             run(&tests[i]);
-            ++wanted;
         }
     if (!wanted) {
         SKIP("no test of that name or group");

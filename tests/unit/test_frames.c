@@ -776,6 +776,20 @@ static void use_cut(lmb_frame *f)
     CHECK(lmb_blockers_init(&f->blockers, lmb_scene_triangles(f->scene), blockers, sizeof blockers) == LMB_OK);
 }
 
+/* Refused before anything is drawn: maps that the tree cannot take, as its own call would say in the middle. */
+static void test_odd_trees(void)
+{
+    lmb_frame f = refused_frame();
+    use_cut(&f);
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    f.tree.size = 8;
+    for (int32_t each = 1; each <= 9; ++each) {
+        const int good = each == 1 || each == 2 || each == 4 || each == 8;
+        f.light_map = 8 * each;
+        CHECK_MSG((lmb_render_begin(&m.render, &f) == LMB_ERR_ARG) == !good, "%d times the tree's size", (int)each);
+    }
+}
+
 static lmb_view eye_view(int eye)
 {
     lmb_view v = room_view(WIDTH, HEIGHT);
@@ -1183,6 +1197,7 @@ void test_frames(void)
     test_sum_of_lights();
     test_reflected();
     test_shows();
+    test_odd_trees();
     test_refused();
     test_exact_memory();
     test_few_points();

@@ -286,13 +286,15 @@ static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         out[k] = 0.0;
     }
+    lmb_walk walk;
+    memset(&walk, 0, sizeof walk);
     for (uint32_t i = 0; i < count; ++i) {
         lmb_irradiance e;
         memset(&e, 0, sizeof e);
         const lmb_view v = look(vec3(0, 5, 0), vec3(0, 0, 0), 60, 64);
         CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), tile, &v, &world.scene, &lights[i], NULL) == LMB_OK);
         const uint64_t blocked = blockers == NULL ? 0 : lmb_blocked_tile(blockers, lmb_kernels_pick(), tile, UINT64_MAX,
-                                                                         lights[i].position, NULL);
+                                                                         lights[i].position, &walk);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             out[k] += (blocked >> k & 1u) != 0 || tile->id[k] == 0 ? 0.0 : (double)e.rgb[1][k];
         }

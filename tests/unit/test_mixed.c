@@ -176,7 +176,56 @@ static void test_corner(stage *s)
     CHECK(lmb_planes_anchor(&at, &s->planes, &camera, p, 48.0f, 70.0f) && fabsf(at.y - moved.y) < 1e-5f);
     CHECK(!lmb_planes_anchor(&at, &s->planes, &camera, p, 48.0f, 0.0f)); /* over the horizon */
     CHECK(!lmb_planes_anchor(&at, &s->planes, &camera, 2, 48.0f, 70.0f));
-    CHECK(lmb_planes_clear(&at, &s->planes, &camera, p, 0.2f) && !lmb_planes_clear(&at, &s->planes, &camera, p, 9.0f));
+}
+
+/* The floor's middle where that is free; else the nearest place that is: beside what stands there, in front of what
+ * hides it, and where there is room up to the picture's edge. */
+static void test_place(stage *s)
+{
+    lmb_vec3 at;
+    draw_corner(s, 0.0f);
+    find_planes(s);
+    const int32_t p = lmb_planes_floor(&s->planes);
+    const lmb_flat *floor = &s->planes.plane[p];
+    const lmb_vec3 centre = floor->centre;
+    CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.2f, 0.0f) && far2(at, centre) == 0.0f);
+    CHECK(!lmb_planes_clear(&at, &s->planes, &s->cloud, p, 9.0f, 0.0f));
+    CHECK(!lmb_planes_clear(&at, &s->planes, &s->cloud, 2, 0.2f, 0.0f));
+    CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.2f, 0.6f) && far2(at, centre) == 0.0f);
+    /* 80 px for a metre a metre away: 35 over the axis are 0.44 m, and the floor is half a metre under it. */
+    CHECK(!lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 2.0f));
+    CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 1.2f) && -at.z > 0.7f * 80.0f / 36.0f + 0.05f);
+    /* Something before the middle, from the camera a third of the way there: it hides what stands behind it. */
+    for (int i = 0; i < PIXELS; ++i) {
+        if (abs(i % WIDTH - 48) < 5 && i / WIDTH < 46) {
+            s->cloud.inverse[i] = 3.0f;
+        }
+    }
+    CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 0.6f) && fabsf(at.x) > 0.1f);
+    CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 0.0f) && far2(at, centre) == 0.0f);
+}
+
+/* A plane that faces the camera's way up is a floor; with a ceiling in the picture walls that lean are none. */
+static void test_up(void)
+{
+    static const float wall[3] = {0.0f, 0.45f, 0.89302855f}, down[3] = {0.0f, -0.89302855f, 0.45f};
+    lmb_planes planes;
+    memset(&planes, 0, sizeof planes);
+    CHECK(lmb_planes_up(&planes).y == 1.0f && lmb_planes_floor(&planes) == -1);
+    planes.count = 1;
+    planes.plane[0].pixels = 5000;
+    planes.plane[0].normal = (lmb_vec3){wall[0], wall[1], wall[2]};
+    CHECK(lmb_planes_floor(&planes) == 0 && lmb_planes_up(&planes).y == wall[1]);
+    planes.count = 2;
+    planes.plane[1].pixels = 1000;
+    planes.plane[1].normal = (lmb_vec3){down[0], down[1], down[2]};
+    CHECK(lmb_planes_floor(&planes) == -1 && lmb_planes_up(&planes).y == -down[1]);
+    planes.count = 3;
+    planes.plane[2].pixels = 40;
+    planes.plane[2].normal = (lmb_vec3){-down[0], -down[1], -down[2]};
+    CHECK(lmb_planes_floor(&planes) == 2);
+    planes.plane[2].normal = (lmb_vec3){0, 0, 1};
+    CHECK(lmb_planes_floor(&planes) == -1);
 }
 
 /* Nothing measured, one pixel, all at one distance, and nothing flat. */
@@ -200,6 +249,25 @@ static void test_no_planes(stage *s)
         s->depth[i] = test_uniform(&rng, 0.5f, 5.0f);
     }
     CHECK(find_planes(s) && s->planes.count <= 1); /* no crash, next to nothing found */
+}
+
+/* More planes than there is room for: the largest stay. */
+static void test_many_planes(stage *s)
+{
+    enum { ACROSS = 6, DOWN = 5 };
+    for (int i = 0; i < PIXELS; ++i) {
+        const int patch = i / WIDTH * DOWN / HEIGHT * ACROSS + i % WIDTH * ACROSS / WIDTH;
+        s->depth[i] = 1.0f + 0.1f * (float)(patch * 7 % (ACROSS * DOWN));
+    }
+    CHECK_MSG(find_planes(s) && s->planes.count == LMB_MAX_PLANES, "%d", (int)s->planes.count);
+    for (int i = 1; i < s->planes.count; ++i) {
+        CHECK(s->planes.plane[i].pixels <= s->planes.plane[i - 1].pixels && s->planes.plane[i].pixels > 100);
+    }
+    int wrong = 0;
+    for (int i = 0; i < PIXELS; ++i) {
+        wrong += s->planes.label[i] > LMB_MAX_PLANES;
+    }
+    CHECK(wrong == 0);
 }
 
 /* --- the mesh ----------------------------------------------------------------------------------------------------- */
@@ -312,7 +380,25 @@ static void test_brightest(void)
     lmb_env_mips(&env);
     d = lmb_env_brightest(&env, (lmb_vec3){0, 1, 0});
     CHECK_MSG(fabsf(d.y - 0.5f) < 1e-3f && d.x > 0.8f, "%g %g", (double)d.x, (double)d.y);
+    memset(memory, 0, sizeof memory); /* high over one corner */
+    lmb_env_set(&env, 0, 6, 1, lamp);
+    lmb_env_mips(&env);
+    d = lmb_env_brightest(&env, (lmb_vec3){0, 1, 0});
+    CHECK_MSG(d.x * 0.749f + d.y * 0.468f - d.z * 0.468f > 0.99f, "%g %g %g", (double)d.x, (double)d.y, (double)d.z);
+    memset(memory, 0, sizeof memory);
+    lmb_env_set(&env, 0, 4, 4, lamp);
+    lmb_env_set(&env, 0, 4, 3, lamp);
+    lmb_env_mips(&env);
     lmb_env_dim(&env, &env, up_share);
+    /* What is no direction is one all the same. */
+    const lmb_vec3 odd[] = {{0, 0, 0}, {NAN, 0, 0}, {0, INFINITY, 1}, {1e-30f, 0, 0}};
+    float ahead[3];
+    lmb_env_sample(ahead, &env, (lmb_vec3){0, 0, -1}, 0.0f);
+    for (int i = 0; i < 4; ++i) {
+        lmb_env_sample(seen, &env, odd[i], 0.0f);
+        CHECK_MSG(memcmp(seen, ahead, sizeof seen) == 0, "direction %d: %g %g %g", i, (double)seen[0], (double)seen[1],
+                  (double)seen[2]);
+    }
     lmb_env_sample(seen, &env, (lmb_vec3){1.0f, -0.1f, -0.1f}, 0.0f);
     CHECK(seen[0] > 0.0f && seen[0] == 0.5f * seen[1] && seen[1] == seen[2]);
 }
@@ -342,6 +428,60 @@ static void test_delta(stage *s)
     CHECK(fabsf(photo.rgb[0][5] - 2.0f * before.rgb[0][5]) < 1e-6f && photo.rgb[0][7] == before.rgb[0][7]);
     CHECK(lmb_real_albedo(9.0f, 1.0f) == LMB_ALBEDO_MOST && lmb_real_albedo(0.0f, 1.0f) == LMB_ALBEDO_LEAST);
     CHECK(lmb_real_albedo(1.0f, 0.0f) == 0.5f);
+    CHECK(fabsf(lmb_real_albedo(0.25f, 3.14159265f) - 0.25f) < 1e-6f);
+}
+
+/* A varnish straight under the camera shows its share of what changes in the mirror, at a flat angle nearly all; other
+ * planes and what is none show nothing, and what does not change leaves the bits alone. */
+static void test_mirror_tile(stage *s)
+{
+    static lmb_cone_seen without, with;
+    lmb_radiance photo, before;
+    const lmb_pinhole tile = {LMB_TILE, LMB_TILE, 80.0f, 80.0f, 0.0f, 0.0f};
+    lmb_planes planes;
+    memset(&planes, 0, sizeof planes);
+    memset(&s->tile, 0, sizeof s->tile);
+    planes.label = (uint8_t *)s->plane_memory;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        s->tile.id[k] = 1;
+        s->tile.normal[1][k] = 1.0f;
+        s->tile.position[1][k] = -1.0f;
+        planes.label[k] = 2;
+        for (int c = 0; c < 3; ++c) {
+            before.rgb[c][k] = 0.1f + 0.001f * (float)k;
+            without.rgb[c][k] = 0.5f;
+            with.rgb[c][k] = 1.5f;
+        }
+    }
+    s->tile.position[2][1] = -1.7320508f; /* 60 degrees: 0.04 + 0.96 / 32 */
+    s->tile.id[2] = 0;
+    planes.label[3] = 1;
+    planes.label[4] = 0;
+    with.rgb[1][5] = 0.5f;
+    with.rgb[2][6] = -100.0f;
+    photo = before;
+    CHECK(lmb_mirror_tile(&photo, &s->tile, &planes, &tile, 1, &without, &with, 0.04f) == LMB_OK);
+    const float got[2] = {photo.rgb[0][0] - before.rgb[0][0], photo.rgb[0][1] - before.rgb[0][1]};
+    CHECK_MSG(fabsf(got[0] - 0.04f) < 1e-6f && fabsf(got[1] - 0.07f) < 1e-5f, "%g %g", (double)got[0], (double)got[1]);
+    CHECK(photo.rgb[0][2] == before.rgb[0][2] && photo.rgb[0][3] == before.rgb[0][3] &&
+          photo.rgb[0][4] == before.rgb[0][4] && photo.rgb[1][5] == before.rgb[1][5] &&
+          photo.rgb[2][6] == 0.5f * before.rgb[2][6]); /* half of the photo may be mirrored, no more */
+    photo = before;
+    CHECK(lmb_mirror_tile(&photo, &s->tile, &planes, &tile, -1, &without, &with, 1.0f) == LMB_OK);
+    CHECK(fabsf(photo.rgb[0][3] - before.rgb[0][3] - 1.0f) < 1e-6f && photo.rgb[0][4] == before.rgb[0][4]);
+    CHECK(lmb_mirror_tile(&photo, &s->tile, &planes, &tile, 1, NULL, &with, 0.04f) == LMB_ERR_ARG);
+}
+
+/* What the headers say that things take. */
+static void test_sizes(void)
+{
+    CHECK_MSG(sizeof(lmb_flat) == 100, "%d", (int)sizeof(lmb_flat));
+    CHECK_MSG(sizeof(lmb_cones) == 21108, "%d", (int)sizeof(lmb_cones));
+    CHECK_MSG(sizeof(lmb_cone_scratch) == 2560, "%d", (int)sizeof(lmb_cone_scratch));
+    CHECK_MSG(sizeof(lmb_around_scratch) / 1024 == 9, "%d", (int)sizeof(lmb_around_scratch));
+    CHECK(lmb_voxels_bytes(100000, LMB_VOXELS_ONE) == 14800000);
+    CHECK(lmb_voxels_bytes(100000, LMB_VOXELS_THREE) == 38800000);
+    CHECK(lmb_cloud_bytes(10, 10) == 1600 && lmb_planes_bytes(10, 10) == 500 && lmb_real_mesh_bytes(8, 8, 4) == 4 * 96);
 }
 
 /* What is nearer hides the object, what is as near as noise can tell does not. */
@@ -426,11 +566,14 @@ static void test_around(void)
         double sum = 0.0;
         const size_t n = lmb_around_points(points, 4096, &scene, 1, 1, leaf, &env);
         CHECK(n == lmb_around_points(NULL, 0, &scene, 1, 1, leaf, &env));
+        double middle = 0.0; /* of all parts is the triangle's */
         for (size_t i = 0; i < n; ++i) {
             sum += (double)points[i].flux[0];
+            middle += (double)points[i].position.y / (double)n;
             CHECK(points[i].position.y > 0.0f && points[i].position.z == -3.0f && points[i].normal.z == 1.0f);
         }
-        CHECK_MSG(fabs(sum - 0.5 * 3.14159265) < 1e-3, "%g of %d parts", sum, (int)n);
+        CHECK_MSG(fabs(sum - 0.5 * 3.14159265) < 1e-3 && fabs(middle - 1.0 / 3.0) < 1e-5, "%g, %g of %d parts", sum,
+                  middle, (int)n);
     }
 }
 
@@ -478,13 +621,18 @@ void test_mixed(void)
     test_grid();
     test_picture_neighbours(s);
     test_corner(s);
+    test_place(s);
+    test_up();
     test_no_planes(s);
+    test_many_planes(s);
     test_mesh(s);
     test_view();
     test_half();
     test_fold();
     test_brightest();
     test_delta(s);
+    test_mirror_tile(s);
+    test_sizes();
     test_hidden(s);
     test_two_maps();
     test_around();

@@ -67,6 +67,14 @@ static void fill_tile(lmb_tile *tile, lmb_vec3 middle, float half, test_rng *r)
     }
 }
 
+/* Of a walk that knows nothing yet. */
+static uint64_t blocked_anew(const lmb_blockers *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
+{
+    lmb_walk walk;
+    memset(&walk, 0, sizeof walk);
+    return lmb_blocked_tile(b, lmb_kernels_pick(), tile, pixels, at, &walk);
+}
+
 /* Random triangles of all sizes, tiles of all sizes: each pixel's answer is that of all triangles one by one. */
 static void every_triangle(void)
 {
@@ -87,7 +95,7 @@ static void every_triangle(void)
             const float half = round % 2 ? 0.01f : 0.7f;
             fill_tile(&tile, random_point(&r, 1.0f), half, &r);
             const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
-            const uint64_t got = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, asked, at, NULL);
+            const uint64_t got = blocked_anew(&b, &tile, asked, at);
             CHECK((got & ~asked) == 0);
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
                 double surest = -1.0;
@@ -119,7 +127,7 @@ static void no_gap_no_acne(void)
     for (int round = 0; round < 400; ++round) {
         const lmb_vec3 out = normalize3(random_point(&r, 1.0f));
         fill_tile(&tile, vec3(0.3f, 0.1f, -0.2f), 0.3f, &r);
-        leaks |= ~lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), mul3(out, 4.0f), NULL);
+        leaks |= ~blocked_anew(&b, &tile, ~UINT64_C(0), mul3(out, 4.0f));
         float(*t)[3] = world.corners[test_random(&r) % world.count];
         const lmb_vec3 a = vec3(t[0][0], t[0][1], t[0][2]), u = sub3(vec3(t[1][0], t[1][1], t[1][2]), a),
                        v = sub3(vec3(t[2][0], t[2][1], t[2][2]), a);
@@ -128,7 +136,7 @@ static void no_gap_no_acne(void)
             const float s = (float)(k % 8) / 7.0f, q = (float)(k / 8) / 7.0f * (1.0f - s);
             set_plane(tile.position, k, add3(a, add3(mul3(u, s), mul3(v, q))));
         }
-        acne |= lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), add3(a, mul3(n, 3.0f)), NULL);
+        acne |= blocked_anew(&b, &tile, ~UINT64_C(0), add3(a, mul3(n, 3.0f)));
     }
     CHECK(leaks == 0);
     CHECK(acne == 0);
@@ -139,26 +147,29 @@ static void capacities(void)
 {
     lmb_blockers b;
     lmb_tile tile;
+    lmb_walk walk;
     test_rng r = {9};
+    memset(&walk, 0, sizeof walk);
     world_begin(1, 1, 1);
     CHECK(world_end() == LMB_OK);
     CHECK(lmb_blockers_init(&b, 8, memory, lmb_blockers_bytes(8)) == LMB_OK);
     CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.node_count == 0);
     fill_tile(&tile, vec3(0, 0, 0), 0.1f, &r);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), vec3(0, 1, 0), NULL) == 0);
+    CHECK(blocked_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
     for (int i = 0; i < 9; ++i) {
         world_triangle(vec3(-1, 0.5f, -1), vec3(2, 0.5f, -1), vec3(-1, 0.5f, 2));
     }
     world.first = 0;
     CHECK(world_end() == LMB_OK);
     CHECK(lmb_blockers_build(&b, &world.scene) == LMB_ERR_CAPACITY);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), vec3(0, 1, 0), NULL) == 0);
+    CHECK(blocked_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
     CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9)) == LMB_OK);
     CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), NULL) == 5);
-    CHECK(lmb_blocked_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), NULL) == 0);
-    CHECK(lmb_blocked_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), NULL) == 0);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), NULL) == 0);
+    CHECK(blocked_anew(&b, &tile, 5, vec3(0, 1, 0)) == 5);
+    CHECK(lmb_blocked_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), &walk) == 0);
+    CHECK(lmb_blocked_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), &walk) == 0);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), &walk) == 0);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), NULL) == 0);
     CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9) - 1) == LMB_ERR_CAPACITY);
     CHECK(lmb_blockers_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_blockers_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);
@@ -171,8 +182,8 @@ static void few_nodes(void)
 {
     test_rng r = {31};
     int wrong = 0, blocked = 0, other = 0;
-    lmb_last_blockers last;
-    memset(&last, 0, sizeof last);
+    lmb_walk walk;
+    memset(&walk, 0, sizeof walk);
     world_begin(1, 1, 1);
     for (int i = 0; i < 256; ++i) { /* a grid: sixteen in each box of the root, one in each of theirs */
         const lmb_vec3 at = vec3((float)(i % 16) / 8.0f - 1.0f, (float)(i / 16) / 8.0f - 1.0f, 0.0f);
@@ -197,13 +208,13 @@ static void few_nodes(void)
         lmb_tile tile;
         const lmb_vec3 at = random_point(&r, 1.5f);
         fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
-        const uint64_t got = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, NULL);
-        wrong += got != lmb_blocked_tile(&all, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, NULL);
-        other += got != lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, &last);
+        const uint64_t got = blocked_anew(&b, &tile, ~UINT64_C(0), at);
+        wrong += got != blocked_anew(&all, &tile, ~UINT64_C(0), at);
+        other += got != lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, &walk);
         blocked += got != 0 && ~got != 0;
     }
     CHECK_MSG(wrong == 0 && other == 0 && blocked > 10, "%d and %d of 60 wrong, %d mixed", wrong, other, blocked);
-    CHECK(last.triangle[0] != 0);
+    CHECK(walk.last[0] != 0);
 }
 
 /* A masked triangle blocks where it stands. */
@@ -227,7 +238,7 @@ static void holes(void)
                   vec3(0.5f * ((float)(k % 8) - 3.5f) / 4.0f, 0, 0.9f * ((float)(k / 8) - 3.5f) / 4.0f));
     }
     /* From straight above the plane's points lie over the pixels; u grows with z. */
-    const uint64_t blocked = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), vec3(0, 1000, 0), NULL);
+    const uint64_t blocked = blocked_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1000, 0));
     CHECK_MSG(blocked == UINT64_C(0xffffffff), "%08x%08x", (unsigned)(blocked >> 32), (unsigned)blocked);
 }
 

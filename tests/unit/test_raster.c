@@ -1116,6 +1116,8 @@ static void test_bad_targets(void)
     REFUSED(t.id.height = 40, LMB_ERR_ARG);
     REFUSED(t.depth.width = t.id.width = 2147483647, LMB_ERR_ARG);
     REFUSED(t.x0 = 2147483640, LMB_ERR_ARG);
+    REFUSED(t.depth.stride_bytes = 1 << 29, LMB_ERR_ARG); /* eight such rows are more than 32 bits hold */
+    REFUSED(t.id.stride_bytes = 1 << 29, LMB_ERR_ARG);
     REFUSED(t.id.format = LMB_ID16; st.mesh.triangle_count = 65536, LMB_ERR_CAPACITY);
     st.mesh.triangle_count = 8;
     REFUSED(t.depth.format = LMB_DEPTH16; st.view.far_m = 0.1f, LMB_ERR_ARG); /* an orthographic view needs far too */

@@ -1,0 +1,55 @@
+/* plan_rows.h: what scenes were measured at, by settings: kept in a file, so that fitting need not measure again. */
+#ifndef PLAN_ROWS_H
+#define PLAN_ROWS_H
+
+#include <stdio.h>
+
+#include "../../src/plan/plan_model.h"
+#include "../../tools/render_job.h"
+
+enum { PLAN_SCENES = 16, PLAN_RUNS = 64, PLAN_TIMES = LMB_STAGE_DONE };
+
+/* One setting, drawn. */
+typedef struct plan_run {
+    lmb_settings s;
+    double seconds[PLAN_TIMES]; /* of processor time, by stage */
+    double pairs, segments, error; /* counted; against the reference, as lmb_look_error but over all pixels */
+} plan_run;
+
+typedef struct plan_scene {
+    char name[32];
+    int fits; /* 1: the model is fitted to it */
+    double shown, fixed;
+    lmb_facts facts;
+    plan_run run[PLAN_RUNS];
+    int runs;
+} plan_scene;
+
+double plan_seconds(const plan_run *r);
+
+/* plan_open: a scene of the list, ready to draw, by one thread. 1, or 0: it is not here. */
+typedef struct plan_place {
+    const char *name, *path, *light; /* NULL: its own lights */
+    int fits, heavy;                 /* heavy: fewer settings are drawn */
+} plan_place;
+extern const plan_place plan_places[];
+extern const int plan_place_count;
+int plan_open(render_job *j, const plan_place *at);
+
+/* plan_draw: one setting; `light` gets the irradiance, 3 floats a pixel, below 0 where nothing is seen. */
+int plan_draw(plan_run *out, float *light, render_job *j);
+
+/* plan_error: RMSE without the worst 1 % of pixels, over the mean of b. */
+double plan_error(const float *a, const float *b, size_t pixels);
+
+/* plan_measure: all settings of one scene. */
+int plan_measure(plan_scene *out, const plan_place *at);
+
+/* The reference's picture of an open job; free it. */
+float *plan_reference(render_job *j);
+
+/* plan_fit: the model of those scenes that fit, as plan_model.inc. plan_report: predicted against measured, others. */
+void plan_fit(const plan_scene *s, int count, FILE *out);
+int plan_report(const plan_scene *s, int count);
+
+#endif

@@ -1,0 +1,69 @@
+/* fuzz_cli.c: command lines: lines of bytes as arguments; the first byte says which verb's. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tools/mix_options.h"
+#include "../../tools/relight_options.h"
+#include "../../tools/render_options.h"
+#include "fuzz.h"
+
+enum { ARGUMENTS = 64 };
+
+typedef union options {
+    render_options render;
+    relight_options relight;
+    mix_options mix;
+} options;
+
+/* What is taken is within what the help promises. */
+static void check_render(const render_options *o)
+{
+    fuzz_require(o->light_count <= RENDER_LIGHTS && o->threads >= 0 && o->light_map >= 0 && o->bounces >= 0);
+    fuzz_require(o->view.width >= 0 && o->view.width <= LMB_MAX_SIDE && o->view.height <= LMB_MAX_SIDE);
+    fuzz_require(o->error >= 0.0f && o->visible >= 0.0f && o->stereo_m - o->stereo_m == 0.0f);
+}
+
+static int parse(options *out, int verb, int argc, char **argv, report *r)
+{
+    switch (verb) {
+    case 0:
+        return render_options_parse(&out->render, argc, argv, r);
+    case 1:
+        return relight_options_parse(&out->relight, argc, argv, r);
+    default:
+        return mix_options_parse(&out->mix, argc, argv, r);
+    }
+}
+
+void fuzz_cli(const uint8_t *data, size_t size)
+{
+    static char name[] = "verb";
+    static options out;
+    char *argv[ARGUMENTS + 2] = {name}, *text;
+    report r = {{0}};
+    int argc = 1;
+    if (size == 0 || (text = malloc(size)) == NULL) {
+        return;
+    }
+    const int verb = data[0] % 3;
+    memcpy(text, data + 1, size - 1);
+    text[size - 1] = '\0';
+    for (char *at = text; argc <= ARGUMENTS; ++at) {
+        argv[argc++] = at;
+        at = strchr(at, '\n');
+        if (at == NULL) {
+            break;
+        }
+        *at = '\0';
+    }
+    argv[argc] = NULL;
+    if (parse(&out, verb, argc, argv, &r)) {
+        fuzz_require(r.text[0] == '\0');
+        if (verb == 0 && !out.render.help) {
+            check_render(&out.render);
+        }
+    } else {
+        fuzz_failed(&r, "");
+    }
+    free(text);
+}

@@ -1,0 +1,267 @@
+/* test_bench.c: the arithmetic of a sweep's report: front, knee, ledger; its files' texts; its command line. */
+#include <math.h>
+#include <string.h>
+
+#include "../../tools/bench_chart.h"
+#include "../../tools/bench_front.h"
+#include "../../tools/bench_html.h"
+#include "../../tools/bench_ledger.h"
+#include "../../tools/bench_sweep.h"
+#include "../../tools/bench_table.h"
+#include "../../tools/demo_scene.h"
+#include "../../tools/scene_hash.h"
+#include "../test.h"
+
+void test_bench(void);
+
+/* --- front and knee ----------------------------------------------------------------------------------------------- */
+
+static bench_point *add(bench_report *b, const char *name, double time_s, double error)
+{
+    bench_point *p = bench_report_add(b);
+    snprintf(p->name, sizeof p->name, "%s", name);
+    p->time_s = time_s;
+    p->figure[0] = error;
+    p->has_figures = 1;
+    return p;
+}
+
+static void check_front(void)
+{
+    bench_report b;
+    int order[BENCH_POINTS];
+    memset(&b, 0, sizeof b);
+    add(&b, "slow and good", 100.0, 0.001);
+    add(&b, "beaten in both", 5.0, 0.2);
+    add(&b, "fast and bad", 0.1, 0.5);
+    add(&b, "middle", 1.0, 0.01);
+    add(&b, "its equal, later", 1.0, 0.01);
+    add(&b, "as slow, worse", 1.0, 0.02);
+    add(&b, "better, with threads", 0.01, 0.0001)->threads = 2;
+    add(&b, "no figures", 0.001, 0.0)->has_figures = 0;
+    snprintf(add(&b, "failed", 0.001, 0.0)->failure, sizeof b.point->failure, "why");
+    CHECK(bench_front(&b) == 3);
+    CHECK(bench_front_order(order, &b) == 3);
+    CHECK(order[0] == 2 && order[1] == 3 && order[2] == 0);
+    /* Halfway in time (1 of 3 decades), and nearly down: 1 - 1/3 - log(10)/log(500) under the line. */
+    CHECK(b.point[3].is_knee && !b.point[0].is_knee && !b.point[2].is_knee);
+    bench_report_free(&b);
+}
+
+static void check_knee(void)
+{
+    bench_report b;
+    memset(&b, 0, sizeof b);
+    add(&b, "a", 1.0, 1.0);
+    add(&b, "b", 100.0, 0.01);
+    CHECK(bench_front(&b) == 2);
+    CHECK(!b.point[0].is_knee && !b.point[1].is_knee);
+    add(&b, "above the line", 10.0, 0.2); /* the line is at 0.1 there */
+    CHECK(bench_front(&b) == 3);
+    CHECK(!b.point[2].is_knee);
+    add(&b, "under it", 20.0, 0.04);       /* the line is at 0.05 */
+    add(&b, "farther under it", 3.0, 0.1); /* at 0.33; beats the one above the line */
+    CHECK(bench_front(&b) == 4);
+    CHECK(!b.point[2].on_front && !b.point[3].is_knee && b.point[4].is_knee);
+    add(&b, "exact", 200.0, 0.0);
+    CHECK(bench_front(&b) == 5); /* an error of 0 has no logarithm */
+    bench_report_free(&b);
+}
+
+/* --- the ledger --------------------------------------------------------------------------------------------------- */
+
+/* Two pixels that count and one that does not. Steps that do not overlap add up; equal ones count twice twice. */
+static void check_ledger(void)
+{
+    static const float a[9] = {1.5f, 1.5f, 1.5f, 1.0f, 1.0f, 1.0f, 9.0f, 9.0f, 9.0f};
+    static const float b[9] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
+    static const float c[9] = {1.0f, 1.0f, 1.0f, 0.5f, 0.5f, 0.5f, 5.0f, 5.0f, 5.0f};
+    static const float d[9] = {0.5f, 0.5f, 0.5f, 1.0f, 1.0f, 1.0f, 9.0f, 9.0f, 9.0f};
+    static const uint8_t counts[3] = {1, 1, 0}, none[3] = {0, 0, 0};
+    const float *apart[3] = {a, b, c}, *along[3] = {a, b, d};
+    bench_ledger l;
+    memset(&l, 0, sizeof l);
+    l.rows = 2;
+    CHECK(bench_ledger_sum(&l, apart, counts, 3));
+    const double mean2 = 0.75 * 0.75; /* of the truth, c */
+    CHECK_MSG(fabs(l.row[0].square - 0.125 / mean2) < 1e-12, "%.9g", l.row[0].square);
+    CHECK_MSG(fabs(l.row[1].square - 0.125 / mean2) < 1e-12, "%.9g", l.row[1].square);
+    CHECK_MSG(fabs(l.total - l.sum) < 1e-12, "%.9g %.9g", l.total, l.sum);
+    CHECK(bench_ledger_sum(&l, along, counts, 3));
+    CHECK_MSG(fabs(l.total - 2.0 * l.sum) < 1e-12, "%.9g %.9g", l.total, l.sum);
+    CHECK(!bench_ledger_sum(&l, apart, none, 3));
+}
+
+/* Of 200 pixels the two worst of each picture are left out, from all steps. */
+static void check_trim(void)
+{
+    static float a[600], b[600], truth[600];
+    static uint8_t counts[200];
+    const float *picture[3] = {a, b, truth};
+    bench_ledger l;
+    memset(&l, 0, sizeof l);
+    l.rows = 2;
+    for (int i = 0; i < 600; ++i) {
+        truth[i] = b[i] = 1.0f;
+        a[i] = i < 6 ? 1000.0f : 1.1f;
+        b[i] = i / 3 == 10 ? 500.0f : 1.0f;
+        counts[i / 3] = 1;
+    }
+    CHECK(bench_ledger_sum(&l, picture, counts, 200));
+    CHECK_MSG(fabs(l.total - 0.01) < 1e-6 && fabs(l.row[0].square - 0.01) < 1e-6 && l.row[1].square == 0.0,
+              "%.9g = %.9g + %.9g", l.total, l.row[0].square, l.row[1].square);
+}
+
+/* --- texts -------------------------------------------------------------------------------------------------------- */
+
+static void check_page(void)
+{
+    page p;
+    memset(&p, 0, sizeof p);
+    page_html(&p, "<a href=\"b&c\">");
+    page_plain(&p, "|");
+    page_json(&p, "a\"\\\n");
+    page_plain(&p, "|");
+    page_csv(&p, "plain");
+    page_csv(&p, ",a,\"b\"");
+    page_plain(&p, "|");
+    page_base64(&p, (const uint8_t *)"light", 5);
+    page_base64(&p, (const uint8_t *)"work", 4);
+    page_base64(&p, (const uint8_t *)"sun", 3);
+    CHECK_MSG(
+        strcmp(p.data,
+               "&lt;a href=&quot;b&amp;c&quot;&gt;|\"a\\\"\\\\\\u000a\"|plain\",a,\"\"b\"\"\"|bGlnaHQ=d29yaw==c3Vu") ==
+            0,
+        "%s", p.data);
+    page_free(&p);
+    for (int i = 0; i < 5000; ++i) {
+        page_add(&p, "%04d", i);
+    }
+    CHECK(p.size == 20000 && strlen(p.data) == 20000 && memcmp(p.data + 4 * 4321, "4321", 4) == 0);
+    page_free(&p);
+}
+
+static void check_says(void)
+{
+    bench_report b;
+    char text[BENCH_NAME];
+    memset(&b, 0, sizeof b);
+    static const struct {
+        double s;
+        const char *text;
+    } times[] = {{83.4, "83.4 s"}, {1.239, "1.24 s"}, {0.9996, "1.00 s"}, {0.0834, "83.4 ms"}, {0.0001, "100 us"}};
+    for (size_t i = 0; i < sizeof times / sizeof *times; ++i) {
+        bench_say_time(text, times[i].s);
+        CHECK_MSG(strcmp(text, times[i].text) == 0, "%g: %s", times[i].s, text);
+    }
+    b.percent = 1;
+    bench_say_figure(text, &b, 0, 0.0314);
+    CHECK_MSG(strcmp(text, "3.1 %") == 0, "%s", text);
+    bench_say_figure(text, &b, 0, 0.0);
+    CHECK_MSG(strcmp(text, "0 %") == 0, "%s", text);
+    bench_say_bytes(text, 10.0 * 1048576.0);
+    CHECK_MSG(strcmp(text, "10 MiB") == 0, "%s", text);
+    bench_label(text, "--tree 64 --gather half");
+    CHECK_MSG(strcmp(text, "tree 64, gather half") == 0, "%s", text);
+}
+
+/* Every text comes out whole whatever a file or a scene is called. */
+static void check_files(void)
+{
+    bench_report b;
+    page p;
+    memset(&b, 0, sizeof b);
+    memset(&p, 0, sizeof p);
+    b.figure[0] = "trim";
+    b.figure_is[0] = "error";
+    b.stage[0] = "pixels";
+    snprintf(b.title, sizeof b.title, "lambent render '<b>.glb'");
+    add(&b, "default", 1.0, 0.5)->stage_s[0] = 1.0;
+    add(&b, "--tree 64", 0.5, 0.7)->stage_s[0] = 0.5;
+    bench_front(&b);
+    bench_csv(&p, &b);
+    CHECK_MSG(strstr(p.data, "\n--tree 64,,front,0.5,0.5,0.7,0,0,,1,,,\n") != NULL, "%s", p.data);
+    page_free(&p);
+    bench_html(&p, &b);
+    CHECK(strstr(p.data, "'&lt;b&gt;.glb'") != NULL && strstr(p.data, "<b>.glb") == NULL);
+    CHECK(strstr(p.data, "</body></html>\n") == p.data + p.size - 15);
+    page_free(&p);
+    bench_report_free(&b);
+}
+
+/* --- what the truth is kept by ------------------------------------------------------------------------------------ */
+
+/* Copies are one scene; any number that draws makes another. */
+static void check_hash(void)
+{
+    const lmb_scene *scene = demo_scene();
+    lmb_scene other = *scene;
+    lmb_light light = scene->lights[0];
+    lmb_mesh mesh[64];
+    uint8_t positions[12];
+    lmb_view a = demo_view(32, 24), b = a;
+    other.lights = &light;
+    other.light_count = 1;
+    CHECK(scene->light_count == 1 && scene_hash(&other) == scene_hash(scene));
+    light.intensity[2] += 0.5f;
+    CHECK(scene_hash(&other) != scene_hash(scene));
+    light = scene->lights[0];
+    CHECK(scene->mesh_count <= 64);
+    memcpy(mesh, scene->meshes, scene->mesh_count * sizeof *mesh);
+    other.meshes = mesh;
+    CHECK(scene_hash(&other) == scene_hash(scene));
+    memset(positions, 0, sizeof positions);
+    mesh[0].positions = positions;
+    mesh[0].vertex_count = 1;
+    CHECK(scene_hash(&other) != scene_hash(scene));
+    b.eye.x += 0.001f;
+    CHECK(scene_hash_view(1, &a) == scene_hash_view(1, &a) && scene_hash_view(1, &a) != scene_hash_view(1, &b));
+}
+
+/* --- the command line --------------------------------------------------------------------------------------------- */
+
+static int parses(bench_options *o, int argc, char **argv)
+{
+    report r = {""};
+    return bench_options_parse(o, &bench_render, argc, argv, &r);
+}
+
+static void check_options(void)
+{
+    static bench_options o;
+    static bench_task task[BENCH_POINTS];
+    report r = {""};
+    bench_line line;
+    char said[256];
+    char *all[] = {
+        "a room.glb", "--sweep", "tree=64,128", "--bounces",       "2", "--sweep", "gather=full,half,quarter",
+        "--runs",     "7",       "--sweep",     "--error=0.1,0.2", NULL};
+    CHECK(parses(&o, 11, all));
+    CHECK(o.runs == 7 && o.ranges == 3 && o.given_count == 3);
+    CHECK(bench_tasks(task, &o, &r) == 12);
+    CHECK_MSG(strcmp(task[9].words, "--tree 128 --gather half --error 0.2") == 0, "%s", task[9].words);
+    CHECK(bench_options_line(&line, &o, NULL, &r) && bench_line_add(&line, task[9].words));
+    bench_line_say(said, sizeof said, &line);
+    CHECK_MSG(strcmp(said, "lambent render --show indirect --threads 1 --size 160x120 'a room.glb' --bounces 2 "
+                           "-o picture.pfm --tree 128 --gather half --error 0.2") == 0,
+              "%s", said);
+    char *wrong[][3] = {{"a", "--sweep", "tree"}, {"a", "--sweep", "tree=1,,2"}, {"a", "--sweep", "tree=1,"},
+                        {"a", "--runs", "0"},     {"a", "--stats", "x"},         {"a", "--tree", NULL}};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        char *argv[4] = {wrong[i][0], wrong[i][1], wrong[i][2], NULL};
+        CHECK_MSG(!parses(&o, wrong[i][2] != NULL ? 3 : 2, argv), "%s", wrong[i][1]);
+    }
+}
+
+void test_bench(void)
+{
+    check_front();
+    check_knee();
+    check_ledger();
+    check_trim();
+    check_page();
+    check_says();
+    check_files();
+    check_hash();
+    check_options();
+}

@@ -1,0 +1,258 @@
+/* test_plan.c: floor 8: what a frame does without: the same bytes as with it, seen to be left out, and not on a near
+ * miss. */
+#include <lambent/lambent.h>
+
+#include "../world.h"
+
+enum { FRAME = 32, MAP = 16, FACES = 14, ELEMENTS = 64, BLOCKERS = 96 };
+#include "../bounce_frame.h"
+
+void test_plan(void);
+
+#if LMB_PLAN && LMB_TREES
+
+static float whole[FRAME * FRAME * 3];
+static lmb_light lamps[2];
+
+/* A closed room of 2 m around the origin, and the viewer in it; the others stand in its middle. */
+static void set_room(void)
+{
+    world_begin(0.7f, 0.6f, 0.5f);
+    world_quad(vec3(0, -1, 0), Z, X);
+    world_quad(vec3(0, 1, 0), X, Z);
+    world_quad(vec3(0, 0, -1), X, Y);
+    world_quad(vec3(0, 0, 1), Y, X);
+    world_quad(vec3(-1, 0, 0), Y, Z);
+    world_quad(vec3(1, 0, 0), Z, Y);
+}
+
+static lmb_frame frame_of(uint32_t light_count)
+{
+    const lmb_view v = look(vec3(0.1f, 0.2f, 0.9f), vec3(-0.1f, -0.2f, -1), 70, FRAME);
+    world.scene.lights = lamps;
+    world.scene.light_count = light_count;
+    CHECK(world_end() == LMB_OK);
+    lmb_frame f = bounce_frame(&v, 1);
+    f.error = f.visible = 0.1f;
+    return f;
+}
+
+/* As planned, in `render` and `picture`; 1 where everything gives the same bytes. */
+static int same_as_everything(const lmb_frame *frame)
+{
+    lmb_frame f = *frame;
+    f.everything = 1;
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.omits == 0 && render.keeps == 0);
+    memcpy(whole, picture, sizeof whole);
+    memset(picture, 0x5a, sizeof picture);
+    CHECK(lmb_render_frame(&render, frame) == LMB_OK);
+    return memcmp(whole, picture, sizeof whole) == 0;
+}
+
+static int planes_of(void)
+{
+    lmb_hull h;
+    lmb_hull_find(&h, &world.scene);
+    return h.count;
+}
+
+/* --- a convex room ------------------------------------------------------------------------------------------------ */
+
+static void test_convex(void)
+{
+    lamps[0] = spot(vec3(0.3f, 0.8f, 0.1f), vec3(-0.2f, -1, -0.1f), 25, 40);
+    set_room();
+    lmb_frame f = frame_of(1);
+    CHECK(same_as_everything(&f) && planes_of() == 6 && render.frame.blockers.hull.count == 6);
+    CHECK(render.omits == 0 && picture[0] > 0.0f);
+    /* Turned, its triangles' normals are rounded: each quad has two planes. */
+    world.instance[0].to_world.m[0] = world.instance[0].to_world.m[10] = 0.8f;
+    world.instance[0].to_world.m[2] = -0.6f;
+    world.instance[0].to_world.m[8] = 0.6f;
+    lmb_scene_bounds(&world.scene.bounds_min, &world.scene.bounds_max, &world.scene);
+    CHECK(same_as_everything(&f));
+    CHECK_MSG(planes_of() >= 6 && planes_of() <= 12, "%d", planes_of());
+}
+
+/* No walk: the tree of boxes may hold a wall right through the room. */
+static void test_no_walk(void)
+{
+    lmb_tile tile;
+    memset(&tile, 0, sizeof tile);
+    set_room();
+    lmb_frame f = frame_of(1);
+    CHECK(lmb_blockers_build(&f.blockers, &world.scene) == LMB_OK && f.blockers.hull.count == 6);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        set_plane(tile.position, k, vec3(-1, -0.9f + 0.02f * (float)k, 0.01f * (float)k));
+    }
+    CHECK(lmb_hull_pixels(&f.blockers.hull, &tile, ~UINT64_C(0)) == ~UINT64_C(0));
+    CHECK(lmb_hull_pixels(&f.blockers.hull, &tile, UINT64_C(0x50)) == UINT64_C(0x50));
+    CHECK(lmb_hull_holds(&f.blockers.hull, vec3(1, 1, 1)) && lmb_hull_holds(&f.blockers.hull, vec3(0, -1, 0)));
+    /* Behind a wall by more than rounding, each axis. */
+    CHECK(!lmb_hull_holds(&f.blockers.hull, vec3(1.00001f, 0, 0)));
+    CHECK(!lmb_hull_holds(&f.blockers.hull, vec3(0, 0, -1.1f)));
+    tile.position[1][5] = -1.00001f;
+    CHECK(lmb_hull_pixels(&f.blockers.hull, &tile, ~UINT64_C(0)) == ~(UINT64_C(1) << 5));
+}
+
+/* Rooms that are nearly convex and empty. */
+static void test_not_convex(void)
+{
+    set_room();
+    world_box(vec3(0, 0, 0), 1e-3f);
+    frame_of(1);
+    CHECK(planes_of() == 0); /* a speck in the middle */
+    set_room();
+    world.corners[0][0][1] += 1e-4f;
+    frame_of(1);
+    CHECK(planes_of() == 0); /* a corner of the floor lifted: its other half goes on below */
+    set_room();
+    world.corners[2][1][0] = 1.0001f;
+    frame_of(1);
+    CHECK(planes_of() == 0); /* the ceiling goes on behind a wall */
+    set_room();
+    world_quad(vec3(0, -0.9999f, 0), mul3(Z, 0.1f), mul3(X, 0.1f));
+    frame_of(1);
+    CHECK(planes_of() == 0); /* a mat on the floor */
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_sphere(vec3(0, 0, 0), 1.0f, 8, 8);
+    frame_of(1);
+    CHECK(planes_of() == 0); /* convex, with more planes than are kept */
+    world_begin(0.5f, 0.5f, 0.5f);
+    frame_of(1);
+    CHECK(planes_of() == 0);
+}
+
+/* --- lights ------------------------------------------------------------------------------------------------------- */
+
+static uint32_t faces_drawn(int light)
+{
+    uint32_t n = 0;
+    for (uint32_t bits = render.maps[light].drawn; bits != 0; bits >>= 1) {
+        n += bits & 1u;
+    }
+    return n;
+}
+
+static void test_lights(void)
+{
+    set_room();
+    lamps[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
+    lamps[1] = point_light(vec3(0, 0, 0));
+    memset(lamps[1].intensity, 0, sizeof lamps[1].intensity);
+    lmb_frame f = frame_of(LMB_MAX_LIGHTS > 1 ? 2 : 1);
+    CHECK(same_as_everything(&f) && faces_drawn(0) == 6);
+    CHECK(LMB_MAX_LIGHTS == 1 || (render.light_state[1] == LMB_LIGHT_DARK && faces_drawn(1) == 0));
+    lamps[1].intensity[2] = 1e-6f; /* little is not nothing */
+    CHECK(same_as_everything(&f) && (LMB_MAX_LIGHTS == 1 || (render.light_state[1] == 0 && faces_drawn(1) == 6)));
+}
+
+/* A lamp over a floor and before a wall: some of its faces look past both. */
+static void test_faces(void)
+{
+    world_begin(0.7f, 0.6f, 0.5f);
+    world_quad(vec3(0, 0, 0), Z, X);
+    world_quad(vec3(0, 0.5f, -1), X, mul3(Y, 0.5f));
+    lamps[0] = point_light(vec3(0, 3, 0));
+    lmb_frame f = frame_of(1);
+    CHECK(same_as_everything(&f) && render.maps[0].drawn == 1u << 3);
+    lamps[0].position.y = 2.1f; /* the wall is 1 m high, 1 m away: its top is just under the pyramid's side */
+    CHECK(same_as_everything(&f) && render.maps[0].drawn == 1u << 3);
+    lamps[0].position.y = 1.98f; /* and just in it */
+    CHECK(same_as_everything(&f) && (render.maps[0].drawn >> 5 & 1u) == 1u);
+    lamps[0] = spot(vec3(0, 3, 0), vec3(0, 1, 0), 10, 30); /* away from all */
+    CHECK(same_as_everything(&f) && render.maps[0].drawn == 0 && render.omits == LMB_OMIT_BOUNCE);
+    lamps[0] = spot(vec3(0, 3, 0), vec3(1, -1, 0), 10, 40);
+    CHECK(same_as_everything(&f) && render.maps[0].drawn == 1 && render.omits == 0);
+}
+
+/* --- materials ---------------------------------------------------------------------------------------------------- */
+
+static void test_black(void)
+{
+    set_room();
+    lamps[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
+    lmb_frame f = frame_of(1);
+    memset(world.material[0].albedo, 0, sizeof world.material[0].albedo);
+    CHECK(same_as_everything(&f) && render.omits == LMB_OMIT_BOUNCE); /* the other material has no triangle */
+    f.show = LMB_SHOW_IRRADIANCE;
+    CHECK(same_as_everything(&f) && picture[0] == 0.0f);
+    world.material[0].albedo[1] = 1e-3f;
+    CHECK(same_as_everything(&f) && render.omits == 0 && picture[1] > 0.0f);
+    world.material[0].albedo[1] = 0.0f;
+    world.material[0].emission[0] = 1.0f;
+    CHECK(same_as_everything(&f) && render.omits == 0 && render.shines == 1 && picture[0] > 0.0f);
+}
+
+static void test_unused(void)
+{
+    set_room();
+    lamps[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
+    lmb_frame f = frame_of(1);
+    world.material[1].emission[0] = world.material[1].specular[0] = 1.0f;
+    world.material[1].roughness = 0.5f;
+    CHECK(same_as_everything(&f) && render.shines == 0 && render.is_glossy == 0);
+    world.material[0].specular[1] = 0.01f;
+    world.material[0].roughness = 0.5f;
+    CHECK(same_as_everything(&f) && render.shines == 0 && render.is_glossy == 1);
+}
+
+/* --- any scene ---------------------------------------------------------------------------------------------------- */
+
+static void random_scene(test_rng *rng)
+{
+    if (test_random(rng) % 3 == 0) {
+        set_room();
+    } else {
+        world_begin(test_uniform(rng, 0, 1), 0.5f, 0.2f);
+    }
+    for (uint32_t n = test_random(rng) % 12; n > 0; --n) {
+        const lmb_vec3 at = vec3(test_uniform(rng, -1, 1), test_uniform(rng, -1, 1), test_uniform(rng, -1, 0.5f));
+        world_triangle(at, add3(at, vec3(test_uniform(rng, -1, 1), test_uniform(rng, -1, 1), 0.1f)),
+                       add3(at, vec3(0.3f, test_uniform(rng, -1, 1), test_uniform(rng, -1, 1))));
+    }
+    for (int i = 0; i < 2; ++i) {
+        const lmb_vec3 at = vec3(test_uniform(rng, -3, 3), test_uniform(rng, -3, 3), test_uniform(rng, -3, 3));
+        lamps[i] = test_random(rng) % 2 == 0 ? point_light(at) : spot(at, mul3(at, -1.0f), 10, 45);
+        lamps[i].intensity[0] *= (float)(test_random(rng) % 3);
+        if (test_random(rng) % 4 == 0) {
+            memset(lamps[i].intensity, 0, sizeof lamps[i].intensity);
+        }
+    }
+}
+
+static void test_random_scenes(void)
+{
+    static const int32_t shows[] = {LMB_SHOW_FULL, LMB_SHOW_INDIRECT, LMB_SHOW_IRRADIANCE};
+    test_rng rng = {11};
+    int omitted = 0, faces = 0;
+    for (int i = 0; i < 60; ++i) {
+        random_scene(&rng);
+        lmb_frame f = frame_of(LMB_MAX_LIGHTS > 1 ? 2 : 1);
+        f.show = shows[i % 3];
+        f.gather_step = i % 2 == 0 ? 1 : 2;
+        f.bounces = 1 + i % 4 / 3;
+        CHECK_MSG(same_as_everything(&f), "scene %d", i);
+        omitted += render.omits != 0;
+        faces += faces_drawn(0) < (uint32_t)render.maps[0].faces;
+    }
+    CHECK_MSG(omitted > 2 && faces > 5, "%d %d", omitted, faces);
+}
+
+void test_plan(void)
+{
+    test_convex();
+    test_no_walk();
+    test_not_convex();
+    test_lights();
+    test_faces();
+    test_black();
+    test_unused();
+    test_random_scenes();
+}
+
+#else
+
+void test_plan(void) {}
+
+#endif

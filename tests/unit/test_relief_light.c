@@ -1,0 +1,135 @@
+/* test_relief_light.c: a relief of a sphere in a scene: shadows both ways, light that bounces. Requirements P7-P11. */
+#include "../sphere_relief.h"
+
+void test_relief_light(void);
+
+/* P7-P9 P11: over a floor, both ways: what the sphere shadows, what shadows it, and which hides which. */
+static void shadows(const stage *s)
+{
+    const lmb_view v = look(vec3(0.0f, 2.0f, 5.0f), vec3(0, 0, 0), 60.0, FRAME);
+    const lmb_light light = sun(vec3(0.2f, -1.0f, -0.1f));
+    relief_shot shot = shot_of(s, &v), truth;
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0.0f, -1.2f, 0.0f), vec3(0, 0, 3), vec3(3, 0, 0));
+    world_quad(vec3(-0.9f, 1.6f, 0.0f), vec3(0, 0, 0.8f), vec3(0.6f, 0, 0));
+    CHECK(world_end() == LMB_OK);
+    shot.scene = &world.scene;
+    shot.light = &light;
+    shot.light_map = MAP;
+    relief_frame got = shoot(&shot);
+    world_sphere(vec3(0, 0, 0), 1.0f, STACKS, SLICES);
+    CHECK(world_end() == LMB_OK);
+    truth = shot;
+    truth.relief = NULL;
+    relief_frame want = shoot(&truth);
+    int same = 0, dark = 0, apart = 0;
+    for (int i = 0; i < FRAME * FRAME; ++i) {
+        same += got.lit[i] == want.lit[i];
+        dark += want.depth[i] > 0.0f && !want.lit[i];
+        apart += fabsf(got.depth[i] - want.depth[i]) > 0.02f;
+    }
+    CHECK_MSG(dark > 1000 && same > FRAME * FRAME * 98 / 100 && apart < FRAME * FRAME / 100,
+              "%d dark, %d of %d the same, %d apart", dark, same, FRAME * FRAME, apart);
+    relief_frame_free(&got);
+    relief_frame_free(&want);
+}
+
+/* Light that a floor sends up arrives on a relief as on the sphere. */
+static void receives_bounce(const stage *s)
+{
+    static uint32_t depth[FRAME * FRAME], id[FRAME * FRAME];
+    static lmb_tile tile;
+    static lmb_groups groups;
+    static lmb_gather_scratch scratch;
+    const lmb_view v = look(vec3(0.0f, -0.5f, 4.0f), vec3(0, 0, 0), 40.0, FRAME);
+    lmb_irradiance bounced[2];
+    lmb_scene simple;
+    memset(&groups, 0, sizeof groups);
+    memset(bounced, 0, sizeof bounced);
+    groups.count = 1;
+    set_group(&groups, 0, vec3(0, -3, 0), Y, 1.0f, 0.6f);
+    groups.flux[0][0] = 10.0f;
+    lmb_relief_scene(&simple, &s->relief);
+    for (int i = 0; i < 2; ++i) {
+        const lmb_scene *scene = i == 0 ? &simple : &s->complex.scene;
+        lmb_target t = target_of(LMB_DEPTH32F, FRAME, depth, id);
+        lmb_surface_clear(&t.depth);
+        lmb_surface_clear(&t.id);
+        CHECK(lmb_draw(&t, lmb_kernels_pick(), &v, scene, 1, WORLD_TRIANGLES, 0, NULL) == LMB_OK);
+        CHECK(lmb_resolve_tile(&tile, lmb_kernels_pick(), &v, scene, &t, 64, 80) == LMB_OK);
+        if (i == 0) {
+            CHECK(lmb_relief_tile(&tile, NULL, lmb_kernels_pick(), &s->relief, &v, NULL) == LMB_OK);
+        }
+        CHECK(lmb_gather_tile(&bounced[i], lmb_kernels_pick(), &scratch, &tile, &groups, NULL, NULL) == LMB_OK);
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; k += 9) {
+        const double a = (double)bounced[0].rgb[0][k], b = (double)bounced[1].rgb[0][k];
+        CHECK_MSG(b > 0.001 && fabs(a - b) < 0.01 * b, "%g, not %g", a, b);
+    }
+}
+
+/* --- a room ------------------------------------------------------------------------------------------------------- */
+
+/* Mean irradiance where the light does not arrive, and by how much the frames' differ there in the mean. */
+typedef struct indirect {
+    int pixels;
+    double mean, off;
+} indirect;
+
+static void add_pixel(indirect *sum, const relief_frame *got, const relief_frame *want, int i)
+{
+    const double a = PI * (double)got->rgb[3 * i + 1] / (double)got->albedo[3 * i + 1],
+                 b = PI * (double)want->rgb[3 * i + 1] / (double)want->albedo[3 * i + 1];
+    ++sum->pixels;
+    sum->mean += b;
+    sum->off += fabs(a - b);
+}
+
+/* The sphere stands on a floor beside a wall, under a sun: what both send up and sideways lights it from below, and its
+ * own light falls on them, as it does with the sphere's triangles in its place. */
+static void stands_in_a_room(const stage *s)
+{
+    const lmb_view v = look(vec3(1.5f, 0.8f, 4.5f), vec3(-0.4f, -0.2f, 0), 50.0, FRAME);
+    const lmb_light light = sun(vec3(-0.5f, -1.0f, -0.3f));
+    indirect ball = {0, 0.0, 0.0}, beside = {0, 0.0, 0.0};
+    relief_shot shot = shot_of(s, &v), truth;
+    world_begin(0.6f, 0.6f, 0.6f);
+    world_quad(vec3(0.0f, -1.0f, 0.0f), vec3(0, 0, 3), vec3(3, 0, 0));
+    world_quad(vec3(-1.6f, 0.5f, 0.0f), vec3(0, 1.5f, 0), vec3(0, 0, 3));
+    CHECK(world_end() == LMB_OK);
+    shot.scene = &world.scene;
+    shot.light = &light;
+    shot.light_map = MAP;
+    shot.bounce = MAP / 2;
+    relief_frame got = shoot(&shot);
+    world_sphere(vec3(0, 0, 0), 1.0f, STACKS, SLICES);
+    CHECK(world_end() == LMB_OK);
+    truth = shot;
+    truth.relief = NULL;
+    relief_frame want = shoot(&truth);
+    for (int i = 0; i < FRAME * FRAME; ++i) {
+        const int same = got.depth[i] > 0.0f && want.depth[i] > 0.0f && fabsf(got.depth[i] - want.depth[i]) < 0.02f;
+        if (same && !got.lit[i] && !want.lit[i]) {
+            const int flat = want.normal[3 * i] > 0.999f || want.normal[3 * i + 1] > 0.999f;
+            add_pixel(flat ? &beside : &ball, &got, &want, i);
+        }
+    }
+    CHECK_MSG(ball.pixels > 300 && ball.mean > 0.0 && ball.off < 0.05 * ball.mean,
+              "on the sphere: %d pixels, %g W/m2 together, off by %g", ball.pixels, ball.mean,
+              ball.off);
+    CHECK_MSG(beside.pixels > 300 && beside.mean > 0.0 && beside.off < 0.1 * beside.mean,
+              "beside it: %d pixels, %g W/m2 together, off by %g", beside.pixels, beside.mean, beside.off);
+    relief_frame_free(&got);
+    relief_frame_free(&want);
+}
+
+void test_relief_light(void)
+{
+    stage *s = stage_make(LMB_RELIEF_FULL, 0);
+    receives_bounce(s);
+    shadows(s);
+    stage_free(s);
+    s = stage_make(LMB_RELIEF_FULL, 400);
+    stands_in_a_room(s);
+    stage_free(s);
+}
