@@ -42,7 +42,7 @@ LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/host/host.c platform/host/pool.c \
-            platform/host/process.c
+            platform/host/process.c platform/host/count.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 LIB_OBJ    := $(call object,$(LIB_SRC))
@@ -58,14 +58,16 @@ HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out
 AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$(LIB_OBJ))
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
+HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 MOVING_OBJ := $(call object,tests/moving/main_moving.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 # tests/figures/main_NAME.c and what is named NAME_*.c beside it: the program figures-NAME.
 FIGURES    := $(patsubst tests/figures/main_%.c,%,$(sort $(wildcard tests/figures/main_*.c)))
 figures_of  = $(call object,$(wildcard tests/figures/main_$(1).c tests/figures/$(1)_*.c)) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
-PROGRAMS := tests golden ways reference replay hostile audit-golden audit-replay
+PROGRAMS := tests golden ways reference hard replay hostile audit-golden audit-replay
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
@@ -102,15 +104,17 @@ $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
 $(B)/ways: $(WAYS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
+$(B)/statue: $(STATUE_OBJ)
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
+$(B)/hard: $(HARD_OBJ) $(LIB)
 $(B)/moving: $(MOVING_OBJ) $(LIB)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(FIGURES),$(eval $(B)/figures-$(f): $(call figures_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/decodes $(B)/moving $(B)/fuzzer:
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/statue $(B)/decodes $(B)/moving $(B)/fuzzer:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -130,17 +134,21 @@ $(B)/tests.inc: FORCE
 $(B)/obj/tests/unit/main.o: $(B)/tests.inc
 $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 
+# A relief's words, which tests/build/statue.sh puts there.
+$(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
+$(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
+
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
-    $(DECODE_OBJ) $(REFERENCE_OBJ) $(MOVING_OBJ) $(foreach f,$(FIGURES),$(call figures_of,$(f))) $(AUDITED)))
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
+    $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(MOVING_OBJ) $(foreach f,$(FIGURES),$(call figures_of,$(f))) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
 # The longest first: what runs beside them fills the second core.
 
-CHECKS ?= one unit tiny analytic truth lanes golden ways audit hard replay hostile hostile-cli floors symbols \
+CHECKS ?= one unit tiny statue analytic truth lanes golden ways audit slow hard replay hostile hostile-cli floors symbols \
           stack headers layout guard tables readme cli
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
@@ -154,14 +162,24 @@ check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 show
 $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(PROGRAMS:%=$(B)/%)
 	+@$(PART) $* $(MAKE) $*
 
+# Both make the library in the same place.
+check-statue: $(filter check-tiny,$(CHECKS:%=check-%))
+
 unit analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
+
+# The unit tests in two halves, for two cores.
+unit-1 unit-2: $(B)/tests
+	@$(RUN) $(B)/tests unit $(@:unit-%=%)/2
 
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden$(EXE)
 
-hard: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
+slow: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
 	@$(RUN) $(B)/reference hard
+
+hard: $(B)/hard ## the gallery of hard cases, and what must not matter (ROOMS="raster shadow ..."; the table: bench hard)
+	@$(RUN) $(B)/hard $(ROOMS)
 
 ways: $(B)/ways ## the same hashes in pieces, in several orders, and on 1 .. 8 threads; WAYS=all: by every machine each
 	@$(RUN) $(B)/ways$(EXE) $(WAYS)
@@ -169,8 +187,10 @@ ways: $(B)/ways ## the same hashes in pieces, in several orders, and on 1 .. 8 t
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
 
+# corpus/api has coordinates and matrices of 1e-40, whose products are what they are.
+AUDIT_CORPUS = $(filter-out tests/fuzz/corpus/api/%,$(wildcard tests/fuzz/corpus/*/*))
 audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numbers that int32 does not hold?
-	@$(RUN) $(B)/audit-golden && $(RUN) $(B)/audit-replay tests/fuzz/corpus/*/*
+	@$(RUN) $(B)/audit-golden && $(RUN) $(B)/audit-replay $(AUDIT_CORPUS)
 
 PREFIXES  ?= 20
 MUTATIONS ?= 200
@@ -213,10 +233,11 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
 # What bounced light does without.
-WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0
+WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: size room-sizes rom asan fuzz decodes reference moving figures times brute simplify \
-    relight-figures relief-figures planes mixed voxels large tiny run-demo cross install
+.PHONY: size room-sizes rom asan msan fuzz mutants cov static decodes reference moving figures times report brute \
+    simplify relight-figures relief-figures plan-figures plan-model planes mixed voxels large tiny run-demo \
+    run-statue cross install
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/cortex-m LDFLAGS= CFLAGS='-Os $(WITHOUT)'
@@ -227,16 +248,21 @@ room-sizes: $(LIB)
 rom: room-sizes
 	@$(IN_SH) tests/build/rom.sh 49152
 
+COV_PROGRAMS := tests golden ways reference hard replay hostile
+
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit ways golden analytic lanes hard replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
+	+@$(MAKE) check CHECKS="unit-1 unit-2 golden analytic lanes slow hard replay hostile hostile-cli readme cli" BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+
+msan: ## pictures, hard cases and the fuzz corpus where use of what was never set is an error
+	+@$(MAKE) golden hard replay hostile BUILD=$(BUILD)/msan CC=clang CFLAGS="-O1 -g -fsanitize=memory"
 
 FUZZER     := $(BUILD)/fuzz/default/fuzzer
 FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
               -Wno-missing-prototypes
 FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr
+TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr cli api
 MINUTES   ?= 1
 fuzz: ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
 	+@sh tests/build/tools.sh need clang clang-sanitizers \
@@ -244,6 +270,18 @@ fuzz: ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png glt
 	@sh tests/build/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
 
 $(B)/fuzzer: $(FUZZ_OBJ) $(LIB)
+
+N    ?= 60
+SEED ?= 1
+mutants: ## change one operator or constant of src/ at a time: do the tests notice? N=60 SEED=1 IN="raster light ..."
+	@sh tests/build/mutate.sh $(BUILD)/mutants $(N) $(SEED) $(IN)
+
+cov: ## lines and branches of src/ that the checks run, by gcov; what is not covered
+	+@sh tests/build/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS:%=$(BUILD)/cov/default/%) BUILD=$(BUILD)/cov \
+	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage && sh tests/build/cov.sh $(BUILD)/cov
+
+static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/
+	@sh tests/build/static.sh $(BUILD)/static
 
 decodes: $(B)/decodes ## the picture decoders against netpbm, libjpeg-turbo and libvips
 	@$(IN_SH) tests/build/decodes.sh $(B)/decodes
@@ -259,6 +297,9 @@ figures: $(TOOL) ## bounced light against truth: errors, work, time (SCENES="cor
 
 times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS="1 2", FRAME=64x64)
 	@$(IN_SH) tests/figures/times.sh
+
+report: $(TOOL) ## speed against error: pages of three truth scenes and the demo in build/report, README's table and picture
+	@$(IN_SH) tests/figures/report.sh
 
 STEP ?= 17
 brute: $(B)/figures-brute ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
@@ -279,8 +320,16 @@ mixed: $(B)/figures-mixed ## a virtual object in a photo of which all is known, 
 voxels: $(B)/figures-voxel ## one bounce by cones through voxels: errors, time, memory (SCENES="cornell ...")
 	@$(RUN) $(B)/figures-voxel $(SCENES)
 
-RELIEFS ?= quality speed
-relief-figures: $(B)/figures-relief ## reliefs against their complex models: errors, speed (RELIEFS="quality speed")
+ROWS ?= $(BUILD)/plan-rows.bin
+plan-figures: $(B)/figures-plan ## predicted operations, errors, times against measured; chosen settings against a sweep's best
+	@rm -f $(ROWS); $(RUN) $(B)/figures-plan measure $(ROWS) $(SCENES); $(RUN) $(B)/figures-plan report $(ROWS); \
+	    $(RUN) $(B)/figures-plan choose $(ROWS)
+
+plan-model: $(B)/figures-plan ## src/plan/plan_model.inc again, from the rows that plan-figures measured
+	@$(RUN) $(B)/figures-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
+
+RELIEFS ?= quality own rooms causes speed
+relief-figures: $(B)/figures-relief ## reliefs against their complex models: errors, speed (RELIEFS="quality own ...")
 	@$(RUN) $(B)/figures-relief $(RELIEFS)
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
@@ -289,13 +338,16 @@ large: $(TOOL) ## ten million triangles from a file to a picture; time and memor
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/build/tiny.sh
 
+statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pixels as here
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/build/statue.sh
+
 # For compilers whose programs nothing here can run.
 .PHONY: compiles
 compiles: $(LIB_OBJ)
 	@echo "$(words $(LIB_OBJ)) passed, 0 failed, 0 skipped"
 
-run-demo: $(B)/demo
-	@$(RUN) $(B)/demo
+run-demo run-statue: run-%: $(B)/%
+	@$(RUN) $<
 
 # MACHINES, MORE_MACHINES, and for each needs_NAME and how_NAME.
 include tests/build/machines.mk
