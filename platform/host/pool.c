@@ -23,14 +23,14 @@ void pool_run(int threads, int count, pool_job job, void *user)
 
 typedef struct pool {
     pthread_mutex_t lock; /* of `next` */
-    int next, count;
+    int next, count;      /* parts that nobody has taken: next .. count - 1 */
     pool_job job;
     void *user;
 } pool;
 
 typedef struct worker {
     pool *shared;
-    int number;
+    int number; /* and its first part: by no lock, which would hide from a race detector what two parts both touch */
     pthread_t thread;
 } worker;
 
@@ -55,7 +55,7 @@ static int take(pool *p)
 static void *work(void *argument)
 {
     worker *w = argument;
-    for (int i; (i = take(w->shared)) >= 0;) {
+    for (int i = w->number; i >= 0; i = take(w->shared)) {
         w->shared->job(w->shared->user, i, w->number);
     }
     return NULL;
@@ -63,11 +63,12 @@ static void *work(void *argument)
 
 void pool_run(int threads, int count, pool_job job, void *user)
 {
-    pool p = {PTHREAD_MUTEX_INITIALIZER, 0, count, job, user};
-    worker workers[POOL_MAX];
-    int started = 1;
+    threads = threads < 1 ? 1 : threads;
     threads = threads > count ? count : threads;
     threads = threads > POOL_MAX ? POOL_MAX : threads;
+    pool p = {PTHREAD_MUTEX_INITIALIZER, threads, count, job, user};
+    worker workers[POOL_MAX];
+    int started = 1;
     for (int i = 0; i < POOL_MAX; ++i) {
         workers[i].shared = &p;
         workers[i].number = i;
@@ -75,7 +76,12 @@ void pool_run(int threads, int count, pool_job job, void *user)
     while (started < threads && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0) {
         ++started;
     }
-    work(&workers[0]);
+    for (int i = started; i < threads; ++i) {
+        job(user, i, 0);
+    }
+    if (threads > 0) {
+        work(&workers[0]);
+    }
     for (int i = 1; i < started; ++i) {
         pthread_join(workers[i].thread, NULL);
     }

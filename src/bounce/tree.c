@@ -97,7 +97,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
     const int32_t size = tree->size, each = map->size / size;
     lmb_light_map coarse = *map;
     coarse.size = size;
-    if (first == 0) {
+    if (first == 0 && past > 0) { /* by one part alone: of a few rows many parts are of none */
         tree->view[into] = map->view[face];
     }
     for (int32_t i = first * map->size; i < past * map->size && status == LMB_OK; i += LMB_TILE) {

@@ -227,6 +227,7 @@ static void check_refused(void)
     other.size = 2 * LIT_SMALL;
     CHECK(lmb_tree_texels(&other, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, 1) == LMB_ERR_ARG);
     CHECK(lmb_tree_sum(&lit, 2) == LMB_ERR_ARG && lmb_tree_sum(NULL, 0) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, 0) == LMB_OK);
     size_t kept = 0;
     while (kept < sizeof lit_memory && ((const uint8_t *)lit_memory)[kept] == NOISE) {
         ++kept;
