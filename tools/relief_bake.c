@@ -282,6 +282,14 @@ static void put_file(writer *w, const relief_bake *bake, const triangle_mesh *m,
     }
 }
 
+/* What is written is read again: the library says which sizes it draws. */
+static int opens(const file_bytes *file, report *r)
+{
+    lmb_relief own;
+    return lmb_relief_open(&own, file->data, file->size) == LMB_OK ||
+           report_fail(r, "the model or its views are too small or too large for a relief: 1e-6 to 1e5 m is safe");
+}
+
 int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh *simple, report *r)
 {
     writer w = {NULL, 0};
@@ -300,5 +308,5 @@ int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh 
         return report_fail(r, "not enough memory for a file of %.0f bytes", (double)out->size);
     }
     put_file(&w, bake, simple, out->size);
-    return 1;
+    return opens(out, r);
 }

@@ -377,6 +377,8 @@ for views in 14 greedy:5 "$dir/cameras.txt"; do
     status 0 relief render "$dir/pit.lmr" -o "$dir/pit.ppm" --size 40x30 --light-map 0 --steps 1 --looks 2 --keep 1
 done
 status 1 relief bake "$dir/nowhere.obj" -o "$dir/bad.lmr"
+sed 's/\([0-9.]\{1,\}\)/\1e-10/g; /^[^v]/s/e-10//g' "$dir/pit.obj" >"$dir/speck.obj"
+status 1 relief bake "$dir/speck.obj" -o "$dir/bad.lmr" --simple "$dir/speck.obj" --as-is --size 16
 status 1 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --views "$dir/nowhere.txt"
 status 1 relief render "$dir/box.obj" -o "$dir/bad.png"
 check "who failed is told" grep -q '^lambent relief render: ' "$dir/err.txt"
