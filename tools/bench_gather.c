@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../platform/host/host.h"
-#include "bench_mix.h"
+#include "bench_operations.h"
 #include "bench_rates.h"
 
 enum { GROUPS = 256, CALLS = 16, ROW = 16 };
@@ -95,7 +95,7 @@ static int bench_machine_gather(const lmb_kernels *kernels, double seconds, int 
         return report_fail(r, "%s: its rates are not known", lmb_kernels_name(kernels));
     }
     workload_make(&w);
-    bench_mix_gather(counts, &w.tile, &w.groups);
+    bench_operations_gather(counts, &w.tile, &w.groups);
     const double end = host_seconds() + seconds;
     do {
         time_gather(&least, &w, kernels);

@@ -16,8 +16,8 @@ typedef struct bench_line {
     size_t used;
 } bench_line;
 
-/* bench_line_add: the words of a text, with spaces between. 0 where they are too many. bench_line_with: another line with
- * them, or 0 with `r` set; it borrows the first one's words. */
+/* bench_line_add: the words of a text, with spaces between. 0 where they are too many. bench_line_with: another line
+ * with them, or 0 with `r` set; it borrows the first one's words. */
 int bench_line_add(bench_line *line, const char *text);
 int bench_line_with(bench_line *out, const bench_line *line, const char *text, report *r);
 

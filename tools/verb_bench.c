@@ -11,7 +11,7 @@
 #include "bench_calibrate.h"
 #include "bench_gather.h"
 #include "bench_hard.h"
-#include "bench_mix.h"
+#include "bench_operations.h"
 #include "bench_rates.h"
 #include "bench_scene.h"
 #include "bench_threads.h"
@@ -172,8 +172,8 @@ static void set_bound(timing *t, const canvas *c, const bench_scene *s, const be
 {
     double counts[BENCH_OPS];
     int unit = 0;
-    draw_frame(c, s, bench_mix_begin(), cull);
-    const double depths = bench_mix_end(counts) / t->peak;
+    draw_frame(c, s, bench_operations_begin(), cull);
+    const double depths = bench_operations_end(counts) / t->peak;
     t->bound = depths;
     t->by = "depth";
     const double busy = bench_rates_bound(&unit, r, counts) / r->machine->lanes * r->cycle;
@@ -371,7 +371,7 @@ static int parse(options *o, int argc, char **argv, report *r)
     }
     o->what = what_of(o);
     if (o->what == NOTHING) {
-        return report_fail(r, "what is to be measured? `lambent bench raster`, `gather`, `threads` or `hard`; see --help");
+        return report_fail(r, "what is to be measured? `lambent bench raster`, `gather`, `threads`, `hard`; see --help");
     }
     if (idle_option(o) != NULL) {
         return report_fail(r, "%s means nothing to `%s`; see --help", idle_option(o), o->cases[0]);

@@ -28,7 +28,7 @@ static const char help_text[] =
     "  --simple FILE         a simple model of your own, near to the complex one; moved out where that sticks out\n"
     "  --as-is               leaves it as it is\n"
     "\n"
-    "  --frame PREFIX        a photo as a view: PREFIX.color.png, .depth.png and .json, as `lambent mix --help` tells,\n"
+    "  --frame PREFIX        a photo as a view: PREFIX.color.png, .depth.png, .json, as `lambent mix --help` tells,\n"
     "                        with camera_to_world where there are several (y down). `render --show albedo` shows it\n"
     "  --block M             its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)\n"
     "\n"

@@ -34,8 +34,8 @@ void lmb_env_mips(const lmb_env *env);
 /* lmb_env_dim: `out`, of the same size, becomes `from` times a share by channel, all levels; of 1 the same bits. */
 void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3]);
 
-/* lmb_env_sample: radiance from `direction` (any length; none: -z) within a cone, tan_half the tangent of its half angle:
- * between the two levels whose texels are next to that wide, bilinearly across the faces' edges. */
+/* lmb_env_sample: radiance from `direction` (any length; none: -z) within a cone, tan_half the tangent of its half
+ * angle: between the two levels whose texels are next to that wide, bilinearly across the faces' edges. */
 void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float tan_half);
 
 #ifdef __cplusplus

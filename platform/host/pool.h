@@ -11,8 +11,8 @@ int pool_processors(void);
 /* One piece of work, 0 <= index < count, done by one of the workers 0 .. threads - 1; worker 0 is the caller. */
 typedef void (*pool_job)(void *user, int index, int worker);
 
-/* pool_run: all pieces, each once, begun in rising order (but a thread's first), on up to `threads` threads. Returns when all are
- * done. Threads that the system refuses are done without. */
+/* pool_run: all pieces, each once, begun in rising order (but a thread's first), on up to `threads` threads. Returns
+ * when all are done. Threads that the system refuses are done without. */
 void pool_run(int threads, int count, pool_job job, void *user);
 
 #endif

@@ -11,7 +11,7 @@
 
 #include <lambent/lambent.h>
 
-#include "../../tools/bench_mix.h"
+#include "../../tools/bench_operations.h"
 #include "../../tools/bench_rates.h"
 #include "../../tools/metrics.h"
 #include "../truth_scene.h"
@@ -361,10 +361,10 @@ static void say_share(work *w)
         bench_rates_step(&rates);
         per_second = bench_rates_read(&rates);
     }
-    trace_some(w, bench_mix_begin());
-    bench_mix_end(counts);
+    trace_some(w, bench_operations_begin());
+    bench_operations_end(counts);
     const double bound = bench_rates_bound(&unit, &rates, counts) / rates.machine->lanes * rates.cycle,
-                 reads = bench_mix_reads() / per_second;
+                 reads = bench_operations_reads() / per_second;
     printf("  of the cones' time their arithmetic takes at least %.0f %% (%s), their reads %.0f %% at best (%s, "
            "%.2f GHz, %.2g reads/s)\n",
            100.0 * bound / least, bench_op_names[unit], 100.0 * reads / least, rates.machine->name, 1e-9 / rates.cycle,

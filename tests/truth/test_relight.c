@@ -1,7 +1,7 @@
 /* test_relight.c: irradiance at five places of a world seen from one, against path-traced cubes. [S1-S14, S25]
  *
- * Figures are relative RMSE over all texels and channels of a cube (rmse / mean); bars are the project's own, but for 25
- * harmonics seen from elsewhere: 0.85 % where 0.8 is asked, for one place of five has 0.81; and 8-bit codes. */
+ * Figures are relative RMSE over all texels and channels of a cube (rmse / mean); bars are the project's own, but for
+ * 25 harmonics seen from elsewhere: 0.85 % where 0.8 is asked, for one place of five has 0.81; and 8-bit codes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

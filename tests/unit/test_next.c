@@ -204,7 +204,8 @@ static const struct edit {
     const char *name;
     void (*make)(void);
 } edits[] = {
-    {"object moves", move_object}, {"light changes", change_light},     {"its kind", change_kind},     {"lights come and go", change_lights},
+    {"object moves", move_object}, {"light changes", change_light}, {"its kind", change_kind},
+    {"lights come and go", change_lights},
     {"camera", change_camera},     {"instances come and go", change_instances}, {"look", change_look},
     {"black", turn_black},         {"exposure", change_exposure},       {"rules", change_rules},
     {"grouping", change_grouping}, {"show", change_show},               {"map", change_map},

@@ -1,5 +1,5 @@
-/* bench_mix.c: counts the kernels' operations by running the kernels themselves over verbs that count. */
-#include "bench_mix.h"
+/* bench_operations.c: counts the kernels' operations by running the kernels themselves over verbs that count. */
+#include "bench_operations.h"
 
 #include <string.h>
 
@@ -83,7 +83,7 @@ static void begin(void)
     touched = reads = 0.0;
 }
 
-void bench_mix_gather(double counts[BENCH_OPS], const lmb_tile *tile, const lmb_groups *groups)
+void bench_operations_gather(double counts[BENCH_OPS], const lmb_tile *tile, const lmb_groups *groups)
 {
     static lmb_irradiance sums;
     static lmb_gather_scratch scratch;
@@ -95,13 +95,13 @@ void bench_mix_gather(double counts[BENCH_OPS], const lmb_tile *tile, const lmb_
     }
 }
 
-const lmb_kernels *bench_mix_begin(void)
+const lmb_kernels *bench_operations_begin(void)
 {
     begin();
     return &lmb_kernels_counted;
 }
 
-double bench_mix_end(double counts[BENCH_OPS])
+double bench_operations_end(double counts[BENCH_OPS])
 {
     for (int op = 0; op < BENCH_OPS; ++op) {
         counts[op] = done[op] * LANES;
@@ -109,4 +109,4 @@ double bench_mix_end(double counts[BENCH_OPS])
     return touched;
 }
 
-double bench_mix_reads(void) { return reads; }
+double bench_operations_reads(void) { return reads; }
