@@ -393,9 +393,9 @@ static uint8_t *inflate_rows(png_reader *p, size_t zeros, size_t size)
         return NULL;
     }
     joined = join_idat(p);
-    rows = malloc(zeros + size);
+    rows = size <= SIZE_MAX - zeros ? malloc(zeros + size) : NULL; /* one row of 2^28 pixels, on a 32-bit machine */
     if (!joined || !rows) {
-        report_fail(p->r, "%s: out of memory for %zu bytes", p->name, zeros + size);
+        report_fail(p->r, "%s: out of memory for %.0f bytes", p->name, (double)zeros + (double)size);
     } else if (inflate_zlib(rows + zeros, size, joined, (size_t)p->idat_bytes)) {
         memset(rows, 0, zeros);
         free(joined);
