@@ -244,6 +244,7 @@ static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, c
     return texels;
 }
 
+/* A picture pays for its bytes too: the same ones may be shown under any number of names, and each is decoded anew. */
 int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size, const char *name, report *why)
 {
     const uint64_t pixels = picture_pixels(data, size);
@@ -252,6 +253,9 @@ int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size,
         return report_fail(why, "%s: %" PRIu64 " pixels are more than the model's pictures may still have, which is %"
                            PRIu64 "; shrink them", name, pixels, b->pixel_budget);
     b->pixel_budget -= pixels;
+    if (size > b->pixel_budget)
+        return report_fail(why, "%s: %zu bytes; the model's pictures have been decoded too often", name, size);
+    b->pixel_budget -= size;
     return picture_read_codes(out, data, size, name, why);
 }
 

@@ -7,7 +7,7 @@
 
 #define MODEL_BYTES_PER_BYTE 96                  /* memory a reader may take for each byte of input ... */
 #define MODEL_BYTES_FREE     (16u << 20)         /* ... beside these */
-#define MODEL_FREE_PIXELS    (UINT64_C(1) << 26) /* of all pictures that are decoded, and ... */
+#define MODEL_FREE_PIXELS    (UINT64_C(1) << 26) /* and bytes, of all pictures as often as they are decoded, and ... */
 #define MODEL_PIXELS_PER_BYTE 64                 /* ... for each byte of the files; 8 bytes of memory each at most */
 #define MODEL_PATH_MAX       4096                /* bytes of a path that a reader composes */
 
