@@ -7,6 +7,8 @@
 
 #include "io_gltf.h"
 
+enum { MOST_SETS = 8 }; /* of four joints: posing takes time by them that no byte of a stream need pay for */
+
 /* One skin's joints: world x inverse bind, column-major. */
 typedef struct skin {
     gltf_matrix *joints;
@@ -62,14 +64,13 @@ static int read_skin(skin *s, gltf *g, const gltf_tree *t, uint32_t node)
 /* JOINTS_n and WEIGHTS_n from 0 on, until one is missing; once a primitive. */
 static int read_influences(gltf_influences *out, gltf *g, uint32_t attributes, uint32_t vertices)
 {
-    const uint32_t most = json_count(&g->doc, attributes);
     if (out->joints)
         return 1;
-    out->joints = (float **)build_scratch(g->b, most, sizeof *out->joints);
-    out->weights = (float **)build_scratch(g->b, most, sizeof *out->weights);
+    out->joints = (float **)build_scratch(g->b, MOST_SETS, sizeof *out->joints);
+    out->weights = (float **)build_scratch(g->b, MOST_SETS, sizeof *out->weights);
     if (!out->joints || !out->weights)
         return 0;
-    for (out->sets = 0; out->sets < most; ++out->sets) {
+    for (out->sets = 0;; ++out->sets) {
         char joints[24], weights[24];
         gltf_accessor j, w;
         uint32_t has_joints, has_weights;
@@ -80,6 +81,9 @@ static int read_influences(gltf_influences *out, gltf *g, uint32_t attributes, u
             return 0;
         if (has_joints == JSON_NONE || has_weights == JSON_NONE)
             return 1;
+        if (out->sets == MOST_SETS)
+            return json_fail(&g->doc, attributes, g->b->r, "more than %d joints at a vertex; export with fewer",
+                             4 * MOST_SETS);
         j.normalized = 0;
         out->joints[out->sets] = gltf_floats(g, &j);
         out->weights[out->sets] = gltf_floats(g, &w);

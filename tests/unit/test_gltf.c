@@ -6,6 +6,7 @@
 #include <stdarg.h>
 
 #include "../../tools/image.h"
+#include "../../tools/io_png.h"
 #include "../blob.h"
 #include "../model_case.h"
 
@@ -238,6 +239,7 @@ static void put_skinned(blob *b)
           "\"bufferViews\":[{\"buffer\":0,\"byteLength\":272}]," \
           "\"buffers\":[{\"byteLength\":272,\"uri\":\"data:;base64,%s\"}]}"
 
+#define SET(N) ",\"JOINTS_" N "\":5,\"WEIGHTS_" N "\":3"
 #define QUARTER "\"rotation\":[0,0,0.70710678,0.70710678],\"translation\":[5,0,0]"
 
 static lmb_vec3 position(const lmb_instance *in, uint32_t vertex)
@@ -280,6 +282,9 @@ static void skins(void)
           base64(b.bytes, b.size));
     in = loaded.scene.instances;
     CHECK(is_vec(position(in, 0), 4, 0, 3.5) && is_vec(position(in, 1), 9, 0, 0));
+    check_fails(load(SKINNED_BY(SET("1") SET("2") SET("3") SET("4") SET("5") SET("6") SET("7") SET("8"),
+                                "{\"joints\":[1,2]}", QUARTER), base64(b.bytes, b.size)),
+                "more than 32 joints at a vertex");
     check_fails(load(SKINNED("{\"joints\":[1]}", QUARTER), base64(b.bytes, b.size)),
                 "joint 1 at vertex 1, but the skin has 1");
     check_fails(load(SKINNED("{\"joints\":[]}", QUARTER), base64(b.bytes, b.size)), "skins[0]: a skin without joints");
@@ -353,6 +358,63 @@ static void pixels(void)
     CHECK(noted("images[0]: 68161536 pixels are more than the model's pictures may still have"));
 }
 
+/* A PNG of one pixel with a long chunk that nobody asks for, which its checksum takes time to walk. */
+static void put_long_png(blob *b, uint8_t *chunk, size_t size)
+{
+    static const uint8_t rgb[3] = {9, 9, 9};
+    file_bytes png = {NULL, 0};
+    CHECK(png_encode(&png, rgb, 1, 1, &problem));
+    memset(chunk, 0, size);
+    put_u32_be(chunk, (uint32_t)(size - 12));
+    memcpy(chunk + 4, "teSt", 4);
+    put_u32_be(chunk + size - 4, png_crc(chunk + 4, size - 8));
+    CHECK(png.size < sizeof b->bytes);
+    if (png.size < sizeof b->bytes)
+        memcpy(b->bytes, png.data, b->size = png.size);
+    file_free(&png);
+}
+
+/* One picture under many names is decoded as often, and pays its bytes each time: the budget of 2^26 and 64 for each
+ * byte of the files ends after 194, without which time would go with bytes times names. */
+static void decoded_often(void)
+{
+    enum { SIZE = 1 << 19, HEADER = 33, IMAGES = 208 };
+    folder place;
+    blob b = {{0}, 0};
+    uint8_t *file = (uint8_t *)malloc(SIZE + sizeof b.bytes);
+    char *document = (char *)malloc(1 << 16);
+    size_t n = 0, i;
+    const char *path;
+    CHECK(file != NULL && document != NULL);
+    if (!file || !document)
+        return;
+    put_long_png(&b, file + HEADER, SIZE);
+    CHECK(b.size > HEADER);
+    memcpy(file, b.bytes, HEADER);
+    memcpy(file + HEADER + SIZE, b.bytes + HEADER, b.size - HEADER);
+    n += (size_t)snprintf(document, 1 << 16, ASSET "\"images\":[");
+    for (i = 0; i < IMAGES; ++i)
+        n += (size_t)snprintf(document + n, (1 << 16) - n, "%s{\"uri\":\"long.png\"}", i ? "," : "");
+    n += (size_t)snprintf(document + n, (1 << 16) - n, "],\"textures\":[");
+    for (i = 0; i < IMAGES; ++i)
+        n += (size_t)snprintf(document + n, (1 << 16) - n, "%s{\"source\":%u}", i ? "," : "", (unsigned)i);
+    n += (size_t)snprintf(document + n, (1 << 16) - n, "],\"materials\":[");
+    for (i = 0; i < IMAGES; ++i)
+        n += (size_t)snprintf(document + n, (1 << 16) - n,
+                              "%s{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":%u}}}", i ? "," : "",
+                              (unsigned)i);
+    n += (size_t)snprintf(document + n, (1 << 16) - n, "]}");
+    folder_open(&place);
+    folder_put(&place, "long.png", file, SIZE + b.size);
+    path = folder_put(&place, "a.gltf", document, n);
+    CHECK_LOADS(load_file(path));
+    CHECK_MSG(loaded.scene.texture_count == 194, "%u decoded", (unsigned)loaded.scene.texture_count);
+    CHECK(noted("textures left out, plain colour instead: 14") && noted("have been decoded too often"));
+    folder_close(&place);
+    free(document);
+    free(file);
+}
+
 /* A mesh of 5,000 vertices placed 5,000 times: its box counts, not 25 million vertices. */
 static void many_places(void)
 {
@@ -386,6 +448,7 @@ void test_gltf(void)
     neighbours();
     counts();
     pixels();
+    decoded_often();
     many_places();
     model_free(&loaded);
 }
