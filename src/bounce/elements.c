@@ -17,7 +17,8 @@ enum {
     HALVINGS = 32, /* of a triangle, the longest edge each time: 2^31 pieces of about one size, and 2^24 are the most */
     SAMPLES = 4,
     CELLS = 1 << 20,
-    Z_BITS = 9
+    Z_BITS = 9,
+    MOST_PIECES = 64 /* an element: so that pieces too thin to have an area, or all hole, come to an end too */
 };
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
@@ -161,6 +162,7 @@ typedef struct maker {
     const lmb_scene *scene;
     uint32_t *slot; /* number of an element + 1, or 0 */
     uint32_t mask;
+    uint32_t pieces; /* of triangles that were cut */
     float side2;
     int full;
 } maker;
@@ -359,6 +361,7 @@ static void add_source(maker *m, const source *s)
             enter_second(&p, &turns[depth++], from);
         }
         add_piece(m, s, &p, 0);
+        m->full |= ++m->pieces > MOST_PIECES * m->out->cap;
         while (depth > 0 && !enter_first(&p, &turns[depth - 1])) {
             --depth;
         }
@@ -371,6 +374,7 @@ static int make(maker *m)
     const uint32_t all = lmb_scene_triangles(m->scene);
     source s;
     m->full = 0;
+    m->pieces = 0;
     m->out->count = 0;
     memset(m->slot, 0, ((size_t)m->mask + 1) * sizeof *m->slot);
     for (uint32_t id = 1; id <= all && !m->full; ++id) {

@@ -131,6 +131,17 @@ static void test_area(void)
     CHECK_MSG(build(ELEMENTS).count > ELEMENTS / 3, "capacity is used");
 }
 
+/* Cut as fine as the box, 1000 km would be two million pieces, none of which has an area that binary32 can hold. */
+static void test_sliver(void)
+{
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_box(vec3(0, 0, 0), 1.0f);
+    world_triangle(vec3(0, 0, 0), vec3(1e6f, 0, 0), vec3(0, 1e-23f, 0));
+    check_area("sliver", 64, 48.0);
+    const lmb_elements e = build(64);
+    CHECK_MSG(e.side > 1e6f / (64 * 64), "%g m", (double)e.side);
+}
+
 /* What lmb_draw drops, and what has no area, is left out; an empty scene is dark. */
 static void test_dropped(void)
 {
@@ -409,6 +420,7 @@ void test_elements(void)
 {
     test_memory();
     test_area();
+    test_sliver();
     test_dropped();
     test_sides();
     test_texture();
