@@ -209,14 +209,22 @@ static void close_gaps(lmb_points *points, uint32_t first, const lmb_light_map *
     points->count = kept;
 }
 
+/* Were the points collected by blocks of this size? Their cells say where the last one ends. */
+static int has_cells(const lmb_points *points, const lmb_light_map *map, int32_t block)
+{
+    const uint32_t side = block > 0 && block <= LMB_TILE ? (uint32_t)(map->size / block) : 0;
+    return side > 0 && side * side < points->cell_cap && points->cells[side * side] == points->count;
+}
+
 lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping)
 {
     neighbourhood n;
-    const int32_t thin = grouping != NULL ? grouping->thin : 0;
-    if (points == NULL || map == NULL || points->faces == 0 || thin < 0 || thin > LMB_MAX_THIN) {
+    const int32_t thin = grouping != NULL ? grouping->thin : 0,
+                  block = grouping != NULL && grouping->block != 0 ? grouping->block : LMB_TILE;
+    if (points == NULL || map == NULL || points->faces == 0 || thin < 0 || thin > LMB_MAX_THIN ||
+        !has_cells(points, map, block)) {
         return LMB_ERR_ARG;
     }
-    int32_t block = grouping != NULL && grouping->block != 0 ? grouping->block : LMB_TILE;
     n.points = points;
     n.side = (uint32_t)(map->size / block);
     n.face = points->faces;

@@ -218,12 +218,14 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
     if ((uint32_t)side * (uint32_t)side + 1 > points->cell_cap) {
         return LMB_ERR_CAPACITY;
     }
-    if (points->owner != NULL && tile_y0 == 0) {
-        const uint32_t texels = (uint32_t)map->size * (uint32_t)map->size;
+    const uint32_t texels = points->owner != NULL ? (uint32_t)map->size * (uint32_t)map->size : 0;
+    if (tile_y0 == 0) {
         if (texels > points->owner_cap - points->owner_count) {
             return LMB_ERR_CAPACITY;
         }
         points->owner_count += texels;
+    } else if (points->faces == 0 || points->owner_count < texels) {
+        return LMB_ERR_ARG; /* no face was begun */
     }
     points->faces += tile_y0 == 0;
     c.points = points;

@@ -302,6 +302,15 @@ static void check_collect_limits(void)
     CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 0, SIDE / 16, &g) == LMB_ERR_ARG);
     CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 6, 0, SIDE / 16, NULL) == LMB_ERR_ARG);
     CHECK(points.count == 0 && lmb_discs_join(&points, &map, NULL) == LMB_ERR_ARG);
+    /* A face begins at its first row; its discs join by the blocks that it was collected by. */
+    CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 1, SIDE / 16, NULL) == LMB_ERR_ARG);
+    clear_points();
+    points.cell_cap = (SIDE / 16) * (SIDE / 16) + 1;
+    CHECK(lmb_points_collect(&points, k, &tile, &world.scene, &l, &map, 0, 0, SIDE / 16, NULL) == LMB_OK);
+    for (g.block = -8; g.block < LMB_TILE; ++g.block) {
+        CHECK_MSG(g.block == 0 || lmb_discs_join(&points, &map, &g) == LMB_ERR_ARG, "%d", (int)g.block);
+    }
+    CHECK(lmb_discs_join(&points, &map, NULL) == LMB_OK);
 }
 
 static void test_points(void)
