@@ -126,6 +126,13 @@ static int read_sphere(lmb_world_pictures *out, world_pictures *own, const store
     return 1;
 }
 
+/* Of a face; asked before one is made, as a picture of one colour is a small file of any size. */
+static int32_t side_of(const stored_picture *p)
+{
+    const int32_t least = p->width < p->height ? p->width : p->height;
+    return p->width == 2 * p->height ? p->width / 4 : least;
+}
+
 static int read_one(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
 {
     stored_picture p;
@@ -133,7 +140,9 @@ static int read_one(lmb_world_pictures *out, world_pictures *own, const char *pa
     if (!read_picture(&p, path, r)) {
         return 0;
     }
-    if (p.height == 6 * p.width || p.width == 6 * p.height) {
+    if (side_of(&p) > MOST_SIDE) {
+        ok = report_fail(r, "%s: faces of %d pixels; at most %d", path, (int)side_of(&p), MOST_SIDE);
+    } else if (p.height == 6 * p.width || p.width == 6 * p.height) {
         ok = read_strip(out, own, &p, path, r);
     } else if (p.width == 2 * p.height) {
         ok = read_sphere(out, own, &p, path, r);
@@ -142,9 +151,6 @@ static int read_one(lmb_world_pictures *out, world_pictures *own, const char *pa
                          path, (int)p.width, (int)p.height);
     }
     stored_picture_free(&p);
-    if (ok && out->face_size > MOST_SIDE) {
-        return report_fail(r, "%s: faces of %d pixels; at most %d", path, (int)out->face_size, MOST_SIDE);
-    }
     return ok;
 }
 
