@@ -500,7 +500,7 @@ lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const
     /* A piece's area is at most half of side^2, so this is too fine by far, or all of it is small triangles. */
     m.side2 = maxf(scene_area(scene) / (float)inout->cap, 1e-12f);
     while (!make(&m)) {
-        m.side2 *= 2.0f;
+        m.side2 *= inout->count == inout->cap ? 2.0f : 16.0f;
     }
     inout->side = sqrtf(m.side2);
     put_in_order(inout, scene);
