@@ -2,40 +2,58 @@
 #
 #     mutate.sh FOLDER N SEED [ROOM...]     N seeded changes in these rooms of src/ (all but lane and isa)
 #
-# Works on a copy in FOLDER/tree. Of each change: it builds or is none; then the quickest tests first, until one fails,
-# ends badly or takes six times as long as without it: golden pictures, the unit tests of the room, hard cases; with
-# FULL=1 all others too. Prints a line each, those that no test noticed with their line,
-# and killed / tried by room. Exit status 1 where under 85 % were noticed. Some changes change nothing (a bound that is
-# never met, a tie that either way is right): survivors are for reading, not for driving to nothing.
-# ONLY=NUMBER does one of them again; FILES=PATTERN takes only such files (kernels take half a minute to build).
+# Works on a copy in FOLDER/tree, with the kernels of two machines (scalar and AVX2), as each takes seconds to compile.
+# Of each change: it does not build, or gives the same code, and is none; then the quickest tests first, until one
+# fails, ends badly or takes six times as long as without it: golden pictures, the unit tests of the room, hard cases;
+# with FULL=1 all others too. Only what follows from the changed file is built, and a program when its turn comes.
+# Prints a line each, those that no test noticed with their line, and killed / tried by room. Exit status 1 where under
+# 85 % were noticed. Some changes change nothing (a bound that is never met, a tie that either way is right): survivors
+# are for reading, not for driving to nothing.
+# ONLY="NUMBER..." does some of them again; FILES=PATTERN takes only such files.
 folder=$1 wanted=$2 seed=$3
 shift 3
-tree=$folder/tree
-mkdir -p "$folder"
-rm -rf "$tree" "$folder/src"
-mkdir -p "$tree"
-cp -pR Makefile include src tests tools platform README.md "$tree" || exit 1
-cp -pR src "$folder/src"
 rooms=${*:-base raster map occlusion light bounce voxel probe relief mixed compose plan}
-build="make -C $tree BUILD=build CFLAGS=-O1"
-programs="build/default/golden build/default/tests build/default/hard build/default/reference"
+mkdir -p "$folder/tree"
+folder=$(cd "$folder" && pwd)
+tree=$folder/tree
+for part in Makefile include src tests tools platform README.md; do
+    rm -rf "${tree:?}/$part"
+    cp -pR "$part" "$tree" || exit 1
+done
+rm -rf "$folder/src"
+cp -pR src "$folder/src"
+if [ -d "$folder/built" ]; then # of an earlier run, without any change
+    rm -rf "$tree/build"
+    cp -pR "$folder/built" "$tree/build"
+fi
+out=build/default
+build="make -C $tree BUILD=build"
+by_line=$(command -v stdbuf >/dev/null && echo stdbuf -oL)
 
-# tests ROOM: what is run for a change there, the quickest first; NAME:WORDS is a program and its words.
+make_it() {
+    $build CFLAGS='-O1 -DLMB_HAVE_SSE2=0 -DLMB_HAVE_AVX512=0' "$@" >"$folder/build.log" 2>&1 </dev/null
+}
+
+# tests ROOM: what is run for a change there; NAME:WORD is a program and its word.
 tests() {
     case $1 in
-    base) echo golden tests:base tests:contracts tests:light hard:raster hard:all tests:tree ;;
-    raster) echo golden hard:raster tests:resolve tests:textures tests:normal_map tests:raster hard:invariants ;;
-    map) echo golden tests:light tests:mixed hard:shadow hard:all tests:frames ;;
-    occlusion) echo golden tests:occlusion hard:bounce hard:all ;;
-    light) echo golden tests:light hard:shadow tests:gloss tests:many hard:bounce ;;
-    bounce) echo golden tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:all tests:elements tests:analytic ;;
-    voxel) echo golden tests:voxel tests:voxels hard:mixed ;;
-    probe) echo golden tests:probe tests:probe_cache hard:probe tests:relit ;;
-    relief) echo golden tests:relief hard:relief ;;
-    mixed) echo golden tests:mixed hard:mixed ;;
-    compose) echo golden tests:light tests:sparse hard:invariants tests:frames ;;
-    *) echo golden tests:frames tests:contracts tests:threads tests:sparse hard:invariants tests:elements ;;
+    base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many ;;
+    raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
+        tests:raster ;;
+    map) echo tests:light tests:mixed hard:shadow hard:all tests:frames tests:relit tests:gloss ;;
+    occlusion) echo tests:occlusion hard:bounce hard:all tests:cut ;;
+    light) echo tests:light hard:shadow tests:gloss tests:many hard:bounce ;;
+    bounce) echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:all tests:elements \
+        tests:analytic tests:gloss tests:frames ;;
+    voxel) echo tests:voxel tests:voxels hard:mixed ;;
+    probe) echo tests:probe tests:probe_cache hard:probe tests:relit tests:frames ;;
+    relief) echo tests:relief tests:relief_light hard:relief ;;
+    mixed) echo tests:mixed tests:mix hard:mixed ;;
+    compose) echo tests:light tests:sparse hard:invariants tests:frames ;;
+    *) echo tests:frames tests:contracts tests:threads tests:sparse tests:next tests:plan tests:plan_frame tests:relit \
+        hard:invariants tests:elements ;;
     esac
+    echo golden
     [ -z "$FULL" ] || echo tests:unit tests:analytic tests:lanes reference:hard hard:again
 }
 
@@ -97,64 +115,105 @@ change() {
         { print }' "$folder/$1" >"$tree/$1"
 }
 
-# run NAME:WORDS SECONDS
+# run NAME:WORD SECONDS of the processor's time. The first line that tells a failure ends it.
 run() {
-    words=${1#*:}
-    [ "$words" != "$1" ] || words=
-    (cd "$tree" && timeout "$2" "build/default/${1%%:*}" $words) >"$folder/run.log" 2>&1
+    word=${1#*:}
+    [ "$word" != "$1" ] || word=
+    {
+        (cd "$tree" && ulimit -t "$2" && exec $by_line timeout $((10 * $2)) "$out/${1%%:*}" $word)
+        echo "status $?"
+    } 2>&1 | awk '{ last = $0 } /^FAIL| WRONG/ { exit } END { exit last != "status 0" }'
 }
 
-# What each takes without any change, times six and a little: as NAME:WORDS=SECONDS.
+# What each test of the rooms takes without any change, six times and a little: as SECONDS NAME:WORD. Asked again where
+# a program is newer.
 measure() {
+    rooms=$(cut -d/ -f2 "$folder/drawn" | sort -u)
+    find "$tree/$out" -maxdepth 1 -type f -newer "$folder/limits" 2>/dev/null | grep -q . && : >"$folder/limits"
     for test in $(for room in $rooms; do tests "$room"; done | tr ' ' '\n' | sort -u); do
-        begun=$(date +%s)
-        run "$test" 900 || { { echo "$test fails without any change"; tail -3 "$folder/run.log"; } >&2; exit 1; }
-        echo "$test $((6 * ($(date +%s) - begun) + 20))"
-    done >"$folder/limits"
+        ! grep -q " $test " "$folder/limits" || continue
+        took=$(run "$test" 900; echo "failed $?"; times)
+        case $took in "failed 0"*) ;; *) echo "$test fails without any change" >&2; return 1 ;; esac
+        echo "$took" | awk -v test="$test" 'END {
+            split($1, t, "m"); split($2, u, "m"); s = 60 * (t[1] + u[1]) + t[2] + u[2]
+            printf "%d %s %.1f\n", 6 * s + 5, test, s }' >>"$folder/limits"
+    done
+    sort -n -o "$folder/limits" "$folder/limits"
 }
-limit_of() { awk -v test="$1" '$1 == test { print $2 }' "$folder/limits"; }
 
-$build $programs >"$folder/build.log" 2>&1 || { tail -5 "$folder/build.log"; exit 1; }
-measure
+# order ROOM: as SECONDS:NAME:WORD, the quickest first.
+order() {
+    tests "$1" | tr ' ' '\n' | awk '
+        NR == FNR { wanted[$1] = 1; next }
+        $2 in wanted { print $1 ":" $2 }' - "$folder/limits"
+}
+
+# The same code as without the change?
+is_same() {
+    ! find "$tree/$out/obj" -name '*.o' -newer "$folder/stamp" | while read -r object; do
+        cmp -s "$object" "$folder/built${object#"$tree/build"}" || { echo other; break; }
+    done | grep -q other
+}
+
+# verdict ROOM: the test that notices, `survived`, `same` or `none`.
+verdict() {
+    make_it lib || { echo none; return; }
+    ! is_same || { echo same; return; }
+    for test in $(order "$1"); do
+        limit=${test%%:*}
+        test=${test#*:}
+        make_it "$out/${test%%:*}" || { echo none; return; }
+        run "$test" "$limit" </dev/null || { echo "$test"; return; }
+    done
+    echo survived
+}
+
+# Sources and what was built, as if nothing had happened.
+restore() {
+    cp -p "$folder/$1" "$tree/$1"
+    if [ "$2" = none ]; then
+        rm -rf "$tree/build"
+        cp -pR "$folder/built" "$tree/build"
+        return
+    fi
+    find "$tree/build" -type f -newer "$folder/stamp" | while read -r file; do
+        cp -p "$folder/built${file#"$tree/build"}" "$file"
+    done
+}
+
+make_it lib $out/golden $out/tests $out/hard $out/reference || { tail -5 "$folder/build.log"; exit 1; }
 rm -rf "$folder/built"
 cp -pR "$tree/build" "$folder/built"
 candidates >"$folder/candidates"
-draw <"$folder/candidates" >"$folder/drawn"
+[ -f "$folder/limits" ] || : >"$folder/limits"
+draw <"$folder/candidates" | awk -v only=" $ONLY " '
+    only == "  " || index(only, " " NR " ") { print NR "\t" $0 }' >"$folder/numbered"
+cut -f2- "$folder/numbered" >"$folder/drawn"
+measure || exit 1
 echo "$(wc -l <"$folder/drawn") of $(wc -l <"$folder/candidates") changes"
 
 : >"$folder/result"
-number=0
 tab=$(printf '\t')
-while IFS="$tab" read -r file line at from to; do
-    number=$((number + 1))
-    [ -z "$ONLY" ] || [ "$ONLY" = "$number" ] || continue
+while IFS="$tab" read -r number file line at from to; do
     room=${file#src/}
     room=${room%%/*}
+    touch "$folder/stamp"
     change "$file" "$line" "$at" "$from" "$to"
-    verdict=survived
-    if ! $build $programs >"$folder/build.log" 2>&1 </dev/null; then
-        verdict=none
-    else
-        for test in $(tests "$room"); do
-            run "$test" "$(limit_of "$test")" </dev/null || { verdict=$test; break; }
-        done
-    fi
-    cp -p "$folder/$file" "$tree/$file"
-    rm -rf "$tree/build"
-    cp -pR "$folder/built" "$tree/build" # as if nothing had happened
-    echo "$room $verdict" >>"$folder/result"
-    echo "$number $file:$line [$from] -> [$to]: $verdict"
-    [ "$verdict" != survived ] || sed -n "${line}p" "$folder/$file"
-done <"$folder/drawn"
+    found=$(verdict "$room")
+    restore "$file" "$found"
+    echo "$room $found" >>"$folder/result"
+    echo "$number $file:$line [$from] -> [$to]: $found"
+    [ "$found" != survived ] || sed -n "${line}p" "$folder/$file"
+done <"$folder/numbered"
 
 awk '
-    $2 == "none" { next }
+    $2 == "none" || $2 == "same" { ++not; next }
     { ++tried[$1]; ++all; if ($2 != "survived") { ++killed[$1]; ++dead; ++by[$2] } }
     END {
         for (room in tried) printf "%-10s %d of %d\n", room, killed[room], tried[room] | "sort"
         close("sort")
         for (test in by) printf "by %-12s %d\n", test, by[test] | "sort"
         close("sort")
-        printf "noticed: %d of %d, %.0f %%\n", dead, all, all ? 100 * dead / all : 0
+        printf "noticed: %d of %d, %.0f %%; %d were none\n", dead, all, all ? 100 * dead / all : 0, not
         exit !(all && dead >= 0.85 * all)
     }' "$folder/result"
