@@ -529,11 +529,45 @@ static void test_two_maps(void)
     CHECK(lmb_two_maps(NULL, &light, &scene, SIZE, memory, sizeof memory) == LMB_ERR_ARG);
 }
 
+static lmb_texel around_points[4096];
+
+/* Each part has the colour at its own middle: vertex colours, and a texture from black to white, by both uvs. */
+static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *material, const lmb_env *env)
+{
+    static const uint8_t colours[16] = {255, 0, 51, 255, 0, 204, 102, 255, 51, 255, 255, 255};
+    static const float uvs[8] = {0.25f, 0.5f, 0.75f, 0.5f, 0.25f, 0.5f};
+    static const uint16_t uvs_16[8] = {16384, 32768, 49151, 32768, 16384, 32768};
+    static const uint8_t black_to_white[8] = {0, 0, 0, 255, 255, 255, 255, 255};
+    const lmb_texture texture = {black_to_white, 2, 1, 1, LMB_WRAP_CLAMP, LMB_WRAP_CLAMP, LMB_BILINEAR};
+    scene->textures = &texture;
+    scene->texture_count = 1;
+    mesh->colours = colours;
+    mesh->uv_scale[0] = mesh->uv_scale[1] = 1.0f;
+    for (int kind = 0; kind < 3; ++kind) {
+        material->texture = kind > 0 ? 0 : -1;
+        mesh->uvs = kind == 2 ? (const void *)uvs_16 : uvs;
+        mesh->uv_format = kind == 2 ? LMB_UV_U16 : LMB_UV_F32;
+        const size_t n = lmb_around_points(around_points, 4096, scene, 1, 1, 0.5f, env);
+        CHECK(n >= 16);
+        for (size_t i = 0; i < n; ++i) {
+            const double b2 = (double)around_points[i].position.y,
+                         b1 = ((double)around_points[i].position.x + 1.0 - b2) / 2.0;
+            for (int c = 0; c < 3; ++c) {
+                const double colour = (colours[c] * (1.0 - b1 - b2) +
+                                       colours[4 + c] * b1 + colours[8 + c] * b2) / 255.0,
+                             wanted = 0.5 * 3.14159265 / (double)n * colour * (kind > 0 ? b1 : 1.0);
+                CHECK_MSG(fabs((double)around_points[i].flux[c] - wanted) < 1e-4, "%d, part %d: %g, not %g", kind,
+                          (int)i, (double)around_points[i].flux[c], wanted);
+            }
+        }
+    }
+}
+
 /* A triangle throws back albedo x light x area, in however many parts. */
 static void test_around(void)
 {
     static uint32_t env_memory[8 * 8 * 6 * 3], triangle[3] = {0, 1, 2};
-    static lmb_texel points[4096];
+    lmb_texel *const points = around_points;
     lmb_material material;
     lmb_mesh mesh;
     lmb_instance instance;
@@ -575,6 +609,7 @@ static void test_around(void)
         CHECK_MSG(fabs(sum - 0.5 * 3.14159265) < 1e-3 && fabs(middle - 1.0 / 3.0) < 1e-5, "%g, %g of %d parts", sum,
                   middle, (int)n);
     }
+    check_coloured(&scene, &mesh, &material, &env);
 }
 
 /* Points close together have one answer, that scales all of them; as much light as before leaves the bits alone. */
