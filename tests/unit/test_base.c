@@ -322,6 +322,11 @@ static void names_and_build(void)
     CHECK(strcmp(lmb_status_name(LMB_OK), "LMB_OK") == 0);
     CHECK(strcmp(lmb_status_name(LMB_MORE), "LMB_MORE") == 0);
     CHECK(strcmp(lmb_status_name(LMB_ERR_BUILD), "LMB_ERR_BUILD") == 0);
+    CHECK(strcmp(lmb_status_name(LMB_ERR_ARG), "LMB_ERR_ARG") == 0);
+    CHECK(strcmp(lmb_status_name(LMB_ERR_CAPACITY), "LMB_ERR_CAPACITY") == 0);
+    CHECK(strcmp(lmb_status_name(LMB_ERR_ALIGN), "LMB_ERR_ALIGN") == 0);
+    CHECK(strcmp(lmb_status_name(LMB_ERR_FORMAT), "LMB_ERR_FORMAT") == 0);
+    CHECK(strcmp(lmb_status_name(LMB_ERR_SCENE), "LMB_ERR_SCENE") == 0);
     CHECK(strcmp(lmb_status_name((lmb_status)-7), "?") == 0);
 }
 

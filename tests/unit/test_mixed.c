@@ -100,6 +100,8 @@ static void test_grid(void)
         const int32_t k = lmb_point_grid_nearest(found, 1 + i % LMB_NEAREST_CAP, &grid, at);
         CHECK(k == 1 + i % LMB_NEAREST_CAP && is_right(points, COUNT, found, k, at));
     }
+    CHECK(lmb_point_grid_init(&grid, points, COUNT, memory, sizeof memory - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_point_grid_init(&grid, points, COUNT, (char *)memory + 1, sizeof memory) == LMB_ERR_ALIGN);
     points[7].x = NAN;
     CHECK(lmb_point_grid_init(&grid, points, 8, memory, sizeof memory) == LMB_OK && grid.count == 7);
     CHECK(lmb_point_grid_nearest(found, 8, &grid, points[0]) == 7 && found[0] == 0);
@@ -279,6 +281,8 @@ static void test_mesh(stage *s)
     find_planes(s);
     lmb_planes_move(&s->cloud, &s->planes);
     CHECK(lmb_real_mesh_bytes(WIDTH, HEIGHT, 4) <= sizeof s->mesh_memory);
+    CHECK(lmb_real_mesh_build(&s->mesh, &s->cloud, &s->planes, 4, &axes, s->mesh_memory, 4) == LMB_ERR_CAPACITY);
+    CHECK(lmb_real_mesh_build(&s->mesh, &s->cloud, &s->planes, 0, &axes, s->mesh_memory, 4) == LMB_ERR_ARG);
     CHECK(lmb_real_mesh_build(&s->mesh, &s->cloud, &s->planes, 4, &axes, s->mesh_memory, sizeof s->mesh_memory) ==
           LMB_OK);
     CHECK(s->mesh.count == PIXELS / 16);
@@ -327,6 +331,12 @@ static void test_half(void)
     int wrong = 0;
     for (uint32_t code = 0; code < 0x7c00u; ++code) {
         wrong += half_encode(half_decode((uint16_t)code)) != code;
+    }
+    CHECK(wrong == 0);
+    wrong = 0;
+    for (uint32_t steps = 0; steps <= 4096; ++steps) { /* quarters of the smallest step: of ties the even code */
+        const uint32_t whole = steps / 4, rest = steps % 4, up = rest > 2 || (rest == 2 && whole % 2 == 1);
+        wrong += half_encode((float)steps / 67108864.0f) != whole + up;
     }
     CHECK(wrong == 0);
     CHECK(half_decode(HALF_ONE) == 1.0f && half_encode(-1.0f) == 0 && half_encode(NAN) == 0);

@@ -4,10 +4,9 @@
 void test_relief_light(void);
 
 /* P7-P9 P11: over a floor, both ways: what the sphere shadows, what shadows it, and which hides which. */
-static void shadows(const stage *s)
+static void shadows(const stage *s, lmb_light light)
 {
     const lmb_view v = look(vec3(0.0f, 2.0f, 5.0f), vec3(0, 0, 0), 60.0, FRAME);
-    const lmb_light light = sun(vec3(0.2f, -1.0f, -0.1f));
     relief_shot shot = shot_of(s, &v), truth;
     world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0.0f, -1.2f, 0.0f), vec3(0, 0, 3), vec3(3, 0, 0));
@@ -127,7 +126,10 @@ void test_relief_light(void)
 {
     stage *s = stage_make(LMB_RELIEF_FULL, 0);
     receives_bounce(s);
-    shadows(s);
+    shadows(s, sun(vec3(0.2f, -1.0f, -0.1f)));
+    shadows(s, point_light(vec3(-0.8f, 4.0f, 0.4f)));
+    shadows(s, point_light(vec3(4.0f, 0.7f, 0.4f)));
+    shadows(s, point_light(vec3(-2.0f, 1.5f, -3.0f)));
     stage_free(s);
     s = stage_make(LMB_RELIEF_FULL, 400);
     stands_in_a_room(s);

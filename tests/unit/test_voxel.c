@@ -342,6 +342,25 @@ static void mirror(void)
     CHECK(seen.rgb[1][4 * 8 + 3] > 0.0f && seen.open[4 * 8 + 3] < 0.1f);
     CHECK(lmb_cones_glossy(&seen, &trace, &width, &tile, vec3(-3.0f, 1.0f, 0.0f)) == LMB_OK);
     CHECK(seen.rgb[1][4 * 8 + 3] == 0.0f && seen.open[4 * 8 + 3] > 0.99f);
+    /* The same cone along the mirror's own directions; straight up there is nothing. */
+    static float direction[3][LMB_TILE_PIXELS];
+    static lmb_cone_seen along;
+    CHECK(lmb_cones_glossy(&seen, &trace, &width, &tile, vec3(3.0f, 1.0f, 0.0f)) == LMB_OK);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const lmb_vec3 d = sub3(plane_vec(tile.position, k), vec3(3.0f, 1.0f, 0.0f));
+        set_plane(direction, k, normalize3(vec3(d.x, -d.y, d.z)));
+    }
+    CHECK(lmb_cones_trace(&along, &trace, &width, &tile, direction) == LMB_OK);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        CHECK(fabsf(along.rgb[1][k] - seen.rgb[1][k]) < 1e-3f && fabsf(along.open[k] - seen.open[k]) < 1e-3f);
+        set_plane(direction, k, Y);
+    }
+    CHECK(lmb_cones_trace(&along, &trace, &width, &tile, direction) == LMB_OK);
+    CHECK(along.rgb[1][27] == 0.0f && along.open[27] == 1.0f);
+    CHECK(lmb_cones_trace(&along, &trace, NULL, &tile, direction) == LMB_ERR_ARG);
+    /* The narrowest that is asked for takes too many steps in the finest tree; it is widened until they fit. */
+    CHECK(lmb_cone_width_init(&width, &v, 0.01f) == LMB_OK && width.tangent >= 0.01f && width.count <= LMB_CONE_STEPS);
+    CHECK(lmb_cone_width_init(&width, &v, 0.009f) == LMB_ERR_ARG && lmb_cone_width_init(NULL, &v, 1.0f) == LMB_ERR_ARG);
     CHECK(lmb_cone_tangent(0.0f) < lmb_cone_tangent(0.5f) && lmb_cone_tangent(1.0f) == 1.0f);
 }
 
@@ -367,6 +386,8 @@ static void refusals(void)
     CHECK(lmb_voxels_build(&v, &high, &low, 5, &part, 1) == LMB_ERR_ARG);
     CHECK(lmb_voxels_build(&v, &low, &high, 5, &none, 1) == LMB_ERR_ARG);
     CHECK(lmb_voxels_build(&v, &low, &high, 5, &part, 1) == LMB_OK);
+    CHECK(lmb_voxels_filter(&v, -1) == LMB_ERR_ARG && lmb_voxels_filter(&v, LMB_VOXELS_THREE) == LMB_ERR_ARG);
+    CHECK(lmb_voxels_filter(NULL, 0) == LMB_ERR_ARG);
     CHECK(lmb_voxels_inject(&v, LMB_VOXEL_WITH, NULL, 0) == LMB_ERR_ARG && lmb_voxels_delta(&v) == LMB_ERR_ARG);
     CHECK(lmb_cones_init(&cones, &v, 8) == LMB_ERR_ARG && lmb_cones_init(&cones, &v, 7) == LMB_OK);
     trace.scratch = NULL;
