@@ -96,6 +96,71 @@ static void test_counts(void)
     CHECK(lmb_look_error(&twice, &at) > 0.08f && lmb_look_error(&twice, &at) < 0.2f);
 }
 
+/* The same pixels by a picture that is gathered at every other one: as much light within a fiftieth. */
+static void test_sparse_look(void)
+{
+    static lmb_look each, other_one;
+    lmb_facts facts;
+    lmb_frame f = set_frame();
+    double sum[2] = {0.0, 0.0};
+    look_at(&facts, &f, &each);
+    f.gather_step = 2;
+    look_at(&facts, &f, &other_one);
+    for (int i = 0; i < LMB_LOOK_PIXELS; ++i) {
+        sum[0] += (double)maxf(each.light[i][1], 0.0f);
+        sum[1] += (double)maxf(other_one.light[i][1], 0.0f);
+    }
+    CHECK(each.pixels == other_one.pixels && other_one.pairs < 0.9 * each.pairs && sum[0] > 0.0);
+    CHECK_MSG(fabs(sum[1] / sum[0] - 1.0) < 0.02, "%g of it", sum[1] / sum[0]);
+    CHECK(lmb_look_error(&other_one, &each) > 0.0f && lmb_look_error(&other_one, &each) < 0.3f);
+}
+
+/* Later bounces, lobes and what shines: their operations and bytes; after the frame, what is kept. */
+static void test_rows(void)
+{
+    lmb_frame f = set_frame();
+    f.bounces = 3;
+    world.material[0].specular[1] = 0.5f;
+    world.material[0].roughness = 0.5f;
+    world.material[0].emission[0] = 1.0f;
+    memset(&render, 0, sizeof render);
+    CHECK(lmb_render_next(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    const lmb_plan_row *bounces = &plan.row[LMB_PLAN_BOUNCES];
+    CHECK(bounces->why == LMB_WHY_RUNS && bounces->op[LMB_OP_ELEMENTS] == 16.0);
+    CHECK(bounces->op[LMB_OP_CUTS] == 2.0 * ELEMENTS / LMB_TILE_PIXELS && bounces->work > 0.0);
+    CHECK(bounces->bytes == lmb_elements_bytes(ELEMENTS));
+    CHECK(plan.row[LMB_PLAN_LOBES].op[LMB_OP_LOBES] == FRAME * FRAME);
+    CHECK(plan.row[LMB_PLAN_SHINE].op[LMB_OP_STORED] == FRAME * FRAME);
+    finish();
+    CHECK(lmb_render_next(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(bounces->why == LMB_WHY_KEPT && bounces->work == 0.0 && bounces->bytes == lmb_elements_bytes(ELEMENTS));
+    memset(lamps[0].intensity, 0, sizeof lamps[0].intensity);
+    memset(lamps[1].intensity, 0, sizeof lamps[1].intensity);
+    make_plan(&f, NULL);
+    CHECK(why_of(LMB_PLAN_DIRECT) == LMB_WHY_NO_LIGHT);
+}
+
+/* Groups in place of a tree: the points' bytes are theirs. */
+static void test_groups(void)
+{
+    static uint32_t memory[4096 * 32];
+    static lmb_groups groups;
+    lmb_frame f = set_frame();
+    const size_t all = lmb_points_bytes(MAP * MAP * 2, MAP);
+    CHECK(all <= sizeof memory);
+    CHECK(lmb_points_init(&f.points, MAP * MAP * 2, MAP, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_points_init(&f.points, MAP * MAP * 2, MAP, memory, all - 1) == LMB_ERR_CAPACITY);
+    f.groups = &groups;
+    f.occlusion = LMB_OCCLUSION_NONE;
+    f.grouping.method = LMB_GROUP_ZONES;
+    f.grouping.block = 1;
+    make_plan(&f, NULL);
+    const lmb_plan_row *points = &plan.row[LMB_PLAN_POINTS];
+    CHECK_MSG(points->why == LMB_WHY_RUNS && points->op[LMB_OP_SUMMED] == (double)(plan.faces_drawn * MAP * MAP) &&
+                  points->bytes >= MAP * MAP * 2 * sizeof(lmb_point) && points->bytes < all + 2 * sizeof groups,
+              "%g %g", points->op[LMB_OP_SUMMED], (double)points->bytes);
+}
+
 /* --- reasons ------------------------------------------------------------------------------------------------------ */
 
 static void test_reasons(void)
@@ -246,6 +311,9 @@ static void test_budgets(void)
 void test_plan_frame(void)
 {
     test_counts();
+    test_sparse_look();
+    test_rows();
+    test_groups();
     test_reasons();
     test_kept();
     test_convex();
