@@ -40,7 +40,8 @@ tests() {
     base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many ;;
     raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
         tests:raster ;;
-    map) echo tests:light tests:mixed hard:shadow hard:all tests:frames tests:relit tests:gloss ;;
+    map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:all tests:frames tests:relit \
+        tests:gloss ;;
     occlusion) echo tests:occlusion hard:bounce hard:all tests:cut ;;
     light) echo tests:light hard:shadow tests:gloss tests:many hard:bounce ;;
     bounce) echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:all tests:elements \

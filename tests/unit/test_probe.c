@@ -449,6 +449,9 @@ static void refusals(stage *s)
     CHECK(lmb_probe_table_bytes(128, 60) == 0 && lmb_probe_table_bytes(16, 8) > 0);
     CHECK(lmb_probe_table_bytes(2048, 1024) == 0);
     CHECK(lmb_probe_table_init(&s->table, WIDTH, HEIGHT, NAN, s->table_memory, 1u << 20) == LMB_ERR_ARG);
+    CHECK(lmb_probe_table_init(&s->table, 128, 60, 0.0f, s->table_memory, 1u << 20) == LMB_ERR_ARG);
+    CHECK(lmb_probe_table_init(NULL, WIDTH, HEIGHT, 0.0f, s->table_memory, 1u << 20) == LMB_ERR_ARG);
+    CHECK(lmb_probe_table_init(&s->table, WIDTH, HEIGHT, 0.0f, s->table_memory, 64) == LMB_ERR_CAPACITY);
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
     CHECK(lmb_probe_remap(s->map, lmb_kernels_pick(), &s->world, &s->table, vec3(NAN, 0, 0), 0) == LMB_ERR_ARG);
     CHECK(lmb_probe_remap(NULL, lmb_kernels_pick(), &s->world, &s->table, vec3(0, 0, 0), 0) == LMB_ERR_ARG);

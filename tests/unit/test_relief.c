@@ -168,6 +168,11 @@ static void bad_files(const stage *s)
     CHECK(lmb_relief_open(&r, (const uint8_t *)copy + 1, s->file.size - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_relief_open(NULL, copy, s->file.size) == LMB_ERR_ARG && lmb_relief_open(&r, NULL, 4) == LMB_ERR_ARG);
     CHECK(memcmp(&r, &none, sizeof r) == 0);
+    for (int word = 33; word <= 34; ++word) { /* the least side */
+        memcpy(copy, s->file.data, s->file.size);
+        copy[word] = 2;
+        CHECK(lmb_relief_open(&r, copy, s->file.size) == LMB_OK);
+    }
     free(copy);
 }
 
