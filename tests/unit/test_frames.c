@@ -551,6 +551,11 @@ static void test_sum_of_lights(void)
         lmb_compose_tile(&radiance, k, tile, &sum, NULL);
         lmb_store_tile(&built->surface, lmb_kernels_pick(), 0, 0, &radiance, x, y, 0.0f);
     }
+    lmb_radiance none;
+    memset(&none, 0, sizeof none);
+    CHECK(lmb_store_tile(&built->surface, NULL, 0, 0, &none, 0, 0, 0.0f) == LMB_ERR_ARG);
+    CHECK(lmb_store_tile(&built->surface, lmb_kernels_pick(), 0, 0, NULL, 0, 0, 0.0f) == LMB_ERR_ARG);
+    CHECK(lmb_store_tile(NULL, lmb_kernels_pick(), 0, 0, &none, 0, 0, 0.0f) == LMB_ERR_ARG);
     CHECK(same_picture(&reference, built));
 }
 

@@ -166,6 +166,17 @@ static void check_cone(void)
     CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_OK);
     CHECK(e.rgb[0][0] == 0.0f && e.rgb[1][20] == 0.0f && e.rgb[2][63] == 0.0f);
     CHECK(lmb_direct_tile(NULL, lmb_kernels_pick(), &tile, &v, &world.scene, &l, NULL) == LMB_ERR_ARG);
+    static const float cosines[4][2] = {{0.0f, 0.9f}, {0.9f, 0.8f}, {0.5f, 1.01f}, {NAN, 0.9f}};
+    lmb_scene lit = world.scene;
+    lmb_light bad = spot(vec3(0, 1, 0), vec3(0, -1, 0), 20, 40);
+    lit.lights = &bad;
+    lit.light_count = 1;
+    CHECK(lmb_scene_check(&lit) == LMB_OK);
+    for (int i = 0; i < 4; ++i) {
+        bad.cos_outer = cosines[i][0];
+        bad.cos_inner = cosines[i][1];
+        CHECK(lmb_scene_check(&lit) == LMB_ERR_ARG);
+    }
     CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), &tile, &v, NULL, &l, NULL) == LMB_ERR_ARG);
 }
 

@@ -31,6 +31,14 @@ static void grove_make(grove *g, uint32_t cells, float most, const lmb_light *l,
 {
     grove_begin(g, cells, most);
     CHECK(lmb_many_add(&g->many, l, count) == LMB_OK && lmb_many_build(&g->many) == LMB_OK);
+    uint32_t unset = 0; /* what grove_begin left; lanes read past the last node */
+    for (size_t i = 0; i < (size_t)g->many.plane_step * LMB_MANY_PLANES; ++i) {
+        uint32_t word;
+        memcpy(&word, &g->many.plane[i], sizeof word);
+        unset += word == 0xa5a5a5a5u;
+    }
+    CHECK_MSG(unset == 0 || g->many.cell_count == 0, "%u words of %u nodes", (unsigned)unset,
+              (unsigned)g->many.node_count);
 }
 
 static void grove_free(grove *g) { free(g->memory); }

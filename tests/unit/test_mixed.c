@@ -385,7 +385,9 @@ static void test_brightest(void)
     lmb_env_mips(&env);
     lmb_vec3 d = lmb_env_brightest(&env, (lmb_vec3){0, 1, 0});
     CHECK_MSG(d.y > 0.97f, "%g", (double)d.y);
-    memset(memory, 0, sizeof memory);
+    memset(memory, 0, sizeof memory); /* no light at all: from above */
+    d = lmb_env_brightest(&env, (lmb_vec3){0, 1, 0});
+    CHECK(d.x == 0.0f && d.y == 1.0f && d.z == 0.0f);
     lmb_env_set(&env, 0, 4, 4, lamp); /* level with the floor: raised to 30 degrees */
     lmb_env_set(&env, 0, 4, 3, lamp);
     lmb_env_mips(&env);

@@ -70,6 +70,20 @@ static void surfaces_are_whole(int32_t depth)
     }
 }
 
+/* A triangle with a corner at no place, or too far away to be one, is left out; what else there is stays. */
+static void no_place(void)
+{
+    static const float bad[] = {NAN, INFINITY, 1e30f, -1e30f};
+    for (int i = 0; i < 12; ++i) {
+        world_begin(0.5f, 0.5f, 0.5f);
+        world_box(vec3(-1.0f, 0.2f, 0.1f), 0.3f);
+        CHECK(world_end() == LMB_OK);
+        world.corners[5][i % 3][i / 4] = bad[i % 4];
+        build_all(CAP, LMB_VOXELS_ONE, 4);
+        CHECK_MSG(within(v.area, 11.0 * 0.18, 1e-4), "%d: %g", i, v.area);
+    }
+}
+
 /* Each place's leaf, whatever number it has. */
 static uint64_t hash_places(void)
 {
@@ -415,6 +429,7 @@ void test_voxel(void)
     open_sky();
     walls_are_tight();
     mirror();
+    no_place();
     refusals();
     free(memory);
 }
