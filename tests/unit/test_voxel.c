@@ -372,8 +372,14 @@ static void mirror(void)
     CHECK(lmb_cones_trace(&along, &trace, &width, &tile, direction) == LMB_OK);
     CHECK(along.rgb[1][27] == 0.0f && along.open[27] == 1.0f);
     CHECK(lmb_cones_trace(&along, &trace, NULL, &tile, direction) == LMB_ERR_ARG);
-    /* The narrowest that is asked for takes too many steps in the finest tree; it is widened until they fit. */
-    CHECK(lmb_cone_width_init(&width, &v, 0.01f) == LMB_OK && width.tangent >= 0.01f && width.count <= LMB_CONE_STEPS);
+    /* Narrow cones take too many steps in the finest trees: they are widened until they fit. */
+    lmb_voxels fine = v;
+    for (fine.depth = 4; fine.depth <= 12; ++fine.depth) {
+        CHECK(lmb_cone_width_init(&width, &fine, 0.01f) == LMB_OK && width.count <= LMB_CONE_STEPS);
+        CHECK(fine.depth <= 8 ? width.tangent == 0.01f : width.tangent > 0.012f && width.tangent < 0.04f);
+        const lmb_cone_step *last = &width.step[width.count - 1];
+        CHECK(last->at + 0.5f * last->length >= 1.7f * v.leaf * (float)(1 << fine.depth));
+    }
     CHECK(lmb_cone_width_init(&width, &v, 0.009f) == LMB_ERR_ARG && lmb_cone_width_init(NULL, &v, 1.0f) == LMB_ERR_ARG);
     CHECK(lmb_cone_tangent(0.0f) < lmb_cone_tangent(0.5f) && lmb_cone_tangent(1.0f) == 1.0f);
 }
