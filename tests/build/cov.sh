@@ -74,8 +74,8 @@ xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncover
             print at_file[i] ": " at_text[i] ": " why[i] (told[i] ? "" : " (here it was run)")
         line_share = all ? 100 * seen / all : 0
         way_share = all_ways ? 100 * seen_ways / all_ways : 0
-        printf "src/: lines %d of %d, %.2f %%; branches %d of %d, %.2f %%\n", seen, all, line_share, seen_ways, all_ways,
-            way_share
+        printf "src/: lines %d of %d, %.2f %%; branches %d of %d, %.2f %%\n", seen, all, line_share, seen_ways,
+            all_ways, way_share
         passed = (line_share >= 98) + (way_share >= 92) + !open
         printf "%d passed, %d failed, 0 skipped\n", passed, 3 - passed
         exit passed < 3

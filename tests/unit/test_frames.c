@@ -690,6 +690,9 @@ static void test_refused(void)
     REFUSED(f.eye.id.data = NULL, LMB_ERR_ARG);
     REFUSED(f.eye.y0 = 8, LMB_ERR_ARG);
     REFUSED(f.eye.depth.height = f.eye.id.height = 16, LMB_ERR_ARG);
+    REFUSED(f.occlusion = LMB_OCCLUSION_NONE; f.eye.depth.width = f.eye.id.width = WIDTH - 8, LMB_ERR_ARG);
+    REFUSED(f.occlusion = LMB_OCCLUSION_NONE; set_eye(&f, LMB_TILE, LMB_TILED, LMB_DEPTH32F, LMB_ID32); f.eye.y0 = 8,
+            LMB_ERR_ARG);
     REFUSED(set_eye(&f, LMB_TILE, LMB_TILED, LMB_DEPTH32F, LMB_ID32), LMB_ERR_ARG); /* VIEW needs the whole depth */
     memcpy(many, room_lights, sizeof room_lights);
     room.lights = many;

@@ -276,11 +276,38 @@ static void test_is_kept(void)
     CHECK((kept.render.keeps & LMB_KEEP_BOUNCES) == 0);
 }
 
+/* A frame that was given up, wherever it was, leaves nothing that is not whole. */
+static void test_given_up(void)
+{
+    int kept_some = 0;
+    rng.state = 5;
+    memset(&how, 0, sizeof how);
+    set_scene();
+    draw_kept();
+    for (int steps = 0; steps < 30; ++steps) {
+        lmb_frame f = how;
+        give_memory(&f, &kept);
+        lights[0].position.x += steps % 2 ? 0.2f : -0.2f;
+        ++lights[0].revision;
+        move_object();
+        CHECK(lmb_render_next(&kept.render, &f) == LMB_OK);
+        for (int i = 0; i < steps && kept.render.stage < LMB_STAGE_DONE; ++i) {
+            CHECK(lmb_render_step(&kept.render, 1) >= 0);
+        }
+        draw_kept();
+        kept_some += kept.render.keeps != 0;
+        draw_fresh(0);
+        CHECK_MSG(memcmp(kept.out, fresh.out, sizeof kept.out) == 0, "given up after %d steps", steps);
+    }
+    CHECK(kept_some > 0 && kept_some < 30);
+}
+
 void test_next(void)
 {
     memset(&how, 0, sizeof how);
     test_edits();
     test_is_kept();
+    test_given_up();
     CHECK(lmb_render_next(NULL, &how) == LMB_ERR_ARG && lmb_render_next(&kept.render, NULL) == LMB_ERR_ARG);
 }
 
