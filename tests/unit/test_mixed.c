@@ -205,6 +205,12 @@ static void test_place(stage *s)
     }
     CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 0.6f) && fabsf(at.x) > 0.1f);
     CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 0.0f) && far2(at, centre) == 0.0f);
+    /* A strip in the plane's middle that is none of it: all of the foot stands beside. */
+    for (int i = 0; i < PIXELS; ++i) {
+        s->planes.label[i] = abs(i % WIDTH - 48) < 12 ? 0 : s->planes.label[i];
+    }
+    CHECK(lmb_planes_clear(&at, &s->planes, &s->cloud, p, 0.1f, 0.0f));
+    CHECK_MSG((fabsf(at.x) - 0.1f) * 80.0f / -at.z > 11.0f, "%g %g", (double)at.x, (double)at.z);
 }
 
 /* A plane that faces the camera's way up is a floor; with a ceiling in the picture walls that lean are none. */
@@ -303,6 +309,28 @@ static void test_mesh(stage *s)
     CHECK(lmb_real_tile(&s->tile, &s->cloud, &s->planes, &s->mesh, &axes, 40, 64) == LMB_OK && s->tile.hits == 64);
     CHECK(fabsf(s->tile.position[1][20] + 0.5f) < 1e-3f && s->tile.face[1][20] > 0.9999f && s->tile.id[20] > 0);
     CHECK(lmb_real_tile(&s->tile, &s->cloud, &s->planes, &s->mesh, &axes, 41, 64) == LMB_ERR_ARG);
+    /* Of no plane, and no way known that they face, or edge-on: they face the camera, and so do their pixels. */
+    for (int edge_on = 0; edge_on < 2; ++edge_on) {
+        memset(s->planes.label, 0, PIXELS);
+        for (int i = 0; i < PIXELS; ++i) {
+            s->cloud.normal[i] = (lmb_vec3){edge_on ? 1.0f : 0.0f, 0, 0};
+        }
+        CHECK(lmb_real_mesh_build(&s->mesh, &s->cloud, &s->planes, 4, &axes, s->mesh_memory, sizeof s->mesh_memory) ==
+              LMB_OK && s->mesh.count > PIXELS / 20);
+        off = 0;
+        for (int c = 0; c < s->mesh.count; ++c) {
+            const float *a = s->mesh.positions + 12 * c;
+            off += fabsf(a[5] - a[2]) + fabsf(a[8] - a[2]) + fabsf(a[11] - a[2]) > -1e-5f * a[2];
+        }
+        CHECK_MSG(off < (edge_on ? s->mesh.count * 3 / 4 : 1), "%d of %d", off, (int)s->mesh.count);
+        CHECK(lmb_real_tile(&s->tile, &s->cloud, &s->planes, &s->mesh, &axes, 40, 64) == LMB_OK);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const lmb_vec3 n = {s->tile.normal[0][k], s->tile.normal[1][k], s->tile.normal[2][k]};
+            const float facing = n.x * s->tile.position[0][k] + n.y * s->tile.position[1][k] +
+                                 n.z * s->tile.position[2][k];
+            CHECK_MSG(s->tile.id[k] == 0 || facing < 0.0f, "%d: %g", k, (double)facing);
+        }
+    }
 }
 
 /* A photo's pixel and the frame's show the same ray, wherever the axis is. */
