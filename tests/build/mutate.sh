@@ -37,7 +37,8 @@ make_it() {
 # tests ROOM: what is run for a change there; NAME:WORD is a program and its word.
 tests() {
     case $1 in
-    base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many ;;
+    base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many \
+        tests:gloss ;;
     raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
         tests:raster ;;
     map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:all tests:frames tests:relit \
