@@ -2,7 +2,8 @@
 #
 # Starts from tests/fuzz/corpus and the sample data where that is; what is found to be of use is kept in FOLDER/TARGET
 # for the next run, findings in FOLDER/TARGET-crash-* and the like. Goes in slices, because the engine's own limit
-# counts time on the wall. Ends with a line `N passed, N failed, N skipped`.
+# counts time on the wall. Says how many inputs were executed, by target and in all (those that a slice begins with count
+# each time). Ends with a line `N passed, N failed, N skipped`.
 fuzzer=$1 folder=$2 minutes=$3
 shift 3
 shared=${LMB_SHARED:-../shared}
@@ -12,6 +13,12 @@ shared=${LMB_SHARED:-../shared}
 count() {
     times >"$folder/times"
     seconds=$(awk 'NR == 2 { split($1, t, /[ms]/); print int(t[1] * 60 + t[2]) }' "$folder/times")
+}
+
+# What the engine says that a slice executed, by a finding's end too.
+executed() {
+    units=$(awk '/^stat::number_of_executed_units:/ { n = $2 } END { print n + 0 }' "$folder/$1.log")
+    executions=$((executions + units))
 }
 
 # Sample files that the target reads.
@@ -26,23 +33,26 @@ samples() {
 }
 
 run() {
-    options="-timeout=25 -rss_limit_mb=4000 -max_len=$((1 << 16)) -print_final_stats=0 -verbosity=0"
+    options="-timeout=25 -rss_limit_mb=4000 -max_len=$((1 << 16)) -print_final_stats=1 -verbosity=0"
     [ ! -f "tests/fuzz/$1.dict" ] || options="$options -dict=tests/fuzz/$1.dict"
     mkdir -p "$folder/$1" "$folder/samples/$1"
     for file in $(samples "$1"); do
         [ "$(wc -c <"$file")" -gt 65536 ] || cp "$file" "$folder/samples/$1/"
     done
     count
-    begun=$seconds
+    begun=$seconds executions=0
     while
         "$fuzzer" "$1" $options -max_total_time=$slice -artifact_prefix="$folder/$1-" "$folder/$1" \
-            "tests/fuzz/corpus/$1" "$folder/samples/$1" >"$folder/$1.log" 2>&1 || return 1
+            "tests/fuzz/corpus/$1" "$folder/samples/$1" >"$folder/$1.log" 2>&1
+        status=$?
+        executed "$1"
+        [ "$status" = 0 ] || return 1
         count
         [ $((seconds - begun)) -lt $((minutes * 60)) ]
     do :; done
 }
 
-passed=0 failed=0
+passed=0 failed=0 total=0
 for target in "$@"; do
     if run "$target"; then
         passed=$((passed + 1)) verdict="no finding"
@@ -50,7 +60,11 @@ for target in "$@"; do
         failed=$((failed + 1)) verdict="$(grep -m 1 -E 'SUMMARY|does not hold' "$folder/$target.log")"
     fi
     count
-    echo "$target: $((seconds - begun)) s of CPU, $(ls "$folder/$target" | wc -l) inputs kept: $verdict"
+    total=$((total + executions))
+    echo "$target: $executions executions, $((seconds - begun)) s of CPU," \
+        "$(ls "$folder/$target" | wc -l) inputs kept: $verdict"
 done
+count
+echo "in all: $total executions, $seconds s of CPU"
 echo "$passed passed, $failed failed, 0 skipped"
 [ "$failed" = 0 ]
