@@ -1,21 +1,24 @@
-/* edges.c: what Frama-C's Eva is asked: can edge set-up and its sums over a frame and a tile leave their integers?
+/* edges.c: what Frama-C's Eva is asked of one triangle at a time: can edge set-up and its sums over a frame and a tile
+ * leave their integers?
  *
- *     frama-c -eva ... tests/static/edges.c        (tests/build/static.sh)
- *
- * All corners within what snapping gives (draw_one.c: +-2^22), all pixels of a frame of LMB_MAX_FRAME. Eva takes every
- * value in these ranges at once; a signed overflow, a bad shift, or an assertion that it cannot prove is an alarm. */
+ * All corners within what snapping gives (snap.c: +-2^22), all pixels of a frame of LMB_MAX_FRAME and a tile beyond.
+ * Every pixel is asked directly: stepping from tile to tile gives the same numbers (setup.c), so they hold for it. Eva
+ * takes every value in these ranges at once; a signed overflow, a bad shift or index, or an assertion that it cannot
+ * prove is an alarm. */
+#include "any.h"
+
 #include "../../src/raster/setup.c"
 
-/*@ requires low <= high;
-    assigns \result \from low, high;
-    ensures low <= \result <= high; */
-int any_between(int low, int high);
+#include "../../src/raster/fill.inl"
+#include "../../src/raster/fill_large.inl"
 
-/*@ assigns \result \from \nothing;
-    ensures \is_finite(\result) && 0.0 <= \result <= 1.0; */
-float any_share(void);
+#include "../../src/raster/fill.c"
 
-enum { SNAP_MOST = 1 << 22, FAR_INSIDE = 1 << 29, FRAME_24_8 = LMB_MAX_FRAME / 2 * 256 };
+enum {
+    SNAP_MOST = 1 << 22,
+    FRAME_24_8 = (LMB_MAX_FRAME / 2 + LMB_TILE) * 256,
+    CHANGE_MOST = 2 * (LMB_TILE - 1) * 2 * SNAP_MOST /* of an edge within a tile: 117,440,512 */
+};
 
 static lmb_screen_vertex any_corner(void)
 {
@@ -26,44 +29,115 @@ static lmb_screen_vertex any_corner(void)
     return v;
 }
 
-/* fill_large.inl's least and greatest change within a tile, and its hold on edges that are far inside. */
-static int64_t low_of(int32_t ex, int32_t ey)
+static float depths[LMB_TILE_PIXELS];
+static uint32_t ids[LMB_TILE_PIXELS];
+
+static lmb_fill_tile any_tile(void)
 {
-    return (LMB_TILE - 1) * ((int64_t)(ex < 0 ? ex : 0) + (ey < 0 ? ey : 0));
+    lmb_fill_tile tile;
+    tile.depth = depths;
+    tile.id = ids;
+    tile.depth_step = tile.id_step = LMB_TILE;
+    tile.depth_format = LMB_DEPTH32F;
+    tile.id_format = any_between(0, 1) ? LMB_ID32 : LMB_FORMAT_NONE;
+    return tile;
 }
 
-static int64_t high_of(int32_t ex, int32_t ey)
+static lmb_fill_job any_job(void)
 {
-    return (LMB_TILE - 1) * ((int64_t)(ex > 0 ? ex : 0) + (ey > 0 ? ey : 0));
+    lmb_fill_job job = {0};
+    job.d = any_float(), job.dx = any_float(), job.dy = any_float();
+    job.d_min = any_float(), job.d_max = any_float();
+    job.id = 1;
+    return job;
 }
 
-/* A tile that the edge is not outside of: its value at any pixel fits 32 bits, and far inside stays inside. */
-static void over_a_tile(int64_t at, int32_t ex, int32_t ey)
+/* A tile that no edge is outside of, which large_row asks of all three together. */
+static int32_t any_inside(int64_t at, int64_t high)
 {
-    const int64_t high = high_of(ex, ey), low = low_of(ex, ey);
-    const int32_t dx = any_between(0, LMB_TILE - 1), dy = any_between(0, LMB_TILE - 1);
-    /*@ assert high <= 117440512 && low >= -117440512; */
-    if (at < -117440512) {
-        return; /* outside: at + high < 0 */
+    return at + high < 0 ? 0 : large_near(at);
+}
+
+static void cross_large(const lmb_setup *s, const large_edges *edges)
+{
+    const int32_t e[3] = {any_inside(edges->at.a, edges->high.a), any_inside(edges->at.b, edges->high.b),
+                          any_inside(edges->at.c, edges->high.c)};
+    const fill_box whole = {0, LMB_TILE - 1, 0, FILL_ACROSS - 1};
+    const lmb_fill_tile tile = any_tile();
+    const lmb_fill_job job = any_job();
+    fill_triangle t;
+    /*@ assert -CHANGE_MOST <= e[0] <= FAR_INSIDE; */
+    fill_set(&t, s->ex, s->ey, &job);
+    for (int i = 0; i < FILL_ACROSS; ++i) {
+        fill_column(&tile, &job, &t, e, job.d, &whole, i);
     }
-    const int32_t e = at < FAR_INSIDE ? (int32_t)at : FAR_INSIDE;
-    const int32_t there = e + ey * dy + ex * dx;
-    if (e == FAR_INSIDE) {
-        /*@ assert there >= 0; */
+    /* Held far inside, an edge stays inside. */
+    /*@ assert FAR_INSIDE - CHANGE_MOST > 0; */
+}
+
+/* A place on the triangle, and whether it is a hole, know no integers of edges. */
+void lmb_resolve_point(float *b1, float *b2, const lmb_plane *plane, const lmb_rays *rays, float x, float y)
+{
+    *b1 = any_float();
+    *b2 = any_float();
+}
+
+int lmb_resolve_opaque(const lmb_resolve_alpha *alpha, const lmb_scene *scene, float b1, float b2)
+{
+    return any_between(0, 1);
+}
+
+static void cross_masked(const lmb_setup *s, int32_t x, int32_t y)
+{
+    static const lmb_scene scene = {0};
+    lmb_fill_context context;
+    lmb_fill_job job = any_job();
+    masked_surface surface;
+    const lmb_fill_tile tile = any_tile();
+    context.scene = &scene;
+    if (enter_tile(&job, s, x, y)) {
+        fill_tile_masked(&context, &tile, &job, &surface);
     }
+}
+
+static void ask_edges(const lmb_setup *s, const large_edges *edges)
+{
+    for (int i = 0; i < 3; ++i) {
+        /*@ assert -2 * SNAP_MOST <= s->ex[i] <= 2 * SNAP_MOST && -2 * SNAP_MOST <= s->ey[i] <= 2 * SNAP_MOST; */
+    }
+    /*@ assert -1099511627776 <= edges->at.a <= 1099511627776; */
+    /*@ assert -1099511627776 <= edges->at.b <= 1099511627776; */
+    /*@ assert -1099511627776 <= edges->at.c <= 1099511627776; */
+    /*@ assert -CHANGE_MOST <= edges->low.a <= 0 && 0 <= edges->high.a <= CHANGE_MOST; */
+    /*@ assert -CHANGE_MOST <= edges->low.b <= 0 && 0 <= edges->high.b <= CHANGE_MOST; */
+    /*@ assert -CHANGE_MOST <= edges->low.c <= 0 && 0 <= edges->high.c <= CHANGE_MOST; */
+}
+
+/* A box's side against any window of any frame. */
+static void ask_spans(void)
+{
+    const int32_t frame = any_between(1, LMB_MAX_FRAME), window = any_between(0, LMB_MAX_FRAME);
+    const int32_t tiles = any_between(1, LMB_MAX_FRAME / LMB_TILE);
+    const int32_t low = any_between(-SNAP_MOST, SNAP_MOST), high = any_between(-SNAP_MOST, SNAP_MOST);
+    int32_t first, last;
+    const int32_t count = large_span(&first, low, high, 128 - frame * 128, window, tiles);
+    /*@ assert first >= 0 && count <= LMB_MAX_FRAME / LMB_TILE; */
+    tile_span(&first, &last, low, high, frame, window, tiles * LMB_TILE);
+    /*@ assert first >= 0 && last < LMB_MAX_FRAME / LMB_TILE; */
 }
 
 int main(void)
 {
     const lmb_screen_vertex a = any_corner(), b = any_corner(), c = any_corner();
-    lmb_setup s;
+    lmb_setup s = {0};
+    ask_spans();
     if (lmb_setup_triangle(&s, &a, &b, &c)) {
         const int32_t x = any_between(-FRAME_24_8, FRAME_24_8), y = any_between(-FRAME_24_8, FRAME_24_8);
-        const int i = any_between(0, 2);
-        /*@ assert -8388608 <= s.ex[i] <= 8388608 && -8388608 <= s.ey[i] <= 8388608; */
-        const int64_t at = setup_edge(&s, i, x, y);
-        /*@ assert -1099511627776 <= at <= 1099511627776; */
-        over_a_tile(at, s.ex[i], s.ey[i]);
+        large_edges edges = {0};
+        large_set(&edges, &s, x, y);
+        ask_edges(&s, &edges);
+        cross_large(&s, &edges);
+        cross_masked(&s, x, y);
     }
     return 0;
 }

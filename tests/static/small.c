@@ -1,0 +1,157 @@
+/* small.c: what Frama-C's Eva is asked of a batch's small triangles: can a sum of setup.inl's, fill_small.inl's or
+ * fill_parts.inl's leave 32 bits, or a row or column its tile? `set_up` is the first half, `main` the second, which
+ * takes what the first is asked to prove.
+ *
+ * All corners of all boxes under 64 px. The sums know differences from a corner and whole tiles only, so the tile that
+ * the box's low corner lies in may stand at the frame's origin: corners are 0 .. 2047 + 64 px from there, in 24.8, and
+ * a window begins in one of the nine tiles that the box may touch (further on it shows nothing). What is not small or
+ * not shown has its corners in one place, where every sum is 0. */
+#include "any.h"
+
+enum {
+    CORNER_MOST = 2047 + LMB_SMALL_24_8 - 1,
+    TILES = CORNER_MOST / 2048 + 1,
+    PX_MOST = CORNER_MOST / 256,
+    E_MOST = 1 << 22,
+    STEP_MOST = 22528 /* 16383 in truth; Eva's ranges know nothing of each other */
+};
+
+/* What setup_transform's conversions are given is snap.c's question; here is what they give. Corner a's are those of a
+ * tile at a time, since b's is later made as a + (b - a). */
+static int asked, first_low[2];
+
+static lanei any_corner(lane at)
+{
+    lanei r;
+    (void)at;
+    r.v[0] = asked < 2 ? any_between(first_low[asked] + 1, first_low[asked] + 2047) : any_between(1, CORNER_MOST);
+    ++asked;
+    return r;
+}
+
+#define lane_to_int any_corner
+#include "../../src/raster/setup.inl"
+#undef lane_to_int
+#include "../../src/raster/fill.inl"
+
+/* Of a column only what it is asked to do; `column` asks the column itself. */
+static void column_asked(const int32_t e[3], const fill_box *box, int32_t i)
+{
+    /*@ assert 0 <= box->first_row < LMB_TILE && box->last_row < LMB_TILE; */
+    /*@ assert 0 <= i < LMB_TILE; */
+    /*@ assert \forall integer j; 0 <= j < 3 ==> -1073741824 <= e[j] <= 1073741824; */
+}
+
+#define fill_column(tile, job, t, e, d, box, i) column_asked(e, box, i)
+#include "../../src/raster/fill_small.inl"
+#include "../../src/raster/fill_parts.inl"
+#undef fill_column
+
+static float depths[LMB_TILE_PIXELS];
+static uint32_t ids[LMB_TILE_PIXELS];
+
+/* All tiles are one: what is asked is where in a tile a pixel goes. */
+static lmb_fill_window any_window(int32_t x0, int32_t y0)
+{
+    lmb_fill_window w;
+    w.first.depth = depths;
+    w.first.id = ids;
+    w.first.depth_step = w.first.id_step = LMB_TILE;
+    w.first.depth_format = LMB_DEPTH32F;
+    w.first.id_format = LMB_ID32;
+    w.depth_tile = w.depth_row = w.id_tile = w.id_row = 0;
+    w.x0 = x0;
+    w.y0 = y0;
+    w.tiles_x = w.tiles_y = TILES;
+    w.origin_x = w.origin_y = 0;
+    w.d_scale = w.d_bias = 0.0f;
+    return w;
+}
+
+static lmb_setup_job any_job(void)
+{
+    lmb_setup_job job;
+    for (int i = 0; i < 12; ++i) {
+        job.row[i / 4][i % 4] = any_float();
+    }
+    job.scale_x = any_float(), job.scale_y = any_float();
+    job.guard_x = any_float(), job.guard_y = any_float();
+    job.snap_x = any_float(), job.snap_y = any_float();
+    job.near_m = any_float(), job.far_m = any_float(), job.depth_scale = any_float();
+    job.orthographic = any_between(0, 1);
+    job.cull = any_between(-1, 1);
+    job.origin_x = job.origin_y = 0;
+    job.x0 = LMB_TILE * any_between(0, TILES - 1), job.y0 = LMB_TILE * any_between(0, TILES - 1);
+    job.x1 = any_between(0, LMB_MAX_FRAME), job.y1 = any_between(0, LMB_MAX_FRAME);
+    return job;
+}
+
+static void ask_batch(const lmb_batch *b)
+{
+    /*@ assert 0 <= b->x0[0] <= PX_MOST + 1 && 0 <= b->x1[0] <= PX_MOST; */
+    /*@ assert 0 <= b->y0[0] <= PX_MOST + 1 && 0 <= b->y1[0] <= PX_MOST; */
+    for (int i = 0; i < 3; ++i) {
+        /*@ assert -E_MOST <= b->e[i][0] <= E_MOST; */
+        /*@ assert -STEP_MOST <= b->ex[i][0] <= STEP_MOST && -STEP_MOST <= b->ey[i][0] <= STEP_MOST; */
+    }
+}
+
+int set_up(void)
+{
+    const lmb_setup_job job = any_job();
+    setup_corners corners;
+    for (int i = 0; i < 9; ++i) {
+        corners.position[i / 3][i % 3][0] = any_float();
+    }
+    /*@ loop unroll 100; */
+    for (int cell = 0; cell < TILES * TILES; ++cell) {
+        lmb_batch b = {0};
+        b.in = 1;
+        asked = 0;
+        first_low[0] = cell % TILES * 2048, first_low[1] = cell / TILES * 2048;
+        setup_lanes(&b, &job, &corners, 0);
+        if (b.small) {
+            ask_batch(&b);
+        }
+    }
+    return 0;
+}
+
+/* A triangle whose box begins at pixel (x, y). */
+static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_window *w)
+{
+    fill_parts parts;
+    b->x0[0] = x;
+    b->y0[0] = y;
+    fill_small_any(w, b, 1u, 1u);
+    parts_slopes(&parts, b, 1u);
+    for (int parity = 0; parity < 4; ++parity) {
+        if (parts_set(&parts, w, b, 0, parity)) {
+            parts_draw(w, b, &parts, 0, 1u, FILL_ANY);
+        }
+    }
+}
+
+/* Place by place, as Eva does not know that a row and its tile lie close: in the first tile any pixel, in the others
+ * the first, where the window begins. */
+int main(void)
+{
+    lmb_batch b;
+    for (int i = 0; i < 3; ++i) {
+        b.e[i][0] = any_between(-E_MOST, E_MOST);
+        b.ex[i][0] = any_between(-STEP_MOST, STEP_MOST);
+        b.ey[i][0] = any_between(-STEP_MOST, STEP_MOST);
+    }
+    b.d[0] = any_float(), b.dx[0] = any_float(), b.dy[0] = any_float();
+    b.d_min[0] = any_float(), b.d_max[0] = any_float();
+    b.x1[0] = any_between(0, PX_MOST), b.y1[0] = any_between(0, PX_MOST);
+    /*@ loop unroll 256; */
+    for (int32_t at = 0; at < (LMB_TILE + TILES - 1) * (LMB_TILE + TILES - 1); ++at) {
+        const int32_t i = at % (LMB_TILE + TILES - 1), j = at / (LMB_TILE + TILES - 1);
+        const int32_t x = i < LMB_TILE ? i : (i - LMB_TILE + 1) * LMB_TILE;
+        const int32_t y = j < LMB_TILE ? j : (j - LMB_TILE + 1) * LMB_TILE;
+        const lmb_fill_window w = any_window(i < LMB_TILE ? 0 : x, j < LMB_TILE ? 0 : y);
+        one_begins_at(&b, x, y, &w);
+    }
+    return 0;
+}

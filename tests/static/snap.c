@@ -1,0 +1,48 @@
+/* snap.c: what Frama-C's Eva is asked of corners on their way to 24.8, of triangles that are clipped or large: can a
+ * conversion leave its integer, or a cut polygon its array?
+ *
+ * Any matrix, any view, any positions: numbers, infinities and NaN. Small triangles' conversions are snap.g's. */
+#include "any.h"
+
+#include "../../src/raster/clip.c"
+#include "../../src/raster/draw_one.c"
+
+static lmb_draw_instance any_instance(void)
+{
+    lmb_draw_instance d;
+    for (int i = 0; i < 12; ++i) {
+        d.job.row[i / 4][i % 4] = any_float();
+    }
+    d.job.scale_x = any_float(), d.job.scale_y = any_float();
+    d.job.snap_x = any_float(), d.job.snap_y = any_float();
+    d.job.near_m = any_float(), d.job.far_m = any_float(), d.job.depth_scale = any_float();
+    d.job.orthographic = any_between(0, 1);
+    d.guard.x = any_float(), d.guard.y = any_float();
+    return d;
+}
+
+/* A corner that transform or a cut may have left. */
+static lmb_clip_vertex any_corner(const lmb_draw_instance *d)
+{
+    lmb_clip_vertex v = transform(d, vec3(any_float(), any_float(), any_float()));
+    if (any_between(0, 1)) {
+        v.x = any_float(), v.y = any_float(), v.z = any_float(), v.w = any_float();
+        v.code = lmb_clip_code(&v, &d->guard);
+    }
+    return v;
+}
+
+int main(void)
+{
+    const lmb_draw_instance d = any_instance();
+    const uint32_t plane = 1u << any_between(0, 4);
+    lmb_clip_vertex polygon[LMB_CLIP_MAX];
+    for (int i = 0; i < LMB_CLIP_MAX; ++i) {
+        polygon[i] = any_corner(&d);
+    }
+    const lmb_screen_vertex v = snap(&d, &polygon[0]);
+    /*@ assert -4194304 <= v.x_24_8 <= 4194304 && -4194304 <= v.y_24_8 <= 4194304; */
+    const int n = cut(polygon, any_between(3, LMB_CLIP_MAX), plane, &d.guard);
+    /*@ assert 0 <= n <= LMB_CLIP_MAX; */
+    return 0;
+}
