@@ -371,7 +371,7 @@ static int parse(options *o, int argc, char **argv, report *r)
     }
     o->what = what_of(o);
     if (o->what == NOTHING) {
-        return report_fail(r, "what is to be measured? `lambent bench raster`, `gather`, `threads`, `hard`; see --help");
+        return report_fail(r, "what is to be measured? A scene, `raster`, `gather`, `threads`, `hard`; see --help");
     }
     if (idle_option(o) != NULL) {
         return report_fail(r, "%s means nothing to `%s`; see --help", idle_option(o), o->cases[0]);
