@@ -84,7 +84,7 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
 
 /* From pixels whose planes of position and of face lie `plane` floats apart. */
 LANE_APART void gather_aim(seen_from *from, march_run *run, const lmb_march_job *m, const float *position,
-                           const float *face, size_t plane, lmb_vec3 at, lmb_vec3 axis)
+                           const float *face, size_t plane, const lmb_vec3 *at, const lmb_vec3 *axis)
 {
     lane3 p, n;
     p.x = lane_load(position);
@@ -94,12 +94,12 @@ LANE_APART void gather_aim(seen_from *from, march_run *run, const lmb_march_job 
     n.y = lane_load(face + plane);
     n.z = lane_load(face + 2 * plane);
     const lane3 start = march_begin(from, m, p, n);
-    march_towards(run, m, from, start, lane3_of(at), lane3_of(axis));
+    march_towards(run, m, from, start, lane3_of(*at), lane3_of(*axis));
 }
 
 /* march() from there. */
 APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face, size_t plane,
-                             lmb_vec3 at, lmb_vec3 axis, lane_mask wanted)
+                             const lmb_vec3 *at, const lmb_vec3 *axis, lane_mask wanted)
 {
     seen_from from;
     march_run run;
@@ -107,8 +107,8 @@ APART lane_mask gather_march(const lmb_march_job *m, const float *position, cons
     return march(m, &from, &run, wanted);
 }
 
-static inline lane_mask tile_march(const lmb_march_job *m, const lmb_tile *tile, int k, lmb_vec3 at, lmb_vec3 axis,
-                                   lane_mask wanted)
+static inline lane_mask tile_march(const lmb_march_job *m, const lmb_tile *tile, int k, const lmb_vec3 *at,
+                                   const lmb_vec3 *axis, lane_mask wanted)
 {
     return gather_march(m, tile->position[0] + k, tile->face[0] + k, LMB_TILE_PIXELS, at, axis, wanted);
 }
@@ -161,12 +161,12 @@ static inline lane3 corner_load(const float (*p)[CORNERS], int i)
 }
 
 /* What the tile's corners see of one emitter. */
-APART int corners_see(const gather_corners *c, const lmb_march_job *m, lmb_vec3 at, lmb_vec3 axis)
+APART int corners_see(const gather_corners *c, const lmb_march_job *m, const lmb_vec3 *at, const lmb_vec3 *axis)
 {
     const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
     for (int i = 0; i < CORNERS && c->usable; i += LANES) {
-        lane3 to = lane3_sub(lane3_of(at), corner_load(c->position, i));
+        lane3 to = lane3_sub(lane3_of(*at), corner_load(c->position, i));
         lane_mask faces = lane_lt(lane_splat(0.0f), lane3_dot(corner_load(c->face, i), to));
         if (mask_bits(faces) != full) {
             return SEES_SOME; /* the horizon passes through the tile */
@@ -307,9 +307,9 @@ LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const g
     return mask_bits(lit);
 }
 
-/* Near pixels are flagged. */
-static inline void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
-                               const gather_group *groups, int32_t group_count)
+/* Near pixels are flagged. (APART: at -O3 its frame would lie under the march's.) */
+LANE_APART void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
+                            const gather_group *groups, int32_t group_count)
 {
     const gather_pixels first = gather_look(tile, k), second = gather_look(tile, k + WIDE - LANES);
     int32_t count = 0;
@@ -419,10 +419,10 @@ APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb
         lane_mask lit = lane_lt(lane_splat(0.0f), gather_weight(inout, at));
         uint8_t *sees = &blockers->sees[j];
         if (mask_bits(lit) && *sees == SEES_UNKNOWN) {
-            *sees = (uint8_t)corners_see(blockers->corners, blockers->m, g->at, axis);
+            *sees = (uint8_t)corners_see(blockers->corners, blockers->m, &g->at, &axis);
         }
         if (mask_bits(lit) && *sees == SEES_SOME) {
-            const lane_mask open = tile_march(blockers->m, tile, k + v, g->at, axis, lit);
+            const lane_mask open = tile_march(blockers->m, tile, k + v, &g->at, &axis, lit);
             lane_store(inout->of[PAIR_I] + at, lane_keep(open, lane_load(inout->of[PAIR_I] + at)));
         } else if (*sees == SEES_NOTHING) {
             lane_store(inout->of[PAIR_I] + at, lane_splat(0.0f));
@@ -510,7 +510,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     lane_mask lit = mask_and(hits, lane_lt(zero, weight)), own = mask_and(lit, close);
     lit = mask_and(mask_and(mask_and(lit, mask_not(close)), shared), lane_lt(zero, lane3_dot(face, to)));
     if (mask_bits(own)) {
-        lit = mask_or(lit, m != NULL ? tile_march(m, tile, k, d->position, d->normal, own) : own);
+        lit = mask_or(lit, m != NULL ? tile_march(m, tile, k, &d->position, &d->normal, own) : own);
     }
     if (mask_bits(lit)) {
         gather_add(inout, k, lit, weight, d->flux);
@@ -522,14 +522,14 @@ static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lm
                                 uint32_t count, const lmb_march_job *m, const gather_corners *corners)
 {
     const lmb_point *middle = &discs[count / 2];
-    int sees = m == NULL ? SEES_ALL : corners_see(corners, m, middle->position, middle->normal);
+    int sees = m == NULL ? SEES_ALL : corners_see(corners, m, &middle->position, &middle->normal);
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         const uint32_t mine = (uint32_t)(pixels >> k) & ALL_LANES;
         if (mine != 0) {
             const lane_mask hits = mask_of_bits(mine);
             lane_mask shared = sees == SEES_NOTHING ? mask_of_bits(0) : hits;
             if (sees == SEES_SOME) {
-                shared = tile_march(m, tile, k, middle->position, middle->normal, hits);
+                shared = tile_march(m, tile, k, &middle->position, &middle->normal, hits);
             }
             for (uint32_t j = 0; j < count; ++j) {
                 gather_disc(inout, tile, k, hits, &discs[j], m, shared);

@@ -240,8 +240,8 @@ static inline lane3 march_point(const lmb_march_job *m, const seen_from *s, cons
 /* A segment that was hidden from share `in` to `out`, never deeper than `gap` behind what hid it at its nearest:
  * through it, or behind it? Nobody has seen the far side. Things are taken to be about as deep as they are wide:
  * blocked where the segment comes nearer to the front than half its own hidden length. */
-static inline lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
-                                      lane gap)
+LANE_APART lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
+                                   lane gap)
 {
     lane3 chord = lane3_sub(march_point(m, s, r, out), march_point(m, s, r, in));
     return lane_lt(lane_mul(gap, gap), lane_mul(lane_splat(DEPTH_2), lane3_dot(chord, chord)));
