@@ -3,8 +3,9 @@
 # need: fails and names the missing commands with the Debian packages that have them.
 # install [COMMAND...]: installs what is missing, of the usual ones or of these, where apt-get and the right to use it
 # are there; says what stays missing.
-all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips arm-none-eabi-gcc
-    qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips"
+all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
+    arm-none-eabi-gcc qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips cppcheck
+    clang-tidy"
 
 packages_of() {
     case $1 in
@@ -31,6 +32,7 @@ packages_of() {
     clang-sanitizers) echo "libclang-rt-$(clang -dumpversion 2>/dev/null | cut -d. -f1)-dev" | sed 's/--/-14-/' ;;
     wasm-ld) echo lld ;;
     node) echo nodejs ;;
+    frama-c) echo frama-c-base ;;
     *) echo "$1" ;;
     esac
 }
