@@ -2,17 +2,19 @@
 #
 # Starts from tests/fuzz/corpus and the sample data where that is; what is found to be of use is kept in FOLDER/TARGET
 # for the next run, findings in FOLDER/TARGET-crash-* and the like. Goes in slices, because the engine's own limit
-# counts time on the wall. Says how many inputs were executed, by target and in all (those that a slice begins with count
-# each time). Ends with a line `N passed, N failed, N skipped`.
+# counts time on the wall; so does its limit for one input, and a busy machine takes 25 s for what needs one. Says how
+# many inputs were executed, by target and in all (those that a slice begins with count each time). Ends with a line
+# `N passed, N failed, N skipped`.
 fuzzer=$1 folder=$2 minutes=$3
 shift 3
 shared=${LMB_SHARED:-../shared}
 [ "$minutes" -gt 0 ] && slice=120 || slice=5
 
-# seconds: user seconds that the finished children of this shell took. A pipe or $(...) would ask a shell of its own.
+# seconds: what the finished children of this shell took, and the system for them (the memory of large pictures is most
+# of some targets). A pipe or $(...) would ask a shell of its own.
 count() {
     times >"$folder/times"
-    seconds=$(awk 'NR == 2 { split($1, t, /[ms]/); print int(t[1] * 60 + t[2]) }' "$folder/times")
+    seconds=$(awk 'NR == 2 { split($1 $2, t, /[ms]/); print int(60 * (t[1] + t[3]) + t[2] + t[4]) }' "$folder/times")
 }
 
 # What the engine says that a slice executed, by a finding's end too.
@@ -33,7 +35,7 @@ samples() {
 }
 
 run() {
-    options="-timeout=25 -rss_limit_mb=4000 -max_len=$((1 << 16)) -print_final_stats=1 -verbosity=0"
+    options="-timeout=100 -rss_limit_mb=4000 -max_len=$((1 << 16)) -print_final_stats=1 -verbosity=0"
     [ ! -f "tests/fuzz/$1.dict" ] || options="$options -dict=tests/fuzz/$1.dict"
     mkdir -p "$folder/$1" "$folder/samples/$1"
     for file in $(samples "$1"); do

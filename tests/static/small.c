@@ -133,7 +133,8 @@ static void one_begins_at(lmb_batch *b, int32_t x, int32_t y, const lmb_fill_win
 }
 
 /* Place by place, as Eva does not know that a row and its tile lie close: in the first tile any pixel, in the others
- * the first, where the window begins. */
+ * the first, where the window begins. Rows ask nothing of columns, so x and y go together. (All 256 pairs: the same, in
+ * 80 seconds instead of 5.) */
 int main(void)
 {
     lmb_batch b;
@@ -145,13 +146,11 @@ int main(void)
     b.d[0] = any_float(), b.dx[0] = any_float(), b.dy[0] = any_float();
     b.d_min[0] = any_float(), b.d_max[0] = any_float();
     b.x1[0] = any_between(0, PX_MOST), b.y1[0] = any_between(0, PX_MOST);
-    /*@ loop unroll 256; */
-    for (int32_t at = 0; at < (LMB_TILE + TILES - 1) * (LMB_TILE + TILES - 1); ++at) {
-        const int32_t i = at % (LMB_TILE + TILES - 1), j = at / (LMB_TILE + TILES - 1);
-        const int32_t x = i < LMB_TILE ? i : (i - LMB_TILE + 1) * LMB_TILE;
-        const int32_t y = j < LMB_TILE ? j : (j - LMB_TILE + 1) * LMB_TILE;
-        const lmb_fill_window w = any_window(i < LMB_TILE ? 0 : x, j < LMB_TILE ? 0 : y);
-        one_begins_at(&b, x, y, &w);
+    /*@ loop unroll 16; */
+    for (int32_t i = 0; i < LMB_TILE + TILES - 1; ++i) {
+        const int32_t at = i < LMB_TILE ? i : (i - LMB_TILE + 1) * LMB_TILE, window = i < LMB_TILE ? 0 : at;
+        const lmb_fill_window w = any_window(window, window);
+        one_begins_at(&b, at, at, &w);
     }
     return 0;
 }
