@@ -295,6 +295,7 @@ static void test_budgets(void)
         CHECK(lmb_plan_choose(&c, &facts, &errors, 0, 4096) == LMB_OK);
         CHECK_MSG(c.meets && c.error <= errors.error && (i == 0 || c.work <= last.work), "%g: %g, %g",
                   (double)errors.error, (double)c.error, c.work);
+        CHECK(c.settings.visible == LMB_FACT_VISIBLE * c.settings.error);
         last = c;
         const lmb_budget work = {c.work, 0.0f, 0};
         CHECK(lmb_plan_choose(&c, &facts, &work, 0, 4096) == LMB_OK && c.meets && c.work <= work.work);

@@ -327,6 +327,46 @@ static void one_radiance(stage *s)
     paint_sky(s);
 }
 
+static const double half_turn = 3.14159265358979323846;
+
+/* Legendre's function, without (-1)^m, by its recurrence in l; normalised with its wave over the sphere. */
+static double harmonic(int l, int m, double y, double angle)
+{
+    double a = 1.0, b = 0.0, scale = (2 * l + 1) / (4.0 * half_turn);
+    const int k = abs(m);
+    for (int i = 1; i <= k; ++i) {
+        a *= (2 * i - 1) * sqrt(1.0 - y * y);
+    }
+    for (int i = k + 1; i <= l; ++i) {
+        const double next = ((2 * i - 1) * y * a - (i + k - 1) * b) / (i - k);
+        b = a;
+        a = next;
+    }
+    for (int i = l - k + 1; i <= l + k; ++i) {
+        scale /= i;
+    }
+    return sqrt(k > 0 ? 2.0 * scale : scale) * a * (m < 0 ? sin(k * angle) : cos(k * angle));
+}
+
+/* A map of one harmonic has that one, and no other. */
+static void each_harmonic(stage *s)
+{
+    float got[3][LMB_SH_25];
+    for (int one = 0; one < LMB_SH_25; ++one) {
+        const int l = (int)sqrt(one + 0.5);
+        double off = 0.0;
+        for (int i = 0; i < COUNT; ++i) {
+            s->map[i] = (float)harmonic(l, one - l * l - l, cos((i / WIDTH + 0.5) * half_turn / HEIGHT),
+                                        (i % WIDTH + 0.5) * 2.0 * half_turn / WIDTH - half_turn);
+        }
+        CHECK(lmb_probe_sh(got, s->map, &s->table) == LMB_OK);
+        for (int k = 0; k < LMB_SH_25; ++k) {
+            off = fmax(off, fabs((double)got[0][k] - (k == one)));
+        }
+        CHECK_MSG(off < 5e-3, "%d: %g", one, off);
+    }
+}
+
 /* The same of blurs, at a quarter of the map's size; the sky comes out as well as they can. */
 static void blurred(stage *s)
 {
@@ -486,5 +526,6 @@ void test_probe(void)
     no_seams(s);
     ground_and_sky(s);
     refusals(s);
+    each_harmonic(s);
     stage_free(s);
 }

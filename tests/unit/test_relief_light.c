@@ -59,6 +59,11 @@ static void receives_bounce(const stage *s)
         if (i == 0) {
             CHECK(lmb_relief_tile(&tile, NULL, lmb_kernels_pick(), &s->relief, &v, NULL) == LMB_OK);
         }
+        int32_t hits = 0;
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            hits += tile.id[k] != 0;
+        }
+        CHECK_MSG(tile.hits == hits, "%d, not %d", (int)tile.hits, (int)hits);
         CHECK(lmb_gather_tile(&bounced[i], lmb_kernels_pick(), &scratch, &tile, &groups, NULL, NULL) == LMB_OK);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; k += 9) {
