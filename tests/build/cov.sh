@@ -20,7 +20,7 @@ find "$b/obj/src" -name '*.gcda' | grep -v -e neon -e simd128 | sed 's/gcda$/o/'
 rm -f "$folder/uncovered"
 reasons=tests/build/uncovered.txt
 xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncovered" -v reasons="$reasons" '
-    # FILE | part of the line | why.
+    # FILE | part of the line | why; each for one line.
     function read_reasons(    row, part) {
         while ((getline row < reasons) > 0) {
             if (row ~ /^#/ || split(row, part, / *[|] */) < 3) continue
@@ -29,7 +29,7 @@ xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncover
     }
     function reason_of(file, text,    i) {
         for (i = 1; i <= rows; ++i)
-            if (at_file[i] == file && index(text, at_text[i]) > 0) { ++told[i]; return 1 }
+            if (!told[i] && at_file[i] == file && index(text, at_text[i]) > 0) return told[i] = 1
         return 0
     }
     /^ *-: *0:Source:/ {
