@@ -46,7 +46,7 @@ tests() {
     occlusion) echo tests:occlusion hard:bounce hard:all tests:cut ;;
     light) echo tests:light hard:shadow tests:gloss tests:many hard:bounce ;;
     bounce) echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:all tests:elements \
-        tests:analytic tests:gloss tests:frames tests:map_picture ;;
+        tests:analytic tests:gloss tests:frames tests:map_picture tests:contracts ;;
     voxel) echo tests:voxel tests:voxels hard:mixed ;;
     probe) echo tests:probe tests:probe_cache hard:probe tests:relit tests:frames ;;
     relief) echo tests:relief tests:relief_light hard:relief ;;

@@ -676,6 +676,8 @@ static void test_refused(void)
     REFUSED(f.show = 4, LMB_ERR_ARG);
     REFUSED(f.show = -1, LMB_ERR_ARG);
     REFUSED(f.occlusion = 3, LMB_ERR_ARG);
+    REFUSED(f.error = -1.0f, LMB_ERR_ARG);
+    REFUSED(f.visible = -1.0f, LMB_ERR_ARG);
     REFUSED(f.steps = 65, LMB_ERR_ARG);
     REFUSED(f.steps = -1, LMB_ERR_ARG);
     REFUSED(f.light_map = 60, LMB_ERR_ARG);

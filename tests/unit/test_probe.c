@@ -482,7 +482,12 @@ static void refusals(stage *s)
     p->radius = 50.0f;
     p->centre.x = 51.0f; /* outside what it is the picture of */
     CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
+    p->centre.x = NAN;
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
     p->centre.x = 0.0f;
+    p->middle.y = NAN;
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
+    p->middle.y = 1.5f;
     p->face_size = 0;
     CHECK(lmb_world_bytes(p, LMB_WORLD_LOG8) == 0);
     p->face_size = FACE;
