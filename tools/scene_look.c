@@ -1,17 +1,21 @@
-/* scene_look.c: a scene solved by three trees, and its light at a few tiles by a ladder of settings. */
+/* scene_look.c: a scene solved by four trees, and its light at a few tiles by a ladder of settings. */
 #include "scene_look.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOOK_TREE = 256, LOOK_TEXELS = 1 << 21 /* over all faces */, MIDDLE = 2 /* rung: error 0.1 */ };
+enum { MIDDLE_LOOK = LMB_FACT_STEPS, OTHER_LOOK, LOOKS };
+enum { LOOK_TREE = 256, MIDDLE = 2 /* rung: error 0.1 */ };
+enum { FINER = 2 /* of the tree that errors are told against */, LOOK_TEXELS = 1 << 22 /* of it, over all faces */ };
 
 /* A job's frame with the look's own maps, tree and blockers. */
 typedef struct looker {
     const render_job *job;
     lmb_frame frame;
     lmb_render *render;
-    lmb_look *look; /* [3]: the finest, another, a middle one */
+    lmb_look *look;     /* [5]: the finest at each step's places, a middle one, another */
+    lmb_survey *places; /* [LMB_FACT_STEPS] */
     void *map, *tree, *blockers;
 } looker;
 
@@ -41,14 +45,29 @@ static lmb_status solve(looker *l, int32_t size)
     return status;
 }
 
-/* By other settings of the same light. Only what a picture has changes: the eye stands. */
-static lmb_status take(looker *l, lmb_look *out, float rung, int32_t step, int32_t occlusion)
+/* By other settings of the same light, at the places for step 1 << `at`. Only what a picture has changes: the eye
+ * stands. */
+static lmb_status take(looker *l, lmb_look *out, int at, float rung, int32_t step, int32_t occlusion)
 {
     lmb_frame *f = &l->render->frame;
     set_rung(f, rung);
     f->gather_step = step;
     f->occlusion = occlusion;
-    return lmb_render_look(out, l->render, f->scratch);
+    return lmb_render_look(out, l->render, f->scratch, &l->places[at]);
+}
+
+/* Where to look, by each step: by the coarsest tree and the largest error. */
+static lmb_status take_surveys(lmb_facts *out, looker *l)
+{
+    lmb_frame *f = &l->render->frame;
+    lmb_status status = solve(l, out->tree >> (LMB_FACT_TREES - 1));
+    for (int i = 0; i < LMB_FACT_STEPS && status == LMB_OK; ++i) {
+        set_rung(f, (float)(LMB_FACT_RUNGS - 1));
+        f->gather_step = 1 << i;
+        status = lmb_render_survey(&l->places[i], l->render, f->scratch);
+    }
+    out->shown = l->places[0].shown;
+    return status;
 }
 
 static void set_facts(lmb_facts *out, int step, int tree, int i, const lmb_look *look)
@@ -65,37 +84,73 @@ static void guess_finest(float (*table)[LMB_FACT_TREES][LMB_FACT_RUNGS], int ste
     table[step][tree][0] = next > 0.0f ? table[step][tree][1] * table[0][0][0] / next : 0.0f;
 }
 
-/* All rungs but the finest by one tree and step; at every pixel, against `fine`. */
-static lmb_status take_ladder(lmb_facts *out, looker *l, int step, int tree, const lmb_look *fine)
+static float ratio(float a, float b) { return b > 0.0f ? a / b : 0.0f; }
+
+/* Every other rung, between two that were looked at. Of step 1: their mean, by ratios; else its part of step 1's is. */
+static void guess_rungs(float (*table)[LMB_FACT_TREES][LMB_FACT_RUNGS], int step, int tree)
 {
-    lmb_look *other = &l->look[1];
-    lmb_status status = LMB_OK;
-    for (int i = 1; i < LMB_FACT_RUNGS && status == LMB_OK; ++i) {
-        status = take(l, other, (float)i, 1 << step, LMB_OCCLUSION_EXACT);
-        set_facts(out, step, tree, i, other);
-        if (step == 0) {
-            out->error[tree][i] = lmb_look_error(other, fine);
-        }
+    const float *full = table[0][tree];
+    float *part = table[step][tree];
+    for (int i = 2; i < LMB_FACT_RUNGS - 1; i += 2) {
+        part[i] = step == 0 ? sqrtf(part[i - 1] * part[i + 1])
+                            : full[i] * sqrtf(ratio(part[i - 1], full[i - 1]) * ratio(part[i + 1], full[i + 1]));
     }
-    if (step > 0 || tree > 0) {
+}
+
+/* Of fewer pixels, by the tree between two that were looked at: its part of step 1's is the mean of theirs. */
+static void guess_tree(float (*table)[LMB_FACT_TREES][LMB_FACT_RUNGS], int step)
+{
+    for (int i = 0; i < LMB_FACT_RUNGS; ++i) {
+        const float fine = ratio(table[step][0][i], table[0][0][i]), coarse = ratio(table[step][2][i], table[0][2][i]);
+        table[step][1][i] = table[0][1][i] * sqrtf(fine * coarse);
+    }
+}
+
+/* What fewer pixels add to an error by that tree, squared, is the mean of what they add by the two beside it. */
+static void guess_tree_error(float (*error)[LMB_FACT_TREES][LMB_FACT_RUNGS], int step)
+{
+    for (int i = 0; i < LMB_FACT_RUNGS; ++i) {
+        float square = error[0][1][i] * error[0][1][i];
+        for (int tree = 0; tree < LMB_FACT_TREES; tree += 2) {
+            const float with = error[step][tree][i], without = error[0][tree][i];
+            square += 0.5f * (with * with - without * without);
+        }
+        error[step][1][i] = sqrtf(fmaxf(square, 0.0f));
+    }
+}
+
+/* Rungs of one tree and step, against the finest at every pixel: all by the finest tree at every pixel, every other by
+ * the rest. */
+static lmb_status take_ladder(lmb_facts *out, looker *l, int step, int tree)
+{
+    lmb_look *other = &l->look[OTHER_LOOK];
+    const int is_first = step == 0 && tree == 0;
+    float *error = out->error[step][tree];
+    lmb_status status = LMB_OK;
+    for (int i = is_first ? 0 : 1; i < LMB_FACT_RUNGS && status == LMB_OK; i += is_first ? 1 : 2) {
+        status = take(l, other, step, (float)i, 1 << step, LMB_OCCLUSION_EXACT);
+        set_facts(out, step, tree, i, other);
+        error[i] = lmb_look_error(other, &l->look[step]);
+    }
+    if (!is_first) {
+        guess_rungs(out->pairs, step, tree);
+        guess_rungs(out->segments, step, tree);
         guess_finest(out->pairs, step, tree);
         guess_finest(out->segments, step, tree);
+        error[2] = sqrtf(error[1] * error[3]);
+        error[4] = sqrtf(error[3] * error[5]);
+        error[0] = error[1];
     }
-    out->error[tree][0] = tree > 0 ? out->error[tree][1] : 0.5f * out->error[0][1];
     return status;
 }
 
-/* What fewer pixels, and nothing that blocks, are off, against a middle rung. */
-static lmb_status take_others(lmb_facts *out, looker *l)
+/* What nothing that blocks is off, against a middle rung. */
+static lmb_status take_open(lmb_facts *out, looker *l)
 {
-    lmb_look *middle = &l->look[2], *other = &l->look[1];
-    lmb_status status = take(l, middle, MIDDLE, 1, LMB_OCCLUSION_EXACT);
-    for (int i = 1; i < LMB_FACT_STEPS && status == LMB_OK; ++i) {
-        status = take(l, other, MIDDLE, 1 << i, LMB_OCCLUSION_EXACT);
-        out->step_error[i] = lmb_look_error(other, middle);
-    }
+    lmb_look *middle = &l->look[MIDDLE_LOOK], *other = &l->look[OTHER_LOOK];
+    lmb_status status = take(l, middle, 0, MIDDLE, 1, LMB_OCCLUSION_EXACT);
     if (status == LMB_OK) {
-        status = take(l, other, MIDDLE, 1, LMB_OCCLUSION_NONE);
+        status = take(l, other, 0, MIDDLE, 1, LMB_OCCLUSION_NONE);
         out->open_error = lmb_look_error(other, middle);
         out->open_pairs = middle->pairs > 0.0 ? (float)(other->pairs / middle->pairs) : 1.0f;
     }
@@ -104,17 +159,22 @@ static lmb_status take_others(lmb_facts *out, looker *l)
 
 static lmb_status take_trees(lmb_facts *out, looker *l)
 {
-    lmb_look *fine = &l->look[0];
-    lmb_status status = solve(l, out->tree);
-    status = status == LMB_OK ? take(l, fine, 0.0f, 1, LMB_OCCLUSION_EXACT) : status;
-    set_facts(out, 0, 0, 0, fine);
-    out->shown = fine->shown;
-    status = status == LMB_OK ? take_others(out, l) : status;
+    lmb_status status = take_surveys(out, l);
+    status = status == LMB_OK ? solve(l, FINER * out->tree) : status;
+    for (int step = 0; step < LMB_FACT_STEPS && status == LMB_OK; ++step) {
+        status = take(l, &l->look[step], step, 0.0f, 1, LMB_OCCLUSION_EXACT);
+    }
     for (int tree = 0; tree < LMB_FACT_TREES && status == LMB_OK; ++tree) {
-        status = tree > 0 ? solve(l, out->tree >> tree) : status;
-        for (int step = 0; step < LMB_FACT_STEPS && status == LMB_OK; ++step) {
-            status = take_ladder(out, l, step, tree, fine);
+        status = solve(l, out->tree >> tree);
+        status = status == LMB_OK && tree == 0 ? take_open(out, l) : status;
+        for (int step = 0; step < LMB_FACT_STEPS && status == LMB_OK; step += tree == 1 ? LMB_FACT_STEPS : 1) {
+            status = take_ladder(out, l, step, tree);
         }
+    }
+    for (int step = 1; step < LMB_FACT_STEPS; ++step) {
+        guess_tree(out->pairs, step);
+        guess_tree(out->segments, step);
+        guess_tree_error(out->error, step);
     }
     return status;
 }
@@ -141,20 +201,25 @@ static void set_counts(lmb_facts *out, const lmb_render *r)
     }
 }
 
-static int set_memory(looker *l, lmb_facts *out, report *r)
+/* `finer`: times as fine as its tree is the finest that is solved. */
+static int set_memory(looker *l, lmb_facts *out, int32_t finer, report *r)
 {
     lmb_frame *f = &l->frame;
     const uint32_t faces = f->tree.face_cap, triangles = lmb_scene_triangles(f->scene);
-    while (out->tree > 64 && (double)out->tree * (double)out->tree * (double)faces > LOOK_TEXELS) {
+    while (finer > 1 && out->tree > 64 &&
+           (double)(finer * out->tree) * (double)(finer * out->tree) * (double)faces > LOOK_TEXELS) {
         out->tree /= 2;
     }
-    f->map_bytes = (size_t)faces * lmb_light_map_bytes(1, out->tree, f->id_format);
+    const int32_t most = finer * out->tree;
+    f->map_bytes = (size_t)faces * lmb_light_map_bytes(1, most, f->id_format);
     f->map_memory = l->map = malloc(f->map_bytes);
-    l->tree = malloc(lmb_tree_bytes(faces, out->tree));
+    l->tree = malloc(lmb_tree_bytes(faces, most));
     l->blockers = malloc(lmb_blockers_bytes(triangles));
     l->render = calloc(1, sizeof *l->render);
-    l->look = malloc(3 * sizeof *l->look);
+    l->look = malloc(LOOKS * sizeof *l->look);
+    l->places = malloc(LMB_FACT_STEPS * sizeof *l->places);
     return (l->map != NULL && l->tree != NULL && l->blockers != NULL && l->render != NULL && l->look != NULL &&
+            l->places != NULL &&
             lmb_blockers_init(&f->blockers, triangles, l->blockers, lmb_blockers_bytes(triangles)) == LMB_OK) ||
            report_fail(r, "not enough memory to look at the scene; without a budget it is drawn without");
 }
@@ -169,19 +234,27 @@ static int32_t look_tree(int32_t width)
     return tree;
 }
 
-/* Pairs and segments alone, by the job's own settings: every rung is that one. */
+/* Pairs and segments alone, by the job's own settings: every rung is that one. Where to look, by the largest error. */
 static lmb_status take_own(lmb_facts *out, looker *l)
 {
     lmb_look *look = &l->look[0];
+    lmb_frame *f = &l->render->frame;
     lmb_status status = solve(l, out->tree);
+    const float error = f->error, visible = f->visible;
     if (status == LMB_OK) {
-        status = lmb_render_look(look, l->render, l->frame.scratch);
+        set_rung(f, (float)(LMB_FACT_RUNGS - 1));
+        status = lmb_render_survey(&l->places[0], l->render, f->scratch);
+    }
+    if (status == LMB_OK) {
+        f->error = error;
+        f->visible = visible;
+        status = lmb_render_look(look, l->render, f->scratch, &l->places[0]);
     }
     for (int i = 0; i < LMB_FACT_STEPS * LMB_FACT_TREES * LMB_FACT_RUNGS && status == LMB_OK; ++i) {
         set_facts(out, i / LMB_FACT_RUNGS / LMB_FACT_TREES, i / LMB_FACT_RUNGS % LMB_FACT_TREES, i % LMB_FACT_RUNGS,
                   look);
     }
-    out->shown = look->shown;
+    out->shown = l->places[0].shown;
     out->open_pairs = 1.0f;
     return status;
 }
@@ -203,7 +276,7 @@ int scene_look(lmb_facts *out, const render_job *j, report *r)
         return 1; /* nothing bounces, or by groups, whose pairs are not counted */
     }
     out->tree = chooses ? look_tree(j->frame.view.frame_width) : j->frame.tree.size;
-    int ok = set_memory(&l, out, r);
+    int ok = set_memory(&l, out, chooses ? FINER : 1, r);
     if (ok) {
         const lmb_status status = chooses ? take_trees(out, &l) : take_own(out, &l);
         ok = status == LMB_OK || report_fail(r, "%s: looking at it stopped: %s", j->o.scene, lmb_status_name(status));
@@ -216,5 +289,6 @@ int scene_look(lmb_facts *out, const render_job *j, report *r)
     free(l.blockers);
     free(l.render);
     free(l.look);
+    free(l.places);
     return ok;
 }

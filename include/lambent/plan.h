@@ -7,7 +7,8 @@
  * A frame leaves out only what can change no byte of its picture; which it was asked for is in lmb_frame. With a
  * budget, settings are chosen by what a few tiles of the scene itself tell:
  *
- *     lmb_render_look(&look, &r, ...);         a few settings by a few tiles of a frame that is solved: facts
+ *     lmb_render_survey(&survey, &r, ...);     which tiles of a frame that is solved are worth a look
+ *     lmb_render_look(&look, &r, ...);         a few settings by those tiles: facts
  *     lmb_plan_choose(&settings, &facts, &budget);
  *
  * All of it is a function of scene, view and numbers: no clock, the same on every machine. Work is counted in units:
@@ -90,20 +91,19 @@ typedef struct lmb_settings {
 
 /* What looks at some tiles of a solved frame found: LMB_FACT_RUNGS settings of `error`, each twice the last, with
  * `visible` LMB_FACT_VISIBLE of it, by LMB_FACT_TREES trees, each half as fine as the last. Errors are lmb_look_error's
- * against the finest setting of the finest tree. */
+ * against the finest setting at every pixel of a tree that is finer still. */
 enum { LMB_FACT_RUNGS = 6, LMB_FACT_TREES = 3, LMB_FACT_STEPS = 3 };
 #define LMB_FACT_FINEST  0.025f
 #define LMB_FACT_VISIBLE 0.3f
 typedef struct lmb_facts {
     double triangles, faces, tiles, lights; /* of the scene; drawn, of maps; of the frame; that light directly */
     double bounces, elements;               /* as the frame asks for; cap: 0 where there are none */
-    float shown;                            /* pixels with a surface, of all */
+    float shown;                            /* pixels with a surface, of all of its tiles */
     int32_t wanted_map;                     /* texels a side of a map whose texels are as fine as the picture */
     int32_t tree;                           /* texels a side of the finest */
     float pairs[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS]; /* a shown pixel, by gather_step 1, 2 and 4 */
     float segments[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS];
-    float error[LMB_FACT_TREES][LMB_FACT_RUNGS]; /* by gather_step 1 */
-    float step_error[LMB_FACT_STEPS];            /* against that */
+    float error[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS];
     float open_error, open_pairs;           /* without occlusion against with it; pairs over those with it */
     int32_t convex;                         /* 1: nothing stands between */
 } lmb_facts;
@@ -124,12 +124,27 @@ typedef struct lmb_choice {
     int32_t meets; /* 1: all of the budget */
 } lmb_choice;
 
-/* The light of some tiles, by one setting. */
-enum { LMB_LOOK_BLOCKS = 40, LMB_LOOK_PIXELS = LMB_LOOK_BLOCKS * LMB_SPARSE_TILES * LMB_TILE_PIXELS };
+/* Which tiles of a frame are looked at: places of one tile each, or of LMB_SPARSE_TILES side by side where pixels are
+ * left out; drawn with chances that go by what they take. 17 KB and 250 KB: yours, and written whole. */
+enum { LMB_LOOK_TILES = 192, LMB_LOOK_BLOCKS = 80 };
+enum { LMB_LOOK_PIXELS = LMB_LOOK_BLOCKS * LMB_SPARSE_TILES * LMB_TILE_PIXELS };
+enum { LMB_SURVEY = 2048 /* tiles that are asked what they take; of larger frames so many, spread evenly */ };
+typedef struct lmb_survey {
+    int32_t tiles, count;                      /* of a place; places to look at: the first of these */
+    uint16_t x[LMB_SURVEY], y[LMB_SURVEY];     /* their first pixel */
+    float weight[LMB_LOOK_TILES];              /* how many places each stands for */
+    int32_t surveyed;                          /* places */
+    float take[LMB_SURVEY];                    /* pairs and segments of each; 0: nothing is seen there */
+    double pixels;                             /* of them, with a surface */
+    float shown;                               /* pixels with a surface, of all of the frame's tiles */
+} lmb_survey;
+
+/* The light of a survey's places, by one setting. */
 typedef struct lmb_look {
-    float light[LMB_LOOK_PIXELS][3]; /* W/m2; below 0: no surface */
-    double pixels, pairs, segments;  /* with a surface; counted over them */
-    float shown;                     /* pixels with a surface, of all of the frame's */
+    int32_t tiles;
+    float weight[LMB_LOOK_PIXELS / LMB_TILE_PIXELS]; /* of each tile */
+    float light[LMB_LOOK_PIXELS][3];                 /* W/m2; below 0: no surface */
+    double pixels, pairs, segments;                  /* of all that was surveyed: with a surface; estimated */
 } lmb_look;
 
 typedef struct lmb_plan {
@@ -156,15 +171,22 @@ lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_fact
 /* lmb_plan_units: the work of one operation; 0 for other numbers. */
 double lmb_plan_units(int32_t op);
 
-/* lmb_render_look: bounced light of LMB_LOOK_BLOCKS blocks of four tiles, spread over the frame, as its settings of the
- * moment (error, visible, occlusion, gather_step) have it.
+/* lmb_render_survey: what tiles of a frame take as its settings of the moment (error, visible, occlusion, gather_step)
+ * have it, and which of them to look at. A coarse tree and a large error will do.
  *
  *   r  a frame by LMB_GROUP_CUT, at LMB_STAGE_BANDS, with a whole frame's eye; read. lmb_render_again changes settings.
- * Returns LMB_OK or LMB_ERR_ARG. Cost: that of 160 tiles. */
-lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch);
+ * Returns LMB_OK or LMB_ERR_ARG. Cost: that of LMB_SURVEY tiles at most, and all of the frame's tiles resolved. */
+lmb_status lmb_render_survey(lmb_survey *out, const lmb_render *r, lmb_band_scratch *scratch);
 
-/* lmb_look_error: how far `a` is from `b`: root of the mean square over the pixels' channels, without the worst 1 % of
- * the pixels, over the mean of b. 0 where b is dark. */
+/* lmb_render_look: bounced light of a survey's places, as the frame's settings of the moment have it.
+ *
+ *   r       as above; read.
+ *   places  of a survey by a gather_step of 1 where this is by 1, else of one over 1; or that by 1 again, to compare.
+ * Returns LMB_OK or LMB_ERR_ARG. Cost: that of LMB_LOOK_TILES tiles, or of LMB_LOOK_BLOCKS blocks of four. */
+lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch, const lmb_survey *places);
+
+/* lmb_look_error: how far `a` is from `b`, by the same places: root of the mean square over the pixels' channels,
+ * without the worst 1 % of the pixels, over the mean of b. 0 where b is dark. */
 float lmb_look_error(const lmb_look *a, const lmb_look *b);
 
 /* lmb_facts_count: pairs and segments of all the frame's pixels by `facts`, for a frame's settings. */

@@ -1,8 +1,7 @@
 /* plan_choose.c: settings for a budget, by what a look at the scene found and a fitted model. Floor 8.
  *
  * Errors of the cut, of the map and of what is filled in between pixels are taken as independent: their squares add.
- * Each is the look's own figure times one number that was fitted over scenes (plan_model.inc). What the finest tree of
- * the look is off by itself is told by how the error fell from a quarter to a half of it. */
+ * Each is the look's own figure times one number that was fitted over scenes (plan_model.inc). */
 #include <lambent/plan.h>
 
 #include <string.h>
@@ -34,59 +33,52 @@ static float rung_of(float error) { return lmb_log2(maxf(error, 1e-6f) / LMB_FAC
 static float octaves(const lmb_facts *f, int32_t tree) { return lmb_log2((float)tree / (float)f->tree); }
 
 /* A table's number at a rung and a tree: between the looks' trees by equal ratios; beyond them the last ratio goes
- * on, by `finer` of it where they are finer. */
-static double at_tree(const float (*table)[LMB_FACT_RUNGS], float k, float doublings, float finer)
+ * on. */
+static double at_tree(const float (*table)[LMB_FACT_RUNGS], float k, float doublings)
 {
     const float last = (float)(LMB_FACT_TREES - 1), t = clampf(-doublings, 0.0f, last);
     const int i = mini((int)t, LMB_FACT_TREES - 2);
     const double a = at_rung(table[i], k), b = at_rung(table[i + 1], k);
     const float per = lmb_log2(clampf((float)(b / a), 0.1f, 1.2f));
-    const float beyond = doublings > 0.0f ? -doublings * finer : -doublings > last ? -doublings - last : 0.0f;
+    const float beyond = doublings > 0.0f ? -doublings : -doublings > last ? -doublings - last : 0.0f;
     return a * (double)lmb_exp2(per * (t - (float)i + beyond));
 }
 
-void lmb_model_light(double *pairs, double *segments, const plan_model *m, const lmb_facts *f, const lmb_settings *s,
+void lmb_model_light(double *pairs, double *segments, const lmb_facts *f, const lmb_settings *s,
                      double pixels)
 {
     const float doublings = octaves(f, s->tree);
     const int step = s->gather_step / 2, exact = s->occlusion == LMB_OCCLUSION_EXACT;
     const double shown = pixels * (double)f->shown;
     const float asked = rung_of(s->visible / LMB_FACT_VISIBLE);
-    *pairs = shown * at_tree(f->pairs[step], rung_of(s->error), doublings, m->finer) *
+    *pairs = shown * at_tree(f->pairs[step], rung_of(s->error), doublings) *
              (exact ? 1.0 : (double)f->open_pairs);
-    *segments = exact ? shown * at_tree(f->segments[step], asked, doublings, m->finer) : 0.0;
+    *segments = exact ? shown * at_tree(f->segments[step], asked, doublings) : 0.0;
 }
 
 void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *f)
 {
     lmb_settings s = {f->light_map, f->tree.size, f->error, f->visible, f->gather_step, f->occlusion};
     const lmb_view *v = &f->view;
+    const int32_t across = (v->frame_width + LMB_TILE - 1) / LMB_TILE;
     *pairs = *segments = 0.0;
     if (wants_cut(f)) {
-        lmb_model_light(pairs, segments, &lmb_model, facts, &s, (double)v->frame_width * (double)v->frame_height);
+        lmb_model_light(pairs, segments, facts, &s, (double)across * (double)band_count(v) * LMB_TILE_PIXELS);
     }
 }
 
-/* What a tree is off by itself, by the finest rung but one: the difference's square over the finest tree's. */
-static float by_itself(const lmb_facts *f, int tree)
-{
-    const float a = f->error[tree][1], b = f->error[0][1];
-    return sqrtf(maxf(a * a - b * b, 1e-12f));
-}
-
+/* What the tree that errors are told against is off by itself is a part of what the next coarser one is off from it. */
 float lmb_model_error(const plan_model *m, const lmb_facts *f, const lmb_settings *s)
 {
     const float doublings = octaves(f, s->tree), k = rung_of(s->error);
-    const float fall = clampf(by_itself(f, 2) / by_itself(f, 1), m->least_fall, m->most_fall);
-    const int tree = mini((int)maxf(0.5f - doublings, 0.0f), LMB_FACT_TREES - 1);
-    const double cut = at_rung(f->error[tree], k) * (double)m->cut;
-    const float own = by_itself(f, 1) / fall * m->map; /* the finest tree's */
-    const double finer = (double)(own * lmb_exp2(-lmb_log2(fall) * maxf(doublings, 0.0f)));
-    const float past = maxf(-2.0f - doublings, 0.0f);
-    const double coarser = (double)lmb_exp2(lmb_log2(maxf(fall, COARSE)) * past);
-    const double step = (double)(f->step_error[s->gather_step / 2] * m->step);
+    const int tree = mini((int)maxf(0.5f - doublings, 0.0f), LMB_FACT_TREES - 1), step = s->gather_step / 2;
+    const double cut = at_rung(f->error[0][tree], k) * (double)m->cut;
+    const double all = step > 0 ? at_rung(f->error[step][tree], k) * (double)m->step : cut;
+    const double own = (double)(f->error[0][0][0] * m->map * lmb_exp2(-maxf(doublings, 0.0f)));
+    const float growth = clampf(f->error[0][2][1] / maxf(f->error[0][1][1], 1e-6f), COARSE, 2.0f * COARSE);
+    const double coarser = (double)lmb_exp2(lmb_log2(growth) * maxf(-2.0f - doublings, 0.0f));
     const double open = s->occlusion == LMB_OCCLUSION_EXACT ? 0.0 : (double)f->open_error;
-    return sqrtf((float)(cut * cut * coarser * coarser + finer * finer + step * step + open * open));
+    return sqrtf((float)(all * all + cut * cut * (coarser * coarser - 1.0) + own * own + open * open));
 }
 
 void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, uint64_t fixed)
@@ -104,7 +96,7 @@ void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, ui
     out->op[LMB_OP_LIT] = pixels * f->lights;
     out->op[LMB_OP_CUTS] = f->tiles / (double)(s->gather_step * s->gather_step) * (f->elements > 0.0 ? 2.0 : 1.0) +
                            f->elements / LMB_TILE_PIXELS * (f->bounces - 1.0);
-    lmb_model_light(&out->op[LMB_OP_PAIRS], &out->op[LMB_OP_SEGMENTS], m, f, s, pixels);
+    lmb_model_light(&out->op[LMB_OP_PAIRS], &out->op[LMB_OP_SEGMENTS], f, s, pixels);
     out->op[LMB_OP_SEGMENTS] = f->convex ? 0.0 : out->op[LMB_OP_SEGMENTS];
     out->op[LMB_OP_STORED] = pixels;
     out->work = 0.0;

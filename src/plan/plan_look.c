@@ -1,5 +1,5 @@
 /* plan_look.c: a look at some tiles of a solved frame: what a setting costs and how far it is from another. Floor 8. */
-#include <lambent/plan.h>
+#include "plan_look.h"
 
 #include <string.h>
 
@@ -9,103 +9,85 @@
 
 #if LMB_PLAN && LMB_TREES
 
-enum { BLOCK = LMB_SPARSE_TILES * LMB_TILE, BLOCK_PIXELS = LMB_SPARSE_TILES * LMB_TILE_PIXELS, BINS = 256 };
-#define GOLDEN 0.6180340f
+enum { BINS = 256 };
 
-/* How many blocks there are, side by side and in all. */
-static int32_t across(const lmb_view *v) { return (v->frame_width + BLOCK - 1) / BLOCK; }
-static int32_t block_count(const lmb_view *v) { return mini(LMB_LOOK_BLOCKS, across(v) * band_count(v)); }
-
-/* Block i's first tile: spread along the frame's bands, at places of a golden-ratio sequence within them; of small
- * frames each once. */
-static void place_block(int32_t *x, int32_t *band, const lmb_view *v, int32_t i)
+int lmb_can_look(const lmb_render *r)
 {
-    const int32_t bands = band_count(v), all = block_count(v);
-    const float along = (float)i * GOLDEN;
-    *band = mini((int32_t)(((float)i + 0.5f) / (float)all * (float)bands), bands - 1);
-    *x = mini((int32_t)((along - floorf(along)) * (float)across(v)), across(v) - 1) * BLOCK;
-    if (all == across(v) * bands) {
-        *band = i / across(v);
-        *x = i % across(v) * BLOCK;
-    }
+    return r != NULL && r->failed == LMB_OK && r->stage >= LMB_STAGE_BANDS && wants_cut(&r->frame) &&
+           is_whole(&r->frame.eye.depth, &r->frame.view);
 }
 
-/* One tile's light into `out`. */
-static lmb_status put_tile(float (*out)[3], lmb_look *look, const lmb_irradiance *light, const lmb_tile *tile)
+uint64_t lmb_shown(const lmb_tile *tile)
 {
+    uint64_t out = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        for (int c = 0; c < 3; ++c) {
-            out[k][c] = tile->id[k] != 0 ? light->rgb[c][k] : -1.0f;
+        out |= (uint64_t)(tile->id[k] != 0) << k;
+    }
+    return out;
+}
+
+lmb_status lmb_render_place(uint64_t *shown, const lmb_render *r, lmb_band_scratch *s, int32_t x, int32_t y,
+                            int32_t tiles)
+{
+    const lmb_frame *f = &r->frame;
+    const int32_t here = mini(tiles, (f->view.frame_width - x + LMB_TILE - 1) / LMB_TILE);
+    lmb_status status = f->gather_step > 1 ? lmb_render_block(r, s, &f->eye, x, y, here) : LMB_OK;
+    for (int32_t part = 0; part < tiles; ++part) {
+        shown[part] = 0;
+    }
+    for (int32_t part = 0; part < here && status == LMB_OK; ++part) {
+        status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x + part * LMB_TILE, y);
+        if (status == LMB_OK) {
+            shown[part] = lmb_shown(&s->tile);
         }
-        look->pixels += tile->id[k] != 0 ? 1.0 : 0.0;
-    }
-    return LMB_OK;
-}
-
-static lmb_status take_tile(float (*out)[3], lmb_look *look, const lmb_render *r, lmb_band_scratch *s, int32_t x,
-                            int32_t y, int32_t part)
-{
-    const lmb_frame *f = &r->frame;
-    lmb_status status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x + part * LMB_TILE, y);
-    if (status != LMB_OK || f->gather_step > 1) {
-        return status != LMB_OK ? status : put_tile(out, look, &s->sparse.light[part], &s->tile);
-    }
-    memset(&s->indirect, 0, sizeof s->indirect);
-    status = lmb_render_gather(&s->indirect, NULL, r, s, &s->tile);
-    return status != LMB_OK ? status : put_tile(out, look, &s->indirect, &s->tile);
-}
-
-static lmb_status take_block(float (*out)[3], lmb_look *look, const lmb_render *r, lmb_band_scratch *s, int32_t i)
-{
-    const lmb_frame *f = &r->frame;
-    int32_t x, band;
-    lmb_status status = LMB_OK;
-    place_block(&x, &band, &f->view, i);
-    const int32_t tiles = mini(LMB_SPARSE_TILES, (f->view.frame_width - x + LMB_TILE - 1) / LMB_TILE);
-    if (f->gather_step > 1) {
-        status = lmb_render_block(r, s, &f->eye, x, band * LMB_TILE, tiles);
-    }
-    for (int32_t part = 0; part < tiles && status == LMB_OK; ++part) {
-        status = take_tile(out + part * LMB_TILE_PIXELS, look, r, s, x, band * LMB_TILE, part);
+        if (status == LMB_OK && f->gather_step == 1) {
+            memset(&s->sparse.light[part], 0, sizeof s->sparse.light[part]);
+            status = lmb_render_gather(&s->sparse.light[part], NULL, r, s, &s->tile);
+        }
     }
     return status;
 }
 
-/* Of the frame's pixels, by bands resolved: what has an id. */
-static float share_shown(const lmb_render *r, lmb_tile *tile)
+/* One tile's light. */
+static void put_tile(float (*out)[3], const lmb_irradiance *light, uint64_t shown)
 {
-    const lmb_frame *f = &r->frame;
-    double n = 0.0;
-    for (int32_t y = 0; y < f->view.frame_height; y += LMB_TILE) {
-        for (int32_t x = 0; x < f->view.frame_width; x += LMB_TILE) {
-            if (lmb_resolve_tile(tile, f->kernels, &f->view, f->scene, &f->eye, x, y) == LMB_OK) {
-                for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-                    n += tile->id[k] != 0 ? 1.0 : 0.0;
-                }
-            }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            out[k][c] = shown >> k & 1u ? light->rgb[c][k] : -1.0f;
         }
     }
-    return (float)(n / ((double)f->view.frame_width * (double)f->view.frame_height));
 }
 
-lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch)
+static lmb_status take_place(lmb_look *out, const lmb_render *r, lmb_band_scratch *s, const lmb_survey *places,
+                             int32_t i)
+{
+    uint64_t shown[LMB_SPARSE_TILES];
+    const double weight = (double)places->weight[i];
+    memset(&s->counts, 0, sizeof s->counts);
+    const lmb_status status = lmb_render_place(shown, r, s, places->x[i], places->y[i], places->tiles);
+    for (int32_t part = 0; part < places->tiles; ++part) {
+        const int32_t at = i * places->tiles + part;
+        put_tile(out->light + at * LMB_TILE_PIXELS, &s->sparse.light[part], shown[part]);
+        out->weight[at] = places->weight[i];
+    }
+    out->pairs += weight * (double)s->counts.pairs;
+    out->segments += weight * (double)s->counts.segments;
+    return status;
+}
+
+lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch, const lmb_survey *places)
 {
     lmb_status status = LMB_OK;
-    if (out == NULL || r == NULL || scratch == NULL || r->failed != LMB_OK || r->stage < LMB_STAGE_BANDS ||
-        !wants_cut(&r->frame) || !is_whole(&r->frame.eye.depth, &r->frame.view)) {
+    if (out == NULL || scratch == NULL || places == NULL || !lmb_can_look(r) ||
+        (r->frame.gather_step > 1 && places->tiles == 1)) {
         return LMB_ERR_ARG;
     }
-    memset(&scratch->counts, 0, sizeof scratch->counts);
-    out->pixels = 0.0;
-    out->shown = share_shown(r, &scratch->tile);
-    for (int32_t i = 0; i < LMB_LOOK_PIXELS; ++i) {
-        out->light[i][0] = out->light[i][1] = out->light[i][2] = -1.0f;
+    out->tiles = places->count * places->tiles;
+    out->pixels = places->pixels;
+    out->pairs = out->segments = 0.0;
+    for (int32_t i = 0; i < places->count && status == LMB_OK; ++i) {
+        status = take_place(out, r, scratch, places, i);
     }
-    for (int32_t i = 0; i < block_count(&r->frame.view) && status == LMB_OK; ++i) {
-        status = take_block(out->light + i * BLOCK_PIXELS, out, r, scratch, i);
-    }
-    out->pairs = (double)scratch->counts.pairs;
-    out->segments = (double)scratch->counts.segments;
     return status;
 }
 
@@ -113,11 +95,8 @@ lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch 
 
 /* Square errors by size: a bin an octave. */
 typedef struct bins {
-    double sum[BINS];
-    uint32_t count[BINS];
+    double sum[BINS], count[BINS];
 } bins;
-
-static double floor_of(double v) { return (double)(int32_t)v; }
 
 static int bin_of(float v)
 {
@@ -131,23 +110,24 @@ float lmb_look_error(const lmb_look *a, const lmb_look *b)
     bins all;
     double mean = 0.0, square = 0.0, count = 0.0;
     memset(&all, 0, sizeof all);
-    for (int32_t i = 0; i < LMB_LOOK_PIXELS; ++i) {
+    for (int32_t i = 0; i < b->tiles * LMB_TILE_PIXELS; ++i) {
         const float *p = a->light[i], *q = b->light[i];
         if (p[0] >= 0.0f && q[0] >= 0.0f) {
             const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], e = x * x + y * y + z * z;
-            all.sum[bin_of(e)] += (double)e;
-            ++all.count[bin_of(e)];
-            mean += (double)(q[0] + q[1] + q[2]);
-            count += 1.0;
+            const double weight = (double)b->weight[i / LMB_TILE_PIXELS];
+            all.sum[bin_of(e)] += weight * (double)e;
+            all.count[bin_of(e)] += weight;
+            mean += weight * (double)(q[0] + q[1] + q[2]);
+            count += weight;
         }
     }
-    double worst = floor_of(0.01 * count);
+    double worst = 0.01 * count;
     for (int i = BINS - 1; i >= 0; --i) {
-        const double n = (double)all.count[i], kept = n > worst ? n - worst : 0.0;
+        const double n = all.count[i], kept = n > worst ? n - worst : 0.0;
         square += n > 0.0 ? all.sum[i] * (kept / n) : 0.0;
         worst -= n - kept;
     }
-    const double per = count - floor_of(0.01 * count);
+    const double per = 0.99 * count;
     return mean > 0.0 && per > 0.0 ? (float)((double)sqrtf((float)(square / (3.0 * per))) / (mean / (3.0 * count)))
                                    : 0.0f;
 }

@@ -7,7 +7,7 @@
 #include "../../src/plan/plan_model.h"
 #include "../../tools/render_job.h"
 
-enum { PLAN_SCENES = 16, PLAN_RUNS = 64, PLAN_TIMES = LMB_STAGE_DONE };
+enum { PLAN_WIDTH = 240, PLAN_HEIGHT = 180, PLAN_SCENES = 16, PLAN_RUNS = 64, PLAN_TIMES = LMB_STAGE_DONE };
 
 /* One setting, drawn. */
 typedef struct plan_run {
@@ -27,10 +27,13 @@ typedef struct plan_scene {
 
 double plan_seconds(const plan_run *r);
 
+/* plan_work: units, of pairs and segments as they were counted. */
+double plan_work(const plan_scene *s, const plan_run *r);
+
 /* plan_open: a scene of the list, ready to draw, by one thread. 1, or 0: it is not here. */
 typedef struct plan_place {
-    const char *name, *path, *light; /* NULL: its own lights */
-    int fits, heavy;                 /* heavy: fewer settings are drawn */
+    const char *name, *path, *options; /* what it is drawn with, beside what all are; words apart by one space */
+    int fits, heavy;                   /* heavy: fewer settings are drawn */
 } plan_place;
 extern const plan_place plan_places[];
 extern const int plan_place_count;

@@ -52,15 +52,19 @@ static int why_of(lmb_plan_stage stage) { return plan.row[stage].why; }
 
 /* --- counts ------------------------------------------------------------------------------------------------------- */
 
+static lmb_survey places;
+
 /* A look at all tiles of a small frame knows all of its pairs and segments. */
 static void look_at(lmb_facts *out, const lmb_frame *f, lmb_look *at)
 {
     lmb_frame quiet = *f;
     quiet.stats = NULL;
     memset(out, 0, sizeof *out);
-    CHECK(lmb_render_frame(&render, &quiet) == LMB_OK && lmb_render_look(at, &render, &scratch) == LMB_OK);
+    CHECK(lmb_render_frame(&render, &quiet) == LMB_OK);
+    CHECK(lmb_render_survey(&places, &render, &scratch) == LMB_OK);
+    CHECK(lmb_render_look(at, &render, &scratch, &places) == LMB_OK);
     out->tree = f->tree.size;
-    out->shown = at->shown;
+    out->shown = places.shown;
     for (int i = 0; i < LMB_FACT_TREES * LMB_FACT_RUNGS; ++i) {
         out->pairs[0][i / LMB_FACT_RUNGS][i % LMB_FACT_RUNGS] = (float)(at->pairs / at->pixels);
         out->segments[0][i / LMB_FACT_RUNGS][i % LMB_FACT_RUNGS] = (float)(at->segments / at->pixels);
@@ -88,7 +92,7 @@ static void test_counts(void)
     /* Errors of looks: none against itself; a tenth of each pixel is a tenth, or more where light is uneven. */
     twice = at;
     CHECK(lmb_look_error(&twice, &at) == 0.0f);
-    for (int i = 0; i < LMB_LOOK_PIXELS; ++i) {
+    for (int i = 0; i < at.tiles * LMB_TILE_PIXELS; ++i) {
         for (int c = 0; c < 3; ++c) {
             twice.light[i][c] *= at.light[i][c] > 0.0f ? 1.1f : 1.0f;
         }
@@ -103,16 +107,18 @@ static void test_sparse_look(void)
     lmb_facts facts;
     lmb_frame f = set_frame();
     double sum[2] = {0.0, 0.0};
-    look_at(&facts, &f, &each);
     f.gather_step = 2;
     look_at(&facts, &f, &other_one);
+    render.frame.gather_step = 1;
+    CHECK(lmb_render_look(&each, &render, &scratch, &places) == LMB_OK);
     for (int i = 0; i < LMB_LOOK_PIXELS; ++i) {
         sum[0] += (double)maxf(each.light[i][1], 0.0f);
         sum[1] += (double)maxf(other_one.light[i][1], 0.0f);
     }
     CHECK(each.pixels == other_one.pixels && other_one.pairs < 0.9 * each.pairs && sum[0] > 0.0);
     CHECK_MSG(fabs(sum[1] / sum[0] - 1.0) < 0.02, "%g of it", sum[1] / sum[0]);
-    CHECK(lmb_look_error(&other_one, &each) > 0.0f && lmb_look_error(&other_one, &each) < 0.3f);
+    CHECK_MSG(lmb_look_error(&other_one, &each) > 0.0f && lmb_look_error(&other_one, &each) < 0.3f, "%g",
+              (double)lmb_look_error(&other_one, &each));
 }
 
 /* Later bounces, lobes and what shines: their operations and bytes; after the frame, what is kept. */
@@ -159,6 +165,48 @@ static void test_groups(void)
     CHECK_MSG(points->why == LMB_WHY_RUNS && points->op[LMB_OP_SUMMED] == (double)(plan.faces_drawn * MAP * MAP) &&
                   points->bytes >= MAP * MAP * 2 * sizeof(lmb_point) && points->bytes < all + 2 * sizeof groups,
               "%g %g", points->op[LMB_OP_SUMMED], (double)points->bytes);
+}
+
+/* --- surveys ------------------------------------------------------------------------------------------------------ */
+
+enum { LARGE = 368 /* 2,116 tiles, of which 2,048 are asked and 192, or 80 blocks of four, looked at */ };
+static uint32_t large_depth[LARGE * LARGE], large_id[LARGE * LARGE];
+static float large_picture[LARGE * LARGE * 3];
+
+/* Drawn whole, and its operations told by a look, by one step. */
+static void survey_at(int32_t step)
+{
+    static lmb_look at;
+    static lmb_survey again;
+    lmb_frame f = set_frame();
+    f.view = look(vec3(1.2f, 0.9f, 2.2f), vec3(-0.1f, -0.4f, 0), 60, LARGE);
+    f.eye = target_of(LMB_DEPTH32F, LARGE, large_depth, large_id);
+    CHECK(lmb_surface_init(&f.out, LMB_RGB32F, LARGE, LARGE, large_picture, sizeof large_picture) == LMB_OK);
+    f.gather_step = step;
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK);
+    render.frame.error = render.frame.visible = 0.8f;
+    CHECK(lmb_render_survey(&places, &render, &scratch) == LMB_OK);
+    CHECK(lmb_render_survey(&again, &render, &scratch) == LMB_OK);
+    CHECK(places.count == again.count && memcmp(places.weight, again.weight, sizeof(float) * (size_t)places.count) == 0);
+    CHECK(places.tiles == (step > 1 ? LMB_SPARSE_TILES : 1) && places.surveyed * places.tiles <= LMB_SURVEY);
+    CHECK(places.count >= (step > 1 ? LMB_LOOK_BLOCKS : LMB_LOOK_TILES) - 1 && places.count < places.surveyed / 2);
+    render.frame.error = render.frame.visible = 0.1f;
+    CHECK(lmb_render_look(&at, &render, &scratch, &places) == LMB_OK);
+    const double of_all = (double)places.shown * LARGE * LARGE / at.pixels;
+    const double pairs = at.pairs * of_all / (double)stats.pairs, segments = at.segments * of_all / (double)stats.segments;
+    CHECK_MSG(fabs(pairs - 1.0) < 0.05 && fabs(segments - 1.0) < 0.1, "step %d: pairs %.3f, segments %.3f", (int)step,
+              pairs, segments);
+    render.frame.gather_step = 2; /* of single tiles there is no block */
+    CHECK(lmb_render_look(&at, &render, &scratch, &places) == (step > 1 ? LMB_OK : LMB_ERR_ARG));
+    CHECK(lmb_render_look(&at, &render, &scratch, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_render_survey(NULL, &render, &scratch) == LMB_ERR_ARG);
+    CHECK(lmb_render_survey(&places, NULL, &scratch) == LMB_ERR_ARG);
+}
+
+static void test_surveys(void)
+{
+    survey_at(1);
+    survey_at(4);
 }
 
 /* --- reasons ------------------------------------------------------------------------------------------------------ */
@@ -275,11 +323,10 @@ static lmb_facts some_facts(void)
         for (int step = 0; step < LMB_FACT_STEPS; ++step) {
             f.pairs[step][tree][rung] = 4000.0f / (float)(1 << (rung + tree / 2 + step));
             f.segments[step][tree][rung] = f.pairs[step][tree][rung];
+            f.error[step][tree][rung] =
+                0.004f * (float)(1 << rung) + 0.01f * (float)tree + 0.006f * (float)(step * (step + 1));
         }
-        f.error[tree][rung] = 0.004f * (float)(1 << rung) + 0.01f * (float)tree;
     }
-    f.step_error[1] = 0.01f;
-    f.step_error[2] = 0.03f;
     f.open_error = 0.3f;
     f.open_pairs = 1.1f;
     return f;
@@ -315,6 +362,7 @@ void test_plan_frame(void)
     test_sparse_look();
     test_rows();
     test_groups();
+    test_surveys();
     test_reasons();
     test_kept();
     test_convex();
