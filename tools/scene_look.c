@@ -86,60 +86,45 @@ static void guess_finest(float (*table)[LMB_FACT_TREES][LMB_FACT_RUNGS], int ste
 
 static float ratio(float a, float b) { return b > 0.0f ? a / b : 0.0f; }
 
-/* Every other rung, between two that were looked at. Of step 1: their mean, by ratios; else its part of step 1's is. */
+/* Every other rung, between two that were looked at: its part of step 1's is the mean, by ratios, of theirs. */
 static void guess_rungs(float (*table)[LMB_FACT_TREES][LMB_FACT_RUNGS], int step, int tree)
 {
     const float *full = table[0][tree];
     float *part = table[step][tree];
     for (int i = 2; i < LMB_FACT_RUNGS - 1; i += 2) {
-        part[i] = step == 0 ? sqrtf(part[i - 1] * part[i + 1])
-                            : full[i] * sqrtf(ratio(part[i - 1], full[i - 1]) * ratio(part[i + 1], full[i + 1]));
+        part[i] = full[i] * sqrtf(ratio(part[i - 1], full[i - 1]) * ratio(part[i + 1], full[i + 1]));
     }
 }
 
-/* Of fewer pixels, by the tree between two that were looked at: its part of step 1's is the mean of theirs. */
-static void guess_tree(float (*table)[LMB_FACT_TREES][LMB_FACT_RUNGS], int step)
+static void guess(lmb_facts *out, int step, int tree)
 {
-    for (int i = 0; i < LMB_FACT_RUNGS; ++i) {
-        const float fine = ratio(table[step][0][i], table[0][0][i]), coarse = ratio(table[step][2][i], table[0][2][i]);
-        table[step][1][i] = table[0][1][i] * sqrtf(fine * coarse);
+    float *error = out->error[step][tree];
+    for (int i = 2; i < LMB_FACT_RUNGS - 1 && step > 0; i += 2) {
+        error[i] = sqrtf(error[i - 1] * error[i + 1]);
     }
+    if (step > 0) {
+        guess_rungs(out->pairs, step, tree);
+        guess_rungs(out->segments, step, tree);
+    }
+    guess_finest(out->pairs, step, tree);
+    guess_finest(out->segments, step, tree);
+    error[0] = error[1];
 }
 
-/* What fewer pixels add to an error by that tree, squared, is the mean of what they add by the two beside it. */
-static void guess_tree_error(float (*error)[LMB_FACT_TREES][LMB_FACT_RUNGS], int step)
-{
-    for (int i = 0; i < LMB_FACT_RUNGS; ++i) {
-        float square = error[0][1][i] * error[0][1][i];
-        for (int tree = 0; tree < LMB_FACT_TREES; tree += 2) {
-            const float with = error[step][tree][i], without = error[0][tree][i];
-            square += 0.5f * (with * with - without * without);
-        }
-        error[step][1][i] = sqrtf(fmaxf(square, 0.0f));
-    }
-}
-
-/* Rungs of one tree and step, against the finest at every pixel: all by the finest tree at every pixel, every other by
- * the rest. */
+/* Rungs of one tree and step, against the finest at every pixel: all by the finest tree at every pixel, all but the
+ * finest by the others, and every other of these where pixels are left out. */
 static lmb_status take_ladder(lmb_facts *out, looker *l, int step, int tree)
 {
     lmb_look *other = &l->look[OTHER_LOOK];
     const int is_first = step == 0 && tree == 0;
-    float *error = out->error[step][tree];
     lmb_status status = LMB_OK;
-    for (int i = is_first ? 0 : 1; i < LMB_FACT_RUNGS && status == LMB_OK; i += is_first ? 1 : 2) {
+    for (int i = is_first ? 0 : 1; i < LMB_FACT_RUNGS && status == LMB_OK; i += step == 0 ? 1 : 2) {
         status = take(l, other, step, (float)i, 1 << step, LMB_OCCLUSION_EXACT);
         set_facts(out, step, tree, i, other);
-        error[i] = lmb_look_error(other, &l->look[step]);
+        out->error[step][tree][i] = lmb_look_error(other, &l->look[step]);
     }
     if (!is_first) {
-        guess_rungs(out->pairs, step, tree);
-        guess_rungs(out->segments, step, tree);
-        guess_finest(out->pairs, step, tree);
-        guess_finest(out->segments, step, tree);
-        error[2] = sqrtf(error[1] * error[3]);
-        error[4] = sqrtf(error[3] * error[5]);
-        error[0] = error[1];
+        guess(out, step, tree);
     }
     return status;
 }
@@ -167,14 +152,9 @@ static lmb_status take_trees(lmb_facts *out, looker *l)
     for (int tree = 0; tree < LMB_FACT_TREES && status == LMB_OK; ++tree) {
         status = solve(l, out->tree >> tree);
         status = status == LMB_OK && tree == 0 ? take_open(out, l) : status;
-        for (int step = 0; step < LMB_FACT_STEPS && status == LMB_OK; step += tree == 1 ? LMB_FACT_STEPS : 1) {
+        for (int step = 0; step < LMB_FACT_STEPS && status == LMB_OK; ++step) {
             status = take_ladder(out, l, step, tree);
         }
-    }
-    for (int step = 1; step < LMB_FACT_STEPS; ++step) {
-        guess_tree(out->pairs, step);
-        guess_tree(out->segments, step);
-        guess_tree_error(out->error, step);
     }
     return status;
 }

@@ -19,7 +19,7 @@ static const char usage[] =
     "  no glossy material          no lobe;   none that shines: no emitted light\n"
     "  a convex, empty room        nothing stands between two points of it: no segment is asked\n"
     "\n"
-    "Pairs and segments of bounced light are told by a look at 160 tiles of the picture itself, by several settings.\n"
+    "Pairs and segments of bounced light are told by a look at 192 tiles of the picture itself, by several settings.\n"
     "So is the error that a setting makes. Work is counted in units: one is a pixel lit by one node.\n"
     "\n"
     "  --json                      all of it for programs\n";

@@ -9,7 +9,7 @@
 
 #if LMB_PLAN && LMB_TREES
 
-enum { BINS = 256 };
+enum { BINS = 128, LEAST = 40 /* octaves: from 2^-87 on */ };
 
 int lmb_can_look(const lmb_render *r)
 {
@@ -26,16 +26,12 @@ uint64_t lmb_shown(const lmb_tile *tile)
     return out;
 }
 
-lmb_status lmb_render_place(uint64_t *shown, const lmb_render *r, lmb_band_scratch *s, int32_t x, int32_t y,
+lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scratch *s, int32_t x, int32_t y,
                             int32_t tiles)
 {
     const lmb_frame *f = &r->frame;
-    const int32_t here = mini(tiles, (f->view.frame_width - x + LMB_TILE - 1) / LMB_TILE);
-    lmb_status status = f->gather_step > 1 ? lmb_render_block(r, s, &f->eye, x, y, here) : LMB_OK;
-    for (int32_t part = 0; part < tiles; ++part) {
-        shown[part] = 0;
-    }
-    for (int32_t part = 0; part < here && status == LMB_OK; ++part) {
+    lmb_status status = LMB_OK;
+    for (int32_t part = 0; part < tiles && status == LMB_OK; ++part) {
         status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x + part * LMB_TILE, y);
         if (status == LMB_OK) {
             shown[part] = lmb_shown(&s->tile);
@@ -64,7 +60,7 @@ static lmb_status take_place(lmb_look *out, const lmb_render *r, lmb_band_scratc
     uint64_t shown[LMB_SPARSE_TILES];
     const double weight = (double)places->weight[i];
     memset(&s->counts, 0, sizeof s->counts);
-    const lmb_status status = lmb_render_place(shown, r, s, places->x[i], places->y[i], places->tiles);
+    const lmb_status status = place_light(shown, r, s, places->x[i], places->y[i], places->tiles);
     for (int32_t part = 0; part < places->tiles; ++part) {
         const int32_t at = i * places->tiles + part;
         put_tile(out->light + at * LMB_TILE_PIXELS, &s->sparse.light[part], shown[part]);
@@ -102,7 +98,7 @@ static int bin_of(float v)
 {
     uint32_t bits;
     memcpy(&bits, &v, sizeof bits);
-    return (int)(bits >> 23) & (BINS - 1);
+    return clampi((int)(bits >> 23 & 0xffu) - LEAST, 0, BINS - 1);
 }
 
 float lmb_look_error(const lmb_look *a, const lmb_look *b)

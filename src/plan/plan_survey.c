@@ -34,7 +34,7 @@ static lmb_status take_place(lmb_survey *out, const lmb_render *r, lmb_band_scra
     lmb_stats *n = &s->counts;
     double pixels = 0.0;
     memset(n, 0, sizeof *n);
-    const lmb_status status = lmb_render_place(shown, r, s, x, y, out->tiles);
+    const lmb_status status = place_light(shown, r, s, x, y, out->tiles);
     for (int part = 0; part < out->tiles; ++part) {
         pixels += (double)count_bits_64(shown[part]);
     }
