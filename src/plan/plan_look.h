@@ -14,8 +14,8 @@ int lmb_can_look(const lmb_render *r);
 /* Of a tile's pixels, those with a surface. */
 uint64_t lmb_shown(const lmb_tile *tile);
 
-/* Of tiles side by side from frame pixel (x, y) on: which of their pixels have a surface; where every pixel is gathered,
- * their light to scratch->sparse.light, and added to scratch->counts what that took. */
+/* Of tiles side by side from frame pixel (x, y) on: which of their pixels have a surface; where every pixel is
+ * gathered, their light to scratch->sparse.light, and added to scratch->counts what that took. */
 lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scratch *scratch, int32_t x, int32_t y,
                             int32_t tiles);
 

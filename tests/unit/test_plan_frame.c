@@ -187,13 +187,15 @@ static void survey_at(int32_t step)
     render.frame.error = render.frame.visible = 0.8f;
     CHECK(lmb_render_survey(&places, &render, &scratch) == LMB_OK);
     CHECK(lmb_render_survey(&again, &render, &scratch) == LMB_OK);
-    CHECK(places.count == again.count && memcmp(places.weight, again.weight, sizeof(float) * (size_t)places.count) == 0);
+    CHECK(places.count == again.count);
+    CHECK(memcmp(places.weight, again.weight, sizeof(float) * (size_t)places.count) == 0);
     CHECK(places.tiles == (step > 1 ? LMB_SPARSE_TILES : 1) && places.surveyed * places.tiles <= LMB_SURVEY);
     CHECK(places.count >= (step > 1 ? LMB_LOOK_BLOCKS : LMB_LOOK_TILES) - 1 && places.count < places.surveyed / 2);
     render.frame.error = render.frame.visible = 0.1f;
     CHECK(lmb_render_look(&at, &render, &scratch, &places) == LMB_OK);
     const double of_all = (double)places.shown * LARGE * LARGE / at.pixels;
-    const double pairs = at.pairs * of_all / (double)stats.pairs, segments = at.segments * of_all / (double)stats.segments;
+    const double pairs = at.pairs * of_all / (double)stats.pairs;
+    const double segments = at.segments * of_all / (double)stats.segments;
     CHECK_MSG(fabs(pairs - 1.0) < 0.05 && fabs(segments - 1.0) < 0.1, "step %d: pairs %.3f, segments %.3f", (int)step,
               pairs, segments);
     render.frame.gather_step = 2; /* of single tiles there is no block */
