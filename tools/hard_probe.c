@@ -136,7 +136,7 @@ static int outside(const probe_stage *p, double low, double high)
 {
     int count = 0;
     for (int i = 0; i < 3 * TEXELS; ++i) {
-        const double v = p->cube[i];
+        const double v = (double)p->cube[i];
         count += (v >= low) + (v <= high) < 2;
     }
     return count;

@@ -13,8 +13,8 @@ shared=${LMB_SHARED:-../shared}
 # seconds: what the finished children of this shell took, and the system for them (the memory of large pictures is most
 # of some targets). A pipe or $(...) would ask a shell of its own.
 count() {
-    times >"$folder/times"
-    seconds=$(awk 'NR == 2 { split($1 $2, t, /[ms]/); print int(60 * (t[1] + t[3]) + t[2] + t[4]) }' "$folder/times")
+    times >"$folder/$1.times"
+    seconds=$(awk 'NR == 2 { split($1 $2, t, /[ms]/); print int(60 * (t[1] + t[3]) + t[2] + t[4]) }' "$folder/$1.times")
 }
 
 # What the engine says that a slice executed, by a finding's end too.
@@ -41,7 +41,7 @@ run() {
     for file in $(samples "$1"); do
         [ "$(wc -c <"$file")" -gt 65536 ] || cp "$file" "$folder/samples/$1/"
     done
-    count
+    count "$1"
     begun=$seconds executions=0
     while
         "$fuzzer" "$1" $options -max_total_time=$slice -artifact_prefix="$folder/$1-" "$folder/$1" \
@@ -49,24 +49,39 @@ run() {
         status=$?
         executed "$1"
         [ "$status" = 0 ] || return 1
-        count
+        count "$1"
         [ $((seconds - begun)) -lt $((minutes * 60)) ]
     do :; done
 }
 
-passed=0 failed=0 total=0
-for target in "$@"; do
-    if run "$target"; then
-        passed=$((passed + 1)) verdict="no finding"
+# tell TARGET: it is run, and a line says what came of it.
+tell() {
+    if run "$1"; then
+        verdict="no finding"
     else
-        failed=$((failed + 1)) verdict="$(grep -m 1 -E 'SUMMARY|does not hold' "$folder/$target.log")"
+        verdict="$(grep -m 1 -E 'SUMMARY|does not hold' "$folder/$1.log") (finding)"
     fi
-    count
-    total=$((total + executions))
-    echo "$target: $executions executions, $((seconds - begun)) s of CPU," \
-        "$(ls "$folder/$target" | wc -l) inputs kept: $verdict"
+    count "$1"
+    echo "$1: $executions executions, $((seconds - begun)) s of CPU," \
+        "$(ls "$folder/$1" | wc -l) inputs kept: $verdict" | tee "$folder/$1.said"
+}
+
+# Five seconds each: two at a time.
+[ "$minutes" -gt 0 ] && at_once=1 || at_once=2
+running=0
+for target in "$@"; do
+    rm -f "$folder/$target.said"
+    tell "$target" &
+    running=$((running + 1))
+    [ $((running % at_once)) != 0 ] || wait
 done
-count
-echo "in all: $total executions, $seconds s of CPU"
-echo "$passed passed, $failed failed, 0 skipped"
-[ "$failed" = 0 ]
+wait
+for target in "$@"; do
+    cat "$folder/$target.said"
+done | awk '
+    { executions += $2; seconds += $4; if (/: no finding$/) ++passed }
+    END {
+        print "in all: " executions + 0 " executions, " seconds + 0 " s of CPU"
+        print passed + 0 " passed, " NR - passed " failed, 0 skipped"
+        exit passed != NR
+    }'
