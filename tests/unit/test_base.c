@@ -11,6 +11,7 @@
 #include "../../src/base/poly.h"
 #include "../../src/base/vec.h"
 #include "../../src/base/vertex.h"
+#include "../../src/raster/target.h"
 #include "../test.h"
 
 void test_base(void);
@@ -506,6 +507,7 @@ static void views(void)
     CHECK(lmb_view_look(&v, eye, origin, up, 1.0f, 0, 480) == LMB_ERR_ARG);
     CHECK(lmb_view_look(&v, eye, origin, up, 1.0f, 640, LMB_MAX_FRAME + 1) == LMB_ERR_ARG);
     CHECK(lmb_view_look(NULL, eye, origin, up, 1.0f, 640, 480) == LMB_ERR_ARG && v.frame_width == -1);
+    CHECK(lmb_view_look(&v, eye, origin, up, 1.0f, LMB_MAX_FRAME, LMB_MAX_FRAME) == LMB_OK && lmb_view_is_sound(&v));
     for (i = 0; i < 1000; ++i) { /* orthonormal and right-handed, with `up` almost along the view too */
         lmb_vec3 to = random_point(&rng, 9.0f), tilt = random_point(&rng, 1e-3f);
         if (lmb_view_look(&v, eye, to, i & 1 ? up : add3(sub3(to, eye), tilt), 1.0f, 64, 64) != LMB_OK)
@@ -515,6 +517,14 @@ static void views(void)
               absf(dot3(v.up, v.back)) < 5e-7f && length3(sub3(cross3(v.right, v.up), v.back)) < 1e-6f);
     }
     CHECK_MSG(looks > 990, "%d views", looks);
+}
+
+/* Every entry of a matrix has its place and sign. */
+static void points_are_transformed(void)
+{
+    const lmb_mat4 t = {{1, 2, 4, 0, 8, 16, 32, 0, 64, 128, 256, 0, 512, 1024, 2048, 1}};
+    const lmb_vec3 p = transform_point(&t, vec3(1, 3, 5));
+    CHECK(p.x == 1 + 24 + 320 + 512 && p.y == 2 + 48 + 640 + 1024 && p.z == 4 + 96 + 1280 + 2048);
 }
 
 /* ---- scenes ---- */
@@ -755,6 +765,7 @@ static void mips_of_checkers(void)
 void test_base(void)
 {
     names_and_build();
+    points_are_transformed();
     sweep_sine();
     sweep_arc();
     sweep_powers();

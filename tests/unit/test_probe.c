@@ -488,6 +488,11 @@ static void refusals(stage *s)
     p->middle.y = NAN;
     CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
     p->middle.y = 1.5f;
+    p->radius = 2e6f; /* around a centre beyond 2^20 m */
+    p->centre.x = 1.1e6f;
+    CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
+    p->centre.x = 0.0f;
+    p->radius = 50.0f;
     p->face_size = 0;
     CHECK(lmb_world_bytes(p, LMB_WORLD_LOG8) == 0);
     p->face_size = FACE;
@@ -498,6 +503,7 @@ static void refusals(stage *s)
     CHECK(lmb_probe_table_init(NULL, WIDTH, HEIGHT, 0.0f, s->table_memory, 1u << 20) == LMB_ERR_ARG);
     CHECK(lmb_probe_table_init(&s->table, WIDTH, HEIGHT, 0.0f, s->table_memory, 64) == LMB_ERR_CAPACITY);
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
+    CHECK(lmb_probe_halve(NULL, s->map, &s->table) == LMB_ERR_ARG && lmb_probe_halve(s->cube, s->map, NULL) == LMB_ERR_ARG);
     CHECK(lmb_probe_remap(s->map, lmb_kernels_pick(), &s->world, &s->table, vec3(NAN, 0, 0), 0) == LMB_ERR_ARG);
     CHECK(lmb_probe_remap(NULL, lmb_kernels_pick(), &s->world, &s->table, vec3(0, 0, 0), 0) == LMB_ERR_ARG);
     CHECK(lmb_probe_cosine(s->cube, 65, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);

@@ -165,6 +165,12 @@ static void bad_files(const stage *s)
         CHECK_MSG(lmb_relief_open(&r, copy, s->file.size) == LMB_ERR_FORMAT, "word %d as %u", bad[i].word,
                   (unsigned)bad[i].value);
     }
+    static const int offsets[] = {5, 8, 9, 10, 11, 35};
+    for (int i = 0; i < COUNT(offsets); ++i) { /* begins in the file, ends beyond it */
+        memcpy(copy, s->file.data, s->file.size);
+        copy[offsets[i]] = (uint32_t)s->file.size - 4u;
+        CHECK_MSG(lmb_relief_open(&r, copy, s->file.size) == LMB_ERR_FORMAT, "word %d", offsets[i]);
+    }
     CHECK(lmb_relief_open(&r, (const uint8_t *)copy + 1, s->file.size - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_relief_open(NULL, copy, s->file.size) == LMB_ERR_ARG && lmb_relief_open(&r, NULL, 4) == LMB_ERR_ARG);
     CHECK(memcmp(&r, &none, sizeof r) == 0);
