@@ -49,7 +49,9 @@ static void make_lights(uint32_t count, test_rng *r)
 {
     for (uint32_t i = 0; i < count; ++i) {
         lmb_light *l = &lights[i];
-        *l = point_light(vec3(test_uniform(r, -2, 2), test_uniform(r, -1, 3), test_uniform(r, -3, 1)));
+        /* One after the other: which argument comes first is the compiler's choice. */
+        const float z = test_uniform(r, -3, 1), y = test_uniform(r, -1, 3), x = test_uniform(r, -2, 2);
+        *l = point_light(vec3(x, y, z));
         const uint32_t kind = test_random(r) % 8u;
         if (kind < 3 && i > 0) {
             l->position = add3(mul3(lights[i - 1].position, 0.999f), vec3(test_uniform(r, 0, 1e-3f), 0, 0));
