@@ -488,10 +488,11 @@ static void refusals(stage *s)
     p->middle.y = NAN;
     CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
     p->middle.y = 1.5f;
-    p->radius = 2e6f; /* around a centre beyond 2^20 m */
+    p->radius = 2e5f; /* around a centre beyond 2^20 m */
+    p->middle.x = 1e6f;
     p->centre.x = 1.1e6f;
     CHECK(lmb_world_init(&s->world, p, LMB_WORLD_LOG8, s->world_memory, bytes) == LMB_ERR_ARG);
-    p->centre.x = 0.0f;
+    p->centre.x = p->middle.x = 0.0f;
     p->radius = 50.0f;
     p->face_size = 0;
     CHECK(lmb_world_bytes(p, LMB_WORLD_LOG8) == 0);
