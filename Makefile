@@ -45,9 +45,11 @@ TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/hos
             platform/host/process.c platform/host/count.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
+SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
+
 LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
-TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
 GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 WAYS_OBJ   := $(call object,$(GOLDEN_SRC) tests/golden/main_ways.c tools/demo_scene.c tools/crew.c \
@@ -59,6 +61,7 @@ AUDITED    := $(call object,tests/audit/isa_audit.c) $(filter-out %/isa_pick.o,$
 DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
+SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
 MOVING_OBJ := $(call object,tests/moving/main_moving.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
 # tests/figures/main_NAME.c and what is named NAME_*.c beside it: the program figures-NAME.
 FIGURES    := $(patsubst tests/figures/main_%.c,%,$(sort $(wildcard tests/figures/main_*.c)))
@@ -82,7 +85,7 @@ demo: $(TOOL) ## render the built-in scene to build/demo.png
 	@$(TOOL) render demo -o $(BUILD)/demo.png
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-10s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
 
 clean: ## remove everything that was built
 	@rm -rf $(BUILD)
@@ -111,10 +114,11 @@ $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
 $(B)/hard: $(HARD_OBJ) $(LIB)
 $(B)/moving: $(MOVING_OBJ) $(LIB)
+$(B)/scenes: $(SCENES_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(FIGURES),$(eval $(B)/figures-$(f): $(call figures_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/statue $(B)/decodes $(B)/moving $(B)/fuzzer:
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/statue $(B)/decodes $(B)/moving $(B)/scenes $(B)/fuzzer:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -134,6 +138,14 @@ $(B)/tests.inc: FORCE
 $(B)/obj/tests/unit/main.o: $(B)/tests.inc
 $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 
+# The table of public calls, from the headers.
+HEADERS := $(sort $(wildcard include/lambent/*.h))
+$(B)/calls.inc: $(HEADERS) tests/build/prototypes.awk tests/build/zeros.awk
+	@mkdir -p $(@D)
+	@awk -f tests/build/prototypes.awk $(HEADERS) | awk -f tests/build/zeros.awk > $@
+$(B)/obj/tests/unit/test_zeros.o: $(B)/calls.inc
+$(B)/obj/tests/unit/test_zeros.o: COMPILE += -I$(B)
+
 # A relief's words, which tests/build/statue.sh puts there.
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
 $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
@@ -142,14 +154,14 @@ $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 FORCE:
 
 -include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
-    $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(MOVING_OBJ) $(foreach f,$(FIGURES),$(call figures_of,$(f))) $(AUDITED)))
+    $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(MOVING_OBJ) $(SCENES_OBJ) $(foreach f,$(FIGURES),$(call figures_of,$(f))) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one unit tiny statue analytic truth lanes golden ways audit slow hard replay hostile hostile-cli floors symbols \
-          stack headers layout guard tables readme cli
+          stack headers layout guard tables readme cli get
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -227,6 +239,9 @@ tables: $(LIB) ## generated tables are what their generators print
 readme: $(LIB) ## the README's examples compile and run
 	@$(IN_SH) tests/build/readme.sh
 
+get: ## that check-tools removes nothing and says what it does
+	@$(IN_SH) tests/build/get.sh
+
 cli: $(TOOL) ## the tool's files, exit statuses and messages
 	@$(IN_SH) tests/build/cli.sh
 
@@ -235,9 +250,10 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: size room-sizes rom asan msan fuzz mutants cov static prove decodes reference moving figures times report brute \
+.PHONY: size room-sizes rom asan msan fuzz mutants cov static prove decodes reference moving scenes figures own-figures \
+    turned-figures full-figures times report brute \
     simplify relight-figures relief-figures plan-figures plan-model planes mixed voxels large tiny run-demo \
-    run-statue cross install
+    run-statue cross check-tools
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
@@ -298,8 +314,19 @@ reference: $(B)/reference ## coverage and depth of the raster workload against t
 moving: $(B)/moving ## a light and a crate that move: what the cut adds to the change from frame to frame
 	@$(RUN) $(B)/moving
 
+scenes: $(B)/scenes ## a program that makes scenes of our own from a name and a seed: build/default/scenes --list
+
 figures: $(TOOL) ## bounced light against truth: errors, work, time (SCENES="cornell ..." QUALITIES="draft ...")
 	@$(IN_SH) tests/figures/truth.sh
+
+own-figures: $(TOOL) $(B)/scenes ## the same on those and on scenes of our own, fitted and held out (LMB_OWN_TRUTH=DIR)
+	@$(IN_SH) tests/figures/own.sh
+
+turned-figures: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random, against upright (TURNS="1 2 ...")
+	@$(IN_SH) tests/figures/turned.sh
+
+full-figures: $(TOOL) ## all light, six bounces, against truth, and its later part (SCENES="cornell ..." QUALITY=best BOUNCES=20)
+	@$(IN_SH) tests/figures/full.sh
 
 times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS="1 2", FRAME=64x64)
 	@$(IN_SH) tests/figures/times.sh
@@ -364,22 +391,22 @@ define cross_sum
 	@sh tests/build/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log $(B)/check/stacks.log
 endef
 
-.PHONY: cross-all install-more $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%)
-cross: $(MACHINES:%=cross-%) ## golden pictures on other compilers and machines; installs what it needs where it can
+.PHONY: cross-all more-tools $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%)
+cross: $(MACHINES:%=cross-%) ## golden pictures on other compilers and machines; gets what it needs where it can
 	$(call cross_sum,$(MACHINES))
 
 cross-all: $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%) ## the same on all of tests/build/machines.mk
 	$(call cross_sum,$(MACHINES) $(MORE_MACHINES))
 
-$(MACHINES:%=cross-%): install
-$(MORE_MACHINES:%=cross-%): install-more
+$(MACHINES:%=cross-%): check-tools
+$(MORE_MACHINES:%=cross-%): more-tools
 $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%): NEEDS = $(needs_$(@:cross-%=%))
 $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%): cross-%:
 	+@$(PART) cross-$* $(MAKE) $(or $(goal_$*),golden) BUILD=$(BUILD)/cross/$* $(how_$*)
 
 # One installer at a time: all that the machines of cross-all need.
-install-more: install
-	@sh tests/build/tools.sh install $(sort $(foreach m,$(MORE_MACHINES),$(needs_$(m))))
+more-tools: check-tools
+	@sh tests/build/tools.sh get $(sort $(foreach m,$(MORE_MACHINES),$(needs_$(m))))
 
-install:
-	@sh tests/build/tools.sh install
+check-tools: ## the outside tools of the checks: what is missing, and apt-get for it where that removes nothing
+	@sh tests/build/tools.sh get

@@ -7,8 +7,8 @@
 #include "world.h"
 
 static uint32_t map_memory[FACES * MAP * MAP * 2], depth_memory[FRAME * FRAME], id_memory[FRAME * FRAME];
-static uint32_t tree_memory[FACES * (MAP * MAP * 16 + 64)], blocker_memory[BLOCKERS * 29 + 2048];
-static uint32_t element_memory[ELEMENTS * 40 + 64];
+static uint32_t tree_memory[FACES * (MAP * MAP * 18 + 64)], blocker_memory[BLOCKERS * 29 + 2048];
+static uint32_t element_memory[ELEMENTS * 44 + 64];
 static lmb_band_scratch scratch;
 static lmb_render render;
 static float picture[FRAME * FRAME * 3];
@@ -24,6 +24,7 @@ static inline lmb_frame bounce_frame(const lmb_view *view, int32_t bounces)
     f.grouping.method = LMB_GROUP_CUT;
     f.occlusion = LMB_OCCLUSION_EXACT;
     f.bounces = bounces;
+    f.truncated = 1;
     f.map_memory = map_memory;
     f.map_bytes = sizeof map_memory;
     f.scratch = &scratch;

@@ -35,8 +35,7 @@ static inline int every_texel(texel_quad *out, const lmb_tree *tree)
                 q->middle = tree_texel(tree, face, x, y)->position;
                 q->near2 = LMB_NEAR * LMB_NEAR * (dot3(q->u, q->u) + dot3(q->v, q->v) + 2.0f * absf(dot3(q->u, q->v)));
                 if (!tree_is_whole(tree_texel(tree, face, x, y)) && lmb_crease_share(tree, q->at) >= 0.0f) {
-                    const lmb_vec3 half = mul3(sub3(q->n.high, q->n.low), 0.5f);
-                    q->near2 = LMB_NEAR * LMB_NEAR * dot3(half, half);
+                    q->near2 = LMB_NEAR * LMB_NEAR * q->n.radius * q->n.radius;
                 }
                 ++count;
             }

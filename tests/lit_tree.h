@@ -51,7 +51,7 @@ static inline void lit_add(const lmb_light *light)
 /* One light's tree: six faces are half as wide. */
 static inline void lit_by(const lmb_light *light)
 {
-    const int32_t faces = lmb_light_map_faces(light);
+    const int32_t faces = lmb_light_map_faces(light, &world.scene);
     lit_begin((uint32_t)faces, faces == 1 ? LIT_SIDE : LIT_SMALL, 0);
     lit_add(light);
 }

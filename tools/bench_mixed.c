@@ -114,7 +114,8 @@ static double bytes_of(const mix_job *j)
 {
     double bytes = (double)lmb_voxels_bytes(j->voxels.cap, LMB_VOXELS_THREE);
     for (int32_t i = 0; i < j->light_count; ++i) {
-        bytes += 2.0 * (double)lmb_light_map_bytes(lmb_light_map_faces(&j->lights[i]), j->o.light_map, LMB_ID32);
+        const int32_t faces = lmb_light_map_faces(&j->lights[i], &j->scene);
+        bytes += 2.0 * (double)lmb_light_map_bytes(faces, j->o.light_map, LMB_ID32);
     }
     return bytes;
 }

@@ -24,7 +24,7 @@ static const char help[] =
     "  lambent bench room.glb -o room                          the lot, as room.html, room.csv, room.json\n"
     "  lambent bench room.glb --sweep tree=64,128,256          three settings, as a table\n"
     "  lambent bench room.glb --sweep error=0.1,0.2 --sweep gather=full,half      four\n"
-    "  lambent bench room.glb --bounces 6 --truth six.pfm      against six bounces by another program\n"
+    "  lambent bench room.glb --bounces 6 --rest none --truth six.pfm  against six bounces by another program\n"
     "\n"
     "truth\n"
     "  --cache FOLDER             where a scene's own truth is kept, by the scene's content and the settings, because\n"
@@ -47,17 +47,17 @@ static const bench_try tries[] = {
     {"first points", "--tree 1024", 6, 0},
     {"light map", "--light-map 256", 4, 0},
     {"light map", "--light-map 2048", 5, 0},
-    {"error", "--error 0.05", 6, 0},
-    {"error", "--error 0.1", 5, 0},
-    {"error", "--error 0.5", 3, 0},
-    {"error", "--error 1", 3, 0},
-    {"visibility", "--visible 0.015", 9, 0},
-    {"visibility", "--visible 0.12", 3, 0},
-    {"visibility", "--visible 0.3", 2, 0},
+    {"error", "--error 0.005", 6, 0},
+    {"error", "--error 0.01", 5, 0},
+    {"error", "--error 0.05", 3, 0},
+    {"error", "--error 0.1", 3, 0},
+    {"visibility", "--visible 0.005", 9, 0},
+    {"visibility", "--visible 0.03", 3, 0},
+    {"visibility", "--visible 0.1", 2, 0},
     {"occlusion", "--occlusion none", 1, 0},
     {"gather", "--gather half", 2, 0},
     {"gather", "--gather quarter", 1, 0},
-    {"draft and", "--quality draft --error 1 --visible 0.5", 1, 0},
+    {"draft and", "--quality draft --error 0.2 --visible 0.2", 1, 0},
     {"draft and", "--quality draft --tree 64 --light-map 512", 1, 0},
     {"draft and", "--quality draft --gather half", 1, 0},
     {"draft and", "--quality draft --gather quarter", 1, 0},

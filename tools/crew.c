@@ -51,6 +51,7 @@ static void draw_band(void *user, int part, int worker)
     w->counts[worker].bands += 1;
     w->counts[worker].pairs += scratch->counts.pairs;
     w->counts[worker].segments += scratch->counts.segments;
+    w->counts[worker].full_cuts += scratch->counts.full_cuts;
     if (worker == 0 && w->crew->tell != NULL) {
         lmb_render at = *w->render;
         at.place = (uint32_t)band;
@@ -70,6 +71,7 @@ static lmb_status sum_up(const stage_work *w, lmb_stats *stats)
             stats->bands += w->counts[i].bands;
             stats->pairs += w->counts[i].pairs;
             stats->segments += w->counts[i].segments;
+            stats->full_cuts += w->counts[i].full_cuts;
         }
     }
     return status;

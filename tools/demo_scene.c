@@ -29,6 +29,7 @@ static const lmb_scene scene = {
     0,
     0,
     0,
+    {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0}, /* all of it is fine */
 };
 
 const lmb_scene *demo_scene(void)

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const hard_rooms[] = {"raster", "shadow", "bounce", "probe", "relief", "mixed", "all", NULL};
+const char *const hard_rooms[] = {"raster", "shadow", "bounce", "probe", "relief", "mixed", "far", "all", NULL};
 
 static void (*const rooms[])(hard_list *) = {hard_raster, hard_shadow, hard_bounce, hard_probe,
-                                             hard_relief, hard_mixed,  hard_all};
+                                             hard_relief, hard_mixed,  hard_far,    hard_all};
 
 void hard_put(hard_list *list, int kind, const char *name, double figure, double bound, const char *unit)
 {

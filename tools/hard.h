@@ -19,7 +19,7 @@ typedef struct hard_case {
     double figure, bound; /* holds where figure <= bound; NaN never does */
 } hard_case;
 
-enum { HARD_CASES = 160 };
+enum { HARD_CASES = 192 };
 
 typedef struct hard_list {
     hard_case item[HARD_CASES];
@@ -47,6 +47,7 @@ void hard_bounce(hard_list *list);
 void hard_probe(hard_list *list);
 void hard_relief(hard_list *list);
 void hard_mixed(hard_list *list);
+void hard_far(hard_list *list);
 void hard_all(hard_list *list);
 
 #endif

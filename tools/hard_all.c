@@ -93,7 +93,7 @@ static room_errors judge(hard_stage *s)
 {
     double want_sum = 0.0, square = 0.0;
     room_errors e = {HUGE_VAL, 0};
-    if (hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.02f) != LMB_OK) {
+    if (hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.002f) != LMB_OK) {
         return e;
     }
     for (int32_t i = 0; i < SIDE * SIDE; i += STRIDE) {
@@ -184,7 +184,7 @@ static float first[HARD_SIDE * HARD_SIDE * 3];
 static double unlike_first(hard_stage *s)
 {
     double unlike = 0.0;
-    if (hard_frame(s, LMB_SHOW_FULL, MAP, 0.02f) != LMB_OK) {
+    if (hard_frame(s, LMB_SHOW_FULL, MAP, 0.002f) != LMB_OK) {
         return HUGE_VAL;
     }
     for (int i = 0; i < SIDE * SIDE * 3; ++i) {
@@ -197,7 +197,7 @@ static void said_differently(hard_list *l)
 {
     hard_stage *s = l->stage;
     make_room(s, dvec_of(0, 0, 0), 0.0);
-    hard_frame(s, LMB_SHOW_FULL, MAP, 0.02f);
+    hard_frame(s, LMB_SHOW_FULL, MAP, 0.002f);
     memcpy(first, s->out, sizeof first);
     put_room(s, dvec_of(0, 0, 0), 0.0, 0);
     hard_end(s);
@@ -240,7 +240,7 @@ static double checkers(hard_stage *s, int cells)
         hard_spot(s, dvec_of(-0.1, 2.5, 0.1), dvec_of(-0.1, 0, 0), 25.0, 10.0);
         hard_end(s);
         hard_look(s, dvec_of(-1.4, 1.5, 0), dvec_of(1.6, 1, 0), 40.0, SIDE);
-        hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.02f);
+        hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.002f);
         for (int i = 0; i < SIDE * SIDE; ++i) {
             sum[plain] += s->id[hard_at(s, i % SIDE, i / SIDE)] > 2 ? (double)s->out[3 * i] : 0.0;
         }
@@ -272,7 +272,7 @@ static void slats(hard_list *l)
         hard_sun(s, dvec_of(0, -1, 0), 1.0);
         hard_end(s);
         hard_look(s, dvec_of(0, 2, 3), dvec_of(0, 0, 0), 50.0, SIDE);
-        hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.02f);
+        hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.002f);
         const double flux = root_flux(s);
         least = fmin(least, flux), most = fmax(most, flux), sum += flux;
     }

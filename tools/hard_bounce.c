@@ -111,14 +111,14 @@ static void corner(hard_list *l)
     hard_stage *s = l->stage;
     dvec c[4];
     corner_scene(s, c, 0.5);
-    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.002f);
     even_errors e = against_even(s, 2, 0.5, c, 0.5 * 2.0 * 0.8, 0.001);
     hard_put(l, HARD_MEASURED, "a concave corner, lit evenly: worst pixel of the floor", 100 * e.worst, 6, "%");
     hard_put(l, HARD_MEASURED, "mean", 100 * e.mean, 0.7, "%");
     /* A floor seen and lit all but along itself: the wall's foot, the sun at 89 degrees from the wall's plane. */
     hard_sun(s, dvec_of(0, -0.9998477, -0.0174524), 2.0);
     hard_end(s);
-    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.002f);
     e = against_even(s, 2, 0.5, c, 0.5 * 2.0 * 0.0174524, 0.001);
     hard_put(l, HARD_MEASURED, "the same, lit at 89 degrees: mean", 100 * e.mean, 10, "%");
 }
@@ -144,7 +144,7 @@ static double bright_patch(hard_stage *s, double texels)
         hard_sun(s, dvec_of(0, -1, 0), 2.0);
         hard_end(s);
         hard_look(s, dvec_of(-1, 0.4, 0.1), dvec_of(-1, 1, 0), 90.0, SIDE);
-        hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.02f);
+        hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.002f);
         for (int32_t i = 0; i < SIDE * SIDE; i += 7) {
             const uint32_t id = s->id[hard_at(s, i % SIDE, i / SIDE)];
             dvec normal;
@@ -169,7 +169,7 @@ static void facing(hard_list *l)
     hard_sun(s, dvec_of(0, -1, 0), 2.0);
     hard_end(s);
     hard_look(s, dvec_of(3, -2.5, 0.1), dvec_of(2.5, 0.25, 0), 50.0, SIDE);
-    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.002f);
     const even_errors e = against_even(s, 2, 0.5, c, 0.5 * 2.0, 0.0005);
     hard_put(l, HARD_MEASURED, "cuts of equal nodes, grazing receivers: mean", 100 * e.mean, 4, "%");
     hard_put(l, HARD_MEASURED, "worst pixel", 100 * e.worst, 10, "%");
@@ -194,7 +194,7 @@ static double inside_box(hard_stage *s, double thickness)
     hard_end(s);
     hard_look(s, dvec_of(0.8, 1.7, 0.8), dvec_of(-0.3, 0.5, -0.3), 80.0, SIDE);
     s->view.near_m = 0.01f;
-    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 256, 0.002f);
     for (int i = 0; i < SIDE * SIDE; ++i) {
         sum += (double)s->out[3 * i] * PI / 0.5;
     }
@@ -217,11 +217,11 @@ static double scaled_light(hard_stage *s, double scale, int exactly)
     dvec c[4];
     double worst = 0.0, unlike = 0.0;
     corner_scene(s, c, 0.5);
-    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.002f);
     memcpy(first, s->out, sizeof first);
     hard_sun(s, dvec_of(0, -0.6, -0.8), 2.0 * scale);
     hard_end(s);
-    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.002f);
     for (int i = 0; i < SIDE * SIDE * 3; ++i) {
         const double want = (double)first[i] * scale, got = (double)s->out[i];
         unlike += got != want;
@@ -237,10 +237,10 @@ static double scaled_albedo(hard_stage *s, double albedo, double times)
     dvec c[4];
     double unlike = 0.0;
     corner_scene(s, c, 0.5);
-    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.002f);
     memcpy(first, s->out, sizeof first);
     corner_scene(s, c, albedo);
-    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.02f);
+    hard_frame(s, LMB_SHOW_INDIRECT, 128, 0.002f);
     for (int i = 0; i < SIDE * SIDE * 3; ++i) {
         unlike += (double)s->out[i] != (double)first[i] * times;
     }

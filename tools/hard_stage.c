@@ -167,6 +167,7 @@ int hard_end(hard_stage *s)
     s->scene.texture_count = s->texture.texels != NULL;
     s->scene.light_count = s->light.intensity[0] > 0.0f;
     lmb_scene_bounds(&s->scene.bounds_min, &s->scene.bounds_max, &s->scene);
+    lmb_scene_core(&s->scene.core, &s->scene);
     return lmb_scene_check(&s->scene) == LMB_OK;
 }
 
@@ -282,7 +283,7 @@ lmb_status hard_frame(hard_stage *s, int32_t show, int32_t map, float error)
     f.grouping.method = LMB_GROUP_CUT;
     f.occlusion = LMB_OCCLUSION_EXACT;
     f.error = error;
-    f.visible = 0.25f * error;
+    f.visible = 0.75f * error;
     f.map_memory = s->map_memory;
     f.map_bytes = s->map_bytes;
     f.eye = s->eye;

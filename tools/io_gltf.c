@@ -171,9 +171,13 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "normals without length, set to +Y", n->zero_normals);
     build_note_count(g->b, "BLEND materials drawn as MASK with cutoff 0.5", n->blends);
     build_note_count(g->b, "metallic materials, which reflect with --glossy only", n->metals);
-    build_note_count(g->b, "metallic maps used by their mean, 0 where one cannot be read", n->metal_maps);
+    build_note_count(g->b, "metallic maps used by their mean without --glossy, 0 where one cannot be read",
+                     n->metal_maps);
     build_note_count(g->b, "unlit materials treated as Lambertian", n->unlit);
-    build_note_count(g->b, "emissive maps used by their mean", n->emissive_maps);
+    build_note_count(g->b,
+                     "emissive maps used by their mean, or left out: not the base colour's texture coordinates, or not "
+                     "read",
+                     n->emissive_maps);
     build_note_count(g->b, "normal maps left out: their texture coordinates are not the base colour's",
                      n->odd_normal_maps);
     build_note_count(g->b, "textured primitives without the texture coordinates, of one texel's colour",

@@ -112,35 +112,6 @@ static void measure(gltf_mean *out, const bitmap *map)
     out->known = 1;
 }
 
-/* Means of the image that a texture info shows, worked out once; *out stays NULL where it cannot be had. */
-static int image_mean(const gltf_mean **out, gltf *g, uint32_t info)
-{
-    gltf_bytes bytes = {NULL, 0, 0};
-    bitmap map;
-    uint32_t texture, index;
-    char place[32];
-    report why;
-    int ok;
-    *out = NULL;
-    why.text[0] = '\0';
-    if (!gltf_item(&texture, g, &g->textures, json_member(&g->doc, info, "index")) ||
-        !texture_image(&index, g, texture))
-        return 0;
-    if (index == JSON_NONE)
-        return 1;
-    if (!g->image_means[index].known) {
-        if (!image_bytes(&bytes, place, g, index, &why))
-            return leave_out(g, &why);
-        ok = build_picture(g->b, &map, bytes.data, bytes.size, place, &why);
-        if (!ok)
-            return leave_out(g, &why);
-        measure(&g->image_means[index], &map);
-        bitmap_free(&map);
-    }
-    *out = &g->image_means[index];
-    return 1;
-}
-
 enum { SLOT_UNKNOWN = -1, SLOT_NONE = -2 };
 
 /* Place in the scene of textures[index] as an image of that kind: made at first use; -1 where it cannot be had. */
@@ -218,7 +189,15 @@ static int read_texture(int32_t *slot, gltf_uv *uv, gltf *g, uint32_t info, int 
     return transform == JSON_NONE || read_transform(uv, g, transform);
 }
 
-/* A mesh has one stream of texture coordinates: a normal map that wants others than the base colour is left out. */
+/* A mesh has one stream of texture coordinates, the base colour's or those of the first map: 0 for a map that wants
+ * others. */
+static int same_uv(gltf_uv *uv, const gltf_uv *own)
+{
+    if (uv->set == JSON_NONE)
+        *uv = *own;
+    return uv->set == own->set && uv->moved == own->moved && memcmp(uv->m, own->m, sizeof own->m) == 0;
+}
+
 static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t info)
 {
     gltf_uv own;
@@ -229,9 +208,7 @@ static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t inf
         return 0;
     if (slot < 0)
         return 1;
-    if (uv->set == JSON_NONE)
-        *uv = own;
-    if (uv->set != own.set || uv->moved != own.moved || memcmp(uv->m, own.m, sizeof own.m) != 0) {
+    if (!same_uv(uv, &own)) {
         ++g->left_out.odd_normal_maps;
         return 1;
     }
@@ -241,27 +218,6 @@ static int read_normal_map(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t inf
 }
 
 static float clamp01(double v) { return v > 0 ? v < 1 ? (float)v : 1.0f : 0.0f; }
-
-/* How much of a metal, and how rough, both 0 .. 1. A map counts as its mean; one that cannot be had as no metal,
- * because most surfaces are none. */
-static int read_metallic(double *metallic, double *rough, gltf *g, uint32_t pbr)
-{
-    const uint32_t map = json_member(&g->doc, pbr, "metallicRoughnessTexture");
-    const gltf_mean *mean;
-    *metallic = *rough = 1;
-    if (!json_read_double(metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r) ||
-        !json_read_double(rough, &g->doc, json_member(&g->doc, pbr, "roughnessFactor"), g->b->r))
-        return 0;
-    if (map != JSON_NONE && *metallic > 0) {
-        if (!image_mean(&mean, g, map))
-            return 0;
-        *metallic *= mean ? mean->blue : 0;
-        *rough *= mean ? mean->green : 1;
-        ++g->left_out.metal_maps;
-    }
-    g->left_out.metals += *metallic >= 0.5;
-    return 1;
-}
 
 /* Means of the image that a texture info shows, from the texture that was made of it; worked out once an image. */
 static int texture_mean(const gltf_mean **out, gltf *g, uint32_t info, const lmb_texture *made)
@@ -282,7 +238,55 @@ static int texture_mean(const gltf_mean **out, gltf *g, uint32_t info, const lmb
     return 1;
 }
 
-/* The lobe beside albedo x (1 - metallic): 0.04 of a dielectric, a metal's own colour; of a textured metal its mean. */
+/* How much of a metal and how rough a material is, both 0 .. 1, without what its map says. */
+typedef struct gltf_metal {
+    double metallic, rough;
+    double mean;      /* of metallic, the map's in it */
+    int32_t slot;     /* of the map by texel; -1: none */
+} gltf_metal;
+
+/* A map that cannot be had, or has other texture coordinates, counts as its mean; the first as no metal, because most
+ * surfaces are none. */
+static int read_metal_map(gltf_metal *out, gltf_uv *uv, gltf *g, uint32_t map)
+{
+    const gltf_mean *mean;
+    gltf_uv own;
+    int32_t slot = -1;
+    if (!read_texture(&slot, &own, g, map, TEXELS_NORMALS))
+        return 0;
+    g->left_out.metal_maps += out->metallic > 0;
+    out->mean = 0;
+    if (slot < 0) {
+        out->metallic = 0;
+        return 1;
+    }
+    if (!texture_mean(&mean, g, map, &g->b->textures[slot]))
+        return 0;
+    out->mean = out->metallic * mean->blue;
+    if (same_uv(uv, &own)) {
+        out->slot = slot;
+    } else {
+        out->metallic = out->mean;
+        out->rough *= mean->green;
+    }
+    return 1;
+}
+
+static int read_metallic(gltf_metal *out, gltf_uv *uv, gltf *g, uint32_t pbr)
+{
+    const uint32_t map = json_member(&g->doc, pbr, "metallicRoughnessTexture");
+    if (!json_read_double(&out->metallic, &g->doc, json_member(&g->doc, pbr, "metallicFactor"), g->b->r) ||
+        !json_read_double(&out->rough, &g->doc, json_member(&g->doc, pbr, "roughnessFactor"), g->b->r))
+        return 0;
+    out->mean = out->metallic;
+    if (map != JSON_NONE && !read_metal_map(out, uv, g, map))
+        return 0;
+    g->left_out.metals += out->mean >= 0.5;
+    return 1;
+}
+
+/* The lobe beside albedo x (1 - metallic): 0.04 of a dielectric, a metal's own colour; of a textured metal its mean,
+ * but by texel where a map tells metal from what is none. */
 static void set_lobe(model_lobe *out, const double colour[3], const double base[3], double metallic, double rough)
 {
     int k;
@@ -294,19 +298,24 @@ static void set_lobe(model_lobe *out, const double colour[3], const double base[
     out->roughness = clamp01(rough);
 }
 
-static int read_lobe(model_lobe *out, gltf *g, const lmb_material *m, const double base[3], double metallic,
-                     double rough, uint32_t map)
+static int read_lobe(model_lobe *out, gltf *g, const lmb_material *m, const double base[3], const gltf_metal *metal,
+                     uint32_t map)
 {
     double colour[3] = {base[0], base[1], base[2]};
+    const double metallic = metal->slot >= 0 ? 0 : metal->metallic;
     const gltf_mean *mean;
     int k;
+    if (metal->slot >= 0) {
+        out->metallic = clamp01(metal->metallic);
+        out->metal_map = (uint32_t)metal->slot + 1;
+    }
     if (m->texture >= 0 && metallic > 0) {
         if (!texture_mean(&mean, g, map, &g->b->textures[m->texture]))
             return 0;
         for (k = 0; k < 3; ++k)
             colour[k] *= mean->light[k];
     }
-    set_lobe(out, colour, base, metallic, rough);
+    set_lobe(out, colour, base, metallic, metal->rough);
     return 1;
 }
 
@@ -328,49 +337,71 @@ static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
     return 1;
 }
 
-/* Radiance: factor x KHR_materials_emissive_strength x the mean of the map, which cannot vary over a light. */
-static int read_emission(float out[3], gltf *g, uint32_t material)
+/* What the map makes of the radiance: by texel; by its mean where it has other texture coordinates; nothing where it
+ * cannot be had. */
+static int read_emissive_map(lmb_material *out, double radiance[3], gltf_uv *uv, gltf *g, uint32_t map)
+{
+    const gltf_mean *mean;
+    gltf_uv own;
+    int32_t slot = -1;
+    int k;
+    if (!read_texture(&slot, &own, g, map, TEXELS_COLOUR))
+        return 0;
+    if (slot >= 0 && same_uv(uv, &own)) {
+        out->emission_map = (uint32_t)slot + 1;
+        return 1;
+    }
+    ++g->left_out.emissive_maps;
+    if (slot >= 0 && !texture_mean(&mean, g, map, &g->b->textures[slot]))
+        return 0;
+    for (k = 0; k < 3; ++k)
+        radiance[k] *= slot >= 0 ? mean->light[k] : 0;
+    return 1;
+}
+
+/* Radiance: factor x KHR_materials_emissive_strength x the map. */
+static int read_emission(lmb_material *out, gltf_uv *uv, gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
     const uint32_t map = json_member(doc, material, "emissiveTexture"),
                    more = json_member(doc, json_member(doc, material, "extensions"), "KHR_materials_emissive_strength");
-    const gltf_mean *mean = NULL;
     double factor[3] = {0, 0, 0}, strength = 1;
     int k;
     if (!json_read_doubles(factor, 3, doc, json_member(doc, material, "emissiveFactor"), g->b->r) ||
         !json_read_double(&strength, doc, json_member(doc, more, "emissiveStrength"), g->b->r))
         return 0;
-    if (map != JSON_NONE && (factor[0] > 0 || factor[1] > 0 || factor[2] > 0)) {
-        if (!image_mean(&mean, g, map))
-            return 0;
-        ++g->left_out.emissive_maps;
-    }
+    if (map != JSON_NONE && (factor[0] > 0 || factor[1] > 0 || factor[2] > 0) &&
+        !read_emissive_map(out, factor, uv, g, map))
+        return 0;
     for (k = 0; k < 3; ++k) {
-        factor[k] *= strength * (mean ? mean->light[k] : 1);
-        out[k] = factor[k] > 0 && factor[k] < 1e30 ? (float)factor[k] : 0.0f;
+        factor[k] *= strength;
+        out->emission[k] = factor[k] > 0 && factor[k] < 1e30 ? (float)factor[k] : 0.0f;
     }
     g->left_out.occlusion_maps += json_member(doc, material, "occlusionTexture") != JSON_NONE;
     return 1;
 }
 
-/* Metals have no diffuse light of their own; without their lobe 0.04 of their colour stands for it. */
+/* Metals have no diffuse light of their own; without their lobe 0.04 of their colour stands for it, and of a map that
+ * tells metal from what is none its mean: by texel the metal would be black, with nothing to show that it is metal. */
 static int read_material(lmb_material *out, model_lobe *lobe, gltf_uv *uv, gltf *g, uint32_t material)
 {
     const json *doc = &g->doc;
     const uint32_t pbr = json_member(doc, material, "pbrMetallicRoughness");
     const int unlit = json_member(doc, json_member(doc, material, "extensions"), "KHR_materials_unlit") != JSON_NONE;
-    double base[4] = {1, 1, 1, 1}, metallic = 0, rough = 1, diffuse;
+    gltf_metal metal = {1, 1, 0, -1};
+    double base[4] = {1, 1, 1, 1}, diffuse;
     int sided = 0, i;
     if (!json_read_doubles(base, 4, doc, json_member(doc, pbr, "baseColorFactor"), g->b->r) ||
         !json_read_bool(&sided, doc, json_member(doc, material, "doubleSided"), g->b->r) ||
-        !read_alpha(out, g, material) || (!unlit && !read_metallic(&metallic, &rough, g, pbr)) ||
+        !read_alpha(out, g, material) ||
         !read_texture(&out->texture, uv, g, json_member(doc, pbr, "baseColorTexture"), TEXELS_COLOUR) ||
-        !read_normal_map(out, uv, g, json_member(doc, material, "normalTexture")))
+        !read_normal_map(out, uv, g, json_member(doc, material, "normalTexture")) ||
+        (!unlit && !read_metallic(&metal, uv, g, pbr)))
         return 0;
-    diffuse = 1 - metallic > 0.04 ? 1 - metallic : 0.04;
+    diffuse = 1 - metal.mean > 0.04 ? 1 - metal.mean : 0.04;
     for (i = 0; i < 3; ++i)
         lobe->albedo[i] = out->albedo[i] = clamp01(base[i] * diffuse);
-    if (!unlit && !read_lobe(lobe, g, out, base, metallic, rough, json_member(doc, pbr, "baseColorTexture")))
+    if (!unlit && !read_lobe(lobe, g, out, base, &metal, json_member(doc, pbr, "baseColorTexture")))
         return 0;
     out->alpha = clamp01(base[3]);
     out->flags |= sided ? LMB_DOUBLE_SIDED : 0;
@@ -414,7 +445,7 @@ int gltf_materials(gltf *g)
     for (i = 0; i < n; ++i) {
         plain_material(&g->b->materials[i]);
         if (!read_material(&g->b->materials[i], &g->b->out->lobes[i], &g->material_uv[i], g, g->materials.items[i]) ||
-            !read_emission(g->b->materials[i].emission, g, g->materials.items[i]))
+            !read_emission(&g->b->materials[i], &g->material_uv[i], g, g->materials.items[i]))
             return 0;
     }
     g->b->material_count = n;

@@ -1,4 +1,4 @@
-/* many_lights.c: a scene's point lights as a tree, for scenes with more of them than maps. */
+/* many_lights.c: a scene's lights as a tree, for scenes with more of them than maps. */
 #include "many_lights.h"
 
 #include <math.h>
@@ -9,7 +9,6 @@
 
 void many_lights_free(many_lights *m)
 {
-    free(m->mapped);
     free(m->tree_memory);
     memset(m, 0, sizeof *m);
 }
@@ -17,19 +16,22 @@ void many_lights_free(many_lights *m)
 /* What the stream has to know before it begins. */
 typedef struct extent {
     lmb_vec3 low, high;
-    double most; /* W/sr, R + G + B */
-    uint32_t points, others;
+    double most; /* W/sr or W/m2, R + G + B */
+    uint32_t places; /* lights that are no suns */
 } extent;
 
 static void widen(extent *e, const lmb_light *l)
 {
     const lmb_vec3 p = l->position;
-    if (e->points++ == 0) {
+    e->most += (double)l->intensity[0] + (double)l->intensity[1] + (double)l->intensity[2];
+    if (l->kind == LMB_LIGHT_DIRECTIONAL) {
+        return;
+    }
+    if (e->places++ == 0) {
         e->low = e->high = p;
     }
     e->low = (lmb_vec3){fminf(e->low.x, p.x), fminf(e->low.y, p.y), fminf(e->low.z, p.z)};
     e->high = (lmb_vec3){fmaxf(e->high.x, p.x), fmaxf(e->high.y, p.y), fmaxf(e->high.z, p.z)};
-    e->most += (double)l->intensity[0] + (double)l->intensity[1] + (double)l->intensity[2];
 }
 
 static extent measure(const lmb_scene *s)
@@ -37,11 +39,7 @@ static extent measure(const lmb_scene *s)
     extent e;
     memset(&e, 0, sizeof e);
     for (uint32_t i = 0; i < s->light_count; ++i) {
-        if (s->lights[i].kind == LMB_LIGHT_POINT) {
-            widen(&e, &s->lights[i]);
-        } else {
-            ++e.others;
-        }
+        widen(&e, &s->lights[i]);
     }
     return e;
 }
@@ -72,31 +70,16 @@ static int take_tree(many_lights *m, const lmb_scene *scene, const extent *e, ui
     status = status == LMB_OK ? lmb_many_build(&m->tree) : status;
     m->build_s = host_seconds() - start - m->stream_s;
     return status == LMB_OK ||
-           report_fail(r, "the tree of %u lights: %s", (unsigned)e->points, lmb_status_name(status));
+           report_fail(r, "the tree of %u lights: %s", (unsigned)scene->light_count, lmb_status_name(status));
 }
 
-/* The lights that are no points, and behind them those that stand for the tree's. */
-static int leave_mapped(many_lights *m, lmb_scene *scene, uint32_t others, uint32_t bounce, report *r)
-{
-    uint32_t n = 0;
-    m->mapped = take(m, (others + bounce) * sizeof *m->mapped, r);
-    if (m->mapped == NULL) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < scene->light_count; ++i) {
-        if (scene->lights[i].kind != LMB_LIGHT_POINT) {
-            m->mapped[n++] = scene->lights[i];
-        }
-    }
-    m->bounce = lmb_many_lights(m->mapped + n, bounce, &m->tree);
-    scene->lights = m->mapped;
-    scene->light_count = n + m->bounce;
-    return 1;
-}
-
-int many_lights_take(many_lights *m, lmb_scene *scene, uint32_t cells, uint32_t bounce, report *r)
+int many_lights_take(many_lights *m, lmb_scene *scene, uint32_t cells, report *r)
 {
     const extent e = measure(scene);
     memset(m, 0, sizeof *m);
-    return take_tree(m, scene, &e, cells, r) && leave_mapped(m, scene, e.others, bounce, r);
+    if (!take_tree(m, scene, &e, cells, r)) {
+        return 0;
+    }
+    scene->light_count = 0;
+    return 1;
 }

@@ -144,7 +144,8 @@ static int draw_map(const mix_job *j, const lmb_light_map *map, uint32_t count)
 static int draw_maps(mix_job *j, report *r)
 {
     for (int32_t i = 0; i < j->light_count; ++i) {
-        const size_t bytes = 2 * lmb_light_map_bytes(lmb_light_map_faces(&j->lights[i]), j->o.light_map, LMB_ID32);
+        const int32_t faces = lmb_light_map_faces(&j->lights[i], &j->scene);
+        const size_t bytes = 2 * lmb_light_map_bytes(faces, j->o.light_map, LMB_ID32);
         void *memory = mix_take(j, bytes, r);
         if (memory == NULL) {
             return 0;

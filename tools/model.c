@@ -342,6 +342,7 @@ static int set_bounds(model_build *b)
         boxes.meshes = box;
     }
     lmb_scene_bounds(&scene->bounds_min, &scene->bounds_max, &boxes);
+    lmb_scene_core(&scene->core, scene);
     return 1;
 }
 
@@ -518,6 +519,8 @@ int model_make_glossy(model *m)
         memcpy(materials[i].albedo, m->lobes[i].albedo, sizeof materials[i].albedo);
         memcpy(materials[i].specular, m->lobes[i].specular, sizeof materials[i].specular);
         materials[i].roughness = m->lobes[i].roughness;
+        materials[i].metallic = m->lobes[i].metallic;
+        materials[i].metal_map = m->lobes[i].metal_map;
     }
     return m->lobes != NULL;
 }

@@ -48,7 +48,8 @@ typedef struct model_facts {
 
 /* A material with its glossy lobe: what model_make_glossy puts in. */
 typedef struct model_lobe {
-    float albedo[3], specular[3], roughness;
+    float albedo[3], specular[3], roughness, metallic;
+    uint32_t metal_map;
 } model_lobe;
 
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */

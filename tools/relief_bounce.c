@@ -92,7 +92,7 @@ static lmb_status grow_tree(relief_bounce *b, const lmb_kernels *kernels, const 
 
 static lmb_status find_points(relief_bounce *b, const lmb_kernels *kernels, const lmb_light *light, int32_t size)
 {
-    const int32_t faces = lmb_light_map_faces(light);
+    const int32_t faces = lmb_light_map_faces(light, &b->scene);
     const size_t tree = lmb_tree_bytes((uint32_t)faces, size), bytes = lmb_light_map_bytes(faces, size, LMB_ID32);
     lmb_light_map map;
     if (take(b, 0, tree) == NULL || take(b, 1, bytes) == NULL) {
@@ -150,8 +150,8 @@ lmb_status relief_bounce_tile(lmb_irradiance *inout, relief_bounce *b, const lmb
 {
     lmb_cutting how = {0};
     lmb_status status = LMB_OK;
-    how.error = 0.2f;
-    how.visible = 0.06f;
+    how.error = 0.02f;
+    how.visible = 0.015f;
     for (int relief = 0; relief < 2 && status == LMB_OK; ++relief) {
         b->tile = *tile;
         b->tile.hits = 0;

@@ -57,7 +57,7 @@ static int take_layer(work *w, layer *l, report *r)
 static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
 {
     const relief_shot *s = w->shot;
-    const size_t bytes = lmb_light_map_bytes(lmb_light_map_faces(s->light), s->light_map, LMB_ID32);
+    const size_t bytes = lmb_light_map_bytes(lmb_light_map_faces(s->light, bounds), s->light_map, LMB_ID32);
     l->map_memory = take(w, bytes, r);
     if (l->map_memory == NULL) {
         return 0;

@@ -116,7 +116,7 @@ static int draw_shadows(stage *s, report *r)
     const lmb_scene *scene = &s->figures.scene;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
         const size_t bytes =
-            lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i]), LIGHT_MAP, LMB_ID32);
+            lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i], scene), LIGHT_MAP, LMB_ID32);
         if (s->map_memory[i] == NULL && (s->map_memory[i] = take(bytes, r)) == NULL) {
             return 0;
         }

@@ -1,15 +1,20 @@
 /* render_job.c: a picture's scene, lights and memory. */
 #include "render_job.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "demo_scene.h"
+#include "own_light.h"
+#include "picture.h"
 #include "render_view.h"
 
-#define ELEMENTS   16384
+#define ELEMENTS      16384 /* for what shines, and many lights */
+#define HALF_STEP     0.00015f /* of black in 8 bits: radiance at exposure 0 */
+#define MANY_ELEMENTS 65536 /* for one bounce after another: by fewer, rooms lose a tenth of their later light */
 #define MAP_TEXELS (2u << 20) /* over all lights' maps, by default: 16 MiB */
 
 void render_job_free(render_job *j)
@@ -84,17 +89,22 @@ static void tell_notes(const render_job *j)
 }
 
 /* Is there light without lamps? */
-static int lights_itself(const render_job *j)
+static int shines_itself(const render_job *j)
 {
     return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_shines(&j->scene);
 }
 
-static void set_lights(render_job *j)
+/* Without lamps: a sun, but where what shines by itself is the scene's light. 0 with `r` set: out of memory. */
+static int set_lights(render_job *j, report *r)
 {
     if (j->o.light_count > 0) {
         j->scene.lights = j->o.lights;
         j->scene.light_count = j->o.light_count;
-    } else if (j->scene.light_count == 0 && !lights_itself(j)) {
+    } else if (j->scene.light_count == 0) {
+        const float own = shines_itself(j) ? own_light(&j->scene, r) : 0.0f;
+        if (own < 0.0f || own >= OWN_LIGHT) {
+            return own >= 0.0f;
+        }
         lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL,
                          0};
         j->sun = sun;
@@ -102,30 +112,28 @@ static void set_lights(render_job *j)
         j->scene.light_count = 1;
         note(j, "no light in %s: a sun of 3 W/m2 from the upper right; --light sets others", j->o.scene);
     }
+    return 1;
 }
 
-/* Point lights that are too many for maps, or that were asked to, go into a tree. */
+/* Lights that are too many for maps, or that were asked to, go into a tree. */
 static int set_many_lights(render_job *j, report *r)
 {
-    const uint32_t bounce = j->o.show == LMB_SHOW_DIRECT ? 0 : (uint32_t)j->o.bounce_lights;
     const uint32_t cells = j->o.many_cells > 0 ? (uint32_t)j->o.many_cells : MANY_LIGHTS_CELLS;
-    if (j->scene.light_count > LMB_MAX_LIGHTS || j->o.many_cells > 0) {
-        if (!many_lights_take(&j->many, &j->scene, cells, bounce, r)) {
-            return 0;
-        }
+    if (j->scene.light_count <= LMB_MAX_LIGHTS && j->o.many_cells == 0) {
+        return 1;
     }
-    if (j->many.tree.lights > 0) {
-        j->frame.many = &j->many.tree;
-        j->frame.many_bounce = j->many.bounce;
-        j->frame.many_error = j->o.light_error;
-        note(j, "%u point lights in %u cells; when light bounces, %u stand for them (--many-lights)",
-             (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count, (unsigned)j->many.bounce);
+    if (j->o.show != LMB_SHOW_DIRECT && j->o.grouping.method != LMB_GROUP_CUT) {
+        return report_fail(r, "%s: %u lights bounce by --grouping cut only; or use --show direct", j->o.scene,
+                           (unsigned)j->scene.light_count);
     }
-    return j->scene.light_count <= LMB_MAX_LIGHTS ||
-           report_fail(r,
-                       "%s: %u lights that want a map; this build draws up to %d at once; remove spots or suns, give "
-                       "others by --light, or fewer --bounce-lights",
-                       j->o.scene, (unsigned)j->scene.light_count, LMB_MAX_LIGHTS);
+    if (!many_lights_take(&j->many, &j->scene, cells, r)) {
+        return 0;
+    }
+    j->frame.many = &j->many.tree;
+    j->frame.many_error = j->o.light_error;
+    j->o.gather_step = j->o.gather_step != 0 ? j->o.gather_step : 2;
+    note(j, "%u lights in %u cells (--many-lights)", (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count);
+    return 1;
 }
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
@@ -134,7 +142,7 @@ static uint32_t total_faces(const lmb_scene *s)
 {
     uint32_t faces = 0;
     for (uint32_t i = 0; i < s->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&s->lights[i]);
+        faces += (uint32_t)lmb_light_map_faces(&s->lights[i], s);
     }
     return faces;
 }
@@ -154,7 +162,8 @@ static int take_maps(render_job *j, report *r)
     uint32_t faces = total_faces(&j->scene);
     f->light_map = choose_light_map(j, faces);
     for (uint32_t i = 0; i < j->scene.light_count; ++i) {
-        f->map_bytes += lmb_light_map_bytes(lmb_light_map_faces(&j->scene.lights[i]), f->light_map, f->id_format);
+        const int32_t own = lmb_light_map_faces(&j->scene.lights[i], &j->scene);
+        f->map_bytes += lmb_light_map_bytes(own, f->light_map, f->id_format);
     }
     f->map_memory = j->map_memory = take(j, f->map_bytes, r);
     return f->map_memory != NULL;
@@ -175,8 +184,8 @@ static int take_blockers(render_job *j, report *r)
 
 static int take_elements(render_job *j, report *r)
 {
-    const uint32_t n = j->o.elements != 0 ? (uint32_t)j->o.elements : ELEMENTS;
-    if (j->o.bounces <= 1 && !lmb_scene_shines(&j->scene)) {
+    const uint32_t n = j->o.elements != 0 ? (uint32_t)j->o.elements : j->o.bounces > 1 ? MANY_ELEMENTS : ELEMENTS;
+    if (j->o.bounces <= 1 && !lmb_scene_shines(&j->scene) && j->frame.many == NULL) {
         return 1;
     }
     j->element_memory = take(j, lmb_elements_bytes(n), r);
@@ -235,7 +244,7 @@ static int take_points(render_job *j, report *r)
 /* What holds the light that bounces, as far as it is shown. */
 static int take_light(render_job *j, report *r)
 {
-    const int dark = total_faces(&j->scene) == 0 && !lights_itself(j);
+    const int dark = total_faces(&j->scene) == 0 && !shines_itself(j) && j->frame.many == NULL;
     if (j->o.show == LMB_SHOW_DIRECT || j->o.show == SHOW_LIGHT_DISTANCE || dark) {
         return 1;
     }
@@ -307,9 +316,12 @@ static void set_settings(render_job *j)
     f->error = j->o.error;
     f->proven = j->o.proven;
     f->bounces = j->o.bounces;
+    f->truncated = j->o.truncated;
     f->visible = j->o.visible;
     f->gather_step = j->o.gather_step;
-    if (total_faces(&j->scene) == 0) { /* no map, no bounce */
+    const int shows_steps = j->o.out != NULL && !picture_is_linear(picture_format(j->o.out)) && !j->o.exposure_auto;
+    f->least = shows_steps ? HALF_STEP * exp2f(-j->o.exposure_ev) : 0.0f;
+    if (total_faces(&j->scene) == 0 && !shines_itself(j) && f->many == NULL) { /* no map, no bounce */
         f->occlusion = LMB_OCCLUSION_NONE;
     }
 }
@@ -342,8 +354,7 @@ int render_job_set(render_job *j, report *r)
                            (int)j->o.view.width, LMB_MAX_SIDE);
     }
     tell_notes(j);
-    set_lights(j);
-    if (!shows_attribute(j->o.show) && !set_many_lights(j, r)) {
+    if (!shows_attribute(j->o.show) && (!set_lights(j, r) || !set_many_lights(j, r))) {
         return 0;
     }
     j->crew.threads = j->o.threads > 0 ? j->o.threads : pool_processors();

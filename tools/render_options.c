@@ -29,15 +29,11 @@ static const char usage_view[] =
     "  --light-map N              texels a side of a light's map, a multiple of 8 (default 1024, "
     "less for many lights)\n"
     "many lights\n"
-    "  --many-lights CELLS        point lights stream into at most CELLS cells of the world, and "
-    "every 8x8 pixels take\n"
-    "                             what they need of a tree over those: direct light, shadows by every triangle.\n"
-    "                             Millions take the memory of thousands. By itself, with 16384 cells, where there are\n"
-    "                             more than 128 lights\n"
-    "  --light-error E            share of a pixel's light that one node of that tree may be wrong by (default 0.02)\n"
-    "  --bounce-lights N          lights with a map each that stand for the tree's when light bounces, "
-    "0 .. 128 (default\n"
-    "                             32)\n";
+    "  --many-lights CELLS        lights stream into at most CELLS cells of the world, and every 8x8 pixels take what\n"
+    "                             they need of a tree over those, shadows by every triangle; so do --elements, which\n"
+    "                             bounce their light. Millions take the memory of thousands. By itself, with 16384\n"
+    "                             cells, where there are more than 128 lights\n"
+    "  --light-error E            share of a pixel's light that one node of that tree may be wrong by (default 0.02)\n";
 
 static const char usage_bounce[] =
     "bounce\n"
@@ -48,19 +44,28 @@ static const char usage_bounce[] =
     "  --error-bound E            the same as a proof, for each pixel: takes many times as long (one bounce; with\n"
     "                             --occlusion none also where it takes every texel)\n"
     "  --visible V                what may be seen or blocked as one: at most this share of a pixel's bounced light\n"
-    "  --bounces N                reflections of light, 1 .. 64 (default 1); above 1 with --grouping cut\n"
-    "  --elements N               pieces of the scene that reflect again, or shine (default 16384; a power of 4)\n"
+    "  --bounces N                reflections of light, 1 .. 64 (default 1); above 1 with --grouping cut. What an emitter\n"
+    "                             sends straight is none: it always counts\n"
+    "  --rest estimate|none       with --bounces over 1, light that is reflected more often: estimated from how the last\n"
+    "                             of them grew weaker (default), or left out\n"
+    "  --elements N               pieces of the scene that reflect again, or shine (a power of 4; default 16384, with\n"
+    "                             --bounces over 1 65536)\n"
     "  --grouping cut|zones|greedy|none\n"
     "                             cut (default): every 8x8 pixels take what they need of a tree of all lit points.\n"
     "                             The others make one fixed set of groups; what follows to --steps is theirs:\n"
     "  --groups N                 groups at most (default 512)\n"
     "  --block N                  texels a side of a first point: 1 2 4 8 (default 8)\n"
-    "  --neighbour METRES         points farther apart are no neighbours, say 0.25, 0.5 or 1 (default: any of the\n"
-    "                             eight cells around)\n"
+    "  --neighbour METRES         neighbours are points within so many metres, say 0.25, 0.5 or 1 (default: those of\n"
+    "                             the blocks around, as --neighbour-blocks 1)\n"
+    "  --neighbour-blocks N       neighbours are points within so many blocks of the light's map; and within\n"
+    "                             --neighbour, where both are given\n"
     "  --neighbourhood facing|hemisphere\n"
     "                             neighbours are points that face the same way (default), or any over the surface\n"
     "  --thin N                   of N points one becomes a disc, evenly spread, and the others join it, 1 .. 64\n"
     "                             (default 1)\n"
+    "  --disc-radius R            a disc's radius is R x its mean distance to its neighbours (default: by the area of\n"
+    "                             its points, so that none is lost or made)\n"
+    "  --zones N                  zones that the discs' map is cut into at first (default: as --groups)\n"
     "  --join K                   points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)\n"
     "  --reach X                  a disc joins a group within X x the first disc's radius (default 3)\n"
     "  --cosine C                 ... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)\n"
@@ -71,15 +76,16 @@ static const char usage_bounce[] =
     "                             or, for fixed groups, what the viewer's depth map shows, marched in map space or in\n"
     "                             world space (their default: view): it cannot know what is off screen or hidden\n"
     "  --steps N                  samples of a view march, 1 .. 64 (default 12)\n"
-    "  --gather full|half|quarter at every pixel (default), or at every second or fourth each way and between them\n"
+    "  --gather full|half|quarter at every pixel (default; half with many lights), or at every second or fourth\n"
+    "                             each way and between them\n"
     "                             where surface and light go on; pixels that have no such neighbours "
     "are gathered too\n";
 
 static const char usage_more[] =
     "picture\n"
     "  --glossy                   glTF's materials with highlights and reflections, by metallic, roughness and base\n"
-    "                             colour (maps by their means): of the lamps with maps, and of what bounces, by\n"
-    "                             --grouping cut. Else, and in OBJ, PLY and `demo`, materials are Lambertian\n"
+    "                             colour (metallic-roughness maps by texel): of the lamps with maps, and of what\n"
+    "                             bounces, by --grouping cut. Else, and in OBJ, PLY and `demo`, materials are Lambertian\n"
     "  --show full|direct|indirect|irradiance   (default full; irradiance: bounced, before albedo)\n"
     "         depth|eye-distance|normal|albedo  of what the eye sees; metres along the view, and from the eye\n"
     "         light-distance|points|groups      of the lights' maps, at their size, a row of faces a light: metres\n"
@@ -87,8 +93,8 @@ static const char usage_more[] =
     "                             is given); the number of the group that owns a texel, 0 dark, -1 dropped\n"
     "         occlusion           the share of the bounced light that --occlusion blocks\n"
     "                             Display formats scale distances, near is bright, and give each group a colour.\n"
-    "  --exposure EV|auto         stops, display formats only (default auto: said on stderr). "
-    ".pfm and .hdr stay linear\n"
+    "  --exposure EV|auto         stops, display formats only (default auto, by the light that surfaces reflect: said on\n"
+    "                             stderr). .pfm and .hdr stay linear\n"
     "other\n"
     "  --profile exact            the only one: the same bytes on every machine\n"
     "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
@@ -234,6 +240,12 @@ static int parse_visible(const char *text, render_options *o)
     return option_number(text, 1e-4f, 10.0f, &o->visible);
 }
 
+static int parse_rest(const char *text, render_options *o)
+{
+    o->truncated = strcmp(text, "none") == 0;
+    return o->truncated || strcmp(text, "estimate") == 0;
+}
+
 static int parse_bounces(const char *text, render_options *o) { return option_int(text, 1, 64, &o->bounces); }
 
 /* Rounded up to what the library takes: a power of 4. */
@@ -253,14 +265,24 @@ static int parse_neighbour(const char *text, render_options *o)
     return option_number(text, 0.0f, 1e6f, &o->grouping.neighbour_m);
 }
 
+static int parse_neighbour_blocks(const char *text, render_options *o)
+{
+    return option_int(text, 1, LMB_MAX_SIDE, &o->grouping.neighbour_cells);
+}
+
+static int parse_disc_radius(const char *text, render_options *o)
+{
+    return option_number(text, 0.0f, 1e6f, &o->grouping.radius) && o->grouping.radius > 0.0f;
+}
+
+static int parse_zones(const char *text, render_options *o)
+{
+    return option_int(text, 1, 1 << 26, &o->grouping.zones);
+}
+
 static int parse_light_error(const char *text, render_options *o)
 {
     return option_number(text, 1e-6f, 1.0f, &o->light_error);
-}
-
-static int parse_bounce_lights(const char *text, render_options *o)
-{
-    return option_int(text, 0, LMB_MAX_LIGHTS, &o->bounce_lights);
 }
 
 /* 0 means the default to the library, so the least there is stands for it. */
@@ -372,7 +394,6 @@ static const struct flag {
     {{"--light-map", "a multiple of 8, 8 .. 4096"}, parse_light_map},
     {{"--many-lights", "a number of cells, 1 .. 4194304"}, parse_many_lights},
     {{"--light-error", "a number from 0.000001 to 1"}, parse_light_error},
-    {{"--bounce-lights", "a number of lights, 0 .. 128"}, parse_bounce_lights},
     {{"--grouping", "cut, zones, greedy or none"}, parse_grouping},
     {{"--quality", "draft, default or best"}, parse_quality},
     {{"--tree", "a power of two, 8 .. 4096"}, parse_tree},
@@ -380,11 +401,15 @@ static const struct flag {
     {{"--error-bound", "a share, 0.0001 .. 10"}, parse_error_bound},
     {{"--visible", "a share, 0.0001 .. 10"}, parse_visible},
     {{"--bounces", "a number from 1 to 64"}, parse_bounces},
+    {{"--rest", "estimate or none"}, parse_rest},
     {{"--elements", "a number from 64 to 16777216"}, parse_elements},
     {{"--groups", "a number from 1 to the build's capacity (2048)"}, parse_groups},
     {{"--block", "1, 2, 4 or 8"}, parse_block},
     {{"--neighbour", "metres, 0 or more"}, parse_neighbour},
+    {{"--neighbour-blocks", "a number from 1 to 8192"}, parse_neighbour_blocks},
     {{"--neighbourhood", "facing or hemisphere"}, parse_neighbourhood},
+    {{"--disc-radius", "a number over 0"}, parse_disc_radius},
+    {{"--zones", "a number from 1 to 67108864"}, parse_zones},
     {{"--thin", "a number from 1 to 64"}, parse_thin},
     {{"--join", "a number from 0 to 1"}, parse_join},
     {{"--reach", "a number over 0"}, parse_reach},
@@ -414,7 +439,7 @@ static void choose(render_options *o)
     static const struct preset {
         int32_t tree;
         float error, visible;
-    } presets[] = {{256, 0.2f, 0.06f}, {128, 0.5f, 0.2f}, {1024, 0.05f, 0.015f}};
+    } presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.005f}};
     const struct preset *p = &presets[o->quality];
     const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
     if (o->grouping.method == CHOSEN) {
@@ -498,7 +523,6 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     view_options_init(&o->view);
-    o->bounce_lights = MANY_LIGHTS_BOUNCE;
     o->grouping.method = o->occlusion = CHOSEN;
     o->exposure_auto = 1;
     o->kernels = lmb_kernels_pick();

@@ -41,10 +41,10 @@ typedef struct render_options {
     float error, visible;
     int proven;
     int32_t bounces, elements; /* 0: default */
+    int truncated;             /* --rest none */
     int32_t occlusion, steps;
     int32_t many_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
-    int32_t bounce_lights;
     int32_t gather_step; /* 1, 2, 4 */
     int glossy;          /* materials get their lobe */
     int32_t exposure_auto;

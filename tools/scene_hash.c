@@ -50,7 +50,10 @@ static uint64_t hash_material(uint64_t hash, const lmb_material *m)
     hash = HASH_OF(hash, m->normal_scale);
     hash = HASH_OF(hash, m->emission);
     hash = HASH_OF(hash, m->specular);
-    return HASH_OF(hash, m->roughness);
+    hash = HASH_OF(hash, m->roughness);
+    hash = HASH_OF(hash, m->emission_map);
+    hash = HASH_OF(hash, m->metal_map);
+    return HASH_OF(hash, m->metallic);
 }
 
 static uint64_t hash_texture(uint64_t hash, const lmb_texture *t)

@@ -173,7 +173,7 @@ static void set_counts(lmb_facts *out, const lmb_render *r)
         out->lights += (r->light_state[i] & LMB_LIGHT_DARK) == 0 ? 1.0 : 0.0;
     }
     out->tiles = (double)((v->frame_width + 7) / 8) * (double)((v->frame_height + 7) / 8);
-    out->bounces = (double)f->bounces;
+    out->bounces = (double)(f->bounces + (r->shines ? 1 : 0));
     out->elements = f->elements.data != NULL ? (double)f->elements.cap : 0.0;
     lmb_hull_find(&hull, f->scene);
     out->convex = hull.count > 0;
@@ -247,7 +247,7 @@ int scene_look(lmb_facts *out, const render_job *j, report *r)
     memset(&l, 0, sizeof l);
     l.job = j;
     l.frame = j->frame;
-    l.frame.show = LMB_SHOW_INDIRECT;
+    l.frame.show = j->frame.show == LMB_SHOW_FULL ? LMB_SHOW_FULL : LMB_SHOW_INDIRECT;
     l.frame.occlusion = chooses ? LMB_OCCLUSION_EXACT : j->frame.occlusion;
     l.frame.gather_step = chooses ? 1 : j->frame.gather_step;
     l.frame.stats = NULL;

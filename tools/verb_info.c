@@ -227,7 +227,8 @@ static void text_counts(FILE *out, const model *m, const summary *s)
         const float *e = m->scene.materials[i].emission;
         if (is_emissive(e)) {
             label(out, "");
-            fprintf(out, "%u: %.6g %.6g %.6g\n", (unsigned)i, (double)e[0], (double)e[1], (double)e[2]);
+            fprintf(out, "%u: %.6g %.6g %.6g%s\n", (unsigned)i, (double)e[0], (double)e[1], (double)e[2],
+                    m->scene.materials[i].emission_map > 0 ? ", times its map" : "");
         }
     }
 }

@@ -10,6 +10,7 @@
 #include "grey.h"
 #include "picture.h"
 #include "render_draw.h"
+#include "render_exposure.h"
 
 /* What is no light, for display formats. Reflectance, points and groups are in 0 .. 1 already. */
 static void grey_for_display(render_job *j)
@@ -76,11 +77,11 @@ static int write_stats(const render_job *j, report *r)
         text + n, sizeof text - (size_t)n,
         "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
         "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n"
-        "  \"pairs\": %.0f, \"segments\": %.0f, \"elements\": %u, \"element_m\": %.6g,\n",
+        "  \"pairs\": %.0f, \"segments\": %.0f, \"full_cuts\": %.0f, \"elements\": %u, \"element_m\": %.6g,\n",
         (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
         (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
         (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups,
-        (double)s->pairs, (double)s->segments, (unsigned)j->render->frame.elements.count,
+        (double)s->pairs, (double)s->segments, (double)s->full_cuts, (unsigned)j->render->frame.elements.count,
         (double)j->render->frame.elements.side);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
@@ -136,7 +137,9 @@ static int save(render_job *j, report *r)
             return 0;
         }
     } else if (j->o.exposure_auto && !linear) {
-        ev = picture_auto_exposure(&j->linear) + 0.0f; /* no minus zero */
+        if (!render_exposure(&ev, j, r)) {
+            return 0;
+        }
         fprintf(stderr, "lambent: exposure %+.3g EV (auto)\n", (double)ev);
     }
     return picture_write(j->o.out, &j->linear, ev, r);
@@ -149,6 +152,27 @@ static void tell_loss(const render_job *j)
     if ((j->frame.grouping.flags & LMB_ZONES_STRICT) && j->stats.groups > 0) {
         fprintf(stderr, "lambent: note: --misfits drop lost %.3g %% of the light that bounces\n",
                 j->stats.flux_lit > 0.0 ? fmax(lost, 0.0) / j->stats.flux_lit * 100.0 : 0.0);
+    }
+}
+
+/* More groups were needed than there may be [V21]. */
+static void tell_regroups(const render_job *j)
+{
+    if (j->stats.regroups > 0) {
+        fprintf(stderr,
+                "lambent: note: discs were grouped again %u time%s, each coarser, until --groups was enough: %u\n",
+                (unsigned)j->stats.regroups, j->stats.regroups == 1 ? "" : "s", (unsigned)j->stats.groups);
+    }
+}
+
+/* Pixels whose cuts had no room for what was asked. */
+static void tell_full_cuts(const render_job *j)
+{
+    if (j->stats.full_cuts > 0) {
+        fprintf(stderr,
+                "lambent: note: %.0f patches of pixels have coarser bounced light than asked for: %d nodes of the "
+                "light's tree were not enough (LMB_MAX_CUT); a smaller --tree or a larger --error asks for less\n",
+                (double)j->stats.full_cuts, LMB_MAX_CUT);
     }
 }
 
@@ -166,6 +190,8 @@ static int run(render_job *j, report *r)
         return 0;
     }
     tell_loss(j);
+    tell_regroups(j);
+    tell_full_cuts(j);
     if (j->stats.triangles_dropped > 0) {
         fprintf(stderr, "lambent: note: %u triangles dropped: vertices not finite or over 2^20 m away\n",
                 (unsigned)j->stats.triangles_dropped);

@@ -51,12 +51,16 @@ typedef struct lmb_grouping {
     int32_t method;         /* LMB_GROUP_ZONES */
     int32_t block;          /* 8   texels a side of a first point's surface element: 1 2 4 8           [V4] */
     int32_t groups;         /* 512 wanted at most, <= LMB_MAX_GROUPS                                   [V21] */
-    float neighbour_m;      /* none: neighbours farther than this do not count, m                      [V9] */
+    float neighbour_m;      /* none: a point's neighbours are those within so many metres              [V9] */
     float join;             /* 0.5 points closer than this x mean distance join a disc, 0 < k <= 1     [V11] */
     float reach;            /* 3   a disc joins a group within this x the first disc's radius          [V17] */
     float cosine;           /* 0.9 a disc joins where the normals' cosine is at least this; -1: any    [V17] */
     uint32_t flags;         /* LMB_ZONES_STRICT | LMB_POINT_CENTRE | LMB_NEAR_HEMISPHERE */
     int32_t thin;           /* 1   of so many points one becomes a disc, <= LMB_MAX_THIN; the others join it [V14] */
+    int32_t neighbour_cells; /* 1  ... and so many blocks of the map, across and down; where neighbour_m is given: any
+                               number of them                                                          [V8] */
+    float radius;           /* none: a disc has its points' area; else this x its mean distance as its radius [V12] */
+    int32_t zones;          /* as many as groups: zones that the discs' map is cut into at first       [V20] */
 } lmb_grouping;
 enum { LMB_GROUP_ZONES = 0, LMB_GROUP_GREEDY = 1, LMB_GROUP_NONE = 2,
        LMB_GROUP_CUT = 3 /* lmb_render: each tile's own cut of the light's tree, see tree.h */ };
@@ -121,7 +125,11 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
 
 /* lmb_discs_join: the face collected last: mean neighbour distances, points thinned out where asked for, and close ones
  * join. In place; order kept. Flux and area are sums, so both are conserved, also by `thin`.
- * Returns LMB_OK or LMB_ERR_ARG.                                                      [V8 V9 V10 V11 V12 V14 V15]
+ * Neighbours are points of the same face of a light's map that face the same way (or LMB_NEAR_HEMISPHERE), within
+ * grouping->neighbour_m in space, or within neighbour_cells of the map where that is not given; given both, within
+ * both. Discs join points as far as their mean distance says, up to 32 cells away. Cost: points x cells that the radius
+ * spans; where these are more than 65 x 65, every second, third .. of them each way stands for all.
+ * With `radius`, area is no longer a sum. Returns LMB_OK or LMB_ERR_ARG.             [V8 V9 V10 V11 V12 V14 V15]
  * Thinned discs stay where the map has them: one in `thin` cells, on the lattice whose cells lie farthest apart. */
 lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping);
 

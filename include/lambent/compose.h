@@ -31,8 +31,9 @@ uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect);
 
-/* lmb_compose_shine: add what surfaces give off towards the viewer. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile);
+/* lmb_compose_shine: add what surfaces give off towards the viewer, by texel; the tile was resolved for `view`. LMB_OK
+ * or LMB_ERR_ARG. */
+lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_view *view, const lmb_tile *tile);
 
 /* lmb_compose_gloss: of the pixels with a lobe, scale what is there by what the lobe leaves (lmb_gloss), and add the
  * lobe's radiance. LMB_OK or LMB_ERR_ARG. Not there in builds without trees and probes. */

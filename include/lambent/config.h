@@ -24,8 +24,9 @@
 #endif
 #endif
 
-/* Nodes of one tile's cut through the light's tree (lmb_cut). 32 bytes each. Full: the tile is lit by the nodes it has,
- * coarser than asked for. At least 6 x LMB_MAX_LIGHTS: every face of every map has its root in it. */
+/* Nodes of one tile's cut through the light's tree (lmb_cut). 32 bytes each. Full: halves of the pixels take cuts of
+ * their own; where that does not help they are lit by the nodes there are, coarser than asked for, and
+ * lmb_stats.full_cuts counts them. At least 6 x LMB_MAX_LIGHTS: every face of every map has its root in it. */
 #ifndef LMB_MAX_CUT
 #ifdef LMB_CONFIG_TINY
 #define LMB_MAX_CUT 64
@@ -34,7 +35,7 @@
 #endif
 #endif
 
-/* Nodes of many lights' tree that a tile's surface takes at most. 16 bytes each, in lmb_many_scratch. Full: they part
+/* Nodes of many lights' tree that a tile's surface takes at most. 20 bytes each, in lmb_many_scratch. Full: they part
  * no more, the error grows. */
 #ifndef LMB_MANY_CUT
 #ifdef LMB_CONFIG_TINY
@@ -44,7 +45,7 @@
 #endif
 #endif
 
-/* Nodes of a cut that are tested for shadows and then light the pixels together. 56 bytes each, in lmb_many_scratch. */
+/* Nodes of a cut that are tested for shadows and light the pixels together. 136 bytes each, in lmb_many_scratch. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_MANY_LAMPS 8
 #else
@@ -149,16 +150,7 @@
 #error "lambent: a capacity in config.h is too small"
 #endif
 
-/* Two builds with different layouts must not link: the calls that take a struct of such a layout carry it in their
- * names. Capacities are therefore plain numbers, not expressions. */
-#define LMB_PASTE_(a, b, c, d, e) a##_g##b##_l##c##_c##d##_m##e
-#define LMB_PASTE(a, b, c, d, e) LMB_PASTE_(a, b, c, d, e)
-#define LMB_LAYOUT(name) LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_MAX_CUT, LMB_MANY_CUT)
-#define lmb_build_check LMB_LAYOUT(lmb_build_check)
-#define lmb_group_points LMB_LAYOUT(lmb_group_points)
-#define lmb_gather_tile LMB_LAYOUT(lmb_gather_tile)
-#define lmb_gather_cut LMB_LAYOUT(lmb_gather_cut)
-#define lmb_many_direct_tile LMB_LAYOUT(lmb_many_direct_tile)
-#define lmb_render_begin LMB_LAYOUT(lmb_render_begin)
+/* A program and a library of other capacities than its own do not link. */
+#include "layout.h"
 
 #endif

@@ -8,14 +8,18 @@
  *     lmb_elements_build(&e, &scene, &lights);                           what shines by itself is in the tree
  *     for (b = 1; b < bounces; ++b) {
  *         lmb_elements_receive(&e, .., b == 1 ? &lights : NULL, ..);    from the light's maps, then from each other
+ *         if (b + 1 == bounces) lmb_elements_rest(&e, .., 64 - bounces)  all that would follow, estimated
  *         lmb_elements_send(&e, b + 1 == bounces);                       at last: all bounces together
- *     }
+ *     }                                  where materials shine, one round more, before that of the maps: b = 0
  *     lmb_gather_cut(.., &lights, ..); lmb_gather_cut(.., &e.tree, ..);  a pixel
  */
 #ifndef LMB_ELEMENTS_H
 #define LMB_ELEMENTS_H
 
+#include "many.h"
 #include "tree.h"
+
+enum { LMB_MOST_BOUNCES = 64 };
 
 /* One side of a piece of a triangle, or of several small triangles that lie together. 96 bytes. */
 typedef struct lmb_element {
@@ -49,7 +53,7 @@ extern "C" {
 #endif
 
 /* lmb_elements_bytes: memory of n elements and their tree; n: a power of 4, 64 .. 2^24. 0 where that cannot be.
- * 160 bytes each. */
+ * 168 bytes each. */
 size_t lmb_elements_bytes(uint32_t n);
 
 /* lmb_elements_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). */
@@ -78,6 +82,23 @@ int32_t lmb_elements_tiles(const lmb_elements *elements);
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_receiver *receiver, const lmb_tree *lights,
                                 const lmb_cutting *cutting, int32_t first, int32_t past);
+
+/* lmb_many_elements: the direct light of elements' tiles first .. past - 1, added to their `fresh`: 0 after
+ * lmb_elements_build, or what lmb_elements_receive found there of what shines by itself. Any tiles in any order,
+ * at once on any threads with their own receivers (of which kernels, tile and fresh are used) and scratches.
+ * lmb_many_elements_done: all tiles are lit: `level` counts it. lmb_elements_send then sends the first reflection.
+ * LMB_OK or LMB_ERR_ARG.                                                                                        [V3] */
+lmb_status lmb_many_elements(const lmb_elements *elements, const lmb_receiver *receiver, lmb_many_scratch *scratch,
+                             const lmb_many_look *look, int32_t first, int32_t past);
+lmb_status lmb_many_elements_done(lmb_elements *inout);
+/* lmb_elements_rest: to `fresh` add what `bounces` further bounces would, as if each were the one before times the
+ * share that the last one kept of its own, r + r^2 + ... + r^bounces; r: at most 1, a channel.
+ * Between all and none received, once, before lmb_elements_send.
+ *
+ *   lights  what the last bounce received from beside the elements; else NULL.
+ * After some bounces light spreads as by the exchange's first eigenvector, and every further bounce is alike: then this
+ * is exact, as it is from the start where all walls are lit and reflect alike. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces);
 
 /* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces, and what shines by
  * itself again. LMB_OK or LMB_ERR_ARG. */

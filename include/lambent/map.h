@@ -5,12 +5,14 @@
 #include "raster.h"
 
 /* The light's map: depth + triangle id per face, nothing else. Flux, normals and positions are resolved from it on
- * demand. Spot lights up to 50 degrees half angle and directional lights have one face; wider spots and point lights
- * have six, in GL order (+x -x +y -y +z -z), of which a spot draws only those its cone meets. */
+ * demand. Spot lights up to 50 degrees half angle have one face; wider spots and point lights have six, in GL order
+ * (+x -x +y -y +z -z), of which a spot draws only those its cone meets. Directional lights have one, or as many as
+ * scene->core.faces by the same axes: the finest first, each with all that casts shadows into it; where it lies, those
+ * after it have no first points. */
 typedef struct lmb_light_map {
     lmb_view view[6];
     lmb_target face[6];
-    int32_t faces;  /* 1 or 6 */
+    int32_t faces;  /* 1 .. 6 */
     int32_t size;   /* texels a side */
     uint32_t drawn; /* bit f: face f is part of the map */
 } lmb_light_map;
@@ -30,8 +32,8 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
                             lmb_tile *tile, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t band);
 
-/* lmb_light_map_faces: 1 or 6 for this light. */
-int32_t lmb_light_map_faces(const lmb_light *light);
+/* lmb_light_map_faces: of this light in this scene: 1 .. 6. */
+int32_t lmb_light_map_faces(const lmb_light *light, const lmb_scene *scene);
 
 /* lmb_light_map_bytes: memory of a map of size x size texels a face; id_format LMB_ID16 or LMB_ID32. 0: bad size. */
 size_t lmb_light_map_bytes(int32_t faces, int32_t size, int32_t id_format);
@@ -42,7 +44,7 @@ size_t lmb_light_map_bytes(int32_t faces, int32_t size, int32_t id_format);
 /* lmb_light_map_init: place a light's map into `memory` and fit its views.
  *
  *   size    texels a side: a multiple of 8, 8 .. LMB_MAX_SIDE.
- *   scene   its bounds fit directional lights' maps and set every map's near plane.
+ *   scene   its bounds and core fit directional lights' maps and set every map's near plane.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes): `out` is then untouched. */
 lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
                               int32_t id_format, void *memory, size_t bytes);
@@ -64,8 +66,8 @@ lmb_status lmb_light_map_rows(const lmb_light_map *map, const lmb_kernels *kerne
                               int32_t first, int32_t past, lmb_stats *stats);
 
 /* lmb_light_texel_power: W per channel that a light of `intensity` sends through texel (x, y) of a face: intensity x
- * exact solid angle of the texel (or its area, directional), with the spot's fall-off averaged over 2x2 points.
- * Relative error of the solid angle under 1e-6 for maps of 16 texels or more. */
+ * exact solid angle of the texel (directional: its area, or 0 where a finer face has it), with the spot's fall-off
+ * averaged over 2x2 points. Relative error of the solid angle under 1e-6 for maps of 16 texels or more. */
 void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_light_map *map, int32_t face, int32_t x,
                            int32_t y);
 

@@ -16,7 +16,7 @@ typedef struct lmb_blocker {
 
 #define LMB_BOXES 16
 
-/* Sixteen boxes, m, wider than what they hold by the noise. count > 0: the triangles first .. first + count - 1; 0: the
+/* Sixteen boxes, m, a little wider than what they hold. count > 0: the triangles first .. first + count - 1; 0: the
  * sixteen of node `first`. Those past the last hold nothing: low > high. 512 bytes. */
 typedef struct lmb_boxes {
     float low[3][LMB_BOXES], high[3][LMB_BOXES];
@@ -27,7 +27,8 @@ typedef struct lmb_boxes {
  * scene is none, or has more planes. */
 typedef struct lmb_hull {
     int32_t count;
-    float reach, slack; /* m: the largest coordinate in it; how far rounding may lift a point behind a plane */
+    lmb_vec3 middle;
+    float reach, slack; /* m: the largest step from its middle; how far rounding may lift a point behind a plane */
     lmb_vec3 normal[LMB_HULL_PLANES], at[LMB_HULL_PLANES];
 } lmb_hull;
 
@@ -36,7 +37,7 @@ typedef struct lmb_blockers {
     lmb_blocker *triangle;
     lmb_boxes *node;
     uint32_t triangle_cap, triangle_count, node_cap, node_count;
-    float noise; /* m: how far rounding may lift a point of a surface off its plane */
+    float noise; /* m: the least that is taken for rounding: 0; in a convex room, where nothing blocks, more */
     const lmb_scene *scene; /* for the holes of masked triangles */
     lmb_hull hull;
 } lmb_blockers;
@@ -78,13 +79,28 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene);
  *
  *   pixels  those that ask, a bit each; others' bits come back 0. They need a position.
  *   at      the point: on a surface, or a light's place.
+ *   noise   m: lmb_tile_noise of the pixels, and lmb_place_noise of `at`, together: how far rounding may have left
+ *           both ends off the surfaces that they are on.
  *   walk    its `last` are asked first, and kept up; for the same blockers only. The answer does not depend on them.
  *
- * A triangle blocks where the segment crosses it with both ends farther than `noise` from its plane: so none blocks
- * points of its own, and nothing is tuned. Triangles that share an edge leave no gap. The segments' own tests decide;
+ * A triangle blocks where the segment crosses it with both ends farther from its plane than `noise` and a millionth of
+ * how far its corners are from `at`: so none blocks points of its own, nothing is tuned, and what is far away changes
+ * nothing here. Triangles that share an edge leave no gap. The segments' own tests decide;
  * the walk only leaves out what none can meet. Null: nothing blocks. Cost: 0.1 to 1 us.                     [V25] */
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
-                          uint64_t pixels, lmb_vec3 at, lmb_walk *walk);
+                          uint64_t pixels, lmb_vec3 at, float noise, lmb_walk *walk);
+
+/* lmb_place_noise: m that rounding may leave a place off the surface that it is on, where a ray found it from
+ * `distance` m away: a millionth of the distance and a quarter of that of its coordinates. 0 m: a corner's mean.
+ * lmb_tile_noise: the most of a tile's `pixels`, by their depth. */
+float lmb_place_noise(lmb_vec3 at, float distance);
+float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels);
+
+/* lmb_blocked_sun: which of a tile's pixels do not see a place at infinity; `to`: unit, towards it. Otherwise as
+ * lmb_blocked_tile: a triangle blocks where the ray crosses it from farther off its plane than rounding may have left
+ * the pixel: by its place, its depth, and how far the triangle's corners are. */
+uint64_t lmb_blocked_sun(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
+                         uint64_t pixels, lmb_vec3 to, lmb_walk *walk);
 
 /* lmb_hull_find: the hull of a checked scene whose triangles are all on its planes, with its fronts to the scene; else
  * out->count is 0. lmb_blockers_build does it too. Cost: three passes over the triangles, or as far as the first 17

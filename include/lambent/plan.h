@@ -93,11 +93,11 @@ typedef struct lmb_settings {
  * `visible` LMB_FACT_VISIBLE of it, by LMB_FACT_TREES trees, each half as fine as the last. Errors are lmb_look_error's
  * against the finest setting at every pixel of a tree that is finer still. */
 enum { LMB_FACT_RUNGS = 6, LMB_FACT_TREES = 3, LMB_FACT_STEPS = 3 };
-#define LMB_FACT_FINEST  0.025f
-#define LMB_FACT_VISIBLE 0.3f
+#define LMB_FACT_FINEST  0.005f
+#define LMB_FACT_VISIBLE 0.75f
 typedef struct lmb_facts {
     double triangles, faces, tiles, lights; /* of the scene; drawn, of maps; of the frame; that light directly */
-    double bounces, elements;               /* as the frame asks for; cap: 0 where there are none */
+    double bounces, elements;               /* as the frame asks for, one more where materials shine; cap: 0: none */
     float shown;                            /* pixels with a surface, of all of its tiles */
     int32_t wanted_map;                     /* texels a side of a map whose texels are as fine as the picture */
     int32_t tree;                           /* texels a side of the finest */

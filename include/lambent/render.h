@@ -18,8 +18,8 @@
  *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile
  *
  * Glossy materials (lmb_material.specular; builds with trees) reflect the scene's lights, and bounced light by
- * LMB_GROUP_CUT; fixed groups and `many` reach their diffuse part alone. Tiles that show a lobe are gathered at each
- * pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
+ * LMB_GROUP_CUT; fixed groups and direct light of `many` reach their diffuse part alone. Tiles that show a
+ * lobe are gathered at each pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 
@@ -63,8 +63,7 @@ typedef int (*lmb_band_callback)(void *user, const lmb_surface *rows, int32_t y)
 typedef struct lmb_frame {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one machine's own on small targets */
     const lmb_scene *scene;     /* checked */
-    const lmb_many *many;       /* built: point lights beside the scene's, for direct light. NULL: none */
-    uint32_t many_bounce;       /* so many of the scene's lights, the last ones, stand for those: they only bounce */
+    const lmb_many *many;       /* built: lights beside the scene's; they bounce by `elements`. NULL: none */
     lmb_view view;
     /* how */
     int32_t show;          /* LMB_SHOW_* */
@@ -72,11 +71,15 @@ typedef struct lmb_frame {
     lmb_grouping grouping; /* zeros: defaults */
     int32_t occlusion;     /* LMB_OCCLUSION_* */
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
-    float error;           /* 0.02 where 0: LMB_GROUP_CUT: share of the bounced light that a pixel may be wrong by */
-    float visible;         /* 0.02 where 0: LMB_OCCLUSION_EXACT: share that is seen or not as one */
+    float error;           /* 0.02 where 0: LMB_GROUP_CUT: lmb_cutting's */
+    float visible;         /* 0.015 where 0: LMB_OCCLUSION_EXACT: lmb_cutting's */
     int32_t proven;        /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cutting's */
     float many_error;      /* 0.02 where 0: lmb_many_look's */
-    int32_t bounces;       /* 1 where 0: how often light is reflected before the surface that is seen; LMB_GROUP_CUT */
+    int32_t bounces;       /* 1 where 0, or .. 64: how often light is reflected before the surface that is seen;
+                              LMB_GROUP_CUT. What comes straight from a material that shines is not reflected: it always
+                              counts */
+    int32_t truncated;     /* 1: light that is reflected more than `bounces` times is missing; 0: with `bounces` over 1
+                              it is estimated, up to LMB_MOST_BOUNCES: lmb_elements_rest */
     int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile */
     float exposure_ev;
     /* memory */
@@ -87,7 +90,7 @@ typedef struct lmb_frame {
     lmb_groups *groups; /* NULL: no bounced light */
     lmb_tree tree;      /* LMB_GROUP_CUT: in place of points and groups; texel NULL: no bounced light */
     lmb_blockers blockers; /* LMB_OCCLUSION_EXACT, and shadows from `many`; triangle NULL: these cast none */
-    lmb_elements elements; /* for bounces > 1, and for materials that shine to light others; data NULL: neither */
+    lmb_elements elements; /* for bounces > 1, `many` to bounce and materials to light others; data NULL: none of it */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
     lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
     lmb_band_scratch *scratch;
@@ -98,6 +101,8 @@ typedef struct lmb_frame {
     lmb_stats *stats; /* may be NULL */
     float dim; /* 0, or radiance, W/(sr m2): lights whose bounced light together stays under it at every pixel, proven,
                   do not bounce. For a display at exposure e, 0.00015 / 2^e is half a step of black in 8 bits */
+    float least; /* 0, or radiance, W/(sr m2): bounced light that is wrong by less is right; not with `proven`. For a
+                    display as for `dim` */
     int32_t everything; /* 1: leave nothing out and keep nothing: the same bytes, for those who doubt it */
 } lmb_frame;
 
@@ -183,8 +188,9 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  *          lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
- * also where `frame` shows bounced light and r solved none, or solved more bounces than one by another occlusion, error
- * or visible, or asks for blockers that r did not build. On an error r is as it was. */
+ * also where `frame` shows bounced light and r solved none, or solved more bounces than one, or those of `many`, by
+ * another occlusion, error, visible or many_error, or asks for blockers that r did not build. On an error r is as it
+ * was. */
 lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_next: begin the next frame of an animation: lmb_render_begin that keeps what did not change since r's last

@@ -52,7 +52,12 @@ enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's v
 
 /* Lambertian surface. Diffuse albedo per channel is 0 .. 1; albedo x texture x vertex colour [V2]. Beside it, where
  * `specular` is not 0, one glossy lobe towards the viewer: lmb_gloss. Light that bounces on is the diffuse part
- * alone. */
+ * alone.
+ *
+ * Maps of a surface take the texture coordinates of its base colour. Emission is seen by texel; it lights others by
+ * element, by the map's mean over each. With a metal_map albedo x (1 - metallic) is diffuse and F0 is specular +
+ * (albedo - specular) x metallic, by texel both: `specular` is then that of what is no metal. Builds without lobes
+ * (LMB_LOBES 0) read neither map. */
 typedef struct lmb_material {
     float albedo[3];
     float alpha;        /* times texture alpha times vertex alpha */
@@ -61,9 +66,13 @@ typedef struct lmb_material {
     uint32_t flags;
     uint32_t normal_map; /* index into scene->textures, where normal_scale is not 0 */
     float normal_scale;  /* times the map's x and y; 0: no normal map */
-    float emission[3];   /* radiance that its front gives off, W/(sr m2); its back too where LMB_DOUBLE_SIDED */
+    float emission[3];   /* radiance that its front gives off, W/(sr m2); its back too where LMB_DOUBLE_SIDED; times
+                            emission_map's texels */
     float specular[3];   /* the lobe's reflectance where the surface faces the viewer, F0, 0 .. 1; all 0: no lobe */
-    float roughness;     /* 0 .. 1; alpha = roughness^2, at least LMB_LEAST_ALPHA */
+    float roughness;     /* 0 .. 1; alpha = roughness^2, at least LMB_LEAST_ALPHA; times metal_map's G */
+    uint32_t emission_map; /* 1 + index into scene->textures of what multiplies emission, sRGB; 0: none */
+    uint32_t metal_map;    /* 1 + index of glTF's map of roughness (G) and metallic (B), linear; 0: none */
+    float metallic;        /* 0 .. 1, times metal_map's B; only with it */
 } lmb_material;
 
 /* A mesh placed in the world. Triangle t of it has the id first_id + t, in the draw order of the scene; the first
@@ -88,6 +97,15 @@ typedef struct lmb_light {
     uint32_t revision; /* raise when it changes: of this place in scene->lights */
 } lmb_light;
 
+/* Where a scene is fine, m: a house on a terrain, a room in a scene with a stray triangle a kilometre off. A sun's map
+ * has a face for the core, one for the scene, and those between, each at most 16 times as wide as the one within it. */
+enum { LMB_CORE_FACES = 6 };
+typedef struct lmb_core {
+    lmb_vec3 low, high;           /* the finest place */
+    lmb_vec3 wide_low, wide_high; /* what nearly everything is in; the bounds where that is all */
+    int32_t faces;                /* of a sun's map, up to LMB_CORE_FACES; 0 or 1: one, for the bounds */
+} lmb_core;
+
 typedef struct lmb_scene {
     const lmb_mesh *meshes;
     const lmb_material *materials;
@@ -100,6 +118,7 @@ typedef struct lmb_scene {
     uint32_t lights_revision; /* raise when lights came, went or changed; for changes of one, its own is enough */
     uint32_t look_revision;   /* raise where only colours changed: albedo, emission, specular, roughness, texels without
                                  holes; what is seen and what blocks stands as it was */
+    lmb_core core;            /* lmb_scene_core; all 0: suns' maps have one face */
 } lmb_scene;
 
 #ifdef __cplusplus
@@ -109,10 +128,10 @@ extern "C" {
 /* lmb_scene_check: is the scene safe to draw? Reads every struct (not the vertices; draws check each index).
  *
  * Returns LMB_OK, LMB_ERR_ARG (null pointer, non-finite number, too many triangles, negative albedo, emission or
- * intensity, specular or roughness outside 0 .. 1, direction not of unit length, cones not 0 < cos_outer <= cos_inner
- * <= 1, bounds the wrong way round), LMB_ERR_ALIGN (a stream not 4-byte aligned), LMB_ERR_FORMAT (unknown format,
- * wrap, filter, light kind), LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once after loading;
- * every other function takes the scene as checked. */
+ * intensity, specular, roughness or metallic outside 0 .. 1, direction not of unit length, cones not 0 < cos_outer <=
+ * cos_inner <= 1, bounds or core the wrong way round), LMB_ERR_ALIGN (a stream not 4-byte aligned), LMB_ERR_FORMAT
+ * (unknown format, wrap, filter, light kind), LMB_ERR_SCENE (index outside, ids not numbered in order). Call it once
+ * after loading; every other function takes the scene as checked. */
 lmb_status lmb_scene_check(const lmb_scene *scene);
 
 /* lmb_scene_triangles: triangles over all instances of a checked scene; ids run 1 .. that. Cost: none. */
@@ -126,6 +145,11 @@ int lmb_scene_is_glossy(const lmb_scene *scene);
 
 /* lmb_scene_bounds: the box of all placed, finite vertices; (0,0,0)-(0,0,0) for none. Cost: one pass over them. */
 void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene);
+
+/* lmb_scene_core: where a scene is fine, by its triangles; of a scene that lmb_scene_check takes, bounds_* set. All 0
+ * where one box does: most scenes. Call it after lmb_scene_bounds, and again when things have moved far. Not there in
+ * builds without trees. Cost: up to 250 passes over 8,192 of the triangles, and a few over all. */
+void lmb_scene_core(lmb_core *out, const lmb_scene *scene);
 
 /* lmb_texture_bytes: memory of `levels` levels of a width x height image, 4 bytes a texel; 0 for a bad size. */
 size_t lmb_texture_bytes(int32_t width, int32_t height, int32_t levels);

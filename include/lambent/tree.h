@@ -17,12 +17,18 @@ typedef struct lmb_texel {
                                   of a whole one; else to where its plane meets its neighbour's */
 } lmb_texel;
 
-/* The first points of a square of texels. 72 bytes. */
+/* The first points of a square of texels. 96 bytes.
+ *
+ * Its box has sides along the normal, along `across`, and along normal x across: so what is asked of it does not depend
+ * on how the world is turned. */
 typedef struct lmb_node {
     lmb_vec3 centre, normal; /* means, weighted by flux; normal of unit length */
     float flux[3], area;     /* sums, W and m2; flux 0: nothing */
-    lmb_vec3 low, high;      /* box of their quads */
+    lmb_vec3 middle, across; /* of the box of their quads; across: unit, at right angles to the normal */
+    float half[3];           /* half the box's sides, m */
+    float radius;            /* m: all of them lie as near to `middle` */
     float cosine;            /* of the widest angle between their normals and the mean; -1: any */
+    float agreement;         /* length of the normals' mean, weighted by flux: 1 where all are the same, else less */
     uint32_t texel;          /* one of them, near the centre: where visibility is asked for */
 } lmb_node;
 
@@ -48,14 +54,15 @@ typedef struct lmb_emitter {
 enum {
     LMB_WEIGH_CENTRE = 0,
     LMB_WEIGH_NORMAL = 3,
-    LMB_WEIGH_LOW = 6,
-    LMB_WEIGH_HIGH = 9,
-    LMB_WEIGH_SEEN = 12,        /* where its visibility is asked, and the normal there */
-    LMB_WEIGH_SEEN_NORMAL = 15,
-    LMB_WEIGH_FLUX = 18,        /* R + G + B */
-    LMB_WEIGH_AREA = 19,
-    LMB_WEIGH_COSINE = 20,
-    LMB_WEIGH_PLANES = 21
+    LMB_WEIGH_MIDDLE = 6,
+    LMB_WEIGH_ACROSS = 9,
+    LMB_WEIGH_HALF = 12,
+    LMB_WEIGH_FLUX = 15,        /* R + G + B */
+    LMB_WEIGH_AREA = 16,
+    LMB_WEIGH_COSINE = 17,
+    LMB_WEIGH_RADIUS = 18,
+    LMB_WEIGH_AGREEMENT = 19,
+    LMB_WEIGH_PLANES = 20
 };
 
 /* Nodes side by side, and what they were found to give the tile: value and most as in lmb_cut, and error. */
@@ -91,12 +98,16 @@ typedef struct lmb_cut {
 
 /* How tiles take their cut. */
 typedef struct lmb_cutting {
-    float error;   /* share of a pixel's bounced light that it may be wrong by where nothing blocks */
+    float error;   /* share of a pixel's light that what bounces may be wrong by where nothing blocks: the root of the
+                      nodes' errors' squares; proven: of their sum */
     float visible; /* share that no node may exceed whose visibility is asked as one */
+    float floor;   /* W/m2, R + G + B: what is wrong by less than this is right, whatever its share; proven: not used */
     int32_t proven; /* 1: `error` is a bound that no pixel exceeds where nothing blocks, by any number of nodes; 0: rule
                        that holds for all but a few pixels, by a tenth of them */
     const lmb_blockers *blockers; /* NULL: everything is seen */
     lmb_stats *stats;             /* counts pairs and segments; may be NULL */
+    const lmb_irradiance *direct; /* shown together with what bounces: counts to a pixel's light, by the least of the
+                                     pixels that take a cut together; or NULL */
     const lmb_irradiance *beside; /* counts to a pixel's light too, for both shares; may be what is added to; or NULL */
     float least;                  /* so does this, W/m2, R + G + B */
     lmb_gloss *gloss;             /* the tile's lobes: what they make of the nodes is added; NULL: none */
@@ -127,10 +138,12 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
 /* lmb_gather_cut: add what the tree's first points light to a tile's pixels.                          [V25 V27 V28]
  *
  * The tile is split by surfaces; each takes its own cut: the node with the largest error is replaced by its four until
- * the errors' sum is at most cutting->error of the sum of what they give, or LMB_MAX_CUT nodes are reached. A node's
- * error is the most it can give, times the second order of its size and bend: U min(1, R^2 / 2 d^2 + sin^2 a), and at
- * least a quarter of it where a horizon goes through the node.
- * Visibility: each node's own texel, from every pixel. Texels near a pixel count as their exact quads.
+ * the root of the errors' squares' sum is at most cutting->error of the sum of what they give. A node's error is the
+ * most it can give, times the second order of its size and bend: U min(1, R^2 / 2 d^2 + sin^2 a), and at least a quarter
+ * of it where a horizon goes through the node. Where LMB_MAX_CUT nodes are not enough, each half of the pixels takes a
+ * cut of its own, while that comes closer; else the pixels are lit by the nodes there are, and stats->full_cuts counts.
+ * Visibility: one texel of each node that faces the pixels, from every pixel. Texels near a pixel count as their exact
+ * quads.
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
                           const lmb_tree *tree, const lmb_cutting *cutting);

@@ -19,7 +19,12 @@
 
 #include "config.h"
 
-/* 0 is fine, positive is fine and says more, negative is an error. */
+/* 0 is fine, positive is fine and says more, negative is an error.
+ *
+ * Every call may be given NULL, structs of zeros and numbers out of range. Those that return a status then say
+ * LMB_ERR_ARG or what else is wrong, or LMB_OK where zeros mean that there is nothing to do; the others return 0 or
+ * NULL, set what they can to 0, and write nothing else. What no call can know is whether arrays are as long, and
+ * memory is as large, as it is told. */
 typedef enum lmb_status {
     LMB_OK = 0,
     LMB_MORE = 1,          /* lmb_render_step: call again */
@@ -48,7 +53,8 @@ typedef struct lmb_view {
     lmb_vec3 eye;
     lmb_vec3 right, up, back;
     float half_width, half_height; /* perspective: tangents of the half angles; orthographic: metres */
-    float near_m, far_m;           /* over 1e-30, like widths; far_m: for orthographic views, 16-bit depth */
+    float near_m, far_m;           /* near_m over 1e-30, like widths; of an orthographic view under far_m, and
+                                      under -1e-30 where it is behind the eye; far_m: for those, 16-bit depth */
     int32_t kind;                  /* LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC */
     int32_t frame_width, frame_height; /* px of the whole frame, <= LMB_MAX_FRAME */
 } lmb_view;
@@ -93,6 +99,7 @@ typedef struct lmb_stats {
     uint32_t regroups;          /* times grouping restarted because LMB_MAX_GROUPS was met */
     uint32_t bands;
     uint64_t pairs, segments;   /* LMB_GROUP_CUT: pixels x nodes that light them; visibility asked for */
+    uint64_t full_cuts;         /* patches of pixels lit by less nodes than was asked for: LMB_MAX_CUT was met */
     double flux_lit;            /* W: outgoing power of all first points, sum of R, G, B */
     double flux_grouped;        /* W: the same over the groups; less only where strict zones drop some [V20] */
 } lmb_stats;

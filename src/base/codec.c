@@ -20,6 +20,8 @@ uint8_t lmb_srgb_encode(float linear)
  * of the unit square (Meyer, Suessmuth, Sussner, Stamminger 2010). In integers the fold is exact. */
 lmb_vec3 lmb_octahedral_decode(const int16_t code[2])
 {
+    if (!code)
+        return vec3(0.0f, 0.0f, 1.0f);
     int32_t x = maxi(code[0], -32767), y = maxi(code[1], -32767);
     int32_t z = 32767 - (x < 0 ? -x : x) - (y < 0 ? -y : y);
     if (z < 0) {
@@ -51,6 +53,8 @@ void lmb_octahedral_encode(int16_t out[2], lmb_vec3 unit)
     float at[2], error, best = 4.0f;
     int32_t i;
     int16_t code[2];
+    if (!out)
+        return;
     out[0] = out[1] = 0;
     if (!(dot3(n, n) > 0.5f && dot3(n, n) < 2.0f)) /* zero, denormal, infinite, NaN: +z */
         return;

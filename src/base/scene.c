@@ -63,12 +63,15 @@ static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
         return LMB_ERR_ARG;
     if (m->emission[0] < 0.0f || m->emission[1] < 0.0f || m->emission[2] < 0.0f)
         return LMB_ERR_ARG;
-    if (!is_share(m->specular[0]) || !is_share(m->specular[1]) || !is_share(m->specular[2]) || !is_share(m->roughness))
+    if (!is_share(m->specular[0]) || !is_share(m->specular[1]) || !is_share(m->specular[2]) ||
+        !is_share(m->roughness) || !is_share(m->metallic))
         return LMB_ERR_ARG;
     if (!are_finite(m->albedo, 3) || !are_finite(m->emission, 3) || !is_finite(m->alpha) ||
         !is_finite(m->alpha_cutoff) || !is_finite(m->normal_scale))
         return LMB_ERR_ARG;
     if (m->normal_scale != 0.0f && m->normal_map >= texture_count)
+        return LMB_ERR_SCENE;
+    if (m->emission_map > texture_count || m->metal_map > texture_count)
         return LMB_ERR_SCENE;
     if (m->texture < -1 || (m->texture >= 0 && (uint32_t)m->texture >= texture_count))
         return LMB_ERR_SCENE;
@@ -117,6 +120,16 @@ static int has_arrays(const lmb_scene *s)
            (s->lights || !s->light_count);
 }
 
+/* Builds without trees do not read it. */
+static int is_core(const lmb_core *c)
+{
+    return !LMB_TREES || c->faces == 0 ||
+           (c->faces > 0 && c->faces <= LMB_CORE_FACES && is_finite3(c->low) && is_finite3(c->high) &&
+            is_finite3(c->wide_low) && is_finite3(c->wide_high) && c->low.x <= c->high.x && c->low.y <= c->high.y &&
+            c->low.z <= c->high.z && c->wide_low.x <= c->wide_high.x && c->wide_low.y <= c->wide_high.y &&
+            c->wide_low.z <= c->wide_high.z);
+}
+
 lmb_status lmb_scene_check(const lmb_scene *scene)
 {
     lmb_status status = LMB_OK;
@@ -124,7 +137,7 @@ lmb_status lmb_scene_check(const lmb_scene *scene)
     if (!scene || !has_arrays(scene) || !is_finite3(scene->bounds_min) || !is_finite3(scene->bounds_max))
         return LMB_ERR_ARG;
     if (scene->bounds_min.x > scene->bounds_max.x || scene->bounds_min.y > scene->bounds_max.y ||
-        scene->bounds_min.z > scene->bounds_max.z)
+        scene->bounds_min.z > scene->bounds_max.z || !is_core(&scene->core))
         return LMB_ERR_ARG;
     for (i = 0; i < scene->mesh_count && status == LMB_OK; ++i)
         status = check_mesh(&scene->meshes[i]);
@@ -168,7 +181,9 @@ void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *sce
 {
     lmb_vec3 lo = vec3(FLT_MAX, FLT_MAX, FLT_MAX), hi = vec3(-FLT_MAX, -FLT_MAX, -FLT_MAX);
     uint32_t i, v;
-    for (i = 0; i < scene->instance_count; ++i) {
+    if (!out_min || !out_max)
+        return;
+    for (i = 0; scene && i < scene->instance_count; ++i) {
         const lmb_instance *in = &scene->instances[i];
         const lmb_mesh *mesh = &scene->meshes[in->mesh];
         for (v = 0; v < mesh->vertex_count; ++v) {

@@ -9,6 +9,7 @@
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../light/gloss.h"
+#include "../occlusion/walk.h"
 #include "../raster/tile.h"
 #include "footprint.h"
 #include "patch.h"
@@ -18,7 +19,10 @@
 
 #define INVERSE_PI 0.31830989f
 #define PI         3.14159265f
-#define DARK       0.25 /* of `visible`: under this share of what nothing blocked, errors do not count */
+#define DARK       0.03  /* of what is there where nothing blocks: who sees less than this share is as dark */
+#define BENT       0.98f /* agreement of normals under which a node's parts are asked which of them face the patch */
+#define HOLDS  100.0  /* times over what was asked for: by nodes that the pixels lie in, fewer pixels in fewer nodes */
+#define CLOSER     0.7   /* a half that comes this much closer to what was asked for is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 enum { AHEAD = LMB_WEIGH_NODES / 4 /* nodes whose parts are weighed together */ };
@@ -32,6 +36,7 @@ typedef struct cutter {
     const lmb_kernels *kernels;
     const lmb_cutting *cutting;
     const lmb_patch *p;
+    float noise;         /* m: lmb_tile_noise of the patch */
     uint64_t in_hull;    /* pixels of the patch in a convex room: nothing stands between them and others in it */
     float per_pixel;     /* 1 / pixels of the patch */
     int lobe;            /* a pixel whose lobe stands for the patch's; NONE: they have none */
@@ -41,7 +46,10 @@ typedef struct cutter {
     const float *key;    /* what the buckets go by: cut->error or cut->most */
     int highest;         /* no bucket over this has any */
     double error, value; /* sums; of value, what is seen */
+    double floor;        /* W/m2, R + G + B: errors under this are no errors */
 } cutter;
+
+static double maxd(double a, double b) { return a > b ? a : b; }
 
 static void set_vector(lmb_weighed *out, int plane, int k, lmb_vec3 v)
 {
@@ -50,26 +58,31 @@ static void set_vector(lmb_weighed *out, int plane, int k, lmb_vec3 v)
     out->node[plane + 2][k] = v.z;
 }
 
+/* A node of any level; `texel` holds one of level 0. */
+static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_tree_place at)
+{
+    if (at.level > 0) {
+        return tree_node(tree, at);
+    }
+    lmb_tree_texel_node(texel, tree, at.face, at.x, at.y);
+    return texel;
+}
+
 /* Node k of those that are weighed together. */
 static void set_weighed(lmb_weighed *out, int k, const lmb_tree *tree, lmb_tree_place at)
 {
     lmb_node texel;
-    const lmb_node *n = &texel;
-    if (at.level > 0) {
-        n = tree_node(tree, at);
-    } else {
-        lmb_tree_texel_node(&texel, tree, at.face, at.x, at.y);
-    }
-    const lmb_texel *seen = tree_texel(tree, at.face, 0, 0) + n->texel;
+    const lmb_node *n = node_at(&texel, tree, at);
     set_vector(out, LMB_WEIGH_CENTRE, k, n->centre);
     set_vector(out, LMB_WEIGH_NORMAL, k, n->normal);
-    set_vector(out, LMB_WEIGH_LOW, k, n->low);
-    set_vector(out, LMB_WEIGH_HIGH, k, n->high);
-    set_vector(out, LMB_WEIGH_SEEN, k, seen->position);
-    set_vector(out, LMB_WEIGH_SEEN_NORMAL, k, seen->normal);
+    set_vector(out, LMB_WEIGH_MIDDLE, k, n->middle);
+    set_vector(out, LMB_WEIGH_ACROSS, k, n->across);
+    set_vector(out, LMB_WEIGH_HALF, k, vec3(n->half[0], n->half[1], n->half[2]));
+    out->node[LMB_WEIGH_RADIUS][k] = n->radius;
     out->node[LMB_WEIGH_FLUX][k] = flux_sum(n->flux);
     out->node[LMB_WEIGH_AREA][k] = n->area;
     out->node[LMB_WEIGH_COSINE][k] = n->cosine;
+    out->node[LMB_WEIGH_AGREEMENT][k] = n->agreement;
 }
 
 static lmb_tree_place part_at(lmb_tree_place from, int k)
@@ -92,10 +105,10 @@ static lmb_vec3 weighed_vector(const lmb_weighed *w, int plane, int k)
 static void weigh_lobe(cutter *c, int k)
 {
     lmb_weighed *w = &c->cut->weighed;
-    const lmb_vec3 low = weighed_vector(w, LMB_WEIGH_LOW, k), high = weighed_vector(w, LMB_WEIGH_HIGH, k);
-    const lmb_vec3 half = mul3(sub3(high, low), 0.5f),
-                   to = sub3(weighed_vector(w, LMB_WEIGH_CENTRE, k), c->p->centre);
-    const float d2 = maxf(dot3(to, to), 1e-12f), node = length3(half), both = node + length3(c->p->half);
+    const lmb_vec3 to = sub3(weighed_vector(w, LMB_WEIGH_CENTRE, k), c->p->centre);
+    const float *half = c->p->half;
+    const float d2 = maxf(dot3(to, to), 1e-24f), node = w->node[LMB_WEIGH_RADIUS][k],
+                both = node + sqrtf(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     const lmb_gloss *gloss = c->cutting->gloss;
     const float far = lmb_gloss_factor(gloss, c->tile, c->lobe, to, minf(PI * both * both / d2, 2.0f * PI));
     const float mean = lmb_gloss_factor(gloss, c->tile, c->lobe, to, minf(PI * node * node / d2, 2.0f * PI));
@@ -163,10 +176,23 @@ static double seen_value(const cutter *c, int32_t i)
     return (double)(c->cut->value[i] * ((float)count_bits_64(c->cut->visible[i]) * c->per_pixel));
 }
 
+/* Errors of many nodes are as often too much as too little: their squares add up. A proof takes each at its worst. */
+static double counted_error(const cutter *c, int32_t i)
+{
+    const double e = (double)c->cut->error[i];
+    return c->cutting->proven ? e : e * e;
+}
+
+static double allowed_error(const cutter *c)
+{
+    const double most = (double)c->cutting->error * (c->beside + c->value);
+    return c->cutting->proven ? most : maxd(most * most, c->floor * c->floor);
+}
+
 static void count_in(cutter *c, int32_t i, double sign)
 {
     c->value += sign * seen_value(c, i);
-    c->error += sign * (double)c->cut->error[i];
+    c->error += sign * counted_error(c, i);
 }
 
 /* Node k of the weighed into slot i. */
@@ -183,29 +209,81 @@ static void put(cutter *c, int32_t i, lmb_tree_place at, int k, uint64_t visible
 
 /* Of `pixels`, those that do not have the point before them, or are not before it, by more than what a wall does not
  * block: it does not block what lies on it, so who stands behind it must not be asked past it. */
-APART uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen)
+APART uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen, float ends)
 {
-    const float noise = c->cutting->blockers->noise;
     uint64_t out = 0;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const lmb_vec3 d = sub3(seen->position, tile_vec(c->tile->position, k));
+        const float noise = ends + LMB_NOISE_TRIANGLE * length3(d);
         const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > noise;
         out |= (uint64_t)!before << k;
     }
     return out;
 }
 
-/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are:
- * see weigh.inl's TURNED. */
+/* Are a first point and the patch's middle before each other? */
+static int is_before(const lmb_patch *p, lmb_vec3 at, lmb_vec3 normal)
+{
+    const lmb_vec3 d = sub3(at, p->centre);
+    return dot3(p->normal, d) > 0.0f && dot3(normal, d) < 0.0f;
+}
+
+static const lmb_texel *own_point(const lmb_tree *tree, lmb_tree_place at)
+{
+    return at.level > 0 ? tree_texel(tree, at.face, 0, 0) + tree_node(tree, at)->texel
+                        : tree_texel(tree, at.face, at.x, at.y);
+}
+
+/* Of a node's parts the one that sends the patch most as a disc; its level is the node's where none sends any. */
+static lmb_tree_place brightest_part(const cutter *c, lmb_tree_place from)
+{
+    lmb_tree_place best = from;
+    float most = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        const lmb_tree_place at = part_at(from, k);
+        lmb_node texel;
+        const lmb_node *n = node_at(&texel, c->tree, at);
+        const float flux = flux_sum(n->flux);
+        const float sent = flux > 0.0f && is_before(c->p, n->centre, n->normal)
+                               ? flux * lmb_disc_factor(c->p->centre, c->p->normal, n->centre, n->normal, n->area)
+                               : 0.0f;
+        best = sent > most ? at : best;
+        most = maxf(most, sent);
+    }
+    return best;
+}
+
+/* Where a node's visibility is asked: at its own first point, or, where that faces away, at one that does not. */
+static const lmb_texel *asked_point(const cutter *c, lmb_tree_place at)
+{
+    const lmb_texel *own = own_point(c->tree, at), *seen = own;
+    while (at.level > 0 && !is_before(c->p, seen->position, seen->normal)) {
+        const lmb_tree_place part = brightest_part(c, at);
+        if (part.level == at.level) {
+            return own;
+        }
+        at = part;
+        seen = own_point(c->tree, at);
+    }
+    return seen;
+}
+
+/* Of a texel: its light found it, an element is a mean of corners. */
+static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
+{
+    return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
+}
+
+/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are. */
 static void ask(cutter *c, int32_t i)
 {
     const lmb_tree_place at = c->cut->place[i];
-    const lmb_texel *seen = at.level > 0 ? tree_texel(c->tree, at.face, 0, 0) + tree_node(c->tree, at)->texel
-                                         : tree_texel(c->tree, at.face, at.x, at.y);
+    const lmb_texel *seen = asked_point(c, at);
+    const float noise = c->noise + texel_noise(c, at.face, seen->position);
     count_in(c, i, -1.0);
     if (c->tree->element != NULL) {
-        c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen);
+        c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen, noise);
     }
     if (c->cutting->stats != NULL) {
         c->cutting->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
@@ -215,7 +293,8 @@ static void ask(cutter *c, int32_t i)
         asked &= ~c->in_hull;
     }
     c->cut->visible[i] &=
-        ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, asked, seen->position, &c->cut->use.walk);
+        ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, asked, seen->position, noise,
+                          &c->cut->use.walk);
     count_in(c, i, 1.0);
 }
 
@@ -278,38 +357,45 @@ static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 
 static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; }
 
-/* Divide the one that can give most until none is over `share` of what is seen, or of `least`. */
-static void divide_by_most(cutter *c, float share, double least, int asks)
+/* What a node may give whose visibility is asked as one. */
+static double allowed_most(const cutter *c, double least)
+{
+    return maxd((double)c->cutting->visible * (c->beside + maxd(c->value, least)), c->floor);
+}
+
+/* Divide the one that can give most until none is over what is allowed. Where room ends, how far over it is. */
+static double divide_by_most(cutter *c, double least, int asks)
 {
     int32_t i = largest(c);
-    while (i != NONE && has_room(c) &&
-           (double)c->cut->most[i] > (double)share * (c->beside + (c->value > least ? c->value : least))) {
+    while (i != NONE && has_room(c) && (double)c->cut->most[i] > allowed_most(c, least)) {
         c->cut->bucket[c->highest] = c->cut->next[i];
         divide(c, i, c->p->pixels, asks);
         i = largest(c);
     }
+    return i != NONE && !has_room(c) ? (double)c->cut->most[i] / maxd(allowed_most(c, least), 1e-30) : 0.0;
 }
 
-static void divide_by_error(cutter *c, float share)
+static double divide_by_error(cutter *c)
 {
     int32_t i = largest(c);
-    while (i != NONE && has_room(c) && c->error > (double)share * (c->beside + c->value)) {
+    while (i != NONE && has_room(c) && c->error > allowed_error(c)) {
         c->cut->bucket[c->highest] = c->cut->next[i];
         divide(c, i, c->cut->visible[i], 0);
         i = largest(c);
     }
+    return i != NONE && !has_room(c) ? c->error / maxd(allowed_error(c), 1e-30) : 0.0;
 }
 
-/* Large errors that came and went leave their rounding in the sum: a proof counts it anew. */
-static int is_proven(cutter *c)
+/* Large errors that came and went leave their rounding in the sum: it is counted anew. */
+static int is_right(cutter *c)
 {
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
         if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
-            c->error += (double)c->cut->error[i];
+            c->error += counted_error(c, i);
         }
     }
-    return c->error <= (double)c->cutting->error * (c->beside + c->value);
+    return c->error <= allowed_error(c);
 }
 
 /* The faces' roots. */
@@ -340,31 +426,40 @@ APART void begin(cutter *c)
     }
 }
 
-/* First nodes so small that each may be seen or not as one; then, of those that are seen, smaller ones. */
-static void take_cut(cutter *c)
+/* Those that wait to be divided for their shape: what is seen. */
+static void wait_by_error(cutter *c)
 {
+    empty_buckets(c, c->cut->error);
+    c->error = 0.0;
+    for (int32_t i = 0; i < c->cut->count; ++i) {
+        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+            c->error += counted_error(c, i);
+            wait(c, i);
+        }
+    }
+}
+
+/* First nodes so small that each may be seen or not as one; then, of those that are seen, smaller ones. Returns how far
+ * the worst is over what is allowed where there was no room for more; else 0. */
+static double take_cut(cutter *c)
+{
+    double over = 0.0;
     begin(c);
     if (c->cutting->blockers != NULL) {
-        divide_by_most(c, c->cutting->visible, 0.0, 0);
-        const double least = c->value * (double)c->cutting->visible * DARK;
+        divide_by_most(c, 0.0, 0);
+        const double least = c->value * DARK;
         for (int32_t i = 0; i < c->cut->count; ++i) {
             if (c->cut->place[i].level != GONE) {
                 ask(c, i);
             }
         }
-        divide_by_most(c, c->cutting->visible, least, 1);
+        over = divide_by_most(c, least, 1);
     }
-    empty_buckets(c, c->cut->error);
-    c->error = 0.0;
-    for (int32_t i = 0; i < c->cut->count; ++i) {
-        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
-            c->error += (double)c->cut->error[i];
-            wait(c, i);
-        }
-    }
+    wait_by_error(c);
     do {
-        divide_by_error(c, c->cutting->error);
-    } while (c->cutting->proven && !is_proven(c) && has_room(c) && largest(c) != NONE);
+        over = maxd(over, divide_by_error(c));
+    } while (!is_right(c) && has_room(c) && largest(c) != NONE);
+    return over;
 }
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
@@ -383,8 +478,7 @@ static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
     out->is_crease = lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
     out->element = tree_element(tree, at.x, at.y);
     if (out->is_crease) {
-        const lmb_vec3 half = mul3(sub3(out->node.high, out->node.low), 0.5f);
-        out->half2 = dot3(half, half);
+        out->half2 = out->node.radius * out->node.radius;
     } else {
         out->half2 = out->element != NULL
                          ? out->element->reach2
@@ -468,7 +562,7 @@ static void add_gloss(const cutter *c, int k, const leaf *l)
         const lmb_vec3 part = leaf_part(l, i), to = sub3(part, at);
         const float factor = share * lmb_disc_factor(at, normal, part, n->normal, area);
         if (dot3(face, to) > 0.0f && factor > 0.0f) {
-            const float r2 = maxf(dot3(to, to), 1e-12f), size = area / (r2 + area * INVERSE_PI);
+            const float r2 = maxf(dot3(to, to), 1e-24f), size = area / (r2 + area * INVERSE_PI);
             lmb_gloss_add(c->cutting->gloss, c->tile, k, to, size * maxf(-dot3(n->normal, to), 0.0f) / sqrtf(r2),
                           vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
         }
@@ -512,9 +606,7 @@ APART void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, c
 /* Is some of the patch near the leaf? */
 static int is_near(const lmb_patch *p, const leaf *l)
 {
-    const lmb_vec3 to = sub3(l->node.centre, p->centre);
-    const lmb_vec3 apart = boxes_apart(to, p->half, vec3(0, 0, 0));
-    return dot3(apart, apart) < LMB_NEAR * LMB_NEAR * l->half2;
+    return lmb_patch_apart2(p, l->node.centre) < LMB_NEAR * LMB_NEAR * l->half2;
 }
 
 static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
@@ -522,7 +614,9 @@ static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
     out->position = n->centre;
     out->back = mul3(n->normal, -1.0f);
     out->area_pi = n->area * INVERSE_PI;
-    memcpy(out->flux, n->flux, sizeof out->flux);
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = n->flux[c] * n->agreement;
+    }
     out->visible = visible;
 }
 
@@ -544,14 +638,48 @@ static void flush(stream *s)
     s->filled = 0;
 }
 
+/* A node with parts that may face away from all of the patch, by those that do not: its mean would count the former as
+ * less than nothing. */
+static void face_on(lmb_node *out, const cutter *c, lmb_tree_place from, const lmb_node *whole)
+{
+    lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0);
+    float weight = 0.0f;
+    *out = *whole;
+    out->flux[0] = out->flux[1] = out->flux[2] = out->area = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        lmb_node texel;
+        const lmb_node *n = node_at(&texel, c->tree, part_at(from, k));
+        const float w = flux_sum(n->flux);
+        if (w > 0.0f && dot3(n->normal, sub3(n->centre, c->p->centre)) < lmb_patch_reach(c->p, n->normal)) {
+            centre = add3(centre, mul3(sub3(n->centre, whole->centre), w));
+            normal = add3(normal, mul3(n->normal, w * n->agreement));
+            weight += w;
+            out->area += n->area;
+            for (int i = 0; i < 3; ++i) {
+                out->flux[i] += n->flux[i];
+            }
+        }
+    }
+    if (weight > 0.0f) {
+        out->centre = add3(whole->centre, mul3(centre, 1.0f / weight));
+        out->agreement = minf(length3(normal) / weight, 1.0f);
+        out->normal = normalize3(normal);
+    }
+}
+
 static void light_by(stream *s, lmb_tree_place at, uint64_t visible)
 {
+    lmb_node part;
     const cutter *c = s->c;
     const lmb_node *n;
     leaf l;
     s->pairs += (uint64_t)count_bits_64(visible);
     if (at.level > 0) {
         n = tree_node(c->tree, at);
+        if (n->agreement < BENT && !c->cutting->proven) {
+            face_on(&part, c, at, n);
+            n = &part;
+        }
     } else {
         leaf_at(&l, c->tree, at);
         if (is_near(c->p, &l)) {
@@ -590,7 +718,7 @@ APART void light_patch(lmb_irradiance *inout, cutter *c)
     s.c = c;
     s.pairs = 0;
     s.filled = 0;
-    if (c->cutting->proven && c->cutting->blockers == NULL && !is_proven(c)) {
+    if (c->cutting->proven && c->cutting->blockers == NULL && !is_right(c)) {
         light_by_all(&s);
     } else {
         for (int32_t i = 0; i < c->cut->count; ++i) {
@@ -615,6 +743,17 @@ static int lobe_of(const lmb_cutting *cutting, const lmb_patch *p)
     return own != 0 ? lowest_bit_64(own) : NONE;
 }
 
+/* Of the pixel that has least: beside a shadow's edge that is none. */
+static double least_direct(const lmb_cutting *cutting, const lmb_patch *p)
+{
+    float least = cutting->direct != NULL ? 3e38f : 0.0f;
+    for (uint64_t bits = cutting->direct != NULL ? p->pixels : 0; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        least = minf(least, cutting->direct->rgb[0][k] + cutting->direct->rgb[1][k] + cutting->direct->rgb[2][k]);
+    }
+    return (double)least;
+}
+
 /* In the mean over the patch: what proves nothing of its pixels. */
 static double beside(const lmb_cutting *cutting, const lmb_patch *p, float per_pixel)
 {
@@ -625,34 +764,101 @@ static double beside(const lmb_cutting *cutting, const lmb_patch *p, float per_p
             sum += (double)cutting->beside->rgb[c][k];
         }
     }
-    return sum * (double)per_pixel + (cutting->proven ? 0.0 : (double)cutting->least);
+    return sum * (double)per_pixel + (cutting->proven ? 0.0 : (double)cutting->least + least_direct(cutting, p));
+}
+
+/* Half of some pixels: those that come first along the longer side of the patch's box. */
+static uint64_t half_of(const lmb_patch *p, const lmb_tile *tile)
+{
+    const lmb_vec3 along = p->half[2] > p->half[1] ? p->axis[2] : p->axis[1];
+    float at[LMB_TILE_PIXELS] = {0};
+    uint64_t out = 0;
+    for (uint64_t bits = p->pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        at[k] = dot3(along, sub3(tile_vec(tile->position, k), p->centre));
+    }
+    for (uint64_t bits = p->pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        int before = 0;
+        for (uint64_t others = p->pixels; others != 0; others &= others - 1) {
+            const int i = lowest_bit_64(others);
+            before += at[i] < at[k] || (at[i] == at[k] && i < k);
+        }
+        out |= (uint64_t)(2 * before < count_bits_64(p->pixels)) << k;
+    }
+    return out;
+}
+
+/* Light some pixels of one surface by one cut; where that has no room for what was asked, and cuts of half the pixels
+ * come closer to it, return the patch undone. over: that of the pixels that these are half of. */
+static int light_together(lmb_irradiance *inout, cutter *c, lmb_patch *p, double *over)
+{
+    const lmb_cutting *cutting = c->cutting;
+    c->p = p;
+    memset(c->cut->use.walk.last, 0, sizeof c->cut->use.walk.last);
+    c->noise = cutting->blockers != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
+    c->in_hull = cutting->blockers != NULL ? lmb_hull_pixels(&cutting->blockers->hull, c->tile, p->pixels) : 0;
+    c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);
+    c->beside = beside(cutting, p, c->per_pixel);
+    c->lobe = lobe_of(cutting, p);
+    const double now = take_cut(c);
+    if (now > 0.0 && (now < CLOSER * *over || now > HOLDS) && count_bits_64(p->pixels) > 1) {
+        *over = now;
+        return 0;
+    }
+    if (now > 0.0 && cutting->stats != NULL) {
+        ++cutting->stats->full_cuts;
+    }
+    light_patch(inout, c);
+    return 1;
+}
+
+/* Pixels that wait for a cut, and by how much that of twice as many was over what was asked. */
+typedef struct waiting {
+    uint64_t pixels;
+    double over;
+} waiting;
+enum { HALVES = 7 /* 64 pixels, 32, ... 1 */ };
+
+/* Cost: a cut that has no room is taken for nothing, at most as often as its halves are. */
+static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
+{
+    waiting wait[HALVES + 1];
+    int count = 1;
+    wait[0].pixels = pixels;
+    wait[0].over = 1e300;
+    while (count > 0) {
+        const waiting now = wait[--count];
+        lmb_patch p;
+        double over = now.over;
+        lmb_patch_of(&p, c->tile, now.pixels);
+        if (!light_together(inout, c, &p, &over)) {
+            wait[count].pixels = half_of(&p, c->tile);
+            wait[count + 1].pixels = p.pixels & ~wait[count].pixels;
+            wait[count].over = wait[count + 1].over = over;
+            count += 2;
+        }
+    }
 }
 
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
                           const lmb_tree *tree, const lmb_cutting *cutting)
 {
+    cutter c;
     if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || tree == NULL || tree->texel == NULL ||
         cutting == NULL || !(cutting->error > 0.0f) || !(cutting->visible > 0.0f)) {
         return LMB_ERR_ARG;
     }
+    c.cut = scratch;
+    c.tree = tree;
+    c.tile = tile;
+    c.kernels = kernels;
+    c.cutting = cutting;
+    c.floor = (double)cutting->floor;
     for (uint64_t left = tile_pixels(tile); left != 0;) {
-        lmb_patch p;
-        cutter c;
-        lmb_patch_of(&p, tile, tile_surface(tile, left));
-        c.cut = scratch;
-        c.tree = tree;
-        c.tile = tile;
-        c.kernels = kernels;
-        c.cutting = cutting;
-        c.p = &p;
-        memset(scratch->use.walk.last, 0, sizeof scratch->use.walk.last);
-        c.in_hull = cutting->blockers != NULL ? lmb_hull_pixels(&cutting->blockers->hull, tile, p.pixels) : 0;
-        c.per_pixel = 1.0f / (float)count_bits_64(p.pixels);
-        c.beside = beside(cutting, &p, c.per_pixel);
-        c.lobe = lobe_of(cutting, &p);
-        take_cut(&c);
-        light_patch(inout, &c);
-        left &= ~p.pixels;
+        const uint64_t pixels = tile_surface(tile, left);
+        light_surface(inout, &c, pixels);
+        left &= ~pixels;
     }
     return LMB_OK;
 }

@@ -1,68 +1,130 @@
 /* discs.c: first points -> discs: mean neighbour distances, and points much closer than that join. Floor 6.
  *                                                                                      [V8 V9 V10 V11 V12 V14 V15]
- * Neighbours are looked up in map space: the points of the eight cells around and of the own one. */
-#include <lambent/bounce.h>
+ * Neighbours are looked up in the map: in the cells around that are as many as was asked for, or as a radius in space
+ * can span. */
+#include <string.h>
 
-#include "../base/vec.h"
+#include "../base/poly.h"
+#include "group.h"
 
 #define COS_25 0.90630779f
 #define SIN_25 0.42261826f
 #define RIM 1e-3f          /* sine of the angle under the plane at which a point still counts as on it */
 #define KEPT 0x80000000u   /* in a link: what stands beside is the disc's next place */
 
+enum { REACH = 32 }; /* cells each way that are looked at */
+
 typedef struct neighbourhood {
     lmb_points *points;
-    uint32_t side, face;
+    uint32_t side;
     float threshold, join;
-    int32_t hemisphere; /* 1: what counts as a neighbour lies over the point's surface [V10] */
+    int32_t cells;        /* that neighbours may be away; 0: as many as `threshold` and `view` say */
+    const lmb_view *view; /* of the face, or of another of the same map */
+    int32_t hemisphere;   /* 1: what counts as a neighbour lies over the point's surface [V10] */
 } neighbourhood;
 
-/* Points of the cells up to `reach` beside cell (x, y), in its row: a run, since rows are contiguous. */
-static void cell_run(uint32_t *begin, uint32_t *end, const neighbourhood *n, int32_t x, int32_t y, int32_t reach)
+/* The points of the cells around one, in the map's order. */
+typedef struct around {
+    const neighbourhood *n;
+    lmb_vec3 from; /* where the one is, or was when its neighbours were first asked for */
+    int32_t x0, x1, x, y, y1, step; /* the cell at hand, and the last ones */
+    uint32_t at, end;               /* the next point of that cell */
+    lmb_point *q;                   /* the point at hand: the one before `at` */
+    lmb_vec3 away;                  /* from `from` to it, */
+    float d;                        /* m */
+} around;
+
+/* 1: a->q is the next of them; 0: there is none. */
+static int next_around(around *a)
 {
-    int32_t x0 = maxi(x - reach, 0), x1 = mini(x + reach, (int32_t)n->side - 1);
-    *begin = n->points->cells[(uint32_t)y * n->side + (uint32_t)x0];
-    *end = n->points->cells[(uint32_t)y * n->side + (uint32_t)x1 + 1];
+    const uint32_t side = a->n->side;
+    while (a->at == a->end && a->y <= a->y1) {
+        if ((uint32_t)a->x < side && (uint32_t)a->y < side) {
+            const uint32_t *cell = &a->n->points->cells[(uint32_t)a->y * side + (uint32_t)a->x];
+            a->at = cell[0];
+            a->end = cell[1];
+        }
+        a->x += a->step;
+        if (a->x > a->x1) {
+            a->x = a->x0;
+            a->y += a->step;
+        }
+    }
+    if (a->at == a->end) {
+        return 0;
+    }
+    a->q = &a->n->points->data[a->at++];
+    a->away = sub3(a->q->position, a->from);
+    a->d = length3(a->away);
+    return 1;
 }
 
-/* Is q, at `away` from p, d m off, one of p's neighbours? Those face the same way [V9], or are met in one of the
+/* Is a->q one of p's neighbours? Those face the same way [V9], or are met in one of the
  * directions of the hemisphere over p's surface, whichever way they face [V10]: the surface's own points lie on the
  * hemisphere's rim, give or take the rounding. Either way within the threshold. */
-static int is_neighbour(const neighbourhood *n, const lmb_point *p, const lmb_point *q, lmb_vec3 away, float d)
+static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around *a)
 {
-    const int meets = n->hemisphere ? dot3(p->normal, away) >= -RIM * d : dot3(p->normal, q->normal) >= COS_25;
-    return meets && (n->threshold <= 0.0f || d <= n->threshold);
+    const int meets = n->hemisphere ? dot3(p->normal, a->away) >= -RIM * a->d
+                                    : dot3(p->normal, a->q->normal) >= COS_25;
+    return meets && (n->threshold <= 0.0f || a->d <= n->threshold);
+}
+
+/* The cells that points within `radius` m of p may be in, or those that n->cells says; at most `most` away. Where these
+ * are more than REACH each way, every second, third .. of them.
+ *
+ * What moves e m, |e| <= radius, from where w m along the axis a map's tangent is t, moves the tangent by
+ * |e_x - t e_w| / (w + e_w), which is at most radius sqrt(1 + t^2) / (w - radius). t is taken at the corner of a square
+ * through the cell's far side, so that it is the most, and w the least, that they may be. */
+static void around_point(around *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t most)
+{
+    const int32_t side = (int32_t)n->side, x = p->cell_x, y = p->cell_y;
+    float cells = 0.5f * (float)side * radius / n->view->half_width;
+    if (n->view->kind == LMB_PERSPECTIVE) {
+        const float t = (float)(2 * maxi(maxi(x, y) + 1, side - mini(x, y)) - side) / (float)side * n->view->half_width,
+                    stretch = sqrtf(1.0f + 2.0f * t * t),
+                    beyond = length3(sub3(p->position, n->view->eye)) / stretch - radius;
+        cells = beyond > 0.0f ? cells * stretch / beyond : (float)side;
+    }
+    /* Both may be anywhere in their cells; and rounding. */
+    int32_t reach = n->cells > 0 ? n->cells : cells < (float)side ? (int32_t)cells + 2 : side;
+    reach = mini(reach, most);
+    a->n = n;
+    a->from = p->position;
+    a->step = (reach + REACH - 1) / REACH;
+    reach = reach / a->step * a->step;
+    a->x = a->x0 = x - reach;
+    a->x1 = x + reach;
+    a->y = y - reach;
+    a->y1 = y + reach;
+    a->at = a->end = 0;
 }
 
 /* [V8]: the mean over the neighbours; without any, the quad's own size. */
-static float mean_distance(const neighbourhood *n, uint32_t i)
+static float mean_distance(const neighbourhood *n, const lmb_point *p)
 {
-    const lmb_point *p = &n->points->data[i];
-    float sum = 0.0f;
-    uint32_t count = 0;
-    for (int32_t y = maxi(p->cell_y - 1, 0); y <= mini(p->cell_y + 1, (int32_t)n->side - 1); ++y) {
-        uint32_t begin, end;
-        cell_run(&begin, &end, n, p->cell_x, y, 1);
-        for (uint32_t j = begin; j < end; ++j) {
-            const lmb_point *q = &n->points->data[j];
-            lmb_vec3 away = sub3(q->position, p->position);
-            float d = length3(away);
-            if (j != i && is_neighbour(n, p, q, away, d)) {
-                sum += d;
-                ++count;
-            }
+    around a;
+    float sum = 0.0f, count = 0.0f;
+    around_point(&a, n, p, n->threshold, (int32_t)n->side);
+    while (next_around(&a)) {
+        if (a.q != p && is_neighbour(n, p, &a)) {
+            sum += a.d;
+            count += 1.0f;
         }
     }
-    return count > 0 ? sum / (float)count : length3(p->axis_u) + length3(p->axis_v);
+    return count > 0.0f ? sum / count : length3(p->axis_u) + length3(p->axis_v);
 }
 
-static float power(const lmb_point *p) { return p->flux[0] + p->flux[1] + p->flux[2]; }
+static void widen(lmb_point *p, float times)
+{
+    p->axis_u = mul3(p->axis_u, times);
+    p->axis_v = mul3(p->axis_v, times);
+}
 
 /* Sum q into p: flux and area add up, the rest is their mean. */
 static void join_point(lmb_point *p, const lmb_point *q)
 {
-    float a = power(p), b = power(q), whole = a + b, share = whole > 0.0f ? b / whole : 0.5f;
-    float area_p = length3(cross3(p->axis_u, p->axis_v)), area_q = length3(cross3(q->axis_u, q->axis_v));
+    float a = lmb_disc_power(p), b = lmb_disc_power(q), whole = a + b, share = whole > 0.0f ? b / whole : 0.5f;
+    float area_p = lmb_disc_area(p), area_q = lmb_disc_area(q);
     float grow = area_p > 0.0f ? sqrtf((area_p + area_q) / area_p) : 1.0f;
     p->position = add3(p->position, mul3(sub3(q->position, p->position), share));
     p->normal = normalize3(add3(mul3(p->normal, 1.0f - share), mul3(q->normal, share)));
@@ -70,24 +132,20 @@ static void join_point(lmb_point *p, const lmb_point *q)
         p->flux[c] += q->flux[c];
         p->albedo[c] += (q->albedo[c] - p->albedo[c]) * share;
     }
-    p->axis_u = mul3(p->axis_u, grow);
-    p->axis_v = mul3(p->axis_v, grow);
+    widen(p, grow);
 }
 
 static void join_neighbours(const neighbourhood *n, uint32_t i)
 {
     lmb_point *p = &n->points->data[i];
-    const lmb_point at = *p; /* distances are from the disc's first point [V12] */
-    for (int32_t y = maxi(at.cell_y - 1, 0); y <= mini(at.cell_y + 1, (int32_t)n->side - 1); ++y) {
-        uint32_t begin, end;
-        cell_run(&begin, &end, n, at.cell_x, y, 1);
-        for (uint32_t j = begin > i ? begin : i + 1; j < end; ++j) {
-            lmb_point *q = &n->points->data[j];
-            if (q->link == j && dot3(at.normal, q->normal) >= COS_25 &&
-                length3(sub3(at.position, q->position)) < n->join * at.distance) {
-                join_point(p, q);
-                q->link = i;
-            }
+    const lmb_vec3 normal = p->normal; /* it and distances are from the disc's first point [V12] */
+    const float within = n->join * p->distance;
+    around a;
+    around_point(&a, n, p, within, REACH);
+    while (next_around(&a)) {
+        if (a.q > p && a.q->link == a.at - 1 && dot3(normal, a.q->normal) >= COS_25 && a.d < within) {
+            join_point(p, a.q);
+            a.q->link = i;
         }
     }
 }
@@ -131,47 +189,40 @@ static int32_t lattice_reach(int32_t thin)
     return reach;
 }
 
-/* On p's surface? The normals agree, and a chord of a surface that turns by 25 degrees leaves its plane by no more. */
-static int is_same_surface(const lmb_point *p, const lmb_point *q)
+/* Is a->q on p's surface? The normals agree, and a chord of a surface that turns by 25 degrees leaves
+ * its plane by no more. */
+static int is_same_surface(const lmb_point *p, const around *a)
 {
-    lmb_vec3 away = sub3(q->position, p->position);
-    return dot3(p->normal, q->normal) >= COS_25 && absf(dot3(p->normal, away)) <= SIN_25 * length3(away);
+    return dot3(p->normal, a->q->normal) >= COS_25 && absf(dot3(p->normal, a->away)) <= SIN_25 * a->d;
 }
 
 /* The nearest disc (a point that links to itself) of point i's surface, or i. */
-static uint32_t nearest_disc(const neighbourhood *n, uint32_t i, int32_t reach)
+static uint32_t nearest_disc(const neighbourhood *n, uint32_t i)
 {
     const lmb_point *p = &n->points->data[i];
+    around a;
     uint32_t nearest = i;
     float least = 0.0f;
-    for (int32_t y = maxi(p->cell_y - reach, 0); y <= mini(p->cell_y + reach, (int32_t)n->side - 1); ++y) {
-        uint32_t begin, end;
-        cell_run(&begin, &end, n, p->cell_x, y, reach);
-        for (uint32_t j = begin; j < end; ++j) {
-            const lmb_point *q = &n->points->data[j];
-            if (q->link == j && is_same_surface(p, q)) {
-                const float d = length3(sub3(q->position, p->position));
-                if (nearest == i || d < least) {
-                    nearest = j;
-                    least = d;
-                }
-            }
+    around_point(&a, n, p, 0.0f, REACH);
+    while (next_around(&a)) {
+        if (a.q->link == a.at - 1 && is_same_surface(p, &a) && (nearest == i || a.d < least)) {
+            nearest = a.at - 1;
+            least = a.d;
         }
     }
     return nearest;
 }
 
-/* Every point chooses first, from where the points are; then they join. */
+/* The points that become no disc, whose links are LMB_NOBODY: every one chooses first, from where the points are; then
+ * they join. */
 static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
 {
-    const int32_t a = lattice_of(thin), reach = lattice_reach(thin);
     lmb_point *data = n->points->data;
     const uint32_t count = n->points->count;
+    neighbourhood lattice = *n;
+    lattice.cells = lattice_reach(thin);
     for (uint32_t i = first; i < count; ++i) {
-        data[i].link = (data[i].cell_x + a * data[i].cell_y) % thin == 0 ? i : LMB_NOBODY;
-    }
-    for (uint32_t i = first; i < count; ++i) {
-        data[i].link = data[i].link == i ? i : nearest_disc(n, i, reach);
+        data[i].link = data[i].link == i ? i : nearest_disc(&lattice, i);
     }
     for (uint32_t i = first; i < count; ++i) {
         if (data[i].link != i) {
@@ -209,6 +260,16 @@ static void close_gaps(lmb_points *points, uint32_t first, const lmb_light_map *
     points->count = kept;
 }
 
+/* [V12]: discs of a radius that is so many times their mean distance. */
+static void set_radius(lmb_points *points, uint32_t first, float radius)
+{
+    for (uint32_t i = first; radius > 0.0f && i < points->count; ++i) {
+        lmb_point *p = &points->data[i];
+        const float area = lmb_disc_area(p);
+        widen(p, area > 0.0f ? radius * p->distance * sqrtf(LMB_PI / area) : 1.0f);
+    }
+}
+
 /* Were the points collected by blocks of this size? Their cells say where the last one ends. */
 static int has_cells(const lmb_points *points, const lmb_light_map *map, int32_t block)
 {
@@ -218,32 +279,36 @@ static int has_cells(const lmb_points *points, const lmb_light_map *map, int32_t
 
 lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping)
 {
+    lmb_grouping g;
     neighbourhood n;
-    const int32_t thin = grouping != NULL ? grouping->thin : 0,
-                  block = grouping != NULL && grouping->block != 0 ? grouping->block : LMB_TILE;
-    if (points == NULL || map == NULL || points->faces == 0 || thin < 0 || thin > LMB_MAX_THIN ||
-        !has_cells(points, map, block)) {
+    memset(&g, 0, sizeof g);
+    g = grouping != NULL ? *grouping : g;
+    g.block = g.block != 0 ? g.block : LMB_TILE;
+    if (points == NULL || map == NULL || points->faces == 0 || (uint32_t)g.thin > LMB_MAX_THIN ||
+        !has_cells(points, map, g.block)) {
         return LMB_ERR_ARG;
     }
     n.points = points;
-    n.side = (uint32_t)(map->size / block);
-    n.face = points->faces;
-    n.threshold = grouping != NULL ? grouping->neighbour_m : 0.0f;
-    n.join = grouping != NULL && grouping->join > 0.0f ? grouping->join : 0.5f;
-    n.hemisphere = grouping != NULL && (grouping->flags & LMB_NEAR_HEMISPHERE) != 0;
+    n.side = (uint32_t)(map->size / g.block);
+    n.view = &map->view[0]; /* the faces of a map differ in their axes alone */
+    n.threshold = g.neighbour_m;
+    n.cells = g.neighbour_cells > 0 || g.neighbour_m > 0.0f ? g.neighbour_cells : 1;
+    n.join = g.join > 0.0f ? g.join : 0.5f;
+    n.hemisphere = (g.flags & LMB_NEAR_HEMISPHERE) != 0;
     const uint32_t first = points->cells[0];
+    const int32_t thin = maxi(g.thin, 1), a = lattice_of(thin);
     for (uint32_t i = first; i < points->count; ++i) {
-        points->data[i].distance = mean_distance(&n, i);
-        points->data[i].link = i;
+        lmb_point *p = &points->data[i];
+        p->distance = mean_distance(&n, p);
+        p->link = (p->cell_x + a * p->cell_y) % thin == 0 ? i : LMB_NOBODY;
     }
-    if (thin > 1) {
-        thin_out(&n, first, thin);
-    }
+    thin_out(&n, first, thin);
     for (uint32_t i = first; i < points->count; ++i) {
         if (points->data[i].link == i) {
             join_neighbours(&n, i);
         }
     }
     close_gaps(points, first, map);
+    set_radius(points, first, g.radius);
     return LMB_OK;
 }

@@ -64,7 +64,7 @@ typedef struct source {
     lmb_vec3 normal; /* of the front, unit */
     float area;
     float uv[3][2], colour[3][4];
-    float texels; /* of the base colour, on all of it; 0: none */
+    float texels; /* of the image of its colour, on all of it; 0: none */
 } source;
 
 /* Part of a triangle: corners, and their barycentrics in it. */
@@ -84,12 +84,14 @@ static lmb_vec3 middle(const lmb_vec3 corner[3])
     return add3(corner[0], mul3(d, 1.0f / 3.0f));
 }
 
+/* Of the base colour's; where there is none, of the map of metal. */
 static void set_texels(source *s)
 {
     const lmb_material *m = s->triangle.material;
+    const int32_t texture = m->texture >= 0 ? m->texture : (int32_t)m->metal_map - 1;
     s->texels = 0.0f;
-    if (m->texture >= 0) {
-        const lmb_texture *t = &s->scene->textures[m->texture];
+    if (texture >= 0) {
+        const lmb_texture *t = &s->scene->textures[texture];
         const float u1 = s->uv[1][0] - s->uv[0][0], v1 = s->uv[1][1] - s->uv[0][1];
         const float u2 = s->uv[2][0] - s->uv[0][0], v2 = s->uv[2][1] - s->uv[0][1];
         s->texels = 0.5f * absf(u1 * v2 - u2 * v1) * (float)t->width * (float)t->height;
@@ -115,17 +117,26 @@ static int open_source(source *out, const lmb_scene *scene, uint32_t id)
 
 static float mix(float a, float b, float c, float b1, float b2) { return a + ((b - a) * b1 + (c - a) * b2); }
 
+static float uv_at(const source *s, int c, float b1, float b2)
+{
+    return mix(s->uv[0][c], s->uv[1][c], s->uv[2][c], b1, b2);
+}
+
 static void albedo_at(float out[3], const source *s, float b1, float b2, float lod)
 {
     const lmb_material *m = s->triangle.material;
-    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, code[4], diffuse = 1.0f;
     if (m->texture >= 0) {
-        lmb_texture_sample(texel, &s->scene->textures[m->texture], mix(s->uv[0][0], s->uv[1][0], s->uv[2][0], b1, b2),
-                           mix(s->uv[0][1], s->uv[1][1], s->uv[2][1], b1, b2), lod);
+        lmb_texture_sample(texel, &s->scene->textures[m->texture], uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2), lod);
+    }
+    if (m->metal_map > 0) {
+        lmb_normal_map_sample(code, &s->scene->textures[m->metal_map - 1], uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2),
+                              lod);
+        diffuse = 1.0f - metallic_of(m, code);
     }
     for (int c = 0; c < 3; ++c) {
         const float colour = mix(s->colour[0][c], s->colour[1][c], s->colour[2][c], b1, b2);
-        out[c] = clampf(m->albedo[c] * colour * texel[c], 0.0f, 1.0f);
+        out[c] = clampf(m->albedo[c] * colour * texel[c] * diffuse, 0.0f, 1.0f);
     }
 }
 
@@ -151,6 +162,67 @@ static float look_at(float albedo[3], const source *s, const piece *p, float sha
         albedo[c] /= (float)maxi(standing, 1);
     }
     return (float)standing / SAMPLES;
+}
+
+/* --- what a piece gives off --------------------------------------------------------------------------------------- */
+
+enum { MOST_ROWS = 4, MOST_ROWS_BARE = 32 /* of a piece; of one whose map has no levels */ };
+
+/* Texels along the longest edge of a piece, in a map. */
+static float texels_along(const source *s, const piece *p, const lmb_texture *map)
+{
+    float longest = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+        const int to = (k + 1) % 3;
+        const float du = (uv_at(s, 0, p->b1[to], p->b2[to]) - uv_at(s, 0, p->b1[k], p->b2[k])) * (float)map->width;
+        const float dv = (uv_at(s, 1, p->b1[to], p->b2[to]) - uv_at(s, 1, p->b1[k], p->b2[k])) * (float)map->height;
+        longest = maxf(longest, du * du + dv * dv);
+    }
+    return longest < 1e30f ? sqrtf(longest) : 0.0f;
+}
+
+/* Add the map at a place of the piece, x and y of the way to its second and third corner, where it stands. */
+static int add_glow(float sum[3], const source *s, const piece *p, const lmb_texture *map, const float at[3])
+{
+    const float b1 = mix(p->b1[0], p->b1[1], p->b1[2], at[0], at[1]);
+    const float b2 = mix(p->b2[0], p->b2[1], p->b2[2], at[0], at[1]);
+    float texel[4];
+    if (!lmb_triangle_opaque(&s->triangle, s->scene, b1, b2)) {
+        return 0;
+    }
+    lmb_texture_sample(texel, map, uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2), at[2]);
+    for (int c = 0; c < 3; ++c) {
+        sum[c] += texel[c];
+    }
+    return 1;
+}
+
+/* The mean over a piece: at the middles of rows x rows alike triangles, so many that a texel of the level is not
+ * stepped over. A map may glow in few texels of thousands, and the light of a whole element comes from here. */
+static void emission_of(float out[3], const source *s, const piece *p)
+{
+    const lmb_material *m = s->triangle.material;
+    memcpy(out, m->emission, sizeof m->emission);
+    if (m->emission_map == 0 || !(largest3(vec3(out[0], out[1], out[2])) > 0.0f)) {
+        return;
+    }
+    lmb_texture map = s->scene->textures[m->emission_map - 1];
+    map.filter = map.levels > 1 ? LMB_TRILINEAR : map.filter;
+    const float along = texels_along(s, p, &map), most = map.levels > 1 ? MOST_ROWS : MOST_ROWS_BARE;
+    const int rows = (int)clampf(along, 0.0f, most - 1.0f) + 1;
+    const float step = 1.0f / (float)rows, lod = along > most ? lmb_log2(along * step) : 0.0f;
+    float sum[3] = {0.0f, 0.0f, 0.0f};
+    int standing = 0;
+    for (int i = 0; i < rows * rows; ++i) {
+        const int row = i / rows, column = i % rows, down = row + column >= rows; /* the far half, turned over */
+        const float x = (float)(down ? rows - 1 - column : column), y = (float)(down ? rows - 1 - row : row);
+        const float third = down ? 2.0f / 3.0f : 1.0f / 3.0f;
+        const float at[3] = {(x + third) * step, (y + third) * step, lod};
+        standing += add_glow(sum, s, p, &map, at);
+    }
+    for (int c = 0; c < 3; ++c) {
+        out[c] *= sum[c] / (float)maxi(standing, 1);
+    }
 }
 
 /* --- pieces -> elements ------------------------------------------------------------------------------------------- */
@@ -189,13 +261,19 @@ typedef struct cell {
     int32_t x, y, z;
 } cell;
 
+/* The box that nearly everything is in: what strays out of it counts as at its side, so that it takes no cells from the
+ * rest. */
+static lmb_vec3 low_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_low : s->bounds_min; }
+static lmb_vec3 high_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
+
 static cell cell_at(const maker *m, lmb_vec3 p)
 {
     const float per = 2.0f / sqrtf(m->side2);
+    const lmb_vec3 low = low_of(m->scene);
     cell c;
-    c.x = cell_of(p.x, m->scene->bounds_min.x, per);
-    c.y = cell_of(p.y, m->scene->bounds_min.y, per);
-    c.z = cell_of(p.z, m->scene->bounds_min.z, per);
+    c.x = cell_of(p.x, low.x, per);
+    c.y = cell_of(p.y, low.y, per);
+    c.z = cell_of(p.z, low.z, per);
     return c;
 }
 
@@ -274,7 +352,7 @@ static void add_piece(maker *m, const source *s, const piece *p, int small)
         e.reach2 = maxf(e.reach2, dot3(d, d));
     }
     e.reach2 = e.area < area ? 0.0f : e.reach2; /* with holes it has no shape */
-    memcpy(e.emission, material->emission, sizeof e.emission);
+    emission_of(e.emission, s, p);
     e.received[0] = e.area;
     for (int back = 0; back <= ((material->flags & LMB_DOUBLE_SIDED) != 0); ++back) {
         const lmb_vec3 n = mul3(s->normal, back ? -1.0f : 1.0f);
@@ -412,7 +490,7 @@ static uint32_t spread3(uint32_t v)
 
 static void set_key(lmb_element *e, const lmb_scene *scene, float per)
 {
-    const lmb_vec3 at = middle(e->corner), low = scene->bounds_min;
+    const lmb_vec3 at = middle(e->corner), low = low_of(scene);
     const float last = (float)((1 << Z_BITS) - 1);
     const uint32_t x = (uint32_t)clampf((at.x - low.x) * per, 0.0f, last),
                    y = (uint32_t)clampf((at.y - low.y) * per, 0.0f, last),
@@ -450,7 +528,7 @@ static void sort(lmb_element *data, uint32_t count)
 
 static void put_in_order(lmb_elements *e, const lmb_scene *scene)
 {
-    const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
+    const lmb_vec3 size = sub3(high_of(scene), low_of(scene));
     const float longest = largest3(size), per = longest > 0.0f ? (float)(1 << Z_BITS) / longest : 0.0f;
     for (uint32_t i = 0; i < e->count; ++i) {
         set_key(&e->data[i], scene, per);
@@ -498,7 +576,7 @@ lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const
     m.slot = (uint32_t *)(void *)inout->tree.node;
     m.mask = 2 * inout->cap - 1;
     /* A piece's area is at most half of side^2, so this is too fine by far, or all of it is small triangles. */
-    m.side2 = maxf(scene_area(scene) / (float)inout->cap, 1e-12f);
+    m.side2 = maxf(scene_area(scene) / (float)inout->cap, 1e-24f);
     while (!make(&m)) {
         m.side2 *= inout->count == inout->cap ? 2.0f : 16.0f;
     }

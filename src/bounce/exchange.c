@@ -46,8 +46,7 @@ static int are_compact(const lmb_elements *e, uint32_t first, uint32_t count)
     return diagonal2 <= COMPACT * area;
 }
 
-/* As if they were a tile's pixels. */
-static void set_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first, uint32_t count)
+void lmb_elements_as_tile(lmb_tile *tile, const lmb_elements *e, uint32_t first, uint32_t count)
 {
     memset(tile, 0, sizeof *tile);
     for (uint32_t k = 0; k < count && first + k < e->count; ++k) {
@@ -72,7 +71,7 @@ static lmb_status receive_tile(const lmb_elements *e, const lmb_receiver *r, con
     lmb_status status = LMB_OK;
     memset(r->received, 0, sizeof *r->received);
     memset(r->fresh, 0, sizeof *r->fresh);
-    set_tile(r->tile, e, first, count);
+    lmb_elements_as_tile(r->tile, e, first, count);
     for (int32_t k = 0; k < r->tile->hits; ++k) {
         for (int c = 0; c < 3; ++c) {
             r->received->rgb[c][k] = e->data[first + (uint32_t)k].received[c];
@@ -82,7 +81,10 @@ static lmb_status receive_tile(const lmb_elements *e, const lmb_receiver *r, con
     cutting.beside = r->received;
     if (lights != NULL) {
         status = lmb_gather_cut(r->fresh, r->kernels, r->cut, r->tile, lights, &cutting);
-        cutting.beside = r->fresh; /* with lights: the first bounce, when nothing was received before */
+        for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+            r->received->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] +=
+                r->fresh->rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS];
+        }
     }
     if (status == LMB_OK) {
         status = lmb_gather_cut(r->fresh, r->kernels, r->cut, r->tile, &e->tree, &cutting);
@@ -116,6 +118,62 @@ lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_receiver
         i += count;
     }
     return status;
+}
+
+/* --- what would follow -------------------------------------------------------------------------------------------- */
+
+/* Flux of a channel that the lights' maps send, W. */
+static double sent_by(const lmb_tree *lights, int channel)
+{
+    double sum = 0.0;
+    for (uint32_t f = 0; lights != NULL && f < lights->faces; ++f) {
+        sum += (double)tree_level(lights, f, tree_root_level(lights))->flux[channel];
+    }
+    return sum;
+}
+
+/* Share of a channel's light that the last bounce kept. Of elements alone: of B before and B' after it,
+ * sum of A B' B' / sum of A B' B, which counts each as much as it still has: light that leaves into the open is gone
+ * and tells nothing of the rest. What maps sent has no place among the elements: then it is all that is sent on of
+ * all that came. */
+static double kept_of(const lmb_elements *e, const lmb_tree *lights, int channel)
+{
+    const double by_lights = sent_by(lights, channel);
+    double kept = 0.0, before = 0.0;
+    for (uint32_t i = 0; i < e->count; ++i) {
+        const lmb_element *p = &e->data[i];
+        const double sent = (double)(p->albedo[channel] * p->fresh[channel]), area = (double)p->area,
+                     came = (double)e->tree.texel[tree_along_z(&e->tree, i)].flux[channel];
+        kept += by_lights > 0.0 ? area * sent : area * sent * sent;
+        before += by_lights > 0.0 ? came : sent * came;
+    }
+    before += by_lights;
+    return kept >= before ? (before > 0.0 ? 1.0 : 0.0) : kept / before;
+}
+
+/* r + r^2 + .. + r^count. */
+static float powers(double r, int32_t count)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < count; ++i) {
+        sum = (sum + 1.0) * r;
+    }
+    return (float)sum;
+}
+
+lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces)
+{
+    if (inout == NULL || inout->data == NULL || inout->tree.element == NULL || bounces < 0 ||
+        bounces > LMB_MOST_BOUNCES) {
+        return LMB_ERR_ARG;
+    }
+    for (int c = 0; c < 3; ++c) {
+        const float more = powers(kept_of(inout, lights, c), bounces);
+        for (uint32_t i = 0; i < inout->count; ++i) {
+            inout->data[i].fresh[c] *= 1.0f + more;
+        }
+    }
+    return LMB_OK;
 }
 
 lmb_status lmb_elements_send(lmb_elements *inout, int32_t last)

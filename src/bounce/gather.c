@@ -30,7 +30,7 @@ lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lm
     }
     const lmb_march_job *march = occluded ? &job : NULL;
     kernels->gather(inout, scratch, tile, groups, march);
-    for (int32_t k = 0; points != NULL && k < groups->count; ++k) {
+    for (int32_t k = 0; points != NULL && points->data != NULL && k < groups->count; ++k) {
         if (scratch->near_pixels[k] != 0) {
             kernels->gather_near(inout, scratch->near_pixels[k], tile, points->data + groups->first[k],
                                  groups->members[k], march);

@@ -6,9 +6,16 @@
 
 #define INVERSE_PI 0.31830989f
 
-/* Under this, m, a point counts as in a plane, not over it: a light that grazes so gives nothing, but its c^2 s would
- * be a denormal, which some machines flush. */
-#define GRAZING_M 9.5367432e-7f
+/* Under this, 2^-40, a squared cosine counts as 0, as of a point in a plane: a light that grazes so gives nothing, but
+ * its c^2 s would be a denormal, which some machines flush. Of cosines and no lengths: worlds may have any size. */
+#define GRAZING2 9.0949470e-13f
+
+/* Are a = nP.to and b = -nG.to over the horizons, where r2 = to.to? */
+static inline lane_mask disc_faces(lane a, lane b, lane r2)
+{
+    const lane least = lane_min(b, a);
+    return lane_lt(lane_mul(lane_splat(GRAZING2), r2), lane_mul(least, lane_max(least, lane_splat(0.0f))));
+}
 
 /* One emitter, one vector of pixels. M = 1: W/m2 a watt.
  *
@@ -18,7 +25,7 @@
  * facing disc (t = c = 1), which is exact. For t < 0 the sum itself is kept. Both stay under cosG / s: nothing receives
  * more than the disc's own radiosity M / A times cosG.
  *
- * a = nP.to, b = -nG.to, i = 1 / r^2, against = -nP.nG, area_pi = A / pi; only where a and b are over GRAZING_M. */
+ * a = nP.to, b = -nG.to, i = 1 / r^2, against = -nP.nG, area_pi = A / pi; only where disc_faces. */
 static inline void disc_fraction(lane *top, lane *bottom, lane a, lane b, lane i, lane against, lane area_pi)
 {
     const lane one = lane_splat(1.0f);
@@ -40,11 +47,13 @@ static inline lane disc_value(lane top, lane bottom, lane i)
 
 static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area)
 {
-    const lane zero = lane_splat(0.0f), grazing = lane_splat(GRAZING_M);
+    const lane zero = lane_splat(0.0f);
     lane top, bottom, i = lane_div(lane_splat(1.0f), r2), against = lane_sub(zero, lane3_dot(n, axis));
-    lane a = lane_max(lane3_dot(n, to), grazing), b = lane_max(lane_sub(zero, lane3_dot(axis, to)), grazing);
-    disc_fraction(&top, &bottom, a, b, i, against, lane_mul(area, lane_splat(INVERSE_PI)));
-    return lane_keep(mask_and(lane_lt(grazing, a), lane_lt(grazing, b)), disc_value(top, bottom, i));
+    const lane a = lane3_dot(n, to), b = lane_sub(zero, lane3_dot(axis, to));
+    const lane_mask faces = disc_faces(a, b, r2);
+    disc_fraction(&top, &bottom, lane_keep(faces, a), lane_keep(faces, b), i, against,
+                  lane_mul(area, lane_splat(INVERSE_PI)));
+    return lane_keep(faces, disc_value(top, bottom, i));
 }
 
 #endif
@@ -294,11 +303,11 @@ LANE_INLINE gather_pixels gather_look(const lmb_tile *tile, int k)
 LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const gather_pixels *px,
                                  const gather_group *g, int at)
 {
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), grazing = lane_splat(GRAZING_M);
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
     const lane3 to = lane3_sub(lane3_of(g->at), px->p);
     const lane r2 = lane3_dot(to, to), a = lane3_dot(px->n, to), b = lane3_dot(lane3_of(g->back), to);
     const lane_mask far = lane_le(lane_splat(g->near2), r2);
-    const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(px->face, to)));
+    const lane_mask faces = mask_and(disc_faces(a, b, r2), lane_lt(zero, lane3_dot(px->face, to)));
     const lane_mask lit = mask_and(far, faces);
     lane_store(out->of[PAIR_A] + at, a);
     lane_store(out->of[PAIR_B] + at, b);

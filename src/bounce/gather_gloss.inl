@@ -14,15 +14,16 @@ static inline lane gloss_angle(lane b, lane i, lane area_pi)
 
 static inline lane3 gloss_emitter(lane3 sum, const lobe_pixels *px, lane3 at, lane3 face, const lmb_emitter *e)
 {
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), grazing = lane_splat(GRAZING_M);
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
     const lane3 to = lane3_sub(lane3_of(e->position), at), back = lane3_of(e->back);
-    const lane i = lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-12f)));
-    const lane a = lane_max(lane3_dot(px->n, to), grazing), b = lane_max(lane3_dot(back, to), grazing);
+    const lane r2 = lane_max(lane3_dot(to, to), lane_splat(1e-24f)), i = lane_div(one, r2);
+    const lane a = lane3_dot(px->n, to), b = lane3_dot(back, to);
     const lane area_pi = lane_splat(e->area_pi);
+    const lane_mask over = disc_faces(a, b, r2);
     lane top, bottom;
     lane3 light;
-    disc_fraction(&top, &bottom, a, b, i, lane3_dot(px->n, back), area_pi);
-    const lane_mask faces = mask_and(lane_lt(grazing, lane_min(b, a)), lane_lt(zero, lane3_dot(face, to)));
+    disc_fraction(&top, &bottom, lane_keep(over, a), lane_keep(over, b), i, lane3_dot(px->n, back), area_pi);
+    const lane_mask faces = mask_and(over, lane_lt(zero, lane3_dot(face, to)));
     const lane weight = lane_keep(faces, disc_value(top, bottom, i));
     light.x = lane_mul(weight, lane_splat(e->flux[0]));
     light.y = lane_mul(weight, lane_splat(e->flux[1]));

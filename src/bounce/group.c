@@ -118,12 +118,13 @@ static void count_stats(lmb_stats *stats, const lmb_groups *groups, const lmb_po
     }
 }
 
-/* Zones a side so that about `groups` zones cover the map: the first try; misfits make it more. */
+/* Zones a side so that about `zones` of them, or `groups`, cover the map: the first try; misfits make it more. */
 static int32_t first_zone(const lmb_points *points, const lmb_grouping *g)
 {
     const uint64_t cells = (uint64_t)points->count * (uint64_t)maxi(g->thin, 1);
+    const uint64_t wanted = (uint64_t)(g->zones > 0 ? g->zones : g->groups);
     uint64_t zone = 1;
-    while (cells >= ((uint64_t)g->groups + 1) * (zone * zone)) {
+    while (cells >= (wanted + 1) * (zone * zone)) {
         ++zone;
     }
     return (int32_t)zone;
@@ -149,7 +150,7 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
     lmb_grouping g;
     if (out == NULL || points == NULL || points->data == NULL || grouping == NULL || grouping->groups < 0 ||
         grouping->groups > LMB_MAX_GROUPS || grouping->method < LMB_GROUP_ZONES || grouping->method > LMB_GROUP_NONE ||
-        grouping->thin < 0 || grouping->thin > LMB_MAX_THIN) {
+        grouping->zones < 0 || (uint32_t)grouping->thin > LMB_MAX_THIN) {
         return LMB_ERR_ARG;
     }
     g = *grouping;

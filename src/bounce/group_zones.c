@@ -5,10 +5,11 @@
  * zone's first group opens the zone's second, and so on; LMB_ZONES_STRICT drops it instead. */
 #include "group.h"
 
-/* Equal for the discs of one zone. */
-static uint64_t zone_of(const lmb_point *d, int32_t zone)
+/* Are both in one row of zones, or with `across` in one zone? */
+static int is_same_zone(const lmb_point *a, const lmb_point *b, int32_t zone, int across)
 {
-    return ((uint64_t)d->face << 32) | ((uint64_t)(d->cell_y / zone) << 16) | (uint64_t)(d->cell_x / zone);
+    return a->face == b->face && a->cell_y / zone == b->cell_y / zone &&
+           (!across || a->cell_x / zone == b->cell_x / zone);
 }
 
 /* Past the last disc that may share a zone with disc i: faces follow one another, rows of zones too. */
@@ -16,8 +17,7 @@ static uint32_t zone_row_end(const lmb_points *points, uint32_t i, int32_t zone)
 {
     const lmb_point *d = &points->data[i];
     uint32_t end = i;
-    while (end < points->count && points->data[end].face == d->face &&
-           points->data[end].cell_y / zone == d->cell_y / zone) {
+    while (end < points->count && is_same_zone(&points->data[end], d, zone, 0)) {
         ++end;
     }
     return end;
@@ -35,12 +35,11 @@ static void fill_group(lmb_points *points, uint32_t i, uint32_t end, int32_t zon
                        uint32_t group)
 {
     lmb_group_sum g;
-    const uint64_t here = zone_of(&points->data[i], zone);
     const float reach_m = zone_reach(&points->data[i], zone, grouping->reach);
     lmb_group_open(&g);
     for (uint32_t j = i; j < end; ++j) {
         lmb_point *d = &points->data[j];
-        if (d->link == LMB_UNGROUPED && zone_of(d, zone) == here) {
+        if (d->link == LMB_UNGROUPED && is_same_zone(d, &points->data[i], zone, 1)) {
             lmb_vec3 away = sub3(d->position, g.centre);
             if (g.count == 0 || (dot3(away, away) <= reach_m * reach_m && lmb_group_agrees(&g, d, grouping->cosine))) {
                 d->link = group;
@@ -53,9 +52,8 @@ static void fill_group(lmb_points *points, uint32_t i, uint32_t end, int32_t zon
 /* Strict: whatever of the zone did not fit is dropped, so its zone must not lead again. */
 static void drop_rest(lmb_points *points, uint32_t i, uint32_t end, int32_t zone)
 {
-    const uint64_t here = zone_of(&points->data[i], zone);
     for (uint32_t j = i + 1; j < end; ++j) {
-        if (points->data[j].link == LMB_UNGROUPED && zone_of(&points->data[j], zone) == here) {
+        if (points->data[j].link == LMB_UNGROUPED && is_same_zone(&points->data[j], &points->data[i], zone, 1)) {
             points->data[j].link = LMB_UNGROUPED - 1;
         }
     }

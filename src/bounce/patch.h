@@ -2,17 +2,14 @@
 #ifndef LMB_BOUNCE_PATCH_H
 #define LMB_BOUNCE_PATCH_H
 
-#include "../base/vec.h"
 #include "../lane/kernels.h"
 
 void lmb_patch_of(lmb_patch *out, const lmb_tile *tile, uint64_t pixels);
 
-static inline float gap(float centre, float halves) { return maxf(absf(centre) - halves, 0.0f); }
+/* How far the patch's box reaches along a direction from its centre, m. */
+float lmb_patch_reach(const lmb_patch *p, lmb_vec3 along);
 
-/* Between two boxes: `to`: from one's centre to the other's. */
-static inline lmb_vec3 boxes_apart(lmb_vec3 to, lmb_vec3 a, lmb_vec3 b)
-{
-    return vec3(gap(to.x, a.x + b.x), gap(to.y, a.y + b.y), gap(to.z, a.z + b.z));
-}
+/* Squared distance of a point from the patch's box, m2. */
+float lmb_patch_apart2(const lmb_patch *p, lmb_vec3 at);
 
 #endif

@@ -210,8 +210,8 @@ lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lm
     collector c;
     int32_t block = block_of(grouping);
     if (points == NULL || points->data == NULL || kernels == NULL || scratch == NULL || scene == NULL ||
-        light == NULL || map == NULL || face < 0 || face >= map->faces || tile_y0 < 0 ||
-        tile_y1 > map->size / LMB_TILE || !is_block(block)) {
+        light == NULL || map == NULL || (uint32_t)face >= (uint32_t)map->faces || tile_y0 < 0 ||
+        tile_y1 < tile_y0 || tile_y1 > map->size / LMB_TILE || !is_block(block)) {
         return LMB_ERR_ARG;
     }
     int32_t side = map->size / block;

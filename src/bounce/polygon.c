@@ -67,11 +67,11 @@ float lmb_polygon_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_
 {
     lmb_vec3 own[CORNERS];
     float reach2 = 0.0f;
-    for (int i = 0; i < corners && i < CORNERS; ++i) {
+    for (int i = 0; corner != NULL && i < corners && i < CORNERS; ++i) {
         own[i] = sub3(corner[i], at);
         reach2 = maxf(reach2, dot3(sub3(own[i], own[0]), sub3(own[i], own[0])));
     }
-    if (corners < 3 || corners > CORNERS || !(-dot3(axis, own[0]) > FLAT * sqrtf(reach2))) {
+    if (corner == NULL || corners < 3 || corners > CORNERS || !(-dot3(axis, own[0]) > FLAT * sqrtf(reach2))) {
         return 0.0f;
     }
     return maxf(-edges_sum(own, corners, face, normal), 0.0f) * 0.15915494f;
@@ -79,6 +79,9 @@ float lmb_polygon_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_
 
 float lmb_triangle_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, const lmb_vec3 corner[3], lmb_vec3 axis)
 {
+    if (corner == NULL) {
+        return 0.0f;
+    }
     const lmb_vec3 own[3] = {sub3(corner[0], at), sub3(corner[1], at), sub3(corner[2], at)};
     const lmb_vec3 side = cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
     const float area = 0.5f * length3(side);

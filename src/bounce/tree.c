@@ -6,6 +6,7 @@
 #include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "../raster/tile.h"
+#include "box.h"
 #include "footprint.h"
 
 #if LMB_TREES
@@ -134,9 +135,31 @@ static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
     const lmb_vec3 centre = add3(t->position, mul3(add3(mul3(u, right), mul3(v, up)), 0.5f));
     u = mul3(u, 0.5f * (reach[SIDE_LEFT] + reach[SIDE_RIGHT]));
     v = mul3(v, 0.5f * (reach[SIDE_UP] + reach[SIDE_DOWN]));
-    const lmb_vec3 half = vec3(absf(u.x) + absf(v.x), absf(u.y) + absf(v.y), absf(u.z) + absf(v.z));
-    out->low = sub3(centre, half);
-    out->high = add3(centre, half);
+    out->middle = centre;
+    out->across = box_across(t->normal, longer3(u, v));
+    const lmb_vec3 axis[3] = {t->normal, out->across, cross3(t->normal, out->across)};
+    for (int i = 0; i < 3; ++i) {
+        out->half[i] = absf(dot3(axis[i], u)) + absf(dot3(axis[i], v));
+    }
+    out->radius = sqrtf(dot3(u, u) + dot3(v, v) + 2.0f * absf(dot3(u, v)));
+}
+
+/* Of several joined specks the largest one's: what is left out are specks beside it. */
+static void set_element_box(lmb_node *out, const lmb_texel *t, const lmb_element *e)
+{
+    const lmb_vec3 a = sub3(e->corner[1], e->corner[0]), b = sub3(e->corner[2], e->corner[0]);
+    box_span box = box_begin(t->position, t->normal, box_across(t->normal, longer3(longer3(a, b), sub3(a, b))));
+    box_add_point(&box, t->position);
+    for (int i = 0; i < 3; ++i) {
+        box_add_point(&box, e->corner[i]);
+    }
+    out->middle = box_middle(&box);
+    out->across = box.axis[1];
+    out->radius = length3(sub3(t->position, out->middle));
+    for (int i = 0; i < 3; ++i) {
+        out->half[i] = box_half(&box, i);
+        out->radius = maxf(out->radius, length3(sub3(e->corner[i], out->middle)));
+    }
 }
 
 int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
@@ -150,13 +173,11 @@ int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree 
         return 0;
     }
     out->normal = t->normal;
-    out->cosine = 1.0f;
+    out->cosine = out->agreement = 1.0f;
     out->texel = (uint32_t)y * (uint32_t)tree->size + (uint32_t)x;
     if (element != NULL) {
         out->centre = t->position;
-        /* Of several joined specks the largest one's: what is left out are specks beside it. */
-        out->low = min3(t->position, min3(min3(element->corner[0], element->corner[1]), element->corner[2]));
-        out->high = max3(t->position, max3(max3(element->corner[0], element->corner[1]), element->corner[2]));
+        set_element_box(out, t, element);
         memcpy(out->flux, t->flux, sizeof out->flux);
         out->area = element->area;
         return 0;
@@ -208,6 +229,63 @@ static int is_flat(const lmb_node child[4], const lmb_node *first)
     return flat;
 }
 
+/* Which way a node's parts lie apart: from left to right or from top to bottom, as is longer; 0: it has one part. */
+static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
+{
+    lmb_vec3 sum[4]; /* left, right, top, bottom */
+    float count[4] = {0, 0, 0, 0};
+    for (int i = 0; i < 4; ++i) {
+        sum[i] = vec3(0, 0, 0);
+    }
+    for (int i = 0; i < 4; ++i) {
+        if (flux_sum(child[i].flux) > 0.0f) {
+            const lmb_vec3 at = sub3(child[i].middle, first->middle);
+            sum[i & 1] = add3(sum[i & 1], at);
+            sum[2 + (i >> 1)] = add3(sum[2 + (i >> 1)], at);
+            count[i & 1] += 1.0f;
+            count[2 + (i >> 1)] += 1.0f;
+        }
+    }
+    lmb_vec3 way[2];
+    for (int i = 0; i < 2; ++i) {
+        const float from = count[2 * i], to = count[2 * i + 1];
+        way[i] = from * to > 0.0f ? sub3(mul3(sum[2 * i + 1], 1.0f / to), mul3(sum[2 * i], 1.0f / from))
+                                  : vec3(0, 0, 0);
+    }
+    return longer3(way[0], way[1]);
+}
+
+/* How far a part reaches along a direction from its middle. */
+static float reach_of(const lmb_node *n, lmb_vec3 along)
+{
+    const float box = absf(dot3(n->normal, along)) * n->half[0] + absf(dot3(n->across, along)) * n->half[1] +
+                      absf(dot3(cross3(n->normal, n->across), along)) * n->half[2];
+    return minf(box, n->radius);
+}
+
+static void join_boxes(lmb_node *out, const lmb_node child[4], const lmb_node *first)
+{
+    const lmb_vec3 way = way_of(child, first);
+    box_span box = box_begin(first->middle, out->normal,
+                             box_across(out->normal, dot3(way, way) > 0.0f ? way : first->across));
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < 3 && flux_sum(child[i].flux) > 0.0f; ++k) {
+            box_add(&box, k, dot3(box.axis[k], sub3(child[i].middle, box.from)), reach_of(&child[i], box.axis[k]));
+        }
+    }
+    out->middle = box_middle(&box);
+    out->across = box.axis[1];
+    for (int i = 0; i < 3; ++i) {
+        out->half[i] = box_half(&box, i);
+    }
+    for (int i = 0; i < 4; ++i) {
+        if (flux_sum(child[i].flux) > 0.0f) {
+            out->radius = maxf(out->radius, length3(sub3(child[i].middle, out->middle)) + child[i].radius);
+        }
+    }
+    out->radius = minf(out->radius, length3(vec3(out->half[0], out->half[1], out->half[2])));
+}
+
 static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, uint32_t face)
 {
     lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0), origin = vec3(0, 0, 0);
@@ -218,12 +296,10 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
         const lmb_node *n = &child[i];
         const float w = flux_sum(n->flux);
         if (w > 0.0f) {
-            out->low = first != NULL ? min3(out->low, n->low) : n->low;
-            out->high = first != NULL ? max3(out->high, n->high) : n->high;
             first = first != NULL ? first : n;
             origin = first->centre; /* differences, so that far from the world's middle nothing is lost */
             centre = add3(centre, mul3(sub3(n->centre, origin), w));
-            normal = add3(normal, mul3(n->normal, w));
+            normal = add3(normal, mul3(n->normal, w * n->agreement));
             weight += w;
             out->area += n->area;
             for (int c = 0; c < 3; ++c) {
@@ -236,8 +312,10 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     }
     const int flat = is_flat(child, first);
     out->centre = add3(origin, mul3(centre, 1.0f / weight));
-    out->normal = flat ? first->normal : normalize3(normal);
-    out->cosine = dot3(normal, normal) > 0.0f ? 1.0f : -1.0f;
+    out->cosine = dot3(normal, normal) > 1e-37f ? 1.0f : -1.0f;
+    out->normal = flat || out->cosine < 0.0f ? first->normal : normalize3(normal);
+    out->agreement = flat ? 1.0f : minf(length3(normal) / weight, 1.0f);
+    join_boxes(out, child, first);
     for (int i = 0; i < 4; ++i) {
         if (flux_sum(child[i].flux) > 0.0f) {
             const uint32_t size = (uint32_t)tree->size, at = child[i].texel;

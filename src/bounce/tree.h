@@ -94,4 +94,9 @@ static inline float flux_or_none(float w) { return w < 8.2718061e-25f ? 0.0f : w
 
 static inline float flux_sum(const float flux[3]) { return flux[0] + flux[1] + flux[2]; }
 
+struct lmb_elements;
+
+/* Elements first .. first + count - 1, as far as there are any, as if they were a tile's pixels. */
+void lmb_elements_as_tile(lmb_tile *tile, const struct lmb_elements *elements, uint32_t first, uint32_t count);
+
 #endif

@@ -4,7 +4,7 @@
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../light/gloss.h"
-#include "../raster/triangle.h"
+#include "../raster/paint.h"
 
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect)
@@ -16,20 +16,33 @@ lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const
     return LMB_OK;
 }
 
-lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_tile *tile)
+lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_view *view, const lmb_tile *tile)
 {
+    const lmb_material *m = NULL;
     uint32_t id = 0;
-    const float *emission = NULL;
-    if (inout == NULL || scene == NULL || tile == NULL) {
+    if (inout == NULL || scene == NULL || view == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (tile->id[k] != 0 && tile->id[k] != id) {
-            id = tile->id[k];
-            emission = scene->materials[lmb_instance_of(scene, id)->material].emission;
+#if LMB_LOBES
+    lmb_painter painter;
+    lmb_painter_begin(&painter, scene, view, tile);
+#endif
+    for (int k = 0; scene->materials != NULL && k < LMB_TILE_PIXELS; ++k) {
+        float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
+        if (tile->id[k] == 0) {
+            continue;
         }
-        for (int c = 0; c < 3 && tile->id[k] != 0; ++c) {
-            inout->rgb[c][k] += emission[c];
+        if (m == NULL || tile->id[k] != id) {
+            id = tile->id[k];
+            m = &scene->materials[lmb_instance_of(scene, id)->material];
+        }
+#if LMB_LOBES
+        if (m->emission_map > 0) {
+            lmb_painter_colour(texel, &painter, m->emission_map - 1, k);
+        }
+#endif
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] += m->emission[c] * texel[c];
         }
     }
     return LMB_OK;

@@ -69,12 +69,15 @@ static void store_dithered(const lmb_surface *out, const tile_part *p, int32_t c
     }
 }
 
+/* Within a frame's size of it: differences do not overflow. */
+static int is_near(int32_t v) { return v >= -LMB_MAX_FRAME && v <= 2 * LMB_MAX_FRAME; }
+
 lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, int32_t x0, int32_t y0,
                           const lmb_radiance *in, int32_t x, int32_t y, float exposure_ev)
 {
     int32_t code[3][LMB_TILE_PIXELS];
     if (out == NULL || kernels == NULL || out->data == NULL || in == NULL || out->layout != LMB_LINEAR ||
-        !lmb_surface_is_sound(out)) {
+        !lmb_surface_is_sound(out) || !is_near(x0) || !is_near(y0) || !is_near(x) || !is_near(y)) {
         return LMB_ERR_ARG;
     }
     if (out->format != LMB_RGB32F && out->format != LMB_RGBA8 && out->format != LMB_BGRA8 &&

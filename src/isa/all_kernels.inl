@@ -18,6 +18,7 @@
 #include "../bounce/weigh.inl"
 #include "../light/many.inl"
 #include "../occlusion/crossed.inl"
+#include "../occlusion/sun.inl"
 #endif
 #if LMB_LOBES
 #include "../light/lobe.inl"
@@ -55,6 +56,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(encode),  KERNEL(probe),
 #if LMB_TREES
     KERNEL(gather_cut), KERNEL(weigh), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets),
+    KERNEL(sun_crossed), KERNEL(sun_meets),
     KERNEL(many_bounds), KERNEL(gloss_cut), KERNEL(many_shine),
 #endif
 #if LMB_LOBES

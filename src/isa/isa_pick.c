@@ -63,7 +63,7 @@ enum { MACHINES = sizeof machines / sizeof machines[0] };
 
 const lmb_kernels *lmb_kernels_at(int32_t i)
 {
-    for (int m = 0; m < MACHINES; ++m) {
+    for (int m = 0; i >= 0 && m < MACHINES; ++m) {
         if (machines[m].is_here() && i-- == 0) {
             return machines[m].kernels;
         }

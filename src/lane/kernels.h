@@ -108,10 +108,14 @@ typedef struct lmb_many_job {
 /* The pixels of one surface in a tile. */
 typedef struct lmb_patch {
     uint64_t pixels;
-    lmb_vec3 centre, half; /* of the box of their positions */
-    lmb_vec3 normal;       /* mean */
-    float sine;            /* of the widest angle between theirs and the mean; 1 over 90 degrees */
-    float face_sine;       /* the same of theirs and of their faces' */
+    lmb_vec3 centre;  /* of the box of their positions */
+    lmb_vec3 axis[3]; /* its sides' directions: unit, at right angles; the first is their faces' mean normal */
+    float half[3];    /* half its sides, m */
+    lmb_vec3 normal;  /* mean */
+    float thick;      /* m: how far the positions reach along it from the centre */
+    float sine;       /* of the widest angle between theirs and the mean; 1 over 90 degrees */
+    float face_sine;  /* of the widest between these, their faces' and the mean */
+    float noise;      /* m: how far rounding may have moved a position */
 } lmb_patch;
 
 /* The viewer's depth map as the gather reads it. */
@@ -135,6 +139,18 @@ typedef struct lmb_cross_job {
     lmb_vec3 at, edge[3], normal;
     float beyond; /* of `at` from the plane and the noise, m */
 } lmb_cross_job;
+
+/* A triangle as rays to infinity see it: one from `at` + d crosses it where every edge . d + offset >= 0 and
+ * normal . d > beyond. */
+typedef struct lmb_sun_job {
+    lmb_vec3 at, edge[3], normal;
+    float offset[3], beyond;
+} lmb_sun_job;
+
+/* A box that moves towards a light at infinity: 1 / the direction along each axis, not 0. */
+typedef struct lmb_sun_sweep {
+    float low[3], high[3], per[3];
+} lmb_sun_sweep;
 
 /* The segments from a point to all of a box: 1 / distance to its upper and its lower end along each axis; not 0. */
 typedef struct lmb_pyramid {
@@ -243,10 +259,14 @@ struct lmb_kernels {
     uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i);
     /* The boxes that the pyramid may meet, a bit each. */
     uint32_t (*meets)(const lmb_pyramid *pyramid, const lmb_boxes *boxes);
-    /* Of `count` <= 8 nodes from `first`: a bound of what one may be off for its lights (< 0: they light no pixel;
-     * LMB_MANY_NEAR) and about what it gives, both without shadows, W/m2. Writes up to 16 values each. */
-    void (*many_bounds)(float error[16], float light[16], const lmb_many *many, uint32_t first, uint32_t count,
-                        const lmb_many_job *job);
+    /* `crossed` and `meets` for a light at infinity. */
+    uint64_t (*sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job);
+    uint32_t (*sun_meets)(const lmb_sun_sweep *sweep, const lmb_boxes *boxes);
+    /* Of `count` <= 8 nodes of one kind from `first`: a bound of what one may be off for its lights (< 0: they light no
+     * pixel; LMB_MANY_NEAR), about what it gives, and what it gives if it is a cone's that all of its lights have; all
+     * without shadows, W/m2. Writes up to 16 values each. */
+    void (*many_bounds)(float error[16], float light[16], float inside[16], const lmb_many *many, uint32_t first,
+                        uint32_t count, const lmb_many_job *job);
     /* What lobes make of emitters that some pixels see: added. */
     void (*gloss_cut)(lmb_gloss *inout, const lmb_tile *tile, const lmb_emitter *emitters, int32_t count);
     /* The lamps' light on `pixels` is added. */

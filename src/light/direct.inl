@@ -21,7 +21,7 @@ static void KERNEL(direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_
             to = lane3_sub(lane3_splat(0.0f, 0.0f, 0.0f), travel);
         } else {
             to = lane3_sub(from, lane3_load(tile->position, k));
-            lane inverse2 = lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-12f)));
+            lane inverse2 = lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-24f)));
             to = lane3_scale(to, lane_sqrt(inverse2));
             e = inverse2;
             if (job->kind == LMB_LIGHT_SPOT) {

@@ -2,8 +2,8 @@
 #include <string.h>
 
 #include "../lane/kernels.h"
+#include "../raster/paint.h"
 #include "../raster/tile.h"
-#include "../raster/triangle.h"
 #include "gloss.h"
 
 #if LMB_LOBES
@@ -22,12 +22,23 @@ static void clear(lmb_gloss *out)
     }
 }
 
-static void set_pixel(lmb_gloss *out, int k, const lmb_material *m, lmb_vec3 normal, lmb_vec3 towards)
+/* F0 and roughness of pixel k: the material's, by texel where a map tells metal from what is none. */
+static void set_look(lmb_gloss *out, float *roughness, int k, const lmb_material *m, lmb_painter *painter)
 {
-    const float alpha = maxf(m->roughness * m->roughness, LMB_LEAST_ALPHA);
-    for (int c = 0; c < 3; ++c) {
-        out->specular[c][k] = m->specular[c];
+    float metallic = 0.0f, base[3] = {0.0f, 0.0f, 0.0f};
+    *roughness = m->roughness;
+    if (m->metal_map > 0) {
+        lmb_painter_metal(&metallic, roughness, painter, k);
+        lmb_painter_base(base, painter, k);
     }
+    for (int c = 0; c < 3; ++c) {
+        out->specular[c][k] = m->specular[c] + (base[c] - m->specular[c]) * metallic;
+    }
+}
+
+static void set_pixel(lmb_gloss *out, int k, float roughness, lmb_vec3 normal, lmb_vec3 towards)
+{
+    const float alpha = maxf(roughness * roughness, LMB_LEAST_ALPHA);
     out->alpha2[k] = alpha * alpha;
     out->towards[0][k] = towards.x;
     out->towards[1][k] = towards.y;
@@ -39,21 +50,28 @@ static void set_pixel(lmb_gloss *out, int k, const lmb_material *m, lmb_vec3 nor
 int lmb_gloss_tile(lmb_gloss *out, const lmb_tile *tile, const lmb_view *view, const lmb_scene *scene)
 {
     const lmb_material *m = NULL;
+    lmb_painter painter;
     uint32_t id = 0;
     if (out == NULL) {
         return 0;
     }
     out->pixels = 0;
-    for (int k = 0; tile != NULL && view != NULL && scene != NULL && k < LMB_TILE_PIXELS; ++k) {
+    if (tile == NULL || view == NULL || scene == NULL || scene->materials == NULL) {
+        return 0;
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         if (tile->id[k] != 0 && tile->id[k] != id) {
             id = tile->id[k];
             m = &scene->materials[lmb_instance_of(scene, id)->material];
         }
         if (tile->id[k] != 0 && (m->specular[0] > 0.0f || m->specular[1] > 0.0f || m->specular[2] > 0.0f)) {
+            float roughness;
             if (out->pixels == 0) {
                 clear(out);
+                lmb_painter_begin(&painter, scene, view, tile);
             }
-            set_pixel(out, k, m, tile_vec(tile->normal, k),
+            set_look(out, &roughness, k, m, &painter);
+            set_pixel(out, k, roughness, tile_vec(tile->normal, k),
                       view->kind == LMB_PERSPECTIVE ? normalize3(sub3(view->eye, tile_vec(tile->position, k)))
                                                     : view->back);
         }
@@ -84,7 +102,7 @@ static lobe_pixels pixel_of(const lmb_gloss *gloss, const lmb_tile *tile, int k)
 
 static lane3 unit(lmb_vec3 to)
 {
-    return lane3_of(mul3(to, 1.0f / sqrtf(maxf(dot3(to, to), 1e-12f))));
+    return lane3_of(mul3(to, 1.0f / sqrtf(maxf(dot3(to, to), 1e-24f))));
 }
 
 void lmb_gloss_add(lmb_gloss *inout, const lmb_tile *tile, int k, lmb_vec3 to, float angle, lmb_vec3 light)

@@ -117,7 +117,7 @@ static void KERNEL(gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const l
         lane3 to = lane3_splat(-light->direction.x, -light->direction.y, -light->direction.z);
         if (light->kind != LMB_LIGHT_DIRECTIONAL) {
             to = lane3_sub(lane3_of(light->position), lane3_load(tile->position, k));
-            to = lane3_scale(to, lane_sqrt(lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-12f)))));
+            to = lane3_scale(to, lane_sqrt(lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-24f)))));
         }
         lobe_store(inout, k, lane3_pick(own, lobe_add(sum, &p, to, lane_splat(0.0f), e), sum));
     }

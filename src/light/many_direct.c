@@ -36,6 +36,7 @@ typedef struct lit_surface {
     const lmb_many_look *look;
     lmb_many_job job;
     uint64_t pixels, corners;
+    float noise; /* m: lmb_tile_noise of the pixels */
     lmb_walk *walk;
 } lit_surface;
 
@@ -59,15 +60,24 @@ static uint64_t corners_of(uint64_t pixels)
     return r;
 }
 
-/* Pixels that see a place: where the corners agree, all do as they do. */
-static uint64_t seen_from(const lit_surface *s, uint32_t *tests, lmb_vec3 at)
+static uint64_t blocked_from(const lit_surface *s, uint64_t pixels, uint32_t kind, lmb_vec3 at)
 {
-    const lmb_blockers *blockers = s->look->blockers;
-    if (blockers == NULL) {
+    return kind == LMB_LIGHT_DIRECTIONAL
+               ? lmb_blocked_sun(s->look->blockers, s->kernels, s->tile, pixels, at, s->walk)
+               : lmb_blocked_tile(s->look->blockers, s->kernels, s->tile, pixels, at, s->noise, s->walk);
+}
+
+/* Pixels that see a place: where the corners agree, all do as they do; unless it gives much: then each is asked. */
+static uint64_t seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, lmb_vec3 at, int is_strong)
+{
+    if (s->look->blockers == NULL) {
         return s->pixels;
     }
-    const uint64_t blocked = lmb_blocked_tile(blockers, s->kernels, s->tile, s->corners, at, s->walk);
     ++*tests;
+    if (is_strong) {
+        return s->pixels & ~blocked_from(s, s->pixels, kind, at);
+    }
+    const uint64_t blocked = blocked_from(s, s->corners, kind, at);
     if (blocked == 0) {
         return s->pixels;
     }
@@ -75,7 +85,7 @@ static uint64_t seen_from(const lit_surface *s, uint32_t *tests, lmb_vec3 at)
         return 0;
     }
     const uint64_t others = s->pixels & ~s->corners;
-    return s->pixels & ~(blocked | lmb_blocked_tile(blockers, s->kernels, s->tile, others, at, s->walk));
+    return s->pixels & ~(blocked | blocked_from(s, others, kind, at));
 }
 
 static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
@@ -84,20 +94,32 @@ static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b
 static int is_one_place(const lmb_many_node *node, const lmb_many_job *job)
 {
     const lmb_vec3 to = sub3(node->position, job->middle);
-    return is_same_place(node->strongest, node->median) || 12288.0f * node->spread < dot3(to, to);
+    const float d2 = node->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : dot3(to, to);
+    return is_same_place(node->strongest.position, node->median.position) || 12288.0f * node->spread < d2;
 }
 
-/* Two tests; one, by lot, where the node gives less than a quarter of what may be wrong: that saves a third of the
+/* Two tests; one, by lot, where the node's `share` of what may be wrong is under a quarter: that saves a third of the
  * tests and adds 3 % to the error. */
-static void test_lamp(lmb_many_lamp *lamp, const lit_surface *s, const lmb_many_node *node, int is_weak,
+static void test_lamp(lmb_many_lamp *lamp, const lit_surface *s, const lmb_many_node *node, float share,
                       uint32_t *tests)
 {
-    const int by_lot = is_weak && node->share < 0.5f;
+    const int by_lot = share < 0.25f && node->share < 0.5f, is_strong = s->look->each || share > 1.0f;
+    const lmb_vec3 at = by_lot ? node->median.position : node->strongest.position;
     lamp->share[0] = maxf(node->share, 0.5f);
     lamp->share[1] = 1.0f - lamp->share[0];
-    lamp->seen[0] = lamp->seen[1] = seen_from(s, tests, by_lot ? node->median : node->strongest);
+    lamp->seen[0] = lamp->seen[1] = seen_from(s, tests, node->kind, at, is_strong);
     if (!by_lot && !is_one_place(node, &s->job)) {
-        lamp->seen[1] = seen_from(s, tests, node->median);
+        lamp->seen[1] = seen_from(s, tests, node->kind, node->median.position, is_strong);
+    }
+}
+
+/* A hard edge is a step over a millionth. */
+static void set_cones(lmb_many_lamp *lamp, const lmb_many_node *node)
+{
+    lamp->source[0] = node->strongest;
+    lamp->source[1] = node->median;
+    for (int i = 0; i < 2; ++i) {
+        lamp->per[i] = 1.0f / maxf(lamp->source[i].cos_inner - lamp->source[i].cos_outer, 1e-6f);
     }
 }
 
@@ -109,7 +131,7 @@ static const lmb_many_entry *entry_at(const lmb_many_scratch *scratch, int32_t i
 static void shine(lmb_irradiance *inout, lmb_many_scratch *scratch, const lit_surface *s)
 {
     const int32_t all = scratch->open + scratch->closed;
-    const float weak = 0.25f * scratch->allowed * scratch->light;
+    const float allowed = maxf(scratch->allowed * scratch->light, 1e-30f);
     scratch->nodes += (uint32_t)all;
     for (int32_t i = 0, lamps = 0; i < all; ++i) {
         const lmb_many_entry *e = entry_at(scratch, i);
@@ -118,7 +140,9 @@ static void shine(lmb_irradiance *inout, lmb_many_scratch *scratch, const lit_su
         lamp->position = node->position;
         lamp->spread = node->spread;
         memcpy(lamp->intensity, node->intensity, sizeof lamp->intensity);
-        test_lamp(lamp, s, node, e->light < weak, &scratch->tests);
+        lamp->kind = node->kind;
+        set_cones(lamp, node);
+        test_lamp(lamp, s, node, e->inside / allowed, &scratch->tests);
         if (lamps == LMB_MANY_LAMPS || i + 1 == all) {
             s->kernels->many_shine(inout, s->tile, s->pixels, scratch->lamp, lamps);
             lamps = 0;
@@ -142,6 +166,7 @@ lmb_status lmb_many_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernel
         s.walk = &scratch->walk;
         s.pixels = n < SURFACES ? tile_surface(tile, left) : left;
         s.corners = corners_of(s.pixels);
+        s.noise = lmb_tile_noise(tile, s.pixels);
         s.job = job_of(tile, s.pixels);
         lmb_many_cut(scratch, kernels, look, &s.job);
         shine(inout, scratch, &s);

@@ -1,14 +1,23 @@
 /* many_tree.c: the tree over the stream's cells, eight children a node where the octree has them. Floor 5.        [V3]
  *
  * Keys hold x, y and z in turn, so cells in the order of their keys lie in the order of an octree: a node is a range of
- * them. Levels that would have one child are left out. Every node is summed from its own cells, in integers. */
+ * them. Levels that would have one child are left out. Every node is summed from its own cells, in integers. Lights of
+ * several kinds have a tree for each, under one root. */
 #include <string.h>
 
 #include "../base/vec.h"
 #include "many_cell.h"
 
-/* The cells' numbers in the order of their keys, into `slot`: a byte of the keys at a time, the lowest first. The table
- * has room for two such lists. */
+enum { CELL_BYTES = 17 };
+
+/* Byte i, from the lowest, of what cells are ordered by. */
+static uint32_t byte_of(const lmb_many_cell *c, int i)
+{
+    return i < 8 ? (uint32_t)(c->turn >> 8 * i) & 255u : i < 16 ? (uint32_t)(c->key >> 8 * (i - 8)) & 255u : c->kind;
+}
+
+/* The cells' numbers in the order of their kinds, keys and turns, into `slot`: a byte at a time. The table has room for
+ * two such lists. */
 static void sort_cells(lmb_many *m)
 {
     const uint32_t n = m->cell_count;
@@ -16,11 +25,14 @@ static void sort_cells(lmb_many *m)
     for (uint32_t i = 0; i < n; ++i) {
         from[i] = i;
     }
-    for (int shift = 0; shift < 64; shift += 8) { /* eight times: the list ends where it began */
+    for (int byte = 0; byte < CELL_BYTES; ++byte) {
         uint32_t at[256], sum = 0;
         memset(at, 0, sizeof at);
         for (uint32_t i = 0; i < n; ++i) {
-            ++at[m->cell[i].key >> shift & 255u];
+            ++at[byte_of(&m->cell[i], byte)];
+        }
+        if (at[byte_of(&m->cell[0], byte)] == n) { /* all have the same */
+            continue;
         }
         for (int b = 0; b < 256; ++b) {
             const uint32_t count = at[b];
@@ -28,15 +40,16 @@ static void sort_cells(lmb_many *m)
             sum += count;
         }
         for (uint32_t i = 0; i < n; ++i) {
-            to[at[m->cell[from[i]].key >> shift & 255u]++] = from[i];
+            to[at[byte_of(&m->cell[from[i]], byte)]++] = from[i];
         }
         uint32_t *swap = from;
         from = to;
         to = swap;
     }
+    memmove(m->slot, from, n * sizeof *from);
 }
 
-static uint64_t key_at(const lmb_many *m, uint32_t i) { return m->cell[m->slot[i]].key; }
+static const lmb_many_cell *cell_at(const lmb_many *m, uint32_t i) { return &m->cell[m->slot[i]]; }
 
 static float watts(const lmb_many *m, int64_t quanta)
 {
@@ -51,6 +64,26 @@ static float mean_of(const lmb_many_cell *c, int axis, float low, float step)
     return clampf(at, c->low[axis], c->high[axis]);
 }
 
+/* A cone that holds the cones of all directions in the box, as wide as the widest. A unit vector within r of the box's
+ * middle, m from 0, is at the angle of cosine (1 + m^2 - r^2) / 2 m or less from it; to that the own half angle is
+ * added, which is under 90 degrees. */
+static void set_cone(lmb_many *m, uint32_t i, const lmb_many_cell *c)
+{
+    const lmb_vec3 low = vec3(c->axis_low[0], c->axis_low[1], c->axis_low[2]);
+    const lmb_vec3 high = vec3(c->axis_high[0], c->axis_high[1], c->axis_high[2]);
+    const lmb_vec3 middle = mul3(add3(low, high), 0.5f), half = mul3(sub3(high, low), 0.5f);
+    const float m2 = dot3(middle, middle), length = sqrtf(maxf(m2, 1e-12f)), own = c->cos_outer;
+    const float bend = clampf((1.0f + m2 - dot3(half, half)) / (2.0f * length) - 1e-6f, -1.0f, 1.0f);
+    const float sine = sqrtf(1.0f - bend * bend), own_sine = sqrtf(maxf(1.0f - own * own, 0.0f));
+    const float turned = sine * own + bend * own_sine; /* of the sum; under 0: more than half a turn */
+    const float values[6] = {middle.x / length, middle.y / length,
+                             middle.z / length, turned > 0.0f ? bend * own - sine * own_sine : -1.0f,
+                             maxf(turned, 0.0f), own};
+    for (uint32_t k = 0; k < 6; ++k) {
+        m->plane[(LMB_MANY_AXIS + k) * m->plane_step + i] = values[k];
+    }
+}
+
 static void set_planes(lmb_many *m, uint32_t i, const lmb_many_cell *c)
 {
     const lmb_many_node *node = &m->node[i];
@@ -62,6 +95,25 @@ static void set_planes(lmb_many *m, uint32_t i, const lmb_many_cell *c)
         plane[(LMB_MANY_POSITION + a) * m->plane_step] = at[a];
     }
     plane[LMB_MANY_POWER * m->plane_step] = node->intensity[0] + node->intensity[1] + node->intensity[2];
+    if (node->kind == LMB_LIGHT_SPOT) {
+        set_cone(m, i, c);
+    }
+}
+
+static uint32_t light_kind(uint32_t kind)
+{
+    return kind == 0 ? LMB_LIGHT_POINT : kind == LMB_MANY_SUNS ? LMB_LIGHT_DIRECTIONAL : LMB_LIGHT_SPOT;
+}
+
+static void set_position(lmb_many *m, lmb_many_node *node, const lmb_many_cell *c)
+{
+    const lmb_many_scale scale = lmb_many_scale_of(m, c->kind);
+    node->position = vec3(mean_of(c, 0, scale.low[0], scale.step), mean_of(c, 1, scale.low[1], scale.step),
+                          mean_of(c, 2, scale.low[2], scale.step));
+    if (c->lights > 1 && node->kind == LMB_LIGHT_DIRECTIONAL) {
+        const float length = length3(node->position);
+        node->position = length > 1e-6f ? mul3(node->position, 1.0f / length) : c->strongest.source.position;
+    }
 }
 
 /* Node i stands for the cells from .. past - 1. */
@@ -78,12 +130,11 @@ static void set_node(lmb_many *m, uint32_t i, uint32_t from, uint32_t past)
         node->intensity[c] = watts(m, sum.intensity[c]);
         size2 += (sum.high[c] - sum.low[c]) * (sum.high[c] - sum.low[c]);
     }
-    node->position.x = mean_of(&sum, 0, m->low.x, m->step);
-    node->position.y = mean_of(&sum, 1, m->low.y, m->step);
-    node->position.z = mean_of(&sum, 2, m->low.z, m->step);
+    node->kind = sum.kind == cell_at(m, past - 1)->kind ? light_kind(sum.kind) : LMB_MANY_MIXED;
+    set_position(m, node, &sum);
     node->spread = size2 * (1.0f / 12.0f); /* a side s, filled evenly: s^2 / 12 */
-    node->strongest = sum.strongest.position;
-    node->median = sum.median.position;
+    node->strongest = sum.strongest.source;
+    node->median = sum.median.source;
     node->share = sum.strongest.score / maxf(node->intensity[0] + node->intensity[1] + node->intensity[2], 1e-30f);
     node->lights = sum.lights;
     node->from = from;
@@ -91,27 +142,38 @@ static void set_node(lmb_many *m, uint32_t i, uint32_t from, uint32_t past)
     set_planes(m, i, &sum);
 }
 
-/* Which child of a node holds cell i: three bits of its key, `shift` from the lowest. */
-static uint32_t octant(const lmb_many *m, uint32_t i, int shift) { return (uint32_t)(key_at(m, i) >> shift) & 7u; }
+enum { BY_KEY = 64, BY_KIND = 128 }; /* a parting: a shift of the turn; of the key, from BY_KEY; the kind */
 
-/* The highest three bits in which the range's first and last keys differ: there the tree parts. */
-static int parting(const lmb_many *m, uint32_t from, uint32_t past)
+/* Which child of a node holds cell i: three bits of its key or turn, or its kind. */
+static uint32_t octant(const lmb_many *m, uint32_t i, int parting)
 {
-    const uint64_t differ = key_at(m, from) ^ key_at(m, past - 1);
+    const lmb_many_cell *c = cell_at(m, i);
+    return parting == BY_KIND ? c->kind
+                              : (uint32_t)((parting >= BY_KEY ? c->key : c->turn) >> (parting & 63)) & 7u;
+}
+
+/* The highest three bits in which the range's first and last cells differ: there the tree parts. */
+static int parting_of(const lmb_many *m, uint32_t from, uint32_t past)
+{
+    const lmb_many_cell *a = cell_at(m, from), *b = cell_at(m, past - 1);
+    const uint64_t differ = a->key != b->key ? a->key ^ b->key : a->turn ^ b->turn;
     int shift = 60;
+    if (a->kind != b->kind) {
+        return BY_KIND;
+    }
     while ((differ >> shift & 7u) == 0) {
         shift -= 3;
     }
-    return shift;
+    return shift + (a->key != b->key ? BY_KEY : 0);
 }
 
 static void add_children(lmb_many *m, uint32_t i)
 {
     const uint32_t past = m->node[i].past;
-    const int shift = parting(m, m->node[i].from, past);
+    const int parting = parting_of(m, m->node[i].from, past);
     m->node[i].first = m->node_count;
     for (uint32_t from = m->node[i].from, to = from; from < past; from = to) {
-        while (to < past && octant(m, to, shift) == octant(m, from, shift)) {
+        while (to < past && octant(m, to, parting) == octant(m, from, parting)) {
             ++to;
         }
         set_node(m, m->node_count++, from, to);

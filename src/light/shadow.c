@@ -13,10 +13,9 @@
 #include "shadow.h"
 
 #include "../base/vec.h"
+#include "../map/part.h"
 #include "../raster/resolve.h"
 #include "../raster/target.h"
-
-#define EPSILON 3.0517578e-5f /* 2^-15: several roundings of distances that enter a plane test */
 
 /* Where the receiver lies in a face. */
 typedef struct place {
@@ -25,7 +24,6 @@ typedef struct place {
     float x, y; /* texels */
     float w;    /* m along the face's axis */
     lmb_vec3 towards; /* from the receiver to the light; directional: unit length */
-    float distance;   /* of the light; directional: of the map's near plane */
 } place;
 
 static int32_t choose_face(const lmb_light_map *map, lmb_vec3 d)
@@ -43,12 +41,13 @@ static int32_t choose_face(const lmb_light_map *map, lmb_vec3 d)
 /* 0 where the receiver is outside the map: then nothing can shadow it (spots: it is outside the cone). */
 static int find_place(place *out, const lmb_light_map *map, const lmb_light *light, lmb_vec3 p)
 {
-    int32_t f = choose_face(map, sub3(p, light->position));
+    const int directional = light->kind == LMB_LIGHT_DIRECTIONAL;
+    int32_t f = LMB_TREES && directional ? lmb_light_map_part(map, p) : choose_face(map, sub3(p, light->position));
     const lmb_view *v = &map->view[f];
     lmb_vec3 d = sub3(p, v->eye);
     float w = -dot3(v->back, d), size = (float)map->size;
     float unit = v->kind == LMB_PERSPECTIVE ? w : 1.0f;
-    if (!(w > 0.0f) || ((map->drawn >> f) & 1u) == 0) {
+    if (!(unit > 0.0f) || ((map->drawn >> f) & 1u) == 0) {
         return 0;
     }
     out->view = v;
@@ -56,9 +55,7 @@ static int find_place(place *out, const lmb_light_map *map, const lmb_light *lig
     out->x = (dot3(v->right, d) / (unit * v->half_width) * 0.5f + 0.5f) * size;
     out->y = (0.5f - dot3(v->up, d) / (unit * v->half_height) * 0.5f) * size;
     out->w = w;
-    int directional = light->kind == LMB_LIGHT_DIRECTIONAL;
     out->towards = directional ? v->back : sub3(light->position, p);
-    out->distance = directional ? w : length3(out->towards);
     return out->x >= 0.0f && out->y >= 0.0f && out->x <= size && out->y <= size;
 }
 
@@ -102,7 +99,7 @@ static int ask_triangle(const lmb_scene *scene, uint32_t id, const lmb_receiver 
     if (height * rise <= 0.0f || absf(height) <= r->noise || sum == 0.0f) {
         return OVER; /* the plane is behind the receiver, or through it */
     }
-    if (at->distance > 0.0f && absf(height) >= absf(rise) && at->view->kind == LMB_PERSPECTIVE) {
+    if (absf(height) >= absf(rise) && at->view->kind == LMB_PERSPECTIVE) {
         return OVER; /* beyond the light */
     }
     return lmb_triangle_opaque(&t, scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
@@ -132,16 +129,14 @@ static int lit_by_depth(const place *at, const lmb_receiver *r, int32_t x, int32
     return lmb_depth_view_z(v, d) >= own - texel - r->noise;
 }
 
-int lmb_is_lit(const lmb_light_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *receiver)
+int lmb_is_lit(const lmb_light_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *r)
 {
     place at;
-    lmb_receiver r = *receiver;
     int over = 0;
     uint32_t seen[4];
-    if (!find_place(&at, map, light, r.position)) {
+    if (!find_place(&at, map, light, r->position)) {
         return 1;
     }
-    r.noise += EPSILON * at.distance;
     int32_t x0 = (int32_t)floorf(at.x - 0.5f), y0 = (int32_t)floorf(at.y - 0.5f);
     for (int q = 0; q < 4; ++q) {
         int32_t x = mini(maxi(x0 + (q & 1), 0), map->size - 1), y = mini(maxi(y0 + (q >> 1), 0), map->size - 1);
@@ -150,15 +145,15 @@ int lmb_is_lit(const lmb_light_map *map, const lmb_light *light, const lmb_scene
         for (int p = 0; p < q; ++p) {
             known |= seen[p] == seen[q];
         }
-        if (seen[q] == r.id) {
+        if (seen[q] == r->id) {
             over = 1;
         } else if (seen[q] != 0 && !known) {
-            int answer = ask_triangle(scene, seen[q], &r, &at);
+            int answer = ask_triangle(scene, seen[q], r, &at);
             if (answer == SHADOWS) {
                 return 0;
             }
             over |= answer == OVER;
         }
     }
-    return over || lit_by_depth(&at, &r, mini((int32_t)at.x, map->size - 1), mini((int32_t)at.y, map->size - 1));
+    return over || lit_by_depth(&at, r, mini((int32_t)at.x, map->size - 1), mini((int32_t)at.y, map->size - 1));
 }

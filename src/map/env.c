@@ -62,9 +62,14 @@ static uint16_t *texel(const lmb_env *env, int32_t level, cube_place p)
     return env->texels + 4 * (env->at[level] + (size_t)((p.face * n + p.y) * n + p.x));
 }
 
+static int is_env(const lmb_env *env) { return env != NULL && env->texels != NULL && is_size(env->size); }
+
 void lmb_env_set(const lmb_env *env, int32_t face, int32_t x, int32_t y, const float rgb[3])
 {
     const cube_place p = {face, x, y};
+    if (!is_env(env) || rgb == NULL || face < 0 || face > 5 || x < 0 || y < 0 || x >= env->size || y >= env->size) {
+        return;
+    }
     uint16_t *to = texel(env, 0, p);
     for (int c = 0; c < 3; ++c) {
         to[c] = half_encode(rgb[c]);
@@ -87,7 +92,7 @@ static void halve(const lmb_env *env, int32_t level, cube_place p)
 
 void lmb_env_mips(const lmb_env *env)
 {
-    for (int32_t l = 1; l < env->levels; ++l) {
+    for (int32_t l = 1; is_env(env) && l < env->levels; ++l) {
         const int32_t n = env->size >> l;
         for (int32_t i = 0; i < 6 * n * n; ++i) {
             const cube_place p = {i / (n * n), i % n, i / n % n};
@@ -98,7 +103,8 @@ void lmb_env_mips(const lmb_env *env)
 
 void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3])
 {
-    const size_t texels = lmb_env_bytes(from->size) / (4 * sizeof(uint16_t));
+    const int is_pair = is_env(out) && is_env(from) && share != NULL && out->size == from->size;
+    const size_t texels = is_pair ? lmb_env_bytes(from->size) / (4 * sizeof(uint16_t)) : 0;
     for (size_t i = 0; i < 4 * texels; ++i) {
         out->texels[i] = i % 4 == 3 ? HALF_ONE : half_encode(half_decode(from->texels[i]) * share[i % 4]);
     }
@@ -139,13 +145,19 @@ static void sample_level(float out[3], const lmb_env *env, int32_t level, lmb_ve
  * n tan_half = 1. Between two levels by the width, which needs no logarithm. */
 void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float tan_half)
 {
-    float width = tan_half > 0.0f ? tan_half * (float)env->size : 0.0f;
     int32_t level = 0;
+    if (out == NULL) {
+        return;
+    }
+    out[0] = out[1] = out[2] = 0.0f;
+    if (!is_env(env)) {
+        return;
+    }
+    float width = tan_half > 0.0f ? tan_half * (float)env->size : 0.0f;
     for (; width > 2.0f && level < env->levels - 1; ++level) {
         width *= 0.5f;
     }
     const float more = level < env->levels - 1 ? clampf(width - 1.0f, 0.0f, 1.0f) : 0.0f;
-    out[0] = out[1] = out[2] = 0.0f;
     sample_level(out, env, level, direction, 1.0f - more);
     if (more > 0.0f) {
         sample_level(out, env, level + 1, direction, more);

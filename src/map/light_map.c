@@ -4,16 +4,23 @@
 #include <string.h>
 
 #include "../base/memory_check.h"
-#include "../base/poly.h"
 #include "../base/vec.h"
 #include "../raster/target.h"
+#include "part.h"
 
 #define COS_50 0.64278761f   /* half angle up to which one perspective face serves a spot */
-#define CUBE_CORNER 0.9553167f /* rad between a cube face's axis and its corner */
+#define COS_CORNER 0.57735027f /* of the angle between a cube face's axis and its corner */
+#define SIN_CORNER 0.81649658f
 #define FLUX_FLOOR 8.2718061e-25f /* 2^-80 W: less is nothing, so that kernels meet no denormal */
 
-int32_t lmb_light_map_faces(const lmb_light *light)
+int32_t lmb_light_map_faces(const lmb_light *light, const lmb_scene *scene)
 {
+    if (light == NULL || scene == NULL) {
+        return 0;
+    }
+    if (LMB_TREES && light->kind == LMB_LIGHT_DIRECTIONAL) {
+        return maxi(scene->core.faces, 1);
+    }
     return light->kind == LMB_LIGHT_POINT || (light->kind == LMB_LIGHT_SPOT && light->cos_outer < COS_50) ? 6 : 1;
 }
 
@@ -41,30 +48,110 @@ static void set_axes(lmb_view *v, lmb_vec3 forward)
     v->up = cross3(v->back, v->right);
 }
 
-static float scene_diagonal(const lmb_scene *scene)
+typedef struct box {
+    lmb_vec3 low, high;
+} box;
+
+static float diagonal_of(lmb_vec3 low, lmb_vec3 high) { return maxf(length3(sub3(high, low)), 1e-24f); }
+
+static box box_mix(lmb_vec3 low, lmb_vec3 high, lmb_vec3 wide_low, lmb_vec3 wide_high, float share)
 {
-    return maxf(length3(sub3(scene->bounds_max, scene->bounds_min)), 1e-6f);
+    box b;
+    b.low = add3(low, mul3(sub3(wide_low, low), share));
+    b.high = add3(high, mul3(sub3(wide_high, high), share));
+    return b;
 }
 
-/* The box of the scene's bounds along the light's axes: an orthographic view that holds every vertex. */
-static void fit_directional(lmb_view *v, const lmb_light *light, const lmb_scene *scene)
+/* What face f of a sun's map is to hold: the core, boxes of a sixteenth of a sixteenth .. of the wide one's size, the
+ * wide one, and all. */
+static box box_of_face(const lmb_scene *scene, int32_t f, int32_t faces)
 {
-    lmb_vec3 lo = scene->bounds_min, hi = scene->bounds_max;
-    lmb_vec3 centre = mul3(add3(lo, hi), 0.5f), half = mul3(sub3(hi, lo), 0.5f);
-    float margin = 1e-3f * scene_diagonal(scene);
-    set_axes(v, light->direction);
-    lmb_vec3 axis[3] = {v->right, v->up, v->back};
-    float extent[3];
-    for (int i = 0; i < 3; ++i) {
-        extent[i] = absf(axis[i].x) * half.x + absf(axis[i].y) * half.y + absf(axis[i].z) * half.z + margin;
+    const box all = {scene->bounds_min, scene->bounds_max};
+    if (!LMB_TREES || f == faces - 1) {
+        return all;
     }
-    v->kind = LMB_ORTHOGRAPHIC;
-    v->half_width = extent[0];
-    v->half_height = extent[1];
-    v->near_m = margin;
-    v->far_m = margin + 2.0f * extent[2];
-    v->eye = add3(centre, mul3(v->back, extent[2] + margin));
+    const lmb_core *c = &scene->core;
+    const lmb_vec3 more = add3(sub3(c->wide_low, all.low), sub3(all.high, c->wide_high));
+    const int32_t last = faces - 1 - (largest3(more) > 0.0f); /* the wide one's */
+    const float core = largest3(sub3(c->high, c->low)), wide = largest3(sub3(c->wide_high, c->wide_low));
+    float size = wide;
+    for (int32_t i = f; i < last; ++i) {
+        size *= 0.0625f;
+    }
+    return box_mix(c->low, c->high, c->wide_low, c->wide_high,
+                   f == 0 || !(wide > core) ? 0.0f : clampf((size - core) / (wide - core), 0.0f, 1.0f));
 }
+
+static lmb_vec3 half_of(const box *b) { return mul3(sub3(b->high, b->low), 0.5f); }
+
+/* Half the extent along an axis of a box of half extents `half`. */
+static float reach_along(lmb_vec3 axis, lmb_vec3 half)
+{
+    return absf(axis.x) * half.x + absf(axis.y) * half.y + absf(axis.z) * half.z;
+}
+
+/* A box along the light's axes: an orthographic view that holds all of it. */
+static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
+{
+    const lmb_vec3 half = half_of(b);
+    const float margin = 1e-3f * diagonal_of(b->low, b->high);
+    set_axes(v, light->direction);
+    const float deep = reach_along(v->back, half) + margin;
+    v->kind = LMB_ORTHOGRAPHIC;
+    v->half_width = reach_along(v->right, half) + margin;
+    v->half_height = reach_along(v->up, half) + margin;
+    v->near_m = margin;
+    v->far_m = margin + 2.0f * deep;
+    v->eye = add3(mul3(add3(b->low, b->high), 0.5f), mul3(v->back, deep + margin));
+}
+
+/* The same of one box of several: as deep as the scene, for what casts shadows from above or shows below. The eye is in
+ * the box's middle, so that no coordinate is larger than it need be. */
+static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lmb_scene *scene)
+{
+    const box all = {scene->bounds_min, scene->bounds_max};
+    fit_directional(v, light, b);
+    v->eye = mul3(add3(b->low, b->high), 0.5f);
+    const float up = dot3(v->back, sub3(mul3(add3(all.low, all.high), 0.5f), v->eye));
+    const float deep = reach_along(v->back, half_of(&all)) + 1e-3f * diagonal_of(all.low, all.high);
+    v->near_m = -up - deep;
+    v->far_m = deep - up;
+}
+
+#if LMB_TREES
+#define WIDER 1.25f /* as wide as a face may become to end where texels of the next do */
+
+/* Along one axis: the middle and half width of a face, from the middle of the next, of which cells are `cell` wide. */
+static int align_axis(float *middle, float *half, float whole, float cell)
+{
+    const float first = floorf((*middle - *half + whole) / cell),
+                past = -floorf(-(*middle + *half + whole) / cell), wide = 0.5f * (past - first) * cell;
+    if (!(wide <= WIDER * *half)) {
+        return 0;
+    }
+    *middle = (0.5f * (first + past)) * cell - whole;
+    *half = wide;
+    return 1;
+}
+
+/* A face ends between texels of the next: of trees of an eighth of its side, or of what widens it by little. */
+static void align(lmb_view *inner, const lmb_view *outer, int32_t size)
+{
+    const lmb_vec3 to = sub3(inner->eye, outer->eye);
+    const float x0 = dot3(outer->right, to), y0 = dot3(outer->up, to);
+    for (int32_t texels = 8; texels > 0; texels /= 2) {
+        const float cells = (float)(size / texels);
+        float x = x0, y = y0, half_x = inner->half_width, half_y = inner->half_height;
+        if (align_axis(&x, &half_x, outer->half_width, 2.0f * outer->half_width / cells) &&
+            align_axis(&y, &half_y, outer->half_height, 2.0f * outer->half_height / cells)) {
+            inner->half_width = half_x;
+            inner->half_height = half_y;
+            inner->eye = add3(inner->eye, add3(mul3(outer->right, x - x0), mul3(outer->up, y - y0)));
+            return;
+        }
+    }
+}
+#endif
 
 static void fit_spot(lmb_view *v, const lmb_light *light)
 {
@@ -73,10 +160,27 @@ static void fit_spot(lmb_view *v, const lmb_light *light)
     v->half_width = v->half_height = sqrtf(maxf(1.0f - c * c, 1e-8f)) / c;
 }
 
+/* A lamp in a ceiling is not behind it by rounding: of the room's size, and of how far off the room is. */
+static float nearest_shown(const lmb_light *light, const lmb_scene *scene)
+{
+    const lmb_core *c = &scene->core;
+    const float size = LMB_TREES && c->faces > 0 ? diagonal_of(c->low, c->high)
+                                                 : diagonal_of(scene->bounds_min, scene->bounds_max);
+    return maxf(1e-5f * size, 9.5367432e-7f * largest3(light->position));
+}
+
 static lmb_vec3 cube_axis(int32_t face)
 {
     float sign = face & 1 ? -1.0f : 1.0f;
     return vec3(face / 2 == 0 ? sign : 0.0f, face / 2 == 1 ? sign : 0.0f, face / 2 == 2 ? sign : 0.0f);
+}
+
+/* Does a spot's cone meet a cube's face? Where their axes are no farther apart than the cone's half angle and
+ * the angle of the face's corner together, which is under 180 degrees: by the cosine of that sum. */
+static int meets_face(const lmb_light *light, int32_t face)
+{
+    const float c = light->cos_outer, s = sqrtf(1.0f - c * c);
+    return dot3(light->direction, cube_axis(face)) >= c * COS_CORNER - s * SIN_CORNER;
 }
 
 static void fit_views(lmb_light_map *map, const lmb_light *light, const lmb_scene *scene)
@@ -87,23 +191,43 @@ static void fit_views(lmb_light_map *map, const lmb_light *light, const lmb_scen
         v->eye = light->position;
         v->kind = LMB_PERSPECTIVE;
         v->half_width = v->half_height = 1.0f;
-        v->near_m = maxf(1e-5f * scene_diagonal(scene), 1e-6f);
+        v->near_m = nearest_shown(light, scene);
         v->far_m = 0.0f;
         v->frame_width = v->frame_height = map->size;
         int meets = 1;
         if (light->kind == LMB_LIGHT_DIRECTIONAL) {
-            fit_directional(v, light, scene);
+            const box b = box_of_face(scene, f, map->faces);
+            fit_directional(v, light, &b);
+            if (LMB_TREES && map->faces > 1) {
+                fit_part(v, light, &b, scene);
+            }
         } else if (map->faces == 1) {
             fit_spot(v, light);
         } else {
             set_axes(v, cube_axis(f));
-            if (light->kind == LMB_LIGHT_SPOT) {
-                float reach = lmb_acos(light->cos_outer) + CUBE_CORNER;
-                meets = dot3(light->direction, cube_axis(f)) >= (reach < 3.1415927f ? lmb_cos(reach) : -1.0f);
-            }
+            meets = light->kind != LMB_LIGHT_SPOT || meets_face(light, f);
         }
         map->drawn |= (uint32_t)meets << f;
     }
+#if LMB_TREES
+    for (int32_t f = map->faces - 2; f >= 0 && light->kind == LMB_LIGHT_DIRECTIONAL; --f) {
+        align(&map->view[f], &map->view[f + 1], map->size);
+    }
+#endif
+}
+
+int32_t lmb_light_map_part(const lmb_light_map *map, lmb_vec3 at)
+{
+    int32_t f = 0;
+    for (; LMB_TREES && f + 1 < map->faces; ++f) {
+        const lmb_view *v = &map->view[f];
+        const lmb_vec3 to = sub3(at, v->eye);
+        const float edge = 1.0f - 4.0f / (float)map->size;
+        if (absf(dot3(v->right, to)) < edge * v->half_width && absf(dot3(v->up, to)) < edge * v->half_height) {
+            break;
+        }
+    }
+    return f;
 }
 
 lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
@@ -114,7 +238,7 @@ lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const 
     }
     size_t depth_bytes = lmb_surface_bytes(LMB_DEPTH32F, size, size),
            id_bytes = lmb_surface_bytes(id_format, size, size);
-    int32_t faces = lmb_light_map_faces(light);
+    int32_t faces = lmb_light_map_faces(light, scene);
     lmb_status status = check_memory(memory, bytes, (size_t)faces * (depth_bytes + id_bytes));
     if (status != LMB_OK) {
         return status;
@@ -212,9 +336,32 @@ static float texel_solid_angle(float p, float x, float y)
     return p * p / (l2 * l) * (1.0f + p * p * (1.0f / 24.0f) * (9.0f * (l2 - 1.0f) - 6.0f) / (l2 * l2));
 }
 
+#if LMB_TREES
+/* Does the middle of a texel of a sun's map, which shows what it is, lie in a finer face? By the middle alone: mostly
+ * faces end between texels (align), and where they do not, what neighbours overlap a face by is in the mean what is
+ * left out so. By areas, a ring around the face would be dark. */
+static int is_finer(const lmb_light_map *map, int32_t face, float sx, float sy)
+{
+    const lmb_view *v = &map->view[face], *finer = v - 1;
+    if (face == 0 || v->kind != LMB_ORTHOGRAPHIC) {
+        return 0;
+    }
+    const lmb_vec3 to = sub3(finer->eye, v->eye);
+    return absf(sx - dot3(v->right, to)) < finer->half_width && absf(sy - dot3(v->up, to)) < finer->half_height;
+}
+#endif
+
 void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_light_map *map, int32_t face, int32_t x,
                            int32_t y)
 {
+    if (out == NULL) {
+        return;
+    }
+    out[0] = out[1] = out[2] = 0.0f;
+    if (light == NULL || map == NULL || (uint32_t)face >= (uint32_t)map->faces || (uint32_t)x >= (uint32_t)map->size ||
+        (uint32_t)y >= (uint32_t)map->size) {
+        return;
+    }
     const lmb_view *v = &map->view[face];
     float px = 2.0f * v->half_width / (float)map->size, py = 2.0f * v->half_height / (float)map->size;
     float sx = ((float)(2 * x + 1 - map->size) * 0.5f) * px, sy = ((float)(map->size - 2 * y - 1) * 0.5f) * py;
@@ -227,6 +374,9 @@ void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_light
         }
         power *= share * 0.25f;
     }
+#if LMB_TREES
+    power = is_finer(map, face, sx, sy) ? 0.0f : power;
+#endif
     for (int c = 0; c < 3; ++c) {
         float w = light->intensity[c] * power;
         out[c] = w < FLUX_FLOOR ? 0.0f : w;

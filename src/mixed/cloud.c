@@ -3,7 +3,7 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
-#include <lambent/mixed.h>
+#include "cloud.h"
 
 #if LMB_MIXED
 
@@ -37,24 +37,33 @@ lmb_axes lmb_axes_upright(lmb_vec3 up)
 
 lmb_vec3 lmb_axes_turn(const lmb_axes *axes, lmb_vec3 v)
 {
+    if (axes == NULL) {
+        return v;
+    }
     return add3(add3(mul3(axes->right, v.x), mul3(axes->up, v.y)), mul3(axes->back, v.z));
 }
 
 lmb_vec3 lmb_cloud_ray(const lmb_pinhole *camera, float x, float y)
 {
+    if (camera == NULL) {
+        return vec3(0.0f, 0.0f, -1.0f);
+    }
     return vec3((x - camera->cx) / camera->fx, (camera->cy - y) / camera->fy, -1.0f);
 }
 
 lmb_vec3 lmb_cloud_point(const lmb_cloud *cloud, int32_t x, int32_t y)
 {
+    if (!is_measured(cloud, x, y)) {
+        return vec3(0, 0, 0);
+    }
     const float inverse = cloud->inverse[(size_t)y * (size_t)cloud->camera.width + (size_t)x];
-    return inverse > 0.0f ? mul3(lmb_cloud_ray(&cloud->camera, (float)x, (float)y), 1.0f / inverse) : vec3(0, 0, 0);
+    return mul3(lmb_cloud_ray(&cloud->camera, (float)x, (float)y), 1.0f / inverse);
 }
 
 /* A step of distance s is s / z^2 of its inverse. */
 float lmb_cloud_sigma(const lmb_cloud *cloud, float inverse)
 {
-    return cloud->noise + DEPTH_STEP_M * inverse * inverse;
+    return (cloud != NULL ? cloud->noise : 0.0f) + DEPTH_STEP_M * inverse * inverse;
 }
 
 /* The second difference of three inverses in line; negative where one is missing. */

@@ -25,8 +25,8 @@ float lmb_real_albedo(float radiance, float irradiance)
     if (!(irradiance > 1e-6f)) {
         return 0.5f;
     }
-    return radiance > 0.0f ? clampf(LMB_PI * radiance / irradiance, LMB_ALBEDO_LEAST, LMB_ALBEDO_MOST)
-                           : LMB_ALBEDO_LEAST;
+    const float albedo = LMB_PI * radiance / irradiance;
+    return albedo > LMB_ALBEDO_LEAST ? minf(albedo, LMB_ALBEDO_MOST) : LMB_ALBEDO_LEAST; /* inf / inf: the least */
 }
 
 lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
@@ -70,13 +70,15 @@ lmb_status lmb_mirror_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_
                            const lmb_pinhole *camera, int32_t p, const lmb_cone_seen *without,
                            const lmb_cone_seen *with, float specular)
 {
-    if (inout == NULL || real == NULL || planes == NULL || camera == NULL || without == NULL || with == NULL) {
+    if (inout == NULL || real == NULL || planes == NULL || planes->label == NULL || camera == NULL ||
+        without == NULL || with == NULL) {
         return LMB_ERR_ARG;
     }
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t x = real->x + k % LMB_TILE, y = real->y + k / LMB_TILE;
-        const int32_t label = real->id[k] != 0 ? planes->label[y * camera->width + x] : 0;
-        if (label == 0 || (p >= 0 && label != p + 1)) {
+        const int inside = x >= 0 && y >= 0 && x < camera->width && y < camera->height;
+        const int32_t label = real->id[k] != 0 && inside ? planes->label[y * camera->width + x] : 0;
+        if (label == 0 || (p >= 0 && label - 1 != p)) {
             continue;
         }
         const float share = schlick(real, k, specular);

@@ -51,10 +51,18 @@ static void fold_texel(float out[3], const lmb_env *env, const picture *from, cu
     }
 }
 
+/* Any turn of the camera, mirrored or not; no zeros, and no NaN. */
+static int are_axes(const lmb_axes *a)
+{
+    const float right = dot3(a->right, a->right), up = dot3(a->up, a->up), back = dot3(a->back, a->back);
+    return right > 0.5f && right < 2.0f && up > 0.5f && up < 2.0f && back > 0.5f && back < 2.0f;
+}
+
 lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height, const lmb_axes *axes)
 {
     const picture from = {rgb, width, height, axes};
-    if (env == NULL || env->texels == NULL || rgb == NULL || axes == NULL || width < 1 || height < 1) {
+    if (env == NULL || env->texels == NULL || rgb == NULL || axes == NULL || !are_axes(axes) ||
+        lmb_cloud_bytes(width, height) == 0) {
         return LMB_ERR_ARG;
     }
     const int32_t n = env->size;
@@ -112,7 +120,7 @@ lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up)
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal)
 {
     lmb_env_sample(out, env, normal, 1.0f);
-    for (int32_t c = 0; c < 3; ++c) {
+    for (int32_t c = 0; c < 3 && out != NULL; ++c) {
         out[c] *= LMB_PI;
     }
 }

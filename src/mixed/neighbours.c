@@ -3,7 +3,7 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
-#include <lambent/mixed.h>
+#include "cloud.h"
 
 #if LMB_MIXED
 
@@ -45,11 +45,11 @@ static float distance2(lmb_vec3 a, lmb_vec3 b)
 int32_t lmb_cloud_nearest(int32_t *out, int32_t k, const lmb_cloud *cloud, int32_t x, int32_t y)
 {
     nearest n = {{0}, {0}, mini(k, LMB_NEAREST_CAP), 0};
-    const int32_t w = cloud->camera.width, h = cloud->camera.height;
-    const lmb_vec3 at = lmb_cloud_point(cloud, x, y);
-    if (n.k < 1 || !(cloud->inverse[(size_t)y * (size_t)w + (size_t)x] > 0.0f)) {
+    if (out == NULL || n.k < 1 || !is_measured(cloud, x, y)) {
         return 0;
     }
+    const int32_t w = cloud->camera.width, h = cloud->camera.height;
+    const lmb_vec3 at = lmb_cloud_point(cloud, x, y);
     for (int32_t j = maxi(y - 2, 0); j <= mini(y + 2, h - 1); ++j) {
         for (int32_t i = maxi(x - 2, 0); i <= mini(x + 2, w - 1); ++i) {
             if ((i != x || j != y) && cloud->inverse[(size_t)j * (size_t)w + (size_t)i] > 0.0f) {
@@ -170,7 +170,7 @@ static void ask_ring(nearest *n, const lmb_point_grid *g, const int32_t middle[3
 int32_t lmb_point_grid_nearest(uint32_t *out, int32_t k, const lmb_point_grid *grid, lmb_vec3 at)
 {
     nearest n = {{0}, {0}, mini(k, LMB_NEAREST_CAP), 0};
-    if (n.k < 1 || !is_point(at)) {
+    if (out == NULL || grid == NULL || grid->first == NULL || n.k < 1 || !is_point(at)) {
         return 0;
     }
     const int32_t middle[3] = {cell_along(at.x, grid->low.x, grid->cell), cell_along(at.y, grid->low.y, grid->cell),

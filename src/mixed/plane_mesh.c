@@ -210,6 +210,9 @@ lmb_mesh lmb_real_mesh_draw(const lmb_real_mesh *mesh)
 {
     lmb_mesh m;
     memset(&m, 0, sizeof m);
+    if (mesh == NULL) {
+        return m;
+    }
     m.positions = mesh->positions;
     m.colours = mesh->colours;
     m.indices = mesh->indices;
@@ -221,6 +224,9 @@ lmb_mesh lmb_real_mesh_draw(const lmb_real_mesh *mesh)
 
 void lmb_real_mesh_colour(const lmb_real_mesh *mesh, int32_t c, const float albedo[3])
 {
+    if (mesh == NULL || albedo == NULL || c < 0 || c >= mesh->count) {
+        return;
+    }
     for (int32_t k = 0; k < CELL_COLOURS; ++k) {
         const float a = k % 4 == 3 ? 1.0f : clampf(albedo[k % 4], 0.0f, 1.0f);
         mesh->colours[CELL_COLOURS * c + k] = (uint8_t)(a * 255.0f + 0.5f);

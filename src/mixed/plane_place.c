@@ -14,7 +14,7 @@ lmb_vec3 lmb_planes_up(const lmb_planes *planes)
 {
     lmb_vec3 up = vec3(0, 1, 0);
     float most = 0.0f;
-    for (int32_t i = 0; i < planes->count; ++i) {
+    for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         const lmb_flat *p = &planes->plane[i];
         const float level = maxf(absf(p->normal.y) - LEAST_UP, 0.0f), size = (float)p->pixels * level * level;
         if (size > most) {
@@ -30,7 +30,7 @@ int32_t lmb_planes_floor(const lmb_planes *planes)
     const lmb_vec3 up = lmb_planes_up(planes);
     int32_t best = -1;
     float most = 0.0f;
-    for (int32_t i = 0; i < planes->count; ++i) {
+    for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         const lmb_flat *p = &planes->plane[i];
         const float size = (float)p->pixels * minf(dot3(p->normal, up) - LEVEL, p->normal.y - LEAST_UP);
         if (size > most) {
@@ -43,10 +43,10 @@ int32_t lmb_planes_floor(const lmb_planes *planes)
 
 int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole *camera, int32_t p, float x, float y)
 {
-    const lmb_vec3 ray = lmb_cloud_ray(camera, x, y);
-    if (p < 0 || p >= planes->count) {
+    if (out == NULL || planes == NULL || camera == NULL || p < 0 || p >= planes->count) {
         return 0;
     }
+    const lmb_vec3 ray = lmb_cloud_ray(camera, x, y);
     const float inverse = plane_inverse(planes->plane[p].slope, ray.x, ray.y);
     if (!(inverse > 1e-3f)) {
         return 0;
@@ -119,7 +119,7 @@ int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *c
 {
     const standing s = {planes, cloud, p, radius_m, height_m};
     float least = 1e30f;
-    if (p < 0 || p >= planes->count) {
+    if (out == NULL || !are_labels(planes, cloud) || p < 0 || p >= planes->count) {
         return 0;
     }
     const lmb_flat *plane = &planes->plane[p];

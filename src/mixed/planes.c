@@ -321,6 +321,9 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
 
 void lmb_planes_move(const lmb_cloud *cloud, const lmb_planes *planes)
 {
+    if (!are_labels(planes, cloud)) {
+        return;
+    }
     const lmb_pinhole *c = &cloud->camera;
     for (int32_t y = 0; y < c->height; ++y) {
         for (int32_t x = 0; x < c->width; ++x) {

@@ -6,6 +6,12 @@
 
 enum { LABEL_TRIED = 254, LABEL_HOLE = 255 }; /* beside 0 and planes: grew to nothing; looked at */
 
+/* Is there a picture's worth of labels, and of what was measured? */
+static inline int are_labels(const lmb_planes *planes, const lmb_cloud *cloud)
+{
+    return planes != NULL && planes->label != NULL && cloud != NULL && cloud->inverse != NULL && cloud->normal != NULL;
+}
+
 /* How far off a plane an inverse distance is, in standard deviations. */
 static inline float plane_off(const lmb_cloud *cloud, const float slope[3], float inverse, lmb_vec3 ray)
 {

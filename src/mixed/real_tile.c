@@ -7,6 +7,9 @@
 
 void lmb_pinhole_round(lmb_pinhole *camera)
 {
+    if (camera == NULL) {
+        return;
+    }
     camera->cx = floorf(2.0f * camera->cx + 0.5f) * 0.5f;
     camera->cy = floorf(2.0f * camera->cy + 0.5f) * 0.5f;
 }
@@ -23,6 +26,7 @@ static int32_t frame_side(int32_t *at, float centre, int32_t pixels)
 lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera, const lmb_axes *axes)
 {
     if (out == NULL || x0 == NULL || y0 == NULL || camera == NULL || axes == NULL ||
+        lmb_cloud_bytes(camera->width, camera->height) == 0 || !(camera->fx > 0.0f) || !(camera->fy > 0.0f) ||
         !(absf(camera->cx) < (float)LMB_MAX_SIDE) || !(absf(camera->cy) < (float)LMB_MAX_SIDE)) {
         return LMB_ERR_ARG;
     }
@@ -121,8 +125,8 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
                          const lmb_axes *axes, int32_t x, int32_t y)
 {
     const maker m = {cloud, planes, mesh, axes};
-    if (out == NULL || axes == NULL || cloud == NULL || planes == NULL || mesh == NULL || x < 0 || y < 0 ||
-        x % LMB_TILE != 0 || y % LMB_TILE != 0 || x >= cloud->camera.width || y >= cloud->camera.height) {
+    if (out == NULL || axes == NULL || !are_labels(planes, cloud) || mesh == NULL || mesh->cell == NULL || x < 0 ||
+        y < 0 || x % LMB_TILE != 0 || y % LMB_TILE != 0 || x >= cloud->camera.width || y >= cloud->camera.height) {
         return LMB_ERR_ARG;
     }
     memset(out, 0, sizeof *out);

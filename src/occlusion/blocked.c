@@ -34,19 +34,50 @@ static lmb_pyramid pyramid_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at
     return p;
 }
 
-/* A triangle as the point sees it. 0 where the point lies in its plane. */
-static int cross_job(lmb_cross_job *out, const lmb_blocker *t, lmb_vec3 at, float noise)
+float lmb_place_noise(lmb_vec3 at, float distance)
 {
-    const lmb_vec3 a = sub3(t->corner[0], at), b = sub3(t->corner[1], at), c = sub3(t->corner[2], at);
-    const float ahead = dot3(t->normal, a), side = ahead < 0.0f ? -1.0f : 1.0f;
+    return LMB_NOISE_PLACE * largest3(at) + LMB_NOISE_DISTANCE * distance;
+}
+
+float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels)
+{
+    float noise = 0.0f;
+    for (uint64_t bits = tile != NULL ? pixels : 0; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        noise = maxf(noise, lmb_place_noise(tile_vec(tile->position, k), absf(tile->depth[k])));
+    }
+    return noise;
+}
+
+/* The plane through the point and two corners: 2 (b x c) without the product of two nearly equal vectors, which loses
+ * all of a small edge far away. Bit by bit the opposite when the corners are swapped. */
+static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge)
+{
+    return cross3(add3(b, c), edge);
+}
+
+/* A triangle as the point sees it; noise: of both ends. 0 where the point lies in its plane. */
+static int cross_job(lmb_cross_job *out, const lmb_blocker *t, lmb_vec3 at, float noise, float least)
+{
+    const lmb_vec3 *p = t->corner;
+    const lmb_vec3 a = sub3(p[0], at), b = sub3(p[1], at), c = sub3(p[2], at);
+    const float ahead = dot3(t->normal, a);
+    noise = maxf(noise + LMB_NOISE_TRIANGLE * sqrtf(dot3(a, a) + dot3(b, b) + dot3(c, c)), least);
     if (!(absf(ahead) > noise)) {
         return 0;
     }
     out->at = at;
-    out->edge[0] = mul3(cross3(b, c), side);
-    out->edge[1] = mul3(cross3(c, a), side);
-    out->edge[2] = mul3(cross3(a, b), side);
-    out->normal = mul3(t->normal, side);
+    if (ahead < 0.0f) {
+        out->edge[0] = edge_plane(b, c, sub3(p[1], p[2]));
+        out->edge[1] = edge_plane(c, a, sub3(p[2], p[0]));
+        out->edge[2] = edge_plane(a, b, sub3(p[0], p[1]));
+        out->normal = mul3(t->normal, -1.0f);
+    } else {
+        out->edge[0] = edge_plane(b, c, sub3(p[2], p[1]));
+        out->edge[1] = edge_plane(c, a, sub3(p[0], p[2]));
+        out->edge[2] = edge_plane(a, b, sub3(p[1], p[0]));
+        out->normal = t->normal;
+    }
     out->beyond = absf(ahead) + noise;
     return 1;
 }
@@ -89,6 +120,7 @@ typedef struct walk {
     const lmb_kernels *kernels;
     const lmb_tile *tile;
     lmb_vec3 at;
+    float noise; /* of both ends */
     lmb_walk *kept;
     uint64_t left; /* pixels that nothing blocked yet */
 } walk;
@@ -98,7 +130,7 @@ static void ask_triangle(walk *w, uint32_t triangle, uint64_t asked)
 {
     const lmb_blocker *t = &w->b->triangle[triangle];
     lmb_cross_job job;
-    if (cross_job(&job, t, w->at, w->b->noise)) {
+    if (cross_job(&job, t, w->at, w->noise, w->b->noise)) {
         const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
         w->left &=
             ~(crossed != 0 && (t->id & LMB_BLOCKER_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
@@ -177,13 +209,13 @@ static uint32_t ask_node(walk *w, rays *r, const lmb_boxes *node)
 }
 
 uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
-                          uint64_t pixels, lmb_vec3 at, lmb_walk *kept)
+                          uint64_t pixels, lmb_vec3 at, float noise, lmb_walk *kept)
 {
     branch waiting[LMB_WALK_LEVELS];
     rays r;
     int count = 0;
     uint32_t here = 0;
-    walk w = {blockers, kernels, tile, at, kept, pixels};
+    walk w = {blockers, kernels, tile, at, noise, kept, pixels};
     if (blockers == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 ||
         blockers->node_count == 0) {
         return 0;

@@ -53,19 +53,14 @@ static int take_triangle(lmb_blocker *out, const lmb_triangle *t)
 static void take_triangles(lmb_blockers *inout, const lmb_scene *scene)
 {
     const uint32_t all = lmb_scene_triangles(scene);
-    float largest = 0.0f;
     lmb_triangle t;
     inout->triangle_count = 0;
     for (uint32_t id = 1; id <= all; ++id) {
         lmb_blocker *b = &inout->triangle[inout->triangle_count];
         if (lmb_triangle_fetch(&t, scene, id) && take_triangle(b, &t)) {
-            for (int i = 0; i < 3; ++i) {
-                largest = maxf(largest, largest3(b->corner[i]));
-            }
             ++inout->triangle_count;
         }
     }
-    inout->noise = largest * LMB_BLOCKER_NOISE;
 }
 
 /* --- boxes -------------------------------------------------------------------------------------------------------- */
@@ -265,10 +260,12 @@ static int largest_run(const run *r, int count)
     return best;
 }
 
-static void set_box(lmb_boxes *node, int i, const run *r, float noise)
+static void set_box(lmb_boxes *node, int i, const run *r)
 {
-    const lmb_vec3 low = sub3(r->box.low, vec3(noise, noise, noise)),
-                   high = add3(r->box.high, vec3(noise, noise, noise));
+    const float size = largest3(sub3(r->box.high, r->box.low)),
+                place = maxf(largest3(r->box.low), largest3(r->box.high)),
+                wide = r->count > 0 ? LMB_BOX_SIZE * size + LMB_BOX_PLACE * place : 0.0f;
+    const lmb_vec3 low = sub3(r->box.low, vec3(wide, wide, wide)), high = add3(r->box.high, vec3(wide, wide, wide));
     node->low[0][i] = low.x;
     node->low[1][i] = low.y;
     node->low[2][i] = low.z;
@@ -290,10 +287,10 @@ static void fill_node(lmb_blockers *b, uint32_t at, uint32_t first, uint32_t cou
     }
     for (int i = 0; i < LMB_BOXES; ++i) {
         if (i < runs) {
-            set_box(&b->node[at], i, &r[i], b->noise);
+            set_box(&b->node[at], i, &r[i]);
         } else {
             const run none = {span_none(), 0, 0, 1};
-            set_box(&b->node[at], i, &none, 0.0f);
+            set_box(&b->node[at], i, &none);
         }
     }
 }
@@ -357,9 +354,9 @@ lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene)
         inout->node_count = 1;
         grow(inout);
     }
-    if (LMB_PLAN) {
-        lmb_hull_find(&inout->hull, scene);
-    }
+    lmb_hull_find(&inout->hull, scene);
+    inout->noise = inout->hull.count > 0 ? 4.0f * inout->hull.slack : 0.0f;
+    inout->hull.count = LMB_PLAN ? inout->hull.count : 0;
     return LMB_OK;
 }
 

@@ -41,6 +41,13 @@ static void KERNEL(segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 a
     }
 }
 
+/* Shares of a segment are quotients of differences, each right to 4 roundings of its own: with this much more no box is
+ * missed, however far the point. */
+static inline lane_mask crossed_some(lane from, lane to)
+{
+    return lane_le(from, lane_mul(to, lane_splat(1.0000010f)));
+}
+
 static inline void crossed_slab(lane *from, lane *to, lane per, float low, float high)
 {
     const lane a = lane_mul(lane_splat(low), per), b = lane_mul(lane_splat(high), per);
@@ -71,12 +78,11 @@ static uint32_t KERNEL(meets)(const lmb_pyramid *p, const lmb_boxes *boxes)
             crossed_narrow(&from, &to, p->per_high[c], lane_sub(lane_load(boxes->low[c] + i), at));
             crossed_narrow(&from, &to, -p->per_low[c], lane_sub(at, lane_load(boxes->high[c] + i)));
         }
-        out |= mask_bits(lane_le(from, to)) << i;
+        out |= mask_bits(crossed_some(from, to)) << i;
     }
     return out;
 }
 
-/* The box is wider than what it holds by more than all rounding here. */
 static uint64_t KERNEL(through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i)
 {
     const lmb_vec3 low = sub3(vec3(boxes->low[0][i], boxes->low[1][i], boxes->low[2][i]), segments->at);
@@ -89,7 +95,7 @@ static uint64_t KERNEL(through)(const lmb_segments *segments, uint64_t pixels, c
             crossed_slab(&from, &to, lane_load(segments->per[0] + k), low.x, high.x);
             crossed_slab(&from, &to, lane_load(segments->per[1] + k), low.y, high.y);
             crossed_slab(&from, &to, lane_load(segments->per[2] + k), low.z, high.z);
-            out |= (uint64_t)(mask_bits(lane_le(from, to)) & asked) << k;
+            out |= (uint64_t)(mask_bits(crossed_some(from, to)) & asked) << k;
         }
     }
     return out;

@@ -1,13 +1,16 @@
 /* hull.c: convex rooms, where what is inside sees all that is inside. Floor 4.
  *
- * A triangle blocks where both ends of a segment are farther than `noise` from its plane, on two sides (blocked.c). So
- * none does where both are on the front of every plane, or not far behind. With L the largest coordinate, noise is
- * 2^-18 L. A plane stands for triangles whose normal is its own, bit by bit or turned, and whose corners are within
- * noise / 4 of it; points are held against planes in binary64, and may be noise / 4 behind. So a point that is held is
- * at most noise / 2 = 2^-19 L behind the plane of a triangle. What blocks a segment is asked in binary32: two dot
- * products of a unit normal with differences of points, each wrong by at most 4 x 2^-24 of the sum of its terms'
- * sizes, which is at most 2 sqrt(3) L (1 + 2^-10): together under 1.7 x 2^-20 L. That is less than what is left of
- * noise, 2^-19 L: no triangle blocks. */
+ * A triangle blocks where both ends of a segment are farther than some noise from its plane, on two sides (blocked.c).
+ * So none does where both are on the front of every plane, or not far behind. With R the largest step from the middle
+ * of the room's box along an axis, and L its largest coordinate, that noise is at least N = 2^-18 R + 2^-21 L: build.c
+ * sees to it, for convex rooms alone; nothing blocks there that could be missed. A plane stands for triangles whose
+ * normal is its own, bit by bit or turned, and whose corners are within N / 4 of it; points are held against planes in
+ * binary64, and may be N / 4 behind, for which 2^-23 L leaves room for the rounding of their coordinates. So a point
+ * that is held is at most N / 2 behind the plane of a triangle. What blocks a segment is asked in binary32: two dot
+ * products of a unit normal with differences of points, which are within R (1 + 2^-10) of the middle along each axis.
+ * A difference is wrong by 2^-24 of itself and a product and its sums by 3 x 2^-24 more, of terms whose sizes sum up to
+ * 2 sqrt(3) R (1 + 2^-10) at most: for both together under 1.74 x 2^-20 R, which is less than what is left of N, at
+ * least 2^-19 R: no triangle blocks. Moved far off a room has the same R; only L grows. */
 #include <lambent/occlusion.h>
 
 #include "../base/vec.h"
@@ -17,7 +20,8 @@
 
 #if LMB_TREES
 
-#define ROOM 1.0009765625f /* 1 + 2^-10: how far over the largest coordinate rounding may lift a point */
+#define ROOM 1.0009765625f /* 1 + 2^-10: how far out of its box rounding may lift a point */
+#define FAR  0.125f        /* of a coordinate against a step */
 
 static double above(lmb_vec3 normal, lmb_vec3 at, lmb_vec3 p)
 {
@@ -48,20 +52,22 @@ static int lies_in(const lmb_hull *h, int k, const lmb_triangle *t, lmb_vec3 nor
     return in;
 }
 
-/* Sets reach, and slack by it. */
+/* Sets middle, reach, and slack by it. */
 static void measure(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
 {
     lmb_triangle t;
-    lmb_vec3 normal;
-    float largest = 0.0f;
+    lmb_vec3 normal, low = vec3(3e38f, 3e38f, 3e38f), high = vec3(-3e38f, -3e38f, -3e38f);
     for (uint32_t id = 1; id <= triangles; ++id) {
         const int corners = take(&t, &normal, scene, id) ? 3 : 0;
         for (int c = 0; c < corners; ++c) {
-            largest = maxf(largest, largest3(t.corner[c]));
+            low = min3(low, t.corner[c]);
+            high = max3(high, t.corner[c]);
         }
     }
-    out->reach = largest * ROOM;
-    out->slack = largest * LMB_BLOCKER_NOISE * 0.25f;
+    out->middle = mul3(add3(low, high), 0.5f);
+    const float step = maxf(largest3(sub3(high, out->middle)), largest3(sub3(low, out->middle)));
+    out->reach = step * ROOM;
+    out->slack = (step + FAR * maxf(largest3(low), largest3(high))) * (LMB_NOISE_HULL * 0.25f);
 }
 
 /* Every plane once. 0 where there are too many. */
@@ -113,6 +119,9 @@ void lmb_hull_find(lmb_hull *out, const lmb_scene *scene)
 {
     const uint32_t triangles = lmb_scene_triangles(scene);
     int is_convex = 1;
+    if (out == NULL) {
+        return;
+    }
     out->count = 0;
     measure(out, scene, triangles);
     is_convex = find_planes(out, scene, triangles);
@@ -124,8 +133,8 @@ void lmb_hull_find(lmb_hull *out, const lmb_scene *scene)
 
 int lmb_hull_holds(const lmb_hull *h, lmb_vec3 at)
 {
-    int in = h->count > 0 && largest3(at) <= h->reach;
-    for (int k = 0; k < h->count && in; ++k) {
+    int in = h != NULL && h->count > 0 && largest3(sub3(at, h->middle)) <= h->reach;
+    for (int k = 0; in && k < h->count; ++k) {
         in = above(h->normal[k], h->at[k], at) >= -(double)h->slack;
     }
     return in;
@@ -134,7 +143,7 @@ int lmb_hull_holds(const lmb_hull *h, lmb_vec3 at)
 uint64_t lmb_hull_pixels(const lmb_hull *h, const lmb_tile *tile, uint64_t pixels)
 {
     uint64_t out = 0;
-    for (uint64_t bits = h->count > 0 ? pixels : 0; bits != 0; bits &= bits - 1) {
+    for (uint64_t bits = h != NULL && tile != NULL && h->count > 0 ? pixels : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         out |= (uint64_t)lmb_hull_holds(h, tile_vec(tile->position, k)) << k;
     }

@@ -11,17 +11,14 @@
 /* SHOW_IRRADIANCE is what arrives before the albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
 
-/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
- * always where there are lobes. */
-APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
+lmb_status lmb_render_direct(const lmb_render *r, lmb_gloss *gloss, lmb_band_scratch *s)
 {
     const lmb_frame *f = &r->frame;
-    lmb_gloss *gloss = wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene) ? &s->gloss : NULL;
     const lit_tile lit = {f->kernels, f->scene, &f->view, &s->tile};
     lmb_many_look look;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
-    for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count - f->many_bounce && status == LMB_OK; ++i) {
+    for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
         if (!light_is(r, i, LMB_LIGHT_DARK)) {
             status = lmb_lit_add(&s->direct, gloss, &s->indirect, &lit, i, &r->maps[i]);
         }
@@ -30,12 +27,23 @@ APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_
         look.many = f->many;
         look.blockers = f->blockers.triangle != NULL ? &f->blockers : NULL;
         look.error = f->many_error;
+        look.each = 0;
         status = lmb_many_direct_tile(&s->direct, f->kernels, &s->many, &s->tile, &look);
     }
+    return status;
+}
+
+/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
+ * always where there are lobes. */
+APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_gloss *gloss = wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene) ? &s->gloss : NULL;
+    lmb_status status = lmb_render_direct(r, gloss, s);
     if ((indirect == NULL || gloss != NULL) && status == LMB_OK) {
         indirect = &s->indirect;
         memset(&s->indirect, 0, sizeof s->indirect);
-        status = lmb_render_gather(&s->indirect, gloss, r, s, &s->tile);
+        status = lmb_render_gather(&s->indirect, gloss, r, s, &s->tile, wants_direct(f) ? &s->direct : NULL);
     }
     if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
         show_irradiance(&s->radiance, indirect);
@@ -48,7 +56,7 @@ APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_
         status = lmb_compose_gloss(&s->radiance, gloss);
     }
     if (status == LMB_OK && r->shines && wants_direct(f)) {
-        status = lmb_compose_shine(&s->radiance, f->scene, &s->tile);
+        status = lmb_compose_shine(&s->radiance, f->scene, &f->view, &s->tile);
     }
     return status;
 }
@@ -131,6 +139,7 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units)
             ++r->frame.stats->bands;
             r->frame.stats->pairs += r->frame.scratch->counts.pairs;
             r->frame.stats->segments += r->frame.scratch->counts.segments;
+            r->frame.stats->full_cuts += r->frame.scratch->counts.full_cuts;
         }
         if (!hand_over(&r->frame, band)) {
             return LMB_OK;

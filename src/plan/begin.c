@@ -5,7 +5,8 @@
 #include "wants.h"
 
 #define STEPS 12
-#define SHARE 0.02f
+#define ERROR   0.02f  /* the tool's presets' `default` */
+#define VISIBLE 0.015f
 
 /* Share the map memory out: one light's map after another. */
 static lmb_status place_maps(lmb_render *r)
@@ -15,7 +16,7 @@ static lmb_status place_maps(lmb_render *r)
     size_t left = f->map_bytes;
     for (uint32_t i = 0; i < f->scene->light_count; ++i) {
         const lmb_light *light = &f->scene->lights[i];
-        size_t need = lmb_light_map_bytes(lmb_light_map_faces(light), f->light_map, f->id_format);
+        size_t need = lmb_light_map_bytes(lmb_light_map_faces(light, f->scene), f->light_map, f->id_format);
         lmb_status status = lmb_light_map_init(&r->maps[i], light, f->scene, f->light_map, f->id_format, place, left);
         if (status != LMB_OK) {
             return status;
@@ -31,8 +32,8 @@ void lmb_render_defaults(lmb_frame *f)
 {
     f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->steps = f->steps != 0 ? f->steps : STEPS;
-    f->error = f->error != 0.0f ? f->error : SHARE;
-    f->visible = f->visible != 0.0f ? f->visible : SHARE;
+    f->error = f->error != 0.0f ? f->error : ERROR;
+    f->visible = f->visible != 0.0f ? f->visible : VISIBLE;
     f->gather_step = f->gather_step != 0 && wants_bounce(f) ? f->gather_step : 1;
 }
 
@@ -97,7 +98,7 @@ static int is_solved(const lmb_frame *f, const lmb_render *r)
     const lmb_frame *before = &r->frame;
     const int exact = wants_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT;
     const int same = f->occlusion == before->occlusion && f->error == before->error && f->visible == before->visible &&
-                     f->proven == before->proven;
+                     f->proven == before->proven && f->many_error == before->many_error;
     return (!wants_bounce(f) || wants_bounce(before)) && (same || !wants_bounce(f) || !wants_elements(r)) &&
            (!exact || before->occlusion == LMB_OCCLUSION_EXACT || before->blockers.node_count > 0);
 }

@@ -4,11 +4,12 @@
 
 /* What the light's maps bounce, and what elements send. */
 static lmb_status gather_cuts(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *s,
-                              const lmb_tile *tile)
+                              const lmb_tile *tile, const lmb_irradiance *direct)
 {
     const lmb_frame *f = &r->frame;
     lmb_cutting cutting = cutting_of(f, &s->counts);
     cutting.gloss = gloss;
+    cutting.direct = direct;
     lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cutting);
     if (status == LMB_OK && wants_elements(r)) {
         cutting.beside = inout;
@@ -18,7 +19,7 @@ static lmb_status gather_cuts(lmb_irradiance *inout, lmb_gloss *gloss, const lmb
 }
 
 lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *s,
-                             const lmb_tile *tile)
+                             const lmb_tile *tile, const lmb_irradiance *direct)
 {
     const lmb_frame *f = &r->frame;
     lmb_occluder occluder;
@@ -26,7 +27,7 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_
         return LMB_OK;
     }
     if (wants_cut(f)) {
-        return gather_cuts(inout, gloss, r, s, tile);
+        return gather_cuts(inout, gloss, r, s, tile, direct);
     }
     if (!wants_groups(f)) {
         return LMB_OK;

@@ -75,8 +75,9 @@ static int same_points(const lmb_frame *a, const lmb_frame *b)
 static int same_elements(const lmb_frame *a, const lmb_frame *b)
 {
     return a->elements.data == b->elements.data && a->elements.cap == b->elements.cap &&
-           a->elements.tree.texel == b->elements.tree.texel && a->bounces == b->bounces && a->error == b->error &&
-           a->visible == b->visible && a->proven == b->proven && a->occlusion == b->occlusion;
+           a->elements.tree.texel == b->elements.tree.texel && a->bounces == b->bounces &&
+           a->truncated == b->truncated && a->error == b->error && a->visible == b->visible &&
+           a->proven == b->proven && a->occlusion == b->occlusion && a->many == NULL && b->many == NULL;
 }
 
 /* Which of the lights' maps and of their first points stand. 1 where all do. */

@@ -100,15 +100,16 @@ static float nearest2(const lmb_scene *s, uint32_t triangles, lmb_vec3 at)
 
 /* The most that a light's bounced light can be of what a pixel shows, radiance: no surface receives more than
  * E = I / d^2 (a sun: E), so none sends more than albedo E; who is surrounded by that receives as much, and so on for
- * each further bounce; and it shows albedo / pi of what it receives. Albedo: 1 at most; textures and colours only
- * darken. */
+ * each further bounce, estimated ones too; and it shows albedo / pi of what it receives. Albedo: 1 at most; textures and
+ * colours only darken. */
 static float most_bounced(const lmb_render *r, const lmb_light *l, float albedo)
 {
     const lmb_scene *s = r->frame.scene;
     const float largest = maxf(l->intensity[0], maxf(l->intensity[1], l->intensity[2]));
     const float d2 = l->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : nearest2(s, r->triangles, l->position);
+    const int32_t own = r->frame.bounces, bounces = own > 1 && !r->frame.truncated ? LMB_MOST_BOUNCES : own;
     float sum = 0.0f, share = 1.0f;
-    for (int32_t i = 0; i < r->frame.bounces; ++i) {
+    for (int32_t i = 0; i < bounces; ++i) {
         share *= albedo;
         sum += share;
     }
@@ -166,6 +167,7 @@ void lmb_render_omit(lmb_render *r)
     for (uint32_t i = 0; i < s->light_count; ++i) {
         lit += faces_that_bounce(r, i);
     }
+    lit += (uint32_t)wants_many_bounce(&r->frame);
     if (!r->shines && (lit == 0 || !l.reflects || r->triangles == 0)) {
         r->omits |= LMB_OMIT_BOUNCE;
     }

@@ -151,7 +151,7 @@ static void plan_bounces(planner *p, lmb_why none)
         return;
     }
     row->op[LMB_OP_ELEMENTS] = (double)r->triangles;
-    row->op[LMB_OP_CUTS] = (double)f->elements.cap / LMB_TILE_PIXELS * (double)(f->bounces - 1);
+    row->op[LMB_OP_CUTS] = (double)f->elements.cap / LMB_TILE_PIXELS * (double)exchanges(r);
 }
 
 /* The tiles' gathers, and what they ask the blockers. */
@@ -203,7 +203,7 @@ static void plan_direct(planner *p)
     const lmb_render *r = p->r;
     const lmb_frame *f = &r->frame;
     double lights = 0.0;
-    for (uint32_t i = 0; i < f->scene->light_count - f->many_bounce; ++i) {
+    for (uint32_t i = 0; i < f->scene->light_count; ++i) {
         lights += light_is(r, i, LMB_LIGHT_DARK) ? 0.0 : 1.0;
     }
     if (!wants_direct(f)) {
@@ -249,8 +249,8 @@ static void sum_up(lmb_plan *out)
 
 lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_facts *facts)
 {
-    if (out == NULL || begun == NULL || begun->failed != LMB_OK || begun->stage != LMB_STAGE_LIGHT_MAP ||
-        begun->light != 0 || begun->place != 0) {
+    if (out == NULL || begun == NULL || begun->frame.scene == NULL || begun->failed != LMB_OK ||
+        begun->stage != LMB_STAGE_LIGHT_MAP || begun->light != 0 || begun->place != 0) {
         return LMB_ERR_ARG;
     }
     const lmb_frame *f = &begun->frame;

@@ -58,10 +58,16 @@ void lmb_model_light(double *pairs, double *segments, const lmb_facts *f, const 
 
 void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *f)
 {
+    if (pairs == NULL || segments == NULL) {
+        return;
+    }
+    *pairs = *segments = 0.0;
+    if (facts == NULL || f == NULL || facts->tree < 1) {
+        return;
+    }
     lmb_settings s = {f->light_map, f->tree.size, f->error, f->visible, f->gather_step, f->occlusion};
     const lmb_view *v = &f->view;
     const int32_t across = (v->frame_width + LMB_TILE - 1) / LMB_TILE;
-    *pairs = *segments = 0.0;
     if (wants_cut(f)) {
         lmb_model_light(pairs, segments, facts, &s, (double)across * (double)band_count(v) * LMB_TILE_PIXELS);
     }

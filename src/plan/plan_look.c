@@ -38,7 +38,10 @@ lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scrat
         }
         if (status == LMB_OK && f->gather_step == 1) {
             memset(&s->sparse.light[part], 0, sizeof s->sparse.light[part]);
-            status = lmb_render_gather(&s->sparse.light[part], NULL, r, s, &s->tile);
+            status = lmb_render_direct(r, NULL, s);
+            status = status != LMB_OK ? status
+                                      : lmb_render_gather(&s->sparse.light[part], NULL, r, s, &s->tile,
+                                                          wants_direct(f) ? &s->direct : NULL);
         }
     }
     return status;
@@ -106,7 +109,7 @@ float lmb_look_error(const lmb_look *a, const lmb_look *b)
     bins all;
     double mean = 0.0, square = 0.0, count = 0.0;
     memset(&all, 0, sizeof all);
-    for (int32_t i = 0; i < b->tiles * LMB_TILE_PIXELS; ++i) {
+    for (int32_t i = 0; a != NULL && b != NULL && i < b->tiles * LMB_TILE_PIXELS; ++i) {
         const float *p = a->light[i], *q = b->light[i];
         if (p[0] >= 0.0f && q[0] >= 0.0f) {
             const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], e = x * x + y * y + z * z;

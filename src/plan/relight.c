@@ -110,7 +110,7 @@ static lmb_status relight_tile(const lmb_relight *r, lmb_relight_scratch *s)
         status = lmb_compose_gloss(&s->radiance, gloss);
     }
     if (status == LMB_OK && r->show != LMB_RELIGHT_GLOSS) {
-        status = lmb_compose_shine(&s->radiance, r->scene, &s->tile);
+        status = lmb_compose_shine(&s->radiance, r->scene, &r->view, &s->tile);
     }
     return status == LMB_OK && r->world != NULL
                ? lmb_probe_background(s->radiance.rgb, &s->rays, r->kernels, &s->tile, &r->view, &look)

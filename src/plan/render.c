@@ -16,7 +16,7 @@ static int points_have_parts(const lmb_render *r)
 
 int32_t lmb_render_has_parts(const lmb_render *r)
 {
-    if (r == NULL || r->failed != LMB_OK) {
+    if (r == NULL || r->frame.scene == NULL || r->failed != LMB_OK) {
         return 0;
     }
     switch (r->stage) {
@@ -68,7 +68,7 @@ lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts)
 
 lmb_status lmb_render_step(lmb_render *r, int32_t units)
 {
-    if (r == NULL) {
+    if (r == NULL || r->frame.scene == NULL) {
         return LMB_ERR_ARG;
     }
     if (r->failed != LMB_OK) {
@@ -106,13 +106,15 @@ float lmb_render_progress(const char **name, const lmb_render *r)
 {
     static const char *const names[] = {"light maps", "blockers", "first points", "groups",
                                         "bounces",    "view",     "bands",        "done"};
-    if (r == NULL || r->stage < 0 || r->stage > LMB_STAGE_DONE) {
-        *name = names[LMB_STAGE_DONE];
+    const int is_over = r == NULL || r->frame.scene == NULL || r->stage < 0 || r->stage > LMB_STAGE_DONE;
+    if (name != NULL) {
+        *name = names[is_over ? LMB_STAGE_DONE : r->stage];
+    }
+    if (is_over) {
         return 1.0f;
     }
     float lights = maxf((float)r->frame.scene->light_count, 1.0f), triangles = maxf((float)r->triangles, 1.0f),
           done = 0.0f;
-    *name = names[r->stage];
     switch (r->stage) {
     case LMB_STAGE_LIGHT_MAP:
         done = ((float)r->light + (float)r->place / triangles) / lights;
@@ -122,7 +124,7 @@ float lmb_render_progress(const char **name, const lmb_render *r)
         break;
     case LMB_STAGE_BOUNCES:
         done = ((float)r->light + (float)r->place / maxf((float)lmb_elements_tiles(&r->frame.elements), 1.0f)) /
-               maxf((float)(r->frame.bounces - 1), 1.0f);
+               maxf((float)exchanges(r), 1.0f);
         break;
     case LMB_STAGE_VIEW:
         done = (float)r->place / triangles;

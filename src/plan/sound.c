@@ -57,7 +57,8 @@ lmb_status lmb_render_check(const lmb_frame *f)
     if (!LMB_TREES && (f->grouping.method == LMB_GROUP_CUT || f->many != NULL)) {
         return LMB_ERR_ARG;
     }
-    if (f->bounces < 1 || (f->bounces > 1 && wants_bounce(f) && (!wants_cut(f) || f->elements.data == NULL))) {
+    if (f->bounces < 1 || f->bounces > LMB_MOST_BOUNCES ||
+        (f->bounces > 1 && wants_bounce(f) && (!wants_cut(f) || f->elements.data == NULL))) {
         return LMB_ERR_ARG;
     }
     if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4) {
@@ -65,9 +66,6 @@ lmb_status lmb_render_check(const lmb_frame *f)
     }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {
         return LMB_ERR_CAPACITY;
-    }
-    if (f->many_bounce > f->scene->light_count) {
-        return LMB_ERR_ARG;
     }
     if (wants_cut(f) ? !fits_tree(f) || f->occlusion % LMB_OCCLUSION_EXACT != 0
                      : wants_groups(f) && f->occlusion == LMB_OCCLUSION_EXACT) {

@@ -16,6 +16,7 @@ static void put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
         out->face[c][to] = in->face[c][from];
         out->normal[c][to] = in->normal[c][from];
     }
+    out->depth[to] = in->depth[from];
     out->id[to] = in->id[from];
 }
 
@@ -25,7 +26,7 @@ static lmb_status gather_together(const lmb_render *r, lmb_band_scratch *s)
     lmb_sparse *sparse = &s->sparse;
     memset(&s->indirect, 0, sizeof s->indirect);
     const lmb_status status =
-        sparse->count > 0 ? lmb_render_gather(&s->indirect, NULL, r, s, &sparse->together) : LMB_OK;
+        sparse->count > 0 ? lmb_render_gather(&s->indirect, NULL, r, s, &sparse->together, NULL) : LMB_OK;
     for (int32_t i = 0; i < sparse->count; ++i) {
         lmb_irradiance *light = &sparse->light[sparse->place[i] / LMB_TILE_PIXELS];
         for (int c = 0; c < 3; ++c) {

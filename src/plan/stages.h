@@ -7,18 +7,26 @@
 /* A build without trees refuses frames that ask for them (lmb_render_check), so none of these is ever called. */
 #if !LMB_TREES
 #define never(call) ((void)sizeof(call), LMB_ERR_ARG)
+#undef lmb_gloss_tile
 #undef lmb_gather_cut
 #undef lmb_many_direct_tile
+#undef lmb_blockers_build
+#undef lmb_tree_texels
+#undef lmb_elements_receive
+#define lmb_gloss_tile(...)       (never(LMB_LAYOUT(lmb_gloss_tile)(__VA_ARGS__)) == LMB_OK)
 #define lmb_gather_cut(...)       never(LMB_LAYOUT(lmb_gather_cut)(__VA_ARGS__))
 #define lmb_many_direct_tile(...) never(LMB_LAYOUT(lmb_many_direct_tile)(__VA_ARGS__))
-#define lmb_gloss_tile(...)       (never(lmb_gloss_tile(__VA_ARGS__)) == LMB_OK)
+#define lmb_blockers_build(...)   never(LMB_LAYOUT(lmb_blockers_build)(__VA_ARGS__))
+#define lmb_tree_texels(...)      never(LMB_LAYOUT(lmb_tree_texels)(__VA_ARGS__))
+#define lmb_elements_receive(...) never(LMB_LAYOUT(lmb_elements_receive)(__VA_ARGS__))
 #define lmb_compose_gloss(...)    never(lmb_compose_gloss(__VA_ARGS__))
-#define lmb_blockers_build(...)   never(lmb_blockers_build(__VA_ARGS__))
 #define lmb_tree_sum(...)         never(lmb_tree_sum(__VA_ARGS__))
-#define lmb_tree_texels(...)      never(lmb_tree_texels(__VA_ARGS__))
 #define lmb_elements_build(...)   never(lmb_elements_build(__VA_ARGS__))
-#define lmb_elements_receive(...) never(lmb_elements_receive(__VA_ARGS__))
+#define lmb_elements_rest(...)    never(lmb_elements_rest(__VA_ARGS__))
 #define lmb_elements_send(...)    never(lmb_elements_send(__VA_ARGS__))
+#undef lmb_many_elements
+#define lmb_many_elements(...)    never(LMB_LAYOUT(lmb_many_elements)(__VA_ARGS__))
+#define lmb_many_elements_done(...) never(lmb_many_elements_done(__VA_ARGS__))
 #define lmb_elements_tiles(...)   never(lmb_elements_tiles(__VA_ARGS__))
 #endif
 
@@ -67,10 +75,14 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units);
 /* Depth and ids of the band: in the whole frame's target, or drawn at once into a band-sized one. */
 lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *eye, int32_t band);
 
-/* Add the bounced light of a tile's pixels, and what its lobes make of it, NULL: without. LMB_OK, or what the gather
- * returns. */
+/* Set scratch->direct: that of scratch->tile where it is shown, else 0; and add what the lobes make of it, NULL:
+ * without. scratch->indirect is written. */
+lmb_status lmb_render_direct(const lmb_render *r, lmb_gloss *gloss, lmb_band_scratch *scratch);
+
+/* Add the bounced light of a tile's pixels, and what its lobes make of it, NULL: without. direct: what is shown with
+ * it, so that errors are told of both; or NULL. LMB_OK, or what the gather returns. */
 lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *scratch,
-                             const lmb_tile *tile);
+                             const lmb_tile *tile, const lmb_irradiance *direct);
 
 /* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on which show no lobe.
  * r->frame.gather_step is 2 or 4. scratch->tile and gloss are written. */

@@ -46,20 +46,37 @@ static inline uint32_t faces_that_bounce(const lmb_render *r, uint32_t light)
     return n;
 }
 
+/* Do many lights bounce? */
+static inline int wants_many_bounce(const lmb_frame *f)
+{
+    return LMB_TREES && f->many != NULL && f->many->lights > 0 && wants_cut(f) && f->elements.data != NULL;
+}
+
 /* Does light come from elements too? */
 static inline int wants_elements(const lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
-    return !omits(r, LMB_OMIT_BOUNCE) && wants_cut(f) && f->elements.data != NULL && (f->bounces > 1 || r->shines);
+    return !omits(r, LMB_OMIT_BOUNCE) && wants_cut(f) && f->elements.data != NULL &&
+           (f->bounces > 1 || r->shines || wants_many_bounce(f));
 }
 
 /* Do lobes count? */
 static inline int wants_gloss(const lmb_render *r) { return r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE; }
 
-/* Is there another bounce to go, of those by elements? */
+/* Do elements receive direct light first, of what shines by itself or of many lights? */
+static inline int sends_direct(const lmb_render *r) { return LMB_TREES && (r->shines || wants_many_bounce(&r->frame)); }
+
+/* How often elements receive. The first reflection of a lamp's light is that of its map's texels; what shines by itself
+ * and many lights are reflected by elements alone, and so is their first light. */
+static inline uint32_t exchanges(const lmb_render *r)
+{
+    return (uint32_t)r->frame.bounces - (sends_direct(r) ? 0u : 1u);
+}
+
+/* Is there another pass of elements to go? */
 static inline int has_bounces(const lmb_render *r)
 {
-    return wants_elements(r) && !keeps(r, LMB_KEEP_BOUNCES) && r->light + 1 < (uint32_t)r->frame.bounces;
+    return wants_elements(r) && !keeps(r, LMB_KEEP_BOUNCES) && r->light < exchanges(r);
 }
 
 /* Many lights want them whatever is shown: another picture by the same light may show what this one does not. */
@@ -84,6 +101,7 @@ static inline lmb_cutting cutting_of(const lmb_frame *f, lmb_stats *stats)
     c.error = f->error;
     c.visible = f->visible;
     c.proven = f->proven;
+    c.floor = f->least * 9.42477796f; /* 3 channels x pi: the irradiance that a white surface shows as that radiance */
     c.blockers = f->occlusion == LMB_OCCLUSION_EXACT ? &f->blockers : NULL;
     c.stats = stats;
     return c;

@@ -170,7 +170,8 @@ lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table
 lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernels, const float *map,
                               const lmb_probe_blur *blur)
 {
-    if (out == NULL || line == NULL || kernels == NULL || map == NULL || blur == NULL || out == map) {
+    if (out == NULL || line == NULL || kernels == NULL || map == NULL || blur == NULL || blur->row == NULL ||
+        out == map) {
         return LMB_ERR_ARG;
     }
     const size_t plane = (size_t)blur->width * (size_t)blur->height;
@@ -193,7 +194,7 @@ lmb_status lmb_probe_blur_map(float *out, float *line, const lmb_kernels *kernel
 
 lmb_status lmb_probe_halve(float *out, const float *map, const lmb_probe_table *table)
 {
-    if (out == NULL || map == NULL || table == NULL || table->height % 16 != 0) {
+    if (out == NULL || map == NULL || table == NULL || table->area == NULL || table->height % 16 != 0) {
         return LMB_ERR_ARG;
     }
     const int32_t w = table->width, h = table->height;
@@ -217,7 +218,7 @@ static float map_at(const float *plane, const lmb_probe_table *t, int32_t x, int
 
 lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lmb_probe_table *table)
 {
-    if (cube == NULL || map == NULL || table == NULL || n < 1 || n > 64) {
+    if (cube == NULL || map == NULL || table == NULL || table->width < 1 || n < 1 || n > 64) {
         return LMB_ERR_ARG;
     }
     for (int32_t i = 0; i < 6 * n * n; ++i) {

@@ -20,7 +20,7 @@ static void fold(lmb_probe_lights *inout, const lmb_probe_table *table)
 lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, const float *map,
                             const lmb_probe_table *table)
 {
-    if (out == NULL || kernels == NULL || map == NULL || table == NULL) {
+    if (out == NULL || kernels == NULL || map == NULL || table == NULL || table->share == NULL) {
         return LMB_ERR_ARG;
     }
     memset(out->shared, 0, sizeof out->shared);
@@ -44,7 +44,7 @@ static void set_normals(float normal[3][LMB_TILE_PIXELS], int32_t first, int32_t
 lmb_status lmb_probe_cosine(float *cube, int32_t n, const lmb_kernels *kernels, const lmb_probe_lights *lights,
                             const lmb_probe_table *table)
 {
-    if (cube == NULL || kernels == NULL || lights == NULL || table == NULL || n < 1 || n > 64) {
+    if (cube == NULL || kernels == NULL || lights == NULL || table == NULL || table->light == NULL || n < 1 || n > 64) {
         return LMB_ERR_ARG;
     }
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {

@@ -149,6 +149,7 @@ lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, co
                              const lmb_world_look *look, lmb_vec3 at, float roughness)
 {
     if (cube == NULL || scratch == NULL || kernels == NULL || look == NULL || look->world == NULL ||
+        look->world->texels == NULL ||
         lmb_probe_cube_bytes(n) == 0 || !is_place(at) || !(roughness >= 0.0f && roughness <= 1.0f)) {
         return LMB_ERR_ARG;
     }

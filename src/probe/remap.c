@@ -74,7 +74,8 @@ lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_wor
                            lmb_vec3 at, int32_t blend)
 {
     lmb_world_job job;
-    if (map == NULL || kernels == NULL || world == NULL || table == NULL || !is_place(at)) {
+    if (map == NULL || kernels == NULL || world == NULL || world->texels == NULL || table == NULL ||
+        table->direction == NULL || !is_place(at)) {
         return LMB_ERR_ARG;
     }
     lmb_world_ask(&job, world, LMB_PI / (float)table->height, blend);

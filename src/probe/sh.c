@@ -42,7 +42,7 @@ static void add_row(float inout[LMB_SH_25], const float wave[WAVES], const lmb_p
 
 lmb_status lmb_probe_sh(float coefficient[3][LMB_SH_25], const float *map, const lmb_probe_table *table)
 {
-    if (coefficient == NULL || map == NULL || table == NULL) {
+    if (coefficient == NULL || map == NULL || table == NULL || table->wave == NULL) {
         return LMB_ERR_ARG;
     }
     memset(coefficient, 0, 3 * sizeof *coefficient);

@@ -116,7 +116,7 @@ lmb_status lmb_probe_gloss_tile(lmb_gloss *inout, lmb_probe_rays *scratch, const
 {
     lmb_world_job job;
     if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL ||
-        (cube == NULL ? look == NULL || look->world == NULL : cube->texel == NULL)) {
+        (cube == NULL ? look == NULL || look->world == NULL || look->world->texels == NULL : cube->texel == NULL)) {
         return LMB_ERR_ARG;
     }
     reflect(scratch->direction, inout, tile);
@@ -160,7 +160,7 @@ lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays 
 {
     lmb_world_job job;
     if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || view == NULL || look == NULL ||
-        look->world == NULL) {
+        look->world == NULL || look->world->texels == NULL) {
         return LMB_ERR_ARG;
     }
     view_rays(scratch, view, tile->x, tile->y);

@@ -105,7 +105,7 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
         return LMB_ERR_ARG;
     }
     lmb_status status = lmb_target_check(target, view, lmb_scene_triangles(scene));
-    if (status != LMB_OK) {
+    if (status != LMB_OK || scene->instance_count == 0) {
         return status;
     }
     context.target = target;

@@ -1,23 +1,17 @@
-/* paint.c: a triangle's images for the tile's pixels with its id: base colour and normal map. Floor 3. */
+/* paint.c: a triangle's images for the tile's pixels with its id. Floor 3. */
 #include "paint.h"
 
 #include "../base/poly.h"
 #include "../base/vertex.h"
 #include "texture.h"
 
-/* A slot's numbers, taken out of the batch. */
-typedef struct painted {
-    int32_t slot;
-    lmb_plane plane;
-    float uv[3][2]; /* corner 0, and the others' differences from it */
-} painted;
-
 static lmb_vec3 vector_of(const float (*v)[LMB_SLOTS], int32_t slot)
 {
     return vec3(v[0][slot], v[1][slot], v[2][slot]);
 }
 
-static void take_slot(painted *p, const lmb_resolve_batch *b, int32_t slot)
+/* A slot's numbers, taken out of the batch. */
+static void take_slot(lmb_painted *p, const lmb_resolve_batch *b, int32_t slot)
 {
     p->slot = slot;
     p->plane.corner = vector_of(b->corner[0], slot);
@@ -32,7 +26,7 @@ static void take_slot(painted *p, const lmb_resolve_batch *b, int32_t slot)
     }
 }
 
-static float uv_at(const painted *p, int c, const float b[2])
+static float uv_at(const lmb_painted *p, int c, const float b[2])
 {
     return p->uv[0][c] + (p->uv[1][c] * b[0] + p->uv[2][c] * b[1]);
 }
@@ -40,7 +34,7 @@ static float uv_at(const painted *p, int c, const float b[2])
 static int has_lod(const lmb_texture *t) { return t->filter == LMB_TRILINEAR && t->levels > 1; }
 
 /* Level of detail: the longer of the two pixel steps, in texels. */
-static float pixel_lod(const painted *p, const lmb_rays *rays, const lmb_texture *t, int32_t pixel)
+static float pixel_lod(const lmb_painted *p, const lmb_rays *rays, const lmb_texture *t, int32_t pixel)
 {
     float x = (float)(pixel % LMB_TILE), y = (float)(pixel / LMB_TILE);
     if (!has_lod(t)) {
@@ -64,7 +58,7 @@ static float pixel_lod(const painted *p, const lmb_rays *rays, const lmb_texture
 
 static void paint_levels(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *t)
 {
-    painted p;
+    lmb_painted p;
     p.slot = -1;
     for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
         if (b->slot[k] < 0) {
@@ -97,7 +91,7 @@ static lmb_vec3 transform_direction(const lmb_mat4 *t, lmb_vec3 d)
 
 /* Of P(u, v): dP/du = (e1 dv2 - e2 dv1) / area and dP/dv = (e2 du1 - e1 du2) / area; only directions count. 0 where the
  * coordinates have no area. */
-static int set_frame(tangent_frame *f, const painted *p, const lmb_triangle *t, lmb_vec3 face)
+static int set_frame(tangent_frame *f, const lmb_painted *p, const lmb_triangle *t, lmb_vec3 face)
 {
     float du1 = p->uv[1][0], dv1 = p->uv[1][1], du2 = p->uv[2][0], dv2 = p->uv[2][1];
     float area = du1 * dv2 - du2 * dv1, sign = area < 0.0f ? -1.0f : 1.0f;
@@ -122,7 +116,8 @@ static int set_frame(tangent_frame *f, const painted *p, const lmb_triangle *t, 
 }
 
 /* The tangent at pixel `k`, made square to its normal; of any length where that leaves nothing. */
-static lmb_vec3 tangent_at(const tangent_frame *f, const painted *p, const lmb_rays *rays, lmb_vec3 normal, int32_t k)
+static lmb_vec3 tangent_at(const tangent_frame *f, const lmb_painted *p, const lmb_rays *rays, lmb_vec3 normal,
+                           int32_t k)
 {
     const lmb_vec3 *t = f->tangent;
     float b1, b2;
@@ -143,7 +138,7 @@ static lmb_vec3 above_face(lmb_vec3 n, lmb_vec3 face)
 }
 
 /* The pixels of one triangle. */
-static void paint_normal(lmb_tile *out, const lmb_resolve_batch *b, const painted *p, const tangent_frame *f,
+static void paint_normal(lmb_tile *out, const lmb_resolve_batch *b, const lmb_painted *p, const tangent_frame *f,
                          const lmb_texture *map)
 {
     const lmb_vec3 face = vector_of(b->face, p->slot);
@@ -170,7 +165,7 @@ static void paint_normal(lmb_tile *out, const lmb_resolve_batch *b, const painte
 static void paint_normals(lmb_tile *out, const lmb_resolve_batch *b, const lmb_scene *scene)
 {
     for (int32_t slot = 0; slot < b->count; ++slot) {
-        painted p;
+        lmb_painted p;
         tangent_frame frame;
         lmb_triangle t;
         take_slot(&p, b, slot);
@@ -180,6 +175,113 @@ static void paint_normals(lmb_tile *out, const lmb_resolve_batch *b, const lmb_s
     }
 }
 
+#if LMB_LOBES
+
+/* --- metals ------------------------------------------------------------------------------------------------------- */
+
+/* Metals have no diffuse light of their own. */
+static void paint_metal(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *map)
+{
+    lmb_painted p;
+    p.slot = -1;
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float code[4];
+        if (b->slot[k] < 0) {
+            continue;
+        }
+        if (b->slot[k] != p.slot) {
+            take_slot(&p, b, b->slot[k]);
+        }
+        lmb_normal_map_sample(code, map, out->uv[0][k], out->uv[1][k], pixel_lod(&p, &b->rays, map, k));
+        for (int c = 0; c < 3; ++c) {
+            out->albedo[c][k] *= 1.0f - metallic_of(b->material, code);
+        }
+    }
+}
+
+/* --- pixels of a tile that is resolved ---------------------------------------------------------------------------- */
+
+void lmb_painter_begin(lmb_painter *out, const lmb_scene *scene, const lmb_view *view, const lmb_tile *tile)
+{
+    out->tile = tile;
+    out->scene = scene;
+    out->triangle.id = 0;
+    lmb_resolve_rays(&out->rays, view, tile->x, tile->y);
+}
+
+/* The triangle of pixel k: 0 where its id names none, as no tile that was resolved has. */
+static int take_pixel(lmb_painter *at, int k)
+{
+    lmb_triangle *t = &at->triangle;
+    lmb_painted *p = &at->painted;
+    if (at->tile->id[k] == t->id) {
+        return t->id != 0;
+    }
+    if (!lmb_triangle_fetch(t, at->scene, at->tile->id[k])) {
+        t->id = 0;
+        return 0;
+    }
+    lmb_resolve_plane(&p->plane, t->corner, &at->rays);
+    for (int i = 0; i < 3; ++i) {
+        mesh_uv(t->mesh, t->vertex[i], p->uv[i]);
+        for (int c = 0; c < 2; ++c) {
+            p->uv[i][c] -= i > 0 ? p->uv[0][c] : 0.0f;
+        }
+    }
+    return 1;
+}
+
+void lmb_painter_colour(float out[4], lmb_painter *at, uint32_t texture, int k)
+{
+    const lmb_texture *t = &at->scene->textures[texture];
+    out[0] = out[1] = out[2] = out[3] = 0.0f;
+    if (!take_pixel(at, k)) {
+        return;
+    }
+    lmb_texture_sample(out, t, at->tile->uv[0][k], at->tile->uv[1][k], pixel_lod(&at->painted, &at->rays, t, k));
+}
+
+void lmb_painter_metal(float *metallic, float *roughness, lmb_painter *at, int k)
+{
+    float code[4];
+    *metallic = *roughness = 0.0f;
+    if (!take_pixel(at, k)) {
+        return;
+    }
+    const lmb_material *m = at->triangle.material;
+    const lmb_texture *t = &at->scene->textures[m->metal_map - 1];
+    lmb_normal_map_sample(code, t, at->tile->uv[0][k], at->tile->uv[1][k], pixel_lod(&at->painted, &at->rays, t, k));
+    *metallic = metallic_of(m, code);
+    *roughness = roughness_of(m, code);
+}
+
+void lmb_painter_base(float out[3], lmb_painter *at, int k)
+{
+    out[0] = out[1] = out[2] = 0.0f;
+    if (!take_pixel(at, k)) {
+        return;
+    }
+    const lmb_triangle *t = &at->triangle;
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, colour[3][4], b1, b2;
+    if (t->material->texture >= 0) {
+        lmb_painter_colour(texel, at, (uint32_t)t->material->texture, k);
+    }
+    for (int i = 0; i < 3; ++i) {
+        mesh_colour(t->mesh, t->vertex[i], colour[i]);
+    }
+    lmb_resolve_point(&b1, &b2, &at->painted.plane, &at->rays, (float)(k % LMB_TILE), (float)(k / LMB_TILE));
+    b1 = clampf(b1, 0.0f, 1.0f);
+    b2 = clampf(b2, 0.0f, 1.0f - b1);
+    for (int c = 0; c < 3; ++c) {
+        const float corner[3] = {colour[0][c], colour[1][c], colour[2][c]};
+        out[c] = clampf(t->material->albedo[c] * texel[c] * resolve_mix3(corner, b1, b2), 0.0f, 1.0f);
+    }
+}
+
+#endif
+
+/* --- a batch ------------------------------------------------------------------------------------------------------ */
+
 void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_kernels *kernels, const lmb_scene *scene)
 {
     const lmb_material *m = batch->material;
@@ -188,6 +290,11 @@ void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_ker
     } else if (m->texture >= 0) {
         kernels->texture(out, batch, &scene->textures[m->texture]);
     }
+#if LMB_LOBES
+    if (m->metal_map > 0) {
+        paint_metal(out, batch, &scene->textures[m->metal_map - 1]);
+    }
+#endif
     if (m->normal_scale != 0.0f && batch->mesh->uvs != NULL && !batch->albedo_only) {
         paint_normals(out, batch, scene);
     }

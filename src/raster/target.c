@@ -89,9 +89,10 @@ static int is_unit(lmb_vec3 v)
 int lmb_view_is_sound(const lmb_view *v)
 {
     return v->half_width > LEAST_M && v->half_height > LEAST_M && v->half_width < 1e30f && v->half_height < 1e30f &&
-           v->near_m > LEAST_M && is_unit(v->right) && is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) &&
-           is_sane(v->eye.y) && is_sane(v->eye.z) && v->frame_width > 0 && v->frame_height > 0 &&
-           v->frame_width <= LMB_MAX_FRAME && v->frame_height <= LMB_MAX_FRAME &&
+           (v->near_m > LEAST_M || (v->kind == LMB_ORTHOGRAPHIC && v->near_m < -LEAST_M)) && is_unit(v->right) &&
+           is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) && is_sane(v->eye.y) && is_sane(v->eye.z) &&
+           v->frame_width > 0 && v->frame_height > 0 && v->frame_width <= LMB_MAX_FRAME &&
+           v->frame_height <= LMB_MAX_FRAME &&
            (v->kind == LMB_PERSPECTIVE || (v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m));
 }
 

@@ -4,10 +4,22 @@
 
 #include <lambent/scene.h>
 
+#include "../base/vec.h"
+
 /* Linear R G B and alpha at (u, v), lod in levels (0: base; trilinear only). A non-finite coordinate reads (0, 0). */
 void lmb_texture_sample(float out[4], const lmb_texture *t, float u, float v, float lod);
 
 /* The same of a normal map: x y z, each -1 .. 1, not of unit length; out[3] means nothing. */
 void lmb_normal_map_sample(float out[4], const lmb_texture *t, float u, float v, float lod);
+
+/* Of a metal_map's texel, which lmb_normal_map_sample reads as -1 .. 1: how much of a metal, and how rough. */
+static inline float metallic_of(const lmb_material *m, const float code[4])
+{
+    return minf(m->metallic * maxf(0.5f + 0.5f * code[2], 0.0f), 1.0f);
+}
+static inline float roughness_of(const lmb_material *m, const float code[4])
+{
+    return minf(m->roughness * maxf(0.5f + 0.5f * code[1], 0.0f), 1.0f);
+}
 
 #endif

@@ -53,7 +53,7 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
             return 0;
         }
     }
-    if (!(longest > 1e-18f)) {
+    if (!(longest > 1e-30f)) {
         return 0;
     }
     const lmb_vec3 scaled = mul3(n, 1.0f / longest); /* so that no square is too small or too large */

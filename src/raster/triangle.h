@@ -19,7 +19,7 @@ typedef struct lmb_triangle {
 const lmb_instance *lmb_instance_of(const lmb_scene *scene, uint32_t id);
 
 /* The front's unit normal and the area, m2; 0 where a corner is absurd or the triangle a speck: twice its area under
- * 1e-18 m2, where squares are no normal numbers. */
+ * 1e-30 m2, where squares are no normal numbers. */
 int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *triangle);
 
 /* 1, or 0 where the id names no drawable triangle. */

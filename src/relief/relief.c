@@ -269,7 +269,13 @@ lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes)
 
 void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief)
 {
+    if (out == NULL) {
+        return;
+    }
     memset(out, 0, sizeof *out);
+    if (relief == NULL) {
+        return;
+    }
     out->meshes = &relief->mesh;
     out->materials = &relief->material;
     out->instances = &relief->instance;

@@ -7,6 +7,7 @@
 #include <lambent/relief.h>
 
 #include "../base/vec.h"
+#include "../map/part.h"
 #include "../raster/target.h"
 
 #if LMB_RELIEF
@@ -103,7 +104,8 @@ static int find_receiver(receiver *r, const lmb_light_map *map, const lmb_light 
 {
     r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
     r->plane = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
-    const int32_t f = choose_face(map, sub3(r->at, light->position));
+    const int32_t f = light->kind == LMB_LIGHT_DIRECTIONAL ? lmb_light_map_part(map, r->at)
+                                                           : choose_face(map, sub3(r->at, light->position));
     const lmb_view *v = r->view = &map->view[f];
     const lmb_vec3 d = sub3(r->at, v->eye);
     const float size = (float)map->size;
@@ -111,7 +113,7 @@ static int find_receiver(receiver *r, const lmb_light_map *map, const lmb_light 
     r->size = map->size;
     r->w = -dot3(v->back, d);
     const float unit = v->kind == LMB_PERSPECTIVE ? r->w : 1.0f;
-    if (!(r->w > 0.0f) || (map->drawn >> f & 1u) == 0) {
+    if (!(unit > 0.0f) || (map->drawn >> f & 1u) == 0) {
         return 0;
     }
     r->x = (dot3(v->right, d) / (unit * v->half_width) * 0.5f + 0.5f) * size;
@@ -162,7 +164,8 @@ uint64_t lmb_relief_lit(const lmb_light_map *map, const lmb_light *light, const 
 {
     uint64_t out = 0;
     receiver r;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+    const int is_given = map != NULL && light != NULL && tile != NULL;
+    for (int k = 0; is_given && k < LMB_TILE_PIXELS; ++k) {
         if (tile->id[k] != 0 && (!find_receiver(&r, map, light, tile, k) || is_lit(&r))) {
             out |= (uint64_t)1 << k;
         }

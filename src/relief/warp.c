@@ -160,7 +160,7 @@ static void take_pixel(lmb_tile *t, const lmb_tile *from, int k)
 
 void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other)
 {
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+    for (int k = 0; inout != NULL && other != NULL && k < LMB_TILE_PIXELS; ++k) {
         if (other->id[k] != 0 && (inout->id[k] == 0 || other->depth[k] < inout->depth[k])) {
             take_pixel(inout, other, k);
         }

@@ -35,10 +35,13 @@ lmb_status lmb_voxels_delta(lmb_voxels *v)
 /* Leaves, and empty voxels that hold nothing. */
 void lmb_voxels_sum(double out[6][3], const lmb_voxels *v, int32_t field)
 {
-    const double scale = (double)LMB_PI * (double)v->leaf * (double)v->leaf;
-    for (int i = 0; i < 18; ++i) {
+    for (int i = 0; i < 18 && out != NULL; ++i) {
         out[i / 3][i % 3] = 0.0;
     }
+    if (out == NULL || v == NULL || field < 0 || field > LMB_VOXEL_DELTA || v->light[field] == NULL) {
+        return;
+    }
+    const double scale = (double)LMB_PI * (double)v->leaf * (double)v->leaf;
     for (uint32_t at = octree_base(OCTREE_FULL); at < v->count; ++at) {
         const float *light = v->light[field] + (size_t)at * LMB_VOXEL_LIGHT;
         for (int i = 0; i < 18 && v->child[at] == 0.0f; ++i) {

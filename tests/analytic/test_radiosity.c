@@ -1,8 +1,9 @@
 /* test_radiosity.c: many bounces in closed rooms, and surfaces that shine, against what energy says. [DESIGN 4]
  *
  * In a closed room whose walls all reflect rho, light of power P makes them send P rho^k at the k-th reflection, so all
- * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls shine alike, every point sends the same: N bounces
- * are L (1 - rho^(N + 1)) / (1 - rho) everywhere. What is sealed off stays dark. */
+ * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls shine alike, every point sends the same: itself, what
+ * others send straight to it, and that after N reflections are L (1 - rho^(N + 2)) / (1 - rho) everywhere; with the rest
+ * of them, L / (1 - rho). What is sealed off stays dark. */
 enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BLOCKERS = 64, BOUNCES = 12 };
 
 #include "../bounce_frame.h"
@@ -12,11 +13,15 @@ void test_radiosity(void);
 
 static const float rho = 0.5f;
 
+static int32_t truncated = 1;
+
 static void draw_wide(lmb_vec3 from, lmb_vec3 to, double fov_deg, int32_t show, int32_t bounces)
 {
     const lmb_view view = look(from, to, fov_deg, FRAME);
     lmb_frame f = bounce_frame(&view, bounces);
     f.show = show;
+    f.truncated = truncated;
+    f.error = f.visible = 0.005f; /* held against what energy says, not against a cut */
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
 }
 
@@ -36,7 +41,7 @@ static void shine(int material, float radiance)
 
 static void check_furnace(int32_t bounces)
 {
-    const double want = 3.0 * (1.0 - pow((double)rho, bounces + 1)) / (1.0 - (double)rho);
+    const double want = 3.0 * (1.0 - (truncated ? pow((double)rho, bounces + 2) : 0.0)) / (1.0 - (double)rho);
     double most = 0.0, mean = 0.0;
     world_begin(rho, rho, rho);
     world_box(vec3(0.3f, -0.1f, 0.2f), 1.0f);
@@ -48,8 +53,8 @@ static void check_furnace(int32_t bounces)
         most = fmax(most, fabs(off));
         mean += off / (FRAME * FRAME * 3);
     }
-    printf("  walls that shine, %2d bounces: %+.3f %% in the mean, %.3f %% off at most\n", (int)bounces, mean * 100,
-           most * 100);
+    printf("  walls that shine, %2d bounces%s: %+.3f %% in the mean, %.3f %% off at most\n", (int)bounces,
+           truncated ? "" : " and the rest", mean * 100, most * 100);
     CHECK_MSG(most < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, most);
 }
 
@@ -122,12 +127,46 @@ static double received(void)
 
 static void check_room(int light, int block, int32_t bounces)
 {
-    const double r = (double)rho, want = 4.0 * PI * (light == LAMP ? r : 1.0) * (1.0 - pow(r, bounces - 1)) / (1.0 - r);
+    const double r = (double)rho, left = !truncated ? 0.0 : pow(r, light == LAMP ? bounces - 1 : bounces),
+                 want = 4.0 * PI * (light == LAMP ? r : 1.0) * (1.0 - left) / (1.0 - r);
     make_room(light, block);
     draw(vec3(0.8f, 0.8f, 0.8f), vec3(0, -0.5f, -0.3f), LMB_SHOW_IRRADIANCE, bounces);
-    printf("  %s in a room%s, %2d bounces: %.4f of its energy\n", light == LAMP ? "lamp" : "panel",
-           block ? " with a block" : "", (int)bounces, received() / want);
+    printf("  %s in a room%s, %2d bounces%s: %.4f of its energy\n", light == LAMP ? "lamp" : "panel",
+           block ? " with a block" : "", (int)bounces, truncated ? "" : " and the rest", received() / want);
     CHECK_MSG(fabs(received() / want - 1.0) < 0.01, "%d bounces: %g", (int)bounces, received() / want);
+}
+
+/* All light there is, however few bounces are followed one by one. */
+static void check_rest(void)
+{
+    truncated = 0;
+    check_furnace(2);
+    check_furnace(3);
+    check_room(LAMP, 0, 2);
+    check_room(LAMP, 0, 4);
+    check_room(LAMP, 1, 4);
+    check_room(PANEL, 1, 4);
+    truncated = 1;
+}
+
+/* White walls keep all light for ever: the rest ends with the bounces that a frame may ask for. */
+static void check_white(void)
+{
+    lmb_elements *e = &render.frame.elements;
+    make_room(LAMP, 0);
+    for (int c = 0; c < 3; ++c) {
+        world.material[0].albedo[c] = 1.0f;
+    }
+    truncated = 0;
+    draw(vec3(0.8f, 0.8f, 0.8f), vec3(0, -0.5f, -0.3f), LMB_SHOW_IRRADIANCE, 3);
+    truncated = 1;
+    const double all = received() / (4.0 * PI);
+    printf("  lamp in a white room, 3 bounces and the rest: %.2f times what it gives, of %d\n", all,
+           (int)LMB_MOST_BOUNCES - 1);
+    CHECK_MSG(all > 0.7 * (LMB_MOST_BOUNCES - 1) && all < 1.01 * (LMB_MOST_BOUNCES - 1), "%g", all);
+    CHECK(lmb_elements_rest(NULL, NULL, 1) == LMB_ERR_ARG && lmb_elements_rest(e, NULL, -1) == LMB_ERR_ARG);
+    CHECK(lmb_elements_rest(e, NULL, LMB_MOST_BOUNCES + 1) == LMB_ERR_ARG);
+    CHECK(lmb_elements_rest(e, NULL, 0) == LMB_OK && received() / (4.0 * PI) == all);
 }
 
 static int is_in_block(lmb_vec3 p)
@@ -176,7 +215,10 @@ void test_radiosity(void)
     check_room(LAMP, 0, 2);
     check_room(LAMP, 0, BOUNCES);
     check_room(LAMP, 1, BOUNCES);
+    check_room(PANEL, 0, 1);
     check_room(PANEL, 0, BOUNCES);
     check_room(PANEL, 1, BOUNCES);
     check_sealed();
+    check_rest();
+    check_white();
 }

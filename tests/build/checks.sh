@@ -1,5 +1,8 @@
-# checks.sh: counting for the shell checks that source it: pass, fail WHAT, skip WHY; `finish` last.
+# checks.sh: counting for the shell checks that source it: pass, fail WHAT, skip WHY, bare; `finish` last.
 passed=0 failed=0 skipped=0
+
+# Names without what layout.h adds to them.
+bare() { sed -E 's/_g[0-9]+_l[0-9]+(_[a-z][0-9]+)+//g'; }
 
 pass() { passed=$((passed + 1)); }
 

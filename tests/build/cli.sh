@@ -78,6 +78,15 @@ check "strict zones say their loss" grep -q '^lambent: note: --misfits drop lost
 status 0 render demo $small --groups 40 --misfits keep -o "$dir/kept.pfm"
 check "kept misfits lose nothing" sh -c '! grep -q lost "$1"' sh "$dir/err.txt"
 
+# Groups that are too few are said; zones, neighbours and discs are as asked for.
+status 0 render demo $small --groups 7 -o "$dir/few.pfm"
+check "regrouping is said" grep -qE '^lambent: note: discs were grouped again [1-9][0-9]* times?, .*: [1-7]$' "$dir/err.txt"
+status 0 render demo $small --groups 400 -o "$dir/plain.pfm"
+for option in "--zones 20" "--neighbour 0.6" "--neighbour-blocks 3" "--disc-radius 2"; do
+    status 0 render demo $small --groups 400 $option -o "$dir/other.pfm"
+    check "$option changes nothing" sh -c '! cmp -s "$1" "$2"' sh "$dir/other.pfm" "$dir/plain.pfm"
+done
+
 # A number of the statistics.
 count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
 
@@ -100,6 +109,25 @@ status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.5,2 --target 0,0.4,0 $cu
 check "a lamp is enough light" sh -c '! grep -q "no light in" "$1"' sh "$dir/err.txt"
 status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.9,0 --target 0,0,0.1 $cut --show irradiance -o "$dir/floor.pfm"
 check "its light is seen" test "$(tail -c 3072 "$dir/floor.pfm" | tr -d '\000' | wc -c)" -gt 2000
+# What stands between a lamp that is a surface and the floor blocks it, with no other lamp too.
+printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+    'v -2 0.5 -2' 'v 2 0.5 -2' 'v 2 0.5 2' 'v -2 0.5 2' 'f 1 2 3 4' 'f 9 10 11 12' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shade.obj"
+status 0 render "$dir/shade.obj" --size 16x16 --eye 0,0.45,0 --target 0,0,0.1 --light-map 32 --show irradiance -o "$dir/shade.pfm"
+check "a shade is dark below" test "$(tail -c 3072 "$dir/shade.pfm" | tr -d '\000' | wc -c)" -eq 0
+
+# A box with two lit eyes keeps its sun, and they do not change how it is exposed.
+printf 'newmtl eye\nKe 0 3 3\nKd 0 0 0\n' >"$dir/eyes.mtl"
+printf 'newmtl eye\nKd 0 0 0\n' >"$dir/blind.mtl"
+eyes="--size 32x32 --eye 0,0.5,3 --target 0,0.5,0 --show direct"
+for of in eyes blind; do
+    printf '%s\n' "mtllib $of.mtl" 'v -0.5 0 0.5' 'v 0.5 0 0.5' 'v 0.5 1 0.5' 'v -0.5 1 0.5' 'v -0.5 1 -0.5' 'v 0.5 1 -0.5' \
+        'v -0.3 0.6 0.502' 'v -0.1 0.6 0.502' 'v -0.1 0.8 0.502' 'v -0.3 0.8 0.502' 'v 0.1 0.6 0.502' 'v 0.3 0.6 0.502' \
+        'v 0.3 0.8 0.502' 'v 0.1 0.8 0.502' 'f 1 2 3 4' 'f 4 3 6 5' 'usemtl eye' 'f 7 8 9 10' 'f 11 12 13 14' >"$dir/$of.obj"
+    status 0 render "$dir/$of.obj" $eyes -o "$dir/$of.png"
+    cp "$dir/err.txt" "$dir/$of.txt"
+done
+check "what only glows leaves the sun on" grep -q "no light in" "$dir/eyes.txt"
+check "what glows does not expose" test "$(grep exposure "$dir/eyes.txt")" = "$(grep exposure "$dir/blind.txt")"
 
 # First points: fewer discs, another neighbourhood, thresholds.
 for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
@@ -135,13 +163,13 @@ for show in depth eye-distance normal albedo occlusion direct; do
     status 0 render demo $small --stereo 0.1 --show $show -o "$dir/both.png"
 done
 
-# Many lights: a floor under 200 of them, in two orders. Too many for maps; the picture knows no order.
+# Many lights: a floor under 200 of them, in two orders, of a kind. Too many for maps; the picture knows no order.
 many_lights() {
-    awk -v first="$1" -v step="$2" 'BEGIN {
+    awk -v first="$1" -v step="$2" -v kind="${4:-point}" 'BEGIN {
         printf "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":"
-        printf "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"point\",\"intensity\":0.3}]}},\"scene\":0,\"nodes\":[{\"mesh\":0}"
+        printf "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"%s\",\"intensity\":0.3%s}]}},\"scene\":0,\"nodes\":[{\"mesh\":0}", kind, kind == "spot" ? ",\"spot\":{\"outerConeAngle\":0.6}" : ""
         for (i = first; i >= 0 && i < 200; i += step)
-            printf ",{\"translation\":[%g,%g,%g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}",
+            printf ",{\"rotation\":[-0.70710678,0,0,0.70710678],\"translation\":[%g,%g,%g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}",
                 i % 17 / 10, 0.2 + i % 7 / 9, i % 23 / 12 - 1
         printf "],\"scenes\":[{\"nodes\":[0"
         for (i = 1; i <= 200; ++i) printf ",%d", i
@@ -155,26 +183,42 @@ many_lights 0 1 "$dir/many.gltf"
 many_lights 199 -1 "$dir/manyback.gltf"
 look="--size 64x48 --eye 0,3,3 --target 0,0,0"
 status 0 render "$dir/many.gltf" $look -o "$dir/many.pfm" --stats "$dir/many.json"
-check "render says what it does with many lights" grep -q '200 point lights in 200 cells' "$dir/err.txt"
+check "render says what it does with many lights" grep -q '200 lights in 200 cells' "$dir/err.txt"
 check "stats count the lights" grep -q '"many_lights": 200, "light_cells": 200, "light_nodes": [1-9]' "$dir/many.json"
 status 0 render "$dir/manyback.gltf" $look --threads 3 --backend scalar -o "$dir/manyback.pfm"
 check "the order of lights changes the picture" cmp "$dir/many.pfm" "$dir/manyback.pfm"
+for kind in spot directional; do
+    many_lights 0 1 "$dir/$kind.gltf" $kind
+    many_lights 199 -1 "$dir/${kind}back.gltf" $kind
+    status 0 render "$dir/$kind.gltf" $look --show direct -o "$dir/$kind.pfm"
+    check "200 ${kind}s are drawn" grep -q '200 lights in' "$dir/err.txt"
+    status 0 render "$dir/${kind}back.gltf" $look --show direct -o "$dir/${kind}back.pfm"
+    check "the order of ${kind}s changes the picture" cmp "$dir/$kind.pfm" "$dir/${kind}back.pfm"
+done
+check "spots light what points do" sh -c "! cmp -s '$dir/spot.pfm' '$dir/many.pfm'"
 status 0 render "$dir/many.gltf" $look --many-lights 50 -o "$dir/fewcells.pfm"
-check "--many-lights 50 takes as many cells at most" grep -q '200 point lights in [1-5][0-9] cells' "$dir/err.txt"
+check "--many-lights 50 takes as many cells at most" grep -q '200 lights in [1-5][0-9] cells' "$dir/err.txt"
 status 0 compare "$dir/many.pfm" "$dir/fewcells.pfm" --max trim=0.1
-for n in 0 5; do
-    for show in direct full; do
-        status 0 render "$dir/many.gltf" $look --light-map 64 --show $show --bounce-lights $n -o "$dir/$show$n.pfm"
+for show in direct full; do
+    status 0 render "$dir/many.gltf" $look --show $show -o "$dir/$show.pfm"
+done
+check "a floor lights nothing but itself" cmp "$dir/direct.pfm" "$dir/full.pfm"
+status 1 render demo $small --many-lights 4 --grouping zones -o "$dir/bad.pfm"
+status 0 render "$dir/many.gltf" $look --grouping zones --show direct -o "$dir/zones.pfm"
+check "direct light knows no grouping" cmp "$dir/direct.pfm" "$dir/zones.pfm"
+status 2 render demo $small --profile fast -o "$dir/bad.pfm"
+for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
+    for bounces in 1 3; do
+        how="demo $small --light $light --light-map 512 --show indirect --bounces $bounces"
+        status 0 render $how --many-lights 4 --gather full --elements 65536 -o "$dir/elements.pfm"
+        status 0 render $how -o "$dir/own.pfm"
+        status 0 compare "$dir/elements.pfm" "$dir/own.pfm" --max trim=0.05
     done
 done
-check "those that stand for many lights give no direct light" cmp "$dir/direct0.pfm" "$dir/direct5.pfm"
-check "without them nothing bounces" cmp "$dir/direct0.pfm" "$dir/full0.pfm"
-check "a floor lights nothing but itself" cmp "$dir/full0.pfm" "$dir/full5.pfm"
-status 2 render demo $small --profile fast -o "$dir/bad.pfm"
-status 0 render demo $small --light point:-0.5,2,0.5:0,-1,0:9,9,9 --many-lights 4 --show indirect -o "$dir/standin.pfm"
-status 0 render demo $small --light point:-0.5,2,0.5:0,-1,0:9,9,9 --show indirect -o "$dir/own.pfm"
-check "one light that stands for itself bounces as it does" cmp "$dir/standin.pfm" "$dir/own.pfm"
-status 2 render "$dir/many.gltf" --bounce-lights 129 -o "$dir/bad.pfm"
+status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 -o "$dir/once.pfm"
+status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 --threads 3 --backend scalar -o "$dir/threads.pfm"
+check "threads or lanes change what many lights bounce" cmp "$dir/once.pfm" "$dir/threads.pfm"
+status 2 render "$dir/many.gltf" --bounce-lights 3 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
 
@@ -270,7 +314,7 @@ for wait in 0 0.02 0.05 0.1 0.2; do
     check "killed after $wait s: a whole file" sh -c 'test "$(cat "$1")" = before || cmp -s "$1" "$2"' sh "$dir/killed.pfm" \
         "$dir/whole.pfm"
 done
-find "$dir" -name '*killed*tmp*' -exec rm -f {} +
+find "$dir" \( -name '*killed*tmp*' -o -name '.write-*.tmp' \) -exec rm -f {} + # of those that were killed
 
 # A reader that goes away: the tool ends, with its own status or by the signal, and does not go on.
 check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^room"' sh "$TOOL"

@@ -11,7 +11,7 @@ check "the rooms link" $CC $FLAGS -nostdlib -o "$B/rom.elf" -Wl,--gc-sections -W
 [ $failed -eq 0 ] || finish
 
 echo "bounced light, linked, largest functions and tables:"
-$NM -S -t d "$B/rom.elf" | awk 'NF == 4 { printf "  %8d  %s\n", $2, $4 }' | sort -rn | head -n 25
+$NM -S -t d "$B/rom.elf" | awk 'NF == 4 { printf "  %8d  %s\n", $2, $4 }' | sort -rn | bare | head -n 25
 bytes=$($SIZE "$B/rom.elf" | awk 'NR == 2 { print $1 + $2 }')
 echo "raster + map + light + bounce and what they need: $bytes of $budget bytes"
 check "$bytes bytes of ROM are over the budget" test "$bytes" -le "$budget"

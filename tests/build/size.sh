@@ -1,6 +1,7 @@
 # size.sh: code and data of the library by room, and its largest functions and tables: B NM SIZE in the environment.
 #
 # `code` holds constants and, on hosts, unwind tables.
+. tests/build/checks.sh
 objects=$(find "$B/obj/src" -name '*.o' | sort)
 
 echo "$B, bytes by room:"
@@ -20,4 +21,4 @@ $SIZE $objects | awk '
     }'
 
 echo "largest functions and tables:"
-$NM -S -t d $objects | awk 'NF == 4 { printf "  %8d  %s\n", $2, $4 }' | sort -rn | head -n 12
+$NM -S -t d $objects | awk 'NF == 4 { printf "  %8d  %s\n", $2, $4 }' | sort -rn | bare | head -n 12

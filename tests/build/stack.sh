@@ -7,7 +7,7 @@
 budget=$1
 
 frames=$(find "$B/obj/src" -name '*.su' -exec cat {} + 2>/dev/null | awk -F '\t' '
-    { n = split($1, part, ":"); sub(/^.*src\//, "src/", part[1]); print $2, part[n], part[1], $3 }' | sort -rn)
+    { n = split($1, part, ":"); sub(/^.*src\//, "src/", part[1]); print $2, part[n], part[1], $3 }' | sort -rn | bare)
 if [ -z "$frames" ]; then
     skip "this compiler does not report stack frames"
     finish
@@ -19,7 +19,7 @@ wrong=$(printf '%s\n' "$frames" | awk -v budget="$budget" '
     $1 > budget { print "FAIL " $3 ": " $2 " takes " $1 " bytes of stack; the budget is " budget }
     $4 == "dynamic" { print "FAIL " $3 ": " $2 " takes stack without a bound" }')
 
-calls=$(sh tests/build/calls.sh "$B" "$budget")
+calls=$(sh tests/build/calls.sh "$B" "$budget" | bare)
 if [ -z "$calls" ]; then
     skip "this compiler does not report who calls whom"
 else

@@ -1,8 +1,8 @@
-# tools.sh: the outside tools of the cross checks: tools.sh need COMMAND... | tools.sh install
+# tools.sh: the outside tools of the checks: tools.sh need COMMAND... | tools.sh get [COMMAND...]
 #
 # need: fails and names the missing commands with the Debian packages that have them.
-# install [COMMAND...]: installs what is missing, of the usual ones or of these, where apt-get and the right to use it
-# are there; says what stays missing.
+# get: installs what is missing, of the usual ones or of these, where apt-get and the right to use it are there. Says
+# what it does and what stays missing. It never removes a package: what needs that is left out.
 all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
     arm-none-eabi-gcc qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips cppcheck
     clang-tidy"
@@ -71,13 +71,42 @@ need() {
     return 1
 }
 
-install() {
+# What apt-get would take away for these packages, by its own simulation; "?" where they are not to be had.
+removed_for() {
+    if plan=$(apt-get -q -s install --no-install-recommends "$@" 2>&1); then
+        printf '%s\n' "$plan" | sed -n 's/^Remv \([^ ]*\).*/\1/p'
+    else
+        echo '?'
+    fi
+}
+
+# One package at a time where all together will not do: what one of them would take away keeps only that one out.
+add() {
+    gone=$(removed_for "$@")
+    if [ -z "$gone" ]; then
+        echo "apt-get install --no-remove $*"
+        apt-get -q -y install --no-install-recommends --no-remove "$@" >/dev/null 2>&1 || echo "apt-get failed for: $*"
+    elif [ $# -gt 1 ]; then
+        for package in "$@"; do
+            add "$package"
+        done
+    elif [ "$gone" = '?' ]; then
+        echo "not to be had: $1"
+    else
+        echo "left out: $1, for it would remove" $gone
+    fi
+}
+
+get() {
     wanted=${*:-$all}
     lacking=$(missing $wanted)
     [ -n "$lacking" ] || return 0
     if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null 2>&1; then
         export DEBIAN_FRONTEND=noninteractive
-        { apt-get -q update && apt-get -q -y install --no-install-recommends $(packages $lacking); } >/dev/null 2>&1
+        echo "missing:" $lacking
+        echo "apt-get update"
+        apt-get -q update >/dev/null 2>&1
+        add $(packages $lacking)
     fi
     need $wanted
     return 0

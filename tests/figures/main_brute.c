@@ -88,7 +88,7 @@ static void set_frame(work *w)
     const uint32_t triangles = lmb_scene_triangles(scene);
     uint32_t faces = 0;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        const int32_t own = lmb_light_map_faces(&scene->lights[i]);
+        const int32_t own = lmb_light_map_faces(&scene->lights[i], scene);
         f->map_bytes += lmb_light_map_bytes(own, MAP, LMB_ID32);
         faces += (uint32_t)own;
     }
@@ -217,7 +217,7 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
     g.light = light;
     g.pixels = tile_pixels(tile);
     g.emitter = w->scratch.gather.cut.emitter;
-    g.memory = w->scratch.gather.cut.pairs;
+    g.memory = w->scratch.gather.cut.use.pairs;
     tile_box(&low, &high, tile, g.pixels);
     g.middle = mul3(add3(low, high), 0.5f);
     g.half = mul3(sub3(high, low), 0.5f);
@@ -226,7 +226,9 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
         const int near = is_near(&g, q);
         const uint64_t asked = near ? g.pixels : facing(&g, q);
         const uint64_t seen = asked & ~lmb_blocked_tile(&w->render.frame.blockers, w->frame.kernels, tile, asked,
-                                                        q->middle, &g.walk);
+                                                        q->middle,
+                                                        lmb_tile_noise(tile, asked) + lmb_place_noise(q->middle, 0.0f),
+                                                        &g.walk);
         sum->segments += count_bits_64(asked);
         sum->seen += count_bits_64(seen);
         if (near) {

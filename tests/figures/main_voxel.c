@@ -127,14 +127,14 @@ static void draw_lights(work *w)
     const lmb_kernels *kernels = lmb_kernels_pick();
     uint32_t faces = 0;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i]);
+        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i], scene);
     }
     const size_t bytes = lmb_tree_bytes(faces, MAP), cut_bytes = lmb_tree_bytes(faces, CUT_MAP);
     CHECK(lmb_tree_init(&w->tree, faces, MAP, take(w, bytes), bytes) == LMB_OK);
     CHECK(lmb_tree_init(&w->cut_tree, faces, CUT_MAP, take(w, cut_bytes), cut_bytes) == LMB_OK);
     for (uint32_t i = 0; i < scene->light_count; ++i) {
         const lmb_light *light = &scene->lights[i];
-        const int32_t own = lmb_light_map_faces(light);
+        const int32_t own = lmb_light_map_faces(light, scene);
         const size_t size = lmb_light_map_bytes(own, MAP, LMB_ID32);
         lmb_light_map map;
         double from = seconds_now();

@@ -161,7 +161,7 @@ float *plan_reference(render_job *j)
 static int setting(lmb_settings *s, int i, int heavy)
 {
     static const int32_t trees[] = {64, 128, 256, 512}, steps[] = {1, 2, 4};
-    static const float errors[] = {0.05f, 0.14142136f, 0.56568542f}; /* the first is the look's own */
+    static const float errors[] = {0.01f, 0.028284271f, 0.11313708f}; /* the first is the look's own */
     s->tree = s->light_map = trees[i % 4];
     s->error = errors[i / 4 % 3];
     s->visible = LMB_FACT_VISIBLE * s->error;

@@ -134,6 +134,9 @@ static void make_material(lmb_material *m, bytes *b)
     m->normal_map = below(b, 16) == 0;
     m->normal_scale = below(b, 4) == 0 ? positive(b) : 0.0f;
     m->roughness = share(b);
+    m->emission_map = below(b, 4) == 0;
+    m->metal_map = below(b, 4) == 0;
+    m->metallic = share(b);
 }
 
 static void make_light(lmb_light *l, bytes *b)
@@ -192,6 +195,7 @@ static void make_world(world *w, bytes *b)
     w->scene.texture_count = 1;
     w->scene.light_count = below(b, 3);
     lmb_scene_bounds(&w->scene.bounds_min, &w->scene.bounds_max, &w->scene);
+    lmb_scene_core(&w->scene.core, &w->scene);
 }
 
 /* --- a frame of it ------------------------------------------------------------------------------------------------ */
@@ -241,7 +245,8 @@ static void set_light(lmb_frame *f, memory *m, bytes *b)
     f->light_map = 8 * (1 + (int32_t)below(b, MAP_MOST / 8));
     f->id_format = below(b, 2) ? LMB_ID16 : LMB_ID32;
     for (uint32_t i = 0; i < f->scene->light_count; ++i) {
-        f->map_bytes += lmb_light_map_bytes(lmb_light_map_faces(&f->scene->lights[i]), f->light_map, f->id_format);
+        const int32_t faces = lmb_light_map_faces(&f->scene->lights[i], f->scene);
+        f->map_bytes += lmb_light_map_bytes(faces, f->light_map, f->id_format);
     }
     const size_t points = lmb_points_bytes(256, MAP_MOST), tree = lmb_tree_bytes(12, 8),
                  blockers = lmb_blockers_bytes(triangles + 1), elements = lmb_elements_bytes(64);

@@ -24,7 +24,7 @@ static struct memory {
     lmb_groups groups;
     lmb_band_scratch scratch;
     lmb_render render;
-    uint64_t lights[LIGHT_CELLS * 450 / 8];
+    uint64_t lights[LIGHT_CELLS * 700 / 8];
 } memory;
 /* First points, or the tree of a light's map in their place: one face, or more that are smaller. */
 static union light_memory {
@@ -37,7 +37,7 @@ static union light_memory {
 } light_memory;
 static uint32_t point_cells[MAP / 4 * (MAP / 4) + 1];
 static lmb_points points = {light_memory.points, POINTS, 0, point_cells, MAP / 4 * (MAP / 4) + 1, 0, NULL, 0, 0};
-static uint32_t blocker_memory[TRIANGLES * 29 + 1024], element_memory[ELEMENTS * 40 + 64];
+static uint32_t blocker_memory[TRIANGLES * 29 + 1024], element_memory[ELEMENTS * 44 + 64];
 const lmb_kernels *golden_kernels;
 static const golden_way *way;
 
@@ -107,8 +107,9 @@ static uint32_t soup_texels[16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1];
 static lmb_texture soup_texture;
 static lmb_mesh soup_meshes[2];
 static const lmb_material soup_materials[2] = {
-    {{0.8f, 0.7f, 0.6f}, 1.0f, 0.0f, 0, LMB_DOUBLE_SIDED, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
-    {{0.5f, 0.6f, 0.9f}, 1.0f, 0.5f, 0, LMB_DOUBLE_SIDED | LMB_ALPHA_MASK, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f},
+    {{0.8f, 0.7f, 0.6f}, 1.0f, 0.0f, 0, LMB_DOUBLE_SIDED, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f, 0, 0, 0.0f},
+    {{0.5f, 0.6f, 0.9f}, 1.0f, 0.5f, 0, LMB_DOUBLE_SIDED | LMB_ALPHA_MASK, 0, 0.0f, {0, 0, 0}, {0, 0, 0}, 0.0f, 0, 0,
+     0.0f},
 };
 static lmb_instance soup_instances[2];
 static lmb_light soup_light;
@@ -349,12 +350,12 @@ static uint64_t case_light_map(int variant)
 static uint64_t case_groups(int variant)
 {
     static const lmb_grouping how[6] = {
-        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0, 0},
-        {LMB_GROUP_GREEDY, 4, 90, 0.5f, 1.0f, 2.5f, 0.8f, 0, 0},
-        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0.95f, LMB_ZONES_STRICT, 0},
-        {LMB_GROUP_ZONES, 4, 40, 0, 0, 0, 0, LMB_POINT_CENTRE, 0},
-        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0, 10},
-        {LMB_GROUP_GREEDY, 4, 90, 0.25f, 0, 0, 0, LMB_NEAR_HEMISPHERE, 0},
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0, 0, 0, 0, 0},
+        {LMB_GROUP_GREEDY, 4, 90, 0.5f, 1.0f, 2.5f, 0.8f, 0, 0, 0, 0, 0},
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0.95f, LMB_ZONES_STRICT, 0, 0, 0, 0},
+        {LMB_GROUP_ZONES, 4, 40, 0, 0, 0, 0, LMB_POINT_CENTRE, 0, 0, 0, 0},
+        {LMB_GROUP_ZONES, 4, 60, 0, 0, 0, 0, 0, 10, 0, 0, 0},
+        {LMB_GROUP_GREEDY, 4, 90, 0.25f, 0, 0, 0, LMB_NEAR_HEMISPHERE, 0, 0, 0, 0},
     };
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
@@ -450,12 +451,24 @@ static uint64_t case_format(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* Lights all over the soup, in slices; among them clusters. */
-static lmb_status stream_lights(lmb_many *many)
+/* A spot down the box's diagonals, or a sun. */
+static void turn_light(lmb_light *l, int i)
+{
+    l->kind = i % 4 == 3 ? LMB_LIGHT_DIRECTIONAL : LMB_LIGHT_SPOT;
+    l->direction.x = i & 1 ? 0.48f : -0.6f;
+    l->direction.y = i & 1 ? -0.64f : 0.0f;
+    l->direction.z = i & 1 ? 0.6f : 0.8f;
+    l->cos_outer = golden_random(0.1f, 0.9f);
+    l->cos_inner = golden_random(l->cos_outer, 1.0f);
+}
+
+/* Lights all over the soup, in slices; among them clusters. Of all kinds: in so few cells that
+ * they are summed at once in any configuration. */
+static lmb_status stream_lights(lmb_many *many, int kinds)
 {
     const lmb_vec3 low = {-2, -2, -2}, high = {2, 2, 3};
     lmb_light slice[7];
-    lmb_status status = lmb_many_init(many, LIGHT_CELLS, low, high, 9.0f * MANY_LIGHTS, memory.lights,
+    lmb_status status = lmb_many_init(many, kinds ? 8 : LIGHT_CELLS, low, high, 9.0f * MANY_LIGHTS, memory.lights,
                                       sizeof memory.lights);
     memset(slice, 0, sizeof slice);
     for (int i = 0; i < MANY_LIGHTS && status == LMB_OK; i += 7) {
@@ -467,31 +480,36 @@ static lmb_status stream_lights(lmb_many *many)
             for (int c = 0; c < 3; ++c) {
                 slice[k].intensity[c] = golden_random(0.0f, 0.1f);
             }
+            if (kinds && k > 0) {
+                turn_light(&slice[k], i + k);
+            }
         }
         status = lmb_many_add(many, slice, 7);
     }
     return status == LMB_OK ? lmb_many_build(many) : status;
 }
 
-/* Many lights on the soup, with shadows (0) and without. LIGHT_CELLS never fill a cut of the least capacity. */
+/* Many lights on the soup, with shadows (0) and without; points, spots and suns (2). LIGHT_CELLS never fill
+ * a cut of the least capacity. */
 static uint64_t case_many(int variant)
 {
     lmb_frame f = demo_frame();
     lmb_many many;
     golden_soup(57u, 1.6f);
     soup.light_count = 0;
-    lmb_status status = stream_lights(&many);
+    lmb_status status = stream_lights(&many, variant == 2);
     uint64_t h = golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)status), many.doubled);
     for (uint32_t i = 0; i < many.node_count; ++i) {
         h = golden_hash_floats(golden_hash_floats(h, many.node[i].intensity, 3), &many.node[i].position.x, 3);
-        h = golden_hash_floats(golden_hash_floats(h, &many.node[i].strongest.x, 3), &many.node[i].median.x, 3);
+        h = golden_hash_floats(h, &many.node[i].strongest.position.x, 3);
+        h = golden_hash_floats(h, &many.node[i].median.position.x, 3);
     }
     f.scene = &soup;
     f.view = golden_soup_view(0);
     f.show = LMB_SHOW_DIRECT;
     f.occlusion = LMB_OCCLUSION_NONE;
     f.many = &many;
-    if (variant == 0) { /* in the map's memory: there is none */
+    if (variant != 1) { /* in the map's memory: there is none */
         lmb_blockers_init(&f.blockers, TRIANGLES, memory.map, sizeof memory.map);
     }
     return hash_frame(h, &f);
@@ -524,9 +542,12 @@ static uint64_t hash_tree(uint64_t h, const lmb_tree *tree, uint32_t faces)
         h = golden_hash_floats(h, &n->normal.x, 3);
         h = golden_hash_floats(h, n->flux, 3);
         h = golden_hash_floats(h, &n->area, 1);
-        h = golden_hash_floats(h, &n->low.x, 3);
-        h = golden_hash_floats(h, &n->high.x, 3);
+        h = golden_hash_floats(h, &n->middle.x, 3);
+        h = golden_hash_floats(h, &n->across.x, 3);
+        h = golden_hash_floats(h, n->half, 3);
+        h = golden_hash_floats(h, &n->radius, 1);
         h = golden_hash_floats(h, &n->cosine, 1);
+        h = golden_hash_floats(h, &n->agreement, 1);
         h = golden_hash_u32(h, n->texel);
     }
     return h;
@@ -596,6 +617,7 @@ static uint64_t case_cut_proven(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
     (void)variant;
+    f.occlusion = LMB_OCCLUSION_NONE;
     f.proven = 1;
     f.error = 0.1f;
     return hash_frame(GOLDEN_START, &f);
@@ -634,6 +656,28 @@ static uint64_t case_glossy(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
+/* Variant 0: a map of emission, seen and sent; 1: one of metal and roughness under a lobe; the whole picture. */
+static uint64_t case_surface_maps(int variant)
+{
+    lmb_frame f = soup_frame(1, 8);
+    lmb_material mapped[2] = {soup_materials[0], soup_materials[1]};
+    for (int i = 0; i < 2; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            mapped[i].emission[c] = variant ? 0.0f : 0.5f + 0.25f * (float)c;
+            mapped[i].specular[c] = variant ? 0.04f : 0.0f;
+        }
+        mapped[i].roughness = 0.8f;
+        mapped[i].metallic = 0.9f;
+        mapped[i].emission_map = variant ? 0 : 1;
+        mapped[i].metal_map = variant ? 1 : 0;
+    }
+    soup.materials = mapped;
+    f.show = LMB_SHOW_FULL;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory);
+    return hash_frame(GOLDEN_START, &f);
+}
+
 /* A spot and one so wide that a cube's faces serve it; the whole picture. */
 static uint64_t case_cut_lights(int variant)
 {
@@ -656,7 +700,7 @@ static uint64_t case_cut_lights(int variant)
 /* A map's first points of 4x4 or 1x1 texels where fewer fit: those so far stand. */
 static uint64_t case_full_points(int variant)
 {
-    static const lmb_grouping how = {LMB_GROUP_ZONES, 4, 0, 0, 0, 0, 0, 0, 0};
+    static const lmb_grouping how = {LMB_GROUP_ZONES, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
     lmb_points few = points;
@@ -699,7 +743,7 @@ static uint64_t case_full_frame(int variant)
 /* As many groups as this configuration has, for discs that want more: zones, greedy, and one a disc. */
 static uint64_t case_full_groups(int variant)
 {
-    lmb_grouping how = {LMB_GROUP_ZONES, 4, LMB_MAX_GROUPS, 0, 0.05f, 0.3f, 0.999f, 0, 0};
+    lmb_grouping how = {LMB_GROUP_ZONES, 4, LMB_MAX_GROUPS, 0, 0.05f, 0.3f, 0.999f, 0, 0, 0, 0, 0};
     const lmb_scene *scene = demo_scene();
     lmb_light_map map;
     lmb_stats stats;

@@ -39,7 +39,7 @@ static void run(const char *name)
 int main(int argc, char **argv)
 {
     static const char *const all[] = {"raster", "shadow", "bounce",     "probe", "relief",
-                                      "mixed",  "all",    "invariants", "again"};
+                                      "mixed",  "far",    "all",        "invariants", "again"};
     const int count = argc > 1 ? argc - 1 : (int)(sizeof all / sizeof *all);
     for (int i = 0; i < count; ++i) {
         const char *name = argc > 1 ? argv[1 + i] : all[i];

@@ -629,19 +629,19 @@ static void make_weighed_node(lmb_weighed *out, int k, test_rng *r, const lmb_pa
 {
     const uint32_t flat = test_random(r) % 8u;
     const lmb_vec3 centre = test_random(r) % 8u ? place(r, 3.0f, rare) : p->centre, normal = direction(r);
-    float half[3];
-    const lmb_vec3 point = add3(centre, place(r, 0.2f, rare)), turned = direction(r);
+    const lmb_vec3 middle = add3(centre, place(r, 0.1f, rare)), other = direction(r);
+    const lmb_vec3 across = normalize3(sub3(other, mul3(normal, dot3(normal, other))));
     const float at[3] = {centre.x, centre.y, centre.z}, n[3] = {normal.x, normal.y, normal.z};
-    const float s[3] = {point.x, point.y, point.z}, sn[3] = {turned.x, turned.y, turned.z};
+    const float m[3] = {middle.x, middle.y, middle.z}, a[3] = {across.x, across.y, across.z};
     for (int c = 0; c < 3; ++c) {
-        half[c] = flat >> c & 1u ? 0.0f : number(r, 0.0f, 0.3f, rare);
         out->node[LMB_WEIGH_CENTRE + c][k] = at[c];
         out->node[LMB_WEIGH_NORMAL + c][k] = n[c];
-        out->node[LMB_WEIGH_LOW + c][k] = at[c] - half[c];
-        out->node[LMB_WEIGH_HIGH + c][k] = at[c] + half[c];
-        out->node[LMB_WEIGH_SEEN + c][k] = s[c];
-        out->node[LMB_WEIGH_SEEN_NORMAL + c][k] = sn[c];
+        out->node[LMB_WEIGH_MIDDLE + c][k] = m[c];
+        out->node[LMB_WEIGH_ACROSS + c][k] = a[c];
+        out->node[LMB_WEIGH_HALF + c][k] = flat >> c & 1u ? 0.0f : number(r, 0.0f, 0.3f, rare);
     }
+    out->node[LMB_WEIGH_RADIUS][k] = number(r, 0.0f, 0.5f, rare);
+    out->node[LMB_WEIGH_AGREEMENT][k] = number(r, 0.0f, 1.0f, rare);
     out->node[LMB_WEIGH_FLUX][k] = test_random(r) % 8u ? number(r, 0.0f, 5.0f, rare) : 0.0f;
     out->node[LMB_WEIGH_AREA][k] = number(r, 0.0f, 0.5f, rare);
     out->node[LMB_WEIGH_COSINE][k] = test_random(r) % 3u ? number(r, -1.0f, 1.0f, rare) : 1.0f;
@@ -659,8 +659,16 @@ static int trial_weigh(const trial *t, test_rng r)
     GUARD(got);
     p.pixels = ~(uint64_t)0;
     p.centre = place(&r, 2.0f, 0);
-    p.half = vec3(test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f));
     p.normal = direction(&r);
+    p.axis[0] = t->seed % 7u ? p.normal : direction(&r);
+    const lmb_vec3 other = direction(&r);
+    p.axis[1] = normalize3(sub3(other, mul3(p.axis[0], dot3(p.axis[0], other))));
+    p.axis[2] = cross3(p.axis[0], p.axis[1]);
+    for (int c = 0; c < 3; ++c) {
+        p.half[c] = test_uniform(&r, 0.0f, 0.3f);
+    }
+    p.thick = test_uniform(&r, 0.0f, 0.3f);
+    p.noise = test_uniform(&r, 0.0f, 1e-5f);
     p.sine = t->seed % 3u ? 0.0f : test_uniform(&r, 0.0f, 1.0f);
     p.face_sine = maxf(p.sine, t->seed % 5u ? 0.0f : test_uniform(&r, 0.0f, 1.0f));
     for (int k = 0; k < LMB_WEIGH_NODES; ++k) {
@@ -854,6 +862,42 @@ static int trial_meets(const trial *t, test_rng r)
     return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
 }
 
+static int trial_sun_meets(const trial *t, test_rng r)
+{
+    static lmb_boxes boxes;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const lmb_vec3 to = direction(&r), low = place(&r, 2.0f, 0);
+    const float d[3] = {to.x, t->seed % 5u == 0 ? 0.0f : to.y, to.z}, from[3] = {low.x, low.y, low.z};
+    lmb_sun_sweep s;
+    for (int c = 0; c < 3; ++c) {
+        s.low[c] = from[c];
+        s.high[c] = from[c] + test_uniform(&r, 0.0f, 1.0f);
+        s.per[c] = per(d[c]);
+    }
+    make_boxes(&boxes, &r, low, rare);
+    const uint32_t want = lmb_kernels_scalar.sun_meets(&s, &boxes), got = t->kernels->sun_meets(&s, &boxes);
+    return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
+}
+
+static int trial_sun_crossed(const trial *t, test_rng r)
+{
+    static lmb_tile tile;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    lmb_sun_job job;
+    make_gather_tile(&tile, t, &r, rare);
+    job.at = place(&r, 2.0f, rare);
+    job.normal = direction(&r);
+    for (int i = 0; i < 3; ++i) {
+        job.edge[i] = place(&r, 2.0f, rare);
+        job.offset[i] = number(&r, -0.5f, 2.0f, rare);
+    }
+    job.beyond = number(&r, -2.0f, 2.0f, rare);
+    const uint64_t pixels = random_pixels(t, &r);
+    const uint64_t want = lmb_kernels_scalar.sun_crossed(&tile, pixels, &job),
+                   got = t->kernels->sun_crossed(&tile, pixels, &job);
+    return (want & ~pixels) == 0 && same_bytes(t, "pixels", &want, &got, sizeof want);
+}
+
 /* --- many lights -------------------------------------------------------------------------------------------------- */
 
 /* Planes of nodes as far as kernels may read, and a tile's part that asks. */
@@ -861,7 +905,8 @@ static int trial_many_bounds(const trial *t, test_rng r)
 {
     enum { STEP = 64 };
     static GUARDED(float_pair) want, got;
-    float plane[LMB_MANY_PLANES][STEP];
+    float plane[LMB_MANY_PLANES][STEP], inside[2][16];
+    static lmb_many_node node[STEP];
     lmb_many many;
     lmb_many_job job;
     const uint32_t rare = t->seed % 2u ? 20u : 0, count = 1u + test_random(&r) % 8u;
@@ -869,6 +914,10 @@ static int trial_many_bounds(const trial *t, test_rng r)
     memset(&many, 0, sizeof many);
     many.plane = plane[0];
     many.plane_step = STEP;
+    many.node = node;
+    for (int i = 0; i < STEP; ++i) {
+        node[i].kind = t->seed % 3u;
+    }
     numbers(plane[0], LMB_MANY_PLANES * STEP, &r, -3.0f, 3.0f, rare);
     numbers(plane[LMB_MANY_HALF], 3 * STEP, &r, 0.0f, 0.5f, rare);
     numbers(plane[LMB_MANY_POWER], STEP, &r, 0.0f, 5.0f, rare);
@@ -878,11 +927,14 @@ static int trial_many_bounds(const trial *t, test_rng r)
     job.bend = t->seed % 3u ? 0.0f : test_uniform(&r, 0.0f, 0.4f);
     GUARD(want);
     GUARD(got);
-    lmb_kernels_scalar.many_bounds(want.it.a, want.it.b, &many, first, count, &job);
-    t->kernels->many_bounds(got.it.a, got.it.b, &many, first, count, &job);
+    numbers(plane[LMB_MANY_AXIS], 5 * STEP, &r, -1.0f, 1.0f, rare);
+    numbers(plane[LMB_MANY_OUTER], STEP, &r, 0.0f, 1.0f, rare);
+    lmb_kernels_scalar.many_bounds(want.it.a, want.it.b, inside[0], &many, first, count, &job);
+    t->kernels->many_bounds(got.it.a, got.it.b, inside[1], &many, first, count, &job);
     CHECK(canaries_stay(got.before, got.after));
     return same_floats(t, "error", want.it.a, got.it.a, (int)count) &&
-           same_floats(t, "light", want.it.b, got.it.b, (int)count);
+           same_floats(t, "light", want.it.b, got.it.b, (int)count) &&
+           same_floats(t, "inside", inside[0], inside[1], (int)count);
 }
 
 static lmb_many_lamp make_lamp(test_rng *r, uint32_t rare)
@@ -895,7 +947,12 @@ static lmb_many_lamp make_lamp(test_rng *r, uint32_t rare)
     lamp.share[1] = 1.0f - lamp.share[0];
     for (int i = 0; i < 2; ++i) {
         lamp.seen[i] = (uint64_t)test_random(r) << 32 | test_random(r);
+        lamp.source[i].position = place(r, 3.0f, rare);
+        lamp.source[i].direction = direction(r);
+        lamp.source[i].cos_outer = test_uniform(r, 0.0f, 1.0f);
+        lamp.per[i] = test_uniform(r, 1.0f, 20.0f);
     }
+    lamp.kind = test_random(r) % 3u;
     return lamp;
 }
 
@@ -1264,6 +1321,8 @@ static const struct kernel {
     {"segments", trial_segments},
     {"through", trial_through},
     {"meets", trial_meets},
+    {"sun_crossed", trial_sun_crossed},
+    {"sun_meets", trial_sun_meets},
     {"many_bounds", trial_many_bounds},
     {"many_shine", trial_many_shine},
     {"blend", trial_blend},

@@ -51,13 +51,13 @@ static void take_maps(stage *s)
     uint32_t faces = 0, side;
     f->light_map = 1024;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i]);
+        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i], scene);
     }
     while ((uint32_t)f->light_map * (uint32_t)f->light_map * faces > 2u << 20) {
         f->light_map /= 2;
     }
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        f->map_bytes += lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i]), f->light_map, LMB_ID32);
+        f->map_bytes += lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i], scene), f->light_map, LMB_ID32);
     }
     f->map_memory = s->map_memory = take(f->map_bytes);
     side = (uint32_t)f->light_map / 8u;
@@ -447,7 +447,7 @@ static void take_tree(stage *s, int32_t size, float error, float visible)
     const uint32_t triangles = lmb_scene_triangles(scene);
     uint32_t faces = 0;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i]);
+        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i], scene);
     }
     const size_t tree = lmb_tree_bytes(faces, size), blockers = lmb_blockers_bytes(triangles);
     free(s->tree_memory);
@@ -514,7 +514,7 @@ static void tile_errors(cut_errors *e, stage *s, lmb_cut *cut, const texel_quad 
     lmb_irradiance got;
     memset(&got, 0, sizeof got);
     memset(&how, 0, sizeof how);
-    how.error = how.visible = 0.02f;
+    how.error = how.visible = s->frame.proven ? 0.02f : 0.01f;
     how.proven = s->frame.proven;
     how.stats = &s->stats;
     CHECK(lmb_gather_cut(&got, s->frame.kernels, cut, tile, &s->render->frame.tree, &how) == LMB_OK);
@@ -561,7 +561,7 @@ static void check_cut_error(const char *name, int proven, double most_share)
     if (stage_open(&s, name, "pt_indirect1.pfm")) {
         const lmb_view *v = &s.frame.view;
         const int32_t wide = v->frame_width / LMB_TILE, tiles = wide * (v->frame_height / LMB_TILE);
-        take_tree(&s, 256, 0.02f, 0.02f);
+        take_tree(&s, 256, 0.01f, 0.02f);
         stage_draw(&s, LMB_SHOW_INDIRECT);
         const lmb_tree *tree = &s.render->frame.tree;
         texel_quad *quads = take(sizeof *quads * 65536u * tree->faces);
@@ -578,7 +578,7 @@ static void check_cut_error(const char *name, int proven, double most_share)
         const double p999 = (double)error_at(&e, proven ? 1.0 : 0.999), share = (double)s.stats.pairs / e.all;
         printf("  %-15s %s %.4f of %d pixels, by %.1f %% of the pairs\n", name, proven ? "proven, most" : "p99.9", p999,
                e.count, share * 100.0);
-        CHECK_MSG(p999 <= 0.02, "%s: %g", name, p999);
+        CHECK_MSG(p999 <= (proven ? 0.02 : 0.01), "%s: %g", name, p999);
         CHECK_MSG(share <= most_share, "%s: %g", name, share);
         free(quads);
         stage_close(&s);
@@ -633,15 +633,15 @@ void test_truth(void)
                   {"mixed_with", 0, 0}, {"mixed_without", 0, 0}};
     /* The tool's default, and its best. */
     static const cut_row cuts[] = {
-        {"cornell", 256, 0.2f, 0.06f, 0.05, 0.08, 0.3},
-        {"corridor", 256, 0.2f, 0.06f, 0.05, 0.08, 0.3},
-        {"corner_contact", 256, 0.2f, 0.06f, 0.05, 0.08, 0.3},
-        {"corridor", 1024, 0.05f, 0.015f, 0.015, 0.04, 0.1},
+        {"cornell", 256, 0.02f, 0.015f, 0.05, 0.08, 0.3},
+        {"corridor", 256, 0.02f, 0.015f, 0.05, 0.08, 0.3},
+        {"corner_contact", 256, 0.02f, 0.015f, 0.05, 0.08, 0.3},
+        {"corridor", 1024, 0.01f, 0.005f, 0.015, 0.04, 0.1},
     };
     static const cut_row more_cuts[] = {
-        {"cornell", 1024, 0.05f, 0.015f, 0.015, 0.04, 0.1},
-        {"corner_contact", 1024, 0.05f, 0.015f, 0.015, 0.08, 0.3},
-        {"bunny_room", 1024, 0.05f, 0.015f, 0.015, 0.04, 0.1},
+        {"cornell", 1024, 0.01f, 0.005f, 0.015, 0.04, 0.1},
+        {"corner_contact", 1024, 0.01f, 0.005f, 0.015, 0.08, 0.3},
+        {"bunny_room", 1024, 0.01f, 0.005f, 0.015, 0.04, 0.1},
     };
     printf(" G-buffer\n");
     for (int i = 0; i < COUNT(scenes); ++i) {
@@ -668,7 +668,7 @@ void test_truth(void)
         check_cut(&more_cuts[i]);
     }
     printf(" cuts against every texel\n");
-    check_cut_error("cornell", 0, 0.05);
+    check_cut_error("cornell", 0, 0.08);
     for (int i = 0; i < COUNT(scenes) && getenv("LMB_TRUTH_ALL") != NULL; ++i) {
         check_cut_error(scenes[i].name, 0, strcmp(scenes[i].name, "sponza") == 0 ? 0.16 : 1.0);
         check_cut_error(scenes[i].name, 1, 1.0);

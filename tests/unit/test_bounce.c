@@ -447,13 +447,15 @@ static void check_hand_joining(void)
     CHECK(lmb_discs_join(&points, &map, &g) == LMB_OK && points.count == 5 && absf(p->distance - 0.01f) < 1e-6f);
 }
 
-/* V9: 25 cm, 50 cm and 1 m over points 40 cm apart leave none, the four beside, and the diagonals too. */
+/* V9: 25 cm, 50 cm, 70 cm and 1 m over points 40 cm apart reach none, the four beside, the diagonals, and the twelve
+ * beyond those that a metre reaches. */
 static void check_thresholds(void)
 {
     static const struct {
         float neighbour_m;
         double mean;
-    } want[] = {{0.25f, 0.4}, {0.5f, 0.4}, {1.0f, 0.2 * (1.0 + 1.4142135623730951)}};
+    } want[] = {{0.25f, 0.4}, {0.5f, 0.4}, {0.7f, 0.2 * (1.0 + 1.4142135623730951)},
+                {1.0f, 0.4 * (4.0 + 4.0 * 1.4142135623730951 + 8.0 + 8.0 * 2.2360679774997896) / 20.0}};
     const double half = 0.2 * SIDE / 8; /* of a plane whose blocks are 40 cm */
     lmb_light l = sun(vec3(0, -1, 0));
     begin_coloured(0.5f, 0.5f, 0.5f);
@@ -469,6 +471,138 @@ static void check_thresholds(void)
         CHECK_MSG(distance_error(want[i].mean * step / 0.4) < 1e-3, "within %g m: %g", (double)want[i].neighbour_m,
                   distance_error(want[i].mean * step / 0.4));
     }
+}
+
+/* --- neighbours by radius, against all points asked one by one --- */
+
+static int is_met(const lmb_point *p, const lmb_point *q, const lmb_grouping *g)
+{
+    const lmb_vec3 away = sub3(q->position, p->position);
+    const int faces = dot3(p->normal, q->normal) >= 0.90630779f;
+    const int cells = g->neighbour_cells;
+    return p != q && p->face == q->face &&
+           (g->flags & LMB_NEAR_HEMISPHERE ? dot3(p->normal, away) >= -1e-3f * length3(away) : faces) &&
+           (g->neighbour_m <= 0.0f || length3(away) <= g->neighbour_m) &&
+           (cells == 0 || (abs(p->cell_x - q->cell_x) <= cells && abs(p->cell_y - q->cell_y) <= cells));
+}
+
+/* Of the face collected last; 0: no neighbour. */
+static double mean_of_all(const lmb_point *p, const lmb_grouping *g)
+{
+    double sum = 0.0;
+    uint32_t met = 0;
+    for (uint32_t j = points.cells[0]; j < points.count; ++j) {
+        const lmb_point *q = &points.data[j];
+        if (is_met(p, q, g)) {
+            sum += (double)length3(sub3(q->position, p->position));
+            ++met;
+        }
+    }
+    return met > 0 ? sum / met : 0.0;
+}
+
+/* Distances of a map's points, each as a share of what all points of its face say. */
+typedef struct distances {
+    double worst, off, mean; /* the farthest off; mean of how far; of the distances themselves, m */
+} distances;
+
+static distances distances_of(const lmb_light *l, const lmb_grouping *g)
+{
+    distances d = {0.0, 0.0, 0.0};
+    uint32_t count = 0;
+    clear_points();
+    CHECK(lmb_light_map_init(&map, l, &world.scene, SIDE / 2, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    CHECK(lmb_light_map_clear(&map) == LMB_OK);
+    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    for (int32_t f = 0; f < map.faces; ++f) {
+        if ((map.drawn >> f & 1u) == 0) {
+            continue;
+        }
+        CHECK(lmb_points_collect(&points, lmb_kernels_pick(), &tile, &world.scene, l, &map, f, 0, SIDE / 16, g) ==
+              LMB_OK);
+        const uint32_t first = points.cells[0];
+        CHECK(lmb_discs_join(&points, &map, g) == LMB_OK);
+        for (uint32_t i = first; i < points.count; i += 3) {
+            const lmb_point *p = &points.data[i];
+            const double all = mean_of_all(p, g), off = all > 0.0 ? fabs((double)p->distance / all - 1.0) : 0.0;
+            d.worst = fmax(d.worst, off);
+            d.off += off;
+            d.mean += (double)p->distance;
+            ++count;
+        }
+    }
+    CHECK(count > 50);
+    d.off /= count;
+    d.mean /= count;
+    return d;
+}
+
+static lmb_grouping neighbours_within(float metres, int32_t cells, uint32_t flags, int32_t block)
+{
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, block);
+    g.join = 1e-30f;
+    g.neighbour_m = metres;
+    g.neighbour_cells = cells;
+    g.flags = flags;
+    return g;
+}
+
+/* V8 V9 V10: any point within the radius, in space or in the map, however a light's map foreshortens it. Of
+ * 64 x 64 cells every second one each way stands for all where the radius spans more than half of them. */
+static void check_radii(void)
+{
+    static const float radius[] = {0.05f, 0.25f, 0.5f, 1.0f, 3.0f};
+    const lmb_light lights[] = {point_light(vec3(0.1f, 0.3f, -0.1f)),
+                                spot(vec3(0.1f, 0.8f, -0.2f), vec3(0.2f, -1, 0.3f), 20, 48),
+                                spot(vec3(-0.9f, 0.1f, -0.2f), vec3(1, -0.2f, 0.1f), 20, 80),
+                                sun(vec3(0.3f, -1, 0.2f))};
+    const lmb_grouping half = neighbours_within(3.0f, 0, 0, 2);
+    make_room();
+    for (int l = 0; l < COUNT(lights); ++l) {
+        double before = 0.0;
+        for (int i = 0; i < COUNT(radius); ++i) {
+            const lmb_grouping facing = neighbours_within(radius[i], 0, 0, 8),
+                               over = neighbours_within(radius[i], 0, LMB_NEAR_HEMISPHERE, 8),
+                               fine = neighbours_within(radius[i], 0, 0, 4);
+            const distances d = distances_of(&lights[l], &facing), e = distances_of(&lights[l], &over),
+                            s = i % 2 ? d : distances_of(&lights[l], &fine);
+            CHECK_MSG(d.worst < 1e-4 && e.worst < 1e-4 && s.worst < 1e-4, "light %d, %g m: %g, %g, %g", l,
+                      (double)radius[i], d.worst, e.worst, s.worst);
+            CHECK_MSG(i < 2 || d.mean > 1.05 * before, "light %d, %g m: %g m", l, (double)radius[i], d.mean);
+            before = d.mean;
+        }
+        if (map.faces == 1) {
+            const distances s = distances_of(&lights[l], &half);
+            CHECK_MSG(s.off < 0.03, "light %d, every second cell: %g, at worst %g", l, s.off, s.worst);
+        }
+        for (int32_t cells = 1; cells <= 3; ++cells) {
+            const lmb_grouping map_alone = neighbours_within(0.0f, cells, 0, 8),
+                               both = neighbours_within(0.2f, cells, 0, 8);
+            CHECK(distances_of(&lights[l], &map_alone).worst < 1e-4 && distances_of(&lights[l], &both).worst < 1e-4);
+        }
+    }
+}
+
+/* V12: discs as wide as they are asked to be; no light is lost. */
+static void check_disc_radius(void)
+{
+    lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
+    make_room();
+    clear_points();
+    add_points(&l, SIDE / 2, &g, 1);
+    const double flux = flux_of(0);
+    const uint32_t count = points.count;
+    g.radius = 0.7f;
+    clear_points();
+    add_points(&l, SIDE / 2, &g, 1);
+    CHECK(points.count == count && flux_of(0) == flux);
+    double worst = 0.0;
+    for (uint32_t i = 0; i < points.count; ++i) {
+        const lmb_point *p = &points.data[i];
+        worst = fmax(worst, fabs(sqrt(area_of(p) / PI) / (0.7 * (double)p->distance) - 1.0));
+    }
+    CHECK_MSG(worst < 1e-5, "%g", worst);
 }
 
 /* V10: over the first point's surface lie, at its rim, the points of its plane, and one on a wall that faces another
@@ -497,6 +631,8 @@ static void check_hemisphere(void)
 static void test_discs(void)
 {
     check_thresholds();
+    check_radii();
+    check_disc_radius();
     check_hemisphere();
     check_distances();
     check_joining();
@@ -671,6 +807,24 @@ static void check_many_faces(void)
     }
 }
 
+/* V20: as many zones as are asked for, however many groups there may be. */
+static void check_zone_count(void)
+{
+    lmb_light l = sun(vec3(0, -1, 0));
+    lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 90, 8);
+    begin_coloured(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 0), Z, X);
+    CHECK(world_end() == LMB_OK);
+    for (g.zones = 4; g.zones <= 64; g.zones *= 4) {
+        clear_points();
+        add_points(&l, SIDE, &g, 1);
+        memset(&stats, 0, sizeof stats);
+        CHECK(lmb_group_points(&groups, &points, &g, &stats) == LMB_OK && stats.regroups == 0);
+        CHECK_MSG(groups.count >= g.zones && groups.count <= 9 * g.zones / 4, "%d zones: %d groups", (int)g.zones,
+                  (int)groups.count);
+    }
+}
+
 /* V20: a plate 1 m over a floor; zones of 4x4 discs. What misfits opens a second group; strict drops it and says so. */
 static void check_zones(void)
 {
@@ -682,7 +836,8 @@ static void check_zones(void)
     world_quad(vec3(0, 0, 0), Z, X);
     world_quad(vec3(0.13f, 1, 0.07f), mul3(Z, 0.41f), mul3(X, 0.41f));
     CHECK(world_end() == LMB_OK);
-    g.neighbour_m = 0.3f; /* V9: the plate is no neighbour of the floor, so neither stretches the other's reach */
+    g.neighbour_m = 0.3f; /* V9: the plate is no neighbour of the floor, so neither stretches the other's reach; */
+    g.neighbour_cells = 1; /* V8: and of the floor's points only those around */
     clear_points();
     add_points(&l, SIDE, &g, 1);
     g.groups = (int32_t)(points.count / 10); /* 4x4 are the smallest zones of which that many hold all */
@@ -902,6 +1057,7 @@ static void test_groups(void)
         check_greedy(2.0f, 0.95f);
         check_greedy(5.0f, 0.7f);
         check_zones();
+        check_zone_count();
         check_group_limits();
     } else {
         SKIP("grouping by reach, zones one by one: %d groups are too few to tell", LMB_MAX_GROUPS);

@@ -113,7 +113,7 @@ static void test_grouping_ends(void)
 {
     test_rng r = {5};
     for (int n = 0; n < 400; ++n) {
-        lmb_grouping g = {LMB_GROUP_ZONES, 8, 1, 0, 0, 0, 0, 0, 0};
+        lmb_grouping g = {LMB_GROUP_ZONES, 8, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
         lmb_vec3 a = {test_uniform(&r, -1, 1), test_uniform(&r, -1, 1), test_uniform(&r, -1, 1)};
         float length = test_uniform(&r, 0.9999f, 1.0001f), d = a.x * a.x + a.y * a.y + a.z * a.z, s = 1.0f;
         for (int i = 0; i < 20; ++i) {

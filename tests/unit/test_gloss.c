@@ -326,6 +326,7 @@ static void mirrored_wall(float roughness, uint32_t elements, double low, double
     world.material[1].emission[1] = elements > 0 ? 1.0f : 0.0f;
     const float wall = elements > 0 ? 1.0f : 0.5f / (float)PI * -light.direction.z * light.intensity[1];
     lmb_frame f = bounce_frame(&v, 1);
+    f.error = 0.0005f; /* what is shown is compared with an integral, not with a cut */
     CHECK(elements == 0 || lmb_elements_init(&f.elements, elements, element_memory, sizeof element_memory) == LMB_OK);
     f.show = LMB_SHOW_INDIRECT;
     f.occlusion = LMB_OCCLUSION_NONE;

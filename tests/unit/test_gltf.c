@@ -157,9 +157,16 @@ static void emission(void)
     CHECK(gives_off(4, 2, 8) && noted("emissive materials, which light the scene with --grouping cut only: 1"));
     snprintf(material, sizeof material, strong, ",\"emissiveTexture\":{\"index\":0}");
     CHECK_MSG(load_look(material), "%s", problem.text);
-    /* Means in linear light: (0.21586 + 1) / 2, (0.21586 + 0) / 2, (1 + 0) / 2. */
-    CHECK(gives_off(4 * 0.60793, 2 * 0.10793, 8 * 0.5) &&
-          noted("emissive maps used by their mean: 1"));
+    CHECK(gives_off(4, 2, 8) && loaded.scene.materials[0].emission_map == 1 && loaded.scene.meshes[0].uvs &&
+          !noted("emissive maps"));
+    /* Other texture coordinates than the base colour's: means in linear light, (0.21586 + 1) / 2, (0.21586 + 0) / 2,
+     * (1 + 0) / 2. */
+    snprintf(material, sizeof material, strong,
+             ",\"emissiveTexture\":{\"index\":0,\"texCoord\":1},"
+             "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}");
+    CHECK_MSG(load_look(material), "%s", problem.text);
+    CHECK(gives_off(4 * 0.60793, 2 * 0.10793, 8 * 0.5) && loaded.scene.materials[0].emission_map == 0 &&
+          noted("emissive maps used by their mean"));
     CHECK_MSG(load_look("\"emissiveTexture\":{\"index\":0}"), "%s", problem.text);
     CHECK(gives_off(0, 0, 0) && !noted("emissive"));
     check_fails(load_look("\"emissiveFactor\":[1,2]"), "emissiveFactor: must be an array of 3");
@@ -202,6 +209,25 @@ static void lobes(void)
     }
     forget();
     CHECK(!model_make_glossy(&loaded));
+}
+
+/* A map of metal is kept by texel for the lobe, with the factors; without a lobe its mean darkens the albedo. One with
+ * other texture coordinates counts as its mean in the lobe too: blue (1 + 0) / 2, green (128 / 255 + 0) / 2. */
+static void metal_maps(void)
+{
+    const lmb_material *m;
+    CHECK_MSG(load_look("\"pbrMetallicRoughness\":{\"baseColorFactor\":[1,0.5,1,1],\"metallicFactor\":0.5,"
+                        "\"roughnessFactor\":0.25,\"metallicRoughnessTexture\":{\"index\":0}}"), "%s", problem.text);
+    m = loaded.scene.materials;
+    CHECK(has_lobe(0.375, 0, 0) && m->metal_map == 0 && m->metallic == 0.0f);
+    CHECK(model_make_glossy(&loaded) && lmb_scene_check(&loaded.scene) == LMB_OK);
+    CHECK(has_lobe(0.5, 0.04, 0.25) && m->metal_map == 1 && m->metallic == 0.5f);
+    if (loaded.scene.texture_count == 1) /* codes' means, not light's */
+        CHECK(loaded.scene.textures[0].texels[8] == 192 && loaded.scene.textures[0].texels[10] == 128);
+    CHECK_MSG(load_look("\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"roughnessFactor\":0.5,"
+                        "\"metallicRoughnessTexture\":{\"index\":0,\"texCoord\":1}}"), "%s", problem.text);
+    CHECK(has_lobe(0.5, 0, 0) && model_make_glossy(&loaded));
+    CHECK(has_lobe(0.5, 0.04 + (0.10793 - 0.04) * 0.5, 0.5 * 64 / 255.0) && loaded.scene.materials[0].metal_map == 0);
 }
 
 /* --- skins --- */
@@ -443,6 +469,7 @@ void test_gltf(void)
     normal_maps();
     emission();
     lobes();
+    metal_maps();
     skins();
     conversions();
     neighbours();

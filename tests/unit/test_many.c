@@ -1,4 +1,4 @@
-/* test_many.c: many point lights: the stream's cells, their tree, a tile's cut, its shadows. [V3 V29] */
+/* test_many.c: many lights: the stream's cells, their tree, a tile's cut, its shadows. [V3 V29] */
 #include <stdlib.h>
 
 #include "../world.h"
@@ -69,6 +69,31 @@ static void make_lights(uint32_t count, test_rng *r)
     }
 }
 
+/* Spots of all widths and ways, some with hard edges, and suns, some of them close together, among the points. */
+static void make_kinds(uint32_t count, test_rng *r)
+{
+    make_lights(count, r);
+    for (uint32_t i = 0; i < count; ++i) {
+        lmb_light *l = &lights[i];
+        const float z = test_uniform(r, -1, 1), y = test_uniform(r, -1, 1), x = test_uniform(r, -1, 1);
+        const uint32_t kind = test_random(r) % 4u;
+        l->direction = vec3(x, y, z);
+        l->direction = mul3(l->direction, 1.0f / maxf(length3(l->direction), 0.01f));
+        if (i % 5u == 1 && absf(length3(lights[i - 1].direction) - 1.0f) < 1e-3f) {
+            l->direction = lights[i - 1].direction;
+        }
+        l->kind = kind == 3 && i % 4u == 0 ? LMB_LIGHT_DIRECTIONAL : kind > 0 ? LMB_LIGHT_SPOT : LMB_LIGHT_POINT;
+        l->cos_outer = test_uniform(r, 0.1f, 0.95f);
+        l->cos_inner = i % 3u == 0 ? l->cos_outer : test_uniform(r, l->cos_outer, 1.0f);
+        for (int c = 0; c < 3 && l->kind == LMB_LIGHT_DIRECTIONAL; ++c) {
+            l->intensity[c] *= 0.1f;
+        }
+        if (absf(length3(l->direction) - 1.0f) > 1e-3f) {
+            l->kind = LMB_LIGHT_POINT;
+        }
+    }
+}
+
 static void shuffle(uint32_t count, test_rng *r)
 {
     memcpy(shuffled, lights, count * sizeof *lights);
@@ -93,10 +118,14 @@ static int is_same_tree(const lmb_many *a, const lmb_many *b)
 /* Any order, any slices: the same bytes, over little room (one cell) and much (every light its own). */
 static void check_order(test_rng *r)
 {
-    static const uint32_t cells[] = {1, 7, CELLS, 2 * LIGHTS};
+    static const uint32_t cells[] = {1, 7, CELLS, 2 * LIGHTS, 8, CELLS, 2 * LIGHTS};
     for (int k = 0; k < COUNT(cells); ++k) {
         grove a, b;
-        make_lights(LIGHTS, r);
+        if (k < 4) {
+            make_lights(LIGHTS, r);
+        } else {
+            make_kinds(LIGHTS, r);
+        }
         grove_make(&a, cells[k], 3.0f * LIGHTS, lights, LIGHTS);
         for (int again = 0; again < 3; ++again) {
             shuffle(LIGHTS, r);
@@ -174,9 +203,10 @@ static void check_lots(test_rng *r)
             l[i % 2].intensity[c] *= 3.0f;
         }
         grove_make(&g, 1, 100.0f, l, 2);
-        CHECK(g.many.node_count == 1 && memcmp(&g.many.node[0].strongest, &l[i % 2].position, sizeof(lmb_vec3)) == 0);
+        CHECK(g.many.node_count == 1 &&
+              memcmp(&g.many.node[0].strongest.position, &l[i % 2].position, sizeof(lmb_vec3)) == 0);
         CHECK(fabs((double)g.many.node[0].share - 0.75) < 1e-6);
-        strong += memcmp(&g.many.node[0].median, &l[i % 2].position, sizeof(lmb_vec3)) == 0;
+        strong += memcmp(&g.many.node[0].median.position, &l[i % 2].position, sizeof(lmb_vec3)) == 0;
         grove_free(&g);
     }
     CHECK_MSG(abs(strong - 3000) < 110, "%d of 4000", strong); /* four standard deviations of 27 */
@@ -209,9 +239,12 @@ static void check_refusals(void)
     l[5] = point_light(vec3(0, 0, 0));
     memset(l[5].intensity, 0, sizeof l[5].intensity);
     CHECK(lmb_many_add(&g.many, l, 6) == LMB_OK && g.many.dropped == 6 && g.many.lights == 0 && g.many.cell_count == 0);
-    l[0] = spot(vec3(0, 0, 0), Y, 10, 20);
-    l[1] = sun(Y);
-    CHECK(lmb_many_add(&g.many, l, 2) == LMB_OK && g.many.dropped == 6 && g.many.lights == 0);
+    l[0] = l[1] = l[2] = spot(vec3(0, 0, 0), Y, 10, 20);
+    l[0].direction = vec3(0, 2, 0);
+    l[1].cos_outer = l[1].cos_inner + 0.1f;
+    l[2].cos_outer = (float)NAN;
+    l[3] = sun(vec3((float)NAN, 0, 0));
+    CHECK(lmb_many_add(&g.many, l, 4) == LMB_OK && g.many.dropped == 10 && g.many.lights == 0);
     l[0] = point_light(vec3(0, 0, 0));
     l[1] = point_light(vec3(1, 0, 0));
     l[1].intensity[2] = 1e6f;
@@ -219,6 +252,12 @@ static void check_refusals(void)
     CHECK(lmb_many_add(NULL, l, 1) == LMB_ERR_ARG && lmb_many_add(&g.many, NULL, 1) == LMB_ERR_ARG);
     CHECK(lmb_many_build(&g.many) == LMB_OK && lmb_many_build(&g.many) == LMB_ERR_ARG);
     CHECK(lmb_many_add(&g.many, l, 1) == LMB_ERR_ARG); /* the stream has ended */
+    grove_free(&g);
+    grove_begin(&g, 2, 100.0f); /* fewer cells than kinds */
+    l[0] = point_light(vec3(0, 0, 0));
+    l[1] = spot(vec3(0, 0, 0), Y, 10, 20);
+    l[2] = sun(Y);
+    CHECK(lmb_many_add(&g.many, l, 3) == LMB_ERR_CAPACITY && g.many.lights == 2);
     grove_free(&g);
 }
 
@@ -303,8 +342,12 @@ static void sum_lights(double out[LMB_TILE_PIXELS], const lmb_tile *tile, uint32
         memset(&e, 0, sizeof e);
         const lmb_view v = look(vec3(0, 5, 0), vec3(0, 0, 0), 60, 64);
         CHECK(lmb_direct_tile(&e, lmb_kernels_pick(), tile, &v, &world.scene, &lights[i], NULL) == LMB_OK);
-        const uint64_t blocked = blockers == NULL ? 0 : lmb_blocked_tile(blockers, lmb_kernels_pick(), tile, UINT64_MAX,
-                                                                         lights[i].position, &walk);
+        const uint64_t blocked =
+            blockers == NULL ? 0
+            : lights[i].kind == LMB_LIGHT_DIRECTIONAL
+                ? lmb_blocked_sun(blockers, lmb_kernels_pick(), tile, UINT64_MAX, mul3(lights[i].direction, -1), &walk)
+                : lmb_blocked_tile(blockers, lmb_kernels_pick(), tile, UINT64_MAX, lights[i].position,
+                                   lmb_tile_noise(tile, UINT64_MAX), &walk);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             out[k] += (blocked >> k & 1u) != 0 || tile->id[k] == 0 ? 0.0 : (double)e.rgb[1][k];
         }
@@ -325,7 +368,7 @@ static double off(const lmb_irradiance *e, const double want[LMB_TILE_PIXELS])
 static double light_tile(lmb_irradiance *e, const lmb_tile *tile, const lmb_many *many, const lmb_blockers *blockers,
                          float error, const double want[LMB_TILE_PIXELS])
 {
-    const lmb_many_look how = {many, blockers, error};
+    const lmb_many_look how = {many, blockers, error, 0};
     memset(e, 0, sizeof *e);
     memset(&scratch, 0x5a, sizeof scratch); /* what is in it means nothing */
     scratch.nodes = scratch.tests = 0;
@@ -466,35 +509,201 @@ static void check_shadows(test_rng *r)
     grove_free(&g);
 }
 
-/* --- those that stand for all ------------------------------------------------------------------------------------- */
-
-static void check_stand_ins(test_rng *r)
+/* One sun among weak lights, over a tile whose four corners alone are in shadow: each pixel asks for what is strong. */
+static void check_corners(void)
 {
-    lmb_light few[LMB_MAX_LIGHTS];
-    static const uint32_t caps[] = {1, 5, 40, 1000};
-    grove g, none;
-    make_lights(LIGHTS, r);
-    grove_make(&g, CELLS, 3.0f * LIGHTS, lights, LIGHTS);
-    for (int i = 0; i < COUNT(caps); ++i) {
-        const uint32_t cap = caps[i] < LMB_MAX_LIGHTS ? caps[i] : LMB_MAX_LIGHTS;
-        const uint32_t count = lmb_many_lights(few, caps[i], &g.many);
-        double sum = 0.0;
-        CHECK_MSG(count <= cap && count + 7 > cap, "%u of %u", (unsigned)count, (unsigned)cap);
-        for (uint32_t k = 0; k < count; ++k) {
-            int own = 0;
-            for (int n = 0; n < LIGHTS && !own; ++n) {
-                own = length3(sub3(few[k].position, lights[n].position)) < 1e-6f;
-            }
-            CHECK(own && few[k].kind == LMB_LIGHT_POINT);
-            sum += (double)few[k].intensity[2];
-        }
-        CHECK(fabs(sum / (double)g.many.node[0].intensity[2] - 1.0) < 1e-5);
+    static uint64_t memory[2000];
+    static lmb_tile tile;
+    lmb_blockers blockers;
+    lmb_irradiance e;
+    double want[LMB_TILE_PIXELS];
+    grove g;
+    world_begin(0.5f, 0.5f, 0.5f);
+    make_floor_tile(&tile, vec3(0, -0.9f, -1));
+    for (int i = 0; i < 4; ++i) {
+        world_quad(vec3(i & 1 ? 0.28f : 0, 0, i & 2 ? -0.72f : -1), mul3(Z, 0.01f), mul3(X, 0.01f));
     }
-    grove_make(&none, 4, 1.0f, lights, 0);
-    CHECK(lmb_many_lights(few, 4, &none.many) == 0 && lmb_many_lights(NULL, 4, &g.many) == 0);
-    CHECK(lmb_many_lights(few, 0, &g.many) == 0 && lmb_many_lights(few, 4, NULL) == 0);
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_init(&blockers, 8, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    lights[0] = sun(vec3(0, -1, 0));
+    lights[1] = point_light(vec3(1, 2, 0));
+    for (int c = 0; c < 3; ++c) {
+        lights[1].intensity[c] = 0.01f;
+    }
+    grove_make(&g, 8, 10.0f, lights, 2);
+    sum_lights(want, &tile, 2, &blockers);
+    CHECK(want[0] < 0.1 * want[1] && want[63] < 0.1 * want[1]);
+    const double error = light_tile(&e, &tile, &g.many, &blockers, 0.02f, want);
+    CHECK_MSG(error < 1e-5, "%g", error);
     grove_free(&g);
-    grove_free(&none);
+}
+
+/* 300 spots, then a mixture, then suns alone: each light in a cell of its own and all taken give their sum; cuts err by
+ * less than they are asked to. Over a floor with a plate, so that cones and shadows meet. */
+static void check_kinds(test_rng *r)
+{
+    static const float asked[] = {0.01f, 0.04f};
+    static const char *const names[] = {"spots", "mixed", "suns"};
+    static uint64_t memory[1000];
+    static lmb_tile tile;
+    lmb_blockers blockers;
+    lmb_irradiance e;
+    double want[LMB_TILE_PIXELS];
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, -0.9f, -1), mul3(Z, 2), mul3(X, 2));
+    world_quad(vec3(0.1f, 0, -1), mul3(Z, 0.7f), mul3(X, 0.7f));
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_init(&blockers, 4, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    for (int set = 0; set < 3; ++set) {
+        grove g;
+        uint32_t all = 0, taken[2] = {0, 0};
+        double exact = 0.0, worst[2] = {0.0, 0.0}, sum[2] = {0.0, 0.0};
+        make_kinds(300, r);
+        for (int i = 0; i < 300; ++i) { /* no two in one place and way, so that each has a cell */
+            lights[i].position = vec3(test_uniform(r, -2, 2), lights[i].position.y, lights[i].position.z);
+            const int turned = absf(length3(lights[i].direction) - 1.0f) < 1e-3f;
+            lights[i].kind = set == 1 || !turned ? lights[i].kind : set == 0 ? LMB_LIGHT_SPOT : LMB_LIGHT_DIRECTIONAL;
+        }
+        grove_make(&g, 400, 900.0f, lights, 300);
+        CHECK(g.many.lights == 300 && g.many.node[0].lights == 300);
+        for (int i = 0; i < 64; ++i) {
+            make_floor_tile(&tile, vec3(-1.9f + 0.45f * (float)(i % 8), -0.9f, -2.9f + 0.45f * (float)(i / 8)));
+            sum_lights(want, &tile, 300, &blockers);
+            exact = fmax(exact, light_tile(&e, &tile, &g.many, &blockers, 1e-7f, want));
+            all += scratch.nodes;
+            for (int k = 0; k < COUNT(asked); ++k) {
+                const double error = light_tile(&e, &tile, &g.many, &blockers, asked[k], want);
+                worst[k] = fmax(worst[k], error);
+                sum[k] += error / 64.0;
+                taken[k] += scratch.nodes;
+            }
+        }
+        printf("  300 %s: %.0f nodes a tile; ", names[set], all / 64.0);
+        for (int k = 0; k < COUNT(asked); ++k) {
+            printf("at %.2f %.0f, off by %.4f, worst %.4f; ", (double)asked[k], taken[k] / 64.0, sum[k], worst[k]);
+            CHECK_MSG(sum[k] < (double)asked[k] && worst[k] < 4.0 * (double)asked[k], "%s: %g, %g", names[set], sum[k],
+                      worst[k]);
+        }
+        printf("all: %.1e\n", exact);
+        CHECK_MSG(exact < 0.01, "%g", exact);
+        CHECK(taken[1] < taken[0] && taken[0] < all);
+        grove_free(&g);
+    }
+}
+
+/* --- what bounces ------------------------------------------------------------------------------------------------- */
+
+enum { ELEMENTS = 4096, BOUNCING = 100 };
+
+static lmb_cut cut;
+
+/* A room with a box in it and lights of all kinds inside. */
+static lmb_blockers make_room(test_rng *r)
+{
+    static uint64_t memory[1000];
+    lmb_blockers b;
+    world_begin(0.5f, 0.6f, 0.7f);
+    world_box(vec3(0, 1, -1), 2.0f);
+    world_box(vec3(0.3f, 0, -1), 0.6f);
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_init(&b, 24, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
+    make_kinds(BOUNCING, r);
+    for (int i = 0; i < BOUNCING; ++i) {
+        lights[i].position = add3(vec3(0, 1, -1), mul3(sub3(lights[i].position, vec3(0, 1, -1)), 0.9f));
+    }
+    return b;
+}
+
+static void *make_elements(lmb_elements *e)
+{
+    void *memory = malloc(lmb_elements_bytes(ELEMENTS));
+    CHECK(lmb_elements_init(e, ELEMENTS, memory, lmb_elements_bytes(ELEMENTS)) == LMB_OK);
+    CHECK(lmb_elements_build(e, &world.scene, NULL) == LMB_OK && e->count > ELEMENTS / 8);
+    return memory;
+}
+
+/* Every light at every element, green alone. */
+static void light_elements(const lmb_elements *e, const lmb_blockers *b)
+{
+    static lmb_tile tile;
+    double sum[LMB_TILE_PIXELS];
+    for (uint32_t i = 0; i < e->count; i += LMB_TILE_PIXELS) {
+        memset(&tile, 0, sizeof tile);
+        for (uint32_t k = 0; k < LMB_TILE_PIXELS && i + k < e->count; ++k) {
+            const lmb_element *x = &e->data[i + k];
+            const lmb_vec3 *c = x->corner;
+            const lmb_vec3 middle = mul3(add3(c[0], add3(c[1], c[2])), 1.0f / 3.0f);
+            lmb_vec3 across = cross3(sub3(c[1], c[0]), sub3(c[2], c[0]));
+            /* the key's first bits are the side that it faces */
+            const float along[3] = {across.x, across.y, across.z}, side = (x->key >> 27) & 1u ? -1.0f : 1.0f;
+            across = mul3(across, side * along[x->key >> 28] < 0.0f ? -1.0f : 1.0f);
+            set_plane(tile.position, (int)k, middle);
+            set_plane(tile.normal, (int)k, mul3(across, 1.0f / length3(across)));
+            set_plane(tile.face, (int)k, mul3(across, 1.0f / length3(across)));
+            tile.id[k] = 1;
+        }
+        sum_lights(sum, &tile, BOUNCING, b);
+        for (uint32_t k = 0; k < LMB_TILE_PIXELS && i + k < e->count; ++k) {
+            e->data[i + k].fresh[0] = e->data[i + k].fresh[2] = 0.0f;
+            e->data[i + k].fresh[1] = (float)sum[k];
+        }
+    }
+}
+
+/* The tree of lights gives elements what all lights one by one do, and a floor in the room what those reflect. */
+static void check_bounce(test_rng *r)
+{
+    static lmb_tile tile, own;
+    static lmb_irradiance received, fresh;
+    const lmb_blockers b = make_room(r);
+    lmb_elements e, brute;
+    grove g;
+    void *memory = make_elements(&e), *other = make_elements(&brute);
+    const lmb_receiver receiver = {lmb_kernels_pick(), &cut, &own, &received, &fresh};
+    double off_sum = 0.0, sum = 0.0;
+    grove_make(&g, BOUNCING, 3.0f * BOUNCING, lights, BOUNCING);
+    const lmb_many_look how = {&g.many, &b, 0.02f, 0};
+    const int32_t tiles = lmb_elements_tiles(&e);
+    CHECK(lmb_many_elements(&e, &receiver, &scratch, &how, tiles / 2, tiles) == LMB_OK);
+    CHECK(lmb_many_elements(&e, &receiver, &scratch, &how, 0, tiles / 2) == LMB_OK);
+    light_elements(&brute, &b);
+    for (uint32_t i = 0; i < e.count; ++i) {
+        off_sum += (double)e.data[i].area * fabs((double)e.data[i].fresh[1] - (double)brute.data[i].fresh[1]);
+        sum += (double)e.data[i].area * (double)brute.data[i].fresh[1];
+    }
+    printf("  %u elements, %d lights: off by %.4f\n", (unsigned)e.count, BOUNCING, off_sum / sum);
+    CHECK_MSG(off_sum < 0.02 * sum && sum > 0.0, "%g of %g", off_sum, sum);
+    CHECK(lmb_many_elements_done(&e) == LMB_OK && lmb_many_elements_done(&brute) == LMB_OK);
+    CHECK(lmb_elements_send(&e, 1) == LMB_OK && lmb_elements_send(&brute, 1) == LMB_OK);
+    CHECK(e.level > brute.level && brute.level > 0.0f); /* of three channels, and of green alone */
+    const lmb_cutting cutting = {.error = 0.01f, .visible = 0.01f, .blockers = &b};
+    double mean = 0.0, wrong = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        lmb_irradiance a, c;
+        memset(&a, 0, sizeof a);
+        memset(&c, 0, sizeof c);
+        make_floor_tile(&tile, vec3(-1.8f + 0.9f * (float)(i % 4), -0.99f, -2.8f + 0.9f * (float)(i / 4)));
+        CHECK(lmb_gather_cut(&a, receiver.kernels, &cut, &tile, &e.tree, &cutting) == LMB_OK);
+        CHECK(lmb_gather_cut(&c, receiver.kernels, &cut, &tile, &brute.tree, &cutting) == LMB_OK);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            mean += (double)c.rgb[1][k];
+            wrong += fabs((double)a.rgb[1][k] - (double)c.rgb[1][k]);
+        }
+    }
+    printf("  what they reflect: off by %.4f\n", wrong / mean);
+    CHECK_MSG(mean > 0.0 && wrong < 0.02 * mean, "%g of %g", wrong, mean);
+    CHECK(lmb_many_elements(NULL, &receiver, &scratch, &how, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_many_elements(&e, &receiver, &scratch, &how, 0, tiles + 1) == LMB_ERR_ARG);
+    CHECK(lmb_many_elements(&e, NULL, &scratch, &how, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_many_elements(&e, &receiver, NULL, &how, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_many_elements(&e, &receiver, &scratch, NULL, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_many_elements_done(NULL) == LMB_ERR_ARG);
+    grove_free(&g);
+    free(memory);
+    free(other);
 }
 
 static void check_tile_refusals(void)
@@ -503,7 +712,7 @@ static void check_tile_refusals(void)
     lmb_irradiance e;
     grove g;
     grove_make(&g, 4, 1.0f, lights, 0);
-    const lmb_many_look how = {&g.many, NULL, 0}, none = {NULL, NULL, 0};
+    const lmb_many_look how = {&g.many, NULL, 0, 0}, none = {NULL, NULL, 0, 0};
     make_floor_tile(&tile, vec3(0, 0, 0));
     memset(&e, 0, sizeof e);
     CHECK(lmb_many_direct_tile(&e, lmb_kernels_pick(), &scratch, &tile, &how) == LMB_OK && e.rgb[0][0] == 0.0f);
@@ -528,6 +737,8 @@ void test_many(void)
     check_light(&r);
     check_full_cut(&r);
     check_shadows(&r);
-    check_stand_ins(&r);
+    check_corners();
+    check_kinds(&r);
+    check_bounce(&r);
     check_tile_refusals();
 }

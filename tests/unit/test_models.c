@@ -567,20 +567,20 @@ static void gltf_textures(void)
         data_uri, (unsigned)png.size, TAIL(b)));
     file_free(&png);
     t = loaded.scene.textures;
-    CHECK(loaded.scene.texture_count == 3);
+    CHECK(loaded.scene.texture_count == 4); /* one as a colour and as a map of metal */
     CHECK(noted("left out, plain colour instead: 2 (first: images[3]: marker E0 at byte 2 runs"));
-    if (loaded.scene.texture_count != 3)
+    if (loaded.scene.texture_count != 4)
         return;
     CHECK(t[0].filter == LMB_TRILINEAR && t[0].levels == 2 && t[0].width == 2 && t[0].texels[16] == 255);
     CHECK(t[1].filter == LMB_NEAREST && t[1].wrap_s == LMB_WRAP_CLAMP && t[1].wrap_t == LMB_WRAP_MIRROR);
     CHECK(t[1].width == 4 && t[1].height == 2 && t[1].levels == 1 &&
           memcmp(t[1].texels + 28, "\x0A\x14\x1E\xFF", 4) == 0);
-    CHECK(t[2].filter == LMB_BILINEAR && t[2].wrap_s == LMB_WRAP_REPEAT && t[2].texels[2] == 30);
-    CHECK(near(loaded.scene.materials[1].albedo[0], 1 - 30.0 / 255, 1e-6) && loaded.scene.materials[2].texture == 2);
+    CHECK(t[3].filter == LMB_BILINEAR && t[3].wrap_s == LMB_WRAP_REPEAT && t[3].texels[2] == 30);
+    CHECK(near(loaded.scene.materials[1].albedo[0], 1 - 30.0 / 255, 1e-6) && loaded.scene.materials[2].texture == 3);
     CHECK(loaded.scene.materials[3].texture == -1 && loaded.scene.materials[5].texture == -1);
 }
 
-/* A JPEG of 2 x 2 texels of 200, 100, 50; as a metallic map its mean counts. */
+/* A JPEG of 2 x 2 texels of 200, 100, 50; as a metallic map its mean counts, and its texels are there for lobes. */
 static void gltf_jpeg_texture(void)
 {
     blob b = {{0}, 0};
@@ -597,8 +597,8 @@ static void gltf_jpeg_texture(void)
         "/8QAFBEBAAAAAAAAAAAAAAAAAAAAAP/aAAwDAQACEQMRAD8APivNg//Z\"}]," POSITIONS_AT_0
         ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]," BUFFER,
         TAIL(b)));
-    CHECK(loaded.scene.texture_count == 1);
-    if (loaded.scene.texture_count != 1)
+    CHECK(loaded.scene.texture_count == 2);
+    if (loaded.scene.texture_count != 2)
         return;
     CHECK(loaded.scene.textures[0].width == 2 && memcmp(loaded.scene.textures[0].texels, "\xC8\x64\x32\xFF", 4) == 0);
     CHECK(near(loaded.scene.materials[0].albedo[0], 1 - 50.0 / 255, 1e-6));

@@ -68,11 +68,16 @@ static void fill_tile(lmb_tile *tile, lmb_vec3 middle, float half, test_rng *r)
 }
 
 /* Of a walk that knows nothing yet. */
+static float noise_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
+{
+    return lmb_tile_noise(tile, pixels) + lmb_place_noise(at, 0.0f);
+}
+
 static uint64_t blocked_anew(const lmb_blockers *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
     lmb_walk walk;
     memset(&walk, 0, sizeof walk);
-    return lmb_blocked_tile(b, lmb_kernels_pick(), tile, pixels, at, &walk);
+    return lmb_blocked_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), &walk);
 }
 
 /* Random triangles of all sizes, tiles of all sizes: each pixel's answer is that of all triangles one by one. */
@@ -103,6 +108,53 @@ static void every_triangle(void)
                     surest = fmax(surest, crosses(world.corners[i], at, plane_vec(tile.position, k)));
                 }
                 if ((asked >> k & 1u) != 0 && fabs(surest) > 3e-5) {
+                    const int is = (int)(got >> k & 1u);
+                    wrong += is != (surest > 0.0);
+                    blocked += is;
+                    open += !is;
+                }
+            }
+        }
+    }
+    CHECK_MSG(wrong == 0, "%d wrong", wrong);
+    CHECK_MSG(blocked > 2000 && open > 2000, "%d blocked, %d open", blocked, open);
+}
+
+static uint64_t blocked_sun_anew(const lmb_blockers *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to)
+{
+    lmb_walk walk;
+    memset(&walk, 0, sizeof walk);
+    return lmb_blocked_sun(b, lmb_kernels_pick(), tile, pixels, to, &walk);
+}
+
+/* The same for light from infinity; some of it along an axis. */
+static void every_triangle_of_suns(void)
+{
+    test_rng r = {78};
+    int blocked = 0, open = 0, wrong = 0;
+    for (int scene = 0; scene < 12; ++scene) {
+        const float size = scene % 3 == 0 ? 2.0f : scene % 3 == 1 ? 0.3f : 0.05f;
+        world_begin(1, 1, 1);
+        for (int i = 0; i < (scene % 3 == 0 ? 6 : 300); ++i) {
+            const lmb_vec3 at = random_point(&r, 1.0f);
+            const lmb_vec3 b = add3(at, random_point(&r, size)), c = add3(at, random_point(&r, size));
+            world_triangle(at, b, c);
+        }
+        lmb_blockers b = blockers_of_world();
+        for (int round = 0; round < 40; ++round) {
+            lmb_tile tile;
+            const lmb_vec3 any = random_point(&r, 1.0f), to = round % 7 == 0 ? Y : mul3(any, 1.0f / length3(any));
+            fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
+            const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
+            const uint64_t got = blocked_sun_anew(&b, &tile, asked, to);
+            CHECK((got & ~asked) == 0);
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                const lmb_vec3 from = plane_vec(tile.position, k), end = add3(from, mul3(to, 1000.0f));
+                double surest = -1.0;
+                for (uint32_t i = 0; i < world.count; ++i) {
+                    surest = fmax(surest, crosses(world.corners[i], from, end));
+                }
+                if ((asked >> k & 1u) != 0 && (surest > 0.03 || surest < -0.03)) {
                     const int is = (int)(got >> k & 1u);
                     wrong += is != (surest > 0.0);
                     blocked += is;
@@ -166,10 +218,10 @@ static void capacities(void)
     CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9)) == LMB_OK);
     CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
     CHECK(blocked_anew(&b, &tile, 5, vec3(0, 1, 0)) == 5);
-    CHECK(lmb_blocked_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), &walk) == 0);
-    CHECK(lmb_blocked_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), &walk) == 0);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), &walk) == 0);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), NULL) == 0);
+    CHECK(lmb_blocked_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, &walk) == 0);
+    CHECK(lmb_blocked_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), 0.0f, &walk) == 0);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), 0.0f, &walk) == 0);
+    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, NULL) == 0);
     CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9) - 1) == LMB_ERR_CAPACITY);
     CHECK(lmb_blockers_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
     CHECK(lmb_blockers_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);
@@ -210,7 +262,8 @@ static void few_nodes(void)
         fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
         const uint64_t got = blocked_anew(&b, &tile, ~UINT64_C(0), at);
         wrong += got != blocked_anew(&all, &tile, ~UINT64_C(0), at);
-        other += got != lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, &walk);
+        other += got != lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at,
+                                         noise_of(&tile, ~UINT64_C(0), at), &walk);
         blocked += got != 0 && ~got != 0;
     }
     CHECK_MSG(wrong == 0 && other == 0 && blocked > 10, "%d and %d of 60 wrong, %d mixed", wrong, other, blocked);
@@ -240,11 +293,14 @@ static void holes(void)
     /* From straight above the plane's points lie over the pixels; u grows with z. */
     const uint64_t blocked = blocked_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1000, 0));
     CHECK_MSG(blocked == UINT64_C(0xffffffff), "%08x%08x", (unsigned)(blocked >> 32), (unsigned)blocked);
+    CHECK(blocked_sun_anew(&b, &tile, ~UINT64_C(0), Y) == blocked);
+    CHECK(blocked_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
 }
 
 void test_occlusion(void)
 {
     every_triangle();
+    every_triangle_of_suns();
     no_gap_no_acne();
     capacities();
     few_nodes();

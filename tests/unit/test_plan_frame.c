@@ -121,7 +121,8 @@ static void test_sparse_look(void)
               (double)lmb_look_error(&other_one, &each));
 }
 
-/* Later bounces, lobes and what shines: their operations and bytes; after the frame, what is kept. */
+/* Later bounces, of what shines the first too, lobes and what shines: their operations and bytes; after the frame, what
+ * is kept. */
 static void test_rows(void)
 {
     lmb_frame f = set_frame();
@@ -133,7 +134,7 @@ static void test_rows(void)
     CHECK(lmb_render_next(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
     const lmb_plan_row *bounces = &plan.row[LMB_PLAN_BOUNCES];
     CHECK(bounces->why == LMB_WHY_RUNS && bounces->op[LMB_OP_ELEMENTS] == 16.0);
-    CHECK(bounces->op[LMB_OP_CUTS] == 2.0 * ELEMENTS / LMB_TILE_PIXELS && bounces->work > 0.0);
+    CHECK(bounces->op[LMB_OP_CUTS] == 3.0 * ELEMENTS / LMB_TILE_PIXELS && bounces->work > 0.0);
     CHECK(bounces->bytes == lmb_elements_bytes(ELEMENTS));
     CHECK(plan.row[LMB_PLAN_LOBES].op[LMB_OP_LOBES] == FRAME * FRAME);
     CHECK(plan.row[LMB_PLAN_SHINE].op[LMB_OP_STORED] == FRAME * FRAME);

@@ -99,9 +99,15 @@ typedef struct faults {
     uint32_t nodes, outside, bent, strange, sums, empty;
 } faults;
 
-static int is_in(lmb_vec3 p, lmb_vec3 low, lmb_vec3 high)
+/* In the node's box and sphere, but for rounding. */
+static int is_in(const lmb_node *n, lmb_vec3 p)
 {
-    return p.x >= low.x && p.y >= low.y && p.z >= low.z && p.x <= high.x && p.y <= high.y && p.z <= high.z;
+    const lmb_vec3 axis[3] = {n->normal, n->across, cross3(n->normal, n->across)}, d = sub3(p, n->middle);
+    int in = length3(d) <= n->radius * 1.000001f + 1e-6f;
+    for (int i = 0; i < 3; ++i) {
+        in &= absf(dot3(axis[i], d)) <= n->half[i] * 1.000001f + 1e-6f && absf(length3(axis[i]) - 1.0f) < 1e-5f;
+    }
+    return in;
 }
 
 static lmb_vec3 stands_at(uint32_t face, const lmb_node *n)
@@ -126,7 +132,6 @@ static int is_well_stood_for(const lmb_node *n, uint32_t face, int32_t x, int32_
 static void check_node(faults *f, uint32_t face, int32_t x, int32_t y, int level)
 {
     const lmb_node n = lit_node(face, x, y, level);
-    const lmb_vec3 ulp = {1e-6f, 1e-6f, 1e-6f};
     const int32_t side = 1 << level;
     double flux = 0.0, area = 0.0;
     uint32_t outside = 0, bent = 0;
@@ -135,7 +140,7 @@ static void check_node(faults *f, uint32_t face, int32_t x, int32_t y, int level
         if (flux_sum(t.flux) > 0.0f) {
             flux += (double)flux_sum(t.flux);
             area += (double)t.area;
-            outside += !is_in(t.centre, n.low, n.high);
+            outside += !is_in(&n, t.centre);
             bent += dot3(t.normal, n.normal) < n.cosine - 1e-6f;
         }
     }
@@ -143,7 +148,7 @@ static void check_node(faults *f, uint32_t face, int32_t x, int32_t y, int level
     f->sums += fabs((double)flux_sum(n.flux) - flux) > 4e-6 * flux || fabs((double)n.area - area) > 4e-6 * area;
     if (flux > 0.0) {
         ++f->nodes;
-        f->outside += outside > 0 || !is_in(n.centre, sub3(n.low, ulp), add3(n.high, ulp));
+        f->outside += outside > 0 || !is_in(&n, n.centre);
         f->bent += bent > 0 || absf(length3(n.normal) - 1.0f) > 1e-6f;
         f->strange += !is_well_stood_for(&n, face, x, y, level);
     }

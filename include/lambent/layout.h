@@ -1,0 +1,95 @@
+/* layout.h: a program and a library with other capacities do not link: calls that take a struct whose size is one of
+ * config.h's capacities, in it or behind its pointers, carry all of these in their names.
+ *
+ * So lmb_draw is lmb_draw wherever you build, and lmb_render_begin becomes lmb_render_begin_g2048_l128_c16384_...: what
+ * the linker cannot find is what the two builds do not agree on. Compilers and linkers of today tell names of thousands
+ * of characters apart (C99 asks for 31). Capacities are plain numbers for this, not expressions.
+ * `make layout` takes the capacities from config.h and the calls from the headers: none can be forgotten. */
+#ifndef LMB_LAYOUT_H
+#define LMB_LAYOUT_H
+
+#include "config.h"
+
+/* In config.h's order: groups, lights, cut; many's cut and lamps; pairs, probes (o), planes (f), views, hull's planes;
+ * nodes that are weighed, slots. */
+#define LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s) \
+    name##_g##g##_l##l##_c##c##_m##m##_n##n##_p##p##_o##o##_f##f##_v##v##_h##h##_w##w##_s##s
+#define LMB_PASTE(name, g, l, c, m, n, p, o, f, v, h, w, s) LMB_PASTE_(name, g, l, c, m, n, p, o, f, v, h, w, s)
+#define LMB_LAYOUT(name) \
+    LMB_PASTE(name, LMB_MAX_GROUPS, LMB_MAX_LIGHTS, LMB_MAX_CUT, LMB_MANY_CUT, LMB_MANY_LAMPS, LMB_GATHER_PAIRS, \
+              LMB_MAX_PROBES, LMB_MAX_PLANES, LMB_RELIEF_VIEWS, LMB_HULL_PLANES, LMB_WEIGH_NODES, LMB_SLOTS)
+
+#define lmb_around_gather      LMB_LAYOUT(lmb_around_gather)
+#define lmb_around_scale       LMB_LAYOUT(lmb_around_scale)
+#define lmb_blocked_sun        LMB_LAYOUT(lmb_blocked_sun)
+#define lmb_blocked_tile       LMB_LAYOUT(lmb_blocked_tile)
+#define lmb_blockers_build     LMB_LAYOUT(lmb_blockers_build)
+#define lmb_blockers_init      LMB_LAYOUT(lmb_blockers_init)
+#define lmb_build_check        LMB_LAYOUT(lmb_build_check)
+#define lmb_compose_shine      LMB_LAYOUT(lmb_compose_shine)
+#define lmb_compose_tile       LMB_LAYOUT(lmb_compose_tile)
+#define lmb_cones_diffuse      LMB_LAYOUT(lmb_cones_diffuse)
+#define lmb_cones_glossy       LMB_LAYOUT(lmb_cones_glossy)
+#define lmb_cones_trace        LMB_LAYOUT(lmb_cones_trace)
+#define lmb_delta_tile         LMB_LAYOUT(lmb_delta_tile)
+#define lmb_direct_tile        LMB_LAYOUT(lmb_direct_tile)
+#define lmb_elements_receive   LMB_LAYOUT(lmb_elements_receive)
+#define lmb_facts_count        LMB_LAYOUT(lmb_facts_count)
+#define lmb_gather_cut         LMB_LAYOUT(lmb_gather_cut)
+#define lmb_gather_tile        LMB_LAYOUT(lmb_gather_tile)
+#define lmb_gbuffer_band       LMB_LAYOUT(lmb_gbuffer_band)
+#define lmb_gloss_direct       LMB_LAYOUT(lmb_gloss_direct)
+#define lmb_gloss_tile         LMB_LAYOUT(lmb_gloss_tile)
+#define lmb_group_points       LMB_LAYOUT(lmb_group_points)
+#define lmb_hull_find          LMB_LAYOUT(lmb_hull_find)
+#define lmb_hull_holds         LMB_LAYOUT(lmb_hull_holds)
+#define lmb_hull_pixels        LMB_LAYOUT(lmb_hull_pixels)
+#define lmb_many_direct_tile   LMB_LAYOUT(lmb_many_direct_tile)
+#define lmb_many_elements      LMB_LAYOUT(lmb_many_elements)
+#define lmb_mirror_tile        LMB_LAYOUT(lmb_mirror_tile)
+#define lmb_object_tile        LMB_LAYOUT(lmb_object_tile)
+#define lmb_plan_frame         LMB_LAYOUT(lmb_plan_frame)
+#define lmb_planes_anchor      LMB_LAYOUT(lmb_planes_anchor)
+#define lmb_planes_clear       LMB_LAYOUT(lmb_planes_clear)
+#define lmb_planes_find        LMB_LAYOUT(lmb_planes_find)
+#define lmb_planes_floor       LMB_LAYOUT(lmb_planes_floor)
+#define lmb_planes_move        LMB_LAYOUT(lmb_planes_move)
+#define lmb_planes_up          LMB_LAYOUT(lmb_planes_up)
+#define lmb_points_collect     LMB_LAYOUT(lmb_points_collect)
+#define lmb_probe_background   LMB_LAYOUT(lmb_probe_background)
+#define lmb_probe_cache_ask    LMB_LAYOUT(lmb_probe_cache_ask)
+#define lmb_probe_cache_init   LMB_LAYOUT(lmb_probe_cache_init)
+#define lmb_probe_cache_name   LMB_LAYOUT(lmb_probe_cache_name)
+#define lmb_probe_gloss_tile   LMB_LAYOUT(lmb_probe_gloss_tile)
+#define lmb_probe_light_tile   LMB_LAYOUT(lmb_probe_light_tile)
+#define lmb_real_mesh_build    LMB_LAYOUT(lmb_real_mesh_build)
+#define lmb_real_mesh_colour   LMB_LAYOUT(lmb_real_mesh_colour)
+#define lmb_real_mesh_draw     LMB_LAYOUT(lmb_real_mesh_draw)
+#define lmb_real_tile          LMB_LAYOUT(lmb_real_tile)
+#define lmb_relief_lit         LMB_LAYOUT(lmb_relief_lit)
+#define lmb_relief_nearer      LMB_LAYOUT(lmb_relief_nearer)
+#define lmb_relief_open        LMB_LAYOUT(lmb_relief_open)
+#define lmb_relief_scene       LMB_LAYOUT(lmb_relief_scene)
+#define lmb_relief_shadow_rows LMB_LAYOUT(lmb_relief_shadow_rows)
+#define lmb_relief_tile        LMB_LAYOUT(lmb_relief_tile)
+#define lmb_relight_band       LMB_LAYOUT(lmb_relight_band)
+#define lmb_render_again       LMB_LAYOUT(lmb_render_again)
+#define lmb_render_band        LMB_LAYOUT(lmb_render_band)
+#define lmb_render_begin       LMB_LAYOUT(lmb_render_begin)
+#define lmb_render_frame       LMB_LAYOUT(lmb_render_frame)
+#define lmb_render_has_parts   LMB_LAYOUT(lmb_render_has_parts)
+#define lmb_render_look        LMB_LAYOUT(lmb_render_look)
+#define lmb_render_next        LMB_LAYOUT(lmb_render_next)
+#define lmb_render_part        LMB_LAYOUT(lmb_render_part)
+#define lmb_render_parts_done  LMB_LAYOUT(lmb_render_parts_done)
+#define lmb_render_progress    LMB_LAYOUT(lmb_render_progress)
+#define lmb_render_step        LMB_LAYOUT(lmb_render_step)
+#define lmb_render_survey      LMB_LAYOUT(lmb_render_survey)
+#define lmb_resolve_albedo     LMB_LAYOUT(lmb_resolve_albedo)
+#define lmb_resolve_tile       LMB_LAYOUT(lmb_resolve_tile)
+#define lmb_sparse_pixels      LMB_LAYOUT(lmb_sparse_pixels)
+#define lmb_tile_noise         LMB_LAYOUT(lmb_tile_noise)
+#define lmb_tree_texels        LMB_LAYOUT(lmb_tree_texels)
+#define lmb_upsample_tile      LMB_LAYOUT(lmb_upsample_tile)
+
+#endif

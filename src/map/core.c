@@ -1,0 +1,239 @@
+/* core.c: where a scene is fine: the boxes that a sun's map gives faces of their own. Floor 4.
+ *
+ * Triangles that are small against the scene have a middle, weighted by area, and a mean distance from it. Those three
+ * times as far do not belong to it; without them both are found anew, until none is left out: a stray triangle weighs
+ * nothing, however far it is. With limits of 1/2, 1/8, .. 1/512 of the scene the first makes what nearly everything is
+ * in stand out (`wide`), the others a house on a terrain, in which there may be a finer place again. What touches such
+ * a box and is no more than four times as large belongs to it: floors, walls, the ground before the door.
+ *
+ * By the scene alone and not by the view: the maps stay while the viewer walks, and two eyes see the same light.
+ * Rejected: medians of counts, which a far bird of 200 triangles wins against a room of 30. */
+#include <lambent/map.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../raster/triangle.h"
+
+#if LMB_TREES
+
+#define FAR     3.0   /* mean distances from the middle that belong to it */
+#define TOUCHES 4.0f  /* times the box's size: what touches it and belongs to it */
+#define SPARE   0.015625f /* of the area may be left out of `wide` */
+#define FINER   0.0125f   /* of a face's width: a place that has less of its texels than 13 of 1,024 wants its own */
+enum { ROUNDS = 8, LIMITS = 5, DEEPER = 3, SAMPLES = 8192, RATIO = 16, FEW = 2 };
+
+typedef struct box {
+    lmb_vec3 low, high;
+} box;
+
+static float size_of(const box *b) { return largest3(sub3(b->high, b->low)); }
+
+static void join(box *inout, const box *b)
+{
+    inout->low = min3(inout->low, b->low);
+    inout->high = max3(inout->high, b->high);
+}
+
+static int overlap(const box *a, const box *b)
+{
+    return a->low.x <= b->high.x && a->low.y <= b->high.y && a->low.z <= b->high.z && b->low.x <= a->high.x &&
+           b->low.y <= a->high.y && b->low.z <= a->high.z;
+}
+
+static int take(box *b, float *area, const lmb_scene *scene, uint32_t id)
+{
+    lmb_triangle t;
+    lmb_vec3 normal;
+    if (!lmb_triangle_fetch(&t, scene, id) || !lmb_triangle_shape(&normal, area, &t)) {
+        return 0;
+    }
+    b->low = min3(min3(t.corner[0], t.corner[1]), t.corner[2]);
+    b->high = max3(max3(t.corner[0], t.corner[1]), t.corner[2]);
+    return 1;
+}
+
+/* Triangles under a size, in a box, near a middle. */
+typedef struct clump {
+    box in;
+    float under;
+    double at[3], reach; /* m */
+    uint32_t count;
+} clump;
+
+static double distance_from(const clump *c, const box *b)
+{
+    const double x = 0.5 * ((double)b->low.x + (double)b->high.x) - c->at[0],
+                 y = 0.5 * ((double)b->low.y + (double)b->high.y) - c->at[1],
+                 z = 0.5 * ((double)b->low.z + (double)b->high.z) - c->at[2];
+    const float d = (float)(x * x + y * y + z * z);
+    return (double)sqrtf(d);
+}
+
+static int belongs(const clump *c, const box *b)
+{
+    return size_of(b) < c->under && overlap(b, &c->in) && distance_from(c, b) <= c->reach;
+}
+
+/* What is summed over those that belong: area, and of areas times the middle; or, in sum[1], times the distance. */
+static uint32_t sums(double sum[4], const clump *c, const lmb_scene *scene, uint32_t step, int distances)
+{
+    const uint32_t all = lmb_scene_triangles(scene);
+    uint32_t count = 0;
+    sum[0] = sum[1] = sum[2] = sum[3] = 0.0;
+    for (uint32_t id = 1; id <= all && id >= 1; id += step) {
+        box b;
+        float area;
+        if (take(&b, &area, scene, id) && belongs(c, &b)) {
+            const double w = 0.5 * (double)area;
+            ++count;
+            sum[0] += (double)area;
+            if (distances) {
+                sum[1] += (double)area * distance_from(c, &b);
+            } else {
+                sum[1] += w * ((double)b.low.x + (double)b.high.x);
+                sum[2] += w * ((double)b.low.y + (double)b.high.y);
+                sum[3] += w * ((double)b.low.z + (double)b.high.z);
+            }
+        }
+    }
+    return count;
+}
+
+/* The middle of what is under a size; 0 where there is next to nothing. */
+static int find_clump(clump *c, const lmb_scene *scene, uint32_t step)
+{
+    double sum[4];
+    c->at[0] = c->at[1] = c->at[2] = 0.0;
+    c->reach = 1e30;
+    c->count = 0;
+    for (int round = 0; round < ROUNDS; ++round) {
+        const uint32_t before = c->count;
+        c->count = sums(sum, c, scene, step, 0);
+        if (c->count < FEW || !(sum[0] > 0.0)) {
+            return 0;
+        }
+        if (c->count == before) {
+            return 1;
+        }
+        for (int i = 0; i < 3; ++i) {
+            c->at[i] = sum[1 + i] / sum[0];
+        }
+        sums(sum, c, scene, step, 1);
+        c->reach = FAR * sum[1] / sum[0];
+    }
+    return 1;
+}
+
+/* The clump's own box, then with what touches it; in and out: area of what does, and of the rest of c->in. */
+static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_scene *scene)
+{
+    const uint32_t all = lmb_scene_triangles(scene);
+    box own = {{3e38f, 3e38f, 3e38f}, {-3e38f, -3e38f, -3e38f}}, b;
+    float area;
+    double inside = 0.0, outside = 0.0;
+    for (uint32_t id = 1; id <= all; ++id) {
+        if (take(&b, &area, scene, id) && belongs(c, &b)) {
+            join(&own, &b);
+        }
+    }
+    const float most = TOUCHES * size_of(&own);
+    *out = own;
+    for (uint32_t id = 1; id <= all; ++id) {
+        if (take(&b, &area, scene, id) && overlap(&b, &own) && size_of(&b) <= most) {
+            join(out, &b);
+        }
+    }
+    for (uint32_t id = 1; id <= all; ++id) {
+        if (take(&b, &area, scene, id) && overlap(&b, &c->in)) {
+            const double held = overlap(&b, out) ? (double)minf(area, 2.0f * size_of(out) * size_of(out)) : 0.0;
+            inside += held;
+            outside += (double)area - held;
+        }
+    }
+    *in = (float)inside;
+    *rest = (float)outside;
+}
+
+static uint32_t step_of(const lmb_scene *scene) { return lmb_scene_triangles(scene) / SAMPLES + 1; }
+
+/* What nearly everything is in: half the scene's size at most, or the scene. */
+static void find_wide(box *inout, const lmb_scene *scene)
+{
+    clump c;
+    box b;
+    float in, rest;
+    c.in = *inout;
+    c.under = 0.5f * size_of(inout);
+    if (find_clump(&c, scene, step_of(scene))) {
+        box_of(&b, &in, &rest, &c, scene);
+        *inout = size_of(&b) <= 0.5f * size_of(inout) && rest <= SPARE * in ? b : *inout;
+    }
+}
+
+/* A place in a box that is no wider than an eightieth of it. 0: none. */
+static int find_finer(box *inout, const lmb_scene *scene)
+{
+    clump c;
+    float limit = 0.5f * size_of(inout), in, rest;
+    c.in = *inout;
+    for (int i = 0; i < LIMITS; ++i, limit *= 0.25f) {
+        box b;
+        c.under = limit;
+        if (!find_clump(&c, scene, step_of(scene))) {
+            return 0;
+        }
+        if (c.reach < (double)(size_of(inout) * FINER)) {
+            box_of(&b, &in, &rest, &c, scene);
+            if (size_of(&b) <= size_of(inout) * FINER) {
+                *inout = b;
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* Steps of RATIO, rounded up, that lead from one size to another. */
+static int steps_between(float small, float large)
+{
+    int n = 0;
+    for (; small < large && n < LMB_CORE_FACES; small *= (float)RATIO) {
+        ++n;
+    }
+    return n;
+}
+
+static int is_box(const box *b, lmb_vec3 low, lmb_vec3 high)
+{
+    return memcmp(&b->low, &low, sizeof low) == 0 && memcmp(&b->high, &high, sizeof high) == 0;
+}
+
+void lmb_scene_core(lmb_core *out, const lmb_scene *scene)
+{
+    box wide, core;
+    if (out == NULL) {
+        return;
+    }
+    memset(out, 0, sizeof *out);
+    if (scene == NULL || scene->instances == NULL || scene->meshes == NULL) {
+        return;
+    }
+    wide.low = scene->bounds_min;
+    wide.high = scene->bounds_max;
+    find_wide(&wide, scene);
+    core = wide;
+    for (int i = 0; i < DEEPER && find_finer(&core, scene); ++i) {
+    }
+    const int beyond = !is_box(&wide, scene->bounds_min, scene->bounds_max);
+    const int within = 1 + steps_between(size_of(&core), size_of(&wide));
+    if (beyond + within > 1 && size_of(&core) > 0.0f) {
+        out->low = core.low;
+        out->high = core.high;
+        out->wide_low = wide.low;
+        out->wide_high = wide.high;
+        out->faces = mini(beyond + within, LMB_CORE_FACES);
+    }
+}
+
+#endif

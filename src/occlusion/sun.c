@@ -1,0 +1,181 @@
+/* sun.c: a tile's rays to one place at infinity, walked through the tree of boxes together. Floor 4.          [V25] */
+#include <lambent/occlusion.h>
+
+#include "../base/vec.h"
+#include "../lane/kernels.h"
+#include "../raster/resolve.h"
+#include "../raster/tile.h"
+#include "walk.h"
+
+#if LMB_TREES
+
+#define MUCH  16             /* pixels that a triangle blocks to be asked first by the next rays */
+#define ALONG 9.5367432e-7f  /* 2^-20: cosine under which rays run along a triangle, and it blocks none */
+#define THIN  1e-20f
+#define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
+
+typedef struct sun_walk {
+    const lmb_blockers *b;
+    const lmb_kernels *kernels;
+    const lmb_tile *tile;
+    lmb_vec3 at, to; /* a pixel of the tile, that numbers are small there; unit, towards the light */
+    lmb_walk *kept;
+    float noise;   /* m: how far rounding may have left the pixels off their surfaces */
+    uint64_t left; /* pixels that nothing blocked yet */
+} sun_walk;
+
+/* 2^-22 of their coordinates and 2^-20 of how far the ray that found them came. */
+static float noise_of(const lmb_tile *tile, uint64_t pixels)
+{
+    float noise = 0.0f;
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 p = tile_vec(tile->position, k);
+        const float largest = maxf(absf(p.x), maxf(absf(p.y), absf(p.z)));
+        noise = maxf(noise, 0x1p-22f * largest + 0x1p-20f * absf(tile->depth[k]));
+    }
+    return noise;
+}
+
+/* Two triangles' planes through a shared edge are exactly opposite: no gap. 0 where rays run along the triangle. */
+static int sun_job(lmb_sun_job *out, const sun_walk *w, const lmb_blocker *t)
+{
+    const lmb_vec3 a = sub3(t->corner[0], w->at), b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
+    const float far2 = dot3(a, a) + dot3(b, b) + dot3(c, c);
+    const float along = dot3(t->normal, w->to), side = along < 0.0f ? -1.0f : 1.0f;
+    if (!(absf(along) > ALONG)) {
+        return 0;
+    }
+    out->at = w->at;
+    out->edge[0] = mul3(cross3(w->to, sub3(c, b)), side);
+    out->edge[1] = mul3(cross3(w->to, sub3(a, c)), side);
+    out->edge[2] = mul3(cross3(w->to, sub3(b, a)), side);
+    out->offset[0] = side * dot3(cross3(b, c), w->to);
+    out->offset[1] = side * dot3(cross3(c, a), w->to);
+    out->offset[2] = side * dot3(cross3(a, b), w->to);
+    out->normal = mul3(t->normal, -side);
+    out->beyond = dot3(out->normal, a) + maxf(w->noise + TRIANGLE_NOISE * sqrtf(far2), w->b->noise);
+    return 1;
+}
+
+/* Of the pixels whose rays cross a triangle with holes, those that do so where it stands. */
+static uint64_t sun_standing(const sun_walk *w, const lmb_blocker *t, const lmb_sun_job *job, uint64_t crossed)
+{
+    uint64_t out = 0;
+    lmb_triangle triangle;
+    lmb_resolve_alpha alpha;
+    if (!lmb_triangle_fetch(&triangle, w->b->scene, t->id & ~LMB_BLOCKER_MASKED)) {
+        return 0;
+    }
+    lmb_resolve_alpha_of(&alpha, &triangle);
+    for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), job->at);
+        const float e0 = dot3(job->edge[0], d) + job->offset[0], e1 = dot3(job->edge[1], d) + job->offset[1];
+        const float e2 = dot3(job->edge[2], d) + job->offset[2], sum = e0 + e1 + e2;
+        if (sum > 0.0f && lmb_resolve_opaque(&alpha, w->b->scene, e1 / sum, e2 / sum)) {
+            out |= (uint64_t)1 << k;
+        }
+    }
+    return out;
+}
+
+static void ask(sun_walk *w, uint32_t triangle)
+{
+    const lmb_blocker *t = &w->b->triangle[triangle];
+    lmb_sun_job job;
+    if (sun_job(&job, w, t)) {
+        const uint64_t crossed = w->kernels->sun_crossed(w->tile, w->left, &job);
+        w->left &= ~(crossed != 0 && (t->id & LMB_BLOCKER_MASKED) ? sun_standing(w, t, &job, crossed) : crossed);
+    }
+}
+
+/* Those that blocked much when asked last. */
+static void ask_kept(sun_walk *w)
+{
+    for (int i = 0; i < LMB_LAST_BLOCKERS && w->kept->last[i] != 0 && w->left != 0; ++i) {
+        ask(w, w->kept->last[i] - 1);
+    }
+}
+
+static void ask_box(sun_walk *w, const lmb_boxes *node, int i)
+{
+    for (uint32_t k = 0; k < node->count[i] && w->left != 0; ++k) {
+        const uint64_t before = w->left;
+        ask(w, node->first[i] + k);
+        if (count_bits_64(before & ~w->left) >= MUCH) {
+            for (int last = LMB_LAST_BLOCKERS - 1; last > 0; --last) {
+                w->kept->last[last] = w->kept->last[last - 1];
+            }
+            w->kept->last[0] = node->first[i] + k + 1;
+        }
+    }
+}
+
+static lmb_sun_sweep sweep_of(const sun_walk *w)
+{
+    const float d[3] = {w->to.x, w->to.y, w->to.z};
+    lmb_vec3 low, high;
+    lmb_sun_sweep s;
+    tile_box(&low, &high, w->tile, w->left);
+    for (int c = 0; c < 3; ++c) {
+        s.per[c] = 1.0f / (absf(d[c]) < THIN ? THIN : d[c]);
+    }
+    s.low[0] = low.x;
+    s.low[1] = low.y;
+    s.low[2] = low.z;
+    s.high[0] = high.x;
+    s.high[1] = high.y;
+    s.high[2] = high.z;
+    return s;
+}
+
+/* A node, and those of its boxes that wait, a bit each. */
+typedef struct sun_branch {
+    uint32_t node, boxes;
+} sun_branch;
+
+static void sun_descend(sun_walk *w)
+{
+    const lmb_sun_sweep sweep = sweep_of(w);
+    sun_branch waiting[LMB_WALK_LEVELS];
+    int count = 1;
+    waiting[0].node = 0;
+    waiting[0].boxes = w->kernels->sun_meets(&sweep, &w->b->node[0]);
+    while (count > 0 && w->left != 0) {
+        sun_branch *top = &waiting[count - 1];
+        const lmb_boxes *node = &w->b->node[top->node];
+        if (top->boxes == 0) {
+            --count;
+            continue;
+        }
+        const int i = lowest_bit(top->boxes);
+        top->boxes &= top->boxes - 1;
+        if (node->count[i] > 0) {
+            ask_box(w, node, i);
+        } else if (node->first[i] != 0) { /* the root is nobody's child: an empty box, met by a sweep of NaN */
+            count -= top->boxes == 0;
+            waiting[count].node = node->first[i];
+            waiting[count].boxes = w->kernels->sun_meets(&sweep, &w->b->node[node->first[i]]);
+            ++count;
+        }
+    }
+}
+
+uint64_t lmb_blocked_sun(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
+                         uint64_t pixels, lmb_vec3 to, lmb_walk *kept)
+{
+    if (blockers == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 ||
+        blockers->node_count == 0) {
+        return 0;
+    }
+    sun_walk w = {blockers, kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept,
+                  noise_of(tile, pixels), pixels};
+    ask_kept(&w);
+    if (w.left != 0) {
+        sun_descend(&w);
+    }
+    return pixels & ~w.left;
+}
+
+#endif

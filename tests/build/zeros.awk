@@ -1,0 +1,27 @@
+# zeros.awk: tests/unit/test_zeros.c's table of all public calls, from the lines of prototypes.awk: a function that makes
+# each, its pointers from `pointer`, its other arguments from `whole`, `number` and `vector`.
+BEGIN { FS = "|" }
+{
+    n = $3 == "void" ? 0 : split($3, parameter, ";")
+    args = kinds = ""
+    for (i = 1; i <= n; ++i) {
+        match(parameter[i], /[a-z_][A-Za-z0-9_]*(\[[A-Za-z0-9_]*\])*$/)
+        name = substr(parameter[i], RSTART)
+        type = substr(parameter[i], 1, RSTART - 1)
+        many = match(name, /\[[A-Za-z0-9_]*\]/) ? substr(name, RSTART + 1, RLENGTH - 2) : 1
+        is_pointer = type ~ /\*/ || name ~ /\[/
+        sub(/\[.*/, "", name)
+        gsub(/const |[ *]*$/, "", type)
+        at = "&a[" (i - 1) "]"
+        # Of unknown length, or made by the library: what `pointer` has.
+        size = type ~ /^lmb_/ && type != "lmb_kernels" && (type != "lmb_vec3" || many > 1) ? many " * sizeof(" type ")" : "0"
+        arg = is_pointer ? "pointer(" at ", " size ")" : type == "lmb_vec3" ? "vector(" at ")" : "(" type ")" (type ~ /float|double/ ? "number(" : "whole(") at ")"
+        args = args (i > 1 ? ", " : "") arg
+        kinds = kinds (i > 1 ? ", " : "") "{\"" type "\", \"" name "\", " is_pointer "}"
+    }
+    status = $2 == "lmb_status"
+    printf "static int do_%s(argument *a)\n{\n    (void)a;\n    %s%s(%s);\n%s}\n", $1, status ? "return " : "(void)", $1,
+        args, status ? "" : "    return 0;\n"
+    table = table sprintf("    {\"%s\", do_%s, %d, %d, {%s}},\n", $1, $1, status, n, n ? kinds : "{\"\", \"\", 0}")
+}
+END { printf "static const call calls[] = {\n%s};\n", table }

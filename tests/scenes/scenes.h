@@ -1,0 +1,164 @@
+/* scenes.h: scenes that are made from a number, to judge on what nothing was fitted to.
+ *
+ * A name is `kind` or `kind:seed`: another seed is another scene of that kind, with other sizes and places. The same
+ * name makes the same bytes everywhere: own random numbers and own sine, the rest is + - * / and square roots.
+ * Surfaces are flat and Lambertian, metres, y up, right handed; light is W/sr, a sun's W/m2. */
+#ifndef SCENES_H
+#define SCENES_H
+
+#include <stdint.h>
+
+enum { SCENE_LIGHTS = 4, SCENE_MATERIALS = 16, SCENE_NAME = 64 };
+
+typedef struct svec {
+    double x, y, z;
+} svec;
+
+enum { SCENE_SPOT, SCENE_POINT, SCENE_SUN };
+
+typedef struct scene_light {
+    int kind;
+    svec position, direction; /* direction: of travel, any length */
+    double rgb[3];
+    double inner_deg, outer_deg; /* half angles of a spot */
+} scene_light;
+
+typedef struct made_scene {
+    char name[SCENE_NAME];
+    svec *corners;      /* 3 a triangle */
+    uint8_t *materials; /* 1 a triangle */
+    uint32_t triangles, room;
+    double albedo[SCENE_MATERIALS][3];
+    int material_count;
+    scene_light lights[SCENE_LIGHTS];
+    int light_count;
+    svec eye, target, up;
+    double fov_deg, near_m;
+    svec open_low, open_high; /* a box that all sunlight which matters passes; low.x > high.x: anywhere */
+    uint64_t random;
+} made_scene;
+
+/* What turns, scales and moves a scene: geometry, camera and lights alike, so that the picture stays. */
+typedef struct scene_place {
+    svec axis[3]; /* where x, y and z go: orthonormal */
+    double scale;
+    svec move;
+} scene_place;
+
+typedef struct scene_kind {
+    const char *name;
+    int held_out; /* never look at it to choose a constant */
+    void (*build)(made_scene *s);
+    const char *what;
+} scene_kind;
+
+extern const scene_kind scene_kinds[];
+extern const int scene_kind_count;
+
+/* scene_make: 1, or 0 for a name that is not in the table. scene_drop frees it. */
+int scene_make(made_scene *s, const char *name);
+void scene_drop(made_scene *s);
+
+/* As it stands; turned about an axis (any length); turned at random. */
+scene_place scene_as_it_is(void);
+void scene_turn(scene_place *p, svec axis, double degrees);
+void scene_turn_any(scene_place *p, uint64_t seed);
+void scene_put(made_scene *s, const scene_place *p);
+
+/* scene_write: scene.gltf, scene.bin (what lambent reads), scene.txt and scene.box (what the path tracer of the truth
+ * reads: a view of `size` x `size` pixels) in a folder that exists. 1, or 0 where a file cannot be written. */
+int scene_write(const made_scene *s, const char *folder, int size);
+
+/* --- what kinds are built with ------------------------------------------------------------------------------------ */
+
+#define COUNT_OF(a) ((int)(sizeof(a) / sizeof *(a)))
+
+static inline svec at(double x, double y, double z)
+{
+    svec v = {x, y, z};
+    return v;
+}
+
+static inline svec plus(svec a, svec b) { return at(a.x + b.x, a.y + b.y, a.z + b.z); }
+static inline svec less(svec a, svec b) { return at(a.x - b.x, a.y - b.y, a.z - b.z); }
+static inline svec times(svec a, double k) { return at(a.x * k, a.y * k, a.z * k); }
+static inline double dot_of(svec a, svec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static inline svec cross_of(svec a, svec b)
+{
+    return at(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+svec unit(svec a);
+double sine(double degrees);
+double cosine(double degrees);
+
+/* Uniform in [low, high). */
+double any_between(made_scene *s, double low, double high);
+
+/* Smooth noise of a point, about -1 .. 1; `seed` gives another. */
+double smooth_noise(svec p, uint32_t seed);
+
+/* Reflectances; the number of the new material. */
+int paint(made_scene *s, double red, double green, double blue);
+
+void triangle(made_scene *s, int material, svec a, svec b, svec c);
+void quad(made_scene *s, int material, svec a, svec b, svec c, svec d);
+
+/* From a: edges u, v, w, which may lean. box: by its corners. */
+void slab(made_scene *s, int material, svec a, svec u, svec v, svec w);
+void box(made_scene *s, int material, svec low, svec high);
+/* A box of that size on the ground at `foot`, turned about y. */
+void crate(made_scene *s, int material, svec foot, svec size, double degrees);
+
+/* The inside of a room: floor, walls, ceiling. */
+void shell(made_scene *s, int floor, int wall, int ceiling, svec low, svec high);
+
+/* Metres along a panel's edges u and v. */
+typedef struct opening {
+    double u0, v0, u1, v1;
+} opening;
+
+/* panel: a parallelogram from a with openings cut out. wall: the same, w thick, with reveals. */
+void panel(made_scene *s, int material, svec a, svec u, svec v, const opening *holes, int count);
+void wall(made_scene *s, int material, svec a, svec u, svec v, svec w, const opening *holes, int count);
+
+/* From a to b, without ends; a cone where radii differ. */
+void tube(made_scene *s, int material, svec a, svec b, double radius_a, double radius_b, int sides);
+void ball(made_scene *s, int material, svec centre, double radius, int rings);
+
+void spot(made_scene *s, svec from, svec towards, double watts_per_sr, double inner_deg, double outer_deg);
+void point(made_scene *s, svec from, double watts_per_sr);
+void sun(made_scene *s, svec direction, double watts_per_m2);
+void look(made_scene *s, svec eye, svec target, double fov_deg);
+void sun_through(made_scene *s, svec low, svec high);
+
+/* Kinds, by the file they are in. */
+void build_louvres(made_scene *s);
+void build_blinds(made_scene *s);
+void build_stair_hall(made_scene *s);
+void build_kitchen(made_scene *s);
+void build_attic(made_scene *s);
+void build_bookshelves(made_scene *s);
+void build_grille(made_scene *s);
+void build_columns(made_scene *s);
+void build_windows(made_scene *s);
+void build_doors(made_scene *s);
+void build_gallery(made_scene *s);
+void build_l_corridor(made_scene *s);
+void build_furnished(made_scene *s);
+void build_spiral(made_scene *s);
+void build_arcade(made_scene *s);
+void build_tent(made_scene *s);
+void build_pipes(made_scene *s);
+void build_crates(made_scene *s);
+void build_railing(made_scene *s);
+void build_foliage(made_scene *s);
+void build_foliage20k(made_scene *s);
+void build_reeds(made_scene *s);
+void build_canyon(made_scene *s);
+void build_terrain_in(made_scene *s);
+void build_terrain_out(made_scene *s);
+void build_courtyard(made_scene *s);
+void build_city(made_scene *s);
+void build_cave(made_scene *s);
+
+#endif

@@ -1,0 +1,543 @@
+/* test_zeros.c: every public call with structs of zeros, null pointers and absurd numbers: it returns, and says so.
+ *
+ * The table of calls is made from the headers (tests/build/zeros.awk), so none can be forgotten. Under the sanitizers
+ * (make asan) this is also a test that none of it reads or writes what it must not, or computes what C leaves open. */
+#include <lambent/lambent.h>
+
+#include "../../tools/demo_scene.h"
+#include "../sphere_relief.h"
+
+void test_zeros(void);
+
+#if LMB_TREES && LMB_PROBES && LMB_VOXELS && LMB_MIXED && LMB_RELIEF && LMB_PLAN
+
+/* --- arguments ---------------------------------------------------------------------------------------------------- */
+
+enum { ZERO, NOTHING, GOOD }; /* what a pointer points to; NOTHING: it is NULL */
+
+typedef struct argument {
+    const char *type, *name;
+    int kind;     /* of a pointer */
+    void *memory; /* to be freed */
+    int64_t whole;
+    double value; /* of a number, and of a vector's parts */
+} argument;
+
+typedef struct parameter {
+    const char *type, *name;
+    int is_pointer;
+} parameter;
+
+typedef struct call {
+    const char *name;
+    int (*make)(argument *);
+    int is_status, count;
+    parameter parameter[12];
+} call;
+
+enum { ARRAY = 1 << 21 }; /* bytes of an array whose length the type does not tell */
+
+static const char *at_call = ""; /* the call that is made */
+
+static int calls_for(const char *name) { return strcmp(at_call, name) == 0; }
+
+static const void *good_one(const argument *a, size_t *bytes);
+
+/* A copy of its own, so that a sanitizer sees its end. */
+static void *pointer(argument *a, size_t bytes)
+{
+    size_t size;
+    const void *good = good_one(a, &size);
+    if (a->kind == NOTHING) {
+        return NULL;
+    }
+    if (strcmp(a->type, "lmb_kernels") == 0) {
+        return (void *)(uintptr_t)lmb_kernels_pick();
+    }
+    bytes = bytes > 0 ? bytes : ARRAY;
+    a->memory = calloc(1, bytes);
+    if (a->memory == NULL) {
+        abort();
+    }
+    if (a->kind == GOOD && good != NULL) {
+        memcpy(a->memory, good, size < bytes ? size : bytes);
+    }
+    return a->memory;
+}
+
+static int64_t whole(const argument *a) { return a->whole; }
+static double number(const argument *a) { return a->value; }
+
+static lmb_vec3 vector(const argument *a)
+{
+    const float v = (float)a->value;
+    return strcmp(a->name, "up") == 0 ? vec3(0, v, 0) : strcmp(a->name, "target") == 0 ? vec3(v, v, 0) : vec3(v, v, v);
+}
+
+#include "calls.inc"
+
+/* --- one good struct of each kind --------------------------------------------------------------------------------- */
+
+enum { WIDE = 64, HIGH = 32, SIDE = 64, SMALL = 8, LEAST = 4096 };
+
+static struct {
+    lmb_render begun, render; /* render: at LMB_STAGE_BANDS */
+    lmb_points points;        /* of a face, not yet joined */
+    lmb_surface metres;
+    lmb_tile tile;
+    lmb_many many, stream; /* built; not yet */
+    lmb_cloud cloud;
+    lmb_planes planes;
+    lmb_real_mesh mesh;
+    lmb_env env;
+    lmb_voxels voxels;
+    lmb_cones cones;
+    lmb_cone_scratch cone_scratch;
+    lmb_world world;
+    lmb_world_pictures pictures;
+    lmb_probe_table table;
+    lmb_probe_blur blur;
+    lmb_probe_cube cube;
+    lmb_probe_lights lights;
+    lmb_probe_cache cache;
+    lmb_probe probe;
+    lmb_point_grid grid;
+    lmb_survey survey;
+    lmb_look look;
+    lmb_groups groups;
+    lmb_band_scratch scratch;
+    lmb_gloss gloss;
+    lmb_cut cut;
+    lmb_irradiance irradiance[2];
+    lmb_cutting cutting;
+    lmb_receiver receiver;
+    lmb_relight relight;
+    lmb_occluder occluder;
+    lmb_facts facts;
+    lmb_hull hull;
+} g;
+
+/* Memory for a good one; 0: frees all. */
+static void *room(size_t bytes)
+{
+    static void *all[64];
+    static int count;
+    for (; bytes == 0 && count > 0; --count) {
+        free(all[count - 1]);
+    }
+    CHECK(count < COUNT(all));
+    return bytes > 0 ? all[count++] = calloc(1, bytes) : NULL;
+}
+
+static void make_frame(void)
+{
+    lmb_frame f;
+    const size_t map = lmb_light_map_bytes(1, SIDE, LMB_ID32) * 2, tree = lmb_tree_bytes(6, SIDE),
+                 points = lmb_points_bytes(LEAST, SIDE / 8), blockers = lmb_blockers_bytes(LEAST * 4),
+                 elements = lmb_elements_bytes(LEAST);
+    memset(&f, 0, sizeof f);
+    f.kernels = lmb_kernels_pick();
+    f.scene = demo_scene();
+    f.view = demo_view(WIDE, HIGH);
+    f.light_map = SIDE;
+    f.grouping.method = LMB_GROUP_CUT;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    f.error = f.visible = 0.1f;
+    f.bounces = 2;
+    f.map_memory = room(map);
+    f.map_bytes = map;
+    f.groups = &g.groups;
+    f.scratch = &g.scratch;
+    CHECK(lmb_tree_init(&f.tree, 6, SIDE, room(tree), tree) == LMB_OK);
+    CHECK(lmb_points_init(&f.points, LEAST, SIDE / 8, room(points), points) == LMB_OK);
+    CHECK(lmb_blockers_init(&f.blockers, LEAST * 4, room(blockers), blockers) == LMB_OK);
+    CHECK(lmb_elements_init(&f.elements, LEAST, room(elements), elements) == LMB_OK);
+    CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
+    CHECK(lmb_surface_init(&f.eye.id, LMB_ID32, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
+    CHECK(lmb_surface_init(&f.out, LMB_RGB32F, WIDE, HIGH, room(WIDE * HIGH * 12), WIDE * HIGH * 12) == LMB_OK);
+    CHECK(lmb_render_begin(&g.render, &f) == LMB_OK);
+    g.begun = g.render;
+    while (g.render.stage < LMB_STAGE_BANDS && lmb_render_step(&g.render, 100) == LMB_MORE) {
+    }
+    CHECK(g.render.stage == LMB_STAGE_BANDS);
+    CHECK(lmb_resolve_tile(&g.tile, f.kernels, &f.view, f.scene, &f.eye, 0, 0) == LMB_OK && g.tile.hits > 0);
+    lmb_grouping zones;
+    memset(&zones, 0, sizeof zones);
+    lmb_points *const two[2] = {&g.render.frame.points, &g.points};
+    CHECK(lmb_points_init(&g.points, LEAST, SIDE / 8, room(points), points) == LMB_OK);
+    for (int i = 0; i < 2; ++i) {
+        CHECK(lmb_points_collect(two[i], f.kernels, &g.scratch.tile, f.scene, &f.scene->lights[0], &g.render.maps[0], 0,
+                                 0, SIDE / 8, &zones) == LMB_OK);
+    }
+    CHECK(lmb_discs_join(&g.render.frame.points, &g.render.maps[0], &zones) == LMB_OK);
+    CHECK(lmb_group_points(&g.groups, &g.render.frame.points, &zones, NULL) == LMB_OK);
+    CHECK(lmb_render_survey(&g.survey, &g.render, &g.scratch) == LMB_OK);
+    CHECK(lmb_render_look(&g.look, &g.render, &g.scratch, &g.survey) == LMB_OK);
+    CHECK(lmb_surface_init(&g.metres, LMB_R32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
+    const lmb_cutting cutting = {.error = 0.1f, .visible = 0.1f, .blockers = &g.render.frame.blockers};
+    const lmb_receiver receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
+    const lmb_occluder occluder = {&g.render.frame.view, &g.render.frame.eye.depth, LMB_OCCLUSION_VIEW, 8};
+    g.cutting = cutting;
+    g.receiver = receiver;
+    g.occluder = occluder;
+}
+
+static const lmb_axes straight = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+static const lmb_pinhole camera = {WIDE, HIGH, 60, 60, 31.5f, 23.5f};
+
+static void make_photo(void)
+{
+    float *depth = room(WIDE * HIGH * sizeof *depth);
+    const size_t cloud = lmb_cloud_bytes(WIDE, HIGH), planes = lmb_planes_bytes(WIDE, HIGH),
+                 mesh = lmb_real_mesh_bytes(WIDE, HIGH, 4), env = lmb_env_bytes(SMALL),
+                 grid = lmb_point_grid_bytes(WIDE * HIGH);
+    for (int i = 0; i < WIDE * HIGH; ++i) {
+        depth[i] = i / WIDE < HIGH / 2 ? 3.0f : 3.0f * 60.0f / (60.0f + 2.0f * (float)(i / WIDE - HIGH / 2));
+    }
+    CHECK(lmb_cloud_init(&g.cloud, &camera, depth, room(cloud), cloud) == LMB_OK);
+    CHECK(lmb_cloud_normals(&g.cloud) == LMB_OK);
+    CHECK(lmb_planes_find(&g.planes, &g.cloud, room(planes), planes) == LMB_OK && g.planes.count > 1);
+    CHECK(lmb_real_mesh_build(&g.mesh, &g.cloud, &g.planes, 4, &straight, room(mesh), mesh) == LMB_OK);
+    CHECK(lmb_env_init(&g.env, SMALL, room(env), env) == LMB_OK);
+    CHECK(lmb_point_grid_init(&g.grid, g.cloud.normal, WIDE * HIGH, room(grid), grid) == LMB_OK);
+}
+
+static void make_voxels(void)
+{
+    const lmb_scene *scene = demo_scene();
+    const size_t bytes = lmb_voxels_bytes(3 * LEAST, LMB_VOXELS_THREE), many = lmb_many_bytes(16);
+    const lmb_voxel_part part = {scene, 1, lmb_scene_triangles(scene), {1, 1}};
+    CHECK(lmb_voxels_init(&g.voxels, 3 * LEAST, LMB_VOXELS_THREE, room(bytes), bytes) == LMB_OK);
+    CHECK(lmb_voxels_build(&g.voxels, &scene->bounds_min, &scene->bounds_max, 5, &part, 1) == LMB_OK);
+    CHECK(lmb_cones_init(&g.cones, &g.voxels, 7) == LMB_OK);
+    CHECK(lmb_many_init(&g.many, 16, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, room(many), many) == LMB_OK);
+    CHECK(lmb_many_init(&g.stream, 16, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, room(many), many) == LMB_OK);
+    for (int i = 0; i < 3; ++i) {
+        const lmb_light l = point_light(vec3((float)i, 1, 1));
+        CHECK(lmb_many_add(&g.many, &l, 1) == LMB_OK);
+    }
+    CHECK(lmb_many_build(&g.many) == LMB_OK && g.many.lights == 3);
+    lmb_hull_find(&g.hull, scene);
+}
+
+static void make_probe(void)
+{
+    const size_t table = lmb_probe_table_bytes(32, 16), cube = lmb_probe_cube_bytes(SMALL);
+    const lmb_probe_policy policy = {0.1f, 2};
+    lmb_world_pictures *p = &g.pictures;
+    for (int i = 0; i < 6; ++i) {
+        p->face[i] = room(SMALL * SMALL * 3 * sizeof(float));
+    }
+    p->face_size = SMALL;
+    p->radius = 5.0f;
+    const size_t world_bytes = lmb_world_bytes(p, LMB_WORLD_F32);
+    CHECK(lmb_world_init(&g.world, p, LMB_WORLD_F32, room(world_bytes), world_bytes) == LMB_OK);
+    CHECK(lmb_probe_table_init(&g.table, 32, 16, 0.0f, room(table), table) == LMB_OK);
+    const size_t blur = lmb_probe_blur_bytes(&g.table, 1);
+    CHECK(lmb_probe_blur_init(&g.blur, &g.table, 1, room(blur), blur) == LMB_OK);
+    CHECK(lmb_probe_cube_init(&g.cube, room(6 * SMALL * SMALL * 12), SMALL, room(cube), cube) == LMB_OK);
+    CHECK(lmb_probe_reduce(&g.lights, lmb_kernels_pick(), room(32 * 16 * 12), &g.table) == LMB_OK);
+    CHECK(lmb_probe_cache_init(&g.cache, 4, &policy) == LMB_OK);
+    g.probe.irradiance = g.probe.gloss = g.cube;
+    lmb_relight *r = &g.relight;
+    r->kernels = lmb_kernels_pick();
+    r->scene = demo_scene();
+    r->maps = g.render.maps;
+    r->world = &g.world;
+    r->probes = &g.probe;
+    r->probe_of = room(r->scene->instance_count * sizeof *r->probe_of);
+    r->probe_count = 1;
+    r->view = g.render.frame.view;
+    r->eye = g.render.frame.eye;
+}
+
+static void make_facts(void)
+{
+    lmb_facts *f = &g.facts;
+    f->triangles = f->faces = f->tiles = f->lights = f->bounces = 10.0;
+    f->shown = 3000.0f;
+    f->wanted_map = f->tree = SIDE;
+    for (int i = 0; i < LMB_FACT_STEPS * LMB_FACT_TREES; ++i) {
+        const int step = i / LMB_FACT_TREES, tree = i % LMB_FACT_TREES;
+        for (int rung = 0; rung < LMB_FACT_RUNGS; ++rung) {
+            f->pairs[step][tree][rung] = f->segments[step][tree][rung] = 100.0f / (float)(1 + rung);
+            f->error[step][tree][rung] = 0.01f * (float)(1 + rung);
+        }
+    }
+    f->open_error = 0.5f;
+    f->open_pairs = 1.0f;
+}
+
+static const stage *relief;
+
+typedef struct known {
+    const char *type;
+    const void *data;
+    size_t bytes;
+} known;
+
+/* What one call wants otherwise than the others. */
+static int good_for_call(known *out, const argument *a)
+{
+    if (calls_for("lmb_plan_frame") || calls_for("lmb_render_part") || calls_for("lmb_render_parts_done")) {
+        *out = (known){"lmb_render", &g.begun, sizeof g.begun};
+    } else if (calls_for("lmb_many_add") || calls_for("lmb_many_build")) {
+        *out = (known){"lmb_many", &g.stream, sizeof g.stream};
+    } else if (calls_for("lmb_gbuffer_band") && strcmp(a->name, "depth") == 0) {
+        *out = (known){"lmb_surface", &g.metres, sizeof g.metres};
+    } else if (calls_for("lmb_depth_linearize")) {
+        *out = (known){"lmb_surface", &g.render.frame.eye.depth, sizeof g.render.frame.eye.depth};
+    } else if (calls_for("lmb_relief_open") || calls_for("lmb_relief_swap")) {
+        *out = (known){"void", relief->file.data, relief->file.size};
+    } else {
+        return 0;
+    }
+    return strcmp(out->type, a->type) == 0;
+}
+
+static const void *good_one(const argument *a, size_t *bytes)
+{
+    known own;
+    if (good_for_call(&own, a)) {
+        *bytes = own.bytes;
+        return own.data;
+    }
+    const lmb_frame *f = &g.render.frame;
+    static lmb_many_look many_look;
+    static lmb_world_look world_look;
+    static lmb_voxel_part part;
+    static lmb_cone_trace trace;
+    static const lmb_budget budget = {1e9, 0.1f, 0};
+    many_look.many = &g.many;
+    world_look.world = &g.world;
+    part.scene = demo_scene();
+    part.first_id = part.count = 1;
+    trace.kernels = lmb_kernels_pick();
+    trace.voxels = &g.voxels;
+    trace.scratch = &g.cone_scratch;
+    const known all[] = {
+        {"lmb_axes", &straight, sizeof straight},
+        {"lmb_blockers", &f->blockers, sizeof f->blockers},
+        {"lmb_budget", &budget, sizeof budget},
+        {"lmb_cloud", &g.cloud, sizeof g.cloud},
+        {"lmb_cone_trace", &trace, sizeof trace},
+        {"lmb_cone_width", g.cones.width, sizeof *g.cones.width},
+        {"lmb_cones", &g.cones, sizeof g.cones},
+        {"lmb_cutting", &g.cutting, sizeof g.cutting},
+        {"lmb_elements", &f->elements, sizeof f->elements},
+        {"lmb_env", &g.env, sizeof g.env},
+        {"lmb_facts", &g.facts, sizeof g.facts},
+        {"lmb_frame", f, sizeof *f},
+        {"lmb_groups", &g.groups, sizeof g.groups},
+        {"lmb_hull", &g.hull, sizeof g.hull},
+        {"lmb_light", f->scene->lights, sizeof *f->scene->lights},
+        {"lmb_light_map", g.render.maps, sizeof *g.render.maps},
+        {"lmb_look", &g.look, sizeof g.look},
+        {"lmb_many", &g.many, sizeof g.many},
+        {"lmb_many_look", &many_look, sizeof many_look},
+        {"lmb_occluder", &g.occluder, sizeof g.occluder},
+        {"lmb_pinhole", &camera, sizeof camera},
+        {"lmb_planes", &g.planes, sizeof g.planes},
+        {"lmb_point_grid", &g.grid, sizeof g.grid},
+        {"lmb_points", &g.points, sizeof g.points},
+        {"lmb_probe_blur", &g.blur, sizeof g.blur},
+        {"lmb_probe_cache", &g.cache, sizeof g.cache},
+        {"lmb_probe_cube", &g.cube, sizeof g.cube},
+        {"lmb_probe_lights", &g.lights, sizeof g.lights},
+        {"lmb_probe_policy", &g.cache.policy, sizeof g.cache.policy},
+        {"lmb_probe_table", &g.table, sizeof g.table},
+        {"lmb_real_mesh", &g.mesh, sizeof g.mesh},
+        {"lmb_receiver", &g.receiver, sizeof g.receiver},
+        {"lmb_relief", &relief->relief, sizeof relief->relief},
+        {"lmb_relight", &g.relight, sizeof g.relight},
+        {"lmb_render", &g.render, sizeof g.render},
+        {"lmb_scene", f->scene, sizeof *f->scene},
+        {"lmb_surface", &f->out, sizeof f->out},
+        {"lmb_survey", &g.survey, sizeof g.survey},
+        {"lmb_target", &f->eye, sizeof f->eye},
+        {"lmb_tile", &g.tile, sizeof g.tile},
+        {"lmb_tree", &f->tree, sizeof f->tree},
+        {"lmb_view", &f->view, sizeof f->view},
+        {"lmb_voxel_part", &part, sizeof part},
+        {"lmb_voxels", &g.voxels, sizeof g.voxels},
+        {"lmb_world", &g.world, sizeof g.world},
+        {"lmb_world_look", &world_look, sizeof world_look},
+        {"lmb_world_pictures", &g.pictures, sizeof g.pictures},
+    };
+    for (int i = 0; i < COUNT(all); ++i) {
+        if (strcmp(all[i].type, a->type) == 0) {
+            *bytes = all[i].bytes;
+            return all[i].data;
+        }
+    }
+    return NULL; /* scratch, or written: zeros will do */
+}
+
+/* --- calls -------------------------------------------------------------------------------------------------------- */
+
+/* A number that the call takes, by its name. */
+static void set_number(argument *a)
+{
+    static const struct {
+        const char *name;
+        int value;
+    } all[] = {
+        {"x", 0},       {"y", 0},      {"x0", 0},         {"y0", 0},        {"face", 0},   {"into", 0}, {"first", 0},
+        {"tile_y0", 0}, {"band", 0},   {"part", 0},       {"p", 0},         {"from", 0},   {"k", 4},    {"slots", 4},
+        {"step", 4},    {"depth", 5},  {"id_format", LMB_ID32}, {"n", SIDE}, {"side", SMALL}, {"size", SIDE},
+        {"width", WIDE}, {"height", HIGH}, {"most", SIDE}, {"terms", 9}, {"c", 0}, {"field", 0}, {"level", 0},
+        {"bytes", ARRAY}, {"units", 100}, {"pixels", -1}, {"known", 1}, {"last", 0}, {"cells", 16}, {"corners", 3},
+    };
+    static const struct {
+        const char *call, *name;
+        int value;
+    } own[] = {
+        {"lmb_probe_blur_init", "terms", 1},
+        {"lmb_voxels_init", "cap", 5000},
+        {"lmb_cones_init", "count", 7},
+    };
+    a->whole = 1;
+    a->value = 0.5;
+    for (int i = 0; i < COUNT(all); ++i) {
+        a->whole = strcmp(a->name, all[i].name) == 0 ? all[i].value : a->whole;
+    }
+    for (int i = 0; i < COUNT(own); ++i) {
+        a->whole = calls_for(own[i].call) && strcmp(a->name, own[i].name) == 0 ? own[i].value : a->whole;
+    }
+}
+
+/* How much memory there is, which only the caller knows. */
+static int is_vouched_for(const char *name)
+{
+    return strcmp(name, "bytes") == 0 || strcmp(name, "count") == 0 || strcmp(name, "cap") == 0 ||
+           strcmp(name, "from") == 0;
+}
+
+/* The call with its pointers of a kind and, where they are GOOD, numbers too; but one argument, `odd`, of another kind,
+ * or the number `absurd`. */
+static int make_call(const call *c, int kind, int odd, int odd_kind, int64_t whole_absurd, double absurd)
+{
+    argument a[12];
+    at_call = c->name;
+    for (int i = 0; i < c->count; ++i) {
+        memset(&a[i], 0, sizeof a[i]);
+        a[i].type = c->parameter[i].type;
+        a[i].name = c->parameter[i].name;
+        a[i].kind = i == odd ? odd_kind : kind;
+        if (kind == GOOD) {
+            set_number(&a[i]);
+        }
+        if (i == odd) {
+            a[i].whole = whole_absurd;
+            a[i].value = absurd;
+        }
+    }
+    const int status = c->make(a);
+    for (int i = 0; i < c->count; ++i) {
+        free(a[i].memory);
+    }
+    return status;
+}
+
+static int is_pointer(const call *c, int i) { return c->parameter[i].is_pointer; }
+
+static void absurd_numbers(const call *c, int i)
+{
+    static const int64_t wholes[] = {0, -1, 7, INT32_MAX, INT32_MIN};
+    static const double reals[] = {0.0, -1.0, (double)NAN, (double)INFINITY, -(double)INFINITY, 3e38, 1e-44};
+    for (int k = 0; k < COUNT(wholes); ++k) {
+        make_call(c, GOOD, i, GOOD, wholes[k], 0.5);
+    }
+    for (int k = 0; k < COUNT(reals); ++k) {
+        make_call(c, GOOD, i, GOOD, 1, reals[k]);
+    }
+}
+
+static int pointers_of(const call *c)
+{
+    int n = 0;
+    for (int i = 0; i < c->count; ++i) {
+        n += is_pointer(c, i);
+    }
+    return n;
+}
+
+/* Zeros that are no fault: no pixel, no face or nothing in the scene, and so nothing to do. */
+static int may_be_empty(const char *name)
+{
+    static const char *const all[] = {
+        "lmb_gather_tile", "lmb_compose_tile",    "lmb_compose_shine",  "lmb_compose_gloss",  "lmb_direct_tile",
+        "lmb_gloss_direct", "lmb_light_map_clear", "lmb_light_map_draw", "lmb_light_map_rows", "lmb_around_scale",
+        "lmb_delta_tile",  "lmb_scene_check",
+    };
+    int is_one = 0;
+    for (int i = 0; i < COUNT(all); ++i) {
+        is_one |= strcmp(name, all[i]) == 0;
+    }
+    return is_one;
+}
+
+static void test_call(const call *c)
+{
+    const int zeros = make_call(c, ZERO, -1, 0, 0, 0.0), nothing = make_call(c, NOTHING, -1, 0, 0, 0.0);
+    if (c->is_status && pointers_of(c) > 0) {
+        CHECK_MSG(nothing < 0, "%s(NULL, ..): %s", c->name, lmb_status_name((lmb_status)nothing));
+        CHECK_MSG(zeros < 0 || may_be_empty(c->name), "%s of zeros: %s", c->name, lmb_status_name((lmb_status)zeros));
+        const int good = make_call(c, GOOD, -1, 0, 0, 0.0);
+        CHECK_MSG(good >= 0, "%s as it should be: %s", c->name, lmb_status_name((lmb_status)good));
+    }
+    for (int i = 0; i < c->count; ++i) {
+        if (is_pointer(c, i)) {
+            make_call(c, ZERO, i, NOTHING, 0, 0.0);
+            make_call(c, GOOD, i, ZERO, 0, 0.0);
+            make_call(c, GOOD, i, NOTHING, 0, 0.0);
+        } else if (!is_vouched_for(c->parameter[i].name)) {
+            absurd_numbers(c, i);
+        }
+    }
+}
+
+/* Absurd in more than one argument, or within a struct. */
+static void test_named(void)
+{
+    const float least = LMB_ALBEDO_LEAST, most = LMB_ALBEDO_MOST;
+    const float albedo[3] = {lmb_real_albedo(INFINITY, INFINITY), lmb_real_albedo(NAN, 1.0f),
+                             lmb_real_albedo(1.0f, NAN)};
+    for (int i = 0; i < 3; ++i) {
+        CHECK_MSG(albedo[i] >= least && albedo[i] <= most, "%d: %g", i, (double)albedo[i]);
+    }
+    lmb_axes bent = straight;
+    float rgb[3 * WIDE] = {0};
+    CHECK(lmb_env_fold(&g.env, rgb, WIDE, 1, &bent) == LMB_OK);
+    bent.up.y = NAN;
+    CHECK(lmb_env_fold(&g.env, rgb, WIDE, 1, &bent) == LMB_ERR_ARG);
+    int32_t near[LMB_NEAREST_CAP];
+    CHECK(lmb_cloud_nearest(near, 4, &g.cloud, WIDE / 2, HIGH / 2) == 4);
+    CHECK(lmb_cloud_nearest(near, 4, &g.cloud, -1, 0) == 0 && lmb_cloud_nearest(near, 4, &g.cloud, 0, HIGH) == 0);
+    lmb_render none;
+    memset(&none, 0, sizeof none);
+    CHECK(lmb_render_step(&none, 1) == LMB_ERR_ARG && lmb_render_has_parts(&none) == 0);
+}
+
+void test_zeros(void)
+{
+    stage *s = stage_make(LMB_RELIEF_FULL, 0);
+    relief = s;
+    make_frame();
+    make_photo();
+    make_voxels();
+    make_probe();
+    make_facts();
+    for (int i = 0; i < COUNT(calls); ++i) {
+        test_call(&calls[i]);
+    }
+    test_named();
+    stage_free(s);
+    room(0);
+}
+
+#else
+
+void test_zeros(void) {}
+
+#endif
