@@ -11,8 +11,13 @@ rows=$work/own.rows
 # A PFM's second line: `256 256`.
 size_of() { dd if="$1" bs=32 count=1 2>/dev/null | sed -n '2s/ /x/p'; }
 
-# set_of NAME: what the table of kinds says.
-set_of() { "$B/scenes" --list | awk -v kind="${1%%:*}" '$1 == kind { print $2 }'; }
+# set_of NAME: what the table of kinds says; seeds of three digits are held out.
+set_of() {
+    case $1 in
+    *:[1-9][0-9][0-9]) echo held-out ;;
+    *) "$B/scenes" --list | awk -v kind="${1%%:*}" '$1 == kind { print $2 }' ;;
+    esac
+}
 
 # row NAME SET QUALITY: of the scene in $truth.
 row() {
@@ -117,7 +122,8 @@ command -v python3 >/dev/null || { skip "no python3 for $compare"; finish; }
 echo "| scene | set | quality | trim | rmse | mean | pairs | segments | user s |"
 echo "|---|---|---|---|---|---|---|---|---|"
 shared_scenes=${SHARED_SCENES-cornell corridor corner_contact bunny_room sponza point_room two_lights grazing_sun}
-own_scenes=${OWN_SCENES-$("$B/scenes" --list | awk '{ print $1 }')}
+own_scenes=${OWN_SCENES-$("$B/scenes" --list | awk '{ print $1 }')
+    $([ -z "$LMB_OWN_TRUTH" ] || (cd "$LMB_OWN_TRUTH" && ls -d -- *:[1-9][0-9][0-9] 2>/dev/null))}
 for scene in $shared_scenes; do
     scene_rows "$scene" fitted
 done
