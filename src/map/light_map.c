@@ -155,9 +155,9 @@ static void fit_vertices(lmb_view *v, const lmb_scene *scene)
     const float margin = v->near_m;
     v->half_width = 0.5f * (high.x - low.x) + margin;
     v->half_height = 0.5f * (high.y - low.y) + margin;
-    v->far_m = 2.0f * margin + (high.z - low.z);
+    v->far_m = 3.0f * margin + (high.z - low.z);
     v->eye = add3(v->eye, add3(mul3(v->right, 0.5f * (low.x + high.x)),
-                               add3(mul3(v->up, 0.5f * (low.y + high.y)), mul3(v->back, high.z + margin))));
+                               add3(mul3(v->up, 0.5f * (low.y + high.y)), mul3(v->back, high.z + 2.0f * margin))));
 }
 #endif
 
