@@ -7,7 +7,8 @@
 #define STEPS 12
 #define ERROR   0.02f  /* the tool's presets' `default` */
 #define VISIBLE 0.015f
-#define EVEN    0.1f   /* of both, where light comes from all sides: trim 0.026 by 100 lights, for half the time */
+#define EVEN_ERROR   0.1f /* where light comes from all sides */
+#define EVEN_VISIBLE 0.2f
 
 /* Share the map memory out: one light's map after another. */
 static lmb_status place_maps(lmb_render *r)
@@ -41,8 +42,8 @@ void lmb_render_defaults(lmb_frame *f)
     const int even = (f->error == 0.0f || f->visible == 0.0f) && is_even(f);
     f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->steps = f->steps != 0 ? f->steps : STEPS;
-    f->error = f->error != 0.0f ? f->error : even ? EVEN : ERROR;
-    f->visible = f->visible != 0.0f ? f->visible : even ? EVEN : VISIBLE;
+    f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;
+    f->visible = f->visible != 0.0f ? f->visible : even ? EVEN_VISIBLE : VISIBLE;
     f->gather_step = f->gather_step != 0 && wants_bounce(f) ? f->gather_step : 1;
 }
 
