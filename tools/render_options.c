@@ -32,7 +32,7 @@ static const char usage_view[] =
     "  --many-lights CELLS        lights stream into at most CELLS cells of the world, and every 8x8 pixels take what\n"
     "                             they need of a tree over those, shadows by every triangle; so do --elements, which\n"
     "                             bounce their light. Millions take the memory of thousands. By itself, with 16384\n"
-    "                             cells, where there are more than 128 lights\n"
+    "                             cells, where there are more than 128 lights, or more than 32 that bounce by cuts\n"
     "  --light-error E            share of a pixel's light that one node of that tree may be wrong by (default 0.02)\n";
 
 static const char usage_bounce[] =
@@ -435,13 +435,22 @@ static const struct flag {
 };
 
 /* Figures of the presets: README, "How good it is". */
-static void choose(render_options *o)
+void render_options_light(render_options *o, int many)
 {
     static const struct preset {
-        int32_t tree;
+        int32_t tree, step;
         float error, visible;
-    } presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.005f}};
-    const struct preset *p = &presets[o->quality];
+    } presets[2][3] = {{{256, 0, 0.02f, 0.015f}, {128, 0, 0.06f, 0.06f}, {1024, 0, 0.01f, 0.005f}},
+                       {{256, 2, 0.1f, 0.2f}, {128, 2, 0.2f, 0.3f}, {1024, 2, 0.01f, 0.005f}}};
+    const struct preset *p = &presets[many][o->quality];
+    o->tree = o->tree > 0 ? o->tree : p->tree;
+    o->gather_step = o->gather_step > 0 ? o->gather_step : p->step;
+    o->error = o->error > 0.0f ? o->error : p->error;
+    o->visible = o->visible > 0.0f ? o->visible : p->visible;
+}
+
+static void choose(render_options *o)
+{
     const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
     if (o->grouping.method == CHOSEN) {
         lmb_grouping plain; /* an option that fixed groups alone have asks for them */
@@ -454,9 +463,6 @@ static void choose(render_options *o)
     if (o->occlusion == CHOSEN) {
         o->occlusion = o->grouping.method == LMB_GROUP_CUT ? LMB_OCCLUSION_EXACT : LMB_OCCLUSION_VIEW;
     }
-    o->tree = o->tree > 0 ? o->tree : p->tree;
-    o->error = o->error > 0.0f ? o->error : p->error;
-    o->visible = o->visible > 0.0f ? o->visible : p->visible;
 }
 
 static int check_budget(const render_options *o, report *r)

@@ -45,7 +45,7 @@ typedef struct render_options {
     int32_t occlusion, steps;
     int32_t many_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
-    int32_t gather_step; /* 1, 2, 4 */
+    int32_t gather_step; /* 1, 2, 4; 0: default */
     int glossy;          /* materials get their lobe */
     int32_t exposure_auto;
     float exposure_ev;
@@ -64,5 +64,9 @@ extern const char *const render_usage[RENDER_USAGE_PARTS];
 
 /* For `render`, and for `plan`, which has no output. 1, or 0 with `r` set: bad usage. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);
+
+/* How finely light is worked out where no option says it: by the quality; of lights alone that are 32 or more in a tree
+ * (`many`), by less. Before the options are used. */
+void render_options_light(render_options *inout, int many);
 
 #endif

@@ -44,7 +44,9 @@ size_t lmb_light_map_bytes(int32_t faces, int32_t size, int32_t id_format);
 /* lmb_light_map_init: place a light's map into `memory` and fit its views.
  *
  *   size    texels a side: a multiple of 8, 8 .. LMB_MAX_SIDE.
- *   scene   its bounds and core fit directional lights' maps and set every map's near plane.
+ *   scene   its bounds and core fit directional lights' maps and set every map's near plane. Where there is no core,
+ *           and the bounds are those of its vertices, as lmb_scene_bounds sets them, the vertices themselves fit the
+ *           map, along the light's own axes: a pass over them. Builds without trees go by the bounds.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes): `out` is then untouched. */
 lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
                               int32_t id_format, void *memory, size_t bytes);

@@ -71,8 +71,8 @@ typedef struct lmb_frame {
     lmb_grouping grouping; /* zeros: defaults */
     int32_t occlusion;     /* LMB_OCCLUSION_* */
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
-    float error;           /* 0.02 where 0: LMB_GROUP_CUT: lmb_cutting's */
-    float visible;         /* 0.015 where 0: LMB_OCCLUSION_EXACT: lmb_cutting's */
+    float error;           /* 0.02 where 0, by LMB_MANY_EVEN lights 0.1: LMB_GROUP_CUT: lmb_cutting's */
+    float visible;         /* 0.015 where 0, by LMB_MANY_EVEN lights 0.2: LMB_OCCLUSION_EXACT: lmb_cutting's */
     int32_t proven;        /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cutting's */
     float many_error;      /* 0.02 where 0: lmb_many_look's */
     int32_t bounces;       /* 1 where 0, or .. 64: how often light is reflected before the surface that is seen;

@@ -5,6 +5,7 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
+#include "../base/vertex.h"
 #include "../raster/target.h"
 #include "part.h"
 
@@ -119,6 +120,48 @@ static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lm
 }
 
 #if LMB_TREES
+static int is_same(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/* Extents along a view's right, up and back, from its eye. */
+static void widen_by(lmb_vec3 *low, lmb_vec3 *high, const lmb_view *v, lmb_vec3 p)
+{
+    const lmb_vec3 to = sub3(p, v->eye), at = vec3(dot3(v->right, to), dot3(v->up, to), dot3(v->back, to));
+    *low = min3(*low, at);
+    *high = max3(*high, at);
+}
+
+/* The one face of a sun's map, fitted to the vertices along its own axes: a box along the world's would make texels as
+ * much wider as the scene is turned. Where bounds are wider than the vertices', for what moves or a relief's surface,
+ * the map holds the bounds. */
+static void fit_vertices(lmb_view *v, const lmb_scene *scene)
+{
+    const lmb_vec3 most = vec3(FLT_MAX, FLT_MAX, FLT_MAX), least = mul3(most, -1.0f);
+    lmb_vec3 low = most, high = least, own_low = most, own_high = least;
+    for (uint32_t i = 0; i < scene->instance_count; ++i) {
+        const lmb_instance *in = &scene->instances[i];
+        const lmb_mesh *mesh = &scene->meshes[in->mesh];
+        for (uint32_t k = 0; k < mesh->vertex_count; ++k) {
+            const lmb_vec3 p = transform_point(&in->to_world, mesh_position(mesh, k));
+            if (is_place(p)) {
+                own_low = min3(own_low, p);
+                own_high = max3(own_high, p);
+                widen_by(&low, &high, v, p);
+            }
+        }
+    }
+    if (!is_same(own_low, scene->bounds_min) || !is_same(own_high, scene->bounds_max)) {
+        return;
+    }
+    const float margin = v->near_m;
+    v->half_width = 0.5f * (high.x - low.x) + margin;
+    v->half_height = 0.5f * (high.y - low.y) + margin;
+    v->far_m = 3.0f * margin + (high.z - low.z);
+    v->eye = add3(v->eye, add3(mul3(v->right, 0.5f * (low.x + high.x)),
+                               add3(mul3(v->up, 0.5f * (low.y + high.y)), mul3(v->back, high.z + 2.0f * margin))));
+}
+#endif
+
+#if LMB_TREES
 #define WIDER 1.25f /* as wide as a face may become to end where texels of the next do */
 
 /* Along one axis: the middle and half width of a face, from the middle of the next, of which cells are `cell` wide. */
@@ -198,9 +241,13 @@ static void fit_views(lmb_light_map *map, const lmb_light *light, const lmb_scen
         if (light->kind == LMB_LIGHT_DIRECTIONAL) {
             const box b = box_of_face(scene, f, map->faces);
             fit_directional(v, light, &b);
-            if (LMB_TREES && map->faces > 1) {
+#if LMB_TREES
+            if (map->faces > 1) {
                 fit_part(v, light, &b, scene);
+            } else {
+                fit_vertices(v, scene);
             }
+#endif
         } else if (map->faces == 1) {
             fit_spot(v, light);
         } else {

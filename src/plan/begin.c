@@ -7,6 +7,8 @@
 #define STEPS 12
 #define ERROR   0.02f  /* the tool's presets' `default` */
 #define VISIBLE 0.015f
+#define EVEN_ERROR   0.1f /* where light comes from all sides */
+#define EVEN_VISIBLE 0.2f
 
 /* Share the map memory out: one light's map after another. */
 static lmb_status place_maps(lmb_render *r)
@@ -27,13 +29,21 @@ static lmb_status place_maps(lmb_render *r)
     return LMB_OK;
 }
 
+/* Many lights, and nothing else that shines. */
+static int is_even(const lmb_frame *f)
+{
+    return LMB_TREES && f->many != NULL && f->many->lights >= LMB_MANY_EVEN && f->scene != NULL &&
+           f->scene->light_count == 0 && !lmb_scene_shines(f->scene);
+}
+
 /* Where a picture's numbers are 0. */
 void lmb_render_defaults(lmb_frame *f)
 {
+    const int even = (f->error == 0.0f || f->visible == 0.0f) && is_even(f);
     f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->steps = f->steps != 0 ? f->steps : STEPS;
-    f->error = f->error != 0.0f ? f->error : ERROR;
-    f->visible = f->visible != 0.0f ? f->visible : VISIBLE;
+    f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;
+    f->visible = f->visible != 0.0f ? f->visible : even ? EVEN_VISIBLE : VISIBLE;
     f->gather_step = f->gather_step != 0 && wants_bounce(f) ? f->gather_step : 1;
 }
 

@@ -218,6 +218,19 @@ done
 status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 -o "$dir/once.pfm"
 status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 --threads 3 --backend scalar -o "$dir/threads.pfm"
 check "threads or lanes change what many lights bounce" cmp "$dir/once.pfm" "$dir/threads.pfm"
+few= # lights that bounce take a tree from 33 on, and less fine bounced light, which is as right as their direct light
+for i in $(seq 33); do
+    few="$few --light point:0.$((i % 10)),2,0.$((i / 4)):0,-1,0:1,1,1"
+done
+status 0 render demo $small $few --show indirect --stats "$dir/few.json" -o "$dir/few.pfm"
+check "33 lights that bounce are many" grep -q '33 lights in' "$dir/err.txt"
+status 0 render demo $small $few --show indirect --error 0.02 --visible 0.015 --stats "$dir/fine.json" -o "$dir/fine.pfm"
+status 0 compare "$dir/few.pfm" "$dir/fine.pfm" --max trim=0.05
+check "33 lights' bounced light takes under three quarters of the finer segments" sh -c '
+    segments() { sed -n "s/.*\"segments\": \([0-9]*\).*/\1/p" "$1"; }
+    [ $((4 * $(segments "$1"))) -lt $((3 * $(segments "$2"))) ]' sh "$dir/few.json" "$dir/fine.json"
+status 0 render demo $small $few --show direct -o "$dir/few.pfm"
+check "33 lights' direct light has maps" sh -c "! grep -q 'lights in' '$dir/err.txt'"
 status 2 render "$dir/many.gltf" --bounce-lights 3 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"

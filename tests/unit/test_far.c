@@ -299,6 +299,63 @@ static void test_faces(void)
     }
 }
 
+/* A box of any sides along any axes, its sides in one piece. */
+static void put_turned_room(test_rng *r)
+{
+    const lmb_vec3 a = normalize3(somewhere(r, X, vec3(0.9f, 0.9f, 0.9f))), b = normalize3(cross3(a, somewhere(r, Y, a)));
+    const lmb_vec3 axis[3] = {mul3(a, 3.0f), mul3(b, 1.5f), mul3(cross3(a, b), 2.0f)};
+    for (int i = 0; i < 6; ++i) {
+        const lmb_vec3 out = mul3(axis[i / 2], i & 1 ? -1.0f : 1.0f);
+        world_quad(add3(vec3(4, 1, -2), out), axis[(i / 2 + 1) % 3], axis[(i / 2 + 2) % 3]);
+    }
+}
+
+/* How far places reach along a map's right, up and back; they lie in the map. */
+typedef struct reach {
+    lmb_vec3 low, high;
+} reach;
+
+static void take_place(reach *inout, const lmb_view *v, lmb_vec3 p)
+{
+    const lmb_vec3 to = sub3(p, v->eye), at = vec3(dot3(v->right, to), dot3(v->up, to), dot3(v->back, to));
+    CHECK(absf(at.x) < v->half_width && absf(at.y) < v->half_height && -at.z > v->near_m && -at.z < v->far_m);
+    inout->low = min3(inout->low, at);
+    inout->high = max3(inout->high, at);
+}
+
+/* A map of one face is as wide as what is there, however the world is turned, and holds wider bounds where it is told
+ * of them. */
+static void test_turned_rooms(void)
+{
+    test_rng r = {85};
+    double worst = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        reach all = {{1e9f, 1e9f, 1e9f}, {-1e9f, -1e9f, -1e9f}};
+        lmb_light_map map;
+        world_begin(1, 1, 1);
+        put_turned_room(&r);
+        CHECK(core_of_world().faces == 0);
+        const lmb_light sun = make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), somewhere(&r, vec3(0, -1, 0), X));
+        CHECK(lmb_light_map_init(&map, &sun, &world.scene, 64, LMB_ID32, memory, MEMORY) == LMB_OK && map.faces == 1);
+        const lmb_view *v = &map.view[0];
+        for (uint32_t k = 0; k < 3 * world.count; ++k) {
+            const float *p = world.corners[k / 3][k % 3];
+            take_place(&all, v, vec3(p[0], p[1], p[2]));
+        }
+        const lmb_vec3 size = sub3(all.high, all.low);
+        worst = fmax(worst, fmax(2.0 * (double)v->half_width / (double)size.x,
+                                 2.0 * (double)v->half_height / (double)size.y));
+        worst = fmax(worst, (double)(v->far_m - v->near_m) / (double)size.z);
+        world.scene.bounds_max = add3(world.scene.bounds_max, vec3(1, 2, 3));
+        CHECK(lmb_light_map_init(&map, &sun, &world.scene, 64, LMB_ID32, memory, MEMORY) == LMB_OK);
+        for (int k = 0; k < 8; ++k) {
+            const lmb_vec3 low = world.scene.bounds_min, high = world.scene.bounds_max;
+            take_place(&all, v, vec3(k & 1 ? low.x : high.x, k & 2 ? low.y : high.y, k & 4 ? low.z : high.z));
+        }
+    }
+    CHECK_MSG(worst < 1.01, "%g times as wide as the room", worst);
+}
+
 /* --- later bounces ------------------------------------------------------------------------------------------------ */
 
 /* How many places along the curve that sorts them a scene's elements have. */
@@ -342,6 +399,7 @@ void test_far(void)
     test_house();
     test_bad_cores();
     test_faces();
+    test_turned_rooms();
     test_stray_elements();
     free(memory);
 }
