@@ -440,7 +440,7 @@ static void choose(render_options *o)
     static const struct preset {
         int32_t tree;
         float error, visible;
-    } presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.005f}};
+    } presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.001f}};
     const struct preset *p = &presets[o->quality];
     const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
     if (o->grouping.method == CHOSEN) {
