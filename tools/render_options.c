@@ -440,7 +440,7 @@ void render_options_light(render_options *o, int many)
     static const struct preset {
         int32_t tree, step;
         float error, visible;
-    } presets[2][3] = {{{256, 0, 0.02f, 0.015f}, {128, 0, 0.06f, 0.06f}, {1024, 0, 0.01f, 0.005f}},
+    } presets[2][3] = {{{256, 0, 0.02f, 0.015f}, {128, 0, 0.06f, 0.06f}, {1024, 0, 0.01f, 0.001f}},
                        {{256, 2, 0.1f, 0.2f}, {128, 2, 0.2f, 0.3f}, {1024, 2, 0.01f, 0.005f}}};
     const struct preset *p = &presets[many][o->quality];
     o->tree = o->tree > 0 ? o->tree : p->tree;

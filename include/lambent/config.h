@@ -31,7 +31,7 @@
 #ifdef LMB_CONFIG_TINY
 #define LMB_MAX_CUT 64
 #else
-#define LMB_MAX_CUT 16384
+#define LMB_MAX_CUT 65536
 #endif
 #endif
 

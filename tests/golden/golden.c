@@ -796,7 +796,7 @@ static const struct golden {
     uint64_t hash;
 } cases[] = {
 #include "golden_table.inc"
-#if LMB_MAX_GROUPS == 2048 && LMB_MAX_LIGHTS == 128 && LMB_MAX_CUT == 16384
+#if LMB_MAX_GROUPS == 2048 && LMB_MAX_LIGHTS == 128 && LMB_MAX_CUT == 65536
 #define CAPACITY_CASE(name, run, variant, here, tiny) {name, run, variant, here},
 #include "golden_capacity.inc"
 #elif LMB_MAX_GROUPS == 96 && LMB_MAX_LIGHTS == 1 && LMB_MAX_CUT == 64

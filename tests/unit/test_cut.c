@@ -259,7 +259,7 @@ static void check_full(void)
     lmb_blockers b;
     lit_box();
     take_quads();
-    CHECK(quad_count > 4 * LMB_MAX_CUT);
+    CHECK(quad_count > LMB_MAX_CUT);
     CHECK(lmb_blockers_init(&b, world.count, blocker_memory, sizeof blocker_memory) == LMB_OK);
     CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
     floor_tile(vec3(-0.3f, -1, -0.3f), 0.05f);
