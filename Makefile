@@ -354,12 +354,11 @@ voxels: $(B)/figures-voxel ## one bounce by cones through voxels: errors, time, 
 	@$(RUN) $(B)/figures-voxel $(SCENES)
 
 ROWS ?= $(BUILD)/plan-rows.bin
-plan-figures: $(B)/figures-plan ## predicted operations, errors, times against measured; chosen settings against a sweep's best
-	@rm -f $(ROWS); $(RUN) $(B)/figures-plan measure $(ROWS) $(SCENES); $(RUN) $(B)/figures-plan report $(ROWS); \
-	    $(RUN) $(B)/figures-plan choose $(ROWS)
+plan-figures: $(TOOL) $(B)/scenes ## settings chosen for budgets of error, against truth (BUDGETS, LMB_OWN_TRUTH)
+	@$(IN_SH) tests/figures/plan.sh
 
-plan-model: $(B)/figures-plan ## src/plan/plan_model.inc again, from the rows that plan-figures measured
-	@$(RUN) $(B)/figures-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
+plan-model: $(B)/figures-plan ## src/plan/plan_model.inc again: units of work, from five scenes by many settings
+	@rm -f $(ROWS); $(RUN) $(B)/figures-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/figures-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
 
 RELIEFS ?= quality own rooms causes speed
 relief-figures: $(B)/figures-relief ## reliefs against their complex models: errors, speed (RELIEFS="quality own ...")

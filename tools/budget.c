@@ -7,8 +7,6 @@
 #include "bench_calibrate.h"
 #include "scene_look.h"
 
-enum { MOST_MAP = 4096 };
-
 /* Bytes that no setting changes. */
 static uint64_t fixed_bytes(const render_job *j)
 {
@@ -34,6 +32,8 @@ void budget_words(char *out, size_t size, const budget_choice *c)
     const lmb_budget *b = &c->budget;
     const lmb_choice *a = &c->chosen;
     static const char none[] = "no setting meets the budget; the nearest takes ";
+    static const char unchecked[] = "no setting is known to meet the budget: to check the nearest would cost over a "
+                                    "fifth of the picture";
     size_t n = 0;
     out[0] = '\0';
     if (b->work > 0.0 && a->work > b->work) {
@@ -44,7 +44,11 @@ void budget_words(char *out, size_t size, const budget_choice *c)
                               (double)a->bytes / (double)b->bytes, (double)a->bytes / 1024.0);
     }
     if (b->error > 0.0f && a->error > b->error && n < size) {
-        snprintf(out + n, size - n, "%s%.3g x the error", n > 0 ? ", " : none, (double)(a->error / b->error));
+        n += (size_t)snprintf(out + n, size - n, "%s%.3g x the error", n > 0 ? ", " : none,
+                              (double)(a->error / b->error));
+    }
+    if (b->error > 0.0f && a->error < 0.0f && n < size) {
+        snprintf(out + n, size - n, "%s", n > 0 ? "; its error was not checked" : unchecked);
     }
     if (n == 0 && out[0] == '\0') {
         snprintf(out, size, "the budget is met");
@@ -54,39 +58,68 @@ void budget_words(char *out, size_t size, const budget_choice *c)
 static void tell(const budget_choice *c)
 {
     const lmb_settings *s = &c->chosen.settings;
-    char words[200];
+    char words[200], error[32] = "not checked";
     budget_words(words, sizeof words, c);
+    if (c->chosen.error >= 0.0f) {
+        snprintf(error, sizeof error, "about %.2g", (double)c->chosen.error);
+    }
     fprintf(stderr,
             "lambent: chosen: --light-map %d --tree %d --error %.3g --visible %.3g --gather %s --occlusion %s: error "
-            "about %.2g, %.3g units of work, %.0f KiB\n",
+            "%s, %.3g units of work, %.0f KiB\n",
             (int)s->light_map, (int)s->tree, (double)s->error, (double)s->visible,
             s->gather_step == 1 ? "full" : s->gather_step == 2 ? "half" : "quarter",
-            s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", (double)c->chosen.error, c->chosen.work,
+            s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", error, c->chosen.work,
             (double)c->chosen.bytes / 1024.0);
+    fprintf(stderr, "lambent: looked at %.3g units of work, %.0f %% of the picture's\n", c->look.work,
+            100.0 * c->look.work / c->chosen.work);
     fprintf(stderr, "lambent: %s\n", words);
+}
+
+/* The chosen settings into the job; the light of the look stands where it is theirs. */
+static int take_choice(budget_choice *c, render_job *j, report *r)
+{
+    const lmb_settings *s = &c->chosen.settings;
+    budget_apply(j, s);
+    if (!c->look.solved || j->frame.tree.size != s->tree || j->frame.light_map != s->light_map) {
+        return render_job_refit(j, r);
+    }
+    j->frame.error = s->error;
+    j->frame.visible = s->visible;
+    j->frame.gather_step = s->gather_step;
+    j->frame.occlusion = s->occlusion;
+    c->look.work -= c->look.light;
+    j->lit = 1;
+    return 1;
 }
 
 int budget_fit(budget_choice *out, render_job *j, report *r)
 {
     memset(out, 0, sizeof *out);
-    if (!scene_look(&out->facts, j, r)) {
-        return 0;
-    }
     out->budget = j->o.budget;
-    if (!has_budget(&j->o.budget, j->o.budget_ms)) {
-        return 1;
-    }
-    if (out->facts.tree == 0) {
-        return report_fail(r, "%s: --budget-*: no light bounces here that settings could be chosen for", j->o.scene);
-    }
     if (j->o.budget_ms > 0.0f) {
         out->rate = j->o.rate > 0.0f ? (double)j->o.rate : bench_calibrate(j->crew.threads);
         out->budget.work = out->rate * (double)j->o.budget_ms * 1e-3;
     }
-    if (lmb_plan_choose(&out->chosen, &out->facts, &out->budget, fixed_bytes(j), MOST_MAP) != LMB_OK) {
+    const uint64_t fixed = fixed_bytes(j);
+    if (!scene_look(&out->facts, &out->look, j, &out->budget, fixed, r)) {
+        return 0;
+    }
+    if (!has_budget(&out->budget, 0.0f)) {
+        return 1;
+    }
+    if (out->facts.most == 0) {
+        return report_fail(r, "%s: --budget-*: no light bounces here that settings could be chosen for", j->o.scene);
+    }
+    if (lmb_plan_choose(&out->chosen, &out->facts, &out->budget, fixed) != LMB_OK) {
         return report_fail(r, "%s: --budget-*: nothing to choose from", j->o.scene);
     }
-    budget_apply(j, &out->chosen.settings);
+    if (!take_choice(out, j, r)) {
+        return 0;
+    }
+    lmb_choice c;
+    lmb_plan_cost(&c, &out->facts, out->chosen.rung, fixed);
+    out->facts.pairs = c.op[LMB_OP_PAIRS];
+    out->facts.segments = c.op[LMB_OP_SEGMENTS];
     tell(out);
-    return render_job_refit(j, r);
+    return 1;
 }

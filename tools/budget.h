@@ -3,12 +3,14 @@
 #define BUDGET_H
 
 #include "render_job.h"
+#include "scene_look.h"
 
 /* What was looked at and chosen. */
 typedef struct budget_choice {
     lmb_facts facts;
     lmb_budget budget; /* the options', with milliseconds as work */
     lmb_choice chosen;
+    look_cost look;
     double rate;       /* units a second with the job's threads; 0: was not wanted */
 } budget_choice;
 

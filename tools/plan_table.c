@@ -102,7 +102,13 @@ void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choic
     }
     if (has_budget(&c->budget, 0.0f)) {
         budget_words(words, sizeof words, c);
-        printf("%s; error about %.2g of the bounced light\n", words, (double)c->chosen.error);
+        if (c->chosen.error >= 0.0f) {
+            printf("%s; error about %.2g of the bounced light\n", words, (double)c->chosen.error);
+        } else {
+            printf("%s; error not checked\n", words);
+        }
+        printf("looked at %.3g units of work, %.0f %% of the picture's\n", c->look.work,
+               100.0 * c->look.work / c->chosen.work);
     }
 }
 
@@ -135,9 +141,12 @@ void plan_print_json(const lmb_plan *p, const render_job *j, const budget_choice
            (unsigned)p->faces, (unsigned)p->faces_drawn, p->work, (double)p->bytes, c->rate);
     if (has_budget(&c->budget, 0.0f)) {
         printf(",\n  \"budget\": {\"work\": %.6g, \"error\": %.6g, \"bytes\": %.0f, \"meets\": %s, \"estimated_work\": "
-               "%.6g, \"estimated_error\": %.6g, \"estimated_bytes\": %.0f}",
+               "%.6g, \"checked\": %s, \"estimated_error\": %.6g, \"estimated_bytes\": %.0f, \"look_work\": %.6g, "
+               "\"look_seconds\": %.6f}",
                c->budget.work, (double)c->budget.error, (double)c->budget.bytes, c->chosen.meets ? "true" : "false",
-               c->chosen.work, (double)c->chosen.error, (double)c->chosen.bytes);
+               c->chosen.work, c->chosen.error >= 0.0f ? "true" : "false",
+               c->chosen.error >= 0.0f ? (double)c->chosen.error : 0.0, (double)c->chosen.bytes, c->look.work,
+               c->look.seconds);
     }
     printf("\n}\n");
 }

@@ -19,8 +19,9 @@ static const char usage[] =
     "  no glossy material          no lobe;   none that shines: no emitted light\n"
     "  a convex, empty room        nothing stands between two points of it: no segment is asked\n"
     "\n"
-    "Pairs and segments of bounced light are told by a look at 192 tiles of the picture itself, by several settings.\n"
-    "So is the error that a setting makes. Work is counted in units: one is a pixel lit by one node.\n"
+    "Pairs and segments of bounced light are told by a look at up to 192 tiles of the picture itself. So is the error\n"
+    "of what is chosen for a budget, against a finer setting. No look costs over a quarter of the picture.\n"
+    "Work is counted in units: one is a pixel lit by one node.\n"
     "\n"
     "  --json                      all of it for programs\n";
 
@@ -46,7 +47,7 @@ static int plan(render_job *j, report *r)
     }
     lmb_status status = lmb_render_begin(j->render, &j->frame);
     if (status == LMB_OK) {
-        status = lmb_plan_frame(&p, j->render, choice.facts.tree > 0 ? &choice.facts : NULL);
+        status = lmb_plan_frame(&p, j->render, choice.facts.most > 0 ? &choice.facts : NULL);
     }
     if (status != LMB_OK) {
         return report_fail(r, "%s: cannot be planned: %s", j->o.scene, lmb_status_name(status));

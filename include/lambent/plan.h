@@ -7,8 +7,8 @@
  * A frame leaves out only what can change no byte of its picture; which it was asked for is in lmb_frame. With a
  * budget, settings are chosen by what a few tiles of the scene itself tell:
  *
- *     lmb_render_survey(&survey, &r, ...);     which tiles of a frame that is solved are worth a look
- *     lmb_render_look(&look, &r, ...);         a few settings by those tiles: facts
+ *     lmb_survey_even(&places, &r, ...);       which tiles of a frame that is solved are looked at
+ *     lmb_render_look(&look, &r, ...);         their light by one rung of a ladder of settings, then by the next: facts
  *     lmb_plan_choose(&settings, &facts, &budget);
  *
  * All of it is a function of scene, view and numbers: no clock, the same on every machine. Work is counted in units:
@@ -89,62 +89,56 @@ typedef struct lmb_settings {
     int32_t gather_step, occlusion;
 } lmb_settings;
 
-/* What looks at some tiles of a solved frame found: LMB_FACT_RUNGS settings of `error`, each twice the last, with
- * `visible` LMB_FACT_VISIBLE of it, by LMB_FACT_TREES trees, each half as fine as the last. Errors are lmb_look_error's
- * against the finest setting at every pixel of a tree that is finer still. */
-enum { LMB_FACT_RUNGS = 6, LMB_FACT_TREES = 3, LMB_FACT_STEPS = 3 };
-#define LMB_FACT_FINEST  0.005f
-#define LMB_FACT_VISIBLE 0.75f
+/* What a look found of one rung of the ladder (lmb_plan_rung). */
+typedef struct lmb_rung {
+    int32_t places;         /* looked at; 0: none, and the numbers are guessed by the rung before */
+    float pairs, segments;  /* a tile of the picture */
+    float error;            /* thought to be at most, by lmb_look_bound against the next rung; below 0: not checked */
+} lmb_rung;
+
+/* What looks at some tiles of a solved frame found. The last rung is there to check the one before; none chooses it. */
+enum { LMB_PLAN_RUNGS = 7 };
 typedef struct lmb_facts {
     double triangles, faces, tiles, lights; /* of the scene; drawn, of maps; of the frame; that light directly */
     double bounces, elements;               /* as the frame asks for, one more where materials shine; cap: 0: none */
-    float shown;                            /* pixels with a surface, of all of its tiles */
+    double pairs, segments;                 /* of all tiles, by the frame's own settings; both 0: not known */
     int32_t wanted_map;                     /* texels a side of a map whose texels are as fine as the picture */
-    int32_t tree;                           /* texels a side of the finest */
-    float pairs[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS]; /* a shown pixel, by gather_step 1, 2 and 4 */
-    float segments[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS];
-    float error[LMB_FACT_STEPS][LMB_FACT_TREES][LMB_FACT_RUNGS];
-    float open_error, open_pairs;           /* without occlusion against with it; pairs over those with it */
+    int32_t most;                           /* texels a side of the largest map or tree that may be chosen */
     int32_t convex;                         /* 1: nothing stands between */
+    lmb_rung rung[LMB_PLAN_RUNGS];
 } lmb_facts;
 
 /* What a frame may cost; 0: no limit. */
 typedef struct lmb_budget {
     double work;    /* units */
-    float error;    /* as lmb_facts has it */
+    float error;    /* of bounced light: as lmb_look_error, against a finer setting */
     uint64_t bytes; /* of maps, tree, blockers, elements, view, picture and one thread's scratch */
 } lmb_budget;
 
 /* Settings for a budget, and what they are thought to cost. */
 typedef struct lmb_choice {
+    int32_t rung;
     lmb_settings settings;
     double work, op[LMB_OPS];
-    float error;
+    float error;   /* at most; below 0: not checked */
     uint64_t bytes;
-    int32_t meets; /* 1: all of the budget */
+    int32_t meets; /* 1: all of the budget. What was not checked does not meet one of errors */
 } lmb_choice;
 
 /* Which tiles of a frame are looked at: places of one tile each, or of LMB_SPARSE_TILES side by side where pixels are
- * left out; drawn with chances that go by what they take. 17 KB and 250 KB: yours, and written whole. */
+ * left out. */
 enum { LMB_LOOK_TILES = 192, LMB_LOOK_BLOCKS = 80 };
 enum { LMB_LOOK_PIXELS = LMB_LOOK_BLOCKS * LMB_SPARSE_TILES * LMB_TILE_PIXELS };
-enum { LMB_SURVEY = 2048 /* tiles that are asked what they take; of larger frames so many, spread evenly */ };
 typedef struct lmb_survey {
-    int32_t tiles, count;                      /* of a place; places to look at: the first of these */
-    uint16_t x[LMB_SURVEY], y[LMB_SURVEY];     /* their first pixel */
-    float weight[LMB_LOOK_TILES];              /* how many places each stands for */
-    int32_t surveyed;                          /* places */
-    float take[LMB_SURVEY];                    /* pairs and segments of each; 0: nothing is seen there */
-    double pixels;                             /* of them, with a surface */
-    float shown;                               /* pixels with a surface, of all of the frame's tiles */
+    int32_t tiles, count;                              /* of a place; places */
+    uint16_t x[LMB_LOOK_TILES], y[LMB_LOOK_TILES];     /* their first pixel */
 } lmb_survey;
 
-/* The light of a survey's places, by one setting. */
+/* The light of a survey's places, by one setting. 250 KB: yours, and written as far as it goes. */
 typedef struct lmb_look {
-    int32_t tiles;
-    float weight[LMB_LOOK_PIXELS / LMB_TILE_PIXELS]; /* of each tile */
-    float light[LMB_LOOK_PIXELS][3];                 /* W/m2; below 0: no surface */
-    double pixels, pairs, segments;                  /* of all that was surveyed: with a surface; estimated */
+    int32_t tiles, places;           /* of a place; looked at */
+    float light[LMB_LOOK_PIXELS][3]; /* W/m2; below 0: no surface */
+    double pairs, segments;          /* of these places */
 } lmb_look;
 
 typedef struct lmb_plan {
@@ -171,37 +165,46 @@ lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_fact
 /* lmb_plan_units: the work of one operation; 0 for other numbers. */
 double lmb_plan_units(int32_t op);
 
-/* lmb_render_survey: what tiles of a frame take as its settings of the moment (error, visible, occlusion, gather_step)
- * have it, and which of them to look at. A coarse tree and a large error will do.
+/* lmb_survey_even: places spread evenly over a frame.
  *
- *   r  a frame by LMB_GROUP_CUT, at LMB_STAGE_BANDS, with a whole frame's eye; read. lmb_render_again changes settings.
- * Returns LMB_OK or LMB_ERR_ARG. Cost: that of LMB_SURVEY tiles at most, and all of the frame's tiles resolved. */
-lmb_status lmb_render_survey(lmb_survey *out, const lmb_render *r, lmb_band_scratch *scratch);
+ *   r       a frame by LMB_GROUP_CUT, at LMB_STAGE_BANDS, with a whole frame's eye; read. lmb_render_again, or writing
+ *           to r->frame, changes error, visible, gather_step and occlusion between looks.
+ *   tiles   of a place: 1, or LMB_SPARSE_TILES side by side for looks where pixels are left out.
+ *   wanted  how many, up to LMB_LOOK_TILES or LMB_LOOK_BLOCKS; there may be fewer.
+ * The first few of them are spread evenly too: a look may end early. Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, int32_t wanted);
 
 /* lmb_render_look: bounced light of a survey's places, as the frame's settings of the moment have it.
  *
  *   r       as above; read.
  *   places  of a survey by a gather_step of 1 where this is by 1, else of one over 1; or that by 1 again, to compare.
- * Returns LMB_OK or LMB_ERR_ARG. Cost: that of LMB_LOOK_TILES tiles, or of LMB_LOOK_BLOCKS blocks of four. */
-lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch, const lmb_survey *places);
+ *   most    units of work after which no further place is looked at; 0: no limit. out->places says how many were.
+ * Returns LMB_OK or LMB_ERR_ARG. Cost: that of the places. */
+lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch, const lmb_survey *places,
+                           double most);
 
-/* lmb_look_error: how far `a` is from `b`, by the same places: root of the mean square over the pixels' channels,
- * without the worst 1 % of the pixels, over the mean of b. 0 where b is dark. */
+/* lmb_look_error: how far `a` is from `b`, by the places that both have: root of the mean square over the pixels'
+ * channels, without the worst 1 % of the pixels, over the mean of b. 0 where b is dark.
+ * lmb_look_bound: the same, and as much more as few places may be wrong by: the mean square plus `deviations` of its own
+ * standard deviations, by how places differ. Below 0 where nothing can be told: fewer than 4 places, or b is dark. */
 float lmb_look_error(const lmb_look *a, const lmb_look *b);
+float lmb_look_bound(const lmb_look *a, const lmb_look *b, float deviations);
 
 /* lmb_facts_count: pairs and segments of all the frame's pixels by `facts`, for a frame's settings. */
 void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *frame);
 
-/* lmb_plan_choose: settings whose estimated error is least within budget->work and bytes; where budget->error is given,
- * those of least work among those that keep it too. Where nothing does, the nearest: out->meets is 0 and the numbers
- * say how far it is.
- *
- *   fixed  bytes that no setting changes: picture, view, scratch, blockers, elements.
- *   most   texels a side of the largest map that may be chosen. Trees finer than the look's are not: what they take
- *          is not known.
- * Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_budget *budget, uint64_t fixed,
-                           int32_t most);
+/* lmb_plan_rung: the settings of a rung, 0: coarsest. The last four are `draft`, `default`, `best` and one
+ * finer. Trees and maps have up to facts->most texels a side. */
+void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung);
+
+/* lmb_plan_cost: settings of a rung and what they take. `fixed`: bytes that no setting changes: picture, view, scratch,
+ * blockers, elements. out->meets is not set. */
+void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed);
+
+/* lmb_plan_choose: the finest rung that was looked at, or may be guessed, within budget->work and bytes; where
+ * budget->error is given, the coarsest that keeps it too. Where nothing does, the nearest: out->meets is 0 and the
+ * numbers say how far it is. Returns LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_budget *budget, uint64_t fixed);
 
 /* lmb_why_name, lmb_op_name, lmb_plan_stage_name: in a few words; "?" for other numbers. Never NULL. */
 const char *lmb_why_name(int32_t why);

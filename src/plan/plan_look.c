@@ -4,12 +4,13 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "plan_model.h"
 #include "stages.h"
 #include "wants.h"
 
 #if LMB_PLAN && LMB_TREES
 
-enum { BINS = 128, LEAST = 40 /* octaves: from 2^-87 on */ };
+enum { BINS = 128, LEAST = 40 /* octaves: from 2^-87 on */, LEAST_PLACES = 4 };
 
 int lmb_can_look(const lmb_render *r)
 {
@@ -61,31 +62,38 @@ static lmb_status take_place(lmb_look *out, const lmb_render *r, lmb_band_scratc
                              int32_t i)
 {
     uint64_t shown[LMB_SPARSE_TILES];
-    const double weight = (double)places->weight[i];
     memset(&s->counts, 0, sizeof s->counts);
     const lmb_status status = place_light(shown, r, s, places->x[i], places->y[i], places->tiles);
     for (int32_t part = 0; part < places->tiles; ++part) {
-        const int32_t at = i * places->tiles + part;
-        put_tile(out->light + at * LMB_TILE_PIXELS, &s->sparse.light[part], shown[part]);
-        out->weight[at] = places->weight[i];
+        put_tile(out->light + (i * places->tiles + part) * LMB_TILE_PIXELS, &s->sparse.light[part], shown[part]);
     }
-    out->pairs += weight * (double)s->counts.pairs;
-    out->segments += weight * (double)s->counts.segments;
+    out->pairs += (double)s->counts.pairs;
+    out->segments += (double)s->counts.segments;
     return status;
 }
 
-lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch, const lmb_survey *places)
+/* What has been looked at and one place more, thought to be as large as the mean, in units of work. */
+static double next_work(const lmb_look *out)
+{
+    const double work = out->pairs * (double)lmb_model.units[LMB_OP_PAIRS] +
+                        out->segments * (double)lmb_model.units[LMB_OP_SEGMENTS];
+    return out->places > 0 ? work * (double)(out->places + 1) / (double)out->places : 0.0;
+}
+
+lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch, const lmb_survey *places,
+                           double most)
 {
     lmb_status status = LMB_OK;
     if (out == NULL || scratch == NULL || places == NULL || !lmb_can_look(r) ||
         (r->frame.gather_step > 1 && places->tiles == 1)) {
         return LMB_ERR_ARG;
     }
-    out->tiles = places->count * places->tiles;
-    out->pixels = places->pixels;
+    out->tiles = places->tiles;
+    out->places = 0;
     out->pairs = out->segments = 0.0;
-    for (int32_t i = 0; i < places->count && status == LMB_OK; ++i) {
-        status = take_place(out, r, scratch, places, i);
+    while (out->places < places->count && status == LMB_OK &&
+           (!(most > 0.0) || next_work(out) < most)) {
+        status = take_place(out, r, scratch, places, out->places++);
     }
     return status;
 }
@@ -97,6 +105,14 @@ typedef struct bins {
     double sum[BINS], count[BINS];
 } bins;
 
+/* Of the places that two looks have. */
+typedef struct difference {
+    const lmb_look *a, *b;
+    int32_t places;
+    double mean, count, square; /* of b's channels: sum; pixels; of the differences without the worst: sum */
+    double most;                /* a pixel's square is under this, but for the worst */
+} difference;
+
 static int bin_of(float v)
 {
     uint32_t bits;
@@ -104,31 +120,87 @@ static int bin_of(float v)
     return clampi((int)(bits >> 23 & 0xffu) - LEAST, 0, BINS - 1);
 }
 
-float lmb_look_error(const lmb_look *a, const lmb_look *b)
+/* A pixel's square error; below 0: no surface. */
+static float square_at(const difference *d, int32_t i)
 {
-    bins all;
-    double mean = 0.0, square = 0.0, count = 0.0;
-    memset(&all, 0, sizeof all);
-    for (int32_t i = 0; a != NULL && b != NULL && i < b->tiles * LMB_TILE_PIXELS; ++i) {
-        const float *p = a->light[i], *q = b->light[i];
-        if (p[0] >= 0.0f && q[0] >= 0.0f) {
-            const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2], e = x * x + y * y + z * z;
-            const double weight = (double)b->weight[i / LMB_TILE_PIXELS];
-            all.sum[bin_of(e)] += weight * (double)e;
-            all.count[bin_of(e)] += weight;
-            mean += weight * (double)(q[0] + q[1] + q[2]);
-            count += weight;
+    const float *p = d->a->light[i], *q = d->b->light[i];
+    const float x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+    return p[0] >= 0.0f && q[0] >= 0.0f ? x * x + y * y + z * z : -1.0f;
+}
+
+static void bin_pixels(bins *all, difference *d)
+{
+    memset(all, 0, sizeof *all);
+    for (int32_t i = 0; i < d->places * d->a->tiles * LMB_TILE_PIXELS; ++i) {
+        const float e = square_at(d, i), *q = d->b->light[i];
+        if (e >= 0.0f) {
+            all->sum[bin_of(e)] += (double)e;
+            all->count[bin_of(e)] += 1.0;
+            d->mean += (double)(q[0] + q[1] + q[2]);
+            d->count += 1.0;
         }
     }
-    double worst = 0.01 * count;
+}
+
+/* 0: dark, or nothing is seen. */
+static int compare(difference *d, const lmb_look *a, const lmb_look *b)
+{
+    bins all;
+    memset(d, 0, sizeof *d);
+    if (a == NULL || b == NULL || a->tiles != b->tiles) {
+        return 0;
+    }
+    d->a = a;
+    d->b = b;
+    d->places = mini(a->places, b->places);
+    bin_pixels(&all, d);
+    double worst = 0.01 * d->count;
     for (int i = BINS - 1; i >= 0; --i) {
         const double n = all.count[i], kept = n > worst ? n - worst : 0.0;
-        square += n > 0.0 ? all.sum[i] * (kept / n) : 0.0;
+        d->square += n > 0.0 ? all.sum[i] * (kept / n) : 0.0;
+        d->most = kept > 0.0 && d->most <= 0.0 ? all.sum[i] / n : d->most;
         worst -= n - kept;
     }
-    const double per = 0.99 * count;
-    return mean > 0.0 && per > 0.0 ? (float)((double)sqrtf((float)(square / (3.0 * per))) / (mean / (3.0 * count)))
-                                   : 0.0f;
+    return d->mean > 0.0;
+}
+
+static float share_of(const difference *d, double square)
+{
+    return (float)((double)sqrtf((float)(square / (0.99 * 3.0 * d->count))) / (d->mean / (3.0 * d->count)));
+}
+
+float lmb_look_error(const lmb_look *a, const lmb_look *b)
+{
+    difference d;
+    return compare(&d, a, b) ? share_of(&d, d.square) : 0.0f;
+}
+
+/* Of a place: the sum of its pixels' squares. */
+static double place_square(const difference *d, int32_t place)
+{
+    const int32_t each = d->a->tiles * LMB_TILE_PIXELS;
+    double sum = 0.0;
+    for (int32_t i = place * each; i < (place + 1) * each; ++i) {
+        const double e = (double)square_at(d, i);
+        sum += e > d->most ? d->most : e > 0.0 ? e : 0.0;
+    }
+    return sum;
+}
+
+float lmb_look_bound(const lmb_look *a, const lmb_look *b, float deviations)
+{
+    difference d;
+    if (!compare(&d, a, b) || d.places < LEAST_PLACES) {
+        return -1.0f;
+    }
+    const double places = (double)d.places, mean = d.square / places;
+    double spread = 0.0;
+    for (int32_t i = 0; i < d.places; ++i) {
+        const double off = place_square(&d, i) - mean;
+        spread += off * off;
+    }
+    const double deviation = (double)sqrtf((float)(spread * places / (places - 1.0)));
+    return share_of(&d, d.square + (double)deviations * deviation);
 }
 
 #endif

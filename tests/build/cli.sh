@@ -618,6 +618,13 @@ printf '%s\n' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1'
 corner="$dir/corner.obj --size 32x24 --threads 1 --eye 1,2,4 --target 0,0.4,0 --light point:0.3,1.5,0.2:0,-1,0:9,9,9"
 status 0 plan $corner --budget-bytes 100KiB
 check "100 KiB are too few, and by how much" grep -q "no setting meets the budget; the nearest takes [0-9.]* x the bytes" "$dir/out.txt"
+# A look is a part of the picture that it plans: its share of the work is told, and at most a quarter.
+status 0 plan demo --size 240x180 --threads 1 --budget-error 0.2 --json
+check "a look takes at most a quarter of what it plans" awk -F '"look_work": |"estimated_work": ' '
+    /"look_work"/ { look = $3 + 0; work = $2 + 0 } END { exit !(look > 0 && look <= 0.25 * work) }' "$dir/out.txt"
+check "what is chosen for an error is checked" grep -q '"checked": true' "$dir/out.txt"
+status 0 plan demo --size 240x180 --threads 1 --budget-error 0.00001
+check "an error that no setting has is said" grep -q "^no setting .*the budget" "$dir/out.txt"
 status 0 plan $corner --budget-ms 16 --rate 1e4
 check "so are 160 units" grep -q "no setting meets the budget; the nearest takes [0-9.e+]* x the work" "$dir/out.txt"
 status 0 plan --help
@@ -634,10 +641,10 @@ status 1 plan "$dir/nowhere.gltf"
 absent "$dir/plan.png"
 
 # What is chosen for a budget is said as options that draw the same picture.
-status 0 render $corner --exposure 0 --budget-error 0.4 -o "$dir/budget.pfm"
+status 0 render demo --size 240x180 --threads 1 --exposure 0 --budget-error 0.2 -o "$dir/budget.pfm"
 check "an easy budget is met" grep -q "^lambent: the budget is met" "$dir/err.txt"
 chosen=$(sed -n 's/^lambent: chosen: \(.*\): error about.*/\1/p' "$dir/err.txt")
-status 0 render $corner --exposure 0 $chosen -o "$dir/chosen.pfm"
+status 0 render demo --size 240x180 --threads 1 --exposure 0 $chosen -o "$dir/chosen.pfm"
 check "the chosen settings draw the same: $chosen" cmp -s "$dir/budget.pfm" "$dir/chosen.pfm"
 status 0 bench --calibrate --threads 1
 check "calibrating gives a rate" grep -q "^[0-9.e+]* units of work a second, threads: 1 " "$dir/out.txt"

@@ -13,7 +13,7 @@ enum { PLAN_WIDTH = 240, PLAN_HEIGHT = 180, PLAN_SCENES = 16, PLAN_RUNS = 64, PL
 typedef struct plan_run {
     lmb_settings s;
     double seconds[PLAN_TIMES]; /* of processor time, by stage */
-    double pairs, segments, error; /* counted; against the reference, as lmb_look_error but over all pixels */
+    double pairs, segments; /* counted */
 } plan_run;
 
 typedef struct plan_scene {
@@ -27,9 +27,6 @@ typedef struct plan_scene {
 
 double plan_seconds(const plan_run *r);
 
-/* plan_work: units, of pairs and segments as they were counted. */
-double plan_work(const plan_scene *s, const plan_run *r);
-
 /* plan_open: a scene of the list, ready to draw, by one thread. 1, or 0: it is not here. */
 typedef struct plan_place {
     const char *name, *path, *options; /* what it is drawn with, beside what all are; words apart by one space */
@@ -39,20 +36,13 @@ extern const plan_place plan_places[];
 extern const int plan_place_count;
 int plan_open(render_job *j, const plan_place *at);
 
-/* plan_draw: one setting; `light` gets the irradiance, 3 floats a pixel, below 0 where nothing is seen. */
-int plan_draw(plan_run *out, float *light, render_job *j);
-
-/* plan_error: RMSE without the worst 1 % of pixels, over the mean of b. */
-double plan_error(const float *a, const float *b, size_t pixels);
+/* plan_draw: one setting. */
+int plan_draw(plan_run *out, render_job *j);
 
 /* plan_measure: all settings of one scene. */
 int plan_measure(plan_scene *out, const plan_place *at);
 
-/* The reference's picture of an open job; free it. */
-float *plan_reference(render_job *j);
-
-/* plan_fit: the model of those scenes that fit, as plan_model.inc. plan_report: predicted against measured, others. */
+/* plan_fit: the model of those scenes that fit, as plan_model.inc. */
 void plan_fit(const plan_scene *s, int count, FILE *out);
-int plan_report(const plan_scene *s, int count);
 
 #endif

@@ -171,8 +171,8 @@ static void make_frame(void)
     }
     CHECK(lmb_discs_join(&g.render.frame.points, &g.render.maps[0], &zones) == LMB_OK);
     CHECK(lmb_group_points(&g.groups, &g.render.frame.points, &zones, NULL) == LMB_OK);
-    CHECK(lmb_render_survey(&g.survey, &g.render, &g.scratch) == LMB_OK);
-    CHECK(lmb_render_look(&g.look, &g.render, &g.scratch, &g.survey) == LMB_OK);
+    CHECK(lmb_survey_even(&g.survey, &g.render, 1, 4) == LMB_OK);
+    CHECK(lmb_render_look(&g.look, &g.render, &g.scratch, &g.survey, 0.0) == LMB_OK);
     CHECK(lmb_surface_init(&g.metres, LMB_R32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
     const lmb_cutting cutting = {.error = 0.1f, .visible = 0.1f, .blockers = &g.render.frame.blockers};
     const lmb_receiver receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
@@ -255,17 +255,13 @@ static void make_facts(void)
 {
     lmb_facts *f = &g.facts;
     f->triangles = f->faces = f->tiles = f->lights = f->bounces = 10.0;
-    f->shown = 3000.0f;
-    f->wanted_map = f->tree = SIDE;
-    for (int i = 0; i < LMB_FACT_STEPS * LMB_FACT_TREES; ++i) {
-        const int step = i / LMB_FACT_TREES, tree = i % LMB_FACT_TREES;
-        for (int rung = 0; rung < LMB_FACT_RUNGS; ++rung) {
-            f->pairs[step][tree][rung] = f->segments[step][tree][rung] = 100.0f / (float)(1 + rung);
-            f->error[step][tree][rung] = 0.01f * (float)(1 + rung);
-        }
+    f->pairs = f->segments = 1e5;
+    f->wanted_map = f->most = SIDE;
+    for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
+        f->rung[i].places = 10;
+        f->rung[i].pairs = f->rung[i].segments = 100.0f * (float)(1 + i);
+        f->rung[i].error = 0.1f / (float)(1 + i);
     }
-    f->open_error = 0.5f;
-    f->open_pairs = 1.0f;
 }
 
 static const stage *relief;
