@@ -97,7 +97,7 @@ typedef struct lmb_rung {
 } lmb_rung;
 
 /* What looks at some tiles of a solved frame found. The last rung is there to check the one before; none chooses it. */
-enum { LMB_PLAN_RUNGS = 7 };
+enum { LMB_PLAN_RUNGS = 8 };
 typedef struct lmb_facts {
     double triangles, faces, tiles, lights; /* of the scene; drawn, of maps; of the frame; that light directly */
     double bounces, elements;               /* as the frame asks for, one more where materials shine; cap: 0: none */

@@ -21,7 +21,8 @@ static const struct rung {
     int32_t gather_step;
 } ladder[LMB_PLAN_RUNGS] = {
     {16, 0.5f, 0.5f, 4},    {32, 0.25f, 0.25f, 4}, {64, 0.12f, 0.12f, 2},   {128, 0.06f, 0.06f, 1},
-    {256, 0.02f, 0.015f, 1}, {1024, 0.01f, 0.005f, 1}, {1024, 0.005f, 0.0025f, 1},
+    {256, 0.02f, 0.015f, 1}, {1024, 0.01f, 0.005f, 1}, {1024, 0.01f, 0.001f, 1},
+    {1024, 0.005f, 0.0005f, 1},
 };
 
 /* A tree's map: as fine as the picture, where the tree and `most` let it be. */
