@@ -216,7 +216,7 @@ static int parse_groups(const char *text, render_options *o)
 static int parse_quality(const char *text, render_options *o)
 {
     static const char *const words[] = {"draft", "default", "best", NULL};
-    static const int32_t values[] = {QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST};
+    static const int32_t values[] = {LMB_QUALITY_DRAFT, LMB_QUALITY_DEFAULT, LMB_QUALITY_BEST};
     return option_word(text, words, values, &o->quality);
 }
 
@@ -434,14 +434,8 @@ static const struct flag {
     {{"--rate", "units of work a second, 1 or more"}, parse_rate},
 };
 
-/* Figures of the presets: README, "How good it is". */
 static void choose(render_options *o)
 {
-    static const struct preset {
-        int32_t tree;
-        float error, visible;
-    } presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.005f}};
-    const struct preset *p = &presets[o->quality];
     const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
     if (o->grouping.method == CHOSEN) {
         lmb_grouping plain; /* an option that fixed groups alone have asks for them */
@@ -454,9 +448,6 @@ static void choose(render_options *o)
     if (o->occlusion == CHOSEN) {
         o->occlusion = o->grouping.method == LMB_GROUP_CUT ? LMB_OCCLUSION_EXACT : LMB_OCCLUSION_VIEW;
     }
-    o->tree = o->tree > 0 ? o->tree : p->tree;
-    o->error = o->error > 0.0f ? o->error : p->error;
-    o->visible = o->visible > 0.0f ? o->visible : p->visible;
 }
 
 static int check_budget(const render_options *o, report *r)

@@ -23,8 +23,6 @@ static inline int has_budget(const lmb_budget *b, float ms)
 
 static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
 
-enum { QUALITY_DEFAULT, QUALITY_DRAFT, QUALITY_BEST };
-
 typedef struct render_options {
     const char *scene, *out, *stats;
     view_options view;
@@ -36,7 +34,7 @@ typedef struct render_options {
     int32_t show;
     int32_t light_map; /* 0: chosen */
     lmb_grouping grouping;
-    int32_t quality;      /* QUALITY_*: what the next three are where they are 0 */
+    int32_t quality;      /* LMB_QUALITY_*: what the next three are where they are 0 */
     int32_t tree;         /* first points a side of a light's tree */
     float error, visible;
     int proven;
