@@ -161,7 +161,7 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one unit tiny statue analytic truth lanes golden ways audit slow hard replay hostile hostile-cli floors symbols \
-          stack headers layout guard tables readme cli get
+          stack headers layout guard tables readme examples examples-tiny cli get
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -174,8 +174,9 @@ check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 show
 $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(PROGRAMS:%=$(B)/%)
 	+@$(PART) $* $(MAKE) $*
 
-# Both make the library in the same place.
+# They make the library in the same place.
 check-statue: $(filter check-tiny,$(CHECKS:%=check-%))
+check-examples-tiny: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 
 unit analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
@@ -238,6 +239,12 @@ tables: $(LIB) ## generated tables are what their generators print
 
 readme: $(LIB) ## the README's examples compile and run
 	@$(IN_SH) tests/build/readme.sh
+
+examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
+	@$(IN_SH) tests/build/examples.sh
+
+examples-tiny: ## the same in the tiny configuration
+	+@$(MAKE) examples CONFIG=tiny
 
 get: ## that check-tools removes nothing and says what it does
 	@$(IN_SH) tests/build/get.sh

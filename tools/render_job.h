@@ -26,8 +26,8 @@ typedef struct render_job {
     crew crew;
     lmb_stats stats;
     image linear;
-    void *map_memory, *point_memory, *owner_memory, *blocker_memory, *element_memory, *depth_memory, *id_memory;
-    size_t bytes; /* of the above and the state */
+    void *block, *owner_memory; /* the frame's; who holds each texel's light, where that is shown */
+    size_t block_bytes, bytes;  /* bytes: of all memory but the scene's and many's */
     double load_s, write_s, total_s;
     double indirect_share;
 } render_job;
@@ -40,7 +40,7 @@ int render_job_load(render_job *j, report *r);
 int render_job_set(render_job *j, report *r);
 void render_job_free(render_job *j);
 
-/* render_job_refit: what holds the light, again, as the options now are. 1, or 0 with `r` set. */
+/* render_job_refit: the frame and its block, again, as the options now are. 1, or 0 with `r` set. */
 int render_job_refit(render_job *j, report *r);
 
 /* render_job_picture: memory for a picture of all eyes, black. render_job_eye: which of them `f` draws, and where. */

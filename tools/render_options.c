@@ -216,7 +216,7 @@ static int parse_groups(const char *text, render_options *o)
 static int parse_quality(const char *text, render_options *o)
 {
     static const char *const words[] = {"draft", "default", "best", NULL};
-    static const int32_t values[] = {QUALITY_DRAFT, QUALITY_DEFAULT, QUALITY_BEST};
+    static const int32_t values[] = {LMB_QUALITY_DRAFT, LMB_QUALITY_DEFAULT, LMB_QUALITY_BEST};
     return option_word(text, words, values, &o->quality);
 }
 
@@ -433,21 +433,6 @@ static const struct flag {
     {{"--budget-bytes", "a number of bytes, or of KiB or MiB: 100KiB"}, parse_budget_bytes},
     {{"--rate", "units of work a second, 1 or more"}, parse_rate},
 };
-
-/* Figures of the presets: README, "How good it is". */
-void render_options_light(render_options *o, int many)
-{
-    static const struct preset {
-        int32_t tree, step;
-        float error, visible;
-    } presets[2][3] = {{{256, 0, 0.02f, 0.015f}, {128, 0, 0.06f, 0.06f}, {1024, 0, 0.01f, 0.001f}},
-                       {{256, 2, 0.1f, 0.2f}, {128, 2, 0.2f, 0.3f}, {1024, 2, 0.01f, 0.005f}}};
-    const struct preset *p = &presets[many][o->quality];
-    o->tree = o->tree > 0 ? o->tree : p->tree;
-    o->gather_step = o->gather_step > 0 ? o->gather_step : p->step;
-    o->error = o->error > 0.0f ? o->error : p->error;
-    o->visible = o->visible > 0.0f ? o->visible : p->visible;
-}
 
 static void choose(render_options *o)
 {

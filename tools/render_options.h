@@ -23,8 +23,6 @@ static inline int has_budget(const lmb_budget *b, float ms)
 
 static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
 
-enum { QUALITY_DEFAULT, QUALITY_DRAFT, QUALITY_BEST };
-
 typedef struct render_options {
     const char *scene, *out, *stats;
     view_options view;
@@ -36,7 +34,7 @@ typedef struct render_options {
     int32_t show;
     int32_t light_map; /* 0: chosen */
     lmb_grouping grouping;
-    int32_t quality;      /* QUALITY_*: what the next three are where they are 0 */
+    int32_t quality;      /* LMB_QUALITY_*: what the next three are where they are 0 */
     int32_t tree;         /* first points a side of a light's tree */
     float error, visible;
     int proven;
@@ -64,9 +62,5 @@ extern const char *const render_usage[RENDER_USAGE_PARTS];
 
 /* For `render`, and for `plan`, which has no output. 1, or 0 with `r` set: bad usage. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);
-
-/* How finely light is worked out where no option says it: by the quality; of lights alone that are 32 or more in a tree
- * (`many`), by less. Before the options are used. */
-void render_options_light(render_options *inout, int many);
 
 #endif

@@ -137,7 +137,7 @@
 #else
 #define LMB_WEIGH_NODES 16
 #endif
-/* Triangles of a tile that are resolved side by side, 170 bytes of lmb_tile each: as many as the widest machine has
+/* Triangles of a tile that are resolved side by side, 180 bytes of lmb_tile each: as many as the widest machine has
  * lanes. The tiny configuration has one. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_SLOTS 4

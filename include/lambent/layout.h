@@ -35,6 +35,8 @@
 #define lmb_direct_tile        LMB_LAYOUT(lmb_direct_tile)
 #define lmb_elements_receive   LMB_LAYOUT(lmb_elements_receive)
 #define lmb_facts_count        LMB_LAYOUT(lmb_facts_count)
+#define lmb_frame_bytes        LMB_LAYOUT(lmb_frame_bytes)
+#define lmb_frame_init         LMB_LAYOUT(lmb_frame_init)
 #define lmb_gather_cut         LMB_LAYOUT(lmb_gather_cut)
 #define lmb_gather_tile        LMB_LAYOUT(lmb_gather_tile)
 #define lmb_gbuffer_band       LMB_LAYOUT(lmb_gbuffer_band)

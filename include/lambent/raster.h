@@ -18,40 +18,6 @@ typedef struct lmb_target {
     int32_t x0, y0;    /* px in the frame, multiples of LMB_TILE, >= 0 */
 } lmb_target;
 
-/* A tile's rays, relative to the eye. Of pixel (x, y):
- *   origin + ox x + oy y  +  w (direction + rx x + ry y)   with w along the view axis.
- * Perspective: the first part is 0; orthographic: the direction is constant. */
-typedef struct lmb_rays {
-    lmb_vec3 origin, ox, oy;
-    lmb_vec3 direction, rx, ry;
-    lmb_vec3 eye, back;
-    float near_m;
-    int32_t perspective;
-} lmb_rays;
-
-/* Where lmb_resolve_tile works: up to LMB_SLOTS triangles of one instance that a tile shows. Slot k of every array is
- * one of them. What comes from the mesh is turned in place into what pixels are made of. Corners' values become the
- * first and the others' differences from it, so that three equal ones give exactly their value. */
-typedef struct lmb_resolve_batch {
-    lmb_rays rays;
-    const lmb_instance *instance;
-    const lmb_mesh *mesh;
-    const lmb_material *material;
-    int32_t albedo_only;               /* of the pixels: uv and albedo, nothing else */
-    int32_t count;                     /* slots in use; the others hold numbers */
-    uint32_t id[LMB_SLOTS];
-    int32_t slot[LMB_TILE_PIXELS];     /* of each pixel; -1: another's */
-    float corner[3][3][LMB_SLOTS];     /* in: [corner][axis], model space. Out: corner 0 relative to the eye, then g1
-                                          and g2, which give barycentrics: b1 = (p - corner).g1, b2 = (p - corner).g2 */
-    float normal[3][3][LMB_SLOTS];     /* in: octahedral codes as [corner][0 .. 1]. Out: world, [corner][axis] */
-    uint32_t colour[3][LMB_SLOTS];     /* in: of each corner, four codes 0 .. 255, red in the low bits */
-    float uv[3][2][LMB_SLOTS];         /* [corner][u, v] */
-    float plane[3][LMB_SLOTS];         /* out: unit normal */
-    float face[3][LMB_SLOTS];          /* out: the same, turned to the viewer */
-    float w_min[LMB_SLOTS], w_max[LMB_SLOTS]; /* out: of the corners, along the view axis */
-    float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
-} lmb_resolve_batch;
-
 /* Attributes of 8x8 pixels, planar: kernels read whole vectors of them. Pixel k is (k % 8, k / 8). 4 KiB, and 3.2 KiB
  * to work in (1.1 in the tiny configuration), which mean nothing before or after. */
 typedef struct lmb_tile {
@@ -64,7 +30,10 @@ typedef struct lmb_tile {
     uint32_t id[LMB_TILE_PIXELS]; /* 0: nothing; then every plane holds 0 */
     int32_t x, y;                 /* px in the frame of pixel 0 */
     int32_t hits;                 /* pixels with a surface */
-    lmb_resolve_batch batch;
+    union { /* the room to work in; what lies in it is src/raster's own */
+        const void *align;
+        unsigned char bytes[368 + 3 * sizeof(void *) + 180 * LMB_SLOTS];
+    } work;
 } lmb_tile;
 
 enum { LMB_CULL_BACK = 1 /* drop back faces of single-sided materials (cameras); lights see both sides */ };

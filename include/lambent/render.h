@@ -1,5 +1,6 @@
 /* render.h: one call that draws a frame with bounced light, or one bounded step of it at a time. [V29 V30 V33 V34]
  *
+ *     lmb_frame_init(&frame, &settings, memory, lmb_frame_bytes(&settings));   all its memory in one block; or by hand
  *     lmb_render r;                        0.8 KiB a light; holds no pointer into itself: copy it freely
  *     lmb_render_begin(&r, &frame);        checks everything, writes no pixel
  *     while (lmb_render_step(&r, 1000) == LMB_MORE) { ... }       or: lmb_render_frame(&r, &frame)
@@ -106,6 +107,43 @@ typedef struct lmb_frame {
     int32_t everything; /* 1: leave nothing out and keep nothing: the same bytes, for those who doubt it */
 } lmb_frame;
 
+/* How well bounced light is solved: what numbers of lmb_frame_settings are where they are 0. Errors against truth:
+ * README. By LMB_MANY_EVEN lights of `many` and nothing else, `error` and `visible` are larger (0.1 and 0.2 by default),
+ * and bounced light is gathered at every second pixel. */
+enum {
+    LMB_QUALITY_DEFAULT = 0, /* tree 256, error 0.02, visible 0.015 */
+    LMB_QUALITY_DRAFT = 1,   /* tree 128, error 0.06, visible 0.06 */
+    LMB_QUALITY_BEST = 2,    /* tree 1024, error 0.01, visible 0.001 */
+    LMB_QUALITY_FIXED = 3    /* fixed groups, and what the viewer's own depth tells of occlusion: where memory is short.
+                                Builds without trees (LMB_TREES 0) have nothing else: there all are this one */
+};
+
+/* What lmb_frame_init makes a frame of. `scene` and `view` are needed; zeros elsewhere are what most want. What takes
+ * no memory and is not here (exposure_ev, occlusion, stats, callback ...) is set in the frame afterwards. */
+typedef struct lmb_frame_settings {
+    const lmb_scene *scene; /* checked, with its lights; stays where it is */
+    const lmb_many *many;   /* built; NULL: none. Its memory is its own */
+    lmb_view view;          /* lmb_view_look makes one; its frame 1 .. LMB_MAX_SIDE px a side */
+    lmb_surface out;        /* the caller's picture; data NULL: one in the block, at frame.out */
+    int32_t format;         /* of one in the block: LMB_RGBA8 where 0 */
+    int32_t by_bands;       /* 1: 8 rows of depth and ids, and of a picture in the block: frame.callback gets them. The
+                               scene is drawn again for each band. One thread */
+    int32_t show;           /* LMB_SHOW_*: LMB_SHOW_DIRECT takes no memory for bounced light */
+    int32_t quality;        /* LMB_QUALITY_* */
+    int32_t bounces;        /* 1 where 0, or .. 64; over 1 not by LMB_QUALITY_FIXED */
+    int32_t threads;        /* 1 where 0, or .. 1024: who draw bands at once: frame.scratch[0 .. threads - 1] */
+    int32_t light_map;      /* texels a side, a multiple of 8; by a tree 1 .. 8 times its. 0: 2^21 texels (tiny
+                               configuration: 2^14) over all lights' maps, 64 .. 1024 a side */
+    int32_t tree;           /* texels a side, a power of two; the quality's where 0 (tiny configuration: an eighth);
+                               1/8 of light_map at least, light_map at most */
+    float error, visible;   /* lmb_frame's; the quality's where 0 */
+    uint32_t elements;      /* a power of 4, 64 .. 2^24. 0: 65,536 for more than one bounce, else 16,384 (tiny: 1,024
+                               and 256). None where bounces, `many` and materials ask for none */
+    lmb_grouping grouping;  /* LMB_QUALITY_FIXED: method is not LMB_GROUP_CUT */
+    uint32_t points;        /* LMB_QUALITY_FIXED: first points. 0: four a block of texels, the most there can be */
+    int32_t id_format;      /* 0: LMB_ID16 for scenes under 65,536 triangles, else LMB_ID32 */
+} lmb_frame_settings;
+
 /* What of a frame does without, though it is asked for: it would change no byte of a picture. lmb_plan says why. */
 enum {
     LMB_OMIT_BOUNCE = 1 /* nothing is lit, or nothing reflects */
@@ -158,6 +196,29 @@ typedef enum lmb_stage {
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* lmb_frame_bytes: memory of a frame by these settings, all of it but the scene, `many`, a picture of the caller's and
+ * lmb_render. 0 where there is no such frame: those that lmb_frame_init refuses, and what this machine cannot address.
+ *
+ * With zeros a room with one spot at 640x480 takes 14 MiB and 116 bytes a triangle: 6 MiB the light's map, 5 the tree,
+ * 3 the viewer's depth and ids and the picture, 0.6 a thread; LMB_QUALITY_DRAFT 11 MiB, _BEST 80. At 160x120 in the
+ * tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
+ * Cost: a pass over the lights. */
+size_t lmb_frame_bytes(const lmb_frame_settings *settings);
+
+/* lmb_frame_init: a frame laid out in one block, ready for lmb_render_begin.
+ *
+ *   out     set, whole. It points into the block, which stays where it is while the frame is used.
+ *   memory  aligned as for a uint64_t; by 64 bytes is best: each part then begins on a cache line. Scratches, and a
+ *           picture in it, become zeros; the rest is not touched.
+ *   bytes   at least lmb_frame_bytes.
+ *
+ * Serves for as long as the scene has no more triangles, lights and faces of maps (lmb_light_map_faces) than now:
+ * lights, objects and viewer may move. Free the block to end it; there is nothing else to undo.
+ * Returns LMB_OK; LMB_ERR_ARG (null, no scene, a number outside what stands beside it), LMB_ERR_FORMAT (of picture or
+ * ids), LMB_ERR_SCENE (ids do not fit), LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes; more lights than LMB_MAX_LIGHTS): then
+ * nothing was written. */
+lmb_status lmb_frame_init(lmb_frame *out, const lmb_frame_settings *settings, void *memory, size_t bytes);
 
 /* lmb_render_begin: check a frame and start it.
  *

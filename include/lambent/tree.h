@@ -50,27 +50,6 @@ typedef struct lmb_emitter {
     uint64_t visible; /* the pixels that see it, a bit each */
 } lmb_emitter;
 
-/* Planes of the numbers by which nodes are weighed; vectors are three planes. */
-enum {
-    LMB_WEIGH_CENTRE = 0,
-    LMB_WEIGH_NORMAL = 3,
-    LMB_WEIGH_MIDDLE = 6,
-    LMB_WEIGH_ACROSS = 9,
-    LMB_WEIGH_HALF = 12,
-    LMB_WEIGH_FLUX = 15,        /* R + G + B */
-    LMB_WEIGH_AREA = 16,
-    LMB_WEIGH_COSINE = 17,
-    LMB_WEIGH_RADIUS = 18,
-    LMB_WEIGH_AGREEMENT = 19,
-    LMB_WEIGH_PLANES = 20
-};
-
-/* Nodes side by side, and what they were found to give the tile: value and most as in lmb_cut, and error. */
-typedef struct lmb_weighed {
-    float node[LMB_WEIGH_PLANES][LMB_WEIGH_NODES];
-    float value[LMB_WEIGH_NODES], most[LMB_WEIGH_NODES], error[LMB_WEIGH_NODES];
-} lmb_weighed;
-
 /* Where a node is: level 0 are texels. */
 typedef struct lmb_tree_place {
     uint16_t face, x, y, level;
@@ -88,7 +67,7 @@ typedef struct lmb_cut {
     float error[LMB_MAX_CUT];          /* what it may be wrong by as one disc */
     int32_t next[LMB_MAX_CUT];         /* in its bucket */
     int32_t bucket[LMB_CUT_BUCKETS];   /* the first of each, by exponent and first bit */
-    lmb_weighed weighed;
+    float weighed[23][LMB_WEIGH_NODES]; /* nodes side by side; what the planes are is src/bounce's own */
     lmb_emitter emitter[LMB_CUT_BLOCK];
     union {
         float pairs[3][LMB_GATHER_PAIRS]; /* while it lights */

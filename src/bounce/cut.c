@@ -51,6 +51,8 @@ typedef struct cutter {
 
 static double maxd(double a, double b) { return a > b ? a : b; }
 
+static lmb_weighed *weighed_of(lmb_cut *c) { return (lmb_weighed *)(void *)c->weighed; }
+
 static void set_vector(lmb_weighed *out, int plane, int k, lmb_vec3 v)
 {
     out->node[plane][k] = v.x;
@@ -104,7 +106,7 @@ static lmb_vec3 weighed_vector(const lmb_weighed *w, int plane, int k)
  * the node. A rule, not a proof: what is proven is the irradiance. */
 static void weigh_lobe(cutter *c, int k)
 {
-    lmb_weighed *w = &c->cut->weighed;
+    lmb_weighed *w = weighed_of(c->cut);
     const lmb_vec3 to = sub3(weighed_vector(w, LMB_WEIGH_CENTRE, k), c->p->centre);
     const float *half = c->p->half;
     const float d2 = maxf(dot3(to, to), 1e-24f), node = w->node[LMB_WEIGH_RADIUS][k],
@@ -122,7 +124,7 @@ static void weigh_lobe(cutter *c, int k)
 /* Up to the next whole vector there is nothing. */
 static void weigh(cutter *c, int count)
 {
-    lmb_weighed *w = &c->cut->weighed;
+    lmb_weighed *w = weighed_of(c->cut);
     for (int k = count; k % c->kernels->lanes != 0; ++k) {
         for (int i = 0; i < LMB_WEIGH_PLANES; ++i) {
             w->node[i][k] = 0.0f;
@@ -198,7 +200,7 @@ static void count_in(cutter *c, int32_t i, double sign)
 /* Node k of the weighed into slot i. */
 static void put(cutter *c, int32_t i, lmb_tree_place at, int k, uint64_t visible)
 {
-    const lmb_weighed *w = &c->cut->weighed;
+    const lmb_weighed *w = weighed_of(c->cut);
     c->cut->place[i] = at;
     c->cut->error[i] = at.level > 0 ? w->error[k] : 0.0f;
     c->cut->value[i] = w->value[k];
@@ -320,7 +322,7 @@ static void weigh_parts(cutter *c, int32_t i)
     }
     for (int32_t next = i; next != NONE && count < most; ++count) {
         for (int k = 0; k < 4; ++k) {
-            set_weighed(&c->cut->weighed, 4 * count + k, c->tree, part_at(c->cut->place[next], k));
+            set_weighed(weighed_of(c->cut), 4 * count + k, c->tree, part_at(c->cut->place[next], k));
         }
         c->ahead[count] = next;
         next = next == i ? c->cut->bucket[b] : c->cut->next[next];
@@ -423,7 +425,7 @@ APART void begin(cutter *c)
             root[k].face = (uint16_t)(first + (uint32_t)k);
             root[k].x = root[k].y = 0;
             root[k].level = (uint16_t)tree_root_level(c->tree);
-            set_weighed(&c->cut->weighed, k, c->tree, root[k]);
+            set_weighed(weighed_of(c->cut), k, c->tree, root[k]);
         }
         weigh(c, count);
         for (int k = 0; k < count && c->cut->count < LMB_MAX_CUT; ++k) {

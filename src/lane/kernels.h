@@ -14,6 +14,66 @@
 
 #include "machines.h"
 
+/* A tile's rays, relative to the eye. Of pixel (x, y):
+ *   origin + ox x + oy y  +  w (direction + rx x + ry y)   with w along the view axis.
+ * Perspective: the first part is 0; orthographic: the direction is constant. */
+typedef struct lmb_rays {
+    lmb_vec3 origin, ox, oy;
+    lmb_vec3 direction, rx, ry;
+    lmb_vec3 eye, back;
+    float near_m;
+    int32_t perspective;
+} lmb_rays;
+
+/* What lies in a tile's `work`: up to LMB_SLOTS triangles of one instance that a tile shows. Slot k of every array is
+ * one of them. What comes from the mesh is turned in place into what pixels are made of. Corners' values become the
+ * first and the others' differences from it, so that three equal ones give exactly their value. */
+typedef struct lmb_resolve_batch {
+    lmb_rays rays;
+    const lmb_instance *instance;
+    const lmb_mesh *mesh;
+    const lmb_material *material;
+    int32_t albedo_only;               /* of the pixels: uv and albedo, nothing else */
+    int32_t count;                     /* slots in use; the others hold numbers */
+    uint32_t id[LMB_SLOTS];
+    int32_t slot[LMB_TILE_PIXELS];     /* of each pixel; -1: another's */
+    float corner[3][3][LMB_SLOTS];     /* in: [corner][axis], model space. Out: corner 0 relative to the eye, then g1
+                                          and g2, which give barycentrics: b1 = (p - corner).g1, b2 = (p - corner).g2 */
+    float normal[3][3][LMB_SLOTS];     /* in: octahedral codes as [corner][0 .. 1]. Out: world, [corner][axis] */
+    uint32_t colour[3][LMB_SLOTS];     /* in: of each corner, four codes 0 .. 255, red in the low bits */
+    float uv[3][2][LMB_SLOTS];         /* [corner][u, v] */
+    float plane[3][LMB_SLOTS];         /* out: unit normal */
+    float face[3][LMB_SLOTS];          /* out: the same, turned to the viewer */
+    float w_min[LMB_SLOTS], w_max[LMB_SLOTS]; /* out: of the corners, along the view axis */
+    float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
+} lmb_resolve_batch;
+
+/* Planes of the numbers by which nodes are weighed; vectors are three planes. */
+enum {
+    LMB_WEIGH_CENTRE = 0,
+    LMB_WEIGH_NORMAL = 3,
+    LMB_WEIGH_MIDDLE = 6,
+    LMB_WEIGH_ACROSS = 9,
+    LMB_WEIGH_HALF = 12,
+    LMB_WEIGH_FLUX = 15,        /* R + G + B */
+    LMB_WEIGH_AREA = 16,
+    LMB_WEIGH_COSINE = 17,
+    LMB_WEIGH_RADIUS = 18,
+    LMB_WEIGH_AGREEMENT = 19,
+    LMB_WEIGH_PLANES = 20
+};
+
+/* What lies in a cut's `weighed`: nodes side by side, and what they were found to give the tile: value and most as in
+ * lmb_cut, and error. */
+typedef struct lmb_weighed {
+    float node[LMB_WEIGH_PLANES][LMB_WEIGH_NODES];
+    float value[LMB_WEIGH_NODES], most[LMB_WEIGH_NODES], error[LMB_WEIGH_NODES];
+} lmb_weighed;
+
+/* Both lie in public structs, as room whose size alone is told there. */
+typedef char lmb_resolve_batch_fits[sizeof(lmb_resolve_batch) <= sizeof(((lmb_tile *)0)->work) ? 1 : -1];
+typedef char lmb_weighed_fits[sizeof(lmb_weighed) == sizeof(((lmb_cut *)0)->weighed) ? 1 : -1];
+
 /* One tile of a target, by rows of 8: steps are in elements. */
 typedef struct lmb_fill_tile {
     void *depth, *id;

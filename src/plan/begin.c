@@ -29,17 +29,10 @@ static lmb_status place_maps(lmb_render *r)
     return LMB_OK;
 }
 
-/* Many lights, and nothing else that shines. */
-static int is_even(const lmb_frame *f)
-{
-    return LMB_TREES && f->many != NULL && f->many->lights >= LMB_MANY_EVEN && f->scene != NULL &&
-           f->scene->light_count == 0 && !lmb_scene_shines(f->scene);
-}
-
 /* Where a picture's numbers are 0. */
 void lmb_render_defaults(lmb_frame *f)
 {
-    const int even = (f->error == 0.0f || f->visible == 0.0f) && is_even(f);
+    const int even = (f->error == 0.0f || f->visible == 0.0f) && wants_even_light(f);
     f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->steps = f->steps != 0 ? f->steps : STEPS;
     f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;

@@ -46,6 +46,13 @@ static inline uint32_t faces_that_bounce(const lmb_render *r, uint32_t light)
     return n;
 }
 
+/* Is all light that of many lights, which comes from all sides? */
+static inline int wants_even_light(const lmb_frame *f)
+{
+    return LMB_TREES && f->many != NULL && f->many->lights >= LMB_MANY_EVEN && f->scene != NULL &&
+           f->scene->light_count == 0 && !lmb_scene_shines(f->scene);
+}
+
 /* Do many lights bounce? */
 static inline int wants_many_bounce(const lmb_frame *f)
 {

@@ -232,12 +232,15 @@ static uint32_t fetch(lmb_resolve_batch *b)
     return bad;
 }
 
+static lmb_resolve_batch *batch_of(lmb_tile *t) { return (lmb_resolve_batch *)(void *)t->work.bytes; }
+
 /* Pixels of slot k become nothing: their id comes from another scene. */
 static void drop_slot(lmb_tile *out, int k)
 {
+    int32_t *slot = batch_of(out)->slot;
     for (int i = 0; i < LMB_TILE_PIXELS; ++i) {
-        if (out->batch.slot[i] == k) {
-            out->batch.slot[i] = -1;
+        if (slot[i] == k) {
+            slot[i] = -1;
             out->id[i] = 0;
         }
     }
@@ -246,7 +249,7 @@ static void drop_slot(lmb_tile *out, int k)
 /* As many of the triangles of the pixels `left` as go side by side; returns the pixels that are done. */
 static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lmb_scene *scene, uint64_t left)
 {
-    lmb_resolve_batch *b = &out->batch;
+    lmb_resolve_batch *b = batch_of(out);
     const int first = lowest_bit_64(left);
     b->instance = lmb_instance_of(scene, out->id[first]);
     if (b->instance == NULL) {
@@ -269,7 +272,7 @@ static uint64_t resolve_some(lmb_tile *out, const lmb_kernels *kernels, const lm
 static void clear_tile(lmb_tile *out, int albedo_only)
 {
     const size_t from = albedo_only ? offsetof(lmb_tile, albedo) : 0;
-    memset((uint8_t *)out + from, 0, offsetof(lmb_tile, batch) - from);
+    memset((uint8_t *)out + from, 0, offsetof(lmb_tile, work) - from);
 }
 
 static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
@@ -287,7 +290,7 @@ static lmb_status resolve(lmb_tile *out, const lmb_kernels *kernels, const lmb_v
     read_ids(out->id, target, view, x, y);
     uint64_t left = kernels->resolve_shown(out->id);
     if (left != 0) {
-        lmb_resolve_batch *batch = &out->batch;
+        lmb_resolve_batch *batch = batch_of(out);
         lmb_resolve_rays(&batch->rays, view, x, y);
         batch->albedo_only = albedo_only;
         while (left != 0) {

@@ -115,6 +115,7 @@ static struct {
     lmb_occluder occluder;
     lmb_facts facts;
     lmb_hull hull;
+    lmb_frame_settings settings;
 } g;
 
 /* Memory for a good one; 0: frees all. */
@@ -177,6 +178,10 @@ static void make_frame(void)
     const lmb_cutting cutting = {.error = 0.1f, .visible = 0.1f, .blockers = &g.render.frame.blockers};
     const lmb_receiver receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
     const lmb_occluder occluder = {&g.render.frame.view, &g.render.frame.eye.depth, LMB_OCCLUSION_VIEW, 8};
+    g.settings.scene = f.scene;
+    g.settings.view = f.view;
+    g.settings.light_map = SIDE;
+    g.settings.show = LMB_SHOW_DIRECT; /* else it takes more than ARRAY bytes */
     g.cutting = cutting;
     g.receiver = receiver;
     g.occluder = occluder;
@@ -324,6 +329,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_env", &g.env, sizeof g.env},
         {"lmb_facts", &g.facts, sizeof g.facts},
         {"lmb_frame", f, sizeof *f},
+        {"lmb_frame_settings", &g.settings, sizeof g.settings},
         {"lmb_groups", &g.groups, sizeof g.groups},
         {"lmb_hull", &g.hull, sizeof g.hull},
         {"lmb_light", f->scene->lights, sizeof *f->scene->lights},
