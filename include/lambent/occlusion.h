@@ -49,10 +49,11 @@ typedef struct lmb_segments {
 } lmb_segments;
 
 /* What a walk keeps, one a thread: the triangles that blocked much when asked last, as what blocks a segment often
- * blocks the next. `last` is all 0 to begin with. */
+ * blocks the next. All 0 to begin with. */
 enum { LMB_LAST_BLOCKERS = 4 };
 typedef struct lmb_walk {
     uint32_t last[LMB_LAST_BLOCKERS]; /* number in lmb_blockers + 1, the latest first; 0: none */
+    uint32_t asked;                   /* nodes and leaves of the tree of boxes, so far: what walks cost; wraps */
     lmb_segments segments;
 } lmb_walk;
 

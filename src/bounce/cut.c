@@ -810,6 +810,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_patch *p, double
     const lmb_cutting *cutting = c->cutting;
     c->p = p;
     memset(c->cut->use.walk.last, 0, sizeof c->cut->use.walk.last);
+    c->cut->use.walk.asked = 0;
     c->noise = cutting->blockers != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
     c->in_hull = cutting->blockers != NULL ? lmb_hull_pixels(&cutting->blockers->hull, c->tile, p->pixels) : 0;
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);

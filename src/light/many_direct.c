@@ -157,6 +157,7 @@ lmb_status lmb_many_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernel
         return LMB_ERR_ARG;
     }
     memset(scratch->walk.last, 0, sizeof scratch->walk.last);
+    scratch->walk.asked = 0;
     uint64_t left = look->many->node_count > 0 ? tile_pixels(tile) : 0;
     for (int n = 1; left != 0; ++n) {
         lit_surface s;

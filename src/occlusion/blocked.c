@@ -12,6 +12,7 @@
 /* Leaves asked by the pyramid alone; after them each is asked by the segments themselves, which in a fine mesh mostly
  * pass between its triangles. */
 #define BY_PYRAMID 4
+#define FEW        7      /* pixels that walk alone: of a tile of leaves they lie far apart, a pyramid of them meets all */
 #define MUCH       16     /* pixels that a triangle blocks to be asked first by the next segments */
 #define THIN       1e-20f /* m: a pyramid is never thinner */
 
@@ -190,6 +191,7 @@ typedef struct branch {
 static uint32_t ask_node(walk *w, rays *r, const lmb_boxes *node)
 {
     uint32_t children = 0;
+    ++w->kept->asked;
     for (uint32_t bits = w->kernels->meets(&r->pyramid, node); bits != 0 && w->left != 0; bits &= bits - 1) {
         const int i = lowest_bit(bits);
         uint64_t here = w->left;
@@ -197,6 +199,7 @@ static uint32_t ask_node(walk *w, rays *r, const lmb_boxes *node)
             children |= 1u << (LMB_BOXES - 1 - i);
             continue;
         }
+        ++w->kept->asked;
         if (++r->leaves > BY_PYRAMID) {
             if (r->leaves == BY_PYRAMID + 1) {
                 w->kernels->segments(&w->kept->segments, w->tile, w->at);
@@ -208,35 +211,124 @@ static uint32_t ask_node(walk *w, rays *r, const lmb_boxes *node)
     return children;
 }
 
-uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
-                          uint64_t pixels, lmb_vec3 at, float noise, lmb_walk *kept)
+/* All pixels together, by one pyramid. */
+static uint64_t blocked_together(walk *w)
 {
+    const lmb_blockers *blockers = w->b;
+    const uint64_t pixels = w->left;
     branch waiting[LMB_WALK_LEVELS];
     rays r;
     int count = 0;
     uint32_t here = 0;
-    walk w = {blockers, kernels, tile, at, noise, kept, pixels};
-    if (blockers == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 ||
-        blockers->node_count == 0) {
-        return 0;
-    }
-    if (ask_last(&w)) {
+    if (ask_last(w)) {
         return pixels;
     }
-    r.pyramid = pyramid_of(tile, w.left, at);
+    r.pyramid = pyramid_of(w->tile, w->left, w->at);
     r.leaves = 0;
     for (;;) {
         waiting[count].node = here;
-        waiting[count].children = ask_node(&w, &r, &blockers->node[here]);
+        waiting[count].children = ask_node(w, &r, &blockers->node[here]);
         count += waiting[count].children != 0;
-        if (count == 0 || w.left == 0) {
-            return pixels & ~w.left;
+        if (count == 0 || w->left == 0) {
+            return pixels & ~w->left;
         }
         branch *up = &waiting[count - 1];
         here = blockers->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
         up->children &= up->children - 1;
         count -= up->children == 0;
     }
+}
+
+/* Does a triangle block the one pixel that asks? What `crossed` says, to the bit. */
+static int blocks_one(walk *w, uint32_t triangle, int k)
+{
+    const lmb_blocker *t = &w->b->triangle[triangle];
+    const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), w->at);
+    const float ahead = dot3(t->normal, sub3(t->corner[0], w->at)), past = dot3(t->normal, d);
+    lmb_cross_job job;
+    if (!(absf(ahead) < (ahead < 0.0f ? -past : past)) || !cross_job(&job, t, w->at, w->noise, w->b->noise)) {
+        return 0;
+    }
+    const float least = minf(minf(dot3(job.edge[0], d), dot3(job.edge[1], d)), dot3(job.edge[2], d));
+    return 0.0f <= least && job.beyond < dot3(job.normal, d) &&
+           (!(t->id & LMB_BLOCKER_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
+}
+
+static int last_blocks_one(walk *w, int k)
+{
+    for (int i = 0; i < LMB_LAST_BLOCKERS && w->kept->last[i] != 0; ++i) {
+        const uint32_t triangle = w->kept->last[i] - 1;
+        if (blocks_one(w, triangle, k)) {
+            remember(w->kept->last, triangle);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Of a node's boxes that the segment meets, the leaves: 1 where one blocks. *children: those that are nodes. */
+static int node_blocks_one(uint32_t *children, walk *w, const lmb_pyramid *p, const lmb_boxes *node, int k)
+{
+    *children = 0;
+    ++w->kept->asked;
+    for (uint32_t bits = w->kernels->meets(p, node); bits != 0; bits &= bits - 1) {
+        const int i = lowest_bit(bits);
+        if (node->count[i] == 0) {
+            *children |= 1u << (LMB_BOXES - 1 - i);
+            continue;
+        }
+        ++w->kept->asked;
+        for (uint32_t j = 0; j < node->count[i]; ++j) {
+            if (blocks_one(w, node->first[i] + j, k)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static int one_blocked(walk *w, int k)
+{
+    branch waiting[LMB_WALK_LEVELS];
+    int count = 0;
+    uint32_t here = 0;
+    if (last_blocks_one(w, k)) {
+        return 1;
+    }
+    const lmb_pyramid p = pyramid_of(w->tile, w->left, w->at);
+    for (;;) {
+        waiting[count].node = here;
+        if (node_blocks_one(&waiting[count].children, w, &p, &w->b->node[here], k)) {
+            return 1;
+        }
+        count += waiting[count].children != 0;
+        if (count == 0) {
+            return 0;
+        }
+        branch *up = &waiting[count - 1];
+        here = w->b->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
+        up->children &= up->children - 1;
+        count -= up->children == 0;
+    }
+}
+
+uint64_t lmb_blocked_tile(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
+                          uint64_t pixels, lmb_vec3 at, float noise, lmb_walk *kept)
+{
+    walk w = {blockers, kernels, tile, at, noise, kept, pixels};
+    uint64_t blocked = 0;
+    if (blockers == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 ||
+        blockers->node_count == 0) {
+        return 0;
+    }
+    if (count_bits_64(pixels) > FEW) {
+        return blocked_together(&w);
+    }
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        w.left = bits & (~bits + 1);
+        blocked |= one_blocked(&w, lowest_bit_64(bits)) ? w.left : 0;
+    }
+    return blocked;
 }
 
 #endif

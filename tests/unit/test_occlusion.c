@@ -297,8 +297,45 @@ static void holes(void)
     CHECK(blocked_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
 }
 
+/* Few pixels far apart among leaves: no more boxes are asked for all together than for each alone, and the answers are
+ * the same. */
+static void far_apart_among_leaves(void)
+{
+    test_rng r = {81};
+    uint32_t together = 0, alone = 0;
+    int other = 0, blocked = 0;
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 5000; ++i) {
+        const lmb_vec3 at = random_point(&r, 1.0f);
+        world_triangle(at, add3(at, random_point(&r, 0.03f)), add3(at, random_point(&r, 0.03f)));
+    }
+    lmb_blockers b = blockers_of_world();
+    for (int round = 0; round < 200; ++round) {
+        const uint64_t asked = 0x1010008004002u; /* five */
+        const lmb_vec3 at = random_point(&r, 1.0f);
+        lmb_tile tile;
+        lmb_walk walk;
+        uint64_t each = 0;
+        fill_tile(&tile, vec3(0, 0, 0), 1.0f, &r);
+        const float noise = noise_of(&tile, asked, at);
+        memset(&walk, 0, sizeof walk);
+        const uint64_t all = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, asked, at, noise, &walk);
+        together += walk.asked;
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            memset(&walk, 0, sizeof walk);
+            each |= lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, asked & (uint64_t)1 << k, at, noise, &walk);
+            alone += walk.asked;
+        }
+        other += all != each;
+        blocked += all != 0;
+    }
+    CHECK_MSG(other == 0 && blocked > 50, "%d others, %d blocked", other, blocked);
+    CHECK_MSG(together <= alone, "%u boxes together, %u alone", (unsigned)together, (unsigned)alone);
+}
+
 void test_occlusion(void)
 {
+    far_apart_among_leaves();
     every_triangle();
     every_triangle_of_suns();
     no_gap_no_acne();
