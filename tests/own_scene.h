@@ -4,6 +4,7 @@
 #define OWN_SCENE_H
 
 #include "folder.h"
+#include "pfm_file.h"
 
 #include <lambent/lambent.h>
 
@@ -23,16 +24,8 @@ typedef struct own_drawn {
 static inline int own_truth(image *out, const char *file)
 {
     char path[256];
-    file_bytes bytes;
-    report r = {""};
     snprintf(path, sizeof path, "tests/truth/small/%s", file);
-    int ok = file_read(&bytes, path, &r);
-    if (ok) {
-        ok = pfm_decode(out, bytes.data, bytes.size, path, &r);
-        file_free(&bytes);
-    }
-    CHECK_MSG(ok, "%s", r.text);
-    return ok;
+    return pfm_file(out, path);
 }
 
 /* The scene's files in the test's folder; the model's path, or NULL. */

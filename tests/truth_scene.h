@@ -8,6 +8,7 @@
 
 #include "../tools/image.h"
 #include "../tools/model.h"
+#include "pfm_file.h"
 #include "shared_file.h"
 
 static inline int truth_is_there(const char *scene)
@@ -28,16 +29,8 @@ static inline void truth_path(char path[SHARED_PATH], const char *scene, const c
 static inline int truth_picture(image *out, const char *scene, const char *file)
 {
     char path[SHARED_PATH];
-    file_bytes bytes;
-    report r = {""};
     truth_path(path, scene, file);
-    int ok = file_read(&bytes, path, &r);
-    if (ok) {
-        ok = pfm_decode(out, bytes.data, bytes.size, path, &r);
-        file_free(&bytes);
-    }
-    CHECK_MSG(ok, "%s", r.text);
-    return ok;
+    return pfm_file(out, path);
 }
 
 /* As large as the picture it is held against. */

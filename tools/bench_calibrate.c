@@ -62,22 +62,3 @@ double bench_calibrate(int threads)
     free(j);
     return best;
 }
-
-int verb_calibrate(int argc, char **argv)
-{
-    int32_t threads = 0;
-    for (int i = 2; i < argc; i += 2) {
-        if (i + 1 == argc || strcmp(argv[i], "--threads") != 0 || !option_int(argv[i + 1], 1, POOL_MAX, &threads)) {
-            fprintf(stderr, "lambent bench --calibrate: takes --threads 1 .. %d alone\n", POOL_MAX);
-            return 2;
-        }
-    }
-    threads = threads > 0 ? threads : pool_processors();
-    const double rate = bench_calibrate((int)threads);
-    if (!(rate > 0.0)) {
-        fprintf(stderr, "lambent bench --calibrate: no memory to draw the built-in room\n");
-        return 1;
-    }
-    printf("%.4g units of work a second, threads: %d   (for plan and render: --rate %.4g)\n", rate, (int)threads, rate);
-    return 0;
-}

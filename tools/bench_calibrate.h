@@ -6,7 +6,4 @@
  * about half a second; 0 where there is no memory for it. */
 double bench_calibrate(int threads);
 
-/* `lambent bench --calibrate`. */
-int verb_calibrate(int argc, char **argv);
-
 #endif

@@ -26,11 +26,11 @@ double bench_ledgers_weight(const bench_options *o)
 
 static int names(const bench_line *line, const char *option)
 {
-    int i = 0;
-    while (i < line->argc && strcmp(line->argv[i], option) != 0) {
-        ++i;
+    const option_row *row = NULL;
+    for (int i = 1; i < line->argc && (row == NULL || strcmp(row->name, option) != 0); ++i) {
+        row = line->argv[i][0] == '-' ? options_find(line->table, line->argv[i]) : NULL;
     }
-    return i < line->argc;
+    return row != NULL && strcmp(row->name, option) == 0;
 }
 
 static int draw(image *out, const sweep *s, const bench_line *line, report *r)
@@ -79,7 +79,7 @@ static int follow(chain *c, bench_ledger *l, sweep *s, int point, image *finest,
     for (int i = 0; i < subject->exact_count && ok; ++i) {
         const bench_exact *e = &subject->exact[i];
         const int is_exact = e->by != NULL && !names(&line, e->by);
-        bench_progress(words[0] != '\0' ? words : "default", s->done, s->all, s->start);
+        bench_progress(s, words[0] != '\0' ? words : "default");
         s->done += (double)DRAWN_WEIGHT / s->o->ledger;
         ok = bench_line_add(&line, e->words) || report_fail(r, "too many options");
         const float *to = is_exact ? NULL : lead(c, s, &line, i, finest);

@@ -7,18 +7,6 @@
 #include "bench_subject.h"
 #include "mix_job.h"
 
-static const char help[] =
-    "usage: lambent bench mix --frame PREFIX --object MESH [options of lambent mix] [--sweep NAME=V,V,...]\n"
-    "                         [--truth FILE.pfm] [--runs N] [-o NAME | --html FILE --csv FILE --json FILE]\n"
-    "\n"
-    "Speed and memory against error of an object in a photo: by voxels a side, cones a hemisphere and texels of\n"
-    "the lamps' maps. Errors are counted where the object changes the photo by more than a hundredth of its mean,\n"
-    "against a picture of yours (linear, of the photo's size) or the finest settings: 256 voxels a side, 37 cones.\n"
-    "Time is without reading the files; memory is that of the voxels and maps.\n"
-    "\n"
-    "  lambent bench mix --frame photo --object duck.glb --light sun:0,0,0:0.3,-1,-0.2:3,3,3 -o duck\n"
-    "  lambent bench mix --frame photo --object duck.glb --sweep voxels=5,6,7 --sweep cones=7,19\n";
-
 static const char *const stages[BENCH_STAGES] = {"planes", "object and light", "voxels", "picture", NULL};
 
 static const bench_try tries[] = {
@@ -32,11 +20,6 @@ static const bench_try tries[] = {
     {"light map", "--light-map 2048", 5, 0},
     {"draft and", "--voxels 6 --cones 7", 2, 0},
     {"draft and", "--voxels 5 --cones 7 --light-map 256", 2, 0},
-    {"machine", "--backend scalar", 10, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend sse2", 6, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend avx2", 4, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend avx512", 4, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend neon", 6, BENCH_SAME | BENCH_HERE},
 };
 
 #define EXACT "--voxels 8 --cones 37 --light-map 2048"
@@ -48,10 +31,9 @@ typedef struct mixture {
 
 static int parse(mix_options *o, const bench_line *line, report *r)
 {
-    char *argv[BENCH_ARGS + 1];
-    memcpy(argv, line->argv, (size_t)line->argc * sizeof *argv);
-    argv[line->argc] = NULL;
-    if (!mix_options_parse(o, line->argc, argv, r)) {
+    char *argv[BENCH_ARGS];
+    memcpy(argv, line->argv, sizeof argv);
+    if (mix_options_parse(o, line->argc, argv, r) != OPTIONS_RUN) {
         return 0;
     }
     o->is_quiet = 1;
@@ -160,13 +142,28 @@ static int draw_truth(bench_shot *out, const bench_line *line, report *r)
 const bench_subject bench_mixed = {
     .verb = "mix",
     .output = "-o picture.pfm",
-    .bare = " ",
+    .table = &mix_table,
     .refused = " --stats --show --exposure ",
     .stages = stages,
     .tries = tries,
     .try_count = sizeof tries / sizeof *tries,
+    .backends = 1,
     .truth_is = "its own finest settings, " EXACT,
-    .help = help,
+    .usage = "bench mix --frame PREFIX --object MESH [options of lambent mix] [options]",
+    .about = "Speed and memory against error of an object in a photo: by voxels a side, cones a hemisphere and texels of "
+             "the lamps' maps. Errors are counted where the object changes the photo by more than a hundredth of its mean, "
+             "against a picture of yours (linear, of the photo's size) or the finest settings: 256 voxels a side, 37 "
+             "cones. Time is without reading the files; memory is that of the voxels and maps.",
+    .examples =
+        "  a photo with depth of the built-in room, a tent, and a picture of both as the truth:\n"
+        "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
+        "    lambent render demo $eye -o photo.png\n"
+        "    lambent render demo $eye --show depth -o depth.pfm\n"
+        "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+        "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+        "    put='--photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 --object tent.obj'\n"
+        "    lambent mix $put --voxels 6 --cones 37 -o truth.pfm\n"
+        "    lambent bench mix $put --runs 1 --truth truth.pfm --sweep voxels=4,5\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

@@ -4,41 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "option_value.h"
+#include "options.h"
 
-const char bench_help[] =
-    "sweep\n"
-    "  --sweep NAME=V,V,...       instead of the usual settings: this option of the verb with each value; may be\n"
-    "                             repeated, then each with each\n"
-    "  --runs N                   runs of a setting, of which the least time counts, stage by stage (default 3, after\n"
-    "                             one that warms up; no further one once 3 s have passed)\n"
-    "  --truth FILE.pfm           errors against this picture (default: against its own most exact settings)\n"
-    "output\n"
-    "  -o NAME                    NAME.html, NAME.csv and NAME.json\n"
-    "  --html FILE --csv FILE --json FILE --svg FILE\n"
-    "                             each by itself. The HTML needs nothing else: the front of speed against error\n"
-    "                             with its knee, what each option costs and buys, pictures and heat maps, memory,\n"
-    "                             and the command line of each setting. CSV: a line a setting; JSON: all figures;\n"
-    "                             SVG: the front alone\n"
-    "\n"
-    "A setting is on the front where no other is both faster and nearer to the truth. At the knee more time stops to\n"
-    "pay. Time is the processor's on one thread; a setting with more threads is timed by what passes. Everything else\n"
-    "on the command line goes to the verb, as it is.\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage\n";
-
-static int parse_file(const char **out, const char *text) { return (*out = text)[0] != '\0'; }
-static int parse_html(const char *text, bench_options *o) { return parse_file(&o->html, text); }
-static int parse_csv(const char *text, bench_options *o) { return parse_file(&o->csv, text); }
-static int parse_json(const char *text, bench_options *o) { return parse_file(&o->json, text); }
-static int parse_svg(const char *text, bench_options *o) { return parse_file(&o->svg, text); }
-static int parse_truth(const char *text, bench_options *o) { return parse_file(&o->truth, text); }
-static int parse_cache(const char *text, bench_options *o) { return parse_file(&o->cache, text); }
-static int parse_runs(const char *text, bench_options *o) { return option_int(text, 1, 1000, &o->runs); }
-static int parse_ledger(const char *text, bench_options *o) { return option_int(text, 0, 64, &o->ledger); }
-
-static int parse_out(const char *text, bench_options *o)
+static int parse_out(const char *text, void *at)
 {
+    bench_options *o = at;
     static const char *const endings[3] = {"html", "csv", "json"};
     const char **const files[3] = {&o->html, &o->csv, &o->json};
     int n = 0;
@@ -49,8 +19,9 @@ static int parse_out(const char *text, bench_options *o)
     return text[0] != '\0' && n > 0 && (size_t)n < sizeof o->names[0];
 }
 
-static int parse_sweep(const char *text, bench_options *o)
+static int parse_sweep(const char *text, void *at)
 {
+    bench_options *o = at;
     bench_range *s = &o->range[o->ranges];
     const char *values = strchr(text, '=');
     while (*text == '-') {
@@ -76,30 +47,67 @@ static int parse_sweep(const char *text, bench_options *o)
     return s->count > 0 && s->count < BENCH_VALUES;
 }
 
-static const struct flag {
-    option_name of;
-    int (*parse)(const char *text, bench_options *o);
-} flags[] = {
-    {{"-o", "a name that .html, .csv and .json are put behind"}, parse_out},
-    {{"--html", "a file name"}, parse_html},
-    {{"--csv", "a file name"}, parse_csv},
-    {{"--json", "a file name"}, parse_json},
-    {{"--svg", "a file name"}, parse_svg},
-    {{"--truth", "a PFM file's name"}, parse_truth},
-    {{"--cache", "a folder's name"}, parse_cache},
-    {{"--sweep", "NAME=V,V,... with up to 63 values, up to 4 times"}, parse_sweep},
-    {{"--runs", "1 .. 1000"}, parse_runs},
-    {{"--ledger", "0 .. 64"}, parse_ledger},
-};
-enum { FLAGS = sizeof flags / sizeof *flags };
+#define AT(member) .at = offsetof(bench_options, member)
 
-static int is_own(const char *word)
+static const option_row sweep_rows[] = {
+    {.kind = OPTION_TITLE, .help = "sweep"},
+    {.name = "--sweep", .value = "NAME=V,V,...", .kind = OPTION_OWN, .times = BENCH_SWEEPS, .parse = parse_sweep,
+     .wants = "NAME=V,V,... with up to 63 values",
+     .help = "instead of the usual settings: this option of the verb with each value; several: each with each"},
+    {.name = "--runs", .value = "N", .kind = OPTION_INT, AT(runs), .low = 1, .high = 1000,
+     .help = "runs of a setting, of which the least time counts, stage by stage (default 3, after one that warms up; no "
+             "further one once 3 s have passed)"},
+    {.name = "--truth", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(truth),
+     .help = "errors against this picture (default: against its own most exact settings)"},
+    {.kind = OPTION_END},
+};
+
+/* Of a subject whose stages can be made exact. */
+static const option_row truth_rows[] = {
+    {.kind = OPTION_TITLE, .help = "truth"},
+    {.name = "--cache", .value = "FOLDER", .kind = OPTION_TEXT, AT(cache),
+     .help = "where a scene's own truth is kept, by the scene's content and the settings, because it takes minutes "
+             "(default: $XDG_CACHE_HOME/lambent or ~/.cache/lambent)"},
+    {.name = "--ledger", .value = "N", .kind = OPTION_INT, AT(ledger), .low = 0, .high = 64,
+     .help = "the error ledger, which draws what is nearly brute force, looks at one band of 8 rows in N (default 4); 0: "
+             "no ledger. It makes one stage after another exact: its step's squared error is what the stage adds; the "
+             "interaction is what stages hide or add to each other's"},
+    {.kind = OPTION_END},
+};
+
+static const option_row output_rows[] = {
+    {.kind = OPTION_TITLE, .help = "output"},
+    {.name = "-o", .value = "NAME", .kind = OPTION_OWN, .parse = parse_out,
+     .wants = "a name that .html, .csv and .json are put behind", .help = "NAME.html, NAME.csv and NAME.json"},
+    {.name = "--html", .value = "FILE", .kind = OPTION_TEXT, AT(html),
+     .help = "needs nothing else: the front of speed against error with its knee, what each option costs and buys, "
+             "pictures and heat maps, memory, and the command line of each setting"},
+    {.name = "--csv", .value = "FILE", .kind = OPTION_TEXT, AT(csv), .help = "a line a setting"},
+    {.name = "--json", .value = "FILE", .kind = OPTION_TEXT, AT(json), .help = "all figures"},
+    {.name = "--svg", .value = "FILE", .kind = OPTION_TEXT, AT(svg), .help = "the front alone"},
+    {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no table and no progress"},
+    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
+     .help = "say each setting's command before it is measured"},
+    OPTION_ASK,
+    {.kind = OPTION_TITLE,
+     .help = "A setting is on the front where no other is both faster and nearer to the truth. At the knee more time stops "
+             "to pay. Time is the processor's on one thread; a setting with more threads is timed by what passes. Everything else on the command line goes to the verb, as it is."},
+    {.kind = OPTION_END},
+};
+
+void bench_options_table(option_table *out, const bench_subject *subject)
 {
-    int at = FLAGS - 1;
-    while (at >= 0 && strcmp(flags[at].of.name, word) != 0) {
-        --at;
+    int n = 0;
+    memset(out, 0, sizeof *out);
+    out->verb = "bench";
+    out->usage = subject->usage;
+    out->about = subject->about;
+    out->examples = subject->examples;
+    out->part[n++] = sweep_rows;
+    if (subject->exact != NULL) {
+        out->part[n++] = truth_rows;
     }
-    return at >= 0;
+    out->part[n] = output_rows;
 }
 
 /* Does `list` have the word, with spaces around? */
@@ -114,50 +122,77 @@ static int is_listed(const char *list, const char *word)
     return 0;
 }
 
-/* The subject's word, and its value behind it. */
-static int give(bench_options *o, int *at, int argc, char **argv, report *r)
+/* Words of the command line: the sweep's own, and the verb's. */
+typedef struct halves {
+    char *own[BENCH_ARGS];
+    int own_count;
+} halves;
+
+/* The option at hand goes to the half that knows it, with its value; words that are none are the verb's. */
+static int take(halves *h, bench_options *o, const option_table *own, int *at, int argc, char **argv, report *r)
 {
-    const char *word = argv[*at];
+    const option_table *const both[] = {own, o->subject->table};
+    char *word = argv[*at];
     const int is_option = word[0] == '-' && word[1] != '\0';
-    if (is_option && is_listed(o->subject->refused, word)) {
-        return report_fail(r, "%s means nothing to a sweep; see --help", word);
+    const option_row *mine = is_option ? options_find(own, word) : NULL;
+    const option_row *row = mine == NULL && is_option ? options_find(o->subject->table, word) : mine;
+    if (is_option && row == NULL) {
+        return options_unknown(both, 2, word, r);
     }
-    const int words = is_option && !is_listed(o->subject->bare, word) ? 2 : 1;
-    if (*at + words > argc) {
-        return report_fail(r, "%s: its value is missing", word);
+    if (row != NULL && mine == NULL && is_listed(o->subject->refused, row->name)) {
+        return report_fail(r, "%s means nothing to a sweep; see --help", row->name);
     }
-    if (o->given_count + words > BENCH_ARGS / 2) {
+    const int words = row != NULL ? options_words(row, word) : 1;
+    if (mine == NULL && *at + words > argc) {
+        return report_fail(r, "%s: its value is missing", row->name);
+    }
+    if (o->given_count + words > BENCH_ARGS / 2 || h->own_count + words > BENCH_ARGS) {
         return report_fail(r, "too many options; at most %d words", BENCH_ARGS / 2);
     }
-    for (int i = 0; i < words; ++i) {
-        o->given[o->given_count++] = argv[(*at)++];
+    for (int i = 0; i < words && *at < argc; ++i, ++*at) {
+        if (mine != NULL) {
+            h->own[h->own_count++] = argv[*at];
+        } else {
+            o->given[o->given_count++] = argv[*at];
+        }
     }
     --*at;
     return 1;
 }
 
+/* The verb's options are given once, like all others: a line of them is not asked, as it lets the last one count. */
+static int once(const bench_options *o, report *r)
+{
+    for (int i = 0; i < o->given_count; ++i) {
+        const option_row *row = o->given[i][0] == '-' ? options_find(o->subject->table, o->given[i]) : NULL;
+        const int words = row != NULL ? options_words(row, o->given[i]) : 1;
+        for (int k = i + words; row != NULL && row->times <= 1 && k < o->given_count; ++k) {
+            if (o->given[k][0] == '-' && options_find(o->subject->table, o->given[k]) == row) {
+                return report_fail(r, "%s is given twice; leave one out", row->name);
+            }
+        }
+        i += words - 1;
+    }
+    return 1;
+}
+
 int bench_options_parse(bench_options *o, const bench_subject *subject, int argc, char **argv, report *r)
 {
+    static char verb[] = "bench";
+    halves h = {{verb}, 1};
+    option_table own;
     memset(o, 0, sizeof *o);
     o->subject = subject;
     o->runs = 3;
     o->ledger = 4;
+    bench_options_table(&own, subject);
     for (int i = 0; i < argc; ++i) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            return o->help = 1;
-        }
-        if (!is_own(argv[i])) {
-            if (!give(o, &i, argc, argv, r)) {
-                return 0;
-            }
-            continue;
-        }
-        const int f = option_find(flags, sizeof *flags, FLAGS, argv, i, r);
-        if (f < 0 || (!flags[f].parse(argv[++i], o) && !option_refuse(&flags[f].of, argv[i], r))) {
-            return 0;
+        if (!take(&h, o, &own, &i, argc, argv, r)) {
+            return OPTIONS_BAD;
         }
     }
-    return 1;
+    const int asked = options_parse(o, &own, h.own_count, h.own, r);
+    return asked == OPTIONS_RUN && !once(o, r) ? OPTIONS_BAD : asked;
 }
 
 int bench_options_line(bench_line *l, const bench_options *o, const image *like, report *r)
@@ -165,14 +200,15 @@ int bench_options_line(bench_line *l, const bench_options *o, const image *like,
     const bench_subject *s = o->subject;
     char size[64] = "";
     memset(l, 0, sizeof *l);
+    l->table = s->table;
     if (like != NULL && s->size != NULL) {
         snprintf(size, sizeof size, s->size, (int)like->width, (int)like->height);
     } else if (s->usual_size != NULL) {
         snprintf(size, sizeof size, "%s", s->usual_size);
     }
     int ok = bench_line_add(l, s->verb) && bench_line_add(l, size);
-    for (int i = 0; i < o->given_count; ++i) {
-        l->argv[l->argc++] = o->given[i];
+    for (int i = 0; i < o->given_count && ok; ++i) {
+        ok = bench_line_put(l, o->given[i]);
     }
     ok = ok && (s->output == NULL || bench_line_add(l, s->output));
     return ok || report_fail(r, "too many options");

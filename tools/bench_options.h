@@ -23,16 +23,17 @@ typedef struct bench_options {
     bench_range range[BENCH_SWEEPS];
     int ranges;
     int32_t runs, ledger; /* ledger: one band in so many, 0: none */
-    int help;
+    int is_quiet, is_verbose;
     char names[3][1024];  /* of -o */
 } bench_options;
 
-/* bench_options_parse: argv[0] is the subject, or its first word. 1, or 0 with `r` set: bad usage. */
+/* bench_options_table: of the sweep's own options. */
+void bench_options_table(option_table *out, const bench_subject *subject);
+
+/* bench_options_parse: as options_parse, but argv[0] is the subject, or its first word. */
 int bench_options_parse(bench_options *out, const bench_subject *subject, int argc, char **argv, report *r);
 
 /* bench_options_line: the subject's verb with what was given, as large as `like`, or (NULL) as usual. */
 int bench_options_line(bench_line *out, const bench_options *o, const image *like, report *r);
-
-extern const char bench_help[];
 
 #endif

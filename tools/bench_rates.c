@@ -9,26 +9,12 @@
 
 const char *const bench_op_names[BENCH_OPS] = {"mul", "add", "max", "div", "cmp", "pick", "sqrt"};
 
-extern const bench_machine bench_machine_scalar, bench_machine_sse2, bench_machine_avx2, bench_machine_avx512,
-    bench_machine_neon, bench_machine_simd128;
+#define DECLARE(upper, lower) extern const bench_machine bench_machine_##lower;
+LMB_BACKENDS(DECLARE)
 
 static const bench_machine *const machines[] = {
-#if LMB_HAVE_AVX512
-    &bench_machine_avx512,
-#endif
-#if LMB_HAVE_AVX2
-    &bench_machine_avx2,
-#endif
-#if LMB_HAVE_SSE2
-    &bench_machine_sse2,
-#endif
-#if LMB_HAVE_NEON
-    &bench_machine_neon,
-#endif
-#if LMB_HAVE_SIMD128
-    &bench_machine_simd128,
-#endif
-    &bench_machine_scalar,
+#define MACHINE_OF(upper, lower) LMB_IF(LMB_HAVE_##upper, &bench_machine_##lower, )
+    LMB_BACKENDS(MACHINE_OF)
 };
 
 enum { ROUNDS = 1024, CHAIN = 16, IN_CACHE = 4096 /* floats */ };

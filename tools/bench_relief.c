@@ -5,24 +5,11 @@
 
 #include "bench_subject.h"
 #include "model.h"
-#include "option_value.h"
 #include "relief_bake.h"
 #include "relief_draw.h"
 #include "relief_model.h"
+#include "relief_options.h"
 #include "view_options.h"
-
-static const char help[] =
-    "usage: lambent bench relief MODEL [--views N|greedy:N] [--size PX] [--packed] [--triangles N] [--steps N]\n"
-    "                            [--looks N] [--keep N] [--eye X,Y,Z --target X,Y,Z --fov DEG] [--sweep NAME=V,V,...]\n"
-    "                            [--runs N] [-o NAME | --html FILE --csv FILE --json FILE]\n"
-    "\n"
-    "Speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole from a little\n"
-    "above: bakes it by so many views of such a size and draws it in so many steps. The truth is the model itself,\n"
-    "drawn by its triangles. Options are those of lambent relief bake and render; time is that of the picture, memory\n"
-    "the relief's.\n"
-    "\n"
-    "  lambent bench relief statue.ply -o statue\n"
-    "  lambent bench relief statue.ply --sweep views=6,14,26 --sweep size=128,256\n";
 
 static const char *const stages[BENCH_STAGES] = {"light map", "triangles", "pixels", NULL};
 
@@ -54,7 +41,7 @@ enum { SIDE = 512, LIGHT_MAP = 1024 };
 
 typedef struct statue {
     const char *model;
-    int32_t views, greedy, size, triangles, format;
+    int32_t views, greedy, size, triangles, is_packed;
     view_options view;
     lmb_relief_how how;
     /* made of it */
@@ -74,66 +61,50 @@ typedef struct statue {
 
 /* --- the command line --------------------------------------------------------------------------------------------- */
 
-static int parse_views(const char *text, statue *s)
+static int parse_views(const char *text, void *at)
 {
-    s->greedy = strncmp(text, "greedy:", 7) == 0;
-    return option_int(text + 7 * s->greedy, 1, LMB_RELIEF_VIEWS, &s->views);
+    statue *s = at;
+    return relief_option_views(text, &s->views, &s->greedy);
 }
 
-static int parse_size(const char *text, statue *s) { return option_int(text, 8, 4096, &s->size); }
-static int parse_triangles(const char *text, statue *s) { return option_int(text, 4, 10000000, &s->triangles); }
-static int parse_steps(const char *text, statue *s) { return option_int(text, 1, 32, &s->how.steps); }
-static int parse_looks(const char *text, statue *s) { return option_int(text, 1, LMB_RELIEF_LOOKS, &s->how.views); }
-static int parse_keep(const char *text, statue *s) { return option_int(text, 1, 3, &s->how.keep); }
-static int parse_eye(const char *text, statue *s) { return s->view.has_eye = option_vec3(text, &s->view.eye); }
-static int parse_target(const char *text, statue *s) { return s->view.has_target = option_vec3(text, &s->view.target); }
-static int parse_fov(const char *text, statue *s) { return view_option_fov(text, &s->view); }
-
-static const struct flag {
-    option_name of;
-    int (*parse)(const char *text, statue *s);
-    int bakes; /* of relief bake, else of relief render */
-} flags[] = {
-    {{"--views", "1 .. 64 or greedy:N"}, parse_views, 1},
-    {{"--size", "8 .. 4096"}, parse_size, 1},
-    {{"--triangles", "4 .. 10000000"}, parse_triangles, 1},
-    {{"--steps", "1 .. 32"}, parse_steps, 0},
-    {{"--looks", "1 .. 8"}, parse_looks, 0},
-    {{"--keep", "1 .. 3"}, parse_keep, 0},
-    {{"--eye", "X,Y,Z"}, parse_eye, 0},
-    {{"--target", "X,Y,Z"}, parse_target, 0},
-    {{"--fov", "degrees, over 0 and under 179"}, parse_fov, 0},
+/* Of relief bake, and of relief render. */
+static const option_row bake_rows[] = {
+    {.name = "MODEL", .kind = OPTION_TEXT, .value = "", .at = offsetof(statue, model), .help = "the complex one"},
+    {.name = "--views", .value = "N|greedy:N", .kind = OPTION_OWN, .parse = parse_views, .wants = "1 .. 64 or greedy:N",
+     .help = "from N sides (default 26), or the N that see most"},
+    RELIEF_OPTIONS_BAKE(statue),
+    {.kind = OPTION_END},
 };
-enum { FLAGS = sizeof flags / sizeof *flags };
+static const option_row render_rows[] = {
+    RELIEF_OPTIONS_LOOK(statue),
+    VIEW_OPTIONS_CAMERA(statue, view, "where the camera stands (default: the whole model from a little above)"),
+    {.kind = OPTION_END},
+};
+static const option_table table = {.verb = "relief", .part = {bake_rows, render_rows}};
 
 static int parse(statue *s, const bench_line *l, report *r)
 {
-    char *argv[BENCH_ARGS + 1];
-    memcpy(argv, l->argv, (size_t)l->argc * sizeof *argv);
-    argv[l->argc] = NULL;
+    char *argv[BENCH_ARGS];
+    memcpy(argv, l->argv, sizeof argv);
     view_options_init(&s->view);
     s->views = 26;
     s->size = 256;
     s->triangles = 3000;
-    s->format = LMB_RELIEF_FULL;
-    for (int i = 1; i < l->argc; ++i) {
-        if (strcmp(argv[i], "--packed") == 0) {
-            s->format = LMB_RELIEF_PACKED;
-        } else if (argv[i][0] != '-') {
-            if (s->model != NULL) {
-                return report_fail(r, "one model at a time: %s and %s", s->model, argv[i]);
-            }
-            s->model = argv[i];
-        } else {
-            const int f = option_find(flags, sizeof *flags, FLAGS, argv, i, r);
-            if (f < 0 || (!flags[f].parse(argv[++i], s) && !option_refuse(&flags[f].of, argv[i], r))) {
-                return 0;
-            }
-        }
+    if (options_parse(s, &table, l->argc, argv, r) != OPTIONS_RUN) {
+        return 0;
     }
     s->view.width = s->view.height = SIDE;
     s->view.is_quiet = 1;
     return (s->model != NULL || report_fail(r, "no model given")) && view_options_check(&s->view, r);
+}
+
+static int draws(const option_row *row)
+{
+    const option_row *of = render_rows;
+    while (of->kind != OPTION_END && of != row) {
+        ++of;
+    }
+    return of == row;
 }
 
 /* Two commands: one bakes, one draws. */
@@ -144,15 +115,11 @@ static void say(char *out, size_t size, const bench_line *l)
     for (int k = 0; k < 2; ++k) {
         bench_line_add(&both[k], k == 0 ? "relief bake" : "relief render statue.lmr");
     }
-    for (int i = 1; i < l->argc; ++i) {
-        int f = FLAGS - 1;
-        while (f >= 0 && strcmp(flags[f].of.name, l->argv[i]) != 0) {
-            --f;
-        }
-        bench_line *to = &both[f >= 0 && !flags[f].bakes];
-        to->argv[to->argc++] = l->argv[i];
-        if (f >= 0 && i + 1 < l->argc) {
-            to->argv[to->argc++] = l->argv[++i];
+    for (int i = 1; i < l->argc;) {
+        const option_row *row = l->argv[i][0] == '-' ? options_find(&table, l->argv[i]) : NULL;
+        const int words = row != NULL ? options_words(row, l->argv[i]) : 1;
+        for (int k = 0; k < words && i < l->argc; ++k) {
+            bench_line_put(&both[row != NULL && draws(row)], l->argv[i++]);
         }
     }
     bench_line_add(&both[0], "-o statue.lmr");
@@ -189,7 +156,7 @@ static int bake(statue *s, report *r)
         !simplify_mesh(&s->simple, &s->mesh, (uint32_t)s->triangles, SIMPLIFY_AROUND, &facts, r)) {
         return 0;
     }
-    s->bake.format = s->format;
+    s->bake.format = s->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
     for (int32_t i = 0; i < s->views; ++i) {
         const lmb_view view = relief_fit(&s->mesh, direction[i], s->size);
         if (!relief_add(&s->bake, &s->scene, &view, r)) {
@@ -314,13 +281,22 @@ static int draw_truth(bench_shot *out, const bench_line *line, report *r)
 
 const bench_subject bench_relief = {
     .verb = "relief",
-    .bare = " --packed ",
+    .table = &table,
     .refused = " --truth ",
     .stages = stages,
     .tries = tries,
     .try_count = sizeof tries / sizeof *tries,
     .truth_is = "the model itself, drawn by its triangles",
-    .help = help,
+    .usage = "bench relief MODEL [options of lambent relief bake and render] [options]",
+    .about = "Speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole from a little "
+             "above: bakes it by so many views of such a size and draws it in so many steps. The truth is the model "
+             "itself, drawn by its triangles. Of the options of lambent relief it takes --views, --size, --packed, "
+             "--triangles, --steps, --looks, --keep, --eye, --target, --up and --fov; time is that of the picture, memory "
+             "the relief's.",
+    .examples = "  a tent by two numbers of views:\n"
+                "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+                "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+                "    lambent bench relief tent.obj --triangles 8 --size 32 --runs 1 --sweep views=6,14\n",
     .say = say,
     .check = check,
     .draw = draw,

@@ -6,18 +6,6 @@
 #include "bench_subject.h"
 #include "relight_light.h"
 
-static const char help[] =
-    "usage: lambent bench relight --world WORLD [--at X,Y,Z] [options of lambent relight] [--sweep NAME=V,V,...]\n"
-    "                             [--truth FILE.pfm] [--runs N] [-o NAME | --html FILE --csv FILE --json FILE]\n"
-    "\n"
-    "Speed against error of the light at a place of a world: seen from there (128 x 64 directions) and filtered to an\n"
-    "irradiance cube by exact cosines, 9, 16 and 25 harmonics, and the blurs. The truth is a cube like that of\n"
-    "lambent relight --cube, or else every one of those directions by its exact cosine: then errors are the filters'\n"
-    "alone.\n"
-    "\n"
-    "  lambent bench relight --world demo -o field             as field.html, field.csv, field.json\n"
-    "  lambent bench relight --world sky.hdr --at 4,1,-2 --truth place.pfm\n";
-
 static const char *const stages[BENCH_STAGES] = {"seeing the world", "filter", NULL};
 
 static const bench_try tries[] = {
@@ -34,11 +22,6 @@ static const bench_try tries[] = {
     {"overlap", "--overlap mean", 1, 0},
     {"faces", "--faces 16", 1, BENCH_OTHER},
     {"faces", "--faces 32", 1, BENCH_OTHER},
-    {"machine", "--backend scalar", 1, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend sse2", 1, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend avx2", 1, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend avx512", 1, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend neon", 1, BENCH_SAME | BENCH_HERE},
 };
 
 typedef struct place {
@@ -48,10 +31,9 @@ typedef struct place {
 
 static int parse(place *p, const bench_line *line, report *r)
 {
-    char *argv[BENCH_ARGS + 1];
-    memcpy(argv, line->argv, (size_t)line->argc * sizeof *argv);
-    argv[line->argc] = NULL;
-    return relight_options_parse(&p->o, line->argc, argv, r) &&
+    char *argv[BENCH_ARGS];
+    memcpy(argv, line->argv, sizeof argv);
+    return relight_options_parse(&p->o, line->argc, argv, r) == OPTIONS_RUN &&
            (p->o.object == NULL || report_fail(r, "--object: a sweep is of one place's light, without objects"));
 }
 
@@ -170,13 +152,19 @@ const bench_subject bench_relight = {
     .verb = "relight",
     .size = "--faces %d",
     .output = "--cube light.pfm",
-    .bare = " --per-part ",
+    .table = &relight_table,
     .refused = " --cube --map --object --path ",
     .stages = stages,
     .tries = tries,
     .try_count = sizeof tries / sizeof *tries,
+    .backends = 1,
     .truth_is = "all 128 x 64 directions by their exact cosines",
-    .help = help,
+    .usage = "bench relight --world WORLD [options of lambent relight] [options]",
+    .about = "Speed against error of the light at a place of a world: seen from there (128 x 64 directions) and filtered to "
+             "an irradiance cube by exact cosines, 9, 16 and 25 harmonics, and the blurs. The truth is a cube like that of "
+             "lambent relight --cube, or else every one of those directions by its exact cosine: then errors are the "
+             "filters' alone.",
+    .examples = "  lambent bench relight --world demo --runs 1 --sweep filter=cosine,sh9\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

@@ -9,31 +9,6 @@
 #include "render_draw.h"
 #include "scene_hash.h"
 
-static const char help[] =
-    "usage: lambent bench SCENE [options of lambent render] [--sweep NAME=V,V,...] [--truth FILE.pfm] [--runs N]\n"
-    "                     [-o NAME | --html FILE --csv FILE --json FILE] [--ledger N] [--cache FOLDER]\n"
-    "       lambent bench relight|relief|mix --help     the same for these verbs\n"
-    "       lambent bench --help                        how fast kernels are\n"
-    "\n"
-    "Speed against error of one picture: draws it by some thirty settings, one option at a time around --quality\n"
-    "draft, default and best, and prints what each costs (time by stage, memory, instructions where the system counts\n"
-    "them) and how far its picture is from the truth: `trim`, relative RMSE without the worst 1 % of pixels, and the\n"
-    "other figures of lambent compare. What is shown is bounced light alone (--show indirect), on one thread, at the\n"
-    "truth's size or 160x120: options of render say otherwise.\n"
-    "\n"
-    "  lambent bench room.glb -o room                          the lot, as room.html, room.csv, room.json\n"
-    "  lambent bench room.glb --sweep tree=64,128,256          three settings, as a table\n"
-    "  lambent bench room.glb --sweep error=0.1,0.2 --sweep gather=full,half      four\n"
-    "  lambent bench room.glb --bounces 6 --rest none --truth six.pfm  against six bounces by another program\n"
-    "\n"
-    "truth\n"
-    "  --cache FOLDER             where a scene's own truth is kept, by the scene's content and the settings, because\n"
-    "                             it takes minutes (default: $XDG_CACHE_HOME/lambent or ~/.cache/lambent)\n"
-    "  --ledger N                 the error ledger, which draws what is nearly brute force, looks at one band of 8\n"
-    "                             rows in N (default 4); 0: no ledger. It makes one stage after another exact: its\n"
-    "                             step's squared error is what the stage adds; the interaction is what stages hide\n"
-    "                             or add to each other's\n";
-
 static const char *const stages[BENCH_STAGES] = {"light maps", "blockers", "first points", "groups",
                                                  "bounces",    "view",     "pixels",       NULL};
 
@@ -70,12 +45,6 @@ static const bench_try tries[] = {
     {"bounces", "--bounces 2", 10, BENCH_OTHER},
     {"bounces", "--bounces 6", 20, BENCH_OTHER},
     {"threads", "--threads 2", 4, BENCH_SAME},
-    {"machine", "--backend scalar", 20, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend sse2", 8, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend avx2", 5, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend avx512", 4, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend neon", 8, BENCH_SAME | BENCH_HERE},
-    {"machine", "--backend simd128", 8, BENCH_SAME | BENCH_HERE},
 };
 
 /* Grouping before occlusion: nodes that --error divides keep the visibility that was asked of the larger one, so that
@@ -95,10 +64,9 @@ static const bench_exact exact[] = {
 
 static int parse(render_job *j, const bench_line *line, report *r)
 {
-    char *argv[BENCH_ARGS + 1];
-    memcpy(argv, line->argv, (size_t)line->argc * sizeof *argv);
-    argv[line->argc] = NULL;
-    if (!render_options_parse(&j->o, line->argc, argv, r)) {
+    char *argv[BENCH_ARGS];
+    memcpy(argv, line->argv, sizeof argv);
+    if (render_options_parse(&j->o, line->argc, argv, r) != OPTIONS_RUN) {
         return 0;
     }
     j->o.view.is_quiet = 1;
@@ -212,17 +180,29 @@ const bench_subject bench_render = {
     .size = "--size %dx%d",
     .usual_size = "--size 160x120",
     .output = "-o picture.pfm",
-    .bare = " --glossy ",
+    .table = &render_table,
     .refused = " --stats --stereo --exposure ",
     .stages = stages,
     .work = "pairs and segments",
     .tries = tries,
     .try_count = sizeof tries / sizeof *tries,
+    .backends = 1,
     .exact = exact,
     .exact_count = sizeof exact / sizeof *exact,
     .truth_is = "its own most exact settings, " EXACT,
     .hurry = "--threads %d",
-    .help = help,
+    .usage = "bench SCENE [options of lambent render] [options]\n"
+             "bench relight|relief|mix --help     the same for these verbs\n"
+             "bench --help                        how fast kernels are",
+    .about = "Speed against error of one picture: draws it by some thirty settings, one option at a time around --quality "
+             "draft, default and best, and prints what each costs (time by stage, memory, instructions where the system "
+             "counts them) and how far its picture is from the truth: `trim`, relative RMSE without the worst 1 % of "
+             "pixels, and the other figures of lambent compare. What is shown is bounced light alone (--show indirect), on "
+             "one thread, at the truth's size or 160x120: options of render say otherwise.",
+    .examples = "  three settings, as a table:\n"
+                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --ledger 0\n"
+                "  the same, as pages.html, pages.csv, pages.json:\n"
+                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --ledger 0 -o pages\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

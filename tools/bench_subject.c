@@ -12,18 +12,71 @@
 /* Settings that are drawn at once are drawn more often: so long for each run that was asked for, s. */
 #define SHORT_S 0.03
 
+/* Which option a word names, or NULL. */
+static const option_row *named(const bench_line *l, const char *word)
+{
+    return l->table != NULL && word[0] == '-' ? options_find(l->table, word) : NULL;
+}
+
+/* What the line has of an option that counts once goes, and so does another that says the same. */
+static void drop(bench_line *l, const option_row *row)
+{
+    const int argc = l->argc;
+    l->argc = 1;
+    for (int i = 1; i < argc;) {
+        const option_row *other = named(l, l->argv[i]);
+        const int words = other != NULL ? options_words(other, l->argv[i]) : 1;
+        const int goes = other != NULL && row->times <= 1 && (other == row || options_exclude(other, row));
+        for (int k = 0; k < words && i < argc; ++k, ++i) {
+            if (!goes) {
+                l->argv[l->argc++] = l->argv[i];
+            }
+        }
+    }
+}
+
+/* Is the next word the last one's value? */
+static int wants_value(const bench_line *l)
+{
+    const option_row *row = NULL;
+    int words = 1;
+    for (int i = 1; i < l->argc; i += words) {
+        row = named(l, l->argv[i]);
+        words = row != NULL ? options_words(row, l->argv[i]) : 1;
+        if (i + words > l->argc) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int bench_line_put(bench_line *l, char *word)
+{
+    const option_row *row = l->argc > 0 && !wants_value(l) ? named(l, word) : NULL;
+    if (row != NULL) {
+        drop(l, row);
+    }
+    if (l->argc + 1 >= BENCH_ARGS) {
+        return 0;
+    }
+    l->argv[l->argc++] = word;
+    return 1;
+}
+
 int bench_line_add(bench_line *l, const char *text)
 {
     while (*(text += strspn(text, " ")) != '\0') {
         const size_t n = strcspn(text, " ");
-        if (l->argc + 1 >= BENCH_ARGS || l->used + n + 1 > sizeof l->words) {
+        if (l->used + n + 1 > sizeof l->words) {
             return 0;
         }
         char *word = l->words + l->used;
         memcpy(word, text, n);
         word[n] = '\0';
         l->used += n + 1;
-        l->argv[l->argc++] = word;
+        if (!bench_line_put(l, word)) {
+            return 0;
+        }
         text += n;
     }
     return 1;
@@ -34,6 +87,7 @@ int bench_line_with(bench_line *out, const bench_line *line, const char *text, r
     memset(out, 0, sizeof *out);
     memcpy(out->argv, line->argv, sizeof out->argv);
     out->argc = line->argc;
+    out->table = line->table;
     return bench_line_add(out, text) || report_fail(r, "too many options");
 }
 

@@ -4,6 +4,7 @@
 
 #include "bench_report.h"
 #include "image.h"
+#include "options.h"
 #include "report.h"
 
 enum { BENCH_ARGS = 96, BENCH_WORDS = 512 };
@@ -14,10 +15,13 @@ typedef struct bench_line {
     int argc;
     char words[BENCH_WORDS]; /* those that were added */
     size_t used;
+    const option_table *table; /* NULL: words are words */
 } bench_line;
 
-/* bench_line_add: the words of a text, with spaces between. 0 where they are too many. bench_line_with: another line
- * with them, or 0 with `r` set; it borrows the first one's words. */
+/* bench_line_put: a word. bench_line_add: the words of a text, with spaces between. An option that counts once takes the
+ * place of what the line has of it. 0 where they are too many. bench_line_with: another line with them, or 0 with `r`
+ * set; it borrows the first one's words. */
+int bench_line_put(bench_line *line, char *word);
 int bench_line_add(bench_line *line, const char *text);
 int bench_line_with(bench_line *out, const bench_line *line, const char *text, report *r);
 
@@ -48,8 +52,7 @@ int bench_repeat(bench_shot *shot, const bench_way *way, bench_once once, void *
 
 /* What is tried: words behind the settings at hand. */
 enum { BENCH_OTHER = 1, /* another picture than the truth is of */
-       BENCH_SAME = 2,  /* must be the first one's, byte for byte */
-       BENCH_HERE = 4   /* only where the machine has it: left out without a word */ };
+       BENCH_SAME = 2   /* must be the first one's, byte for byte */ };
 typedef struct bench_try {
     const char *option, *words;
     double weight; /* about how long it takes */
@@ -65,15 +68,16 @@ typedef struct bench_subject {
     const char *verb;                 /* and what is said before anything that is given */
     const char *size, *usual_size;    /* `--size %dx%d`, for a truth's; where none is given. NULL: has none */
     const char *output;               /* words that a command line is not whole without, behind what is given */
-    const char *bare;                 /* options without a value, with spaces around each */
+    const option_table *table;        /* the verb's options */
     const char *refused;              /* options that make no sense here, with spaces around each */
     const char *const *stages;        /* to NULL */
     const char *work;
     const bench_try *tries;
     int try_count;
+    int backends;                     /* 1: each that this processor has, behind the tries */
     const bench_exact *exact;         /* for the ledger, in order; all of them: as `truth`. NULL: none */
     int exact_count;
-    const char *help;
+    const char *usage, *about, *examples;
     const char *truth_is;
     const char *hurry;                /* `--threads %d`: for what is not timed; NULL: nothing helps */
     void (*say)(char *out, size_t size, const bench_line *line); /* the commands of a setting; NULL: bench_line_say */

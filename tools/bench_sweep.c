@@ -17,11 +17,11 @@
 
 enum { TRUTH_WEIGHT = 60 };
 
-void bench_progress(const char *what, double done, double all, double since)
+void bench_progress(const sweep *s, const char *what)
 {
-    const double passed = host_seconds() - since, part = all > 0.0 ? done / all : 0.0;
+    const double passed = host_seconds() - s->start, part = s->all > 0.0 ? s->done / s->all : 0.0;
     char left[32] = "";
-    if (!host_watched()) {
+    if (!host_watched() || s->o->is_quiet) {
         return;
     }
     if (what == NULL) {
@@ -29,8 +29,8 @@ void bench_progress(const char *what, double done, double all, double since)
         return;
     }
     if (part > 0.01 && passed > 1.0) {
-        const double s = passed / part - passed;
-        snprintf(left, sizeof left, "%.0f %s left", s < 100.0 ? s : s / 60.0, s < 100.0 ? "s" : "min");
+        const double more = passed / part - passed;
+        snprintf(left, sizeof left, "%.0f %s left", more < 100.0 ? more : more / 60.0, more < 100.0 ? "s" : "min");
     }
     fprintf(stderr, "\r%3.0f %%  %-13s %-55.55s", 100.0 * part, left, what);
 }
@@ -121,9 +121,9 @@ static int measure(sweep *s, const bench_task *t, report *r)
         return 0;
     }
     say(s, p->command, sizeof p->command, &line);
+    report_note(!s->o->is_verbose, "%s", p->command + strspn(p->command, " "));
     if (!s->o->subject->draw(&shot, &line, &way, &own)) {
         snprintf(p->failure, sizeof p->failure, "%.150s", own.text);
-        s->b->count -= (t->flags & BENCH_HERE) != 0;
         return number > 0 || report_fail(r, "%s", own.text);
     }
     if (number == 0 && s->truth.surface == NULL) { /* a truth from a file: where the first picture shows something */
@@ -149,7 +149,7 @@ static int get_truth(sweep *s, report *r)
         }
     } else {
         s->truth.is_own = 1;
-        bench_progress("the truth", 0.0, s->all, s->start);
+        bench_progress(s, "the truth");
         if (!sweep_line(&line, s, "", r) || !bench_truth_make(&s->truth, s->o, &line, r)) {
             return 0;
         }
@@ -207,7 +207,7 @@ static int run(sweep *s, report *r)
     }
     describe(s);
     for (int i = 0; i < s->tasks; ++i) {
-        bench_progress(s->task[i].words[0] != '\0' ? s->task[i].words : "default", s->done, s->all, s->start);
+        bench_progress(s, s->task[i].words[0] != '\0' ? s->task[i].words : "default");
         if (!measure(s, &s->task[i], r)) {
             return 0;
         }
@@ -227,7 +227,7 @@ int bench_sweep(bench_report *out, const bench_options *o, report *r)
     s->b = out;
     s->start = host_seconds();
     const int ok = run(s, r);
-    bench_progress(NULL, 0.0, 0.0, 0.0);
+    bench_progress(s, NULL);
     out->seconds = host_seconds() - s->start;
     for (int i = 0; i < BENCH_POINTS; ++i) {
         image_free(&s->kept[i]);

@@ -23,9 +23,6 @@ int bench_check(const bench_options *o, report *r);
  * 1, or 0 with `r` set. Tells how far it is where someone watches. */
 int bench_sweep(bench_report *out, const bench_options *o, report *r);
 
-/* bench_progress: the line about it. `done` and `all` are weights; NULL: wipe it. */
-void bench_progress(const char *what, double done, double all, double since);
-
 /* What a sweep has at hand; its pictures are kept for the ledgers. */
 typedef struct sweep {
     const bench_options *o;
@@ -37,6 +34,9 @@ typedef struct sweep {
     image kept[BENCH_POINTS]; /* by point */
     double done, all, start;  /* weights; s */
 } sweep;
+
+/* bench_progress: the line about how far it is, where someone watches; NULL: wipe it. */
+void bench_progress(const sweep *s, const char *what);
 
 /* sweep_line: the words of a setting, behind what was given. */
 int sweep_line(bench_line *out, const sweep *s, const char *words, report *r);

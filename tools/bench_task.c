@@ -2,6 +2,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <lambent/lambent.h>
+
 #include "bench_sweep.h"
 
 static int usual(bench_task *out, const bench_subject *s)
@@ -12,7 +14,15 @@ static int usual(bench_task *out, const bench_subject *s)
         out[i].weight = s->tries[i].weight;
         out[i].flags = s->tries[i].flags;
     }
-    return s->try_count;
+    int count = s->try_count;
+    const lmb_kernels *k;
+    for (int32_t i = 0; s->backends && count < BENCH_POINTS && (k = lmb_kernels_at(i)) != NULL; ++i) {
+        snprintf(out[count].option, sizeof out[count].option, "machine");
+        snprintf(out[count].words, sizeof out[count].words, "--backend %s", lmb_kernels_name(k));
+        out[count].weight = s->tries[0].weight * (1 + i);
+        out[count++].flags = BENCH_SAME;
+    }
+    return count;
 }
 
 /* Combination i of all ranges' values; the last range turns fastest. */

@@ -55,7 +55,7 @@ void budget_words(char *out, size_t size, const budget_choice *c)
     }
 }
 
-static void tell(const budget_choice *c)
+static void tell(const budget_choice *c, int is_quiet)
 {
     const lmb_settings *s = &c->chosen.settings;
     char words[200], error[32] = "not checked";
@@ -63,16 +63,16 @@ static void tell(const budget_choice *c)
     if (c->chosen.error >= 0.0f) {
         snprintf(error, sizeof error, "about %.2g", (double)c->chosen.error);
     }
-    fprintf(stderr,
-            "lambent: chosen: --light-map %d --tree %d --error %.3g --visible %.3g --gather %s --occlusion %s: error "
-            "%s, %.3g units of work, %.0f KiB\n",
-            (int)s->light_map, (int)s->tree, (double)s->error, (double)s->visible,
-            s->gather_step == 1 ? "full" : s->gather_step == 2 ? "half" : "quarter",
-            s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", error, c->chosen.work,
-            (double)c->chosen.bytes / 1024.0);
-    fprintf(stderr, "lambent: looked at %.3g units of work, %.0f %% of the picture's\n", c->look.work,
-            100.0 * c->look.work / c->chosen.work);
-    fprintf(stderr, "lambent: %s\n", words);
+    report_note(is_quiet,
+                "chosen: --light-map %d --tree %d --error %.3g --visible %.3g --gather %s --occlusion %s: error %s, %.3g "
+                "units of work, %.0f KiB",
+                (int)s->light_map, (int)s->tree, (double)s->error, (double)s->visible,
+                s->gather_step == 1 ? "full" : s->gather_step == 2 ? "half" : "quarter",
+                s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", error, c->chosen.work,
+                (double)c->chosen.bytes / 1024.0);
+    report_note(is_quiet, "looked at %.3g units of work, %.0f %% of the picture's", c->look.work,
+                100.0 * c->look.work / c->chosen.work);
+    report_note(is_quiet, "%s", words);
 }
 
 /* The chosen settings into the job; the light of the look stands where it is theirs. */
@@ -120,6 +120,6 @@ int budget_fit(budget_choice *out, render_job *j, report *r)
     lmb_plan_cost(&c, &out->facts, out->chosen.rung, fixed);
     out->facts.pairs = c.op[LMB_OP_PAIRS];
     out->facts.segments = c.op[LMB_OP_SEGMENTS];
-    tell(out);
+    tell(out, j->o.view.is_quiet);
     return 1;
 }

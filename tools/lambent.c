@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../platform/host/host.h"
+#include "options.h"
 #include "verb_bench.h"
 #include "verb_compare.h"
 #include "verb_info.h"
@@ -14,32 +15,62 @@
 #include "verb_relief.h"
 #include "verb_render.h"
 
-static const char usage[] =
-    "usage: lambent VERB ...\n"
-    "\n"
-    "  render SCENE -o OUT      draw a scene (.gltf .glb .obj .ply, or the built-in `demo`) with bounced light\n"
-    "  relight --world WORLD    the light at a place of a world that was seen from another, as a small cube map\n"
-    "  relief bake|render       a complex model as a simple one that carries its surface\n"
-    "  mix --frame PHOTO        a virtual object in one photo with depth\n"
-    "  plan SCENE               what a picture takes and what it does without, why, work and memory\n"
-    "  compare A B              error figures of a picture against a reference\n"
-    "  info FILE                what is in a scene or a picture\n"
-    "  bench SCENE              speed against error: what each setting costs and buys, as a table or an HTML page\n"
-    "  bench raster             how fast this machine draws the fixed workload\n"
-    "  bench gather             how fast groups light pixels, against what this machine can do\n"
-    "  bench hard               what renderers get wrong, tried on this machine: a table of figures and bounds\n"
-    "\n"
-    "  lambent VERB --help      what a verb takes\n"
-    "  lambent --version\n";
-
 static const struct verb {
     const char *name;
     int (*run)(int argc, char **argv);
+    const char *usage, *help; /* lines, as many of each */
 } verbs[] = {
-    {"render", verb_render},   {"relight", verb_relight}, {"relief", verb_relief}, {"mix", verb_mix},
-    {"plan", verb_plan},
-    {"compare", verb_compare}, {"bench", verb_bench},     {"info", verb_info},
+    {"render", verb_render, "render SCENE -o OUT",
+     "draw a scene (.gltf .glb .obj .ply, or `demo`) with bounced light"},
+    {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
+    {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
+    {"mix", verb_mix, "mix --frame PHOTO", "a virtual object in one photo with depth"},
+    {"plan", verb_plan, "plan SCENE", "what a picture takes and does without, why, work and memory"},
+    {"compare", verb_compare, "compare A B", "error figures of a picture against a reference"},
+    {"info", verb_info, "info FILE", "what is in a scene or a picture"},
+    {"bench", verb_bench, "bench SCENE", "speed against error: what each setting costs and buys"},
+    {"bench", verb_bench, "bench raster|gather|hard", "how fast this machine draws and lights; what renderers get wrong"},
 };
+enum { VERBS = sizeof verbs / sizeof *verbs };
+
+static void print_usage(void)
+{
+    fputs("usage: lambent VERB ...\n\n", stdout);
+    for (int i = 0; i < VERBS; ++i) {
+        printf("  %-25s %s\n", verbs[i].usage, verbs[i].help);
+    }
+    fputs("\n"
+          "  lambent VERB --help       what a verb takes\n"
+          "  lambent --version\n\n"
+          "examples\n"
+          "  lambent render demo -o demo.png\n", stdout);
+}
+
+static int is_one_of(const char *word, const char *a, const char *b)
+{
+    return strcmp(word, a) == 0 || strcmp(word, b) == 0;
+}
+
+static int run(int argc, char **argv)
+{
+    int best = 3;
+    const char *meant = NULL;
+    if (argc < 2) {
+        fputs("lambent: no verb given; lambent --help lists them\n", stderr);
+        return 2;
+    }
+    for (int i = 0; i < VERBS; ++i) {
+        const int far = options_distance(argv[1], verbs[i].name);
+        if (far == 0) {
+            return verbs[i].run(argc - 1, argv + 1);
+        }
+        meant = far < best ? verbs[i].name : meant;
+        best = far < best ? far : best;
+    }
+    fprintf(stderr, meant != NULL ? "lambent: there is no verb `%s`; did you mean %s?\n"
+                                  : "lambent: there is no verb `%s`; lambent --help lists them\n", argv[1], meant);
+    return 2;
+}
 
 int main(int argc, char **argv)
 {
@@ -49,23 +80,13 @@ int main(int argc, char **argv)
               "would differ; build with the Makefile's flags\n", stderr);
         return 1;
     }
-    for (size_t i = 0; argc >= 2 && i < sizeof verbs / sizeof *verbs; ++i) {
-        if (strcmp(argv[1], verbs[i].name) == 0) {
-            return verbs[i].run(argc - 1, argv + 1);
-        }
-    }
-    if (argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0 || strcmp(argv[1], "-h") == 0)) {
-        fputs(usage, stdout);
+    if (argc >= 2 && (is_one_of(argv[1], "--help", "-h") || strcmp(argv[1], "help") == 0)) {
+        print_usage();
         return 0;
     }
-    if (argc >= 2 && strcmp(argv[1], "--version") == 0) {
-        printf("lambent %d.%d.%d\n", LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100);
+    if (argc >= 2 && is_one_of(argv[1], "--version", "-V")) {
+        options_version(stdout);
         return 0;
     }
-    if (argc >= 2) {
-        fprintf(stderr, "lambent: there is no verb `%s`; lambent --help lists them\n", argv[1]);
-    } else {
-        fputs(usage, stderr);
-    }
-    return 2;
+    return run(argc, argv);
 }

@@ -11,7 +11,7 @@ typedef struct mix_source {
     const char *photo, *depth;
     float depth_scale; /* metres of a unit; 0: 0.001 for PNG, 1 for PFM, or what the JSON says */
     float intrinsics[4];
-    int has_intrinsics;
+    int32_t has_intrinsics;
 } mix_source;
 
 /* mix_frame_free releases it. */

@@ -112,13 +112,11 @@ static void guess_sun(mix_job *j)
         sun->intensity[c] = SUN_SHARE * around[c] / from.y;
     }
     j->light_count = 1;
-    if (j->o.is_quiet) {
-        return;
-    }
-    fprintf(stderr, "lambent: no light given: guessed a sun from where the surroundings are brightest, "
-                    "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space\n",
-            -(double)along(a->right, from), -(double)along(a->up, from), -(double)along(a->back, from),
-            (double)sun->intensity[0], (double)sun->intensity[1], (double)sun->intensity[2]);
+    report_note(j->o.is_quiet,
+                "no light given: guessed a sun from where the surroundings are brightest, "
+                "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space",
+                -(double)along(a->right, from), -(double)along(a->up, from), -(double)along(a->back, from),
+                (double)sun->intensity[0], (double)sun->intensity[1], (double)sun->intensity[2]);
 }
 
 static void place_lamps(mix_job *j)

@@ -5,108 +5,26 @@
 #include <string.h>
 
 #include "option_value.h"
+#include "options.h"
 #include "picture.h"
 
-const char mix_help[] =
-    "usage: lambent mix --frame PREFIX --object MESH -o OUT [options]\n"
-    "       lambent mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
-    "\n"
-    "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is\n"
-    "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.\n"
-    "\n"
-    "photo\n"
-    "  --frame PREFIX             PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy,\n"
-    "                             depth_unit_mm, and camera_to_world (4 x 4, rows) where it is known\n"
-    "  --photo FILE               .png .jpg .pfm\n"
-    "  --depth FILE               along the camera's axis, registered to the photo: 16-bit grey .png or .pfm;\n"
-    "                             0 is not measured\n"
-    "  --depth-scale S            m of a unit of it (default 0.001 for .png, 1 for .pfm)\n"
-    "  --intrinsics FX,FY,CX,CY   px; the middle of the first pixel is 0,0\n"
-    "object\n"
-    "  --object MESH              .gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in\n"
-    "  --scale M                  m of a unit of the mesh (default: a sixth of the plane's side in all, or what fits)\n"
-    "  --at X,Y                   stands on what is at this pixel (default: near the middle of the largest plane that\n"
-    "                             faces up, where nothing else stands)\n"
-    "  --at world                 is where the mesh has it, in the world of the frame's camera_to_world\n"
-    "  --turn DEG                 about its upright axis (default 0: +Z towards the viewer)\n"
-    "light\n"
-    "  --light KIND:P:D:RGB[:INNER,OUTER]\n"
-    "                             spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's\n"
-    "                             cones; in the frame's world, or without a pose the camera's (x right, y up, -z\n"
-    "                             ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed\n"
-    "  --world FILE               what is around, a panorama or cube (default: folded from the photo)\n"
-    "  --roughness R[,F]          0 .. 1: the plane under the object mirrors it, as if varnished (default: it does\n"
-    "                             not); F: how much of what it sees straight down, 0 .. 1 (default 0.04)\n"
-    "  --light-map N              texels a side, a power of two (default 1024)\n"
-    "  --voxels D                 4 .. 10: 2^D voxels a side (default 7)\n"
-    "  --cones N                  7, 19 or 37 a hemisphere (default 19)\n"
-    "output\n"
-    "  -o OUT                     .png .ppm .pfm .hdr\n"
-    "  --show final               the photo with the object (default)\n"
-    "         delta               what changed on real surfaces; in .png and .ppm round middle grey\n"
-    "         planes              each in its colour\n"
-    "         voxels              the light in them as the camera sees it\n"
-    "         env                 the surroundings as a cube, faces +x -x +y -y +z -z from the top\n"
-    "         object              alone, before black\n"
-    "  --exposure EV              stops, for .png and .ppm (default 0; where the photo is linear, so that it fits)\n"
-    "  --stats FILE.json          planes, voxels, seconds by stage\n"
-    "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage\n";
+/* --- values of their own kinds ------------------------------------------------------------------------------------ */
 
 static int all_floats(const char *text, float *out, int count)
 {
     return option_floats(&text, out, count) && *text == '\0';
 }
 
-static int parse_frame(const char *text, mix_options *o) { return (o->source.frame = text)[0] != '\0'; }
-static int parse_photo(const char *text, mix_options *o) { return (o->source.photo = text)[0] != '\0'; }
-static int parse_depth(const char *text, mix_options *o) { return (o->source.depth = text)[0] != '\0'; }
-static int parse_object(const char *text, mix_options *o) { return (o->object = text)[0] != '\0'; }
-static int parse_world(const char *text, mix_options *o) { return (o->world = text)[0] != '\0'; }
-static int parse_stats(const char *text, mix_options *o) { return (o->stats = text)[0] != '\0'; }
-static int parse_out(const char *text, mix_options *o) { return picture_format(o->out = text) != PICTURE_UNKNOWN; }
-static int parse_scale(const char *text, mix_options *o) { return option_number(text, 1e-6f, 1e6f, &o->scale); }
-static int parse_turn(const char *text, mix_options *o) { return option_number(text, -3600.0f, 3600.0f, &o->turn_deg); }
-static int parse_voxels(const char *text, mix_options *o) { return option_int(text, 4, 10, &o->depth); }
-
-static int parse_cones(const char *text, mix_options *o)
+static int parse_at(const char *text, void *at)
 {
-    static const char *const words[] = {"7", "19", "37", NULL};
-    static const int32_t values[] = {7, 19, 37};
-    return option_word(text, words, values, &o->cones);
-}
-
-static int parse_backend(const char *text, mix_options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
-
-static int parse_exposure(const char *text, mix_options *o)
-{
-    return option_number(text, -60.0f, 60.0f, &o->exposure_ev);
-}
-
-static int parse_depth_scale(const char *text, mix_options *o)
-{
-    return option_number(text, 1e-9f, 1e6f, &o->source.depth_scale);
-}
-
-static int parse_intrinsics(const char *text, mix_options *o)
-{
-    return o->source.has_intrinsics = all_floats(text, o->source.intrinsics, 4);
-}
-
-static int parse_at(const char *text, mix_options *o)
-{
+    mix_options *o = at;
     o->at = strcmp(text, "world") == 0 ? MIX_AT_WORLD : MIX_AT_PIXEL;
     return o->at == MIX_AT_WORLD || all_floats(text, o->at_px, 2);
 }
 
-static int parse_light(const char *text, mix_options *o)
+static int parse_roughness(const char *text, void *at)
 {
-    return o->light_count < MIX_LIGHTS && option_light(text, &o->lights[o->light_count++]);
-}
-
-static int parse_roughness(const char *text, mix_options *o)
-{
+    mix_options *o = at;
     float v[2] = {0.0f, 0.04f};
     if (!all_floats(text, v, 1) && !all_floats(text, v, 2)) {
         return 0;
@@ -116,42 +34,103 @@ static int parse_roughness(const char *text, mix_options *o)
     return v[0] >= 0.0f && v[0] <= 1.0f && v[1] > 0.0f && v[1] <= 1.0f;
 }
 
-static int parse_light_map(const char *text, mix_options *o)
-{
-    return option_int(text, 8, 4096, &o->light_map) && (o->light_map & (o->light_map - 1)) == 0;
-}
+/* --- the table ---------------------------------------------------------------------------------------------------- */
 
-static int parse_show(const char *text, mix_options *o)
-{
-    static const char *const words[] = {"final", "delta", "planes", "voxels", "env", "object", NULL};
-    return option_word(text, words, NULL, &o->show);
-}
+static const char *const cones[] = {"7", "19", "37", NULL};
+static const int32_t cone_values[] = {7, 19, 37};
+static const char *const shows[] = {"final", "delta", "planes", "voxels", "env", "object", NULL};
 
-static const struct flag {
-    option_name of;
-    int (*parse)(const char *text, mix_options *o);
-} flags[] = {
-    {{"--frame", "what the files' names begin with"}, parse_frame},
-    {{"--photo", "a file"}, parse_photo},
-    {{"--depth", "a file"}, parse_depth},
-    {{"--depth-scale", "metres over 0"}, parse_depth_scale},
-    {{"--intrinsics", "FX,FY,CX,CY"}, parse_intrinsics},
-    {{"--object", "a file"}, parse_object},
-    {{"--scale", "metres over 0"}, parse_scale},
-    {{"--at", "X,Y or world"}, parse_at},
-    {{"--turn", "degrees"}, parse_turn},
-    {{"--light", "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER], KIND spot, point or sun, at most eight times"},
-     parse_light},
-    {{"--world", "a file, or what six files' names begin with"}, parse_world},
-    {{"--roughness", "R or R,F, 0 .. 1"}, parse_roughness},
-    {{"--light-map", "a power of two, 8 .. 4096"}, parse_light_map},
-    {{"--voxels", "4 .. 10"}, parse_voxels},
-    {{"--cones", "7, 19 or 37"}, parse_cones},
-    {{"--show", "final, delta, planes, voxels, env or object"}, parse_show},
-    {{"-o", "a file name ending in .png, .ppm, .pfm or .hdr"}, parse_out},
-    {{"--exposure", "stops, -60 .. 60"}, parse_exposure},
-    {{"--stats", "a file"}, parse_stats},
-    {{"--backend", "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"}, parse_backend},
+#define AT(member) .at = offsetof(mix_options, member)
+
+static const option_row photo_rows[] = {
+    {.kind = OPTION_TITLE, .help = "photo"},
+    {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
+     .help = "PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
+             "camera_to_world (4 x 4, rows) where it is known"},
+    {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .help = ".png .jpg .pfm"},
+    {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth),
+     .help = "along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured"},
+    {.name = "--depth-scale", .value = "S", .kind = OPTION_NUMBER, AT(source.depth_scale), .low = 1e-9, .high = 1e6,
+     .help = "m of a unit of it (default 0.001 for .png, 1 for .pfm)"},
+    {.name = "--intrinsics", .value = "FX,FY,CX,CY", .kind = OPTION_NUMBERS, AT(source.intrinsics), .size = 4,
+     .low = -1e30, .high = 1e30, .counts = offsetof(mix_options, source.has_intrinsics),
+     .help = "px; the middle of the first pixel is 0,0"},
+    {.kind = OPTION_END},
+};
+
+static const option_row object_rows[] = {
+    {.kind = OPTION_TITLE, .help = "object"},
+    {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object),
+     .help = ".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in"},
+    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
+     .help = "m of a unit of the mesh (default: a sixth of the plane's side in all, or what fits)"},
+    {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .wants = "X,Y or world",
+     .help = "stands on what is at this pixel (default: near the middle of the largest plane that faces up, where nothing "
+             "else stands); world: is where the mesh has it, in the world of the frame's camera_to_world"},
+    {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
+     .help = "about its upright axis (default 0: +Z towards the viewer)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row light_rows[] = {
+    {.kind = OPTION_TITLE, .help = "light"},
+    {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
+     .times = MIX_LIGHTS, .size = sizeof(lmb_light),
+     .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; in the "
+             "frame's world, or without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). "
+             "Default: a sun is guessed"},
+    {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world),
+     .help = "what is around, a panorama or cube (default: folded from the photo)"},
+    {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness, .wants = "R or R,F, 0 .. 1",
+     .help = "0 .. 1: the plane under the object mirrors it, as if varnished (default: it does not); F: how much of what "
+             "it sees straight down, 0 .. 1 (default 0.04)"},
+    {.name = "--light-map", .value = "N", .kind = OPTION_POWER_OF_2, AT(light_map), .low = 8, .high = 4096,
+     .help = "texels a side (default 1024)"},
+    {.name = "--voxels", .value = "D", .kind = OPTION_INT, AT(depth), .low = 4, .high = 10,
+     .help = "2^D voxels a side (default 7)"},
+    {.name = "--cones", .kind = OPTION_WORD, AT(cones), .words = cones, .values = cone_values,
+     .help = "a hemisphere (default 19)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row output_rows[] = {
+    {.kind = OPTION_TITLE, .help = "output"},
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+     .help = ".png .ppm .pfm .hdr"},
+    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
+     .help = "final: the photo with the object (default);\n"
+             "delta: what changed on real surfaces; in .png and .ppm round middle grey;\n"
+             "planes: each in its colour;\n"
+             "voxels: the light in them as the camera sees it;\n"
+             "env: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\n"
+             "object: alone, before black"},
+    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
+     .wants = OPTION_STOPS_WANTS,
+     .help = "stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)"},
+    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .help = "planes, voxels, seconds by stage"},
+    OPTION_BACKEND_ROW(mix_options, kernels),
+    OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "say how long each stage took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+const option_table mix_table = {
+    .verb = "mix",
+    .usage = "mix --frame PREFIX --object MESH -o OUT [options]\n"
+             "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]",
+    .about = "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
+             "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.",
+    .part = {photo_rows, object_rows, light_rows, output_rows},
+    .examples =
+        "  a photo with depth of the built-in room, and a tent put into it:\n"
+        "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
+        "    lambent render demo $eye -o photo.png\n"
+        "    lambent render demo $eye --show depth -o depth.pfm\n"
+        "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+        "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+        "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
+        "        --object tent.obj --voxels 5 -o mixed.png\n",
+    .status = "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage",
 };
 
 static int complete(const mix_options *o, report *r)
@@ -182,14 +161,6 @@ int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
     out->cones = 19;
     out->exposure_ev = NAN;
     out->kernels = lmb_kernels_pick();
-    for (int i = 1; i < argc; i += 2) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            return out->help = 1;
-        }
-        const int f = option_find(flags, sizeof *flags, sizeof flags / sizeof *flags, argv, i, r);
-        if (f < 0 || (!flags[f].parse(argv[i + 1], out) && !option_refuse(&flags[f].of, argv[i + 1], r))) {
-            return 0;
-        }
-    }
-    return complete(out, r);
+    const int asked = options_parse(out, &mix_table, argc, argv, r);
+    return asked == OPTIONS_RUN && !complete(out, r) ? OPTIONS_BAD : asked;
 }

@@ -3,6 +3,7 @@
 #define MIX_OPTIONS_H
 
 #include "mix_frame.h"
+#include "options.h"
 
 enum { MIX_LIGHTS = 8 };
 
@@ -26,13 +27,13 @@ typedef struct mix_options {
     float roughness;  /* of the plane's varnish, and its reflectance */
     float specular;   /* 0: there is none */
     float exposure_ev;
-    int help, is_quiet; /* is_quiet: what is guessed is not said */
+    int is_quiet, is_verbose; /* nothing but errors is said; also how long each stage took */
     const lmb_kernels *kernels;
 } mix_options;
 
-/* mix_options_parse: argv[0] is the verb. 1, or 0 with `r` set. */
-int mix_options_parse(mix_options *out, int argc, char **argv, report *r);
+extern const option_table mix_table;
 
-extern const char mix_help[];
+/* As options_parse. */
+int mix_options_parse(mix_options *out, int argc, char **argv, report *r);
 
 #endif

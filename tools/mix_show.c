@@ -8,14 +8,14 @@
 
 static void tell_planes(const mix_job *j)
 {
-    fprintf(stderr, "lambent: depth is noisy by %.4f 1/m\n", (double)j->cloud.noise);
+    report_note(j->o.is_quiet, "depth is noisy by %.4f 1/m", (double)j->cloud.noise);
     for (int32_t i = 0; i < j->planes.count; ++i) {
         const lmb_flat *p = &j->planes.plane[i];
-        fprintf(stderr, "lambent: plane %2d: %.2f x %.2f m, %.3f m from the camera, faces %.3f,%.3f,%.3f; %d pixels "
-                        "about %d,%d\n",
-                (int)i + 1, (double)(p->high[0] - p->low[0]), (double)(p->high[1] - p->low[1]), (double)p->distance,
-                (double)p->normal.x, (double)p->normal.y, (double)p->normal.z, (int)p->pixels,
-                (int)((p->x0 + p->x1) / 2), (int)((p->y0 + p->y1) / 2));
+        report_note(j->o.is_quiet,
+                    "plane %2d: %.2f x %.2f m, %.3f m from the camera, faces %.3f,%.3f,%.3f; %d pixels about %d,%d",
+                    (int)i + 1, (double)(p->high[0] - p->low[0]), (double)(p->high[1] - p->low[1]),
+                    (double)p->distance, (double)p->normal.x, (double)p->normal.y, (double)p->normal.z, (int)p->pixels,
+                    (int)((p->x0 + p->x1) / 2), (int)((p->y0 + p->y1) / 2));
     }
 }
 

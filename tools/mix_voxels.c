@@ -129,10 +129,9 @@ static int build(mix_job *j, report *r)
         lmb_cone_width_init(&j->gloss, &j->voxels, lmb_cone_tangent(j->o.roughness)) != LMB_OK) {
         return report_fail(r, "the object is too large or too small for voxels; --scale sets metres of a unit");
     }
-    if (j->voxels.depth < j->voxels.asked && !j->o.is_quiet) {
-        fprintf(stderr, "lambent: voxels: %u are not enough for %d a side; they are coarser, %d a side\n",
-                (unsigned)cap, 1 << j->voxels.asked, 1 << j->voxels.depth);
-    }
+    report_note(j->o.is_quiet || j->voxels.depth >= j->voxels.asked,
+                "voxels: %u are not enough for %d a side; they are coarser, %d a side", (unsigned)cap,
+                1 << j->voxels.asked, 1 << j->voxels.depth);
     return 1;
 }
 

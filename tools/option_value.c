@@ -1,4 +1,4 @@
-/* option_value.c: numbers, vectors and words of command lines, and the tables that name options. */
+/* option_value.c: numbers, vectors and words of command lines. */
 #include "option_value.h"
 
 #include <math.h>
@@ -83,6 +83,13 @@ int option_word(const char *text, const char *const *words, const int32_t *value
     return 0;
 }
 
+int option_stops(const char *text, void *at)
+{
+    float *ev = at;
+    *ev = NAN;
+    return strcmp(text, "auto") == 0 || option_number(text, -60.0f, 60.0f, ev);
+}
+
 /* KIND:P:D:RGB[:INNER,OUTER] */
 int option_light(const char *text, lmb_light *out)
 {
@@ -117,22 +124,4 @@ int option_light(const char *text, lmb_light *out)
     out->cos_inner = (float)cos((double)cone[0] * 3.14159265358979 / 180.0);
     out->cos_outer = (float)cos((double)cone[1] * 3.14159265358979 / 180.0);
     return 1;
-}
-
-/* --- tables ------------------------------------------------------------------------------------------------------- */
-
-int option_find(const void *table, size_t entry_bytes, size_t count, char **argv, int at, report *r)
-{
-    for (size_t i = 0; i < count; ++i) {
-        const option_name *of = (const option_name *)(const void *)((const char *)table + i * entry_bytes);
-        if (strcmp(argv[at], of->name) == 0) {
-            return argv[at + 1] != NULL ? (int)i : report_fail(r, "%s wants a value: %s", of->name, of->wants) - 1;
-        }
-    }
-    return report_fail(r, "there is no option %s; lambent %s --help lists them", argv[at], argv[0]) - 1;
-}
-
-int option_refuse(const option_name *of, const char *value, report *r)
-{
-    return report_fail(r, "%s: `%s` is not %s", of->name, value, of->wants);
 }

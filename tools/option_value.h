@@ -1,12 +1,10 @@
-/* option_value.h: command lines' options and their values. Each returns 1, or 0 where the text is none. */
+/* option_value.h: values of command lines' options. Each returns 1, or 0 where the text is none. */
 #ifndef OPTION_VALUE_H
 #define OPTION_VALUE_H
 
 #include <stdint.h>
 
 #include <lambent/scene.h>
-
-#include "report.h"
 
 /* A number under 1e30; *p stops behind it. */
 int option_float(const char **p, float *out);
@@ -27,14 +25,8 @@ int option_word(const char *text, const char *const *words, const int32_t *value
 /* spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER] */
 int option_light(const char *text, lmb_light *out);
 
-/* A verb's table of options has entries that begin with this. */
-typedef struct option_name {
-    const char *name, *wants;
-} option_name;
-
-/* option_find: which entry argv[at] names; argv[0] is the verb. -1 with `r` set where there is none, or no value behind
- * it. option_refuse: the value is none; 0 with `r` set. */
-int option_find(const void *table, size_t entry_bytes, size_t count, char **argv, int at, report *r);
-int option_refuse(const option_name *of, const char *value, report *r);
+/* A float: stops, -60 .. 60, or NaN for `auto`. */
+#define OPTION_STOPS_WANTS "stops, -60 .. 60, or auto"
+int option_stops(const char *text, void *at);
 
 #endif

@@ -26,6 +26,8 @@ int picture_format(const char *path)
 
 int picture_is_linear(int format) { return format == PICTURE_PFM || format == PICTURE_HDR; }
 
+int picture_option(const char *text, void *at) { return picture_format(*(const char **)at = text) != PICTURE_UNKNOWN; }
+
 /* A histogram of the brightest channel in eighths of a stop: no sorting, no memory. */
 float picture_auto_exposure(const image *p)
 {

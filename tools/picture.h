@@ -12,6 +12,10 @@ enum { PICTURE_UNKNOWN = 0, PICTURE_PNG, PICTURE_PPM, PICTURE_PFM, PICTURE_HDR }
 int picture_format(const char *path);
 int picture_is_linear(int format);
 
+/* A row of an option table (OPTION_OWN): a const char *, the name of a file that picture_write can write. */
+#define PICTURE_OPTION_WANTS "a file name ending in .png, .ppm, .pfm or .hdr"
+int picture_option(const char *text, void *at);
+
 /* The stops that bring the brightest hundredth of the pixels just under white; 0 for a black frame. */
 float picture_auto_exposure(const image *linear);
 

@@ -1,6 +1,7 @@
 /* relight_draw.c: objects drawn in a world's light: their cubes by the cache's word, then picture by picture. */
 #include "relight_draw.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -156,10 +157,9 @@ static int draw(stage *s, report *r)
 /* The first picture's exposure is that of all. */
 static int write(stage *s, const char *path, report *r)
 {
-    if (s->o->exposure_auto && !picture_is_linear(picture_format(path))) {
+    if (isnan(s->o->exposure_ev) && !picture_is_linear(picture_format(path))) {
         s->o->exposure_ev = picture_auto_exposure(&s->picture) + 0.0f; /* no minus zero */
-        s->o->exposure_auto = 0;
-        fprintf(stderr, "lambent: exposure %+.3g EV (auto)\n", (double)s->o->exposure_ev);
+        report_note(s->o->view.is_quiet, "exposure %+.3g EV (auto)", (double)s->o->exposure_ev);
     }
     return picture_write(path, &s->picture, s->o->exposure_ev, r);
 }

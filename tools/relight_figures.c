@@ -135,7 +135,7 @@ int figures_load(figures *f, const relight_options *o, uint32_t count, report *r
         return 0;
     }
     for (uint32_t i = 0; i < notes.count; ++i) {
-        fprintf(stderr, "lambent: note: %s\n", notes.line[i]);
+        report_note(o->view.is_quiet, "note: %s", notes.line[i]);
     }
     f->count = count;
     f->parts = f->loaded.scene.instance_count;

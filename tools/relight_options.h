@@ -18,7 +18,7 @@ typedef struct relight_options {
     lmb_world_pictures place; /* all but the pictures */
     float ground_size[2], ground_centre[2];
     int32_t format, blend;
-    int has_far, has_ground_centre;
+    int32_t has_far, has_ground_centre;
     /* what is in it */
     const char *object, *path;
     lmb_vec3 at[RELIGHT_PLACES], keep[RELIGHT_PLACES];
@@ -33,20 +33,16 @@ typedef struct relight_options {
     int32_t filter, faces, show;
     view_options view;
     const char *out, *cube, *map;
-    int exposure_auto;
-    float exposure_ev;
+    float exposure_ev; /* NaN: chosen by the picture */
     const lmb_kernels *kernels;
-    int help;
 } relight_options;
 
-/* In parts: C99 asks compilers for strings of 4,095 characters only. */
-enum { RELIGHT_USAGE_PARTS = 2 };
-extern const char *const relight_usage[RELIGHT_USAGE_PARTS];
+extern const option_table relight_table;
 
 /* X,Y,Z within 1,000,000 m. 1, or 0 where the text is none. */
 int relight_place(const char *text, lmb_vec3 *out);
 
-/* 1, or 0 with `r` set: bad usage. */
+/* As options_parse. */
 int relight_options_parse(relight_options *out, int argc, char **argv, report *r);
 
 #endif

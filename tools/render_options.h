@@ -37,9 +37,9 @@ typedef struct render_options {
     int32_t quality;      /* LMB_QUALITY_*: what the next three are where they are 0 */
     int32_t tree;         /* first points a side of a light's tree */
     float error, visible;
-    int proven;
+    int32_t proven;
     int32_t bounces, elements; /* 0: default */
-    int truncated;             /* --rest none */
+    int32_t truncated;         /* --rest none */
     int32_t occlusion, steps;
     int32_t many_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
@@ -53,14 +53,11 @@ typedef struct render_options {
     float budget_ms;   /* 0: none */
     float rate;        /* units of work a second and thread; 0: measured where it is wanted */
     int json;          /* of `plan` */
-    int help;
 } render_options;
 
-/* In parts: C99 asks compilers for strings of 4,095 characters only. */
-enum { RENDER_USAGE_PARTS = 4 };
-extern const char *const render_usage[RENDER_USAGE_PARTS];
+extern const option_table render_table, plan_table;
 
-/* For `render`, and for `plan`, which has no output. 1, or 0 with `r` set: bad usage. */
+/* For `render`, and for `plan`, which has no output: argv[0] says which. As options_parse. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);
 
 #endif

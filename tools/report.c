@@ -19,6 +19,18 @@ int report_fail(report *r, const char *format, ...)
     return 0;
 }
 
+void report_note(int is_quiet, const char *format, ...)
+{
+    va_list args;
+    if (!is_quiet) {
+        va_start(args, format);
+        fputs("lambent: ", stderr);
+        vfprintf(stderr, format, args);
+        fputc('\n', stderr);
+        va_end(args);
+    }
+}
+
 int report_end(const report *r, const char *verb, int status)
 {
     fprintf(stderr, "lambent %s: %s\n", verb, r->text);

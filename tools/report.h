@@ -19,6 +19,9 @@ typedef struct report {
  * a parser can `return report_fail(...)`. */
 int report_fail(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
+/* report_note: a line on stderr behind `lambent: `, unless it is to be quiet. */
+void report_note(int is_quiet, const char *format, ...) REPORT_PRINTF(2, 3);
+
 /* report_end: tell the line, behind `lambent VERB: `, and return what the verb exits with: `status`. */
 int report_end(const report *r, const char *verb, int status);
 

@@ -1,7 +1,6 @@
 /* verb_bench.c: `lambent bench`: the raster workload, the far gather, threads, hard cases; all else is swept. */
 #include "verb_bench.h"
 
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,63 +14,20 @@
 #include "bench_rates.h"
 #include "bench_scene.h"
 #include "bench_threads.h"
+#include "options.h"
 #include "verb_bench_sweep.h"
-
-static const char help_text[] =
-    "usage: lambent bench SCENE|relight|relief|mix ...      speed against error; see lambent bench SCENE --help\n"
-    "       lambent bench raster [CASE...] [--data FOLDER] [--backend NAME] [--seconds S] [--linear] [--json]\n"
-    "       lambent bench gather [--backend NAME] [--seconds S] [--json]\n"
-    "       lambent bench threads [--threads N] [--data FOLDER] [--backend NAME] [--seconds S]\n"
-    "       lambent bench hard [ROOM] [--backend NAME] [--json]\n"
-    "       lambent bench --calibrate [--threads N]   units of work a second, by which --budget-ms reckons\n"
-    "\n"
-    "raster: draws the fixed raster workload on one thread and prints a line a case: the least and the median\n"
-    "time of a frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound /\n"
-    "least time. A CASE is part of a case's name; without one, all. The bound is what the same run finds the\n"
-    "machine can do at most with the frame's own work, which is counted by drawing it once over verbs that\n"
-    "count: the longest (`by`) of the time that reading, testing and writing the frame's depths takes in 16 KiB\n"
-    "of cache (`depth`), and the times that its multiplications, additions, maxima, divisions, comparisons and\n"
-    "picks keep one unit busy (`mul`, `add`, `max`, `div`; as for gather). All of it as if every lane were of\n"
-    "use; integers, doubles, loads, masks, branches, clearing, and reading the mesh and textures count as\n"
-    "nothing; of plain C, whose lanes compilers join as they like, only depths count. fill-depth cases also tell\n"
-    "pixels a second and `peak`, the depths a second that the bound is of.\n"
-    "\n"
-    "gather: the far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one\n"
-    "group. Prints a line a back end: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is\n"
-    "what the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by\n"
-    "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for\n"
-    "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded\n"
-    "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results\n"
-    "count as nothing. A cycle is that of a chain of integer operations.\n"
-    "\n"
-    "threads: the gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N\n"
-    "threads, and in N processes at once, in turn. `of processes` is what the threads gain over what the\n"
-    "processes do: 100 % is all that this machine gives.\n"
-    "\n"
-    "hard: what renderers get wrong, tried here: a line a case, with its figure and what that may be at most.\n"
-    "`exact` is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms\n"
-    "in double, whose bound lies a little over what was found. A ROOM is raster, shadow, bounce, probe, relief,\n"
-    "mixed or all. A few seconds; exit status 1 where a figure is past its bound.\n"
-    "\n"
-    "  --data FOLDER    of bunny.mesh and sponza.mesh (default: the environment's BENCH_DATA)\n"
-    "  --backend NAME   scalar, sse2, avx2, avx512, neon, simd128 (default: this machine's best; gather: all)\n"
-    "  --seconds S      of each case, or back end (default: 1.5; threads: 4)\n"
-    "  --threads N      2 .. 64 (default: 2)\n"
-    "  --linear         with depth copied into plain rows, which other programs read\n"
-    "  --json           one object a line\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage\n";
 
 enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
 
-enum { RASTER, GATHER, THREADS, HARD, NOTHING };
+enum { CASES = 32 };
 
 typedef struct options {
     const char *folder;
-    const lmb_kernels *kernels; /* NULL: all in turn */
-    const char *const *cases;
-    int case_count, what, threads, linear, json, help;
-    double seconds; /* 0: as is usual */
+    const lmb_kernels *kernels; /* NULL: not given */
+    const char *cases[CASES], *room;
+    int32_t case_count, threads;
+    int linear, json;
+    float seconds; /* of each case */
 } options;
 
 /* One case's memory. */
@@ -192,7 +148,7 @@ static void measure(timing *t, const canvas *c, const bench_scene *s, const opti
     const int rated = bench_rates_begin(&rates, lmb_kernels_name(o->kernels));
     draw_frame(c, s, o->kernels, cull);
     draw_frame(c, s, o->kernels, cull);
-    const double end = host_seconds() + o->seconds;
+    const double end = host_seconds() + (double)o->seconds;
     t->count = 0;
     t->peak = t->bound = 0.0;
     while ((host_seconds() < end || t->count < FRAMES_MIN) && t->count < FRAMES_MAX) {
@@ -277,111 +233,54 @@ static int wanted_count(const options *o)
     return count;
 }
 
-/* The value behind an option, or NULL with `r` set. */
-static const char *value_of(int *i, int argc, char **argv, report *r)
-{
-    if (*i + 1 < argc) {
-        return argv[++*i];
-    }
-    report_fail(r, "%s: its value is missing; see lambent bench --help", argv[*i]);
-    return NULL;
-}
+#define AT(member) .at = offsetof(options, member)
+#define ROW_FOLDER(what)                                                                                      \
+    {.name = "--data", .value = "FOLDER", .kind = OPTION_TEXT, AT(folder),                                    \
+     .help = "of " what " (default: the environment's BENCH_DATA)"}
+#define ROW_SECONDS(text)                                                                                     \
+    {.name = "--seconds", .value = "S", .kind = OPTION_ABOVE, AT(seconds), .low = 0, .high = 9999, .help = text}
+#define ROW_JSON {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object a line"}
+#define END {.kind = OPTION_END}
 
-static int parse_value(options *o, const char *name, const char *value, report *r)
-{
-    if (strcmp(name, "--data") == 0) {
-        o->folder = value;
-        return 1;
-    }
-    if (strcmp(name, "--backend") == 0) {
-        o->kernels = lmb_kernels_named(value);
-        return o->kernels != NULL || report_fail(r, "--backend %s: not here; this machine's best is %s", value,
-                                                 lmb_kernels_name(lmb_kernels_pick()));
-    }
-    char *end;
-    const double number = strtod(value, &end);
-    const int whole = end != value && *end == 0; /* nothing stands behind it */
-    if (strcmp(name, "--threads") == 0) {
-        o->threads = number >= 2.0 && number <= POOL_MAX ? (int)number : 0;
-        return (whole && o->threads > 0 && o->threads == number) ||
-               report_fail(r, "--threads %s: not 2 .. %d", value, POOL_MAX);
-    }
-    o->seconds = number;
-    return (whole && o->seconds > 0.0 && o->seconds < 1e4) || report_fail(r, "--seconds %s: not a time over 0", value);
-}
+static const option_row raster_rows[] = {
+    {.name = "CASE", .kind = OPTION_TEXT, .value = "", AT(cases), .counts = offsetof(options, case_count),
+     .times = CASES, .size = sizeof(const char *), .help = "part of a case's name (default: all)"},
+    ROW_FOLDER("bunny.mesh and sponza.mesh"),
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_SECONDS("of each case (default 1.5)"),
+    {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
+     .help = "with depth copied into plain rows, which other programs read"},
+    ROW_JSON, OPTION_ASK, END,
+};
+static const option_row gather_rows[] = {
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_SECONDS("of each backend (default 1.5)"),
+    ROW_JSON, OPTION_ASK, END,
+};
+static const option_row threads_rows[] = {
+    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 2, .high = POOL_MAX,
+     .help = "as many threads, and processes (default 2)"},
+    ROW_FOLDER("sponza.mesh"),
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_SECONDS("of each case (default 4)"),
+    OPTION_ASK, END,
+};
+static const option_row hard_rows[] = {
+    {.name = "ROOM", .kind = OPTION_TEXT, .value = "", AT(room),
+     .help = "raster, shadow, bounce, probe, relief, mixed or all (default: all)"},
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_JSON, OPTION_ASK, END,
+};
+static const option_row calibrate_rows[] = {
+    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
+     .help = "that draw at once (default: the processors)"},
+    OPTION_ASK, END,
+};
+static const option_row bench_rows[] = {OPTION_ASK, END};
 
-static int parse_option(options *o, int *i, int argc, char **argv, report *r)
+static int check_raster(const options *o, report *r)
 {
-    const char *name = argv[*i], *value;
-    if (strcmp(name, "--help") == 0) {
-        return o->help = 1;
-    }
-    if (strcmp(name, "--linear") == 0) {
-        return o->linear = 1;
-    }
-    if (strcmp(name, "--json") == 0) {
-        return o->json = 1;
-    }
-    if (strcmp(name, "--data") != 0 && strcmp(name, "--backend") != 0 && strcmp(name, "--seconds") != 0 &&
-        strcmp(name, "--threads") != 0) {
-        return report_fail(r, "unknown option '%s'; see lambent bench --help", name);
-    }
-    value = value_of(i, argc, argv, r);
-    return value != NULL && parse_value(o, name, value, r);
-}
-
-/* The first word says what is measured; more of them only mean something to raster, one more to hard. */
-static int what_of(const options *o)
-{
-    static const char *const names[] = {"raster", "gather", "threads", "hard"};
-    int what = RASTER;
-    while (o->case_count > 0 && what < NOTHING && strcmp(o->cases[0], names[what]) != 0) {
-        ++what;
-    }
-    const int most = what == RASTER ? INT_MAX : what == HARD ? 2 : 1;
-    return o->case_count == 0 || o->case_count > most ? NOTHING : what;
-}
-
-/* An option that what is measured has no use for, or NULL. */
-static const char *idle_option(const options *o)
-{
-    return o->threads > 0 && o->what != THREADS  ? "--threads"
-           : o->linear && o->what != RASTER      ? "--linear"
-           : o->json && o->what == THREADS       ? "--json"
-           : o->seconds > 0.0 && o->what == HARD ? "--seconds"
-                                                 : NULL;
-}
-
-/* Words that are no options are parts of cases' names; they are moved to the front of argv. */
-static int parse(options *o, int argc, char **argv, report *r)
-{
-    const char *folder = getenv("BENCH_DATA");
-    memset(o, 0, sizeof *o);
-    o->folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
-    o->cases = (const char *const *)argv;
-    for (int i = 1; i < argc; ++i) {
-        if (argv[i][0] != '-') {
-            argv[o->case_count++] = argv[i];
-        } else if (!parse_option(o, &i, argc, argv, r)) {
-            return 0;
-        }
-    }
-    if (o->help) {
-        return 1;
-    }
-    o->what = what_of(o);
-    if (o->what == NOTHING) {
-        return report_fail(r, "what is to be measured? A scene, `raster`, `gather`, `threads`, `hard`; see --help");
-    }
-    if (idle_option(o) != NULL) {
-        return report_fail(r, "%s means nothing to `%s`; see --help", idle_option(o), o->cases[0]);
-    }
-    o->threads = o->threads > 0 ? o->threads : 2;
-    o->kernels = o->kernels == NULL && o->what != GATHER ? lmb_kernels_pick() : o->kernels;
-    o->seconds = o->seconds > 0.0 ? o->seconds : o->what == THREADS ? 4.0 : 1.5;
-    ++o->cases;
-    --o->case_count;
-    return o->what != RASTER || wanted_count(o) > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
+    return wanted_count(o) > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
 }
 
 static int run_raster(const options *o, report *r)
@@ -394,48 +293,130 @@ static int run_raster(const options *o, report *r)
     return 1;
 }
 
-static int run(const options *o, report *r)
+static int run_gather(const options *o, report *r) { return bench_gather(o->kernels, (double)o->seconds, o->json, r); }
+
+static int run_threads(const options *o, report *r)
 {
-    const threads_options threads = {o->folder, o->kernels, o->threads, o->seconds};
-    switch (o->what) {
-    case GATHER: return bench_gather(o->kernels, o->seconds, o->json, r);
-    case THREADS: return bench_threads(&threads, r);
-    case HARD: return bench_hard(o->kernels, o->case_count > 0 ? o->cases[0] : NULL, o->json, r);
-    default: return run_raster(o, r);
-    }
+    const threads_options threads = {o->folder, o->kernels, (int)o->threads, (double)o->seconds};
+    return bench_threads(&threads, r);
 }
 
-/* A first word that is no workload's name is a scene, or a verb that is swept. */
-static int is_swept(int argc, char **argv)
+static int run_hard(const options *o, report *r) { return bench_hard(o->kernels, o->room, o->json, r); }
+
+static int run_calibrate(const options *o, report *r)
 {
+    const int threads = o->threads > 0 ? (int)o->threads : pool_processors();
+    const double rate = bench_calibrate(threads);
+    if (!(rate > 0.0)) {
+        return report_fail(r, "no memory to draw the built-in room");
+    }
+    printf("%.4g units of work a second, threads: %d   (for plan and render: --rate %.4g)\n", rate, threads, rate);
+    return 1;
+}
+
+/* What is measured by itself, and what holds where an option is not given. */
+static const struct workload {
+    const char *name;
+    int (*check)(const options *o, report *r); /* 0 with `r` set: bad usage; NULL: nothing to check */
+    int (*run)(const options *o, report *r);
+    int32_t threads;
+    float seconds;
+    int picks; /* a backend, where none is given; else all in turn */
+    option_table table;
+} workloads[] = {
+    {"raster", check_raster, run_raster, 0, 1.5f, 1,
+     {.verb = "bench raster", .usage = "bench raster [CASE...] [options]",
+      .about = "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a "
+               "frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound / least time. "
+               "The bound is what the same run finds the machine can do at most with the frame's own work, which is "
+               "counted by drawing it once over verbs that count: the longest (`by`) of the time that reading, testing and "
+               "writing the frame's depths takes in 16 KiB of cache (`depth`), and the times that its multiplications, "
+               "additions, maxima, divisions, comparisons and picks keep one unit busy (`mul`, `add`, `max`, `div`; as for "
+               "gather). All of it as if every lane were of use; integers, doubles, loads, masks, branches, clearing, and "
+               "reading the mesh and textures count as nothing; of plain C, whose lanes compilers join as they like, only "
+               "depths count. fill-depth cases also tell pixels a second and `peak`, the depths a second that the bound is "
+               "of.",
+      .part = {raster_rows}, .examples = "  lambent bench raster fill-depth --seconds 0.1\n"}},
+    {"gather", NULL, run_gather, 0, 1.5f, 0,
+     {.verb = "bench gather", .usage = "bench gather [options]",
+      .about = "The far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
+               "Prints a line a backend: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what "
+               "the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by "
+               "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for "
+               "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded "
+               "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results "
+               "count as nothing. A cycle is that of a chain of integer operations.",
+      .part = {gather_rows}, .examples = "  lambent bench gather --seconds 0.1\n"}},
+    {"threads", NULL, run_threads, 2, 4.0f, 1,
+     {.verb = "bench threads", .usage = "bench threads [options]",
+      .about = "The gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads, and in "
+               "N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is "
+               "all that this machine gives.",
+      .part = {threads_rows},
+      .examples = "  with a folder that holds sponza.mesh:\n"
+                  "    [ ! -e data/sponza.mesh ] || lambent bench threads --data data --seconds 1\n",
+      .status = "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage"}},
+    {"hard", NULL, run_hard, 0, 0.0f, 1,
+     {.verb = "bench hard", .usage = "bench hard [ROOM] [options]",
+      .about = "What renderers get wrong, tried here: a line a case, with its figure and what that may be at most. `exact` "
+               "is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms in "
+               "double, whose bound lies a little over what was found. A few seconds.",
+      .part = {hard_rows}, .examples = "  lambent bench hard raster\n",
+      .status = "exit status: 0 done, 1 a figure past its bound, 2 bad usage"}},
+    {"--calibrate", NULL, run_calibrate, 0, 0.0f, 0,
+     {.verb = "bench --calibrate", .usage = "bench --calibrate [--threads N]",
+      .about = "Units of work a second, by which --budget-ms reckons: the built-in room, drawn a few times.",
+      .part = {calibrate_rows}, .examples = "  lambent bench --calibrate --threads 1\n"}},
+};
+
+static const option_table bench_table = {
+    .verb = "bench",
+    .usage = "bench SCENE|relight|relief|mix ...  speed against error\n"
+             "bench raster [CASE...] [options]    how fast this machine draws the fixed workload\n"
+             "bench gather [options]              how fast groups light pixels\n"
+             "bench threads [options]             what threads gain, beside processes\n"
+             "bench hard [ROOM] [options]         what renderers get wrong\n"
+             "bench --calibrate [--threads N]     units of work a second",
+    .about = "Measures. Each has its own --help: lambent bench raster --help; lambent bench demo --help is that of SCENE.",
+    .part = {bench_rows},
+    .examples = "  lambent bench raster fill-depth --seconds 0.1\n"
+                "  lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32 --ledger 0\n",
+};
+
+static int measure_workload(const struct workload *w, int argc, char **argv)
+{
+    const char *folder = getenv("BENCH_DATA");
     options o;
+    report r = {""};
     memset(&o, 0, sizeof o);
-    o.cases = (const char *const *)argv + 1;
-    o.case_count = 1;
-    return argc > 1 && argv[1][0] != '-' && what_of(&o) == NOTHING;
+    o.folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
+    o.threads = w->threads;
+    o.seconds = w->seconds;
+    o.kernels = w->picks ? lmb_kernels_pick() : NULL;
+    int asked = options_parse(&o, &w->table, argc, argv, &r);
+    if (asked == OPTIONS_RUN && w->check != NULL && !w->check(&o, &r)) {
+        asked = OPTIONS_BAD;
+    }
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &w->table, &r);
+    }
+    return w->run(&o, &r) ? 0 : report_end(&r, w->table.verb, 1);
 }
 
 int verb_bench(int argc, char **argv)
 {
-    if (is_swept(argc, argv)) {
+    report r = {""};
+    for (size_t i = 0; argc > 1 && i < sizeof workloads / sizeof *workloads; ++i) {
+        if (strcmp(argv[1], workloads[i].name) == 0) {
+            return measure_workload(&workloads[i], argc - 1, argv + 1);
+        }
+    }
+    if (argc > 1 && (argv[1][0] != '-' || argv[1][1] == '\0')) {
         return verb_bench_sweep(argc, argv);
     }
-    if (argc > 1 && strcmp(argv[1], "--calibrate") == 0) {
-        return verb_calibrate(argc, argv);
+    int asked = options_parse(NULL, &bench_table, argc, argv, &r);
+    if (asked == OPTIONS_RUN) {
+        asked = report_fail(&r, "what is to be measured? A scene, raster, gather, threads, hard; see --help");
     }
-    options o;
-    report r = {""};
-    if (!parse(&o, argc, argv, &r)) {
-        fprintf(stderr, "lambent bench: %s\n", r.text);
-        return 2;
-    }
-    if (o.help) {
-        fputs(help_text, stdout);
-        return 0;
-    }
-    if (!run(&o, &r)) {
-        fprintf(stderr, "lambent bench: %s\n", r.text);
-        return 1;
-    }
-    return 0;
+    return options_answer(asked, &bench_table, &r);
 }

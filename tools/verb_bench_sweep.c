@@ -48,7 +48,7 @@ static int sweep_and_write(const bench_options *o, report *r)
     memset(&b, 0, sizeof b);
     const int ok = can_write(o, r) && bench_sweep(&b, o, r) && write_one(o->html, bench_html, &b, r) &&
                    write_one(o->csv, bench_csv, &b, r) && write_one(o->json, bench_json, &b, r) &&
-                   write_one(o->svg, fill_svg, &b, r) && tell(&b, r);
+                   write_one(o->svg, fill_svg, &b, r) && (o->is_quiet || tell(&b, r));
     bench_report_free(&b);
     return ok;
 }
@@ -67,17 +67,14 @@ int verb_bench_sweep(int argc, char **argv)
     report r = {""};
     const bench_subject *subject = subject_of(argv[1]);
     const int words = subject == &bench_render ? 1 : 2;
-    if (!bench_options_parse(&o, subject, argc - words, argv + words, &r) || (!o.help && !bench_check(&o, &r))) {
-        fprintf(stderr, "lambent bench: %s\n", r.text);
-        return 2;
+    option_table own;
+    bench_options_table(&own, subject);
+    int asked = bench_options_parse(&o, subject, argc - words, argv + words, &r);
+    if (asked == OPTIONS_RUN && !bench_check(&o, &r)) {
+        asked = OPTIONS_BAD;
     }
-    if (o.help) {
-        printf("%s%s", subject->help, bench_help);
-        return 0;
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &own, &r);
     }
-    if (!sweep_and_write(&o, &r)) {
-        fprintf(stderr, "lambent bench: %s\n", r.text);
-        return 1;
-    }
-    return 0;
+    return sweep_and_write(&o, &r) ? 0 : report_end(&r, "bench", 1);
 }

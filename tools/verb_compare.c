@@ -3,41 +3,13 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "image.h"
 #include "metrics.h"
+#include "options.h"
 #include "picture_read.h"
-
-static const char help_text[] =
-    "usage: lambent compare A B [--mask DEPTH.pfm] [--classes C.pfm] [--json] [--max KEY=V,...] [--heat OUT.png]\n"
-    "\n"
-    "How far picture A is from the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, known by its content;\n"
-    "8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that is not finite\n"
-    "counts as black.\n"
-    "\n"
-    "  trim           relative RMSE (rmse / mean of B) without the worst 1 % of pixels\n"
-    "  rmse           relative RMSE; n90: how many pixels carry 90 % of the squared error\n"
-    "  e50 e95 e99    percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the channels)\n"
-    "  mean           mean of A / mean of B\n"
-    "  leak           the same over dark pixels: class 3, or B < 1 % of its mean without --classes (21 or more)\n"
-    "  NONFINITE      pixels of A that are not finite, if there are any\n"
-    "  psnr           dB, over red, green and blue; full scale is 255 where both files are 8-bit (then psnr and max\n"
-    "                 are in sRGB codes), the largest value of B elsewhere (then they are in linear light)\n"
-    "  max            largest difference of a channel, and its first pixel x,y (from the top left)\n"
-    "  exact          pixels whose bits are equal (alpha included); first: the first pixel that differs\n"
-    "\n"
-    "  --mask FILE    count only pixels whose third channel in FILE (3-channel PFM) is over 0.5\n"
-    "  --classes FILE class of each pixel (1-channel PFM)\n"
-    "  --max LIST     upper bounds for trim, rmse, e50, e95, e99; lo and hi bound mean; leak bounds |leak - 1|\n"
-    "  --json         one object on one line; what is infinite or was not measured is null\n"
-    "  --heat FILE    PNG of |a - b| / (b + 0.01 mean of B), grey: 0 black, 0.2 blue, 0.4 purple, 0.6 orange,\n"
-    "                 0.8 yellow, 1 and over white, in equal steps of lightness; dark grey: masked; green: not finite\n"
-    "\n"
-    "exit status: 0 within the bounds, 1 a bound passed, pixels not finite or a file that cannot be used,\n"
-    "             2 bad usage, 3 sizes differ\n";
 
 enum { KEY_TRIM, KEY_RMSE, KEY_E50, KEY_E95, KEY_E99, KEY_LO, KEY_HI, KEY_LEAK, KEY_COUNT };
 
@@ -46,7 +18,7 @@ static const char *const key_names[KEY_COUNT] = {"trim", "rmse", "e50", "e95", "
 typedef struct options {
     const char *test, *truth, *mask, *classes, *heat, *max; /* NULL: not given */
     double bounds[KEY_COUNT];
-    int json, help;
+    int json, is_quiet, is_verbose;
 } options;
 
 /* A picture to compare. picture_free releases it; a zeroed one is empty. */
@@ -70,20 +42,55 @@ typedef struct results {
     int ok;
 } results;
 
-static int complain(FILE *err, int status, const char *format, ...) REPORT_PRINTF(3, 4);
-
-static int complain(FILE *err, int status, const char *format, ...)
-{
-    va_list args;
-    fputs("lambent compare: ", err);
-    va_start(args, format);
-    vfprintf(err, format, args);
-    va_end(args);
-    fputc('\n', err);
-    return status;
-}
-
 /* -- options ------------------------------------------------------------------------------------------------------ */
+
+#define AT(member) .at = offsetof(options, member)
+
+static const option_row rows[] = {
+    {.name = "A", .kind = OPTION_TEXT, .value = "", AT(test), .help = "the picture"},
+    {.name = "B", .kind = OPTION_TEXT, .value = "", AT(truth), .help = "the truth"},
+    {.name = "--mask", .value = "FILE", .kind = OPTION_TEXT, AT(mask),
+     .help = "count only pixels whose third channel in FILE (3-channel PFM) is over 0.5"},
+    {.name = "--classes", .value = "FILE", .kind = OPTION_TEXT, AT(classes),
+     .help = "class of each pixel (1-channel PFM)"},
+    {.name = "--max", .value = "KEY=V,...", .kind = OPTION_TEXT, AT(max),
+     .help = "upper bounds for trim, rmse, e50, e95, e99; lo and hi bound mean; leak bounds |leak - 1|"},
+    {.name = "--json", .kind = OPTION_FLAG, AT(json),
+     .help = "one object on one line; what is infinite or was not measured is null"},
+    {.name = "--heat", .value = "OUT.png", .kind = OPTION_TEXT, AT(heat),
+     .help = "|a - b| / (b + 0.01 mean of B), grey: 0 black, 0.2 blue, 0.4 purple, 0.6 orange, 0.8 yellow, 1 and over "
+             "white, in equal steps of lightness; dark grey: masked; green: not finite"},
+    {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no figures: the exit status alone"},
+    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
+     .help = "say how each picture was taken, and how many pixels count"},
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+static const option_table table = {
+    .verb = "compare",
+    .usage = "compare A B [options]",
+    .about = "How far picture A is from the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, known by its content; 8-bit "
+             "files are sRGB and are decoded to linear light for the error figures. A pixel of A that is not finite counts "
+             "as black. The figures:\n"
+             "trim: relative RMSE (rmse / mean of B) without the worst 1 % of pixels;\n"
+             "rmse: relative RMSE; n90: how many pixels carry 90 % of the squared error;\n"
+             "e50 e95 e99: percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the channels);\n"
+             "mean: mean of A / mean of B;\n"
+             "leak: the same over dark pixels: class 3, or B < 1 % of its mean without --classes (21 or more);\n"
+             "NONFINITE: pixels of A that are not finite, if there are any;\n"
+             "psnr: dB, over red, green and blue; full scale is 255 where both files are 8-bit (then psnr and max are in "
+             "sRGB codes), the largest value of B elsewhere (then they are in linear light);\n"
+             "max: largest difference of a channel, and its first pixel x,y (from the top left);\n"
+             "exact: pixels whose bits are equal (alpha included); first: the first pixel that differs.",
+    .part = {rows},
+    .examples = "  how far a draft is from the best settings:\n"
+                "    lambent render demo --size 80x60 --quality draft -o draft.pfm\n"
+                "    lambent render demo --size 80x60 -o default.pfm\n"
+                "    lambent compare draft.pfm default.pfm --max trim=0.2 --heat error.png\n",
+    .status = "exit status: 0 within the bounds, 1 a bound passed, pixels not finite or a file that cannot be used, 2 bad "
+              "usage, 3 sizes differ",
+};
 
 /* The bound of the first `length` characters of `item`, which end at a comma or the text's end. A key that comes
  * twice keeps its tighter bound. */
@@ -105,64 +112,30 @@ static int parse_bound(options *o, const char *item, size_t length)
     return 0;
 }
 
-static int parse_bounds(options *o, FILE *err)
+static int parse_bounds(options *o, report *r)
 {
     for (const char *item = o->max; *item;) {
         size_t length = strcspn(item, ",");
         if (length && !parse_bound(o, item, length))
-            return complain(err, COMPARE_USAGE, "--max: '%.*s' is not KEY=NUMBER with KEY one of trim rmse e50 e95 "
-                            "e99 lo hi leak", (int)(length < 60 ? length : 60), item);
+            return report_fail(r, "--max: '%.*s' is not KEY=NUMBER with KEY one of trim rmse e50 e95 e99 lo hi leak",
+                               (int)(length < 60 ? length : 60), item);
         item += length + (item[length] == ',');
     }
-    return COMPARE_OK;
+    return 1;
 }
 
-/* Where the value of option `name` goes, or NULL. */
-static const char **option_value(options *o, const char *name)
-{
-    return !strcmp(name, "--mask") ? &o->mask : !strcmp(name, "--classes") ? &o->classes
-         : !strcmp(name, "--heat") ? &o->heat : !strcmp(name, "--max") ? &o->max : NULL;
-}
-
-static int parse_argument(options *o, FILE *err, int *i, int argc, char **argv)
-{
-    const char *arg = argv[*i], **value = option_value(o, arg);
-    if (value) {
-        if (++*i >= argc)
-            return complain(err, COMPARE_USAGE, "%s needs a value; see lambent compare --help", arg);
-        *value = argv[*i];
-    } else if (!strcmp(arg, "--json")) {
-        o->json = 1;
-    } else if (!strcmp(arg, "--help")) {
-        o->help = 1;
-    } else if (arg[0] == '-') {
-        return complain(err, COMPARE_USAGE, "unknown option '%s'; see lambent compare --help", arg);
-    } else if (!o->test) {
-        o->test = arg;
-    } else if (!o->truth) {
-        o->truth = arg;
-    } else {
-        return complain(err, COMPARE_USAGE, "a third picture '%s'; two are compared", arg);
-    }
-    return COMPARE_OK;
-}
-
-static int parse_options(options *o, FILE *err, int argc, char **argv)
+static int parse_options(options *o, int argc, char **argv, report *r)
 {
     static const options none;
     *o = none;
     for (int k = 0; k < KEY_COUNT; ++k)
         o->bounds[k] = k == KEY_LO ? -(double)INFINITY : (double)INFINITY;
-    for (int i = 1; i < argc && !o->help; ++i) {
-        int status = parse_argument(o, err, &i, argc, argv);
-        if (status != COMPARE_OK)
-            return status;
-    }
-    if (o->help)
-        return COMPARE_OK;
+    const int asked = options_parse(o, &table, argc, argv, r);
+    if (asked != OPTIONS_RUN)
+        return asked;
     if (!o->truth)
-        return complain(err, COMPARE_USAGE, "two pictures are needed, A and the truth B; see lambent compare --help");
-    return o->max ? parse_bounds(o, err) : COMPARE_OK;
+        return report_fail(r, "two pictures are needed, A and the truth B; see lambent compare --help");
+    return o->max && !parse_bounds(o, r) ? OPTIONS_BAD : OPTIONS_RUN;
 }
 
 /* -- files -------------------------------------------------------------------------------------------------------- */
@@ -266,19 +239,19 @@ static int load_all(loaded *l, const options *o, report *r)
            layer_load(&l->mask, o->mask, 3, r) && layer_load(&l->classes, o->classes, 1, r);
 }
 
-static int check_sizes(const loaded *l, const options *o, FILE *err)
+static int check_sizes(const loaded *l, const options *o, report *r)
 {
     int w = (int)l->truth.width, h = (int)l->truth.height;
     if (l->test.width != w || l->test.height != h)
-        return complain(err, COMPARE_SIZES, "sizes differ: %s is %dx%d, %s is %dx%d", o->test, (int)l->test.width,
-                        (int)l->test.height, o->truth, w, h);
+        return report_fail(r, "sizes differ: %s is %dx%d, %s is %dx%d", o->test, (int)l->test.width,
+                           (int)l->test.height, o->truth, w, h);
     for (int k = 0; k < 2; ++k) {
         const image *layer = k ? &l->classes : &l->mask;
         if (layer->pixels && (layer->width != w || layer->height != h))
-            return complain(err, COMPARE_SIZES, "sizes differ: %s is %dx%d, %s is %dx%d", k ? o->classes : o->mask,
-                            (int)layer->width, (int)layer->height, o->truth, w, h);
+            return report_fail(r, "sizes differ: %s is %dx%d, %s is %dx%d", k ? o->classes : o->mask,
+                               (int)layer->width, (int)layer->height, o->truth, w, h);
     }
-    return COMPARE_OK;
+    return 1;
 }
 
 /* -- figures ------------------------------------------------------------------------------------------------------ */
@@ -426,33 +399,40 @@ static int write_heat(const loaded *l, const metrics *m, const char *path, repor
     return ok;
 }
 
-/* Figures go out before the heat picture is tried, so that a full disk does not take them along. */
-static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, const options *o)
+/* --verbose: how the pictures were taken. */
+static void tell_taken(FILE *err, const loaded *l, const options *o, const metrics *m)
 {
-    report r = {""};
-    if (o->json)
-        print_json(out, res, l);
-    else
-        print_text(out, res, o);
-    if (fflush(out) != 0 || ferror(out))
-        return complain(err, COMPARE_FAILED, "the figures could not be written");
-    if (o->heat && !write_heat(l, &res->figures, o->heat, &r))
-        return complain(err, COMPARE_FAILED, "%s", r.text);
-    return res->ok ? COMPARE_OK : COMPARE_FAILED;
+    const picture *const both[] = {&l->test, &l->truth};
+    const char *const path[] = {o->test, o->truth};
+    for (int i = 0; i < 2 && o->is_verbose; ++i)
+        fprintf(err, "lambent: %s: %dx%d, %s\n", path[i], (int)both[i]->width, (int)both[i]->height,
+                both[i]->codes ? "8-bit sRGB, decoded" : "linear light");
+    if (o->is_verbose)
+        fprintf(err, "lambent: %" PRIu64 " pixels count\n", m->pixels);
 }
 
-static int run(FILE *out, FILE *err, loaded *l, const options *o)
+/* Figures go out before the heat picture is tried, so that a full disk does not take them along. */
+static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, const options *o, report *r)
 {
-    report r = {""};
+    tell_taken(err, l, o, &res->figures);
+    if (!o->is_quiet)
+        o->json ? print_json(out, res, l) : print_text(out, res, o);
+    if (fflush(out) != 0 || ferror(out))
+        return report_fail(r, "the figures could not be written");
+    return !o->heat || write_heat(l, &res->figures, o->heat, r);
+}
+
+/* The exit status. */
+static int run(FILE *out, FILE *err, loaded *l, const options *o, report *r)
+{
     results res;
-    if (!load_all(l, o, &r))
-        return complain(err, COMPARE_FAILED, "%s", r.text);
-    int status = check_sizes(l, o, err);
-    if (status != COMPARE_OK)
-        return status;
-    if (!measure(&res, l, o, &r))
-        return complain(err, COMPARE_FAILED, "%s", r.text);
-    return deliver(out, err, &res, l, o);
+    if (!load_all(l, o, r))
+        return COMPARE_FAILED;
+    if (!check_sizes(l, o, r))
+        return COMPARE_SIZES;
+    if (!measure(&res, l, o, r) || !deliver(out, err, &res, l, o, r))
+        return COMPARE_FAILED;
+    return res.ok ? COMPARE_OK : COMPARE_FAILED;
 }
 
 int compare_to(FILE *out, FILE *err, int argc, char **argv)
@@ -460,15 +440,14 @@ int compare_to(FILE *out, FILE *err, int argc, char **argv)
     static const loaded none;
     loaded l = none;
     options o;
-    int status = parse_options(&o, err, argc, argv);
-    if (status != COMPARE_OK)
-        return status;
-    if (o.help) {
-        fputs(help_text, out);
-        return fflush(out) == 0 ? COMPARE_OK : complain(err, COMPARE_FAILED, "the help could not be written");
-    }
-    status = run(out, err, &l, &o);
+    report r = {""};
+    const int asked = parse_options(&o, argc, argv, &r);
+    if (asked != OPTIONS_RUN)
+        return options_answer_to(out, err, asked, &table, &r);
+    const int status = run(out, err, &l, &o, &r);
     loaded_free(&l);
+    if (r.text[0] != '\0')
+        fprintf(err, "lambent compare: %s\n", r.text);
     return status;
 }
 

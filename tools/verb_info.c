@@ -3,50 +3,63 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "../platform/host/host.h"
 #include "image.h"
 #include "model.h"
+#include "options.h"
 #include "picture.h"
 #include "picture_read.h"
-
-static const char help_text[] =
-    "usage: lambent info FILE [--scene NAME|N] [--json]\n"
-    "\n"
-    "What is in a scene that `lambent render` reads, or in a picture: PNG, JPEG, PPM, PGM,\n"
-    "PFM or Radiance HDR, known by its content.\n"
-    "\n"
-    "  scenes            of a glTF file; read: the one that counts below (--scene chooses)\n"
-    "  nodes meshes      as the file has them, with the meshes' primitives\n"
-    "  instances         primitives placed in the world\n"
-    "  triangles         placed: over all instances; unique: each mesh once\n"
-    "  vertices          as stored, of the meshes that are placed\n"
-    "  materials         in the file; drawn: those that an instance shows, and what they are\n"
-    "  emissive          materials that give off light: radiance, W/(sr m2); `render --grouping cut` lights the scene "
-    "with it\n"
-    "  images textures   in the file; read: with size, mip levels and bytes in memory, shared by equal images\n"
-    "  lights cameras    in the file; placed: by nodes; the number before a camera is for `render --camera`\n"
-    "  extensions        read, folded into what is read anyhow, or ignored; a scene that requires one that is\n"
-    "                    unknown here is refused with a line that names it\n"
-    "  bounds            world metres\n"
-    "  bytes             the file, others read for it, and memory when loaded\n"
-    "  notes             what the reader left out or replaced\n"
-    "\n"
-    "Pictures: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high byte;\n"
-    "palettes resolved), or linear light; values that are not finite are counted and left out.\n"
-    "\n"
-    "  --scene NAME|N    of a file with several scenes, by name or number from 0 (default: its own choice)\n"
-    "  --json            one object on one line\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read, 2 bad usage\n";
 
 typedef struct options {
     const char *path; /* NULL: not given */
     const char *scene; /* NULL: the file's own choice */
-    int json, help;
+    int json, is_quiet, is_verbose;
 } options;
+
+#define AT(member) .at = offsetof(options, member)
+
+static const option_row info_rows[] = {
+    {.name = "FILE", .kind = OPTION_TEXT, .value = "", AT(path), .help = "a scene or a picture"},
+    {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene),
+     .help = "of a file with several scenes, by name or number from 0 (default: its own choice)"},
+    {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object on one line"},
+    {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet),
+     .help = "no figures: the exit status alone, whether the file can be read"},
+    {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose), .help = "say how long reading took"},
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+static const option_table table = {
+    .verb = "info",
+    .usage = "info FILE [--scene NAME|N] [--json]",
+    .about = "What is in a scene that `lambent render` reads, or in a picture: PNG, JPEG, PPM, PGM, PFM or Radiance HDR, "
+             "known by its content. Of a scene:\n"
+             "scenes: of a glTF file; read: the one that counts below (--scene chooses);\n"
+             "nodes meshes: as the file has them, with the meshes' primitives;\n"
+             "instances: primitives placed in the world;\n"
+             "triangles: placed: over all instances; unique: each mesh once;\n"
+             "vertices: as stored, of the meshes that are placed;\n"
+             "materials: in the file; drawn: those that an instance shows, and what they are;\n"
+             "emissive: materials that give off light: radiance, W/(sr m2); `render --grouping cut` lights the scene with "
+             "it;\n"
+             "images textures: in the file; read: with size, mip levels and bytes in memory, shared by equal images;\n"
+             "lights cameras: in the file; placed: by nodes; the number before a camera is for `render --camera`;\n"
+             "extensions: read, folded into what is read anyhow, or ignored; a scene that requires one that is unknown "
+             "here is refused with a line that names it;\n"
+             "bounds: world metres;\n"
+             "bytes: the file, others read for it, and memory when loaded;\n"
+             "notes: what the reader left out or replaced.\n"
+             "Of a picture: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high "
+             "byte; palettes resolved), or linear light; values that are not finite are counted and left out.",
+    .part = {info_rows},
+    .examples = "  lambent render demo --size 80x60 -o demo.pfm\n"
+                "  lambent info demo.pfm\n",
+    .status = "exit status: 0 done, 1 a file that cannot be read, 2 bad usage",
+};
 
 /* Figures that neither the file nor the scene states. */
 typedef struct summary {
@@ -70,19 +83,6 @@ typedef struct picture_facts {
     channel values[4];
     uint64_t nonfinite, bytes;
 } picture_facts;
-
-static int complain(FILE *err, int status, const char *format, ...) REPORT_PRINTF(3, 4);
-
-static int complain(FILE *err, int status, const char *format, ...)
-{
-    va_list args;
-    fputs("lambent info: ", err);
-    va_start(args, format);
-    vfprintf(err, format, args);
-    va_end(args);
-    fputc('\n', err);
-    return status;
-}
 
 /* --- text and JSON ------------------------------------------------------------------------------------------------ */
 
@@ -423,7 +423,7 @@ static int scene_info(FILE *out, const options *o, const file_bytes *file, repor
     if (!model_read(&m, o->path, o->scene, file->data, file->size, &notes, r))
         return 0;
     int ok = summarize(&s, &m) || report_fail(r, "%s: memory is short for its materials", o->path);
-    if (ok)
+    if (ok && !o->is_quiet)
         (o->json ? json_scene : text_scene)(out, o->path, &m, &s, &notes);
     model_free(&m);
     return ok;
@@ -535,7 +535,8 @@ static int picture_info(FILE *out, const options *o, const file_bytes *file, rep
     memset(&p, 0, sizeof p);
     if (!measure_picture(&p, file, o->path, r))
         return 0;
-    (o->json ? json_picture : text_picture)(out, o->path, &p);
+    if (!o->is_quiet)
+        (o->json ? json_picture : text_picture)(out, o->path, &p);
     return 1;
 }
 
@@ -553,44 +554,27 @@ static int file_info(FILE *out, const options *o, report *r)
 
 /* --- the command -------------------------------------------------------------------------------------------------- */
 
-static int parse_options(options *o, FILE *err, int argc, char **argv)
-{
-    memset(o, 0, sizeof *o);
-    for (int i = 1; i < argc && !o->help; ++i) {
-        if (!strcmp(argv[i], "--json"))
-            o->json = 1;
-        else if (!strcmp(argv[i], "--help"))
-            o->help = 1;
-        else if (!strcmp(argv[i], "--scene") && i + 1 < argc)
-            o->scene = argv[++i];
-        else if (!strcmp(argv[i], "--scene"))
-            return complain(err, INFO_USAGE, "--scene: a scene's name or number is missing");
-        else if (argv[i][0] == '-')
-            return complain(err, INFO_USAGE, "unknown option '%s'; see lambent info --help", argv[i]);
-        else if (o->path)
-            return complain(err, INFO_USAGE, "a second file '%s'; one is described at a time", argv[i]);
-        else
-            o->path = argv[i];
-    }
-    if (!o->path && !o->help)
-        return complain(err, INFO_USAGE, "a scene or picture is needed; see lambent info --help");
-    return INFO_OK;
-}
-
 int info_to(FILE *out, FILE *err, int argc, char **argv)
 {
     report r = {""};
     options o;
-    const int status = parse_options(&o, err, argc, argv);
-    if (status != INFO_OK)
-        return status;
-    if (o.help)
-        fputs(help_text, out);
-    else if (!file_info(out, &o, &r))
-        return complain(err, INFO_FAILED, "%s", r.text);
-    if (fflush(out) != 0 || ferror(out))
-        return complain(err, INFO_FAILED, "the figures could not be written");
-    return INFO_OK;
+    memset(&o, 0, sizeof o);
+    int asked = options_parse(&o, &table, argc, argv, &r);
+    if (asked == OPTIONS_RUN && o.path == NULL) {
+        asked = report_fail(&r, "a scene or picture is needed; see lambent info --help");
+    }
+    if (asked != OPTIONS_RUN) {
+        return options_answer_to(out, err, asked, &table, &r);
+    }
+    const double start = host_seconds();
+    int ok = file_info(out, &o, &r);
+    ok = ok && ((fflush(out) == 0 && !ferror(out)) || report_fail(&r, "the figures could not be written"));
+    if (ok && o.is_verbose) {
+        fprintf(err, "lambent: read in %.1f ms\n", (host_seconds() - start) * 1e3);
+    } else if (!ok) {
+        fprintf(err, "lambent info: %s\n", r.text);
+    }
+    return ok ? INFO_OK : INFO_FAILED;
 }
 
 int verb_info(int argc, char **argv) { return info_to(stdout, stderr, argc, argv); }

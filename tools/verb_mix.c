@@ -60,49 +60,49 @@ int mix_find_planes(mix_job *j, report *r)
 
 /* --- the whole ---------------------------------------------------------------------------------------------------- */
 
-/* NaN: no pixel of the foot has a depth. */
-static void tell_gap(const mix_job *j)
-{
-    if (isnan(j->gap_m)) {
-        fputs("where no depth was measured", stderr);
-    } else {
-        fprintf(stderr, "within %.1f mm of the measured depth", 1000.0 * fabs((double)j->gap_m));
-    }
-}
-
 static void tell_place(const mix_job *j)
 {
-    const float near = -j->anchor.z;
+    const double near = -(double)j->anchor.z;
+    char gap[64] = "where no depth was measured"; /* NaN: no pixel of the foot has one */
+    if (!isnan(j->gap_m)) {
+        snprintf(gap, sizeof gap, "within %.1f mm of the measured depth", 1000.0 * fabs((double)j->gap_m));
+    }
     if (j->floor < 0) {
-        fprintf(stderr, "lambent: the object stands on no plane, %.2f m away, ", (double)near);
-        tell_gap(j);
-        fputc('\n', stderr);
+        report_note(j->o.is_quiet, "the object stands on no plane, %.2f m away, %s", near, gap);
         return;
     }
     const lmb_flat *p = &j->planes.plane[j->floor];
-    fprintf(stderr, "lambent: %d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, ",
-            (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
-            (double)(p->high[1] - p->low[1]), (double)near);
-    tell_gap(j);
-    fprintf(stderr, "; --scale %.4g\n", (double)j->scale);
-    if (!j->faces_up) {
-        fprintf(stderr, "lambent: no plane faces up; that is the largest, a wall or a ceiling that faces "
-                        "%.2f,%.2f,%.2f; --at X,Y names another, --show planes shows them\n",
+    report_note(j->o.is_quiet, "%d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
+                (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
+                (double)(p->high[1] - p->low[1]), near, gap, (double)j->scale);
+    report_note(j->o.is_quiet || j->faces_up,
+                "no plane faces up; that is the largest, a wall or a ceiling that faces %.2f,%.2f,%.2f; --at X,Y names "
+                "another, --show planes shows them",
                 (double)p->normal.x, (double)p->normal.y, (double)p->normal.z);
-    }
 }
 
 static void tell(const mix_job *j)
 {
     for (uint32_t i = 0; i < j->notes.count; ++i) {
-        fprintf(stderr, "lambent: note: %s\n", j->notes.line[i]);
+        report_note(j->o.is_quiet, "note: %s", j->notes.line[i]);
     }
     if (j->o.object == NULL || j->o.at == MIX_AT_WORLD) {
         return;
     }
     tell_place(j);
-    if (!j->inside) {
-        fputs("lambent: part of the object is off the picture; --at X,Y sets its place and --scale its size\n", stderr);
+    report_note(j->o.is_quiet || j->inside,
+                "part of the object is off the picture; --at X,Y sets its place and --scale its size");
+}
+
+static void tell_times(const mix_job *j)
+{
+    const struct stage {
+        const char *name;
+        double s;
+    } stages[] = {{"reading", j->read_s}, {"planes", j->planes_s}, {"place", j->place_s},
+                  {"light", j->light_s},  {"voxels", j->voxels_s}, {"picture", j->draw_s}};
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
+        report_note(!j->o.is_verbose, "%-8s %8.1f ms", stages[i].name, stages[i].s * 1e3);
     }
 }
 
@@ -175,6 +175,7 @@ static int mix(mix_job *j, report *r)
         return 0;
     }
     tell(j);
+    tell_times(j);
     return picture_write(j->o.out, &j->picture, exposure(j), r) && (j->o.stats == NULL || write_stats(j, r));
 }
 
@@ -186,14 +187,10 @@ int verb_mix(int argc, char **argv)
         report_fail(&r, "out of memory");
         return report_end(&r, "mix", 1);
     }
-    if (!mix_options_parse(&j->o, argc, argv, &r)) {
+    const int asked = mix_options_parse(&j->o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
         free(j);
-        return report_end(&r, "mix", 2);
-    }
-    if (j->o.help) {
-        fputs(mix_help, stdout);
-        free(j);
-        return 0;
+        return options_answer(asked, &mix_table, &r);
     }
     const int ok = mix(j, &r);
     mix_job_free(j);

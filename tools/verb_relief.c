@@ -11,37 +11,8 @@
 #include "picture.h"
 #include "relief_compare.h"
 #include "relief_model.h"
+#include "relief_options.h"
 #include "view_options.h"
-
-static const char help_text[] =
-    "usage: lambent relief bake MODEL -o OUT.lmr [options]     see lambent relief bake --help\n"
-    "       lambent relief render FILE.lmr -o IMG [options]\n"
-    "\n"
-    "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of it.\n"
-    "\n"
-    "view\n"
-    "  --eye X,Y,Z --target X,Y,Z --up X,Y,Z --fov DEG    (default: the whole model from a little above)\n"
-    "  --size WxH                 (default 640x480)\n"
-    "surface\n"
-    "  --pick p|eye-ray           which candidate wins: nearest to the simple surface (default), or to the eye's ray\n"
-    "  --sampling bilinear|nearest\n"
-    "  --steps N                  looks a pixel takes, 1 .. 32 (default 6); 1: once, from the simple surface\n"
-    "  --looks N                  views a pixel looks at, 1 .. 8 (default 6)\n"
-    "  --keep N                   of which the best are blended, 1 .. 3 (default 3)\n"
-    "light\n"
-    "  --light spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]   (default: a sun from the upper right)\n"
-    "  --light-map N              texels a side of its shadow map, a multiple of 8 (default 1024); 0: no shadows\n"
-    "  --ambient E                irradiance from everywhere, W/m2 (default 0.3)\n"
-    "  --with SCENE               other geometry in the same picture: both shadow and hide each other\n"
-    "  --bounce                   light once reflected, too, by the other geometry and the simple model\n"
-    "output\n"
-    "  -o IMG                     .png .ppm .pfm .hdr\n"
-    "  --show full|depth|normal|albedo|lit\n"
-    "  --exposure EV              stops (default 0)\n"
-    "  --compare MODEL            draws the complex model too, and prints speed and errors side by side\n"
-    "  --backend NAME             scalar, sse2, avx2, avx512, neon, simd128: this machine's best by default\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage\n";
 
 enum { BOUNCE_MAP = 256 }; /* texels a side */
 enum { SHOW_FULL, SHOW_DEPTH, SHOW_NORMAL, SHOW_ALBEDO, SHOW_LIT };
@@ -51,100 +22,82 @@ typedef struct options {
     view_options view;
     lmb_relief_how how;
     lmb_light light;
-    int has_light, bounce, help;
+    int32_t has_light, bounce;
     int32_t light_map, show;
-    float ambient, exposure_ev;
+    float ambient, exposure_ev; /* NaN: chosen by the picture */
     const lmb_kernels *kernels;
 } options;
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
 
-static int parse_out(const char *text, options *o) { return picture_format(o->out = text) != PICTURE_UNKNOWN; }
-static int parse_compare(const char *text, options *o) { return (o->compare = text)[0] != '\0'; }
-static int parse_with(const char *text, options *o) { return (o->with = text)[0] != '\0'; }
-static int parse_eye(const char *text, options *o) { return o->view.has_eye = option_vec3(text, &o->view.eye); }
-static int parse_target(const char *text, options *o)
-{
-    return o->view.has_target = option_vec3(text, &o->view.target);
-}
-static int parse_up(const char *text, options *o) { return option_vec3(text, &o->view.up); }
-static int parse_fov(const char *text, options *o) { return view_option_fov(text, &o->view); }
-static int parse_size(const char *text, options *o) { return option_size(text, &o->view.width, &o->view.height); }
-static int parse_steps(const char *text, options *o) { return option_int(text, 1, 32, &o->how.steps); }
-static int parse_looks(const char *text, options *o) { return option_int(text, 1, LMB_RELIEF_LOOKS, &o->how.views); }
-static int parse_keep(const char *text, options *o) { return option_int(text, 1, 3, &o->how.keep); }
-static int parse_light(const char *text, options *o) { return o->has_light = option_light(text, &o->light); }
-static int parse_ambient(const char *text, options *o) { return option_number(text, 0.0f, 1e6f, &o->ambient); }
-static int parse_exposure(const char *text, options *o) { return option_number(text, -64.0f, 64.0f, &o->exposure_ev); }
-static int parse_backend(const char *text, options *o) { return (o->kernels = lmb_kernels_named(text)) != NULL; }
+static const char *const picks[] = {"p", "eye-ray", NULL}; /* in the order of LMB_RELIEF_ */
+static const char *const samplings[] = {"bilinear", "nearest", NULL};
+static const char *const shows[] = {"full", "depth", "normal", "albedo", "lit", NULL}; /* in the order of SHOW_ */
 
-static int parse_light_map(const char *text, options *o)
-{
-    return option_int(text, 0, LMB_MAX_SIDE, &o->light_map) && o->light_map % LMB_TILE == 0;
-}
+#define AT(member) .at = offsetof(options, member)
 
-static int parse_pick(const char *text, options *o)
-{
-    static const char *const words[] = {"p", "eye-ray", NULL}; /* in the order of LMB_RELIEF_ */
-    return option_word(text, words, NULL, &o->how.pick);
-}
-
-static int parse_sampling(const char *text, options *o)
-{
-    static const char *const words[] = {"bilinear", "nearest", NULL};
-    return option_word(text, words, NULL, &o->how.sampling);
-}
-
-static int parse_show(const char *text, options *o)
-{
-    static const char *const words[] = {"full", "depth", "normal", "albedo", "lit", NULL}; /* in the order of SHOW_ */
-    return option_word(text, words, NULL, &o->show);
-}
-
-static const struct flag {
-    option_name of;
-    int (*parse)(const char *text, options *o);
-} flags[] = {
-    {{"-o", "a file name ending in .png, .ppm, .pfm or .hdr"}, parse_out},
-    {{"--eye", "X,Y,Z"}, parse_eye},
-    {{"--target", "X,Y,Z"}, parse_target},
-    {{"--up", "X,Y,Z"}, parse_up},
-    {{"--fov", "degrees over 0 and under 179"}, parse_fov},
-    {{"--size", "WxH, each 1 .. 8192"}, parse_size},
-    {{"--pick", "p or eye-ray"}, parse_pick},
-    {{"--sampling", "bilinear or nearest"}, parse_sampling},
-    {{"--steps", "1 .. 32"}, parse_steps},
-    {{"--looks", "1 .. 8"}, parse_looks},
-    {{"--keep", "1 .. 3"}, parse_keep},
-    {{"--light", "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]"}, parse_light},
-    {{"--light-map", "a multiple of 8, 0 .. 8192"}, parse_light_map},
-    {{"--ambient", "0 or more"}, parse_ambient},
-    {{"--with", "a scene's file"}, parse_with},
-    {{"--show", "full, depth, normal, albedo or lit"}, parse_show},
-    {{"--exposure", "-64 .. 64"}, parse_exposure},
-    {{"--compare", "a model's file"}, parse_compare},
-    {{"--backend", "scalar, sse2, avx2, avx512, neon or simd128, as far as this machine has it"}, parse_backend},
+static const option_row rows[] = {
+    {.name = "FILE.lmr", .kind = OPTION_TEXT, .value = "", AT(file), .help = "what `lambent relief bake` made"},
+    {.kind = OPTION_TITLE, .help = "view"},
+    VIEW_OPTION_SIZE(options, view, "px (default 640x480)"),
+    VIEW_OPTIONS_CAMERA(options, view, "where the camera stands (default: the whole model from a little above)"),
+    {.kind = OPTION_TITLE, .help = "surface"},
+    {.name = "--pick", .kind = OPTION_WORD, AT(how.pick), .words = picks,
+     .help = "which candidate wins: nearest to the simple surface (default), or to the eye's ray"},
+    {.name = "--sampling", .kind = OPTION_WORD, AT(how.sampling), .words = samplings,
+     .help = "of the views' texels (default bilinear)"},
+    RELIEF_OPTIONS_LOOK(options),
+    {.kind = OPTION_TITLE, .help = "light"},
+    {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(options, has_light),
+     .help = "KIND is spot, point or sun (default: a sun from the upper right)"},
+    {.name = "--light-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(light_map), .low = 0, .high = LMB_MAX_SIDE,
+     .help = "texels a side of its shadow map (default 1024); 0: no shadows"},
+    {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
+     .help = "irradiance from everywhere, W/m2 (default 0.3)"},
+    {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with),
+     .help = "other geometry in the same picture: both shadow and hide each other"},
+    {.name = "--bounce", .kind = OPTION_FLAG, AT(bounce),
+     .help = "light once reflected, too, by the other geometry and the simple model"},
+    {.kind = OPTION_TITLE, .help = "output"},
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+     .help = ".png .ppm .pfm .hdr"},
+    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .help = "(default full)"},
+    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
+     .wants = OPTION_STOPS_WANTS, .help = "stops, display formats only (default 0)"},
+    {.name = "--compare", .value = "MODEL", .kind = OPTION_TEXT, AT(compare),
+     .help = "draws the complex model too, and prints speed and errors side by side"},
+    OPTION_BACKEND_ROW(options, kernels),
+    OPTION_LOUDNESS(options, view.is_quiet, view.is_verbose, "say how long what took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
 };
 
-static int parse_one(options *o, char **argv, int *at, report *r)
-{
-    if (strcmp(argv[*at], "--help") == 0 || strcmp(argv[*at], "-h") == 0) {
-        return o->help = 1;
-    }
-    if (strcmp(argv[*at], "--bounce") == 0) {
-        return o->bounce = 1;
-    }
-    if (argv[*at][0] != '-') {
-        if (o->file != NULL) {
-            return report_fail(r, "one relief at a time: %s and %s", o->file, argv[*at]);
-        }
-        o->file = argv[*at];
-        return 1;
-    }
-    const int f = option_find(flags, sizeof *flags, sizeof flags / sizeof *flags, argv, *at, r);
-    ++*at;
-    return f >= 0 && (flags[f].parse(argv[*at], o) || option_refuse(&flags[f].of, argv[*at], r));
-}
+#define TENT \
+    "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n" \
+    "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n" \
+    "    lambent relief bake tent.obj --size 64 --triangles 8 -o tent.lmr\n"
+
+static const option_table table = {
+    .verb = "relief render",
+    .usage = "relief render FILE.lmr -o OUT [options]",
+    .about = "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+             "it.",
+    .part = {rows},
+    .examples = "  a tent, its relief and a picture of that:\n" TENT
+                "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
+};
+
+static const option_row ask_rows[] = {OPTION_ASK, {.kind = OPTION_END}};
+
+static const option_table both_table = {
+    .verb = "relief",
+    .usage = "relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr -o OUT [options]",
+    .about = "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+             "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help.",
+    .part = {ask_rows},
+    .examples = "  a tent, its relief and a picture of that:\n" TENT
+                "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
+};
 
 static int parse(options *o, int argc, char **argv, report *r)
 {
@@ -153,19 +106,20 @@ static int parse(options *o, int argc, char **argv, report *r)
     o->light_map = 1024;
     o->ambient = 0.3f;
     o->kernels = lmb_kernels_pick();
-    for (int i = 1; i < argc && !o->help; ++i) {
-        if (!parse_one(o, argv, &i, r)) {
-            return 0;
-        }
+    const int asked = options_parse(o, &table, argc, argv, r);
+    if (asked != OPTIONS_RUN) {
+        return asked;
     }
-    if (!o->help && o->file == NULL) {
+    if (o->file == NULL) {
         return report_fail(r, "no relief given; lambent relief bake makes one");
     }
     if (o->compare != NULL && o->with != NULL) {
         return report_fail(r, "--compare draws the complex model alone: without --with");
     }
-    return o->help || ((o->out != NULL || report_fail(r, "no output given; add -o FILE.png")) &&
-                       view_options_check(&o->view, r));
+    if (o->out == NULL) {
+        return report_fail(r, "no output given; add -o FILE.png");
+    }
+    return view_options_check(&o->view, r) ? OPTIONS_RUN : OPTIONS_BAD;
 }
 
 /* --- work --------------------------------------------------------------------------------------------------------- */
@@ -262,7 +216,7 @@ static int write_frame(const options *o, relief_frame *f, report *r)
 {
     show(f, o->show);
     const image out = {f->width, f->height, 3, f->rgb};
-    const float ev = o->show == SHOW_DEPTH ? picture_auto_exposure(&out) : o->exposure_ev;
+    const float ev = o->show == SHOW_DEPTH || isnan(o->exposure_ev) ? picture_auto_exposure(&out) : o->exposure_ev;
     return picture_write(o->out, &out, ev, r);
 }
 
@@ -335,7 +289,11 @@ static int render(work *w, options *o, report *r)
     if (!relief_shoot(&f, &shot, r)) {
         return 0;
     }
-    tell(&f);
+    if (!o->view.is_quiet) {
+        tell(&f);
+    }
+    report_note(!o->view.is_verbose, "light's map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
+                1e3 * f.draw_s, 1e3 * f.band_s);
     const int ok = (o->compare == NULL || compare(w, shot, &f, r)) && write_frame(o, &f, r);
     relief_frame_free(&f);
     return ok;
@@ -345,12 +303,9 @@ static int verb_render_relief(int argc, char **argv)
 {
     report r = {""};
     options o;
-    if (!parse(&o, argc, argv, &r)) {
-        return report_end(&r, "relief render", 2);
-    }
-    if (o.help) {
-        fputs(help_text, stdout);
-        return 0;
+    const int asked = parse(&o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &table, &r);
     }
     work *w = calloc(1, sizeof *w);
     const int ok = w != NULL ? render(w, &o, &r) : report_fail(&r, "out of memory");
@@ -368,7 +323,11 @@ int verb_relief(int argc, char **argv)
     if (argc >= 2 && strcmp(argv[1], "render") == 0) {
         return verb_render_relief(argc - 1, argv + 1);
     }
-    const int help = argc >= 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
-    fputs(help ? help_text : "lambent relief: bake or render? lambent relief --help tells\n", help ? stdout : stderr);
-    return help ? 0 : 2;
+    report r = {""};
+    const int asked = options_parse(NULL, &both_table, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &both_table, &r);
+    }
+    report_fail(&r, "bake or render? lambent relief --help tells");
+    return report_end(&r, "relief", 2);
 }

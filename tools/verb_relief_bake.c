@@ -3,106 +3,75 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../platform/host/host.h"
 #include "enclose.h"
 #include "model.h"
-#include "option_value.h"
 #include "relief_bake.h"
 #include "relief_model.h"
+#include "relief_options.h"
 #include "relief_photos.h"
 #include "verb_relief.h"
 
-static const char help_text[] =
-    "usage: lambent relief bake MODEL -o OUT.lmr [options]\n"
-    "       lambent relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]\n"
-    "\n"
-    "Views of a complex model, for drawing it as a simple one that carries its surface.\n"
-    "\n"
-    "  -o FILE               what `lambent relief render` draws, in place from flash too\n"
-    "  --views N             from N sides: 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64\n"
-    "          greedy:N      of 98 sides the N that see most\n"
-    "          FILE          cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, target, degrees)\n"
-    "  --size PX             texels of a view's side, 8 .. 4096 (default 256)\n"
-    "  --packed              6 bytes a texel instead of 12: 16 bits of depth, 5 6 5 of colour, 2 x 8 of normal\n"
-    "  --triangles N         of the simple model (default 3000), made by edge collapse so that it encloses the\n"
-    "                        complex one; what sticks out of it is cut off\n"
-    "  --simple FILE         a simple model of your own, near to the complex one; moved out where that sticks out\n"
-    "  --as-is               leaves it as it is\n"
-    "\n"
-    "  --frame PREFIX        a photo as a view: PREFIX.color.png, .depth.png, .json, as `lambent mix --help` tells,\n"
-    "                        with camera_to_world where there are several (y down). `render --show albedo` shows it\n"
-    "  --block M             its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)\n"
-    "\n"
-    "Meshes without normals get smooth ones. Says how much of the surface no view sees: that will be filled with the\n"
-    "simple model's.\n"
-    "\n"
-    "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage\n";
-
 typedef struct options {
     const char *model, *out, *simple, *views_file;
-    int32_t views, size, triangles, greedy, format;
-    int as_is, help;
+    int32_t views, size, triangles, greedy, is_packed;
+    int as_is, is_quiet, is_verbose;
     const char *frame[LMB_RELIEF_VIEWS]; /* photos' */
     int32_t frames;
     float block;
 } options;
 
-static int parse_out(const char *text, options *o) { return (o->out = text)[0] != '\0'; }
-static int parse_simple(const char *text, options *o) { return (o->simple = text)[0] != '\0'; }
-static int parse_size(const char *text, options *o) { return option_int(text, 8, 4096, &o->size); }
-static int parse_block(const char *text, options *o) { return option_number(text, 1e-4f, 1e4f, &o->block); }
-static int parse_frame(const char *text, options *o)
+static int parse_views(const char *text, void *at)
 {
-    return text[0] != '\0' && o->frames < LMB_RELIEF_VIEWS && (o->frame[o->frames++] = text) != NULL;
-}
-static int parse_triangles(const char *text, options *o) { return option_int(text, 4, 10000000, &o->triangles); }
-
-static int parse_views(const char *text, options *o)
-{
-    o->greedy = strncmp(text, "greedy:", 7) == 0;
+    options *o = at;
     o->views_file = NULL;
-    if (option_int(text + 7 * o->greedy, 1, LMB_RELIEF_VIEWS, &o->views)) {
+    if (relief_option_views(text, &o->views, &o->greedy)) {
         return 1;
     }
     o->views_file = text;
     return !o->greedy && text[0] != '\0' && strspn(text, "-0123456789") != strlen(text);
 }
 
-static const struct flag {
-    option_name of;
-    int (*parse)(const char *text, options *o);
-} flags[] = {
-    {{"-o", "a file name"}, parse_out},
-    {{"--views", "1 .. 64, greedy:N, or a file of cameras"}, parse_views},
-    {{"--size", "8 .. 4096"}, parse_size},
-    {{"--triangles", "4 .. 10000000"}, parse_triangles},
-    {{"--simple", "a model's file"}, parse_simple},
-    {{"--frame", "a photo's PREFIX, at most 64 times"}, parse_frame},
-    {{"--block", "metres, 0.0001 .. 10000"}, parse_block},
+#define AT(member) .at = offsetof(options, member)
+
+static const option_row rows[] = {
+    {.name = "MODEL", .kind = OPTION_TEXT, .value = "", AT(model), .help = ".gltf .glb .obj .ply"},
+    {.name = "-o", .value = "OUT.lmr", .kind = OPTION_TEXT, AT(out),
+     .help = "what `lambent relief render` draws, in place from flash too"},
+    {.name = "--views", .value = "N|greedy:N|FILE", .kind = OPTION_OWN, .parse = parse_views,
+     .wants = "1 .. 64, greedy:N, or a file of cameras",
+     .help = "N: from N sides; 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64;\n"
+             "greedy:N: of 98 sides the N that see most;\n"
+             "FILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, target, degrees)"},
+    RELIEF_OPTIONS_BAKE(options),
+    {.name = "--simple", .value = "FILE", .kind = OPTION_TEXT, AT(simple),
+     .help = "a simple model of your own, near to the complex one; moved out where that sticks out"},
+    {.name = "--as-is", .kind = OPTION_FLAG, AT(as_is), .help = "leaves it as it is"},
+    {.kind = OPTION_TITLE, .help = "photos"},
+    {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(frame), .counts = offsetof(options, frames),
+     .times = LMB_RELIEF_VIEWS, .size = sizeof(const char *),
+     .help = "a photo as a view: PREFIX.color.png, .depth.png, .json, as `lambent mix --help` tells, with "
+             "camera_to_world where there are several (y down). `render --show albedo` shows it"},
+    {.name = "--block", .value = "M", .kind = OPTION_NUMBER, AT(block), .low = 1e-4, .high = 1e4,
+     .help = "its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)"},
+    {.kind = OPTION_TITLE, .help = "other"},
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long what took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
 };
 
-static int parse_one(options *o, char **argv, int *at, report *r)
-{
-    if (strcmp(argv[*at], "--help") == 0 || strcmp(argv[*at], "-h") == 0) {
-        return o->help = 1;
-    }
-    if (strcmp(argv[*at], "--packed") == 0) {
-        o->format = LMB_RELIEF_PACKED;
-        return 1;
-    }
-    if (strcmp(argv[*at], "--as-is") == 0) {
-        return o->as_is = 1;
-    }
-    if (argv[*at][0] != '-') {
-        if (o->model != NULL) {
-            return report_fail(r, "one model at a time: %s and %s", o->model, argv[*at]);
-        }
-        o->model = argv[*at];
-        return 1;
-    }
-    const int f = option_find(flags, sizeof *flags, sizeof flags / sizeof *flags, argv, *at, r);
-    ++*at;
-    return f >= 0 && (flags[f].parse(argv[*at], o) || option_refuse(&flags[f].of, argv[*at], r));
-}
+static const option_table table = {
+    .verb = "relief bake",
+    .usage = "relief bake MODEL -o OUT.lmr [options]\n"
+             "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
+    .about = "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
+             "get smooth ones. Says how much of the surface no view sees: that will be filled with the simple model's.",
+    .part = {rows},
+    .examples = "  a tent and its relief:\n"
+                "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+                "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+                "    lambent relief bake tent.obj --size 64 --triangles 8 -o tent.lmr\n",
+};
 
 static int parse(options *o, int argc, char **argv, report *r)
 {
@@ -110,19 +79,17 @@ static int parse(options *o, int argc, char **argv, report *r)
     o->views = 26;
     o->size = 256;
     o->triangles = 3000;
-    o->format = LMB_RELIEF_FULL;
-    for (int i = 1; i < argc && !o->help; ++i) {
-        if (!parse_one(o, argv, &i, r)) {
-            return 0;
-        }
+    const int asked = options_parse(o, &table, argc, argv, r);
+    if (asked != OPTIONS_RUN) {
+        return asked;
     }
-    if (!o->help && (o->model != NULL) == (o->frames > 0)) {
+    if ((o->model != NULL) == (o->frames > 0)) {
         return report_fail(r, o->frames > 0 ? "a model or photos, not both" : "no model given");
     }
-    if (!o->help && o->as_is && o->simple == NULL) {
+    if (o->as_is && o->simple == NULL) {
         return report_fail(r, "--as-is needs --simple FILE");
     }
-    return o->help || o->out != NULL || report_fail(r, "no output given; add -o FILE.lmr");
+    return o->out != NULL ? OPTIONS_RUN : report_fail(r, "no output given; add -o FILE.lmr");
 }
 
 /* --- work --------------------------------------------------------------------------------------------------------- */
@@ -178,11 +145,9 @@ static int load_complex(work *w, const options *o, report *r)
     return 1;
 }
 
-static void tell_outside(double outside)
+static void tell_outside(double outside, const options *o)
 {
-    if (outside > 0.0) {
-        fprintf(stderr, "lambent: note: the complex model sticks out of the simple one by %.3g m\n", outside);
-    }
+    report_note(o->is_quiet || !(outside > 0.0), "note: the complex model sticks out of the simple one by %.3g m", outside);
 }
 
 /* The user's own; moved outwards, its vertices at one place become one. */
@@ -207,7 +172,7 @@ static int load_simple(work *w, const options *o, report *r)
     if (!(o->as_is ? mesh_outside : mesh_enclose)(&w->simple, &w->mesh, &outside, &held)) {
         return report_fail(r, "%s: out of memory", o->simple);
     }
-    tell_outside(outside);
+    tell_outside(outside, o);
     return 1;
 }
 
@@ -220,7 +185,7 @@ static int make_simple(work *w, const options *o, report *r)
     if (!simplify_mesh(&w->simple, &w->mesh, (uint32_t)o->triangles, SIMPLIFY_AROUND, &facts, r)) {
         return 0;
     }
-    tell_outside(facts.outside);
+    tell_outside(facts.outside, o);
     return 1;
 }
 
@@ -308,7 +273,7 @@ static int bake(work *w, const options *o, report *r)
     if (!file_can_write(o->out, r) || !load_complex(w, o, r) || !choose_views(w, o, r) || !make_simple(w, o, r)) {
         return 0;
     }
-    w->bake.format = o->format;
+    w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
     for (int32_t i = 0; i < w->views; ++i) {
         if (!relief_add(&w->bake, &w->scene, &w->view[i], r)) {
             return 0;
@@ -318,7 +283,9 @@ static int bake(work *w, const options *o, report *r)
         !file_write(o->out, w->file.data, w->file.size, r)) {
         return 0;
     }
-    tell(w, o, &coverage);
+    if (!o->is_quiet) {
+        tell(w, o, &coverage);
+    }
     return 1;
 }
 
@@ -348,14 +315,14 @@ static int bake_photos(work *w, const options *o, report *r)
 {
     relief_photo photo[LMB_RELIEF_VIEWS];
     memset(photo, 0, sizeof photo);
-    w->bake.format = o->format;
+    w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
     const int ok = file_can_write(o->out, r) && add_photos(w, o, photo, r) &&
                    relief_encode(&w->file, &w->bake, &w->simple, r) &&
                    file_write(o->out, w->file.data, w->file.size, r);
     for (int32_t i = 0; i < o->frames; ++i) {
         relief_photo_free(&photo[i]);
     }
-    if (ok) {
+    if (ok && !o->is_quiet) {
         printf("%s: %d photos on %u triangles, %.0f bytes\n", o->out, (int)o->frames,
                (unsigned)w->simple.triangle_count, (double)w->file.size);
     }
@@ -366,17 +333,16 @@ int verb_relief_bake(int argc, char **argv)
 {
     report r = {""};
     options o;
-    if (!parse(&o, argc, argv, &r)) {
-        return report_end(&r, "relief bake", 2);
-    }
-    if (o.help) {
-        fputs(help_text, stdout);
-        return 0;
+    const double start = host_seconds();
+    const int asked = parse(&o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &table, &r);
     }
     work *w = calloc(1, sizeof *w);
     const int ok = w != NULL ? (o.frames > 0 ? bake_photos : bake)(w, &o, &r) : report_fail(&r, "out of memory");
     if (w != NULL) {
         work_free(w);
     }
+    report_note(!ok || !o.is_verbose, "baked in %.1f s", host_seconds() - start);
     return ok ? 0 : report_end(&r, "relief bake", 1);
 }

@@ -1,9 +1,9 @@
 /* verb_relight.c: `lambent relight`: the light at a place of a world that was seen from another, and objects in it. */
 #include "verb_relight.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 
+#include "../platform/host/host.h"
 #include "picture.h"
 #include "relight_draw.h"
 #include "relight_light.h"
@@ -46,24 +46,32 @@ static int write_light(relight_light *w, const relight_options *o, lmb_vec3 at, 
 static int relight(relight_light *w, relight_options *o, report *r)
 {
     lmb_vec3 at = o->at[0];
-    if (!can_write(o, r) || !relight_light_make(w, o, r) || (o->object != NULL && !relight_draw(&at, w, o, r))) {
+    const int is_brief = !o->view.is_verbose;
+    const double start = host_seconds();
+    if (!can_write(o, r) || !relight_light_make(w, o, r)) {
         return 0;
     }
-    return (o->cube == NULL && o->map == NULL) || write_light(w, o, at, r);
+    const double made = host_seconds();
+    report_note(is_brief, "the world and its tables %10.1f ms", (made - start) * 1e3);
+    if (o->object != NULL && !relight_draw(&at, w, o, r)) {
+        return 0;
+    }
+    const double drawn = host_seconds();
+    report_note(is_brief || o->object == NULL, "objects and their picture %8.1f ms", (drawn - made) * 1e3);
+    if ((o->cube != NULL || o->map != NULL) && !write_light(w, o, at, r)) {
+        return 0;
+    }
+    report_note(is_brief, "light at the place %16.1f ms", (host_seconds() - drawn) * 1e3);
+    return 1;
 }
 
 int verb_relight(int argc, char **argv)
 {
     report r = {""};
     relight_options o;
-    if (!relight_options_parse(&o, argc, argv, &r)) {
-        return report_end(&r, "relight", 2);
-    }
-    if (o.help) {
-        for (int i = 0; i < RELIGHT_USAGE_PARTS; ++i) {
-            fputs(relight_usage[i], stdout);
-        }
-        return 0;
+    const int asked = relight_options_parse(&o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &relight_table, &r);
     }
     relight_light *w = calloc(1, sizeof *w);
     const int ok = w != NULL ? relight(w, &o, &r) : report_fail(&r, "out of memory");

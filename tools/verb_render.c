@@ -11,6 +11,7 @@
 #include "picture.h"
 #include "render_draw.h"
 #include "render_exposure.h"
+#include "render_verb.h"
 
 /* What is no light, for display formats. Reflectance, points and groups are in 0 .. 1 already. */
 static void grey_for_display(render_job *j)
@@ -21,9 +22,8 @@ static void grey_for_display(render_job *j)
     case SHOW_EYE_DISTANCE:
     case SHOW_LIGHT_DISTANCE:
         grey_distances(&j->linear, &near_m, &far_m);
-        if (far_m > 0.0f) {
-            fprintf(stderr, "lambent: from %.4g m (white) to %.4g m (dark grey)\n", (double)near_m, (double)far_m);
-        }
+        report_note(j->o.view.is_quiet || !(far_m > 0.0f), "from %.4g m (white) to %.4g m (dark grey)", (double)near_m,
+                    (double)far_m);
         break;
     case SHOW_OCCLUSION: grey_shares(&j->linear); break;
     case SHOW_NORMAL: grey_normals(&j->linear); break;
@@ -97,16 +97,38 @@ static int write_stats(const render_job *j, report *r)
     return file_write(j->o.stats, text, (size_t)n, r);
 }
 
-static void tell_demo(const render_job *j)
+static const char *stage_name(const render_job *j, int stage)
 {
     const char *name;
     lmb_render at = *j->render;
+    at.stage = stage;
+    lmb_render_progress(&name, &at);
+    return name;
+}
+
+/* --verbose: what it was drawn with, and how long it took. */
+static void tell_how(const render_job *j)
+{
+    const lmb_frame *f = &j->frame;
+    if (!j->o.view.is_verbose) {
+        return;
+    }
+    report_note(0, "%d threads of %s lanes; --light-map %d --tree %d --error %.3g --visible %.3g; %.0f KiB",
+                j->crew.threads, lmb_kernels_name(f->kernels), (int)f->light_map, (int)j->o.tree, (double)f->error,
+                (double)f->visible, (double)(j->bytes + j->many.bytes) / 1024.0);
+    report_note(0, "%-13s %8.1f ms", "reading", j->load_s * 1e3);
+    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+        report_note(0, "%-13s %8.1f ms", stage_name(j, i), j->crew.stage_s[i] * 1e3);
+    }
+    report_note(0, "%-13s %8.1f ms", "writing", j->write_s * 1e3);
+}
+
+static void tell_demo(const render_job *j)
+{
     printf("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->linear.width, (int)j->linear.height,
            (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        at.stage = i;
-        lmb_render_progress(&name, &at);
-        printf("  %-13s %8.1f ms\n", name, j->crew.stage_s[i] * 1e3);
+        printf("  %-13s %8.1f ms\n", stage_name(j, i), j->crew.stage_s[i] * 1e3);
     }
     printf("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
 }
@@ -140,7 +162,7 @@ static int save(render_job *j, report *r)
         if (!render_exposure(&ev, j, r)) {
             return 0;
         }
-        fprintf(stderr, "lambent: exposure %+.3g EV (auto)\n", (double)ev);
+        report_note(j->o.view.is_quiet, "exposure %+.3g EV (auto)", (double)ev);
     }
     return picture_write(j->o.out, &j->linear, ev, r);
 }
@@ -150,8 +172,8 @@ static void tell_loss(const render_job *j)
 {
     const double lost = j->stats.flux_lit - j->stats.flux_grouped;
     if ((j->frame.grouping.flags & LMB_ZONES_STRICT) && j->stats.groups > 0) {
-        fprintf(stderr, "lambent: note: --misfits drop lost %.3g %% of the light that bounces\n",
-                j->stats.flux_lit > 0.0 ? fmax(lost, 0.0) / j->stats.flux_lit * 100.0 : 0.0);
+        report_note(j->o.view.is_quiet, "note: --misfits drop lost %.3g %% of the light that bounces",
+                    j->stats.flux_lit > 0.0 ? fmax(lost, 0.0) / j->stats.flux_lit * 100.0 : 0.0);
     }
 }
 
@@ -159,9 +181,9 @@ static void tell_loss(const render_job *j)
 static void tell_regroups(const render_job *j)
 {
     if (j->stats.regroups > 0) {
-        fprintf(stderr,
-                "lambent: note: discs were grouped again %u time%s, each coarser, until --groups was enough: %u\n",
-                (unsigned)j->stats.regroups, j->stats.regroups == 1 ? "" : "s", (unsigned)j->stats.groups);
+        report_note(j->o.view.is_quiet,
+                    "note: discs were grouped again %u time%s, each coarser, until --groups was enough: %u",
+                    (unsigned)j->stats.regroups, j->stats.regroups == 1 ? "" : "s", (unsigned)j->stats.groups);
     }
 }
 
@@ -169,10 +191,10 @@ static void tell_regroups(const render_job *j)
 static void tell_full_cuts(const render_job *j)
 {
     if (j->stats.full_cuts > 0) {
-        fprintf(stderr,
-                "lambent: note: %.0f patches of pixels have coarser bounced light than asked for: %d nodes of the "
-                "light's tree were not enough (LMB_MAX_CUT); a smaller --tree or a larger --error asks for less\n",
-                (double)j->stats.full_cuts, LMB_MAX_CUT);
+        report_note(j->o.view.is_quiet,
+                    "note: %.0f patches of pixels have coarser bounced light than asked for: %d nodes of the light's "
+                    "tree were not enough (LMB_MAX_CUT); a smaller --tree or a larger --error asks for less",
+                    (double)j->stats.full_cuts, LMB_MAX_CUT);
     }
 }
 
@@ -193,10 +215,10 @@ static int run(render_job *j, report *r)
     tell_regroups(j);
     tell_full_cuts(j);
     if (j->stats.triangles_dropped > 0) {
-        fprintf(stderr, "lambent: note: %u triangles dropped: vertices not finite or over 2^20 m away\n",
-                (unsigned)j->stats.triangles_dropped);
+        report_note(j->o.view.is_quiet, "note: %u triangles dropped: vertices not finite or over 2^20 m away",
+                    (unsigned)j->stats.triangles_dropped);
     }
-    int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL;
+    const int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL && !j->o.view.is_quiet;
     if (demo && !measure_share(j, r)) {
         return 0;
     }
@@ -209,35 +231,11 @@ static int run(render_job *j, report *r)
     if (j->o.stats != NULL && !write_stats(j, r)) {
         return 0;
     }
+    tell_how(j);
     if (demo) {
         tell_demo(j);
     }
     return 1;
 }
 
-int verb_render(int argc, char **argv)
-{
-    report r = {""};
-    static render_job j; /* too large for a small stack: the options hold 64 lights */
-    memset(&j, 0, sizeof j);
-    if (!render_options_parse(&j.o, argc, argv, &r)) {
-        fprintf(stderr, "lambent render: %s\n", r.text);
-        return 2;
-    }
-    if (j.o.help) {
-        for (int i = 0; i < RENDER_USAGE_PARTS; ++i) {
-            fputs(render_usage[i], stdout);
-        }
-        return 0;
-    }
-    if (picture_format(j.o.out) == PICTURE_UNKNOWN) {
-        fprintf(stderr, "lambent render: %s: the name must end in .png, .ppm, .pfm or .hdr\n", j.o.out);
-        return 2;
-    }
-    int ok = run(&j, &r);
-    if (!ok) {
-        fprintf(stderr, "lambent render: %s\n", r.text);
-    }
-    render_job_free(&j);
-    return ok ? 0 : 1;
-}
+int verb_render(int argc, char **argv) { return render_verb(&render_table, argc, argv, run); }

@@ -2,7 +2,6 @@
 #include "view_options.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "option_value.h"
@@ -16,9 +15,10 @@ void view_options_init(view_options *out)
     out->fov_deg = 45.0f;
 }
 
-int view_option_fov(const char *text, view_options *o)
+int view_option_size(const char *text, void *at)
 {
-    return option_number(text, 0.0f, 178.999f, &o->fov_deg) && o->fov_deg > 0.0f;
+    view_options *o = at;
+    return option_size(text, &o->width, &o->height);
 }
 
 int view_options_check(const view_options *o, report *r)
@@ -79,10 +79,8 @@ int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char 
     v->eye.x = centre.x + away * v->back.x;
     v->eye.y = centre.y + away * v->back.y;
     v->eye.z = centre.z + away * v->back.z;
-    if (!o->is_quiet) {
-        fprintf(stderr, "lambent: no camera in %s: framing the scene from %.4g,%.4g,%.4g\n", name, (double)v->eye.x,
+    report_note(o->is_quiet, "no camera in %s: framing the scene from %.4g,%.4g,%.4g", name, (double)v->eye.x,
                 (double)v->eye.y, (double)v->eye.z);
-    }
     return 1;
 }
 

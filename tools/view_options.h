@@ -4,21 +4,33 @@
 
 #include <lambent/scene.h>
 
+#include "options.h"
 #include "report.h"
 
 typedef struct view_options {
     int32_t width, height; /* 0: default */
-    int has_eye, has_target;
+    int32_t has_eye, has_target;
     lmb_vec3 eye, target, up;
     float fov_deg;
-    int is_quiet; /* nothing is said on stderr */
+    int is_quiet, is_verbose; /* nothing but errors is said on stderr; also how long what took */
 } view_options;
 
 /* Up +Y, 45 degrees, nothing else chosen. */
 void view_options_init(view_options *out);
 
-/* --fov: over 0 and under 179. 1, or 0 where the text is none. */
-int view_option_fov(const char *text, view_options *o);
+/* Rows of --size, and of a camera of one's own: `view` is a view_options in a struct of the type. */
+int view_option_size(const char *text, void *at);
+#define VIEW_OPTION_SIZE(type, view, text)                                                                   \
+    {.name = "--size", .value = "WxH", .kind = OPTION_OWN, .at = offsetof(type, view), .parse = view_option_size, \
+     .wants = "WxH, each 1 .. 8192", .help = text}
+#define VIEW_OPTIONS_CAMERA(type, view, text)                                                                \
+    {.name = "--eye", .kind = OPTION_POINT, .at = offsetof(type, view.eye), .counts = offsetof(type, view.has_eye), \
+     .help = text},                                                                                          \
+    {.name = "--target", .kind = OPTION_POINT, .at = offsetof(type, view.target),                            \
+     .counts = offsetof(type, view.has_target), .help = "what it looks at"},                                 \
+    {.name = "--up", .kind = OPTION_POINT, .at = offsetof(type, view.up), .help = "what is up (default 0,1,0)"}, \
+    {.name = "--fov", .value = "DEG", .kind = OPTION_ABOVE, .at = offsetof(type, view.fov_deg), .low = 0.0,  \
+     .high = 178.999, .help = "its vertical angle, degrees (default 45)"}
 
 /* Does what was given go together? 1, or 0 with `r` set. */
 int view_options_check(const view_options *o, report *r);

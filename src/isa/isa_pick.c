@@ -36,28 +36,17 @@ static int has_avx2(void) { return processor_has(1u << 5, 0x06); }
 static int has_avx512(void) { return processor_has(1u << 5 | 1u << 16 | 1u << 17 | 1u << 30 | 1u << 31, 0xe6); }
 #endif
 static int has_always(void) { return 1; }
+#define has_sse2    has_always
+#define has_neon    has_always
+#define has_simd128 has_always
+#define has_scalar  has_always
 
-/* Fastest first. */
 static const struct machine {
     const lmb_kernels *kernels;
     int (*is_here)(void);
 } machines[] = {
-#if LMB_HAVE_AVX512
-    {&lmb_kernels_avx512, has_avx512},
-#endif
-#if LMB_HAVE_AVX2
-    {&lmb_kernels_avx2, has_avx2},
-#endif
-#if LMB_HAVE_SSE2
-    {&lmb_kernels_sse2, has_always},
-#endif
-#if LMB_HAVE_NEON
-    {&lmb_kernels_neon, has_always},
-#endif
-#if LMB_HAVE_SIMD128
-    {&lmb_kernels_simd128, has_always},
-#endif
-    {&lmb_kernels_scalar, has_always},
+#define MACHINE_OF(upper, lower) LMB_IF(LMB_HAVE_##upper, {&lmb_kernels_##lower, has_##lower}, )
+    LMB_BACKENDS(MACHINE_OF)
 };
 enum { MACHINES = sizeof machines / sizeof machines[0] };
 

@@ -368,7 +368,8 @@ struct lmb_kernels {
 };
 
 /* Those of this build: see machines.h. */
-extern const lmb_kernels lmb_kernels_scalar, lmb_kernels_sse2, lmb_kernels_avx2, lmb_kernels_avx512, lmb_kernels_neon,
-    lmb_kernels_simd128;
+#define LMB_KERNELS_OF(upper, lower) extern const lmb_kernels lmb_kernels_##lower;
+LMB_BACKENDS(LMB_KERNELS_OF)
+#undef LMB_KERNELS_OF
 
 #endif

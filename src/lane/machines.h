@@ -78,5 +78,16 @@
 #ifndef LMB_HAVE_SIMD128
 #define LMB_HAVE_SIMD128 LMB_MACHINE_WASM
 #endif
+#define LMB_HAVE_SCALAR 1
+
+/* Every backend, the fastest first: X(what LMB_HAVE_ is followed by, name). */
+#define LMB_BACKENDS(X) \
+    X(AVX512, avx512) X(AVX2, avx2) X(SSE2, sse2) X(NEON, neon) X(SIMD128, simd128) X(SCALAR, scalar)
+
+/* LMB_IF(LMB_HAVE_x, text): the text where the build has it. */
+#define LMB_IF_0(...)
+#define LMB_IF_1(...)            __VA_ARGS__
+#define LMB_IF_NOW(have, ...)    LMB_IF_##have(__VA_ARGS__)
+#define LMB_IF(have, ...)        LMB_IF_NOW(have, __VA_ARGS__)
 
 #endif

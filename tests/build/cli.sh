@@ -92,16 +92,17 @@ count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
 
 # More bounces add light, one is what there is without the option; what shines lights a scene without lamps.
 cut="--grouping cut --occlusion exact --light-map 32"
-status 0 render demo $small $cut -o "$dir/bounce.pfm"
-status 0 render demo $small $cut --bounces 1 -o "$dir/bounce1.pfm"
+coarse="--size 64x48 --exposure 0 $cut"
+status 0 render demo $coarse -o "$dir/bounce.pfm"
+status 0 render demo $coarse --bounces 1 -o "$dir/bounce1.pfm"
 check "--bounces 1 is the default" cmp "$dir/bounce.pfm" "$dir/bounce1.pfm"
-status 0 render demo $small $cut --bounces 3 --elements 200 --threads 2 -o "$dir/bounce3.pfm" --stats "$dir/bounce3.json"
+status 0 render demo $coarse --bounces 3 --elements 200 --threads 2 -o "$dir/bounce3.pfm" --stats "$dir/bounce3.json"
 check "--bounces 3 changes the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/bounce.pfm" "$dir/bounce3.pfm"
 check "--elements holds" test "$(count "$dir/bounce3.json" elements)" -le 256 -a "$(count "$dir/bounce3.json" elements)" -gt 16
-status 0 render demo $small $cut --bounces 3 --elements 256 --threads 1 -o "$dir/option.pfm"
+status 0 render demo $coarse --bounces 3 --elements 256 --threads 1 -o "$dir/option.pfm"
 check "threads do not change bounces" cmp "$dir/bounce3.pfm" "$dir/option.pfm"
 status 2 render demo $small --grouping zones --bounces 2 -o "$dir/option.pfm"
-status 2 render demo $small $cut --bounces 0 -o "$dir/option.pfm"
+status 2 render demo $coarse --bounces 0 -o "$dir/option.pfm"
 printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >"$dir/shine.mtl"
 printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
     'f 1 2 3 4' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shine.obj"
@@ -209,7 +210,7 @@ check "direct light knows no grouping" cmp "$dir/direct.pfm" "$dir/zones.pfm"
 status 2 render demo $small --profile fast -o "$dir/bad.pfm"
 for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
     for bounces in 1 3; do
-        how="demo $small --light $light --light-map 512 --show indirect --bounces $bounces"
+        how="demo --size 64x48 --exposure 0 --light $light --light-map 512 --show indirect --bounces $bounces"
         status 0 render $how --many-lights 4 --gather full --elements 65536 -o "$dir/elements.pfm"
         status 0 render $how -o "$dir/own.pfm"
         status 0 compare "$dir/elements.pfm" "$dir/own.pfm" --max trim=0.05
@@ -261,6 +262,69 @@ for file in one.obj demo.png demo.ppm demo.pfm; do
     status 0 info "$dir/$file" --json
     check "info $file --json is one line" test "$(wc -l <"$dir/out.txt")" -eq 1
     check "info $file --json is an object" grep -q '^{.*}$' "$dir/out.txt"
+done
+
+# One parser reads all command lines: `--name=value`, what is given twice, what may be meant, where options end.
+said() { check "lambent says: $1" grep -qF -e "$1" "$dir/err.txt"; }
+status 0 render demo --size=64x48 --light-map=64 --exposure=0 -o "$dir/inside.pfm"
+check "--name=value is --name value" cmp "$dir/demo.pfm" "$dir/inside.pfm"
+cp "$dir/one.obj" "$dir/-q.obj"
+(cd "$dir" && "$OLDPWD/$TOOL" info -- -q.obj >out.txt 2>err.txt)
+check "behind -- a word that begins with - is no option" grep -q '^triangles' "$dir/out.txt"
+status 2 render demo --visibel 0.1 -o "$dir/bad.png"
+said "unknown option --visibel; did you mean --visible?"
+status 2 render demo --vis=0.1 -o "$dir/bad.png"
+said "unknown option --vis; did you mean --visible?"
+status 2 render demo --nonsense -o "$dir/bad.png"
+said "unknown option --nonsense; lambent render --help lists them"
+status 2 bench demo --swep tree=8
+said "did you mean --sweep?"
+status 2 bench demo --lihgt-map 64
+said "did you mean --light-map?"
+status 2 rendr demo
+said "did you mean render?"
+status 2 render demo --size 64x48 --size 32x24 -o "$dir/bad.png"
+said "--size is given twice, 64x48 and 32x24; leave one out"
+status 2 render demo --glossy --glossy -o "$dir/bad.png"
+said "--glossy is given twice"
+status 2 bench demo --tree 8 --tree=16
+said "--tree is given twice"
+status 2 render demo --error 0.1 --error-bound 0.1 -o "$dir/bad.png"
+said "--error and --error-bound exclude each other"
+status 2 render demo -q -v -o "$dir/bad.png"
+said "--quiet and --verbose exclude each other"
+status 2 render demo --glossy=1 -o "$dir/bad.png"
+said "--glossy takes no value"
+status 2 render demo --tree=12 -o "$dir/bad.png"
+said "--tree: \`12\` is not a power of two, 8 .. 4096"
+status 2 render demo --tree
+said "--tree wants a value: a power of two, 8 .. 4096"
+status 2 render demo demo -o "$dir/bad.png"
+said "one word too many: SCENE is \`demo\`"
+status 2 render demo -o=bad.png
+absent "$dir/bad.png"
+# Quiet says nothing, verbose says more; both draw the same.
+status 0 render demo --size 64x48 --light-map 64 -o "$dir/loud.png"
+status 0 render demo --size 64x48 --light-map 64 -q -o "$dir/hushed.png"
+check "-q says nothing" sh -c '! test -s "$1" && ! test -s "$2"' sh "$dir/out.txt" "$dir/err.txt"
+status 0 render demo --size 64x48 --light-map 64 -v -o "$dir/told.png"
+check "-v says how long what took" grep -q '^lambent: bands .* ms$' "$dir/err.txt"
+check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh "$dir/loud.png" "$dir/hushed.png" "$dir/told.png"
+status 0 compare "$dir/demo.pfm" "$dir/again.pfm" -q
+check "compare -q is its exit status" sh -c '! test -s "$1"' sh "$dir/out.txt"
+for verb in render relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
+    "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix"; do
+    status 0 $verb -V
+    check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' "$dir/out.txt"
+    status 0 $verb -h
+    cp "$dir/out.txt" "$dir/help.txt"
+    check "$verb --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' "$dir/help.txt"
+    # What is pasted works: all lines below `examples` that begin with two blanks, but those that end in a colon.
+    mkdir -p "$dir/paste"
+    { printf 'set -e\nlambent() { "%s" "$@"; }\n' "$PWD/$TOOL"
+      sed -n '/^examples$/,/^exit status/{/^  .*[^:]$/p;}' "$dir/help.txt"; } >"$dir/paste/run.sh"
+    check "$verb --help has an example" test "$(grep -c . "$dir/paste/run.sh")" -gt 2
+    check "$verb --help's example works when pasted" sh -c 'cd "$1" && XDG_CACHE_HOME=. sh ./run.sh >said.txt 2>&1' sh "$dir/paste"
 done
 
 # Bad usage.
@@ -573,7 +637,7 @@ check "JSON has the settings" grep -q '"setting": "--tree 32", .*"same_bytes": n
 check "the page is whole, with pictures in it" sh -c 'tail -n 1 "$1" | grep -q "</html>$" && grep -q "src=\"data:image/png;base64,iVBOR" "$1"' sh "$dir/swept.html"
 check "the page asks for nothing else" sh -c '! grep -qE "<script|<link|url\(|src=\"[^d]" "$1"' sh "$dir/swept.html"
 check "SVG is whole" sh -c 'head -c 5 "$1" | grep -q "<svg " && tail -n 1 "$1" | grep -q "</svg>$"' sh "$dir/swept.svg"
-check "each setting has its command" grep -q '<pre>lambent render --show indirect --threads 1 --size 160x120 demo --size 24x16 --light-map 64 -o picture.pfm --tree 8$' "$dir/swept.html"
+check "each setting has its command" grep -q '<pre>lambent render --show indirect --threads 1 demo --size 24x16 --light-map 64 -o picture.pfm --tree 8$' "$dir/swept.html"
 check "the truth is kept, once" test "$(ls "$dir/kept" | wc -l)" -eq 1
 cp "$dir/kept/"*.pfm "$dir/truth24.pfm"
 status 0 bench $sweep --sweep tree=64 --light-map 64 --ledger 0
@@ -582,7 +646,7 @@ status 0 bench demo --runs 1 --light-map 64 --truth "$dir/truth24.pfm" --sweep t
 check "a truth of one's own gives the size" grep -q -- '--size 24x16' "$dir/out.txt"
 # Refused before the work, whole or not at all.
 status 1 bench demo --size 4000x4000 -o "$dir/no/such/folder"
-status 1 bench demo --size 24x16 --truth "$dir/truth24.pfm" --truth "$dir/nothing.pfm"
+status 1 bench demo --size 24x16 --truth "$dir/nothing.pfm"
 status 1 bench demo --size 32x16 --light-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 -o "$dir/unequal"
 absent "$dir/unequal.html"
 status 1 bench "$dir/nowhere.glb" -o "$dir/unequal"

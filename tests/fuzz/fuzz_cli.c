@@ -57,13 +57,14 @@ void fuzz_cli(const uint8_t *data, size_t size)
         *at = '\0';
     }
     argv[argc] = NULL;
-    if (parse(&out, verb, argc, argv, &r)) {
+    const int asked = parse(&out, verb, argc, argv, &r);
+    if (asked == OPTIONS_BAD) {
+        fuzz_failed(&r, "");
+    } else {
         fuzz_require(r.text[0] == '\0');
-        if (verb == 0 && !out.render.help) {
+        if (verb == 0 && asked == OPTIONS_RUN) {
             check_render(&out.render);
         }
-    } else {
-        fuzz_failed(&r, "");
     }
     free(text);
 }

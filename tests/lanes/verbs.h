@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "../../src/lane/machines.h"
+
 /* Pixels of an input, the widest machine's vector; as two rows in memory, values of both with what lies between. */
 enum { VERB_LANES = 16, VERB_SURFACE = 22, VERB_TABLE = 40 };
 
@@ -51,12 +53,10 @@ typedef struct verb_output {
     double d[VERB_D_COUNT][VERB_LANES];
 } verb_output;
 
-void verbs_scalar(verb_output *out, const verb_input *in);
-void verbs_sse2(verb_output *out, const verb_input *in);
-void verbs_avx2(verb_output *out, const verb_input *in);
-void verbs_avx512(verb_output *out, const verb_input *in);
-void verbs_neon(verb_output *out, const verb_input *in);
-void verbs_simd128(verb_output *out, const verb_input *in);
+/* verbs_sse2 ...: those of the build. */
+#define VERBS_OF(upper, lower) void verbs_##lower(verb_output *out, const verb_input *in);
+LMB_BACKENDS(VERBS_OF)
+#undef VERBS_OF
 
 /* Inputs of hard and of random values; each machine's rows against scalar's. `run` is called only where it can run. */
 void verbs_compare(const char *machine, void (*run)(verb_output *out, const verb_input *in));

@@ -342,8 +342,8 @@ static void errors(void)
 {
     check_status(INFO_USAGE, NULL, NULL, "a scene or picture is needed");
     check_status(INFO_USAGE, "--json", NULL, "a scene or picture is needed");
-    check_status(INFO_USAGE, "a.glb", "b.glb", "a second file 'b.glb'");
-    check_status(INFO_USAGE, "a.glb", "--jsn", "unknown option '--jsn'");
+    check_status(INFO_USAGE, "a.glb", "b.glb", "`b.glb` is one word too many: FILE is `a.glb`");
+    check_status(INFO_USAGE, "a.glb", "--jsn", "unknown option --jsn; did you mean --json?");
     check_status(INFO_FAILED, "no such file.glb", NULL, "no such file.glb");
     check_status(INFO_FAILED, "no such file.png", "--json", "no such file.png");
     check_status(INFO_FAILED, put_text("broken.png", "no picture"), NULL, "broken.png");

@@ -466,21 +466,26 @@ static void check_full_cut(test_rng *r)
 
 /* --- shadows ------------------------------------------------------------------------------------------------------ */
 
+static void table_over_floor(lmb_blockers *out)
+{
+    static uint64_t memory[1000];
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, -0.9f, -1), mul3(Z, 2), mul3(X, 2));
+    world_quad(vec3(0.1f, 0, -1), mul3(Z, 0.7f), mul3(X, 0.7f));
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_blockers_init(out, 4, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_blockers_build(out, &world.scene) == LMB_OK);
+}
+
 /* A plate over a floor, lights above and below it. */
 static void check_shadows(test_rng *r)
 {
-    static uint64_t memory[1000];
     static lmb_tile tile;
     lmb_blockers blockers;
     lmb_irradiance e;
     double want[LMB_TILE_PIXELS], worst = 0.0;
     grove g;
-    world_begin(0.5f, 0.5f, 0.5f);
-    world_quad(vec3(0, -0.9f, -1), mul3(Z, 2), mul3(X, 2));
-    world_quad(vec3(0.1f, 0, -1), mul3(Z, 0.7f), mul3(X, 0.7f));
-    CHECK(world_end() == LMB_OK);
-    CHECK(lmb_blockers_init(&blockers, 4, memory, sizeof memory) == LMB_OK);
-    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    table_over_floor(&blockers);
     make_lights(1000, r);
     grove_make(&g, 1500, 3000.0f, lights, 1000);
     for (int i = 0; i < 64; ++i) {
@@ -545,17 +550,11 @@ static void check_kinds(test_rng *r)
 {
     static const float asked[] = {0.01f, 0.04f};
     static const char *const names[] = {"spots", "mixed", "suns"};
-    static uint64_t memory[1000];
     static lmb_tile tile;
     lmb_blockers blockers;
     lmb_irradiance e;
     double want[LMB_TILE_PIXELS];
-    world_begin(0.5f, 0.5f, 0.5f);
-    world_quad(vec3(0, -0.9f, -1), mul3(Z, 2), mul3(X, 2));
-    world_quad(vec3(0.1f, 0, -1), mul3(Z, 0.7f), mul3(X, 0.7f));
-    CHECK(world_end() == LMB_OK);
-    CHECK(lmb_blockers_init(&blockers, 4, memory, sizeof memory) == LMB_OK);
-    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    table_over_floor(&blockers);
     for (int set = 0; set < 3; ++set) {
         grove g;
         uint32_t all = 0, taken[2] = {0, 0};

@@ -80,20 +80,26 @@ static uint64_t blocked_anew(const lmb_blockers *b, const lmb_tile *tile, uint64
     return lmb_blocked_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), &walk);
 }
 
+/* A few large triangles, or many smaller ones, or many small ones. */
+static lmb_blockers random_triangles(test_rng *r, int scene)
+{
+    const float size = scene % 3 == 0 ? 2.0f : scene % 3 == 1 ? 0.3f : 0.05f;
+    world_begin(1, 1, 1);
+    for (int i = 0; i < (scene % 3 == 0 ? 6 : 300); ++i) {
+        const lmb_vec3 at = random_point(r, 1.0f);
+        const lmb_vec3 b = add3(at, random_point(r, size)), c = add3(at, random_point(r, size));
+        world_triangle(at, b, c);
+    }
+    return blockers_of_world();
+}
+
 /* Random triangles of all sizes, tiles of all sizes: each pixel's answer is that of all triangles one by one. */
 static void every_triangle(void)
 {
     test_rng r = {77};
     int blocked = 0, open = 0, wrong = 0;
     for (int scene = 0; scene < 12; ++scene) {
-        const float size = scene % 3 == 0 ? 2.0f : scene % 3 == 1 ? 0.3f : 0.05f;
-        world_begin(1, 1, 1);
-        for (int i = 0; i < (scene % 3 == 0 ? 6 : 300); ++i) {
-            const lmb_vec3 at = random_point(&r, 1.0f);
-            const lmb_vec3 b = add3(at, random_point(&r, size)), c = add3(at, random_point(&r, size));
-            world_triangle(at, b, c);
-        }
-        lmb_blockers b = blockers_of_world();
+        lmb_blockers b = random_triangles(&r, scene);
         for (int round = 0; round < 40; ++round) {
             lmb_tile tile;
             const lmb_vec3 at = random_point(&r, 1.5f);
@@ -133,14 +139,7 @@ static void every_triangle_of_suns(void)
     test_rng r = {78};
     int blocked = 0, open = 0, wrong = 0;
     for (int scene = 0; scene < 12; ++scene) {
-        const float size = scene % 3 == 0 ? 2.0f : scene % 3 == 1 ? 0.3f : 0.05f;
-        world_begin(1, 1, 1);
-        for (int i = 0; i < (scene % 3 == 0 ? 6 : 300); ++i) {
-            const lmb_vec3 at = random_point(&r, 1.0f);
-            const lmb_vec3 b = add3(at, random_point(&r, size)), c = add3(at, random_point(&r, size));
-            world_triangle(at, b, c);
-        }
-        lmb_blockers b = blockers_of_world();
+        lmb_blockers b = random_triangles(&r, scene);
         for (int round = 0; round < 40; ++round) {
             lmb_tile tile;
             const lmb_vec3 any = random_point(&r, 1.0f), to = round % 7 == 0 ? Y : mul3(any, 1.0f / length3(any));

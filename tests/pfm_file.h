@@ -1,0 +1,21 @@
+/* pfm_file.h: a picture that has to be there: one that cannot be read has failed. */
+#ifndef TEST_PFM_FILE_H
+#define TEST_PFM_FILE_H
+
+#include "../tools/image.h"
+#include "test.h"
+
+static inline int pfm_file(image *out, const char *path)
+{
+    file_bytes bytes;
+    report r = {""};
+    int ok = file_read(&bytes, path, &r);
+    if (ok) {
+        ok = pfm_decode(out, bytes.data, bytes.size, path, &r);
+        file_free(&bytes);
+    }
+    CHECK_MSG(ok, "%s", r.text);
+    return ok;
+}
+
+#endif

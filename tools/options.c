@@ -1,0 +1,316 @@
+/* options.c: reads command lines by a verb's table of options. The help is options_help.c's. */
+#include "options.h"
+
+#include <string.h>
+
+#include <lambent/lambent.h>
+
+#include "option_value.h"
+#include "options_table.h"
+
+/* --- rows --------------------------------------------------------------------------------------------------------- */
+
+const option_row *options_row(const option_table *t, int i)
+{
+    for (int part = 0; part < OPTION_PARTS && t->part[part] != NULL; ++part) {
+        for (const option_row *row = t->part[part]; row->kind != OPTION_END; ++row) {
+            if (i-- == 0) {
+                return row;
+            }
+        }
+    }
+    return NULL;
+}
+
+int options_has_value(const option_row *row) { return row->kind > OPTION_FLAG; }
+
+/* Is the word this name, alone or with `=value` behind it? */
+static int names(const char *name, const char *word)
+{
+    const size_t n = name != NULL ? strlen(name) : 0;
+    return n > 0 && strncmp(name, word, n) == 0 && (word[n] == '\0' || (word[n] == '=' && name[1] == '-'));
+}
+
+static int is_option(const option_row *row) { return row->name != NULL && row->name[0] == '-'; }
+
+/* Which row, or -1. */
+static int find(const option_table *t, const char *word)
+{
+    const option_row *row;
+    for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
+        if (is_option(row) && (names(row->name, word) || names(row->brief, word))) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+const option_row *options_find(const option_table *t, const char *word) { return options_row(t, find(t, word)); }
+
+int options_words(const option_row *row, const char *word)
+{
+    return options_has_value(row) && strchr(word, '=') == NULL ? 2 : 1;
+}
+
+int options_exclude(const option_row *a, const option_row *b)
+{
+    if (a->kind == OPTION_QUIET || b->kind == OPTION_QUIET) {
+        return a->kind == OPTION_VERBOSE || b->kind == OPTION_VERBOSE;
+    }
+    return a != b && a->at == b->at && options_has_value(a) && a->kind != OPTION_OWN && b->kind == a->kind;
+}
+
+/* --- names that nobody knows -------------------------------------------------------------------------------------- */
+
+enum { LETTERS = 40 };
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+int options_distance(const char *a, const char *b)
+{
+    int row[3][LETTERS + 1]; /* of the letters of `a` so far, and of one and two letters before */
+    const int n = (int)strlen(a), m = (int)strlen(b);
+    if (n > LETTERS || m > LETTERS) {
+        return LETTERS + 1;
+    }
+    for (int k = 0; k <= m; ++k) {
+        row[0][k] = k;
+    }
+    for (int i = 1; i <= n; ++i) {
+        int *now = row[i % 3];
+        const int *before = row[(i - 1) % 3], *two_before = row[(i + 1) % 3];
+        now[0] = i;
+        for (int k = 1; k <= m; ++k) {
+            now[k] = least(before[k - 1] + (a[i - 1] != b[k - 1]), least(before[k], now[k - 1]) + 1);
+            if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1]) {
+                now[k] = least(now[k], two_before[k - 2] + 1);
+            }
+        }
+    }
+    return row[n % 3][m];
+}
+
+/* The name that is most like the word, if any is like it: a third of its letters may differ, one at least, or its end be
+ * missing. */
+static const char *nearest(const option_table *const *tables, int count, const char *word)
+{
+    const int n = (int)strlen(word);
+    int best = n > 5 ? (n - 2) / 3 : 1;
+    const char *found = NULL;
+    for (int k = 0; k < count; ++k) {
+        const option_row *row;
+        for (int i = 0; (row = options_row(tables[k], i)) != NULL; ++i) {
+            if (!is_option(row)) {
+                continue;
+            }
+            const int begun = n > 4 && strncmp(row->name, word, (size_t)n) == 0;
+            const int far = begun ? 0 : options_distance(word, row->name);
+            if (far < best || (far == best && found == NULL)) {
+                best = far;
+                found = row->name;
+            }
+        }
+    }
+    return found;
+}
+
+int options_unknown(const option_table *const *tables, int count, const char *word, report *r)
+{
+    char name[LETTERS + 1];
+    const size_t n = strcspn(word, "=");
+    memcpy(name, word, n < LETTERS ? n : LETTERS);
+    name[n < LETTERS ? n : LETTERS] = '\0';
+    const char *meant = nearest(tables, count, name);
+    if (meant != NULL) {
+        return report_fail(r, "unknown option %s; did you mean %s?", name, meant);
+    }
+    return report_fail(r, "unknown option %s; lambent %s --help lists them", name, tables[0]->verb);
+}
+
+/* --- values ------------------------------------------------------------------------------------------------------- */
+
+static int store_int(const option_row *row, const char *text, int32_t *at)
+{
+    if (!option_int(text, (int32_t)row->low, (int32_t)row->high, at)) {
+        return 0;
+    }
+    return row->kind == OPTION_POWER_OF_2 ? (*at & (*at - 1)) == 0 : row->kind == OPTION_INT || *at % 8 == 0;
+}
+
+static int store_floats(const option_row *row, const char *text, float *at)
+{
+    const int count = row->kind == OPTION_NUMBERS ? (int)row->size : 1;
+    int ok = option_floats(&text, at, count) && *text == '\0';
+    for (int i = 0; i < count && ok; ++i) {
+        ok = at[i] <= (float)row->high && (row->kind == OPTION_ABOVE ? at[i] > (float)row->low : at[i] >= (float)row->low);
+    }
+    return ok;
+}
+
+/* 1, or 0 where the text is no such value. */
+static int store(const option_row *row, const char *text, void *at)
+{
+    switch (row->kind) {
+    case OPTION_TEXT: return (*(const char **)at = text)[0] != '\0';
+    case OPTION_INT:
+    case OPTION_POWER_OF_2:
+    case OPTION_MULTIPLE_OF_8: return store_int(row, text, at);
+    case OPTION_NUMBER:
+    case OPTION_ABOVE:
+    case OPTION_NUMBERS: return store_floats(row, text, at);
+    case OPTION_WORD: return option_word(text, row->words, row->values, at);
+    case OPTION_POINT: return option_vec3(text, at);
+    case OPTION_LIGHT: return option_light(text, at);
+    case OPTION_BACKEND: return (*(const lmb_kernels **)at = lmb_kernels_named(text)) != NULL;
+    default: return row->parse(text, at);
+    }
+}
+
+/* --- command lines ------------------------------------------------------------------------------------------------ */
+
+typedef struct line {
+    void *out;
+    const option_table *table;
+    char *const *argv;
+    int argc, at;
+    int32_t given[OPTION_ROWS]; /* how often, by row */
+    const char *first[OPTION_ROWS]; /* the value that came first */
+} line;
+
+static int refuse(const option_row *row, const char *value, report *r)
+{
+    char wants[320];
+    options_wants(wants, sizeof wants, row);
+    return report_fail(r, "%s: `%s` is not %s", row->name, value, wants);
+}
+
+/* `value` goes behind those that the row has already. */
+static int take(line *l, int i, const char *value, report *r)
+{
+    const option_row *row = options_row(l->table, i);
+    const int32_t times = row->times > 0 ? row->times : 1, before = l->given[i];
+    if (before >= times) {
+        return times > 1 ? report_fail(r, "%s is given over %d times; leave some out", row->name, (int)times)
+               : value[0] != '\0'
+                   ? report_fail(r, "%s is given twice, %s and %s; leave one out", row->name, l->first[i], value)
+                   : report_fail(r, "%s is given twice; leave one out", row->name);
+    }
+    l->given[i] = before + 1;
+    l->first[i] = before == 0 ? value : l->first[i];
+    char *at = (char *)l->out + row->at + (times > 1 ? (size_t)before * row->size : 0);
+    if (options_has_value(row)) {
+        if (!store(row, value, at)) {
+            return refuse(row, value, r);
+        }
+    } else {
+        *(int *)(void *)at = 1;
+    }
+    if (row->counts > 0) {
+        *(int32_t *)(void *)((char *)l->out + row->counts) = before + 1;
+    }
+    return 1;
+}
+
+static int take_alone(line *l, int i, const char *value, report *r)
+{
+    const option_row *row = options_row(l->table, i), *other;
+    for (int k = 0; (other = options_row(l->table, k)) != NULL; ++k) {
+        if (k != i && l->given[k] > 0 && options_exclude(row, other)) {
+            return report_fail(r, "%s and %s exclude each other; leave one out", other->name, row->name);
+        }
+    }
+    return take(l, i, value, r);
+}
+
+static int take_option(line *l, report *r)
+{
+    const char *word = l->argv[l->at], *inside = strchr(word, '=');
+    const int i = find(l->table, word);
+    if (i < 0) {
+        return options_unknown(&l->table, 1, word, r);
+    }
+    const option_row *row = options_row(l->table, i);
+    if (!options_has_value(row)) {
+        return inside == NULL ? take_alone(l, i, "", r) : report_fail(r, "%s takes no value: %s", row->name, word);
+    }
+    if (inside != NULL) {
+        return take_alone(l, i, inside + 1, r);
+    }
+    if (l->at + 1 == l->argc) {
+        char wants[320];
+        options_wants(wants, sizeof wants, row);
+        return report_fail(r, "%s wants a value: %s", row->name, wants);
+    }
+    return take_alone(l, i, l->argv[++l->at], r);
+}
+
+/* A word that is no option goes to the first row for such that has room. */
+static int take_word(line *l, report *r)
+{
+    const char *word = l->argv[l->at];
+    const option_row *row;
+    int last = -1;
+    for (int i = 0; (row = options_row(l->table, i)) != NULL; ++i) {
+        if (row->name == NULL || is_option(row)) {
+            continue;
+        }
+        if (l->given[i] < (row->times > 0 ? row->times : 1)) {
+            return take(l, i, word, r);
+        }
+        last = i;
+    }
+    return last < 0 ? report_fail(r, "`%s` is no option; lambent %s --help lists them", word, l->table->verb)
+                    : report_fail(r, "`%s` is one word too many: %s is `%s`", word, options_row(l->table, last)->name,
+                                  l->first[last]);
+}
+
+int options_parse(void *out, const option_table *t, int argc, char **argv, report *r)
+{
+    line l;
+    int ended = 0;
+    memset(&l, 0, sizeof l);
+    l.out = out;
+    l.table = t;
+    l.argv = argv;
+    l.argc = argc;
+    for (l.at = 1; l.at < argc; ++l.at) {
+        const char *word = argv[l.at];
+        const option_row *row = ended ? NULL : options_find(t, word);
+        if (!ended && strcmp(word, "--") == 0) {
+            ended = 1;
+        } else if (row != NULL && (row->kind == OPTION_HELP || row->kind == OPTION_VERSION)) {
+            return row->kind == OPTION_HELP ? OPTIONS_ASK_HELP : OPTIONS_ASK_VERSION;
+        } else if (!(!ended && word[0] == '-' && word[1] != '\0' ? take_option : take_word)(&l, r)) {
+            return OPTIONS_BAD;
+        }
+    }
+    return OPTIONS_RUN;
+}
+
+int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, const report *r)
+{
+    if (asked == OPTIONS_BAD) {
+        fprintf(err, "lambent %s: %s\n", t->verb, r->text);
+        return 2;
+    }
+    if (asked == OPTIONS_ASK_HELP) {
+        options_help(out, t);
+    } else {
+        options_version(out);
+    }
+    if (fflush(out) == 0 && !ferror(out)) {
+        return 0;
+    }
+    fprintf(err, "lambent %s: the help could not be written\n", t->verb);
+    return 1;
+}
+
+int options_answer(int asked, const option_table *t, const report *r)
+{
+    return options_answer_to(stdout, stderr, asked, t, r);
+}
+
+void options_version(FILE *out)
+{
+    fprintf(out, "lambent %d.%d.%d\n", LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100);
+}

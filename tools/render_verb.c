@@ -1,0 +1,18 @@
+/* render_verb.c: what `lambent render` and `lambent plan` begin and end with. */
+#include "render_verb.h"
+
+#include <string.h>
+
+int render_verb(const option_table *t, int argc, char **argv, int (*run)(render_job *j, report *r))
+{
+    report r = {""};
+    static render_job j; /* too large for a small stack: the options hold 64 lights */
+    memset(&j, 0, sizeof j);
+    const int asked = render_options_parse(&j.o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, t, &r);
+    }
+    const int ok = run(&j, &r);
+    render_job_free(&j);
+    return ok ? 0 : report_end(&r, t->verb, 1);
+}
