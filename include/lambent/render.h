@@ -200,8 +200,8 @@ extern "C" {
 /* lmb_frame_bytes: memory of a frame by these settings, all of it but the scene, `many`, a picture of the caller's and
  * lmb_render. 0 where there is no such frame: those that lmb_frame_init refuses, and what this machine cannot address.
  *
- * With zeros a room with one spot at 640x480 takes 14 MiB and 116 bytes a triangle: 6 MiB the light's map, 5 the tree,
- * 3 the viewer's depth and ids and the picture, 0.6 a thread; LMB_QUALITY_DRAFT 11 MiB, _BEST 80. At 160x120 in the
+ * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the light's map, 5 the tree,
+ * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82. At 160x120 in the
  * tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
 size_t lmb_frame_bytes(const lmb_frame_settings *settings);

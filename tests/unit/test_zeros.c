@@ -35,7 +35,7 @@ typedef struct call {
     parameter parameter[12];
 } call;
 
-enum { ARRAY = 1 << 21 }; /* bytes of an array whose length the type does not tell */
+enum { ARRAY = 1 << 22 }; /* bytes of an array whose length the type does not tell */
 
 static const char *at_call = ""; /* the call that is made */
 
