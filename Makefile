@@ -41,7 +41,8 @@ LINK      = $(CC) $(FLAGS) $(PORT_LDFLAGS) $(LDFLAGS)
 
 object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
-TOOL_SRC := $(sort $(filter-out tools/gen_%,$(wildcard tools/*.c))) platform/host/host.c platform/host/pool.c \
+TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c),$(wildcard tools/*/*.c))) \
+            platform/host/host.c platform/host/pool.c \
             platform/host/process.c platform/host/count.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
@@ -51,8 +52,8 @@ LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
-GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
-WAYS_OBJ   := $(call object,$(GOLDEN_SRC) tests/golden/main_ways.c tools/demo_scene.c tools/crew.c \
+GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+WAYS_OBJ   := $(call object,$(GOLDEN_SRC) tests/golden/main_ways.c tools/demo/demo_scene.c tools/common/crew.c \
               platform/host/host.c platform/host/pool.c) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
@@ -62,12 +63,12 @@ DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
-MOVING_OBJ := $(call object,tests/moving/main_moving.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
-# tests/figures/main_NAME.c and what is named NAME_*.c beside it: the program figures-NAME.
-FIGURES    := $(patsubst tests/figures/main_%.c,%,$(sort $(wildcard tests/figures/main_*.c)))
-figures_of  = $(call object,$(wildcard tests/figures/main_$(1).c tests/figures/$(1)_*.c)) \
+MOVING_OBJ := $(call object,tests/measure/main_moving.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
+# tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program figures-NAME.
+FIGURES    := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
+figures_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
-DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden ways reference hard replay hostile audit-golden audit-replay
@@ -140,13 +141,13 @@ $(B)/obj/tests/unit/main.o: COMPILE += -I$(B)
 
 # The table of public calls, from the headers.
 HEADERS := $(sort $(wildcard include/lambent/*.h))
-$(B)/calls.inc: $(HEADERS) tests/build/prototypes.awk tests/build/zeros.awk
+$(B)/calls.inc: $(HEADERS) tests/scripts/prototypes.awk tests/scripts/zeros.awk
 	@mkdir -p $(@D)
-	@awk -f tests/build/prototypes.awk $(HEADERS) | awk -f tests/build/zeros.awk > $@
+	@awk -f tests/scripts/prototypes.awk $(HEADERS) | awk -f tests/scripts/zeros.awk > $@
 $(B)/obj/tests/unit/test_zeros.o: $(B)/calls.inc
 $(B)/obj/tests/unit/test_zeros.o: COMPILE += -I$(B)
 
-# A relief's words, which tests/build/statue.sh puts there.
+# A relief's words, which tests/scripts/statue.sh puts there.
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
 $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 
@@ -163,13 +164,13 @@ FORCE:
 CHECKS ?= one unit tiny statue analytic truth lanes golden ways audit slow hard replay hostile hostile-cli floors symbols \
           stack headers layout guard tables readme examples examples-tiny cli get
 NEEDS  :=
-PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/build/part.sh
+PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
           LDLIBS='$(PORT_LDLIBS) $(LDLIBS)' sh
 
 .PHONY: check $(CHECKS) $(CHECKS:%=check-%)
 check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
-	@sh tests/build/sum.sh $(CHECKS:%=$(B)/check/%.log)
+	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
 
 $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(PROGRAMS:%=$(B)/%)
 	+@$(PART) $* $(MAKE) $*
@@ -208,49 +209,49 @@ audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numb
 PREFIXES  ?= 20
 MUTATIONS ?= 200
 hostile: $(B)/hostile ## cut and changed samples through every parser: PREFIXES=20 of each, MUTATIONS=200 of each kind
-	@sh tests/build/hostile.sh $< $(PREFIXES) $(MUTATIONS)
+	@sh tests/scripts/hostile.sh $< $(PREFIXES) $(MUTATIONS)
 
 hostile-cli: $(TOOL) ## absurd files through the whole tool
-	@$(IN_SH) tests/build/hostile_cli.sh
+	@$(IN_SH) tests/scripts/hostile_cli.sh
 
 floors: ## includes only go down the house's floors
-	@$(IN_SH) tests/build/floors.sh
+	@$(IN_SH) tests/scripts/floors.sh
 
 symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
-	@$(IN_SH) tests/build/symbols.sh
+	@$(IN_SH) tests/scripts/symbols.sh
 
 stack: $(LIB) ## stack of the hungriest functions and calls; the budget is 4096 bytes each
-	@$(IN_SH) tests/build/stack.sh 4096
+	@$(IN_SH) tests/scripts/stack.sh 4096
 
 headers: ## each public header alone, as C99 and as C++
-	@$(IN_SH) tests/build/headers.sh
+	@$(IN_SH) tests/scripts/headers.sh
 
 layout: $(LIB) ## a program with other capacities than the library must not link
-	@$(IN_SH) tests/build/layout.sh
+	@$(IN_SH) tests/scripts/layout.sh
 
 guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: builds that would draw other pixels are refused
-	@$(IN_SH) tests/build/guard.sh
+	@$(IN_SH) tests/scripts/guard.sh
 
 one: ## a bare compiler command with all of src: builds, and the pictures are the same
-	@$(IN_SH) tests/build/one.sh
+	@$(IN_SH) tests/scripts/one_command.sh
 
 tables: $(LIB) ## generated tables are what their generators print
-	@$(IN_SH) tests/build/tables.sh
+	@$(IN_SH) tests/scripts/tables.sh
 
 readme: $(LIB) ## the README's examples compile and run
-	@$(IN_SH) tests/build/readme.sh
+	@$(IN_SH) tests/scripts/readme.sh
 
 examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
-	@$(IN_SH) tests/build/examples.sh
+	@$(IN_SH) tests/scripts/examples.sh
 
 examples-tiny: ## the same in the tiny configuration
 	+@$(MAKE) examples CONFIG=tiny
 
 get: ## that check-tools removes nothing and says what it does
-	@$(IN_SH) tests/build/get.sh
+	@$(IN_SH) tests/scripts/tool_setup.sh
 
 cli: $(TOOL) ## the tool's files, exit statuses and messages
-	@$(IN_SH) tests/build/cli.sh
+	@$(IN_SH) tests/scripts/cli.sh
 
 # --- instruments and other machines ----------------------------------------------------------------------------------
 
@@ -262,14 +263,14 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
     simplify relight-figures relief-figures plan-figures plan-model planes mixed voxels large tiny run-demo \
     run-statue cross check-tools
 size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
-	+@sh tests/build/tools.sh need arm-none-eabi-gcc \
+	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
 
 room-sizes: $(LIB)
-	@$(IN_SH) tests/build/size.sh
+	@$(IN_SH) tests/scripts/size.sh
 
 rom: room-sizes
-	@$(IN_SH) tests/build/rom.sh 49152
+	@$(IN_SH) tests/scripts/rom.sh 49152
 
 COV_PROGRAMS := tests golden ways reference hard replay hostile
 
@@ -291,29 +292,29 @@ FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/l
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr cli api
 MINUTES   ?= 1
 fuzz: ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
-	+@sh tests/build/tools.sh need clang clang-sanitizers \
+	+@sh tests/scripts/tools.sh need clang clang-sanitizers \
 	    && $(MAKE) $(FUZZER) BUILD=$(BUILD)/fuzz CC=clang CFLAGS="$(FUZZ_FLAGS)" LDFLAGS=-fsanitize=fuzzer
-	@sh tests/build/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
+	@sh tests/scripts/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
 
 $(B)/fuzzer: $(FUZZ_OBJ) $(LIB)
 
 N    ?= 60
 SEED ?= 1
 mutants: ## change one operator or constant of src/ at a time: do the tests notice? N=60 SEED=1 IN="raster light ..."
-	@sh tests/build/mutate.sh $(BUILD)/mutants $(N) $(SEED) $(IN)
+	@sh tests/scripts/mutate.sh $(BUILD)/mutants $(N) $(SEED) $(IN)
 
 cov: ## lines and branches of src/ that the checks run, by gcov; what is not covered
-	+@sh tests/build/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS:%=$(BUILD)/cov/default/%) BUILD=$(BUILD)/cov \
-	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage && sh tests/build/cov.sh $(BUILD)/cov
+	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS:%=$(BUILD)/cov/default/%) BUILD=$(BUILD)/cov \
+	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage && sh tests/scripts/cov.sh $(BUILD)/cov
 
 static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/
-	@sh tests/build/static.sh $(BUILD)/static
+	@sh tests/scripts/static.sh $(BUILD)/static
 
 prove: ## Frama-C and Gappa on the raster's integers: nothing overflows, for any triangle in any frame
-	@sh tests/build/prove.sh $(BUILD)/prove
+	@sh tests/scripts/prove.sh $(BUILD)/prove
 
 decodes: $(B)/decodes ## the picture decoders against netpbm, libjpeg-turbo and libvips
-	@$(IN_SH) tests/build/decodes.sh $(B)/decodes
+	@$(IN_SH) tests/scripts/decodes.sh $(B)/decodes
 
 reference: $(B)/reference ## coverage and depth of the raster workload against the slow reference rasterizer
 	@$(RUN) $(B)/reference
@@ -324,29 +325,29 @@ moving: $(B)/moving ## a light and a crate that move: what the cut adds to the c
 scenes: $(B)/scenes ## a program that makes scenes of our own from a name and a seed: build/default/scenes --list
 
 figures: $(TOOL) ## bounced light against truth: errors, work, time (SCENES="cornell ..." QUALITIES="draft ...")
-	@$(IN_SH) tests/figures/truth.sh
+	@$(IN_SH) tests/measure/truth.sh
 
 own-figures: $(TOOL) $(B)/scenes ## the same on those and on scenes of our own, fitted and held out (LMB_OWN_TRUTH=DIR)
-	@$(IN_SH) tests/figures/own.sh
+	@$(IN_SH) tests/measure/own.sh
 
 turned-figures: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random, against upright (TURNS="1 2 ...")
-	@$(IN_SH) tests/figures/turned.sh
+	@$(IN_SH) tests/measure/turned.sh
 
 full-figures: $(TOOL) ## all light, six bounces, against truth, and its later part (SCENES="cornell ..." QUALITY=best BOUNCES=20)
-	@$(IN_SH) tests/figures/full.sh
+	@$(IN_SH) tests/measure/full.sh
 
 times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS="1 2", FRAME=64x64)
-	@$(IN_SH) tests/figures/times.sh
+	@$(IN_SH) tests/measure/times.sh
 
 report: $(TOOL) ## speed against error: pages of three truth scenes and the demo in build/report, README's table and picture
-	@$(IN_SH) tests/figures/report.sh
+	@$(IN_SH) tests/measure/report.sh
 
 STEP ?= 17
 brute: $(B)/figures-brute ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
 	@$(RUN) $(B)/figures-brute $(STEP) $(SCENES)
 
 relight-figures: $(B)/figures-relight ## objects lit by their world: each filter's errors and time, outdoor maps, gloss
-	@$(IN_SH) tests/figures/relight.sh
+	@$(IN_SH) tests/measure/relight.sh
 
 simplify: $(B)/figures-simplify ## what simpler meshes lose and add, against bars: distances, silhouettes, time of a million
 	@$(RUN) $(B)/figures-simplify
@@ -362,7 +363,7 @@ voxels: $(B)/figures-voxel ## one bounce by cones through voxels: errors, time, 
 
 ROWS ?= $(BUILD)/plan-rows.bin
 plan-figures: $(TOOL) $(B)/scenes ## settings chosen for budgets of error, against truth (BUDGETS, LMB_OWN_TRUTH)
-	@$(IN_SH) tests/figures/plan.sh
+	@$(IN_SH) tests/measure/plan.sh
 
 plan-model: $(B)/figures-plan ## src/plan/plan_model.inc again: units of work, from five scenes by many settings
 	@rm -f $(ROWS); $(RUN) $(B)/figures-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/figures-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
@@ -372,13 +373,13 @@ relief-figures: $(B)/figures-relief ## reliefs against their complex models: err
 	@$(RUN) $(B)/figures-relief $(RELIEFS)
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
-	@$(IN_SH) tests/build/large.sh
+	@$(IN_SH) tests/scripts/large.sh
 
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
-	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/build/tiny.sh
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/tiny.sh
 
 statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pixels as here
-	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/build/statue.sh
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/statue.sh
 
 # For compilers whose programs nothing here can run.
 .PHONY: compiles
@@ -389,19 +390,19 @@ run-demo run-statue: run-%: $(B)/%
 	@$(RUN) $<
 
 # MACHINES, MORE_MACHINES, and for each needs_NAME and how_NAME.
-include tests/build/machines.mk
+include tests/scripts/machines.mk
 
 define cross_sum
-	@LOGS=$(B)/check sh tests/build/part.sh same sh tests/build/same.sh $(1:%=$(B)/check/cross-%.log)
-	@LOGS=$(B)/check sh tests/build/part.sh stacks sh tests/build/stacks.sh 4096 $(1:%=$(BUILD)/cross/%)
-	@sh tests/build/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log $(B)/check/stacks.log
+	@LOGS=$(B)/check sh tests/scripts/part.sh same sh tests/scripts/same.sh $(1:%=$(B)/check/cross-%.log)
+	@LOGS=$(B)/check sh tests/scripts/part.sh stacks sh tests/scripts/stacks.sh 4096 $(1:%=$(BUILD)/cross/%)
+	@sh tests/scripts/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log $(B)/check/stacks.log
 endef
 
 .PHONY: cross-all more-tools $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%)
 cross: $(MACHINES:%=cross-%) ## golden pictures on other compilers and machines; gets what it needs where it can
 	$(call cross_sum,$(MACHINES))
 
-cross-all: $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%) ## the same on all of tests/build/machines.mk
+cross-all: $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%) ## the same on all of tests/scripts/machines.mk
 	$(call cross_sum,$(MACHINES) $(MORE_MACHINES))
 
 $(MACHINES:%=cross-%): check-tools
@@ -412,7 +413,7 @@ $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%): cross-%:
 
 # One installer at a time: all that the machines of cross-all need.
 more-tools: check-tools
-	@sh tests/build/tools.sh get $(sort $(foreach m,$(MORE_MACHINES),$(needs_$(m))))
+	@sh tests/scripts/tools.sh get $(sort $(foreach m,$(MORE_MACHINES),$(needs_$(m))))
 
 check-tools: ## the outside tools of the checks: what is missing, and apt-get for it where that removes nothing
-	@sh tests/build/tools.sh get
+	@sh tests/scripts/tools.sh get

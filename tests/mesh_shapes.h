@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../tools/dvec.h"
-#include "../tools/simplify.h"
+#include "../tools/common/dvec.h"
+#include "../tools/mesh/simplify.h"
 #include "test.h"
 
 /* --- meshes --- */

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "../tools/model.h"
+#include "../tools/model/model.h"
 #include "test.h"
 
 static model loaded;

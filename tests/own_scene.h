@@ -8,8 +8,8 @@
 
 #include <lambent/lambent.h>
 
-#include "../tools/metrics.h"
-#include "../tools/render_draw.h"
+#include "../tools/picture/metrics.h"
+#include "../tools/render/render_draw.h"
 #include "scenes/scenes.h"
 
 enum { OWN_SIDE = 32 }; /* pixels of the truths that are kept here */

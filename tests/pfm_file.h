@@ -2,7 +2,7 @@
 #ifndef TEST_PFM_FILE_H
 #define TEST_PFM_FILE_H
 
-#include "../tools/image.h"
+#include "../tools/picture/image.h"
 #include "test.h"
 
 static inline int pfm_file(image *out, const char *path)

@@ -6,9 +6,9 @@
 
 #include <stdlib.h>
 
-#include "../tools/relief_bake.h"
-#include "../tools/relief_draw.h"
-#include "../tools/relief_model.h"
+#include "../tools/relief/relief_bake.h"
+#include "../tools/relief/relief_draw.h"
+#include "../tools/relief/relief_model.h"
 
 enum { TEXELS = 64, FRAME = 128, STACKS = 48, SLICES = 96, VIEWS = 26, MAP = 256 };
 

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../tools/image.h"
-#include "../tools/model.h"
+#include "../tools/model/model.h"
+#include "../tools/picture/image.h"
 #include "pfm_file.h"
 #include "shared_file.h"
 

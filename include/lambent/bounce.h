@@ -6,6 +6,7 @@
 #define LMB_BOUNCE_H
 
 #include "light.h"
+#include "occlusion.h"
 
 /* A pixel closer to a disc than this many half-diagonals of its quad gets the quad's exact form factor. */
 #define LMB_NEAR 2.8f
@@ -81,22 +82,6 @@ typedef struct lmb_groups {
     float radius[LMB_MAX_GROUPS];                                 /* encloses all members, m           [V19] */
     uint32_t first[LMB_MAX_GROUPS], members[LMB_MAX_GROUPS];
 } lmb_groups;
-
-/* What may stand between an emitter and a pixel: a segment from one to the other that crosses the surface the viewer
- * sees is blocked [V25]. */
-typedef struct lmb_occluder {
-    const lmb_view *view;     /* the viewer's */
-    const lmb_surface *depth; /* its depth over the whole frame                                        [V24] */
-    int32_t kind;             /* lmb_occlusion */
-    int32_t steps;            /* samples along a segment, 1 .. 64 */
-} lmb_occluder;
-/* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps
- * of world space [V26]. Crossing is a change of side where the surface goes on. A segment that passes behind a
- * silhouette and comes out again is blocked if it came nearer to what hid it than half its hidden length: things are
- * taken to be about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off
- * screen or hidden does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
-enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2,
-       LMB_OCCLUSION_EXACT = 3 /* lmb_render with LMB_GROUP_CUT: all of the scene, see occlusion.h */ };
 
 /* Filled and read inside lmb_gather_tile. */
 typedef struct lmb_gather_scratch {

@@ -1,11 +1,27 @@
 /* occlusion.h: what stands between two points: the scene's triangles in a tree of boxes, asked exactly. [V25, ours]
  *
- * The viewer's depth map knows only what the viewer sees; this knows every triangle. A tile of pixels asks at once: its
- * 64 segments to one point make a thin pyramid, one walk through the tree serves them all. */
+ * The viewer's depth map (lmb_occluder) knows only what the viewer sees; lmb_blockers knows every triangle. A tile of
+ * pixels asks at once: its 64 segments to one point make a thin pyramid, one walk through the tree serves them all. */
 #ifndef LMB_OCCLUSION_H
 #define LMB_OCCLUSION_H
 
 #include "raster.h"
+
+/* What may stand between an emitter and a pixel: a segment from one to the other that crosses the surface the viewer
+ * sees is blocked [V25]. */
+typedef struct lmb_occluder {
+    const lmb_view *view;     /* the viewer's */
+    const lmb_surface *depth; /* its depth over the whole frame                                        [V24] */
+    int32_t kind;             /* lmb_occlusion */
+    int32_t steps;            /* samples along a segment, 1 .. 64 */
+} lmb_occluder;
+/* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps
+ * of world space [V26]. Crossing is a change of side where the surface goes on. A segment that passes behind a
+ * silhouette and comes out again is blocked if it came nearer to what hid it than half its hidden length: things are
+ * taken to be about as deep as they are wide. So both know only blockers whose surface the viewer sees: what is off
+ * screen or hidden does not block (the wall of truth/corridor, seen edge-on, is the worst case). */
+enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2,
+       LMB_OCCLUSION_EXACT = 3 /* lmb_render with LMB_GROUP_CUT: all of the scene, below */ };
 
 /* A triangle in the world. 52 bytes. */
 typedef struct lmb_blocker {

@@ -1,6 +1,6 @@
 /* main_statue.c: a relief that lies in ROM, 128x128 in RGB565 with its own shadow, in less than 256 KiB of RAM.
  *
- * statue.inc holds the words of its .lmr (tests/build/statue.sh bakes it). Prints the picture's hash, then the RAM it
+ * statue.inc holds the words of its .lmr (tests/scripts/statue.sh bakes it). Prints the picture's hash, then the RAM it
  * took. Runs on a host too: the hash must be the same. */
 #include <lambent/lambent.h>
 

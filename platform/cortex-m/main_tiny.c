@@ -3,7 +3,7 @@
  * Prints the picture's hash, then the RAM it took. Runs on a host too: the hash must be the same. */
 #include <lambent/lambent.h>
 
-#include "../../tools/demo_scene.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../port_say.h"
 
 enum { WIDTH = 160, HEIGHT = 120, MAP_SIZE = 128, MAP_BLOCKS = MAP_SIZE / 8, POINTS = 400 };

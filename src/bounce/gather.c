@@ -4,7 +4,7 @@
 #include "../lane/lane_scalar.h"
 #include "../lane/lane.h"
 #include "gather.inl"
-#include "occlude.h"
+#include "../occlusion/occlude.h"
 
 float lmb_disc_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, float area)
 {

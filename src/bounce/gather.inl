@@ -1,4 +1,5 @@
 /* gather.inl: groups of emitters -> irradiance of a tile's pixels, with the viewer's depth map as occluder.  [V25-V28]
+ * Floor 6.
  *
  * Lanes are pixels; groups are added one after another: the order is the contract. */
 #ifndef LMB_GATHER_FORMULA
@@ -61,8 +62,8 @@ static inline lane disc_factor(lane3 to, lane r2, lane3 n, lane3 axis, lane area
 #ifdef KERNEL
 #include <string.h>
 
+#include "../occlusion/march.inl"
 #include "../raster/tile.h"
-#include "march.inl"
 
 /* A group is near within this many of its radii: then its discs are read one by one. Trim on cornell, two_lights,
  * bunny_room at 1.2 / 1.5 / 2: 0.053 0.144 0.092 / 0.050 0.133 0.080 / 0.049 0.125 0.075; time 1 / 1.3 / 2. */

@@ -9,7 +9,7 @@
 
 #include "../base/memory_check.h"
 #include "../base/vec.h"
-#include "footprint.h"
+#include "../map/footprint.h"
 #include "points.h"
 
 #define ELEMENTS 4       /* a block's surfaces at most; more join the likest */

@@ -1,4 +1,4 @@
-/* tone.c: radiance -> the pixels of a display. Floor 7. */
+/* tone.c: radiance -> the pixels of a display. Floor 9. */
 #include <lambent/compose.h>
 
 #include "../base/poly.h"

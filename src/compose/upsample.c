@@ -1,4 +1,4 @@
-/* upsample.c: a tile's light from that of some of its pixels, by the surfaces they lie on. Floor 7.       [ours] */
+/* upsample.c: a tile's light from that of some of its pixels, by the surfaces they lie on. Floor 9.       [ours] */
 #include <lambent/compose.h>
 
 #include "../raster/tile.h"

@@ -1,5 +1,5 @@
 /* all_kernels.inl: every kernel by one machine's verbs, and their table. KERNEL(name) and MACHINE, the name that
- * lmb_kernels_named knows, are the including file's. */
+ * lmb_kernels_named knows, are the including file's. Floor 12. */
 #include "../lane/kernels.h"
 #include "../lane/lane.h"
 
@@ -14,9 +14,9 @@
 #include "../compose/blend.inl"
 #include "../compose/encode.inl"
 #if LMB_TREES
-#include "../bounce/gather_cut.inl"
-#include "../bounce/weigh.inl"
-#include "../light/many.inl"
+#include "../lightcut/gather_cut.inl"
+#include "../lightcut/weigh.inl"
+#include "../manylights/many.inl"
 #include "../occlusion/crossed.inl"
 #include "../occlusion/sun.inl"
 #endif
@@ -24,7 +24,7 @@
 #include "../light/lobe.inl"
 #endif
 #if LMB_TREES
-#include "../bounce/gather_gloss.inl"
+#include "../lightcut/gather_gloss.inl"
 #endif
 #if LMB_PROBES
 #include "../probe/remap.inl"

@@ -1,4 +1,4 @@
-/* isa_avx2.c: every kernel by AVX2, eight pixels at a time. Floor 9. */
+/* isa_avx2.c: every kernel by AVX2, eight pixels at a time. Floor 12. */
 #include "../base/exact.h"
 #include "../lane/machines.h"
 

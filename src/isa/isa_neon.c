@@ -1,4 +1,4 @@
-/* isa_neon.c: every kernel by AArch64's NEON, four pixels at a time. Floor 9. */
+/* isa_neon.c: every kernel by AArch64's NEON, four pixels at a time. Floor 12. */
 #include "../base/exact.h"
 #include "../lane/machines.h"
 

@@ -1,4 +1,4 @@
-/* isa_scalar.c: every kernel in plain C, LANES pixels at a time. Floor 9. */
+/* isa_scalar.c: every kernel in plain C, LANES pixels at a time. Floor 12. */
 #include "../lane/lane_scalar.h"
 
 #define MACHINE "scalar"

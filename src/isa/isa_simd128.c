@@ -1,4 +1,4 @@
-/* isa_simd128.c: every kernel by WebAssembly's simd128, four pixels at a time. Floor 9. */
+/* isa_simd128.c: every kernel by WebAssembly's simd128, four pixels at a time. Floor 12. */
 #include "../base/exact.h"
 #include "../lane/machines.h"
 

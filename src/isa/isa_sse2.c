@@ -1,4 +1,4 @@
-/* isa_sse2.c: every kernel by SSE2, four pixels at a time. Floor 9. */
+/* isa_sse2.c: every kernel by SSE2, four pixels at a time. Floor 12. */
 #include "../base/exact.h"
 #include "../lane/machines.h"
 

@@ -1,4 +1,4 @@
-/* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc.
+/* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc. Floor 5.
  *
  * A disc is asked for its mean. Let s be the slope (tangent of the angle to n) of the half vector h = (l + v) / |l +
  * v|. GGX's density of slopes, a2 / (pi (a2 + s^2)^2), is what a sphere's surface becomes by stereographic

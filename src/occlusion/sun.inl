@@ -1,4 +1,5 @@
 /* sun.inl: which pixels' rays to a place at infinity cross a triangle, or boxes. Lanes are pixels, then boxes.   [V25]
+ * Floor 4.
  *
  * The edges' planes lie along the rays: crossed.inl's with the point far away, to the order that is left. */
 static uint64_t KERNEL(sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job)

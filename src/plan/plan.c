@@ -1,12 +1,12 @@
-/* plan.c: what a frame that began will do: operations, work and bytes; what is left out, and why. Floor 8. */
+/* plan.c: what a frame that began will do: operations, work and bytes; what is left out, and why. Floor 11. */
 #include <lambent/plan.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../frame/stages.h"
+#include "../frame/wants.h"
 #include "plan_model.h"
-#include "stages.h"
-#include "wants.h"
 
 #if LMB_PLAN
 

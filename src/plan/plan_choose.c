@@ -1,4 +1,4 @@
-/* plan_choose.c: a ladder of settings, what each takes, and which of them meets a budget. Floor 8.
+/* plan_choose.c: a ladder of settings, what each takes, and which of them meets a budget. Floor 11.
  *
  * What a rung takes and how far it is from the next was looked at; nothing is known of errors beside that. */
 #include <lambent/plan.h>
@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../frame/stages.h"
+#include "../frame/wants.h"
 #include "plan_model.h"
-#include "stages.h"
-#include "wants.h"
 
 #if LMB_PLAN && LMB_TREES
 

@@ -1,12 +1,13 @@
-/* plan_look.c: a look at some tiles of a solved frame: what a setting costs and how far it is from another. Floor 8. */
+/* plan_look.c: a look at some tiles of a solved frame: what a setting costs and how far it is from another.
+ * Floor 11. */
 #include "plan_look.h"
 
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../frame/stages.h"
+#include "../frame/wants.h"
 #include "plan_model.h"
-#include "stages.h"
-#include "wants.h"
 
 #if LMB_PLAN && LMB_TREES
 

@@ -1,4 +1,4 @@
-/* plan_look.h: places of a frame: tiles side by side that are looked at together. Floor 8. */
+/* plan_look.h: places of a frame: tiles side by side that are looked at together. Floor 11. */
 #ifndef LMB_PLAN_LOOK_H
 #define LMB_PLAN_LOOK_H
 
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-#include "stages.h"
+#include "../frame/stages.h"
 
 /* May a frame be looked at? NULL: no. */
 int lmb_can_look(const lmb_render *r);

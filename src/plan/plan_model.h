@@ -1,4 +1,4 @@
-/* plan_model.h: what operations cost, by numbers that were fitted. Floor 8. */
+/* plan_model.h: what operations cost, by numbers that were fitted. Floor 11. */
 #ifndef LMB_PLAN_MODEL_H
 #define LMB_PLAN_MODEL_H
 

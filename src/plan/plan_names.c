@@ -1,4 +1,4 @@
-/* plan_names.c: a plan in words, and the numbers of its model. Floor 8. */
+/* plan_names.c: a plan in words, and the numbers of its model. Floor 11. */
 #include "plan_model.h"
 
 #if LMB_PLAN

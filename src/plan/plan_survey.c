@@ -1,12 +1,12 @@
-/* plan_survey.c: which of a frame's tiles are looked at: evenly, along a Z curve. Floor 8. */
+/* plan_survey.c: which of a frame's tiles are looked at: evenly, along a Z curve. Floor 11. */
 #include <lambent/plan.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../frame/stages.h"
+#include "../frame/wants.h"
 #include "plan_look.h"
-#include "stages.h"
-#include "wants.h"
 
 #if LMB_PLAN && LMB_TREES
 

@@ -1,4 +1,4 @@
-/* share.inl: a map's light, two by two texels, among the nine nearest of 6 x 8 x 8 directions.                    [S14]
+/* share.inl: a map's light, two by two texels, among the nine nearest of 6 x 8 x 8 directions. Floor 6.           [S14]
  *
  * So that the lights' sum, mean place and spread are their own: whatever is smooth over three texels comes out right.
  * To four (their spread is wider) is off by a half more, to one by two to three times.

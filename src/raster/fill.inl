@@ -1,4 +1,4 @@
-/* fill.inl: one triangle into one tile: coverage, depth test, id.
+/* fill.inl: one triangle into one tile: coverage, depth test, id. Floor 3.
  *
  * Per pixel: three edge sums, the depth plane clamped to the triangle's own range, a strict "nearer than" test. The
  * order (d + dy y) + dx x is the contract; a vector only changes how many x run at once. */

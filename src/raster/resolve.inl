@@ -1,4 +1,4 @@
-/* resolve.inl: the attributes of a tile's pixels, from the triangles that they show.
+/* resolve.inl: the attributes of a tile's pixels, from the triangles that they show. Floor 3.
  *
  * First the different triangles get slots; then up to LMB_SLOTS of them are set up side by side; then each vector of
  * pixels looks its triangles' numbers up by slot. The position is where the pixel's ray meets the triangle's own plane:

@@ -1,4 +1,4 @@
-/* setup.inl: a batch of triangles from positions to edges, box and depth plane, LANES triangles at a time.
+/* setup.inl: a batch of triangles from positions to edges, box and depth plane, LANES triangles at a time. Floor 3.
  *
  * The arithmetic is draw_one.c's and setup.c's, value by value; here small triangles only, whose edges fit 32 bits: a
  * box under 64 px a side (2^14 in 24.8) keeps products of differences under 2^29 up to the far corner of its tiles. */

@@ -1,5 +1,5 @@
 /* texture.inl: a base colour's finest level times the albedo of a tile's pixels, nearest or bilinear: as texture.c,
- * value by value. */
+ * value by value. Floor 3. */
 #include "../base/codec.h"
 #include "texture.h"
 

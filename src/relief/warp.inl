@@ -1,4 +1,4 @@
-/* warp.inl: the complex surface along the eye's rays, by what reference views show of it.                 [P3-P6 P12]
+/* warp.inl: the complex surface along the eye's rays, by what reference views show of it. Floor 6.          [P3-P6 P12]
  *
  * Lanes are pixels. With q on a pixel's ray, a view has q at texel (u, v) with depth d, and shows depth s there: a
  * candidate. f = d - s is over 0 where q is before what the view shows, under 0 where it is behind. Between texels s is

@@ -1,4 +1,4 @@
-/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and to what lies beyond. Floor 4.
+/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and to what lies beyond. Floor 5.
  *                                                                                                          [M20-M22] */
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/* filter.c: light from the leaves upward, and the difference of two worlds' light. Floor 4.            [M11 M12 M13] */
+/* filter.c: light from the leaves upward, and the difference of two worlds' light. Floor 5.            [M11 M12 M13] */
 #include "../base/poly.h"
 #include "octree.h"
 

@@ -13,10 +13,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/io_bytes.h"
-#include "../../tools/io_json.h"
-#include "../../tools/io_jpeg.h"
-#include "../../tools/picture_read.h"
+#include "../../tools/common/io_bytes.h"
+#include "../../tools/common/io_json.h"
+#include "../../tools/picture/io_jpeg.h"
+#include "../../tools/picture/picture_read.h"
 
 typedef struct difference {
     uint64_t values; /* that differ */

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "../../tools/report.h"
+#include "../../tools/common/report.h"
 
 typedef void (*fuzz_target)(const uint8_t *data, size_t size);
 

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/mix_options.h"
-#include "../../tools/relight_options.h"
-#include "../../tools/render_options.h"
+#include "../../tools/mix/mix_options.h"
+#include "../../tools/relight/relight_options.h"
+#include "../../tools/render/render_options.h"
 #include "fuzz.h"
 
 enum { ARGUMENTS = 64 };

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/io_json.h"
-#include "../../tools/io_obj.h"
+#include "../../tools/common/io_json.h"
+#include "../../tools/model/io_obj.h"
 #include "fuzz.h"
 
 #define FOLDER "tests/fuzz/neighbours/" /* a.bin, a.mtl and a.png, for a model to name */

@@ -2,11 +2,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/image.h"
-#include "../../tools/io_jpeg.h"
-#include "../../tools/io_png.h"
-#include "../../tools/io_ppm_read.h"
-#include "../../tools/picture_read.h"
+#include "../../tools/picture/image.h"
+#include "../../tools/picture/io_jpeg.h"
+#include "../../tools/picture/io_png.h"
+#include "../../tools/picture/io_ppm_read.h"
+#include "../../tools/picture/picture_read.h"
 #include "fuzz.h"
 
 #define NAME "input"

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "../../tools/image.h"
+#include "../../tools/picture/image.h"
 #include "fuzz.h"
 #include "mutate.h"
 

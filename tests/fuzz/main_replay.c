@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/image.h"
+#include "../../tools/picture/image.h"
 #include "fuzz.h"
 
 /* The target of corpus/png/x is png: the name of the folder that the file lies in. */

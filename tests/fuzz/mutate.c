@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "../../tools/io_bytes.h"
+#include "../../tools/common/io_bytes.h"
 #include "../test.h"
 
 typedef struct patient {

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "../../src/base/poly.h"
-#include "../../tools/demo_scene.h"
+#include "../../tools/demo/demo_scene.h"
 
 enum { WIDTH = GOLDEN_WIDTH, HEIGHT = GOLDEN_HEIGHT, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40, TREE = 32 };
 enum { LIGHT_CELLS = 20, MANY_LIGHTS = 600, ELEMENTS = 64 };

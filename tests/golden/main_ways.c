@@ -9,7 +9,7 @@
 
 #include "../../platform/host/pool.h"
 #include "../../src/raster/target.h"
-#include "../../tools/crew.h"
+#include "../../tools/common/crew.h"
 #include "golden.h"
 
 enum { PIECES = 512, THREADS = 8, ROOM = 4 * 16 * 16 };

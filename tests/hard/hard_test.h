@@ -2,7 +2,7 @@
 #ifndef HARD_TEST_H
 #define HARD_TEST_H
 
-#include "../../tools/hard.h"
+#include "../../tools/hard/hard.h"
 #include "../test.h"
 
 /* Sanitizers slow frames down tenfold and more: a few of each are enough there. */

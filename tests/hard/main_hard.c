@@ -1,4 +1,4 @@
-/* main_hard.c: the gallery of hard cases (tools/hard.h), where a figure past its bound fails; what must not matter; and
+/* main_hard.c: the gallery of hard cases (tools/hard/hard.h), where a figure past its bound fails; what must not matter; and
  * the same call thousands of times.
  *
  *     hard              all

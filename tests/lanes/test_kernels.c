@@ -7,8 +7,8 @@
 
 #include "../../src/base/codec.h"
 #include "../../src/base/vec.h"
-#include "../../src/bounce/occlude.h"
 #include "../../src/lane/kernels.h"
+#include "../../src/occlusion/occlude.h"
 #include "../../src/probe/world.h"
 #include "../../src/raster/texture.h"
 #include "../small_relief.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/bench_scene.h"
+#include "../../tools/bench/bench_scene.h"
 #include "../shared_file.h"
 #include "../test.h"
 #include "accuracy.h"

@@ -11,7 +11,7 @@
 
 #include <lambent/lambent.h>
 
-#include "../../tools/metrics.h"
+#include "../../tools/picture/metrics.h"
 #include "../every_texel.h"
 #include "../truth_scene.h"
 

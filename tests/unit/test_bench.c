@@ -2,14 +2,14 @@
 #include <math.h>
 #include <string.h>
 
-#include "../../tools/bench_chart.h"
-#include "../../tools/bench_front.h"
-#include "../../tools/bench_html.h"
-#include "../../tools/bench_ledger.h"
-#include "../../tools/bench_sweep.h"
-#include "../../tools/bench_table.h"
-#include "../../tools/demo_scene.h"
-#include "../../tools/scene_hash.h"
+#include "../../tools/bench/bench_chart.h"
+#include "../../tools/bench/bench_front.h"
+#include "../../tools/bench/bench_html.h"
+#include "../../tools/bench/bench_ledger.h"
+#include "../../tools/bench/bench_sweep.h"
+#include "../../tools/bench/bench_table.h"
+#include "../../tools/demo/demo_scene.h"
+#include "../../tools/model/scene_hash.h"
 #include "../test.h"
 
 void test_bench(void);

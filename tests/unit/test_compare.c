@@ -6,8 +6,8 @@
 #include <string.h>
 #include <time.h>
 
-#include "../../tools/metrics.h"
-#include "../../tools/verb_compare.h"
+#include "../../tools/cli/verb_compare.h"
+#include "../../tools/picture/metrics.h"
 
 void test_compare(void);
 

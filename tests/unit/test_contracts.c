@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#include "../../tools/demo_scene.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../test.h"
 
 enum { W = 64, H = 48, MAP = 64, SIDE = MAP / 8, ENOUGH = 600 };

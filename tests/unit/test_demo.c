@@ -6,7 +6,7 @@
 
 #include "../../src/base/vec.h"
 #include "../../src/base/vertex.h"
-#include "../../tools/demo_scene.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../test.h"
 
 void test_demo(void);

@@ -1,6 +1,6 @@
 /* test_enclose.c: the nearest point of a mesh and its side; simple meshes that have the original inside. */
-#include "../../tools/enclose.h"
-#include "../../tools/triangle_tree.h"
+#include "../../tools/mesh/enclose.h"
+#include "../../tools/mesh/triangle_tree.h"
 #include "../mesh_shapes.h"
 
 void test_enclose(void);

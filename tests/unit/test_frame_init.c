@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-#include "../../tools/demo_scene.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../world.h"
 
 void test_frame_init(void);

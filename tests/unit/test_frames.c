@@ -4,7 +4,7 @@
 
 #include <lambent/lambent.h>
 
-#include "../../tools/demo_scene.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../../src/base/vec.h"
 #include "../test.h"
 

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdarg.h>
 
-#include "../../tools/image.h"
-#include "../../tools/io_png.h"
+#include "../../tools/picture/image.h"
+#include "../../tools/picture/io_png.h"
 #include "../blob.h"
 #include "../model_case.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/image.h"
+#include "../../tools/picture/image.h"
 #include "../shared_file.h"
 
 void test_hdr(void);

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/image.h"
-#include "../../tools/io_ppm_read.h"
-#include "../../tools/picture_read.h"
+#include "../../tools/picture/image.h"
+#include "../../tools/picture/io_ppm_read.h"
+#include "../../tools/picture/picture_read.h"
 
 #ifndef _WIN32
 #include <dirent.h>

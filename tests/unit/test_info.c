@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-#include "../../tools/image.h"
-#include "../../tools/io_json.h"
-#include "../../tools/model.h"
-#include "../../tools/verb_info.h"
+#include "../../tools/cli/verb_info.h"
+#include "../../tools/common/io_json.h"
+#include "../../tools/model/model.h"
+#include "../../tools/picture/image.h"
 #include "../shared_file.h"
 
 void test_info(void);

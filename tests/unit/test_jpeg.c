@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/io_jpeg.h"
+#include "../../tools/picture/io_jpeg.h"
 
 #include "jpeg_samples.inc"
 

@@ -5,10 +5,10 @@
 #include <lambent/lambent.h>
 
 #include "../../src/base/vec.h"
-#include "../../tools/crew.h"
-#include "../../tools/demo_scene.h"
-#include "../../tools/grey.h"
-#include "../../tools/map_picture.h"
+#include "../../tools/common/crew.h"
+#include "../../tools/demo/demo_scene.h"
+#include "../../tools/picture/grey.h"
+#include "../../tools/render/map_picture.h"
 #include "../test.h"
 
 void test_map_picture(void);

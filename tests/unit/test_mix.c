@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../tools/mix_job.h"
+#include "../../tools/mix/mix_job.h"
 #include "../test.h"
 
 void test_mix(void);

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdarg.h>
 
-#include "../../tools/image.h"
-#include "../../tools/io_json.h"
-#include "../../tools/ear_clip.h"
+#include "../../tools/picture/image.h"
+#include "../../tools/common/io_json.h"
+#include "../../tools/model/ear_clip.h"
 #include "../blob.h"
 #include "../model_case.h"
 #include "../shared_file.h"

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "../../tools/io_obj.h"
+#include "../../tools/model/io_obj.h"
 #include "../model_case.h"
 
 void test_mtl(void);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../../src/base/vec.h"
-#include "../../tools/relief_photos.h"
+#include "../../tools/relief/relief_photos.h"
 #include "../test.h"
 
 void test_photos(void);

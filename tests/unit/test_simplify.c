@@ -1,6 +1,6 @@
 /* test_simplify.c: simpler meshes: their count, shape, borders, parts, looks and joins. */
-#include "../../tools/corner_mesh.h"
-#include "../../tools/quadric.h"
+#include "../../tools/mesh/corner_mesh.h"
+#include "../../tools/mesh/quadric.h"
 #include "../mesh_shapes.h"
 
 void test_simplify(void);

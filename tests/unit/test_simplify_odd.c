@@ -1,5 +1,5 @@
 /* test_simplify_odd.c: the simplifier's answers to meshes that are none, or not much of one. */
-#include "../../tools/corner_mesh.h"
+#include "../../tools/mesh/corner_mesh.h"
 #include "../mesh_shapes.h"
 
 void test_simplify_odd(void);

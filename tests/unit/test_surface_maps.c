@@ -4,7 +4,7 @@ enum { FRAME = 64, MAP = 64, FACES = 1, ELEMENTS = 1024, BLOCKERS = 16, SIDE = 3
 
 #include "../bounce_frame.h"
 
-#include "../../tools/own_light.h"
+#include "../../tools/render/own_light.h"
 
 void test_surface_maps(void);
 

@@ -3,8 +3,8 @@
 
 #include <lambent/lambent.h>
 
-#include "../../tools/crew.h"
-#include "../../tools/demo_scene.h"
+#include "../../tools/common/crew.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../test.h"
 
 void test_threads(void);

@@ -1,10 +1,10 @@
 /* test_zeros.c: every public call with structs of zeros, null pointers and absurd numbers: it returns, and says so.
  *
- * The table of calls is made from the headers (tests/build/zeros.awk), so none can be forgotten. Under the sanitizers
+ * The table of calls is made from the headers (tests/scripts/zeros.awk), so none can be forgotten. Under the sanitizers
  * (make asan) this is also a test that none of it reads or writes what it must not, or computes what C leaves open. */
 #include <lambent/lambent.h>
 
-#include "../../tools/demo_scene.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../sphere_relief.h"
 
 void test_zeros(void);

@@ -1,0 +1,149 @@
+/* bands.c: direct and bounced light of a tile; rows of tiles to the picture, and to the caller. Floor 10. */
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../light/lit.h"
+#include "stages.h"
+#include "wants.h"
+
+#define BAND_UNITS 8
+
+/* SHOW_IRRADIANCE is what arrives before the albedo. */
+static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
+
+lmb_status lmb_render_direct(const lmb_render *r, lmb_gloss *gloss, lmb_band_scratch *s)
+{
+    const lmb_frame *f = &r->frame;
+    const lit_tile lit = {f->kernels, f->scene, &f->view, &s->tile};
+    lmb_many_look look;
+    lmb_status status = LMB_OK;
+    memset(&s->direct, 0, sizeof s->direct);
+    for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
+        if (!light_is(r, i, LMB_LIGHT_DARK)) {
+            status = lmb_lit_add(&s->direct, gloss, &s->indirect, &lit, i, &r->maps[i]);
+        }
+    }
+    if (wants_many(f) && status == LMB_OK) {
+        look.many = f->many;
+        look.blockers = f->blockers.triangle != NULL ? &f->blockers : NULL;
+        look.error = f->many_error;
+        look.each = 0;
+        status = lmb_many_direct_tile(&s->direct, f->kernels, &s->many, &s->tile, &look);
+    }
+    return status;
+}
+
+/* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
+ * always where there are lobes. */
+APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_gloss *gloss = wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene) ? &s->gloss : NULL;
+    lmb_status status = lmb_render_direct(r, gloss, s);
+    if ((indirect == NULL || gloss != NULL) && status == LMB_OK) {
+        indirect = &s->indirect;
+        memset(&s->indirect, 0, sizeof s->indirect);
+        status = lmb_render_gather(&s->indirect, gloss, r, s, &s->tile, wants_direct(f) ? &s->direct : NULL);
+    }
+    if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
+        show_irradiance(&s->radiance, indirect);
+        return LMB_OK;
+    }
+    if (status == LMB_OK) {
+        status = lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, indirect);
+    }
+    if (status == LMB_OK && gloss != NULL) {
+        status = lmb_compose_gloss(&s->radiance, gloss);
+    }
+    if (status == LMB_OK && r->shines && wants_direct(f)) {
+        status = lmb_compose_shine(&s->radiance, f->scene, &f->view, &s->tile);
+    }
+    return status;
+}
+
+/* The bounced light of the tile at column x where blocks are gathered: all of one with its first tile. Else NULL. */
+static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, lmb_band_scratch *s,
+                              const lmb_target *window, int32_t x, int32_t band)
+{
+    const lmb_frame *f = &r->frame;
+    const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
+    const int sparse = f->gather_step > 1 && !omits(r, LMB_OMIT_BOUNCE);
+    *out = sparse ? &s->sparse.light[part] : NULL;
+    if (!sparse || part > 0) {
+        return LMB_OK;
+    }
+    const int32_t ahead = (f->view.frame_width - x + LMB_TILE - 1) / LMB_TILE;
+    return lmb_render_block(r, s, window, x, band * LMB_TILE, mini(LMB_SPARSE_TILES, ahead));
+}
+
+lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
+                           const lmb_surface *out, int32_t band)
+{
+    if (r == NULL || scratch == NULL || eye == NULL || out == NULL || r->stage < LMB_STAGE_BANDS || band < 0 ||
+        band >= band_count(&r->frame.view)) {
+        return LMB_ERR_ARG;
+    }
+    lmb_status sound = lmb_render_check_out(out, &r->frame.view);
+    if (sound != LMB_OK) {
+        return sound;
+    }
+    if (r->failed != LMB_OK) {
+        return r->failed;
+    }
+    const lmb_frame *f = &r->frame;
+    lmb_target window = *eye;
+    int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
+    lmb_status status = lmb_render_view_band(r, &window, band);
+    for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
+        const lmb_irradiance *indirect;
+        status = block_light(&indirect, r, scratch, &window, x, band);
+        if (status == LMB_OK) {
+            status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, &window, x, band * LMB_TILE);
+        }
+        if (status == LMB_OK) {
+            status = light_tile(r, scratch, indirect);
+        }
+        if (status == LMB_OK) {
+            status = lmb_store_tile(out, f->kernels, 0, out_y0, &scratch->radiance, x, band * LMB_TILE, f->exposure_ev);
+        }
+    }
+    return status;
+}
+
+/* 1 to go on. */
+APART int hand_over(const lmb_frame *f, int32_t band)
+{
+    lmb_surface rows = f->out;
+    int32_t y = band * LMB_TILE;
+    if (f->callback == NULL) {
+        return 1;
+    }
+    if (is_whole(&f->out, &f->view)) {
+        rows.data = (uint8_t *)rows.data + (ptrdiff_t)y * rows.stride_bytes;
+    }
+    rows.height = mini(LMB_TILE, f->view.frame_height - y);
+    return f->callback(f->user, &rows, y) == 0;
+}
+
+lmb_status lmb_render_bands(lmb_render *r, int32_t units)
+{
+    const int32_t bands = band_count(&r->frame.view);
+    for (int32_t n = 0; (n == 0 || n + BAND_UNITS <= units) && r->place < (uint32_t)bands; n += BAND_UNITS) {
+        int32_t band = (int32_t)r->place++;
+        memset(&r->frame.scratch->counts, 0, sizeof r->frame.scratch->counts);
+        lmb_status status = lmb_render_band(r, r->frame.scratch, &r->frame.eye, &r->frame.out, band);
+        if (status != LMB_OK) {
+            return status;
+        }
+        if (r->frame.stats != NULL) {
+            ++r->frame.stats->bands;
+            r->frame.stats->pairs += r->frame.scratch->counts.pairs;
+            r->frame.stats->segments += r->frame.scratch->counts.segments;
+            r->frame.stats->full_cuts += r->frame.scratch->counts.full_cuts;
+        }
+        if (!hand_over(&r->frame, band)) {
+            return LMB_OK;
+        }
+    }
+    return r->place < (uint32_t)bands ? LMB_MORE : LMB_OK;
+}

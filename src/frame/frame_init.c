@@ -1,0 +1,301 @@
+/* frame_init.c: how much memory a frame takes, and a frame laid out in one block of it. Floor 10. */
+#include <lambent/render.h>
+
+#include <string.h>
+
+#include "wants.h"
+
+#define LINE 64u /* bytes: parts begin at multiples of this */
+
+#ifdef LMB_CONFIG_TINY
+#define MAP_TEXELS    (1u << 14) /* over all lights' maps: 96 KiB with 16-bit ids */
+#define TREE_SHARE    8          /* a quality's tree is so much smaller: 60 to 80 bytes a texel */
+#define ELEMENTS      256u
+#define MANY_ELEMENTS 1024u
+#else
+#define MAP_TEXELS    (1u << 21)
+#define TREE_SHARE    1
+#define ELEMENTS      16384u /* for what shines, and many lights */
+#define MANY_ELEMENTS 65536u /* for one bounce after another: by fewer, rooms lose a tenth of their later light */
+#endif
+
+enum { FINEST_MAP = 1024, COARSEST_MAP = 64, MOST_THREADS = 1024, FINEST_TREE = 4096 };
+
+/* The block: measured while `memory` is NULL, then shared out in the same order. */
+typedef struct block {
+    uint8_t *memory;
+    uint64_t used;
+} block;
+
+static void *take(block *b, uint64_t bytes)
+{
+    void *part = b->memory != NULL ? b->memory + (size_t)b->used : NULL;
+    b->used += (bytes + LINE - 1) / LINE * LINE;
+    return part;
+}
+
+static int is_measured(const block *b) { return b->memory == NULL; }
+
+/* --- settings ----------------------------------------------------------------------------------------------------- */
+
+/* Figures of the presets: README, "How good it is". */
+static const struct preset {
+    int32_t tree;
+    float error, visible;
+} presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.001f}, {256, 0.02f, 0.015f}},
+  /* by light from all sides, gathered at every second pixel each way */
+  even_presets[] = {{256, 0.1f, 0.2f}, {128, 0.2f, 0.3f}, {1024, 0.01f, 0.005f}, {256, 0.1f, 0.2f}};
+
+static int is_fixed(const lmb_frame_settings *s) { return !LMB_TREES || s->quality == LMB_QUALITY_FIXED; }
+
+static uint32_t map_faces(const lmb_scene *s)
+{
+    uint32_t faces = 0;
+    for (uint32_t i = 0; i < s->light_count; ++i) {
+        faces += (uint32_t)lmb_light_map_faces(&s->lights[i], s);
+    }
+    return faces;
+}
+
+static lmb_status check(const lmb_frame_settings *s)
+{
+    if (s->scene == NULL || s->view.frame_width < 1 || s->view.frame_width > LMB_MAX_SIDE || s->view.frame_height < 1 ||
+        s->view.frame_height > LMB_MAX_SIDE || s->show < LMB_SHOW_FULL || s->show > LMB_SHOW_IRRADIANCE ||
+        s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED || s->bounces < 0 ||
+        s->bounces > LMB_MOST_BOUNCES || s->threads < 0 || s->threads > MOST_THREADS || s->light_map < 0 ||
+        s->tree < 0 || !(s->error >= 0.0f) || !(s->visible >= 0.0f) || (s->by_bands && s->threads > 1)) {
+        return LMB_ERR_ARG;
+    }
+    if (is_fixed(s) && (s->bounces > 1 || s->grouping.method == LMB_GROUP_CUT)) {
+        return LMB_ERR_ARG;
+    }
+    if (s->scene->light_count > LMB_MAX_LIGHTS) {
+        return LMB_ERR_CAPACITY;
+    }
+    if (s->id_format != 0 && s->id_format != LMB_ID16 && s->id_format != LMB_ID32) {
+        return LMB_ERR_FORMAT;
+    }
+    return s->id_format == LMB_ID16 && lmb_scene_triangles(s->scene) > 65535u ? LMB_ERR_SCENE : LMB_OK;
+}
+
+static int32_t chosen_map(const lmb_frame_settings *s)
+{
+    const uint32_t faces = map_faces(s->scene);
+    int32_t size = FINEST_MAP;
+    while (size > COARSEST_MAP && (uint64_t)size * (uint64_t)size * faces > MAP_TEXELS) {
+        size /= 2;
+    }
+    return s->light_map != 0 ? s->light_map : size;
+}
+
+/* All that is no memory. */
+static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
+{
+    memset(f, 0, sizeof *f);
+    f->kernels = lmb_kernels_pick();
+    f->scene = s->scene;
+    f->many = s->many;
+    const int even = wants_even_light(f);
+    const struct preset *p = even ? &even_presets[s->quality] : &presets[s->quality];
+    f->view = s->view;
+    f->show = s->show;
+    f->light_map = chosen_map(s);
+    f->grouping = s->grouping;
+    f->grouping.method = is_fixed(s) ? s->grouping.method : LMB_GROUP_CUT;
+    f->occlusion = is_fixed(s) ? LMB_OCCLUSION_VIEW : LMB_OCCLUSION_EXACT;
+    f->error = s->error != 0.0f ? s->error : p->error;
+    f->visible = s->visible != 0.0f ? s->visible : p->visible;
+    f->bounces = s->bounces;
+    f->gather_step = even ? 2 : 1;
+    f->id_format = s->id_format != 0 ? s->id_format : lmb_scene_triangles(s->scene) <= 65535u ? LMB_ID16 : LMB_ID32;
+}
+
+/* --- parts -------------------------------------------------------------------------------------------------------- */
+
+static lmb_status place_maps(lmb_frame *f, block *b)
+{
+    const lmb_scene *s = f->scene;
+    uint64_t bytes = 0;
+    for (uint32_t i = 0; i < s->light_count; ++i) {
+        const size_t own = lmb_light_map_bytes(lmb_light_map_faces(&s->lights[i], s), f->light_map, f->id_format);
+        if (own == 0) {
+            return LMB_ERR_ARG;
+        }
+        bytes += own;
+    }
+    f->map_memory = take(b, bytes);
+    f->map_bytes = (size_t)bytes;
+    return LMB_OK;
+}
+
+static lmb_status place_surface(lmb_surface *out, int32_t format, const lmb_view *v, int32_t height, block *b)
+{
+    const size_t bytes = lmb_surface_bytes(format, v->frame_width, height);
+    if (bytes == 0) {
+        return LMB_ERR_FORMAT;
+    }
+    void *memory = take(b, bytes);
+    return is_measured(b) ? LMB_OK : lmb_surface_init(out, format, v->frame_width, height, memory, bytes);
+}
+
+/* The viewer's depth and ids, and the picture. */
+static lmb_status place_surfaces(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    const int32_t rows = s->by_bands ? LMB_TILE : f->view.frame_height;
+    const int32_t format = s->format != 0 ? s->format : LMB_RGBA8;
+    lmb_status status = place_surface(&f->eye.depth, LMB_DEPTH32F, &f->view, rows, b);
+    if (status == LMB_OK) {
+        status = place_surface(&f->eye.id, f->id_format, &f->view, rows, b);
+    }
+    f->out = s->out;
+    if (status != LMB_OK || s->out.data != NULL) {
+        return status;
+    }
+    status = format < LMB_DEPTH32F ? place_surface(&f->out, format, &f->view, rows, b) : LMB_ERR_FORMAT;
+    return status == LMB_OK && !is_measured(b) ? lmb_surface_clear(&f->out) : status;
+}
+
+/* First points, groups, and, where the eye sees bands alone, the depth of all that it sees. */
+static lmb_status place_groups(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    const int32_t block_side = f->grouping.block != 0 ? f->grouping.block : LMB_TILE;
+    if (block_side < 1 || block_side > LMB_TILE || f->light_map % block_side != 0) {
+        return LMB_ERR_ARG;
+    }
+    const uint32_t side = (uint32_t)(f->light_map / block_side);
+    const uint64_t most = (uint64_t)side * side * 4u * map_faces(f->scene), n = s->points != 0 ? s->points : most;
+    const size_t bytes = n <= UINT32_MAX ? lmb_points_bytes((uint32_t)n, side) : 0;
+    if (bytes == 0) {
+        return LMB_ERR_ARG;
+    }
+    void *points = take(b, bytes);
+    f->groups = (lmb_groups *)take(b, sizeof *f->groups);
+    lmb_status status = is_measured(b) ? LMB_OK : lmb_points_init(&f->points, (uint32_t)n, side, points, bytes);
+    if (status == LMB_OK && s->by_bands) {
+        const int32_t format = f->view.far_m > f->view.near_m ? LMB_DEPTH16 : LMB_DEPTH32F;
+        status = place_surface(&f->eye_depth, format, &f->view, f->view.frame_height, b);
+    }
+    return status;
+}
+
+#if LMB_TREES
+static lmb_status place_blockers(lmb_frame *f, block *b)
+{
+    const uint32_t triangles = lmb_scene_triangles(f->scene);
+    const size_t bytes = lmb_blockers_bytes(triangles);
+    void *memory = take(b, bytes);
+    return bytes == 0       ? LMB_ERR_ARG
+           : is_measured(b) ? LMB_OK
+                            : lmb_blockers_init(&f->blockers, triangles, memory, bytes);
+}
+
+static lmb_status place_elements(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    const uint32_t n = s->elements != 0 ? s->elements : s->bounces > 1 ? MANY_ELEMENTS : ELEMENTS;
+    const size_t bytes = lmb_elements_bytes(n);
+    void *memory = take(b, bytes);
+    return bytes == 0 ? LMB_ERR_ARG : is_measured(b) ? LMB_OK : lmb_elements_init(&f->elements, n, memory, bytes);
+}
+
+/* As fine as the settings say, as far as the maps' texels can be taken 1 x 1 to 8 x 8 together. */
+static lmb_status place_tree(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    const uint32_t lit = map_faces(f->scene), faces = lit > 0 ? lit : 1;
+    const int32_t finest = f->light_map < FINEST_TREE ? f->light_map : FINEST_TREE, least = f->light_map / 8;
+    const int32_t wanted = s->tree != 0 ? s->tree : presets[s->quality].tree / TREE_SHARE;
+    const int32_t size = wanted > finest ? finest : wanted < least ? least : wanted;
+    const size_t bytes = lmb_tree_bytes(faces, size);
+    if (bytes == 0 || f->light_map % size != 0) {
+        return LMB_ERR_ARG;
+    }
+    void *memory = take(b, bytes);
+    return is_measured(b) ? LMB_OK : lmb_tree_init(&f->tree, faces, size, memory, bytes);
+}
+#endif
+
+/* What holds the light that bounces, and what stands in its way. Nothing lights the scene: nothing. */
+static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    const int shines = lmb_scene_shines(f->scene) && !is_fixed(s);
+    const int bounces = s->show != LMB_SHOW_DIRECT && (map_faces(f->scene) > 0 || shines || f->many != NULL);
+    const int by_tree = bounces && !is_fixed(s);
+    lmb_status status = bounces && is_fixed(s) ? place_groups(f, s, b) : LMB_OK;
+#if LMB_TREES
+    if (status == LMB_OK && (by_tree || f->many != NULL)) {
+        status = place_blockers(f, b);
+    }
+    if (status == LMB_OK && by_tree) {
+        status = place_tree(f, s, b);
+    }
+    if (status == LMB_OK && by_tree && (s->bounces > 1 || shines || f->many != NULL)) {
+        status = place_elements(f, s, b);
+    }
+#else
+    (void)shines;
+    (void)by_tree;
+#endif
+    return status;
+}
+
+static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    const uint64_t scratch = sizeof *f->scratch * (uint64_t)(s->threads > 1 ? s->threads : 1);
+    set_numbers(f, s);
+    f->scratch = (lmb_band_scratch *)take(b, scratch);
+    lmb_status status = place_maps(f, b);
+    if (status == LMB_OK) {
+        status = place_surfaces(f, s, b);
+    }
+    if (status == LMB_OK) {
+        status = place_bounced(f, s, b);
+    }
+    if (status == LMB_OK && !is_measured(b)) {
+        memset(f->scratch, 0, (size_t)scratch);
+    }
+    return status;
+}
+
+/* --- calls -------------------------------------------------------------------------------------------------------- */
+
+static lmb_status measure(lmb_frame *f, uint64_t *bytes, const lmb_frame_settings *settings)
+{
+    block b = {NULL, 0};
+    lmb_status status = check(settings);
+    if (status == LMB_OK) {
+        status = lay_out(f, settings, &b);
+    }
+    *bytes = b.used;
+    return status != LMB_OK ? status : b.used > SIZE_MAX ? LMB_ERR_CAPACITY : LMB_OK;
+}
+
+size_t lmb_frame_bytes(const lmb_frame_settings *settings)
+{
+    lmb_frame f;
+    uint64_t bytes = 0;
+    return settings != NULL && measure(&f, &bytes, settings) == LMB_OK ? (size_t)bytes : 0;
+}
+
+lmb_status lmb_frame_init(lmb_frame *out, const lmb_frame_settings *settings, void *memory, size_t bytes)
+{
+    lmb_frame f;
+    uint64_t needed = 0;
+    if (out == NULL || settings == NULL || memory == NULL) {
+        return LMB_ERR_ARG;
+    }
+    lmb_status status = measure(&f, &needed, settings);
+    if (status != LMB_OK) {
+        return status;
+    }
+    if ((uintptr_t)memory % sizeof(uint64_t) != 0) {
+        return LMB_ERR_ALIGN;
+    }
+    if (bytes < needed) {
+        return LMB_ERR_CAPACITY;
+    }
+    block b = {(uint8_t *)memory, 0};
+    status = lay_out(&f, settings, &b);
+    if (status == LMB_OK) {
+        *out = f;
+    }
+    return status;
+}

@@ -1,0 +1,144 @@
+/* relight.c: a band of objects in the world's light. Floor 10.                                    [S15-S17, S21-S24] */
+#include <lambent/relight.h>
+
+#include <string.h>
+
+#include "../base/surface_check.h"
+#include "../light/lit.h"
+#include "../raster/tile.h"
+#include "../raster/triangle.h"
+
+#if LMB_PROBES
+
+static lmb_world_look look_of(const lmb_relight *r)
+{
+    const lmb_view *v = &r->view;
+    lmb_world_look look;
+    look.world = r->world;
+    look.ray_width = v->kind == LMB_PERSPECTIVE ? 2.0f * v->half_height / (float)v->frame_height : 0.0f;
+    look.blend = r->blend;
+    return look;
+}
+
+/* Pixels of the tile that have the probe of the first that is left. */
+static uint64_t with_same_probe(uint16_t *probe, const lmb_relight *r, const lmb_tile *tile, uint64_t left)
+{
+    uint64_t same = 0;
+    uint32_t id = 0;
+    uint16_t of_id = 0;
+    *probe = r->probe_of[lmb_instance_of(r->scene, tile->id[lowest_bit_64(left)]) - r->scene->instances];
+    for (uint64_t bits = left; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        if (tile->id[k] != id) {
+            id = tile->id[k];
+            of_id = r->probe_of[lmb_instance_of(r->scene, id) - r->scene->instances];
+        }
+        same |= (uint64_t)(of_id == *probe) << k;
+    }
+    return same;
+}
+
+/* A probe's light on its pixels. A mirror of a world that is not there is dark. */
+static lmb_status add_probe(const lmb_relight *r, lmb_relight_scratch *s, uint64_t pixels, const lmb_probe *probe,
+                            int is_glossy)
+{
+    const lmb_world_look look = look_of(r);
+    const int looks = probe->gloss.texel == NULL;
+    lmb_status status = LMB_OK;
+    if (r->show != LMB_RELIGHT_GLOSS) {
+        status = lmb_probe_light_tile(&s->light, &s->rays, r->kernels, &s->tile, pixels, &probe->irradiance);
+    }
+    if (status == LMB_OK && is_glossy && r->show != LMB_RELIGHT_NORMAL && !(looks && r->world == NULL)) {
+        status = lmb_probe_gloss_tile(&s->gloss, &s->rays, r->kernels, &s->tile, pixels, looks ? NULL : &probe->gloss,
+                                      &look);
+    }
+    return status;
+}
+
+static lmb_status add_probes(const lmb_relight *r, lmb_relight_scratch *s, int is_glossy)
+{
+    lmb_status status = LMB_OK;
+    for (uint64_t left = tile_pixels(&s->tile); left != 0 && status == LMB_OK;) {
+        uint16_t probe;
+        const uint64_t pixels = with_same_probe(&probe, r, &s->tile, left);
+        status = add_probe(r, s, pixels, &r->probes[probe], is_glossy);
+        left &= ~pixels;
+    }
+    return status;
+}
+
+/* The scene's own lights. What is not shown of them is taken out again: what remains is the other part, to the bit. */
+static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_gloss *gloss)
+{
+    const lit_tile lit = {r->kernels, r->scene, &r->view, &s->tile};
+    lmb_status status = LMB_OK;
+    for (uint32_t i = 0; i < r->scene->light_count && status == LMB_OK; ++i) {
+        status = lmb_lit_add(&s->light, gloss, &s->one, &lit, i, r->maps != NULL ? &r->maps[i] : NULL);
+    }
+    if (r->show == LMB_RELIGHT_GLOSS) {
+        memset(&s->light, 0, sizeof s->light);
+    }
+    if (r->show == LMB_RELIGHT_NORMAL && gloss != NULL) {
+        memset(gloss->rgb, 0, sizeof gloss->rgb);
+    }
+    return status;
+}
+
+/* Has every instance a probe with light? */
+static int has_probes(const lmb_relight *r)
+{
+    int sound = 1;
+    for (uint32_t i = 0; i < r->scene->instance_count && sound; ++i) {
+        sound = r->probe_of[i] < r->probe_count && r->probes[r->probe_of[i]].irradiance.texel != NULL;
+    }
+    return sound;
+}
+
+static lmb_status relight_tile(const lmb_relight *r, lmb_relight_scratch *s)
+{
+    const lmb_world_look look = look_of(r);
+    lmb_gloss *gloss = lmb_gloss_tile(&s->gloss, &s->tile, &r->view, r->scene) ? &s->gloss : NULL;
+    memset(&s->light, 0, sizeof s->light);
+    lmb_status status = add_lights(r, s, gloss);
+    if (status == LMB_OK) {
+        status = add_probes(r, s, gloss != NULL);
+    }
+    if (status == LMB_OK) {
+        status = lmb_compose_tile(&s->radiance, r->kernels, &s->tile, &s->light, NULL);
+    }
+    if (status == LMB_OK && gloss != NULL) {
+        status = lmb_compose_gloss(&s->radiance, gloss);
+    }
+    if (status == LMB_OK && r->show != LMB_RELIGHT_GLOSS) {
+        status = lmb_compose_shine(&s->radiance, r->scene, &r->view, &s->tile);
+    }
+    return status == LMB_OK && r->world != NULL
+               ? lmb_probe_background(s->radiance.rgb, &s->rays, r->kernels, &s->tile, &r->view, &look)
+               : status;
+}
+
+lmb_status lmb_relight_band(const lmb_relight *r, lmb_relight_scratch *scratch, const lmb_surface *out, int32_t band)
+{
+    if (r == NULL || scratch == NULL || r->kernels == NULL || r->scene == NULL || r->probes == NULL ||
+        r->probe_of == NULL || band < 0 || band >= (r->view.frame_height + LMB_TILE - 1) / LMB_TILE ||
+        r->show < LMB_RELIGHT_BOTH || r->show > LMB_RELIGHT_GLOSS || !has_probes(r)) {
+        return LMB_ERR_ARG;
+    }
+    if (!lmb_surface_is_sound(out)) {
+        return LMB_ERR_FORMAT;
+    }
+    const int32_t y = band * LMB_TILE, y0 = out->height >= r->view.frame_height ? 0 : y;
+    lmb_status status = LMB_OK;
+    for (int32_t x = 0; x < r->view.frame_width && status == LMB_OK; x += LMB_TILE) {
+        status = lmb_resolve_tile(&scratch->tile, r->kernels, &r->view, r->scene, &r->eye, x, y);
+        if (status == LMB_OK) {
+            status = relight_tile(r, scratch);
+        }
+        if (status == LMB_OK) {
+            status = lmb_store_tile(out, r->kernels, 0, y0, &scratch->radiance, x, y, r->exposure_ev);
+        }
+    }
+    return status;
+}
+
+#endif

@@ -1,0 +1,84 @@
+/* sparse.c: bounced light gathered for every second or fourth pixel and for those that no such pixel explains.
+ * Floor 10.
+ *
+ * What a gather costs is mostly asked for once a tile: which nodes it takes, what they see. So the pixels of several
+ * tiles fill one. Tiles are resolved again for each pass: 4 KiB each to keep, microseconds to make. */
+#include <string.h>
+
+#include "../base/vec.h"
+#include "stages.h"
+#include "wants.h"
+
+/* What a gather reads of a pixel. */
+static void put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
+{
+    for (int c = 0; c < 3; ++c) {
+        out->position[c][to] = in->position[c][from];
+        out->face[c][to] = in->face[c][from];
+        out->normal[c][to] = in->normal[c][from];
+    }
+    out->depth[to] = in->depth[from];
+    out->id[to] = in->id[from];
+}
+
+/* Gather the pixels put together, and hand out their light. Their tile has no corners to ask first: its `hits` is 0. */
+static lmb_status gather_together(const lmb_render *r, lmb_band_scratch *s)
+{
+    lmb_sparse *sparse = &s->sparse;
+    memset(&s->indirect, 0, sizeof s->indirect);
+    const lmb_status status =
+        sparse->count > 0 ? lmb_render_gather(&s->indirect, NULL, r, s, &sparse->together, NULL) : LMB_OK;
+    for (int32_t i = 0; i < sparse->count; ++i) {
+        lmb_irradiance *light = &sparse->light[sparse->place[i] / LMB_TILE_PIXELS];
+        for (int c = 0; c < 3; ++c) {
+            light->rgb[c][sparse->place[i] % LMB_TILE_PIXELS] = s->indirect.rgb[c][i];
+        }
+    }
+    sparse->count = 0;
+    memset(&sparse->together, 0, sizeof sparse->together);
+    return status;
+}
+
+/* Those of one tile stay together. */
+static lmb_status put_together(const lmb_render *r, lmb_band_scratch *s, int32_t part, uint64_t pixels)
+{
+    lmb_sparse *sparse = &s->sparse;
+    lmb_status status = LMB_OK;
+    if (sparse->count + count_bits_64(pixels) > LMB_TILE_PIXELS) {
+        status = gather_together(r, s);
+    }
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        put_pixel(&sparse->together, sparse->count, &s->tile, k);
+        sparse->place[sparse->count++] = (uint16_t)(part * LMB_TILE_PIXELS + k);
+    }
+    return status;
+}
+
+lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *s, const lmb_target *target, int32_t x, int32_t y,
+                            int32_t tiles)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_sparse *sparse = &s->sparse;
+    lmb_status status = LMB_OK;
+    memset(sparse, 0, sizeof *sparse);
+    for (int pass = 0; pass < 2 && status == LMB_OK; ++pass) {
+        for (int32_t part = 0; part < tiles && status == LMB_OK; ++part) {
+            uint64_t pixels;
+            status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, target, x + part * LMB_TILE, y);
+            if (status != LMB_OK) {
+                return status;
+            }
+            if (wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene)) {
+                continue;
+            }
+            pixels = lmb_sparse_pixels(&s->tile, f->gather_step);
+            if (pass > 0) {
+                pixels = lmb_upsample_tile(&sparse->light[part], &s->tile, pixels, f->gather_step);
+            }
+            status = put_together(r, s, part, pixels);
+        }
+        status = status == LMB_OK ? gather_together(r, s) : status;
+    }
+    return status;
+}

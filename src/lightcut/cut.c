@@ -1,0 +1,881 @@
+/* cut.c: each tile of pixels takes its own cut through the light's tree, and is lit by it. Floor 7.    [V25 V27 V28]
+ *
+ * What a node may be wrong by is weigh.inl's. The largest is divided first: buckets by exponent and first bit find
+ * it without sorting, in the same order everywhere. */
+#include <lambent/tree.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../lane/kernels.h"
+#include "../light/gloss.h"
+#include "../map/footprint.h"
+#include "../occlusion/walk.h"
+#include "../raster/tile.h"
+#include "patch.h"
+#include "tree.h"
+
+#if LMB_TREES
+
+#define INVERSE_PI 0.31830989f
+#define PI         3.14159265f
+#define DARK       0.03  /* of what is there where nothing blocks: who sees less than this share is as dark */
+#define BENT       0.98f /* agreement of normals under which a node's parts are asked which of them face the patch */
+#define HOLDS  100.0  /* times over what was asked for: by nodes that the pixels lie in, fewer pixels in fewer nodes */
+#define CLOSER     0.7   /* a half that comes this much closer to what was asked for is worth its cut */
+enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
+enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
+enum { AHEAD = LMB_WEIGH_NODES / 4 /* nodes whose parts are weighed together */ };
+
+/* --- the cut ------------------------------------------------------------------------------------------------------ */
+
+typedef struct cutter {
+    lmb_cut *cut;
+    const lmb_tree *tree;
+    const lmb_tile *tile;
+    const lmb_kernels *kernels;
+    const lmb_cutting *cutting;
+    const lmb_patch *p;
+    float noise;         /* m: lmb_tile_noise of the patch */
+    uint64_t in_hull;    /* pixels of the patch in a convex room: nothing stands between them and others in it */
+    float per_pixel;     /* 1 / pixels of the patch */
+    int lobe;            /* a pixel whose lobe stands for the patch's; NONE: they have none */
+    double beside;       /* what the pixels have beside the tree, in the mean */
+    int32_t ahead[AHEAD]; /* slots whose parts are weighed, four each, and not yet put; or NONE */
+    uint32_t faces;      /* of the weighed, those that do not face away */
+    const float *key;    /* what the buckets go by: cut->error or cut->most */
+    int highest;         /* no bucket over this has any */
+    double error, value; /* sums; of value, what is seen */
+    double floor;        /* W/m2, R + G + B: errors under this are no errors */
+} cutter;
+
+static double maxd(double a, double b) { return a > b ? a : b; }
+
+static lmb_weighed *weighed_of(lmb_cut *c) { return (lmb_weighed *)(void *)c->weighed; }
+
+static void set_vector(lmb_weighed *out, int plane, int k, lmb_vec3 v)
+{
+    out->node[plane][k] = v.x;
+    out->node[plane + 1][k] = v.y;
+    out->node[plane + 2][k] = v.z;
+}
+
+/* A node of any level; `texel` holds one of level 0. */
+static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_tree_place at)
+{
+    if (at.level > 0) {
+        return tree_node(tree, at);
+    }
+    lmb_tree_texel_node(texel, tree, at.face, at.x, at.y);
+    return texel;
+}
+
+/* Node k of those that are weighed together. */
+static void set_weighed(lmb_weighed *out, int k, const lmb_tree *tree, lmb_tree_place at)
+{
+    lmb_node texel;
+    const lmb_node *n = node_at(&texel, tree, at);
+    set_vector(out, LMB_WEIGH_CENTRE, k, n->centre);
+    set_vector(out, LMB_WEIGH_NORMAL, k, n->normal);
+    set_vector(out, LMB_WEIGH_MIDDLE, k, n->middle);
+    set_vector(out, LMB_WEIGH_ACROSS, k, n->across);
+    set_vector(out, LMB_WEIGH_HALF, k, vec3(n->half[0], n->half[1], n->half[2]));
+    out->node[LMB_WEIGH_RADIUS][k] = n->radius;
+    out->node[LMB_WEIGH_FLUX][k] = flux_sum(n->flux);
+    out->node[LMB_WEIGH_AREA][k] = n->area;
+    out->node[LMB_WEIGH_COSINE][k] = n->cosine;
+    out->node[LMB_WEIGH_AGREEMENT][k] = n->agreement;
+}
+
+static lmb_tree_place part_at(lmb_tree_place from, int k)
+{
+    lmb_tree_place at = from;
+    at.x = (uint16_t)(2 * from.x + (k & 1));
+    at.y = (uint16_t)(2 * from.y + (k >> 1));
+    at.level = (uint16_t)(from.level - 1);
+    return at;
+}
+
+static lmb_vec3 weighed_vector(const lmb_weighed *w, int plane, int k)
+{
+    return vec3(w->node[plane][k], w->node[plane + 1][k], w->node[plane + 2][k]);
+}
+
+/* A node counts by what the lobe makes of it too, in shares of what a white Lambertian would: pi D V F, in the mean
+ * over as far as node and patch reach. That part is wrong by how far the lobe's middle value is from its mean over
+ * the node. A rule, not a proof: what is proven is the irradiance. */
+static void weigh_lobe(cutter *c, int k)
+{
+    lmb_weighed *w = weighed_of(c->cut);
+    const lmb_vec3 to = sub3(weighed_vector(w, LMB_WEIGH_CENTRE, k), c->p->centre);
+    const float *half = c->p->half;
+    const float d2 = maxf(dot3(to, to), 1e-24f), node = w->node[LMB_WEIGH_RADIUS][k],
+                both = node + sqrtf(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
+    const lmb_gloss *gloss = c->cutting->gloss;
+    const float far = lmb_gloss_factor(gloss, c->tile, c->lobe, to, minf(PI * both * both / d2, 2.0f * PI));
+    const float mean = lmb_gloss_factor(gloss, c->tile, c->lobe, to, minf(PI * node * node / d2, 2.0f * PI));
+    const float middle = lmb_gloss_factor(gloss, c->tile, c->lobe, to, 0.0f);
+    const float gain = PI * far, off = absf(middle - mean) / maxf(middle + mean, 1e-12f);
+    w->error[k] += w->most[k] * gain * off;
+    w->most[k] *= 1.0f + gain;
+    w->value[k] *= 1.0f + gain;
+}
+
+/* Up to the next whole vector there is nothing. */
+static void weigh(cutter *c, int count)
+{
+    lmb_weighed *w = weighed_of(c->cut);
+    for (int k = count; k % c->kernels->lanes != 0; ++k) {
+        for (int i = 0; i < LMB_WEIGH_PLANES; ++i) {
+            w->node[i][k] = 0.0f;
+        }
+    }
+    c->faces = c->kernels->weigh(w, count, c->p, c->cutting->proven);
+    for (int k = 0; k < count && c->lobe != NONE; ++k) {
+        if (c->faces >> k & 1u) {
+            weigh_lobe(c, k);
+        }
+    }
+}
+
+static int bucket_of(float key)
+{
+    uint32_t bits;
+    memcpy(&bits, &key, sizeof bits);
+    return (int)(bits >> 22) & (LMB_CUT_BUCKETS - 1);
+}
+
+/* Texels cannot be divided: they wait in no bucket. */
+static void wait(cutter *c, int32_t i)
+{
+    if (c->cut->place[i].level > 0) {
+        const int b = bucket_of(c->key[i]);
+        c->cut->next[i] = c->cut->bucket[b];
+        c->cut->bucket[b] = i;
+        c->highest = b > c->highest ? b : c->highest;
+    }
+}
+
+static int32_t largest(cutter *c)
+{
+    while (c->highest >= 0 && c->cut->bucket[c->highest] == NONE) {
+        --c->highest;
+    }
+    return c->highest < 0 ? NONE : c->cut->bucket[c->highest];
+}
+
+static void empty_buckets(cutter *c, const float *key)
+{
+    c->key = key;
+    c->highest = -1;
+    for (int b = 0; b < LMB_CUT_BUCKETS; ++b) {
+        c->cut->bucket[b] = NONE;
+    }
+}
+
+static double seen_value(const cutter *c, int32_t i)
+{
+    return (double)(c->cut->value[i] * ((float)count_bits_64(c->cut->visible[i]) * c->per_pixel));
+}
+
+/* Errors of many nodes are as often too much as too little: their squares add up. A proof takes each at its worst. */
+static double counted_error(const cutter *c, int32_t i)
+{
+    const double e = (double)c->cut->error[i];
+    return c->cutting->proven ? e : e * e;
+}
+
+static double allowed_error(const cutter *c)
+{
+    const double most = (double)c->cutting->error * (c->beside + c->value);
+    return c->cutting->proven ? most : maxd(most * most, c->floor * c->floor);
+}
+
+static void count_in(cutter *c, int32_t i, double sign)
+{
+    c->value += sign * seen_value(c, i);
+    c->error += sign * counted_error(c, i);
+}
+
+/* Node k of the weighed into slot i. */
+static void put(cutter *c, int32_t i, lmb_tree_place at, int k, uint64_t visible)
+{
+    const lmb_weighed *w = weighed_of(c->cut);
+    c->cut->place[i] = at;
+    c->cut->error[i] = at.level > 0 ? w->error[k] : 0.0f;
+    c->cut->value[i] = w->value[k];
+    c->cut->most[i] = w->most[k];
+    c->cut->visible[i] = visible;
+    count_in(c, i, 1.0);
+}
+
+/* Have all pixels of the patch the point before them, and are they before it? By its box, never where one is not: most
+ * nodes need not be asked pixel by pixel. A unit vector at an angle of sine s, under 90 degrees, is within 1.5 s. */
+static int all_before(const cutter *c, const lmb_texel *seen, float ends)
+{
+    const lmb_patch *p = c->p;
+    const lmb_vec3 d = sub3(seen->position, p->centre);
+    const float far = length3(d) + p->half[0] + p->half[1] + p->half[2];
+    const float noise = ends + 4.0f * p->noise + 2.0f * LMB_NOISE_TRIANGLE * far;
+    return dot3(p->normal, d) - lmb_patch_reach(p, p->normal) - (1.5f * p->face_sine + 1e-3f) * far > noise &&
+           -dot3(seen->normal, d) - lmb_patch_reach(p, seen->normal) - 1e-5f * far > noise;
+}
+
+/* Of `pixels`, those that do not have the point before them, or are not before it, by more than what a wall does not
+ * block: it does not block what lies on it, so who stands behind it must not be asked past it. */
+APART uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen, float ends)
+{
+    uint64_t out = 0;
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = sub3(seen->position, tile_vec(c->tile->position, k));
+        const float noise = ends + LMB_NOISE_TRIANGLE * length3(d);
+        const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > noise;
+        out |= (uint64_t)!before << k;
+    }
+    return out;
+}
+
+/* Are a first point and the patch's middle before each other? */
+static int is_before(const lmb_patch *p, lmb_vec3 at, lmb_vec3 normal)
+{
+    const lmb_vec3 d = sub3(at, p->centre);
+    return dot3(p->normal, d) > 0.0f && dot3(normal, d) < 0.0f;
+}
+
+static const lmb_texel *own_point(const lmb_tree *tree, lmb_tree_place at)
+{
+    return at.level > 0 ? tree_texel(tree, at.face, 0, 0) + tree_node(tree, at)->texel
+                        : tree_texel(tree, at.face, at.x, at.y);
+}
+
+/* Of a node's parts the one that sends the patch most as a disc; its level is the node's where none sends any. */
+static lmb_tree_place brightest_part(const cutter *c, lmb_tree_place from)
+{
+    lmb_tree_place best = from;
+    float most = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        const lmb_tree_place at = part_at(from, k);
+        lmb_node texel;
+        const lmb_node *n = node_at(&texel, c->tree, at);
+        const float flux = flux_sum(n->flux);
+        const float sent = flux > 0.0f && is_before(c->p, n->centre, n->normal)
+                               ? flux * lmb_disc_factor(c->p->centre, c->p->normal, n->centre, n->normal, n->area)
+                               : 0.0f;
+        best = sent > most ? at : best;
+        most = maxf(most, sent);
+    }
+    return best;
+}
+
+/* Where a node's visibility is asked: at its own first point, or, where that faces away, at one that does not. */
+static const lmb_texel *asked_point(const cutter *c, lmb_tree_place at)
+{
+    const lmb_texel *own = own_point(c->tree, at), *seen = own;
+    while (at.level > 0 && !is_before(c->p, seen->position, seen->normal)) {
+        const lmb_tree_place part = brightest_part(c, at);
+        if (part.level == at.level) {
+            return own;
+        }
+        at = part;
+        seen = own_point(c->tree, at);
+    }
+    return seen;
+}
+
+/* Of a texel: its light found it, an element is a mean of corners. */
+static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
+{
+    return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
+}
+
+/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are. */
+static void ask(cutter *c, int32_t i)
+{
+    const lmb_tree_place at = c->cut->place[i];
+    const lmb_texel *seen = asked_point(c, at);
+    const float noise = c->noise + texel_noise(c, at.face, seen->position);
+    count_in(c, i, -1.0);
+    if (c->tree->element != NULL && !all_before(c, seen, noise)) {
+        c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen, noise);
+    }
+    if (c->cutting->stats != NULL) {
+        c->cutting->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
+    }
+    uint64_t asked = c->cut->visible[i];
+    if ((asked & c->in_hull) != 0 && lmb_hull_holds(&c->cutting->blockers->hull, seen->position)) {
+        asked &= ~c->in_hull;
+    }
+    c->cut->visible[i] &=
+        ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, asked, seen->position, noise,
+                          &c->cut->use.walk);
+    count_in(c, i, 1.0);
+}
+
+/* Weigh the parts of the node in slot i, and of those next in line: nine of ten are divided next. */
+static void weigh_parts(cutter *c, int32_t i)
+{
+    const int most = maxi(c->kernels->lanes / 4, 1);
+    int count = 0, b = c->highest;
+    for (int k = 0; k < AHEAD; ++k) {
+        c->ahead[k] = NONE;
+    }
+    for (int32_t next = i; next != NONE && count < most; ++count) {
+        for (int k = 0; k < 4; ++k) {
+            set_weighed(weighed_of(c->cut), 4 * count + k, c->tree, part_at(c->cut->place[next], k));
+        }
+        c->ahead[count] = next;
+        next = next == i ? c->cut->bucket[b] : c->cut->next[next];
+        while (next == NONE && --b >= 0) {
+            next = c->cut->bucket[b];
+        }
+    }
+    weigh(c, 4 * count);
+}
+
+/* The first of the four parts of the node in slot i, among the weighed. */
+static int parts_of(cutter *c, int32_t i)
+{
+    int k = 0;
+    while (k < AHEAD && c->ahead[k] != i) {
+        ++k;
+    }
+    if (k == AHEAD) {
+        weigh_parts(c, i);
+        k = 0;
+    }
+    c->ahead[k] = NONE;
+    return 4 * k;
+}
+
+/* Put the four parts of the node in slot i in its place: the first in its slot, the others at the end. */
+static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
+{
+    const lmb_tree_place from = c->cut->place[i];
+    const int first = parts_of(c, i);
+    int32_t slot = i;
+    count_in(c, i, -1.0);
+    c->cut->place[i].level = GONE;
+    for (int k = 0; k < 4; ++k) {
+        if (c->faces >> (first + k) & 1u) {
+            const int32_t to = slot >= 0 ? slot : c->cut->count++;
+            put(c, to, part_at(from, k), first + k, visible);
+            if (asks) {
+                ask(c, to);
+            }
+            wait(c, to);
+            slot = NONE;
+        }
+    }
+}
+
+static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; }
+
+/* What a node may give whose visibility is asked as one. */
+static double allowed_most(const cutter *c, double least)
+{
+    return maxd((double)c->cutting->visible * (c->beside + maxd(c->value, least)), c->floor);
+}
+
+/* Divide the one that can give most until none is over what is allowed. Where room ends, how far over it is. */
+static double divide_by_most(cutter *c, double least, int asks)
+{
+    int32_t i = largest(c);
+    while (i != NONE && has_room(c) && (double)c->cut->most[i] > allowed_most(c, least)) {
+        c->cut->bucket[c->highest] = c->cut->next[i];
+        divide(c, i, c->p->pixels, asks);
+        i = largest(c);
+    }
+    return i != NONE && !has_room(c) ? (double)c->cut->most[i] / maxd(allowed_most(c, least), 1e-30) : 0.0;
+}
+
+static double divide_by_error(cutter *c)
+{
+    int32_t i = largest(c);
+    while (i != NONE && has_room(c) && c->error > allowed_error(c)) {
+        c->cut->bucket[c->highest] = c->cut->next[i];
+        divide(c, i, c->cut->visible[i], 0);
+        i = largest(c);
+    }
+    return i != NONE && !has_room(c) ? c->error / maxd(allowed_error(c), 1e-30) : 0.0;
+}
+
+/* Large errors that came and went leave their rounding in the sum: it is counted anew. */
+static int is_right(cutter *c)
+{
+    c->error = 0.0;
+    for (int32_t i = 0; i < c->cut->count; ++i) {
+        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+            c->error += counted_error(c, i);
+        }
+    }
+    return c->error <= allowed_error(c);
+}
+
+/* The faces' roots. */
+APART void begin(cutter *c)
+{
+    c->cut->count = 0;
+    c->error = c->value = 0.0;
+    empty_buckets(c, c->cut->most);
+    for (uint32_t first = 0; first < c->tree->faces; first += LMB_WEIGH_NODES) {
+        lmb_tree_place root[LMB_WEIGH_NODES];
+        const int count = mini((int32_t)(c->tree->faces - first), LMB_WEIGH_NODES);
+        for (int k = 0; k < count; ++k) {
+            root[k].face = (uint16_t)(first + (uint32_t)k);
+            root[k].x = root[k].y = 0;
+            root[k].level = (uint16_t)tree_root_level(c->tree);
+            set_weighed(weighed_of(c->cut), k, c->tree, root[k]);
+        }
+        weigh(c, count);
+        for (int k = 0; k < count && c->cut->count < LMB_MAX_CUT; ++k) {
+            if (c->faces >> k & 1u) {
+                put(c, c->cut->count, root[k], k, c->p->pixels);
+                wait(c, c->cut->count++);
+            }
+        }
+    }
+    for (int k = 0; k < AHEAD; ++k) {
+        c->ahead[k] = NONE;
+    }
+}
+
+/* Those that wait to be divided for their shape: what is seen. */
+static void wait_by_error(cutter *c)
+{
+    empty_buckets(c, c->cut->error);
+    c->error = 0.0;
+    for (int32_t i = 0; i < c->cut->count; ++i) {
+        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+            c->error += counted_error(c, i);
+            wait(c, i);
+        }
+    }
+}
+
+/* First nodes so small that each may be seen or not as one; then, of those that are seen, smaller ones. Returns how far
+ * the worst is over what is allowed where there was no room for more; else 0. */
+static double take_cut(cutter *c)
+{
+    double over = 0.0;
+    begin(c);
+    if (c->cutting->blockers != NULL) {
+        divide_by_most(c, 0.0, 0);
+        const double least = c->value * DARK;
+        for (int32_t i = 0; i < c->cut->count; ++i) {
+            if (c->cut->place[i].level != GONE) {
+                ask(c, i);
+            }
+        }
+        over = divide_by_most(c, least, 1);
+    }
+    wait_by_error(c);
+    do {
+        over = maxd(over, divide_by_error(c));
+    } while (!is_right(c) && has_room(c) && largest(c) != NONE);
+    return over;
+}
+
+/* --- light -------------------------------------------------------------------------------------------------------- */
+
+/* A texel's or an element's shape. */
+typedef struct leaf {
+    lmb_node node;
+    lmb_vec3 u, v;              /* half sides of a texel's quad */
+    const lmb_element *element; /* NULL: a texel */
+    float half2;                /* its farthest corner from its middle, squared */
+    int is_crease;              /* planes meet in it: its shape is no quad */
+} leaf;
+
+static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
+{
+    out->is_crease = lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
+    out->element = tree_element(tree, at.x, at.y);
+    if (out->is_crease) {
+        out->half2 = out->node.radius * out->node.radius;
+    } else {
+        out->half2 = out->element != NULL
+                         ? out->element->reach2
+                         : dot3(out->u, out->u) + dot3(out->v, out->v) + 2.0f * absf(dot3(out->u, out->v));
+    }
+}
+
+static float leaf_factor(const leaf *l, lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal)
+{
+    return l->element != NULL ? lmb_triangle_factor(at, face, normal, l->element->corner, l->node.normal)
+                              : lmb_quad_factor(at, face, normal, l->node.centre, l->node.normal, l->u, l->v);
+}
+
+static uint64_t near_pixels(const lmb_tile *tile, const leaf *l, uint64_t visible)
+{
+    uint64_t out = 0;
+    for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = sub3(l->node.centre, tile_vec(tile->position, k));
+        out |= (uint64_t)(dot3(d, d) < LMB_NEAR * LMB_NEAR * l->half2) << k;
+    }
+    return out;
+}
+
+static void add_flux(lmb_irradiance *inout, int k, float factor, const float flux[3])
+{
+    for (int c = 0; c < 3; ++c) {
+        inout->rgb[c][k] += factor * flux[c];
+    }
+}
+
+/* A texel where planes meet, as its plane shows it. */
+static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, uint64_t pixels)
+{
+    const lmb_texel *t = tree_texel(c->tree, at.face, at.x, at.y);
+    lmb_vec3 corner[CREASE_CORNERS], u, v;
+    footprint_sides(&u, &v, &c->tree->view[at.face], c->tree->size, t->position, t->normal);
+    const float per_area = 1.0f / length3(cross3(u, v));
+    for (int part = 0; part < CREASE_PARTS; ++part) {
+        const int corners = lmb_crease_part(corner, c->tree, at, part);
+        for (uint64_t bits = corners > 0 ? pixels : 0; bits != 0; bits &= bits - 1) {
+            const int k = lowest_bit_64(bits);
+            const float f = lmb_polygon_factor(tile_vec(c->tile->position, k), tile_vec(c->tile->face, k),
+                                               tile_vec(c->tile->normal, k), corner, corners, t->normal);
+            add_flux(inout, k, f * per_area, t->flux);
+        }
+    }
+}
+
+/* Part i of SIDE^2 equal ones of a leaf: its middle. A triangle's lie in SIDE rows of 1, 3, 5, ... */
+static lmb_vec3 leaf_part(const leaf *l, int i)
+{
+    if (l->element == NULL) {
+        const float x = (float)(2 * (i % SIDE) + 1 - SIDE) / (float)SIDE,
+                    y = (float)(2 * (i / SIDE) + 1 - SIDE) / (float)SIDE;
+        return add3(l->node.centre, add3(mul3(l->u, x), mul3(l->v, y)));
+    }
+    const lmb_vec3 *corner = l->element->corner;
+    int row = 0;
+    while ((row + 1) * (row + 1) <= i) {
+        ++row;
+    }
+    const int at = i - row * row; /* even: a corner of the part points to corner 0, odd: away from it */
+    const float down = ((float)row + (at & 1 ? 1.0f / 3.0f : 2.0f / 3.0f)) / (float)SIDE;
+    const float across = ((float)(at / 2) + (at & 1 ? 2.0f / 3.0f : 1.0f / 3.0f)) / (float)SIDE;
+    return add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), down), mul3(sub3(corner[2], corner[1]), across)));
+}
+
+/* What the pixel's lobe makes of a near leaf, by discs of its parts: by one the leaf's middle would show as a spot.
+ * Nearer to its plane than a part is wide, a mirror shows less of it than there is. */
+static void add_gloss(const cutter *c, int k, const leaf *l)
+{
+    const lmb_vec3 at = tile_vec(c->tile->position, k), face = tile_vec(c->tile->face, k),
+                   normal = tile_vec(c->tile->normal, k);
+    const lmb_node *n = &l->node;
+    const float share = 1.0f / (float)(SIDE * SIDE), area = n->area * share;
+    if (dot3(n->normal, sub3(n->centre, at)) >= 0.0f) {
+        return; /* on its plane or behind it: most of a surface's near leaves are its own */
+    }
+    for (int i = 0; i < SIDE * SIDE; ++i) {
+        const lmb_vec3 part = leaf_part(l, i), to = sub3(part, at);
+        const float factor = share * lmb_disc_factor(at, normal, part, n->normal, area);
+        if (dot3(face, to) > 0.0f && factor > 0.0f) {
+            const float r2 = maxf(dot3(to, to), 1e-24f), size = area / (r2 + area * INVERSE_PI);
+            lmb_gloss_add(c->cutting->gloss, c->tile, k, to, size * maxf(-dot3(n->normal, to), 0.0f) / sqrtf(r2),
+                          vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
+        }
+    }
+}
+
+/* Those of some pixels that have a lobe. */
+static void add_near_gloss(const cutter *c, const leaf *l, uint64_t pixels)
+{
+    const uint64_t own = c->cutting->gloss != NULL ? c->cutting->gloss->pixels & pixels : 0;
+    for (uint64_t bits = own; bits != 0; bits &= bits - 1) {
+        add_gloss(c, lowest_bit_64(bits), l);
+    }
+}
+
+/* A leaf so near that its shape counts: pixel by pixel. */
+APART void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, const leaf *l, uint64_t visible)
+{
+    const lmb_tile *tile = c->tile;
+    const lmb_node *n = &l->node;
+    const uint64_t near = near_pixels(tile, l, visible);
+    add_near_gloss(c, l, visible);
+    if (l->is_crease && near != 0) {
+        add_crease(inout, c, at, near);
+        visible &= ~near;
+    }
+    for (uint64_t bits = visible; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 to = tile_vec(tile->position, k), normal = tile_vec(tile->normal, k),
+                       face = tile_vec(tile->face, k);
+        float f = 0.0f;
+        if (near >> k & 1u) {
+            f = leaf_factor(l, to, face, normal);
+        } else if (dot3(face, sub3(n->centre, to)) > 0.0f) {
+            f = lmb_disc_factor(to, normal, n->centre, n->normal, n->area);
+        }
+        add_flux(inout, k, f, n->flux);
+    }
+}
+
+/* Is some of the patch near the leaf? */
+static int is_near(const lmb_patch *p, const leaf *l)
+{
+    return lmb_patch_apart2(p, l->node.centre) < LMB_NEAR * LMB_NEAR * l->half2;
+}
+
+static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
+{
+    out->position = n->centre;
+    out->back = mul3(n->normal, -1.0f);
+    out->area_pi = n->area * INVERSE_PI;
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = n->flux[c] * n->agreement;
+    }
+    out->visible = visible;
+}
+
+/* Emitters on their way to the gather, a block at a time. */
+typedef struct stream {
+    lmb_irradiance *inout;
+    const cutter *c;
+    uint64_t pairs;
+    int32_t filled;
+} stream;
+
+static void flush(stream *s)
+{
+    const cutter *c = s->c;
+    c->kernels->gather_cut(s->inout, c->cut->use.pairs, c->tile, c->cut->emitter, s->filled);
+    if (c->cutting->gloss != NULL) {
+        c->kernels->gloss_cut(c->cutting->gloss, c->tile, c->cut->emitter, s->filled);
+    }
+    s->filled = 0;
+}
+
+/* A node with parts that may face away from all of the patch, by those that do not: its mean would count the former as
+ * less than nothing. */
+static void face_on(lmb_node *out, const cutter *c, lmb_tree_place from, const lmb_node *whole)
+{
+    lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0);
+    float weight = 0.0f;
+    *out = *whole;
+    out->flux[0] = out->flux[1] = out->flux[2] = out->area = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        lmb_node texel;
+        const lmb_node *n = node_at(&texel, c->tree, part_at(from, k));
+        const float w = flux_sum(n->flux);
+        if (w > 0.0f && dot3(n->normal, sub3(n->centre, c->p->centre)) < lmb_patch_reach(c->p, n->normal)) {
+            centre = add3(centre, mul3(sub3(n->centre, whole->centre), w));
+            normal = add3(normal, mul3(n->normal, w * n->agreement));
+            weight += w;
+            out->area += n->area;
+            for (int i = 0; i < 3; ++i) {
+                out->flux[i] += n->flux[i];
+            }
+        }
+    }
+    if (weight > 0.0f) {
+        out->centre = add3(whole->centre, mul3(centre, 1.0f / weight));
+        out->agreement = minf(length3(normal) / weight, 1.0f);
+        out->normal = normalize3(normal);
+    }
+}
+
+static void light_by(stream *s, lmb_tree_place at, uint64_t visible)
+{
+    lmb_node part;
+    const cutter *c = s->c;
+    const lmb_node *n;
+    leaf l;
+    s->pairs += (uint64_t)count_bits_64(visible);
+    if (at.level > 0) {
+        n = tree_node(c->tree, at);
+        if (n->agreement < BENT && !c->cutting->proven) {
+            face_on(&part, c, at, n);
+            n = &part;
+        }
+    } else {
+        leaf_at(&l, c->tree, at);
+        if (is_near(c->p, &l)) {
+            add_near(s->inout, c, at, &l, visible);
+            return;
+        }
+        n = &l.node;
+    }
+    set_emitter(&c->cut->emitter[s->filled++], n, visible);
+    if (s->filled == LMB_CUT_BLOCK) {
+        flush(s);
+    }
+}
+
+/* Where no cut that there is room for is proven, and nothing blocks: every texel. */
+static void light_by_all(stream *s)
+{
+    const int32_t size = s->c->tree->size;
+    for (int64_t i = 0; i < (int64_t)s->c->tree->faces * size * size; ++i) {
+        const int32_t within = (int32_t)(i % ((int64_t)size * size));
+        lmb_tree_place at;
+        at.face = (uint16_t)(i / ((int64_t)size * size));
+        at.x = (uint16_t)(within % size);
+        at.y = (uint16_t)(within / size);
+        at.level = 0;
+        if (flux_sum(tree_texel(s->c->tree, at.face, at.x, at.y)->flux) > 0.0f) {
+            light_by(s, at, s->c->p->pixels);
+        }
+    }
+}
+
+APART void light_patch(lmb_irradiance *inout, cutter *c)
+{
+    stream s;
+    s.inout = inout;
+    s.c = c;
+    s.pairs = 0;
+    s.filled = 0;
+    if (c->cutting->proven && c->cutting->blockers == NULL && !is_right(c)) {
+        light_by_all(&s);
+    } else {
+        for (int32_t i = 0; i < c->cut->count; ++i) {
+            if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+                light_by(&s, c->cut->place[i], c->cut->visible[i]);
+            }
+        }
+    }
+    flush(&s);
+    if (c->cutting->stats != NULL) {
+        c->cutting->stats->pairs += s.pairs;
+    }
+}
+
+/* The middle one of the patch's pixels that have a lobe. */
+static int lobe_of(const lmb_cutting *cutting, const lmb_patch *p)
+{
+    uint64_t own = cutting->gloss != NULL && !cutting->proven ? cutting->gloss->pixels & p->pixels : 0;
+    for (int i = count_bits_64(own) / 2; i > 0; --i) {
+        own &= own - 1;
+    }
+    return own != 0 ? lowest_bit_64(own) : NONE;
+}
+
+/* Of the pixel that has least: beside a shadow's edge that is none. */
+static double least_direct(const lmb_cutting *cutting, const lmb_patch *p)
+{
+    float least = cutting->direct != NULL ? 3e38f : 0.0f;
+    for (uint64_t bits = cutting->direct != NULL ? p->pixels : 0; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        least = minf(least, cutting->direct->rgb[0][k] + cutting->direct->rgb[1][k] + cutting->direct->rgb[2][k]);
+    }
+    return (double)least;
+}
+
+/* In the mean over the patch: what proves nothing of its pixels. */
+static double beside(const lmb_cutting *cutting, const lmb_patch *p, float per_pixel)
+{
+    double sum = 0.0;
+    for (uint64_t bits = cutting->beside != NULL && !cutting->proven ? p->pixels : 0; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        for (int c = 0; c < 3; ++c) {
+            sum += (double)cutting->beside->rgb[c][k];
+        }
+    }
+    return sum * (double)per_pixel + (cutting->proven ? 0.0 : (double)cutting->least + least_direct(cutting, p));
+}
+
+/* Half of some pixels: those that come first along the longer side of the patch's box. */
+static uint64_t half_of(const lmb_patch *p, const lmb_tile *tile)
+{
+    const lmb_vec3 along = p->half[2] > p->half[1] ? p->axis[2] : p->axis[1];
+    float at[LMB_TILE_PIXELS] = {0};
+    uint64_t out = 0;
+    for (uint64_t bits = p->pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        at[k] = dot3(along, sub3(tile_vec(tile->position, k), p->centre));
+    }
+    for (uint64_t bits = p->pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        int before = 0;
+        for (uint64_t others = p->pixels; others != 0; others &= others - 1) {
+            const int i = lowest_bit_64(others);
+            before += at[i] < at[k] || (at[i] == at[k] && i < k);
+        }
+        out |= (uint64_t)(2 * before < count_bits_64(p->pixels)) << k;
+    }
+    return out;
+}
+
+/* Light some pixels of one surface by one cut; where that has no room for what was asked, and cuts of half the pixels
+ * come closer to it, return the patch undone. over: that of the pixels that these are half of. */
+static int light_together(lmb_irradiance *inout, cutter *c, lmb_patch *p, double *over)
+{
+    const lmb_cutting *cutting = c->cutting;
+    c->p = p;
+    memset(c->cut->use.walk.last, 0, sizeof c->cut->use.walk.last);
+    c->cut->use.walk.asked = 0;
+    c->noise = cutting->blockers != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
+    c->in_hull = cutting->blockers != NULL ? lmb_hull_pixels(&cutting->blockers->hull, c->tile, p->pixels) : 0;
+    c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);
+    c->beside = beside(cutting, p, c->per_pixel);
+    c->lobe = lobe_of(cutting, p);
+    const double now = take_cut(c);
+    if (now > 0.0 && (now < CLOSER * *over || now > HOLDS) && count_bits_64(p->pixels) > 1) {
+        *over = now;
+        return 0;
+    }
+    if (now > 0.0 && cutting->stats != NULL) {
+        ++cutting->stats->full_cuts;
+    }
+    light_patch(inout, c);
+    return 1;
+}
+
+/* Pixels that wait for a cut, and by how much that of twice as many was over what was asked. */
+typedef struct waiting {
+    uint64_t pixels;
+    double over;
+} waiting;
+enum { HALVES = 7 /* 64 pixels, 32, ... 1 */ };
+
+/* Cost: a cut that has no room is taken for nothing, at most as often as its halves are. */
+static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
+{
+    waiting wait[HALVES + 1];
+    int count = 1;
+    wait[0].pixels = pixels;
+    wait[0].over = 1e300;
+    while (count > 0) {
+        const waiting now = wait[--count];
+        lmb_patch p;
+        double over = now.over;
+        lmb_patch_of(&p, c->tile, now.pixels);
+        if (!light_together(inout, c, &p, &over)) {
+            wait[count].pixels = half_of(&p, c->tile);
+            wait[count + 1].pixels = p.pixels & ~wait[count].pixels;
+            wait[count].over = wait[count + 1].over = over;
+            count += 2;
+        }
+    }
+}
+
+lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
+                          const lmb_tree *tree, const lmb_cutting *cutting)
+{
+    cutter c;
+    if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || tree == NULL || tree->texel == NULL ||
+        cutting == NULL || !(cutting->error > 0.0f) || !(cutting->visible > 0.0f)) {
+        return LMB_ERR_ARG;
+    }
+    c.cut = scratch;
+    c.tree = tree;
+    c.tile = tile;
+    c.kernels = kernels;
+    c.cutting = cutting;
+    c.floor = (double)cutting->floor;
+    for (uint64_t left = tile_pixels(tile); left != 0;) {
+        const uint64_t pixels = tile_surface(tile, left);
+        light_surface(inout, &c, pixels);
+        left &= ~pixels;
+    }
+    return LMB_OK;
+}
+
+#endif

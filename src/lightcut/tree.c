@@ -1,0 +1,364 @@
+/* tree.c: a light's map -> first points, and their sums upward. Floor 7.                            [V5 V6 V7 V15] */
+#include "tree.h"
+
+#include <string.h>
+
+#include "../base/memory_check.h"
+#include "../base/vec.h"
+#include "../map/footprint.h"
+#include "../raster/tile.h"
+#include "box.h"
+
+#if LMB_TREES
+
+#define ROUNDING 3e-7f /* of a cosine */
+
+size_t lmb_tree_bytes(uint32_t faces, int32_t size)
+{
+    if (size < LMB_TILE || size > 4096 || (size & (size - 1)) != 0 || faces == 0 || faces > 65535u) {
+        return 0;
+    }
+    const size_t face =
+        (size_t)size * (size_t)size * sizeof(lmb_texel) + tree_nodes(size) * sizeof(lmb_node) + sizeof(lmb_view);
+    return faces > (size_t)-1 / face ? 0 : faces * face;
+}
+
+lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes)
+{
+    const size_t needed = lmb_tree_bytes(faces, size);
+    if (out == NULL || needed == 0) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_status status = check_memory(memory, bytes, needed);
+    if (status != LMB_OK) {
+        return status;
+    }
+    memset(out, 0, sizeof *out);
+    out->size = size;
+    out->face_cap = faces;
+    out->texel = (lmb_texel *)memory;
+    out->node = (lmb_node *)(void *)(out->texel + (size_t)faces * (size_t)size * (size_t)size);
+    out->view = (lmb_view *)(void *)(out->node + faces * tree_nodes(size));
+    return LMB_OK;
+}
+
+/* --- texels ------------------------------------------------------------------------------------------------------- */
+
+/* Did a place move along its plane by no more than a footprint may be stretched? Near the plane's horizon it runs away
+ * from the light or comes out behind it; in a sun's plane seen edge-on it runs along the rays. False for NaN. */
+static int is_near_by(const lmb_view *v, lmb_vec3 from, lmb_vec3 to, int32_t size)
+{
+    const int is_cone = v->kind == LMB_PERSPECTIVE;
+    const float w = is_cone ? dot3(v->back, sub3(v->eye, from)) : 1.0f;
+    const float moved = is_cone ? dot3(v->back, sub3(v->eye, to)) : 1.0f;
+    return moved > 0.5f * w && length3(sub3(to, from)) * GRAZE < 2.0f * v->half_width / (float)size * w;
+}
+
+/* A texel of the tree from a pixel of the map near its middle: there, or at the pixel where its plane is edge-on. */
+static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_light_map *coarse,
+                      int32_t face, int32_t x, int32_t y)
+{
+    const lmb_view *v = &coarse->view[face];
+    const float size = (float)coarse->size;
+    float power[3];
+    memset(out, 0, sizeof *out);
+    memset(out->side, SIDE_WHOLE, sizeof out->side);
+    if (t->id[k] == 0) {
+        return;
+    }
+    lmb_light_texel_power(power, light, coarse, face, x, y);
+    out->normal = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
+    const lmb_vec3 at = tile_vec(t->position, k);
+    const lmb_vec3 moved = footprint_over(v, at, out->normal, ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
+                                          (1.0f - (float)(2 * y + 1) / size) * v->half_height);
+    out->position = is_near_by(v, at, moved, coarse->size) ? moved : at;
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = flux_or_none(power[c] * t->albedo[c][k]);
+    }
+}
+
+static int divides(int32_t small, int32_t large)
+{
+    return large == small || large == 2 * small || large == 4 * small || large == 8 * small;
+}
+
+lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
+                           const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
+                           int32_t past)
+{
+    lmb_status status = LMB_OK;
+    if (tree == NULL || tree->texel == NULL || kernels == NULL || scratch == NULL || scene == NULL || light == NULL ||
+        map == NULL || face < 0 || face >= map->faces || !divides(tree->size, map->size) || first < 0 || past < first ||
+        past > map->size / LMB_TILE) {
+        return LMB_ERR_ARG;
+    }
+    if (into >= tree->face_cap) {
+        return LMB_ERR_CAPACITY;
+    }
+    const int32_t size = tree->size, each = map->size / size;
+    lmb_light_map coarse = *map;
+    coarse.size = size;
+    if (first == 0 && past > 0) { /* by one part alone: of a few rows many parts are of none */
+        tree->view[into] = map->view[face];
+    }
+    for (int32_t i = first * map->size; i < past * map->size && status == LMB_OK; i += LMB_TILE) {
+        const int32_t x0 = i % map->size, y0 = i / map->size * LMB_TILE;
+        status = lmb_resolve_tile(scratch, kernels, &map->view[face], scene, &map->face[face], x0, y0);
+        for (int k = 0; k < LMB_TILE_PIXELS && status == LMB_OK; ++k) {
+            const int32_t x = x0 + k % LMB_TILE, y = y0 + k / LMB_TILE;
+            if (x % each == each / 2 && y % each == each / 2) {
+                set_texel(&tree->texel[((size_t)into * (size_t)size + (size_t)(y / each)) * (size_t)size +
+                                       (size_t)(x / each)],
+                          scratch, k, light, &coarse, face, x / each, y / each);
+            }
+        }
+    }
+    return status;
+}
+
+/* --- a texel's quad ----------------------------------------------------------------------------------------------- */
+
+void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
+{
+    lmb_vec3 u, v;
+    lmb_tree_texel_quad(out, &u, &v, tree, face, x, y);
+}
+
+/* Of its own cell and of those neighbours' of which it may have a part. u, v: whole sides. */
+static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
+{
+    float reach[4];
+    for (int i = 0; i < 4; ++i) {
+        reach[i] = t->side[i] == SIDE_WHOLE ? 0.5f : 1.5f;
+    }
+    const float right = reach[SIDE_RIGHT] - reach[SIDE_LEFT], up = reach[SIDE_UP] - reach[SIDE_DOWN];
+    const lmb_vec3 centre = add3(t->position, mul3(add3(mul3(u, right), mul3(v, up)), 0.5f));
+    u = mul3(u, 0.5f * (reach[SIDE_LEFT] + reach[SIDE_RIGHT]));
+    v = mul3(v, 0.5f * (reach[SIDE_UP] + reach[SIDE_DOWN]));
+    out->middle = centre;
+    out->across = box_across(t->normal, longer3(u, v));
+    const lmb_vec3 axis[3] = {t->normal, out->across, cross3(t->normal, out->across)};
+    for (int i = 0; i < 3; ++i) {
+        out->half[i] = absf(dot3(axis[i], u)) + absf(dot3(axis[i], v));
+    }
+    out->radius = sqrtf(dot3(u, u) + dot3(v, v) + 2.0f * absf(dot3(u, v)));
+}
+
+/* Of several joined specks the largest one's: what is left out are specks beside it. */
+static void set_element_box(lmb_node *out, const lmb_texel *t, const lmb_element *e)
+{
+    const lmb_vec3 a = sub3(e->corner[1], e->corner[0]), b = sub3(e->corner[2], e->corner[0]);
+    box_span box = box_begin(t->position, t->normal, box_across(t->normal, longer3(longer3(a, b), sub3(a, b))));
+    box_add_point(&box, t->position);
+    for (int i = 0; i < 3; ++i) {
+        box_add_point(&box, e->corner[i]);
+    }
+    out->middle = box_middle(&box);
+    out->across = box.axis[1];
+    out->radius = length3(sub3(t->position, out->middle));
+    for (int i = 0; i < 3; ++i) {
+        out->half[i] = box_half(&box, i);
+        out->radius = maxf(out->radius, length3(sub3(e->corner[i], out->middle)));
+    }
+}
+
+int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
+                        int32_t y)
+{
+    const lmb_texel *t = tree_texel(tree, face, x, y);
+    const lmb_element *element = tree_element(tree, x, y);
+    memset(out, 0, sizeof *out);
+    *u = *v = vec3(0, 0, 0);
+    if (!(flux_sum(t->flux) > 0.0f)) {
+        return 0;
+    }
+    out->normal = t->normal;
+    out->cosine = out->agreement = 1.0f;
+    out->texel = (uint32_t)y * (uint32_t)tree->size + (uint32_t)x;
+    if (element != NULL) {
+        out->centre = t->position;
+        set_element_box(out, t, element);
+        memcpy(out->flux, t->flux, sizeof out->flux);
+        out->area = element->area;
+        return 0;
+    }
+    const uint8_t *side = t->side;
+    const float wide = (float)(side[SIDE_LEFT] + side[SIDE_RIGHT]), right = (float)(side[SIDE_RIGHT] - side[SIDE_LEFT]),
+                high = (float)(side[SIDE_UP] + side[SIDE_DOWN]), down = (float)(side[SIDE_DOWN] - side[SIDE_UP]);
+    footprint_sides(u, v, &tree->view[face], tree->size, t->position, t->normal);
+    set_box(out, t, *u, *v);
+    out->centre = add3(t->position, sub3(mul3(*u, right / 512.0f), mul3(*v, down / 512.0f)));
+    *u = mul3(*u, wide / 512.0f);
+    *v = mul3(*v, high / 512.0f);
+    float share = 1.0f;
+    int is_crease = 0;
+    out->area = 4.0f * length3(cross3(*u, *v));
+    if (!tree_is_whole(t)) {
+        const lmb_tree_place at = {(uint16_t)face, (uint16_t)x, (uint16_t)y, 0};
+        const float exact = lmb_crease_share(tree, at), rectangle = wide * high / 65536.0f;
+        is_crease = exact >= 0.0f;
+        share = is_crease ? exact : rectangle;
+        out->area *= share / rectangle;
+    }
+    for (int c = 0; c < 3; ++c) {
+        out->flux[c] = t->flux[c] * share;
+    }
+    return is_crease;
+}
+
+/* --- sums --------------------------------------------------------------------------------------------------------- */
+
+/* cos(a + b) or less; -1 where a + b is over 180 degrees. */
+static float cosine_of_sum(float a, float b)
+{
+    a -= ROUNDING;
+    b -= ROUNDING;
+    const float sines = sqrtf(maxf(1.0f - a * a, 0.0f) * maxf(1.0f - b * b, 0.0f));
+    return a + b <= 0.0f ? -1.0f : clampf(a * b - sines, -1.0f, 1.0f);
+}
+
+/* Are all normals the one of the first, to the bit? */
+static int is_flat(const lmb_node child[4], const lmb_node *first)
+{
+    int flat = 1;
+    for (int i = 0; i < 4; ++i) {
+        const lmb_vec3 a = child[i].normal, b = first->normal;
+        flat &= !(flux_sum(child[i].flux) > 0.0f) ||
+                (child[i].cosine == 1.0f && a.x == b.x && a.y == b.y && a.z == b.z);
+    }
+    return flat;
+}
+
+/* Which way a node's parts lie apart: from left to right or from top to bottom, as is longer; 0: it has one part. */
+static lmb_vec3 way_of(const lmb_node child[4], const lmb_node *first)
+{
+    lmb_vec3 sum[4]; /* left, right, top, bottom */
+    float count[4] = {0, 0, 0, 0};
+    for (int i = 0; i < 4; ++i) {
+        sum[i] = vec3(0, 0, 0);
+    }
+    for (int i = 0; i < 4; ++i) {
+        if (flux_sum(child[i].flux) > 0.0f) {
+            const lmb_vec3 at = sub3(child[i].middle, first->middle);
+            sum[i & 1] = add3(sum[i & 1], at);
+            sum[2 + (i >> 1)] = add3(sum[2 + (i >> 1)], at);
+            count[i & 1] += 1.0f;
+            count[2 + (i >> 1)] += 1.0f;
+        }
+    }
+    lmb_vec3 way[2];
+    for (int i = 0; i < 2; ++i) {
+        const float from = count[2 * i], to = count[2 * i + 1];
+        way[i] = from * to > 0.0f ? sub3(mul3(sum[2 * i + 1], 1.0f / to), mul3(sum[2 * i], 1.0f / from))
+                                  : vec3(0, 0, 0);
+    }
+    return longer3(way[0], way[1]);
+}
+
+/* How far a part reaches along a direction from its middle. */
+static float reach_of(const lmb_node *n, lmb_vec3 along)
+{
+    const float box = absf(dot3(n->normal, along)) * n->half[0] + absf(dot3(n->across, along)) * n->half[1] +
+                      absf(dot3(cross3(n->normal, n->across), along)) * n->half[2];
+    return minf(box, n->radius);
+}
+
+static void join_boxes(lmb_node *out, const lmb_node child[4], const lmb_node *first)
+{
+    const lmb_vec3 way = way_of(child, first);
+    box_span box = box_begin(first->middle, out->normal,
+                             box_across(out->normal, dot3(way, way) > 0.0f ? way : first->across));
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < 3 && flux_sum(child[i].flux) > 0.0f; ++k) {
+            box_add(&box, k, dot3(box.axis[k], sub3(child[i].middle, box.from)), reach_of(&child[i], box.axis[k]));
+        }
+    }
+    out->middle = box_middle(&box);
+    out->across = box.axis[1];
+    for (int i = 0; i < 3; ++i) {
+        out->half[i] = box_half(&box, i);
+    }
+    for (int i = 0; i < 4; ++i) {
+        if (flux_sum(child[i].flux) > 0.0f) {
+            out->radius = maxf(out->radius, length3(sub3(child[i].middle, out->middle)) + child[i].radius);
+        }
+    }
+    out->radius = minf(out->radius, length3(vec3(out->half[0], out->half[1], out->half[2])));
+}
+
+static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, uint32_t face)
+{
+    lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0), origin = vec3(0, 0, 0);
+    const lmb_node *first = NULL;
+    float weight = 0.0f, nearest = 3e38f;
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < 4; ++i) {
+        const lmb_node *n = &child[i];
+        const float w = flux_sum(n->flux);
+        if (w > 0.0f) {
+            first = first != NULL ? first : n;
+            origin = first->centre; /* differences, so that far from the world's middle nothing is lost */
+            centre = add3(centre, mul3(sub3(n->centre, origin), w));
+            normal = add3(normal, mul3(n->normal, w * n->agreement));
+            weight += w;
+            out->area += n->area;
+            for (int c = 0; c < 3; ++c) {
+                out->flux[c] += n->flux[c];
+            }
+        }
+    }
+    if (first == NULL) {
+        return;
+    }
+    const int flat = is_flat(child, first);
+    out->centre = add3(origin, mul3(centre, 1.0f / weight));
+    out->cosine = dot3(normal, normal) > 1e-37f ? 1.0f : -1.0f;
+    out->normal = flat || out->cosine < 0.0f ? first->normal : normalize3(normal);
+    out->agreement = flat ? 1.0f : minf(length3(normal) / weight, 1.0f);
+    join_boxes(out, child, first);
+    for (int i = 0; i < 4; ++i) {
+        if (flux_sum(child[i].flux) > 0.0f) {
+            const uint32_t size = (uint32_t)tree->size, at = child[i].texel;
+            const lmb_vec3 d =
+                sub3(tree_texel(tree, face, (int32_t)(at % size), (int32_t)(at / size))->position, out->centre);
+            const float turn = clampf(dot3(out->normal, child[i].normal), -1.0f, 1.0f);
+            out->cosine = flat ? 1.0f : minf(out->cosine, cosine_of_sum(turn, child[i].cosine));
+            if (dot3(d, d) < nearest) {
+                nearest = dot3(d, d);
+                out->texel = at;
+            }
+        }
+    }
+}
+
+lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
+{
+    if (tree == NULL || tree->texel == NULL || face >= tree->face_cap) {
+        return LMB_ERR_ARG;
+    }
+    if (tree->element == NULL) {
+        lmb_crease_find(tree, face);
+    }
+    for (int level = 1; level <= tree_root_level(tree); ++level) {
+        const int32_t side = tree->size >> level;
+        lmb_node *out = tree_level(tree, face, level);
+        const lmb_node *below = level > 1 ? tree_level(tree, face, level - 1) : NULL;
+        for (int32_t y = 0; y < side; ++y) {
+            for (int32_t x = 0; x < side; ++x) {
+                lmb_node child[4];
+                for (int32_t i = 0; i < 4; ++i) {
+                    const int32_t cx = 2 * x + (i & 1), cy = 2 * y + (i >> 1);
+                    if (below != NULL) {
+                        child[i] = below[cy * 2 * side + cx];
+                    } else {
+                        lmb_tree_texel_node(&child[i], tree, face, cx, cy);
+                    }
+                }
+                merge(&out[y * side + x], child, tree, face);
+            }
+        }
+    }
+    return LMB_OK;
+}
+
+#endif

@@ -1,0 +1,10 @@
+/* occlude.h: the viewer's depth map, made ready for the gather's march. Floor 4. */
+#ifndef LMB_OCCLUSION_OCCLUDE_H
+#define LMB_OCCLUSION_OCCLUDE_H
+
+#include "../lane/kernels.h"
+
+/* 1 and the job, 0 where nothing occludes (NULL or LMB_OCCLUSION_NONE), or a negative lmb_status. */
+int32_t lmb_march_setup(lmb_march_job *job, const lmb_occluder *occluder);
+
+#endif

@@ -1,0 +1,593 @@
+/* elements.c: a scene's triangles -> elements of about one size, neighbours beside each other. Floor 8. */
+#include <lambent/elements.h>
+
+#include <string.h>
+
+#include "../base/memory_check.h"
+#include "../base/poly.h"
+#include "../base/vec.h"
+#include "../base/vertex.h"
+#include "../lightcut/tree.h"
+#include "../raster/resolve.h"
+#include "../raster/texture.h"
+
+#if LMB_TREES
+
+enum {
+    HALVINGS = 32, /* of a triangle, the longest edge each time: 2^31 pieces of about one size, and 2^24 are the most */
+    SAMPLES = 4,
+    CELLS = 1 << 20,
+    Z_BITS = 9,
+    MOST_PIECES = 64 /* an element: so that pieces too thin to have an area, or all hole, come to an end too */
+};
+
+/* --- memory ------------------------------------------------------------------------------------------------------- */
+
+/* Texels a side; 0 where n is no power of 4 within bounds. */
+static int32_t side_of(uint32_t n)
+{
+    int32_t side = LMB_TILE;
+    while (side < 4096 && (uint32_t)side * (uint32_t)side < n) {
+        side *= 2;
+    }
+    return (uint32_t)side * (uint32_t)side == n ? side : 0;
+}
+
+size_t lmb_elements_bytes(uint32_t n)
+{
+    const size_t tree = side_of(n) > 0 ? lmb_tree_bytes(1, side_of(n)) : 0;
+    return tree == 0 || n > ((size_t)-1 - tree) / sizeof(lmb_element) ? 0 : tree + n * sizeof(lmb_element);
+}
+
+lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t bytes)
+{
+    const size_t needed = lmb_elements_bytes(n);
+    if (out == NULL || needed == 0) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_status status = check_memory(memory, bytes, needed);
+    if (status != LMB_OK) {
+        return status;
+    }
+    memset(out, 0, sizeof *out);
+    out->data = (lmb_element *)memory;
+    out->cap = n;
+    return lmb_tree_init(&out->tree, 1, side_of(n), out->data + n, bytes - n * sizeof(lmb_element));
+}
+
+/* --- how a piece looks -------------------------------------------------------------------------------------------- */
+
+/* A triangle with what its pieces share. */
+typedef struct source {
+    lmb_triangle triangle;
+    const lmb_scene *scene;
+    lmb_vec3 normal; /* of the front, unit */
+    float area;
+    float uv[3][2], colour[3][4];
+    float texels; /* of the image of its colour, on all of it; 0: none */
+} source;
+
+/* Part of a triangle: corners, and their barycentrics in it. */
+typedef struct piece {
+    lmb_vec3 corner[3];
+    float b1[3], b2[3];
+} piece;
+
+static lmb_vec3 across(const lmb_vec3 corner[3])
+{
+    return cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
+}
+
+static lmb_vec3 middle(const lmb_vec3 corner[3])
+{
+    const lmb_vec3 d = add3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
+    return add3(corner[0], mul3(d, 1.0f / 3.0f));
+}
+
+/* Of the base colour's; where there is none, of the map of metal. */
+static void set_texels(source *s)
+{
+    const lmb_material *m = s->triangle.material;
+    const int32_t texture = m->texture >= 0 ? m->texture : (int32_t)m->metal_map - 1;
+    s->texels = 0.0f;
+    if (texture >= 0) {
+        const lmb_texture *t = &s->scene->textures[texture];
+        const float u1 = s->uv[1][0] - s->uv[0][0], v1 = s->uv[1][1] - s->uv[0][1];
+        const float u2 = s->uv[2][0] - s->uv[0][0], v2 = s->uv[2][1] - s->uv[0][1];
+        s->texels = 0.5f * absf(u1 * v2 - u2 * v1) * (float)t->width * (float)t->height;
+    }
+}
+
+/* 1 where the triangle has elements. */
+static int open_source(source *out, const lmb_scene *scene, uint32_t id)
+{
+    lmb_triangle *t = &out->triangle;
+    if (!lmb_triangle_fetch(t, scene, id) || !lmb_triangle_shape(&out->normal, &out->area, t)) {
+        return 0;
+    }
+    out->scene = scene;
+    out->normal = mul3(out->normal, is_mirrored(&t->instance->to_world) ? -1.0f : 1.0f);
+    for (int k = 0; k < 3; ++k) {
+        mesh_uv(t->mesh, t->vertex[k], out->uv[k]);
+        mesh_colour(t->mesh, t->vertex[k], out->colour[k]);
+    }
+    set_texels(out);
+    return 1;
+}
+
+static float mix(float a, float b, float c, float b1, float b2) { return a + ((b - a) * b1 + (c - a) * b2); }
+
+static float uv_at(const source *s, int c, float b1, float b2)
+{
+    return mix(s->uv[0][c], s->uv[1][c], s->uv[2][c], b1, b2);
+}
+
+static void albedo_at(float out[3], const source *s, float b1, float b2, float lod)
+{
+    const lmb_material *m = s->triangle.material;
+    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, code[4], diffuse = 1.0f;
+    if (m->texture >= 0) {
+        lmb_texture_sample(texel, &s->scene->textures[m->texture], uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2), lod);
+    }
+    if (m->metal_map > 0) {
+        lmb_normal_map_sample(code, &s->scene->textures[m->metal_map - 1], uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2),
+                              lod);
+        diffuse = 1.0f - metallic_of(m, code);
+    }
+    for (int c = 0; c < 3; ++c) {
+        const float colour = mix(s->colour[0][c], s->colour[1][c], s->colour[2][c], b1, b2);
+        out[c] = clampf(m->albedo[c] * colour * texel[c] * diffuse, 0.0f, 1.0f);
+    }
+}
+
+/* The mean albedo of a piece, and the share of it that stands, by four points. `share` of its triangle. */
+static float look_at(float albedo[3], const source *s, const piece *p, float share)
+{
+    const float texels = s->texels * share / SAMPLES, lod = texels > 1.0f ? 0.5f * lmb_log2(texels) : 0.0f;
+    const float b1 = (p->b1[0] + p->b1[1] + p->b1[2]) / 3.0f, b2 = (p->b2[0] + p->b2[1] + p->b2[2]) / 3.0f;
+    int standing = 0;
+    albedo[0] = albedo[1] = albedo[2] = 0.0f;
+    for (int i = 0; i < SAMPLES; ++i) {
+        const float x = i < 3 ? 0.5f * (b1 + p->b1[i]) : b1, y = i < 3 ? 0.5f * (b2 + p->b2[i]) : b2;
+        float a[3];
+        if (lmb_triangle_opaque(&s->triangle, s->scene, x, y)) {
+            albedo_at(a, s, x, y, lod);
+            for (int c = 0; c < 3; ++c) {
+                albedo[c] += a[c];
+            }
+            ++standing;
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        albedo[c] /= (float)maxi(standing, 1);
+    }
+    return (float)standing / SAMPLES;
+}
+
+/* --- what a piece gives off --------------------------------------------------------------------------------------- */
+
+enum { MOST_ROWS = 4, MOST_ROWS_BARE = 32 /* of a piece; of one whose map has no levels */ };
+
+/* Texels along the longest edge of a piece, in a map. */
+static float texels_along(const source *s, const piece *p, const lmb_texture *map)
+{
+    float longest = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+        const int to = (k + 1) % 3;
+        const float du = (uv_at(s, 0, p->b1[to], p->b2[to]) - uv_at(s, 0, p->b1[k], p->b2[k])) * (float)map->width;
+        const float dv = (uv_at(s, 1, p->b1[to], p->b2[to]) - uv_at(s, 1, p->b1[k], p->b2[k])) * (float)map->height;
+        longest = maxf(longest, du * du + dv * dv);
+    }
+    return longest < 1e30f ? sqrtf(longest) : 0.0f;
+}
+
+/* Add the map at a place of the piece, x and y of the way to its second and third corner, where it stands. */
+static int add_glow(float sum[3], const source *s, const piece *p, const lmb_texture *map, const float at[3])
+{
+    const float b1 = mix(p->b1[0], p->b1[1], p->b1[2], at[0], at[1]);
+    const float b2 = mix(p->b2[0], p->b2[1], p->b2[2], at[0], at[1]);
+    float texel[4];
+    if (!lmb_triangle_opaque(&s->triangle, s->scene, b1, b2)) {
+        return 0;
+    }
+    lmb_texture_sample(texel, map, uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2), at[2]);
+    for (int c = 0; c < 3; ++c) {
+        sum[c] += texel[c];
+    }
+    return 1;
+}
+
+/* The mean over a piece: at the middles of rows x rows alike triangles, so many that a texel of the level is not
+ * stepped over. A map may glow in few texels of thousands, and the light of a whole element comes from here. */
+static void emission_of(float out[3], const source *s, const piece *p)
+{
+    const lmb_material *m = s->triangle.material;
+    memcpy(out, m->emission, sizeof m->emission);
+    if (m->emission_map == 0 || !(largest3(vec3(out[0], out[1], out[2])) > 0.0f)) {
+        return;
+    }
+    lmb_texture map = s->scene->textures[m->emission_map - 1];
+    map.filter = map.levels > 1 ? LMB_TRILINEAR : map.filter;
+    const float along = texels_along(s, p, &map), most = map.levels > 1 ? MOST_ROWS : MOST_ROWS_BARE;
+    const int rows = (int)clampf(along, 0.0f, most - 1.0f) + 1;
+    const float step = 1.0f / (float)rows, lod = along > most ? lmb_log2(along * step) : 0.0f;
+    float sum[3] = {0.0f, 0.0f, 0.0f};
+    int standing = 0;
+    for (int i = 0; i < rows * rows; ++i) {
+        const int row = i / rows, column = i % rows, down = row + column >= rows; /* the far half, turned over */
+        const float x = (float)(down ? rows - 1 - column : column), y = (float)(down ? rows - 1 - row : row);
+        const float third = down ? 2.0f / 3.0f : 1.0f / 3.0f;
+        const float at[3] = {(x + third) * step, (y + third) * step, lod};
+        standing += add_glow(sum, s, p, &map, at);
+    }
+    for (int c = 0; c < 3; ++c) {
+        out[c] *= sum[c] / (float)maxi(standing, 1);
+    }
+}
+
+/* --- pieces -> elements ------------------------------------------------------------------------------------------- */
+
+/* Small triangles find their element by its cell, in a table as long as twice the elements; it lies where the tree's
+ * nodes will be. */
+typedef struct maker {
+    lmb_elements *out;
+    const lmb_scene *scene;
+    uint32_t *slot; /* number of an element + 1, or 0 */
+    uint32_t mask;
+    uint32_t pieces; /* of triangles that were cut */
+    float side2;
+    int full;
+} maker;
+
+/* Which of six sides of space a normal looks to. */
+static uint32_t facing(lmb_vec3 n)
+{
+    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
+    if (x >= y && x >= z) {
+        return n.x < 0.0f;
+    }
+    return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
+}
+
+/* The six sides' elements lie one behind the other: key / 2^27 is the side. */
+static uint32_t element_facing(const lmb_element *e) { return e->key >> (3 * Z_BITS); }
+
+static int32_t cell_of(float at, float low, float per_cell)
+{
+    return (int32_t)clampf((at - low) * per_cell, 0.0f, (float)(CELLS - 1));
+}
+
+typedef struct cell {
+    int32_t x, y, z;
+} cell;
+
+/* The box that nearly everything is in: what strays out of it counts as at its side, so that it takes no cells from the
+ * rest. */
+static lmb_vec3 low_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_low : s->bounds_min; }
+static lmb_vec3 high_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
+
+static cell cell_at(const maker *m, lmb_vec3 p)
+{
+    const float per = 2.0f / sqrtf(m->side2);
+    const lmb_vec3 low = low_of(m->scene);
+    cell c;
+    c.x = cell_of(p.x, low.x, per);
+    c.y = cell_of(p.y, low.y, per);
+    c.z = cell_of(p.z, low.z, per);
+    return c;
+}
+
+/* The slot of the element of e's cell and side, or the empty one where it belongs. */
+static uint32_t *find_slot(const maker *m, const lmb_element *e)
+{
+    const cell c = cell_at(m, middle(e->corner));
+    uint32_t h = (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u ^
+                 element_facing(e) * 2654435761u;
+    h ^= h >> 15;
+    for (;; ++h) {
+        uint32_t *slot = &m->slot[h & m->mask];
+        if (*slot == 0) {
+            return slot;
+        }
+        const lmb_element *other = &m->out->data[*slot - 1];
+        const cell o = cell_at(m, middle(other->corner));
+        if (o.x == c.x && o.y == c.y && o.z == c.z && element_facing(other) == element_facing(e)) {
+            return slot;
+        }
+    }
+}
+
+static lmb_element *append(maker *m, const lmb_element *e)
+{
+    if (m->out->count == m->out->cap) {
+        m->full = 1;
+        return NULL;
+    }
+    m->out->data[m->out->count] = *e;
+    return &m->out->data[m->out->count++];
+}
+
+/* received[0] holds the area of the largest triangle meanwhile. */
+static void join(lmb_element *into, const lmb_element *e)
+{
+    const float area = into->area + e->area, share = e->area / area;
+    for (int c = 0; c < 3; ++c) {
+        into->albedo[c] += (e->albedo[c] - into->albedo[c]) * share;
+        into->emission[c] += (e->emission[c] - into->emission[c]) * share;
+    }
+    if (e->area > into->received[0]) {
+        memcpy(into->corner, e->corner, sizeof into->corner);
+        memcpy(into->fresh, e->fresh, sizeof into->fresh);
+        into->received[0] = e->area;
+    }
+    into->area = area;
+    into->reach2 = 0.0f;
+}
+
+static void add_element(maker *m, const lmb_element *e, int small)
+{
+    uint32_t *slot = small ? find_slot(m, e) : NULL;
+    if (slot != NULL && *slot != 0) {
+        join(&m->out->data[*slot - 1], e);
+    } else if (append(m, e) != NULL && slot != NULL) {
+        *slot = m->out->count;
+    }
+}
+
+/* Both sides of a piece. `fresh` holds the normal meanwhile. */
+static void add_piece(maker *m, const source *s, const piece *p, int small)
+{
+    const lmb_material *material = s->triangle.material;
+    const lmb_vec3 at = middle(p->corner);
+    const float area = 0.5f * length3(across(p->corner));
+    lmb_element e;
+    memset(&e, 0, sizeof e);
+    memcpy(e.corner, p->corner, sizeof e.corner);
+    e.area = area * look_at(e.albedo, s, p, area / s->area);
+    if (!(e.area > 0.0f)) {
+        return;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const lmb_vec3 d = sub3(p->corner[k], at);
+        e.reach2 = maxf(e.reach2, dot3(d, d));
+    }
+    e.reach2 = e.area < area ? 0.0f : e.reach2; /* with holes it has no shape */
+    emission_of(e.emission, s, p);
+    e.received[0] = e.area;
+    for (int back = 0; back <= ((material->flags & LMB_DOUBLE_SIDED) != 0); ++back) {
+        const lmb_vec3 n = mul3(s->normal, back ? -1.0f : 1.0f);
+        e.fresh[0] = n.x;
+        e.fresh[1] = n.y;
+        e.fresh[2] = n.z;
+        e.key = facing(n) << (3 * Z_BITS);
+        add_element(m, &e, small);
+    }
+}
+
+/* --- cutting ------------------------------------------------------------------------------------------------------ */
+
+/* The longest edge's square; it runs from corner *from to the next. */
+static float longest_edge(int *from, const piece *p)
+{
+    float longest = -1.0f;
+    for (int k = 0; k < 3; ++k) {
+        const lmb_vec3 d = sub3(p->corner[(k + 1) % 3], p->corner[k]);
+        if (dot3(d, d) > longest) {
+            longest = dot3(d, d);
+            *from = k;
+        }
+    }
+    return longest;
+}
+
+/* A halving on the way down to a piece: the edge's corner that is not the piece's, and which half the piece lies in. */
+typedef struct turn {
+    lmb_vec3 corner;
+    float b1, b2;
+    int from, first;
+} turn;
+
+/* Corner k of the piece becomes what the turn keeps, and the other way round. */
+static void exchange_corner(piece *p, turn *t, int k)
+{
+    const turn kept = *t;
+    t->corner = p->corner[k];
+    t->b1 = p->b1[k];
+    t->b2 = p->b2[k];
+    p->corner[k] = kept.corner;
+    p->b1[k] = kept.b1;
+    p->b2[k] = kept.b2;
+}
+
+/* Into the half behind the middle of the edge from `from`. */
+static void enter_second(piece *p, turn *t, int from)
+{
+    const int to = (from + 1) % 3;
+    t->corner = add3(p->corner[from], mul3(sub3(p->corner[to], p->corner[from]), 0.5f));
+    t->b1 = 0.5f * (p->b1[from] + p->b1[to]);
+    t->b2 = 0.5f * (p->b2[from] + p->b2[to]);
+    t->from = from;
+    t->first = 0;
+    exchange_corner(p, t, from);
+}
+
+/* From the second half into the first; 0 where that is done too: the piece is whole again. */
+static int enter_first(piece *p, turn *t)
+{
+    const int done = t->first, to = (t->from + 1) % 3;
+    if (!done) {
+        exchange_corner(p, t, t->from); /* t: the middle */
+    }
+    exchange_corner(p, t, to);
+    t->first = 1;
+    return !done;
+}
+
+/* Turns instead of pieces that wait: 28 bytes of stack a halving, not 60. */
+static void add_source(maker *m, const source *s)
+{
+    turn turns[HALVINGS];
+    piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
+    int depth = 0, from = 0;
+    memcpy(p.corner, s->triangle.corner, sizeof p.corner);
+    if (longest_edge(&from, &p) * 4.0f < m->side2) {
+        add_piece(m, s, &p, 1);
+        return;
+    }
+    do {
+        while (depth < HALVINGS && longest_edge(&from, &p) > m->side2) {
+            enter_second(&p, &turns[depth++], from);
+        }
+        add_piece(m, s, &p, 0);
+        m->full |= ++m->pieces > MOST_PIECES * m->out->cap;
+        while (depth > 0 && !enter_first(&p, &turns[depth - 1])) {
+            --depth;
+        }
+    } while (depth > 0 && !m->full);
+}
+
+/* 1 where all fits. */
+static int make(maker *m)
+{
+    const uint32_t all = lmb_scene_triangles(m->scene);
+    source s;
+    m->full = 0;
+    m->pieces = 0;
+    m->out->count = 0;
+    memset(m->slot, 0, ((size_t)m->mask + 1) * sizeof *m->slot);
+    for (uint32_t id = 1; id <= all && !m->full; ++id) {
+        if (open_source(&s, m->scene, id)) {
+            add_source(m, &s);
+        }
+    }
+    return !m->full;
+}
+
+static float scene_area(const lmb_scene *scene)
+{
+    const uint32_t all = lmb_scene_triangles(scene);
+    double area = 0.0;
+    source s;
+    for (uint32_t id = 1; id <= all; ++id) {
+        if (open_source(&s, scene, id)) {
+            area += (double)s.area * (s.triangle.material->flags & LMB_DOUBLE_SIDED ? 2.0 : 1.0);
+        }
+    }
+    return (float)area;
+}
+
+/* --- order -------------------------------------------------------------------------------------------------------- */
+
+/* Bits 0, 1, 2, .. to 0, 3, 6, .. */
+static uint32_t spread3(uint32_t v)
+{
+    uint32_t out = 0;
+    for (int i = 0; i < Z_BITS; ++i) {
+        out |= ((v >> i) & 1u) << (3 * i);
+    }
+    return out;
+}
+
+static void set_key(lmb_element *e, const lmb_scene *scene, float per)
+{
+    const lmb_vec3 at = middle(e->corner), low = low_of(scene);
+    const float last = (float)((1 << Z_BITS) - 1);
+    const uint32_t x = (uint32_t)clampf((at.x - low.x) * per, 0.0f, last),
+                   y = (uint32_t)clampf((at.y - low.y) * per, 0.0f, last),
+                   z = (uint32_t)clampf((at.z - low.z) * per, 0.0f, last);
+    e->key |= spread3(x) | spread3(y) << 1 | spread3(z) << 2;
+}
+
+static void sift(lmb_element *data, uint32_t at, uint32_t count)
+{
+    const lmb_element e = data[at];
+    for (uint32_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+        child += child + 1 < count && data[child + 1].key > data[child].key;
+        if (data[child].key <= e.key) {
+            break;
+        }
+        data[at] = data[child];
+        at = child;
+    }
+    data[at] = e;
+}
+
+/* A heap, so that no more memory is needed. */
+static void sort(lmb_element *data, uint32_t count)
+{
+    for (uint32_t i = count / 2; i > 0; --i) {
+        sift(data, i - 1, count);
+    }
+    for (uint32_t last = count; last > 1; --last) {
+        const lmb_element largest = data[0];
+        data[0] = data[last - 1];
+        data[last - 1] = largest;
+        sift(data, 0, last - 1);
+    }
+}
+
+static void put_in_order(lmb_elements *e, const lmb_scene *scene)
+{
+    const lmb_vec3 size = sub3(high_of(scene), low_of(scene));
+    const float longest = largest3(size), per = longest > 0.0f ? (float)(1 << Z_BITS) / longest : 0.0f;
+    for (uint32_t i = 0; i < e->count; ++i) {
+        set_key(&e->data[i], scene, per);
+    }
+    sort(e->data, e->count);
+}
+
+/* --- the tree ----------------------------------------------------------------------------------------------------- */
+
+static void set_texels_of_tree(lmb_elements *e)
+{
+    memset(e->tree.texel, 0, (size_t)e->cap * sizeof *e->tree.texel);
+    for (uint32_t i = 0; i < e->count; ++i) {
+        lmb_element *from = &e->data[i];
+        lmb_texel *t = &e->tree.texel[tree_along_z(&e->tree, i)];
+        t->position = middle(from->corner);
+        t->normal = vec3(from->fresh[0], from->fresh[1], from->fresh[2]);
+        for (int c = 0; c < 3; ++c) {
+            t->flux[c] = flux_or_none(LMB_PI * from->area * from->emission[c]);
+            from->received[c] = from->fresh[c] = 0.0f;
+        }
+    }
+}
+
+static void set_level(lmb_elements *e, const lmb_tree *lights)
+{
+    double flux = (double)flux_sum(tree_level(&e->tree, 0, tree_root_level(&e->tree))->flux), area = 0.0;
+    for (uint32_t f = 0; lights != NULL && f < lights->faces; ++f) {
+        flux += (double)flux_sum(tree_level(lights, f, tree_root_level(lights))->flux);
+    }
+    for (uint32_t i = 0; i < e->count; ++i) {
+        area += (double)e->data[i].area;
+    }
+    e->level = area > 0.0 ? (float)(flux / area) : 0.0f;
+}
+
+lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const lmb_tree *lights)
+{
+    maker m;
+    if (inout == NULL || inout->data == NULL || scene == NULL) {
+        return LMB_ERR_ARG;
+    }
+    m.out = inout;
+    m.scene = scene;
+    m.slot = (uint32_t *)(void *)inout->tree.node;
+    m.mask = 2 * inout->cap - 1;
+    /* A piece's area is at most half of side^2, so this is too fine by far, or all of it is small triangles. */
+    m.side2 = maxf(scene_area(scene) / (float)inout->cap, 1e-24f);
+    while (!make(&m)) {
+        m.side2 *= inout->count == inout->cap ? 2.0f : 16.0f;
+    }
+    inout->side = sqrtf(m.side2);
+    put_in_order(inout, scene);
+    set_texels_of_tree(inout);
+    inout->tree.element = inout->data;
+    inout->tree.faces = 1;
+    lmb_tree_sum(&inout->tree, 0);
+    set_level(inout, lights);
+    return LMB_OK;
+}
+
+#endif

@@ -1,0 +1,21 @@
+# draw.sh: what truth.sh and times.sh share: a truth scene drawn by the tool, its stats and user seconds.
+. tests/scripts/checks.sh
+
+truth=${LMB_SHARED:-../shared}/truth
+work=$B/figures
+mkdir -p "$work"
+
+# draw SCENE QUALITY THREADS WxH SHOW: fails where the tool does. Leaves drawn.pfm, stats.json, user, and in `said` what
+# went wrong.
+draw() {
+    (
+        "$TOOL" render "$truth/$1/scene.gltf" -o "$work/drawn.pfm" --quality "$2" --threads "$3" --size "$4" \
+            --show "$5" --stats "$work/stats.json" >"$work/said" 2>&1 || exit
+        times >"$work/times" # what this shell's children took; into a pipe it would be another shell's
+    ) && awk 'NR == 2 { split($1, t, "m"); printf "%.2f\n", 60 * t[1] + t[2] }' "$work/times" >"$work/user"
+}
+
+# figure KEY: the first number of that name in the stats; a stage's seconds stand before counts of the same name.
+figure() { sed -n "s/.*\"$1\": \([0-9.]*\).*/\1/p" "$work/stats.json" | head -n 1; }
+
+[ -f "$truth/compare.py" ] || { skip "$truth is not there (LMB_SHARED names its folder)"; finish; }

@@ -1,0 +1,134 @@
+/* relief_stage.c: what the figures of reliefs share: models and their reliefs, bars, pictures. */
+#include "relief_stage.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../../src/base/vec.h"
+#include "../../tools/picture/picture.h"
+#include "../shared_file.h"
+
+const statue statues[STATUES] = {{"rhino", "data/meshes/rhino_60k.ply", 3000},
+                                 {"bunny", "data/meshes/stanford_bunny.obj", 2000},
+                                 {"lucy", "data/meshes/lucy_100k.ply", 4000}};
+
+void give_up(const report *r)
+{
+    printf("FAIL: %s\n", r->text);
+    exit(1);
+}
+
+void bar(const char *name, const char *what, int holds)
+{
+    if (!holds) {
+        printf("FAIL %s: %s\n", name, what);
+        ++test_failed;
+    }
+}
+
+void relief_show(const char *name, float *rgb, int32_t width, int32_t height, report *r)
+{
+    const char *folder = getenv("LMB_PICTURES");
+    const image out = {width, height, 3, rgb};
+    char path[600];
+    if (folder != NULL) {
+        snprintf(path, sizeof path, "%.300s/%.200s.png", folder, name);
+        if (!picture_write(path, &out, 0.0f, r)) {
+            give_up(r);
+        }
+    }
+}
+
+/* The wood's grain of a model that has no colours. */
+static void paint(triangle_mesh *m, float diagonal)
+{
+    for (uint32_t v = 0; v < m->vertex_count; ++v) {
+        const float *p = m->positions + 3 * (size_t)v;
+        const float k = 40.0f / diagonal, g = sinf(k * p[0]) * sinf(k * p[1]) * sinf(k * p[2]);
+        m->colours[3 * (size_t)v] = 0.55f + 0.25f * g;
+        m->colours[3 * (size_t)v + 1] = 0.45f + 0.2f * g;
+        m->colours[3 * (size_t)v + 2] = 0.4f - 0.15f * g;
+    }
+}
+
+static void load(subject *s, const char *path, report *r)
+{
+    static model_notes notes;
+    if (!model_load(&s->loaded, path, NULL, &notes, r) || !relief_flatten(&s->mesh, &s->loaded.scene, r)) {
+        give_up(r);
+    }
+    const lmb_vec3 low = s->loaded.scene.bounds_min, high = s->loaded.scene.bounds_max;
+    s->middle = mul3(add3(low, high), 0.5f);
+    s->diagonal = length3(sub3(high, low));
+    paint(&s->mesh, s->diagonal);
+    if (!relief_scene_of(&s->complex, &s->mesh, r)) {
+        give_up(r);
+    }
+}
+
+static void bake(subject *s, uint32_t triangles, report *r)
+{
+    lmb_vec3 direction[LMB_RELIEF_VIEWS];
+    simplify_facts facts;
+    const double since = host_cpu_seconds();
+    int ok = simplify_mesh(&s->simple, &s->mesh, triangles, SIMPLIFY_AROUND, &facts, r);
+    relief_directions(direction, RELIEF_VIEWS);
+    s->bake.format = LMB_RELIEF_FULL;
+    for (int32_t i = 0; i < RELIEF_VIEWS && ok; ++i) {
+        const lmb_view v = relief_fit(&s->mesh, direction[i], RELIEF_TEXELS);
+        ok = relief_add(&s->bake, &s->complex.scene, &v, r);
+    }
+    ok = ok && relief_cover(&s->coverage, &s->bake, &s->mesh, r) &&
+         relief_encode(&s->file, &s->bake, &s->simple, r);
+    s->bake_s = host_cpu_seconds() - since;
+    if (!ok || lmb_relief_open(&s->relief, s->file.data, s->file.size) != LMB_OK) {
+        report_fail(r, "no relief");
+        give_up(r);
+    }
+}
+
+subject *subject_make(const statue *of, report *r)
+{
+    char path[SHARED_PATH];
+    subject *s = shared_file(path, of->file) ? calloc(1, sizeof *s) : NULL;
+    if (s != NULL) {
+        load(s, path, r);
+        bake(s, of->triangles, r);
+    }
+    return s;
+}
+
+void subject_free(subject *s)
+{
+    model_free(&s->loaded);
+    triangle_mesh_free(&s->mesh);
+    triangle_mesh_free(&s->simple);
+    relief_scene_free(&s->complex);
+    relief_bake_free(&s->bake);
+    file_free(&s->file);
+    free(s);
+}
+
+/* All around, between a cube's lattice: by golden angles, turned. */
+lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun)
+{
+    const double y = 1.0 - (2.0 * i + 1.0) / CAMERAS, a = 2.39996322972865332 * i + 0.3, ring = sqrt(1.0 - y * y);
+    const lmb_vec3 d = vec3((float)(ring * cos(a)), (float)y, (float)(ring * sin(a)));
+    lmb_view v;
+    const float away = 1.32f * s->diagonal; /* 45 degrees hold the sphere around it */
+    if (lmb_view_look(&v, add3(s->middle, mul3(d, away)), s->middle, vec3(0.0f, 1.0f, 0.0f), 0.7853982f, side, side) !=
+        LMB_OK) {
+        exit(1);
+    }
+    v.near_m = 0.01f * away;
+    v.far_m = 3.0f * away;
+    memset(sun, 0, sizeof *sun);
+    sun->kind = LMB_LIGHT_DIRECTIONAL;
+    sun->direction = normalize3(mul3(add3(add3(mul3(v.back, 0.7f), mul3(v.up, 0.6f)), mul3(v.right, 0.5f)), -1.0f));
+    sun->intensity[0] = sun->intensity[1] = sun->intensity[2] = 2.6f;
+    sun->cos_inner = sun->cos_outer = 1.0f;
+    return v;
+}

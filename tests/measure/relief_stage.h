@@ -1,0 +1,58 @@
+/* relief_stage.h: what the figures of reliefs share: models and their reliefs, bars, pictures. */
+#ifndef RELIEF_STAGE_H
+#define RELIEF_STAGE_H
+
+#include <lambent/lambent.h>
+
+#include "../../tools/model/model.h"
+#include "../../tools/picture/image.h"
+#include "../../tools/relief/relief_bake.h"
+#include "../../tools/relief/relief_model.h"
+
+enum { RELIEF_VIEWS = 26, RELIEF_TEXELS = 256, CAMERAS = 24 };
+
+/* A complex model, and a relief of it. */
+typedef struct subject {
+    model loaded;
+    triangle_mesh mesh, simple;
+    relief_scene complex;
+    relief_bake bake;
+    lmb_relief relief;
+    file_bytes file;
+    relief_coverage coverage;
+    double bake_s;
+    lmb_vec3 middle;
+    float diagonal;
+} subject;
+
+/* The statues of the figures. */
+typedef struct statue {
+    const char *name, *file;
+    uint32_t triangles; /* of the simple model */
+} statue;
+enum { STATUES = 3 };
+extern const statue statues[STATUES];
+
+void give_up(const report *r);
+
+/* One more failed, told, where a bar does not hold. */
+void bar(const char *name, const char *what, int holds);
+
+/* A picture in the folder that LMB_PICTURES names, if any. */
+void relief_show(const char *name, float *rgb, int32_t width, int32_t height, report *r);
+
+/* subject_make: a statue and its relief of RELIEF_VIEWS views; NULL where its file is not there. */
+subject *subject_make(const statue *of, report *r);
+void subject_free(subject *s);
+
+/* subject_camera: number i of CAMERAS around a statue, and a sun over its shoulder. */
+lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun);
+
+/* The parts of the program. */
+void relief_quality(report *r);
+void relief_speed(report *r);
+void relief_own_views(report *r); /* relief_own.c */
+void relief_rooms(report *r);     /* relief_rooms.c */
+void relief_causes(report *r);    /* relief_causes.c */
+
+#endif

@@ -1,0 +1,717 @@
+# cli.sh: what the tool writes, says and returns; TOOL and B in the environment.
+. tests/scripts/checks.sh
+
+dir=$B/cli
+rm -rf "$dir"
+mkdir -p "$dir"
+
+# status WANTED ARGUMENT...: the exit status; a failure says one line on stderr, and only there.
+status() {
+    wanted=$1
+    shift
+    "$TOOL" "$@" >"$dir/out.txt" 2>"$dir/err.txt"
+    got=$?
+    [ $got -eq "$wanted" ] && pass || fail "lambent $*: exit status $got, not $wanted: $(head -n 1 "$dir/err.txt")"
+    if [ "$wanted" -eq 1 ]; then
+        lines=$(grep -c . "$dir/err.txt")
+        [ "$lines" -eq 1 ] && pass || fail "lambent $*: $lines lines on stderr instead of one"
+        [ ! -s "$dir/out.txt" ] && pass || fail "lambent $*: an error, yet output on stdout"
+    elif [ "$wanted" -eq 2 ]; then
+        [ -s "$dir/err.txt" ] && pass || fail "lambent $*: bad usage and not a word on stderr"
+    fi
+}
+
+# begins FILE BYTES_IN_OCTAL: the first bytes of a file.
+begins() {
+    got=$(od -An -to1 -N4 "$1" | tr -d ' \n')
+    [ "$got" = "$2" ] && pass || fail "$1 begins with $got instead of $2"
+}
+
+absent() { [ ! -e "$1" ] && pass || fail "$1 should not be there"; }
+
+small="--size 64x48 --light-map 64 --exposure 0"
+
+# Only glTF has lobes.
+status 1 render demo $small --glossy -o "$dir/glossy.png"
+
+# Each format by its extension, whole.
+for extension in png ppm pfm hdr; do
+    status 0 render demo $small -o "$dir/demo.$extension"
+done
+begins "$dir/demo.png" 211120116107
+begins "$dir/demo.ppm" 120066012066
+begins "$dir/demo.pfm" 120106012066
+begins "$dir/demo.hdr" 043077122101
+check "demo.ppm is 64x48" test "$(wc -c <"$dir/demo.ppm")" -eq $((64 * 48 * 3 + 13))
+check "demo.pfm is 64x48" test "$(sed -n 2p "$dir/demo.pfm")" = "64 48"
+
+# What is shown, and by which method.
+for show in direct indirect irradiance depth normal albedo; do
+    status 0 render demo $small --show $show -o "$dir/$show.pfm"
+done
+for show in occlusion eye-distance light-distance points groups; do
+    for extension in png pfm hdr; do
+        status 0 render demo $small --show $show -o "$dir/$show.$extension"
+    done
+done
+check "what the eye sees has the picture's size" test "$(sed -n 2p "$dir/eye-distance.pfm")" = "64 48"
+for show in light-distance points groups; do
+    check "$show has the map's size" test "$(sed -n 2p "$dir/$show.pfm")" = "64 64"
+done
+status 0 render demo $small --show light-distance --light point:0,1,0:0,-1,0:1,1,1 --light sun:0,0,0:0,-1,0:1,1,1 -o "$dir/two.pfm"
+check "a row of faces a light" test "$(sed -n 2p "$dir/two.pfm")" = "384 128"
+status 0 render demo $small --show eye-distance -o "$dir/eye-distance.png"
+check "distances say their range" grep -q '^lambent: from [0-9.]* m (white) to [0-9.]* m (dark grey)$' "$dir/err.txt"
+for grouping in greedy zones; do
+    status 0 render demo $small --grouping $grouping -o "$dir/$grouping.pfm"
+done
+for occlusion in none view view-world; do
+    status 0 render demo $small --occlusion $occlusion -o "$dir/$occlusion.pfm"
+done
+status 0 render demo $small --stats "$dir/stats.json" -o "$dir/again.pfm"
+check "the same command writes the same bytes" cmp "$dir/demo.pfm" "$dir/again.pfm"
+check "stats are JSON" grep -q '^{' "$dir/stats.json"
+
+# Strict zones say what they lose; the others lose nothing and say nothing.
+status 0 render demo $small --groups 40 --misfits drop -o "$dir/strict.pfm"
+check "strict zones say their loss" grep -q '^lambent: note: --misfits drop lost [1-9][0-9.]* % of the light' "$dir/err.txt"
+status 0 render demo $small --groups 40 --misfits keep -o "$dir/kept.pfm"
+check "kept misfits lose nothing" sh -c '! grep -q lost "$1"' sh "$dir/err.txt"
+
+# Groups that are too few are said; zones, neighbours and discs are as asked for.
+status 0 render demo $small --groups 7 -o "$dir/few.pfm"
+check "regrouping is said" grep -qE '^lambent: note: discs were grouped again [1-9][0-9]* times?, .*: [1-7]$' "$dir/err.txt"
+status 0 render demo $small --groups 400 -o "$dir/plain.pfm"
+for option in "--zones 20" "--neighbour 0.6" "--neighbour-blocks 3" "--disc-radius 2"; do
+    status 0 render demo $small --groups 400 $option -o "$dir/other.pfm"
+    check "$option changes nothing" sh -c '! cmp -s "$1" "$2"' sh "$dir/other.pfm" "$dir/plain.pfm"
+done
+
+# A number of the statistics.
+count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
+
+# More bounces add light, one is what there is without the option; what shines lights a scene without lamps.
+cut="--grouping cut --occlusion exact --light-map 32"
+coarse="--size 64x48 --exposure 0 $cut"
+status 0 render demo $coarse -o "$dir/bounce.pfm"
+status 0 render demo $coarse --bounces 1 -o "$dir/bounce1.pfm"
+check "--bounces 1 is the default" cmp "$dir/bounce.pfm" "$dir/bounce1.pfm"
+status 0 render demo $coarse --bounces 3 --elements 200 --threads 2 -o "$dir/bounce3.pfm" --stats "$dir/bounce3.json"
+check "--bounces 3 changes the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/bounce.pfm" "$dir/bounce3.pfm"
+check "--elements holds" test "$(count "$dir/bounce3.json" elements)" -le 256 -a "$(count "$dir/bounce3.json" elements)" -gt 16
+status 0 render demo $coarse --bounces 3 --elements 256 --threads 1 -o "$dir/option.pfm"
+check "threads do not change bounces" cmp "$dir/bounce3.pfm" "$dir/option.pfm"
+status 2 render demo $small --grouping zones --bounces 2 -o "$dir/option.pfm"
+status 2 render demo $coarse --bounces 0 -o "$dir/option.pfm"
+printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >"$dir/shine.mtl"
+printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+    'f 1 2 3 4' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shine.obj"
+status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.5,2 --target 0,0.4,0 $cut -o "$dir/shine.pfm"
+check "a lamp is enough light" sh -c '! grep -q "no light in" "$1"' sh "$dir/err.txt"
+status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.9,0 --target 0,0,0.1 $cut --show irradiance -o "$dir/floor.pfm"
+check "its light is seen" test "$(tail -c 3072 "$dir/floor.pfm" | tr -d '\000' | wc -c)" -gt 2000
+# What stands between a lamp that is a surface and the floor blocks it, with no other lamp too.
+printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+    'v -2 0.5 -2' 'v 2 0.5 -2' 'v 2 0.5 2' 'v -2 0.5 2' 'f 1 2 3 4' 'f 9 10 11 12' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shade.obj"
+status 0 render "$dir/shade.obj" --size 16x16 --eye 0,0.45,0 --target 0,0,0.1 --light-map 32 --show irradiance -o "$dir/shade.pfm"
+check "a shade is dark below" test "$(tail -c 3072 "$dir/shade.pfm" | tr -d '\000' | wc -c)" -eq 0
+
+# A box with two lit eyes keeps its sun, and they do not change how it is exposed.
+printf 'newmtl eye\nKe 0 3 3\nKd 0 0 0\n' >"$dir/eyes.mtl"
+printf 'newmtl eye\nKd 0 0 0\n' >"$dir/blind.mtl"
+eyes="--size 32x32 --eye 0,0.5,3 --target 0,0.5,0 --show direct"
+for of in eyes blind; do
+    printf '%s\n' "mtllib $of.mtl" 'v -0.5 0 0.5' 'v 0.5 0 0.5' 'v 0.5 1 0.5' 'v -0.5 1 0.5' 'v -0.5 1 -0.5' 'v 0.5 1 -0.5' \
+        'v -0.3 0.6 0.502' 'v -0.1 0.6 0.502' 'v -0.1 0.8 0.502' 'v -0.3 0.8 0.502' 'v 0.1 0.6 0.502' 'v 0.3 0.6 0.502' \
+        'v 0.3 0.8 0.502' 'v 0.1 0.8 0.502' 'f 1 2 3 4' 'f 4 3 6 5' 'usemtl eye' 'f 7 8 9 10' 'f 11 12 13 14' >"$dir/$of.obj"
+    status 0 render "$dir/$of.obj" $eyes -o "$dir/$of.png"
+    cp "$dir/err.txt" "$dir/$of.txt"
+done
+check "what only glows leaves the sun on" grep -q "no light in" "$dir/eyes.txt"
+check "what glows does not expose" test "$(grep exposure "$dir/eyes.txt")" = "$(grep exposure "$dir/blind.txt")"
+
+# First points: fewer discs, another neighbourhood, thresholds.
+for option in "--thin 10" "--neighbourhood hemisphere" "--neighbour 0.25" "--neighbour 0.5" "--neighbour 1" "--centre disc"; do
+    status 0 render demo $small $option -o "$dir/option.pfm" --stats "$dir/option.json"
+    check "$option changes the picture" sh -c '! cmp -s "$1" "$2"' sh "$dir/demo.pfm" "$dir/option.pfm"
+done
+
+status 0 render demo $small --thin 10 -o "$dir/option.pfm" --stats "$dir/option.json"
+status 0 render demo $small --grouping zones -o "$dir/option2.pfm" --stats "$dir/option2.json"
+check "--thin 10 leaves few discs" test $((4 * $(count "$dir/option.json" discs))) -lt "$(count "$dir/option2.json" discs)"
+
+# Two eyes: each half is what one eye sees from there, and the light is found once.
+at() { echo "--eye $1,1.25,2.5 --target $1,1,-1 --fov 50"; }
+rows() { tail -c +"$(($(head -n 3 "$1" | wc -c) + 1))" "$1" | od -An -v -tx1 | tr -d ' \n' | fold -w $((64 * 3 * 4 * 2)); }
+status 0 render demo $small $(at 0.5) --stereo 0.25 -o "$dir/both.pfm" --stats "$dir/both.json"
+status 0 render demo $small $(at 0.375) -o "$dir/left.pfm" --stats "$dir/left.json"
+status 0 render demo $small $(at 0.625) -o "$dir/right.pfm"
+check "two eyes side by side" test "$(sed -n 2p "$dir/both.pfm")" = "128 48"
+rows "$dir/both.pfm" >"$dir/both.txt"
+(rows "$dir/left.pfm"; echo) >"$dir/left.txt"
+(rows "$dir/right.pfm"; echo) >"$dir/right.txt"
+(sed -n 'p;n' "$dir/both.txt"; echo) | sed '/^$/d' >"$dir/left_half.txt"
+(sed -n 'n;p' "$dir/both.txt"; echo) | sed '/^$/d' >"$dir/right_half.txt"
+check "48 rows of an eye" test "$(grep -c . "$dir/left_half.txt")" -eq 48
+check "the left half is the left eye's picture" cmp "$dir/left.txt" "$dir/left_half.txt"
+check "the right half is the right eye's picture" cmp "$dir/right.txt" "$dir/right_half.txt"
+for what in first_points discs groups; do
+    check "two eyes: $what counted once" test "$(count "$dir/both.json" $what)" -eq "$(count "$dir/left.json" $what)"
+done
+check "two eyes: light's map once, view twice" test $((2 * $(count "$dir/both.json" triangles_read))) -eq $((3 * $(count "$dir/left.json" triangles_read)))
+check "two eyes: two views" test "$(count "$dir/both.json" views)" -eq 2
+for show in depth eye-distance normal albedo occlusion direct; do
+    status 0 render demo $small --stereo 0.1 --show $show -o "$dir/both.png"
+done
+
+# Many lights: a floor under 200 of them, in two orders, of a kind. Too many for maps; the picture knows no order.
+many_lights() {
+    awk -v first="$1" -v step="$2" -v kind="${4:-point}" 'BEGIN {
+        printf "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"KHR_lights_punctual\"],\"extensions\":"
+        printf "{\"KHR_lights_punctual\":{\"lights\":[{\"type\":\"%s\",\"intensity\":0.3%s}]}},\"scene\":0,\"nodes\":[{\"mesh\":0}", kind, kind == "spot" ? ",\"spot\":{\"outerConeAngle\":0.6}" : ""
+        for (i = first; i >= 0 && i < 200; i += step)
+            printf ",{\"rotation\":[-0.70710678,0,0,0.70710678],\"translation\":[%g,%g,%g],\"extensions\":{\"KHR_lights_punctual\":{\"light\":0}}}",
+                i % 17 / 10, 0.2 + i % 7 / 9, i % 23 / 12 - 1
+        printf "],\"scenes\":[{\"nodes\":[0"
+        for (i = 1; i <= 200; ++i) printf ",%d", i
+        printf "]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,"
+        printf "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[-2,0,-2],\"max\":[4,0,4]}],\"bufferViews\":"
+        printf "[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;"
+        printf "base64,AAAAwAAAAAAAAADAAAAAwAAAAAAAAIBAAACAQAAAAAAAAADA\"}]}"
+    }' >"$3"
+}
+many_lights 0 1 "$dir/many.gltf"
+many_lights 199 -1 "$dir/manyback.gltf"
+look="--size 64x48 --eye 0,3,3 --target 0,0,0"
+status 0 render "$dir/many.gltf" $look -o "$dir/many.pfm" --stats "$dir/many.json"
+check "render says what it does with many lights" grep -q '200 lights in 200 cells' "$dir/err.txt"
+check "stats count the lights" grep -q '"many_lights": 200, "light_cells": 200, "light_nodes": [1-9]' "$dir/many.json"
+status 0 render "$dir/manyback.gltf" $look --threads 3 --backend scalar -o "$dir/manyback.pfm"
+check "the order of lights changes the picture" cmp "$dir/many.pfm" "$dir/manyback.pfm"
+for kind in spot directional; do
+    many_lights 0 1 "$dir/$kind.gltf" $kind
+    many_lights 199 -1 "$dir/${kind}back.gltf" $kind
+    status 0 render "$dir/$kind.gltf" $look --show direct -o "$dir/$kind.pfm"
+    check "200 ${kind}s are drawn" grep -q '200 lights in' "$dir/err.txt"
+    status 0 render "$dir/${kind}back.gltf" $look --show direct -o "$dir/${kind}back.pfm"
+    check "the order of ${kind}s changes the picture" cmp "$dir/$kind.pfm" "$dir/${kind}back.pfm"
+done
+check "spots light what points do" sh -c "! cmp -s '$dir/spot.pfm' '$dir/many.pfm'"
+status 0 render "$dir/many.gltf" $look --many-lights 50 -o "$dir/fewcells.pfm"
+check "--many-lights 50 takes as many cells at most" grep -q '200 lights in [1-5][0-9] cells' "$dir/err.txt"
+status 0 compare "$dir/many.pfm" "$dir/fewcells.pfm" --max trim=0.1
+for show in direct full; do
+    status 0 render "$dir/many.gltf" $look --show $show -o "$dir/$show.pfm"
+done
+check "a floor lights nothing but itself" cmp "$dir/direct.pfm" "$dir/full.pfm"
+status 1 render demo $small --many-lights 4 --grouping zones -o "$dir/bad.pfm"
+status 0 render "$dir/many.gltf" $look --grouping zones --show direct -o "$dir/zones.pfm"
+check "direct light knows no grouping" cmp "$dir/direct.pfm" "$dir/zones.pfm"
+status 2 render demo $small --profile fast -o "$dir/bad.pfm"
+for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
+    for bounces in 1 3; do
+        how="demo --size 64x48 --exposure 0 --light $light --light-map 512 --show indirect --bounces $bounces"
+        status 0 render $how --many-lights 4 --gather full --elements 65536 -o "$dir/elements.pfm"
+        status 0 render $how -o "$dir/own.pfm"
+        status 0 compare "$dir/elements.pfm" "$dir/own.pfm" --max trim=0.05
+    done
+done
+status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 -o "$dir/once.pfm"
+status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 --threads 3 --backend scalar -o "$dir/threads.pfm"
+check "threads or lanes change what many lights bounce" cmp "$dir/once.pfm" "$dir/threads.pfm"
+few= # lights that bounce take a tree from 33 on, and less fine bounced light, which is as right as their direct light
+for i in $(seq 33); do
+    few="$few --light point:0.$((i % 10)),2,0.$((i / 4)):0,-1,0:1,1,1"
+done
+status 0 render demo $small $few --show indirect --stats "$dir/few.json" -o "$dir/few.pfm"
+check "33 lights that bounce are many" grep -q '33 lights in' "$dir/err.txt"
+status 0 render demo $small $few --show indirect --error 0.02 --visible 0.015 --stats "$dir/fine.json" -o "$dir/fine.pfm"
+status 0 compare "$dir/few.pfm" "$dir/fine.pfm" --max trim=0.05
+check "33 lights' bounced light takes under three quarters of the finer segments" sh -c '
+    segments() { sed -n "s/.*\"segments\": \([0-9]*\).*/\1/p" "$1"; }
+    [ $((4 * $(segments "$1"))) -lt $((3 * $(segments "$2"))) ]' sh "$dir/few.json" "$dir/fine.json"
+status 0 render demo $small $few --show direct -o "$dir/few.pfm"
+check "33 lights' direct light has maps" sh -c "! grep -q 'lights in' '$dir/err.txt'"
+status 2 render "$dir/many.gltf" --bounce-lights 3 -o "$dir/bad.pfm"
+status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
+status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
+
+status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect -o "$dir/proven.pfm"
+status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o "$dir/ruled.pfm"
+status 0 compare "$dir/proven.pfm" "$dir/ruled.pfm"
+status 0 render demo $small --bounces 3 --show occlusion -o "$dir/blocked.pfm"
+
+# Help and version go to stdout.
+status 0 --version
+check "lambent --version says something" test -s "$dir/out.txt"
+for ask in --help "render --help" "compare --help" "info --help" "bench --help"; do
+    status 0 $ask
+    check "lambent $ask says something, once" test "$(grep -c '^usage:' "$dir/out.txt")" -eq 1
+done
+
+# compare: equal, different, sizes differ.
+status 0 compare "$dir/demo.pfm" "$dir/again.pfm"
+status 0 render demo --size 32x24 --light-map 64 -o "$dir/half.pfm"
+status 3 compare "$dir/demo.pfm" "$dir/half.pfm"
+
+# info: a scene and pictures, as text and as one JSON object on one line.
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"$dir/one.obj"
+status 0 info "$dir/one.obj"
+check "info counts the triangle" grep -q '^triangles  *1 placed, 1 unique$' "$dir/out.txt"
+for file in one.obj demo.png demo.ppm demo.pfm; do
+    status 0 info "$dir/$file" --json
+    check "info $file --json is one line" test "$(wc -l <"$dir/out.txt")" -eq 1
+    check "info $file --json is an object" grep -q '^{.*}$' "$dir/out.txt"
+done
+
+# One parser reads all command lines: `--name=value`, what is given twice, what may be meant, where options end.
+said() { check "lambent says: $1" grep -qF -e "$1" "$dir/err.txt"; }
+status 0 render demo --size=64x48 --light-map=64 --exposure=0 -o "$dir/inside.pfm"
+check "--name=value is --name value" cmp "$dir/demo.pfm" "$dir/inside.pfm"
+cp "$dir/one.obj" "$dir/-q.obj"
+(cd "$dir" && "$OLDPWD/$TOOL" info -- -q.obj >out.txt 2>err.txt)
+check "behind -- a word that begins with - is no option" grep -q '^triangles' "$dir/out.txt"
+status 2 render demo --visibel 0.1 -o "$dir/bad.png"
+said "unknown option --visibel; did you mean --visible?"
+status 2 render demo --vis=0.1 -o "$dir/bad.png"
+said "unknown option --vis; did you mean --visible?"
+status 2 render demo --nonsense -o "$dir/bad.png"
+said "unknown option --nonsense; lambent render --help lists them"
+status 2 bench demo --swep tree=8
+said "did you mean --sweep?"
+status 2 bench demo --lihgt-map 64
+said "did you mean --light-map?"
+status 2 rendr demo
+said "did you mean render?"
+status 2 render demo --size 64x48 --size 32x24 -o "$dir/bad.png"
+said "--size is given twice, 64x48 and 32x24; leave one out"
+status 2 render demo --glossy --glossy -o "$dir/bad.png"
+said "--glossy is given twice"
+status 2 bench demo --tree 8 --tree=16
+said "--tree is given twice"
+status 2 render demo --error 0.1 --error-bound 0.1 -o "$dir/bad.png"
+said "--error and --error-bound exclude each other"
+status 2 render demo -q -v -o "$dir/bad.png"
+said "--quiet and --verbose exclude each other"
+status 2 render demo --glossy=1 -o "$dir/bad.png"
+said "--glossy takes no value"
+status 2 render demo --tree=12 -o "$dir/bad.png"
+said "--tree: \`12\` is not a power of two, 8 .. 4096"
+status 2 render demo --tree
+said "--tree wants a value: a power of two, 8 .. 4096"
+status 2 render demo demo -o "$dir/bad.png"
+said "one word too many: SCENE is \`demo\`"
+status 2 render demo -o=bad.png
+absent "$dir/bad.png"
+# Quiet says nothing, verbose says more; both draw the same.
+status 0 render demo --size 64x48 --light-map 64 -o "$dir/loud.png"
+status 0 render demo --size 64x48 --light-map 64 -q -o "$dir/hushed.png"
+check "-q says nothing" sh -c '! test -s "$1" && ! test -s "$2"' sh "$dir/out.txt" "$dir/err.txt"
+status 0 render demo --size 64x48 --light-map 64 -v -o "$dir/told.png"
+check "-v says how long what took" grep -q '^lambent: bands .* ms$' "$dir/err.txt"
+check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh "$dir/loud.png" "$dir/hushed.png" "$dir/told.png"
+status 0 compare "$dir/demo.pfm" "$dir/again.pfm" -q
+check "compare -q is its exit status" sh -c '! test -s "$1"' sh "$dir/out.txt"
+for verb in render relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
+    "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix"; do
+    status 0 $verb -V
+    check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' "$dir/out.txt"
+    status 0 $verb -h
+    cp "$dir/out.txt" "$dir/help.txt"
+    check "$verb --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' "$dir/help.txt"
+    # What is pasted works: all lines below `examples` that begin with two blanks, but those that end in a colon.
+    mkdir -p "$dir/paste"
+    { printf 'set -e\nlambent() { "%s" "$@"; }\n' "$PWD/$TOOL"
+      sed -n '/^examples$/,/^exit status/{/^  .*[^:]$/p;}' "$dir/help.txt"; } >"$dir/paste/run.sh"
+    check "$verb --help has an example" test "$(grep -c . "$dir/paste/run.sh")" -gt 2
+    check "$verb --help's example works when pasted" sh -c 'cd "$1" && XDG_CACHE_HOME=. sh ./run.sh >said.txt 2>&1' sh "$dir/paste"
+done
+
+# Bad usage.
+status 2
+status 2 paint
+status 2 render
+status 2 render demo
+status 2 render demo -o "$dir/bad.png" --no-such-flag
+status 2 render demo -o "$dir/bad.png" --size 64
+status 2 render demo -o "$dir/bad.png" --size 0x48
+status 2 render demo -o "$dir/bad.png" --show nonsense
+status 2 render demo -o "$dir/bad.png" --show groups --stereo 0.1
+status 2 render demo -o "$dir/bad.png" --show occlusion --occlusion none
+status 2 render demo -o "$dir/bad.png" --stereo 0
+status 2 render demo -o "$dir/bad.png" --thin 65
+status 2 render demo -o "$dir/bad.png" --neighbourhood none
+status 2 render demo -o "$dir/bad.png" --size
+status 2 render demo -o "$dir/bad.tiff"
+status 2 compare "$dir/demo.pfm"
+status 2 info
+status 2 info "$dir/demo.pfm" "$dir/demo.png"
+status 2 info "$dir/demo.pfm" --no-such-flag
+absent "$dir/bad.png"
+
+# What cannot be done leaves nothing behind.
+printf 'no scene' >"$dir/broken.glb"
+status 1 render "$dir/nowhere.gltf" -o "$dir/bad.png"
+status 1 render "$dir/broken.glb" -o "$dir/bad.png"
+absent "$dir/bad.png"
+status 1 render demo --size 5000x8 --stereo 0.1 -o "$dir/bad.png"
+status 1 render demo $small -o "$dir/nowhere/demo.png"
+absent "$dir/nowhere"
+mkdir "$dir/folder.png"
+status 1 render demo $small -o "$dir/folder.png"
+check "folder.png stays an empty folder" rmdir "$dir/folder.png"
+status 1 compare "$dir/demo.pfm" "$dir/nowhere.pfm"
+status 1 info "$dir/nowhere.glb"
+status 1 info "$dir/broken.glb" --json
+status 1 info "$dir/nowhere.png"
+
+# A limit on the size of files: a failed write like any other. Some shells count in 512 bytes, some in 1024.
+if (ulimit -f 8) 2>/dev/null; then
+    echo before >"$dir/kept.pfm"
+    (
+        ulimit -f 8
+        "$TOOL" render demo $small -o "$dir/kept.pfm" >"$dir/out.txt" 2>"$dir/err.txt"
+        echo $? >"$dir/status.txt"
+    )
+    check "a file beyond the limit: exit status 1" test "$(cat "$dir/status.txt")" = 1
+    check "a file beyond the limit: one line on stderr" test "$(wc -l <"$dir/err.txt")" -eq 1
+    check "a file beyond the limit is named" grep -q 'kept.pfm: cannot be written: ' "$dir/err.txt"
+    check "a file beyond the limit: what stood there stays" test "$(cat "$dir/kept.pfm")" = before
+else
+    skip "a limit on the size of files: this shell sets none"
+fi
+# Killed at any moment: what stood there stays, or the new file is there, whole (a PFM of 64 x 48 has 36,879 bytes).
+"$TOOL" render demo $small -o "$dir/whole.pfm" >/dev/null 2>&1
+for wait in 0 0.02 0.05 0.1 0.2; do
+    echo before >"$dir/killed.pfm"
+    "$TOOL" render demo $small -o "$dir/killed.pfm" >/dev/null 2>&1 &
+    sleep $wait 2>/dev/null
+    kill -9 $! 2>/dev/null
+    wait $! 2>/dev/null
+    check "killed after $wait s: a whole file" sh -c 'test "$(cat "$1")" = before || cmp -s "$1" "$2"' sh "$dir/killed.pfm" \
+        "$dir/whole.pfm"
+done
+find "$dir" \( -name '*killed*tmp*' -o -name '.write-*.tmp' \) -exec rm -f {} + # of those that were killed
+
+# A reader that goes away: the tool ends, with its own status or by the signal, and does not go on.
+check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^room"' sh "$TOOL"
+
+left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
+check "left behind: $left" test -z "$left"
+# The picture does not depend on how many threads draw it, nor on the machine's kernels.
+for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
+    check "render demo $option" "$TOOL" render demo --size 64x48 --light-map 128 --exposure 0 $option -o "$dir/way.ppm"
+    cp "$dir/way.ppm" "$dir/way$((ways = ways + 1)).ppm"
+done
+check "threads change the picture" cmp "$dir/way1.ppm" "$dir/way2.ppm"
+check "a backend changes the picture" cmp "$dir/way1.ppm" "$dir/way3.ppm"
+# A world of one radiance gives pi times that to every normal, from any place, by any filter.
+one='\000\000\200\077'
+{ printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 18 ]; do printf "$one"; i=$((i + 1)); done; } > "$dir/white.pfm"
+{ printf 'PF\n1 1\n-1.0\n'; printf "$one$one$one"; } > "$dir/facepx.pfm"
+for filter in cosine sh9 sh16 sh25 blur blur1 blur2; do
+    status 0 relight --world "$dir/white.pfm" --at 30,2,-9 --filter $filter --faces 3 --cube "$dir/cube.pfm"
+    check "relight --filter $filter is pi" sh -c '"$1" info "$2" | grep -c "min 3.14159 .*max 3.14159 " | grep -qx 3' sh "$TOOL" "$dir/cube.pfm"
+done
+status 0 relight --world "$dir/face" --world-box -1,-1,-1,1,1,1 --cube "$dir/cube.png" --map "$dir/map.pfm"
+check "where faces are missing it is dark" sh -c '"$1" info "$2" | grep -q "red   min 0 *max 0.9"' sh "$TOOL" "$dir/map.pfm"
+for option in "--storage log8" "--storage log16" "--overlap mean" "--backend scalar" "--ground $dir/facepx.pfm --ground-size 4,4"; do
+    status 0 relight --world "$dir/white.pfm" $option --cube "$dir/cube.pfm"
+done
+status 1 relight --world "$dir/nowhere" --cube "$dir/bad.pfm"
+status 1 relight --world "$dir/facepx.pfm" --cube "$dir/bad.pfm"
+status 1 relight --world "$dir/white.pfm" --world-centre 9,0,0 --world-sphere 0,0,0,5 --cube "$dir/bad.pfm"
+status 1 relight --world "$dir/white.pfm" --ground "$dir/nowhere.png" --cube "$dir/bad.pfm"
+status 2 relight --world "$dir/white.pfm"
+status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.txt"
+status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --faces 65
+status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --filter sh4
+status 2 relight --cube "$dir/bad.pfm"
+status 0 relight --help
+# Objects in the built-in world: normal and gloss are the parts of both, on every machine; places along a path.
+field="relight --world demo --object demo --size 48x24 --exposure 0"
+for show in both normal gloss; do
+    status 0 $field --show $show -o "$dir/field-$show.pfm"
+done
+check "gloss alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[0-9]"' sh "$TOOL" "$dir/field-gloss.pfm" "$dir/field-both.pfm"
+status 0 $field --backend scalar -o "$dir/field-scalar.pfm"
+check "a backend changes the field" cmp "$dir/field-both.pfm" "$dir/field-scalar.pfm"
+status 0 $field --at 3,0,1 --roughness 0 --f0 0.9 --per-part --light sun:0,0,0:-1,-1,0:2,2,2 --cube "$dir/cube.pfm" -o "$dir/field.png"
+printf '# a walk\n0,0,0\n0.1,0,0\n\n 1,0,0 \n1,0,0' >"$dir/path.txt"
+status 0 $field --path "$dir/path.txt" -o "$dir/walk.ppm"
+check "a walk keeps its light while it is near" grep -q '^light computed 2 times, kept 2 times$' "$dir/out.txt"
+check "a walk has a picture a place" sh -c 'test -s "$1/walk-0000.ppm" && test -s "$1/walk-0003.ppm" && ! test -e "$1/walk-0004.ppm"' sh "$dir"
+status 0 $field --path "$dir/path.txt" --reuse 0 -o "$dir/walk.ppm"
+check "a walk without reuse is computed until it rests" grep -q '^light computed 3 times, kept 1 times$' "$dir/out.txt"
+status 0 $field --path "$dir/path.txt" --reuse 5 --keep 0,0.9,0 -o "$dir/walk.ppm"
+check "a named place serves the whole walk" grep -q '^light computed 1 times, kept 3 times$' "$dir/out.txt"
+printf '0,0,0\n1,2\n' >"$dir/path.txt"
+status 1 $field --path "$dir/path.txt" -o "$dir/bad.ppm"
+check "a path's error names its line" grep -q 'path.txt:2: `1,2` is not X,Y,Z' "$dir/err.txt"
+status 1 $field --path "$dir/nowhere" -o "$dir/bad.ppm"
+status 1 relight --world demo --object "$dir/nowhere.glb" -o "$dir/bad.ppm"
+status 2 $field --path "$dir/path.txt" --at 0,0,0 -o "$dir/bad.ppm"
+status 2 relight --world demo --object demo
+status 2 $field --eye 0,1,2 -o "$dir/bad.ppm"
+status 2 $field --roughness 2 -o "$dir/bad.ppm"
+status 2 $field --at 3e6,0,0 -o "$dir/bad.ppm"
+status 0 $field --ground "$dir/facepx.pfm" --faces 4 --at 0,0,0 -o "$dir/field.png"
+if [ -e /dev/full ]; then
+    printf '0,0,0\n' >"$dir/path.txt"
+    check "a full disk is an error of a walk" sh -c '! "$1" relight --world demo --object demo --size 16x8 --path "$2" -o "$3" >/dev/full 2>/dev/null' sh "$TOOL" "$dir/path.txt" "$dir/walk.ppm"
+fi
+status 2 $field -o "$dir/bad.gif"
+check "nothing was left behind" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$dir"
+# A box with a pit, as six triangles more than a cube has, on a box of its own.
+printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv 0 0 0.3\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n' >"$dir/pit.obj"
+printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >"$dir/box.obj"
+printf '# eye, target, degrees\n0 0 5 0 0 0 40\n\n3 2 4 0 0 0 40\n' >"$dir/cameras.txt"
+status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --simple "$dir/box.obj" --size 32
+check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* bytes' "$dir/out.txt"
+sed 's/1/0.9/g' "$dir/box.obj" | sed 's/^f.*//' >"$dir/less.obj"
+grep '^f' "$dir/box.obj" >>"$dir/less.obj"
+status 0 relief bake "$dir/pit.obj" -o "$dir/less.lmr" --simple "$dir/less.obj" --as-is --size 16
+check "a simple model that is too small is told" grep -q 'sticks out of the simple one by 0.1[67]' "$dir/err.txt"
+status 0 relief bake "$dir/pit.obj" -o "$dir/less.lmr" --simple "$dir/less.obj" --size 16
+check "and else moved outwards" sh -c '! grep -q "sticks out" "$1"' sh "$dir/err.txt"
+# Views in perspective: a world a thousand times as large gives the same picture, to the bit.
+awk '/^v /{print "v", $2 * 1024, $3 * 1024, $4 * 1024; next} {print}' "$dir/pit.obj" >"$dir/vast.obj"
+printf '%s\n' '-4 0 0 0 0 0 45' '4 0 0 0 0 0 45' '0 4 1 0 0 0 45' '0 -4 1 0 0 0 45' '0 0 4 0 0 0 45' '2 2 3 0 0 0 45' >"$dir/views.txt"
+awk '{print $1 * 1024, $2 * 1024, $3 * 1024, $4, $5, $6, $7}' "$dir/views.txt" >"$dir/vast.txt"
+for size in pit vast; do
+    status 0 relief bake "$dir/$size.obj" --views "$dir/$(test $size = pit && echo views || echo vast).txt" --size 64 -o "$dir/seen.lmr"
+    status 0 relief render "$dir/seen.lmr" --eye $(test $size = pit && echo 1.5,2,5 || echo 1536,2048,5120) --target 0,0,0 \
+        --size 64x64 --show normal -o "$dir/$size-normal.pfm"
+done
+check "a relief of any size looks the same" cmp -s "$dir/pit-normal.pfm" "$dir/vast-normal.pfm"
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --with "$dir/box.obj" --compare "$dir/pit.obj"
+status 0 relief render "$dir/pit.lmr" -o "$dir/pit.png" --eye 1.5,2,5 --target 0,0,0 --size 64x64 --compare "$dir/pit.obj"
+check "relief render --compare shows both" grep -q 'pixels, ms  *[0-9.]*  *[0-9.]*$' "$dir/out.txt"
+status 0 relief render "$dir/pit.lmr" -o "$dir/pit.pfm" --pick eye-ray --sampling nearest --show depth --size 40x30 --with "$dir/box.obj" --light point:3,3,3:0,-1,0:90,90,90
+printf 'v -4 -1 4\nv 4 -1 4\nv 4 -1 -4\nv -4 -1 -4\nf 1 2 3 4\n' >"$dir/floor.obj"
+for more in '' --bounce; do
+    status 0 relief render "$dir/pit.lmr" -o "$dir/floor$more.pfm" --with "$dir/floor.obj" --ambient 0 --size 40x30 $more
+done
+check "bounced light adds some" sh -c '! cmp -s "$1" "$2"' sh "$dir/floor.pfm" "$dir/floor--bounce.pfm"
+for views in 14 greedy:5 "$dir/cameras.txt"; do
+    status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --triangles 20 --size 16 --packed --views $views
+    status 0 relief render "$dir/pit.lmr" -o "$dir/pit.ppm" --size 40x30 --light-map 0 --steps 1 --looks 2 --keep 1
+done
+status 1 relief bake "$dir/nowhere.obj" -o "$dir/bad.lmr"
+sed 's/\([0-9.]\{1,\}\)/\1e-10/g; /^[^v]/s/e-10//g' "$dir/pit.obj" >"$dir/speck.obj"
+status 1 relief bake "$dir/speck.obj" -o "$dir/bad.lmr" --simple "$dir/speck.obj" --as-is --size 16
+status 1 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --views "$dir/nowhere.txt"
+status 1 relief render "$dir/box.obj" -o "$dir/bad.png"
+check "who failed is told" grep -q '^lambent relief render: ' "$dir/err.txt"
+status 1 relief render "$dir/pit.lmr" -o "$dir/bad.png" --compare "$dir/nowhere.obj"
+status 2 relief
+status 2 relief bake "$dir/pit.obj"
+status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --size 7
+status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --views 65
+status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --as-is
+status 2 relief render "$dir/pit.lmr"
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --pick q
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --eye 1,2,3
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --light-map 12
+status 0 relief --help
+status 0 relief bake --help
+status 0 relief render --help
+# One photo of a wall, 24 x 24, grey, 2 m away; and what may not be there.
+half='\000\000\000\077'
+two='\000\000\000\100'
+{ printf 'PF\n24 24\n-1.0\n'; i=0; while [ $i -lt 1728 ]; do printf "$half"; i=$((i + 1)); done; } > "$dir/photo.pfm"
+{ printf 'Pf\n24 24\n-1.0\n'; i=0; while [ $i -lt 576 ]; do printf "$two"; i=$((i + 1)); done; } > "$dir/wall.pfm"
+{ printf 'Pf\n24 24\n-1.0\n'; head -c 2304 /dev/zero; } > "$dir/blind.pfm"
+printf 'v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n' > "$dir/tent.obj"
+seen="--photo $dir/photo.pfm --depth $dir/wall.pfm --intrinsics 30,30,11.5,11.5"
+tent="--object $dir/tent.obj --scale 0.2 --at 8,12 --light-map 64 --voxels 4"
+status 0 mix $seen -o "$dir/same.pfm"
+check "without an object the photo stays as it is" cmp "$dir/photo.pfm" "$dir/same.pfm"
+status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 -o "$dir/mixed.pfm"
+check "an object changes the photo" sh -c '! cmp -s "$1" "$2"' sh "$dir/photo.pfm" "$dir/mixed.pfm"
+status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --backend scalar -o "$dir/scalar.pfm"
+check "a backend changes the mixed picture" cmp "$dir/mixed.pfm" "$dir/scalar.pfm"
+status 0 mix $seen $tent --stats "$dir/mix.json" -o "$dir/mixed.hdr"
+check "--stats of mix names the planes" grep -q '"planes": 1,' "$dir/mix.json"
+status 0 mix $seen $tent --show delta -o "$dir/delta.pfm"
+check "the delta is darker somewhere" sh -c '"$1" info "$2" | grep -q "red   min -0"' sh "$TOOL" "$dir/delta.pfm"
+for show in final delta planes voxels env object; do
+    status 0 mix $seen $tent --show $show --roughness 0.2,0.5 -o "$dir/mixed.png"
+done
+status 0 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/same.pfm"
+check "nor does a photo without depth change" cmp "$dir/photo.pfm" "$dir/same.pfm"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/blind.pfm" --intrinsics 30,30,11.5,11.5 --object "$dir/tent.obj" -o "$dir/bad.png"
+check "where nothing is measured, mix says what to do" grep -q "no plane in the depth to stand on; say where by --at X,Y" "$dir/err.txt"
+# Stored pictures come out with the same codes; of ours, as the same file.
+far() { printf 'Pf\n%d %d\n-1.0\n' "$1" "$2"; head -c $(($1 * $2 * 4)) /dev/zero; }
+far 64 48 >"$dir/far.pfm"
+status 0 mix --photo "$dir/demo.png" --depth "$dir/far.pfm" --intrinsics 30,30,9,6 -o "$dir/same.png"
+check "a PNG comes out as it went in" cmp "$dir/demo.png" "$dir/same.png"
+far 19 13 >"$dir/far.pfm"
+status 0 mix --photo tests/fuzz/corpus/jpeg/baseline_420.jpg --depth "$dir/far.pfm" --intrinsics 30,30,9,6 -o "$dir/same.png"
+check "a JPEG's pixels come out as they went in" sh -c '"$1" compare "$2" "$3" | grep -q "exact 247 of 247"' sh "$TOOL" tests/fuzz/corpus/jpeg/baseline_420.jpg "$dir/same.png"
+# One pixel, of which a plane cannot be told; where it stands is asked.
+{ printf 'PF\n1 1\n-1.0\n'; printf "$half$half$half"; } >"$dir/photo1.pfm"
+{ printf 'Pf\n1 1\n-1.0\n'; printf "$two"; } >"$dir/depth1.pfm"
+dot="--photo $dir/photo1.pfm --depth $dir/depth1.pfm --intrinsics 30,30,0,0"
+status 0 mix $dot -o "$dir/same.pfm"
+check "one pixel comes out as it went in" cmp "$dir/photo1.pfm" "$dir/same.pfm"
+status 1 mix $dot --object "$dir/tent.obj" -o "$dir/bad.png"
+status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+# A wall alone: the object stands on it, and that is said.
+status 0 mix $seen --object "$dir/tent.obj" --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "that no plane faces up is said" grep -q "no plane faces up" "$dir/err.txt"
+status 0 mix $seen --object "$dir/tent.obj" --scale 1.5 --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "that the object is off the picture is said" grep -q "part of the object is off the picture" "$dir/err.txt"
+# Surroundings that shine in one colour light the object in that colour alone.
+{ printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 6 ]; do printf "$one\000\000\000\000\000\000\000\000"; i=$((i + 1)); done; } > "$dir/red.pfm"
+status 0 mix $seen $tent --world "$dir/red.pfm" --show object -o "$dir/mixed.pfm"
+check "--world lights the object" sh -c '"$1" info "$2" | grep -q "red   min 0 *max [0-9.]*[1-9]"' sh "$TOOL" "$dir/mixed.pfm"
+check "--world lights it in its own colour" sh -c '"$1" info "$2" | grep -q "green min 0 *max 0 "' sh "$TOOL" "$dir/mixed.pfm"
+status 1 mix $seen $tent --world "$dir/nowhere.pfm" -o "$dir/bad.png"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/facepx.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/demo.png" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix --photo "$dir/nowhere.pfm" --depth "$dir/wall.pfm" --intrinsics 30,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" --intrinsics 0,30,11.5,11.5 -o "$dir/bad.png"
+status 1 mix $seen --object "$dir/nowhere.obj" -o "$dir/bad.png"
+status 1 mix $seen --object "$dir/tent.obj" --at 24,0 -o "$dir/bad.png"
+status 1 mix $seen --object "$dir/tent.obj" --at 3e9,5 -o "$dir/bad.png"
+status 1 mix --frame "$dir/nowhere" -o "$dir/bad.png"
+status 2 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" -o "$dir/bad.png"
+status 2 mix --photo "$dir/photo.pfm" -o "$dir/bad.png"
+status 2 mix $seen
+status 2 mix $seen -o "$dir/bad.png" --show nonsense
+status 2 mix $seen -o "$dir/bad.png" --light-map 100
+status 2 mix $seen -o "$dir/bad.png" --roughness 2
+status 2 mix $seen -o "$dir/bad.png" --show object
+status 0 mix --help
+# The fixed workload: its own quads need no files.
+check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
+check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
+check "bench raster holds filling against a peak" sh -c '"$1" bench raster fill-depth-pass --seconds 0.01 --json | grep -q ",.pixels_per_s.:[1-9][^,]*,.peak.:[1-9][^,]*,.*.share.:[0-9.]*}$"' sh "$TOOL"
+status 2 bench raster nonsense
+status 2 bench raster fill-depth --seconds 1x
+status 2 bench raster fill-depth --seconds 0.01 --threads 2
+mkdir -p "$dir/flat" # one vertex at 0 and no triangle
+printf '\001\000\000\000' >"$dir/flat/bunny.mesh"
+head -c 36 /dev/zero >>"$dir/flat/bunny.mesh"
+status 1 bench raster bunny-depth-1024 --data "$dir/flat" --seconds 0.01
+# Threads beside processes: wants more than one, and sponza.
+status 2 bench threads --threads 1
+status 2 bench threads gather
+status 2 bench threads --threads 2x
+status 2 bench threads --json
+BENCH_DATA= status 1 bench threads --seconds 0.01
+# The gather, a line for each machine that is here; how fast is nobody's promise.
+n='[0-9.]*(e[+-][0-9]*)?' # a number
+ops="\\{(\"[a-z]+\":$n,?){7}\\}"
+line="^\\{\"case\":\"gather\",\"backend\":\"[a-z0-9]+\",\"pairs_per_s\":$n,\"cycles_per_pair\":$n,\"bound_cycles\":$n,\"share\":$n"
+line="$line,\"unit\":\"[a-z]+\",\"ghz\":$n,\"ops_per_vector\":$ops,\"cycles_per_op\":$ops,\"load_per_op\":$ops\\}\$"
+status 0 bench gather --seconds 0.01 --json
+machines=$(grep -c . "$dir/out.txt")
+check "bench gather prints one object a line" test "$machines" -eq "$(grep -cE "$line" "$dir/out.txt")"
+check "bench gather ends with the scalar lanes" sh -c 'tail -n 1 "$1" | grep -q "\"backend\":\"scalar\""' sh "$dir/out.txt"
+check "the gather's operations are counted" test "$machines" -eq "$(grep -c '"ops_per_vector":{"mul":[1-9][0-9.]*,"add":[1-9][0-9.]*,"max":[1-9][0-9.]*,"div":2[.0-9]*,"cmp":[1-9].*"sqrt":1[.0-9]*}' "$dir/out.txt")"
+status 0 bench gather --backend scalar --seconds 0.01
+check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' "$dir/out.txt"
+check "and no other" test "$(grep -c . "$dir/out.txt")" -eq 1
+# Every figure of a room on a line, and within its bound.
+status 0 bench hard raster
+check "bench hard prints a line a case" test "$(grep -c '^raster ' "$dir/out.txt")" -ge 20
+status 0 bench hard mixed --json --backend scalar
+check "bench hard --json says which hold" test "$(grep -c ',"holds":true}$' "$dir/out.txt")" -ge 8
+status 1 bench hard nowhere
+status 2 bench hard raster shadow
+status 2 bench hard --seconds 1
+
+status 2 bench gather --backend nothing
+status 2 bench gather bunny
+status 2 bench gather --linear
+# Speed against error: a sweep as table, CSV, JSON, SVG and one page.
+sweep="demo --size 24x16 --runs 1 --cache $dir/kept"
+status 0 bench $sweep --sweep tree=8,16,32 --light-map 64 --ledger 1 -o "$dir/swept" --svg "$dir/swept.svg"
+check "bench prints a line a setting" test "$(grep -cE '^(front|knee|     ) .*--tree (8|16|32) ' "$dir/out.txt")" -eq 3
+check "bench prints the ledger" grep -q '^error ledger of --tree 8' "$dir/out.txt"
+check "CSV: a head and three lines of as many columns" sh -c 'awk -F, "NR == 1 { n = NF } NF != n { exit 1 } END { exit NR != 4 }" "$1"' sh "$dir/swept.csv"
+check "JSON has the settings" grep -q '"setting": "--tree 32", .*"same_bytes": null' "$dir/swept.json"
+check "the page is whole, with pictures in it" sh -c 'tail -n 1 "$1" | grep -q "</html>$" && grep -q "src=\"data:image/png;base64,iVBOR" "$1"' sh "$dir/swept.html"
+check "the page asks for nothing else" sh -c '! grep -qE "<script|<link|url\(|src=\"[^d]" "$1"' sh "$dir/swept.html"
+check "SVG is whole" sh -c 'head -c 5 "$1" | grep -q "<svg " && tail -n 1 "$1" | grep -q "</svg>$"' sh "$dir/swept.svg"
+check "each setting has its command" grep -q '<pre>lambent render --show indirect --threads 1 demo --size 24x16 --light-map 64 -o picture.pfm --tree 8$' "$dir/swept.html"
+check "the truth is kept, once" test "$(ls "$dir/kept" | wc -l)" -eq 1
+cp "$dir/kept/"*.pfm "$dir/truth24.pfm"
+status 0 bench $sweep --sweep tree=64 --light-map 64 --ledger 0
+check "by the scene and its settings" test "$(ls "$dir/kept" | wc -l)" -eq 1
+status 0 bench demo --runs 1 --light-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 --ledger 0
+check "a truth of one's own gives the size" grep -q -- '--size 24x16' "$dir/out.txt"
+# Refused before the work, whole or not at all.
+status 1 bench demo --size 4000x4000 -o "$dir/no/such/folder"
+status 1 bench demo --size 24x16 --truth "$dir/nothing.pfm"
+status 1 bench demo --size 32x16 --light-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 -o "$dir/unequal"
+absent "$dir/unequal.html"
+status 1 bench "$dir/nowhere.glb" -o "$dir/unequal"
+absent "$dir/unequal.csv"
+status 2 bench demo --light-map 64 --sweep tree=8,3
+status 2 bench demo --sweep tree
+status 2 bench demo --runs 0
+status 2 bench demo --stats x.json
+status 2 bench demo --tree
+for ask in demo relight relief mix; do
+    status 0 bench $ask --help
+    check "bench $ask --help says something, once" test "$(grep -c '^usage:' "$dir/out.txt")" -eq 1
+done
+status 0 bench relight --world demo --runs 1 --sweep filter=cosine,sh9,blur --csv "$dir/filters.csv"
+check "filters in their order" sh -c 'awk -F, "NR == 1 { for (i = 1; \$i != \"trim\"; ++i); next } { e[NR] = \$i } END { exit !(e[2] < e[3] && e[3] < e[4]) }" "$1"' sh "$dir/filters.csv"
+status 1 bench relight --world "$dir/nowhere.pfm" --runs 1
+status 0 bench relief "$dir/pit.obj" --runs 1 --size 16 --triangles 20 --sweep views=6,14
+check "reliefs by views" test "$(grep -c -- '--views' "$dir/out.txt")" -eq 2
+status 0 bench mix $seen --object "$dir/tent.obj" --light sun:0,0,0:0.6,-0.2,-1:2,2,2 --runs 1 --sweep voxels=4,5 --truth "$dir/mixed.pfm"
+status 2 bench mix $seen --show planes
+# --- plan: what is left out and why; budgets ---
+
+plan="--size 32x24 --light-map 64 --threads 1"
+status 0 plan demo $plan
+check "a plan says that nothing is glossy" grep -q "^lobes .*left out (exact): nothing that is drawn is glossy" "$dir/out.txt"
+check "a plan counts bounced light" grep -q "^bounced light .*tiles' cuts, .* pairs" "$dir/out.txt"
+status 0 plan demo $plan --light point:0,1,0:0,-1,0:0,0,0
+check "a plan says that a lamp of 0 W gives nothing" grep -q "^bounced light .*(exact): no light meets a triangle" "$dir/out.txt"
+status 0 plan demo $plan --show direct --json
+check "a plan's JSON says what is not shown" \
+    grep -q '"stage": "bounced light", "runs": false, "why": "the picture does not show it", "proof": "exact"' "$dir/out.txt"
+printf '%s\n' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'f 4 3 2 1' 'f 1 2 6 5' >"$dir/corner.obj"
+corner="$dir/corner.obj --size 32x24 --threads 1 --eye 1,2,4 --target 0,0.4,0 --light point:0.3,1.5,0.2:0,-1,0:9,9,9"
+status 0 plan $corner --budget-bytes 100KiB
+check "100 KiB are too few, and by how much" grep -q "no setting meets the budget; the nearest takes [0-9.]* x the bytes" "$dir/out.txt"
+# A look is a part of the picture that it plans: its share of the work is told, and at most a quarter.
+status 0 plan demo --size 240x180 --threads 1 --budget-error 0.2 --json
+check "a look takes at most a quarter of what it plans" awk -F '"look_work": |"estimated_work": ' '
+    /"look_work"/ { look = $3 + 0; work = $2 + 0 } END { exit !(look > 0 && look <= 0.25 * work) }' "$dir/out.txt"
+check "what is chosen for an error is checked" grep -q '"checked": true' "$dir/out.txt"
+status 0 plan demo --size 240x180 --threads 1 --budget-error 0.00001
+check "an error that no setting has is said" grep -q "^no setting .*the budget" "$dir/out.txt"
+status 0 plan $corner --budget-ms 16 --rate 1e4
+check "so are 160 units" grep -q "no setting meets the budget; the nearest takes [0-9.e+]* x the work" "$dir/out.txt"
+status 0 plan --help
+check "plan --help has budgets and examples" sh -c 'grep -q -- --budget-bytes "$1" && grep -q "lambent plan demo" "$1"' sh "$dir/out.txt"
+status 2 plan
+status 2 plan demo -o "$dir/plan.png"
+status 2 plan demo --show depth
+status 2 plan demo --budget-error 0.1 --grouping zones
+status 2 plan demo --budget-ms 16 --budget-work 1e6
+status 2 plan demo --budget-bytes 100kB
+status 2 render demo --json -o "$dir/plan.png"
+status 2 render demo --budget-error 0.1 --show direct -o "$dir/plan.png"
+status 1 plan "$dir/nowhere.gltf"
+absent "$dir/plan.png"
+
+# What is chosen for a budget is said as options that draw the same picture.
+status 0 render demo --size 240x180 --threads 1 --exposure 0 --budget-error 0.2 -o "$dir/budget.pfm"
+check "an easy budget is met" grep -q "^lambent: the budget is met" "$dir/err.txt"
+chosen=$(sed -n 's/^lambent: chosen: \(.*\): error about.*/\1/p' "$dir/err.txt")
+status 0 render demo --size 240x180 --threads 1 --exposure 0 $chosen -o "$dir/chosen.pfm"
+check "the chosen settings draw the same: $chosen" cmp -s "$dir/budget.pfm" "$dir/chosen.pfm"
+status 0 bench --calibrate --threads 1
+check "calibrating gives a rate" grep -q "^[0-9.e+]* units of work a second, threads: 1 " "$dir/out.txt"
+status 2 bench --calibrate demo
+
+finish

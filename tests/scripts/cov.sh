@@ -1,0 +1,82 @@
+# cov.sh: which lines and branches of src/ the checks run: cov.sh FOLDER, where `make cov` built them.
+#
+# A line counts where any of its copies was run (kernels are compiled for each machine; those that this processor lacks
+# count as not there), a branch where one of its two ways was taken, twice. What was not run is in FOLDER/uncovered.
+# Bars: 98 % of lines, 92 % of branches, and a reason in uncovered.txt beside this for each line that was not run.
+folder=$1
+b=$folder/default
+find "$folder" -name '*.gcda' -exec rm -f {} +
+{
+    "$b/tests" unit analytic lanes # truth runs nothing else, for minutes
+    "$b/golden"
+    "$b/ways"
+    "$b/reference" hard
+    "$b/hard"
+    "$b/replay" tests/fuzz/corpus/*/*
+    sh tests/scripts/hostile.sh "$b/hostile" 5 40
+} >"$folder/run.log" 2>&1
+
+find "$b/obj/src" -name '*.gcda' | grep -v -e neon -e simd128 | sed 's/gcda$/o/' >"$folder/objects"
+rm -f "$folder/uncovered"
+reasons=tests/scripts/uncovered.txt
+xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncovered" -v reasons="$reasons" '
+    # FILE | part of the line | why; each for one line.
+    function read_reasons(    row, part) {
+        while ((getline row < reasons) > 0) {
+            if (row ~ /^#/ || split(row, part, / *[|] */) < 3) continue
+            ++rows; at_file[rows] = part[1]; at_text[rows] = part[2]; why[rows] = part[3]
+        }
+    }
+    function reason_of(file, text,    i) {
+        for (i = 1; i <= rows; ++i)
+            if (!told[i] && at_file[i] == file && index(text, at_text[i]) > 0) return told[i] = 1
+        return 0
+    }
+    /^ *-: *0:Source:/ {
+        file = $0
+        sub(/.*Source:/, "", file)
+        sub(/.*\/src\//, "src/", file)
+        mine = file ~ /^src\//
+        next
+    }
+    !mine { next }
+    /^ *[^ ]+: *[0-9]+:/ {
+        split($0, part, ":")
+        count = part[1] + 0; line = part[2] + 0; way = 0
+        if (part[1] !~ /-$/ && line > 0) {
+            key = file ":" line
+            there[key] = 1; text[key] = substr($0, index($0, part[2] ":") + length(part[2]) + 1)
+            if (part[1] !~ /#|=/) run[key] = 1
+        }
+        next
+    }
+    /^branch/ {
+        k = file ":" line ":" way++
+        branch[k] = 1
+        if ($0 ~ /taken [1-9]/) taken[k] = 1
+    }
+    END {
+        for (k in there) {
+            split(k, p, ":"); ++lines[p[1]]; ++all
+            if (k in run) { ++hit[p[1]]; ++seen } else print k ":" text[k] | "sort -t: -k1,1 -k2,2n >" out
+        }
+        for (k in branch) { split(k, p, ":"); ++ways[p[1]]; ++all_ways; if (k in taken) { ++went[p[1]]; ++seen_ways } }
+        for (f in lines)
+            printf "%-28s lines %4d of %4d, %5.1f %%   branches %4d of %4d, %5.1f %%\n", f, hit[f], lines[f],
+                100 * hit[f] / lines[f], went[f], ways[f], ways[f] ? 100 * went[f] / ways[f] : 100 | "sort -t, -k2 -n"
+        close("sort -t, -k2 -n")
+        read_reasons()
+        for (k in there) {
+            split(k, p, ":")
+            if (!(k in run) && !reason_of(p[1], text[k])) { print "no reason: " k ":" text[k]; ++open }
+        }
+        for (i = 1; i <= rows; ++i)
+            print at_file[i] ": " at_text[i] ": " why[i] (told[i] ? "" : " (here it was run)")
+        line_share = all ? 100 * seen / all : 0
+        way_share = all_ways ? 100 * seen_ways / all_ways : 0
+        printf "src/: lines %d of %d, %.2f %%; branches %d of %d, %.2f %%\n", seen, all, line_share, seen_ways,
+            all_ways, way_share
+        passed = (line_share >= 98) + (way_share >= 92) + !open
+        printf "%d passed, %d failed, 0 skipped\n", passed, 3 - passed
+        exit passed < 3
+    }'

@@ -1,0 +1,56 @@
+# guard.sh: builds that would draw other pixels are refused, by base/exact.h or else by lmb_build_check: CC FLAGS B LIB
+# LDLIBS in the environment.
+#
+# The golden program, linked with one file that was compiled wrongly, must say LMB_ERR_BUILD and draw nothing.
+. tests/scripts/checks.sh
+mkdir -p "$B/guard"
+golden="$(ls "$B"/obj/tests/golden/golden*.o) $B/obj/tests/golden/main_golden.o $B/obj/tools/demo/demo_scene.o
+    $B/obj/platform/host/port_host.o"
+
+# compiles FILE FLAG...: after the house's own flags, so that they win.
+compiles() {
+    source=$1
+    shift
+    $CC $FLAGS "$@" -c "$source" -o "$B/guard/wrong.o" 2>"$B/guard/errors"
+}
+
+knows() {
+    : >"$B/guard/empty.c"
+    compiles "$B/guard/empty.c" -Wno-pedantic "$@" || { skip "$CC does not know $*" && return 1; }
+}
+
+refused_by_compiler() {
+    knows "$@" || return
+    check "exact.h lets $* pass" sh -c "! $CC $FLAGS $* -c src/base/exact.c -o $B/guard/wrong.o 2>$B/guard/errors"
+    check "exact.h does not name what is wrong with $*" grep -q 'error.*lambent: ' "$B/guard/errors"
+}
+
+refused_at_start() {
+    file=$1
+    shift
+    knows "$@" || return
+    check "$file with $*" compiles "$file" "$@"
+    check "linked with $file" $CC $FLAGS -o "$B/guard/golden" $golden "$B/guard/wrong.o" "$LIB" $LDLIBS
+    "$B/guard/golden" >"$B/guard/said"
+    check "exit status of a wrong build: $?" test $? -eq 1
+    check "$file with $* is not refused" grep -q '^lmb_build_check: LMB_ERR_BUILD$' "$B/guard/said"
+    check "$file with $* draws" sh -c "! grep -qE ' [0-9a-f]{16}' $B/guard/said"
+}
+
+refused_by_compiler -ffast-math
+refused_by_compiler -ffinite-math-only
+refused_by_compiler -m32 -mfpmath=387 -ffreestanding
+refused_by_compiler -m32 -mfpmath=387 -ffreestanding -std=gnu99
+
+fused=-ffp-contract=fast
+case $(uname -m) in x86_64) fused="-mfma $fused" ;; esac
+if grep -qw -e fma -e asimd /proc/cpuinfo 2>/dev/null; then
+    refused_at_start src/base/exact.c -O2 $fused
+    refused_at_start src/isa/isa_scalar.c -O2 $fused
+else
+    skip "this processor may have no fused multiply-add"
+fi
+refused_at_start src/base/exact.c -O2 -funsafe-math-optimizations
+refused_at_start src/base/exact.c -O2 -freciprocal-math
+refused_at_start src/base/exact.c -O2 -fno-signed-zeros
+finish

@@ -1,0 +1,224 @@
+# mutate.sh: test the tests: change one operator or constant of src/ at a time, and see whether a test notices.
+#
+#     mutate.sh FOLDER N SEED [ROOM...]     N seeded changes in these rooms of src/ (all but lane and isa)
+#
+# Works on a copy in FOLDER/tree, with the kernels of two machines (scalar and AVX2), as each takes seconds to compile.
+# Of each change: it does not build, or gives the same code, and is none; then the quickest tests first, until one
+# fails, ends badly or takes six times as long as without it: golden pictures, the unit tests of the room, hard cases;
+# with FULL=1 all others too. Only what follows from the changed file is built, and a program when its turn comes.
+# Prints a line each, those that no test noticed with their line, and killed / tried by room. Exit status 1 where under
+# 85 % were noticed. Some changes change nothing (a bound that is never met, a tie that either way is right): survivors
+# are for reading, not for driving to nothing.
+# ONLY="NUMBER..." does some of them again; FILES=PATTERN takes only such files.
+folder=$1 wanted=$2 seed=$3
+shift 3
+rooms=${*:-base raster map occlusion light manylights bounce lightcut radiosity voxel probe relief mixed compose \
+frame plan}
+mkdir -p "$folder/tree"
+folder=$(cd "$folder" && pwd)
+tree=$folder/tree
+for part in Makefile include src tests tools platform README.md; do
+    rm -rf "${tree:?}/$part"
+    cp -pR "$part" "$tree" || exit 1
+done
+rm -rf "$folder/src"
+cp -pR src "$folder/src"
+if [ -d "$folder/built" ]; then # of an earlier run, without any change
+    rm -rf "$tree/build"
+    cp -pR "$folder/built" "$tree/build"
+fi
+out=build/default
+build="make -C $tree BUILD=build"
+by_line=$(command -v stdbuf >/dev/null && echo stdbuf -oL)
+
+make_it() {
+    $build CFLAGS='-O1 -DLMB_HAVE_SSE2=0 -DLMB_HAVE_AVX512=0' "$@" >"$folder/build.log" 2>&1 </dev/null
+}
+
+# tests ROOM: what is run for a change there; NAME:WORD is a program and its word.
+tests() {
+    case $1 in
+    base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many \
+        tests:gloss ;;
+    raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
+        tests:raster ;;
+    map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:all tests:frames tests:relit \
+        tests:gloss ;;
+    occlusion) echo tests:occlusion hard:bounce hard:all tests:cut ;;
+    manylights) echo tests:many hard:bounce tests:elements tests:frames ;;
+    light) echo tests:light hard:shadow tests:gloss tests:many hard:bounce ;;
+    bounce | lightcut | radiosity)
+        echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:all tests:elements \
+        tests:analytic tests:gloss tests:frames tests:map_picture tests:contracts ;;
+    voxel) echo tests:voxel tests:voxels hard:mixed ;;
+    probe) echo tests:probe tests:probe_cache hard:probe tests:relit tests:frames ;;
+    relief) echo tests:relief tests:relief_light hard:relief ;;
+    mixed) echo tests:mixed tests:mix hard:mixed ;;
+    compose) echo tests:light tests:sparse hard:invariants tests:frames ;;
+    *) echo tests:frames tests:contracts tests:threads tests:sparse tests:next tests:plan tests:plan_frame tests:relit \
+        hard:invariants tests:elements ;;
+    esac
+    echo golden
+    [ -z "$FULL" ] || echo tests:unit tests:analytic tests:lanes reference:hard hard:again
+}
+
+# candidates: FILE LINE COLUMN LENGTH TO of everything that can be changed, one a line.
+candidates() {
+    for room in $rooms; do
+        ls src/"$room"/*.c src/"$room"/*.inl src/"$room"/*.h 2>/dev/null
+    done | grep -v _table.inc | grep -e "${FILES:-.}" | while read -r file; do
+        awk -v file="$file" '
+            BEGIN {
+                n = split(" + @ - ; - @ + ; * @ / ; / @ * ; < @ <= ; <= @ < ; > @ >= ; >= @ > ; == @ != ; != @ == ;" \
+                    " && @ || ; || @ && ; & @ | ;lane_add(@lane_sub(;lane_sub(@lane_add(;lane_mul(@lane_add(;" \
+                    "lane_min(@lane_max(;lane_max(@lane_min(;minf(@maxf(;maxf(@minf(;mini(@maxi(;maxi(@mini(;" \
+                    "add3(@sub3(;sub3(@add3(;mask_and(@mask_or(;mask_or(@mask_and(; 0#@ 1#; 1#@ 0#; 1)@ 2);" \
+                    "0.5f@0.25f;1.0f@2.0f;2.0f@1.0f; + 1@ + 2; - 1@ - 2", pair, ";")
+                for (i = 1; i <= n; ++i) {
+                    gsub(/#/, ";", pair[i])
+                    cut = index(pair[i], "@")
+                    from[i] = substr(pair[i], 1, cut - 1)
+                    to[i] = substr(pair[i], cut + 1)
+                }
+            }
+            /^ *\/\*/ { inside = 1 }
+            inside { if (/\*\//) inside = 0; next }
+            /^ *#/ || /^typedef|^enum|LANE_PART|^extern/ { next }
+            {
+                code = $0
+                sub(/\/\*.*/, "", code)
+                for (i = 1; i <= n; ++i) {
+                    at = 0
+                    while ((found = index(substr(code, at + 1), from[i])) > 0) {
+                        at += found
+                        print file "\t" NR "\t" at "\t" from[i] "\t" to[i]
+                    }
+                }
+            }' "$file"
+    done
+}
+
+# Some lines, drawn without putting back.
+draw() {
+    awk -v n="$wanted" -v seed="$seed" '
+        function next_random() { state = (state * 69069 + 12345) % 4294967296; return int(state / 65536) }
+        { line[NR] = $0 }
+        END {
+            state = seed
+            for (i = 1; i <= n && i <= NR; ++i) {
+                k = i + (next_random() * 65536 + next_random()) % (NR - i + 1)
+                swap = line[i]; line[i] = line[k]; line[k] = swap
+                print line[i]
+            }
+        }'
+}
+
+# change FILE LINE COLUMN FROM TO: in the copy.
+change() {
+    awk -v line="$2" -v at="$3" -v from="$4" -v to="$5" '
+        NR == line { $0 = substr($0, 1, at - 1) to substr($0, at + length(from)) }
+        { print }' "$folder/$1" >"$tree/$1"
+}
+
+# run NAME:WORD SECONDS of the processor's time. The first line that tells a failure ends it.
+run() {
+    word=${1#*:}
+    [ "$word" != "$1" ] || word=
+    {
+        (cd "$tree" && ulimit -t "$2" && exec $by_line timeout $((10 * $2)) "$out/${1%%:*}" $word)
+        echo "status $?"
+    } 2>&1 | awk '{ last = $0 } /^FAIL| WRONG/ { exit } END { exit last != "status 0" }'
+}
+
+# What each test of the rooms takes without any change, six times and a little: as SECONDS NAME:WORD. Asked again where
+# a program is newer.
+measure() {
+    rooms=$(cut -d/ -f2 "$folder/drawn" | sort -u)
+    find "$tree/$out" -maxdepth 1 -type f -newer "$folder/limits" 2>/dev/null | grep -q . && : >"$folder/limits"
+    for test in $(for room in $rooms; do tests "$room"; done | tr ' ' '\n' | sort -u); do
+        ! grep -q " $test " "$folder/limits" || continue
+        took=$(run "$test" 900; echo "failed $?"; times)
+        case $took in "failed 0"*) ;; *) echo "$test fails without any change" >&2; return 1 ;; esac
+        echo "$took" | awk -v test="$test" 'END {
+            split($1, t, "m"); split($2, u, "m"); s = 60 * (t[1] + u[1]) + t[2] + u[2]
+            printf "%d %s %.1f\n", 6 * s + 5, test, s }' >>"$folder/limits"
+    done
+    sort -n -o "$folder/limits" "$folder/limits"
+}
+
+# order ROOM: as SECONDS:NAME:WORD, the quickest first.
+order() {
+    tests "$1" | tr ' ' '\n' | awk '
+        NR == FNR { wanted[$1] = 1; next }
+        $2 in wanted { print $1 ":" $2 }' - "$folder/limits"
+}
+
+# The same code as without the change?
+is_same() {
+    ! find "$tree/$out/obj" -name '*.o' -newer "$folder/stamp" | while read -r object; do
+        cmp -s "$object" "$folder/built${object#"$tree/build"}" || { echo other; break; }
+    done | grep -q other
+}
+
+# verdict ROOM: the test that notices, `survived`, `same` or `none`.
+verdict() {
+    make_it lib || { echo none; return; }
+    ! is_same || { echo same; return; }
+    for test in $(order "$1"); do
+        limit=${test%%:*}
+        test=${test#*:}
+        make_it "$out/${test%%:*}" || { echo none; return; }
+        run "$test" "$limit" </dev/null || { echo "$test"; return; }
+    done
+    echo survived
+}
+
+# Sources and what was built, as if nothing had happened.
+restore() {
+    cp -p "$folder/$1" "$tree/$1"
+    if [ "$2" = none ]; then
+        rm -rf "$tree/build"
+        cp -pR "$folder/built" "$tree/build"
+        return
+    fi
+    find "$tree/build" -type f -newer "$folder/stamp" | while read -r file; do
+        cp -p "$folder/built${file#"$tree/build"}" "$file"
+    done
+}
+
+make_it lib $out/golden $out/tests $out/hard $out/reference || { tail -5 "$folder/build.log"; exit 1; }
+rm -rf "$folder/built"
+cp -pR "$tree/build" "$folder/built"
+candidates >"$folder/candidates"
+[ -f "$folder/limits" ] || : >"$folder/limits"
+draw <"$folder/candidates" | awk -v only=" $ONLY " '
+    only == "  " || index(only, " " NR " ") { print NR "\t" $0 }' >"$folder/numbered"
+cut -f2- "$folder/numbered" >"$folder/drawn"
+measure || exit 1
+echo "$(wc -l <"$folder/drawn") of $(wc -l <"$folder/candidates") changes"
+
+: >"$folder/result"
+tab=$(printf '\t')
+while IFS="$tab" read -r number file line at from to; do
+    room=${file#src/}
+    room=${room%%/*}
+    touch "$folder/stamp"
+    change "$file" "$line" "$at" "$from" "$to"
+    found=$(verdict "$room")
+    restore "$file" "$found"
+    echo "$room $found" >>"$folder/result"
+    echo "$number $file:$line [$from] -> [$to]: $found"
+    [ "$found" != survived ] || sed -n "${line}p" "$folder/$file"
+done <"$folder/numbered"
+
+awk '
+    $2 == "none" || $2 == "same" { ++not; next }
+    { ++tried[$1]; ++all; if ($2 != "survived") { ++killed[$1]; ++dead; ++by[$2] } }
+    END {
+        for (room in tried) printf "%-10s %d of %d\n", room, killed[room], tried[room] | "sort"
+        close("sort")
+        for (test in by) printf "by %-12s %d\n", test, by[test] | "sort"
+        close("sort")
+        printf "noticed: %d of %d, %.0f %%; %d were none\n", dead, all, all ? 100 * dead / all : 0, not
+        exit !(all && dead >= 0.85 * all)
+    }' "$folder/result"

@@ -1,0 +1,38 @@
+# part.sh: run one part of the checks, keep its log, show one line and its seconds: part.sh NAME COMMAND...
+#
+# The command's last line `N passed, N failed, N skipped` counts (a prefix is fine); one that is missing, or an exit
+# status that it does not explain, counts as one failed. LOGS: folder for NAME.log. NEEDS: commands without which the
+# part is skipped. V=1 shows the whole log. Always succeeds: sum.sh has the verdict.
+name=$1
+shift
+log=${LOGS:?}/$name.log
+mkdir -p "$LOGS"
+needs=${NEEDS:-}
+unset LOGS NEEDS
+begun=$(date +%s)
+counts='[0-9][0-9]* passed, [0-9][0-9]* failed, [0-9][0-9]* skipped'
+
+if missing=$(sh tests/scripts/tools.sh need $needs 2>&1); then
+    IN_CHECK=1 "$@" >"$log" 2>&1 </dev/null
+    status=$?
+else
+    printf 'skipped: %s\n0 passed, 0 failed, 1 skipped\n' "$missing" >"$log"
+    status=0
+fi
+
+line=$(grep -o "$counts" "$log" | tail -n 1)
+case "$status/$line" in
+0/[0-9]*) ;;
+*/ | *", 0 failed,"*)
+    line=$(echo "${line:-0 passed, 0 failed, 0 skipped}" | awk '{ $3 += 1; print }')
+    printf 'exit status %s\n%s\n' "$status" "$line" >>"$log"
+    ;;
+esac
+
+# One write, so that parts that run side by side do not mix their lines.
+case "$V/$line" in
+/*", 0 failed,"*) shown=$(grep '^skipped: ' "$log") ;;
+*) shown=$(cat "$log") ;;
+esac
+printf '%s%-14s %s, %d s\n' "${shown:+$shown
+}" "$name" "$line" $(($(date +%s) - begun))

@@ -1,0 +1,20 @@
+# rom.sh: the ROM that bounced light takes without trees (LMB_TREES 0): rooms raster, map, light (but lit, which is a
+# frame's) and bounce whole, with the parts of the others and of the compiler's run time that they need, linked: rom.sh
+# BUDGET_BYTES; CC FLAGS B NM SIZE in the environment.
+. tests/scripts/checks.sh
+budget=$1
+
+objects=$(find "$B/obj/src" -name '*.o' | sort)
+rooms=$(printf '%s\n' "$objects" | grep -E '/src/((raster|map|light|bounce)/|occlusion/occlude\.o)' |
+    grep -v '/light/lit\.o$')
+roots=$($NM $rooms | awk '$2 == "T" { print "-Wl,-u," $3 }' | sort -u)
+check "the rooms link" $CC $FLAGS -nostdlib -o "$B/rom.elf" -Wl,--gc-sections -Wl,-e,lmb_kernels_pick $roots \
+    -Wl,--unresolved-symbols=ignore-all $objects -lgcc
+[ $failed -eq 0 ] || finish
+
+echo "bounced light, linked, largest functions and tables:"
+$NM -S -t d "$B/rom.elf" | awk 'NF == 4 { printf "  %8d  %s\n", $2, $4 }' | sort -rn | bare | head -n 25
+bytes=$($SIZE "$B/rom.elf" | awk 'NR == 2 { print $1 + $2 }')
+echo "raster + map + light + bounce and what they need: $bytes of $budget bytes"
+check "$bytes bytes of ROM are over the budget" test "$bytes" -le "$budget"
+finish

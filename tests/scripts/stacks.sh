@@ -1,0 +1,29 @@
+# stacks.sh: the largest stack frame that each machine's compiler made, and the call that takes the most with all that
+# it calls, against a budget: stacks.sh BYTES BUILD...
+#
+# At -O0 nothing shares a frame's slots, at -O1 and -Os wide lanes' verbs are calls: who ships those has narrow lanes
+# (Cortex-M: judged). On hosts they are told, not judged.
+. tests/scripts/checks.sh
+budget=$1
+shift
+
+for build in "$@"; do
+    largest=$(find "$build" -path '*/obj/src/*' -name '*.su' -exec cat {} + 2>/dev/null | awk -F '\t' '
+        { n = split($1, part, ":"); print $2, part[n], $3 }' | sort -rn | head -n 1)
+    [ -n "$largest" ] || continue
+    printf '  %-14s %s\n' "$(basename "$build")" "$largest"
+    case $build in
+    *-O0) ;;
+    *-O1 | *-Os) sh tests/scripts/calls.sh "$build" "$budget" | sed -n '1s/^\([a-z]*\) \([0-9]* [a-z_0-9]*\) .*/                 \1 \2/p' ;;
+    *)
+        check "$build: $largest; the budget is $budget bytes" test "${largest%% *}" -le "$budget"
+        calls=$(sh tests/scripts/calls.sh "$build" "$budget")
+        [ -n "$calls" ] || continue
+        printf '%s\n' "$calls" | sed -n '1s/^[a-z]*/                /p'
+        check "$build: calls over $budget bytes: $(printf '%s\n' "$calls" | sed -n 's/^over //p')" \
+            test "${calls#over}" = "$calls" -a "${calls#*
+over}" = "$calls"
+        ;;
+    esac
+done
+finish

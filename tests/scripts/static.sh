@@ -1,0 +1,64 @@
+# static.sh: what compilers and checkers say of src/ without running it: static.sh FOLDER.
+#
+# Each tool is one check: it says nothing but what is listed here, with the reason. Ends with `N passed, ...`.
+. tests/scripts/checks.sh
+folder=$1
+mkdir -p "$folder"
+flags="-std=c99 -ffp-contract=off -Iinclude"
+
+here() { command -v "$1" >/dev/null 2>&1 || { skip "$1 is not here (Debian: $2)"; return 1; }; }
+
+# silent NAME [PATTERN]: fails where NAME.log has a finding that the pattern, if there is one, does not explain.
+silent() {
+    grep -E '(src|include)/[^ ]*:[0-9]+:.*(warning|error|portability|noValidConfiguration)' "$folder/$1.log" |
+        grep -vE "${2:-^$}" | sort -u >"$folder/$1.left"
+    [ ! -s "$folder/$1.left" ] && pass ||
+        fail "$1: $(wc -l <"$folder/$1.left") findings in $folder/$1.left: $(head -n 1 "$folder/$1.left")"
+}
+
+# A number that changes its value or sign on the way into another type.
+for compiler in gcc clang; do
+    if here $compiler $compiler; then
+        for file in src/*/*.c; do
+            $compiler $flags -O1 -fsyntax-only -Wconversion -Wsign-conversion -Wfloat-conversion "$file"
+        done >"$folder/conversion-$compiler.log" 2>&1
+        # relief/warp.inl: votes[] counts 64 pixels in bytes.
+        silent conversion-$compiler 'relief/warp.inl:.*uint8_t'
+    fi
+done
+
+# Paths that meet a null pointer, a leak, a value that was never set. Kernels take minutes each and have no such paths.
+if here gcc gcc; then
+    for file in src/*/*.c; do
+        case $file in
+        src/isa/*) ;;
+        *) gcc $flags -O1 -fanalyzer -c "$file" -o /dev/null ;;
+        esac
+    done >"$folder/analyzer.log" 2>&1
+    # light_map.c, envfold.c: values set by a loop of three or a struct's copy, which gcc 12 does not follow; around.c:
+    # `out` is NULL only where the room is 0, and then not written; texture.c: shares that count 1 does not read.
+    silent analyzer 'light_map.c:.*extent|envfold.c:.*sum|around.c:.*NULL .out|texture.c:.*share'
+fi
+# cppcheck has no <float.h>: without these numbers exact.h's #error is all that it sees of a file, and says so only if
+# asked for information. Kernels as plain C has them.
+if here cppcheck cppcheck; then
+    cppcheck --quiet --std=c99 --enable=warning,portability,information --suppress=missingIncludeSystem -Iinclude \
+        -D__GNUC__=12 -D__STDC_HOSTED__=1 -DFLT_RADIX=2 -DFLT_MANT_DIG=24 -DFLT_MAX_EXP=128 -DFLT_EVAL_METHOD=0 \
+        --template='{file}:{line}: {severity}: {id}: {message}' \
+        $(ls src/*/*.c | grep -v src/isa/) src/isa/isa_scalar.c >"$folder/cppcheck.log" 2>&1
+    # clip.c, crease.c: as many corners are copied as were set; kernels' structs that are handed on to be set, or to be
+    # read where they are (both: `make msan` runs them); elements.c: a loop of one side or two; scene.c: a material's
+    # floats, found by their offset; exact.c asks how this compiler shifts.
+    known='clip.c:.*uninitvar.*out|crease.c:.*uninitvar.*out|inl:.*ctuuninitvar|elements.c:.*compareBool'
+    silent cppcheck "$known|scene.c:.*invalidPointerCast|exact.c:.*shiftNegativeLHS"
+fi
+# Bugprone alone: gcc's analyzer follows paths. Left out: products of int as offsets and their casts (of a tile's, a
+# batch's or a slice's sizes; rows of surfaces go by ptrdiff_t), i / side as a row on purpose, bit fields of a sign, and
+# memcmp of what did not change, where another code of one value costs no more than a stage done again.
+if here clang-tidy clang-tidy; then
+    clang-tidy --quiet --checks='-*,bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-integer-division,-bugprone-implicit-widening-of-multiplication-result,-bugprone-misplaced-widening-cast,-bugprone-narrowing-conversions,-bugprone-suspicious-memory-comparison' \
+        $(ls src/*/*.c | grep -v src/isa/) -- $flags 2>/dev/null | sed "s|$PWD/||" >"$folder/tidy.log"
+    grep -v ': note:' "$folder/tidy.log" >"$folder/tidy.new" && mv "$folder/tidy.new" "$folder/tidy.log"
+    silent tidy
+fi
+finish

@@ -1,0 +1,29 @@
+# tiny.sh: the demo on a Cortex-M4F under qemu and here, both built tiny: equal pictures, and its RAM. MAKE BUILD in the
+# environment. Without cross compiler or qemu: skipped within `make check`, failed when asked for by itself.
+. tests/scripts/checks.sh
+
+if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc qemu-system-arm 2>&1); then
+    skip "the demo on a Cortex-M4F: $missing"
+    [ -n "$IN_CHECK" ] && finish
+    exit 1
+fi
+
+check "the demo for this machine" $MAKE "$BUILD/tiny/demo" PORT=host CONFIG=tiny BUILD="$BUILD"
+check "the demo for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/demo" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \
+    CFLAGS=-Os LDFLAGS=
+[ $failed -eq 0 ] || finish
+
+"$BUILD/tiny/demo" >"$BUILD/tiny/demo.out"
+check "exit status here: $?" test $? -eq 0
+$MAKE run-demo PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= >"$BUILD/cortex-m/tiny/demo.out"
+check "exit status on the Cortex-M4F: $?" test $? -eq 0
+
+echo "here:"
+sed 's/^/  /' "$BUILD/tiny/demo.out"
+echo "Cortex-M4F:"
+sed 's/^/  /' "$BUILD/cortex-m/tiny/demo.out"
+hash_of() { awk '/^demo-/ { print $2 }' "$1"; }
+here=$(hash_of "$BUILD/tiny/demo.out")
+there=$(hash_of "$BUILD/cortex-m/tiny/demo.out")
+check "hashes differ: $here here, $there there" test -n "$here" -a "$here" = "$there"
+finish

@@ -1,0 +1,51 @@
+# tool_setup.sh: tools.sh get, by an apt-get that only writes down what it is told: nothing is ever removed, and what is done is
+# said. B in the environment.
+. tests/scripts/checks.sh
+
+dir=$B/tool-setup
+rm -rf "$dir"
+mkdir -p "$dir/bin"
+
+# As root, wherever we are; `greedy-tool` would take gcc away, `lost-tool` does not exist.
+printf '#!/bin/sh\necho 0\n' >"$dir/bin/id"
+cat >"$dir/bin/apt-get" <<'END'
+#!/bin/sh
+echo "$*" >>"$TOLD"
+case "$*" in
+*lost-tool*) exit 100 ;;
+*' -s '*greedy-tool*) echo 'Remv gcc-multilib [1]' ;;
+*' -s '*) echo 'Inst plain-tool (1)' ;;
+*greedy-tool*) touch "$TOLD.removed" ;;
+esac
+END
+chmod +x "$dir/bin/id" "$dir/bin/apt-get"
+
+get() {
+    : >"$dir/told"
+    TOLD=$dir/told PATH=$PWD/$dir/bin:$PATH sh tests/scripts/tools.sh get "$@" >"$dir/said" 2>&1
+}
+
+# What was asked for without -s: installations.
+installs() { grep install "$dir/told" | grep -v -e ' -s '; }
+
+get plain-tool
+check "plain-tool is not installed with --no-remove" test "$(installs)" = \
+    "-q -y install --no-install-recommends --no-remove plain-tool"
+check "the installation is not said" grep -q '^apt-get install .*plain-tool' "$dir/said"
+
+get plain-tool greedy-tool lost-tool
+check "something else than plain-tool is installed" test "$(installs)" = \
+    "-q -y install --no-install-recommends --no-remove plain-tool"
+check "a package would be removed" test ! -e "$dir/told.removed"
+check "what is left out, and why, is not said" grep -q 'left out: greedy-tool.* gcc-multilib' "$dir/said"
+check "what is not to be had is not said" grep -q 'not to be had: lost-tool' "$dir/said"
+
+get sh
+check "apt-get is asked though nothing is missing" test ! -s "$dir/told"
+
+# What people type to install lambent.
+case $(make -n install 2>&1) in
+*tools.sh* | *apt-get*) fail "make install gets packages" ;;
+*) pass ;;
+esac
+finish

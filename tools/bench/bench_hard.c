@@ -1,0 +1,53 @@
+/* bench_hard.c: `lambent bench hard`: the gallery of hard cases as a table. */
+#include "bench_hard.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../hard/hard.h"
+
+/* NaN and infinity, which only a case that failed has, are none of JSON's numbers. */
+static void print_number(double v)
+{
+    if (v - v == 0.0) {
+        printf("%.4g", v);
+    } else {
+        printf("null");
+    }
+}
+
+static void print_object(const hard_case *c)
+{
+    printf("{\"room\":\"%s\",\"case\":\"%s\",\"kind\":\"%s\",\"figure\":", c->room, c->name, hard_kind_name(c->kind));
+    print_number(c->figure);
+    printf(",\"bound\":%.4g,\"unit\":\"%s\",\"holds\":%s}\n", c->bound, c->unit, hard_holds(c) ? "true" : "false");
+}
+
+static void print_line(const hard_case *c)
+{
+    printf("%-7s %-8s %10.4g %10.4g %-13s %-4s %s\n", c->room, hard_kind_name(c->kind), c->figure, c->bound, c->unit,
+           hard_holds(c) ? "" : "FAIL", c->name);
+}
+
+int bench_hard(const lmb_kernels *kernels, const char *room, int json, report *r)
+{
+    hard_list *list = malloc(sizeof *list);
+    int past = 0;
+    if (list == NULL) {
+        return report_fail(r, "not enough memory for the gallery");
+    }
+    if (!hard_run(list, room, kernels)) {
+        free(list);
+        return report_fail(r, "no room `%s`; rooms are raster, shadow, bounce, probe, relief, mixed, all", room);
+    }
+    if (!json) {
+        printf("%-7s %-8s %10s %10s %-13s %-4s %s\n", "room", "kind", "figure", "bound", "unit", "", "case");
+    }
+    for (int i = 0; i < list->count; ++i) {
+        const hard_case *c = &list->item[i];
+        past += !hard_holds(c);
+        json ? print_object(c) : print_line(c);
+    }
+    free(list);
+    return past == 0 || report_fail(r, "%d figures are past their bound: please tell us, with the table", past);
+}

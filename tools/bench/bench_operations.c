@@ -1,0 +1,112 @@
+/* bench_operations.c: counts the kernels' operations by running the kernels themselves over verbs that count. */
+#include "bench_operations.h"
+
+#include <string.h>
+
+#include "../../src/lane/kernels.h"
+#include "../../src/lane/lane_scalar.h"
+
+/* Masks count as they do where they are instructions. */
+#undef LANE_PLAIN
+
+static double done[BENCH_OPS], touched, reads;
+
+/* Multiplying by what belongs to a group alone counts as well. */
+#define COUNTED(result, verb, op, arguments, values) \
+    static inline result counted_##verb arguments \
+    { \
+        done[op] += 1.0; \
+        return verb values; \
+    }
+#define COUNTED_2(result, verb, op) COUNTED(result, verb, op, (lane a, lane b), (a, b))
+
+COUNTED_2(lane, lane_mul, BENCH_MUL)
+COUNTED_2(lane, lane_add, BENCH_ADD)
+COUNTED_2(lane, lane_sub, BENCH_ADD)
+COUNTED_2(lane, lane_min, BENCH_MAX)
+COUNTED_2(lane, lane_max, BENCH_MAX)
+COUNTED_2(lane_mask, lane_lt, BENCH_CMP)
+COUNTED_2(lane_mask, lane_le, BENCH_CMP)
+COUNTED_2(lane, lane_div, BENCH_DIV)
+COUNTED(lane, lane_pick, BENCH_PICK, (lane_mask m, lane a, lane b), (m, a, b))
+COUNTED(lane, lane_keep, BENCH_PICK, (lane_mask m, lane a), (m, a))
+COUNTED(lane, lane_sqrt, BENCH_SQRT, (lane a), (a))
+
+/* Depths go by rows: filling writes none without having read and tested it. */
+static inline void counted_lane_store_rows(float *p, int32_t step, lane a)
+{
+    touched += LANES;
+    lane_store_rows(p, step, a);
+}
+
+/* Places that a lane chooses: four floats, or one. */
+static inline void counted_lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
+{
+    reads += LANES;
+    for (int c = 0; c < 4; ++c) {
+        out[c] = lane_gather_f32(p + c, lanei_mul(at, lanei_splat(4)));
+    }
+}
+
+static inline lane counted_lane_gather_f32(const float *p, lanei at)
+{
+    reads += LANES;
+    return lane_gather_f32(p, at);
+}
+
+#define LANE_GATHERS_RGBA_F32 1
+#define lane_gather_rgba_f32 counted_lane_gather_rgba_f32
+#define lane_gather_f32 counted_lane_gather_f32
+
+#define lane_mul counted_lane_mul
+#define lane_add counted_lane_add
+#define lane_sub counted_lane_sub
+#define lane_min counted_lane_min
+#define lane_max counted_lane_max
+#define lane_lt counted_lane_lt
+#define lane_le counted_lane_le
+#define lane_div counted_lane_div
+#define lane_pick counted_lane_pick
+#define lane_keep counted_lane_keep
+#define lane_sqrt counted_lane_sqrt
+
+#define lane_store_rows counted_lane_store_rows
+
+#define KERNEL(name) name##_counted
+#define MACHINE "counted"
+extern const lmb_kernels lmb_kernels_counted;
+#include "../../src/isa/all_kernels.inl"
+
+static void begin(void)
+{
+    memset(done, 0, sizeof done);
+    touched = reads = 0.0;
+}
+
+void bench_operations_gather(double counts[BENCH_OPS], const lmb_tile *tile, const lmb_groups *groups)
+{
+    static lmb_irradiance sums;
+    static lmb_gather_scratch scratch;
+    memset(&sums, 0, sizeof sums);
+    begin();
+    gather_counted(&sums, &scratch, tile, groups, NULL);
+    for (int op = 0; op < BENCH_OPS; ++op) {
+        counts[op] = done[op] / (LMB_TILE_PIXELS / LANES) / groups->count;
+    }
+}
+
+const lmb_kernels *bench_operations_begin(void)
+{
+    begin();
+    return &lmb_kernels_counted;
+}
+
+double bench_operations_end(double counts[BENCH_OPS])
+{
+    for (int op = 0; op < BENCH_OPS; ++op) {
+        counts[op] = done[op] * LANES;
+    }
+    return touched;
+}
+
+double bench_operations_reads(void) { return reads; }

@@ -1,0 +1,19 @@
+/* bench_picture.h: pictures for a report: small, in display codes. */
+#ifndef BENCH_PICTURE_H
+#define BENCH_PICTURE_H
+
+#include "../picture/image.h"
+#include "bench_report.h"
+
+/* Both make pictures of at most 320 pixels a side: of larger ones each is the mean of a square. `out` is empty where
+ * memory is short: a report does without.
+ *
+ * bench_picture_of    as it looks at these stops
+ * bench_picture_heat  relative error by pixel, |a - b| / (b + 0.01 mean of b) of the grey, by metrics_ramp: white from
+ *                     BENCH_HEAT on; dark grey where `surface` (see bench_shot) is none */
+#define BENCH_HEAT 0.2
+void bench_picture_of(bench_picture *out, const image *linear, float exposure_ev);
+void bench_picture_heat(bench_picture *out, const image *test, const image *truth, const float *surface,
+                        double truth_mean);
+
+#endif

@@ -1,0 +1,130 @@
+/* bench_rates.c: times the machines' loops, and draws from them the least that a mix of operations can take. */
+#include "bench_rates.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../../src/lane/machines.h"
+
+const char *const bench_op_names[BENCH_OPS] = {"mul", "add", "max", "div", "cmp", "pick", "sqrt"};
+
+#define DECLARE(upper, lower) extern const bench_machine bench_machine_##lower;
+LMB_BACKENDS(DECLARE)
+
+static const bench_machine *const machines[] = {
+#define MACHINE_OF(upper, lower) LMB_IF(LMB_HAVE_##upper, &bench_machine_##lower, )
+    LMB_BACKENDS(MACHINE_OF)
+};
+
+enum { ROUNDS = 1024, CHAIN = 16, IN_CACHE = 4096 /* floats */ };
+static const double never = 1e30;
+
+static void keep_least(double *inout, double v) { *inout = v < *inout ? v : *inout; }
+
+/* Two operations of one cycle, each waiting for the one before. Two kinds, since a row of additions of one number is
+ * one multiplication to a compiler. */
+static double cycle_seconds(void)
+{
+    static volatile uint32_t seed = 12345;
+    const uint32_t a = seed, b = a ^ seed << 7;
+    const double start = host_seconds();
+    uint32_t x = b;
+    for (int i = 0; i < 2 * ROUNDS; ++i) {
+        x += a, x ^= b, x += a, x ^= b, x += a, x ^= b, x += a, x ^= b;
+        x += a, x ^= b, x += a, x ^= b, x += a, x ^= b, x += a, x ^= b;
+    }
+    const double seconds = host_seconds() - start;
+    seed = x | 1;
+    return seconds / (2.0 * ROUNDS * CHAIN);
+}
+
+static void time_loop(double *least, bench_loop *loop)
+{
+    float in[BENCH_ROWS][16], out[16];
+    for (int i = 0; i < BENCH_ROWS; ++i) {
+        for (int k = 0; k < 16; ++k) {
+            in[i][k] = i == 0 ? 1.0f : i == 1 ? 1e-12f : 1.0f + (float)((5 * i + 3 * k) % 16) / 16.0f;
+        }
+    }
+    const double start = host_seconds();
+    loop(out, ROUNDS, in[0]);
+    keep_least(least, (host_seconds() - start) / ROUNDS);
+}
+
+double bench_rates_store(bench_rates *r)
+{
+    static float depth[IN_CACHE];
+    memset(depth, 0, sizeof depth);
+    const double start = host_seconds();
+    r->machine->store(depth, IN_CACHE, 8);
+    keep_least(&r->store, (host_seconds() - start) / (8.0 * IN_CACHE));
+    return 1.0 / r->store;
+}
+
+double bench_rates_read(bench_rates *r)
+{
+    static float in[IN_CACHE];
+    float out[16];
+    const double start = host_seconds();
+    r->machine->read(out, in, IN_CACHE, ROUNDS);
+    keep_least(&r->read, (host_seconds() - start) / ((double)ROUNDS * r->machine->lanes));
+    return 1.0 / r->read;
+}
+
+int bench_rates_begin(bench_rates *out, const char *name)
+{
+    out->machine = NULL;
+    for (size_t i = 0; i < sizeof machines / sizeof *machines; ++i) {
+        if (strcmp(machines[i]->name, name) == 0) {
+            out->machine = machines[i];
+        }
+    }
+    out->cycle = out->store = out->read = never;
+    for (int a = 0; a < BENCH_OPS; ++a) {
+        out->alone[a] = never;
+        for (int unit = 0; unit < BENCH_UNITS; ++unit) {
+            out->beside[unit][a] = never;
+        }
+    }
+    return out->machine != NULL;
+}
+
+void bench_rates_step(bench_rates *r)
+{
+    for (int a = 0; a < BENCH_OPS; ++a) {
+        keep_least(&r->cycle, cycle_seconds());
+        time_loop(&r->alone[a], r->machine->alone[a]);
+        for (int unit = 0; unit < BENCH_UNITS; ++unit) {
+            time_loop(&r->beside[unit][a], r->machine->beside[unit][a]);
+        }
+    }
+}
+
+double bench_rates_op(const bench_rates *r, int op)
+{
+    return r->alone[op] / (BENCH_BUSY(op) * r->machine->chains) / r->cycle;
+}
+
+double bench_rates_load(const bench_rates *r, int unit, int op)
+{
+    const double more = (r->beside[unit][op] - r->alone[unit]) / BENCH_BESIDE(unit) / r->cycle;
+    const double most = bench_rates_op(r, op);
+    return unit == op || more > most ? most : more > 0.0 ? more : 0.0;
+}
+
+double bench_rates_bound(int *unit, const bench_rates *r, const double counts[BENCH_OPS])
+{
+    double most = 0.0;
+    for (int u = 0; u < BENCH_UNITS; ++u) {
+        double sum = 0.0;
+        for (int op = 0; op < BENCH_OPS; ++op) {
+            sum += counts[op] * bench_rates_load(r, u, op);
+        }
+        if (sum > most) {
+            most = sum;
+            *unit = u;
+        }
+    }
+    return most;
+}

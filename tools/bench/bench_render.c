@@ -1,0 +1,210 @@
+/* bench_render.c: `lambent bench SCENE`: pictures by all that `lambent render` can be asked for. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../model/scene_hash.h"
+#include "../render/render_draw.h"
+#include "bench_subject.h"
+
+static const char *const stages[BENCH_STAGES] = {"light maps", "blockers", "first points", "groups",
+                                                 "bounces",    "view",     "pixels",       NULL};
+
+static const bench_try tries[] = {
+    {"presets", "", 4, 0},
+    {"presets", "--quality draft", 1, 0},
+    {"presets", "--quality best", 30, 0},
+    {"first points", "--tree 64 --light-map 512", 3, 0},
+    {"first points", "--tree 128", 3, 0},
+    {"first points", "--tree 512", 5, 0},
+    {"first points", "--tree 1024", 6, 0},
+    {"light map", "--light-map 256", 4, 0},
+    {"light map", "--light-map 2048", 5, 0},
+    {"error", "--error 0.005", 6, 0},
+    {"error", "--error 0.01", 5, 0},
+    {"error", "--error 0.05", 3, 0},
+    {"error", "--error 0.1", 3, 0},
+    {"visibility", "--visible 0.005", 9, 0},
+    {"visibility", "--visible 0.03", 3, 0},
+    {"visibility", "--visible 0.1", 2, 0},
+    {"occlusion", "--occlusion none", 1, 0},
+    {"gather", "--gather half", 2, 0},
+    {"gather", "--gather quarter", 1, 0},
+    {"draft and", "--quality draft --error 0.2 --visible 0.2", 1, 0},
+    {"draft and", "--quality draft --tree 64 --light-map 512", 1, 0},
+    {"draft and", "--quality draft --gather half", 1, 0},
+    {"draft and", "--quality draft --gather quarter", 1, 0},
+    {"best and", "--quality best --gather half", 15, 0},
+    {"best and", "--quality best --tree 512", 20, 0},
+    {"fixed groups", "--grouping zones --groups 64", 1, 0},
+    {"fixed groups", "--grouping zones", 1, 0},
+    {"fixed groups", "--grouping zones --occlusion none", 1, 0},
+    {"fixed groups", "--grouping greedy", 1, 0},
+    {"bounces", "--bounces 2", 10, BENCH_OTHER},
+    {"bounces", "--bounces 6", 20, BENCH_OTHER},
+    {"threads", "--threads 2", 4, BENCH_SAME},
+};
+
+/* Grouping before occlusion: nodes that --error divides keep the visibility that was asked of the larger one, so that
+ * the step is what they send, and occlusion's is what stands between. Smaller numbers change the Cornell box's median
+ * error by 0.0005 at most and take half as long again. */
+static const bench_exact exact[] = {
+    {"upsampling", "--gather full", "--gather"},
+    {"grouping", "--grouping cut --error 0.001", NULL},
+    {"occlusion", "--grouping cut --occlusion exact --visible 0.004", NULL},
+    {"light map, first points", "--light-map 1024 --tree 1024", NULL},
+};
+
+#define EXACT \
+    "--gather full --grouping cut --occlusion exact --error 0.001 --visible 0.004 --light-map 1024 --tree 1024"
+
+/* --- a picture ---------------------------------------------------------------------------------------------------- */
+
+static int parse(render_job *j, const bench_line *line, report *r)
+{
+    char *argv[BENCH_ARGS];
+    memcpy(argv, line->argv, sizeof argv);
+    if (render_options_parse(&j->o, line->argc, argv, r) != OPTIONS_RUN) {
+        return 0;
+    }
+    j->o.view.is_quiet = 1;
+    return j->o.show <= LMB_SHOW_IRRADIANCE || report_fail(r, "--show: a sweep compares light: full, direct, indirect "
+                                                              "or irradiance");
+}
+
+static int draw_once(void *user, double stage_s[BENCH_STAGES], report *r)
+{
+    render_job *j = user;
+    memset(&j->stats, 0, sizeof j->stats);
+    j->lit = 0;
+    if (!render_draw(j, r)) {
+        return 0;
+    }
+    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+        stage_s[i] = j->crew.stage_s[i];
+    }
+    return 1;
+}
+
+/* Where the eye sees something. */
+static int find_surface(float **out, const render_job *j, report *r)
+{
+    const lmb_surface *eye = &j->frame.eye.depth;
+    const size_t n = (size_t)eye->width * (size_t)eye->height;
+    float *depth = malloc(n * sizeof *depth);
+    *out = calloc(n, 3 * sizeof **out);
+    const int ok = depth != NULL && *out != NULL && lmb_depth_linearize(depth, n * sizeof *depth, eye) == LMB_OK;
+    for (size_t i = 0; ok && i < n; ++i) {
+        (*out)[3 * i + 2] = depth[i] > 0.0f ? 1.0f : 0.0f;
+    }
+    free(depth);
+    return ok || report_fail(r, "not enough memory for %.0f pixels", (double)n);
+}
+
+static void keep(bench_shot *out, render_job *j)
+{
+    out->picture = j->linear;
+    j->linear.pixels = NULL;
+    out->bytes = (double)(j->bytes + j->many.bytes);
+    out->work = (double)(j->stats.pairs + j->stats.segments);
+    out->threads = j->crew.threads;
+}
+
+static int check(const bench_line *line, report *r)
+{
+    static render_job j; /* its options alone */
+    memset(&j, 0, sizeof j);
+    return parse(&j, line, r);
+}
+
+static int draw(bench_shot *out, const bench_line *line, const bench_way *way, report *r)
+{
+    render_job *j = calloc(1, sizeof *j);
+    memset(out, 0, sizeof *out);
+    int ok = j != NULL ? parse(j, line, r) : report_fail(r, "out of memory");
+    ok = ok && render_job_load(j, r) && render_job_set(j, r);
+    if (ok) {
+        j->crew.clock = j->crew.threads == 1 ? host_cpu_seconds : NULL;
+        j->crew.every = way->every;
+    }
+    ok = ok && bench_repeat(out, way, draw_once, j, r) && find_surface(&out->surface, j, r);
+    if (ok) {
+        keep(out, j);
+    } else {
+        bench_shot_free(out);
+    }
+    if (j != NULL) {
+        render_job_free(j);
+        free(j);
+    }
+    return ok;
+}
+
+/* --- its truth ---------------------------------------------------------------------------------------------------- */
+
+/* The given settings, made exact, by all threads. */
+static int draw_truth(bench_shot *out, const bench_line *line, report *r)
+{
+    static const bench_way way = {0, 1};
+    bench_line all;
+    return bench_line_with(&all, line, EXACT, r) && bench_line_hurry(&all, &bench_render) && draw(out, &all, &way, r);
+}
+
+/* Of the scene as it was read, the view, and the words but the scene's name. */
+static int hash(uint64_t *out, const bench_line *line, report *r)
+{
+    render_job *j = calloc(1, sizeof *j);
+    int ok = j != NULL ? parse(j, line, r) : report_fail(r, "out of memory");
+    ok = ok && render_job_load(j, r) && render_job_set(j, r);
+    if (ok) {
+        *out = scene_hash(&j->scene);
+        for (int i = 0; i < line->argc; ++i) {
+            if (line->argv[i] != j->o.scene) {
+                *out = scene_hash_bytes(*out, line->argv[i], strlen(line->argv[i]) + 1);
+            }
+        }
+        *out = scene_hash_bytes(*out, EXACT, sizeof EXACT);
+        *out = scene_hash_view(*out, &j->frame.view);
+    }
+    if (j != NULL) {
+        render_job_free(j);
+        free(j);
+    }
+    return ok;
+}
+
+const bench_subject bench_render = {
+    .verb = "render --show indirect --threads 1",
+    .size = "--size %dx%d",
+    .usual_size = "--size 160x120",
+    .output = "-o picture.pfm",
+    .table = &render_table,
+    .refused = " --stats --stereo --exposure ",
+    .stages = stages,
+    .work = "pairs and segments",
+    .tries = tries,
+    .try_count = sizeof tries / sizeof *tries,
+    .backends = 1,
+    .exact = exact,
+    .exact_count = sizeof exact / sizeof *exact,
+    .truth_is = "its own most exact settings, " EXACT,
+    .hurry = "--threads %d",
+    .usage = "bench SCENE [options of lambent render] [options]\n"
+             "bench relight|relief|mix --help     the same for these verbs\n"
+             "bench --help                        how fast kernels are",
+    .about = "Speed against error of one picture: draws it by some thirty settings, one option at a time around --quality "
+             "draft, default and best, and prints what each costs (time by stage, memory, instructions where the system "
+             "counts them) and how far its picture is from the truth: `trim`, relative RMSE without the worst 1 % of "
+             "pixels, and the other figures of lambent compare. What is shown is bounced light alone (--show indirect), on "
+             "one thread, at the truth's size or 160x120: options of render say otherwise.",
+    .examples = "  three settings, as a table:\n"
+                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --ledger 0\n"
+                "  the same, as pages.html, pages.csv, pages.json:\n"
+                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --ledger 0 -o pages\n",
+    .check = check,
+    .draw = draw,
+    .truth = draw_truth,
+    .hash = hash,
+};

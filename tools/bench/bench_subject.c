@@ -1,0 +1,146 @@
+/* bench_subject.c: command lines of settings, and their times. */
+#include "bench_subject.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/count.h"
+#include "../../platform/host/host.h"
+#include "../../platform/host/pool.h"
+
+/* Settings that are drawn at once are drawn more often: so long for each run that was asked for, s. */
+#define SHORT_S 0.03
+
+/* Which option a word names, or NULL. */
+static const option_row *named(const bench_line *l, const char *word)
+{
+    return l->table != NULL && word[0] == '-' ? options_find(l->table, word) : NULL;
+}
+
+/* What the line has of an option that counts once goes, and so does another that says the same. */
+static void drop(bench_line *l, const option_row *row)
+{
+    const int argc = l->argc;
+    l->argc = 1;
+    for (int i = 1; i < argc;) {
+        const option_row *other = named(l, l->argv[i]);
+        const int words = other != NULL ? options_words(other, l->argv[i]) : 1;
+        const int goes = other != NULL && row->times <= 1 && (other == row || options_exclude(other, row));
+        for (int k = 0; k < words && i < argc; ++k, ++i) {
+            if (!goes) {
+                l->argv[l->argc++] = l->argv[i];
+            }
+        }
+    }
+}
+
+/* Is the next word the last one's value? */
+static int wants_value(const bench_line *l)
+{
+    const option_row *row = NULL;
+    int words = 1;
+    for (int i = 1; i < l->argc; i += words) {
+        row = named(l, l->argv[i]);
+        words = row != NULL ? options_words(row, l->argv[i]) : 1;
+        if (i + words > l->argc) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+int bench_line_put(bench_line *l, char *word)
+{
+    const option_row *row = l->argc > 0 && !wants_value(l) ? named(l, word) : NULL;
+    if (row != NULL) {
+        drop(l, row);
+    }
+    if (l->argc + 1 >= BENCH_ARGS) {
+        return 0;
+    }
+    l->argv[l->argc++] = word;
+    return 1;
+}
+
+int bench_line_add(bench_line *l, const char *text)
+{
+    while (*(text += strspn(text, " ")) != '\0') {
+        const size_t n = strcspn(text, " ");
+        if (l->used + n + 1 > sizeof l->words) {
+            return 0;
+        }
+        char *word = l->words + l->used;
+        memcpy(word, text, n);
+        word[n] = '\0';
+        l->used += n + 1;
+        if (!bench_line_put(l, word)) {
+            return 0;
+        }
+        text += n;
+    }
+    return 1;
+}
+
+int bench_line_with(bench_line *out, const bench_line *line, const char *text, report *r)
+{
+    memset(out, 0, sizeof *out);
+    memcpy(out->argv, line->argv, sizeof out->argv);
+    out->argc = line->argc;
+    out->table = line->table;
+    return bench_line_add(out, text) || report_fail(r, "too many options");
+}
+
+int bench_line_hurry(bench_line *l, const bench_subject *s)
+{
+    char words[64] = "";
+    if (s->hurry != NULL) {
+        snprintf(words, sizeof words, s->hurry, pool_processors());
+    }
+    return bench_line_add(l, words);
+}
+
+/* A word that a shell would not leave alone stands in single quotes. */
+void bench_line_say(char *out, size_t size, const bench_line *l)
+{
+    size_t n = (size_t)snprintf(out, size, "lambent");
+    for (int i = 0; i < l->argc && n < size; ++i) {
+        const char *word = l->argv[i];
+        const int plain = word[0] != '\0' && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                          "0123456789_-+=.,:/%@") == strlen(word);
+        n += (size_t)snprintf(out + n, size - n, plain ? " %s" : " '%s'", word);
+    }
+}
+
+void bench_shot_free(bench_shot *s)
+{
+    image_free(&s->picture);
+    free(s->surface);
+    memset(s, 0, sizeof *s);
+}
+
+/* One run's times, where they are less. The first run warms up: the second's take its place. */
+static void keep_least(bench_shot *s, const double *stage_s, double instructions, int is_first)
+{
+    for (int i = 0; i < BENCH_STAGES; ++i) {
+        s->stage_s[i] = is_first || stage_s[i] < s->stage_s[i] ? stage_s[i] : s->stage_s[i];
+    }
+    s->instructions = is_first || instructions < s->instructions ? instructions : s->instructions;
+}
+
+int bench_repeat(bench_shot *s, const bench_way *way, bench_once once, void *user, report *r)
+{
+    const double start = host_seconds();
+    for (int run = 0; run <= way->runs || host_seconds() - start < SHORT_S * way->runs; ++run) {
+        double stage_s[BENCH_STAGES] = {0};
+        const int counted = way->runs > 0 && count_start();
+        if (!once(user, stage_s, r)) {
+            return 0;
+        }
+        keep_least(s, stage_s, counted ? count_stop() : 0.0, run <= 1);
+        if (host_seconds() - start > BENCH_ENOUGH_S) {
+            break;
+        }
+    }
+    return 1;
+}

@@ -1,0 +1,422 @@
+/* verb_bench.c: `lambent bench`: the raster workload, the far gather, threads, hard cases; all else is swept. */
+#include "verb_bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../../platform/host/pool.h"
+#include "../common/options.h"
+#include "../render/bench_calibrate.h"
+#include "bench_gather.h"
+#include "bench_hard.h"
+#include "bench_operations.h"
+#include "bench_rates.h"
+#include "bench_scene.h"
+#include "bench_threads.h"
+#include "verb_bench_sweep.h"
+
+enum { FRAMES_MAX = 100000, FRAMES_MIN = 8 };
+
+enum { CASES = 32 };
+
+typedef struct options {
+    const char *folder;
+    const lmb_kernels *kernels; /* NULL: not given */
+    const char *cases[CASES], *room;
+    int32_t case_count, threads;
+    int linear, json;
+    float seconds; /* of each case */
+} options;
+
+/* One case's memory. */
+typedef struct canvas {
+    lmb_target target;
+    lmb_surface out; /* data NULL: depth only */
+    void *depth, *id, *rgba, *linear;
+    size_t linear_bytes;
+} canvas;
+
+/* Times of frames, s. */
+typedef struct timing {
+    double cpu[FRAMES_MAX], wall[FRAMES_MAX];
+    int count;
+    double peak;    /* depths that the back end reads, tests and writes in a second, in cache */
+    double bound;   /* least time of a frame, s; 0: the back end's rates are not known */
+    const char *by; /* what takes it */
+} timing;
+
+/* --- one frame ---------------------------------------------------------------------------------------------------- */
+
+/* The colours go out as radiance does: sRGB-coded, tile by tile. */
+static void store_colours(const canvas *c, const bench_scene *s, const lmb_kernels *kernels)
+{
+    static lmb_tile tile;
+    static lmb_radiance radiance;
+    for (int32_t y = 0; y < s->view.frame_height; y += LMB_TILE) {
+        for (int32_t x = 0; x < s->view.frame_width; x += LMB_TILE) {
+            lmb_resolve_albedo(&tile, kernels, &s->view, &s->scene, &c->target, x, y);
+            if (tile.hits > 0) {
+                memcpy(radiance.rgb, tile.albedo, sizeof radiance.rgb);
+                lmb_store_tile(&c->out, kernels, 0, 0, &radiance, x, y, 0.0f);
+            }
+        }
+    }
+}
+
+static void draw_frame(const canvas *c, const bench_scene *s, const lmb_kernels *kernels, int cull)
+{
+    lmb_surface_clear(&c->target.depth);
+    if (c->id != NULL) {
+        lmb_surface_clear(&c->target.id);
+        lmb_surface_clear(&c->out);
+    }
+    lmb_draw(&c->target, kernels, &s->view, &s->scene, 1, s->mesh.triangle_count, cull ? LMB_CULL_BACK : 0, NULL);
+    if (c->rgba != NULL) {
+        store_colours(c, s, kernels);
+    } else if (c->linear != NULL) {
+        lmb_depth_linearize(c->linear, c->linear_bytes, &c->target.depth);
+    }
+}
+
+/* --- one case ----------------------------------------------------------------------------------------------------- */
+
+static void canvas_free(canvas *c)
+{
+    free(c->depth);
+    free(c->id);
+    free(c->rgba);
+    free(c->linear);
+}
+
+static int canvas_make(canvas *c, const bench_case *k, const options *o, report *r)
+{
+    const int colours = k->look != BENCH_DEPTH;
+    const size_t pixels = (size_t)k->width * (size_t)k->height;
+    const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, k->width, k->height),
+                 id = lmb_surface_bytes(LMB_ID32, k->width, k->height);
+    memset(c, 0, sizeof *c);
+    c->depth = malloc(depth);
+    c->id = colours ? malloc(id) : NULL;
+    c->rgba = colours ? malloc(4 * pixels) : NULL;
+    c->linear = o->linear ? malloc(4 * pixels) : NULL;
+    c->linear_bytes = 4 * pixels;
+    if (c->depth == NULL || (colours && (c->id == NULL || c->rgba == NULL)) || (o->linear && c->linear == NULL)) {
+        canvas_free(c);
+        return report_fail(r, "%s: out of memory", k->name);
+    }
+    lmb_surface_init(&c->target.depth, LMB_DEPTH32F, k->width, k->height, c->depth, depth);
+    if (colours) {
+        lmb_surface_init(&c->target.id, LMB_ID32, k->width, k->height, c->id, id);
+        lmb_surface_init(&c->out, LMB_RGBA8, k->width, k->height, c->rgba, 4 * pixels);
+    }
+    return 1;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Nothing but depths: what a machine's loads and stores bound. */
+static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
+
+/* The longest of what one frame keeps a unit, or loads and stores, busy with. */
+static void set_bound(timing *t, const canvas *c, const bench_scene *s, const bench_rates *r, int cull)
+{
+    double counts[BENCH_OPS];
+    int unit = 0;
+    draw_frame(c, s, bench_operations_begin(), cull);
+    const double depths = bench_operations_end(counts) / t->peak;
+    t->bound = depths;
+    t->by = "depth";
+    const double busy = bench_rates_bound(&unit, r, counts) / r->machine->lanes * r->cycle;
+    /* Plain C's lanes are what a compiler makes of them, here less and there more: its operations bound nothing. */
+    if (busy > depths && strcmp(r->machine->name, "scalar") != 0) {
+        t->bound = busy;
+        t->by = bench_op_names[unit];
+    }
+}
+
+/* Two frames to warm up, then frames for the time asked for, each by itself, and the machine's loops between them: both
+ * meet the same clock rate and the same neighbours. */
+static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, int cull)
+{
+    bench_rates rates;
+    const int rated = bench_rates_begin(&rates, lmb_kernels_name(o->kernels));
+    draw_frame(c, s, o->kernels, cull);
+    draw_frame(c, s, o->kernels, cull);
+    const double end = host_seconds() + (double)o->seconds;
+    t->count = 0;
+    t->peak = t->bound = 0.0;
+    while ((host_seconds() < end || t->count < FRAMES_MIN) && t->count < FRAMES_MAX) {
+        const double wall = host_seconds(), cpu = host_cpu_seconds();
+        draw_frame(c, s, o->kernels, cull);
+        t->cpu[t->count] = host_cpu_seconds() - cpu;
+        t->wall[t->count++] = host_seconds() - wall;
+        if (rated) {
+            t->peak = bench_rates_store(&rates);
+            bench_rates_step(&rates);
+        }
+    }
+    if (rated) {
+        set_bound(t, c, s, &rates, cull);
+    }
+    qsort(t->cpu, (size_t)t->count, sizeof *t->cpu, by_value);
+    qsort(t->wall, (size_t)t->count, sizeof *t->wall, by_value);
+}
+
+static void print_case(const bench_case *k, const bench_scene *s, const timing *t, const options *o)
+{
+    const unsigned triangles = s->mesh.triangle_count;
+    const double least = t->cpu[0] * 1e3, middle = t->cpu[t->count / 2] * 1e3;
+    const double wall = t->wall[0] * 1e3, wall_middle = t->wall[t->count / 2] * 1e3, each = least * 1e6 / triangles;
+    const double pixels = (double)k->width * k->height * (triangles / 2) / t->cpu[0]; /* two triangles a layer */
+    printf(o->json ? "{\"case\":\"%s\",\"triangles\":%u,\"cpu_min_ms\":%.4f,\"wall_min_ms\":%.4f,\"cpu_med_ms\":%.4f,"
+                     "\"wall_med_ms\":%.4f,\"frames\":%d,\"ns_per_triangle\":%.2f,\"backend\":\"%s\""
+                   : "lambent,%s,tris=%u,cpu_min_ms=%.4f,wall_min_ms=%.4f,cpu_med_ms=%.4f,wall_med_ms=%.4f,n=%d,"
+                     "ns_per_tri=%.2f,backend=%s",
+           k->name, triangles, least, wall, middle, wall_middle, t->count, each, lmb_kernels_name(o->kernels));
+    if (is_depth_fill(k) && t->peak > 0.0) {
+        printf(o->json ? ",\"pixels_per_s\":%.4g,\"peak\":%.4g" : ",pixels_per_s=%.4g,peak=%.4g", pixels, t->peak);
+    }
+    if (t->bound > 0.0) {
+        printf(o->json ? ",\"bound_ms\":%.4f,\"by\":\"%s\",\"share\":%.4f" : ",bound_ms=%.4f,by=%s,share=%.4f",
+               t->bound * 1e3, t->by, t->bound / t->cpu[0]);
+    }
+    puts(o->json ? "}" : "");
+    fflush(stdout);
+}
+
+static int run_case(const bench_case *k, const options *o, report *r)
+{
+    static bench_scene s;
+    static timing t;
+    canvas c;
+    if (o->folder == NULL && k->scene < BENCH_FILL_PASS) {
+        return report_fail(r, "%s: where are bunny.mesh and sponza.mesh? Give --data FOLDER or set BENCH_DATA",
+                           k->name);
+    }
+    if (!bench_scene_load(&s, k, o->folder, r)) {
+        return 0;
+    }
+    const int ok = canvas_make(&c, k, o, r);
+    if (ok) {
+        measure(&t, &c, &s, o, k->cull);
+        print_case(k, &s, &t, o);
+        canvas_free(&c);
+    }
+    bench_scene_free(&s);
+    return ok;
+}
+
+/* --- the command line --------------------------------------------------------------------------------------------- */
+
+static int is_wanted(const bench_case *k, const options *o)
+{
+    for (int i = 0; i < o->case_count; ++i) {
+        if (strstr(k->name, o->cases[i]) != NULL) {
+            return 1;
+        }
+    }
+    return o->case_count == 0;
+}
+
+static int wanted_count(const options *o)
+{
+    int count = 0;
+    for (int i = 0; i < bench_case_count; ++i) {
+        count += is_wanted(&bench_cases[i], o);
+    }
+    return count;
+}
+
+#define AT(member) .at = offsetof(options, member)
+#define ROW_FOLDER(what)                                                                                      \
+    {.name = "--data", .value = "FOLDER", .kind = OPTION_TEXT, AT(folder),                                    \
+     .help = "of " what " (default: the environment's BENCH_DATA)"}
+#define ROW_SECONDS(text)                                                                                     \
+    {.name = "--seconds", .value = "S", .kind = OPTION_ABOVE, AT(seconds), .low = 0, .high = 9999, .help = text}
+#define ROW_JSON {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object a line"}
+#define END {.kind = OPTION_END}
+
+static const option_row raster_rows[] = {
+    {.name = "CASE", .kind = OPTION_TEXT, .value = "", AT(cases), .counts = offsetof(options, case_count),
+     .times = CASES, .size = sizeof(const char *), .help = "part of a case's name (default: all)"},
+    ROW_FOLDER("bunny.mesh and sponza.mesh"),
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_SECONDS("of each case (default 1.5)"),
+    {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
+     .help = "with depth copied into plain rows, which other programs read"},
+    ROW_JSON, OPTION_ASK, END,
+};
+static const option_row gather_rows[] = {
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_SECONDS("of each backend (default 1.5)"),
+    ROW_JSON, OPTION_ASK, END,
+};
+static const option_row threads_rows[] = {
+    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 2, .high = POOL_MAX,
+     .help = "as many threads, and processes (default 2)"},
+    ROW_FOLDER("sponza.mesh"),
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_SECONDS("of each case (default 4)"),
+    OPTION_ASK, END,
+};
+static const option_row hard_rows[] = {
+    {.name = "ROOM", .kind = OPTION_TEXT, .value = "", AT(room),
+     .help = "raster, shadow, bounce, probe, relief, mixed or all (default: all)"},
+    OPTION_BACKEND_ROW(options, kernels),
+    ROW_JSON, OPTION_ASK, END,
+};
+static const option_row calibrate_rows[] = {
+    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
+     .help = "that draw at once (default: the processors)"},
+    OPTION_ASK, END,
+};
+static const option_row bench_rows[] = {OPTION_ASK, END};
+
+static int check_raster(const options *o, report *r)
+{
+    return wanted_count(o) > 0 || report_fail(r, "no case has `%s` in its name", o->cases[0]);
+}
+
+static int run_raster(const options *o, report *r)
+{
+    for (int i = 0; i < bench_case_count; ++i) {
+        if (is_wanted(&bench_cases[i], o) && !run_case(&bench_cases[i], o, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int run_gather(const options *o, report *r) { return bench_gather(o->kernels, (double)o->seconds, o->json, r); }
+
+static int run_threads(const options *o, report *r)
+{
+    const threads_options threads = {o->folder, o->kernels, (int)o->threads, (double)o->seconds};
+    return bench_threads(&threads, r);
+}
+
+static int run_hard(const options *o, report *r) { return bench_hard(o->kernels, o->room, o->json, r); }
+
+static int run_calibrate(const options *o, report *r)
+{
+    const int threads = o->threads > 0 ? (int)o->threads : pool_processors();
+    const double rate = bench_calibrate(threads);
+    if (!(rate > 0.0)) {
+        return report_fail(r, "no memory to draw the built-in room");
+    }
+    printf("%.4g units of work a second, threads: %d   (for plan and render: --rate %.4g)\n", rate, threads, rate);
+    return 1;
+}
+
+/* What is measured by itself, and what holds where an option is not given. */
+static const struct workload {
+    const char *name;
+    int (*check)(const options *o, report *r); /* 0 with `r` set: bad usage; NULL: nothing to check */
+    int (*run)(const options *o, report *r);
+    int32_t threads;
+    float seconds;
+    int picks; /* a backend, where none is given; else all in turn */
+    option_table table;
+} workloads[] = {
+    {"raster", check_raster, run_raster, 0, 1.5f, 1,
+     {.verb = "bench raster", .usage = "bench raster [CASE...] [options]",
+      .about = "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a "
+               "frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound / least time. "
+               "The bound is what the same run finds the machine can do at most with the frame's own work, which is "
+               "counted by drawing it once over verbs that count: the longest (`by`) of the time that reading, testing and "
+               "writing the frame's depths takes in 16 KiB of cache (`depth`), and the times that its multiplications, "
+               "additions, maxima, divisions, comparisons and picks keep one unit busy (`mul`, `add`, `max`, `div`; as for "
+               "gather). All of it as if every lane were of use; integers, doubles, loads, masks, branches, clearing, and "
+               "reading the mesh and textures count as nothing; of plain C, whose lanes compilers join as they like, only "
+               "depths count. fill-depth cases also tell pixels a second and `peak`, the depths a second that the bound is "
+               "of.",
+      .part = {raster_rows}, .examples = "  lambent bench raster fill-depth --seconds 0.1\n"}},
+    {"gather", NULL, run_gather, 0, 1.5f, 0,
+     {.verb = "bench gather", .usage = "bench gather [options]",
+      .about = "The far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
+               "Prints a line a backend: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what "
+               "the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by "
+               "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for "
+               "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded "
+               "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results "
+               "count as nothing. A cycle is that of a chain of integer operations.",
+      .part = {gather_rows}, .examples = "  lambent bench gather --seconds 0.1\n"}},
+    {"threads", NULL, run_threads, 2, 4.0f, 1,
+     {.verb = "bench threads", .usage = "bench threads [options]",
+      .about = "The gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads, and in "
+               "N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is "
+               "all that this machine gives.",
+      .part = {threads_rows},
+      .examples = "  with a folder that holds sponza.mesh:\n"
+                  "    [ ! -e data/sponza.mesh ] || lambent bench threads --data data --seconds 1\n",
+      .status = "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage"}},
+    {"hard", NULL, run_hard, 0, 0.0f, 1,
+     {.verb = "bench hard", .usage = "bench hard [ROOM] [options]",
+      .about = "What renderers get wrong, tried here: a line a case, with its figure and what that may be at most. `exact` "
+               "is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms in "
+               "double, whose bound lies a little over what was found. A few seconds.",
+      .part = {hard_rows}, .examples = "  lambent bench hard raster\n",
+      .status = "exit status: 0 done, 1 a figure past its bound, 2 bad usage"}},
+    {"--calibrate", NULL, run_calibrate, 0, 0.0f, 0,
+     {.verb = "bench --calibrate", .usage = "bench --calibrate [--threads N]",
+      .about = "Units of work a second, by which --budget-ms reckons: the built-in room, drawn a few times.",
+      .part = {calibrate_rows}, .examples = "  lambent bench --calibrate --threads 1\n"}},
+};
+
+static const option_table bench_table = {
+    .verb = "bench",
+    .usage = "bench SCENE|relight|relief|mix ...  speed against error\n"
+             "bench raster [CASE...] [options]    how fast this machine draws the fixed workload\n"
+             "bench gather [options]              how fast groups light pixels\n"
+             "bench threads [options]             what threads gain, beside processes\n"
+             "bench hard [ROOM] [options]         what renderers get wrong\n"
+             "bench --calibrate [--threads N]     units of work a second",
+    .about = "Measures. Each has its own --help: lambent bench raster --help; lambent bench demo --help is that of SCENE.",
+    .part = {bench_rows},
+    .examples = "  lambent bench raster fill-depth --seconds 0.1\n"
+                "  lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32 --ledger 0\n",
+};
+
+static int measure_workload(const struct workload *w, int argc, char **argv)
+{
+    const char *folder = getenv("BENCH_DATA");
+    options o;
+    report r = {""};
+    memset(&o, 0, sizeof o);
+    o.folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
+    o.threads = w->threads;
+    o.seconds = w->seconds;
+    o.kernels = w->picks ? lmb_kernels_pick() : NULL;
+    int asked = options_parse(&o, &w->table, argc, argv, &r);
+    if (asked == OPTIONS_RUN && w->check != NULL && !w->check(&o, &r)) {
+        asked = OPTIONS_BAD;
+    }
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &w->table, &r);
+    }
+    return w->run(&o, &r) ? 0 : report_end(&r, w->table.verb, 1);
+}
+
+int verb_bench(int argc, char **argv)
+{
+    report r = {""};
+    for (size_t i = 0; argc > 1 && i < sizeof workloads / sizeof *workloads; ++i) {
+        if (strcmp(argv[1], workloads[i].name) == 0) {
+            return measure_workload(&workloads[i], argc - 1, argv + 1);
+        }
+    }
+    if (argc > 1 && (argv[1][0] != '-' || argv[1][1] == '\0')) {
+        return verb_bench_sweep(argc, argv);
+    }
+    int asked = options_parse(NULL, &bench_table, argc, argv, &r);
+    if (asked == OPTIONS_RUN) {
+        asked = report_fail(&r, "what is to be measured? A scene, raster, gather, threads, hard; see --help");
+    }
+    return options_answer(asked, &bench_table, &r);
+}

@@ -1,0 +1,33 @@
+/* verb_plan.c: `lambent plan`: what a picture takes and what it does without, before it is drawn. */
+#include "verb_plan.h"
+
+#include "../../platform/host/host.h"
+#include "../render/render_verb.h"
+#include "plan_table.h"
+
+static int plan(render_job *j, report *r)
+{
+    lmb_plan p;
+    budget_choice choice;
+    const double start = host_seconds();
+    if (!render_job_load(j, r) || !render_job_set(j, r) || !budget_fit(&choice, j, r)) {
+        return 0;
+    }
+    lmb_status status = lmb_render_begin(j->render, &j->frame);
+    if (status == LMB_OK) {
+        status = lmb_plan_frame(&p, j->render, choice.facts.most > 0 ? &choice.facts : NULL);
+    }
+    if (status != LMB_OK) {
+        return report_fail(r, "%s: cannot be planned: %s", j->o.scene, lmb_status_name(status));
+    }
+    report_note(!j->o.view.is_verbose, "planned in %.1f ms, reading the scene with it",
+                (host_seconds() - start) * 1e3);
+    if (j->o.json) {
+        plan_print_json(&p, j, &choice);
+    } else {
+        plan_print_table(&p, j, &choice);
+    }
+    return 1;
+}
+
+int verb_plan(int argc, char **argv) { return render_verb(&plan_table, argc, argv, plan); }

@@ -1,0 +1,171 @@
+/* options_help.c: what a verb's table says of its options, folded to lines of under 100 columns. */
+#include <string.h>
+
+#include "../../src/lane/machines.h"
+#include "options_table.h"
+
+enum { WIDTH = 98, INDENT = 2, COLUMN = 29 /* where the text beside a name begins */ };
+
+/* --- what a value has to be --------------------------------------------------------------------------------------- */
+
+#define BACKEND_NAME(upper, lower) #lower ", "
+static const char backends[] = LMB_BACKENDS(BACKEND_NAME) "as far as this machine has it";
+
+/* "8 .. 4096"; "" where there is no range to speak of. */
+static void range_of(char *out, size_t size, const option_row *row)
+{
+    const char *what = row->kind == OPTION_POWER_OF_2      ? "a power of two, "
+                       : row->kind == OPTION_MULTIPLE_OF_8 ? "a multiple of 8, "
+                                                           : "";
+    out[0] = '\0';
+    if (row->kind >= OPTION_INT && row->kind <= OPTION_MULTIPLE_OF_8) {
+        snprintf(out, size, "%s%.0f .. %.0f", what, row->low, row->high);
+    } else if (row->kind == OPTION_ABOVE) {
+        snprintf(out, size, row->high < 1e5 ? "over %g, at most %g" : "over %g", row->low, row->high);
+    } else if (row->kind == OPTION_NUMBER && row->high < 1e5) {
+        snprintf(out, size, "%g .. %g", row->low, row->high);
+    } else if (row->kind == OPTION_NUMBER && row->low > -1e5) {
+        snprintf(out, size, "%g or more", row->low);
+    }
+}
+
+/* The words with `between` them, and `last` before the last one. */
+static void join(char *out, size_t size, const char *const *words, const char *between, const char *last)
+{
+    size_t n = 0;
+    out[0] = '\0';
+    for (int i = 0; words[i] != NULL && n < size; ++i) {
+        const char *before = i == 0 ? "" : words[i + 1] == NULL ? last : between;
+        n += (size_t)snprintf(out + n, size - n, "%s%s", before, words[i]);
+    }
+}
+
+void options_wants(char *out, size_t size, const option_row *row)
+{
+    char range[96];
+    range_of(range, sizeof range, row);
+    if (row->wants != NULL) {
+        snprintf(out, size, "%s", row->wants);
+    } else if (row->kind == OPTION_WORD) {
+        join(out, size, row->words, ", ", " or ");
+    } else if (row->kind == OPTION_BACKEND) {
+        snprintf(out, size, "one of %s", backends);
+    } else if (row->kind == OPTION_LIGHT) {
+        snprintf(out, size, "spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER] with angles up to 89");
+    } else if (row->kind == OPTION_TEXT) {
+        snprintf(out, size, "a text that is not empty");
+    } else if (row->kind >= OPTION_INT && row->kind <= OPTION_MULTIPLE_OF_8) {
+        snprintf(out, size, "%s%s", row->kind == OPTION_INT ? "a whole number, " : "", range);
+    } else if (row->kind == OPTION_NUMBER || row->kind == OPTION_ABOVE) {
+        snprintf(out, size, "a number%s%s", range[0] != '\0' ? ", " : "", range);
+    } else {
+        snprintf(out, size, "%s", row->kind == OPTION_POINT ? "X,Y,Z" : row->value);
+    }
+}
+
+/* --- folded text -------------------------------------------------------------------------------------------------- */
+
+/* Words up to WIDTH, then a new line at `column`; the first line stands at `at`. A line break in the text stays. */
+static void fold(FILE *out, const char *text, int at, int column)
+{
+    while (*text != '\0') {
+        int n = (int)strcspn(text, " \n");
+        n += text[n] == ' ' && text[n + 1] == '%' ? 1 + (int)strcspn(text + n + 1, " \n") : 0; /* stays with its number */
+        if (at > column && at + n + 1 > WIDTH) {
+            at = column;
+            fprintf(out, "\n%*s", column, "");
+        } else if (at > column) {
+            fputc(' ', out);
+            ++at;
+        }
+        fprintf(out, "%.*s", n, text);
+        at += n;
+        text += n;
+        if (*text == '\n') {
+            at = column;
+            fprintf(out, "\n%*s", text[1] == '\n' ? 0 : column, "");
+        }
+        text += *text != '\0';
+    }
+    fputc('\n', out);
+}
+
+static void print_title(FILE *out, const char *title)
+{
+    fputc('\n', out);
+    fold(out, title, 0, 0);
+}
+
+/* "-h, --help", "--show full|direct|...": how wide it is, WIDTH where a list is too long for a line. */
+static int print_name(FILE *out, const option_row *row)
+{
+    char value[256] = "";
+    if (row->value != NULL) {
+        snprintf(value, sizeof value, "%s", row->value);
+    } else if (row->kind == OPTION_WORD) {
+        join(value, sizeof value, row->words, "|", "|");
+    } else if (row->kind == OPTION_POINT) {
+        snprintf(value, sizeof value, "X,Y,Z");
+    } else if (row->kind == OPTION_LIGHT) {
+        snprintf(value, sizeof value, "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]");
+    }
+    const int begin = fprintf(out, "%*s%s%s%s%s", INDENT, "", row->brief != NULL ? row->brief : "",
+                              row->brief != NULL ? ", " : "", row->name, value[0] != '\0' ? " " : "");
+    int at = begin, is_folded = 0;
+    for (const char *text = value; *text != '\0';) {
+        const int n = (int)strcspn(text, "|") + (strchr(text, '|') != NULL);
+        if (at > begin && at + n > WIDTH) {
+            at = fprintf(out, "\n%*s", begin, "") - 1;
+            is_folded = 1;
+        }
+        at += fprintf(out, "%.*s", n, text);
+        text += n;
+    }
+    return is_folded ? WIDTH : at;
+}
+
+static void print_row(FILE *out, const option_row *row)
+{
+    char text[2048], range[96];
+    int at = print_name(out, row);
+    if (at + 1 >= COLUMN) {
+        fputc('\n', out);
+        at = 0;
+    }
+    fprintf(out, "%*s", COLUMN - at, "");
+    range_of(range, sizeof range, row);
+    int n = snprintf(text, sizeof text, range[0] != '\0' ? "%s [%s]" : "%s%s", row->help, range);
+    if (row->times > 1 && n >= 0 && (size_t)n < sizeof text) {
+        n += snprintf(text + n, sizeof text - (size_t)n, " [up to %d times]", (int)row->times);
+    }
+    if (row->kind == OPTION_BACKEND && n >= 0 && (size_t)n < sizeof text) {
+        snprintf(text + n, sizeof text - (size_t)n, ": %s", backends);
+    }
+    fold(out, text, COLUMN, COLUMN);
+}
+
+void options_help(FILE *out, const option_table *t)
+{
+    const option_row *row;
+    for (const char *line = t->usage, *end; *line != '\0'; line = *end != '\0' ? end + 1 : end) {
+        end = line + strcspn(line, "\n");
+        fprintf(out, "%slambent %.*s\n", line == t->usage ? "usage: " : "       ", (int)(end - line), line);
+    }
+    fputc('\n', out);
+    fold(out, t->about, 0, 0);
+    if (options_row(t, 0) != NULL && options_row(t, 0)->kind != OPTION_TITLE) {
+        print_title(out, "options");
+    }
+    for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
+        if (row->kind == OPTION_TITLE) {
+            print_title(out, row->help);
+        } else {
+            print_row(out, row);
+        }
+    }
+    print_title(out, "examples");
+    fputs(t->examples, out);
+    fputc('\n', out);
+    fold(out, t->status != NULL ? t->status
+                                : "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage", 0, 0);
+}

@@ -1,0 +1,17 @@
+/* demo_field.h: the built-in world: a playing field in a stadium, at dusk; and a figure for it. */
+#ifndef DEMO_FIELD_H
+#define DEMO_FIELD_H
+
+#include "../picture/world_read.h"
+#include "../relight/relight_options.h"
+
+/* demo_field_options: where the world's pictures belong, and what was left open: figures here and there, a camera. */
+void demo_field_options(relight_options *inout);
+
+/* demo_field_pictures: the cube from the field's middle, and the ground. 1, or 0 with `r` set. */
+int demo_field_pictures(lmb_world_pictures *out, world_pictures *own, report *r);
+
+/* demo_field_figure: a head on a body, 1.8 m high, standing at the origin. Static storage. */
+const lmb_scene *demo_field_figure(void);
+
+#endif

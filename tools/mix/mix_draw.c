@@ -1,0 +1,186 @@
+/* mix_draw.c: the photo's answer and the object over it, tile by tile. */
+#include "mix_cones.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../picture/picture.h"
+
+/* Everything that one tile is made in. */
+typedef struct drawing {
+    lmb_view view;
+    int32_t x0, y0; /* of the photo in the view's frame */
+    lmb_target eye; /* the object's */
+    mix_batch batch;
+    lmb_tile object;
+    lmb_irradiance lit;
+    lmb_radiance light, photo;
+    lmb_cone_seen seen[2];
+} drawing;
+
+int mix_image(image *out, int32_t width, int32_t height, report *r)
+{
+    out->width = width;
+    out->height = height;
+    out->channels = 3;
+    out->pixels = calloc(3 * (size_t)width * (size_t)height, sizeof(float));
+    return out->pixels != NULL || report_fail(r, "out of memory");
+}
+
+/* --- the object's depth and ids ----------------------------------------------------------------------------------- */
+
+static int draw_object(drawing *d, mix_job *j, report *r)
+{
+    const int32_t w = (j->frame.camera.width + LMB_TILE - 1) / LMB_TILE * LMB_TILE,
+                  h = (j->frame.camera.height + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
+    const size_t depth_bytes = lmb_surface_bytes(LMB_DEPTH32F, w, h), id_bytes = lmb_surface_bytes(LMB_ID32, w, h);
+    void *depth = mix_take(j, depth_bytes, r), *id = mix_take(j, id_bytes, r);
+    if (depth == NULL || id == NULL) {
+        return 0;
+    }
+    if (lmb_photo_view(&d->view, &d->x0, &d->y0, &j->frame.camera, &j->axes) != LMB_OK) {
+        return report_fail(r, "intrinsics: the camera's axis is too far outside the photo");
+    }
+    lmb_surface_init(&d->eye.depth, LMB_DEPTH32F, w, h, depth, depth_bytes);
+    lmb_surface_init(&d->eye.id, LMB_ID32, w, h, id, id_bytes);
+    d->eye.x0 = d->x0;
+    d->eye.y0 = d->y0;
+    if (j->object_triangles == 0) {
+        return 1;
+    }
+    const lmb_status status = lmb_draw(&d->eye, j->o.kernels, &d->view, &j->scene, j->real_triangles + 1,
+                                       j->object_triangles, LMB_CULL_BACK, NULL);
+    return status == LMB_OK || report_fail(r, "the object cannot be drawn: %s", lmb_status_name(status));
+}
+
+/* --- light -------------------------------------------------------------------------------------------------------- */
+
+static void add_lamps(lmb_irradiance *inout, const mix_job *j, const drawing *d, const lmb_tile *tile, int with)
+{
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        lmb_direct_tile(inout, j->o.kernels, tile, &d->view, &j->scene, &j->lights[i], &j->maps[i][with]);
+    }
+}
+
+/* --- tiles -------------------------------------------------------------------------------------------------------- */
+
+static void get_photo(lmb_radiance *out, const image *p, int32_t x, int32_t y)
+{
+    memset(out, 0, sizeof *out);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
+        for (int c = 0; c < 3 && px < p->width && py < p->height; ++c) {
+            out->rgb[c][k] = p->pixels[3 * ((size_t)py * (size_t)p->width + (size_t)px) + (size_t)c];
+        }
+    }
+}
+
+static void put_tile(image *p, const lmb_radiance *in, int32_t x, int32_t y)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
+        for (int c = 0; c < 3 && px < p->width && py < p->height; ++c) {
+            p->pixels[3 * ((size_t)py * (size_t)p->width + (size_t)px) + (size_t)c] = in->rgb[c][k];
+        }
+    }
+}
+
+static void light_object(drawing *d, const mix_job *j)
+{
+    memset(&d->lit, 0, sizeof d->lit);
+    mix_cones_tile(&d->lit, j, &d->object);
+    add_lamps(&d->lit, j, d, &d->object, 1);
+    lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
+}
+
+/* What is asked for instead of the whole: differences of real pixels, or the object's own. */
+static void choose(drawing *d, const mix_job *j, const lmb_tile *real, uint64_t shown)
+{
+    lmb_radiance before;
+    if (j->o.show == MIX_FINAL) {
+        return;
+    }
+    get_photo(&before, &j->frame.light, real->x, real->y);
+    /* Round middle grey where a picture cannot hold what is negative. */
+    const float zero = j->o.show == MIX_DELTA && !picture_is_linear(picture_format(j->o.out)) ? 0.2140411f : 0.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int is_object = (int)(shown >> k & 1);
+        for (int c = 0; c < 3; ++c) {
+            const float v = d->photo.rgb[c][k];
+            d->photo.rgb[c][k] = j->o.show == MIX_OBJECT ? (is_object ? v : 0.0f)
+                                 : is_object             ? zero
+                                                         : zero + v - before.rgb[c][k];
+        }
+    }
+}
+
+/* Does a tile show the plane that is varnished? */
+static int is_varnished(const mix_job *j, const lmb_tile *real)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS && j->o.specular > 0.0f && j->voxels.count > 0; ++k) {
+        const int32_t at = (real->y + k / LMB_TILE) * j->frame.camera.width + real->x + k % LMB_TILE;
+        if (real->id[k] != 0 && j->planes.label[at] != 0 && (j->floor < 0 || j->planes.label[at] == j->floor + 1)) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
+{
+    const lmb_vec3 eye = {0, 0, 0};
+    for (int32_t world = 0; world < 2; ++world) {
+        const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch, 1};
+        lmb_cones_glossy(&d->seen[world], &trace, &j->gloss, real, eye);
+    }
+    lmb_mirror_tile(&d->photo, real, &j->planes, &j->frame.camera, j->floor, &d->seen[0], &d->seen[1], j->o.specular);
+}
+
+static void draw_tile(drawing *d, mix_job *j, int32_t i)
+{
+    uint64_t shown = 0;
+    const lmb_tile *real = &d->batch.real[i];
+    get_photo(&d->photo, &j->frame.light, real->x, real->y);
+    for (int32_t with = 0; with < 2; ++with) {
+        add_lamps(&d->batch.light[with][i], j, d, real, with);
+    }
+    lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
+    if (is_varnished(j, real)) {
+        mirror(d, j, real);
+    }
+    if (lmb_resolve_tile(&d->object, j->o.kernels, &d->view, &j->scene, &d->eye, d->x0 + real->x, d->y0 + real->y) ==
+            LMB_OK && d->object.hits > 0) {
+        light_object(d, j);
+        shown = lmb_object_tile(&d->photo, &d->light, &d->object, real, &j->cloud);
+    }
+    choose(d, j, real, shown);
+    put_tile(&j->picture, &d->photo, real->x, real->y);
+}
+
+/* Tiles of one row, from x on. */
+static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
+{
+    mix_batch *b = &d->batch;
+    for (b->count = 0; b->count < MIX_BATCH && x < j->picture.width; x += LMB_TILE) {
+        lmb_real_tile(&b->real[b->count++], &j->cloud, &j->planes, &j->real, &j->axes, x, y);
+    }
+    mix_cones_batch(b, j);
+    for (int32_t i = 0; i < b->count; ++i) {
+        draw_tile(d, j, i);
+    }
+}
+
+int mix_draw(mix_job *j, report *r)
+{
+    drawing *d = mix_take(j, sizeof *d, r);
+    if (d == NULL || !mix_image(&j->picture, j->frame.light.width, j->frame.light.height, r) ||
+        !draw_object(d, j, r)) {
+        return 0;
+    }
+    for (int32_t y = 0; y < j->picture.height; y += LMB_TILE) {
+        for (int32_t x = 0; x < j->picture.width; x += MIX_BATCH * LMB_TILE) {
+            draw_batch(d, j, x, y);
+        }
+    }
+    return 1;
+}

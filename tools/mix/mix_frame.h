@@ -1,0 +1,31 @@
+/* mix_frame.h: a photo with its depth and its camera, read from files. */
+#ifndef MIX_FRAME_H
+#define MIX_FRAME_H
+
+#include "../picture/picture_read.h"
+#include <lambent/mixed.h>
+
+/* Where it is read from. NULL, 0: not given; what `frame` gives is what the others leave open. */
+typedef struct mix_source {
+    const char *frame; /* PREFIX of .color.(png|jpg|pfm), .depth.(png|pfm) and .json */
+    const char *photo, *depth;
+    float depth_scale; /* metres of a unit; 0: 0.001 for PNG, 1 for PFM, or what the JSON says */
+    float intrinsics[4];
+    int32_t has_intrinsics;
+} mix_source;
+
+/* mix_frame_free releases it. */
+typedef struct mix_frame {
+    stored_picture photo; /* as stored */
+    image light;          /* the photo as linear light, 3 channels */
+    float *depth;         /* m, as wide and high */
+    lmb_pinhole camera;
+    int has_pose;
+    double pose[16];      /* camera (x right, y down, z ahead) to world, rows */
+} mix_frame;
+
+/* mix_frame_read: 1, or 0 with `r` set and nothing allocated. */
+int mix_frame_read(mix_frame *out, const mix_source *from, report *r);
+void mix_frame_free(mix_frame *f);
+
+#endif

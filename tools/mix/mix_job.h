@@ -1,0 +1,65 @@
+/* mix_job.h: one run of `lambent mix`: the photo, what is in it, what is put into it, its light. */
+#ifndef MIX_JOB_H
+#define MIX_JOB_H
+
+#include <lambent/lambent.h>
+
+#include "../model/model.h"
+#include "mix_options.h"
+
+enum { MIX_BLOCKS = 64 };
+
+/* mix_job_free releases what it points to. */
+typedef struct mix_job {
+    mix_options o;
+    mix_frame frame;
+    lmb_cloud cloud;
+    lmb_planes planes;
+    lmb_real_mesh real;
+    lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
+    lmb_mat4 from_world; /* to the scene's space */
+    model object;
+    model_notes notes;
+    lmb_scene scene;     /* the real mesh is instance 0, the object's instances come after it */
+    uint32_t real_triangles, object_triangles;
+    lmb_vec3 anchor, up; /* in the camera's space */
+    int32_t floor;       /* the plane that the object stands on, or -1 */
+    int faces_up;        /* it does, or was named */
+    float scale;         /* m of a unit of the mesh */
+    int inside;          /* the picture has room for all of it */
+    float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
+    lmb_env env[2];      /* around the scene without and with the object */
+    lmb_light lights[MIX_LIGHTS];
+    lmb_light_map maps[MIX_LIGHTS][2]; /* without, with */
+    int32_t light_count;
+    lmb_voxels voxels;   /* about the object; count 0: there is none */
+    lmb_cones cones;
+    lmb_cone_width gloss;
+    lmb_cone_scratch *scratch;
+    image picture;       /* linear */
+    double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */
+    void *blocks[MIX_BLOCKS];
+    int block_count;
+} mix_job;
+
+/* mix_take: zeroed memory that lives as long as the job; NULL with `r` set. */
+void *mix_take(mix_job *j, size_t bytes, report *r);
+
+/* The steps, in order. Each 1, or 0 with `r` set. */
+int mix_find_planes(mix_job *j, report *r); /* cloud and planes */
+int mix_place(mix_job *j, report *r);       /* the object, the real scene's mesh, and the scene of both */
+int mix_light(mix_job *j, report *r);       /* environment, lights and their maps */
+int mix_voxels(mix_job *j, report *r);      /* real surfaces' albedo, and bounced light about the object */
+int mix_draw(mix_job *j, report *r);        /* the picture */
+
+/* The picture instead of mix_draw's. */
+int mix_show_planes(mix_job *j, report *r);
+int mix_show_env(mix_job *j, report *r);
+int mix_show_voxels(mix_job *j, report *r);
+
+/* mix_image: black, 3 channels. */
+int mix_image(image *out, int32_t width, int32_t height, report *r);
+
+void mix_job_free(mix_job *j);
+
+#endif

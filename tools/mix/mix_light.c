@@ -1,0 +1,174 @@
+/* mix_light.c: the light around a photo: folded or a panorama's, lamps given or guessed, and their maps. */
+#include "mix_job.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../picture/world_read.h"
+
+enum { ENV_SIZE = 64, SUB = 4 };
+
+/* A guessed sun gives the floor so much light beside each unit that comes from everywhere else. */
+#define SUN_SHARE 0.7f
+
+static lmb_vec3 turned(const lmb_mat4 *t, lmb_vec3 d)
+{
+    const float *m = t->m;
+    const lmb_vec3 out = {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
+                          m[2] * d.x + m[6] * d.y + m[10] * d.z};
+    return out;
+}
+
+/* --- environment -------------------------------------------------------------------------------------------------- */
+
+/* The direction of a texel, as lambent/env.h has it. */
+static lmb_vec3 direction_of(int32_t face, float s, float t)
+{
+    const lmb_vec3 all[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+    return all[face];
+}
+
+static void add_seen(float sum[3], const lmb_world_pictures *p, lmb_vec3 d)
+{
+    const float x = d.x < 0 ? -d.x : d.x, y = d.y < 0 ? -d.y : d.y, z = d.z < 0 ? -d.z : d.z;
+    const int32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2, n = p->face_size;
+    const float far = axis == 0 ? x : axis == 1 ? y : z;
+    const int32_t face = 2 * axis + (axis == 0 ? d.x < 0 : axis == 1 ? d.y < 0 : d.z < 0);
+    const float s = (axis == 0 ? (d.x > 0 ? -d.z : d.z) : axis == 1 ? d.x : d.z > 0 ? d.x : -d.x) / far;
+    const float t = (axis == 1 ? (d.y > 0 ? d.z : -d.z) : -d.y) / far;
+    int32_t i = (int32_t)((s + 1.0f) * 0.5f * (float)n), k = (int32_t)((t + 1.0f) * 0.5f * (float)n);
+    i = i < 0 ? 0 : i > n - 1 ? n - 1 : i;
+    k = k < 0 ? 0 : k > n - 1 ? n - 1 : k;
+    for (int c = 0; c < 3 && p->face[face] != NULL; ++c) {
+        sum[c] += p->face[face][3 * ((size_t)k * (size_t)n + (size_t)i) + (size_t)c] * (1.0f / (SUB * SUB));
+    }
+}
+
+/* A panorama's directions are the world's. */
+static void fill_env(const mix_job *j, const lmb_world_pictures *p)
+{
+    lmb_mat4 to_world = j->from_world; /* the rotation's inverse is its transpose */
+    for (int i = 0; i < 9; ++i) {
+        to_world.m[i / 3 * 4 + i % 3] = j->from_world.m[i % 3 * 4 + i / 3];
+    }
+    for (int32_t i = 0; i < 6 * ENV_SIZE * ENV_SIZE; ++i) {
+        const int32_t face = i / (ENV_SIZE * ENV_SIZE), x = i % ENV_SIZE, y = i / ENV_SIZE % ENV_SIZE;
+        float sum[3] = {0, 0, 0};
+        for (int32_t k = 0; k < SUB * SUB; ++k) {
+            const float s = (2.0f * (float)(SUB * x + k % SUB) + 1.0f) / (SUB * ENV_SIZE) - 1.0f,
+                        t = (2.0f * (float)(SUB * y + k / SUB) + 1.0f) / (SUB * ENV_SIZE) - 1.0f;
+            add_seen(sum, p, turned(&to_world, direction_of(face, s, t)));
+        }
+        lmb_env_set(&j->env[0], face, x, y, sum);
+    }
+    lmb_env_mips(&j->env[0]);
+}
+
+static int read_world(mix_job *j, report *r)
+{
+    lmb_world_pictures place;
+    world_pictures own;
+    memset(&place, 0, sizeof place);
+    memset(&own, 0, sizeof own);
+    const int ok = world_read_cube(&place, &own, j->o.world, r);
+    if (ok) {
+        fill_env(j, &place);
+    }
+    world_pictures_free(&own);
+    return ok;
+}
+
+static int make_env(mix_job *j, report *r)
+{
+    const size_t bytes = lmb_env_bytes(ENV_SIZE);
+    for (int i = 0; i < 2; ++i) {
+        void *memory = mix_take(j, bytes, r);
+        if (memory == NULL || lmb_env_init(&j->env[i], ENV_SIZE, memory, bytes) != LMB_OK) {
+            return 0;
+        }
+    }
+    return j->o.world != NULL ? read_world(j, r)
+                              : lmb_env_fold(&j->env[0], j->frame.light.pixels, j->frame.light.width,
+                                             j->frame.light.height, &j->axes) == LMB_OK;
+}
+
+/* --- lamps -------------------------------------------------------------------------------------------------------- */
+
+static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/* From where the surroundings are brightest; as strong as SUN_SHARE says, for a photo does not: lamps are clipped. */
+static void guess_sun(mix_job *j)
+{
+    float around[3];
+    lmb_light *sun = &j->lights[0];
+    const lmb_vec3 up = {0, 1, 0}, from = lmb_env_brightest(&j->env[0], up);
+    const lmb_axes *a = &j->axes;
+    memset(sun, 0, sizeof *sun);
+    sun->kind = LMB_LIGHT_DIRECTIONAL;
+    sun->direction = (lmb_vec3){-from.x, -from.y, -from.z};
+    sun->cos_inner = sun->cos_outer = 1.0f;
+    lmb_env_irradiance(around, &j->env[0], up);
+    for (int c = 0; c < 3; ++c) {
+        sun->intensity[c] = SUN_SHARE * around[c] / from.y;
+    }
+    j->light_count = 1;
+    report_note(j->o.is_quiet,
+                "no light given: guessed a sun from where the surroundings are brightest, "
+                "--light sun:0,0,0:%.3f,%.3f,%.3f:%.3f,%.3f,%.3f in the camera's space",
+                -(double)along(a->right, from), -(double)along(a->up, from), -(double)along(a->back, from),
+                (double)sun->intensity[0], (double)sun->intensity[1], (double)sun->intensity[2]);
+}
+
+static void place_lamps(mix_job *j)
+{
+    for (int32_t i = 0; i < j->o.light_count; ++i) {
+        const lmb_light *from = &j->o.lights[i];
+        j->lights[i] = *from;
+        j->lights[i].direction = turned(&j->from_world, from->direction);
+        j->lights[i].position = turned(&j->from_world, from->position);
+        j->lights[i].position.x += j->from_world.m[12];
+        j->lights[i].position.y += j->from_world.m[13];
+        j->lights[i].position.z += j->from_world.m[14];
+    }
+    j->light_count = j->o.light_count;
+}
+
+static int draw_map(const mix_job *j, const lmb_light_map *map, uint32_t count)
+{
+    return lmb_light_map_clear(map) == LMB_OK &&
+           (count == 0 || lmb_light_map_draw(map, j->o.kernels, &j->scene, 1, count, NULL) == LMB_OK);
+}
+
+static int draw_maps(mix_job *j, report *r)
+{
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        const int32_t faces = lmb_light_map_faces(&j->lights[i], &j->scene);
+        const size_t bytes = 2 * lmb_light_map_bytes(faces, j->o.light_map, LMB_ID32);
+        void *memory = mix_take(j, bytes, r);
+        if (memory == NULL) {
+            return 0;
+        }
+        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, j->o.light_map, memory, bytes) != LMB_OK ||
+            !draw_map(j, &j->maps[i][0], j->real_triangles) ||
+            !draw_map(j, &j->maps[i][1], j->real_triangles + j->object_triangles)) {
+            return report_fail(r, "--light %d cannot be drawn", (int)i + 1);
+        }
+    }
+    return 1;
+}
+
+int mix_light(mix_job *j, report *r)
+{
+    if (!make_env(j, r)) {
+        return 0;
+    }
+    if (j->o.light_count > 0) {
+        place_lamps(j);
+    } else if (j->object_triangles > 0) {
+        guess_sun(j);
+    }
+    j->scene.lights = j->lights;
+    j->scene.light_count = (uint32_t)j->light_count;
+    return lmb_scene_check(&j->scene) == LMB_OK ? draw_maps(j, r)
+                                               : report_fail(r, "--light: numbers are out of range");
+}

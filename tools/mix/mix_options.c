@@ -1,0 +1,166 @@
+/* mix_options.c: the command line of `lambent mix`. */
+#include "mix_options.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/option_value.h"
+#include "../common/options.h"
+#include "../picture/picture.h"
+
+/* --- values of their own kinds ------------------------------------------------------------------------------------ */
+
+static int all_floats(const char *text, float *out, int count)
+{
+    return option_floats(&text, out, count) && *text == '\0';
+}
+
+static int parse_at(const char *text, void *at)
+{
+    mix_options *o = at;
+    o->at = strcmp(text, "world") == 0 ? MIX_AT_WORLD : MIX_AT_PIXEL;
+    return o->at == MIX_AT_WORLD || all_floats(text, o->at_px, 2);
+}
+
+static int parse_roughness(const char *text, void *at)
+{
+    mix_options *o = at;
+    float v[2] = {0.0f, 0.04f};
+    if (!all_floats(text, v, 1) && !all_floats(text, v, 2)) {
+        return 0;
+    }
+    o->roughness = v[0];
+    o->specular = v[1];
+    return v[0] >= 0.0f && v[0] <= 1.0f && v[1] > 0.0f && v[1] <= 1.0f;
+}
+
+/* --- the table ---------------------------------------------------------------------------------------------------- */
+
+static const char *const cones[] = {"7", "19", "37", NULL};
+static const int32_t cone_values[] = {7, 19, 37};
+static const char *const shows[] = {"final", "delta", "planes", "voxels", "env", "object", NULL};
+
+#define AT(member) .at = offsetof(mix_options, member)
+
+static const option_row photo_rows[] = {
+    {.kind = OPTION_TITLE, .help = "photo"},
+    {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
+     .help = "PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
+             "camera_to_world (4 x 4, rows) where it is known"},
+    {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .help = ".png .jpg .pfm"},
+    {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth),
+     .help = "along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured"},
+    {.name = "--depth-scale", .value = "S", .kind = OPTION_NUMBER, AT(source.depth_scale), .low = 1e-9, .high = 1e6,
+     .help = "m of a unit of it (default 0.001 for .png, 1 for .pfm)"},
+    {.name = "--intrinsics", .value = "FX,FY,CX,CY", .kind = OPTION_NUMBERS, AT(source.intrinsics), .size = 4,
+     .low = -1e30, .high = 1e30, .counts = offsetof(mix_options, source.has_intrinsics),
+     .help = "px; the middle of the first pixel is 0,0"},
+    {.kind = OPTION_END},
+};
+
+static const option_row object_rows[] = {
+    {.kind = OPTION_TITLE, .help = "object"},
+    {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object),
+     .help = ".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in"},
+    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
+     .help = "m of a unit of the mesh (default: a sixth of the plane's side in all, or what fits)"},
+    {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .wants = "X,Y or world",
+     .help = "stands on what is at this pixel (default: near the middle of the largest plane that faces up, where nothing "
+             "else stands); world: is where the mesh has it, in the world of the frame's camera_to_world"},
+    {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
+     .help = "about its upright axis (default 0: +Z towards the viewer)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row light_rows[] = {
+    {.kind = OPTION_TITLE, .help = "light"},
+    {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
+     .times = MIX_LIGHTS, .size = sizeof(lmb_light),
+     .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; in the "
+             "frame's world, or without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). "
+             "Default: a sun is guessed"},
+    {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world),
+     .help = "what is around, a panorama or cube (default: folded from the photo)"},
+    {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness, .wants = "R or R,F, 0 .. 1",
+     .help = "0 .. 1: the plane under the object mirrors it, as if varnished (default: it does not); F: how much of what "
+             "it sees straight down, 0 .. 1 (default 0.04)"},
+    {.name = "--light-map", .value = "N", .kind = OPTION_POWER_OF_2, AT(light_map), .low = 8, .high = 4096,
+     .help = "texels a side (default 1024)"},
+    {.name = "--voxels", .value = "D", .kind = OPTION_INT, AT(depth), .low = 4, .high = 10,
+     .help = "2^D voxels a side (default 7)"},
+    {.name = "--cones", .kind = OPTION_WORD, AT(cones), .words = cones, .values = cone_values,
+     .help = "a hemisphere (default 19)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row output_rows[] = {
+    {.kind = OPTION_TITLE, .help = "output"},
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+     .help = ".png .ppm .pfm .hdr"},
+    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
+     .help = "final: the photo with the object (default);\n"
+             "delta: what changed on real surfaces; in .png and .ppm round middle grey;\n"
+             "planes: each in its colour;\n"
+             "voxels: the light in them as the camera sees it;\n"
+             "env: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\n"
+             "object: alone, before black"},
+    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
+     .wants = OPTION_STOPS_WANTS,
+     .help = "stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)"},
+    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .help = "planes, voxels, seconds by stage"},
+    OPTION_BACKEND_ROW(mix_options, kernels),
+    OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "say how long each stage took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+const option_table mix_table = {
+    .verb = "mix",
+    .usage = "mix --frame PREFIX --object MESH -o OUT [options]\n"
+             "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]",
+    .about = "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
+             "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.",
+    .part = {photo_rows, object_rows, light_rows, output_rows},
+    .examples =
+        "  a photo with depth of the built-in room, and a tent put into it:\n"
+        "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
+        "    lambent render demo $eye -o photo.png\n"
+        "    lambent render demo $eye --show depth -o depth.pfm\n"
+        "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+        "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+        "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
+        "        --object tent.obj --voxels 5 -o mixed.png\n",
+    .status = "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage",
+};
+
+static int complete(const mix_options *o, report *r)
+{
+    if (o->source.frame == NULL && o->source.photo == NULL) {
+        return report_fail(r, "no photo given; add --frame PREFIX, or --photo, --depth and --intrinsics");
+    }
+    if (o->source.frame == NULL && o->source.depth == NULL) {
+        return report_fail(r, "no depth given; add --depth FILE");
+    }
+    if (o->source.frame == NULL && !o->source.has_intrinsics) {
+        return report_fail(r, "no camera given; add --intrinsics FX,FY,CX,CY");
+    }
+    if (o->out == NULL) {
+        return report_fail(r, "no output given; add -o FILE.png");
+    }
+    if (o->object == NULL && (o->show == MIX_OBJECT || o->show == MIX_VOXELS)) {
+        return report_fail(r, "--show: no object given; add --object MESH");
+    }
+    return 1;
+}
+
+int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
+{
+    memset(out, 0, sizeof *out);
+    out->light_map = 1024;
+    out->depth = 7;
+    out->cones = 19;
+    out->exposure_ev = NAN;
+    out->kernels = lmb_kernels_pick();
+    const int asked = options_parse(out, &mix_table, argc, argv, r);
+    return asked == OPTIONS_RUN && !complete(out, r) ? OPTIONS_BAD : asked;
+}

@@ -1,0 +1,39 @@
+/* mix_options.h: the command line of `lambent mix`. */
+#ifndef MIX_OPTIONS_H
+#define MIX_OPTIONS_H
+
+#include "../common/options.h"
+#include "mix_frame.h"
+
+enum { MIX_LIGHTS = 8 };
+
+enum { MIX_FINAL = 0, MIX_DELTA, MIX_PLANES, MIX_VOXELS, MIX_ENV, MIX_OBJECT };
+
+/* Where the object stands. */
+enum { MIX_AT_CENTRE = 0, /* of the plane that it would stand on */
+       MIX_AT_PIXEL, MIX_AT_WORLD /* as its file has it, in the world of the frame's pose */ };
+
+typedef struct mix_options {
+    mix_source source;
+    const char *object, *world, *out, *stats;
+    float scale;      /* m of a unit of the mesh; 0: chosen */
+    float turn_deg;
+    int32_t at;
+    float at_px[2];
+    lmb_light lights[MIX_LIGHTS];
+    int32_t light_count;
+    int32_t show, light_map, depth; /* depth: of the voxels */
+    int32_t cones;    /* 7, 19 or 37 */
+    float roughness;  /* of the plane's varnish, and its reflectance */
+    float specular;   /* 0: there is none */
+    float exposure_ev;
+    int is_quiet, is_verbose; /* nothing but errors is said; also how long each stage took */
+    const lmb_kernels *kernels;
+} mix_options;
+
+extern const option_table mix_table;
+
+/* As options_parse. */
+int mix_options_parse(mix_options *out, int argc, char **argv, report *r);
+
+#endif

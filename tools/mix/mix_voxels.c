@@ -1,0 +1,384 @@
+/* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
+#include "mix_job.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+
+enum { TREE_SIZE = 512, TURNS = 4 };
+
+/* The cube around the object is so many times as wide as it is. */
+#define ROOM 4.0f
+
+/* Leaves within which points have one answer. */
+#define NEAR_LEAVES 4.0f
+
+/* --- real surfaces' colours --------------------------------------------------------------------------------------- */
+
+/* Sums of a row of cells. */
+typedef struct colour {
+    float rgb[3];
+    int32_t count;
+} colour;
+
+/* A pixel's irradiance without the object: lamps, and what is around as if nothing were in its way. */
+static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, const lmb_view *view)
+{
+    memset(out, 0, sizeof *out);
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        lmb_direct_tile(out, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][0]);
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float rgb[3];
+        const lmb_vec3 n = {tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]};
+        if (tile->id[k] != 0) {
+            lmb_env_irradiance(rgb, &j->env[0], n);
+            for (int c = 0; c < 3; ++c) {
+                out->rgb[c][k] += rgb[c];
+            }
+        }
+    }
+}
+
+static void add_tile(colour *cells, const mix_job *j, const lmb_tile *tile, const lmb_irradiance *light)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t x = tile->x + k % LMB_TILE, y = tile->y + k / LMB_TILE;
+        if (tile->id[k] == 0) {
+            continue;
+        }
+        const int32_t cell = j->real.cell[y / j->real.step * j->real.columns + x / j->real.step];
+        const float *photo = j->frame.light.pixels + 3 * ((size_t)y * (size_t)j->frame.light.width + (size_t)x);
+        for (int c = 0; cell >= 0 && c < 3; ++c) {
+            cells[cell].rgb[c] += lmb_real_albedo(photo[c], light->rgb[c][k]);
+        }
+        cells[cell >= 0 ? cell : 0].count += cell >= 0;
+    }
+}
+
+static int colour_real(mix_job *j, report *r)
+{
+    colour *cells = mix_take(j, (size_t)(j->real.count > 0 ? j->real.count : 1) * sizeof *cells, r);
+    lmb_tile *tile = mix_take(j, sizeof *tile, r);
+    lmb_irradiance *light = mix_take(j, sizeof *light, r);
+    lmb_view view;
+    int32_t x0, y0;
+    if (cells == NULL || tile == NULL || light == NULL ||
+        lmb_photo_view(&view, &x0, &y0, &j->frame.camera, &j->axes) != LMB_OK) {
+        return report_fail(r, "intrinsics: the camera's axis is too far outside the photo");
+    }
+    for (int32_t y = 0; y < j->frame.light.height; y += LMB_TILE) {
+        for (int32_t x = 0; x < j->frame.light.width; x += LMB_TILE) {
+            lmb_real_tile(tile, &j->cloud, &j->planes, &j->real, &j->axes, x, y);
+            light_tile(light, j, tile, &view);
+            add_tile(cells, j, tile, light);
+        }
+    }
+    for (int32_t i = 0; i < j->real.count; ++i) {
+        const float n = cells[i].count > 0 ? 1.0f / (float)cells[i].count : 0.0f;
+        const float albedo[3] = {cells[i].rgb[0] * n, cells[i].rgb[1] * n, cells[i].rgb[2] * n};
+        lmb_real_mesh_colour(&j->real, i, albedo);
+    }
+    return 1;
+}
+
+/* --- voxels ------------------------------------------------------------------------------------------------------- */
+
+static void object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j)
+{
+    lmb_scene object = j->scene;
+    object.instances = j->scene.instances + 1;
+    object.instance_count = j->scene.instance_count - 1;
+    lmb_scene_bounds(low, high, &object);
+}
+
+/* The floor near the upper side of its leaves: so much of the height under it that what stands on it starts another
+ * leaf, and shares none with the floor's light. */
+static float leaf_under(float height, float leaf)
+{
+    return (floorf(height / leaf) + 0.75f) * leaf;
+}
+
+static int build(mix_job *j, report *r)
+{
+    lmb_vec3 low, high;
+    object_box(&low, &high, j);
+    const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), half = 0.5f * ROOM * size;
+    const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
+    lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
+    if (j->floor >= 0) {
+        middle.y = foot.y + half - leaf_under(half - (middle.y - foot.y), 2.0f * half / (float)(1 << j->o.depth));
+    }
+    const lmb_vec3 from = {middle.x - half, middle.y - half, middle.z - half},
+                   to = {middle.x + half, middle.y + half, middle.z + half};
+    const lmb_voxel_part parts[2] = {{&j->scene, 1, j->real_triangles, {1, 1}},
+                                     {&j->scene, j->real_triangles + 1, j->object_triangles, {0, 1}}};
+    const int32_t bits = 2 * j->o.depth + 4; /* surfaces take some six of a square of leaves */
+    const uint32_t cap = 1u << (bits < 14 ? 14 : bits > 22 ? 22 : bits);
+    const size_t bytes = lmb_voxels_bytes(cap, LMB_VOXELS_THREE);
+    void *memory = mix_take(j, bytes, r);
+    if (memory == NULL) {
+        return 0;
+    }
+    if (lmb_voxels_init(&j->voxels, cap, LMB_VOXELS_THREE, memory, bytes) != LMB_OK ||
+        lmb_voxels_build(&j->voxels, &from, &to, j->o.depth, parts, 2) != LMB_OK ||
+        lmb_cones_init(&j->cones, &j->voxels, j->o.cones) != LMB_OK ||
+        lmb_cone_width_init(&j->gloss, &j->voxels, lmb_cone_tangent(j->o.roughness)) != LMB_OK) {
+        return report_fail(r, "the object is too large or too small for voxels; --scale sets metres of a unit");
+    }
+    report_note(j->o.is_quiet || j->voxels.depth >= j->voxels.asked,
+                "voxels: %u are not enough for %d a side; they are coarser, %d a side", (unsigned)cap,
+                1 << j->voxels.asked, 1 << j->voxels.depth);
+    return 1;
+}
+
+/* --- their light -------------------------------------------------------------------------------------------------- */
+
+/* What is injected, and where the maps' first points are made. */
+typedef struct points {
+    lmb_tree tree;
+    lmb_tile *scratch;
+    lmb_around_scratch *around;
+    lmb_texel *real, *object, *again; /* again: those of one of them, with other light */
+    size_t real_count, object_count;
+    lmb_vec3 about; /* the object's middle */
+    double real_flux[3], far_flux[3]; /* W: of all real surfaces that are seen; of those outside the cube */
+} points;
+
+static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
+{
+    const lmb_light_map *map = &j->maps[light][with];
+    for (int32_t f = 0; f < map->faces; ++f) {
+        if ((map->drawn >> f & 1u) != 0) {
+            const size_t size = (size_t)p->tree.size;
+            if (lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, f, 0, 0,
+                                p->tree.size / LMB_TILE) != LMB_OK ||
+                lmb_voxels_inject(&j->voxels, with, p->tree.texel, size * size) != LMB_OK) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static int inject_maps(mix_job *j, points *p, int32_t with)
+{
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        if (!inject_map(j, p, i, with)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* What is not seen darkens as what is seen does in the mean: the picture's surroundings are folded from the picture. */
+static void dim_around(mix_job *j, const points *p)
+{
+    float share[3];
+    for (int c = 0; c < 3; ++c) {
+        double sum = p->far_flux[c];
+        for (size_t i = 0; i < p->real_count; ++i) {
+            sum += (double)p->again[i].flux[c];
+        }
+        share[c] = p->real_flux[c] > 0.0 ? (float)(sum / p->real_flux[c]) : 1.0f;
+    }
+    lmb_env_dim(&j->env[1], &j->env[0], share);
+}
+
+/* The field with the object: lamps' light, and what its points throw back now. */
+static int inject_with(mix_job *j, points *p)
+{
+    return lmb_voxels_dark(&j->voxels, LMB_VOXEL_WITH) == LMB_OK && inject_maps(j, p, LMB_VOXEL_WITH) &&
+           lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITH, p->again, p->real_count + p->object_count) == LMB_OK &&
+           lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITH) == LMB_OK;
+}
+
+/* Points by what they receive now, against what they did: without the object, or of all that is around. */
+static int relight(mix_job *j, points *p, lmb_texel *inout, size_t count, int is_real)
+{
+    const lmb_cone_trace with = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch, 1},
+                         without = {j->o.kernels, &j->voxels, LMB_VOXEL_WITHOUT, LMB_VOXEL_WITHOUT, &j->env[0],
+                                    j->scratch, 1};
+    for (size_t i = 0; i < count;) {
+        i = lmb_around_gather(p->around, inout, i, count, NEAR_LEAVES * j->voxels.leaf, p->about);
+        if (lmb_cones_diffuse(&p->around->now, NULL, &with, &j->cones, &p->around->tile) != LMB_OK ||
+            (is_real &&
+             lmb_cones_diffuse(&p->around->before, NULL, &without, &j->cones, &p->around->tile) != LMB_OK) ||
+            lmb_around_scale(inout, p->around, is_real ? NULL : &j->env[1]) != LMB_OK) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int relight_real(mix_job *j, points *p)
+{
+    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
+    const int ok = relight(j, p, p->again, p->real_count, 1);
+    if (ok) {
+        dim_around(j, p);
+    }
+    return ok;
+}
+
+static int relight_object(mix_job *j, points *p)
+{
+    lmb_texel *object = p->again + p->real_count;
+    memcpy(object, p->object, p->object_count * sizeof *object);
+    return relight(j, p, object, p->object_count, 0);
+}
+
+/* The world without the object is what the photo shows. The one with it begins with an object that throws nothing back:
+ * first the floor darkens beneath it, then it is lit by that floor, and so on in turns. From a bright beginning the gap
+ * between both would stay bright for as many turns as light bounces there. */
+static int inject_all(mix_job *j, points *p, report *r)
+{
+    const float same[3] = {1.0f, 1.0f, 1.0f};
+    int ok = inject_maps(j, p, LMB_VOXEL_WITHOUT) &&
+             lmb_voxels_inject(&j->voxels, LMB_VOXEL_WITHOUT, p->real, p->real_count) == LMB_OK &&
+             lmb_voxels_filter(&j->voxels, LMB_VOXEL_WITHOUT) == LMB_OK;
+    lmb_env_dim(&j->env[1], &j->env[0], same);
+    memcpy(p->again, p->real, p->real_count * sizeof *p->again);
+    memset(p->again + p->real_count, 0, p->object_count * sizeof *p->again);
+    ok = ok && inject_with(j, p);
+    for (int i = 0; ok && i < TURNS; ++i) {
+        ok = (i % 2 == 0 ? relight_real(j, p) : relight_object(j, p)) && inject_with(j, p);
+    }
+    return (ok && lmb_voxels_delta(&j->voxels) == LMB_OK) || report_fail(r, "voxels cannot take their light");
+}
+
+/* Only what lies in the cube: the rest would find no leaf. */
+static size_t inside(lmb_texel *all, size_t count, const lmb_voxels *v)
+{
+    const float side = v->leaf * (float)(1 << v->depth);
+    size_t n = 0;
+    for (size_t i = 0; i < count; ++i) {
+        const lmb_vec3 at = {all[i].position.x - v->low.x, all[i].position.y - v->low.y,
+                             all[i].position.z - v->low.z};
+        if (at.x > 0.0f && at.y > 0.0f && at.z > 0.0f && at.x < side && at.y < side && at.z < side) {
+            all[n++] = all[i];
+        }
+    }
+    return n;
+}
+
+static void add_flux(double sum[3], const lmb_texel *all, size_t count)
+{
+    for (size_t i = 0; i < 3 * count; ++i) {
+        sum[i % 3] += (double)all[i / 3].flux[i % 3];
+    }
+}
+
+/* Which points have one answer: those of one cube of NEAR_LEAVES that face about the same way. */
+typedef struct sorter {
+    uint64_t key;
+    uint32_t at;
+} sorter;
+
+static uint64_t key_of(const lmb_texel *t, const lmb_voxels *v)
+{
+    const float per = 1.0f / (NEAR_LEAVES * v->leaf * 0.57735f), at[3] = {t->position.x, t->position.y, t->position.z},
+                low[3] = {v->low.x, v->low.y, v->low.z}, n[3] = {t->normal.x, t->normal.y, t->normal.z};
+    uint64_t key = 0;
+    for (int i = 0; i < 3; ++i) {
+        key = key << 12 | ((uint64_t)((at[i] - low[i]) * per) & 0xfff);
+    }
+    for (int i = 0; i < 3; ++i) {
+        key = key << 4 | (uint64_t)(fminf(fmaxf(n[i], -1.0f), 1.0f) * 6.5f + 7.0f);
+    }
+    return key;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const sorter *x = a, *y = b;
+    return x->key != y->key ? (x->key > y->key) - (x->key < y->key) : (x->at > y->at) - (x->at < y->at);
+}
+
+/* Meshes have their triangles in any order; those that lie together are to be asked together. */
+static int sort_points(mix_job *j, lmb_texel *all, size_t count, report *r)
+{
+    sorter *order = mix_take(j, count * sizeof *order, r);
+    lmb_texel *copy = mix_take(j, count * sizeof *copy, r);
+    if (order == NULL || copy == NULL) {
+        return 0;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        order[i].key = key_of(&all[i], &j->voxels);
+        order[i].at = (uint32_t)i;
+    }
+    qsort(order, count, sizeof *order, by_key);
+    memcpy(copy, all, count * sizeof *copy);
+    for (size_t i = 0; i < count; ++i) {
+        all[i] = copy[order[i].at];
+    }
+    return 1;
+}
+
+static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uint32_t first_id, uint32_t triangles,
+                              report *r)
+{
+    const float leaf = 0.5f * j->voxels.leaf; /* so that leaves get about even shares */
+    const size_t cap = lmb_around_points(NULL, 0, &j->scene, first_id, triangles, leaf, &j->env[0]);
+    lmb_texel *out = mix_take(j, cap * sizeof *out, r);
+    if (out != NULL) {
+        lmb_around_points(out, cap, &j->scene, first_id, triangles, leaf, &j->env[0]);
+        add_flux(all_flux, out, cap);
+        *count = inside(out, cap, &j->voxels);
+    }
+    return out;
+}
+
+static int light_voxels(mix_job *j, report *r)
+{
+    const int32_t map = j->o.light_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
+    const size_t bytes = lmb_tree_bytes(1, size);
+    double object_flux[3] = {0, 0, 0}, near_flux[3] = {0, 0, 0};
+    lmb_vec3 low, high;
+    points p;
+    memset(&p, 0, sizeof p);
+    void *memory = mix_take(j, bytes, r);
+    p.scratch = mix_take(j, sizeof *p.scratch, r);
+    p.around = mix_take(j, sizeof *p.around, r);
+    j->scratch = mix_take(j, sizeof *j->scratch, r);
+    p.real = take_points(&p.real_count, p.real_flux, j, 1, j->real_triangles, r);
+    p.object = take_points(&p.object_count, object_flux, j, j->real_triangles + 1, j->object_triangles, r);
+    p.again = mix_take(j, (p.real_count + p.object_count) * sizeof *p.again, r);
+    if (p.object != NULL && !sort_points(j, p.object, p.object_count, r)) {
+        return 0;
+    }
+    if (memory == NULL || p.scratch == NULL || p.around == NULL || j->scratch == NULL || p.real == NULL ||
+        p.object == NULL || p.again == NULL) {
+        return 0;
+    }
+    if (lmb_tree_init(&p.tree, 1, size, memory, bytes) != LMB_OK) {
+        return report_fail(r, "--light-map: a power of two, not %d", (int)map);
+    }
+    p.tree.faces = 1;
+    object_box(&low, &high, j);
+    p.about = (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
+    add_flux(near_flux, p.real, p.real_count);
+    for (int c = 0; c < 3; ++c) {
+        p.far_flux[c] = p.real_flux[c] - near_flux[c];
+    }
+    return inject_all(j, &p, r);
+}
+
+int mix_voxels(mix_job *j, report *r)
+{
+    if (j->object_triangles == 0) {
+        return 1;
+    }
+    if (!colour_real(j, r)) {
+        return 0;
+    }
+    const double from = host_seconds();
+    if (!build(j, r)) {
+        return 0;
+    }
+    j->build_s = host_seconds() - from;
+    return light_voxels(j, r);
+}

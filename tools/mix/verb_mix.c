@@ -1,0 +1,198 @@
+/* verb_mix.c: `lambent mix`: a virtual object in one photo with depth. */
+#include "verb_mix.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../picture/picture.h"
+#include "mix_job.h"
+
+void *mix_take(mix_job *j, size_t bytes, report *r)
+{
+    void *p = j->block_count < MIX_BLOCKS ? calloc(1, bytes > 0 ? bytes : 1) : NULL;
+    if (p == NULL) {
+        report_fail(r, "not enough memory: %.0f MiB more wanted", (double)bytes / 1048576.0);
+        return NULL;
+    }
+    return j->blocks[j->block_count++] = p;
+}
+
+void mix_job_free(mix_job *j)
+{
+    mix_frame_free(&j->frame);
+    model_free(&j->object);
+    image_free(&j->picture);
+    for (int i = 0; i < j->block_count; ++i) {
+        free(j->blocks[i]);
+    }
+    free(j);
+}
+
+/* --- planes ------------------------------------------------------------------------------------------------------- */
+
+static int find_cloud(mix_job *j, report *r)
+{
+    const lmb_pinhole *c = &j->frame.camera;
+    const size_t a = lmb_cloud_bytes(c->width, c->height), b = lmb_planes_bytes(c->width, c->height);
+    void *cloud = mix_take(j, a, r), *planes = mix_take(j, b, r);
+    if (cloud == NULL || planes == NULL) {
+        return 0;
+    }
+    if (lmb_cloud_init(&j->cloud, c, j->frame.depth, cloud, a) != LMB_OK || lmb_cloud_normals(&j->cloud) != LMB_OK ||
+        lmb_planes_find(&j->planes, &j->cloud, planes, b) != LMB_OK) {
+        return report_fail(r, "the photo's camera or size is none that can be used");
+    }
+    return 1;
+}
+
+int mix_find_planes(mix_job *j, report *r)
+{
+    lmb_pinhole_round(&j->frame.camera);
+    if (!find_cloud(j, r)) {
+        return 0;
+    }
+    lmb_planes_move(&j->cloud, &j->planes);
+    return 1;
+}
+
+/* --- the whole ---------------------------------------------------------------------------------------------------- */
+
+static void tell_place(const mix_job *j)
+{
+    const double near = -(double)j->anchor.z;
+    char gap[64] = "where no depth was measured"; /* NaN: no pixel of the foot has one */
+    if (!isnan(j->gap_m)) {
+        snprintf(gap, sizeof gap, "within %.1f mm of the measured depth", 1000.0 * fabs((double)j->gap_m));
+    }
+    if (j->floor < 0) {
+        report_note(j->o.is_quiet, "the object stands on no plane, %.2f m away, %s", near, gap);
+        return;
+    }
+    const lmb_flat *p = &j->planes.plane[j->floor];
+    report_note(j->o.is_quiet, "%d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
+                (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
+                (double)(p->high[1] - p->low[1]), near, gap, (double)j->scale);
+    report_note(j->o.is_quiet || j->faces_up,
+                "no plane faces up; that is the largest, a wall or a ceiling that faces %.2f,%.2f,%.2f; --at X,Y names "
+                "another, --show planes shows them",
+                (double)p->normal.x, (double)p->normal.y, (double)p->normal.z);
+}
+
+static void tell(const mix_job *j)
+{
+    for (uint32_t i = 0; i < j->notes.count; ++i) {
+        report_note(j->o.is_quiet, "note: %s", j->notes.line[i]);
+    }
+    if (j->o.object == NULL || j->o.at == MIX_AT_WORLD) {
+        return;
+    }
+    tell_place(j);
+    report_note(j->o.is_quiet || j->inside,
+                "part of the object is off the picture; --at X,Y sets its place and --scale its size");
+}
+
+static void tell_times(const mix_job *j)
+{
+    const struct stage {
+        const char *name;
+        double s;
+    } stages[] = {{"reading", j->read_s}, {"planes", j->planes_s}, {"place", j->place_s},
+                  {"light", j->light_s},  {"voxels", j->voxels_s}, {"picture", j->draw_s}};
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
+        report_note(!j->o.is_verbose, "%-8s %8.1f ms", stages[i].name, stages[i].s * 1e3);
+    }
+}
+
+static float exposure(const mix_job *j)
+{
+    if (!isnan(j->o.exposure_ev)) {
+        return j->o.exposure_ev;
+    }
+    return j->frame.photo.codes.texels != NULL ? 0.0f : picture_auto_exposure(&j->frame.light);
+}
+
+/* Seconds since *from, which becomes now. */
+static double lap(double *from)
+{
+    const double now = host_seconds(), was = *from;
+    *from = now;
+    return now - was;
+}
+
+static int make_picture(mix_job *j, double *from, report *r)
+{
+    if (j->o.show == MIX_PLANES) {
+        return mix_show_planes(j, r);
+    }
+    int ok = mix_place(j, r);
+    j->place_s = lap(from);
+    ok = ok && mix_light(j, r);
+    j->light_s = lap(from);
+    if (j->o.show == MIX_ENV) {
+        return ok && mix_show_env(j, r);
+    }
+    ok = ok && mix_voxels(j, r);
+    j->voxels_s = lap(from);
+    ok = ok && (j->o.show == MIX_VOXELS ? mix_show_voxels(j, r) : mix_draw(j, r));
+    j->draw_s = lap(from);
+    return ok;
+}
+
+static int write_stats(const mix_job *j, report *r)
+{
+    char text[1024], gap[32] = "null";
+    const lmb_voxels *v = &j->voxels;
+    if (!isnan(j->gap_m)) {
+        snprintf(gap, sizeof gap, "%.6f", (double)j->gap_m);
+    }
+    const int n = snprintf(
+        text, sizeof text,
+        "{\n  \"planes\": %d,\n  \"stands_on\": %d,\n  \"faces_up\": %s,\n  \"in_picture\": %s,\n"
+        "  \"scale\": %.6g,\n  \"gap_m\": %s,\n  \"noise_per_m\": %.6f,\n  \"voxels\": %u,\n"
+        "  \"voxels_a_side\": %d,\n  \"leaf_m\": %.6f,\n  \"pool_bytes\": %.0f,\n  \"used_bytes\": %.0f,\n"
+        "  \"read_s\": %.4f,\n  \"planes_s\": %.4f,\n  \"place_s\": %.4f,\n  \"light_s\": %.4f,\n"
+        "  \"build_s\": %.4f,\n  \"voxels_s\": %.4f,\n  \"draw_s\": %.4f\n}\n",
+        (int)j->planes.count, (int)j->floor + 1, j->faces_up ? "true" : "false", j->inside ? "true" : "false",
+        (double)j->scale, gap, (double)j->cloud.noise, (unsigned)v->count,
+        v->count > 0 ? 1 << v->depth : 0, (double)v->leaf, (double)lmb_voxels_bytes(v->cap, LMB_VOXELS_THREE),
+        (double)lmb_voxels_bytes(v->count, LMB_VOXELS_THREE), j->read_s, j->planes_s, j->place_s, j->light_s,
+        j->build_s, j->voxels_s, j->draw_s);
+    return file_write(j->o.stats, text, (size_t)n, r);
+}
+
+static int mix(mix_job *j, report *r)
+{
+    double from = host_seconds();
+    int ok = file_can_write(j->o.out, r) && (j->o.stats == NULL || file_can_write(j->o.stats, r)) &&
+             mix_frame_read(&j->frame, &j->o.source, r);
+    j->read_s = lap(&from);
+    ok = ok && mix_find_planes(j, r);
+    j->planes_s = lap(&from);
+    if (!ok || !make_picture(j, &from, r)) {
+        return 0;
+    }
+    tell(j);
+    tell_times(j);
+    return picture_write(j->o.out, &j->picture, exposure(j), r) && (j->o.stats == NULL || write_stats(j, r));
+}
+
+int verb_mix(int argc, char **argv)
+{
+    report r = {""};
+    mix_job *j = calloc(1, sizeof *j);
+    if (j == NULL) {
+        report_fail(&r, "out of memory");
+        return report_end(&r, "mix", 1);
+    }
+    const int asked = mix_options_parse(&j->o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        free(j);
+        return options_answer(asked, &mix_table, &r);
+    }
+    const int ok = mix(j, &r);
+    mix_job_free(j);
+    return ok ? 0 : report_end(&r, "mix", 1);
+}

@@ -1,0 +1,136 @@
+/* io_gltf.h: what the files of the glTF reader share: the document, its bytes, its accessors, its nodes, its looks. */
+#ifndef IO_GLTF_H
+#define IO_GLTF_H
+
+#include "../common/io_json.h"
+#include "model_build.h"
+
+/* JSON nodes of a top-level array, so that an index is found without walking. */
+typedef struct gltf_list {
+    uint32_t *items;
+    uint32_t count;
+} gltf_list;
+
+typedef struct gltf_bytes {
+    const uint8_t *data;
+    size_t size;
+    int ready; /* data and size are set */
+} gltf_bytes;
+
+/* How a material's images pick texture coordinates; the transform is folded into them at load. */
+typedef struct gltf_uv {
+    uint32_t set; /* n of TEXCOORD_n; JSON_NONE: untextured */
+    int moved;    /* m is not the identity */
+    double m[6];  /* u' = m0 u + m1 v + m2, v' = m3 u + m4 v + m5 */
+} gltf_uv;
+
+/* A primitive's joints and weights: four each a vertex and set. */
+typedef struct gltf_influences {
+    float **joints, **weights; /* by set; NULL: not read yet */
+    uint32_t sets;
+} gltf_influences;
+
+/* Of an image by its texels: channels as numbers, and as linear light. */
+typedef struct gltf_mean {
+    int known;
+    double green, blue, light[3]; /* 0 .. 1 */
+} gltf_mean;
+
+/* What was left out or stands for something else, told once at the end. */
+typedef struct gltf_counts {
+    uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
+    uint32_t textures, blends, metals, metal_maps, unlit, emissive_maps; /* materials */
+    uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
+    uint32_t ranges, skins, morphs;                                                /* lights, nodes, meshes */
+} gltf_counts;
+
+typedef struct gltf {
+    model_build *b;
+    json doc;
+    gltf_bytes chunk; /* the BIN chunk of a GLB */
+    gltf_list accessors, views, buffers, images, samplers, textures, materials, meshes, nodes, cameras, skins, lights;
+    gltf_bytes *buffer_bytes; /* by buffer */
+    /* by accessor: streams already made, so that primitives share them */
+    const void **positions, **uvs;
+    const int16_t **normals, **tangents;
+    const uint8_t **colours;
+    uint32_t *uv_owner;               /* the material that uvs[accessor] was made for */
+    gltf_uv *material_uv;             /* by material */
+    int32_t *slots[2];                /* by texture, as colour or normal map: index in b->textures, or SLOT_ */
+    lmb_texture *image_texels[2];     /* by image, the same: what is decoded already; texels NULL: nothing yet */
+    gltf_mean *image_means;           /* by image */
+    uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
+    uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
+    gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
+    uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
+    gltf_counts left_out;
+    report texture_error; /* the first one */
+} gltf;
+
+/* Column-major, as glTF's; composed in double, so that deep trees lose nothing before binary32. */
+typedef struct gltf_matrix {
+    double m[16];
+} gltf_matrix;
+
+/* The part of the document that is drawn: nodes in drawing order, each with its way to the world. */
+typedef struct gltf_tree {
+    uint32_t *order; /* parents before children */
+    uint32_t count;
+    uint32_t *parent;   /* by node; JSON_NONE: a root */
+    gltf_matrix *world; /* by node; of those in `order` */
+    uint8_t *placed;    /* by node: is it in `order`? */
+} gltf_tree;
+
+/* An accessor whose every byte was found to be there. */
+typedef struct gltf_accessor {
+    uint32_t node;       /* JSON, for messages */
+    const uint8_t *data; /* element 0; NULL: zeros */
+    uint32_t count, stride;
+    uint32_t component;  /* GL type, 5120 .. 5126 */
+    uint32_t components; /* 1 .. 4 */
+    int normalized;
+    uint32_t sparse_count, sparse_component, sparse_node;
+    const uint8_t *sparse_indices, *sparse_values;
+} gltf_accessor;
+
+enum { GLTF_I8 = 5120, GLTF_U8 = 5121, GLTF_I16 = 5122, GLTF_U16 = 5123, GLTF_U32 = 5125, GLTF_F32 = 5126 };
+
+#define GLTF_UNDO_DRACO "decompress it: gltf-transform cp IN.glb OUT.glb"
+
+/* io_gltf_data.c */
+int gltf_container(gltf *g, const uint8_t *data, size_t size); /* GLB or plain: parses the JSON */
+int gltf_lists(gltf *g);                                       /* all lists, except lights */
+int gltf_list_of(gltf_list *out, gltf *g, uint32_t array);     /* of any array, or of JSON_NONE: empty */
+int gltf_item(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference);  /* node an index points to */
+int gltf_index(uint32_t *out, const gltf *g, const gltf_list *list, uint32_t reference); /* the index, checked */
+int gltf_uri(gltf_bytes *out, gltf *g, uint32_t uri, report *r); /* bytes that stay until loading ends */
+int gltf_view(gltf_bytes *out, gltf *g, uint32_t view); /* bytes of a bufferView, by JSON node */
+int gltf_accessor_open(gltf_accessor *out, gltf *g, uint32_t accessor);
+int gltf_accessor_floats(float *out, const gltf *g, const gltf_accessor *a); /* count * components values */
+int gltf_accessor_indices(uint32_t *out, const gltf *g, const gltf_accessor *a);
+
+/* io_gltf_tree.c */
+int gltf_make_tree(gltf_tree *t, gltf *g);
+void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b);
+
+/* io_gltf_place.c: of the tree's nodes */
+int gltf_lights(const gltf_tree *t, gltf *g);
+int gltf_cameras(const gltf_tree *t, gltf *g);
+
+/* io_gltf_look.c */
+int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
+void gltf_default_material(gltf *g); /* makes default_material, once */
+
+/* io_gltf_mesh.c */
+int gltf_mesh(gltf *g, uint32_t mesh); /* fills mesh_first and mesh_size; once a mesh */
+/* An attribute's accessor: its index, opened, with `components` or `other` components and `count` elements (0: any).
+ * Absent: *index is JSON_NONE. */
+int gltf_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components, uint32_t other,
+                   uint32_t count);
+float *gltf_floats(gltf *g, const gltf_accessor *a); /* all values in scratch memory; NULL with the report set */
+
+/* io_gltf_skin.c */
+/* The meshes of a skinned node, posed by its joints: `size` new ones from b->mesh_count on, in world metres. */
+int gltf_pose(gltf *g, const gltf_tree *t, uint32_t node, uint32_t mesh);
+
+#endif

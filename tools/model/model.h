@@ -1,0 +1,86 @@
+/* model.h: a scene read from a file, as the library wants it, with the cameras and names the library has no use for. */
+#ifndef MODEL_H
+#define MODEL_H
+
+#include <lambent/lambent.h>
+
+#include "../common/report.h"
+
+typedef struct model_camera {
+    char name[64];
+    lmb_vec3 eye, right, up, back; /* world, orthonormal */
+    int orthographic;
+    float yfov_rad;                /* perspective */
+    float half_width, half_height; /* orthographic, metres */
+    float aspect;                  /* width / height; 0: not given */
+    float near_m, far_m;           /* far_m 0: not given */
+} model_camera;
+
+/* What becomes of a glTF extension; one that the file requires and lambent does not know is an error instead. */
+enum { MODEL_EXTENSION_IGNORED = 0, MODEL_EXTENSION_READ, MODEL_EXTENSION_FOLDED /* into what is read anyhow */ };
+
+typedef struct model_extension {
+    char name[64];
+    int use; /* MODEL_EXTENSION_ */
+    int required;
+} model_extension;
+
+/* What the file itself holds, drawn or not. 0 also where its format has no such thing. */
+typedef struct model_facts {
+    const char *format;        /* "glTF", "GLB", "OBJ", "PLY", a literal; NULL: its reader does not say */
+    uint32_t scenes, scene;    /* described; the one that was read, from 0 */
+    char scene_name[64];
+    uint32_t nodes, meshes, primitives;
+    uint64_t vertices;         /* as stored (of an OBJ: its v lines), of the meshes that are read */
+    uint32_t materials;        /* without the one for what names none */
+    uint32_t textures, images;
+    uint32_t lights, cameras;  /* described; scene and cameras have those that are placed */
+    uint32_t animations, skins;
+    model_extension extensions[32];
+    uint32_t extension_count;  /* listed above */
+    uint32_t extension_more;   /* not listed for lack of room */
+    uint64_t file_bytes;       /* the model's file */
+    uint64_t neighbour_bytes;  /* other files read for it; one that is read twice counts twice */
+    uint64_t memory_bytes;     /* of `blocks` */
+    uint64_t loading_bytes;    /* while loading: of `blocks`, working memory and the files' own bytes */
+    uint64_t texel_bytes;      /* the textures' part of that, mips included */
+} model_facts;
+
+/* A material with its glossy lobe: what model_make_glossy puts in. */
+typedef struct model_lobe {
+    float albedo[3], specular[3], roughness, metallic;
+    uint32_t metal_map;
+} model_lobe;
+
+/* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
+typedef struct model {
+    lmb_scene scene; /* checked: lmb_scene_check(&scene) == LMB_OK */
+    model_camera *cameras;
+    uint32_t camera_count;
+    model_lobe *lobes; /* by material; NULL: the format has none */
+    model_facts facts;
+    void **blocks; /* every allocation, for model_free */
+    uint32_t block_count, block_cap;
+} model;
+
+/* A line for the user that is not an error ("3 lines and points skipped"), printed by the caller after loading. */
+typedef struct model_notes {
+    char line[16][200];
+    uint32_t count;
+} model_notes;
+
+/* model_load: .gltf, .glb, .obj or .ply by content and extension; of several scenes the one of the name or number
+ * `scene`, or with NULL the file's own choice. Returns 1, or 0 with `r` set and *out empty. */
+int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r);
+
+/* model_read: the same from memory; `path` names it in messages, tells the format where the content does not, and is
+ * where files beside it are looked for. */
+int model_read(model *out, const char *path, const char *scene, const uint8_t *data, size_t size, model_notes *notes,
+               report *r);
+
+/* model_make_glossy: give the materials their lobes. 0 where the format has none. */
+int model_make_glossy(model *m);
+
+void model_free(model *m);
+
+#endif

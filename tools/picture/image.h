@@ -1,0 +1,73 @@
+/* image.h: pictures in memory and the files they live in. Every reader checks each length before it is used, and
+ * takes at most a stated multiple of the file's size in memory; every writer writes aside, then renames. */
+#ifndef IMAGE_H
+#define IMAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "../common/report.h"
+
+/* Linear light, rows from the top, `channels` floats a pixel. image_free releases it. */
+typedef struct image {
+    int32_t width, height;
+    int32_t channels; /* 1 or 3 */
+    float *pixels;
+} image;
+
+/* 8-bit RGBA as stored (colour sRGB-coded), rows from the top. bitmap_free releases it. */
+typedef struct bitmap {
+    int32_t width, height;
+    uint8_t *texels; /* width * height * 4 */
+} bitmap;
+
+/* A whole file. file_free releases it. */
+typedef struct file_bytes {
+    uint8_t *data;
+    size_t size;
+} file_bytes;
+
+/* All functions below return 1, or 0 with `r` set and nothing allocated, nothing left on disk. */
+
+/* file_read: the whole file (regular or pipe), at most 4 GiB. */
+int file_read(file_bytes *out, const char *path, report *r);
+void file_free(file_bytes *file);
+
+/* file_is_plain: a regular file, or a link to one; no folder, device or pipe. */
+int file_is_plain(const char *path, report *r);
+
+/* file_write: write `size` bytes to `path`, whole or not at all: to a temporary file beside it, flushed and closed
+ * with every error checked, then renamed over it. Existing special files (/dev/stdout, pipes) are written directly. */
+int file_write(const char *path, const void *data, size_t size, report *r);
+
+/* file_can_write: could file_write begin? Ask before long work. Leaves nothing behind. */
+int file_can_write(const char *path, report *r);
+
+/* png_decode: PNG from memory; `name` stands in messages. Colour types 0 2 3 4 6, depths 1 2 4 8 16, tRNS,
+ * interlaced or not; 16 bits keep their high byte. */
+int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
+/* png_decode_16: a grey PNG of 16 bits, nothing else: the high byte as red, the low one as green. */
+int png_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
+/* png_encode: 8-bit RGB from rows of RGB bytes, deflate-compressed with adaptive filters. Allocates *out. */
+int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
+
+int pfm_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
+int pfm_encode(file_bytes *out, const image *in, report *r); /* little-endian, bottom row first */
+/* hdr_decode: Radiance RGBE from memory, coded either way or not at all, in any of its eight orientations, always 3
+ * channels; EXPOSURE and COLORCORR are divided out. At most 16 MiB and 1024 bytes a byte of file. */
+int hdr_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
+int hdr_encode(file_bytes *out, const image *in, report *r); /* Radiance RGBE, run-length coded */
+int ppm_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
+
+/* srgb_decode: linear light of an sRGB code 0 .. 255 (IEC 61966-2-1). */
+double srgb_decode(int code);
+
+void image_free(image *img);
+void bitmap_free(bitmap *map);
+
+/* inflate_zlib: RFC 1950/1951 into exactly `out_size` bytes; 0 on any other length or bad checksum. */
+int inflate_zlib(uint8_t *out, size_t out_size, const uint8_t *in, size_t in_size);
+/* deflate_zlib: real LZ77 + dynamic Huffman. Allocates *out (malloc) and sets *out_size; 0 when memory is short. */
+int deflate_zlib(uint8_t **out, size_t *out_size, const uint8_t *in, size_t in_size);
+
+#endif

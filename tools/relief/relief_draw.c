@@ -1,0 +1,295 @@
+/* relief_draw.c: pictures of a relief, of ordinary geometry, and of both together. [P1 P7 P11] */
+#include "relief_draw.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "relief_bounce.h"
+
+/* One kind of geometry: what its pixels are resolved from, and its light's map. */
+typedef struct layer {
+    const lmb_scene *scene;
+    lmb_target target;
+    lmb_light_map map;
+    void *depth_memory, *id_memory, *map_memory;
+} layer;
+
+typedef struct work {
+    relief_frame *out;
+    const relief_shot *shot;
+    lmb_scene simple;
+    layer plain, relief; /* scene NULL: there is none */
+    lmb_tile tile, other;
+    lmb_irradiance direct, open, indirect;
+    relief_bounce bounce;
+    lmb_radiance radiance, open_radiance;
+} work;
+
+static void *take(work *w, size_t bytes, report *r)
+{
+    void *p = calloc(bytes > 0 ? bytes : 1, 1);
+    w->out->bytes += bytes;
+    if (p == NULL) {
+        report_fail(r, "not enough memory: %.0f MiB more wanted", (double)bytes / 1048576.0);
+    }
+    return p;
+}
+
+static int take_layer(work *w, layer *l, report *r)
+{
+    const int32_t width = w->shot->view.frame_width, height = w->shot->view.frame_height;
+    const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, width, height),
+                 id = lmb_surface_bytes(LMB_ID32, width, height);
+    l->depth_memory = take(w, depth, r);
+    l->id_memory = take(w, id, r);
+    if (l->depth_memory == NULL || l->id_memory == NULL) {
+        return 0;
+    }
+    lmb_surface_init(&l->target.depth, LMB_DEPTH32F, width, height, l->depth_memory, depth);
+    lmb_surface_init(&l->target.id, LMB_ID32, width, height, l->id_memory, id);
+    return 1;
+}
+
+/* --- the light's map ---------------------------------------------------------------------------------------------- */
+
+/* Both maps are fitted to all that is there, so that a texel is the same size in both. */
+static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
+{
+    const relief_shot *s = w->shot;
+    const size_t bytes = lmb_light_map_bytes(lmb_light_map_faces(s->light, bounds), s->light_map, LMB_ID32);
+    l->map_memory = take(w, bytes, r);
+    if (l->map_memory == NULL) {
+        return 0;
+    }
+    lmb_status status = lmb_light_map_init(&l->map, s->light, bounds, s->light_map, LMB_ID32, l->map_memory, bytes);
+    if (status == LMB_OK) {
+        lmb_light_map_clear(&l->map);
+        status = lmb_light_map_draw(&l->map, s->kernels, l->scene, 1, lmb_scene_triangles(l->scene), NULL);
+    }
+    if (status == LMB_OK && l == &w->relief) {
+        status = lmb_relief_shadow_rows(&l->map, &w->tile, s->kernels, s->relief, &s->how, 0,
+                                        l->map.faces * (l->map.size / LMB_TILE));
+    }
+    return status == LMB_OK || report_fail(r, "--light: its map cannot be drawn: %s", lmb_status_name(status));
+}
+
+static float least(float a, float b) { return a < b ? a : b; }
+static float most(float a, float b) { return a > b ? a : b; }
+
+static int draw_maps(work *w, report *r)
+{
+    lmb_scene bounds = w->plain.scene != NULL ? *w->plain.scene : w->simple;
+    if (w->plain.scene != NULL && w->relief.scene != NULL) {
+        bounds.bounds_min.x = least(bounds.bounds_min.x, w->simple.bounds_min.x);
+        bounds.bounds_min.y = least(bounds.bounds_min.y, w->simple.bounds_min.y);
+        bounds.bounds_min.z = least(bounds.bounds_min.z, w->simple.bounds_min.z);
+        bounds.bounds_max.x = most(bounds.bounds_max.x, w->simple.bounds_max.x);
+        bounds.bounds_max.y = most(bounds.bounds_max.y, w->simple.bounds_max.y);
+        bounds.bounds_max.z = most(bounds.bounds_max.z, w->simple.bounds_max.z);
+    }
+    return (w->plain.scene == NULL || draw_map(w, &w->plain, &bounds, r)) &&
+           (w->relief.scene == NULL || draw_map(w, &w->relief, &bounds, r));
+}
+
+/* --- a tile ------------------------------------------------------------------------------------------------------- */
+
+/* The nearer of both kinds. */
+static lmb_status resolve(work *w, int32_t x, int32_t y)
+{
+    const relief_shot *s = w->shot;
+    lmb_status status = LMB_OK;
+    if (w->plain.scene != NULL) {
+        status = lmb_resolve_tile(&w->tile, s->kernels, &s->view, w->plain.scene, &w->plain.target, x, y);
+    }
+    if (status == LMB_OK && w->relief.scene != NULL) {
+        lmb_tile *t = w->plain.scene != NULL ? &w->other : &w->tile;
+        status = lmb_resolve_tile(t, s->kernels, &s->view, w->relief.scene, &w->relief.target, x, y);
+        if (status == LMB_OK) {
+            status = lmb_relief_tile(t, &w->out->stats, s->kernels, s->relief, &s->view, &s->how);
+        }
+        if (status == LMB_OK && w->plain.scene != NULL) {
+            lmb_relief_nearer(&w->tile, t);
+        }
+    }
+    return status;
+}
+
+/* Ordinary geometry's shadow by its triangles, the relief's by its depths. */
+static lmb_status light_tile(work *w)
+{
+    const relief_shot *s = w->shot;
+    const int shadows = s->light_map > 0;
+    const lmb_light_map *map = shadows && w->plain.scene != NULL ? &w->plain.map : NULL;
+    const lmb_scene *scene = w->plain.scene != NULL ? w->plain.scene : w->relief.scene;
+    memset(&w->direct, 0, sizeof w->direct);
+    memset(&w->open, 0, sizeof w->open);
+    lmb_status status = lmb_direct_tile(&w->open, s->kernels, &w->tile, &s->view, scene, s->light, NULL);
+    if (status != LMB_OK || map == NULL) {
+        w->direct = w->open;
+    } else {
+        status = lmb_direct_tile(&w->direct, s->kernels, &w->tile, &s->view, scene, s->light, map);
+    }
+    if (status == LMB_OK && shadows && w->relief.scene != NULL) {
+        const uint64_t lit = lmb_relief_lit(&w->relief.map, s->light, &w->tile);
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            for (int c = 0; c < 3 && (lit >> k & 1u) == 0; ++c) {
+                w->direct.rgb[c][k] = 0.0f;
+            }
+        }
+    }
+    return status;
+}
+
+/* What the light sends on, and what comes from everywhere. */
+static lmb_status bounce_tile(work *w)
+{
+    uint64_t of_relief = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int is_relief = w->plain.scene == NULL || w->tile.id[k] == LMB_MAX_TRIANGLES;
+        of_relief |= (uint64_t)(w->relief.scene != NULL && is_relief) << k;
+        for (int c = 0; c < 3; ++c) {
+            w->indirect.rgb[c][k] = w->shot->ambient;
+        }
+    }
+    return w->shot->bounce == 0 ? LMB_OK : relief_bounce_tile(&w->indirect, &w->bounce, w->shot->kernels, &w->tile,
+                                                              of_relief);
+}
+
+static void store(work *w)
+{
+    relief_frame *f = w->out;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t x = w->tile.x + k % LMB_TILE, y = w->tile.y + k / LMB_TILE;
+        if (x >= f->width || y >= f->height) {
+            continue;
+        }
+        const size_t at = (size_t)y * (size_t)f->width + (size_t)x;
+        f->depth[at] = w->tile.depth[k];
+        f->lit[at] = w->direct.rgb[0][k] + w->direct.rgb[1][k] + w->direct.rgb[2][k] > 0.0f;
+        for (size_t c = 0; c < 3; ++c) {
+            f->normal[3 * at + c] = w->tile.normal[c][k];
+            f->albedo[3 * at + c] = w->tile.albedo[c][k];
+            f->rgb[3 * at + c] = w->radiance.rgb[c][k];
+            f->open[3 * at + c] = w->open_radiance.rgb[c][k];
+        }
+    }
+}
+
+static lmb_status draw_tile(work *w, int32_t x, int32_t y)
+{
+    lmb_status status = resolve(w, x, y);
+    if (status == LMB_OK && w->shot->light != NULL) {
+        status = light_tile(w);
+    }
+    if (status == LMB_OK && w->shot->light != NULL) {
+        status = bounce_tile(w);
+    }
+    if (status == LMB_OK && w->shot->light != NULL) {
+        status = lmb_compose_tile(&w->radiance, w->shot->kernels, &w->tile, &w->direct, &w->indirect);
+    }
+    if (status == LMB_OK && w->shot->light != NULL) {
+        status = lmb_compose_tile(&w->open_radiance, w->shot->kernels, &w->tile, &w->open, &w->indirect);
+    }
+    store(w);
+    return status;
+}
+
+/* --- a frame ------------------------------------------------------------------------------------------------------ */
+
+static lmb_status draw_layer(work *w, layer *l)
+{
+    return l->scene == NULL ? LMB_OK
+                            : lmb_draw(&l->target, w->shot->kernels, &w->shot->view, l->scene, 1,
+                                       lmb_scene_triangles(l->scene), 0, NULL);
+}
+
+static int draw(work *w, report *r)
+{
+    relief_frame *f = w->out;
+    double since = host_cpu_seconds(), now;
+    if (w->shot->light != NULL && w->shot->light_map > 0 && !draw_maps(w, r)) {
+        return 0;
+    }
+    if (w->shot->light != NULL && w->shot->bounce > 0 &&
+        !relief_bounce_make(&w->bounce, w->shot->kernels, w->plain.scene, w->relief.scene, w->shot->light,
+                            w->shot->bounce, r)) {
+        return 0;
+    }
+    now = host_cpu_seconds();
+    f->light_s = now - since;
+    lmb_status status = draw_layer(w, &w->plain);
+    if (status == LMB_OK) {
+        status = draw_layer(w, &w->relief);
+    }
+    since = host_cpu_seconds();
+    f->draw_s = since - now;
+    for (int32_t y = 0; y < f->height && status == LMB_OK; y += LMB_TILE) {
+        for (int32_t x = 0; x < f->width && status == LMB_OK; x += LMB_TILE) {
+            status = draw_tile(w, x, y);
+        }
+    }
+    f->band_s = host_cpu_seconds() - since;
+    return status == LMB_OK || report_fail(r, "drawing stopped: %s", lmb_status_name(status));
+}
+
+static int begin(work *w, report *r)
+{
+    relief_frame *f = w->out;
+    const relief_shot *s = w->shot;
+    const size_t pixels = (size_t)s->view.frame_width * (size_t)s->view.frame_height;
+    f->width = s->view.frame_width;
+    f->height = s->view.frame_height;
+    f->depth = take(w, pixels * sizeof(float), r);
+    f->normal = take(w, 3 * pixels * sizeof(float), r);
+    f->albedo = take(w, 3 * pixels * sizeof(float), r);
+    f->rgb = take(w, 3 * pixels * sizeof(float), r);
+    f->open = take(w, 3 * pixels * sizeof(float), r);
+    f->lit = take(w, pixels, r);
+    w->plain.scene = s->scene;
+    if (s->relief != NULL) {
+        lmb_relief_scene(&w->simple, s->relief);
+        w->relief.scene = &w->simple;
+    }
+    return r->text[0] == '\0' && (w->plain.scene == NULL || take_layer(w, &w->plain, r)) &&
+           (w->relief.scene == NULL || take_layer(w, &w->relief, r));
+}
+
+static void layer_free(layer *l)
+{
+    free(l->depth_memory);
+    free(l->id_memory);
+    free(l->map_memory);
+}
+
+int relief_shoot(relief_frame *out, const relief_shot *shot, report *r)
+{
+    work *w = calloc(1, sizeof *w);
+    memset(out, 0, sizeof *out);
+    if (w == NULL) {
+        return report_fail(r, "not enough memory");
+    }
+    w->out = out;
+    w->shot = shot;
+    const int ok = begin(w, r) && draw(w, r);
+    layer_free(&w->plain);
+    layer_free(&w->relief);
+    relief_bounce_free(&w->bounce);
+    free(w);
+    if (!ok) {
+        relief_frame_free(out);
+    }
+    return ok;
+}
+
+void relief_frame_free(relief_frame *f)
+{
+    free(f->depth);
+    free(f->normal);
+    free(f->albedo);
+    free(f->rgb);
+    free(f->open);
+    free(f->lit);
+    f->depth = f->normal = f->albedo = f->rgb = f->open = NULL;
+    f->lit = NULL;
+}

@@ -1,0 +1,333 @@
+/* verb_relief.c: `lambent relief`: a complex model drawn as a simple one that carries its surface. */
+#include "verb_relief.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../common/option_value.h"
+#include "../common/view_options.h"
+#include "../model/model.h"
+#include "../picture/picture.h"
+#include "relief_compare.h"
+#include "relief_model.h"
+#include "relief_options.h"
+
+enum { BOUNCE_MAP = 256 }; /* texels a side */
+enum { SHOW_FULL, SHOW_DEPTH, SHOW_NORMAL, SHOW_ALBEDO, SHOW_LIT };
+
+typedef struct options {
+    const char *file, *out, *compare, *with;
+    view_options view;
+    lmb_relief_how how;
+    lmb_light light;
+    int32_t has_light, bounce;
+    int32_t light_map, show;
+    float ambient, exposure_ev; /* NaN: chosen by the picture */
+    const lmb_kernels *kernels;
+} options;
+
+/* --- command line ------------------------------------------------------------------------------------------------- */
+
+static const char *const picks[] = {"p", "eye-ray", NULL}; /* in the order of LMB_RELIEF_ */
+static const char *const samplings[] = {"bilinear", "nearest", NULL};
+static const char *const shows[] = {"full", "depth", "normal", "albedo", "lit", NULL}; /* in the order of SHOW_ */
+
+#define AT(member) .at = offsetof(options, member)
+
+static const option_row rows[] = {
+    {.name = "FILE.lmr", .kind = OPTION_TEXT, .value = "", AT(file), .help = "what `lambent relief bake` made"},
+    {.kind = OPTION_TITLE, .help = "view"},
+    VIEW_OPTION_SIZE(options, view, "px (default 640x480)"),
+    VIEW_OPTIONS_CAMERA(options, view, "where the camera stands (default: the whole model from a little above)"),
+    {.kind = OPTION_TITLE, .help = "surface"},
+    {.name = "--pick", .kind = OPTION_WORD, AT(how.pick), .words = picks,
+     .help = "which candidate wins: nearest to the simple surface (default), or to the eye's ray"},
+    {.name = "--sampling", .kind = OPTION_WORD, AT(how.sampling), .words = samplings,
+     .help = "of the views' texels (default bilinear)"},
+    RELIEF_OPTIONS_LOOK(options),
+    {.kind = OPTION_TITLE, .help = "light"},
+    {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(options, has_light),
+     .help = "KIND is spot, point or sun (default: a sun from the upper right)"},
+    {.name = "--light-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(light_map), .low = 0, .high = LMB_MAX_SIDE,
+     .help = "texels a side of its shadow map (default 1024); 0: no shadows"},
+    {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
+     .help = "irradiance from everywhere, W/m2 (default 0.3)"},
+    {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with),
+     .help = "other geometry in the same picture: both shadow and hide each other"},
+    {.name = "--bounce", .kind = OPTION_FLAG, AT(bounce),
+     .help = "light once reflected, too, by the other geometry and the simple model"},
+    {.kind = OPTION_TITLE, .help = "output"},
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+     .help = ".png .ppm .pfm .hdr"},
+    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .help = "(default full)"},
+    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
+     .wants = OPTION_STOPS_WANTS, .help = "stops, display formats only (default 0)"},
+    {.name = "--compare", .value = "MODEL", .kind = OPTION_TEXT, AT(compare),
+     .help = "draws the complex model too, and prints speed and errors side by side"},
+    OPTION_BACKEND_ROW(options, kernels),
+    OPTION_LOUDNESS(options, view.is_quiet, view.is_verbose, "say how long what took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+#define TENT \
+    "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n" \
+    "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n" \
+    "    lambent relief bake tent.obj --size 64 --triangles 8 -o tent.lmr\n"
+
+static const option_table table = {
+    .verb = "relief render",
+    .usage = "relief render FILE.lmr -o OUT [options]",
+    .about = "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+             "it.",
+    .part = {rows},
+    .examples = "  a tent, its relief and a picture of that:\n" TENT
+                "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
+};
+
+static const option_row ask_rows[] = {OPTION_ASK, {.kind = OPTION_END}};
+
+static const option_table both_table = {
+    .verb = "relief",
+    .usage = "relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr -o OUT [options]",
+    .about = "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+             "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help.",
+    .part = {ask_rows},
+    .examples = "  a tent, its relief and a picture of that:\n" TENT
+                "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
+};
+
+static int parse(options *o, int argc, char **argv, report *r)
+{
+    memset(o, 0, sizeof *o);
+    view_options_init(&o->view);
+    o->light_map = 1024;
+    o->ambient = 0.3f;
+    o->kernels = lmb_kernels_pick();
+    const int asked = options_parse(o, &table, argc, argv, r);
+    if (asked != OPTIONS_RUN) {
+        return asked;
+    }
+    if (o->file == NULL) {
+        return report_fail(r, "no relief given; lambent relief bake makes one");
+    }
+    if (o->compare != NULL && o->with != NULL) {
+        return report_fail(r, "--compare draws the complex model alone: without --with");
+    }
+    if (o->out == NULL) {
+        return report_fail(r, "no output given; add -o FILE.png");
+    }
+    return view_options_check(&o->view, r) ? OPTIONS_RUN : OPTIONS_BAD;
+}
+
+/* --- work --------------------------------------------------------------------------------------------------------- */
+
+typedef struct work {
+    file_bytes file;
+    lmb_relief relief;
+    lmb_scene simple;
+    model with, truth;
+    triangle_mesh mesh; /* the truth's, for its normals */
+    relief_scene flat;
+    lmb_scene complex;
+    lmb_mesh *meshes;
+    lmb_light sun;
+} work;
+
+static void work_free(work *w)
+{
+    file_free(&w->file);
+    model_free(&w->with);
+    model_free(&w->truth);
+    triangle_mesh_free(&w->mesh);
+    relief_scene_free(&w->flat);
+    free(w->meshes);
+    free(w);
+}
+
+static int open_relief(work *w, const char *path, report *r)
+{
+    if (!file_read(&w->file, path, r)) {
+        return 0;
+    }
+    lmb_status status = lmb_relief_swap(w->file.data, w->file.size);
+    if (status == LMB_OK) {
+        status = lmb_relief_open(&w->relief, w->file.data, w->file.size);
+    }
+    lmb_relief_scene(&w->simple, &w->relief);
+    return status == LMB_OK ||
+           report_fail(r, "%s: %s", path, status == LMB_ERR_CAPACITY ? "more views than this build takes"
+                                                                     : "not a whole .lmr file of version 1");
+}
+
+static int load(model *out, const char *path, report *r)
+{
+    static model_notes notes;
+    memset(&notes, 0, sizeof notes);
+    return model_load(out, path, NULL, &notes, r);
+}
+
+/* The complex model as it was baked. */
+static int load_truth(work *w, const char *path, report *r)
+{
+    if (!load(&w->truth, path, r) || !relief_flatten(&w->mesh, &w->truth.scene, r) ||
+        !relief_scene_of(&w->flat, &w->mesh, r)) {
+        return 0;
+    }
+    w->meshes = malloc((w->truth.scene.mesh_count + 1) * sizeof *w->meshes);
+    if (w->meshes == NULL) {
+        return report_fail(r, "%s: out of memory", path);
+    }
+    relief_smooth(&w->complex, w->meshes, &w->truth.scene, &w->flat);
+    return 1;
+}
+
+static int choose_view(lmb_view *out, const work *w, options *o, report *r)
+{
+    lmb_view middle;
+    if (o->view.has_eye ? !view_look(&middle, &o->view, r) : !view_frame(&middle, &o->view, &w->simple, o->file, r)) {
+        return 0;
+    }
+    middle.near_m = 0.0f;
+    *out = view_from(&middle, 0.0f, &w->simple);
+    return 1;
+}
+
+/* --- pictures ----------------------------------------------------------------------------------------------------- */
+
+/* What is shown, three floats a pixel, in place of the frame's light. */
+static void show(relief_frame *f, int32_t what)
+{
+    const size_t pixels = (size_t)f->width * (size_t)f->height;
+    for (size_t i = 0; i < pixels && what != SHOW_FULL; ++i) {
+        for (size_t c = 0; c < 3; ++c) {
+            const size_t at = 3 * i + c;
+            f->rgb[at] = what == SHOW_ALBEDO   ? f->albedo[at]
+                         : what == SHOW_NORMAL ? (f->depth[i] > 0.0f ? 0.5f + 0.5f * f->normal[at] : 0.0f)
+                         : what == SHOW_DEPTH  ? f->depth[i]
+                                               : (float)f->lit[i];
+        }
+    }
+}
+
+static int write_frame(const options *o, relief_frame *f, report *r)
+{
+    show(f, o->show);
+    const image out = {f->width, f->height, 3, f->rgb};
+    const float ev = o->show == SHOW_DEPTH || isnan(o->exposure_ev) ? picture_auto_exposure(&out) : o->exposure_ev;
+    return picture_write(o->out, &out, ev, r);
+}
+
+static void tell(const relief_frame *f)
+{
+    const lmb_relief_stats *s = &f->stats;
+    const double n = s->pixels > 0 ? (double)s->pixels : 1.0;
+    printf("pixels of the simple model %.0f: hit %.2f %%, passed %.2f %%, holes %.2f %%\n", (double)s->pixels,
+           100.0 * (double)s->hits / n, 100.0 * (double)s->missed / n, 100.0 * (double)s->holes / n);
+}
+
+static void tell_compared(const relief_frame *f, const relief_frame *truth, const relief_figures *e)
+{
+    printf("%-22s %12s %12s\n", "", "relief", "direct");
+    printf("%-22s %12.2f %12.2f\n", "light's map, ms", 1e3 * f->light_s, 1e3 * truth->light_s);
+    printf("%-22s %12.2f %12.2f\n", "triangles, ms", 1e3 * f->draw_s, 1e3 * truth->draw_s);
+    printf("%-22s %12.2f %12.2f\n", "pixels, ms", 1e3 * f->band_s, 1e3 * truth->band_s);
+    printf("outline %.2f px (median), covered by both %.2f %%\n", e->silhouette_px, 100.0 * e->iou);
+    printf("depth %.4f %% of the diagonal (median), %.4f %% (95 of 100)\n", 100.0 * e->depth_50, 100.0 * e->depth_95);
+    printf("normals %.2f degrees (median), %.1f (95 of 100)\n", e->normal_50, e->normal_95);
+    printf("light %.2f dB, without cast shadows %.2f; reflectance %.2f dB; lit or not as it should %.2f %%\n",
+           e->shadowed_db, e->psnr_db, e->albedo_db, 100.0 * e->lit);
+}
+
+static double diagonal(const lmb_scene *s)
+{
+    const double x = (double)(s->bounds_max.x - s->bounds_min.x), y = (double)(s->bounds_max.y - s->bounds_min.y),
+                 z = (double)(s->bounds_max.z - s->bounds_min.z);
+    return sqrt(x * x + y * y + z * z);
+}
+
+static int compare(work *w, relief_shot shot, const relief_frame *f, report *r)
+{
+    relief_frame truth;
+    relief_figures e;
+    shot.relief = NULL;
+    shot.scene = &w->complex;
+    if (!relief_shoot(&truth, &shot, r)) {
+        return 0;
+    }
+    const int ok = relief_measure(&e, f, &truth, diagonal(&w->complex), r);
+    if (ok) {
+        tell_compared(f, &truth, &e);
+    }
+    relief_frame_free(&truth);
+    return ok;
+}
+
+static int render(work *w, options *o, report *r)
+{
+    relief_shot shot;
+    relief_frame f;
+    const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
+                           LMB_LIGHT_DIRECTIONAL, 0};
+    memset(&shot, 0, sizeof shot);
+    w->sun = sun;
+    if (!file_can_write(o->out, r) || !open_relief(w, o->file, r) ||
+        (o->with != NULL && !load(&w->with, o->with, r)) ||
+        (o->compare != NULL && !load_truth(w, o->compare, r)) || !choose_view(&shot.view, w, o, r)) {
+        return 0;
+    }
+    shot.kernels = o->kernels;
+    shot.relief = &w->relief;
+    shot.scene = o->with != NULL ? &w->with.scene : NULL;
+    shot.how = o->how;
+    shot.light = o->has_light ? &o->light : &w->sun;
+    shot.light_map = o->light_map;
+    shot.ambient = o->ambient;
+    shot.bounce = o->bounce ? BOUNCE_MAP : 0;
+    if (!relief_shoot(&f, &shot, r)) {
+        return 0;
+    }
+    if (!o->view.is_quiet) {
+        tell(&f);
+    }
+    report_note(!o->view.is_verbose, "light's map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
+                1e3 * f.draw_s, 1e3 * f.band_s);
+    const int ok = (o->compare == NULL || compare(w, shot, &f, r)) && write_frame(o, &f, r);
+    relief_frame_free(&f);
+    return ok;
+}
+
+static int verb_render_relief(int argc, char **argv)
+{
+    report r = {""};
+    options o;
+    const int asked = parse(&o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &table, &r);
+    }
+    work *w = calloc(1, sizeof *w);
+    const int ok = w != NULL ? render(w, &o, &r) : report_fail(&r, "out of memory");
+    if (w != NULL) {
+        work_free(w);
+    }
+    return ok ? 0 : report_end(&r, "relief render", 1);
+}
+
+int verb_relief(int argc, char **argv)
+{
+    if (argc >= 2 && strcmp(argv[1], "bake") == 0) {
+        return verb_relief_bake(argc - 1, argv + 1);
+    }
+    if (argc >= 2 && strcmp(argv[1], "render") == 0) {
+        return verb_render_relief(argc - 1, argv + 1);
+    }
+    report r = {""};
+    const int asked = options_parse(NULL, &both_table, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &both_table, &r);
+    }
+    report_fail(&r, "bake or render? lambent relief --help tells");
+    return report_end(&r, "relief", 2);
+}

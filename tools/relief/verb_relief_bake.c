@@ -1,0 +1,348 @@
+/* verb_relief_bake.c: `lambent relief bake`: a complex model -> views of it and a simple model, in one file. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../mesh/enclose.h"
+#include "../model/model.h"
+#include "relief_bake.h"
+#include "relief_model.h"
+#include "relief_options.h"
+#include "relief_photos.h"
+#include "verb_relief.h"
+
+typedef struct options {
+    const char *model, *out, *simple, *views_file;
+    int32_t views, size, triangles, greedy, is_packed;
+    int as_is, is_quiet, is_verbose;
+    const char *frame[LMB_RELIEF_VIEWS]; /* photos' */
+    int32_t frames;
+    float block;
+} options;
+
+static int parse_views(const char *text, void *at)
+{
+    options *o = at;
+    o->views_file = NULL;
+    if (relief_option_views(text, &o->views, &o->greedy)) {
+        return 1;
+    }
+    o->views_file = text;
+    return !o->greedy && text[0] != '\0' && strspn(text, "-0123456789") != strlen(text);
+}
+
+#define AT(member) .at = offsetof(options, member)
+
+static const option_row rows[] = {
+    {.name = "MODEL", .kind = OPTION_TEXT, .value = "", AT(model), .help = ".gltf .glb .obj .ply"},
+    {.name = "-o", .value = "OUT.lmr", .kind = OPTION_TEXT, AT(out),
+     .help = "what `lambent relief render` draws, in place from flash too"},
+    {.name = "--views", .value = "N|greedy:N|FILE", .kind = OPTION_OWN, .parse = parse_views,
+     .wants = "1 .. 64, greedy:N, or a file of cameras",
+     .help = "N: from N sides; 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64;\n"
+             "greedy:N: of 98 sides the N that see most;\n"
+             "FILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, target, degrees)"},
+    RELIEF_OPTIONS_BAKE(options),
+    {.name = "--simple", .value = "FILE", .kind = OPTION_TEXT, AT(simple),
+     .help = "a simple model of your own, near to the complex one; moved out where that sticks out"},
+    {.name = "--as-is", .kind = OPTION_FLAG, AT(as_is), .help = "leaves it as it is"},
+    {.kind = OPTION_TITLE, .help = "photos"},
+    {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(frame), .counts = offsetof(options, frames),
+     .times = LMB_RELIEF_VIEWS, .size = sizeof(const char *),
+     .help = "a photo as a view: PREFIX.color.png, .depth.png, .json, as `lambent mix --help` tells, with "
+             "camera_to_world where there are several (y down). `render --show albedo` shows it"},
+    {.name = "--block", .value = "M", .kind = OPTION_NUMBER, AT(block), .low = 1e-4, .high = 1e4,
+     .help = "its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)"},
+    {.kind = OPTION_TITLE, .help = "other"},
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long what took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+static const option_table table = {
+    .verb = "relief bake",
+    .usage = "relief bake MODEL -o OUT.lmr [options]\n"
+             "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
+    .about = "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
+             "get smooth ones. Says how much of the surface no view sees: that will be filled with the simple model's.",
+    .part = {rows},
+    .examples = "  a tent and its relief:\n"
+                "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+                "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+                "    lambent relief bake tent.obj --size 64 --triangles 8 -o tent.lmr\n",
+};
+
+static int parse(options *o, int argc, char **argv, report *r)
+{
+    memset(o, 0, sizeof *o);
+    o->views = 26;
+    o->size = 256;
+    o->triangles = 3000;
+    const int asked = options_parse(o, &table, argc, argv, r);
+    if (asked != OPTIONS_RUN) {
+        return asked;
+    }
+    if ((o->model != NULL) == (o->frames > 0)) {
+        return report_fail(r, o->frames > 0 ? "a model or photos, not both" : "no model given");
+    }
+    if (o->as_is && o->simple == NULL) {
+        return report_fail(r, "--as-is needs --simple FILE");
+    }
+    return o->out != NULL ? OPTIONS_RUN : report_fail(r, "no output given; add -o FILE.lmr");
+}
+
+/* --- work --------------------------------------------------------------------------------------------------------- */
+
+typedef struct work {
+    model loaded, loaded_simple;
+    triangle_mesh mesh, simple;
+    relief_scene flat;
+    lmb_scene scene; /* what the views show: the model itself, with normals */
+    lmb_mesh *meshes;
+    lmb_view view[LMB_RELIEF_VIEWS];
+    int32_t views;
+    relief_bake bake;
+    file_bytes file;
+} work;
+
+static void work_free(work *w)
+{
+    model_free(&w->loaded);
+    model_free(&w->loaded_simple);
+    triangle_mesh_free(&w->mesh);
+    triangle_mesh_free(&w->simple);
+    relief_scene_free(&w->flat);
+    relief_bake_free(&w->bake);
+    file_free(&w->file);
+    free(w->meshes);
+    free(w);
+}
+
+static int load(model *out, triangle_mesh *mesh, const char *path, report *r)
+{
+    static model_notes notes;
+    memset(&notes, 0, sizeof notes);
+    if (!model_load(out, path, NULL, &notes, r)) {
+        return 0;
+    }
+    if (lmb_scene_triangles(&out->scene) == 0) {
+        return report_fail(r, "%s: nothing to bake: no triangles", path);
+    }
+    return relief_flatten(mesh, &out->scene, r);
+}
+
+static int load_complex(work *w, const options *o, report *r)
+{
+    if (!load(&w->loaded, &w->mesh, o->model, r) || !relief_scene_of(&w->flat, &w->mesh, r)) {
+        return 0;
+    }
+    w->meshes = malloc(w->loaded.scene.mesh_count * sizeof *w->meshes);
+    if (w->meshes == NULL) {
+        return report_fail(r, "%s: out of memory", o->model);
+    }
+    relief_smooth(&w->scene, w->meshes, &w->loaded.scene, &w->flat);
+    return 1;
+}
+
+static void tell_outside(double outside, const options *o)
+{
+    report_note(o->is_quiet || !(outside > 0.0), "note: the complex model sticks out of the simple one by %.3g m", outside);
+}
+
+/* The user's own; moved outwards, its vertices at one place become one. */
+static int load_simple(work *w, const options *o, report *r)
+{
+    triangle_mesh own;
+    simplify_facts facts;
+    tally held = {0, 0};
+    double outside = 0.0;
+    if (!load(&w->loaded_simple, &own, o->simple, r)) {
+        return 0;
+    }
+    if (o->as_is) {
+        w->simple = own;
+    } else {
+        const int ok = simplify_mesh(&w->simple, &own, own.triangle_count, SIMPLIFY_NEAR, &facts, r);
+        triangle_mesh_free(&own);
+        if (!ok) {
+            return 0;
+        }
+    }
+    if (!(o->as_is ? mesh_outside : mesh_enclose)(&w->simple, &w->mesh, &outside, &held)) {
+        return report_fail(r, "%s: out of memory", o->simple);
+    }
+    tell_outside(outside, o);
+    return 1;
+}
+
+static int make_simple(work *w, const options *o, report *r)
+{
+    simplify_facts facts;
+    if (o->simple != NULL) {
+        return load_simple(w, o, r);
+    }
+    if (!simplify_mesh(&w->simple, &w->mesh, (uint32_t)o->triangles, SIMPLIFY_AROUND, &facts, r)) {
+        return 0;
+    }
+    tell_outside(facts.outside, o);
+    return 1;
+}
+
+/* A line of a file of cameras: 1, 0 where it is none, -1 where it is empty. */
+static int read_camera(lmb_view *v, const char *line, const work *w, int32_t size)
+{
+    double f[7];
+    char more;
+    const char *c = line + strspn(line, " \t\r");
+    if (*c == '\0' || *c == '#') {
+        return -1;
+    }
+    if (sscanf(c, "%lf %lf %lf %lf %lf %lf %lf %c", f, f + 1, f + 2, f + 3, f + 4, f + 5, f + 6, &more) != 7 ||
+        !(f[6] > 0.0 && f[6] < 179.0)) {
+        return 0;
+    }
+    const lmb_vec3 eye = {(float)f[0], (float)f[1], (float)f[2]}, target = {(float)f[3], (float)f[4], (float)f[5]};
+    const lmb_vec3 y = {0.0f, 1.0f, 0.0f}, z = {0.0f, 0.0f, 1.0f};
+    const float fov = (float)(f[6] * 0.017453292519943295);
+    return (lmb_view_look(v, eye, target, y, fov, size, size) == LMB_OK ||
+            lmb_view_look(v, eye, target, z, fov, size, size) == LMB_OK) &&
+           relief_reach(v, &w->mesh);
+}
+
+static int read_cameras(work *w, const options *o, report *r)
+{
+    file_bytes file;
+    int number = 0;
+    if (!file_read(&file, o->views_file, r)) {
+        return 0;
+    }
+    char *text = malloc(file.size + 1), *line = text;
+    if (text != NULL) {
+        memcpy(text, file.data, file.size);
+        text[file.size] = '\0';
+    }
+    file_free(&file);
+    while (line != NULL && r->text[0] == '\0') {
+        char *end = strchr(line, '\n');
+        lmb_view v;
+        if (end != NULL) {
+            *end++ = '\0';
+        }
+        const int found = read_camera(&v, line, w, o->size);
+        ++number;
+        if (found == 0 || (found > 0 && w->views == LMB_RELIEF_VIEWS)) {
+            report_fail(r, found ? "%s, line %d: over %d cameras" : "%s, line %d: not EX EY EZ TX TY TZ FOV",
+                        o->views_file, number, LMB_RELIEF_VIEWS);
+        } else if (found > 0) {
+            w->view[w->views++] = v;
+        }
+        line = end;
+    }
+    free(text);
+    return r->text[0] == '\0' && (w->views > 0 || report_fail(r, "%s: no cameras in it", o->views_file));
+}
+
+static int choose_views(work *w, const options *o, report *r)
+{
+    lmb_vec3 direction[LMB_RELIEF_VIEWS];
+    if (o->views_file != NULL) {
+        return read_cameras(w, o, r);
+    }
+    relief_directions(direction, o->views);
+    if (o->greedy && !relief_greedy(direction, o->views, &w->mesh, &w->scene, o->size, r)) {
+        return 0;
+    }
+    for (w->views = 0; w->views < o->views; ++w->views) {
+        w->view[w->views] = relief_fit(&w->mesh, direction[w->views], o->size);
+    }
+    return 1;
+}
+
+static void tell(const work *w, const options *o, const relief_coverage *c)
+{
+    printf("%s: %u triangles as %u, %d views of %d x %d, %.0f bytes\n", o->out, (unsigned)w->mesh.triangle_count,
+           (unsigned)w->simple.triangle_count, (int)w->views, (int)o->size, (int)o->size, (double)w->file.size);
+    printf("surface that no view sees: %.2f %%; none within 60 degrees of its normal: %.2f %%\n", 100.0 * c->unseen,
+           100.0 * c->slanted);
+}
+
+static int bake(work *w, const options *o, report *r)
+{
+    relief_coverage coverage;
+    if (!file_can_write(o->out, r) || !load_complex(w, o, r) || !choose_views(w, o, r) || !make_simple(w, o, r)) {
+        return 0;
+    }
+    w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
+    for (int32_t i = 0; i < w->views; ++i) {
+        if (!relief_add(&w->bake, &w->scene, &w->view[i], r)) {
+            return 0;
+        }
+    }
+    if (!relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, r) ||
+        !file_write(o->out, w->file.data, w->file.size, r)) {
+        return 0;
+    }
+    if (!o->is_quiet) {
+        tell(w, o, &coverage);
+    }
+    return 1;
+}
+
+/* --- photos ------------------------------------------------------------------------------------------------------- */
+
+static int add_photos(work *w, const options *o, relief_photo *photo, report *r)
+{
+    for (int32_t i = 0; i < o->frames; ++i) {
+        if (!relief_photo_read(&photo[i], o->frame[i], r)) {
+            return 0;
+        }
+    }
+    const float side = o->block > 0.0f ? o->block : relief_photo_size(photo, o->frames) / 24.0f;
+    if (!relief_blocks(&w->simple, photo, o->frames, side, r)) {
+        return 0;
+    }
+    for (int32_t i = 0; i < o->frames; ++i) {
+        const relief_photo *p = &photo[i];
+        if (!relief_add_planes(&w->bake, &p->view, p->depth, p->normal, p->colour, 0, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int bake_photos(work *w, const options *o, report *r)
+{
+    relief_photo photo[LMB_RELIEF_VIEWS];
+    memset(photo, 0, sizeof photo);
+    w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
+    const int ok = file_can_write(o->out, r) && add_photos(w, o, photo, r) &&
+                   relief_encode(&w->file, &w->bake, &w->simple, r) &&
+                   file_write(o->out, w->file.data, w->file.size, r);
+    for (int32_t i = 0; i < o->frames; ++i) {
+        relief_photo_free(&photo[i]);
+    }
+    if (ok && !o->is_quiet) {
+        printf("%s: %d photos on %u triangles, %.0f bytes\n", o->out, (int)o->frames,
+               (unsigned)w->simple.triangle_count, (double)w->file.size);
+    }
+    return ok;
+}
+
+int verb_relief_bake(int argc, char **argv)
+{
+    report r = {""};
+    options o;
+    const double start = host_seconds();
+    const int asked = parse(&o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &table, &r);
+    }
+    work *w = calloc(1, sizeof *w);
+    const int ok = w != NULL ? (o.frames > 0 ? bake_photos : bake)(w, &o, &r) : report_fail(&r, "out of memory");
+    if (w != NULL) {
+        work_free(w);
+    }
+    report_note(!ok || !o.is_verbose, "baked in %.1f s", host_seconds() - start);
+    return ok ? 0 : report_end(&r, "relief bake", 1);
+}

@@ -1,0 +1,339 @@
+/* relight_draw.c: objects drawn in a world's light: their cubes by the cache's word, then picture by picture. */
+#include "relight_draw.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../picture/picture.h"
+#include "relight_figures.h"
+#include "relight_path.h"
+
+enum { LIGHT_MAP = 512 };
+
+/* The cubes of one of the cache's slots. */
+typedef struct slot_cubes {
+    void *irradiance, *gloss[RELIGHT_GLOSSES];
+    int is_known[RELIGHT_GLOSSES]; /* for the place that the slot stands for */
+} slot_cubes;
+
+typedef struct stage {
+    relight_light *light;
+    relight_options *o;
+    figures figures;
+    place_list path;
+    lmb_probe_cache cache;
+    slot_cubes cubes[LMB_MAX_PROBES];
+    lmb_probe *probes;      /* by slot, then by gloss */
+    uint16_t *probe_of;     /* by instance */
+    float *planes;          /* of the largest gloss cube */
+    lmb_probe_rays rays;
+    lmb_light_map maps[RELIGHT_LIGHTS];
+    void *map_memory[RELIGHT_LIGHTS], *depth_memory, *id_memory;
+    lmb_relight relight;
+    lmb_relight_scratch scratch;
+    image picture;
+} stage;
+
+static void *take(size_t bytes, report *r)
+{
+    void *p = malloc(bytes > 0 ? bytes : 1);
+    if (p == NULL) {
+        report_fail(r, "not enough memory: %.0f MiB more wanted; try a smaller --size", (double)bytes / 1048576.0);
+    }
+    return p;
+}
+
+/* --- light -------------------------------------------------------------------------------------------------------- */
+
+/* A slot's irradiance, for a new place: what was mirrored at the old one is void. */
+static int light_slot(stage *s, int32_t slot, lmb_vec3 at, report *r)
+{
+    slot_cubes *c = &s->cubes[slot];
+    const int32_t side = s->o->faces;
+    const size_t bytes = lmb_probe_cube_bytes(side);
+    memset(c->is_known, 0, sizeof c->is_known);
+    if (!relight_light_at(s->light, s->o, at, side, r) ||
+        (c->irradiance == NULL && (c->irradiance = take(bytes, r)) == NULL)) {
+        return 0;
+    }
+    for (int32_t i = 0; i < s->figures.glosses; ++i) {
+        lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSES + i].irradiance, s->light->cube, side, c->irradiance,
+                            bytes);
+    }
+    return 1;
+}
+
+static int mirror_slot(stage *s, int32_t slot, int32_t gloss, report *r)
+{
+    slot_cubes *c = &s->cubes[slot];
+    const float roughness = s->figures.roughness[gloss];
+    const int32_t n = lmb_probe_gloss_side(roughness);
+    const lmb_world_look look = {&s->light->world, 0.0f, s->o->blend};
+    if (n == 0 || c->is_known[gloss]) {
+        return 1;
+    }
+    const size_t bytes = lmb_probe_cube_bytes(n);
+    if (c->gloss[gloss] == NULL && (c->gloss[gloss] = take(bytes, r)) == NULL) {
+        return 0;
+    }
+    c->is_known[gloss] = 1;
+    return lmb_probe_reflect(s->planes, n, &s->rays, s->o->kernels, &look, s->cache.slot[slot].place, roughness) ==
+               LMB_OK &&
+           lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSES + gloss].gloss, s->planes, n, c->gloss[gloss],
+                               bytes) == LMB_OK;
+}
+
+/* All owners' cubes for one picture. */
+static int light_figures(stage *s, uint32_t frame, report *r)
+{
+    figures *f = &s->figures;
+    lmb_probe_answer answer;
+    memset(&answer, 0, sizeof answer);
+    for (uint32_t i = 0, last = f->owners; i < f->scene.instance_count; ++i) {
+        const uint32_t owner = figures_owner(f, i);
+        const uint16_t gloss = f->gloss_of[i % f->parts];
+        if (owner != last) {
+            const lmb_vec3 at = figures_middle(f, owner);
+            if (lmb_probe_cache_ask(&answer, &s->cache, owner, at, 0, frame) != LMB_OK) {
+                return report_fail(r, "--at: numbers over 1,000,000 m");
+            }
+            if (answer.compute && !light_slot(s, answer.slot, answer.place, r)) {
+                return 0;
+            }
+            last = owner;
+        }
+        if (!mirror_slot(s, answer.slot, gloss, r)) {
+            return 0;
+        }
+        s->probe_of[i] = (uint16_t)(answer.slot * RELIGHT_GLOSSES + gloss);
+    }
+    return 1;
+}
+
+static int draw_shadows(stage *s, report *r)
+{
+    const lmb_scene *scene = &s->figures.scene;
+    for (uint32_t i = 0; i < scene->light_count; ++i) {
+        const size_t bytes =
+            lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i], scene), LIGHT_MAP, LMB_ID32);
+        if (s->map_memory[i] == NULL && (s->map_memory[i] = take(bytes, r)) == NULL) {
+            return 0;
+        }
+        if (lmb_light_map_init(&s->maps[i], &scene->lights[i], scene, LIGHT_MAP, LMB_ID32, s->map_memory[i], bytes) !=
+                LMB_OK ||
+            lmb_light_map_clear(&s->maps[i]) != LMB_OK ||
+            lmb_light_map_draw(&s->maps[i], s->o->kernels, scene, 1, lmb_scene_triangles(scene), NULL) != LMB_OK) {
+            return report_fail(r, "--light: number %u cannot be drawn", (unsigned)i + 1);
+        }
+    }
+    return 1;
+}
+
+/* --- a picture ---------------------------------------------------------------------------------------------------- */
+
+static int draw(stage *s, report *r)
+{
+    lmb_relight *l = &s->relight;
+    const lmb_scene *scene = l->scene;
+    lmb_surface out;
+    memset(&out, 0, sizeof out);
+    out.data = s->picture.pixels;
+    out.width = s->picture.width;
+    out.height = s->picture.height;
+    out.stride_bytes = out.width * 3 * (int32_t)sizeof(float);
+    out.format = LMB_RGB32F;
+    lmb_surface_clear(&l->eye.depth);
+    lmb_surface_clear(&l->eye.id);
+    lmb_status status =
+        lmb_draw(&l->eye, l->kernels, &l->view, scene, 1, lmb_scene_triangles(scene), LMB_CULL_BACK, NULL);
+    for (int32_t band = 0; band < (out.height + LMB_TILE - 1) / LMB_TILE && status == LMB_OK; ++band) {
+        status = lmb_relight_band(l, &s->scratch, &out, band);
+    }
+    return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", s->o->object, lmb_status_name(status));
+}
+
+/* The first picture's exposure is that of all. */
+static int write(stage *s, const char *path, report *r)
+{
+    if (isnan(s->o->exposure_ev) && !picture_is_linear(picture_format(path))) {
+        s->o->exposure_ev = picture_auto_exposure(&s->picture) + 0.0f; /* no minus zero */
+        report_note(s->o->view.is_quiet, "exposure %+.3g EV (auto)", (double)s->o->exposure_ev);
+    }
+    return picture_write(path, &s->picture, s->o->exposure_ev, r);
+}
+
+/* OUT.png -> OUT-0007.png */
+static int numbered(char *out, size_t size, const char *path, int32_t i, report *r)
+{
+    const char *dot = strrchr(path, '.');
+    const int n = snprintf(out, size, "%.*s-%04d%s", (int)(dot - path), path, (int)i, dot);
+    return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", path);
+}
+
+static int draw_along(stage *s, report *r)
+{
+    for (int32_t i = 0; i < s->path.count; ++i) {
+        const lmb_vec3 at = s->path.place[i];
+        const uint32_t kept = s->cache.kept;
+        char name[4096];
+        figures_stand(&s->figures, 0, at);
+        if (!numbered(name, sizeof name, s->o->out, i, r) || !light_figures(s, (uint32_t)i, r) ||
+            !draw_shadows(s, r) || !draw(s, r) || !write(s, name, r)) {
+            return 0;
+        }
+        printf("%s  %g,%g,%g  %s\n", name, (double)at.x, (double)at.y, (double)at.z,
+               s->cache.kept - kept == s->figures.owners ? "kept" : "computed");
+    }
+    printf("light computed %u times, kept %u times\n", (unsigned)s->cache.computed, (unsigned)s->cache.kept);
+    return (fflush(stdout) == 0 && !ferror(stdout)) || report_fail(r, "standard output: cannot be written");
+}
+
+/* --- before the first --------------------------------------------------------------------------------------------- */
+
+static int take_cache(stage *s, report *r)
+{
+    const relight_options *o = s->o;
+    const figures *f = &s->figures;
+    if (f->owners + (uint32_t)o->keep_count > LMB_MAX_PROBES ||
+        lmb_probe_cache_init(&s->cache, LMB_MAX_PROBES, &o->policy) != LMB_OK) {
+        return report_fail(r, "%u objects or parts and %d --keep are over the %d places this build keeps",
+                           (unsigned)f->owners, (int)o->keep_count, LMB_MAX_PROBES);
+    }
+    for (int32_t i = 0; i < o->keep_count; ++i) {
+        if (lmb_probe_cache_name(&s->cache, o->keep[i]) < 0) {
+            return report_fail(r, "--keep: numbers over 1,000,000 m, or too many");
+        }
+    }
+    const size_t probes = LMB_MAX_PROBES * RELIGHT_GLOSSES * sizeof *s->probes;
+    s->probes = take(probes, r);
+    s->probe_of = take(f->scene.instance_count * sizeof *s->probe_of, r);
+    s->planes = take(3 * 6 * 64 * 64 * sizeof *s->planes, r);
+    if (s->probes != NULL) {
+        memset(s->probes, 0, probes);
+    }
+    return s->probes != NULL && s->probe_of != NULL && s->planes != NULL;
+}
+
+/* The box of all places of a path, for a camera that sees them all. */
+static void frame_path(stage *s)
+{
+    lmb_vec3 low = {1e30f, 1e30f, 1e30f}, high = {-1e30f, -1e30f, -1e30f};
+    for (int32_t i = 0; i < s->path.count; ++i) {
+        figures_stand(&s->figures, 0, s->path.place[i]);
+        figures_bounds(&s->figures);
+        const lmb_vec3 a = s->figures.scene.bounds_min, b = s->figures.scene.bounds_max;
+        low = (lmb_vec3){a.x < low.x ? a.x : low.x, a.y < low.y ? a.y : low.y, a.z < low.z ? a.z : low.z};
+        high = (lmb_vec3){b.x > high.x ? b.x : high.x, b.y > high.y ? b.y : high.y, b.z > high.z ? b.z : high.z};
+    }
+    s->figures.scene.bounds_min = low;
+    s->figures.scene.bounds_max = high;
+}
+
+static int take_view(stage *s, report *r)
+{
+    view_options *v = &s->o->view;
+    lmb_relight *l = &s->relight;
+    const lmb_scene *scene = &s->figures.scene;
+    const lmb_status sound = lmb_scene_check(scene);
+    if (sound != LMB_OK) {
+        return report_fail(r, "%s: %s where it stands, or a --light that is none", s->o->object,
+                           lmb_status_name(sound));
+    }
+    memset(&l->view, 0, sizeof l->view);
+    if (!(v->has_eye ? view_look(&l->view, v, r) : view_frame(&l->view, v, scene, s->o->object, r))) {
+        return 0;
+    }
+    l->view.near_m = 0.0f;
+    l->view = view_from(&l->view, 0.0f, scene);
+    return 1;
+}
+
+static int take_frame(stage *s, report *r)
+{
+    lmb_relight *l = &s->relight;
+    const int32_t w = s->o->view.width, h = s->o->view.height;
+    const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, w, h), id = lmb_surface_bytes(LMB_ID32, w, h);
+    s->depth_memory = take(depth, r);
+    s->id_memory = take(id, r);
+    s->picture.pixels = take((size_t)w * (size_t)h * 3 * sizeof(float), r);
+    if (s->depth_memory == NULL || s->id_memory == NULL || s->picture.pixels == NULL) {
+        return 0;
+    }
+    s->picture.width = w;
+    s->picture.height = h;
+    s->picture.channels = 3;
+    lmb_surface_init(&l->eye.depth, LMB_DEPTH32F, w, h, s->depth_memory, depth);
+    lmb_surface_init(&l->eye.id, LMB_ID32, w, h, s->id_memory, id);
+    l->kernels = s->o->kernels;
+    l->scene = &s->figures.scene;
+    l->maps = s->maps;
+    l->world = &s->light->world;
+    l->blend = s->o->blend;
+    l->probes = s->probes;
+    l->probe_of = s->probe_of;
+    l->probe_count = LMB_MAX_PROBES * RELIGHT_GLOSSES;
+    l->show = s->o->show;
+    return 1;
+}
+
+static int run(stage *s, report *r)
+{
+    const relight_options *o = s->o;
+    if ((o->path != NULL && !place_list_read(&s->path, o->path, r)) ||
+        !figures_load(&s->figures, o, o->path != NULL ? 1 : (uint32_t)o->at_count, r) || !take_cache(s, r)) {
+        return 0;
+    }
+    for (int32_t i = 0; i < o->at_count; ++i) {
+        figures_stand(&s->figures, (uint32_t)i, o->at[i]);
+    }
+    if (o->path != NULL) {
+        frame_path(s);
+    } else {
+        figures_bounds(&s->figures);
+    }
+    if (!take_view(s, r) || !take_frame(s, r)) {
+        return 0;
+    }
+    return o->path != NULL ? draw_along(s, r)
+                           : light_figures(s, 0, r) && draw_shadows(s, r) && draw(s, r) && write(s, o->out, r);
+}
+
+static void stage_free(stage *s)
+{
+    for (int i = 0; i < LMB_MAX_PROBES; ++i) {
+        free(s->cubes[i].irradiance);
+        for (int k = 0; k < RELIGHT_GLOSSES; ++k) {
+            free(s->cubes[i].gloss[k]);
+        }
+    }
+    for (int i = 0; i < RELIGHT_LIGHTS; ++i) {
+        free(s->map_memory[i]);
+    }
+    free(s->probes);
+    free(s->probe_of);
+    free(s->planes);
+    free(s->depth_memory);
+    free(s->id_memory);
+    image_free(&s->picture);
+    place_list_free(&s->path);
+    figures_free(&s->figures);
+    free(s);
+}
+
+int relight_draw(lmb_vec3 *middle, relight_light *w, relight_options *o, report *r)
+{
+    stage *s = calloc(1, sizeof *s);
+    if (s == NULL) {
+        return report_fail(r, "out of memory");
+    }
+    s->light = w;
+    s->o = o;
+    const int ok = run(s, r);
+    if (ok) {
+        *middle = figures_middle(&s->figures, 0);
+    }
+    stage_free(s);
+    return ok;
+}

@@ -1,0 +1,170 @@
+/* relight_figures.c: an object's copies at their places, as a scene. */
+#include "relight_figures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../demo/demo_field.h"
+
+#define PLAIN_F0 0.04f       /* of glass, plastic, skin */
+#define PLAIN_ROUGHNESS 0.4f /* where the file says nothing */
+
+/* --- materials ---------------------------------------------------------------------------------------------------- */
+
+static void set_lobe(lmb_material *m, const relight_options *o, int has_lobe)
+{
+    if (!has_lobe) {
+        m->specular[0] = m->specular[1] = m->specular[2] = PLAIN_F0;
+        m->roughness = PLAIN_ROUGHNESS;
+    }
+    if (o->f0 >= 0.0f) {
+        m->specular[0] = m->specular[1] = m->specular[2] = o->f0;
+    }
+    m->roughness = o->roughness >= 0.0f ? o->roughness : m->roughness;
+}
+
+static uint16_t gloss_of(figures *f, float roughness)
+{
+    int32_t nearest = 0;
+    for (int32_t i = 0; i < f->glosses; ++i) {
+        nearest = fabsf(f->roughness[i] - roughness) < fabsf(f->roughness[nearest] - roughness) ? i : nearest;
+    }
+    if (f->glosses < RELIGHT_GLOSSES && (f->glosses == 0 || f->roughness[nearest] != roughness)) {
+        nearest = f->glosses++;
+        f->roughness[nearest] = roughness;
+    }
+    return (uint16_t)nearest;
+}
+
+static int take_materials(figures *f, const relight_options *o, report *r)
+{
+    const lmb_scene *s = &f->loaded.scene;
+    const int has_lobes = model_make_glossy(&f->loaded);
+    f->materials = malloc((s->material_count > 0 ? s->material_count : 1) * sizeof *f->materials);
+    f->gloss_of = malloc((s->instance_count > 0 ? s->instance_count : 1) * sizeof *f->gloss_of);
+    if (f->materials == NULL || f->gloss_of == NULL) {
+        return report_fail(r, "%s: out of memory", o->object);
+    }
+    memcpy(f->materials, s->materials, s->material_count * sizeof *f->materials);
+    for (uint32_t i = 0; i < s->material_count; ++i) {
+        set_lobe(&f->materials[i], o, has_lobes);
+    }
+    for (uint32_t i = 0; i < s->instance_count; ++i) {
+        f->gloss_of[i] = gloss_of(f, f->materials[s->instances[i].material].roughness);
+    }
+    return 1;
+}
+
+/* --- places ------------------------------------------------------------------------------------------------------- */
+
+/* Scaled about the middle of the box's bottom, which goes to `at`. */
+static void place(lmb_mat4 *out, const lmb_mat4 *from, const figures *f, lmb_vec3 at)
+{
+    const float foot[3] = {0.5f * (f->low.x + f->high.x), f->low.y, 0.5f * (f->low.z + f->high.z)},
+                to[3] = {at.x, at.y, at.z};
+    *out = *from;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 3; ++row) {
+            float *m = &out->m[4 * column + row];
+            *m = column < 3 ? *m * f->scale : (*m - foot[row]) * f->scale + to[row];
+        }
+    }
+}
+
+void figures_stand(figures *f, uint32_t figure, lmb_vec3 at)
+{
+    for (uint32_t i = 0; i < f->parts; ++i) {
+        lmb_instance *to = &f->instances[figure * f->parts + i];
+        place(&to->to_world, &f->loaded.scene.instances[i].to_world, f, at);
+        ++to->revision;
+    }
+}
+
+void figures_bounds(figures *f) { lmb_scene_bounds(&f->scene.bounds_min, &f->scene.bounds_max, &f->scene); }
+
+uint32_t figures_owner(const figures *f, uint32_t instance)
+{
+    return f->owners == f->count ? instance / f->parts : instance;
+}
+
+/* Of the box of what the owner is made of. */
+lmb_vec3 figures_middle(const figures *f, uint32_t owner)
+{
+    const uint32_t each = f->count * f->parts / f->owners;
+    lmb_scene own = f->scene;
+    lmb_vec3 low, high;
+    own.instances = f->instances + owner * each;
+    own.instance_count = each;
+    lmb_scene_bounds(&low, &high, &own);
+    return (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
+}
+
+/* --- all ---------------------------------------------------------------------------------------------------------- */
+
+static int take_instances(figures *f, const relight_options *o, report *r)
+{
+    const lmb_scene *s = &f->loaded.scene;
+    uint32_t id = 1;
+    f->instances = malloc((size_t)f->count * f->parts * sizeof *f->instances);
+    if (f->instances == NULL) {
+        return report_fail(r, "%s: out of memory", o->object);
+    }
+    for (uint32_t i = 0; i < f->count * f->parts; ++i) {
+        f->instances[i] = s->instances[i % f->parts];
+        f->instances[i].first_id = id;
+        id += s->meshes[f->instances[i].mesh].triangle_count;
+    }
+    return 1;
+}
+
+static float set_scale(const figures *f, float longest_m)
+{
+    const float x = f->high.x - f->low.x, y = f->high.y - f->low.y, z = f->high.z - f->low.z;
+    return longest_m > 0.0f ? longest_m / fmaxf(fmaxf(x, y), z) : 1.0f;
+}
+
+int figures_load(figures *f, const relight_options *o, uint32_t count, report *r)
+{
+    model_notes notes = {0};
+    memset(f, 0, sizeof *f);
+    if (strcmp(o->object, "demo") == 0) {
+        f->loaded.scene = *demo_field_figure();
+    } else if (!model_load(&f->loaded, o->object, NULL, &notes, r)) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < notes.count; ++i) {
+        report_note(o->view.is_quiet, "note: %s", notes.line[i]);
+    }
+    f->count = count;
+    f->parts = f->loaded.scene.instance_count;
+    f->owners = o->per_part ? count * f->parts : count;
+    lmb_scene_bounds(&f->low, &f->high, &f->loaded.scene);
+    f->scale = set_scale(f, o->scale_m);
+    if (lmb_scene_triangles(&f->loaded.scene) == 0 || !(f->scale > 0.0f && f->scale < 1e6f)) {
+        return report_fail(r, "%s: nothing to draw: no triangles, or no extent", o->object);
+    }
+    if ((uint64_t)lmb_scene_triangles(&f->loaded.scene) * count > LMB_MAX_TRIANGLES ||
+        (uint64_t)count * f->parts > 65536u) {
+        return report_fail(r, "%s: too many triangles or parts for %u of it", o->object, (unsigned)count);
+    }
+    if (!take_materials(f, o, r) || !take_instances(f, o, r)) {
+        return 0;
+    }
+    f->scene = f->loaded.scene;
+    f->scene.instances = f->instances;
+    f->scene.instance_count = count * f->parts;
+    f->scene.materials = f->materials;
+    f->scene.lights = o->lights;
+    f->scene.light_count = (uint32_t)o->light_count;
+    return 1;
+}
+
+void figures_free(figures *f)
+{
+    free(f->instances);
+    free(f->materials);
+    free(f->gloss_of);
+    model_free(&f->loaded);
+}

@@ -1,0 +1,94 @@
+/* relight_light.c: a world, and the light at its places by any filter. */
+#include "relight_light.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../demo/demo_field.h"
+
+/* --- once --------------------------------------------------------------------------------------------------------- */
+
+static int make_world(relight_light *w, relight_options *o, report *r)
+{
+    const int built_in = strcmp(o->world, "demo") == 0;
+    if (!(built_in ? demo_field_pictures(&o->place, &w->pictures, r)
+                   : world_read_cube(&o->place, &w->pictures, o->world, r)) ||
+        (o->ground != NULL && !world_read_ground(&o->place, &w->pictures, o->ground, r))) {
+        return 0;
+    }
+    const size_t bytes = lmb_world_bytes(&o->place, o->format);
+    if ((w->world_memory = malloc(bytes)) == NULL) {
+        return report_fail(r, "%s: out of memory", o->world);
+    }
+    return lmb_world_init(&w->world, &o->place, o->format, w->world_memory, bytes) == LMB_OK ||
+           report_fail(r, "--world-centre: lies outside the far world, or numbers are over 1,000,000 m");
+}
+
+static int make_table(relight_light *w, int i, report *r)
+{
+    const int32_t width = RELIGHT_WIDTH >> i, height = RELIGHT_HEIGHT >> i;
+    const size_t bytes = lmb_probe_table_bytes(width, height);
+    w->table_memory[i] = malloc(bytes);
+    return (w->table_memory[i] != NULL &&
+            lmb_probe_table_init(&w->table[i], width, height, -180.0f, w->table_memory[i], bytes) == LMB_OK) ||
+           report_fail(r, "out of memory");
+}
+
+static int make_blur(relight_light *w, int32_t terms, report *r)
+{
+    const size_t bytes = lmb_probe_blur_bytes(&w->table[2], terms);
+    w->blur_memory = malloc(bytes);
+    return (w->blur_memory != NULL &&
+            lmb_probe_blur_init(&w->blur, &w->table[2], terms, w->blur_memory, bytes) == LMB_OK) ||
+           report_fail(r, "out of memory");
+}
+
+int relight_light_make(relight_light *w, relight_options *o, report *r)
+{
+    if (!make_world(w, o, r)) {
+        return 0;
+    }
+    for (int i = 0; i < 3; ++i) {
+        if (!make_table(w, i, r)) {
+            return 0;
+        }
+    }
+    return o->filter < FILTER_BLUR || make_blur(w, o->filter - FILTER_BLUR, r);
+}
+
+/* --- per place ---------------------------------------------------------------------------------------------------- */
+
+int relight_light_filter(relight_light *w, const relight_options *o, int32_t n)
+{
+    static const int32_t terms[] = {0, LMB_SH_9, LMB_SH_16, LMB_SH_25};
+    float harmonics[3][LMB_SH_25];
+    if (o->filter >= FILTER_BLUR) {
+        lmb_probe_halve(w->half, w->map, &w->table[0]);
+        lmb_probe_halve(w->half, w->half, &w->table[1]);
+        lmb_probe_blur_map(w->blurred, w->line, o->kernels, w->half, &w->blur);
+        return lmb_probe_map_cube(w->cube, n, w->blurred, &w->table[2]) == LMB_OK;
+    }
+    if (o->filter == FILTER_COSINE) {
+        lmb_probe_reduce(&w->lights, o->kernels, w->map, &w->table[0]);
+        return lmb_probe_cosine(w->cube, n, o->kernels, &w->lights, &w->table[0]) == LMB_OK;
+    }
+    lmb_probe_sh(harmonics, w->map, &w->table[0]);
+    return lmb_probe_sh_cube(w->cube, n, (const float (*)[LMB_SH_25])harmonics, terms[o->filter]) == LMB_OK;
+}
+
+int relight_light_at(relight_light *w, const relight_options *o, lmb_vec3 at, int32_t n, report *r)
+{
+    return (lmb_probe_remap(w->map, o->kernels, &w->world, &w->table[0], at, o->blend) == LMB_OK &&
+            relight_light_filter(w, o, n)) ||
+           report_fail(r, "--at: numbers over 1,000,000 m");
+}
+
+void relight_light_free(relight_light *w)
+{
+    world_pictures_free(&w->pictures);
+    free(w->world_memory);
+    for (int i = 0; i < 3; ++i) {
+        free(w->table_memory[i]);
+    }
+    free(w->blur_memory);
+}

@@ -1,0 +1,31 @@
+/* relight_light.h: a world, and the light at its places. */
+#ifndef RELIGHT_LIGHT_H
+#define RELIGHT_LIGHT_H
+
+#include "../picture/world_read.h"
+#include "relight_options.h"
+
+enum { RELIGHT_WIDTH = 128, RELIGHT_HEIGHT = 64, RELIGHT_MOST_FACES = 64 };
+
+/* All that the work needs; large, and one of it. Zero it before use. */
+typedef struct relight_light {
+    world_pictures pictures;
+    lmb_world world;
+    void *world_memory, *table_memory[3], *blur_memory;
+    lmb_probe_table table[3]; /* of the map, its half and its quarter */
+    lmb_probe_lights lights;
+    lmb_probe_blur blur;
+    float map[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT], half[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT / 4];
+    float blurred[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT / 16], line[RELIGHT_WIDTH];
+    float cube[3 * 6 * RELIGHT_MOST_FACES * RELIGHT_MOST_FACES]; /* planes */
+} relight_light;
+
+/* relight_light_make: read the world and make all that serves every place. relight_light_at: what a place sees, into
+ * `map`, and its irradiance by the filter, n x n x 6, into `cube`. 1, or 0 with `r` set. */
+int relight_light_make(relight_light *out, relight_options *o, report *r);
+int relight_light_at(relight_light *inout, const relight_options *o, lmb_vec3 at, int32_t n, report *r);
+/* relight_light_filter: of `map` as it is. 1, or 0. */
+int relight_light_filter(relight_light *inout, const relight_options *o, int32_t n);
+void relight_light_free(relight_light *w);
+
+#endif

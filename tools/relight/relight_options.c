@@ -1,0 +1,232 @@
+/* relight_options.c: the command line of `lambent relight`. */
+#include "relight_options.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/option_value.h"
+#include "../common/options.h"
+#include "../demo/demo_field.h"
+#include "../picture/picture.h"
+
+const char *const relight_filters[FILTERS + 1] = {"cosine", "sh9", "sh16", "sh25", "blur", "blur1", "blur2", NULL};
+
+/* --- values of their own kinds ------------------------------------------------------------------------------------ */
+
+static int all_floats(const char *text, float *out, int count)
+{
+    return option_floats(&text, out, count) && *text == '\0';
+}
+
+static int parse_sphere(const char *text, void *at)
+{
+    relight_options *o = at;
+    float v[4];
+    if (!all_floats(text, v, 4) || !(v[3] > 0.0f)) {
+        return 0;
+    }
+    o->place.shape = LMB_WORLD_SPHERE;
+    o->place.middle = (lmb_vec3){v[0], v[1], v[2]};
+    o->place.radius = v[3];
+    return o->has_far = 1;
+}
+
+static int parse_box(const char *text, void *at)
+{
+    relight_options *o = at;
+    float v[6];
+    if (!all_floats(text, v, 6) || !(v[0] < v[3] && v[1] < v[4] && v[2] < v[5])) {
+        return 0;
+    }
+    o->place.shape = LMB_WORLD_BOX;
+    o->place.low = (lmb_vec3){v[0], v[1], v[2]};
+    o->place.high = (lmb_vec3){v[3], v[4], v[5]};
+    return o->has_far = 1;
+}
+
+int relight_place(const char *text, lmb_vec3 *out)
+{
+    return option_vec3(text, out) && fabsf(out->x) <= 1e6f && fabsf(out->y) <= 1e6f && fabsf(out->z) <= 1e6f;
+}
+
+static int parse_place(const char *text, void *at) { return relight_place(text, at); }
+
+/* --- the table ---------------------------------------------------------------------------------------------------- */
+
+static const char *const storages[] = {"f32", "log16", "log8", NULL}; /* in the order of LMB_WORLD_ */
+static const char *const overlaps[] = {"nearer", "mean", NULL};
+static const char *const shows[] = {"both", "normal", "gloss", NULL}; /* in the order of LMB_RELIGHT_ */
+
+#define AT(member) .at = offsetof(relight_options, member)
+#define COUNTS(member) .counts = offsetof(relight_options, member)
+
+static const option_row world_rows[] = {
+    {.kind = OPTION_TITLE, .help = "world"},
+    {.name = "--world", .value = "FILE|PREFIX", .kind = OPTION_TEXT, AT(world),
+     .help = "one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole sphere, twice as wide as "
+             "high; or six files, PREFIXpx PREFIXnx ... PREFIXnz (.pfm .hdr .png .jpg), of which some may be missing; or "
+             "`demo`, a built-in field with places of its own"},
+    {.name = "--world-centre", .kind = OPTION_POINT, AT(place.centre), .help = "where it was taken (default 0,0,0)"},
+    {.name = "--world-sphere", .value = "X,Y,Z,R", .kind = OPTION_OWN, .parse = parse_sphere,
+     .wants = "X,Y,Z,R with R over 0",
+     .help = "what is far lies on this sphere (default: 100 m around the centre)"},
+    {.name = "--world-box", .value = "X0,Y0,Z0,X1,Y1,Z1", .kind = OPTION_OWN, .parse = parse_box,
+     .wants = "X0,Y0,Z0,X1,Y1,Z1, the smaller ones first",
+     .help = "or on the walls of this box; the centre lies inside"},
+    {.name = "--ground", .value = "FILE", .kind = OPTION_TEXT, AT(ground),
+     .help = "the ground from above, right +x, down +z; transparent where it is not known"},
+    {.name = "--ground-size", .value = "W,D", .kind = OPTION_NUMBERS, AT(ground_size), .size = 2, .low = 1e-6,
+     .high = 1e30, .wants = "W,D over 0", .help = "its sides, m (default 100,100)"},
+    {.name = "--ground-centre", .value = "X,Z", .kind = OPTION_NUMBERS, AT(ground_centre), .size = 2, .low = -1e30,
+     .high = 1e30, COUNTS(has_ground_centre), .help = "the picture's middle (default: the world's centre)"},
+    {.name = "--ground-height", .value = "H", .kind = OPTION_NUMBER, AT(place.ground_y), .low = -1e30, .high = 1e30,
+     .help = "of the ground, m (default 0)"},
+    {.name = "--storage", .kind = OPTION_WORD, AT(format), .words = storages,
+     .help = "how the world is kept: floats, or log codes of 0 to 100 (default f32)"},
+    {.name = "--overlap", .kind = OPTION_WORD, AT(blend), .words = overlaps,
+     .help = "where far world and ground both show (default nearer)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row light_rows[] = {
+    {.kind = OPTION_TITLE, .help = "light"},
+    {.name = "--at", .value = "X,Y,Z", .kind = OPTION_OWN, AT(at), COUNTS(at_count), .times = RELIGHT_PLACES,
+     .size = sizeof(lmb_vec3), .parse = parse_place, .wants = "X,Y,Z within 1,000,000 m",
+     .help = "the place (default: the world's centre); outside the far world: the nearest in it. With --object: one more "
+             "of it each time"},
+    {.name = "--filter", .kind = OPTION_WORD, AT(filter), .words = relight_filters,
+     .help = "cosine: exact, from 6 x 8 x 8 directions (default); off by about 0.5 %;\n"
+             "sh9, sh16, sh25: spherical harmonics: 1 %, the same, 0.6 %; may be negative beside sharp lights;\n"
+             "blur, blur1, blur2: by rows and columns: the source's 6 %, one product fitted a row 4 %, two 1.5 %"},
+    {.name = "--cube", .value = "OUT", .kind = OPTION_OWN, AT(cube), .parse = picture_option,
+     .wants = PICTURE_OPTION_WANTS,
+     .help = "W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to look at)"},
+    {.name = "--faces", .value = "N", .kind = OPTION_INT, AT(faces), .low = 1, .high = 64,
+     .help = "texels of a face's side (default 8)"},
+    {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .parse = picture_option,
+     .wants = PICTURE_OPTION_WANTS,
+     .help = "what the place sees, 128 x 64: longitude from -180 degrees, north on top; W/(sr m2)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row object_rows[] = {
+    {.kind = OPTION_TITLE, .help = "objects"},
+    {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object),
+     .help = ".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, and is lit "
+             "as its box's middle is"},
+    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale_m), .low = 1e-3, .high = 1e5,
+     .help = "its longest side, m (default: as the file says)"},
+    {.name = "--roughness", .value = "R", .kind = OPTION_NUMBER, AT(roughness), .low = 0, .high = 1,
+     .help = "0: a mirror (default: glTF's materials' own, else 0.4)"},
+    {.name = "--f0", .value = "F", .kind = OPTION_NUMBER, AT(f0), .low = 0, .high = 1,
+     .help = "what it mirrors where it faces the viewer (default: its own, else 0.04)"},
+    {.name = "--per-part", .kind = OPTION_FLAG, AT(per_part),
+     .help = "each part of the object is lit as its own box's middle is"},
+    {.name = "--light", .kind = OPTION_LIGHT, AT(lights), COUNTS(light_count), .times = RELIGHT_LIGHTS,
+     .size = sizeof(lmb_light), .help = "a lamp or sun beside the world's light, as in `lambent render`"},
+    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
+     .help = "all light, that by normals alone, or what is mirrored alone (default both)"},
+    {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path),
+     .help = "places of the object, X,Y,Z a line: a picture each, OUT with -0000, -0001, ..."},
+    {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
+     .help = "an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
+             "rests)"},
+    {.name = "--every", .value = "N", .kind = OPTION_INT, AT(policy.every), .low = 1, .high = 1 << 20,
+     .help = "but no longer than N pictures if it moves at all"},
+    {.name = "--keep", .value = "X,Y,Z", .kind = OPTION_OWN, AT(keep), COUNTS(keep_count), .times = RELIGHT_PLACES,
+     .size = sizeof(lmb_vec3), .parse = parse_place, .wants = "X,Y,Z within 1,000,000 m",
+     .help = "a named place: objects within --reuse of it use its light"},
+    {.kind = OPTION_END},
+};
+
+static const option_row picture_rows[] = {
+    {.kind = OPTION_TITLE, .help = "picture"},
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+     .help = ".png .ppm (display), .pfm .hdr (linear)"},
+    VIEW_OPTION_SIZE(relight_options, view, "px (default 640x480)"),
+    VIEW_OPTIONS_CAMERA(relight_options, view, "where the camera stands (default: so that all objects fit)"),
+    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
+     .wants = OPTION_STOPS_WANTS, .help = "stops, display formats only (default auto: said on stderr)"},
+    OPTION_BACKEND_ROW(relight_options, kernels),
+    OPTION_LOUDNESS(relight_options, view.is_quiet, view.is_verbose, "say how long what took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+const option_table relight_table = {
+    .verb = "relight",
+    .usage = "relight --world WORLD [--at X,Y,Z] --cube OUT [options]\n"
+             "relight --world WORLD --object FILE [--at X,Y,Z ...] -o OUT [options]",
+    .about = "What a place in a world receives, from pictures of the world that were taken elsewhere: irradiance by "
+             "normal, as a small cube map; and objects drawn in that light, over the world as background. Metres, +Y up, "
+             "linear light.",
+    .part = {world_rows, light_rows, object_rows, picture_rows},
+    .examples = "  lambent relight --world demo --at 4,1,-2 --cube light.pfm\n"
+                "  lambent relight --world demo --object demo -o field.png\n",
+};
+
+/* --- all of it ---------------------------------------------------------------------------------------------------- */
+
+static int check_together(const relight_options *o, report *r)
+{
+    if (o->world == NULL) {
+        return report_fail(r, "no world given; add --world FILE");
+    }
+    if (o->cube == NULL && o->map == NULL && o->out == NULL) {
+        return report_fail(r, "no output given; add --cube FILE.pfm, or --object FILE -o FILE.png");
+    }
+    if ((o->object == NULL) != (o->out == NULL)) {
+        return report_fail(r, "--object and -o go together");
+    }
+    if (o->path != NULL && (o->object == NULL || o->at_count > 0)) {
+        return report_fail(r, "--path moves one --object; leave --at out");
+    }
+    if ((o->cube != NULL || o->map != NULL) && (o->at_count > 1 || o->path != NULL)) {
+        return report_fail(r, "--cube and --map are of one place: give one --at");
+    }
+    return view_options_check(&o->view, r);
+}
+
+/* What follows from what was given. */
+static void complete(relight_options *o)
+{
+    lmb_world_pictures *p = &o->place;
+    if (!o->has_far) {
+        p->middle = p->centre;
+        p->radius = 100.0f;
+    }
+    if (!o->has_ground_centre) {
+        o->ground_centre[0] = p->centre.x;
+        o->ground_centre[1] = p->centre.z;
+    }
+    p->ground_width_m = o->ground_size[0];
+    p->ground_depth_m = o->ground_size[1];
+    p->ground_x = o->ground_centre[0] - 0.5f * o->ground_size[0];
+    p->ground_z = o->ground_centre[1] - 0.5f * o->ground_size[1];
+    if (o->at_count == 0 && o->path == NULL) {
+        o->at[0] = p->centre;
+        o->at[0].y = o->object != NULL && o->ground != NULL ? p->ground_y : p->centre.y;
+        o->at_count = 1;
+    }
+}
+
+int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
+{
+    memset(o, 0, sizeof *o);
+    o->faces = 8;
+    o->ground_size[0] = o->ground_size[1] = 100.0f;
+    o->roughness = o->f0 = -1.0f;
+    o->policy.radius_m = LMB_PROBE_RADIUS;
+    o->exposure_ev = NAN;
+    o->kernels = lmb_kernels_pick();
+    view_options_init(&o->view);
+    const int asked = options_parse(o, &relight_table, argc, argv, r);
+    if (asked != OPTIONS_RUN) {
+        return asked;
+    }
+    if (o->world != NULL && strcmp(o->world, "demo") == 0) {
+        demo_field_options(o);
+    }
+    complete(o);
+    return check_together(o, r) ? OPTIONS_RUN : OPTIONS_BAD;
+}

@@ -1,0 +1,48 @@
+/* relight_options.h: what `lambent relight` was asked for. */
+#ifndef RELIGHT_OPTIONS_H
+#define RELIGHT_OPTIONS_H
+
+#include <lambent/lambent.h>
+
+#include "../common/report.h"
+#include "../common/view_options.h"
+
+enum { RELIGHT_PLACES = 32, RELIGHT_LIGHTS = 16 }; /* --at and --keep; --light: given at most so often */
+
+enum { FILTER_COSINE, FILTER_SH9, FILTER_SH16, FILTER_SH25, FILTER_BLUR, FILTER_BLUR1, FILTER_BLUR2, FILTERS };
+extern const char *const relight_filters[FILTERS + 1];
+
+typedef struct relight_options {
+    /* the world */
+    const char *world, *ground;
+    lmb_world_pictures place; /* all but the pictures */
+    float ground_size[2], ground_centre[2];
+    int32_t format, blend;
+    int32_t has_far, has_ground_centre;
+    /* what is in it */
+    const char *object, *path;
+    lmb_vec3 at[RELIGHT_PLACES], keep[RELIGHT_PLACES];
+    int32_t at_count, keep_count;
+    float scale_m;       /* of the object's longest side; 0: as its file says */
+    float roughness, f0; /* < 0: its materials' own */
+    int per_part;
+    lmb_light lights[RELIGHT_LIGHTS];
+    int32_t light_count;
+    lmb_probe_policy policy;
+    /* how and where to */
+    int32_t filter, faces, show;
+    view_options view;
+    const char *out, *cube, *map;
+    float exposure_ev; /* NaN: chosen by the picture */
+    const lmb_kernels *kernels;
+} relight_options;
+
+extern const option_table relight_table;
+
+/* X,Y,Z within 1,000,000 m. 1, or 0 where the text is none. */
+int relight_place(const char *text, lmb_vec3 *out);
+
+/* As options_parse. */
+int relight_options_parse(relight_options *out, int argc, char **argv, report *r);
+
+#endif

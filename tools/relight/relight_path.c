@@ -1,0 +1,66 @@
+/* relight_path.c: a file of places, X,Y,Z a line. */
+#include "relight_path.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../picture/image.h"
+#include "relight_options.h"
+
+enum { LONGEST = 200, MOST = 10000 };
+
+/* A line without its blanks at both ends: 0 where it is too long for one. */
+static int take_line(char out[LONGEST], const char *from, size_t length)
+{
+    while (length > 0 && strchr(" \t\r", from[length - 1]) != NULL) {
+        --length;
+    }
+    while (length > 0 && (*from == ' ' || *from == '\t')) {
+        ++from;
+        --length;
+    }
+    if (length >= LONGEST || memchr(from, '\0', length) != NULL) {
+        return 0;
+    }
+    memcpy(out, from, length);
+    out[length] = '\0';
+    return 1;
+}
+
+static int read_places(place_list *out, const char *text, size_t size, const char *path, report *r)
+{
+    for (size_t at = 0, line = 1; at < size; ++line) {
+        const char *end = memchr(text + at, '\n', size - at);
+        const size_t length = end != NULL ? (size_t)(end - text) - at : size - at;
+        char word[LONGEST];
+        if (!take_line(word, text + at, length)) {
+            return report_fail(r, "%s:%u: the line is too long, or no text", path, (unsigned)line);
+        }
+        if (word[0] != '\0' && word[0] != '#') {
+            if (out->count == MOST) {
+                return report_fail(r, "%s:%u: over %d places", path, (unsigned)line, MOST);
+            }
+            if (!relight_place(word, &out->place[out->count++])) {
+                return report_fail(r, "%s:%u: `%s` is not X,Y,Z within 1,000,000 m", path, (unsigned)line, word);
+            }
+        }
+        at += length + 1;
+    }
+    return out->count > 0 || report_fail(r, "%s: no places in it", path);
+}
+
+int place_list_read(place_list *out, const char *path, report *r)
+{
+    file_bytes file;
+    memset(out, 0, sizeof *out);
+    if (!file_read(&file, path, r)) {
+        return 0;
+    }
+    out->place = malloc(MOST * sizeof *out->place);
+    const int ok = out->place != NULL ? read_places(out, (const char *)file.data, file.size, path, r)
+                                      : report_fail(r, "%s: out of memory", path);
+    file_free(&file);
+    return ok;
+}
+
+void place_list_free(place_list *list) { free(list->place); }

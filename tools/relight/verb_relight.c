@@ -1,0 +1,83 @@
+/* verb_relight.c: `lambent relight`: the light at a place of a world that was seen from another, and objects in it. */
+#include "verb_relight.h"
+
+#include <stdlib.h>
+
+#include "../../platform/host/host.h"
+#include "../picture/picture.h"
+#include "relight_draw.h"
+#include "relight_light.h"
+
+/* Planes as a picture. */
+static int write_planes(const char *path, const float *planes, int32_t width, int32_t height, report *r)
+{
+    const size_t pixels = (size_t)width * (size_t)height;
+    image out = {width, height, 3, malloc(3 * pixels * sizeof(float))};
+    if (out.pixels == NULL) {
+        return report_fail(r, "%s: out of memory", path);
+    }
+    for (size_t i = 0; i < 3 * pixels; ++i) {
+        out.pixels[i] = planes[i % 3 * pixels + i / 3];
+    }
+    const int ok = picture_write(path, &out, picture_auto_exposure(&out), r);
+    image_free(&out);
+    return ok;
+}
+
+static int can_write(const relight_options *o, report *r)
+{
+    const char *const paths[] = {o->cube, o->map, o->path == NULL ? o->out : NULL};
+    for (int i = 0; i < 3; ++i) {
+        if (paths[i] != NULL && !file_can_write(paths[i], r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Of the one place that was asked for; with an object, of its middle. */
+static int write_light(relight_light *w, const relight_options *o, lmb_vec3 at, report *r)
+{
+    return relight_light_at(w, o, at, o->faces, r) &&
+           (o->map == NULL || write_planes(o->map, w->map, RELIGHT_WIDTH, RELIGHT_HEIGHT, r)) &&
+           (o->cube == NULL || write_planes(o->cube, w->cube, o->faces, 6 * o->faces, r));
+}
+
+static int relight(relight_light *w, relight_options *o, report *r)
+{
+    lmb_vec3 at = o->at[0];
+    const int is_brief = !o->view.is_verbose;
+    const double start = host_seconds();
+    if (!can_write(o, r) || !relight_light_make(w, o, r)) {
+        return 0;
+    }
+    const double made = host_seconds();
+    report_note(is_brief, "the world and its tables %10.1f ms", (made - start) * 1e3);
+    if (o->object != NULL && !relight_draw(&at, w, o, r)) {
+        return 0;
+    }
+    const double drawn = host_seconds();
+    report_note(is_brief || o->object == NULL, "objects and their picture %8.1f ms", (drawn - made) * 1e3);
+    if ((o->cube != NULL || o->map != NULL) && !write_light(w, o, at, r)) {
+        return 0;
+    }
+    report_note(is_brief, "light at the place %16.1f ms", (host_seconds() - drawn) * 1e3);
+    return 1;
+}
+
+int verb_relight(int argc, char **argv)
+{
+    report r = {""};
+    relight_options o;
+    const int asked = relight_options_parse(&o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &relight_table, &r);
+    }
+    relight_light *w = calloc(1, sizeof *w);
+    const int ok = w != NULL ? relight(w, &o, &r) : report_fail(&r, "out of memory");
+    if (w != NULL) {
+        relight_light_free(w);
+        free(w);
+    }
+    return ok ? 0 : report_end(&r, "relight", 1);
+}

@@ -1,0 +1,179 @@
+/* render_draw.c: a picture drawn, as it is shown. */
+#include "render_draw.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../picture/picture.h"
+#include "map_picture.h"
+
+static void show_progress(const lmb_render *render, double since)
+{
+    const char *name;
+    float part = lmb_render_progress(&name, render);
+    double passed = host_seconds() - since;
+    char bar[21];
+    for (int i = 0; i < 20; ++i) {
+        bar[i] = (float)i < part * 20.0f ? '#' : '.';
+    }
+    bar[20] = '\0';
+    if (render->stage == LMB_STAGE_BANDS && part > 0.02f) {
+        fprintf(stderr, "\r%-12s [%s] %3.0f %%  %.0f s left   ", name, bar, (double)part * 100.0,
+                passed / (double)part - passed);
+    } else {
+        fprintf(stderr, "\r%-12s [%s] %3.0f %%               ", name, bar, (double)part * 100.0);
+    }
+}
+
+typedef struct watcher {
+    int32_t stage;
+    double start, stage_start, shown; /* s; shown 0: nothing was */
+} watcher;
+
+/* What stopped a frame, in words. The memory is sized here, so little can. */
+static int explain(const render_job *j, lmb_status status, int stage, report *r)
+{
+    if (status == LMB_ERR_CAPACITY && stage == LMB_STAGE_GROUPS) {
+        return report_fail(r, "--grouping none: %u discs do not fit %d groups; use a smaller --light-map, or zones",
+                           (unsigned)j->stats.first_points, LMB_MAX_GROUPS);
+    }
+    return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
+}
+
+/* A second of silence first, then ten times a second. */
+static void watch(void *user, const lmb_render *at)
+{
+    watcher *w = user;
+    const double now = host_seconds();
+    if (at->stage != w->stage) {
+        w->stage = at->stage;
+        w->stage_start = now;
+    }
+    if (now - w->start > 1.0 && now - w->shown > 0.1) {
+        show_progress(at, w->stage_start);
+        w->shown = now;
+    }
+}
+
+/* The frame `how` for all eyes; the light's stages once a run. */
+static lmb_status draw_eyes(render_job *j, crew *c, int32_t *stage, lmb_frame how, const image *into)
+{
+    lmb_status status = LMB_OK;
+    for (int32_t eye = 0; eye < j->eyes && status == LMB_OK; ++eye) {
+        render_job_eye(j, &how, into, eye);
+        status = j->lit ? crew_again(c, stage, j->render, &how) : crew_render(c, stage, j->render, &how);
+        j->lit = 1;
+    }
+    return status;
+}
+
+static int draw(render_job *j, report *r)
+{
+    watcher w = {LMB_STAGE_LIGHT_MAP, host_seconds(), 0.0, 0.0};
+    w.stage_start = w.start;
+    j->crew.tell = host_watched() && !j->o.view.is_quiet ? watch : NULL;
+    j->crew.user = &w;
+    int32_t stage;
+    lmb_status status = draw_eyes(j, &j->crew, &stage, j->frame, &j->linear);
+    if (w.shown > 0.0) {
+        fprintf(stderr, "\r%60s\r", "");
+    }
+    return status == LMB_OK || explain(j, status, stage, r);
+}
+
+/* The same frame once more, shown otherwise, by the same light: but elements that send theirs do it by one occlusion.
+ * Neither told nor timed. */
+int render_draw_once_more(render_job *j, image *out, lmb_frame how, report *r)
+{
+    crew again = j->crew;
+    int32_t stage;
+    again.tell = NULL;
+    how.stats = NULL;
+    j->lit = how.elements.data == NULL || how.occlusion == j->frame.occlusion;
+    if (!render_job_picture(j, out, r)) {
+        return 0;
+    }
+    lmb_status status = draw_eyes(j, &again, &stage, how, out);
+    return status == LMB_OK || explain(j, status, stage, r);
+}
+
+/* The share of the light that is blocked: 1 - with / without, over the sum of the channels. */
+static int draw_occlusion(render_job *j, report *r)
+{
+    image open = {0, 0, 0, NULL};
+    lmb_frame f = j->frame;
+    const size_t n = (size_t)j->linear.width * (size_t)j->linear.height;
+    float *p = j->linear.pixels;
+    f.occlusion = LMB_OCCLUSION_NONE;
+    if (!draw(j, r) || !render_draw_once_more(j, &open, f, r)) {
+        image_free(&open);
+        return 0;
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const float *all = open.pixels + 3 * i;
+        const float with = p[3 * i] + p[3 * i + 1] + p[3 * i + 2], without = all[0] + all[1] + all[2];
+        p[i] = without > 0.0f ? fminf(fmaxf(1.0f - with / without, 0.0f), 1.0f) : 0.0f;
+    }
+    j->linear.channels = 1;
+    image_free(&open);
+    return 1;
+}
+
+/* The light's stages as far as they are shown, and their picture in place of the eye's. */
+static int draw_map(render_job *j, report *r)
+{
+    const int display = !picture_is_linear(picture_format(j->o.out));
+    const int32_t past = j->o.show == SHOW_GROUPS   ? LMB_STAGE_VIEW
+                         : j->o.show == SHOW_POINTS ? LMB_STAGE_GROUPS
+                                                    : LMB_STAGE_POINTS;
+    int32_t stage;
+    lmb_status status = crew_light(&j->crew, &stage, j->render, &j->frame, past);
+    if (status != LMB_OK) {
+        return explain(j, status, stage, r);
+    }
+    image_free(&j->linear);
+    return j->o.show == SHOW_GROUPS   ? map_groups(&j->linear, j->render, display, r)
+           : j->o.show == SHOW_POINTS ? map_points(&j->linear, j->render, display, r)
+                                      : map_distances(&j->linear, j->render, r);
+}
+
+/* Attributes of what one eye sees, instead of light: the view alone is drawn. */
+static lmb_status draw_attribute(render_job *j)
+{
+    lmb_frame *f = &j->frame;
+    const lmb_surface *depth = f->out.format == LMB_R32F ? &f->out : NULL;
+    const lmb_surface *normal = j->o.show == SHOW_NORMAL ? &f->out : NULL;
+    const lmb_surface *albedo = j->o.show == SHOW_ALBEDO ? &f->out : NULL;
+    lmb_surface_clear(&f->eye.depth);
+    lmb_surface_clear(&f->eye.id);
+    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, &j->stats);
+    for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
+        status =
+            lmb_gbuffer_band(depth, normal, albedo, &f->scratch->tile, f->kernels, &f->view, &j->scene, &f->eye, band);
+    }
+    if (j->o.show == SHOW_EYE_DISTANCE) {
+        distance_of_depth(f->out.data, f->out.width, f->out.height, (size_t)j->linear.width, &f->view);
+    }
+    return status;
+}
+
+static int draw_attributes(render_job *j, report *r)
+{
+    lmb_status status = LMB_OK;
+    j->linear.channels = j->o.show == SHOW_DEPTH || j->o.show == SHOW_EYE_DISTANCE ? 1 : 3;
+    for (int32_t eye = 0; eye < j->eyes && status == LMB_OK; ++eye) {
+        render_job_eye(j, &j->frame, &j->linear, eye);
+        status = draw_attribute(j);
+    }
+    return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", j->o.scene, lmb_status_name(status));
+}
+
+int render_draw(render_job *j, report *r)
+{
+    return shows_attribute(j->o.show)    ? draw_attributes(j, r)
+           : shows_map(j->o.show)        ? draw_map(j, r)
+           : j->o.show == SHOW_OCCLUSION ? draw_occlusion(j, r)
+                                         : draw(j, r);
+}

@@ -1,0 +1,300 @@
+/* render_job.c: a picture's scene, lights and memory. */
+#include "render_job.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../demo/demo_scene.h"
+#include "../picture/picture.h"
+#include "own_light.h"
+#include "render_view.h"
+
+#define HALF_STEP   0.00015f /* of black in 8 bits: radiance at exposure 0 */
+#define MOST_MAPPED 32 /* lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
+
+void render_job_free(render_job *j)
+{
+    free(j->block);
+    free(j->owner_memory);
+    free(j->render);
+    image_free(&j->linear);
+    many_lights_free(&j->many);
+    model_free(&j->loaded);
+}
+
+static void *take(render_job *j, size_t bytes, report *r)
+{
+    void *p = malloc(bytes > 0 ? bytes : 1);
+    j->bytes += bytes;
+    if (p == NULL) {
+        report_fail(r, "not enough memory: %.0f MiB more wanted; try a smaller --size or --light-map",
+                    (double)bytes / 1048576.0);
+    }
+    return p;
+}
+
+/* To whoever watches. */
+static void note(const render_job *j, const char *format, ...) REPORT_PRINTF(2, 3);
+
+static void note(const render_job *j, const char *format, ...)
+{
+    va_list args;
+    if (j->o.view.is_quiet) {
+        return;
+    }
+    va_start(args, format);
+    fputs("lambent: ", stderr);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+    va_end(args);
+}
+
+/* --- scene and lights --------------------------------------------------------------------------------------------- */
+
+int render_job_load(render_job *j, report *r)
+{
+    if (strcmp(j->o.scene, "demo") == 0) {
+        j->scene = *demo_scene();
+        return !j->o.glossy || report_fail(r, "--glossy: the demo's materials have no lobe; give a glTF scene");
+    }
+    if (!model_load(&j->loaded, j->o.scene, j->o.scene_name, &j->notes, r)) {
+        return 0;
+    }
+    if (j->o.glossy && !model_make_glossy(&j->loaded)) {
+        return report_fail(r, "--glossy: %s: only glTF's materials have a lobe", j->o.scene);
+    }
+    j->scene = j->loaded.scene;
+    return lmb_scene_triangles(&j->scene) > 0 ||
+           report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
+}
+
+/* Once nothing but memory can fail: an error is a line on its own. */
+static void tell_notes(const render_job *j)
+{
+    for (uint32_t i = 0; i < j->notes.count; ++i) {
+        note(j, "note: %s", j->notes.line[i]);
+    }
+}
+
+/* Is there light without lamps? */
+static int shines_itself(const render_job *j)
+{
+    return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_shines(&j->scene);
+}
+
+/* Without lamps: a sun, but where what shines by itself is the scene's light. 0 with `r` set: out of memory. */
+static int set_lights(render_job *j, report *r)
+{
+    if (j->o.light_count > 0) {
+        j->scene.lights = j->o.lights;
+        j->scene.light_count = j->o.light_count;
+    } else if (j->scene.light_count == 0) {
+        const float own = shines_itself(j) ? own_light(&j->scene, r) : 0.0f;
+        if (own < 0.0f || own >= OWN_LIGHT) {
+            return own >= 0.0f;
+        }
+        lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL,
+                         0};
+        j->sun = sun;
+        j->scene.lights = &j->sun;
+        j->scene.light_count = 1;
+        note(j, "no light in %s: a sun of 3 W/m2 from the upper right; --light sets others", j->o.scene);
+    }
+    return 1;
+}
+
+/* Maps of bounced light cost by the light, each as much as a picture. Lobes mirror lights of maps alone. */
+static uint32_t most_mapped(const render_job *j)
+{
+    const int bounces = j->o.show == LMB_SHOW_FULL || j->o.show == LMB_SHOW_INDIRECT || j->o.show == LMB_SHOW_IRRADIANCE;
+    const int mirrors = j->o.glossy && lmb_scene_is_glossy(&j->scene);
+    return bounces && !mirrors && j->o.grouping.method == LMB_GROUP_CUT ? MOST_MAPPED : LMB_MAX_LIGHTS;
+}
+
+/* Lights that are too many for maps, or that were asked to, go into a tree. */
+static int set_many_lights(render_job *j, report *r)
+{
+    const uint32_t cells = j->o.many_cells > 0 ? (uint32_t)j->o.many_cells : MANY_LIGHTS_CELLS;
+    if (j->o.many_cells == 0 && j->scene.light_count <= most_mapped(j)) {
+        return 1;
+    }
+    if (j->o.show != LMB_SHOW_DIRECT && j->o.grouping.method != LMB_GROUP_CUT) {
+        return report_fail(r, "%s: %u lights bounce by --grouping cut only; or use --show direct", j->o.scene,
+                           (unsigned)j->scene.light_count);
+    }
+    if (!many_lights_take(&j->many, &j->scene, cells, r)) {
+        return 0;
+    }
+    note(j, "%u lights in %u cells (--many-lights)", (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count);
+    return 1;
+}
+
+/* --- memory ------------------------------------------------------------------------------------------------------- */
+
+/* Who holds a texel's light: asked for only where it is shown. */
+static int take_owners(render_job *j, report *r)
+{
+    const lmb_frame *f = &j->frame;
+    lmb_points *p = &j->frame.points;
+    const uint64_t texels = (uint64_t)f->light_map * (uint64_t)f->light_map *
+                            (f->map_bytes / lmb_light_map_bytes(1, f->light_map, f->id_format));
+    if (texels > UINT32_MAX / 16) {
+        return report_fail(r, "%.0f texels are too many to show; use a smaller --light-map", (double)texels);
+    }
+    p->owner = j->owner_memory = take(j, (size_t)texels * sizeof *p->owner, r);
+    p->owner_cap = (uint32_t)texels;
+    return p->owner != NULL;
+}
+
+/* Where in a picture of all eyes one eye's goes. */
+static lmb_surface eye_surface(const render_job *j, const image *whole, int32_t eye)
+{
+    lmb_surface s;
+    memset(&s, 0, sizeof s);
+    s.data = whole->pixels + (size_t)eye * (size_t)(j->o.view.width * whole->channels);
+    s.width = j->o.view.width;
+    s.height = whole->height;
+    s.stride_bytes = whole->width * whole->channels * (int32_t)sizeof(float);
+    s.format = whole->channels == 1 ? LMB_R32F : LMB_RGB32F;
+    return s;
+}
+
+void render_job_eye(const render_job *j, lmb_frame *f, const image *whole, int32_t eye)
+{
+    const float right_m = j->o.stereo_m * ((float)eye - 0.5f * (float)(j->eyes - 1));
+    f->view = view_from(&j->middle, right_m, &j->scene);
+    f->out = eye_surface(j, whole, eye);
+}
+
+int render_job_picture(render_job *j, image *out, report *r)
+{
+    size_t bytes = (size_t)(j->o.view.width * j->eyes) * (size_t)j->o.view.height * 3 * sizeof(float);
+    out->pixels = take(j, bytes, r);
+    out->width = j->o.view.width * j->eyes;
+    out->height = j->o.view.height;
+    out->channels = 3;
+    if (out->pixels != NULL) {
+        memset(out->pixels, 0, bytes);
+    }
+    return out->pixels != NULL;
+}
+
+/* What the options ask of the frame's memory. `bare`: the scene without lights, for what shows none. */
+static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare)
+{
+    const render_options *o = &j->o;
+    lmb_frame_settings s;
+    memset(&s, 0, sizeof s);
+    s.scene = shows_attribute(o->show) ? bare : &j->scene;
+    s.many = j->many.tree.node != NULL ? &j->many.tree : NULL;
+    s.view = j->middle;
+    s.view.frame_width = o->view.width;
+    s.view.frame_height = o->view.height;
+    s.out = eye_surface(j, &j->linear, 0);
+    s.show = shows_attribute(o->show) || o->show == SHOW_LIGHT_DISTANCE ? LMB_SHOW_DIRECT
+             : o->show == SHOW_OCCLUSION                                ? LMB_SHOW_IRRADIANCE
+             : shows_map(o->show)                                       ? LMB_SHOW_FULL
+                                                                        : o->show;
+    s.quality = o->grouping.method == LMB_GROUP_CUT ? o->quality : LMB_QUALITY_FIXED;
+    s.grouping = o->grouping;
+    s.bounces = o->bounces;
+    s.threads = j->crew.threads;
+    s.light_map = o->light_map;
+    s.tree = o->tree;
+    s.error = o->error;
+    s.visible = o->visible;
+    s.elements = (uint32_t)o->elements;
+    s.id_format = LMB_ID32;
+    return s;
+}
+
+/* What the library refuses of what the options let through. */
+static int refuse(const lmb_frame_settings *s, report *r)
+{
+    return s->quality == LMB_QUALITY_FIXED
+               ? report_fail(r, "more first points than can be counted; use a larger --block or a smaller --light-map")
+               : report_fail(r, "--grouping cut: --light-map must be a power of two, not %d", (int)s->light_map);
+}
+
+/* What takes no memory, as the options have it. */
+static void set_numbers(render_job *j)
+{
+    lmb_frame *f = &j->frame;
+    f->kernels = j->o.kernels;
+    f->scene = &j->scene;
+    f->show = j->o.show < SHOW_DEPTH ? j->o.show : j->o.show == SHOW_OCCLUSION ? LMB_SHOW_IRRADIANCE : LMB_SHOW_FULL;
+    f->many_error = j->o.light_error;
+    f->occlusion = j->o.occlusion;
+    f->steps = j->o.steps;
+    f->proven = j->o.proven;
+    f->bounces = j->o.bounces;
+    f->truncated = j->o.truncated;
+    f->gather_step = j->o.gather_step != 0 ? j->o.gather_step : f->gather_step;
+    f->stats = &j->stats;
+    f->everything = shows_map(j->o.show); /* also maps of lights that give nothing */
+    const int shows_steps = j->o.out != NULL && !picture_is_linear(picture_format(j->o.out)) && !j->o.exposure_auto;
+    f->least = shows_steps ? HALF_STEP * exp2f(-j->o.exposure_ev) : 0.0f;
+}
+
+int render_job_refit(render_job *j, report *r)
+{
+    lmb_scene bare = j->scene;
+    bare.light_count = 0;
+    const lmb_frame_settings s = settings_of(j, &bare);
+    const size_t bytes = lmb_frame_bytes(&s);
+    free(j->block);
+    j->block = NULL;
+    j->bytes -= j->block_bytes;
+    j->block_bytes = bytes;
+    if (bytes == 0) {
+        return refuse(&s, r);
+    }
+    j->block = take(j, bytes, r);
+    if (j->block == NULL) {
+        return 0;
+    }
+    const lmb_status status = lmb_frame_init(&j->frame, &s, j->block, bytes);
+    if (status != LMB_OK) {
+        return report_fail(r, "%s: %s", j->o.scene, lmb_status_name(status));
+    }
+    j->crew.scratches = j->frame.scratch;
+    set_numbers(j);
+    render_job_eye(j, &j->frame, &j->linear, 0);
+    return 1;
+}
+
+/* The picture, the frame's state and its block. */
+static int take_memory(render_job *j, report *r)
+{
+    j->render = take(j, sizeof *j->render, r);
+    if (j->render == NULL || !render_job_picture(j, &j->linear, r) || !render_job_refit(j, r)) {
+        return 0;
+    }
+    memset(j->render, 0, sizeof *j->render);
+    return !shows_map(j->o.show) || j->frame.points.data == NULL || take_owners(j, r);
+}
+
+int render_job_set(render_job *j, report *r)
+{
+    if (!render_view(&j->middle, &j->o, &j->loaded, &j->scene, r)) {
+        return 0;
+    }
+    j->eyes = j->o.stereo_m > 0.0f ? 2 : 1;
+    if (j->o.view.width * j->eyes > LMB_MAX_SIDE) {
+        return report_fail(r, "--stereo: two views of %d px are wider than %d; try a smaller --size",
+                           (int)j->o.view.width, LMB_MAX_SIDE);
+    }
+    tell_notes(j);
+    if (!shows_attribute(j->o.show) && (!set_lights(j, r) || !set_many_lights(j, r))) {
+        return 0;
+    }
+    j->crew.threads = j->o.threads > 0 ? j->o.threads : pool_processors();
+    j->crew.threads = j->crew.threads > POOL_MAX ? POOL_MAX : j->crew.threads;
+    if (j->o.show == SHOW_POINTS && j->o.grouping.join <= 0.0f) {
+        j->o.grouping.join = 1e-30f; /* first points as they are: none is so near another */
+    }
+    return take_memory(j, r);
+}

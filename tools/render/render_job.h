@@ -1,0 +1,50 @@
+/* render_job.h: one run of a renderer, from the options to the picture. */
+#ifndef RENDER_JOB_H
+#define RENDER_JOB_H
+
+#include <lambent/lambent.h>
+
+#include "../common/crew.h"
+#include "../model/model.h"
+#include "../picture/image.h"
+#include "many_lights.h"
+#include "render_options.h"
+
+/* One run, from the options to the picture. Everything here is freed by render_job_free. */
+typedef struct render_job {
+    render_options o;
+    model loaded;
+    model_notes notes;
+    lmb_scene scene; /* the loaded or built-in one, with the lights of this run */
+    lmb_light sun;
+    lmb_view middle; /* between the eyes */
+    int32_t eyes;    /* 1, or 2: side by side in the picture */
+    many_lights many;
+    lmb_frame frame; /* its view and out: those of the eye at hand */
+    lmb_render *render;
+    int lit; /* the light stages of `render` are done */
+    crew crew;
+    lmb_stats stats;
+    image linear;
+    void *block, *owner_memory; /* the frame's; who holds each texel's light, where that is shown */
+    size_t block_bytes, bytes;  /* bytes: of all memory but the scene's and many's */
+    double load_s, write_s, total_s;
+    double indirect_share;
+} render_job;
+
+/* Of a job that is zero but for its options, in this order. Each 1, or 0 with `r` set.
+ *
+ * render_job_load  the scene
+ * render_job_set   its lights, the view and all memory: ready to draw */
+int render_job_load(render_job *j, report *r);
+int render_job_set(render_job *j, report *r);
+void render_job_free(render_job *j);
+
+/* render_job_refit: the frame and its block, again, as the options now are. 1, or 0 with `r` set. */
+int render_job_refit(render_job *j, report *r);
+
+/* render_job_picture: memory for a picture of all eyes, black. render_job_eye: which of them `f` draws, and where. */
+int render_job_picture(render_job *j, image *out, report *r);
+void render_job_eye(const render_job *j, lmb_frame *f, const image *whole, int32_t eye);
+
+#endif

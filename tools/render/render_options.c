@@ -1,0 +1,409 @@
+/* render_options.c: the command lines of `lambent render` and `lambent plan`. */
+#include "render_options.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "../common/option_value.h"
+#include "../common/options.h"
+#include "../picture/picture.h"
+#include "many_lights.h"
+
+enum { CHOSEN = -1 }; /* by the other options */
+
+/* --- values of their own kinds ------------------------------------------------------------------------------------ */
+
+/* For command lines that name it. */
+static int parse_profile(const char *text, void *at)
+{
+    (void)at;
+    return strcmp(text, "exact") == 0;
+}
+
+/* Rounded up to what the library takes: a power of 4. */
+static int parse_elements(const char *text, void *at)
+{
+    int32_t wanted, *elements = at;
+    if (!option_int(text, 64, 1 << 24, &wanted)) {
+        return 0;
+    }
+    for (*elements = 64; *elements < wanted; *elements *= 4) {
+    }
+    return 1;
+}
+
+/* 0 means the default to the library, so the least there is stands for it. */
+static int parse_or_zero(const char *text, float low, float *at)
+{
+    const int ok = option_number(text, low, 1.0f, at);
+    *at = *at != 0.0f ? *at : 1e-30f;
+    return ok;
+}
+
+static int parse_join(const char *text, void *at) { return parse_or_zero(text, 0.0f, at); }
+static int parse_cosine(const char *text, void *at) { return parse_or_zero(text, -1.0f, at); }
+
+/* One of two words sets or clears a flag. */
+static int parse_flag_word(const char *text, const char *clear, const char *set, uint32_t flag, uint32_t *flags)
+{
+    if (strcmp(text, clear) != 0 && strcmp(text, set) != 0) {
+        return 0;
+    }
+    *flags = strcmp(text, set) == 0 ? *flags | flag : *flags & ~flag;
+    return 1;
+}
+
+static int parse_misfits(const char *text, void *at) { return parse_flag_word(text, "keep", "drop", LMB_ZONES_STRICT, at); }
+
+static int parse_centre(const char *text, void *at)
+{
+    return parse_flag_word(text, "barycentre", "disc", LMB_POINT_CENTRE, at);
+}
+
+static int parse_neighbourhood(const char *text, void *at)
+{
+    return parse_flag_word(text, "facing", "hemisphere", LMB_NEAR_HEMISPHERE, at);
+}
+
+static int parse_budget_work(const char *text, void *at)
+{
+    float work;
+    const int ok = option_number(text, 1.0f, 1e18f, &work);
+    *(double *)at = ok ? (double)work : 0.0;
+    return ok;
+}
+
+static int parse_budget_bytes(const char *text, void *at)
+{
+    const char *p = text;
+    float n;
+    if (!option_float(&p, &n) || !(n >= 1.0f) || n > 1e15f) {
+        return 0;
+    }
+    const double unit = strcmp(p, "KiB") == 0 ? 1024.0 : strcmp(p, "MiB") == 0 ? 1048576.0 : 1.0;
+    *(uint64_t *)at = (uint64_t)((double)n * unit);
+    return *p == '\0' || unit > 1.0;
+}
+
+/* --- the tables --------------------------------------------------------------------------------------------------- */
+
+static const char *const qualities[] = {"draft", "default", "best", NULL};
+static const int32_t quality_values[] = {LMB_QUALITY_DRAFT, LMB_QUALITY_DEFAULT, LMB_QUALITY_BEST};
+static const char *const rests[] = {"estimate", "none", NULL};
+static const char *const groupings[] = {"cut", "zones", "greedy", "none", NULL};
+static const int32_t grouping_values[] = {LMB_GROUP_CUT, LMB_GROUP_ZONES, LMB_GROUP_GREEDY, LMB_GROUP_NONE};
+static const char *const blocks[] = {"1", "2", "4", "8", NULL};
+static const int32_t block_values[] = {1, 2, 4, 8};
+static const char *const occlusions[] = {"exact", "none", "view", "view-world", NULL};
+static const int32_t occlusion_values[] = {LMB_OCCLUSION_EXACT, LMB_OCCLUSION_NONE, LMB_OCCLUSION_VIEW,
+                                           LMB_OCCLUSION_VIEW_WORLD};
+static const char *const gathers[] = {"full", "half", "quarter", NULL};
+static const int32_t gather_values[] = {1, 2, 4};
+static const char *const shows[] = {"full",           "direct", "indirect", "irradiance", "depth", "eye-distance",
+                                    "normal",         "albedo", "light-distance", "points", "groups", "occlusion",
+                                    NULL};
+static const int32_t show_values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT,     LMB_SHOW_INDIRECT,   LMB_SHOW_IRRADIANCE,
+                                      SHOW_DEPTH,    SHOW_EYE_DISTANCE,   SHOW_NORMAL,         SHOW_ALBEDO,
+                                      SHOW_LIGHT_DISTANCE, SHOW_POINTS,   SHOW_GROUPS,         SHOW_OCCLUSION};
+
+#define AT(member) .at = offsetof(render_options, member)
+
+static const option_row scene_rows[] = {
+    {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene),
+     .help = ".gltf, .glb, .obj, .ply, or `demo`, a built-in room"},
+    {.kind = OPTION_END},
+};
+
+static const option_row output_rows[] = {
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+     .help = "the picture: .png .ppm (display), .pfm .hdr (linear)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row view_rows[] = {
+    {.kind = OPTION_TITLE, .help = "view"},
+    VIEW_OPTION_SIZE(render_options, view, "the picture, px (default: height 480, width by the camera's aspect)"),
+    {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene_name),
+     .help = "of a file with several scenes (default: its own choice)"},
+    {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),
+     .help = "one of the scene's cameras, by name or number from 0 (default 0)"},
+    VIEW_OPTIONS_CAMERA(render_options, view, "where a camera of your own stands; with --target"),
+    {.name = "--stereo", .value = "METRES", .kind = OPTION_ABOVE, AT(stereo_m), .low = 0.0, .high = 1e6,
+     .help = "two eyes that far apart, left | right side by side, each --size; one light serves both"},
+    {.kind = OPTION_END},
+};
+
+static const option_row light_rows[] = {
+    {.kind = OPTION_TITLE, .help = "light"},
+    {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(render_options, light_count),
+     .times = RENDER_LIGHTS, .size = sizeof(lmb_light),
+     .help = "instead of the scene's lights; lights add up. KIND is spot, point or sun; position in metres, direction "
+             "of travel; W/sr, sun W/m2; a spot's half angles in degrees (default 0,45)"},
+    {.name = "--light-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(light_map), .low = 8, .high = 4096,
+     .help = "texels a side of a light's map (default 1024, less for many lights)"},
+    {.kind = OPTION_TITLE, .help = "many lights"},
+    {.name = "--many-lights", .value = "CELLS", .kind = OPTION_INT, AT(many_cells), .low = 1, .high = 1 << 22,
+     .help = "lights stream into at most CELLS cells of the world, and every 8x8 pixels take what they need of a tree "
+             "over those, shadows by every triangle; so do --elements, which bounce their light. Millions take the "
+             "memory of thousands. By itself, with 16384 cells, where there are more than 128 lights, or more than 32 that "
+             "bounce by cuts"},
+    {.name = "--light-error", .value = "E", .kind = OPTION_NUMBER, AT(light_error), .low = 1e-6, .high = 1,
+     .help = "share of a pixel's light that one node of that tree may be wrong by (default 0.02)"},
+    {.kind = OPTION_END},
+};
+
+static const option_row bounce_rows[] = {
+    {.kind = OPTION_TITLE, .help = "bounce"},
+    {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities, .values = quality_values,
+     .help = "sets --tree, --error and --visible where they are not given; see README for each one's error and time"},
+    {.name = "--tree", .value = "N", .kind = OPTION_POWER_OF_2, AT(tree), .low = 8, .high = 4096,
+     .help = "first points a side of a light's map, to an eighth of --light-map"},
+    {.name = "--error", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
+     .help = "share that a pixel's bounced light may be wrong by where nothing blocks it"},
+    {.name = "--error-bound", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
+     .counts = offsetof(render_options, proven),
+     .help = "the same as a proof, for each pixel: takes many times as long (one bounce; with --occlusion none also "
+             "where it takes every texel)"},
+    {.name = "--visible", .value = "V", .kind = OPTION_NUMBER, AT(visible), .low = 1e-4, .high = 10,
+     .help = "what may be seen or blocked as one: at most this share of a pixel's bounced light"},
+    {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
+     .help = "reflections of light (default 1); above 1 with --grouping cut. What an emitter sends straight is none: it "
+             "always counts"},
+    {.name = "--rest", .kind = OPTION_WORD, AT(truncated), .words = rests,
+     .help = "with --bounces over 1, light that is reflected more often: estimated from how the last of them grew "
+             "weaker (default), or left out"},
+    {.name = "--elements", .value = "N", .kind = OPTION_OWN, AT(elements), .parse = parse_elements,
+     .wants = "a number, 64 .. 16777216",
+     .help = "pieces of the scene that reflect again, or shine (a power of 4; default 16384, with --bounces over 1 "
+             "65536)"},
+    {.name = "--grouping", .kind = OPTION_WORD, AT(grouping.method), .words = groupings, .values = grouping_values,
+     .help = "cut (default): every 8x8 pixels take what they need of a tree of all lit points. The others make one "
+             "fixed set of groups; what follows to --steps is theirs"},
+    {.name = "--groups", .value = "N", .kind = OPTION_INT, AT(grouping.groups), .low = 1, .high = LMB_MAX_GROUPS,
+     .help = "groups at most (default 512)"},
+    {.name = "--block", .kind = OPTION_WORD, AT(grouping.block), .words = blocks, .values = block_values,
+     .help = "texels a side of a first point (default 8)"},
+    {.name = "--neighbour", .value = "METRES", .kind = OPTION_NUMBER, AT(grouping.neighbour_m), .low = 0, .high = 1e6,
+     .help = "neighbours are points within so many metres, say 0.25, 0.5 or 1 (default: those of the blocks around, as "
+             "--neighbour-blocks 1)"},
+    {.name = "--neighbour-blocks", .value = "N", .kind = OPTION_INT, AT(grouping.neighbour_cells), .low = 1,
+     .high = LMB_MAX_SIDE,
+     .help = "neighbours are points within so many blocks of the light's map; and within --neighbour, where both are "
+             "given"},
+    {.name = "--neighbourhood", .value = "facing|hemisphere", .kind = OPTION_OWN, AT(grouping.flags),
+     .parse = parse_neighbourhood, .wants = "facing or hemisphere",
+     .help = "neighbours are points that face the same way (default), or any over the surface"},
+    {.name = "--thin", .value = "N", .kind = OPTION_INT, AT(grouping.thin), .low = 1, .high = LMB_MAX_THIN,
+     .help = "of N points one becomes a disc, evenly spread, and the others join it (default 1)"},
+    {.name = "--disc-radius", .value = "R", .kind = OPTION_ABOVE, AT(grouping.radius), .low = 0, .high = 1e6,
+     .help = "a disc's radius is R x its mean distance to its neighbours (default: by the area of its points, so that "
+             "none is lost or made)"},
+    {.name = "--zones", .value = "N", .kind = OPTION_INT, AT(grouping.zones), .low = 1, .high = 1 << 26,
+     .help = "zones that the discs' map is cut into at first (default: as --groups)"},
+    {.name = "--join", .value = "K", .kind = OPTION_OWN, AT(grouping.join), .parse = parse_join,
+     .wants = "a number, 0 .. 1",
+     .help = "points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)"},
+    {.name = "--reach", .value = "X", .kind = OPTION_NUMBER, AT(grouping.reach), .low = 0.01, .high = 1e6,
+     .help = "a disc joins a group within X x the first disc's radius (default 3)"},
+    {.name = "--cosine", .value = "C", .kind = OPTION_OWN, AT(grouping.cosine), .parse = parse_cosine,
+     .wants = "a number, -1 .. 1", .help = "... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)"},
+    {.name = "--misfits", .value = "keep|drop", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_misfits,
+     .wants = "keep or drop", .help = "what does not fit its zone opens another group, or is lost; how much is said"},
+    {.name = "--centre", .value = "barycentre|disc", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_centre,
+     .wants = "barycentre or disc", .help = "where a group stands (default barycentre)"},
+    {.name = "--occlusion", .kind = OPTION_WORD, AT(occlusion), .words = occlusions, .values = occlusion_values,
+     .help = "what stands between lit points and pixels: every triangle (cut's default); nothing; or, for fixed groups, "
+             "what the viewer's depth map shows, marched in map space or in world space (their default: view): it "
+             "cannot know what is off screen or hidden"},
+    {.name = "--steps", .value = "N", .kind = OPTION_INT, AT(steps), .low = 1, .high = 64,
+     .help = "samples of a view march (default 12)"},
+    {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
+     .help = "at every pixel (default; half with many lights), or at every second or fourth each way and between them "
+             "where surface and light go on; pixels that have no such neighbours are gathered too"},
+    {.kind = OPTION_END},
+};
+
+static const option_row picture_rows[] = {
+    {.kind = OPTION_TITLE, .help = "picture"},
+    {.name = "--glossy", .kind = OPTION_FLAG, AT(glossy),
+     .help = "glTF's materials with highlights and reflections, by metallic, roughness and base colour "
+             "(metallic-roughness maps by texel): of the lamps with maps, and of what bounces, by --grouping cut. Else, "
+             "and in OBJ, PLY and `demo`, materials are Lambertian"},
+    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .values = show_values,
+     .help = "light (default full; irradiance: bounced, before albedo);\n"
+             "depth, eye-distance, normal, albedo: of what the eye sees; metres along the view, and from the eye;\n"
+             "light-distance, points, groups: of the lights' maps, at their size, a row of faces a light: metres from "
+             "the light; first points by what they send, W/m2 (discs, where --join or --thin is given); the number of "
+             "the group that owns a texel, 0 dark, -1 dropped;\n"
+             "occlusion: the share of the bounced light that --occlusion blocks.\n"
+             "Display formats scale distances, near is bright, and give each group a colour"},
+    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
+     .wants = OPTION_STOPS_WANTS,
+     .help = "stops, display formats only (default auto, by the light that surfaces reflect: said on stderr). .pfm and "
+             ".hdr stay linear"},
+    {.kind = OPTION_END},
+};
+
+static const option_row budget_rows[] = {
+    {.kind = OPTION_TITLE,
+     .help = "budget: with any of these --light-map, --tree, --error, --visible, --gather and --occlusion are chosen: "
+             "the least error within them, or the least work that keeps --budget-error. What is chosen, and by how much it "
+             "falls short, is said; `lambent plan` shows the reckoning"},
+    {.name = "--budget-error", .value = "E", .kind = OPTION_NUMBER, AT(budget.error), .low = 1e-5, .high = 10,
+     .help = "bounced light may be that far off: RMSE over its mean, without the worst 1 % of pixels"},
+    {.name = "--budget-ms", .value = "T", .kind = OPTION_NUMBER, AT(budget_ms), .low = 1e-3, .high = 1e9,
+     .help = "a frame may take that long here: T x the rate of `lambent bench --calibrate`"},
+    {.name = "--budget-work", .value = "N", .kind = OPTION_OWN, AT(budget.work), .parse = parse_budget_work,
+     .wants = "a number of units, 1 or more",
+     .help = "the same in units, one a pixel lit by one node: the same choice on every machine"},
+    {.name = "--budget-bytes", .value = "N[KiB|MiB]", .kind = OPTION_OWN, AT(budget.bytes), .parse = parse_budget_bytes,
+     .wants = "a number of bytes, or of KiB or MiB: 100KiB",
+     .help = "of maps, trees, view, picture and one thread's scratch"},
+    {.name = "--rate", .value = "UNITS", .kind = OPTION_NUMBER, AT(rate), .low = 1, .high = 1e15,
+     .help = "units of work a second, in place of measuring them"},
+    {.kind = OPTION_END},
+};
+
+static const option_row other_rows[] = {
+    {.kind = OPTION_TITLE, .help = "other"},
+    {.name = "--profile", .value = "exact", .kind = OPTION_OWN, .parse = parse_profile,
+     .wants = "exact (there is no other)", .help = "the only one: the same bytes on every machine"},
+    OPTION_BACKEND_ROW(render_options, kernels),
+    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = 64,
+     .help = "that draw at once; the picture does not depend on it (default: the processors)"},
+    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .help = "time by stage, counts, bytes"},
+    OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose, "say what it draws with, and how long each stage took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+static const option_row json_rows[] = {
+    {.kind = OPTION_TITLE, .help = "plan"},
+    {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "all of it for programs"},
+    {.kind = OPTION_END},
+};
+
+const option_table render_table = {
+    .verb = "render",
+    .usage = "render SCENE -o OUT [options]",
+    .about = "A scene in, a picture with bounced light out.",
+    .part = {scene_rows, output_rows, view_rows, light_rows, bounce_rows, picture_rows, budget_rows, other_rows},
+    .examples = "  lambent render demo --size 320x240 -o demo.png\n"
+                "  lambent render demo --size 160x120 --show indirect -o light.pfm\n"
+                "  lambent render demo --size 160x120 --eye 0.5,1.25,2.5 --target 0.5,1,-1 \\\n"
+                "      --light point:0,1.5,0:0,-1,0:6,6,6 -o lamp.png\n",
+};
+
+const option_table plan_table = {
+    .verb = "plan",
+    .usage = "plan SCENE [options]",
+    .about = "What `lambent render` with the same options would do, and draws nothing: the stages it runs, with counted "
+             "operations, units of work and memory; those it leaves out, and why. `exact`: the picture has the same "
+             "bytes as with it; that is proven, and tested. Without a budget nothing else is left out:\n"
+             "a lamp of 0 W (no map, no light); a lamp that looks past (the faces of its map that see nothing of the "
+             "scene); bounced light of what reflects nothing, or is unlit; lobes and emission that no material has; and "
+             "in a convex, empty room, where nothing stands between two points of it, every segment.\n"
+             "Pairs and segments of bounced light are told by a look at up to 192 tiles of the picture itself. So is the "
+             "error of what is chosen for a budget, against a finer setting. No look costs over a quarter of the picture. "
+             "Work is counted in units: one is a pixel lit by one node.",
+    .part = {scene_rows, json_rows, budget_rows, view_rows, light_rows, bounce_rows, picture_rows, other_rows},
+    .examples = "  lambent plan demo --size 32x24\n"
+                "  what fits a frame of 16 ms on this machine:\n"
+                "    lambent plan demo --size 32x24 --budget-ms 16\n"
+                "  the least work for 5 % of error:\n"
+                "    lambent plan demo --size 32x24 --budget-error 0.05\n"
+                "  what fits a small memory, or by how much nothing does:\n"
+                "    lambent plan demo --size 32x24 --budget-bytes 400KiB\n",
+};
+
+static void choose(render_options *o)
+{
+    const int viewed = o->occlusion == LMB_OCCLUSION_VIEW || o->occlusion == LMB_OCCLUSION_VIEW_WORLD;
+    if (o->grouping.method == CHOSEN) {
+        lmb_grouping plain; /* an option that fixed groups alone have asks for them */
+        memset(&plain, 0, sizeof plain);
+        plain.method = CHOSEN;
+        const int grouped = viewed || o->steps != 0 || o->show == SHOW_POINTS || o->show == SHOW_GROUPS ||
+                            memcmp(&plain, &o->grouping, sizeof plain) != 0;
+        o->grouping.method = grouped ? LMB_GROUP_ZONES : LMB_GROUP_CUT;
+    }
+    if (o->occlusion == CHOSEN) {
+        o->occlusion = o->grouping.method == LMB_GROUP_CUT ? LMB_OCCLUSION_EXACT : LMB_OCCLUSION_VIEW;
+    }
+}
+
+static int check_budget(const render_options *o, report *r)
+{
+    if (!has_budget(&o->budget, o->budget_ms)) {
+        return 1;
+    }
+    if (o->grouping.method != LMB_GROUP_CUT || o->proven) {
+        return report_fail(r, "--budget-*: settings are chosen for --grouping cut, without --error-bound");
+    }
+    if (o->show == SHOW_OCCLUSION || shows_attribute(o->show) || shows_map(o->show) || o->show == LMB_SHOW_DIRECT) {
+        return report_fail(r, "--budget-*: settings are chosen for bounced light; --show full, indirect or irradiance");
+    }
+    if (o->budget.work > 0.0 && o->budget_ms > 0.0f) {
+        return report_fail(r, "--budget-ms and --budget-work exclude each other: one is the other times the rate");
+    }
+    return 1;
+}
+
+static int check_together(const render_options *o, int plans, report *r)
+{
+    if (o->scene == NULL) {
+        return report_fail(r, plans ? "no scene given; try: lambent plan demo"
+                                    : "no scene given; try: lambent render demo -o demo.png");
+    }
+    if (!check_budget(o, r)) {
+        return 0;
+    }
+    if (plans && o->show >= SHOW_DEPTH) {
+        return report_fail(r, "--show: plans are of pictures of light: full, direct, indirect or irradiance");
+    }
+    if (o->out == NULL && !plans) {
+        return report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
+    }
+    if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
+        return report_fail(r, "--bounces above 1 needs --grouping cut");
+    }
+    if (!view_options_check(&o->view, r)) {
+        return 0;
+    }
+    if (o->view.has_eye && o->camera != NULL) {
+        return report_fail(r, "--camera and --eye exclude each other");
+    }
+    if (o->stereo_m > 0.0f && shows_map(o->show)) {
+        return report_fail(r, "--stereo: what lives in a light's map is one for both eyes; show it without");
+    }
+    if (o->grouping.method == LMB_GROUP_CUT && (o->show == SHOW_POINTS || o->show == SHOW_GROUPS)) {
+        return report_fail(r, "--show points, groups: a cut is each tile's own; use --grouping zones, greedy or none");
+    }
+    if (o->show == SHOW_OCCLUSION && o->occlusion == LMB_OCCLUSION_NONE) {
+        return report_fail(r, "--show occlusion wants an --occlusion other than none");
+    }
+    if ((o->grouping.method == LMB_GROUP_CUT) != (o->occlusion == LMB_OCCLUSION_EXACT) &&
+        o->occlusion != LMB_OCCLUSION_NONE) {
+        return report_fail(r,
+                           "--occlusion exact goes with --grouping cut; view and view-world with zones, greedy, none");
+    }
+    return 1;
+}
+
+int render_options_parse(render_options *o, int argc, char **argv, report *r)
+{
+    memset(o, 0, sizeof *o);
+    view_options_init(&o->view);
+    o->grouping.method = o->occlusion = CHOSEN;
+    o->exposure_ev = NAN;
+    o->kernels = lmb_kernels_pick();
+    const int plans = strcmp(argv[0], "plan") == 0;
+    const int asked = options_parse(o, plans ? &plan_table : &render_table, argc, argv, r);
+    if (asked != OPTIONS_RUN) {
+        return asked;
+    }
+    o->exposure_auto = isnan(o->exposure_ev) != 0;
+    o->exposure_ev = o->exposure_auto ? 0.0f : o->exposure_ev;
+    choose(o);
+    return check_together(o, plans, r) ? OPTIONS_RUN : OPTIONS_BAD;
+}

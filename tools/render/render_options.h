@@ -1,0 +1,63 @@
+/* render_options.h: what `lambent render` was asked for. */
+#ifndef RENDER_OPTIONS_H
+#define RENDER_OPTIONS_H
+
+#include <lambent/lambent.h>
+
+#include "../common/report.h"
+#include "../common/view_options.h"
+
+#define RENDER_LIGHTS 64 /* --light given at most this often */
+
+/* --show beyond LMB_SHOW_*: the view's attributes; what lives in the lights' maps; how much light is blocked. */
+enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_EYE_DISTANCE };
+enum { SHOW_LIGHT_DISTANCE = 32, SHOW_POINTS, SHOW_GROUPS };
+enum { SHOW_OCCLUSION = 48 };
+
+static inline int shows_attribute(int32_t show) { return show >= SHOW_DEPTH && show <= SHOW_EYE_DISTANCE; }
+/* Are settings to be chosen? */
+static inline int has_budget(const lmb_budget *b, float ms)
+{
+    return b->work > 0.0 || b->error > 0.0f || b->bytes > 0 || ms > 0.0f;
+}
+
+static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
+
+typedef struct render_options {
+    const char *scene, *out, *stats;
+    view_options view;
+    const char *scene_name; /* of a file with several; NULL: its own choice */
+    const char *camera;     /* name or number; NULL: the first */
+    lmb_light lights[RENDER_LIGHTS];
+    uint32_t light_count;
+    float stereo_m; /* between the eyes; 0: one eye */
+    int32_t show;
+    int32_t light_map; /* 0: chosen */
+    lmb_grouping grouping;
+    int32_t quality;      /* LMB_QUALITY_*: what the next three are where they are 0 */
+    int32_t tree;         /* first points a side of a light's tree */
+    float error, visible;
+    int32_t proven;
+    int32_t bounces, elements; /* 0: default */
+    int32_t truncated;         /* --rest none */
+    int32_t occlusion, steps;
+    int32_t many_cells; /* 0: only where the scene has too many lights for maps */
+    float light_error;
+    int32_t gather_step; /* 1, 2, 4; 0: default */
+    int glossy;          /* materials get their lobe */
+    int32_t exposure_auto;
+    float exposure_ev;
+    const lmb_kernels *kernels;
+    int32_t threads; /* 0: as many as there are processors */
+    lmb_budget budget; /* zeros: none */
+    float budget_ms;   /* 0: none */
+    float rate;        /* units of work a second and thread; 0: measured where it is wanted */
+    int json;          /* of `plan` */
+} render_options;
+
+extern const option_table render_table, plan_table;
+
+/* For `render`, and for `plan`, which has no output: argv[0] says which. As options_parse. */
+int render_options_parse(render_options *out, int argc, char **argv, report *r);
+
+#endif

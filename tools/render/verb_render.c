@@ -1,0 +1,241 @@
+/* verb_render.c: `lambent render`: a scene in, a picture with bounced light out. */
+#include "verb_render.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../picture/grey.h"
+#include "../picture/picture.h"
+#include "budget.h"
+#include "render_draw.h"
+#include "render_exposure.h"
+#include "render_verb.h"
+
+/* What is no light, for display formats. Reflectance, points and groups are in 0 .. 1 already. */
+static void grey_for_display(render_job *j)
+{
+    float near_m, far_m;
+    switch (j->o.show) {
+    case SHOW_DEPTH: grey_depths(&j->linear); break;
+    case SHOW_EYE_DISTANCE:
+    case SHOW_LIGHT_DISTANCE:
+        grey_distances(&j->linear, &near_m, &far_m);
+        report_note(j->o.view.is_quiet || !(far_m > 0.0f), "from %.4g m (white) to %.4g m (dark grey)", (double)near_m,
+                    (double)far_m);
+        break;
+    case SHOW_OCCLUSION: grey_shares(&j->linear); break;
+    case SHOW_NORMAL: grey_normals(&j->linear); break;
+    default: break;
+    }
+}
+
+static double mean(const image *p)
+{
+    double sum = 0.0;
+    size_t n = (size_t)p->width * (size_t)p->height * 3;
+    for (size_t i = 0; i < n; ++i) {
+        sum += (double)p->pixels[i];
+    }
+    return sum / (double)n;
+}
+
+/* --- reporting ---------------------------------------------------------------------------------------------------- */
+
+/* Nodes of the lights' tree that pixels took, and shadow tests, over all threads. */
+typedef struct asked_lights {
+    double nodes, tests;
+} asked_lights;
+
+static asked_lights sum_asked(const render_job *j)
+{
+    asked_lights sum = {0.0, 0.0};
+    for (int i = 0; i < j->crew.threads && j->many.tree.lights > 0; ++i) {
+        sum.nodes += (double)j->crew.scratches[i].many.nodes;
+        sum.tests += (double)j->crew.scratches[i].many.tests;
+    }
+    return sum;
+}
+
+static int write_stats(const render_job *j, report *r)
+{
+    static const char *const names[] = {"light_maps", "blockers", "first_points", "groups",
+                                        "bounces",    "view",     "bands"};
+    char text[2048];
+    int n = 0;
+    const lmb_stats *s = &j->stats;
+    const asked_lights lit = sum_asked(j);
+    n += snprintf(text + n, sizeof text - (size_t)n,
+                  "{\n  \"width\": %d, \"height\": %d, \"views\": %d,\n  \"seconds\": {\"load\": %.6f",
+                  (int)j->linear.width, (int)j->linear.height, (int)j->eyes, j->load_s);
+    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+        n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->crew.stage_s[i]);
+    }
+    n += snprintf(text + n, sizeof text - (size_t)n, ", \"write\": %.6f, \"total\": %.6f},\n", j->write_s, j->total_s);
+    n += snprintf(
+        text + n, sizeof text - (size_t)n,
+        "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
+        "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n"
+        "  \"pairs\": %.0f, \"segments\": %.0f, \"full_cuts\": %.0f, \"elements\": %u, \"element_m\": %.6g,\n",
+        (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
+        (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
+        (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups,
+        (double)s->pairs, (double)s->segments, (double)s->full_cuts, (unsigned)j->render->frame.elements.count,
+        (double)j->render->frame.elements.side);
+    n += snprintf(text + n, sizeof text - (size_t)n,
+                  "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
+                  "  \"many_lights\": %u, \"light_cells\": %u, \"light_nodes\": %.0f, \"shadow_tests\": %.0f,\n"
+                  "  \"light_stream_s\": %.6f, \"light_tree_s\": %.6f,\n"
+                  "  \"bytes\": %.0f, \"model_bytes\": %.0f, \"loading_bytes\": %.0f,\n"
+                  "  \"backend\": \"%s\"\n}\n",
+                  s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0,
+                  (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count, lit.nodes, lit.tests,
+                  j->many.stream_s, j->many.build_s,
+                  (double)(j->bytes + j->many.bytes), (double)j->loaded.facts.memory_bytes,
+                  (double)j->loaded.facts.loading_bytes, lmb_kernels_name(j->frame.kernels));
+    return file_write(j->o.stats, text, (size_t)n, r);
+}
+
+static const char *stage_name(const render_job *j, int stage)
+{
+    const char *name;
+    lmb_render at = *j->render;
+    at.stage = stage;
+    lmb_render_progress(&name, &at);
+    return name;
+}
+
+/* --verbose: what it was drawn with, and how long it took. */
+static void tell_how(const render_job *j)
+{
+    const lmb_frame *f = &j->frame;
+    if (!j->o.view.is_verbose) {
+        return;
+    }
+    report_note(0, "%d threads of %s lanes; --light-map %d --tree %d --error %.3g --visible %.3g; %.0f KiB",
+                j->crew.threads, lmb_kernels_name(f->kernels), (int)f->light_map, (int)j->o.tree, (double)f->error,
+                (double)f->visible, (double)(j->bytes + j->many.bytes) / 1024.0);
+    report_note(0, "%-13s %8.1f ms", "reading", j->load_s * 1e3);
+    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+        report_note(0, "%-13s %8.1f ms", stage_name(j, i), j->crew.stage_s[i] * 1e3);
+    }
+    report_note(0, "%-13s %8.1f ms", "writing", j->write_s * 1e3);
+}
+
+static void tell_demo(const render_job *j)
+{
+    printf("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->linear.width, (int)j->linear.height,
+           (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
+    for (int i = 0; i < LMB_STAGE_DONE; ++i) {
+        printf("  %-13s %8.1f ms\n", stage_name(j, i), j->crew.stage_s[i] * 1e3);
+    }
+    printf("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
+}
+
+/* How much of the picture's light has bounced: the same frame again, direct light only, which costs little. */
+static int measure_share(render_job *j, report *r)
+{
+    const double full = mean(&j->linear);
+    image direct = {0, 0, 0, NULL};
+    lmb_frame f = j->frame;
+    f.show = LMB_SHOW_DIRECT;
+    const int ok = render_draw_once_more(j, &direct, f, r);
+    j->indirect_share = ok && full > 0.0 ? 1.0 - mean(&direct) / full : 0.0;
+    image_free(&direct);
+    return ok;
+}
+
+static int save(render_job *j, report *r)
+{
+    float ev = j->o.exposure_ev;
+    int linear = picture_is_linear(picture_format(j->o.out));
+    if (j->o.show >= SHOW_DEPTH) {
+        ev = 0.0f;
+        if (!linear) {
+            grey_for_display(j);
+        }
+        if (j->linear.channels == 1 && picture_format(j->o.out) != PICTURE_PFM && !image_widen(&j->linear, r)) {
+            return 0;
+        }
+    } else if (j->o.exposure_auto && !linear) {
+        if (!render_exposure(&ev, j, r)) {
+            return 0;
+        }
+        report_note(j->o.view.is_quiet, "exposure %+.3g EV (auto)", (double)ev);
+    }
+    return picture_write(j->o.out, &j->linear, ev, r);
+}
+
+/* Strict zones: what they lost [V20]. */
+static void tell_loss(const render_job *j)
+{
+    const double lost = j->stats.flux_lit - j->stats.flux_grouped;
+    if ((j->frame.grouping.flags & LMB_ZONES_STRICT) && j->stats.groups > 0) {
+        report_note(j->o.view.is_quiet, "note: --misfits drop lost %.3g %% of the light that bounces",
+                    j->stats.flux_lit > 0.0 ? fmax(lost, 0.0) / j->stats.flux_lit * 100.0 : 0.0);
+    }
+}
+
+/* More groups were needed than there may be [V21]. */
+static void tell_regroups(const render_job *j)
+{
+    if (j->stats.regroups > 0) {
+        report_note(j->o.view.is_quiet,
+                    "note: discs were grouped again %u time%s, each coarser, until --groups was enough: %u",
+                    (unsigned)j->stats.regroups, j->stats.regroups == 1 ? "" : "s", (unsigned)j->stats.groups);
+    }
+}
+
+/* Pixels whose cuts had no room for what was asked. */
+static void tell_full_cuts(const render_job *j)
+{
+    if (j->stats.full_cuts > 0) {
+        report_note(j->o.view.is_quiet,
+                    "note: %.0f patches of pixels have coarser bounced light than asked for: %d nodes of the light's "
+                    "tree were not enough (LMB_MAX_CUT); a smaller --tree or a larger --error asks for less",
+                    (double)j->stats.full_cuts, LMB_MAX_CUT);
+    }
+}
+
+static int run(render_job *j, report *r)
+{
+    double start = host_seconds();
+    if (!file_can_write(j->o.out, r) || (j->o.stats != NULL && !file_can_write(j->o.stats, r)) ||
+        !render_job_load(j, r)) {
+        return 0;
+    }
+    j->load_s = host_seconds() - start;
+    budget_choice choice;
+    if (!render_job_set(j, r) || (has_budget(&j->o.budget, j->o.budget_ms) && !budget_fit(&choice, j, r)) ||
+        !render_draw(j, r)) {
+        return 0;
+    }
+    tell_loss(j);
+    tell_regroups(j);
+    tell_full_cuts(j);
+    if (j->stats.triangles_dropped > 0) {
+        report_note(j->o.view.is_quiet, "note: %u triangles dropped: vertices not finite or over 2^20 m away",
+                    (unsigned)j->stats.triangles_dropped);
+    }
+    const int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL && !j->o.view.is_quiet;
+    if (demo && !measure_share(j, r)) {
+        return 0;
+    }
+    double before = host_seconds();
+    if (!save(j, r)) {
+        return 0;
+    }
+    j->write_s = host_seconds() - before;
+    j->total_s = host_seconds() - start;
+    if (j->o.stats != NULL && !write_stats(j, r)) {
+        return 0;
+    }
+    tell_how(j);
+    if (demo) {
+        tell_demo(j);
+    }
+    return 1;
+}
+
+int verb_render(int argc, char **argv) { return render_verb(&render_table, argc, argv, run); }
