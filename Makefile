@@ -161,7 +161,7 @@ FORCE:
 
 # The longest first: what runs beside them fills the second core.
 
-CHECKS ?= one unit tiny statue analytic truth lanes golden ways audit slow hard replay hostile hostile-cli floors symbols \
+CHECKS ?= one unit tiny statue analytic truth lanes golden ways audit slow hard replay hostile hostile-cli layers symbols \
           stack headers layout guard tables readme examples examples-tiny cli get
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
@@ -214,8 +214,8 @@ hostile: $(B)/hostile ## cut and changed samples through every parser: PREFIXES=
 hostile-cli: $(TOOL) ## absurd files through the whole tool
 	@$(IN_SH) tests/scripts/hostile_cli.sh
 
-floors: ## includes only go down the house's floors
-	@$(IN_SH) tests/scripts/floors.sh
+layers: $(LIB) $(TOOL) ## includes and calls only go down: no circle among folders or files (tests/scripts/layers.txt)
+	@$(IN_SH) tests/scripts/layers.sh
 
 symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
 	@$(IN_SH) tests/scripts/symbols.sh

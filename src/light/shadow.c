@@ -14,6 +14,7 @@
 
 #include "../base/vec.h"
 #include "../map/part.h"
+#include "../raster/plane.h"
 #include "../raster/resolve.h"
 #include "../raster/target.h"
 

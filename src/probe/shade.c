@@ -1,7 +1,7 @@
 /* shade.c: small cubes with borders, and what a tile's pixels take from them. Floor 6.                [S17 S21 S22] */
 #include "../base/memory_check.h"
 #include "../light/gloss.h"
-#include "../raster/resolve.h"
+#include "../raster/plane.h"
 #include "../raster/tile.h"
 #include "../map/cube.h"
 #include "world.h"

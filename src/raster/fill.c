@@ -5,6 +5,7 @@
  * Depth is taken at each tile's first pixel in binary64, so windows and tile order change nothing. */
 #include "fill.h"
 
+#include "plane.h"
 #include "resolve.h"
 #include "target.h"
 

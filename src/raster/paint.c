@@ -3,6 +3,7 @@
 
 #include "../base/poly.h"
 #include "../base/vertex.h"
+#include "resolve.h"
 #include "texture.h"
 
 static lmb_vec3 vector_of(const float (*v)[LMB_SLOTS], int32_t slot)

@@ -2,7 +2,8 @@
 #ifndef LMB_RASTER_PAINT_H
 #define LMB_RASTER_PAINT_H
 
-#include "resolve.h"
+#include "plane.h"
+#include "triangle.h"
 
 /* A triangle's plane and texture coordinates, as images lie on it. */
 typedef struct lmb_painted {

@@ -5,69 +5,11 @@
 
 #include "../base/vertex.h"
 #include "paint.h"
+#include "plane.h"
 #include "target.h"
 #include "texture.h"
 
-#define LANE_ONE
-#include "../lane/lane_scalar.h"
-#include "../lane/lane.h"
-#include "plane.inl"
-
 /* --- one triangle ------------------------------------------------------------------------------------------------- */
-
-void lmb_resolve_rays(lmb_rays *out, const lmb_view *v, int32_t x, int32_t y)
-{
-    const lmb_vec3 none = vec3(0.0f, 0.0f, 0.0f);
-    float per_x = 2.0f * v->half_width / (float)v->frame_width, per_y = 2.0f * v->half_height / (float)v->frame_height;
-    float sx = ((float)(2 * x + 1 - v->frame_width) * 0.5f) * per_x;
-    float sy = ((float)(v->frame_height - 2 * y - 1) * 0.5f) * per_y;
-    lmb_vec3 first = add3(mul3(v->right, sx), mul3(v->up, sy));
-    lmb_vec3 step_x = mul3(v->right, per_x), step_y = mul3(v->up, -per_y);
-    int perspective = v->kind == LMB_PERSPECTIVE;
-    out->eye = v->eye;
-    out->back = v->back;
-    out->near_m = v->near_m;
-    out->perspective = perspective;
-    out->origin = perspective ? none : first;
-    out->ox = perspective ? none : step_x;
-    out->oy = perspective ? none : step_y;
-    out->direction = perspective ? sub3(first, v->back) : mul3(v->back, -1.0f);
-    out->rx = perspective ? step_x : none;
-    out->ry = perspective ? step_y : none;
-}
-
-static lmb_vec3 from_lanes(lane3 v)
-{
-    float x, y, z;
-    lane_store(&x, v.x);
-    lane_store(&y, v.y);
-    lane_store(&z, v.z);
-    return vec3(x, y, z);
-}
-
-void lmb_resolve_plane(lmb_plane *out, const lmb_vec3 corner[3], const lmb_rays *rays)
-{
-    const lane3 c[3] = {lane3_of(corner[0]), lane3_of(corner[1]), lane3_of(corner[2])};
-    const plane_lanes p = plane_setup(c, rays);
-    out->corner = from_lanes(p.corner);
-    out->plane = from_lanes(p.plane);
-    out->face = from_lanes(p.face);
-    out->g1 = from_lanes(p.g1);
-    out->g2 = from_lanes(p.g2);
-    lane_store(&out->w_min, p.w_min);
-    lane_store(&out->w_max, p.w_max);
-}
-
-void lmb_resolve_point(float *b1, float *b2, const lmb_plane *p, const lmb_rays *rays, float x, float y)
-{
-    lmb_vec3 origin = add3(rays->origin, add3(mul3(rays->ox, x), mul3(rays->oy, y)));
-    lmb_vec3 ray = add3(rays->direction, add3(mul3(rays->rx, x), mul3(rays->ry, y)));
-    float slope = dot3(p->plane, ray);
-    float w = dot3(p->plane, sub3(p->corner, origin)) / (slope * slope < 1e-36f ? 1e-18f : slope);
-    lmb_vec3 q = sub3(add3(origin, mul3(ray, clampf(w, p->w_min, p->w_max))), p->corner);
-    *b1 = dot3(q, p->g1);
-    *b2 = dot3(q, p->g2);
-}
 
 void lmb_resolve_alpha_of(lmb_resolve_alpha *out, const lmb_triangle *t)
 {

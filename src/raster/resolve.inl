@@ -5,7 +5,7 @@
  * no depth read back, no snapping error off the plane. On a plane seen edge-on the quotient is clamped to the
  * triangle's own range of w. */
 #include "plane.inl"
-#include "resolve.h"
+#include "plane.h"
 
 /* --- slots -------------------------------------------------------------------------------------------------------- */
 

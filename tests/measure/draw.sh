@@ -5,6 +5,9 @@ truth=${LMB_SHARED:-../shared}/truth
 work=$B/figures
 mkdir -p "$work"
 
+# truth_scenes [SET]: those of tests/truth/truth_scenes.inc.
+truth_scenes() { sed -n "s/^TRUTH_SCENE(\([a-z_]*\),.* ${1:-[a-z]*})/\1/p" tests/truth/truth_scenes.inc; }
+
 # draw SCENE QUALITY THREADS WxH SHOW: fails where the tool does. Leaves drawn.pfm, stats.json, user, and in `said` what
 # went wrong.
 draw() {

@@ -61,7 +61,7 @@ command -v python3 >/dev/null || { skip "no python3 for $truth/compare.py"; fini
 
 echo "| scene | trim | rmse | mean | mean of the later part | elements | pairs | segments |"
 echo "|---|---|---|---|---|---|---|---|"
-for scene in ${SCENES:-cornell corridor corner_contact bunny_room sponza point_room two_lights grazing_sun mixed_with mixed_without}; do
+for scene in ${SCENES:-$(truth_scenes)}; do
     row "$scene"
 done
 finish

@@ -121,7 +121,7 @@ command -v python3 >/dev/null || { skip "no python3 for $compare"; finish; }
 : >"$rows"
 echo "| scene | set | quality | trim | rmse | mean | pairs | segments | user s |"
 echo "|---|---|---|---|---|---|---|---|---|"
-shared_scenes=${SHARED_SCENES-cornell corridor corner_contact bunny_room sponza point_room two_lights grazing_sun}
+shared_scenes=${SHARED_SCENES-$(truth_scenes rooms)}
 own_scenes=${OWN_SCENES-$("$B/scenes" --list | awk '{ print $1 }')
     $([ -z "$LMB_OWN_TRUTH" ] || (cd "$LMB_OWN_TRUTH" && ls -d -- *:[1-9][0-9][0-9] 2>/dev/null))}
 for scene in $shared_scenes; do

@@ -52,7 +52,7 @@ command -v python3 >/dev/null || { skip "no python3 for $truth/compare.py"; fini
 
 echo "| scene | quality | trim | rmse | n90 | e50 | e95 | e99 | mean | leak | pairs | segments | user s |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-for scene in ${SCENES:-cornell corridor corner_contact bunny_room sponza point_room two_lights grazing_sun}; do
+for scene in ${SCENES:-$(truth_scenes rooms)}; do
     for quality in ${QUALITIES:-draft default best}; do
         row "$scene" "$quality"
     done

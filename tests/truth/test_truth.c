@@ -628,9 +628,11 @@ void test_truth(void)
     static const struct scene {
         const char *name;
         int direct, indirect; /* the bars hold */
-    } scenes[] = {{"cornell", 1, 1},    {"corner_contact", 1, 0}, {"bunny_room", 1, 0},  {"corridor", 0, 0},
-                  {"sponza", 0, 0},     {"point_room", 0, 0},     {"grazing_sun", 0, 0}, {"two_lights", 0, 0},
-                  {"mixed_with", 0, 0}, {"mixed_without", 0, 0}};
+    } scenes[] = {
+#define TRUTH_SCENE(scene, direct, bounced, set) {#scene, direct, bounced},
+#include "truth_scenes.inc"
+#undef TRUTH_SCENE
+    };
     /* The tool's default, and its best. */
     static const cut_row cuts[] = {
         {"cornell", 256, 0.02f, 0.015f, 0.05, 0.08, 0.3},

@@ -7,6 +7,7 @@
 #include "../../tools/bench/bench_html.h"
 #include "../../tools/bench/bench_ledger.h"
 #include "../../tools/bench/bench_sweep.h"
+#include "../../tools/bench/bench_task.h"
 #include "../../tools/bench/bench_table.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../../tools/model/scene_hash.h"

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "bench_ledger.h"
-#include "bench_sweep.h"
+#include "bench_ledgers.h"
 
 #include <lambent/types.h>
 

@@ -4,7 +4,7 @@
 
 #include <lambent/lambent.h>
 
-#include "bench_sweep.h"
+#include "bench_task.h"
 
 static int usual(bench_task *out, const bench_subject *s)
 {

@@ -7,6 +7,7 @@
 #include "bench_chart.h"
 #include "bench_html.h"
 #include "bench_sweep.h"
+#include "bench_task.h"
 #include "bench_table.h"
 
 static int can_write(const bench_options *o, report *r)

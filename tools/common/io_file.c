@@ -2,7 +2,7 @@
 #if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
 #define _XOPEN_SOURCE 700 /* lstat, realpath, fdopen, fchmod */
 #endif
-#include "../picture/image.h"
+#include "io_file.h"
 
 #include <errno.h>
 #include <fcntl.h>

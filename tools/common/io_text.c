@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../model/io_obj.h"
+#include "io_text.h"
 
 cursor text_open(const uint8_t *data, size_t size, const char *path)
 {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../picture/image.h"
+#include "io_file.h"
 
 enum { FIRST = 1 << 14 };
 

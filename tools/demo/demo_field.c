@@ -158,31 +158,16 @@ int demo_field_pictures(lmb_world_pictures *out, world_pictures *own, report *r)
     return 1;
 }
 
-/* --- who stands there --------------------------------------------------------------------------------------------- */
-
-void demo_field_options(relight_options *o)
+void demo_field_place(lmb_world_pictures *out, float ground_size[2])
 {
-    static const lmb_vec3 places[] = {{-9.8f, 0, -2.5f}, {-8.4f, 0, -0.2f}, {-3.7f, 0, 2.4f}, {-0.9f, 0, -4.5f},
-                                      {0.5f, 0, 4.1f}, {3.4f, 0, 0.4f}, {8.2f, 0, -0.8f}, {9.9f, 0, -3.0f}};
-    lmb_world_pictures *p = &o->place;
-    memset(p, 0, sizeof *p);
-    p->centre.y = p->middle.y = (float)HEIGHT;
-    p->radius = (float)RADIUS;
-    o->has_far = o->has_ground_centre = 1;
-    o->ground_size[0] = (float)FIELD_W;
-    o->ground_size[1] = (float)FIELD_D;
-    o->ground_centre[0] = o->ground_centre[1] = 0.0f;
-    if (o->object != NULL && strcmp(o->object, "demo") == 0 && o->at_count == 0 && o->path == NULL) {
-        memcpy(o->at, places, sizeof places);
-        o->at_count = (int32_t)(sizeof places / sizeof *places);
-        if (!o->view.has_eye && !o->view.has_target) {
-            o->view.has_eye = o->view.has_target = 1;
-            o->view.eye = (lmb_vec3){0.0f, 2.3f, 8.4f};
-            o->view.target = (lmb_vec3){0.0f, 0.9f, 0.0f};
-            o->view.fov_deg = 58.0f;
-        }
-    }
+    memset(out, 0, sizeof *out);
+    out->centre.y = out->middle.y = (float)HEIGHT;
+    out->radius = (float)RADIUS;
+    ground_size[0] = (float)FIELD_W;
+    ground_size[1] = (float)FIELD_D;
 }
+
+/* --- who stands there --------------------------------------------------------------------------------------------- */
 
 static void set_ball(lmb_instance *out, const lmb_instance *unit, lmb_vec3 half, lmb_vec3 at)
 {

@@ -3,10 +3,9 @@
 #define DEMO_FIELD_H
 
 #include "../picture/world_read.h"
-#include "../relight/relight_options.h"
 
-/* demo_field_options: where the world's pictures belong, and what was left open: figures here and there, a camera. */
-void demo_field_options(relight_options *inout);
+/* demo_field_place: where the pictures belong; all but the pictures is set, and the ground's size, m. */
+void demo_field_place(lmb_world_pictures *out, float ground_size[2]);
 
 /* demo_field_pictures: the cube from the field's middle, and the ground. 1, or 0 with `r` set. */
 int demo_field_pictures(lmb_world_pictures *out, world_pictures *own, report *r);

@@ -1,7 +1,6 @@
 /* hard.c: the gallery's table: which rooms there are, and what they found. */
 #include "hard.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,29 +8,6 @@ const char *const hard_rooms[] = {"raster", "shadow", "bounce", "probe", "relief
 
 static void (*const rooms[])(hard_list *) = {hard_raster, hard_shadow, hard_bounce, hard_probe,
                                              hard_relief, hard_mixed,  hard_far,    hard_all};
-
-void hard_put(hard_list *list, int kind, const char *name, double figure, double bound, const char *unit)
-{
-    if (list->count == HARD_CASES) {
-        abort(); /* more cases than HARD_CASES are written down */
-    }
-    hard_case *c = &list->item[list->count++];
-    c->room = list->room;
-    c->name = name;
-    c->unit = unit;
-    c->kind = kind;
-    c->figure = figure;
-    c->bound = bound;
-}
-
-int hard_holds(const hard_case *c) { return c->figure <= c->bound; }
-
-const char *hard_kind_name(int kind)
-{
-    return kind == HARD_EXACT ? "exact" : kind == HARD_BOUNDED ? "bounded" : "measured";
-}
-
-double hard_share(double part, double whole) { return whole > 0.0 ? part / whole : HUGE_VAL; }
 
 int hard_run(hard_list *out, const char *room, const lmb_kernels *kernels)
 {

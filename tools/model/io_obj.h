@@ -1,31 +1,9 @@
-/* io_obj.h: what the OBJ reader and its material reader share: text by tokens and lines, materials by name. */
+/* io_obj.h: what the OBJ reader and its material reader share: materials by name. */
 #ifndef IO_OBJ_H
 #define IO_OBJ_H
 
+#include "../common/io_text.h"
 #include "model_build.h"
-
-/* Some bytes of a text; not terminated. */
-typedef struct slice {
-    const char *at;
-    size_t size;
-} slice;
-
-/* A place in a text of lines. */
-typedef struct cursor {
-    const char *at, *end;
-    const char *path; /* for messages */
-    uint32_t line;    /* from 1 */
-} cursor;
-
-/* io_text.c: tokens. A comment, or the line's end unless a backslash stands before it, ends a line. */
-cursor text_open(const uint8_t *data, size_t size, const char *path);
-int text_token(slice *out, cursor *c); /* the next on this line; 0 at its end */
-void text_rest(slice *out, cursor *c); /* what remains of this line (not of one it goes on in), outer blanks cut */
-int text_next_line(cursor *c);         /* 0 at the end of the text */
-int slice_is(slice s, const char *word);
-int slice_number(double *out, slice s);   /* 0: not a number; inf and nan are numbers */
-int slice_integer(int64_t *out, slice s); /* 0: not one of at most 18 digits */
-int text_fail(const cursor *c, report *r, const char *format, ...) REPORT_PRINTF(3, 4);
 
 /* A map of colours and how it is laid: coordinates are scaled, then moved, as OBJ has them, v upwards. */
 typedef struct obj_map {

@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../common/io_text.h"
 #include "ear_clip.h"
-#include "io_obj.h"
 #include "io_ply.h"
 
 enum { MAX_ELEMENTS = 32, MAX_PROPERTIES = 512, MAX_WORDS = 5 };

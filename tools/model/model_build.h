@@ -62,6 +62,9 @@ lmb_vec3 build_normal(const double v[3], uint32_t *zeros);
  * read once, however often it is asked for, and raises the budgets once; the bytes stay until loading ends. */
 int build_read(model_build *b, file_bytes *out, const char *path, report *r);
 
+/* build_forget: the files that build_read keeps. */
+void build_forget(model_build *b);
+
 /* build_is_relative: is this a path from the model's folder: no scheme, no drive, no root? */
 int build_is_relative(const char *name);
 

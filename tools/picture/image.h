@@ -1,11 +1,12 @@
-/* image.h: pictures in memory and the files they live in. Every reader checks each length before it is used, and
- * takes at most a stated multiple of the file's size in memory; every writer writes aside, then renames. */
+/* image.h: pictures in memory, and as the bytes of files. Every reader checks each length before it is used, and takes
+ * at most a stated multiple of the file's size in memory. */
 #ifndef IMAGE_H
 #define IMAGE_H
 
 #include <stddef.h>
 #include <stdint.h>
 
+#include "../common/io_file.h"
 #include "../common/report.h"
 
 /* Linear light, rows from the top, `channels` floats a pixel. image_free releases it. */
@@ -21,27 +22,7 @@ typedef struct bitmap {
     uint8_t *texels; /* width * height * 4 */
 } bitmap;
 
-/* A whole file. file_free releases it. */
-typedef struct file_bytes {
-    uint8_t *data;
-    size_t size;
-} file_bytes;
-
 /* All functions below return 1, or 0 with `r` set and nothing allocated, nothing left on disk. */
-
-/* file_read: the whole file (regular or pipe), at most 4 GiB. */
-int file_read(file_bytes *out, const char *path, report *r);
-void file_free(file_bytes *file);
-
-/* file_is_plain: a regular file, or a link to one; no folder, device or pipe. */
-int file_is_plain(const char *path, report *r);
-
-/* file_write: write `size` bytes to `path`, whole or not at all: to a temporary file beside it, flushed and closed
- * with every error checked, then renamed over it. Existing special files (/dev/stdout, pipes) are written directly. */
-int file_write(const char *path, const void *data, size_t size, report *r);
-
-/* file_can_write: could file_write begin? Ask before long work. Leaves nothing behind. */
-int file_can_write(const char *path, report *r);
 
 /* png_decode: PNG from memory; `name` stands in messages. Colour types 0 2 3 4 6, depths 1 2 4 8 16, tRNS,
  * interlaced or not; 16 bits keep their high byte. */

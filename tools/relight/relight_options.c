@@ -210,6 +210,26 @@ static void complete(relight_options *o)
     }
 }
 
+/* Where the world's pictures belong, and what was left open: figures here and there, a camera. */
+static void demo_options(relight_options *o)
+{
+    static const lmb_vec3 places[] = {{-9.8f, 0, -2.5f}, {-8.4f, 0, -0.2f}, {-3.7f, 0, 2.4f}, {-0.9f, 0, -4.5f},
+                                      {0.5f, 0, 4.1f}, {3.4f, 0, 0.4f}, {8.2f, 0, -0.8f}, {9.9f, 0, -3.0f}};
+    demo_field_place(&o->place, o->ground_size);
+    o->has_far = o->has_ground_centre = 1;
+    o->ground_centre[0] = o->ground_centre[1] = 0.0f;
+    if (o->object != NULL && strcmp(o->object, "demo") == 0 && o->at_count == 0 && o->path == NULL) {
+        memcpy(o->at, places, sizeof places);
+        o->at_count = (int32_t)(sizeof places / sizeof *places);
+        if (!o->view.has_eye && !o->view.has_target) {
+            o->view.has_eye = o->view.has_target = 1;
+            o->view.eye = (lmb_vec3){0.0f, 2.3f, 8.4f};
+            o->view.target = (lmb_vec3){0.0f, 0.9f, 0.0f};
+            o->view.fov_deg = 58.0f;
+        }
+    }
+}
+
 int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
@@ -225,7 +245,7 @@ int relight_options_parse(relight_options *o, int argc, char **argv, report *r)
         return asked;
     }
     if (o->world != NULL && strcmp(o->world, "demo") == 0) {
-        demo_field_options(o);
+        demo_options(o);
     }
     complete(o);
     return check_together(o, r) ? OPTIONS_RUN : OPTIONS_BAD;

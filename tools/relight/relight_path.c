@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../picture/image.h"
+#include "../common/io_file.h"
 #include "relight_options.h"
 
 enum { LONGEST = 200, MOST = 10000 };

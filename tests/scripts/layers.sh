@@ -1,0 +1,172 @@
+# layers.sh: what may lean on what: layers.txt beside this has every folder of src/ and tools/ in order. CC B NM in the
+# environment, and the built library and tool.
+#
+#     layers.sh          folders by #include and by nm; circles among files by each; first lines; the plans in the
+#                        README files; and that made-up circles are found
+#     layers.sh write    puts the plans into src/README.md and tools/README.md
+. tests/scripts/checks.sh
+table=tests/scripts/layers.txt
+
+# plan ROOT: the table's part as a README shows it.
+plan() {
+    awk -v root="$1" '
+        /^#/ || /^$/ { mine = 0; next }
+        /^ / { if (mine) { sub(/^ +/, ""); printf "%15s%s\n", "", $0 } next }
+        {
+            mine = index($1, root "/") == 1
+            if (!mine) next
+            folder = substr($1, length(root) + 2) "/"; number = $2
+            sub(/^[^ ]+ [0-9]+ /, "")
+            printf "%2d %-12s%s\n", number, folder, $0
+        }' $table
+}
+
+# planned ROOT: what stands between the marks in ROOT/README.md.
+planned() {
+    awk '/^<!-- end of layers -->/ { exit } inside && !/^```/ { print } /^<!-- layers: / { inside = 1 }' "$1/README.md"
+}
+
+put_plan() {
+    plan "$1" >"$1/plan.new"
+    awk -v plan="$1/plan.new" '
+        /^<!-- end of layers -->/ { inside = 0 }
+        !inside { print }
+        /^<!-- layers: / { inside = 1; print "```"; while ((getline line < plan) > 0) print line; print "```" }
+    ' "$1/README.md" >"$1/README.new" && mv "$1/README.new" "$1/README.md"
+    rm "$1/plan.new"
+}
+
+# Edges are lines `FROM TO`, as paths of sources.
+
+# by_include FOLDER...: of files' #include "...".
+by_include() {
+    grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' "$@" |
+        sed -E 's/^([^:]+):[0-9]+:[^"]*"([^"]*)".*/\1 \2/' | awk '
+            { to = $1; sub(/\/[^\/]*$/, "", to); to = to "/" $2
+              while (sub(/[^\/.]+\/\.\.\//, "", to)) ;
+              print $1, to }'
+}
+
+# by_call FOLDER: of the objects under it: who takes a symbol that another one has.
+by_call() {
+    find "$1" -name '*.o' | sort | while read -r object; do
+        source=${object#"$1/"}
+        $NM "$object" | awk -v source="${source%.o}.c" 'NF >= 2 { print source, $(NF - 1), $NF }'
+    done | awk '
+        $2 ~ /^[TDBRVWC]$/ { at[$3] = $1 }
+        $2 == "U" { ++n; user[n] = $1; symbol[n] = $3 }
+        END {
+            for (i = 1; i <= n; ++i)
+                if (symbol[i] in at && at[symbol[i]] != user[i]) print user[i], at[symbol[i]]
+        }' | sort -u
+}
+
+# in_circles: the edges on circles, and between them: what leads nowhere, and then where nothing leads, is taken away.
+in_circles() {
+    awk '
+        { from[NR] = $1; to[NR] = $2; left[NR] = 1 }
+        END {
+            do {
+                gone = 0
+                split("", has_out); split("", has_in)
+                for (i = 1; i <= NR; ++i) if (left[i]) { has_out[from[i]] = 1; has_in[to[i]] = 1 }
+                for (i = 1; i <= NR; ++i)
+                    if (left[i] && (!(to[i] in has_out) || !(from[i] in has_in))) { left[i] = 0; gone = 1 }
+            } while (gone)
+            for (i = 1; i <= NR; ++i) if (left[i]) print from[i] " -> " to[i]
+        }'
+}
+
+# upward: edges that go up, sideways, or where nothing of ours may.
+upward() {
+    awk -v table=$table '
+        function folder(path) { sub(/\/[^\/]*$/, "", path); return path }
+        BEGIN {
+            while ((getline line < table) > 0)
+                if (line ~ /^[a-z]/) {
+                    split(line, part, " ")
+                    layer[part[1]] = part[2] + (part[1] ~ /^tools/ ? 1000 : 0)
+                }
+            layer["platform/host"] = 999
+        }
+        {
+            a = folder($1); b = folder($2)
+            if (a == b || a !~ /^(src|tools|include)\//) next
+            if (a ~ /^include/) print $1 " -> " $2 " (a public header leans on public headers alone)"
+            else if (!(a in layer) || !(b in layer)) print $1 " -> " $2 " (layers.txt has no " (a in layer ? b : a) ")"
+            else if (layer[b] >= layer[a]) print $1 " -> " $2 " (from " layer[a] % 1000 " to " layer[b] % 1000 ")"
+        }'
+}
+
+# none WHAT LINES: each line is a failure.
+none() {
+    if [ -z "$2" ]; then
+        pass
+    else
+        failed=$((failed + $(printf '%s\n' "$2" | wc -l)))
+        printf '%s\n' "$2" | sed "s/^/FAIL $1: /"
+    fi
+}
+
+if [ "$1" = write ]; then
+    put_plan src
+    put_plan tools
+    exit
+fi
+
+dir=$B/layers
+rm -rf "$dir"
+mkdir -p "$dir"
+
+by_include src tools include >"$dir/includes"
+mkdir -p "$dir/obj"
+for root in src tools; do
+    [ -d "$B/obj/$root" ] && (cd "$B/obj" && find "$root" -name '*.o') | while read -r object; do
+        # An object of a source that is gone since is no part of the build.
+        [ ! -f "${object%.o}.c" ] || { mkdir -p "$dir/obj/${object%/*}" && ln "$B/obj/$object" "$dir/obj/$object"; }
+    done
+done
+by_call "$dir/obj" >"$dir/calls"
+check "nm finds no calls" test -s "$dir/calls"
+
+none "include" "$(upward <"$dir/includes")"
+none "call" "$(upward <"$dir/calls")"
+none "circle of includes" "$(grep -E '^(src|tools)' "$dir/includes" | in_circles)"
+none "circle of calls" "$(in_circles <"$dir/calls")"
+echo "$(sort -u "$dir/includes" | wc -l) includes, $(wc -l <"$dir/calls") calls from file to file"
+
+for folder in src/*/ tools/*/; do
+    check "$folder: layers.txt has no such folder" grep -q "^${folder%/} [0-9]" $table
+done
+for file in src/*/*.c src/*/*.h src/*/*.inl; do
+    number=$(awk -v folder="${file%/*}" '$1 == folder { print $2 }' $table)
+    check "$file: its first lines do not say that it is of layer $number" \
+        sh -c "head -n 3 '$file' | grep -qE '(Layer|Floor) $number\\.'"
+done
+for root in src tools; do
+    [ "$(plan $root)" = "$(planned $root)" ] && pass ||
+        fail "$root/README.md has another plan than layers.txt: sh tests/scripts/layers.sh write"
+done
+
+# Could it fail? Two files that call each other and a third that is called; two headers that include each other; a file
+# that calls and includes upward.
+made=$dir/made
+mkdir -p "$made/src/base" "$made/src/raster" "$made/obj/src/base" "$made/obj/src/raster"
+echo 'int one(void); int two(void); int three(void); int one(void) { return two() + three(); }' >"$made/src/base/one.c"
+echo 'int one(void); int two(void); int two(void) { return one(); }' >"$made/src/base/two.c"
+echo 'int three(void); int three(void) { return 3; }' >"$made/src/raster/three.c"
+echo '#include "two.h"' >"$made/src/base/one.h"
+printf '#include "one.h"\n#include "../raster/three.h"\n' >"$made/src/base/two.h"
+: >"$made/src/raster/three.h"
+for name in base/one base/two raster/three; do
+    check "$name.c of a made-up circle compiles" $CC -O0 -c "$made/src/$name.c" -o "$made/obj/src/$name.o"
+done
+by_call "$made/obj" >"$made/calls"
+(cd "$made" && by_include src) >"$made/includes"
+check "a made-up circle of calls is not found" test "$(in_circles <"$made/calls" | sort | tr '\n' ';')" = \
+    "src/base/one.c -> src/base/two.c;src/base/two.c -> src/base/one.c;"
+check "a made-up circle of includes is not found" test "$(in_circles <"$made/includes" | sort | tr '\n' ';')" = \
+    "src/base/one.h -> src/base/two.h;src/base/two.h -> src/base/one.h;"
+check "a made-up call upward is not found" test "$(upward <"$made/calls" | wc -l)" -eq 1
+check "a made-up include upward is not found" test "$(upward <"$made/includes" | wc -l)" -eq 1
+finish

@@ -1,0 +1,26 @@
+/* bench_state.h: what a sweep and its ledgers have at hand. */
+#ifndef BENCH_STATE_H
+#define BENCH_STATE_H
+
+#include "bench_task.h"
+#include "bench_truth.h"
+
+/* What a sweep has at hand; its pictures are kept for the ledgers. */
+typedef struct sweep {
+    const bench_options *o;
+    bench_report *b;
+    bench_task task[BENCH_POINTS];
+    int tasks;
+    bench_truth truth;
+    float exposure_ev;
+    image kept[BENCH_POINTS]; /* by point */
+    double done, all, start;  /* weights; s */
+} sweep;
+
+/* sweep_line: the words of a setting, behind what was given. */
+int sweep_line(bench_line *out, const sweep *s, const char *words, report *r);
+
+/* bench_progress: the line about how far it is, where someone watches; NULL: wipe it. */
+void bench_progress(const sweep *s, const char *what);
+
+#endif

@@ -1,0 +1,33 @@
+/* io_text.h: a text by lines, tokens and numbers, where it stands. */
+#ifndef IO_TEXT_H
+#define IO_TEXT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "report.h"
+
+/* Some bytes of a text; not terminated. */
+typedef struct slice {
+    const char *at;
+    size_t size;
+} slice;
+
+/* A place in a text of lines. */
+typedef struct cursor {
+    const char *at, *end;
+    const char *path; /* for messages */
+    uint32_t line;    /* from 1 */
+} cursor;
+
+/* Tokens. A comment, or the line's end unless a backslash stands before it, ends a line. */
+cursor text_open(const uint8_t *data, size_t size, const char *path);
+int text_token(slice *out, cursor *c); /* the next on this line; 0 at its end */
+void text_rest(slice *out, cursor *c); /* what remains of this line (not of one it goes on in), outer blanks cut */
+int text_next_line(cursor *c);         /* 0 at the end of the text */
+int slice_is(slice s, const char *word);
+int slice_number(double *out, slice s);   /* 0: not a number; inf and nan are numbers */
+int slice_integer(int64_t *out, slice s); /* 0: not one of at most 18 digits */
+int text_fail(const cursor *c, report *r, const char *format, ...) REPORT_PRINTF(3, 4);
+
+#endif

@@ -1,0 +1,28 @@
+/* hard_list.c: a list of hard cases, and how one is told. */
+#include "hard_list.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+void hard_put(hard_list *list, int kind, const char *name, double figure, double bound, const char *unit)
+{
+    if (list->count == HARD_CASES) {
+        abort(); /* more cases than HARD_CASES are written down */
+    }
+    hard_case *c = &list->item[list->count++];
+    c->room = list->room;
+    c->name = name;
+    c->unit = unit;
+    c->kind = kind;
+    c->figure = figure;
+    c->bound = bound;
+}
+
+int hard_holds(const hard_case *c) { return c->figure <= c->bound; }
+
+const char *hard_kind_name(int kind)
+{
+    return kind == HARD_EXACT ? "exact" : kind == HARD_BOUNDED ? "bounded" : "measured";
+}
+
+double hard_share(double part, double whole) { return whole > 0.0 ? part / whole : HUGE_VAL; }

@@ -1,0 +1,50 @@
+/* mix_job.c: the memory of one run of `lambent mix`, and the planes of its photo. */
+#include "mix_job.h"
+
+#include <stdlib.h>
+
+void *mix_take(mix_job *j, size_t bytes, report *r)
+{
+    void *p = j->block_count < MIX_BLOCKS ? calloc(1, bytes > 0 ? bytes : 1) : NULL;
+    if (p == NULL) {
+        report_fail(r, "not enough memory: %.0f MiB more wanted", (double)bytes / 1048576.0);
+        return NULL;
+    }
+    return j->blocks[j->block_count++] = p;
+}
+
+void mix_job_free(mix_job *j)
+{
+    mix_frame_free(&j->frame);
+    model_free(&j->object);
+    image_free(&j->picture);
+    for (int i = 0; i < j->block_count; ++i) {
+        free(j->blocks[i]);
+    }
+    free(j);
+}
+
+static int find_cloud(mix_job *j, report *r)
+{
+    const lmb_pinhole *c = &j->frame.camera;
+    const size_t a = lmb_cloud_bytes(c->width, c->height), b = lmb_planes_bytes(c->width, c->height);
+    void *cloud = mix_take(j, a, r), *planes = mix_take(j, b, r);
+    if (cloud == NULL || planes == NULL) {
+        return 0;
+    }
+    if (lmb_cloud_init(&j->cloud, c, j->frame.depth, cloud, a) != LMB_OK || lmb_cloud_normals(&j->cloud) != LMB_OK ||
+        lmb_planes_find(&j->planes, &j->cloud, planes, b) != LMB_OK) {
+        return report_fail(r, "the photo's camera or size is none that can be used");
+    }
+    return 1;
+}
+
+int mix_find_planes(mix_job *j, report *r)
+{
+    lmb_pinhole_round(&j->frame.camera);
+    if (!find_cloud(j, r)) {
+        return 0;
+    }
+    lmb_planes_move(&j->cloud, &j->planes);
+    return 1;
+}
