@@ -53,7 +53,7 @@ TOOL_OBJ   := $(call object,$(TOOL_SRC))
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
 GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
-WAYS_OBJ   := $(call object,$(GOLDEN_SRC) tests/golden/main_ways.c tools/demo/demo_scene.c tools/common/crew.c \
+ORDERS_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_orders.c tools/demo/demo_scene.c tools/common/crew.c \
               platform/host/host.c platform/host/pool.c) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
@@ -63,21 +63,21 @@ DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
-MOVING_OBJ := $(call object,tests/measure/main_moving.c) $(filter-out %/lambent.o,$(TOOL_OBJ))
-# tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program figures-NAME.
-FIGURES    := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
-figures_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
+# tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program measure-NAME.
+MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
+measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
-PROGRAMS := tests golden ways reference hard replay hostile audit-golden audit-replay
+PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
 
 # --- what people want ------------------------------------------------------------------------------------------------
 
+##@ Build
 .PHONY: all lib demo help clean
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
@@ -86,16 +86,20 @@ demo: $(TOOL) ## render the built-in scene to build/demo.png
 	@$(TOOL) render demo -o $(BUILD)/demo.png
 
 help: ## this list
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-11s %s\n", $$1, $$2 }' Makefile
+	@awk -F ':.*## ' '/^##@ / { printf "\n%s\n", substr($$0, 5) } \
+	    /^[a-z-]+:.*## / { printf "  make %-17s %s\n", $$1, $$2 }' Makefile
 
 clean: ## remove everything that was built
 	@rm -rf $(BUILD)
 
 # --- rules -----------------------------------------------------------------------------------------------------------
 
+# A line a module: who says it makes a folder in $(B)/said; V=1 shows every file.
+$(shell rm -rf $(B)/said)
+
 $(B)/obj/%.o: %.c $(B)/flags
-	@mkdir -p $(@D)
-	@echo "CC $<"
+	@mkdir -p $(@D) $(B)/said
+	@if [ -n "$(V)" ]; then echo "CC $<"; elif mkdir $(B)/said/$(subst /,-,$(<D)) 2>/dev/null; then echo "CC $(<D)"; fi
 	@$(COMPILE) -c $< -o $@
 
 $(LIB): $(LIB_OBJ)
@@ -106,7 +110,7 @@ $(LIB): $(LIB_OBJ)
 $(TOOL): $(TOOL_OBJ) $(LIB)
 $(B)/tests: $(TEST_OBJ) $(LIB)
 $(B)/golden: $(GOLDEN_OBJ)
-$(B)/ways: $(WAYS_OBJ)
+$(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
@@ -114,12 +118,11 @@ $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
 $(B)/hard: $(HARD_OBJ) $(LIB)
-$(B)/moving: $(MOVING_OBJ) $(LIB)
 $(B)/scenes: $(SCENES_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
-$(foreach f,$(FIGURES),$(eval $(B)/figures-$(f): $(call figures_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(FIGURES:%=$(B)/figures-%) $(B)/demo $(B)/statue $(B)/decodes $(B)/moving $(B)/scenes $(B)/fuzzer:
+$(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/decodes $(B)/scenes $(B)/fuzzer:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -128,6 +131,9 @@ export FLAGS_LINE := $(COMPILE) $(LINK) $(PORT_LDLIBS) $(LDLIBS)
 $(B)/flags: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$$FLAGS_LINE" | cmp -s - $@ || printf '%s\n' "$$FLAGS_LINE" > $@
+
+# It counts operations, which no optimiser changes, of all kernels: a fifth of the build otherwise.
+$(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0
 
 # The table of tests: tests/GROUP/test_NAME.c defines `void test_NAME(void)`; nobody registers anything by hand.
 group_of    = $(word 2,$(subst /, ,$(1)))
@@ -154,20 +160,21 @@ $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(WAYS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
-    $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(MOVING_OBJ) $(SCENES_OBJ) $(foreach f,$(FIGURES),$(call figures_of,$(f))) $(AUDITED)))
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
+    $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
 # The longest first: what runs beside them fills the second core.
 
-CHECKS ?= one unit tiny statue analytic truth lanes golden ways audit slow hard replay hostile hostile-cli layers symbols \
-          stack headers layout guard tables readme examples examples-tiny cli get
+CHECKS ?= one-command unit tiny statue analytic truth lanes golden golden-orders audit slivers hard replay hostile \
+          hostile-cli layers symbols stack headers layout guard tables readme examples examples-tiny cli tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
           LDLIBS='$(PORT_LDLIBS) $(LDLIBS)' sh
 
+##@ Checks (`make check` runs them all; CHECKS="unit golden" some of them)
 .PHONY: check $(CHECKS) $(CHECKS:%=check-%)
 check: $(CHECKS:%=check-%) ## all checks, one line each, and their sum; V=1 shows their output
 	@sh tests/scripts/sum.sh $(CHECKS:%=$(B)/check/%.log)
@@ -179,6 +186,11 @@ $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(PROGRAMS:%=$(B)/%)
 check-statue: $(filter check-tiny,$(CHECKS:%=check-%))
 check-examples-tiny: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 
+unit: ## what functions do, alone and together
+analytic: ## light against closed forms
+truth: ## light against path-traced pictures, where ../shared is there (LMB_SHARED)
+lanes: ## each kernel by each machine against plain C; LANES_SEED=7 repeats a run
+
 unit analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
 
@@ -189,14 +201,14 @@ unit-1 unit-2: $(B)/tests
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden$(EXE)
 
-slow: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
+slivers: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
 	@$(RUN) $(B)/reference hard
 
 hard: $(B)/hard ## the gallery of hard cases, and what must not matter (ROOMS="raster shadow ..."; the table: bench hard)
 	@$(RUN) $(B)/hard $(ROOMS)
 
-ways: $(B)/ways ## the same hashes in pieces, in several orders, and on 1 .. 8 threads; WAYS=all: by every machine each
-	@$(RUN) $(B)/ways$(EXE) $(WAYS)
+golden-orders: $(B)/golden-orders ## the same hashes in pieces, in several orders, on 1 .. 8 threads; BACKENDS=all: each way by every machine
+	@$(RUN) $(B)/golden-orders$(EXE) $(if $(filter all,$(BACKENDS)),all)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
@@ -232,7 +244,7 @@ layout: $(LIB) ## a program with other capacities than the library must not link
 guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: builds that would draw other pixels are refused
 	@$(IN_SH) tests/scripts/guard.sh
 
-one: ## a bare compiler command with all of src: builds, and the pictures are the same
+one-command: ## a bare compiler command with all of src: builds, and the pictures are the same
 	@$(IN_SH) tests/scripts/one_command.sh
 
 tables: $(LIB) ## generated tables are what their generators print
@@ -247,7 +259,7 @@ examples: $(LIB) ## the programs of tests/examples compile, run and print what t
 examples-tiny: ## the same in the tiny configuration
 	+@$(MAKE) examples CONFIG=tiny
 
-get: ## that check-tools removes nothing and says what it does
+tool-setup: ## that check-tools removes nothing and says what it does
 	@$(IN_SH) tests/scripts/tool_setup.sh
 
 cli: $(TOOL) ## the tool's files, exit statuses and messages
@@ -258,21 +270,22 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: size room-sizes rom asan msan fuzz mutants cov static prove decodes reference moving scenes figures own-figures \
-    turned-figures full-figures times report brute \
-    simplify relight-figures relief-figures plan-figures plan-model planes mixed voxels large tiny run-demo \
-    run-statue cross check-tools
-size: room-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
+.PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving scenes \
+    measure-truth measure-own measure-turned measure-full measure-times report measure-cuts measure-simplify \
+    measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-voxels large tiny \
+    run-demo run-statue cross check-tools
+##@ Size, sanitizers, fuzzing, proofs
+size: module-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
-	    && $(MAKE) room-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
+	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
 
-room-sizes: $(LIB)
+module-sizes: $(LIB)
 	@$(IN_SH) tests/scripts/size.sh
 
-rom: room-sizes
+rom: module-sizes
 	@$(IN_SH) tests/scripts/rom.sh 49152
 
-COV_PROGRAMS := tests golden ways reference hard replay hostile
+COV_PROGRAMS := tests golden golden-orders reference hard replay hostile
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
@@ -316,65 +329,67 @@ prove: ## Frama-C and Gappa on the raster's integers: nothing overflows, for any
 decodes: $(B)/decodes ## the picture decoders against netpbm, libjpeg-turbo and libvips
 	@$(IN_SH) tests/scripts/decodes.sh $(B)/decodes
 
+##@ Measure, against truth in ../shared where that is there (LMB_SHARED names it)
 reference: $(B)/reference ## coverage and depth of the raster workload against the slow reference rasterizer
 	@$(RUN) $(B)/reference
 
-moving: $(B)/moving ## a light and a crate that move: what the cut adds to the change from frame to frame
-	@$(RUN) $(B)/moving
+measure-moving: $(B)/measure-moving ## a light and a crate that move: what the cut adds to the change from frame to frame
+	@$(RUN) $(B)/measure-moving
 
 scenes: $(B)/scenes ## a program that makes scenes of our own from a name and a seed: build/default/scenes --list
 
-figures: $(TOOL) ## bounced light against truth: errors, work, time (SCENES="cornell ..." QUALITIES="draft ...")
+measure-truth: $(TOOL) ## bounced light against truth: errors, work, time (SCENES="cornell ..." QUALITIES="draft ...")
 	@$(IN_SH) tests/measure/truth.sh
 
-own-figures: $(TOOL) $(B)/scenes ## the same on those and on scenes of our own, fitted and held out (LMB_OWN_TRUTH=DIR)
+measure-own: $(TOOL) $(B)/scenes ## the same on those and on scenes of our own, fitted and held out (LMB_OWN_TRUTH=DIR)
 	@$(IN_SH) tests/measure/own.sh
 
-turned-figures: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random, against upright (TURNS="1 2 ...")
+measure-turned: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random, against upright (TURNS="1 2 ...")
 	@$(IN_SH) tests/measure/turned.sh
 
-full-figures: $(TOOL) ## all light, six bounces, against truth, and its later part (SCENES="cornell ..." QUALITY=best BOUNCES=20)
+measure-full: $(TOOL) ## all light, six bounces, against truth, and its later part (SCENES="cornell ..." QUALITY=best BOUNCES=20)
 	@$(IN_SH) tests/measure/full.sh
 
-times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS="1 2", FRAME=64x64)
+measure-times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS="1 2", FRAME=64x64)
 	@$(IN_SH) tests/measure/times.sh
 
 report: $(TOOL) ## speed against error: pages of three truth scenes and the demo in build/report, README's table and picture
 	@$(IN_SH) tests/measure/report.sh
 
 STEP ?= 17
-brute: $(B)/figures-brute ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
-	@$(RUN) $(B)/figures-brute $(STEP) $(SCENES)
+measure-cuts: $(B)/measure-cuts ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
+	@$(RUN) $(B)/measure-cuts $(STEP) $(SCENES)
 
-relight-figures: $(B)/figures-relight ## objects lit by their world: each filter's errors and time, outdoor maps, gloss
+measure-relight: $(B)/measure-relight ## objects lit by their world: each filter's errors and time, outdoor maps, gloss
 	@$(IN_SH) tests/measure/relight.sh
 
-simplify: $(B)/figures-simplify ## what simpler meshes lose and add, against bars: distances, silhouettes, time of a million
-	@$(RUN) $(B)/figures-simplify
+measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add, against bars: distances, silhouettes, time of a million
+	@$(RUN) $(B)/measure-simplify
 
-planes: $(B)/figures-planes ## planes found in noisy depth against known ones, and across frames of one world
-	@$(RUN) $(B)/figures-planes
+measure-planes: $(B)/measure-planes ## planes found in noisy depth against known ones, and across frames of one world
+	@$(RUN) $(B)/measure-planes
 
-mixed: $(B)/figures-mixed ## a virtual object in a photo of which all is known, against path-traced truth
-	@$(RUN) $(B)/figures-mixed
+measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is known, against path-traced truth
+	@$(RUN) $(B)/measure-mixed
 
-voxels: $(B)/figures-voxel ## one bounce by cones through voxels: errors, time, memory (SCENES="cornell ...")
-	@$(RUN) $(B)/figures-voxel $(SCENES)
+measure-voxels: $(B)/measure-voxel ## one bounce by cones through voxels: errors, time, memory (SCENES="cornell ...")
+	@$(RUN) $(B)/measure-voxel $(SCENES)
 
 ROWS ?= $(BUILD)/plan-rows.bin
-plan-figures: $(TOOL) $(B)/scenes ## settings chosen for budgets of error, against truth (BUDGETS, LMB_OWN_TRUTH)
+measure-plan: $(TOOL) $(B)/scenes ## settings chosen for budgets of error, against truth (BUDGETS, LMB_OWN_TRUTH)
 	@$(IN_SH) tests/measure/plan.sh
 
-plan-model: $(B)/figures-plan ## src/plan/plan_model.inc again: units of work, from five scenes by many settings
-	@rm -f $(ROWS); $(RUN) $(B)/figures-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/figures-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
+plan-model: $(B)/measure-plan ## src/plan/plan_model.inc again: units of work, from five scenes by many settings
+	@rm -f $(ROWS); $(RUN) $(B)/measure-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/measure-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
 
 RELIEFS ?= quality own rooms causes speed
-relief-figures: $(B)/figures-relief ## reliefs against their complex models: errors, speed (RELIEFS="quality own ...")
-	@$(RUN) $(B)/figures-relief $(RELIEFS)
+measure-relief: $(B)/measure-relief ## reliefs against their complex models: errors, speed (RELIEFS="quality own ...")
+	@$(RUN) $(B)/measure-relief $(RELIEFS)
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/scripts/large.sh
 
+##@ Other machines (PORT=cortex-m|riscv32|web builds for one)
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/tiny.sh
 

@@ -1,7 +1,7 @@
 /* invariants.c: what must not matter to a picture, over random scenes: the back end, the order of triangles, whole
  * pixels, powers of two, left and right, what no path meets, and how a surface is cut into triangles.
  *
- * Thread counts and slices are tests/golden/main_ways.c's. A failure names its scene: its number is its seed. */
+ * Thread counts and slices are tests/golden/main_orders.c's. A failure names its scene: its number is its seed. */
 #include <math.h>
 #include <string.h>
 

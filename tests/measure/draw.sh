@@ -2,7 +2,7 @@
 . tests/scripts/checks.sh
 
 truth=${LMB_SHARED:-../shared}/truth
-work=$B/figures
+work=$B/measure
 mkdir -p "$work"
 
 # truth_scenes [SET]: those of tests/truth/truth_scenes.inc.

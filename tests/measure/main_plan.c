@@ -1,7 +1,7 @@
 /* main_plan.c: what operations cost, fitted to scenes.
  *
- *   figures-plan measure FILE [SCENE ...]   draw scenes by many settings: a file of rows (appended)
- *   figures-plan model FILE                 the model of the rows' fitting scenes, as src/plan/plan_model.inc */
+ *   measure-plan measure FILE [SCENE ...]   draw scenes by many settings: a file of rows (appended)
+ *   measure-plan model FILE                 the model of the rows' fitting scenes, as src/plan/plan_model.inc */
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,7 +58,7 @@ static void measure(const char *path, int argc, char **argv)
 int main(int argc, char **argv)
 {
     if (argc < 3) {
-        fprintf(stderr, "figures-plan measure|model FILE [SCENE ...]\n");
+        fprintf(stderr, "measure-plan measure|model FILE [SCENE ...]\n");
         return 2;
     }
     if (strcmp(argv[1], "model") == 0) {

@@ -1,7 +1,7 @@
 /* main_relight.c: objects lit by the world around them: what each way costs, how far it is from truth.         [S1-S27]
  *
- *     relight-figures [COUNTS]   tables; COUNTS has lines `FILTER INSTRUCTIONS`, which are printed beside the times
- *     relight-figures count      two updates by each filter, avx2: to be run where calls of relight_update are counted
+ *     measure-relight [COUNTS]   tables; COUNTS has lines `FILTER INSTRUCTIONS`, which are printed beside the times
+ *     measure-relight count      two updates by each filter, avx2: to be run where calls of relight_update are counted
  *
  * Times are processor seconds of one core, the least of many samples. */
 #include <stdlib.h>

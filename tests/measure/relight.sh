@@ -8,12 +8,12 @@ rm -f "$work"/count*
 
 if command -v valgrind >/dev/null 2>&1 &&
     valgrind --tool=callgrind --callgrind-out-file="$work/count" --toggle-collect=relight_update \
-        --dump-after=relight_update "$B/figures-relight" count >"$work/names" 2>"$work/said"; then
+        --dump-after=relight_update "$B/measure-relight" count >"$work/names" 2>"$work/said"; then
     i=0
     while read -r name; do
         i=$((i + 2))
         echo "$name $(sed -n 's/^summary: \([0-9]*\).*/\1/p' "$work/count.$i")"
     done <"$work/names" >"$work/counts"
-    exec "$B/figures-relight" "$work/counts"
+    exec "$B/measure-relight" "$work/counts"
 fi
-exec "$B/figures-relight"
+exec "$B/measure-relight"

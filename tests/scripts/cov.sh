@@ -9,7 +9,7 @@ find "$folder" -name '*.gcda' -exec rm -f {} +
 {
     "$b/tests" unit analytic lanes # truth runs nothing else, for minutes
     "$b/golden"
-    "$b/ways"
+    "$b/golden-orders"
     "$b/reference" hard
     "$b/hard"
     "$b/replay" tests/fuzz/corpus/*/*

@@ -1,7 +1,7 @@
-/* main_brute.c: what cuts save: brute force, which takes every lit texel of a 1024 x 1024 map for every pixel, against
+/* main_cuts.c: what cuts save: brute force, which takes every lit texel of a 1024 x 1024 map for every pixel, against
  * each preset's cut of the same map, on some tiles of truth scenes. [V27, DESIGN 6]
  *
- *     brute [STEP [SCENE...]]        every STEP-th tile in reading order (default 17, which no row of tiles is a
+ *     measure-cuts [STEP [SCENE...]] every STEP-th tile in reading order (default 17, which no row of tiles is a
  *                                    multiple of); cornell and sponza
  *
  * Brute force is a strong one: texels that face away are not asked, a tile's pixels ask for their 64 segments together,

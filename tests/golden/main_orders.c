@@ -1,4 +1,4 @@
-/* main_ways.c: the golden cases cut into pieces, in several orders and on 1 .. 8 threads: the same hashes each way.
+/* main_orders.c: the golden cases cut into pieces, in several orders and on 1 .. 8 threads: the same hashes each way.
  *
  * A line a way, with the lines of the cases that differ. Cases take turns with the machines' kernels, and each case
  * from way to way: so every machine meets every number of threads, and every case. `ways all`: every machine each way.
