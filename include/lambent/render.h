@@ -118,9 +118,10 @@ enum {
                                 Builds without trees (LMB_TREES 0) have nothing else: there all are this one */
 };
 
-/* What lmb_frame_init makes a frame of. `scene` and `view` are needed; zeros elsewhere are what most want. What takes
+/* What lmb_frame_init makes a frame of. `kernels`, `scene` and `view` are needed; zeros elsewhere are what most want. What takes
  * no memory and is not here (exposure_ev, occlusion, stats, callback ...) is set in the frame afterwards. */
 typedef struct lmb_frame_settings {
+    const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
     const lmb_scene *scene; /* checked, with its lights; stays where it is */
     const lmb_many *many;   /* built; NULL: none. Its memory is its own */
     lmb_view view;          /* lmb_view_look makes one; its frame 1 .. LMB_MAX_SIDE px a side */

@@ -59,7 +59,7 @@ static uint32_t map_faces(const lmb_scene *s)
 
 static lmb_status check(const lmb_frame_settings *s)
 {
-    if (s->scene == NULL || s->view.frame_width < 1 || s->view.frame_width > LMB_MAX_SIDE || s->view.frame_height < 1 ||
+    if (s->kernels == NULL || s->scene == NULL || s->view.frame_width < 1 || s->view.frame_width > LMB_MAX_SIDE || s->view.frame_height < 1 ||
         s->view.frame_height > LMB_MAX_SIDE || s->show < LMB_SHOW_FULL || s->show > LMB_SHOW_IRRADIANCE ||
         s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED || s->bounces < 0 ||
         s->bounces > LMB_MOST_BOUNCES || s->threads < 0 || s->threads > MOST_THREADS || s->light_map < 0 ||
@@ -92,7 +92,7 @@ static int32_t chosen_map(const lmb_frame_settings *s)
 static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
 {
     memset(f, 0, sizeof *f);
-    f->kernels = lmb_kernels_pick();
+    f->kernels = s->kernels;
     f->scene = s->scene;
     f->many = s->many;
     const int even = wants_even_light(f);

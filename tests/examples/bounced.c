@@ -20,6 +20,7 @@ int main(void)
     lmb_frame frame;
 
     memset(&settings, 0, sizeof settings);
+    settings.kernels = lmb_kernels_pick();
     settings.scene = &scene;
     if (lmb_scene_check(&scene) != LMB_OK ||
         lmb_view_look(&settings.view, room_eye, room_middle, room_up, 0.8f, 96, 64) != LMB_OK) {

@@ -58,6 +58,7 @@ int main()
     lmb_light lamp;
     const lmb_scene scene = room_scene(mesh, material, place, &lamp);
     lmb_frame_settings settings = lmb_frame_settings();
+    settings.kernels = lmb_kernels_pick();
     settings.scene = &scene;
     settings.threads = 2;
     settings.light_map = 128;

@@ -38,6 +38,7 @@ int main(void)
     int steps = 0;
 
     memset(&settings, 0, sizeof settings);
+    settings.kernels = lmb_kernels_pick();
     settings.scene = &scene;
     settings.by_bands = 1;
     settings.format = LMB_RGB565;

@@ -29,6 +29,7 @@ int main(void)
     int maps_kept = 0;
 
     memset(&settings, 0, sizeof settings);
+    settings.kernels = lmb_kernels_pick();
     settings.scene = &scene;
     settings.light_map = 128;
     settings.tree = 32;

@@ -64,6 +64,7 @@ static lmb_frame_settings plain(const lmb_scene *scene)
 {
     lmb_frame_settings s;
     memset(&s, 0, sizeof s);
+    s.kernels = lmb_kernels_pick();
     s.scene = scene;
     s.view = demo_view(WIDE, HIGH);
     s.light_map = MAP;

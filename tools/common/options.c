@@ -10,20 +10,6 @@
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
-const option_row *options_row(const option_table *t, int i)
-{
-    for (int part = 0; part < OPTION_PARTS && t->part[part] != NULL; ++part) {
-        for (const option_row *row = t->part[part]; row->kind != OPTION_END; ++row) {
-            if (i-- == 0) {
-                return row;
-            }
-        }
-    }
-    return NULL;
-}
-
-int options_has_value(const option_row *row) { return row->kind > OPTION_FLAG; }
-
 /* Is the word this name, alone or with `=value` behind it? */
 static int names(const char *name, const char *word)
 {

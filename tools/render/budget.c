@@ -17,16 +17,6 @@ static uint64_t fixed_bytes(const render_job *j)
            pixels * (4 + 4 + 12);
 }
 
-void budget_apply(render_job *j, const lmb_settings *s)
-{
-    j->o.light_map = s->light_map;
-    j->o.tree = s->tree;
-    j->o.error = s->error;
-    j->o.visible = s->visible;
-    j->o.gather_step = s->gather_step;
-    j->o.occlusion = s->occlusion;
-}
-
 void budget_words(char *out, size_t size, const budget_choice *c)
 {
     const lmb_budget *b = &c->budget;
@@ -79,7 +69,7 @@ static void tell(const budget_choice *c, int is_quiet)
 static int take_choice(budget_choice *c, render_job *j, report *r)
 {
     const lmb_settings *s = &c->chosen.settings;
-    budget_apply(j, s);
+    render_job_apply(j, s);
     if (!c->look.solved || j->frame.tree.size != s->tree || j->frame.light_map != s->light_map) {
         return render_job_refit(j, r);
     }

@@ -18,9 +18,6 @@ typedef struct budget_choice {
  * stderr what was chosen. 1, or 0 with `r` set. */
 int budget_fit(budget_choice *out, render_job *j, report *r);
 
-/* budget_apply: chosen settings into a job's options. */
-void budget_apply(render_job *j, const lmb_settings *s);
-
 /* In words, one line: what is short of the budget, or that nothing is. */
 void budget_words(char *out, size_t size, const budget_choice *c);
 

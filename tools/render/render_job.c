@@ -188,6 +188,7 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     const render_options *o = &j->o;
     lmb_frame_settings s;
     memset(&s, 0, sizeof s);
+    s.kernels = o->kernels;
     s.scene = shows_attribute(o->show) ? bare : &j->scene;
     s.many = j->many.tree.node != NULL ? &j->many.tree : NULL;
     s.view = j->middle;
@@ -223,7 +224,6 @@ static int refuse(const lmb_frame_settings *s, report *r)
 static void set_numbers(render_job *j)
 {
     lmb_frame *f = &j->frame;
-    f->kernels = j->o.kernels;
     f->scene = &j->scene;
     f->show = j->o.show < SHOW_DEPTH ? j->o.show : j->o.show == SHOW_OCCLUSION ? LMB_SHOW_IRRADIANCE : LMB_SHOW_FULL;
     f->many_error = j->o.light_error;
@@ -297,4 +297,14 @@ int render_job_set(render_job *j, report *r)
         j->o.grouping.join = 1e-30f; /* first points as they are: none is so near another */
     }
     return take_memory(j, r);
+}
+
+void render_job_apply(render_job *j, const lmb_settings *s)
+{
+    j->o.light_map = s->light_map;
+    j->o.tree = s->tree;
+    j->o.error = s->error;
+    j->o.visible = s->visible;
+    j->o.gather_step = s->gather_step;
+    j->o.occlusion = s->occlusion;
 }

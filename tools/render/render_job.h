@@ -47,4 +47,7 @@ int render_job_refit(render_job *j, report *r);
 int render_job_picture(render_job *j, image *out, report *r);
 void render_job_eye(const render_job *j, lmb_frame *f, const image *whole, int32_t eye);
 
+/* render_job_apply: chosen settings into a job's options. */
+void render_job_apply(render_job *j, const lmb_settings *s);
+
 #endif

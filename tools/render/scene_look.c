@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
-#include "budget.h"
 
 #define SHARE      0.21 /* of the picture's work, that all looks may take: a quarter, but for what guesses are off */
 #define FOR_ITSELF 0.35 /* of what is left: the rest is for its check */
@@ -87,7 +86,7 @@ static lmb_status solve_rung(looker *l, int32_t rung)
     render_job *j = l->job;
     lmb_settings s;
     lmb_plan_rung(&s, l->facts, rung);
-    budget_apply(j, &s);
+    render_job_apply(j, &s);
     if (l->rung >= 0 && has_same_light(l, l->rung, rung)) {
         j->frame.error = j->render->frame.error = s.error;
         j->frame.visible = j->render->frame.visible = s.visible;

@@ -1,0 +1,16 @@
+/* options_table.c: the rows of a verb's table, counted over its parts. */
+#include "options_table.h"
+
+const option_row *options_row(const option_table *t, int i)
+{
+    for (int part = 0; part < OPTION_PARTS && t->part[part] != NULL; ++part) {
+        for (const option_row *row = t->part[part]; row->kind != OPTION_END; ++row) {
+            if (i-- == 0) {
+                return row;
+            }
+        }
+    }
+    return NULL;
+}
+
+int options_has_value(const option_row *row) { return row->kind > OPTION_FLAG; }
