@@ -53,7 +53,7 @@ TOOL_OBJ   := $(call object,$(TOOL_SRC))
 TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
 GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
-ORDERS_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_orders.c tools/demo/demo_scene.c tools/common/crew.c \
+ORDERS_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_orders.c tools/demo/demo_scene.c tools/common/workers.c \
               platform/host/host.c platform/host/pool.c) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
@@ -168,7 +168,7 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one-command unit tiny statue analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers symbols stack headers layout guard tables readme examples examples-tiny cli tool-setup
+          hostile-cli layers symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -250,6 +250,9 @@ one-command: ## a bare compiler command with all of src: builds, and the picture
 tables: $(LIB) ## generated tables are what their generators print
 	@$(IN_SH) tests/scripts/tables.sh
 
+words: ## no old name or private phrase, no document with a link to nowhere, README within its bounds
+	@README_BOUNDS=0 $(IN_SH) tests/scripts/words.sh
+
 readme: $(LIB) ## the README's examples compile and run
 	@$(IN_SH) tests/scripts/readme.sh
 
@@ -275,7 +278,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
     measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-voxels large tiny \
     run-demo run-statue cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
-size: module-sizes ## code and data by room and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
+size: module-sizes ## code and data by module and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
 
@@ -404,8 +407,8 @@ compiles: $(LIB_OBJ)
 run-demo run-statue: run-%: $(B)/%
 	@$(RUN) $<
 
-# MACHINES, MORE_MACHINES, and for each needs_NAME and how_NAME.
-include tests/scripts/machines.mk
+# CROSS_TARGETS, MORE_CROSS_TARGETS, and for each needs_NAME and how_NAME.
+include tests/scripts/targets.mk
 
 define cross_sum
 	@LOGS=$(B)/check sh tests/scripts/part.sh same sh tests/scripts/same.sh $(1:%=$(B)/check/cross-%.log)
@@ -413,22 +416,22 @@ define cross_sum
 	@sh tests/scripts/sum.sh $(1:%=$(B)/check/cross-%.log) $(B)/check/same.log $(B)/check/stacks.log
 endef
 
-.PHONY: cross-all more-tools $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%)
-cross: $(MACHINES:%=cross-%) ## golden pictures on other compilers and machines; gets what it needs where it can
-	$(call cross_sum,$(MACHINES))
+.PHONY: cross-all more-tools $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%)
+cross: $(CROSS_TARGETS:%=cross-%) ## golden pictures on other compilers and machines; gets what it needs where it can
+	$(call cross_sum,$(CROSS_TARGETS))
 
-cross-all: $(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%) ## the same on all of tests/scripts/machines.mk
-	$(call cross_sum,$(MACHINES) $(MORE_MACHINES))
+cross-all: $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%) ## the same on all of tests/scripts/targets.mk
+	$(call cross_sum,$(CROSS_TARGETS) $(MORE_CROSS_TARGETS))
 
-$(MACHINES:%=cross-%): check-tools
-$(MORE_MACHINES:%=cross-%): more-tools
-$(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%): NEEDS = $(needs_$(@:cross-%=%))
-$(MACHINES:%=cross-%) $(MORE_MACHINES:%=cross-%): cross-%:
+$(CROSS_TARGETS:%=cross-%): check-tools
+$(MORE_CROSS_TARGETS:%=cross-%): more-tools
+$(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): NEEDS = $(needs_$(@:cross-%=%))
+$(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): cross-%:
 	+@$(PART) cross-$* $(MAKE) $(or $(goal_$*),golden) BUILD=$(BUILD)/cross/$* $(how_$*)
 
 # One installer at a time: all that the machines of cross-all need.
 more-tools: check-tools
-	@sh tests/scripts/tools.sh get $(sort $(foreach m,$(MORE_MACHINES),$(needs_$(m))))
+	@sh tests/scripts/tools.sh get $(sort $(foreach m,$(MORE_CROSS_TARGETS),$(needs_$(m))))
 
 check-tools: ## the outside tools of the checks: what is missing, and apt-get for it where that removes nothing
 	@sh tests/scripts/tools.sh get

@@ -13,7 +13,7 @@ typedef struct texel_quad {
     lmb_vec3 u, v, middle; /* half sides; where visibility is asked */
     float near2;           /* m2: nearer than this its shape counts */
     const lmb_tree *tree;
-    lmb_tree_place at;
+    lmb_node_ref at;
 } texel_quad;
 
 /* Room for all texels of the tree; returns how many are lit. */

@@ -60,7 +60,7 @@ static inline void small_bytes(uint8_t *p, uint32_t v, int count)
 static inline void small_texel(uint8_t *texels, const lmb_view *v, int32_t format, int32_t x, int32_t y)
 {
     const uint32_t count = (uint32_t)(v->frame_width * v->frame_height), i = (uint32_t)(y * v->frame_width + x);
-    const float least = v->kind == LMB_PERSPECTIVE ? v->near_m / v->far_m : 0.0f;
+    const float min = v->kind == LMB_PERSPECTIVE ? v->near_m / v->far_m : 0.0f;
     const int full = format == LMB_RELIEF_FULL;
     lmb_vec3 at;
     int16_t code[2];
@@ -69,7 +69,7 @@ static inline void small_texel(uint8_t *texels, const lmb_view *v, int32_t forma
         return;
     }
     const float d = v->kind == LMB_PERSPECTIVE ? v->near_m / z : (v->far_m - z) / (v->far_m - v->near_m);
-    const uint32_t depth = (uint32_t)((d - least) / (1.0f - least) * (full ? 16777215.0f : 65535.0f));
+    const uint32_t depth = (uint32_t)((d - min) / (1.0f - min) * (full ? 16777215.0f : 65535.0f));
     const uint32_t red = (uint32_t)(127.5f + 120.0f * at.x), green = (uint32_t)(127.5f + 120.0f * at.y);
     lmb_octahedral_encode(code, at);
     if (full) {

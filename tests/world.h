@@ -175,7 +175,7 @@ static inline lmb_view look(lmb_vec3 from, lmb_vec3 target, double fov_deg, int3
     lmb_view v;
     lmb_vec3 d = sub3(target, from);
     lmb_vec3 up = absf(d.y) > 0.999f * length3(d) ? Z : Y;
-    CHECK(lmb_view_look(&v, from, target, up, (float)(fov_deg * PI / 180), side, side) == LMB_OK);
+    CHECK(lmb_view_look_at(&v, from, target, up, (float)(fov_deg * PI / 180), side, side) == LMB_OK);
     return v;
 }
 

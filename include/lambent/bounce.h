@@ -1,6 +1,6 @@
 /* bounce.h: light received at a point from lit points, grouped in fixed-size arrays. [SEEDS V, JP5873672B2]
  *
- * The light's map gives first points (lmb_points_collect), neighbours join into discs (lmb_discs_join), discs into
+ * The shadow map gives first points (lmb_points_collect), neighbours join into discs (lmb_discs_join), discs into
  * groups (lmb_group_greedy, lmb_group_zones), and groups light the pixels of a tile (lmb_gather_tile). */
 #ifndef LMB_BOUNCE_H
 #define LMB_BOUNCE_H
@@ -64,7 +64,7 @@ typedef struct lmb_grouping {
     int32_t zones;          /* as many as groups: zones that the discs' map is cut into at first       [V20] */
 } lmb_grouping;
 enum { LMB_GROUP_ZONES = 0, LMB_GROUP_GREEDY = 1, LMB_GROUP_NONE = 2,
-       LMB_GROUP_CUT = 3 /* lmb_render: each tile's own cut of the light's tree, see tree.h */ };
+       LMB_GROUP_CUT = 3 /* lmb_render: each tile's own cut of the light tree, see tree.h */ };
 enum { LMB_ZONES_STRICT = 1, /* discs that do not fit their zone's group are dropped; stats say how much flux
                                                                                                        [V20] */
        LMB_POINT_CENTRE = 2, /* a group stands at its first disc instead of the barycentre             [V22] */
@@ -105,18 +105,18 @@ lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *mem
  * Begin a face at tile_y0 = 0 and go on in order. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY when data, cells or
  * owners are full: the points so far stand, the rest of the face is missing. */
 lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
-                              const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
+                              const lmb_scene *scene, const lmb_light *light, const lmb_shadow_map *map, int32_t face,
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping);
 
 /* lmb_discs_join: the face collected last: mean neighbour distances, points thinned out where asked for, and close ones
  * join. In place; order kept. Flux and area are sums, so both are conserved, also by `thin`.
- * Neighbours are points of the same face of a light's map that face the same way (or LMB_NEAR_HEMISPHERE), within
+ * Neighbours are points of the same face of a shadow map that face the same way (or LMB_NEAR_HEMISPHERE), within
  * grouping->neighbour_m in space, or within neighbour_cells of the map where that is not given; given both, within
  * both. Discs join points as far as their mean distance says, up to 32 cells away. Cost: points x cells that the radius
  * spans; where these are more than 65 x 65, every second, third .. of them each way stands for all.
  * With `radius`, area is no longer a sum. Returns LMB_OK or LMB_ERR_ARG.             [V8 V9 V10 V11 V12 V14 V15]
  * Thinned discs stay where the map has them: one in `thin` cells, on the lattice whose cells lie farthest apart. */
-lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping);
+lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const lmb_grouping *grouping);
 
 /* lmb_group_points: groups of all discs by grouping->method; reorders the discs so that members lie together.
  *
@@ -145,10 +145,10 @@ lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lm
 
 /* lmb_disc_factor: the far formula for one pair, per unit flux (1/m2); 0 where either faces away.
  * lmb_quad_factor: the near one: the exact form factor of a quad, corners centre +- u +- v, over its area. `face` is
- * the receiver's horizon, `normal` what it is lit by (the same on flat surfaces); `axis` the side that shines. 0 from
- * behind, and within a thousandth of its size of its plane. lmb_triangle_factor: the same of a triangle.
+ * the receiver's horizon, `normal` what it is lit by (the same on flat surfaces); `axis` the side that emits light. 0
+ * from behind, and within a thousandth of its size of its plane. lmb_triangle_factor: the same of a triangle.
  * lmb_polygon_factor: the form factor itself, per unit of exitance, of a convex polygon of 3 .. 8 corners,
- * counter-clockwise on the side that shines; fewer or more: 0. */
+ * counter-clockwise on the side that emits light; fewer or more: 0. */
 float lmb_disc_factor(lmb_vec3 at, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, float area);
 float lmb_quad_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 centre, lmb_vec3 axis, lmb_vec3 u,
                       lmb_vec3 v);

@@ -31,13 +31,14 @@ uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
                             const lmb_irradiance *direct, const lmb_irradiance *indirect);
 
-/* lmb_compose_shine: add what surfaces give off towards the viewer, by texel; the tile was resolved for `view`. LMB_OK
+/* lmb_compose_emission: add what surfaces emit towards the viewer, by texel; the tile was resolved for `view`. LMB_OK
  * or LMB_ERR_ARG. */
-lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_view *view, const lmb_tile *tile);
+lmb_status lmb_compose_emission(lmb_radiance *inout, const lmb_scene *scene, const lmb_view *view,
+                                const lmb_tile *tile);
 
-/* lmb_compose_gloss: of the pixels with a lobe, scale what is there by what the lobe leaves (lmb_gloss), and add the
+/* lmb_compose_glossy: of the pixels with a lobe, scale what is there by what the lobe leaves (lmb_glossy), and add the
  * lobe's radiance. LMB_OK or LMB_ERR_ARG. Not there in builds without trees and probes. */
-lmb_status lmb_compose_gloss(lmb_radiance *inout, const lmb_gloss *gloss);
+lmb_status lmb_compose_glossy(lmb_radiance *inout, const lmb_glossy *glossy);
 
 /* lmb_store_tile: write a tile into a surface whose pixel (0, 0) is frame pixel (x0, y0).
  *

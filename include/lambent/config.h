@@ -15,7 +15,7 @@
 #endif
 #endif
 
-/* Lights of one frame that have their own light map. Full: LMB_ERR_CAPACITY. */
+/* Lights of one frame that have their own shadow map. Full: LMB_ERR_CAPACITY. */
 #ifndef LMB_MAX_LIGHTS
 #ifdef LMB_CONFIG_TINY
 #define LMB_MAX_LIGHTS 1
@@ -24,7 +24,7 @@
 #endif
 #endif
 
-/* Nodes of one tile's cut through the light's tree (lmb_cut). 32 bytes each. Full: halves of the pixels take cuts of
+/* Nodes of one tile's cut through the light tree (lmb_cut). 32 bytes each. Full: halves of the pixels take cuts of
  * their own; where that does not help they are lit by the nodes there are, coarser than asked for, and
  * lmb_stats.full_cuts counts them. At least 6 x LMB_MAX_LIGHTS: every face of every map has its root in it. */
 #ifndef LMB_MAX_CUT
@@ -35,21 +35,22 @@
 #endif
 #endif
 
-/* Nodes of many lights' tree that a tile's surface takes at most. 20 bytes each, in lmb_many_scratch. Full: they part
- * no more, the error grows. */
-#ifndef LMB_MANY_CUT
+/* Nodes of many lights' tree that a tile's surface takes at most. 20 bytes each, in lmb_many_lights_scratch. Full: they
+ * part no more, the error grows. */
+#ifndef LMB_MANY_LIGHTS_CUT
 #ifdef LMB_CONFIG_TINY
-#define LMB_MANY_CUT 32
+#define LMB_MANY_LIGHTS_CUT 32
 #else
-#define LMB_MANY_CUT 1024
+#define LMB_MANY_LIGHTS_CUT 1024
 #endif
 #endif
 
-/* Nodes of a cut that are tested for shadows and light the pixels together. 136 bytes each, in lmb_many_scratch. */
+/* Nodes of a cut that are tested for shadows and light the pixels together. 136 bytes each, in lmb_many_lights_scratch.
+ * */
 #ifdef LMB_CONFIG_TINY
-#define LMB_MANY_LAMPS 8
+#define LMB_ACTIVE_LIGHTS 8
 #else
-#define LMB_MANY_LAMPS 32
+#define LMB_ACTIVE_LIGHTS 32
 #endif
 
 /* Pixels x groups that the gather takes together. 12 bytes each, in lmb_gather_scratch and lmb_cut. */
@@ -59,8 +60,8 @@
 #define LMB_GATHER_PAIRS 256
 #endif
 
-/* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that shine;
- * a material's lobe is as if it were not there.
+/* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that emit
+ * light; a material's lobe is as if it were not there.
  * Their functions are not there, and frames that ask for them are refused. Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_TREES
 #define LMB_TREES 1
@@ -100,7 +101,7 @@
 #endif
 
 /* 0: this build draws whole frames, leaves nothing of one out and keeps nothing from one to the next: no
- * lmb_render_next, and no lambent/plan.h. */
+ * lmb_render_reuse, and no lambent/plan.h. */
 #ifndef LMB_PLAN
 #define LMB_PLAN 1
 #endif
@@ -114,9 +115,9 @@
 #endif
 #endif
 
-#define LMB_RELIEF_LOOKS 8 /* of them, that a tile looks at */
+#define LMB_RELIEF_TILE_VIEWS 8 /* of them, that a tile looks at */
 
-/* Planes of a convex room, 24 bytes each in lmb_blockers. With more, walks are not left out. */
+/* Planes of a convex room, 24 bytes each in lmb_bvh. With more, walks are not left out. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_HULL_PLANES 6
 #else
@@ -130,12 +131,12 @@
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together where bounced light is upsampled */
 #define LMB_CUT_BLOCK 64        /* nodes of a cut that are made ready together */
-/* Nodes of a cut that are weighed side by side, 96 bytes of lmb_cut each: as many as the widest machine has lanes, and
+/* Nodes of a cut that are bounded side by side, 96 bytes of lmb_cut each: as many as the widest machine has lanes, and
  * at least four, the parts of one. */
 #ifdef LMB_CONFIG_TINY
-#define LMB_WEIGH_NODES 4
+#define LMB_BOUNDS_NODES 4
 #else
-#define LMB_WEIGH_NODES 16
+#define LMB_BOUNDS_NODES 16
 #endif
 /* Triangles of a tile that are resolved side by side, 180 bytes of lmb_tile each: as many as the widest machine has
  * lanes. The tiny configuration has one. */
@@ -146,7 +147,7 @@
 #endif
 #define LMB_MAX_TRIANGLES 0x7fffffff /* of a scene: ids are 1 .. this */
 
-#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MAX_CUT < 6 * LMB_MAX_LIGHTS || LMB_MANY_CUT < 16
+#if LMB_MAX_GROUPS < 1 || LMB_MAX_LIGHTS < 1 || LMB_MAX_CUT < 6 * LMB_MAX_LIGHTS || LMB_MANY_LIGHTS_CUT < 16
 #error "lambent: a capacity in config.h is too small"
 #endif
 

@@ -1,25 +1,25 @@
 /* elements.h: a whole scene's surface as elements that light one another: every bounce after the first, and surfaces
- * that shine by themselves. [DESIGN 4]
+ * that emit light.
  *
- * A light's map holds only what the light sees. Here each triangle is cut into pieces, and each side of a piece that
+ * A shadow map holds only what the light sees. Here each triangle is cut into pieces, and each side of a piece that
  * may be lit is an element: it receives light at its middle and sends it from its exact shape. The elements are summed
  * into a tree as the texels of a map are, so the same cuts, with the same exact visibility, serve pixels and elements:
  *
- *     lmb_elements_build(&e, &scene, &lights);                           what shines by itself is in the tree
+ *     lmb_elements_build(&e, &scene, &lights);                           what emits light is in the tree
  *     for (b = 1; b < bounces; ++b) {
- *         lmb_elements_receive(&e, .., b == 1 ? &lights : NULL, ..);    from the light's maps, then from each other
+ *         lmb_elements_receive(&e, .., b == 1 ? &lights : NULL, ..);    from the maps, then from each other
  *         if (b + 1 == bounces) lmb_elements_rest(&e, .., 64 - bounces)  all that would follow, estimated
  *         lmb_elements_send(&e, b + 1 == bounces);                       at last: all bounces together
- *     }                                  where materials shine, one round more, before that of the maps: b = 0
+ *     }                                  where materials emit light, one round more, before that of the maps: b = 0
  *     lmb_gather_cut(.., &lights, ..); lmb_gather_cut(.., &e.tree, ..);  a pixel
  */
 #ifndef LMB_ELEMENTS_H
 #define LMB_ELEMENTS_H
 
-#include "many.h"
+#include "many_lights.h"
 #include "tree.h"
 
-enum { LMB_MOST_BOUNCES = 64 };
+enum { LMB_MAX_BOUNCES = 64 };
 
 /* One side of a piece of a triangle, or of several small triangles that lie together. 96 bytes. */
 typedef struct lmb_element {
@@ -41,12 +41,12 @@ typedef struct lmb_elements {
 } lmb_elements;
 
 /* What a thread receives with; all of it is its own. */
-typedef struct lmb_receiver {
+typedef struct lmb_element_scratch {
     const lmb_kernels *kernels;
     lmb_cut *cut;
     lmb_tile *tile;
     lmb_irradiance *received, *fresh;
-} lmb_receiver;
+} lmb_element_scratch;
 
 #ifdef __cplusplus
 extern "C" {
@@ -59,9 +59,9 @@ size_t lmb_elements_bytes(uint32_t n);
 /* lmb_elements_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). */
 lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t bytes);
 
-/* lmb_elements_build: the elements of a checked scene, and the tree of those that shine by themselves.
+/* lmb_elements_build: the elements of a checked scene, and the tree of those that emit light.
  *
- *   lights  the tree of the lights' maps, summed: only tells how bright the scene is. NULL: no lights.
+ *   lights  the tree of the shadow maps, summed: only tells how bright the scene is. NULL: no lights.
  *
  * Triangles are halved at their longest edge until it is at most `side`. Of triangles under half of `side`, those that
  * face one side of space and lie in one cell of half of `side` are one element, in the place of the largest. The area
@@ -77,20 +77,23 @@ int32_t lmb_elements_tiles(const lmb_elements *elements);
 /* lmb_elements_receive: what the elements of tiles first .. past - 1 receive from `lights` (NULL: nothing) and from the
  * elements' own tree, into `fresh`. Any tiles in any order, at once on any threads with their own receivers.
  *
- *   cutting  error and visible as for pixels, but of an element's own light and `level` together: what is dark lights
+ *   cut_params  error and visibility as for pixels, but of an element's own light and `level` together: what is dark
+ * lights
  *            little, and need not be known well.
  * Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_receiver *receiver, const lmb_tree *lights,
-                                const lmb_cutting *cutting, int32_t first, int32_t past);
+lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_element_scratch *own_scratch,
+                                const lmb_tree *lights, const lmb_cut_params *cut_params, int32_t first, int32_t past);
 
-/* lmb_many_elements: the direct light of elements' tiles first .. past - 1, added to their `fresh`: 0 after
- * lmb_elements_build, or what lmb_elements_receive found there of what shines by itself. Any tiles in any order,
+/* lmb_many_lights_elements: the direct light of elements' tiles first .. past - 1, added to their `fresh`: 0 after
+ * lmb_elements_build, or what lmb_elements_receive found there of what emits light. Any tiles in any order,
  * at once on any threads with their own receivers (of which kernels, tile and fresh are used) and scratches.
- * lmb_many_elements_done: all tiles are lit: `level` counts it. lmb_elements_send then sends the first reflection.
- * LMB_OK or LMB_ERR_ARG.                                                                                        [V3] */
-lmb_status lmb_many_elements(const lmb_elements *elements, const lmb_receiver *receiver, lmb_many_scratch *scratch,
-                             const lmb_many_look *look, int32_t first, int32_t past);
-lmb_status lmb_many_elements_done(lmb_elements *inout);
+ * lmb_many_lights_elements_done: all tiles are lit: `level` counts it. lmb_elements_send then sends the first
+ * reflection. LMB_OK or LMB_ERR_ARG.
+ * [V3] */
+lmb_status lmb_many_lights_elements(const lmb_elements *elements, const lmb_element_scratch *own_scratch,
+                                    lmb_many_lights_scratch *scratch, const lmb_many_lights_query *query, int32_t first,
+                                    int32_t past);
+lmb_status lmb_many_lights_elements_done(lmb_elements *inout);
 /* lmb_elements_rest: to `fresh` add what `bounces` further bounces would, as if each were the one before times the
  * share that the last one kept of its own, r + r^2 + ... + r^bounces; r: at most 1, a channel.
  * Between all and none received, once, before lmb_elements_send.
@@ -100,8 +103,8 @@ lmb_status lmb_many_elements_done(lmb_elements *inout);
  * is exact, as it is from the start where all walls are lit and reflect alike. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces);
 
-/* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces, and what shines by
- * itself again. LMB_OK or LMB_ERR_ARG. */
+/* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces, and what emits light
+ * by itself again. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_send(lmb_elements *inout, int32_t last);
 
 #ifdef __cplusplus

@@ -10,7 +10,7 @@
 #include "map.h"
 #include "occlusion.h"
 #include "light.h"
-#include "many.h"
+#include "many_lights.h"
 #include "bounce.h"
 #include "tree.h"
 #include "elements.h"

@@ -17,16 +17,16 @@ typedef struct lmb_irradiance {
  * Beside the lobe diffuse light is scaled by 1 - (F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5): a white dielectric
  * (F0 0.04) reflects 0.84 to 1.02 of white light from everywhere. A metal (F0 1) reflects all where smooth, and 0.3 to
  * 0.6 at roughness 1, for want of light that the roughness reflects twice.
- * What a lobe shows of other surfaces is their diffuse light, as far as it bounces: where no lamp and no element shines
- * they are dark in it, and glossy things lack their gloss. */
-typedef struct lmb_gloss {
+ * What a lobe shows of other surfaces is their diffuse light, as far as it bounces: where no light and no element
+ * shines they are dark in it, and glossy things lack their glossy reflection. */
+typedef struct lmb_glossy {
     uint64_t pixels;                    /* that have a lobe, a bit each; of the others the numbers mean nothing */
     float specular[3][LMB_TILE_PIXELS]; /* F0 */
     float alpha2[LMB_TILE_PIXELS];
     float towards[3][LMB_TILE_PIXELS];  /* the viewer, unit */
     float facing[LMB_TILE_PIXELS];      /* cosine to it, at least 0.001 */
     float rgb[3][LMB_TILE_PIXELS];      /* radiance, W/(m2 sr); 0 where there is no lobe */
-} lmb_gloss;
+} lmb_glossy;
 
 #ifdef __cplusplus
 extern "C" {
@@ -36,7 +36,7 @@ extern "C" {
  *
  *   inout   added to, so that several lights sum up in their order.
  *   tile    resolved for `view`; its face normal guards the shading normal against light from behind.
- *   map     the light's map, drawn; NULL: the light casts no shadow.
+ *   map     the shadow map, drawn; NULL: the light casts no shadow.
  *
  * The shadow test asks the map's own triangles at the pixel's exact place in the map: the four texels around it name
  * them, and each is tested as a plane with its edges. A plane that passes nearer to the pixel than rounding can tell
@@ -46,20 +46,20 @@ extern "C" {
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_tile *tile,
                            const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
-                           const lmb_light_map *map);
+                           const lmb_shadow_map *map);
 
 /* What follows is not there in builds without trees and probes: these take every material as without a lobe. */
 
-/* lmb_gloss_tile: the lobes of a tile that was resolved for `view`, with no light yet: sets all of `out` and returns 1;
- * or, where no pixel has one (and for null), 0 and out->pixels = 0 alone. */
-int lmb_gloss_tile(lmb_gloss *out, const lmb_tile *tile, const lmb_view *view, const lmb_scene *scene);
+/* lmb_glossy_tile: the lobes of a tile that was resolved for `view`, with no light yet: sets all of `out` and returns
+ * 1; or, where no pixel has one (and for null), 0 and out->pixels = 0 alone. */
+int lmb_glossy_tile(lmb_glossy *out, const lmb_tile *tile, const lmb_view *view, const lmb_scene *scene);
 
-/* lmb_gloss_direct: add what the lobes make of one light.
+/* lmb_glossy_direct: add what the lobes make of one light.
  *
  *   lit  the irradiance of this light alone, with its shadow: lmb_direct_tile added it to zeros.
  * Returns LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_gloss_direct(lmb_gloss *inout, const lmb_kernels *kernels, const lmb_tile *tile,
-                            const lmb_irradiance *lit, const lmb_light *light);
+lmb_status lmb_glossy_direct(lmb_glossy *inout, const lmb_kernels *kernels, const lmb_tile *tile,
+                             const lmb_irradiance *lit, const lmb_light *light);
 
 #ifdef __cplusplus
 }

@@ -4,18 +4,18 @@
 
 #include "raster.h"
 
-/* The light's map: depth + triangle id per face, nothing else. Flux, normals and positions are resolved from it on
+/* The shadow map: depth + triangle id per face, nothing else. Flux, normals and positions are resolved from it on
  * demand. Spot lights up to 50 degrees half angle have one face; wider spots and point lights have six, in GL order
  * (+x -x +y -y +z -z), of which a spot draws only those its cone meets. Directional lights have one, or as many as
  * scene->core.faces by the same axes: the finest first, each with all that casts shadows into it; where it lies, those
  * after it have no first points. */
-typedef struct lmb_light_map {
+typedef struct lmb_shadow_map {
     lmb_view view[6];
     lmb_target face[6];
     int32_t faces;  /* 1 .. 6 */
     int32_t size;   /* texels a side */
     uint32_t drawn; /* bit f: face f is part of the map */
-} lmb_light_map;
+} lmb_shadow_map;
 
 #ifdef __cplusplus
 extern "C" {
@@ -32,45 +32,45 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
                             lmb_tile *tile, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t band);
 
-/* lmb_light_map_faces: of this light in this scene: 1 .. 6. */
-int32_t lmb_light_map_faces(const lmb_light *light, const lmb_scene *scene);
+/* lmb_shadow_map_faces: of this light in this scene: 1 .. 6. */
+int32_t lmb_shadow_map_faces(const lmb_light *light, const lmb_scene *scene);
 
-/* lmb_light_map_bytes: memory of a map of size x size texels a face; id_format LMB_ID16 or LMB_ID32. 0: bad size. */
-size_t lmb_light_map_bytes(int32_t faces, int32_t size, int32_t id_format);
+/* lmb_shadow_map_bytes: memory of a map of size x size texels a face; id_format LMB_ID16 or LMB_ID32. 0: bad size. */
+size_t lmb_shadow_map_bytes(int32_t faces, int32_t size, int32_t id_format);
 
-/* Static storage for a light's map of one face: LMB_LIGHT_MAP_ARRAY(memory, 128) with 16-bit ids. */
-#define LMB_LIGHT_MAP_ARRAY(name, size) static uint32_t name[(size) * (size) * 6 / 4]
+/* Static storage for a shadow map of one face: LMB_SHADOW_MAP_ARRAY(memory, 128) with 16-bit ids. */
+#define LMB_SHADOW_MAP_ARRAY(name, size) static uint32_t name[(size) * (size) * 6 / 4]
 
-/* lmb_light_map_init: place a light's map into `memory` and fit its views.
+/* lmb_shadow_map_init: place a shadow map into `memory` and fit its views.
  *
  *   size    texels a side: a multiple of 8, 8 .. LMB_MAX_SIDE.
- *   scene   its bounds and core fit directional lights' maps and set every map's near plane. Where there is no core,
+ *   scene   its bounds and core fit directional shadow maps and set every map's near plane. Where there is no core,
  *           and the bounds are those of its vertices, as lmb_scene_bounds sets them, the vertices themselves fit the
  *           map, along the light's own axes: a pass over them. Builds without trees go by the bounds.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes): `out` is then untouched. */
-lmb_status lmb_light_map_init(lmb_light_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
-                              int32_t id_format, void *memory, size_t bytes);
+lmb_status lmb_shadow_map_init(lmb_shadow_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
+                               int32_t id_format, void *memory, size_t bytes);
 
-/* lmb_light_map_draw: lmb_draw into every face that is part of the map. Clear the faces first:
- * lmb_light_map_clear. The same returns as lmb_draw. */
-lmb_status lmb_light_map_clear(const lmb_light_map *map);
-lmb_status lmb_light_map_draw(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
-                              uint32_t first_id, uint32_t count, lmb_stats *stats);
+/* lmb_shadow_map_draw: lmb_draw into every face that is part of the map. Clear the faces first:
+ * lmb_shadow_map_clear. The same returns as lmb_draw. */
+lmb_status lmb_shadow_map_clear(const lmb_shadow_map *map);
+lmb_status lmb_shadow_map_draw(const lmb_shadow_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
+                               uint32_t first_id, uint32_t count, lmb_stats *stats);
 
-/* lmb_light_map_rows: clear and draw the tile rows `first` .. `past` - 1 of the map, all triangles. Rows are counted
+/* lmb_shadow_map_rows: clear and draw the tile rows `first` .. `past` - 1 of the map, all triangles. Rows are counted
  * through its faces: row y of face f is f * size / 8 + y. Every row drawn once, in any pieces, makes the map that
  * clear and draw make; pieces may be drawn at once, on any threads.
  *
  *   stats  a face's triangles count once: with its row 0. May be NULL.
  * Cost: a piece sets up all triangles of the faces it meets, so few large pieces are best: one a thread.
  * Returns LMB_OK, LMB_ERR_ARG (rows outside: then nothing was drawn), or what lmb_draw returns. */
-lmb_status lmb_light_map_rows(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
-                              int32_t first, int32_t past, lmb_stats *stats);
+lmb_status lmb_shadow_map_rows(const lmb_shadow_map *map, const lmb_kernels *kernels, const lmb_scene *scene,
+                               int32_t first, int32_t past, lmb_stats *stats);
 
 /* lmb_light_texel_power: W per channel that a light of `intensity` sends through texel (x, y) of a face: intensity x
  * exact solid angle of the texel (directional: its area, or 0 where a finer face has it), with the spot's fall-off
  * averaged over 2x2 points. Relative error of the solid angle under 1e-6 for maps of 16 texels or more. */
-void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_light_map *map, int32_t face, int32_t x,
+void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_shadow_map *map, int32_t face, int32_t x,
                            int32_t y);
 
 #ifdef __cplusplus

@@ -216,22 +216,22 @@ lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up);
  * cone. */
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
 
-/* lmb_two_maps: a light's maps without [0] and with [1] the object: the same views, so that each texel stands for the
- * same incident power in both.                                                                                  [M9]
+/* lmb_two_maps: a light's shadow maps without [0] and with [1] the object: the same views, so that each texel stands
+ * for the same incident power in both.                                                                             [M9]
  *
  *   scene  of both: the real mesh is its first instance, the object's come after it
- *   bytes  of memory: twice lmb_light_map_bytes
- * Clear both (lmb_light_map_clear), then draw the real mesh's ids into the first and all into the second
- * (lmb_light_map_draw). Returns what lmb_light_map_init returns. */
-lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
+ *   bytes  of memory: twice lmb_shadow_map_bytes
+ * Clear both (lmb_shadow_map_clear), then draw the real mesh's ids into the first and all into the second
+ * (lmb_shadow_map_draw). Returns what lmb_shadow_map_init returns. */
+lmb_status lmb_two_maps(lmb_shadow_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
                         void *memory, size_t bytes);
 
 /* lmb_around_points: what triangles throw back of the light of `env`, nothing being in its way, as first points that
- * lmb_voxels_inject takes beside those of the lights' maps.                                                     [M7]
+ * lmb_voxels_inject takes beside those of the shadow maps.                                                      [M7]
  *
  *   leaf  m: triangles are parted until their parts are no longer than that, or 64 to a side
- * By this light and the lamps' real surfaces shine about as the photo has them. Returns how many points there are;
- * `cap` of them are written, 0 to ask.
+ * By this light and the lights' real surfaces emit light about as the photo has them. Returns how many points there
+ * are; `cap` of them are written, 0 to ask.
  *
  * lmb_around_gather, lmb_around_scale: the same points by what reaches them through voxels, so that what the object
  * blocks and throws back comes to bounce again. Points from `from` on become scratch->tile, 64 answers at most: those
@@ -246,9 +246,9 @@ size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_
 lmb_status lmb_around_scale(lmb_texel *inout, const lmb_around_scratch *scratch, const lmb_env *env);
 
 /* lmb_real_albedo: what a surface must reflect to look as the photo has it: pi x radiance / irradiance, within
- * LMB_ALBEDO_LEAST .. LMB_ALBEDO_MOST; 0.5 where there is no irradiance. */
-#define LMB_ALBEDO_LEAST 0.02f
-#define LMB_ALBEDO_MOST 0.95f
+ * LMB_ALBEDO_MIN .. LMB_ALBEDO_MAX; 0.5 where there is no irradiance. */
+#define LMB_ALBEDO_MIN 0.02f
+#define LMB_ALBEDO_MAX 0.95f
 float lmb_real_albedo(float radiance, float irradiance);
 
 /* lmb_delta_tile: the photo with what the object changes on real surfaces.                              [M23 M24]

@@ -1,14 +1,15 @@
 /* plan.h: a frame before it is drawn: which stages it runs and which it leaves out, why, what each costs; and the
- * settings that meet a budget. [DESIGN 4]
+ * settings that meet a budget.
  *
- *     lmb_render_begin(&r, &frame);          or lmb_render_next: checks everything, writes no pixel
+ *     lmb_render_begin(&r, &frame);          or lmb_render_reuse: checks everything, writes no pixel
  *     lmb_plan_frame(&plan, &r, NULL);       what r will do: stages, operations, work, bytes
  *
  * A frame leaves out only what can change no byte of its picture; which it was asked for is in lmb_frame. With a
  * budget, settings are chosen by what a few tiles of the scene itself tell:
  *
  *     lmb_survey_even(&places, &r, ...);       which tiles of a frame that is solved are looked at
- *     lmb_render_look(&look, &r, ...);         their light by one rung of a ladder of settings, then by the next: facts
+ *     lmb_render_sample(&sample, &r, ...);       their light by one rung of a ladder of settings, then by the next:
+ * facts
  *     lmb_plan_choose(&settings, &facts, &budget);
  *
  * All of it is a function of scene, view and numbers: no clock, the same on every machine. Work is counted in units:
@@ -23,11 +24,11 @@
 typedef enum lmb_op {
     LMB_OP_TRIANGLES = 0, /* set up for a face of a map, or for the view */
     LMB_OP_TEXELS,        /* of depth and ids, cleared and filled */
-    LMB_OP_BLOCKERS,      /* triangles put into the tree of boxes */
+    LMB_OP_BVH,           /* triangles put into the tree of boxes */
     LMB_OP_RESOLVED,      /* texels or pixels whose surface is looked up */
     LMB_OP_SUMMED,        /* first points summed up into nodes, or joined and grouped */
     LMB_OP_ELEMENTS,      /* triangles cut into pieces that light one another */
-    LMB_OP_LIT,           /* pixels times lights */
+    LMB_OP_LIGHTING,      /* pixels times lights */
     LMB_OP_CUTS,          /* tiles that take their part of a tree, or of the groups */
     LMB_OP_PAIRS,         /* pixels times nodes that light them */
     LMB_OP_SEGMENTS,      /* asked whether something stands between */
@@ -38,22 +39,22 @@ typedef enum lmb_op {
 
 /* Stages as a plan tells them. */
 typedef enum lmb_plan_stage {
-    LMB_PLAN_MAPS = 0,  /* the lights' maps */
-    LMB_PLAN_BLOCKERS,  /* the tree of what blocks */
+    LMB_PLAN_MAPS = 0,  /* the shadow maps */
+    LMB_PLAN_BVH,       /* the BVH */
     LMB_PLAN_POINTS,    /* first points, and their tree or groups */
-    LMB_PLAN_BOUNCES,   /* elements: later bounces, and surfaces that shine */
+    LMB_PLAN_BOUNCES,   /* elements: later bounces, and surfaces that emit light */
     LMB_PLAN_VIEW,      /* depth and ids of what the viewer sees */
     LMB_PLAN_RESOLVE,   /* attributes of the pixels */
-    LMB_PLAN_DIRECT,    /* light from the lamps, with shadows */
+    LMB_PLAN_DIRECT,    /* light from the lights, with shadows */
     LMB_PLAN_GATHER,    /* bounced light */
     LMB_PLAN_OCCLUSION, /* what stands between bounced light and pixels */
     LMB_PLAN_LOBES,     /* highlights and reflections */
-    LMB_PLAN_SHINE,     /* what surfaces give off by themselves */
+    LMB_PLAN_EMISSION,  /* what surfaces emit by themselves */
     LMB_PLAN_STORE,     /* composed and written */
     LMB_PLAN_STAGES
 } lmb_plan_stage;
 
-/* Why a stage, or a light's map, is not there. All but the last two change no byte. */
+/* Why a stage, or a shadow map, is not there. All but the last two change no byte. */
 typedef enum lmb_why {
     LMB_WHY_RUNS = 0,
     LMB_WHY_NOT_SHOWN,   /* the picture does not show it */
@@ -62,8 +63,8 @@ typedef enum lmb_why {
     LMB_WHY_NO_LIGHT,    /* no light, or none that gives any, meets a triangle */
     LMB_WHY_BLACK,       /* nothing that is drawn reflects */
     LMB_WHY_NO_LOBE,     /* nothing that is drawn is glossy */
-    LMB_WHY_NO_EMISSION, /* nothing that is drawn shines by itself */
-    LMB_WHY_KEPT,        /* stands as the last frame left it */
+    LMB_WHY_NO_EMISSION, /* nothing that is drawn emits light */
+    LMB_WHY_REUSED,      /* stands as the last frame left it */
     LMB_WHY_CONVEX,      /* a convex, empty room: nothing stands between what is in it */
     LMB_WHY_PAST,        /* a light: all of the scene lies past its faces */
     LMB_WHY_DIM,         /* a light: what bounces of it is under half a display step everywhere: bounded */
@@ -84,8 +85,8 @@ typedef struct lmb_plan_row {
 
 /* Settings of bounced light by LMB_GROUP_CUT; the fields of lmb_frame and lmb_tree of the same names. */
 typedef struct lmb_settings {
-    int32_t light_map, tree;
-    float error, visible;
+    int32_t shadow_map, tree;
+    float error, visibility;
     int32_t gather_step, occlusion;
 } lmb_settings;
 
@@ -100,10 +101,11 @@ typedef struct lmb_rung {
 enum { LMB_PLAN_RUNGS = 8 };
 typedef struct lmb_facts {
     double triangles, faces, tiles, lights; /* of the scene; drawn, of maps; of the frame; that light directly */
-    double bounces, elements;               /* as the frame asks for, one more where materials shine; cap: 0: none */
+    double bounces, elements;               /* as the frame asks for, one more where materials emit light; cap: 0: none
+                                               */
     double pairs, segments;                 /* of all tiles, by the frame's own settings; both 0: not known */
     int32_t wanted_map;                     /* texels a side of a map whose texels are as fine as the picture */
-    int32_t most;                           /* texels a side of the largest map or tree that may be chosen */
+    int32_t max;                            /* texels a side of the largest map or tree that may be chosen */
     int32_t convex;                         /* 1: nothing stands between */
     lmb_rung rung[LMB_PLAN_RUNGS];
 } lmb_facts;
@@ -111,8 +113,8 @@ typedef struct lmb_facts {
 /* What a frame may cost; 0: no limit. */
 typedef struct lmb_budget {
     double work;    /* units */
-    float error;    /* of bounced light: as lmb_look_error, against a finer setting */
-    uint64_t bytes; /* of maps, tree, blockers, elements, view, picture and one thread's scratch */
+    float error;    /* of bounced light: as lmb_tile_sample_error, against a finer setting */
+    uint64_t bytes; /* of maps, tree, the BVH, elements, view, picture and one thread's scratch */
 } lmb_budget;
 
 /* Settings for a budget, and what they are thought to cost. */
@@ -127,24 +129,24 @@ typedef struct lmb_choice {
 
 /* Which tiles of a frame are looked at: places of one tile each, or of LMB_SPARSE_TILES side by side where pixels are
  * left out. */
-enum { LMB_LOOK_TILES = 192, LMB_LOOK_BLOCKS = 80 };
-enum { LMB_LOOK_PIXELS = LMB_LOOK_BLOCKS * LMB_SPARSE_TILES * LMB_TILE_PIXELS };
+enum { LMB_SAMPLE_TILES = 192, LMB_SAMPLE_BLOCKS = 80 };
+enum { LMB_SAMPLE_PIXELS = LMB_SAMPLE_BLOCKS * LMB_SPARSE_TILES * LMB_TILE_PIXELS };
 typedef struct lmb_survey {
     int32_t tiles, count;                              /* of a place; places */
-    uint16_t x[LMB_LOOK_TILES], y[LMB_LOOK_TILES];     /* their first pixel */
+    uint16_t x[LMB_SAMPLE_TILES], y[LMB_SAMPLE_TILES];     /* their first pixel */
 } lmb_survey;
 
 /* The light of a survey's places, by one setting. 250 KB: yours, and written as far as it goes. */
-typedef struct lmb_look {
+typedef struct lmb_tile_sample {
     int32_t tiles, places;           /* of a place; looked at */
-    float light[LMB_LOOK_PIXELS][3]; /* W/m2; below 0: no surface */
+    float light[LMB_SAMPLE_PIXELS][3]; /* W/m2; below 0: no surface */
     double pairs, segments;          /* of these places */
-} lmb_look;
+} lmb_tile_sample;
 
 typedef struct lmb_plan {
     lmb_plan_row row[LMB_PLAN_STAGES];
-    uint8_t light[LMB_MAX_LIGHTS]; /* lmb_why of each light's map */
-    uint32_t faces, faces_drawn;   /* of the lights' maps: there, and drawn in this frame */
+    uint8_t light[LMB_MAX_LIGHTS]; /* lmb_why of each light's shadow map */
+    uint32_t faces, faces_drawn;   /* of the shadow maps: there, and drawn in this frame */
     double work;                   /* units: sum over the rows */
     uint64_t bytes;                /* sum over the rows, with scratch and picture */
 } lmb_plan;
@@ -155,7 +157,7 @@ extern "C" {
 
 /* lmb_plan_frame: what a frame that began, and has not gone on, will do.
  *
- *   begun  by lmb_render_begin or lmb_render_next; read.
+ *   begun  by lmb_render_begin or lmb_render_reuse; read.
  *   facts  NULL: pairs and segments of the gather, which only a look can tell, count as 0; so do their cost.
  * Counts of triangles, texels, pixels, tiles and lights are exact, for frames drawn in one piece (parts set up all
  * triangles each) without holes in masks. Returns LMB_OK, or LMB_ERR_ARG (null; a frame that failed or has gone on).
@@ -168,27 +170,28 @@ double lmb_plan_units(int32_t op);
 /* lmb_survey_even: places spread evenly over a frame.
  *
  *   r       a frame by LMB_GROUP_CUT, at LMB_STAGE_BANDS, with a whole frame's eye; read. lmb_render_again, or writing
- *           to r->frame, changes error, visible, gather_step and occlusion between looks.
+ *           to r->frame, changes error, visibility, gather_step and occlusion between looks.
  *   tiles   of a place: 1, or LMB_SPARSE_TILES side by side for looks where pixels are left out.
- *   wanted  how many, up to LMB_LOOK_TILES or LMB_LOOK_BLOCKS; there may be fewer.
+ *   wanted  how many, up to LMB_SAMPLE_TILES or LMB_SAMPLE_BLOCKS; there may be fewer.
  * The first few of them are spread evenly too: a look may end early. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, int32_t wanted);
 
-/* lmb_render_look: bounced light of a survey's places, as the frame's settings of the moment have it.
+/* lmb_render_sample: bounced light of a survey's places, as the frame's settings of the moment have it.
  *
  *   r       as above; read.
  *   places  of a survey by a gather_step of 1 where this is by 1, else of one over 1; or that by 1 again, to compare.
- *   most    units of work after which no further place is looked at; 0: no limit. out->places says how many were.
+ *   max     units of work after which no further place is looked at; 0: no limit. out->places says how many were.
  * Returns LMB_OK or LMB_ERR_ARG. Cost: that of the places. */
-lmb_status lmb_render_look(lmb_look *out, const lmb_render *r, lmb_band_scratch *scratch, const lmb_survey *places,
-                           double most);
+lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band_scratch *scratch,
+                             const lmb_survey *places, double max);
 
-/* lmb_look_error: how far `a` is from `b`, by the places that both have: root of the mean square over the pixels'
- * channels, without the worst 1 % of the pixels, over the mean of b. 0 where b is dark.
- * lmb_look_bound: the same, and as much more as few places may be wrong by: the mean square plus `deviations` of its own
- * standard deviations, by how places differ. Below 0 where nothing can be told: fewer than 4 places, or b is dark. */
-float lmb_look_error(const lmb_look *a, const lmb_look *b);
-float lmb_look_bound(const lmb_look *a, const lmb_look *b, float deviations);
+/* lmb_tile_sample_error: how far `a` is from `b`, by the places that both have: root of the mean square over the
+ * pixels' channels, without the worst 1 % of the pixels, over the mean of b. 0 where b is dark.
+ * lmb_look_bound: the same, and as much more as few places may be wrong by: the mean square plus `deviations` of its
+ * own standard deviations, by how places differ. Below 0 where nothing can be told: fewer than 4 places, or b is dark.
+ * */
+float lmb_tile_sample_error(const lmb_tile_sample *a, const lmb_tile_sample *b);
+float lmb_look_bound(const lmb_tile_sample *a, const lmb_tile_sample *b, float deviations);
 
 /* lmb_facts_count: pairs and segments of all the frame's pixels by `facts`, for a frame's settings. */
 void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *frame);
@@ -198,7 +201,7 @@ void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, co
 void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung);
 
 /* lmb_plan_cost: settings of a rung and what they take. `fixed`: bytes that no setting changes: picture, view, scratch,
- * blockers, elements. out->meets is not set. */
+ * the BVH, elements. out->meets is not set. */
 void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed);
 
 /* lmb_plan_choose: the finest rung that was looked at, or may be guessed, within budget->work and bytes; where

@@ -6,7 +6,7 @@
  *                 lmb_probe_reduce(...), lmb_probe_cosine(...);       irradiance by normal: or lmb_probe_sh, _blur
  *                 lmb_probe_reflect(...);                             what rough surfaces mirror
  *                 lmb_probe_cube_init(&cube, ...);                    either one, ready to be looked up
- *     per tile:   lmb_probe_light_tile, lmb_probe_gloss_tile, lmb_probe_background: or relight.h does it all
+ *     per tile:   lmb_probe_light_tile, lmb_probe_glossy_tile, lmb_probe_background: or relight.h does it all
  *
  * Cubes have six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the
  * direction is (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1). */
@@ -102,11 +102,11 @@ typedef struct lmb_probe_cube {
 } lmb_probe_cube;
 
 /* The world, and how it is asked. */
-typedef struct lmb_world_look {
+typedef struct lmb_world_query {
     const lmb_world *world;
     float ray_width; /* rad: of a pixel. Levels with texels at least as wide are read */
     int32_t blend;   /* as lmb_probe_remap's */
-} lmb_world_look;
+} lmb_world_query;
 
 /* When an object's cubes are computed anew: once it is more than radius_m from where they were, or when it moved at all
  * and `every` frames have passed. Radius 0: each frame until it rests. [S18] */
@@ -185,9 +185,9 @@ lmb_status lmb_probe_table_init(lmb_probe_table *out, int32_t width, int32_t hei
  *
  *   map    3 planes (R, G, B) of the table's width x height
  *   blend  0: the nearer of ground and far world, blank parts letting through; 1: their mean where a ray meets both
- * Each texel reads bilinearly from levels whose texels are as wide as its own, so small lamps keep their light. A place
- * outside the far world counts as the nearest one at 0.999 of its size; one at or under the ground sees no ground.
- * Returns LMB_OK or LMB_ERR_ARG (a NULL, `at` not finite). Cost: about 20 cycles a texel by AVX2. */
+ * Each texel reads bilinearly from levels whose texels are as wide as its own, so small lights keep their light. A
+ * place outside the far world counts as the nearest one at 0.999 of its size; one at or under the ground sees no
+ * ground. Returns LMB_OK or LMB_ERR_ARG (a NULL, `at` not finite). Cost: about 20 cycles a texel by AVX2. */
 lmb_status lmb_probe_remap(float *map, const lmb_kernels *kernels, const lmb_world *world, const lmb_probe_table *table,
                            lmb_vec3 at, int32_t blend);
 
@@ -196,8 +196,8 @@ lmb_status lmb_probe_reduce(lmb_probe_lights *out, const lmb_kernels *kernels, c
                             const lmb_probe_table *table);
 
 /* lmb_probe_cosine: irradiance of n x n x 6 normals (texel centres): pi times the lights' mean by cosine, so that a
- * world of one radiance gives pi times that. Beside a lamp of a few texels in a black world it may be under 0 by 2 % of
- * the largest. [S14 S25]
+ * world of one radiance gives pi times that. Beside a light of a few texels in a black world it may be under 0 by 2 %
+ * of the largest. [S14 S25]
  *
  *   cube  3 planes of 6 n x n texels, face by face; n: 1 .. 64
  * Against path-traced truth 0.4 % rmse for this alone, 0.6 with remap to 128 x 64. Cost: 0.7 cycles a texel and light
@@ -213,7 +213,7 @@ lmb_status lmb_probe_sh_cube(float *cube, int32_t n, const float coefficient[3][
 
 /* lmb_probe_blur_bytes, lmb_probe_blur_init: a blur's kernels, once a size: 2 height + width floats a row and term.
  *
- *   terms  0: cos by latitude, then by longitude, as the source has it; 1 or 2: fitted for each row
+ *   terms  0: cos by latitude, then by longitude; 1 or 2: fitted for each row
  * LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY. Fitting costs 100 height^2 width operations. */
 size_t lmb_probe_blur_bytes(const lmb_probe_table *table, int32_t terms);
 lmb_status lmb_probe_blur_init(lmb_probe_blur *out, const lmb_probe_table *table, int32_t terms, void *memory,
@@ -234,16 +234,16 @@ lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lm
 
 /* lmb_probe_reflect: the radiance that a surface mirrors, by the direction in which a mirror would look.     [S16 S22]
  *
- *   cube       3 planes of 6 n x n texels; n: 1 .. 256. lmb_probe_gloss_side gives the n that shows a roughness: 64
+ *   cube       3 planes of 6 n x n texels; n: 1 .. 256. lmb_probe_glossy_side gives the n that shows a roughness: 64
  *              from 0.1 on, 16 from 0.3, 8 from 0.6; 0 under 0.1, where pixels look at the world itself. Off by 4 to
- *              5 % rmse from 0.2 on, by 12 % at 0.1, in a world of small lamps.
- *   roughness  0 .. 1; alpha = roughness^2, under LMB_LEAST_ALPHA: a mirror's.
- * The lobe is that of lmb_gloss seen from straight above, by 64 rays down to its horizon; a mirror's texels are
- * means of 36 rays: against path-traced truth of a world with small lamps 1 % rmse away from silhouettes. LMB_OK or
+ *              5 % rmse from 0.2 on, by 12 % at 0.1, in a world of small lights.
+ *   roughness  0 .. 1; alpha = roughness^2, under LMB_MIN_ALPHA: a mirror's.
+ * The lobe is that of lmb_glossy seen from straight above, by 64 rays down to its horizon; a mirror's texels are
+ * means of 36 rays: against path-traced truth of a world with small lights 1 % rmse away from silhouettes. LMB_OK or
  * LMB_ERR_ARG. Cost: about 25 cycles a ray by AVX2. */
-int32_t lmb_probe_gloss_side(float roughness);
+int32_t lmb_probe_glossy_side(float roughness);
 lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
-                             const lmb_world_look *look, lmb_vec3 at, float roughness);
+                             const lmb_world_query *query, lmb_vec3 at, float roughness);
 
 /* lmb_probe_cube_bytes, lmb_probe_cube_init: a cube in planes made ready to be looked up. n: 1 .. 256. 9.4 KiB for 8.
  * LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY. */
@@ -251,18 +251,18 @@ size_t lmb_probe_cube_bytes(int32_t n);
 lmb_status lmb_probe_cube_init(lmb_probe_cube *out, const float *planes, int32_t n, void *memory, size_t bytes);
 
 /* lmb_probe_light_tile: add a cube's irradiance by normal, at least 0, to `pixels` of a tile, a bit each. [S21]
- * lmb_probe_gloss_tile: add what their lobes make of the radiance that a cube holds by reflected direction: times
- * F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5, which lmb_compose_gloss takes from their diffuse light. Without a cube each
+ * lmb_probe_glossy_tile: add what their lobes make of the radiance that a cube holds by reflected direction: times
+ * F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5, which lmb_compose_glossy takes from their diffuse light. Without a cube each
  * pixel looks at the world from where it is. [S17 S22]
  *
- *   inout  of lmb_gloss_tile.
- *   look   read where cube is NULL.
+ *   inout  of lmb_glossy_tile.
+ *   query   read where cube is NULL.
  * Bilinear. What an object hides from itself is not known. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
                                 const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube);
-lmb_status lmb_probe_gloss_tile(lmb_gloss *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
-                                const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
-                                const lmb_world_look *look);
+lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                 const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
+                                 const lmb_world_query *query);
 
 /* lmb_probe_cache_init: `slots` 1 .. LMB_MAX_PROBES. lmb_probe_cache_name: keep cubes for a place: objects within the
  * policy's radius of it use them. Its slot; -1 where no slot would be left for objects, or the place is absurd.
@@ -276,7 +276,7 @@ lmb_status lmb_probe_cache_ask(lmb_probe_answer *out, lmb_probe_cache *inout, ui
 
 /* lmb_probe_background: set the pixels of a tile without a surface to the radiance that the view sees there. */
 lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays *scratch, const lmb_kernels *kernels,
-                                const lmb_tile *tile, const lmb_view *view, const lmb_world_look *look);
+                                const lmb_tile *tile, const lmb_view *view, const lmb_world_query *query);
 
 #ifdef __cplusplus
 }

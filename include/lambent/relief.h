@@ -39,7 +39,7 @@ typedef struct lmb_relief_view {
     float to_view[4][4];  /* times (x, y, z, 1): u w, v w, d w, w, in texels; orthographic: w is 1 */
     lmb_vec3 corner, per_u, per_v; /* a texel's place: corner + u per_u + v per_v; perspective: the ray's direction */
     lmb_vec3 eye, back;   /* along the ray by m from the eye's plane: place - m back; perspective: eye + m ray */
-    float least, per_code; /* d of a depth code */
+    float min, per_code; /* d of a depth code */
     float z_at_0, z_per_d; /* m along the axis: orthographic z_at_0 + z_per_d d; perspective near_m / d */
     float near_m;
     float texel;          /* m of a texel's side; perspective: at 1 m */
@@ -58,7 +58,7 @@ enum { LMB_RELIEF_NEAREST_P = 0, LMB_RELIEF_EYE_RAY = 1 };
 
 /* How to look things up. Zeros: the default. */
 typedef struct lmb_relief_how {
-    int32_t steps;    /* looks a pixel takes: 1: once, at the simple surface, as the source has it; 6 where 0, to 32 */
+    int32_t steps;    /* looks a pixel takes: 1: once, at the simple surface; 6 where 0, to 32 */
     int32_t pick;     /* which candidate wins: nearest to P, or to the eye's ray [P5] */
     int32_t sampling; /* 0: between texels; 1: the nearest texel as it is */
     int32_t views;    /* that a pixel looks at: 1 .. 8; 6 where 0 */
@@ -109,19 +109,19 @@ lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_k
  * Ids of `other` become LMB_MAX_TRIANGLES, so that no scene takes them for its own. */
 void lmb_relief_nearer(lmb_tile *inout, const lmb_tile *other);
 
-/* lmb_relief_shadow_rows: the light's map of a relief: tile rows `first` .. `past` - 1, all faces below each other as
- * in lmb_light_map_rows, of a map that lmb_light_map_draw filled with the simple model: float depth becomes the complex
- * surface's.                                                                                                     [P7]
+/* lmb_relief_shadow_rows: the shadow map of a relief: tile rows `first` .. `past` - 1, all faces below each other as
+ * in lmb_shadow_map_rows, of a map that lmb_shadow_map_draw filled with the simple model: float depth becomes the
+ * complex surface's.                                                                                               [P7]
  *   tile   scratch
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT (16-bit depth). */
-lmb_status lmb_relief_shadow_rows(const lmb_light_map *map, lmb_tile *tile, const lmb_kernels *kernels,
+lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, lmb_tile *tile, const lmb_kernels *kernels,
                                   const lmb_relief *relief, const lmb_relief_how *how, int32_t first, int32_t past);
 
 /* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: those of the relief itself
  * and of other surfaces alike.                                                                               [P8 P9]
  * A pixel is lit as far as the four texels around its place are: each against the pixel's own plane there, and
  * a texel for what the plane does not know. Most of the four decide. */
-uint64_t lmb_relief_lit(const lmb_light_map *map, const lmb_light *light, const lmb_tile *tile);
+uint64_t lmb_relief_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile);
 
 #ifdef __cplusplus
 }

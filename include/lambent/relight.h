@@ -12,28 +12,28 @@
 #include "compose.h"
 #include "probe.h"
 
-enum { LMB_RELIGHT_BOTH = 0, LMB_RELIGHT_NORMAL = 1, LMB_RELIGHT_GLOSS = 2 }; /* what is shown: sum to BOTH [S24] */
+enum { LMB_RELIGHT_BOTH = 0, LMB_RELIGHT_NORMAL = 1, LMB_RELIGHT_GLOSSY = 2 }; /* what is shown: sum to BOTH [S24] */
 
 /* What lights an instance. */
 typedef struct lmb_probe {
     lmb_probe_cube irradiance; /* by normal */
-    lmb_probe_cube gloss;      /* by reflected direction; texel NULL: pixels look at the world itself [S17] */
+    lmb_probe_cube glossy;     /* by reflected direction; texel NULL: pixels look at the world itself [S17] */
 } lmb_probe;
 
 /* Where a band is worked on; one for each thread. */
 typedef struct lmb_relight_scratch {
     lmb_tile tile;
     lmb_irradiance light, one;
-    lmb_gloss gloss;
+    lmb_glossy glossy;
     lmb_radiance radiance;
     lmb_probe_rays rays;
 } lmb_relight_scratch;
 
 typedef struct lmb_relight {
     const lmb_kernels *kernels;
-    const lmb_scene *scene;    /* checked; its materials' specular and roughness are what shows gloss */
-    const lmb_light_map *maps; /* of the scene's lights, drawn; NULL: they cast no shadows */
-    const lmb_world *world;    /* NULL: black behind, and in probes without gloss */
+    const lmb_scene *scene;    /* checked; its materials' specular and roughness are what shows glossy reflection */
+    const lmb_shadow_map *maps; /* of the scene's lights, drawn; NULL: they cast no shadows */
+    const lmb_world *world;    /* NULL: black behind, and in probes without glossy reflection */
     int32_t blend;             /* as lmb_probe_remap's */
     const lmb_probe *probes;
     const uint16_t *probe_of;  /* by instance: which of them */

@@ -27,7 +27,7 @@
 #include "bounce.h"
 #include "compose.h"
 #include "elements.h"
-#include "many.h"
+#include "many_lights.h"
 #include "tree.h"
 
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
@@ -36,7 +36,7 @@ enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_I
 /* Light gathered for some pixels of a block of tiles side by side. */
 typedef struct lmb_sparse {
     lmb_tile together;                      /* those at hand: of positions, faces, normals and ids */
-    uint16_t place[LMB_TILE_PIXELS];        /* where they are in `light` */
+    uint16_t pixel[LMB_TILE_PIXELS];        /* where they are in `light` */
     int32_t count;                          /* of them */
     lmb_irradiance light[LMB_SPARSE_TILES]; /* of the block's pixels */
 } lmb_sparse;
@@ -51,9 +51,9 @@ typedef struct lmb_band_scratch {
     lmb_irradiance direct, indirect;
     lmb_radiance radiance;
     lmb_stats counts; /* pairs and segments, added to by lmb_render_band: zero it yourself */
-    lmb_many_scratch many;
+    lmb_many_lights_scratch many_lights;
     lmb_sparse sparse; /* where gather_step is over 1 */
-    lmb_gloss gloss;   /* where a material has a lobe */
+    lmb_glossy glossy; /* where a material has a lobe */
 } lmb_band_scratch;
 
 /* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,
@@ -64,33 +64,34 @@ typedef int (*lmb_band_callback)(void *user, const lmb_surface *rows, int32_t y)
 typedef struct lmb_frame {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one machine's own on small targets */
     const lmb_scene *scene;     /* checked */
-    const lmb_many *many;       /* built: lights beside the scene's; they bounce by `elements`. NULL: none */
+    const lmb_many_lights *many_lights; /* built: lights beside the scene's; they bounce by `elements`. NULL: none */
     lmb_view view;
     /* how */
     int32_t show;          /* LMB_SHOW_* */
-    int32_t light_map;     /* texels a side: a multiple of 8 */
+    int32_t shadow_map;    /* texels a side: a multiple of 8 */
     lmb_grouping grouping; /* zeros: defaults */
     int32_t occlusion;     /* LMB_OCCLUSION_* */
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
-    float error;           /* 0.02 where 0, by LMB_MANY_EVEN lights 0.1: LMB_GROUP_CUT: lmb_cutting's */
-    float visible;         /* 0.015 where 0, by LMB_MANY_EVEN lights 0.2: LMB_OCCLUSION_EXACT: lmb_cutting's */
-    int32_t proven;        /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cutting's */
-    float many_error;      /* 0.02 where 0: lmb_many_look's */
-    int32_t bounces;       /* 1 where 0, or .. 64: how often light is reflected before the surface that is seen;
-                              LMB_GROUP_CUT. What comes straight from a material that shines is not reflected: it always
+    float error;           /* 0.02 where 0, by LMB_MANY_LIGHTS_EVEN lights 0.1: LMB_GROUP_CUT: lmb_cut_params's */
+    float visibility;     /* 0.015 where 0, by LMB_MANY_LIGHTS_EVEN lights 0.2: LMB_OCCLUSION_EXACT: lmb_cut_params's */
+    int32_t conservative; /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cut_params's */
+    float many_lights_error; /* 0.02 where 0: lmb_many_lights_query's */
+    int32_t bounces;         /* 1 where 0, or .. 64: how often light is reflected before the surface that is seen;
+                              LMB_GROUP_CUT. What comes straight from a material that emits light is not reflected: it
+                                always
                               counts */
     int32_t truncated;     /* 1: light that is reflected more than `bounces` times is missing; 0: with `bounces` over 1
-                              it is estimated, up to LMB_MOST_BOUNCES: lmb_elements_rest */
+                              it is estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
     int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile */
     float exposure_ev;
     /* memory */
-    void *map_memory; /* every light's map: the sum of lmb_light_map_bytes over the lights */
+    void *map_memory; /* every light's shadow map: the sum of lmb_shadow_map_bytes over the lights */
     size_t map_bytes;
     int32_t id_format;  /* LMB_ID32 (or 0), or LMB_ID16 for scenes under 65,536 triangles */
     lmb_points points;  /* data NULL: no bounced light */
     lmb_groups *groups; /* NULL: no bounced light */
     lmb_tree tree;      /* LMB_GROUP_CUT: in place of points and groups; texel NULL: no bounced light */
-    lmb_blockers blockers; /* LMB_OCCLUSION_EXACT, and shadows from `many`; triangle NULL: these cast none */
+    lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows from `many`; triangle NULL: these cast none */
     lmb_elements elements; /* for bounces > 1, `many` to bounce and materials to light others; data NULL: none of it */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
     lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
@@ -102,14 +103,16 @@ typedef struct lmb_frame {
     lmb_stats *stats; /* may be NULL */
     float dim; /* 0, or radiance, W/(sr m2): lights whose bounced light together stays under it at every pixel, proven,
                   do not bounce. For a display at exposure e, 0.00015 / 2^e is half a step of black in 8 bits */
-    float least; /* 0, or radiance, W/(sr m2): bounced light that is wrong by less is right; not with `proven`. For a
+    float
+        error_floor; /* 0, or radiance, W/(sr m2): bounced light that is wrong by less is right; not with
+                        `conservative`. For a
                     display as for `dim` */
-    int32_t everything; /* 1: leave nothing out and keep nothing: the same bytes, for those who doubt it */
+    int32_t run_all; /* 1: leave nothing out and keep nothing: the same bytes, for those who doubt it */
 } lmb_frame;
 
 /* How well bounced light is solved: what numbers of lmb_frame_settings are where they are 0. Errors against truth:
- * README. By LMB_MANY_EVEN lights of `many` and nothing else, `error` and `visible` are larger (0.1 and 0.2 by default),
- * and bounced light is gathered at every second pixel. */
+ * README. By LMB_MANY_LIGHTS_EVEN lights of `many` and nothing else, `error` and `visibility` are larger (0.1 and 0.2
+ * by default), and bounced light is gathered at every second pixel. */
 enum {
     LMB_QUALITY_DEFAULT = 0, /* tree 256, error 0.02, visible 0.015 */
     LMB_QUALITY_DRAFT = 1,   /* tree 128, error 0.06, visible 0.06 */
@@ -118,13 +121,13 @@ enum {
                                 Builds without trees (LMB_TREES 0) have nothing else: there all are this one */
 };
 
-/* What lmb_frame_init makes a frame of. `kernels`, `scene` and `view` are needed; zeros elsewhere are what most want. What takes
- * no memory and is not here (exposure_ev, occlusion, stats, callback ...) is set in the frame afterwards. */
+/* What lmb_frame_init makes a frame of. `kernels`, `scene` and `view` are needed; zeros elsewhere are what most want.
+ * What takes no memory and is not here (exposure_ev, occlusion, stats, callback ...) is set in the frame afterwards. */
 typedef struct lmb_frame_settings {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
     const lmb_scene *scene; /* checked, with its lights; stays where it is */
-    const lmb_many *many;   /* built; NULL: none. Its memory is its own */
-    lmb_view view;          /* lmb_view_look makes one; its frame 1 .. LMB_MAX_SIDE px a side */
+    const lmb_many_lights *many_lights;   /* built; NULL: none. Its memory is its own */
+    lmb_view view;          /* lmb_view_look_at makes one; its frame 1 .. LMB_MAX_SIDE px a side */
     lmb_surface out;        /* the caller's picture; data NULL: one in the block, at frame.out */
     int32_t format;         /* of one in the block: LMB_RGBA8 where 0 */
     int32_t by_bands;       /* 1: 8 rows of depth and ids, and of a picture in the block: frame.callback gets them. The
@@ -133,11 +136,11 @@ typedef struct lmb_frame_settings {
     int32_t quality;        /* LMB_QUALITY_* */
     int32_t bounces;        /* 1 where 0, or .. 64; over 1 not by LMB_QUALITY_FIXED */
     int32_t threads;        /* 1 where 0, or .. 1024: who draw bands at once: frame.scratch[0 .. threads - 1] */
-    int32_t light_map;      /* texels a side, a multiple of 8; by a tree 1 .. 8 times its. 0: 2^21 texels (tiny
-                               configuration: 2^14) over all lights' maps, 64 .. 1024 a side */
+    int32_t shadow_map;      /* texels a side, a multiple of 8; by a tree 1 .. 8 times its. 0: 2^21 texels (tiny
+                               configuration: 2^14) over all shadow maps, 64 .. 1024 a side */
     int32_t tree;           /* texels a side, a power of two; the quality's where 0 (tiny configuration: an eighth);
-                               1/8 of light_map at least, light_map at most */
-    float error, visible;   /* lmb_frame's; the quality's where 0 */
+                               1/8 of shadow_map at least, shadow_map at most */
+    float error, visibility;   /* lmb_frame's; the quality's where 0 */
     uint32_t elements;      /* a power of 4, 64 .. 2^24. 0: 65,536 for more than one bounce, else 16,384 (tiny: 1,024
                                and 256). None where bounces, `many` and materials ask for none */
     lmb_grouping grouping;  /* LMB_QUALITY_FIXED: method is not LMB_GROUP_CUT */
@@ -147,45 +150,45 @@ typedef struct lmb_frame_settings {
 
 /* What of a frame does without, though it is asked for: it would change no byte of a picture. lmb_plan says why. */
 enum {
-    LMB_OMIT_BOUNCE = 1 /* nothing is lit, or nothing reflects */
+    LMB_SKIP_BOUNCE = 1 /* nothing is lit, or nothing reflects */
 };
 
-/* What stands as the last frame left it: lmb_render_next. */
+/* What stands as the last frame left it: lmb_render_reuse. */
 enum {
-    LMB_KEEP_BLOCKERS = 1,
-    LMB_KEEP_POINTS = 2,  /* and groups */
-    LMB_KEEP_BOUNCES = 4, /* elements and their light */
-    LMB_KEEP_VIEW = 8
+    LMB_REUSE_BVH = 1,
+    LMB_REUSE_POINTS = 2,  /* and groups */
+    LMB_REUSE_BOUNCES = 4, /* elements and their light */
+    LMB_REUSE_VIEW = 8
 };
 
 /* A light of a frame. */
 enum {
     LMB_LIGHT_DARK = 1,       /* gives nothing: no map, no light */
-    LMB_LIGHT_MAP_KEPT = 2,   /* as the last frame left it */
-    LMB_LIGHT_TEXELS_KEPT = 4, /* and its faces of the tree */
+    LMB_LIGHT_MAP_REUSED = 2,   /* as the last frame left it */
+    LMB_LIGHT_TEXELS_REUSED = 4, /* and its faces of the tree */
     LMB_LIGHT_DIM = 8         /* does not bounce: lmb_frame.dim */
 };
 
 /* The state of a frame under way. */
 typedef struct lmb_render {
     lmb_frame frame;
-    lmb_light_map maps[LMB_MAX_LIGHTS];
+    lmb_shadow_map maps[LMB_MAX_LIGHTS];
     int32_t stage;               /* lmb_stage */
     lmb_status failed;           /* what stopped the frame: every later call returns it; LMB_OK while nothing did */
-    uint32_t light, face, place; /* how far the stage is */
+    uint32_t light, face, progress; /* how far the stage is */
     uint32_t triangles;          /* of the scene */
-    int32_t shines;              /* 1 where a material gives off light */
+    int32_t emits;               /* 1 where a material emits light */
     int32_t is_glossy;           /* 1 where one has a lobe, in builds with trees */
-    uint32_t omits, keeps;       /* LMB_OMIT_*, LMB_KEEP_* */
+    uint32_t skips, reuses;      /* LMB_SKIP_*, LMB_REUSE_* */
     float dimmed;                /* radiance that lights that are too dim to bounce leave out, at most */
     uint8_t light_state[LMB_MAX_LIGHTS]; /* LMB_LIGHT_*, bits */
-    uint32_t revision, lights_revision, look_revision, light_revision[LMB_MAX_LIGHTS]; /* of what was drawn */
+    uint32_t revision, lights_revision, appearance_revision, light_revision[LMB_MAX_LIGHTS]; /* of what was drawn */
 } lmb_render;
 
 /* The stages, in order; lmb_render_progress names them. */
 typedef enum lmb_stage {
-    LMB_STAGE_LIGHT_MAP = 0,
-    LMB_STAGE_BLOCKERS, /* LMB_OCCLUSION_EXACT */
+    LMB_STAGE_SHADOW_MAP = 0,
+    LMB_STAGE_BVH, /* LMB_OCCLUSION_EXACT */
     LMB_STAGE_POINTS,
     LMB_STAGE_GROUPS,
     LMB_STAGE_BOUNCES,
@@ -201,7 +204,7 @@ extern "C" {
 /* lmb_frame_bytes: memory of a frame by these settings, all of it but the scene, `many`, a picture of the caller's and
  * lmb_render. 0 where there is no such frame: those that lmb_frame_init refuses, and what this machine cannot address.
  *
- * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the light's map, 5 the tree,
+ * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the shadow map, 5 the tree,
  * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82. At 160x120 in the
  * tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
@@ -214,7 +217,7 @@ size_t lmb_frame_bytes(const lmb_frame_settings *settings);
  *           picture in it, become zeros; the rest is not touched.
  *   bytes   at least lmb_frame_bytes.
  *
- * Serves for as long as the scene has no more triangles, lights and faces of maps (lmb_light_map_faces) than now:
+ * Serves for as long as the scene has no more triangles, lights and faces of maps (lmb_shadow_map_faces) than now:
  * lights, objects and viewer may move. Free the block to end it; there is nothing else to undo.
  * Returns LMB_OK; LMB_ERR_ARG (null, no scene, a number outside what stands beside it), LMB_ERR_FORMAT (of picture or
  * ids), LMB_ERR_SCENE (ids do not fit), LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes; more lights than LMB_MAX_LIGHTS): then
@@ -229,9 +232,9 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
- * A unit is 1,024 triangles of a draw, a row of light-map tiles or 64 elements of one bounce; a band counts as 8 (and
+ * A unit is 1,024 triangles of a draw, a row of shadow-map tiles or 64 elements of one bounce; a band counts as 8 (and
  * draws the whole scene into its rows where the eye is band-sized); the discs of one face, the grouping and what is
- * made of all triangles (blockers, elements) are each one piece.
+ * made of all triangles (the BVH, elements) are each one piece.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 
@@ -245,34 +248,35 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * light and objects stand still. r goes back to LMB_STAGE_VIEW; maps, points, groups and trees stay, and are only
  * read.
  *
- *   frame  kernels, view, show, occlusion, steps, error, visible, proven, many_error, gather_step, exposure_ev, eye,
+ *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step,
+ * exposure_ev, eye,
  *          eye_depth, scratch, out, callback, user and stats are taken from it; the rest stands as it was at
  *          lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
  * also where `frame` shows bounced light and r solved none, or solved more bounces than one, or those of `many`, by
- * another occlusion, error, visible or many_error, or asks for blockers that r did not build. On an error r is as it
- * was. */
+ * another occlusion, error, visibility or many_lights_error, or asks for the BVH that r did not build. On an error r is
+ * as it was. */
 lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
 
-/* lmb_render_next: begin the next frame of an animation: lmb_render_begin that keeps what did not change since r's last
- * frame, by the scene's revisions and the frame's settings. The bytes are those of lmb_render_begin.
+/* lmb_render_reuse: begin the next frame of an animation: lmb_render_begin that keeps what did not change since r's
+ * last frame, by the scene's revisions and the frame's settings. The bytes are those of lmb_render_begin.
  *
  *   r      of the last frame, done or not; or all 0: then it is the first.
  *   frame  whole, as for lmb_render_begin. What is kept lies in its memory: give the same each frame, and write none of
  *          it between them. Other memory, another size or scene: that part is made again.
- * Kept are: a light's map while nothing moved and its own and the lights' revision stand; its first points where also
- * the look stands; groups where all lights' do; the tree of blockers while nothing moved, whatever lights do; bounces
+ * Kept are: a shadow map while nothing moved and its own and the lights' revision stand; its first points where also
+ * the look stands; groups where all lights' do; the BVH while nothing moved, whatever lights do; bounces
  * where all of it stands; the viewer's depth and ids (a whole frame's) while nothing and the viewer did not move.
  * Direct and bounced light of the pixels are always gathered. Returns what lmb_render_begin does. Not there in builds
  * without plan. */
-lmb_status lmb_render_next(lmb_render *r, const lmb_frame *frame);
+lmb_status lmb_render_reuse(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_has_parts: 1 where the stage at hand can be done in parts, by those who have threads; 0 where it goes by
  * lmb_render_step: stages that are short, one that steps have begun, first points without room for four a block. */
 int32_t lmb_render_has_parts(const lmb_render *r);
 
-/* lmb_render_part: do one of `parts` equal shares: tile rows of all lights' maps (LMB_STAGE_LIGHT_MAP), of the next
+/* lmb_render_part: do one of `parts` equal shares: tile rows of all shadow maps (LMB_STAGE_SHADOW_MAP), of the next
  * face of one (LMB_STAGE_POINTS), or of the frame (LMB_STAGE_VIEW); the elements of the next bounce
  * (LMB_STAGE_BOUNCES). Shares may be done on any threads in any order. When each was done, once, lmb_render_parts_done
  * goes on. The bytes are those of lmb_render_step.

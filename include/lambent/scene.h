@@ -48,10 +48,10 @@ enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's v
 
 /* Least alpha = roughness^2 of a lobe: a point light's highlight stays under 3,200 times its reflectance, and a lobe's
  * numbers far from what binary32 holds. */
-#define LMB_LEAST_ALPHA 0.01f
+#define LMB_MIN_ALPHA 0.01f
 
 /* Lambertian surface. Diffuse albedo per channel is 0 .. 1; albedo x texture x vertex colour [V2]. Beside it, where
- * `specular` is not 0, one glossy lobe towards the viewer: lmb_gloss. Light that bounces on is the diffuse part
+ * `specular` is not 0, one glossy lobe towards the viewer: lmb_glossy. Light that bounces on is the diffuse part
  * alone.
  *
  * Maps of a surface take the texture coordinates of its base colour. Emission is seen by texel; it lights others by
@@ -66,10 +66,10 @@ typedef struct lmb_material {
     uint32_t flags;
     uint32_t normal_map; /* index into scene->textures, where normal_scale is not 0 */
     float normal_scale;  /* times the map's x and y; 0: no normal map */
-    float emission[3];   /* radiance that its front gives off, W/(sr m2); its back too where LMB_DOUBLE_SIDED; times
+    float emission[3];   /* radiance that its front emits, W/(sr m2); its back too where LMB_DOUBLE_SIDED; times
                             emission_map's texels */
     float specular[3];   /* the lobe's reflectance where the surface faces the viewer, F0, 0 .. 1; all 0: no lobe */
-    float roughness;     /* 0 .. 1; alpha = roughness^2, at least LMB_LEAST_ALPHA; times metal_map's G */
+    float roughness;     /* 0 .. 1; alpha = roughness^2, at least LMB_MIN_ALPHA; times metal_map's G */
     uint32_t emission_map; /* 1 + index into scene->textures of what multiplies emission, sRGB; 0: none */
     uint32_t metal_map;    /* 1 + index of glTF's map of roughness (G) and metallic (B), linear; 0: none */
     float metallic;        /* 0 .. 1, times metal_map's B; only with it */
@@ -116,7 +116,8 @@ typedef struct lmb_scene {
     lmb_vec3 bounds_min, bounds_max; /* of all placed vertices, world metres: lmb_scene_bounds */
     uint32_t revision;        /* raise when anything changed that the next two do not tell */
     uint32_t lights_revision; /* raise when lights came, went or changed; for changes of one, its own is enough */
-    uint32_t look_revision;   /* raise where only colours changed: albedo, emission, specular, roughness, texels without
+    uint32_t
+        appearance_revision;  /* raise where only colours changed: albedo, emission, specular, roughness, texels without
                                  holes; what is seen and what blocks stands as it was */
     lmb_core core;            /* lmb_scene_core; all 0: suns' maps have one face */
 } lmb_scene;
@@ -137,8 +138,8 @@ lmb_status lmb_scene_check(const lmb_scene *scene);
 /* lmb_scene_triangles: triangles over all instances of a checked scene; ids run 1 .. that. Cost: none. */
 uint32_t lmb_scene_triangles(const lmb_scene *scene);
 
-/* lmb_scene_shines: 1 where some material gives off light, for which a frame wants elements; else 0. */
-int lmb_scene_shines(const lmb_scene *scene);
+/* lmb_scene_emits: 1 where some material emits light, for which a frame wants elements; else 0. */
+int lmb_scene_emits(const lmb_scene *scene);
 
 /* lmb_scene_is_glossy: 1 where some material has a lobe; else 0. */
 int lmb_scene_is_glossy(const lmb_scene *scene);

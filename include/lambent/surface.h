@@ -35,10 +35,10 @@ lmb_status lmb_depth_linearize(void *out, size_t bytes, const lmb_surface *surfa
 float lmb_depth_view_z(const lmb_view *view, float d);
 
 /* lmb_surface_hash: 64-bit FNV-1a over the pixels in row order, each value in little-endian byte order whatever the
- * machine and layout, so that equal pictures have equal hashes everywhere. 0 for a null surface. [oracle] */
+ * machine and layout, so that equal pictures have equal hashes everywhere. 0 for a null surface.  */
 uint64_t lmb_surface_hash(const lmb_surface *surface);
 
-/* lmb_surface_diff: first pixel, in row order, whose bytes differ. [oracle]
+/* lmb_surface_diff: first pixel, in row order, whose bytes differ.
  *
  * Returns 1 and writes its place to x, y; 0 if all are equal; LMB_ERR_ARG / LMB_ERR_FORMAT where the two cannot be
  * compared (null, sizes or formats differ; layouts may). */

@@ -1,4 +1,4 @@
-/* tree.h: the light's map as a tree, of which each tile of pixels takes its own cut. [V3 V6 V15 V27, DESIGN 4]
+/* tree.h: the shadow map as a tree, of which each tile of pixels takes its own cut. [V3 V6 V15 V27]
  *
  * Every lit texel of a map is a first point; four make a node, four nodes the next, up to one a face. Sums go upward
  * from the finest texels, so no flux is lost and a fine map costs pixels only where they are near it. A tile goes down
@@ -32,7 +32,7 @@ typedef struct lmb_node {
     uint32_t texel;          /* one of them, near the centre: where visibility is asked for */
 } lmb_node;
 
-/* The caller's memory, shared out. Face f of all lights' maps, in order. */
+/* The caller's memory, shared out. Face f of all shadow maps, in order. */
 typedef struct lmb_tree {
     lmb_texel *texel; /* face_cap x size x size, row by row */
     lmb_node *node;   /* face_cap x (size^2 - 1) / 3: of each face the level of size / 2 first, its root last */
@@ -51,9 +51,9 @@ typedef struct lmb_emitter {
 } lmb_emitter;
 
 /* Where a node is: level 0 are texels. */
-typedef struct lmb_tree_place {
+typedef struct lmb_node_ref {
     uint16_t face, x, y, level;
-} lmb_tree_place;
+} lmb_node_ref;
 
 enum { LMB_CUT_BUCKETS = 512 };
 
@@ -61,36 +61,39 @@ enum { LMB_CUT_BUCKETS = 512 };
 typedef struct lmb_cut {
     int32_t count;                     /* nodes, of which some are gone */
     uint64_t visible[LMB_MAX_CUT];     /* the pixels that see it, a bit each */
-    lmb_tree_place place[LMB_MAX_CUT];
+    lmb_node_ref ref[LMB_MAX_CUT];
     float value[LMB_MAX_CUT];          /* what it gives where it is seen, W/m2 */
-    float most[LMB_MAX_CUT];           /* the most that it can give */
+    float upper[LMB_MAX_CUT];           /* the most that it can give */
     float error[LMB_MAX_CUT];          /* what it may be wrong by as one disc */
     int32_t next[LMB_MAX_CUT];         /* in its bucket */
     int32_t bucket[LMB_CUT_BUCKETS];   /* the first of each, by exponent and first bit */
-    float weighed[23][LMB_WEIGH_NODES]; /* nodes side by side; what the planes are is src/bounce's own */
+    float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; what the planes are is src/bounce's own */
     lmb_emitter emitter[LMB_CUT_BLOCK];
     union {
         float pairs[3][LMB_GATHER_PAIRS]; /* while it lights */
-        lmb_walk walk;                    /* while it is taken */
+        lmb_traversal traversal;          /* while it is taken */
     } use;
 } lmb_cut;
 
 /* How tiles take their cut. */
-typedef struct lmb_cutting {
-    float error;   /* share of a pixel's light that what bounces may be wrong by where nothing blocks: the root of the
-                      nodes' errors' squares; proven: of their sum */
-    float visible; /* share that no node may exceed whose visibility is asked as one */
-    float floor;   /* W/m2, R + G + B: what is wrong by less than this is right, whatever its share; proven: not used */
-    int32_t proven; /* 1: `error` is a bound that no pixel exceeds where nothing blocks, by any number of nodes; 0: rule
+typedef struct lmb_cut_params {
+    float error; /* share of a pixel's light that what bounces may be wrong by where nothing blocks: the root of the
+                      nodes' errors' squares; conservative: of their sum */
+    float visibility; /* share that no node may exceed whose visibility is asked as one */
+    float floor;   /* W/m2, R + G + B: what is wrong by less than this is right, whatever its share; conservative: not
+                      used */
+    int32_t
+        conservative; /* 1: `error` is a bound that no pixel exceeds where nothing blocks, by any number of nodes; 0:
+                         rule
                        that holds for all but a few pixels, by a tenth of them */
-    const lmb_blockers *blockers; /* NULL: everything is seen */
+    const lmb_bvh *bvh;           /* NULL: everything is seen */
     lmb_stats *stats;             /* counts pairs and segments; may be NULL */
     const lmb_irradiance *direct; /* shown together with what bounces: counts to a pixel's light, by the least of the
                                      pixels that take a cut together; or NULL */
     const lmb_irradiance *beside; /* counts to a pixel's light too, for both shares; may be what is added to; or NULL */
-    float least;                  /* so does this, W/m2, R + G + B */
-    lmb_gloss *gloss;             /* the tile's lobes: what they make of the nodes is added; NULL: none */
-} lmb_cutting;
+    float lower;                  /* so does this, W/m2, R + G + B */
+    lmb_glossy *glossy;           /* the tile's lobes: what they make of the nodes is added; NULL: none */
+} lmb_cut_params;
 
 #ifdef __cplusplus
 extern "C" {
@@ -103,13 +106,13 @@ size_t lmb_tree_bytes(uint32_t faces, int32_t size);
  * LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes);
 
-/* lmb_tree_texels: the first points of the tile rows first .. past - 1 of one face of a light's map, into face `into`
+/* lmb_tree_texels: the first points of the tile rows first .. past - 1 of one face of a shadow map, into face `into`
  * of the tree. A map of 2, 4 or 8 times the tree's size gives one texel in 2 x 2, 4 x 4 or 8 x 8, moved along its plane
  * to the middle: a fine map makes sharp shadows, which do not ask for as many first points.
  * Rows may be taken in any order, at once on any threads. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
-                           const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
-                           int32_t past);
+                           const lmb_light *light, const lmb_shadow_map *map, int32_t face, uint32_t into,
+                           int32_t first, int32_t past);
 
 /* lmb_tree_sum: the nodes of one face, from its first points, once all its rows are there. */
 lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
@@ -117,15 +120,15 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
 /* lmb_gather_cut: add what the tree's first points light to a tile's pixels.                          [V25 V27 V28]
  *
  * The tile is split by surfaces; each takes its own cut: the node with the largest error is replaced by its four until
- * the root of the errors' squares' sum is at most cutting->error of the sum of what they give. A node's error is the
- * most it can give, times the second order of its size and bend: U min(1, R^2 / 2 d^2 + sin^2 a), and at least a quarter
- * of it where a horizon goes through the node. Where LMB_MAX_CUT nodes are not enough, each half of the pixels takes a
- * cut of its own, while that comes closer; else the pixels are lit by the nodes there are, and stats->full_cuts counts.
- * Visibility: one texel of each node that faces the pixels, from every pixel. Texels near a pixel count as their exact
- * quads.
+ * the root of the errors' squares' sum is at most cut_params->error of the sum of what they give. A node's error is the
+ * most it can give, times the second order of its size and bend: U min(1, R^2 / 2 d^2 + sin^2 a), and at least a
+ * quarter of it where a horizon goes through the node. Where LMB_MAX_CUT nodes are not enough, each half of the pixels
+ * takes a cut of its own, while that comes closer; else the pixels are lit by the nodes there are, and stats->full_cuts
+ * counts. Visibility: one texel of each node that faces the pixels, from every pixel. Texels near a pixel count as
+ * their exact quads.
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
-                          const lmb_tree *tree, const lmb_cutting *cutting);
+                          const lmb_tree *tree, const lmb_cut_params *cut_params);
 
 #ifdef __cplusplus
 }

@@ -1,10 +1,10 @@
-/* types.h: the words of the house: status, vectors, views, surfaces, statistics.
+/* types.h: the common types: status, vectors, views, surfaces, statistics.
  *
  * Conventions (glTF 2.0's): metres, right-handed, +Y up, a camera looks down -Z, counter-clockwise front faces,
  * linear RGB, column-major matrices. Pixel (x, y) has its centre at (x + 0.5, y + 0.5); y = 0 is the top row.
  *
  * Glossary
- *   first point  a lit surface element seen by a light: a texel of the light's map, or several      [V4]
+ *   first point  a lit surface element seen by a light: a texel of the shadow map, or several       [V4]
  *   disc         a first point with the neighbours that joined it                                   [V12]
  *   group        discs gathered into one emitter                                                    [V19]
  *   flux         outgoing Lambertian power of an emitter, W: reflectance x incident power
@@ -44,7 +44,7 @@ typedef struct lmb_mat4 {
     float m[16]; /* column-major: m[4 * column + row] */
 } lmb_mat4;
 
-/* What a camera, or one face of a light's map, sees. The axes are orthonormal: right x up = back.
+/* What a camera, or one face of a shadow map, sees. The axes are orthonormal: right x up = back.
  * Depth is d = z_clip / w_clip of a reversed projection: larger is nearer, 0 is nothing, affine in screen space.
  *   perspective   d = near_m / w, no far plane          orthographic   d = (far_m - w) / (far_m - near_m)
  * with w the distance along -back, in metres. */
@@ -120,12 +120,12 @@ const char *lmb_status_name(lmb_status status);
  * 0.9.27). Returns LMB_OK or LMB_ERR_BUILD. Call it once at start. */
 lmb_status lmb_build_check(void);
 
-/* lmb_view_look: a perspective view from `eye` towards `target`.
+/* lmb_view_look_at: a perspective view from `eye` towards `target`.
  *
  *   vfov_rad  vertical angle of view, 0 < vfov_rad < pi.   width, height  the frame, px; pixels are square.
  * Returns LMB_OK, or LMB_ERR_ARG (target at eye, up along the view, sizes outside) and leaves `out` alone. */
-lmb_status lmb_view_look(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
-                         int32_t height);
+lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
+                            int32_t height);
 
 #ifdef __cplusplus
 }

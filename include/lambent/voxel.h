@@ -2,7 +2,7 @@
  *                                                                                        [M6-M8 M11-M13 M20-M22]
  *     lmb_voxels_init(&v, cap, LMB_VOXELS_THREE, memory, bytes);    once
  *     lmb_voxels_build(&v, &low, &high, depth, parts, count);       when geometry changes
- *     lmb_voxels_inject(&v, field, texels, count);                 when light changes: first points of the lights' maps
+ *     lmb_voxels_inject(&v, field, texels, count);                 when light changes: first points of the shadow maps
  *     lmb_voxels_filter(&v, field);  lmb_voxels_delta(&v);
  *     lmb_cones_init(&cones, &v, 19);                               once a build
  *     per tile: lmb_cones_diffuse(..), lmb_cones_glossy(..)
@@ -50,7 +50,7 @@ typedef struct lmb_voxel_part {
     int32_t in[2];
 } lmb_voxel_part;
 
-enum { LMB_CONE_STEPS = 256, LMB_CONE_MOST = 37, LMB_CONE_WIDTHS = 4 };
+enum { LMB_CONE_STEPS = 256, LMB_CONE_MAX = 37, LMB_CONE_WIDTHS = 4 };
 
 /* One sample of a cone: of every cone as wide, at the same distance. */
 typedef struct lmb_cone_step {
@@ -70,8 +70,8 @@ typedef struct lmb_cone_width {
 typedef struct lmb_cones {
     int32_t count;
     lmb_cone_width width[LMB_CONE_WIDTHS];   /* of each ring of cones */
-    int32_t ring[LMB_CONE_MOST];
-    float direction[LMB_CONE_MOST][3];       /* along two tangents and the normal */
+    int32_t ring[LMB_CONE_MAX];
+    float direction[LMB_CONE_MAX][3];       /* along two tangents and the normal */
 } lmb_cones;
 
 /* What 64 cones see. */

@@ -16,11 +16,11 @@ static const uint32_t statue[] = {
 
 /* Words, so that everything is aligned to 4. Sides are whole tiles. */
 static uint32_t picture[SIDE * SIDE / 2], eye_depth[SIDE * SIDE], eye_id[SIDE * SIDE / 2];
-LMB_LIGHT_MAP_ARRAY(map_memory, MAP_SIZE);
+LMB_SHADOW_MAP_ARRAY(map_memory, MAP_SIZE);
 static lmb_relief relief;
 static lmb_relief_stats stats;
 static lmb_scene simple;
-static lmb_light_map map;
+static lmb_shadow_map map;
 static lmb_target eye;
 static lmb_surface out;
 static lmb_tile tile;
@@ -51,15 +51,15 @@ static lmb_status place(lmb_view *view)
     from.x += 0.6f * size;
     from.y += 0.5f * size;
     from.z += 1.2f * size;
-    return lmb_view_look(view, from, middle, (lmb_vec3){0, 1, 0}, 0.7f, SIDE, SIDE);
+    return lmb_view_look_at(view, from, middle, (lmb_vec3){0, 1, 0}, 0.7f, SIDE, SIDE);
 }
 
 static lmb_status draw_map(const lmb_kernels *kernels)
 {
-    lmb_status s = lmb_light_map_init(&map, &sun, &simple, MAP_SIZE, LMB_ID16, map_memory, sizeof map_memory);
+    lmb_status s = lmb_shadow_map_init(&map, &sun, &simple, MAP_SIZE, LMB_ID16, map_memory, sizeof map_memory);
     if (s == LMB_OK) {
-        lmb_light_map_clear(&map);
-        s = lmb_light_map_draw(&map, kernels, &simple, 1, lmb_scene_triangles(&simple), NULL);
+        lmb_shadow_map_clear(&map);
+        s = lmb_shadow_map_draw(&map, kernels, &simple, 1, lmb_scene_triangles(&simple), NULL);
     }
     return s != LMB_OK ? s : lmb_relief_shadow_rows(&map, &tile, kernels, &relief, NULL, 0, MAP_SIZE / LMB_TILE);
 }

@@ -13,7 +13,7 @@ static uint32_t picture[WIDTH * HEIGHT / 2];
 static uint32_t band_depth[WIDTH * LMB_TILE];
 static uint32_t band_id[WIDTH * LMB_TILE / 2];
 static uint32_t view_depth[WIDTH * HEIGHT / 2];
-LMB_LIGHT_MAP_ARRAY(map_memory, MAP_SIZE);
+LMB_SHADOW_MAP_ARRAY(map_memory, MAP_SIZE);
 LMB_POINTS_ARRAY(points, POINTS, MAP_BLOCKS);
 static lmb_groups groups;
 static lmb_band_scratch scratch;
@@ -41,7 +41,7 @@ static lmb_status draw(lmb_surface *out)
     frame.kernels = lmb_kernels_pick();
     frame.scene = demo_scene();
     frame.view = demo_view(WIDTH, HEIGHT);
-    frame.light_map = MAP_SIZE;
+    frame.shadow_map = MAP_SIZE;
     frame.occlusion = LMB_OCCLUSION_VIEW;
     frame.map_memory = map_memory;
     frame.map_bytes = sizeof map_memory;

@@ -1,4 +1,4 @@
-/* codec.c: sRGB codes by tables, octahedral normals. Floor 1. */
+/* codec.c: sRGB codes by tables, octahedral normals. Layer 1. */
 #include "codec.h"
 
 #include <lambent/scene.h>

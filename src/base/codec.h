@@ -1,4 +1,4 @@
-/* codec.h: 8-bit sRGB codes. (Octahedral normals are public: lambent/scene.h.) Floor 1. */
+/* codec.h: 8-bit sRGB codes. (Octahedral normals are public: lambent/scene.h.) Layer 1. */
 #ifndef LMB_BASE_CODEC_H
 #define LMB_BASE_CODEC_H
 

@@ -1,4 +1,4 @@
-/* exact.c: asks the running machine what exact.h cannot ask the compiler. Floor 1.
+/* exact.c: asks the running machine what exact.h cannot ask the compiler. Layer 1.
  *
  * Operands are volatile, so that the answers come from the code the compiler made and not from its own arithmetic. */
 #include "exact.h"
@@ -19,8 +19,8 @@ static int float_is_plain(void)
 /* In and out: a denormal operand must not count as 0, nor a denormal result become 0. */
 static int denormals_are_kept(void)
 {
-    volatile float tiny = 0x1p-140f, half = 0.5f, least = FLT_MIN, huge = 0x1p+100f;
-    volatile float out = least * half, in = tiny * huge, both = tiny * half;
+    volatile float tiny = 0x1p-140f, half = 0.5f, min = FLT_MIN, huge = 0x1p+100f;
+    volatile float out = min * half, in = tiny * huge, both = tiny * half;
     return out == 0x1p-127f && in == 0x1p-40f && both == 0x1p-141f;
 }
 

@@ -1,4 +1,4 @@
-/* exact.h: refuses to compile where bytes would differ; lmb_build_check asks the rest at run time. Floor 1. */
+/* exact.h: refuses to compile where bytes would differ; lmb_build_check asks the rest at run time. Layer 1. */
 #ifndef LMB_BASE_EXACT_H
 #define LMB_BASE_EXACT_H
 
@@ -17,7 +17,7 @@
 /* The part of lmb_build_check that needs no kernel: 1 where this machine's plain C computes as everybody else's. */
 int lmb_base_is_exact(void);
 
-/* A seat belt beside -ffp-contract=off: gcc ignores the pragma, clang honours it for plain expressions. */
+/* In addition to -ffp-contract=off: gcc ignores this pragma, clang honours it for plain expressions. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
 #endif

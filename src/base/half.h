@@ -1,4 +1,4 @@
-/* half.h: binary16 codes of what is not negative. Floor 1. */
+/* half.h: binary16 codes of what is not negative. Layer 1. */
 #ifndef LMB_BASE_HALF_H
 #define LMB_BASE_HALF_H
 
@@ -8,7 +8,7 @@
 
 #include <stdint.h>
 
-#define HALF_MOST 65504.0f
+#define HALF_MAX 65504.0f
 #define HALF_ONE 0x3c00u
 
 /* The nearest code, of ties the even one. Negative values and NaN give 0, what is over 65504 gives 65504. */
@@ -18,7 +18,7 @@ static inline uint16_t half_encode(float v)
     if (!(v > 0.0f)) {
         return 0;
     }
-    if (v >= HALF_MOST) {
+    if (v >= HALF_MAX) {
         return 0x7bff;
     }
     if (v < 6.103515625e-05f) { /* 2^-14: codes are steps of 2^-24; adding 0.5 rounds them, as its steps are those */

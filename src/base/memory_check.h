@@ -1,4 +1,4 @@
-/* memory_check.h: may arrays lie in the memory that a caller gave? Floor 1. */
+/* memory_check.h: may arrays lie in the memory that a caller gave? Layer 1. */
 #ifndef LMB_BASE_MEMORY_CHECK_H
 #define LMB_BASE_MEMORY_CHECK_H
 

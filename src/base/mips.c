@@ -1,4 +1,4 @@
-/* mips.c: sizes of a texture's levels, and filling them. Floor 1. */
+/* mips.c: sizes of a texture's levels, and filling them. Layer 1. */
 #include <lambent/scene.h>
 
 #include "codec.h"

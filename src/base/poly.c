@@ -1,4 +1,4 @@
-/* poly.c: sine, cosine, tangent, arc cosine, arc tangent, log2 and exp2 from polynomials. Floor 1.
+/* poly.c: sine, cosine, tangent, arc cosine, arc tangent, log2 and exp2 from polynomials. Layer 1.
  *
  * Each polynomial is a minimax fit (Remez; Lawson for exp2) of the relative error of the whole function. Coefficients
  * were rounded to float from the lowest order up, refitting the rest after each, so that rounding them costs nothing

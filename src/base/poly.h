@@ -1,4 +1,4 @@
-/* poly.h: the elementary functions, each one fixed sequence of binary32 operations. Floor 1.
+/* poly.h: the elementary functions, each one fixed sequence of binary32 operations. Layer 1.
  *
  * libm's own differ from machine to machine in the last bit, and that bit moves pixels. These take + - * /, sqrtf and
  * floorf, all correctly rounded everywhere, and minimax polynomials of our own fit. The errors stated are the largest

@@ -1,4 +1,4 @@
-/* scene.c: is a scene safe to draw, how many triangles, how large. Floor 1. */
+/* scene.c: is a scene safe to draw, how many triangles, how large. Layer 1. */
 #include <lambent/scene.h>
 
 #include <stddef.h>
@@ -170,7 +170,7 @@ static int any_coloured(const lmb_scene *scene, size_t at)
     return any;
 }
 
-int lmb_scene_shines(const lmb_scene *scene) { return any_coloured(scene, offsetof(lmb_material, emission)); }
+int lmb_scene_emits(const lmb_scene *scene) { return any_coloured(scene, offsetof(lmb_material, emission)); }
 
 int lmb_scene_is_glossy(const lmb_scene *scene) { return any_coloured(scene, offsetof(lmb_material, specular)); }
 

@@ -1,4 +1,4 @@
-/* status.c: names of the status numbers. Floor 1. */
+/* status.c: names of the status numbers. Layer 1. */
 #include <lambent/types.h>
 
 #include "exact.h"

@@ -1,7 +1,7 @@
-/* surface.c: sizes, clearing, linearising, hashing and comparing a caller's pixels. Floor 1.
+/* surface.c: sizes, clearing, linearising, hashing and comparing a caller's pixels. Layer 1.
  *
- * In either layout eight pixels from a multiple of 8 on lie side by side in memory (fewer at a row's end), so every
- * walk here goes by such runs and needs no second path for tiles. */
+ * In both layouts the eight pixels that start at a multiple of 8 are contiguous in memory (fewer at the end of a row).
+ * Every loop here works on such runs, so tiled surfaces need no code of their own. */
 #include <string.h>
 
 #include "surface_check.h"
@@ -77,9 +77,9 @@ lmb_status lmb_surface_init(lmb_surface *out, int32_t format, int32_t width, int
 }
 
 /* Tiles only for depth and id, rows that do not overlap, pixels where their type may lie. */
-int lmb_surface_is_sound(const lmb_surface *s)
+int lmb_surface_is_valid(const lmb_surface *s)
 {
-    int32_t tile, least;
+    int32_t tile, min;
     if (!s || !s->data || !is_size(s->width, s->height) || !lmb_pixel_bytes(s->format) || s->layout > LMB_TILED)
         return 0;
     tile = mini(lmb_pixel_bytes(s->format), 4);
@@ -90,9 +90,9 @@ int lmb_surface_is_sound(const lmb_surface *s)
     if (!tile)
         return s->layout == LMB_LINEAR && (s->stride_bytes >= s->width * lmb_pixel_bytes(s->format) ||
                                            s->stride_bytes <= -s->width * lmb_pixel_bytes(s->format));
-    least = packed_stride(s->format, s->width);
+    min = packed_stride(s->format, s->width);
     /* Draws count in rows of tiles, eight of pixels: those must fit 32 bits too. */
-    return s->stride_bytes >= (s->layout == LMB_TILED ? least : least / LMB_TILE) &&
+    return s->stride_bytes >= (s->layout == LMB_TILED ? min : min / LMB_TILE) &&
            s->stride_bytes <= INT32_MAX / LMB_TILE;
 }
 
@@ -112,7 +112,7 @@ static int32_t run_length(const lmb_surface *s, int32_t x) { return mini(s->widt
 lmb_status lmb_surface_clear(const lmb_surface *surface)
 {
     int32_t y, rows, width, row_bytes;
-    if (!lmb_surface_is_sound(surface))
+    if (!lmb_surface_is_valid(surface))
         return LMB_ERR_ARG;
     if (is_tile_format(surface->format)) {
         rows = round_up(surface->height, LMB_TILE) / (surface->layout == LMB_TILED ? LMB_TILE : 1);
@@ -131,7 +131,7 @@ lmb_status lmb_depth_linearize(void *out, size_t bytes, const lmb_surface *surfa
 {
     unsigned char *to = (unsigned char *)out;
     int32_t x, y, pixel;
-    if (!out || !lmb_surface_is_sound(surface))
+    if (!out || !lmb_surface_is_valid(surface))
         return LMB_ERR_ARG;
     if (!is_tile_format(surface->format))
         return LMB_ERR_FORMAT;
@@ -184,7 +184,7 @@ uint64_t lmb_surface_hash(const lmb_surface *surface)
 {
     uint64_t hash = HASH_START;
     int32_t x, y, pixel, value;
-    if (!lmb_surface_is_sound(surface))
+    if (!lmb_surface_is_valid(surface))
         return 0;
     pixel = lmb_pixel_bytes(surface->format);
     value = surface->format == LMB_RGBA8 || surface->format == LMB_BGRA8 ? 1 : mini(pixel, 4);
@@ -208,7 +208,7 @@ static int32_t equal_pixels(const unsigned char *a, const unsigned char *b, int3
 int32_t lmb_surface_diff(int32_t *x, int32_t *y, const lmb_surface *a, const lmb_surface *b)
 {
     int32_t i, j, run, same, pixel;
-    if (!x || !y || !lmb_surface_is_sound(a) || !lmb_surface_is_sound(b) || a->width != b->width ||
+    if (!x || !y || !lmb_surface_is_valid(a) || !lmb_surface_is_valid(b) || a->width != b->width ||
         a->height != b->height)
         return LMB_ERR_ARG;
     if (a->format != b->format)

@@ -1,10 +1,10 @@
-/* surface_check.h: could a surface's numbers describe memory? Floor 1. */
+/* surface_check.h: could a surface's numbers describe memory? Layer 1. */
 #ifndef LMB_BASE_SURFACE_CHECK_H
 #define LMB_BASE_SURFACE_CHECK_H
 
 #include <lambent/surface.h>
 
 /* 1 for a surface with data, a known format, a size, a stride that holds its rows, and both aligned to its values. */
-int lmb_surface_is_sound(const lmb_surface *surface);
+int lmb_surface_is_valid(const lmb_surface *surface);
 
 #endif

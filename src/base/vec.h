@@ -1,4 +1,4 @@
-/* vec.h: scalar maths on three-vectors and 4x4 matrices. Floor 1.
+/* vec.h: scalar maths on three-vectors and 4x4 matrices. Layer 1.
  *
  * Every function is one fixed sequence of binary32 operations; sums run left to right. */
 #ifndef LMB_BASE_VEC_H
@@ -13,9 +13,9 @@ float floorf(float);
 
 /* For what is rarely or slowly done, so that its frame is not part of its caller's. */
 #if defined(__GNUC__)
-#define APART static __attribute__((noinline))
+#define NOINLINE static __attribute__((noinline))
 #else
-#define APART static
+#define NOINLINE static
 #endif
 
 static inline lmb_vec3 vec3(float x, float y, float z)

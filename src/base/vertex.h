@@ -1,4 +1,4 @@
-/* vertex.h: one vertex or index of a mesh, whatever its stream's format. Floor 1.
+/* vertex.h: one vertex or index of a mesh, whatever its stream's format. Layer 1.
  *
  * Streams are 4-byte aligned and tightly packed (lmb_scene_check), so plain typed reads will do. Indices are returned
  * as stored: whoever draws compares them with vertex_count before decoding. */
@@ -85,7 +85,7 @@ static inline void mesh_triangle(const lmb_mesh *m, uint32_t triangle, uint32_t 
     }
 }
 
-/* Hints that numbers are wanted soon: those of several triangles lie far apart, and each would be waited for. */
+/* Prefetch hints: the vertices of several triangles lie far apart in memory, and each would cause a cache miss. */
 #if defined(__GNUC__)
 #define MESH_SOON(p) __builtin_prefetch(p)
 #else

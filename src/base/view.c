@@ -1,4 +1,4 @@
-/* view.c: a camera from where it stands and what it looks at. Floor 1. */
+/* view.c: a camera from where it stands and what it looks at. Layer 1. */
 #include "poly.h"
 #include "vec.h"
 
@@ -7,7 +7,8 @@
 
 static int is_sane3(lmb_vec3 v) { return is_sane(v.x) && is_sane(v.y) && is_sane(v.z); }
 
-/* Nearly parallel vectors give a cross product of few good bits, so what it still holds of `back` is taken out. */
+/* The cross product of nearly parallel vectors has few significant bits, so its remaining component along `back` is
+ * removed. */
 static int look_axes(lmb_view *v, lmb_vec3 along, lmb_vec3 up)
 {
     if (!(dot3(along, along) > 1e-12f && dot3(up, up) > 1e-37f))
@@ -22,8 +23,8 @@ static int look_axes(lmb_view *v, lmb_vec3 along, lmb_vec3 up)
     return 1;
 }
 
-lmb_status lmb_view_look(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
-                         int32_t height)
+lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
+                            int32_t height)
 {
     lmb_view v;
     if (!out || !is_sane3(eye) || !is_sane3(target) || !is_sane3(up) || !(vfov_rad > 0.0f && vfov_rad < LMB_PI))

@@ -1,4 +1,4 @@
-/* discs.c: first points -> discs: mean neighbour distances, and points much closer than that join. Floor 6.
+/* discs.c: first points -> discs: mean neighbour distances, and points much closer than that join. Layer 6.
  *                                                                                      [V8 V9 V10 V11 V12 V14 V15]
  * Neighbours are looked up in the map: in the cells around that are as many as was asked for, or as a radius in space
  * can span. */
@@ -75,7 +75,7 @@ static int is_neighbour(const neighbourhood *n, const lmb_point *p, const around
  * What moves e m, |e| <= radius, from where w m along the axis a map's tangent is t, moves the tangent by
  * |e_x - t e_w| / (w + e_w), which is at most radius sqrt(1 + t^2) / (w - radius). t is taken at the corner of a square
  * through the cell's far side, so that it is the most, and w the least, that they may be. */
-static void around_point(around *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t most)
+static void around_point(around *a, const neighbourhood *n, const lmb_point *p, float radius, int32_t max)
 {
     const int32_t side = (int32_t)n->side, x = p->cell_x, y = p->cell_y;
     float cells = 0.5f * (float)side * radius / n->view->half_width;
@@ -87,7 +87,7 @@ static void around_point(around *a, const neighbourhood *n, const lmb_point *p, 
     }
     /* Both may be anywhere in their cells; and rounding. */
     int32_t reach = n->cells > 0 ? n->cells : cells < (float)side ? (int32_t)cells + 2 : side;
-    reach = mini(reach, most);
+    reach = mini(reach, max);
     a->n = n;
     a->from = p->position;
     a->step = (reach + REACH - 1) / REACH;
@@ -202,19 +202,19 @@ static uint32_t nearest_disc(const neighbourhood *n, uint32_t i)
     const lmb_point *p = &n->points->data[i];
     around a;
     uint32_t nearest = i;
-    float least = 0.0f;
+    float min = 0.0f;
     around_point(&a, n, p, 0.0f, REACH);
     while (next_around(&a)) {
-        if (a.q->link == a.at - 1 && is_same_surface(p, &a) && (nearest == i || a.d < least)) {
+        if (a.q->link == a.at - 1 && is_same_surface(p, &a) && (nearest == i || a.d < min)) {
             nearest = a.at - 1;
-            least = a.d;
+            min = a.d;
         }
     }
     return nearest;
 }
 
-/* The points that become no disc, whose links are LMB_NOBODY: every one chooses first, from where the points are; then
- * they join. */
+/* The points that become no disc have the link LMB_NOBODY. Each first chooses a disc from the points' initial
+ * positions; then all are joined. */
 static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
 {
     lmb_point *data = n->points->data;
@@ -233,7 +233,7 @@ static void thin_out(const neighbourhood *n, uint32_t first, int32_t thin)
 
 /* Close the gaps that joined points leave, and tell their texels. Links: a disc's is its own number, a joined point's
  * that of the disc, or of a point that has joined one in turn (thinned out first, then near another disc). */
-static void close_gaps(lmb_points *points, uint32_t first, const lmb_light_map *map)
+static void close_gaps(lmb_points *points, uint32_t first, const lmb_shadow_map *map)
 {
     lmb_point *data = points->data;
     const uint32_t texels = points->owner != NULL ? (uint32_t)map->size * (uint32_t)map->size : 0;
@@ -271,13 +271,13 @@ static void set_radius(lmb_points *points, uint32_t first, float radius)
 }
 
 /* Were the points collected by blocks of this size? Their cells say where the last one ends. */
-static int has_cells(const lmb_points *points, const lmb_light_map *map, int32_t block)
+static int has_cells(const lmb_points *points, const lmb_shadow_map *map, int32_t block)
 {
     const uint32_t side = block > 0 && block <= LMB_TILE ? (uint32_t)(map->size / block) : 0;
     return side > 0 && side * side < points->cell_cap && points->cells[side * side] == points->count;
 }
 
-lmb_status lmb_discs_join(lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping)
+lmb_status lmb_discs_join(lmb_points *points, const lmb_shadow_map *map, const lmb_grouping *grouping)
 {
     lmb_grouping g;
     neighbourhood n;

@@ -1,5 +1,5 @@
 /* gather.inl: groups of emitters -> irradiance of a tile's pixels, with the viewer's depth map as occluder.  [V25-V28]
- * Floor 6.
+ * Layer 6.
  *
  * Lanes are pixels; groups are added one after another: the order is the contract. */
 #ifndef LMB_GATHER_FORMULA
@@ -14,8 +14,8 @@
 /* Are a = nP.to and b = -nG.to over the horizons, where r2 = to.to? */
 static inline lane_mask disc_faces(lane a, lane b, lane r2)
 {
-    const lane least = lane_min(b, a);
-    return lane_lt(lane_mul(lane_splat(GRAZING2), r2), lane_mul(least, lane_max(least, lane_splat(0.0f))));
+    const lane min = lane_min(b, a);
+    return lane_lt(lane_mul(lane_splat(GRAZING2), r2), lane_mul(min, lane_max(min, lane_splat(0.0f))));
 }
 
 /* One emitter, one vector of pixels. M = 1: W/m2 a watt.
@@ -93,8 +93,8 @@ static inline lane_mask gather_hits(const lmb_tile *tile, int k)
  * first, and only where they differ is each pixel asked. Lost is what fits between the corners. */
 
 /* From pixels whose planes of position and of face lie `plane` floats apart. */
-LANE_APART void gather_aim(seen_from *from, march_run *run, const lmb_march_job *m, const float *position,
-                           const float *face, size_t plane, const lmb_vec3 *at, const lmb_vec3 *axis)
+LANE_NOINLINE void gather_aim(seen_from *from, march_run *run, const lmb_march_job *m, const float *position,
+                              const float *face, size_t plane, const lmb_vec3 *at, const lmb_vec3 *axis)
 {
     lane3 p, n;
     p.x = lane_load(position);
@@ -108,8 +108,8 @@ LANE_APART void gather_aim(seen_from *from, march_run *run, const lmb_march_job 
 }
 
 /* march() from there. */
-APART lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face, size_t plane,
-                             const lmb_vec3 *at, const lmb_vec3 *axis, lane_mask wanted)
+NOINLINE lane_mask gather_march(const lmb_march_job *m, const float *position, const float *face, size_t plane,
+                                const lmb_vec3 *at, const lmb_vec3 *axis, lane_mask wanted)
 {
     seen_from from;
     march_run run;
@@ -171,7 +171,7 @@ static inline lane3 corner_load(const float (*p)[CORNERS], int i)
 }
 
 /* What the tile's corners see of one emitter. */
-APART int corners_see(const gather_corners *c, const lmb_march_job *m, const lmb_vec3 *at, const lmb_vec3 *axis)
+NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const lmb_vec3 *at, const lmb_vec3 *axis)
 {
     const uint32_t full = ALL_LANES;
     int none = 1, all = 1;
@@ -285,7 +285,7 @@ typedef struct gather_pixels {
 } gather_pixels;
 
 /* Pixels without a surface have no normal, and so face nothing. */
-LANE_INLINE gather_pixels gather_look(const lmb_tile *tile, int k)
+LANE_INLINE gather_pixels gather_load_pixels(const lmb_tile *tile, int k)
 {
     const lane_mask hits = gather_hits(tile, k);
     gather_pixels out;
@@ -317,11 +317,11 @@ LANE_INLINE uint32_t gather_face(gather_pairs *out, uint32_t *near_bits, const g
     return mask_bits(lit);
 }
 
-/* Near pixels are flagged. (APART: at -O3 its frame would lie under the march's.) */
-LANE_APART void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
-                            const gather_group *groups, int32_t group_count)
+/* Near pixels are flagged. (NOINLINE: at -O3 its frame would lie under the march's.) */
+LANE_NOINLINE void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_tile *tile, int k,
+                               const gather_group *groups, int32_t group_count)
 {
-    const gather_pixels first = gather_look(tile, k), second = gather_look(tile, k + WIDE - LANES);
+    const gather_pixels first = gather_load_pixels(tile, k), second = gather_load_pixels(tile, k + WIDE - LANES);
     int32_t count = 0;
     for (int32_t j = 0; j < group_count; ++j) {
         const gather_group *g = &groups[j];
@@ -340,7 +340,7 @@ LANE_APART void gather_find(gather_pairs *out, uint64_t *near_pixels, const lmb_
     out->count = count;
 }
 
-LANE_INLINE void gather_weigh_one(gather_pairs *inout, int at, lane3 n, const gather_group *g)
+LANE_INLINE void gather_estimate_one(gather_pairs *inout, int at, lane3 n, const gather_group *g)
 {
     lane top, bottom;
     disc_fraction(&top, &bottom, lane_load(inout->of[PAIR_A] + at), lane_load(inout->of[PAIR_B] + at),
@@ -350,14 +350,14 @@ LANE_INLINE void gather_weigh_one(gather_pairs *inout, int at, lane3 n, const ga
 }
 
 /* Their fractions: top in place of a, bottom in place of b. */
-static inline void gather_weigh(gather_pairs *inout, const lmb_tile *tile, int k, const gather_group *groups)
+static inline void gather_estimate(gather_pairs *inout, const lmb_tile *tile, int k, const gather_group *groups)
 {
     const lane3 first = lane3_load(tile->normal, k), second = lane3_load(tile->normal, k + WIDE - LANES);
     for (int32_t i = 0; i < inout->count; ++i) {
         const int32_t j = inout->lit[i];
-        gather_weigh_one(inout, j * WIDE, first, &groups[j]);
+        gather_estimate_one(inout, j * WIDE, first, &groups[j]);
         if (VECTORS > 1) {
-            gather_weigh_one(inout, j * WIDE + LANES, second, &groups[j]);
+            gather_estimate_one(inout, j * WIDE + LANES, second, &groups[j]);
         }
     }
 }
@@ -412,27 +412,27 @@ static inline void gather_sum(lmb_irradiance *inout, int k, const gather_pairs *
 }
 
 /* What may stand between, for one tile and one block. */
-typedef struct gather_blockers {
+typedef struct gather_occluders {
     const lmb_march_job *m;
     const gather_corners *corners;
     uint8_t sees[BLOCK]; /* what the tile's corners see of each group, once asked */
-} gather_blockers;
+} gather_occluders;
 
 /* What is hidden gets nothing. */
-APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb_tile *tile, int k,
-                       const gather_group *groups)
+NOINLINE void gather_hide(gather_pairs *inout, gather_occluders *occluders, const lmb_tile *tile, int k,
+                          const gather_group *groups)
 {
     for (int32_t i = 0; i < inout->count * VECTORS; ++i) {
         const int32_t j = inout->lit[i / VECTORS], v = i % VECTORS * LANES, at = j * WIDE + v;
         const gather_group *g = &groups[j];
         const lmb_vec3 axis = vec3(-g->back.x, -g->back.y, -g->back.z);
         lane_mask lit = lane_lt(lane_splat(0.0f), gather_weight(inout, at));
-        uint8_t *sees = &blockers->sees[j];
+        uint8_t *sees = &occluders->sees[j];
         if (mask_bits(lit) && *sees == SEES_UNKNOWN) {
-            *sees = (uint8_t)corners_see(blockers->corners, blockers->m, &g->at, &axis);
+            *sees = (uint8_t)corners_see(occluders->corners, occluders->m, &g->at, &axis);
         }
         if (mask_bits(lit) && *sees == SEES_SOME) {
-            const lane_mask open = tile_march(blockers->m, tile, k + v, &g->at, &axis, lit);
+            const lane_mask open = tile_march(occluders->m, tile, k + v, &g->at, &axis, lit);
             lane_store(inout->of[PAIR_I] + at, lane_keep(open, lane_load(inout->of[PAIR_I] + at)));
         } else if (*sees == SEES_NOTHING) {
             lane_store(inout->of[PAIR_I] + at, lane_splat(0.0f));
@@ -441,16 +441,16 @@ APART void gather_hide(gather_pairs *inout, gather_blockers *blockers, const lmb
 }
 
 static inline void gather_block(lmb_irradiance *inout, uint64_t *near_pixels, gather_pairs *pairs, const lmb_tile *tile,
-                                const gather_group *groups, int32_t count, gather_blockers *blockers)
+                                const gather_group *groups, int32_t count, gather_occluders *occluders)
 {
     for (int32_t j = 0; j < count; ++j) {
-        blockers->sees[j] = SEES_UNKNOWN;
+        occluders->sees[j] = SEES_UNKNOWN;
     }
     for (int k = 0; k < LMB_TILE_PIXELS; k += WIDE) {
         gather_find(pairs, near_pixels, tile, k, groups, count);
-        gather_weigh(pairs, tile, k, groups);
-        if (blockers->m != NULL) {
-            gather_hide(pairs, blockers, tile, k, groups);
+        gather_estimate(pairs, tile, k, groups);
+        if (occluders->m != NULL) {
+            gather_hide(pairs, occluders, tile, k, groups);
         }
         gather_sum(inout, k, pairs, groups);
     }
@@ -463,11 +463,11 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
     gather_pairs pairs;
     gather_corners corners;
     gather_group block[BLOCK];
-    gather_blockers blockers;
+    gather_occluders occluders;
     int32_t filled = 0;
     pairs.of = scratch->pairs;
-    blockers.m = m;
-    blockers.corners = &corners;
+    occluders.m = m;
+    occluders.corners = &corners;
     gather_corners_set(&corners, tile, m);
     memset(scratch->near_pixels, 0, (size_t)groups->count * sizeof *scratch->near_pixels);
     for (int32_t j = 0; j < groups->count; j += LANES) {
@@ -475,12 +475,12 @@ static void KERNEL(gather)(lmb_irradiance *inout, lmb_gather_scratch *scratch, c
         for (uint32_t bits = gather_awake(&ball, groups, j, count); bits != 0; bits &= bits - 1) {
             gather_fetch(&block[filled++], groups, j + lowest_bit(bits));
             if (filled == BLOCK) {
-                gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &blockers);
+                gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &occluders);
                 filled = 0;
             }
         }
     }
-    gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &blockers);
+    gather_block(inout, scratch->near_pixels, &pairs, tile, block, filled, &occluders);
 }
 
 /* --- near groups, disc by disc ------------------------------------------------------------------------------------ */
@@ -527,7 +527,7 @@ static inline void gather_disc(lmb_irradiance *inout, const lmb_tile *tile, int 
     }
 }
 
-/* Up to SHARED discs that follow one another along the light's map, and so share the segment to one of them. */
+/* Up to SHARED discs that follow one another along the shadow map, and so share the segment to one of them. */
 static inline void gather_chunk(lmb_irradiance *inout, uint64_t pixels, const lmb_tile *tile, const lmb_point *discs,
                                 uint32_t count, const lmb_march_job *m, const gather_corners *corners)
 {

@@ -1,4 +1,4 @@
-/* group.c: all discs into a fixed-size array of groups, by the method asked for. Floor 6.           [V13 V19 V20 V22]
+/* group.c: all discs into a fixed-size array of groups, by the method asked for. Layer 6.           [V13 V19 V20 V22]
  *
  * Too many groups: the zone or the reach doubles and grouping starts again, so everything always fits. */
 #include "group.h"
@@ -97,12 +97,12 @@ static void close_groups(lmb_groups *out, lmb_points *points, uint32_t count, ui
     }
 }
 
-static uint32_t group_none(lmb_points *points, uint32_t most)
+static uint32_t group_none(lmb_points *points, uint32_t max)
 {
     for (uint32_t i = 0; i < points->count; ++i) {
         points->data[i].link = i;
     }
-    return points->count > most ? most + 1 : points->count;
+    return points->count > max ? max + 1 : points->count;
 }
 
 static void count_stats(lmb_stats *stats, const lmb_groups *groups, const lmb_points *points)
@@ -157,14 +157,14 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
     g.groups = g.groups != 0 ? g.groups : mini(512, LMB_MAX_GROUPS);
     g.reach = g.reach > 0.0f ? g.reach : 3.0f;
     g.cosine = g.cosine != 0.0f ? g.cosine : 0.9f;
-    uint32_t most = (uint32_t)(g.method == LMB_GROUP_NONE ? LMB_MAX_GROUPS : g.groups), count = 0;
+    uint32_t max = (uint32_t)(g.method == LMB_GROUP_NONE ? LMB_MAX_GROUPS : g.groups), count = 0;
     int32_t zone = first_zone(points, &g);
     float reach = g.reach;
     for (uint32_t tries = 0;; ++tries) {
-        count = g.method == LMB_GROUP_NONE     ? group_none(points, most)
-                : g.method == LMB_GROUP_GREEDY ? lmb_group_greedy(points, &g, reach, most)
-                                               : lmb_group_zones(points, &g, zone, most);
-        if (count <= most) {
+        count = g.method == LMB_GROUP_NONE     ? group_none(points, max)
+                : g.method == LMB_GROUP_GREEDY ? lmb_group_greedy(points, &g, reach, max)
+                                               : lmb_group_zones(points, &g, zone, max);
+        if (count <= max) {
             break;
         }
         if (g.method == LMB_GROUP_NONE) {

@@ -1,4 +1,4 @@
-/* group.h: what the groupings share: discs added up, and each way to share them out. Floor 6. */
+/* group.h: what the groupings share: discs added up, and each way to share them out. Layer 6. */
 #ifndef LMB_BOUNCE_GROUP_H
 #define LMB_BOUNCE_GROUP_H
 
@@ -30,7 +30,7 @@ void lmb_group_add(lmb_group_sum *sum, const lmb_point *disc);
 
 /* Groups of the discs by method, each disc's link set to its group or LMB_UNGROUPED (strict zones).
  * They return the number of groups, which may exceed `most`: then the links mean nothing. */
-uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t most);
-uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t most);
+uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t max);
+uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t max);
 
 #endif

@@ -1,4 +1,4 @@
-/* group_greedy.c: discs -> groups around a chosen disc, until none fits. Floor 6.                        [V17 V18]
+/* group_greedy.c: discs -> groups around a chosen disc, until none fits. Layer 6.                        [V17 V18]
  *
  * A disc joins when its centre is within reach x the first disc's radius of the group's barycentre and its normal
  * agrees; after each round of joining the barycentre has moved, so the rounds go on until one adds nothing. */
@@ -34,7 +34,7 @@ static uint32_t join_round(lmb_group_sum *g, lmb_points *points, uint32_t from, 
     return joined;
 }
 
-uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t most)
+uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, float reach, uint32_t max)
 {
     uint32_t groups = 0;
     for (uint32_t i = 0; i < points->count; ++i) {
@@ -46,8 +46,8 @@ uint32_t lmb_group_greedy(lmb_points *points, const lmb_grouping *grouping, floa
             lmb_group_sum g;
             float radius = maxf(sqrtf(lmb_disc_area(first) * 0.31830989f), 0.5f * first->distance);
             float reach_m = reach < EVERYTHING ? reach * radius : ANYWHERE;
-            if (groups == most) {
-                return most + 1;
+            if (groups == max) {
+                return max + 1;
             }
             lmb_group_open(&g);
             first->link = groups;

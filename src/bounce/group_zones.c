@@ -1,4 +1,4 @@
-/* group_zones.c: the disc map cut into square zones, one group each; misfits open further groups. Floor 6. [V20 V21]
+/* group_zones.c: the disc map cut into square zones, one group each; misfits open further groups. Layer 6. [V20 V21]
  *
  * Discs of one zone: the zone's first disc leads; one joins when its normal agrees with the group's and it lies within
  * the zone's own size of the barycentre (so that a foreground edge and the wall behind it part). What does not fit the
@@ -59,7 +59,7 @@ static void drop_rest(lmb_points *points, uint32_t i, uint32_t end, int32_t zone
     }
 }
 
-uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t most)
+uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32_t zone, uint32_t max)
 {
     uint32_t groups = 0, end = 0;
     for (uint32_t i = 0; i < points->count; ++i) {
@@ -68,8 +68,8 @@ uint32_t lmb_group_zones(lmb_points *points, const lmb_grouping *grouping, int32
     for (uint32_t i = 0; i < points->count; ++i) {
         end = i >= end ? zone_row_end(points, i, zone) : end;
         if (points->data[i].link == LMB_UNGROUPED) {
-            if (groups == most) {
-                return most + 1;
+            if (groups == max) {
+                return max + 1;
             }
             fill_group(points, i, end, zone, grouping, groups);
             if (grouping->flags & LMB_ZONES_STRICT) {

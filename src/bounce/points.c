@@ -1,4 +1,4 @@
-/* points.c: a light's map -> first points: lit surface elements with their flux. Floor 6.     [V1 V2 V4 V5 V6 V7]
+/* points.c: a shadow map -> first points: lit surface elements with their flux. Layer 6.      [V1 V2 V4 V5 V6 V7]
  *
  * A block of b x b texels is one element a surface: texels whose normals and planes agree are summed, so a fine map
  * costs points only where surfaces meet. Each element becomes a quad of equal area whose sides follow the texels'
@@ -101,7 +101,7 @@ static float spread(float sum, float sum2, float count)
     return sqrtf(12.0f * variance);
 }
 
-static void make_point(lmb_point *out, const element *e, const lmb_light_map *map, const lmb_view *v)
+static void make_point(lmb_point *out, const element *e, const lmb_shadow_map *map, const lmb_view *v)
 {
     float n = (float)e->count, per_weight = 1.0f / e->weight;
     float side_x = spread(e->x, e->xx, n), side_y = spread(e->y, e->yy, n);
@@ -129,7 +129,7 @@ typedef struct collector {
     lmb_points *points;
     const lmb_scene *scene;
     const lmb_light *light;
-    const lmb_light_map *map;
+    const lmb_shadow_map *map;
     int32_t face, block;
 } collector;
 
@@ -204,7 +204,7 @@ static lmb_status collect_block_row(const collector *c, const lmb_kernels *kerne
 }
 
 lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
-                              const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
+                              const lmb_scene *scene, const lmb_light *light, const lmb_shadow_map *map, int32_t face,
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping)
 {
     collector c;
@@ -254,7 +254,7 @@ typedef struct part_place {
     uint32_t first_cell, past_cell; /* of blocks */
 } part_place;
 
-static part_place place_part(const lmb_light_map *map, int32_t block, int32_t part, int32_t parts)
+static part_place place_part(const lmb_shadow_map *map, int32_t block, int32_t part, int32_t parts)
 {
     const uint32_t cells_a_row = (uint32_t)((map->size / block) * (LMB_TILE / block));
     int64_t first, past;
@@ -267,7 +267,7 @@ static part_place place_part(const lmb_light_map *map, int32_t block, int32_t pa
     return p;
 }
 
-int lmb_points_have_room(const lmb_points *points, const lmb_light_map *map, const lmb_grouping *grouping)
+int lmb_points_have_room(const lmb_points *points, const lmb_shadow_map *map, const lmb_grouping *grouping)
 {
     const int32_t block = block_of(grouping);
     if (!is_block(block)) {
@@ -280,7 +280,7 @@ int lmb_points_have_room(const lmb_points *points, const lmb_light_map *map, con
 }
 
 lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
-                           const lmb_scene *scene, const lmb_light *light, const lmb_light_map *map, int32_t face,
+                           const lmb_scene *scene, const lmb_light *light, const lmb_shadow_map *map, int32_t face,
                            int32_t part, int32_t parts, const lmb_grouping *grouping)
 {
     const part_place p = place_part(map, block_of(grouping), part, parts);
@@ -305,7 +305,7 @@ lmb_status lmb_points_part(const lmb_points *points, const lmb_kernels *kernels,
 }
 
 /* Owners of a part's texels: from the part's own numbers to those of all. */
-static void move_owners(const lmb_points *points, const lmb_light_map *map, const part_place *p)
+static void move_owners(const lmb_points *points, const lmb_shadow_map *map, const part_place *p)
 {
     const uint32_t row = (uint32_t)(map->size * LMB_TILE);
     for (uint32_t i = (uint32_t)p->first_row * row; i < (uint32_t)p->past_row * row && points->owner != NULL; ++i) {
@@ -314,7 +314,7 @@ static void move_owners(const lmb_points *points, const lmb_light_map *map, cons
     }
 }
 
-void lmb_points_put_together(lmb_points *points, const lmb_light_map *map, int32_t parts, const lmb_grouping *grouping)
+void lmb_points_put_together(lmb_points *points, const lmb_shadow_map *map, int32_t parts, const lmb_grouping *grouping)
 {
     const uint32_t so_far = points->count;
     const int32_t side = map->size / block_of(grouping);

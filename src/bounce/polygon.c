@@ -1,4 +1,4 @@
-/* polygon.c: the exact form factor from a point to a quad or triangle, clipped to the point's horizon. Floor 6.
+/* polygon.c: the exact form factor from a point to a quad or triangle, clipped to the point's horizon. Layer 6.
  *
  * Lambert (1760): E = B / 2 sum over edges of angle x (n . edge normal), the edge's plane through the point. Divided by
  * pi B here, and by the polygon's area: W/m2 a watt of flux. */

@@ -1,9 +1,9 @@
-/* composite.c: direct + indirect light of a tile -> radiance towards the viewer. Floor 9.             [V28 V29 V30] */
+/* composite.c: direct + indirect light of a tile -> radiance towards the viewer. Layer 9.             [V28 V29 V30] */
 #include <lambent/compose.h>
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
-#include "../light/gloss.h"
+#include "../light/glossy.h"
 #include "../raster/paint.h"
 
 lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const lmb_tile *tile,
@@ -16,7 +16,7 @@ lmb_status lmb_compose_tile(lmb_radiance *out, const lmb_kernels *kernels, const
     return LMB_OK;
 }
 
-lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const lmb_view *view, const lmb_tile *tile)
+lmb_status lmb_compose_emission(lmb_radiance *inout, const lmb_scene *scene, const lmb_view *view, const lmb_tile *tile)
 {
     const lmb_material *m = NULL;
     uint32_t id = 0;
@@ -50,15 +50,15 @@ lmb_status lmb_compose_shine(lmb_radiance *inout, const lmb_scene *scene, const 
 
 #if LMB_LOBES
 
-lmb_status lmb_compose_gloss(lmb_radiance *inout, const lmb_gloss *gloss)
+lmb_status lmb_compose_glossy(lmb_radiance *inout, const lmb_glossy *glossy)
 {
-    if (inout == NULL || gloss == NULL) {
+    if (inout == NULL || glossy == NULL) {
         return LMB_ERR_ARG;
     }
-    for (uint64_t bits = gloss->pixels; bits != 0; bits &= bits - 1) {
+    for (uint64_t bits = glossy->pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
-            inout->rgb[c][k] = inout->rgb[c][k] * (1.0f - gloss_share(gloss, c, k)) + gloss->rgb[c][k];
+            inout->rgb[c][k] = inout->rgb[c][k] * (1.0f - glossy_share(glossy, c, k)) + glossy->rgb[c][k];
         }
     }
     return LMB_OK;

@@ -1,4 +1,4 @@
-/* encode.inl: linear values -> sRGB codes, the same as lmb_srgb_encode, LANES at a time. Floor 9.
+/* encode.inl: linear values -> sRGB codes, the same as lmb_srgb_encode, LANES at a time. Layer 9.
  *
  * A guess of the curve (in codes, not rounded) that is off by less than half leaves two codes, the guess rounded down
  * and the next; the threshold between them decides, exactly. */

@@ -1,4 +1,4 @@
-/* tone.c: radiance -> the pixels of a display. Floor 9. */
+/* tone.c: radiance -> the pixels of a display. Layer 9. */
 #include <lambent/compose.h>
 
 #include "../base/poly.h"
@@ -77,7 +77,7 @@ lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, in
 {
     int32_t code[3][LMB_TILE_PIXELS];
     if (out == NULL || kernels == NULL || out->data == NULL || in == NULL || out->layout != LMB_LINEAR ||
-        !lmb_surface_is_sound(out) || !is_near(x0) || !is_near(y0) || !is_near(x) || !is_near(y)) {
+        !lmb_surface_is_valid(out) || !is_near(x0) || !is_near(y0) || !is_near(x) || !is_near(y)) {
         return LMB_ERR_ARG;
     }
     if (out->format != LMB_RGB32F && out->format != LMB_RGBA8 && out->format != LMB_BGRA8 &&

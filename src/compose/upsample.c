@@ -1,4 +1,4 @@
-/* upsample.c: a tile's light from that of some of its pixels, by the surfaces they lie on. Floor 9.       [ours] */
+/* upsample.c: a tile's light from that of some of its pixels, by the surfaces they lie on. Layer 9.       [ours] */
 #include <lambent/compose.h>
 
 #include "../raster/tile.h"
@@ -104,12 +104,12 @@ static int is_even(const between *b, const lmb_irradiance *light)
 /* The heaviest sample's light and the mean of what the others differ from it: exact where they are equal. */
 static void mix(lmb_irradiance *inout, int k, const between *b)
 {
-    int most = 0;
+    int max = 0;
     for (int i = 1; i < 4; ++i) {
-        most = b->weight[i] > b->weight[most] ? i : most;
+        max = b->weight[i] > b->weight[max] ? i : max;
     }
     for (int c = 0; c < 3; ++c) {
-        const float first = inout->rgb[c][b->sample[most]];
+        const float first = inout->rgb[c][b->sample[max]];
         float rest = 0.0f;
         for (int i = 0; i < 4; ++i) {
             rest += b->weight[i] > 0.0f ? b->weight[i] * (inout->rgb[c][b->sample[i]] - first) : 0.0f;

@@ -1,49 +1,50 @@
-/* bands.c: direct and bounced light of a tile; rows of tiles to the picture, and to the caller. Floor 10. */
+/* bands.c: direct and bounced light of a tile; rows of tiles to the picture, and to the caller. Layer 10. */
 #include <string.h>
 
 #include "../base/vec.h"
-#include "../light/lit.h"
+#include "../light/light_tile.h"
 #include "stages.h"
-#include "wants.h"
+#include "requires.h"
 
 #define BAND_UNITS 8
 
 /* SHOW_IRRADIANCE is what arrives before the albedo. */
 static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
 
-lmb_status lmb_render_direct(const lmb_render *r, lmb_gloss *gloss, lmb_band_scratch *s)
+lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *s)
 {
     const lmb_frame *f = &r->frame;
-    const lit_tile lit = {f->kernels, f->scene, &f->view, &s->tile};
-    lmb_many_look look;
+    const light_tile lit = {f->kernels, f->scene, &f->view, &s->tile};
+    lmb_many_lights_query query;
     lmb_status status = LMB_OK;
     memset(&s->direct, 0, sizeof s->direct);
-    for (uint32_t i = 0; wants_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
+    for (uint32_t i = 0; requires_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
         if (!light_is(r, i, LMB_LIGHT_DARK)) {
-            status = lmb_lit_add(&s->direct, gloss, &s->indirect, &lit, i, &r->maps[i]);
+            status = lmb_light_tile_add(&s->direct, glossy, &s->indirect, &lit, i, &r->maps[i]);
         }
     }
-    if (wants_many(f) && status == LMB_OK) {
-        look.many = f->many;
-        look.blockers = f->blockers.triangle != NULL ? &f->blockers : NULL;
-        look.error = f->many_error;
-        look.each = 0;
-        status = lmb_many_direct_tile(&s->direct, f->kernels, &s->many, &s->tile, &look);
+    if (requires_many_lights(f) && status == LMB_OK) {
+        query.many_lights = f->many_lights;
+        query.bvh = f->bvh.triangle != NULL ? &f->bvh : NULL;
+        query.error = f->many_lights_error;
+        query.each = 0;
+        status = lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, &s->tile, &query);
     }
     return status;
 }
 
 /* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
  * always where there are lobes. */
-APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
+NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
 {
     const lmb_frame *f = &r->frame;
-    lmb_gloss *gloss = wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene) ? &s->gloss : NULL;
-    lmb_status status = lmb_render_direct(r, gloss, s);
-    if ((indirect == NULL || gloss != NULL) && status == LMB_OK) {
+    lmb_glossy *glossy =
+        requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene) ? &s->glossy : NULL;
+    lmb_status status = lmb_render_direct(r, glossy, s);
+    if ((indirect == NULL || glossy != NULL) && status == LMB_OK) {
         indirect = &s->indirect;
         memset(&s->indirect, 0, sizeof s->indirect);
-        status = lmb_render_gather(&s->indirect, gloss, r, s, &s->tile, wants_direct(f) ? &s->direct : NULL);
+        status = lmb_render_gather(&s->indirect, glossy, r, s, &s->tile, requires_direct(f) ? &s->direct : NULL);
     }
     if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
         show_irradiance(&s->radiance, indirect);
@@ -52,11 +53,11 @@ APART lmb_status light_tile(const lmb_render *r, lmb_band_scratch *s, const lmb_
     if (status == LMB_OK) {
         status = lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, indirect);
     }
-    if (status == LMB_OK && gloss != NULL) {
-        status = lmb_compose_gloss(&s->radiance, gloss);
+    if (status == LMB_OK && glossy != NULL) {
+        status = lmb_compose_glossy(&s->radiance, glossy);
     }
-    if (status == LMB_OK && r->shines && wants_direct(f)) {
-        status = lmb_compose_shine(&s->radiance, f->scene, &f->view, &s->tile);
+    if (status == LMB_OK && r->emits && requires_direct(f)) {
+        status = lmb_compose_emission(&s->radiance, f->scene, &f->view, &s->tile);
     }
     return status;
 }
@@ -67,7 +68,7 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
 {
     const lmb_frame *f = &r->frame;
     const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
-    const int sparse = f->gather_step > 1 && !omits(r, LMB_OMIT_BOUNCE);
+    const int sparse = f->gather_step > 1 && !skips(r, LMB_SKIP_BOUNCE);
     *out = sparse ? &s->sparse.light[part] : NULL;
     if (!sparse || part > 0) {
         return LMB_OK;
@@ -83,9 +84,9 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
         band >= band_count(&r->frame.view)) {
         return LMB_ERR_ARG;
     }
-    lmb_status sound = lmb_render_check_out(out, &r->frame.view);
-    if (sound != LMB_OK) {
-        return sound;
+    lmb_status valid = lmb_render_check_out(out, &r->frame.view);
+    if (valid != LMB_OK) {
+        return valid;
     }
     if (r->failed != LMB_OK) {
         return r->failed;
@@ -101,7 +102,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
             status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, &window, x, band * LMB_TILE);
         }
         if (status == LMB_OK) {
-            status = light_tile(r, scratch, indirect);
+            status = light_pixels(r, scratch, indirect);
         }
         if (status == LMB_OK) {
             status = lmb_store_tile(out, f->kernels, 0, out_y0, &scratch->radiance, x, band * LMB_TILE, f->exposure_ev);
@@ -111,7 +112,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
 }
 
 /* 1 to go on. */
-APART int hand_over(const lmb_frame *f, int32_t band)
+NOINLINE int hand_over(const lmb_frame *f, int32_t band)
 {
     lmb_surface rows = f->out;
     int32_t y = band * LMB_TILE;
@@ -128,8 +129,8 @@ APART int hand_over(const lmb_frame *f, int32_t band)
 lmb_status lmb_render_bands(lmb_render *r, int32_t units)
 {
     const int32_t bands = band_count(&r->frame.view);
-    for (int32_t n = 0; (n == 0 || n + BAND_UNITS <= units) && r->place < (uint32_t)bands; n += BAND_UNITS) {
-        int32_t band = (int32_t)r->place++;
+    for (int32_t n = 0; (n == 0 || n + BAND_UNITS <= units) && r->progress < (uint32_t)bands; n += BAND_UNITS) {
+        int32_t band = (int32_t)r->progress++;
         memset(&r->frame.scratch->counts, 0, sizeof r->frame.scratch->counts);
         lmb_status status = lmb_render_band(r, r->frame.scratch, &r->frame.eye, &r->frame.out, band);
         if (status != LMB_OK) {
@@ -145,5 +146,5 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units)
             return LMB_OK;
         }
     }
-    return r->place < (uint32_t)bands ? LMB_MORE : LMB_OK;
+    return r->progress < (uint32_t)bands ? LMB_MORE : LMB_OK;
 }

@@ -1,35 +1,35 @@
-/* bounced.c: the bounced light of a tile, from cuts of the trees or from groups. Floor 10. */
+/* bounced.c: the bounced light of a tile, from cuts of the trees or from groups. Layer 10. */
 #include "stages.h"
-#include "wants.h"
+#include "requires.h"
 
-/* What the light's maps bounce, and what elements send. */
-static lmb_status gather_cuts(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *s,
+/* What the light's shadow maps bounce, and what elements send. */
+static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
                               const lmb_tile *tile, const lmb_irradiance *direct)
 {
     const lmb_frame *f = &r->frame;
-    lmb_cutting cutting = cutting_of(f, &s->counts);
-    cutting.gloss = gloss;
-    cutting.direct = direct;
-    lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cutting);
-    if (status == LMB_OK && wants_elements(r)) {
-        cutting.beside = inout;
-        status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->elements.tree, &cutting);
+    lmb_cut_params cut_params = cut_params_of(f, &s->counts);
+    cut_params.glossy = glossy;
+    cut_params.direct = direct;
+    lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cut_params);
+    if (status == LMB_OK && requires_elements(r)) {
+        cut_params.beside = inout;
+        status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->elements.tree, &cut_params);
     }
     return status;
 }
 
-lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *s,
+lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
                              const lmb_tile *tile, const lmb_irradiance *direct)
 {
     const lmb_frame *f = &r->frame;
     lmb_occluder occluder;
-    if (omits(r, LMB_OMIT_BOUNCE)) {
+    if (skips(r, LMB_SKIP_BOUNCE)) {
         return LMB_OK;
     }
-    if (wants_cut(f)) {
-        return gather_cuts(inout, gloss, r, s, tile, direct);
+    if (requires_cut(f)) {
+        return gather_cuts(inout, glossy, r, s, tile, direct);
     }
-    if (!wants_groups(f)) {
+    if (!requires_groups(f)) {
         return LMB_OK;
     }
     occluder.view = &f->view;

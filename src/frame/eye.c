@@ -1,10 +1,10 @@
-/* eye.c: what the viewer sees, as depth and ids: the whole frame by steps or in parts, or a band. Floor 10. */
+/* eye.c: what the viewer sees, as depth and ids: the whole frame by steps or in parts, or a band. Layer 10. */
 #include <string.h>
 
 #include "../bounce/points.h"
 #include "../raster/target.h"
 #include "stages.h"
-#include "wants.h"
+#include "requires.h"
 
 /* The whole frame's depth: with ids where the eye holds them all, else depth alone for the occlusion. */
 static int view_target(lmb_target *out, const lmb_frame *f)
@@ -33,16 +33,16 @@ lmb_status lmb_render_view(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
     lmb_target whole;
-    if (keeps(r, LMB_KEEP_VIEW) || !view_target(&whole, f)) {
+    if (reuses(r, LMB_REUSE_VIEW) || !view_target(&whole, f)) {
         return LMB_OK;
     }
-    if (r->place == 0) {
+    if (r->progress == 0) {
         clear_target(&whole);
     }
-    lmb_status status = lmb_draw(&whole, f->kernels, &f->view, f->scene, r->place + 1, (uint32_t)units * UNIT_TRIANGLES,
-                                 LMB_CULL_BACK, f->stats);
-    r->place += (uint32_t)units * UNIT_TRIANGLES;
-    return status != LMB_OK ? status : r->place >= r->triangles ? LMB_OK : LMB_MORE;
+    lmb_status status = lmb_draw(&whole, f->kernels, &f->view, f->scene, r->progress + 1,
+                                 (uint32_t)units * UNIT_TRIANGLES, LMB_CULL_BACK, f->stats);
+    r->progress += (uint32_t)units * UNIT_TRIANGLES;
+    return status != LMB_OK ? status : r->progress >= r->triangles ? LMB_OK : LMB_MORE;
 }
 
 lmb_status lmb_render_view_part(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats)

@@ -1,25 +1,25 @@
-/* frame_init.c: how much memory a frame takes, and a frame laid out in one block of it. Floor 10. */
+/* frame_init.c: how much memory a frame takes, and a frame laid out in one block of it. Layer 10. */
 #include <lambent/render.h>
 
 #include <string.h>
 
-#include "wants.h"
+#include "requires.h"
 
 #define LINE 64u /* bytes: parts begin at multiples of this */
 
 #ifdef LMB_CONFIG_TINY
-#define MAP_TEXELS    (1u << 14) /* over all lights' maps: 96 KiB with 16-bit ids */
+#define MAP_TEXELS    (1u << 14) /* over all shadow maps: 96 KiB with 16-bit ids */
 #define TREE_SHARE    8          /* a quality's tree is so much smaller: 60 to 80 bytes a texel */
 #define ELEMENTS      256u
 #define MANY_ELEMENTS 1024u
 #else
 #define MAP_TEXELS    (1u << 21)
 #define TREE_SHARE    1
-#define ELEMENTS      16384u /* for what shines, and many lights */
+#define ELEMENTS      16384u /* for what emits light, and many lights */
 #define MANY_ELEMENTS 65536u /* for one bounce after another: by fewer, rooms lose a tenth of their later light */
 #endif
 
-enum { FINEST_MAP = 1024, COARSEST_MAP = 64, MOST_THREADS = 1024, FINEST_TREE = 4096 };
+enum { FINEST_MAP = 1024, COARSEST_MAP = 64, MAX_THREADS = 1024, FINEST_TREE = 4096 };
 
 /* The block: measured while `memory` is NULL, then shared out in the same order. */
 typedef struct block {
@@ -41,7 +41,7 @@ static int is_measured(const block *b) { return b->memory == NULL; }
 /* Figures of the presets: README, "How good it is". */
 static const struct preset {
     int32_t tree;
-    float error, visible;
+    float error, visibility;
 } presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.001f}, {256, 0.02f, 0.015f}},
   /* by light from all sides, gathered at every second pixel each way */
   even_presets[] = {{256, 0.1f, 0.2f}, {128, 0.2f, 0.3f}, {1024, 0.01f, 0.005f}, {256, 0.1f, 0.2f}};
@@ -52,18 +52,19 @@ static uint32_t map_faces(const lmb_scene *s)
 {
     uint32_t faces = 0;
     for (uint32_t i = 0; i < s->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&s->lights[i], s);
+        faces += (uint32_t)lmb_shadow_map_faces(&s->lights[i], s);
     }
     return faces;
 }
 
 static lmb_status check(const lmb_frame_settings *s)
 {
-    if (s->kernels == NULL || s->scene == NULL || s->view.frame_width < 1 || s->view.frame_width > LMB_MAX_SIDE || s->view.frame_height < 1 ||
-        s->view.frame_height > LMB_MAX_SIDE || s->show < LMB_SHOW_FULL || s->show > LMB_SHOW_IRRADIANCE ||
-        s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED || s->bounces < 0 ||
-        s->bounces > LMB_MOST_BOUNCES || s->threads < 0 || s->threads > MOST_THREADS || s->light_map < 0 ||
-        s->tree < 0 || !(s->error >= 0.0f) || !(s->visible >= 0.0f) || (s->by_bands && s->threads > 1)) {
+    if (s->kernels == NULL || s->scene == NULL || s->view.frame_width < 1 || s->view.frame_width > LMB_MAX_SIDE ||
+        s->view.frame_height < 1 || s->view.frame_height > LMB_MAX_SIDE || s->show < LMB_SHOW_FULL ||
+        s->show > LMB_SHOW_IRRADIANCE || s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED ||
+        s->bounces < 0 || s->bounces > LMB_MAX_BOUNCES || s->threads < 0 || s->threads > MAX_THREADS ||
+        s->shadow_map < 0 || s->tree < 0 || !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
+        (s->by_bands && s->threads > 1)) {
         return LMB_ERR_ARG;
     }
     if (is_fixed(s) && (s->bounces > 1 || s->grouping.method == LMB_GROUP_CUT)) {
@@ -85,7 +86,7 @@ static int32_t chosen_map(const lmb_frame_settings *s)
     while (size > COARSEST_MAP && (uint64_t)size * (uint64_t)size * faces > MAP_TEXELS) {
         size /= 2;
     }
-    return s->light_map != 0 ? s->light_map : size;
+    return s->shadow_map != 0 ? s->shadow_map : size;
 }
 
 /* All that is no memory. */
@@ -94,17 +95,17 @@ static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
     memset(f, 0, sizeof *f);
     f->kernels = s->kernels;
     f->scene = s->scene;
-    f->many = s->many;
+    f->many_lights = s->many_lights;
     const int even = wants_even_light(f);
     const struct preset *p = even ? &even_presets[s->quality] : &presets[s->quality];
     f->view = s->view;
     f->show = s->show;
-    f->light_map = chosen_map(s);
+    f->shadow_map = chosen_map(s);
     f->grouping = s->grouping;
     f->grouping.method = is_fixed(s) ? s->grouping.method : LMB_GROUP_CUT;
     f->occlusion = is_fixed(s) ? LMB_OCCLUSION_VIEW : LMB_OCCLUSION_EXACT;
     f->error = s->error != 0.0f ? s->error : p->error;
-    f->visible = s->visible != 0.0f ? s->visible : p->visible;
+    f->visibility = s->visibility != 0.0f ? s->visibility : p->visibility;
     f->bounces = s->bounces;
     f->gather_step = even ? 2 : 1;
     f->id_format = s->id_format != 0 ? s->id_format : lmb_scene_triangles(s->scene) <= 65535u ? LMB_ID16 : LMB_ID32;
@@ -117,7 +118,7 @@ static lmb_status place_maps(lmb_frame *f, block *b)
     const lmb_scene *s = f->scene;
     uint64_t bytes = 0;
     for (uint32_t i = 0; i < s->light_count; ++i) {
-        const size_t own = lmb_light_map_bytes(lmb_light_map_faces(&s->lights[i], s), f->light_map, f->id_format);
+        const size_t own = lmb_shadow_map_bytes(lmb_shadow_map_faces(&s->lights[i], s), f->shadow_map, f->id_format);
         if (own == 0) {
             return LMB_ERR_ARG;
         }
@@ -159,11 +160,11 @@ static lmb_status place_surfaces(lmb_frame *f, const lmb_frame_settings *s, bloc
 static lmb_status place_groups(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const int32_t block_side = f->grouping.block != 0 ? f->grouping.block : LMB_TILE;
-    if (block_side < 1 || block_side > LMB_TILE || f->light_map % block_side != 0) {
+    if (block_side < 1 || block_side > LMB_TILE || f->shadow_map % block_side != 0) {
         return LMB_ERR_ARG;
     }
-    const uint32_t side = (uint32_t)(f->light_map / block_side);
-    const uint64_t most = (uint64_t)side * side * 4u * map_faces(f->scene), n = s->points != 0 ? s->points : most;
+    const uint32_t side = (uint32_t)(f->shadow_map / block_side);
+    const uint64_t max = (uint64_t)side * side * 4u * map_faces(f->scene), n = s->points != 0 ? s->points : max;
     const size_t bytes = n <= UINT32_MAX ? lmb_points_bytes((uint32_t)n, side) : 0;
     if (bytes == 0) {
         return LMB_ERR_ARG;
@@ -182,11 +183,9 @@ static lmb_status place_groups(lmb_frame *f, const lmb_frame_settings *s, block 
 static lmb_status place_blockers(lmb_frame *f, block *b)
 {
     const uint32_t triangles = lmb_scene_triangles(f->scene);
-    const size_t bytes = lmb_blockers_bytes(triangles);
+    const size_t bytes = lmb_bvh_bytes(triangles);
     void *memory = take(b, bytes);
-    return bytes == 0       ? LMB_ERR_ARG
-           : is_measured(b) ? LMB_OK
-                            : lmb_blockers_init(&f->blockers, triangles, memory, bytes);
+    return bytes == 0 ? LMB_ERR_ARG : is_measured(b) ? LMB_OK : lmb_bvh_init(&f->bvh, triangles, memory, bytes);
 }
 
 static lmb_status place_elements(lmb_frame *f, const lmb_frame_settings *s, block *b)
@@ -201,11 +200,11 @@ static lmb_status place_elements(lmb_frame *f, const lmb_frame_settings *s, bloc
 static lmb_status place_tree(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const uint32_t lit = map_faces(f->scene), faces = lit > 0 ? lit : 1;
-    const int32_t finest = f->light_map < FINEST_TREE ? f->light_map : FINEST_TREE, least = f->light_map / 8;
+    const int32_t finest = f->shadow_map < FINEST_TREE ? f->shadow_map : FINEST_TREE, min = f->shadow_map / 8;
     const int32_t wanted = s->tree != 0 ? s->tree : presets[s->quality].tree / TREE_SHARE;
-    const int32_t size = wanted > finest ? finest : wanted < least ? least : wanted;
+    const int32_t size = wanted > finest ? finest : wanted < min ? min : wanted;
     const size_t bytes = lmb_tree_bytes(faces, size);
-    if (bytes == 0 || f->light_map % size != 0) {
+    if (bytes == 0 || f->shadow_map % size != 0) {
         return LMB_ERR_ARG;
     }
     void *memory = take(b, bytes);
@@ -216,22 +215,22 @@ static lmb_status place_tree(lmb_frame *f, const lmb_frame_settings *s, block *b
 /* What holds the light that bounces, and what stands in its way. Nothing lights the scene: nothing. */
 static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
-    const int shines = lmb_scene_shines(f->scene) && !is_fixed(s);
-    const int bounces = s->show != LMB_SHOW_DIRECT && (map_faces(f->scene) > 0 || shines || f->many != NULL);
+    const int emits = lmb_scene_emits(f->scene) && !is_fixed(s);
+    const int bounces = s->show != LMB_SHOW_DIRECT && (map_faces(f->scene) > 0 || emits || f->many_lights != NULL);
     const int by_tree = bounces && !is_fixed(s);
     lmb_status status = bounces && is_fixed(s) ? place_groups(f, s, b) : LMB_OK;
 #if LMB_TREES
-    if (status == LMB_OK && (by_tree || f->many != NULL)) {
+    if (status == LMB_OK && (by_tree || f->many_lights != NULL)) {
         status = place_blockers(f, b);
     }
     if (status == LMB_OK && by_tree) {
         status = place_tree(f, s, b);
     }
-    if (status == LMB_OK && by_tree && (s->bounces > 1 || shines || f->many != NULL)) {
+    if (status == LMB_OK && by_tree && (s->bounces > 1 || emits || f->many_lights != NULL)) {
         status = place_elements(f, s, b);
     }
 #else
-    (void)shines;
+    (void)emits;
     (void)by_tree;
 #endif
     return status;

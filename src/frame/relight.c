@@ -1,23 +1,23 @@
-/* relight.c: a band of objects in the world's light. Floor 10.                                    [S15-S17, S21-S24] */
+/* relight.c: a band of objects in the world's light. Layer 10.                                    [S15-S17, S21-S24] */
 #include <lambent/relight.h>
 
 #include <string.h>
 
 #include "../base/surface_check.h"
-#include "../light/lit.h"
+#include "../light/light_tile.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
 
 #if LMB_PROBES
 
-static lmb_world_look look_of(const lmb_relight *r)
+static lmb_world_query look_of(const lmb_relight *r)
 {
     const lmb_view *v = &r->view;
-    lmb_world_look look;
-    look.world = r->world;
-    look.ray_width = v->kind == LMB_PERSPECTIVE ? 2.0f * v->half_height / (float)v->frame_height : 0.0f;
-    look.blend = r->blend;
-    return look;
+    lmb_world_query query;
+    query.world = r->world;
+    query.ray_width = v->kind == LMB_PERSPECTIVE ? 2.0f * v->half_height / (float)v->frame_height : 0.0f;
+    query.blend = r->blend;
+    return query;
 }
 
 /* Pixels of the tile that have the probe of the first that is left. */
@@ -42,15 +42,15 @@ static uint64_t with_same_probe(uint16_t *probe, const lmb_relight *r, const lmb
 static lmb_status add_probe(const lmb_relight *r, lmb_relight_scratch *s, uint64_t pixels, const lmb_probe *probe,
                             int is_glossy)
 {
-    const lmb_world_look look = look_of(r);
-    const int looks = probe->gloss.texel == NULL;
+    const lmb_world_query query = look_of(r);
+    const int looks = probe->glossy.texel == NULL;
     lmb_status status = LMB_OK;
-    if (r->show != LMB_RELIGHT_GLOSS) {
+    if (r->show != LMB_RELIGHT_GLOSSY) {
         status = lmb_probe_light_tile(&s->light, &s->rays, r->kernels, &s->tile, pixels, &probe->irradiance);
     }
     if (status == LMB_OK && is_glossy && r->show != LMB_RELIGHT_NORMAL && !(looks && r->world == NULL)) {
-        status = lmb_probe_gloss_tile(&s->gloss, &s->rays, r->kernels, &s->tile, pixels, looks ? NULL : &probe->gloss,
-                                      &look);
+        status = lmb_probe_glossy_tile(&s->glossy, &s->rays, r->kernels, &s->tile, pixels,
+                                       looks ? NULL : &probe->glossy, &query);
     }
     return status;
 }
@@ -68,18 +68,18 @@ static lmb_status add_probes(const lmb_relight *r, lmb_relight_scratch *s, int i
 }
 
 /* The scene's own lights. What is not shown of them is taken out again: what remains is the other part, to the bit. */
-static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_gloss *gloss)
+static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_glossy *glossy)
 {
-    const lit_tile lit = {r->kernels, r->scene, &r->view, &s->tile};
+    const light_tile lit = {r->kernels, r->scene, &r->view, &s->tile};
     lmb_status status = LMB_OK;
     for (uint32_t i = 0; i < r->scene->light_count && status == LMB_OK; ++i) {
-        status = lmb_lit_add(&s->light, gloss, &s->one, &lit, i, r->maps != NULL ? &r->maps[i] : NULL);
+        status = lmb_light_tile_add(&s->light, glossy, &s->one, &lit, i, r->maps != NULL ? &r->maps[i] : NULL);
     }
-    if (r->show == LMB_RELIGHT_GLOSS) {
+    if (r->show == LMB_RELIGHT_GLOSSY) {
         memset(&s->light, 0, sizeof s->light);
     }
-    if (r->show == LMB_RELIGHT_NORMAL && gloss != NULL) {
-        memset(gloss->rgb, 0, sizeof gloss->rgb);
+    if (r->show == LMB_RELIGHT_NORMAL && glossy != NULL) {
+        memset(glossy->rgb, 0, sizeof glossy->rgb);
     }
     return status;
 }
@@ -87,33 +87,33 @@ static lmb_status add_lights(const lmb_relight *r, lmb_relight_scratch *s, lmb_g
 /* Has every instance a probe with light? */
 static int has_probes(const lmb_relight *r)
 {
-    int sound = 1;
-    for (uint32_t i = 0; i < r->scene->instance_count && sound; ++i) {
-        sound = r->probe_of[i] < r->probe_count && r->probes[r->probe_of[i]].irradiance.texel != NULL;
+    int valid = 1;
+    for (uint32_t i = 0; i < r->scene->instance_count && valid; ++i) {
+        valid = r->probe_of[i] < r->probe_count && r->probes[r->probe_of[i]].irradiance.texel != NULL;
     }
-    return sound;
+    return valid;
 }
 
 static lmb_status relight_tile(const lmb_relight *r, lmb_relight_scratch *s)
 {
-    const lmb_world_look look = look_of(r);
-    lmb_gloss *gloss = lmb_gloss_tile(&s->gloss, &s->tile, &r->view, r->scene) ? &s->gloss : NULL;
+    const lmb_world_query query = look_of(r);
+    lmb_glossy *glossy = lmb_glossy_tile(&s->glossy, &s->tile, &r->view, r->scene) ? &s->glossy : NULL;
     memset(&s->light, 0, sizeof s->light);
-    lmb_status status = add_lights(r, s, gloss);
+    lmb_status status = add_lights(r, s, glossy);
     if (status == LMB_OK) {
-        status = add_probes(r, s, gloss != NULL);
+        status = add_probes(r, s, glossy != NULL);
     }
     if (status == LMB_OK) {
         status = lmb_compose_tile(&s->radiance, r->kernels, &s->tile, &s->light, NULL);
     }
-    if (status == LMB_OK && gloss != NULL) {
-        status = lmb_compose_gloss(&s->radiance, gloss);
+    if (status == LMB_OK && glossy != NULL) {
+        status = lmb_compose_glossy(&s->radiance, glossy);
     }
-    if (status == LMB_OK && r->show != LMB_RELIGHT_GLOSS) {
-        status = lmb_compose_shine(&s->radiance, r->scene, &r->view, &s->tile);
+    if (status == LMB_OK && r->show != LMB_RELIGHT_GLOSSY) {
+        status = lmb_compose_emission(&s->radiance, r->scene, &r->view, &s->tile);
     }
     return status == LMB_OK && r->world != NULL
-               ? lmb_probe_background(s->radiance.rgb, &s->rays, r->kernels, &s->tile, &r->view, &look)
+               ? lmb_probe_background(s->radiance.rgb, &s->rays, r->kernels, &s->tile, &r->view, &query)
                : status;
 }
 
@@ -121,10 +121,10 @@ lmb_status lmb_relight_band(const lmb_relight *r, lmb_relight_scratch *scratch, 
 {
     if (r == NULL || scratch == NULL || r->kernels == NULL || r->scene == NULL || r->probes == NULL ||
         r->probe_of == NULL || band < 0 || band >= (r->view.frame_height + LMB_TILE - 1) / LMB_TILE ||
-        r->show < LMB_RELIGHT_BOTH || r->show > LMB_RELIGHT_GLOSS || !has_probes(r)) {
+        r->show < LMB_RELIGHT_BOTH || r->show > LMB_RELIGHT_GLOSSY || !has_probes(r)) {
         return LMB_ERR_ARG;
     }
-    if (!lmb_surface_is_sound(out)) {
+    if (!lmb_surface_is_valid(out)) {
         return LMB_ERR_FORMAT;
     }
     const int32_t y = band * LMB_TILE, y0 = out->height >= r->view.frame_height ? 0 : y;

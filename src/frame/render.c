@@ -1,17 +1,17 @@
-/* render.c: the one call that runs the rooms in order, whole or one bounded step at a time. Floor 10.     [V33 V34] */
+/* render.c: the one call that runs the rooms in order, whole or one bounded step at a time. Layer 10.     [V33 V34] */
 #include "../base/vec.h"
 #include "../bounce/points.h"
 #include "stages.h"
-#include "wants.h"
+#include "requires.h"
 
 static int points_have_parts(const lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
-    if (!wants_bounce(f) || omits(r, LMB_OMIT_BOUNCE) || keeps(r, LMB_KEEP_POINTS) || r->place != 0 ||
-        r->light == f->scene->light_count || light_is(r, r->light, LMB_LIGHT_TEXELS_KEPT | LMB_LIGHT_DIM)) {
+    if (!requires_bounce(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) || r->progress != 0 ||
+        r->light == f->scene->light_count || light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
         return 0;
     }
-    return wants_cut(f) || lmb_points_have_room(&f->points, &r->maps[r->light], &f->grouping);
+    return requires_cut(f) || lmb_points_have_room(&f->points, &r->maps[r->light], &f->grouping);
 }
 
 int32_t lmb_render_has_parts(const lmb_render *r)
@@ -20,14 +20,14 @@ int32_t lmb_render_has_parts(const lmb_render *r)
         return 0;
     }
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP:
-        return r->light == 0 && r->place == 0;
+    case LMB_STAGE_SHADOW_MAP:
+        return r->light == 0 && r->progress == 0;
     case LMB_STAGE_POINTS:
         return points_have_parts(r);
     case LMB_STAGE_BOUNCES:
-        return has_bounces(r) && r->place == 0;
+        return has_bounces(r) && r->progress == 0;
     case LMB_STAGE_VIEW:
-        return r->place == 0 && !keeps(r, LMB_KEEP_VIEW);
+        return r->progress == 0 && !reuses(r, LMB_REUSE_VIEW);
     default:
         return 0;
     }
@@ -53,7 +53,7 @@ static lmb_status end_stage(lmb_render *r, lmb_status status)
     }
     if (status == LMB_OK) {
         ++r->stage;
-        r->light = r->face = r->place = 0;
+        r->light = r->face = r->progress = 0;
     }
     return r->stage == LMB_STAGE_DONE ? LMB_OK : LMB_MORE;
 }
@@ -76,8 +76,8 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
     }
     units = mini(maxi(units, 1), 1 << 20);
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP:
-    case LMB_STAGE_BLOCKERS:
+    case LMB_STAGE_SHADOW_MAP:
+    case LMB_STAGE_BVH:
     case LMB_STAGE_POINTS:
     case LMB_STAGE_GROUPS:
     case LMB_STAGE_BOUNCES:
@@ -104,8 +104,8 @@ lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame)
 
 float lmb_render_progress(const char **name, const lmb_render *r)
 {
-    static const char *const names[] = {"light maps", "blockers", "first points", "groups",
-                                        "bounces",    "view",     "bands",        "done"};
+    static const char *const names[] = {"shadow maps", "BVH",  "first points", "groups",
+                                        "bounces",     "view", "bands",        "done"};
     const int is_over = r == NULL || r->frame.scene == NULL || r->stage < 0 || r->stage > LMB_STAGE_DONE;
     if (name != NULL) {
         *name = names[is_over ? LMB_STAGE_DONE : r->stage];
@@ -116,21 +116,21 @@ float lmb_render_progress(const char **name, const lmb_render *r)
     float lights = maxf((float)r->frame.scene->light_count, 1.0f), triangles = maxf((float)r->triangles, 1.0f),
           done = 0.0f;
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP:
-        done = ((float)r->light + (float)r->place / triangles) / lights;
+    case LMB_STAGE_SHADOW_MAP:
+        done = ((float)r->light + (float)r->progress / triangles) / lights;
         break;
     case LMB_STAGE_POINTS:
         done = (float)r->light / lights;
         break;
     case LMB_STAGE_BOUNCES:
-        done = ((float)r->light + (float)r->place / maxf((float)lmb_elements_tiles(&r->frame.elements), 1.0f)) /
-               maxf((float)exchanges(r), 1.0f);
+        done = ((float)r->light + (float)r->progress / maxf((float)lmb_elements_tiles(&r->frame.elements), 1.0f)) /
+               maxf((float)radiosity_bounces(r), 1.0f);
         break;
     case LMB_STAGE_VIEW:
-        done = (float)r->place / triangles;
+        done = (float)r->progress / triangles;
         break;
     case LMB_STAGE_BANDS:
-        done = (float)r->place / (float)band_count(&r->frame.view);
+        done = (float)r->progress / (float)band_count(&r->frame.view);
         break;
     case LMB_STAGE_DONE:
         done = 1.0f;

@@ -1,59 +1,59 @@
-/* solve.c: the stages of the light, by steps and in parts. Floor 10.                                     [V33 V34] */
+/* solve.c: the stages of the light, by steps and in parts. Layer 10.                                     [V33 V34] */
 #include "../base/vec.h"
 #include "../bounce/points.h"
 #include "stages.h"
-#include "wants.h"
+#include "requires.h"
 
 #define ELEMENT_ERROR 2.0f /* times a pixel's: a pixel sees the mean of many elements. At 4 spots lose 1 % of light */
 
 /* --- by steps ----------------------------------------------------------------------------------------------------- */
 
-static lmb_status step_light_map(lmb_render *r, int32_t units)
+static lmb_status step_shadow_map(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
     if (r->light == f->scene->light_count) {
         return LMB_OK;
     }
-    if (light_is(r, r->light, LMB_LIGHT_MAP_KEPT)) {
+    if (light_is(r, r->light, LMB_LIGHT_MAP_REUSED)) {
         ++r->light;
         return LMB_MORE;
     }
-    if (r->place == 0) {
-        lmb_light_map_clear(&r->maps[r->light]);
+    if (r->progress == 0) {
+        lmb_shadow_map_clear(&r->maps[r->light]);
     }
-    lmb_status status = lmb_light_map_draw(&r->maps[r->light], f->kernels, f->scene, r->place + 1,
-                                           (uint32_t)units * UNIT_TRIANGLES, f->stats);
-    r->place += (uint32_t)units * UNIT_TRIANGLES;
-    if (r->place >= r->triangles) {
-        r->place = 0;
+    lmb_status status = lmb_shadow_map_draw(&r->maps[r->light], f->kernels, f->scene, r->progress + 1,
+                                            (uint32_t)units * UNIT_TRIANGLES, f->stats);
+    r->progress += (uint32_t)units * UNIT_TRIANGLES;
+    if (r->progress >= r->triangles) {
+        r->progress = 0;
         ++r->light;
     }
     return status != LMB_OK ? status : LMB_MORE;
 }
 
-static lmb_status step_blockers(lmb_render *r)
+static lmb_status step_bvh(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
-    if (!wants_blockers(f) || keeps(r, LMB_KEEP_BLOCKERS)) {
+    if (!requires_bvh(f) || reuses(r, LMB_REUSE_BVH)) {
         return LMB_OK;
     }
-    const lmb_status status = lmb_blockers_build(&f->blockers, f->scene);
-    f->blockers.hull.count = f->everything ? 0 : f->blockers.hull.count;
+    const lmb_status status = lmb_bvh_build(&f->bvh, f->scene);
+    f->bvh.hull.count = f->run_all ? 0 : f->bvh.hull.count;
     return status;
 }
 
 static lmb_status end_face(lmb_render *r)
 {
-    const lmb_light_map *map = &r->maps[r->light];
+    const lmb_shadow_map *map = &r->maps[r->light];
     const int drawn = (map->drawn >> r->face) & 1u;
     lmb_status status = LMB_OK;
-    if (wants_cut(&r->frame)) {
+    if (requires_cut(&r->frame)) {
         status = drawn ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
         r->frame.tree.faces += drawn ? 1 : 0;
     } else if (drawn) {
         status = lmb_discs_join(&r->frame.points, map, &r->frame.grouping);
     }
-    r->place = 0;
+    r->progress = 0;
     if (++r->face >= (uint32_t)map->faces) {
         r->face = 0;
         ++r->light;
@@ -64,25 +64,25 @@ static lmb_status end_face(lmb_render *r)
 static lmb_status step_points(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
-    if (!wants_bounce(f) || omits(r, LMB_OMIT_BOUNCE) || keeps(r, LMB_KEEP_POINTS) ||
+    if (!requires_bounce(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) ||
         r->light == f->scene->light_count) {
         return LMB_OK;
     }
-    if (light_is(r, r->light, LMB_LIGHT_TEXELS_KEPT | LMB_LIGHT_DIM)) {
-        f->tree.faces += wants_cut(f) ? faces_that_bounce(r, r->light) : 0;
+    if (light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
+        f->tree.faces += requires_cut(f) ? faces_that_bounce(r, r->light) : 0;
         ++r->light;
         return LMB_MORE;
     }
-    const lmb_light_map *map = &r->maps[r->light];
-    int32_t rows = map->size / LMB_TILE, last = mini(rows, (int32_t)r->place + units);
+    const lmb_shadow_map *map = &r->maps[r->light];
+    int32_t rows = map->size / LMB_TILE, last = mini(rows, (int32_t)r->progress + units);
     uint32_t before = f->points.count;
     if ((map->drawn >> r->face) & 1u) {
         lmb_status status =
-            wants_cut(f)
+            requires_cut(f)
                 ? lmb_tree_texels(&f->tree, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
-                                  (int32_t)r->face, f->tree.faces, (int32_t)r->place, last)
+                                  (int32_t)r->face, f->tree.faces, (int32_t)r->progress, last)
                 : lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light],
-                                     map, (int32_t)r->face, (int32_t)r->place, last, &f->grouping);
+                                     map, (int32_t)r->face, (int32_t)r->progress, last, &f->grouping);
         if (status != LMB_OK) {
             return status;
         }
@@ -90,7 +90,7 @@ static lmb_status step_points(lmb_render *r, int32_t units)
     if (f->stats != NULL) {
         f->stats->first_points += f->points.count - before;
     }
-    r->place = (uint32_t)last;
+    r->progress = (uint32_t)last;
     if (last == rows) {
         lmb_status status = end_face(r);
         return status != LMB_OK ? status : LMB_MORE;
@@ -101,47 +101,47 @@ static lmb_status step_points(lmb_render *r, int32_t units)
 static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
-    if (wants_elements(r)) {
-        return keeps(r, LMB_KEEP_BOUNCES) ? LMB_OK : lmb_elements_build(&f->elements, f->scene, &f->tree);
+    if (requires_elements(r)) {
+        return reuses(r, LMB_REUSE_BOUNCES) ? LMB_OK : lmb_elements_build(&f->elements, f->scene, &f->tree);
     }
-    if (!wants_groups(f) || keeps(r, LMB_KEEP_POINTS)) {
+    if (!requires_groups(f) || reuses(r, LMB_REUSE_POINTS)) {
         return LMB_OK;
     }
     return lmb_group_points(f->groups, &f->points, &f->grouping, f->stats);
 }
 
-/* What is there before any reflection: of what shines by itself, and of many lights. */
-static lmb_status receive_direct(const lmb_render *r, const lmb_receiver *own, lmb_band_scratch *scratch,
-                                 const lmb_cutting *cutting, int32_t first, int32_t past)
+/* What is there before any reflection: of what emits light, and of many lights. */
+static lmb_status receive_direct(const lmb_render *r, const lmb_element_scratch *own, lmb_band_scratch *scratch,
+                                 const lmb_cut_params *cut_params, int32_t first, int32_t past)
 {
     const lmb_frame *f = &r->frame;
-    const float error = (f->many_error > 0.0f ? f->many_error : 0.02f) * ELEMENT_ERROR;
-    const lmb_many_look look = {f->many, f->blockers.triangle != NULL ? &f->blockers : NULL, error, 1};
+    const float error = (f->many_lights_error > 0.0f ? f->many_lights_error : 0.02f) * ELEMENT_ERROR;
+    const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, error, 1};
     const lmb_status status =
-        r->shines ? lmb_elements_receive(&f->elements, own, NULL, cutting, first, past) : LMB_OK;
-    return status != LMB_OK || !wants_many_bounce(f)
+        r->emits ? lmb_elements_receive(&f->elements, own, NULL, cut_params, first, past) : LMB_OK;
+    return status != LMB_OK || !requires_many_lights_bounce(f)
                ? status
-               : lmb_many_elements(&f->elements, own, &scratch->many, &look, first, past);
+               : lmb_many_lights_elements(&f->elements, own, &scratch->many_lights, &query, first, past);
 }
 
-/* Elements first .. past - 1 receive, for the r->light'th time. First, where something shines by itself or many lights
- * do, what these send; next the first reflection of that, and of lamps, which the light's maps hold; then one
+/* Elements first .. past - 1 receive, for the r->light'th time. First, where something emits light or many lights
+ * do, what these send; next the first reflection of that, and of lights, which the light's shadow maps hold; then one
  * reflection after another. */
 static lmb_status receive(const lmb_render *r, lmb_band_scratch *scratch, int32_t first, int32_t past, lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
-    const lmb_cutting cutting = cutting_of(f, stats);
+    const lmb_cut_params cut_params = cut_params_of(f, stats);
     const uint32_t direct = (uint32_t)sends_direct(r);
-    lmb_receiver own;
+    lmb_element_scratch own;
     own.kernels = f->kernels;
     own.cut = &scratch->gather.cut;
     own.tile = &scratch->tile;
     own.received = &scratch->direct;
     own.fresh = &scratch->indirect;
     if (r->light < direct) {
-        return receive_direct(r, &own, scratch, &cutting, first, past);
+        return receive_direct(r, &own, scratch, &cut_params, first, past);
     }
-    return lmb_elements_receive(&f->elements, &own, r->light == direct ? &f->tree : NULL, &cutting, first, past);
+    return lmb_elements_receive(&f->elements, &own, r->light == direct ? &f->tree : NULL, &cut_params, first, past);
 }
 
 /* All elements have received. */
@@ -150,11 +150,11 @@ static lmb_status end_bounce(lmb_render *r)
     lmb_frame *f = &r->frame;
     lmb_elements *e = &f->elements;
     const uint32_t direct = (uint32_t)sends_direct(r), pass = r->light;
-    lmb_status status = pass == 0 && wants_many_bounce(f) ? lmb_many_elements_done(e) : LMB_OK;
-    r->place = 0;
+    lmb_status status = pass == 0 && requires_many_lights_bounce(f) ? lmb_many_lights_elements_done(e) : LMB_OK;
+    r->progress = 0;
     ++r->light;
     if (status == LMB_OK && !has_bounces(r) && f->bounces > 1 && !f->truncated) {
-        status = lmb_elements_rest(e, pass == direct ? &f->tree : NULL, LMB_MOST_BOUNCES - f->bounces);
+        status = lmb_elements_rest(e, pass == direct ? &f->tree : NULL, LMB_MAX_BOUNCES - f->bounces);
     }
     status = status != LMB_OK ? status : lmb_elements_send(e, !has_bounces(r));
     return status != LMB_OK ? status : has_bounces(r) ? LMB_MORE : LMB_OK;
@@ -165,20 +165,20 @@ static lmb_status step_bounces(lmb_render *r, int32_t units)
     if (!has_bounces(r)) {
         return LMB_OK;
     }
-    const int32_t tiles = lmb_elements_tiles(&r->frame.elements), first = (int32_t)r->place,
+    const int32_t tiles = lmb_elements_tiles(&r->frame.elements), first = (int32_t)r->progress,
                   past = tiles - first < units ? tiles : first + units;
     const lmb_status status = receive(r, r->frame.scratch, first, past, r->frame.stats);
-    r->place = (uint32_t)past;
+    r->progress = (uint32_t)past;
     return status != LMB_OK ? status : past < tiles ? LMB_MORE : end_bounce(r);
 }
 
 lmb_status lmb_render_solve(lmb_render *r, int32_t units)
 {
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP:
-        return step_light_map(r, units);
-    case LMB_STAGE_BLOCKERS:
-        return step_blockers(r);
+    case LMB_STAGE_SHADOW_MAP:
+        return step_shadow_map(r, units);
+    case LMB_STAGE_BVH:
+        return step_bvh(r);
     case LMB_STAGE_POINTS:
         return step_points(r, units);
     case LMB_STAGE_GROUPS:
@@ -193,12 +193,12 @@ lmb_status lmb_render_solve(lmb_render *r, int32_t units)
 /* Of a light whose map is drawn. */
 static int64_t rows_of(const lmb_render *r, uint32_t light)
 {
-    const int64_t rows = r->frame.light_map / LMB_TILE;
-    return light_is(r, light, LMB_LIGHT_MAP_KEPT) ? 0 : r->maps[light].faces * rows;
+    const int64_t rows = r->frame.shadow_map / LMB_TILE;
+    return light_is(r, light, LMB_LIGHT_MAP_REUSED) ? 0 : r->maps[light].faces * rows;
 }
 
-/* Tile rows counted through all faces of all lights' maps, so that many lights are shared out whole. */
-static lmb_status part_light_map(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats)
+/* Tile rows counted through all faces of all shadow maps, so that many lights are shared out whole. */
+static lmb_status part_shadow_map(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats)
 {
     const lmb_frame *f = &r->frame;
     int64_t first, past, all = 0, before = 0;
@@ -211,7 +211,7 @@ static lmb_status part_light_map(const lmb_render *r, int32_t part, int32_t part
         const int64_t own = rows_of(r, i);
         const int64_t from = first > before ? first - before : 0, to = past - before < own ? past - before : own;
         if (from < to) {
-            status = lmb_light_map_rows(&r->maps[i], f->kernels, f->scene, (int32_t)from, (int32_t)to, stats);
+            status = lmb_shadow_map_rows(&r->maps[i], f->kernels, f->scene, (int32_t)from, (int32_t)to, stats);
         }
         before += own;
     }
@@ -222,11 +222,11 @@ static lmb_status part_light_map(const lmb_render *r, int32_t part, int32_t part
 static lmb_status part_points(const lmb_render *r, lmb_tile *tile, int32_t part, int32_t parts)
 {
     const lmb_frame *f = &r->frame;
-    const lmb_light_map *map = &r->maps[r->light];
+    const lmb_shadow_map *map = &r->maps[r->light];
     if (((map->drawn >> r->face) & 1u) == 0) {
         return LMB_OK;
     }
-    if (wants_cut(f)) {
+    if (requires_cut(f)) {
         int64_t first, past;
         share_out(&first, &past, map->size / LMB_TILE, part, parts);
         return lmb_tree_texels(&f->tree, f->kernels, tile, f->scene, &f->scene->lights[r->light], map, (int32_t)r->face,
@@ -248,8 +248,8 @@ lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch,
                                  lmb_stats *stats)
 {
     switch (r->stage) {
-    case LMB_STAGE_LIGHT_MAP:
-        return part_light_map(r, part, parts, stats);
+    case LMB_STAGE_SHADOW_MAP:
+        return part_shadow_map(r, part, parts, stats);
     case LMB_STAGE_POINTS:
         return part_points(r, &scratch->tile, part, parts);
     default:
@@ -261,9 +261,9 @@ lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch,
 static lmb_status end_parts_of_face(lmb_render *r, int32_t parts)
 {
     lmb_frame *f = &r->frame;
-    const lmb_light_map *map = &r->maps[r->light];
+    const lmb_shadow_map *map = &r->maps[r->light];
     const uint32_t before = f->points.count;
-    if (wants_groups(f) && (map->drawn >> r->face) & 1u) {
+    if (requires_groups(f) && (map->drawn >> r->face) & 1u) {
         lmb_points_put_together(&f->points, map, parts, &f->grouping);
     }
     if (f->stats != NULL) {

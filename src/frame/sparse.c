@@ -1,5 +1,5 @@
 /* sparse.c: bounced light gathered for every second or fourth pixel and for those that no such pixel explains.
- * Floor 10.
+ * Layer 10.
  *
  * What a gather costs is mostly asked for once a tile: which nodes it takes, what they see. So the pixels of several
  * tiles fill one. Tiles are resolved again for each pass: 4 KiB each to keep, microseconds to make. */
@@ -7,7 +7,7 @@
 
 #include "../base/vec.h"
 #include "stages.h"
-#include "wants.h"
+#include "requires.h"
 
 /* What a gather reads of a pixel. */
 static void put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
@@ -29,9 +29,9 @@ static lmb_status gather_together(const lmb_render *r, lmb_band_scratch *s)
     const lmb_status status =
         sparse->count > 0 ? lmb_render_gather(&s->indirect, NULL, r, s, &sparse->together, NULL) : LMB_OK;
     for (int32_t i = 0; i < sparse->count; ++i) {
-        lmb_irradiance *light = &sparse->light[sparse->place[i] / LMB_TILE_PIXELS];
+        lmb_irradiance *light = &sparse->light[sparse->pixel[i] / LMB_TILE_PIXELS];
         for (int c = 0; c < 3; ++c) {
-            light->rgb[c][sparse->place[i] % LMB_TILE_PIXELS] = s->indirect.rgb[c][i];
+            light->rgb[c][sparse->pixel[i] % LMB_TILE_PIXELS] = s->indirect.rgb[c][i];
         }
     }
     sparse->count = 0;
@@ -50,7 +50,7 @@ static lmb_status put_together(const lmb_render *r, lmb_band_scratch *s, int32_t
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         put_pixel(&sparse->together, sparse->count, &s->tile, k);
-        sparse->place[sparse->count++] = (uint16_t)(part * LMB_TILE_PIXELS + k);
+        sparse->pixel[sparse->count++] = (uint16_t)(part * LMB_TILE_PIXELS + k);
     }
     return status;
 }
@@ -69,7 +69,7 @@ lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *s, const lmb_
             if (status != LMB_OK) {
                 return status;
             }
-            if (wants_gloss(r) && lmb_gloss_tile(&s->gloss, &s->tile, &f->view, f->scene)) {
+            if (requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene)) {
                 continue;
             }
             pixels = lmb_sparse_pixels(&s->tile, f->gather_step);

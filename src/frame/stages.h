@@ -1,4 +1,4 @@
-/* stages.h: what the files of this room ask of each other. Floor 10. */
+/* stages.h: what the files of this room ask of each other. Layer 10. */
 #ifndef LMB_FRAME_STAGES_H
 #define LMB_FRAME_STAGES_H
 
@@ -7,26 +7,26 @@
 /* A build without trees refuses frames that ask for them (lmb_render_check), so none of these is ever called. */
 #if !LMB_TREES
 #define never(call) ((void)sizeof(call), LMB_ERR_ARG)
-#undef lmb_gloss_tile
+#undef lmb_glossy_tile
 #undef lmb_gather_cut
-#undef lmb_many_direct_tile
-#undef lmb_blockers_build
+#undef lmb_many_lights_direct_tile
+#undef lmb_bvh_build
 #undef lmb_tree_texels
 #undef lmb_elements_receive
-#define lmb_gloss_tile(...)       (never(LMB_LAYOUT(lmb_gloss_tile)(__VA_ARGS__)) == LMB_OK)
+#define lmb_glossy_tile(...)             (never(LMB_LAYOUT(lmb_glossy_tile)(__VA_ARGS__)) == LMB_OK)
 #define lmb_gather_cut(...)       never(LMB_LAYOUT(lmb_gather_cut)(__VA_ARGS__))
-#define lmb_many_direct_tile(...) never(LMB_LAYOUT(lmb_many_direct_tile)(__VA_ARGS__))
-#define lmb_blockers_build(...)   never(LMB_LAYOUT(lmb_blockers_build)(__VA_ARGS__))
+#define lmb_many_lights_direct_tile(...) never(LMB_LAYOUT(lmb_many_lights_direct_tile)(__VA_ARGS__))
+#define lmb_bvh_build(...)               never(LMB_LAYOUT(lmb_bvh_build)(__VA_ARGS__))
 #define lmb_tree_texels(...)      never(LMB_LAYOUT(lmb_tree_texels)(__VA_ARGS__))
 #define lmb_elements_receive(...) never(LMB_LAYOUT(lmb_elements_receive)(__VA_ARGS__))
-#define lmb_compose_gloss(...)    never(lmb_compose_gloss(__VA_ARGS__))
+#define lmb_compose_glossy(...)          never(lmb_compose_glossy(__VA_ARGS__))
 #define lmb_tree_sum(...)         never(lmb_tree_sum(__VA_ARGS__))
 #define lmb_elements_build(...)   never(lmb_elements_build(__VA_ARGS__))
 #define lmb_elements_rest(...)    never(lmb_elements_rest(__VA_ARGS__))
 #define lmb_elements_send(...)    never(lmb_elements_send(__VA_ARGS__))
-#undef lmb_many_elements
-#define lmb_many_elements(...)    never(LMB_LAYOUT(lmb_many_elements)(__VA_ARGS__))
-#define lmb_many_elements_done(...) never(lmb_many_elements_done(__VA_ARGS__))
+#undef lmb_many_lights_elements
+#define lmb_many_lights_elements(...)    never(LMB_LAYOUT(lmb_many_lights_elements)(__VA_ARGS__))
+#define lmb_many_lights_elements_done(...) never(lmb_many_lights_elements_done(__VA_ARGS__))
 #define lmb_elements_tiles(...)   never(lmb_elements_tiles(__VA_ARGS__))
 #endif
 
@@ -46,16 +46,16 @@ lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *view);
 
 /* --- what is left out, what is kept ------------------------------------------------------------------------------ */
 
-/* Of a frame that begins: set r->omits, light_state and the revisions; clear what no scene's box lies in of
- * r->maps[].drawn, and is_glossy and shines where nothing drawn is. */
-void lmb_render_omit(lmb_render *r);
+/* Of a frame that begins: set r->skips, light_state and the revisions; clear what no scene's box lies in of
+ * r->maps.drawn, and is_glossy and emits where nothing drawn is. */
+void lmb_render_skip(lmb_render *r);
 
 /* --- stages ------------------------------------------------------------------------------------------------------- */
 
-/* A step does up to `units` of the stage at hand, moves r->light, face and place on, and returns LMB_MORE, LMB_OK when
- * the stage is complete, or an error. A part is what lmb_render_part says, of the stage at hand. */
+/* A step does up to `units` of the stage at hand, moves r->light, face and progress on, and returns LMB_MORE, LMB_OK
+ * when the stage is complete, or an error. A part is what lmb_render_part says, of the stage at hand. */
 
-/* LMB_STAGE_LIGHT_MAP .. LMB_STAGE_BOUNCES. */
+/* LMB_STAGE_SHADOW_MAP .. LMB_STAGE_BOUNCES. */
 lmb_status lmb_render_solve(lmb_render *r, int32_t units);
 lmb_status lmb_render_solve_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
                                  lmb_stats *stats);
@@ -77,15 +77,15 @@ lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *eye, int32_t ba
 
 /* Set scratch->direct: that of scratch->tile where it is shown, else 0; and add what the lobes make of it, NULL:
  * without. scratch->indirect is written. */
-lmb_status lmb_render_direct(const lmb_render *r, lmb_gloss *gloss, lmb_band_scratch *scratch);
+lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *scratch);
 
 /* Add the bounced light of a tile's pixels, and what its lobes make of it, NULL: without. direct: what is shown with
  * it, so that errors are told of both; or NULL. LMB_OK, or what the gather returns. */
-lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_gloss *gloss, const lmb_render *r, lmb_band_scratch *scratch,
+lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_tile *tile, const lmb_irradiance *direct);
 
 /* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on which show no lobe.
- * r->frame.gather_step is 2 or 4. scratch->tile and gloss are written. */
+ * r->frame.gather_step is 2 or 4. scratch->tile and glossy reflection are written. */
 lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *target, int32_t x,
                             int32_t y, int32_t tiles);
 

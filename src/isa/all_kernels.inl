@@ -1,5 +1,5 @@
-/* all_kernels.inl: every kernel by one machine's verbs, and their table. KERNEL(name) and MACHINE, the name that
- * lmb_kernels_named knows, are the including file's. Floor 12. */
+/* all_kernels.inl: every kernel by one machine's verbs, and their table. KERNEL(name) and BACKEND, the name that
+ * lmb_kernels_named knows, are the including file's. Layer 12. */
 #include "../lane/kernels.h"
 #include "../lane/lane.h"
 
@@ -15,8 +15,8 @@
 #include "../compose/encode.inl"
 #if LMB_TREES
 #include "../lightcut/gather_cut.inl"
-#include "../lightcut/weigh.inl"
-#include "../manylights/many.inl"
+#include "../lightcut/node_bounds.inl"
+#include "../manylights/many_lights.inl"
 #include "../occlusion/crossed.inl"
 #include "../occlusion/sun.inl"
 #endif
@@ -24,7 +24,7 @@
 #include "../light/lobe.inl"
 #endif
 #if LMB_TREES
-#include "../lightcut/gather_gloss.inl"
+#include "../lightcut/gather_glossy.inl"
 #endif
 #if LMB_PROBES
 #include "../probe/remap.inl"
@@ -48,27 +48,51 @@ static float KERNEL(probe)(float one_and_bit)
 }
 
 const lmb_kernels KERNEL(lmb_kernels) = {
-    MACHINE,         LANES,
-    KERNEL(setup),   KERNEL(fill_small), KERNEL(fill_large),
-    KERNEL(resolve_shown), KERNEL(resolve_slots), KERNEL(resolve_setup), KERNEL(resolve),
+    BACKEND,
+    LANES,
+    KERNEL(setup),
+    KERNEL(fill_small),
+    KERNEL(fill_large),
+    KERNEL(resolve_shown),
+    KERNEL(resolve_slots),
+    KERNEL(resolve_setup),
+    KERNEL(resolve),
     KERNEL(texture),
-    KERNEL(direct),  KERNEL(gather),     KERNEL(gather_near), KERNEL(blend),
-    KERNEL(encode),  KERNEL(probe),
+    KERNEL(direct),
+    KERNEL(gather),
+    KERNEL(gather_near),
+    KERNEL(blend),
+    KERNEL(encode),
+    KERNEL(probe),
 #if LMB_TREES
-    KERNEL(gather_cut), KERNEL(weigh), KERNEL(crossed), KERNEL(segments), KERNEL(through), KERNEL(meets),
-    KERNEL(sun_crossed), KERNEL(sun_meets),
-    KERNEL(many_bounds), KERNEL(gloss_cut), KERNEL(many_shine),
+    KERNEL(gather_cut),
+    KERNEL(node_bounds),
+    KERNEL(crossed),
+    KERNEL(segments),
+    KERNEL(through),
+    KERNEL(meets),
+    KERNEL(sun_crossed),
+    KERNEL(sun_meets),
+    KERNEL(many_lights_bounds),
+    KERNEL(glossy_cut),
+    KERNEL(many_lights_irradiance),
 #endif
 #if LMB_LOBES
-    KERNEL(gloss_direct),
+    KERNEL(glossy_direct),
 #endif
 #if LMB_PROBES
-    KERNEL(remap), KERNEL(see), KERNEL(look), KERNEL(share), KERNEL(cosine), KERNEL(blur),
+    KERNEL(remap),
+    KERNEL(see),
+    KERNEL(world_radiance),
+    KERNEL(share),
+    KERNEL(cosine),
+    KERNEL(blur),
 #endif
 #if LMB_VOXELS
     KERNEL(cone),
 #endif
 #if LMB_RELIEF
-    KERNEL(relief_rank), KERNEL(relief_warp),
+    KERNEL(relief_rank),
+    KERNEL(relief_warp),
 #endif
 };

@@ -1,11 +1,11 @@
-/* isa_neon.c: every kernel by AArch64's NEON, four pixels at a time. Floor 12. */
+/* isa_neon.c: every kernel by AArch64's NEON, four pixels at a time. Layer 12. */
 #include "../base/exact.h"
-#include "../lane/machines.h"
+#include "../lane/backends.h"
 
 #if LMB_HAVE_NEON
 #include "../lane/lane_neon.h"
 
-#define MACHINE "neon"
+#define BACKEND "neon"
 #define KERNEL(name) name##_neon
 #include "all_kernels.inl"
 #endif

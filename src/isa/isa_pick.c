@@ -1,4 +1,4 @@
-/* isa_pick.c: which machine's kernels, and do they compute what they should? Floor 12.
+/* isa_pick.c: which machine's kernels, and do they compute what they should? Layer 12.
  *
  * On x86 the processor is asked, and the system: registers that it does not save across threads are not there. Asked
  * each time: a remembered answer would be data that changes. A call costs a few hundred cycles, in a virtual machine,
@@ -41,20 +41,19 @@ static int has_always(void) { return 1; }
 #define has_simd128 has_always
 #define has_scalar  has_always
 
-static const struct machine {
+static const struct backend {
     const lmb_kernels *kernels;
     int (*is_here)(void);
-} machines[] = {
+} backends[] = {
 #define MACHINE_OF(upper, lower) LMB_IF(LMB_HAVE_##upper, {&lmb_kernels_##lower, has_##lower}, )
-    LMB_BACKENDS(MACHINE_OF)
-};
-enum { MACHINES = sizeof machines / sizeof machines[0] };
+    LMB_BACKENDS(MACHINE_OF)};
+enum { BACKENDS = sizeof backends / sizeof backends[0] };
 
 const lmb_kernels *lmb_kernels_at(int32_t i)
 {
-    for (int m = 0; i >= 0 && m < MACHINES; ++m) {
-        if (machines[m].is_here() && i-- == 0) {
-            return machines[m].kernels;
+    for (int m = 0; i >= 0 && m < BACKENDS; ++m) {
+        if (backends[m].is_here() && i-- == 0) {
+            return backends[m].kernels;
         }
     }
     return NULL;

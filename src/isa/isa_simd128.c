@@ -1,11 +1,11 @@
-/* isa_simd128.c: every kernel by WebAssembly's simd128, four pixels at a time. Floor 12. */
+/* isa_simd128.c: every kernel by WebAssembly's simd128, four pixels at a time. Layer 12. */
 #include "../base/exact.h"
-#include "../lane/machines.h"
+#include "../lane/backends.h"
 
 #if LMB_HAVE_SIMD128
 #include "../lane/lane_simd128.h"
 
-#define MACHINE "simd128"
+#define BACKEND "simd128"
 #define KERNEL(name) name##_simd128
 #include "all_kernels.inl"
 #endif

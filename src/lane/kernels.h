@@ -1,4 +1,4 @@
-/* kernels.h: the table of kernels that a machine fills in: the only door to isa/. Floor 2.
+/* kernels.h: the table of kernels that a machine fills in: the only door to isa/. Layer 2.
  *
  * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, every machine. */
 #ifndef LMB_LANE_KERNELS_H
@@ -7,12 +7,12 @@
 #include <lambent/bounce.h>
 #include <lambent/compose.h>
 #include <lambent/tree.h>
-#include <lambent/many.h>
+#include <lambent/many_lights.h>
 #include <lambent/probe.h>
 #include <lambent/voxel.h>
 #include <lambent/relief.h>
 
-#include "machines.h"
+#include "backends.h"
 
 /* A tile's rays, relative to the eye. Of pixel (x, y):
  *   origin + ox x + oy y  +  w (direction + rx x + ry y)   with w along the view axis.
@@ -48,31 +48,31 @@ typedef struct lmb_resolve_batch {
     float albedo[3][3][LMB_SLOTS];     /* out: reflectance, [corner][channel] */
 } lmb_resolve_batch;
 
-/* Planes of the numbers by which nodes are weighed; vectors are three planes. */
+/* Planes of the numbers by which nodes are bounded; vectors are three planes. */
 enum {
-    LMB_WEIGH_CENTRE = 0,
-    LMB_WEIGH_NORMAL = 3,
-    LMB_WEIGH_MIDDLE = 6,
-    LMB_WEIGH_ACROSS = 9,
-    LMB_WEIGH_HALF = 12,
-    LMB_WEIGH_FLUX = 15,        /* R + G + B */
-    LMB_WEIGH_AREA = 16,
-    LMB_WEIGH_COSINE = 17,
-    LMB_WEIGH_RADIUS = 18,
-    LMB_WEIGH_AGREEMENT = 19,
-    LMB_WEIGH_PLANES = 20
+    LMB_BOUNDS_CENTRE = 0,
+    LMB_BOUNDS_NORMAL = 3,
+    LMB_BOUNDS_MIDDLE = 6,
+    LMB_BOUNDS_ACROSS = 9,
+    LMB_BOUNDS_HALF = 12,
+    LMB_BOUNDS_FLUX = 15, /* R + G + B */
+    LMB_BOUNDS_AREA = 16,
+    LMB_BOUNDS_COSINE = 17,
+    LMB_BOUNDS_RADIUS = 18,
+    LMB_BOUNDS_AGREEMENT = 19,
+    LMB_BOUNDS_PLANES = 20
 };
 
 /* What lies in a cut's `weighed`: nodes side by side, and what they were found to give the tile: value and most as in
  * lmb_cut, and error. */
-typedef struct lmb_weighed {
-    float node[LMB_WEIGH_PLANES][LMB_WEIGH_NODES];
-    float value[LMB_WEIGH_NODES], most[LMB_WEIGH_NODES], error[LMB_WEIGH_NODES];
-} lmb_weighed;
+typedef struct lmb_node_bounds {
+    float node[LMB_BOUNDS_PLANES][LMB_BOUNDS_NODES];
+    float value[LMB_BOUNDS_NODES], upper[LMB_BOUNDS_NODES], error[LMB_BOUNDS_NODES];
+} lmb_node_bounds;
 
 /* Both lie in public structs, as room whose size alone is told there. */
 typedef char lmb_resolve_batch_fits[sizeof(lmb_resolve_batch) <= sizeof(((lmb_tile *)0)->work) ? 1 : -1];
-typedef char lmb_weighed_fits[sizeof(lmb_weighed) == sizeof(((lmb_cut *)0)->weighed) ? 1 : -1];
+typedef char lmb_weighed_fits[sizeof(lmb_node_bounds) == sizeof(((lmb_cut *)0)->bounds_of_nodes) ? 1 : -1];
 
 /* One tile of a target, by rows of 8: steps are in elements. */
 typedef struct lmb_fill_tile {
@@ -157,16 +157,16 @@ typedef struct lmb_direct_job {
 } lmb_direct_job;
 
 /* The pixels of a tile that take a cut of the lights' tree together. */
-typedef struct lmb_many_job {
+typedef struct lmb_many_lights_job {
     lmb_vec3 middle, half; /* m: their box */
     lmb_vec3 normal;       /* the first one's, unit */
     float bend;            /* the others' normals differ from it by at most this, as vectors */
-} lmb_many_job;
+} lmb_many_lights_job;
 
-#define LMB_MANY_NEAR 1e30f /* the error of a node too near for a bound: it is parted first */
+#define LMB_MANY_LIGHTS_NEAR 1e30f /* the error of a node too near for a bound: it is parted first */
 
 /* The pixels of one surface in a tile. */
-typedef struct lmb_patch {
+typedef struct lmb_pixel_cluster {
     uint64_t pixels;
     lmb_vec3 centre;  /* of the box of their positions */
     lmb_vec3 axis[3]; /* its sides' directions: unit, at right angles; the first is their faces' mean normal */
@@ -176,7 +176,7 @@ typedef struct lmb_patch {
     float sine;       /* of the widest angle between theirs and the mean; 1 over 90 degrees */
     float face_sine;  /* of the widest between these, their faces' and the mean */
     float noise;      /* m: how far rounding may have moved a position */
-} lmb_patch;
+} lmb_pixel_cluster;
 
 /* The viewer's depth map as the gather reads it. */
 typedef struct lmb_march_job {
@@ -257,7 +257,7 @@ typedef struct lmb_cone_job {
 
 /* One tile over a relief. */
 typedef struct lmb_relief_job {
-    const lmb_relief_view *view[LMB_RELIEF_LOOKS]; /* that its pixels look at; ranking: not read */
+    const lmb_relief_view *view[LMB_RELIEF_TILE_VIEWS]; /* that its pixels look at; ranking: not read */
     int32_t count, format;
     int32_t aligned;     /* the first of them look most as the eye does */
     int32_t steps, pick, sampling, keep;
@@ -310,8 +310,10 @@ struct lmb_kernels {
     void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,
                        const lmb_emitter *emitters, int32_t count);
     /* Nodes 0 .. count - 1 against the patch: sets what they give, at most, and their errors. Returns those that do not
-     * face away, a bit each; what is set for the others means nothing. proven: see weigh.inl. Writes whole vectors. */
-    uint32_t (*weigh)(lmb_weighed *inout, int32_t count, const lmb_patch *patch, int32_t proven);
+     * face away, a bit each; what is set for the others means nothing. conservative: see node_bounds.inl. Writes whole
+     * vectors. */
+    uint32_t (*node_bounds)(lmb_node_bounds *inout, int32_t count, const lmb_pixel_cluster *cluster,
+                            int32_t conservative);
     /* Of `pixels`, one bit each, those whose segment to the point crosses the triangle. */
     uint64_t (*crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_cross_job *job);
     void (*segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 at);
@@ -323,19 +325,19 @@ struct lmb_kernels {
     uint64_t (*sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job);
     uint32_t (*sun_meets)(const lmb_sun_sweep *sweep, const lmb_boxes *boxes);
     /* Of `count` <= 8 nodes of one kind from `first`: a bound of what one may be off for its lights (< 0: they light no
-     * pixel; LMB_MANY_NEAR), about what it gives, and what it gives if it is a cone's that all of its lights have; all
-     * without shadows, W/m2. Writes up to 16 values each. */
-    void (*many_bounds)(float error[16], float light[16], float inside[16], const lmb_many *many, uint32_t first,
-                        uint32_t count, const lmb_many_job *job);
+     * pixel; LMB_MANY_LIGHTS_NEAR), about what it gives, and what it gives if it is a cone's that all of its lights
+     * have; all without shadows, W/m2. Writes up to 16 values each. */
+    void (*many_lights_bounds)(float error[16], float light[16], float inside[16], const lmb_many_lights *many_lights,
+                               uint32_t first, uint32_t count, const lmb_many_lights_job *job);
     /* What lobes make of emitters that some pixels see: added. */
-    void (*gloss_cut)(lmb_gloss *inout, const lmb_tile *tile, const lmb_emitter *emitters, int32_t count);
-    /* The lamps' light on `pixels` is added. */
-    void (*many_shine)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels, const lmb_many_lamp *lamps,
-                       int32_t count);
+    void (*glossy_cut)(lmb_glossy *inout, const lmb_tile *tile, const lmb_emitter *emitters, int32_t count);
+    /* The lights' light on `pixels` is added. */
+    void (*many_lights_irradiance)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels,
+                                   const lmb_active_light *active_lights, int32_t count);
 #endif
 #if LMB_LOBES
     /* What the lobes make of one light that brings `lit`: added. */
-    void (*gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const lmb_irradiance *lit, const lmb_light *light);
+    void (*glossy_direct)(lmb_glossy *inout, const lmb_tile *tile, const lmb_irradiance *lit, const lmb_light *light);
 #endif
 #if LMB_PROBES
     /* Radiance of each of `count` directions from one place, 3 planes; `direction`: as lmb_probe_table's. */
@@ -344,7 +346,8 @@ struct lmb_kernels {
     void (*see)(float out[3][LMB_TILE_PIXELS], float origin[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS],
                 const lmb_world_job *job);
     /* What the job's cube alone shows along a direction of any length. */
-    void (*look)(float out[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS], const lmb_world_job *job);
+    void (*world_radiance)(float out[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS],
+                           const lmb_world_job *job);
     /* A map's light, added to lmb_probe_lights' `shared`. */
     void (*share)(float (*shared)[4], const float *map, const lmb_probe_table *table);
     /* Irradiance by normal; `direction`: of the lights, 3 planes. */
@@ -367,7 +370,7 @@ struct lmb_kernels {
 #endif
 };
 
-/* Those of this build: see machines.h. */
+/* Those of this build: see backends.h. */
 #define LMB_KERNELS_OF(upper, lower) extern const lmb_kernels lmb_kernels_##lower;
 LMB_BACKENDS(LMB_KERNELS_OF)
 #undef LMB_KERNELS_OF

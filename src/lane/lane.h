@@ -1,4 +1,4 @@
-/* lane.h: small formulas over the lane verbs, for several kernels. Include after a machine's lane header. Floor 2. */
+/* lane.h: small formulas over the lane verbs, for several kernels. Include after a machine's lane header. Layer 2. */
 #ifndef LMB_LANE_H
 #define LMB_LANE_H
 
@@ -9,16 +9,16 @@
 #define LANE_INLINE static inline
 #endif
 
-/* APART where lanes are wide. The frame of one is small, and a call takes ROM. */
+/* NOINLINE where lanes are wide. The frame of one is small, and a call takes ROM. */
 #if LANES > 1
-#define LANE_APART APART
+#define LANE_NOINLINE NOINLINE
 #else
-#define LANE_APART static inline
+#define LANE_NOINLINE static inline
 #endif
 
 /* A part of a long formula. Without vectors each of four lanes of every step has its own place on the stack frame. */
 #if defined(LANE_PLAIN) && LANES > 1
-#define LANE_PART APART
+#define LANE_PART NOINLINE
 #else
 #define LANE_PART LANE_INLINE
 #endif

@@ -1,4 +1,4 @@
-/* lane_avx2.h: the lane verbs by AVX2, eight wide: a row of a tile. lane_scalar.h says what each must do. Floor 2.
+/* lane_avx2.h: the lane verbs by AVX2, eight wide: a row of a tile. lane_scalar.h says what each must do. Layer 2.
  *
  * After target_avx2.h. Gathers are loads one by one: AVX2's own has no 16-bit form, and its 32-bit form measured no
  * faster. */

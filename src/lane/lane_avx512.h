@@ -1,5 +1,5 @@
 /* lane_avx512.h: the lane verbs by AVX-512, sixteen wide: two rows of a tile. lane_scalar.h says what each must do.
- * Floor 2.
+ * Layer 2.
  *
  * After target_avx512.h. Masks are bits. The verbs for surfaces' memory take a row's eight values at a time, so that
  * linear targets, whose rows lie apart, are no other case. */

@@ -1,4 +1,4 @@
-/* lane_neon.h: the lane verbs by AArch64's NEON, four wide. lane_scalar.h says what each must do. Floor 2.
+/* lane_neon.h: the lane verbs by AArch64's NEON, four wide. lane_scalar.h says what each must do. Layer 2.
  *
  * NEON's own min and max make a NaN of any NaN: compare and pick instead. */
 #ifndef LMB_LANE_NEON_H

@@ -1,4 +1,4 @@
-/* lane_scalar.h: the lane verbs in plain C; the definition that every other machine equals. Floor 2.
+/* lane_scalar.h: the lane verbs in plain C; the definition that every other machine equals. Layer 2.
  *
  * lane     LANES floats               lane_mask  all ones or all zeros per lane
  * lanei    LANES int32                 laned      LANES doubles
@@ -8,7 +8,7 @@
 
 #include "../base/vec.h"
 
-#include "machines.h"
+#include "backends.h"
 
 /* One where a file defines LANE_ONE, to ask a kernel's formula for a single thing. */
 #if defined(LANE_ONE)

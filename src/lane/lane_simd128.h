@@ -1,4 +1,4 @@
-/* lane_simd128.h: the lane verbs by WebAssembly's simd128, four wide. lane_scalar.h says what each must do. Floor 2.
+/* lane_simd128.h: the lane verbs by WebAssembly's simd128, four wide. lane_scalar.h says what each must do. Layer 2.
  *
  * pmin(x, y) is y < x ? y : x, so SSE's rule is pmin with its operands changed; min and max proper make a NaN of any
  * NaN. */

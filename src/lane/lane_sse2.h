@@ -1,4 +1,4 @@
-/* lane_sse2.h: the lane verbs by SSE2, four wide. lane_scalar.h says what each must do. Floor 2. */
+/* lane_sse2.h: the lane verbs by SSE2, four wide. lane_scalar.h says what each must do. Layer 2. */
 #ifndef LMB_LANE_SSE2_H
 #define LMB_LANE_SSE2_H
 

@@ -1,4 +1,4 @@
-/* target_avx2.h: from here to target_end.h functions are compiled for AVX2, whatever the command line says. Floor 2.
+/* target_avx2.h: from here to target_end.h functions are compiled for AVX2, whatever the command line says. Layer 2.
  *
  * System headers come before the pragma: their functions stay what they are everywhere else. */
 #include <immintrin.h>

@@ -1,4 +1,4 @@
-/* direct.c: direct light on a tile: the kernel's irradiance where the light's map says lit. Floor 5. */
+/* direct.c: direct light on a tile: the kernel's irradiance where the shadow map says lit. Layer 5. */
 #include <lambent/light.h>
 
 #include "../base/vec.h"
@@ -22,7 +22,7 @@ static lmb_direct_job make_job(const lmb_light *light)
 }
 
 static int pixel_is_lit(const lmb_tile *tile, int k, const lmb_view *view, const lmb_scene *scene,
-                        const lmb_light *light, const lmb_light_map *map)
+                        const lmb_light *light, const lmb_shadow_map *map)
 {
     lmb_receiver r;
     r.position = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
@@ -36,7 +36,7 @@ static int pixel_is_lit(const lmb_tile *tile, int k, const lmb_view *view, const
 
 lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, const lmb_tile *tile,
                            const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
-                           const lmb_light_map *map)
+                           const lmb_shadow_map *map)
 {
     lmb_irradiance one;
     if (inout == NULL || kernels == NULL || tile == NULL || view == NULL || scene == NULL || light == NULL) {

@@ -1,4 +1,4 @@
-/* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc. Floor 5.
+/* lobe.inl: the glossy lobe: GGX, height-correlated Smith, Schlick; of a light without area and of a disc. Layer 5.
  *
  * A disc is asked for its mean. Let s be the slope (tangent of the angle to n) of the half vector h = (l + v) / |l +
  * v|. GGX's density of slopes, a2 / (pi (a2 + s^2)^2), is what a sphere's surface becomes by stereographic
@@ -14,13 +14,13 @@
  *
  * Discs stand for surfaces that go on beside them. Where the lobe is sharper than a disc, discs side by side would
  * show, with gaps and overlaps: so alpha^2 grows by a part of t^2. An even wall of 64 texels in a floor of roughness
- * 0.1 | 0.2 (unit/gloss) is off by 20 | 8 % at its worst by 1/4, by 14 | 1 % by 1/2, by 8 | 2 % by 1. */
+ * 0.1 | 0.2 (unit/glossy reflection) is off by 20 | 8 % at its worst by 1/4, by 14 | 1 % by 1/2, by 8 | 2 % by 1. */
 #ifndef LMB_LOBE_FORMULA
 #define LMB_LOBE_FORMULA
 
 #define LOBE_WIDEN  0.5f   /* of t^2: added to alpha^2 */
-#define LOBE_LEAST  1e-3f  /* of cosines: lights and viewers that graze more count as if they did not */
-#define LOBE_LEAST2 1e-12f /* of t^2: far under any alpha^2 */
+#define LOBE_MIN    1e-3f  /* of cosines: lights and viewers that graze more count as if they did not */
+#define LOBE_MIN2   1e-12f /* of t^2: far under any alpha^2 */
 #define LOBE_RISE   1e-2f  /* 1 - v.h is at least this: its fifth power stays a number far from the least ones */
 #define LOBE_DARK   1e-6f  /* of D V: what is under it is 0 */
 #define LOBE_E_DARK 1e-20f /* W/m2: the same of light */
@@ -31,14 +31,14 @@ typedef struct lobe_pixels {
     lane facing, a2;
 } lobe_pixels;
 
-static inline lobe_pixels lobe_load(const lmb_gloss *gloss, const lmb_tile *tile, int k)
+static inline lobe_pixels lobe_load(const lmb_glossy *glossy, const lmb_tile *tile, int k)
 {
     lobe_pixels p;
     p.n = lane3_load(tile->normal, k);
-    p.v = lane3_load(gloss->towards, k);
-    p.specular = lane3_load(gloss->specular, k);
-    p.facing = lane_load(gloss->facing + k);
-    p.a2 = lane_load(gloss->alpha2 + k);
+    p.v = lane3_load(glossy->towards, k);
+    p.specular = lane3_load(glossy->specular, k);
+    p.facing = lane_load(glossy->facing + k);
+    p.a2 = lane_load(glossy->alpha2 + k);
     return p;
 }
 
@@ -46,14 +46,14 @@ static inline lobe_pixels lobe_load(const lmb_gloss *gloss, const lmb_tile *tile
 static inline lane lobe_value(lane *rise, const lobe_pixels *p, lane3 to, lane w)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
-    const lane nv = p->facing, nl = lane_max(lane3_dot(p->n, to), lane_splat(LOBE_LEAST));
+    const lane nv = p->facing, nl = lane_max(lane3_dot(p->n, to), lane_splat(LOBE_MIN));
     const lane3 h = lane3_add(to, p->v), off = lane3_sub(h, lane3_scale(p->n, lane3_dot(p->n, h)));
-    const lane hh = lane_max(lane3_dot(h, h), lane_splat(LOBE_LEAST2));
+    const lane hh = lane_max(lane3_dot(h, h), lane_splat(LOBE_MIN2));
     /* With c = |h| n.h: s^2 = off^2 / c^2, t^2 = w hh / (2 pi c^3), D = density (hh / c^2)^2. */
     const lane ic = lane_div(one, lane_add(nl, nv)), ic2 = lane_mul(ic, ic), hc = lane_mul(hh, ic2);
     const lane s2 = lane_mul(lane3_dot(off, off), ic2);
     const lane t2 =
-        lane_max(lane_mul(lane_mul(w, lane_splat(0.15915494f)), lane_mul(hc, ic)), lane_splat(LOBE_LEAST2));
+        lane_max(lane_mul(lane_mul(w, lane_splat(0.15915494f)), lane_mul(hc, ic)), lane_splat(LOBE_MIN2));
     const lane a2 = lane_add(p->a2, lane_mul(lane_splat(LOBE_WIDEN), t2));
     const lane q = lane_sub(lane_add(a2, s2), t2), twice = lane_add(a2, a2);
     const lane root = lane_sqrt(lane_add(lane_mul(q, q), lane_mul(lane_add(twice, twice), t2)));
@@ -66,8 +66,8 @@ static inline lane lobe_value(lane *rise, const lobe_pixels *p, lane3 to, lane w
     const lane by_v = lane_mul(nv, lane_sqrt(lane_add(p->a2, lane_mul(rest, lane_mul(nl, nl)))));
     const lane v = lane_div(lane_splat(0.15915494f), lane_add(by_l, by_v)); /* / pi, of the density */
     const lane mean = lane_mul(lane_mul(lane_div(top, bottom), lane_mul(hc, hc)), v);
-    const lane most = lane_div(one, lane_mul(nl, lane_max(w, lane_splat(LOBE_LEAST2))));
-    const lane value = lane_min(mean, most);
+    const lane max = lane_div(one, lane_mul(nl, lane_max(w, lane_splat(LOBE_MIN2))));
+    const lane value = lane_min(mean, max);
     const lane low = lane_max(lane_sub(one, lane_mul(lane_splat(0.5f), lane_sqrt(hh))), lane_splat(LOBE_RISE));
     const lane low2 = lane_mul(low, low);
     *rise = lane_mul(lane_mul(low2, low2), low);
@@ -92,9 +92,9 @@ static inline lane3 lobe_add(lane3 sum, const lobe_pixels *p, lane3 to, lane w, 
     return sum;
 }
 
-static inline lane3 lobe_sum(const lmb_gloss *gloss, int k) { return lane3_load(gloss->rgb, k); }
+static inline lane3 lobe_sum(const lmb_glossy *glossy, int k) { return lane3_load(glossy->rgb, k); }
 
-static inline void lobe_store(lmb_gloss *out, int k, lane3 sum)
+static inline void lobe_store(lmb_glossy *out, int k, lane3 sum)
 {
     lane_store(out->rgb[0] + k, sum.x);
     lane_store(out->rgb[1] + k, sum.y);
@@ -106,8 +106,8 @@ static inline void lobe_store(lmb_gloss *out, int k, lane3 sum)
 #ifdef KERNEL
 
 /* Pixels without a lobe stay as they are. */
-static void KERNEL(gloss_direct)(lmb_gloss *inout, const lmb_tile *tile, const lmb_irradiance *lit,
-                                 const lmb_light *light)
+static void KERNEL(glossy_direct)(lmb_glossy *inout, const lmb_tile *tile, const lmb_irradiance *lit,
+                                  const lmb_light *light)
 {
     const lane one = lane_splat(1.0f);
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {

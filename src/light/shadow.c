@@ -1,4 +1,4 @@
-/* shadow.c: is a point of a surface lit, by the light's map? Floor 5.                                        [V7]
+/* shadow.c: is a point of a surface lit, by the shadow map? Layer 5.                                         [V7]
  *
  * A map's depth answers for the middle of a texel only: elsewhere it needs a bias, which leaks or freckles. Its ids
  * answer everywhere: the triangles named by the four texels around the point are looked up at the point's own place
@@ -27,7 +27,7 @@ typedef struct place {
     lmb_vec3 towards; /* from the receiver to the light; directional: unit length */
 } place;
 
-static int32_t choose_face(const lmb_light_map *map, lmb_vec3 d)
+static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
 {
     lmb_vec3 a = vec3(absf(d.x), absf(d.y), absf(d.z));
     if (map->faces == 1) {
@@ -40,10 +40,10 @@ static int32_t choose_face(const lmb_light_map *map, lmb_vec3 d)
 }
 
 /* 0 where the receiver is outside the map: then nothing can shadow it (spots: it is outside the cone). */
-static int find_place(place *out, const lmb_light_map *map, const lmb_light *light, lmb_vec3 p)
+static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
 {
     const int directional = light->kind == LMB_LIGHT_DIRECTIONAL;
-    int32_t f = LMB_TREES && directional ? lmb_light_map_part(map, p) : choose_face(map, sub3(p, light->position));
+    int32_t f = LMB_TREES && directional ? lmb_shadow_map_part(map, p) : choose_face(map, sub3(p, light->position));
     const lmb_view *v = &map->view[f];
     lmb_vec3 d = sub3(p, v->eye);
     float w = -dot3(v->back, d), size = (float)map->size;
@@ -121,8 +121,8 @@ static int lit_by_depth(const place *at, const lmb_receiver *r, int32_t x, int32
     lmb_vec3 from = perspective ? v->eye : add3(v->eye, across),
              ray = perspective ? sub3(across, v->back) : mul3(v->back, -1.0f);
     float slope = dot3(r->face, ray), texel = 2.0f * v->half_width / size * (perspective ? at->w : 1.0f);
-    /* On a plane seen edge-on the texel's middle says nothing. Farther than 16 texels behind the point neither does the
-     * plane of a curved surface; before it, a convex edge is. */
+    /* On a plane seen edge-on the centre of the texel carries no information. Nor does the plane of a curved surface
+     * more than 16 texels behind the point; in front of it there may be a convex edge. */
     if (absf(slope) < 1e-3f) {
         return 1;
     }
@@ -130,7 +130,7 @@ static int lit_by_depth(const place *at, const lmb_receiver *r, int32_t x, int32
     return lmb_depth_view_z(v, d) >= own - texel - r->noise;
 }
 
-int lmb_is_lit(const lmb_light_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *r)
+int lmb_is_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *r)
 {
     place at;
     int over = 0;

@@ -1,4 +1,4 @@
-/* shadow.h: is a point of a surface lit, by the light's map? Floor 5. */
+/* shadow.h: is a point of a surface lit, by the shadow map? Layer 5. */
 #ifndef LMB_LIGHT_SHADOW_H
 #define LMB_LIGHT_SHADOW_H
 
@@ -11,6 +11,6 @@ typedef struct lmb_receiver {
     float noise;             /* m: what rounding may have moved the position by */
 } lmb_receiver;
 
-int lmb_is_lit(const lmb_light_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *receiver);
+int lmb_is_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *receiver);
 
 #endif

@@ -1,4 +1,4 @@
-/* box.h: oriented boxes: what is asked of them does not depend on how the world is turned. Floor 7. */
+/* box.h: oriented boxes: what is asked of them does not depend on how the world is turned. Layer 7. */
 #ifndef LMB_LIGHTCUT_BOX_H
 #define LMB_LIGHTCUT_BOX_H
 
@@ -15,8 +15,8 @@ static inline lmb_vec3 box_across(lmb_vec3 normal, lmb_vec3 towards)
         return normalize3(part);
     }
     const lmb_vec3 a = vec3(absf(normal.x), absf(normal.y), absf(normal.z));
-    const lmb_vec3 least = a.x <= a.y && a.x <= a.z ? vec3(1, 0, 0) : a.y <= a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
-    return normalize3(cross3(normal, least));
+    const lmb_vec3 min = a.x <= a.y && a.x <= a.z ? vec3(1, 0, 0) : a.y <= a.z ? vec3(0, 1, 0) : vec3(0, 0, 1);
+    return normalize3(cross3(normal, min));
 }
 
 static inline lmb_vec3 longer3(lmb_vec3 a, lmb_vec3 b) { return dot3(a, a) >= dot3(b, b) ? a : b; }

@@ -1,4 +1,4 @@
-/* crease.c: where two planes show in one texel of a light's map: its sides, and its exact shape. Floor 7.       [V15]
+/* crease.c: where two planes show in one texel of a shadow map: its sides, and its exact shape. Layer 7.        [V15]
  *
  * A texel's middle says which surface it shows; near an edge it shows two. Along the line through two texels' middles a
  * plane's 1 / w (from a light's place) or w (of a sun) is linear, so two planes meet where the difference is 0: there
@@ -73,8 +73,8 @@ static float planes_meet(const lmb_view *v, const pair *p)
     return here * there < 0.0f && share > 0.0f && share < 1.0f ? share : 0.0f;
 }
 
-/* Let a reach towards b up to an edge, and b towards a: rounded so that there is no gap between them, and that neither
- * looks whole. */
+/* Extend texel a towards b up to their common edge, and b towards a. The extents are rounded so that no gap remains
+ * between the two, and so that neither is mistaken for a whole texel. */
 static void set_edge(const lmb_view *v, const pair *p, int a_side, int b_side)
 {
     const float share = same_plane(p->a, p->b) ? 0.0f : planes_meet(v, p);
@@ -120,13 +120,13 @@ typedef struct cell {
     int planes;
 } cell;
 
-static const lmb_texel *neighbour(const lmb_tree *tree, lmb_tree_place at, int side)
+static const lmb_texel *neighbour(const lmb_tree *tree, lmb_node_ref at, int side)
 {
     return tree_texel(tree, at.face, at.x + (side == SIDE_RIGHT) - (side == SIDE_LEFT),
                       at.y + (side == SIDE_DOWN) - (side == SIDE_UP));
 }
 
-static void cell_at(cell *out, const lmb_tree *tree, lmb_tree_place at)
+static void cell_at(cell *out, const lmb_tree *tree, lmb_node_ref at)
 {
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
     out->plane[0] = own;
@@ -174,13 +174,14 @@ static int clip_to(place *inout, int corners, const lmb_view *v, const lmb_texel
 }
 
 /* Texel a's part of a cell of which all planes are known. Its own middle says which side of each line it is on. */
-static int shape_in(place *out, const cell *c, const lmb_view *v, int32_t size, lmb_tree_place at, place middle,
+static int shape_in(place *out, const cell *c, const lmb_view *v, int32_t size, lmb_node_ref at, place middle,
                     const lmb_texel *a)
 {
     const place m = middle_of(v, size, at.x, at.y);
     const float px = v->half_width / (float)size, py = v->half_height / (float)size;
     int corners = 4;
-    /* One by one: from a loop that picks by i == 1 || i == 2, gcc 12.2 for Helium picks for 1, 2 and 3. */
+    /* Written out instead of a loop: gcc 12.2 for Helium miscompiles the condition i == 1 || i == 2 in a loop, and
+     * selects 1, 2 and 3. */
     out[0].x = out[3].x = m.x - px;
     out[1].x = out[2].x = m.x + px;
     out[0].y = out[1].y = m.y - py;
@@ -203,12 +204,12 @@ static int represents(const cell *c, const lmb_texel *a)
 }
 
 /* Part 0: of the texel's own cell; 1 .. 4: of its neighbours'. */
-static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part)
+static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
 {
     const lmb_view *v = &tree->view[at.face];
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
     const int side = part - 1;
-    lmb_tree_place where = at;
+    lmb_node_ref where = at;
     cell c;
     if (part > 0) {
         if (own->side[side] == SIDE_WHOLE) {
@@ -222,7 +223,7 @@ static int part_of(place out[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_pla
 }
 
 /* Does the plane run away from the light, at the texel's middle or from there to one of the corners? */
-APART int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const place *corner, int corners)
+NOINLINE int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const place *corner, int corners)
 {
     if (v->kind != LMB_PERSPECTIVE) {
         return corners > 0 && dot3(own->normal, v->back) < GRAZE;
@@ -235,7 +236,7 @@ APART int is_steep(const lmb_view *v, const lmb_texel *own, place middle, const 
     return steep;
 }
 
-float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at)
+float lmb_crease_share(const lmb_tree *tree, lmb_node_ref at)
 {
     const lmb_view *v = &tree->view[at.face];
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
@@ -256,7 +257,7 @@ float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at)
     return 0.5f * twice / (wide * high);
 }
 
-int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part)
+int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part)
 {
     const lmb_texel *own = tree_texel(tree, at.face, at.x, at.y);
     place flat[CREASE_CORNERS];

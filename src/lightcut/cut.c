@@ -1,18 +1,18 @@
-/* cut.c: each tile of pixels takes its own cut through the light's tree, and is lit by it. Floor 7.    [V25 V27 V28]
+/* cut.c: each tile of pixels takes its own cut through the light tree, and is lit by it. Layer 7.      [V25 V27 V28]
  *
- * What a node may be wrong by is weigh.inl's. The largest is divided first: buckets by exponent and first bit find
- * it without sorting, in the same order everywhere. */
+ * What a node may be wrong by is node_bounds.inl's. The largest is divided first: buckets by exponent and first bit
+ * find it without sorting, in the same order everywhere. */
 #include <lambent/tree.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
-#include "../light/gloss.h"
+#include "../light/glossy.h"
 #include "../map/footprint.h"
-#include "../occlusion/walk.h"
+#include "../occlusion/traversal.h"
 #include "../raster/tile.h"
-#include "patch.h"
+#include "pixel_cluster.h"
 #include "tree.h"
 
 #if LMB_TREES
@@ -25,7 +25,7 @@
 #define CLOSER     0.7   /* a half that comes this much closer to what was asked for is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
-enum { AHEAD = LMB_WEIGH_NODES / 4 /* nodes whose parts are weighed together */ };
+enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes whose parts are bounded together */ };
 
 /* --- the cut ------------------------------------------------------------------------------------------------------ */
 
@@ -34,16 +34,16 @@ typedef struct cutter {
     const lmb_tree *tree;
     const lmb_tile *tile;
     const lmb_kernels *kernels;
-    const lmb_cutting *cutting;
-    const lmb_patch *p;
+    const lmb_cut_params *cut_params;
+    const lmb_pixel_cluster *p;
     float noise;         /* m: lmb_tile_noise of the patch */
-    uint64_t in_hull;    /* pixels of the patch in a convex room: nothing stands between them and others in it */
-    float per_pixel;     /* 1 / pixels of the patch */
-    int lobe;            /* a pixel whose lobe stands for the patch's; NONE: they have none */
+    uint64_t in_hull;    /* pixels of the cluster in a convex room: nothing stands between them and others in it */
+    float per_pixel;     /* 1 / pixels of the cluster */
+    int lobe;            /* a pixel whose lobe stands for the pixel cluster's; NONE: they have none */
     double beside;       /* what the pixels have beside the tree, in the mean */
-    int32_t ahead[AHEAD]; /* slots whose parts are weighed, four each, and not yet put; or NONE */
-    uint32_t faces;      /* of the weighed, those that do not face away */
-    const float *key;    /* what the buckets go by: cut->error or cut->most */
+    int32_t ahead[AHEAD]; /* slots whose parts are bounded, four each, and not yet put; or NONE */
+    uint32_t faces;      /* of the bounded nodes, those that do not face away */
+    const float *key;    /* what the buckets go by: cut->error or cut->upper */
     int highest;         /* no bucket over this has any */
     double error, value; /* sums; of value, what is seen */
     double floor;        /* W/m2, R + G + B: errors under this are no errors */
@@ -51,9 +51,9 @@ typedef struct cutter {
 
 static double maxd(double a, double b) { return a > b ? a : b; }
 
-static lmb_weighed *weighed_of(lmb_cut *c) { return (lmb_weighed *)(void *)c->weighed; }
+static lmb_node_bounds *weighed_of(lmb_cut *c) { return (lmb_node_bounds *)(void *)c->bounds_of_nodes; }
 
-static void set_vector(lmb_weighed *out, int plane, int k, lmb_vec3 v)
+static void set_vector(lmb_node_bounds *out, int plane, int k, lmb_vec3 v)
 {
     out->node[plane][k] = v.x;
     out->node[plane + 1][k] = v.y;
@@ -61,7 +61,7 @@ static void set_vector(lmb_weighed *out, int plane, int k, lmb_vec3 v)
 }
 
 /* A node of any level; `texel` holds one of level 0. */
-static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_tree_place at)
+static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_node_ref at)
 {
     if (at.level > 0) {
         return tree_node(tree, at);
@@ -70,70 +70,70 @@ static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_tree_p
     return texel;
 }
 
-/* Node k of those that are weighed together. */
-static void set_weighed(lmb_weighed *out, int k, const lmb_tree *tree, lmb_tree_place at)
+/* Node k of those that are bounded together. */
+static void set_bounded_node(lmb_node_bounds *out, int k, const lmb_tree *tree, lmb_node_ref at)
 {
     lmb_node texel;
     const lmb_node *n = node_at(&texel, tree, at);
-    set_vector(out, LMB_WEIGH_CENTRE, k, n->centre);
-    set_vector(out, LMB_WEIGH_NORMAL, k, n->normal);
-    set_vector(out, LMB_WEIGH_MIDDLE, k, n->middle);
-    set_vector(out, LMB_WEIGH_ACROSS, k, n->across);
-    set_vector(out, LMB_WEIGH_HALF, k, vec3(n->half[0], n->half[1], n->half[2]));
-    out->node[LMB_WEIGH_RADIUS][k] = n->radius;
-    out->node[LMB_WEIGH_FLUX][k] = flux_sum(n->flux);
-    out->node[LMB_WEIGH_AREA][k] = n->area;
-    out->node[LMB_WEIGH_COSINE][k] = n->cosine;
-    out->node[LMB_WEIGH_AGREEMENT][k] = n->agreement;
+    set_vector(out, LMB_BOUNDS_CENTRE, k, n->centre);
+    set_vector(out, LMB_BOUNDS_NORMAL, k, n->normal);
+    set_vector(out, LMB_BOUNDS_MIDDLE, k, n->middle);
+    set_vector(out, LMB_BOUNDS_ACROSS, k, n->across);
+    set_vector(out, LMB_BOUNDS_HALF, k, vec3(n->half[0], n->half[1], n->half[2]));
+    out->node[LMB_BOUNDS_RADIUS][k] = n->radius;
+    out->node[LMB_BOUNDS_FLUX][k] = flux_sum(n->flux);
+    out->node[LMB_BOUNDS_AREA][k] = n->area;
+    out->node[LMB_BOUNDS_COSINE][k] = n->cosine;
+    out->node[LMB_BOUNDS_AGREEMENT][k] = n->agreement;
 }
 
-static lmb_tree_place part_at(lmb_tree_place from, int k)
+static lmb_node_ref part_at(lmb_node_ref from, int k)
 {
-    lmb_tree_place at = from;
+    lmb_node_ref at = from;
     at.x = (uint16_t)(2 * from.x + (k & 1));
     at.y = (uint16_t)(2 * from.y + (k >> 1));
     at.level = (uint16_t)(from.level - 1);
     return at;
 }
 
-static lmb_vec3 weighed_vector(const lmb_weighed *w, int plane, int k)
+static lmb_vec3 bounds_vector(const lmb_node_bounds *w, int plane, int k)
 {
     return vec3(w->node[plane][k], w->node[plane + 1][k], w->node[plane + 2][k]);
 }
 
-/* A node counts by what the lobe makes of it too, in shares of what a white Lambertian would: pi D V F, in the mean
- * over as far as node and patch reach. That part is wrong by how far the lobe's middle value is from its mean over
- * the node. A rule, not a proof: what is proven is the irradiance. */
-static void weigh_lobe(cutter *c, int k)
+/* A node's value includes the response of the glossy lobe, relative to a white Lambertian surface: pi D V F, averaged
+ * over the extents of node and pixel cluster. The error of that part is the difference between the lobe's central value
+ * and its mean over the node. This is an estimate; only the bound of the irradiance is conservative. */
+static void bound_lobe(cutter *c, int k)
 {
-    lmb_weighed *w = weighed_of(c->cut);
-    const lmb_vec3 to = sub3(weighed_vector(w, LMB_WEIGH_CENTRE, k), c->p->centre);
+    lmb_node_bounds *w = weighed_of(c->cut);
+    const lmb_vec3 to = sub3(bounds_vector(w, LMB_BOUNDS_CENTRE, k), c->p->centre);
     const float *half = c->p->half;
-    const float d2 = maxf(dot3(to, to), 1e-24f), node = w->node[LMB_WEIGH_RADIUS][k],
+    const float d2 = maxf(dot3(to, to), 1e-24f), node = w->node[LMB_BOUNDS_RADIUS][k],
                 both = node + sqrtf(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
-    const lmb_gloss *gloss = c->cutting->gloss;
-    const float far = lmb_gloss_factor(gloss, c->tile, c->lobe, to, minf(PI * both * both / d2, 2.0f * PI));
-    const float mean = lmb_gloss_factor(gloss, c->tile, c->lobe, to, minf(PI * node * node / d2, 2.0f * PI));
-    const float middle = lmb_gloss_factor(gloss, c->tile, c->lobe, to, 0.0f);
+    const lmb_glossy *glossy = c->cut_params->glossy;
+    const float far = lmb_glossy_factor(glossy, c->tile, c->lobe, to, minf(PI * both * both / d2, 2.0f * PI));
+    const float mean = lmb_glossy_factor(glossy, c->tile, c->lobe, to, minf(PI * node * node / d2, 2.0f * PI));
+    const float middle = lmb_glossy_factor(glossy, c->tile, c->lobe, to, 0.0f);
     const float gain = PI * far, off = absf(middle - mean) / maxf(middle + mean, 1e-12f);
-    w->error[k] += w->most[k] * gain * off;
-    w->most[k] *= 1.0f + gain;
+    w->error[k] += w->upper[k] * gain * off;
+    w->upper[k] *= 1.0f + gain;
     w->value[k] *= 1.0f + gain;
 }
 
 /* Up to the next whole vector there is nothing. */
-static void weigh(cutter *c, int count)
+static void node_bounds(cutter *c, int count)
 {
-    lmb_weighed *w = weighed_of(c->cut);
+    lmb_node_bounds *w = weighed_of(c->cut);
     for (int k = count; k % c->kernels->lanes != 0; ++k) {
-        for (int i = 0; i < LMB_WEIGH_PLANES; ++i) {
+        for (int i = 0; i < LMB_BOUNDS_PLANES; ++i) {
             w->node[i][k] = 0.0f;
         }
     }
-    c->faces = c->kernels->weigh(w, count, c->p, c->cutting->proven);
+    c->faces = c->kernels->node_bounds(w, count, c->p, c->cut_params->conservative);
     for (int k = 0; k < count && c->lobe != NONE; ++k) {
         if (c->faces >> k & 1u) {
-            weigh_lobe(c, k);
+            bound_lobe(c, k);
         }
     }
 }
@@ -148,7 +148,7 @@ static int bucket_of(float key)
 /* Texels cannot be divided: they wait in no bucket. */
 static void wait(cutter *c, int32_t i)
 {
-    if (c->cut->place[i].level > 0) {
+    if (c->cut->ref[i].level > 0) {
         const int b = bucket_of(c->key[i]);
         c->cut->next[i] = c->cut->bucket[b];
         c->cut->bucket[b] = i;
@@ -178,17 +178,18 @@ static double seen_value(const cutter *c, int32_t i)
     return (double)(c->cut->value[i] * ((float)count_bits_64(c->cut->visible[i]) * c->per_pixel));
 }
 
-/* Errors of many nodes are as often too much as too little: their squares add up. A proof takes each at its worst. */
+/* The errors of many nodes have either sign, so their squares are added. The conservative bound adds their absolute
+ * values. */
 static double counted_error(const cutter *c, int32_t i)
 {
     const double e = (double)c->cut->error[i];
-    return c->cutting->proven ? e : e * e;
+    return c->cut_params->conservative ? e : e * e;
 }
 
 static double allowed_error(const cutter *c)
 {
-    const double most = (double)c->cutting->error * (c->beside + c->value);
-    return c->cutting->proven ? most : maxd(most * most, c->floor * c->floor);
+    const double upper = (double)c->cut_params->error * (c->beside + c->value);
+    return c->cut_params->conservative ? upper : maxd(upper * upper, c->floor * c->floor);
 }
 
 static void count_in(cutter *c, int32_t i, double sign)
@@ -197,33 +198,35 @@ static void count_in(cutter *c, int32_t i, double sign)
     c->error += sign * counted_error(c, i);
 }
 
-/* Node k of the weighed into slot i. */
-static void put(cutter *c, int32_t i, lmb_tree_place at, int k, uint64_t visible)
+/* Node k of the bounded nodes into slot i. */
+static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
 {
-    const lmb_weighed *w = weighed_of(c->cut);
-    c->cut->place[i] = at;
+    const lmb_node_bounds *w = weighed_of(c->cut);
+    c->cut->ref[i] = at;
     c->cut->error[i] = at.level > 0 ? w->error[k] : 0.0f;
     c->cut->value[i] = w->value[k];
-    c->cut->most[i] = w->most[k];
+    c->cut->upper[i] = w->upper[k];
     c->cut->visible[i] = visible;
     count_in(c, i, 1.0);
 }
 
-/* Have all pixels of the patch the point before them, and are they before it? By its box, never where one is not: most
- * nodes need not be asked pixel by pixel. A unit vector at an angle of sine s, under 90 degrees, is within 1.5 s. */
+/* Have all pixels of the cluster the point before them, and are they before it? By its box, never where one is not:
+ * most nodes need not be asked pixel by pixel. A unit vector at an angle of sine s, under 90 degrees, is within 1.5 s.
+ * */
 static int all_before(const cutter *c, const lmb_texel *seen, float ends)
 {
-    const lmb_patch *p = c->p;
+    const lmb_pixel_cluster *p = c->p;
     const lmb_vec3 d = sub3(seen->position, p->centre);
     const float far = length3(d) + p->half[0] + p->half[1] + p->half[2];
     const float noise = ends + 4.0f * p->noise + 2.0f * LMB_NOISE_TRIANGLE * far;
-    return dot3(p->normal, d) - lmb_patch_reach(p, p->normal) - (1.5f * p->face_sine + 1e-3f) * far > noise &&
-           -dot3(seen->normal, d) - lmb_patch_reach(p, seen->normal) - 1e-5f * far > noise;
+    return dot3(p->normal, d) - lmb_pixel_cluster_reach(p, p->normal) - (1.5f * p->face_sine + 1e-3f) * far > noise &&
+           -dot3(seen->normal, d) - lmb_pixel_cluster_reach(p, seen->normal) - 1e-5f * far > noise;
 }
 
-/* Of `pixels`, those that do not have the point before them, or are not before it, by more than what a wall does not
- * block: it does not block what lies on it, so who stands behind it must not be asked past it. */
-APART uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen, float ends)
+/* Returns those of `pixels` for which the point is not in front of the pixel, or the pixel not in front of the point,
+ * by more than the offset within which a wall never occludes. A wall does not occlude what lies on it, so segments from
+ * pixels behind it must not be tested. */
+NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *seen, float ends)
 {
     uint64_t out = 0;
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
@@ -236,44 +239,45 @@ APART uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel *se
     return out;
 }
 
-/* Are a first point and the patch's middle before each other? */
-static int is_before(const lmb_patch *p, lmb_vec3 at, lmb_vec3 normal)
+/* Are a first point and the pixel cluster's middle before each other? */
+static int is_before(const lmb_pixel_cluster *p, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_vec3 d = sub3(at, p->centre);
     return dot3(p->normal, d) > 0.0f && dot3(normal, d) < 0.0f;
 }
 
-static const lmb_texel *own_point(const lmb_tree *tree, lmb_tree_place at)
+static const lmb_texel *own_point(const lmb_tree *tree, lmb_node_ref at)
 {
     return at.level > 0 ? tree_texel(tree, at.face, 0, 0) + tree_node(tree, at)->texel
                         : tree_texel(tree, at.face, at.x, at.y);
 }
 
-/* Of a node's parts the one that sends the patch most as a disc; its level is the node's where none sends any. */
-static lmb_tree_place brightest_part(const cutter *c, lmb_tree_place from)
+/* Returns the child that sends most light to the pixel cluster, taken as a disc. Where no child sends any, the level
+ * returned is the node's own. */
+static lmb_node_ref brightest_part(const cutter *c, lmb_node_ref from)
 {
-    lmb_tree_place best = from;
-    float most = 0.0f;
+    lmb_node_ref best = from;
+    float upper = 0.0f;
     for (int k = 0; k < 4; ++k) {
-        const lmb_tree_place at = part_at(from, k);
+        const lmb_node_ref at = part_at(from, k);
         lmb_node texel;
         const lmb_node *n = node_at(&texel, c->tree, at);
         const float flux = flux_sum(n->flux);
         const float sent = flux > 0.0f && is_before(c->p, n->centre, n->normal)
                                ? flux * lmb_disc_factor(c->p->centre, c->p->normal, n->centre, n->normal, n->area)
                                : 0.0f;
-        best = sent > most ? at : best;
-        most = maxf(most, sent);
+        best = sent > upper ? at : best;
+        upper = maxf(upper, sent);
     }
     return best;
 }
 
 /* Where a node's visibility is asked: at its own first point, or, where that faces away, at one that does not. */
-static const lmb_texel *asked_point(const cutter *c, lmb_tree_place at)
+static const lmb_texel *asked_point(const cutter *c, lmb_node_ref at)
 {
     const lmb_texel *own = own_point(c->tree, at), *seen = own;
     while (at.level > 0 && !is_before(c->p, seen->position, seen->normal)) {
-        const lmb_tree_place part = brightest_part(c, at);
+        const lmb_node_ref part = brightest_part(c, at);
         if (part.level == at.level) {
             return own;
         }
@@ -289,40 +293,41 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are. */
+/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are.
+ * */
 static void ask(cutter *c, int32_t i)
 {
-    const lmb_tree_place at = c->cut->place[i];
+    const lmb_node_ref at = c->cut->ref[i];
     const lmb_texel *seen = asked_point(c, at);
     const float noise = c->noise + texel_noise(c, at.face, seen->position);
     count_in(c, i, -1.0);
     if (c->tree->element != NULL && !all_before(c, seen, noise)) {
         c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen, noise);
     }
-    if (c->cutting->stats != NULL) {
-        c->cutting->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
+    if (c->cut_params->stats != NULL) {
+        c->cut_params->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
     }
     uint64_t asked = c->cut->visible[i];
-    if ((asked & c->in_hull) != 0 && lmb_hull_holds(&c->cutting->blockers->hull, seen->position)) {
+    if ((asked & c->in_hull) != 0 && lmb_hull_holds(&c->cut_params->bvh->hull, seen->position)) {
         asked &= ~c->in_hull;
     }
     c->cut->visible[i] &=
-        ~lmb_blocked_tile(c->cutting->blockers, c->kernels, c->tile, asked, seen->position, noise,
-                          &c->cut->use.walk);
+        ~lmb_occluded_tile(c->cut_params->bvh, c->kernels, c->tile, asked, seen->position, noise,
+                          &c->cut->use.traversal);
     count_in(c, i, 1.0);
 }
 
 /* Weigh the parts of the node in slot i, and of those next in line: nine of ten are divided next. */
-static void weigh_parts(cutter *c, int32_t i)
+static void bound_parts(cutter *c, int32_t i)
 {
-    const int most = maxi(c->kernels->lanes / 4, 1);
+    const int upper = maxi(c->kernels->lanes / 4, 1);
     int count = 0, b = c->highest;
     for (int k = 0; k < AHEAD; ++k) {
         c->ahead[k] = NONE;
     }
-    for (int32_t next = i; next != NONE && count < most; ++count) {
+    for (int32_t next = i; next != NONE && count < upper; ++count) {
         for (int k = 0; k < 4; ++k) {
-            set_weighed(weighed_of(c->cut), 4 * count + k, c->tree, part_at(c->cut->place[next], k));
+            set_bounded_node(weighed_of(c->cut), 4 * count + k, c->tree, part_at(c->cut->ref[next], k));
         }
         c->ahead[count] = next;
         next = next == i ? c->cut->bucket[b] : c->cut->next[next];
@@ -330,10 +335,10 @@ static void weigh_parts(cutter *c, int32_t i)
             next = c->cut->bucket[b];
         }
     }
-    weigh(c, 4 * count);
+    node_bounds(c, 4 * count);
 }
 
-/* The first of the four parts of the node in slot i, among the weighed. */
+/* The first of the four parts of the node in slot i, among the bounded nodes. */
 static int parts_of(cutter *c, int32_t i)
 {
     int k = 0;
@@ -341,7 +346,7 @@ static int parts_of(cutter *c, int32_t i)
         ++k;
     }
     if (k == AHEAD) {
-        weigh_parts(c, i);
+        bound_parts(c, i);
         k = 0;
     }
     c->ahead[k] = NONE;
@@ -351,11 +356,11 @@ static int parts_of(cutter *c, int32_t i)
 /* Put the four parts of the node in slot i in its place: the first in its slot, the others at the end. */
 static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 {
-    const lmb_tree_place from = c->cut->place[i];
+    const lmb_node_ref from = c->cut->ref[i];
     const int first = parts_of(c, i);
     int32_t slot = i;
     count_in(c, i, -1.0);
-    c->cut->place[i].level = GONE;
+    c->cut->ref[i].level = GONE;
     for (int k = 0; k < 4; ++k) {
         if (c->faces >> (first + k) & 1u) {
             const int32_t to = slot >= 0 ? slot : c->cut->count++;
@@ -372,21 +377,22 @@ static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; }
 
 /* What a node may give whose visibility is asked as one. */
-static double allowed_most(const cutter *c, double least)
+static double allowed_upper(const cutter *c, double lower)
 {
-    return maxd((double)c->cutting->visible * (c->beside + maxd(c->value, least)), c->floor);
+    return maxd((double)c->cut_params->visibility * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
-/* Divide the one that can give most until none is over what is allowed. Where room ends, how far over it is. */
-static double divide_by_most(cutter *c, double least, int asks)
+/* Subdivide the node with the largest upper bound until no node exceeds the allowed bound. Returns 0, or, where the cut
+ * is full, by what factor the largest exceeds it. */
+static double divide_by_upper(cutter *c, double lower, int asks)
 {
     int32_t i = largest(c);
-    while (i != NONE && has_room(c) && (double)c->cut->most[i] > allowed_most(c, least)) {
+    while (i != NONE && has_room(c) && (double)c->cut->upper[i] > allowed_upper(c, lower)) {
         c->cut->bucket[c->highest] = c->cut->next[i];
         divide(c, i, c->p->pixels, asks);
         i = largest(c);
     }
-    return i != NONE && !has_room(c) ? (double)c->cut->most[i] / maxd(allowed_most(c, least), 1e-30) : 0.0;
+    return i != NONE && !has_room(c) ? (double)c->cut->upper[i] / maxd(allowed_upper(c, lower), 1e-30) : 0.0;
 }
 
 static double divide_by_error(cutter *c)
@@ -405,7 +411,7 @@ static int is_right(cutter *c)
 {
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
-        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+        if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
             c->error += counted_error(c, i);
         }
     }
@@ -413,21 +419,21 @@ static int is_right(cutter *c)
 }
 
 /* The faces' roots. */
-APART void begin(cutter *c)
+NOINLINE void begin(cutter *c)
 {
     c->cut->count = 0;
     c->error = c->value = 0.0;
-    empty_buckets(c, c->cut->most);
-    for (uint32_t first = 0; first < c->tree->faces; first += LMB_WEIGH_NODES) {
-        lmb_tree_place root[LMB_WEIGH_NODES];
-        const int count = mini((int32_t)(c->tree->faces - first), LMB_WEIGH_NODES);
+    empty_buckets(c, c->cut->upper);
+    for (uint32_t first = 0; first < c->tree->faces; first += LMB_BOUNDS_NODES) {
+        lmb_node_ref root[LMB_BOUNDS_NODES];
+        const int count = mini((int32_t)(c->tree->faces - first), LMB_BOUNDS_NODES);
         for (int k = 0; k < count; ++k) {
             root[k].face = (uint16_t)(first + (uint32_t)k);
             root[k].x = root[k].y = 0;
             root[k].level = (uint16_t)tree_root_level(c->tree);
-            set_weighed(weighed_of(c->cut), k, c->tree, root[k]);
+            set_bounded_node(weighed_of(c->cut), k, c->tree, root[k]);
         }
-        weigh(c, count);
+        node_bounds(c, count);
         for (int k = 0; k < count && c->cut->count < LMB_MAX_CUT; ++k) {
             if (c->faces >> k & 1u) {
                 put(c, c->cut->count, root[k], k, c->p->pixels);
@@ -446,28 +452,28 @@ static void wait_by_error(cutter *c)
     empty_buckets(c, c->cut->error);
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
-        if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
+        if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
             c->error += counted_error(c, i);
             wait(c, i);
         }
     }
 }
 
-/* First nodes so small that each may be seen or not as one; then, of those that are seen, smaller ones. Returns how far
- * the worst is over what is allowed where there was no room for more; else 0. */
+/* First subdivide until each node is small enough for one visibility test; then subdivide the visible ones further.
+ * Returns by what factor the worst node exceeds the allowed error where the cut is full; else 0. */
 static double take_cut(cutter *c)
 {
     double over = 0.0;
     begin(c);
-    if (c->cutting->blockers != NULL) {
-        divide_by_most(c, 0.0, 0);
-        const double least = c->value * DARK;
+    if (c->cut_params->bvh != NULL) {
+        divide_by_upper(c, 0.0, 0);
+        const double lower = c->value * DARK;
         for (int32_t i = 0; i < c->cut->count; ++i) {
-            if (c->cut->place[i].level != GONE) {
+            if (c->cut->ref[i].level != GONE) {
                 ask(c, i);
             }
         }
-        over = divide_by_most(c, least, 1);
+        over = divide_by_upper(c, lower, 1);
     }
     wait_by_error(c);
     do {
@@ -487,7 +493,7 @@ typedef struct leaf {
     int is_crease;              /* planes meet in it: its shape is no quad */
 } leaf;
 
-static void leaf_at(leaf *out, const lmb_tree *tree, lmb_tree_place at)
+static void leaf_at(leaf *out, const lmb_tree *tree, lmb_node_ref at)
 {
     out->is_crease = lmb_tree_texel_quad(&out->node, &out->u, &out->v, tree, at.face, at.x, at.y);
     out->element = tree_element(tree, at.x, at.y);
@@ -525,7 +531,7 @@ static void add_flux(lmb_irradiance *inout, int k, float factor, const float flu
 }
 
 /* A texel where planes meet, as its plane shows it. */
-static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, uint64_t pixels)
+static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, uint64_t pixels)
 {
     const lmb_texel *t = tree_texel(c->tree, at.face, at.x, at.y);
     lmb_vec3 corner[CREASE_CORNERS], u, v;
@@ -561,9 +567,10 @@ static lmb_vec3 leaf_part(const leaf *l, int i)
     return add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), down), mul3(sub3(corner[2], corner[1]), across)));
 }
 
-/* What the pixel's lobe makes of a near leaf, by discs of its parts: by one the leaf's middle would show as a spot.
- * Nearer to its plane than a part is wide, a mirror shows less of it than there is. */
-static void add_gloss(const cutter *c, int k, const leaf *l)
+/* The glossy lobe's response to a near leaf, as the sum over discs for its parts: a single disc would show as a bright
+ * spot at the leaf's centre. At distances under the width of a part from the leaf's plane the reflection is too dark.
+ * */
+static void add_glossy(const cutter *c, int k, const leaf *l)
 {
     const lmb_vec3 at = tile_vec(c->tile->position, k), face = tile_vec(c->tile->face, k),
                    normal = tile_vec(c->tile->normal, k);
@@ -577,28 +584,28 @@ static void add_gloss(const cutter *c, int k, const leaf *l)
         const float factor = share * lmb_disc_factor(at, normal, part, n->normal, area);
         if (dot3(face, to) > 0.0f && factor > 0.0f) {
             const float r2 = maxf(dot3(to, to), 1e-24f), size = area / (r2 + area * INVERSE_PI);
-            lmb_gloss_add(c->cutting->gloss, c->tile, k, to, size * maxf(-dot3(n->normal, to), 0.0f) / sqrtf(r2),
-                          vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
+            lmb_glossy_add(c->cut_params->glossy, c->tile, k, to, size * maxf(-dot3(n->normal, to), 0.0f) / sqrtf(r2),
+                           vec3(factor * n->flux[0], factor * n->flux[1], factor * n->flux[2]));
         }
     }
 }
 
 /* Those of some pixels that have a lobe. */
-static void add_near_gloss(const cutter *c, const leaf *l, uint64_t pixels)
+static void add_near_glossy(const cutter *c, const leaf *l, uint64_t pixels)
 {
-    const uint64_t own = c->cutting->gloss != NULL ? c->cutting->gloss->pixels & pixels : 0;
+    const uint64_t own = c->cut_params->glossy != NULL ? c->cut_params->glossy->pixels & pixels : 0;
     for (uint64_t bits = own; bits != 0; bits &= bits - 1) {
-        add_gloss(c, lowest_bit_64(bits), l);
+        add_glossy(c, lowest_bit_64(bits), l);
     }
 }
 
 /* A leaf so near that its shape counts: pixel by pixel. */
-APART void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, const leaf *l, uint64_t visible)
+NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
     const lmb_node *n = &l->node;
     const uint64_t near = near_pixels(tile, l, visible);
-    add_near_gloss(c, l, visible);
+    add_near_glossy(c, l, visible);
     if (l->is_crease && near != 0) {
         add_crease(inout, c, at, near);
         visible &= ~near;
@@ -618,9 +625,9 @@ APART void add_near(lmb_irradiance *inout, const cutter *c, lmb_tree_place at, c
 }
 
 /* Is some of the patch near the leaf? */
-static int is_near(const lmb_patch *p, const leaf *l)
+static int is_near(const lmb_pixel_cluster *p, const leaf *l)
 {
-    return lmb_patch_apart2(p, l->node.centre) < LMB_NEAR * LMB_NEAR * l->half2;
+    return lmb_pixel_cluster_distance2(p, l->node.centre) < LMB_NEAR * LMB_NEAR * l->half2;
 }
 
 static void set_emitter(lmb_emitter *out, const lmb_node *n, uint64_t visible)
@@ -646,15 +653,15 @@ static void flush(stream *s)
 {
     const cutter *c = s->c;
     c->kernels->gather_cut(s->inout, c->cut->use.pairs, c->tile, c->cut->emitter, s->filled);
-    if (c->cutting->gloss != NULL) {
-        c->kernels->gloss_cut(c->cutting->gloss, c->tile, c->cut->emitter, s->filled);
+    if (c->cut_params->glossy != NULL) {
+        c->kernels->glossy_cut(c->cut_params->glossy, c->tile, c->cut->emitter, s->filled);
     }
     s->filled = 0;
 }
 
-/* A node with parts that may face away from all of the patch, by those that do not: its mean would count the former as
- * less than nothing. */
-static void face_on(lmb_node *out, const cutter *c, lmb_tree_place from, const lmb_node *whole)
+/* A node some of whose children may face away from the whole cluster is replaced by the children that do not: in the
+ * node's mean the others would count as negative light. */
+static void face_on(lmb_node *out, const cutter *c, lmb_node_ref from, const lmb_node *whole)
 {
     lmb_vec3 normal = vec3(0, 0, 0), centre = vec3(0, 0, 0);
     float weight = 0.0f;
@@ -664,7 +671,7 @@ static void face_on(lmb_node *out, const cutter *c, lmb_tree_place from, const l
         lmb_node texel;
         const lmb_node *n = node_at(&texel, c->tree, part_at(from, k));
         const float w = flux_sum(n->flux);
-        if (w > 0.0f && dot3(n->normal, sub3(n->centre, c->p->centre)) < lmb_patch_reach(c->p, n->normal)) {
+        if (w > 0.0f && dot3(n->normal, sub3(n->centre, c->p->centre)) < lmb_pixel_cluster_reach(c->p, n->normal)) {
             centre = add3(centre, mul3(sub3(n->centre, whole->centre), w));
             normal = add3(normal, mul3(n->normal, w * n->agreement));
             weight += w;
@@ -681,7 +688,7 @@ static void face_on(lmb_node *out, const cutter *c, lmb_tree_place from, const l
     }
 }
 
-static void light_by(stream *s, lmb_tree_place at, uint64_t visible)
+static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
 {
     lmb_node part;
     const cutter *c = s->c;
@@ -690,7 +697,7 @@ static void light_by(stream *s, lmb_tree_place at, uint64_t visible)
     s->pairs += (uint64_t)count_bits_64(visible);
     if (at.level > 0) {
         n = tree_node(c->tree, at);
-        if (n->agreement < BENT && !c->cutting->proven) {
+        if (n->agreement < BENT && !c->cut_params->conservative) {
             face_on(&part, c, at, n);
             n = &part;
         }
@@ -714,7 +721,7 @@ static void light_by_all(stream *s)
     const int32_t size = s->c->tree->size;
     for (int64_t i = 0; i < (int64_t)s->c->tree->faces * size * size; ++i) {
         const int32_t within = (int32_t)(i % ((int64_t)size * size));
-        lmb_tree_place at;
+        lmb_node_ref at;
         at.face = (uint16_t)(i / ((int64_t)size * size));
         at.x = (uint16_t)(within % size);
         at.y = (uint16_t)(within / size);
@@ -725,32 +732,32 @@ static void light_by_all(stream *s)
     }
 }
 
-APART void light_patch(lmb_irradiance *inout, cutter *c)
+NOINLINE void light_cluster(lmb_irradiance *inout, cutter *c)
 {
     stream s;
     s.inout = inout;
     s.c = c;
     s.pairs = 0;
     s.filled = 0;
-    if (c->cutting->proven && c->cutting->blockers == NULL && !is_right(c)) {
+    if (c->cut_params->conservative && c->cut_params->bvh == NULL && !is_right(c)) {
         light_by_all(&s);
     } else {
         for (int32_t i = 0; i < c->cut->count; ++i) {
-            if (c->cut->place[i].level != GONE && c->cut->visible[i] != 0) {
-                light_by(&s, c->cut->place[i], c->cut->visible[i]);
+            if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
+                light_by(&s, c->cut->ref[i], c->cut->visible[i]);
             }
         }
     }
     flush(&s);
-    if (c->cutting->stats != NULL) {
-        c->cutting->stats->pairs += s.pairs;
+    if (c->cut_params->stats != NULL) {
+        c->cut_params->stats->pairs += s.pairs;
     }
 }
 
-/* The middle one of the patch's pixels that have a lobe. */
-static int lobe_of(const lmb_cutting *cutting, const lmb_patch *p)
+/* The middle one of the pixel cluster's pixels that have a lobe. */
+static int lobe_of(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
 {
-    uint64_t own = cutting->gloss != NULL && !cutting->proven ? cutting->gloss->pixels & p->pixels : 0;
+    uint64_t own = cut_params->glossy != NULL && !cut_params->conservative ? cut_params->glossy->pixels & p->pixels : 0;
     for (int i = count_bits_64(own) / 2; i > 0; --i) {
         own &= own - 1;
     }
@@ -758,31 +765,34 @@ static int lobe_of(const lmb_cutting *cutting, const lmb_patch *p)
 }
 
 /* Of the pixel that has least: beside a shadow's edge that is none. */
-static double least_direct(const lmb_cutting *cutting, const lmb_patch *p)
+static double lower_direct(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
 {
-    float least = cutting->direct != NULL ? 3e38f : 0.0f;
-    for (uint64_t bits = cutting->direct != NULL ? p->pixels : 0; bits != 0; bits &= bits - 1) {
+    float lower = cut_params->direct != NULL ? 3e38f : 0.0f;
+    for (uint64_t bits = cut_params->direct != NULL ? p->pixels : 0; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        least = minf(least, cutting->direct->rgb[0][k] + cutting->direct->rgb[1][k] + cutting->direct->rgb[2][k]);
+        lower =
+            minf(lower, cut_params->direct->rgb[0][k] + cut_params->direct->rgb[1][k] + cut_params->direct->rgb[2][k]);
     }
-    return (double)least;
+    return (double)lower;
 }
 
 /* In the mean over the patch: what proves nothing of its pixels. */
-static double beside(const lmb_cutting *cutting, const lmb_patch *p, float per_pixel)
+static double beside(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p, float per_pixel)
 {
     double sum = 0.0;
-    for (uint64_t bits = cutting->beside != NULL && !cutting->proven ? p->pixels : 0; bits != 0; bits &= bits - 1) {
+    for (uint64_t bits = cut_params->beside != NULL && !cut_params->conservative ? p->pixels : 0; bits != 0;
+         bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
-            sum += (double)cutting->beside->rgb[c][k];
+            sum += (double)cut_params->beside->rgb[c][k];
         }
     }
-    return sum * (double)per_pixel + (cutting->proven ? 0.0 : (double)cutting->least + least_direct(cutting, p));
+    return sum * (double)per_pixel +
+           (cut_params->conservative ? 0.0 : (double)cut_params->lower + lower_direct(cut_params, p));
 }
 
-/* Half of some pixels: those that come first along the longer side of the patch's box. */
-static uint64_t half_of(const lmb_patch *p, const lmb_tile *tile)
+/* Half of some pixels: those that come first along the longer side of the pixel cluster's box. */
+static uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
 {
     const lmb_vec3 along = p->half[2] > p->half[1] ? p->axis[2] : p->axis[1];
     float at[LMB_TILE_PIXELS] = {0};
@@ -805,26 +815,26 @@ static uint64_t half_of(const lmb_patch *p, const lmb_tile *tile)
 
 /* Light some pixels of one surface by one cut; where that has no room for what was asked, and cuts of half the pixels
  * come closer to it, return the patch undone. over: that of the pixels that these are half of. */
-static int light_together(lmb_irradiance *inout, cutter *c, lmb_patch *p, double *over)
+static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p, double *over)
 {
-    const lmb_cutting *cutting = c->cutting;
+    const lmb_cut_params *cut_params = c->cut_params;
     c->p = p;
-    memset(c->cut->use.walk.last, 0, sizeof c->cut->use.walk.last);
-    c->cut->use.walk.asked = 0;
-    c->noise = cutting->blockers != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
-    c->in_hull = cutting->blockers != NULL ? lmb_hull_pixels(&cutting->blockers->hull, c->tile, p->pixels) : 0;
+    memset(c->cut->use.traversal.last, 0, sizeof c->cut->use.traversal.last);
+    c->cut->use.traversal.asked = 0;
+    c->noise = cut_params->bvh != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
+    c->in_hull = cut_params->bvh != NULL ? lmb_hull_pixels(&cut_params->bvh->hull, c->tile, p->pixels) : 0;
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);
-    c->beside = beside(cutting, p, c->per_pixel);
-    c->lobe = lobe_of(cutting, p);
+    c->beside = beside(cut_params, p, c->per_pixel);
+    c->lobe = lobe_of(cut_params, p);
     const double now = take_cut(c);
     if (now > 0.0 && (now < CLOSER * *over || now > HOLDS) && count_bits_64(p->pixels) > 1) {
         *over = now;
         return 0;
     }
-    if (now > 0.0 && cutting->stats != NULL) {
-        ++cutting->stats->full_cuts;
+    if (now > 0.0 && cut_params->stats != NULL) {
+        ++cut_params->stats->full_cuts;
     }
-    light_patch(inout, c);
+    light_cluster(inout, c);
     return 1;
 }
 
@@ -844,9 +854,9 @@ static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
     wait[0].over = 1e300;
     while (count > 0) {
         const waiting now = wait[--count];
-        lmb_patch p;
+        lmb_pixel_cluster p;
         double over = now.over;
-        lmb_patch_of(&p, c->tile, now.pixels);
+        lmb_pixel_cluster_of(&p, c->tile, now.pixels);
         if (!light_together(inout, c, &p, &over)) {
             wait[count].pixels = half_of(&p, c->tile);
             wait[count + 1].pixels = p.pixels & ~wait[count].pixels;
@@ -857,19 +867,19 @@ static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
 }
 
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,
-                          const lmb_tree *tree, const lmb_cutting *cutting)
+                          const lmb_tree *tree, const lmb_cut_params *cut_params)
 {
     cutter c;
     if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || tree == NULL || tree->texel == NULL ||
-        cutting == NULL || !(cutting->error > 0.0f) || !(cutting->visible > 0.0f)) {
+        cut_params == NULL || !(cut_params->error > 0.0f) || !(cut_params->visibility > 0.0f)) {
         return LMB_ERR_ARG;
     }
     c.cut = scratch;
     c.tree = tree;
     c.tile = tile;
     c.kernels = kernels;
-    c.cutting = cutting;
-    c.floor = (double)cutting->floor;
+    c.cut_params = cut_params;
+    c.floor = (double)cut_params->floor;
     for (uint64_t left = tile_pixels(tile); left != 0;) {
         const uint64_t pixels = tile_surface(tile, left);
         light_surface(inout, &c, pixels);

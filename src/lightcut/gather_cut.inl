@@ -1,5 +1,5 @@
-/* gather_cut.inl: a cut of the light's tree -> irradiance of the pixels that see its nodes. Lanes are pixels. [V27 V28]
- * Floor 7.
+/* gather_cut.inl: a cut of the light tree -> irradiance of the pixels that see its nodes. Lanes are pixels. [V27 V28]
+ * Layer 7.
  *
  * The steps are gather.inl's: include it first. */
 static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER_PAIRS], const lmb_tile *tile,
@@ -24,7 +24,7 @@ static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER
         }
         for (int k = 0; k < LMB_TILE_PIXELS; k += WIDE) {
             gather_find(&pairs, &none, tile, k, block, n);
-            gather_weigh(&pairs, tile, k, block);
+            gather_estimate(&pairs, tile, k, block);
             for (int32_t at = 0; at < n * WIDE; at += LANES) {
                 const uint64_t visible = emitters[i + at / WIDE].visible >> (k + at % WIDE);
                 const lane_mask sees = mask_of_bits((uint32_t)visible & ALL_LANES);

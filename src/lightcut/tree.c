@@ -1,4 +1,4 @@
-/* tree.c: a light's map -> first points, and their sums upward. Floor 7.                            [V5 V6 V7 V15] */
+/* tree.c: a shadow map -> first points, and their sums upward. Layer 7.                             [V5 V6 V7 V15] */
 #include "tree.h"
 
 #include <string.h>
@@ -55,7 +55,7 @@ static int is_near_by(const lmb_view *v, lmb_vec3 from, lmb_vec3 to, int32_t siz
 }
 
 /* A texel of the tree from a pixel of the map near its middle: there, or at the pixel where its plane is edge-on. */
-static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_light_map *coarse,
+static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_shadow_map *coarse,
                       int32_t face, int32_t x, int32_t y)
 {
     const lmb_view *v = &coarse->view[face];
@@ -83,8 +83,8 @@ static int divides(int32_t small, int32_t large)
 }
 
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
-                           const lmb_light *light, const lmb_light_map *map, int32_t face, uint32_t into, int32_t first,
-                           int32_t past)
+                           const lmb_light *light, const lmb_shadow_map *map, int32_t face, uint32_t into,
+                           int32_t first, int32_t past)
 {
     lmb_status status = LMB_OK;
     if (tree == NULL || tree->texel == NULL || kernels == NULL || scratch == NULL || scene == NULL || light == NULL ||
@@ -96,7 +96,7 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
         return LMB_ERR_CAPACITY;
     }
     const int32_t size = tree->size, each = map->size / size;
-    lmb_light_map coarse = *map;
+    lmb_shadow_map coarse = *map;
     coarse.size = size;
     if (first == 0 && past > 0) { /* by one part alone: of a few rows many parts are of none */
         tree->view[into] = map->view[face];
@@ -194,7 +194,7 @@ int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree 
     int is_crease = 0;
     out->area = 4.0f * length3(cross3(*u, *v));
     if (!tree_is_whole(t)) {
-        const lmb_tree_place at = {(uint16_t)face, (uint16_t)x, (uint16_t)y, 0};
+        const lmb_node_ref at = {(uint16_t)face, (uint16_t)x, (uint16_t)y, 0};
         const float exact = lmb_crease_share(tree, at), rectangle = wide * high / 65536.0f;
         is_crease = exact >= 0.0f;
         share = is_crease ? exact : rectangle;

@@ -1,4 +1,4 @@
-/* tree.h: where a tree's nodes lie. Floor 7. */
+/* tree.h: where a tree's nodes lie. Layer 7. */
 #ifndef LMB_LIGHTCUT_TREE_H
 #define LMB_LIGHTCUT_TREE_H
 
@@ -20,7 +20,7 @@ static inline lmb_node *tree_level(const lmb_tree *t, uint32_t face, int level)
     return t->node + face * tree_nodes(t->size) + (all - side * side) / 3;
 }
 
-static inline const lmb_node *tree_node(const lmb_tree *t, lmb_tree_place at)
+static inline const lmb_node *tree_node(const lmb_tree *t, lmb_node_ref at)
 {
     return tree_level(t, at.face, at.level) + (size_t)at.y * ((size_t)t->size >> at.level) + at.x;
 }
@@ -80,8 +80,8 @@ void lmb_crease_find(const lmb_tree *tree, uint32_t face);
  * counter-clockwise seen from the light; returns their number, 0: nothing. The first lies in its own cell, the others
  * in its neighbours'. */
 enum { CREASE_PARTS = 5, CREASE_CORNERS = 8 };
-float lmb_crease_share(const lmb_tree *tree, lmb_tree_place at);
-int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_tree_place at, int part);
+float lmb_crease_share(const lmb_tree *tree, lmb_node_ref at);
+int lmb_crease_part(lmb_vec3 corner[CREASE_CORNERS], const lmb_tree *tree, lmb_node_ref at, int part);
 
 /* A texel as a node of its own; and the half sides of its quad, whose middle is the node's centre. Where planes meet in
  * it the flux is that of its exact shape, which is no quad: returns 1. */
@@ -89,7 +89,7 @@ int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree 
                         int32_t y);
 void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y);
 
-/* Under 2^-80 W is nothing, as in a light's map: what flux divides stays finite, and kernels meet no denormal. */
+/* Under 2^-80 W is nothing, as in a shadow map: what flux divides stays finite, and kernels meet no denormal. */
 static inline float flux_or_none(float w) { return w < 8.2718061e-25f ? 0.0f : w; }
 
 static inline float flux_sum(const float flux[3]) { return flux[0] + flux[1] + flux[2]; }

@@ -1,4 +1,4 @@
-/* core.c: where a scene is fine: the boxes that a sun's map gives faces of their own. Floor 4.
+/* core.c: where a scene is fine: the boxes that a sun's map gives faces of their own. Layer 4.
  *
  * Triangles that are small against the scene have a middle, weighted by area, and a mean distance from it. Those three
  * times as far do not belong to it; without them both are found anew, until none is left out: a stray triangle weighs
@@ -137,10 +137,10 @@ static void box_of(box *out, float *in, float *rest, const clump *c, const lmb_s
             join(&own, &b);
         }
     }
-    const float most = TOUCHES * size_of(&own);
+    const float max = TOUCHES * size_of(&own);
     *out = own;
     for (uint32_t id = 1; id <= all; ++id) {
-        if (take(&b, &area, scene, id) && overlap(&b, &own) && size_of(&b) <= most) {
+        if (take(&b, &area, scene, id) && overlap(&b, &own) && size_of(&b) <= max) {
             join(out, &b);
         }
     }

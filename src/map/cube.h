@@ -1,4 +1,4 @@
-/* cube.h: directions and texels of a cube's faces, in GL order. Floor 4. */
+/* cube.h: directions and texels of a cube's faces, in GL order. Layer 4. */
 #ifndef LMB_MAP_CUBE_H
 #define LMB_MAP_CUBE_H
 

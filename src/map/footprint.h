@@ -1,4 +1,4 @@
-/* footprint.h: a place or a step of a light's map, on the surface that it shows. Floor 4. */
+/* footprint.h: a place or a step of a shadow map, on the surface that it shows. Layer 4. */
 #ifndef LMB_MAP_FOOTPRINT_H
 #define LMB_MAP_FOOTPRINT_H
 
@@ -23,8 +23,8 @@ static inline lmb_vec3 footprint(const lmb_view *v, lmb_vec3 p, lmb_vec3 n, lmb_
 {
     lmb_vec3 ray = v->kind == LMB_PERSPECTIVE ? sub3(p, v->eye) : mul3(v->back, -1.0f);
     float w = v->kind == LMB_PERSPECTIVE ? maxf(-dot3(v->back, ray), 0.0f) : 1.0f;
-    float slope = dot3(n, ray), least = GRAZE * length3(ray);
-    slope = slope < 0.0f ? minf(slope, -least) : maxf(slope, least);
+    float slope = dot3(n, ray), min = GRAZE * length3(ray);
+    slope = slope < 0.0f ? minf(slope, -min) : maxf(slope, min);
     return mul3(sub3(step, mul3(ray, dot3(n, step) / slope)), w);
 }
 

@@ -1,4 +1,4 @@
-/* gbuffer.c: a band of the viewer's attributes as pixels, for hosts, --show and tests. Floor 4. */
+/* gbuffer.c: a band of the viewer's attributes as pixels, for hosts, --show and tests. Layer 4. */
 #include <lambent/map.h>
 
 #include <string.h>

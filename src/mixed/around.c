@@ -1,4 +1,4 @@
-/* around.c: what surfaces throw back of the light around them, as first points for voxels. Floor 6.             [M7] */
+/* around.c: what surfaces throw back of the light around them, as first points for voxels. Layer 6.             [M7] */
 #include <string.h>
 
 #include "../base/poly.h"
@@ -9,12 +9,12 @@
 
 #if LMB_MIXED
 
-#define MOST_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
+#define MAX_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
 
 #define FAR_SHARE 0.15f   /* of the distance from the object: how far apart points with one answer are */
 #define SAME_WAY 0.98f    /* cosine between the normals of points with one answer */
 
-enum { MOST_PARTS = 64 }; /* a triangle's side is divided by at most */
+enum { MAX_PARTS = 64 }; /* a triangle's side is divided by at most */
 
 /* Of three corners' values, the one at barycentrics (b1, b2). */
 static float mix(float a, float b, float c, float b1, float b2) { return a + (b - a) * b1 + (c - a) * b2; }
@@ -86,7 +86,7 @@ static size_t put_triangle(lmb_texel *out, size_t cap, const lmb_triangle *t, co
         return 0;
     }
     const float side = maxf(length3(sub3(t->corner[1], t->corner[0])), length3(sub3(t->corner[2], t->corner[0])));
-    p.n = (int32_t)minf(side / leaf, (float)(MOST_PARTS - 1)) + 1;
+    p.n = (int32_t)minf(side / leaf, (float)(MAX_PARTS - 1)) + 1;
     p.area /= (float)(p.n * p.n);
     const size_t count = (size_t)p.n * (size_t)p.n;
     if (cap > 0) {
@@ -144,7 +144,7 @@ static size_t run_end(const lmb_texel *all, size_t first, size_t count, float ne
 static void scale_run(lmb_texel *inout, size_t first, size_t past, const float was[3], const float now[3])
 {
     for (int c = 0; c < 3; ++c) {
-        const float ratio = was[c] > 1e-9f ? clampf(now[c] / was[c], 0.0f, MOST_RATIO) : 1.0f;
+        const float ratio = was[c] > 1e-9f ? clampf(now[c] / was[c], 0.0f, MAX_RATIO) : 1.0f;
         for (size_t i = first; i < past; ++i) {
             inout[i].flux[c] *= ratio;
         }

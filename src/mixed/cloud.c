@@ -1,4 +1,4 @@
-/* cloud.c: a picture of distances as points, and how far they can be trusted. Floor 6.                         [M1] */
+/* cloud.c: a picture of distances as points, and how far they can be trusted. Layer 6.                         [M1] */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -9,8 +9,8 @@
 
 #define NEAREST_M 0.01f
 #define FARTHEST_M 1000.0f
-#define LEAST_NOISE 2e-5f    /* 1/m */
-#define MOST_NOISE 0.02f
+#define MIN_NOISE 2e-5f    /* 1/m */
+#define MAX_NOISE 0.02f
 #define DEPTH_STEP_M 0.001f  /* what distances are stored in, and a sensor's best */
 
 enum { REACH = 4, BINS = 512 }; /* px between the points of a second difference */
@@ -76,7 +76,7 @@ static float bend(const float *at, ptrdiff_t step)
 static void count_bend(uint32_t *bins, uint32_t *count, float v)
 {
     if (v >= 0.0f) {
-        ++bins[mini((int32_t)(minf(v, 1.0f) * (float)BINS / (2.5f * MOST_NOISE)), BINS - 1)];
+        ++bins[mini((int32_t)(minf(v, 1.0f) * (float)BINS / (2.5f * MAX_NOISE)), BINS - 1)];
         ++*count;
     }
 }
@@ -98,8 +98,8 @@ static float find_noise(const lmb_cloud *cloud)
     while (i < BINS - 1 && (sum += bins[i]) < count / 2 + 1) {
         ++i;
     }
-    const float median = ((float)i + 0.5f) * 2.5f * MOST_NOISE / (float)BINS;
-    return count == 0 || i == 0 ? LEAST_NOISE : clampf(median / (0.6745f * 2.4494897f), LEAST_NOISE, MOST_NOISE);
+    const float median = ((float)i + 0.5f) * 2.5f * MAX_NOISE / (float)BINS;
+    return count == 0 || i == 0 ? MIN_NOISE : clampf(median / (0.6745f * 2.4494897f), MIN_NOISE, MAX_NOISE);
 }
 
 static int is_camera(const lmb_pinhole *c)

@@ -1,4 +1,4 @@
-/* cloud.h: what asks a cloud of one pixel. Floor 6. */
+/* cloud.h: what asks a cloud of one pixel. Layer 6. */
 #ifndef LMB_MIXED_CLOUD_H
 #define LMB_MIXED_CLOUD_H
 

@@ -1,11 +1,11 @@
-/* cloud_normals.c: which way each point of a cloud faces, in spite of holes and noise. Floor 6.                [M2] */
+/* cloud_normals.c: which way each point of a cloud faces, in spite of holes and noise. Layer 6.                [M2] */
 #include "plane_fit.h"
 
 #if LMB_MIXED
 
 #define STEEPEST 3.7320508f /* tangent of 75 degrees: what a surface may be turned from the ray */
 
-enum { LEAST_POINTS = 6 };
+enum { MIN_POINTS = 6 };
 
 /* The square of points around one. */
 typedef struct around {
@@ -47,7 +47,7 @@ static int fit_around(float out[3], const around *a, const float *slope)
             }
         }
     }
-    return count >= LEAST_POINTS && lmb_plane_fit_solve(out, &f);
+    return count >= MIN_POINTS && lmb_plane_fit_solve(out, &f);
 }
 
 static lmb_vec3 normal_at(const lmb_cloud *cloud, int32_t x, int32_t y)

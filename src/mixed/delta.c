@@ -1,4 +1,5 @@
-/* delta.c: what an object changes: light's maps without and with it, and the photo's answer. Floor 6.  [M9 M23 M24] */
+/* delta.c: what an object changes: light's shadow maps without and with it, and the photo's answer. Layer 6. [M9 M23
+ * M24] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include <lambent/mixed.h>
@@ -7,17 +8,17 @@
 
 #define MIRRORED 0.5f
 
-lmb_status lmb_two_maps(lmb_light_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
+lmb_status lmb_two_maps(lmb_shadow_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
                         void *memory, size_t bytes)
 {
     const size_t half = bytes / 8 * 4;
     if (maps == NULL || memory == NULL) {
         return LMB_ERR_ARG;
     }
-    const lmb_status status = lmb_light_map_init(&maps[0], light, scene, size, LMB_ID32, memory, half);
+    const lmb_status status = lmb_shadow_map_init(&maps[0], light, scene, size, LMB_ID32, memory, half);
     return status != LMB_OK
                ? status
-               : lmb_light_map_init(&maps[1], light, scene, size, LMB_ID32, (char *)memory + half, half);
+               : lmb_shadow_map_init(&maps[1], light, scene, size, LMB_ID32, (char *)memory + half, half);
 }
 
 float lmb_real_albedo(float radiance, float irradiance)
@@ -26,7 +27,7 @@ float lmb_real_albedo(float radiance, float irradiance)
         return 0.5f;
     }
     const float albedo = LMB_PI * radiance / irradiance;
-    return albedo > LMB_ALBEDO_LEAST ? minf(albedo, LMB_ALBEDO_MOST) : LMB_ALBEDO_LEAST; /* inf / inf: the least */
+    return albedo > LMB_ALBEDO_MIN ? minf(albedo, LMB_ALBEDO_MAX) : LMB_ALBEDO_MIN; /* inf / inf: the least */
 }
 
 lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,

@@ -1,4 +1,4 @@
-/* envfold.c: light from where no picture was taken, folded from the one there is. Floor 6.                 [M14-M19] */
+/* envfold.c: light from where no picture was taken, folded from the one there is. Layer 6.                 [M14-M19] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../map/cube.h"
@@ -6,7 +6,7 @@
 
 #if LMB_MIXED
 
-#define LEAST_HEIGHT 0.5f /* sine of 30 degrees */
+#define MIN_HEIGHT 0.5f /* sine of 30 degrees */
 #define INNER 0.16666667f /* of the picture, from its middle to the middle third's edge */
 
 enum { SUB = 4, BRIGHT_SIDE = 8 }; /* samples of a texel each way; texels a side that are compared */
@@ -91,7 +91,7 @@ static lmb_vec3 direction_of(int32_t i)
     return cube_direction(i / (n * n), i % n, i / n % n, n);
 }
 
-/* The mean of the directions by the square of how far they outshine the mean: of one lamp that, and of several
+/* The mean of the directions by the square of how far they outshine the mean: of one light that, and of several
  * something between that favours the brightest. Raised where it is too low to shadow anything but the horizon. */
 lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up)
 {
@@ -110,11 +110,11 @@ lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up)
     }
     sum = normalize3(sum);
     const float height = dot3(sum, up);
-    if (height >= LEAST_HEIGHT) {
+    if (height >= MIN_HEIGHT) {
         return sum;
     }
     const lmb_vec3 level = normalize3(sub3(sum, mul3(up, height)));
-    return add3(mul3(level, 0.8660254f), mul3(up, LEAST_HEIGHT));
+    return add3(mul3(level, 0.8660254f), mul3(up, MIN_HEIGHT));
 }
 
 void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal)

@@ -1,4 +1,4 @@
-/* neighbours.c: the points nearest to one: a picture's on its own grid, others by cells of space. Floor 6.     [M3] */
+/* neighbours.c: the points nearest to one: a picture's on its own grid, others by cells of space. Layer 6.     [M3] */
 #include <string.h>
 
 #include "../base/memory_check.h"

@@ -1,4 +1,4 @@
-/* plane_fit.c: least squares of inverse distances over a picture. Floor 6.                                  [M2 M4]
+/* plane_fit.c: least squares of inverse distances over a picture. Layer 6.                                  [M2 M4]
  *
  * A plane n . p = d seen along (x, y, -1) is at inverse distance (n.x x + n.y y - n.z) / d: affine in the ray, so a fit
  * of three unknowns by two equations and a mean, without eigenvectors, and with even noise (lmb_cloud). */

@@ -1,4 +1,4 @@
-/* plane_mesh.c: the real scene as squares of its planes and of what else was measured. Floor 6.               [M4] */
+/* plane_mesh.c: the real scene as squares of its planes and of what else was measured. Layer 6.               [M4] */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -71,13 +71,13 @@ static void add_point(mean *m, const lmb_cloud *cloud, int32_t at, float nearest
 static float middle_inverse(const lmb_planes *planes, const lmb_cloud *cloud, cell_box b)
 {
     float best = 0.0f;
-    int32_t least = 0x7fffffff;
+    int32_t min = 0x7fffffff;
     for (int32_t y = b.y0; y < b.y1; ++y) {
         for (int32_t x = b.x0; x < b.x1; ++x) {
             const int32_t at = y * cloud->camera.width + x;
             const int32_t i = 2 * x + 1 - b.x0 - b.x1, j = 2 * y + 1 - b.y0 - b.y1, far = i * i + j * j;
-            if (planes->label[at] == 0 && cloud->inverse[at] > 0.0f && far < least) {
-                least = far;
+            if (planes->label[at] == 0 && cloud->inverse[at] > 0.0f && far < min) {
+                min = far;
                 best = cloud->inverse[at];
             }
         }

@@ -1,4 +1,4 @@
-/* plane_outline.c: which pixels are a plane's, holes among them, and what the plane measures. Floor 6.    [M4 M5] */
+/* plane_outline.c: which pixels are a plane's, holes among them, and what the plane measures. Layer 6.    [M4 M5] */
 #include "planes.h"
 
 #if LMB_MIXED
@@ -20,17 +20,17 @@ static uint8_t best_of_near(const lmb_planes *p, const lmb_cloud *cloud, int32_t
     const int32_t at = y * c->width + x;
     const lmb_vec3 ray = lmb_cloud_ray(c, (float)x, (float)y);
     uint8_t best = p->label[at];
-    float least = plane_off(cloud, p->plane[best - 1].slope, cloud->inverse[at], ray);
+    float min = plane_off(cloud, p->plane[best - 1].slope, cloud->inverse[at], ray);
     for (int32_t k = 0; k < 4; ++k) {
         const int32_t i = x + NEAR_PX * step_x[k], j = y + NEAR_PX * step_y[k];
         const uint8_t other = i < 0 || j < 0 || i >= c->width || j >= c->height ? 0 : p->label[j * c->width + i];
         if (other != 0 && other != best) {
             const float off = plane_off(cloud, p->plane[other - 1].slope, cloud->inverse[at], ray);
-            best = off < least ? other : best;
-            least = minf(off, least);
+            best = off < min ? other : best;
+            min = minf(off, min);
         }
     }
-    return least <= BELONGS_OFF ? best : 0;
+    return min <= BELONGS_OFF ? best : 0;
 }
 
 static void settle(lmb_planes *p, const lmb_cloud *cloud)
@@ -86,7 +86,7 @@ typedef struct gap {
     int measured;
 } gap;
 
-static void walk_hole(lmb_planes *p, const lmb_cloud *cloud, gap *hole)
+static void trace_hole(lmb_planes *p, const lmb_cloud *cloud, gap *hole)
 {
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
     for (int32_t i = 0; i < hole->count; ++i) {
@@ -115,8 +115,8 @@ static uint8_t around(const gap *hole)
         best = hole->beside[i] > hole->beside[best] || best == 0 ? i : best;
     }
     const int speck = hole->count <= SPECK;
-    const int32_t most = hole->beside[best];
-    return (speck ? 2 * most > all : !hole->measured && 10 * most >= 9 * all) ? (uint8_t)best : 0;
+    const int32_t max = hole->beside[best];
+    return (speck ? 2 * max > all : !hole->measured && 10 * max >= 9 * all) ? (uint8_t)best : 0;
 }
 
 static void fill_holes(lmb_planes *p, const lmb_cloud *cloud)
@@ -127,7 +127,7 @@ static void fill_holes(lmb_planes *p, const lmb_cloud *cloud)
             gap hole = {0, 1, {0}, cloud->inverse[at] > 0.0f};
             p->queue[0] = at;
             p->label[at] = LABEL_HOLE;
-            walk_hole(p, cloud, &hole);
+            trace_hole(p, cloud, &hole);
             const uint8_t label = around(&hole);
             for (int32_t i = 0; label != 0 && i < hole.count; ++i) {
                 p->label[p->queue[i]] = label;

@@ -1,9 +1,9 @@
-/* plane_place.c: which plane an object stands on, and where on it. Floor 6.                                     [M5] */
+/* plane_place.c: which plane an object stands on, and where on it. Layer 6.                                     [M5] */
 #include "planes.h"
 
 #if LMB_MIXED
 
-#define LEAST_UP 0.34202014f /* cosine of 70 degrees: what a floor may be turned from the camera's up */
+#define MIN_UP 0.34202014f /* cosine of 70 degrees: what a floor may be turned from the camera's up */
 #define LEVEL 0.90630779f    /* of 25: from what is up in the picture */
 
 enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
@@ -13,12 +13,12 @@ enum { CLEAR_STEP = 4 /* px */, RIM = 8 /* points of a circle */ };
 lmb_vec3 lmb_planes_up(const lmb_planes *planes)
 {
     lmb_vec3 up = vec3(0, 1, 0);
-    float most = 0.0f;
+    float max = 0.0f;
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         const lmb_flat *p = &planes->plane[i];
-        const float level = maxf(absf(p->normal.y) - LEAST_UP, 0.0f), size = (float)p->pixels * level * level;
-        if (size > most) {
-            most = size;
+        const float level = maxf(absf(p->normal.y) - MIN_UP, 0.0f), size = (float)p->pixels * level * level;
+        if (size > max) {
+            max = size;
             up = p->normal.y < 0.0f ? mul3(p->normal, -1.0f) : p->normal;
         }
     }
@@ -29,12 +29,12 @@ int32_t lmb_planes_floor(const lmb_planes *planes)
 {
     const lmb_vec3 up = lmb_planes_up(planes);
     int32_t best = -1;
-    float most = 0.0f;
+    float max = 0.0f;
     for (int32_t i = 0; planes != NULL && i < planes->count; ++i) {
         const lmb_flat *p = &planes->plane[i];
-        const float size = (float)p->pixels * minf(dot3(p->normal, up) - LEVEL, p->normal.y - LEAST_UP);
-        if (size > most) {
-            most = size;
+        const float size = (float)p->pixels * minf(dot3(p->normal, up) - LEVEL, p->normal.y - MIN_UP);
+        if (size > max) {
+            max = size;
             best = i;
         }
     }
@@ -118,7 +118,7 @@ int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *c
                      float height_m)
 {
     const standing s = {planes, cloud, p, radius_m, height_m};
-    float least = 1e30f;
+    float min = 1e30f;
     if (out == NULL || !are_labels(planes, cloud) || p < 0 || p >= planes->count) {
         return 0;
     }
@@ -135,13 +135,13 @@ int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *c
                 continue;
             }
             const lmb_vec3 d = sub3(at, plane->centre);
-            if (dot3(d, d) < least && foot_is_clear(&s, at) && body_is_clear(&s, at)) {
-                least = dot3(d, d);
+            if (dot3(d, d) < min && foot_is_clear(&s, at) && body_is_clear(&s, at)) {
+                min = dot3(d, d);
                 *out = at;
             }
         }
     }
-    return least < 1e30f;
+    return min < 1e30f;
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* planes.c: planes in a cloud: grown from where neighbours face one way, fitted, joined. Floor 6.         [M3 M4] */
+/* planes.c: planes in a cloud: grown from where neighbours face one way, fitted, joined. Layer 6.         [M3 M4] */
 #include "planes.h"
 
 #include <string.h>
@@ -123,14 +123,14 @@ static void relabel(lmb_planes *planes, const lmb_cloud *cloud, uint8_t from, ui
 }
 
 /* A region that is large enough becomes a plane; where there is no room, in place of the smallest. */
-static void keep(grower *g, int32_t least)
+static void keep(grower *g, int32_t min)
 {
     lmb_planes *p = g->planes;
     int32_t at = p->count;
     for (int32_t i = 0; p->count == LMB_MAX_PLANES && i < LMB_MAX_PLANES; ++i) {
         at = at == LMB_MAX_PLANES || p->plane[i].pixels < p->plane[at].pixels ? i : at;
     }
-    const int fits = g->count >= least && (at == p->count || p->plane[at].pixels < g->count);
+    const int fits = g->count >= min && (at == p->count || p->plane[at].pixels < g->count);
     if (fits && at < p->count) {
         relabel(p, g->cloud, (uint8_t)(at + 1), LABEL_TRIED);
     }
@@ -144,7 +144,7 @@ static void keep(grower *g, int32_t least)
     }
 }
 
-static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t least)
+static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t min)
 {
     grower g;
     memset(&g, 0, sizeof g);
@@ -155,7 +155,7 @@ static void grow_all(lmb_planes *planes, const lmb_cloud *cloud, int32_t least)
         for (int32_t x = SEED_STEP / 2; x < cloud->camera.width; x += SEED_STEP) {
             if (planes->label[y * cloud->camera.width + x] == 0 && is_seed(cloud, x, y)) {
                 grow(&g, x, y);
-                keep(&g, least);
+                keep(&g, min);
             }
         }
     }
@@ -259,10 +259,10 @@ static int join_two(lmb_planes *planes, const lmb_cloud *cloud)
     return 0;
 }
 
-static void drop_small(lmb_planes *planes, const lmb_cloud *cloud, int32_t least)
+static void drop_small(lmb_planes *planes, const lmb_cloud *cloud, int32_t min)
 {
     for (int32_t i = planes->count - 1; i >= 0; --i) {
-        if (planes->plane[i].pixels < least) {
+        if (planes->plane[i].pixels < min) {
             remove_plane(planes, cloud, i, 0);
         }
     }
@@ -295,7 +295,7 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
         return LMB_ERR_ARG;
     }
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
-    const int32_t least = maxi(w * h / 256, 32);
+    const int32_t min = maxi(w * h / 256, 32);
     const lmb_status status = check_memory(memory, bytes, lmb_planes_bytes(w, h));
     if (status != LMB_OK) {
         return status;
@@ -304,7 +304,7 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     out->queue = memory;
     out->label = (uint8_t *)(out->queue + (size_t)w * (size_t)h);
     memset(out->label, 0, (size_t)w * (size_t)h);
-    grow_all(out, cloud, least);
+    grow_all(out, cloud, min);
     lmb_planes_measure(out, cloud);
     fit_all(out, cloud);
     while (join_two(out, cloud)) {
@@ -314,7 +314,7 @@ lmb_status lmb_planes_find(lmb_planes *out, const lmb_cloud *cloud, void *memory
     lmb_planes_outline(out, cloud);
     lmb_planes_measure(out, cloud);
     fit_all(out, cloud);
-    drop_small(out, cloud, least);
+    drop_small(out, cloud, min);
     sort_planes(out, cloud);
     return LMB_OK;
 }

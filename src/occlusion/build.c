@@ -1,4 +1,4 @@
-/* build.c: a scene's triangles -> a tree of boxes, sixteen a node, in the caller's arrays. Floor 4.
+/* build.c: a scene's triangles -> a tree of boxes, sixteen a node, in the caller's arrays. Layer 4.
  *
  * Top down, in place: a node's triangles are cut in two where the surface-area heuristic over 16 bins of their middles
  * says (Wald 2007), then the part with the largest surface again, until there are sixteen. Below a depth that only
@@ -10,31 +10,32 @@
 #include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "../raster/triangle.h"
-#include "walk.h"
+#include "traversal.h"
 
 #if LMB_TREES
 
-enum { BINS = 16, LEAF = 4, HALVES_FROM = LMB_WALK_LEVELS - 8 };
+enum { BINS = 16, LEAF = 4, HALVES_FROM = LMB_TRAVERSAL_LEVELS - 8 };
 
-size_t lmb_blockers_bytes(uint32_t n)
+size_t lmb_bvh_bytes(uint32_t n)
 {
-    const size_t each = sizeof(lmb_blocker) + sizeof(lmb_boxes) / 8, more = 8 * sizeof(lmb_boxes);
-    return n == 0 || n > ((size_t)-1 - more) / each ? 0 : n * sizeof(lmb_blocker) + (n / 8 + 8) * sizeof(lmb_boxes);
+    const size_t each = sizeof(lmb_bvh_triangle) + sizeof(lmb_boxes) / 8, more = 8 * sizeof(lmb_boxes);
+    return n == 0 || n > ((size_t)-1 - more) / each ? 0
+                                                    : n * sizeof(lmb_bvh_triangle) + (n / 8 + 8) * sizeof(lmb_boxes);
 }
 
-lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t bytes)
+lmb_status lmb_bvh_init(lmb_bvh *out, uint32_t n, void *memory, size_t bytes)
 {
     if (out == NULL || n == 0 || n > LMB_MAX_TRIANGLES / 2) {
         return LMB_ERR_ARG;
     }
-    const lmb_status status = check_memory(memory, bytes, lmb_blockers_bytes(n));
+    const lmb_status status = check_memory(memory, bytes, lmb_bvh_bytes(n));
     if (status != LMB_OK) {
         return status;
     }
     memset(out, 0, sizeof *out);
     out->node = (lmb_boxes *)memory;
     out->node_cap = n / 8 + 8;
-    out->triangle = (lmb_blocker *)(void *)(out->node + out->node_cap);
+    out->triangle = (lmb_bvh_triangle *)(void *)(out->node + out->node_cap);
     out->triangle_cap = n;
     return LMB_OK;
 }
@@ -42,21 +43,21 @@ lmb_status lmb_blockers_init(lmb_blockers *out, uint32_t n, void *memory, size_t
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
 /* 1 where the triangle can block. */
-static int take_triangle(lmb_blocker *out, const lmb_triangle *t)
+static int take_triangle(lmb_bvh_triangle *out, const lmb_triangle *t)
 {
     float area;
     memcpy(out->corner, t->corner, sizeof out->corner);
-    out->id = t->id | (t->material->flags & LMB_ALPHA_MASK ? LMB_BLOCKER_MASKED : 0);
+    out->id = t->id | (t->material->flags & LMB_ALPHA_MASK ? LMB_BVH_MASKED : 0);
     return lmb_triangle_shape(&out->normal, &area, t);
 }
 
-static void take_triangles(lmb_blockers *inout, const lmb_scene *scene)
+static void take_triangles(lmb_bvh *inout, const lmb_scene *scene)
 {
     const uint32_t all = lmb_scene_triangles(scene);
     lmb_triangle t;
     inout->triangle_count = 0;
     for (uint32_t id = 1; id <= all; ++id) {
-        lmb_blocker *b = &inout->triangle[inout->triangle_count];
+        lmb_bvh_triangle *b = &inout->triangle[inout->triangle_count];
         if (lmb_triangle_fetch(&t, scene, id) && take_triangle(b, &t)) {
             ++inout->triangle_count;
         }
@@ -86,7 +87,7 @@ static span span_join(span a, span b)
     return a;
 }
 
-static span span_of(const lmb_blocker *t)
+static span span_of(const lmb_bvh_triangle *t)
 {
     span s;
     s.low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]);
@@ -101,7 +102,7 @@ static float half_area(const span *s)
 }
 
 /* Twice a triangle's middle. */
-static lmb_vec3 middle(const lmb_blocker *t)
+static lmb_vec3 middle(const lmb_bvh_triangle *t)
 {
     span s = span_of(t);
     return add3(s.low, s.high);
@@ -113,7 +114,7 @@ typedef struct binning {
     int axis;
 } binning;
 
-static int bin_of(const binning *b, const lmb_blocker *t)
+static int bin_of(const binning *b, const lmb_bvh_triangle *t)
 {
     return mini((int)((axis3(middle(t), b->axis) - b->low) * b->per_bin), BINS - 1);
 }
@@ -135,7 +136,7 @@ typedef struct cut {
     float cost;
 } cut;
 
-static cut best_cut(const binning *bins, const lmb_blocker *t, uint32_t count)
+static cut best_cut(const binning *bins, const lmb_bvh_triangle *t, uint32_t count)
 {
     span box[BINS], right[BINS], left = span_none();
     uint32_t in[BINS] = {0}, below = 0;
@@ -170,12 +171,12 @@ static cut best_cut(const binning *bins, const lmb_blocker *t, uint32_t count)
 }
 
 /* Triangles below the cut first; how many. */
-static uint32_t part(lmb_blocker *t, uint32_t count, const cut *c)
+static uint32_t part(lmb_bvh_triangle *t, uint32_t count, const cut *c)
 {
     uint32_t below = 0;
     for (uint32_t i = 0; i < count; ++i) {
         if (bin_of(&c->bins, &t[i]) < c->bin) {
-            const lmb_blocker swap = t[i];
+            const lmb_bvh_triangle swap = t[i];
             t[i] = t[below];
             t[below++] = swap;
         }
@@ -184,7 +185,7 @@ static uint32_t part(lmb_blocker *t, uint32_t count, const cut *c)
 }
 
 /* The best cut of a node's triangles; cost 3e38: all lie in one place. */
-static cut find_cut(const lmb_blocker *t, uint32_t count)
+static cut find_cut(const lmb_bvh_triangle *t, uint32_t count)
 {
     span middles = span_none();
     cut best;
@@ -214,7 +215,7 @@ typedef struct run {
     int whole; /* no cut of it pays */
 } run;
 
-static run run_of(const lmb_blocker *t, uint32_t first, uint32_t count)
+static run run_of(const lmb_bvh_triangle *t, uint32_t first, uint32_t count)
 {
     run r;
     r.box = span_none();
@@ -228,9 +229,9 @@ static run run_of(const lmb_blocker *t, uint32_t first, uint32_t count)
 }
 
 /* Cut a run in two, the second into *more; 0 where that does not pay. */
-static int cut_run(lmb_blockers *b, run *r, run *more, int depth)
+static int cut_run(lmb_bvh *b, run *r, run *more, int depth)
 {
-    lmb_blocker *t = b->triangle + r->first;
+    lmb_bvh_triangle *t = b->triangle + r->first;
     const run old = *r;
     cut best;
     best.cost = 3e38f;
@@ -277,7 +278,7 @@ static void set_box(lmb_boxes *node, int i, const run *r)
 }
 
 /* Fill a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
-static void fill_node(lmb_blockers *b, uint32_t at, uint32_t first, uint32_t count, int depth)
+static void fill_node(lmb_bvh *b, uint32_t at, uint32_t first, uint32_t count, int depth)
 {
     run r[LMB_BOXES];
     int runs = 1, next;
@@ -295,19 +296,19 @@ static void fill_node(lmb_blockers *b, uint32_t at, uint32_t first, uint32_t cou
     }
 }
 
-/* A node on the way down from the root; of its children those that are nodes and wait, box i as bit
+/* A node on the traversal stack, with the set of its inner children that are still to be visited: box i is bit
  * LMB_BOXES - 1 - i. */
 typedef struct branch {
     uint32_t node, children;
 } branch;
 
 /* Leaves of a node that are too large become nodes, on level `deep`. */
-static branch branch_at(lmb_blockers *b, uint32_t at, int deep)
+static branch branch_at(lmb_bvh *b, uint32_t at, int deep)
 {
     lmb_boxes *node = &b->node[at];
     branch out = {at, 0};
     for (int i = 0; i < LMB_BOXES; ++i) {
-        if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_WALK_LEVELS) {
+        if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_TRAVERSAL_LEVELS) {
             const uint32_t child = b->node_count++;
             fill_node(b, child, node->first[i], node->count[i], deep);
             node->first[i] = child;
@@ -319,9 +320,9 @@ static branch branch_at(lmb_blockers *b, uint32_t at, int deep)
 }
 
 /* Depth first, the last child before the others. */
-static void grow(lmb_blockers *b)
+static void grow(lmb_bvh *b)
 {
-    branch way[LMB_WALK_LEVELS];
+    branch way[LMB_TRAVERSAL_LEVELS];
     int depth = 0;
     way[0] = branch_at(b, 0, 1);
     while (depth >= 0) {
@@ -337,7 +338,7 @@ static void grow(lmb_blockers *b)
     }
 }
 
-lmb_status lmb_blockers_build(lmb_blockers *inout, const lmb_scene *scene)
+lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene)
 {
     if (inout == NULL || inout->triangle == NULL || inout->node == NULL || scene == NULL) {
         return LMB_ERR_ARG;

@@ -1,5 +1,5 @@
 /* crossed.inl: which segments from a tile's pixels to a point cross a triangle, or a box. Lanes are pixels.   [V25]
- * Floor 4.
+ * Layer 4.
  *
  * The edges' planes go through the point, so a segment crosses inside all three where its direction has the same side
  * of each; two triangles' planes through a shared edge are exactly opposite, so there is no gap between them. */
@@ -13,8 +13,8 @@ static uint64_t KERNEL(crossed)(const lmb_tile *tile, uint64_t pixels, const lmb
         const uint32_t asked = (uint32_t)(pixels >> k) & (~0u >> (32 - LANES));
         if (asked != 0) {
             const lane3 d = lane3_sub(lane3_load(tile->position, k), at);
-            const lane least = lane_min(lane_min(lane3_dot(e0, d), lane3_dot(e1, d)), lane3_dot(e2, d));
-            const lane_mask inside = mask_and(lane_le(zero, least), lane_lt(beyond, lane3_dot(n, d)));
+            const lane min = lane_min(lane_min(lane3_dot(e0, d), lane3_dot(e1, d)), lane3_dot(e2, d));
+            const lane_mask inside = mask_and(lane_le(zero, min), lane_lt(beyond, lane3_dot(n, d)));
             out |= (uint64_t)(mask_bits(inside) & asked) << k;
         }
     }
@@ -42,8 +42,8 @@ static void KERNEL(segments)(lmb_segments *out, const lmb_tile *tile, lmb_vec3 a
     }
 }
 
-/* Shares of a segment are quotients of differences, each right to 4 roundings of its own: with this much more no box is
- * missed, however far the point. */
+/* Parameters along a segment are quotients of differences, each exact to 4 roundings. With this margin no box is
+ * missed, however far the point is. */
 static inline lane_mask crossed_some(lane from, lane to)
 {
     return lane_le(from, lane_mul(to, lane_splat(1.0000010f)));
@@ -56,9 +56,9 @@ static inline void crossed_slab(lane *from, lane *to, lane per, float low, float
     *to = lane_min(*to, lane_max(a, b));
 }
 
-/* Along an axis a segment's place at its share t is t d with d in [d0, d1]: it may meet [low, high] where t d1 >= low
- * and t d0 <= high. Each bounds t from below or from above, as the sign of d1 or d0 says, which is the same for all
- * boxes. */
+/* Along an axis a segment at parameter t is at t d with d in [d0, d1]; it may meet [low, high] where t d1 >= low and t
+ * d0 <= high. Each condition bounds t from below or from above according to the sign of d1 or d0, which is the same for
+ * all boxes. */
 static inline void crossed_narrow(lane *from, lane *to, float per, lane side)
 {
     const lane t = lane_mul(side, lane_splat(per));

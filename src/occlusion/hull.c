@@ -1,6 +1,6 @@
-/* hull.c: convex rooms, where what is inside sees all that is inside. Floor 4.
+/* hull.c: convex rooms, where what is inside sees all that is inside. Layer 4.
  *
- * A triangle blocks where both ends of a segment are farther than some noise from its plane, on two sides (blocked.c).
+ * A triangle blocks where both ends of a segment are farther than some noise from its plane, on two sides (occluded.c).
  * So none does where both are on the front of every plane, or not far behind. With R the largest step from the middle
  * of the room's box along an axis, and L its largest coordinate, that noise is at least N = 2^-18 R + 2^-21 L: build.c
  * sees to it, for convex rooms alone; nothing blocks there that could be missed. A plane stands for triangles whose
@@ -16,7 +16,7 @@
 #include "../base/vec.h"
 #include "../raster/tile.h"
 #include "../raster/triangle.h"
-#include "walk.h"
+#include "traversal.h"
 
 #if LMB_TREES
 

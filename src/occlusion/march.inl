@@ -1,4 +1,4 @@
-/* march.inl: does the segment from a pixel to an emitter cross the surface that the viewer sees? Floor 4. [V24 V25 V26]
+/* march.inl: does the segment from a pixel to an emitter cross the surface that the viewer sees? Layer 4. [V24 V25 V26]
  *
  * All in the viewer's depth map, where a plane is affine in d and a segment is straight. */
 
@@ -52,11 +52,11 @@ static inline lane_mask march_plane(lane *dx, lane *dy, const lmb_march_job *m, 
         bottom = nz;
         gain = lane_splat(1.0f / (m->far_m - m->near_m));
     }
-    const lane least = lane_splat(-1e-6f); /* the surface faces the viewer: negative */
-    gain = lane_div(gain, lane_min(bottom, least));
+    const lane min = lane_splat(-1e-6f); /* the surface faces the viewer: negative */
+    gain = lane_div(gain, lane_min(bottom, min));
     *dx = lane_mul(lane_mul(gain, nx), lane_splat(1.0f / m->scale_x));
     *dy = lane_mul(lane_mul(gain, ny), lane_splat(-1.0f / m->scale_y));
-    return lane_lt(bottom, least);
+    return lane_lt(bottom, min);
 }
 
 /* Returns the pixels in the viewer's axes, m. */
@@ -161,7 +161,7 @@ static inline void march_towards(march_run *out, const lmb_march_job *m, const s
  *
  * Both heights are taken over the pixel's own surface plane, the stored one at its texel's middle. So a flat receiver
  * never shadows itself, however grazing the view, and no bias needs tuning. */
-APART lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
+NOINLINE lane march_height(lane *stored, const lmb_march_job *m, const seen_from *s, const march_run *r, lane t)
 {
     const lane zero = lane_splat(0.0f), half = lane_splat(0.5f);
     lane x = lane_add(s->px, lane_mul(march_x(s, r), t)), y = lane_add(s->py, lane_mul(march_y(s, r), t));
@@ -202,8 +202,8 @@ static inline lane march_gap(lane a, lane b) { return lane_max(lane_sub(a, b), l
 
 /* Between two samples on different sides of the viewer's surface: does the segment cross it there, or only pass
  * behind a silhouette? Halve the gap to about a pixel; a surface that then still jumps is two surfaces. */
-LANE_APART lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from, lane to,
-                                   lane from_d, lane to_d, lane_mask from_hidden)
+LANE_NOINLINE lane_mask march_crosses(const lmb_march_job *m, const seen_from *s, const march_run *r, lane from,
+                                      lane to, lane from_d, lane to_d, lane_mask from_hidden)
 {
     for (int i = 0; i < 4; ++i) {
         lane stored, middle = lane_mul(lane_add(from, to), lane_splat(0.5f));
@@ -240,8 +240,8 @@ static inline lane3 march_point(const lmb_march_job *m, const seen_from *s, cons
 /* A segment that was hidden from share `in` to `out`, never deeper than `gap` behind what hid it at its nearest:
  * through it, or behind it? Nobody has seen the far side. Things are taken to be about as deep as they are wide:
  * blocked where the segment comes nearer to the front than half its own hidden length. */
-LANE_APART lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
-                                   lane gap)
+LANE_NOINLINE lane_mask march_through(const lmb_march_job *m, const seen_from *s, const march_run *r, lane in, lane out,
+                                      lane gap)
 {
     lane3 chord = lane3_sub(march_point(m, s, r, out), march_point(m, s, r, in));
     return lane_lt(lane_mul(gap, gap), lane_mul(lane_splat(DEPTH_2), lane3_dot(chord, chord)));

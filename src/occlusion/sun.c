@@ -1,11 +1,11 @@
-/* sun.c: a tile's rays to one place at infinity, walked through the tree of boxes together. Floor 4.          [V25] */
+/* sun.c: a tile's rays to one place at infinity, walked through the tree of boxes together. Layer 4.          [V25] */
 #include <lambent/occlusion.h>
 
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../raster/resolve.h"
 #include "../raster/tile.h"
-#include "walk.h"
+#include "traversal.h"
 
 #if LMB_TREES
 
@@ -14,15 +14,15 @@
 #define THIN  1e-20f
 #define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
 
-typedef struct sun_walk {
-    const lmb_blockers *b;
+typedef struct sun_traversal {
+    const lmb_bvh *b;
     const lmb_kernels *kernels;
     const lmb_tile *tile;
     lmb_vec3 at, to; /* a pixel of the tile, that numbers are small there; unit, towards the light */
-    lmb_walk *kept;
+    lmb_traversal *kept;
     float noise;   /* m: how far rounding may have left the pixels off their surfaces */
     uint64_t left; /* pixels that nothing blocked yet */
-} sun_walk;
+} sun_traversal;
 
 /* 2^-22 of their coordinates and 2^-20 of how far the ray that found them came. */
 static float noise_of(const lmb_tile *tile, uint64_t pixels)
@@ -37,8 +37,9 @@ static float noise_of(const lmb_tile *tile, uint64_t pixels)
     return noise;
 }
 
-/* Two triangles' planes through a shared edge are exactly opposite: no gap. 0 where rays run along the triangle. */
-static int sun_job(lmb_sun_job *out, const sun_walk *w, const lmb_blocker *t)
+/* The planes that two triangles have through a shared edge are exact negatives of each other, so no ray passes between
+ * them. Returns 0 where rays are parallel to the triangle. */
+static int sun_job(lmb_sun_job *out, const sun_traversal *w, const lmb_bvh_triangle *t)
 {
     const lmb_vec3 a = sub3(t->corner[0], w->at), b = sub3(t->corner[1], w->at), c = sub3(t->corner[2], w->at);
     const float far2 = dot3(a, a) + dot3(b, b) + dot3(c, c);
@@ -59,12 +60,13 @@ static int sun_job(lmb_sun_job *out, const sun_walk *w, const lmb_blocker *t)
 }
 
 /* Of the pixels whose rays cross a triangle with holes, those that do so where it stands. */
-static uint64_t sun_standing(const sun_walk *w, const lmb_blocker *t, const lmb_sun_job *job, uint64_t crossed)
+static uint64_t sun_standing(const sun_traversal *w, const lmb_bvh_triangle *t, const lmb_sun_job *job,
+                             uint64_t crossed)
 {
     uint64_t out = 0;
     lmb_triangle triangle;
     lmb_resolve_alpha alpha;
-    if (!lmb_triangle_fetch(&triangle, w->b->scene, t->id & ~LMB_BLOCKER_MASKED)) {
+    if (!lmb_triangle_fetch(&triangle, w->b->scene, t->id & ~LMB_BVH_MASKED)) {
         return 0;
     }
     lmb_resolve_alpha_of(&alpha, &triangle);
@@ -80,31 +82,31 @@ static uint64_t sun_standing(const sun_walk *w, const lmb_blocker *t, const lmb_
     return out;
 }
 
-static void ask(sun_walk *w, uint32_t triangle)
+static void ask(sun_traversal *w, uint32_t triangle)
 {
-    const lmb_blocker *t = &w->b->triangle[triangle];
+    const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     lmb_sun_job job;
     if (sun_job(&job, w, t)) {
         const uint64_t crossed = w->kernels->sun_crossed(w->tile, w->left, &job);
-        w->left &= ~(crossed != 0 && (t->id & LMB_BLOCKER_MASKED) ? sun_standing(w, t, &job, crossed) : crossed);
+        w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? sun_standing(w, t, &job, crossed) : crossed);
     }
 }
 
 /* Those that blocked much when asked last. */
-static void ask_kept(sun_walk *w)
+static void ask_kept(sun_traversal *w)
 {
-    for (int i = 0; i < LMB_LAST_BLOCKERS && w->kept->last[i] != 0 && w->left != 0; ++i) {
+    for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0 && w->left != 0; ++i) {
         ask(w, w->kept->last[i] - 1);
     }
 }
 
-static void ask_box(sun_walk *w, const lmb_boxes *node, int i)
+static void ask_box(sun_traversal *w, const lmb_boxes *node, int i)
 {
     for (uint32_t k = 0; k < node->count[i] && w->left != 0; ++k) {
         const uint64_t before = w->left;
         ask(w, node->first[i] + k);
         if (count_bits_64(before & ~w->left) >= MUCH) {
-            for (int last = LMB_LAST_BLOCKERS - 1; last > 0; --last) {
+            for (int last = LMB_LAST_OCCLUDERS - 1; last > 0; --last) {
                 w->kept->last[last] = w->kept->last[last - 1];
             }
             w->kept->last[0] = node->first[i] + k + 1;
@@ -112,7 +114,7 @@ static void ask_box(sun_walk *w, const lmb_boxes *node, int i)
     }
 }
 
-static lmb_sun_sweep sweep_of(const sun_walk *w)
+static lmb_sun_sweep sweep_of(const sun_traversal *w)
 {
     const float d[3] = {w->to.x, w->to.y, w->to.z};
     lmb_vec3 low, high;
@@ -135,10 +137,10 @@ typedef struct sun_branch {
     uint32_t node, boxes;
 } sun_branch;
 
-static void sun_descend(sun_walk *w)
+static void sun_descend(sun_traversal *w)
 {
     const lmb_sun_sweep sweep = sweep_of(w);
-    sun_branch waiting[LMB_WALK_LEVELS];
+    sun_branch waiting[LMB_TRAVERSAL_LEVELS];
     int count = 1;
     waiting[0].node = 0;
     waiting[0].boxes = w->kernels->sun_meets(&sweep, &w->b->node[0]);
@@ -162,14 +164,13 @@ static void sun_descend(sun_walk *w)
     }
 }
 
-uint64_t lmb_blocked_sun(const lmb_blockers *blockers, const lmb_kernels *kernels, const lmb_tile *tile,
-                         uint64_t pixels, lmb_vec3 to, lmb_walk *kept)
+uint64_t lmb_occluded_sun(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
+                          lmb_vec3 to, lmb_traversal *kept)
 {
-    if (blockers == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 ||
-        blockers->node_count == 0) {
+    if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;
     }
-    sun_walk w = {blockers, kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept,
+    sun_traversal w = {bvh, kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept,
                   noise_of(tile, pixels), pixels};
     ask_kept(&w);
     if (w.left != 0) {

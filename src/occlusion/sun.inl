@@ -1,5 +1,5 @@
 /* sun.inl: which pixels' rays to a place at infinity cross a triangle, or boxes. Lanes are pixels, then boxes.   [V25]
- * Floor 4.
+ * Layer 4.
  *
  * The edges' planes lie along the rays: crossed.inl's with the point far away, to the order that is left. */
 static uint64_t KERNEL(sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job)
@@ -14,8 +14,8 @@ static uint64_t KERNEL(sun_crossed)(const lmb_tile *tile, uint64_t pixels, const
         if (asked != 0) {
             const lane3 d = lane3_sub(lane3_load(tile->position, k), at);
             const lane v0 = lane_add(lane3_dot(e0, d), o0), v1 = lane_add(lane3_dot(e1, d), o1);
-            const lane least = lane_min(lane_min(v0, v1), lane_add(lane3_dot(e2, d), o2));
-            const lane_mask inside = mask_and(lane_le(zero, least), lane_lt(beyond, lane3_dot(n, d)));
+            const lane min = lane_min(lane_min(v0, v1), lane_add(lane3_dot(e2, d), o2));
+            const lane_mask inside = mask_and(lane_le(zero, min), lane_lt(beyond, lane3_dot(n, d)));
             out |= (uint64_t)(mask_bits(inside) & asked) << k;
         }
     }

@@ -1,11 +1,11 @@
-/* plan.c: what a frame that began will do: operations, work and bytes; what is left out, and why. Floor 11. */
+/* plan.c: what a frame that began will do: operations, work and bytes; what is left out, and why. Layer 11. */
 #include <lambent/plan.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
 #include "../frame/stages.h"
-#include "../frame/wants.h"
+#include "../frame/requires.h"
 #include "plan_model.h"
 
 #if LMB_PLAN
@@ -34,24 +34,24 @@ static uint64_t surface_bytes(const lmb_surface *s)
 
 static int why_light(const lmb_render *r, uint32_t i)
 {
-    return light_is(r, i, LMB_LIGHT_DARK)       ? LMB_WHY_NO_LIGHT
-           : r->maps[i].drawn == 0              ? LMB_WHY_PAST
-           : light_is(r, i, LMB_LIGHT_MAP_KEPT) ? LMB_WHY_KEPT
-           : light_is(r, i, LMB_LIGHT_DIM)      ? LMB_WHY_DIM
-                                                : LMB_WHY_RUNS;
+    return light_is(r, i, LMB_LIGHT_DARK)         ? LMB_WHY_NO_LIGHT
+           : r->maps[i].drawn == 0                ? LMB_WHY_PAST
+           : light_is(r, i, LMB_LIGHT_MAP_REUSED) ? LMB_WHY_REUSED
+           : light_is(r, i, LMB_LIGHT_DIM)        ? LMB_WHY_DIM
+                                                  : LMB_WHY_RUNS;
 }
 
 static void plan_maps(planner *p)
 {
     const lmb_render *r = p->r;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_MAPS];
-    const double texels = (double)r->frame.light_map * (double)r->frame.light_map;
+    const double texels = (double)r->frame.shadow_map * (double)r->frame.shadow_map;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
         uint32_t drawn = (uint32_t)count_bits_64(r->maps[i].drawn);
         p->out->light[i] = (uint8_t)why_light(r, i);
         p->out->faces += (uint32_t)r->maps[i].faces;
-        if (light_is(r, i, LMB_LIGHT_MAP_KEPT)) {
+        if (light_is(r, i, LMB_LIGHT_MAP_REUSED)) {
             ++kept;
             continue;
         }
@@ -61,7 +61,7 @@ static void plan_maps(planner *p)
     }
     row->bytes = r->frame.map_bytes;
     if (p->out->faces_drawn == 0) {
-        leave_out(p, LMB_PLAN_MAPS, kept > 0 ? LMB_WHY_KEPT : LMB_WHY_NO_LIGHT);
+        leave_out(p, LMB_PLAN_MAPS, kept > 0 ? LMB_WHY_REUSED : LMB_WHY_NO_LIGHT);
     }
 }
 
@@ -74,10 +74,10 @@ static lmb_why why_no_bounce(const lmb_render *r)
     if (f->show == LMB_SHOW_DIRECT) {
         return LMB_WHY_NOT_SHOWN;
     }
-    if (!wants_bounce(f)) {
+    if (!requires_bounce(f)) {
         return LMB_WHY_NOT_ASKED;
     }
-    if (!omits(r, LMB_OMIT_BOUNCE)) {
+    if (!skips(r, LMB_SKIP_BOUNCE)) {
         return LMB_WHY_RUNS;
     }
     uint32_t seen = 0, bounce = 0;
@@ -88,19 +88,19 @@ static lmb_why why_no_bounce(const lmb_render *r)
     return r->triangles == 0 ? LMB_WHY_EMPTY : seen == 0 ? LMB_WHY_NO_LIGHT : bounce == 0 ? LMB_WHY_DIM : LMB_WHY_BLACK;
 }
 
-static void plan_blockers(planner *p)
+static void plan_bvh(planner *p)
 {
     const lmb_frame *f = &p->r->frame;
-    lmb_plan_row *row = &p->out->row[LMB_PLAN_BLOCKERS];
-    if (!wants_blockers(f)) {
-        leave_out(p, LMB_PLAN_BLOCKERS, f->show == LMB_SHOW_DIRECT ? LMB_WHY_NOT_SHOWN : LMB_WHY_NOT_ASKED);
+    lmb_plan_row *row = &p->out->row[LMB_PLAN_BVH];
+    if (!requires_bvh(f)) {
+        leave_out(p, LMB_PLAN_BVH, f->show == LMB_SHOW_DIRECT ? LMB_WHY_NOT_SHOWN : LMB_WHY_NOT_ASKED);
         return;
     }
-    row->bytes = (uint64_t)lmb_blockers_bytes(f->blockers.triangle_cap);
-    row->op[LMB_OP_BLOCKERS] = (double)p->r->triangles;
-    if (keeps(p->r, LMB_KEEP_BLOCKERS)) {
-        row->op[LMB_OP_BLOCKERS] = 0.0;
-        leave_out(p, LMB_PLAN_BLOCKERS, LMB_WHY_KEPT);
+    row->bytes = (uint64_t)lmb_bvh_bytes(f->bvh.triangle_cap);
+    row->op[LMB_OP_BVH] = (double)p->r->triangles;
+    if (reuses(p->r, LMB_REUSE_BVH)) {
+        row->op[LMB_OP_BVH] = 0.0;
+        leave_out(p, LMB_PLAN_BVH, LMB_WHY_REUSED);
     }
 }
 
@@ -109,7 +109,7 @@ static double fresh_faces(const lmb_render *r)
 {
     uint32_t n = 0;
     for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
-        n += light_is(r, i, LMB_LIGHT_TEXELS_KEPT) ? 0 : faces_that_bounce(r, i);
+        n += light_is(r, i, LMB_LIGHT_TEXELS_REUSED) ? 0 : faces_that_bounce(r, i);
     }
     return (double)n;
 }
@@ -118,20 +118,20 @@ static void plan_points(planner *p, lmb_why none)
 {
     const lmb_frame *f = &p->r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_POINTS];
-    const double side = (double)f->light_map, block = f->grouping.block != 0 ? (double)f->grouping.block : LMB_TILE;
+    const double side = (double)f->shadow_map, block = f->grouping.block != 0 ? (double)f->grouping.block : LMB_TILE;
     if (none != LMB_WHY_RUNS) {
         leave_out(p, LMB_PLAN_POINTS, none);
         return;
     }
-    const double faces = keeps(p->r, LMB_KEEP_POINTS) ? 0.0 : fresh_faces(p->r);
-    const double points = wants_cut(f) ? (double)f->tree.size * (double)f->tree.size : side * side / (block * block);
-    row->bytes = wants_cut(f) ? (uint64_t)lmb_tree_bytes(f->tree.face_cap, f->tree.size)
-                              : (uint64_t)f->points.cap * sizeof(lmb_point) + sizeof(lmb_groups) +
-                                    (uint64_t)f->points.cell_cap * sizeof(uint32_t);
+    const double faces = reuses(p->r, LMB_REUSE_POINTS) ? 0.0 : fresh_faces(p->r);
+    const double points = requires_cut(f) ? (double)f->tree.size * (double)f->tree.size : side * side / (block * block);
+    row->bytes = requires_cut(f) ? (uint64_t)lmb_tree_bytes(f->tree.face_cap, f->tree.size)
+                                 : (uint64_t)f->points.cap * sizeof(lmb_point) + sizeof(lmb_groups) +
+                                       (uint64_t)f->points.cell_cap * sizeof(uint32_t);
     row->op[LMB_OP_RESOLVED] = faces * side * side;
     row->op[LMB_OP_SUMMED] = faces * points;
     if (faces == 0.0) {
-        leave_out(p, LMB_PLAN_POINTS, LMB_WHY_KEPT);
+        leave_out(p, LMB_PLAN_POINTS, LMB_WHY_REUSED);
     }
 }
 
@@ -141,24 +141,24 @@ static void plan_bounces(planner *p, lmb_why none)
     const lmb_render *r = p->r;
     const lmb_frame *f = &r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_BOUNCES];
-    if (none != LMB_WHY_RUNS || !wants_elements(r)) {
+    if (none != LMB_WHY_RUNS || !requires_elements(r)) {
         leave_out(p, LMB_PLAN_BOUNCES, none != LMB_WHY_RUNS ? none : LMB_WHY_NOT_ASKED);
         return;
     }
     row->bytes = (uint64_t)lmb_elements_bytes(f->elements.cap);
-    if (keeps(r, LMB_KEEP_BOUNCES)) {
-        leave_out(p, LMB_PLAN_BOUNCES, LMB_WHY_KEPT);
+    if (reuses(r, LMB_REUSE_BOUNCES)) {
+        leave_out(p, LMB_PLAN_BOUNCES, LMB_WHY_REUSED);
         return;
     }
     row->op[LMB_OP_ELEMENTS] = (double)r->triangles;
-    row->op[LMB_OP_CUTS] = (double)f->elements.cap / LMB_TILE_PIXELS * (double)exchanges(r);
+    row->op[LMB_OP_CUTS] = (double)f->elements.cap / LMB_TILE_PIXELS * (double)radiosity_bounces(r);
 }
 
-/* The tiles' gathers, and what they ask the blockers. */
+/* The tiles' gathers, and what they ask the BVH. */
 static void plan_gather(planner *p, lmb_why none)
 {
     const lmb_frame *f = &p->r->frame;
-    lmb_plan_row *row = &p->out->row[LMB_PLAN_GATHER], *walk = &p->out->row[LMB_PLAN_OCCLUSION];
+    lmb_plan_row *row = &p->out->row[LMB_PLAN_GATHER], *traversal = &p->out->row[LMB_PLAN_OCCLUSION];
     lmb_hull hull;
     row->bytes = sizeof(lmb_band_scratch);
     if (none != LMB_WHY_RUNS) {
@@ -166,16 +166,16 @@ static void plan_gather(planner *p, lmb_why none)
         leave_out(p, LMB_PLAN_OCCLUSION, none);
         return;
     }
-    row->op[LMB_OP_CUTS] = p->tiles / (double)(f->gather_step * f->gather_step) * (wants_elements(p->r) ? 2.0 : 1.0);
+    row->op[LMB_OP_CUTS] = p->tiles / (double)(f->gather_step * f->gather_step) * (requires_elements(p->r) ? 2.0 : 1.0);
     if (p->facts != NULL) {
-        lmb_facts_count(&row->op[LMB_OP_PAIRS], &walk->op[LMB_OP_SEGMENTS], p->facts, f);
+        lmb_facts_count(&row->op[LMB_OP_PAIRS], &traversal->op[LMB_OP_SEGMENTS], p->facts, f);
     }
     if (f->occlusion == LMB_OCCLUSION_NONE) {
         leave_out(p, LMB_PLAN_OCCLUSION, LMB_WHY_NOT_ASKED);
-    } else if (f->occlusion == LMB_OCCLUSION_EXACT && !f->everything) {
+    } else if (f->occlusion == LMB_OCCLUSION_EXACT && !f->run_all) {
         lmb_hull_find(&hull, f->scene);
         if (hull.count > 0) {
-            walk->op[LMB_OP_SEGMENTS] = 0.0;
+            traversal->op[LMB_OP_SEGMENTS] = 0.0;
             leave_out(p, LMB_PLAN_OCCLUSION, LMB_WHY_CONVEX);
         }
     }
@@ -190,8 +190,8 @@ static void plan_view(planner *p)
     lmb_plan_row *row = &p->out->row[LMB_PLAN_VIEW];
     const int whole = is_whole(&f->eye.depth, &f->view);
     row->bytes = surface_bytes(&f->eye.depth) + surface_bytes(&f->eye.id) + surface_bytes(&f->eye_depth);
-    if (keeps(r, LMB_KEEP_VIEW) || r->triangles == 0) {
-        leave_out(p, LMB_PLAN_VIEW, r->triangles == 0 ? LMB_WHY_EMPTY : LMB_WHY_KEPT);
+    if (reuses(r, LMB_REUSE_VIEW) || r->triangles == 0) {
+        leave_out(p, LMB_PLAN_VIEW, r->triangles == 0 ? LMB_WHY_EMPTY : LMB_WHY_REUSED);
         return;
     }
     row->op[LMB_OP_TRIANGLES] = (double)r->triangles * (whole ? 1.0 : (double)band_count(&f->view));
@@ -206,28 +206,28 @@ static void plan_direct(planner *p)
     for (uint32_t i = 0; i < f->scene->light_count; ++i) {
         lights += light_is(r, i, LMB_LIGHT_DARK) ? 0.0 : 1.0;
     }
-    if (!wants_direct(f)) {
+    if (!requires_direct(f)) {
         leave_out(p, LMB_PLAN_DIRECT, LMB_WHY_NOT_SHOWN);
-    } else if (lights == 0.0 && !wants_many(f)) {
+    } else if (lights == 0.0 && !requires_many_lights(f)) {
         leave_out(p, LMB_PLAN_DIRECT, LMB_WHY_NO_LIGHT);
     } else {
-        p->out->row[LMB_PLAN_DIRECT].op[LMB_OP_LIT] = p->pixels * lights;
+        p->out->row[LMB_PLAN_DIRECT].op[LMB_OP_LIGHTING] = p->pixels * lights;
     }
 }
 
-static void plan_looks(planner *p)
+static void plan_lookups(planner *p)
 {
     const lmb_render *r = p->r;
     const lmb_frame *f = &r->frame;
-    if (!wants_gloss(r)) {
+    if (!requires_glossy(r)) {
         leave_out(p, LMB_PLAN_LOBES, r->is_glossy ? LMB_WHY_NOT_SHOWN : LMB_WHY_NO_LOBE);
     } else {
         p->out->row[LMB_PLAN_LOBES].op[LMB_OP_LOBES] = p->pixels;
     }
-    if (!r->shines || !wants_direct(f)) {
-        leave_out(p, LMB_PLAN_SHINE, r->shines ? LMB_WHY_NOT_SHOWN : LMB_WHY_NO_EMISSION);
+    if (!r->emits || !requires_direct(f)) {
+        leave_out(p, LMB_PLAN_EMISSION, r->emits ? LMB_WHY_NOT_SHOWN : LMB_WHY_NO_EMISSION);
     } else {
-        p->out->row[LMB_PLAN_SHINE].op[LMB_OP_STORED] = p->pixels;
+        p->out->row[LMB_PLAN_EMISSION].op[LMB_OP_STORED] = p->pixels;
     }
 }
 
@@ -250,7 +250,7 @@ static void sum_up(lmb_plan *out)
 lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_facts *facts)
 {
     if (out == NULL || begun == NULL || begun->frame.scene == NULL || begun->failed != LMB_OK ||
-        begun->stage != LMB_STAGE_LIGHT_MAP || begun->light != 0 || begun->place != 0) {
+        begun->stage != LMB_STAGE_SHADOW_MAP || begun->light != 0 || begun->progress != 0) {
         return LMB_ERR_ARG;
     }
     const lmb_frame *f = &begun->frame;
@@ -260,7 +260,7 @@ lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_fact
     memset(out, 0, sizeof *out);
     const lmb_why none = why_no_bounce(begun);
     plan_maps(&p);
-    plan_blockers(&p);
+    plan_bvh(&p);
     plan_points(&p, none);
     plan_bounces(&p, none);
     plan_view(&p);
@@ -268,7 +268,7 @@ lmb_status lmb_plan_frame(lmb_plan *out, const lmb_render *begun, const lmb_fact
         p.pixels * (f->gather_step > 1 && none == LMB_WHY_RUNS ? 3.0 : 1.0);
     plan_direct(&p);
     plan_gather(&p, none);
-    plan_looks(&p);
+    plan_lookups(&p);
     out->row[LMB_PLAN_STORE].op[LMB_OP_STORED] = p.pixels;
     out->row[LMB_PLAN_STORE].bytes = surface_bytes(&f->out);
     sum_up(out);

@@ -1,4 +1,4 @@
-/* plan_choose.c: a ladder of settings, what each takes, and which of them meets a budget. Floor 11.
+/* plan_choose.c: a ladder of settings, what each takes, and which of them meets a budget. Layer 11.
  *
  * What a rung takes and how far it is from the next was looked at; nothing is known of errors beside that. */
 #include <lambent/plan.h>
@@ -7,7 +7,7 @@
 
 #include "../base/vec.h"
 #include "../frame/stages.h"
-#include "../frame/wants.h"
+#include "../frame/requires.h"
 #include "plan_model.h"
 
 #if LMB_PLAN && LMB_TREES
@@ -17,7 +17,7 @@
 /* From draft on the presets of the tool, and one finer than `best`. */
 static const struct rung {
     int32_t tree;
-    float error, visible;
+    float error, visibility;
     int32_t gather_step;
 } ladder[LMB_PLAN_RUNGS] = {
     {16, 0.5f, 0.5f, 4},    {32, 0.25f, 0.25f, 4}, {64, 0.12f, 0.12f, 2},   {128, 0.06f, 0.06f, 1},
@@ -29,7 +29,7 @@ static const struct rung {
 static int32_t map_for(int32_t tree, const lmb_facts *f)
 {
     int32_t map = tree;
-    while (map < f->wanted_map && 2 * map <= f->most && 2 * map <= 8 * tree) {
+    while (map < f->wanted_map && 2 * map <= f->max && 2 * map <= 8 * tree) {
         map *= 2;
     }
     return map;
@@ -37,12 +37,12 @@ static int32_t map_for(int32_t tree, const lmb_facts *f)
 
 void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung)
 {
-    if (out != NULL && facts != NULL && facts->most >= LMB_TILE) {
+    if (out != NULL && facts != NULL && facts->max >= LMB_TILE) {
         const struct rung *at = &ladder[clampi(rung, 0, LMB_PLAN_RUNGS - 1)];
-        out->tree = mini(at->tree, facts->most);
-        out->light_map = map_for(out->tree, facts);
+        out->tree = mini(at->tree, facts->max);
+        out->shadow_map = map_for(out->tree, facts);
         out->error = at->error;
-        out->visible = at->visible;
+        out->visibility = at->visibility;
         out->gather_step = at->gather_step;
         out->occlusion = LMB_OCCLUSION_EXACT;
     }
@@ -53,16 +53,16 @@ void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, do
                     uint64_t fixed)
 {
     const lmb_settings *s = &out->settings;
-    const double texels = f->faces * (double)s->light_map * (double)s->light_map, pixels = f->tiles * LMB_TILE_PIXELS;
+    const double texels = f->faces * (double)s->shadow_map * (double)s->shadow_map, pixels = f->tiles * LMB_TILE_PIXELS;
     const double cuts = f->elements > 0.0 ? 2.0 : 1.0;
     memset(out->op, 0, sizeof out->op);
     out->op[LMB_OP_TRIANGLES] = f->triangles * (f->faces + 1.0);
     out->op[LMB_OP_TEXELS] = texels + pixels;
-    out->op[LMB_OP_BLOCKERS] = f->triangles;
+    out->op[LMB_OP_BVH] = f->triangles;
     out->op[LMB_OP_RESOLVED] = texels + pixels * (s->gather_step > 1 ? 3.0 : 1.0);
     out->op[LMB_OP_SUMMED] = f->faces * (double)s->tree * (double)s->tree;
     out->op[LMB_OP_ELEMENTS] = f->elements > 0.0 ? f->triangles : 0.0;
-    out->op[LMB_OP_LIT] = pixels * f->lights;
+    out->op[LMB_OP_LIGHTING] = pixels * f->lights;
     out->op[LMB_OP_CUTS] = cuts * f->tiles / (double)(s->gather_step * s->gather_step) +
                            f->elements / LMB_TILE_PIXELS * (f->bounces - 1.0);
     out->op[LMB_OP_PAIRS] = cuts * pairs;
@@ -78,7 +78,7 @@ void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, do
 
 void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed)
 {
-    if (out == NULL || facts == NULL || rung < 0 || rung >= LMB_PLAN_RUNGS || facts->most < LMB_TILE) {
+    if (out == NULL || facts == NULL || rung < 0 || rung >= LMB_PLAN_RUNGS || facts->max < LMB_TILE) {
         return;
     }
     double growth = 1.0;
@@ -100,7 +100,7 @@ void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, co
     if (pairs == NULL || segments == NULL) {
         return;
     }
-    const int counted = facts != NULL && f != NULL && wants_cut(f);
+    const int counted = facts != NULL && f != NULL && requires_cut(f);
     *pairs = counted ? facts->pairs : 0.0;
     *segments = counted ? facts->segments : 0.0;
 }
@@ -117,7 +117,7 @@ static double over(const lmb_choice *c, const lmb_budget *b)
  * the last that work and bytes allow is the nearest. */
 lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_budget *budget, uint64_t fixed)
 {
-    if (out == NULL || facts == NULL || budget == NULL || facts->most < LMB_TILE) {
+    if (out == NULL || facts == NULL || budget == NULL || facts->max < LMB_TILE) {
         return LMB_ERR_ARG;
     }
     int keeps = 0;

@@ -1,4 +1,4 @@
-/* plan_names.c: a plan in words, and the numbers of its model. Floor 11. */
+/* plan_names.c: a plan in words, and the numbers of its model. Layer 11. */
 #include "plan_model.h"
 
 #if LMB_PLAN
@@ -17,7 +17,7 @@ const char *lmb_why_name(int32_t why)
         "no light meets a triangle",
         "nothing that is drawn reflects",
         "nothing that is drawn is glossy",
-        "nothing that is drawn shines by itself",
+        "nothing that is drawn emits light",
         "stands as the last frame left it",
         "a convex, empty room: nothing stands between",
         "all of the scene lies past it",
@@ -40,7 +40,7 @@ const char *lmb_op_name(int32_t op)
 const char *lmb_plan_stage_name(int32_t stage)
 {
     static const char *const names[LMB_PLAN_STAGES] = {
-        "light maps", "blockers",     "first points", "later bounces", "view",           "surfaces",
+        "shadow maps", "BVH",     "first points", "later bounces", "view",           "surfaces",
         "direct light", "bounced light", "occlusion",    "lobes",         "emitted light", "picture",
     };
     return stage >= 0 && stage < LMB_PLAN_STAGES ? names[stage] : "?";

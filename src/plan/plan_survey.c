@@ -1,12 +1,12 @@
-/* plan_survey.c: which of a frame's tiles are looked at: evenly, along a Z curve. Floor 11. */
+/* plan_survey.c: which of a frame's tiles are looked at: evenly, along a Z curve. Layer 11. */
 #include <lambent/plan.h>
 
 #include <string.h>
 
 #include "../base/vec.h"
 #include "../frame/stages.h"
-#include "../frame/wants.h"
-#include "plan_look.h"
+#include "../frame/requires.h"
+#include "plan_sample.h"
 
 #if LMB_PLAN && LMB_TREES
 
@@ -31,8 +31,8 @@ static uint32_t spread(uint32_t i, uint32_t all)
 
 lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, int32_t wanted)
 {
-    if (out == NULL || !lmb_can_look(r) || (tiles != 1 && tiles != LMB_SPARSE_TILES) || wanted < 1 ||
-        wanted > (tiles == 1 ? LMB_LOOK_TILES : LMB_LOOK_BLOCKS)) {
+    if (out == NULL || !lmb_can_sample(r) || (tiles != 1 && tiles != LMB_SPARSE_TILES) || wanted < 1 ||
+        wanted > (tiles == 1 ? LMB_SAMPLE_TILES : LMB_SAMPLE_BLOCKS)) {
         return LMB_ERR_ARG;
     }
     const lmb_view *v = &r->frame.view;

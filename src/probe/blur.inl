@@ -1,4 +1,4 @@
-/* blur.inl: one row of a map's blur: down the columns, then along the row. Floor 6.                               [S11]
+/* blur.inl: one row of a map's blur: down the columns, then along the row. Layer 6.                               [S11]
  *
  * Four sums side by side: one would wait for itself. Lanes are columns. */
 

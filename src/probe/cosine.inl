@@ -1,4 +1,4 @@
-/* cosine.inl: irradiance of normals from lights all around: pi times their mean by max(0, n . d). Floor 6.        [S14]
+/* cosine.inl: irradiance of normals from lights all around: pi times their mean by max(0, n . d). Layer 6.        [S14]
  *
  * Lanes are normals. */
 

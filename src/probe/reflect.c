@@ -1,6 +1,6 @@
-/* reflect.c: what a rough surface mirrors of the world, by reflected direction, as a cube. Floor 6.      [S16 S17 S22]
+/* reflect.c: what a rough surface mirrors of the world, by reflected direction, as a cube. Layer 6.      [S16 S17 S22]
  *
- * The lobe of lmb_gloss for a viewer straight above, about a direction: D(h) G(l) / 4, that is rays in proportion to
+ * The lobe of lmb_glossy for a viewer straight above, about a direction: D(h) G(l) / 4, that is rays in proportion to
  * D / 4, weighed by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of the lobe (filtered
  * importance sampling, Krivanek and Colbert 2008). That viewers who look along the surface see a longer lobe is left
  * out, as in all such cubes. */
@@ -107,16 +107,16 @@ static void store(float *cube, const lmb_probe_rays *t, int32_t first, int32_t t
     }
 }
 
-int32_t lmb_probe_gloss_side(float roughness)
+int32_t lmb_probe_glossy_side(float roughness)
 {
     return roughness < 0.1f ? 0 : roughness < 0.3f ? 64 : roughness < 0.6f ? 16 : 8;
 }
 
-static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *kernels, const lmb_world_look *look,
+static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *kernels, const lmb_world_query *query,
                    lmb_vec3 at)
 {
     lmb_world_job job;
-    lmb_world_ask(&job, look->world, 0.5f * LMB_PI / (float)(FINE * n), look->blend);
+    lmb_world_ask(&job, query->world, 0.5f * LMB_PI / (float)(FINE * n), query->blend);
     job.means = 1;
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
         set_tile(t, first, n, at);
@@ -128,7 +128,7 @@ static void mirror(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels 
     }
 }
 
-static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *kernels, const lmb_world_look *look,
+static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *kernels, const lmb_world_query *query,
                  lmb_vec3 at, float alpha)
 {
     lobe_ray rays[RAYS];
@@ -137,7 +137,7 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
         set_tile(t, first, n, at);
         for (int i = 0; i < RAYS; ++i) {
             lmb_world_job job;
-            lmb_world_ask(&job, look->world, rays[i].width, look->blend);
+            lmb_world_ask(&job, query->world, rays[i].width, query->blend);
             point_ray(t, &rays[i]);
             add_seen(t, rays[i].weight, kernels, &job);
         }
@@ -146,18 +146,18 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
 }
 
 lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
-                             const lmb_world_look *look, lmb_vec3 at, float roughness)
+                             const lmb_world_query *query, lmb_vec3 at, float roughness)
 {
-    if (cube == NULL || scratch == NULL || kernels == NULL || look == NULL || look->world == NULL ||
-        look->world->texels == NULL ||
+    if (cube == NULL || scratch == NULL || kernels == NULL || query == NULL || query->world == NULL ||
+        query->world->texels == NULL ||
         lmb_probe_cube_bytes(n) == 0 || !is_place(at) || !(roughness >= 0.0f && roughness <= 1.0f)) {
         return LMB_ERR_ARG;
     }
     const float alpha = roughness * roughness;
-    if (alpha < LMB_LEAST_ALPHA) {
-        mirror(cube, n, scratch, kernels, look, at);
+    if (alpha < LMB_MIN_ALPHA) {
+        mirror(cube, n, scratch, kernels, query, at);
     } else {
-        blur(cube, n, scratch, kernels, look, at, alpha);
+        blur(cube, n, scratch, kernels, query, at, alpha);
     }
     return LMB_OK;
 }

@@ -1,4 +1,4 @@
-/* remap.c: the world as a place, or rays, see it: its numbers, then the kernels. Floor 6.               [S5-S8, S17] */
+/* remap.c: the world as a place, or rays, see it: its numbers, then the kernels. Layer 6.               [S5-S8, S17] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../lane/kernels.h"
@@ -12,9 +12,9 @@ static void set_cube(lmb_world_job *job, const lmb_world *w)
 {
     const lmb_world_pictures *p = &w->pictures;
     const lmb_vec3 middle = mul3(add3(p->low, p->high), 0.5f), half = mul3(sub3(p->high, p->low), 0.5f * INSIDE);
-    const float most = 0.5001f * LMB_PI; /* of a level's face over its texels: wider than the ray */
+    const float max = 0.5001f * LMB_PI; /* of a level's face over its texels: wider than the ray */
     int32_t level = 0;
-    while (level + 1 < w->cube_levels && (float)w->cube[level].width * job->ray_width > most) {
+    while (level + 1 < w->cube_levels && (float)w->cube[level].width * job->ray_width > max) {
         ++level;
     }
     job->side = w->cube[level].width;

@@ -1,4 +1,4 @@
-/* remap.inl: what rays see of the world: by direction from one place, or a ray a pixel. Floor 6.           [S5-S8, S17]
+/* remap.inl: what rays see of the world: by direction from one place, or a ray a pixel. Layer 6.           [S5-S8, S17]
  *
  * Lanes are rays. A ray meets the far world at q, which the cube shows along q - centre; and the ground, if it
  * goes down to it within the picture. Both are read bilinearly, from a level whose texels are about as wide as it. */
@@ -65,7 +65,7 @@ LANE_PART void remap_meet(remap_spot *out, const lmb_world_job *job, lane3 d)
     const lane x = lane_abs(d.x), y = lane_abs(d.y), z = lane_abs(d.z);
     const lane_mask on_x = mask_and(lane_le(y, x), lane_le(z, x)), on_y = mask_and(mask_not(on_x), lane_le(z, y));
     const lane_mask up_x = lane_lt(zero, d.x), up_y = lane_lt(zero, d.y), up_z = lane_lt(zero, d.z);
-    const lane most = lane_pick(on_x, x, lane_pick(on_y, y, z)), less_x = lane_sub(zero, d.x),
+    const lane max = lane_pick(on_x, x, lane_pick(on_y, y, z)), less_x = lane_sub(zero, d.x),
                less_y = lane_sub(zero, d.y), less_z = lane_sub(zero, d.z);
     const lane s = lane_pick(on_x, lane_pick(up_x, less_z, d.z), lane_pick(on_y, d.x, lane_pick(up_z, d.x, less_x)));
     const lane t = lane_pick(on_y, lane_pick(up_y, d.z, less_z), less_y);
@@ -74,7 +74,7 @@ LANE_PART void remap_meet(remap_spot *out, const lmb_world_job *job, lane3 d)
                    lanei_pick(on_y, lanei_pick(up_y, lanei_splat(2), lanei_splat(3)),
                               lanei_pick(up_z, lanei_splat(4), lanei_splat(5))));
     const lane middle = lane_add(half_n, lane_splat(0.5f));
-    const lane scale = lane_div(half_n, lane_max(most, lane_splat(1e-20f)));
+    const lane scale = lane_div(half_n, lane_max(max, lane_splat(1e-20f)));
     out->x = lane_add(lane_mul(s, scale), middle);
     out->y = lane_add(lane_mul(t, scale), middle);
 }
@@ -270,7 +270,8 @@ LANE_PART lane3 remap_mix(const lmb_world_job *job, const remap_hit *ground, rem
                       remap_over(cube, ground->colour));
 }
 
-/* What a vector of rays sees. Where the ground is near and whole the cube need not be read, nor does it count. */
+/* The radiance that a vector of rays meets. Where the ground is the nearer one and opaque, the cube is neither read nor
+ * blended in. */
 LANE_PART lane3 remap_see(const lmb_world_job *job, const remap_place *from, lane3 d)
 {
     const lane far = remap_far(job, from, d), whole = lane_splat(0.99999f);
@@ -324,7 +325,8 @@ static void KERNEL(see)(float out[3][LMB_TILE_PIXELS], float origin[3][LMB_TILE_
     }
 }
 
-static void KERNEL(look)(float out[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS], const lmb_world_job *job)
+static void KERNEL(world_radiance)(float out[3][LMB_TILE_PIXELS], float direction[3][LMB_TILE_PIXELS],
+                                   const lmb_world_job *job)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
         remap_store(out, k, remap_cube(job, lane3_load((const float (*)[LMB_TILE_PIXELS])direction, k)).rgb);

@@ -1,4 +1,4 @@
-/* sh.c: a map's spherical harmonics, and irradiance from them. Floor 6.                                          [S25]
+/* sh.c: a map's spherical harmonics, and irradiance from them. Layer 6.                                          [S25]
  *
  * A harmonic is its latitude's part times cos m a or sin m a: each row is first summed against the nine waves, then the
  * waves against the latitudes' parts: width x 9 products a row instead of width x 25. */

@@ -1,6 +1,6 @@
-/* shade.c: small cubes with borders, and what a tile's pixels take from them. Floor 6.                [S17 S21 S22] */
+/* shade.c: small cubes with borders, and what a tile's pixels take from them. Layer 6.                [S17 S21 S22] */
 #include "../base/memory_check.h"
-#include "../light/gloss.h"
+#include "../light/glossy.h"
 #include "../raster/plane.h"
 #include "../raster/tile.h"
 #include "../map/cube.h"
@@ -87,7 +87,7 @@ lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, 
         return LMB_ERR_ARG;
     }
     ask_cube(&job, cube);
-    kernels->look(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->normal, &job);
+    kernels->world_radiance(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->normal, &job);
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
@@ -98,11 +98,11 @@ lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, 
 }
 
 /* The way on of what comes from the viewer. Pixels without a lobe get any direction. */
-static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_gloss *gloss, const lmb_tile *tile)
+static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_glossy *glossy, const lmb_tile *tile)
 {
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const int has = (int)(gloss->pixels >> k & 1u);
-        const lmb_vec3 n = tile_vec(tile->normal, k), v = has ? tile_vec(gloss->towards, k) : n;
+        const int has = (int)(glossy->pixels >> k & 1u);
+        const lmb_vec3 n = tile_vec(tile->normal, k), v = has ? tile_vec(glossy->towards, k) : n;
         const lmb_vec3 r = has ? sub3(mul3(n, 2.0f * dot3(n, v)), v) : vec3(0.0f, 1.0f, 0.0f);
         out[0][k] = r.x;
         out[1][k] = r.y;
@@ -110,27 +110,27 @@ static void reflect(float out[3][LMB_TILE_PIXELS], const lmb_gloss *gloss, const
     }
 }
 
-lmb_status lmb_probe_gloss_tile(lmb_gloss *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
-                                const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
-                                const lmb_world_look *look)
+lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, lmb_probe_rays *scratch, const lmb_kernels *kernels,
+                                 const lmb_tile *tile, uint64_t pixels, const lmb_probe_cube *cube,
+                                 const lmb_world_query *query)
 {
     lmb_world_job job;
     if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL ||
-        (cube == NULL ? look == NULL || look->world == NULL || look->world->texels == NULL : cube->texel == NULL)) {
+        (cube == NULL ? query == NULL || query->world == NULL || query->world->texels == NULL : cube->texel == NULL)) {
         return LMB_ERR_ARG;
     }
     reflect(scratch->direction, inout, tile);
     if (cube != NULL) {
         ask_cube(&job, cube);
-        kernels->look(scratch->seen, scratch->direction, &job);
+        kernels->world_radiance(scratch->seen, scratch->direction, &job);
     } else {
-        lmb_world_ask(&job, look->world, look->ray_width, look->blend);
+        lmb_world_ask(&job, query->world, query->ray_width, query->blend);
         kernels->see(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->position, scratch->direction, &job);
     }
     for (uint64_t bits = pixels & inout->pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         for (int c = 0; c < 3; ++c) {
-            inout->rgb[c][k] += gloss_share(inout, c, k) * scratch->seen[c][k];
+            inout->rgb[c][k] += glossy_share(inout, c, k) * scratch->seen[c][k];
         }
     }
     return LMB_OK;
@@ -156,15 +156,15 @@ static void view_rays(lmb_probe_rays *out, const lmb_view *view, int32_t x, int3
 }
 
 lmb_status lmb_probe_background(float inout[3][LMB_TILE_PIXELS], lmb_probe_rays *scratch, const lmb_kernels *kernels,
-                                const lmb_tile *tile, const lmb_view *view, const lmb_world_look *look)
+                                const lmb_tile *tile, const lmb_view *view, const lmb_world_query *query)
 {
     lmb_world_job job;
-    if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || view == NULL || look == NULL ||
-        look->world == NULL || look->world->texels == NULL) {
+    if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || view == NULL || query == NULL ||
+        query->world == NULL || query->world->texels == NULL) {
         return LMB_ERR_ARG;
     }
     view_rays(scratch, view, tile->x, tile->y);
-    lmb_world_ask(&job, look->world, look->ray_width, look->blend);
+    lmb_world_ask(&job, query->world, query->ray_width, query->blend);
     kernels->see(scratch->seen, scratch->origin, scratch->direction, &job);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         for (int c = 0; c < 3 && tile->id[k] == 0; ++c) {

@@ -1,7 +1,7 @@
-/* share.inl: a map's light, two by two texels, among the nine nearest of 6 x 8 x 8 directions. Floor 6.           [S14]
+/* share.inl: a map's light, two by two texels, among the nine nearest of 6 x 8 x 8 directions. Layer 6.           [S14]
  *
  * So that the lights' sum, mean place and spread are their own: whatever is smooth over three texels comes out right.
- * To four (their spread is wider) is off by a half more, to one by two to three times.
+ * With four, whose extent is larger, the error is half as large again; with one it is two to three times as large.
  *
  * Three texels in a row are twelve numbers side by side, and with a fourth of weight 0 whole vectors of any machine.
  * Lanes are those numbers. */

@@ -1,4 +1,4 @@
-/* world.c: the world's pictures -> coded texels and their levels, in the caller's memory. Floor 6.          [S1-S4] */
+/* world.c: the world's pictures -> coded texels and their levels, in the caller's memory. Layer 6.          [S1-S4] */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -8,12 +8,12 @@
 
 /* Radiance that is coded as 0 or 1, and log2 of 10. */
 #define LOG_SHIFT 0.101f
-#define LOG_MOST 99.899f
+#define LOG_MAX 99.899f
 #define LOG2_10 3.32192809f
 
 float lmb_world_encode(float c)
 {
-    c = c > 0.0f ? minf(c, LOG_MOST) : 0.0f;
+    c = c > 0.0f ? minf(c, LOG_MAX) : 0.0f;
     return clampf((lmb_log2(c + LOG_SHIFT) * (1.0f / LOG2_10) + 1.0f) * (1.0f / 3.0f), 0.0f, 1.0f);
 }
 
@@ -27,7 +27,7 @@ float lmb_world_decode(float e)
 
 static size_t texel_bytes(int32_t format) { return format == LMB_WORLD_LOG8 ? 4 : format == LMB_WORLD_LOG16 ? 8 : 16; }
 
-static int is_sound(const lmb_world_pictures *p, int32_t format)
+static int is_valid(const lmb_world_pictures *p, int32_t format)
 {
     return p != NULL && format >= LMB_WORLD_F32 && format <= LMB_WORLD_LOG8 && p->face_size >= 1 &&
            p->face_size <= 4096 &&
@@ -68,7 +68,7 @@ size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format)
 {
     lmb_world_level level[LMB_WORLD_LEVELS];
     size_t texels = 0;
-    if (!is_sound(pictures, format)) {
+    if (!is_valid(pictures, format)) {
         return 0;
     }
     set_cube(level, &texels, pictures);
@@ -109,7 +109,7 @@ void lmb_world_texel(float out[4], const lmb_world *w, size_t at)
     }
 }
 
-/* What is darker than any lamp's reflection is dark: its products stay far from denormals. */
+/* What is darker than any light's reflection is dark: its products stay far from denormals. */
 static float sane_radiance(float c) { return c > 1e-12f && c < 1e30f ? c : 0.0f; }
 
 static size_t face_texel(const lmb_world_level *l, int32_t face, int32_t x, int32_t y)
@@ -222,7 +222,7 @@ static int is_inside(const lmb_world_pictures *p)
            c.y < p->high.y && c.z < p->high.z;
 }
 
-static int ground_is_sound(const lmb_world_pictures *p)
+static int ground_is_valid(const lmb_world_pictures *p)
 {
     return p->ground == NULL || (is_sane(p->ground_x) && is_sane(p->ground_z) && is_sane(p->ground_y) &&
                                  is_sane(p->ground_width_m) && is_sane(p->ground_depth_m) &&
@@ -248,7 +248,7 @@ lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, in
     if (format < LMB_WORLD_F32 || format > LMB_WORLD_LOG8) {
         return LMB_ERR_FORMAT;
     }
-    if (!is_sound(pictures, format) || !is_inside(pictures) || !ground_is_sound(pictures)) {
+    if (!is_valid(pictures, format) || !is_inside(pictures) || !ground_is_valid(pictures)) {
         return LMB_ERR_ARG;
     }
     const lmb_status status = check_memory(memory, bytes, lmb_world_bytes(pictures, format));

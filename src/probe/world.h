@@ -1,4 +1,4 @@
-/* world.h: one texel of the world, and all of it for the kernels. Floor 6. */
+/* world.h: one texel of the world, and all of it for the kernels. Layer 6. */
 #ifndef LMB_PROBE_WORLD_H
 #define LMB_PROBE_WORLD_H
 

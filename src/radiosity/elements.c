@@ -1,4 +1,4 @@
-/* elements.c: a scene's triangles -> elements of about one size, neighbours beside each other. Floor 8. */
+/* elements.c: a scene's triangles -> elements of about one size, neighbours beside each other. Layer 8. */
 #include <lambent/elements.h>
 
 #include <string.h>
@@ -18,7 +18,7 @@ enum {
     SAMPLES = 4,
     CELLS = 1 << 20,
     Z_BITS = 9,
-    MOST_PIECES = 64 /* an element: so that pieces too thin to have an area, or all hole, come to an end too */
+    MAX_PIECES = 64 /* an element: so that pieces too thin to have an area, or all hole, come to an end too */
 };
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
@@ -164,9 +164,9 @@ static float look_at(float albedo[3], const source *s, const piece *p, float sha
     return (float)standing / SAMPLES;
 }
 
-/* --- what a piece gives off --------------------------------------------------------------------------------------- */
+/* --- what a piece emits --------------------------------------------------------------------------------------- */
 
-enum { MOST_ROWS = 4, MOST_ROWS_BARE = 32 /* of a piece; of one whose map has no levels */ };
+enum { MAX_ROWS = 4, MAX_ROWS_BARE = 32 /* of a piece; of one whose map has no levels */ };
 
 /* Texels along the longest edge of a piece, in a map. */
 static float texels_along(const source *s, const piece *p, const lmb_texture *map)
@@ -208,9 +208,9 @@ static void emission_of(float out[3], const source *s, const piece *p)
     }
     lmb_texture map = s->scene->textures[m->emission_map - 1];
     map.filter = map.levels > 1 ? LMB_TRILINEAR : map.filter;
-    const float along = texels_along(s, p, &map), most = map.levels > 1 ? MOST_ROWS : MOST_ROWS_BARE;
-    const int rows = (int)clampf(along, 0.0f, most - 1.0f) + 1;
-    const float step = 1.0f / (float)rows, lod = along > most ? lmb_log2(along * step) : 0.0f;
+    const float along = texels_along(s, p, &map), max = map.levels > 1 ? MAX_ROWS : MAX_ROWS_BARE;
+    const int rows = (int)clampf(along, 0.0f, max - 1.0f) + 1;
+    const float step = 1.0f / (float)rows, lod = along > max ? lmb_log2(along * step) : 0.0f;
     float sum[3] = {0.0f, 0.0f, 0.0f};
     int standing = 0;
     for (int i = 0; i < rows * rows; ++i) {
@@ -227,8 +227,8 @@ static void emission_of(float out[3], const source *s, const piece *p)
 
 /* --- pieces -> elements ------------------------------------------------------------------------------------------- */
 
-/* Small triangles find their element by its cell, in a table as long as twice the elements; it lies where the tree's
- * nodes will be. */
+/* Small triangles find their element by grid cell, in a hash table with twice as many slots as elements. The table uses
+ * the memory in which the tree's nodes are built later. */
 typedef struct maker {
     lmb_elements *out;
     const lmb_scene *scene;
@@ -261,8 +261,8 @@ typedef struct cell {
     int32_t x, y, z;
 } cell;
 
-/* The box that nearly everything is in: what strays out of it counts as at its side, so that it takes no cells from the
- * rest. */
+/* The box that contains nearly all of the scene. What lies outside is clamped to its sides, so that outliers do not
+ * take cells from the rest. */
 static lmb_vec3 low_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_low : s->bounds_min; }
 static lmb_vec3 high_of(const lmb_scene *s) { return s->core.faces > 0 ? s->core.wide_high : s->bounds_max; }
 
@@ -388,7 +388,7 @@ typedef struct turn {
 } turn;
 
 /* Corner k of the piece becomes what the turn keeps, and the other way round. */
-static void exchange_corner(piece *p, turn *t, int k)
+static void swap_corner(piece *p, turn *t, int k)
 {
     const turn kept = *t;
     t->corner = p->corner[k];
@@ -408,7 +408,7 @@ static void enter_second(piece *p, turn *t, int from)
     t->b2 = 0.5f * (p->b2[from] + p->b2[to]);
     t->from = from;
     t->first = 0;
-    exchange_corner(p, t, from);
+    swap_corner(p, t, from);
 }
 
 /* From the second half into the first; 0 where that is done too: the piece is whole again. */
@@ -416,9 +416,9 @@ static int enter_first(piece *p, turn *t)
 {
     const int done = t->first, to = (t->from + 1) % 3;
     if (!done) {
-        exchange_corner(p, t, t->from); /* t: the middle */
+        swap_corner(p, t, t->from); /* t: the middle */
     }
-    exchange_corner(p, t, to);
+    swap_corner(p, t, to);
     t->first = 1;
     return !done;
 }
@@ -439,7 +439,7 @@ static void add_source(maker *m, const source *s)
             enter_second(&p, &turns[depth++], from);
         }
         add_piece(m, s, &p, 0);
-        m->full |= ++m->pieces > MOST_PIECES * m->out->cap;
+        m->full |= ++m->pieces > MAX_PIECES * m->out->cap;
         while (depth > 0 && !enter_first(&p, &turns[depth - 1])) {
             --depth;
         }
@@ -575,7 +575,8 @@ lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const
     m.scene = scene;
     m.slot = (uint32_t *)(void *)inout->tree.node;
     m.mask = 2 * inout->cap - 1;
-    /* A piece's area is at most half of side^2, so this is too fine by far, or all of it is small triangles. */
+    /* A piece's area is at most half of side^2, so the first trial is either much too fine or consists of small
+     * triangles only. */
     m.side2 = maxf(scene_area(scene) / (float)inout->cap, 1e-24f);
     while (!make(&m)) {
         m.side2 *= inout->count == inout->cap ? 2.0f : 16.0f;

@@ -1,4 +1,4 @@
-/* clip.c: a triangle in clip space against the near plane and the guard band. Floor 3.
+/* clip.c: a triangle in clip space against the near plane and the guard band. Layer 3.
  *
  * Sutherland-Hodgman. Two triangles that share an edge must cut it at the same bits, whichever way they walk it: the
  * intersection is always computed from the endpoint nearer to the plane, then the smaller bit pattern. (From the one

@@ -1,4 +1,4 @@
-/* clip.h: a triangle in clip space against the near plane and the guard band. Floor 3. */
+/* clip.h: a triangle in clip space against the near plane and the guard band. Layer 3. */
 #ifndef LMB_RASTER_CLIP_H
 #define LMB_RASTER_CLIP_H
 

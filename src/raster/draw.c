@@ -1,4 +1,4 @@
-/* draw.c: a range of the scene's triangles into a window. Floor 3.
+/* draw.c: a range of the scene's triangles into a window. Layer 3.
  *
  * Batches of LMB_BATCH triangles are transformed and set up side by side (setup.inl); small ones are filled in runs
  * (fill_small.inl). What is clipped, large or full of holes goes one by one through draw_one.c, in its place in the

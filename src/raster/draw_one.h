@@ -1,4 +1,4 @@
-/* draw_one.h: one triangle, without a batch. Floor 3. */
+/* draw_one.h: one triangle, without a batch. Layer 3. */
 #ifndef LMB_RASTER_DRAW_ONE_H
 #define LMB_RASTER_DRAW_ONE_H
 

@@ -1,4 +1,4 @@
-/* fill.c: a set-up triangle with holes into the tiles of a window. Floor 3.
+/* fill.c: a set-up triangle with holes into the tiles of a window. Layer 3.
  *
  * Tiles are out, partly covered or wholly inside each edge by the edge's value at the tile's corners. An edge that
  * the whole tile lies inside of is left out (its sums become 0), which also keeps the sums over the tile in 32 bits.
@@ -111,7 +111,7 @@ static void tile_span(int32_t *first, int32_t *last, int32_t low_24_8, int32_t h
 }
 
 /* All but the rays of a tile; 0 where there is no such triangle. */
-APART int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_t id)
+NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_t id)
 {
     lmb_triangle triangle;
     if (!lmb_triangle_fetch(&triangle, c->scene, id)) {

@@ -1,4 +1,4 @@
-/* fill.h: a set-up triangle with holes into the tiles of a window. Floor 3. */
+/* fill.h: a set-up triangle with holes into the tiles of a window. Layer 3. */
 #ifndef LMB_RASTER_FILL_H
 #define LMB_RASTER_FILL_H
 

@@ -1,4 +1,4 @@
-/* fill.inl: one triangle into one tile: coverage, depth test, id. Floor 3.
+/* fill.inl: one triangle into one tile: coverage, depth test, id. Layer 3.
  *
  * Per pixel: three edge sums, the depth plane clamped to the triangle's own range, a strict "nearer than" test. The
  * order (d + dy y) + dx x is the contract; a vector only changes how many x run at once. */
@@ -97,7 +97,8 @@ LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y, float row)
 #endif
 }
 
-/* Is a vector without a covered pixel better left out? Where masks are instructions, guessing it costs more. */
+/* Whether to branch around vectors without a covered pixel. Where masks are predicates in hardware, the branch costs
+ * more than it saves. */
 LANE_INLINE int fill_skips(lane_mask in)
 {
 #if defined(LANE_PLAIN)

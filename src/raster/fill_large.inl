@@ -1,4 +1,4 @@
-/* fill_large.inl: a triangle of any size into a window: tiles are outside, crossed by edges or wholly inside. Floor 3.
+/* fill_large.inl: a triangle of any size into a window: tiles are outside, crossed by edges or wholly inside. Layer 3.
  *
  * Edges are 64-bit sums from tile to tile. Over a tile that edges cross they fit 32 bits, and one that is far from the
  * tile is held at FAR_INSIDE, which no step within a tile (under 2^27) can turn negative. */

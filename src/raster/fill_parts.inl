@@ -1,4 +1,4 @@
-/* fill_parts.inl: a batch's triangles that touch at most two tiles each way, tile by tile. Floor 3.
+/* fill_parts.inl: a batch's triangles that touch at most two tiles each way, tile by tile. Layer 3.
  *
  * Of such a triangle at most one tile has a given parity of column and row. So what a tile needs (edges, depth, rows)
  * is made for LANES triangles at a time, once a parity, and what remains is one loop over rows. Tiles of two parities

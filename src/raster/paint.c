@@ -1,4 +1,4 @@
-/* paint.c: a triangle's images for the tile's pixels with its id. Floor 3. */
+/* paint.c: a triangle's images for the tile's pixels with its id. Layer 3. */
 #include "paint.h"
 
 #include "../base/poly.h"
@@ -130,12 +130,12 @@ static lmb_vec3 tangent_at(const tangent_frame *f, const lmb_painted *p, const l
 }
 
 /* Normals stay on the viewer's side of the face, off its plane by this sine. */
-#define LEAST_RISE 0.01f
+#define MIN_RISE 0.01f
 
 static lmb_vec3 above_face(lmb_vec3 n, lmb_vec3 face)
 {
     float rise = dot3(n, face);
-    return rise < LEAST_RISE ? normalize3(add3(n, mul3(face, LEAST_RISE - rise))) : n;
+    return rise < MIN_RISE ? normalize3(add3(n, mul3(face, MIN_RISE - rise))) : n;
 }
 
 /* The pixels of one triangle. */

@@ -1,4 +1,4 @@
-/* paint.h: the images on a triangle. Floor 3. */
+/* paint.h: the images on a triangle. Layer 3. */
 #ifndef LMB_RASTER_PAINT_H
 #define LMB_RASTER_PAINT_H
 
@@ -13,8 +13,8 @@ typedef struct lmb_painted {
 } lmb_painted;
 
 /* Base colour times the albedo, less what a metal takes of it, and the normal map bends the normals, of the tile's
- * pixels that have a slot; after kernels->resolve, which set them. A normal that leaves the viewer's side of the face is
- * lifted to it. */
+ * pixels that have a slot; after kernels->resolve, which set them. A normal that leaves the viewer's side of the face
+ * is lifted to it. */
 void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_kernels *kernels, const lmb_scene *scene);
 
 #if LMB_LOBES

@@ -1,4 +1,4 @@
-/* plane.h: the plane of one triangle, and where a tile's rays meet it. Floor 3. */
+/* plane.h: the plane of one triangle, and where a tile's rays meet it. Layer 3. */
 #ifndef LMB_RASTER_PLANE_H
 #define LMB_RASTER_PLANE_H
 

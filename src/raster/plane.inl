@@ -1,4 +1,4 @@
-/* plane.inl: the planes of LANES triangles, and how to find a point's place on them. Floor 3.
+/* plane.inl: the planes of LANES triangles, and how to find a point's place on them. Layer 3.
  *
  * Everything is relative to the eye and scaled by each triangle's longest edge, so that squares of tiny edges stay
  * normal. */

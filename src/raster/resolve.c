@@ -1,4 +1,4 @@
-/* resolve.c: ids of a tile -> position, normal, albedo, sixteen triangles of an instance at a time. Floor 3. */
+/* resolve.c: ids of a tile -> position, normal, albedo, sixteen triangles of an instance at a time. Layer 3. */
 #include "resolve.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* resolve.h: where a triangle has holes, for fill's masked path, shadows and segments. Floor 3. */
+/* resolve.h: where a triangle has holes, for fill's masked path, shadows and segments. Layer 3. */
 #ifndef LMB_RASTER_RESOLVE_H
 #define LMB_RASTER_RESOLVE_H
 

@@ -1,4 +1,4 @@
-/* resolve.inl: the attributes of a tile's pixels, from the triangles that they show. Floor 3.
+/* resolve.inl: the attributes of a tile's pixels, from the triangles that they show. Layer 3.
  *
  * First the different triangles get slots; then up to LMB_SLOTS of them are set up side by side; then each vector of
  * pixels looks its triangles' numbers up by slot. The position is where the pixel's ray meets the triangle's own plane:
@@ -40,8 +40,8 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
     return left & own;
 }
 
-/* Of an id, `left` has all pixels or none: before its first there is nothing to take. Four wide vectors are looked
- * through faster than it takes to find where to begin. */
+/* `left` has all pixels of an id or none, so the search could start at the first of them. Comparing all four wide
+ * vectors is faster than finding where to start. */
 static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
 {
     uint64_t taken = 0;
@@ -147,8 +147,8 @@ LANE_INLINE lane3 resolve_unit(lane3 n)
 /* As lmb_octahedral_decode. */
 LANE_INLINE lane3 resolve_octahedral(lane code_x, lane code_y)
 {
-    const lanei zero = lanei_splat(0), least = lanei_splat(-32767);
-    lanei x = lanei_max(lane_to_int(code_x), least), y = lanei_max(lane_to_int(code_y), least);
+    const lanei zero = lanei_splat(0), min = lanei_splat(-32767);
+    lanei x = lanei_max(lane_to_int(code_x), min), y = lanei_max(lane_to_int(code_y), min);
     lanei z = lanei_sub(lanei_splat(32767), lanei_max(x, lanei_sub(zero, x)));
     z = lanei_sub(z, lanei_max(y, lanei_sub(zero, y)));
     const lanei fold = lanei_min(z, zero), back = lanei_sub(zero, fold);
@@ -188,8 +188,8 @@ LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
     }
 }
 
-/* What is not finite or absurd counts as 0, and so does what is under 2^-60: machines that flush denormals get the
- * same. */
+/* Values that are not finite, out of range or under 2^-60 count as 0, so that targets that flush denormals give the
+ * same result. */
 LANE_INLINE lane resolve_coordinate(const float *p)
 {
     const lane v = lane_load(p), tiny = lane_splat(8.6736174e-19f), limit = lane_splat(1048576.0f);
@@ -250,7 +250,7 @@ LANE_INLINE void resolve_put3(float (*p)[LMB_TILE_PIXELS], int k, lane_mask mine
     resolve_put(p[2] + k, mine, v.z);
 }
 
-LANE_INLINE lane3 resolve_look(const float (*p)[LMB_SLOTS], lanei slot)
+LANE_INLINE lane3 resolve_lookup(const float (*p)[LMB_SLOTS], lanei slot)
 {
     lane3 r;
     r.x = lane_table(p[0], slot);
@@ -310,7 +310,7 @@ LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k
     const lane x = lane_column(k), y = lane_row(k);
     const lane3 origin = resolve_affine(b->rays.origin, b->rays.ox, b->rays.oy, x, y);
     const lane3 ray = resolve_affine(b->rays.direction, b->rays.rx, b->rays.ry, x, y);
-    const lane3 plane = resolve_look(b->plane, slot), corner = resolve_look(b->corner[0], slot);
+    const lane3 plane = resolve_lookup(b->plane, slot), corner = resolve_lookup(b->corner[0], slot);
 
     lane slope = lane3_dot(plane, ray);
     slope = lane_pick(lane_lt(lane_mul(slope, slope), lane_splat(1e-36f)), lane_splat(1e-18f), slope);
@@ -320,11 +320,11 @@ LANE_INLINE void resolve_vector(lmb_tile *out, const lmb_resolve_batch *b, int k
 
     resolve_place at;
     at.slot = slot;
-    at.b1 = lane_min(lane_max(lane3_dot(q, resolve_look(b->corner[1], slot)), zero), one);
-    at.b2 = lane_min(lane_max(lane3_dot(q, resolve_look(b->corner[2], slot)), zero), lane_sub(one, at.b1));
+    at.b1 = lane_min(lane_max(lane3_dot(q, resolve_lookup(b->corner[1], slot)), zero), one);
+    at.b2 = lane_min(lane_max(lane3_dot(q, resolve_lookup(b->corner[2], slot)), zero), lane_sub(one, at.b1));
     resolve_colour(out, b, k, &at, mine);
     if (!b->albedo_only) {
-        const lane3 face = resolve_look(b->face, slot);
+        const lane3 face = resolve_lookup(b->face, slot);
         resolve_put(out->depth + k, mine, w);
         resolve_put3(out->position, k, mine, lane3_add(p, lane3_of(b->rays.eye)));
         resolve_put3(out->face, k, mine, face);

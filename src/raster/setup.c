@@ -1,4 +1,4 @@
-/* setup.c: three screen vertices -> edge functions and a depth plane. Floor 3.
+/* setup.c: three screen vertices -> edge functions and a depth plane. Layer 3.
  *
  * Ranges: the guard band keeps |x|, |y| < 2^22 (24.8 from the frame's middle, LMB_MAX_FRAME = 2^14 px), differences
  * < 2^23, products < 2^46: int64. Pixel centres all have the same fraction, so floor(E / 256) loses nothing and steps

@@ -1,4 +1,4 @@
-/* setup.h: three screen vertices -> edge functions and a depth plane. Floor 3. */
+/* setup.h: three screen vertices -> edge functions and a depth plane. Layer 3. */
 #ifndef LMB_RASTER_SETUP_H
 #define LMB_RASTER_SETUP_H
 

@@ -1,4 +1,4 @@
-/* setup.inl: a batch of triangles from positions to edges, box and depth plane, LANES triangles at a time. Floor 3.
+/* setup.inl: a batch of triangles from positions to edges, box and depth plane, LANES triangles at a time. Layer 3.
  *
  * The arithmetic is draw_one.c's and setup.c's, value by value; here small triangles only, whose edges fit 32 bits: a
  * box under 64 px a side (2^14 in 24.8) keeps products of differences under 2^29 up to the far corner of its tiles. */
@@ -104,7 +104,7 @@ LANE_INLINE lane_mask setup_side(setup_sides *inout, lane_mask sane, const lane_
     return mask_and(sane, mask_not(any));
 }
 
-APART setup_corner setup_transform(setup_sides *sides, const lmb_setup_job *job,
+NOINLINE setup_corner setup_transform(setup_sides *sides, const lmb_setup_job *job,
                                          const float (*position)[LMB_BATCH], int k)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
@@ -140,14 +140,14 @@ static inline lanei setup_min3(lanei a, lanei b, lanei c) { return lanei_min(a, 
 static inline lanei setup_max3(lanei a, lanei b, lanei c) { return lanei_max(a, lanei_max(b, c)); }
 
 /* First and last pixels whose centres lie in a box's side, within the window. */
-static inline lanei setup_first(lanei low, int32_t origin, int32_t least)
+static inline lanei setup_first(lanei low, int32_t origin, int32_t min)
 {
-    return lanei_max(lanei_shift(lanei_add(low, lanei_splat(255 - origin)), 8), lanei_splat(least));
+    return lanei_max(lanei_shift(lanei_add(low, lanei_splat(255 - origin)), 8), lanei_splat(min));
 }
 
-static inline lanei setup_last(lanei high, int32_t origin, int32_t most)
+static inline lanei setup_last(lanei high, int32_t origin, int32_t max)
 {
-    return lanei_min(lanei_shift(lanei_sub(high, lanei_splat(origin)), 8), lanei_splat(most));
+    return lanei_min(lanei_shift(lanei_sub(high, lanei_splat(origin)), 8), lanei_splat(max));
 }
 
 /* Edge i from one corner to the next: floor(E / 256) at (x, y), where E counts the fill rule. */
@@ -192,7 +192,7 @@ LANE_INLINE setup_corner setup_either(lane_mask m, const setup_corner *a, const 
 
 /* Triangles k .. k + LANES - 1. In KERNEL(setup)'s loop compilers would keep what does not change, two dozen vectors,
  * on the stack. */
-APART void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
+NOINLINE void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
 {
     const lanei zero = lanei_splat(0);
     const lane_mask in = mask_of_bits(out->in >> k);

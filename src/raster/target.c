@@ -1,4 +1,4 @@
-/* target.c: where a window's tiles lie in memory, and how 16 bits code depth. Floor 3. */
+/* target.c: where a window's tiles lie in memory, and how 16 bits code depth. Layer 3. */
 #include "target.h"
 
 #include "../base/surface_check.h"
@@ -84,12 +84,12 @@ static int is_unit(lmb_vec3 v)
 }
 
 /* So that 1 / a length is a number. */
-#define LEAST_M 1e-30f
+#define MIN_M 1e-30f
 
-int lmb_view_is_sound(const lmb_view *v)
+int lmb_view_is_valid(const lmb_view *v)
 {
-    return v->half_width > LEAST_M && v->half_height > LEAST_M && v->half_width < 1e30f && v->half_height < 1e30f &&
-           (v->near_m > LEAST_M || (v->kind == LMB_ORTHOGRAPHIC && v->near_m < -LEAST_M)) && is_unit(v->right) &&
+    return v->half_width > MIN_M && v->half_height > MIN_M && v->half_width < 1e30f && v->half_height < 1e30f &&
+           (v->near_m > MIN_M || (v->kind == LMB_ORTHOGRAPHIC && v->near_m < -MIN_M)) && is_unit(v->right) &&
            is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) && is_sane(v->eye.y) && is_sane(v->eye.z) &&
            v->frame_width > 0 && v->frame_height > 0 && v->frame_width <= LMB_MAX_FRAME &&
            v->frame_height <= LMB_MAX_FRAME &&
@@ -109,7 +109,7 @@ static lmb_status check_ids(const lmb_target *t, uint32_t triangles)
     if (t->id.format != LMB_ID16 && t->id.format != LMB_ID32) {
         return LMB_ERR_FORMAT;
     }
-    if (!lmb_surface_is_sound(&t->id) || t->id.width != t->depth.width || t->id.height != t->depth.height) {
+    if (!lmb_surface_is_valid(&t->id) || t->id.width != t->depth.width || t->id.height != t->depth.height) {
         return LMB_ERR_ARG;
     }
     return t->id.format == LMB_ID16 && triangles > 65535u ? LMB_ERR_CAPACITY : LMB_OK;
@@ -118,14 +118,14 @@ static lmb_status check_ids(const lmb_target *t, uint32_t triangles)
 lmb_status lmb_target_check(const lmb_target *t, const lmb_view *view, uint32_t triangles)
 {
     const lmb_surface *d = &t->depth;
-    if (!lmb_view_is_sound(view) || d->data == NULL) {
+    if (!lmb_view_is_valid(view) || d->data == NULL) {
         return LMB_ERR_ARG;
     }
     if ((d->format != LMB_DEPTH32F && d->format != LMB_DEPTH16) ||
         (d->format == LMB_DEPTH16 && !(view->far_m > view->near_m))) {
         return LMB_ERR_FORMAT;
     }
-    if (!lmb_surface_is_sound(d) || !is_window(t, view)) {
+    if (!lmb_surface_is_valid(d) || !is_window(t, view)) {
         return LMB_ERR_ARG;
     }
     return t->id.data != NULL ? check_ids(t, triangles) : LMB_OK;

@@ -1,11 +1,11 @@
-/* target.h: where a window's tiles lie in memory, and how 16 bits code depth. Floor 3. */
+/* target.h: where a window's tiles lie in memory, and how 16 bits code depth. Layer 3. */
 #ifndef LMB_RASTER_TARGET_H
 #define LMB_RASTER_TARGET_H
 
 #include "../lane/kernels.h"
 
 /* Can a frame be seen this way? */
-int lmb_view_is_sound(const lmb_view *view);
+int lmb_view_is_valid(const lmb_view *view);
 
 /* LMB_OK where a scene of so many triangles can be drawn into the window; else what lmb_draw returns. */
 lmb_status lmb_target_check(const lmb_target *target, const lmb_view *view, uint32_t triangles);

@@ -1,4 +1,4 @@
-/* texture.c: an image at a point: nearest, bilinear, trilinear; repeat, clamp, mirror. Floor 3.
+/* texture.c: an image at a point: nearest, bilinear, trilinear; repeat, clamp, mirror. Layer 3.
  *
  * Colours are decoded to linear light before they are mixed. glTF: (0, 0) is the first texel's corner. */
 #include "texture.h"
@@ -109,7 +109,8 @@ static void add_texels(float out[4], const lmb_texture *t, const footprint *f, i
     }
 }
 
-/* One loop for both levels of a trilinear one, with all inside: masked triangles are asked far down the stack. */
+/* One loop for both levels of a trilinear sample, with everything inlined: for masked triangles it runs at a deep level
+ * of the stack. */
 static void sample(float out[4], const lmb_texture *t, int32_t codes, float u, float v, float lod)
 {
     int32_t n = 0;

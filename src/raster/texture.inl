@@ -1,5 +1,5 @@
 /* texture.inl: a base colour's finest level times the albedo of a tile's pixels, nearest or bilinear: as texture.c,
- * value by value. Floor 3. */
+ * value by value. Layer 3. */
 #include "../base/codec.h"
 #include "texture.h"
 
@@ -117,7 +117,7 @@ LANE_INLINE lane3 texture_bilinear(const texture_found *f, int k)
 
 /* Pixels first .. first + TEXTURE_RUN - 1. All their texels are asked for before one is decoded: one wait for what is
  * not in cache instead of one a vector. */
-APART void texture_run(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t, int first)
+NOINLINE void texture_run(lmb_tile *inout, const lmb_resolve_batch *batch, const lmb_texture *t, int first)
 {
     const lane width = lane_splat((float)t->width), height = lane_splat((float)t->height), one = lane_splat(1.0f);
     const lane3 none = lane3_splat(0.0f, 0.0f, 0.0f);

@@ -1,4 +1,4 @@
-/* triangle.c: from an id back to its triangle. Floor 3. */
+/* triangle.c: from an id back to its triangle. Layer 3. */
 #include "triangle.h"
 
 #include "../base/vertex.h"

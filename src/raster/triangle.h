@@ -1,4 +1,4 @@
-/* triangle.h: from an id back to its triangle. Floor 3. */
+/* triangle.h: from an id back to its triangle. Layer 3. */
 #ifndef LMB_RASTER_TRIANGLE_H
 #define LMB_RASTER_TRIANGLE_H
 

@@ -1,4 +1,4 @@
-/* relief.c: a .lmr in place: what it says is looked through once, then trusted. Floor 6. [P10] */
+/* relief.c: a .lmr in place: what it says is looked through once, then trusted. Layer 6. [P10] */
 #include <lambent/relief.h>
 
 #include <string.h>
@@ -15,7 +15,7 @@ enum { HEADER_BYTES = 4 * LMB_RELIEF_HEADER_WORDS, VIEW_BYTES = 4 * LMB_RELIEF_V
 
 #define OWN_ORDER   0x01020304u
 #define OTHER_ORDER 0x04030201u
-#define MOST_COUNT  0x0fffffffu /* vertices, triangles: so that no product of theirs leaves 64 bits */
+#define MAX_COUNT   0x0fffffffu /* vertices, triangles: so that no product of theirs leaves 64 bits */
 
 /* A file being looked through. */
 typedef struct source {
@@ -90,7 +90,7 @@ static int is_view(const source *s, const lmb_view *v, uint64_t at)
 {
     const int sides = v->frame_width >= 2 && v->frame_width <= MAX_SIDE && v->frame_height >= 2 &&
                       v->frame_height <= MAX_SIDE;
-    return sides && lmb_view_is_sound(v) && (v->kind == LMB_PERSPECTIVE || v->kind == LMB_ORTHOGRAPHIC) &&
+    return sides && lmb_view_is_valid(v) && (v->kind == LMB_PERSPECTIVE || v->kind == LMB_ORTHOGRAPHIC) &&
            is_length(v->half_width) && is_length(v->half_height) && is_length(v->near_m) && is_length(v->far_m) &&
            v->far_m > v->near_m && absf(dot3(v->right, v->up)) < 0.01f && absf(dot3(v->right, v->back)) < 0.01f &&
            absf(dot3(v->up, v->back)) < 0.01f &&
@@ -135,7 +135,7 @@ static void set_rows(lmb_relief_view *out, const lmb_view *v)
 
 static void set_view(lmb_relief_view *out, const lmb_view *v, uint32_t format)
 {
-    const float most = format == LMB_RELIEF_FULL ? 16777215.0f : 65535.0f;
+    const float max = format == LMB_RELIEF_FULL ? 16777215.0f : 65535.0f;
     const float wide = 2.0f * v->half_width / (float)v->frame_width,
                 high = 2.0f * v->half_height / (float)v->frame_height;
     const int perspective = v->kind == LMB_PERSPECTIVE;
@@ -149,8 +149,8 @@ static void set_view(lmb_relief_view *out, const lmb_view *v, uint32_t format)
     out->per_v = mul3(v->up, -high);
     out->corner = add3(mul3(v->right, 0.5f * wide - v->half_width), mul3(v->up, v->half_height - 0.5f * high));
     out->corner = perspective ? sub3(out->corner, v->back) : add3(out->corner, v->eye);
-    out->least = perspective ? v->near_m / v->far_m : 0.0f;
-    out->per_code = (1.0f - out->least) / most;
+    out->min = perspective ? v->near_m / v->far_m : 0.0f;
+    out->per_code = (1.0f - out->min) / max;
     out->z_at_0 = v->far_m;
     out->z_per_d = v->near_m - v->far_m;
     out->near_m = v->near_m;
@@ -164,7 +164,7 @@ static lmb_status check_header(const source *s)
     const uint32_t format = header(s, FORMAT), views = header(s, VIEWS), index = header(s, INDEX_FORMAT),
                    vertices = header(s, VERTICES), triangles = header(s, TRIANGLES);
     if (header(s, SIZE) > s->bytes || (format != LMB_RELIEF_FULL && format != LMB_RELIEF_PACKED) || views == 0 ||
-        vertices > MOST_COUNT || triangles > MOST_COUNT || (index != LMB_INDEX_U16 && index != LMB_INDEX_U32) ||
+        vertices > MAX_COUNT || triangles > MAX_COUNT || (index != LMB_INDEX_U16 && index != LMB_INDEX_U32) ||
         (header(s, NONE) | header(s, NONE + 1) | header(s, NONE + 2)) != 0) {
         return LMB_ERR_FORMAT;
     }

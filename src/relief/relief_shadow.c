@@ -1,6 +1,6 @@
-/* relief_shadow.c: the complex surface as its lights see it, and what lies in its shadow. Floor 6.           [P7 P8 P9]
+/* relief_shadow.c: the complex surface as its lights see it, and what lies in its shadow. Layer 6.           [P7 P8 P9]
  *
- * Williams (1978): the light's map holds the complex surface's own depths, warped like the eye's picture; a point is in
+ * Williams (1978): the shadow map holds the complex surface's own depths, warped like the eye's picture; a point is in
  * shadow where the map has something nearer. The point is the chosen one (P8), so that its place in the map is where
  * the map's own texels show it. Its plane says how deep it would be at the middle of each of the four texels around
  * that place, so a slope needs no bias; what is left over is curvature, and the warp's own error. */
@@ -52,7 +52,7 @@ static lmb_status shadow_row(const lmb_target *face, const lmb_view *view, lmb_t
     return LMB_OK;
 }
 
-lmb_status lmb_relief_shadow_rows(const lmb_light_map *map, lmb_tile *tile, const lmb_kernels *kernels,
+lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, lmb_tile *tile, const lmb_kernels *kernels,
                                   const lmb_relief *relief, const lmb_relief_how *how, int32_t first, int32_t past)
 {
     if (map == NULL || tile == NULL || kernels == NULL || relief == NULL || first < 0 || first > past ||
@@ -87,7 +87,7 @@ typedef struct receiver {
     lmb_vec3 at, plane; /* m; unit */
 } receiver;
 
-static int32_t choose_face(const lmb_light_map *map, lmb_vec3 d)
+static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
 {
     const lmb_vec3 a = vec3(absf(d.x), absf(d.y), absf(d.z));
     if (map->faces == 1) {
@@ -100,11 +100,11 @@ static int32_t choose_face(const lmb_light_map *map, lmb_vec3 d)
 }
 
 /* 0 where the map does not have it. */
-static int find_receiver(receiver *r, const lmb_light_map *map, const lmb_light *light, const lmb_tile *tile, int k)
+static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile, int k)
 {
     r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
     r->plane = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
-    const int32_t f = light->kind == LMB_LIGHT_DIRECTIONAL ? lmb_light_map_part(map, r->at)
+    const int32_t f = light->kind == LMB_LIGHT_DIRECTIONAL ? lmb_shadow_map_part(map, r->at)
                                                            : choose_face(map, sub3(r->at, light->position));
     const lmb_view *v = r->view = &map->view[f];
     const lmb_vec3 d = sub3(r->at, v->eye);
@@ -133,11 +133,11 @@ static float plane_depth(const receiver *r, int32_t x, int32_t y)
     const int perspective = v->kind == LMB_PERSPECTIVE;
     const lmb_vec3 from = perspective ? v->eye : add3(v->eye, across),
                    ray = perspective ? sub3(across, v->back) : mul3(v->back, -1.0f);
-    const float slope = dot3(r->plane, ray), most = STEEP * r->texel;
+    const float slope = dot3(r->plane, ray), max = STEEP * r->texel;
     if (absf(slope) < EDGE_ON) {
         return r->w;
     }
-    return clampf(dot3(r->plane, sub3(r->at, from)) / slope, r->w - most, r->w + most);
+    return clampf(dot3(r->plane, sub3(r->at, from)) / slope, r->w - max, r->w + max);
 }
 
 static int texel_lit(const receiver *r, int32_t x, int32_t y)
@@ -160,7 +160,7 @@ static int is_lit(const receiver *r)
     return lit >= 0.5f;
 }
 
-uint64_t lmb_relief_lit(const lmb_light_map *map, const lmb_light *light, const lmb_tile *tile)
+uint64_t lmb_relief_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile)
 {
     uint64_t out = 0;
     receiver r;

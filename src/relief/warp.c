@@ -1,4 +1,4 @@
-/* warp.c: a tile of the simple model becomes one of the complex surface: which views, then the kernel. Floor 6.
+/* warp.c: a tile of the simple model becomes one of the complex surface: which views, then the kernel. Layer 6.
  * [P2 P3 P5 P6 P11 P12] */
 #include <lambent/relief.h>
 
@@ -10,14 +10,14 @@
 
 #if LMB_RELIEF
 
-enum { STEPS = 6, MOST_STEPS = 32, LOOKS = 6, KEEP = 3 };
+enum { STEPS = 6, MAX_STEPS = 32, LOOKS = 6, KEEP = 3 };
 
-static int in_range(int32_t v, int32_t most) { return v >= 0 && v <= most; }
+static int in_range(int32_t v, int32_t max) { return v >= 0 && v <= max; }
 
 static int is_how(const lmb_relief_how *h)
 {
-    return in_range(h->steps, MOST_STEPS) && in_range(h->pick, LMB_RELIEF_EYE_RAY) && in_range(h->sampling, 1) &&
-           in_range(h->views, LMB_RELIEF_LOOKS) && in_range(h->keep, KEEP);
+    return in_range(h->steps, MAX_STEPS) && in_range(h->pick, LMB_RELIEF_EYE_RAY) && in_range(h->sampling, 1) &&
+           in_range(h->views, LMB_RELIEF_TILE_VIEWS) && in_range(h->keep, KEEP);
 }
 
 /* All but the views. What shows texels as they are takes one view's word. */
@@ -39,7 +39,7 @@ static void set_job(lmb_relief_job *job, const lmb_relief *relief, const lmb_vie
 }
 
 /* The views that look most as the eye does: they see past what it sees past. */
-static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_relief *relief, int32_t most)
+static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_relief *relief, int32_t max)
 {
     int k = 0;
     while (k < LMB_TILE_PIXELS - 1 && tile->id[k] == 0) {
@@ -47,7 +47,7 @@ static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_rel
     }
     const lmb_vec3 at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
     const lmb_vec3 towards = job->perspective ? normalize3(sub3(job->eye, at)) : job->back;
-    while (job->count < mini(most, relief->views)) {
+    while (job->count < mini(max, relief->views)) {
         float best = -2.0f;
         const lmb_relief_view *which = NULL;
         for (int32_t i = 0; i < relief->views; ++i) {
@@ -68,17 +68,17 @@ static void add_aligned(lmb_relief_job *job, const lmb_tile *tile, const lmb_rel
 
 /* Those that suit most pixels; of equals the first. */
 static void choose_views(lmb_relief_job *job, const lmb_tile *tile, const lmb_kernels *kernels,
-                         const lmb_relief *relief, int32_t most)
+                         const lmb_relief *relief, int32_t max)
 {
     uint8_t votes[LMB_RELIEF_VIEWS];
     memset(votes, 0, sizeof votes);
     kernels->relief_rank(votes, tile, relief, job);
-    add_aligned(job, tile, relief, most < 4 ? 1 : 2);
+    add_aligned(job, tile, relief, max < 4 ? 1 : 2);
     job->aligned = job->count;
     for (int32_t i = 0; i < job->count; ++i) {
         votes[job->view[i] - relief->view] = 0;
     }
-    while (job->count < most) {
+    while (job->count < max) {
         int32_t first = 0;
         for (int32_t i = 1; i < relief->views; ++i) {
             first = votes[i] > votes[first] ? i : first;
@@ -118,7 +118,7 @@ lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_k
     lmb_relief_job job;
     lmb_relief_found found = {0, 0};
     how = how != NULL ? how : &usual;
-    if (inout == NULL || kernels == NULL || relief == NULL || view == NULL || !lmb_view_is_sound(view) ||
+    if (inout == NULL || kernels == NULL || relief == NULL || view == NULL || !lmb_view_is_valid(view) ||
         !is_how(how)) {
         return LMB_ERR_ARG;
     }

@@ -1,4 +1,4 @@
-/* warp.inl: the complex surface along the eye's rays, by what reference views show of it. Floor 6.          [P3-P6 P12]
+/* warp.inl: the complex surface along the eye's rays, by what reference views show of it. Layer 6.          [P3-P6 P12]
  *
  * Lanes are pixels. With q on a pixel's ray, a view has q at texel (u, v) with depth d, and shows depth s there: a
  * candidate. f = d - s is over 0 where q is before what the view shows, under 0 where it is behind. Between texels s is
@@ -24,7 +24,7 @@ typedef struct relief_ray {
 } relief_ray;
 
 /* What a view has to say of a point. */
-typedef struct relief_look {
+typedef struct relief_lookup {
     lane u, v, d;     /* the point's place */
     lane gap;         /* m, along the view's axis, from the point on to what is shown there */
     lane on;          /* the same where the point is past that surface's edge: to what is shown behind it */
@@ -39,7 +39,7 @@ typedef struct relief_look {
     lane_mask whole;  /* all four texels are of its surface */
     lane_mask free;   /* the view sees through the point, in all four texels */
     lane_mask empty;  /* in one of them it shows nothing at all */
-} relief_look;
+} relief_lookup;
 
 static inline lane relief_row(const float row[4], lane3 q)
 {
@@ -62,7 +62,7 @@ static inline lanei relief_code(const lmb_relief_job *job, const lmb_relief_view
 
 static inline lane relief_depth(const lmb_relief_view *view, lanei code)
 {
-    return lane_add(lane_splat(view->least), lane_mul(lane_from_int(code), lane_splat(view->per_code)));
+    return lane_add(lane_splat(view->min), lane_mul(lane_from_int(code), lane_splat(view->per_code)));
 }
 
 /* m along the axis a unit of depth. */
@@ -101,7 +101,7 @@ static inline lane3 relief_towards(const lmb_relief_view *view, lane3 q)
 }
 
 /* Where q is in the view; 0 < w keeps quotients finite. Returns where that is inside the picture. */
-LANE_PART lane_mask relief_project(relief_look *out, lane *per_w, const lmb_relief_view *view, lane3 q)
+LANE_PART lane_mask relief_project(relief_lookup *out, lane *per_w, const lmb_relief_view *view, lane3 q)
 {
     const lane zero = lane_splat(0.0f), rim = lane_splat(-RELIEF_RIM);
     const lane right = lane_splat((float)(view->width - 1)), bottom = lane_splat((float)(view->height - 1));
@@ -150,7 +150,7 @@ static inline lane3 relief_place(const lmb_relief_view *view, lane u, lane v, la
 
 /* Four texels' depths, of those of the surface nearest to d; of others: of the nearest texel. out->on: the nearest
  * depth behind that surface, under 0 for none. Returns where there is a surface. */
-LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view)
+LANE_PART lane_mask relief_gather(lane s[4], relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view)
 {
     const lane d = out->d;
     const lanei below = lanei_add(out->at, lanei_splat(view->width)), one = lanei_splat(1);
@@ -158,8 +158,8 @@ LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_
     const lanei code[4] = {relief_code(job, view, out->at), relief_code(job, view, lanei_add(out->at, one)),
                            relief_code(job, view, below), relief_code(job, view, lanei_add(below, one))};
     const lane jump = relief_jump(view, d);
-    lane least = lane_splat(RELIEF_WORST), near = d;
-    lane_mask some = lane_lt(least, least);
+    lane min = lane_splat(RELIEF_WORST), near = d;
+    lane_mask some = lane_lt(min, min);
     out->free = mask_not(some);
     out->empty = some;
     for (int k = 0; k < 4; ++k) {
@@ -167,9 +167,9 @@ LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_
         out->of[k] = lanei_lt(lanei_splat(0), code[k]);
         out->empty = mask_or(out->empty, mask_not(out->of[k]));
         const lane far = lane_abs(lane_sub(s[k], d));
-        const lane_mask nearer = mask_and(out->of[k], lane_lt(far, least));
+        const lane_mask nearer = mask_and(out->of[k], lane_lt(far, min));
         out->free = mask_and(out->free, mask_or(mask_not(out->of[k]), lane_lt(s[k], lane_sub(d, jump))));
-        least = lane_pick(nearer, far, least);
+        min = lane_pick(nearer, far, min);
         near = lane_pick(nearer, s[k], near);
         some = mask_or(some, nearer);
     }
@@ -187,8 +187,8 @@ LANE_PART lane_mask relief_gather(lane s[4], relief_look *out, const lmb_relief_
 typedef struct relief_way {
     relief_ray ray;
     lane t;          /* m from the simple surface */
-    uint32_t ask[LMB_RELIEF_LOOKS];  /* pixels that each view is asked for, a bit each ... */
-    uint32_t kept[LMB_RELIEF_LOOKS]; /* ... and those for which it was among the best */
+    uint32_t ask[LMB_RELIEF_TILE_VIEWS];  /* pixels that each view is asked for, a bit each ... */
+    uint32_t kept[LMB_RELIEF_TILE_VIEWS]; /* ... and those for which it was among the best */
     lane_mask live, moving;
 } relief_way;
 
@@ -214,7 +214,7 @@ static inline lane_mask relief_free(const lmb_relief_view *view, lane_mask insid
 
 /* The four texels' shares, of those that show the candidate's surface. Half of all: its edge, on average, as texels
  * show what is in their middle. */
-static inline lane relief_cover(const relief_look *look)
+static inline lane relief_cover(const relief_lookup *look)
 {
     const lane one = lane_splat(1.0f), gu = lane_sub(one, look->fu), gv = lane_sub(one, look->fv);
     const lane upper = lane_add(lane_keep(look->of[0], gu), lane_keep(look->of[1], look->fu)),
@@ -223,7 +223,7 @@ static inline lane relief_cover(const relief_look *look)
 }
 
 /* Between texels. */
-APART void relief_look_between(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
+NOINLINE void relief_lookup_between(relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view,
                                     const relief_way *w)
 {
     const relief_ray *ray = &w->ray;
@@ -257,7 +257,7 @@ APART void relief_look_between(relief_look *out, const lmb_relief_job *job, cons
 }
 
 /* The nearest texel as it is. */
-APART void relief_look_nearest(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
+NOINLINE void relief_lookup_nearest(relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view,
                                     const relief_way *w)
 {
     const relief_ray *ray = &w->ray;
@@ -282,13 +282,13 @@ APART void relief_look_nearest(relief_look *out, const lmb_relief_job *job, cons
 }
 
 /* From where the way is. */
-static inline void relief_look_at(relief_look *out, const lmb_relief_job *job, const lmb_relief_view *view,
-                                  const relief_way *w)
+static inline void relief_lookup_at(relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view,
+                                    const relief_way *w)
 {
     if (job->sampling) {
-        relief_look_nearest(out, job, view, w);
+        relief_lookup_nearest(out, job, view, w);
     } else {
-        relief_look_between(out, job, view, w);
+        relief_lookup_between(out, job, view, w);
     }
 }
 
@@ -338,15 +338,15 @@ LANE_PART void relief_ray_of(relief_ray *r, const lmb_tile *tile, const lmb_reli
     }
 }
 
-/* How well a view suits a pixel: by how it faces its surface, and looks as the eye does; pick by the ray: the latter
- * first. */
+/* How well a view suits a pixel: by how directly it faces the surface, and by how similar its direction is to the
+ * eye's. With `pick` by the ray the second criterion comes first. */
 LANE_PART lane relief_suits(const lmb_relief_job *job, const lmb_relief_view *view, const relief_ray *ray)
 {
     const lane3 towards = relief_towards(view, ray->from);
     const lane faces = lane3_dot(ray->normal, towards), as_eye = lane_sub(lane_splat(0.0f),
                                                                          lane3_dot(ray->along, towards));
     const lane worth = lane_add(faces, lane_mul(as_eye, lane_splat(job->pick == LMB_RELIEF_EYE_RAY ? 8.0f : 0.5f)));
-    relief_look at;
+    relief_lookup at;
     lane per_w;
     if (!view->perspective) {
         return worth;
@@ -389,7 +389,7 @@ typedef struct relief_found {
 } relief_found;
 
 /* What counts against a candidate, m: its distance, a slanted view, a jump beside it. */
-static inline lane relief_against(const lmb_relief_job *job, lane texel, const relief_look *look, lane faces)
+static inline lane relief_against(const lmb_relief_job *job, lane texel, const relief_lookup *look, lane faces)
 {
     const lane one = lane_splat(1.0f);
     if (job->pick == LMB_RELIEF_EYE_RAY) {
@@ -400,7 +400,7 @@ static inline lane relief_against(const lmb_relief_job *job, lane texel, const r
 }
 
 /* The best candidates' views, of pixels that move. */
-APART void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_best *best)
+NOINLINE void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_best *best)
 {
     const uint32_t moving = mask_bits(w->moving);
     for (int32_t i = 0; i < job->count; ++i) {
@@ -412,10 +412,10 @@ APART void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_be
     }
 }
 
-/* One look of the pixels that move: how far to go. Who has nothing to say near the best candidate so far is not asked
- * again, unless that is far off in the end. Three times the gap is more than any surface wants that a view sees as well
- * as the eye. */
-APART lane relief_advance(relief_way *w, const lmb_relief_job *job)
+/* One lookup for the pixels whose rays still advance: how far to advance. A view without a surface near the best
+ * candidate so far is dropped, unless the final distance is large. Three times the gap is enough for any surface that
+ * both the view and the eye see well. */
+NOINLINE lane relief_advance(relief_way *w, const lmb_relief_job *job)
 {
     const lane3 q = relief_here(w);
     const lane zero = lane_splat(0.0f), texel = relief_texel_at(job->view[0], q);
@@ -425,21 +425,21 @@ APART lane relief_advance(relief_way *w, const lmb_relief_job *job)
     for (int32_t i = 0; i < job->count; ++i) {
         const lmb_relief_view *view = job->view[i];
         const lane_mask asked = mask_and(w->moving, mask_of_bits(w->ask[i]));
-        relief_look look;
+        relief_lookup look;
         if (mask_bits(asked) == 0) {
             continue;
         }
-        relief_look_at(&look, job, view, w);
+        relief_lookup_at(&look, job, view, w);
         const lane faces = lane3_dot(w->ray.normal, relief_towards(view, q)), own = relief_texel_at(view, q);
         const lane worth = lane_pick(mask_and(asked, look.shown),
                                      lane_sub(zero, relief_against(job, own, &look, faces)),
                                      lane_splat(-RELIEF_WORST));
-        const lane most = lane_add(lane_mul(lane_splat(3.0f), lane_abs(look.gap)), own);
+        const lane max = lane_add(lane_mul(lane_splat(3.0f), lane_abs(look.gap)), own);
         const lane_mask over = lane_lt(best.value[0], worth);
-        step = lane_pick(over, lane_max(lane_min(look.step, most), lane_sub(zero, most)), step);
+        step = lane_pick(over, lane_max(lane_min(look.step, max), lane_sub(zero, max)), step);
         relief_insert(&best, worth, lanei_splat(i));
-        const lane least = lane_sub(best.value[0], lane_mul(lane_splat(RELIEF_NEAR), texel));
-        w->ask[i] &= ~moving | mask_bits(lane_le(least, worth));
+        const lane min = lane_sub(best.value[0], lane_mul(lane_splat(RELIEF_NEAR), texel));
+        w->ask[i] &= ~moving | mask_bits(lane_le(min, worth));
     }
     const uint32_t far = moving & mask_bits(lane_lt(best.value[0], lane_mul(lane_splat(-RELIEF_FAR), texel)));
     for (int32_t i = 0; i < job->count; ++i) {
@@ -485,7 +485,7 @@ static inline lane3 relief_normal(const lmb_relief_job *job, const lmb_relief_vi
 {
     const size_t texels = (size_t)view->width * (size_t)view->height;
     const int full = job->format == LMB_RELIEF_FULL;
-    const lane most = lane_splat(full ? 32767.0f : 127.0f), zero = lane_splat(0.0f);
+    const lane max = lane_splat(full ? 32767.0f : 127.0f), zero = lane_splat(0.0f);
     lane3 n;
     if (full) {
         const lanei word = lanei_gather_rgba(view->texels + 8 * texels, at);
@@ -497,9 +497,9 @@ static inline lane3 relief_normal(const lmb_relief_job *job, const lmb_relief_vi
         n.x = lane_pick(odd, relief_signed(word, 16, 8), relief_signed(word, 0, 8));
         n.y = lane_pick(odd, relief_signed(word, 24, 8), relief_signed(word, 8, 8));
     }
-    n.x = lane_max(n.x, lane_sub(zero, most));
-    n.y = lane_max(n.y, lane_sub(zero, most));
-    n.z = lane_sub(lane_sub(most, lane_abs(n.x)), lane_abs(n.y));
+    n.x = lane_max(n.x, lane_sub(zero, max));
+    n.y = lane_max(n.y, lane_sub(zero, max));
+    n.z = lane_sub(lane_sub(max, lane_abs(n.x)), lane_abs(n.y));
     const lane fold = lane_min(n.z, zero), back = lane_sub(zero, fold);
     n.x = lane_add(n.x, lane_pick(lane_lt(n.x, zero), back, fold));
     n.y = lane_add(n.y, lane_pick(lane_lt(n.y, zero), back, fold));
@@ -507,8 +507,8 @@ static inline lane3 relief_normal(const lmb_relief_job *job, const lmb_relief_vi
 }
 
 /* Weighted colour and normal of the texels that show the candidate's surface. */
-APART void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb_relief_view *view,
-                            const relief_look *look, lane weight)
+NOINLINE void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb_relief_view *view,
+                            const relief_lookup *look, lane weight)
 {
     const lane one = lane_splat(1.0f), gu = lane_sub(one, look->fu), gv = lane_sub(one, look->fv);
     const lane part[4] = {lane_mul(gu, gv), lane_mul(look->fu, gv), lane_mul(gu, look->fv),
@@ -525,8 +525,9 @@ APART void relief_paint(relief_found *f, const lmb_relief_job *job, const lmb_re
     }
 }
 
-/* How much a view's word counts: by how it faces the surface, how near its own is, and whether all texels show it. */
-static inline lane relief_weight(const lmb_relief_job *job, lane texel, const relief_look *look, lane faces)
+/* The weight of a view: by the angle at which it sees the surface, by the distance of its candidate, and by how many of
+ * the four texels show it. */
+static inline lane relief_weight(const lmb_relief_job *job, lane texel, const relief_lookup *look, lane faces)
 {
     const lane one = lane_splat(1.0f), f = lane_max(faces, lane_splat(0.05f));
     const lane reach = lane_div(one, lane_mul(lane_splat(1.5f), texel));
@@ -548,8 +549,8 @@ static inline void relief_clear(relief_found *f)
 }
 
 /* What view i, which looked where the way is now, says of the pixels `asked`. */
-APART void relief_hear(relief_found *f, const relief_way *w, const lmb_relief_job *job, int32_t i,
-                            const relief_look *look, lane_mask asked)
+NOINLINE void relief_hear(relief_found *f, const relief_way *w, const lmb_relief_job *job, int32_t i,
+                            const relief_lookup *look, lane_mask asked)
 {
     const lmb_relief_view *view = job->view[i];
     const lane zero = lane_splat(0.0f), worst = lane_splat(-RELIEF_WORST);
@@ -581,20 +582,20 @@ APART void relief_hear(relief_found *f, const relief_way *w, const lmb_relief_jo
 }
 
 /* The last look: the kept ones say what the surface is, the others whether it can be there. */
-APART void relief_arrive(relief_found *f, const relief_way *w, const lmb_relief_job *job)
+NOINLINE void relief_arrive(relief_found *f, const relief_way *w, const lmb_relief_job *job)
 {
     relief_clear(f);
     for (int32_t i = 0; i < job->count; ++i) {
         const lane_mask asked = i < job->aligned ? w->live : mask_and(w->live, mask_of_bits(w->ask[i]));
-        relief_look look;
+        relief_lookup look;
         if (mask_bits(asked) != 0) {
-            relief_look_at(&look, job, job->view[i], w);
+            relief_lookup_at(&look, job, job->view[i], w);
             relief_hear(f, w, job, i, &look, asked);
         }
     }
 }
 
-APART void relief_set_out(relief_way *w, const lmb_tile *tile, const lmb_relief_job *job, int k)
+NOINLINE void relief_set_out(relief_way *w, const lmb_tile *tile, const lmb_relief_job *job, int k)
 {
     int32_t id[LANES];
     for (int i = 0; i < LANES; ++i) {
@@ -603,7 +604,7 @@ APART void relief_set_out(relief_way *w, const lmb_tile *tile, const lmb_relief_
     relief_ray_of(&w->ray, tile, job, k);
     w->live = w->moving = lanei_lt(lanei_splat(0), lanei_load(id));
     w->t = lane_splat(0.0f);
-    for (int i = 0; i < LMB_RELIEF_LOOKS; ++i) {
+    for (int i = 0; i < LMB_RELIEF_TILE_VIEWS; ++i) {
         w->kept[i] = 0;
     }
 }
@@ -626,7 +627,7 @@ static inline void relief_put(float (*planes)[LMB_TILE_PIXELS], int k, lane_mask
     lane_store(planes[2] + k, lane_pick(m, v.z, was.z));
 }
 
-APART void relief_store(lmb_tile *out, const relief_way *w, const relief_found *f, const lmb_relief_job *job,
+NOINLINE void relief_store(lmb_tile *out, const relief_way *w, const relief_found *f, const lmb_relief_job *job,
                              lane_mask hit, int k)
 {
     const lane per = lane_div(lane_splat(1.0f), lane_pick(hit, f->weight, lane_splat(1.0f)));
@@ -646,11 +647,11 @@ APART void relief_store(lmb_tile *out, const relief_way *w, const relief_found *
 }
 
 /* Each pixel until it moves by little. */
-APART void relief_travel(relief_way *w, const lmb_relief_job *job)
+NOINLINE void relief_travel(relief_way *w, const lmb_relief_job *job)
 {
     const lane near = lane_mul(lane_splat(RELIEF_SETTLED), w->ray.pixel);
     w->moving = w->live;
-    for (int32_t i = 0; i < LMB_RELIEF_LOOKS; ++i) {
+    for (int32_t i = 0; i < LMB_RELIEF_TILE_VIEWS; ++i) {
         w->ask[i] = ~0u;
     }
     lane step = relief_advance(w, job);
@@ -665,23 +666,24 @@ APART void relief_travel(relief_way *w, const lmb_relief_job *job)
 }
 
 /* Which of these pixels' ways end over open ground: a view that looks about as the eye does shows nothing there. */
-APART lane_mask relief_open(const relief_way *w, const lmb_relief_job *job, lane_mask of)
+NOINLINE lane_mask relief_open(const relief_way *w, const lmb_relief_job *job, lane_mask of)
 {
     lane_mask open = mask_and(of, mask_not(of));
     for (int32_t i = 0; i < job->count && mask_bits(of) != 0; ++i) {
         const lane3 towards = relief_towards(job->view[i], relief_here(w));
         const lane as_eye = lane_sub(lane_splat(0.0f), lane3_dot(towards, w->ray.along));
-        relief_look look;
-        relief_look_at(&look, job, job->view[i], w);
+        relief_lookup look;
+        relief_lookup_at(&look, job, job->view[i], w);
         open = mask_or(open, mask_and(mask_and(of, look.empty), lane_lt(lane_splat(RELIEF_AS_EYE), as_eye)));
     }
     return open;
 }
 
-/* Where the way has led: who hits the surface, who has passed all there is, and who goes on. 0 where nobody does. Whose
- * way ends where no view that looks as the eye does has anything to show takes what is nearest, unless the ground there
- * is open: what other views see past need not be past for the eye. */
-APART int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job, int k,
+/* Sorts rays into those that hit the surface, those that have passed all surfaces, and those that go on; returns 0
+ * where none goes on. A ray that ends where no view with a direction similar to the eye's has a surface takes the
+ * nearest candidate, unless those views show open background: what another view sees past may still be hidden from the
+ * eye. */
+NOINLINE int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job, int k,
                           int last)
 {
     relief_found f;

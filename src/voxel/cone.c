@@ -1,4 +1,4 @@
-/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and to what lies beyond. Floor 5.
+/* cone.c: cones over the hemisphere and along the mirrored view, through voxels and to what lies beyond. Layer 5.
  *                                                                                                          [M20-M22] */
 #include <string.h>
 
@@ -53,7 +53,7 @@ lmb_status lmb_cone_width_init(lmb_cone_width *out, const lmb_voxels *v, float t
 
 float lmb_cone_tangent(float roughness)
 {
-    const float r = clampf(roughness, 0.0f, 1.0f), alpha = maxf(r * r, LMB_LEAST_ALPHA);
+    const float r = clampf(roughness, 0.0f, 1.0f), alpha = maxf(r * r, LMB_MIN_ALPHA);
     return alpha < 0.41421356f ? 2.0f * alpha / (1.0f - alpha * alpha) : 1.0f;
 }
 
@@ -99,7 +99,7 @@ lmb_status lmb_cones_init(lmb_cones *out, const lmb_voxels *v, int32_t count)
 
 /* --- tracing ------------------------------------------------------------------------------------------------------ */
 
-static int is_sound(const lmb_cone_trace *t)
+static int is_valid(const lmb_cone_trace *t)
 {
     return t != NULL && t->kernels != NULL && t->voxels != NULL && t->voxels->count > 0 && t->field >= 0 &&
            t->field < LMB_VOXELS_THREE && t->voxels->light[t->field] != NULL && t->world >= 0 &&
@@ -144,7 +144,7 @@ static void finish(lmb_cone_seen *inout, const lmb_cone_trace *trace, float tang
 lmb_status lmb_cones_trace(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
                            const lmb_tile *tile, float direction[3][LMB_TILE_PIXELS])
 {
-    if (out == NULL || !is_sound(trace) || width == NULL || tile == NULL || direction == NULL) {
+    if (out == NULL || !is_valid(trace) || width == NULL || tile == NULL || direction == NULL) {
         return LMB_ERR_ARG;
     }
     follow(out, trace, width, tile, direction);
@@ -188,7 +188,7 @@ static void aim(float out[3][LMB_TILE_PIXELS], const lmb_tile *tile, float tange
 lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS], const lmb_cone_trace *trace,
                              const lmb_cones *cones, const lmb_tile *tile)
 {
-    if (inout == NULL || !is_sound(trace) || cones == NULL || tile == NULL) {
+    if (inout == NULL || !is_valid(trace) || cones == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
     const float share = 1.0f / (float)cones->count;
@@ -217,7 +217,7 @@ lmb_status lmb_cones_diffuse(lmb_irradiance *inout, float open[LMB_TILE_PIXELS],
 lmb_status lmb_cones_glossy(lmb_cone_seen *out, const lmb_cone_trace *trace, const lmb_cone_width *width,
                             const lmb_tile *tile, lmb_vec3 eye)
 {
-    if (out == NULL || !is_sound(trace) || width == NULL || tile == NULL) {
+    if (out == NULL || !is_valid(trace) || width == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
     float (*direction)[LMB_TILE_PIXELS] = trace->scratch->direction;

@@ -1,4 +1,4 @@
-/* cone.inl: what cones see of voxels. Floor 5.                                                                [M20-M22]
+/* cone.inl: what cones see of voxels. Layer 5.                                                                [M20-M22]
  *
  * Lanes are pixels; a cone's samples lie at the same distances for all of them, so levels are no lanes' matter.
  *
@@ -117,14 +117,14 @@ LANE_INLINE void cone_add_light(lane3 *sum, const lmb_cone_job *job, lanei at, l
 LANE_PART void cone_add(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, const lane3 *ray, lanei at,
                         lane weight, lane own)
 {
-    const lane3 most = lane3_scale(lane3_abs(rays->towards), own);
+    const lane3 max = lane3_scale(lane3_abs(rays->towards), own);
     const lanei three = lanei_mul(at, lanei_splat(3)), six = lanei_add(three, three);
     lane pair[4], sheet[4];
     lane3 mine;
     lane_gather_rgba_f32(sheet, job->cover, lanei_add(three, lanei_splat(2)));
-    mine.x = lane_min(cone_own(sheet[0], rays->towards.x, job->faced), most.x);
-    mine.y = lane_min(cone_own(sheet[1], rays->towards.y, job->faced), most.y);
-    mine.z = lane_min(cone_own(sheet[2], rays->towards.z, job->faced), most.z);
+    mine.x = lane_min(cone_own(sheet[0], rays->towards.x, job->faced), max.x);
+    mine.y = lane_min(cone_own(sheet[1], rays->towards.y, job->faced), max.y);
+    mine.z = lane_min(cone_own(sheet[2], rays->towards.z, job->faced), max.z);
     lane_gather_rgba_f32(pair, job->cover, three);
     cone_add_axis(&sum->met.x, &sum->flat.x, &sum->sheets.x, pair, sheet[0], ray->x, weight, mine.x);
     cone_add_axis(&sum->met.y, &sum->flat.y, &sum->sheets.y, pair + 2, sheet[1], ray->y, weight, mine.y);
@@ -148,7 +148,7 @@ LANE_INLINE lane3 cone_parts(lane3 d)
 }
 
 /* A level at `at`, leaves from the corner. */
-APART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, const lane3 *at,
+NOINLINE void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *rays, const lane3 *at,
                            int32_t level, float share)
 {
     const float wide = (float)(1 << level);
@@ -179,7 +179,8 @@ APART void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays *r
     }
 }
 
-/* How often a ray meets a surface, per leaf. `met`: |d_a| cover_a, whose sum is right for a corner of walls and too
+/* The expected number of surfaces that a ray meets in a leaf. `met`: |d_a| cover_a, whose sum is right for a corner of
+ * walls and too
  * much for all else. Flat: |N . d|, and nothing where the ray leaves what is single-sided: on a ball's far side the
  * normal's parts face the ray along some axes. Round: the projection of an ellipsoid with these areas, the root of the
  * squares' sum. What is both, by parts: the root of the squares' sum with N's own taken out and (N . d)^2 put in. */
@@ -208,7 +209,7 @@ LANE_INLINE lane cone_shown(lane cover, const cone_sum *sum)
 
 /* What a step adds, and what it leaves open: under 1/1024 is none, for each lane alone, so that none knows when the
  * others are done. */
-APART lane cone_weigh(lmb_cone_seen *out, int k, const cone_sum *sum, float length, lane open)
+NOINLINE lane cone_scale(lmb_cone_seen *out, int k, const cone_sum *sum, float length, lane open)
 {
     const lane cover = lane_add(lane_add(sum->met.x, sum->met.y), sum->met.z),
                crossed = cone_crossed(cover, sum);
@@ -222,7 +223,7 @@ APART lane cone_weigh(lmb_cone_seen *out, int k, const cone_sum *sum, float leng
     return lane_keep(lane_lt(lane_splat(1.0f / 1024.0f), left), left);
 }
 
-APART lane cone_step(lmb_cone_seen *out, int k, const lmb_cone_job *job, const cone_rays *rays,
+NOINLINE lane cone_step(lmb_cone_seen *out, int k, const lmb_cone_job *job, const cone_rays *rays,
                           const lmb_cone_step *step, lane open)
 {
     const lane3 at = lane3_add(rays->origin, lane3_scale(rays->d, lane_splat(step->at * job->per_leaf)));
@@ -233,11 +234,11 @@ APART lane cone_step(lmb_cone_seen *out, int k, const lmb_cone_job *job, const c
     if (step->finer < 1.0f) {
         cone_level(&sum, job, rays, &at, step->level + 1, 1.0f - step->finer);
     }
-    return cone_weigh(out, k, &sum, step->length, open);
+    return cone_scale(out, k, &sum, step->length, open);
 }
 
 /* Is one of the samples in the cube, or up to half a voxel of the coarser level beside it, which it still reads? */
-APART int cone_is_inside(const lmb_cone_job *job, const cone_rays *rays, const lmb_cone_step *step)
+NOINLINE int cone_is_inside(const lmb_cone_job *job, const cone_rays *rays, const lmb_cone_step *step)
 {
     const float margin = (float)(1 << step->level), side = (float)(1 << job->depth) + margin;
     const lane3 at = lane3_add(rays->origin, lane3_scale(rays->d, lane_splat(step->at * job->per_leaf)));
@@ -262,8 +263,8 @@ LANE_PART lane cone_follow(lmb_cone_seen *out, int k, const lmb_cone_job *job, c
     return open;
 }
 
-/* What is no place, or too far for squares of rays to it, goes to the corner: what lanes do that see nothing must stay
- * finite, for wider machines do it more often. */
+/* Positions that are not finite, or so far that squared distances overflow, are moved to the corner: inactive lanes
+ * must stay finite, because wider back ends compute more of them. */
 LANE_INLINE lane cone_finite(lane v) { return lane_keep(lane_lt(lane_abs(v), lane_splat(1.0995116e12f)), v); }
 
 LANE_INLINE lane3 cone_place(lane3 p)

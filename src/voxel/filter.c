@@ -1,11 +1,11 @@
-/* filter.c: light from the leaves upward, and the difference of two worlds' light. Floor 5.            [M11 M12 M13] */
+/* filter.c: light from the leaves upward, and the difference of two worlds' light. Layer 5.            [M11 M12 M13] */
 #include "../base/poly.h"
 #include "octree.h"
 
 #if LMB_VOXELS
 
 /* Less is none: a cone's weights may take 2^-50 of it, and kernels meet no denormal. */
-static const float least = 5.421011e-20f; /* 2^-64 */
+static const float min = 5.421011e-20f; /* 2^-64 */
 
 lmb_status lmb_voxels_filter(lmb_voxels *v, int32_t field)
 {
@@ -15,7 +15,7 @@ lmb_status lmb_voxels_filter(lmb_voxels *v, int32_t field)
     float *light = v->light[field];
     lmb_octree_mean(v, light, LMB_VOXEL_LIGHT);
     for (size_t i = 0; i < (size_t)v->count * LMB_VOXEL_LIGHT; ++i) {
-        light[i] = absf(light[i]) < least ? 0.0f : light[i];
+        light[i] = absf(light[i]) < min ? 0.0f : light[i];
     }
     return LMB_OK;
 }
@@ -27,7 +27,7 @@ lmb_status lmb_voxels_delta(lmb_voxels *v)
     }
     for (size_t i = 0; i < (size_t)v->count * LMB_VOXEL_LIGHT; ++i) {
         const float d = v->light[LMB_VOXEL_WITH][i] - v->light[LMB_VOXEL_WITHOUT][i];
-        v->light[LMB_VOXEL_DELTA][i] = absf(d) < least ? 0.0f : d;
+        v->light[LMB_VOXEL_DELTA][i] = absf(d) < min ? 0.0f : d;
     }
     return LMB_OK;
 }

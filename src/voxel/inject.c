@@ -1,4 +1,4 @@
-/* inject.c: first points of the lights' maps -> light of leaves, by the directions it leaves in. Floor 5.   [M7 M10] */
+/* inject.c: first points of the shadow maps -> light of leaves, by the directions it leaves in. Layer 5.    [M7 M10] */
 #include <string.h>
 
 #include "../base/poly.h"

@@ -1,4 +1,4 @@
-/* octree.h: where a voxel lies in the pool. Floor 5.
+/* octree.h: where a voxel lies in the pool. Layer 5.
  *
  * Voxels 0 .. 7 are empty space and their own children, so a walk down may go on where nothing is stored. */
 #ifndef LMB_VOXEL_OCTREE_H

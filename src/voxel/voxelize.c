@@ -1,4 +1,4 @@
-/* voxelize.c: triangles -> how much of a leaf they cover, seen along each axis. Floor 5.                        [M6] */
+/* voxelize.c: triangles -> how much of a leaf they cover, seen along each axis. Layer 5.                        [M6] */
 #include <string.h>
 
 #include "../raster/resolve.h"
@@ -6,9 +6,9 @@
 
 #if LMB_VOXELS
 
-enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MOST = 32 /* leaf faces in a leaf */ };
+enum { CORNERS = 12 /* a triangle cut by six planes has nine */, SAMPLES = 4, MAX = 32 /* leaf faces in a leaf */ };
 
-/* Areas are whole numbers of these, and their sums up to MOST exact: no order of triangles changes them. */
+/* Areas are whole numbers of these, and their sums up to MAX exact: no order of triangles changes them. */
 static const float unit_area = 1.0f / 262144.0f;
 
 /* A convex polygon, in leaves. */
@@ -117,7 +117,7 @@ static lmb_vec3 area_of(const polygon *p)
 
 static void add_area(float *to, float area)
 {
-    *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MOST);
+    *to = minf(*to + floorf(area * (1.0f / unit_area) + 0.5f) * unit_area, (float)MAX);
 }
 
 /* While all is built a voxel's geometry is area by the direction that its front faces, +x -x +y -y +z -z: of what is
@@ -249,22 +249,22 @@ static void finish(float *cover, uint32_t count)
     for (int k = 2; k >= 0; --k) {
         float *c = cover;
         for (uint32_t i = 0; i < count; ++i, c += LMB_VOXEL_COVER) {
-            const float plus = c[6 + 2 * k], minus = c[7 + 2 * k], most = maxf(plus, minus);
+            const float plus = c[6 + 2 * k], minus = c[7 + 2 * k], max = maxf(plus, minus);
             c[6 + 2 * k] = c[7 + 2 * k] = 0.0f;
             c[8 + k] = plus - minus;
-            c[2 * k] += most;
-            c[2 * k + 1] += most;
+            c[2 * k] += max;
+            c[2 * k + 1] += max;
         }
     }
 }
 
-static int parts_are_sound(const lmb_voxel_part *parts, int32_t count)
+static int parts_are_valid(const lmb_voxel_part *parts, int32_t count)
 {
-    int sound = 1;
+    int valid = 1;
     for (int32_t i = 0; i < count; ++i) {
-        sound &= parts[i].scene != NULL && parts[i].first_id > 0;
+        valid &= parts[i].scene != NULL && parts[i].first_id > 0;
     }
-    return sound;
+    return valid;
 }
 
 /* The box begins a twelfth of the cube's side from its corner, and along its longest axis ends as far from the other:
@@ -284,7 +284,7 @@ lmb_status lmb_voxels_build(lmb_voxels *v, const lmb_vec3 *low, const lmb_vec3 *
     if (v == NULL || v->child == NULL || low == NULL || high == NULL || parts == NULL || count < 0 ||
         depth < LMB_VOXEL_MIN_DEPTH || depth > LMB_VOXEL_MAX_DEPTH || !(low->x <= high->x) || !(low->y <= high->y) ||
         !(low->z <= high->z) || !is_sane(largest3(*low)) || !is_sane(largest3(*high)) ||
-        !parts_are_sound(parts, count)) {
+        !parts_are_valid(parts, count)) {
         return LMB_ERR_ARG;
     }
     set_cube(v, low, high, depth);

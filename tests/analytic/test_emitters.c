@@ -1,6 +1,6 @@
-/* test_emitters.c: light of surfaces that shine, straight and once reflected: a panel of which a part glows against its
- * form factor, a Cornell box whose lamp is an emitter against brute force. [DESIGN 4] */
-enum { FRAME = 32, MAP = 64, FACES = 1, ELEMENTS = 4096, BLOCKERS = 64, SIDE = 64, LIT = 38 /* columns of it */ };
+/* test_emitters.c: light of surfaces that emit light, straight and once reflected: a panel of which a part glows
+ * against its form factor, a Cornell box whose lamp is an emitter against brute force.  */
+enum { FRAME = 32, MAP = 64, FACES = 1, ELEMENTS = 4096, BVH = 64, SIDE = 64, LIT = 38 /* columns of it */ };
 
 #include <stdlib.h>
 
@@ -9,7 +9,8 @@ enum { FRAME = 32, MAP = 64, FACES = 1, ELEMENTS = 4096, BLOCKERS = 64, SIDE = 6
 
 void test_emitters(void);
 
-/* --- part of a panel ------------------------------------------------------------------------------------------------- */
+/* --- part of a panel -------------------------------------------------------------------------------------------------
+ * */
 
 static uint32_t texels[SIDE * SIDE * 2];
 
@@ -54,7 +55,7 @@ static void check_part_panel(double h, double bar)
     const double eye = 0.4 * h, half = 0.45;
     const lmb_view v = look(vec3(0.5f, (float)eye, 0.5f), vec3(0.5f, 0, 0.5f), 2.0 * atan(half / eye) * 180.0 / PI,
                             FRAME);
-    double most = 0.0, mean = 0.0, peak = 0.0;
+    double max = 0.0, mean = 0.0, peak = 0.0;
     make_part_panel(h);
     lmb_frame f = bounce_frame(&v, 1);
     f.show = LMB_SHOW_IRRADIANCE;
@@ -65,13 +66,13 @@ static void check_part_panel(double h, double bar)
         const double x = 0.5 + (double)v.right.x * sx + (double)v.up.x * sy,
                      z = 0.5 + (double)v.right.z * sx + (double)v.up.z * sy;
         const double want = PI * 4.0 * part_factor(x, z, h), off = (double)picture[3 * i + 1] - want;
-        most = fmax(most, fabs(off));
+        max = fmax(max, fabs(off));
         mean += off / (FRAME * FRAME);
         peak = fmax(peak, want);
     }
     printf("  part of a panel at height %-4g %+.3f %% of the brightest in the mean, %.3f %% at most\n", h,
-           mean / peak * 100, most / peak * 100);
-    CHECK_MSG(most < bar * peak && fabs(mean) < 0.005 * peak, "height %g: %g, %g of %g", h, most, mean, peak);
+           mean / peak * 100, max / peak * 100);
+    CHECK_MSG(max < bar * peak && fabs(mean) < 0.005 * peak, "height %g: %g, %g of %g", h, max, mean, peak);
 }
 
 /* --- a Cornell box ------------------------------------------------------------------------------------------------ */
@@ -232,7 +233,8 @@ static void check_cornell(void)
         error += off[i] * off[i] / n;
     }
     error = sqrt(error) / (mean / n);
-    printf("  Cornell's lamp as an emitter, %d pixels: %.4f of the light, off by %.4f (trim)\n", n / 3, got / mean, error);
+    printf("  Cornell's lamp as an emitter, %d pixels: %.4f of the light, off by %.4f (trim)\n", n / 3, got / mean,
+           error);
     CHECK_MSG(n > 500 && fabs(got / mean - 1.0) < 0.015 && error < 0.03, "%d, %g, %g", n, got / mean, error);
 }
 

@@ -1,10 +1,10 @@
-/* test_radiosity.c: many bounces in closed rooms, and surfaces that shine, against what energy says. [DESIGN 4]
+/* test_radiosity.c: many bounces in closed rooms, and surfaces that emit light, against what energy says.
  *
  * In a closed room whose walls all reflect rho, light of power P makes them send P rho^k at the k-th reflection, so all
  * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls shine alike, every point sends the same: itself, what
- * others send straight to it, and that after N reflections are L (1 - rho^(N + 2)) / (1 - rho) everywhere; with the rest
- * of them, L / (1 - rho). What is sealed off stays dark. */
-enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BLOCKERS = 64, BOUNCES = 12 };
+ * others send straight to it, and that after N reflections are L (1 - rho^(N + 2)) / (1 - rho) everywhere; with the
+ * rest of them, L / (1 - rho). What is sealed off stays dark. */
+enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BVH = 64, BOUNCES = 12 };
 
 #include "../bounce_frame.h"
 #include "facing.h"
@@ -21,7 +21,7 @@ static void draw_wide(lmb_vec3 from, lmb_vec3 to, double fov_deg, int32_t show, 
     lmb_frame f = bounce_frame(&view, bounces);
     f.show = show;
     f.truncated = truncated;
-    f.error = f.visible = 0.005f; /* held against what energy says, not against a cut */
+    f.error = f.visibility = 0.005f; /* held against what energy says, not against a cut */
     CHECK(lmb_render_frame(&render, &f) == LMB_OK);
 }
 
@@ -30,48 +30,50 @@ static void draw(lmb_vec3 from, lmb_vec3 to, int32_t show, int32_t bounces)
     draw_wide(from, to, 75, show, bounces);
 }
 
-static void shine(int material, float radiance)
+static void add_irradiance(int material, float radiance)
 {
     for (int c = 0; c < 3; ++c) {
         world.material[material].emission[c] = radiance * (float)(c + 1);
     }
 }
 
-/* --- walls that shine --------------------------------------------------------------------------------------------- */
+/* --- walls that emit light
+ * --------------------------------------------------------------------------------------------- */
 
 static void check_furnace(int32_t bounces)
 {
     const double want = 3.0 * (1.0 - (truncated ? pow((double)rho, bounces + 2) : 0.0)) / (1.0 - (double)rho);
-    double most = 0.0, mean = 0.0;
+    double max = 0.0, mean = 0.0;
     world_begin(rho, rho, rho);
     world_box(vec3(0.3f, -0.1f, 0.2f), 1.0f);
-    shine(0, 3.0f);
+    add_irradiance(0, 3.0f);
     CHECK(world_end() == LMB_OK);
     draw(vec3(-0.3f, 0.5f, 0.7f), vec3(0.9f, -0.8f, -0.4f), LMB_SHOW_FULL, bounces);
     for (int i = 0; i < FRAME * FRAME * 3; ++i) {
         const double off = (double)picture[i] / (want * (i % 3 + 1)) - 1.0;
-        most = fmax(most, fabs(off));
+        max = fmax(max, fabs(off));
         mean += off / (FRAME * FRAME * 3);
     }
     printf("  walls that shine, %2d bounces%s: %+.3f %% in the mean, %.3f %% off at most\n", (int)bounces,
-           truncated ? "" : " and the rest", mean * 100, most * 100);
-    CHECK_MSG(most < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, most);
+           truncated ? "" : " and the rest", mean * 100, max * 100);
+    CHECK_MSG(max < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, max);
 }
 
-/* --- a panel that shines ------------------------------------------------------------------------------------------ */
+/* --- a panel that emits light
+ * ------------------------------------------------------------------------------------------ */
 
-/* A unit square that shines down on another from height h, with no lamp. The view is centred, so that nothing depends
- * on which way its pictures lie: E = pi L F. */
+/* A unit square that emits light down on another from height h, with no lamp. The view is centred, so that nothing
+ * depends on which way its pictures lie: E = pi L F. */
 static void check_panel(double h)
 {
     const double eye = 0.4 * h, half = 0.45;
-    double most = 0.0, mean = 0.0;
+    double max = 0.0, mean = 0.0;
     world_begin(rho, rho, rho);
     world_quad(vec3(0.5f, 0, 0.5f), vec3(0, 0, 0.5f), vec3(0.5f, 0, 0));
     world_part();
     world_quad(vec3(0.5f, (float)h, 0.5f), vec3(0.5f, 0, 0), vec3(0, 0, 0.5f));
     world.material[1].flags = 0;
-    shine(1, 2.0f);
+    add_irradiance(1, 2.0f);
     CHECK(world_end() == LMB_OK);
     draw_wide(vec3(0.5f, (float)eye, 0.5f), vec3(0.5f, 0, 0.5f), 2.0 * atan(half / eye) * 180.0 / PI,
               LMB_SHOW_IRRADIANCE, 1);
@@ -79,11 +81,11 @@ static void check_panel(double h)
         const double x = 0.5 + half * ((i % FRAME + 0.5) / FRAME * 2.0 - 1.0),
                      z = 0.5 + half * ((i / FRAME + 0.5) / FRAME * 2.0 - 1.0);
         const double off = (double)picture[3 * i + 1] / (PI * 4.0 * parallel_factor(x, z, h)) - 1.0;
-        most = fmax(most, fabs(off));
+        max = fmax(max, fabs(off));
         mean += off / (FRAME * FRAME);
     }
-    printf("  panel at height %-4g %+.3f %% in the mean, %.3f %% off at most\n", h, mean * 100, most * 100);
-    CHECK_MSG(most < 0.01, "height %g: %g", h, most);
+    printf("  panel at height %-4g %+.3f %% in the mean, %.3f %% off at most\n", h, mean * 100, max * 100);
+    CHECK_MSG(max < 0.01, "height %g: %g", h, max);
 }
 
 /* --- a lamp in a room --------------------------------------------------------------------------------------------- */
@@ -162,10 +164,10 @@ static void check_white(void)
     truncated = 1;
     const double all = received() / (4.0 * PI);
     printf("  lamp in a white room, 3 bounces and the rest: %.2f times what it gives, of %d\n", all,
-           (int)LMB_MOST_BOUNCES - 1);
-    CHECK_MSG(all > 0.7 * (LMB_MOST_BOUNCES - 1) && all < 1.01 * (LMB_MOST_BOUNCES - 1), "%g", all);
+           (int)LMB_MAX_BOUNCES - 1);
+    CHECK_MSG(all > 0.7 * (LMB_MAX_BOUNCES - 1) && all < 1.01 * (LMB_MAX_BOUNCES - 1), "%g", all);
     CHECK(lmb_elements_rest(NULL, NULL, 1) == LMB_ERR_ARG && lmb_elements_rest(e, NULL, -1) == LMB_ERR_ARG);
-    CHECK(lmb_elements_rest(e, NULL, LMB_MOST_BOUNCES + 1) == LMB_ERR_ARG);
+    CHECK(lmb_elements_rest(e, NULL, LMB_MAX_BOUNCES + 1) == LMB_ERR_ARG);
     CHECK(lmb_elements_rest(e, NULL, 0) == LMB_OK && received() / (4.0 * PI) == all);
 }
 

@@ -53,7 +53,7 @@ static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t 
     f.kernels = lmb_kernels_pick();
     f.scene = &world.scene;
     f.show = show;
-    f.light_map = MAP;
+    f.shadow_map = MAP;
     f.grouping.method = method;
     f.grouping.groups = count;
     f.occlusion = occlusion;
@@ -74,7 +74,7 @@ static void draw(int view, int32_t show, int32_t method, int32_t count, int32_t 
 
 /* How far the pictures of all views are from `want`, as shares of it. */
 typedef struct deviation {
-    double mean, most, ratio; /* of absolute values; largest; mean over want */
+    double mean, max, ratio; /* of absolute values; largest; mean over want */
     int pixels;
 } deviation;
 
@@ -86,7 +86,7 @@ static deviation measure(int32_t show, int32_t method, int32_t count, int32_t oc
         for (int i = 0; i < FRAME * FRAME; ++i) {
             double off = (double)picture[3 * i] / want - 1.0;
             d.mean += fabs(off);
-            d.most = fmax(d.most, fabs(off));
+            d.max = fmax(d.max, fabs(off));
             d.ratio += off + 1.0;
             ++d.pixels;
         }
@@ -99,7 +99,7 @@ static deviation measure(int32_t show, int32_t method, int32_t count, int32_t oc
 static void tell(const char *name, deviation d)
 {
     printf("  %-34s mean %.5f of the formula, off by %.3f %% on average, %.3f %% at most\n", name, d.ratio,
-           d.mean * 100, d.most * 100);
+           d.mean * 100, d.max * 100);
 }
 
 /* V27, V28: rho I / R2 within 1 % everywhere, with 700 groups or more; the bar of the source's own measure. */
@@ -110,7 +110,7 @@ static void check_bounce(const char *name, int32_t method, int32_t count)
     snprintf(line, sizeof line, "one bounce, %s, %d groups", name, (int)groups.count);
     tell(line, d);
     CHECK_MSG(groups.count >= 700, "%s: %d groups", name, (int)groups.count);
-    CHECK_MSG(d.most < 0.01, "%s: %g", name, d.most);
+    CHECK_MSG(d.max < 0.01, "%s: %g", name, d.max);
     CHECK_MSG(d.mean < 0.004 && fabs(d.ratio - 1.001) < 0.003, "%s: %g %g", name, d.mean, d.ratio);
     /* All light that leaves the lamp: 4 pi I rho. */
     CHECK_MSG(fabs(stats.flux_lit / (3.0 * 4.0 * PI * (double)albedo) - 1.0) < 1e-4, "%g", stats.flux_lit);
@@ -127,13 +127,13 @@ void test_sphere(void)
     make_sphere();
     d = measure(LMB_SHOW_DIRECT, 0, 0, LMB_OCCLUSION_NONE, (double)albedo / PI);
     tell("direct radiance", d);
-    CHECK_MSG(d.most < 0.004 && fabs(d.ratio - 1.001) < 0.001, "%g %g", d.most, d.ratio);
+    CHECK_MSG(d.max < 0.004 && fabs(d.ratio - 1.001) < 0.001, "%g %g", d.max, d.ratio);
     check_bounce("zones", LMB_GROUP_ZONES, 1024);
     check_bounce("greedy", LMB_GROUP_GREEDY, 1024);
     check_bounce("zones", LMB_GROUP_ZONES, 2048);
     d = measure(LMB_SHOW_FULL, LMB_GROUP_ZONES, 1024, LMB_OCCLUSION_NONE, 1.5 * (double)albedo / PI);
     tell("direct + one bounce, radiance", d);
-    CHECK_MSG(d.most < 0.007, "%g", d.most);
+    CHECK_MSG(d.max < 0.007, "%g", d.max);
     /* Nothing stands in a sphere: the viewer's depth map must not shadow it. */
     d = measure(LMB_SHOW_IRRADIANCE, LMB_GROUP_ZONES, 1024, LMB_OCCLUSION_VIEW, (double)albedo);
     tell("one bounce, view occlusion", d);

@@ -42,7 +42,7 @@ static void see(lmb_irradiance *light, float open[LMB_TILE_PIXELS])
 }
 
 typedef struct deviation {
-    double mean, most, off; /* signed mean; of absolute values, largest and mean */
+    double mean, max, off; /* signed mean; of absolute values, largest and mean */
     int count;
 } deviation;
 
@@ -50,7 +50,7 @@ static void deviate(deviation *d, double off)
 {
     d->mean += off;
     d->off += fabs(off);
-    d->most = fmax(d->most, fabs(off));
+    d->max = fmax(d->max, fabs(off));
     ++d->count;
 }
 
@@ -59,7 +59,7 @@ static void tell(const char *name, int32_t depth, int count, deviation *d)
     d->mean /= d->count;
     d->off /= d->count;
     printf("  %-16s %3d^3, %2d cones: %+.4f in the mean, off by %.4f, %.4f at most\n", name, 1 << depth, count, d->mean,
-           d->off, d->most);
+           d->off, d->max);
 }
 
 /* --- the integrating sphere --------------------------------------------------------------------------------------- */
@@ -176,7 +176,7 @@ static void check_open(void *memory, size_t bytes, float height, int count, doub
         }
     }
     tell(height > 0.6f ? "open" : "open, contact", 7, count, &d);
-    CHECK_MSG(d.off <= 0.05 && d.most <= bar, "%g %g", d.off, d.most);
+    CHECK_MSG(d.off <= 0.05 && d.max <= bar, "%g %g", d.off, d.max);
 }
 
 void test_voxels(void)

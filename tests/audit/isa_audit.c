@@ -6,7 +6,7 @@
 #include "../../src/base/exact.h"
 #include "lane_audit.h"
 
-#define MACHINE "audit"
+#define BACKEND "audit"
 #define KERNEL(name) name##_audit
 #include "../../src/isa/all_kernels.inl"
 

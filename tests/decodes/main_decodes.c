@@ -40,7 +40,7 @@ static int print_difference(const difference *d, const stored_picture *p)
 /* --- reference pictures: what a Netpbm program writes --- */
 
 typedef struct plain_picture {
-    uint32_t width, height, depth, most;
+    uint32_t width, height, depth, max;
     const uint8_t *samples;
 } plain_picture;
 
@@ -49,7 +49,7 @@ static int read_pnm(plain_picture *out, const char *text, const uint8_t **end)
 {
     int n = 0;
     char kind;
-    if (sscanf(text, "P%c %" SCNu32 " %" SCNu32 " %" SCNu32 "%n", &kind, &out->width, &out->height, &out->most, &n) < 4)
+    if (sscanf(text, "P%c %" SCNu32 " %" SCNu32 " %" SCNu32 "%n", &kind, &out->width, &out->height, &out->max, &n) < 4)
         return 0;
     out->depth = kind == '5' ? 1 : kind == '6' ? 3 : 0;
     *end = (const uint8_t *)text + n + 1;
@@ -63,7 +63,7 @@ static int read_pam(plain_picture *out, const char *text, const uint8_t **end)
         sscanf(line, "WIDTH %" SCNu32, &out->width);
         sscanf(line, "HEIGHT %" SCNu32, &out->height);
         sscanf(line, "DEPTH %" SCNu32, &out->depth);
-        sscanf(line, "MAXVAL %" SCNu32, &out->most);
+        sscanf(line, "MAXVAL %" SCNu32, &out->max);
     }
     if (!stop)
         return 0;
@@ -80,18 +80,18 @@ static int read_plain(plain_picture *out, const file_bytes *file, const char *na
     for (size_t i = 0; i < 255; ++i)
         head[i] = head[i] ? head[i] : '?'; /* pixels behind the header may be anything */
     int ok = memcmp(head, "P7\n", 3) == 0 ? read_pam(out, head, &end) : read_pnm(out, head, &end);
-    if (!ok || !picture_fits(out->width, out->height) || out->depth < 1 || out->depth > 4 || out->most < 1)
+    if (!ok || !picture_fits(out->width, out->height) || out->depth < 1 || out->depth > 4 || out->max < 1)
         return report_fail(r, "%s: no raw PGM, PPM or PAM", name);
     size_t header = (size_t)((const char *)end - head);
     out->samples = file->data + header;
-    if (file->size - header != (size_t)out->width * out->height * out->depth * (out->most > 255 ? 2 : 1))
+    if (file->size - header != (size_t)out->width * out->height * out->depth * (out->max > 255 ? 2 : 1))
         return report_fail(r, "%s: not as long as its header says", name);
     return 1;
 }
 
 static uint32_t sample_at(const plain_picture *p, size_t i)
 {
-    return p->most > 255 ? (uint32_t)p->samples[2 * i] << 8 | p->samples[2 * i + 1] : p->samples[i];
+    return p->max > 255 ? (uint32_t)p->samples[2 * i] << 8 | p->samples[2 * i + 1] : p->samples[i];
 }
 
 /* Its four codes: the high byte of 16 bits; of fewer than 8, repeated (their largest values divide 255). */
@@ -101,7 +101,7 @@ static void plain_texel(uint32_t out[4], const plain_picture *p, size_t pixel)
     uint32_t codes[4];
     for (uint32_t k = 0; k < p->depth; ++k) {
         uint32_t v = sample_at(p, pixel * p->depth + k);
-        codes[k] = p->most == 65535 ? v >> 8 : v * (255 / p->most);
+        codes[k] = p->max == 65535 ? v >> 8 : v * (255 / p->max);
     }
     for (uint32_t k = 0; k < 3; ++k)
         out[k] = codes[colours == 1 ? 0 : k];
@@ -116,8 +116,8 @@ static int compare_codes(const stored_picture *p, const file_bytes *file, const 
         return 0;
     if (!p->codes.texels || (uint32_t)p->width != plain.width || (uint32_t)p->height != plain.height)
         return report_fail(r, "%s: the sizes differ", name);
-    if (plain.most != 65535 && 255 % plain.most != 0)
-        return report_fail(r, "%s: a largest value of %u does not divide 255", name, (unsigned)plain.most);
+    if (plain.max != 65535 && 255 % plain.max != 0)
+        return report_fail(r, "%s: a largest value of %u does not divide 255", name, (unsigned)plain.max);
     for (size_t i = 0; i < (size_t)plain.width * plain.height; ++i) {
         uint32_t texel[4];
         plain_texel(texel, &plain, i);
@@ -174,7 +174,7 @@ static int compare_upright(const stored_picture *p, const file_bytes *file, cons
     for (size_t i = 0; i < (size_t)plain.width * plain.height * plain.depth; ++i) {
         const double v = (double)p->light.pixels[i];
         if (v >= 0 && v <= 1)
-            add(&d, floor(v * plain.most + 0.5), sample_at(&plain, i));
+            add(&d, floor(v * plain.max + 0.5), sample_at(&plain, i));
     }
     return print_difference(&d, p);
 }

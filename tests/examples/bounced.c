@@ -23,7 +23,7 @@ int main(void)
     settings.kernels = lmb_kernels_pick();
     settings.scene = &scene;
     if (lmb_scene_check(&scene) != LMB_OK ||
-        lmb_view_look(&settings.view, room_eye, room_middle, room_up, 0.8f, 96, 64) != LMB_OK) {
+        lmb_view_look_at(&settings.view, room_eye, room_middle, room_up, 0.8f, 96, 64) != LMB_OK) {
         return 1;
     }
     const size_t bytes = lmb_frame_bytes(&settings);
@@ -36,7 +36,7 @@ int main(void)
     const uint64_t expected = BY_CONFIG(UINT64_C(0x407465149cd5bd61), UINT64_C(0x622db46cbd6ad0fc));
     const uint64_t hash = lmb_surface_hash(&frame.out); /* RGBA8 in the block, where settings.out names no other */
     printf("%s, %lu KiB, maps of %d x %d, a tree of %d x %d\n", lmb_status_name(status), (unsigned long)(bytes / 1024),
-           (int)frame.light_map, (int)frame.light_map, (int)frame.tree.size, (int)frame.tree.size);
+           (int)frame.shadow_map, (int)frame.shadow_map, (int)frame.tree.size, (int)frame.tree.size);
     free(block);
     return status != LMB_OK || ends_with("bounced light", hash, expected);
 }

@@ -61,9 +61,9 @@ int main()
     settings.kernels = lmb_kernels_pick();
     settings.scene = &scene;
     settings.threads = 2;
-    settings.light_map = 128;
+    settings.shadow_map = 128;
     settings.tree = 32;
-    lmb_view_look(&settings.view, room_eye, room_middle, room_up, 0.8f, 96, 64);
+    lmb_view_look_at(&settings.view, room_eye, room_middle, room_up, 0.8f, 96, 64);
     Renderer renderer(settings);
     const lmb_status status = renderer.draw();
     return status != LMB_OK || ends_with("C++", lmb_surface_hash(&renderer.picture()),

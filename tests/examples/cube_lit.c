@@ -66,7 +66,7 @@ int main(void)
     r.probes = &probe, r.probe_of = probe_of, r.probe_count = 1;
     paint_sky();
     int ok = light_of(&probe.irradiance, room_middle, r.kernels) &&
-             lmb_view_look(&r.view, room_eye, room_middle, room_up, 1.2f, WIDTH, HEIGHT) == LMB_OK &&
+             lmb_view_look_at(&r.view, room_eye, room_middle, room_up, 1.2f, WIDTH, HEIGHT) == LMB_OK &&
              lmb_surface_init(&r.eye.depth, LMB_DEPTH32F, WIDTH, HEIGHT, depth_memory, sizeof depth_memory) == LMB_OK &&
              lmb_surface_init(&r.eye.id, LMB_ID32, WIDTH, HEIGHT, id_memory, sizeof id_memory) == LMB_OK &&
              lmb_surface_init(&out, LMB_RGBA8, WIDTH, HEIGHT, picture, sizeof picture) == LMB_OK &&

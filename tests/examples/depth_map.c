@@ -22,7 +22,7 @@ int main(void)
     memset(&target, 0, sizeof target); /* no ids: a depth map costs none */
 
     if (lmb_build_check() != LMB_OK || lmb_scene_check(&scene) != LMB_OK ||
-        lmb_view_look(&view, room_eye, room_middle, room_up, 0.8f, WIDTH, HEIGHT) != LMB_OK ||
+        lmb_view_look_at(&view, room_eye, room_middle, room_up, 0.8f, WIDTH, HEIGHT) != LMB_OK ||
         lmb_surface_init(&target.depth, LMB_DEPTH32F, WIDTH, HEIGHT, memory, sizeof memory) != LMB_OK ||
         lmb_surface_clear(&target.depth) != LMB_OK ||
         lmb_draw(&target, lmb_kernels_pick(), &view, &scene, 1, lmb_scene_triangles(&scene), 0, NULL) != LMB_OK ||

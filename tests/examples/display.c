@@ -43,10 +43,10 @@ int main(void)
     settings.by_bands = 1;
     settings.format = LMB_RGB565;
     settings.quality = LMB_QUALITY_FIXED;
-    settings.light_map = 128;
+    settings.shadow_map = 128;
     settings.grouping.groups = 64;
     settings.points = 600; /* 88 bytes each; too few would stop the frame with LMB_ERR_CAPACITY */
-    lmb_view_look(&settings.view, room_eye, room_middle, room_up, 0.8f, WIDTH, HEIGHT);
+    lmb_view_look_at(&settings.view, room_eye, room_middle, room_up, 0.8f, WIDTH, HEIGHT);
     if (lmb_frame_init(&frame, &settings, block, sizeof block) != LMB_OK) {
         printf("%lu bytes wanted, %lu there\n", (unsigned long)lmb_frame_bytes(&settings), (unsigned long)sizeof block);
         return 1;

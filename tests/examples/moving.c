@@ -1,7 +1,7 @@
 /* moving.c: an animation: first the camera moves, then the lamp. What did not change is kept from frame to frame.
  *
- * lmb_render_next is told by `revision` numbers what changed: raise a light's when it moves, an instance's when
- * it does. It keeps the rest (the light's map and first points while the camera alone moves) and gives the bytes
+ * lmb_render_reuse is told by `revision` numbers what changed: raise a light's when it moves, an instance's when
+ * it does. It keeps the rest (the shadow map and first points while the camera alone moves) and gives the bytes
  * of a frame drawn from nothing, which this example checks. */
 #include "room.h"
 
@@ -31,23 +31,23 @@ int main(void)
     memset(&settings, 0, sizeof settings);
     settings.kernels = lmb_kernels_pick();
     settings.scene = &scene;
-    settings.light_map = 128;
+    settings.shadow_map = 128;
     settings.tree = 32;
-    lmb_view_look(&settings.view, room_eye, room_middle, room_up, 0.8f, 64, 48);
+    lmb_view_look_at(&settings.view, room_eye, room_middle, room_up, 0.8f, 64, 48);
     if (make_frame(&moving, &settings) != LMB_OK || make_frame(&still, &settings) != LMB_OK) {
         return 1;
     }
     for (int i = 0; i < 6; ++i) {
         if (i < 3) {
             const lmb_vec3 eye = {room_eye.x - 0.1f * (float)i, room_eye.y, room_eye.z};
-            lmb_view_look(&moving.view, eye, room_middle, room_up, 0.8f, 64, 48);
+            lmb_view_look_at(&moving.view, eye, room_middle, room_up, 0.8f, 64, 48);
         } else {
             lamp.position.x += 0.1f;
             ++lamp.revision;
         }
         still.view = moving.view;
-        lmb_status status = lmb_render_next(&kept, &moving); /* `kept` is of zeros before the first frame */
-        maps_kept += (kept.light_state[0] & LMB_LIGHT_MAP_KEPT) != 0;
+        lmb_status status = lmb_render_reuse(&kept, &moving); /* `kept` is of zeros before the first frame */
+        maps_kept += (kept.light_state[0] & LMB_LIGHT_MAP_REUSED) != 0;
         for (int more = status == LMB_OK; more; more = status == LMB_MORE) {
             status = lmb_render_step(&kept, 1000); /* a game would do something else in between */
         }

@@ -33,7 +33,7 @@ int main(void)
     lmb_target target;
     lmb_surface out;
     memset(&target, 0, sizeof target);
-    if (lmb_view_look(&view, room_eye, room_middle, room_up, 0.8f, WIDTH, HEIGHT) != LMB_OK ||
+    if (lmb_view_look_at(&view, room_eye, room_middle, room_up, 0.8f, WIDTH, HEIGHT) != LMB_OK ||
         lmb_surface_init(&target.depth, LMB_DEPTH32F, WIDTH, HEIGHT, depth_memory, sizeof depth_memory) != LMB_OK ||
         lmb_surface_init(&target.id, LMB_ID32, WIDTH, HEIGHT, id_memory, sizeof id_memory) != LMB_OK ||
         lmb_surface_init(&out, LMB_RGBA8, WIDTH, HEIGHT, picture, sizeof picture) != LMB_OK ||

@@ -9,7 +9,7 @@
 
 #include "fuzz.h"
 
-enum { TRIANGLES = 12, MESHES = 2, SIDE = 24, TEXELS = 8 * 8, MAP_MOST = 32 };
+enum { TRIANGLES = 12, MESHES = 2, SIDE = 24, TEXELS = 8 * 8, MAP_MAX = 32 };
 enum { HEAD = 128 /* bytes that say how to draw */ };
 
 /* Past the end come random ones, so that short inputs say much. */
@@ -36,7 +36,7 @@ static uint32_t take(bytes *b, int count)
     return v;
 }
 
-static uint32_t below(bytes *b, uint32_t most) { return take(b, 1) % most; }
+static uint32_t below(bytes *b, uint32_t max) { return take(b, 1) % max; }
 
 /* Mostly numbers of a scene; now and then any 32 bits, or one of those that break things. */
 static float number(bytes *b)
@@ -63,7 +63,7 @@ static float positive(bytes *b)
 static float share(bytes *b) { return (float)take(b, 1) / 255.0f; }
 
 /* One of those that are taken; one in sixteen is one too many. */
-static int32_t choice(bytes *b, uint32_t most) { return (int32_t)below(b, below(b, 16) == 0 ? most + 1 : most); }
+static int32_t choice(bytes *b, uint32_t max) { return (int32_t)below(b, below(b, 16) == 0 ? max + 1 : max); }
 
 /* --- a scene ------------------------------------------------------------------------------------------------------ */
 
@@ -202,7 +202,7 @@ static void make_world(world *w, bytes *b)
 
 /* Memory of one frame; each piece its own block. */
 typedef struct memory {
-    void *depth, *id, *out, *map, *points, *tree, *blockers, *elements;
+    void *depth, *id, *out, *map, *points, *tree, *bvh, *elements;
     lmb_band_scratch *scratch;
     lmb_groups *groups;
 } memory;
@@ -211,8 +211,8 @@ static void make_view(lmb_view *v, bytes *b)
 {
     const int32_t width = 1 + (int32_t)below(b, SIDE), height = 1 + (int32_t)below(b, SIDE);
     const lmb_vec3 eye = {number(b), number(b), number(b)}, target = {number(b), number(b), number(b)}, up = {0, 1, 0};
-    if (lmb_view_look(v, eye, target, up, number(b), width, height) != LMB_OK) {
-        lmb_view_look(v, (lmb_vec3){0.5f, 1.0f, 4.0f}, (lmb_vec3){0, 0, 0}, up, 0.9f, width, height);
+    if (lmb_view_look_at(v, eye, target, up, number(b), width, height) != LMB_OK) {
+        lmb_view_look_at(v, (lmb_vec3){0.5f, 1.0f, 4.0f}, (lmb_vec3){0, 0, 0}, up, 0.9f, width, height);
     }
     if (below(b, 4) == 0) {
         v->near_m = number(b);
@@ -242,25 +242,25 @@ static void set_surfaces(lmb_frame *f, memory *m, bytes *b)
 static void set_light(lmb_frame *f, memory *m, bytes *b)
 {
     const uint32_t triangles = lmb_scene_triangles(f->scene);
-    f->light_map = 8 * (1 + (int32_t)below(b, MAP_MOST / 8));
+    f->shadow_map = 8 * (1 + (int32_t)below(b, MAP_MAX / 8));
     f->id_format = below(b, 2) ? LMB_ID16 : LMB_ID32;
     for (uint32_t i = 0; i < f->scene->light_count; ++i) {
-        const int32_t faces = lmb_light_map_faces(&f->scene->lights[i], f->scene);
-        f->map_bytes += lmb_light_map_bytes(faces, f->light_map, f->id_format);
+        const int32_t faces = lmb_shadow_map_faces(&f->scene->lights[i], f->scene);
+        f->map_bytes += lmb_shadow_map_bytes(faces, f->shadow_map, f->id_format);
     }
-    const size_t points = lmb_points_bytes(256, MAP_MOST), tree = lmb_tree_bytes(12, 8),
-                 blockers = lmb_blockers_bytes(triangles + 1), elements = lmb_elements_bytes(64);
+    const size_t points = lmb_points_bytes(256, MAP_MAX), tree = lmb_tree_bytes(12, 8),
+                 bvh = lmb_bvh_bytes(triangles + 1), elements = lmb_elements_bytes(64);
     m->map = malloc(f->map_bytes + 1);
     m->points = malloc(points);
     m->tree = malloc(tree);
-    m->blockers = malloc(blockers);
+    m->bvh = malloc(bvh);
     m->elements = malloc(elements);
-    fuzz_require(m->map && m->points && m->tree && m->blockers && m->elements);
+    fuzz_require(m->map && m->points && m->tree && m->bvh && m->elements);
     f->map_memory = m->map;
-    lmb_points_init(&f->points, 256, MAP_MOST, m->points, points);
+    lmb_points_init(&f->points, 256, MAP_MAX, m->points, points);
     if (below(b, 4) > 0) {
         lmb_tree_init(&f->tree, 12, 8, m->tree, tree);
-        lmb_blockers_init(&f->blockers, triangles + 1, m->blockers, blockers);
+        lmb_bvh_init(&f->bvh, triangles + 1, m->bvh, bvh);
         lmb_elements_init(&f->elements, 64, m->elements, elements);
     }
 }
@@ -280,8 +280,8 @@ static void set_how(lmb_frame *f, bytes *b)
     f->occlusion = f->grouping.method == LMB_GROUP_CUT ? choice(b, 2) * LMB_OCCLUSION_EXACT : choice(b, 3);
     f->steps = (int32_t)below(b, 20);
     f->error = 0.1f + share(b); /* less takes long and says no more */
-    f->visible = 0.1f + share(b);
-    f->proven = below(b, 8) == 0;
+    f->visibility = 0.1f + share(b);
+    f->conservative = below(b, 8) == 0;
     f->bounces = f->grouping.method == LMB_GROUP_CUT ? choice(b, 4) : choice(b, 2);
     f->gather_step = gather[choice(b, 4)];
     f->exposure_ev = number(b);
@@ -295,7 +295,7 @@ static void free_memory(memory *m)
     free(m->map);
     free(m->points);
     free(m->tree);
-    free(m->blockers);
+    free(m->bvh);
     free(m->elements);
     free(m->scratch);
     free(m->groups);

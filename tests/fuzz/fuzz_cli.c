@@ -18,9 +18,9 @@ typedef union options {
 /* What is taken is within what the help promises. */
 static void check_render(const render_options *o)
 {
-    fuzz_require(o->light_count <= RENDER_LIGHTS && o->threads >= 0 && o->light_map >= 0 && o->bounces >= 0);
+    fuzz_require(o->light_count <= RENDER_LIGHTS && o->threads >= 0 && o->shadow_map >= 0 && o->bounces >= 0);
     fuzz_require(o->view.width >= 0 && o->view.width <= LMB_MAX_SIDE && o->view.height <= LMB_MAX_SIDE);
-    fuzz_require(o->error >= 0.0f && o->visible >= 0.0f && o->stereo_m - o->stereo_m == 0.0f);
+    fuzz_require(o->error >= 0.0f && o->visibility >= 0.0f && o->stereo_m - o->stereo_m == 0.0f);
 }
 
 static int parse(options *out, int verb, int argc, char **argv, report *r)

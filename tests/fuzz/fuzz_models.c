@@ -21,7 +21,7 @@ static void draw_scene(const lmb_scene *scene)
     lmb_target target = {{0}, {0}, 0, 0};
     lmb_tile tile;
     lmb_view view;
-    if (lmb_view_look(&view, eye, centre, up, 1.0f, SIDE, SIDE) != LMB_OK) {
+    if (lmb_view_look_at(&view, eye, centre, up, 1.0f, SIDE, SIDE) != LMB_OK) {
         return;
     }
     view.near_m = 0.01f;

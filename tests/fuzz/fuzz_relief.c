@@ -25,7 +25,8 @@ static void draw(const lmb_relief *relief, const lmb_relief_how *how)
     lmb_surface_clear(&target.depth);
     lmb_surface_clear(&target.id);
     lmb_relief_scene(&scene, relief);
-    fuzz_require(lmb_view_look(&view, vec3(2, 1.5f, 2.5f), vec3(0, 0, 0), vec3(0, 1, 0), 0.8f, SIDE, SIDE) == LMB_OK);
+    fuzz_require(lmb_view_look_at(&view, vec3(2, 1.5f, 2.5f), vec3(0, 0, 0), vec3(0, 1, 0), 0.8f, SIDE, SIDE) ==
+                 LMB_OK);
     if (relief->mesh.triangle_count > 10000 || lmb_scene_check(&scene) != LMB_OK) {
         return;
     }
@@ -50,11 +51,11 @@ void fuzz_lmr(const uint8_t *data, size_t size)
     fuzz_require((swapped == LMB_OK) == (opened == LMB_OK || opened == LMB_ERR_CAPACITY));
     if (opened == LMB_OK) {
         static const lmb_relief_how once = {.steps = 1}, own = {.pick = LMB_RELIEF_EYE_RAY, .sampling = 1},
-                                    most = {.steps = 32, .pick = LMB_RELIEF_EYE_RAY, .views = 8, .keep = 1};
+                                    max = {.steps = 32, .pick = LMB_RELIEF_EYE_RAY, .views = 8, .keep = 1};
         draw(&relief, NULL);
         draw(&relief, &once);
         draw(&relief, &own);
-        draw(&relief, &most);
+        draw(&relief, &max);
     }
     free(copy);
 }

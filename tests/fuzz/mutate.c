@@ -28,8 +28,8 @@ static size_t place(patient *p)
 /* Pieces are short, or a large part of the file. */
 static size_t piece(patient *p, size_t at)
 {
-    size_t most = p->size - at, n = 1 + below(p, test_random(&p->rng) % 4 == 0 ? most : 16);
-    return n < most ? n : most;
+    size_t max = p->size - at, n = 1 + below(p, test_random(&p->rng) % 4 == 0 ? max : 16);
+    return n < max ? n : max;
 }
 
 static void flip_bit(patient *p)

@@ -26,7 +26,7 @@ static struct memory {
     lmb_render render;
     uint64_t lights[LIGHT_CELLS * 700 / 8];
 } memory;
-/* First points, or the tree of a light's map in their place: one face, or more that are smaller. */
+/* First points, or the tree of a shadow map in their place: one face, or more that are smaller. */
 static union light_memory {
     lmb_point points[POINTS];
     struct {
@@ -37,7 +37,7 @@ static union light_memory {
 } light_memory;
 static uint32_t point_cells[MAP / 4 * (MAP / 4) + 1];
 static lmb_points points = {light_memory.points, POINTS, 0, point_cells, MAP / 4 * (MAP / 4) + 1, 0, NULL, 0, 0};
-static uint32_t blocker_memory[TRIANGLES * 29 + 1024], element_memory[ELEMENTS * 44 + 64];
+static uint32_t bvh_memory[TRIANGLES * 29 + 1024], element_memory[ELEMENTS * 44 + 64];
 const lmb_kernels *golden_kernels;
 static const golden_way *way;
 
@@ -182,7 +182,7 @@ lmb_view golden_soup_view(int orthographic)
 {
     lmb_view v;
     lmb_vec3 eye = {0.3f, 0.2f, 4.0f}, target = {0, 0, 0}, up = {0, 1, 0};
-    lmb_view_look(&v, eye, target, up, 0.9f, WIDTH, HEIGHT);
+    lmb_view_look_at(&v, eye, target, up, 0.9f, WIDTH, HEIGHT);
     v.near_m = 0.05f;
     v.far_m = 20.0f;
     if (orthographic) {
@@ -327,11 +327,11 @@ static lmb_light make_light(int kind)
 
 static uint64_t case_light_map(int variant)
 {
-    lmb_light_map map;
+    lmb_shadow_map map;
     golden_soup(33u, 2.0f);
     soup_light = make_light(variant);
     int32_t size = variant == LMB_LIGHT_POINT ? 24 : MAP;
-    lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
+    lmb_shadow_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
     way->draw_map(&map, golden_kernels, &soup);
     uint64_t h = GOLDEN_START;
     for (int32_t f = 0; f < map.faces; ++f) {
@@ -358,8 +358,8 @@ static uint64_t case_groups(int variant)
         {LMB_GROUP_GREEDY, 4, 90, 0.25f, 0, 0, 0, LMB_NEAR_HEMISPHERE, 0, 0, 0, 0},
     };
     const lmb_scene *scene = demo_scene();
-    lmb_light_map map;
-    lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
+    lmb_shadow_map map;
+    lmb_shadow_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
     way->draw_map(&map, golden_kernels, scene);
     points.count = points.faces = 0;
     lmb_status a =
@@ -379,7 +379,7 @@ static lmb_frame demo_frame(void)
     f.kernels = golden_kernels;
     f.scene = demo_scene();
     f.view = demo_view(WIDTH, HEIGHT);
-    f.light_map = MAP;
+    f.shadow_map = MAP;
     f.grouping.block = 4;
     f.grouping.groups = 60;
     f.occlusion = LMB_OCCLUSION_VIEW;
@@ -464,12 +464,12 @@ static void turn_light(lmb_light *l, int i)
 
 /* Lights all over the soup, in slices; among them clusters. Of all kinds: in so few cells that
  * they are summed at once in any configuration. */
-static lmb_status stream_lights(lmb_many *many, int kinds)
+static lmb_status stream_lights(lmb_many_lights *many_lights, int kinds)
 {
     const lmb_vec3 low = {-2, -2, -2}, high = {2, 2, 3};
     lmb_light slice[7];
-    lmb_status status = lmb_many_init(many, kinds ? 8 : LIGHT_CELLS, low, high, 9.0f * MANY_LIGHTS, memory.lights,
-                                      sizeof memory.lights);
+    lmb_status status = lmb_many_lights_init(many_lights, kinds ? 8 : LIGHT_CELLS, low, high, 9.0f * MANY_LIGHTS,
+                                             memory.lights, sizeof memory.lights);
     memset(slice, 0, sizeof slice);
     for (int i = 0; i < MANY_LIGHTS && status == LMB_OK; i += 7) {
         for (int k = 0; k < 7; ++k) {
@@ -484,9 +484,9 @@ static lmb_status stream_lights(lmb_many *many, int kinds)
                 turn_light(&slice[k], i + k);
             }
         }
-        status = lmb_many_add(many, slice, 7);
+        status = lmb_many_lights_add(many_lights, slice, 7);
     }
-    return status == LMB_OK ? lmb_many_build(many) : status;
+    return status == LMB_OK ? lmb_many_lights_build(many_lights) : status;
 }
 
 /* Many lights on the soup, with shadows (0) and without; points, spots and suns (2). LIGHT_CELLS never fill
@@ -494,28 +494,29 @@ static lmb_status stream_lights(lmb_many *many, int kinds)
 static uint64_t case_many(int variant)
 {
     lmb_frame f = demo_frame();
-    lmb_many many;
+    lmb_many_lights many_lights;
     golden_soup(57u, 1.6f);
     soup.light_count = 0;
-    lmb_status status = stream_lights(&many, variant == 2);
-    uint64_t h = golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)status), many.doubled);
-    for (uint32_t i = 0; i < many.node_count; ++i) {
-        h = golden_hash_floats(golden_hash_floats(h, many.node[i].intensity, 3), &many.node[i].position.x, 3);
-        h = golden_hash_floats(h, &many.node[i].strongest.position.x, 3);
-        h = golden_hash_floats(h, &many.node[i].median.position.x, 3);
+    lmb_status status = stream_lights(&many_lights, variant == 2);
+    uint64_t h = golden_hash_u32(golden_hash_u32(GOLDEN_START, (uint32_t)status), many_lights.doubled);
+    for (uint32_t i = 0; i < many_lights.node_count; ++i) {
+        h = golden_hash_floats(golden_hash_floats(h, many_lights.node[i].intensity, 3), &many_lights.node[i].position.x,
+                               3);
+        h = golden_hash_floats(h, &many_lights.node[i].strongest.position.x, 3);
+        h = golden_hash_floats(h, &many_lights.node[i].median.position.x, 3);
     }
     f.scene = &soup;
     f.view = golden_soup_view(0);
     f.show = LMB_SHOW_DIRECT;
     f.occlusion = LMB_OCCLUSION_NONE;
-    f.many = &many;
+    f.many_lights = &many_lights;
     if (variant != 1) { /* in the map's memory: there is none */
-        lmb_blockers_init(&f.blockers, TRIANGLES, memory.map, sizeof memory.map);
+        lmb_bvh_init(&f.bvh, TRIANGLES, memory.map, sizeof memory.map);
     }
     return hash_frame(h, &f);
 }
 
-/* --- cuts of the light's tree ------------------------------------------------------------------------------------- */
+/* --- cuts of the light tree ------------------------------------------------------------------------------------- */
 
 static void set_tree(lmb_tree *tree, uint32_t faces, int32_t size)
 {
@@ -553,11 +554,11 @@ static uint64_t hash_tree(uint64_t h, const lmb_tree *tree, uint32_t faces)
     return h;
 }
 
-static lmb_blockers soup_blockers(void)
+static lmb_bvh soup_bvh(void)
 {
-    lmb_blockers b;
+    lmb_bvh b;
     memset(&b, 0, sizeof b);
-    lmb_blockers_init(&b, TRIANGLES, blocker_memory, sizeof blocker_memory);
+    lmb_bvh_init(&b, TRIANGLES, bvh_memory, sizeof bvh_memory);
     return b;
 }
 
@@ -565,11 +566,11 @@ static lmb_blockers soup_blockers(void)
 static uint64_t case_tree(int variant)
 {
     const int32_t face = (variant & 3) == LMB_LIGHT_POINT ? 5 : 0, size = face > 0 ? 16 : TREE;
-    lmb_light_map map;
+    lmb_shadow_map map;
     lmb_tree tree;
     golden_soup(33u, 2.0f);
     soup_light = make_light(variant & 3);
-    lmb_light_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
+    lmb_shadow_map_init(&map, &soup_light, &soup, size, LMB_ID16, memory.map, sizeof memory.map);
     way->draw_map(&map, golden_kernels, &soup);
     set_tree(&tree, 1, variant & 4 ? size / 2 : size);
     lmb_status a = lmb_tree_texels(&tree, golden_kernels, &memory.scratch.tile, &soup, &soup_light, &map, face, 0, 0,
@@ -587,12 +588,12 @@ static lmb_frame soup_frame(uint32_t faces, int32_t size)
     f.scene = &soup;
     f.view = golden_soup_view(0);
     f.show = LMB_SHOW_INDIRECT;
-    f.light_map = size;
+    f.shadow_map = size;
     f.grouping.method = LMB_GROUP_CUT;
     memset(&f.points, 0, sizeof f.points);
     f.groups = NULL;
     set_tree(&f.tree, faces, size);
-    f.blockers = soup_blockers();
+    f.bvh = soup_bvh();
     return f;
 }
 
@@ -618,7 +619,7 @@ static uint64_t case_cut_proven(int variant)
     lmb_frame f = soup_frame(1, 8);
     (void)variant;
     f.occlusion = LMB_OCCLUSION_NONE;
-    f.proven = 1;
+    f.conservative = 1;
     f.error = 0.1f;
     return hash_frame(GOLDEN_START, &f);
 }
@@ -627,9 +628,9 @@ static uint64_t case_cut_proven(int variant)
 static uint64_t case_bounces(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
-    lmb_material shining[2] = {soup_materials[0], soup_materials[1]};
-    shining[1].emission[0] = shining[1].emission[2] = (float)variant;
-    soup.materials = shining;
+    lmb_material emitting[2] = {soup_materials[0], soup_materials[1]};
+    emitting[1].emission[0] = emitting[1].emission[2] = (float)variant;
+    soup.materials = emitting;
     f.show = LMB_SHOW_FULL;
     f.occlusion = LMB_OCCLUSION_EXACT;
     f.bounces = 3;
@@ -702,9 +703,9 @@ static uint64_t case_full_points(int variant)
 {
     static const lmb_grouping how = {LMB_GROUP_ZONES, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     const lmb_scene *scene = demo_scene();
-    lmb_light_map map;
+    lmb_shadow_map map;
     lmb_points few = points;
-    lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
+    lmb_shadow_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
     way->draw_map(&map, golden_kernels, scene);
     few.count = few.faces = 0;
     few.cap = variant == 0 ? 100 : POINTS;
@@ -727,13 +728,13 @@ static uint64_t case_full_frame(int variant)
     two[1].intensity[1] *= 0.5f;
     lit.lights = two;
     f.scene = &lit;
-    f.light_map = MAP / 2;
+    f.shadow_map = MAP / 2;
     if (variant == 0) {
         f.points.cap = 100;
-        f.light_map = MAP;
+        f.shadow_map = MAP;
     } else if (variant == 1) {
         f.map_bytes -= MAP * MAP * 4;
-        f.light_map = MAP;
+        f.shadow_map = MAP;
     } else {
         lit.light_count = 2; /* one is all that the small configuration takes */
     }
@@ -745,10 +746,10 @@ static uint64_t case_full_groups(int variant)
 {
     lmb_grouping how = {LMB_GROUP_ZONES, 4, LMB_MAX_GROUPS, 0, 0.05f, 0.3f, 0.999f, 0, 0, 0, 0, 0};
     const lmb_scene *scene = demo_scene();
-    lmb_light_map map;
+    lmb_shadow_map map;
     lmb_stats stats;
     how.method = variant;
-    lmb_light_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
+    lmb_shadow_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID16, memory.map, sizeof memory.map);
     way->draw_map(&map, golden_kernels, scene);
     points.count = points.faces = 0;
     lmb_points_collect(&points, golden_kernels, &memory.scratch.tile, scene, &scene->lights[0], &map, 0, 0, MAP / 8,
@@ -769,10 +770,10 @@ static lmb_status draw_whole(const lmb_target *target, const lmb_kernels *k, con
     return lmb_draw(target, k, view, scene, 1, UINT32_MAX - 1, flags, stats);
 }
 
-static lmb_status draw_map_whole(const lmb_light_map *map, const lmb_kernels *k, const lmb_scene *scene)
+static lmb_status draw_map_whole(const lmb_shadow_map *map, const lmb_kernels *k, const lmb_scene *scene)
 {
-    lmb_light_map_clear(map);
-    return lmb_light_map_draw(map, k, scene, 1, UINT32_MAX - 1, NULL);
+    lmb_shadow_map_clear(map);
+    return lmb_shadow_map_draw(map, k, scene, 1, UINT32_MAX - 1, NULL);
 }
 
 static lmb_status again_whole(lmb_render *r, const lmb_frame *frame)
@@ -822,7 +823,7 @@ static size_t append(char *line, size_t at, const char *text)
     return at;
 }
 
-static int32_t machine_count(void)
+static int32_t backend_count(void)
 {
     int32_t n = 0;
     while (lmb_kernels_at(n) != NULL) {
@@ -838,9 +839,9 @@ static int run_case(char line[160], int32_t number)
     char wrong[64];
     size_t n = append(line, 0, c->name), w = append(wrong, 0, "");
     uint64_t shown = c->hash;
-    const int32_t count = machine_count();
+    const int32_t count = backend_count();
     for (int32_t i = 0; i < count; ++i) {
-        if (way->machine >= 0 && (way->machine + number) % count != i) {
+        if (way->backend >= 0 && (way->backend + number) % count != i) {
             continue;
         }
         golden_kernels = lmb_kernels_at(i);

@@ -10,10 +10,10 @@ enum { GOLDEN_POINTS = 400 }; /* of the frames that do not ask for fewer */
 typedef struct golden_way {
     lmb_status (*draw)(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view,
                        const lmb_scene *scene, uint32_t flags, lmb_stats *stats); /* all triangles */
-    lmb_status (*draw_map)(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene);
+    lmb_status (*draw_map)(const lmb_shadow_map *map, const lmb_kernels *kernels, const lmb_scene *scene);
     lmb_status (*render)(lmb_render *r, const lmb_frame *frame);
     lmb_status (*again)(lmb_render *r, const lmb_frame *frame); /* lmb_render_again, and all that follows */
-    int32_t machine; /* case k: lmb_kernels_at(this + k, modulo their number); -1: all of them */
+    int32_t backend; /* case k: lmb_kernels_at(this + k, modulo their number); -1: all of them */
 } golden_way;
 
 extern const golden_way golden_whole; /* each in one call */

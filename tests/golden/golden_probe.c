@@ -83,7 +83,7 @@ uint64_t case_probe(int variant)
     probe_space *s = golden_first();
     float harmonics[3][LMB_SH_25];
     uint64_t h = golden_hash_u32(GOLDEN_START, (uint32_t)make(s, variant % 3, variant / 3));
-    const lmb_world_look look = {&s->world, 0.0f, variant / 3};
+    const lmb_world_query query = {&s->world, 0.0f, variant / 3};
     lmb_probe_remap(s->map, golden_kernels, &s->world, &s->table, at, variant / 3);
     h = golden_hash_floats(h, s->map, sizeof s->map / sizeof *s->map);
     lmb_probe_reduce(&s->lights, golden_kernels, s->map, &s->table);
@@ -93,7 +93,7 @@ uint64_t case_probe(int variant)
     lmb_probe_sh_cube(s->cube, SIDE, (const float (*)[LMB_SH_25])harmonics, LMB_SH_25);
     h = hash_cube(h, s);
     for (int32_t i = 0; i < 3; ++i) {
-        lmb_probe_reflect(s->cube, SIDE, &s->rays, golden_kernels, &look, at, 0.4f * (float)i);
+        lmb_probe_reflect(s->cube, SIDE, &s->rays, golden_kernels, &query, at, 0.4f * (float)i);
         h = hash_cube(h, s);
     }
     return blurred(h, s, variant % 3);
@@ -103,16 +103,16 @@ uint64_t case_probe(int variant)
 static void set_probes(lmb_probe probe[2], relit_space *relit, probe_space *s)
 {
     static const lmb_vec3 at[2] = {{1.5f, -1.0f, 3.0f}, {-2.0f, 0.0f, -1.0f}};
-    const lmb_world_look look = {&s->world, 0.0f, 0};
+    const lmb_world_query query = {&s->world, 0.0f, 0};
     for (int i = 0; i < 2; ++i) {
         lmb_probe_remap(s->map, golden_kernels, &s->world, &s->table, at[i], 0);
         lmb_probe_reduce(&s->lights, golden_kernels, s->map, &s->table);
         lmb_probe_cosine(s->cube, SIDE, golden_kernels, &s->lights, &s->table);
         lmb_probe_cube_init(&probe[i].irradiance, s->cube, SIDE, relit->cube[i][0], sizeof relit->cube[i][0]);
-        lmb_probe_reflect(s->cube, SIDE, &s->rays, golden_kernels, &look, at[i], 0.5f);
-        lmb_probe_cube_init(&probe[i].gloss, s->cube, SIDE, relit->cube[i][1], sizeof relit->cube[i][1]);
+        lmb_probe_reflect(s->cube, SIDE, &s->rays, golden_kernels, &query, at[i], 0.5f);
+        lmb_probe_cube_init(&probe[i].glossy, s->cube, SIDE, relit->cube[i][1], sizeof relit->cube[i][1]);
     }
-    probe[1].gloss.texel = NULL; /* looks at the world itself */
+    probe[1].glossy.texel = NULL; /* looks at the world itself */
 }
 
 /* Two instances with a probe each, a lamp, the world behind. Variant: LMB_RELIGHT_. */
@@ -128,13 +128,13 @@ uint64_t case_relit(int variant)
     memset(&r, 0, sizeof r);
     set_probes(probe, relit, s);
     lmb_scene *scene = golden_soup(11u, 1.2f);
-    lmb_material glossy[2] = {scene->materials[0], scene->materials[1]};
+    lmb_material glossy_material[2] = {scene->materials[0], scene->materials[1]};
     for (int i = 0; i < 2; ++i) {
-        glossy[i].specular[0] = glossy[i].specular[1] = 0.3f;
-        glossy[i].specular[2] = 0.6f;
-        glossy[i].roughness = 0.5f * (float)(1 - i);
+        glossy_material[i].specular[0] = glossy_material[i].specular[1] = 0.3f;
+        glossy_material[i].specular[2] = 0.6f;
+        glossy_material[i].roughness = 0.5f * (float)(1 - i);
     }
-    scene->materials = glossy;
+    scene->materials = glossy_material;
     scene->light_count = 0;
     r.kernels = golden_kernels;
     r.scene = scene;

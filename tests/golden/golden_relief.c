@@ -11,7 +11,7 @@ typedef struct relief_space {
     uint32_t file[SMALL_WORDS(SIDE)], map[MAP * MAP * 6 / 4];
     lmb_relief relief;
     lmb_tile tile;
-    lmb_light_map light_map;
+    lmb_shadow_map shadow_map;
 } relief_space;
 GOLDEN_FITS(relief_space, first);
 
@@ -26,10 +26,10 @@ static uint64_t hash_tile(uint64_t h, const lmb_tile *t, uint64_t lit)
 
 static void draw_map(relief_space *s, const lmb_light *light, const lmb_scene *scene, const lmb_relief_how *how)
 {
-    lmb_light_map_init(&s->light_map, light, scene, MAP, LMB_ID16, s->map, sizeof s->map);
-    lmb_light_map_clear(&s->light_map);
-    lmb_light_map_draw(&s->light_map, golden_kernels, scene, 1, 12, NULL);
-    lmb_relief_shadow_rows(&s->light_map, &s->tile, golden_kernels, &s->relief, how, 0, MAP / LMB_TILE);
+    lmb_shadow_map_init(&s->shadow_map, light, scene, MAP, LMB_ID16, s->map, sizeof s->map);
+    lmb_shadow_map_clear(&s->shadow_map);
+    lmb_shadow_map_draw(&s->shadow_map, golden_kernels, scene, 1, 12, NULL);
+    lmb_relief_shadow_rows(&s->shadow_map, &s->tile, golden_kernels, &s->relief, how, 0, MAP / LMB_TILE);
 }
 
 /* Bit 0: packed; 1: its texels as they are, nearest to the eye's ray; 2: one look. */
@@ -45,14 +45,14 @@ uint64_t case_relief(int variant)
     lmb_relief_open(&s->relief, s->file,
                     small_relief(s->file, variant & 1 ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL, SIDE));
     lmb_relief_scene(&scene, &s->relief);
-    lmb_view_look(&view, vec3(2.0f, 1.5f, 2.5f), vec3(0, 0, 0), vec3(0, 1, 0), 0.8f, GOLDEN_WIDTH, GOLDEN_HEIGHT);
+    lmb_view_look_at(&view, vec3(2.0f, 1.5f, 2.5f), vec3(0, 0, 0), vec3(0, 1, 0), 0.8f, GOLDEN_WIDTH, GOLDEN_HEIGHT);
     lmb_draw(&eye, golden_kernels, &view, &scene, 1, 12, 0, NULL);
     draw_map(s, &sun, &scene, &how);
     for (int32_t y = 0; y < GOLDEN_HEIGHT; y += LMB_TILE) {
         for (int32_t x = 0; x < GOLDEN_WIDTH; x += LMB_TILE) {
             lmb_resolve_tile(&s->tile, golden_kernels, &view, &scene, &eye, x, y);
             lmb_relief_tile(&s->tile, NULL, golden_kernels, &s->relief, &view, &how);
-            h = hash_tile(h, &s->tile, lmb_relief_lit(&s->light_map, &sun, &s->tile));
+            h = hash_tile(h, &s->tile, lmb_relief_lit(&s->shadow_map, &sun, &s->tile));
         }
     }
     return h;

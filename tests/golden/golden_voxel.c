@@ -60,12 +60,12 @@ static const lmb_texel *first_points(const lmb_scene *soup)
 {
     voxel_space *s = golden_first();
     cone_space *c = golden_second();
-    lmb_light_map map;
+    lmb_shadow_map map;
     lmb_tree tree;
     memset(&tree, 0, sizeof tree);
-    lmb_light_map_init(&map, soup->lights, soup, MAP, LMB_ID16, s->map, sizeof s->map);
-    lmb_light_map_clear(&map);
-    lmb_light_map_draw(&map, golden_kernels, soup, 1, TRIANGLES, NULL);
+    lmb_shadow_map_init(&map, soup->lights, soup, MAP, LMB_ID16, s->map, sizeof s->map);
+    lmb_shadow_map_clear(&map);
+    lmb_shadow_map_draw(&map, golden_kernels, soup, 1, TRIANGLES, NULL);
     lmb_tree_init(&tree, 1, MAP, s->texel, sizeof *s - offsetof(voxel_space, texel));
     lmb_tree_texels(&tree, golden_kernels, &c->tile, soup, soup->lights, &map, 0, 0, 0, MAP / LMB_TILE);
     return tree.texel;

@@ -15,7 +15,7 @@ static void put_line(const char *line)
     ++line_count;
 }
 
-static void put_machines(void)
+static void put_backends(void)
 {
     const lmb_kernels *kernels;
     port_put("machines:");
@@ -46,7 +46,7 @@ int main(void)
         port_put("\n0 passed, 1 failed, 0 skipped\n");
         return 1;
     }
-    put_machines();
+    put_backends();
     uint32_t wrong = (uint32_t)golden_run(&golden_whole, put_line);
     put_stack();
     say_number(line_count > wrong ? line_count - wrong : 0);

@@ -9,7 +9,7 @@
 
 #include "../../platform/host/pool.h"
 #include "../../src/raster/target.h"
-#include "../../tools/common/crew.h"
+#include "../../tools/common/workers.h"
 #include "golden.h"
 
 enum { PIECES = 512, THREADS = 8, ROOM = 4 * 16 * 16 };
@@ -71,7 +71,7 @@ static void do_pieces(int n, pool_job job, void *user)
 
 typedef struct draw_job {
     const lmb_target *target;
-    const lmb_light_map *map;
+    const lmb_shadow_map *map;
     const lmb_kernels *kernels;
     const lmb_view *view;
     const lmb_scene *scene;
@@ -109,11 +109,11 @@ static lmb_status draw_rows(const lmb_target *target, const lmb_kernels *kernels
 static void draw_map_row(void *user, int row, int worker)
 {
     draw_job *d = user;
-    const lmb_status status = lmb_light_map_rows(d->map, d->kernels, d->scene, row, row + 1, NULL);
+    const lmb_status status = lmb_shadow_map_rows(d->map, d->kernels, d->scene, row, row + 1, NULL);
     d->status[worker] = status != LMB_OK ? status : d->status[worker];
 }
 
-static lmb_status draw_map_rows(const lmb_light_map *map, const lmb_kernels *kernels, const lmb_scene *scene)
+static lmb_status draw_map_rows(const lmb_shadow_map *map, const lmb_kernels *kernels, const lmb_scene *scene)
 {
     draw_job d = {NULL, map, kernels, NULL, scene, 0, {LMB_OK}};
     do_pieces(map->faces * map->size / LMB_TILE, draw_map_row, &d);
@@ -189,12 +189,12 @@ static lmb_status again_in_order(lmb_render *r, const lmb_frame *frame)
     return finish_in_order(r, lmb_render_again(r, &f));
 }
 
-typedef lmb_status (*crew_call)(crew *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
+typedef lmb_status (*workers_call)(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
 
-static lmb_status by_crew(crew_call call, lmb_render *r, const lmb_frame *frame)
+static lmb_status by_workers(workers_call call, lmb_render *r, const lmb_frame *frame)
 {
     const lmb_frame f = with_room(frame);
-    crew c;
+    workers c;
     int32_t stage;
     memset(&c, 0, sizeof c);
     memset(scratches, 0x3c, sizeof scratches);
@@ -203,27 +203,33 @@ static lmb_status by_crew(crew_call call, lmb_render *r, const lmb_frame *frame)
     return call(&c, &stage, r, &f);
 }
 
-static lmb_status render_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_render, r, frame); }
-static lmb_status again_by_crew(lmb_render *r, const lmb_frame *frame) { return by_crew(crew_again, r, frame); }
+static lmb_status render_by_workers(lmb_render *r, const lmb_frame *frame)
+{
+    return by_workers(workers_render, r, frame);
+}
+static lmb_status again_by_workers(lmb_render *r, const lmb_frame *frame)
+{
+    return by_workers(workers_again, r, frame);
+}
 
 #if LMB_PLAN
 /* Nothing is left out. */
 static lmb_status render_everything(lmb_render *r, const lmb_frame *frame)
 {
     lmb_frame f = with_room(frame);
-    f.everything = 1;
+    f.run_all = 1;
     return finish_in_order(r, lmb_render_begin(r, &f));
 }
 
 /* As the second frame of an animation where nothing moves: all of the light is the first's. */
-static lmb_status render_kept(lmb_render *r, const lmb_frame *frame)
+static lmb_status render_reused(lmb_render *r, const lmb_frame *frame)
 {
     const lmb_frame f = with_room(frame);
     memset(r, 0, sizeof *r);
-    lmb_status status = finish_in_order(r, lmb_render_next(r, &f));
+    lmb_status status = finish_in_order(r, lmb_render_reuse(r, &f));
     if (status >= 0 && r->stage == LMB_STAGE_BANDS) {
         lmb_surface_clear(&f.out);
-        status = finish_in_order(r, lmb_render_next(r, &f));
+        status = finish_in_order(r, lmb_render_reuse(r, &f));
     }
     return status;
 }
@@ -258,24 +264,24 @@ int main(int argc, char **argv)
 {
     const int all = argc > 1 && strcmp(argv[1], "all") == 0;
     golden_way ordered = {draw_rows, draw_map_rows, render_in_order, again_in_order, 0};
-    golden_way threaded = {draw_rows, draw_map_rows, render_by_crew, again_by_crew, 0};
+    golden_way threaded = {draw_rows, draw_map_rows, render_by_workers, again_by_workers, 0};
     const int order_count = sizeof orders / sizeof *orders;
     int failed = 0;
     for (order_now = 0; order_now < order_count; ++order_now) {
-        ordered.machine = all ? -1 : order_now;
+        ordered.backend = all ? -1 : order_now;
         failed += run_way(orders[order_now].name, 0, &ordered);
     }
     for (threads_now = 1; threads_now <= THREADS; ++threads_now) {
-        threaded.machine = all ? -1 : threads_now - 1;
+        threaded.backend = all ? -1 : threads_now - 1;
         failed += run_way("threads", threads_now, &threaded);
     }
     int plans = 0;
 #if LMB_PLAN
     golden_way planned[2] = {{draw_rows, draw_map_rows, render_everything, again_in_order, 1},
-                             {draw_rows, draw_map_rows, render_kept, again_in_order, 2}};
+                             {draw_rows, draw_map_rows, render_reused, again_in_order, 2}};
     order_now = threads_now = 0;
     for (plans = 0; plans < 2; ++plans) {
-        planned[plans].machine = all ? -1 : plans + 1;
+        planned[plans].backend = all ? -1 : plans + 1;
         failed += run_way(plans == 0 ? "nothing left out" : "all kept", 0, &planned[plans]);
     }
 #endif

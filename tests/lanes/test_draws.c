@@ -64,7 +64,7 @@ static void make_draws(draws *d, test_rng *r)
     d->scene.materials = &d->material;
     d->scene.instances = &d->instance;
     d->scene.mesh_count = d->scene.material_count = d->scene.instance_count = 1;
-    lmb_view_look(&d->view, eye, target, up, 0.9f, FRAME, FRAME);
+    lmb_view_look_at(&d->view, eye, target, up, 0.9f, FRAME, FRAME);
     d->view.kind = test_random(r) % 4u ? LMB_PERSPECTIVE : LMB_ORTHOGRAPHIC;
     d->view.near_m = 0.05f;
     d->view.far_m = 20.0f;
@@ -88,7 +88,7 @@ static void make_surface(lmb_surface *s, const draws *d, int32_t format, void *m
     }
 }
 
-static uint64_t draw_with(const lmb_kernels *machine, const draws *d, lmb_stats *stats)
+static uint64_t draw_with(const lmb_kernels *backend, const draws *d, lmb_stats *stats)
 {
     static uint32_t depth[PIXELS], id[PIXELS];
     lmb_target t = {{0}, {0}, 0, 0};
@@ -102,7 +102,7 @@ static uint64_t draw_with(const lmb_kernels *machine, const draws *d, lmb_stats 
     if (d->id_format != LMB_FORMAT_NONE) {
         make_surface(&t.id, d, d->id_format, id, sizeof id);
     }
-    CHECK(lmb_draw(&t, machine, &d->view, &d->scene, 1, TRIANGLES, d->flags, stats) == LMB_OK);
+    CHECK(lmb_draw(&t, backend, &d->view, &d->scene, 1, TRIANGLES, d->flags, stats) == LMB_OK);
     hash = lmb_surface_hash(&t.depth);
     return d->id_format == LMB_FORMAT_NONE ? hash : hash * 31u + lmb_surface_hash(&t.id);
 }
@@ -116,7 +116,7 @@ static int same_stats(const lmb_stats *a, const lmb_stats *b)
 void test_draws(void)
 {
     const seed_range range = seeds(ROUNDS);
-    const lmb_kernels *machine;
+    const lmb_kernels *backend;
     for (uint32_t k = 0; k < range.count; ++k) {
         test_rng r = seed_rng(range.first + k);
         draws d;
@@ -124,9 +124,9 @@ void test_draws(void)
         make_draws(&d, &r);
         const uint64_t hash = draw_with(&lmb_kernels_scalar, &d, &want);
         CHECK(want.triangles == TRIANGLES);
-        for (int32_t i = 0; (machine = lmb_kernels_at(i)) != NULL && machine != &lmb_kernels_scalar; ++i) {
-            CHECK_MSG(draw_with(machine, &d, &got) == hash && same_stats(&want, &got),
-                      "a draw by %s; repeat: LANES_SEED=%u tests lanes", lmb_kernels_name(machine),
+        for (int32_t i = 0; (backend = lmb_kernels_at(i)) != NULL && backend != &lmb_kernels_scalar; ++i) {
+            CHECK_MSG(draw_with(backend, &d, &got) == hash && same_stats(&want, &got),
+                      "a draw by %s; repeat: LANES_SEED=%u tests lanes", lmb_kernels_name(backend),
                       (unsigned)(range.first + k));
         }
     }

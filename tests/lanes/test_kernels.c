@@ -441,7 +441,7 @@ static void seen_init(seen *s, test_rng *r)
     const int32_t width = 9 + (int32_t)(test_random(r) % 40u), height = 9 + (int32_t)(test_random(r) % 40u);
     const int format = test_random(r) % 2u ? LMB_DEPTH16 : LMB_DEPTH32F;
     const lmb_vec3 eye = vec3(0.0f, 0.0f, 5.0f), target = vec3(0.1f, 0.2f, 0.0f), up = vec3(0.0f, 1.0f, 0.0f);
-    lmb_view_look(&s->view, eye, target, up, 1.0f, width, height);
+    lmb_view_look_at(&s->view, eye, target, up, 1.0f, width, height);
     s->view.near_m = 0.1f;
     s->view.far_m = 20.0f;
     if (test_random(r) % 4u == 0) {
@@ -625,7 +625,7 @@ static int trial_gather_cut(const trial *t, test_rng r)
 }
 
 /* A node anywhere or where the patch is; its box has a volume, is flat, a line or a point. */
-static void make_weighed_node(lmb_weighed *out, int k, test_rng *r, const lmb_patch *p, uint32_t rare)
+static void make_bounded_node(lmb_node_bounds *out, int k, test_rng *r, const lmb_pixel_cluster *p, uint32_t rare)
 {
     const uint32_t flat = test_random(r) % 8u;
     const lmb_vec3 centre = test_random(r) % 8u ? place(r, 3.0f, rare) : p->centre, normal = direction(r);
@@ -634,26 +634,26 @@ static void make_weighed_node(lmb_weighed *out, int k, test_rng *r, const lmb_pa
     const float at[3] = {centre.x, centre.y, centre.z}, n[3] = {normal.x, normal.y, normal.z};
     const float m[3] = {middle.x, middle.y, middle.z}, a[3] = {across.x, across.y, across.z};
     for (int c = 0; c < 3; ++c) {
-        out->node[LMB_WEIGH_CENTRE + c][k] = at[c];
-        out->node[LMB_WEIGH_NORMAL + c][k] = n[c];
-        out->node[LMB_WEIGH_MIDDLE + c][k] = m[c];
-        out->node[LMB_WEIGH_ACROSS + c][k] = a[c];
-        out->node[LMB_WEIGH_HALF + c][k] = flat >> c & 1u ? 0.0f : number(r, 0.0f, 0.3f, rare);
+        out->node[LMB_BOUNDS_CENTRE + c][k] = at[c];
+        out->node[LMB_BOUNDS_NORMAL + c][k] = n[c];
+        out->node[LMB_BOUNDS_MIDDLE + c][k] = m[c];
+        out->node[LMB_BOUNDS_ACROSS + c][k] = a[c];
+        out->node[LMB_BOUNDS_HALF + c][k] = flat >> c & 1u ? 0.0f : number(r, 0.0f, 0.3f, rare);
     }
-    out->node[LMB_WEIGH_RADIUS][k] = number(r, 0.0f, 0.5f, rare);
-    out->node[LMB_WEIGH_AGREEMENT][k] = number(r, 0.0f, 1.0f, rare);
-    out->node[LMB_WEIGH_FLUX][k] = test_random(r) % 8u ? number(r, 0.0f, 5.0f, rare) : 0.0f;
-    out->node[LMB_WEIGH_AREA][k] = number(r, 0.0f, 0.5f, rare);
-    out->node[LMB_WEIGH_COSINE][k] = test_random(r) % 3u ? number(r, -1.0f, 1.0f, rare) : 1.0f;
+    out->node[LMB_BOUNDS_RADIUS][k] = number(r, 0.0f, 0.5f, rare);
+    out->node[LMB_BOUNDS_AGREEMENT][k] = number(r, 0.0f, 1.0f, rare);
+    out->node[LMB_BOUNDS_FLUX][k] = test_random(r) % 8u ? number(r, 0.0f, 5.0f, rare) : 0.0f;
+    out->node[LMB_BOUNDS_AREA][k] = number(r, 0.0f, 0.5f, rare);
+    out->node[LMB_BOUNDS_COSINE][k] = test_random(r) % 3u ? number(r, -1.0f, 1.0f, rare) : 1.0f;
 }
 
 /* The weights of those that do not face away; the others' bytes are the machine's own. */
-static int trial_weigh(const trial *t, test_rng r)
+static int trial_node_bounds(const trial *t, test_rng r)
 {
-    static GUARDED(lmb_weighed) want, got;
-    lmb_patch p;
+    static GUARDED(lmb_node_bounds) want, got;
+    lmb_pixel_cluster p;
     const uint32_t rare = t->seed % 2u ? 20u : 0;
-    const int32_t count = (int32_t)(test_random(&r) % LMB_WEIGH_NODES) + 1, proven = t->seed % 4u < 2u;
+    const int32_t count = (int32_t)(test_random(&r) % LMB_BOUNDS_NODES) + 1, conservative = t->seed % 4u < 2u;
     int equal = 1;
     GUARD(want);
     GUARD(got);
@@ -671,29 +671,30 @@ static int trial_weigh(const trial *t, test_rng r)
     p.noise = test_uniform(&r, 0.0f, 1e-5f);
     p.sine = t->seed % 3u ? 0.0f : test_uniform(&r, 0.0f, 1.0f);
     p.face_sine = maxf(p.sine, t->seed % 5u ? 0.0f : test_uniform(&r, 0.0f, 1.0f));
-    for (int k = 0; k < LMB_WEIGH_NODES; ++k) {
-        make_weighed_node(&want.it, k, &r, &p, rare);
+    for (int k = 0; k < LMB_BOUNDS_NODES; ++k) {
+        make_bounded_node(&want.it, k, &r, &p, rare);
     }
     got.it = want.it;
     const uint32_t own = count < 32 ? (1u << count) - 1u : ~0u;
-    const uint32_t faces = lmb_kernels_scalar.weigh(&want.it, count, &p, proven) & own,
-                   also = t->kernels->weigh(&got.it, count, &p, proven) & own;
+    const uint32_t faces = lmb_kernels_scalar.node_bounds(&want.it, count, &p, conservative) & own,
+                   also = t->kernels->node_bounds(&got.it, count, &p, conservative) & own;
     CHECK(canaries_stay(got.before, got.after));
     for (int k = 0; k < count; ++k) {
         if (faces >> k & 1u) {
             equal &= same_floats(t, "value", &want.it.value[k], &got.it.value[k], 1) &&
-                     same_floats(t, "most", &want.it.most[k], &got.it.most[k], 1) &&
+                     same_floats(t, "most", &want.it.upper[k], &got.it.upper[k], 1) &&
                      same_floats(t, "error", &want.it.error[k], &got.it.error[k], 1);
         }
     }
     return equal && same_bytes(t, "faces", &faces, &also, sizeof faces) &&
-           same_floats(t, "node", want.it.node[0], got.it.node[0], LMB_WEIGH_PLANES * LMB_WEIGH_NODES);
+           same_floats(t, "node", want.it.node[0], got.it.node[0], LMB_BOUNDS_PLANES * LMB_BOUNDS_NODES);
 }
 
-/* --- gloss -------------------------------------------------------------------------------------------------------- */
+/* --- glossy reflection
+ * -------------------------------------------------------------------------------------------------------- */
 
 /* Lobes sharp and wide, with sums so far. Those of pixels that have none are as random. */
-static void make_gloss(lmb_gloss *out, const trial *t, test_rng *r, uint32_t rare)
+static void make_glossy(lmb_glossy *out, const trial *t, test_rng *r, uint32_t rare)
 {
     memset(out, 0, sizeof *out);
     out->pixels = random_pixels(t, r);
@@ -708,8 +709,8 @@ static void make_gloss(lmb_gloss *out, const trial *t, test_rng *r, uint32_t rar
 }
 
 /* The same light on every machine; and what lights none of `lit`'s pixels left its sum and all else as it was. */
-static int same_gloss(const trial *t, const lmb_gloss *want, const lmb_gloss *got, const lmb_gloss *before,
-                      uint64_t lit)
+static int same_glossy(const trial *t, const lmb_glossy *want, const lmb_glossy *got, const lmb_glossy *before,
+                       uint64_t lit)
 {
     int kept = 1;
     for (int i = 0; i < 3 * LMB_TILE_PIXELS; ++i) {
@@ -718,12 +719,12 @@ static int same_gloss(const trial *t, const lmb_gloss *want, const lmb_gloss *go
     }
     CHECK_MSG(kept, "%s %s lights pixels that it should not", t->kernels->name, t->kernel);
     return kept && same_floats(t, "rgb", want->rgb[0], got->rgb[0], 3 * LMB_TILE_PIXELS) &&
-           same_bytes(t, "lobes", before, got, offsetof(lmb_gloss, rgb));
+           same_bytes(t, "lobes", before, got, offsetof(lmb_glossy, rgb));
 }
 
-static int trial_gloss_direct(const trial *t, test_rng r)
+static int trial_glossy_direct(const trial *t, test_rng r)
 {
-    static GUARDED(lmb_gloss) want, got;
+    static GUARDED(lmb_glossy) want, got;
     static lmb_irradiance lit;
     static lmb_tile tile;
     const uint32_t rare = t->seed % 2u ? 20u : 0;
@@ -732,22 +733,22 @@ static int trial_gloss_direct(const trial *t, test_rng r)
     GUARD(got);
     memset(&light, 0, sizeof light);
     make_gather_tile(&tile, t, &r, rare);
-    make_gloss(&want.it, t, &r, rare);
+    make_glossy(&want.it, t, &r, rare);
     numbers(lit.rgb[0], 3 * LMB_TILE_PIXELS, &r, 0.0f, 9.0f, rare);
     light.position = place(&r, 3.0f, rare);
     light.direction = direction(&r);
     light.kind = (int32_t)(t->seed / 2u % 3u);
-    const lmb_gloss before = got.it = want.it;
-    lmb_kernels_scalar.gloss_direct(&want.it, &tile, &lit, &light);
-    t->kernels->gloss_direct(&got.it, &tile, &lit, &light);
+    const lmb_glossy before = got.it = want.it;
+    lmb_kernels_scalar.glossy_direct(&want.it, &tile, &lit, &light);
+    t->kernels->glossy_direct(&got.it, &tile, &lit, &light);
     CHECK(canaries_stay(got.before, got.after));
-    return same_gloss(t, &want.it, &got.it, &before, before.pixels);
+    return same_glossy(t, &want.it, &got.it, &before, before.pixels);
 }
 
 /* The emitters end where their memory ends. */
-static int trial_gloss_cut(const trial *t, test_rng r)
+static int trial_glossy_cut(const trial *t, test_rng r)
 {
-    static GUARDED(lmb_gloss) want, got;
+    static GUARDED(lmb_glossy) want, got;
     static lmb_tile tile;
     const uint32_t rare = t->seed % 2u ? 20u : 0;
     const int32_t count = (int32_t)(test_random(&r) % 10u);
@@ -755,18 +756,18 @@ static int trial_gloss_cut(const trial *t, test_rng r)
     GUARD(want);
     GUARD(got);
     make_gather_tile(&tile, t, &r, rare);
-    make_gloss(&want.it, t, &r, rare);
-    const lmb_gloss before = got.it = want.it;
+    make_glossy(&want.it, t, &r, rare);
+    const lmb_glossy before = got.it = want.it;
     lmb_emitter *emitters = malloc((size_t)count * sizeof *emitters + 1);
     for (int32_t i = 0; i < count; ++i) {
         emitters[i] = make_emitter(t, &r, rare);
         lit |= emitters[i].visible;
     }
-    lmb_kernels_scalar.gloss_cut(&want.it, &tile, emitters, count);
-    t->kernels->gloss_cut(&got.it, &tile, emitters, count);
+    lmb_kernels_scalar.glossy_cut(&want.it, &tile, emitters, count);
+    t->kernels->glossy_cut(&got.it, &tile, emitters, count);
     free(emitters);
     CHECK(canaries_stay(got.before, got.after));
-    return same_gloss(t, &want.it, &got.it, &before, lit & before.pixels);
+    return same_glossy(t, &want.it, &got.it, &before, lit & before.pixels);
 }
 
 /* --- occlusion ---------------------------------------------------------------------------------------------------- */
@@ -901,45 +902,45 @@ static int trial_sun_crossed(const trial *t, test_rng r)
 /* --- many lights -------------------------------------------------------------------------------------------------- */
 
 /* Planes of nodes as far as kernels may read, and a tile's part that asks. */
-static int trial_many_bounds(const trial *t, test_rng r)
+static int trial_many_lights_bounds(const trial *t, test_rng r)
 {
     enum { STEP = 64 };
     static GUARDED(float_pair) want, got;
-    float plane[LMB_MANY_PLANES][STEP], inside[2][16];
-    static lmb_many_node node[STEP];
-    lmb_many many;
-    lmb_many_job job;
+    float plane[LMB_MANY_LIGHTS_PLANES][STEP], inside[2][16];
+    static lmb_many_lights_node node[STEP];
+    lmb_many_lights many_lights;
+    lmb_many_lights_job job;
     const uint32_t rare = t->seed % 2u ? 20u : 0, count = 1u + test_random(&r) % 8u;
     const uint32_t first = test_random(&r) % (STEP - 16 - 8);
-    memset(&many, 0, sizeof many);
-    many.plane = plane[0];
-    many.plane_step = STEP;
-    many.node = node;
+    memset(&many_lights, 0, sizeof many_lights);
+    many_lights.plane = plane[0];
+    many_lights.plane_step = STEP;
+    many_lights.node = node;
     for (int i = 0; i < STEP; ++i) {
         node[i].kind = t->seed % 3u;
     }
-    numbers(plane[0], LMB_MANY_PLANES * STEP, &r, -3.0f, 3.0f, rare);
-    numbers(plane[LMB_MANY_HALF], 3 * STEP, &r, 0.0f, 0.5f, rare);
-    numbers(plane[LMB_MANY_POWER], STEP, &r, 0.0f, 5.0f, rare);
+    numbers(plane[0], LMB_MANY_LIGHTS_PLANES * STEP, &r, -3.0f, 3.0f, rare);
+    numbers(plane[LMB_MANY_LIGHTS_HALF], 3 * STEP, &r, 0.0f, 0.5f, rare);
+    numbers(plane[LMB_MANY_LIGHTS_POWER], STEP, &r, 0.0f, 5.0f, rare);
     job.middle = place(&r, 2.0f, 0);
     job.half = vec3(test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f), test_uniform(&r, 0.0f, 0.3f));
     job.normal = direction(&r);
     job.bend = t->seed % 3u ? 0.0f : test_uniform(&r, 0.0f, 0.4f);
     GUARD(want);
     GUARD(got);
-    numbers(plane[LMB_MANY_AXIS], 5 * STEP, &r, -1.0f, 1.0f, rare);
-    numbers(plane[LMB_MANY_OUTER], STEP, &r, 0.0f, 1.0f, rare);
-    lmb_kernels_scalar.many_bounds(want.it.a, want.it.b, inside[0], &many, first, count, &job);
-    t->kernels->many_bounds(got.it.a, got.it.b, inside[1], &many, first, count, &job);
+    numbers(plane[LMB_MANY_LIGHTS_AXIS], 5 * STEP, &r, -1.0f, 1.0f, rare);
+    numbers(plane[LMB_MANY_LIGHTS_OUTER], STEP, &r, 0.0f, 1.0f, rare);
+    lmb_kernels_scalar.many_lights_bounds(want.it.a, want.it.b, inside[0], &many_lights, first, count, &job);
+    t->kernels->many_lights_bounds(got.it.a, got.it.b, inside[1], &many_lights, first, count, &job);
     CHECK(canaries_stay(got.before, got.after));
     return same_floats(t, "error", want.it.a, got.it.a, (int)count) &&
            same_floats(t, "light", want.it.b, got.it.b, (int)count) &&
            same_floats(t, "inside", inside[0], inside[1], (int)count);
 }
 
-static lmb_many_lamp make_lamp(test_rng *r, uint32_t rare)
+static lmb_active_light make_lamp(test_rng *r, uint32_t rare)
 {
-    lmb_many_lamp lamp;
+    lmb_active_light lamp;
     lamp.position = place(r, 3.0f, rare);
     numbers(lamp.intensity, 3, r, 0.0f, 5.0f, rare);
     lamp.spread = test_random(r) % 2u ? 0.0f : number(r, 0.0f, 0.5f, rare);
@@ -956,11 +957,11 @@ static lmb_many_lamp make_lamp(test_rng *r, uint32_t rare)
     return lamp;
 }
 
-static int trial_many_shine(const trial *t, test_rng r)
+static int trial_many_lights_irradiance(const trial *t, test_rng r)
 {
     static GUARDED(lmb_irradiance) want, got;
     static lmb_tile tile;
-    lmb_many_lamp lamp[9];
+    lmb_active_light lamp[9];
     const uint32_t rare = t->seed % 2u ? 20u : 0;
     const int32_t count = (int32_t)(test_random(&r) % 10u);
     GUARD(want);
@@ -972,8 +973,8 @@ static int trial_many_shine(const trial *t, test_rng r)
         lamp[i] = make_lamp(&r, rare);
     }
     const uint64_t pixels = random_pixels(t, &r);
-    lmb_kernels_scalar.many_shine(&want.it, &tile, pixels, lamp, count);
-    t->kernels->many_shine(&got.it, &tile, pixels, lamp, count);
+    lmb_kernels_scalar.many_lights_irradiance(&want.it, &tile, pixels, lamp, count);
+    t->kernels->many_lights_irradiance(&got.it, &tile, pixels, lamp, count);
     CHECK(canaries_stay(got.before, got.after));
     return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
@@ -1087,8 +1088,8 @@ static int trial_see(const trial *t, test_rng r)
     }
     lmb_kernels_scalar.see(want[0].it.xyz, origin.xyz, direction.xyz, &job);
     t->kernels->see(got[0].it.xyz, origin.xyz, direction.xyz, &job);
-    lmb_kernels_scalar.look(want[1].it.xyz, direction.xyz, &job);
-    t->kernels->look(got[1].it.xyz, direction.xyz, &job);
+    lmb_kernels_scalar.world_radiance(want[1].it.xyz, direction.xyz, &job);
+    t->kernels->world_radiance(got[1].it.xyz, direction.xyz, &job);
     CHECK(canaries_stay(got[0].before, got[0].after) && canaries_stay(got[1].before, got[1].after));
     return same_floats(t, "seen", want[0].it.xyz[0], got[0].it.xyz[0], 3 * LMB_TILE_PIXELS) &&
            same_floats(t, "looked", want[1].it.xyz[0], got[1].it.xyz[0], 3 * LMB_TILE_PIXELS);
@@ -1262,7 +1263,7 @@ static lmb_view relief_eye(test_rng *r)
 {
     lmb_view v = small_view((int)(test_random(r) % SMALL_VIEWS), RELIEF_SIDE);
     if (test_random(r) % 2u) {
-        lmb_view_look(&v, mul3(direction(r), 4.0f), place(r, 0.3f, 0), vec3(0.1f, 1.0f, 0.2f), 0.7f, 64, 48);
+        lmb_view_look_at(&v, mul3(direction(r), 4.0f), place(r, 0.3f, 0), vec3(0.1f, 1.0f, 0.2f), 0.7f, 64, 48);
     }
     return v;
 }
@@ -1314,17 +1315,17 @@ static const struct kernel {
     {"gather", trial_gather},
     {"gather_near", trial_gather_near},
     {"gather_cut", trial_gather_cut},
-    {"weigh", trial_weigh},
-    {"gloss_direct", trial_gloss_direct},
-    {"gloss_cut", trial_gloss_cut},
+    {"weigh", trial_node_bounds},
+    {"gloss_direct", trial_glossy_direct},
+    {"gloss_cut", trial_glossy_cut},
     {"crossed", trial_crossed},
     {"segments", trial_segments},
     {"through", trial_through},
     {"meets", trial_meets},
     {"sun_crossed", trial_sun_crossed},
     {"sun_meets", trial_sun_meets},
-    {"many_bounds", trial_many_bounds},
-    {"many_shine", trial_many_shine},
+    {"many_bounds", trial_many_lights_bounds},
+    {"many_shine", trial_many_lights_irradiance},
     {"blend", trial_blend},
     {"encode", trial_encode},
     {"remap", trial_remap},
@@ -1336,27 +1337,27 @@ static const struct kernel {
     {"relief", trial_relief},
 };
 
-static void test_machine(const lmb_kernels *machine)
+static void test_backend(const lmb_kernels *backend)
 {
     const seed_range range = seeds(ROUNDS);
     volatile float one_and_bit = 1.000244140625f;
-    CHECK_MSG(machine->probe(one_and_bit) == 0.0f, "%s is compiled with fused multiply-adds", machine->name);
-    CHECK(lmb_kernels_named(machine->name) == machine && LMB_TILE_PIXELS % machine->lanes == 0);
+    CHECK_MSG(backend->probe(one_and_bit) == 0.0f, "%s is compiled with fused multiply-adds", backend->name);
+    CHECK(lmb_kernels_named(backend->name) == backend && LMB_TILE_PIXELS % backend->lanes == 0);
     for (size_t i = 0; i < sizeof kernels / sizeof *kernels; ++i) {
         int equal = 1;
         for (uint32_t k = 0; k < range.count && equal; ++k) {
-            const trial t = {machine, kernels[i].name, range.first + k};
+            const trial t = {backend, kernels[i].name, range.first + k};
             equal = kernels[i].run(&t, seed_rng(t.seed));
-            CHECK_MSG(equal, "%s of %s", kernels[i].name, machine->name);
+            CHECK_MSG(equal, "%s of %s", kernels[i].name, backend->name);
         }
     }
 }
 
 void test_kernels(void)
 {
-    const lmb_kernels *machine;
-    for (int32_t i = 0; (machine = lmb_kernels_at(i)) != NULL; ++i) {
-        test_machine(machine);
+    const lmb_kernels *backend;
+    for (int32_t i = 0; (backend = lmb_kernels_at(i)) != NULL; ++i) {
+        test_backend(backend);
     }
     CHECK(lmb_kernels_pick() == lmb_kernels_at(0) && lmb_kernels_at(-1) == NULL);
     CHECK(lmb_kernels_named(NULL) == NULL && lmb_kernels_named("") == NULL && lmb_kernels_named("scalar2") == NULL);

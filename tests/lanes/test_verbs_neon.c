@@ -1,6 +1,6 @@
 /* test_verbs_neon.c: every verb of the NEON lanes equals scalar's. */
 #include "../../src/base/exact.h"
-#include "../../src/lane/machines.h"
+#include "../../src/lane/backends.h"
 #include "verbs.h"
 
 void test_verbs_neon(void);

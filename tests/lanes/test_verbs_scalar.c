@@ -108,13 +108,13 @@ static int same(uint32_t a, uint32_t b, int results)
 }
 
 /* 1, or 0 and a line that says where. */
-static int same_output(const char *machine, uint32_t seed, const verb_input *in, const verb_output *want,
+static int same_output(const char *backend, uint32_t seed, const verb_input *in, const verb_output *want,
                        const verb_output *got)
 {
     for (int v = 0; v < VERB_COUNT; ++v) {
         for (int k = 0; k < VERB_LANES; ++k) {
             if (!same(want->row[v][k], got->row[v][k], verbs[v].results)) {
-                printf("%s: %s, lane %d, of a %08x b %08x i %d j %d: want %08x, got %08x; ", machine, verbs[v].name, k,
+                printf("%s: %s, lane %d, of a %08x b %08x i %d j %d: want %08x, got %08x; ", backend, verbs[v].name, k,
                        (unsigned)bits_of(in->a[k]), (unsigned)bits_of(in->b[k]), (int)in->i[k], (int)in->j[k],
                        (unsigned)want->row[v][k], (unsigned)got->row[v][k]);
                 printf("repeat: LANES_SEED=%u tests lanes\n", (unsigned)seed);
@@ -128,19 +128,19 @@ static int same_output(const char *machine, uint32_t seed, const verb_input *in,
                         : memcmp(want->put_u32, got->put_u32, sizeof want->put_u32) ? "put_u32"
                         : memcmp(want->d, got->d, sizeof want->d) ? "binary64" : NULL;
     if (place != NULL) {
-        printf("%s: %s leaves other memory than scalar; repeat: LANES_SEED=%u tests lanes\n", machine, place,
+        printf("%s: %s leaves other memory than scalar; repeat: LANES_SEED=%u tests lanes\n", backend, place,
                (unsigned)seed);
     }
     return place == NULL;
 }
 
-void verbs_compare(const char *machine, void (*run)(verb_output *out, const verb_input *in))
+void verbs_compare(const char *backend, void (*run)(verb_output *out, const verb_input *in))
 {
     const seed_range range = seeds(4000);
     static verb_input in;
     static verb_output want, got;
-    if (lmb_kernels_named(machine) == NULL) {
-        SKIP("%s: this processor has none", machine);
+    if (lmb_kernels_named(backend) == NULL) {
+        SKIP("%s: this processor has none", backend);
         return;
     }
     for (uint32_t seed = range.first; seed - range.first < range.count; ++seed) {
@@ -154,7 +154,7 @@ void verbs_compare(const char *machine, void (*run)(verb_output *out, const verb
         memset(&got, 0, sizeof got);
         verbs_scalar(&want, &in);
         run(&got, &in);
-        int equal = same_output(machine, seed, &in, &want, &got);
+        int equal = same_output(backend, seed, &in, &want, &got);
         CHECK(equal);
         if (!equal) {
             return;

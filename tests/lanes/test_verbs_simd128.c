@@ -1,6 +1,6 @@
 /* test_verbs_simd128.c: every verb of the simd128 lanes equals scalar's. */
 #include "../../src/base/exact.h"
-#include "../../src/lane/machines.h"
+#include "../../src/lane/backends.h"
 #include "verbs.h"
 
 void test_verbs_simd128(void);

@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-#include "../../src/lane/machines.h"
+#include "../../src/lane/backends.h"
 
 /* Pixels of an input, the widest machine's vector; as two rows in memory, values of both with what lies between. */
 enum { VERB_LANES = 16, VERB_SURFACE = 22, VERB_TABLE = 40 };
@@ -59,6 +59,6 @@ LMB_BACKENDS(VERBS_OF)
 #undef VERBS_OF
 
 /* Inputs of hard and of random values; each machine's rows against scalar's. `run` is called only where it can run. */
-void verbs_compare(const char *machine, void (*run)(verb_output *out, const verb_input *in));
+void verbs_compare(const char *backend, void (*run)(verb_output *out, const verb_input *in));
 
 #endif

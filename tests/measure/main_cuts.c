@@ -1,5 +1,5 @@
 /* main_cuts.c: what cuts save: brute force, which takes every lit texel of a 1024 x 1024 map for every pixel, against
- * each preset's cut of the same map, on some tiles of truth scenes. [V27, DESIGN 6]
+ * each preset's cut of the same map, on some tiles of truth scenes. [V27]
  *
  *     measure-cuts [STEP [SCENE...]] every STEP-th tile in reading order (default 17, which no row of tiles is a
  *                                    multiple of); cornell and sponza
@@ -88,19 +88,19 @@ static void set_frame(work *w)
     const uint32_t triangles = lmb_scene_triangles(scene);
     uint32_t faces = 0;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        const int32_t own = lmb_light_map_faces(&scene->lights[i], scene);
-        f->map_bytes += lmb_light_map_bytes(own, MAP, LMB_ID32);
+        const int32_t own = lmb_shadow_map_faces(&scene->lights[i], scene);
+        f->map_bytes += lmb_shadow_map_bytes(own, MAP, LMB_ID32);
         faces += (uint32_t)own;
     }
     const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, width, height),
                  id = lmb_surface_bytes(LMB_ID32, width, height), tree = lmb_tree_bytes(faces, MAP),
-                 blockers = lmb_blockers_bytes(triangles),
+                 bvh = lmb_bvh_bytes(triangles),
                  pixels = (size_t)width * (size_t)height * 3 * sizeof(float);
     f->kernels = lmb_kernels_pick();
     f->scene = scene;
     truth_view(&f->view, &w->loaded.cameras[0], &w->truth);
     f->show = LMB_SHOW_INDIRECT;
-    f->light_map = MAP;
+    f->shadow_map = MAP;
     f->grouping.method = LMB_GROUP_CUT;
     f->occlusion = LMB_OCCLUSION_EXACT;
     f->map_memory = take(w, f->map_bytes);
@@ -108,13 +108,13 @@ static void set_frame(work *w)
     w->brute = take(w, pixels);
     w->cut = take(w, pixels);
     CHECK(lmb_tree_init(&f->tree, faces, MAP, take(w, tree), tree) == LMB_OK);
-    CHECK(lmb_blockers_init(&f->blockers, triangles, take(w, blockers), blockers) == LMB_OK);
+    CHECK(lmb_bvh_init(&f->bvh, triangles, take(w, bvh), bvh) == LMB_OK);
     CHECK(lmb_surface_init(&f->eye.depth, LMB_DEPTH32F, width, height, take(w, depth), depth) == LMB_OK);
     CHECK(lmb_surface_init(&f->eye.id, LMB_ID32, width, height, take(w, id), id) == LMB_OK);
     CHECK(lmb_surface_init(&f->out, LMB_RGB32F, width, height, w->cut, pixels) == LMB_OK);
 }
 
-/* The light's tree and the view. */
+/* The light tree and the view. */
 static int solve(work *w)
 {
     lmb_status status = lmb_render_begin(&w->render, &w->frame);
@@ -148,7 +148,7 @@ typedef struct gatherer {
     lmb_irradiance *light;
     lmb_vec3 middle, half;
     uint64_t pixels;
-    lmb_walk walk;
+    lmb_traversal traversal;
     lmb_emitter *emitter;
     float (*memory)[LMB_GATHER_PAIRS];
     int32_t waiting;
@@ -225,10 +225,10 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
         const texel_quad *q = &w->texel[i];
         const int near = is_near(&g, q);
         const uint64_t asked = near ? g.pixels : facing(&g, q);
-        const uint64_t seen = asked & ~lmb_blocked_tile(&w->render.frame.blockers, w->frame.kernels, tile, asked,
+        const uint64_t seen = asked & ~lmb_occluded_tile(&w->render.frame.bvh, w->frame.kernels, tile, asked,
                                                         q->middle,
                                                         lmb_tile_noise(tile, asked) + lmb_place_noise(q->middle, 0.0f),
-                                                        &g.walk);
+                                                        &g.traversal);
         sum->segments += count_bits_64(asked);
         sum->seen += count_bits_64(seen);
         if (near) {
@@ -246,14 +246,14 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
 static void gather_cut(lmb_irradiance *light, work *w, const lmb_tile *tile, const render_options *how, counts *sum)
 {
     lmb_stats stats;
-    lmb_cutting cutting;
+    lmb_cut_params cut_params;
     memset(&stats, 0, sizeof stats);
-    memset(&cutting, 0, sizeof cutting);
-    cutting.error = how->error;
-    cutting.visible = how->visible;
-    cutting.blockers = &w->render.frame.blockers;
-    cutting.stats = &stats;
-    CHECK(lmb_gather_cut(light, w->frame.kernels, &w->scratch.gather.cut, tile, &w->render.frame.tree, &cutting) ==
+    memset(&cut_params, 0, sizeof cut_params);
+    cut_params.error = how->error;
+    cut_params.visibility = how->visibility;
+    cut_params.bvh = &w->render.frame.bvh;
+    cut_params.stats = &stats;
+    CHECK(lmb_gather_cut(light, w->frame.kernels, &w->scratch.gather.cut, tile, &w->render.frame.tree, &cut_params) ==
           LMB_OK);
     sum->pairs += (double)stats.pairs;
     sum->seen += (double)stats.pairs;

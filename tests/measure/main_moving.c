@@ -16,9 +16,9 @@ enum { SIDE = 48, MAP = 64, FRAMES = 60, FLOATS = SIDE * SIDE * 3, TRIANGLES = 2
 
 static const struct setting {
     const char *name;
-    float error, visible;
+    float error, visibility;
     int32_t step;
-    double most; /* that `steps` may be; 1: shown only. A quarter of 48 pixels is 12: lit edges slip between samples */
+    double max; /* that `steps` may be; 1: shown only. A quarter of 48 pixels is 12: lit edges slip between samples */
 } settings[] = {
     {"brute force", 1e-12f, 1e-12f, 1, 0.0}, /* MAP^2 texels fit a cut */
     {"0.02, 0.02", 0.02f, 0.02f, 1, 0.01},
@@ -33,7 +33,7 @@ enum { BRUTE, SETTINGS = sizeof settings / sizeof *settings };
 
 typedef struct state {
     uint32_t map[2 * MAP * MAP], depth[SIDE * SIDE], id[SIDE * SIDE];
-    uint32_t tree[64 * MAP * MAP / 4 + 256], blockers[TRIANGLES * 128];
+    uint32_t tree[64 * MAP * MAP / 4 + 256], bvh[TRIANGLES * 128];
     lmb_band_scratch scratch;
     lmb_render render;
 } state;
@@ -49,18 +49,18 @@ static void set_frame(lmb_frame *f, state *s, float *out, const lmb_scene *scene
     f->scene = scene;
     f->view = *view;
     f->show = LMB_SHOW_INDIRECT;
-    f->light_map = MAP;
+    f->shadow_map = MAP;
     f->grouping.method = LMB_GROUP_CUT;
     f->occlusion = LMB_OCCLUSION_EXACT;
     f->error = how->error;
-    f->visible = how->visible;
+    f->visibility = how->visibility;
     f->gather_step = how->step;
     f->map_memory = s->map;
     f->map_bytes = sizeof s->map;
     f->eye = target_of(LMB_DEPTH32F, SIDE, s->depth, s->id);
     f->scratch = &s->scratch;
     CHECK(lmb_tree_init(&f->tree, 1, MAP, s->tree, sizeof s->tree) == LMB_OK);
-    CHECK(lmb_blockers_init(&f->blockers, TRIANGLES, s->blockers, sizeof s->blockers) == LMB_OK);
+    CHECK(lmb_bvh_init(&f->bvh, TRIANGLES, s->bvh, sizeof s->bvh) == LMB_OK);
     CHECK(lmb_surface_init(&f->out, LMB_RGB32F, SIDE, SIDE, out, FLOATS * sizeof *out) == LMB_OK);
 }
 
@@ -192,7 +192,7 @@ static void tell(const moving *m, const figures figure[SETTINGS], double mean)
         const double more = (sqrt(figure[s].steps / (FRAMES - 1)) - brute) / mean;
         printf("  %-20s steps %+.4f  worst %+.4f  flicker %.4f\n", settings[s].name, more, figure[s].worst / mean,
                sqrt(figure[s].flicker / (FRAMES - 1)) / mean);
-        CHECK_MSG(more <= settings[s].most, "%s, %s: %g", m->name, settings[s].name, more);
+        CHECK_MSG(more <= settings[s].max, "%s, %s: %g", m->name, settings[s].name, more);
     }
 }
 

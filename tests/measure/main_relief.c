@@ -18,7 +18,7 @@
 
 int test_passed, test_failed, test_skipped;
 
-enum { SIDE = 512, LIGHT_MAP = 1024 };
+enum { SIDE = 512, SHADOW_MAP = 1024 };
 
 /* --- errors ------------------------------------------------------------------------------------------------------- */
 
@@ -76,7 +76,7 @@ static void quality_of(const char *name, subject *s, report *r)
             shot.kernels = lmb_kernels_pick();
             shot.view = subject_camera(s, i, SIDE, &sun);
             shot.light = &sun;
-            shot.light_map = LIGHT_MAP;
+            shot.shadow_map = SHADOW_MAP;
             shot.ambient = 0.4f;
             shot.scene = &s->complex.scene;
             if (!relief_shoot(&truth, &shot, r)) {
@@ -132,16 +132,16 @@ void relief_quality(report *r)
 /* Seconds of a picture's triangles and pixels: the least of some. */
 static double seconds(const relief_shot *shot, report *r)
 {
-    double least = 1e30;
+    double min = 1e30;
     for (int i = 0; i < 7; ++i) {
         relief_frame f;
         if (!relief_shoot(&f, shot, r)) {
             give_up(r);
         }
-        least = fmin(least, f.draw_s + f.band_s);
+        min = fmin(min, f.draw_s + f.band_s);
         relief_frame_free(&f);
     }
-    return least;
+    return min;
 }
 
 void relief_speed(report *r)

@@ -48,7 +48,7 @@ int main(int argc, char **argv)
         relight_tell_raster(&s);
     }
     relight_tell_maps(&s);
-    relight_tell_gloss(&s);
+    relight_tell_glossy(&s);
     relight_stage_free(&s);
     printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);
     return test_failed > 0;

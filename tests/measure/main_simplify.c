@@ -24,7 +24,7 @@ int test_passed, test_failed, test_skipped;
 enum { SIDE = 512, VIEWS = 24 };
 
 typedef struct distances {
-    double mean, most; /* from one mesh's vertices to the other, of the diagonal */
+    double mean, max; /* from one mesh's vertices to the other, of the diagonal */
     double out_share, out_most;
 } distances;
 
@@ -106,7 +106,7 @@ static double diagonal(const triangle_mesh *m, dvec *middle)
 static distances measure(const triangle_mesh *from, const triangle_mesh *to, double size)
 {
     triangle_tree tree;
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     distances d = {0, 0, 0, 0};
     uint32_t v, guess = 0;
     if (!triangle_tree_build(&tree, to, &t))
@@ -117,7 +117,7 @@ static distances measure(const triangle_mesh *from, const triangle_mesh *to, dou
         const double far = sqrt(n.distance2) / size;
         guess = n.triangle;
         d.mean += far / from->vertex_count;
-        d.most = fmax(d.most, far);
+        d.max = fmax(d.max, far);
         if (nearest_is_outside(&n, p) && far > 1e-5) {
             d.out_share += 1.0 / from->vertex_count;
             d.out_most = fmax(d.out_most, far);
@@ -238,8 +238,8 @@ static void try_mesh(const char *name, const triangle_mesh *in, uint32_t triangl
     compare_views(in, &out, &missed, &extra);
     printf("%-18s %-6s %7u %5u %5.2f s %4u MB  %6.2f %5.2f   %6.3f %5.2f   %6.3f %5.2f   %7.4f %6.3f\n", name,
            around ? "around" : "near", (unsigned)in->triangle_count, (unsigned)out.triangle_count, took,
-           (unsigned)(facts.memory_bytes >> 20), 100 * off.out_share, 100 * off.out_most, 100 * off.mean,
-           100 * off.most, 100 * back.mean, 100 * back.most, 100 * missed, 100 * extra);
+           (unsigned)(facts.memory_bytes >> 20), 100 * off.out_share, 100 * off.out_most, 100 * off.mean, 100 * off.max,
+           100 * back.mean, 100 * back.max, 100 * missed, 100 * extra);
     pass_if(out.triangle_count <= triangles, "triangles");
     pass_if(around ? missed <= 1e-4 && extra <= 0.04 : off.mean <= 1e-3, "distance or silhouette");
     pass_if(took < 15, "seconds");

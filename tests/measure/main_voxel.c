@@ -1,5 +1,5 @@
 /* main_voxel.c: one bounce by cones through voxels against truth and closed forms: errors, time by stage, memory.
- *                                                                                   [M6-M8 M11-M13 M20-M22, DESIGN 6]
+ *                                                                                   [M6-M8 M11-M13 M20-M22]
  *     voxel [SCENE...]        cornell and corridor have bars
  *
  * Seconds are of one core. `x`: times what one bounce by cuts with exact occlusion takes for its pixels (the tool's
@@ -21,7 +21,7 @@ int test_passed, test_failed, test_skipped;
 enum { MAP = 512, CUT_MAP = 256, CAP = 1 << 22 };
 
 /* What the tool's default quality asks of cuts. */
-static const float cut_error = 0.2f, cut_visible = 0.06f;
+static const float cut_error = 0.2f, cut_visibility = 0.06f;
 
 typedef struct work {
     const char *scene;
@@ -30,7 +30,7 @@ typedef struct work {
     lmb_view view;
     lmb_target eye;
     lmb_tree tree, cut_tree; /* every texel, for voxels; and of bounced light */
-    lmb_blockers blockers;
+    lmb_bvh bvh;
     lmb_cut cut;
     lmb_voxels voxels;
     lmb_cones cones;
@@ -110,7 +110,7 @@ static void draw_eye(work *w)
     w->eye_seconds = lap(&from);
 }
 
-static void add_faces(work *w, lmb_tree *tree, const lmb_light *light, const lmb_light_map *map)
+static void add_faces(work *w, lmb_tree *tree, const lmb_light *light, const lmb_shadow_map *map)
 {
     for (int32_t f = 0; f < map->faces; ++f) {
         if ((map->drawn >> f & 1u) != 0) {
@@ -120,27 +120,27 @@ static void add_faces(work *w, lmb_tree *tree, const lmb_light *light, const lmb
     }
 }
 
-/* First points of all lights' maps. */
+/* First points of all shadow maps. */
 static void draw_lights(work *w)
 {
     const lmb_scene *scene = &w->loaded.scene;
     const lmb_kernels *kernels = lmb_kernels_pick();
     uint32_t faces = 0;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i], scene);
+        faces += (uint32_t)lmb_shadow_map_faces(&scene->lights[i], scene);
     }
     const size_t bytes = lmb_tree_bytes(faces, MAP), cut_bytes = lmb_tree_bytes(faces, CUT_MAP);
     CHECK(lmb_tree_init(&w->tree, faces, MAP, take(w, bytes), bytes) == LMB_OK);
     CHECK(lmb_tree_init(&w->cut_tree, faces, CUT_MAP, take(w, cut_bytes), cut_bytes) == LMB_OK);
     for (uint32_t i = 0; i < scene->light_count; ++i) {
         const lmb_light *light = &scene->lights[i];
-        const int32_t own = lmb_light_map_faces(light, scene);
-        const size_t size = lmb_light_map_bytes(own, MAP, LMB_ID32);
-        lmb_light_map map;
+        const int32_t own = lmb_shadow_map_faces(light, scene);
+        const size_t size = lmb_shadow_map_bytes(own, MAP, LMB_ID32);
+        lmb_shadow_map map;
         double from = seconds_now();
-        CHECK(lmb_light_map_init(&map, light, scene, MAP, LMB_ID32, take(w, size), size) == LMB_OK);
-        lmb_light_map_clear(&map);
-        CHECK(lmb_light_map_draw(&map, kernels, scene, 1, lmb_scene_triangles(scene), NULL) == LMB_OK);
+        CHECK(lmb_shadow_map_init(&map, light, scene, MAP, LMB_ID32, take(w, size), size) == LMB_OK);
+        lmb_shadow_map_clear(&map);
+        CHECK(lmb_shadow_map_draw(&map, kernels, scene, 1, lmb_scene_triangles(scene), NULL) == LMB_OK);
         w->map_seconds += lap(&from);
         add_faces(w, &w->tree, light, &map);
         w->tree_seconds += lap(&from);
@@ -175,7 +175,7 @@ static double voxel_bytes(const work *w) { return (double)lmb_voxels_bytes(w->vo
 static void check_energy(const work *w)
 {
     const lmb_voxels *v = &w->voxels;
-    double want[6] = {0, 0, 0, 0, 0, 0}, got[6][3], flux = 0.0, off = 0.0, most = 0.0;
+    double want[6] = {0, 0, 0, 0, 0, 0}, got[6][3], flux = 0.0, off = 0.0, max = 0.0;
     for (size_t i = 0; i < (size_t)w->tree.faces * MAP * MAP; ++i) {
         const lmb_texel *t = &w->tree.texel[i];
         const float n[3] = {t->normal.x, t->normal.y, t->normal.z};
@@ -187,11 +187,11 @@ static void check_energy(const work *w)
     lmb_voxels_sum(got, v, 0);
     for (int k = 0; k < 6; ++k) {
         off = fmax(off, fabs(got[k][0] - want[k]));
-        most = fmax(most, want[k]);
+        max = fmax(max, want[k]);
     }
     printf("  %-11s energy: %.6f W of %.6f injected, %.2g lost; leaves by direction off by %.2g\n", w->scene,
-           v->flux[0], flux, v->lost[0] / flux, off / most);
-    CHECK(fabs(v->flux[0] / flux - 1.0) <= 0.02 && off <= 0.02 * most);
+           v->flux[0], flux, v->lost[0] / flux, off / max);
+    CHECK(fabs(v->flux[0] / flux - 1.0) <= 0.02 && off <= 0.02 * max);
 }
 
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
@@ -200,14 +200,14 @@ static void check_energy(const work *w)
 static void light_tile(work *w, lmb_irradiance *light, int by_cuts)
 {
     const lmb_cone_trace cones = {lmb_kernels_pick(), &w->voxels, 0, 0, NULL, &w->scratch, 0};
-    lmb_cutting cutting;
-    memset(&cutting, 0, sizeof cutting);
-    cutting.error = cut_error;
-    cutting.visible = cut_visible;
-    cutting.blockers = &w->blockers;
+    lmb_cut_params cut_params;
+    memset(&cut_params, 0, sizeof cut_params);
+    cut_params.error = cut_error;
+    cut_params.visibility = cut_visibility;
+    cut_params.bvh = &w->bvh;
     memset(light, 0, sizeof *light);
     if (by_cuts) {
-        CHECK(lmb_gather_cut(light, cones.kernels, &w->cut, &w->tile, &w->cut_tree, &cutting) == LMB_OK);
+        CHECK(lmb_gather_cut(light, cones.kernels, &w->cut, &w->tile, &w->cut_tree, &cut_params) == LMB_OK);
     } else {
         CHECK(lmb_cones_diffuse(light, NULL, &cones, &w->cones, &w->tile) == LMB_OK);
     }
@@ -271,12 +271,12 @@ static void against_truth(work *w, const float *pixels, const char *what, int ha
     CHECK_MSG(!has_bars || m.e50 <= 0.20, "%s: e50 %g", w->scene, m.e50);
 }
 
-static void take_blockers(work *w)
+static void take_bvh(work *w)
 {
     const uint32_t triangles = lmb_scene_triangles(&w->loaded.scene);
-    const size_t bytes = lmb_blockers_bytes(triangles);
-    CHECK(lmb_blockers_init(&w->blockers, triangles, take(w, bytes), bytes) == LMB_OK);
-    CHECK(lmb_blockers_build(&w->blockers, &w->loaded.scene) == LMB_OK);
+    const size_t bytes = lmb_bvh_bytes(triangles);
+    CHECK(lmb_bvh_init(&w->bvh, triangles, take(w, bytes), bytes) == LMB_OK);
+    CHECK(lmb_bvh_build(&w->bvh, &w->loaded.scene) == LMB_OK);
 }
 
 static void say_stages(const work *w)
@@ -298,7 +298,7 @@ static void bounce(work *w, const char *scene, void *memory, int has_bars)
     truth_view(&w->view, &w->loaded.cameras[0], &w->truth);
     draw_eye(w);
     draw_lights(w);
-    take_blockers(w);
+    take_bvh(w);
     draw(w, pixels, 1);
     const double by_cuts = w->seconds;
     snprintf(what, sizeof what, "cuts, %.2f s", by_cuts);
@@ -349,7 +349,7 @@ static double trace_some(work *w, const lmb_kernels *kernels)
 static void say_share(work *w)
 {
     bench_rates rates;
-    double counts[BENCH_OPS], least = 1e30, per_second = 0.0;
+    double counts[BENCH_OPS], min = 1e30, per_second = 0.0;
     int unit = 0;
     if (!bench_rates_begin(&rates, lmb_kernels_name(lmb_kernels_pick()))) {
         printf("  %s: its rates are not known\n", lmb_kernels_name(lmb_kernels_pick()));
@@ -357,17 +357,17 @@ static void say_share(work *w)
     }
     for (int i = 0; i < 5; ++i) {
         const double spent = trace_some(w, lmb_kernels_pick());
-        least = spent < least ? spent : least;
+        min = spent < min ? spent : min;
         bench_rates_step(&rates);
         per_second = bench_rates_read(&rates);
     }
     trace_some(w, bench_operations_begin());
     bench_operations_end(counts);
-    const double bound = bench_rates_bound(&unit, &rates, counts) / rates.machine->lanes * rates.cycle,
+    const double bound = bench_rates_bound(&unit, &rates, counts) / rates.backend->lanes * rates.cycle,
                  reads = bench_operations_reads() / per_second;
     printf("  of the cones' time their arithmetic takes at least %.0f %% (%s), their reads %.0f %% at best (%s, "
            "%.2f GHz, %.2g reads/s)\n",
-           100.0 * bound / least, bench_op_names[unit], 100.0 * reads / least, rates.machine->name, 1e-9 / rates.cycle,
+           100.0 * bound / min, bench_op_names[unit], 100.0 * reads / min, rates.backend->name, 1e-9 / rates.cycle,
            per_second);
 }
 
@@ -375,7 +375,7 @@ static void say_frame(const work *w, const char *scene)
 {
     const double all = w->map_seconds + w->tree_seconds + w->build_seconds + w->inject_seconds + w->filter_seconds +
                        w->eye_seconds + w->seconds;
-    printf("  %s at 640x480, %d^3, 19 cones: %.2f s: light's map %.1f ms, first points %.1f, voxels %.1f, "
+    printf("  %s at 640x480, %d^3, 19 cones: %.2f s: shadow map %.1f ms, first points %.1f, voxels %.1f, "
            "injection %.1f, filter %.1f, eye %.1f, cones %.0f; %u voxels, %.1f MB\n",
            scene, 1 << w->voxels.depth, all, w->map_seconds * 1e3, w->tree_seconds * 1e3, w->build_seconds * 1e3,
            w->inject_seconds * 1e3, w->filter_seconds * 1e3, w->eye_seconds * 1e3, w->seconds * 1e3,
@@ -395,7 +395,7 @@ static void frame(work *w, const char *scene, void *memory)
     truth_view(&w->view, &w->loaded.cameras[0], &like);
     draw_eye(w);
     draw_lights(w);
-    take_blockers(w);
+    take_bvh(w);
     for (int32_t depth = 5; depth <= 8; ++depth) {
         make_voxels(w, memory, CAP, depth);
         CHECK(lmb_cones_init(&w->cones, &w->voxels, 19) == LMB_OK);

@@ -33,16 +33,16 @@ static void ops_of(double op[LMB_OPS], const plan_scene *s, const plan_run *r)
 static void add_run(normal *n, const plan_scene *s, const plan_run *r)
 {
     double op[LMB_OPS], part[LMB_OPS];
-    const double texels = s->facts.faces * (double)r->s.light_map * (double)r->s.light_map;
+    const double texels = s->facts.faces * (double)r->s.shadow_map * (double)r->s.shadow_map;
     const double weight = 1.0 / plan_seconds(r);
     ops_of(op, s, r);
     memset(part, 0, sizeof part);
     part[LMB_OP_TRIANGLES] = s->facts.faces * s->facts.triangles;
     part[LMB_OP_TEXELS] = texels;
-    add_row(n, part, r->seconds[LMB_STAGE_LIGHT_MAP], weight);
+    add_row(n, part, r->seconds[LMB_STAGE_SHADOW_MAP], weight);
     memset(part, 0, sizeof part);
-    part[LMB_OP_BLOCKERS] = op[LMB_OP_BLOCKERS];
-    add_row(n, part, r->seconds[LMB_STAGE_BLOCKERS], weight);
+    part[LMB_OP_BVH] = op[LMB_OP_BVH];
+    add_row(n, part, r->seconds[LMB_STAGE_BVH], weight);
     memset(part, 0, sizeof part);
     part[LMB_OP_RESOLVED] = texels;
     part[LMB_OP_SUMMED] = op[LMB_OP_SUMMED];

@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "../../tools/render/budget.h"
-#include "../../tools/render/scene_look.h"
+#include "../../tools/render/scene_sample.h"
 #include "../shared_file.h"
 #include "plan_rows.h"
 
@@ -99,9 +99,9 @@ static int setting(lmb_settings *s, int i, int heavy)
 {
     static const int32_t trees[] = {64, 128, 256, 512}, steps[] = {1, 2, 4};
     static const float errors[] = {0.01f, 0.03f, 0.1f};
-    s->tree = s->light_map = trees[i % 4];
+    s->tree = s->shadow_map = trees[i % 4];
     s->error = errors[i / 4 % 3];
-    s->visible = 0.75f * s->error;
+    s->visibility = 0.75f * s->error;
     s->gather_step = steps[i / 12 % 3];
     s->occlusion = LMB_OCCLUSION_EXACT;
     return i < 36 && (!heavy || s->error > 0.1f);
@@ -118,7 +118,7 @@ int plan_measure(plan_scene *out, const plan_place *at)
     }
     snprintf(out->name, sizeof out->name, "%s", at->name);
     out->fits = at->fits;
-    int ok = scene_look(&out->facts, &cost, &j, &j.o.budget, 0, &r);
+    int ok = scene_sample(&out->facts, &cost, &j, &j.o.budget, 0, &r);
     for (int i = 0; i < 36 && ok; ++i) {
         plan_run *run = &out->run[out->runs];
         if (setting(&run->s, i, at->heavy)) {

@@ -3,7 +3,7 @@
  * Four posed frames of ICL-NUIM's living room (Handa et al. 2014), blocks around what they show as the simple model.
  * Each photo in turn is left out and drawn from the other three. Only what one of these shows can come out right: those
  * pixels count, by the photo's depth. Beside the relief's PSNR stands that of a look at the right place of the right
- * photo: the rest of the way to it is the photos' own gloss and grain. */
+ * photo: the rest of the way to it is the photos' own glossy reflection and grain. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -119,8 +119,8 @@ lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun)
     const lmb_vec3 d = vec3((float)(ring * cos(a)), (float)y, (float)(ring * sin(a)));
     lmb_view v;
     const float away = 1.32f * s->diagonal; /* 45 degrees hold the sphere around it */
-    if (lmb_view_look(&v, add3(s->middle, mul3(d, away)), s->middle, vec3(0.0f, 1.0f, 0.0f), 0.7853982f, side, side) !=
-        LMB_OK) {
+    if (lmb_view_look_at(&v, add3(s->middle, mul3(d, away)), s->middle, vec3(0.0f, 1.0f, 0.0f), 0.7853982f, side,
+                         side) != LMB_OK) {
         exit(1);
     }
     v.near_m = 0.01f * away;

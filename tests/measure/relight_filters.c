@@ -36,7 +36,7 @@ typedef struct errors {
 static void filter_all(summary out[FILTERS + 1], relight_stage *s, int place, lmb_vec3 at)
 {
     for (int f = 0; f <= FILTERS; ++f) {
-        const int side = f == FILTERS ? MOST_SIDE : SIDE;
+        const int side = f == FILTERS ? MAX_SIDE : SIDE;
         relight_update(s, f == FILTERS ? COSINE : f, at, side);
         add_place(&out[f], s, place, side);
     }

@@ -165,7 +165,7 @@ static void filter_all(map_errors *e, relight_stage *s, const relight_sky *sky, 
 
 /* Means and worst of all suns. */
 typedef struct sun_errors {
-    double mean[FILTERS + 1], worst[FILTERS + 1], largest[FILTERS + 1], least[FILTERS + 1], from_cosine;
+    double mean[FILTERS + 1], worst[FILTERS + 1], largest[FILTERS + 1], min[FILTERS + 1], from_cosine;
 } sun_errors;
 
 static void add_errors(sun_errors *to, const map_errors *e)
@@ -175,7 +175,7 @@ static void add_errors(sun_errors *to, const map_errors *e)
         to->mean[f] += one->rmse / SUNS;
         to->worst[f] = one->rmse > to->worst[f] ? one->rmse : to->worst[f];
         to->largest[f] = one->largest > to->largest[f] ? one->largest : to->largest[f];
-        to->least[f] = one->least < to->least[f] ? one->least : to->least[f];
+        to->min[f] = one->min < to->min[f] ? one->min : to->min[f];
     }
     to->from_cosine += e->from_cosine / SUNS;
 }
@@ -205,8 +205,8 @@ static void print_map(const char *name, const map_errors *plain, const sun_error
         const relight_error *a = &plain->of[f];
         printf("| %s | %s | %.2f | %.1f | %.1f | %.2f | %.2f | %.1f | %.1f |\n", name,
                f == FILTERS ? "cosine, 16-bit codes" : filter_names[f], 100.0 * a->rmse, 100.0 * a->largest,
-               100.0 * a->least, 100.0 * sunny->mean[f], 100.0 * sunny->worst[f], 100.0 * sunny->largest[f],
-               100.0 * sunny->least[f]);
+               100.0 * a->min, 100.0 * sunny->mean[f], 100.0 * sunny->worst[f], 100.0 * sunny->largest[f],
+               100.0 * sunny->min[f]);
     }
     printf("| %s | sh9 from cosine | %.2f | | | %.2f | | | |\n", name, 100.0 * plain->from_cosine,
            100.0 * sunny->from_cosine);

@@ -233,10 +233,10 @@ relight_error relight_compare(const float *cube, const float *truth, int texels)
         mean += want;
         peak = want > peak ? want : peak;
         e.largest = d > e.largest ? d : e.largest;
-        e.least = is < e.least || i == 0 ? is : e.least;
+        e.min = is < e.min || i == 0 ? is : e.min;
     }
     e.largest /= peak;
-    e.least /= peak;
+    e.min /= peak;
     e.rmse = sqrt(sum * 3 * texels) / mean;
     return e;
 }
@@ -257,10 +257,10 @@ double relight_seconds(void (*work)(void *), void *context)
 {
     const double first = seconds_of(1, work, context), from = seconds_now();
     const int calls = first < 0.0005 ? 1 + (int)(0.0005 / (first + 1e-6)) : 1;
-    double least = first;
+    double min = first;
     for (int i = 0; i < 5 || seconds_now() - from < 0.1; ++i) {
         const double s = seconds_of(calls, work, context) / calls;
-        least = s < least ? s : least;
+        min = s < min ? s : min;
     }
-    return least;
+    return min;
 }

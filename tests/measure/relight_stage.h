@@ -9,7 +9,7 @@
 
 #define PI 3.14159265358979323846
 
-enum { PLACES = 5, WIDTH = 128, HEIGHT = 64, SIDE = 8, TEXELS = 6 * SIDE * SIDE, MOST_SIDE = 32 };
+enum { PLACES = 5, WIDTH = 128, HEIGHT = 64, SIDE = 8, TEXELS = 6 * SIDE * SIDE, MAX_SIDE = 32 };
 enum { COSINE, SH_9, SH_16, SH_25, BLUR, BLUR_1, BLUR_2, FILTERS };
 
 extern const char *const filter_names[FILTERS];
@@ -24,7 +24,7 @@ typedef struct relight_stage {
     lmb_probe_lights lights;
     float map[3 * WIDTH * HEIGHT], half[3 * WIDTH * HEIGHT / 4], blurred[3 * WIDTH * HEIGHT / 16], line[WIDTH];
     float harmonics[3][LMB_SH_25];
-    float cube[3 * 6 * MOST_SIDE * MOST_SIDE]; /* planes */
+    float cube[3 * 6 * MAX_SIDE * MAX_SIDE]; /* planes */
     float *ground;
     void *world_memory, *table_memory[3], *blur_memory[3];
 } relight_stage;
@@ -52,7 +52,7 @@ void relight_read(float out[3], const image *picture, float u, float v, int wrap
 /* How far a cube of planes is from texels of RGB: root mean square of the mean, the largest of the largest, and the
  * least value of the cube, of the largest too. */
 typedef struct relight_error {
-    double rmse, largest, least;
+    double rmse, largest, min;
 } relight_error;
 
 relight_error relight_compare(const float *cube, const float *truth, int texels);
@@ -64,7 +64,7 @@ double relight_seconds(void (*work)(void *), void *context);
 void relight_tell_filters(relight_stage *s, const char *counts);
 void relight_tell_raster(relight_stage *s);
 void relight_tell_maps(relight_stage *s);
-void relight_tell_gloss(relight_stage *s);
+void relight_tell_glossy(relight_stage *s);
 
 /* A map of ../shared/data/env as it is, and as a world's faces. */
 typedef struct relight_sky {

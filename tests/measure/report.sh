@@ -14,7 +14,7 @@ mkdir -p "$to"
 sweep() {
     name=$1
     shift
-    if "$TOOL" bench "$@" --runs "${RUNS:-2}" --ledger "${LEDGER:-8}" -o "$to/$name" --svg "$to/$name.svg" \
+    if "$TOOL" bench "$@" --runs "${RUNS:-2}" --breakdown "${LEDGER:-8}" -o "$to/$name" --svg "$to/$name.svg" \
         >"$to/$name.txt"; then
         pass
         echo "$to/$name.html: $(sed -n 's/^.*"seconds": \([0-9.]*\),$/\1/p' "$to/$name.json" | head -n 1) s"

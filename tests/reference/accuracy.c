@@ -11,7 +11,7 @@
 
 #include "reference.h"
 
-enum { MACHINES = 8 };
+enum { BACKENDS = 8 };
 
 /* Depth and ids in plain rows of `step` px. */
 typedef struct canvas {
@@ -30,11 +30,11 @@ typedef struct contest {
     accuracy *result;
     const lmb_view *view;
     const lmb_scene *scene;
-    const lmb_kernels *kernels[MACHINES];
+    const lmb_kernels *kernels[BACKENDS];
     uint32_t flags;
-    int cull, machines;
+    int cull, backends;
     size_t step, count;      /* px from row to row; px with the padding */
-    canvas alone[MACHINES];  /* the triangle at hand, by each machine; else empty */
+    canvas alone[BACKENDS];  /* the triangle at hand, by each machine; else empty */
     canvas picture, another; /* of all, by the first machine; by one of the others, or without ids */
     float *together;         /* the triangles alone, put together */
     uint32_t *together_id;
@@ -74,7 +74,7 @@ static void free_canvas(canvas *c)
 static int make_contest(contest *c)
 {
     int made = make_canvas(&c->picture, c->view) && make_canvas(&c->another, c->view);
-    for (int i = 0; i < c->machines && made; ++i) {
+    for (int i = 0; i < c->backends && made; ++i) {
         made = make_canvas(&c->alone[i], c->view);
     }
     c->step = ((size_t)c->view->frame_width + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
@@ -91,7 +91,7 @@ static int make_contest(contest *c)
 
 static void free_contest(contest *c)
 {
-    for (int i = 0; i < c->machines; ++i) {
+    for (int i = 0; i < c->backends; ++i) {
         free_canvas(&c->alone[i]);
     }
     free_canvas(&c->picture);
@@ -122,13 +122,13 @@ static int in_frame(const contest *c, size_t at)
     return at % c->step < (size_t)c->view->frame_width && at / c->step < (size_t)c->view->frame_height;
 }
 
-static void draw(const contest *c, const canvas *to, int machine, int ids, uint32_t first, uint32_t count)
+static void draw(const contest *c, const canvas *to, int backend, int ids, uint32_t first, uint32_t count)
 {
     lmb_target t = to->target;
     if (!ids) {
         t.id.data = NULL;
     }
-    lmb_draw(&t, c->kernels[machine], c->view, c->scene, first, count, c->flags, NULL);
+    lmb_draw(&t, c->kernels[backend], c->view, c->scene, first, count, c->flags, NULL);
 }
 
 /* --- one triangle alone ------------------------------------------------------------------------------------------- */
@@ -182,7 +182,7 @@ static void take_alone(contest *c, const fragment *f)
 {
     const uint32_t id = c->alone[0].id[f->at];
     const float d = c->alone[0].depth[f->at];
-    for (int i = 0; i < c->machines; ++i) {
+    for (int i = 0; i < c->backends; ++i) {
         float *depth = &c->alone[i].depth[f->at];
         c->result->unlike += memcmp(depth, &d, sizeof d) != 0 || c->alone[i].id[f->at] != id;
         *depth = 0.0f;
@@ -220,7 +220,7 @@ static void compare_triangles(contest *c)
     const lmb_mesh *mesh = c->scene->meshes;
     float corners[3][3];
     for (uint32_t k = 0; k < mesh->triangle_count; ++k) {
-        for (int i = 0; i < c->machines; ++i) {
+        for (int i = 0; i < c->backends; ++i) {
             draw(c, &c->alone[i], i, 1, k + 1, 1);
         }
         get_corners(corners, mesh, k);
@@ -231,7 +231,7 @@ static void compare_triangles(contest *c)
         }
     }
     /* What is left was covered by the library only. */
-    for (int i = 0; i < c->machines; ++i) {
+    for (int i = 0; i < c->backends; ++i) {
         for (size_t at = 0; at < c->count; ++at) {
             c->result->alone.only_one += in_frame(c, at) && c->alone[i].id[at] != 0;
         }
@@ -241,13 +241,13 @@ static void compare_triangles(contest *c)
 /* --- the picture -------------------------------------------------------------------------------------------------- */
 
 /* Machines and kinds of target: the pixels' bytes are the first machine's. */
-static void compare_machines(contest *c)
+static void compare_backends(contest *c)
 {
-    for (int run = 1; run < 2 * c->machines; ++run) {
-        const int ids = run < c->machines;
+    for (int run = 1; run < 2 * c->backends; ++run) {
+        const int ids = run < c->backends;
         memset(c->another.depth, 0, c->count * 4);
         memset(c->another.id, 0, c->count * 4);
-        draw(c, &c->another, run % c->machines, ids, 1, c->scene->meshes->triangle_count);
+        draw(c, &c->another, run % c->backends, ids, 1, c->scene->meshes->triangle_count);
         for (size_t at = 0; at < c->count; ++at) {
             c->result->unlike += in_frame(c, at) && (memcmp(&c->another.depth[at], &c->picture.depth[at], 4) != 0 ||
                                                      (ids && c->another.id[at] != c->picture.id[at]));
@@ -308,7 +308,7 @@ static void compare_exact(contest *c)
             const double off = fabs((double)c->picture.depth[at] - c->best[at]) / c->best[at];
             ++r->exact_same;
             r->exact_mean += off;
-            r->exact_most = fmax(r->exact_most, off);
+            r->exact_max = fmax(r->exact_max, off);
         }
     }
     r->exact_mean /= r->exact_same > 0 ? (double)r->exact_same : 1.0;
@@ -324,15 +324,15 @@ int accuracy_measure(accuracy *out, const lmb_view *view, const lmb_scene *scene
     c.scene = scene;
     c.cull = cull;
     c.flags = cull ? LMB_CULL_BACK : 0;
-    while (c.machines < MACHINES && lmb_kernels_at(c.machines) != NULL) {
-        c.kernels[c.machines] = lmb_kernels_at(c.machines);
-        ++c.machines;
+    while (c.backends < BACKENDS && lmb_kernels_at(c.backends) != NULL) {
+        c.kernels[c.backends] = lmb_kernels_at(c.backends);
+        ++c.backends;
     }
-    out->machines = c.machines;
+    out->backends = c.backends;
     const int made = make_contest(&c);
     if (made) {
         draw(&c, &c.picture, 0, 1, 1, scene->meshes->triangle_count);
-        compare_machines(&c);
+        compare_backends(&c);
         compare_triangles(&c);
         compare_picture(&c);
         compare_exact(&c);

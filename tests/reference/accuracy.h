@@ -21,8 +21,8 @@ typedef struct accuracy {
     double fight_gap;    /* how far behind the reference's own it lies at most, ulps */
     /* The picture against the exact reference's, which knows no 24.8. */
     uint64_t exact_only_one, exact_other, exact_same; /* covered by one; another triangle in front; the same one */
-    double exact_mean, exact_most;                    /* depth's relative difference where it is the same one */
-    int machines;
+    double exact_mean, exact_max;                     /* depth's relative difference where it is the same one */
+    int backends;
 } accuracy;
 
 /* One mesh of float positions and 32-bit (or no) indices, placed where it stands. 1, or 0 without memory. */

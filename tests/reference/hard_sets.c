@@ -173,7 +173,7 @@ static void set_view(lmb_view *v, int orthographic)
 {
     static const lmb_vec3 eye = {1.5f, 2.25f, -3.0f}, target = {4.0f, 1.0f, 2.0f}, up = {0.0f, 1.0f, 0.0f};
     if (!orthographic) {
-        lmb_view_look(v, eye, target, up, 1.0f, WIDTH, HEIGHT);
+        lmb_view_look_at(v, eye, target, up, 1.0f, WIDTH, HEIGHT);
         v->near_m = 1.0f;
         return;
     }

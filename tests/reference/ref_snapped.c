@@ -159,8 +159,8 @@ static int covers(const screen_corner *a, const screen_corner *b, int64_t e)
     return e > 0 || (e == 0 && (b->y < a->y || (b->y == a->y && b->x > a->x)));
 }
 
-static int64_t least(int64_t a, int64_t b) { return a < b ? a : b; }
-static int64_t most(int64_t a, int64_t b) { return a > b ? a : b; }
+static int64_t min(int64_t a, int64_t b) { return a < b ? a : b; }
+static int64_t max(int64_t a, int64_t b) { return a > b ? a : b; }
 
 /* A pixel's centre, from the middle of a frame of `side` px. */
 static int64_t centre(int32_t pixel, int32_t side) { return 256 * (int64_t)pixel + 128 - 128 * (int64_t)side; }
@@ -170,13 +170,13 @@ static int64_t centre(int32_t pixel, int32_t side) { return 256 * (int64_t)pixel
 static int32_t first_pixel(int64_t at, int32_t side)
 {
     const int64_t behind = at - centre(0, side);
-    return (int32_t)(behind <= 0 ? 0 : least(side, (behind + 255) / 256));
+    return (int32_t)(behind <= 0 ? 0 : min(side, (behind + 255) / 256));
 }
 
 static int32_t last_pixel(int64_t at, int32_t side)
 {
     const int64_t behind = at - centre(0, side);
-    return (int32_t)(behind < 0 ? -1 : least(side - 1, behind / 256));
+    return (int32_t)(behind < 0 ? -1 : min(side - 1, behind / 256));
 }
 
 /* How much the plane through the corners as drawn falls a px, along x and y together. */
@@ -203,10 +203,10 @@ static void draw_piece(const lmb_view *v, const screen_corner *a, const screen_c
 {
     const int64_t area = edge(a, b, c->x, c->y);
     const int32_t width = v->frame_width, height = v->frame_height;
-    const int32_t x0 = first_pixel(least(a->x, least(b->x, c->x)), width);
-    const int32_t y0 = first_pixel(least(a->y, least(b->y, c->y)), height);
-    const int32_t x1 = last_pixel(most(a->x, most(b->x, c->x)), width);
-    const int32_t y1 = last_pixel(most(a->y, most(b->y, c->y)), height);
+    const int32_t x0 = first_pixel(min(a->x, min(b->x, c->x)), width);
+    const int32_t y0 = first_pixel(min(a->y, min(b->y, c->y)), height);
+    const int32_t x1 = last_pixel(max(a->x, max(b->x, c->x)), width);
+    const int32_t y1 = last_pixel(max(a->y, max(b->y, c->y)), height);
     ref_pixel p;
     p.low = fminf(a->d_drawn, fminf(b->d_drawn, c->d_drawn));
     p.high = fminf(1.0f, fmaxf(a->d_drawn, fmaxf(b->d_drawn, c->d_drawn)));

@@ -190,9 +190,9 @@ static void write_lights(FILE *f, const made_scene *s)
         " \"extensionsUsed\": [\"KHR_lights_punctual\"],\n \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [");
     for (int i = 0; i < s->light_count; ++i) {
         const scene_light *l = &s->lights[i];
-        const double most = fmax(l->rgb[0], fmax(l->rgb[1], l->rgb[2]));
+        const double max = fmax(l->rgb[0], fmax(l->rgb[1], l->rgb[2]));
         fprintf(f, "%s\n  {\"type\": \"%s\", \"color\": [%.9g, %.9g, %.9g], \"intensity\": %.9g", i > 0 ? "," : "",
-                kinds[l->kind], l->rgb[0] / most, l->rgb[1] / most, l->rgb[2] / most, most);
+                kinds[l->kind], l->rgb[0] / max, l->rgb[1] / max, l->rgb[2] / max, max);
         if (l->kind == SCENE_SPOT) {
             fprintf(f, ", \"spot\": {\"innerConeAngle\": %.9g, \"outerConeAngle\": %.9g}", l->inner_deg * RADIANS,
                     l->outer_deg * RADIANS);

@@ -29,7 +29,7 @@ begins() {
 
 absent() { [ ! -e "$1" ] && pass || fail "$1 should not be there"; }
 
-small="--size 64x48 --light-map 64 --exposure 0"
+small="--size 64x48 --shadow-map 64 --exposure 0"
 
 # Only glTF has lobes.
 status 1 render demo $small --glossy -o "$dir/glossy.png"
@@ -90,8 +90,8 @@ done
 # A number of the statistics.
 count() { sed -n "/seconds/!s/.*\"$2\": \([0-9]*\).*/\1/p" "$1"; }
 
-# More bounces add light, one is what there is without the option; what shines lights a scene without lamps.
-cut="--grouping cut --occlusion exact --light-map 32"
+# More bounces add light, one is what there is without the option; what emits lights a scene without lamps.
+cut="--grouping cut --occlusion exact --shadow-map 32"
 coarse="--size 64x48 --exposure 0 $cut"
 status 0 render demo $coarse -o "$dir/bounce.pfm"
 status 0 render demo $coarse --bounces 1 -o "$dir/bounce1.pfm"
@@ -113,7 +113,7 @@ check "its light is seen" test "$(tail -c 3072 "$dir/floor.pfm" | tr -d '\000' |
 # What stands between a lamp that is a surface and the floor blocks it, with no other lamp too.
 printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
     'v -2 0.5 -2' 'v 2 0.5 -2' 'v 2 0.5 2' 'v -2 0.5 2' 'f 1 2 3 4' 'f 9 10 11 12' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shade.obj"
-status 0 render "$dir/shade.obj" --size 16x16 --eye 0,0.45,0 --target 0,0,0.1 --light-map 32 --show irradiance -o "$dir/shade.pfm"
+status 0 render "$dir/shade.obj" --size 16x16 --eye 0,0.45,0 --target 0,0,0.1 --shadow-map 32 --show irradiance -o "$dir/shade.pfm"
 check "a shade is dark below" test "$(tail -c 3072 "$dir/shade.pfm" | tr -d '\000' | wc -c)" -eq 0
 
 # A box with two lit eyes keeps its sun, and they do not change how it is exposed.
@@ -158,7 +158,7 @@ check "the right half is the right eye's picture" cmp "$dir/right.txt" "$dir/rig
 for what in first_points discs groups; do
     check "two eyes: $what counted once" test "$(count "$dir/both.json" $what)" -eq "$(count "$dir/left.json" $what)"
 done
-check "two eyes: light's map once, view twice" test $((2 * $(count "$dir/both.json" triangles_read))) -eq $((3 * $(count "$dir/left.json" triangles_read)))
+check "two eyes: shadow map once, view twice" test $((2 * $(count "$dir/both.json" triangles_read))) -eq $((3 * $(count "$dir/left.json" triangles_read)))
 check "two eyes: two views" test "$(count "$dir/both.json" views)" -eq 2
 for show in depth eye-distance normal albedo occlusion direct; do
     status 0 render demo $small --stereo 0.1 --show $show -o "$dir/both.png"
@@ -210,7 +210,7 @@ check "direct light knows no grouping" cmp "$dir/direct.pfm" "$dir/zones.pfm"
 status 2 render demo $small --profile fast -o "$dir/bad.pfm"
 for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
     for bounces in 1 3; do
-        how="demo --size 64x48 --exposure 0 --light $light --light-map 512 --show indirect --bounces $bounces"
+        how="demo --size 64x48 --exposure 0 --light $light --shadow-map 512 --show indirect --bounces $bounces"
         status 0 render $how --many-lights 4 --gather full --elements 65536 -o "$dir/elements.pfm"
         status 0 render $how -o "$dir/own.pfm"
         status 0 compare "$dir/elements.pfm" "$dir/own.pfm" --max trim=0.05
@@ -225,7 +225,7 @@ for i in $(seq 33); do
 done
 status 0 render demo $small $few --show indirect --stats "$dir/few.json" -o "$dir/few.pfm"
 check "33 lights that bounce are many" grep -q '33 lights in' "$dir/err.txt"
-status 0 render demo $small $few --show indirect --error 0.02 --visible 0.015 --stats "$dir/fine.json" -o "$dir/fine.pfm"
+status 0 render demo $small $few --show indirect --error 0.02 --visibility 0.015 --stats "$dir/fine.json" -o "$dir/fine.pfm"
 status 0 compare "$dir/few.pfm" "$dir/fine.pfm" --max trim=0.05
 check "33 lights' bounced light takes under three quarters of the finer segments" sh -c '
     segments() { sed -n "s/.*\"segments\": \([0-9]*\).*/\1/p" "$1"; }
@@ -236,9 +236,9 @@ status 2 render "$dir/many.gltf" --bounce-lights 3 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --many-lights 0 -o "$dir/bad.pfm"
 status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
 
-status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect -o "$dir/proven.pfm"
+status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect -o "$dir/proved.pfm"
 status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o "$dir/ruled.pfm"
-status 0 compare "$dir/proven.pfm" "$dir/ruled.pfm"
+status 0 compare "$dir/proved.pfm" "$dir/ruled.pfm"
 status 0 render demo $small --bounces 3 --show occlusion -o "$dir/blocked.pfm"
 
 # Help and version go to stdout.
@@ -251,7 +251,7 @@ done
 
 # compare: equal, different, sizes differ.
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm"
-status 0 render demo --size 32x24 --light-map 64 -o "$dir/half.pfm"
+status 0 render demo --size 32x24 --shadow-map 64 -o "$dir/half.pfm"
 status 3 compare "$dir/demo.pfm" "$dir/half.pfm"
 
 # info: a scene and pictures, as text and as one JSON object on one line.
@@ -266,21 +266,21 @@ done
 
 # One parser reads all command lines: `--name=value`, what is given twice, what may be meant, where options end.
 said() { check "lambent says: $1" grep -qF -e "$1" "$dir/err.txt"; }
-status 0 render demo --size=64x48 --light-map=64 --exposure=0 -o "$dir/inside.pfm"
+status 0 render demo --size=64x48 --shadow-map=64 --exposure=0 -o "$dir/inside.pfm"
 check "--name=value is --name value" cmp "$dir/demo.pfm" "$dir/inside.pfm"
 cp "$dir/one.obj" "$dir/-q.obj"
 (cd "$dir" && "$OLDPWD/$TOOL" info -- -q.obj >out.txt 2>err.txt)
 check "behind -- a word that begins with - is no option" grep -q '^triangles' "$dir/out.txt"
 status 2 render demo --visibel 0.1 -o "$dir/bad.png"
-said "unknown option --visibel; did you mean --visible?"
+said "unknown option --visibel; did you mean --visibility?"
 status 2 render demo --vis=0.1 -o "$dir/bad.png"
-said "unknown option --vis; did you mean --visible?"
+said "unknown option --vis; did you mean --visibility?"
 status 2 render demo --nonsense -o "$dir/bad.png"
 said "unknown option --nonsense; lambent render --help lists them"
 status 2 bench demo --swep tree=8
 said "did you mean --sweep?"
 status 2 bench demo --lihgt-map 64
-said "did you mean --light-map?"
+said "did you mean --shadow-map?"
 status 2 rendr demo
 said "did you mean render?"
 status 2 render demo --size 64x48 --size 32x24 -o "$dir/bad.png"
@@ -304,10 +304,10 @@ said "one word too many: SCENE is \`demo\`"
 status 2 render demo -o=bad.png
 absent "$dir/bad.png"
 # Quiet says nothing, verbose says more; both draw the same.
-status 0 render demo --size 64x48 --light-map 64 -o "$dir/loud.png"
-status 0 render demo --size 64x48 --light-map 64 -q -o "$dir/hushed.png"
+status 0 render demo --size 64x48 --shadow-map 64 -o "$dir/loud.png"
+status 0 render demo --size 64x48 --shadow-map 64 -q -o "$dir/hushed.png"
 check "-q says nothing" sh -c '! test -s "$1" && ! test -s "$2"' sh "$dir/out.txt" "$dir/err.txt"
-status 0 render demo --size 64x48 --light-map 64 -v -o "$dir/told.png"
+status 0 render demo --size 64x48 --shadow-map 64 -v -o "$dir/told.png"
 check "-v says how long what took" grep -q '^lambent: bands .* ms$' "$dir/err.txt"
 check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh "$dir/loud.png" "$dir/hushed.png" "$dir/told.png"
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm" -q
@@ -400,7 +400,7 @@ left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
 # The picture does not depend on how many threads draw it, nor on the machine's kernels.
 for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
-    check "render demo $option" "$TOOL" render demo --size 64x48 --light-map 128 --exposure 0 $option -o "$dir/way.ppm"
+    check "render demo $option" "$TOOL" render demo --size 64x48 --shadow-map 128 --exposure 0 $option -o "$dir/way.ppm"
     cp "$dir/way.ppm" "$dir/way$((ways = ways + 1)).ppm"
 done
 check "threads change the picture" cmp "$dir/way1.ppm" "$dir/way2.ppm"
@@ -495,7 +495,7 @@ done
 check "bounced light adds some" sh -c '! cmp -s "$1" "$2"' sh "$dir/floor.pfm" "$dir/floor--bounce.pfm"
 for views in 14 greedy:5 "$dir/cameras.txt"; do
     status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --triangles 20 --size 16 --packed --views $views
-    status 0 relief render "$dir/pit.lmr" -o "$dir/pit.ppm" --size 40x30 --light-map 0 --steps 1 --looks 2 --keep 1
+    status 0 relief render "$dir/pit.lmr" -o "$dir/pit.ppm" --size 40x30 --shadow-map 0 --steps 1 --pixel-views 2 --keep 1
 done
 status 1 relief bake "$dir/nowhere.obj" -o "$dir/bad.lmr"
 sed 's/\([0-9.]\{1,\}\)/\1e-10/g; /^[^v]/s/e-10//g' "$dir/pit.obj" >"$dir/speck.obj"
@@ -512,7 +512,7 @@ status 2 relief bake "$dir/pit.obj" -o "$dir/bad.lmr" --as-is
 status 2 relief render "$dir/pit.lmr"
 status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --pick q
 status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --eye 1,2,3
-status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --light-map 12
+status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --shadow-map 12
 status 0 relief --help
 status 0 relief bake --help
 status 0 relief render --help
@@ -524,7 +524,7 @@ two='\000\000\000\100'
 { printf 'Pf\n24 24\n-1.0\n'; head -c 2304 /dev/zero; } > "$dir/blind.pfm"
 printf 'v -1 0 -1\nv 1 0 -1\nv 0 0 1\nv 0 1 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n' > "$dir/tent.obj"
 seen="--photo $dir/photo.pfm --depth $dir/wall.pfm --intrinsics 30,30,11.5,11.5"
-tent="--object $dir/tent.obj --scale 0.2 --at 8,12 --light-map 64 --voxels 4"
+tent="--object $dir/tent.obj --scale 0.2 --at 8,12 --shadow-map 64 --voxels 4"
 status 0 mix $seen -o "$dir/same.pfm"
 check "without an object the photo stays as it is" cmp "$dir/photo.pfm" "$dir/same.pfm"
 status 0 mix $seen $tent --light sun:0,0,0:0.6,-0.2,-1:2,2,2 -o "$dir/mixed.pfm"
@@ -557,11 +557,11 @@ dot="--photo $dir/photo1.pfm --depth $dir/depth1.pfm --intrinsics 30,30,0,0"
 status 0 mix $dot -o "$dir/same.pfm"
 check "one pixel comes out as it went in" cmp "$dir/photo1.pfm" "$dir/same.pfm"
 status 1 mix $dot --object "$dir/tent.obj" -o "$dir/bad.png"
-status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 # A wall alone: the object stands on it, and that is said.
-status 0 mix $seen --object "$dir/tent.obj" --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+status 0 mix $seen --object "$dir/tent.obj" --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that no plane faces up is said" grep -q "no plane faces up" "$dir/err.txt"
-status 0 mix $seen --object "$dir/tent.obj" --scale 1.5 --light-map 64 --voxels 4 -o "$dir/mixed.pfm"
+status 0 mix $seen --object "$dir/tent.obj" --scale 1.5 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that the object is off the picture is said" grep -q "part of the object is off the picture" "$dir/err.txt"
 # Surroundings that shine in one colour light the object in that colour alone.
 { printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 6 ]; do printf "$one\000\000\000\000\000\000\000\000"; i=$((i + 1)); done; } > "$dir/red.pfm"
@@ -581,7 +581,7 @@ status 2 mix --photo "$dir/photo.pfm" --depth "$dir/wall.pfm" -o "$dir/bad.png"
 status 2 mix --photo "$dir/photo.pfm" -o "$dir/bad.png"
 status 2 mix $seen
 status 2 mix $seen -o "$dir/bad.png" --show nonsense
-status 2 mix $seen -o "$dir/bad.png" --light-map 100
+status 2 mix $seen -o "$dir/bad.png" --shadow-map 100
 status 2 mix $seen -o "$dir/bad.png" --roughness 2
 status 2 mix $seen -o "$dir/bad.png" --show object
 status 0 mix --help
@@ -629,29 +629,29 @@ status 2 bench gather bunny
 status 2 bench gather --linear
 # Speed against error: a sweep as table, CSV, JSON, SVG and one page.
 sweep="demo --size 24x16 --runs 1 --cache $dir/kept"
-status 0 bench $sweep --sweep tree=8,16,32 --light-map 64 --ledger 1 -o "$dir/swept" --svg "$dir/swept.svg"
+status 0 bench $sweep --sweep tree=8,16,32 --shadow-map 64 --breakdown 1 -o "$dir/swept" --svg "$dir/swept.svg"
 check "bench prints a line a setting" test "$(grep -cE '^(front|knee|     ) .*--tree (8|16|32) ' "$dir/out.txt")" -eq 3
-check "bench prints the ledger" grep -q '^error ledger of --tree 8' "$dir/out.txt"
+check "bench prints the breakdown" grep -q '^error breakdown of --tree 8' "$dir/out.txt"
 check "CSV: a head and three lines of as many columns" sh -c 'awk -F, "NR == 1 { n = NF } NF != n { exit 1 } END { exit NR != 4 }" "$1"' sh "$dir/swept.csv"
 check "JSON has the settings" grep -q '"setting": "--tree 32", .*"same_bytes": null' "$dir/swept.json"
 check "the page is whole, with pictures in it" sh -c 'tail -n 1 "$1" | grep -q "</html>$" && grep -q "src=\"data:image/png;base64,iVBOR" "$1"' sh "$dir/swept.html"
 check "the page asks for nothing else" sh -c '! grep -qE "<script|<link|url\(|src=\"[^d]" "$1"' sh "$dir/swept.html"
 check "SVG is whole" sh -c 'head -c 5 "$1" | grep -q "<svg " && tail -n 1 "$1" | grep -q "</svg>$"' sh "$dir/swept.svg"
-check "each setting has its command" grep -q '<pre>lambent render --show indirect --threads 1 demo --size 24x16 --light-map 64 -o picture.pfm --tree 8$' "$dir/swept.html"
+check "each setting has its command" grep -q '<pre>lambent render --show indirect --threads 1 demo --size 24x16 --shadow-map 64 -o picture.pfm --tree 8$' "$dir/swept.html"
 check "the truth is kept, once" test "$(ls "$dir/kept" | wc -l)" -eq 1
 cp "$dir/kept/"*.pfm "$dir/truth24.pfm"
-status 0 bench $sweep --sweep tree=64 --light-map 64 --ledger 0
+status 0 bench $sweep --sweep tree=64 --shadow-map 64 --breakdown 0
 check "by the scene and its settings" test "$(ls "$dir/kept" | wc -l)" -eq 1
-status 0 bench demo --runs 1 --light-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 --ledger 0
+status 0 bench demo --runs 1 --shadow-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 --breakdown 0
 check "a truth of one's own gives the size" grep -q -- '--size 24x16' "$dir/out.txt"
 # Refused before the work, whole or not at all.
 status 1 bench demo --size 4000x4000 -o "$dir/no/such/folder"
 status 1 bench demo --size 24x16 --truth "$dir/nothing.pfm"
-status 1 bench demo --size 32x16 --light-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 -o "$dir/unequal"
+status 1 bench demo --size 32x16 --shadow-map 64 --truth "$dir/truth24.pfm" --sweep tree=8 -o "$dir/unequal"
 absent "$dir/unequal.html"
 status 1 bench "$dir/nowhere.glb" -o "$dir/unequal"
 absent "$dir/unequal.csv"
-status 2 bench demo --light-map 64 --sweep tree=8,3
+status 2 bench demo --shadow-map 64 --sweep tree=8,3
 status 2 bench demo --sweep tree
 status 2 bench demo --runs 0
 status 2 bench demo --stats x.json
@@ -669,12 +669,12 @@ status 0 bench mix $seen --object "$dir/tent.obj" --light sun:0,0,0:0.6,-0.2,-1:
 status 2 bench mix $seen --show planes
 # --- plan: what is left out and why; budgets ---
 
-plan="--size 32x24 --light-map 64 --threads 1"
+plan="--size 32x24 --shadow-map 64 --threads 1"
 status 0 plan demo $plan
 check "a plan says that nothing is glossy" grep -q "^lobes .*left out (exact): nothing that is drawn is glossy" "$dir/out.txt"
 check "a plan counts bounced light" grep -q "^bounced light .*tiles' cuts, .* pairs" "$dir/out.txt"
 status 0 plan demo $plan --light point:0,1,0:0,-1,0:0,0,0
-check "a plan says that a lamp of 0 W gives nothing" grep -q "^bounced light .*(exact): no light meets a triangle" "$dir/out.txt"
+check "a plan says that a light of 0 W gives nothing" grep -q "^bounced light .*(exact): no light meets a triangle" "$dir/out.txt"
 status 0 plan demo $plan --show direct --json
 check "a plan's JSON says what is not shown" \
     grep -q '"stage": "bounced light", "runs": false, "why": "the picture does not show it", "proof": "exact"' "$dir/out.txt"

@@ -7,7 +7,7 @@
 dir=$B/hostile_cli
 rm -rf "$dir"
 mkdir -p "$dir"
-small="--size 32x24 --light-map 64 --exposure 0"
+small="--size 32x24 --shadow-map 64 --exposure 0"
 
 # refused NAMED ARGUMENT...: exit status 1 or 2, nothing on stdout, one line on stderr that names the file.
 refused() {

@@ -8,7 +8,7 @@ mkdir -p "$folder"
 trap 'rm -f "$folder"/grid.ply' EXIT
 check "the generator compiles" $CC $FLAGS -o "$folder/grid" tests/large/main_grid.c
 check "the generator runs" sh -c '"$1" "$2" >"$3"' sh "$folder/grid" "$squares" "$folder/grid.ply"
-check "the scene is drawn" "$TOOL" render "$folder/grid.ply" -o "$folder/grid.png" --size 320x240 --light-map 512 \
+check "the scene is drawn" "$TOOL" render "$folder/grid.ply" -o "$folder/grid.png" --size 320x240 --shadow-map 512 \
     --quality draft --occlusion none --stats "$folder/grid.json"
 
 figure() { sed -n "s/.*\"$1\": \([0-9.]*\).*/\1/p" "$folder/grid.json"; }

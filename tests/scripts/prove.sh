@@ -1,7 +1,7 @@
 # prove.sh: what two provers say of the raster's integers for all input there can be: prove.sh FOLDER.
 #
 # Frama-C's Eva takes each driver of tests/static through every value of its ranges at once: no signed overflow, no
-# number out of its conversion's range, no index outside its array, every assertion proven. Gappa bounds rounding.
+# number out of its conversion's range, no index outside its array, every assertion proved. Gappa bounds rounding.
 # Ends with a line `N passed, N failed, N skipped`.
 . tests/scripts/checks.sh
 folder=$1

@@ -15,16 +15,16 @@
 #include "../../src/raster/fill.c"
 
 enum {
-    SNAP_MOST = 1 << 22,
+    SNAP_MAX = 1 << 22,
     FRAME_24_8 = (LMB_MAX_FRAME / 2 + LMB_TILE) * 256,
-    CHANGE_MOST = 2 * (LMB_TILE - 1) * 2 * SNAP_MOST /* of an edge within a tile: 117,440,512 */
+    CHANGE_MAX = 2 * (LMB_TILE - 1) * 2 * SNAP_MAX /* of an edge within a tile: 117,440,512 */
 };
 
 static lmb_screen_vertex any_corner(void)
 {
     lmb_screen_vertex v;
-    v.x_24_8 = any_between(-SNAP_MOST, SNAP_MOST);
-    v.y_24_8 = any_between(-SNAP_MOST, SNAP_MOST);
+    v.x_24_8 = any_between(-SNAP_MAX, SNAP_MAX);
+    v.y_24_8 = any_between(-SNAP_MAX, SNAP_MAX);
     v.d = any_share();
     return v;
 }
@@ -66,13 +66,13 @@ static void cross_large(const lmb_setup *s, const large_edges *edges)
     const lmb_fill_tile tile = any_tile();
     const lmb_fill_job job = any_job();
     fill_triangle t;
-    /*@ assert -CHANGE_MOST <= e[0] <= FAR_INSIDE; */
+    /*@ assert -CHANGE_MAX <= e[0] <= FAR_INSIDE; */
     fill_set(&t, s->ex, s->ey, &job);
     for (int i = 0; i < FILL_ACROSS; ++i) {
         fill_column(&tile, &job, &t, e, job.d, &whole, i);
     }
     /* Held far inside, an edge stays inside. */
-    /*@ assert FAR_INSIDE - CHANGE_MOST > 0; */
+    /*@ assert FAR_INSIDE - CHANGE_MAX > 0; */
 }
 
 /* A place on the triangle, and whether it is a hole, know no integers of edges. */
@@ -103,14 +103,14 @@ static void cross_masked(const lmb_setup *s, int32_t x, int32_t y)
 static void ask_edges(const lmb_setup *s, const large_edges *edges)
 {
     for (int i = 0; i < 3; ++i) {
-        /*@ assert -2 * SNAP_MOST <= s->ex[i] <= 2 * SNAP_MOST && -2 * SNAP_MOST <= s->ey[i] <= 2 * SNAP_MOST; */
+        /*@ assert -2 * SNAP_MAX <= s->ex[i] <= 2 * SNAP_MAX && -2 * SNAP_MAX <= s->ey[i] <= 2 * SNAP_MAX; */
     }
     /*@ assert -1099511627776 <= edges->at.a <= 1099511627776; */
     /*@ assert -1099511627776 <= edges->at.b <= 1099511627776; */
     /*@ assert -1099511627776 <= edges->at.c <= 1099511627776; */
-    /*@ assert -CHANGE_MOST <= edges->low.a <= 0 && 0 <= edges->high.a <= CHANGE_MOST; */
-    /*@ assert -CHANGE_MOST <= edges->low.b <= 0 && 0 <= edges->high.b <= CHANGE_MOST; */
-    /*@ assert -CHANGE_MOST <= edges->low.c <= 0 && 0 <= edges->high.c <= CHANGE_MOST; */
+    /*@ assert -CHANGE_MAX <= edges->low.a <= 0 && 0 <= edges->high.a <= CHANGE_MAX; */
+    /*@ assert -CHANGE_MAX <= edges->low.b <= 0 && 0 <= edges->high.b <= CHANGE_MAX; */
+    /*@ assert -CHANGE_MAX <= edges->low.c <= 0 && 0 <= edges->high.c <= CHANGE_MAX; */
 }
 
 /* A box's side against any window of any frame. */
@@ -118,7 +118,7 @@ static void ask_spans(void)
 {
     const int32_t frame = any_between(1, LMB_MAX_FRAME), window = any_between(0, LMB_MAX_FRAME);
     const int32_t tiles = any_between(1, LMB_MAX_FRAME / LMB_TILE);
-    const int32_t low = any_between(-SNAP_MOST, SNAP_MOST), high = any_between(-SNAP_MOST, SNAP_MOST);
+    const int32_t low = any_between(-SNAP_MAX, SNAP_MAX), high = any_between(-SNAP_MAX, SNAP_MAX);
     int32_t first, last;
     const int32_t count = large_span(&first, low, high, 128 - frame * 128, window, tiles);
     /*@ assert first >= 0 && count <= LMB_MAX_FRAME / LMB_TILE; */

@@ -9,11 +9,11 @@
 #include "any.h"
 
 enum {
-    CORNER_MOST = 2047 + LMB_SMALL_24_8 - 1,
-    TILES = CORNER_MOST / 2048 + 1,
-    PX_MOST = CORNER_MOST / 256,
-    E_MOST = 1 << 22,
-    STEP_MOST = 22528 /* 16383 in truth; Eva's ranges know nothing of each other */
+    CORNER_MAX = 2047 + LMB_SMALL_24_8 - 1,
+    TILES = CORNER_MAX / 2048 + 1,
+    PX_MAX = CORNER_MAX / 256,
+    E_MAX = 1 << 22,
+    STEP_MAX = 22528 /* 16383 in truth; Eva's ranges know nothing of each other */
 };
 
 /* What setup_transform's conversions are given is snap.c's question; here is what they give. Corner a's are those of a
@@ -24,7 +24,7 @@ static lanei any_corner(lane at)
 {
     lanei r;
     (void)at;
-    r.v[0] = asked < 2 ? any_between(first_low[asked] + 1, first_low[asked] + 2047) : any_between(1, CORNER_MOST);
+    r.v[0] = asked < 2 ? any_between(first_low[asked] + 1, first_low[asked] + 2047) : any_between(1, CORNER_MAX);
     ++asked;
     return r;
 }
@@ -88,11 +88,11 @@ static lmb_setup_job any_job(void)
 
 static void ask_batch(const lmb_batch *b)
 {
-    /*@ assert 0 <= b->x0[0] <= PX_MOST + 1 && 0 <= b->x1[0] <= PX_MOST; */
-    /*@ assert 0 <= b->y0[0] <= PX_MOST + 1 && 0 <= b->y1[0] <= PX_MOST; */
+    /*@ assert 0 <= b->x0[0] <= PX_MAX + 1 && 0 <= b->x1[0] <= PX_MAX; */
+    /*@ assert 0 <= b->y0[0] <= PX_MAX + 1 && 0 <= b->y1[0] <= PX_MAX; */
     for (int i = 0; i < 3; ++i) {
-        /*@ assert -E_MOST <= b->e[i][0] <= E_MOST; */
-        /*@ assert -STEP_MOST <= b->ex[i][0] <= STEP_MOST && -STEP_MOST <= b->ey[i][0] <= STEP_MOST; */
+        /*@ assert -E_MAX <= b->e[i][0] <= E_MAX; */
+        /*@ assert -STEP_MAX <= b->ex[i][0] <= STEP_MAX && -STEP_MAX <= b->ey[i][0] <= STEP_MAX; */
     }
 }
 
@@ -139,13 +139,13 @@ int main(void)
 {
     lmb_batch b;
     for (int i = 0; i < 3; ++i) {
-        b.e[i][0] = any_between(-E_MOST, E_MOST);
-        b.ex[i][0] = any_between(-STEP_MOST, STEP_MOST);
-        b.ey[i][0] = any_between(-STEP_MOST, STEP_MOST);
+        b.e[i][0] = any_between(-E_MAX, E_MAX);
+        b.ex[i][0] = any_between(-STEP_MAX, STEP_MAX);
+        b.ey[i][0] = any_between(-STEP_MAX, STEP_MAX);
     }
     b.d[0] = any_float(), b.dx[0] = any_float(), b.dy[0] = any_float();
     b.d_min[0] = any_float(), b.d_max[0] = any_float();
-    b.x1[0] = any_between(0, PX_MOST), b.y1[0] = any_between(0, PX_MOST);
+    b.x1[0] = any_between(0, PX_MAX), b.y1[0] = any_between(0, PX_MAX);
     /*@ loop unroll 16; */
     for (int32_t i = 0; i < LMB_TILE + TILES - 1; ++i) {
         const int32_t at = i < LMB_TILE ? i : (i - LMB_TILE + 1) * LMB_TILE, window = i < LMB_TILE ? 0 : at;

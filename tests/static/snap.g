@@ -1,7 +1,7 @@
 # snap.g: what Gappa proves of setup.inl's conversions to 24.8: no small triangle's corner leaves what setup.c takes.
 #
 # A corner that is used has near <= w < 2^20 and -wide <= x <= wide (setup_transform's tests: the sign of a rounded sum
-# is the sum's own), and no view is nearer than 1e-30 m (lmb_view_is_sound). setup_floor then adds a half and takes one
+# is the sum's own), and no view is nearer than 1e-30 m (lmb_view_is_valid). setup_floor then adds a half and takes one
 # away at most: |corner| < 4194052, and 2^22 is 4194304. The two cases are quotients that round as numbers do, and those
 # so small that they may round as denormals do.
 @f = float<ieee_32, ne>;

@@ -203,13 +203,13 @@ static void mirror_at(stage *s, int place)
 {
     static float cube[3 * MIRRORED];
     static lmb_probe_rays rays;
-    const lmb_world_look look = {&s->world, 0.0f, 0};
+    const lmb_world_query query = {&s->world, 0.0f, 0};
     char file[40];
     image truth = {0};
     double sum = 0.0, mean = 0.0;
     int count = 0;
     snprintf(file, sizeof file, "pos%d_radiance.pfm", place + 1);
-    CHECK(lmb_probe_reflect(cube, MIRROR, &rays, lmb_kernels_pick(), &look, places[place], 0.0f) == LMB_OK);
+    CHECK(lmb_probe_reflect(cube, MIRROR, &rays, lmb_kernels_pick(), &query, places[place], 0.0f) == LMB_OK);
     if (load(&truth, file)) {
         for (int32_t i = 0; i < MIRRORED; ++i) {
             const int inside = is_inside(places[place], i);

@@ -28,8 +28,8 @@ typedef struct stage {
     lmb_render *render;
     void *map_memory, *point_memory, *tree_memory, *depth_memory, *id_memory;
     lmb_stats stats;
-    lmb_many many;
-    void *many_memory, *blocker_memory;
+    lmb_many_lights many_lights;
+    void *many_lights_memory, *bvh_memory;
     image drawn, depth; /* depth: the truth's, the third channel marks surfaces */
 } stage;
 
@@ -49,18 +49,18 @@ static void take_maps(stage *s)
     const lmb_scene *scene = &s->loaded.scene;
     lmb_frame *f = &s->frame;
     uint32_t faces = 0, side;
-    f->light_map = 1024;
+    f->shadow_map = 1024;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i], scene);
+        faces += (uint32_t)lmb_shadow_map_faces(&scene->lights[i], scene);
     }
-    while ((uint32_t)f->light_map * (uint32_t)f->light_map * faces > 2u << 20) {
-        f->light_map /= 2;
+    while ((uint32_t)f->shadow_map * (uint32_t)f->shadow_map * faces > 2u << 20) {
+        f->shadow_map /= 2;
     }
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        f->map_bytes += lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i], scene), f->light_map, LMB_ID32);
+        f->map_bytes += lmb_shadow_map_bytes(lmb_shadow_map_faces(&scene->lights[i], scene), f->shadow_map, LMB_ID32);
     }
     f->map_memory = s->map_memory = take(f->map_bytes);
-    side = (uint32_t)f->light_map / 8u;
+    side = (uint32_t)f->shadow_map / 8u;
     size_t bytes = lmb_points_bytes(side * side * 4u * faces, side);
     s->point_memory = take(bytes);
     CHECK(lmb_points_init(&f->points, side * side * 4u * faces, side, s->point_memory, bytes) == LMB_OK);
@@ -127,8 +127,8 @@ static int stage_open(stage *s, const char *name, const char *sized_as)
 
 static void stage_close(stage *s)
 {
-    free(s->many_memory);
-    free(s->blocker_memory);
+    free(s->many_lights_memory);
+    free(s->bvh_memory);
     free(s->map_memory);
     free(s->point_memory);
     free(s->tree_memory);
@@ -332,10 +332,10 @@ static void stream(stage *s, int parts)
     static lmb_light slice[100];
     const lmb_scene *scene = &s->loaded.scene;
     const lmb_vec3 low = {0, 0, 0}, high = {10, 4, 10};
-    const size_t bytes = lmb_many_bytes(MANY_CELLS);
+    const size_t bytes = lmb_many_lights_bytes(MANY_CELLS);
     test_rng r = {5};
-    s->many_memory = take(bytes);
-    CHECK(lmb_many_init(&s->many, MANY_CELLS, low, high, 100.0f, s->many_memory, bytes) == LMB_OK);
+    s->many_lights_memory = take(bytes);
+    CHECK(lmb_many_lights_init(&s->many_lights, MANY_CELLS, low, high, 100.0f, s->many_lights_memory, bytes) == LMB_OK);
     double spent = 0.0;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
         for (int k = 0; k < parts; ++k) {
@@ -350,14 +350,14 @@ static void stream(stage *s, int parts)
             }
         }
         const double start = seconds();
-        CHECK(lmb_many_add(&s->many, slice, (uint32_t)parts) == LMB_OK);
+        CHECK(lmb_many_lights_add(&s->many_lights, slice, (uint32_t)parts) == LMB_OK);
         spent += seconds() - start;
     }
     const double start = seconds();
-    CHECK(lmb_many_build(&s->many) == LMB_OK && s->many.dropped == 0);
+    CHECK(lmb_many_lights_build(&s->many_lights) == LMB_OK && s->many_lights.dropped == 0);
     printf("  %-17s %7u lights, %5u cells, %.1f MB, %.0f ns a light and %.1f ms for the tree\n", s->name,
-           (unsigned)s->many.lights, (unsigned)s->many.cell_count, (double)bytes * 1e-6,
-           spent * 1e9 / (double)s->many.lights, (seconds() - start) * 1e3);
+           (unsigned)s->many_lights.lights, (unsigned)s->many_lights.cell_count, (double)bytes * 1e-6,
+           spent * 1e9 / (double)s->many_lights.lights, (seconds() - start) * 1e3);
 }
 
 /* The shadow tests that it took; 0 where the scene is not there. */
@@ -372,14 +372,14 @@ static double check_many(const char *name, int parts)
     }
     if (truth_picture(&truth, name, "pt_direct.pfm") && truth_picture(&s.depth, name, "pt_direct.pfm")) {
         const uint32_t triangles = lmb_scene_triangles(&s.loaded.scene);
-        const size_t bytes = lmb_blockers_bytes(triangles);
+        const size_t bytes = lmb_bvh_bytes(triangles);
         stream(&s, parts);
         s.loaded.scene.light_count = 0;
         take_frame(&s);
-        s.blocker_memory = take(bytes);
-        CHECK(lmb_blockers_init(&s.frame.blockers, triangles, s.blocker_memory, bytes) == LMB_OK);
-        s.frame.many = &s.many;
-        s.frame.light_map = 8;
+        s.bvh_memory = take(bytes);
+        CHECK(lmb_bvh_init(&s.frame.bvh, triangles, s.bvh_memory, bytes) == LMB_OK);
+        s.frame.many_lights = &s.many_lights;
+        s.frame.shadow_map = 8;
         s.frame.occlusion = LMB_OCCLUSION_NONE;
         for (int i = 0; i < s.depth.width * s.depth.height; ++i) {
             s.depth.pixels[3 * i + 2] = 1.0f; /* a closed room: each pixel has a surface */
@@ -388,9 +388,9 @@ static double check_many(const char *name, int parts)
         stage_draw(&s, LMB_SHOW_DIRECT);
         const double spent = seconds() - start;
         if (measure(&m, &s, &truth)) {
-            tests = (double)s.frame.scratch->many.tests;
+            tests = (double)s.frame.scratch->many_lights.tests;
             printf("  %-17s rmse %.4f, trim %.4f, mean %.4f, %.0f nodes and %.0f shadow tests a tile, %.2f s\n", name,
-                   m.rmse, m.trim, m.mean, (double)s.frame.scratch->many.nodes / 1024.0, tests / 1024.0, spent);
+                   m.rmse, m.trim, m.mean, (double)s.frame.scratch->many_lights.nodes / 1024.0, tests / 1024.0, spent);
             CHECK_MSG(m.rmse <= 0.015, "%s: rmse %g", name, m.rmse);
             CHECK_MSG(m.mean >= 0.99 && m.mean <= 1.01, "%s: mean %g", name, m.mean);
         }
@@ -437,36 +437,36 @@ static void check_indirect(const char *name, int barred)
     stage_close(&s);
 }
 
-/* --- cuts of the light's tree ------------------------------------------------------------------------------------- */
+/* --- cuts of the light tree ------------------------------------------------------------------------------------- */
 
-/* In place of groups: the tree of a map of `size` texels a side, and all triangles as blockers. */
-static void take_tree(stage *s, int32_t size, float error, float visible)
+/* In place of groups: the tree of a map of `size` texels a side, and all triangles as the BVH. */
+static void take_tree(stage *s, int32_t size, float error, float visibility)
 {
     const lmb_scene *scene = &s->loaded.scene;
     lmb_frame *f = &s->frame;
     const uint32_t triangles = lmb_scene_triangles(scene);
     uint32_t faces = 0;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
-        faces += (uint32_t)lmb_light_map_faces(&scene->lights[i], scene);
+        faces += (uint32_t)lmb_shadow_map_faces(&scene->lights[i], scene);
     }
-    const size_t tree = lmb_tree_bytes(faces, size), blockers = lmb_blockers_bytes(triangles);
+    const size_t tree = lmb_tree_bytes(faces, size), bvh = lmb_bvh_bytes(triangles);
     free(s->tree_memory);
-    free(s->blocker_memory);
+    free(s->bvh_memory);
     s->tree_memory = take(tree);
-    s->blocker_memory = take(blockers);
+    s->bvh_memory = take(bvh);
     CHECK(lmb_tree_init(&f->tree, faces, size, s->tree_memory, tree) == LMB_OK);
-    CHECK(lmb_blockers_init(&f->blockers, triangles, s->blocker_memory, blockers) == LMB_OK);
-    f->light_map = size;
+    CHECK(lmb_bvh_init(&f->bvh, triangles, s->bvh_memory, bvh) == LMB_OK);
+    f->shadow_map = size;
     f->grouping.method = LMB_GROUP_CUT;
     f->occlusion = LMB_OCCLUSION_EXACT;
     f->error = error;
-    f->visible = visible;
+    f->visibility = visibility;
 }
 
 typedef struct cut_row {
     const char *name;
     int32_t map;
-    float error, visible;
+    float error, visibility;
     double trim, rmse, leak; /* bounds; leak: of its distance from 1, where there is one */
 } cut_row;
 
@@ -481,7 +481,7 @@ static void check_cut(const cut_row *row)
     }
     if (truth_picture(&s.depth, row->name, "gbuffer_depth.pfm") &&
         truth_picture(&truth, row->name, "pt_indirect1.pfm")) {
-        take_tree(&s, row->map, row->error, row->visible);
+        take_tree(&s, row->map, row->error, row->visibility);
         stage_draw(&s, LMB_SHOW_INDIRECT);
         if (measure(&m, &s, &truth)) {
             printf("  %-15s map %d, error %.2f: trim %.4f, rmse %.4f, e50 %.4f, mean %.4f, leak %.3f\n", row->name,
@@ -510,12 +510,12 @@ static void tile_errors(cut_errors *e, stage *s, lmb_cut *cut, const texel_quad 
 {
     lmb_band_scratch *scratch = s->frame.scratch;
     const lmb_tile *tile = &scratch->tile;
-    lmb_cutting how;
+    lmb_cut_params how;
     lmb_irradiance got;
     memset(&got, 0, sizeof got);
     memset(&how, 0, sizeof how);
-    how.error = how.visible = s->frame.proven ? 0.02f : 0.01f;
-    how.proven = s->frame.proven;
+    how.error = how.visibility = s->frame.conservative ? 0.02f : 0.01f;
+    how.conservative = s->frame.conservative;
     how.stats = &s->stats;
     CHECK(lmb_gather_cut(&got, s->frame.kernels, cut, tile, &s->render->frame.tree, &how) == LMB_OK);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -551,9 +551,9 @@ static float error_at(cut_errors *e, double share)
     return e->of[(int)(share * (e->count - 1))];
 }
 
-/* V27: without blockers, at error 0.02 from a map of 256 texels a side: against every texel, in one tile of 31. By the
+/* V27: without the BVH, at error 0.02 from a map of 256 texels a side: against every texel, in one tile of 31. By the
  * rule all but a thousandth of the pixels hold it, proven all. */
-static void check_cut_error(const char *name, int proven, double most_share)
+static void check_cut_error(const char *name, int conservative, double most_share)
 {
     stage s;
     cut_errors e = {NULL, NULL, 0, 0.0};
@@ -566,7 +566,7 @@ static void check_cut_error(const char *name, int proven, double most_share)
         const lmb_tree *tree = &s.render->frame.tree;
         texel_quad *quads = take(sizeof *quads * 65536u * tree->faces);
         const int quad_count = every_texel(quads, tree);
-        s.frame.proven = proven;
+        s.frame.conservative = conservative;
         memset(&s.stats, 0, sizeof s.stats);
         e.of = take(sizeof *e.of * (size_t)tiles * LMB_TILE_PIXELS);
         e.want = take(sizeof *e.want * (size_t)tiles * LMB_TILE_PIXELS);
@@ -575,10 +575,10 @@ static void check_cut_error(const char *name, int proven, double most_share)
                                    t % wide * LMB_TILE, t / wide * LMB_TILE) == LMB_OK);
             tile_errors(&e, &s, cut, quads, quad_count);
         }
-        const double p999 = (double)error_at(&e, proven ? 1.0 : 0.999), share = (double)s.stats.pairs / e.all;
-        printf("  %-15s %s %.4f of %d pixels, by %.1f %% of the pairs\n", name, proven ? "proven, most" : "p99.9", p999,
-               e.count, share * 100.0);
-        CHECK_MSG(p999 <= (proven ? 0.02 : 0.01), "%s: %g", name, p999);
+        const double p999 = (double)error_at(&e, conservative ? 1.0 : 0.999), share = (double)s.stats.pairs / e.all;
+        printf("  %-15s %s %.4f of %d pixels, by %.1f %% of the pairs\n", name, conservative ? "proved, most" : "p99.9",
+               p999, e.count, share * 100.0);
+        CHECK_MSG(p999 <= (conservative ? 0.02 : 0.01), "%s: %g", name, p999);
         CHECK_MSG(share <= most_share, "%s: %g", name, share);
         free(quads);
         stage_close(&s);

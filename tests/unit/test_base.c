@@ -1,4 +1,4 @@
-/* test_base.c: floor 1: elementary functions, codecs, surfaces, scene checks, mips.
+/* test_base.c: layer 1: elementary functions, codecs, surfaces, scene checks, mips.
  *
  * Accuracy is measured against libm in double; equality of machines by one hash over all outputs of a fixed sweep. */
 #include <math.h>
@@ -215,7 +215,7 @@ static void octahedral_normals(void)
     static const lmb_vec3 bad[] = {{0, 0, 0}, {NAN, 0, 0}, {0, INFINITY, 0}, {1e-30f, 0, 0}};
     worst w = {0, 0};
     test_rng rng = {3};
-    int16_t code[2], least[2] = {-32768, -32768};
+    int16_t code[2], min[2] = {-32768, -32768};
     int i, wide = 0;
     for (i = 0; i < 1000000; ++i) {
         lmb_vec3 n = random_point(&rng, 1.0f);
@@ -238,7 +238,7 @@ static void octahedral_normals(void)
         lmb_octahedral_encode(code, bad[i]);
         CHECK(code[0] == 0 && code[1] == 0);
     }
-    CHECK(lmb_octahedral_decode(least).z == -1.0f);
+    CHECK(lmb_octahedral_decode(min).z == -1.0f);
     for (i = 0; i < 1000; ++i) { /* axes: no rounding may leave the square */
         float length = test_uniform(&rng, 0.1f, 9.0f);
         lmb_octahedral_encode(code, vec3(-length, 0.0f, 0.0f));
@@ -300,7 +300,8 @@ static uint64_t sweep_hash(void)
         n = lmb_octahedral_decode(code);
         hash = hash_word(hash_word(hash, (uint16_t)code[0]), (uint16_t)code[1]);
         hash = hash_float(hash_float(hash_float(hash, n.x), n.y), n.z);
-        if (i % 100 == 0 && lmb_view_look(&view, mul3(n, angle), n, vec3(y, 1.0f, x), 2.0f + y, 640, 480) == LMB_OK) {
+        if (i % 100 == 0 &&
+            lmb_view_look_at(&view, mul3(n, angle), n, vec3(y, 1.0f, x), 2.0f + y, 640, 480) == LMB_OK) {
             hash = hash_float(hash_float(hash_float(hash, view.right.x), view.up.y), view.back.z);
             hash = hash_float(hash_float(hash, view.half_width), view.half_height);
         }
@@ -310,7 +311,7 @@ static uint64_t sweep_hash(void)
     return hash;
 }
 
-static void machines_agree(void)
+static void backends_agree(void)
 {
     uint64_t hash = sweep_hash();
     CHECK_MSG(hash == SWEEP_HASH, "hash of all functions is 0x%08x%08x", (unsigned)(hash >> 32),
@@ -490,27 +491,27 @@ static void views(void)
     lmb_vec3 eye = vec3(0, 0, 5), up = vec3(0, 1, 0), origin = vec3(0, 0, 0);
     test_rng rng = {5};
     int i, looks = 0;
-    CHECK(lmb_view_look(&v, eye, origin, up, 0.5f * LMB_PI, 640, 480) == LMB_OK);
+    CHECK(lmb_view_look_at(&v, eye, origin, up, 0.5f * LMB_PI, 640, 480) == LMB_OK);
     CHECK(v.right.x == 1.0f && v.up.y == 1.0f && v.back.z == 1.0f && v.kind == LMB_PERSPECTIVE && v.near_m > 0.0f);
     CHECK(absf(v.half_height - 1.0f) < 3e-7f && absf(v.half_width - 4.0f / 3.0f) < 4e-7f && v.frame_width == 640);
     CHECK(absf(lmb_depth_view_z(&v, v.near_m / 8.0f) - 8.0f) < 1e-6f && lmb_depth_view_z(&v, 0.0f) == 0.0f);
     v.kind = LMB_ORTHOGRAPHIC, v.near_m = 1.0f, v.far_m = 9.0f;
     CHECK(lmb_depth_view_z(&v, 1.0f) == 1.0f && lmb_depth_view_z(&v, 0.25f) == 7.0f);
     v.frame_width = -1;
-    CHECK(lmb_view_look(&v, eye, eye, up, 1.0f, 640, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, eye, origin, vec3(0, 0, -3), 1.0f, 640, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, eye, origin, vec3(0, 0, 0), 1.0f, 640, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, vec3(NAN, 0, 0), origin, up, 1.0f, 640, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, eye, origin, up, 0.0f, 640, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, eye, origin, up, LMB_PI, 640, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, eye, origin, up, NAN, 640, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, eye, origin, up, 1.0f, 0, 480) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(&v, eye, origin, up, 1.0f, 640, LMB_MAX_FRAME + 1) == LMB_ERR_ARG);
-    CHECK(lmb_view_look(NULL, eye, origin, up, 1.0f, 640, 480) == LMB_ERR_ARG && v.frame_width == -1);
-    CHECK(lmb_view_look(&v, eye, origin, up, 1.0f, LMB_MAX_FRAME, LMB_MAX_FRAME) == LMB_OK && lmb_view_is_sound(&v));
+    CHECK(lmb_view_look_at(&v, eye, eye, up, 1.0f, 640, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, eye, origin, vec3(0, 0, -3), 1.0f, 640, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, eye, origin, vec3(0, 0, 0), 1.0f, 640, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, vec3(NAN, 0, 0), origin, up, 1.0f, 640, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, eye, origin, up, 0.0f, 640, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, eye, origin, up, LMB_PI, 640, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, eye, origin, up, NAN, 640, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, eye, origin, up, 1.0f, 0, 480) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(&v, eye, origin, up, 1.0f, 640, LMB_MAX_FRAME + 1) == LMB_ERR_ARG);
+    CHECK(lmb_view_look_at(NULL, eye, origin, up, 1.0f, 640, 480) == LMB_ERR_ARG && v.frame_width == -1);
+    CHECK(lmb_view_look_at(&v, eye, origin, up, 1.0f, LMB_MAX_FRAME, LMB_MAX_FRAME) == LMB_OK && lmb_view_is_valid(&v));
     for (i = 0; i < 1000; ++i) { /* orthonormal and right-handed, with `up` almost along the view too */
         lmb_vec3 to = random_point(&rng, 9.0f), tilt = random_point(&rng, 1e-3f);
-        if (lmb_view_look(&v, eye, to, i & 1 ? up : add3(sub3(to, eye), tilt), 1.0f, 64, 64) != LMB_OK)
+        if (lmb_view_look_at(&v, eye, to, i & 1 ? up : add3(sub3(to, eye), tilt), 1.0f, 64, 64) != LMB_OK)
             continue;
         ++looks;
         CHECK(absf(dot3(v.right, v.up)) < 5e-7f && absf(dot3(v.right, v.back)) < 5e-7f &&
@@ -644,18 +645,18 @@ static void scene_extent(void)
     CHECK(lo.x == 0.0f && lo.z == 0.0f && hi.x == 0.0f && hi.y == 0.0f && lmb_scene_triangles(&s.scene) == 0);
 }
 
-static void scene_that_shines(void)
+static void scene_that_emits(void)
 {
     small_scene s;
     make_scene(&s);
-    CHECK(!lmb_scene_shines(&s.scene) && !lmb_scene_shines(NULL));
+    CHECK(!lmb_scene_emits(&s.scene) && !lmb_scene_emits(NULL));
     CHECK(!lmb_scene_is_glossy(&s.scene) && !lmb_scene_is_glossy(NULL));
     s.material.emission[2] = 1e-38f;
-    CHECK(lmb_scene_shines(&s.scene) && !lmb_scene_is_glossy(&s.scene));
+    CHECK(lmb_scene_emits(&s.scene) && !lmb_scene_is_glossy(&s.scene));
     s.material.specular[0] = 1e-38f;
     CHECK(lmb_scene_is_glossy(&s.scene));
     s.scene.material_count = 0;
-    CHECK(!lmb_scene_shines(&s.scene) && !lmb_scene_is_glossy(&s.scene));
+    CHECK(!lmb_scene_emits(&s.scene) && !lmb_scene_is_glossy(&s.scene));
 }
 
 /* Streams stand in arrays of 32-bit words so that they are aligned; their halves are written as such. */
@@ -775,7 +776,7 @@ void test_base(void)
     srgb_thresholds();
     octahedral_normals();
     octahedral_codes();
-    machines_agree();
+    backends_agree();
     surface_sizes();
     depth_layouts();
     colour_rows();
@@ -784,7 +785,7 @@ void test_base(void)
     views();
     scenes_refused();
     scene_extent();
-    scene_that_shines();
+    scene_that_emits();
     vertex_streams();
     mip_sizes();
     mips_of_constants();

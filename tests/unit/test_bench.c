@@ -1,11 +1,11 @@
-/* test_bench.c: the arithmetic of a sweep's report: front, knee, ledger; its files' texts; its command line. */
+/* test_bench.c: the arithmetic of a sweep's report: front, knee, breakdown; its files' texts; its command line. */
 #include <math.h>
 #include <string.h>
 
 #include "../../tools/bench/bench_chart.h"
 #include "../../tools/bench/bench_front.h"
 #include "../../tools/bench/bench_html.h"
-#include "../../tools/bench/bench_ledger.h"
+#include "../../tools/bench/bench_breakdown.h"
 #include "../../tools/bench/bench_sweep.h"
 #include "../../tools/bench/bench_task.h"
 #include "../../tools/bench/bench_table.h"
@@ -17,9 +17,9 @@ void test_bench(void);
 
 /* --- front and knee ----------------------------------------------------------------------------------------------- */
 
-static bench_point *add(bench_report *b, const char *name, double time_s, double error)
+static bench_point *add(bench_results *b, const char *name, double time_s, double error)
 {
-    bench_point *p = bench_report_add(b);
+    bench_point *p = bench_results_add(b);
     snprintf(p->name, sizeof p->name, "%s", name);
     p->time_s = time_s;
     p->figure[0] = error;
@@ -29,7 +29,7 @@ static bench_point *add(bench_report *b, const char *name, double time_s, double
 
 static void check_front(void)
 {
-    bench_report b;
+    bench_results b;
     int order[BENCH_POINTS];
     memset(&b, 0, sizeof b);
     add(&b, "slow and good", 100.0, 0.001);
@@ -46,12 +46,12 @@ static void check_front(void)
     CHECK(order[0] == 2 && order[1] == 3 && order[2] == 0);
     /* Halfway in time (1 of 3 decades), and nearly down: 1 - 1/3 - log(10)/log(500) under the line. */
     CHECK(b.point[3].is_knee && !b.point[0].is_knee && !b.point[2].is_knee);
-    bench_report_free(&b);
+    bench_results_free(&b);
 }
 
 static void check_knee(void)
 {
-    bench_report b;
+    bench_results b;
     memset(&b, 0, sizeof b);
     add(&b, "a", 1.0, 1.0);
     add(&b, "b", 100.0, 0.01);
@@ -66,13 +66,14 @@ static void check_knee(void)
     CHECK(!b.point[2].on_front && !b.point[3].is_knee && b.point[4].is_knee);
     add(&b, "exact", 200.0, 0.0);
     CHECK(bench_front(&b) == 5); /* an error of 0 has no logarithm */
-    bench_report_free(&b);
+    bench_results_free(&b);
 }
 
-/* --- the ledger --------------------------------------------------------------------------------------------------- */
+/* --- the breakdown ---------------------------------------------------------------------------------------------------
+ * */
 
 /* Two pixels that count and one that does not. Steps that do not overlap add up; equal ones count twice twice. */
-static void check_ledger(void)
+static void check_breakdown(void)
 {
     static const float a[9] = {1.5f, 1.5f, 1.5f, 1.0f, 1.0f, 1.0f, 9.0f, 9.0f, 9.0f};
     static const float b[9] = {1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f};
@@ -80,17 +81,17 @@ static void check_ledger(void)
     static const float d[9] = {0.5f, 0.5f, 0.5f, 1.0f, 1.0f, 1.0f, 9.0f, 9.0f, 9.0f};
     static const uint8_t counts[3] = {1, 1, 0}, none[3] = {0, 0, 0};
     const float *apart[3] = {a, b, c}, *along[3] = {a, b, d};
-    bench_ledger l;
+    bench_breakdown l;
     memset(&l, 0, sizeof l);
     l.rows = 2;
-    CHECK(bench_ledger_sum(&l, apart, counts, 3));
+    CHECK(bench_breakdown_sum(&l, apart, counts, 3));
     const double mean2 = 0.75 * 0.75; /* of the truth, c */
     CHECK_MSG(fabs(l.row[0].square - 0.125 / mean2) < 1e-12, "%.9g", l.row[0].square);
     CHECK_MSG(fabs(l.row[1].square - 0.125 / mean2) < 1e-12, "%.9g", l.row[1].square);
     CHECK_MSG(fabs(l.total - l.sum) < 1e-12, "%.9g %.9g", l.total, l.sum);
-    CHECK(bench_ledger_sum(&l, along, counts, 3));
+    CHECK(bench_breakdown_sum(&l, along, counts, 3));
     CHECK_MSG(fabs(l.total - 2.0 * l.sum) < 1e-12, "%.9g %.9g", l.total, l.sum);
-    CHECK(!bench_ledger_sum(&l, apart, none, 3));
+    CHECK(!bench_breakdown_sum(&l, apart, none, 3));
 }
 
 /* Of 200 pixels the two worst of each picture are left out, from all steps. */
@@ -99,7 +100,7 @@ static void check_trim(void)
     static float a[600], b[600], truth[600];
     static uint8_t counts[200];
     const float *picture[3] = {a, b, truth};
-    bench_ledger l;
+    bench_breakdown l;
     memset(&l, 0, sizeof l);
     l.rows = 2;
     for (int i = 0; i < 600; ++i) {
@@ -108,7 +109,7 @@ static void check_trim(void)
         b[i] = i / 3 == 10 ? 500.0f : 1.0f;
         counts[i / 3] = 1;
     }
-    CHECK(bench_ledger_sum(&l, picture, counts, 200));
+    CHECK(bench_breakdown_sum(&l, picture, counts, 200));
     CHECK_MSG(fabs(l.total - 0.01) < 1e-6 && fabs(l.row[0].square - 0.01) < 1e-6 && l.row[1].square == 0.0,
               "%.9g = %.9g + %.9g", l.total, l.row[0].square, l.row[1].square);
 }
@@ -117,34 +118,34 @@ static void check_trim(void)
 
 static void check_page(void)
 {
-    page p;
+    text_buffer p;
     memset(&p, 0, sizeof p);
-    page_html(&p, "<a href=\"b&c\">");
-    page_plain(&p, "|");
-    page_json(&p, "a\"\\\n");
-    page_plain(&p, "|");
-    page_csv(&p, "plain");
-    page_csv(&p, ",a,\"b\"");
-    page_plain(&p, "|");
-    page_base64(&p, (const uint8_t *)"light", 5);
-    page_base64(&p, (const uint8_t *)"work", 4);
-    page_base64(&p, (const uint8_t *)"sun", 3);
+    text_buffer_html(&p, "<a href=\"b&c\">");
+    text_buffer_plain(&p, "|");
+    text_buffer_json(&p, "a\"\\\n");
+    text_buffer_plain(&p, "|");
+    text_buffer_csv(&p, "plain");
+    text_buffer_csv(&p, ",a,\"b\"");
+    text_buffer_plain(&p, "|");
+    text_buffer_base64(&p, (const uint8_t *)"light", 5);
+    text_buffer_base64(&p, (const uint8_t *)"work", 4);
+    text_buffer_base64(&p, (const uint8_t *)"sun", 3);
     CHECK_MSG(
         strcmp(p.data,
                "&lt;a href=&quot;b&amp;c&quot;&gt;|\"a\\\"\\\\\\u000a\"|plain\",a,\"\"b\"\"\"|bGlnaHQ=d29yaw==c3Vu") ==
             0,
         "%s", p.data);
-    page_free(&p);
+    text_buffer_free(&p);
     for (int i = 0; i < 5000; ++i) {
-        page_add(&p, "%04d", i);
+        text_buffer_add(&p, "%04d", i);
     }
     CHECK(p.size == 20000 && strlen(p.data) == 20000 && memcmp(p.data + 4 * 4321, "4321", 4) == 0);
-    page_free(&p);
+    text_buffer_free(&p);
 }
 
 static void check_says(void)
 {
-    bench_report b;
+    bench_results b;
     char text[BENCH_NAME];
     memset(&b, 0, sizeof b);
     static const struct {
@@ -169,8 +170,8 @@ static void check_says(void)
 /* Every text comes out whole whatever a file or a scene is called. */
 static void check_files(void)
 {
-    bench_report b;
-    page p;
+    bench_results b;
+    text_buffer p;
     memset(&b, 0, sizeof b);
     memset(&p, 0, sizeof p);
     b.figure[0] = "trim";
@@ -182,12 +183,12 @@ static void check_files(void)
     bench_front(&b);
     bench_csv(&p, &b);
     CHECK_MSG(strstr(p.data, "\n--tree 64,,front,0.5,0.5,0.7,0,0,,1,,,\n") != NULL, "%s", p.data);
-    page_free(&p);
+    text_buffer_free(&p);
     bench_html(&p, &b);
     CHECK(strstr(p.data, "'&lt;b&gt;.glb'") != NULL && strstr(p.data, "<b>.glb") == NULL);
     CHECK(strstr(p.data, "</body></html>\n") == p.data + p.size - 15);
-    page_free(&p);
-    bench_report_free(&b);
+    text_buffer_free(&p);
+    bench_results_free(&b);
 }
 
 /* --- what the truth is kept by ------------------------------------------------------------------------------------ */
@@ -258,7 +259,7 @@ void test_bench(void)
 {
     check_front();
     check_knee();
-    check_ledger();
+    check_breakdown();
     check_trim();
     check_page();
     check_says();

@@ -52,7 +52,7 @@ static lmb_point point_data[POINTS];
 static uint32_t point_cells[SIDE * SIDE + 1];
 static lmb_points points;
 static uint32_t map_memory[6 * SIDE * SIDE * 2];
-static lmb_light_map map; /* of the light that add_points saw last */
+static lmb_shadow_map map; /* of the light that add_points saw last */
 static lmb_tile tile;
 static lmb_groups groups;
 static lmb_stats stats;
@@ -69,10 +69,10 @@ static void clear_points(void)
 static void add_points(const lmb_light *light, int32_t size, const lmb_grouping *g, int join)
 {
     const lmb_kernels *k = lmb_kernels_pick();
-    lmb_status status = lmb_light_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory);
-    lmb_light_map_clear(&map);
+    lmb_status status = lmb_shadow_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory);
+    lmb_shadow_map_clear(&map);
     if (status == LMB_OK) {
-        status = lmb_light_map_draw(&map, k, &world.scene, 1, WORLD_TRIANGLES, NULL);
+        status = lmb_shadow_map_draw(&map, k, &world.scene, 1, WORLD_TRIANGLES, NULL);
     }
     for (int32_t f = 0; f < map.faces && status == LMB_OK; ++f) {
         if ((map.drawn >> f) & 1u) {
@@ -170,8 +170,8 @@ static void check_places(lmb_light light, int32_t block)
     for (uint32_t i = 0; i < points.count; ++i) {
         const lmb_point *p = &points.data[i];
         lmb_vec3 d = sub3(p->position, light.position), n = p->normal, q = p->position;
-        float most = maxf(absf(q.x), maxf(absf(q.y), absf(q.z))), w = -dot3(map.view[0].back, d);
-        off += absf(dot3(n, q) + 1.0f) > 1e-5f || most > 1.0f + texel / 128.0f; /* vertices stand on 1/256 texel */
+        float max = maxf(absf(q.x), maxf(absf(q.y), absf(q.z))), w = -dot3(map.view[0].back, d);
+        off += absf(dot3(n, q) + 1.0f) > 1e-5f || max > 1.0f + texel / 128.0f; /* vertices stand on 1/256 texel */
         turned += maxf(absf(n.x), maxf(absf(n.y), absf(n.z))) < 0.999999f || absf(length3(n) - 1.0f) > 1e-5f;
         away += !(dot3(n, d) < 0.0f);
         outside += light.kind == LMB_LIGHT_SPOT &&
@@ -243,7 +243,7 @@ static void check_albedo(void)
 {
     static const uint8_t texels[2][4] = {{0, 0, 0, 255}, {255, 255, 255, 255}};
     lmb_light l = sun(vec3(0, -1, 0));
-    float worst = 0.0f, least = 1.0f, most = 0.0f;
+    float worst = 0.0f, min = 1.0f, max = 0.0f;
     uint32_t grey = 0, dark = 0, bright = 0;
     begin_coloured(1, 1, 1);
     world_quad(vec3(0, 0, 0), Z, X);
@@ -255,10 +255,10 @@ static void check_albedo(void)
     for (uint32_t i = 0; i < points.count; ++i) {
         float a = points.data[i].albedo[0];
         worst = maxf(worst, absf(a - 0.5f * (1.0f + points.data[i].position.x)));
-        least = minf(least, a);
-        most = maxf(most, a);
+        min = minf(min, a);
+        max = maxf(max, a);
     }
-    CHECK_MSG(worst < 0.005f && least < 0.05f && most > 0.95f, "%g %g %g", (double)worst, (double)least, (double)most);
+    CHECK_MSG(worst < 0.005f && min < 0.05f && max > 0.95f, "%g %g %g", (double)worst, (double)min, (double)max);
     memset(colours, 255, sizeof colours);
     for (int i = 0; i < 6; ++i) {
         world.uvs[i / 3][i % 3][0] = world.corners[i / 3][i % 3][0] > 0.0f ? 1.0f : 0.0f;
@@ -511,9 +511,9 @@ static distances distances_of(const lmb_light *l, const lmb_grouping *g)
     distances d = {0.0, 0.0, 0.0};
     uint32_t count = 0;
     clear_points();
-    CHECK(lmb_light_map_init(&map, l, &world.scene, SIDE / 2, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
-    CHECK(lmb_light_map_clear(&map) == LMB_OK);
-    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_init(&map, l, &world.scene, SIDE / 2, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    CHECK(lmb_shadow_map_clear(&map) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
     for (int32_t f = 0; f < map.faces; ++f) {
         if ((map.drawn >> f & 1u) == 0) {
             continue;
@@ -547,7 +547,7 @@ static lmb_grouping neighbours_within(float metres, int32_t cells, uint32_t flag
     return g;
 }
 
-/* V8 V9 V10: any point within the radius, in space or in the map, however a light's map foreshortens it. Of
+/* V8 V9 V10: any point within the radius, in space or in the map, however a shadow map foreshortens it. Of
  * 64 x 64 cells every second one each way stands for all where the radius spans more than half of them. */
 static void check_radii(void)
 {
@@ -954,15 +954,15 @@ static void check_repeats(void)
 /* In cells, squared: from each disc to the next of its face. */
 static int32_t least_step(void)
 {
-    int32_t least = 1 << 20;
+    int32_t min = 1 << 20;
     for (uint32_t i = 0; i < points.count; ++i) {
         for (uint32_t j = i + 1; j < points.count; ++j) {
             int32_t x = points.data[i].cell_x - points.data[j].cell_x;
             int32_t y = points.data[i].cell_y - points.data[j].cell_y;
-            least = x * x + y * y < least ? x * x + y * y : least;
+            min = x * x + y * y < min ? x * x + y * y : min;
         }
     }
-    return least;
+    return min;
 }
 
 /* V14, V15: over a plane of 32 x 32 points: a disc of each `thin`, none much nearer to another than an even spread has
@@ -973,7 +973,7 @@ static void check_thinned_plane(int32_t thin)
     lmb_light l = sun(vec3(0, -1, 0));
     lmb_grouping g = grouping_of(LMB_GROUP_ZONES, 0, 8);
     uint32_t disordered = 0;
-    float most = 0.0f;
+    float max = 0.0f;
     begin_coloured(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), Z, X);
     CHECK(world_end() == LMB_OK);
@@ -993,11 +993,11 @@ static void check_thinned_plane(int32_t thin)
     for (int32_t i = 0; i < count; ++i) {
         const lmb_point *p = &points.data[i];
         disordered += i > 0 && p->cell_y * side + p->cell_x <= p[-1].cell_y * side + p[-1].cell_x;
-        most = maxf(most, is_inner(p, side) ? p->flux[0] : 0.0f);
+        max = maxf(max, is_inner(p, side) ? p->flux[0] : 0.0f);
     }
     CHECK(disordered == 0);
-    CHECK_MSG((double)most < 2.5 * thin * flux / all, "1 of %d: one has %g times a point's", (int)thin,
-              (double)most * all / flux);
+    CHECK_MSG((double)max < 2.5 * thin * flux / all, "1 of %d: one has %g times a point's", (int)thin,
+              (double)max * all / flux);
 }
 
 /* In a room: each surface keeps a disc, normals stay within what counts as one surface, nothing is lost. */
@@ -1481,11 +1481,11 @@ static void check_shapes(void)
     }
     CHECK(memcmp(&far[0], &far[1], sizeof far[0]) == 0 && memcmp(&far[0], &far[2], sizeof far[0]) == 0);
     CHECK(memcmp(&near[0], &near[1], sizeof near[0]) != 0 && memcmp(&near[0], &near[2], sizeof near[0]) != 0);
-    float most = 0.0f;
+    float max = 0.0f;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        most = maxf(most, far[0].rgb[0][k]);
+        max = maxf(max, far[0].rgb[0][k]);
     }
-    CHECK(most > 0.0f);
+    CHECK(max > 0.0f);
 }
 
 static void check_linear(const lmb_occluder *o)

@@ -26,7 +26,7 @@ static lmb_frame demo_frame(const lmb_scene *scene)
     f.scene = scene;
     f.view = demo_view(W, H);
     f.show = LMB_SHOW_INDIRECT;
-    f.light_map = MAP;
+    f.shadow_map = MAP;
     f.grouping.groups = 40;
     f.occlusion = LMB_OCCLUSION_VIEW;
     f.map_memory = map_memory;
@@ -100,8 +100,8 @@ static void test_raster_refuses(void)
     t = f.eye;
     t.id.stride_bytes += 1;
     CHECK(lmb_draw(&t, f.kernels, &f.view, f.scene, 1, 5, 0, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_bytes(1, 64, 99) == 0 && lmb_light_map_bytes(1, 60, LMB_ID16) == 0 &&
-          lmb_light_map_bytes(7, 64, LMB_ID16) == 0 && lmb_light_map_bytes(6, 64, LMB_ID16) == 6 * 64 * 64 * 6);
+    CHECK(lmb_shadow_map_bytes(1, 64, 99) == 0 && lmb_shadow_map_bytes(1, 60, LMB_ID16) == 0 &&
+          lmb_shadow_map_bytes(7, 64, LMB_ID16) == 0 && lmb_shadow_map_bytes(6, 64, LMB_ID16) == 6 * 64 * 64 * 6);
     CHECK(lmb_points_bytes(100, 8) == 100 * sizeof(lmb_point) + 65 * 4 && lmb_points_bytes(1, LMB_MAX_SIDE + 1) == 0);
     if (sizeof(size_t) == 4) {
         CHECK(lmb_points_bytes(48806447u, 8) == 0);

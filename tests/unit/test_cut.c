@@ -1,4 +1,4 @@
-/* test_cut.c: each tile's cut of the light's tree, against every texel one by one. [V25 V27 V28] */
+/* test_cut.c: each tile's cut of the light tree, against every texel one by one. [V25 V27 V28] */
 #include <stdlib.h>
 
 #include "../every_texel.h"
@@ -8,7 +8,7 @@ void test_cut(void);
 
 enum { FRAME = 64, BANDS = FRAME / LMB_TILE, PIXELS = FRAME * FRAME };
 
-static uint32_t depth_memory[PIXELS], id_memory[PIXELS], blocker_memory[1 << 16];
+static uint32_t depth_memory[PIXELS], id_memory[PIXELS], bvh_memory[1 << 16];
 static lmb_target eye;
 static lmb_tile tile;
 
@@ -35,18 +35,18 @@ static int canary_stays(void)
     return good;
 }
 
-static lmb_cutting cutting_of(float error, const lmb_blockers *blockers)
+static lmb_cut_params cut_params_of(float error, const lmb_bvh *bvh)
 {
-    lmb_cutting c;
+    lmb_cut_params c;
     memset(&c, 0, sizeof c);
     c.error = error;
-    c.visible = 0.02f;
-    c.blockers = blockers;
+    c.visibility = 0.02f;
+    c.bvh = bvh;
     c.stats = &stats;
     return c;
 }
 
-static void gather(lmb_irradiance *out, const lmb_cutting *how)
+static void gather(lmb_irradiance *out, const lmb_cut_params *how)
 {
     memset(out, 0, sizeof *out);
     CHECK(lmb_gather_cut(out, lmb_kernels_pick(), &cut.it, &tile, &lit, how) == LMB_OK);
@@ -162,8 +162,8 @@ static double error_at(double share)
 /* W/m2 that is rounding, where light is some tenths: of texels in the pixel's own plane, which cuts leave out. */
 #define NOTHING 1e-5
 
-/* Without blockers: a view's pixels in every third tile. */
-static double compare_view(const lmb_view *v, const lmb_cutting *how)
+/* Without the BVH: a view's pixels in every third tile. */
+static double compare_view(const lmb_view *v, const lmb_cut_params *how)
 {
     double pairs = 0.0;
     draw_view(v);
@@ -184,31 +184,32 @@ static double compare_view(const lmb_view *v, const lmb_cutting *how)
     return pairs;
 }
 
-/* V27: within `error` of all texels one by one, by a small share of them: 999 pixels of 1,000; proven: all. */
-static void check_error(float error, int proven, double bound, double most_share)
+/* V27: within `error` of all texels one by one, by a small share of them: 999 pixels of 1,000; conservative: all. */
+static void check_error(float error, int conservative, double bound, double most_share)
 {
     double pairs = 0.0;
     error_count = 0;
     begin_cut();
-    for (int room = 0; room < (proven ? 2 : 6); ++room) { /* proofs take ten times as long */
+    for (int room = 0; room < (conservative ? 2 : 6); ++room) { /* proofs take ten times as long */
         test_rng r = {(uint64_t)(90 + room)};
-        lmb_cutting how = cutting_of(error, NULL);
-        how.proven = proven;
+        lmb_cut_params how = cut_params_of(error, NULL);
+        how.conservative = conservative;
         make_room(&r);
         const lmb_light light = room_light(&r, room);
-        lit_begin((uint32_t)lmb_light_map_faces(&light, &world.scene), LIT_SMALL / 2, 0);
+        lit_begin((uint32_t)lmb_shadow_map_faces(&light, &world.scene), LIT_SMALL / 2, 0);
         lit_add(&light);
         take_quads();
         const lmb_view v = look(mul3(random_point(&r, 1.0f), 0.9f), random_point(&r, 0.3f), 80, FRAME);
         const int first = error_count;
         pairs += compare_view(&v, &how);
-        sort_errors(first, proven ? 1e-6 : 1e-3);
+        sort_errors(first, conservative ? 1e-6 : 1e-3);
     }
     const double p999 = error_at(0.999), share = (double)stats.pairs / pairs;
     printf("  %s %.2f: p50 %.5f, p99.9 %.5f, most %.5f of %d pixels by %.1f %% of the pairs\n",
-           proven ? "bound" : "error", (double)error, error_at(0.5), p999, error_at(1.0), error_count, share * 100.0);
-    CHECK(error_count > (proven ? 1500 : 5000) && canary_stays());
-    CHECK_MSG((proven ? error_at(1.0) : p999) <= bound, "%g", p999);
+           conservative ? "bound" : "error", (double)error, error_at(0.5), p999, error_at(1.0), error_count,
+           share * 100.0);
+    CHECK(error_count > (conservative ? 1500 : 5000) && canary_stays());
+    CHECK_MSG((conservative ? error_at(1.0) : p999) <= bound, "%g", p999);
     CHECK_MSG(share <= most_share, "%g", share);
 }
 
@@ -254,31 +255,32 @@ static void check_sane(const char *what, const lmb_irradiance *got, double bound
  * the nodes they have, and counted. */
 static void check_full(void)
 {
-    lmb_cutting how = cutting_of(1e-9f, NULL);
+    lmb_cut_params how = cut_params_of(1e-9f, NULL);
     lmb_irradiance got;
-    lmb_blockers b;
+    lmb_bvh b;
     lit_box();
     take_quads();
     CHECK(quad_count > LMB_MAX_CUT);
-    CHECK(lmb_blockers_init(&b, world.count, blocker_memory, sizeof blocker_memory) == LMB_OK);
-    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
+    CHECK(lmb_bvh_init(&b, world.count, bvh_memory, sizeof bvh_memory) == LMB_OK);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK);
     floor_tile(vec3(-0.3f, -1, -0.3f), 0.05f);
-    for (int blocked = 0; blocked < 2; ++blocked) {
+    for (int occluded = 0; occluded < 2; ++occluded) {
         begin_cut();
-        how.blockers = blocked ? &b : NULL;
-        how.visible = 1e-9f;
+        how.bvh = occluded ? &b : NULL;
+        how.visibility = 1e-9f;
         gather(&got, &how);
         CHECK_MSG(stats.full_cuts > 0 && stats.pairs > LMB_MAX_CUT, "%.0f", (double)stats.full_cuts);
-        check_sane(blocked ? "full, blocked" : "full", &got, 0.02);
+        check_sane(occluded ? "full, blocked" : "full", &got, 0.02);
     }
 }
 
 /* The promise at the end of a cut: either no node can be divided, or none has room, or the root of the errors' squares'
- * sum is under `error` of what the nodes give. Right on a lit wall too, where nodes that hold the tile may give any amount. */
+ * sum is under `error` of what the nodes give. Right on a lit wall too, where nodes that hold the tile may give any
+ * amount. */
 static void check_promise(void)
 {
     static const float places[][3] = {{-0.3f, -1, -0.3f}, {-0.999f, -0.999f, -0.999f}, {0.5f, 0.99f, 0.5f}};
-    const lmb_cutting how = cutting_of(0.02f, NULL);
+    const lmb_cut_params how = cut_params_of(0.02f, NULL);
     lmb_irradiance got;
     lit_box();
     for (int p = 0; p < 9; ++p) {
@@ -288,7 +290,7 @@ static void check_promise(void)
                    p % 3 == 0 ? 0.0001f : 0.003f * (float)p);
         gather(&got, &how);
         for (int32_t i = 0; i < cut.it.count; ++i) {
-            const int is_node = cut.it.place[i].level != 0xffff;
+            const int is_node = cut.it.ref[i].level != 0xffff;
             error += is_node ? (double)cut.it.error[i] * (double)cut.it.error[i] : 0.0;
             value += is_node ? (double)cut.it.value[i] : 0.0;
         }
@@ -302,7 +304,7 @@ static void check_promise(void)
 /* Doubled light is doubled, to the bit. */
 static void check_linear(void)
 {
-    const lmb_cutting how = cutting_of(0.02f, NULL);
+    const lmb_cut_params how = cut_params_of(0.02f, NULL);
     lmb_irradiance once, twice;
     int wrong = 0;
     lit_box();
@@ -335,7 +337,7 @@ static int is_dark(const lmb_irradiance *e)
 /* No face, a face without light, one lit texel; no surface under the tile. What is there is added to. */
 static void check_small(void)
 {
-    const lmb_cutting how = cutting_of(0.02f, NULL);
+    const lmb_cut_params how = cut_params_of(0.02f, NULL);
     lmb_irradiance got, more;
     lit_box();
     floor_tile(vec3(-0.3f, -1, -0.3f), 0.05f);
@@ -370,7 +372,7 @@ static void check_small(void)
 
 static void check_refused(void)
 {
-    lmb_cutting how = cutting_of(0.02f, NULL);
+    lmb_cut_params how = cut_params_of(0.02f, NULL);
     lmb_irradiance out;
     lmb_tree none = lit;
     const lmb_kernels *k = lmb_kernels_pick();
@@ -385,8 +387,8 @@ static void check_refused(void)
     CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, &lit, NULL) == LMB_ERR_ARG);
     how.error = 0.0f;
     CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, &lit, &how) == LMB_ERR_ARG);
-    how = cutting_of(0.02f, NULL);
-    how.visible = -1.0f;
+    how = cut_params_of(0.02f, NULL);
+    how.visibility = -1.0f;
     CHECK(lmb_gather_cut(&out, k, &cut.it, &tile, &lit, &how) == LMB_ERR_ARG);
     CHECK(is_dark(&out));
 }
@@ -443,13 +445,13 @@ static void compare_door(door_figures *d, const lmb_irradiance *got)
 
 /* V25, V26: light in the room at x < 0 alone, and a view of the other. Where no lit texel is seen it is exactly dark;
  * where some are, it is what they give, but for nodes that are seen or not as one. */
-static void check_door(float visible, double p95)
+static void check_door(float visibility, double p95)
 {
     const lmb_light light = spot(vec3(-0.3f, 0.2f, 0.1f), vec3(-1, -0.5f, 0.1f), 20, 45);
     const lmb_view v = look(vec3(0.95f, 0.6f, -0.8f), vec3(0.2f, -0.7f, 0.3f), 90, FRAME);
-    lmb_cutting how = cutting_of(0.02f, NULL);
+    lmb_cut_params how = cut_params_of(0.02f, NULL);
     door_figures d = {0, 0, 0.0, 0.0};
-    lmb_blockers b;
+    lmb_bvh b;
     int beyond = 0;
     make_rooms();
     lit_begin(1, LIT_SMALL / 2, 0);
@@ -458,10 +460,10 @@ static void check_door(float visible, double p95)
     for (int i = 0; i < quad_count; ++i) {
         beyond += quads[i].middle.x >= -1e-3f;
     }
-    CHECK(lmb_blockers_init(&b, world.count, blocker_memory, sizeof blocker_memory) == LMB_OK);
-    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
-    how.blockers = &b;
-    how.visible = visible;
+    CHECK(lmb_bvh_init(&b, world.count, bvh_memory, sizeof bvh_memory) == LMB_OK);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK);
+    how.bvh = &b;
+    how.visibility = visibility;
     draw_view(&v);
     begin_cut();
     error_count = 0;
@@ -473,9 +475,9 @@ static void check_door(float visible, double p95)
     }
     sort_errors(0, 1e-2);
     const double mean = d.sum_got / d.sum_want;
-    printf("  door, visible %.3f: %d pixels dark, %d leak; %d lit: p50 %.4f, p95 %.4f, p99.9 %.4f, mean %.4f; %.0f "
+    printf("  door, visibility %.3f: %d pixels dark, %d leak; %d lit: p50 %.4f, p95 %.4f, p99.9 %.4f, mean %.4f; %.0f "
            "segments a pixel\n",
-           (double)visible, d.dark, d.leaks, error_count, error_at(0.5), error_at(0.95), error_at(0.999), mean,
+           (double)visibility, d.dark, d.leaks, error_count, error_at(0.5), error_at(0.95), error_at(0.999), mean,
            (double)stats.segments / PIXELS);
     CHECK(beyond == 0 && canary_stays());
     CHECK_MSG(d.dark > 300 && d.leaks == 0, "%d of %d", d.leaks, d.dark);

@@ -200,7 +200,7 @@ static void test_light(const lmb_scene *s)
 {
     const lmb_light *l = s->lights;
     CHECK(s->light_count == 1 && l->kind == LMB_LIGHT_SPOT);
-    CHECK(lmb_light_map_faces(l, s) == 1);
+    CHECK(lmb_shadow_map_faces(l, s) == 1);
     CHECK(absf(length3(l->direction) - 1.0f) < 1e-6f);
     CHECK(l->cos_inner > l->cos_outer && l->cos_inner < 1.0f);
     CHECK(l->position.y < s->bounds_max.y && l->position.z < s->bounds_max.z);

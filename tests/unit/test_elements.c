@@ -1,6 +1,6 @@
 /* test_elements.c: a scene as elements: all of its area, in any capacity; light from them the same in any steps, parts
  * and on any machine; what is refused. */
-enum { ELEMENTS = 1024, MAP = 32, FRAME = 24, FACES = 1, BLOCKERS = 64 };
+enum { ELEMENTS = 1024, MAP = 32, FRAME = 24, FACES = 1, BVH = 64 };
 
 #include "../bounce_frame.h"
 
@@ -223,7 +223,7 @@ static lmb_frame make_frame(int32_t bounces)
     return bounce_frame(&view, bounces);
 }
 
-static void make_room(int shines)
+static void make_room(int emits)
 {
     static lmb_light lamp;
     lamp = spot(vec3(0.2f, 0.8f, 0.1f), vec3(0, -1, 0), 20, 40);
@@ -232,7 +232,7 @@ static void make_room(int shines)
     world_box(vec3(0.3f, -0.7f, -0.2f), 0.25f);
     world_part();
     world_quad(vec3(-0.5f, 0.9f, 0), vec3(0.2f, 0, 0), vec3(0, 0, 0.2f));
-    world.material[1].emission[2] = shines ? 3.0f : 0.0f;
+    world.material[1].emission[2] = emits ? 3.0f : 0.0f;
     world.scene.lights = &lamp;
     world.scene.light_count = 1;
     CHECK(world_end() == LMB_OK);
@@ -286,7 +286,7 @@ static void test_ways(void)
     while (lmb_render_step(&render, 100) == LMB_MORE) {
     }
     check_same("again");
-    f.visible = 0.3f; /* what elements sent was solved by the other */
+    f.visibility = 0.3f; /* what elements sent was solved by the other */
     CHECK(lmb_render_again(&render, &f) == LMB_ERR_ARG);
     f = make_frame(3);
     f.occlusion = LMB_OCCLUSION_NONE;
@@ -334,9 +334,9 @@ static void test_counts(void)
 static void test_refusals(void)
 {
     lmb_frame f;
-    lmb_cutting cutting;
-    const lmb_receiver own = {lmb_kernels_pick(), &scratch.gather.cut, &scratch.tile, &scratch.direct,
-                              &scratch.indirect};
+    lmb_cut_params cut_params;
+    const lmb_element_scratch own = {lmb_kernels_pick(), &scratch.gather.cut, &scratch.tile, &scratch.direct,
+                                     &scratch.indirect};
     make_room(0);
     f = make_frame(-1);
     CHECK(lmb_render_begin(&render, &f) == LMB_ERR_ARG);
@@ -352,23 +352,24 @@ static void test_refusals(void)
     world.material[1].emission[0] = 0.0f;
     f = make_frame(2);
     CHECK(lmb_elements_build(&f.elements, &world.scene, NULL) == LMB_OK);
-    memset(&cutting, 0, sizeof cutting);
-    cutting.error = cutting.visible = 0.1f;
+    memset(&cut_params, 0, sizeof cut_params);
+    cut_params.error = cut_params.visibility = 0.1f;
     const int32_t tiles = lmb_elements_tiles(&f.elements);
-    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, tiles + 1) == LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, -1, tiles) == LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 1, 0) == LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, -1) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, 0, tiles + 1) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, -1, tiles) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, 1, 0) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, 0, -1) == LMB_ERR_ARG);
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, NULL, 0, tiles) == LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, NULL, NULL, &cutting, 0, tiles) == LMB_ERR_ARG);
-    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cutting, 0, tiles) == LMB_OK);
+    CHECK(lmb_elements_receive(&f.elements, NULL, NULL, &cut_params, 0, tiles) == LMB_ERR_ARG);
+    CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, 0, tiles) == LMB_OK);
 }
 
-/* A wall beside a floor that shines: two of its rows lie under the floor's plane and are not asked what they see. */
+/* A wall beside a floor that emits light: two of its rows lie under the floor's plane and are not asked what they see.
+ * */
 static void test_asked(void)
 {
-    lmb_blockers blockers;
-    lmb_cutting cutting;
+    lmb_bvh bvh;
+    lmb_cut_params cut_params;
     lmb_stats stats;
     lmb_tile *wall = &scratch.tile;
     world_begin(0.5f, 0.5f, 0.5f);
@@ -376,8 +377,8 @@ static void test_asked(void)
     world.material[0].emission[1] = 2.0f;
     world_quad(vec3(0, 0, 0), Z, X);
     lmb_elements e = build(64);
-    CHECK(lmb_blockers_init(&blockers, BLOCKERS, blocker_memory, sizeof blocker_memory) == LMB_OK);
-    CHECK(lmb_blockers_build(&blockers, &world.scene) == LMB_OK);
+    CHECK(lmb_bvh_init(&bvh, BVH, bvh_memory, sizeof bvh_memory) == LMB_OK);
+    CHECK(lmb_bvh_build(&bvh, &world.scene) == LMB_OK);
     memset(wall, 0, sizeof *wall);
     wall->hits = LMB_TILE_PIXELS;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -389,19 +390,19 @@ static void test_asked(void)
         wall->id[k] = 1;
     }
     memset(&stats, 0, sizeof stats);
-    memset(&cutting, 0, sizeof cutting);
+    memset(&cut_params, 0, sizeof cut_params);
     memset(&scratch.indirect, 0, sizeof scratch.indirect);
-    cutting.error = cutting.visible = 100.0f; /* all of it as one node */
-    cutting.blockers = &blockers;
-    cutting.stats = &stats;
-    CHECK(lmb_gather_cut(&scratch.indirect, lmb_kernels_pick(), &scratch.gather.cut, wall, &e.tree, &cutting) ==
+    cut_params.error = cut_params.visibility = 100.0f; /* all of it as one node */
+    cut_params.bvh = &bvh;
+    cut_params.stats = &stats;
+    CHECK(lmb_gather_cut(&scratch.indirect, lmb_kernels_pick(), &scratch.gather.cut, wall, &e.tree, &cut_params) ==
           LMB_OK);
     CHECK_MSG(stats.segments == 6 * LMB_TILE && stats.pairs == stats.segments, "%u segments, %u pairs",
               (unsigned)stats.segments, (unsigned)stats.pairs);
 }
 
-/* A surface that shines shows its radiance, with every way of grouping. */
-static void test_shine(void)
+/* A surface that emits light shows its radiance, with every way of grouping. */
+static void test_emission(void)
 {
     lmb_frame f;
     int lit = 0;
@@ -428,5 +429,5 @@ void test_elements(void)
     test_counts();
     test_refusals();
     test_asked();
-    test_shine();
+    test_emission();
 }

@@ -33,7 +33,7 @@ static void check_nearest(void)
 {
     triangle_mesh in = potato(2);
     triangle_tree tree;
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     test_rng rng = {3};
     int i;
     CHECK(triangle_tree_build(&tree, &in, &t));
@@ -56,7 +56,7 @@ static void check_sharp(void)
 {
     triangle_mesh in = room_for(4, 4);
     triangle_tree tree;
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     test_rng rng = {4};
     nearest found;
     int i, k, wrong = 0;
@@ -107,11 +107,11 @@ static double sticks_out(const triangle_mesh *m, dvec p)
 
 static double most_outside(const triangle_mesh *in, const triangle_mesh *out)
 {
-    double most = -HUGE_VAL;
+    double max = -HUGE_VAL;
     uint32_t v;
     for (v = 0; v < in->vertex_count; v += 3)
-        most = fmax(most, sticks_out(out, dvec_read(in->positions + 3 * v)));
-    return most;
+        max = fmax(max, sticks_out(out, dvec_read(in->positions + 3 * v)));
+    return max;
 }
 
 static void check_around(triangle_mesh in, uint32_t triangles)
@@ -132,7 +132,7 @@ static void check_around(triangle_mesh in, uint32_t triangles)
 static void check_enclose_border(void)
 {
     triangle_mesh in = field(8, 0), sheet = placed(field(2, 0), 0.9f, 0.05f, 0.05f, -0.01f);
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     double outside;
     uint32_t v;
     float low = 1, high = 0;
@@ -151,7 +151,7 @@ static void check_enclose_border(void)
 static void check_thin(void)
 {
     triangle_mesh in = cube(4), plate = cube(2), before = cube(2);
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     double outside;
     uint32_t v;
     for (v = 0; v < in.vertex_count; ++v)
@@ -171,7 +171,7 @@ static void check_thin(void)
 static void check_facing_back(void)
 {
     triangle_mesh ball = sphere(4), in = room_for(3, 1);
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     double outside;
     add_vertex(&in, 1.2f, 0, 0);
     add_vertex(&in, 1.2f, 0, 0.1f);
@@ -190,7 +190,7 @@ static void check_far(void)
 {
     triangle_mesh in = potato(8), parts = placed(sphere(3), 0.3f, 0.1f, 0, 0);
     triangle_mesh ball = simple(&parts, parts.triangle_count, SIMPLIFY_NEAR, &facts); /* its sides hang together */
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     double outside;
     CHECK(mesh_enclose(&ball, &in, &outside, &t));
     CHECK_MSG(outside < 0.01 && most_outside(&in, &ball) < 0.01, "%g %g", outside, most_outside(&in, &ball));

@@ -1,4 +1,5 @@
-/* test_far.c: large, small and distant worlds: what rounding may do, where a scene is fine, the faces of a sun's map. */
+/* test_far.c: large, small and distant worlds: what rounding may do, where a scene is fine, the faces of a sun's map.
+ * */
 #include "../world.h"
 
 #include <stdlib.h>
@@ -14,20 +15,20 @@ static lmb_vec3 somewhere(test_rng *r, lmb_vec3 middle, lmb_vec3 half)
                              test_uniform(r, -half.z, half.z)));
 }
 
-static lmb_blockers build(void)
+static lmb_bvh build(void)
 {
-    lmb_blockers b;
+    lmb_bvh b;
     CHECK(world_end() == LMB_OK);
-    CHECK(lmb_blockers_init(&b, world.count, memory, MEMORY) == LMB_OK);
-    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
+    CHECK(lmb_bvh_init(&b, world.count, memory, MEMORY) == LMB_OK);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK);
     return b;
 }
 
-static uint64_t blocked(const lmb_blockers *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
+static uint64_t occluded(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, float noise)
 {
-    lmb_walk walk;
-    memset(&walk, 0, sizeof walk);
-    return lmb_blocked_tile(b, lmb_kernels_pick(), tile, pixels, at, noise, &walk);
+    lmb_traversal traversal;
+    memset(&traversal, 0, sizeof traversal);
+    return lmb_occluded_tile(b, lmb_kernels_pick(), tile, pixels, at, noise, &traversal);
 }
 
 /* --- convex rooms: hull.c's proof --------------------------------------------------------------------------------- */
@@ -73,7 +74,7 @@ static void test_hull(void)
                        half = vec3(0.25f * (float)(4 + test_random(&r) % 40u), 1.5f, 0.5f + 0.25f * (float)(round % 9));
         world_begin(1, 1, 1);
         put_box(middle, half, 1 << round % 4);
-        lmb_blockers b = build();
+        lmb_bvh b = build();
         CHECK(b.hull.count == 6 && b.noise >= 4.0f * b.hull.slack);
         for (int i = 0; i < 50; ++i) {
             lmb_tile tile;
@@ -83,11 +84,11 @@ static void test_hull(void)
             }
             const lmb_vec3 at = near_wall(&r, &b.hull, middle, half);
             const uint64_t in = lmb_hull_holds(&b.hull, at) ? lmb_hull_pixels(&b.hull, &tile, ~UINT64_C(0)) : 0;
-            lmb_blockers without = b;
+            lmb_bvh without = b;
             without.noise = 0.0f;
             held += in != 0;
-            wrong += in != 0 && blocked(&b, &tile, in, at, 0.0f) != 0;
-            bare += in != 0 && blocked(&without, &tile, in, at, 0.0f) != 0;
+            wrong += in != 0 && occluded(&b, &tile, in, at, 0.0f) != 0;
+            bare += in != 0 && occluded(&without, &tile, in, at, 0.0f) != 0;
         }
     }
     CHECK_MSG(wrong == 0 && held > 1000, "%d of %d blocked", wrong, held);
@@ -118,8 +119,8 @@ static void test_stray_blocks_nothing(void)
                 const lmb_vec3 far = vec3(60000, 30000, -70000);
                 world_triangle(far, add3(far, vec3(1, 0, 0)), add3(far, vec3(0, 1, 0)));
             }
-            lmb_blockers b = build();
-            got[stray] = blocked(&b, &tile, ~UINT64_C(0), at, lmb_tile_noise(&tile, ~UINT64_C(0)));
+            lmb_bvh b = build();
+            got[stray] = occluded(&b, &tile, ~UINT64_C(0), at, lmb_tile_noise(&tile, ~UINT64_C(0)));
         }
         differ += got[0] != got[1];
         some += got[0] != 0;
@@ -252,14 +253,14 @@ static void test_bad_cores(void)
 
 static double area_of(const lmb_view *v) { return 4.0 * (double)v->half_width * (double)v->half_height; }
 
-/* Each place of the sun's plane is in one face: of a face's power what a finer one has is missing, and no more. And each
- * is as deep as the scene, so that nothing that casts shadows is left out. */
+/* Each place of the sun's plane is in one face: of a face's power what a finer one has is missing, and no more. And
+ * each is as deep as the scene, so that nothing that casts shadows is left out. */
 static void check_faces(const lmb_light *sun, int32_t size)
 {
-    lmb_light_map map;
-    const size_t bytes = lmb_light_map_bytes(lmb_light_map_faces(sun, &world.scene), size, LMB_ID32);
-    CHECK(lmb_light_map_faces(sun, &world.scene) == world.scene.core.faces);
-    CHECK(lmb_light_map_init(&map, sun, &world.scene, size, LMB_ID32, memory, MEMORY) == LMB_OK && bytes <= MEMORY);
+    lmb_shadow_map map;
+    const size_t bytes = lmb_shadow_map_bytes(lmb_shadow_map_faces(sun, &world.scene), size, LMB_ID32);
+    CHECK(lmb_shadow_map_faces(sun, &world.scene) == world.scene.core.faces);
+    CHECK(lmb_shadow_map_init(&map, sun, &world.scene, size, LMB_ID32, memory, MEMORY) == LMB_OK && bytes <= MEMORY);
     for (int32_t f = 0; f < map.faces; ++f) {
         const double finer = f > 0 ? area_of(&map.view[f - 1]) : 0.0;
         double sum = 0.0;
@@ -269,7 +270,8 @@ static void check_faces(const lmb_light *sun, int32_t size)
             sum += (double)power[0] / (double)sun->intensity[0];
         }
         const double off = fabs(area_of(&map.view[f]) - finer - sum);
-        CHECK_MSG(off <= 1e-3 * finer + 1e-5 * sum, "face %d: %g m2 too much or too little beside %g", (int)f, off, finer);
+        CHECK_MSG(off <= 1e-3 * finer + 1e-5 * sum, "face %d: %g m2 too much or too little beside %g", (int)f, off,
+                  finer);
     }
     for (int32_t f = 0; f < map.faces; ++f) {
         const lmb_view *v = &map.view[f];
@@ -302,7 +304,8 @@ static void test_faces(void)
 /* A box of any sides along any axes, its sides in one piece. */
 static void put_turned_room(test_rng *r)
 {
-    const lmb_vec3 a = normalize3(somewhere(r, X, vec3(0.9f, 0.9f, 0.9f))), b = normalize3(cross3(a, somewhere(r, Y, a)));
+    const lmb_vec3 a = normalize3(somewhere(r, X, vec3(0.9f, 0.9f, 0.9f))),
+                   b = normalize3(cross3(a, somewhere(r, Y, a)));
     const lmb_vec3 axis[3] = {mul3(a, 3.0f), mul3(b, 1.5f), mul3(cross3(a, b), 2.0f)};
     for (int i = 0; i < 6; ++i) {
         const lmb_vec3 out = mul3(axis[i / 2], i & 1 ? -1.0f : 1.0f);
@@ -331,12 +334,12 @@ static void test_turned_rooms(void)
     double worst = 0.0;
     for (int i = 0; i < 40; ++i) {
         reach all = {{1e9f, 1e9f, 1e9f}, {-1e9f, -1e9f, -1e9f}};
-        lmb_light_map map;
+        lmb_shadow_map map;
         world_begin(1, 1, 1);
         put_turned_room(&r);
         CHECK(core_of_world().faces == 0);
         const lmb_light sun = make_light(LMB_LIGHT_DIRECTIONAL, vec3(0, 0, 0), somewhere(&r, vec3(0, -1, 0), X));
-        CHECK(lmb_light_map_init(&map, &sun, &world.scene, 64, LMB_ID32, memory, MEMORY) == LMB_OK && map.faces == 1);
+        CHECK(lmb_shadow_map_init(&map, &sun, &world.scene, 64, LMB_ID32, memory, MEMORY) == LMB_OK && map.faces == 1);
         const lmb_view *v = &map.view[0];
         for (uint32_t k = 0; k < 3 * world.count; ++k) {
             const float *p = world.corners[k / 3][k % 3];
@@ -347,7 +350,7 @@ static void test_turned_rooms(void)
                                  2.0 * (double)v->half_height / (double)size.y));
         worst = fmax(worst, (double)(v->far_m - v->near_m) / (double)size.z);
         world.scene.bounds_max = add3(world.scene.bounds_max, vec3(1, 2, 3));
-        CHECK(lmb_light_map_init(&map, &sun, &world.scene, 64, LMB_ID32, memory, MEMORY) == LMB_OK);
+        CHECK(lmb_shadow_map_init(&map, &sun, &world.scene, 64, LMB_ID32, memory, MEMORY) == LMB_OK);
         for (int k = 0; k < 8; ++k) {
             const lmb_vec3 low = world.scene.bounds_min, high = world.scene.bounds_max;
             take_place(&all, v, vec3(k & 1 ? low.x : high.x, k & 2 ? low.y : high.y, k & 4 ? low.z : high.z));

@@ -1,4 +1,4 @@
-/* test_frame_init.c: floor 8: frames laid out in one block: exactly what lmb_frame_bytes says between pages that nobody
+/* test_frame_init.c: layer 8: frames laid out in one block: exactly what lmb_frame_bytes says between pages that nobody
  * may touch, one byte less refused, and the bytes of frames whose memory was shared out by hand. */
 #if !defined(_WIN32)
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
@@ -20,15 +20,15 @@ static lmb_render render;
 static uint32_t own_picture[WIDE * HIGH * 3];
 static lmb_light lights[3];
 static lmb_scene lit;     /* the demo by one light */
-static lmb_scene shining; /* a room without lights, one wall of which shines */
+static lmb_scene emitting; /* a room without lights, one wall of which emits light */
 static lmb_scene empty;    /* no triangles, lights or anything */
-static lmb_many many;
+static lmb_many_lights many_lights;
 
 /* --- a block whose neighbours nobody may touch -------------------------------------------------------------------- */
 
 typedef struct fenced {
     uint8_t *whole, *block; /* block: starts, or ends, where its page does */
-    size_t bytes, page;
+    size_t bytes, text_buffer;
 } fenced;
 
 #if defined(_WIN32)
@@ -41,12 +41,12 @@ static void unfence(fenced *f) { free(f->whole); }
 #else
 static void fence(fenced *f, size_t bytes, int at_end)
 {
-    f->page = (size_t)sysconf(_SC_PAGESIZE);
-    const size_t inner = (bytes + f->page - 1) / f->page * f->page;
-    f->bytes = inner + 2 * f->page;
+    f->text_buffer = (size_t)sysconf(_SC_PAGESIZE);
+    const size_t inner = (bytes + f->text_buffer - 1) / f->text_buffer * f->text_buffer;
+    f->bytes = inner + 2 * f->text_buffer;
     f->whole = mmap(NULL, f->bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    f->block = f->whole + f->page + (at_end ? inner - bytes : 0);
-    if (f->whole == MAP_FAILED || mprotect(f->whole + f->page, inner, PROT_READ | PROT_WRITE) != 0) {
+    f->block = f->whole + f->text_buffer + (at_end ? inner - bytes : 0);
+    if (f->whole == MAP_FAILED || mprotect(f->whole + f->text_buffer, inner, PROT_READ | PROT_WRITE) != 0) {
         abort();
     }
 }
@@ -67,28 +67,29 @@ static lmb_frame_settings plain(const lmb_scene *scene)
     s.kernels = lmb_kernels_pick();
     s.scene = scene;
     s.view = demo_view(WIDE, HIGH);
-    s.light_map = MAP;
+    s.shadow_map = MAP;
     return s;
 }
 
 static void make_scenes(void)
 {
-    static uint64_t many_memory[ODD_CELLS * 700 / 8];
+    static uint64_t many_lights_memory[ODD_CELLS * 700 / 8];
     world_begin(0.7f, 0.6f, 0.5f);
     world_quad(vec3(0, 1, -2), vec3(2, 0, 0), vec3(0, 1, 0));
     world_part();
     world_quad(vec3(0, 0, 0), vec3(2, 0, 0), vec3(0, 0, -2));
     world.material[0].emission[1] = 2.0f;
     CHECK(world_end() == LMB_OK);
-    shining = world.scene;
+    emitting = world.scene;
     lit = *demo_scene();
     for (int i = 0; i < COUNT(lights); ++i) {
         lights[i] = point_light(vec3(0.4f * (float)i, 1.5f, 0.3f));
     }
-    CHECK(lmb_many_bytes(ODD_CELLS) <= sizeof many_memory);
-    CHECK(lmb_many_init(&many, ODD_CELLS, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, many_memory, sizeof many_memory) ==
-          LMB_OK);
-    CHECK(lmb_many_add(&many, lights, COUNT(lights)) == LMB_OK && lmb_many_build(&many) == LMB_OK);
+    CHECK(lmb_many_lights_bytes(ODD_CELLS) <= sizeof many_lights_memory);
+    CHECK(lmb_many_lights_init(&many_lights, ODD_CELLS, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, many_lights_memory,
+                               sizeof many_lights_memory) == LMB_OK);
+    CHECK(lmb_many_lights_add(&many_lights, lights, COUNT(lights)) == LMB_OK &&
+          lmb_many_lights_build(&many_lights) == LMB_OK);
 }
 
 /* Every part that a block may have, and not have. */
@@ -99,17 +100,17 @@ static int make_kinds(kind *out)
     lmb_frame_settings *s = KIND("default", &lit);
     s = KIND("draft, three threads", &lit), s->quality = LMB_QUALITY_DRAFT, s->threads = 3;
     s = KIND("two bounces", &lit), s->bounces = 2, s->elements = 256, s->quality = LMB_QUALITY_DRAFT;
-    s = KIND("tree given", &lit), s->tree = 16, s->error = 0.1f, s->visible = 0.2f, s->id_format = LMB_ID32;
+    s = KIND("tree given", &lit), s->tree = 16, s->error = 0.1f, s->visibility = 0.2f, s->id_format = LMB_ID32;
     s = KIND("direct", &lit), s->show = LMB_SHOW_DIRECT, s->format = LMB_RGB565;
     s = KIND("cuts by bands", &lit), s->by_bands = 1, s->format = LMB_RGB32F;
     s = KIND("fixed", &lit), s->quality = LMB_QUALITY_FIXED;
     s = KIND("fixed by bands", &lit), s->quality = LMB_QUALITY_FIXED, s->by_bands = 1, s->points = 700;
-    s = KIND("own picture", &lit), s->light_map = 32;
+    s = KIND("own picture", &lit), s->shadow_map = 32;
     CHECK(lmb_surface_init(&s->out, LMB_RGBA8, WIDE, HIGH, own_picture, sizeof own_picture) == LMB_OK);
-    s = KIND("shining", &shining), s->elements = 64;
-    s = KIND("many", &shining), s->many = &many, s->elements = 256;
-    s = KIND("many, direct", &lit), s->many = &many, s->show = LMB_SHOW_DIRECT;
-    s = KIND("many, fixed", &lit), s->many = &many, s->quality = LMB_QUALITY_FIXED;
+    s = KIND("shining", &emitting), s->elements = 64;
+    s = KIND("many", &emitting), s->many_lights = &many_lights, s->elements = 256;
+    s = KIND("many, direct", &lit), s->many_lights = &many_lights, s->show = LMB_SHOW_DIRECT;
+    s = KIND("many, fixed", &lit), s->many_lights = &many_lights, s->quality = LMB_QUALITY_FIXED;
     s = KIND("nothing", &empty);
 #undef KIND
     return n;
@@ -149,8 +150,8 @@ static uint64_t by_hand_hash(const lmb_frame *like)
     static lmb_groups groups;
     lmb_frame f = *like;
     const size_t tree = lmb_tree_bytes(f.tree.face_cap, f.tree.size);
-    const size_t blockers = lmb_blockers_bytes(f.blockers.triangle_cap);
-    void *memory[5] = {malloc(f.map_bytes + 1), malloc(tree + 1), malloc(blockers + 1), NULL, NULL};
+    const size_t bvh = lmb_bvh_bytes(f.bvh.triangle_cap);
+    void *memory[5] = {malloc(f.map_bytes + 1), malloc(tree + 1), malloc(bvh + 1), NULL, NULL};
     f.map_memory = memory[0];
     f.scratch = &scratch;
     CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, WIDE, f.eye.depth.height, depth, sizeof depth) == LMB_OK);
@@ -162,8 +163,8 @@ static uint64_t by_hand_hash(const lmb_frame *like)
     if (f.tree.texel != NULL) {
         CHECK(lmb_tree_init(&f.tree, f.tree.face_cap, f.tree.size, memory[1], tree) == LMB_OK);
     }
-    if (f.blockers.triangle != NULL) {
-        CHECK(lmb_blockers_init(&f.blockers, f.blockers.triangle_cap, memory[2], blockers) == LMB_OK);
+    if (f.bvh.triangle != NULL) {
+        CHECK(lmb_bvh_init(&f.bvh, f.bvh.triangle_cap, memory[2], bvh) == LMB_OK);
     }
     if (f.elements.data != NULL) {
         memory[3] = malloc(lmb_elements_bytes(f.elements.cap));
@@ -233,24 +234,25 @@ static void test_defaults(void)
 {
     lmb_frame_settings s = plain(&lit);
     lmb_frame f;
-    s.light_map = 0;
+    s.shadow_map = 0;
     const size_t bytes = lmb_frame_bytes(&s);
     void *memory = malloc(bytes);
     CHECK(lmb_frame_init(&f, &s, memory, bytes) == LMB_OK);
-    CHECK(f.light_map == 1024 && f.tree.size == 256 && f.tree.face_cap == 1);
+    CHECK(f.shadow_map == 1024 && f.tree.size == 256 && f.tree.face_cap == 1);
     CHECK(f.occlusion == LMB_OCCLUSION_EXACT && f.grouping.method == LMB_GROUP_CUT && f.elements.data == NULL);
     CHECK(f.id_format == LMB_ID16 && f.out.format == LMB_RGBA8 && f.out.width == WIDE && f.out.height == HIGH);
-    CHECK(f.blockers.triangle_cap == lmb_scene_triangles(&lit) && f.kernels == lmb_kernels_pick());
+    CHECK(f.bvh.triangle_cap == lmb_scene_triangles(&lit) && f.kernels == lmb_kernels_pick());
     s.quality = LMB_QUALITY_BEST;
-    s.light_map = 512;
+    s.shadow_map = 512;
     CHECK(lmb_frame_bytes(&s) == 0 || lmb_frame_init(&f, &s, memory, 0) == LMB_ERR_CAPACITY);
     free(memory);
     lit.lights = lights;
     lit.light_count = 3; /* eighteen faces: a map's share of 2^21 texels is under 512 x 512 */
     s = plain(&lit);
-    s.light_map = 0;
+    s.shadow_map = 0;
     memory = malloc(lmb_frame_bytes(&s));
-    CHECK(lmb_frame_init(&f, &s, memory, lmb_frame_bytes(&s)) == LMB_OK && f.light_map == 256 && f.tree.face_cap == 18);
+    CHECK(lmb_frame_init(&f, &s, memory, lmb_frame_bytes(&s)) == LMB_OK && f.shadow_map == 256 &&
+          f.tree.face_cap == 18);
     free(memory);
     lit = *demo_scene();
 }
@@ -273,19 +275,19 @@ static void test_refused(void)
     REFUSED(s.view.frame_height = LMB_MAX_SIDE + 1, LMB_ERR_ARG);
     REFUSED(s.show = 4, LMB_ERR_ARG);
     REFUSED(s.quality = 4, LMB_ERR_ARG);
-    REFUSED(s.bounces = LMB_MOST_BOUNCES + 1, LMB_ERR_ARG);
+    REFUSED(s.bounces = LMB_MAX_BOUNCES + 1, LMB_ERR_ARG);
     REFUSED((s.bounces = 2, s.quality = LMB_QUALITY_FIXED), LMB_ERR_ARG);
     REFUSED((s.grouping.method = LMB_GROUP_CUT, s.quality = LMB_QUALITY_FIXED), LMB_ERR_ARG);
     REFUSED((s.grouping.block = 3, s.quality = LMB_QUALITY_FIXED), LMB_ERR_ARG);
     REFUSED(s.threads = 1025, LMB_ERR_ARG);
     REFUSED((s.threads = 2, s.by_bands = 1), LMB_ERR_ARG);
-    REFUSED(s.light_map = 60, LMB_ERR_ARG);
-    REFUSED(s.light_map = 96, LMB_ERR_ARG); /* by no tree */
+    REFUSED(s.shadow_map = 60, LMB_ERR_ARG);
+    REFUSED(s.shadow_map = 96, LMB_ERR_ARG); /* by no tree */
     REFUSED(s.tree = 24, LMB_ERR_ARG);
     REFUSED((s.bounces = 2, s.elements = 100), LMB_ERR_ARG);
     REFUSED(s.error = -1.0f, LMB_ERR_ARG);
     REFUSED(s.error = NAN, LMB_ERR_ARG);
-    REFUSED(s.visible = -1.0f, LMB_ERR_ARG);
+    REFUSED(s.visibility = -1.0f, LMB_ERR_ARG);
     REFUSED(s.format = LMB_DEPTH16, LMB_ERR_FORMAT);
     REFUSED(s.format = 99, LMB_ERR_FORMAT);
     REFUSED(s.id_format = LMB_RGBA8, LMB_ERR_FORMAT);

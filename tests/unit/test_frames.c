@@ -193,7 +193,7 @@ static lmb_frame plain_frame(const lmb_scene *scene, lmb_view view, picture *out
     f.kernels = lmb_kernels_pick();
     f.scene = scene;
     f.view = view;
-    f.light_map = MAP;
+    f.shadow_map = MAP;
     f.grouping.block = BLOCK;
     f.grouping.groups = GROUPS;
     f.occlusion = LMB_OCCLUSION_VIEW;
@@ -238,7 +238,7 @@ static lmb_view room_view(int32_t width, int32_t height)
 {
     static const lmb_vec3 eye = {0.1f, 1.1f, 3.2f}, target = {0, 0.9f, 0}, up = {0, 1, 0};
     lmb_view v;
-    lmb_view_look(&v, eye, target, up, 0.75f, width, height);
+    lmb_view_look_at(&v, eye, target, up, 0.75f, width, height);
     v.near_m = 0.1f;
     v.far_m = 20.0f;
     return v;
@@ -510,14 +510,14 @@ static void test_darkness(void)
     set_lights(LIGHTS);
 }
 
-/* Each light's map drawn by hand, all triangles at once. */
-static void draw_maps(lmb_light_map maps[ALL_LIGHTS])
+/* Each light's shadow map drawn by hand, all triangles at once. */
+static void draw_maps(lmb_shadow_map maps[ALL_LIGHTS])
 {
     static uint32_t memory[ALL_LIGHTS][6 * MAP * MAP * 2];
     for (int i = 0; i < LIGHTS; ++i) {
-        lmb_light_map_init(&maps[i], &room_lights[i], &room, MAP, LMB_ID32, memory[i], sizeof memory[i]);
-        lmb_light_map_clear(&maps[i]);
-        lmb_light_map_draw(&maps[i], lmb_kernels_pick(), &room, 1, UINT32_MAX, NULL);
+        lmb_shadow_map_init(&maps[i], &room_lights[i], &room, MAP, LMB_ID32, memory[i], sizeof memory[i]);
+        lmb_shadow_map_clear(&maps[i]);
+        lmb_shadow_map_draw(&maps[i], lmb_kernels_pick(), &room, 1, UINT32_MAX, NULL);
     }
 }
 
@@ -530,7 +530,7 @@ static void test_sum_of_lights(void)
     picture *built = &third;
     render_show(&reference, LMB_SHOW_DIRECT, LMB_OCCLUSION_NONE, 0);
     lmb_render *r = &m.render; /* its eye is still there */
-    lmb_light_map maps[ALL_LIGHTS];
+    lmb_shadow_map maps[ALL_LIGHTS];
     draw_maps(maps);
     for (int i = 0; i < LIGHTS; ++i) {
         for (int32_t f = 0; f < maps[i].faces; ++f) {
@@ -677,11 +677,11 @@ static void test_refused(void)
     REFUSED(f.show = -1, LMB_ERR_ARG);
     REFUSED(f.occlusion = 3, LMB_ERR_ARG);
     REFUSED(f.error = -1.0f, LMB_ERR_ARG);
-    REFUSED(f.visible = -1.0f, LMB_ERR_ARG);
+    REFUSED(f.visibility = -1.0f, LMB_ERR_ARG);
     REFUSED(f.steps = 65, LMB_ERR_ARG);
     REFUSED(f.steps = -1, LMB_ERR_ARG);
-    REFUSED(f.light_map = 60, LMB_ERR_ARG);
-    REFUSED(f.light_map = 0, LMB_ERR_ARG);
+    REFUSED(f.shadow_map = 60, LMB_ERR_ARG);
+    REFUSED(f.shadow_map = 0, LMB_ERR_ARG);
     REFUSED(f.map_memory = NULL, LMB_ERR_ARG);
     REFUSED(f.map_memory = (uint8_t *)f.map_memory + 1, LMB_ERR_ALIGN);
     REFUSED(f.map_bytes = FACES * MAP * MAP * 8 - 1, LMB_ERR_CAPACITY); /* 8 bytes a texel */
@@ -715,7 +715,7 @@ static void test_exact_memory(void)
 {
     lmb_frame f = plain_frame(&room, room_view(WIDTH, HEIGHT), &other);
     set_canaries();
-    f.map_bytes = FACES * lmb_light_map_bytes(1, MAP, LMB_ID32);
+    f.map_bytes = FACES * lmb_shadow_map_bytes(1, MAP, LMB_ID32);
     f.map_memory = m.map + CANARY + MAP_WORDS - f.map_bytes / sizeof *m.map;
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && canaries_live() && picture_keeps_rest(&other));
 }
@@ -782,11 +782,11 @@ static uint32_t wide[WIDE], right_depth[TARGET], right_id[TARGET];
 static void use_cut(lmb_frame *f)
 {
     enum { FACE_BYTES = MAP * MAP * (sizeof(lmb_texel) + sizeof(lmb_node) / 3) + 64 * sizeof(lmb_view) };
-    static uint32_t tree[FACES * FACE_BYTES / 4], blockers[SIDES * SIDE_TRIANGLES * 128 / 4];
+    static uint32_t tree[FACES * FACE_BYTES / 4], bvh[SIDES * SIDE_TRIANGLES * 128 / 4];
     f->grouping.method = LMB_GROUP_CUT;
-    f->light_map = MAP;
+    f->shadow_map = MAP;
     CHECK(lmb_tree_init(&f->tree, FACES, MAP, tree, sizeof tree) == LMB_OK);
-    CHECK(lmb_blockers_init(&f->blockers, lmb_scene_triangles(f->scene), blockers, sizeof blockers) == LMB_OK);
+    CHECK(lmb_bvh_init(&f->bvh, lmb_scene_triangles(f->scene), bvh, sizeof bvh) == LMB_OK);
 }
 
 /* Refused before anything is drawn: maps that the tree cannot take, as its own call would say in the middle. */
@@ -798,7 +798,7 @@ static void test_odd_trees(void)
     f.tree.size = 8;
     for (int32_t each = 1; each <= 9; ++each) {
         const int good = each == 1 || each == 2 || each == 4 || each == 8;
-        f.light_map = 8 * each;
+        f.shadow_map = 8 * each;
         CHECK_MSG((lmb_render_begin(&m.render, &f) == LMB_ERR_ARG) == !good, "%d times the tree's size", (int)each);
     }
 }
@@ -922,7 +922,7 @@ static void check_other_shows(void)
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK);
     f.show = LMB_SHOW_FULL;
     CHECK(lmb_render_again(&m.render, &f) == LMB_ERR_ARG && m.render.stage == LMB_STAGE_DONE);
-    /* Blockers that were built may be asked again; others cannot be. */
+    /* The BVH that were built may be asked again; others cannot be. */
     for (int built = 0; built < 2; ++built) {
         f = stereo_frame(0, LMB_OCCLUSION_EXACT, &other);
         f.show = LMB_SHOW_INDIRECT;
@@ -984,9 +984,9 @@ static void test_again(void)
 
 static float kept[MAP * MAP];
 
-/* V33: the distances of one face of a light's map, by the G-buffer of its view: where each texel's ray then ends lies
+/* V33: the distances of one face of a shadow map, by the G-buffer of its view: where each texel's ray then ends lies
  * on the room's bounds or within. */
-static int light_distances(const lmb_light_map *map, int32_t face)
+static int light_distances(const lmb_shadow_map *map, int32_t face)
 {
     const lmb_view *v = &map->view[face];
     int found = 0, out = 0;
@@ -1121,20 +1121,20 @@ static void test_gbuffer(void)
     CHECK(lmb_gbuffer_band(NULL, &s[0], NULL, &m.scratch.tile, k, &view, &room, &f.eye, 0) == LMB_ERR_FORMAT);
 }
 
-/* ---- the light's map ---- */
+/* ---- the shadow map ---- */
 
-static void draw_light_map(lmb_light_map *map)
+static void draw_shadow_map(lmb_shadow_map *map)
 {
     const size_t bytes = 6 * MAP * MAP * 8;
-    lmb_status status = lmb_light_map_init(map, &room_lights[1], &room, MAP, LMB_ID32, m.map + CANARY, bytes);
+    lmb_status status = lmb_shadow_map_init(map, &room_lights[1], &room, MAP, LMB_ID32, m.map + CANARY, bytes);
     CHECK(status == LMB_OK && map->faces == 6 && map->drawn == 63 && map->size == MAP);
-    CHECK(lmb_light_map_clear(map) == LMB_OK);
-    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &room, 1, 555, NULL) == LMB_OK);
-    CHECK(lmb_light_map_draw(map, lmb_kernels_pick(), &room, 556, UINT32_MAX, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_clear(map) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(map, lmb_kernels_pick(), &room, 1, 555, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(map, lmb_kernels_pick(), &room, 556, UINT32_MAX, NULL) == LMB_OK);
 }
 
 /* Texels with a surface; each face holds what lmb_draw gives in its view. */
-static int check_faces(const lmb_light_map *map)
+static int check_faces(const lmb_shadow_map *map)
 {
     int found = 0;
     for (int32_t f = 0; f < 6; ++f) {
@@ -1157,14 +1157,14 @@ static int check_faces(const lmb_light_map *map)
 
 /* Single-sided walls, then the same turned inside out: lights see both sides, so the ids stay. (Corners come in
  * another order, which rounds the depth of cut triangles otherwise.) */
-static void test_light_map(void)
+static void test_shadow_map(void)
 {
     static uint32_t before[6][MAP * MAP];
-    lmb_light_map map;
+    lmb_shadow_map map;
     for (int n = 0; n < SIDES; ++n) {
         room_materials[n].flags = 0;
     }
-    draw_light_map(&map);
+    draw_shadow_map(&map);
     int found = check_faces(&map);
     CHECK_MSG(found > 3 * MAP * MAP, "%d texels", found);
     for (int32_t f = 0; f < 6; ++f) {
@@ -1175,28 +1175,28 @@ static void test_light_map(void)
         corner[1] = corner[2];
         corner[2] = t;
     }
-    draw_light_map(&map);
+    draw_shadow_map(&map);
     for (int32_t f = 0; f < 6; ++f) {
         CHECK(memcmp(before[f], map.face[f].id.data, sizeof before[f]) == 0);
     }
     set_room();
 }
 
-static void test_light_map_arguments(void)
+static void test_shadow_map_arguments(void)
 {
-    lmb_light_map map, before;
+    lmb_shadow_map map, before;
     const lmb_light *light = &room_lights[1];
     memset(&map, 0xa5, sizeof map);
     before = map;
-    CHECK(lmb_light_map_init(&map, light, &room, MAP, LMB_ID32, m.map, 6 * MAP * MAP * 8 - 1) == LMB_ERR_CAPACITY);
-    CHECK(lmb_light_map_init(&map, light, &room, 20, LMB_ID32, m.map, sizeof m.map) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_init(&map, light, &room, MAP, LMB_DEPTH32F, m.map, sizeof m.map) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_init(&map, light, &room, MAP, LMB_ID32, NULL, sizeof m.map) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_init(&map, light, &room, MAP, LMB_ID32, (uint8_t *)m.map + 2, 6 * MAP * MAP * 8) ==
+    CHECK(lmb_shadow_map_init(&map, light, &room, MAP, LMB_ID32, m.map, 6 * MAP * MAP * 8 - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_shadow_map_init(&map, light, &room, 20, LMB_ID32, m.map, sizeof m.map) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_init(&map, light, &room, MAP, LMB_DEPTH32F, m.map, sizeof m.map) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_init(&map, light, &room, MAP, LMB_ID32, NULL, sizeof m.map) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_init(&map, light, &room, MAP, LMB_ID32, (uint8_t *)m.map + 2, 6 * MAP * MAP * 8) ==
           LMB_ERR_ALIGN);
     CHECK(memcmp(&map, &before, sizeof map) == 0);
-    CHECK(lmb_light_map_draw(NULL, lmb_kernels_pick(), &room, 1, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_clear(NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_draw(NULL, lmb_kernels_pick(), &room, 1, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_clear(NULL) == LMB_ERR_ARG);
 }
 
 void test_frames(void)
@@ -1219,6 +1219,6 @@ void test_frames(void)
     test_again();
     test_buffers();
     test_gbuffer();
-    test_light_map();
-    test_light_map_arguments();
+    test_shadow_map();
+    test_shadow_map_arguments();
 }

@@ -140,7 +140,7 @@ static void normal_maps(void)
     CHECK(noted("occlusion maps ignored") && loaded.scene.texture_count == 0);
 }
 
-static int gives_off(double r, double g, double b)
+static int emits_light(double r, double g, double b)
 {
     const float *e = loaded.scene.materials[0].emission;
     const lmb_vec3 v = {e[0], e[1], e[2]};
@@ -154,10 +154,10 @@ static void emission(void)
     char material[512];
     snprintf(material, sizeof material, strong, "");
     CHECK_MSG(load_look(material), "%s", problem.text);
-    CHECK(gives_off(4, 2, 8) && noted("emissive materials, which light the scene with --grouping cut only: 1"));
+    CHECK(emits_light(4, 2, 8) && noted("emissive materials, which light the scene with --grouping cut only: 1"));
     snprintf(material, sizeof material, strong, ",\"emissiveTexture\":{\"index\":0}");
     CHECK_MSG(load_look(material), "%s", problem.text);
-    CHECK(gives_off(4, 2, 8) && loaded.scene.materials[0].emission_map == 1 && loaded.scene.meshes[0].uvs &&
+    CHECK(emits_light(4, 2, 8) && loaded.scene.materials[0].emission_map == 1 && loaded.scene.meshes[0].uvs &&
           !noted("emissive maps"));
     /* Other texture coordinates than the base colour's: means in linear light, (0.21586 + 1) / 2, (0.21586 + 0) / 2,
      * (1 + 0) / 2. */
@@ -165,13 +165,13 @@ static void emission(void)
              ",\"emissiveTexture\":{\"index\":0,\"texCoord\":1},"
              "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}");
     CHECK_MSG(load_look(material), "%s", problem.text);
-    CHECK(gives_off(4 * 0.60793, 2 * 0.10793, 8 * 0.5) && loaded.scene.materials[0].emission_map == 0 &&
+    CHECK(emits_light(4 * 0.60793, 2 * 0.10793, 8 * 0.5) && loaded.scene.materials[0].emission_map == 0 &&
           noted("emissive maps used by their mean"));
     CHECK_MSG(load_look("\"emissiveTexture\":{\"index\":0}"), "%s", problem.text);
-    CHECK(gives_off(0, 0, 0) && !noted("emissive"));
+    CHECK(emits_light(0, 0, 0) && !noted("emissive"));
     check_fails(load_look("\"emissiveFactor\":[1,2]"), "emissiveFactor: must be an array of 3");
     CHECK_MSG(load_look("\"emissiveFactor\":[-1,1e31,1]"), "%s", problem.text);
-    CHECK(gives_off(0, 0, 1));
+    CHECK(emits_light(0, 0, 1));
 }
 
 static int has_lobe(double albedo, double f0, double roughness)

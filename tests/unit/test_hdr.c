@@ -50,10 +50,10 @@ static int is_pixel(int32_t x, int32_t y, float r, float g, float b)
  * and the step doubles. */
 static int is_near(const float *a, const float *b)
 {
-    float most = fmaxf(b[0], fmaxf(b[1], b[2]));
+    float max = fmaxf(b[0], fmaxf(b[1], b[2]));
     int i;
     for (i = 0; i < 3; ++i)
-        if (!(fabsf(a[i] - b[i]) <= most / 255.4f)) return 0;
+        if (!(fabsf(a[i] - b[i]) <= max / 255.4f)) return 0;
     return 1;
 }
 
@@ -262,7 +262,7 @@ static const struct {
 static void check_known(const char *path, int32_t width, double peak)
 {
     file_bytes file;
-    double most = 0;
+    double max = 0;
     int32_t i;
     image_free(&loaded);
     memset(&problem, 0, sizeof problem);
@@ -271,8 +271,8 @@ static void check_known(const char *path, int32_t width, double peak)
     CHECK_DECODES(hdr_decode(&loaded, file.data, file.size, path, &problem));
     CHECK(loaded.width == width && loaded.height == width / 2);
     for (i = 0; loaded.pixels && i < 3 * loaded.width * loaded.height; ++i)
-        most = fmax(most, (double)loaded.pixels[i]);
-    CHECK_MSG(fabs(most - peak) < 0.0005 * peak, "%s: peak %.6g, not %g", path, most, peak);
+        max = fmax(max, (double)loaded.pixels[i]);
+    CHECK_MSG(fabs(max - peak) < 0.0005 * peak, "%s: peak %.6g, not %g", path, max, peak);
     file_free(&file);
 }
 

@@ -445,8 +445,8 @@ static void build_png(png_file *f, const picture *p, test_rng *rng)
 
 static void random_palette(picture *p, test_rng *rng)
 {
-    uint32_t i, most = 1u << p->depth;
-    p->palette_count = 1 + test_random(rng) % most;
+    uint32_t i, max = 1u << p->depth;
+    p->palette_count = 1 + test_random(rng) % max;
     p->alpha_count = test_random(rng) % (p->palette_count + 1);
     for (i = 0; i < p->palette_count; ++i) {
         put_be(p->palette[i], test_random(rng));
@@ -477,14 +477,14 @@ static void random_picture(picture *p, uint32_t colour, uint32_t depth, test_rng
 
 static void expected_texel(uint8_t out[4], const picture *p, const uint16_t *s)
 {
-    uint32_t most = (1u << p->depth) - 1, k, colours = p->channels < 3 ? 1 : 3;
+    uint32_t max = (1u << p->depth) - 1, k, colours = p->channels < 3 ? 1 : 3;
     if (p->colour == 3) {
         memcpy(out, p->palette[s[0]], 4);
         return;
     }
     for (k = 0; k < 4; ++k) {
-        uint32_t v = k < 3 ? s[colours == 1 ? 0 : k] : p->channels > colours ? s[colours] : most;
-        out[k] = (uint8_t)(p->depth == 16 ? v >> 8 : v * 255 / most);
+        uint32_t v = k < 3 ? s[colours == 1 ? 0 : k] : p->channels > colours ? s[colours] : max;
+        out[k] = (uint8_t)(p->depth == 16 ? v >> 8 : v * 255 / max);
     }
     if (p->keyed && memcmp(s, p->key, 2 * colours) == 0) out[3] = 0;
 }

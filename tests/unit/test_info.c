@@ -57,7 +57,7 @@ static int info(const char *first, const char *second)
 /* --- a glTF file with one of everything --- */
 
 /* One triangle (0 0 0), (1 0 0), (0 2 0): 36 bytes; a light twice, a mesh twice, two cameras; an external image. */
-static const char everything[] =
+static const char run_all[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1,2,3,4,5]}],"
     "\"extensionsUsed\":[\"KHR_texture_transform\",\"KHR_lights_punctual\",\"EXT_\\\"quoted\\\"\"],"
     "\"extensionsRequired\":[\"KHR_lights_punctual\"],"
@@ -88,7 +88,7 @@ static const char *put_everything(size_t *png_size)
     put_file("white.png", png.data, png.size);
     *png_size = png.size;
     file_free(&png);
-    return put_text("all.gltf", everything);
+    return put_text("all.gltf", run_all);
 }
 
 static void facts_of_gltf(const char *path, size_t png_size)
@@ -104,7 +104,7 @@ static void facts_of_gltf(const char *path, size_t png_size)
     CHECK(f.format && strcmp(f.format, "glTF") == 0);
     CHECK(f.nodes == 7 && f.meshes == 1 && f.primitives == 2 && f.vertices == 6 && f.materials == 3);
     CHECK(f.images == 2 && f.textures == 1 && f.lights == 2 && f.cameras == 2 && f.animations == 2 && f.skins == 1);
-    CHECK(f.file_bytes == sizeof everything - 1 && f.neighbour_bytes == png_size);
+    CHECK(f.file_bytes == sizeof run_all - 1 && f.neighbour_bytes == png_size);
     CHECK(f.texel_bytes == 20 && f.memory_bytes >= 20 + 36 && f.extension_count == 3 && f.extension_more == 0);
     CHECK(strcmp(e[0].name, "KHR_lights_punctual") == 0 && e[0].use == MODEL_EXTENSION_READ && e[0].required);
     CHECK(strcmp(e[1].name, "KHR_texture_transform") == 0 && e[1].use == MODEL_EXTENSION_FOLDED && !e[1].required);
@@ -215,7 +215,7 @@ static void json_of_gltf(const char *path, size_t png_size)
     CHECK(json_count(&doc, find("extensions", NULL, NULL, NULL)) == 3);
     CHECK(number("bounds", "min", "", NULL) == 0 && number("bounds", "max", "", NULL) == 1);
     CHECK(number("bounds", "size", "", NULL) == 1 && number("bytes", "other_files", NULL, NULL) == (double)png_size);
-    CHECK(number("bytes", "file", NULL, NULL) == (double)(sizeof everything - 1));
+    CHECK(number("bytes", "file", NULL, NULL) == (double)(sizeof run_all - 1));
     CHECK(json_count(&doc, find("notes", NULL, NULL, NULL)) > 0 && strstr(said, "\"animations ignored: 2\""));
     json_free(&doc);
 }

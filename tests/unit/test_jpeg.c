@@ -76,16 +76,16 @@ static int ends_cleanly(const uint8_t *data, size_t size)
 
 static int difference(const sample *s, const bitmap *map)
 {
-    int32_t i, k, most = 0;
+    int32_t i, k, max = 0;
     for (i = 0; i < s->width * s->height; ++i) {
         for (k = 0; k < 3; ++k) {
             int32_t expected = s->pixels[s->channels * i + (s->channels == 1 ? 0 : k)];
             int32_t d = abs(map->texels[4 * i + k] - expected);
-            if (d > most) most = d;
+            if (d > max) max = d;
         }
         if (map->texels[4 * i + 3] != 255) return 256;
     }
-    return most;
+    return max;
 }
 
 static void check_pixels(const sample *s)

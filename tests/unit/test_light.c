@@ -8,7 +8,7 @@ enum { SIDE = 512, FRAME = 128, PIXELS = FRAME * FRAME };
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
 static uint32_t map_memory[6 * SIDE * SIDE * 2], depth_memory[PIXELS], id_memory[PIXELS];
-static lmb_light_map map;
+static lmb_shadow_map map;
 static lmb_target eye;
 
 /* What was seen, and the irradiance there without shadows [0] and with [1]. */
@@ -20,9 +20,9 @@ static struct {
 
 static void draw_map(const lmb_light *light, int32_t size)
 {
-    CHECK(lmb_light_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
-    CHECK(lmb_light_map_clear(&map) == LMB_OK);
-    CHECK(lmb_light_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    CHECK(lmb_shadow_map_init(&map, light, &world.scene, size, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    CHECK(lmb_shadow_map_clear(&map) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
 }
 
 static void draw_view(const lmb_view *v)
@@ -89,7 +89,7 @@ static double irradiance(const lmb_light *l, lmb_vec3 p, lmb_vec3 n)
 static void check_irradiance(const char *name, lmb_light light)
 {
     lmb_view v = look(vec3(0.5f, 3, 3), vec3(0, 0, 0), 60, FRAME);
-    double worst = 0.0, peak = 0.0, least = 1e30;
+    double worst = 0.0, peak = 0.0, min = 1e30;
     uint32_t dark = 0, pixels = 0;
     world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
@@ -101,7 +101,7 @@ static void check_irradiance(const char *name, lmb_light light)
         if (seen[i].id != 0) {
             double want = irradiance(&light, seen[i].at, seen[i].normal);
             peak = fmax(peak, want);
-            least = fmin(least, want);
+            min = fmin(min, want);
             for (int c = 0; c < 3; ++c) {
                 worst = fmax(worst, fabs((double)seen[i].open[c] - want * (double)light.intensity[c]) /
                                         (double)light.intensity[c]);
@@ -114,7 +114,7 @@ static void check_irradiance(const char *name, lmb_light light)
            (unsigned)pixels);
     CHECK_MSG(pixels > PIXELS / 4 && worst < 1e-5 * peak, "%s: %g of %g", name, worst, peak);
     if (light.kind == LMB_LIGHT_SPOT) {
-        CHECK(least == 0.0); /* outside the cone, too */
+        CHECK(min == 0.0); /* outside the cone, too */
     }
     CHECK_MSG(dark * 1000 <= pixels, "%u", (unsigned)dark);
 }

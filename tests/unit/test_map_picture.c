@@ -1,11 +1,11 @@
-/* test_map_picture.c: what `lambent render --show` writes of a light's map: each texel against its own ray and flux. */
+/* test_map_picture.c: what `lambent render --show` writes of a shadow map: each texel against its own ray and flux. */
 #include <math.h>
 #include <string.h>
 
 #include <lambent/lambent.h>
 
 #include "../../src/base/vec.h"
-#include "../../tools/common/crew.h"
+#include "../../tools/common/workers.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../../tools/picture/grey.h"
 #include "../../tools/render/map_picture.h"
@@ -57,7 +57,7 @@ static lmb_frame make_frame(void)
     f.view = demo_view(W, H);
     f.view.near_m = 0.05f;
     f.view.far_m = 20.0f;
-    f.light_map = MAP;
+    f.shadow_map = MAP;
     f.grouping.block = BLOCK;
     f.grouping.groups = LMB_MAX_GROUPS < 300 ? LMB_MAX_GROUPS : 300;
     f.map_memory = m.map;
@@ -81,11 +81,11 @@ static lmb_frame make_frame(void)
 static void solve(const lmb_frame *f, int32_t past)
 {
     int32_t stage;
-    crew c;
+    workers c;
     memset(&c, 0, sizeof c);
     c.threads = 1;
     c.scratches = &m.scratch;
-    CHECK(crew_light(&c, &stage, &m.render, f, past) == LMB_OK && m.render.stage == past);
+    CHECK(workers_light(&c, &stage, &m.render, f, past) == LMB_OK && m.render.stage == past);
 }
 
 /* Every texel of every face, with its surface and the power that goes through it, to `see`. */
@@ -100,7 +100,7 @@ typedef struct seen {
 
 static void see_tile(const image *p, uint32_t light, int32_t face, void (*see)(const seen *s))
 {
-    const lmb_light_map *map = &m.render.maps[light];
+    const lmb_shadow_map *map = &m.render.maps[light];
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t x = m.tile.x + k % LMB_TILE, y = m.tile.y + k / LMB_TILE;
         seen s = {p, NULL, light, face, k, {0, 0, 0}, 0};
@@ -114,7 +114,7 @@ static void see_tile(const image *p, uint32_t light, int32_t face, void (*see)(c
 static void see_all(const image *p, void (*see)(const seen *s))
 {
     for (uint32_t i = 0; i < LIGHTS; ++i) {
-        const lmb_light_map *map = &m.render.maps[i];
+        const lmb_shadow_map *map = &m.render.maps[i];
         for (int32_t at = 0; at < map->faces * MAP * MAP / 64; ++at) {
             const int32_t face = at / (MAP * MAP / 64), tile = at % (MAP * MAP / 64);
             if ((map->drawn >> face) & 1u) {
@@ -318,8 +318,8 @@ static void test_too_large(void)
     report r = {""};
     lmb_frame f = make_frame();
     solve(&f, LMB_STAGE_POINTS);
-    m.render.frame.light_map = LMB_MAX_SIDE + LMB_TILE;
-    CHECK(!map_distances(&p, &m.render, &r) && strstr(r.text, "--light-map") != NULL);
+    m.render.frame.shadow_map = LMB_MAX_SIDE + LMB_TILE;
+    CHECK(!map_distances(&p, &m.render, &r) && strstr(r.text, "--shadow-map") != NULL);
 }
 
 void test_map_picture(void)

@@ -18,7 +18,7 @@ static char square[] = "tests/fuzz/corpus/obj/quads.obj"; /* upright, a unit wid
 /* A job with a grey photo, and what more its command line says. */
 static mix_job *begin(char *const *more, int count)
 {
-    char *argv[24] = {"mix", "--frame", "known", "--voxels", "4", "--light-map", "64", "-o", "known.pfm"};
+    char *argv[24] = {"mix", "--frame", "known", "--voxels", "4", "--shadow-map", "64", "-o", "known.pfm"};
     report r = {""};
     mix_job *j = calloc(1, sizeof *j);
     if (j == NULL) {

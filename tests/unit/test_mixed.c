@@ -467,7 +467,7 @@ static void test_delta(stage *s)
     CHECK(lmb_delta_tile(&photo, &s->tile, &without, &with) == LMB_OK);
     CHECK(fabsf(photo.rgb[0][3] - 0.5f * before.rgb[0][3]) < 1e-6f && photo.rgb[0][4] < 1e-6f);
     CHECK(fabsf(photo.rgb[0][5] - 2.0f * before.rgb[0][5]) < 1e-6f && photo.rgb[0][7] == before.rgb[0][7]);
-    CHECK(lmb_real_albedo(9.0f, 1.0f) == LMB_ALBEDO_MOST && lmb_real_albedo(0.0f, 1.0f) == LMB_ALBEDO_LEAST);
+    CHECK(lmb_real_albedo(9.0f, 1.0f) == LMB_ALBEDO_MAX && lmb_real_albedo(0.0f, 1.0f) == LMB_ALBEDO_MIN);
     CHECK(lmb_real_albedo(1.0f, 0.0f) == 0.5f);
     CHECK(fabsf(lmb_real_albedo(0.25f, 3.14159265f) - 0.25f) < 1e-6f);
 }
@@ -558,7 +558,7 @@ static void test_two_maps(void)
     scene.bounds_min = (lmb_vec3){-1, 0, -5};
     scene.bounds_max = (lmb_vec3){1, 1, -3};
     for (light.kind = LMB_LIGHT_POINT; light.kind <= LMB_LIGHT_DIRECTIONAL; ++light.kind) {
-        lmb_light_map maps[2];
+        lmb_shadow_map maps[2];
         float power[2][3];
         CHECK(lmb_two_maps(maps, &light, &scene, SIZE, memory, sizeof memory) == LMB_OK);
         CHECK(memcmp(maps[0].view, maps[1].view, sizeof maps[0].view) == 0);

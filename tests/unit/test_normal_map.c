@@ -79,7 +79,7 @@ static lmb_vec3 look(lmb_vec3 *face, lmb_vec3 eye)
     const lmb_kernels *kernels = lmb_kernels_pick();
     lmb_scene_bounds(&st.scene.bounds_min, &st.scene.bounds_max, &st.scene);
     CHECK(lmb_scene_check(&st.scene) == LMB_OK);
-    CHECK(lmb_view_look(&st.view, eye, vec(0, 0, 0), vec(0, 1, 0), 0.5f, SIDE, SIDE) == LMB_OK);
+    CHECK(lmb_view_look_at(&st.view, eye, vec(0, 0, 0), vec(0, 1, 0), 0.5f, SIDE, SIDE) == LMB_OK);
     st.view.near_m = 0.01f;
     CHECK(lmb_surface_init(&st.target.depth, LMB_DEPTH32F, SIDE, SIDE, st.depth, sizeof st.depth) == LMB_OK);
     CHECK(lmb_surface_init(&st.target.id, LMB_ID32, SIDE, SIDE, st.id, sizeof st.id) == LMB_OK);
@@ -100,7 +100,7 @@ static void check_normal(lmb_vec3 eye, double x, double y, double z, const char 
               (double)n.y, (double)n.z, x, y, z);
 }
 
-/* A code of 255, 128, 128 is (1, 1/255, 1/255): almost flat against the surface, so LEAST_RISE does not interfere. */
+/* A code of 255, 128, 128 is (1, 1/255, 1/255): almost flat against the surface, so MIN_RISE does not interfere. */
 static const double half = 1.0 / 255.0;
 
 static void test_axes(void)

@@ -7,13 +7,13 @@ void test_occlusion(void);
 
 static uint32_t memory[1 << 19];
 
-/* The world's triangles as blockers. */
-static lmb_blockers blockers_of_world(void)
+/* The world's triangles as the BVH. */
+static lmb_bvh bvh_of_world(void)
 {
-    lmb_blockers b;
+    lmb_bvh b;
     CHECK(world_end() == LMB_OK);
-    CHECK(lmb_blockers_init(&b, world.count, memory, sizeof memory) == LMB_OK);
-    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK);
+    CHECK(lmb_bvh_init(&b, world.count, memory, sizeof memory) == LMB_OK);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK);
     return b;
 }
 
@@ -46,11 +46,11 @@ static double crosses(float tri[3][3], lmb_vec3 from, lmb_vec3 to)
     }
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), side = vol < 0.0 ? -1.0 : 1.0;
     const double ahead = fabs(vol) / length, past = side * (n[0] * d[0] + n[1] * d[1] + n[2] * d[2]) / length - ahead;
-    double least = fmin(ahead, past);
+    double min = fmin(ahead, past);
     for (int i = 0; i < 3; ++i) {
-        least = fmin(least, side * e[i]);
+        min = fmin(min, side * e[i]);
     }
-    return least;
+    return min;
 }
 
 static lmb_vec3 random_point(test_rng *r, float half)
@@ -73,15 +73,15 @@ static float noise_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
     return lmb_tile_noise(tile, pixels) + lmb_place_noise(at, 0.0f);
 }
 
-static uint64_t blocked_anew(const lmb_blockers *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
+static uint64_t occluded_anew(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
-    lmb_walk walk;
-    memset(&walk, 0, sizeof walk);
-    return lmb_blocked_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), &walk);
+    lmb_traversal traversal;
+    memset(&traversal, 0, sizeof traversal);
+    return lmb_occluded_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), &traversal);
 }
 
 /* A few large triangles, or many smaller ones, or many small ones. */
-static lmb_blockers random_triangles(test_rng *r, int scene)
+static lmb_bvh random_triangles(test_rng *r, int scene)
 {
     const float size = scene % 3 == 0 ? 2.0f : scene % 3 == 1 ? 0.3f : 0.05f;
     world_begin(1, 1, 1);
@@ -90,23 +90,23 @@ static lmb_blockers random_triangles(test_rng *r, int scene)
         const lmb_vec3 b = add3(at, random_point(r, size)), c = add3(at, random_point(r, size));
         world_triangle(at, b, c);
     }
-    return blockers_of_world();
+    return bvh_of_world();
 }
 
 /* Random triangles of all sizes, tiles of all sizes: each pixel's answer is that of all triangles one by one. */
 static void every_triangle(void)
 {
     test_rng r = {77};
-    int blocked = 0, open = 0, wrong = 0;
+    int occluded = 0, open = 0, wrong = 0;
     for (int scene = 0; scene < 12; ++scene) {
-        lmb_blockers b = random_triangles(&r, scene);
+        lmb_bvh b = random_triangles(&r, scene);
         for (int round = 0; round < 40; ++round) {
             lmb_tile tile;
             const lmb_vec3 at = random_point(&r, 1.5f);
             const float half = round % 2 ? 0.01f : 0.7f;
             fill_tile(&tile, random_point(&r, 1.0f), half, &r);
             const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
-            const uint64_t got = blocked_anew(&b, &tile, asked, at);
+            const uint64_t got = occluded_anew(&b, &tile, asked, at);
             CHECK((got & ~asked) == 0);
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
                 double surest = -1.0;
@@ -116,36 +116,36 @@ static void every_triangle(void)
                 if ((asked >> k & 1u) != 0 && fabs(surest) > 3e-5) {
                     const int is = (int)(got >> k & 1u);
                     wrong += is != (surest > 0.0);
-                    blocked += is;
+                    occluded += is;
                     open += !is;
                 }
             }
         }
     }
     CHECK_MSG(wrong == 0, "%d wrong", wrong);
-    CHECK_MSG(blocked > 2000 && open > 2000, "%d blocked, %d open", blocked, open);
+    CHECK_MSG(occluded > 2000 && open > 2000, "%d blocked, %d open", occluded, open);
 }
 
-static uint64_t blocked_sun_anew(const lmb_blockers *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to)
+static uint64_t occluded_sun_anew(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 to)
 {
-    lmb_walk walk;
-    memset(&walk, 0, sizeof walk);
-    return lmb_blocked_sun(b, lmb_kernels_pick(), tile, pixels, to, &walk);
+    lmb_traversal traversal;
+    memset(&traversal, 0, sizeof traversal);
+    return lmb_occluded_sun(b, lmb_kernels_pick(), tile, pixels, to, &traversal);
 }
 
 /* The same for light from infinity; some of it along an axis. */
 static void every_triangle_of_suns(void)
 {
     test_rng r = {78};
-    int blocked = 0, open = 0, wrong = 0;
+    int occluded = 0, open = 0, wrong = 0;
     for (int scene = 0; scene < 12; ++scene) {
-        lmb_blockers b = random_triangles(&r, scene);
+        lmb_bvh b = random_triangles(&r, scene);
         for (int round = 0; round < 40; ++round) {
             lmb_tile tile;
             const lmb_vec3 any = random_point(&r, 1.0f), to = round % 7 == 0 ? Y : mul3(any, 1.0f / length3(any));
             fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
             const uint64_t asked = round % 3 == 0 ? ~UINT64_C(0) : (uint64_t)test_random(&r) << 21;
-            const uint64_t got = blocked_sun_anew(&b, &tile, asked, to);
+            const uint64_t got = occluded_sun_anew(&b, &tile, asked, to);
             CHECK((got & ~asked) == 0);
             for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
                 const lmb_vec3 from = plane_vec(tile.position, k), end = add3(from, mul3(to, 1000.0f));
@@ -156,14 +156,14 @@ static void every_triangle_of_suns(void)
                 if ((asked >> k & 1u) != 0 && (surest > 0.03 || surest < -0.03)) {
                     const int is = (int)(got >> k & 1u);
                     wrong += is != (surest > 0.0);
-                    blocked += is;
+                    occluded += is;
                     open += !is;
                 }
             }
         }
     }
     CHECK_MSG(wrong == 0, "%d wrong", wrong);
-    CHECK_MSG(blocked > 2000 && open > 2000, "%d blocked, %d open", blocked, open);
+    CHECK_MSG(occluded > 2000 && open > 2000, "%d blocked, %d open", occluded, open);
 }
 
 /* A sphere of many triangles has no gap: from outside nothing inside is seen; and its own points see what is above. */
@@ -174,11 +174,11 @@ static void no_gap_no_acne(void)
     uint64_t leaks = 0, acne = 0;
     world_begin(1, 1, 1);
     world_sphere(vec3(0.3f, 0.1f, -0.2f), 1.0f, 48, 96);
-    lmb_blockers b = blockers_of_world();
+    lmb_bvh b = bvh_of_world();
     for (int round = 0; round < 400; ++round) {
         const lmb_vec3 out = normalize3(random_point(&r, 1.0f));
         fill_tile(&tile, vec3(0.3f, 0.1f, -0.2f), 0.3f, &r);
-        leaks |= ~blocked_anew(&b, &tile, ~UINT64_C(0), mul3(out, 4.0f));
+        leaks |= ~occluded_anew(&b, &tile, ~UINT64_C(0), mul3(out, 4.0f));
         float(*t)[3] = world.corners[test_random(&r) % world.count];
         const lmb_vec3 a = vec3(t[0][0], t[0][1], t[0][2]), u = sub3(vec3(t[1][0], t[1][1], t[1][2]), a),
                        v = sub3(vec3(t[2][0], t[2][1], t[2][2]), a);
@@ -187,7 +187,7 @@ static void no_gap_no_acne(void)
             const float s = (float)(k % 8) / 7.0f, q = (float)(k / 8) / 7.0f * (1.0f - s);
             set_plane(tile.position, k, add3(a, add3(mul3(u, s), mul3(v, q))));
         }
-        acne |= blocked_anew(&b, &tile, ~UINT64_C(0), add3(a, mul3(n, 3.0f)));
+        acne |= occluded_anew(&b, &tile, ~UINT64_C(0), add3(a, mul3(n, 3.0f)));
     }
     CHECK(leaks == 0);
     CHECK(acne == 0);
@@ -196,35 +196,35 @@ static void no_gap_no_acne(void)
 /* Nothing, a full house, too little room; all triangles in one place, where no cut helps. */
 static void capacities(void)
 {
-    lmb_blockers b;
+    lmb_bvh b;
     lmb_tile tile;
-    lmb_walk walk;
+    lmb_traversal traversal;
     test_rng r = {9};
-    memset(&walk, 0, sizeof walk);
+    memset(&traversal, 0, sizeof traversal);
     world_begin(1, 1, 1);
     CHECK(world_end() == LMB_OK);
-    CHECK(lmb_blockers_init(&b, 8, memory, lmb_blockers_bytes(8)) == LMB_OK);
-    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.node_count == 0);
+    CHECK(lmb_bvh_init(&b, 8, memory, lmb_bvh_bytes(8)) == LMB_OK);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK && b.node_count == 0);
     fill_tile(&tile, vec3(0, 0, 0), 0.1f, &r);
-    CHECK(blocked_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
+    CHECK(occluded_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
     for (int i = 0; i < 9; ++i) {
         world_triangle(vec3(-1, 0.5f, -1), vec3(2, 0.5f, -1), vec3(-1, 0.5f, 2));
     }
     world.first = 0;
     CHECK(world_end() == LMB_OK);
-    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_ERR_CAPACITY);
-    CHECK(blocked_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
-    CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9)) == LMB_OK);
-    CHECK(lmb_blockers_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
-    CHECK(blocked_anew(&b, &tile, 5, vec3(0, 1, 0)) == 5);
-    CHECK(lmb_blocked_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, &walk) == 0);
-    CHECK(lmb_blocked_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), 0.0f, &walk) == 0);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), 0.0f, &walk) == 0);
-    CHECK(lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, NULL) == 0);
-    CHECK(lmb_blockers_init(&b, 9, memory, lmb_blockers_bytes(9) - 1) == LMB_ERR_CAPACITY);
-    CHECK(lmb_blockers_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
-    CHECK(lmb_blockers_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);
-    CHECK(lmb_blockers_build(NULL, &world.scene) == LMB_ERR_ARG);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_ERR_CAPACITY);
+    CHECK(occluded_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1, 0)) == 0);
+    CHECK(lmb_bvh_init(&b, 9, memory, lmb_bvh_bytes(9)) == LMB_OK);
+    CHECK(lmb_bvh_build(&b, &world.scene) == LMB_OK && b.triangle_count == 9 && b.node_count >= 1);
+    CHECK(occluded_anew(&b, &tile, 5, vec3(0, 1, 0)) == 5);
+    CHECK(lmb_occluded_tile(NULL, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, &traversal) == 0);
+    CHECK(lmb_occluded_tile(&b, NULL, &tile, 5, vec3(0, 1, 0), 0.0f, &traversal) == 0);
+    CHECK(lmb_occluded_tile(&b, lmb_kernels_pick(), NULL, 5, vec3(0, 1, 0), 0.0f, &traversal) == 0);
+    CHECK(lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, 5, vec3(0, 1, 0), 0.0f, NULL) == 0);
+    CHECK(lmb_bvh_init(&b, 9, memory, lmb_bvh_bytes(9) - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_bvh_init(&b, 9, (char *)memory + 1, sizeof memory - 1) == LMB_ERR_ALIGN);
+    CHECK(lmb_bvh_init(&b, 0, memory, sizeof memory) == LMB_ERR_ARG);
+    CHECK(lmb_bvh_build(NULL, &world.scene) == LMB_ERR_ARG);
 }
 
 /* Fives of triangles far apart take more nodes than there are: the rest lies in large boxes, with the same answers. And
@@ -232,9 +232,9 @@ static void capacities(void)
 static void few_nodes(void)
 {
     test_rng r = {31};
-    int wrong = 0, blocked = 0, other = 0;
-    lmb_walk walk;
-    memset(&walk, 0, sizeof walk);
+    int wrong = 0, occluded = 0, other = 0;
+    lmb_traversal traversal;
+    memset(&traversal, 0, sizeof traversal);
     world_begin(1, 1, 1);
     for (int i = 0; i < 256; ++i) { /* a grid: sixteen in each box of the root, one in each of theirs */
         const lmb_vec3 at = vec3((float)(i % 16) / 8.0f - 1.0f, (float)(i / 16) / 8.0f - 1.0f, 0.0f);
@@ -243,7 +243,7 @@ static void few_nodes(void)
                            add3(at, random_point(&r, 0.05f)));
         }
     }
-    lmb_blockers b = blockers_of_world(), all = b;
+    lmb_bvh b = bvh_of_world(), all = b;
     CHECK_MSG(b.node_count == b.node_cap, "%u of %u nodes", (unsigned)b.node_count, (unsigned)b.node_cap);
     static lmb_boxes one; /* everything in one box */
     all.node = &one;
@@ -259,14 +259,14 @@ static void few_nodes(void)
         lmb_tile tile;
         const lmb_vec3 at = random_point(&r, 1.5f);
         fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
-        const uint64_t got = blocked_anew(&b, &tile, ~UINT64_C(0), at);
-        wrong += got != blocked_anew(&all, &tile, ~UINT64_C(0), at);
-        other += got != lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at,
-                                         noise_of(&tile, ~UINT64_C(0), at), &walk);
-        blocked += got != 0 && ~got != 0;
+        const uint64_t got = occluded_anew(&b, &tile, ~UINT64_C(0), at);
+        wrong += got != occluded_anew(&all, &tile, ~UINT64_C(0), at);
+        other += got != lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at,
+                                          noise_of(&tile, ~UINT64_C(0), at), &traversal);
+        occluded += got != 0 && ~got != 0;
     }
-    CHECK_MSG(wrong == 0 && other == 0 && blocked > 10, "%d and %d of 60 wrong, %d mixed", wrong, other, blocked);
-    CHECK(walk.last[0] != 0);
+    CHECK_MSG(wrong == 0 && other == 0 && occluded > 10, "%d and %d of 60 wrong, %d mixed", wrong, other, occluded);
+    CHECK(traversal.last[0] != 0);
 }
 
 /* A masked triangle blocks where it stands. */
@@ -284,16 +284,16 @@ static void holes(void)
     world.material[0].flags |= LMB_ALPHA_MASK;
     world.material[0].alpha_cutoff = 0.5f;
     world_quad(vec3(0, 1, 0), Z, X);
-    lmb_blockers b = blockers_of_world();
+    lmb_bvh b = bvh_of_world();
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         set_plane(tile.position, k,
                   vec3(0.5f * ((float)(k % 8) - 3.5f) / 4.0f, 0, 0.9f * ((float)(k / 8) - 3.5f) / 4.0f));
     }
     /* From straight above the plane's points lie over the pixels; u grows with z. */
-    const uint64_t blocked = blocked_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1000, 0));
-    CHECK_MSG(blocked == UINT64_C(0xffffffff), "%08x%08x", (unsigned)(blocked >> 32), (unsigned)blocked);
-    CHECK(blocked_sun_anew(&b, &tile, ~UINT64_C(0), Y) == blocked);
-    CHECK(blocked_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
+    const uint64_t occluded = occluded_anew(&b, &tile, ~UINT64_C(0), vec3(0, 1000, 0));
+    CHECK_MSG(occluded == UINT64_C(0xffffffff), "%08x%08x", (unsigned)(occluded >> 32), (unsigned)occluded);
+    CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), Y) == occluded);
+    CHECK(occluded_sun_anew(&b, &tile, ~UINT64_C(0), mul3(Y, -1)) == 0);
 }
 
 /* Few pixels far apart among leaves: no more boxes are asked for all together than for each alone, and the answers are
@@ -302,33 +302,33 @@ static void far_apart_among_leaves(void)
 {
     test_rng r = {81};
     uint32_t together = 0, alone = 0;
-    int other = 0, blocked = 0;
+    int other = 0, occluded = 0;
     world_begin(1, 1, 1);
     for (int i = 0; i < 5000; ++i) {
         const lmb_vec3 at = random_point(&r, 1.0f);
         world_triangle(at, add3(at, random_point(&r, 0.03f)), add3(at, random_point(&r, 0.03f)));
     }
-    lmb_blockers b = blockers_of_world();
+    lmb_bvh b = bvh_of_world();
     for (int round = 0; round < 200; ++round) {
         const uint64_t asked = 0x1010008004002u; /* five */
         const lmb_vec3 at = random_point(&r, 1.0f);
         lmb_tile tile;
-        lmb_walk walk;
+        lmb_traversal traversal;
         uint64_t each = 0;
         fill_tile(&tile, vec3(0, 0, 0), 1.0f, &r);
         const float noise = noise_of(&tile, asked, at);
-        memset(&walk, 0, sizeof walk);
-        const uint64_t all = lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, asked, at, noise, &walk);
-        together += walk.asked;
+        memset(&traversal, 0, sizeof traversal);
+        const uint64_t all = lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, asked, at, noise, &traversal);
+        together += traversal.asked;
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-            memset(&walk, 0, sizeof walk);
-            each |= lmb_blocked_tile(&b, lmb_kernels_pick(), &tile, asked & (uint64_t)1 << k, at, noise, &walk);
-            alone += walk.asked;
+            memset(&traversal, 0, sizeof traversal);
+            each |= lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, asked & (uint64_t)1 << k, at, noise, &traversal);
+            alone += traversal.asked;
         }
         other += all != each;
-        blocked += all != 0;
+        occluded += all != 0;
     }
-    CHECK_MSG(other == 0 && blocked > 50, "%d others, %d blocked", other, blocked);
+    CHECK_MSG(other == 0 && occluded > 50, "%d others, %d blocked", other, occluded);
     CHECK_MSG(together <= alone, "%u boxes together, %u alone", (unsigned)together, (unsigned)alone);
 }
 

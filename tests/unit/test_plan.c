@@ -1,10 +1,10 @@
-/* test_plan.c: floor 8: what a frame does without: the same bytes as with it, seen to be left out, and not on a near
+/* test_plan.c: layer 8: what a frame does without: the same bytes as with it, seen to be left out, and not on a near
  * miss. */
 #include <lambent/lambent.h>
 
 #include "../world.h"
 
-enum { FRAME = 32, MAP = 16, FACES = 14, ELEMENTS = 64, BLOCKERS = 96 };
+enum { FRAME = 32, MAP = 16, FACES = 14, ELEMENTS = 64, BVH = 96 };
 #include "../bounce_frame.h"
 
 void test_plan(void);
@@ -33,7 +33,7 @@ static lmb_frame frame_of(uint32_t light_count)
     world.scene.light_count = light_count;
     CHECK(world_end() == LMB_OK);
     lmb_frame f = bounce_frame(&v, 1);
-    f.error = f.visible = 0.1f;
+    f.error = f.visibility = 0.1f;
     return f;
 }
 
@@ -41,8 +41,8 @@ static lmb_frame frame_of(uint32_t light_count)
 static int same_as_everything(const lmb_frame *frame)
 {
     lmb_frame f = *frame;
-    f.everything = 1;
-    CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.omits == 0 && render.keeps == 0);
+    f.run_all = 1;
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.skips == 0 && render.reuses == 0);
     memcpy(whole, picture, sizeof whole);
     memset(picture, 0x5a, sizeof picture);
     CHECK(lmb_render_frame(&render, frame) == LMB_OK);
@@ -63,8 +63,8 @@ static void test_convex(void)
     lamps[0] = spot(vec3(0.3f, 0.8f, 0.1f), vec3(-0.2f, -1, -0.1f), 25, 40);
     set_room();
     lmb_frame f = frame_of(1);
-    CHECK(same_as_everything(&f) && planes_of() == 6 && render.frame.blockers.hull.count == 6);
-    CHECK(render.omits == 0 && picture[0] > 0.0f);
+    CHECK(same_as_everything(&f) && planes_of() == 6 && render.frame.bvh.hull.count == 6);
+    CHECK(render.skips == 0 && picture[0] > 0.0f);
     /* Turned, its triangles' normals are rounded: each quad has two planes. */
     world.instance[0].to_world.m[0] = world.instance[0].to_world.m[10] = 0.8f;
     world.instance[0].to_world.m[2] = -0.6f;
@@ -75,24 +75,24 @@ static void test_convex(void)
 }
 
 /* No walk: the tree of boxes may hold a wall right through the room. */
-static void test_no_walk(void)
+static void test_no_traversal(void)
 {
     lmb_tile tile;
     memset(&tile, 0, sizeof tile);
     set_room();
     lmb_frame f = frame_of(1);
-    CHECK(lmb_blockers_build(&f.blockers, &world.scene) == LMB_OK && f.blockers.hull.count == 6);
+    CHECK(lmb_bvh_build(&f.bvh, &world.scene) == LMB_OK && f.bvh.hull.count == 6);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         set_plane(tile.position, k, vec3(-1, -0.9f + 0.02f * (float)k, 0.01f * (float)k));
     }
-    CHECK(lmb_hull_pixels(&f.blockers.hull, &tile, ~UINT64_C(0)) == ~UINT64_C(0));
-    CHECK(lmb_hull_pixels(&f.blockers.hull, &tile, UINT64_C(0x50)) == UINT64_C(0x50));
-    CHECK(lmb_hull_holds(&f.blockers.hull, vec3(1, 1, 1)) && lmb_hull_holds(&f.blockers.hull, vec3(0, -1, 0)));
+    CHECK(lmb_hull_pixels(&f.bvh.hull, &tile, ~UINT64_C(0)) == ~UINT64_C(0));
+    CHECK(lmb_hull_pixels(&f.bvh.hull, &tile, UINT64_C(0x50)) == UINT64_C(0x50));
+    CHECK(lmb_hull_holds(&f.bvh.hull, vec3(1, 1, 1)) && lmb_hull_holds(&f.bvh.hull, vec3(0, -1, 0)));
     /* Behind a wall by more than rounding, each axis. */
-    CHECK(!lmb_hull_holds(&f.blockers.hull, vec3(1.00001f, 0, 0)));
-    CHECK(!lmb_hull_holds(&f.blockers.hull, vec3(0, 0, -1.1f)));
+    CHECK(!lmb_hull_holds(&f.bvh.hull, vec3(1.00001f, 0, 0)));
+    CHECK(!lmb_hull_holds(&f.bvh.hull, vec3(0, 0, -1.1f)));
     tile.position[1][5] = -1.00001f;
-    CHECK(lmb_hull_pixels(&f.blockers.hull, &tile, ~UINT64_C(0)) == ~(UINT64_C(1) << 5));
+    CHECK(lmb_hull_pixels(&f.bvh.hull, &tile, ~UINT64_C(0)) == ~(UINT64_C(1) << 5));
 }
 
 /* Rooms that are nearly convex and empty. */
@@ -161,9 +161,9 @@ static void test_faces(void)
     lamps[0].position.y = 1.98f; /* and just in it */
     CHECK(same_as_everything(&f) && (render.maps[0].drawn >> 5 & 1u) == 1u);
     lamps[0] = spot(vec3(0, 3, 0), vec3(0, 1, 0), 10, 30); /* away from all */
-    CHECK(same_as_everything(&f) && render.maps[0].drawn == 0 && render.omits == LMB_OMIT_BOUNCE);
+    CHECK(same_as_everything(&f) && render.maps[0].drawn == 0 && render.skips == LMB_SKIP_BOUNCE);
     lamps[0] = spot(vec3(0, 3, 0), vec3(1, -1, 0), 10, 40);
-    CHECK(same_as_everything(&f) && render.maps[0].drawn == 1 && render.omits == 0);
+    CHECK(same_as_everything(&f) && render.maps[0].drawn == 1 && render.skips == 0);
 }
 
 /* --- materials ---------------------------------------------------------------------------------------------------- */
@@ -174,14 +174,14 @@ static void test_black(void)
     lamps[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
     lmb_frame f = frame_of(1);
     memset(world.material[0].albedo, 0, sizeof world.material[0].albedo);
-    CHECK(same_as_everything(&f) && render.omits == LMB_OMIT_BOUNCE); /* the other material has no triangle */
+    CHECK(same_as_everything(&f) && render.skips == LMB_SKIP_BOUNCE); /* the other material has no triangle */
     f.show = LMB_SHOW_IRRADIANCE;
     CHECK(same_as_everything(&f) && picture[0] == 0.0f);
     world.material[0].albedo[1] = 1e-3f;
-    CHECK(same_as_everything(&f) && render.omits == 0 && picture[1] > 0.0f);
+    CHECK(same_as_everything(&f) && render.skips == 0 && picture[1] > 0.0f);
     world.material[0].albedo[1] = 0.0f;
     world.material[0].emission[0] = 1.0f;
-    CHECK(same_as_everything(&f) && render.omits == 0 && render.shines == 1 && picture[0] > 0.0f);
+    CHECK(same_as_everything(&f) && render.skips == 0 && render.emits == 1 && picture[0] > 0.0f);
 }
 
 static void test_unused(void)
@@ -191,10 +191,10 @@ static void test_unused(void)
     lmb_frame f = frame_of(1);
     world.material[1].emission[0] = world.material[1].specular[0] = 1.0f;
     world.material[1].roughness = 0.5f;
-    CHECK(same_as_everything(&f) && render.shines == 0 && render.is_glossy == 0);
+    CHECK(same_as_everything(&f) && render.emits == 0 && render.is_glossy == 0);
     world.material[0].specular[1] = 0.01f;
     world.material[0].roughness = 0.5f;
-    CHECK(same_as_everything(&f) && render.shines == 0 && render.is_glossy == 1);
+    CHECK(same_as_everything(&f) && render.emits == 0 && render.is_glossy == 1);
 }
 
 /* --- any scene ---------------------------------------------------------------------------------------------------- */
@@ -225,7 +225,7 @@ static void test_random_scenes(void)
 {
     static const int32_t shows[] = {LMB_SHOW_FULL, LMB_SHOW_INDIRECT, LMB_SHOW_IRRADIANCE};
     test_rng rng = {11};
-    int omitted = 0, faces = 0;
+    int skipped = 0, faces = 0;
     for (int i = 0; i < 60; ++i) {
         random_scene(&rng);
         lmb_frame f = frame_of(LMB_MAX_LIGHTS > 1 ? 2 : 1);
@@ -233,16 +233,16 @@ static void test_random_scenes(void)
         f.gather_step = i % 2 == 0 ? 1 : 2;
         f.bounces = 1 + i % 4 / 3;
         CHECK_MSG(same_as_everything(&f), "scene %d", i);
-        omitted += render.omits != 0;
+        skipped += render.skips != 0;
         faces += faces_drawn(0) < (uint32_t)render.maps[0].faces;
     }
-    CHECK_MSG(omitted > 2 && faces > 5, "%d %d", omitted, faces);
+    CHECK_MSG(skipped > 2 && faces > 5, "%d %d", skipped, faces);
 }
 
 void test_plan(void)
 {
     test_convex();
-    test_no_walk();
+    test_no_traversal();
     test_not_convex();
     test_lights();
     test_faces();

@@ -1,9 +1,9 @@
-/* test_plan_frame.c: floor 8: what a plan tells of a frame against what the frame then does; budgets. */
+/* test_plan_frame.c: layer 8: what a plan tells of a frame against what the frame then does; budgets. */
 #include <lambent/lambent.h>
 
 #include "../world.h"
 
-enum { FRAME = 32, MAP = 16, FACES = 7, ELEMENTS = 64, BLOCKERS = 96 };
+enum { FRAME = 32, MAP = 16, FACES = 7, ELEMENTS = 64, BVH = 96 };
 #include "../bounce_frame.h"
 
 void test_plan_frame(void);
@@ -30,7 +30,7 @@ static lmb_frame set_frame(void)
     world.scene.light_count = LMB_MAX_LIGHTS > 1 ? 2 : 1;
     CHECK(world_end() == LMB_OK);
     lmb_frame f = bounce_frame(&v, 1);
-    f.error = f.visible = 0.1f;
+    f.error = f.visibility = 0.1f;
     f.stats = &stats;
     memset(&stats, 0, sizeof stats);
     return f;
@@ -55,7 +55,7 @@ static int why_of(lmb_plan_stage stage) { return plan.row[stage].why; }
 static lmb_survey places;
 
 /* A look at all tiles of a small frame knows all of its pairs and segments. */
-static void look_at(lmb_facts *out, const lmb_frame *f, lmb_look *at)
+static void look_at(lmb_facts *out, const lmb_frame *f, lmb_tile_sample *at)
 {
     lmb_frame quiet = *f;
     quiet.stats = NULL;
@@ -67,14 +67,14 @@ static void look_at(lmb_facts *out, const lmb_frame *f, lmb_look *at)
         places.x[places.count] = (uint16_t)(i % (FRAME / LMB_TILE) * LMB_TILE);
         places.y[places.count++] = (uint16_t)(i / (FRAME / LMB_TILE) * LMB_TILE);
     }
-    CHECK(lmb_render_look(at, &render, &scratch, &places, 0.0) == LMB_OK && at->places == places.count);
+    CHECK(lmb_render_sample(at, &render, &scratch, &places, 0.0) == LMB_OK && at->places == places.count);
     out->pairs = at->pairs;
     out->segments = at->segments;
 }
 
 static void test_counts(void)
 {
-    static lmb_look at, twice;
+    static lmb_tile_sample at, twice;
     lmb_facts facts;
     const lmb_frame f = set_frame();
     look_at(&facts, &f, &at);
@@ -87,17 +87,17 @@ static void test_counts(void)
     CHECK_MSG(triangles == (double)stats.triangles, "%.0f of %u", triangles, (unsigned)stats.triangles);
     CHECK_MSG(fabs(pairs / (double)stats.pairs - 1.0) < 1e-5, "%.0f of %.0f", pairs, (double)stats.pairs);
     CHECK_MSG(fabs(segments / (double)stats.segments - 1.0) < 1e-5, "%.0f of %.0f", segments, (double)stats.segments);
-    CHECK(plan.row[LMB_PLAN_BLOCKERS].op[LMB_OP_BLOCKERS] == 16.0 && plan.work > 0.0 && plan.bytes > sizeof scratch);
+    CHECK(plan.row[LMB_PLAN_BVH].op[LMB_OP_BVH] == 16.0 && plan.work > 0.0 && plan.bytes > sizeof scratch);
     CHECK(lmb_plan_frame(&plan, &render, NULL) == LMB_ERR_ARG); /* it has gone on */
     /* Errors of looks: none against itself; a tenth of each pixel is a tenth, or more where light is uneven. */
     twice = at;
-    CHECK(lmb_look_error(&twice, &at) == 0.0f);
+    CHECK(lmb_tile_sample_error(&twice, &at) == 0.0f);
     for (int i = 0; i < at.places * LMB_TILE_PIXELS; ++i) {
         for (int c = 0; c < 3; ++c) {
             twice.light[i][c] *= at.light[i][c] > 0.0f ? 1.1f : 1.0f;
         }
     }
-    const float error = lmb_look_error(&twice, &at);
+    const float error = lmb_tile_sample_error(&twice, &at);
     CHECK(error > 0.08f && error < 0.2f);
     /* A bound is over it, by how places differ; of few places, or of dark ones, there is none. */
     CHECK(lmb_look_bound(&twice, &at, 0.0f) == error && lmb_look_bound(&twice, &at, 2.0f) > 1.02f * error);
@@ -106,33 +106,33 @@ static void test_counts(void)
     memset(&twice, 0, sizeof twice);
     twice.tiles = 1;
     twice.places = at.places;
-    CHECK(lmb_look_bound(&at, &twice, 1.0f) < 0.0f && lmb_look_error(&at, &twice) == 0.0f);
-    CHECK(lmb_render_look(&twice, &render, &scratch, &places, 1.0) == LMB_OK && twice.places < at.places);
+    CHECK(lmb_look_bound(&at, &twice, 1.0f) < 0.0f && lmb_tile_sample_error(&at, &twice) == 0.0f);
+    CHECK(lmb_render_sample(&twice, &render, &scratch, &places, 1.0) == LMB_OK && twice.places < at.places);
 }
 
 /* The same pixels by a picture that is gathered at every other one: as much light within a fiftieth. */
-static void test_sparse_look(void)
+static void test_sparse_sample(void)
 {
-    static lmb_look each, other_one;
+    static lmb_tile_sample each, other_one;
     lmb_facts facts;
     lmb_frame f = set_frame();
     double sum[2] = {0.0, 0.0};
     f.gather_step = 2;
     look_at(&facts, &f, &other_one);
     render.frame.gather_step = 1;
-    CHECK(lmb_render_look(&each, &render, &scratch, &places, 0.0) == LMB_OK);
-    for (int i = 0; i < LMB_LOOK_PIXELS; ++i) {
+    CHECK(lmb_render_sample(&each, &render, &scratch, &places, 0.0) == LMB_OK);
+    for (int i = 0; i < LMB_SAMPLE_PIXELS; ++i) {
         sum[0] += (double)maxf(each.light[i][1], 0.0f);
         sum[1] += (double)maxf(other_one.light[i][1], 0.0f);
     }
     CHECK(each.places == other_one.places && other_one.pairs < 0.9 * each.pairs && sum[0] > 0.0);
     CHECK_MSG(fabs(sum[1] / sum[0] - 1.0) < 0.02, "%g of it", sum[1] / sum[0]);
-    CHECK_MSG(lmb_look_error(&other_one, &each) > 0.0f && lmb_look_error(&other_one, &each) < 0.3f, "%g",
-              (double)lmb_look_error(&other_one, &each));
+    CHECK_MSG(lmb_tile_sample_error(&other_one, &each) > 0.0f && lmb_tile_sample_error(&other_one, &each) < 0.3f, "%g",
+              (double)lmb_tile_sample_error(&other_one, &each));
 }
 
-/* Later bounces, of what shines the first too, lobes and what shines: their operations and bytes; after the frame, what
- * is kept. */
+/* Later bounces, of what emits light the first too, lobes and what emits light: their operations and bytes; after the
+ * frame, what is kept. */
 static void test_rows(void)
 {
     lmb_frame f = set_frame();
@@ -141,16 +141,16 @@ static void test_rows(void)
     world.material[0].roughness = 0.5f;
     world.material[0].emission[0] = 1.0f;
     memset(&render, 0, sizeof render);
-    CHECK(lmb_render_next(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
     const lmb_plan_row *bounces = &plan.row[LMB_PLAN_BOUNCES];
     CHECK(bounces->why == LMB_WHY_RUNS && bounces->op[LMB_OP_ELEMENTS] == 16.0);
     CHECK(bounces->op[LMB_OP_CUTS] == 3.0 * ELEMENTS / LMB_TILE_PIXELS && bounces->work > 0.0);
     CHECK(bounces->bytes == lmb_elements_bytes(ELEMENTS));
     CHECK(plan.row[LMB_PLAN_LOBES].op[LMB_OP_LOBES] == FRAME * FRAME);
-    CHECK(plan.row[LMB_PLAN_SHINE].op[LMB_OP_STORED] == FRAME * FRAME);
+    CHECK(plan.row[LMB_PLAN_EMISSION].op[LMB_OP_STORED] == FRAME * FRAME);
     finish();
-    CHECK(lmb_render_next(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
-    CHECK(bounces->why == LMB_WHY_KEPT && bounces->work == 0.0 && bounces->bytes == lmb_elements_bytes(ELEMENTS));
+    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(bounces->why == LMB_WHY_REUSED && bounces->work == 0.0 && bounces->bytes == lmb_elements_bytes(ELEMENTS));
     memset(lamps[0].intensity, 0, sizeof lamps[0].intensity);
     memset(lamps[1].intensity, 0, sizeof lamps[1].intensity);
     make_plan(&f, NULL);
@@ -202,8 +202,8 @@ static void check_spread(void)
 /* Drawn whole, and its operations told by a look, by one step. */
 static void survey_at(int32_t step)
 {
-    static lmb_look at;
-    const int32_t tiles = step > 1 ? LMB_SPARSE_TILES : 1, wanted = step > 1 ? LMB_LOOK_BLOCKS : LMB_LOOK_TILES;
+    static lmb_tile_sample at;
+    const int32_t tiles = step > 1 ? LMB_SPARSE_TILES : 1, wanted = step > 1 ? LMB_SAMPLE_BLOCKS : LMB_SAMPLE_TILES;
     lmb_frame f = set_frame();
     f.view = look(vec3(1.2f, 0.9f, 2.2f), vec3(-0.1f, -0.4f, 0), 60, LARGE);
     f.eye = target_of(LMB_DEPTH32F, LARGE, large_depth, large_id);
@@ -213,15 +213,15 @@ static void survey_at(int32_t step)
     CHECK(lmb_survey_even(&places, &render, tiles, wanted) == LMB_OK);
     CHECK(places.tiles == tiles && places.count == wanted);
     check_spread();
-    CHECK(lmb_render_look(&at, &render, &scratch, &places, 0.0) == LMB_OK);
+    CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == LMB_OK);
     const double of_all = (double)(LARGE / LMB_TILE * (LARGE / LMB_TILE)) / (double)(at.places * tiles);
     const double pairs = at.pairs * of_all / (double)stats.pairs;
     const double segments = at.segments * of_all / (double)stats.segments;
     CHECK_MSG(fabs(pairs - 1.0) < 0.1 && fabs(segments - 1.0) < 0.2, "step %d: pairs %.3f, segments %.3f", (int)step,
               pairs, segments);
     render.frame.gather_step = 2; /* of single tiles there is no block */
-    CHECK(lmb_render_look(&at, &render, &scratch, &places, 0.0) == (step > 1 ? LMB_OK : LMB_ERR_ARG));
-    CHECK(lmb_render_look(&at, &render, &scratch, NULL, 0.0) == LMB_ERR_ARG);
+    CHECK(lmb_render_sample(&at, &render, &scratch, &places, 0.0) == (step > 1 ? LMB_OK : LMB_ERR_ARG));
+    CHECK(lmb_render_sample(&at, &render, &scratch, NULL, 0.0) == LMB_ERR_ARG);
     CHECK(lmb_survey_even(NULL, &render, tiles, wanted) == LMB_ERR_ARG);
     CHECK(lmb_survey_even(&places, NULL, tiles, wanted) == LMB_ERR_ARG);
     CHECK(lmb_survey_even(&places, &render, tiles, wanted + 1) == LMB_ERR_ARG);
@@ -241,7 +241,7 @@ static void test_reasons(void)
     lmb_frame f = set_frame();
     make_plan(&f, NULL);
     CHECK(why_of(LMB_PLAN_GATHER) == LMB_WHY_RUNS && plan.row[LMB_PLAN_GATHER].proof == LMB_PROOF_RUNS);
-    CHECK(why_of(LMB_PLAN_LOBES) == LMB_WHY_NO_LOBE && why_of(LMB_PLAN_SHINE) == LMB_WHY_NO_EMISSION);
+    CHECK(why_of(LMB_PLAN_LOBES) == LMB_WHY_NO_LOBE && why_of(LMB_PLAN_EMISSION) == LMB_WHY_NO_EMISSION);
     CHECK(plan.row[LMB_PLAN_LOBES].proof == LMB_PROOF_EXACT && why_of(LMB_PLAN_BOUNCES) == LMB_WHY_NOT_ASKED);
     CHECK(LMB_MAX_LIGHTS == 1 || (plan.light[1] == LMB_WHY_PAST && plan.faces == 2 && plan.faces_drawn == 1));
     f.show = LMB_SHOW_DIRECT;
@@ -272,11 +272,11 @@ static void test_kept(void)
 {
     const lmb_frame f = set_frame();
     memset(&render, 0, sizeof render);
-    CHECK(lmb_render_next(&render, &f) == LMB_OK);
+    CHECK(lmb_render_reuse(&render, &f) == LMB_OK);
     finish();
-    CHECK(lmb_render_next(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
-    CHECK(why_of(LMB_PLAN_MAPS) == LMB_WHY_KEPT && why_of(LMB_PLAN_POINTS) == LMB_WHY_KEPT);
-    CHECK(why_of(LMB_PLAN_BLOCKERS) == LMB_WHY_KEPT && why_of(LMB_PLAN_VIEW) == LMB_WHY_KEPT);
+    CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
+    CHECK(why_of(LMB_PLAN_MAPS) == LMB_WHY_REUSED && why_of(LMB_PLAN_POINTS) == LMB_WHY_REUSED);
+    CHECK(why_of(LMB_PLAN_BVH) == LMB_WHY_REUSED && why_of(LMB_PLAN_VIEW) == LMB_WHY_REUSED);
     CHECK(why_of(LMB_PLAN_GATHER) == LMB_WHY_RUNS && plan.row[LMB_PLAN_MAPS].work == 0.0);
 }
 
@@ -291,7 +291,7 @@ static void test_convex(void)
     CHECK(world_end() == LMB_OK);
     make_plan(&f, NULL);
     CHECK(why_of(LMB_PLAN_OCCLUSION) == LMB_WHY_CONVEX);
-    f.everything = 1;
+    f.run_all = 1;
     make_plan(&f, NULL);
     CHECK(why_of(LMB_PLAN_OCCLUSION) == LMB_WHY_RUNS);
 }
@@ -300,12 +300,12 @@ static void test_convex(void)
 
 static double largest_change(void)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < FRAME * FRAME * 3; ++i) {
         const double d = fabs((double)picture[i] - (double)other[i]);
-        most = d > most ? d : most;
+        max = d > max ? d : max;
     }
-    return most;
+    return max;
 }
 
 /* The lamp is 2.4 m over the floor, nothing is nearer than 1.2 m: E = 5 / d^2. */
@@ -342,7 +342,7 @@ static lmb_facts some_facts(void)
     f.faces = f.lights = f.bounces = 1.0;
     f.tiles = 4800.0;
     f.wanted_map = 512;
-    f.most = 1024;
+    f.max = 1024;
     for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
         f.rung[i].places = 80;
         f.rung[i].pairs = f.rung[i].segments = 1000.0f * (float)(1 << i);
@@ -366,7 +366,8 @@ static void test_budgets(void)
     }
     /* What was not checked is chosen where nothing else may do, and does not meet. */
     const lmb_budget fine = {0.0, 0.001f, 0}, few = {0.0, 0.0f, 1u << 20}, none = {1.0, 0.0f, 0};
-    CHECK(lmb_plan_choose(&c, &facts, &fine, 0) == LMB_OK && !c.meets && c.rung == LMB_PLAN_RUNGS - 2 && c.error < 0.0f);
+    CHECK(lmb_plan_choose(&c, &facts, &fine, 0) == LMB_OK && !c.meets && c.rung == LMB_PLAN_RUNGS - 2 &&
+          c.error < 0.0f);
     CHECK(lmb_plan_choose(&c, &facts, &few, 0) == LMB_OK && c.meets && c.bytes <= few.bytes);
     CHECK(lmb_plan_choose(&c, &facts, &few, 2u << 20) == LMB_OK && !c.meets && c.bytes > 2u << 20);
     CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_OK && !c.meets && c.rung == 0 && c.work > 1.0);
@@ -375,17 +376,17 @@ static void test_budgets(void)
     lmb_plan_cost(&before, &facts, 3, 0);
     lmb_plan_cost(&c, &facts, 4, 0);
     CHECK(c.op[LMB_OP_PAIRS] > 1.5 * before.op[LMB_OP_PAIRS] && c.op[LMB_OP_PAIRS] < 3.0 * before.op[LMB_OP_PAIRS]);
-    facts.most = 64;
+    facts.max = 64;
     lmb_plan_rung(&c.settings, &facts, LMB_PLAN_RUNGS - 1);
-    CHECK(c.settings.tree == 64 && c.settings.light_map == 64 && c.settings.gather_step == 1);
-    facts.most = 0;
+    CHECK(c.settings.tree == 64 && c.settings.shadow_map == 64 && c.settings.gather_step == 1);
+    facts.max = 0;
     CHECK(lmb_plan_choose(&c, &facts, &none, 0) == LMB_ERR_ARG && lmb_plan_choose(NULL, &facts, &none, 0) < 0);
 }
 
 void test_plan_frame(void)
 {
     test_counts();
-    test_sparse_look();
+    test_sparse_sample();
     test_rows();
     test_groups();
     test_surveys();

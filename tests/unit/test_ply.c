@@ -178,8 +178,8 @@ static void all_types(void)
 /* Numbers at the ends of their types. */
 static void extremes(void)
 {
-    static const double least[] = {-128, 0, -32768, 0, -2147483648.0, 0};
-    static const double most[] = {127, 255, 32767, 65535, 2147483520.0, 4294967040.0}; /* that a float holds, too */
+    static const double min[] = {-128, 0, -32768, 0, -2147483648.0, 0};
+    static const double max[] = {127, 255, 32767, 65535, 2147483520.0, 4294967040.0}; /* that a float holds, too */
     static const int corners[3] = {0, 1, 2};
     int encoding, type, i;
     writer w;
@@ -191,11 +191,11 @@ static void extremes(void)
                 put_property(&w, types[type].name, i == 0 ? "x" : i == 1 ? "y" : "z");
             put_string(&w, "element face 1\nproperty list uchar uchar vertex_indices\nend_header\n");
             for (i = 0; i < 9; ++i, i % 3 ? (void)0 : end_item(&w))
-                put(&w, type, i % 2 ? least[type] : most[type]);
+                put(&w, type, i % 2 ? min[type] : max[type]);
             put_face(&w, UCHAR, UCHAR, 3, corners);
             CHECK_LOADS(load(w.bytes, w.size));
-            CHECK(loaded.blocks && is_position(0, most[type], least[type], most[type]));
-            CHECK(loaded.blocks && is_position(1, least[type], most[type], least[type]));
+            CHECK(loaded.blocks && is_position(0, max[type], min[type], max[type]));
+            CHECK(loaded.blocks && is_position(1, min[type], max[type], min[type]));
         }
 }
 
@@ -242,7 +242,7 @@ static size_t put_all(writer *w, int encoding)
     return header;
 }
 
-static void everything(int encoding)
+static void run_all(int encoding)
 {
     static const uint16_t plain[3] = {0, 2, 1};
     writer w;
@@ -486,7 +486,7 @@ void test_ply(void)
     refuses();
     refuses_bytes();
     for (encoding = 0; encoding < ENCODINGS; ++encoding) {
-        everything(encoding);
+        run_all(encoding);
         prefixes(encoding);
         damage(encoding);
     }

@@ -153,7 +153,7 @@ static void bands(void)
 /* --- one place ---------------------------------------------------------------------------------------------------- */
 
 /* S6: from the centre, each direction sees what the cube shows along it. */
-static void identity(stage *s, int32_t format, float most)
+static void identity(stage *s, int32_t format, float max)
 {
     float worst = 0.0f;
     CHECK(make_world(s, format) == LMB_OK);
@@ -163,7 +163,7 @@ static void identity(stage *s, int32_t format, float most)
             worst = maxf(worst, fabsf(s->map[c * COUNT + k] - sky(c, direction_of(s, k))));
         }
     }
-    CHECK_MSG(worst < most, "%g", (double)worst);
+    CHECK_MSG(worst < max, "%g", (double)worst);
 }
 
 /* A centre by the wall is a place like others: nothing is pulled in. */
@@ -220,7 +220,7 @@ static lmb_vec3 far_point(const lmb_world_pictures *p, lmb_vec3 at, lmb_vec3 d)
     return vec3((float)(o.v[0] + t * r.v[0]), (float)(o.v[1] + t * r.v[1]), (float)(o.v[2] + t * r.v[2]));
 }
 
-/* S5 S6: from elsewhere, the patch's direction from the centre. */
+/* S5 S6: from elsewhere, the pixel cluster's direction from the centre. */
 static void elsewhere(stage *s, lmb_vec3 at)
 {
     float worst = 0.0f;
@@ -370,7 +370,7 @@ static void each_harmonic(stage *s)
 /* The same of blurs, at a quarter of the map's size; the sky comes out as well as they can. */
 static void blurred(stage *s)
 {
-    static const float most[3] = {0.03f, 0.055f, 0.006f}; /* of the mean */
+    static const float max[3] = {0.03f, 0.055f, 0.006f}; /* of the mean */
     const size_t table_bytes = lmb_probe_table_bytes(WIDTH / 2, HEIGHT / 2);
     float half[3 * COUNT / 4], out[3 * COUNT / 4], line[2 * WIDTH];
     lmb_probe_table table;
@@ -395,7 +395,7 @@ static void blurred(stage *s)
             const lmb_vec3 n = cube_direction(i / (CUBE * CUBE), i % CUBE, i / CUBE % CUBE, CUBE);
             worst = maxf(worst, fabsf(s->cube[i] - (3.14159265f + 1.04719755f * n.x + 0.19634954f * n.y * n.z)));
         }
-        CHECK_MSG(worst < most[terms] * 3.14159265f, "%d terms: %g", (int)terms, (double)worst);
+        CHECK_MSG(worst < max[terms] * 3.14159265f, "%d terms: %g", (int)terms, (double)worst);
         free(memory);
     }
     CHECK(lmb_probe_blur_bytes(&table, 3) == 0 && lmb_probe_blur_bytes(NULL, 1) == 0);
@@ -504,7 +504,8 @@ static void refusals(stage *s)
     CHECK(lmb_probe_table_init(NULL, WIDTH, HEIGHT, 0.0f, s->table_memory, 1u << 20) == LMB_ERR_ARG);
     CHECK(lmb_probe_table_init(&s->table, WIDTH, HEIGHT, 0.0f, s->table_memory, 64) == LMB_ERR_CAPACITY);
     CHECK(make_world(s, LMB_WORLD_F32) == LMB_OK);
-    CHECK(lmb_probe_halve(NULL, s->map, &s->table) == LMB_ERR_ARG && lmb_probe_halve(s->cube, s->map, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_probe_halve(NULL, s->map, &s->table) == LMB_ERR_ARG &&
+          lmb_probe_halve(s->cube, s->map, NULL) == LMB_ERR_ARG);
     CHECK(lmb_probe_remap(s->map, lmb_kernels_pick(), &s->world, &s->table, vec3(NAN, 0, 0), 0) == LMB_ERR_ARG);
     CHECK(lmb_probe_remap(NULL, lmb_kernels_pick(), &s->world, &s->table, vec3(0, 0, 0), 0) == LMB_ERR_ARG);
     CHECK(lmb_probe_cosine(s->cube, 65, lmb_kernels_pick(), &s->lights, &s->table) == LMB_ERR_ARG);

@@ -1,4 +1,4 @@
-/* test_raster.c: floor 3: coverage against exact integers, meshes without a crack, depth, windows, culling, holes.
+/* test_raster.c: layer 3: coverage against exact integers, meshes without a crack, depth, windows, culling, holes.
  *
  * The coverage oracle is its own code over whole numbers. Views are chosen so that it knows the snapped vertices: an
  * orthographic frame of 64 px at 1 m a pixel, where every step of the transform is exact, and perspective ones by the
@@ -582,7 +582,7 @@ static void test_ground(void)
         lmb_vec3 target = {test_uniform(&r, -1, 1), test_uniform(&r, -0.8f, 0.2f), test_uniform(&r, -1, 1)};
         put_ground(&r);
         set_stage(2 * CELLS * CELLS);
-        lmb_view_look(&st.view, eye, target, up, test_uniform(&r, 0.5f, 2.0f), FRAME, FRAME);
+        lmb_view_look_at(&st.view, eye, target, up, test_uniform(&r, 0.5f, 2.0f), FRAME, FRAME);
         st.view.near_m = 0.001f;
         count_hits(2 * CELLS * CELLS);
         for (int i = 0; i < FRAME * FRAME; ++i) {
@@ -642,7 +642,7 @@ static void test_ground_fans(void)
     for (int n = 0; n < 600; ++n) {
         lmb_vec3 eye = {0, 0, 0}, up = {0, 1, 0}, target = {test_uniform(&r, -1, 1), -0.6f, -1.5f};
         put_fan(&r, test_uniform(&r, -2, 2), test_uniform(&r, -4, -2), n % 2 ? 40.0f : 1000.0f, 1);
-        lmb_view_look(&st.view, eye, target, up, 1.2f, FRAME, FRAME);
+        lmb_view_look_at(&st.view, eye, target, up, 1.2f, FRAME, FRAME);
         st.view.near_m = n % 3 ? 0.1f : 0.001f;
         count_hits(SPOKES);
         for (int i = 0; i < FRAME * FRAME; ++i) {
@@ -861,7 +861,7 @@ enum { WIDE = 104, TALL = 77 };
 static void set_wide_view(int perspective)
 {
     lmb_vec3 eye = {0.3f, 0.1f, 1.0f}, target = {0, 0, -5}, up = {0, 1, 0};
-    lmb_view_look(&st.view, eye, target, up, 1.1f, WIDE, TALL);
+    lmb_view_look_at(&st.view, eye, target, up, 1.1f, WIDE, TALL);
     if (!perspective) {
         st.view.kind = LMB_ORTHOGRAPHIC;
         st.view.half_width = 14.0f;

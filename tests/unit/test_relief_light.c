@@ -14,7 +14,7 @@ static void shadows(const stage *s, lmb_light light)
     CHECK(world_end() == LMB_OK);
     shot.scene = &world.scene;
     shot.light = &light;
-    shot.light_map = MAP;
+    shot.shadow_map = MAP;
     relief_frame got = shoot(&shot);
     world_sphere(vec3(0, 0, 0), 1.0f, STACKS, SLICES);
     CHECK(world_end() == LMB_OK);
@@ -103,7 +103,7 @@ static void stands_in_a_room(const stage *s)
     CHECK(world_end() == LMB_OK);
     shot.scene = &world.scene;
     shot.light = &light;
-    shot.light_map = MAP;
+    shot.shadow_map = MAP;
     shot.bounce = MAP / 2;
     relief_frame got = shoot(&shot);
     world_sphere(vec3(0, 0, 0), 1.0f, STACKS, SLICES);

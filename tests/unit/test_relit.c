@@ -24,7 +24,7 @@ typedef struct stage {
     uint32_t world_memory[40000], table_memory[12000], cube[2][2][6 * (SIDE + 2) * (SIDE + 2) * 4];
     lmb_probe probe[2];
     uint16_t probe_of[2];
-    lmb_light_map light_map;
+    lmb_shadow_map shadow_map;
     uint32_t light_memory[6 * 64 * 64 * 2];
     uint32_t depth[PIXELS * PIXELS], id[PIXELS * PIXELS];
     float out[3][PIXELS * PIXELS * 3]; /* by LMB_RELIGHT_ */
@@ -50,15 +50,15 @@ static void make_world(stage *s, float (*radiance)(int c, lmb_vec3 d))
 static void make_probe(stage *s, int i, lmb_vec3 at, float roughness)
 {
     const lmb_kernels *k = lmb_kernels_pick();
-    const lmb_world_look look = {&s->world, 0.0f, 0};
+    const lmb_world_query query = {&s->world, 0.0f, 0};
     memset(&s->probe[i], 0, sizeof s->probe[i]);
     CHECK(lmb_probe_remap(s->map, k, &s->world, &s->table, at, 0) == LMB_OK);
     CHECK(lmb_probe_reduce(&s->lights, k, s->map, &s->table) == LMB_OK);
     CHECK(lmb_probe_cosine(s->planes, SIDE, k, &s->lights, &s->table) == LMB_OK);
     CHECK(lmb_probe_cube_init(&s->probe[i].irradiance, s->planes, SIDE, s->cube[i][0], sizeof s->cube[i][0]) == LMB_OK);
-    if (lmb_probe_gloss_side(roughness) > 0) {
-        CHECK(lmb_probe_reflect(s->planes, SIDE, &s->rays, k, &look, at, roughness) == LMB_OK);
-        CHECK(lmb_probe_cube_init(&s->probe[i].gloss, s->planes, SIDE, s->cube[i][1], sizeof s->cube[i][1]) == LMB_OK);
+    if (lmb_probe_glossy_side(roughness) > 0) {
+        CHECK(lmb_probe_reflect(s->planes, SIDE, &s->rays, k, &query, at, roughness) == LMB_OK);
+        CHECK(lmb_probe_cube_init(&s->probe[i].glossy, s->planes, SIDE, s->cube[i][1], sizeof s->cube[i][1]) == LMB_OK);
     }
 }
 
@@ -137,7 +137,8 @@ static void furnace(stage *s)
 
 static float colours(int c, lmb_vec3 d) { return 1.0f + 0.8f * (c == 0 ? d.x : c == 1 ? d.y : d.z); }
 
-/* S24: normal and gloss are the two parts of both; S22: gloss is stronger where the surface grazes. */
+/* S24: normal and glossy reflection are the two parts of both; S22: glossy reflection is stronger where the surface
+ * grazes. */
 static void parts(stage *s)
 {
     float worst = 0.0f, middle, rim;
@@ -150,12 +151,12 @@ static void parts(stage *s)
         CHECK(draw(s, show) == LMB_OK);
     }
     for (int k = 0; k < 3 * PIXELS * PIXELS; ++k) {
-        const float a = s->out[LMB_RELIGHT_NORMAL][k], b = s->out[LMB_RELIGHT_GLOSS][k];
+        const float a = s->out[LMB_RELIGHT_NORMAL][k], b = s->out[LMB_RELIGHT_GLOSSY][k];
         worst = a != b ? maxf(worst, fabsf(a + b - s->out[LMB_RELIGHT_BOTH][k])) : worst; /* behind: the same world */
     }
     CHECK_MSG(worst < 1e-6f, "%g", (double)worst);
-    middle = pixel(s, LMB_RELIGHT_GLOSS, PIXELS * 3 / 4 - 2, PIXELS / 2)[1];
-    rim = pixel(s, LMB_RELIGHT_GLOSS, PIXELS * 3 / 4 - 2, 17)[1];
+    middle = pixel(s, LMB_RELIGHT_GLOSSY, PIXELS * 3 / 4 - 2, PIXELS / 2)[1];
+    rim = pixel(s, LMB_RELIGHT_GLOSSY, PIXELS * 3 / 4 - 2, 17)[1];
     CHECK_MSG(rim > 2.0f * middle && middle > 0.01f, "%g %g", (double)rim, (double)middle);
 }
 
@@ -232,11 +233,11 @@ static void lamp(stage *s)
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
     const float alone = pixel(s, 0, 40, 32)[0];
     CHECK(alone > 0.2f && pixel(s, 0, 1, 1)[0] == 0.0f);
-    CHECK(lmb_light_map_init(&s->light_map, &light, &world.scene, 64, LMB_ID32, s->light_memory,
-                             sizeof s->light_memory) == LMB_OK);
-    CHECK(lmb_light_map_clear(&s->light_map) == LMB_OK);
-    CHECK(lmb_light_map_draw(&s->light_map, k, &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
-    s->relight.maps = &s->light_map;
+    CHECK(lmb_shadow_map_init(&s->shadow_map, &light, &world.scene, 64, LMB_ID32, s->light_memory,
+                              sizeof s->light_memory) == LMB_OK);
+    CHECK(lmb_shadow_map_clear(&s->shadow_map) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&s->shadow_map, k, &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    s->relight.maps = &s->shadow_map;
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_OK);
     const float shaded = pixel(s, 0, 40, 32)[0], left = pixel(s, 0, 6, 32)[0]; /* the left one shades the right one */
     CHECK_MSG(shaded == 0.0f && left > 0.1f, "%g %g", (double)shaded, (double)left);
@@ -304,9 +305,9 @@ static void refusals(stage *s)
     s->probe_of[1] = 1;
     s->probe[1].irradiance.texel = NULL;
     CHECK(draw(s, LMB_RELIGHT_BOTH) == LMB_ERR_ARG);
-    const lmb_world_look look = {&s->world, 0.0f, 0};
-    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &look, vec3(0, 0, 0), 1.5f) == LMB_ERR_ARG);
-    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &look, vec3(NAN, 0, 0), 0.5f) == LMB_ERR_ARG);
+    const lmb_world_query query = {&s->world, 0.0f, 0};
+    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &query, vec3(0, 0, 0), 1.5f) == LMB_ERR_ARG);
+    CHECK(lmb_probe_reflect(planes, 8, &s->rays, lmb_kernels_pick(), &query, vec3(NAN, 0, 0), 0.5f) == LMB_ERR_ARG);
 }
 
 void test_relit(void)

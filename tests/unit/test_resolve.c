@@ -87,7 +87,7 @@ static void make_world(test_rng *r)
     w.scene.texture_count = 2;
     lmb_scene_bounds(&w.scene.bounds_min, &w.scene.bounds_max, &w.scene);
     CHECK(lmb_scene_check(&w.scene) == LMB_OK);
-    CHECK(lmb_view_look(&w.view, eye, target, up, 0.7f, FRAME, FRAME) == LMB_OK);
+    CHECK(lmb_view_look_at(&w.view, eye, target, up, 0.7f, FRAME, FRAME) == LMB_OK);
     w.view.near_m = 0.1f;
     w.view.far_m = 10.0f;
 }

@@ -19,17 +19,17 @@ static void check_quadric(void)
         const dvec on = dvec_of((double)test_uniform(&rng, -9, 9), (double)test_uniform(&rng, -9, 9), 5);
         quadric q = quadric_plane(dvec_of(1, 0, 0), on, 0);
         double area = 0;
-        dvec least;
+        dvec min;
         for (k = 0; k < 5; ++k) {
             const dvec n = dvec_of((double)test_uniform(&rng, -1, 1), (double)test_uniform(&rng, -1, 1), k - 2.2);
             q = quadric_sum(q, quadric_plane(dvec_unit(n), on, k + 1));
             area += k + 1;
         }
-        CHECK(quadric_least(&least, q, dvec_of(0, 0, 0)) && dvec_length(dvec_sub(least, on)) < 1e-9);
+        CHECK(quadric_min(&min, q, dvec_of(0, 0, 0)) && dvec_length(dvec_sub(min, on)) < 1e-9);
         CHECK(quadric_error(q, on) >= 0 && quadric_error(q, on) < 1e-12 * area);
         CHECK(fabs(quadric_error(quadric_plane(dvec_of(0, 1, 0), on, 2), dvec_add(on, dvec_of(7, 3, 5))) - 18) < 1e-9);
     }
-    CHECK(!quadric_least(&flat, quadric_plane(dvec_of(0, 1, 0), dvec_of(0, 0, 0), 1), dvec_of(0, 0, 0)));
+    CHECK(!quadric_min(&flat, quadric_plane(dvec_of(0, 1, 0), dvec_of(0, 0, 0), 1), dvec_of(0, 0, 0)));
 }
 
 static void check_sphere(int around)
@@ -151,17 +151,17 @@ static void check_folds(void)
 /* Border edges that leave a vertex: more than one is two borders that touch. */
 static uint32_t most_borders(const triangle_mesh *m)
 {
-    uint32_t *count = calloc(m->vertex_count + 1, sizeof *count), i, k, most = 0;
+    uint32_t *count = calloc(m->vertex_count + 1, sizeof *count), i, k, max = 0;
     for (i = 0; i < 3 * m->triangle_count; ++i) {
         const uint32_t a = m->indices[i], b = m->indices[i % 3 == 2 ? i - 2 : i + 1];
         for (k = 0; k < 3 * m->triangle_count; ++k)
             if (m->indices[k] == b && m->indices[k % 3 == 2 ? k - 2 : k + 1] == a)
                 break;
-        if (k == 3 * m->triangle_count && ++count[a] > most)
-            most = count[a];
+        if (k == 3 * m->triangle_count && ++count[a] > max)
+            max = count[a];
     }
     free(count);
-    return most;
+    return max;
 }
 
 /* A field with windows: what is between two of them stays wider than a point. */
@@ -312,7 +312,7 @@ static void check_pinching(void)
 {
     triangle_mesh in = field(4, 0);
     corner_mesh m;
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     report r;
     uint32_t i, n = 0;
     memset(&r, 0, sizeof r);
@@ -337,7 +337,7 @@ static void check_closing(void)
 {
     triangle_mesh in = sphere(4);
     corner_mesh m;
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     report r;
     uint32_t v, a = CORNER_NONE, b = 0, borders = 0;
     memset(&r, 0, sizeof r);

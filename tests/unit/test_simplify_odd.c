@@ -6,12 +6,12 @@ void test_simplify_odd(void);
 
 static simplify_facts facts; /* of the last mesh */
 
-static void check_both(const triangle_mesh *in, uint32_t triangles, uint32_t least, uint32_t most)
+static void check_both(const triangle_mesh *in, uint32_t triangles, uint32_t min, uint32_t max)
 {
     int around;
     for (around = 0; around < 2; ++around) {
         triangle_mesh out = simple(in, triangles, around, &facts);
-        CHECK_MSG(out.triangle_count >= least && out.triangle_count <= most, "%u", (unsigned)out.triangle_count);
+        CHECK_MSG(out.triangle_count >= min && out.triangle_count <= max, "%u", (unsigned)out.triangle_count);
         triangle_mesh_free(&out);
     }
 }
@@ -99,7 +99,7 @@ static void check_wheel(void)
     enum { SPOKES = 3000 };
     triangle_mesh in = room_for(SPOKES + 1, SPOKES);
     corner_mesh m;
-    tally t = {0, 0};
+    counted_heap t = {0, 0};
     report r;
     uint32_t i;
     add_vertex(&in, 0, 0, 0);

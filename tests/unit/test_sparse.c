@@ -159,7 +159,7 @@ static lmb_frame frame_of(float *out, int32_t step)
     f.scene = &world.scene;
     f.view = look(vec3(0.3f, 0.4f, 0.95f), vec3(-0.2f, -0.6f, -0.8f), 75, SIDE);
     f.show = LMB_SHOW_IRRADIANCE;
-    f.light_map = MAP;
+    f.shadow_map = MAP;
     f.grouping.block = 4;
     f.grouping.groups = 60;
     f.gather_step = step;

@@ -1,6 +1,6 @@
 /* test_surface_maps.c: maps of emission, and of metal and roughness, by texel where they are seen; what a map lets each
- * element give off. */
-enum { FRAME = 64, MAP = 64, FACES = 1, ELEMENTS = 1024, BLOCKERS = 16, SIDE = 32 };
+ * element emit. */
+enum { FRAME = 64, MAP = 64, FACES = 1, ELEMENTS = 1024, BVH = 16, SIDE = 32 };
 
 #include "../bounce_frame.h"
 
@@ -86,7 +86,7 @@ static void test_far(void)
     CHECK_MSG(all == 16 && good == all, "%d of %d pixels", good, all);
 }
 
-/* --- what elements give off --------------------------------------------------------------------------------------- */
+/* --- what elements emit --------------------------------------------------------------------------------------- */
 
 /* All of it comes from the half that glows: pi L 2 m2, where pieces that lie across its edge take their share. */
 static void check_elements(int filter, double bar)
@@ -132,7 +132,7 @@ static void test_small(void)
 
 /* --- metal and roughness ------------------------------------------------------------------------------------------ */
 
-static lmb_gloss gloss;
+static lmb_glossy glossy;
 
 /* A wall whose left half is metal of G = 0.4, and whose right half is none, of G = 1. */
 static void make_metal(float metallic)
@@ -158,14 +158,14 @@ static void check_metal(int32_t x, double albedo, double f0, double roughness)
     int good = 0;
     world_draw(&t, &v, 0);
     CHECK(lmb_resolve_tile(tile, lmb_kernels_pick(), &v, &world.scene, &t, x, 24) == LMB_OK);
-    CHECK(lmb_gloss_tile(&gloss, tile, &v, &world.scene) == 1);
+    CHECK(lmb_glossy_tile(&glossy, tile, &v, &world.scene) == 1);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const double a2 = fmax(pow(roughness, 4), 1e-4);
-        good += fabs((double)tile->albedo[0][k] - albedo) < 1e-5 && fabs((double)gloss.specular[0][k] - f0) < 1e-5 &&
-                fabs((double)gloss.alpha2[k] - a2) < 1e-5;
+        good += fabs((double)tile->albedo[0][k] - albedo) < 1e-5 && fabs((double)glossy.specular[0][k] - f0) < 1e-5 &&
+                fabs((double)glossy.alpha2[k] - a2) < 1e-5;
     }
     CHECK_MSG(good == LMB_TILE_PIXELS, "x %d: %d pixels; albedo %g, F0 %g, alpha2 %g", (int)x, good,
-              (double)tile->albedo[0][0], (double)gloss.specular[0][0], (double)gloss.alpha2[0]);
+              (double)tile->albedo[0][0], (double)glossy.specular[0][0], (double)glossy.alpha2[0]);
 }
 
 static void test_metal(void)

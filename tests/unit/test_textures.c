@@ -1,4 +1,4 @@
-/* test_textures.c: floor 3: texture lookups by hand and against double; a tile's attributes against exact rays. */
+/* test_textures.c: layer 3: texture lookups by hand and against double; a tile's attributes against exact rays. */
 #include <math.h>
 #include <string.h>
 
@@ -419,7 +419,7 @@ static void random_scene(test_rng *r, int variant)
         st.material.albedo[c] = test_uniform(r, 0, 1);
     }
     eye.z += 4.0f;
-    lmb_view_look(&st.view, eye, target, up, 0.8f, FRAME, FRAME);
+    lmb_view_look_at(&st.view, eye, target, up, 0.8f, FRAME, FRAME);
     if (variant & 1) {
         st.view.kind = LMB_ORTHOGRAPHIC;
         st.view.half_width = st.view.half_height = 1.7f;

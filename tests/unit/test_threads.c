@@ -3,7 +3,7 @@
 
 #include <lambent/lambent.h>
 
-#include "../../tools/common/crew.h"
+#include "../../tools/common/workers.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../test.h"
 
@@ -13,17 +13,17 @@ enum { W = 40, H = 36, MAP = 64, SIDE = MAP / 8, POINTS = 4 * SIDE * SIDE, FACES
 
 /* --- the pool ----------------------------------------------------------------------------------------------------- */
 
-typedef struct tally {
+typedef struct counted_heap {
     unsigned char times[THREADS][PIECES]; /* by worker: no two threads write one */
     int out_of_range[THREADS];
     int count, threads;
-} tally;
+} counted_heap;
 
-static tally pieces;
+static counted_heap pieces;
 
 static void note_piece(void *user, int index, int worker)
 {
-    tally *t = user;
+    counted_heap *t = user;
     if (worker >= 0 && worker < THREADS && index >= 0 && index < PIECES) {
         ++t->times[worker][index];
     }
@@ -92,7 +92,7 @@ static lmb_frame make_frame(int which, lmb_stats *stats)
     f.kernels = lmb_kernels_pick();
     f.scene = &lit;
     f.view = demo_view(W, H);
-    f.light_map = MAP;
+    f.shadow_map = MAP;
     f.grouping.groups = 60;
     f.occlusion = LMB_OCCLUSION_VIEW;
     f.steps = 4;
@@ -132,7 +132,7 @@ static int is_same(const lmb_stats *a, const lmb_stats *b)
            a->flux_grouped == b->flux_grouped;
 }
 
-static void test_crew(void)
+static void test_workers(void)
 {
     lmb_stats one, many;
     memset(&one, 0, sizeof one);
@@ -140,14 +140,14 @@ static void test_crew(void)
     CHECK(lmb_render_frame(&m.render, &f) == LMB_OK && one.discs > 100 &&
           one.triangles >= 7 * lmb_scene_triangles(&lit));
     for (int threads = 1; threads <= THREADS; ++threads) {
-        crew c;
+        workers c;
         int32_t stage;
         memset(&c, 0, sizeof c);
         memset(&many, 0, sizeof many);
         f = make_frame(1, &many);
         c.threads = threads;
         c.scratches = m.scratch;
-        CHECK(crew_render(&c, &stage, &m.render, &f) == LMB_OK && stage == LMB_STAGE_BANDS);
+        CHECK(workers_render(&c, &stage, &m.render, &f) == LMB_OK && stage == LMB_STAGE_BANDS);
         CHECK_MSG(is_same(&one, &many), "%d threads", threads);
     }
 }
@@ -171,9 +171,9 @@ static void test_stages_with_parts(void)
     int32_t stage;
     CHECK(!lmb_render_has_parts(NULL) && lmb_render_parts_done(NULL, 1) == LMB_ERR_ARG);
     CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
-    for (stage = LMB_STAGE_LIGHT_MAP; stage < LMB_STAGE_BANDS; ++stage) {
+    for (stage = LMB_STAGE_SHADOW_MAP; stage < LMB_STAGE_BANDS; ++stage) {
         const int whole =
-            stage == LMB_STAGE_GROUPS || stage == LMB_STAGE_BLOCKERS || stage == LMB_STAGE_BOUNCES;
+            stage == LMB_STAGE_GROUPS || stage == LMB_STAGE_BVH || stage == LMB_STAGE_BOUNCES;
         CHECK_MSG(lmb_render_has_parts(&m.render) == !whole, "stage %d", (int)stage);
         check_refusals(&m.render);
         CHECK(lmb_render_step(&m.render, 1) == LMB_MORE);
@@ -204,26 +204,26 @@ static void test_stages_with_parts(void)
 static void test_map_rows(void)
 {
     const int32_t rows = MAP / LMB_TILE;
-    lmb_light_map map;
+    lmb_shadow_map map;
     lmb_stats stats;
     make_frame(0, NULL);
-    CHECK(lmb_light_map_init(&map, &lights[0], &lit, MAP, LMB_ID32, m.map, sizeof m.map) == LMB_OK && map.faces == 6);
-    CHECK(lmb_light_map_rows(NULL, lmb_kernels_pick(), &lit, 0, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_rows(&map, NULL, &lit, 0, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_rows(&map, lmb_kernels_pick(), NULL, 0, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_rows(&map, lmb_kernels_pick(), &lit, -1, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_rows(&map, lmb_kernels_pick(), &lit, 2, 1, NULL) == LMB_ERR_ARG);
-    CHECK(lmb_light_map_rows(&map, lmb_kernels_pick(), &lit, 0, 6 * rows + 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_init(&map, &lights[0], &lit, MAP, LMB_ID32, m.map, sizeof m.map) == LMB_OK && map.faces == 6);
+    CHECK(lmb_shadow_map_rows(NULL, lmb_kernels_pick(), &lit, 0, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, NULL, &lit, 0, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), NULL, 0, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, -1, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, 2, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, 0, 6 * rows + 1, NULL) == LMB_ERR_ARG);
     memset(&stats, 0, sizeof stats);
-    CHECK(lmb_light_map_rows(&map, lmb_kernels_pick(), &lit, 1, rows, &stats) == LMB_OK && stats.triangles == 0);
-    CHECK(lmb_light_map_rows(&map, lmb_kernels_pick(), &lit, rows, 2 * rows + 1, &stats) == LMB_OK);
+    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, 1, rows, &stats) == LMB_OK && stats.triangles == 0);
+    CHECK(lmb_shadow_map_rows(&map, lmb_kernels_pick(), &lit, rows, 2 * rows + 1, &stats) == LMB_OK);
     CHECK(stats.triangles == 2 * lmb_scene_triangles(&lit));
 }
 
 void test_threads(void)
 {
     test_pool();
-    test_crew();
+    test_workers();
     test_stages_with_parts();
     test_map_rows();
 }

@@ -1,4 +1,4 @@
-/* test_tree.c: the tree over a light's map: energy, bounds, where texels end, what is refused.       [V5 V6 V7 V15] */
+/* test_tree.c: the tree over a shadow map: energy, bounds, where texels end, what is refused.        [V5 V6 V7 V15] */
 #include "../lit_tree.h"
 
 void test_tree(void);
@@ -222,17 +222,17 @@ static void check_refused(void)
     make_room(0);
     lit_begin(2, LIT_SMALL, NOISE);
     lit_draw(&light);
-    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 2, 0, rows) == LMB_ERR_CAPACITY);
-    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 1, 0, 0, rows) == LMB_ERR_ARG);
-    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, rows + 1) == LMB_ERR_ARG);
-    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 2, 1) == LMB_ERR_ARG);
-    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, NULL, 0, 0, 0, rows) == LMB_ERR_ARG);
-    CHECK(lmb_tree_texels(&lit, NULL, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, rows) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &light_tile, &world.scene, &light, &lit_map, 0, 2, 0, rows) == LMB_ERR_CAPACITY);
+    CHECK(lmb_tree_texels(&lit, k, &light_tile, &world.scene, &light, &lit_map, 1, 0, 0, rows) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &light_tile, &world.scene, &light, &lit_map, 0, 0, 0, rows + 1) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &light_tile, &world.scene, &light, &lit_map, 0, 0, 2, 1) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, k, &light_tile, &world.scene, &light, NULL, 0, 0, 0, rows) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&lit, NULL, &light_tile, &world.scene, &light, &lit_map, 0, 0, 0, rows) == LMB_ERR_ARG);
     other = lit;
     other.size = 2 * LIT_SMALL;
-    CHECK(lmb_tree_texels(&other, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_tree_texels(&other, k, &light_tile, &world.scene, &light, &lit_map, 0, 0, 0, 1) == LMB_ERR_ARG);
     CHECK(lmb_tree_sum(&lit, 2) == LMB_ERR_ARG && lmb_tree_sum(NULL, 0) == LMB_ERR_ARG);
-    CHECK(lmb_tree_texels(&lit, k, &lit_tile, &world.scene, &light, &lit_map, 0, 0, 0, 0) == LMB_OK);
+    CHECK(lmb_tree_texels(&lit, k, &light_tile, &world.scene, &light, &lit_map, 0, 0, 0, 0) == LMB_OK);
     size_t kept = 0;
     while (kept < sizeof lit_memory && ((const uint8_t *)lit_memory)[kept] == NOISE) {
         ++kept;
@@ -265,11 +265,11 @@ typedef struct lines {
 
 static float off_lines(const lines *l, lmb_vec3 p)
 {
-    float least = 3e38f;
+    float min = 3e38f;
     for (int i = 0; i < l->count; ++i) {
-        least = minf(least, length3(cross3(sub3(p, l->at[i]), l->along[i])));
+        min = minf(min, length3(cross3(sub3(p, l->at[i]), l->along[i])));
     }
-    return least;
+    return min;
 }
 
 /* A whole texel of the surface to the left, right, up and down. */
@@ -346,7 +346,7 @@ static double area_in_map(const lmb_vec3 *corner, int corners)
 
 static double taken[LIT_SIDE * LIT_SIDE]; /* of each cell, by all texels' parts */
 
-static void take_parts(lmb_tree_place at)
+static void take_parts(lmb_node_ref at)
 {
     static const int32_t step[CREASE_PARTS] = {0, -1, 1, -LIT_SIDE, LIT_SIDE};
     const lmb_texel *t = tree_texel(&lit, 0, at.x, at.y);
@@ -371,7 +371,7 @@ static void check_parts(const char *name, double bound)
     CHECK(lit.size == LIT_SIDE);
     memset(taken, 0, sizeof taken);
     for (int32_t i = 0; i < LIT_SIDE * LIT_SIDE; ++i) {
-        const lmb_tree_place at = {0, (uint16_t)(i % LIT_SIDE), (uint16_t)(i / LIT_SIDE), 0};
+        const lmb_node_ref at = {0, (uint16_t)(i % LIT_SIDE), (uint16_t)(i / LIT_SIDE), 0};
         if (flux_sum(tree_texel(&lit, 0, at.x, at.y)->flux) > 0.0f) {
             take_parts(at);
         }
@@ -401,7 +401,7 @@ static void check_beside(lmb_vec3 along, lmb_vec3 floor, lmb_vec3 wall)
         const lmb_vec3 at = add3(mul3(along, -0.3f + 0.027f * (float)place), mul3(out, 0.004f));
         double exact = 0.0, rough = 0.0, level = 0.0;
         for (int32_t i = 0; i < LIT_SIDE * LIT_SIDE; ++i) {
-            const lmb_tree_place p = {0, (uint16_t)(i % LIT_SIDE), (uint16_t)(i / LIT_SIDE), 0};
+            const lmb_node_ref p = {0, (uint16_t)(i % LIT_SIDE), (uint16_t)(i / LIT_SIDE), 0};
             const lmb_texel *t = tree_texel(&lit, 0, p.x, p.y);
             lmb_vec3 corner[CREASE_CORNERS], u, v;
             lmb_node n;
@@ -465,11 +465,11 @@ static void lit_coarse(const lmb_light *light, int32_t each)
 {
     const int32_t size = LIT_SIDE / each;
     lit_begin(1, size, NOISE);
-    CHECK(lmb_light_map_init(&lit_map, light, &world.scene, LIT_SIDE, LMB_ID32, lit_map_memory,
-                             sizeof lit_map_memory) == LMB_OK);
+    CHECK(lmb_shadow_map_init(&lit_map, light, &world.scene, LIT_SIDE, LMB_ID32, lit_map_memory,
+                              sizeof lit_map_memory) == LMB_OK);
     CHECK(lit_map.faces == 1);
-    lmb_light_map_clear(&lit_map);
-    CHECK(lmb_light_map_draw(&lit_map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
+    lmb_shadow_map_clear(&lit_map);
+    CHECK(lmb_shadow_map_draw(&lit_map, lmb_kernels_pick(), &world.scene, 1, WORLD_TRIANGLES, NULL) == LMB_OK);
     CHECK(lit_rows(light, 0, 0, LIT_SIDE / LMB_TILE) == LMB_OK);
     lit_sum(0);
     lit.faces = 1;

@@ -145,7 +145,7 @@ static size_t lit_count(void) { return (size_t)lit.faces * (size_t)(lit.size * l
 static void light_is_whole(void)
 {
     const lmb_light lamp = spot(vec3(0.2f, 2.5f, 1.0f), vec3(0, -1, -0.4f), 30, 40);
-    double want[6] = {0, 0, 0, 0, 0, 0}, got[6][3], flux = 0.0, error = 0.0, most = 0.0;
+    double want[6] = {0, 0, 0, 0, 0, 0}, got[6][3], flux = 0.0, error = 0.0, max = 0.0;
     lit_by(&lamp);
     build_all(CAP, LMB_VOXELS_ONE, 6);
     CHECK(lmb_voxels_inject(&v, 0, lit.texel, lit_count()) == LMB_OK);
@@ -165,10 +165,10 @@ static void light_is_whole(void)
     for (int k = 0; k < 6; ++k) {
         const double root = (double)v.light[0][8 * LMB_VOXEL_LIGHT + 4 * k] * scale;
         error = fmax(error, fmax(fabs(got[k][0] - want[k]), fabs(root - want[k])));
-        most = fmax(most, want[k]);
+        max = fmax(max, want[k]);
     }
-    CHECK_MSG(error <= 1e-5 * most, "%g of %g", error, most);
-    printf("  light injected and filtered: %.2g of it off\n", error / most);
+    CHECK_MSG(error <= 1e-5 * max, "%g of %g", error, max);
+    printf("  light injected and filtered: %.2g of it off\n", error / max);
 }
 
 /* --- two worlds --------------------------------------------------------------------------------------------------- */
@@ -225,33 +225,32 @@ static void make_worlds(int object)
 /* M11, M12: no object, no difference: not one bit. An object takes light away and gives some. */
 static void difference_of_worlds(void)
 {
-    float least = 0.0f, most = 0.0f, traced = 0.0f, open[2][LMB_TILE_PIXELS];
+    float min = 0.0f, max = 0.0f, traced = 0.0f, open[2][LMB_TILE_PIXELS];
     make_worlds(0);
     lmb_irradiance without = see(0, 0, NULL, open[0]), with = see(1, 1, NULL, open[1]), delta = see(2, 1, NULL, NULL);
     CHECK(memcmp(&without, &with, sizeof with) == 0 && memcmp(open[0], open[1], sizeof open[0]) == 0);
     for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
-        most = fmaxf(most, without.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS]);
-        least = fmaxf(least, fabsf(delta.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS]));
+        max = fmaxf(max, without.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS]);
+        min = fmaxf(min, fabsf(delta.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS]));
     }
-    CHECK(most > 0.0f && least == 0.0f);
+    CHECK(max > 0.0f && min == 0.0f);
     make_worlds(1);
     const lmb_irradiance before = see(0, 0, NULL, open[0]), hidden = see(0, 1, NULL, NULL);
     with = see(1, 1, NULL, open[1]);
     delta = see(2, 1, NULL, NULL);
-    least = most = 0.0f;
+    min = max = 0.0f;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         traced = fmaxf(traced, fabsf(with.rgb[0][k] - hidden.rgb[0][k] - delta.rgb[0][k]));
-        least = fminf(least, with.rgb[0][k] - before.rgb[0][k]);
-        most = fmaxf(most, with.rgb[0][k] - before.rgb[0][k]);
+        min = fminf(min, with.rgb[0][k] - before.rgb[0][k]);
+        max = fmaxf(max, with.rgb[0][k] - before.rgb[0][k]);
     }
-    CHECK_MSG(least < -0.01f && most > 0.001f && traced < 1e-5f, "%g %g %g", (double)least, (double)most,
-              (double)traced);
-    least = most = 0.0f;
+    CHECK_MSG(min < -0.01f && max > 0.001f && traced < 1e-5f, "%g %g %g", (double)min, (double)max, (double)traced);
+    min = max = 0.0f;
     for (size_t i = 0; i < (size_t)v.count * LMB_VOXEL_LIGHT; ++i) {
-        least = fminf(least, v.light[LMB_VOXEL_DELTA][i]);
-        most = fmaxf(most, v.light[LMB_VOXEL_DELTA][i]);
+        min = fminf(min, v.light[LMB_VOXEL_DELTA][i]);
+        max = fmaxf(max, v.light[LMB_VOXEL_DELTA][i]);
     }
-    CHECK(least < 0.0f && most > 0.0f);
+    CHECK(min < 0.0f && max > 0.0f);
 }
 
 /* Twice the light is twice the light, to the bit. */
@@ -323,7 +322,7 @@ static void open_sky(void)
 static void walls_are_tight(void)
 {
     const lmb_light lamp = spot(vec3(0.9f, 1.0f, 0), vec3(-1, -0.2f, 0), 30, 40);
-    float open[LMB_TILE_PIXELS], most = 0.0f, front = 0.0f;
+    float open[LMB_TILE_PIXELS], max = 0.0f, front = 0.0f;
     world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), Z, X);
     world_quad(vec3(0.03f, 1, 0), Y, mul3(Z, 1.0f));
@@ -336,12 +335,12 @@ static void walls_are_tight(void)
     const lmb_irradiance light = see(0, 0, NULL, open);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         if (k % 8 == 2) {
-            most = fmaxf(most, light.rgb[0][k]);
+            max = fmaxf(max, light.rgb[0][k]);
         } else if (k % 8 == 5) {
             front = fmaxf(front, light.rgb[0][k]);
         }
     }
-    CHECK_MSG(front > 0.0f && most < 0.02f * front, "%g behind, %g in front", (double)most, (double)front);
+    CHECK_MSG(front > 0.0f && max < 0.02f * front, "%g behind, %g in front", (double)max, (double)front);
 }
 
 /* M20: a narrow cone along the mirrored view sees what a mirror shows. */

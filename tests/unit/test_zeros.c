@@ -78,14 +78,14 @@ static lmb_vec3 vector(const argument *a)
 
 /* --- one good struct of each kind --------------------------------------------------------------------------------- */
 
-enum { WIDE = 64, HIGH = 32, SIDE = 64, SMALL = 8, LEAST = 4096 };
+enum { WIDE = 64, HIGH = 32, SIDE = 64, SMALL = 8, MIN = 4096 };
 
 static struct {
     lmb_render begun, render; /* render: at LMB_STAGE_BANDS */
     lmb_points points;        /* of a face, not yet joined */
     lmb_surface metres;
     lmb_tile tile;
-    lmb_many many, stream; /* built; not yet */
+    lmb_many_lights many_lights, stream; /* built; not yet */
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh mesh;
@@ -103,14 +103,14 @@ static struct {
     lmb_probe probe;
     lmb_point_grid grid;
     lmb_survey survey;
-    lmb_look look;
+    lmb_tile_sample query;
     lmb_groups groups;
     lmb_band_scratch scratch;
-    lmb_gloss gloss;
+    lmb_glossy glossy;
     lmb_cut cut;
     lmb_irradiance irradiance[2];
-    lmb_cutting cutting;
-    lmb_receiver receiver;
+    lmb_cut_params cut_params;
+    lmb_element_scratch receiver;
     lmb_relight relight;
     lmb_occluder occluder;
     lmb_facts facts;
@@ -133,26 +133,26 @@ static void *room(size_t bytes)
 static void make_frame(void)
 {
     lmb_frame f;
-    const size_t map = lmb_light_map_bytes(1, SIDE, LMB_ID32) * 2, tree = lmb_tree_bytes(6, SIDE),
-                 points = lmb_points_bytes(LEAST, SIDE / 8), blockers = lmb_blockers_bytes(LEAST * 4),
-                 elements = lmb_elements_bytes(LEAST);
+    const size_t map = lmb_shadow_map_bytes(1, SIDE, LMB_ID32) * 2, tree = lmb_tree_bytes(6, SIDE),
+                 points = lmb_points_bytes(MIN, SIDE / 8), bvh = lmb_bvh_bytes(MIN * 4),
+                 elements = lmb_elements_bytes(MIN);
     memset(&f, 0, sizeof f);
     f.kernels = lmb_kernels_pick();
     f.scene = demo_scene();
     f.view = demo_view(WIDE, HIGH);
-    f.light_map = SIDE;
+    f.shadow_map = SIDE;
     f.grouping.method = LMB_GROUP_CUT;
     f.occlusion = LMB_OCCLUSION_EXACT;
-    f.error = f.visible = 0.1f;
+    f.error = f.visibility = 0.1f;
     f.bounces = 2;
     f.map_memory = room(map);
     f.map_bytes = map;
     f.groups = &g.groups;
     f.scratch = &g.scratch;
     CHECK(lmb_tree_init(&f.tree, 6, SIDE, room(tree), tree) == LMB_OK);
-    CHECK(lmb_points_init(&f.points, LEAST, SIDE / 8, room(points), points) == LMB_OK);
-    CHECK(lmb_blockers_init(&f.blockers, LEAST * 4, room(blockers), blockers) == LMB_OK);
-    CHECK(lmb_elements_init(&f.elements, LEAST, room(elements), elements) == LMB_OK);
+    CHECK(lmb_points_init(&f.points, MIN, SIDE / 8, room(points), points) == LMB_OK);
+    CHECK(lmb_bvh_init(&f.bvh, MIN * 4, room(bvh), bvh) == LMB_OK);
+    CHECK(lmb_elements_init(&f.elements, MIN, room(elements), elements) == LMB_OK);
     CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
     CHECK(lmb_surface_init(&f.eye.id, LMB_ID32, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
     CHECK(lmb_surface_init(&f.out, LMB_RGB32F, WIDE, HIGH, room(WIDE * HIGH * 12), WIDE * HIGH * 12) == LMB_OK);
@@ -165,7 +165,7 @@ static void make_frame(void)
     lmb_grouping zones;
     memset(&zones, 0, sizeof zones);
     lmb_points *const two[2] = {&g.render.frame.points, &g.points};
-    CHECK(lmb_points_init(&g.points, LEAST, SIDE / 8, room(points), points) == LMB_OK);
+    CHECK(lmb_points_init(&g.points, MIN, SIDE / 8, room(points), points) == LMB_OK);
     for (int i = 0; i < 2; ++i) {
         CHECK(lmb_points_collect(two[i], f.kernels, &g.scratch.tile, f.scene, &f.scene->lights[0], &g.render.maps[0], 0,
                                  0, SIDE / 8, &zones) == LMB_OK);
@@ -173,16 +173,16 @@ static void make_frame(void)
     CHECK(lmb_discs_join(&g.render.frame.points, &g.render.maps[0], &zones) == LMB_OK);
     CHECK(lmb_group_points(&g.groups, &g.render.frame.points, &zones, NULL) == LMB_OK);
     CHECK(lmb_survey_even(&g.survey, &g.render, 1, 4) == LMB_OK);
-    CHECK(lmb_render_look(&g.look, &g.render, &g.scratch, &g.survey, 0.0) == LMB_OK);
+    CHECK(lmb_render_sample(&g.query, &g.render, &g.scratch, &g.survey, 0.0) == LMB_OK);
     CHECK(lmb_surface_init(&g.metres, LMB_R32F, WIDE, HIGH, room(WIDE * HIGH * 4), WIDE * HIGH * 4) == LMB_OK);
-    const lmb_cutting cutting = {.error = 0.1f, .visible = 0.1f, .blockers = &g.render.frame.blockers};
-    const lmb_receiver receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
+    const lmb_cut_params cut_params = {.error = 0.1f, .visibility = 0.1f, .bvh = &g.render.frame.bvh};
+    const lmb_element_scratch receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
     const lmb_occluder occluder = {&g.render.frame.view, &g.render.frame.eye.depth, LMB_OCCLUSION_VIEW, 8};
     g.settings.scene = f.scene;
     g.settings.view = f.view;
-    g.settings.light_map = SIDE;
+    g.settings.shadow_map = SIDE;
     g.settings.show = LMB_SHOW_DIRECT; /* else it takes more than ARRAY bytes */
-    g.cutting = cutting;
+    g.cut_params = cut_params;
     g.receiver = receiver;
     g.occluder = occluder;
 }
@@ -210,18 +210,20 @@ static void make_photo(void)
 static void make_voxels(void)
 {
     const lmb_scene *scene = demo_scene();
-    const size_t bytes = lmb_voxels_bytes(3 * LEAST, LMB_VOXELS_THREE), many = lmb_many_bytes(16);
+    const size_t bytes = lmb_voxels_bytes(3 * MIN, LMB_VOXELS_THREE), many_lights = lmb_many_lights_bytes(16);
     const lmb_voxel_part part = {scene, 1, lmb_scene_triangles(scene), {1, 1}};
-    CHECK(lmb_voxels_init(&g.voxels, 3 * LEAST, LMB_VOXELS_THREE, room(bytes), bytes) == LMB_OK);
+    CHECK(lmb_voxels_init(&g.voxels, 3 * MIN, LMB_VOXELS_THREE, room(bytes), bytes) == LMB_OK);
     CHECK(lmb_voxels_build(&g.voxels, &scene->bounds_min, &scene->bounds_max, 5, &part, 1) == LMB_OK);
     CHECK(lmb_cones_init(&g.cones, &g.voxels, 7) == LMB_OK);
-    CHECK(lmb_many_init(&g.many, 16, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, room(many), many) == LMB_OK);
-    CHECK(lmb_many_init(&g.stream, 16, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, room(many), many) == LMB_OK);
+    CHECK(lmb_many_lights_init(&g.many_lights, 16, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, room(many_lights),
+                               many_lights) == LMB_OK);
+    CHECK(lmb_many_lights_init(&g.stream, 16, vec3(-9, -9, -9), vec3(9, 9, 9), 1e4f, room(many_lights), many_lights) ==
+          LMB_OK);
     for (int i = 0; i < 3; ++i) {
         const lmb_light l = point_light(vec3((float)i, 1, 1));
-        CHECK(lmb_many_add(&g.many, &l, 1) == LMB_OK);
+        CHECK(lmb_many_lights_add(&g.many_lights, &l, 1) == LMB_OK);
     }
-    CHECK(lmb_many_build(&g.many) == LMB_OK && g.many.lights == 3);
+    CHECK(lmb_many_lights_build(&g.many_lights) == LMB_OK && g.many_lights.lights == 3);
     lmb_hull_find(&g.hull, scene);
 }
 
@@ -243,7 +245,7 @@ static void make_probe(void)
     CHECK(lmb_probe_cube_init(&g.cube, room(6 * SMALL * SMALL * 12), SMALL, room(cube), cube) == LMB_OK);
     CHECK(lmb_probe_reduce(&g.lights, lmb_kernels_pick(), room(32 * 16 * 12), &g.table) == LMB_OK);
     CHECK(lmb_probe_cache_init(&g.cache, 4, &policy) == LMB_OK);
-    g.probe.irradiance = g.probe.gloss = g.cube;
+    g.probe.irradiance = g.probe.glossy = g.cube;
     lmb_relight *r = &g.relight;
     r->kernels = lmb_kernels_pick();
     r->scene = demo_scene();
@@ -261,7 +263,7 @@ static void make_facts(void)
     lmb_facts *f = &g.facts;
     f->triangles = f->faces = f->tiles = f->lights = f->bounces = 10.0;
     f->pairs = f->segments = 1e5;
-    f->wanted_map = f->most = SIDE;
+    f->wanted_map = f->max = SIDE;
     for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
         f->rung[i].places = 10;
         f->rung[i].pairs = f->rung[i].segments = 100.0f * (float)(1 + i);
@@ -282,8 +284,8 @@ static int good_for_call(known *out, const argument *a)
 {
     if (calls_for("lmb_plan_frame") || calls_for("lmb_render_part") || calls_for("lmb_render_parts_done")) {
         *out = (known){"lmb_render", &g.begun, sizeof g.begun};
-    } else if (calls_for("lmb_many_add") || calls_for("lmb_many_build")) {
-        *out = (known){"lmb_many", &g.stream, sizeof g.stream};
+    } else if (calls_for("lmb_many_lights_add") || calls_for("lmb_many_lights_build")) {
+        *out = (known){"lmb_many_lights", &g.stream, sizeof g.stream};
     } else if (calls_for("lmb_gbuffer_band") && strcmp(a->name, "depth") == 0) {
         *out = (known){"lmb_surface", &g.metres, sizeof g.metres};
     } else if (calls_for("lmb_depth_linearize")) {
@@ -304,13 +306,13 @@ static const void *good_one(const argument *a, size_t *bytes)
         return own.data;
     }
     const lmb_frame *f = &g.render.frame;
-    static lmb_many_look many_look;
-    static lmb_world_look world_look;
+    static lmb_many_lights_query many_lights_query;
+    static lmb_world_query world_query;
     static lmb_voxel_part part;
     static lmb_cone_trace trace;
     static const lmb_budget budget = {1e9, 0.1f, 0};
-    many_look.many = &g.many;
-    world_look.world = &g.world;
+    many_lights_query.many_lights = &g.many_lights;
+    world_query.world = &g.world;
     part.scene = demo_scene();
     part.first_id = part.count = 1;
     trace.kernels = lmb_kernels_pick();
@@ -318,13 +320,13 @@ static const void *good_one(const argument *a, size_t *bytes)
     trace.scratch = &g.cone_scratch;
     const known all[] = {
         {"lmb_axes", &straight, sizeof straight},
-        {"lmb_blockers", &f->blockers, sizeof f->blockers},
+        {"lmb_bvh", &f->bvh, sizeof f->bvh},
         {"lmb_budget", &budget, sizeof budget},
         {"lmb_cloud", &g.cloud, sizeof g.cloud},
         {"lmb_cone_trace", &trace, sizeof trace},
         {"lmb_cone_width", g.cones.width, sizeof *g.cones.width},
         {"lmb_cones", &g.cones, sizeof g.cones},
-        {"lmb_cutting", &g.cutting, sizeof g.cutting},
+        {"lmb_cut_params", &g.cut_params, sizeof g.cut_params},
         {"lmb_elements", &f->elements, sizeof f->elements},
         {"lmb_env", &g.env, sizeof g.env},
         {"lmb_facts", &g.facts, sizeof g.facts},
@@ -333,10 +335,10 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_groups", &g.groups, sizeof g.groups},
         {"lmb_hull", &g.hull, sizeof g.hull},
         {"lmb_light", f->scene->lights, sizeof *f->scene->lights},
-        {"lmb_light_map", g.render.maps, sizeof *g.render.maps},
-        {"lmb_look", &g.look, sizeof g.look},
-        {"lmb_many", &g.many, sizeof g.many},
-        {"lmb_many_look", &many_look, sizeof many_look},
+        {"lmb_shadow_map", g.render.maps, sizeof *g.render.maps},
+        {"lmb_tile_sample", &g.query, sizeof g.query},
+        {"lmb_many_lights", &g.many_lights, sizeof g.many_lights},
+        {"lmb_many_lights_query", &many_lights_query, sizeof many_lights_query},
         {"lmb_occluder", &g.occluder, sizeof g.occluder},
         {"lmb_pinhole", &camera, sizeof camera},
         {"lmb_planes", &g.planes, sizeof g.planes},
@@ -349,7 +351,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_probe_policy", &g.cache.policy, sizeof g.cache.policy},
         {"lmb_probe_table", &g.table, sizeof g.table},
         {"lmb_real_mesh", &g.mesh, sizeof g.mesh},
-        {"lmb_receiver", &g.receiver, sizeof g.receiver},
+        {"lmb_element_scratch", &g.receiver, sizeof g.receiver},
         {"lmb_relief", &relief->relief, sizeof relief->relief},
         {"lmb_relight", &g.relight, sizeof g.relight},
         {"lmb_render", &g.render, sizeof g.render},
@@ -363,7 +365,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_voxel_part", &part, sizeof part},
         {"lmb_voxels", &g.voxels, sizeof g.voxels},
         {"lmb_world", &g.world, sizeof g.world},
-        {"lmb_world_look", &world_look, sizeof world_look},
+        {"lmb_world_query", &world_query, sizeof world_query},
         {"lmb_world_pictures", &g.pictures, sizeof g.pictures},
     };
     for (int i = 0; i < COUNT(all); ++i) {
@@ -387,7 +389,7 @@ static void set_number(argument *a)
         {"x", 0},       {"y", 0},      {"x0", 0},         {"y0", 0},        {"face", 0},   {"into", 0}, {"first", 0},
         {"tile_y0", 0}, {"band", 0},   {"part", 0},       {"p", 0},         {"from", 0},   {"k", 4},    {"slots", 4},
         {"step", 4},    {"depth", 5},  {"id_format", LMB_ID32}, {"n", SIDE}, {"side", SMALL}, {"size", SIDE},
-        {"width", WIDE}, {"height", HIGH}, {"most", SIDE}, {"terms", 9}, {"c", 0}, {"field", 0}, {"level", 0},
+        {"width", WIDE}, {"height", HIGH}, {"max", SIDE}, {"terms", 9}, {"c", 0}, {"field", 0}, {"level", 0},
         {"bytes", ARRAY}, {"units", 100}, {"pixels", -1}, {"known", 1}, {"last", 0}, {"cells", 16}, {"corners", 3},
     };
     static const struct {
@@ -468,8 +470,8 @@ static int pointers_of(const call *c)
 static int may_be_empty(const char *name)
 {
     static const char *const all[] = {
-        "lmb_gather_tile", "lmb_compose_tile",    "lmb_compose_shine",  "lmb_compose_gloss",  "lmb_direct_tile",
-        "lmb_gloss_direct", "lmb_light_map_clear", "lmb_light_map_draw", "lmb_light_map_rows", "lmb_around_scale",
+        "lmb_gather_tile", "lmb_compose_tile",    "lmb_compose_emission",  "lmb_compose_glossy",  "lmb_direct_tile",
+        "lmb_glossy_direct", "lmb_shadow_map_clear", "lmb_shadow_map_draw", "lmb_shadow_map_rows", "lmb_around_scale",
         "lmb_delta_tile",  "lmb_scene_check",
     };
     int is_one = 0;
@@ -502,11 +504,11 @@ static void test_call(const call *c)
 /* Absurd in more than one argument, or within a struct. */
 static void test_named(void)
 {
-    const float least = LMB_ALBEDO_LEAST, most = LMB_ALBEDO_MOST;
+    const float min = LMB_ALBEDO_MIN, max = LMB_ALBEDO_MAX;
     const float albedo[3] = {lmb_real_albedo(INFINITY, INFINITY), lmb_real_albedo(NAN, 1.0f),
                              lmb_real_albedo(1.0f, NAN)};
     for (int i = 0; i < 3; ++i) {
-        CHECK_MSG(albedo[i] >= least && albedo[i] <= most, "%d: %g", i, (double)albedo[i]);
+        CHECK_MSG(albedo[i] >= min && albedo[i] <= max, "%d: %g", i, (double)albedo[i]);
     }
     lmb_axes bent = straight;
     float rgb[3 * WIDE] = {0};

@@ -16,8 +16,8 @@ typedef struct box {
 } box;
 
 typedef struct chart {
-    page *out;
-    const bench_report *b;
+    text_buffer *out;
+    const bench_results *b;
     double width, height;
     double low[2], high[2]; /* logarithms of time and error at the edges */
     box taken[BOXES]; /* where no label may be */
@@ -52,8 +52,8 @@ static int is_shown(const bench_point *p) { return p->has_figures && p->failure[
 
 static double value(const bench_point *p, int axis)
 {
-    const double v = axis == 0 ? p->time_s : p->figure[0], least = axis == 0 ? BENCH_LEAST_S : BENCH_LEAST_ERROR;
-    return log10(v > least ? v : least);
+    const double v = axis == 0 ? p->time_s : p->figure[0], min = axis == 0 ? BENCH_MIN_S : BENCH_MIN_ERROR;
+    return log10(v > min ? v : min);
 }
 
 static void find_range(chart *c)
@@ -90,11 +90,11 @@ static void say_tick(const chart *c, double at, double v, int axis)
     if (axis == 0) {
         const char *unit = v >= 0.999 ? "s" : v >= 0.000999 ? "ms" : "us";
         snprintf(text, sizeof text, "%g %s", v >= 0.999 ? v : v >= 0.000999 ? 1e3 * v : 1e6 * v, unit);
-        page_add(c->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>", at, c->height - BOTTOM + 16,
-                 text);
+        text_buffer_add(c->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>", at,
+                        c->height - BOTTOM + 16, text);
     } else {
         snprintf(text, sizeof text, c->b->percent ? "%g %%" : "%g", c->b->percent ? 100.0 * v : v);
-        page_add(c->out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>", LEFT - 7, at + 4, text);
+        text_buffer_add(c->out, "<text x=\"%d\" y=\"%.1f\" text-anchor=\"end\">%s</text>", LEFT - 7, at + 4, text);
     }
 }
 
@@ -111,9 +111,9 @@ static void draw_grid(const chart *c, int axis)
                 continue;
             }
             const double at = axis == 0 ? x_of(c, l) : y_of(c, l);
-            page_add(c->out, "<line class=\"grid\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>",
-                     axis == 0 ? at : LEFT, axis == 0 ? TOP : at, axis == 0 ? at : c->width - RIGHT,
-                     axis == 0 ? c->height - BOTTOM : at);
+            text_buffer_add(c->out, "<line class=\"grid\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>",
+                            axis == 0 ? at : LEFT, axis == 0 ? TOP : at, axis == 0 ? at : c->width - RIGHT,
+                            axis == 0 ? c->height - BOTTOM : at);
             say_tick(c, at, v, axis);
         }
     }
@@ -124,11 +124,11 @@ static void draw_axes(const chart *c)
     const double bottom = c->height - BOTTOM, right = c->width - RIGHT;
     draw_grid(c, 0);
     draw_grid(c, 1);
-    page_add(c->out, "<path class=\"axis\" fill=\"none\" d=\"M%d %dV%.1fH%.1f\"/>", LEFT, TOP, bottom, right);
-    page_add(c->out,
-             "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">time of one picture: farther left is faster</text>",
-             (LEFT + right) / 2, c->height - 10);
-    page_add(
+    text_buffer_add(c->out, "<path class=\"axis\" fill=\"none\" d=\"M%d %dV%.1fH%.1f\"/>", LEFT, TOP, bottom, right);
+    text_buffer_add(
+        c->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">time of one picture: farther left is faster</text>",
+        (LEFT + right) / 2, c->height - 10);
+    text_buffer_add(
         c->out,
         "<text transform=\"translate(13 %.1f) rotate(-90)\" text-anchor=\"middle\">error (%s): lower is nearer</text>",
         (TOP + bottom) / 2, c->b->figure[0]);
@@ -153,12 +153,12 @@ static void draw_dot(chart *c, const bench_point *p)
     bench_say_time(time, p->time_s);
     bench_say_figure(error, c->b, 0, p->figure[0]);
     if (p->is_knee) {
-        page_add(c->out, "<circle class=\"knee\" cx=\"%.1f\" cy=\"%.1f\" r=\"10\"/>", x, y);
+        text_buffer_add(c->out, "<circle class=\"knee\" cx=\"%.1f\" cy=\"%.1f\" r=\"10\"/>", x, y);
     }
-    page_add(c->out, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"><title>", p->on_front ? "on" : "dot", x,
-             y, r);
-    page_html(c->out, label);
-    page_add(c->out, ": %s, %s</title></circle>", time, error);
+    text_buffer_add(c->out, "<circle class=\"%s\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"><title>",
+                    p->on_front ? "on" : "dot", x, y, r);
+    text_buffer_html(c->out, label);
+    text_buffer_add(c->out, ": %s, %s</title></circle>", time, error);
     take(c, k);
 }
 
@@ -208,13 +208,13 @@ static void draw_label(chart *c, const bench_point *p)
     }
     const double middle = k.y + k.height / 2, to = x < k.x ? k.x - 2 : x > k.x + k.width ? k.x + k.width + 2 : x;
     if (fabs(middle - y) > 20.0) {
-        page_add(c->out, "<line class=\"lead\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>", x, y, to,
-                 middle < y ? k.y + k.height : k.y);
+        text_buffer_add(c->out, "<line class=\"lead\" x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\"/>", x, y, to,
+                        middle < y ? k.y + k.height : k.y);
     }
-    page_add(c->out, "<text x=\"%.1f\" y=\"%.1f\"%s>%s", k.x, k.y + 10, p->is_knee ? " class=\"at-knee\"" : "",
-             p->is_knee ? "knee: " : "");
-    page_html(c->out, label);
-    page_plain(c->out, "</text>");
+    text_buffer_add(c->out, "<text x=\"%.1f\" y=\"%.1f\"%s>%s", k.x, k.y + 10, p->is_knee ? " class=\"at-knee\"" : "",
+                    p->is_knee ? "knee: " : "");
+    text_buffer_html(c->out, label);
+    text_buffer_plain(c->out, "</text>");
     take(c, k);
 }
 
@@ -237,12 +237,12 @@ static void draw_front(chart *c, const int *order, int n)
         const double from_x = x, from_y = y;
         x = x_of(c, value(p, 0));
         y = y_of(c, value(p, 1));
-        page_add(c->out, "%s%.1f %.1f", i == 0 ? "<path class=\"front\" d=\"M" : "L", x, y);
+        text_buffer_add(c->out, "%s%.1f %.1f", i == 0 ? "<path class=\"front\" d=\"M" : "L", x, y);
         if (i > 0) {
             take_line(c, from_x, from_y, x, y);
         }
     }
-    page_plain(c->out, n > 0 ? "\"/>" : "");
+    text_buffer_plain(c->out, n > 0 ? "\"/>" : "");
 }
 
 /* The knee is named first, then the front, then the settings that all know: the first option's. */
@@ -266,7 +266,7 @@ static void draw_labels(chart *c, const int *order, int n)
     }
 }
 
-void bench_chart(page *out, const bench_report *b, int width, int height, int styled)
+void bench_chart(text_buffer *out, const bench_results *b, int width, int height, int styled)
 {
     static chart c; /* large; filled anew each time */
     int order[BENCH_POINTS];
@@ -276,10 +276,11 @@ void bench_chart(page *out, const bench_report *b, int width, int height, int st
     c.width = width;
     c.height = height;
     find_range(&c);
-    page_add(out,
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" role=\"img\">"
-             "%s<rect class=\"paper\" width=\"%d\" height=\"%d\"/>",
-             width, height, width, height, styled ? style : "", width, height);
+    text_buffer_add(
+        out,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\" height=\"%d\" role=\"img\">"
+        "%s<rect class=\"paper\" width=\"%d\" height=\"%d\"/>",
+        width, height, width, height, styled ? style : "", width, height);
     if (c.low[0] < c.high[0]) {
         const int n = bench_front_order(order, b);
         draw_axes(&c);
@@ -291,5 +292,5 @@ void bench_chart(page *out, const bench_report *b, int width, int height, int st
         }
         draw_labels(&c, order, n);
     }
-    page_plain(out, "</svg>\n");
+    text_buffer_plain(out, "</svg>\n");
 }

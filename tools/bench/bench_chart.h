@@ -2,11 +2,11 @@
 #ifndef BENCH_CHART_H
 #define BENCH_CHART_H
 
-#include "../common/page.h"
-#include "bench_report.h"
+#include "../common/text_buffer.h"
+#include "bench_results.h"
 
 /* A size in pixels. `styled`: with colours of its own, as a file wants; else the classes are the page's. */
-void bench_chart(page *out, const bench_report *b, int width, int height, int styled);
+void bench_chart(text_buffer *out, const bench_results *b, int width, int height, int styled);
 
 /* bench_label: a setting's name without dashes. */
 void bench_label(char out[BENCH_NAME], const char *name);

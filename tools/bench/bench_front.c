@@ -12,7 +12,7 @@ static int beats(const bench_point *a, const bench_point *b, int earlier)
     return no_worse && (a->time_s < b->time_s || a->figure[0] < b->figure[0] || earlier);
 }
 
-static int is_beaten(const bench_report *b, int i)
+static int is_beaten(const bench_results *b, int i)
 {
     for (int k = 0; k < b->count; ++k) {
         if (k != i && counts(&b->point[k]) && beats(&b->point[k], &b->point[i], k < i)) {
@@ -22,25 +22,25 @@ static int is_beaten(const bench_report *b, int i)
     return 0;
 }
 
-static double log_time(const bench_point *p) { return log(p->time_s > BENCH_LEAST_S ? p->time_s : BENCH_LEAST_S); }
+static double log_time(const bench_point *p) { return log(p->time_s > BENCH_MIN_S ? p->time_s : BENCH_MIN_S); }
 
 static double log_error(const bench_point *p)
 {
-    return log(p->figure[0] > BENCH_LEAST_ERROR ? p->figure[0] : BENCH_LEAST_ERROR);
+    return log(p->figure[0] > BENCH_MIN_ERROR ? p->figure[0] : BENCH_MIN_ERROR);
 }
 
 /* With both axes from 0 to 1 the line is time + error = 1. */
-static void mark_knee(bench_report *b, const int *order, int n)
+static void mark_knee(bench_results *b, const int *order, int n)
 {
     const bench_point *fast = &b->point[order[0]], *slow = &b->point[order[n - 1]];
     const double t0 = log_time(fast), e0 = log_error(slow), t = log_time(slow) - t0, e = log_error(fast) - e0;
-    double most = 0.0;
+    double max = 0.0;
     int knee = -1;
     for (int i = 1; i + 1 < n && t > 0.0 && e > 0.0; ++i) {
         const bench_point *p = &b->point[order[i]];
         const double under = 1.0 - (log_time(p) - t0) / t - (log_error(p) - e0) / e;
-        if (under > most) {
-            most = under;
+        if (under > max) {
+            max = under;
             knee = order[i];
         }
     }
@@ -50,7 +50,7 @@ static void mark_knee(bench_report *b, const int *order, int n)
 }
 
 /* No two share a time. */
-int bench_front_order(int *order, const bench_report *b)
+int bench_front_order(int *order, const bench_results *b)
 {
     int n = 0;
     for (int i = 0; i < b->count; ++i) {
@@ -67,7 +67,7 @@ int bench_front_order(int *order, const bench_report *b)
     return n;
 }
 
-int bench_front(bench_report *b)
+int bench_front(bench_results *b)
 {
     int order[BENCH_POINTS];
     for (int i = 0; i < b->count; ++i) {

@@ -2,11 +2,11 @@
 #ifndef BENCH_FRONT_H
 #define BENCH_FRONT_H
 
-#include "bench_report.h"
+#include "bench_results.h"
 
 /* What is smaller than this is as good as this, s and error: logarithms want an end. */
-#define BENCH_LEAST_S     1e-7
-#define BENCH_LEAST_ERROR 1e-5
+#define BENCH_MIN_S     1e-7
+#define BENCH_MIN_ERROR 1e-5
 
 /* bench_front: mark the points that no other is both at most as slow and at most as wrong as, nor better in one (of
  * equal ones the first), and the front's knee. Points without figures, that failed, or on several threads are on none.
@@ -14,9 +14,9 @@
  *
  * The knee: of the points under the line from the front's fastest to its slowest, in logarithms of time and error that
  * each run from 0 to 1 over the front, the one farthest from it; none where all lie on or above it. */
-int bench_front(bench_report *b);
+int bench_front(bench_results *b);
 
 /* bench_front_order: those points from the fastest up; `order` holds BENCH_POINTS. Returns how many. */
-int bench_front_order(int *order, const bench_report *b);
+int bench_front_order(int *order, const bench_results *b);
 
 #endif

@@ -43,13 +43,13 @@ static void workload_make(workload *w)
 }
 
 /* Least seconds of one call. */
-static void time_gather(double *least, workload *w, const lmb_kernels *kernels)
+static void time_gather(double *min, workload *w, const lmb_kernels *kernels)
 {
     for (int i = 0; i < CALLS; ++i) {
         const double start = host_seconds();
         lmb_gather_tile(&w->sums, kernels, &w->scratch, &w->tile, &w->groups, NULL, NULL);
         const double seconds = host_seconds() - start;
-        *least = seconds < *least ? seconds : *least;
+        *min = seconds < *min ? seconds : *min;
     }
 }
 
@@ -62,18 +62,18 @@ static void print_ops(const char *name, const double value[BENCH_OPS], int json)
     fputs(json ? "}" : "", stdout);
 }
 
-static void print_line(const lmb_kernels *kernels, double least, const bench_rates *r, const double counts[BENCH_OPS],
+static void print_line(const lmb_kernels *kernels, double min, const bench_rates *r, const double counts[BENCH_OPS],
                        double pairs, int json)
 {
     int unit = 0;
-    const double cycles = least / pairs / r->cycle, bound = bench_rates_bound(&unit, r, counts) / r->machine->lanes;
+    const double cycles = min / pairs / r->cycle, bound = bench_rates_bound(&unit, r, counts) / r->backend->lanes;
     double alone[BENCH_OPS], load[BENCH_OPS];
     printf(
         json ? "{\"case\":\"gather\",\"backend\":\"%s\",\"pairs_per_s\":%.4g,\"cycles_per_pair\":%.3f,"
                "\"bound_cycles\":%.3f,\"share\":%.4f,\"unit\":\"%s\",\"ghz\":%.3f"
              : "lambent,gather,backend=%s,pairs_per_s=%.4g,cycles_per_pair=%.3f,bound_cycles=%.3f,share=%.4f,unit=%s,"
                "ghz=%.3f",
-        lmb_kernels_name(kernels), pairs / least, cycles, bound, bound / cycles, bench_op_names[unit], 1e-9 / r->cycle);
+        lmb_kernels_name(kernels), pairs / min, cycles, bound, bound / cycles, bench_op_names[unit], 1e-9 / r->cycle);
     for (int op = 0; op < BENCH_OPS; ++op) {
         alone[op] = bench_rates_op(r, op);
         load[op] = bench_rates_load(r, unit, op);
@@ -86,11 +86,11 @@ static void print_line(const lmb_kernels *kernels, double least, const bench_rat
 }
 
 /* The gather and the machine's loops by turns, so that both meet the same clock rate and the same neighbours. */
-static int bench_machine_gather(const lmb_kernels *kernels, double seconds, int json, report *r)
+static int bench_backend_gather(const lmb_kernels *kernels, double seconds, int json, report *r)
 {
     static workload w;
     bench_rates rates;
-    double counts[BENCH_OPS], least = 1e30;
+    double counts[BENCH_OPS], min = 1e30;
     if (!bench_rates_begin(&rates, lmb_kernels_name(kernels))) {
         return report_fail(r, "%s: its rates are not known", lmb_kernels_name(kernels));
     }
@@ -98,20 +98,20 @@ static int bench_machine_gather(const lmb_kernels *kernels, double seconds, int 
     bench_operations_gather(counts, &w.tile, &w.groups);
     const double end = host_seconds() + seconds;
     do {
-        time_gather(&least, &w, kernels);
+        time_gather(&min, &w, kernels);
         bench_rates_step(&rates);
     } while (host_seconds() < end);
-    print_line(kernels, least, &rates, counts, (double)LMB_TILE_PIXELS * w.groups.count, json);
+    print_line(kernels, min, &rates, counts, (double)LMB_TILE_PIXELS * w.groups.count, json);
     return 1;
 }
 
 int bench_gather(const lmb_kernels *kernels, double seconds, int json, report *r)
 {
     if (kernels != NULL) {
-        return bench_machine_gather(kernels, seconds, json, r);
+        return bench_backend_gather(kernels, seconds, json, r);
     }
     for (int32_t i = 0; (kernels = lmb_kernels_at(i)) != NULL; ++i) {
-        if (!bench_machine_gather(kernels, seconds, json, r)) {
+        if (!bench_backend_gather(kernels, seconds, json, r)) {
             return 0;
         }
     }

@@ -2,9 +2,9 @@
 #ifndef BENCH_HTML_H
 #define BENCH_HTML_H
 
-#include "../common/page.h"
-#include "bench_report.h"
+#include "../common/text_buffer.h"
+#include "bench_results.h"
 
-void bench_html(page *out, const bench_report *b);
+void bench_html(text_buffer *out, const bench_results *b);
 
 #endif

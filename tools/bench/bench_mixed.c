@@ -16,13 +16,13 @@ static const bench_try tries[] = {
     {"voxels", "--voxels 8", 10, 0},
     {"cones", "--cones 7", 3, 0},
     {"cones", "--cones 37", 6, 0},
-    {"light map", "--light-map 256", 4, 0},
-    {"light map", "--light-map 2048", 5, 0},
+    {"shadow map", "--shadow-map 256", 4, 0},
+    {"shadow map", "--shadow-map 2048", 5, 0},
     {"draft and", "--voxels 6 --cones 7", 2, 0},
-    {"draft and", "--voxels 5 --cones 7 --light-map 256", 2, 0},
+    {"draft and", "--voxels 5 --cones 7 --shadow-map 256", 2, 0},
 };
 
-#define EXACT "--voxels 8 --cones 37 --light-map 2048"
+#define EXACT "--voxels 8 --cones 37 --shadow-map 2048"
 
 typedef struct mixture {
     const bench_line *line;
@@ -96,8 +96,8 @@ static double bytes_of(const mix_job *j)
 {
     double bytes = (double)lmb_voxels_bytes(j->voxels.cap, LMB_VOXELS_THREE);
     for (int32_t i = 0; i < j->light_count; ++i) {
-        const int32_t faces = lmb_light_map_faces(&j->lights[i], &j->scene);
-        bytes += 2.0 * (double)lmb_light_map_bytes(faces, j->o.light_map, LMB_ID32);
+        const int32_t faces = lmb_shadow_map_faces(&j->lights[i], &j->scene);
+        bytes += 2.0 * (double)lmb_shadow_map_bytes(faces, j->o.shadow_map, LMB_ID32);
     }
     return bytes;
 }
@@ -150,20 +150,20 @@ const bench_subject bench_mixed = {
     .backends = 1,
     .truth_is = "its own finest settings, " EXACT,
     .usage = "bench mix --frame PREFIX --object MESH [options of lambent mix] [options]",
-    .about = "Speed and memory against error of an object in a photo: by voxels a side, cones a hemisphere and texels of "
-             "the lamps' maps. Errors are counted where the object changes the photo by more than a hundredth of its mean, "
-             "against a picture of yours (linear, of the photo's size) or the finest settings: 256 voxels a side, 37 "
-             "cones. Time is without reading the files; memory is that of the voxels and maps.",
-    .examples =
-        "  a photo with depth of the built-in room, a tent, and a picture of both as the truth:\n"
-        "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
-        "    lambent render demo $eye -o photo.png\n"
-        "    lambent render demo $eye --show depth -o depth.pfm\n"
-        "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
-        "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
-        "    put='--photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 --object tent.obj'\n"
-        "    lambent mix $put --voxels 6 --cones 37 -o truth.pfm\n"
-        "    lambent bench mix $put --runs 1 --truth truth.pfm --sweep voxels=4,5\n",
+    .about =
+        "Speed and memory against error of an object in a photo: by voxels a side, cones a hemisphere and texels of "
+        "the shadow maps. Errors are counted where the object changes the photo by more than a hundredth of its mean, "
+        "against a picture of yours (linear, of the photo's size) or the finest settings: 256 voxels a side, 37 "
+        "cones. Time is without reading the files; memory is that of the voxels and maps.",
+    .examples = "  a photo with depth of the built-in room, a tent, and a picture of both as the truth:\n"
+                "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
+                "    lambent render demo $eye -o photo.png\n"
+                "    lambent render demo $eye --show depth -o depth.pfm\n"
+                "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+                "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+                "    put='--photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 --object tent.obj'\n"
+                "    lambent mix $put --voxels 6 --cones 37 -o truth.pfm\n"
+                "    lambent bench mix $put --runs 1 --truth truth.pfm --sweep voxels=4,5\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

@@ -73,7 +73,7 @@ static inline lane counted_lane_gather_f32(const float *p, lanei at)
 #define lane_store_rows counted_lane_store_rows
 
 #define KERNEL(name) name##_counted
-#define MACHINE "counted"
+#define BACKEND "counted"
 extern const lmb_kernels lmb_kernels_counted;
 #include "../../src/isa/all_kernels.inl"
 

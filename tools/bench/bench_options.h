@@ -22,7 +22,7 @@ typedef struct bench_options {
     int given_count;
     bench_range range[BENCH_SWEEPS];
     int ranges;
-    int32_t runs, ledger; /* ledger: one band in so many, 0: none */
+    int32_t runs, breakdown; /* breakdown: one band in so many, 0: none */
     int is_quiet, is_verbose;
     char names[3][1024];  /* of -o */
 } bench_options;

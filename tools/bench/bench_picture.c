@@ -12,8 +12,8 @@ enum { SIDE = 320 };
 
 static int32_t square_side(int32_t width, int32_t height)
 {
-    const int32_t most = width > height ? width : height;
-    return (most + SIDE - 1) / SIDE;
+    const int32_t max = width > height ? width : height;
+    return (max + SIDE - 1) / SIDE;
 }
 
 /* Means of n x n pixels; what is left over at the right and below is dropped. */

@@ -3,7 +3,7 @@
 #define BENCH_PICTURE_H
 
 #include "../picture/image.h"
-#include "bench_report.h"
+#include "bench_results.h"
 
 /* Both make pictures of at most 320 pixels a side: of larger ones each is the mean of a square. `out` is empty where
  * memory is short: a report does without.

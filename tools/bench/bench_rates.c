@@ -5,22 +5,21 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
-#include "../../src/lane/machines.h"
+#include "../../src/lane/backends.h"
 
 const char *const bench_op_names[BENCH_OPS] = {"mul", "add", "max", "div", "cmp", "pick", "sqrt"};
 
-#define DECLARE(upper, lower) extern const bench_machine bench_machine_##lower;
+#define DECLARE(upper, lower) extern const bench_backend bench_backend_##lower;
 LMB_BACKENDS(DECLARE)
 
-static const bench_machine *const machines[] = {
-#define MACHINE_OF(upper, lower) LMB_IF(LMB_HAVE_##upper, &bench_machine_##lower, )
-    LMB_BACKENDS(MACHINE_OF)
-};
+static const bench_backend *const backends[] = {
+#define BACKEND_OF(upper, lower) LMB_IF(LMB_HAVE_##upper, &bench_backend_##lower, )
+    LMB_BACKENDS(BACKEND_OF)};
 
 enum { ROUNDS = 1024, CHAIN = 16, IN_CACHE = 4096 /* floats */ };
 static const double never = 1e30;
 
-static void keep_least(double *inout, double v) { *inout = v < *inout ? v : *inout; }
+static void keep_min(double *inout, double v) { *inout = v < *inout ? v : *inout; }
 
 /* Two operations of one cycle, each waiting for the one before. Two kinds, since a row of additions of one number is
  * one multiplication to a compiler. */
@@ -39,7 +38,7 @@ static double cycle_seconds(void)
     return seconds / (2.0 * ROUNDS * CHAIN);
 }
 
-static void time_loop(double *least, bench_loop *loop)
+static void time_loop(double *min, bench_loop *loop)
 {
     float in[BENCH_ROWS][16], out[16];
     for (int i = 0; i < BENCH_ROWS; ++i) {
@@ -49,7 +48,7 @@ static void time_loop(double *least, bench_loop *loop)
     }
     const double start = host_seconds();
     loop(out, ROUNDS, in[0]);
-    keep_least(least, (host_seconds() - start) / ROUNDS);
+    keep_min(min, (host_seconds() - start) / ROUNDS);
 }
 
 double bench_rates_store(bench_rates *r)
@@ -57,8 +56,8 @@ double bench_rates_store(bench_rates *r)
     static float depth[IN_CACHE];
     memset(depth, 0, sizeof depth);
     const double start = host_seconds();
-    r->machine->store(depth, IN_CACHE, 8);
-    keep_least(&r->store, (host_seconds() - start) / (8.0 * IN_CACHE));
+    r->backend->store(depth, IN_CACHE, 8);
+    keep_min(&r->store, (host_seconds() - start) / (8.0 * IN_CACHE));
     return 1.0 / r->store;
 }
 
@@ -67,17 +66,17 @@ double bench_rates_read(bench_rates *r)
     static float in[IN_CACHE];
     float out[16];
     const double start = host_seconds();
-    r->machine->read(out, in, IN_CACHE, ROUNDS);
-    keep_least(&r->read, (host_seconds() - start) / ((double)ROUNDS * r->machine->lanes));
+    r->backend->read(out, in, IN_CACHE, ROUNDS);
+    keep_min(&r->read, (host_seconds() - start) / ((double)ROUNDS * r->backend->lanes));
     return 1.0 / r->read;
 }
 
 int bench_rates_begin(bench_rates *out, const char *name)
 {
-    out->machine = NULL;
-    for (size_t i = 0; i < sizeof machines / sizeof *machines; ++i) {
-        if (strcmp(machines[i]->name, name) == 0) {
-            out->machine = machines[i];
+    out->backend = NULL;
+    for (size_t i = 0; i < sizeof backends / sizeof *backends; ++i) {
+        if (strcmp(backends[i]->name, name) == 0) {
+            out->backend = backends[i];
         }
     }
     out->cycle = out->store = out->read = never;
@@ -87,44 +86,44 @@ int bench_rates_begin(bench_rates *out, const char *name)
             out->beside[unit][a] = never;
         }
     }
-    return out->machine != NULL;
+    return out->backend != NULL;
 }
 
 void bench_rates_step(bench_rates *r)
 {
     for (int a = 0; a < BENCH_OPS; ++a) {
-        keep_least(&r->cycle, cycle_seconds());
-        time_loop(&r->alone[a], r->machine->alone[a]);
+        keep_min(&r->cycle, cycle_seconds());
+        time_loop(&r->alone[a], r->backend->alone[a]);
         for (int unit = 0; unit < BENCH_UNITS; ++unit) {
-            time_loop(&r->beside[unit][a], r->machine->beside[unit][a]);
+            time_loop(&r->beside[unit][a], r->backend->beside[unit][a]);
         }
     }
 }
 
 double bench_rates_op(const bench_rates *r, int op)
 {
-    return r->alone[op] / (BENCH_BUSY(op) * r->machine->chains) / r->cycle;
+    return r->alone[op] / (BENCH_BUSY(op) * r->backend->chains) / r->cycle;
 }
 
 double bench_rates_load(const bench_rates *r, int unit, int op)
 {
     const double more = (r->beside[unit][op] - r->alone[unit]) / BENCH_BESIDE(unit) / r->cycle;
-    const double most = bench_rates_op(r, op);
-    return unit == op || more > most ? most : more > 0.0 ? more : 0.0;
+    const double max = bench_rates_op(r, op);
+    return unit == op || more > max ? max : more > 0.0 ? more : 0.0;
 }
 
 double bench_rates_bound(int *unit, const bench_rates *r, const double counts[BENCH_OPS])
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int u = 0; u < BENCH_UNITS; ++u) {
         double sum = 0.0;
         for (int op = 0; op < BENCH_OPS; ++op) {
             sum += counts[op] * bench_rates_load(r, u, op);
         }
-        if (sum > most) {
-            most = sum;
+        if (sum > max) {
+            max = sum;
             *unit = u;
         }
     }
-    return most;
+    return max;
 }

@@ -20,7 +20,7 @@ extern const char *const bench_op_names[BENCH_OPS];
 typedef void bench_loop(float *out, uint32_t rounds, const float *in);
 
 /* A machine's loops, compiled for it from bench_rates.inl. */
-typedef struct bench_machine {
+typedef struct bench_backend {
     const char *name; /* as its lmb_kernels' */
     int lanes, chains; /* independent values */
     bench_loop *alone[BENCH_OPS], *beside[BENCH_UNITS][BENCH_OPS]; /* [that keeps its unit busy][beside] */
@@ -28,7 +28,7 @@ typedef struct bench_machine {
     void (*store)(float *inout, uint32_t count, uint32_t rounds);
     /* Adds up four floats from a place of each lane's own among `count`, a power of two, `rounds` times. */
     void (*read)(float *out, const float *in, int32_t count, uint32_t rounds);
-} bench_machine;
+} bench_backend;
 
 /* Operations of a round on each chain, and of the one beside in all. Rows of 16 floats that a loop reads: 1, a tiny
  * number, and values from 1 to 2. */
@@ -39,7 +39,7 @@ enum { BENCH_ROWS = 18 };
 
 /* A machine's least times so far, s. Begin with bench_rates_begin; each bench_rates_step improves them. */
 typedef struct bench_rates {
-    const bench_machine *machine;
+    const bench_backend *backend;
     double cycle;                                            /* a cycle */
     double alone[BENCH_OPS], beside[BENCH_UNITS][BENCH_OPS]; /* a round */
     double store, read;                                      /* a value; four floats of one lane */

@@ -1,6 +1,6 @@
 /* bench_rates.inl: loops that keep a unit of the machine busy with one operation and give it a little of another.
  *
- * KERNEL(name), MACHINE and CHAINS, half of the operations under way, are the including file's. What goes in is read
+ * KERNEL(name), BACKEND and CHAINS, half of the operations under way, are the including file's. What goes in is read
  * from memory, so that no compiler works anything out beforehand; values stay between 1 and 2. */
 #include <lambent/types.h>
 
@@ -9,11 +9,11 @@
 
 /* One operation on x. z is another value that changes, some and other are masks: each step needs the one before. */
 #define BENCH_STEP_MUL(x, z, s)  x = lane_mul(x, one);
-#define BENCH_STEP_ADD(x, z, s)  x = lane_add(x, least);
+#define BENCH_STEP_ADD(x, z, s)  x = lane_add(x, min);
 #define BENCH_STEP_MAX(x, z, s)  x = (s) & 1 ? lane_min(x, z) : lane_max(x, z);
 #define BENCH_STEP_CMP(x, z, s)  seen = mask_or(seen, lane_lt(x, z));
 #define BENCH_STEP_KEEP(x, z, s) \
-    x = lane_keep(lane_lt(least, x), x); /* a comparison, where x changes by nothing else */
+    x = lane_keep(lane_lt(min, x), x); /* a comparison, where x changes by nothing else */
 #define BENCH_STEP_PICK(x, z, s) x = (s) & 1 ? lane_pick(some, x, z) : lane_pick(other, x, z);
 #define BENCH_STEP_DIV(x, z, s)  x = lane_div(high, x);
 #define BENCH_STEP_SQRT(x, z, s) x = lane_sqrt(lane_add(x, one)); /* alone it would come to rest at 1 */
@@ -38,7 +38,7 @@
 #define BENCH_LOOP(name, ROUND, A, B) \
     static void KERNEL(name)(float *out, uint32_t rounds, const float *in) \
     { \
-        const lane one = BENCH_ROW(0), least = BENCH_ROW(1), high = BENCH_ROW(3); \
+        const lane one = BENCH_ROW(0), min = BENCH_ROW(1), high = BENCH_ROW(3); \
         const lane_mask some = lane_lt(BENCH_ROW(4), BENCH_ROW(5)), other = lane_lt(BENCH_ROW(6), BENCH_ROW(7)); \
         lane x0 = BENCH_ROW(2), x1 = BENCH_ROW(8), x2 = BENCH_ROW(9), x3 = BENCH_ROW(10), x4 = BENCH_ROW(11); \
         lane y0 = BENCH_ROW(3), y1 = BENCH_ROW(12), y2 = BENCH_ROW(13), y3 = BENCH_ROW(14), y4 = BENCH_ROW(15); \
@@ -50,7 +50,7 @@
         x0 = lane_add(lane_add(lane_add(x0, x1), lane_add(x2, x3)), x4); \
         y0 = lane_add(lane_add(lane_add(y0, y1), lane_add(y2, y3)), y4); \
         lane_store(out, lane_add(lane_add(x0, y0), lane_add(v, lane_keep(seen, w)))); \
-        (void)one, (void)least, (void)high, (void)some, (void)other; /* of other operations */ \
+        (void)one, (void)min, (void)high, (void)some, (void)other; /* of other operations */ \
     }
 
 #define BENCH_UNIT(A, ROUND, P) \
@@ -97,8 +97,8 @@ static void KERNEL(read_loop)(float *out, const float *in, int32_t count, uint32
 }
 
 #define BENCH_ENTRY(A, ROUND, B) [BENCH_##A][BENCH_##B] = KERNEL(loop_##A##_##B),
-const bench_machine KERNEL(bench_machine) = {
-    MACHINE, LANES, 2 * CHAINS,
+const bench_backend KERNEL(bench_backend) = {
+    BACKEND, LANES, 2 * CHAINS,
     {[BENCH_MUL] = KERNEL(loop_MUL), [BENCH_ADD] = KERNEL(loop_ADD), [BENCH_MAX] = KERNEL(loop_MAX),
      [BENCH_DIV] = KERNEL(loop_DIV), [BENCH_CMP] = KERNEL(loop_CMP), [BENCH_PICK] = KERNEL(loop_PICK),
      [BENCH_SQRT] = KERNEL(loop_SQRT)},

@@ -1,7 +1,7 @@
 /* bench_rates_scalar.c: the loops of bench_rates.inl in plain C. */
 #include "../../src/lane/lane_scalar.h"
 
-#define MACHINE "scalar"
+#define BACKEND "scalar"
 #define KERNEL(name) name##_scalar
 /* Four lanes are four values in registers. */
 #define CHAINS (LANES == 1 ? 5 : 1)

@@ -11,7 +11,7 @@
 #include "../relief/relief_options.h"
 #include "bench_subject.h"
 
-static const char *const stages[BENCH_STAGES] = {"light map", "triangles", "pixels", NULL};
+static const char *const stages[BENCH_STAGES] = {"shadow map", "triangles", "pixels", NULL};
 
 static const bench_try tries[] = {
     {"default", "", 3, 0},
@@ -28,16 +28,16 @@ static const bench_try tries[] = {
     {"iterations", "--steps 2", 3, 0},
     {"iterations", "--steps 3", 3, 0},
     {"iterations", "--steps 12", 3, 0},
-    {"looks", "--looks 1 --keep 1", 3, 0},
-    {"looks", "--looks 3", 3, 0},
-    {"looks", "--keep 1", 3, 0},
+    {"pixel views", "--pixel-views 1 --keep 1", 3, 0},
+    {"pixel views", "--pixel-views 3", 3, 0},
+    {"pixel views", "--keep 1", 3, 0},
     {"simple model", "--triangles 500", 3, 0},
     {"simple model", "--triangles 12000", 3, 0},
     {"storage", "--packed", 3, 0},
     {"draft and", "--views 14 --size 128 --steps 2 --keep 1", 3, 0},
 };
 
-enum { SIDE = 512, LIGHT_MAP = 1024 };
+enum { SIDE = 512, SHADOW_MAP = 1024 };
 
 typedef struct statue {
     const char *model;
@@ -70,7 +70,11 @@ static int parse_views(const char *text, void *at)
 /* Of relief bake, and of relief render. */
 static const option_row bake_rows[] = {
     {.name = "MODEL", .kind = OPTION_TEXT, .value = "", .at = offsetof(statue, model), .help = "the complex one"},
-    {.name = "--views", .value = "N|greedy:N", .kind = OPTION_OWN, .parse = parse_views, .wants = "1 .. 64 or greedy:N",
+    {.name = "--views",
+     .value = "N|greedy:N",
+     .kind = OPTION_OWN,
+     .parse = parse_views,
+     .expects = "1 .. 64 or greedy:N",
      .help = "from N sides (default 26), or the N that see most"},
     RELIEF_OPTIONS_BAKE(statue),
     {.kind = OPTION_END},
@@ -186,7 +190,7 @@ static int aim(statue *s, report *r)
     s->shot.view = view_from(&middle, 0.0f, &s->scene);
     s->shot.how = s->how;
     s->shot.light = &s->sun;
-    s->shot.light_map = LIGHT_MAP;
+    s->shot.shadow_map = SHADOW_MAP;
     s->shot.ambient = 0.3f;
     return 1;
 }
@@ -288,11 +292,13 @@ const bench_subject bench_relief = {
     .try_count = sizeof tries / sizeof *tries,
     .truth_is = "the model itself, drawn by its triangles",
     .usage = "bench relief MODEL [options of lambent relief bake and render] [options]",
-    .about = "Speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole from a little "
-             "above: bakes it by so many views of such a size and draws it in so many steps. The truth is the model "
-             "itself, drawn by its triangles. Of the options of lambent relief it takes --views, --size, --packed, "
-             "--triangles, --steps, --looks, --keep, --eye, --target, --up and --fov; time is that of the picture, memory "
-             "the relief's.",
+    .about =
+        "Speed and memory against error of a model drawn as a relief, at 512 x 512 under a sun, whole from a little "
+        "above: bakes it by so many views of such a size and draws it in so many steps. The truth is the model "
+        "itself, drawn by its triangles. Of the options of lambent relief it takes --views, --size, --packed, "
+        "--triangles, --steps, --pixel-views, --keep, --eye, --target, --up and --fov; time is that of the picture, "
+        "memory "
+        "the relief's.",
     .examples = "  a tent by two numbers of views:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"

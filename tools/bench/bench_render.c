@@ -9,31 +9,31 @@
 #include "../render/render_draw.h"
 #include "bench_subject.h"
 
-static const char *const stages[BENCH_STAGES] = {"light maps", "blockers", "first points", "groups",
-                                                 "bounces",    "view",     "pixels",       NULL};
+static const char *const stages[BENCH_STAGES] = {"shadow maps", "BVH",  "first points", "groups",
+                                                 "bounces",     "view", "pixels",       NULL};
 
 static const bench_try tries[] = {
     {"presets", "", 4, 0},
     {"presets", "--quality draft", 1, 0},
     {"presets", "--quality best", 30, 0},
-    {"first points", "--tree 64 --light-map 512", 3, 0},
+    {"first points", "--tree 64 --shadow-map 512", 3, 0},
     {"first points", "--tree 128", 3, 0},
     {"first points", "--tree 512", 5, 0},
     {"first points", "--tree 1024", 6, 0},
-    {"light map", "--light-map 256", 4, 0},
-    {"light map", "--light-map 2048", 5, 0},
+    {"shadow map", "--shadow-map 256", 4, 0},
+    {"shadow map", "--shadow-map 2048", 5, 0},
     {"error", "--error 0.005", 6, 0},
     {"error", "--error 0.01", 5, 0},
     {"error", "--error 0.05", 3, 0},
     {"error", "--error 0.1", 3, 0},
-    {"visibility", "--visible 0.005", 9, 0},
-    {"visibility", "--visible 0.03", 3, 0},
-    {"visibility", "--visible 0.1", 2, 0},
+    {"visibility", "--visibility 0.005", 9, 0},
+    {"visibility", "--visibility 0.03", 3, 0},
+    {"visibility", "--visibility 0.1", 2, 0},
     {"occlusion", "--occlusion none", 1, 0},
     {"gather", "--gather half", 2, 0},
     {"gather", "--gather quarter", 1, 0},
-    {"draft and", "--quality draft --error 0.2 --visible 0.2", 1, 0},
-    {"draft and", "--quality draft --tree 64 --light-map 512", 1, 0},
+    {"draft and", "--quality draft --error 0.2 --visibility 0.2", 1, 0},
+    {"draft and", "--quality draft --tree 64 --shadow-map 512", 1, 0},
     {"draft and", "--quality draft --gather half", 1, 0},
     {"draft and", "--quality draft --gather quarter", 1, 0},
     {"best and", "--quality best --gather half", 15, 0},
@@ -53,12 +53,12 @@ static const bench_try tries[] = {
 static const bench_exact exact[] = {
     {"upsampling", "--gather full", "--gather"},
     {"grouping", "--grouping cut --error 0.001", NULL},
-    {"occlusion", "--grouping cut --occlusion exact --visible 0.004", NULL},
-    {"light map, first points", "--light-map 1024 --tree 1024", NULL},
+    {"occlusion", "--grouping cut --occlusion exact --visibility 0.004", NULL},
+    {"shadow map, first points", "--shadow-map 1024 --tree 1024", NULL},
 };
 
 #define EXACT \
-    "--gather full --grouping cut --occlusion exact --error 0.001 --visible 0.004 --light-map 1024 --tree 1024"
+    "--gather full --grouping cut --occlusion exact --error 0.001 --visibility 0.004 --shadow-map 1024 --tree 1024"
 
 /* --- a picture ---------------------------------------------------------------------------------------------------- */
 
@@ -83,7 +83,7 @@ static int draw_once(void *user, double stage_s[BENCH_STAGES], report *r)
         return 0;
     }
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        stage_s[i] = j->crew.stage_s[i];
+        stage_s[i] = j->workers.stage_s[i];
     }
     return 1;
 }
@@ -107,9 +107,9 @@ static void keep(bench_shot *out, render_job *j)
 {
     out->picture = j->linear;
     j->linear.pixels = NULL;
-    out->bytes = (double)(j->bytes + j->many.bytes);
+    out->bytes = (double)(j->bytes + j->many_lights.bytes);
     out->work = (double)(j->stats.pairs + j->stats.segments);
-    out->threads = j->crew.threads;
+    out->threads = j->workers.threads;
 }
 
 static int check(const bench_line *line, report *r)
@@ -126,8 +126,8 @@ static int draw(bench_shot *out, const bench_line *line, const bench_way *way, r
     int ok = j != NULL ? parse(j, line, r) : report_fail(r, "out of memory");
     ok = ok && render_job_load(j, r) && render_job_set(j, r);
     if (ok) {
-        j->crew.clock = j->crew.threads == 1 ? host_cpu_seconds : NULL;
-        j->crew.every = way->every;
+        j->workers.clock = j->workers.threads == 1 ? host_cpu_seconds : NULL;
+        j->workers.every = way->every;
     }
     ok = ok && bench_repeat(out, way, draw_once, j, r) && find_surface(&out->surface, j, r);
     if (ok) {
@@ -194,15 +194,16 @@ const bench_subject bench_render = {
     .usage = "bench SCENE [options of lambent render] [options]\n"
              "bench relight|relief|mix --help     the same for these verbs\n"
              "bench --help                        how fast kernels are",
-    .about = "Speed against error of one picture: draws it by some thirty settings, one option at a time around --quality "
-             "draft, default and best, and prints what each costs (time by stage, memory, instructions where the system "
-             "counts them) and how far its picture is from the truth: `trim`, relative RMSE without the worst 1 % of "
-             "pixels, and the other figures of lambent compare. What is shown is bounced light alone (--show indirect), on "
-             "one thread, at the truth's size or 160x120: options of render say otherwise.",
+    .about =
+        "Speed against error of one picture: draws it by some thirty settings, one option at a time around --quality "
+        "draft, default and best, and prints what each costs (time by stage, memory, instructions where the system "
+        "counts them) and how far its picture is from the truth: `trim`, relative RMSE without the worst 1 % of "
+        "pixels, and the other figures of lambent compare. What is shown is bounced light alone (--show indirect), on "
+        "one thread, at the truth's size or 160x120: options of render say otherwise.",
     .examples = "  three settings, as a table:\n"
-                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --ledger 0\n"
+                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0\n"
                 "  the same, as pages.html, pages.csv, pages.json:\n"
-                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --ledger 0 -o pages\n",
+                "    lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32,64 --breakdown 0 -o pages\n",
     .check = check,
     .draw = draw,
     .truth = draw_truth,

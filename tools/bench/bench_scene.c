@@ -162,7 +162,7 @@ static void set_view(lmb_view *v, const bench_case *c)
 {
     if (c->scene <= BENCH_SPONZA_LIGHT) {
         const camera *k = &cameras[c->scene];
-        lmb_view_look(v, k->eye, k->target, k->up, k->fov_rad, c->width, c->height);
+        lmb_view_look_at(v, k->eye, k->target, k->up, k->fov_rad, c->width, c->height);
         v->near_m = k->near_m;
         v->far_m = k->far_m;
         return;

@@ -1,14 +1,14 @@
-/* bench_state.h: what a sweep and its ledgers have at hand. */
+/* bench_state.h: what a sweep and its breakdowns have at hand. */
 #ifndef BENCH_STATE_H
 #define BENCH_STATE_H
 
 #include "bench_task.h"
 #include "bench_truth.h"
 
-/* What a sweep has at hand; its pictures are kept for the ledgers. */
+/* What a sweep has at hand; its pictures are kept for the breakdowns. */
 typedef struct sweep {
     const bench_options *o;
-    bench_report *b;
+    bench_results *b;
     bench_task task[BENCH_POINTS];
     int tasks;
     bench_truth truth;

@@ -120,7 +120,7 @@ void bench_shot_free(bench_shot *s)
 }
 
 /* One run's times, where they are less. The first run warms up: the second's take its place. */
-static void keep_least(bench_shot *s, const double *stage_s, double instructions, int is_first)
+static void keep_min(bench_shot *s, const double *stage_s, double instructions, int is_first)
 {
     for (int i = 0; i < BENCH_STAGES; ++i) {
         s->stage_s[i] = is_first || stage_s[i] < s->stage_s[i] ? stage_s[i] : s->stage_s[i];
@@ -137,7 +137,7 @@ int bench_repeat(bench_shot *s, const bench_way *way, bench_once once, void *use
         if (!once(user, stage_s, r)) {
             return 0;
         }
-        keep_least(s, stage_s, counted ? count_stop() : 0.0, run <= 1);
+        keep_min(s, stage_s, counted ? count_stop() : 0.0, run <= 1);
         if (host_seconds() - start > BENCH_ENOUGH_S) {
             break;
         }

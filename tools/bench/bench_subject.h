@@ -5,7 +5,7 @@
 #include "../common/options.h"
 #include "../common/report.h"
 #include "../picture/image.h"
-#include "bench_report.h"
+#include "bench_results.h"
 
 enum { BENCH_ARGS = 96, BENCH_WORDS = 512 };
 
@@ -18,9 +18,9 @@ typedef struct bench_line {
     const option_table *table; /* NULL: words are words */
 } bench_line;
 
-/* bench_line_put: a word. bench_line_add: the words of a text, with spaces between. An option that counts once takes the
- * place of what the line has of it. 0 where they are too many. bench_line_with: another line with them, or 0 with `r`
- * set; it borrows the first one's words. */
+/* bench_line_put: a word. bench_line_add: the words of a text, with spaces between. An option that counts once takes
+ * the place of what the line has of it. 0 where they are too many. bench_line_with: another line with them, or 0 with
+ * `r` set; it borrows the first one's words. */
 int bench_line_put(bench_line *line, char *word);
 int bench_line_add(bench_line *line, const char *text);
 int bench_line_with(bench_line *out, const bench_line *line, const char *text, report *r);
@@ -75,7 +75,7 @@ typedef struct bench_subject {
     const bench_try *tries;
     int try_count;
     int backends;                     /* 1: each that this processor has, behind the tries */
-    const bench_exact *exact;         /* for the ledger, in order; all of them: as `truth`. NULL: none */
+    const bench_exact *exact;         /* for the breakdown, in order; all of them: as `truth`. NULL: none */
     int exact_count;
     const char *usage, *about, *examples;
     const char *truth_is;

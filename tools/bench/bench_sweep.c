@@ -13,7 +13,7 @@
 #include "../picture/metrics.h"
 #include "../picture/picture.h"
 #include "bench_front.h"
-#include "bench_ledgers.h"
+#include "bench_breakdowns.h"
 #include "bench_picture.h"
 
 enum { TRUTH_WEIGHT = 60 };
@@ -84,7 +84,7 @@ static void take_times(bench_point *p, const bench_shot *shot)
 static int measure(sweep *s, const bench_task *t, report *r)
 {
     const bench_way way = {s->o->runs, 1};
-    bench_point *p = bench_report_add(s->b);
+    bench_point *p = bench_results_add(s->b);
     const int number = s->b->count - 1;
     bench_line line;
     bench_shot shot;
@@ -147,12 +147,12 @@ static void describe(sweep *s)
                                            "that of 99 in 100 pixels",
                                            "mean light, as a share of the truth's",
                                            "light where the truth is dark, as a share of the truth's"};
-    bench_report *b = s->b;
+    bench_results *b = s->b;
     char processor[128];
     bench_line line;
     report unheard = {""};
     host_processor(processor, sizeof processor);
-    snprintf(b->machine, sizeof b->machine, "%s%s%d processors, %s lanes, lambent %d.%d.%d", processor,
+    snprintf(b->computer, sizeof b->computer, "%s%s%d processors, %s lanes, lambent %d.%d.%d", processor,
              processor[0] != '\0' ? ", " : "", pool_processors(), lmb_kernels_name(lmb_kernels_pick()),
              LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100);
     snprintf(b->how, sizeof b->how,
@@ -175,7 +175,7 @@ static void describe(sweep *s)
 static int run(sweep *s, report *r)
 {
     s->tasks = bench_tasks(s->task, s->o, r);
-    s->all = bench_ledgers_weight(s->o) + (s->o->truth == NULL ? TRUTH_WEIGHT : 0);
+    s->all = bench_breakdowns_weight(s->o) + (s->o->truth == NULL ? TRUTH_WEIGHT : 0);
     for (int i = 0; i < s->tasks; ++i) {
         s->all += s->task[i].weight;
     }
@@ -191,10 +191,10 @@ static int run(sweep *s, report *r)
         s->done += s->task[i].weight;
     }
     bench_front(s->b);
-    return bench_ledgers(s, r);
+    return bench_breakdowns(s, r);
 }
 
-int bench_sweep(bench_report *out, const bench_options *o, report *r)
+int bench_sweep(bench_results *out, const bench_options *o, report *r)
 {
     sweep *s = calloc(1, sizeof *s);
     if (s == NULL) {

@@ -9,11 +9,11 @@ static const char *mark(const bench_point *p) { return p->is_knee ? "knee" : p->
 
 /* --- for people --------------------------------------------------------------------------------------------------- */
 
-static void say_point(page *out, const bench_report *b, const bench_point *p)
+static void say_point(text_buffer *out, const bench_results *b, const bench_point *p)
 {
     char time[24], bytes[24], figure[24] = "-";
     if (p->failure[0] != '\0') {
-        page_add(out, "       %-44s left out: %s\n", p->name, p->failure);
+        text_buffer_add(out, "       %-44s left out: %s\n", p->name, p->failure);
         return;
     }
     bench_say_time(time, p->time_s);
@@ -21,71 +21,71 @@ static void say_point(page *out, const bench_report *b, const bench_point *p)
     if (p->has_figures) {
         bench_say_figure(figure, b, 0, p->figure[0]);
     }
-    page_add(out, "%-6s %-44s %10s %9s", mark(p), p->name, time, figure);
+    text_buffer_add(out, "%-6s %-44s %10s %9s", mark(p), p->name, time, figure);
     for (int i = 1; i < BENCH_FIGURES && b->figure[i] != NULL; ++i) {
         bench_say_figure(figure, b, i, p->figure[i]);
-        page_add(out, " %7s", p->has_figures ? figure : "-");
+        text_buffer_add(out, " %7s", p->has_figures ? figure : "-");
     }
-    page_add(out, " %10s%s\n", bytes, p->same == 1 ? "  same bytes" : p->same == 0 ? "  OTHER BYTES" : "");
+    text_buffer_add(out, " %10s%s\n", bytes, p->same == 1 ? "  same bytes" : p->same == 0 ? "  OTHER BYTES" : "");
 }
 
-static void say_ledger(page *out, const bench_ledger *l)
+static void say_breakdown(text_buffer *out, const bench_breakdown *l)
 {
-    page_add(out, "\nerror ledger of %s: squares, in %% of the whole (%.3g of mean light squared)\n", l->name,
-             l->total);
+    text_buffer_add(out, "\nerror breakdown of %s: squares, in %% of the whole (%.3g of mean light squared)\n", l->name,
+                    l->total);
     for (int i = 0; i < l->rows; ++i) {
-        page_add(out, "  %-30s %8.1f %%\n", l->row[i].stage, 100.0 * l->row[i].square / l->total);
+        text_buffer_add(out, "  %-30s %8.1f %%\n", l->row[i].stage, 100.0 * l->row[i].square / l->total);
     }
-    page_add(out, "  %-30s %8.1f %%\n", "interaction of stages", 100.0 * (l->total - l->sum) / l->total);
+    text_buffer_add(out, "  %-30s %8.1f %%\n", "interaction of stages", 100.0 * (l->total - l->sum) / l->total);
 }
 
-void bench_table(page *out, const bench_report *b)
+void bench_table(text_buffer *out, const bench_results *b)
 {
-    page_add(out, "%s\nagainst %s\n%s; %s\n\n%-6s %-44s %10s", b->title, b->truth, b->machine, b->how, "", "setting",
-             "time");
+    text_buffer_add(out, "%s\nagainst %s\n%s; %s\n\n%-6s %-44s %10s", b->title, b->truth, b->computer, b->how, "",
+                    "setting", "time");
     for (int i = 0; i < BENCH_FIGURES && b->figure[i] != NULL; ++i) {
-        page_add(out, i == 0 ? " %9s" : " %7s", b->figure[i]);
+        text_buffer_add(out, i == 0 ? " %9s" : " %7s", b->figure[i]);
     }
-    page_add(out, " %10s\n", "memory");
+    text_buffer_add(out, " %10s\n", "memory");
     for (int i = 0; i < b->count; ++i) {
         say_point(out, b, &b->point[i]);
     }
-    for (int i = 0; i < b->ledgers; ++i) {
-        say_ledger(out, &b->ledger[i]);
+    for (int i = 0; i < b->breakdowns; ++i) {
+        say_breakdown(out, &b->breakdown[i]);
     }
 }
 
 /* --- CSV ---------------------------------------------------------------------------------------------------------- */
 
-static void csv_head(page *out, const bench_report *b)
+static void csv_head(text_buffer *out, const bench_results *b)
 {
-    page_plain(out, "setting,option,mark,seconds");
+    text_buffer_plain(out, "setting,option,mark,seconds");
     for (int i = 0; i < BENCH_STAGES && b->stage[i] != NULL; ++i) {
-        page_plain(out, ",s ");
-        page_plain(out, b->stage[i]);
+        text_buffer_plain(out, ",s ");
+        text_buffer_plain(out, b->stage[i]);
     }
     for (int i = 0; i < BENCH_FIGURES && b->figure[i] != NULL; ++i) {
-        page_add(out, ",%s", b->figure[i]);
+        text_buffer_add(out, ",%s", b->figure[i]);
     }
-    page_plain(out, ",bytes,work,instructions,threads,same bytes,command,left out because\n");
+    text_buffer_plain(out, ",bytes,work,instructions,threads,same bytes,command,left out because\n");
 }
 
 /* What was not measured is empty. */
-static void csv_number(page *out, int is_there, double v)
+static void csv_number(text_buffer *out, int is_there, double v)
 {
-    page_plain(out, ",");
+    text_buffer_plain(out, ",");
     if (is_there && !isnan(v)) {
-        page_add(out, "%.10g", v);
+        text_buffer_add(out, "%.10g", v);
     }
 }
 
-static void csv_point(page *out, const bench_report *b, const bench_point *p)
+static void csv_point(text_buffer *out, const bench_results *b, const bench_point *p)
 {
     const int is_there = p->failure[0] == '\0';
-    page_csv(out, p->name);
-    page_plain(out, ",");
-    page_csv(out, p->option);
-    page_add(out, ",%s", mark(p));
+    text_buffer_csv(out, p->name);
+    text_buffer_plain(out, ",");
+    text_buffer_csv(out, p->option);
+    text_buffer_add(out, ",%s", mark(p));
     csv_number(out, is_there, p->time_s);
     for (int i = 0; i < BENCH_STAGES && b->stage[i] != NULL; ++i) {
         csv_number(out, is_there, p->stage_s[i]);
@@ -96,14 +96,14 @@ static void csv_point(page *out, const bench_report *b, const bench_point *p)
     csv_number(out, is_there, p->bytes);
     csv_number(out, is_there, p->work);
     csv_number(out, p->instructions > 0.0, p->instructions);
-    page_add(out, ",%d,%s,", p->threads, p->same == 1 ? "yes" : p->same == 0 ? "no" : "");
-    page_csv(out, p->command);
-    page_plain(out, ",");
-    page_csv(out, p->failure);
-    page_plain(out, "\n");
+    text_buffer_add(out, ",%d,%s,", p->threads, p->same == 1 ? "yes" : p->same == 0 ? "no" : "");
+    text_buffer_csv(out, p->command);
+    text_buffer_plain(out, ",");
+    text_buffer_csv(out, p->failure);
+    text_buffer_plain(out, "\n");
 }
 
-void bench_csv(page *out, const bench_report *b)
+void bench_csv(text_buffer *out, const bench_results *b)
 {
     csv_head(out, b);
     for (int i = 0; i < b->count; ++i) {
@@ -113,98 +113,97 @@ void bench_csv(page *out, const bench_report *b)
 
 /* --- JSON --------------------------------------------------------------------------------------------------------- */
 
-static void json_text(page *out, const char *key, const char *text)
+static void json_text(text_buffer *out, const char *key, const char *text)
 {
-    page_json(out, key);
-    page_plain(out, ": ");
-    page_json(out, text);
-    page_plain(out, ", ");
+    text_buffer_json(out, key);
+    text_buffer_plain(out, ": ");
+    text_buffer_json(out, text);
+    text_buffer_plain(out, ", ");
 }
 
 /* What was not measured is null. */
-static void json_number(page *out, int is_there, double v)
+static void json_number(text_buffer *out, int is_there, double v)
 {
     if (is_there && !isnan(v)) {
-        page_add(out, "%.10g", v);
+        text_buffer_add(out, "%.10g", v);
     } else {
-        page_plain(out, "null");
+        text_buffer_plain(out, "null");
     }
 }
 
-static void json_figures(page *out, const bench_report *b, const bench_point *p)
+static void json_figures(text_buffer *out, const bench_results *b, const bench_point *p)
 {
     for (int i = 0; i < BENCH_FIGURES && b->figure[i] != NULL; ++i) {
-        page_plain(out, i > 0 ? ", " : "");
-        page_json(out, b->figure[i]);
-        page_plain(out, ": ");
+        text_buffer_plain(out, i > 0 ? ", " : "");
+        text_buffer_json(out, b->figure[i]);
+        text_buffer_plain(out, ": ");
         json_number(out, p->has_figures, p->figure[i]);
     }
 }
 
-static void json_stages(page *out, const bench_report *b, const bench_point *p)
+static void json_stages(text_buffer *out, const bench_results *b, const bench_point *p)
 {
     for (int i = 0; i < BENCH_STAGES && b->stage[i] != NULL; ++i) {
-        page_plain(out, i > 0 ? ", " : "");
-        page_json(out, b->stage[i]);
-        page_add(out, ": %.6g", p->stage_s[i]);
+        text_buffer_plain(out, i > 0 ? ", " : "");
+        text_buffer_json(out, b->stage[i]);
+        text_buffer_add(out, ": %.6g", p->stage_s[i]);
     }
 }
 
-static void json_point(page *out, const bench_report *b, const bench_point *p)
+static void json_point(text_buffer *out, const bench_results *b, const bench_point *p)
 {
-    page_plain(out, "    {");
+    text_buffer_plain(out, "    {");
     json_text(out, "setting", p->name);
     json_text(out, "option", p->option);
     json_text(out, "command", p->command);
     if (p->failure[0] != '\0') {
         json_text(out, "left_out", p->failure);
     }
-    page_add(out, "\"front\": %s, \"knee\": %s, \"seconds\": %.6g, \"stages\": {", p->on_front ? "true" : "false",
-             p->is_knee ? "true" : "false", p->time_s);
+    text_buffer_add(out, "\"front\": %s, \"knee\": %s, \"seconds\": %.6g, \"stages\": {",
+                    p->on_front ? "true" : "false", p->is_knee ? "true" : "false", p->time_s);
     json_stages(out, b, p);
-    page_plain(out, "}, \"error\": {");
+    text_buffer_plain(out, "}, \"error\": {");
     json_figures(out, b, p);
-    page_add(out,
-             "}, \"bytes\": %.0f, \"work\": %.0f, \"threads\": %d, \"same_bytes\": %s, \"instructions\": ", p->bytes,
-             p->work, p->threads,
-             p->same < 0 ? "null"
-             : p->same   ? "true"
-                         : "false");
+    text_buffer_add(out, "}, \"bytes\": %.0f, \"work\": %.0f, \"threads\": %d, \"same_bytes\": %s, \"instructions\": ",
+                    p->bytes, p->work, p->threads,
+                    p->same < 0 ? "null"
+                    : p->same   ? "true"
+                                : "false");
     json_number(out, p->instructions > 0.0, p->instructions);
-    page_plain(out, "}");
+    text_buffer_plain(out, "}");
 }
 
-static void json_ledger(page *out, const bench_ledger *l)
+static void json_breakdown(text_buffer *out, const bench_breakdown *l)
 {
-    page_plain(out, "    {");
+    text_buffer_plain(out, "    {");
     json_text(out, "setting", l->name);
-    page_add(out, "\"total\": %.6g, \"sum\": %.6g, \"interaction\": %.6g, \"steps\": [", l->total, l->sum,
-             l->total - l->sum);
+    text_buffer_add(out, "\"total\": %.6g, \"sum\": %.6g, \"interaction\": %.6g, \"steps\": [", l->total, l->sum,
+                    l->total - l->sum);
     for (int i = 0; i < l->rows; ++i) {
-        page_plain(out, i > 0 ? ", {" : "{");
+        text_buffer_plain(out, i > 0 ? ", {" : "{");
         json_text(out, "stage", l->row[i].stage);
         json_text(out, "to", l->row[i].to);
-        page_add(out, "\"square\": %.6g}", l->row[i].square);
+        text_buffer_add(out, "\"square\": %.6g}", l->row[i].square);
     }
-    page_plain(out, "]}");
+    text_buffer_plain(out, "]}");
 }
 
-void bench_json(page *out, const bench_report *b)
+void bench_json(text_buffer *out, const bench_results *b)
 {
-    page_plain(out, "{\n  ");
+    text_buffer_plain(out, "{\n  ");
     json_text(out, "title", b->title);
     json_text(out, "truth", b->truth);
-    json_text(out, "machine", b->machine);
+    json_text(out, "machine", b->computer);
     json_text(out, "timed", b->how);
-    page_add(out, "\"seconds\": %.3f,\n  \"settings\": [\n", b->seconds);
+    text_buffer_add(out, "\"seconds\": %.3f,\n  \"settings\": [\n", b->seconds);
     for (int i = 0; i < b->count; ++i) {
         json_point(out, b, &b->point[i]);
-        page_plain(out, i + 1 < b->count ? ",\n" : "\n");
+        text_buffer_plain(out, i + 1 < b->count ? ",\n" : "\n");
     }
-    page_plain(out, "  ],\n  \"ledgers\": [\n");
-    for (int i = 0; i < b->ledgers; ++i) {
-        json_ledger(out, &b->ledger[i]);
-        page_plain(out, i + 1 < b->ledgers ? ",\n" : "\n");
+    text_buffer_plain(out, "  ],\n  \"breakdowns\": [\n");
+    for (int i = 0; i < b->breakdowns; ++i) {
+        json_breakdown(out, &b->breakdown[i]);
+        text_buffer_plain(out, i + 1 < b->breakdowns ? ",\n" : "\n");
     }
-    page_add(out, "  ],\n  \"ledger_share\": %.6g\n}\n", b->ledger_share);
+    text_buffer_add(out, "  ],\n  \"breakdown_share\": %.6g\n}\n", b->breakdown_share);
 }

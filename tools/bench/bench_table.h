@@ -2,11 +2,11 @@
 #ifndef BENCH_TABLE_H
 #define BENCH_TABLE_H
 
-#include "../common/page.h"
-#include "bench_report.h"
+#include "../common/text_buffer.h"
+#include "bench_results.h"
 
-void bench_table(page *out, const bench_report *b); /* for people */
-void bench_csv(page *out, const bench_report *b);   /* a line a setting */
-void bench_json(page *out, const bench_report *b);  /* one object */
+void bench_table(text_buffer *out, const bench_results *b); /* for people */
+void bench_csv(text_buffer *out, const bench_results *b);   /* a line a setting */
+void bench_json(text_buffer *out, const bench_results *b);  /* one object */
 
 #endif

@@ -71,7 +71,7 @@ static lmb_status gather_begin(gather_job *g, const lmb_kernels *kernels)
     f.scene = demo_scene();
     f.view = demo_view(WIDTH, HEIGHT);
     f.show = LMB_SHOW_INDIRECT;
-    f.light_map = GATHER_MAP;
+    f.shadow_map = GATHER_MAP;
     f.occlusion = LMB_OCCLUSION_VIEW;
     f.map_memory = g->map;
     f.map_bytes = sizeof g->map;
@@ -91,12 +91,12 @@ static lmb_status gather_begin(gather_job *g, const lmb_kernels *kernels)
     return status < 0 ? status : LMB_OK;
 }
 
-/* --- a light's map ------------------------------------------------------------------------------------------------ */
+/* --- a shadow map ------------------------------------------------------------------------------------------------ */
 
 typedef struct map_job {
     uint32_t depth[MAP * MAP], id[MAP * MAP];
     bench_scene scene;
-    lmb_light_map map;
+    lmb_shadow_map map;
     const lmb_kernels *kernels;
 } map_job;
 
@@ -106,8 +106,8 @@ static void map_rows(void *user, int part, int worker)
     const map_job *m = w->user;
     const int32_t rows = MAP / LMB_TILE;
     (void)worker;
-    lmb_light_map_rows(&m->map, m->kernels, &m->scene.scene, rows * part / w->parts, rows * (part + 1) / w->parts,
-                       NULL);
+    lmb_shadow_map_rows(&m->map, m->kernels, &m->scene.scene, rows * part / w->parts, rows * (part + 1) / w->parts,
+                        NULL);
 }
 
 static void map_begin(map_job *m, int ids, const lmb_kernels *kernels)
@@ -148,7 +148,7 @@ static double median_ratio(turns *t, int n)
     return t->ratio[t->count / 2];
 }
 
-static double least(const double *v, int count)
+static double min(const double *v, int count)
 {
     double best = v[0];
     for (int i = 1; i < count; ++i) {
@@ -191,8 +191,8 @@ static int take_turns(turns *t, bench_work *w, const process *p, const threads_o
 
 static void print_turns(const bench_work *w, turns *t, const threads_options *o)
 {
-    const double alone = least(t->alone, t->count), threads = least(t->threads, t->count),
-                 processes = least(t->processes, t->count);
+    const double alone = min(t->alone, t->count), threads = min(t->threads, t->count),
+                 processes = min(t->processes, t->count);
     const double by_threads = alone / threads, by_processes = o->threads * alone / processes;
     printf(
         "%-21s one thread %8.2f ms, %d threads %8.2f ms: x %.2f; %d processes: x %.2f; of processes %5.1f %% (median "

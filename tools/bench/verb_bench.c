@@ -132,9 +132,9 @@ static void set_bound(timing *t, const canvas *c, const bench_scene *s, const be
     const double depths = bench_operations_end(counts) / t->peak;
     t->bound = depths;
     t->by = "depth";
-    const double busy = bench_rates_bound(&unit, r, counts) / r->machine->lanes * r->cycle;
+    const double busy = bench_rates_bound(&unit, r, counts) / r->backend->lanes * r->cycle;
     /* Plain C's lanes are what a compiler makes of them, here less and there more: its operations bound nothing. */
-    if (busy > depths && strcmp(r->machine->name, "scalar") != 0) {
+    if (busy > depths && strcmp(r->backend->name, "scalar") != 0) {
         t->bound = busy;
         t->by = bench_op_names[unit];
     }
@@ -171,14 +171,14 @@ static void measure(timing *t, const canvas *c, const bench_scene *s, const opti
 static void print_case(const bench_case *k, const bench_scene *s, const timing *t, const options *o)
 {
     const unsigned triangles = s->mesh.triangle_count;
-    const double least = t->cpu[0] * 1e3, middle = t->cpu[t->count / 2] * 1e3;
-    const double wall = t->wall[0] * 1e3, wall_middle = t->wall[t->count / 2] * 1e3, each = least * 1e6 / triangles;
+    const double min = t->cpu[0] * 1e3, middle = t->cpu[t->count / 2] * 1e3;
+    const double wall = t->wall[0] * 1e3, wall_middle = t->wall[t->count / 2] * 1e3, each = min * 1e6 / triangles;
     const double pixels = (double)k->width * k->height * (triangles / 2) / t->cpu[0]; /* two triangles a layer */
     printf(o->json ? "{\"case\":\"%s\",\"triangles\":%u,\"cpu_min_ms\":%.4f,\"wall_min_ms\":%.4f,\"cpu_med_ms\":%.4f,"
                      "\"wall_med_ms\":%.4f,\"frames\":%d,\"ns_per_triangle\":%.2f,\"backend\":\"%s\""
                    : "lambent,%s,tris=%u,cpu_min_ms=%.4f,wall_min_ms=%.4f,cpu_med_ms=%.4f,wall_med_ms=%.4f,n=%d,"
                      "ns_per_tri=%.2f,backend=%s",
-           k->name, triangles, least, wall, middle, wall_middle, t->count, each, lmb_kernels_name(o->kernels));
+           k->name, triangles, min, wall, middle, wall_middle, t->count, each, lmb_kernels_name(o->kernels));
     if (is_depth_fill(k) && t->peak > 0.0) {
         printf(o->json ? ",\"pixels_per_s\":%.4g,\"peak\":%.4g" : ",pixels_per_s=%.4g,peak=%.4g", pixels, t->peak);
     }
@@ -324,49 +324,87 @@ static const struct workload {
     int picks; /* a backend, where none is given; else all in turn */
     option_table table;
 } workloads[] = {
-    {"raster", check_raster, run_raster, 0, 1.5f, 1,
-     {.verb = "bench raster", .usage = "bench raster [CASE...] [options]",
-      .about = "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a "
-               "frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound / least time. "
-               "The bound is what the same run finds the machine can do at most with the frame's own work, which is "
-               "counted by drawing it once over verbs that count: the longest (`by`) of the time that reading, testing and "
-               "writing the frame's depths takes in 16 KiB of cache (`depth`), and the times that its multiplications, "
-               "additions, maxima, divisions, comparisons and picks keep one unit busy (`mul`, `add`, `max`, `div`; as for "
-               "gather). All of it as if every lane were of use; integers, doubles, loads, masks, branches, clearing, and "
-               "reading the mesh and textures count as nothing; of plain C, whose lanes compilers join as they like, only "
-               "depths count. fill-depth cases also tell pixels a second and `peak`, the depths a second that the bound is "
-               "of.",
-      .part = {raster_rows}, .examples = "  lambent bench raster fill-depth --seconds 0.1\n"}},
-    {"gather", NULL, run_gather, 0, 1.5f, 0,
-     {.verb = "bench gather", .usage = "bench gather [options]",
-      .about = "The far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
-               "Prints a line a backend: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what "
-               "the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by "
-               "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for "
-               "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded "
-               "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results "
-               "count as nothing. A cycle is that of a chain of integer operations.",
-      .part = {gather_rows}, .examples = "  lambent bench gather --seconds 0.1\n"}},
-    {"threads", NULL, run_threads, 2, 4.0f, 1,
-     {.verb = "bench threads", .usage = "bench threads [options]",
-      .about = "The gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads, and in "
-               "N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is "
-               "all that this machine gives.",
+    {"raster",
+     check_raster,
+     run_raster,
+     0,
+     1.5f,
+     1,
+     {.verb = "bench raster",
+      .usage = "bench raster [CASE...] [options]",
+      .about =
+          "Draws the fixed raster workload on one thread and prints a line a case: the least and the median time of a "
+          "frame (clear, draw, and for gouraud and tex cases colours into RGBA8), and `share` = bound / least time. "
+          "The bound is what the same run finds the machine can do at most with the frame's own work, which is "
+          "counted by drawing it once over verbs that count: the longest (`by`) of the time that reading, testing and "
+          "writing the frame's depths takes in 16 KiB of cache (`depth`), and the times that its multiplications, "
+          "additions, maxima, divisions, comparisons and picks keep one unit busy (`mul`, `add`, `max`, `div`; as for "
+          "gather). All of it as if every lane were of use; integers, doubles, loads, masks, branches, clearing, and "
+          "reading the mesh and textures count as nothing; of plain C, whose lanes compilers join as they like, only "
+          "depths count. fill-depth cases also tell pixels a second and `peak`, the depths a second that the bound is "
+          "of.",
+      .part = {raster_rows},
+      .examples = "  lambent bench raster fill-depth --seconds 0.1\n"}},
+    {"gather",
+     NULL,
+     run_gather,
+     0,
+     1.5f,
+     0,
+     {.verb = "bench gather",
+      .usage = "bench gather [options]",
+      .about =
+          "The far gather without occlusion, all groups lighting all pixels; a pair is one pixel with one group. "
+          "Prints a line a backend: pairs a second, cycles a pair, and `share` = bound / cycles. The bound is what "
+          "the same run finds the machine can do with the kernel's own operations (`ops_per_vector`, counted by "
+          "running it over verbs that count): each operation is timed in registers alone (`cycles_per_op`), and for "
+          "what it adds to a unit that multiplications, additions, maxima or divisions keep busy. The most loaded "
+          "unit's time is the bound (`unit`, `load_per_op`). Loads, stores, masks, branches and waiting for results "
+          "count as nothing. A cycle is that of a chain of integer operations.",
+      .part = {gather_rows},
+      .examples = "  lambent bench gather --seconds 0.1\n"}},
+    {"threads",
+     NULL,
+     run_threads,
+     2,
+     4.0f,
+     1,
+     {.verb = "bench threads",
+      .usage = "bench threads [options]",
+      .about =
+          "The gather of the built-in scene and 2048 x 2048 maps of sponza's light on one thread, on N threads, and in "
+          "N processes at once, in turn. `of processes` is what the threads gain over what the processes do: 100 % is "
+          "all that this machine gives.",
       .part = {threads_rows},
       .examples = "  with a folder that holds sponza.mesh:\n"
                   "    [ ! -e data/sponza.mesh ] || lambent bench threads --data data --seconds 1\n",
       .status = "exit status: 0 done, 1 a file that cannot be read or no processes to be had, 2 bad usage"}},
-    {"hard", NULL, run_hard, 0, 0.0f, 1,
-     {.verb = "bench hard", .usage = "bench hard [ROOM] [options]",
-      .about = "What renderers get wrong, tried here: a line a case, with its figure and what that may be at most. `exact` "
-               "is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms in "
-               "double, whose bound lies a little over what was found. A few seconds.",
-      .part = {hard_rows}, .examples = "  lambent bench hard raster\n",
+    {"hard",
+     NULL,
+     run_hard,
+     0,
+     0.0f,
+     1,
+     {.verb = "bench hard",
+      .usage = "bench hard [ROOM] [options]",
+      .about =
+          "What renderers get wrong, tried here: a line a case, with its figure and what that may be at most. `exact` "
+          "is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms in "
+          "double, whose bound lies a little over what was found. A few seconds.",
+      .part = {hard_rows},
+      .examples = "  lambent bench hard raster\n",
       .status = "exit status: 0 done, 1 a figure past its bound, 2 bad usage"}},
-    {"--calibrate", NULL, run_calibrate, 0, 0.0f, 0,
-     {.verb = "bench --calibrate", .usage = "bench --calibrate [--threads N]",
+    {"--calibrate",
+     NULL,
+     run_calibrate,
+     0,
+     0.0f,
+     0,
+     {.verb = "bench --calibrate",
+      .usage = "bench --calibrate [--threads N]",
       .about = "Units of work a second, by which --budget-ms reckons: the built-in room, drawn a few times.",
-      .part = {calibrate_rows}, .examples = "  lambent bench --calibrate --threads 1\n"}},
+      .part = {calibrate_rows},
+      .examples = "  lambent bench --calibrate --threads 1\n"}},
 };
 
 static const option_table bench_table = {
@@ -377,10 +415,11 @@ static const option_table bench_table = {
              "bench threads [options]             what threads gain, beside processes\n"
              "bench hard [ROOM] [options]         what renderers get wrong\n"
              "bench --calibrate [--threads N]     units of work a second",
-    .about = "Measures. Each has its own --help: lambent bench raster --help; lambent bench demo --help is that of SCENE.",
+    .about =
+        "Measures. Each has its own --help: lambent bench raster --help; lambent bench demo --help is that of SCENE.",
     .part = {bench_rows},
     .examples = "  lambent bench raster fill-depth --seconds 0.1\n"
-                "  lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32 --ledger 0\n",
+                "  lambent bench demo --size 24x16 --runs 1 --sweep tree=16,32 --breakdown 0\n",
 };
 
 static int measure_workload(const struct workload *w, int argc, char **argv)

@@ -21,36 +21,37 @@ static int can_write(const bench_options *o, report *r)
     return 1;
 }
 
-static int write_one(const char *path, void (*fill)(page *out, const bench_report *b), const bench_report *b, report *r)
+static int write_one(const char *path, void (*fill)(text_buffer *out, const bench_results *b), const bench_results *b,
+                     report *r)
 {
-    page p;
+    text_buffer p;
     memset(&p, 0, sizeof p);
     fill(&p, b);
-    const int ok = path == NULL || page_write(&p, path, r);
-    page_free(&p);
+    const int ok = path == NULL || text_buffer_write(&p, path, r);
+    text_buffer_free(&p);
     return ok;
 }
 
-static void fill_svg(page *out, const bench_report *b) { bench_chart(out, b, 900, 420, 1); }
+static void fill_svg(text_buffer *out, const bench_results *b) { bench_chart(out, b, 900, 420, 1); }
 
-static int tell(const bench_report *b, report *r)
+static int tell(const bench_results *b, report *r)
 {
-    page p;
+    text_buffer p;
     memset(&p, 0, sizeof p);
     bench_table(&p, b);
     const int ok = !p.is_short && fputs(p.data, stdout) >= 0 && fflush(stdout) == 0;
-    page_free(&p);
+    text_buffer_free(&p);
     return ok || report_fail(r, "standard output: cannot be written");
 }
 
 static int sweep_and_write(const bench_options *o, report *r)
 {
-    bench_report b;
+    bench_results b;
     memset(&b, 0, sizeof b);
     const int ok = can_write(o, r) && bench_sweep(&b, o, r) && write_one(o->html, bench_html, &b, r) &&
                    write_one(o->csv, bench_csv, &b, r) && write_one(o->json, bench_json, &b, r) &&
                    write_one(o->svg, fill_svg, &b, r) && (o->is_quiet || tell(&b, r));
-    bench_report_free(&b);
+    bench_results_free(&b);
     return ok;
 }
 

@@ -75,7 +75,7 @@ static void print_lights(const lmb_plan *p, const render_job *j)
         }
     }
     if (p->faces > p->faces_drawn) {
-        printf("%u of %u faces of light maps see nothing of the scene, and are not drawn\n",
+        printf("%u of %u faces of shadow maps see nothing of the scene, and are not drawn\n",
                (unsigned)(p->faces - p->faces_drawn), (unsigned)p->faces);
     }
 }
@@ -86,12 +86,12 @@ void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choic
 {
     const lmb_frame *f = &j->frame;
     char work[16], words[200];
-    printf("%s: %d x %d, %u triangles, %u lights; --light-map %d", j->o.scene, (int)f->view.frame_width,
+    printf("%s: %d x %d, %u triangles, %u lights; --shadow-map %d", j->o.scene, (int)f->view.frame_width,
            (int)f->view.frame_height, (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->scene.light_count,
-           (int)f->light_map);
+           (int)f->shadow_map);
     if (f->tree.texel != NULL) {
-        printf(" --tree %d --error %.3g --visible %.3g --gather %s", (int)f->tree.size, (double)f->error,
-               (double)f->visible, gather_word(f->gather_step));
+        printf(" --tree %d --error %.3g --visibility %.3g --gather %s", (int)f->tree.size, (double)f->error,
+               (double)f->visibility, gather_word(f->gather_step));
     }
     printf("\n\n");
     print_rows(p);
@@ -115,11 +115,12 @@ void plan_print_table(const lmb_plan *p, const render_job *j, const budget_choic
 void plan_print_json(const lmb_plan *p, const render_job *j, const budget_choice *c)
 {
     const lmb_frame *f = &j->frame;
-    printf("{\n  \"width\": %d, \"height\": %d, \"triangles\": %u, \"lights\": %u,\n  \"light_map\": %d, \"tree\": %d, "
-           "\"error\": %.6g, \"visible\": %.6g, \"gather\": %d,\n  \"stages\": [\n",
-           (int)f->view.frame_width, (int)f->view.frame_height, (unsigned)lmb_scene_triangles(&j->scene),
-           (unsigned)j->scene.light_count, (int)f->light_map, (int)f->tree.size, (double)f->error, (double)f->visible,
-           (int)f->gather_step);
+    printf(
+        "{\n  \"width\": %d, \"height\": %d, \"triangles\": %u, \"lights\": %u,\n  \"shadow_map\": %d, \"tree\": %d, "
+        "\"error\": %.6g, \"visibility\": %.6g, \"gather\": %d,\n  \"stages\": [\n",
+        (int)f->view.frame_width, (int)f->view.frame_height, (unsigned)lmb_scene_triangles(&j->scene),
+        (unsigned)j->scene.light_count, (int)f->shadow_map, (int)f->tree.size, (double)f->error, (double)f->visibility,
+        (int)f->gather_step);
     for (int s = 0; s < LMB_PLAN_STAGES; ++s) {
         const lmb_plan_row *row = &p->row[s];
         printf("    {\"stage\": \"%s\", \"runs\": %s, \"why\": \"%s\", \"proof\": \"%s\", \"work\": %.6g, \"bytes\": "

@@ -36,25 +36,26 @@ static const option_row info_rows[] = {
 static const option_table table = {
     .verb = "info",
     .usage = "info FILE [--scene NAME|N] [--json]",
-    .about = "What is in a scene that `lambent render` reads, or in a picture: PNG, JPEG, PPM, PGM, PFM or Radiance HDR, "
-             "known by its content. Of a scene:\n"
-             "scenes: of a glTF file; read: the one that counts below (--scene chooses);\n"
-             "nodes meshes: as the file has them, with the meshes' primitives;\n"
-             "instances: primitives placed in the world;\n"
-             "triangles: placed: over all instances; unique: each mesh once;\n"
-             "vertices: as stored, of the meshes that are placed;\n"
-             "materials: in the file; drawn: those that an instance shows, and what they are;\n"
-             "emissive: materials that give off light: radiance, W/(sr m2); `render --grouping cut` lights the scene with "
-             "it;\n"
-             "images textures: in the file; read: with size, mip levels and bytes in memory, shared by equal images;\n"
-             "lights cameras: in the file; placed: by nodes; the number before a camera is for `render --camera`;\n"
-             "extensions: read, folded into what is read anyhow, or ignored; a scene that requires one that is unknown "
-             "here is refused with a line that names it;\n"
-             "bounds: world metres;\n"
-             "bytes: the file, others read for it, and memory when loaded;\n"
-             "notes: what the reader left out or replaced.\n"
-             "Of a picture: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high "
-             "byte; palettes resolved), or linear light; values that are not finite are counted and left out.",
+    .about =
+        "What is in a scene that `lambent render` reads, or in a picture: PNG, JPEG, PPM, PGM, PFM or Radiance HDR, "
+        "known by its content. Of a scene:\n"
+        "scenes: of a glTF file; read: the one that counts below (--scene chooses);\n"
+        "nodes meshes: as the file has them, with the meshes' primitives;\n"
+        "instances: primitives placed in the world;\n"
+        "triangles: placed: over all instances; unique: each mesh once;\n"
+        "vertices: as stored, of the meshes that are placed;\n"
+        "materials: in the file; drawn: those that an instance shows, and what they are;\n"
+        "emissive: materials that emit light: radiance, W/(sr m2); `render --grouping cut` lights the scene with "
+        "it;\n"
+        "images textures: in the file; read: with size, mip levels and bytes in memory, shared by equal images;\n"
+        "lights cameras: in the file; placed: by nodes; the number before a camera is for `render --camera`;\n"
+        "extensions: read, folded into what is read anyhow, or ignored; a scene that requires one that is unknown "
+        "here is refused with a line that names it;\n"
+        "bounds: world metres;\n"
+        "bytes: the file, others read for it, and memory when loaded;\n"
+        "notes: what the reader left out or replaced.\n"
+        "Of a picture: least, largest and mean value of each channel as stored: codes 0 to 255 (of 16 bits the high "
+        "byte; palettes resolved), or linear light; values that are not finite are counted and left out.",
     .part = {info_rows},
     .examples = "  lambent render demo --size 80x60 -o demo.pfm\n"
                 "  lambent info demo.pfm\n",
@@ -71,7 +72,7 @@ typedef struct summary {
 
 /* One channel's finite values. */
 typedef struct channel {
-    double least, largest, sum;
+    double min, largest, sum;
     uint64_t count;
 } channel;
 
@@ -438,7 +439,7 @@ static void add_value(picture_facts *p, int k, double v)
         ++p->nonfinite;
         return;
     }
-    c->least = c->count && c->least < v ? c->least : v;
+    c->min = c->count && c->min < v ? c->min : v;
     c->largest = c->count && c->largest > v ? c->largest : v;
     c->sum += v;
     ++c->count;
@@ -500,7 +501,7 @@ static void text_picture(FILE *out, const char *path, const picture_facts *p)
         label(out, "");
         fprintf(out, "%-5s ", channel_name(p, k));
         if (c->count)
-            fprintf(out, "min %-13.6g max %-13.6g mean %.6g\n", c->least, c->largest, c->sum / (double)c->count);
+            fprintf(out, "min %-13.6g max %-13.6g mean %.6g\n", c->min, c->largest, c->sum / (double)c->count);
         else
             fputs("no finite value\n", out);
     }
@@ -522,7 +523,7 @@ static void json_picture(FILE *out, const char *path, const picture_facts *p)
         const channel *c = &p->values[k];
         fprintf(out, "%s{\"name\":\"%s\",", k ? "," : "", channel_name(p, k));
         if (c->count)
-            fprintf(out, "\"min\":%.9g,\"max\":%.9g,\"mean\":%.9g}", c->least, c->largest, c->sum / (double)c->count);
+            fprintf(out, "\"min\":%.9g,\"max\":%.9g,\"mean\":%.9g}", c->min, c->largest, c->sum / (double)c->count);
         else
             fputs("\"min\":null,\"max\":null,\"mean\":null}", out);
     }

@@ -50,7 +50,7 @@ int options_exclude(const option_row *a, const option_row *b)
 
 enum { LETTERS = 40 };
 
-static int least(int a, int b) { return a < b ? a : b; }
+static int min(int a, int b) { return a < b ? a : b; }
 
 int options_distance(const char *a, const char *b)
 {
@@ -67,17 +67,17 @@ int options_distance(const char *a, const char *b)
         const int *before = row[(i - 1) % 3], *two_before = row[(i + 1) % 3];
         now[0] = i;
         for (int k = 1; k <= m; ++k) {
-            now[k] = least(before[k - 1] + (a[i - 1] != b[k - 1]), least(before[k], now[k - 1]) + 1);
+            now[k] = min(before[k - 1] + (a[i - 1] != b[k - 1]), min(before[k], now[k - 1]) + 1);
             if (i > 1 && k > 1 && a[i - 1] == b[k - 2] && a[i - 2] == b[k - 1]) {
-                now[k] = least(now[k], two_before[k - 2] + 1);
+                now[k] = min(now[k], two_before[k - 2] + 1);
             }
         }
     }
     return row[n % 3][m];
 }
 
-/* The name that is most like the word, if any is like it: a third of its letters may differ, one at least, or its end be
- * missing. */
+/* The name that is most like the word, if any is like it: a third of its letters may differ, one at least, or its end
+ * be missing. */
 static const char *nearest(const option_table *const *tables, int count, const char *word)
 {
     const int n = (int)strlen(word);
@@ -128,7 +128,8 @@ static int store_floats(const option_row *row, const char *text, float *at)
     const int count = row->kind == OPTION_NUMBERS ? (int)row->size : 1;
     int ok = option_floats(&text, at, count) && *text == '\0';
     for (int i = 0; i < count && ok; ++i) {
-        ok = at[i] <= (float)row->high && (row->kind == OPTION_ABOVE ? at[i] > (float)row->low : at[i] >= (float)row->low);
+        ok = at[i] <= (float)row->high &&
+             (row->kind == OPTION_ABOVE ? at[i] > (float)row->low : at[i] >= (float)row->low);
     }
     return ok;
 }
@@ -165,9 +166,9 @@ typedef struct line {
 
 static int refuse(const option_row *row, const char *value, report *r)
 {
-    char wants[320];
-    options_wants(wants, sizeof wants, row);
-    return report_fail(r, "%s: `%s` is not %s", row->name, value, wants);
+    char expects[320];
+    options_wants(expects, sizeof expects, row);
+    return report_fail(r, "%s: `%s` is not %s", row->name, value, expects);
 }
 
 /* `value` goes behind those that the row has already. */
@@ -223,9 +224,9 @@ static int take_option(line *l, report *r)
         return take_alone(l, i, inside + 1, r);
     }
     if (l->at + 1 == l->argc) {
-        char wants[320];
-        options_wants(wants, sizeof wants, row);
-        return report_fail(r, "%s wants a value: %s", row->name, wants);
+        char expects[320];
+        options_wants(expects, sizeof expects, row);
+        return report_fail(r, "%s wants a value: %s", row->name, expects);
     }
     return take_alone(l, i, l->argv[++l->at], r);
 }

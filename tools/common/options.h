@@ -45,7 +45,7 @@ typedef struct option_row {
     const char *const *words; /* ends with NULL */
     const int32_t *values;    /* of the words; NULL: their places */
     int (*parse)(const char *text, void *at); /* 1, or 0 where the text is none */
-    const char *wants;   /* what the value has to be; NULL: by kind and range */
+    const char *expects;   /* what the value has to be; NULL: by kind and range */
     const char *help;    /* one text, folded where it is printed; a line break stays */
 } option_row;
 

@@ -1,7 +1,7 @@
 /* options_help.c: what a verb's table says of its options, folded to lines of under 100 columns. */
 #include <string.h>
 
-#include "../../src/lane/machines.h"
+#include "../../src/lane/backends.h"
 #include "options_table.h"
 
 enum { WIDTH = 98, INDENT = 2, COLUMN = 29 /* where the text beside a name begins */ };
@@ -44,8 +44,8 @@ void options_wants(char *out, size_t size, const option_row *row)
 {
     char range[96];
     range_of(range, sizeof range, row);
-    if (row->wants != NULL) {
-        snprintf(out, size, "%s", row->wants);
+    if (row->expects != NULL) {
+        snprintf(out, size, "%s", row->expects);
     } else if (row->kind == OPTION_WORD) {
         join(out, size, row->words, ", ", " or ");
     } else if (row->kind == OPTION_BACKEND) {
@@ -70,7 +70,8 @@ static void fold(FILE *out, const char *text, int at, int column)
 {
     while (*text != '\0') {
         int n = (int)strcspn(text, " \n");
-        n += text[n] == ' ' && text[n + 1] == '%' ? 1 + (int)strcspn(text + n + 1, " \n") : 0; /* stays with its number */
+        n += text[n] == ' ' && text[n + 1] == '%' ? 1 + (int)strcspn(text + n + 1, " \n") : 0; /* stays with its number
+                                                                                                  */
         if (at > column && at + n + 1 > WIDTH) {
             at = column;
             fprintf(out, "\n%*s", column, "");

@@ -72,7 +72,7 @@ int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char 
     if (!(hi.x > lo.x || hi.y > lo.y || hi.z > lo.z)) {
         return report_fail(r, "%s: nothing to see: the scene has no extent", name);
     }
-    if (lmb_view_look(v, from, centre, o->up, 0.698f, o->width, o->height) != LMB_OK) {
+    if (lmb_view_look_at(v, from, centre, o->up, 0.698f, o->width, o->height) != LMB_OK) {
         return report_fail(r, "%s: no view frames the scene; give --eye and --target", name);
     }
     float away = fitting_distance(scene, v, centre);
@@ -87,7 +87,7 @@ int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char 
 int view_look(lmb_view *v, view_options *o, report *r)
 {
     view_size(o, 0.0f);
-    return lmb_view_look(v, o->eye, o->target, o->up, o->fov_deg * 0.017453293f, o->width, o->height) == LMB_OK ||
+    return lmb_view_look_at(v, o->eye, o->target, o->up, o->fov_deg * 0.017453293f, o->width, o->height) == LMB_OK ||
            report_fail(r, "--eye, --target and --up do not make a view: they must not lie on one line");
 }
 

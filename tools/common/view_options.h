@@ -22,7 +22,7 @@ void view_options_init(view_options *out);
 int view_option_size(const char *text, void *at);
 #define VIEW_OPTION_SIZE(type, view, text)                                                                   \
     {.name = "--size", .value = "WxH", .kind = OPTION_OWN, .at = offsetof(type, view), .parse = view_option_size, \
-     .wants = "WxH, each 1 .. 8192", .help = text}
+     .expects = "WxH, each 1 .. 8192", .help = text}
 #define VIEW_OPTIONS_CAMERA(type, view, text)                                                                \
     {.name = "--eye", .kind = OPTION_POINT, .at = offsetof(type, view.eye), .counts = offsetof(type, view.has_eye), \
      .help = text},                                                                                          \

@@ -43,6 +43,6 @@ lmb_view demo_view(int32_t width, int32_t height)
     static const lmb_vec3 eye = {0.12f, 1.42f, 2.70f}, target = {0.0f, 1.10f, -1.0f}, up = {0.0f, 1.0f, 0.0f};
     const float vfov_rad = 0.872664626f; /* 50 degrees */
     lmb_view view = nothing;
-    lmb_view_look(&view, eye, target, up, vfov_rad, width, height);
+    lmb_view_look_at(&view, eye, target, up, vfov_rad, width, height);
     return view;
 }

@@ -14,7 +14,7 @@ extern "C" {
 const lmb_scene *demo_scene(void);
 
 /* demo_view: the camera, inside the room; 50 degrees of vertical angle, whatever the frame's aspect. All zero where
- * lmb_view_look refuses the size. */
+ * lmb_view_look_at refuses the size. */
 lmb_view demo_view(int32_t width, int32_t height);
 
 #ifdef __cplusplus

@@ -46,14 +46,14 @@ static void make_room(hard_stage *s, dvec o, double crate)
 }
 
 /* Is any other surface within `least` of here? Cells there are too coarse to be a truth. */
-static int is_close(const hard_stage *s, dvec at, dvec normal, uint32_t id, double least)
+static int is_close(const hard_stage *s, dvec at, dvec normal, uint32_t id, double min)
 {
     for (int i = 0; i < 8; ++i) {
         const double a = i * PI / 4.0;
         const dvec across = fabs(normal.y) < 0.9 ? dvec_unit(dvec_cross(normal, dvec_of(0, 1, 0))) : dvec_of(1, 0, 0);
         const dvec along = dvec_cross(normal, across);
         const dvec way = dvec_add(dvec_mul(normal, 0.3), dvec_add(dvec_mul(across, cos(a)), dvec_mul(along, sin(a))));
-        if (hard_blocked(s, at, dvec_add(at, dvec_mul(way, least)), id, 0)) {
+        if (hard_occluded(s, at, dvec_add(at, dvec_mul(way, min)), id, 0)) {
             return 1;
         }
     }
@@ -64,18 +64,18 @@ typedef struct room_errors {
     double rmse, pixels;
 } room_errors;
 
-/* What a lamp so near to a wall at x = -2 that half of its power lands around there sends on from there. */
+/* What a light so near to a wall at x = -2 that half of its power lands around there sends on from there. */
 static double from_spot(const hard_stage *s, dvec at, dvec normal, uint32_t id)
 {
     const dvec from = dvec_of(-2, (double)s->light.position.y, (double)s->light.position.z), way = dvec_sub(from, at);
     const double d2 = dvec_dot(way, way), cosine = dvec_dot(way, normal), out = at.x + 2.0;
-    if (cosine <= 0.0 || out <= 1e-6 || hard_blocked(s, at, from, id, 0)) {
+    if (cosine <= 0.0 || out <= 1e-6 || hard_occluded(s, at, from, id, 0)) {
         return 0.0;
     }
     return 2.0 * PI * (double)s->light.intensity[0] * ALBEDO / PI * cosine * out / (d2 * d2);
 }
 
-/* Bounced irradiance there. With a lamp on the wall, part 1, what the wall throws back comes from one place. */
+/* Bounced irradiance there. With a light on the wall, part 1, what the wall throws back comes from one place. */
 static double truth_at(hard_stage *s, dvec at, dvec normal, uint32_t id)
 {
     const float albedo = s->material[1].albedo[0];
@@ -248,7 +248,7 @@ static double checkers(hard_stage *s, int cells)
     return fabs(sum[0] / sum[1] - 1.0);
 }
 
-/* W of all texels of a light's map of one face. */
+/* W of all texels of a shadow map of one face. */
 static double root_flux(const hard_stage *s)
 {
     const lmb_tree *t = &s->render.frame.tree;
@@ -259,7 +259,7 @@ static double root_flux(const hard_stage *s)
 static void slats(hard_list *l)
 {
     hard_stage *s = l->stage;
-    double least = HUGE_VAL, most = 0.0, sum = 0.0;
+    double min = HUGE_VAL, max = 0.0, sum = 0.0;
     const double width = 0.5 * 4.0 / MAP;
     for (int step = 0; step < 8; ++step) {
         const double off = step * 0.125 * 4.0 / MAP;
@@ -274,11 +274,11 @@ static void slats(hard_list *l)
         hard_look(s, dvec_of(0, 2, 3), dvec_of(0, 0, 0), 50.0, SIDE);
         hard_frame(s, LMB_SHOW_INDIRECT, MAP, 0.002f);
         const double flux = root_flux(s);
-        least = fmin(least, flux), most = fmax(most, flux), sum += flux;
+        min = fmin(min, flux), max = fmax(max, flux), sum += flux;
     }
     hard_put(l, HARD_MEASURED, "lit slats of half a texel over a black floor: flux off",
              100.0 * fabs(sum / 8.0 / (0.5 * 31.0 * width * 2.0) - 1.0), 1, "%");
-    hard_put(l, HARD_MEASURED, "moved by eighths of a texel: flux changes by", 100.0 * (most - least) / (sum / 8.0), 10,
+    hard_put(l, HARD_MEASURED, "moved by eighths of a texel: flux changes by", 100.0 * (max - min) / (sum / 8.0), 10,
              "%");
 }
 

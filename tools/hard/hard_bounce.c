@@ -18,17 +18,17 @@ static lmb_vec3 narrow(dvec v) { return (lmb_vec3){(float)v.x, (float)v.y, (floa
 static void one_disc(hard_list *l)
 {
     uint64_t rng = 21;
-    double most = 0.0, behind = 0.0;
+    double max = 0.0, behind = 0.0;
     for (int i = 0; i < 50000; ++i) {
         const dvec axis = hard_direction(&rng), n = hard_direction(&rng);
         const dvec at = dvec_mul(hard_direction(&rng), pow(10.0, hard_uniform(&rng, -6.0, 1.0)));
         const double area = pow(10.0, hard_uniform(&rng, -6.0, 2.0));
         const double e = (double)lmb_disc_factor(narrow(at), narrow(n), (lmb_vec3){0, 0, 0}, narrow(axis), (float)area);
         const double r = dvec_length(at);
-        most = e >= 0.0 ? fmax(most, e * area) : HUGE_VAL;
+        max = e >= 0.0 ? fmax(max, e * area) : HUGE_VAL;
         behind += e != 0.0 && (dvec_dot(at, axis) < -1e-6 * r || dvec_dot(at, n) > 1e-6 * r);
     }
-    hard_put(l, HARD_BOUNDED, "a receiver inside, touching, beside a disc: its share of the flux", most, 1.00001, "");
+    hard_put(l, HARD_BOUNDED, "a receiver inside, touching, beside a disc: its share of the flux", max, 1.00001, "");
     hard_put(l, HARD_EXACT, "behind it, or turned away: lit", behind, 0, "pairs");
 }
 
@@ -71,7 +71,7 @@ typedef struct even_errors {
 } even_errors;
 
 static even_errors against_even(const hard_stage *s, uint32_t ids, double albedo, const dvec corner[4],
-                                double radiosity, double least)
+                                double radiosity, double min)
 {
     even_errors e = {0, 0, 0};
     for (int32_t i = 0; i < SIDE * SIDE; ++i) {
@@ -84,7 +84,7 @@ static even_errors against_even(const hard_stage *s, uint32_t ids, double albedo
         const dvec at = hard_surface(&normal, s, x, y, id);
         const double want = radiosity * hard_true_factor(at, normal, corner, 4);
         const double off = fabs((double)s->out[3 * i] * PI / albedo - want) / want;
-        if (want > least * radiosity) {
+        if (want > min * radiosity) {
             e.worst = fmax(e.worst, off);
             e.mean += off;
             ++e.pixels;
@@ -289,30 +289,30 @@ static void floor_tile(lmb_tile *t)
 
 static void million_lights(hard_list *l)
 {
-    static lmb_many_scratch scratch;
+    static lmb_many_lights_scratch scratch;
     hard_stage *s = l->stage;
-    const size_t bytes = lmb_many_bytes(CELLS);
+    const size_t bytes = lmb_many_lights_bytes(CELLS);
     lmb_light *light = calloc(LIGHTS, sizeof *light);
     void *memory = malloc(bytes);
-    lmb_many many;
-    lmb_many_look look;
+    lmb_many_lights many_lights;
+    lmb_many_lights_query query;
     uint64_t rng = 26;
     double worst = light != NULL && memory != NULL ? 0.0 : HUGE_VAL;
-    memset(&look, 0, sizeof look);
+    memset(&query, 0, sizeof query);
     for (int i = 0; i < LIGHTS && worst == 0.0; ++i) {
         light[i].position =
             narrow(dvec_of(hard_uniform(&rng, -5, 5), hard_uniform(&rng, 0.3, 3), hard_uniform(&rng, -5, 5)));
         light[i].intensity[0] = light[i].intensity[1] = light[i].intensity[2] =
             (float)pow(10.0, hard_uniform(&rng, -6, 0));
     }
-    if (worst == 0.0 &&
-        lmb_many_init(&many, CELLS, (lmb_vec3){-5, 0, -5}, (lmb_vec3){5, 3, 5}, 1e6f, memory, bytes) == LMB_OK) {
-        lmb_many_add(&many, light, LIGHTS);
-        lmb_many_build(&many);
-        look.many = &many;
+    if (worst == 0.0 && lmb_many_lights_init(&many_lights, CELLS, (lmb_vec3){-5, 0, -5}, (lmb_vec3){5, 3, 5}, 1e6f,
+                                             memory, bytes) == LMB_OK) {
+        lmb_many_lights_add(&many_lights, light, LIGHTS);
+        lmb_many_lights_build(&many_lights);
+        query.many_lights = &many_lights;
         memset(&s->lit, 0, sizeof s->lit);
         floor_tile(&s->tile);
-        lmb_many_direct_tile(&s->lit, s->kernels, &scratch, &s->tile, &look);
+        lmb_many_lights_direct_tile(&s->lit, s->kernels, &scratch, &s->tile, &query);
         for (int i = 0; i < RECEIVERS; ++i) {
             const int k = i * 21;
             worst = fmax(worst, fabs((double)s->lit.rgb[0][k] / true_sum(light, &s->tile, k) - 1.0));

@@ -50,7 +50,7 @@ static void put_box(hard_stage *s, const place *p, dvec low, dvec high)
     }
 }
 
-/* A floor, two walls and a pillar, open above, in the light of a sun, a spot or a lamp. */
+/* A floor, two walls and a pillar, open above, in the light of a sun, a spot or a light. */
 static void put_room(hard_stage *s, const place *p, int kind)
 {
     const double watts = 12.0 * p->size * p->size;
@@ -247,7 +247,7 @@ static double wrong_direct(hard_stage *s)
     return wrong;
 }
 
-/* Bounced light of the house's surfaces that face +z, where something is wanted of them: how far it is off. */
+/* Bounced light of the library's surfaces that face +z, where something is wanted of them: how far it is off. */
 static double against(hard_stage *s, double (*wanted)(dvec at, dvec normal))
 {
     double square = 0.0, sum = 0.0, pixels = 0.0;

@@ -152,7 +152,7 @@ static void t_junctions(hard_list *l)
 {
     hard_stage *s = l->stage;
     uint64_t rng = 2;
-    double far_px, most = 0.0, faults = 0.0;
+    double far_px, max = 0.0, faults = 0.0;
     put_t_junctions(s, &rng, 16, 1);
     hard_look_flat(s, SIDE);
     count_hits(s);
@@ -161,10 +161,10 @@ static void t_junctions(hard_list *l)
         put_t_junctions(s, &rng, 16, 0);
         count_hits(s);
         faults += edge_faults(&far_px);
-        most = fmax(most, far_px);
+        max = fmax(max, far_px);
     }
     /* The diagonal of 1/256 px. */
-    hard_put(l, HARD_BOUNDED, "T-junctions beside it: fault off the edge", faults > 0.0 ? most : HUGE_VAL,
+    hard_put(l, HARD_BOUNDED, "T-junctions beside it: fault off the edge", faults > 0.0 ? max : HUGE_VAL,
              sqrt(2.0) / 256.0, "px");
 }
 
@@ -258,14 +258,14 @@ typedef struct sliver_count {
 static void judge_sliver(sliver_count *n, const hard_stage *s, const flat_corner c[3])
 {
     const double low = (double)(c[0].d < c[1].d ? c[0].d : c[1].d), high = (double)(c[0].d > c[1].d ? c[0].d : c[1].d);
-    const double least = fmin(low, (double)c[2].d) / 8388608.0, most = fmax(high, (double)c[2].d) / 8388608.0;
+    const double min = fmin(low, (double)c[2].d) / 8388608.0, max = fmax(high, (double)c[2].d) / 8388608.0;
     for (int32_t i = 0; i < SIDE * SIDE; ++i) {
         const int32_t x = i % SIDE, y = i / SIDE;
         const int drawn = s->id[hard_at(s, x, y)] != 0;
         n->wrong += drawn != covers(c, centre(x), centre(y));
         if (drawn) {
             const float d = hard_depth(s, x, y);
-            n->outside += (double)d < least || (double)d > most;
+            n->outside += (double)d < min || (double)d > max;
             n->worst = fmax(n->worst, depth_error(c, centre(x), centre(y), d));
             ++n->pixels;
         }
@@ -299,7 +299,7 @@ static void slivers(hard_list *l)
  * distance, at which the order is lost. */
 static double lost_gap(hard_stage *s, int32_t format, uint64_t seed)
 {
-    double most = 0.0;
+    double max = 0.0;
     uint64_t rng = seed;
     hard_look(s, dvec_of(0, 0, 0), dvec_of(0, 0, -1), 60.0, 8);
     s->view.near_m = 0.125f;
@@ -318,11 +318,11 @@ static double lost_gap(hard_stage *s, int32_t format, uint64_t seed)
         hard_end(s);
         hard_draw(s, 0, 2);
         if (far > w && s->id[hard_at(s, 4, 4)] != (uint32_t)nearer + 1) {
-            most = fmax(most, (far - w) / quantum);
+            max = fmax(max, (far - w) / quantum);
         }
     }
     lmb_surface_init(&s->eye.depth, LMB_DEPTH32F, 8, 8, s->depth, sizeof s->depth);
-    return most;
+    return max;
 }
 
 static void depth_order(hard_list *l)

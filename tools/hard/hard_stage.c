@@ -14,13 +14,13 @@ hard_stage *hard_stage_make(const lmb_kernels *kernels)
         return NULL;
     }
     s->kernels = kernels;
-    s->map_bytes = lmb_light_map_bytes(HARD_FACES, HARD_MAP, LMB_ID32);
+    s->map_bytes = lmb_shadow_map_bytes(HARD_FACES, HARD_MAP, LMB_ID32);
     s->tree_bytes = lmb_tree_bytes(HARD_FACES, HARD_TREE);
-    s->blocker_bytes = lmb_blockers_bytes(HARD_TRIANGLES);
+    s->bvh_bytes = lmb_bvh_bytes(HARD_TRIANGLES);
     s->map_memory = malloc(s->map_bytes);
     s->tree_memory = malloc(s->tree_bytes);
-    s->blocker_memory = malloc(s->blocker_bytes);
-    if (s->map_memory == NULL || s->tree_memory == NULL || s->blocker_memory == NULL) {
+    s->bvh_memory = malloc(s->bvh_bytes);
+    if (s->map_memory == NULL || s->tree_memory == NULL || s->bvh_memory == NULL) {
         hard_stage_free(s);
         return NULL;
     }
@@ -32,7 +32,7 @@ void hard_stage_free(hard_stage *s)
     if (s != NULL) {
         free(s->map_memory);
         free(s->tree_memory);
-        free(s->blocker_memory);
+        free(s->bvh_memory);
         free(s);
     }
 }
@@ -218,8 +218,9 @@ void hard_look(hard_stage *s, dvec from, dvec target, double fov_deg, int32_t si
     float e[3], t[3];
     dvec_write(e, from);
     dvec_write(t, target);
-    lmb_view_look(&s->view, (lmb_vec3){e[0], e[1], e[2]}, (lmb_vec3){t[0], t[1], t[2]},
-                  (lmb_vec3){0, steep ? 0.0f : 1.0f, steep ? 1.0f : 0.0f}, (float)(fov_deg * PI / 180.0), side, side);
+    lmb_view_look_at(&s->view, (lmb_vec3){e[0], e[1], e[2]}, (lmb_vec3){t[0], t[1], t[2]},
+                     (lmb_vec3){0, steep ? 0.0f : 1.0f, steep ? 1.0f : 0.0f}, (float)(fov_deg * PI / 180.0), side,
+                     side);
     set_eye(s);
 }
 
@@ -258,9 +259,9 @@ float hard_depth(const hard_stage *s, int32_t x, int32_t y)
 
 void hard_map(hard_stage *s, int32_t size)
 {
-    lmb_light_map_init(&s->map, &s->light, &s->scene, size, LMB_ID32, s->map_memory, s->map_bytes);
-    lmb_light_map_clear(&s->map);
-    lmb_light_map_draw(&s->map, s->kernels, &s->scene, 1, UINT32_MAX, NULL);
+    lmb_shadow_map_init(&s->map, &s->light, &s->scene, size, LMB_ID32, s->map_memory, s->map_bytes);
+    lmb_shadow_map_clear(&s->map);
+    lmb_shadow_map_draw(&s->map, s->kernels, &s->scene, 1, UINT32_MAX, NULL);
 }
 
 void hard_direct(hard_stage *s, int32_t x, int32_t y)
@@ -279,18 +280,18 @@ lmb_status hard_frame(hard_stage *s, int32_t show, int32_t map, float error)
     f.scene = &s->scene;
     f.view = s->view;
     f.show = show;
-    f.light_map = map;
+    f.shadow_map = map;
     f.grouping.method = LMB_GROUP_CUT;
     f.occlusion = LMB_OCCLUSION_EXACT;
     f.error = error;
-    f.visible = 0.75f * error;
+    f.visibility = 0.75f * error;
     f.map_memory = s->map_memory;
     f.map_bytes = s->map_bytes;
     f.eye = s->eye;
     f.scratch = &s->scratch;
     f.stats = &s->stats;
     lmb_tree_init(&f.tree, HARD_FACES, map < HARD_TREE ? map : HARD_TREE, s->tree_memory, s->tree_bytes);
-    lmb_blockers_init(&f.blockers, HARD_TRIANGLES, s->blocker_memory, s->blocker_bytes);
+    lmb_bvh_init(&f.bvh, HARD_TRIANGLES, s->bvh_memory, s->bvh_bytes);
     lmb_surface_init(&f.out, LMB_RGB32F, side, side, s->out, sizeof s->out);
     lmb_surface_clear(&s->eye.depth);
     lmb_surface_clear(&s->eye.id);

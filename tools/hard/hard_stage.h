@@ -26,14 +26,14 @@ typedef struct hard_stage {
     uint32_t depth[HARD_SIDE * HARD_SIDE], id[HARD_SIDE * HARD_SIDE]; /* tiled: hard_at */
     float out[HARD_SIDE * HARD_SIDE * 3];
     lmb_target eye;
-    lmb_light_map map;
+    lmb_shadow_map map;
     lmb_tile tile;
     lmb_irradiance lit;
     lmb_band_scratch scratch;
     lmb_render render;
     lmb_stats stats;
-    void *map_memory, *tree_memory, *blocker_memory;
-    size_t map_bytes, tree_bytes, blocker_bytes;
+    void *map_memory, *tree_memory, *bvh_memory;
+    size_t map_bytes, tree_bytes, bvh_bytes;
 } hard_stage;
 
 /* NULL: no memory. */
@@ -67,7 +67,7 @@ void hard_look_flat(hard_stage *s, int32_t side);
 void hard_draw(hard_stage *s, uint32_t first, uint32_t count);
 size_t hard_at(const hard_stage *s, int32_t x, int32_t y);
 float hard_depth(const hard_stage *s, int32_t x, int32_t y);
-/* The light's map, size texels a side. */
+/* The shadow map, size texels a side. */
 void hard_map(hard_stage *s, int32_t size);
 /* Attributes and direct light of the tile at (x, y), after hard_draw and hard_map. */
 void hard_direct(hard_stage *s, int32_t x, int32_t y);
@@ -83,7 +83,7 @@ dvec hard_surface(dvec *normal, const hard_stage *s, int32_t x, int32_t y, uint3
 /* Form factor of a convex polygon of up to 8 corners from a surface element, cut by its horizon; of either side. */
 double hard_true_factor(dvec at, dvec normal, const dvec *corner, int count);
 /* Does a triangle other than `a` and `b` (ids, 0: none) cross the segment between its ends? */
-int hard_blocked(const hard_stage *s, dvec from, dvec to, uint32_t a, uint32_t b);
+int hard_occluded(const hard_stage *s, dvec from, dvec to, uint32_t a, uint32_t b);
 /* Direct irradiance on a surface there, one channel, with shadows by rays; id: the surface's own triangle. */
 double hard_true_direct(const hard_stage *s, dvec at, dvec normal, uint32_t id);
 /* One bounce: each triangle cut into n x n, seen by rays. Good to about (a cell's side / distance)^2. */

@@ -63,7 +63,7 @@ static int crosses(const dvec t[3], dvec from, dvec way)
     return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && at > 1e-9 && at < 1.0 - 1e-9;
 }
 
-int hard_blocked(const hard_stage *s, dvec from, dvec to, uint32_t a, uint32_t b)
+int hard_occluded(const hard_stage *s, dvec from, dvec to, uint32_t a, uint32_t b)
 {
     const dvec way = dvec_sub(to, from);
     for (uint32_t i = 0; i < s->count; ++i) {
@@ -93,7 +93,7 @@ double hard_true_direct(const hard_stage *s, dvec at, dvec normal, uint32_t id)
     const double far = 2.0 * dvec_length(dvec_sub(high, low));
     const dvec to = sun ? dvec_mul(read3(l->direction), -far) : dvec_sub(read3(l->position), at);
     const double d = dvec_length(to), cosine = dvec_dot(to, normal) / d;
-    if (!(cosine > 0.0) || hard_blocked(s, at, dvec_add(at, to), id, 0)) {
+    if (!(cosine > 0.0) || hard_occluded(s, at, dvec_add(at, to), id, 0)) {
         return 0.0;
     }
     const double share = l->kind == LMB_LIGHT_SPOT ? spot_share(l, dvec_mul(to, -1.0)) : 1.0;
@@ -142,7 +142,7 @@ static double one_piece(const hard_stage *s, uint32_t t, dvec from, double area,
         return 0.0;
     }
     const double received = hard_true_direct(s, from, dvec_mul(out, side), t + 1);
-    if (received == 0.0 || hard_blocked(s, at, from, id, t + 1)) {
+    if (received == 0.0 || hard_occluded(s, at, from, id, t + 1)) {
         return 0.0;
     }
     return received * albedo / PI * area * cos_at * fabs(dvec_dot(way, out)) / (d2 * d2);

@@ -29,14 +29,14 @@ static void judge_pixel(view_count *n, const hard_stage *s, uint32_t t, int32_t 
 {
     static const double off[5][2] = {{0, 0}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
     const double near = (double)s->view.near_m, scale = s->view.kind == LMB_PERSPECTIVE ? 1.0 : 0.0;
-    double least = HUGE_VAL, most = 0.0, w;
+    double min = HUGE_VAL, max = 0.0, w;
     int inside = 0;
     for (int i = 0; i < 5; ++i) {
         dvec from, ray = hard_ray(&from, &s->view, x + 0.5 + slack * off[i][0], y + 0.5 + slack * off[i][1]);
         const int in = meets(&w, s->world[t], from, ray, near * (i == 0 ? 1.0 : i & 1 ? 1.0 + 1e-5 : 1.0 - 1e-5));
         inside += in;
-        least = in && w < least ? w : least;
-        most = in && w > most ? w : most;
+        min = in && w < min ? w : min;
+        max = in && w > max ? w : max;
     }
     if (inside != 0 && inside != 5) {
         return;
@@ -46,7 +46,7 @@ static void judge_pixel(view_count *n, const hard_stage *s, uint32_t t, int32_t 
     n->wrong += drawn != (inside == 5);
     if (drawn && inside == 5 && scale > 0.0) {
         const double got = near / (double)hard_depth(s, x, y);
-        n->deep += got < least * (1.0 - 1e-6) || got > most * (1.0 + 1e-6);
+        n->deep += got < min * (1.0 - 1e-6) || got > max * (1.0 + 1e-6);
     }
 }
 

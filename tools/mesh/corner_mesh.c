@@ -36,11 +36,11 @@ static void sort_edges(const corner_mesh *m, uint32_t *out, const uint32_t *in, 
         out[starts[end_of(m, in[i], high)]++] = in[i];
 }
 
-uint32_t *corner_mesh_edges(const corner_mesh *m, tally *t)
+uint32_t *corner_mesh_edges(const corner_mesh *m, counted_heap *t)
 {
     const uint32_t n = 3 * m->live;
-    uint32_t *edges = tally_take(t, n, sizeof *edges), *work = tally_take(t, n, sizeof *work);
-    uint32_t *starts = tally_take(t, (uint64_t)m->vertex_count + 1, sizeof *starts);
+    uint32_t *edges = counted_alloc(t, n, sizeof *edges), *work = counted_alloc(t, n, sizeof *work);
+    uint32_t *starts = counted_alloc(t, (uint64_t)m->vertex_count + 1, sizeof *starts);
     uint32_t c, k = 0;
     if (edges && work && starts) {
         for (c = 0; c < m->corner_count; ++c)
@@ -49,11 +49,11 @@ uint32_t *corner_mesh_edges(const corner_mesh *m, tally *t)
         sort_edges(m, work, edges, n, starts, 1);
         sort_edges(m, edges, work, n, starts, 0);
     } else {
-        tally_give(t, edges, n, sizeof *edges);
+        counted_free(t, edges, n, sizeof *edges);
         edges = NULL;
     }
-    tally_give(t, work, n, sizeof *work);
-    tally_give(t, starts, (uint64_t)m->vertex_count + 1, sizeof *starts);
+    counted_free(t, work, n, sizeof *work);
+    counted_free(t, starts, (uint64_t)m->vertex_count + 1, sizeof *starts);
     return edges;
 }
 
@@ -147,7 +147,7 @@ static void mend_borders(corner_mesh *m, uint32_t a)
     }
 }
 
-static void join_looks(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
+static void join_materials(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
 {
     const dvec edge = dvec_sub(m->places[b], m->places[a]);
     double s = dvec_dot(dvec_sub(at, m->places[a]), edge) / dvec_dot(edge, edge);
@@ -166,7 +166,7 @@ void corner_mesh_join(corner_mesh *m, uint32_t a, uint32_t b, dvec at)
             corner_mesh_drop(m, c);
     }
     relabel(m, a, b);
-    join_looks(m, a, b, at);
+    join_materials(m, a, b, at);
     m->places[a] = at;
     m->border[a] |= m->border[b];
     if (m->border[a])

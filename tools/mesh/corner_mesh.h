@@ -3,7 +3,7 @@
 #define CORNER_MESH_H
 
 #include "../common/dvec.h"
-#include "../common/tally.h"
+#include "../common/counted_alloc.h"
 #include "simplify.h"
 
 #define CORNER_NONE UINT32_MAX
@@ -30,13 +30,13 @@ static inline uint32_t corner_before(uint32_t c) { return c % 3 == 0 ? c + 2 : c
 
 /* corner_mesh_build: vertices of one place welded, triangles that are none dropped. 0: no memory, or a bad index, which
  * `r` says; corner_mesh_free in any case. */
-int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *facts, tally *t, report *r);
+int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *facts, counted_heap *t, report *r);
 
-void corner_mesh_free(corner_mesh *m, tally *t);
+void corner_mesh_free(corner_mesh *m, counted_heap *t);
 
 /* corner_mesh_edges: a corner of each triangle's each edge (from the corner to the one after), so that those of one
  * edge stand together, edges in the order of their vertices. 3 * live of them; NULL: no memory. */
-uint32_t *corner_mesh_edges(const corner_mesh *m, tally *t);
+uint32_t *corner_mesh_edges(const corner_mesh *m, counted_heap *t);
 
 /* corner_mesh_edge_end: edges[i] starts an edge; where in `edges` the next one starts. The difference is its faces. */
 uint32_t corner_mesh_edge_end(const corner_mesh *m, const uint32_t *edges, uint32_t i);
@@ -58,6 +58,6 @@ uint32_t corner_mesh_part(const corner_mesh *m, uint32_t v, uint32_t *part, uint
 void corner_mesh_drop(corner_mesh *m, uint32_t c);
 
 /* corner_mesh_write: what is left, numbered in the order it has. 0: no memory. */
-int corner_mesh_write(const corner_mesh *m, triangle_mesh *out, int colours, tally *t);
+int corner_mesh_write(const corner_mesh *m, triangle_mesh *out, int colours, counted_heap *t);
 
 #endif

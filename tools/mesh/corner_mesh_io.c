@@ -49,10 +49,10 @@ static uint32_t slot_of(const uint32_t *table, uint32_t size, const float *posit
 }
 
 /* same[v]: the number of v's place, counted in the order of their first vertices; CORNER_NONE: not finite. */
-static int weld(uint32_t *same, uint32_t *count, const triangle_mesh *in, simplify_facts *facts, tally *t)
+static int weld(uint32_t *same, uint32_t *count, const triangle_mesh *in, simplify_facts *facts, counted_heap *t)
 {
     const uint32_t size = table_size(in->vertex_count);
-    uint32_t *table = tally_take(t, size, sizeof *table), v;
+    uint32_t *table = counted_alloc(t, size, sizeof *table), v;
     *count = 0;
     if (!table)
         return 0;
@@ -71,39 +71,39 @@ static int weld(uint32_t *same, uint32_t *count, const triangle_mesh *in, simpli
             ++facts->welded;
         }
     }
-    tally_give(t, table, size, sizeof *table);
+    counted_free(t, table, size, sizeof *table);
     return 1;
 }
 
 /* --- in --- */
 
-static int take_all(corner_mesh *m, uint32_t vertices, uint32_t corners, tally *t)
+static int take_all(corner_mesh *m, uint32_t vertices, uint32_t corners, counted_heap *t)
 {
     m->vertex_count = vertices;
     m->corner_count = corners;
-    m->places = tally_take(t, vertices, sizeof *m->places);
-    m->looks = tally_take(t, vertices, sizeof *m->looks);
-    m->first = tally_take(t, vertices, sizeof *m->first);
-    m->valence = tally_take(t, vertices, sizeof *m->valence);
-    m->mark = tally_take(t, vertices, sizeof *m->mark);
-    m->border = tally_take(t, vertices, sizeof *m->border);
-    m->vertex = tally_take(t, corners, sizeof *m->vertex);
-    m->next = tally_take(t, corners, sizeof *m->next);
-    m->prior = tally_take(t, corners, sizeof *m->prior);
+    m->places = counted_alloc(t, vertices, sizeof *m->places);
+    m->looks = counted_alloc(t, vertices, sizeof *m->looks);
+    m->first = counted_alloc(t, vertices, sizeof *m->first);
+    m->valence = counted_alloc(t, vertices, sizeof *m->valence);
+    m->mark = counted_alloc(t, vertices, sizeof *m->mark);
+    m->border = counted_alloc(t, vertices, sizeof *m->border);
+    m->vertex = counted_alloc(t, corners, sizeof *m->vertex);
+    m->next = counted_alloc(t, corners, sizeof *m->next);
+    m->prior = counted_alloc(t, corners, sizeof *m->prior);
     return m->places && m->looks && m->first && m->valence && m->mark && m->border && m->vertex && m->next && m->prior;
 }
 
-void corner_mesh_free(corner_mesh *m, tally *t)
+void corner_mesh_free(corner_mesh *m, counted_heap *t)
 {
-    tally_give(t, m->places, m->vertex_count, sizeof *m->places);
-    tally_give(t, m->looks, m->vertex_count, sizeof *m->looks);
-    tally_give(t, m->first, m->vertex_count, sizeof *m->first);
-    tally_give(t, m->valence, m->vertex_count, sizeof *m->valence);
-    tally_give(t, m->mark, m->vertex_count, sizeof *m->mark);
-    tally_give(t, m->border, m->vertex_count, sizeof *m->border);
-    tally_give(t, m->vertex, m->corner_count, sizeof *m->vertex);
-    tally_give(t, m->next, m->corner_count, sizeof *m->next);
-    tally_give(t, m->prior, m->corner_count, sizeof *m->prior);
+    counted_free(t, m->places, m->vertex_count, sizeof *m->places);
+    counted_free(t, m->looks, m->vertex_count, sizeof *m->looks);
+    counted_free(t, m->first, m->vertex_count, sizeof *m->first);
+    counted_free(t, m->valence, m->vertex_count, sizeof *m->valence);
+    counted_free(t, m->mark, m->vertex_count, sizeof *m->mark);
+    counted_free(t, m->border, m->vertex_count, sizeof *m->border);
+    counted_free(t, m->vertex, m->corner_count, sizeof *m->vertex);
+    counted_free(t, m->next, m->corner_count, sizeof *m->next);
+    counted_free(t, m->prior, m->corner_count, sizeof *m->prior);
     memset(m, 0, sizeof *m);
 }
 
@@ -173,7 +173,7 @@ static void find_borders(corner_mesh *m, const uint32_t *edges)
 }
 
 /* Vertices of one place have the mean of their looks; without normals, the faces' by area. */
-static void finish_looks(corner_mesh *m, const triangle_mesh *in, const uint32_t *same, float *shares)
+static void finish_materials(corner_mesh *m, const triangle_mesh *in, const uint32_t *same, float *shares)
 {
     uint32_t v, c;
     for (v = 0; v < in->vertex_count; ++v)
@@ -190,27 +190,27 @@ static void finish_looks(corner_mesh *m, const triangle_mesh *in, const uint32_t
     }
 }
 
-static int build_welded(corner_mesh *m, const triangle_mesh *in, uint32_t *same, simplify_facts *facts, tally *t,
+static int build_welded(corner_mesh *m, const triangle_mesh *in, uint32_t *same, simplify_facts *facts, counted_heap *t,
                         report *r)
 {
     uint32_t count, *edges = NULL;
     float *shares = NULL;
     int ok = weld(same, &count, in, facts, t) && take_all(m, count, 3 * in->triangle_count, t)
-        && (shares = tally_take(t, count, sizeof *shares)) != NULL;
+        && (shares = counted_alloc(t, count, sizeof *shares)) != NULL;
     if (ok) {
         read_vertices(m, in, same);
         ok = read_triangles(m, in, same, r) && (edges = corner_mesh_edges(m, t)) != NULL;
     }
     if (ok) {
         find_borders(m, edges);
-        finish_looks(m, in, same, shares);
+        finish_materials(m, in, same, shares);
     }
-    tally_give(t, edges, 3 * (uint64_t)m->live, sizeof *edges);
-    tally_give(t, shares, count, sizeof *shares);
+    counted_free(t, edges, 3 * (uint64_t)m->live, sizeof *edges);
+    counted_free(t, shares, count, sizeof *shares);
     return ok;
 }
 
-int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *facts, tally *t, report *r)
+int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *facts, counted_heap *t, report *r)
 {
     uint32_t *same = NULL;
     int ok;
@@ -218,9 +218,9 @@ int corner_mesh_build(corner_mesh *m, const triangle_mesh *in, simplify_facts *f
     if (in->triangle_count >= (UINT32_C(1) << 28) || in->vertex_count >= (UINT32_C(1) << 30))
         return report_fail(r, "%u triangles of %u vertices are too many to simplify", (unsigned)in->triangle_count,
                            (unsigned)in->vertex_count);
-    same = tally_take(t, in->vertex_count, sizeof *same);
+    same = counted_alloc(t, in->vertex_count, sizeof *same);
     ok = same && build_welded(m, in, same, facts, t, r);
-    tally_give(t, same, in->vertex_count, sizeof *same);
+    counted_free(t, same, in->vertex_count, sizeof *same);
     facts->dropped = in->triangle_count - m->live;
     return ok ? 1 : report_fail(r, "not enough memory to simplify %u triangles", (unsigned)in->triangle_count);
 }
@@ -246,9 +246,9 @@ static int take_out(triangle_mesh *out, uint32_t vertices, uint32_t triangles, i
     return out->positions && out->normals && (out->colours || !colours) && out->indices;
 }
 
-int corner_mesh_write(const corner_mesh *m, triangle_mesh *out, int colours, tally *t)
+int corner_mesh_write(const corner_mesh *m, triangle_mesh *out, int colours, counted_heap *t)
 {
-    uint32_t *to = tally_take(t, m->vertex_count, sizeof *to), v, c, n = 0;
+    uint32_t *to = counted_alloc(t, m->vertex_count, sizeof *to), v, c, n = 0;
     int ok;
     for (v = 0; v < m->vertex_count && to; ++v)
         to[v] = m->first[v] != CORNER_NONE ? n++ : CORNER_NONE;
@@ -263,7 +263,7 @@ int corner_mesh_write(const corner_mesh *m, triangle_mesh *out, int colours, tal
             out->indices[3 * (size_t)out->triangle_count + c % 3] = to[m->vertex[c]];
             out->triangle_count += c % 3 == 2;
         }
-    tally_give(t, to, m->vertex_count, sizeof *to);
+    counted_free(t, to, m->vertex_count, sizeof *to);
     return ok;
 }
 

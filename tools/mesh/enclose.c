@@ -45,7 +45,7 @@ static int sticks_out(const sticker *s, dvec p)
 /* The nearest triangle of each vertex. How far sticks out what sticks out most. */
 static double search(sticker *found, const triangle_tree *tree, const triangle_mesh *inner)
 {
-    double most = 0;
+    double max = 0;
     uint32_t v, guess = 0;
     for (v = 0; v < inner->vertex_count; ++v) {
         const dvec p = vertex_of(inner, v);
@@ -53,10 +53,10 @@ static double search(sticker *found, const triangle_tree *tree, const triangle_m
             continue;
         found[v].on = triangle_tree_nearest(tree, p, guess);
         guess = found[v].on.triangle;
-        if (sticks_out(&found[v], p) && found[v].on.distance2 > most)
-            most = found[v].on.distance2;
+        if (sticks_out(&found[v], p) && found[v].on.distance2 > max)
+            max = found[v].on.distance2;
     }
-    return sqrt(most);
+    return sqrt(max);
 }
 
 /* Moves the triangle's point by `step` with the least moves of its corners: in proportion to their weights. */
@@ -94,10 +94,10 @@ static void sweep(triangle_mesh *simple, const sticker *found, const triangle_me
 
 static double size_of(const tree_box *b) { return dvec_length(dvec_sub(dvec_read(b->high), dvec_read(b->low))); }
 
-static int enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, int rounds, tally *t)
+static int enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, int rounds, counted_heap *t)
 {
     triangle_tree tree;
-    sticker *found = tally_take(t, inner->vertex_count, sizeof *found);
+    sticker *found = counted_alloc(t, inner->vertex_count, sizeof *found);
     const int ok = triangle_tree_build(&tree, simple, t) && found;
     int round, i;
     *outside = 0;
@@ -112,16 +112,16 @@ static int enclose(triangle_mesh *simple, const triangle_mesh *inner, double *ou
         }
     }
     triangle_tree_free(&tree, t);
-    tally_give(t, found, inner->vertex_count, sizeof *found);
+    counted_free(t, found, inner->vertex_count, sizeof *found);
     return ok;
 }
 
-int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t)
+int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, counted_heap *t)
 {
     return enclose(simple, inner, outside, ROUNDS, t);
 }
 
-int mesh_outside(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t)
+int mesh_outside(triangle_mesh *simple, const triangle_mesh *inner, double *outside, counted_heap *t)
 {
     return enclose(simple, inner, outside, 0, t);
 }

@@ -2,7 +2,7 @@
 #ifndef ENCLOSE_H
 #define ENCLOSE_H
 
-#include "../common/tally.h"
+#include "../common/counted_alloc.h"
 #include "simplify.h"
 
 /* mesh_enclose: moves the vertices of `simple` so that those of `inner` come to lie inside or on it; where it has an
@@ -14,9 +14,9 @@
  *   outside  written: how far a vertex of `inner` sticks out in the end, metres.
  *
  * 0: no memory. */
-int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t);
+int mesh_enclose(triangle_mesh *simple, const triangle_mesh *inner, double *outside, counted_heap *t);
 
 /* mesh_outside: only says how far a vertex of `inner` sticks out. */
-int mesh_outside(triangle_mesh *simple, const triangle_mesh *inner, double *outside, tally *t);
+int mesh_outside(triangle_mesh *simple, const triangle_mesh *inner, double *outside, counted_heap *t);
 
 #endif

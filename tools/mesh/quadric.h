@@ -71,7 +71,7 @@ static inline quadric quadric_drawn(quadric q, dvec to, double weight)
 
 /* Where the error of a positive definite q is least, by LDL'. It is solved for the step from `near`, so that a place
  * far from the origin costs no digits. 0: not definite. */
-static inline int quadric_least(dvec *least, quadric q, dvec near)
+static inline int quadric_min(dvec *min, quadric q, dvec near)
 {
     const dvec g = dvec_add(quadric_turned(q, near), q.b);
     const double l10 = q.xy / q.xx, l20 = q.xz / q.xx;
@@ -84,7 +84,7 @@ static inline int quadric_least(dvec *least, quadric q, dvec near)
     z = (-g.z + l20 * g.x - l21 * y) / d2;
     y = y / d1 - l21 * z;
     x = -g.x / q.xx - l10 * y - l20 * z;
-    *least = dvec_add(near, dvec_of(x, y, z));
+    *min = dvec_add(near, dvec_of(x, y, z));
     return 1;
 }
 

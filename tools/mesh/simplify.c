@@ -25,7 +25,7 @@ typedef struct simplifier {
     uint32_t *stamps;   /* of a vertex: how often it moved */
     edge_heap heap;
     int around;
-    tally memory;
+    counted_heap memory;
     simplify_facts *facts;
 } simplifier;
 
@@ -95,7 +95,7 @@ static int place_edge(const simplifier *s, uint32_t a, uint32_t b, dvec *at, dou
     const double trace = quadric_trace(q);
     if (m->border[a] != m->border[b])
         *at = m->places[m->border[a] ? a : b];
-    else if (!(trace > 0) || !quadric_least(at, quadric_drawn(q, middle, DRAW * trace), middle))
+    else if (!(trace > 0) || !quadric_min(at, quadric_drawn(q, middle, DRAW * trace), middle))
         *at = middle;
     *cost = quadric_error(q, *at) + LENGTH_COST * trace * dvec_dot(along, along);
     return *cost < HUGE_VAL;
@@ -226,16 +226,16 @@ static int prepare(simplifier *s)
     uint32_t *edges = corner_mesh_edges(m, &s->memory);
     int ok;
     s->heap.cap = edges ? edge_room(m, edges) : 0;
-    s->heap.edges = tally_take(&s->memory, s->heap.cap, sizeof *s->heap.edges);
-    s->quadrics = tally_take(&s->memory, m->vertex_count, sizeof *s->quadrics);
-    s->stamps = tally_take(&s->memory, m->vertex_count, sizeof *s->stamps);
+    s->heap.edges = counted_alloc(&s->memory, s->heap.cap, sizeof *s->heap.edges);
+    s->quadrics = counted_alloc(&s->memory, m->vertex_count, sizeof *s->quadrics);
+    s->stamps = counted_alloc(&s->memory, m->vertex_count, sizeof *s->stamps);
     ok = edges && s->heap.edges && s->quadrics && s->stamps;
     if (ok) {
         add_faces(s);
         add_borders(s, edges);
         fill(s, edges);
     }
-    tally_give(&s->memory, edges, 3 * (uint64_t)m->live, sizeof *edges);
+    counted_free(&s->memory, edges, 3 * (uint64_t)m->live, sizeof *edges);
     return ok;
 }
 
@@ -253,9 +253,9 @@ static int reduce(simplifier *s, uint32_t triangles)
 static void release(simplifier *s)
 {
     const uint32_t vertices = s->mesh.vertex_count;
-    tally_give(&s->memory, s->heap.edges, s->heap.cap, sizeof *s->heap.edges);
-    tally_give(&s->memory, s->quadrics, vertices, sizeof *s->quadrics);
-    tally_give(&s->memory, s->stamps, vertices, sizeof *s->stamps);
+    counted_free(&s->memory, s->heap.edges, s->heap.cap, sizeof *s->heap.edges);
+    counted_free(&s->memory, s->quadrics, vertices, sizeof *s->quadrics);
+    counted_free(&s->memory, s->stamps, vertices, sizeof *s->stamps);
     corner_mesh_free(&s->mesh, &s->memory);
 }
 
@@ -264,8 +264,8 @@ static int keep_inner(simplifier *s, triangle_mesh *inner)
 {
     if (!corner_mesh_write(&s->mesh, inner, 0, &s->memory))
         return 0;
-    tally_add(&s->memory, (uint64_t)inner->vertex_count * 6 * sizeof(float));
-    tally_add(&s->memory, (uint64_t)inner->triangle_count * 3 * sizeof(uint32_t));
+    counted_add(&s->memory, (uint64_t)inner->vertex_count * 6 * sizeof(float));
+    counted_add(&s->memory, (uint64_t)inner->triangle_count * 3 * sizeof(uint32_t));
     return 1;
 }
 

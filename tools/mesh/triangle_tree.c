@@ -138,7 +138,7 @@ void triangle_tree_fit(triangle_tree *tree)
     }
 }
 
-int triangle_tree_build(triangle_tree *tree, const triangle_mesh *mesh, tally *t)
+int triangle_tree_build(triangle_tree *tree, const triangle_mesh *mesh, counted_heap *t)
 {
     uint32_t i;
     memset(tree, 0, sizeof *tree);
@@ -146,8 +146,8 @@ int triangle_tree_build(triangle_tree *tree, const triangle_mesh *mesh, tally *t
     for (tree->levels = 1; (uint64_t)LEAF << (tree->levels - 1) < mesh->triangle_count; ++tree->levels)
         continue;
     tree->box_count = (UINT32_C(1) << tree->levels) - 1;
-    tree->order = tally_take(t, mesh->triangle_count, sizeof *tree->order);
-    tree->boxes = tally_take(t, tree->box_count, sizeof *tree->boxes);
+    tree->order = counted_alloc(t, mesh->triangle_count, sizeof *tree->order);
+    tree->boxes = counted_alloc(t, tree->box_count, sizeof *tree->boxes);
     if (!tree->order || !tree->boxes)
         return 0;
     for (i = 0; i < mesh->triangle_count; ++i)
@@ -157,11 +157,11 @@ int triangle_tree_build(triangle_tree *tree, const triangle_mesh *mesh, tally *t
     return 1;
 }
 
-void triangle_tree_free(triangle_tree *tree, tally *t)
+void triangle_tree_free(triangle_tree *tree, counted_heap *t)
 {
     if (tree->mesh)
-        tally_give(t, tree->order, tree->mesh->triangle_count, sizeof *tree->order);
-    tally_give(t, tree->boxes, tree->box_count, sizeof *tree->boxes);
+        counted_free(t, tree->order, tree->mesh->triangle_count, sizeof *tree->order);
+    counted_free(t, tree->boxes, tree->box_count, sizeof *tree->boxes);
     memset(tree, 0, sizeof *tree);
 }
 

@@ -3,7 +3,7 @@
 #define TRIANGLE_TREE_H
 
 #include "../common/dvec.h"
-#include "../common/tally.h"
+#include "../common/counted_alloc.h"
 #include "simplify.h"
 
 typedef struct tree_box {
@@ -27,12 +27,12 @@ typedef struct nearest {
 } nearest;
 
 /* triangle_tree_build: 0: no memory. The mesh's positions are finite. triangle_tree_free in any case. */
-int triangle_tree_build(triangle_tree *tree, const triangle_mesh *mesh, tally *t);
+int triangle_tree_build(triangle_tree *tree, const triangle_mesh *mesh, counted_heap *t);
 
 /* triangle_tree_fit: the boxes again, after positions moved. */
 void triangle_tree_fit(triangle_tree *tree);
 
-void triangle_tree_free(triangle_tree *tree, tally *t);
+void triangle_tree_free(triangle_tree *tree, counted_heap *t);
 
 /* triangle_tree_nearest: `guess` is a triangle that may be near, any number below triangle_count, so that the answer is
  * sooner found. */

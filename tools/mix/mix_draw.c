@@ -55,7 +55,7 @@ static int draw_object(drawing *d, mix_job *j, report *r)
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
-static void add_lamps(lmb_irradiance *inout, const mix_job *j, const drawing *d, const lmb_tile *tile, int with)
+static void add_lights(lmb_irradiance *inout, const mix_job *j, const drawing *d, const lmb_tile *tile, int with)
 {
     for (int32_t i = 0; i < j->light_count; ++i) {
         lmb_direct_tile(inout, j->o.kernels, tile, &d->view, &j->scene, &j->lights[i], &j->maps[i][with]);
@@ -89,7 +89,7 @@ static void light_object(drawing *d, const mix_job *j)
 {
     memset(&d->lit, 0, sizeof d->lit);
     mix_cones_tile(&d->lit, j, &d->object);
-    add_lamps(&d->lit, j, d, &d->object, 1);
+    add_lights(&d->lit, j, d, &d->object, 1);
     lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
 }
 
@@ -131,7 +131,7 @@ static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
     const lmb_vec3 eye = {0, 0, 0};
     for (int32_t world = 0; world < 2; ++world) {
         const lmb_cone_trace trace = {j->o.kernels, &j->voxels, world, world, &j->env[world], j->scratch, 1};
-        lmb_cones_glossy(&d->seen[world], &trace, &j->gloss, real, eye);
+        lmb_cones_glossy(&d->seen[world], &trace, &j->glossy, real, eye);
     }
     lmb_mirror_tile(&d->photo, real, &j->planes, &j->frame.camera, j->floor, &d->seen[0], &d->seen[1], j->o.specular);
 }
@@ -142,7 +142,7 @@ static void draw_tile(drawing *d, mix_job *j, int32_t i)
     const lmb_tile *real = &d->batch.real[i];
     get_photo(&d->photo, &j->frame.light, real->x, real->y);
     for (int32_t with = 0; with < 2; ++with) {
-        add_lamps(&d->batch.light[with][i], j, d, real, with);
+        add_lights(&d->batch.light[with][i], j, d, real, with);
     }
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
     if (is_varnished(j, real)) {

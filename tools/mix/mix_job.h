@@ -30,11 +30,11 @@ typedef struct mix_job {
     float gap_m;         /* how much farther than it stands what was measured at its foot is, along the camera's axis */
     lmb_env env[2];      /* around the scene without and with the object */
     lmb_light lights[MIX_LIGHTS];
-    lmb_light_map maps[MIX_LIGHTS][2]; /* without, with */
+    lmb_shadow_map maps[MIX_LIGHTS][2]; /* without, with */
     int32_t light_count;
     lmb_voxels voxels;   /* about the object; count 0: there is none */
     lmb_cones cones;
-    lmb_cone_width gloss;
+    lmb_cone_width glossy;
     lmb_cone_scratch *scratch;
     image picture;       /* linear */
     double read_s, planes_s, place_s, light_s, build_s, voxels_s, draw_s; /* build_s: of voxels_s */

@@ -1,4 +1,4 @@
-/* mix_light.c: the light around a photo: folded or a panorama's, lamps given or guessed, and their maps. */
+/* mix_light.c: the light around a photo: folded or a panorama's, lights given or guessed, and their maps. */
 #include "mix_job.h"
 
 #include <stdio.h>
@@ -92,11 +92,12 @@ static int make_env(mix_job *j, report *r)
                                              j->frame.light.height, &j->axes) == LMB_OK;
 }
 
-/* --- lamps -------------------------------------------------------------------------------------------------------- */
+/* --- lights --------------------------------------------------------------------------------------------------------
+ * */
 
 static float along(lmb_vec3 a, lmb_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-/* From where the surroundings are brightest; as strong as SUN_SHARE says, for a photo does not: lamps are clipped. */
+/* From where the surroundings are brightest; as strong as SUN_SHARE says, for a photo does not: lights are clipped. */
 static void guess_sun(mix_job *j)
 {
     float around[3];
@@ -119,7 +120,7 @@ static void guess_sun(mix_job *j)
                 (double)sun->intensity[0], (double)sun->intensity[1], (double)sun->intensity[2]);
 }
 
-static void place_lamps(mix_job *j)
+static void place_lights(mix_job *j)
 {
     for (int32_t i = 0; i < j->o.light_count; ++i) {
         const lmb_light *from = &j->o.lights[i];
@@ -133,22 +134,22 @@ static void place_lamps(mix_job *j)
     j->light_count = j->o.light_count;
 }
 
-static int draw_map(const mix_job *j, const lmb_light_map *map, uint32_t count)
+static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t count)
 {
-    return lmb_light_map_clear(map) == LMB_OK &&
-           (count == 0 || lmb_light_map_draw(map, j->o.kernels, &j->scene, 1, count, NULL) == LMB_OK);
+    return lmb_shadow_map_clear(map) == LMB_OK &&
+           (count == 0 || lmb_shadow_map_draw(map, j->o.kernels, &j->scene, 1, count, NULL) == LMB_OK);
 }
 
 static int draw_maps(mix_job *j, report *r)
 {
     for (int32_t i = 0; i < j->light_count; ++i) {
-        const int32_t faces = lmb_light_map_faces(&j->lights[i], &j->scene);
-        const size_t bytes = 2 * lmb_light_map_bytes(faces, j->o.light_map, LMB_ID32);
+        const int32_t faces = lmb_shadow_map_faces(&j->lights[i], &j->scene);
+        const size_t bytes = 2 * lmb_shadow_map_bytes(faces, j->o.shadow_map, LMB_ID32);
         void *memory = mix_take(j, bytes, r);
         if (memory == NULL) {
             return 0;
         }
-        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, j->o.light_map, memory, bytes) != LMB_OK ||
+        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, j->o.shadow_map, memory, bytes) != LMB_OK ||
             !draw_map(j, &j->maps[i][0], j->real_triangles) ||
             !draw_map(j, &j->maps[i][1], j->real_triangles + j->object_triangles)) {
             return report_fail(r, "--light %d cannot be drawn", (int)i + 1);
@@ -163,7 +164,7 @@ int mix_light(mix_job *j, report *r)
         return 0;
     }
     if (j->o.light_count > 0) {
-        place_lamps(j);
+        place_lights(j);
     } else if (j->object_triangles > 0) {
         guess_sun(j);
     }

@@ -60,54 +60,114 @@ static const option_row photo_rows[] = {
 
 static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = "object"},
-    {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object),
+    {.name = "--object",
+     .value = "MESH",
+     .kind = OPTION_TEXT,
+     AT(object),
      .help = ".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in"},
-    {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
+    {.name = "--scale",
+     .value = "M",
+     .kind = OPTION_NUMBER,
+     AT(scale),
+     .low = 1e-6,
+     .high = 1e6,
      .help = "m of a unit of the mesh (default: a sixth of the plane's side in all, or what fits)"},
-    {.name = "--at", .value = "X,Y|world", .kind = OPTION_OWN, .parse = parse_at, .wants = "X,Y or world",
-     .help = "stands on what is at this pixel (default: near the middle of the largest plane that faces up, where nothing "
-             "else stands); world: is where the mesh has it, in the world of the frame's camera_to_world"},
-    {.name = "--turn", .value = "DEG", .kind = OPTION_NUMBER, AT(turn_deg), .low = -3600, .high = 3600,
+    {.name = "--at",
+     .value = "X,Y|world",
+     .kind = OPTION_OWN,
+     .parse = parse_at,
+     .expects = "X,Y or world",
+     .help =
+         "stands on what is at this pixel (default: near the middle of the largest plane that faces up, where nothing "
+         "else stands); world: is where the mesh has it, in the world of the frame's camera_to_world"},
+    {.name = "--turn",
+     .value = "DEG",
+     .kind = OPTION_NUMBER,
+     AT(turn_deg),
+     .low = -3600,
+     .high = 3600,
      .help = "about its upright axis (default 0: +Z towards the viewer)"},
     {.kind = OPTION_END},
 };
 
 static const option_row light_rows[] = {
     {.kind = OPTION_TITLE, .help = "light"},
-    {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
-     .times = MIX_LIGHTS, .size = sizeof(lmb_light),
+    {.name = "--light",
+     .kind = OPTION_LIGHT,
+     AT(lights),
+     .counts = offsetof(mix_options, light_count),
+     .times = MIX_LIGHTS,
+     .size = sizeof(lmb_light),
      .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; in the "
              "frame's world, or without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). "
              "Default: a sun is guessed"},
-    {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world),
+    {.name = "--world",
+     .value = "FILE",
+     .kind = OPTION_TEXT,
+     AT(world),
      .help = "what is around, a panorama or cube (default: folded from the photo)"},
-    {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness, .wants = "R or R,F, 0 .. 1",
-     .help = "0 .. 1: the plane under the object mirrors it, as if varnished (default: it does not); F: how much of what "
-             "it sees straight down, 0 .. 1 (default 0.04)"},
-    {.name = "--light-map", .value = "N", .kind = OPTION_POWER_OF_2, AT(light_map), .low = 8, .high = 4096,
+    {.name = "--roughness",
+     .value = "R[,F]",
+     .kind = OPTION_OWN,
+     .parse = parse_roughness,
+     .expects = "R or R,F, 0 .. 1",
+     .help =
+         "0 .. 1: the plane under the object mirrors it, as if varnished (default: it does not); F: how much of what "
+         "it sees straight down, 0 .. 1 (default 0.04)"},
+    {.name = "--shadow-map",
+     .value = "N",
+     .kind = OPTION_POWER_OF_2,
+     AT(shadow_map),
+     .low = 8,
+     .high = 4096,
      .help = "texels a side (default 1024)"},
-    {.name = "--voxels", .value = "D", .kind = OPTION_INT, AT(depth), .low = 4, .high = 10,
+    {.name = "--voxels",
+     .value = "D",
+     .kind = OPTION_INT,
+     AT(depth),
+     .low = 4,
+     .high = 10,
      .help = "2^D voxels a side (default 7)"},
-    {.name = "--cones", .kind = OPTION_WORD, AT(cones), .words = cones, .values = cone_values,
+    {.name = "--cones",
+     .kind = OPTION_WORD,
+     AT(cones),
+     .words = cones,
+     .values = cone_values,
      .help = "a hemisphere (default 19)"},
     {.kind = OPTION_END},
 };
 
 static const option_row output_rows[] = {
     {.kind = OPTION_TITLE, .help = "output"},
-    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+    {.name = "-o",
+     .value = "OUT",
+     .kind = OPTION_OWN,
+     AT(out),
+     .parse = picture_option,
+     .expects = PICTURE_OPTION_WANTS,
      .help = ".png .ppm .pfm .hdr"},
-    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
+    {.name = "--show",
+     .kind = OPTION_WORD,
+     AT(show),
+     .words = shows,
      .help = "final: the photo with the object (default);\n"
              "delta: what changed on real surfaces; in .png and .ppm round middle grey;\n"
              "planes: each in its colour;\n"
              "voxels: the light in them as the camera sees it;\n"
              "env: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\n"
              "object: alone, before black"},
-    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
-     .wants = OPTION_STOPS_WANTS,
+    {.name = "--exposure",
+     .value = "EV|auto",
+     .kind = OPTION_OWN,
+     AT(exposure_ev),
+     .parse = option_stops,
+     .expects = OPTION_STOPS_WANTS,
      .help = "stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)"},
-    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .help = "planes, voxels, seconds by stage"},
+    {.name = "--stats",
+     .value = "FILE.json",
+     .kind = OPTION_TEXT,
+     AT(stats),
+     .help = "planes, voxels, seconds by stage"},
     OPTION_BACKEND_ROW(mix_options, kernels),
     OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "say how long each stage took"),
     OPTION_ASK,
@@ -118,18 +178,18 @@ const option_table mix_table = {
     .verb = "mix",
     .usage = "mix --frame PREFIX --object MESH -o OUT [options]\n"
              "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]",
-    .about = "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
-             "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.",
+    .about =
+        "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
+        "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.",
     .part = {photo_rows, object_rows, light_rows, output_rows},
-    .examples =
-        "  a photo with depth of the built-in room, and a tent put into it:\n"
-        "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
-        "    lambent render demo $eye -o photo.png\n"
-        "    lambent render demo $eye --show depth -o depth.pfm\n"
-        "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
-        "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
-        "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
-        "        --object tent.obj --voxels 5 -o mixed.png\n",
+    .examples = "  a photo with depth of the built-in room, and a tent put into it:\n"
+                "    eye='--eye 0.5,1.25,2.5 --target 0.5,1,-1 --size 80x60'\n"
+                "    lambent render demo $eye -o photo.png\n"
+                "    lambent render demo $eye --show depth -o depth.pfm\n"
+                "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
+                "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
+                "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
+                "        --object tent.obj --voxels 5 -o mixed.png\n",
     .status = "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage",
 };
 
@@ -156,7 +216,7 @@ static int complete(const mix_options *o, report *r)
 int mix_options_parse(mix_options *out, int argc, char **argv, report *r)
 {
     memset(out, 0, sizeof *out);
-    out->light_map = 1024;
+    out->shadow_map = 1024;
     out->depth = 7;
     out->cones = 19;
     out->exposure_ev = NAN;

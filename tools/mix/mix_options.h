@@ -22,7 +22,7 @@ typedef struct mix_options {
     float at_px[2];
     lmb_light lights[MIX_LIGHTS];
     int32_t light_count;
-    int32_t show, light_map, depth; /* depth: of the voxels */
+    int32_t show, shadow_map, depth; /* depth: of the voxels */
     int32_t cones;    /* 7, 19 or 37 */
     float roughness;  /* of the plane's varnish, and its reflectance */
     float specular;   /* 0: there is none */

@@ -125,17 +125,17 @@ static void stand_free(mix_job *j)
 {
     enum { SIZES = 6 };
     const extent e = extent_of(j);
-    const float most = j->scale, least = j->o.scale > 0.0f ? most : 0.0f; /* of its size */
-    float scale = most;
+    const float max = j->scale, min = j->o.scale > 0.0f ? max : 0.0f; /* of its size */
+    float scale = max;
     for (int i = 0; i < SIZES; ++i) {
         if (lmb_planes_clear(&j->anchor, &j->planes, &j->cloud, j->floor, e.radius * scale,
-                             e.height * fmaxf(scale, least))) {
-            j->scale = fmaxf(scale, least);
+                             e.height * fmaxf(scale, min))) {
+            j->scale = fmaxf(scale, min);
             return;
         }
         scale *= 0.75f;
     }
-    scale = most;
+    scale = max;
     for (int i = 0; i < SIZES; ++i) {
         if (lmb_planes_clear(&j->anchor, &j->planes, &j->cloud, j->floor, e.radius * scale, 0.0f)) {
             return;

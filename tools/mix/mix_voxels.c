@@ -24,7 +24,7 @@ typedef struct colour {
     int32_t count;
 } colour;
 
-/* A pixel's irradiance without the object: lamps, and what is around as if nothing were in its way. */
+/* A pixel's irradiance without the object: lights, and what is around as if nothing were in its way. */
 static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, const lmb_view *view)
 {
     memset(out, 0, sizeof *out);
@@ -126,7 +126,7 @@ static int build(mix_job *j, report *r)
     if (lmb_voxels_init(&j->voxels, cap, LMB_VOXELS_THREE, memory, bytes) != LMB_OK ||
         lmb_voxels_build(&j->voxels, &from, &to, j->o.depth, parts, 2) != LMB_OK ||
         lmb_cones_init(&j->cones, &j->voxels, j->o.cones) != LMB_OK ||
-        lmb_cone_width_init(&j->gloss, &j->voxels, lmb_cone_tangent(j->o.roughness)) != LMB_OK) {
+        lmb_cone_width_init(&j->glossy, &j->voxels, lmb_cone_tangent(j->o.roughness)) != LMB_OK) {
         return report_fail(r, "the object is too large or too small for voxels; --scale sets metres of a unit");
     }
     report_note(j->o.is_quiet || j->voxels.depth >= j->voxels.asked,
@@ -150,7 +150,7 @@ typedef struct points {
 
 static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
 {
-    const lmb_light_map *map = &j->maps[light][with];
+    const lmb_shadow_map *map = &j->maps[light][with];
     for (int32_t f = 0; f < map->faces; ++f) {
         if ((map->drawn >> f & 1u) != 0) {
             const size_t size = (size_t)p->tree.size;
@@ -188,7 +188,7 @@ static void dim_around(mix_job *j, const points *p)
     lmb_env_dim(&j->env[1], &j->env[0], share);
 }
 
-/* The field with the object: lamps' light, and what its points throw back now. */
+/* The field with the object: lights' light, and what its points throw back now. */
 static int inject_with(mix_job *j, points *p)
 {
     return lmb_voxels_dark(&j->voxels, LMB_VOXEL_WITH) == LMB_OK && inject_maps(j, p, LMB_VOXEL_WITH) &&
@@ -334,7 +334,7 @@ static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uin
 
 static int light_voxels(mix_job *j, report *r)
 {
-    const int32_t map = j->o.light_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
+    const int32_t map = j->o.shadow_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
     const size_t bytes = lmb_tree_bytes(1, size);
     double object_flux[3] = {0, 0, 0}, near_flux[3] = {0, 0, 0};
     lmb_vec3 low, high;
@@ -355,7 +355,7 @@ static int light_voxels(mix_job *j, report *r)
         return 0;
     }
     if (lmb_tree_init(&p.tree, 1, size, memory, bytes) != LMB_OK) {
-        return report_fail(r, "--light-map: a power of two, not %d", (int)map);
+        return report_fail(r, "--shadow-map: a power of two, not %d", (int)map);
     }
     p.tree.faces = 1;
     object_box(&low, &high, j);

@@ -114,7 +114,7 @@ static uint32_t find_ear(ring *r, uint32_t at)
 /* A simple polygon takes about n^2 steps, and gets twice that if as many are left. 1 where they were enough. */
 static int cut_ears(uint32_t *out, const flat *f, uint32_t *links, uint64_t *steps)
 {
-    const uint64_t most = 2 * (uint64_t)f->n * f->n < *steps ? 2 * (uint64_t)f->n * f->n : *steps;
+    const uint64_t max = 2 * (uint64_t)f->n * f->n < *steps ? 2 * (uint64_t)f->n * f->n : *steps;
     ring r;
     uint32_t at = 0, i;
     memset(&r, 0, sizeof r);
@@ -122,7 +122,7 @@ static int cut_ears(uint32_t *out, const flat *f, uint32_t *links, uint64_t *ste
     r.next = links;
     r.prev = links + f->n;
     r.left = f->n;
-    r.steps = most;
+    r.steps = max;
     for (i = 0; i < f->n; ++i) {
         r.next[i] = (i + 1) % f->n;
         r.prev[i] = (i + f->n - 1) % f->n;
@@ -140,7 +140,7 @@ static int cut_ears(uint32_t *out, const flat *f, uint32_t *links, uint64_t *ste
     *out++ = r.prev[at];
     *out++ = at;
     *out = r.next[at];
-    *steps -= most - r.steps;
+    *steps -= max - r.steps;
     return r.steps > 0;
 }
 

@@ -117,7 +117,7 @@ void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b)
 int gltf_lights(const gltf_tree *t, gltf *g);
 int gltf_cameras(const gltf_tree *t, gltf *g);
 
-/* io_gltf_look.c */
+/* io_gltf_material.c */
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
 void gltf_default_material(gltf *g); /* makes default_material, once */
 

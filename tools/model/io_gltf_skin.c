@@ -7,7 +7,7 @@
 
 #include "io_gltf.h"
 
-enum { MOST_SETS = 8 }; /* of four joints: posing takes time by them that no byte of a stream need pay for */
+enum { MAX_SETS = 8 }; /* of four joints: posing takes time by them that no byte of a stream need pay for */
 
 /* One skin's joints: world x inverse bind, column-major. */
 typedef struct skin {
@@ -66,8 +66,8 @@ static int read_influences(gltf_influences *out, gltf *g, uint32_t attributes, u
 {
     if (out->joints)
         return 1;
-    out->joints = (float **)build_scratch(g->b, MOST_SETS, sizeof *out->joints);
-    out->weights = (float **)build_scratch(g->b, MOST_SETS, sizeof *out->weights);
+    out->joints = (float **)build_scratch(g->b, MAX_SETS, sizeof *out->joints);
+    out->weights = (float **)build_scratch(g->b, MAX_SETS, sizeof *out->weights);
     if (!out->joints || !out->weights)
         return 0;
     for (out->sets = 0;; ++out->sets) {
@@ -81,9 +81,9 @@ static int read_influences(gltf_influences *out, gltf *g, uint32_t attributes, u
             return 0;
         if (has_joints == JSON_NONE || has_weights == JSON_NONE)
             return 1;
-        if (out->sets == MOST_SETS)
+        if (out->sets == MAX_SETS)
             return json_fail(&g->doc, attributes, g->b->r, "more than %d joints at a vertex; export with fewer",
-                             4 * MOST_SETS);
+                             4 * MAX_SETS);
         j.normalized = 0;
         out->joints[out->sets] = gltf_floats(g, &j);
         out->weights[out->sets] = gltf_floats(g, &w);

@@ -6,7 +6,7 @@
 
 #include "io_gltf.h"
 
-/* Fill parent[] from everyone's children; two parents are an error. */
+/* Fill parent from everyone's children; two parents are an error. */
 static int find_parents(gltf_tree *t, gltf *g)
 {
     uint32_t i, c, child;
@@ -119,7 +119,7 @@ static int refuse_cycles(const gltf_tree *t, gltf *g)
 }
 
 /* Depth first, children in their order. Each node is pushed once, so the stack needs one slot a node. */
-static int walk(gltf_tree *t, gltf *g)
+static int traversal(gltf_tree *t, gltf *g)
 {
     uint32_t *stack = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *stack), depth = 0, from, c, child;
     uint8_t *seen = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
@@ -220,5 +220,5 @@ int gltf_make_tree(gltf_tree *t, gltf *g)
     t->parent = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *t->parent);
     t->world = (gltf_matrix *)build_scratch(g->b, g->nodes.count, sizeof *t->world);
     t->placed = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
-    return t->order && t->parent && t->world && t->placed && walk(t, g) && place_nodes(t, g);
+    return t->order && t->parent && t->world && t->placed && traversal(t, g) && place_nodes(t, g);
 }

@@ -150,17 +150,17 @@ static int allocate(obj *o)
 /* --- second pass --- */
 
 /* Up to `most` numbers of the line; at least `least`, or an error. *count of them. */
-static int read_numbers(double *out, int *count, int least, int most, cursor *c, report *r)
+static int read_numbers(double *out, int *count, int min, int max, cursor *c, report *r)
 {
     slice token;
     *count = 0;
-    while (*count < most && text_token(&token, c)) {
+    while (*count < max && text_token(&token, c)) {
         if (!slice_number(&out[*count], token))
             return text_fail(c, r, "\"%.*s\" is not a number; repair the line", token.size < 40 ? (int)token.size : 40,
                              token.at);
         ++*count;
     }
-    return *count >= least || text_fail(c, r, "%d numbers where %d are needed; repair the line", *count, least);
+    return *count >= min || text_fail(c, r, "%d numbers where %d are needed; repair the line", *count, min);
 }
 
 /* x y z, then perhaps a weight (ignored), or r g b taken as linear. */

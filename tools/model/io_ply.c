@@ -453,7 +453,7 @@ static int walk_element(ply *p, element *e)
     return 1;
 }
 
-static int walk(ply *p)
+static int traversal(ply *p)
 {
     uint32_t i;
     for (i = 0; i < p->element_count; ++i)
@@ -699,7 +699,7 @@ int ply_load(model_build *b, const uint8_t *data, size_t size)
     p.end = size ? data + size : data;
     p.line = 1;
     p.cut_steps = polygon_steps(size);
-    if (!read_header(&p) || !walk(&p) || !make_scene(&p))
+    if (!read_header(&p) || !traversal(&p) || !make_scene(&p))
         return 0;
     b->out->facts.format = "PLY";
     b->out->facts.vertices = p.vertex->count;

@@ -206,13 +206,13 @@ static void add_run(block_header *h, uint32_t symbol, uint32_t extra, uint32_t *
 /* One stretch of `n` equal lengths. Zeros: 18 takes 11..138, 17 takes 3..10. Others: once as is, then 16 for 3..6. */
 static void code_stretch(block_header *h, uint32_t value, uint32_t n, uint32_t *freq)
 {
-    uint32_t most = value ? 6 : 138;
+    uint32_t max = value ? 6 : 138;
     if (value) {
         add_run(h, value, 0, freq);
         --n;
     }
     while (n >= 3) {
-        uint32_t run = n < most ? n : most;
+        uint32_t run = n < max ? n : max;
         if (value) add_run(h, 16, run - 3, freq);
         else if (run < 11) add_run(h, 17, run - 3, freq);
         else add_run(h, 18, run - 11, freq);
@@ -400,11 +400,11 @@ static void insert_below(deflater *d, size_t end)
     }
 }
 
-static uint32_t common_length(const uint8_t *a, const uint8_t *b, uint32_t most)
+static uint32_t common_length(const uint8_t *a, const uint8_t *b, uint32_t max)
 {
     uint32_t n = 0;
-    while (most - n >= 8 && memcmp(a + n, b + n, 8) == 0) n += 8;
-    while (n < most && a[n] == b[n]) ++n;
+    while (max - n >= 8 && memcmp(a + n, b + n, 8) == 0) n += 8;
+    while (n < max && a[n] == b[n]) ++n;
     return n;
 }
 
@@ -412,22 +412,22 @@ static uint32_t common_length(const uint8_t *a, const uint8_t *b, uint32_t most)
 static match longest_match(deflater *d, size_t pos, uint32_t best)
 {
     const uint8_t *here = d->in + pos;
-    uint32_t most = d->size - pos < DEFLATE_MAX_MATCH ? (uint32_t)(d->size - pos) : DEFLATE_MAX_MATCH;
+    uint32_t max = d->size - pos < DEFLATE_MAX_MATCH ? (uint32_t)(d->size - pos) : DEFLATE_MAX_MATCH;
     uint32_t reach = pos < DEFLATE_WINDOW ? (uint32_t)pos : DEFLATE_WINDOW, before = 0, distance;
     int tries = best >= GOOD_MATCH ? CHAIN_TRIES / 4 : CHAIN_TRIES;
     match m = {0, 0};
 
-    if (most <= best) return m;
+    if (max <= best) return m;
     insert_below(d, pos);
     distance = (uint32_t)pos - d->head[hash3(here)];
     while (tries-- > 0 && distance > before && distance <= reach) { /* a live chain leads ever further back */
         const uint8_t *there = here - distance;
         if (there[best] == here[best]) {
-            uint32_t length = common_length(here, there, most);
+            uint32_t length = common_length(here, there, max);
             if (length > best && !(length == DEFLATE_MIN_MATCH && distance > NEAR_3)) {
                 m.length = best = length;
                 m.distance = distance;
-                if (length >= NICE_MATCH || length == most) break;
+                if (length >= NICE_MATCH || length == max) break;
             }
         }
         before = distance;

@@ -23,27 +23,27 @@ enum {
 /* What the format can say: negative light and NaN are 0; 255/256 * 2^127 is the largest value. */
 static float storable(float v)
 {
-    const float most = 1.6947656946257677e38f;
-    return v > 0.0f ? (v < most ? v : most) : 0.0f;
+    const float max = 1.6947656946257677e38f;
+    return v > 0.0f ? (v < max ? v : max) : 0.0f;
 }
 
 /* Mantissas are rounded to nearest: most readers take them as they are, without the half step that Radiance's own
  * programs add back. */
 static void put_rgbe(uint8_t out[4], const float *rgb, int32_t channels)
 {
-    float c[3], most = 0.0f;
+    float c[3], max = 0.0f;
     double unit;
     int exponent, i;
 
     for (i = 0; i < 3; ++i) {
         c[i] = storable(rgb[channels == 3 ? i : 0]);
-        if (c[i] > most) most = c[i];
+        if (c[i] > max) max = c[i];
     }
     memset(out, 0, 4);
-    frexp((double)most, &exponent);
-    if (most <= 0.0f || exponent < -127) return;
+    frexp((double)max, &exponent);
+    if (max <= 0.0f || exponent < -127) return;
     unit = ldexp(1.0, 8 - exponent);
-    if ((double)most * unit >= 255.5) { /* would round to 256 */
+    if ((double)max * unit >= 255.5) { /* would round to 256 */
         ++exponent;
         unit *= 0.5;
     }

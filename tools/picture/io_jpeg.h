@@ -21,7 +21,7 @@ static inline int is_jpeg(const uint8_t *data, size_t size)
 
 enum { JPEG_TABLES = 4, JPEG_COMPONENTS = 3, JPEG_QUICK_BITS = 9 };
 
-/* A Huffman code: quick[] for codes up to 9 bits, the canonical order for longer ones. */
+/* A Huffman code: quick for codes up to 9 bits, the canonical order for longer ones. */
 typedef struct jpeg_code {
     int is_defined;
     uint16_t quick[1 << JPEG_QUICK_BITS]; /* by the next 9 bits: length << 8 | symbol; 0: longer or none */
@@ -43,7 +43,7 @@ typedef struct jpeg_component {
     int32_t prediction;         /* DC of its last block */
 } jpeg_component;
 
-enum { JPEG_SOUND = 0, JPEG_NO_BITS, JPEG_NO_CODE, JPEG_IDLE };
+enum { JPEG_VALID = 0, JPEG_NO_BITS, JPEG_NO_CODE, JPEG_IDLE };
 
 /* Blocks that refining scans may visit without a bit of their own, so that time is bounded by the file's size: these,
  * and 32 for each byte. That is ten scans over any picture that picture_is_paid, in three components; pictures for

@@ -261,7 +261,7 @@ int jpeg_scan(jpeg_reader *j)
     uint32_t i, done;
 
     j->bits = j->bit_count = j->empty_run = 0;
-    j->fault = JPEG_SOUND;
+    j->fault = JPEG_VALID;
     for (i = 0; i < j->scan_count; ++i) j->scan[i]->prediction = 0;
     for (done = 0; done < columns * rows; done += 1 + skip_empty(j, done, columns * rows)) {
         if (j->restart && done && done % j->restart == 0 && !read_restart(j, done / j->restart - 1)) return 0;

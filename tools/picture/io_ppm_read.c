@@ -12,7 +12,7 @@ typedef struct ppm_reader {
     size_t size, at;
     const char *name;
     report *r;
-    uint32_t width, height, most; /* most: the largest value that a sample may have */
+    uint32_t width, height, max;  /* most: the largest value that a sample may have */
     size_t channels;              /* 1 or 3 */
     int is_text;
 } ppm_reader;
@@ -60,7 +60,7 @@ static int read_header(ppm_reader *p)
     p->at = 2;
     if (!read_number(&p->width, p, side) || !read_number(&p->height, p, side) || !picture_fits(p->width, p->height))
         return report_fail(p->r, "%s: after P%c must stand width and height, together 1 to 2^28 pixels", p->name, kind);
-    if (!read_number(&p->most, p, 65535) || p->most == 0)
+    if (!read_number(&p->max, p, 65535) || p->max == 0)
         return report_fail(p->r, "%s: no largest value of 1 to 65535 after the size", p->name);
     return 1;
 }
@@ -69,7 +69,7 @@ static int read_header(ppm_reader *p)
 static int check_length(ppm_reader *p)
 {
     const uint64_t left = p->size - p->at, samples = (uint64_t)p->width * p->height * p->channels;
-    const uint64_t need = samples * (p->is_text || p->most > 255 ? 2 : 1);
+    const uint64_t need = samples * (p->is_text || p->max > 255 ? 2 : 1);
     if (p->is_text ? left < need : left != need)
         return report_fail(p->r, "%s: %" PRIu64 " bytes of pixels, but %" PRIu32 " x %" PRIu32 " take %s%" PRIu64,
                            p->name, left, p->width, p->height, p->is_text ? "at least " : "", need);
@@ -79,18 +79,18 @@ static int check_length(ppm_reader *p)
 static int read_sample(uint32_t *out, ppm_reader *p)
 {
     if (p->is_text)
-        return read_number(out, p, p->most);
+        return read_number(out, p, p->max);
     *out = p->data[p->at++];
-    if (p->most > 255)
+    if (p->max > 255)
         *out = *out << 8 | p->data[p->at++];
-    return *out <= p->most;
+    return *out <= p->max;
 }
 
-static uint8_t code_of(uint32_t sample, uint32_t most)
+static uint8_t code_of(uint32_t sample, uint32_t max)
 {
-    if (most == 65535)
+    if (max == 65535)
         return (uint8_t)(sample >> 8);
-    return (uint8_t)((sample * 255 + most / 2) / most);
+    return (uint8_t)((sample * 255 + max / 2) / max);
 }
 
 static int read_texels(uint8_t *texels, ppm_reader *p)
@@ -102,8 +102,8 @@ static int read_texels(uint8_t *texels, ppm_reader *p)
             uint32_t sample;
             if (!read_sample(&sample, p))
                 return report_fail(p->r, "%s: pixel %zu, %zu: no value of 0 to %" PRIu32 " before byte %zu", p->name,
-                                   i % p->width, i / p->width, p->most, p->at);
-            to[k] = code_of(sample, p->most);
+                                   i % p->width, i / p->width, p->max, p->at);
+            to[k] = code_of(sample, p->max);
         }
         if (p->channels == 1)
             to[1] = to[2] = to[0];

@@ -165,19 +165,19 @@ static double farthest_channel(const metrics_input *in, size_t i)
 {
     const float *b = pixel_at(in, in->truth, i), *a = pixel_at(in, in->test, i);
     int finite = is_finite3(a);
-    double most = 0.0;
+    double max = 0.0;
     for (int k = 0; k < 3; ++k) {
         double apart = fabs((finite ? (double)a[k] : 0.0) - (double)b[k]);
-        most = apart > most ? apart : most;
+        max = apart > max ? apart : max;
     }
-    return most;
+    return max;
 }
 
-static double largest_channel(const float *p, double most)
+static double largest_channel(const float *p, double max)
 {
     for (int k = 0; k < 3; ++k)
-        most = (double)p[k] > most ? (double)p[k] : most;
-    return most;
+        max = (double)p[k] > max ? (double)p[k] : max;
+    return max;
 }
 
 static void place(int32_t *x, int32_t *y, const metrics_input *in, size_t i)

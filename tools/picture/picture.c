@@ -36,10 +36,10 @@ float picture_auto_exposure(const image *p)
     size_t pixels = (size_t)p->width * (size_t)p->height;
     for (size_t i = 0; i < pixels; ++i) {
         const float *v = p->pixels + 3 * i;
-        float most = v[0] > v[1] ? v[0] : v[1];
-        most = v[2] > most ? v[2] : most;
-        if (most > 1e-9f && most < 1e9f) {
-            ++counts[(int)(log2((double)most) * 8.0 + MIDDLE)];
+        float max = v[0] > v[1] ? v[0] : v[1];
+        max = v[2] > max ? v[2] : max;
+        if (max > 1e-9f && max < 1e9f) {
+            ++counts[(int)(log2((double)max) * 8.0 + MIDDLE)];
             ++lit;
         }
     }

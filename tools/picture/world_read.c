@@ -8,7 +8,7 @@
 
 #include "picture_read.h"
 
-enum { MOST_SIDE = 4096 };
+enum { MAX_SIDE = 4096 };
 
 /* --- pictures ----------------------------------------------------------------------------------------------------- */
 
@@ -129,8 +129,8 @@ static int read_sphere(lmb_world_pictures *out, world_pictures *own, const store
 /* Of a face; asked before one is made, as a picture of one colour is a small file of any size. */
 static int32_t side_of(const stored_picture *p)
 {
-    const int32_t least = p->width < p->height ? p->width : p->height;
-    return p->width == 2 * p->height ? p->width / 4 : least;
+    const int32_t min = p->width < p->height ? p->width : p->height;
+    return p->width == 2 * p->height ? p->width / 4 : min;
 }
 
 static int read_one(lmb_world_pictures *out, world_pictures *own, const char *path, report *r)
@@ -140,8 +140,8 @@ static int read_one(lmb_world_pictures *out, world_pictures *own, const char *pa
     if (!read_picture(&p, path, r)) {
         return 0;
     }
-    if (side_of(&p) > MOST_SIDE) {
-        ok = report_fail(r, "%s: faces of %d pixels; at most %d", path, (int)side_of(&p), MOST_SIDE);
+    if (side_of(&p) > MAX_SIDE) {
+        ok = report_fail(r, "%s: faces of %d pixels; at most %d", path, (int)side_of(&p), MAX_SIDE);
     } else if (p.height == 6 * p.width || p.width == 6 * p.height) {
         ok = read_strip(out, own, &p, path, r);
     } else if (p.width == 2 * p.height) {
@@ -182,10 +182,10 @@ static int read_face(lmb_world_pictures *out, world_pictures *own, int i, const 
     if (!read_picture(&p, path, r)) {
         return 0;
     }
-    int ok = p.width == p.height && p.width <= MOST_SIDE && (out->face_size == 0 || out->face_size == p.width);
+    int ok = p.width == p.height && p.width <= MAX_SIDE && (out->face_size == 0 || out->face_size == p.width);
     if (!ok) {
         report_fail(r, "%s: %d x %d pixels; faces are square, of one size, at most %d", path, (int)p.width,
-                    (int)p.height, MOST_SIDE);
+                    (int)p.height, MAX_SIDE);
     } else if ((ok = take_face(&own->face[i], p.width, path, r)) != 0) {
         out->face_size = p.width;
         copy_face(own->face[i], p.width, &p, 0, 0);

@@ -30,13 +30,13 @@ static void put_32(uint8_t *p, uint32_t v)
     put_16(p + 2, v >> 16);
 }
 
-static uint32_t depth_code(const lmb_view *v, float z, double most)
+static uint32_t depth_code(const lmb_view *v, float z, double max)
 {
     const double n = (double)v->near_m, f = (double)v->far_m;
-    const double least = v->kind == LMB_PERSPECTIVE ? n / f : 0.0;
+    const double min = v->kind == LMB_PERSPECTIVE ? n / f : 0.0;
     const double d = v->kind == LMB_PERSPECTIVE ? n / (double)z : (f - (double)z) / (f - n);
-    const double code = floor((d - least) / (1.0 - least) * most + 0.5);
-    return z > 0.0f ? (uint32_t)(code < 1.0 ? 1.0 : code > most ? most : code) : 0;
+    const double code = floor((d - min) / (1.0 - min) * max + 0.5);
+    return z > 0.0f ? (uint32_t)(code < 1.0 ? 1.0 : code > max ? max : code) : 0;
 }
 
 static uint32_t octahedral_byte(int16_t code)

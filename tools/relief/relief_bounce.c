@@ -61,22 +61,22 @@ static void *take(relief_bounce *b, int which, size_t bytes)
     return b->memory[which] = bytes > 0 ? malloc(bytes) : NULL;
 }
 
-static lmb_status find_blockers(lmb_blockers *out, relief_bounce *b, int which, const lmb_scene *scene)
+static lmb_status make_bvh(lmb_bvh *out, relief_bounce *b, int which, const lmb_scene *scene)
 {
     const uint32_t n = scene != NULL ? lmb_scene_triangles(scene) : 0;
-    const size_t bytes = lmb_blockers_bytes(n);
+    const size_t bytes = lmb_bvh_bytes(n);
     if (scene == NULL) {
         return LMB_OK;
     }
     if (take(b, which, bytes) == NULL) {
         return LMB_ERR_CAPACITY;
     }
-    const lmb_status status = lmb_blockers_init(out, n, b->memory[which], bytes);
-    return status != LMB_OK ? status : lmb_blockers_build(out, scene);
+    const lmb_status status = lmb_bvh_init(out, n, b->memory[which], bytes);
+    return status != LMB_OK ? status : lmb_bvh_build(out, scene);
 }
 
 static lmb_status grow_tree(relief_bounce *b, const lmb_kernels *kernels, const lmb_light *light,
-                            const lmb_light_map *map)
+                            const lmb_shadow_map *map)
 {
     lmb_status status = LMB_OK;
     for (int32_t f = 0; f < map->faces && status == LMB_OK; ++f) {
@@ -92,19 +92,19 @@ static lmb_status grow_tree(relief_bounce *b, const lmb_kernels *kernels, const 
 
 static lmb_status find_points(relief_bounce *b, const lmb_kernels *kernels, const lmb_light *light, int32_t size)
 {
-    const int32_t faces = lmb_light_map_faces(light, &b->scene);
-    const size_t tree = lmb_tree_bytes((uint32_t)faces, size), bytes = lmb_light_map_bytes(faces, size, LMB_ID32);
-    lmb_light_map map;
+    const int32_t faces = lmb_shadow_map_faces(light, &b->scene);
+    const size_t tree = lmb_tree_bytes((uint32_t)faces, size), bytes = lmb_shadow_map_bytes(faces, size, LMB_ID32);
+    lmb_shadow_map map;
     if (take(b, 0, tree) == NULL || take(b, 1, bytes) == NULL) {
         return LMB_ERR_CAPACITY;
     }
     lmb_status status = lmb_tree_init(&b->tree, (uint32_t)faces, size, b->memory[0], tree);
     if (status == LMB_OK) {
-        status = lmb_light_map_init(&map, light, &b->scene, size, LMB_ID32, b->memory[1], bytes);
+        status = lmb_shadow_map_init(&map, light, &b->scene, size, LMB_ID32, b->memory[1], bytes);
     }
     if (status == LMB_OK) {
-        lmb_light_map_clear(&map);
-        status = lmb_light_map_draw(&map, kernels, &b->scene, 1, lmb_scene_triangles(&b->scene), NULL);
+        lmb_shadow_map_clear(&map);
+        status = lmb_shadow_map_draw(&map, kernels, &b->scene, 1, lmb_scene_triangles(&b->scene), NULL);
     }
     return status != LMB_OK ? status : grow_tree(b, kernels, light, &map);
 }
@@ -118,10 +118,10 @@ int relief_bounce_make(relief_bounce *out, const lmb_kernels *kernels, const lmb
     if (ok) {
         lmb_status status = out->cut != NULL ? find_points(out, kernels, light, size) : LMB_ERR_CAPACITY;
         if (status == LMB_OK) {
-            status = find_blockers(&out->plain, out, 2, plain);
+            status = make_bvh(&out->plain, out, 2, plain);
         }
         if (status == LMB_OK) {
-            status = find_blockers(&out->both, out, 3, &out->scene);
+            status = make_bvh(&out->both, out, 3, &out->scene);
         }
         ok = status == LMB_OK || report_fail(r, "bounced light: %s", lmb_status_name(status));
     }
@@ -148,10 +148,10 @@ void relief_bounce_free(relief_bounce *b)
 lmb_status relief_bounce_tile(lmb_irradiance *inout, relief_bounce *b, const lmb_kernels *kernels, const lmb_tile *tile,
                               uint64_t of_relief)
 {
-    lmb_cutting how = {0};
+    lmb_cut_params how = {0};
     lmb_status status = LMB_OK;
     how.error = 0.02f;
-    how.visible = 0.015f;
+    how.visibility = 0.015f;
     for (int relief = 0; relief < 2 && status == LMB_OK; ++relief) {
         b->tile = *tile;
         b->tile.hits = 0;
@@ -159,7 +159,7 @@ lmb_status relief_bounce_tile(lmb_irradiance *inout, relief_bounce *b, const lmb
             b->tile.id[k] = (int)(of_relief >> k & 1u) == relief ? tile->id[k] : 0;
             b->tile.hits += b->tile.id[k] != 0;
         }
-        how.blockers = relief ? &b->plain : &b->both;
+        how.bvh = relief ? &b->plain : &b->both;
         if (b->tile.hits > 0) {
             status = lmb_gather_cut(inout, kernels, b->cut, &b->tile, &b->tree, &how);
         }

@@ -13,8 +13,8 @@ typedef struct relief_bounce {
     lmb_material *materials;
     lmb_instance *instances;
     lmb_tree tree;
-    lmb_blockers plain; /* what hides light from a relief's pixels, which lie inside its simple model ... */
-    lmb_blockers both;  /* ... and from others */
+    lmb_bvh plain; /* what hides light from a relief's pixels, which lie inside its simple model ... */
+    lmb_bvh both;  /* ... and from others */
     lmb_cut *cut;
     lmb_tile tile;
     void *memory[4];
@@ -23,7 +23,7 @@ typedef struct relief_bounce {
 /* relief_bounce_make: the first points of one light.
  *
  *   plain, simple  ordinary geometry, and a relief's simple model; either may be NULL. They stay.
- *   size           texels a side of the light's map: a power of two
+ *   size           texels a side of the shadow map: a power of two
  * 1, or 0 with `r` set and nothing allocated. */
 int relief_bounce_make(relief_bounce *out, const lmb_kernels *kernels, const lmb_scene *plain, const lmb_scene *simple,
                        const lmb_light *light, int32_t size, report *r);

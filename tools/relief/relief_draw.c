@@ -7,11 +7,11 @@
 #include "../../platform/host/host.h"
 #include "relief_bounce.h"
 
-/* One kind of geometry: what its pixels are resolved from, and its light's map. */
+/* One kind of geometry: what its pixels are resolved from, and its shadow map. */
 typedef struct layer {
     const lmb_scene *scene;
     lmb_target target;
-    lmb_light_map map;
+    lmb_shadow_map map;
     void *depth_memory, *id_memory, *map_memory;
 } layer;
 
@@ -51,21 +51,21 @@ static int take_layer(work *w, layer *l, report *r)
     return 1;
 }
 
-/* --- the light's map ---------------------------------------------------------------------------------------------- */
+/* --- the shadow map ---------------------------------------------------------------------------------------------- */
 
 /* Both maps are fitted to all that is there, so that a texel is the same size in both. */
 static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
 {
     const relief_shot *s = w->shot;
-    const size_t bytes = lmb_light_map_bytes(lmb_light_map_faces(s->light, bounds), s->light_map, LMB_ID32);
+    const size_t bytes = lmb_shadow_map_bytes(lmb_shadow_map_faces(s->light, bounds), s->shadow_map, LMB_ID32);
     l->map_memory = take(w, bytes, r);
     if (l->map_memory == NULL) {
         return 0;
     }
-    lmb_status status = lmb_light_map_init(&l->map, s->light, bounds, s->light_map, LMB_ID32, l->map_memory, bytes);
+    lmb_status status = lmb_shadow_map_init(&l->map, s->light, bounds, s->shadow_map, LMB_ID32, l->map_memory, bytes);
     if (status == LMB_OK) {
-        lmb_light_map_clear(&l->map);
-        status = lmb_light_map_draw(&l->map, s->kernels, l->scene, 1, lmb_scene_triangles(l->scene), NULL);
+        lmb_shadow_map_clear(&l->map);
+        status = lmb_shadow_map_draw(&l->map, s->kernels, l->scene, 1, lmb_scene_triangles(l->scene), NULL);
     }
     if (status == LMB_OK && l == &w->relief) {
         status = lmb_relief_shadow_rows(&l->map, &w->tile, s->kernels, s->relief, &s->how, 0,
@@ -74,19 +74,19 @@ static int draw_map(work *w, layer *l, const lmb_scene *bounds, report *r)
     return status == LMB_OK || report_fail(r, "--light: its map cannot be drawn: %s", lmb_status_name(status));
 }
 
-static float least(float a, float b) { return a < b ? a : b; }
-static float most(float a, float b) { return a > b ? a : b; }
+static float min(float a, float b) { return a < b ? a : b; }
+static float max(float a, float b) { return a > b ? a : b; }
 
 static int draw_maps(work *w, report *r)
 {
     lmb_scene bounds = w->plain.scene != NULL ? *w->plain.scene : w->simple;
     if (w->plain.scene != NULL && w->relief.scene != NULL) {
-        bounds.bounds_min.x = least(bounds.bounds_min.x, w->simple.bounds_min.x);
-        bounds.bounds_min.y = least(bounds.bounds_min.y, w->simple.bounds_min.y);
-        bounds.bounds_min.z = least(bounds.bounds_min.z, w->simple.bounds_min.z);
-        bounds.bounds_max.x = most(bounds.bounds_max.x, w->simple.bounds_max.x);
-        bounds.bounds_max.y = most(bounds.bounds_max.y, w->simple.bounds_max.y);
-        bounds.bounds_max.z = most(bounds.bounds_max.z, w->simple.bounds_max.z);
+        bounds.bounds_min.x = min(bounds.bounds_min.x, w->simple.bounds_min.x);
+        bounds.bounds_min.y = min(bounds.bounds_min.y, w->simple.bounds_min.y);
+        bounds.bounds_min.z = min(bounds.bounds_min.z, w->simple.bounds_min.z);
+        bounds.bounds_max.x = max(bounds.bounds_max.x, w->simple.bounds_max.x);
+        bounds.bounds_max.y = max(bounds.bounds_max.y, w->simple.bounds_max.y);
+        bounds.bounds_max.z = max(bounds.bounds_max.z, w->simple.bounds_max.z);
     }
     return (w->plain.scene == NULL || draw_map(w, &w->plain, &bounds, r)) &&
            (w->relief.scene == NULL || draw_map(w, &w->relief, &bounds, r));
@@ -119,8 +119,8 @@ static lmb_status resolve(work *w, int32_t x, int32_t y)
 static lmb_status light_tile(work *w)
 {
     const relief_shot *s = w->shot;
-    const int shadows = s->light_map > 0;
-    const lmb_light_map *map = shadows && w->plain.scene != NULL ? &w->plain.map : NULL;
+    const int shadows = s->shadow_map > 0;
+    const lmb_shadow_map *map = shadows && w->plain.scene != NULL ? &w->plain.map : NULL;
     const lmb_scene *scene = w->plain.scene != NULL ? w->plain.scene : w->relief.scene;
     memset(&w->direct, 0, sizeof w->direct);
     memset(&w->open, 0, sizeof w->open);
@@ -208,7 +208,7 @@ static int draw(work *w, report *r)
 {
     relief_frame *f = w->out;
     double since = host_cpu_seconds(), now;
-    if (w->shot->light != NULL && w->shot->light_map > 0 && !draw_maps(w, r)) {
+    if (w->shot->light != NULL && w->shot->shadow_map > 0 && !draw_maps(w, r)) {
         return 0;
     }
     if (w->shot->light != NULL && w->shot->bounce > 0 &&

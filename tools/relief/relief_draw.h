@@ -14,7 +14,7 @@ typedef struct relief_shot {
     const lmb_scene *scene;   /* ordinary geometry; NULL: none */
     lmb_relief_how how;
     const lmb_light *light;   /* NULL: only what the surfaces are */
-    int32_t light_map;        /* texels a side; 0: no shadow */
+    int32_t shadow_map;        /* texels a side; 0: no shadow */
     float ambient;            /* irradiance from everywhere, W/m2 */
     int32_t bounce;           /* texels a side of the map that the light bounces from, a power of two; 0: it does not */
 } relief_shot;
@@ -27,7 +27,7 @@ typedef struct relief_frame {
     float *open;                   /* radiance if nothing cast a shadow */
     uint8_t *lit;                  /* 1: some of the light arrives */
     lmb_relief_stats stats;
-    double light_s, draw_s, band_s; /* processor time: the light's map; triangles; attributes and light */
+    double light_s, draw_s, band_s; /* processor time: the shadow map; triangles; attributes and light */
     size_t bytes;                   /* memory while it was drawn, without models */
 } relief_frame;
 

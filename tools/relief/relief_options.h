@@ -21,8 +21,8 @@
 #define RELIEF_OPTIONS_LOOK(type)                                                                            \
     {.name = "--steps", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.steps), .low = 1, .high = 32, \
      .help = "looks a pixel takes (default 6); 1: once, from the simple surface"},                           \
-    {.name = "--looks", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.views), .low = 1,         \
-     .high = LMB_RELIEF_LOOKS, .help = "views a pixel looks at (default 6)"},                                \
+    {.name = "--pixel-views", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.views), .low = 1,         \
+     .high = LMB_RELIEF_TILE_VIEWS, .help = "views a pixel looks at (default 6)"},                                \
     {.name = "--keep", .value = "N", .kind = OPTION_INT, .at = offsetof(type, how.keep), .low = 1, .high = 3, \
      .help = "of which the best are blended (default 3)"}
 

@@ -7,7 +7,7 @@
 
 #include "../../src/base/vec.h"
 
-enum { MOST_CUBES = 1 << 24 };
+enum { MAX_CUBES = 1 << 24 };
 
 static lmb_vec3 get(const float *at) { return vec3(at[0], at[1], at[2]); }
 
@@ -34,7 +34,7 @@ static void set_pose(lmb_view *v, const double pose[16])
     v->eye = column(pose, 3);
 }
 
-enum { SIDE_MOST = 4096 /* as lmb_relief_open */ };
+enum { SIDE_MAX = 4096 /* as lmb_relief_open */ };
 
 /* Axes at right angles, and a place that depths can be told from. */
 static int is_pose(const lmb_view *v)
@@ -46,16 +46,16 @@ static int is_pose(const lmb_view *v)
 /* As close around what is there as may be: depth is coded between them. */
 static int set_reach(lmb_view *v, const float *depth)
 {
-    float least = 3e38f, most = 0.0f;
+    float min = 3e38f, max = 0.0f;
     for (size_t i = 0; i < (size_t)v->frame_width * (size_t)v->frame_height; ++i) {
         if (depth[i] > 0.0f) {
-            least = minf(least, depth[i]);
-            most = maxf(most, depth[i]);
+            min = minf(min, depth[i]);
+            max = maxf(max, depth[i]);
         }
     }
-    v->near_m = 0.99f * least;
-    v->far_m = 1.01f * most;
-    return most > 0.0f && most < 1e5f;
+    v->near_m = 0.99f * min;
+    v->far_m = 1.01f * max;
+    return max > 0.0f && max < 1e5f;
 }
 
 static int set_view(lmb_view *v, const mix_frame *f, report *r)
@@ -72,9 +72,9 @@ static int set_view(lmb_view *v, const mix_frame *f, report *r)
     if (fabsf(c->cx - 0.5f * (float)(c->width - 1)) > 0.5f || fabsf(c->cy - 0.5f * (float)(c->height - 1)) > 0.5f) {
         return report_fail(r, "a photo whose cx, cy (%g, %g) are not its middle", (double)c->cx, (double)c->cy);
     }
-    if (c->width > SIDE_MOST || c->height > SIDE_MOST) {
+    if (c->width > SIDE_MAX || c->height > SIDE_MAX) {
         return report_fail(r, "a photo of %d x %d pixels: a relief's views have at most %d a side", (int)c->width,
-                           (int)c->height, (int)SIDE_MOST);
+                           (int)c->height, (int)SIDE_MAX);
     }
     if (!is_pose(v)) {
         return report_fail(r, "a photo whose camera_to_world is not a rotation and a place within 2^20 m");
@@ -98,13 +98,13 @@ static lmb_vec3 slope_at(const relief_photo *p, int32_t x, int32_t y, int32_t dx
     const int32_t w = p->view.frame_width, h = p->view.frame_height;
     const float z = p->depth[y * w + x];
     lmb_vec3 slope = {0.0f, 0.0f, 0.0f};
-    float least = 3e38f;
+    float min = 3e38f;
     for (int32_t k = -1; k <= 1; k += 2) {
         const int32_t nx = x + k * dx, ny = y + k * dy;
         const int inside = nx >= 0 && ny >= 0 && nx < w && ny < h;
         const float n = inside ? p->depth[ny * w + nx] : 0.0f;
-        if (n > 0.0f && fabsf(n - z) < least) {
-            least = fabsf(n - z);
+        if (n > 0.0f && fabsf(n - z) < min) {
+            min = fabsf(n - z);
             slope = mul3(sub3(point_at(p, nx, ny), point_at(p, x, y)), (float)k);
         }
     }
@@ -328,8 +328,8 @@ int relief_blocks(triangle_mesh *out, const relief_photo *photo, int32_t count, 
     memset(out, 0, sizeof *out);
     bounds(&b.low, &high, photo, count);
     const lmb_vec3 cubes = mul3(sub3(high, b.low), 1.0f / side);
-    if (!(cubes.x + 1.0f < MOST_CUBES && cubes.y + 1.0f < MOST_CUBES && cubes.z + 1.0f < MOST_CUBES &&
-          ((double)cubes.x + 2.0) * ((double)cubes.y + 2.0) * ((double)cubes.z + 2.0) < (double)MOST_CUBES)) {
+    if (!(cubes.x + 1.0f < MAX_CUBES && cubes.y + 1.0f < MAX_CUBES && cubes.z + 1.0f < MAX_CUBES &&
+          ((double)cubes.x + 2.0) * ((double)cubes.y + 2.0) * ((double)cubes.z + 2.0) < (double)MAX_CUBES)) {
         return report_fail(r, "blocks of %g m are too small for what the photos show", (double)side);
     }
     b.side = side;

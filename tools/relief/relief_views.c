@@ -38,15 +38,15 @@ static void extent(const triangle_mesh *m, lmb_vec3 axis, float *low, float *hig
 static void turn_view(lmb_view *v, const triangle_mesh *mesh)
 {
     const lmb_vec3 right = v->right, up = v->up;
-    float least = 3e38f;
+    float min = 3e38f;
     for (int i = 0; i < TURNS; ++i) {
         const float a = 1.57079633f * (float)i / (float)TURNS, c = cosf(a), s = sinf(a);
         const lmb_vec3 x = add3(mul3(right, c), mul3(up, s)), y = sub3(mul3(up, c), mul3(right, s));
         float x0, x1, y0, y1;
         extent(mesh, x, &x0, &x1);
         extent(mesh, y, &y0, &y1);
-        if ((x1 - x0) * (y1 - y0) < least) {
-            least = (i == 0 ? UPRIGHT : 1.0f) * (x1 - x0) * (y1 - y0);
+        if ((x1 - x0) * (y1 - y0) < min) {
+            min = (i == 0 ? UPRIGHT : 1.0f) * (x1 - x0) * (y1 - y0);
             v->right = normalize3(x);
             v->up = normalize3(y);
         }
@@ -129,9 +129,8 @@ static uint32_t code_at(const relief_bake *bake, const relief_picture *p, int32_
 static float depth_of(const relief_bake *bake, const lmb_view *v, uint32_t code)
 {
     const float d = (float)code / (bake->format == LMB_RELIEF_FULL ? 16777215.0f : 65535.0f);
-    const float least = v->near_m / v->far_m;
-    return v->kind == LMB_PERSPECTIVE ? v->near_m / (least + (1.0f - least) * d)
-                                      : v->far_m - (v->far_m - v->near_m) * d;
+    const float min = v->near_m / v->far_m;
+    return v->kind == LMB_PERSPECTIVE ? v->near_m / (min + (1.0f - min) * d) : v->far_m - (v->far_m - v->near_m) * d;
 }
 
 /* The cosine between the normal and the way to the view, where this sees the place; else 0. */
@@ -210,11 +209,11 @@ static double gain(const relief_bake *one, const triangle_mesh *mesh, float *bes
 
 static int best_view(int32_t *out, relief_bake *drawn, const triangle_mesh *mesh, float *best, uint8_t *used)
 {
-    double most = -1.0;
+    double max = -1.0;
     for (int32_t i = 0; i < CANDIDATES; ++i) {
         const double g = used[i] ? -1.0 : gain(&drawn[i], mesh, best, 0);
-        if (g > most) {
-            most = g;
+        if (g > max) {
+            max = g;
             *out = i;
         }
     }

@@ -23,7 +23,7 @@ typedef struct options {
     lmb_relief_how how;
     lmb_light light;
     int32_t has_light, bounce;
-    int32_t light_map, show;
+    int32_t shadow_map, show;
     float ambient, exposure_ev; /* NaN: chosen by the picture */
     const lmb_kernels *kernels;
 } options;
@@ -42,29 +42,66 @@ static const option_row rows[] = {
     VIEW_OPTION_SIZE(options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(options, view, "where the camera stands (default: the whole model from a little above)"),
     {.kind = OPTION_TITLE, .help = "surface"},
-    {.name = "--pick", .kind = OPTION_WORD, AT(how.pick), .words = picks,
+    {.name = "--pick",
+     .kind = OPTION_WORD,
+     AT(how.pick),
+     .words = picks,
      .help = "which candidate wins: nearest to the simple surface (default), or to the eye's ray"},
-    {.name = "--sampling", .kind = OPTION_WORD, AT(how.sampling), .words = samplings,
+    {.name = "--sampling",
+     .kind = OPTION_WORD,
+     AT(how.sampling),
+     .words = samplings,
      .help = "of the views' texels (default bilinear)"},
     RELIEF_OPTIONS_LOOK(options),
     {.kind = OPTION_TITLE, .help = "light"},
-    {.name = "--light", .kind = OPTION_LIGHT, AT(light), .counts = offsetof(options, has_light),
+    {.name = "--light",
+     .kind = OPTION_LIGHT,
+     AT(light),
+     .counts = offsetof(options, has_light),
      .help = "KIND is spot, point or sun (default: a sun from the upper right)"},
-    {.name = "--light-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(light_map), .low = 0, .high = LMB_MAX_SIDE,
+    {.name = "--shadow-map",
+     .value = "N",
+     .kind = OPTION_MULTIPLE_OF_8,
+     AT(shadow_map),
+     .low = 0,
+     .high = LMB_MAX_SIDE,
      .help = "texels a side of its shadow map (default 1024); 0: no shadows"},
-    {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
+    {.name = "--ambient",
+     .value = "E",
+     .kind = OPTION_NUMBER,
+     AT(ambient),
+     .low = 0,
+     .high = 1e6,
      .help = "irradiance from everywhere, W/m2 (default 0.3)"},
-    {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with),
+    {.name = "--with",
+     .value = "SCENE",
+     .kind = OPTION_TEXT,
+     AT(with),
      .help = "other geometry in the same picture: both shadow and hide each other"},
-    {.name = "--bounce", .kind = OPTION_FLAG, AT(bounce),
+    {.name = "--bounce",
+     .kind = OPTION_FLAG,
+     AT(bounce),
      .help = "light once reflected, too, by the other geometry and the simple model"},
     {.kind = OPTION_TITLE, .help = "output"},
-    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+    {.name = "-o",
+     .value = "OUT",
+     .kind = OPTION_OWN,
+     AT(out),
+     .parse = picture_option,
+     .expects = PICTURE_OPTION_WANTS,
      .help = ".png .ppm .pfm .hdr"},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .help = "(default full)"},
-    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
-     .wants = OPTION_STOPS_WANTS, .help = "stops, display formats only (default 0)"},
-    {.name = "--compare", .value = "MODEL", .kind = OPTION_TEXT, AT(compare),
+    {.name = "--exposure",
+     .value = "EV|auto",
+     .kind = OPTION_OWN,
+     AT(exposure_ev),
+     .parse = option_stops,
+     .expects = OPTION_STOPS_WANTS,
+     .help = "stops, display formats only (default 0)"},
+    {.name = "--compare",
+     .value = "MODEL",
+     .kind = OPTION_TEXT,
+     AT(compare),
      .help = "draws the complex model too, and prints speed and errors side by side"},
     OPTION_BACKEND_ROW(options, kernels),
     OPTION_LOUDNESS(options, view.is_quiet, view.is_verbose, "say how long what took"),
@@ -80,8 +117,9 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "relief render",
     .usage = "relief render FILE.lmr -o OUT [options]",
-    .about = "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
-             "it.",
+    .about =
+        "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+        "it.",
     .part = {rows},
     .examples = "  a tent, its relief and a picture of that:\n" TENT
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
@@ -92,8 +130,9 @@ static const option_row ask_rows[] = {OPTION_ASK, {.kind = OPTION_END}};
 static const option_table both_table = {
     .verb = "relief",
     .usage = "relief bake MODEL -o OUT.lmr [options]\nrelief render FILE.lmr -o OUT [options]",
-    .about = "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
-             "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help.",
+    .about =
+        "A complex model drawn as a few triangles that carry its surface, silhouette, depth and shadow, by views of "
+        "it: `bake` makes these and the simple model, `render` draws it. Each has its own --help.",
     .part = {ask_rows},
     .examples = "  a tent, its relief and a picture of that:\n" TENT
                 "    lambent relief render tent.lmr --size 160x120 -o tent.png\n",
@@ -103,7 +142,7 @@ static int parse(options *o, int argc, char **argv, report *r)
 {
     memset(o, 0, sizeof *o);
     view_options_init(&o->view);
-    o->light_map = 1024;
+    o->shadow_map = 1024;
     o->ambient = 0.3f;
     o->kernels = lmb_kernels_pick();
     const int asked = options_parse(o, &table, argc, argv, r);
@@ -231,7 +270,7 @@ static void tell(const relief_frame *f)
 static void tell_compared(const relief_frame *f, const relief_frame *truth, const relief_figures *e)
 {
     printf("%-22s %12s %12s\n", "", "relief", "direct");
-    printf("%-22s %12.2f %12.2f\n", "light's map, ms", 1e3 * f->light_s, 1e3 * truth->light_s);
+    printf("%-22s %12.2f %12.2f\n", "shadow map, ms", 1e3 * f->light_s, 1e3 * truth->light_s);
     printf("%-22s %12.2f %12.2f\n", "triangles, ms", 1e3 * f->draw_s, 1e3 * truth->draw_s);
     printf("%-22s %12.2f %12.2f\n", "pixels, ms", 1e3 * f->band_s, 1e3 * truth->band_s);
     printf("outline %.2f px (median), covered by both %.2f %%\n", e->silhouette_px, 100.0 * e->iou);
@@ -283,7 +322,7 @@ static int render(work *w, options *o, report *r)
     shot.scene = o->with != NULL ? &w->with.scene : NULL;
     shot.how = o->how;
     shot.light = o->has_light ? &o->light : &w->sun;
-    shot.light_map = o->light_map;
+    shot.shadow_map = o->shadow_map;
     shot.ambient = o->ambient;
     shot.bounce = o->bounce ? BOUNCE_MAP : 0;
     if (!relief_shoot(&f, &shot, r)) {
@@ -292,7 +331,7 @@ static int render(work *w, options *o, report *r)
     if (!o->view.is_quiet) {
         tell(&f);
     }
-    report_note(!o->view.is_verbose, "light's map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
+    report_note(!o->view.is_verbose, "shadow map %.2f ms, triangles %.2f ms, pixels %.2f ms", 1e3 * f.light_s,
                 1e3 * f.draw_s, 1e3 * f.band_s);
     const int ok = (o->compare == NULL || compare(w, shot, &f, r)) && write_frame(o, &f, r);
     relief_frame_free(&f);

@@ -39,7 +39,7 @@ static const option_row rows[] = {
     {.name = "-o", .value = "OUT.lmr", .kind = OPTION_TEXT, AT(out),
      .help = "what `lambent relief render` draws, in place from flash too"},
     {.name = "--views", .value = "N|greedy:N|FILE", .kind = OPTION_OWN, .parse = parse_views,
-     .wants = "1 .. 64, greedy:N, or a file of cameras",
+     .expects = "1 .. 64, greedy:N, or a file of cameras",
      .help = "N: from N sides; 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64;\n"
              "greedy:N: of 98 sides the N that see most;\n"
              "FILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, target, degrees)"},
@@ -64,8 +64,9 @@ static const option_table table = {
     .verb = "relief bake",
     .usage = "relief bake MODEL -o OUT.lmr [options]\n"
              "relief bake --frame PREFIX [--frame PREFIX ...] -o OUT.lmr [--block M] [--packed]",
-    .about = "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
-             "get smooth ones. Says how much of the surface no view sees: that will be filled with the simple model's.",
+    .about =
+        "Views of a complex model, for drawing it as a simple one that carries its surface. Meshes without normals "
+        "get smooth ones. Says how much of the surface no view sees: that will be filled with the simple model's.",
     .part = {rows},
     .examples = "  a tent and its relief:\n"
                 "    printf 'v %s\\n' '-1 0 -1' '1 0 -1' '0 0 1' '0 1 0' >tent.obj\n"
@@ -147,7 +148,8 @@ static int load_complex(work *w, const options *o, report *r)
 
 static void tell_outside(double outside, const options *o)
 {
-    report_note(o->is_quiet || !(outside > 0.0), "note: the complex model sticks out of the simple one by %.3g m", outside);
+    report_note(o->is_quiet || !(outside > 0.0), "note: the complex model sticks out of the simple one by %.3g m",
+                outside);
 }
 
 /* The user's own; moved outwards, its vertices at one place become one. */
@@ -155,7 +157,7 @@ static int load_simple(work *w, const options *o, report *r)
 {
     triangle_mesh own;
     simplify_facts facts;
-    tally held = {0, 0};
+    counted_heap held = {0, 0};
     double outside = 0.0;
     if (!load(&w->loaded_simple, &own, o->simple, r)) {
         return 0;
@@ -205,8 +207,8 @@ static int read_camera(lmb_view *v, const char *line, const work *w, int32_t siz
     const lmb_vec3 eye = {(float)f[0], (float)f[1], (float)f[2]}, target = {(float)f[3], (float)f[4], (float)f[5]};
     const lmb_vec3 y = {0.0f, 1.0f, 0.0f}, z = {0.0f, 0.0f, 1.0f};
     const float fov = (float)(f[6] * 0.017453292519943295);
-    return (lmb_view_look(v, eye, target, y, fov, size, size) == LMB_OK ||
-            lmb_view_look(v, eye, target, z, fov, size, size) == LMB_OK) &&
+    return (lmb_view_look_at(v, eye, target, y, fov, size, size) == LMB_OK ||
+            lmb_view_look_at(v, eye, target, z, fov, size, size) == LMB_OK) &&
            relief_reach(v, &w->mesh);
 }
 

@@ -10,12 +10,12 @@
 #include "relight_figures.h"
 #include "relight_path.h"
 
-enum { LIGHT_MAP = 512 };
+enum { SHADOW_MAP = 512 };
 
 /* The cubes of one of the cache's slots. */
 typedef struct slot_cubes {
-    void *irradiance, *gloss[RELIGHT_GLOSSES];
-    int is_known[RELIGHT_GLOSSES]; /* for the place that the slot stands for */
+    void *irradiance, *glossy[RELIGHT_GLOSSY_CUBES];
+    int is_known[RELIGHT_GLOSSY_CUBES]; /* for the place that the slot stands for */
 } slot_cubes;
 
 typedef struct stage {
@@ -25,11 +25,11 @@ typedef struct stage {
     place_list path;
     lmb_probe_cache cache;
     slot_cubes cubes[LMB_MAX_PROBES];
-    lmb_probe *probes;      /* by slot, then by gloss */
+    lmb_probe *probes;      /* by slot, then by glossy reflection */
     uint16_t *probe_of;     /* by instance */
-    float *planes;          /* of the largest gloss cube */
+    float *planes;          /* of the largest glossy reflection cube */
     lmb_probe_rays rays;
-    lmb_light_map maps[RELIGHT_LIGHTS];
+    lmb_shadow_map maps[RELIGHT_LIGHTS];
     void *map_memory[RELIGHT_LIGHTS], *depth_memory, *id_memory;
     lmb_relight relight;
     lmb_relight_scratch scratch;
@@ -58,30 +58,30 @@ static int light_slot(stage *s, int32_t slot, lmb_vec3 at, report *r)
         (c->irradiance == NULL && (c->irradiance = take(bytes, r)) == NULL)) {
         return 0;
     }
-    for (int32_t i = 0; i < s->figures.glosses; ++i) {
-        lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSES + i].irradiance, s->light->cube, side, c->irradiance,
+    for (int32_t i = 0; i < s->figures.glossy_cubes; ++i) {
+        lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSY_CUBES + i].irradiance, s->light->cube, side, c->irradiance,
                             bytes);
     }
     return 1;
 }
 
-static int mirror_slot(stage *s, int32_t slot, int32_t gloss, report *r)
+static int mirror_slot(stage *s, int32_t slot, int32_t glossy, report *r)
 {
     slot_cubes *c = &s->cubes[slot];
-    const float roughness = s->figures.roughness[gloss];
-    const int32_t n = lmb_probe_gloss_side(roughness);
-    const lmb_world_look look = {&s->light->world, 0.0f, s->o->blend};
-    if (n == 0 || c->is_known[gloss]) {
+    const float roughness = s->figures.roughness[glossy];
+    const int32_t n = lmb_probe_glossy_side(roughness);
+    const lmb_world_query query = {&s->light->world, 0.0f, s->o->blend};
+    if (n == 0 || c->is_known[glossy]) {
         return 1;
     }
     const size_t bytes = lmb_probe_cube_bytes(n);
-    if (c->gloss[gloss] == NULL && (c->gloss[gloss] = take(bytes, r)) == NULL) {
+    if (c->glossy[glossy] == NULL && (c->glossy[glossy] = take(bytes, r)) == NULL) {
         return 0;
     }
-    c->is_known[gloss] = 1;
-    return lmb_probe_reflect(s->planes, n, &s->rays, s->o->kernels, &look, s->cache.slot[slot].place, roughness) ==
+    c->is_known[glossy] = 1;
+    return lmb_probe_reflect(s->planes, n, &s->rays, s->o->kernels, &query, s->cache.slot[slot].place, roughness) ==
                LMB_OK &&
-           lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSES + gloss].gloss, s->planes, n, c->gloss[gloss],
+           lmb_probe_cube_init(&s->probes[slot * RELIGHT_GLOSSY_CUBES + glossy].glossy, s->planes, n, c->glossy[glossy],
                                bytes) == LMB_OK;
 }
 
@@ -93,7 +93,7 @@ static int light_figures(stage *s, uint32_t frame, report *r)
     memset(&answer, 0, sizeof answer);
     for (uint32_t i = 0, last = f->owners; i < f->scene.instance_count; ++i) {
         const uint32_t owner = figures_owner(f, i);
-        const uint16_t gloss = f->gloss_of[i % f->parts];
+        const uint16_t glossy = f->glossy_of[i % f->parts];
         if (owner != last) {
             const lmb_vec3 at = figures_middle(f, owner);
             if (lmb_probe_cache_ask(&answer, &s->cache, owner, at, 0, frame) != LMB_OK) {
@@ -104,10 +104,10 @@ static int light_figures(stage *s, uint32_t frame, report *r)
             }
             last = owner;
         }
-        if (!mirror_slot(s, answer.slot, gloss, r)) {
+        if (!mirror_slot(s, answer.slot, glossy, r)) {
             return 0;
         }
-        s->probe_of[i] = (uint16_t)(answer.slot * RELIGHT_GLOSSES + gloss);
+        s->probe_of[i] = (uint16_t)(answer.slot * RELIGHT_GLOSSY_CUBES + glossy);
     }
     return 1;
 }
@@ -117,14 +117,14 @@ static int draw_shadows(stage *s, report *r)
     const lmb_scene *scene = &s->figures.scene;
     for (uint32_t i = 0; i < scene->light_count; ++i) {
         const size_t bytes =
-            lmb_light_map_bytes(lmb_light_map_faces(&scene->lights[i], scene), LIGHT_MAP, LMB_ID32);
+            lmb_shadow_map_bytes(lmb_shadow_map_faces(&scene->lights[i], scene), SHADOW_MAP, LMB_ID32);
         if (s->map_memory[i] == NULL && (s->map_memory[i] = take(bytes, r)) == NULL) {
             return 0;
         }
-        if (lmb_light_map_init(&s->maps[i], &scene->lights[i], scene, LIGHT_MAP, LMB_ID32, s->map_memory[i], bytes) !=
+        if (lmb_shadow_map_init(&s->maps[i], &scene->lights[i], scene, SHADOW_MAP, LMB_ID32, s->map_memory[i], bytes) !=
                 LMB_OK ||
-            lmb_light_map_clear(&s->maps[i]) != LMB_OK ||
-            lmb_light_map_draw(&s->maps[i], s->o->kernels, scene, 1, lmb_scene_triangles(scene), NULL) != LMB_OK) {
+            lmb_shadow_map_clear(&s->maps[i]) != LMB_OK ||
+            lmb_shadow_map_draw(&s->maps[i], s->o->kernels, scene, 1, lmb_scene_triangles(scene), NULL) != LMB_OK) {
             return report_fail(r, "--light: number %u cannot be drawn", (unsigned)i + 1);
         }
     }
@@ -206,7 +206,7 @@ static int take_cache(stage *s, report *r)
             return report_fail(r, "--keep: numbers over 1,000,000 m, or too many");
         }
     }
-    const size_t probes = LMB_MAX_PROBES * RELIGHT_GLOSSES * sizeof *s->probes;
+    const size_t probes = LMB_MAX_PROBES * RELIGHT_GLOSSY_CUBES * sizeof *s->probes;
     s->probes = take(probes, r);
     s->probe_of = take(f->scene.instance_count * sizeof *s->probe_of, r);
     s->planes = take(3 * 6 * 64 * 64 * sizeof *s->planes, r);
@@ -236,10 +236,10 @@ static int take_view(stage *s, report *r)
     view_options *v = &s->o->view;
     lmb_relight *l = &s->relight;
     const lmb_scene *scene = &s->figures.scene;
-    const lmb_status sound = lmb_scene_check(scene);
-    if (sound != LMB_OK) {
+    const lmb_status valid = lmb_scene_check(scene);
+    if (valid != LMB_OK) {
         return report_fail(r, "%s: %s where it stands, or a --light that is none", s->o->object,
-                           lmb_status_name(sound));
+                           lmb_status_name(valid));
     }
     memset(&l->view, 0, sizeof l->view);
     if (!(v->has_eye ? view_look(&l->view, v, r) : view_frame(&l->view, v, scene, s->o->object, r))) {
@@ -273,7 +273,7 @@ static int take_frame(stage *s, report *r)
     l->blend = s->o->blend;
     l->probes = s->probes;
     l->probe_of = s->probe_of;
-    l->probe_count = LMB_MAX_PROBES * RELIGHT_GLOSSES;
+    l->probe_count = LMB_MAX_PROBES * RELIGHT_GLOSSY_CUBES;
     l->show = s->o->show;
     return 1;
 }
@@ -304,8 +304,8 @@ static void stage_free(stage *s)
 {
     for (int i = 0; i < LMB_MAX_PROBES; ++i) {
         free(s->cubes[i].irradiance);
-        for (int k = 0; k < RELIGHT_GLOSSES; ++k) {
-            free(s->cubes[i].gloss[k]);
+        for (int k = 0; k < RELIGHT_GLOSSY_CUBES; ++k) {
+            free(s->cubes[i].glossy[k]);
         }
     }
     for (int i = 0; i < RELIGHT_LIGHTS; ++i) {

@@ -25,14 +25,14 @@ static void set_lobe(lmb_material *m, const relight_options *o, int has_lobe)
     m->roughness = o->roughness >= 0.0f ? o->roughness : m->roughness;
 }
 
-static uint16_t gloss_of(figures *f, float roughness)
+static uint16_t glossy_of(figures *f, float roughness)
 {
     int32_t nearest = 0;
-    for (int32_t i = 0; i < f->glosses; ++i) {
+    for (int32_t i = 0; i < f->glossy_cubes; ++i) {
         nearest = fabsf(f->roughness[i] - roughness) < fabsf(f->roughness[nearest] - roughness) ? i : nearest;
     }
-    if (f->glosses < RELIGHT_GLOSSES && (f->glosses == 0 || f->roughness[nearest] != roughness)) {
-        nearest = f->glosses++;
+    if (f->glossy_cubes < RELIGHT_GLOSSY_CUBES && (f->glossy_cubes == 0 || f->roughness[nearest] != roughness)) {
+        nearest = f->glossy_cubes++;
         f->roughness[nearest] = roughness;
     }
     return (uint16_t)nearest;
@@ -43,8 +43,8 @@ static int take_materials(figures *f, const relight_options *o, report *r)
     const lmb_scene *s = &f->loaded.scene;
     const int has_lobes = model_make_glossy(&f->loaded);
     f->materials = malloc((s->material_count > 0 ? s->material_count : 1) * sizeof *f->materials);
-    f->gloss_of = malloc((s->instance_count > 0 ? s->instance_count : 1) * sizeof *f->gloss_of);
-    if (f->materials == NULL || f->gloss_of == NULL) {
+    f->glossy_of = malloc((s->instance_count > 0 ? s->instance_count : 1) * sizeof *f->glossy_of);
+    if (f->materials == NULL || f->glossy_of == NULL) {
         return report_fail(r, "%s: out of memory", o->object);
     }
     memcpy(f->materials, s->materials, s->material_count * sizeof *f->materials);
@@ -52,7 +52,7 @@ static int take_materials(figures *f, const relight_options *o, report *r)
         set_lobe(&f->materials[i], o, has_lobes);
     }
     for (uint32_t i = 0; i < s->instance_count; ++i) {
-        f->gloss_of[i] = gloss_of(f, f->materials[s->instances[i].material].roughness);
+        f->glossy_of[i] = glossy_of(f, f->materials[s->instances[i].material].roughness);
     }
     return 1;
 }
@@ -165,6 +165,6 @@ void figures_free(figures *f)
 {
     free(f->instances);
     free(f->materials);
-    free(f->gloss_of);
+    free(f->glossy_of);
     model_free(&f->loaded);
 }

@@ -5,7 +5,7 @@
 #include "../model/model.h"
 #include "relight_options.h"
 
-enum { RELIGHT_GLOSSES = 16 }; /* kinds of roughness that are told apart: more take the nearest's */
+enum { RELIGHT_GLOSSY_CUBES = 16 }; /* kinds of roughness that are told apart: more take the nearest's */
 
 /* Figure f's part i, as the file numbers its instances, is instance f * parts + i. Owners of light are figures, or, by
  * --per-part, those instances. */
@@ -17,9 +17,9 @@ typedef struct figures {
     lmb_vec3 low, high;      /* the object's box as its file has it */
     float scale;
     uint32_t count, parts, owners;
-    float roughness[RELIGHT_GLOSSES];
-    int32_t glosses;
-    uint16_t *gloss_of;      /* by instance of the file */
+    float roughness[RELIGHT_GLOSSY_CUBES];
+    int32_t glossy_cubes;
+    uint16_t *glossy_of;      /* by instance of the file */
 } figures;
 
 /* figures_load: the object, `count` times. 1, or 0 with `r` set. */

@@ -5,7 +5,7 @@
 #include "../picture/world_read.h"
 #include "relight_options.h"
 
-enum { RELIGHT_WIDTH = 128, RELIGHT_HEIGHT = 64, RELIGHT_MOST_FACES = 64 };
+enum { RELIGHT_WIDTH = 128, RELIGHT_HEIGHT = 64, RELIGHT_MAX_FACES = 64 };
 
 /* All that the work needs; large, and one of it. Zero it before use. */
 typedef struct relight_light {
@@ -17,7 +17,7 @@ typedef struct relight_light {
     lmb_probe_blur blur;
     float map[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT], half[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT / 4];
     float blurred[3 * RELIGHT_WIDTH * RELIGHT_HEIGHT / 16], line[RELIGHT_WIDTH];
-    float cube[3 * 6 * RELIGHT_MOST_FACES * RELIGHT_MOST_FACES]; /* planes */
+    float cube[3 * 6 * RELIGHT_MAX_FACES * RELIGHT_MAX_FACES]; /* planes */
 } relight_light;
 
 /* relight_light_make: read the world and make all that serves every place. relight_light_at: what a place sees, into

@@ -7,7 +7,7 @@
 #include "../common/io_file.h"
 #include "relight_options.h"
 
-enum { LONGEST = 200, MOST = 10000 };
+enum { LONGEST = 200, MAX = 10000 };
 
 /* A line without its blanks at both ends: 0 where it is too long for one. */
 static int take_line(char out[LONGEST], const char *from, size_t length)
@@ -37,8 +37,8 @@ static int read_places(place_list *out, const char *text, size_t size, const cha
             return report_fail(r, "%s:%u: the line is too long, or no text", path, (unsigned)line);
         }
         if (word[0] != '\0' && word[0] != '#') {
-            if (out->count == MOST) {
-                return report_fail(r, "%s:%u: over %d places", path, (unsigned)line, MOST);
+            if (out->count == MAX) {
+                return report_fail(r, "%s:%u: over %d places", path, (unsigned)line, MAX);
             }
             if (!relight_place(word, &out->place[out->count++])) {
                 return report_fail(r, "%s:%u: `%s` is not X,Y,Z within 1,000,000 m", path, (unsigned)line, word);
@@ -56,7 +56,7 @@ int place_list_read(place_list *out, const char *path, report *r)
     if (!file_read(&file, path, r)) {
         return 0;
     }
-    out->place = malloc(MOST * sizeof *out->place);
+    out->place = malloc(MAX * sizeof *out->place);
     const int ok = out->place != NULL ? read_places(out, (const char *)file.data, file.size, path, r)
                                       : report_fail(r, "%s: out of memory", path);
     file_free(&file);

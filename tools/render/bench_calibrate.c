@@ -32,7 +32,7 @@ static double run(render_job *j)
         return 0.0;
     }
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        seconds += j->crew.stage_s[i];
+        seconds += j->workers.stage_s[i];
     }
     return seconds > 0.0 ? work_of(&plan, &j->stats) / seconds : 0.0;
 }

@@ -5,14 +5,14 @@
 #include <string.h>
 
 #include "bench_calibrate.h"
-#include "scene_look.h"
+#include "scene_sample.h"
 
 /* Bytes that no setting changes. */
 static uint64_t fixed_bytes(const render_job *j)
 {
     const lmb_frame *f = &j->frame;
     const uint64_t pixels = (uint64_t)f->view.frame_width * (uint64_t)f->view.frame_height;
-    return (uint64_t)lmb_blockers_bytes(lmb_scene_triangles(f->scene)) +
+    return (uint64_t)lmb_bvh_bytes(lmb_scene_triangles(f->scene)) +
            (f->elements.data != NULL ? (uint64_t)lmb_elements_bytes(f->elements.cap) : 0) + sizeof(lmb_band_scratch) +
            pixels * (4 + 4 + 12);
 }
@@ -53,13 +53,16 @@ static void tell(const budget_choice *c, int is_quiet)
     if (c->chosen.error >= 0.0f) {
         snprintf(error, sizeof error, "about %.2g", (double)c->chosen.error);
     }
-    report_note(is_quiet,
-                "chosen: --light-map %d --tree %d --error %.3g --visible %.3g --gather %s --occlusion %s: error %s, %.3g "
-                "units of work, %.0f KiB",
-                (int)s->light_map, (int)s->tree, (double)s->error, (double)s->visible,
-                s->gather_step == 1 ? "full" : s->gather_step == 2 ? "half" : "quarter",
-                s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", error, c->chosen.work,
-                (double)c->chosen.bytes / 1024.0);
+    report_note(
+        is_quiet,
+        "chosen: --shadow-map %d --tree %d --error %.3g --visibility %.3g --gather %s --occlusion %s: error %s, %.3g "
+        "units of work, %.0f KiB",
+        (int)s->shadow_map, (int)s->tree, (double)s->error, (double)s->visibility,
+        s->gather_step == 1   ? "full"
+        : s->gather_step == 2 ? "half"
+                              : "quarter",
+        s->occlusion == LMB_OCCLUSION_EXACT ? "exact" : "none", error, c->chosen.work,
+        (double)c->chosen.bytes / 1024.0);
     report_note(is_quiet, "looked at %.3g units of work, %.0f %% of the picture's", c->look.work,
                 100.0 * c->look.work / c->chosen.work);
     report_note(is_quiet, "%s", words);
@@ -70,11 +73,11 @@ static int take_choice(budget_choice *c, render_job *j, report *r)
 {
     const lmb_settings *s = &c->chosen.settings;
     render_job_apply(j, s);
-    if (!c->look.solved || j->frame.tree.size != s->tree || j->frame.light_map != s->light_map) {
+    if (!c->look.solved || j->frame.tree.size != s->tree || j->frame.shadow_map != s->shadow_map) {
         return render_job_refit(j, r);
     }
     j->frame.error = s->error;
-    j->frame.visible = s->visible;
+    j->frame.visibility = s->visibility;
     j->frame.gather_step = s->gather_step;
     j->frame.occlusion = s->occlusion;
     c->look.work -= c->look.light;
@@ -87,17 +90,17 @@ int budget_fit(budget_choice *out, render_job *j, report *r)
     memset(out, 0, sizeof *out);
     out->budget = j->o.budget;
     if (j->o.budget_ms > 0.0f) {
-        out->rate = j->o.rate > 0.0f ? (double)j->o.rate : bench_calibrate(j->crew.threads);
+        out->rate = j->o.rate > 0.0f ? (double)j->o.rate : bench_calibrate(j->workers.threads);
         out->budget.work = out->rate * (double)j->o.budget_ms * 1e-3;
     }
     const uint64_t fixed = fixed_bytes(j);
-    if (!scene_look(&out->facts, &out->look, j, &out->budget, fixed, r)) {
+    if (!scene_sample(&out->facts, &out->look, j, &out->budget, fixed, r)) {
         return 0;
     }
     if (!has_budget(&out->budget, 0.0f)) {
         return 1;
     }
-    if (out->facts.most == 0) {
+    if (out->facts.max == 0) {
         return report_fail(r, "%s: --budget-*: no light bounces here that settings could be chosen for", j->o.scene);
     }
     if (lmb_plan_choose(&out->chosen, &out->facts, &out->budget, fixed) != LMB_OK) {

@@ -3,7 +3,7 @@
 #define BUDGET_H
 
 #include "render_job.h"
-#include "scene_look.h"
+#include "scene_sample.h"
 
 /* What was looked at and chosen. */
 typedef struct budget_choice {

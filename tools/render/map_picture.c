@@ -1,4 +1,4 @@
-/* map_picture.c: what lives in the lights' maps, as pictures: distances, first points, and which group owns a texel. */
+/* map_picture.c: what lives in the shadow maps, as pictures: distances, first points, and which group owns a texel. */
 #include "map_picture.h"
 
 #include <math.h>
@@ -26,24 +26,24 @@ void distance_of_depth(float *pixels, int32_t width, int32_t height, size_t step
 static int begin_picture(image *out, const lmb_render *render, int32_t channels, report *r)
 {
     const uint32_t lights = render->frame.scene->light_count;
-    const int32_t size = render->frame.light_map;
+    const int32_t size = render->frame.shadow_map;
     int32_t faces = 1;
     for (uint32_t i = 0; i < lights; ++i) {
         faces = render->maps[i].faces > faces ? render->maps[i].faces : faces;
     }
     if ((int64_t)size * faces > LMB_MAX_SIDE || (int64_t)size * lights > LMB_MAX_SIDE) {
-        return report_fail(r, "%u lights with maps of %d texels make too large a picture; use a smaller --light-map",
+        return report_fail(r, "%u lights with maps of %d texels make too large a picture; use a smaller --shadow-map",
                            (unsigned)lights, (int)size);
     }
     out->width = size * faces;
     out->height = size * (int32_t)lights;
     out->channels = channels;
     out->pixels = calloc((size_t)out->width * (size_t)out->height * (size_t)channels, sizeof(float));
-    return out->pixels != NULL || report_fail(r, "not enough memory for the picture; try a smaller --light-map");
+    return out->pixels != NULL || report_fail(r, "not enough memory for the picture; try a smaller --shadow-map");
 }
 
 /* The first pixel of a face; rows are out->width pixels apart. */
-static float *face_pixels(const image *out, const lmb_light_map *map, uint32_t light, int32_t face)
+static float *face_pixels(const image *out, const lmb_shadow_map *map, uint32_t light, int32_t face)
 {
     const size_t y = (size_t)light * (size_t)map->size, x = (size_t)face * (size_t)map->size;
     return out->pixels + (y * (size_t)out->width + x) * (size_t)out->channels;
@@ -62,7 +62,7 @@ static int is_lit(const lmb_render *render, uint32_t light, int32_t face, int32_
 static lmb_status face_distances(const image *out, const lmb_render *render, uint32_t light, int32_t face)
 {
     const lmb_frame *f = &render->frame;
-    const lmb_light_map *map = &render->maps[light];
+    const lmb_shadow_map *map = &render->maps[light];
     const lmb_view *view = &map->view[face];
     lmb_status status = LMB_OK;
     lmb_surface depth;
@@ -115,7 +115,7 @@ typedef void (*paint_texel)(float *pixel, const painter *p, uint32_t owner, int 
 
 static void paint_face(const painter *p, float *pixels, const uint32_t *owner, paint_texel paint)
 {
-    const int32_t size = p->render->frame.light_map;
+    const int32_t size = p->render->frame.shadow_map;
     for (int32_t y = 0; y < size; ++y) {
         for (int32_t x = 0; x < size; ++x, ++owner) {
             const int line = (x + 1 < size && owner[1] != *owner) || (y + 1 < size && owner[size] != *owner);
@@ -135,7 +135,7 @@ static void paint_faces(const painter *p, paint_texel paint)
         for (int32_t face = 0; face < render->maps[i].faces; ++face) {
             if ((render->maps[i].drawn >> face) & 1u) {
                 paint_face(p, face_pixels(p->out, &render->maps[i], i, face), owner, paint);
-                owner += (size_t)render->frame.light_map * (size_t)render->frame.light_map;
+                owner += (size_t)render->frame.shadow_map * (size_t)render->frame.shadow_map;
             }
         }
     }
@@ -151,7 +151,7 @@ static float area_of(const lmb_point *p)
 }
 
 /* A dot of 2 x 2 texels where a point is, in a colour that no lit surface has. */
-static void dot_point(const image *out, const lmb_light_map *map, uint32_t light, int32_t face, lmb_vec3 at)
+static void dot_point(const image *out, const lmb_shadow_map *map, uint32_t light, int32_t face, lmb_vec3 at)
 {
     const lmb_view *v = &map->view[face];
     const lmb_vec3 away = {at.x - v->eye.x, at.y - v->eye.y, at.z - v->eye.z};
@@ -197,8 +197,8 @@ static int has_marks(const painter *p)
 static void paint_exitance(float *pixel, const painter *p, uint32_t owner, int line)
 {
     const lmb_point *d = &p->render->frame.points.data[owner];
-    const float scale = p->scale / fmaxf(area_of(d), 1e-24f), most = fmaxf(fmaxf(d->flux[0], d->flux[1]), d->flux[2]);
-    const float dim = p->display ? 1.0f / (1.0f + most * scale) : 1.0f;
+    const float scale = p->scale / fmaxf(area_of(d), 1e-24f), max = fmaxf(fmaxf(d->flux[0], d->flux[1]), d->flux[2]);
+    const float dim = p->display ? 1.0f / (1.0f + max * scale) : 1.0f;
     for (int c = 0; c < 3; ++c) {
         pixel[c] = d->flux[c] * scale * dim * (line && has_marks(p) ? 0.4f : 1.0f);
     }
@@ -277,7 +277,7 @@ int map_groups(image *out, const lmb_render *render, int display, report *r)
     uint32_t *group = malloc(((size_t)f->points.count + 1) * sizeof *group);
     const painter p = {out, render, group, 1.0f, display};
     if (group == NULL) {
-        return report_fail(r, "not enough memory for the picture; try a smaller --light-map");
+        return report_fail(r, "not enough memory for the picture; try a smaller --shadow-map");
     }
     memset(group, 0xff, (size_t)f->points.count * sizeof *group); /* LMB_NOBODY */
     for (int32_t k = 0; k < f->groups->count; ++k) {

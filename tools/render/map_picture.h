@@ -1,4 +1,4 @@
-/* map_picture.h: what lives in the lights' maps, as pictures: a row of faces a light, at the maps' size. [V15 V33] */
+/* map_picture.h: what lives in the shadow maps, as pictures: a row of faces a light, at the maps' size. [V15 V33] */
 #ifndef MAP_PICTURE_H
 #define MAP_PICTURE_H
 

@@ -1,32 +1,32 @@
-/* own_light.c: what surfaces that shine bring to a scene, by few elements. */
+/* own_light.c: what surfaces that emit light bring to a scene, by few elements. */
 #include "own_light.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 enum { ELEMENTS = 4096 };
-#define MOST 0.05f  /* W/m2, of a piece of surface: a glowing label lights what it lies on as brightly as it may */
+#define MAX 0.05f  /* W/m2, of a piece of surface: a glowing label lights what it lies on as brightly as it may */
 #define SHARE 0.2f /* of the light that may be wrong: what is told apart differs by far more */
 
 typedef struct meter {
     lmb_elements elements;
-    lmb_blockers blockers;
+    lmb_bvh bvh;
     lmb_band_scratch *scratch;
-    void *element_memory, *blocker_memory;
+    void *element_memory, *bvh_memory;
 } meter;
 
 static int take(meter *m, const lmb_scene *scene, report *r)
 {
     const uint32_t triangles = lmb_scene_triangles(scene);
-    const size_t blocker_bytes = lmb_blockers_bytes(triangles), element_bytes = lmb_elements_bytes(ELEMENTS);
+    const size_t bvh_bytes = lmb_bvh_bytes(triangles), element_bytes = lmb_elements_bytes(ELEMENTS);
     memset(m, 0, sizeof *m);
     m->scratch = malloc(sizeof *m->scratch);
-    m->blocker_memory = malloc(blocker_bytes);
+    m->bvh_memory = malloc(bvh_bytes);
     m->element_memory = malloc(element_bytes);
-    return (m->scratch != NULL && m->blocker_memory != NULL && m->element_memory != NULL &&
-            lmb_blockers_init(&m->blockers, triangles, m->blocker_memory, blocker_bytes) == LMB_OK &&
+    return (m->scratch != NULL && m->bvh_memory != NULL && m->element_memory != NULL &&
+            lmb_bvh_init(&m->bvh, triangles, m->bvh_memory, bvh_bytes) == LMB_OK &&
             lmb_elements_init(&m->elements, ELEMENTS, m->element_memory, element_bytes) == LMB_OK) ||
-           report_fail(r, "not enough memory to see what shines in the scene; give its lights by --light");
+           report_fail(r, "not enough memory to see what emits in the scene; give its lights by --light");
 }
 
 static float mean_of(const lmb_elements *e)
@@ -35,7 +35,7 @@ static float mean_of(const lmb_elements *e)
     for (uint32_t i = 0; i < e->count; ++i) {
         const lmb_element *p = &e->data[i];
         const float received = (p->fresh[0] + p->fresh[1] + p->fresh[2]) / 3.0f;
-        sum += (double)p->area * (double)(received < MOST ? received : MOST);
+        sum += (double)p->area * (double)(received < MAX ? received : MAX);
         area += (double)p->area;
     }
     return area > 0.0 ? (float)(sum / area) : 0.0f;
@@ -43,19 +43,19 @@ static float mean_of(const lmb_elements *e)
 
 static float measure(meter *m, const lmb_scene *scene)
 {
-    lmb_receiver own;
-    lmb_cutting cutting;
-    memset(&cutting, 0, sizeof cutting);
-    cutting.error = cutting.visible = SHARE;
-    cutting.blockers = &m->blockers;
+    lmb_element_scratch own;
+    lmb_cut_params cut_params;
+    memset(&cut_params, 0, sizeof cut_params);
+    cut_params.error = cut_params.visibility = SHARE;
+    cut_params.bvh = &m->bvh;
     own.kernels = lmb_kernels_pick();
     own.cut = &m->scratch->gather.cut;
     own.tile = &m->scratch->tile;
     own.received = &m->scratch->direct;
     own.fresh = &m->scratch->indirect;
-    const int ok = lmb_blockers_build(&m->blockers, scene) == LMB_OK &&
+    const int ok = lmb_bvh_build(&m->bvh, scene) == LMB_OK &&
                    lmb_elements_build(&m->elements, scene, NULL) == LMB_OK &&
-                   lmb_elements_receive(&m->elements, &own, NULL, &cutting, 0, lmb_elements_tiles(&m->elements)) ==
+                   lmb_elements_receive(&m->elements, &own, NULL, &cut_params, 0, lmb_elements_tiles(&m->elements)) ==
                        LMB_OK;
     return ok ? mean_of(&m->elements) : 0.0f;
 }
@@ -65,7 +65,7 @@ float own_light(const lmb_scene *scene, report *r)
     meter m;
     const float mean = take(&m, scene, r) ? measure(&m, scene) : -1.0f;
     free(m.scratch);
-    free(m.blocker_memory);
+    free(m.bvh_memory);
     free(m.element_memory);
     return mean;
 }

@@ -36,7 +36,7 @@ typedef struct watcher {
 static int explain(const render_job *j, lmb_status status, int stage, report *r)
 {
     if (status == LMB_ERR_CAPACITY && stage == LMB_STAGE_GROUPS) {
-        return report_fail(r, "--grouping none: %u discs do not fit %d groups; use a smaller --light-map, or zones",
+        return report_fail(r, "--grouping none: %u discs do not fit %d groups; use a smaller --shadow-map, or zones",
                            (unsigned)j->stats.first_points, LMB_MAX_GROUPS);
     }
     return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
@@ -58,12 +58,12 @@ static void watch(void *user, const lmb_render *at)
 }
 
 /* The frame `how` for all eyes; the light's stages once a run. */
-static lmb_status draw_eyes(render_job *j, crew *c, int32_t *stage, lmb_frame how, const image *into)
+static lmb_status draw_eyes(render_job *j, workers *c, int32_t *stage, lmb_frame how, const image *into)
 {
     lmb_status status = LMB_OK;
     for (int32_t eye = 0; eye < j->eyes && status == LMB_OK; ++eye) {
         render_job_eye(j, &how, into, eye);
-        status = j->lit ? crew_again(c, stage, j->render, &how) : crew_render(c, stage, j->render, &how);
+        status = j->lit ? workers_again(c, stage, j->render, &how) : workers_render(c, stage, j->render, &how);
         j->lit = 1;
     }
     return status;
@@ -71,12 +71,12 @@ static lmb_status draw_eyes(render_job *j, crew *c, int32_t *stage, lmb_frame ho
 
 static int draw(render_job *j, report *r)
 {
-    watcher w = {LMB_STAGE_LIGHT_MAP, host_seconds(), 0.0, 0.0};
+    watcher w = {LMB_STAGE_SHADOW_MAP, host_seconds(), 0.0, 0.0};
     w.stage_start = w.start;
-    j->crew.tell = host_watched() && !j->o.view.is_quiet ? watch : NULL;
-    j->crew.user = &w;
+    j->workers.tell = host_watched() && !j->o.view.is_quiet ? watch : NULL;
+    j->workers.user = &w;
     int32_t stage;
-    lmb_status status = draw_eyes(j, &j->crew, &stage, j->frame, &j->linear);
+    lmb_status status = draw_eyes(j, &j->workers, &stage, j->frame, &j->linear);
     if (w.shown > 0.0) {
         fprintf(stderr, "\r%60s\r", "");
     }
@@ -87,7 +87,7 @@ static int draw(render_job *j, report *r)
  * Neither told nor timed. */
 int render_draw_once_more(render_job *j, image *out, lmb_frame how, report *r)
 {
-    crew again = j->crew;
+    workers again = j->workers;
     int32_t stage;
     again.tell = NULL;
     how.stats = NULL;
@@ -129,7 +129,7 @@ static int draw_map(render_job *j, report *r)
                          : j->o.show == SHOW_POINTS ? LMB_STAGE_GROUPS
                                                     : LMB_STAGE_POINTS;
     int32_t stage;
-    lmb_status status = crew_light(&j->crew, &stage, j->render, &j->frame, past);
+    lmb_status status = workers_light(&j->workers, &stage, j->render, &j->frame, past);
     if (status != LMB_OK) {
         return explain(j, status, stage, r);
     }

@@ -8,7 +8,7 @@
 
 #define NOTHING 1e-4f /* what is left of a glow's light counts from this share of it on: less is rounding */
 
-/* A tile of the eye drawn last, without what its surfaces give off. 1 where anything is left. */
+/* A tile of the eye drawn last, without what its surfaces emit. 1 where anything is left. */
 static int put_reflected(image *out, const render_job *j, int32_t x, int32_t y)
 {
     const lmb_frame *f = &j->render->frame;
@@ -17,7 +17,7 @@ static int put_reflected(image *out, const render_job *j, int32_t x, int32_t y)
     int any = 0;
     memset(own, 0, sizeof *own);
     if (lmb_resolve_albedo(tile, f->kernels, &f->view, f->scene, &f->eye, x, y) == LMB_OK) {
-        lmb_compose_shine(own, f->scene, &f->view, tile);
+        lmb_compose_emission(own, f->scene, &f->view, tile);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
@@ -35,7 +35,7 @@ static int put_reflected(image *out, const render_job *j, int32_t x, int32_t y)
 int render_exposure(float *ev, const render_job *j, report *r)
 {
     const int32_t show = j->frame.show;
-    const int glows = lmb_scene_shines(&j->scene) && (show == LMB_SHOW_FULL || show == LMB_SHOW_DIRECT);
+    const int glows = lmb_scene_emits(&j->scene) && (show == LMB_SHOW_FULL || show == LMB_SHOW_DIRECT);
     image reflected = {j->o.view.width, j->linear.height, 3, NULL};
     int any = 0;
     if (glows) {

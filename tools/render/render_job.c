@@ -13,7 +13,7 @@
 #include "render_view.h"
 
 #define HALF_STEP   0.00015f /* of black in 8 bits: radiance at exposure 0 */
-#define MOST_MAPPED 32 /* lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
+#define MAX_MAPPED 32 /* lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
 
 void render_job_free(render_job *j)
 {
@@ -21,7 +21,7 @@ void render_job_free(render_job *j)
     free(j->owner_memory);
     free(j->render);
     image_free(&j->linear);
-    many_lights_free(&j->many);
+    light_stream_free(&j->many_lights);
     model_free(&j->loaded);
 }
 
@@ -30,7 +30,7 @@ static void *take(render_job *j, size_t bytes, report *r)
     void *p = malloc(bytes > 0 ? bytes : 1);
     j->bytes += bytes;
     if (p == NULL) {
-        report_fail(r, "not enough memory: %.0f MiB more wanted; try a smaller --size or --light-map",
+        report_fail(r, "not enough memory: %.0f MiB more wanted; try a smaller --size or --shadow-map",
                     (double)bytes / 1048576.0);
     }
     return p;
@@ -79,20 +79,20 @@ static void tell_notes(const render_job *j)
     }
 }
 
-/* Is there light without lamps? */
-static int shines_itself(const render_job *j)
+/* Is there light without lights? */
+static int emits_itself(const render_job *j)
 {
-    return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_shines(&j->scene);
+    return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_emits(&j->scene);
 }
 
-/* Without lamps: a sun, but where what shines by itself is the scene's light. 0 with `r` set: out of memory. */
+/* Without lights: a sun, but where what emits light is the scene's light. 0 with `r` set: out of memory. */
 static int set_lights(render_job *j, report *r)
 {
     if (j->o.light_count > 0) {
         j->scene.lights = j->o.lights;
         j->scene.light_count = j->o.light_count;
     } else if (j->scene.light_count == 0) {
-        const float own = shines_itself(j) ? own_light(&j->scene, r) : 0.0f;
+        const float own = emits_itself(j) ? own_light(&j->scene, r) : 0.0f;
         if (own < 0.0f || own >= OWN_LIGHT) {
             return own >= 0.0f;
         }
@@ -109,26 +109,28 @@ static int set_lights(render_job *j, report *r)
 /* Maps of bounced light cost by the light, each as much as a picture. Lobes mirror lights of maps alone. */
 static uint32_t most_mapped(const render_job *j)
 {
-    const int bounces = j->o.show == LMB_SHOW_FULL || j->o.show == LMB_SHOW_INDIRECT || j->o.show == LMB_SHOW_IRRADIANCE;
+    const int bounces =
+        j->o.show == LMB_SHOW_FULL || j->o.show == LMB_SHOW_INDIRECT || j->o.show == LMB_SHOW_IRRADIANCE;
     const int mirrors = j->o.glossy && lmb_scene_is_glossy(&j->scene);
-    return bounces && !mirrors && j->o.grouping.method == LMB_GROUP_CUT ? MOST_MAPPED : LMB_MAX_LIGHTS;
+    return bounces && !mirrors && j->o.grouping.method == LMB_GROUP_CUT ? MAX_MAPPED : LMB_MAX_LIGHTS;
 }
 
 /* Lights that are too many for maps, or that were asked to, go into a tree. */
-static int set_many_lights(render_job *j, report *r)
+static int set_light_stream(render_job *j, report *r)
 {
-    const uint32_t cells = j->o.many_cells > 0 ? (uint32_t)j->o.many_cells : MANY_LIGHTS_CELLS;
-    if (j->o.many_cells == 0 && j->scene.light_count <= most_mapped(j)) {
+    const uint32_t cells = j->o.many_lights_cells > 0 ? (uint32_t)j->o.many_lights_cells : LIGHT_STREAM_CELLS;
+    if (j->o.many_lights_cells == 0 && j->scene.light_count <= most_mapped(j)) {
         return 1;
     }
     if (j->o.show != LMB_SHOW_DIRECT && j->o.grouping.method != LMB_GROUP_CUT) {
         return report_fail(r, "%s: %u lights bounce by --grouping cut only; or use --show direct", j->o.scene,
                            (unsigned)j->scene.light_count);
     }
-    if (!many_lights_take(&j->many, &j->scene, cells, r)) {
+    if (!light_stream_take(&j->many_lights, &j->scene, cells, r)) {
         return 0;
     }
-    note(j, "%u lights in %u cells (--many-lights)", (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count);
+    note(j, "%u lights in %u cells (--many-lights)", (unsigned)j->many_lights.tree.lights,
+         (unsigned)j->many_lights.tree.cell_count);
     return 1;
 }
 
@@ -139,10 +141,10 @@ static int take_owners(render_job *j, report *r)
 {
     const lmb_frame *f = &j->frame;
     lmb_points *p = &j->frame.points;
-    const uint64_t texels = (uint64_t)f->light_map * (uint64_t)f->light_map *
-                            (f->map_bytes / lmb_light_map_bytes(1, f->light_map, f->id_format));
+    const uint64_t texels = (uint64_t)f->shadow_map * (uint64_t)f->shadow_map *
+                            (f->map_bytes / lmb_shadow_map_bytes(1, f->shadow_map, f->id_format));
     if (texels > UINT32_MAX / 16) {
-        return report_fail(r, "%.0f texels are too many to show; use a smaller --light-map", (double)texels);
+        return report_fail(r, "%.0f texels are too many to show; use a smaller --shadow-map", (double)texels);
     }
     p->owner = j->owner_memory = take(j, (size_t)texels * sizeof *p->owner, r);
     p->owner_cap = (uint32_t)texels;
@@ -190,7 +192,7 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     memset(&s, 0, sizeof s);
     s.kernels = o->kernels;
     s.scene = shows_attribute(o->show) ? bare : &j->scene;
-    s.many = j->many.tree.node != NULL ? &j->many.tree : NULL;
+    s.many_lights = j->many_lights.tree.node != NULL ? &j->many_lights.tree : NULL;
     s.view = j->middle;
     s.view.frame_width = o->view.width;
     s.view.frame_height = o->view.height;
@@ -202,11 +204,11 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     s.quality = o->grouping.method == LMB_GROUP_CUT ? o->quality : LMB_QUALITY_FIXED;
     s.grouping = o->grouping;
     s.bounces = o->bounces;
-    s.threads = j->crew.threads;
-    s.light_map = o->light_map;
+    s.threads = j->workers.threads;
+    s.shadow_map = o->shadow_map;
     s.tree = o->tree;
     s.error = o->error;
-    s.visible = o->visible;
+    s.visibility = o->visibility;
     s.elements = (uint32_t)o->elements;
     s.id_format = LMB_ID32;
     return s;
@@ -216,8 +218,8 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
 static int refuse(const lmb_frame_settings *s, report *r)
 {
     return s->quality == LMB_QUALITY_FIXED
-               ? report_fail(r, "more first points than can be counted; use a larger --block or a smaller --light-map")
-               : report_fail(r, "--grouping cut: --light-map must be a power of two, not %d", (int)s->light_map);
+               ? report_fail(r, "more first points than can be counted; use a larger --block or a smaller --shadow-map")
+               : report_fail(r, "--grouping cut: --shadow-map must be a power of two, not %d", (int)s->shadow_map);
 }
 
 /* What takes no memory, as the options have it. */
@@ -226,17 +228,17 @@ static void set_numbers(render_job *j)
     lmb_frame *f = &j->frame;
     f->scene = &j->scene;
     f->show = j->o.show < SHOW_DEPTH ? j->o.show : j->o.show == SHOW_OCCLUSION ? LMB_SHOW_IRRADIANCE : LMB_SHOW_FULL;
-    f->many_error = j->o.light_error;
+    f->many_lights_error = j->o.light_error;
     f->occlusion = j->o.occlusion;
     f->steps = j->o.steps;
-    f->proven = j->o.proven;
+    f->conservative = j->o.conservative;
     f->bounces = j->o.bounces;
     f->truncated = j->o.truncated;
     f->gather_step = j->o.gather_step != 0 ? j->o.gather_step : f->gather_step;
     f->stats = &j->stats;
-    f->everything = shows_map(j->o.show); /* also maps of lights that give nothing */
+    f->run_all = shows_map(j->o.show); /* also maps of lights that give nothing */
     const int shows_steps = j->o.out != NULL && !picture_is_linear(picture_format(j->o.out)) && !j->o.exposure_auto;
-    f->least = shows_steps ? HALF_STEP * exp2f(-j->o.exposure_ev) : 0.0f;
+    f->error_floor = shows_steps ? HALF_STEP * exp2f(-j->o.exposure_ev) : 0.0f;
 }
 
 int render_job_refit(render_job *j, report *r)
@@ -260,7 +262,7 @@ int render_job_refit(render_job *j, report *r)
     if (status != LMB_OK) {
         return report_fail(r, "%s: %s", j->o.scene, lmb_status_name(status));
     }
-    j->crew.scratches = j->frame.scratch;
+    j->workers.scratches = j->frame.scratch;
     set_numbers(j);
     render_job_eye(j, &j->frame, &j->linear, 0);
     return 1;
@@ -288,11 +290,11 @@ int render_job_set(render_job *j, report *r)
                            (int)j->o.view.width, LMB_MAX_SIDE);
     }
     tell_notes(j);
-    if (!shows_attribute(j->o.show) && (!set_lights(j, r) || !set_many_lights(j, r))) {
+    if (!shows_attribute(j->o.show) && (!set_lights(j, r) || !set_light_stream(j, r))) {
         return 0;
     }
-    j->crew.threads = j->o.threads > 0 ? j->o.threads : pool_processors();
-    j->crew.threads = j->crew.threads > POOL_MAX ? POOL_MAX : j->crew.threads;
+    j->workers.threads = j->o.threads > 0 ? j->o.threads : pool_processors();
+    j->workers.threads = j->workers.threads > POOL_MAX ? POOL_MAX : j->workers.threads;
     if (j->o.show == SHOW_POINTS && j->o.grouping.join <= 0.0f) {
         j->o.grouping.join = 1e-30f; /* first points as they are: none is so near another */
     }
@@ -301,10 +303,10 @@ int render_job_set(render_job *j, report *r)
 
 void render_job_apply(render_job *j, const lmb_settings *s)
 {
-    j->o.light_map = s->light_map;
+    j->o.shadow_map = s->shadow_map;
     j->o.tree = s->tree;
     j->o.error = s->error;
-    j->o.visible = s->visible;
+    j->o.visibility = s->visibility;
     j->o.gather_step = s->gather_step;
     j->o.occlusion = s->occlusion;
 }

@@ -4,10 +4,10 @@
 
 #include <lambent/lambent.h>
 
-#include "../common/crew.h"
+#include "../common/workers.h"
 #include "../model/model.h"
 #include "../picture/image.h"
-#include "many_lights.h"
+#include "light_stream.h"
 #include "render_options.h"
 
 /* One run, from the options to the picture. Everything here is freed by render_job_free. */
@@ -19,11 +19,11 @@ typedef struct render_job {
     lmb_light sun;
     lmb_view middle; /* between the eyes */
     int32_t eyes;    /* 1, or 2: side by side in the picture */
-    many_lights many;
+    light_stream many_lights;
     lmb_frame frame; /* its view and out: those of the eye at hand */
     lmb_render *render;
     int lit; /* the light stages of `render` are done */
-    crew crew;
+    workers workers;
     lmb_stats stats;
     image linear;
     void *block, *owner_memory; /* the frame's; who holds each texel's light, where that is shown */

@@ -7,7 +7,7 @@
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../picture/picture.h"
-#include "many_lights.h"
+#include "light_stream.h"
 
 enum { CHOSEN = -1 }; /* by the other options */
 
@@ -53,7 +53,10 @@ static int parse_flag_word(const char *text, const char *clear, const char *set,
     return 1;
 }
 
-static int parse_misfits(const char *text, void *at) { return parse_flag_word(text, "keep", "drop", LMB_ZONES_STRICT, at); }
+static int parse_misfits(const char *text, void *at)
+{
+    return parse_flag_word(text, "keep", "drop", LMB_ZONES_STRICT, at);
+}
 
 static int parse_centre(const char *text, void *at)
 {
@@ -115,7 +118,12 @@ static const option_row scene_rows[] = {
 };
 
 static const option_row output_rows[] = {
-    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option, .wants = PICTURE_OPTION_WANTS,
+    {.name = "-o",
+     .value = "OUT",
+     .kind = OPTION_OWN,
+     AT(out),
+     .parse = picture_option,
+     .expects = PICTURE_OPTION_WANTS,
      .help = "the picture: .png .ppm (display), .pfm .hdr (linear)"},
     {.kind = OPTION_END},
 };
@@ -135,89 +143,226 @@ static const option_row view_rows[] = {
 
 static const option_row light_rows[] = {
     {.kind = OPTION_TITLE, .help = "light"},
-    {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(render_options, light_count),
-     .times = RENDER_LIGHTS, .size = sizeof(lmb_light),
+    {.name = "--light",
+     .kind = OPTION_LIGHT,
+     AT(lights),
+     .counts = offsetof(render_options, light_count),
+     .times = RENDER_LIGHTS,
+     .size = sizeof(lmb_light),
      .help = "instead of the scene's lights; lights add up. KIND is spot, point or sun; position in metres, direction "
              "of travel; W/sr, sun W/m2; a spot's half angles in degrees (default 0,45)"},
-    {.name = "--light-map", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(light_map), .low = 8, .high = 4096,
-     .help = "texels a side of a light's map (default 1024, less for many lights)"},
+    {.name = "--shadow-map",
+     .value = "N",
+     .kind = OPTION_MULTIPLE_OF_8,
+     AT(shadow_map),
+     .low = 8,
+     .high = 4096,
+     .help = "texels a side of a shadow map (default 1024, less for many lights)"},
     {.kind = OPTION_TITLE, .help = "many lights"},
-    {.name = "--many-lights", .value = "CELLS", .kind = OPTION_INT, AT(many_cells), .low = 1, .high = 1 << 22,
-     .help = "lights stream into at most CELLS cells of the world, and every 8x8 pixels take what they need of a tree "
-             "over those, shadows by every triangle; so do --elements, which bounce their light. Millions take the "
-             "memory of thousands. By itself, with 16384 cells, where there are more than 128 lights, or more than 32 that "
-             "bounce by cuts"},
-    {.name = "--light-error", .value = "E", .kind = OPTION_NUMBER, AT(light_error), .low = 1e-6, .high = 1,
+    {.name = "--many-lights",
+     .value = "CELLS",
+     .kind = OPTION_INT,
+     AT(many_lights_cells),
+     .low = 1,
+     .high = 1 << 22,
+     .help =
+         "lights stream into at most CELLS cells of the world, and every 8x8 pixels take what they need of a tree "
+         "over those, shadows by every triangle; so do --elements, which bounce their light. Millions take the "
+         "memory of thousands. By itself, with 16384 cells, where there are more than 128 lights, or more than 32 that "
+         "bounce by cuts"},
+    {.name = "--light-error",
+     .value = "E",
+     .kind = OPTION_NUMBER,
+     AT(light_error),
+     .low = 1e-6,
+     .high = 1,
      .help = "share of a pixel's light that one node of that tree may be wrong by (default 0.02)"},
     {.kind = OPTION_END},
 };
 
 static const option_row bounce_rows[] = {
     {.kind = OPTION_TITLE, .help = "bounce"},
-    {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities, .values = quality_values,
-     .help = "sets --tree, --error and --visible where they are not given; see README for each one's error and time"},
-    {.name = "--tree", .value = "N", .kind = OPTION_POWER_OF_2, AT(tree), .low = 8, .high = 4096,
-     .help = "first points a side of a light's map, to an eighth of --light-map"},
-    {.name = "--error", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
+    {.name = "--quality",
+     .kind = OPTION_WORD,
+     AT(quality),
+     .words = qualities,
+     .values = quality_values,
+     .help =
+         "sets --tree, --error and --visibility where they are not given; see README for each one's error and time"},
+    {.name = "--tree",
+     .value = "N",
+     .kind = OPTION_POWER_OF_2,
+     AT(tree),
+     .low = 8,
+     .high = 4096,
+     .help = "first points a side of a shadow map, to an eighth of --shadow-map"},
+    {.name = "--error",
+     .value = "E",
+     .kind = OPTION_NUMBER,
+     AT(error),
+     .low = 1e-4,
+     .high = 10,
      .help = "share that a pixel's bounced light may be wrong by where nothing blocks it"},
-    {.name = "--error-bound", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
-     .counts = offsetof(render_options, proven),
+    {.name = "--error-bound",
+     .value = "E",
+     .kind = OPTION_NUMBER,
+     AT(error),
+     .low = 1e-4,
+     .high = 10,
+     .counts = offsetof(render_options, conservative),
      .help = "the same as a proof, for each pixel: takes many times as long (one bounce; with --occlusion none also "
              "where it takes every texel)"},
-    {.name = "--visible", .value = "V", .kind = OPTION_NUMBER, AT(visible), .low = 1e-4, .high = 10,
+    {.name = "--visibility",
+     .value = "V",
+     .kind = OPTION_NUMBER,
+     AT(visibility),
+     .low = 1e-4,
+     .high = 10,
      .help = "what may be seen or blocked as one: at most this share of a pixel's bounced light"},
-    {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
-     .help = "reflections of light (default 1); above 1 with --grouping cut. What an emitter sends straight is none: it "
-             "always counts"},
-    {.name = "--rest", .kind = OPTION_WORD, AT(truncated), .words = rests,
+    {.name = "--bounces",
+     .value = "N",
+     .kind = OPTION_INT,
+     AT(bounces),
+     .low = 1,
+     .high = 64,
+     .help =
+         "reflections of light (default 1); above 1 with --grouping cut. What an emitter sends straight is none: it "
+         "always counts"},
+    {.name = "--rest",
+     .kind = OPTION_WORD,
+     AT(truncated),
+     .words = rests,
      .help = "with --bounces over 1, light that is reflected more often: estimated from how the last of them grew "
              "weaker (default), or left out"},
-    {.name = "--elements", .value = "N", .kind = OPTION_OWN, AT(elements), .parse = parse_elements,
-     .wants = "a number, 64 .. 16777216",
-     .help = "pieces of the scene that reflect again, or shine (a power of 4; default 16384, with --bounces over 1 "
+    {.name = "--elements",
+     .value = "N",
+     .kind = OPTION_OWN,
+     AT(elements),
+     .parse = parse_elements,
+     .expects = "a number, 64 .. 16777216",
+     .help = "pieces of the scene that reflect again, or emit (a power of 4; default 16384, with --bounces over 1 "
              "65536)"},
-    {.name = "--grouping", .kind = OPTION_WORD, AT(grouping.method), .words = groupings, .values = grouping_values,
+    {.name = "--grouping",
+     .kind = OPTION_WORD,
+     AT(grouping.method),
+     .words = groupings,
+     .values = grouping_values,
      .help = "cut (default): every 8x8 pixels take what they need of a tree of all lit points. The others make one "
              "fixed set of groups; what follows to --steps is theirs"},
-    {.name = "--groups", .value = "N", .kind = OPTION_INT, AT(grouping.groups), .low = 1, .high = LMB_MAX_GROUPS,
+    {.name = "--groups",
+     .value = "N",
+     .kind = OPTION_INT,
+     AT(grouping.groups),
+     .low = 1,
+     .high = LMB_MAX_GROUPS,
      .help = "groups at most (default 512)"},
-    {.name = "--block", .kind = OPTION_WORD, AT(grouping.block), .words = blocks, .values = block_values,
+    {.name = "--block",
+     .kind = OPTION_WORD,
+     AT(grouping.block),
+     .words = blocks,
+     .values = block_values,
      .help = "texels a side of a first point (default 8)"},
-    {.name = "--neighbour", .value = "METRES", .kind = OPTION_NUMBER, AT(grouping.neighbour_m), .low = 0, .high = 1e6,
+    {.name = "--neighbour",
+     .value = "METRES",
+     .kind = OPTION_NUMBER,
+     AT(grouping.neighbour_m),
+     .low = 0,
+     .high = 1e6,
      .help = "neighbours are points within so many metres, say 0.25, 0.5 or 1 (default: those of the blocks around, as "
              "--neighbour-blocks 1)"},
-    {.name = "--neighbour-blocks", .value = "N", .kind = OPTION_INT, AT(grouping.neighbour_cells), .low = 1,
+    {.name = "--neighbour-blocks",
+     .value = "N",
+     .kind = OPTION_INT,
+     AT(grouping.neighbour_cells),
+     .low = 1,
      .high = LMB_MAX_SIDE,
-     .help = "neighbours are points within so many blocks of the light's map; and within --neighbour, where both are "
+     .help = "neighbours are points within so many blocks of the shadow map; and within --neighbour, where both are "
              "given"},
-    {.name = "--neighbourhood", .value = "facing|hemisphere", .kind = OPTION_OWN, AT(grouping.flags),
-     .parse = parse_neighbourhood, .wants = "facing or hemisphere",
+    {.name = "--neighbourhood",
+     .value = "facing|hemisphere",
+     .kind = OPTION_OWN,
+     AT(grouping.flags),
+     .parse = parse_neighbourhood,
+     .expects = "facing or hemisphere",
      .help = "neighbours are points that face the same way (default), or any over the surface"},
-    {.name = "--thin", .value = "N", .kind = OPTION_INT, AT(grouping.thin), .low = 1, .high = LMB_MAX_THIN,
+    {.name = "--thin",
+     .value = "N",
+     .kind = OPTION_INT,
+     AT(grouping.thin),
+     .low = 1,
+     .high = LMB_MAX_THIN,
      .help = "of N points one becomes a disc, evenly spread, and the others join it (default 1)"},
-    {.name = "--disc-radius", .value = "R", .kind = OPTION_ABOVE, AT(grouping.radius), .low = 0, .high = 1e6,
+    {.name = "--disc-radius",
+     .value = "R",
+     .kind = OPTION_ABOVE,
+     AT(grouping.radius),
+     .low = 0,
+     .high = 1e6,
      .help = "a disc's radius is R x its mean distance to its neighbours (default: by the area of its points, so that "
              "none is lost or made)"},
-    {.name = "--zones", .value = "N", .kind = OPTION_INT, AT(grouping.zones), .low = 1, .high = 1 << 26,
+    {.name = "--zones",
+     .value = "N",
+     .kind = OPTION_INT,
+     AT(grouping.zones),
+     .low = 1,
+     .high = 1 << 26,
      .help = "zones that the discs' map is cut into at first (default: as --groups)"},
-    {.name = "--join", .value = "K", .kind = OPTION_OWN, AT(grouping.join), .parse = parse_join,
-     .wants = "a number, 0 .. 1",
+    {.name = "--join",
+     .value = "K",
+     .kind = OPTION_OWN,
+     AT(grouping.join),
+     .parse = parse_join,
+     .expects = "a number, 0 .. 1",
      .help = "points closer than K x their mean distance become one disc, 0 .. 1 (default 0.5)"},
-    {.name = "--reach", .value = "X", .kind = OPTION_NUMBER, AT(grouping.reach), .low = 0.01, .high = 1e6,
+    {.name = "--reach",
+     .value = "X",
+     .kind = OPTION_NUMBER,
+     AT(grouping.reach),
+     .low = 0.01,
+     .high = 1e6,
      .help = "a disc joins a group within X x the first disc's radius (default 3)"},
-    {.name = "--cosine", .value = "C", .kind = OPTION_OWN, AT(grouping.cosine), .parse = parse_cosine,
-     .wants = "a number, -1 .. 1", .help = "... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)"},
-    {.name = "--misfits", .value = "keep|drop", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_misfits,
-     .wants = "keep or drop", .help = "what does not fit its zone opens another group, or is lost; how much is said"},
-    {.name = "--centre", .value = "barycentre|disc", .kind = OPTION_OWN, AT(grouping.flags), .parse = parse_centre,
-     .wants = "barycentre or disc", .help = "where a group stands (default barycentre)"},
-    {.name = "--occlusion", .kind = OPTION_WORD, AT(occlusion), .words = occlusions, .values = occlusion_values,
-     .help = "what stands between lit points and pixels: every triangle (cut's default); nothing; or, for fixed groups, "
-             "what the viewer's depth map shows, marched in map space or in world space (their default: view): it "
-             "cannot know what is off screen or hidden"},
-    {.name = "--steps", .value = "N", .kind = OPTION_INT, AT(steps), .low = 1, .high = 64,
+    {.name = "--cosine",
+     .value = "C",
+     .kind = OPTION_OWN,
+     AT(grouping.cosine),
+     .parse = parse_cosine,
+     .expects = "a number, -1 .. 1",
+     .help = "... and where the normals' cosine is at least C, -1 .. 1 (default 0.9)"},
+    {.name = "--misfits",
+     .value = "keep|drop",
+     .kind = OPTION_OWN,
+     AT(grouping.flags),
+     .parse = parse_misfits,
+     .expects = "keep or drop",
+     .help = "what does not fit its zone opens another group, or is lost; how much is said"},
+    {.name = "--centre",
+     .value = "barycentre|disc",
+     .kind = OPTION_OWN,
+     AT(grouping.flags),
+     .parse = parse_centre,
+     .expects = "barycentre or disc",
+     .help = "where a group stands (default barycentre)"},
+    {.name = "--occlusion",
+     .kind = OPTION_WORD,
+     AT(occlusion),
+     .words = occlusions,
+     .values = occlusion_values,
+     .help =
+         "what stands between lit points and pixels: every triangle (cut's default); nothing; or, for fixed groups, "
+         "what the viewer's depth map shows, marched in map space or in world space (their default: view): it "
+         "cannot know what is off screen or hidden"},
+    {.name = "--steps",
+     .value = "N",
+     .kind = OPTION_INT,
+     AT(steps),
+     .low = 1,
+     .high = 64,
      .help = "samples of a view march (default 12)"},
-    {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
+    {.name = "--gather",
+     .kind = OPTION_WORD,
+     AT(gather_step),
+     .words = gathers,
+     .values = gather_values,
      .help = "at every pixel (default; half with many lights), or at every second or fourth each way and between them "
              "where surface and light go on; pixels that have no such neighbours are gathered too"},
     {.kind = OPTION_END},
@@ -225,20 +370,31 @@ static const option_row bounce_rows[] = {
 
 static const option_row picture_rows[] = {
     {.kind = OPTION_TITLE, .help = "picture"},
-    {.name = "--glossy", .kind = OPTION_FLAG, AT(glossy),
-     .help = "glTF's materials with highlights and reflections, by metallic, roughness and base colour "
-             "(metallic-roughness maps by texel): of the lamps with maps, and of what bounces, by --grouping cut. Else, "
-             "and in OBJ, PLY and `demo`, materials are Lambertian"},
-    {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .values = show_values,
+    {.name = "--glossy",
+     .kind = OPTION_FLAG,
+     AT(glossy),
+     .help =
+         "glTF's materials with highlights and reflections, by metallic, roughness and base colour "
+         "(metallic-roughness maps by texel): of the lights with maps, and of what bounces, by --grouping cut. Else, "
+         "and in OBJ, PLY and `demo`, materials are Lambertian"},
+    {.name = "--show",
+     .kind = OPTION_WORD,
+     AT(show),
+     .words = shows,
+     .values = show_values,
      .help = "light (default full; irradiance: bounced, before albedo);\n"
              "depth, eye-distance, normal, albedo: of what the eye sees; metres along the view, and from the eye;\n"
-             "light-distance, points, groups: of the lights' maps, at their size, a row of faces a light: metres from "
+             "light-distance, points, groups: of the shadow maps, at their size, a row of faces a light: metres from "
              "the light; first points by what they send, W/m2 (discs, where --join or --thin is given); the number of "
              "the group that owns a texel, 0 dark, -1 dropped;\n"
              "occlusion: the share of the bounced light that --occlusion blocks.\n"
              "Display formats scale distances, near is bright, and give each group a colour"},
-    {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
-     .wants = OPTION_STOPS_WANTS,
+    {.name = "--exposure",
+     .value = "EV|auto",
+     .kind = OPTION_OWN,
+     AT(exposure_ev),
+     .parse = option_stops,
+     .expects = OPTION_STOPS_WANTS,
      .help = "stops, display formats only (default auto, by the light that surfaces reflect: said on stderr). .pfm and "
              ".hdr stay linear"},
     {.kind = OPTION_END},
@@ -246,33 +402,67 @@ static const option_row picture_rows[] = {
 
 static const option_row budget_rows[] = {
     {.kind = OPTION_TITLE,
-     .help = "budget: with any of these --light-map, --tree, --error, --visible, --gather and --occlusion are chosen: "
-             "the least error within them, or the least work that keeps --budget-error. What is chosen, and by how much it "
-             "falls short, is said; `lambent plan` shows the reckoning"},
-    {.name = "--budget-error", .value = "E", .kind = OPTION_NUMBER, AT(budget.error), .low = 1e-5, .high = 10,
+     .help =
+         "budget: with any of these --shadow-map, --tree, --error, --visibility, --gather and --occlusion are chosen: "
+         "the least error within them, or the least work that keeps --budget-error. What is chosen, and by how much it "
+         "falls short, is said; `lambent plan` shows the reckoning"},
+    {.name = "--budget-error",
+     .value = "E",
+     .kind = OPTION_NUMBER,
+     AT(budget.error),
+     .low = 1e-5,
+     .high = 10,
      .help = "bounced light may be that far off: RMSE over its mean, without the worst 1 % of pixels"},
-    {.name = "--budget-ms", .value = "T", .kind = OPTION_NUMBER, AT(budget_ms), .low = 1e-3, .high = 1e9,
+    {.name = "--budget-ms",
+     .value = "T",
+     .kind = OPTION_NUMBER,
+     AT(budget_ms),
+     .low = 1e-3,
+     .high = 1e9,
      .help = "a frame may take that long here: T x the rate of `lambent bench --calibrate`"},
-    {.name = "--budget-work", .value = "N", .kind = OPTION_OWN, AT(budget.work), .parse = parse_budget_work,
-     .wants = "a number of units, 1 or more",
+    {.name = "--budget-work",
+     .value = "N",
+     .kind = OPTION_OWN,
+     AT(budget.work),
+     .parse = parse_budget_work,
+     .expects = "a number of units, 1 or more",
      .help = "the same in units, one a pixel lit by one node: the same choice on every machine"},
-    {.name = "--budget-bytes", .value = "N[KiB|MiB]", .kind = OPTION_OWN, AT(budget.bytes), .parse = parse_budget_bytes,
-     .wants = "a number of bytes, or of KiB or MiB: 100KiB",
+    {.name = "--budget-bytes",
+     .value = "N[KiB|MiB]",
+     .kind = OPTION_OWN,
+     AT(budget.bytes),
+     .parse = parse_budget_bytes,
+     .expects = "a number of bytes, or of KiB or MiB: 100KiB",
      .help = "of maps, trees, view, picture and one thread's scratch"},
-    {.name = "--rate", .value = "UNITS", .kind = OPTION_NUMBER, AT(rate), .low = 1, .high = 1e15,
+    {.name = "--rate",
+     .value = "UNITS",
+     .kind = OPTION_NUMBER,
+     AT(rate),
+     .low = 1,
+     .high = 1e15,
      .help = "units of work a second, in place of measuring them"},
     {.kind = OPTION_END},
 };
 
 static const option_row other_rows[] = {
     {.kind = OPTION_TITLE, .help = "other"},
-    {.name = "--profile", .value = "exact", .kind = OPTION_OWN, .parse = parse_profile,
-     .wants = "exact (there is no other)", .help = "the only one: the same bytes on every machine"},
+    {.name = "--profile",
+     .value = "exact",
+     .kind = OPTION_OWN,
+     .parse = parse_profile,
+     .expects = "exact (there is no other)",
+     .help = "the only one: the same bytes on every machine"},
     OPTION_BACKEND_ROW(render_options, kernels),
-    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = 64,
+    {.name = "--threads",
+     .value = "N",
+     .kind = OPTION_INT,
+     AT(threads),
+     .low = 1,
+     .high = 64,
      .help = "that draw at once; the picture does not depend on it (default: the processors)"},
     {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .help = "time by stage, counts, bytes"},
-    OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose, "say what it draws with, and how long each stage took"),
+    OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
+                    "say what it draws with, and how long each stage took"),
     OPTION_ASK,
     {.kind = OPTION_END},
 };
@@ -297,15 +487,16 @@ const option_table render_table = {
 const option_table plan_table = {
     .verb = "plan",
     .usage = "plan SCENE [options]",
-    .about = "What `lambent render` with the same options would do, and draws nothing: the stages it runs, with counted "
-             "operations, units of work and memory; those it leaves out, and why. `exact`: the picture has the same "
-             "bytes as with it; that is proven, and tested. Without a budget nothing else is left out:\n"
-             "a lamp of 0 W (no map, no light); a lamp that looks past (the faces of its map that see nothing of the "
-             "scene); bounced light of what reflects nothing, or is unlit; lobes and emission that no material has; and "
-             "in a convex, empty room, where nothing stands between two points of it, every segment.\n"
-             "Pairs and segments of bounced light are told by a look at up to 192 tiles of the picture itself. So is the "
-             "error of what is chosen for a budget, against a finer setting. No look costs over a quarter of the picture. "
-             "Work is counted in units: one is a pixel lit by one node.",
+    .about =
+        "What `lambent render` with the same options would do, and draws nothing: the stages it runs, with counted "
+        "operations, units of work and memory; those it leaves out, and why. `exact`: the picture has the same "
+        "bytes as with it; that is proved, and tested. Without a budget nothing else is left out:\n"
+        "a light of 0 W (no map, no light); a light that faces past (the faces of its map that see nothing of the "
+        "scene); bounced light of what reflects nothing, or is unlit; lobes and emission that no material has; and "
+        "in a convex, empty room, where nothing stands between two points of it, every segment.\n"
+        "Pairs and segments of bounced light are told by a look at up to 192 tiles of the picture itself. So is the "
+        "error of what is chosen for a budget, against a finer setting. No look costs over a quarter of the picture. "
+        "Work is counted in units: one is a pixel lit by one node.",
     .part = {scene_rows, json_rows, budget_rows, view_rows, light_rows, bounce_rows, picture_rows, other_rows},
     .examples = "  lambent plan demo --size 32x24\n"
                 "  what fits a frame of 16 ms on this machine:\n"
@@ -337,7 +528,7 @@ static int check_budget(const render_options *o, report *r)
     if (!has_budget(&o->budget, o->budget_ms)) {
         return 1;
     }
-    if (o->grouping.method != LMB_GROUP_CUT || o->proven) {
+    if (o->grouping.method != LMB_GROUP_CUT || o->conservative) {
         return report_fail(r, "--budget-*: settings are chosen for --grouping cut, without --error-bound");
     }
     if (o->show == SHOW_OCCLUSION || shows_attribute(o->show) || shows_map(o->show) || o->show == LMB_SHOW_DIRECT) {
@@ -374,7 +565,7 @@ static int check_together(const render_options *o, int plans, report *r)
         return report_fail(r, "--camera and --eye exclude each other");
     }
     if (o->stereo_m > 0.0f && shows_map(o->show)) {
-        return report_fail(r, "--stereo: what lives in a light's map is one for both eyes; show it without");
+        return report_fail(r, "--stereo: what lives in a shadow map is one for both eyes; show it without");
     }
     if (o->grouping.method == LMB_GROUP_CUT && (o->show == SHOW_POINTS || o->show == SHOW_GROUPS)) {
         return report_fail(r, "--show points, groups: a cut is each tile's own; use --grouping zones, greedy or none");

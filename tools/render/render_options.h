@@ -9,7 +9,7 @@
 
 #define RENDER_LIGHTS 64 /* --light given at most this often */
 
-/* --show beyond LMB_SHOW_*: the view's attributes; what lives in the lights' maps; how much light is blocked. */
+/* --show beyond LMB_SHOW_*: the view's attributes; what lives in the shadow maps; how much light is blocked. */
 enum { SHOW_DEPTH = 16, SHOW_NORMAL, SHOW_ALBEDO, SHOW_EYE_DISTANCE };
 enum { SHOW_LIGHT_DISTANCE = 32, SHOW_POINTS, SHOW_GROUPS };
 enum { SHOW_OCCLUSION = 48 };
@@ -32,16 +32,16 @@ typedef struct render_options {
     uint32_t light_count;
     float stereo_m; /* between the eyes; 0: one eye */
     int32_t show;
-    int32_t light_map; /* 0: chosen */
+    int32_t shadow_map; /* 0: chosen */
     lmb_grouping grouping;
     int32_t quality;      /* LMB_QUALITY_*: what the next three are where they are 0 */
-    int32_t tree;         /* first points a side of a light's tree */
-    float error, visible;
-    int32_t proven;
+    int32_t tree;         /* first points a side of a light tree */
+    float error, visibility;
+    int32_t conservative;
     int32_t bounces, elements; /* 0: default */
     int32_t truncated;         /* --rest none */
     int32_t occlusion, steps;
-    int32_t many_cells; /* 0: only where the scene has too many lights for maps */
+    int32_t many_lights_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
     int32_t gather_step; /* 1, 2, 4; 0: default */
     int glossy;          /* materials get their lobe */

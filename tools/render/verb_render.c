@@ -51,16 +51,16 @@ typedef struct asked_lights {
 static asked_lights sum_asked(const render_job *j)
 {
     asked_lights sum = {0.0, 0.0};
-    for (int i = 0; i < j->crew.threads && j->many.tree.lights > 0; ++i) {
-        sum.nodes += (double)j->crew.scratches[i].many.nodes;
-        sum.tests += (double)j->crew.scratches[i].many.tests;
+    for (int i = 0; i < j->workers.threads && j->many_lights.tree.lights > 0; ++i) {
+        sum.nodes += (double)j->workers.scratches[i].many_lights.nodes;
+        sum.tests += (double)j->workers.scratches[i].many_lights.tests;
     }
     return sum;
 }
 
 static int write_stats(const render_job *j, report *r)
 {
-    static const char *const names[] = {"light_maps", "blockers", "first_points", "groups",
+    static const char *const names[] = {"shadow_maps", "BVH", "first_points", "groups",
                                         "bounces",    "view",     "bands"};
     char text[2048];
     int n = 0;
@@ -70,18 +70,18 @@ static int write_stats(const render_job *j, report *r)
                   "{\n  \"width\": %d, \"height\": %d, \"views\": %d,\n  \"seconds\": {\"load\": %.6f",
                   (int)j->linear.width, (int)j->linear.height, (int)j->eyes, j->load_s);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->crew.stage_s[i]);
+        n += snprintf(text + n, sizeof text - (size_t)n, ", \"%s\": %.6f", names[i], j->workers.stage_s[i]);
     }
     n += snprintf(text + n, sizeof text - (size_t)n, ", \"write\": %.6f, \"total\": %.6f},\n", j->write_s, j->total_s);
     n += snprintf(
         text + n, sizeof text - (size_t)n,
         "  \"scene_triangles\": %u, \"triangles_read\": %u, \"triangles_drawn\": %u, \"triangles_dropped\": %u,\n"
-        "  \"lights\": %u, \"light_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n"
+        "  \"lights\": %u, \"shadow_map\": %d, \"first_points\": %u, \"discs\": %u, \"groups\": %u, \"regroups\": %u,\n"
         "  \"pairs\": %.0f, \"segments\": %.0f, \"full_cuts\": %.0f, \"elements\": %u, \"element_m\": %.6g,\n",
         (unsigned)lmb_scene_triangles(&j->scene), (unsigned)s->triangles, (unsigned)s->triangles_drawn,
-        (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.light_map,
-        (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups,
-        (double)s->pairs, (double)s->segments, (double)s->full_cuts, (unsigned)j->render->frame.elements.count,
+        (unsigned)s->triangles_dropped, (unsigned)j->scene.light_count, (int)j->frame.shadow_map,
+        (unsigned)s->first_points, (unsigned)s->discs, (unsigned)s->groups, (unsigned)s->regroups, (double)s->pairs,
+        (double)s->segments, (double)s->full_cuts, (unsigned)j->render->frame.elements.count,
         (double)j->render->frame.elements.side);
     n += snprintf(text + n, sizeof text - (size_t)n,
                   "  \"flux_lit_w\": %.9g, \"flux_grouped_w\": %.9g, \"energy_kept\": %.9g,\n"
@@ -90,9 +90,9 @@ static int write_stats(const render_job *j, report *r)
                   "  \"bytes\": %.0f, \"model_bytes\": %.0f, \"loading_bytes\": %.0f,\n"
                   "  \"backend\": \"%s\"\n}\n",
                   s->flux_lit, s->flux_grouped, s->flux_lit > 0.0 ? s->flux_grouped / s->flux_lit : 1.0,
-                  (unsigned)j->many.tree.lights, (unsigned)j->many.tree.cell_count, lit.nodes, lit.tests,
-                  j->many.stream_s, j->many.build_s,
-                  (double)(j->bytes + j->many.bytes), (double)j->loaded.facts.memory_bytes,
+                  (unsigned)j->many_lights.tree.lights, (unsigned)j->many_lights.tree.cell_count, lit.nodes, lit.tests,
+                  j->many_lights.stream_s, j->many_lights.build_s,
+                  (double)(j->bytes + j->many_lights.bytes), (double)j->loaded.facts.memory_bytes,
                   (double)j->loaded.facts.loading_bytes, lmb_kernels_name(j->frame.kernels));
     return file_write(j->o.stats, text, (size_t)n, r);
 }
@@ -113,12 +113,12 @@ static void tell_how(const render_job *j)
     if (!j->o.view.is_verbose) {
         return;
     }
-    report_note(0, "%d threads of %s lanes; --light-map %d --tree %d --error %.3g --visible %.3g; %.0f KiB",
-                j->crew.threads, lmb_kernels_name(f->kernels), (int)f->light_map, (int)j->o.tree, (double)f->error,
-                (double)f->visible, (double)(j->bytes + j->many.bytes) / 1024.0);
+    report_note(0, "%d threads of %s lanes; --shadow-map %d --tree %d --error %.3g --visibility %.3g; %.0f KiB",
+                j->workers.threads, lmb_kernels_name(f->kernels), (int)f->shadow_map, (int)j->o.tree, (double)f->error,
+                (double)f->visibility, (double)(j->bytes + j->many_lights.bytes) / 1024.0);
     report_note(0, "%-13s %8.1f ms", "reading", j->load_s * 1e3);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        report_note(0, "%-13s %8.1f ms", stage_name(j, i), j->crew.stage_s[i] * 1e3);
+        report_note(0, "%-13s %8.1f ms", stage_name(j, i), j->workers.stage_s[i] * 1e3);
     }
     report_note(0, "%-13s %8.1f ms", "writing", j->write_s * 1e3);
 }
@@ -128,7 +128,7 @@ static void tell_demo(const render_job *j)
     printf("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->linear.width, (int)j->linear.height,
            (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        printf("  %-13s %8.1f ms\n", stage_name(j, i), j->crew.stage_s[i] * 1e3);
+        printf("  %-13s %8.1f ms\n", stage_name(j, i), j->workers.stage_s[i] * 1e3);
     }
     printf("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
 }

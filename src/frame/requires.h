@@ -1,0 +1,124 @@
+/* requires.h: what a frame asks for. Layer 10. */
+#ifndef LMB_FRAME_REQUIRES_H
+#define LMB_FRAME_REQUIRES_H
+
+#include <lambent/render.h>
+
+#include <string.h>
+
+static inline int is_whole(const lmb_surface *s, const lmb_view *v)
+{
+    return s->data != NULL && s->width == v->frame_width && s->height == v->frame_height;
+}
+
+static inline int requires_direct(const lmb_frame *f) { return f->show == LMB_SHOW_FULL || f->show == LMB_SHOW_DIRECT; }
+
+static inline int requires_many_lights(const lmb_frame *f) { return requires_direct(f) && f->many_lights != NULL; }
+
+static inline int requires_cut(const lmb_frame *f)
+{
+    return f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT && f->tree.texel != NULL;
+}
+
+static inline int requires_groups(const lmb_frame *f)
+{
+    return f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT && f->points.data != NULL &&
+           f->groups != NULL;
+}
+
+static inline int requires_bounce(const lmb_frame *f) { return requires_cut(f) || requires_groups(f); }
+
+/* What is left out and what is kept; nothing in builds without plan. */
+static inline int skips(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->skips & what) != 0; }
+static inline int reuses(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->reuses & what) != 0; }
+static inline int light_is(const lmb_render *r, uint32_t light, uint32_t what)
+{
+    return LMB_PLAN && (r->light_state[light] & what) != 0;
+}
+
+/* How many of a light's faces have first points. */
+static inline uint32_t faces_that_bounce(const lmb_render *r, uint32_t light)
+{
+    uint32_t n = 0;
+    for (uint32_t bits = light_is(r, light, LMB_LIGHT_DIM) ? 0 : r->maps[light].drawn; bits != 0; bits &= bits - 1) {
+        ++n;
+    }
+    return n;
+}
+
+/* Is all light that of many lights, which comes from all sides? */
+static inline int wants_even_light(const lmb_frame *f)
+{
+    return LMB_TREES && f->many_lights != NULL && f->many_lights->lights >= LMB_MANY_LIGHTS_EVEN && f->scene != NULL &&
+           f->scene->light_count == 0 && !lmb_scene_emits(f->scene);
+}
+
+/* Do many lights bounce? */
+static inline int requires_many_lights_bounce(const lmb_frame *f)
+{
+    return LMB_TREES && f->many_lights != NULL && f->many_lights->lights > 0 && requires_cut(f) &&
+           f->elements.data != NULL;
+}
+
+/* Does light come from elements too? */
+static inline int requires_elements(const lmb_render *r)
+{
+    const lmb_frame *f = &r->frame;
+    return !skips(r, LMB_SKIP_BOUNCE) && requires_cut(f) && f->elements.data != NULL &&
+           (f->bounces > 1 || r->emits || requires_many_lights_bounce(f));
+}
+
+/* Do lobes count? */
+static inline int requires_glossy(const lmb_render *r) { return r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE; }
+
+/* Do elements receive direct light first, of what emits light or of many lights? */
+static inline int sends_direct(const lmb_render *r)
+{
+    return LMB_TREES && (r->emits || requires_many_lights_bounce(&r->frame));
+}
+
+/* The number of passes in which elements receive light. The first reflection of a light with a shadow map comes from
+ * the map's texels. Light from emissive surfaces and from many lights is reflected by elements only, which takes one
+ * more pass. */
+static inline uint32_t radiosity_bounces(const lmb_render *r)
+{
+    return (uint32_t)r->frame.bounces - (sends_direct(r) ? 0u : 1u);
+}
+
+/* Is there another pass of elements to go? */
+static inline int has_bounces(const lmb_render *r)
+{
+    return requires_elements(r) && !reuses(r, LMB_REUSE_BOUNCES) && r->light < radiosity_bounces(r);
+}
+
+/* Many lights require the BVH whatever is shown, because another view that reuses this solution may show more. */
+static inline int requires_bvh(const lmb_frame *f)
+{
+    return (requires_cut(f) && f->occlusion == LMB_OCCLUSION_EXACT) ||
+           (f->many_lights != NULL && f->bvh.triangle != NULL);
+}
+
+/* The depth map that occludes, or NULL. */
+static inline const lmb_surface *occluding_depth(const lmb_frame *f)
+{
+    if (f->occlusion == LMB_OCCLUSION_NONE || f->occlusion == LMB_OCCLUSION_EXACT || !requires_groups(f)) {
+        return NULL;
+    }
+    return is_whole(&f->eye.depth, &f->view) ? &f->eye.depth : &f->eye_depth;
+}
+
+static inline lmb_cut_params cut_params_of(const lmb_frame *f, lmb_stats *stats)
+{
+    lmb_cut_params c;
+    memset(&c, 0, sizeof c);
+    c.error = f->error;
+    c.visibility = f->visibility;
+    c.conservative = f->conservative;
+    c.floor =
+        f->error_floor * 9.42477796f; /* 3 channels x pi: the irradiance that a white surface shows as that radiance */
+    c.bvh = f->occlusion == LMB_OCCLUSION_EXACT ? &f->bvh : NULL;
+    c.stats = stats;
+    return c;
+}
+
+#endif

@@ -1,0 +1,162 @@
+/* reuse.c: the next frame of an animation, which keeps what did not change. Layer 10.                       [V33 V34]
+ *
+ * Who changes a scene raises its revisions; who changes a setting shows it in the frame; memory is what it was where
+ * the pointers are. Each thing is kept where all that it was made of stands: shadow maps of triangles and a light;
+ * first points of a map and the look; the BVH of triangles; groups of all first points; bounces of all of that. */
+#include <string.h>
+
+#include "../base/vec.h"
+#include "stages.h"
+#include "requires.h"
+
+#if LMB_PLAN
+
+/* What is taken over from the last frame, whose state is begun anew. */
+typedef struct old_frame {
+    lmb_frame frame;
+    uint32_t reuses;
+    uint8_t light_state[LMB_MAX_LIGHTS];
+    uint8_t faces[LMB_MAX_LIGHTS]; /* that bounced */
+    uint8_t map_faces[LMB_MAX_LIGHTS];
+} old_frame;
+
+static int same_scene(const lmb_render *r, const lmb_frame *f)
+{
+    return f->scene != NULL && r->frame.scene == f->scene && r->revision == f->scene->revision && !f->run_all &&
+           !r->frame.run_all;
+}
+
+static int same_appearance(const lmb_render *r, const lmb_frame *f)
+{
+    return r->appearance_revision == f->scene->appearance_revision;
+}
+
+/* Are there maps for the same lights at the same places? A light may have changed. */
+static int same_maps(const lmb_render *r, const lmb_frame *f)
+{
+    const lmb_frame *old = &r->frame;
+    const int32_t ids = f->id_format != 0 ? f->id_format : LMB_ID32;
+    return old->map_memory == f->map_memory && old->map_bytes == f->map_bytes && old->shadow_map == f->shadow_map &&
+           old->id_format == ids && r->lights_revision == f->scene->lights_revision &&
+           f->scene->light_count <= LMB_MAX_LIGHTS;
+}
+
+static int same_surface(const lmb_surface *a, const lmb_surface *b)
+{
+    return a->data == b->data && a->width == b->width && a->height == b->height && a->stride_bytes == b->stride_bytes &&
+           a->format == b->format && a->layout == b->layout;
+}
+
+static int same_view(const lmb_frame *a, const lmb_frame *b)
+{
+    return memcmp(&a->view, &b->view, sizeof a->view) == 0 && same_surface(&a->eye.depth, &b->eye.depth) &&
+           same_surface(&a->eye.id, &b->eye.id) && is_whole(&b->eye.depth, &b->view);
+}
+
+static int same_bvh(const lmb_frame *was, const lmb_frame *f)
+{
+    const lmb_bvh *a = &was->bvh, *b = &f->bvh;
+    return requires_bvh(was) && a->scene == was->scene && a->triangle == b->triangle && a->node == b->node &&
+           a->triangle_cap == b->triangle_cap && a->node_cap == b->node_cap;
+}
+
+static int same_tree(const lmb_frame *a, const lmb_frame *b)
+{
+    return requires_cut(a) && requires_cut(b) && a->tree.texel == b->tree.texel && a->tree.node == b->tree.node &&
+           a->tree.view == b->tree.view && a->tree.size == b->tree.size && a->tree.face_cap == b->tree.face_cap;
+}
+
+static int same_points(const lmb_frame *a, const lmb_frame *b)
+{
+    const lmb_points *p = &a->points, *q = &b->points;
+    return requires_groups(a) && requires_groups(b) && p->data == q->data && p->cap == q->cap && p->cells == q->cells &&
+           p->cell_cap == q->cell_cap && p->owner == q->owner && p->owner_cap == q->owner_cap &&
+           a->groups == b->groups && memcmp(&a->grouping, &b->grouping, sizeof a->grouping) == 0;
+}
+
+/* The elements' memory, and the rules by which they lit one another. */
+static int same_elements(const lmb_frame *a, const lmb_frame *b)
+{
+    return a->elements.data == b->elements.data && a->elements.cap == b->elements.cap &&
+           a->elements.tree.texel == b->elements.tree.texel && a->bounces == b->bounces &&
+           a->truncated == b->truncated && a->error == b->error && a->visibility == b->visibility &&
+           a->conservative == b->conservative && a->occlusion == b->occlusion && a->many_lights == NULL &&
+           b->many_lights == NULL;
+}
+
+/* Which of the shadow maps and of their first points stand. 1 where all do. */
+static int reuse_lights(old_frame *old, const lmb_render *r, const lmb_frame *f)
+{
+    const int solved =
+        same_appearance(r, f) && same_tree(&r->frame, f) && r->frame.dim == f->dim && !skips(r, LMB_SKIP_BOUNCE);
+    int all = same_maps(r, f);
+    for (uint32_t i = 0; i < f->scene->light_count && same_maps(r, f); ++i) {
+        if (r->light_revision[i] == f->scene->lights[i].revision) {
+            old->light_state[i] = (uint8_t)(LMB_LIGHT_MAP_REUSED | (solved ? LMB_LIGHT_TEXELS_REUSED : 0));
+        } else {
+            all = 0;
+        }
+        old->faces[i] = (uint8_t)faces_that_bounce(r, i);
+        old->map_faces[i] = (uint8_t)r->maps[i].faces;
+    }
+    return all;
+}
+
+/* Read from r before it begins anew. */
+static void find_reused(old_frame *old, const lmb_render *r, const lmb_frame *f)
+{
+    const lmb_frame *was = &r->frame;
+    memset(old, 0, sizeof *old);
+    if (r->failed != LMB_OK || r->stage < LMB_STAGE_VIEW || !same_scene(r, f)) {
+        return;
+    }
+    old->frame = *was;
+    if (reuse_lights(old, r, f) && same_appearance(r, f) && was->dim == f->dim && !skips(r, LMB_SKIP_BOUNCE)) {
+        old->reuses |= same_points(was, f) ? LMB_REUSE_POINTS : 0;
+        old->reuses |= same_tree(was, f) ? LMB_REUSE_BOUNCES : 0;
+    }
+    old->reuses |= same_bvh(was, f) ? LMB_REUSE_BVH : 0;
+    old->reuses |= r->stage >= LMB_STAGE_BANDS && same_view(was, f) ? LMB_REUSE_VIEW : 0;
+}
+
+/* A shadow map, and its faces of the tree, stand where those of it and of the lights before it are as many as they
+ * were. */
+static void keep_places(lmb_render *r, const old_frame *old)
+{
+    int maps = 1, texels = 1;
+    for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
+        maps = maps && r->maps[i].faces == old->map_faces[i];
+        texels = texels && maps && faces_that_bounce(r, i) == old->faces[i];
+        r->light_state[i] |= !maps ? 0 : texels ? old->light_state[i] : old->light_state[i] & LMB_LIGHT_MAP_REUSED;
+    }
+}
+
+lmb_status lmb_render_reuse(lmb_render *r, const lmb_frame *frame)
+{
+    old_frame old;
+    if (r == NULL || frame == NULL) {
+        return LMB_ERR_ARG;
+    }
+    find_reused(&old, r, frame);
+    const lmb_status status = lmb_render_begin(r, frame);
+    if (status != LMB_OK) {
+        return status;
+    }
+    lmb_frame *f = &r->frame;
+    r->reuses = old.reuses;
+    keep_places(r, &old);
+    if (reuses(r, LMB_REUSE_POINTS)) {
+        f->points = old.frame.points;
+    }
+    if (reuses(r, LMB_REUSE_BVH)) {
+        f->bvh = old.frame.bvh;
+    }
+    if (reuses(r, LMB_REUSE_BOUNCES) && same_elements(&old.frame, f)) {
+        f->elements = old.frame.elements;
+    } else {
+        r->reuses &= ~(uint32_t)LMB_REUSE_BOUNCES;
+    }
+    return LMB_OK;
+}
+
+#endif

@@ -1,0 +1,177 @@
+/* skip.c: what a frame does without, because it can change no byte of the picture. Layer 10.
+ *
+ *   no lobe, no emission   of materials that no triangle has
+ *   a light of 0 W         lights nothing: every product with its intensity is 0; adding 0 changes no sum
+ *   a face of a map        whose pyramid the scene's box does not meet: no triangle would be drawn into it, so it has
+ *                          no first points, and no shadow falls where a map names no triangle
+ *   bounced light          where no light meets a triangle, or all reflect 0: the first points' flux is 0
+ *
+ * And, where the frame allows it, lights whose bounce no pixel can show: by a bound that is proven. */
+#include "../base/vec.h"
+#include "../raster/triangle.h"
+#include "stages.h"
+#include "requires.h"
+
+#if LMB_PLAN
+
+#define CLEAR 0.015625f /* margin, in half widths of a face, of the test whether a box is outside: 1/16 px of the
+                           smallest map, over 16 times the distance that snapping to 1/256 px and rounding move a vertex
+                           */
+
+#define DISCS 1.25f /* what a disc in the place of a surface may give too much: 16 % at 2 to 3 radii, nearer its shape
+                       counts */
+
+static int any3(const float *c) { return c[0] > 0.0f || c[1] > 0.0f || c[2] > 0.0f; }
+
+/* Of the materials of what is drawn: does one reflect, shine, have a lobe? */
+typedef struct looks {
+    int reflects, emits, is_glossy;
+    float albedo; /* the largest */
+} looks;
+
+static looks looks_of(const lmb_scene *s)
+{
+    looks l = {0, 0, 0, 0.0f};
+    for (uint32_t i = 0; i < s->instance_count; ++i) {
+        const lmb_material *m = &s->materials[s->instances[i].material];
+        if (s->meshes[s->instances[i].mesh].triangle_count > 0) {
+            l.reflects |= any3(m->albedo);
+            l.emits |= any3(m->emission);
+            l.is_glossy |= any3(m->specular);
+            l.albedo = maxf(l.albedo, maxf(m->albedo[0], maxf(m->albedo[1], m->albedo[2])));
+        }
+    }
+    return l;
+}
+
+/* Is all of the box on the outer side of a plane of the pyramid? `middle` and `half` are the box's along the plane's
+ * normal. */
+static int is_outside(float middle, float half, float margin) { return middle - half > margin; }
+
+/* May a perspective face see something of the scene? Axes of the view; w is along its way. */
+static int face_meets(const lmb_view *v, const lmb_scene *s)
+{
+    const lmb_vec3 half = mul3(sub3(s->bounds_max, s->bounds_min), 0.5f);
+    const lmb_vec3 to = sub3(mul3(add3(s->bounds_max, s->bounds_min), 0.5f), v->eye);
+    const float scale = absf(to.x) + absf(to.y) + absf(to.z) + half.x + half.y + half.z;
+    const lmb_vec3 ahead = mul3(v->back, -1.0f);
+    const lmb_vec3 side[4] = {v->right, mul3(v->right, -1.0f), v->up, mul3(v->up, -1.0f)};
+    for (int i = 0; i < 4; ++i) {
+        const float tangent = i < 2 ? v->half_width : v->half_height;
+        const lmb_vec3 out = sub3(side[i], mul3(ahead, tangent)); /* a point p is outside where out . p > 0 */
+        const float reach = absf(out.x) * half.x + absf(out.y) * half.y + absf(out.z) * half.z;
+        if (is_outside(dot3(out, to), reach, CLEAR * scale * tangent)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void skip_faces(lmb_shadow_map *map, const lmb_scene *s)
+{
+    for (int32_t f = 0; f < map->faces; ++f) {
+        if (map->view[f].kind == LMB_PERSPECTIVE && !face_meets(&map->view[f], s)) {
+            map->drawn &= ~(1u << f);
+        }
+    }
+}
+
+/* --- lights that are too dim to bounce ---------------------------------------------------------------------------- */
+
+/* How near a triangle comes to a point, squared, at least: the distance of its box. Triangles that no draw takes count,
+ * which only makes the bound larger. */
+static float nearest2(const lmb_scene *s, uint32_t triangles, lmb_vec3 at)
+{
+    lmb_triangle t;
+    float nearest = 3e38f;
+    for (uint32_t id = 1; id <= triangles; ++id) {
+        if (lmb_triangle_fetch(&t, s, id)) {
+            const lmb_vec3 *p = t.corner;
+            const float x = maxf(maxf(minf(p[0].x, minf(p[1].x, p[2].x)) - at.x,
+                                      at.x - maxf(p[0].x, maxf(p[1].x, p[2].x))), 0.0f);
+            const float y = maxf(maxf(minf(p[0].y, minf(p[1].y, p[2].y)) - at.y,
+                                      at.y - maxf(p[0].y, maxf(p[1].y, p[2].y))), 0.0f);
+            const float z = maxf(maxf(minf(p[0].z, minf(p[1].z, p[2].z)) - at.z,
+                                      at.z - maxf(p[0].z, maxf(p[1].z, p[2].z))), 0.0f);
+            nearest = minf(nearest, x * x + y * y + z * z);
+        }
+    }
+    return nearest;
+}
+
+/* The most that a light's bounced light can be of what a pixel shows, radiance: no surface receives more than
+ * E = I / d^2 (a sun: E), so none sends more than albedo E; who is surrounded by that receives as much, and so on for
+ * each further bounce, estimated ones too; and it shows albedo / pi of what it receives. Albedo: 1 at most; textures
+ * and colours only darken. */
+static float upper_bounced(const lmb_render *r, const lmb_light *l, float albedo)
+{
+    const lmb_scene *s = r->frame.scene;
+    const float largest = maxf(l->intensity[0], maxf(l->intensity[1], l->intensity[2]));
+    const float d2 = l->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : nearest2(s, r->triangles, l->position);
+    const int32_t own = r->frame.bounces, bounces = own > 1 && !r->frame.truncated ? LMB_MAX_BOUNCES : own;
+    float sum = 0.0f, share = 1.0f;
+    for (int32_t i = 0; i < bounces; ++i) {
+        share *= albedo;
+        sum += share;
+    }
+    return largest <= d2 * 1e30f && d2 > 0.0f ? largest / d2 * sum * albedo * 0.3183099f : 3e38f;
+}
+
+/* One after another, while they stay under `dim` together. */
+static void skip_dim(lmb_render *r, float albedo)
+{
+    for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
+        const float upper = upper_bounced(r, &r->frame.scene->lights[i], albedo) * DISCS;
+        if (r->light_state[i] == 0 && r->dimmed + upper <= r->frame.dim) {
+            r->light_state[i] |= LMB_LIGHT_DIM;
+            r->dimmed += upper;
+        }
+    }
+}
+
+/* --- all of it ---------------------------------------------------------------------------------------------------- */
+
+static void remember_revisions(lmb_render *r)
+{
+    const lmb_scene *s = r->frame.scene;
+    r->revision = s->revision;
+    r->lights_revision = s->lights_revision;
+    r->appearance_revision = s->appearance_revision;
+    for (uint32_t i = 0; i < s->light_count; ++i) {
+        r->light_revision[i] = s->lights[i].revision;
+    }
+}
+
+void lmb_render_skip(lmb_render *r)
+{
+    const lmb_scene *s = r->frame.scene;
+    uint32_t lit = 0;
+    remember_revisions(r);
+    if (r->frame.run_all) {
+        return;
+    }
+    const looks l = looks_of(s);
+    r->emits = r->emits && l.emits;
+    r->is_glossy = r->is_glossy && l.is_glossy;
+    for (uint32_t i = 0; i < s->light_count; ++i) {
+        if (!any3(s->lights[i].intensity)) {
+            r->light_state[i] |= LMB_LIGHT_DARK;
+            r->maps[i].drawn = 0;
+        } else {
+            skip_faces(&r->maps[i], s);
+        }
+    }
+    /* The bound is of what surfaces without lobes show. */
+    if (r->frame.dim > 0.0f && !r->is_glossy && r->frame.show != LMB_SHOW_IRRADIANCE) {
+        skip_dim(r, minf(l.albedo, 1.0f));
+    }
+    for (uint32_t i = 0; i < s->light_count; ++i) {
+        lit += faces_that_bounce(r, i);
+    }
+    lit += (uint32_t)requires_many_lights_bounce(&r->frame);
+    if (!r->emits && (lit == 0 || !l.reflects || r->triangles == 0)) {
+        r->skips |= LMB_SKIP_BOUNCE;
+    }
+}
+
+#endif

@@ -1,0 +1,79 @@
+/* validate.c: can this frame be drawn? Its numbers, its surfaces, what it asks for. Layer 10. */
+#include <string.h>
+
+#include "../base/surface_check.h"
+#include "../raster/target.h"
+#include "stages.h"
+#include "requires.h"
+
+static lmb_status check_eye(const lmb_frame *f)
+{
+    const lmb_surface *d = &f->eye.depth;
+    lmb_status status = lmb_target_check(&f->eye, &f->view, lmb_scene_triangles(f->scene));
+    if (status != LMB_OK) {
+        return status;
+    }
+    if (f->eye.id.data == NULL || f->eye.x0 != 0 || f->eye.y0 != 0 || d->width != f->view.frame_width ||
+        (d->height != f->view.frame_height && d->height != LMB_TILE)) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_surface *map = occluding_depth(f);
+    if (map == NULL || map == d) {
+        return LMB_OK;
+    }
+    lmb_target whole = f->eye;
+    whole.depth = *map;
+    memset(&whole.id, 0, sizeof whole.id);
+    return is_whole(map, &f->view) ? lmb_target_check(&whole, &f->view, 0) : LMB_ERR_ARG;
+}
+
+lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *v)
+{
+    if (out->data == NULL || out->width != v->frame_width ||
+        (out->height != v->frame_height && out->height != LMB_TILE)) {
+        return LMB_ERR_ARG;
+    }
+    if (out->format < LMB_RGB565 || out->format > LMB_RGB32F || out->format == LMB_R32F || out->layout != LMB_LINEAR) {
+        return LMB_ERR_FORMAT;
+    }
+    return lmb_surface_is_valid(out) ? LMB_OK : LMB_ERR_ARG;
+}
+
+/* A tree takes one texel in 1 x 1, 2 x 2, 4 x 4 or 8 x 8 of its shadow maps. */
+static int fits_tree(const lmb_frame *f)
+{
+    const int32_t each = f->shadow_map / f->tree.size;
+    return each * f->tree.size == f->shadow_map && (each == 1 || each == 2 || each == 4 || each == 8);
+}
+
+lmb_status lmb_render_check(const lmb_frame *f)
+{
+    if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
+        f->show > LMB_SHOW_IRRADIANCE || f->steps < 0 || f->steps > 64 || f->view.frame_width < 1 ||
+        f->view.frame_height < 1 || f->occlusion < LMB_OCCLUSION_NONE || f->occlusion > LMB_OCCLUSION_EXACT ||
+        !(f->error > 0.0f) || !(f->visibility > 0.0f)) {
+        return LMB_ERR_ARG;
+    }
+    if (!LMB_TREES && (f->grouping.method == LMB_GROUP_CUT || f->many_lights != NULL)) {
+        return LMB_ERR_ARG;
+    }
+    if (f->bounces < 1 || f->bounces > LMB_MAX_BOUNCES ||
+        (f->bounces > 1 && requires_bounce(f) && (!requires_cut(f) || f->elements.data == NULL))) {
+        return LMB_ERR_ARG;
+    }
+    if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4) {
+        return LMB_ERR_ARG;
+    }
+    if (f->scene->light_count > LMB_MAX_LIGHTS) {
+        return LMB_ERR_CAPACITY;
+    }
+    if (requires_cut(f) ? !fits_tree(f) || f->occlusion % LMB_OCCLUSION_EXACT != 0
+                        : requires_groups(f) && f->occlusion == LMB_OCCLUSION_EXACT) {
+        return LMB_ERR_ARG;
+    }
+    if (f->id_format == LMB_ID16 && lmb_scene_triangles(f->scene) > 65535u) {
+        return LMB_ERR_SCENE;
+    }
+    lmb_status status = check_eye(f);
+    return status != LMB_OK ? status : lmb_render_check_out(&f->out, &f->view);
+}

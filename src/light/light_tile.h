@@ -1,0 +1,21 @@
+/* light_tile.h: one of the scene's lights on a tile, lobes and all. Layer 5. */
+#ifndef LMB_LIGHT_LIGHT_TILE_H
+#define LMB_LIGHT_LIGHT_TILE_H
+
+#include <lambent/light.h>
+
+typedef struct light_tile {
+    const lmb_kernels *kernels;
+    const lmb_scene *scene;
+    const lmb_view *view;
+    const lmb_tile *tile; /* resolved */
+} light_tile;
+
+/* Add light i to `sum`, and what lobes make of it to `glossy reflection` (NULL: there are none).
+ *
+ *   one  scratch: a lobe requires each light's irradiance separately; added to the others' it is the same sum.
+ *   map  the light's; NULL: no shadows. */
+lmb_status lmb_light_tile_add(lmb_irradiance *sum, lmb_glossy *glossy, lmb_irradiance *one, const light_tile *to,
+                              uint32_t i, const lmb_shadow_map *map);
+
+#endif

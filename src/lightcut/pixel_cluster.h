@@ -1,0 +1,15 @@
+/* pixel_cluster.h: the pixels of one surface in a tile, which take a cut of the light tree together. Layer 7. */
+#ifndef LMB_LIGHTCUT_PIXEL_CLUSTER_H
+#define LMB_LIGHTCUT_PIXEL_CLUSTER_H
+
+#include "../lane/kernels.h"
+
+void lmb_pixel_cluster_of(lmb_pixel_cluster *out, const lmb_tile *tile, uint64_t pixels);
+
+/* How far the pixel cluster's box reaches along a direction from its centre, m. */
+float lmb_pixel_cluster_reach(const lmb_pixel_cluster *p, lmb_vec3 along);
+
+/* Squared distance of a point from the pixel cluster's box, m2. */
+float lmb_pixel_cluster_distance2(const lmb_pixel_cluster *p, lmb_vec3 at);
+
+#endif

@@ -1,0 +1,185 @@
+/* many_lights.inl: many lights' nodes: how wrong one would be for a tile, and what it gives its pixels. Layer 6. */
+
+static inline lane3 many_load3(const lmb_many_lights *many_lights, uint32_t plane, uint32_t at)
+{
+    const float *p = many_lights->plane + plane * many_lights->plane_step + at;
+    lane3 r;
+    r.x = lane_load(p);
+    r.y = lane_load(p + many_lights->plane_step);
+    r.z = lane_load(p + 2 * many_lights->plane_step);
+    return r;
+}
+
+/* Cosines under a millionth count as 0: with that, and lights of at least 2^-60 W/sr, products are never denormal. */
+static inline lane many_cosine(lane c) { return lane_keep(lane_lt(lane_splat(0x1p-20f), c), c); }
+
+#define MANY_SOME 0x1p-60f /* what multiplies to less than a normal number is none */
+
+/* The sum of angles of which one has these cosines and sines: its cosine; -1 over half a turn. */
+static inline lane many_sum_cosine(lane c1, lane s1, lane c2, lane s2)
+{
+    const lane turned = lane_add(lane_mul(s1, c2), lane_mul(c1, s2));
+    return lane_pick(lane_lt(lane_splat(0.0f), turned), lane_sub(lane_mul(c1, c2), lane_mul(s1, s2)),
+                     lane_splat(-1.0f));
+}
+
+/* Of spots, that share of the light which the pixels may get: 0 where no cone reaches them, else what the widest one's
+ * solid angle is of that of all of them together, as seen with the sizes of both boxes. */
+static inline lane many_cone_share(const lmb_many_lights *many_lights, uint32_t at, lane3 between, lane3 halves)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), some = lane_splat(1e-4f);
+    const float *plane = many_lights->plane + at;
+    const lane d2 = lane_max(lane3_dot(between, between), lane_splat(1e-12f));
+    const lane size2 = lane_min(lane_div(lane3_dot(halves, halves), d2), one);
+    const lane sine = lane_sqrt(size2), cosine = lane_sqrt(lane_sub(one, size2));
+    const lane wide = many_sum_cosine(lane_load(plane + LMB_MANY_LIGHTS_COSINE * many_lights->plane_step),
+                                      lane_load(plane + LMB_MANY_LIGHTS_SINE * many_lights->plane_step), cosine, sine);
+    /* `between` leads from the pixels to the lights */
+    const lane along = lane_div(lane_sub(zero, lane3_dot(many_load3(many_lights, LMB_MANY_LIGHTS_AXIS, at), between)),
+                                lane_sqrt(d2));
+    const lane own = lane_sub(one, lane_load(plane + LMB_MANY_LIGHTS_OUTER * many_lights->plane_step));
+    const lane share = lane_min(one, lane_div(own, lane_max(lane_sub(one, wide), lane_splat(1e-6f))));
+    const lane reach = lane_pick(lane_lt(size2, one), lane_sub(wide, some), lane_splat(-2.0f));
+    return lane_keep(lane_lt(reach, along), lane_max(share, lane_splat(0x1p-20f)));
+}
+
+/* Lanes are nodes here: none of them meets another. The upper bound of a node's light is I cos / d^2 with d the boxes'
+ * distance and the cosine from the highest that a corner of one box rises over the plane of one of the other. */
+static void KERNEL(many_places)(float error[16], float light[16], float inside[16], const lmb_many_lights *many_lights,
+                                uint32_t first, uint32_t count, const lmb_many_lights_job *job, int have_cones)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), min = lane_splat(1e-24f);
+    const lane3 middle = lane3_of(job->middle), half = lane3_of(job->half), n = lane3_of(job->normal);
+    const lane bend = lane_splat(job->bend), size2 = lane3_dot(half, half);
+    for (uint32_t k = 0; k < count; k += LANES) {
+        const uint32_t at = first + k;
+        const lane power = lane_load(many_lights->plane + LMB_MANY_LIGHTS_POWER * many_lights->plane_step + at);
+        const lane3 own = many_load3(many_lights, LMB_MANY_LIGHTS_HALF, at), halves = lane3_add(own, half);
+        const lane3 between = lane3_sub(many_load3(many_lights, LMB_MANY_LIGHTS_MIDDLE, at), middle);
+        const lane3 gap = lane3_gap(between, halves);
+        const lane gap2 = lane3_dot(gap, gap), d2 = lane_max(gap2, min), own2 = lane3_dot(own, own);
+        const lane rise = lane_add(lane3_dot(n, between), lane3_dot(lane3_abs(n), halves));
+        const lane cosine = lane_min(lane_add(many_cosine(lane_div(rise, lane_sqrt(d2))), bend), one);
+        const lane upper = lane_div(lane_mul(power, cosine), d2);
+        const lane3 to = lane3_sub(many_load3(many_lights, LMB_MANY_LIGHTS_POSITION, at), middle);
+        const lane r2 = lane_max(lane_add(lane3_dot(to, to), size2), min);
+        const lane likely = lane_min(lane_add(many_cosine(lane_div(lane3_dot(n, to), lane_sqrt(r2))), bend), one);
+        const lane size = lane_min(one, lane_div(own2, d2)), some = lane_splat(MANY_SOME);
+        lane wrong = lane_keep(mask_and(lane_lt(some, upper), lane_lt(some, size)), lane_mul(upper, size));
+        wrong = lane_pick(lane_lt(gap2, own2), lane_splat(LMB_MANY_LIGHTS_NEAR), wrong);
+        const lane about = lane_div(lane_mul(power, likely), r2);
+        const lane share = have_cones ? many_cone_share(many_lights, at, between, halves) : one;
+        const lane_mask reaches = mask_and(lane_lt(zero, cosine), lane_lt(zero, share));
+        lane_store(error + k, lane_pick(reaches, wrong, lane_splat(-1.0f)));
+        lane_store(light + k, have_cones ? lane_keep(lane_lt(some, about), lane_mul(about, share)) : about);
+        lane_store(inside + k, about);
+    }
+}
+
+/* The same a metre off, wherever the pixels are. */
+static void KERNEL(many_suns)(float error[16], float light[16], float inside[16], const lmb_many_lights *many_lights,
+                              uint32_t first, uint32_t count, const lmb_many_lights_job *job)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), some = lane_splat(MANY_SOME);
+    const lane3 n = lane3_of(job->normal);
+    const lane bend = lane_splat(job->bend);
+    for (uint32_t k = 0; k < count; k += LANES) {
+        const uint32_t at = first + k;
+        const lane power = lane_load(many_lights->plane + LMB_MANY_LIGHTS_POWER * many_lights->plane_step + at);
+        const lane3 own = many_load3(many_lights, LMB_MANY_LIGHTS_HALF, at);
+        const lane rise =
+            lane_add(lane3_dot(n, many_load3(many_lights, LMB_MANY_LIGHTS_MIDDLE, at)), lane3_dot(lane3_abs(n), own));
+        const lane cosine = lane_min(lane_add(many_cosine(rise), bend), one);
+        const lane upper = lane_mul(power, cosine), size = lane3_dot(own, own);
+        const lane likely =
+            lane_add(many_cosine(lane3_dot(n, many_load3(many_lights, LMB_MANY_LIGHTS_POSITION, at))), bend);
+        const lane about = lane_mul(power, lane_min(likely, one));
+        lane wrong = lane_keep(mask_and(lane_lt(some, upper), lane_lt(some, size)), lane_mul(upper, size));
+        wrong = lane_pick(lane_lt(one, size), lane_splat(LMB_MANY_LIGHTS_NEAR), wrong);
+        lane_store(error + k, lane_pick(lane_lt(zero, cosine), wrong, lane_splat(-1.0f)));
+        lane_store(light + k, about);
+        lane_store(inside + k, about);
+    }
+}
+
+static void KERNEL(many_lights_bounds)(float error[16], float light[16], float inside[16],
+                                       const lmb_many_lights *many_lights, uint32_t first, uint32_t count,
+                                       const lmb_many_lights_job *job)
+{
+    const uint32_t kind = many_lights->node[first].kind;
+    if (kind == LMB_LIGHT_DIRECTIONAL) {
+        KERNEL(many_suns)(error, light, inside, many_lights, first, count, job);
+    } else {
+        KERNEL(many_places)(error, light, inside, many_lights, first, count, job, kind == LMB_LIGHT_SPOT);
+    }
+}
+
+/* I cos / d^2 from the lights' mean position. Distances are at least the lights' spread, because within it they lie on
+ * all sides. */
+static inline lane many_factor(lane3 at, lane3 n, lane3 face, const lmb_active_light *active)
+{
+    const lane zero = lane_splat(0.0f);
+    const lane3 to = lane3_sub(lane3_of(active->position), at);
+    const lane d2 = lane_max(lane3_dot(to, to), lane_splat(1e-24f));
+    const lane inverse = lane_div(lane_splat(1.0f), lane_max(d2, lane_splat(active->spread)));
+    const lane cosine = many_cosine(lane_div(lane3_dot(n, to), lane_sqrt(d2)));
+    return lane_keep(lane_lt(zero, lane3_dot(face, to)), lane_mul(inverse, cosine));
+}
+
+/* The fall-off of one spot's cone, as in direct.inl. */
+static inline lane many_falloff(lane3 at, const lmb_many_lights_source *spot, float per)
+{
+    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
+    const lane3 from = lane3_sub(at, lane3_of(spot->position));
+    const lane d2 = lane_max(lane3_dot(from, from), lane_splat(1e-12f));
+    const lane cosine = lane_div(lane3_dot(lane3_of(spot->direction), from), lane_sqrt(d2));
+    lane t = lane_mul(lane_sub(cosine, lane_splat(spot->cos_outer)), lane_splat(per));
+    t = lane_min(lane_max(t, zero), one);
+    t = lane_keep(lane_lt(lane_splat(0x1p-20f), t), t);
+    return lane_mul(lane_mul(t, t), lane_sub(lane_splat(3.0f), lane_mul(lane_splat(2.0f), t)));
+}
+
+static inline lane many_light(lane3 at, lane3 n, lane3 face, const lmb_active_light *active)
+{
+    const lane3 to = lane3_of(active->position);
+    return active->kind != LMB_LIGHT_DIRECTIONAL
+               ? many_factor(at, n, face, active)
+               : lane_keep(lane_lt(lane_splat(0.0f), lane3_dot(face, to)), many_cosine(lane3_dot(n, to)));
+}
+
+/* What comes with one of its two lights, for the pixels from k on. */
+static inline lane many_share(lane3 at, const lmb_active_light *active, int i, int k)
+{
+    const lane seen = lane_keep(mask_of_bits((uint32_t)(active->seen[i] >> k)), lane_splat(active->share[i]));
+    return active->kind == LMB_LIGHT_SPOT ? lane_mul(seen, many_falloff(at, &active->source[i], active->per[i])) : seen;
+}
+
+static void KERNEL(many_lights_irradiance)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels,
+                               const lmb_active_light *active_lights, int32_t count)
+{
+    for (int k = 0; k < LMB_TILE_PIXELS; k += LANES) {
+        const uint32_t own = (uint32_t)(pixels >> k) & ((1u << LANES) - 1u);
+        const lane3 at = lane3_load(tile->position, k), n = lane3_load(tile->normal, k);
+        const lane3 face = lane3_load(tile->face, k);
+        const lane_mask is_own = mask_of_bits(own);
+        lane3 sum = lane3_splat(0.0f, 0.0f, 0.0f), old;
+        if (own == 0) {
+            continue;
+        }
+        for (int32_t i = 0; i < count; ++i) {
+            const lmb_active_light *active = &active_lights[i];
+            const lane share = lane_add(many_share(at, active, 0, k), many_share(at, active, 1, k));
+            const lane e = lane_mul(many_light(at, n, face, active), share);
+            sum.x = lane_add(sum.x, lane_mul(e, lane_splat(active->intensity[0])));
+            sum.y = lane_add(sum.y, lane_mul(e, lane_splat(active->intensity[1])));
+            sum.z = lane_add(sum.z, lane_mul(e, lane_splat(active->intensity[2])));
+        }
+        old.x = lane_load(inout->rgb[0] + k);
+        old.y = lane_load(inout->rgb[1] + k);
+        old.z = lane_load(inout->rgb[2] + k);
+        sum = lane3_pick(is_own, lane3_add(old, sum), old);
+        lane_store(inout->rgb[0] + k, sum.x);
+        lane_store(inout->rgb[1] + k, sum.y);
+        lane_store(inout->rgb[2] + k, sum.z);
+    }
+}

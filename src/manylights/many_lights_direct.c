@@ -1,0 +1,183 @@
+/* many_lights_direct.c: a tile's surfaces, lit by their cuts of many lights: shadow tests, then light. Layer 6. [V3
+ * V29] */
+#include <string.h>
+
+#include "../raster/tile.h"
+#include "many_lights_cut.h"
+
+#if LMB_TREES
+
+#define SURFACES 4 /* of a tile that take a cut of their own; the last takes what is left */
+
+/* --- the tile's surfaces ------------------------------------------------------------------------------------------ */
+
+static lmb_many_lights_job job_of(const lmb_tile *tile, uint64_t pixels)
+{
+    lmb_many_lights_job job;
+    lmb_vec3 low, high;
+    float bend2 = 0.0f;
+    tile_box(&low, &high, tile, pixels);
+    job.normal = tile_vec(tile->normal, lowest_bit_64(pixels));
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const lmb_vec3 turn = sub3(tile_vec(tile->normal, lowest_bit_64(bits)), job.normal);
+        bend2 = maxf(bend2, dot3(turn, turn));
+    }
+    job.middle = mul3(add3(low, high), 0.5f);
+    job.half = mul3(sub3(high, low), 0.5f);
+    job.bend = sqrtf(bend2);
+    return job;
+}
+
+/* --- shadows and light -------------------------------------------------------------------------------------------- */
+
+/* One surface of a tile, while it is lit. */
+typedef struct lit_surface {
+    const lmb_kernels *kernels;
+    const lmb_tile *tile;
+    const lmb_many_lights_query *query;
+    lmb_many_lights_job job;
+    uint64_t pixels, corners;
+    float noise; /* m: lmb_tile_noise of the pixels */
+    lmb_traversal *traversal;
+} lit_surface;
+
+/* The outermost pixels along both diagonals. */
+static uint64_t corners_of(uint64_t pixels)
+{
+    int at[4] = {0, 0, 0, 0}, best[4] = {-99, -99, -99, -99};
+    uint64_t r = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int x = k % LMB_TILE, y = k / LMB_TILE, way[4] = {-x - y, x - y, y - x, x + y};
+        for (int i = 0; i < 4 && (pixels >> k & 1u) != 0; ++i) {
+            if (way[i] > best[i]) {
+                best[i] = way[i];
+                at[i] = k;
+            }
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        r |= UINT64_C(1) << at[i];
+    }
+    return r;
+}
+
+static uint64_t occluded_from(const lit_surface *s, uint64_t pixels, uint32_t kind, lmb_vec3 at)
+{
+    return kind == LMB_LIGHT_DIRECTIONAL
+               ? lmb_occluded_sun(s->query->bvh, s->kernels, s->tile, pixels, at, s->traversal)
+               : lmb_occluded_tile(s->query->bvh, s->kernels, s->tile, pixels, at, s->noise, s->traversal);
+}
+
+/* The pixels from which a point is visible: where the four corners of the tile agree, all pixels share their answer.
+ * Points that contribute much are tested from each pixel. */
+static uint64_t seen_from(const lit_surface *s, uint32_t *tests, uint32_t kind, lmb_vec3 at, int is_strong)
+{
+    if (s->query->bvh == NULL) {
+        return s->pixels;
+    }
+    ++*tests;
+    if (is_strong) {
+        return s->pixels & ~occluded_from(s, s->pixels, kind, at);
+    }
+    const uint64_t occluded = occluded_from(s, s->corners, kind, at);
+    if (occluded == 0) {
+        return s->pixels;
+    }
+    if (occluded == s->corners) {
+        return 0;
+    }
+    const uint64_t others = s->pixels & ~s->corners;
+    return s->pixels & ~(occluded | occluded_from(s, others, kind, at));
+}
+
+static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+/* Does one test speak for all? Where they lie within a 64th of their distance (R^2 is 3 x spread). */
+static int is_one_place(const lmb_many_lights_node *node, const lmb_many_lights_job *job)
+{
+    const lmb_vec3 to = sub3(node->position, job->middle);
+    const float d2 = node->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : dot3(to, to);
+    return is_same_place(node->strongest.position, node->median.position) || 12288.0f * node->spread < d2;
+}
+
+/* Two shadow tests; only one of them, chosen at random, where the node contributes less than a quarter of the possible
+ * error: that saves a third of the tests and adds 3 % to the error. */
+static void test_active(lmb_active_light *active, const lit_surface *s, const lmb_many_lights_node *node, float share,
+                        uint32_t *tests)
+{
+    const int by_lot = share < 0.25f && node->share < 0.5f, is_strong = s->query->each || share > 1.0f;
+    const lmb_vec3 at = by_lot ? node->median.position : node->strongest.position;
+    active->share[0] = maxf(node->share, 0.5f);
+    active->share[1] = 1.0f - active->share[0];
+    active->seen[0] = active->seen[1] = seen_from(s, tests, node->kind, at, is_strong);
+    if (!by_lot && !is_one_place(node, &s->job)) {
+        active->seen[1] = seen_from(s, tests, node->kind, node->median.position, is_strong);
+    }
+}
+
+/* A hard edge is a step over a millionth. */
+static void set_cones(lmb_active_light *active, const lmb_many_lights_node *node)
+{
+    active->source[0] = node->strongest;
+    active->source[1] = node->median;
+    for (int i = 0; i < 2; ++i) {
+        active->per[i] = 1.0f / maxf(active->source[i].cos_inner - active->source[i].cos_outer, 1e-6f);
+    }
+}
+
+static const lmb_many_lights_entry *entry_at(const lmb_many_lights_scratch *scratch, int32_t i)
+{
+    return &scratch->entry[i < scratch->open ? i : LMB_MANY_LIGHTS_CUT - scratch->closed + (i - scratch->open)];
+}
+
+static void add_irradiance(lmb_irradiance *inout, lmb_many_lights_scratch *scratch, const lit_surface *s)
+{
+    const int32_t all = scratch->open + scratch->closed;
+    const float allowed = maxf(scratch->allowed * scratch->light, 1e-30f);
+    scratch->nodes += (uint32_t)all;
+    for (int32_t i = 0, active_lights = 0; i < all; ++i) {
+        const lmb_many_lights_entry *e = entry_at(scratch, i);
+        const lmb_many_lights_node *node = &s->query->many_lights->node[e->node];
+        lmb_active_light *active = &scratch->active[active_lights++];
+        active->position = node->position;
+        active->spread = node->spread;
+        memcpy(active->intensity, node->intensity, sizeof active->intensity);
+        active->kind = node->kind;
+        set_cones(active, node);
+        test_active(active, s, node, e->inside / allowed, &scratch->tests);
+        if (active_lights == LMB_ACTIVE_LIGHTS || i + 1 == all) {
+            s->kernels->many_lights_irradiance(inout, s->tile, s->pixels, scratch->active, active_lights);
+            active_lights = 0;
+        }
+    }
+}
+
+lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels,
+                                       lmb_many_lights_scratch *scratch, const lmb_tile *tile,
+                                       const lmb_many_lights_query *query)
+{
+    if (inout == NULL || kernels == NULL || scratch == NULL || tile == NULL || query == NULL ||
+        query->many_lights == NULL) {
+        return LMB_ERR_ARG;
+    }
+    memset(scratch->traversal.last, 0, sizeof scratch->traversal.last);
+    scratch->traversal.asked = 0;
+    uint64_t left = query->many_lights->node_count > 0 ? tile_pixels(tile) : 0;
+    for (int n = 1; left != 0; ++n) {
+        lit_surface s;
+        s.kernels = kernels;
+        s.tile = tile;
+        s.query = query;
+        s.traversal = &scratch->traversal;
+        s.pixels = n < SURFACES ? tile_surface(tile, left) : left;
+        s.corners = corners_of(s.pixels);
+        s.noise = lmb_tile_noise(tile, s.pixels);
+        s.job = job_of(tile, s.pixels);
+        lmb_many_lights_cut(scratch, kernels, query, &s.job);
+        add_irradiance(inout, scratch, &s);
+        left &= ~s.pixels;
+    }
+    return LMB_OK;
+}
+
+#endif

@@ -1,0 +1,333 @@
+/* occluded.c: a tile's segments to one point, walked through the tree of boxes together. Layer 4.           [V25] */
+#include <lambent/occlusion.h>
+
+#include "../base/vec.h"
+#include "../lane/kernels.h"
+#include "../raster/resolve.h"
+#include "../raster/tile.h"
+#include "traversal.h"
+
+#if LMB_TREES
+
+/* The number of leaves that are tested against the pyramid of all segments. Further leaves are tested against each
+ * segment, because in a fine mesh most segments pass between triangles. */
+#define BY_PYRAMID 4
+#define FEW        7      /* pixels that walk alone: of a tile of leaves they lie far apart, a pyramid of them meets all
+                             */
+#define MUCH       16     /* pixels that a triangle blocks to be asked first by the next segments */
+#define THIN       1e-20f /* m: a pyramid is never thinner */
+
+static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
+{
+    const float d1 = high - at, d0 = low - at;
+    out->at[axis] = at;
+    out->per_high[axis] = 1.0f / (absf(d1) < THIN ? THIN : d1);
+    out->per_low[axis] = 1.0f / (absf(d0) < THIN ? -THIN : d0);
+}
+
+static lmb_pyramid pyramid_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
+{
+    lmb_vec3 low, high;
+    lmb_pyramid p;
+    tile_box(&low, &high, tile, pixels);
+    pyramid_axis(&p, 0, at.x, low.x, high.x);
+    pyramid_axis(&p, 1, at.y, low.y, high.y);
+    pyramid_axis(&p, 2, at.z, low.z, high.z);
+    return p;
+}
+
+float lmb_place_noise(lmb_vec3 at, float distance)
+{
+    return LMB_NOISE_PLACE * largest3(at) + LMB_NOISE_DISTANCE * distance;
+}
+
+float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels)
+{
+    float noise = 0.0f;
+    for (uint64_t bits = tile != NULL ? pixels : 0; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        noise = maxf(noise, lmb_place_noise(tile_vec(tile->position, k), absf(tile->depth[k])));
+    }
+    return noise;
+}
+
+/* The plane through the point and two corners: 2 (b x c), computed without the product of two nearly equal vectors,
+ * which would cancel for a small edge far away. Swapping the corners negates the result exactly. */
+static inline lmb_vec3 edge_plane(lmb_vec3 b, lmb_vec3 c, lmb_vec3 edge)
+{
+    return cross3(add3(b, c), edge);
+}
+
+/* A triangle as the point sees it; noise: of both ends. 0 where the point lies in its plane. */
+static int cross_job(lmb_cross_job *out, const lmb_bvh_triangle *t, lmb_vec3 at, float noise, float min)
+{
+    const lmb_vec3 *p = t->corner;
+    const lmb_vec3 a = sub3(p[0], at), b = sub3(p[1], at), c = sub3(p[2], at);
+    const float ahead = dot3(t->normal, a);
+    noise = maxf(noise + LMB_NOISE_TRIANGLE * sqrtf(dot3(a, a) + dot3(b, b) + dot3(c, c)), min);
+    if (!(absf(ahead) > noise)) {
+        return 0;
+    }
+    out->at = at;
+    if (ahead < 0.0f) {
+        out->edge[0] = edge_plane(b, c, sub3(p[1], p[2]));
+        out->edge[1] = edge_plane(c, a, sub3(p[2], p[0]));
+        out->edge[2] = edge_plane(a, b, sub3(p[0], p[1]));
+        out->normal = mul3(t->normal, -1.0f);
+    } else {
+        out->edge[0] = edge_plane(b, c, sub3(p[2], p[1]));
+        out->edge[1] = edge_plane(c, a, sub3(p[0], p[2]));
+        out->edge[2] = edge_plane(a, b, sub3(p[1], p[0]));
+        out->normal = t->normal;
+    }
+    out->beyond = absf(ahead) + noise;
+    return 1;
+}
+
+/* 0 where there is no such triangle. */
+NOINLINE int alpha_of(lmb_resolve_alpha *out, const lmb_bvh *b, uint32_t id)
+{
+    lmb_triangle triangle;
+    if (!lmb_triangle_fetch(&triangle, b->scene, id)) {
+        return 0;
+    }
+    lmb_resolve_alpha_of(out, &triangle);
+    return 1;
+}
+
+/* Of the pixels whose segments cross a triangle with holes, those that do so where it stands. */
+static uint64_t standing(const lmb_bvh *b, const lmb_bvh_triangle *t, const lmb_cross_job *job, const lmb_tile *tile,
+                         uint64_t crossed)
+{
+    uint64_t out = 0;
+    lmb_resolve_alpha alpha;
+    if (!alpha_of(&alpha, b, t->id & ~LMB_BVH_MASKED)) {
+        return 0;
+    }
+    for (uint64_t bits = crossed; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 d = sub3(tile_vec(tile->position, k), job->at);
+        const float e0 = dot3(job->edge[0], d), e1 = dot3(job->edge[1], d), e2 = dot3(job->edge[2], d);
+        const float sum = e0 + e1 + e2;
+        if (sum > 0.0f && lmb_resolve_opaque(&alpha, b->scene, e1 / sum, e2 / sum)) {
+            out |= (uint64_t)1 << k;
+        }
+    }
+    return out;
+}
+
+/* One walk. */
+typedef struct traversal {
+    const lmb_bvh *b;
+    const lmb_kernels *kernels;
+    const lmb_tile *tile;
+    lmb_vec3 at;
+    float noise; /* of both ends */
+    lmb_traversal *kept;
+    uint64_t left; /* pixels that nothing blocked yet */
+} traversal;
+
+/* Of `asked` those that one triangle blocks are done. */
+static void ask_triangle(traversal *w, uint32_t triangle, uint64_t asked)
+{
+    const lmb_bvh_triangle *t = &w->b->triangle[triangle];
+    lmb_cross_job job;
+    if (cross_job(&job, t, w->at, w->noise, w->b->noise)) {
+        const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
+        w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
+    }
+}
+
+/* To the front; the last falls off where it is not among them. */
+static void remember(uint32_t last[LMB_LAST_OCCLUDERS], uint32_t triangle)
+{
+    uint32_t moved = triangle + 1;
+    for (int i = 0; i < LMB_LAST_OCCLUDERS; ++i) {
+        const uint32_t here = last[i];
+        last[i] = moved;
+        moved = here;
+        if (here == triangle + 1) {
+            return;
+        }
+    }
+}
+
+/* 1 where they alone block all. */
+static int ask_last(traversal *w)
+{
+    for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {
+        const uint32_t triangle = w->kept->last[i] - 1;
+        ask_triangle(w, triangle, w->left);
+        if (w->left == 0) {
+            remember(w->kept->last, triangle);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+static void ask_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked)
+{
+    for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0; ++k) {
+        const uint64_t before = w->left;
+        ask_triangle(w, node->first[i] + k, asked);
+        if (count_bits_64(before & ~w->left) >= MUCH) {
+            remember(w->kept->last, node->first[i] + k);
+        }
+    }
+}
+
+/* The tile's segments to one point as a whole. */
+typedef struct rays {
+    lmb_pyramid pyramid;
+    int leaves; /* asked so far; the walk has segments from BY_PYRAMID + 1 on */
+} rays;
+
+/* A node whose leaves are asked; of its children those that wait, box i as bit LMB_BOXES - 1 - i. */
+typedef struct branch {
+    uint32_t node, children;
+} branch;
+
+static uint32_t ask_node(traversal *w, rays *r, const lmb_boxes *node)
+{
+    uint32_t children = 0;
+    ++w->kept->asked;
+    for (uint32_t bits = w->kernels->meets(&r->pyramid, node); bits != 0 && w->left != 0; bits &= bits - 1) {
+        const int i = lowest_bit(bits);
+        uint64_t here = w->left;
+        if (node->count[i] == 0) {
+            children |= 1u << (LMB_BOXES - 1 - i);
+            continue;
+        }
+        ++w->kept->asked;
+        if (++r->leaves > BY_PYRAMID) {
+            if (r->leaves == BY_PYRAMID + 1) {
+                w->kernels->segments(&w->kept->segments, w->tile, w->at);
+            }
+            here = w->kernels->through(&w->kept->segments, here, node, i);
+        }
+        ask_leaf(w, node, i, here);
+    }
+    return children;
+}
+
+/* All pixels together, by one pyramid. */
+static uint64_t blocked_together(traversal *w)
+{
+    const lmb_bvh *bvh = w->b;
+    const uint64_t pixels = w->left;
+    branch waiting[LMB_TRAVERSAL_LEVELS];
+    rays r;
+    int count = 0;
+    uint32_t here = 0;
+    if (ask_last(w)) {
+        return pixels;
+    }
+    r.pyramid = pyramid_of(w->tile, w->left, w->at);
+    r.leaves = 0;
+    for (;;) {
+        waiting[count].node = here;
+        waiting[count].children = ask_node(w, &r, &bvh->node[here]);
+        count += waiting[count].children != 0;
+        if (count == 0 || w->left == 0) {
+            return pixels & ~w->left;
+        }
+        branch *up = &waiting[count - 1];
+        here = bvh->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
+        up->children &= up->children - 1;
+        count -= up->children == 0;
+    }
+}
+
+/* Does a triangle block the one pixel that asks? What `crossed` says, to the bit. */
+static int blocks_one(traversal *w, uint32_t triangle, int k)
+{
+    const lmb_bvh_triangle *t = &w->b->triangle[triangle];
+    const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), w->at);
+    const float ahead = dot3(t->normal, sub3(t->corner[0], w->at)), past = dot3(t->normal, d);
+    lmb_cross_job job;
+    if (!(absf(ahead) < (ahead < 0.0f ? -past : past)) || !cross_job(&job, t, w->at, w->noise, w->b->noise)) {
+        return 0;
+    }
+    const float min = minf(minf(dot3(job.edge[0], d), dot3(job.edge[1], d)), dot3(job.edge[2], d));
+    return 0.0f <= min && job.beyond < dot3(job.normal, d) &&
+           (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
+}
+
+static int last_blocks_one(traversal *w, int k)
+{
+    for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {
+        const uint32_t triangle = w->kept->last[i] - 1;
+        if (blocks_one(w, triangle, k)) {
+            remember(w->kept->last, triangle);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Of a node's boxes that the segment meets, the leaves: 1 where one blocks. *children: those that are nodes. */
+static int node_blocks_one(uint32_t *children, traversal *w, const lmb_pyramid *p, const lmb_boxes *node, int k)
+{
+    *children = 0;
+    ++w->kept->asked;
+    for (uint32_t bits = w->kernels->meets(p, node); bits != 0; bits &= bits - 1) {
+        const int i = lowest_bit(bits);
+        if (node->count[i] == 0) {
+            *children |= 1u << (LMB_BOXES - 1 - i);
+            continue;
+        }
+        ++w->kept->asked;
+        for (uint32_t j = 0; j < node->count[i]; ++j) {
+            if (blocks_one(w, node->first[i] + j, k)) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+static int one_blocked(traversal *w, int k)
+{
+    branch waiting[LMB_TRAVERSAL_LEVELS];
+    int count = 0;
+    uint32_t here = 0;
+    if (last_blocks_one(w, k)) {
+        return 1;
+    }
+    const lmb_pyramid p = pyramid_of(w->tile, w->left, w->at);
+    for (;;) {
+        waiting[count].node = here;
+        if (node_blocks_one(&waiting[count].children, w, &p, &w->b->node[here], k)) {
+            return 1;
+        }
+        count += waiting[count].children != 0;
+        if (count == 0) {
+            return 0;
+        }
+        branch *up = &waiting[count - 1];
+        here = w->b->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
+        up->children &= up->children - 1;
+        count -= up->children == 0;
+    }
+}
+
+uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
+                           lmb_vec3 at, float noise, lmb_traversal *kept)
+{
+    traversal w = {bvh, kernels, tile, at, noise, kept, pixels};
+    uint64_t occluded = 0;
+    if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
+        return 0;
+    }
+    if (count_bits_64(pixels) > FEW) {
+        return blocked_together(&w);
+    }
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        w.left = bits & (~bits + 1);
+        occluded |= one_blocked(&w, lowest_bit_64(bits)) ? w.left : 0;
+    }
+    return occluded;
+}
+
+#endif

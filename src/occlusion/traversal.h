@@ -1,0 +1,28 @@
+/* traversal.h: how deep the tree of boxes may be, and what rounding may do. Layer 4.
+ *
+ * Nothing here goes by the size of the scene: a triangle far away must not make walls leak. */
+#ifndef LMB_OCCLUSION_TRAVERSAL_H
+#define LMB_OCCLUSION_TRAVERSAL_H
+
+#include <lambent/occlusion.h>
+
+/* Levels: eight for 2^31 triangles cut into sixteen by halves, and as many above for cuts that are not even. */
+#define LMB_TRAVERSAL_LEVELS 16
+
+/* A place on a surface is a ray's length along it, added to the eye: of the distance, 8 roundings of the plane's
+ * numbers and of rays up to twice as long as their way along the axis; of the coordinates, 4 of the sum's. */
+#define LMB_NOISE_DISTANCE 9.5367432e-7f /* 2^-20 */
+#define LMB_NOISE_PLACE    2.3841858e-7f /* 2^-22 */
+
+/* Of how far a segment's end is from a triangle's corners: 4 roundings of its height over the plane, and 4 of the
+ * normal, which is not worked out as that by which the end was placed. */
+#define LMB_NOISE_TRIANGLE 4.7683716e-7f /* 2^-21 */
+
+/* Of the size of a convex room, where nothing can block: hull.c. */
+#define LMB_NOISE_HULL 3.8146973e-6f /* 2^-18 */
+
+/* How far boxes reach past what they hold: of their size and of their coordinates. */
+#define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
+#define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */
+
+#endif

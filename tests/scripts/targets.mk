@@ -1,0 +1,105 @@
+# targets.mk: who draws the golden pictures: CROSS_TARGETS in `make cross`, those and MORE_CROSS_TARGETS in `make cross-all`.
+#
+#   needs_NAME  commands that must be there; tools.sh knows their packages
+#   how_NAME    what make is told: the compiler, its flags, and RUN, what runs the machine's programs
+#   goal_NAME   what is made, where it is not `golden`
+
+CROSS_TARGETS      := gcc clang aarch64 mips cortex-m4f riscv32 web web-simd
+LEVELS        := O0 O1 O2 O3 Os
+MORE_CROSS_TARGETS := $(filter-out gcc-O2,$(LEVELS:%=gcc-%)) gcc-native $(LEVELS:%=clang-%) tcc \
+                 i386 clang-i386 windows clang-windows clang-msvc clang-aarch64 armhf clang-armhf armel mipsel clang-mips \
+                 powerpc ppc64 ppc64le clang-ppc64le riscv64 clang-riscv64 s390x clang-s390x cortex-m7 cortex-m55 neon
+
+# --- this machine: compilers, and what their optimisers do differently ------------------------------------------------
+
+# The two that `make cross` tries are gcc's -O2 and what clang makes of this very processor.
+needs_gcc        := gcc
+how_gcc          := CC=gcc
+needs_clang      := clang
+how_clang        := CC=clang CFLAGS="-O3 -march=native"
+needs_gcc-native := gcc
+how_gcc-native   := CC=gcc CFLAGS="-O3 -march=native"
+define level
+needs_$(1)-$(2) := $(1)
+how_$(1)-$(2)   := CC=$(1) CFLAGS=-$(2)
+endef
+$(foreach c,gcc clang,$(foreach l,$(LEVELS),$(eval $(call level,$(c),$(l)))))
+
+# tcc 0.9.27 computes wrongly, and lmb_build_check says so (src/base/exact.c): a refusal counts as skipped.
+needs_tcc   := tcc
+how_tcc     := CC=tcc DEPS= RUN="sh tests/scripts/may_refuse.sh"
+
+i386            := -m32 -msse2 -mfpmath=sse -I/usr/include/x86_64-linux-gnu
+needs_i386       := gcc gcc-m32
+how_i386         := CC="gcc $(i386)"
+needs_clang-i386 := clang gcc-m32
+how_clang-i386   := CC="clang $(i386)"
+
+# --- Windows ----------------------------------------------------------------------------------------------------------
+
+wine                := EXE=.exe RUN="env WINEDEBUG=-all sh tests/scripts/wine.sh"
+needs_windows       := x86_64-w64-mingw32-gcc wine64
+how_windows         := CC=x86_64-w64-mingw32-gcc $(wine) LDFLAGS=-static
+# clang looks for libgcc where Debian does not keep it.
+needs_clang-windows := clang x86_64-w64-mingw32-gcc wine64
+how_clang-windows    = CC="clang --target=x86_64-w64-windows-gnu" $(wine) \
+    LDFLAGS="-static -L$(dir $(shell x86_64-w64-mingw32-gcc -print-libgcc-file-name))"
+# Microsoft's ABI and language, without its headers: the library compiles.
+needs_clang-msvc    := clang
+how_clang-msvc      := CC="clang --target=x86_64-pc-windows-msvc -ffreestanding -isystem platform/freestanding -Werror"
+goal_clang-msvc     := compiles
+
+# --- Linux programs under qemu's user mode ----------------------------------------------------------------------------
+
+# linux NAME TRIPLET QEMU [MORE]: gcc;  clang_linux: clang with that gcc's libraries.
+define linux
+needs_$(1) := $(2)-gcc $(3)
+how_$(1)   := CC=$(2)-gcc LDFLAGS=-static RUN=$(3) $(4)
+endef
+define clang_linux
+needs_clang-$(1) := clang $(2)-gcc $(3)
+how_clang-$(1)   := CC="clang --target=$(2)" LDFLAGS=-static RUN=$(3) $(4)
+endef
+$(eval $(call linux,aarch64,aarch64-linux-gnu,qemu-aarch64))
+$(eval $(call linux,armhf,arm-linux-gnueabihf,qemu-arm))
+$(eval $(call linux,armel,arm-linux-gnueabi,qemu-arm))
+$(eval $(call linux,mips,mips-linux-gnu,qemu-mips))
+$(eval $(call linux,mipsel,mipsel-linux-gnu,qemu-mipsel))
+$(eval $(call linux,powerpc,powerpc-linux-gnu,qemu-ppc))
+$(eval $(call linux,ppc64,powerpc64-linux-gnu,qemu-ppc64))
+$(eval $(call linux,ppc64le,powerpc64le-linux-gnu,qemu-ppc64le))
+$(eval $(call linux,riscv64,riscv64-linux-gnu,qemu-riscv64))
+# Every kernel of AArch64 against plain C's. (gcc 12 for AArch64 fails on another room's tests.)
+needs_neon := $(needs_aarch64)
+how_neon   := $(how_aarch64) TEST_SRC="$(wildcard tests/lanes/test_*.c)"
+goal_neon  := lanes
+# There gcc -std=c99 computes float as double.
+$(eval $(call linux,s390x,s390x-linux-gnu,qemu-s390x,STD=gnu99))
+$(eval $(call clang_linux,aarch64,aarch64-linux-gnu,qemu-aarch64))
+$(eval $(call clang_linux,armhf,arm-linux-gnueabihf,qemu-arm))
+$(eval $(call clang_linux,ppc64le,powerpc64le-linux-gnu,qemu-ppc64le))
+$(eval $(call clang_linux,s390x,s390x-linux-gnu,qemu-s390x,STD=gnu99))
+# clang 14 turns edge functions' signs round, and lmb_build_check says so.
+needs_clang-mips := clang $(needs_mips)
+how_clang-mips   := CC="clang --target=mips-linux-gnu" LDFLAGS=-static RUN="sh tests/scripts/may_refuse.sh qemu-mips"
+# clang looks for headers and start-up files where Debian does not keep them.
+rv64_lib            = $(dir $(shell riscv64-linux-gnu-gcc -print-libgcc-file-name)) /usr/riscv64-linux-gnu/lib
+needs_clang-riscv64 := clang $(needs_riscv64)
+how_clang-riscv64    = CC="clang --target=riscv64-linux-gnu -isystem /usr/riscv64-linux-gnu/include" RUN=qemu-riscv64 \
+    LDFLAGS="-static $(foreach d,$(rv64_lib),-B$(d) -L$(d))"
+
+# --- no operating system ----------------------------------------------------------------------------------------------
+
+needs_cortex-m4f := arm-none-eabi-gcc qemu-system-arm
+how_cortex-m4f   := PORT=cortex-m
+needs_cortex-m7  := $(needs_cortex-m4f)
+how_cortex-m7    := PORT=cortex-m CORE=m7
+needs_cortex-m55 := $(needs_cortex-m4f)
+how_cortex-m55   := PORT=cortex-m CORE=m55 CFLAGS=-O3
+needs_riscv32    := riscv64-unknown-elf-gcc qemu-system-riscv32
+how_riscv32      := PORT=riscv32 CFLAGS=-O2
+
+needs_web        := clang wasm-ld node
+how_web          := PORT=web
+needs_web-simd   := $(needs_web)
+how_web-simd     := PORT=web CFLAGS="-O2 -msimd128"

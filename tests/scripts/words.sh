@@ -1,0 +1,73 @@
+# words.sh: no name, option, file or phrase of words.txt in src, include, tools and documents; documents' links exist;
+# README.md within its bounds.
+#
+# words.txt has a line for each: `name WORD` (a whole identifier), `code WORD` (the same, but not in comments and strings,
+# as it is a word of English too), `option --WORD`, `file BASENAME`, `phrase WORDS`
+# (exact, in comments and documents, across line breaks). NEWS.md's table of old names may have them.
+dir=${0%/*}
+. "$dir/checks.sh"
+list=${LIST:-$dir/words.txt}
+tmp=${B:-build/default}/words
+rm -rf "$tmp"
+mkdir -p "$tmp"
+
+for kind in name code option file phrase; do
+    sed -n "s/^$kind //p" "$list" > "$tmp/$kind"
+    [ "$kind" != code ] || mv "$tmp/code" "$tmp/code-name"
+    [ "$kind" = code ] || [ -s "$tmp/$kind" ] || fail "$list has no line of $kind"
+done
+find src include tools platform -type f \( -name '*.[ch]' -o -name '*.inl' -o -name '*.inc' \) | sort > "$tmp/code"
+find . -name '*.md' ! -path './build/*' ! -path './.git/*' | sed 's,^\./,,' | sort > "$tmp/documents"
+
+# The texts: NEWS.md without its table of old names.
+while read -r f; do
+    case $f in
+    NEWS.md) awk '/^## Old names/ { old = 1 } /^## / && !/^## Old names/ { old = 0 } { print old ? "" : $0 }' "$f" ;;
+    *) cat "$f" ;;
+    esac > "$tmp/text"
+    grep -nwF -f "$tmp/name" "$tmp/text" | sed "s|^|$f:|" >> "$tmp/found-name"
+    grep -nwF -e NOTHING-LIKE-THIS -f "$tmp/option" "$tmp/text" | sed "s|^|$f:|" >> "$tmp/found-option"
+    case $f in
+    *.md) ;;
+    *)
+        awk -f "$dir/bare_code.awk" "$tmp/text" | grep -nwF -f "$tmp/code-name" | sed "s|^|$f:|" >> "$tmp/found-code"
+        ;;
+    esac
+    # One line a file, without the marks of comments, so that a phrase is found wherever its line ends.
+    sed -e 's,^ *\(/\*\|\*\|//\) ,,' -e 's,^ *,,' "$tmp/text" | tr '\n' ' ' | tr -s ' ' > "$tmp/line"
+    grep -oF -f "$tmp/phrase" "$tmp/line" | sort | uniq -c | sed "s|^|$f: |" >> "$tmp/found-phrase"
+done <<END
+$(cat "$tmp/code" "$tmp/documents")
+END
+
+cat "$tmp/code" "$tmp/documents" | sed 's,.*/,,' | grep -xF -f "$tmp/file" > "$tmp/found-file"
+for kind in name code option file phrase; do
+    if [ -s "$tmp/found-$kind" ]; then
+        fail "words that words.txt lists, by $kind: $(wc -l < "$tmp/found-$kind")"
+        head -n 20 "$tmp/found-$kind"
+    else
+        pass
+    fi
+done
+
+# Relative links of documents.
+while read -r f; do
+    grep -oE '\]\([^)#: ]+(#[^)]*)?\)' "$f" | sed -e 's,^](,,' -e 's,[#)].*,,' | sort -u | while read -r to; do
+        case $f in */*) from=${f%/*}/ ;; *) from= ;; esac
+        [ -e "$from$to" ] || echo "$f: $to"
+    done
+done < "$tmp/documents" > "$tmp/links"
+check "links of documents exist: $(tr '\n' ' ' < "$tmp/links")" test ! -s "$tmp/links"
+
+# README.md: 150 lines, and 60 numbers outside of code.
+lines=$(wc -l < README.md)
+numbers=$(awk '/^```/ { code = !code } !code' README.md | sed 's/`[^`]*`//g; s/([^)]*)//g' \
+    | grep -oE '(^|[^A-Za-z0-9_.-])[0-9][0-9.,]*' | wc -l)
+if [ "$lines" -le 150 ] && [ "$numbers" -le 60 ]; then
+    pass
+elif [ "${README_BOUNDS:-1}" = 0 ]; then
+    skip "README.md has $lines lines and $numbers numbers; 150 and 60 are its bounds"
+else
+    fail "README.md has $lines lines and $numbers numbers; 150 and 60 are its bounds"
+fi
+finish

@@ -1,0 +1,32 @@
+/* text_buffer.h: text that grows, for files that are written whole. */
+#ifndef TEXT_BUFFER_H
+#define TEXT_BUFFER_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "report.h"
+
+/* Zeroed it is empty; text_buffer_free releases it. Once memory is short it stays as it is and `is_short` is set. */
+typedef struct text_buffer {
+    char *data; /* ends with 0 */
+    size_t size, cap;
+    int is_short;
+} text_buffer;
+
+/* text_buffer_add: as printf. text_buffer_plain: as it is. text_buffer_html: with & < > " escaped. text_buffer_json: a
+ * string with its quotes. text_buffer_csv: quoted where a comma or quote asks for it. text_buffer_base64: RFC 4648,
+ * padded. */
+void text_buffer_add(text_buffer *p, const char *format, ...) REPORT_PRINTF(2, 3);
+void text_buffer_plain(text_buffer *p, const char *text);
+void text_buffer_html(text_buffer *p, const char *text);
+void text_buffer_json(text_buffer *p, const char *text);
+void text_buffer_csv(text_buffer *p, const char *text);
+void text_buffer_base64(text_buffer *p, const uint8_t *data, size_t size);
+
+/* text_buffer_write: the file. 1, or 0 with `r` set. */
+int text_buffer_write(const text_buffer *p, const char *path, report *r);
+
+void text_buffer_free(text_buffer *p);
+
+#endif

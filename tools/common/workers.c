@@ -1,0 +1,151 @@
+/* workers.c: a frame's stages shared out among threads. */
+#include "workers.h"
+
+#include <string.h>
+
+#include "../../platform/host/host.h"
+
+/* A stage under way. */
+typedef struct stage_work {
+    const workers *workers;
+    const lmb_render *render;
+    int parts;
+    lmb_status failed[POOL_MAX]; /* by worker, like counts */
+    lmb_stats counts[POOL_MAX];
+} stage_work;
+
+static void keep_failure(stage_work *w, int worker, lmb_status status)
+{
+    if (status != LMB_OK) {
+        w->failed[worker] = status;
+    }
+}
+
+static double now(const workers *c) { return c->clock != NULL ? c->clock() : host_seconds(); }
+
+static void tell(const workers *c, const lmb_render *r)
+{
+    if (c->tell != NULL) {
+        c->tell(c->user, r);
+    }
+}
+
+static void draw_part(void *user, int part, int worker)
+{
+    stage_work *w = user;
+    keep_failure(w, worker,
+                 lmb_render_part(w->render, &w->workers->scratches[worker], part, w->parts, &w->counts[worker]));
+}
+
+static int band_step(const workers *c) { return c->every > 1 ? c->every : 1; }
+
+/* Bands are taken in order, so the number of one tells how far the frame is. */
+static void draw_band(void *user, int part, int worker)
+{
+    stage_work *w = user;
+    const lmb_frame *f = &w->render->frame;
+    const int band = part * band_step(w->workers);
+    lmb_band_scratch *scratch = &w->workers->scratches[worker];
+    memset(&scratch->counts, 0, sizeof scratch->counts);
+    keep_failure(w, worker, lmb_render_band(w->render, scratch, &f->eye, &f->out, band));
+    w->counts[worker].bands += 1;
+    w->counts[worker].pairs += scratch->counts.pairs;
+    w->counts[worker].segments += scratch->counts.segments;
+    w->counts[worker].full_cuts += scratch->counts.full_cuts;
+    if (worker == 0 && w->workers->tell != NULL) {
+        lmb_render at = *w->render;
+        at.progress = (uint32_t)band;
+        tell(w->workers, &at);
+    }
+}
+
+static lmb_status sum_up(const stage_work *w, lmb_stats *stats)
+{
+    lmb_status status = LMB_OK;
+    for (int i = 0; i < POOL_MAX; ++i) {
+        status = status != LMB_OK ? status : w->failed[i];
+        if (stats != NULL) {
+            stats->triangles += w->counts[i].triangles;
+            stats->triangles_drawn += w->counts[i].triangles_drawn;
+            stats->triangles_dropped += w->counts[i].triangles_dropped;
+            stats->bands += w->counts[i].bands;
+            stats->pairs += w->counts[i].pairs;
+            stats->segments += w->counts[i].segments;
+            stats->full_cuts += w->counts[i].full_cuts;
+        }
+    }
+    return status;
+}
+
+/* The parts or bands of the stage at hand, by all threads at once. */
+static lmb_status share(const workers *c, const lmb_render *r, int parts, pool_job job)
+{
+    stage_work w;
+    memset(&w, 0, sizeof w);
+    w.workers = c;
+    w.render = r;
+    w.parts = parts;
+    tell(c, r);
+    pool_run(c->threads, parts, job, &w);
+    return sum_up(&w, r->frame.stats);
+}
+
+static lmb_status do_parts(const workers *c, lmb_render *r)
+{
+    const lmb_status status = share(c, r, c->threads, draw_part);
+    return status != LMB_OK ? status : lmb_render_parts_done(r, c->threads);
+}
+
+static lmb_status do_step(const workers *c, lmb_render *r)
+{
+    const lmb_status status = lmb_render_step(r, 16);
+    tell(c, r);
+    return status;
+}
+
+/* The stages before `past`: with one thread by steps, so that it can be told how far it is. */
+static lmb_status do_stages(workers *c, lmb_render *r, int32_t *stage, int32_t past)
+{
+    lmb_status status = LMB_MORE;
+    while (status == LMB_MORE && r->stage < past) {
+        const double start = now(c);
+        *stage = r->stage;
+        status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
+        c->stage_s[*stage] += now(c) - start;
+    }
+    return status == LMB_MORE ? LMB_OK : status;
+}
+
+static lmb_status do_bands(workers *c, lmb_render *r, int32_t *stage)
+{
+    const double start = now(c);
+    *stage = LMB_STAGE_BANDS;
+    const int bands = (r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE, step = band_step(c);
+    lmb_status status = share(c, r, (bands + step - 1) / step, draw_band);
+    c->stage_s[LMB_STAGE_BANDS] += now(c) - start;
+    return status;
+}
+
+lmb_status workers_light(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame, int32_t past)
+{
+    const lmb_status status = lmb_render_begin(r, frame);
+    *stage = LMB_STAGE_SHADOW_MAP;
+    memset(c->stage_s, 0, sizeof c->stage_s);
+    return status != LMB_OK ? status : do_stages(c, r, stage, past);
+}
+
+lmb_status workers_render(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_status status = workers_light(c, stage, r, frame, LMB_STAGE_BANDS);
+    return status != LMB_OK ? status : do_bands(c, r, stage);
+}
+
+lmb_status workers_again(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+{
+    lmb_status status = lmb_render_again(r, frame);
+    *stage = LMB_STAGE_VIEW;
+    if (status == LMB_OK) {
+        status = do_stages(c, r, stage, LMB_STAGE_BANDS);
+    }
+    return status != LMB_OK ? status : do_bands(c, r, stage);
+}
