@@ -107,8 +107,9 @@ size_t lmb_tree_bytes(uint32_t faces, int32_t size);
 lmb_status lmb_tree_init(lmb_tree *out, uint32_t faces, int32_t size, void *memory, size_t bytes);
 
 /* lmb_tree_texels: the first points of the tile rows first .. past - 1 of one face of a shadow map, into face `into`
- * of the tree. A map of 2, 4 or 8 times the tree's size gives one texel in 2 x 2, 4 x 4 or 8 x 8, moved along its plane
- * to the middle: a fine map makes sharp shadows, which do not ask for as many first points.
+ * of the tree. A map of 2, 4 or 8 times the tree's size gives one texel of 2 x 2, 4 x 4 or 8 x 8: of the surface in
+ * their middle, and there; or, where others hide it or are hidden by it, of one of these, as often as it shows. A fine
+ * map makes sharp shadows, which do not ask for as many first points.
  * Rows may be taken in any order, at once on any threads. LMB_OK, LMB_ERR_ARG or LMB_ERR_CAPACITY. */
 lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb_tile *scratch, const lmb_scene *scene,
                            const lmb_light *light, const lmb_shadow_map *map, int32_t face, uint32_t into,

@@ -12,6 +12,8 @@
 #if LMB_TREES
 
 #define ROUNDING 3e-7f /* of a cosine */
+enum { NOBODY = -1 };
+#define GOLDEN 40503u /* 2^16 / 1.618034 */
 
 size_t lmb_tree_bytes(uint32_t faces, int32_t size)
 {
@@ -54,26 +56,121 @@ static int is_near_by(const lmb_view *v, lmb_vec3 from, lmb_vec3 to, int32_t siz
     return moved > 0.5f * w && length3(sub3(to, from)) * GRAZE < 2.0f * v->half_width / (float)size * w;
 }
 
-/* A texel of the tree from a pixel of the map near its middle: there, or at the pixel where its plane is edge-on. */
+/* The place over the middle of a texel of the map in the plane of pixel k. */
+static lmb_vec3 at_middle(const lmb_tile *t, int k, const lmb_view *v, float sx, float sy)
+{
+    return footprint_over(v, tile_vec(t->position, k), tile_vec(t->face, k), sx, sy);
+}
+
+/* Does pixel k's surface end where another's begins, before a place in its plane? It does where the way there crosses
+ * the other's plane: in a corner the place is behind a wall, where nothing sees it, on a ridge it is in the air. Not by
+ * less than rounding, which blocks nothing. */
+static int ends_before(const lmb_tile *t, int k, int other, const lmb_view *v, lmb_vec3 place)
+{
+    const lmb_vec3 normal = tile_vec(t->face, other), on = tile_vec(t->position, other);
+    const float here = dot3(normal, sub3(tile_vec(t->position, k), on)), there = dot3(normal, sub3(place, on));
+    return here * there < 0.0f && absf(there) > lmb_place_noise(place, length3(sub3(place, v->eye)));
+}
+
+/* Of the four pixels around a texel's middle, of which k is the last, one whose surface shows there; NOBODY where that
+ * is not known. Of surfaces that lie one before the other and do not meet either will do. */
+static int pixel_of_middle(const lmb_tile *t, int k, const lmb_view *v, float sx, float sy)
+{
+    const int around[4] = {k, k - 1, k - LMB_TILE, k - LMB_TILE - 1};
+    for (int i = 0; i < 4; ++i) {
+        const lmb_vec3 place = at_middle(t, around[i], v, sx, sy);
+        int ends = t->id[around[i]] == 0;
+        for (int j = 0; j < 4 && !ends; ++j) {
+            ends = t->id[around[j]] != 0 && ends_before(t, around[i], around[j], v, place);
+        }
+        if (!ends) {
+            return around[i];
+        }
+    }
+    return NOBODY;
+}
+
+/* Does what pixel a shows go on to what pixel b shows, bent or not? */
+static int goes_on(const lmb_tile *t, int a, int b, const lmb_view *v, float sx, float sy)
+{
+    if (t->id[a] == t->id[b] || t->id[a] == 0 || t->id[b] == 0) {
+        return t->id[a] == t->id[b];
+    }
+    const lmb_vec3 d = sub3(tile_vec(t->position, a), tile_vec(t->position, b)), n = tile_vec(t->face, b);
+    const float height = dot3(n, d);
+    return (dot3(n, tile_vec(t->face, a)) >= TILE_COS_25 && height * height <= TILE_FLAT * TILE_FLAT * dot3(d, d)) ||
+           ends_before(t, a, b, v, at_middle(t, a, v, sx, sy));
+}
+
+/* 0 .. 2^16 - 1: even along each row and each column, by bits reversed along columns: along no slanted line do they go
+ * as the line does, as multiples alone would. */
+static uint32_t turn_of(int32_t x, int32_t y)
+{
+    static const uint8_t reversed[8] = {0, 4, 2, 6, 1, 5, 3, 7};
+    const uint32_t down = (uint32_t)reversed[y & 7] << 13 | (uint32_t)reversed[y >> 3 & 7] << 10;
+    return (down + (uint32_t)x * GOLDEN) & 0xffffu;
+}
+
+/* A texel is of the surface in its middle, pixel own, or of one that hides it or is hidden by it, as often as that has
+ * texel's pixels: else an edge along the map's axes is off along all its length, a pillar of three texels by a sixth of
+ * its light. */
+static int pixel_in_turn(const lmb_tile *t, int own, int k, int32_t each, const lmb_view *v, int32_t x, int32_t y,
+                         float sx, float sy)
+{
+    const int first = k - each / 2 * (LMB_TILE + 1), pixels = each * each;
+    uint64_t apart = 0;
+    for (int i = 0; i < pixels; ++i) {
+        const int at = first + i / each * LMB_TILE + i % each;
+        apart |= (uint64_t)!goes_on(t, at, own, v, sx, sy) << at;
+    }
+    int turn = (int)(turn_of(x, y) * (uint32_t)pixels >> 16);
+    for (; turn > 0 && apart != 0; --turn) {
+        apart &= apart - 1;
+    }
+    return apart != 0 ? lowest_bit_64(apart) : own;
+}
+
+/* Which pixel a texel is of, and whether its plane goes on to the texel's middle. k: the last of the four around
+ * that. */
+static int choose_pixel(int *goes, const lmb_tile *t, int k, const lmb_shadow_map *coarse, int32_t face, int32_t x,
+                        int32_t y, float sx, float sy)
+{
+    const lmb_view *v = &coarse->view[face];
+    const int32_t each = coarse->face[face].id.width / coarse->size;
+    if (each == 1) {
+        *goes = 1;
+        return k;
+    }
+    const int found = pixel_of_middle(t, k, v, sx, sy), own = found != NOBODY ? found : k;
+    const int turn = pixel_in_turn(t, own, k, each, v, x, y, sx, sy);
+    *goes = found != NOBODY && turn == own;
+    return turn;
+}
+
+/* A texel of the tree: at its middle, or at a pixel, where that pixel's plane is edge-on or does not go on so far. */
 static void set_texel(lmb_texel *out, const lmb_tile *t, int k, const lmb_light *light, const lmb_shadow_map *coarse,
                       int32_t face, int32_t x, int32_t y)
 {
     const lmb_view *v = &coarse->view[face];
-    const float size = (float)coarse->size;
+    const float size = (float)coarse->size, sx = ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
+                sy = (1.0f - (float)(2 * y + 1) / size) * v->half_height;
     float power[3];
+    int goes;
+    const int own = choose_pixel(&goes, t, k, coarse, face, x, y, sx, sy);
     memset(out, 0, sizeof *out);
     memset(out->side, SIDE_WHOLE, sizeof out->side);
-    if (t->id[k] == 0) {
+    if (t->id[own] == 0) {
         return;
     }
     lmb_light_texel_power(power, light, coarse, face, x, y);
-    out->normal = vec3(t->face[0][k], t->face[1][k], t->face[2][k]);
-    const lmb_vec3 at = tile_vec(t->position, k);
-    const lmb_vec3 moved = footprint_over(v, at, out->normal, ((float)(2 * x + 1) / size - 1.0f) * v->half_width,
-                                          (1.0f - (float)(2 * y + 1) / size) * v->half_height);
-    out->position = is_near_by(v, at, moved, coarse->size) ? moved : at;
+    out->normal = tile_vec(t->face, own);
+    out->position = tile_vec(t->position, own);
+    const lmb_vec3 moved = at_middle(t, own, v, sx, sy);
+    if (goes && is_near_by(v, out->position, moved, coarse->size)) {
+        out->position = moved;
+    }
     for (int c = 0; c < 3; ++c) {
-        out->flux[c] = flux_or_none(power[c] * t->albedo[c][k]);
+        out->flux[c] = flux_or_none(power[c] * t->albedo[c][own]);
     }
 }
 

@@ -494,6 +494,87 @@ static void check_coarse(const char *name, lmb_light light, float reach)
     }
 }
 
+/* No texel of a convex room lies behind a wall of it, which would hide what it lights from everyone: by the planes of
+ * all other texels, each of which is a wall's. */
+static void check_behind(const char *name, lmb_light light)
+{
+    for (int32_t each = 2; each <= 8; each *= 2) {
+        uint32_t count = 0, behind = 0;
+        float worst = 0.0f;
+        lit_coarse(&light, each);
+        for (int32_t i = 0; i < lit.size * lit.size; ++i) {
+            const lmb_texel *t = tree_texel(&lit, 0, i % lit.size, i / lit.size);
+            float deep = 0.0f;
+            for (int32_t k = 0; k < lit.size * lit.size && flux_sum(t->flux) > 0.0f; k += 64 / (each * each)) {
+                const lmb_texel *wall = tree_texel(&lit, 0, k % lit.size, k / lit.size);
+                const float before = dot3(wall->normal, sub3(t->position, wall->position));
+                deep = flux_sum(wall->flux) > 0.0f ? maxf(deep, -before) : deep;
+            }
+            count += flux_sum(t->flux) > 0.0f;
+            behind += deep > 2e-6f;
+            worst = maxf(worst, deep);
+        }
+        printf("  behind walls, %s, a %d-th: %u of %u texels, by %.1e m\n", name, (int)each, (unsigned)behind,
+               (unsigned)count, (double)worst);
+        CHECK_MSG(count > 200 && behind == 0, "%s, a %d-th: %u of %u, by %g m", name, (int)each, (unsigned)behind,
+                  (unsigned)count, (double)worst);
+    }
+}
+
+static void check_all_behind(void)
+{
+    make_room(0);
+    check_behind("box", spot(vec3(0.1f, 0.6f, -0.2f), vec3(0.2f, -1, 0.3f), 30, 48));
+    check_behind("box, by its axes", spot(vec3(0, 0.6f, 0), vec3(0, -1, 0), 30, 48));
+    world_begin(0.6f, 0.4f, 0.2f);
+    world_sphere(vec3(0, 0, 0), 1.0f, 10, 20);
+    CHECK(world_end() == LMB_OK);
+    check_behind("ball from within", spot(vec3(0.1f, 0.2f, -0.2f), vec3(0.2f, -1, 0.3f), 30, 48));
+}
+
+/* A plate about a texel wide before a wall, at 16 places: where its edges go along the map's axes it has the light of
+ * its area but for a pixel of the map, at any angle in the mean. */
+static void check_plate(float degrees, int32_t each)
+{
+    const float c = cosf(degrees * (float)PI / 180.0f), s = sinf(degrees * (float)PI / 180.0f);
+    const lmb_light light = sun(vec3(0, 0, -1));
+    double worst = 0.0, mean = 0.0, bound = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        const float half_w = 0.021f + 0.0013f * (float)i, half_h = 0.71f, x = -0.3f + 0.0371f * (float)i;
+        world_begin(0.6f, 0.4f, 0.2f);
+        world_quad(vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 1, 0));
+        world_quad(vec3(x, 0.01f * (float)i, 0.5f), vec3(half_w * c, half_w * s, 0), vec3(-half_h * s, half_h * c, 0));
+        CHECK(world_end() == LMB_OK);
+        lit_coarse(&light, each);
+        const double pixel = 2.0 * (double)lit_map.view[0].half_width / LIT_SIDE;
+        const double want = (double)(4.0f * half_w * half_h * world.material[0].albedo[0] * light.intensity[0]);
+        double sum = 0.0;
+        for (int32_t k = 0; k < lit.size * lit.size; ++k) {
+            const lmb_texel *t = tree_texel(&lit, 0, k % lit.size, k / lit.size);
+            sum += t->position.z > 0.25f ? (double)t->flux[0] : 0.0;
+        }
+        worst = fmax(worst, fabs(sum / want - 1.0));
+        mean += (sum / want - 1.0) / 16;
+        bound = fmax(bound, pixel / (2.0 * (double)half_w) + pixel / (2.0 * (double)half_h));
+    }
+    printf("  plate at %g degrees, a %d-th: flux within %.2f %% (%.2f in the mean), a pixel is %.2f %%\n",
+           (double)degrees, (int)each, worst * 100, mean * 100, bound * 100);
+    if (degrees == 0.0f || degrees == 90.0f) {
+        CHECK_MSG(worst < bound, "at %g degrees, a %d-th: %g of %g", (double)degrees, (int)each, worst, bound);
+    }
+    CHECK_MSG(fabs(mean) < 0.05, "at %g degrees, a %d-th: %g in the mean", (double)degrees, (int)each, mean);
+}
+
+static void check_plates(void)
+{
+    static const float degrees[] = {0, 1, 7, 22, 30, 37, 45, 60, 90};
+    for (int i = 0; i < COUNT(degrees); ++i) {
+        for (int32_t each = 1; each <= 8; each *= 2) {
+            check_plate(degrees[i], each);
+        }
+    }
+}
+
 /* Planes that the light sees to the horizon, or edge-on: texels moved to their middles stay before it. */
 static void check_horizons(void)
 {
@@ -545,5 +626,7 @@ void test_tree(void)
     check_refused();
     check_folds();
     check_horizons();
+    check_all_behind();
+    check_plates();
     check_dim();
 }
