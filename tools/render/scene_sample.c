@@ -30,7 +30,7 @@ typedef struct looker {
 static float deviations(int32_t places) { return 1.0f + 4.0f / (float)places; }
 
 /* How far a rung is from truth, over how far it is from the next, at most but for a few: as scenes had
- * it (src/README.md). The last two have trees of one size. */
+ * it (src/DECISIONS.md). The last two have trees of one size. */
 static const float off_over_next[LMB_PLAN_RUNGS - 1] = {2.0f, 2.0f, 2.0f, 2.0f, 1.5f, 2.5f, 3.5f};
 
 static double unit(lmb_op op) { return lmb_plan_units((int32_t)op); }
