@@ -76,11 +76,8 @@ void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, do
     out->bytes = fixed + (uint64_t)(texels * 8.0) + (uint64_t)lmb_tree_bytes(faces, s->tree);
 }
 
-void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed)
+static void set_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed)
 {
-    if (out == NULL || facts == NULL || rung < 0 || rung >= LMB_PLAN_RUNGS || facts->max < LMB_TILE) {
-        return;
-    }
     double growth = 1.0;
     int32_t near = rung;
     while (near > 0 && facts->rung[near].places == 0) {
@@ -93,6 +90,13 @@ void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64
     lmb_model_cost(out, &lmb_model, facts, growth * facts->tiles * (double)facts->rung[near].pairs,
                    growth * facts->tiles * (double)facts->rung[near].segments, fixed);
     out->error = facts->rung[rung].error;
+}
+
+void lmb_plan_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed)
+{
+    if (out != NULL && facts != NULL && rung >= 0 && rung < LMB_PLAN_RUNGS && facts->max >= LMB_TILE) {
+        set_cost(out, facts, rung, fixed);
+    }
 }
 
 void lmb_facts_count(double *pairs, double *segments, const lmb_facts *facts, const lmb_frame *f)
@@ -123,7 +127,7 @@ lmb_status lmb_plan_choose(lmb_choice *out, const lmb_facts *facts, const lmb_bu
     int keeps = 0;
     for (int32_t i = 0; i < LMB_PLAN_RUNGS - 1 && !keeps; ++i) {
         lmb_choice c;
-        lmb_plan_cost(&c, facts, i, fixed);
+        set_cost(&c, facts, i, fixed);
         const int fits = over(&c, budget) <= 1.0;
         keeps = budget->error > 0.0f && c.error >= 0.0f && c.error <= budget->error;
         c.meets = fits && (keeps || !(budget->error > 0.0f));
