@@ -67,5 +67,5 @@ int main()
     Renderer renderer(settings);
     const lmb_status status = renderer.draw();
     return status != LMB_OK || ends_with("C++", lmb_surface_hash(&renderer.picture()),
-                                       BY_CONFIG(UINT64_C(0xed2201466adcf5a1), UINT64_C(0xa6f78680f1b889dc)));
+                                       BY_CONFIG(UINT64_C(0x8edafdbbe861ee3e), UINT64_C(0x6e1efaa15f6712a6)));
 }

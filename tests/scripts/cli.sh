@@ -271,15 +271,15 @@ check "--name=value is --name value" cmp "$dir/demo.pfm" "$dir/inside.pfm"
 cp "$dir/one.obj" "$dir/-q.obj"
 (cd "$dir" && "$OLDPWD/$TOOL" info -- -q.obj >out.txt 2>err.txt)
 check "behind -- a word that begins with - is no option" grep -q '^triangles' "$dir/out.txt"
-status 2 render demo --visibel 0.1 -o "$dir/bad.png"
-said "unknown option --visibel; did you mean --visibility?"
+status 2 render demo --visibilty 0.1 -o "$dir/bad.png"
+said "unknown option --visibilty; did you mean --visibility?"
 status 2 render demo --vis=0.1 -o "$dir/bad.png"
 said "unknown option --vis; did you mean --visibility?"
 status 2 render demo --nonsense -o "$dir/bad.png"
 said "unknown option --nonsense; lambent render --help lists them"
 status 2 bench demo --swep tree=8
 said "did you mean --sweep?"
-status 2 bench demo --lihgt-map 64
+status 2 bench demo --shadwo-map 64
 said "did you mean --shadow-map?"
 status 2 rendr demo
 said "did you mean render?"
@@ -430,10 +430,10 @@ status 2 relight --cube "$dir/bad.pfm"
 status 0 relight --help
 # Objects in the built-in world: normal and gloss are the parts of both, on every machine; places along a path.
 field="relight --world demo --object demo --size 48x24 --exposure 0"
-for show in both normal gloss; do
+for show in both normal glossy; do
     status 0 $field --show $show -o "$dir/field-$show.pfm"
 done
-check "gloss alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[0-9]"' sh "$TOOL" "$dir/field-gloss.pfm" "$dir/field-both.pfm"
+check "gloss alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[0-9]"' sh "$TOOL" "$dir/field-glossy.pfm" "$dir/field-both.pfm"
 status 0 $field --backend scalar -o "$dir/field-scalar.pfm"
 check "a backend changes the field" cmp "$dir/field-both.pfm" "$dir/field-scalar.pfm"
 status 0 $field --at 3,0,1 --roughness 0 --f0 0.9 --per-part --light sun:0,0,0:-1,-1,0:2,2,2 --cube "$dir/cube.pfm" -o "$dir/field.png"
