@@ -114,9 +114,9 @@ typedef struct lmb_frame {
  * README. By LMB_MANY_LIGHTS_EVEN lights of `many` and nothing else, `error` and `visibility` are larger (0.1 and 0.2
  * by default), and bounced light is gathered at every second pixel. */
 enum {
-    LMB_QUALITY_DEFAULT = 0, /* tree 256, error 0.02, visible 0.015 */
-    LMB_QUALITY_DRAFT = 1,   /* tree 128, error 0.06, visible 0.06 */
-    LMB_QUALITY_BEST = 2,    /* tree 1024, error 0.01, visible 0.001 */
+    LMB_QUALITY_DEFAULT = 0, /* tree 256, error 0.02, visibility 0.015 */
+    LMB_QUALITY_DRAFT = 1,   /* tree 128, error 0.06, visibility 0.06 */
+    LMB_QUALITY_BEST = 2,    /* tree 1024, error 0.01, visibility 0.002 */
     LMB_QUALITY_FIXED = 3    /* fixed groups, and what the viewer's own depth tells of occlusion: where memory is short.
                                 Builds without trees (LMB_TREES 0) have nothing else: there all are this one */
 };

@@ -42,7 +42,7 @@ static int is_measured(const block *b) { return b->memory == NULL; }
 static const struct preset {
     int32_t tree;
     float error, visibility;
-} presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.001f}, {256, 0.02f, 0.015f}},
+} presets[] = {{256, 0.02f, 0.015f}, {128, 0.06f, 0.06f}, {1024, 0.01f, 0.002f}, {256, 0.02f, 0.015f}},
   /* by light from all sides, gathered at every second pixel each way */
   even_presets[] = {{256, 0.1f, 0.2f}, {128, 0.2f, 0.3f}, {1024, 0.01f, 0.005f}, {256, 0.1f, 0.2f}};
 

@@ -178,6 +178,7 @@ static void make_frame(void)
     const lmb_cut_params cut_params = {.error = 0.1f, .visibility = 0.1f, .bvh = &g.render.frame.bvh};
     const lmb_element_scratch receiver = {f.kernels, &g.cut, &g.scratch.tile, &g.irradiance[0], &g.irradiance[1]};
     const lmb_occluder occluder = {&g.render.frame.view, &g.render.frame.eye.depth, LMB_OCCLUSION_VIEW, 8};
+    g.settings.kernels = lmb_kernels_pick();
     g.settings.scene = f.scene;
     g.settings.view = f.view;
     g.settings.shadow_map = SIDE;
