@@ -70,10 +70,7 @@ static int parse_views(const char *text, void *at)
 /* Of relief bake, and of relief render. */
 static const option_row bake_rows[] = {
     {.name = "MODEL", .kind = OPTION_TEXT, .value = "", .at = offsetof(statue, model), .help = "the complex one"},
-    {.name = "--views",
-     .value = "N|greedy:N",
-     .kind = OPTION_OWN,
-     .parse = parse_views,
+    {.name = "--views", .value = "N|greedy:N", .kind = OPTION_OWN, .parse = parse_views,
      .expects = "1 .. 64 or greedy:N",
      .help = "from N sides (default 26), or the N that see most"},
     RELIEF_OPTIONS_BAKE(statue),

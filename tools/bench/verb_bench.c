@@ -244,7 +244,8 @@ static int wanted_count(const options *o)
 
 static const option_row raster_rows[] = {
     {.name = "CASE", .kind = OPTION_TEXT, .value = "", AT(cases), .counts = offsetof(options, case_count),
-     .times = CASES, .size = sizeof(const char *), .help = "part of a case's name (default: all)"},
+     .times = CASES, .size = sizeof(const char *),
+     .help = "part of a case's name (default: all)"},
     ROW_FOLDER("bunny.mesh and sponza.mesh"),
     OPTION_BACKEND_ROW(options, kernels),
     ROW_SECONDS("of each case (default 1.5)"),

@@ -58,8 +58,8 @@ static const option_row rows[] = {
     {.name = "--json", .kind = OPTION_FLAG, AT(json),
      .help = "one object on one line; what is infinite or was not measured is null"},
     {.name = "--heat", .value = "OUT.png", .kind = OPTION_TEXT, AT(heat),
-     .help = "|a - b| / (b + 0.01 mean of B), grey: 0 black, 0.2 blue, 0.4 purple, 0.6 orange, 0.8 yellow, 1 and over "
-             "white, in equal steps of lightness; dark grey: masked; green: not finite"},
+     .help = "|a - b| / (b + 0.01 mean of B), grey: 0 black, 0.2 blue, 0.4 purple, 0.6 orange, 0.8 yellow, 1 and "
+             "over white, in equal steps of lightness; dark grey: masked; green: not finite"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no figures: the exit status alone"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
      .help = "say how each picture was taken, and how many pixels count"},

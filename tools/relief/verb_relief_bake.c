@@ -40,9 +40,9 @@ static const option_row rows[] = {
      .help = "what `lambent relief render` draws, in place from flash too"},
     {.name = "--views", .value = "N|greedy:N|FILE", .kind = OPTION_OWN, .parse = parse_views,
      .expects = "1 .. 64, greedy:N, or a file of cameras",
-     .help = "N: from N sides; 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64;\n"
-             "greedy:N: of 98 sides the N that see most;\n"
-             "FILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, target, degrees)"},
+     .help = "N: from N sides; 6, 14, 18, 26 are a cube's faces, edges and corners (default 26), to 64;\ngreedy:N: "
+             "of 98 sides the N that see most;\nFILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, "
+             "target, degrees)"},
     RELIEF_OPTIONS_BAKE(options),
     {.name = "--simple", .value = "FILE", .kind = OPTION_TEXT, AT(simple),
      .help = "a simple model of your own, near to the complex one; moved out where that sticks out"},
