@@ -1,4 +1,4 @@
-/* bounce.h: light received at a point from lit points, grouped in fixed-size arrays. [SEEDS V, JP5873672B2]
+/* bounce.h: light received at a point from lit points, grouped in fixed-size arrays. [V: patent JP5873672B2]
  *
  * The shadow map gives first points (lmb_points_collect), neighbours join into discs (lmb_discs_join), discs into
  * groups (lmb_group_greedy, lmb_group_zones), and groups light the pixels of a tile (lmb_gather_tile). */
@@ -22,8 +22,8 @@ typedef struct lmb_point {
     float flux[3];             /* outgoing Lambertian power: reflectance x power received, W           [V28] */
     float albedo[3];           /* members' mean reflectance, weighted by power received                [V12] */
     lmb_vec3 axis_u, axis_v;   /* half sides of its quad on the surface; area = 4 |u x v|              [V16] */
-    float distance;            /* mean distance to its neighbours, m; lmb_discs_join                   [V8] */
-    uint16_t cell_x, cell_y;   /* its place in the map of its face, in blocks of texels                [V15] */
+    float distance;            /* mean distance to its neighbours, m; set by lmb_discs_join            [V8] */
+    uint16_t cell_x, cell_y;   /* its column and row in the map of its face, in blocks of texels       [V15] */
     uint32_t face;             /* which face of which light: equal numbers share one map */
     uint32_t link;             /* lmb_group_*: scratch while grouping */
 } lmb_point;
@@ -57,7 +57,7 @@ typedef struct lmb_grouping {
     float reach;            /* 3   a disc joins a group within this x the first disc's radius          [V17] */
     float cosine;           /* 0.9 a disc joins where the normals' cosine is at least this; -1: any    [V17] */
     uint32_t flags;         /* LMB_ZONES_STRICT | LMB_POINT_CENTRE | LMB_NEAR_HEMISPHERE */
-    int32_t thin;           /* 1   of so many points one becomes a disc, <= LMB_MAX_THIN; the others join it [V14] */
+    int32_t thin;           /* 1   one point in so many becomes a disc, <= LMB_MAX_THIN; the others join it [V14] */
     int32_t neighbour_cells; /* 1  ... and so many blocks of the map, across and down; where neighbour_m is given: any
                                number of them                                                          [V8] */
     float radius;           /* none: a disc has its points' area; else this x its mean distance as its radius [V12] */
@@ -72,7 +72,7 @@ enum { LMB_ZONES_STRICT = 1, /* discs that do not fit their zone's group are dro
                                   its way                                                              [V10] */ };
 #define LMB_MAX_THIN 64
 
-/* Level-2 groups, planar for the gather. Member discs of group k: points->data[first[k] .. first[k] + members[k]). */
+/* Groups of discs, planar for the gather. Member discs of group k: points->data[first[k] .. first[k] + members[k]). */
 typedef struct lmb_groups {
     int32_t count;
     float position[3][LMB_MAX_GROUPS], normal[3][LMB_MAX_GROUPS]; /*                                   [V13 V18 V19] */
@@ -85,8 +85,8 @@ typedef struct lmb_groups {
 
 /* Filled and read inside lmb_gather_tile. */
 typedef struct lmb_gather_scratch {
-    uint64_t near_pixels[LMB_MAX_GROUPS]; /* one pixel bit a near group */
-    float pairs[3][LMB_GATHER_PAIRS];     /* of a block of groups with as many pixels as are taken together */
+    uint64_t near_pixels[LMB_MAX_GROUPS]; /* per near group: the pixels that are near it, a bit each */
+    float pairs[3][LMB_GATHER_PAIRS];     /* of one block of groups with the pixels that are computed together */
 } lmb_gather_scratch;
 
 #ifdef __cplusplus
@@ -101,15 +101,15 @@ lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *mem
 /* lmb_points_collect: append the first points of the map's tile rows tile_y0 .. tile_y1 - 1 of one face.
  *                                                                                             [V1 V2 V4 V5 V6 V7]
  * Every texel's flux is kept: the texels of a block that share a surface (normals within 25 degrees, planes within
- * a texel) make one first point, at most four a block; what fits none joins the likest.
+ * a texel) make one first point, at most four a block; a texel that fits none joins the most similar one.
  * Begin a face at tile_y0 = 0 and go on in order. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY when data, cells or
  * owners are full: the points so far stand, the rest of the face is missing. */
 lmb_status lmb_points_collect(lmb_points *points, const lmb_kernels *kernels, lmb_tile *scratch,
                               const lmb_scene *scene, const lmb_light *light, const lmb_shadow_map *map, int32_t face,
                               int32_t tile_y0, int32_t tile_y1, const lmb_grouping *grouping);
 
-/* lmb_discs_join: the face collected last: mean neighbour distances, points thinned out where asked for, and close ones
- * join. In place; order kept. Flux and area are sums, so both are conserved, also by `thin`.
+/* lmb_discs_join: of the face collected last, find the points' mean neighbour distances, thin them out where asked for,
+ * and join close ones. In place; order is kept. Flux and area are sums, so both are conserved, also by `thin`.
  * Neighbours are points of the same face of a shadow map that face the same way (or LMB_NEAR_HEMISPHERE), within
  * grouping->neighbour_m in space, or within neighbour_cells of the map where that is not given; given both, within
  * both. Discs join points as far as their mean distance says, up to 32 cells away. Cost: points x cells that the radius
@@ -131,13 +131,13 @@ lmb_status lmb_group_points(lmb_groups *out, lmb_points *points, const lmb_group
  *   inout     added to. Pixels without a surface stay.
  *   scratch   caller's; contents before and after mean nothing.
  *   points    the discs behind the groups, for near pairs; NULL: none are (groups only).
- *   occluder  what may stand between, or NULL.
+ *   occluder  what may block light on its way, or NULL: nothing does.
  *
  * Far pair, with c = cosP cosG, g = nP.nG, s = A / (pi r^2), t = c (3 cos^2 G - 1) + g cos^2 G:
  *   E = M / (pi r^2) * min(t >= 0 ? c^2 / (c + t s) : c - t s, cosG / s)
  * the disc's form factor to second order in its size; exact on the axis of a facing disc, never over M / A.
  * Near pair: each disc by the same formula, or its quad by Lambert's polygon formula clipped to the horizon.
- * Doubling every flux doubles `out` exactly. Returns LMB_OK or LMB_ERR_ARG.
+ * Doubling every flux doubles what is added exactly. Returns LMB_OK or LMB_ERR_ARG.
  * Stack: 1.25 KiB in the tiny configuration, under 4 KiB elsewhere. */
 lmb_status lmb_gather_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_gather_scratch *scratch,
                            const lmb_tile *tile, const lmb_groups *groups, const lmb_points *points,

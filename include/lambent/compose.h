@@ -16,14 +16,14 @@ extern "C" {
 /* Light gathered at every second or fourth pixel each way (step 2 or 4), for all of them.
  *
  * lmb_sparse_pixels: the pixels of a tile to gather, a bit each. Of its rows and columns 0, 2, 5, 7 or 0, 7: 16 or 4
- * samples; and those that the four samples around them do not explain, because they lie on other surfaces. Tiles ask
- * only themselves, and their samples reach to their edges: no seams. Any other step: all pixels.
+ * samples; and those pixels for which the four samples around them do not serve, because they lie on other surfaces. A
+ * tile uses its own pixels alone, and its samples reach to its edges: no seams. Any other step: all pixels.
  * lmb_upsample_tile: set the others to the mean of the samples around them, by distance and by how far they are on the
  * pixel's surface. Equal samples give exactly their value.
  *
  *   inout  the light at the pixels of `known`, which lmb_sparse_pixels gave.
- * Returns the pixels, a bit each, whose samples differ by more than 40 %: they are not set, but to be gathered. Both
- * calls: none for null. */
+ * Returns the pixels, a bit each, whose samples differ by more than 40 %: these are not set, and must be gathered. Both
+ * calls return no pixels where a pointer is NULL. */
 uint64_t lmb_sparse_pixels(const lmb_tile *tile, int32_t step);
 uint64_t lmb_upsample_tile(lmb_irradiance *inout, const lmb_tile *tile, uint64_t known, int32_t step);
 

@@ -5,8 +5,8 @@
 #ifndef LMB_CONFIG_H
 #define LMB_CONFIG_H
 
-/* Level-2 groups of one solution (SEEDS V19). 64 bytes each, inside lmb_groups. When full, grouping restarts with a
- * wider reach until everything fits: nothing is lost, detail is. */
+/* Groups of one frame's first points [V19]. 64 bytes each, inside lmb_groups. When full, grouping restarts with a wider
+ * reach until everything fits: detail is lost, light is not. */
 #ifndef LMB_MAX_GROUPS
 #ifdef LMB_CONFIG_TINY
 #define LMB_MAX_GROUPS 96
@@ -35,8 +35,8 @@
 #endif
 #endif
 
-/* Nodes of many lights' tree that a tile's surface takes at most. 20 bytes each, in lmb_many_lights_scratch. Full: they
- * part no more, the error grows. */
+/* Nodes of the tree of many lights that one surface of a tile takes at most. 20 bytes each, in lmb_many_lights_scratch.
+ * Full: nodes are not split further, and the error grows. */
 #ifndef LMB_MANY_LIGHTS_CUT
 #ifdef LMB_CONFIG_TINY
 #define LMB_MANY_LIGHTS_CUT 32
@@ -45,15 +45,15 @@
 #endif
 #endif
 
-/* Nodes of a cut that are tested for shadows and light the pixels together. 136 bytes each, in lmb_many_lights_scratch.
- * */
+/* Nodes of such a cut that are tested for shadows, and light the pixels, at a time. 136 bytes each, in
+ * lmb_many_lights_scratch. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_ACTIVE_LIGHTS 8
 #else
 #define LMB_ACTIVE_LIGHTS 32
 #endif
 
-/* Pixels x groups that the gather takes together. 12 bytes each, in lmb_gather_scratch and lmb_cut. */
+/* Pixels x groups that the gather computes together. 12 bytes each, in lmb_gather_scratch and lmb_cut. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_GATHER_PAIRS 128
 #else
@@ -61,8 +61,8 @@
 #endif
 
 /* 0: this build has no trees: no LMB_GROUP_CUT, exact occlusion, many lights, further bounces or surfaces that emit
- * light; a material's lobe is as if it were not there.
- * Their functions are not there, and frames that ask for them are refused. Saves 30 KiB of ROM on a Cortex-M4F. */
+ * light; a material's glossy lobe is ignored. Their functions are missing, and frames that ask for them are refused.
+ * Saves 30 KiB of ROM on a Cortex-M4F. */
 #ifndef LMB_TREES
 #define LMB_TREES 1
 #endif
@@ -72,10 +72,10 @@
 #define LMB_PROBES 1
 #endif
 
-/* Who uses materials' lobes. */
+/* Builds that evaluate materials' glossy lobes. */
 #define LMB_LOBES (LMB_TREES || LMB_PROBES)
 
-/* Places whose cubes an lmb_probe_cache knows: 36 bytes each. When full, the one used longest ago makes room. */
+/* Positions whose cubes an lmb_probe_cache keeps: 36 bytes each. When full, the one used longest ago makes room. */
 #ifndef LMB_MAX_PROBES
 #define LMB_MAX_PROBES 64
 #endif
@@ -90,7 +90,7 @@
 #define LMB_MIXED 1
 #endif
 
-/* Planes that are found in one picture. 100 bytes each, in lmb_planes. Full: the smaller ones stay plain surface. */
+/* Planes that are found in one picture. 100 bytes each, in lmb_planes. Full: the smaller ones stay ordinary surface. */
 #ifndef LMB_MAX_PLANES
 #define LMB_MAX_PLANES 24
 #endif
@@ -100,8 +100,8 @@
 #define LMB_RELIEF 1
 #endif
 
-/* 0: this build draws whole frames, leaves nothing of one out and keeps nothing from one to the next: no
- * lmb_render_reuse, and no lambent/plan.h. */
+/* 0: this build draws every frame whole: it skips no stage and reuses nothing of the frame before. There is no
+ * lmb_render_reuse and no lambent/plan.h. */
 #ifndef LMB_PLAN
 #define LMB_PLAN 1
 #endif
@@ -115,9 +115,10 @@
 #endif
 #endif
 
-#define LMB_RELIEF_TILE_VIEWS 8 /* of them, that a tile looks at */
+#define LMB_RELIEF_TILE_VIEWS 8 /* reference views that one tile reads, at most */
 
-/* Planes of a convex room, 24 bytes each in lmb_bvh. With more, walks are not left out. */
+/* Planes of a convex room, 24 bytes each in lmb_bvh. A room with more planes is not recognised: its BVH is traversed
+ * though nothing blocks. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_HULL_PLANES 6
 #else
@@ -130,16 +131,16 @@
 #define LMB_TILE 8              /* px of a tile's side; a band is LMB_TILE rows */
 #define LMB_TILE_PIXELS 64      /* LMB_TILE * LMB_TILE */
 #define LMB_SPARSE_TILES 4      /* tiles whose pixels are gathered together where bounced light is upsampled */
-#define LMB_CUT_BLOCK 64        /* nodes of a cut that are made ready together */
-/* Nodes of a cut that are bounded side by side, 96 bytes of lmb_cut each: as many as the widest machine has lanes, and
- * at least four, the parts of one. */
+#define LMB_CUT_BLOCK 64        /* nodes of a cut that are prepared for the gather together */
+/* Nodes of a cut whose bounds are computed side by side, 96 bytes of lmb_cut each: as many as the widest backend has
+ * lanes, and at least four, the children of one node. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_BOUNDS_NODES 4
 #else
 #define LMB_BOUNDS_NODES 16
 #endif
-/* Triangles of a tile that are resolved side by side, 180 bytes of lmb_tile each: as many as the widest machine has
- * lanes. The tiny configuration has one. */
+/* Triangles of a tile that are resolved side by side, 180 bytes of lmb_tile each: as many as the widest backend has
+ * lanes. */
 #ifdef LMB_CONFIG_TINY
 #define LMB_SLOTS 4
 #else
@@ -151,7 +152,7 @@
 #error "lambent: a capacity in config.h is too small"
 #endif
 
-/* A program and a library of other capacities than its own do not link. */
+/* A program and a library that were built with different capacities do not link. */
 #include "layout.h"
 
 #endif

@@ -3,7 +3,7 @@
  *
  * A shadow map holds only what the light sees. Here each triangle is cut into pieces, and each side of a piece that
  * may be lit is an element: it receives light at its middle and sends it from its exact shape. The elements are summed
- * into a tree as the texels of a map are, so the same cuts, with the same exact visibility, serve pixels and elements:
+ * into a tree as the texels of a map are, so the same cuts, with the same exact visibility, light pixels and elements:
  *
  *     lmb_elements_build(&e, &scene, &lights);                           what emits light is in the tree
  *     for (b = 1; b < bounces; ++b) {
@@ -37,10 +37,10 @@ typedef struct lmb_elements {
     lmb_element *data;
     uint32_t cap, count;
     float side;  /* m: no piece is longer, and triangles under half of it may be taken together */
-    float level; /* W/m2, R + G + B: what the elements receive in the mean, about */
+    float level; /* W/m2, R + G + B: about the mean irradiance of the elements */
 } lmb_elements;
 
-/* What a thread receives with; all of it is its own. */
+/* What lmb_elements_receive works with; one for each thread. */
 typedef struct lmb_element_scratch {
     const lmb_kernels *kernels;
     lmb_cut *cut;
@@ -56,18 +56,18 @@ extern "C" {
  * 168 bytes each. */
 size_t lmb_elements_bytes(uint32_t n);
 
-/* lmb_elements_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). */
+/* lmb_elements_init: lay the elements out in `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t bytes);
 
 /* lmb_elements_build: the elements of a checked scene, and the tree of those that emit light.
  *
  *   lights  the tree of the shadow maps, summed: only tells how bright the scene is. NULL: no lights.
  *
- * Triangles are halved at their longest edge until it is at most `side`. Of triangles under half of `side`, those that
- * face one side of space and lie in one cell of half of `side` are one element, in the place of the largest. The area
- * side^2 begins at what surely needs more than n elements and doubles until they fit, as in the end they always do: all
- * area is kept. A single-sided material has no element at its back. Holes of masked materials are left out, measured
- * at four points a piece. Triangles that lmb_draw would drop are left out.
+ * Triangles are halved at their longest edge until it is at most `side`. Triangles under half of `side` that face the
+ * same side of space and lie in the same cell of half of `side` become one element, where the largest of them lies. The
+ * area side^2 begins at what surely needs more than n elements and doubles until they fit, as in the end they always
+ * do: no area is lost. A single-sided material has no element at its back. Holes of masked materials are left out,
+ * measured at four points a piece. Triangles that lmb_draw would drop are left out.
  * Cost: some passes over the triangles, about 1 us each, and a sort. Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const lmb_tree *lights);
 
@@ -75,36 +75,36 @@ lmb_status lmb_elements_build(lmb_elements *inout, const lmb_scene *scene, const
 int32_t lmb_elements_tiles(const lmb_elements *elements);
 
 /* lmb_elements_receive: what the elements of tiles first .. past - 1 receive from `lights` (NULL: nothing) and from the
- * elements' own tree, into `fresh`. Any tiles in any order, at once on any threads with their own receivers.
+ * elements' own tree, into `fresh`. Any tiles in any order, at once on any threads, each with its own scratch.
  *
- *   cut_params  error and visibility as for pixels, but of an element's own light and `level` together: what is dark
- * lights
- *            little, and need not be known well.
+ *   cut_params  error and visibility as for pixels, but as shares of an element's own light and `level` together: a
+ *               dark element lights little, and need not be accurate.
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_receive(const lmb_elements *elements, const lmb_element_scratch *own_scratch,
                                 const lmb_tree *lights, const lmb_cut_params *cut_params, int32_t first, int32_t past);
 
 /* lmb_many_lights_elements: the direct light of elements' tiles first .. past - 1, added to their `fresh`: 0 after
- * lmb_elements_build, or what lmb_elements_receive found there of what emits light. Any tiles in any order,
- * at once on any threads with their own receivers (of which kernels, tile and fresh are used) and scratches.
- * lmb_many_lights_elements_done: all tiles are lit: `level` counts it. lmb_elements_send then sends the first
- * reflection. LMB_OK or LMB_ERR_ARG.
- * [V3] */
+ * lmb_elements_build, or what lmb_elements_receive found there of surfaces that emit light. Any tiles in any order, at
+ * once on any threads, each with its own scratches (of own_scratch kernels, tile and fresh are used).
+ * lmb_many_lights_elements_done: to be called when all tiles are lit: adds their light to `level`. lmb_elements_send
+ * then sends the first reflection. LMB_OK or LMB_ERR_ARG.                                                    [V3] */
 lmb_status lmb_many_lights_elements(const lmb_elements *elements, const lmb_element_scratch *own_scratch,
                                     lmb_many_lights_scratch *scratch, const lmb_many_lights_query *query, int32_t first,
                                     int32_t past);
 lmb_status lmb_many_lights_elements_done(lmb_elements *inout);
-/* lmb_elements_rest: to `fresh` add what `bounces` further bounces would, as if each were the one before times the
- * share that the last one kept of its own, r + r^2 + ... + r^bounces; r: at most 1, a channel.
- * Between all and none received, once, before lmb_elements_send.
+
+/* lmb_elements_rest: estimate `bounces` further bounces and add them to `fresh`: the last bounce times
+ * r + r^2 + ... + r^bounces, where r, at most 1 and one a channel, is how much of the bounce before the last one kept.
+ * Call it once, after all tiles have received and before lmb_elements_send.
  *
- *   lights  what the last bounce received from beside the elements; else NULL.
- * After some bounces light spreads as by the exchange's first eigenvector, and every further bounce is alike: then this
- * is exact, as it is from the start where all walls are lit and reflect alike. LMB_OK or LMB_ERR_ARG. */
+ *   lights  what the last bounce received light from besides the elements; or NULL.
+ * After some bounces light is distributed as the first eigenvector of the radiosity matrix, and each bounce is the one
+ * before times r: then the estimate is exact. It is exact from the start where all walls are lit and reflect alike.
+ * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_rest(lmb_elements *inout, const lmb_tree *lights, int32_t bounces);
 
-/* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces, and what emits light
- * by itself again. LMB_OK or LMB_ERR_ARG. */
+/* lmb_elements_send: albedo x `fresh` becomes the tree's flux; with `last`, that of all bounces together, and once more
+ * the flux of surfaces that emit light. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_elements_send(lmb_elements *inout, int32_t last);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* light.h: direct light with its shadow test, Lambertian; and the lobe of what is glossy. [V7 V29] */
+/* light.h: direct light of Lambertian surfaces, with its shadow test; and the lobe of glossy ones. [V7 V29] */
 #ifndef LMB_LIGHT_H
 #define LMB_LIGHT_H
 
@@ -17,10 +17,10 @@ typedef struct lmb_irradiance {
  * Beside the lobe diffuse light is scaled by 1 - (F0 + (1 - F0) (1 - alpha)^3 (1 - n.v)^5): a white dielectric
  * (F0 0.04) reflects 0.84 to 1.02 of white light from everywhere. A metal (F0 1) reflects all where smooth, and 0.3 to
  * 0.6 at roughness 1, for want of light that the roughness reflects twice.
- * What a lobe shows of other surfaces is their diffuse light, as far as it bounces: where no light and no element
- * shines they are dark in it, and glossy things lack their glossy reflection. */
+ * Other surfaces appear in a lobe by their diffuse light alone, as far as bounces are solved: those that no light and
+ * no element lights are black in it, and glossy ones lack their own highlights and reflections. */
 typedef struct lmb_glossy {
-    uint64_t pixels;                    /* that have a lobe, a bit each; of the others the numbers mean nothing */
+    uint64_t pixels;                    /* that have a lobe, a bit each; the others' numbers mean nothing */
     float specular[3][LMB_TILE_PIXELS]; /* F0 */
     float alpha2[LMB_TILE_PIXELS];
     float towards[3][LMB_TILE_PIXELS];  /* the viewer, unit */
@@ -38,9 +38,9 @@ extern "C" {
  *   tile    resolved for `view`; its face normal guards the shading normal against light from behind.
  *   map     the shadow map, drawn; NULL: the light casts no shadow.
  *
- * The shadow test asks the map's own triangles at the pixel's exact place in the map: the four texels around it name
- * them, and each is tested as a plane with its edges. A plane that passes nearer to the pixel than rounding can tell
- * (2^-15 of the distances involved) does not shadow it. Nothing to tune.
+ * The shadow test does not compare depths. The four texels around the pixel's exact position in the map name triangles
+ * by their ids, and each is tested as a plane with its edges. A plane that passes nearer to the pixel than rounding can
+ * tell (2^-15 of the distances involved) does not shadow it. There is no bias to tune.
  * What is missed: an occluder that slips between texel centres. Where no named triangle lies over the pixel, the
  * texel's depth is held against the pixel's own plane instead (error: about one texel at shadow edges).
  * Returns LMB_OK or LMB_ERR_ARG. */
@@ -48,7 +48,7 @@ lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, co
                            const lmb_view *view, const lmb_scene *scene, const lmb_light *light,
                            const lmb_shadow_map *map);
 
-/* What follows is not there in builds without trees and probes: these take every material as without a lobe. */
+/* What follows is missing in builds without trees and probes: they ignore materials' lobes. */
 
 /* lmb_glossy_tile: the lobes of a tile that was resolved for `view`, with no light yet: sets all of `out` and returns
  * 1; or, where no pixel has one (and for null), 0 and out->pixels = 0 alone. */

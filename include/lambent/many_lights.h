@@ -9,10 +9,11 @@
  *     lmb_many_lights_elements(&e, ...);  lmb_many_lights_elements_done(&e);  lmb_elements_send(&e, 1);
  *     per tile: lmb_gather_cut(.., &e.tree, ..)
  *
- * Lights stream once into cells of the world: points, spots by the side of space that they shine to, suns by direction;
- * lights of two kinds share no cell. When there are more cells than room, the cell's side doubles and cells
- * merge: no light is lost, detail is. Sums are integers, so neither order nor slicing is seen in them. A tree over the
- * cells then lets each tile of pixels take its own cut: nodes small for their distance stand for their lights. */
+ * Lights stream once into cells of the world: points by position, spots also by the side of space that they point to,
+ * suns by direction; lights of two kinds are never in one cell. When there are more cells than room, the cells' side
+ * doubles and cells merge: detail is lost, light is not. Sums are integers, so neither order nor slicing changes them.
+ * In a tree over the cells each tile of pixels then takes its own cut: a node that is small for its distance stands for
+ * all of its lights. */
 #ifndef LMB_MANY_LIGHTS_H
 #define LMB_MANY_LIGHTS_H
 
@@ -20,12 +21,11 @@
 #include "occlusion.h"
 
 enum { LMB_MANY_LIGHTS_KINDS = 8 }; /* point lights; spots by six sides of space; suns */
-enum {
-    LMB_MANY_LIGHTS_EVEN = 32
-}; /* so many lights and no others: what they bounce comes from all sides, and a frame's
-                                 `error` and `visibility` are 0.1 and 0.2 where they are 0 */
+/* From so many lights on, and without others, bounced light comes from all sides: the defaults of a frame's `error` and
+ * `visibility` are then 0.1 and 0.2. */
+enum { LMB_MANY_LIGHTS_EVEN = 32 };
 
-/* A light that speaks for its cell where one has to: a shadow test needs a place, a cone an axis. */
+/* A light that represents its cell where one light must: a shadow test needs a position, a cone needs an axis. */
 typedef struct lmb_many_lights_source {
     lmb_vec3 position;          /* m; a sun's: unit, towards it */
     lmb_vec3 direction;         /* a spot's, as in lmb_light; else 0 */
@@ -34,29 +34,28 @@ typedef struct lmb_many_lights_source {
 
 typedef struct lmb_many_lights_member {
     lmb_many_lights_source source;
-    float score;   /* the largest one of a cell stays; */
+    float score;   /* a cell keeps the candidate with the largest score, */
     uint32_t hash; /* of equals the one with the smaller hash, then source */
 } lmb_many_lights_member;
 
 /* The lights of one kind and one cube of the world; spots' directions are in one cube too. 216 bytes. */
 typedef struct lmb_many_lights_cell {
-    uint64_t key;         /* the cube's place: bits of x, y, z in turn */
-    uint64_t turn;        /* spots: the same of the cube of -1 .. 1 that their directions lie in; else 0 */
+    uint64_t key;         /* the cube's position: bits of x, y, z in turn */
+    uint64_t turn;        /* spots: the same for their directions, in a cube of -1 .. 1; else 0 */
     int64_t intensity[3]; /* quanta */
     int64_t weight;       /* R + G + B in 2^24 quanta, at least 1 a light */
     int64_t moment[3];    /* sums of weight x position, in steps of the box's longest side / 2^24 */
     float low[3], high[3]; /* m: the lights' own box */
     float axis_low[3], axis_high[3]; /* of spots' directions */
     float cos_outer;                 /* of the widest spot */
-    lmb_many_lights_member strongest,
-        median; /* median: one of them drawn with a chance proportional to its intensity */
+    lmb_many_lights_member strongest, median; /* median: one drawn at random, in proportion to intensity */
     uint32_t lights;
     uint32_t kind; /* < LMB_MANY_LIGHTS_KINDS: 0 points, 7 suns */
 } lmb_many_lights_cell;
 
-/* A cell, or several: what a tile may take for all of their lights. 120 bytes.
- * Suns are places on the unit sphere, a metre off wherever the pixel is: so W/sr are their W/m2. Of a root with lights
- * of several kinds intensity, lights and children alone mean anything. */
+/* A cell, or several, that may stand for all of their lights. 120 bytes.
+ * A sun's position is a point of the unit sphere around whatever pixel it lights, so its W/sr equal its W/m2. Of a root
+ * over lights of several kinds, intensity, lights and children alone mean anything. */
 typedef struct lmb_many_lights_node {
     float intensity[3]; /* W/sr */
     lmb_vec3 position;  /* mean, weighted by intensity; of suns unit */
@@ -69,7 +68,7 @@ typedef struct lmb_many_lights_node {
 } lmb_many_lights_node;
 #define LMB_MANY_LIGHTS_MIXED 3u
 
-/* What the error of a node depends on, by planes of one value a node: */
+/* What the error of a node depends on, in planes of one value a node: */
 enum {
     LMB_MANY_LIGHTS_MIDDLE = 0,   /* 3: of the lights' box, m */
     LMB_MANY_LIGHTS_HALF = 3,     /* 3: its half sides, m */
@@ -95,22 +94,22 @@ typedef struct lmb_many_lights {
     float quantum;            /* W/sr: of intensities, a power of two */
     int64_t total;            /* quanta of R + G + B */
     uint32_t doubled;         /* times the cell's side did: it is 8 x 2^doubled steps */
-    uint32_t lights, dropped; /* taken; not taken: dark, not finite, outside the box, or with a direction or cone that
-                                 lmb_scene_check refuses */
+    uint32_t lights, dropped; /* lights that were added; and those refused: dark, not finite, outside the box, or with a
+                                 direction or cone that lmb_scene_check refuses */
 } lmb_many_lights;
 
-/* How a tile asks the tree. */
+/* What a tile's cut is taken from, and how. */
 typedef struct lmb_many_lights_query {
     const lmb_many_lights *many_lights;
     const lmb_bvh *bvh;           /* NULL: nothing casts a shadow */
     float error;                  /* 0.02 where 0: share of a pixel's light that one node may be wrong by */
-    int32_t each;                 /* 1: every pixel is asked about every shadow */
+    int32_t each;                 /* 1: every pixel tests every shadow for itself */
 } lmb_many_lights_query;
 
-/* One place of a tile's cut. */
+/* One node of a tile's cut. */
 typedef struct lmb_many_lights_entry {
-    float error, light; /* without shadows, R + G + B, W/m2: a bound of what it may be off; about what it gives */
-    float inside;       /* and what it gives if one of its cones speaks for all, and holds the pixels */
+    float error, light; /* without shadows, R + G + B, W/m2: a bound of its error; about the irradiance it gives */
+    float inside;       /* and what it gives if one of its cones stands for all of them and holds the pixels */
     float key;          /* the heap's: error, or inside */
     uint32_t node;
 } lmb_many_lights_entry;
@@ -129,7 +128,7 @@ typedef struct lmb_active_light {
 /* Filled and read inside lmb_many_lights_direct_tile. */
 typedef struct lmb_many_lights_scratch {
     lmb_many_lights_entry
-        entry[LMB_MANY_LIGHTS_CUT]; /* may yet be parted: a heap from the front; others: from the back */
+        entry[LMB_MANY_LIGHTS_CUT]; /* those that may still be split: a heap from the front; others from the back */
     int32_t open, closed, by_light;
     float error, light; /* sums over the cut */
     float allowed;      /* of query->error, or the default */
@@ -145,12 +144,12 @@ extern "C" {
 /* lmb_many_lights_bytes: memory for `cells` cells, 1 .. 2^22; 0 for another number. About 600 bytes a cell. */
 size_t lmb_many_lights_bytes(uint32_t cells);
 
-/* lmb_many_lights_init: share out `memory` and begin an empty stream.
+/* lmb_many_lights_init: lay the builder out in `memory` and begin an empty stream.
  *
  *   low, high  a box that holds all points and spots, m. The finest cell is its longest side / 2^21; suns': 2^-20.
  *   max        the sum of all lights' intensities, R + G + B, W/sr (suns': W/m2), or more: sets the quantum, 2^-60 to
  *              2^-59 of it.
- *              A bound 1,000 times too large still tells a millionth of the light to 9 digits.
+ *              A bound 1,000 times too large still resolves a millionth of the light to 9 digits.
  * Returns LMB_OK, LMB_ERR_ARG (null, the number of cells, a box that is turned round or reaches past +-2^20 m, `most`
  * outside 2^-60 .. 2^60), LMB_ERR_ALIGN (as for a uint64_t) or LMB_ERR_CAPACITY (bytes): `out` is then untouched. */
 lmb_status lmb_many_lights_init(lmb_many_lights *out, uint32_t cells, lmb_vec3 low, lmb_vec3 high, float max,
@@ -159,8 +158,8 @@ lmb_status lmb_many_lights_init(lmb_many_lights *out, uint32_t cells, lmb_vec3 l
 /* lmb_many_lights_add: the next lights of the stream, of any kind.
  *
  * What lmb_many_lights_build makes of them depends on the lights alone, not on their order or on the slices they come
- * in. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY where the sum of intensities passes 4 to 8 times `most`, or a
- * light has 2 to 4 times `most` in a channel, or there are fewer cells than kinds: those before are in.
+ * in. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY where the sum of intensities exceeds 4 to 8 times `max`, or a
+ * light has 2 to 4 times `max` in a channel, or there are fewer cells than kinds: the lights before it are in.
  * Cost: about 100 ns a light. */
 lmb_status lmb_many_lights_add(lmb_many_lights *inout, const lmb_light *lights, uint32_t count);
 
@@ -172,15 +171,15 @@ lmb_status lmb_many_lights_build(lmb_many_lights *inout);
  *
  *   inout    added to. Pixels without a surface stay.
  *   scratch  caller's; nothing but the two counters is kept.
- *   query     a tree that was built; its error sets how many nodes a tile takes, up to LMB_MANY_LIGHTS_CUT.
+ *   query    a tree that was built; its error sets how many nodes a tile takes, up to LMB_MANY_LIGHTS_CUT.
  *
- * The tile's pixels are split into surfaces; each takes its own cut. Nodes part until the sum of their bounds
- * I cos / d^2 x min(1, R^2 / d^2) is within 16 query->error of all light (R a node's half diagonal, d its least
- * distance; bounds are far from reached), and until none that has parts gives more than query->error of it. A node
- * lights each pixel by I cos / d^2 from the mean place of its lights; whether it is seen, and in a spot's cone, is
- * asked of its strongest light and of one drawn by intensity. Nodes whose cones miss the tile are left out. Where
- * the four corners of a tile's surface agree, it shares the answer; a light that gives more than query->error of all is
- * asked about by each pixel.
+ * The tile's pixels are split by surface, and each surface takes its own cut. Nodes are split until the sum of their
+ * error bounds I cos / d^2 x min(1, R^2 / d^2) is within 16 x query->error of all light (R: a node's half diagonal, d:
+ * its minimum distance; real errors are far below their bounds), and until no node with children gives more than
+ * query->error of it. A node lights each pixel by I cos / d^2 from the mean position of its lights. Whether a pixel
+ * sees it, and is in a spot's cone, is tested with its strongest light and with one drawn by intensity. Nodes whose
+ * cones miss the tile are left out. Where the four corners of a tile's surface agree, all of its pixels use their
+ * answer; a light that gives more than query->error of all is tested by each pixel.
  * Measured in rooms with 100 to 1,000,000 lights (truth/many_lights_*): at 0.02 the picture's relative RMSE is 0.012 to
  * 0.014, at 0.01 0.007 to 0.010.
  * Returns LMB_OK or LMB_ERR_ARG. Stack: under 1 KiB. */

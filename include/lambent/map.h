@@ -1,4 +1,4 @@
-/* map.h: what a camera or a light saw: the G-buffer for those who want it, and the map of a light. [V6 V7 V33] */
+/* map.h: what a camera or a light sees: a view's G-buffer, and the shadow map of a light. [V6 V7 V33] */
 #ifndef LMB_MAP_H
 #define LMB_MAP_H
 
@@ -6,9 +6,9 @@
 
 /* The shadow map: depth + triangle id per face, nothing else. Flux, normals and positions are resolved from it on
  * demand. Spot lights up to 50 degrees half angle have one face; wider spots and point lights have six, in GL order
- * (+x -x +y -y +z -z), of which a spot draws only those its cone meets. Directional lights have one, or as many as
- * scene->core.faces by the same axes: the finest first, each with all that casts shadows into it; where it lies, those
- * after it have no first points. */
+ * (+x -x +y -y +z -z), of which a spot draws only those its cone meets. A directional light has one, or
+ * scene->core.faces along the same axes: the finest first, each with everything that casts shadows into it. Where a
+ * finer face lies, the coarser ones have no first points. */
 typedef struct lmb_shadow_map {
     lmb_view view[6];
     lmb_target face[6];
@@ -32,7 +32,7 @@ lmb_status lmb_gbuffer_band(const lmb_surface *depth, const lmb_surface *normal,
                             lmb_tile *tile, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t band);
 
-/* lmb_shadow_map_faces: of this light in this scene: 1 .. 6. */
+/* lmb_shadow_map_faces: how many faces the map of this light has in this scene: 1 .. 6. */
 int32_t lmb_shadow_map_faces(const lmb_light *light, const lmb_scene *scene);
 
 /* lmb_shadow_map_bytes: memory of a map of size x size texels a face; id_format LMB_ID16 or LMB_ID32. 0: bad size. */
@@ -44,9 +44,9 @@ size_t lmb_shadow_map_bytes(int32_t faces, int32_t size, int32_t id_format);
 /* lmb_shadow_map_init: place a shadow map into `memory` and fit its views.
  *
  *   size    texels a side: a multiple of 8, 8 .. LMB_MAX_SIDE.
- *   scene   its bounds and core fit directional shadow maps and set every map's near plane. Where there is no core,
- *           and the bounds are those of its vertices, as lmb_scene_bounds sets them, the vertices themselves fit the
- *           map, along the light's own axes: a pass over them. Builds without trees go by the bounds.
+ *   scene   directional maps are fitted to its bounds and core, and every map's near plane is set by its bounds. Where
+ *           there is no core, and bounds are as lmb_scene_bounds sets them, a directional map is fitted to the vertices
+ *           themselves, along the light's own axes, in one pass over them. Builds without trees use the bounds.
  * Returns LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes): `out` is then untouched. */
 lmb_status lmb_shadow_map_init(lmb_shadow_map *out, const lmb_light *light, const lmb_scene *scene, int32_t size,
                                int32_t id_format, void *memory, size_t bytes);

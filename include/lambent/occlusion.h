@@ -1,7 +1,7 @@
-/* occlusion.h: what stands between two points: the scene's triangles in a tree of boxes, asked exactly. [V25]
+/* occlusion.h: does anything stand between two points? By the viewer's depth map, or exactly by a BVH. [V25]
  *
- * The viewer's depth map (lmb_occluder) knows only what the viewer sees; lmb_bvh knows every triangle. A tile of
- * pixels asks at once: its 64 segments to one point make a thin pyramid, one traversal serves them all. */
+ * The viewer's depth map (lmb_occluder) knows only what the viewer sees; lmb_bvh knows every triangle. A tile's pixels
+ * are tested together: their 64 segments to one point make a thin pyramid, so one traversal serves them all. */
 #ifndef LMB_OCCLUSION_H
 #define LMB_OCCLUSION_H
 
@@ -18,7 +18,7 @@ typedef struct lmb_occluder {
 /* NONE: everything is seen. VIEW: the segment marches through the depth map in map space. VIEW_WORLD: in equal steps
  * of world space [V26]. Crossing is a change of side where the surface goes on. A segment that passes behind a
  * silhouette and comes out again is blocked if it came nearer to what hid it than half its hidden length: things are
- * taken to be about as deep as they are wide. So both know only the BVH whose surface the viewer sees: what is off
+ * taken to be about as deep as they are wide. So both know only occluders whose surface the viewer sees: what is off
  * screen or hidden does not block (a wall seen edge-on is the worst case). */
 enum { LMB_OCCLUSION_NONE = 0, LMB_OCCLUSION_VIEW = 1, LMB_OCCLUSION_VIEW_WORLD = 2,
        LMB_OCCLUSION_EXACT = 3 /* lmb_render with LMB_GROUP_CUT: all of the scene, below */ };
@@ -40,36 +40,36 @@ typedef struct lmb_boxes {
 } lmb_boxes;
 
 /* Planes with all of a scene on their fronts: a convex room, where no surface stands between two points. count 0: the
- * scene is none, or has more planes. */
+ * scene is no such room, or has more planes. */
 typedef struct lmb_hull {
     int32_t count;
     lmb_vec3 middle;
-    float reach, slack; /* m: the largest step from its middle; how far rounding may lift a point behind a plane */
+    float reach, slack; /* m: the farthest corner from its middle; how far rounding may put a point behind a plane */
     lmb_vec3 normal[LMB_HULL_PLANES], at[LMB_HULL_PLANES];
 } lmb_hull;
 
-/* The tree, in the caller's memory. node[0] is the root; node_count 0: nothing blocks. */
+/* The BVH, in the caller's memory. node[0] is the root; node_count 0: nothing blocks. */
 typedef struct lmb_bvh {
     lmb_bvh_triangle *triangle;
     lmb_boxes *node;
     uint32_t triangle_cap, triangle_count, node_cap, node_count;
-    float noise; /* m: the least that is taken for rounding: 0; in a convex room, where nothing blocks, more */
+    float noise; /* m: lower bound of the rounding that tests allow for: 0, but more in a convex room */
     const lmb_scene *scene; /* for the holes of masked triangles */
     lmb_hull hull;
 } lmb_bvh;
 
-/* A tile's segments from a point, for asking boxes: 1 / (pixel - at) along each axis, at most 1e20 where that is 0. */
+/* A tile's segments from a point, for box tests: 1 / (pixel - at) along each axis, at most 1e20 where that is 0. */
 typedef struct lmb_segments {
     lmb_vec3 at;
     float per[3][LMB_TILE_PIXELS];
 } lmb_segments;
 
-/* What a traversal keeps, one a thread: the triangles that blocked much when asked last, as what blocks a segment often
- * blocks the next. All 0 to begin with. */
+/* What a traversal keeps, one for each thread: the triangles that blocked most lately, as they often block the next
+ * segments too. All 0 to begin with. */
 enum { LMB_LAST_OCCLUDERS = 4 };
 typedef struct lmb_traversal {
     uint32_t last[LMB_LAST_OCCLUDERS]; /* number in lmb_bvh + 1, the latest first; 0: none */
-    uint32_t asked;                   /* nodes and leaves of the tree of boxes, so far: what walks cost; wraps */
+    uint32_t asked;                   /* nodes and leaves tested so far: the cost of traversals; wraps */
     lmb_segments segments;
 } lmb_traversal;
 
@@ -80,51 +80,51 @@ extern "C" {
 /* lmb_bvh_bytes: memory for n triangles; 0 where that cannot be. 116 bytes each and 4 KiB. */
 size_t lmb_bvh_bytes(uint32_t n);
 
-/* lmb_bvh_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). */
+/* lmb_bvh_init: lay a BVH out in `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY (bytes). */
 lmb_status lmb_bvh_init(lmb_bvh *out, uint32_t n, void *memory, size_t bytes);
 
-/* lmb_bvh_build: the tree over all triangles of a checked scene, by the surface-area heuristic in 16 bins.
+/* lmb_bvh_build: the BVH over all triangles of a checked scene, by the surface-area heuristic in 16 bins.
  *
- * Triangles that lmb_draw would drop, and those without area, are left out. Where nodes run out, as by thousands of
- * clumps of five to eight on a grid, the rest lies in large boxes: up to twice as slow, with the same answers. Returns
- * LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY where the scene has more triangles than there is room for: then nothing
- * blocks.
+ * Triangles that lmb_draw would drop, and those without area, are left out. Where nodes run out, as with thousands of
+ * clumps of five to eight triangles on a grid, the rest lies in large boxes: up to twice as slow, with the same
+ * answers. Returns LMB_OK, LMB_ERR_ARG, or LMB_ERR_CAPACITY where the scene has more triangles than there is room for:
+ * then nothing blocks.
  * Cost: about 0.5 us a triangle. Stack: under 3 KiB. */
 lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene);
 
 /* lmb_occluded_tile: which of a tile's pixels do not see a point.
  *
- *   pixels  those that ask, a bit each; others' bits come back 0. They need a position.
- *   at      the point: on a surface, or a light's place.
- *   noise   m: lmb_tile_noise of the pixels, and lmb_place_noise of `at`, together: how far rounding may have left
- *           both ends off the surfaces that they are on.
- *   traversal  its `last` are asked first, and kept up; for the same the BVH only. The answer does not depend on them.
+ *   pixels     those to test, a bit each; others' bits come back 0. They need a position.
+ *   at         the point: on a surface, or a light's position.
+ *   noise      m: lmb_tile_noise of the pixels plus lmb_place_noise of `at`: how far rounding may have put the two ends
+ *              off their surfaces.
+ *   traversal  its `last` triangles are tested first, and kept up to date; use it with this BVH only. The answer does
+ *              not depend on them.
  *
- * A triangle blocks where the segment crosses it with both ends farther from its plane than `noise` and a millionth of
- * how far its corners are from `at`: so none blocks points of its own, nothing is tuned, and what is far away changes
- * nothing here. Triangles that share an edge leave no gap. The segments' own tests decide;
- * the traversal only leaves out what none can meet. Null: nothing blocks. Cost: 0.1 to 1 us.                [V25] */
+ * A triangle blocks where the segment crosses it with both ends farther from its plane than `noise` and than a
+ * millionth of its corners' distance from `at`. So no triangle blocks its own points, there is nothing to tune, and
+ * what is far away changes nothing here. Triangles that share an edge leave no gap. The segments' own tests decide; the
+ * traversal only leaves out what no segment can meet. NULL: nothing blocks. Cost: 0.1 to 1 us.                [V25] */
 uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
                            lmb_vec3 at, float noise, lmb_traversal *traversal);
 
-/* lmb_place_noise: m that rounding may leave a place off the surface that it is on, where a ray found it from
- * `distance` m away: a millionth of the distance and a quarter of that of its coordinates. 0 m: a corner's mean.
- * lmb_tile_noise: the most of a tile's `pixels`, by their depth. */
+/* lmb_place_noise: how far, m, rounding may have put a point off its surface, if a ray from `distance` m away found it:
+ * a millionth of the distance and a quarter of that of its coordinates. distance 0: the mean of a triangle's corners.
+ * lmb_tile_noise: the maximum over a tile's `pixels`, by their depth. */
 float lmb_place_noise(lmb_vec3 at, float distance);
 float lmb_tile_noise(const lmb_tile *tile, uint64_t pixels);
 
-/* lmb_occluded_sun: which of a tile's pixels do not see a place at infinity; `to`: unit, towards it. Otherwise as
- * lmb_occluded_tile: a triangle blocks where the ray crosses it from farther off its plane than rounding may have left
- * the pixel: by its place, its depth, and how far the triangle's corners are. */
+/* lmb_occluded_sun: which of a tile's pixels do not see a point at infinity; `to`: unit, towards it. Otherwise as
+ * lmb_occluded_tile: a triangle blocks where the ray crosses it from farther off its plane than rounding may have put
+ * the pixel, by the pixel's position, its depth, and the distance of the triangle's corners. */
 uint64_t lmb_occluded_sun(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
                           lmb_vec3 to, lmb_traversal *traversal);
 
-/* lmb_hull_find: the hull of a checked scene whose triangles are all on its planes, with its fronts to the scene; else
- * out->count is 0. lmb_bvh_build does it too. Cost: three passes over the triangles, or as far as the first 17
- * planes.
- * lmb_hull_holds: 1 where a point is in the hull; 0 also where there is none. lmb_hull_pixels: those of a tile's
- * `pixels` that are. Between two of these lmb_occluded_tile finds nothing, to the bit: src/occlusion/hull.c says why.
- * */
+/* lmb_hull_find: the hull of a checked scene whose triangles all lie on its planes and face its inside; else out->count
+ * is 0. lmb_bvh_build does it too. Cost: three passes over the triangles, or as far as the first 17 planes.
+ * lmb_hull_holds: 1 where a point is inside the hull; 0 also where there is none.
+ * lmb_hull_pixels: those of a tile's `pixels` that are inside. Between two such points lmb_occluded_tile finds nothing,
+ * to the bit: src/occlusion/hull.c says why. */
 void lmb_hull_find(lmb_hull *out, const lmb_scene *scene);
 int lmb_hull_holds(const lmb_hull *hull, lmb_vec3 at);
 uint64_t lmb_hull_pixels(const lmb_hull *hull, const lmb_tile *tile, uint64_t pixels);

@@ -8,10 +8,11 @@
 #include "scene.h"
 #include "surface.h"
 
-/* A machine's kernels: one formula each, the same bytes on every machine. Made by src/isa, handed in by the caller. */
+/* One backend's kernels (plain C, SSE2, AVX2, NEON ...): functions that compute the same bytes on every backend.
+ * src/isa defines them, the caller hands them in. */
 typedef struct lmb_kernels lmb_kernels;
 
-/* Where draws go. `id` is optional (data NULL): a depth-only map costs no id. Both surfaces have one size. */
+/* Where draws go. `id` is optional (data NULL): a depth-only map costs no ids. Both surfaces have the same size. */
 typedef struct lmb_target {
     lmb_surface depth; /* LMB_DEPTH32F or LMB_DEPTH16, tiled or linear */
     lmb_surface id;    /* LMB_ID16 or LMB_ID32, or data NULL */
@@ -19,7 +20,7 @@ typedef struct lmb_target {
 } lmb_target;
 
 /* Attributes of 8x8 pixels, planar: kernels read whole vectors of them. Pixel k is (k % 8, k / 8). 4 KiB, and 3.2 KiB
- * to work in (1.1 in the tiny configuration), which mean nothing before or after. */
+ * of scratch (1.1 in the tiny configuration). */
 typedef struct lmb_tile {
     float position[3][LMB_TILE_PIXELS]; /* world, m: on the plane of the pixel's own triangle */
     float face[3][LMB_TILE_PIXELS];     /* unit normal of the triangle, turned to the viewer */
@@ -30,7 +31,7 @@ typedef struct lmb_tile {
     uint32_t id[LMB_TILE_PIXELS]; /* 0: nothing; then every plane holds 0 */
     int32_t x, y;                 /* px in the frame of pixel 0 */
     int32_t hits;                 /* pixels with a surface */
-    union { /* the room to work in; what lies in it is src/raster's own */
+    union { /* scratch of src/raster; its contents are private and mean nothing between calls */
         const void *align;
         unsigned char bytes[368 + 3 * sizeof(void *) + 180 * LMB_SLOTS];
     } work;
@@ -42,10 +43,11 @@ enum { LMB_CULL_BACK = 1 /* drop back faces of single-sided materials (cameras);
 extern "C" {
 #endif
 
-/* lmb_kernels_pick: the best machine of this build for this processor. Never NULL.
+/* lmb_kernels_pick: the best backend of this build that this processor runs. Never NULL.
  * lmb_kernels_at: all of them, i from 0, the best first and "scalar" last; NULL past the last and for i < 0.
  * lmb_kernels_named: "scalar", "sse2", "avx2", "avx512", "neon" or "simd128"; NULL where the build, the processor or
- * the system lacks it. */
+ * the system lacks it.
+ * lmb_kernels_name: that name. */
 const lmb_kernels *lmb_kernels_pick(void);
 const lmb_kernels *lmb_kernels_at(int32_t i);
 const lmb_kernels *lmb_kernels_named(const char *name);
@@ -62,9 +64,9 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  *
  * Returns LMB_OK, LMB_ERR_ARG (null, id 0, window outside the frame or not on tiles, bad view or stride) or
  * LMB_ERR_FORMAT, and then nothing was drawn; LMB_ERR_CAPACITY if ids do not fit an LMB_ID16 surface.
- * Triangles with a non-finite vertex, one more than 2^20 m away, or an index outside the mesh are dropped, counted.
+ * Triangles with a non-finite vertex, a vertex over 2^20 m away, or an index outside the mesh are dropped and counted.
  * Coverage: pixel centres, top-left rule, vertices snapped to 1/256 px: exact integers, no crack, no overlap.
- * Stack: 2.5 to 3.8 KiB, by machine; 1.9 in the tiny configuration. Cost: vertices + covered tiles. Draws into
+ * Stack: 2.5 to 3.8 KiB, by backend; 1.9 in the tiny configuration. Cost: vertices + covered tiles. Draws into
  * different targets may run at once. */
 lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                     uint32_t first_id, uint32_t count, uint32_t flags, lmb_stats *stats);
@@ -73,8 +75,8 @@ lmb_status lmb_draw(const lmb_target *target, const lmb_kernels *kernels, const 
  *
  *   target  holds the tile, with ids.
  * Returns LMB_OK or LMB_ERR_ARG (null, no ids, tile outside the window or not on tiles): `out` is then untouched.
- * Stack: 0.9 to 2.3 KiB, by machine: the triangles lie in `out`. Cost: 64 pixels, and the set-up of the triangles among
- * them, sixteen at a time. */
+ * Stack: 0.9 to 2.3 KiB, by backend: the triangles lie in `out`. Cost: 64 pixels, and the set-up of the triangles that
+ * they show, sixteen at a time. */
 lmb_status lmb_resolve_tile(lmb_tile *out, const lmb_kernels *kernels, const lmb_view *view, const lmb_scene *scene,
                             const lmb_target *target, int32_t x, int32_t y);
 

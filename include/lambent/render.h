@@ -19,8 +19,8 @@
  *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile
  *
  * Glossy materials (lmb_material.specular; builds with trees) reflect the scene's lights, and bounced light by
- * LMB_GROUP_CUT; fixed groups and direct light of `many` reach their diffuse part alone. Tiles that show a
- * lobe are gathered at each pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE knows no lobes. */
+ * LMB_GROUP_CUT; fixed groups and direct light of `many_lights` reach their diffuse part alone. Tiles that show a lobe
+ * are gathered at each pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE has no lobes. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
 
@@ -35,7 +35,7 @@ enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_I
 
 /* Light gathered for some pixels of a block of tiles side by side. */
 typedef struct lmb_sparse {
-    lmb_tile together;                      /* those at hand: of positions, faces, normals and ids */
+    lmb_tile together;                      /* the next pixels: their positions, faces, normals and ids */
     uint16_t pixel[LMB_TILE_PIXELS];        /* where they are in `light` */
     int32_t count;                          /* of them */
     lmb_irradiance light[LMB_SPARSE_TILES]; /* of the block's pixels */
@@ -62,7 +62,7 @@ typedef int (*lmb_band_callback)(void *user, const lmb_surface *rows, int32_t y)
 
 /* A frame's description: what to draw, how, and the memory to do it in. All memory is the caller's. */
 typedef struct lmb_frame {
-    const lmb_kernels *kernels; /* lmb_kernels_pick(), or one machine's own on small targets */
+    const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
     const lmb_scene *scene;     /* checked */
     const lmb_many_lights *many_lights; /* built: lights beside the scene's; they bounce by `elements`. NULL: none */
     lmb_view view;
@@ -73,12 +73,11 @@ typedef struct lmb_frame {
     int32_t occlusion;     /* LMB_OCCLUSION_* */
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
     float error;           /* 0.02 where 0, by LMB_MANY_LIGHTS_EVEN lights 0.1: LMB_GROUP_CUT: lmb_cut_params's */
-    float visibility;     /* 0.015 where 0, by LMB_MANY_LIGHTS_EVEN lights 0.2: LMB_OCCLUSION_EXACT: lmb_cut_params's */
-    int32_t conservative; /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cut_params's */
+    float visibility; /* 0.015 where 0, by LMB_MANY_LIGHTS_EVEN lights 0.2: LMB_OCCLUSION_EXACT: lmb_cut_params's */
+    int32_t conservative;  /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cut_params's */
     float many_lights_error; /* 0.02 where 0: lmb_many_lights_query's */
-    int32_t bounces;         /* 1 where 0, or .. 64: how often light is reflected before the surface that is seen;
-                              LMB_GROUP_CUT. What comes straight from a material that emits light is not reflected: it
-                                always
+    int32_t bounces;       /* 1 .. 64, 1 where 0: how often light is reflected before the surface that is seen;
+                              LMB_GROUP_CUT. Light straight from a material that emits is not reflected: it always
                               counts */
     int32_t truncated;     /* 1: light that is reflected more than `bounces` times is missing; 0: with `bounces` over 1
                               it is estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
@@ -91,8 +90,8 @@ typedef struct lmb_frame {
     lmb_points points;  /* data NULL: no bounced light */
     lmb_groups *groups; /* NULL: no bounced light */
     lmb_tree tree;      /* LMB_GROUP_CUT: in place of points and groups; texel NULL: no bounced light */
-    lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows from `many`; triangle NULL: these cast none */
-    lmb_elements elements; /* for bounces > 1, `many` to bounce and materials to light others; data NULL: none of it */
+    lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: these cast none */
+    lmb_elements elements; /* for bounces > 1, bounced many_lights, and materials that emit; data NULL: none of these */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
     lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
     lmb_band_scratch *scratch;
@@ -101,27 +100,26 @@ typedef struct lmb_frame {
     lmb_band_callback callback;
     void *user;
     lmb_stats *stats; /* may be NULL */
-    float dim; /* 0, or radiance, W/(sr m2): lights whose bounced light together stays under it at every pixel, proven,
-                  do not bounce. For a display at exposure e, 0.00015 / 2^e is half a step of black in 8 bits */
-    float
-        error_floor; /* 0, or radiance, W/(sr m2): bounced light that is wrong by less is right; not with
-                        `conservative`. For a
-                    display as for `dim` */
-    int32_t run_all; /* 1: leave nothing out and keep nothing: the same bytes, for those who doubt it */
+    float dim; /* 0, or radiance, W/(sr m2): lights do not bounce if a bound shows that the bounced light of all of them
+                  together stays under it at every pixel. For a display at exposure e, 0.00015 / 2^e is half a step of
+                  black in 8 bits */
+    float error_floor; /* 0, or radiance, W/(sr m2): errors of bounced light below it are accepted; not with
+                          `conservative`. For a display as for `dim` */
+    int32_t run_all;   /* 1: skip nothing and reuse nothing: the same bytes, to check that skipping changes none */
 } lmb_frame;
 
-/* How well bounced light is solved: what numbers of lmb_frame_settings are where they are 0. Errors against truth:
- * README. By LMB_MANY_LIGHTS_EVEN lights of `many` and nothing else, `error` and `visibility` are larger (0.1 and 0.2
- * by default), and bounced light is gathered at every second pixel. */
+/* How accurately bounced light is solved: the values of those numbers of lmb_frame_settings that are 0. README has the
+ * errors against truth. Where LMB_MANY_LIGHTS_EVEN lights or more of `many_lights` are all the light there is, `error`
+ * and `visibility` are larger (0.1 and 0.2 by default), and bounced light is gathered at every second pixel. */
 enum {
     LMB_QUALITY_DEFAULT = 0, /* tree 256, error 0.02, visibility 0.015 */
     LMB_QUALITY_DRAFT = 1,   /* tree 128, error 0.06, visibility 0.06 */
     LMB_QUALITY_BEST = 2,    /* tree 1024, error 0.01, visibility 0.002 */
-    LMB_QUALITY_FIXED = 3    /* fixed groups, and what the viewer's own depth tells of occlusion: where memory is short.
-                                Builds without trees (LMB_TREES 0) have nothing else: there all are this one */
+    LMB_QUALITY_FIXED = 3    /* fixed groups, with occlusion by the viewer's own depth: where memory is short. Builds
+                                without trees (LMB_TREES 0) have this one alone, whichever is asked for */
 };
 
-/* What lmb_frame_init makes a frame of. `kernels`, `scene` and `view` are needed; zeros elsewhere are what most want.
+/* What lmb_frame_init makes a frame of. `kernels`, `scene` and `view` are needed; zeros elsewhere give usable defaults.
  * What takes no memory and is not here (exposure_ev, occlusion, stats, callback ...) is set in the frame afterwards. */
 typedef struct lmb_frame_settings {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
@@ -135,25 +133,25 @@ typedef struct lmb_frame_settings {
     int32_t show;           /* LMB_SHOW_*: LMB_SHOW_DIRECT takes no memory for bounced light */
     int32_t quality;        /* LMB_QUALITY_* */
     int32_t bounces;        /* 1 where 0, or .. 64; over 1 not by LMB_QUALITY_FIXED */
-    int32_t threads;        /* 1 where 0, or .. 1024: who draw bands at once: frame.scratch[0 .. threads - 1] */
-    int32_t shadow_map;      /* texels a side, a multiple of 8; by a tree 1 .. 8 times its. 0: 2^21 texels (tiny
+    int32_t threads;        /* 1 .. 1024, 1 where 0: how many draw bands at once: frame.scratch[0 .. threads - 1] */
+    int32_t shadow_map;     /* texels a side, a multiple of 8; with a tree 1 to 8 times the tree's. 0: 2^21 texels (tiny
                                configuration: 2^14) over all shadow maps, 64 .. 1024 a side */
     int32_t tree;           /* texels a side, a power of two; the quality's where 0 (tiny configuration: an eighth);
-                               1/8 of shadow_map at least, shadow_map at most */
+                               from 1/8 of shadow_map to shadow_map */
     float error, visibility;   /* lmb_frame's; the quality's where 0 */
     uint32_t elements;      /* a power of 4, 64 .. 2^24. 0: 65,536 for more than one bounce, else 16,384 (tiny: 1,024
-                               and 256). None where bounces, `many` and materials ask for none */
+                               and 256). None where bounces, many_lights and materials need none */
     lmb_grouping grouping;  /* LMB_QUALITY_FIXED: method is not LMB_GROUP_CUT */
     uint32_t points;        /* LMB_QUALITY_FIXED: first points. 0: four a block of texels, the most there can be */
     int32_t id_format;      /* 0: LMB_ID16 for scenes under 65,536 triangles, else LMB_ID32 */
 } lmb_frame_settings;
 
-/* What of a frame does without, though it is asked for: it would change no byte of a picture. lmb_plan says why. */
+/* What a frame skips though its settings ask for it, as it would change no byte of the picture. lmb_plan says why. */
 enum {
     LMB_SKIP_BOUNCE = 1 /* nothing is lit, or nothing reflects */
 };
 
-/* What stands as the last frame left it: lmb_render_reuse. */
+/* What a frame reuses of the last one: lmb_render_reuse. */
 enum {
     LMB_REUSE_BVH = 1,
     LMB_REUSE_POINTS = 2,  /* and groups */
@@ -161,12 +159,12 @@ enum {
     LMB_REUSE_VIEW = 8
 };
 
-/* A light of a frame. */
+/* The state of one light of a frame. */
 enum {
-    LMB_LIGHT_DARK = 1,       /* gives nothing: no map, no light */
-    LMB_LIGHT_MAP_REUSED = 2,   /* as the last frame left it */
-    LMB_LIGHT_TEXELS_REUSED = 4, /* and its faces of the tree */
-    LMB_LIGHT_DIM = 8         /* does not bounce: lmb_frame.dim */
+    LMB_LIGHT_DARK = 1,          /* gives no light: has no map, and is skipped */
+    LMB_LIGHT_MAP_REUSED = 2,    /* its shadow map is the last frame's */
+    LMB_LIGHT_TEXELS_REUSED = 4, /* so are its faces of the tree */
+    LMB_LIGHT_DIM = 8            /* does not bounce: lmb_frame.dim */
 };
 
 /* The state of a frame under way. */
@@ -174,13 +172,13 @@ typedef struct lmb_render {
     lmb_frame frame;
     lmb_shadow_map maps[LMB_MAX_LIGHTS];
     int32_t stage;               /* lmb_stage */
-    lmb_status failed;           /* what stopped the frame: every later call returns it; LMB_OK while nothing did */
+    lmb_status failed;           /* the error that stopped the frame: every later call returns it; LMB_OK: none */
     uint32_t light, face, progress; /* how far the stage is */
     uint32_t triangles;          /* of the scene */
     int32_t emits;               /* 1 where a material emits light */
     int32_t is_glossy;           /* 1 where one has a lobe, in builds with trees */
     uint32_t skips, reuses;      /* LMB_SKIP_*, LMB_REUSE_* */
-    float dimmed;                /* radiance that lights that are too dim to bounce leave out, at most */
+    float dimmed;                /* upper bound of the radiance missing by lights that are too dim to bounce */
     uint8_t light_state[LMB_MAX_LIGHTS]; /* LMB_LIGHT_*, bits */
     uint32_t revision, lights_revision, appearance_revision, light_revision[LMB_MAX_LIGHTS]; /* of what was drawn */
 } lmb_render;
@@ -201,8 +199,8 @@ typedef enum lmb_stage {
 extern "C" {
 #endif
 
-/* lmb_frame_bytes: memory of a frame by these settings, all of it but the scene, `many`, a picture of the caller's and
- * lmb_render. 0 where there is no such frame: those that lmb_frame_init refuses, and what this machine cannot address.
+/* lmb_frame_bytes: all the memory of a frame by these settings but the scene, many_lights, a picture of the caller's
+ * and lmb_render. 0 for settings that lmb_frame_init refuses, and for sizes that this target cannot address.
  *
  * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the shadow map, 5 the tree,
  * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82. At 160x120 in the
@@ -217,8 +215,8 @@ size_t lmb_frame_bytes(const lmb_frame_settings *settings);
  *           picture in it, become zeros; the rest is not touched.
  *   bytes   at least lmb_frame_bytes.
  *
- * Serves for as long as the scene has no more triangles, lights and faces of maps (lmb_shadow_map_faces) than now:
- * lights, objects and viewer may move. Free the block to end it; there is nothing else to undo.
+ * The frame may be used for as long as the scene has no more triangles, lights and map faces (lmb_shadow_map_faces)
+ * than now: lights, objects and viewer may move. To end it, free the block; there is nothing else to undo.
  * Returns LMB_OK; LMB_ERR_ARG (null, no scene, a number outside what stands beside it), LMB_ERR_FORMAT (of picture or
  * ids), LMB_ERR_SCENE (ids do not fit), LMB_ERR_ALIGN, LMB_ERR_CAPACITY (bytes; more lights than LMB_MAX_LIGHTS): then
  * nothing was written. */
@@ -232,14 +230,14 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
- * A unit is 1,024 triangles of a draw, a row of shadow-map tiles or 64 elements of one bounce; a band counts as 8 (and
- * draws the whole scene into its rows where the eye is band-sized); the discs of one face, the grouping and what is
- * made of all triangles (the BVH, elements) are each one piece.
+ * A unit is 1,024 triangles of a draw, a row of shadow-map tiles or 64 elements of one bounce. A band counts as 8 (and
+ * draws the whole scene into its rows where the eye is band-sized). The discs of one face, the grouping, the BVH and
+ * building the elements cannot be divided: each is one unit.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 
-/* lmb_render_band: draw one finished-from-here band into frame.out; legal from LMB_STAGE_BANDS on, in any order, on
- * any thread with its own scratch (and, with a band-sized eye, its own `eye`). Band b is rows 8b .. 8b + 7.
+/* lmb_render_band: draw one band of the picture, whole; legal from LMB_STAGE_BANDS on, in any order, on any thread with
+ * its own scratch (and, with a band-sized eye, its own `eye`). Band b is rows 8b .. 8b + 7.
  * `out` is the whole frame, or 8 rows that take the band. Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
 lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
                            const lmb_surface *out, int32_t band);
@@ -249,31 +247,30 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * read.
  *
  *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step,
- * exposure_ev, eye,
- *          eye_depth, scratch, out, callback, user and stats are taken from it; the rest stands as it was at
- *          lmb_render_begin.
+ *          exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
+ *          was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
- * also where `frame` shows bounced light and r solved none, or solved more bounces than one, or those of `many`, by
- * another occlusion, error, visibility or many_lights_error, or asks for the BVH that r did not build. On an error r is
- * as it was. */
+ * also where `frame` shows bounced light and r solved none; where r solved several bounces, or those of many_lights, by
+ * another occlusion, error, visibility or many_lights_error; or where it needs a BVH that r did not build. After an
+ * error r is unchanged. */
 lmb_status lmb_render_again(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_reuse: begin the next frame of an animation: lmb_render_begin that keeps what did not change since r's
  * last frame, by the scene's revisions and the frame's settings. The bytes are those of lmb_render_begin.
  *
  *   r      of the last frame, done or not; or all 0: then it is the first.
- *   frame  whole, as for lmb_render_begin. What is kept lies in its memory: give the same each frame, and write none of
- *          it between them. Other memory, another size or scene: that part is made again.
- * Kept are: a shadow map while nothing moved and its own and the lights' revision stand; its first points where also
- * the look stands; groups where all lights' do; the BVH while nothing moved, whatever lights do; bounces
- * where all of it stands; the viewer's depth and ids (a whole frame's) while nothing and the viewer did not move.
- * Direct and bounced light of the pixels are always gathered. Returns what lmb_render_begin does. Not there in builds
- * without plan. */
+ *   frame  whole, as for lmb_render_begin. What is reused lies in its memory: give the same memory each frame, and do
+ *          not write to it in between. Where memory, a size or the scene is another one, that part is made again.
+ * Reused are: a shadow map, while no object moved and the light's own and lights_revision are unchanged; its first
+ * points, if appearance_revision is unchanged too; groups, if that holds for all lights; the BVH, while no object
+ * moved, whatever lights do; bounces, if everything is unchanged; the viewer's depth and ids (of a whole frame), while
+ * neither objects nor the viewer moved. Direct and bounced light of the pixels are always gathered anew. Returns what
+ * lmb_render_begin does. Missing in builds without plan. */
 lmb_status lmb_render_reuse(lmb_render *r, const lmb_frame *frame);
 
-/* lmb_render_has_parts: 1 where the stage at hand can be done in parts, by those who have threads; 0 where it goes by
- * lmb_render_step: stages that are short, one that steps have begun, first points without room for four a block. */
+/* lmb_render_has_parts: 1 where the current stage can be done in parts, on several threads; 0 where lmb_render_step
+ * must do it: short stages, one that steps have begun, first points without room for four a block. */
 int32_t lmb_render_has_parts(const lmb_render *r);
 
 /* lmb_render_part: do one of `parts` equal shares: tile rows of all shadow maps (LMB_STAGE_SHADOW_MAP), of the next
@@ -295,7 +292,7 @@ lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts);
 /* lmb_render_frame: begin and all the steps. `r` is caller's memory. */
 lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame);
 
-/* lmb_render_progress: 0 .. 1 of the stage at hand. *name is its name in words; never NULL. */
+/* lmb_render_progress: how far the current stage is, 0 .. 1. *name is its name in words; never NULL. */
 float lmb_render_progress(const char **name, const lmb_render *r);
 
 #ifdef __cplusplus

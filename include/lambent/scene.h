@@ -46,18 +46,18 @@ typedef struct lmb_texture {
 enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
        LMB_ALPHA_MASK = 2    /* holes where alpha < alpha_cutoff: takes the masked path */ };
 
-/* Least alpha = roughness^2 of a lobe: a point light's highlight stays under 3,200 times its reflectance, and a lobe's
- * numbers far from what binary32 holds. */
+/* Lower bound of a lobe's alpha = roughness^2: a point light's highlight stays under 3,200 times the reflectance, and
+ * the lobe's numbers stay far from the limits of binary32. */
 #define LMB_MIN_ALPHA 0.01f
 
-/* Lambertian surface. Diffuse albedo per channel is 0 .. 1; albedo x texture x vertex colour [V2]. Beside it, where
- * `specular` is not 0, one glossy lobe towards the viewer: lmb_glossy. Light that bounces on is the diffuse part
- * alone.
+/* A Lambertian surface. Its diffuse albedo is albedo x texture x vertex colour [V2], 0 .. 1 per channel. Where
+ * `specular` is not 0 it also has one glossy lobe towards the viewer: lmb_glossy. Only the diffuse part bounces light
+ * on to other surfaces.
  *
- * Maps of a surface take the texture coordinates of its base colour. Emission is seen by texel; it lights others by
- * element, by the map's mean over each. With a metal_map albedo x (1 - metallic) is diffuse and F0 is specular +
- * (albedo - specular) x metallic, by texel both: `specular` is then that of what is no metal. Builds without lobes
- * (LMB_LOBES 0) read neither map. */
+ * All maps use the texture coordinates of the base colour. The viewer sees emission texel by texel; other surfaces are
+ * lit by its mean over each element (elements.h). With a metal_map, per texel, the diffuse albedo is
+ * albedo x (1 - metallic) and F0 is specular + (albedo - specular) x metallic: `specular` is then that of the part that
+ * is no metal. Builds without lobes (LMB_LOBES 0) read neither map. */
 typedef struct lmb_material {
     float albedo[3];
     float alpha;        /* times texture alpha times vertex alpha */
@@ -94,16 +94,17 @@ typedef struct lmb_light {
     float intensity[3]; /* W/sr; directional: W/m2 on a plane facing the light */
     float cos_inner, cos_outer;
     int32_t kind;
-    uint32_t revision; /* raise when it changes: of this place in scene->lights */
+    uint32_t revision; /* raise when the light at this index of scene->lights changes */
 } lmb_light;
 
-/* Where a scene is fine, m: a house on a terrain, a room in a scene with a stray triangle a kilometre off. A sun's map
- * has a face for the core, one for the scene, and those between, each at most 16 times as wide as the one within it. */
+/* The part of a scene that has its fine detail, m: the house on a terrain, the room in a scene with a stray triangle a
+ * kilometre off. A sun's shadow map has a face for this core, one for the whole scene, and others between them, each at
+ * most 16 times as wide as the one inside it. */
 enum { LMB_CORE_FACES = 6 };
 typedef struct lmb_core {
-    lmb_vec3 low, high;           /* the finest place */
-    lmb_vec3 wide_low, wide_high; /* what nearly everything is in; the bounds where that is all */
-    int32_t faces;                /* of a sun's map, up to LMB_CORE_FACES; 0 or 1: one, for the bounds */
+    lmb_vec3 low, high;           /* the box of the finest detail */
+    lmb_vec3 wide_low, wide_high; /* the box of nearly all triangles; the scene's bounds where that is all of them */
+    int32_t faces;                /* of a sun's map, up to LMB_CORE_FACES; 0 or 1: one face, for the scene's bounds */
 } lmb_core;
 
 typedef struct lmb_scene {
@@ -114,11 +115,10 @@ typedef struct lmb_scene {
     const lmb_light *lights;
     uint32_t mesh_count, material_count, texture_count, instance_count, light_count;
     lmb_vec3 bounds_min, bounds_max; /* of all placed vertices, world metres: lmb_scene_bounds */
-    uint32_t revision;        /* raise when anything changed that the next two do not tell */
-    uint32_t lights_revision; /* raise when lights came, went or changed; for changes of one, its own is enough */
-    uint32_t
-        appearance_revision;  /* raise where only colours changed: albedo, emission, specular, roughness, texels without
-                                 holes; what is seen and what blocks stands as it was */
+    uint32_t revision;        /* raise when anything changed that the next two do not cover */
+    uint32_t lights_revision; /* raise when lights came, went or changed; if one changed, its own is enough */
+    uint32_t appearance_revision; /* raise when only colours changed: albedo, emission, specular, roughness, texels but
+                                     not their holes; visibility and occlusion are as before */
     lmb_core core;            /* lmb_scene_core; all 0: suns' maps have one face */
 } lmb_scene;
 
@@ -138,7 +138,7 @@ lmb_status lmb_scene_check(const lmb_scene *scene);
 /* lmb_scene_triangles: triangles over all instances of a checked scene; ids run 1 .. that. Cost: none. */
 uint32_t lmb_scene_triangles(const lmb_scene *scene);
 
-/* lmb_scene_emits: 1 where some material emits light, for which a frame wants elements; else 0. */
+/* lmb_scene_emits: 1 where some material emits light, for which a frame needs elements; else 0. */
 int lmb_scene_emits(const lmb_scene *scene);
 
 /* lmb_scene_is_glossy: 1 where some material has a lobe; else 0. */
@@ -147,9 +147,9 @@ int lmb_scene_is_glossy(const lmb_scene *scene);
 /* lmb_scene_bounds: the box of all placed, finite vertices; (0,0,0)-(0,0,0) for none. Cost: one pass over them. */
 void lmb_scene_bounds(lmb_vec3 *out_min, lmb_vec3 *out_max, const lmb_scene *scene);
 
-/* lmb_scene_core: where a scene is fine, by its triangles; of a scene that lmb_scene_check takes, bounds_* set. All 0
- * where one box does: most scenes. Call it after lmb_scene_bounds, and again when things have moved far. Not there in
- * builds without trees. Cost: up to 250 passes over 8,192 of the triangles, and a few over all. */
+/* lmb_scene_core: find the core of a checked scene from its triangles' sizes. All of `out` is 0 where one face is
+ * enough, as in most scenes. Call it after lmb_scene_bounds, and again when things have moved far. Missing in builds
+ * without trees. Cost: up to 250 passes over 8,192 of the triangles, and a few over all. */
 void lmb_scene_core(lmb_core *out, const lmb_scene *scene);
 
 /* lmb_texture_bytes: memory of `levels` levels of a width x height image, 4 bytes a texel; 0 for a bad size. */

@@ -1,4 +1,4 @@
-/* surface.h: a caller's pixels: sizes, clearing, linearising, and the oracle that compares two of them. */
+/* surface.h: a caller's pixels: sizes, clearing, linearising, hashing, and comparing two pictures. */
 #ifndef LMB_SURFACE_H
 #define LMB_SURFACE_H
 
@@ -14,7 +14,7 @@ int32_t lmb_pixel_bytes(int32_t format);
 /* lmb_surface_bytes: memory of a surface, whole tiles for depth and id formats; 0 for a bad size or format. */
 size_t lmb_surface_bytes(int32_t format, int32_t width, int32_t height);
 
-/* lmb_depth_bytes: lmb_surface_bytes(LMB_DEPTH32F, width, height), for those who look for it. */
+/* lmb_depth_bytes: short for lmb_surface_bytes(LMB_DEPTH32F, width, height). */
 size_t lmb_depth_bytes(int32_t width, int32_t height);
 
 /* lmb_surface_init: describe `bytes` of caller's memory as a surface: tiled for depth and id, linear for colour.
@@ -35,12 +35,12 @@ lmb_status lmb_depth_linearize(void *out, size_t bytes, const lmb_surface *surfa
 float lmb_depth_view_z(const lmb_view *view, float d);
 
 /* lmb_surface_hash: 64-bit FNV-1a over the pixels in row order, each value in little-endian byte order whatever the
- * machine and layout, so that equal pictures have equal hashes everywhere. 0 for a null surface.  */
+ * target and layout, so that equal pictures have equal hashes everywhere. 0 for a null surface. */
 uint64_t lmb_surface_hash(const lmb_surface *surface);
 
 /* lmb_surface_diff: first pixel, in row order, whose bytes differ.
  *
- * Returns 1 and writes its place to x, y; 0 if all are equal; LMB_ERR_ARG / LMB_ERR_FORMAT where the two cannot be
+ * Returns 1 and writes its position to x, y; 0 if all are equal; LMB_ERR_ARG / LMB_ERR_FORMAT where the two cannot be
  * compared (null, sizes or formats differ; layouts may). */
 int32_t lmb_surface_diff(int32_t *x, int32_t *y, const lmb_surface *a, const lmb_surface *b);
 

@@ -53,8 +53,8 @@ typedef struct lmb_view {
     lmb_vec3 eye;
     lmb_vec3 right, up, back;
     float half_width, half_height; /* perspective: tangents of the half angles; orthographic: metres */
-    float near_m, far_m;           /* near_m over 1e-30, like widths; of an orthographic view under far_m, and
-                                      under -1e-30 where it is behind the eye; far_m: for those, 16-bit depth */
+    float near_m, far_m;           /* near_m > 1e-30, as are the half sizes; orthographic: near_m < far_m, and
+                                      < -1e-30 where it is behind the eye. far_m: orthographic views, 16-bit depth */
     int32_t kind;                  /* LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC */
     int32_t frame_width, frame_height; /* px of the whole frame, <= LMB_MAX_FRAME */
 } lmb_view;
@@ -78,7 +78,7 @@ typedef enum lmb_format {
  * the step from one row of tiles to the next. */
 enum { LMB_LINEAR = 0, LMB_TILED = 1 };
 
-/* A caller's pixels. No pointer of lambent's own ever points into another struct. */
+/* A caller's pixels. The library never stores a pointer from one struct into another. */
 typedef struct lmb_surface {
     void *data;           /* first row (LINEAR), first tile (TILED); NULL: no surface */
     int32_t width, height; /* px, <= LMB_MAX_SIDE */
@@ -88,7 +88,7 @@ typedef struct lmb_surface {
     uint16_t reserved;    /* 0 */
 } lmb_surface;
 
-/* What a call dropped or merged: bad data is counted, never an error. Counters only grow; zero them yourself. */
+/* What calls did and what they dropped: bad data is counted, never an error. Counters only grow; zero them yourself. */
 typedef struct lmb_stats {
     uint32_t triangles;         /* read */
     uint32_t triangles_drawn;   /* reached the fill */
@@ -96,10 +96,10 @@ typedef struct lmb_stats {
     uint32_t first_points;
     uint32_t discs;
     uint32_t groups;
-    uint32_t regroups;          /* times grouping restarted because LMB_MAX_GROUPS was met */
+    uint32_t regroups;          /* times grouping restarted because LMB_MAX_GROUPS was reached */
     uint32_t bands;
-    uint64_t pairs, segments;   /* LMB_GROUP_CUT: pixels x nodes that light them; visibility asked for */
-    uint64_t full_cuts;         /* patches of pixels lit by less nodes than was asked for: LMB_MAX_CUT was met */
+    uint64_t pairs, segments;   /* LMB_GROUP_CUT: pixels x nodes that light them; segments tested for visibility */
+    uint64_t full_cuts;         /* pixel clusters lit by fewer nodes than asked for: LMB_MAX_CUT was reached */
     double flux_lit;            /* W: outgoing power of all first points, sum of R, G, B */
     double flux_grouped;        /* W: the same over the groups; less only where strict zones drop some [V20] */
 } lmb_stats;
@@ -115,9 +115,9 @@ const char *lmb_status_name(lmb_status status);
 
 /* lmb_build_check: was this library compiled so that its bytes equal everybody else's?
  *
- * Asks at run time: IEEE binary32 without excess precision, no contraction in any machine's kernels, no flushed
- * denormals, arithmetic shifts, and none of the compilers' faults that were met so far (clang 14 for 32-bit MIPS, tcc
- * 0.9.27). Returns LMB_OK or LMB_ERR_BUILD. Call it once at start. */
+ * Tests at run time that floats are IEEE binary32 without excess precision, that no backend's kernels contract a
+ * multiply and an add, that denormals are not flushed, that shifts are arithmetic, and that none of the compiler faults
+ * met so far is there (clang 14 for 32-bit MIPS, tcc 0.9.27). LMB_OK or LMB_ERR_BUILD. Call it once at start. */
 lmb_status lmb_build_check(void);
 
 /* lmb_view_look_at: a perspective view from `eye` towards `target`.

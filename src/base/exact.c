@@ -1,4 +1,4 @@
-/* exact.c: asks the running machine what exact.h cannot ask the compiler. Layer 1.
+/* exact.c: tests the running target for what exact.h cannot ask the compiler. Layer 1.
  *
  * Operands are volatile, so that the answers come from the code the compiler made and not from its own arithmetic. */
 #include "exact.h"

@@ -1,4 +1,4 @@
-/* exact.h: refuses to compile where bytes would differ; lmb_build_check asks the rest at run time. Layer 1. */
+/* exact.h: refuses compilers and flags that would change bytes; lmb_build_check tests the rest at run time. Layer 1. */
 #ifndef LMB_BASE_EXACT_H
 #define LMB_BASE_EXACT_H
 

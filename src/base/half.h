@@ -1,4 +1,4 @@
-/* half.h: binary16 codes of what is not negative. Layer 1. */
+/* half.h: binary16 codes of numbers that are not negative. Layer 1. */
 #ifndef LMB_BASE_HALF_H
 #define LMB_BASE_HALF_H
 

@@ -1,4 +1,4 @@
-/* memory_check.h: may arrays lie in the memory that a caller gave? Layer 1. */
+/* memory_check.h: checks the memory that a caller gave for arrays. Layer 1. */
 #ifndef LMB_BASE_MEMORY_CHECK_H
 #define LMB_BASE_MEMORY_CHECK_H
 

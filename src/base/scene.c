@@ -1,4 +1,4 @@
-/* scene.c: is a scene safe to draw, how many triangles, how large. Layer 1. */
+/* scene.c: checks a scene, counts its triangles, finds its bounds. Layer 1. */
 #include <lambent/scene.h>
 
 #include <stddef.h>

@@ -1,4 +1,4 @@
-/* surface_check.h: could a surface's numbers describe memory? Layer 1. */
+/* surface_check.h: checks that a surface's numbers describe memory. Layer 1. */
 #ifndef LMB_BASE_SURFACE_CHECK_H
 #define LMB_BASE_SURFACE_CHECK_H
 

@@ -1,4 +1,4 @@
-/* vertex.h: one vertex or index of a mesh, whatever its stream's format. Layer 1.
+/* vertex.h: reads one vertex or index of a mesh, whatever its stream's format. Layer 1.
  *
  * Streams are 4-byte aligned and tightly packed (lmb_scene_check), so plain typed reads will do. Indices are returned
  * as stored: whoever draws compares them with vertex_count before decoding. */

@@ -1,4 +1,4 @@
-/* view.c: a camera from where it stands and what it looks at. Layer 1. */
+/* view.c: a camera from its position and its target. Layer 1. */
 #include "poly.h"
 #include "vec.h"
 

@@ -1,5 +1,4 @@
-/* gather.inl: groups of emitters -> irradiance of a tile's pixels, with the viewer's depth map as occluder.  [V25-V28]
- * Layer 6.
+/* gather.inl: groups of emitters -> irradiance of a tile's pixels, occluded by the viewer's depth. Layer 6.  [V25-V28]
  *
  * Lanes are pixels; groups are added one after another: the order is the contract. */
 #ifndef LMB_GATHER_FORMULA

@@ -1,4 +1,4 @@
-/* group.h: what the groupings share: discs added up, and each way to share them out. Layer 6. */
+/* group.h: what the grouping methods have in common: sums of discs, and each way to group them. Layer 6. */
 #ifndef LMB_BOUNCE_GROUP_H
 #define LMB_BOUNCE_GROUP_H
 

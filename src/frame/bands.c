@@ -1,4 +1,4 @@
-/* bands.c: direct and bounced light of a tile; rows of tiles to the picture, and to the caller. Layer 10. */
+/* bands.c: direct and bounced light of tiles, and bands of them to the picture and the caller. Layer 10. */
 #include <string.h>
 
 #include "../base/vec.h"

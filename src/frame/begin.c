@@ -1,4 +1,4 @@
-/* begin.c: the start of a frame, or of another picture by the same light. Layer 10.                        [V31 V33] */
+/* begin.c: starts a frame, or another picture by the same light. Layer 10. [V31 V33] */
 #include <string.h>
 
 #include "stages.h"

@@ -1,4 +1,4 @@
-/* eye.c: what the viewer sees, as depth and ids: the whole frame by steps or in parts, or a band. Layer 10. */
+/* eye.c: depth and ids of the view: the whole frame by steps or in parts, or one band. Layer 10. */
 #include <string.h>
 
 #include "../bounce/points.h"

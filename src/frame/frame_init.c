@@ -1,4 +1,4 @@
-/* frame_init.c: how much memory a frame takes, and a frame laid out in one block of it. Layer 10. */
+/* frame_init.c: a frame's memory: how much it takes, and its layout in one block. Layer 10. */
 #include <lambent/render.h>
 
 #include <string.h>

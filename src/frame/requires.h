@@ -1,4 +1,4 @@
-/* requires.h: what a frame asks for. Layer 10. */
+/* requires.h: which stages and memory a frame requires. Layer 10. */
 #ifndef LMB_FRAME_REQUIRES_H
 #define LMB_FRAME_REQUIRES_H
 

@@ -1,4 +1,4 @@
-/* reuse.c: the next frame of an animation, which keeps what did not change. Layer 10.                       [V33 V34]
+/* reuse.c: begins the next frame of an animation, reusing what did not change. Layer 10. [V33 V34]
  *
  * Who changes a scene raises its revisions; who changes a setting shows it in the frame; memory is what it was where
  * the pointers are. Each thing is kept where all that it was made of stands: shadow maps of triangles and a light;

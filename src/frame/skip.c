@@ -1,4 +1,4 @@
-/* skip.c: what a frame does without, because it can change no byte of the picture. Layer 10.
+/* skip.c: finds what a frame can skip because it changes no byte of the picture. Layer 10.
  *
  *   no lobe, no emission   of materials that no triangle has
  *   a light of 0 W         lights nothing: every product with its intensity is 0; adding 0 changes no sum

@@ -1,4 +1,4 @@
-/* solve.c: the stages of the light, by steps and in parts. Layer 10.                                     [V33 V34] */
+/* solve.c: runs the stages that light goes through, by steps and in parts. Layer 10. [V33 V34] */
 #include "../base/vec.h"
 #include "../bounce/points.h"
 #include "stages.h"

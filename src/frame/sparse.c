@@ -1,8 +1,8 @@
-/* sparse.c: bounced light gathered for every second or fourth pixel and for those that no such pixel explains.
- * Layer 10.
+/* sparse.c: bounced light of every second or fourth pixel, and of those that it cannot stand for. Layer 10.
  *
- * What a gather costs is mostly asked for once a tile: which nodes it takes, what they see. So the pixels of several
- * tiles fill one. Tiles are resolved again for each pass: 4 KiB each to keep, microseconds to make. */
+ * Most of a gather's cost is per tile: choosing its nodes and testing what they see. So the sparse pixels of several
+ * tiles are gathered as one tile. Tiles are resolved again for each pass: keeping one takes 4 KiB, making one
+ * microseconds. */
 #include <string.h>
 
 #include "../base/vec.h"

@@ -1,4 +1,4 @@
-/* stages.h: what the files of this room ask of each other. Layer 10. */
+/* stages.h: what the files of src/frame call of each other. Layer 10. */
 #ifndef LMB_FRAME_STAGES_H
 #define LMB_FRAME_STAGES_H
 

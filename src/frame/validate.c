@@ -1,4 +1,4 @@
-/* validate.c: can this frame be drawn? Its numbers, its surfaces, what it asks for. Layer 10. */
+/* validate.c: checks whether a frame can be drawn: its numbers, its surfaces, its settings. Layer 10. */
 #include <string.h>
 
 #include "../base/surface_check.h"

@@ -1,5 +1,6 @@
-/* all_kernels.inl: every kernel by one machine's verbs, and their table. KERNEL(name) and BACKEND, the name that
- * lmb_kernels_named knows, are the including file's. Layer 12. */
+/* all_kernels.inl: every kernel by one backend's verbs, and their table. Layer 12.
+ *
+ * The including file defines KERNEL(name), and BACKEND: the name that lmb_kernels_named knows. */
 #include "../lane/kernels.h"
 #include "../lane/lane.h"
 

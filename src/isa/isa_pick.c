@@ -1,4 +1,4 @@
-/* isa_pick.c: which machine's kernels, and do they compute what they should? Layer 12.
+/* isa_pick.c: picks a backend's kernels, and tests that they compute what they should. Layer 12.
  *
  * On x86 the processor is asked, and the system: registers that it does not save across threads are not there. Asked
  * each time: a remembered answer would be data that changes. A call costs a few hundred cycles, in a virtual machine,

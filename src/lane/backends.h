@@ -1,4 +1,4 @@
-/* backends.h: which machines' kernels this build has. Layer 2.
+/* backends.h: which backends this build has. Layer 2.
  *
  * Each LMB_HAVE_x may be defined as 0 or 1 on the command line; left alone, it is found out here. "Has" means compiled
  * in: whether the processor can run it is isa_pick.c's question. The scalar kernels are always there; the tiny

@@ -1,4 +1,4 @@
-/* kernels.h: the table of kernels that a machine fills in: the only door to isa/. Layer 2.
+/* kernels.h: the table of kernels that a backend fills in: the only way into isa/. Layer 2.
  *
  * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, every machine. */
 #ifndef LMB_LANE_KERNELS_H

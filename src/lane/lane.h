@@ -1,4 +1,4 @@
-/* lane.h: small formulas over the lane verbs, for several kernels. Include after a machine's lane header. Layer 2. */
+/* lane.h: small formulas over the lane verbs, for several kernels. Include after a backend's header. Layer 2. */
 #ifndef LMB_LANE_H
 #define LMB_LANE_H
 

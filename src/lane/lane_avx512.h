@@ -1,8 +1,7 @@
-/* lane_avx512.h: the lane verbs by AVX-512, sixteen wide: two rows of a tile. lane_scalar.h says what each must do.
- * Layer 2.
+/* lane_avx512.h: the lane verbs by AVX-512, sixteen wide: two rows of a tile; see lane_scalar.h. Layer 2.
  *
- * After target_avx512.h. Masks are bits. The verbs for surfaces' memory take a row's eight values at a time, so that
- * linear targets, whose rows lie apart, are no other case. */
+ * Include it after target_avx512.h. Masks are bits. The verbs that load and store surfaces take a row's eight values at
+ * a time, so that linear targets, whose rows lie apart, need no case of their own. */
 #ifndef LMB_LANE_AVX512_H
 #define LMB_LANE_AVX512_H
 

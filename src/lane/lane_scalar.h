@@ -1,4 +1,4 @@
-/* lane_scalar.h: the lane verbs in plain C; the definition that every other machine equals. Layer 2.
+/* lane_scalar.h: the lane verbs in plain C; the definition that every other backend equals. Layer 2.
  *
  * lane     LANES floats               lane_mask  all ones or all zeros per lane
  * lanei    LANES int32                 laned      LANES doubles

@@ -1,4 +1,4 @@
-/* glossy.c: which pixels of a tile have a glossy lobe, and what lights make of it. Layer 5. */
+/* glossy.c: finds the pixels of a tile with a glossy lobe, and what the lobes make of lights. Layer 5. */
 #include <string.h>
 
 #include "../lane/kernels.h"

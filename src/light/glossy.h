@@ -1,4 +1,4 @@
-/* glossy.h: the lobe of one pixel. Layer 5. */
+/* glossy.h: one pixel's glossy lobe. Layer 5. */
 #ifndef LMB_LIGHT_GLOSSY_H
 #define LMB_LIGHT_GLOSSY_H
 

@@ -1,4 +1,4 @@
-/* shadow.c: is a point of a surface lit, by the shadow map? Layer 5.                                         [V7]
+/* shadow.c: tests by the shadow map whether a point of a surface is lit. Layer 5. [V7]
  *
  * A map's depth answers for the middle of a texel only: elsewhere it needs a bias, which leaks or freckles. Its ids
  * answer everywhere: the triangles named by the four texels around the point are looked up at the point's own place

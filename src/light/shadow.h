@@ -1,4 +1,4 @@
-/* shadow.h: is a point of a surface lit, by the shadow map? Layer 5. */
+/* shadow.h: tests by the shadow map whether a point of a surface is lit. Layer 5. */
 #ifndef LMB_LIGHT_SHADOW_H
 #define LMB_LIGHT_SHADOW_H
 

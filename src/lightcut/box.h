@@ -1,4 +1,4 @@
-/* box.h: oriented boxes: what is asked of them does not depend on how the world is turned. Layer 7. */
+/* box.h: oriented boxes, whose bounds do not depend on how the world is turned. Layer 7. */
 #ifndef LMB_LIGHTCUT_BOX_H
 #define LMB_LIGHTCUT_BOX_H
 

@@ -210,9 +210,9 @@ static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
     count_in(c, i, 1.0);
 }
 
-/* Have all pixels of the cluster the point before them, and are they before it? By its box, never where one is not:
- * most nodes need not be asked pixel by pixel. A unit vector at an angle of sine s, under 90 degrees, is within 1.5 s.
- * */
+/* Is the point in front of all pixels of the cluster, and are they all in front of it? Decided by the cluster's box, so
+ * never 1 where one is not: most nodes then need no test pixel by pixel. A unit vector at an angle of sine s, under 90
+ * degrees, is within 1.5 s. */
 static int all_before(const cutter *c, const lmb_texel *seen, float ends)
 {
     const lmb_pixel_cluster *p = c->p;
@@ -293,8 +293,7 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are asked wherever they are.
- * */
+/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are tested wherever they are. */
 static void ask(cutter *c, int32_t i)
 {
     const lmb_node_ref at = c->cut->ref[i];
@@ -568,8 +567,7 @@ static lmb_vec3 leaf_part(const leaf *l, int i)
 }
 
 /* The glossy lobe's response to a near leaf, as the sum over discs for its parts: a single disc would show as a bright
- * spot at the leaf's centre. At distances under the width of a part from the leaf's plane the reflection is too dark.
- * */
+ * spot at the leaf's centre. Nearer to the leaf's plane than a part is wide, the reflection is too dark. */
 static void add_glossy(const cutter *c, int k, const leaf *l)
 {
     const lmb_vec3 at = tile_vec(c->tile->position, k), face = tile_vec(c->tile->face, k),

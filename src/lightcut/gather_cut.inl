@@ -1,5 +1,6 @@
-/* gather_cut.inl: a cut of the light tree -> irradiance of the pixels that see its nodes. Lanes are pixels. [V27 V28]
- * Layer 7.
+/* gather_cut.inl: a cut of the light tree -> irradiance of the pixels that see its nodes. Layer 7.          [V27 V28]
+ *
+ * Lanes are pixels.
  *
  * The steps are gather.inl's: include it first. */
 static void KERNEL(gather_cut)(lmb_irradiance *inout, float (*memory)[LMB_GATHER_PAIRS], const lmb_tile *tile,

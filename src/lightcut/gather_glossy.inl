@@ -1,5 +1,6 @@
-/* gather_glossy.inl: a cut of the light tree -> what the glossy lobes of the pixels that see its nodes make of it.
- * Lanes are pixels. Layer 7.
+/* gather_glossy.inl: a cut of the light tree -> radiance from the glossy lobes of pixels that see its nodes. Layer 7.
+ *
+ * Lanes are pixels.
  *
  * The disc is gather.inl's, the lobe lobe.inl's: include both first. */
 

@@ -1,5 +1,6 @@
-/* node_bounds.inl: nodes of the light tree against a tile's pixel cluster: what each gives, at most, and its error.
- * Lanes are nodes: none of them meets another. Layer 7.                                                           [V27]
+/* node_bounds.inl: light of tree nodes at a pixel cluster: estimate, upper bound and error. Layer 7.              [V27]
+ *
+ * Lanes are nodes, each computed for itself.
  *
  * A node gives at most U = M cosP cosG / (pi d^2), with the largest cosines and the least distance d between its box
  * and the pixel cluster's. Include gather.inl first: the disc formula is its. */

@@ -1,4 +1,4 @@
-/* many_lights_cell.h: what the stream of lights, the tree and the cut share. Layer 6. */
+/* many_lights_cell.h: what the stream of many lights, their tree and the cut have in common. Layer 6. */
 #ifndef LMB_MANYLIGHTS_MANY_LIGHTS_CELL_H
 #define LMB_MANYLIGHTS_MANY_LIGHTS_CELL_H
 

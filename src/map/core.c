@@ -1,4 +1,4 @@
-/* core.c: where a scene is fine: the boxes that a sun's map gives faces of their own. Layer 4.
+/* core.c: finds a scene's fine detail: the boxes for which a sun's map gets faces of their own. Layer 4.
  *
  * Triangles that are small against the scene have a middle, weighted by area, and a mean distance from it. Those three
  * times as far do not belong to it; without them both are found anew, until none is left out: a stray triangle weighs

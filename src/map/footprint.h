@@ -1,4 +1,4 @@
-/* footprint.h: a place or a step of a shadow map, on the surface that it shows. Layer 4. */
+/* footprint.h: a position or a step on a shadow map, on the surface that it shows. Layer 4. */
 #ifndef LMB_MAP_FOOTPRINT_H
 #define LMB_MAP_FOOTPRINT_H
 

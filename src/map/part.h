@@ -1,4 +1,4 @@
-/* part.h: which face of a sun's map. Layer 4. */
+/* part.h: finds which face of a sun's map holds a point. Layer 4. */
 #ifndef LMB_MAP_PART_H
 #define LMB_MAP_PART_H
 

@@ -1,4 +1,4 @@
-/* cloud.h: what asks a cloud of one pixel. Layer 6. */
+/* cloud.h: reads one pixel of a cloud. Layer 6. */
 #ifndef LMB_MIXED_CLOUD_H
 #define LMB_MIXED_CLOUD_H
 

@@ -1,4 +1,4 @@
-/* cloud_normals.c: which way each point of a cloud faces, in spite of holes and noise. Layer 6.                [M2] */
+/* cloud_normals.c: normals of a cloud's points, in spite of holes and noise. Layer 6. [M2] */
 #include "plane_fit.h"
 
 #if LMB_MIXED

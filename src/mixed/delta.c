@@ -1,4 +1,4 @@
-/* delta.c: what an object changes: light's shadow maps without and with it, and the photo's answer. Layer 6. [M9 M23
+/* delta.c: what an object changes: shadow maps without and with it, and the photo by their difference. Layer 6. [M9 M23
  * M24] */
 #include "../base/poly.h"
 #include "../base/vec.h"

@@ -1,4 +1,4 @@
-/* envfold.c: light from where no picture was taken, folded from the one there is. Layer 6.                 [M14-M19] */
+/* envfold.c: folds light from unseen directions from the one picture there is. Layer 6. [M14-M19] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../map/cube.h"

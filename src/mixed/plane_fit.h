@@ -1,4 +1,4 @@
-/* plane_fit.h: least squares of inverse distances over a picture, about a place of it. Layer 6. */
+/* plane_fit.h: least squares of inverse distances over a picture, about one of its pixels. Layer 6. */
 #ifndef LMB_MIXED_PLANE_FIT_H
 #define LMB_MIXED_PLANE_FIT_H
 

@@ -1,4 +1,4 @@
-/* plane_outline.c: which pixels are a plane's, holes among them, and what the plane measures. Layer 6.    [M4 M5] */
+/* plane_outline.c: the pixels of a plane, with holes among them, and the plane's size. Layer 6. [M4 M5] */
 #include "planes.h"
 
 #if LMB_MIXED

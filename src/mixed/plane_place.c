@@ -1,4 +1,4 @@
-/* plane_place.c: which plane an object stands on, and where on it. Layer 6.                                     [M5] */
+/* plane_place.c: finds the plane that an object stands on, and where on it. Layer 6. [M5] */
 #include "planes.h"
 
 #if LMB_MIXED

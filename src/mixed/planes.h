@@ -1,4 +1,4 @@
-/* planes.h: what finding planes and drawing their outlines share. Layer 6. */
+/* planes.h: what finding planes and finding their outlines have in common. Layer 6. */
 #ifndef LMB_MIXED_PLANES_H
 #define LMB_MIXED_PLANES_H
 

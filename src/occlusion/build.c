@@ -1,4 +1,4 @@
-/* build.c: a scene's triangles -> a tree of boxes, sixteen a node, in the caller's arrays. Layer 4.
+/* build.c: builds the BVH of a scene's triangles, sixteen boxes a node, in the caller's arrays. Layer 4.
  *
  * Top down, in place: a node's triangles are cut in two where the surface-area heuristic over 16 bins of their middles
  * says (Wald 2007), then the part with the largest surface again, until there are sixteen. Below a depth that only

@@ -1,5 +1,6 @@
-/* crossed.inl: which segments from a tile's pixels to a point cross a triangle, or a box. Lanes are pixels.   [V25]
- * Layer 4.
+/* crossed.inl: which segments from a tile's pixels to a point cross a triangle, or a box. Layer 4.            [V25]
+ *
+ * Lanes are pixels.
  *
  * The edges' planes go through the point, so a segment crosses inside all three where its direction has the same side
  * of each; two triangles' planes through a shared edge are exactly opposite, so there is no gap between them. */

@@ -1,4 +1,4 @@
-/* hull.c: convex rooms, where what is inside sees all that is inside. Layer 4.
+/* hull.c: convex rooms, in which every point sees every other. Layer 4.
  *
  * A triangle blocks where both ends of a segment are farther than some noise from its plane, on two sides (occluded.c).
  * So none does where both are on the front of every plane, or not far behind. With R the largest step from the middle

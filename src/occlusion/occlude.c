@@ -1,4 +1,4 @@
-/* occlude.c: the viewer's depth map, made ready for the gather's march. Layer 4.                         [V24 V26] */
+/* occlude.c: prepares the viewer's depth map for the gather's march. Layer 4. [V24 V26] */
 #include "occlude.h"
 
 #include "../raster/target.h"

@@ -1,4 +1,4 @@
-/* occlude.h: the viewer's depth map, made ready for the gather's march. Layer 4. */
+/* occlude.h: prepares the viewer's depth map for the gather's march. Layer 4. */
 #ifndef LMB_OCCLUSION_OCCLUDE_H
 #define LMB_OCCLUSION_OCCLUDE_H
 

@@ -1,4 +1,4 @@
-/* occluded.c: a tile's segments to one point, walked through the tree of boxes together. Layer 4.           [V25] */
+/* occluded.c: a tile's segments to one point, traced through the BVH together. Layer 4. [V25] */
 #include <lambent/occlusion.h>
 
 #include "../base/vec.h"

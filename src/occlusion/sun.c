@@ -1,4 +1,4 @@
-/* sun.c: a tile's rays to one place at infinity, walked through the tree of boxes together. Layer 4.          [V25] */
+/* sun.c: a tile's rays to one point at infinity, traced through the BVH together. Layer 4. [V25] */
 #include <lambent/occlusion.h>
 
 #include "../base/vec.h"

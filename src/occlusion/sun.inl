@@ -1,5 +1,6 @@
-/* sun.inl: which pixels' rays to a place at infinity cross a triangle, or boxes. Lanes are pixels, then boxes.   [V25]
- * Layer 4.
+/* sun.inl: which pixels' rays to a point at infinity cross a triangle, or boxes. Layer 4.                        [V25]
+ *
+ * Lanes are pixels, then boxes.
  *
  * The edges' planes lie along the rays: crossed.inl's with the point far away, to the order that is left. */
 static uint64_t KERNEL(sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job)

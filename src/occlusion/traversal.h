@@ -1,4 +1,4 @@
-/* traversal.h: how deep the tree of boxes may be, and what rounding may do. Layer 4.
+/* traversal.h: limits of a traversal: how deep the BVH may be, and how much rounding is allowed for. Layer 4.
  *
  * Nothing here goes by the size of the scene: a triangle far away must not make walls leak. */
 #ifndef LMB_OCCLUSION_TRAVERSAL_H

@@ -1,4 +1,4 @@
-/* plan.c: what a frame that began will do: operations, work and bytes; what is left out, and why. Layer 11. */
+/* plan.c: plans a frame that began: operations, work, bytes; what it skips, and why. Layer 11. */
 #include <lambent/plan.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* plan_model.h: what operations cost, by numbers that were fitted. Layer 11. */
+/* plan_model.h: work of operations, by fitted numbers. Layer 11. */
 #ifndef LMB_PLAN_MODEL_H
 #define LMB_PLAN_MODEL_H
 
@@ -11,8 +11,7 @@ typedef struct plan_model {
 /* The repository's own: plan_model.inc. */
 extern const plan_model lmb_model;
 
-/* All of a choice but its rung, settings, error and `meets`, by those settings and the pairs and segments of all tiles.
- * */
+/* Sets all of a choice but rung, settings, error and `meets`, from the settings and all tiles' pairs and segments. */
 void lmb_model_cost(lmb_choice *inout, const plan_model *m, const lmb_facts *f, double pairs, double segments,
                     uint64_t fixed);
 

@@ -1,5 +1,4 @@
-/* plan_sample.c: a look at some tiles of a solved frame: what a setting costs and how far it is from another.
- * Layer 11. */
+/* plan_sample.c: samples tiles of a solved frame: a setting's work, and its difference from another. Layer 11. */
 #include "plan_sample.h"
 
 #include <string.h>

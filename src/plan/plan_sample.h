@@ -1,4 +1,4 @@
-/* plan_sample.h: places of a frame: tiles side by side that are looked at together. Layer 11. */
+/* plan_sample.h: tiles of a frame that are sampled together. Layer 11. */
 #ifndef LMB_PLAN_SAMPLE_H
 #define LMB_PLAN_SAMPLE_H
 

@@ -1,4 +1,4 @@
-/* plan_survey.c: which of a frame's tiles are looked at: evenly, along a Z curve. Layer 11. */
+/* plan_survey.c: picks a frame's tiles to sample: evenly, along a Z curve. Layer 11. */
 #include <lambent/plan.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* blur.c: irradiance of a map by blurring down its columns and along its rows. Layer 6.                   [S11-S13]
+/* blur.c: irradiance by blurring a map's columns, then its rows. Layer 6. [S11-S13]
  *
  * The source blurs by cos of the angle in latitude, then in longitude, alike everywhere. But what a normal at one
  * latitude gets from another is max(0, n . d), which is such a product at the equator only. Fitted kernels are, for

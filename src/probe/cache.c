@@ -1,4 +1,4 @@
-/* cache.c: which objects' cubes still serve, and which slot takes the next. Layer 6.                       [S18-S20] */
+/* cache.c: which objects can still use their cubes, and which slot takes the next ones. Layer 6. [S18-S20] */
 #include <string.h>
 
 #include "../base/vec.h"

@@ -1,4 +1,4 @@
-/* remap.c: the world as a place, or rays, see it: its numbers, then the kernels. Layer 6.               [S5-S8, S17] */
+/* remap.c: the world as seen from a point, or along rays: its numbers, then the kernels. Layer 6. [S5-S8, S17] */
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "../lane/kernels.h"

@@ -1,4 +1,4 @@
-/* remap.inl: what rays see of the world: by direction from one place, or a ray a pixel. Layer 6.           [S5-S8, S17]
+/* remap.inl: radiance that rays see of the world: by direction from a point, or a ray a pixel. Layer 6. [S5-S8, S17]
  *
  * Lanes are rays. A ray meets the far world at q, which the cube shows along q - centre; and the ground, if it
  * goes down to it within the picture. Both are read bilinearly, from a level whose texels are about as wide as it. */

@@ -1,4 +1,4 @@
-/* shade.c: small cubes with borders, and what a tile's pixels take from them. Layer 6.                [S17 S21 S22] */
+/* shade.c: small cubes with borders, and light from them for the pixels of a tile. Layer 6. [S17 S21 S22] */
 #include "../base/memory_check.h"
 #include "../light/glossy.h"
 #include "../raster/plane.h"

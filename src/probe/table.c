@@ -1,4 +1,4 @@
-/* table.c: the directions of a latitude-longitude map's texels, and what filters need of them. Layer 6.     [S9 S10] */
+/* table.c: directions of a latitude-longitude map's texels, and tables of them for the filters. Layer 6. [S9 S10] */
 #include <string.h>
 
 #include "../base/memory_check.h"

@@ -1,5 +1,4 @@
-/* elements_many_lights.c: what many lights send to elements, which then send it on: their first bounce. Layer 8. [V3]
- * */
+/* elements_many_lights.c: many lights light the elements, which then send the first bounce. Layer 8. [V3] */
 #include <lambent/elements.h>
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* draw_one.c: one triangle that is clipped, large or full of holes into a window. Layer 3.
+/* draw_one.c: draws one triangle that is clipped, large or has holes into a window. Layer 3.
  *
  * Its corners are read and transformed once more: few triangles come here, and a batch need not keep them. */
 #include "draw_one.h"

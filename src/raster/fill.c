@@ -1,4 +1,4 @@
-/* fill.c: a set-up triangle with holes into the tiles of a window. Layer 3.
+/* fill.c: fills the tiles of a window with a set-up triangle that has holes. Layer 3.
  *
  * Tiles are out, partly covered or wholly inside each edge by the edge's value at the tile's corners. An edge that
  * the whole tile lies inside of is left out (its sums become 0), which also keeps the sums over the tile in 32 bits.

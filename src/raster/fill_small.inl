@@ -1,4 +1,4 @@
-/* fill_small.inl: a batch's small triangles into the tiles of a window, without leaving the machine's code. Layer 3.
+/* fill_small.inl: a batch's small triangles into the tiles of a window, all in the backend's own code. Layer 3.
  *
  * The same sums as fill.inl, value by value. Only the rows of a triangle's box are visited, only tiles that no edge
  * leaves outside; for a float target without ids, which shadow maps are, every row is one load and one store without a

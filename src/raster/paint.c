@@ -1,4 +1,4 @@
-/* paint.c: a triangle's images for the tile's pixels with its id. Layer 3. */
+/* paint.c: colours and normals of a tile's pixels from the textures of the triangle that they show. Layer 3. */
 #include "paint.h"
 
 #include "../base/poly.h"

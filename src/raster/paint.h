@@ -1,4 +1,4 @@
-/* paint.h: the images on a triangle. Layer 3. */
+/* paint.h: colours and normals from the textures of a triangle. Layer 3. */
 #ifndef LMB_RASTER_PAINT_H
 #define LMB_RASTER_PAINT_H
 

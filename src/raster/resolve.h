@@ -1,4 +1,4 @@
-/* resolve.h: where a triangle has holes, for fill's masked path, shadows and segments. Layer 3. */
+/* resolve.h: finds where a triangle has holes, for masked filling, shadows and occlusion. Layer 3. */
 #ifndef LMB_RASTER_RESOLVE_H
 #define LMB_RASTER_RESOLVE_H
 

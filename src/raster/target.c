@@ -1,4 +1,4 @@
-/* target.c: where a window's tiles lie in memory, and how 16 bits code depth. Layer 3. */
+/* target.c: where a window's tiles lie in memory, and how 16 bits encode depth. Layer 3. */
 #include "target.h"
 
 #include "../base/surface_check.h"

@@ -1,4 +1,4 @@
-/* target.h: where a window's tiles lie in memory, and how 16 bits code depth. Layer 3. */
+/* target.h: where a window's tiles lie in memory, and how 16 bits encode depth. Layer 3. */
 #ifndef LMB_RASTER_TARGET_H
 #define LMB_RASTER_TARGET_H
 

@@ -1,4 +1,4 @@
-/* texture.c: an image at a point: nearest, bilinear, trilinear; repeat, clamp, mirror. Layer 3.
+/* texture.c: samples an image at a point: nearest, bilinear, trilinear; repeat, clamp, mirror. Layer 3.
  *
  * Colours are decoded to linear light before they are mixed. glTF: (0, 0) is the first texel's corner. */
 #include "texture.h"

@@ -1,4 +1,4 @@
-/* texture.h: an image at a point. Layer 3. */
+/* texture.h: samples an image at a point. Layer 3. */
 #ifndef LMB_RASTER_TEXTURE_H
 #define LMB_RASTER_TEXTURE_H
 

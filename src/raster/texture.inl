@@ -1,5 +1,6 @@
-/* texture.inl: a base colour's finest level times the albedo of a tile's pixels, nearest or bilinear: as texture.c,
- * value by value. Layer 3. */
+/* texture.inl: a tile's albedo times its base colour's finest level, nearest or bilinear. Layer 3.
+ *
+ * The same values as texture.c's. */
 #include "../base/codec.h"
 #include "texture.h"
 

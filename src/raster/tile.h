@@ -1,4 +1,4 @@
-/* tile.h: what several rooms ask of a tile's pixels. Sets of pixels are 64 bits, one each. Layer 3. */
+/* tile.h: what several modules do with a tile's pixels. Sets of pixels are 64 bits, one each. Layer 3. */
 #ifndef LMB_RASTER_TILE_H
 #define LMB_RASTER_TILE_H
 

@@ -1,4 +1,4 @@
-/* relief.c: a .lmr in place: what it says is looked through once, then trusted. Layer 6. [P10] */
+/* relief.c: opens a .lmr in place: checks all of it once, then trusts it. Layer 6. [P10] */
 #include <lambent/relief.h>
 
 #include <string.h>

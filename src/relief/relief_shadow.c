@@ -1,4 +1,4 @@
-/* relief_shadow.c: the complex surface as its lights see it, and what lies in its shadow. Layer 6.           [P7 P8 P9]
+/* relief_shadow.c: the complex surface in its shadow map, and the shadow test. Layer 6. [P7 P8 P9]
  *
  * Williams (1978): the shadow map holds the complex surface's own depths, warped like the eye's picture; a point is in
  * shadow where the map has something nearer. The point is the chosen one (P8), so that its place in the map is where

@@ -1,4 +1,4 @@
-/* cone.inl: what cones see of voxels. Layer 5.                                                                [M20-M22]
+/* cone.inl: radiance that cones gather from voxels. Layer 5. [M20-M22]
  *
  * Lanes are pixels; a cone's samples lie at the same distances for all of them, so levels are no lanes' matter.
  *

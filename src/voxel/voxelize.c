@@ -1,4 +1,4 @@
-/* voxelize.c: triangles -> how much of a leaf they cover, seen along each axis. Layer 5.                        [M6] */
+/* voxelize.c: triangles -> how much of a leaf they cover, as seen along each axis. Layer 5. [M6] */
 #include <string.h>
 
 #include "../raster/resolve.h"

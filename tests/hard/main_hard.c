@@ -1,5 +1,5 @@
-/* main_hard.c: the gallery of hard cases (tools/hard/hard.h), where a figure past its bound fails; what must not matter; and
- * the same call thousands of times.
+/* main_hard.c: runs the gallery of hard cases (tools/hard/hard.h), where a figure past its bound fails; then checks
+ * what must not change a picture, and the same call made thousands of times.
  *
  *     hard              all
  *     hard ROOM...      these rooms of the gallery, or `invariants`, `again`

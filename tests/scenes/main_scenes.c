@@ -3,9 +3,9 @@
  *     scenes --list
  *     scenes NAME[:SEED] [--size N] [--rotate SEED|X,Y,Z,DEG] [--scale S] [--move X,Y,Z] -o DIR
  *
- * DIR gets scene.gltf and scene.bin for lambent, scene.txt and scene.box for the path tracer of the truth. --rotate SEED
- * turns about an axis by an angle that are both drawn at random. What is given turns, then scales, then moves geometry,
- * camera and lights alike: the picture is the same. --size: pixels a side, of the truth. */
+ * DIR gets scene.gltf and scene.bin for lambent, scene.txt and scene.box for the path tracer of the truth.
+ * --rotate SEED draws an axis and an angle at random. Geometry, camera and lights are turned, then scaled, then moved
+ * alike: the picture stays the same. --size: pixels a side of the truth. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -138,10 +138,13 @@ echo "$(sort -u "$dir/includes" | wc -l) includes, $(wc -l <"$dir/calls") calls 
 for folder in src/*/ tools/*/; do
     check "$folder: layers.txt has no such folder" grep -q "^${folder%/} [0-9]" $table
 done
+# says_layer FILE NUMBER: a source's first line ends with its layer (and tags).
+says_layer() {
+    head -n 1 "$1" | grep -q "Layer $2\\."
+}
 for file in src/*/*.c src/*/*.h src/*/*.inl; do
     number=$(awk -v folder="${file%/*}" '$1 == folder { print $2 }' $table)
-    check "$file: its first lines do not say that it is of layer $number" \
-        sh -c "head -n 3 '$file' | grep -qE '(Layer|Floor) $number\\.'"
+    check "$file: its first line does not say that it is of layer $number" says_layer "$file" "$number"
 done
 for root in src tools; do
     [ "$(plan $root)" = "$(planned $root)" ] && pass ||
@@ -149,7 +152,7 @@ for root in src tools; do
 done
 
 # Could it fail? Two files that call each other and a third that is called; two headers that include each other; a file
-# that calls and includes upward.
+# that calls and includes upward; a first line without its layer.
 made=$dir/made
 mkdir -p "$made/src/base" "$made/src/raster" "$made/obj/src/base" "$made/obj/src/raster"
 echo 'int one(void); int two(void); int three(void); int one(void) { return two() + three(); }' >"$made/src/base/one.c"
@@ -161,6 +164,8 @@ printf '#include "one.h"\n#include "../raster/three.h"\n' >"$made/src/base/two.h
 for name in base/one base/two raster/three; do
     check "$name.c of a made-up circle compiles" $CC -O0 -c "$made/src/$name.c" -o "$made/obj/src/$name.o"
 done
+printf '/* four.inl: a kernel. Floor 1. */\n' >"$made/src/base/four.inl"
+if says_layer "$made/src/base/four.inl" 1; then fail "a first line without its layer is not found"; else pass; fi
 by_call "$made/obj" >"$made/calls"
 (cd "$made" && by_include src) >"$made/includes"
 check "a made-up circle of calls is not found" test "$(in_circles <"$made/calls" | sort | tr '\n' ';')" = \

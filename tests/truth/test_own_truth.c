@@ -1,7 +1,7 @@
 /* test_own_truth.c: pictures of tests/scenes against path-traced ones that are kept in tests/truth/small. [V25]
  *
- * Pictures of 32 x 32 pixels, one bounce, 2 x 160^2 samples a pixel, of scenes that no constant was fitted to: they guard
- * what the presets owe where the shared folder is not there, upright and turned. */
+ * Pictures of 32 x 32 pixels, one bounce, 2 x 160^2 samples a pixel, of scenes that no constant was fitted to: they
+ * guard the presets' accuracy, upright and turned, where the shared folder of larger truth is missing. */
 #include "../own_scene.h"
 
 void test_own_truth(void);

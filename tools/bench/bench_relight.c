@@ -160,10 +160,10 @@ const bench_subject bench_relight = {
     .backends = 1,
     .truth_is = "all 128 x 64 directions by their exact cosines",
     .usage = "bench relight --world WORLD [options of lambent relight] [options]",
-    .about = "Speed against error of the light at a place of a world: seen from there (128 x 64 directions) and filtered to "
-             "an irradiance cube by exact cosines, 9, 16 and 25 harmonics, and the blurs. The truth is a cube like that of "
-             "lambent relight --cube, or else every one of those directions by its exact cosine: then errors are the "
-             "filters' alone.",
+    .about = "Speed against error of the light at a place of a world: seen from there (128 x 64 directions) and "
+             "filtered to an irradiance cube by exact cosines, 9, 16 and 25 harmonics, and the blurs. The truth is a "
+             "cube like that of lambent relight --cube, or else every one of those directions by its exact cosine: "
+             "then errors are the filters' alone.",
     .examples = "  lambent bench relight --world demo --runs 1 --sweep filter=cosine,sh9\n",
     .check = check,
     .draw = draw,

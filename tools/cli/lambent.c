@@ -29,7 +29,8 @@ static const struct verb {
     {"compare", verb_compare, "compare A B", "error figures of a picture against a reference"},
     {"info", verb_info, "info FILE", "what is in a scene or a picture"},
     {"bench", verb_bench, "bench SCENE", "speed against error: what each setting costs and buys"},
-    {"bench", verb_bench, "bench raster|gather|hard", "how fast this machine draws and lights; what renderers get wrong"},
+    {"bench", verb_bench, "bench raster|gather|hard",
+     "how fast this machine draws and lights; what renderers get wrong"},
 };
 enum { VERBS = sizeof verbs / sizeof *verbs };
 

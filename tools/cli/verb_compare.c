@@ -70,17 +70,18 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "compare",
     .usage = "compare A B [options]",
-    .about = "How far picture A is from the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, known by its content; 8-bit "
-             "files are sRGB and are decoded to linear light for the error figures. A pixel of A that is not finite counts "
-             "as black. The figures:\n"
-             "trim: relative RMSE (rmse / mean of B) without the worst 1 % of pixels;\n"
+    .about = "How far picture A is from the truth B. Each is PNG, JPEG, PPM, PGM, PFM or HDR, known by its content; "
+             "8-bit files are sRGB and are decoded to linear light for the error figures. A pixel of A that is not "
+             "finite counts as black. The figures:\n"
+             "trim (trimmed error): relative RMSE (rmse / mean of B) without the worst 1 % of pixels;\n"
              "rmse: relative RMSE; n90: how many pixels carry 90 % of the squared error;\n"
-             "e50 e95 e99: percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the channels);\n"
+             "e50 (median relative error), e95, e99: percentiles of |a - b| / (b + 0.01 mean of B), grey (mean of the "
+             "channels);\n"
              "mean: mean of A / mean of B;\n"
              "leak: the same over dark pixels: class 3, or B < 1 % of its mean without --classes (21 or more);\n"
              "NONFINITE: pixels of A that are not finite, if there are any;\n"
-             "psnr: dB, over red, green and blue; full scale is 255 where both files are 8-bit (then psnr and max are in "
-             "sRGB codes), the largest value of B elsewhere (then they are in linear light);\n"
+             "psnr: dB, over red, green and blue; full scale is 255 where both files are 8-bit (then psnr and max are "
+             "in sRGB codes), the largest value of B elsewhere (then they are in linear light);\n"
              "max: largest difference of a channel, and its first pixel x,y (from the top left);\n"
              "exact: pixels whose bits are equal (alpha included); first: the first pixel that differs.",
     .part = {rows},
@@ -88,8 +89,8 @@ static const option_table table = {
                 "    lambent render demo --size 80x60 --quality draft -o draft.pfm\n"
                 "    lambent render demo --size 80x60 -o default.pfm\n"
                 "    lambent compare draft.pfm default.pfm --max trim=0.2 --heat error.png\n",
-    .status = "exit status: 0 within the bounds, 1 a bound passed, pixels not finite or a file that cannot be used, 2 bad "
-              "usage, 3 sizes differ",
+    .status = "exit status: 0 within the bounds, 1 a bound passed, pixels not finite or a file that cannot be used, "
+              "2 bad usage, 3 sizes differ",
 };
 
 /* The bound of the first `length` characters of `item`, which end at a comma or the text's end. A key that comes

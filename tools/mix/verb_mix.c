@@ -22,7 +22,8 @@ static void tell_place(const mix_job *j)
         return;
     }
     const lmb_flat *p = &j->planes.plane[j->floor];
-    report_note(j->o.is_quiet, "%d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
+    report_note(j->o.is_quiet,
+                "%d planes; the object stands on number %d, %.2f x %.2f m, %.2f m away, %s; --scale %.4g",
                 (int)j->planes.count, (int)j->floor + 1, (double)(p->high[0] - p->low[0]),
                 (double)(p->high[1] - p->low[1]), near, gap, (double)j->scale);
     report_note(j->o.is_quiet || j->faces_up,

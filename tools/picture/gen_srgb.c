@@ -42,7 +42,8 @@ int main(void)
 {
     double margin = 1.0;
     int i;
-    printf("/* srgb_table.inc: the sRGB curve's tables; printed by tools/picture/gen_srgb.c, not edited by hand. */\n\n");
+    printf("/* srgb_table.inc: the sRGB curve's tables; printed by tools/picture/gen_srgb.c, not edited by hand. */\n"
+           "\n");
     printf("/* [c]: the smallest float that is coded c or more; 0 for c = 0. */\n");
     printf("const float lmb_srgb_threshold[256] = {\n");
     for (i = 0; i < 256; ++i)

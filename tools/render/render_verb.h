@@ -4,8 +4,8 @@
 
 #include "render_job.h"
 
-/* render_verb: reads the command line by the verb's table, lets `run` do the work with a job that has the options alone,
- * and frees it. Returns the exit status: 0 done, 1 failed, 2 bad usage. */
+/* render_verb: reads the command line by the verb's table, calls `run` with a job whose options alone are set, and
+ * frees the job. Returns the exit status: 0 done, 1 failed, 2 bad usage. */
 int render_verb(const option_table *t, int argc, char **argv, int (*run)(render_job *j, report *r));
 
 #endif

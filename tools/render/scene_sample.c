@@ -7,10 +7,11 @@
 
 #include "../../platform/host/host.h"
 
-#define SHARE      0.21 /* of the picture's work, that all looks may take: a quarter, but for what guesses are off */
-#define FOR_ITSELF 0.35 /* of what is left: the rest is for its check */
-#define GROWTH     2.2  /* what a place takes by the next rung: 1.3 to 3 */
-enum { PART = 32 /* one place in so many is looked at by the first two rungs, */, FINE = 3 /* times as many by finer ones */, OWN_PART = 7, MIN = 4 /* places of a check */ };
+#define SHARE      0.21 /* of the picture's work, which sampling may take: a quarter, less a margin for wrong guesses */
+#define FOR_ITSELF 0.35 /* of the work that is left, for a rung's own samples; the rest is for its check */
+#define GROWTH     2.2  /* work of a sampled tile by the next rung over this one's: 1.3 to 3 were measured */
+enum { PART = 32 /* the first two rungs sample one place in so many, */, FINE = 3 /* finer rungs so many times more */,
+       OWN_PART = 7, MIN = 4 /* places that a check needs */ };
 enum { DRAFT = 3 /* rung: the first whose errors are worth checking */ };
 enum { MAP_TEXELS = 2 << 20 /* over all shadow maps */ };
 
