@@ -95,7 +95,7 @@ extern "C" {
 
 /* lmb_points_bytes: memory for n points and the cells of a map of side x side blocks; 0 where that cannot be. */
 size_t lmb_points_bytes(uint32_t n, uint32_t side);
-/* lmb_points_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+/* lmb_points_init: lay it out in `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_points_init(lmb_points *out, uint32_t n, uint32_t side, void *memory, size_t bytes);
 
 /* lmb_points_collect: append the first points of the map's tile rows tile_y0 .. tile_y1 - 1 of one face.

@@ -1,4 +1,4 @@
-/* mixed.h: a virtual object in one photo with depth: what is there, where it stands, and how the photo answers.
+/* mixed.h: a virtual object in one photo with depth: the real surfaces, where the object stands, its effect on them.
  * [M1-M24]
  *
  *     lmb_cloud_init(&cloud, &camera, depth, memory, bytes);      points, noise                             [M1]
@@ -159,8 +159,8 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
 
 /* lmb_planes_clear: where on plane p a cylinder stands free: the picture shows nothing but the plane at its foot, has
  * room for all of it, and nothing that was measured is in front of it. The plane's centre where that is so, else the
- * place nearest to it, by pixels in steps of four. *Ours:* the middle of a table is where things stand. 0 where there
- * is none.                                                                                                     [M5]
+ * place nearest to it, by pixels in steps of four. The centre is not from the source, but things stand there. 0 where
+ * there is none.                                                                                                [M5]
  *
  *   radius_m, height_m   the cylinder's; height 0 asks for its foot alone */
 int lmb_planes_clear(lmb_vec3 *out, const lmb_planes *planes, const lmb_cloud *cloud, int32_t p, float radius_m,
@@ -204,8 +204,8 @@ lmb_status lmb_real_tile(lmb_tile *out, const lmb_cloud *cloud, const lmb_planes
  *
  *   rgb  width x height x 3, linear, rows from the top
  * The picture is cut into thirds. Its middle is what lies ahead (-z) and, turned over, behind (+z); what is left of the
- * middle, right of it, over and under it are the sides. *Ours:* each side takes its whole edge of the picture, widening
- * from the middle outwards, so that nothing is left over and the five faces meet without a seam. */
+ * middle, right of it, over and under it are the sides. Not from the source: each side takes its whole edge of the
+ * picture, widening from the middle outwards, so that nothing is left over and the five faces meet without a seam. */
 lmb_status lmb_env_fold(const lmb_env *env, const float *rgb, int32_t width, int32_t height, const lmb_axes *axes);
 
 /* lmb_env_brightest: unit, where the most light comes from, over the plane that faces `up`, at least 30 degrees
@@ -226,19 +226,19 @@ void lmb_env_irradiance(float out[3], const lmb_env *env, lmb_vec3 normal);
 lmb_status lmb_two_maps(lmb_shadow_map maps[2], const lmb_light *light, const lmb_scene *scene, int32_t size,
                         void *memory, size_t bytes);
 
-/* lmb_around_points: what triangles throw back of the light of `env`, nothing being in its way, as first points that
+/* lmb_around_points: light of `env` that triangles reflect, with nothing in its way, as first points that
  * lmb_voxels_inject takes beside those of the shadow maps.                                                      [M7]
  *
- *   leaf  m: triangles are parted until their parts are no longer than that, or 64 to a side
+ *   leaf  m: triangles are divided until their parts are no longer than that, or 64 to a side
  * By this light and the lights' real surfaces emit light about as the photo has them. Returns how many points there
  * are; `cap` of them are written, 0 to ask.
  *
- * lmb_around_gather, lmb_around_scale: the same points by what reaches them through voxels, so that what the object
- * blocks and throws back comes to bounce again. Points from `from` on become scratch->tile, 64 answers at most: those
- * that follow each other, face one way and lie within near_m, or 0.15 of their distance from `about`, have one. The
- * caller adds what they get without and with the object to scratch->before and ->now (lmb_cones_diffuse); then each
- * flux is scaled by the share of the second to the first. Where `env` is given, to its light with nothing in the way.
- * lmb_around_gather returns the first point that it did not take, lmb_around_scale LMB_OK or LMB_ERR_ARG. */
+ * lmb_around_gather, lmb_around_scale: the same points by what reaches them through voxels, so that light
+ * which the object blocks and reflects is bounced again. Points from `from` on become scratch->tile, 64 answers at
+ * most: those that follow each other, face one way and lie within near_m, or 0.15 of their distance from `about`, have
+ * one. The caller adds what they get without and with the object to scratch->before and ->now (lmb_cones_diffuse); then
+ * each flux is scaled by the share of the second to the first. Where `env` is given, to its light with nothing in the
+ * way. lmb_around_gather returns the first point that it did not take, lmb_around_scale LMB_OK or LMB_ERR_ARG. */
 size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uint32_t first_id, uint32_t count,
                          float leaf, const lmb_env *env);
 size_t lmb_around_gather(lmb_around_scratch *out, const lmb_texel *points, size_t from, size_t count, float near_m,

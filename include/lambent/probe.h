@@ -101,15 +101,15 @@ typedef struct lmb_probe_cube {
     int32_t side;       /* n */
 } lmb_probe_cube;
 
-/* The world, and how it is asked. */
+/* The world, and how it is sampled. */
 typedef struct lmb_world_query {
     const lmb_world *world;
     float ray_width; /* rad: of a pixel. Levels with texels at least as wide are read */
     int32_t blend;   /* as lmb_probe_remap's */
 } lmb_world_query;
 
-/* When an object's cubes are computed anew: once it is more than radius_m from where they were, or when it moved at all
- * and `every` frames have passed. Radius 0: each frame until it rests. [S18] */
+/* When an object's cubes are computed anew: once it is more than radius_m from where they were computed, or when it has
+ * moved at all and `every` frames have passed. Radius 0: in each frame until it rests. [S18] */
 typedef struct lmb_probe_policy {
     float radius_m; /* say LMB_PROBE_RADIUS */
     int32_t every;  /* 0: never for time alone */
@@ -119,7 +119,7 @@ typedef struct lmb_probe_policy {
 
 enum { LMB_PROBE_FREE = 0, LMB_PROBE_OWNED, LMB_PROBE_NAMED };
 
-/* One place whose cubes are kept. */
+/* One position whose cubes are kept. */
 typedef struct lmb_probe_slot {
     lmb_vec3 place;
     uint32_t owner, world; /* the object; the world's revision */
@@ -128,7 +128,7 @@ typedef struct lmb_probe_slot {
     int32_t known;         /* 1: was computed */
 } lmb_probe_slot;
 
-/* Which cubes are where: the cubes themselves are the caller's, one set a slot. [S18-S20] */
+/* Which slot holds whose cubes. The cubes themselves are the caller's, one set a slot. [S18-S20] */
 typedef struct lmb_probe_cache {
     lmb_probe_slot slot[LMB_MAX_PROBES];
     int32_t count; /* of them in use by this cache */
@@ -139,11 +139,11 @@ typedef struct lmb_probe_cache {
 /* What lmb_probe_cache_ask answers. */
 typedef struct lmb_probe_answer {
     int32_t slot;    /* whose cubes to use */
-    int32_t compute; /* 1: compute them first, for */
+    int32_t compute; /* 1: compute them first, as seen from `place` */
     lmb_vec3 place;
 } lmb_probe_answer;
 
-/* Where rays are looked after. 5.3 KiB, which mean nothing before and after. */
+/* Scratch for rays. 5.3 KiB. */
 typedef struct lmb_probe_rays {
     lmb_vec3 n[LMB_TILE_PIXELS], across[LMB_TILE_PIXELS], along[LMB_TILE_PIXELS];
     float origin[3][LMB_TILE_PIXELS], direction[3][LMB_TILE_PIXELS], seen[3][LMB_TILE_PIXELS];
@@ -154,7 +154,7 @@ typedef struct lmb_probe_rays {
 extern "C" {
 #endif
 
-/* lmb_world_bytes: memory of such a world; 0 where the sizes are none: faces 1 .. 4096 texels a side, ground 0 or
+/* lmb_world_bytes: memory of such a world; 0 for sizes out of range: faces 1 .. 4096 texels a side, ground 0 or
  * 1 .. 8192. */
 size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format);
 
@@ -172,7 +172,7 @@ lmb_status lmb_world_init(lmb_world *out, const lmb_world_pictures *pictures, in
 float lmb_world_encode(float c);
 float lmb_world_decode(float e);
 
-/* lmb_probe_table_bytes: memory of a table; 0 for sizes that are none. Height 8 .. 512, a multiple of 8, and width
+/* lmb_probe_table_bytes: memory of a table; 0 for sizes out of range. Height 8 .. 512, a multiple of 8, and width
  * twice that. */
 size_t lmb_probe_table_bytes(int32_t width, int32_t height);
 

@@ -18,12 +18,12 @@
  *         7  triangles                         15  0
  * A view's record, 20 words: eye, right, up, back (3 floats each), half_width, half_height, near_m, far_m, as lmb_view
  * has them; LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC; width, height, texels, 2 .. 4096; offset of its texels.
- * An orthographic view shows all of the model. Texels, row by row from the top, the low byte first on every machine:
+ * An orthographic view shows all of the model. Texels, row by row from the top, the low byte first on every target:
  *   FULL    three planes: depth code 1 .. 2^24 - 1, 0 nothing; R G B (sRGB) and 255; normal, two int16
  *   PACKED  two planes: 16 bits of depth, then B5 G6 R5 above them; normal, two int8, in a plane of 16-bit words that
  *           ends on a multiple of 4 bytes                                                                       [P10]
- * Normals are octahedral (of int8: code / 127), world axes. Depth d of lmb_view is least + code (1 - least) / most,
- * with least 0 (orthographic) or near_m / far_m (perspective), and most the largest code. */
+ * Normals are octahedral (of int8: code / 127), world axes. Depth d of lmb_view is min + code (1 - min) / max, where
+ * min is 0 (orthographic) or near_m / far_m (perspective), and max is the largest code. */
 #ifndef LMB_RELIEF_H
 #define LMB_RELIEF_H
 
@@ -32,7 +32,7 @@
 enum { LMB_RELIEF_FULL = 0, LMB_RELIEF_PACKED = 1 };
 enum { LMB_RELIEF_HEADER_WORDS = 16, LMB_RELIEF_VIEW_WORDS = 20 };
 
-/* A reference view, ready to look things up in. Texel (i, j) has its middle at (i, j). */
+/* A reference view, prepared for lookups. Texel (i, j) has its middle at (i, j). */
 typedef struct lmb_relief_view {
     const uint8_t *texels;
     int32_t width, height, perspective;
@@ -56,35 +56,35 @@ typedef struct lmb_relief {
 
 enum { LMB_RELIEF_NEAREST_P = 0, LMB_RELIEF_EYE_RAY = 1 };
 
-/* How to look things up. Zeros: the default. */
+/* How reference views are looked up. Zeros: the defaults. */
 typedef struct lmb_relief_how {
-    int32_t steps;    /* looks a pixel takes: 1: once, at the simple surface; 6 where 0, to 32 */
+    int32_t steps;    /* lookups along a pixel's ray, 1 .. 32, 6 where 0; 1: one, at the simple surface */
     int32_t pick;     /* which candidate wins: nearest to P, or to the eye's ray [P5] */
     int32_t sampling; /* 0: between texels; 1: the nearest texel as it is */
-    int32_t views;    /* that a pixel looks at: 1 .. 8; 6 where 0 */
-    int32_t keep;     /* the best of these go on and are blended: 1 .. 3; 3 where 0 */
+    int32_t views;    /* read for one pixel: 1 .. 8; 6 where 0 */
+    int32_t keep;     /* of these, how many are blended: the best 1 .. 3; 3 where 0 */
 } lmb_relief_how;
 
 /* Pixels so far, added up. */
 typedef struct lmb_relief_stats {
     uint64_t pixels;  /* of the simple model */
     uint64_t hits;    /* show the complex surface */
-    uint64_t missed;  /* whose ray passes it into the open: cleared */
-    uint64_t holes;   /* that no view answers for: as the simple model has them [P12] */
+    uint64_t missed;  /* whose ray misses the complex surface: cleared */
+    uint64_t holes;   /* that no view shows: they keep the simple model's surface [P12] */
 } lmb_relief_stats;
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/* lmb_relief_open: look through a .lmr and say where everything is. Nothing is copied: `data` stays as long as `out`.
+/* lmb_relief_open: check a .lmr and find its parts. Nothing is copied: `data` stays as long as `out`.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmr of version 1, cut
  * off, the other byte order: lmb_relief_swap; a view or offset that is none), LMB_ERR_CAPACITY (more views than
  * LMB_RELIEF_VIEWS): then `out` is untouched. Every file that it takes is safe to draw: draws check each index. */
 lmb_status lmb_relief_open(lmb_relief *out, const void *data, size_t bytes);
 
-/* lmb_relief_swap: turn a file of the other byte order into one of this machine's, in RAM. Files of its own stay.
+/* lmb_relief_swap: turn a file of the other byte order into one of this target's, in RAM. Files of its own stay.
  * LMB_OK, or what lmb_relief_open says of such a file; then what `data` holds means nothing. */
 lmb_status lmb_relief_swap(void *data, size_t bytes);
 
@@ -97,10 +97,10 @@ void lmb_relief_scene(lmb_scene *out, const lmb_relief *relief);
  *          depth become the complex surface's; pixels whose ray passes it are cleared.
  *   stats  added to; may be NULL.
  *   how    NULL: the default.
- * The views that a tile looks at are those that see its simple surface best. At a point of the eye's ray each gives the
- * surface that it shows there; the nearest of them says how far to go along the ray for the next look [P5]; texels
- * beyond a jump of depth count for nothing [P12]. Where the way no longer changes, the best three are blended. A point
- * that some view sees through is no surface.
+ * A tile reads the views that see its simple surface best. At a point of the eye's ray each view gives the surface that
+ * it shows there; the nearest of them says how far to go along the ray for the next lookup [P5]; texels beyond a jump
+ * of depth do not count [P12]. When the point no longer moves, the best three views are blended. A point that some view
+ * sees through is no surface.
  * Returns LMB_OK or LMB_ERR_ARG. Cost: 64 pixels x views x steps, whatever the complex model had. */
 lmb_status lmb_relief_tile(lmb_tile *inout, lmb_relief_stats *stats, const lmb_kernels *kernels,
                            const lmb_relief *relief, const lmb_view *view, const lmb_relief_how *how);
@@ -119,8 +119,8 @@ lmb_status lmb_relief_shadow_rows(const lmb_shadow_map *map, lmb_tile *tile, con
 
 /* lmb_relief_lit: the pixels of a tile, a bit each, that nothing in such a map shadows: those of the relief itself
  * and of other surfaces alike.                                                                               [P8 P9]
- * A pixel is lit as far as the four texels around its place are: each against the pixel's own plane there, and
- * a texel for what the plane does not know. Most of the four decide. */
+ * A pixel is tested against the four texels around its position in the map: each against the pixel's own plane there,
+ * with a margin of a texel for what that plane does not know. The majority of the four decides. */
 uint64_t lmb_relief_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile);
 
 #ifdef __cplusplus

@@ -31,9 +31,9 @@ typedef struct lmb_relight_scratch {
 
 typedef struct lmb_relight {
     const lmb_kernels *kernels;
-    const lmb_scene *scene;    /* checked; its materials' specular and roughness are what shows glossy reflection */
+    const lmb_scene *scene;    /* checked; its materials' lobes reflect the world */
     const lmb_shadow_map *maps; /* of the scene's lights, drawn; NULL: they cast no shadows */
-    const lmb_world *world;    /* NULL: black behind, and in probes without glossy reflection */
+    const lmb_world *world;    /* NULL: black behind the objects, and in lobes without a `glossy` cube */
     int32_t blend;             /* as lmb_probe_remap's */
     const lmb_probe *probes;
     const uint16_t *probe_of;  /* by instance: which of them */

@@ -39,7 +39,7 @@ typedef struct lmb_voxels {
     lmb_vec3 low;     /* m: the cube's corner */
     float leaf;       /* m: a leaf's side */
     int32_t depth, asked; /* less than asked: the pool was too small, and leaves are larger */
-    double area;      /* m2 of all that was built */
+    double area;      /* m2 of all surfaces */
     double flux[2], lost[2]; /* W, R + G + B, by world: injected; and what found no leaf */
 } lmb_voxels;
 
@@ -107,7 +107,7 @@ extern "C" {
  * (388). 0 where that cannot be: the first 4,689 are always there, and at most 2^24. */
 size_t lmb_voxels_bytes(uint32_t cap, int32_t fields);
 
-/* lmb_voxels_init: share out `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+/* lmb_voxels_init: lay it out in `memory`. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *memory, size_t bytes);
 
 /* lmb_voxels_build: the surfaces of checked scenes as voxels of a cube around the box low .. high; light is 0. [M6 M8]
@@ -124,7 +124,7 @@ lmb_status lmb_voxels_init(lmb_voxels *out, uint32_t cap, int32_t fields, void *
 lmb_status lmb_voxels_build(lmb_voxels *inout, const lmb_vec3 *low, const lmb_vec3 *high, int32_t depth,
                             const lmb_voxel_part *parts, int32_t count);
 
-/* lmb_voxels_dark: takes a field's light out again, for other lights. */
+/* lmb_voxels_dark: set a field's light to 0, to inject other lights. */
 lmb_status lmb_voxels_dark(lmb_voxels *inout, int32_t field);
 
 /* lmb_voxels_inject: adds first points' flux to the leaves that they lie in.                              [M7 M10]

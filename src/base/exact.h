@@ -14,7 +14,7 @@
 #error "lambent: float is not IEEE-754 binary32"
 #endif
 
-/* The part of lmb_build_check that needs no kernel: 1 where this machine's plain C computes as everybody else's. */
+/* The part of lmb_build_check that needs no kernel: 1 where this target's plain C computes as everybody else's. */
 int lmb_base_is_exact(void);
 
 /* In addition to -ffp-contract=off: gcc ignores this pragma, clang honours it for plain expressions. */

@@ -4,7 +4,7 @@
 
 #include <lambent/types.h>
 
-/* For arrays of 32-bit numbers. needed 0: more than this machine can address. */
+/* For arrays of 32-bit numbers. needed 0: more than this target can address. */
 static inline lmb_status check_memory(const void *memory, size_t bytes, size_t needed)
 {
     if (memory == NULL) {

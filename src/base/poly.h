@@ -1,6 +1,6 @@
 /* poly.h: the elementary functions, each one fixed sequence of binary32 operations. Layer 1.
  *
- * libm's own differ from machine to machine in the last bit, and that bit moves pixels. These take + - * /, sqrtf and
+ * libm's own differ from system to system in the last bit, and that bit moves pixels. These take + - * /, sqrtf and
  * floorf, all correctly rounded everywhere, and minimax polynomials of our own fit. The errors stated are the largest
  * found against double over every fifth to seventh float of the domain (log2, tan: every one where it matters),
  * rounded up; tests/unit/test_base.c sweeps some millions. No argument gives NaN or infinity. */

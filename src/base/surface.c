@@ -160,7 +160,7 @@ float lmb_depth_view_z(const lmb_view *view, float d)
 
 static uint64_t hash_byte(uint64_t hash, uint32_t byte) { return (hash ^ (byte & 255u)) * HASH_PRIME; }
 
-/* Values of 2 or 4 bytes, read in the machine's own order, enter low byte first. */
+/* Values of 2 or 4 bytes, read in the target's own order, enter low byte first. */
 static uint64_t hash_values(uint64_t hash, const unsigned char *at, int32_t count, int32_t value_bytes)
 {
     int32_t i;

@@ -7,7 +7,7 @@
 #define INVERSE_PI 0.31830989f
 
 /* Under this, 2^-40, a squared cosine counts as 0, as of a point in a plane: a light that grazes so gives nothing, but
- * its c^2 s would be a denormal, which some machines flush. Of cosines and no lengths: worlds may have any size. */
+ * its c^2 s would be a denormal, which some targets flush. Of cosines and no lengths: worlds may have any size. */
 #define GRAZING2 9.0949470e-13f
 
 /* Are a = nP.to and b = -nG.to over the horizons, where r2 = to.to? */
@@ -190,7 +190,7 @@ NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const 
 /* --- far pairs ---------------------------------------------------------------------------------------------------- */
 
 /* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
- * after another, every machine waits most of the time, whatever its width. So each step is done for all groups of a
+ * after another, every processor waits most of the time, whatever its width. So each step is done for all groups of a
  * block before the next: chains are short and many run side by side. The pairs lie in the caller's scratch. Narrow
  * machines look from two vectors of pixels at a time: what a group brings is read once for both. */
 #if defined(LANE_PLAIN)

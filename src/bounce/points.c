@@ -12,14 +12,14 @@
 #include "../map/footprint.h"
 #include "points.h"
 
-#define ELEMENTS 4       /* a block's surfaces at most; more join the likest */
+#define ELEMENTS 4       /* a block's surfaces at most; more join the most similar */
 #define COS_25 0.90630779f
 
 size_t lmb_points_bytes(uint32_t n, uint32_t side)
 {
     const size_t cells = ((size_t)side * side + 1) * sizeof(uint32_t);
     if (side > LMB_MAX_SIDE || n > ((size_t)-1 - cells) / sizeof(lmb_point)) {
-        return 0; /* more than this machine can address */
+        return 0; /* more than this target can address */
     }
     return (size_t)n * sizeof(lmb_point) + cells;
 }
@@ -52,7 +52,7 @@ typedef struct element {
 
 static float plane_gap(const element *e, lmb_vec3 p) { return absf(dot3(e->face, sub3(p, e->first))); }
 
-/* The element a texel belongs to: the same surface, a new one, or the likest when all are taken. */
+/* The element a texel belongs to: the same surface, a new one, or the most similar one when all are taken. */
 static element *find_element(element *e, int32_t *count, lmb_vec3 p, lmb_vec3 n, float texel_m)
 {
     int32_t best = 0;

@@ -18,7 +18,7 @@ void lmb_points_put_together(lmb_points *points, const lmb_shadow_map *map, int3
                              const lmb_grouping *grouping);
 
 /* Share `part` of `parts` <= 65,535 of n things: *first .. *past - 1, from n part / parts on; in 32 bits, because small
- * machines divide 64 by a routine of 700 bytes. */
+ * targets divide 64 bits by a routine of 700 bytes. */
 static inline int64_t share_edge(uint32_t n, uint32_t part, uint32_t parts)
 {
     return (int64_t)(n / parts) * part + n % parts * part / parts;

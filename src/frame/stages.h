@@ -85,7 +85,7 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lm
                              const lmb_tile *tile, const lmb_irradiance *direct);
 
 /* Set scratch->sparse.light[0 .. tiles - 1]: that of the tiles from frame pixel (x, y) on which show no lobe.
- * r->frame.gather_step is 2 or 4. scratch->tile and glossy reflection are written. */
+ * r->frame.gather_step is 2 or 4. scratch->tile and scratch->glossy are written. */
 lmb_status lmb_render_block(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *target, int32_t x,
                             int32_t y, int32_t tiles);
 

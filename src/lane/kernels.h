@@ -1,6 +1,7 @@
 /* kernels.h: the table of kernels that a backend fills in: the only way into isa/. Layer 2.
  *
- * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, every machine. */
+ * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, on every backend.
+ * */
 #ifndef LMB_LANE_KERNELS_H
 #define LMB_LANE_KERNELS_H
 
@@ -105,7 +106,7 @@ typedef struct lmb_setup_job {
     int32_t x0, y0, x1, y1;      /* the window's first and last pixels, in the frame */
 } lmb_setup_job;
 
-/* Triangles that are set up side by side: as many as the widest machine of the build has lanes, or twice four. A
+/* Triangles that are set up side by side: as many as the widest backend of the build has lanes, or twice four. A
  * triangle takes 120 bytes of lmb_draw's stack. */
 #if LMB_HAVE_AVX512
 #define LMB_BATCH 16
@@ -303,7 +304,7 @@ struct lmb_kernels {
                   const lmb_irradiance *indirect);
     /* sRGB codes 0 .. 255 of radiance x gain. */
     void (*encode)(int32_t code[3][LMB_TILE_PIXELS], const lmb_radiance *in, float gain);
-    /* (1 + 2^-12)^2 - (1 + 2^-11) by this machine's verbs: 0, or 2^-24 where the compiler fused it. */
+    /* (1 + 2^-12)^2 - (1 + 2^-11) by this backend's verbs: 0, or 2^-24 where the compiler fused it. */
     float (*probe)(float one_and_bit);
 #if LMB_TREES
     /* Emitters that some pixels see: added. `pairs` is scratch. */

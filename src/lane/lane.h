@@ -50,7 +50,7 @@ static inline lanei lanei_affine(int32_t at, int32_t per_x, int32_t per_y, int k
     return lanei_add(r, lanei_splat(at + per_y * (k / LMB_TILE)));
 }
 
-/* Four bytes each, at 4 * `at`: the first in the low bits, on every machine. A machine's header may have its own. */
+/* Four bytes each, at 4 * `at`: the first in the low bits, on every target. A backend's header may have its own. */
 #ifndef LANE_GATHERS_RGBA
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 {
@@ -64,7 +64,7 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
-/* Four floats each, at 4 * `at`. A machine's header may have its own. */
+/* Four floats each, at 4 * `at`. A backend's header may have its own. */
 #ifndef LANE_GATHERS_RGBA_F32
 static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
 {

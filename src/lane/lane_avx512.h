@@ -94,7 +94,7 @@ static inline void laned_store(double *p, laned a)
 }
 
 static inline lane lane_gather_f32(const float *p, lanei at) { return _mm512_i32gather_ps(at, p, 4); }
-/* One by one: the machine gathers 32 bits at least, and would read past the end. */
+/* One by one: the processor gathers 32 bits at least, and would read past the end. */
 static inline lane lane_gather_u16(const uint16_t *p, lanei at)
 {
     int32_t i[16];

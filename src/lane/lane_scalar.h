@@ -128,7 +128,7 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at) { lane r; EACH(r
 /* Of a table of 16 values in memory; `at` is 0 .. 15. */
 static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
-/* Surfaces' memory. A machine wider than a tile's row covers the next row too: it lies `step` values further. 16-bit
+/* Surfaces' memory. A backend wider than a tile's row covers the next row too: it lies `step` values further. 16-bit
  * values are 0 .. 65535, whole. */
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }
 static inline void lane_store_rows(float *p, int32_t step, lane a) { (void)step; lane_store(p, a); }

@@ -11,7 +11,7 @@ typedef struct light_tile {
     const lmb_tile *tile; /* resolved */
 } light_tile;
 
-/* Add light i to `sum`, and what lobes make of it to `glossy reflection` (NULL: there are none).
+/* Add light i to `sum`, and what lobes make of it to `glossy` (NULL: no lobes).
  *
  *   one  scratch: a lobe requires each light's irradiance separately; added to the others' it is the same sum.
  *   map  the light's; NULL: no shadows. */

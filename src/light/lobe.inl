@@ -14,7 +14,7 @@
  *
  * Discs stand for surfaces that go on beside them. Where the lobe is sharper than a disc, discs side by side would
  * show, with gaps and overlaps: so alpha^2 grows by a part of t^2. An even wall of 64 texels in a floor of roughness
- * 0.1 | 0.2 (unit/glossy reflection) is off by 20 | 8 % at its worst by 1/4, by 14 | 1 % by 1/2, by 8 | 2 % by 1. */
+ * 0.1 | 0.2 (unit/test_glossy) is off by 20 | 8 % at its worst by 1/4, by 14 | 1 % by 1/2, by 8 | 2 % by 1. */
 #ifndef LMB_LOBE_FORMULA
 #define LMB_LOBE_FORMULA
 

@@ -293,7 +293,8 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are tested wherever they are. */
+/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are tested wherever they are.
+ * */
 static void ask(cutter *c, int32_t i)
 {
     const lmb_node_ref at = c->cut->ref[i];

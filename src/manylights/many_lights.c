@@ -53,7 +53,7 @@ static float quantum_of(float max)
     return q;
 }
 
-/* Where a 64-bit number may stand: every 4 bytes on some machines, every 8 on others. */
+/* Where a 64-bit number may stand: every 4 bytes on some targets, every 8 on others. */
 struct aligned {
     char before;
     uint64_t value;

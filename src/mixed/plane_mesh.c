@@ -21,7 +21,7 @@ size_t lmb_real_mesh_bytes(int32_t width, int32_t height, int32_t step)
     const size_t cells = (size_t)parts_of(width, step) * (size_t)parts_of(height, step);
     const size_t each =
         CELL_FLOATS * sizeof(float) + CELL_COLOURS + CELL_INDICES * sizeof(uint32_t) + sizeof(int32_t) + 4;
-    return cells > (size_t)-1 / each ? 0 : cells * each; /* 32-bit machines */
+    return cells > (size_t)-1 / each ? 0 : cells * each; /* 32-bit targets */
 }
 
 /* --- one cell ----------------------------------------------------------------------------------------------------- */

@@ -3,7 +3,7 @@
  * So that the lights' sum, mean place and spread are their own: whatever is smooth over three texels comes out right.
  * With four, whose extent is larger, the error is half as large again; with one it is two to three times as large.
  *
- * Three texels in a row are twelve numbers side by side, and with a fourth of weight 0 whole vectors of any machine.
+ * Three texels in a row are twelve numbers side by side, and with a fourth of weight 0 whole vectors of any backend.
  * Lanes are those numbers. */
 
 enum { SHARE_LANES = 16, SHARE_SIDE = LMB_PROBE_SIDE + 2 };

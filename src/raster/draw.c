@@ -61,7 +61,7 @@ static void set_instance(lmb_draw_instance *d, const lmb_fill_context *c, const 
     d->first_id = instance->first_id;
 }
 
-/* In order: runs of small triangles by the machine, the others one by one between them. */
+/* In order: runs of small triangles by the kernels, the others one by one between them. */
 static void draw_batch(const lmb_fill_context *c, const lmb_draw_instance *d, lmb_batch *batch, uint32_t count,
                        uint32_t id, lmb_stats *stats)
 {

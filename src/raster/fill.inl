@@ -38,7 +38,7 @@ static inline lane_mask fill_depth(const lmb_fill_tile *tile, const lmb_fill_job
 /* Vectors beside each other in a row of tiles' pixels, and rows that one covers. */
 enum { FILL_ACROSS = LANES < LMB_TILE ? LMB_TILE / LANES : 1, FILL_ROWS = LANES < LMB_TILE ? 1 : LANES / LMB_TILE };
 
-/* Tiled float depth has code of its own, without ids and with 32-bit ones; but not on a machine of one lane, where size
+/* Tiled float depth has code of its own, without ids and with 32-bit ones; but not in a backend of one lane, where size
  * counts. */
 enum { FILL_ANY, FILL_PLAIN, FILL_ID32 };
 
@@ -84,7 +84,7 @@ typedef struct fill_box {
     int32_t first_row, last_row, first, last;
 } fill_box;
 
-/* d + dy y at the rows of a vector that starts in row y. `row` is y, for machines of less than a row: where all rows
+/* d + dy y at the rows of a vector that starts in row y. `row` is y, for backends of less than a row: where all rows
  * are drawn it is counted in float, as a conversion waits for whatever was in its register before. */
 LANE_INLINE lane fill_row_depth(float d, float per_row, int32_t y, float row)
 {

@@ -3,7 +3,7 @@
  * Of such a triangle at most one tile has a given parity of column and row. So what a tile needs (edges, depth, rows)
  * is made for LANES triangles at a time, once a parity, and what remains is one loop over rows. Tiles of two parities
  * are never the same one, and within a parity triangles keep their order: pixels are fill_small.inl's, value by value.
- * For machines of a row's lanes or more: narrower ones spend more on four parities than they save. */
+ * For backends of a row's lanes or more: narrower ones spend more on four parities than they save. */
 
 /* Of each triangle of a batch the part in a tile of one parity. */
 typedef struct fill_parts {

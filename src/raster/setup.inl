@@ -49,7 +49,7 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
     return in;
 }
 
-/* The same, with code of its own for the usual formats; but not on a machine of one lane, where size counts. */
+/* The same, with code of its own for the usual formats; but not in a backend of one lane, where size counts. */
 static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
     if (count < LMB_BATCH) {

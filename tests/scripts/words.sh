@@ -1,5 +1,5 @@
 # words.sh: no name, option, file or phrase of words.txt in src, include, tools and documents; documents' links exist;
-# README.md within its bounds.
+# README.md within its bounds; and that a made-up leftover of each kind is found.
 #
 # words.txt has a line for each: `name WORD` (a whole identifier), `code WORD` (the same, but not in comments and strings,
 # as it is a word of English too), `option --WORD`, `file BASENAME`, `phrase WORDS`
@@ -70,4 +70,39 @@ elif [ "${README_BOUNDS:-1}" = 0 ]; then
 else
     fail "README.md has $lines lines and $numbers numbers; 150 and 60 are its bounds"
 fi
+
+# Would a leftover of each kind be found? A made-up tree with one of each; then the same tree without any.
+[ -z "$MADE" ] || finish
+made=$tmp/made
+mkdir -p "$made/src" "$made/include" "$made/tools" "$made/platform"
+here=$(pwd)
+case $list in /*) ;; *) list=$here/$list ;; esac
+case $dir in /*) ;; *) dir=$here/$dir ;; esac
+
+# leftover KIND FILE TEXT: words.sh over the made-up tree with TEXT in FILE ends red, and says KIND.
+leftover() {
+    mkdir -p "$made/${2%/*}"
+    printf '%s\n' "$3" > "$made/$2"
+    if said=$(cd "$made" && MADE=1 B=out LIST="$list" sh "$dir/words.sh"); then
+        fail "a made-up leftover is not found: $1 in $2"
+    elif printf '%s\n' "$said" | grep -q "^FAIL.* $1"; then
+        pass
+    else
+        fail "a made-up leftover in $2 is found as something else: $said"
+    fi
+    rm "$made/$2"
+}
+
+printf 'See [the code](src).\n' > "$made/README.md"
+: > "$made/NEWS.md"
+check "a made-up tree without leftovers is refused" sh -c "cd '$made' && MADE=1 B=out LIST='$list' sh '$dir/words.sh'"
+leftover "by name" src/one.c 'int x = lmb_light_map_bytes;'
+leftover "by code" src/one.c 'int shine; /* a word of English in comments */'
+leftover "by option" tools/one.c 'puts("--light-map");'
+leftover "by file" src/gloss.c 'int x;'
+leftover "by phrase" src/one.c '/* what a surface gives
+ * off by itself */'
+leftover "links" docs/one.md 'See [nothing](nowhere.md).'
+check "NEWS.md may not have old names in its table" sh -c "
+    cd '$made' && printf '## Old names\n\n| lmb_light_map |\n' > NEWS.md && MADE=1 B=out LIST='$list' sh '$dir/words.sh'"
 finish

@@ -154,7 +154,7 @@ static void conditions(hard_list *l)
     hard_point(s, dvec_of(-1.999, 1.5, 0.3), 2.0);
     hard_end(s);
     see_room(s, o);
-    put_room_case(l, "a lamp 1 mm from the wall", 1.2);
+    put_room_case(l, "a light 1 mm from the wall", 1.2);
 }
 
 /* --- the same room, said differently ------------------------------------------------------------------------------ */

@@ -114,7 +114,7 @@ static void stray(double worst[2], hard_stage *s, int kind, dvec way)
 static void strays(hard_list *l)
 {
     static const char *const name[KINDS] = {"a stray triangle up to 100 km off, a sun: bounced light changes by",
-                                            "a spot", "a lamp"};
+                                            "a spot", "a point light"};
     double direct = 0.0;
     uint64_t rng = 71;
     for (int kind = 0; kind < KINDS; ++kind) {

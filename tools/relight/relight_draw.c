@@ -25,7 +25,7 @@ typedef struct stage {
     place_list path;
     lmb_probe_cache cache;
     slot_cubes cubes[LMB_MAX_PROBES];
-    lmb_probe *probes;      /* by slot, then by glossy reflection */
+    lmb_probe *probes;      /* by slot, then by roughness */
     uint16_t *probe_of;     /* by instance */
     float *planes;          /* of the largest glossy reflection cube */
     lmb_probe_rays rays;

@@ -192,7 +192,7 @@ static void tell_full_cuts(const render_job *j)
 {
     if (j->stats.full_cuts > 0) {
         report_note(j->o.view.is_quiet,
-                    "note: %.0f patches of pixels have coarser bounced light than asked for: %d nodes of the light's "
+                    "note: %.0f pixel clusters have coarser bounced light than asked for: %d nodes of the light's "
                     "tree were not enough (LMB_MAX_CUT); a smaller --tree or a larger --error asks for less",
                     (double)j->stats.full_cuts, LMB_MAX_CUT);
     }
