@@ -310,9 +310,9 @@ struct lmb_kernels {
     /* Emitters that some pixels see: added. `pairs` is scratch. */
     void (*gather_cut)(lmb_irradiance *inout, float (*pairs)[LMB_GATHER_PAIRS], const lmb_tile *tile,
                        const lmb_emitter *emitters, int32_t count);
-    /* Nodes 0 .. count - 1 against the patch: sets what they give, at most, and their errors. Returns those that do not
-     * face away, a bit each; what is set for the others means nothing. conservative: see node_bounds.inl. Writes whole
-     * vectors. */
+    /* Nodes 0 .. count - 1 at the pixel cluster: sets their light, its upper bound, and their errors. Returns those
+     * that do not face away, a bit each; what is set for the others means nothing. conservative: see node_bounds.inl.
+     * Writes whole vectors. */
     uint32_t (*node_bounds)(lmb_node_bounds *inout, int32_t count, const lmb_pixel_cluster *cluster,
                             int32_t conservative);
     /* Of `pixels`, one bit each, those whose segment to the point crosses the triangle. */

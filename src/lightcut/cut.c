@@ -1,7 +1,7 @@
 /* cut.c: each tile of pixels takes its own cut through the light tree, and is lit by it. Layer 7.      [V25 V27 V28]
  *
- * What a node may be wrong by is node_bounds.inl's. The largest is divided first: buckets by exponent and first bit
- * find it without sorting, in the same order everywhere. */
+ * node_bounds.inl computes the nodes' errors. The node with the largest error is split first: buckets by the error's
+ * exponent and first bit find it without sorting, in the same order everywhere. */
 #include <lambent/tree.h>
 
 #include <string.h>
@@ -19,10 +19,10 @@
 
 #define INVERSE_PI 0.31830989f
 #define PI         3.14159265f
-#define DARK       0.03  /* of what is there where nothing blocks: who sees less than this share is as dark */
-#define BENT       0.98f /* agreement of normals under which a node's parts are asked which of them face the patch */
-#define HOLDS  100.0  /* times over what was asked for: by nodes that the pixels lie in, fewer pixels in fewer nodes */
-#define CLOSER     0.7   /* a half that comes this much closer to what was asked for is worth its cut */
+#define DARK       0.03  /* pixels that see less than this share of their unblocked light count as dark */
+#define BENT       0.98f /* agreement of normals under which it is tested which children face the pixels */
+#define HOLDS      100.0 /* factor over the allowed error that tells of nodes with pixels inside: fewer pixels help */
+#define CLOSER     0.7   /* a half that reduces the error to this share is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
 enum { AHEAD = LMB_BOUNDS_NODES / 4 /* nodes whose parts are bounded together */ };
@@ -36,7 +36,7 @@ typedef struct cutter {
     const lmb_kernels *kernels;
     const lmb_cut_params *cut_params;
     const lmb_pixel_cluster *p;
-    float noise;         /* m: lmb_tile_noise of the patch */
+    float noise;         /* m: lmb_tile_noise of the pixel cluster */
     uint64_t in_hull;    /* pixels of the cluster in a convex room: nothing stands between them and others in it */
     float per_pixel;     /* 1 / pixels of the cluster */
     int lobe;            /* a pixel whose lobe stands for the pixel cluster's; NONE: they have none */
@@ -51,7 +51,7 @@ typedef struct cutter {
 
 static double maxd(double a, double b) { return a > b ? a : b; }
 
-static lmb_node_bounds *weighed_of(lmb_cut *c) { return (lmb_node_bounds *)(void *)c->bounds_of_nodes; }
+static lmb_node_bounds *bounds_of(lmb_cut *c) { return (lmb_node_bounds *)(void *)c->bounds_of_nodes; }
 
 static void set_vector(lmb_node_bounds *out, int plane, int k, lmb_vec3 v)
 {
@@ -70,7 +70,7 @@ static const lmb_node *node_at(lmb_node *texel, const lmb_tree *tree, lmb_node_r
     return texel;
 }
 
-/* Node k of those that are bounded together. */
+/* Node k of those whose bounds are computed together. */
 static void set_bounded_node(lmb_node_bounds *out, int k, const lmb_tree *tree, lmb_node_ref at)
 {
     lmb_node texel;
@@ -106,7 +106,7 @@ static lmb_vec3 bounds_vector(const lmb_node_bounds *w, int plane, int k)
  * and its mean over the node. This is an estimate; only the bound of the irradiance is conservative. */
 static void bound_lobe(cutter *c, int k)
 {
-    lmb_node_bounds *w = weighed_of(c->cut);
+    lmb_node_bounds *w = bounds_of(c->cut);
     const lmb_vec3 to = sub3(bounds_vector(w, LMB_BOUNDS_CENTRE, k), c->p->centre);
     const float *half = c->p->half;
     const float d2 = maxf(dot3(to, to), 1e-24f), node = w->node[LMB_BOUNDS_RADIUS][k],
@@ -121,10 +121,10 @@ static void bound_lobe(cutter *c, int k)
     w->value[k] *= 1.0f + gain;
 }
 
-/* Up to the next whole vector there is nothing. */
+/* Bounds of `count` nodes; the rest of the last vector is filled with zeros. */
 static void node_bounds(cutter *c, int count)
 {
-    lmb_node_bounds *w = weighed_of(c->cut);
+    lmb_node_bounds *w = bounds_of(c->cut);
     for (int k = count; k % c->kernels->lanes != 0; ++k) {
         for (int i = 0; i < LMB_BOUNDS_PLANES; ++i) {
             w->node[i][k] = 0.0f;
@@ -145,7 +145,7 @@ static int bucket_of(float key)
     return (int)(bits >> 22) & (LMB_CUT_BUCKETS - 1);
 }
 
-/* Texels cannot be divided: they wait in no bucket. */
+/* Texels cannot be split, so they go into no bucket. */
 static void wait(cutter *c, int32_t i)
 {
     if (c->cut->ref[i].level > 0) {
@@ -201,7 +201,7 @@ static void count_in(cutter *c, int32_t i, double sign)
 /* Node k of the bounded nodes into slot i. */
 static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
 {
-    const lmb_node_bounds *w = weighed_of(c->cut);
+    const lmb_node_bounds *w = bounds_of(c->cut);
     c->cut->ref[i] = at;
     c->cut->error[i] = at.level > 0 ? w->error[k] : 0.0f;
     c->cut->value[i] = w->value[k];
@@ -239,7 +239,7 @@ NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel 
     return out;
 }
 
-/* Are a first point and the pixel cluster's middle before each other? */
+/* Are a first point and the pixel cluster's middle in front of each other? */
 static int is_before(const lmb_pixel_cluster *p, lmb_vec3 at, lmb_vec3 normal)
 {
     const lmb_vec3 d = sub3(at, p->centre);
@@ -272,8 +272,8 @@ static lmb_node_ref brightest_part(const cutter *c, lmb_node_ref from)
     return best;
 }
 
-/* Where a node's visibility is asked: at its own first point, or, where that faces away, at one that does not. */
-static const lmb_texel *asked_point(const cutter *c, lmb_node_ref at)
+/* Where a node's visibility is tested: at its own first point, or at another one where that faces away. */
+static const lmb_texel *visibility_point(const cutter *c, lmb_node_ref at)
 {
     const lmb_texel *own = own_point(c->tree, at), *seen = own;
     while (at.level > 0 && !is_before(c->p, seen->position, seen->normal)) {
@@ -287,18 +287,17 @@ static const lmb_texel *asked_point(const cutter *c, lmb_node_ref at)
     return seen;
 }
 
-/* Of a texel: its light found it, an element is a mean of corners. */
+/* Rounding of a texel's position: a light's ray found it, or it is the mean of an element's corners. */
 static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
 {
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* Elements lie on both sides of walls. A light's texels, all on the side that it lights, are tested wherever they are.
- * */
-static void ask(cutter *c, int32_t i)
+/* Elements lie on both sides of walls; a light's texels are all on the side that it lights, and always tested. */
+static void test_visibility(cutter *c, int32_t i)
 {
     const lmb_node_ref at = c->cut->ref[i];
-    const lmb_texel *seen = asked_point(c, at);
+    const lmb_texel *seen = visibility_point(c, at);
     const float noise = c->noise + texel_noise(c, at.face, seen->position);
     count_in(c, i, -1.0);
     if (c->tree->element != NULL && !all_before(c, seen, noise)) {
@@ -317,7 +316,7 @@ static void ask(cutter *c, int32_t i)
     count_in(c, i, 1.0);
 }
 
-/* Weigh the parts of the node in slot i, and of those next in line: nine of ten are divided next. */
+/* Bounds of the children of the node in slot i, and of the nodes next in line: nine of ten of these are split next. */
 static void bound_parts(cutter *c, int32_t i)
 {
     const int upper = maxi(c->kernels->lanes / 4, 1);
@@ -327,7 +326,7 @@ static void bound_parts(cutter *c, int32_t i)
     }
     for (int32_t next = i; next != NONE && count < upper; ++count) {
         for (int k = 0; k < 4; ++k) {
-            set_bounded_node(weighed_of(c->cut), 4 * count + k, c->tree, part_at(c->cut->ref[next], k));
+            set_bounded_node(bounds_of(c->cut), 4 * count + k, c->tree, part_at(c->cut->ref[next], k));
         }
         c->ahead[count] = next;
         next = next == i ? c->cut->bucket[b] : c->cut->next[next];
@@ -338,7 +337,7 @@ static void bound_parts(cutter *c, int32_t i)
     node_bounds(c, 4 * count);
 }
 
-/* The first of the four parts of the node in slot i, among the bounded nodes. */
+/* Which of the bounded nodes is the first of the four children of the node in slot i. */
 static int parts_of(cutter *c, int32_t i)
 {
     int k = 0;
@@ -353,7 +352,7 @@ static int parts_of(cutter *c, int32_t i)
     return 4 * k;
 }
 
-/* Put the four parts of the node in slot i in its place: the first in its slot, the others at the end. */
+/* Replace the node in slot i by its four children: the first in its slot, the others at the end. */
 static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 {
     const lmb_node_ref from = c->cut->ref[i];
@@ -366,7 +365,7 @@ static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
             const int32_t to = slot >= 0 ? slot : c->cut->count++;
             put(c, to, part_at(from, k), first + k, visible);
             if (asks) {
-                ask(c, to);
+                test_visibility(c, to);
             }
             wait(c, to);
             slot = NONE;
@@ -376,7 +375,7 @@ static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 
 static int has_room(const cutter *c) { return c->cut->count + 3 <= LMB_MAX_CUT; }
 
-/* What a node may give whose visibility is asked as one. */
+/* How much light a node may give whose visibility is tested as one. */
 static double allowed_upper(const cutter *c, double lower)
 {
     return maxd((double)c->cut_params->visibility * (c->beside + maxd(c->value, lower)), c->floor);
@@ -406,7 +405,7 @@ static double divide_by_error(cutter *c)
     return i != NONE && !has_room(c) ? c->error / maxd(allowed_error(c), 1e-30) : 0.0;
 }
 
-/* Large errors that came and went leave their rounding in the sum: it is counted anew. */
+/* Large errors that were added and removed leave their rounding in the sum, so it is added up anew. */
 static int is_right(cutter *c)
 {
     c->error = 0.0;
@@ -418,7 +417,7 @@ static int is_right(cutter *c)
     return c->error <= allowed_error(c);
 }
 
-/* The faces' roots. */
+/* Begin the cut with the faces' roots. */
 NOINLINE void begin(cutter *c)
 {
     c->cut->count = 0;
@@ -431,7 +430,7 @@ NOINLINE void begin(cutter *c)
             root[k].face = (uint16_t)(first + (uint32_t)k);
             root[k].x = root[k].y = 0;
             root[k].level = (uint16_t)tree_root_level(c->tree);
-            set_bounded_node(weighed_of(c->cut), k, c->tree, root[k]);
+            set_bounded_node(bounds_of(c->cut), k, c->tree, root[k]);
         }
         node_bounds(c, count);
         for (int k = 0; k < count && c->cut->count < LMB_MAX_CUT; ++k) {
@@ -446,7 +445,7 @@ NOINLINE void begin(cutter *c)
     }
 }
 
-/* Those that wait to be divided for their shape: what is seen. */
+/* Put the visible nodes into buckets, to be split for their shape. */
 static void wait_by_error(cutter *c)
 {
     empty_buckets(c, c->cut->error);
@@ -470,7 +469,7 @@ static double take_cut(cutter *c)
         const double lower = c->value * DARK;
         for (int32_t i = 0; i < c->cut->count; ++i) {
             if (c->cut->ref[i].level != GONE) {
-                ask(c, i);
+                test_visibility(c, i);
             }
         }
         over = divide_by_upper(c, lower, 1);
@@ -530,7 +529,7 @@ static void add_flux(lmb_irradiance *inout, int k, float factor, const float flu
     }
 }
 
-/* A texel where planes meet, as its plane shows it. */
+/* A texel where planes meet, cut to the part that shows its plane. */
 static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, uint64_t pixels)
 {
     const lmb_texel *t = tree_texel(c->tree, at.face, at.x, at.y);
@@ -548,7 +547,7 @@ static void add_crease(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
     }
 }
 
-/* Part i of SIDE^2 equal ones of a leaf: its middle. A triangle's lie in SIDE rows of 1, 3, 5, ... */
+/* The middle of part i of a leaf's SIDE^2 equal parts. Those of a triangle lie in SIDE rows of 1, 3, 5, ... */
 static lmb_vec3 leaf_part(const leaf *l, int i)
 {
     if (l->element == NULL) {
@@ -589,7 +588,7 @@ static void add_glossy(const cutter *c, int k, const leaf *l)
     }
 }
 
-/* Those of some pixels that have a lobe. */
+/* Which of some pixels have a lobe. */
 static void add_near_glossy(const cutter *c, const leaf *l, uint64_t pixels)
 {
     const uint64_t own = c->cut_params->glossy != NULL ? c->cut_params->glossy->pixels & pixels : 0;
@@ -598,7 +597,7 @@ static void add_near_glossy(const cutter *c, const leaf *l, uint64_t pixels)
     }
 }
 
-/* A leaf so near that its shape counts: pixel by pixel. */
+/* Add a leaf that is so near that its shape counts, pixel by pixel. */
 NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, const leaf *l, uint64_t visible)
 {
     const lmb_tile *tile = c->tile;
@@ -623,7 +622,7 @@ NOINLINE void add_near(lmb_irradiance *inout, const cutter *c, lmb_node_ref at, 
     }
 }
 
-/* Is some of the patch near the leaf? */
+/* Is some of the pixel cluster near the leaf? */
 static int is_near(const lmb_pixel_cluster *p, const leaf *l)
 {
     return lmb_pixel_cluster_distance2(p, l->node.centre) < LMB_NEAR * LMB_NEAR * l->half2;
@@ -714,7 +713,8 @@ static void light_by(stream *s, lmb_node_ref at, uint64_t visible)
     }
 }
 
-/* Where no cut that there is room for is proven, and nothing blocks: every texel. */
+/* Light the pixels by every texel: for a conservative bound that no cut meets in the room there is, where nothing
+ * blocks. */
 static void light_by_all(stream *s)
 {
     const int32_t size = s->c->tree->size;
@@ -753,7 +753,7 @@ NOINLINE void light_cluster(lmb_irradiance *inout, cutter *c)
     }
 }
 
-/* The middle one of the pixel cluster's pixels that have a lobe. */
+/* Of the cluster's pixels that have a lobe, the one in the middle. */
 static int lobe_of(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
 {
     uint64_t own = cut_params->glossy != NULL && !cut_params->conservative ? cut_params->glossy->pixels & p->pixels : 0;
@@ -763,7 +763,7 @@ static int lobe_of(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
     return own != 0 ? lowest_bit_64(own) : NONE;
 }
 
-/* Of the pixel that has least: beside a shadow's edge that is none. */
+/* The minimum over the pixels: 0 at a shadow's edge. */
 static double lower_direct(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p)
 {
     float lower = cut_params->direct != NULL ? 3e38f : 0.0f;
@@ -775,7 +775,7 @@ static double lower_direct(const lmb_cut_params *cut_params, const lmb_pixel_clu
     return (double)lower;
 }
 
-/* In the mean over the patch: what proves nothing of its pixels. */
+/* The mean over the pixel cluster, which is no bound for its pixels. */
 static double beside(const lmb_cut_params *cut_params, const lmb_pixel_cluster *p, float per_pixel)
 {
     double sum = 0.0;
@@ -790,7 +790,7 @@ static double beside(const lmb_cut_params *cut_params, const lmb_pixel_cluster *
            (cut_params->conservative ? 0.0 : (double)cut_params->lower + lower_direct(cut_params, p));
 }
 
-/* Half of some pixels: those that come first along the longer side of the pixel cluster's box. */
+/* Half of some pixels: the first ones along the longer side of their cluster's box. */
 static uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
 {
     const lmb_vec3 along = p->half[2] > p->half[1] ? p->axis[2] : p->axis[1];
@@ -812,8 +812,8 @@ static uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
     return out;
 }
 
-/* Light some pixels of one surface by one cut; where that has no room for what was asked, and cuts of half the pixels
- * come closer to it, return the patch undone. over: that of the pixels that these are half of. */
+/* Light some pixels of one surface by one cut. Where the cut is full and cuts of half the pixels come closer to the
+ * allowed error, the pixels are left unlit and returned. over: by what factor the cut of twice as many exceeded it. */
 static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p, double *over)
 {
     const lmb_cut_params *cut_params = c->cut_params;
@@ -837,14 +837,14 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     return 1;
 }
 
-/* Pixels that wait for a cut, and by how much that of twice as many was over what was asked. */
+/* Pixels that wait for a cut, and by what factor the cut of twice as many exceeded the allowed error. */
 typedef struct waiting {
     uint64_t pixels;
     double over;
 } waiting;
 enum { HALVES = 7 /* 64 pixels, 32, ... 1 */ };
 
-/* Cost: a cut that has no room is taken for nothing, at most as often as its halves are. */
+/* Cost: a full cut is wasted, at most as often as its halves are found. */
 static void light_surface(lmb_irradiance *inout, cutter *c, uint64_t pixels)
 {
     waiting wait[HALVES + 1];

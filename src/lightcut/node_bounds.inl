@@ -18,7 +18,7 @@ typedef struct bounds_pair {
     lane sine;           /* of the widest angle of the node's normals; 1 over 90 degrees */
     lane apart2;         /* squared least distance of the boxes */
     lane own_p,
-        cluster_p; /* how far the node's box and the patch reach along the pixel cluster's normal from their middles */
+        cluster_p; /* how far the node's box and the pixel cluster reach along the cluster's normal */
     lane own_g, cluster_g; /* and along the node's */
 } bounds_pair;
 
@@ -71,7 +71,7 @@ LANE_INLINE bounds_pair bounds_begin(const lmb_node_bounds *w, int k, const lmb_
     to.x = lane3_dot(lane3_of(p->axis[0]), r.to);
     to.y = lane3_dot(lane3_of(p->axis[1]), r.to);
     to.z = lane3_dot(lane3_of(p->axis[2]), r.to);
-    lane3 own, cluster; /* how far the node reaches along the pixel cluster's axes, and the patch along the node's */
+    lane3 own, cluster; /* how far the node reaches along the pixel cluster's axes, and the cluster along the node's */
     own.x = lane_min(lane3_dot(turn[0], half), radius);
     own.y = lane_min(lane3_dot(turn[1], half), radius);
     own.z = lane_min(lane3_dot(turn[2], half), radius);
@@ -108,8 +108,8 @@ LANE_INLINE lane_mask bounds_rule(lmb_node_bounds *w, int k, const lmb_pixel_clu
         lane_store(w->upper + k, zero);
         return faces;
     }
-    /* A node that holds the patch may give any amount: so much that it is divided first, but not so much that the sum
-     * of errors keeps the rounding of it when it is gone. */
+    /* A node that holds the pixel cluster may give any amount: so much that it is divided first, but not so much that
+     * the sum of errors keeps the rounding of it when it is gone. */
     const lane lower = lane_max(lane_mul(lane_splat(1e-6f), n->half2), lane_splat(1e-24f));
     const lane d2 = lane_max(n->apart2, lower), d = lane_sqrt(d2);
     const lane upper = lane_mul(lane_mul(lane_div(lane_mul(n->m, lane_splat(INVERSE_PI)), d2),

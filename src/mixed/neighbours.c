@@ -140,7 +140,7 @@ lmb_status lmb_point_grid_init(lmb_point_grid *out, const lmb_vec3 *points, uint
     return LMB_OK;
 }
 
-static void ask_cell(nearest *n, const lmb_point_grid *g, const int32_t c[3], lmb_vec3 at)
+static void search_cell(nearest *n, const lmb_point_grid *g, const int32_t c[3], lmb_vec3 at)
 {
     const int32_t cell = (c[2] * LMB_POINT_CELLS + c[1]) * LMB_POINT_CELLS + c[0];
     for (uint32_t i = g->first[cell]; i < g->first[cell + 1]; ++i) {
@@ -149,7 +149,7 @@ static void ask_cell(nearest *n, const lmb_point_grid *g, const int32_t c[3], lm
 }
 
 /* The cells `ring` steps away from the middle one, in the greatest of the three axes. */
-static void ask_ring(nearest *n, const lmb_point_grid *g, const int32_t middle[3], int32_t ring, lmb_vec3 at)
+static void search_ring(nearest *n, const lmb_point_grid *g, const int32_t middle[3], int32_t ring, lmb_vec3 at)
 {
     int32_t c[3];
     for (c[2] = maxi(middle[2] - ring, 0); c[2] <= mini(middle[2] + ring, LMB_POINT_CELLS - 1); ++c[2]) {
@@ -158,7 +158,7 @@ static void ask_ring(nearest *n, const lmb_point_grid *g, const int32_t middle[3
             const int side = side_z || c[1] == middle[1] - ring || c[1] == middle[1] + ring;
             for (c[0] = middle[0] - ring; c[0] <= middle[0] + ring; c[0] += side || ring == 0 ? 1 : 2 * ring) {
                 if (c[0] >= 0 && c[0] < LMB_POINT_CELLS) {
-                    ask_cell(n, g, c, at);
+                    search_cell(n, g, c, at);
                 }
             }
         }
@@ -180,7 +180,7 @@ int32_t lmb_point_grid_nearest(uint32_t *out, int32_t k, const lmb_point_grid *g
         if (n.count == n.k && ring > 0 && safe * safe > n.d2[n.k - 1]) {
             break;
         }
-        ask_ring(&n, grid, middle, ring, at);
+        search_ring(&n, grid, middle, ring, at);
     }
     for (int32_t i = 0; i < n.count; ++i) {
         out[i] = n.which[i];

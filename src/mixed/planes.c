@@ -62,7 +62,7 @@ static void add_pixel(grower *g, int32_t at, lmb_vec3 ray)
     g->planes->queue[g->count++] = at;
 }
 
-static void ask_pixel(grower *g, int32_t x, int32_t y)
+static void test_pixel(grower *g, int32_t x, int32_t y)
 {
     const lmb_pinhole *c = &g->cloud->camera;
     if (x < 0 || y < 0 || x >= c->width || y >= c->height) {
@@ -100,10 +100,10 @@ static void grow(grower *g, int32_t x, int32_t y)
     begin(g, x, y);
     for (int32_t i = 0; i < g->count; ++i) {
         const int32_t at = g->planes->queue[i], px = at % g->cloud->camera.width, py = at / g->cloud->camera.width;
-        ask_pixel(g, px - 1, py);
-        ask_pixel(g, px + 1, py);
-        ask_pixel(g, px, py - 1);
-        ask_pixel(g, px, py + 1);
+        test_pixel(g, px - 1, py);
+        test_pixel(g, px + 1, py);
+        test_pixel(g, px, py - 1);
+        test_pixel(g, px, py + 1);
         if (g->count >= next_fit) {
             if (lmb_plane_fit_solve(g->slope, &g->sums)) {
                 g->normal = lmb_plane_normal(&distance, g->slope);

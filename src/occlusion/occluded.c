@@ -12,9 +12,8 @@
 /* The number of leaves that are tested against the pyramid of all segments. Further leaves are tested against each
  * segment, because in a fine mesh most segments pass between triangles. */
 #define BY_PYRAMID 4
-#define FEW        7      /* pixels that walk alone: of a tile of leaves they lie far apart, a pyramid of them meets all
-                             */
-#define MUCH       16     /* pixels that a triangle blocks to be asked first by the next segments */
+#define FEW        7      /* up to so many pixels are traced alone: in foliage they lie far apart, in a wide pyramid */
+#define MUCH       16     /* a triangle that blocks so many pixels is tested first for the next segments */
 #define THIN       1e-20f /* m: a pyramid is never thinner */
 
 static void pyramid_axis(lmb_pyramid *out, int axis, float at, float low, float high)
@@ -116,7 +115,7 @@ static uint64_t standing(const lmb_bvh *b, const lmb_bvh_triangle *t, const lmb_
     return out;
 }
 
-/* One walk. */
+/* One traversal. */
 typedef struct traversal {
     const lmb_bvh *b;
     const lmb_kernels *kernels;
@@ -127,8 +126,8 @@ typedef struct traversal {
     uint64_t left; /* pixels that nothing blocked yet */
 } traversal;
 
-/* Of `asked` those that one triangle blocks are done. */
-static void ask_triangle(traversal *w, uint32_t triangle, uint64_t asked)
+/* Remove the pixels of `asked` that one triangle blocks from those left. */
+static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     lmb_cross_job job;
@@ -153,11 +152,11 @@ static void remember(uint32_t last[LMB_LAST_OCCLUDERS], uint32_t triangle)
 }
 
 /* 1 where they alone block all. */
-static int ask_last(traversal *w)
+static int test_last(traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {
         const uint32_t triangle = w->kept->last[i] - 1;
-        ask_triangle(w, triangle, w->left);
+        test_triangle(w, triangle, w->left);
         if (w->left == 0) {
             remember(w->kept->last, triangle);
             return 1;
@@ -166,11 +165,11 @@ static int ask_last(traversal *w)
     return 0;
 }
 
-static void ask_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked)
+static void test_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked)
 {
     for (uint32_t k = 0; k < node->count[i] && (w->left & asked) != 0; ++k) {
         const uint64_t before = w->left;
-        ask_triangle(w, node->first[i] + k, asked);
+        test_triangle(w, node->first[i] + k, asked);
         if (count_bits_64(before & ~w->left) >= MUCH) {
             remember(w->kept->last, node->first[i] + k);
         }
@@ -180,15 +179,15 @@ static void ask_leaf(traversal *w, const lmb_boxes *node, int i, uint64_t asked)
 /* The tile's segments to one point as a whole. */
 typedef struct rays {
     lmb_pyramid pyramid;
-    int leaves; /* asked so far; the walk has segments from BY_PYRAMID + 1 on */
+    int leaves; /* tested so far; from BY_PYRAMID + 1 on by the segments themselves */
 } rays;
 
-/* A node whose leaves are asked; of its children those that wait, box i as bit LMB_BOXES - 1 - i. */
+/* A node whose leaves are tested, and which of its children wait: box i as bit LMB_BOXES - 1 - i. */
 typedef struct branch {
     uint32_t node, children;
 } branch;
 
-static uint32_t ask_node(traversal *w, rays *r, const lmb_boxes *node)
+static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
 {
     uint32_t children = 0;
     ++w->kept->asked;
@@ -206,7 +205,7 @@ static uint32_t ask_node(traversal *w, rays *r, const lmb_boxes *node)
             }
             here = w->kernels->through(&w->kept->segments, here, node, i);
         }
-        ask_leaf(w, node, i, here);
+        test_leaf(w, node, i, here);
     }
     return children;
 }
@@ -220,14 +219,14 @@ static uint64_t blocked_together(traversal *w)
     rays r;
     int count = 0;
     uint32_t here = 0;
-    if (ask_last(w)) {
+    if (test_last(w)) {
         return pixels;
     }
     r.pyramid = pyramid_of(w->tile, w->left, w->at);
     r.leaves = 0;
     for (;;) {
         waiting[count].node = here;
-        waiting[count].children = ask_node(w, &r, &bvh->node[here]);
+        waiting[count].children = test_node(w, &r, &bvh->node[here]);
         count += waiting[count].children != 0;
         if (count == 0 || w->left == 0) {
             return pixels & ~w->left;
@@ -239,7 +238,7 @@ static uint64_t blocked_together(traversal *w)
     }
 }
 
-/* Does a triangle block the one pixel that asks? What `crossed` says, to the bit. */
+/* Does a triangle block this one pixel? The same as `crossed` says, to the bit. */
 static int blocks_one(traversal *w, uint32_t triangle, int k)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];

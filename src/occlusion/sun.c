@@ -9,7 +9,7 @@
 
 #if LMB_TREES
 
-#define MUCH  16             /* pixels that a triangle blocks to be asked first by the next rays */
+#define MUCH  16             /* a triangle that blocks so many pixels is tested first for the next rays */
 #define ALONG 9.5367432e-7f  /* 2^-20: cosine under which rays run along a triangle, and it blocks none */
 #define THIN  1e-20f
 #define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
@@ -82,7 +82,7 @@ static uint64_t sun_standing(const sun_traversal *w, const lmb_bvh_triangle *t, 
     return out;
 }
 
-static void ask(sun_traversal *w, uint32_t triangle)
+static void test_triangle(sun_traversal *w, uint32_t triangle)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
     lmb_sun_job job;
@@ -92,19 +92,19 @@ static void ask(sun_traversal *w, uint32_t triangle)
     }
 }
 
-/* Those that blocked much when asked last. */
-static void ask_kept(sun_traversal *w)
+/* Test the triangles that blocked many pixels lately. */
+static void test_kept(sun_traversal *w)
 {
     for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0 && w->left != 0; ++i) {
-        ask(w, w->kept->last[i] - 1);
+        test_triangle(w, w->kept->last[i] - 1);
     }
 }
 
-static void ask_box(sun_traversal *w, const lmb_boxes *node, int i)
+static void test_box(sun_traversal *w, const lmb_boxes *node, int i)
 {
     for (uint32_t k = 0; k < node->count[i] && w->left != 0; ++k) {
         const uint64_t before = w->left;
-        ask(w, node->first[i] + k);
+        test_triangle(w, node->first[i] + k);
         if (count_bits_64(before & ~w->left) >= MUCH) {
             for (int last = LMB_LAST_OCCLUDERS - 1; last > 0; --last) {
                 w->kept->last[last] = w->kept->last[last - 1];
@@ -154,7 +154,7 @@ static void sun_descend(sun_traversal *w)
         const int i = lowest_bit(top->boxes);
         top->boxes &= top->boxes - 1;
         if (node->count[i] > 0) {
-            ask_box(w, node, i);
+            test_box(w, node, i);
         } else if (node->first[i] != 0) { /* the root is nobody's child: an empty box, met by a sweep of NaN */
             count -= top->boxes == 0;
             waiting[count].node = node->first[i];
@@ -172,7 +172,7 @@ uint64_t lmb_occluded_sun(const lmb_bvh *bvh, const lmb_kernels *kernels, const 
     }
     sun_traversal w = {bvh, kernels, tile, tile_vec(tile->position, lowest_bit_64(pixels)), to, kept,
                   noise_of(tile, pixels), pixels};
-    ask_kept(&w);
+    test_kept(&w);
     if (w.left != 0) {
         sun_descend(&w);
     }

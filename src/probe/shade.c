@@ -68,7 +68,7 @@ lmb_status lmb_probe_cube_init(lmb_probe_cube *out, const float *planes, int32_t
     return LMB_OK;
 }
 
-static void ask_cube(lmb_world_job *out, const lmb_probe_cube *cube)
+static void sample_cube(lmb_world_job *out, const lmb_probe_cube *cube)
 {
     out->texels = cube->texel;
     out->format = LMB_WORLD_F32;
@@ -86,7 +86,7 @@ lmb_status lmb_probe_light_tile(lmb_irradiance *inout, lmb_probe_rays *scratch, 
     if (inout == NULL || scratch == NULL || kernels == NULL || tile == NULL || cube == NULL || cube->texel == NULL) {
         return LMB_ERR_ARG;
     }
-    ask_cube(&job, cube);
+    sample_cube(&job, cube);
     kernels->world_radiance(scratch->seen, (float (*)[LMB_TILE_PIXELS])tile->normal, &job);
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
@@ -121,7 +121,7 @@ lmb_status lmb_probe_glossy_tile(lmb_glossy *inout, lmb_probe_rays *scratch, con
     }
     reflect(scratch->direction, inout, tile);
     if (cube != NULL) {
-        ask_cube(&job, cube);
+        sample_cube(&job, cube);
         kernels->world_radiance(scratch->seen, scratch->direction, &job);
     } else {
         lmb_world_ask(&job, query->world, query->ray_width, query->blend);

@@ -76,8 +76,8 @@ static inline float tile_extent(const lmb_tile *tile, uint64_t pixels)
     return pixels != 0 ? length3(sub3(high, low)) : 0.0f;
 }
 
-/* Of the pixels left, those on one surface with the first: on its plane, and no wide gap between. What is asked of a
- * surface is asked of its box: a floor before and behind a table would ask it of the table's place too. */
+/* Of the pixels left, those on one surface with the first: on its plane, and no wide gap between. A surface is bounded
+ * by a box: without that rule, the box of a floor before and behind a table would hold the table too. */
 static inline uint64_t tile_surface(const lmb_tile *tile, uint64_t left)
 {
     uint64_t out = tile_plane(tile, left), half = tile_near_half(tile, out);
