@@ -42,7 +42,7 @@ lmb_status lmb_compose_glossy(lmb_radiance *inout, const lmb_glossy *glossy);
 
 /* lmb_store_tile: write a tile into a surface whose pixel (0, 0) is frame pixel (x0, y0).
  *
- *   out       LMB_RGB32F: radiance as it is. Others: x 2^exposure_ev, clipped to 0..1, sRGB-coded; RGB565 and RGB555
+ *   out       LMB_RGB32F: radiance as it is. Others: x 2^exposure_ev, clipped to 0..1, sRGB-coded; those of 16 bits
  *             with an 8x8 ordered dither (Bayer 1973) fixed to the frame, so that bands meet without a seam.
  *   x, y      px in the frame of the tile's pixel 0; what lies outside the surface is not written.
  * Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */

@@ -62,10 +62,11 @@ typedef struct lmb_view {
 /* Pixel formats. Depth and id surfaces hold whole tiles: their memory is what lmb_surface_bytes says. */
 typedef enum lmb_format {
     LMB_FORMAT_NONE = 0,
-    LMB_RGB565, /* 16 bit, red in the high bits */
-    LMB_RGB555, /* 16 bit, top bit 0 */
-    LMB_RGBA8,  /* bytes R G B A */
-    LMB_BGRA8,  /* bytes B G R A */
+    LMB_RGB565,    /* 16 bit in the machine's byte order, red in the high bits */
+    LMB_RGB555,    /* the same, top bit 0 */
+    LMB_RGB565_BE, /* bytes RRRRRGGG GGGBBBBB on every machine: as SPI displays take them */
+    LMB_RGBA8,     /* bytes R G B A */
+    LMB_BGRA8,     /* bytes B G R A */
     LMB_R32F,
     LMB_RGB32F,
     LMB_DEPTH32F,

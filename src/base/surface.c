@@ -16,6 +16,7 @@ int32_t lmb_pixel_bytes(int32_t format)
     switch (format) {
     case LMB_RGB565:
     case LMB_RGB555:
+    case LMB_RGB565_BE:
     case LMB_DEPTH16:
     case LMB_ID16: return 2;
     case LMB_RGBA8:
@@ -180,6 +181,12 @@ static uint64_t hash_values(uint64_t hash, const unsigned char *at, int32_t coun
     return hash;
 }
 
+/* Bytes of one value of a pixel: 1 where the format says the order of bytes. */
+static int32_t value_bytes_of(int32_t format)
+{
+    return format >= LMB_RGB565_BE && format <= LMB_BGRA8 ? 1 : mini(lmb_pixel_bytes(format), 4);
+}
+
 uint64_t lmb_surface_hash(const lmb_surface *surface)
 {
     uint64_t hash = HASH_START;
@@ -187,7 +194,7 @@ uint64_t lmb_surface_hash(const lmb_surface *surface)
     if (!lmb_surface_is_valid(surface))
         return 0;
     pixel = lmb_pixel_bytes(surface->format);
-    value = surface->format == LMB_RGBA8 || surface->format == LMB_BGRA8 ? 1 : mini(pixel, 4);
+    value = value_bytes_of(surface->format);
     for (y = 0; y < surface->height; ++y)
         for (x = 0; x < surface->width; x += LMB_TILE)
             hash = hash_values(hash, run_at(surface, x, y), run_length(surface, x) * (pixel / value), value);

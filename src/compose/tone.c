@@ -58,13 +58,20 @@ static void store_bytes(const lmb_surface *out, const tile_part *p, int32_t code
 
 static void store_dithered(const lmb_surface *out, const tile_part *p, int32_t code[3][LMB_TILE_PIXELS])
 {
-    const uint32_t green_bits = out->format == LMB_RGB565 ? 6 : 5;
+    const uint32_t green_bits = out->format == LMB_RGB555 ? 5 : 6;
     for (int32_t y = p->first_y; y <= p->last_y; ++y) {
         uint16_t *to = (uint16_t *)(void *)row_of(out, p, y) + p->x + p->first_x;
         for (int32_t k = y * LMB_TILE + p->first_x; k <= y * LMB_TILE + p->last_x; ++k) {
             uint32_t red = dither((uint8_t)code[0][k], 31, k), blue = dither((uint8_t)code[2][k], 31, k);
             uint32_t green = dither((uint8_t)code[1][k], (1u << green_bits) - 1u, k);
-            *to++ = (uint16_t)((red << (5 + green_bits)) | (green << 5) | blue);
+            const uint32_t pixel = (red << (5 + green_bits)) | (green << 5) | blue;
+            if (out->format == LMB_RGB565_BE) {
+                ((uint8_t *)to)[0] = (uint8_t)(pixel >> 8);
+                ((uint8_t *)to)[1] = (uint8_t)pixel;
+            } else {
+                *to = (uint16_t)pixel;
+            }
+            ++to;
         }
     }
 }
@@ -80,8 +87,7 @@ lmb_status lmb_store_tile(const lmb_surface *out, const lmb_kernels *kernels, in
         !lmb_surface_is_valid(out) || !is_near(x0) || !is_near(y0) || !is_near(x) || !is_near(y)) {
         return LMB_ERR_ARG;
     }
-    if (out->format != LMB_RGB32F && out->format != LMB_RGBA8 && out->format != LMB_BGRA8 &&
-        out->format != LMB_RGB565 && out->format != LMB_RGB555) {
+    if (!is_colour_format(out->format)) {
         return LMB_ERR_FORMAT;
     }
     const tile_part part = {maxi(x0 - x, 0), mini(out->width - 1 - (x - x0), LMB_TILE - 1), maxi(y0 - y, 0),

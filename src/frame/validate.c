@@ -33,7 +33,7 @@ lmb_status lmb_render_check_out(const lmb_surface *out, const lmb_view *v)
         (out->height != v->frame_height && out->height != LMB_TILE)) {
         return LMB_ERR_ARG;
     }
-    if (out->format < LMB_RGB565 || out->format > LMB_RGB32F || out->format == LMB_R32F || out->layout != LMB_LINEAR) {
+    if (!is_colour_format(out->format) || out->layout != LMB_LINEAR) {
         return LMB_ERR_FORMAT;
     }
     return lmb_surface_is_valid(out) ? LMB_OK : LMB_ERR_ARG;

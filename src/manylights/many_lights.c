@@ -145,6 +145,9 @@ static lmb_many_lights_member member_of(const lmb_many_lights_source *source, fl
 static int has_shape(const lmb_light *l)
 {
     const float off = dot3(l->direction, l->direction) - 1.0f;
+    if (l->kind < LMB_LIGHT_POINT || l->kind > LMB_LIGHT_DIRECTIONAL) {
+        return 0;
+    }
     if (l->kind != LMB_LIGHT_POINT && !(absf(off) <= 1e-3f)) {
         return 0;
     }

@@ -225,8 +225,9 @@ static void make_view(lmb_view *v, bytes *b)
 static void set_surfaces(lmb_frame *f, memory *m, bytes *b)
 {
     /* The last is refused. */
-    static const uint8_t formats[] = {LMB_RGB32F, LMB_RGBA8, LMB_BGRA8, LMB_RGB565, LMB_RGB555, LMB_R32F};
-    const int32_t width = f->view.frame_width, height = f->view.frame_height, format = formats[choice(b, 5)];
+    static const uint8_t formats[] = {LMB_RGB32F, LMB_RGBA8,     LMB_BGRA8, LMB_RGB565,
+                                      LMB_RGB555, LMB_RGB565_BE, LMB_R32F};
+    const int32_t width = f->view.frame_width, height = f->view.frame_height, format = formats[choice(b, 6)];
     const size_t depth = lmb_surface_bytes(LMB_DEPTH32F, width, height),
                  id = lmb_surface_bytes(LMB_ID32, width, height), out = lmb_surface_bytes(format, width, height);
     m->depth = malloc(depth);

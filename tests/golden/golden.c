@@ -444,7 +444,7 @@ static uint64_t case_gather(int variant)
 
 static uint64_t case_format(int variant)
 {
-    static const uint8_t formats[4] = {LMB_RGB565, LMB_RGB555, LMB_RGBA8, LMB_BGRA8};
+    static const uint8_t formats[] = {LMB_RGB565, LMB_RGB555, LMB_RGBA8, LMB_BGRA8, LMB_RGB565_BE};
     lmb_frame f = demo_frame();
     f.exposure_ev = 0.5f;
     lmb_surface_init(&f.out, formats[variant], WIDTH, HEIGHT, memory.out, sizeof memory.out);

@@ -341,7 +341,8 @@ static void surface_sizes(void)
 {
     lmb_surface s, before;
     unsigned char *bytes = (unsigned char *)room_a;
-    CHECK(lmb_pixel_bytes(LMB_RGB565) == 2 && lmb_pixel_bytes(LMB_RGB32F) == 12 && lmb_pixel_bytes(LMB_ID32) == 4);
+    CHECK(lmb_pixel_bytes(LMB_RGB565) == 2 && lmb_pixel_bytes(LMB_RGB32F) == 12 && lmb_pixel_bytes(LMB_ID32) == 4 &&
+          lmb_pixel_bytes(LMB_RGB565_BE) == 2);
     CHECK(lmb_pixel_bytes(LMB_FORMAT_NONE) == 0 && lmb_pixel_bytes(LMB_ID32 + 1) == 0 && lmb_pixel_bytes(-1) == 0);
     CHECK(lmb_surface_bytes(LMB_RGB565, 3, 5) == 40 && lmb_surface_bytes(LMB_RGBA8, 3, 5) == 60);
     CHECK(lmb_surface_bytes(LMB_DEPTH32F, 9, 1) == 512 && lmb_surface_bytes(LMB_DEPTH16, 8, 8) == 128);
@@ -453,6 +454,9 @@ static void hash_is_portable(void)
     memcpy(room_b, &letters, sizeof letters);
     CHECK(lmb_surface_init(&s, LMB_RGB565, 1, 1, room_b, 4) == LMB_OK);
     CHECK(lmb_surface_hash(&s) == UINT64_C(0x089c4407b545986a)); /* FNV-1a's published value for "ab" */
+    memcpy(room_b, "ab", 2);
+    CHECK(lmb_surface_init(&s, LMB_RGB565_BE, 1, 1, room_b, 4) == LMB_OK);
+    CHECK(lmb_surface_hash(&s) == UINT64_C(0x089c4407b545986a)); /* bytes as they lie */
 }
 
 static void surfaces_refused(void)

@@ -418,7 +418,7 @@ static void test_callback_stops(void)
 /* stride 1: every size of step, and every third shape of memory, under each way to occlude and to group. */
 static void check_scene(const lmb_scene *scene, lmb_view view, size_t stride)
 {
-    static const int32_t formats[] = {LMB_RGB32F, LMB_RGBA8, LMB_BGRA8, LMB_RGB565, LMB_RGB555};
+    static const int32_t formats[] = {LMB_RGB32F, LMB_RGBA8, LMB_BGRA8, LMB_RGB565, LMB_RGB555, LMB_RGB565_BE};
     for (int i = 0; i < 4; ++i) {
         lmb_frame f = plain_frame(scene, view, &reference);
         f.occlusion = i % 3;
@@ -560,6 +560,35 @@ static void test_sum_of_lights(void)
     CHECK(lmb_store_tile(&built->surface, lmb_kernels_pick(), 0, 0, NULL, 0, 0, 0.0f) == LMB_ERR_ARG);
     CHECK(lmb_store_tile(NULL, lmb_kernels_pick(), 0, 0, &none, 0, 0, 0.0f) == LMB_ERR_ARG);
     CHECK(same_picture(&reference, built));
+}
+
+/* LMB_RGB565_BE: LMB_RGB565's values, dithered alike, the high byte first whatever the machine's order. */
+static void test_high_byte_first(void)
+{
+    enum { SIDE = 12, TOP = 3 }; /* tiles that the surface holds in part */
+    static uint32_t values[SIDE * SIDE / 2], sent[SIDE * SIDE / 2];
+    lmb_surface native, display;
+    lmb_radiance in;
+    int32_t wrong = 0, unlike = 0;
+    for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
+        in.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] = (float)(k * 37 % 192) / 191.0f;
+    }
+    in.rgb[0][0] = 1.0f, in.rgb[1][0] = in.rgb[2][0] = 0.0f;
+    CHECK(lmb_surface_init(&native, LMB_RGB565, SIDE, SIDE, values, sizeof values) == LMB_OK);
+    CHECK(lmb_surface_init(&display, LMB_RGB565_BE, SIDE, SIDE, sent, sizeof sent) == LMB_OK);
+    for (int32_t at = 0; at < 9; ++at) {
+        const int32_t x = at % 3 * LMB_TILE, y = at / 3 * LMB_TILE;
+        CHECK(lmb_store_tile(&native, lmb_kernels_pick(), TOP, TOP, &in, x, y, 0.5f) == LMB_OK);
+        CHECK(lmb_store_tile(&display, lmb_kernels_pick(), TOP, TOP, &in, x, y, 0.5f) == LMB_OK);
+    }
+    for (int k = 0; k < SIDE * SIDE; ++k) {
+        const uint32_t v = ((const uint16_t *)values)[k], high = ((const uint8_t *)sent)[2 * k];
+        wrong += v != (high << 8 | ((const uint8_t *)sent)[2 * k + 1]);
+        unlike += v >> 8 != (v & 255u);
+    }
+    CHECK(wrong == 0 && unlike > SIDE * SIDE / 2);
+    const uint8_t *red = (const uint8_t *)sent + 2 * ((LMB_TILE - TOP) * SIDE + LMB_TILE - TOP);
+    CHECK(red[0] == 0xf8 && red[1] == 0x00);
 }
 
 static float gbuffer[2][7 * WIDTH * HEIGHT];
@@ -1218,6 +1247,7 @@ void test_frames(void)
     test_progress();
     test_again();
     test_buffers();
+    test_high_byte_first();
     test_gbuffer();
     test_shadow_map();
     test_shadow_map_arguments();

@@ -250,6 +250,11 @@ static void check_refusals(void)
     l[3] = sun(vec3((float)NAN, 0, 0));
     CHECK(lmb_many_lights_add(&g.many_lights, l, 4) == LMB_OK && g.many_lights.dropped == 10 &&
           g.many_lights.lights == 0);
+    l[0] = l[1] = sun(vec3(0, -1, 0)); /* kinds that are none */
+    l[0].kind = LMB_LIGHT_DIRECTIONAL + 1;
+    l[1].kind = -1;
+    CHECK(lmb_many_lights_add(&g.many_lights, l, 2) == LMB_OK && g.many_lights.dropped == 12 &&
+          g.many_lights.lights == 0);
     l[0] = point_light(vec3(0, 0, 0));
     l[1] = point_light(vec3(1, 0, 0));
     l[1].intensity[2] = 1e6f;
