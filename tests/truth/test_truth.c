@@ -670,7 +670,7 @@ void test_truth(void)
         check_cut(&more_cuts[i]);
     }
     printf(" cuts against every texel\n");
-    check_cut_error("cornell", 0, 0.08);
+    check_cut_error("cornell", 0, 0.05);
     for (int i = 0; i < COUNT(scenes) && getenv("LMB_TRUTH_ALL") != NULL; ++i) {
         check_cut_error(scenes[i].name, 0, strcmp(scenes[i].name, "sponza") == 0 ? 0.16 : 1.0);
         check_cut_error(scenes[i].name, 1, 1.0);
