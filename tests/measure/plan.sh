@@ -23,7 +23,7 @@ row() {
     had=$(python3 "$compare" "$work/drawn.pfm" "$scene/pt_indirect1.pfm" --mask "$scene/gbuffer_depth.pfm" |
         sed 's/.*trim \([0-9.]*\).*/\1/')
     met=$(grep -q "the budget is met" "$work/said" && echo yes || echo no)
-    look=$(said 'units of work, ')
+    look=$(said 'looked at .* units of work, ')
     about=$(said 'error about ')
     echo "| $2 | $(set_of "$2") | $3 | $(said '--tree ') | ${about:-not checked} | $met | $had | $look % |"
     check "$2, $3: had $had, and the plan said that it is met" \

@@ -358,7 +358,10 @@ static void take_parts(lmb_node_ref at)
         CHECK(corners == 0 || (corners >= 3 && corners <= CREASE_CORNERS));
         const double area = area_in_map(corner, corners);
         CHECK_MSG(area > -1e-3, "part %d of %d %d: %g", part, at.x, at.y, area);
-        taken[i + step[part]] += area;
+        const int32_t to = i + step[part];
+        if (to >= 0 && to < LIT_SIDE * LIT_SIDE) { /* a part past the map's rim is of no cell */
+            taken[to] += area;
+        }
     }
 }
 
