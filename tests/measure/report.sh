@@ -1,7 +1,7 @@
 # report.sh: speed against error of three truth scenes and the demo: a page each, and README's table and picture.
 #
 # SCENES: which of the truth's. LMB_SHARED: the folder with truth/ (default ../shared). REPORT: where to (default
-# build/report). RUNS, LEDGER: see `lambent bench SCENE --help`. README.md and tests/results/front.svg are written where all
+# build/report). RUNS, LEDGER: see `lambent bench SCENE --help`. tests/results/README.md and tests/results/front.svg are written where all
 # of the usual scenes are there.
 . tests/scripts/checks.sh
 
@@ -64,13 +64,13 @@ put_table() {
     awk -v table="$to/front.md" '
     /^<!-- front: / { print; while ((getline line < table) > 0) print line; inside = 1; next }
     /^<!-- end of front -->/ { inside = 0 }
-    !inside' README.md >"$to/README.md"
-    if grep -q '^<!-- front: ' README.md && [ -s "$to/README.md" ]; then
-        cp "$to/README.md" README.md
+    !inside' tests/results/README.md >"$to/tests/results/README.md"
+    if grep -q '^<!-- front: ' tests/results/README.md && [ -s "$to/tests/results/README.md" ]; then
+        cp "$to/tests/results/README.md" tests/results/README.md
         cp "$to/cornell.svg" tests/results/front.svg
         pass
     else
-        fail "README.md has no place for the table"
+        fail "tests/results/README.md has no place for the table"
     fi
 }
 

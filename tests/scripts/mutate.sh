@@ -38,24 +38,24 @@ make_it() {
 # tests ROOM: what is run for a change there; NAME:WORD is a program and its word.
 tests() {
     case $1 in
-    base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many \
-        tests:gloss ;;
+    base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many_lights \
+        tests:glossy ;;
     raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
         tests:raster ;;
     map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:all tests:frames tests:relit \
-        tests:gloss ;;
+        tests:glossy ;;
     occlusion) echo tests:occlusion hard:bounce hard:all tests:cut ;;
-    manylights) echo tests:many hard:bounce tests:elements tests:frames ;;
-    light) echo tests:light hard:shadow tests:gloss tests:many hard:bounce ;;
+    manylights) echo tests:many_lights hard:bounce tests:elements tests:frames ;;
+    light) echo tests:light hard:shadow tests:glossy tests:many_lights hard:bounce ;;
     bounce | lightcut | radiosity)
         echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:all tests:elements \
-        tests:analytic tests:gloss tests:frames tests:map_picture tests:contracts ;;
+        tests:analytic tests:glossy tests:frames tests:map_picture tests:contracts ;;
     voxel) echo tests:voxel tests:voxels hard:mixed ;;
     probe) echo tests:probe tests:probe_cache hard:probe tests:relit tests:frames ;;
     relief) echo tests:relief tests:relief_light hard:relief ;;
     mixed) echo tests:mixed tests:mix hard:mixed ;;
     compose) echo tests:light tests:sparse hard:invariants tests:frames ;;
-    *) echo tests:frames tests:contracts tests:threads tests:sparse tests:next tests:plan tests:plan_frame tests:relit \
+    *) echo tests:frames tests:contracts tests:threads tests:sparse tests:reuse tests:plan tests:plan_frame tests:relit \
         hard:invariants tests:elements ;;
     esac
     echo golden

@@ -1,4 +1,4 @@
-/* many_lights.c: a scene's lights as a tree, for scenes with more of them than maps. */
+/* light_stream.c: a scene's lights as a tree, for scenes with more of them than maps. */
 #include "light_stream.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* many_lights.h: a scene's lights as a tree, for scenes with more of them than maps. */
+/* light_stream.h: a scene's lights as a tree, for scenes with more of them than maps. */
 #ifndef LIGHT_STREAM_H
 #define LIGHT_STREAM_H
 
