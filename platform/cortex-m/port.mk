@@ -29,7 +29,7 @@ RUN           = qemu-system-arm -M $(BOARD) -display none -monitor none -serial 
                 -semihosting-config enable=on,target=native,chardev=console -kernel
 
 # The demo must do with 256 KiB; the golden suite, built like the host's, takes what it takes.
-RAM_BYTES     = 2097152
+RAM_BYTES     = 4194304
 $(B)/demo: RAM_BYTES = 262144
 
 # A loop in memset that the compiler turns into a call of memset would never end.
