@@ -106,6 +106,11 @@
 #define LMB_PLAN 1
 #endif
 
+/* 0: this build has no baked light transfer (lambent/transfer.h). Saves about 6 KiB of ROM on a Cortex-M4F. */
+#ifndef LMB_TRANSFER
+#define LMB_TRANSFER LMB_TREES
+#endif
+
 /* Reference views of one relief. 224 bytes each, in lmb_relief. More: the file is refused. */
 #ifndef LMB_RELIEF_VIEWS
 #ifdef LMB_CONFIG_TINY

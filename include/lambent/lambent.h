@@ -18,6 +18,7 @@
 #include "probe.h"
 #include "env.h"
 #include "relief.h"
+#include "transfer.h"
 #include "mixed.h"
 #include "compose.h"
 #include "relight.h"

@@ -28,6 +28,7 @@
 #include "compose.h"
 #include "elements.h"
 #include "many_lights.h"
+#include "transfer.h"
 #include "tree.h"
 
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
@@ -90,6 +91,8 @@ typedef struct lmb_frame {
     lmb_points points;  /* data NULL: no bounced light */
     lmb_groups *groups; /* NULL: no bounced light */
     lmb_tree tree;      /* LMB_GROUP_CUT: in place of points and groups; texel NULL: no bounced light */
+    const struct lmb_transfer *transfer; /* baked from the scene: bounced light comes by it alone. NULL: none */
+    lmb_transfer_light transfer_light;   /* laid out for it, with the scene's materials */
     lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: these cast none */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and materials that emit; data NULL: none of these */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
@@ -125,6 +128,7 @@ typedef struct lmb_frame_settings {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
     const lmb_scene *scene; /* checked, with its lights; stays where it is */
     const lmb_many_lights *many_lights;   /* built; NULL: none. Its memory is its own */
+    const lmb_transfer *transfer;         /* opened, and baked from the scene; NULL: none. Its memory is its own */
     lmb_view view;          /* lmb_view_look_at makes one; its frame 1 .. LMB_MAX_SIDE px a side */
     lmb_surface out;        /* the caller's picture; data NULL: one in the block, at frame.out */
     int32_t format;         /* of one in the block: LMB_RGBA8 where 0 */

@@ -26,6 +26,9 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lm
     if (skips(r, LMB_SKIP_BOUNCE)) {
         return LMB_OK;
     }
+    if (requires_transfer(f)) {
+        return lmb_transfer_tile(inout, &f->transfer_light, f->transfer, f->scene, tile);
+    }
     if (requires_cut(f)) {
         return gather_cuts(inout, glossy, r, s, tile, direct);
     }

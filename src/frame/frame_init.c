@@ -96,6 +96,7 @@ static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
     f->kernels = s->kernels;
     f->scene = s->scene;
     f->many_lights = s->many_lights;
+    f->transfer = s->transfer;
     const int even = wants_even_light(f);
     const struct preset *p = even ? &even_presets[s->quality] : &presets[s->quality];
     f->view = s->view;
@@ -212,12 +213,30 @@ static lmb_status place_tree(lmb_frame *f, const lmb_frame_settings *s, block *b
 }
 #endif
 
+#if LMB_TRANSFER
+static lmb_status place_transfer(lmb_frame *f, block *b)
+{
+    const size_t bytes = lmb_transfer_light_bytes(f->transfer);
+    void *memory = take(b, bytes);
+    if (bytes == 0 || is_measured(b)) {
+        return bytes == 0 ? LMB_ERR_ARG : LMB_OK;
+    }
+    const lmb_status status = lmb_transfer_light_init(&f->transfer_light, f->transfer, memory, bytes);
+    return status != LMB_OK ? status : lmb_transfer_materials(&f->transfer_light, f->transfer, f->scene);
+}
+#endif
+
 /* What holds the light that bounces, and what stands in its way. Nothing lights the scene: nothing. */
 static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const int emits = lmb_scene_emits(f->scene) && !is_fixed(s);
     const int bounces = s->show != LMB_SHOW_DIRECT && (map_faces(f->scene) > 0 || emits || f->many_lights != NULL);
     const int by_tree = bounces && !is_fixed(s);
+#if LMB_TRANSFER
+    if (s->transfer != NULL) {
+        return s->show != LMB_SHOW_DIRECT ? place_transfer(f, b) : LMB_OK;
+    }
+#endif
     lmb_status status = bounces && is_fixed(s) ? place_groups(f, s, b) : LMB_OK;
 #if LMB_TREES
     if (status == LMB_OK && (by_tree || f->many_lights != NULL)) {

@@ -7,7 +7,7 @@
 static int points_have_parts(const lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
-    if (!requires_bounce(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) || r->progress != 0 ||
+    if (!requires_bounce(f) || requires_transfer(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) || r->progress != 0 ||
         r->light == f->scene->light_count || light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
         return 0;
     }
@@ -25,7 +25,7 @@ int32_t lmb_render_has_parts(const lmb_render *r)
     case LMB_STAGE_POINTS:
         return points_have_parts(r);
     case LMB_STAGE_BOUNCES:
-        return has_bounces(r) && r->progress == 0;
+        return has_bounces(r) && r->progress == 0 && !requires_transfer(&r->frame);
     case LMB_STAGE_VIEW:
         return r->progress == 0 && !reuses(r, LMB_REUSE_VIEW);
     default:

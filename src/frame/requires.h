@@ -15,18 +15,27 @@ static inline int requires_direct(const lmb_frame *f) { return f->show == LMB_SH
 
 static inline int requires_many_lights(const lmb_frame *f) { return requires_direct(f) && f->many_lights != NULL; }
 
+/* Does bounced light come by what was baked? */
+static inline int requires_transfer(const lmb_frame *f)
+{
+    return LMB_TRANSFER && f->show != LMB_SHOW_DIRECT && f->transfer != NULL;
+}
+
 static inline int requires_cut(const lmb_frame *f)
 {
-    return f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT && f->tree.texel != NULL;
+    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT && f->tree.texel != NULL;
 }
 
 static inline int requires_groups(const lmb_frame *f)
 {
-    return f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT && f->points.data != NULL &&
+    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT && f->points.data != NULL &&
            f->groups != NULL;
 }
 
-static inline int requires_bounce(const lmb_frame *f) { return requires_cut(f) || requires_groups(f); }
+static inline int requires_bounce(const lmb_frame *f) 
+{
+    return requires_cut(f) || requires_groups(f) || requires_transfer(f);
+}
 
 /* What is left out and what is kept; nothing in builds without plan. */
 static inline int skips(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->skips & what) != 0; }

@@ -4,6 +4,8 @@
 #include "stages.h"
 #include "requires.h"
 
+enum { COLLECTED = 512 };      /* texels of a map, each way, that are enough for a transfer's elements */
+#define UNIT_RECEIVERS 64u
 #define ELEMENT_ERROR 2.0f /* times a pixel's: a pixel sees the mean of many elements. At 4 spots lose 1 % of light */
 
 /* --- by steps ----------------------------------------------------------------------------------------------------- */
@@ -45,7 +47,7 @@ static lmb_status step_bvh(lmb_render *r)
 static lmb_status end_face(lmb_render *r)
 {
     const lmb_shadow_map *map = &r->maps[r->light];
-    const int drawn = (map->drawn >> r->face) & 1u;
+    const int drawn = (map->drawn >> r->face) & 1u && !requires_transfer(&r->frame);
     lmb_status status = LMB_OK;
     if (requires_cut(&r->frame)) {
         status = drawn ? lmb_tree_sum(&r->frame.tree, r->frame.tree.faces) : LMB_OK;
@@ -61,12 +63,35 @@ static lmb_status end_face(lmb_render *r)
     return status;
 }
 
+/* Of each COLLECTED x COLLECTED texels of a map of many one: what they hold goes into elements that are larger still. */
+static int32_t collected_each(const lmb_shadow_map *map)
+{
+    int32_t each = 1;
+    while (map->size / each > COLLECTED && map->size % (2 * each) == 0) {
+        each *= 2;
+    }
+    return each;
+}
+
+/* Rows of the face at hand into the transfer's elements. */
+static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_shadow_map *map = &r->maps[r->light];
+    const int32_t each = collected_each(map), rows = map->size / each, all = map->size / LMB_TILE;
+    return lmb_transfer_collect(&f->transfer_light, f->transfer, f->scene, &f->scene->lights[r->light], map,
+                                (int32_t)r->face, each, rows * first / all, rows * past / all);
+}
+
 static lmb_status step_points(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
     if (!requires_bounce(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) ||
         r->light == f->scene->light_count) {
         return LMB_OK;
+    }
+    if (requires_transfer(f) && r->light + r->face + r->progress == 0) {
+        lmb_transfer_clear(&f->transfer_light, f->transfer);
     }
     if (light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
         f->tree.faces += requires_cut(f) ? faces_that_bounce(r, r->light) : 0;
@@ -78,7 +103,8 @@ static lmb_status step_points(lmb_render *r, int32_t units)
     uint32_t before = f->points.count;
     if ((map->drawn >> r->face) & 1u) {
         lmb_status status =
-            requires_cut(f)
+            requires_transfer(f) ? collect_rows(r, (int32_t)r->progress, last)
+            : requires_cut(f)
                 ? lmb_tree_texels(&f->tree, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light], map,
                                   (int32_t)r->face, f->tree.faces, (int32_t)r->progress, last)
                 : lmb_points_collect(&f->points, f->kernels, &f->scratch->tile, f->scene, &f->scene->lights[r->light],
@@ -101,6 +127,9 @@ static lmb_status step_points(lmb_render *r, int32_t units)
 static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
+    if (requires_transfer(f)) {
+        return skips(r, LMB_SKIP_BOUNCE) ? LMB_OK : lmb_transfer_send(&f->transfer_light, f->transfer);
+    }
     if (requires_elements(r)) {
         return reuses(r, LMB_REUSE_BOUNCES) ? LMB_OK : lmb_elements_build(&f->elements, f->scene, &f->tree);
     }
@@ -160,8 +189,23 @@ static lmb_status end_bounce(lmb_render *r)
     return status != LMB_OK ? status : has_bounces(r) ? LMB_MORE : LMB_OK;
 }
 
+/* Receivers of what was baked; a unit is UNIT_RECEIVERS of them. */
+static lmb_status step_receivers(lmb_render *r, int32_t units)
+{
+    const lmb_frame *f = &r->frame;
+    const uint32_t all = f->transfer->count[LMB_TRANSFER_RECEIVERS] + f->transfer->count[LMB_TRANSFER_CLUSTERS],
+                   first = r->progress, left = (all - first) / UNIT_RECEIVERS,
+                   past = left < (uint32_t)units ? all : first + (uint32_t)units * UNIT_RECEIVERS;
+    const lmb_status status = lmb_transfer_receivers(&f->transfer_light, f->transfer, first, past);
+    r->progress = past;
+    return status != LMB_OK ? status : past < all ? LMB_MORE : LMB_OK;
+}
+
 static lmb_status step_bounces(lmb_render *r, int32_t units)
 {
+    if (requires_transfer(&r->frame)) {
+        return skips(r, LMB_SKIP_BOUNCE) ? LMB_OK : step_receivers(r, units);
+    }
     if (!has_bounces(r)) {
         return LMB_OK;
     }

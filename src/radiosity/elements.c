@@ -10,12 +10,12 @@
 #include "../lightcut/tree.h"
 #include "../raster/resolve.h"
 #include "../raster/texture.h"
+#include "piece.h"
 
 #if LMB_TREES
 
 enum {
     HALVINGS = 32, /* of a triangle, the longest edge each time: 2^31 pieces of about one size, and 2^24 are the most */
-    SAMPLES = 4,
     CELLS = 1 << 20,
     Z_BITS = 9,
     MAX_PIECES = 64 /* an element: so that pieces too thin to have an area, or all hole, come to an end too */
@@ -55,142 +55,33 @@ lmb_status lmb_elements_init(lmb_elements *out, uint32_t n, void *memory, size_t
     return lmb_tree_init(&out->tree, 1, side_of(n), out->data + n, bytes - n * sizeof(lmb_element));
 }
 
-/* --- how a piece looks -------------------------------------------------------------------------------------------- */
-
-/* A triangle with what its pieces share. */
-typedef struct source {
-    lmb_triangle triangle;
-    const lmb_scene *scene;
-    lmb_vec3 normal; /* of the front, unit */
-    float area;
-    float uv[3][2], colour[3][4];
-    float texels; /* of the image of its colour, on all of it; 0: none */
-} source;
-
-/* Part of a triangle: corners, and their barycentrics in it. */
-typedef struct piece {
-    lmb_vec3 corner[3];
-    float b1[3], b2[3];
-} piece;
-
-static lmb_vec3 across(const lmb_vec3 corner[3])
-{
-    return cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
-}
-
-static lmb_vec3 middle(const lmb_vec3 corner[3])
-{
-    const lmb_vec3 d = add3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
-    return add3(corner[0], mul3(d, 1.0f / 3.0f));
-}
-
-/* Of the base colour's; where there is none, of the map of metal. */
-static void set_texels(source *s)
-{
-    const lmb_material *m = s->triangle.material;
-    const int32_t texture = m->texture >= 0 ? m->texture : (int32_t)m->metal_map - 1;
-    s->texels = 0.0f;
-    if (texture >= 0) {
-        const lmb_texture *t = &s->scene->textures[texture];
-        const float u1 = s->uv[1][0] - s->uv[0][0], v1 = s->uv[1][1] - s->uv[0][1];
-        const float u2 = s->uv[2][0] - s->uv[0][0], v2 = s->uv[2][1] - s->uv[0][1];
-        s->texels = 0.5f * absf(u1 * v2 - u2 * v1) * (float)t->width * (float)t->height;
-    }
-}
-
-/* 1 where the triangle has elements. */
-static int open_source(source *out, const lmb_scene *scene, uint32_t id)
-{
-    lmb_triangle *t = &out->triangle;
-    if (!lmb_triangle_fetch(t, scene, id) || !lmb_triangle_shape(&out->normal, &out->area, t)) {
-        return 0;
-    }
-    out->scene = scene;
-    out->normal = mul3(out->normal, is_mirrored(&t->instance->to_world) ? -1.0f : 1.0f);
-    for (int k = 0; k < 3; ++k) {
-        mesh_uv(t->mesh, t->vertex[k], out->uv[k]);
-        mesh_colour(t->mesh, t->vertex[k], out->colour[k]);
-    }
-    set_texels(out);
-    return 1;
-}
-
-static float mix(float a, float b, float c, float b1, float b2) { return a + ((b - a) * b1 + (c - a) * b2); }
-
-static float uv_at(const source *s, int c, float b1, float b2)
-{
-    return mix(s->uv[0][c], s->uv[1][c], s->uv[2][c], b1, b2);
-}
-
-static void albedo_at(float out[3], const source *s, float b1, float b2, float lod)
-{
-    const lmb_material *m = s->triangle.material;
-    float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, code[4], diffuse = 1.0f;
-    if (m->texture >= 0) {
-        lmb_texture_sample(texel, &s->scene->textures[m->texture], uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2), lod);
-    }
-    if (m->metal_map > 0) {
-        lmb_normal_map_sample(code, &s->scene->textures[m->metal_map - 1], uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2),
-                              lod);
-        diffuse = 1.0f - metallic_of(m, code);
-    }
-    for (int c = 0; c < 3; ++c) {
-        const float colour = mix(s->colour[0][c], s->colour[1][c], s->colour[2][c], b1, b2);
-        out[c] = clampf(m->albedo[c] * colour * texel[c] * diffuse, 0.0f, 1.0f);
-    }
-}
-
-/* The mean albedo of a piece, and the share of it that stands, by four points. `share` of its triangle. */
-static float look_at(float albedo[3], const source *s, const piece *p, float share)
-{
-    const float texels = s->texels * share / SAMPLES, lod = texels > 1.0f ? 0.5f * lmb_log2(texels) : 0.0f;
-    const float b1 = (p->b1[0] + p->b1[1] + p->b1[2]) / 3.0f, b2 = (p->b2[0] + p->b2[1] + p->b2[2]) / 3.0f;
-    int standing = 0;
-    albedo[0] = albedo[1] = albedo[2] = 0.0f;
-    for (int i = 0; i < SAMPLES; ++i) {
-        const float x = i < 3 ? 0.5f * (b1 + p->b1[i]) : b1, y = i < 3 ? 0.5f * (b2 + p->b2[i]) : b2;
-        float a[3];
-        if (lmb_triangle_opaque(&s->triangle, s->scene, x, y)) {
-            albedo_at(a, s, x, y, lod);
-            for (int c = 0; c < 3; ++c) {
-                albedo[c] += a[c];
-            }
-            ++standing;
-        }
-    }
-    for (int c = 0; c < 3; ++c) {
-        albedo[c] /= (float)maxi(standing, 1);
-    }
-    return (float)standing / SAMPLES;
-}
-
 /* --- what a piece emits --------------------------------------------------------------------------------------- */
 
 enum { MAX_ROWS = 4, MAX_ROWS_BARE = 32 /* of a piece; of one whose map has no levels */ };
 
 /* Texels along the longest edge of a piece, in a map. */
-static float texels_along(const source *s, const piece *p, const lmb_texture *map)
+static float texels_along(const piece_source *s, const surface_piece *p, const lmb_texture *map)
 {
     float longest = 0.0f;
     for (int k = 0; k < 3; ++k) {
         const int to = (k + 1) % 3;
-        const float du = (uv_at(s, 0, p->b1[to], p->b2[to]) - uv_at(s, 0, p->b1[k], p->b2[k])) * (float)map->width;
-        const float dv = (uv_at(s, 1, p->b1[to], p->b2[to]) - uv_at(s, 1, p->b1[k], p->b2[k])) * (float)map->height;
+        const float du = (piece_uv_at(s, 0, p->b1[to], p->b2[to]) - piece_uv_at(s, 0, p->b1[k], p->b2[k])) * (float)map->width;
+        const float dv = (piece_uv_at(s, 1, p->b1[to], p->b2[to]) - piece_uv_at(s, 1, p->b1[k], p->b2[k])) * (float)map->height;
         longest = maxf(longest, du * du + dv * dv);
     }
     return longest < 1e30f ? sqrtf(longest) : 0.0f;
 }
 
 /* Add the map at a place of the piece, x and y of the way to its second and third corner, where it stands. */
-static int add_glow(float sum[3], const source *s, const piece *p, const lmb_texture *map, const float at[3])
+static int add_glow(float sum[3], const piece_source *s, const surface_piece *p, const lmb_texture *map, const float at[3])
 {
-    const float b1 = mix(p->b1[0], p->b1[1], p->b1[2], at[0], at[1]);
-    const float b2 = mix(p->b2[0], p->b2[1], p->b2[2], at[0], at[1]);
+    const float b1 = piece_mix(p->b1[0], p->b1[1], p->b1[2], at[0], at[1]);
+    const float b2 = piece_mix(p->b2[0], p->b2[1], p->b2[2], at[0], at[1]);
     float texel[4];
     if (!lmb_triangle_opaque(&s->triangle, s->scene, b1, b2)) {
         return 0;
     }
-    lmb_texture_sample(texel, map, uv_at(s, 0, b1, b2), uv_at(s, 1, b1, b2), at[2]);
+    lmb_texture_sample(texel, map, piece_uv_at(s, 0, b1, b2), piece_uv_at(s, 1, b1, b2), at[2]);
     for (int c = 0; c < 3; ++c) {
         sum[c] += texel[c];
     }
@@ -199,7 +90,7 @@ static int add_glow(float sum[3], const source *s, const piece *p, const lmb_tex
 
 /* The mean over a piece: at the middles of rows x rows alike triangles, so many that a texel of the level is not
  * stepped over. A map may glow in few texels of thousands, and the light of a whole element comes from here. */
-static void emission_of(float out[3], const source *s, const piece *p)
+static void emission_of(float out[3], const piece_source *s, const surface_piece *p)
 {
     const lmb_material *m = s->triangle.material;
     memcpy(out, m->emission, sizeof m->emission);
@@ -280,7 +171,7 @@ static cell cell_at(const maker *m, lmb_vec3 p)
 /* The slot of the element of e's cell and side, or the empty one where it belongs. */
 static uint32_t *find_slot(const maker *m, const lmb_element *e)
 {
-    const cell c = cell_at(m, middle(e->corner));
+    const cell c = cell_at(m, piece_middle(e->corner));
     uint32_t h = (uint32_t)c.x * 73856093u ^ (uint32_t)c.y * 19349663u ^ (uint32_t)c.z * 83492791u ^
                  element_facing(e) * 2654435761u;
     h ^= h >> 15;
@@ -290,7 +181,7 @@ static uint32_t *find_slot(const maker *m, const lmb_element *e)
             return slot;
         }
         const lmb_element *other = &m->out->data[*slot - 1];
-        const cell o = cell_at(m, middle(other->corner));
+        const cell o = cell_at(m, piece_middle(other->corner));
         if (o.x == c.x && o.y == c.y && o.z == c.z && element_facing(other) == element_facing(e)) {
             return slot;
         }
@@ -335,15 +226,15 @@ static void add_element(maker *m, const lmb_element *e, int small)
 }
 
 /* Both sides of a piece. `fresh` holds the normal meanwhile. */
-static void add_piece(maker *m, const source *s, const piece *p, int small)
+static void add_piece(maker *m, const piece_source *s, const surface_piece *p, int small)
 {
     const lmb_material *material = s->triangle.material;
-    const lmb_vec3 at = middle(p->corner);
-    const float area = 0.5f * length3(across(p->corner));
+    const lmb_vec3 at = piece_middle(p->corner);
+    const float area = 0.5f * length3(piece_across(p->corner));
     lmb_element e;
     memset(&e, 0, sizeof e);
     memcpy(e.corner, p->corner, sizeof e.corner);
-    e.area = area * look_at(e.albedo, s, p, area / s->area);
+    e.area = area * lmb_source_albedo(e.albedo, s, p, area / s->area);
     if (!(e.area > 0.0f)) {
         return;
     }
@@ -367,7 +258,7 @@ static void add_piece(maker *m, const source *s, const piece *p, int small)
 /* --- cutting ------------------------------------------------------------------------------------------------------ */
 
 /* The longest edge's square; it runs from corner *from to the next. */
-static float longest_edge(int *from, const piece *p)
+static float longest_edge(int *from, const surface_piece *p)
 {
     float longest = -1.0f;
     for (int k = 0; k < 3; ++k) {
@@ -388,7 +279,7 @@ typedef struct turn {
 } turn;
 
 /* Corner k of the piece becomes what the turn keeps, and the other way round. */
-static void swap_corner(piece *p, turn *t, int k)
+static void swap_corner(surface_piece *p, turn *t, int k)
 {
     const turn kept = *t;
     t->corner = p->corner[k];
@@ -400,7 +291,7 @@ static void swap_corner(piece *p, turn *t, int k)
 }
 
 /* Into the half behind the middle of the edge from `from`. */
-static void enter_second(piece *p, turn *t, int from)
+static void enter_second(surface_piece *p, turn *t, int from)
 {
     const int to = (from + 1) % 3;
     t->corner = add3(p->corner[from], mul3(sub3(p->corner[to], p->corner[from]), 0.5f));
@@ -412,7 +303,7 @@ static void enter_second(piece *p, turn *t, int from)
 }
 
 /* From the second half into the first; 0 where that is done too: the piece is whole again. */
-static int enter_first(piece *p, turn *t)
+static int enter_first(surface_piece *p, turn *t)
 {
     const int done = t->first, to = (t->from + 1) % 3;
     if (!done) {
@@ -424,10 +315,10 @@ static int enter_first(piece *p, turn *t)
 }
 
 /* Turns instead of pieces that wait: 28 bytes of stack a halving, not 60. */
-static void add_source(maker *m, const source *s)
+static void add_source(maker *m, const piece_source *s)
 {
     turn turns[HALVINGS];
-    piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
+    surface_piece p = {{{0, 0, 0}}, {0, 1, 0}, {0, 0, 1}};
     int depth = 0, from = 0;
     memcpy(p.corner, s->triangle.corner, sizeof p.corner);
     if (longest_edge(&from, &p) * 4.0f < m->side2) {
@@ -450,13 +341,13 @@ static void add_source(maker *m, const source *s)
 static int make(maker *m)
 {
     const uint32_t all = lmb_scene_triangles(m->scene);
-    source s;
+    piece_source s;
     m->full = 0;
     m->pieces = 0;
     m->out->count = 0;
     memset(m->slot, 0, ((size_t)m->mask + 1) * sizeof *m->slot);
     for (uint32_t id = 1; id <= all && !m->full; ++id) {
-        if (open_source(&s, m->scene, id)) {
+        if (lmb_source_open(&s, m->scene, id)) {
             add_source(m, &s);
         }
     }
@@ -467,9 +358,9 @@ static float scene_area(const lmb_scene *scene)
 {
     const uint32_t all = lmb_scene_triangles(scene);
     double area = 0.0;
-    source s;
+    piece_source s;
     for (uint32_t id = 1; id <= all; ++id) {
-        if (open_source(&s, scene, id)) {
+        if (lmb_source_open(&s, scene, id)) {
             area += (double)s.area * (s.triangle.material->flags & LMB_DOUBLE_SIDED ? 2.0 : 1.0);
         }
     }
@@ -490,7 +381,7 @@ static uint32_t spread3(uint32_t v)
 
 static void set_key(lmb_element *e, const lmb_scene *scene, float per)
 {
-    const lmb_vec3 at = middle(e->corner), low = low_of(scene);
+    const lmb_vec3 at = piece_middle(e->corner), low = low_of(scene);
     const float last = (float)((1 << Z_BITS) - 1);
     const uint32_t x = (uint32_t)clampf((at.x - low.x) * per, 0.0f, last),
                    y = (uint32_t)clampf((at.y - low.y) * per, 0.0f, last),
@@ -544,7 +435,7 @@ static void set_texels_of_tree(lmb_elements *e)
     for (uint32_t i = 0; i < e->count; ++i) {
         lmb_element *from = &e->data[i];
         lmb_texel *t = &e->tree.texel[tree_along_z(&e->tree, i)];
-        t->position = middle(from->corner);
+        t->position = piece_middle(from->corner);
         t->normal = vec3(from->fresh[0], from->fresh[1], from->fresh[2]);
         for (int c = 0; c < 3; ++c) {
             t->flux[c] = flux_or_none(LMB_PI * from->area * from->emission[c]);

@@ -6,6 +6,7 @@
 
 #include "../../platform/host/host.h"
 #include "../common/options.h"
+#include "../bake/verb_bake.h"
 #include "../bench/verb_bench.h"
 #include "verb_compare.h"
 #include "verb_info.h"
@@ -22,6 +23,7 @@ static const struct verb {
 } verbs[] = {
     {"render", verb_render, "render SCENE -o OUT",
      "draw a scene (.gltf .glb .obj .ply, or `demo`) with bounced light"},
+    {"bake", verb_bake, "bake SCENE -o OUT.lmt", "how light goes between a scene's surfaces, for lights that move"},
     {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
     {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
     {"mix", verb_mix, "mix --frame PHOTO", "a virtual object in one photo with depth"},

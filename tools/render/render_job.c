@@ -23,6 +23,7 @@ void render_job_free(render_job *j)
     image_free(&j->linear);
     light_stream_free(&j->many_lights);
     model_free(&j->loaded);
+    file_free(&j->transfer_file);
 }
 
 static void *take(render_job *j, size_t bytes, report *r)
@@ -69,6 +70,22 @@ int render_job_load(render_job *j, report *r)
     j->scene = j->loaded.scene;
     return lmb_scene_triangles(&j->scene) > 0 ||
            report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
+}
+
+/* The baked light transfer, if one is asked for. */
+static int load_transfer(render_job *j, report *r)
+{
+    if (j->o.transfer == NULL) {
+        return 1;
+    }
+    if (!file_read(&j->transfer_file, j->o.transfer, r)) {
+        return 0;
+    }
+    if (lmb_transfer_open(&j->transfer, j->transfer_file.data, j->transfer_file.size) != LMB_OK) {
+        return report_fail(r, "%s: no light transfer, or a damaged one; `lambent bake` makes them", j->o.transfer);
+    }
+    return lmb_transfer_fits(&j->transfer, &j->scene) == LMB_OK ||
+           report_fail(r, "%s: baked from another scene than %s; bake it anew", j->o.transfer, j->o.scene);
 }
 
 /* Once nothing but memory can fail: an error is a line on its own. */
@@ -193,6 +210,7 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     s.kernels = o->kernels;
     s.scene = shows_attribute(o->show) ? bare : &j->scene;
     s.many_lights = j->many_lights.tree.node != NULL ? &j->many_lights.tree : NULL;
+    s.transfer = j->transfer_file.data != NULL ? &j->transfer : NULL;
     s.view = j->middle;
     s.view.frame_width = o->view.width;
     s.view.frame_height = o->view.height;
@@ -281,6 +299,9 @@ static int take_memory(render_job *j, report *r)
 
 int render_job_set(render_job *j, report *r)
 {
+    if (!load_transfer(j, r)) {
+        return 0;
+    }
     if (!render_view(&j->middle, &j->o, &j->loaded, &j->scene, r)) {
         return 0;
     }

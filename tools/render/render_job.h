@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../common/workers.h"
+#include "../common/io_file.h"
 #include "../model/model.h"
 #include "../picture/image.h"
 #include "light_stream.h"
@@ -13,6 +14,8 @@
 /* One run, from the options to the picture. Everything here is freed by render_job_free. */
 typedef struct render_job {
     render_options o;
+    file_bytes transfer_file;
+    lmb_transfer transfer; /* in it */
     model loaded;
     model_notes notes;
     lmb_scene scene; /* the loaded or built-in one, with the lights of this run */

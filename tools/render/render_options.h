@@ -24,7 +24,7 @@ static inline int has_budget(const lmb_budget *b, float ms)
 static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
 
 typedef struct render_options {
-    const char *scene, *out, *stats;
+    const char *scene, *out, *stats, *transfer;
     view_options view;
     const char *scene_name; /* of a file with several; NULL: its own choice */
     const char *camera;     /* name or number; NULL: the first */

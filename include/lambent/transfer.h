@@ -1,0 +1,124 @@
+/* transfer.h: bounced light of scenes that do not move, from a file that was baked once (`lambent bake`): lights and
+ * cameras are free, and a frame's bounced light costs less than its direct light. Experimental.
+ *
+ * The file holds, of all surfaces: *elements*, pieces that send light; *receivers*, points that receive it; and
+ * *links*, which say how much of what a node of elements sends arrives at a receiver. Visibility is in the links, so
+ * no frame tests it again. Albedo is not, so materials may change. Light goes through three steps:
+ *
+ *     lmb_transfer_collect(..)   what the texels of shadow maps hold, to the elements
+ *     lmb_transfer_receive(..)   from the elements' nodes, by the links, to the receivers
+ *     lmb_transfer_tile(..)      from the receivers to a tile's pixels
+ *
+ * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each; a pixel takes
+ * the mean of three, by its place among them. Small triangles take theirs from clusters of a mesh, which keep light by
+ * direction. A receiver between two others holds only what differs from their mean.
+ *
+ * The sums over links are of integers, so they are the same in any order and width. */
+#ifndef LMB_TRANSFER_H
+#define LMB_TRANSFER_H
+
+#include "map.h"
+#include "light.h"
+
+/* Where the words of a file lie: sections in this order, each an array of 32-bit words. */
+enum {
+    LMB_TRANSFER_SURFACES, /* a triangle: roots among pieces, of its front and its back; likewise among divisions */
+    LMB_TRANSFER_PIECES,   /* halvings down to elements */
+    LMB_TRANSFER_AREAS,    /* of elements, m2, binary32 */
+    LMB_TRANSFER_DIVISIONS, /* halvings down to corners */
+    LMB_TRANSFER_CORNERS,  /* three a leaf: receivers; then three a small triangle: blends */
+    LMB_TRANSFER_RECEIVERS,
+    LMB_TRANSFER_LINKS,
+    LMB_TRANSFER_BLENDS,   /* up to four clusters and their weights */
+    LMB_TRANSFER_CLUSTERS,
+    LMB_TRANSFER_CLUSTER_LINKS,
+    LMB_TRANSFER_SECTIONS
+};
+
+enum {
+    LMB_TRANSFER_HEADER_WORDS = 24,
+    LMB_TRANSFER_SURFACE_WORDS = 4,
+    LMB_TRANSFER_CORNER_WORDS = 3,
+    LMB_TRANSFER_RECEIVER_WORDS = 5, /* two parents, first link, number of links, scale */
+    LMB_TRANSFER_BLEND_WORDS = 3,
+    LMB_TRANSFER_CLUSTER_WORDS = 3, /* first link, number of links, scale */
+    LMB_TRANSFER_CLUSTER_LINK_WORDS = 2,
+    LMB_TRANSFER_MAX_ELEMENTS = 16384
+};
+#define LMB_TRANSFER_NONE      0xffffffffu
+#define LMB_TRANSFER_LEAF      0x80000000u /* of a halving: the rest is an element, or the place of three corners */
+#define LMB_TRANSFER_EDGE_BIT  29          /* of others, bits 29 and 30: the edge that is halved; below: its halves */
+#define LMB_TRANSFER_MAX_SUM   32767       /* of the sizes of a receiver's weights, one axis of a cluster's too */
+
+/* A file in place, checked by lmb_transfer_open. */
+typedef struct lmb_transfer {
+    const uint32_t *section[LMB_TRANSFER_SECTIONS];
+    uint32_t count[LMB_TRANSFER_SECTIONS]; /* entries */
+    uint32_t leaves; /* of corners: those of receivers */
+    uint32_t nodes;  /* elements, and means of 4, 16, ... of them */
+    uint32_t scene[2]; /* what it was baked from: lmb_transfer_fingerprint */
+} lmb_transfer;
+
+/* The light in the air, in the caller's memory. */
+typedef struct lmb_transfer_light {
+    float (*power)[3];   /* an element: W that arrive; after lmb_transfer_send W/m2 that it sends */
+    float (*albedo)[3];  /* an element: 0 .. 1 */
+    uint16_t (*node)[4]; /* a node: what it sends, in steps of `step` */
+    float (*receiver)[3]; /* W/m2 */
+    float (*cluster)[9];  /* W/m2 along x, y, z, of R, then G, then B */
+    float step;
+} lmb_transfer_light;
+
+#if LMB_TRANSFER
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_transfer_open: use a .lmt in place; `data` is 4-byte aligned and stays where it is. Everything in it is checked,
+ * in one pass: afterwards no number of it can lead outside its memory or overflow a sum.
+ * LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, or LMB_ERR_FORMAT (not a .lmt, of the other byte order, cut off, or damaged). */
+lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes);
+
+/* lmb_transfer_fingerprint: 64 bits of a checked scene's triangles: their corners in the world, their order, and which
+ * sides of them show. Lights, colours and cameras are no part of it. Cost: a pass over the triangles.
+ * lmb_transfer_fits: LMB_OK where the file was baked from this scene, else LMB_ERR_SCENE. */
+void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene);
+lmb_status lmb_transfer_fits(const lmb_transfer *transfer, const lmb_scene *scene);
+
+/* lmb_transfer_light_bytes: memory of the light: 32 bytes an element, 12 a receiver, 36 a cluster. 0: null.
+ * lmb_transfer_light_init: lay it out. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+size_t lmb_transfer_light_bytes(const lmb_transfer *transfer);
+lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *transfer, void *memory, size_t bytes);
+
+/* lmb_transfer_materials: the elements' mean albedos, from the scene's materials: once, and when these change.
+ * Cost: about 0.5 us an element. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene);
+
+/* lmb_transfer_clear: no light. Begins a frame. */
+lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *transfer);
+
+/* lmb_transfer_collect: add the power of one face of a shadow map to the elements that it shows: of one in each
+ * `each` x `each` texels, which stands for all of them. Rows first .. past - 1 of such blocks; in order, because sums
+ * are of binary32. About 10,000 blocks a light are enough.
+ * LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene,
+                                const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,
+                                int32_t first, int32_t past);
+
+/* lmb_transfer_send: after all maps: what arrived, times albedo, becomes what elements and their nodes send. */
+lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *transfer);
+
+/* lmb_transfer_receivers: the light at receivers and clusters first .. past - 1, counted together, receivers first.
+ * In order, in pieces of any size. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_transfer *transfer, uint32_t first,
+                                  uint32_t past);
+
+/* lmb_transfer_tile: add the light that arrives at a tile's pixels. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *light, const lmb_transfer *transfer,
+                             const lmb_scene *scene, const lmb_tile *tile);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
+#endif

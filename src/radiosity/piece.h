@@ -1,0 +1,50 @@
+/* piece.h: how a piece of a triangle looks: its place, and its mean albedo. Layer 8. */
+#ifndef LMB_RADIOSITY_PIECE_H
+#define LMB_RADIOSITY_PIECE_H
+
+#include "../raster/triangle.h"
+
+/* A triangle with what its pieces share. */
+typedef struct piece_source {
+    lmb_triangle triangle;
+    const lmb_scene *scene;
+    lmb_vec3 normal; /* of the front, unit */
+    float area;
+    float uv[3][2], colour[3][4];
+    float texels; /* of the image of its colour, on all of it; 0: none */
+} piece_source;
+
+/* Part of a triangle: corners, and their barycentrics in it. */
+typedef struct surface_piece {
+    lmb_vec3 corner[3];
+    float b1[3], b2[3];
+} surface_piece;
+
+static inline lmb_vec3 piece_across(const lmb_vec3 corner[3])
+{
+    return cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
+}
+
+static inline lmb_vec3 piece_middle(const lmb_vec3 corner[3])
+{
+    const lmb_vec3 d = add3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]));
+    return add3(corner[0], mul3(d, 1.0f / 3.0f));
+}
+
+static inline float piece_mix(float a, float b, float c, float b1, float b2)
+{
+    return a + ((b - a) * b1 + (c - a) * b2);
+}
+
+static inline float piece_uv_at(const piece_source *s, int c, float b1, float b2)
+{
+    return piece_mix(s->uv[0][c], s->uv[1][c], s->uv[2][c], b1, b2);
+}
+
+/* 1 where the triangle has an area. */
+int lmb_source_open(piece_source *out, const lmb_scene *scene, uint32_t id);
+
+/* The mean albedo of a piece, and the share of it that stands, by four points. `share`: its area's, of its triangle. */
+float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_piece *p, float share);
+
+#endif

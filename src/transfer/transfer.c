@@ -1,0 +1,269 @@
+/* transfer.c: opens a .lmt in place: checks all of it once, then trusts it. Layer 9. */
+#include <lambent/transfer.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../raster/triangle.h"
+
+#if LMB_TRANSFER
+
+enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS }; /* words of the header */
+
+#define OWN_ORDER 0x01020304u
+#define MAX_COUNT 0x10000000u /* entries of a section: no product of theirs leaves 64 bits, no place a halving's bits */
+
+static const uint32_t words_each[LMB_TRANSFER_SECTIONS] = {
+    LMB_TRANSFER_SURFACE_WORDS,  1, 1, 1, LMB_TRANSFER_CORNER_WORDS, LMB_TRANSFER_RECEIVER_WORDS, 1,
+    LMB_TRANSFER_BLEND_WORDS, LMB_TRANSFER_CLUSTER_WORDS, LMB_TRANSFER_CLUSTER_LINK_WORDS};
+
+static float as_float(uint32_t word)
+{
+    float v;
+    memcpy(&v, &word, sizeof v);
+    return v;
+}
+
+static int is_scale(uint32_t word) { return as_float(word) >= 0.0f && as_float(word) < 1e30f; }
+
+/* --- what words may say ------------------------------------------------------------------------------------------- */
+
+/* Children lie behind their parent, two side by side, so that every way down ends. Leaves name one of `places`. */
+static int are_halvings(const uint32_t *node, uint32_t count, uint32_t places)
+{
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t first = node[i] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+        if (node[i] & LMB_TRANSFER_LEAF) {
+            if ((node[i] & ~LMB_TRANSFER_LEAF) >= places) {
+                return 0;
+            }
+        } else if (first <= i || first >= count - 1 || (node[i] >> LMB_TRANSFER_EDGE_BIT & 3u) == 3u) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int are_surfaces(const lmb_transfer *t)
+{
+    const uint32_t *root = t->section[LMB_TRANSFER_SURFACES];
+    for (uint32_t i = 0; i < LMB_TRANSFER_SURFACE_WORDS * t->count[LMB_TRANSFER_SURFACES]; ++i) {
+        const uint32_t nodes = t->count[i % 4 < 2 ? LMB_TRANSFER_PIECES : LMB_TRANSFER_DIVISIONS];
+        if (root[i] != LMB_TRANSFER_NONE && root[i] >= nodes) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int are_areas(const lmb_transfer *t)
+{
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
+        if (!is_scale(t->section[LMB_TRANSFER_AREAS][i])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Three words a place: of leaves receivers, behind them blends. */
+static int are_corners(const lmb_transfer *t)
+{
+    const uint32_t *corner = t->section[LMB_TRANSFER_CORNERS];
+    for (uint32_t i = 0; i < LMB_TRANSFER_CORNER_WORDS * t->count[LMB_TRANSFER_CORNERS]; ++i) {
+        const int is_leaf = i / LMB_TRANSFER_CORNER_WORDS < t->leaves;
+        if (corner[i] >= t->count[is_leaf ? LMB_TRANSFER_RECEIVERS : LMB_TRANSFER_BLENDS]) {
+            return 0;
+        }
+    }
+    return t->leaves <= t->count[LMB_TRANSFER_CORNERS];
+}
+
+static int is_range(uint32_t first, uint32_t count, uint32_t all) { return first <= all && count <= all - first; }
+
+static uint32_t size_of(uint32_t code) { return code & 0x8000u ? 0x10000u - code : code; }
+
+static int are_links(const lmb_transfer *t, uint32_t first, uint32_t count)
+{
+    uint32_t sum = 0;
+    for (uint32_t i = first; i < first + count; ++i) {
+        const uint32_t link = t->section[LMB_TRANSFER_LINKS][i];
+        sum += size_of(link >> 16);
+        if ((link & 0xffffu) >= t->nodes || sum > LMB_TRANSFER_MAX_SUM) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Parents lie before their child: one pass in order finds all light. */
+static int are_receivers(const lmb_transfer *t)
+{
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_RECEIVERS]; ++i) {
+        const uint32_t *r = t->section[LMB_TRANSFER_RECEIVERS] + LMB_TRANSFER_RECEIVER_WORDS * (size_t)i;
+        const int is_root = r[0] == LMB_TRANSFER_NONE && r[1] == LMB_TRANSFER_NONE;
+        if ((!is_root && (r[0] >= i || r[1] >= i)) || !is_scale(r[4]) ||
+            !is_range(r[2], r[3], t->count[LMB_TRANSFER_LINKS]) || !are_links(t, r[2], r[3])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int are_cluster_links(const lmb_transfer *t, uint32_t first, uint32_t count)
+{
+    uint32_t sum[3] = {0, 0, 0};
+    for (uint32_t i = first; i < first + count; ++i) {
+        const uint32_t *link = t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)i;
+        sum[0] += size_of(link[0] >> 16);
+        sum[1] += size_of(link[1] & 0xffffu);
+        sum[2] += size_of(link[1] >> 16);
+        if ((link[0] & 0xffffu) >= t->nodes || sum[0] > LMB_TRANSFER_MAX_SUM || sum[1] > LMB_TRANSFER_MAX_SUM ||
+            sum[2] > LMB_TRANSFER_MAX_SUM) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int are_clusters(const lmb_transfer *t)
+{
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_CLUSTERS]; ++i) {
+        const uint32_t *c = t->section[LMB_TRANSFER_CLUSTERS] + LMB_TRANSFER_CLUSTER_WORDS * (size_t)i;
+        if (!is_scale(c[2]) || !is_range(c[0], c[1], t->count[LMB_TRANSFER_CLUSTER_LINKS]) ||
+            !are_cluster_links(t, c[0], c[1])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Four clusters, 16 bits each, and four weights of 8 bits. */
+static int are_blends(const lmb_transfer *t)
+{
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_BLENDS]; ++i) {
+        const uint32_t *b = t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)i;
+        for (int k = 0; k < 4; ++k) {
+            if ((b[k / 2] >> 16 * (k % 2) & 0xffffu) >= t->count[LMB_TRANSFER_CLUSTERS]) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* --- the file ----------------------------------------------------------------------------------------------------- */
+
+/* Elements and their means by fours, up to one; 0 where the number is no power of 4. */
+static uint32_t nodes_of(uint32_t elements)
+{
+    uint32_t nodes = 1, level = 1;
+    while (level < elements && level < LMB_TRANSFER_MAX_ELEMENTS) {
+        level *= 4;
+        nodes += level;
+    }
+    return level == elements ? nodes : 0;
+}
+
+/* Where sections lie. 0: the words do not add up. */
+static int lay_out(lmb_transfer *out, const uint32_t *word, uint64_t words)
+{
+    uint64_t at = LMB_TRANSFER_HEADER_WORDS;
+    for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {
+        out->count[s] = word[COUNTS + s];
+        out->section[s] = word + at;
+        if (out->count[s] >= MAX_COUNT || (uint64_t)out->count[s] * words_each[s] > words - at) {
+            return 0;
+        }
+        at += (uint64_t)out->count[s] * words_each[s];
+    }
+    return at == words;
+}
+
+lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
+{
+    lmb_transfer t;
+    const uint32_t *word = (const uint32_t *)data;
+    if (out == NULL || data == NULL) {
+        return LMB_ERR_ARG;
+    }
+    memset(out, 0, sizeof *out);
+    if ((uintptr_t)data % 4 != 0) {
+        return LMB_ERR_ALIGN;
+    }
+    if (bytes < 4 * LMB_TRANSFER_HEADER_WORDS || memcmp(data, "LMT\1", 4) != 0 || word[ORDER] != OWN_ORDER ||
+        word[SIZE] != bytes || bytes % 4 != 0 || !lay_out(&t, word, bytes / 4)) {
+        return LMB_ERR_FORMAT;
+    }
+    t.scene[0] = word[SCENE];
+    t.scene[1] = word[SCENE + 1];
+    t.leaves = word[LEAVES];
+    t.nodes = nodes_of(t.count[LMB_TRANSFER_AREAS]);
+    if (t.nodes == 0 || !are_surfaces(&t) || !are_areas(&t) || !are_corners(&t) || !are_receivers(&t) ||
+        !are_clusters(&t) || !are_blends(&t) ||
+        !are_halvings(t.section[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_AREAS]) ||
+        !are_halvings(t.section[LMB_TRANSFER_DIVISIONS], t.count[LMB_TRANSFER_DIVISIONS],
+                      t.count[LMB_TRANSFER_CORNERS])) {
+        return LMB_ERR_FORMAT;
+    }
+    *out = t;
+    return LMB_OK;
+}
+
+/* --- the scene ---------------------------------------------------------------------------------------------------- */
+
+/* FNV-1a of a word's four bytes, lowest first. */
+static uint64_t hash_word(uint64_t hash, uint32_t word)
+{
+    for (int i = 0; i < 4; ++i) {
+        hash = (hash ^ (word >> 8 * i & 255u)) * UINT64_C(0x100000001b3);
+    }
+    return hash;
+}
+
+static uint64_t hash_float(uint64_t hash, float v)
+{
+    uint32_t word;
+    v = v == 0.0f ? 0.0f : v; /* both zeros are the same place */
+    memcpy(&word, &v, sizeof word);
+    return hash_word(hash, word);
+}
+
+void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene)
+{
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    const uint32_t all = scene != NULL ? lmb_scene_triangles(scene) : 0;
+    lmb_triangle t;
+    if (out == NULL) {
+        return;
+    }
+    for (uint32_t id = 1; id <= all; ++id) {
+        if (!lmb_triangle_fetch(&t, scene, id)) {
+            hash = hash_word(hash, id);
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) {
+            hash = hash_float(hash, t.corner[k].x);
+            hash = hash_float(hash, t.corner[k].y);
+            hash = hash_float(hash, t.corner[k].z);
+        }
+        hash = hash_word(hash, t.material->flags & (LMB_DOUBLE_SIDED | LMB_ALPHA_MASK));
+    }
+    out[0] = (uint32_t)(hash & 0xffffffffu);
+    out[1] = (uint32_t)(hash >> 32);
+}
+
+lmb_status lmb_transfer_fits(const lmb_transfer *transfer, const lmb_scene *scene)
+{
+    uint32_t own[2];
+    if (transfer == NULL || scene == NULL || transfer->section[0] == NULL) {
+        return LMB_ERR_ARG;
+    }
+    lmb_transfer_fingerprint(own, scene);
+    return transfer->count[LMB_TRANSFER_SURFACES] == lmb_scene_triangles(scene) && own[0] == transfer->scene[0] &&
+                   own[1] == transfer->scene[1]
+               ? LMB_OK
+               : LMB_ERR_SCENE;
+}
+
+#endif

@@ -1,0 +1,269 @@
+/* bake_clusters.c: small triangles -> clusters by place and normal, and the blends that light their corners. */
+#include "bake.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/base/vec.h"
+#include "../../src/raster/triangle.h"
+
+enum { BATCH = 64, NEIGHBOURS = 4, TARGET = 2000, SHARING = 4 };
+#define ALIKE 0.6f /* cosine within which normals share a cluster */
+#define BLEND 0.3f /* down to which a corner takes light from one */
+#define REACH 1.3f /* cells */
+
+typedef struct cluster {
+    lmb_vec3 at, normal;
+    int32_t cell[3];
+    uint32_t next; /* of the same slot, + 1 */
+    uint32_t key;
+} cluster;
+
+typedef struct clusters {
+    bake *b;
+    cluster *data;
+    size_t count, cap;
+    uint32_t *slot; /* number + 1 */
+    uint32_t mask;
+    report *r;
+} clusters;
+
+static uint32_t hash_of(const int32_t cell[3])
+{
+    uint32_t h = (uint32_t)cell[0] * 73856093u ^ (uint32_t)cell[1] * 19349663u ^ (uint32_t)cell[2] * 83492791u;
+    return h ^ h >> 15;
+}
+
+static void cell_of(int32_t cell[3], const bake *b, lmb_vec3 p)
+{
+    const float per = 1.0f / b->set.cluster_m;
+    cell[0] = (int32_t)floorf(p.x * per);
+    cell[1] = (int32_t)floorf(p.y * per);
+    cell[2] = (int32_t)floorf(p.z * per);
+}
+
+static int add_cluster(clusters *c, lmb_vec3 at, lmb_vec3 normal)
+{
+    int32_t cell[3];
+    cell_of(cell, c->b, at);
+    uint32_t *slot = &c->slot[hash_of(cell) & c->mask];
+    for (uint32_t i = *slot; i != 0; i = c->data[i - 1].next) {
+        const cluster *k = &c->data[i - 1];
+        if (memcmp(k->cell, cell, sizeof cell) == 0 && dot3(k->normal, normal) > ALIKE) {
+            return 1;
+        }
+    }
+    if (c->count == c->cap) {
+        const size_t cap = c->cap > 0 ? 2 * c->cap : 256;
+        cluster *data = realloc(c->data, cap * sizeof *data);
+        if (data == NULL) {
+            return report_fail(c->r, "not enough memory for %.0f clusters", (double)cap);
+        }
+        c->data = data;
+        c->cap = cap;
+    }
+    if (c->count == 65536) {
+        return report_fail(c->r, "over 65,536 clusters of small triangles: a larger --cluster");
+    }
+    cluster *k = &c->data[c->count++];
+    k->at = at;
+    k->normal = normal;
+    memcpy(k->cell, cell, sizeof cell);
+    k->next = *slot;
+    *slot = (uint32_t)c->count;
+    return 1;
+}
+
+/* --- rows --------------------------------------------------------------------------------------------------------- */
+
+static int by_place(const void *a, const void *b)
+{
+    const cluster *x = a, *y = b;
+    return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->next < y->next ? -1 : 1;
+}
+
+/* Neighbours side by side, because they see the same things; then the slots again. */
+static void put_in_order(clusters *c)
+{
+    for (size_t i = 0; i < c->count; ++i) {
+        c->data[i].key = bake_key(c->b->scene, c->data[i].at, c->data[i].normal);
+        c->data[i].next = (uint32_t)i;
+    }
+    qsort(c->data, c->count, sizeof *c->data, by_place);
+    memset(c->slot, 0, ((size_t)c->mask + 1) * sizeof *c->slot);
+    for (size_t i = 0; i < c->count; ++i) {
+        uint32_t *slot = &c->slot[hash_of(c->data[i].cell) & c->mask];
+        c->data[i].next = *slot;
+        *slot = (uint32_t)i + 1;
+    }
+}
+
+static int make_rows(clusters *c)
+{
+    bake *b = c->b;
+    const uint32_t n = b->set.elements;
+    float *memory = malloc(3 * BATCH * (size_t)n * sizeof *memory), *row[3 * BATCH];
+    lmb_vec3 at[BATCH], normal[BATCH];
+    int ok = memory != NULL || report_fail(c->r, "not enough memory for %u elements", (unsigned)n);
+    for (size_t first = 0; ok && first < c->count; first += BATCH) {
+        const int count = (int)(c->count - first < BATCH ? c->count - first : BATCH);
+        for (int k = 0; k < count; ++k) {
+            at[k] = c->data[first + (size_t)k].at;
+            normal[k] = c->data[first + (size_t)k].normal;
+        }
+        for (int k = 0; k < 3 * count; ++k) {
+            row[k] = memory + (size_t)k * n;
+        }
+        ok = bake_rows(b, at, normal, count, 3, row, c->r);
+        for (int k = 0; k < count && ok; ++k) {
+            bake_words *links = &b->section[LMB_TRANSFER_CLUSTER_LINKS], *w = &b->section[LMB_TRANSFER_CLUSTERS];
+            uint32_t before = (uint32_t)(links->count / LMB_TRANSFER_CLUSTER_LINK_WORDS), used;
+            float scale;
+            ok = bake_links(b, row + 3 * k, 3, links, &used, &scale, c->r) && bake_put(w, before, c->r) &&
+                 bake_put(w, used, c->r) && bake_put_float(w, scale, c->r);
+        }
+    }
+    free(memory);
+    return ok;
+}
+
+/* --- blends ------------------------------------------------------------------------------------------------------- */
+
+typedef struct candidate {
+    uint32_t cluster;
+    float weight;
+} candidate;
+
+static void offer(candidate best[NEIGHBOURS], uint32_t number, float weight)
+{
+    int at = NEIGHBOURS - 1;
+    if (weight <= best[at].weight) {
+        return;
+    }
+    for (; at > 0 && best[at - 1].weight < weight; --at) {
+        best[at] = best[at - 1];
+    }
+    best[at].cluster = number;
+    best[at].weight = weight;
+}
+
+/* Of all clusters, where none is within reach: the nearest that does not face away; where all do, the nearest. */
+static void offer_nearest(candidate best[NEIGHBOURS], const clusters *c, lmb_vec3 p, lmb_vec3 n)
+{
+    for (size_t i = 0; i < c->count; ++i) {
+        const lmb_vec3 d = sub3(c->data[i].at, p);
+        const float away = dot3(c->data[i].normal, n) > 0.0f ? 1.0f : 1e6f;
+        offer(best, (uint32_t)i, 1.0f / (away * (dot3(d, d) + 1e-12f)));
+    }
+    for (int k = 1; k < NEIGHBOURS; ++k) {
+        best[k].weight = 0.0f;
+    }
+}
+
+/* Four clusters and their weights, of 255 in all. */
+static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n)
+{
+    candidate best[NEIGHBOURS] = {{0, 0.0f}, {0, 0.0f}, {0, 0.0f}, {0, 0.0f}};
+    bake_words *w = &c->b->section[LMB_TRANSFER_BLENDS];
+    int32_t middle[3];
+    float sum = 0.0f;
+    cell_of(middle, c->b, p);
+    for (int i = 0; i < 27; ++i) {
+        const int32_t cell[3] = {middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
+        for (uint32_t k = c->slot[hash_of(cell) & c->mask]; k != 0; k = c->data[k - 1].next) {
+            const cluster *o = &c->data[k - 1];
+            const float far = length3(sub3(o->at, p)) / (REACH * c->b->set.cluster_m), cosine = dot3(o->normal, n);
+            if (memcmp(o->cell, cell, sizeof cell) == 0 && far < 1.0f && cosine > BLEND) {
+                const float v = (1.0f - far) * (1.0f - far) * (cosine - BLEND) * (cosine - BLEND);
+                offer(best, k - 1, v * v);
+            }
+        }
+    }
+    if (best[0].weight == 0.0f) {
+        offer_nearest(best, c, p, n);
+    }
+    for (int k = 0; k < NEIGHBOURS; ++k) {
+        sum += best[k].weight;
+    }
+    uint32_t left = 255, weights = 0;
+    for (int k = NEIGHBOURS - 1; k >= 0 && sum > 0.0f; --k) {
+        const uint32_t own = k == 0 ? left : (uint32_t)(best[k].weight / sum * 255.0f + 0.5f);
+        weights |= (own > left ? left : own) << 8 * k;
+        left -= own > left ? left : own;
+    }
+    return bake_put(w, best[0].cluster | best[1].cluster << 16, c->r) &&
+           bake_put(w, best[2].cluster | best[3].cluster << 16, c->r) && bake_put(w, weights, c->r);
+}
+
+/* --- triangles ---------------------------------------------------------------------------------------------------- */
+
+static int visit(clusters *c, int (*each)(clusters *, const lmb_triangle *, lmb_vec3, uint32_t, uint32_t))
+{
+    const uint32_t all = lmb_scene_triangles(c->b->scene);
+    for (uint32_t id = 1; id <= all; ++id) {
+        lmb_triangle t;
+        lmb_vec3 normal;
+        float area;
+        if (!lmb_triangle_fetch(&t, c->b->scene, id) || !lmb_triangle_shape(&normal, &area, &t) ||
+            !bake_is_small(c->b, t.corner)) {
+            continue;
+        }
+        for (uint32_t back = 0; back < 2; ++back) {
+            if (c->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + back] != LMB_TRANSFER_NONE &&
+                !each(c, &t, mul3(normal, back ? -1.0f : 1.0f), id, back)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+static int cluster_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
+{
+    (void)id;
+    (void)back;
+    return add_cluster(c, mul3(add3(add3(t->corner[0], t->corner[1]), t->corner[2]), 1.0f / 3.0f), normal);
+}
+
+/* A leaf whose corners are blends of their own. */
+static int bind_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
+{
+    bake *b = c->b;
+    bake_words *divisions = &b->section[LMB_TRANSFER_DIVISIONS], *corners = &b->section[LMB_TRANSFER_CORNERS];
+    b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + 2 + back] = (uint32_t)divisions->count;
+    if (!bake_put(divisions, LMB_TRANSFER_LEAF | (uint32_t)(corners->count / LMB_TRANSFER_CORNER_WORDS), c->r)) {
+        return 0;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const uint32_t blend = (uint32_t)(b->section[LMB_TRANSFER_BLENDS].count / LMB_TRANSFER_BLEND_WORDS);
+        if (!bake_put(corners, blend, c->r) || !put_blend(c, t->corner[k], normal)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int bake_clusters(bake *b, report *r)
+{
+    clusters c = {b, NULL, 0, 0, NULL, (1u << 18) - 1, r};
+    c.slot = calloc((size_t)c.mask + 1, sizeof *c.slot);
+    int ok = c.slot != NULL || report_fail(r, "not enough memory for clusters");
+    while (ok) {
+        c.count = 0;
+        memset(c.slot, 0, ((size_t)c.mask + 1) * sizeof *c.slot);
+        ok = visit(&c, cluster_triangle);
+        if (c.count >= TARGET || c.count * SHARING > b->small_count || b->set.cluster_m < b->set.smallest_m) {
+            break;
+        }
+        b->set.cluster_m *= 0.8f;
+    }
+    if (ok) {
+        put_in_order(&c);
+    }
+    ok = ok && make_rows(&c) && visit(&c, bind_triangle);
+    b->clusters = (uint32_t)c.count;
+    free(c.slot);
+    free(c.data);
+    return ok;
+}

@@ -1,0 +1,361 @@
+/* bake_elements.c: a scene's triangles -> elements of about one size, in order, and the way to them. */
+#include "bake.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/base/vec.h"
+#include "../../src/raster/triangle.h"
+
+enum { Z_BITS = 9, HALVINGS = 40, MESH = 500 };
+#define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
+
+int bake_put(bake_words *w, uint32_t word, report *r)
+{
+    if (w->count == w->cap) {
+        const size_t cap = w->cap > 0 ? 2 * w->cap : 1024;
+        uint32_t *data = cap < SIZE_MAX / 8 ? realloc(w->data, cap * sizeof *data) : NULL;
+        if (data == NULL) {
+            return report_fail(r, "not enough memory for %.0f words", (double)cap);
+        }
+        w->data = data;
+        w->cap = cap;
+    }
+    w->data[w->count++] = word;
+    return 1;
+}
+
+int bake_put_float(bake_words *w, float v, report *r)
+{
+    uint32_t word;
+    memcpy(&word, &v, sizeof word);
+    return bake_put(w, word, r);
+}
+
+static float triangle_area(const lmb_vec3 corner[3])
+{
+    return 0.5f * length3(cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0])));
+}
+
+static float longest_edge(int *from, const lmb_vec3 corner[3])
+{
+    float longest = -1.0f;
+    for (int k = 0; k < 3; ++k) {
+        const lmb_vec3 d = sub3(corner[(k + 1) % 3], corner[k]);
+        if (dot3(d, d) > longest) {
+            longest = dot3(d, d);
+            *from = k;
+        }
+    }
+    return sqrtf(longest);
+}
+
+int bake_is_small(const bake *b, const lmb_vec3 corner[3])
+{
+    int from;
+    return longest_edge(&from, corner) < b->small_m;
+}
+
+/* Few small triangles are no mesh: a box's sides get receivers of their own. */
+static void set_small(bake *b)
+{
+    const uint32_t all = lmb_scene_triangles(b->scene);
+    lmb_triangle t;
+    b->small_m = 2.0f * b->set.cluster_m;
+    for (uint32_t id = 1; id <= all; ++id) {
+        b->small_count += lmb_triangle_fetch(&t, b->scene, id) && bake_is_small(b, t.corner);
+    }
+    if (b->small_count < MESH) {
+        b->small_m = 0.0f;
+        b->small_count = 0;
+    }
+}
+
+int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report *r)
+{
+    const uint32_t all = lmb_scene_triangles(scene);
+    const size_t bytes = lmb_bvh_bytes(all);
+    double area = 0.0;
+    b->set = *set;
+    b->scene = scene;
+    b->kernels = lmb_kernels_pick();
+    b->bvh_memory = bytes > 0 ? malloc(bytes) : NULL;
+    if (b->bvh_memory == NULL || lmb_bvh_init(&b->bvh, all, b->bvh_memory, bytes) != LMB_OK ||
+        lmb_bvh_build(&b->bvh, scene) != LMB_OK) {
+        return report_fail(r, "not enough memory for %u triangles", (unsigned)all);
+    }
+    for (uint32_t id = 1; id <= all; ++id) {
+        lmb_triangle t;
+        lmb_vec3 n;
+        float own;
+        if (lmb_triangle_fetch(&t, scene, id) && lmb_triangle_shape(&n, &own, &t)) {
+            area += (double)own * (t.material->flags & LMB_DOUBLE_SIDED ? 2.0 : 1.0);
+        }
+    }
+    b->area = (float)area;
+    if (!(b->area > 0.0f)) {
+        return report_fail(r, "no surface to light: all triangles are points or lines");
+    }
+    if (b->set.cluster_m <= 0.0f) {
+        b->set.cluster_m = sqrtf(b->area / 6000.0f);
+    }
+    set_small(b);
+    if (b->set.smallest_m <= 0.0f) {
+        b->set.smallest_m = sqrtf(b->area / 100000.0f);
+    }
+    return 1;
+}
+
+/* --- pieces ------------------------------------------------------------------------------------------------------- */
+
+typedef struct maker {
+    bake *b;
+    bake_sight sight;
+    float side;
+    uint32_t *slot; /* of small triangles' cells: an element's number + 1 */
+    uint32_t mask;
+    int is_full;
+    report *r;
+} maker;
+
+static uint32_t facing(lmb_vec3 n)
+{
+    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
+    if (x >= y && x >= z) {
+        return n.x < 0.0f;
+    }
+    return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
+}
+
+static lmb_vec3 middle_of(const lmb_vec3 corner[3])
+{
+    return mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+}
+
+static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
+{
+    bake *b = m->b;
+    if (b->element_count == b->set.elements) {
+        m->is_full = 1;
+        return 0;
+    }
+    bake_element *e = &b->element[b->element_count];
+    memset(e, 0, sizeof *e);
+    memcpy(e->corner, corner, sizeof e->corner);
+    if (dot3(normal, cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]))) < 0.0f) {
+        e->corner[1] = corner[2];
+        e->corner[2] = corner[1];
+    }
+    e->middle = middle_of(corner);
+    e->normal = normal;
+    e->area = e->largest = triangle_area(corner);
+    e->facing = 1.0f;
+    e->is_one = 1;
+    e->number = b->element_count;
+    for (int k = 0; k < 3; ++k) {
+        const lmb_vec3 d = sub3(corner[k], e->middle);
+        e->reach2 = maxf(e->reach2, dot3(d, d));
+    }
+    return b->element_count++;
+}
+
+/* Means by area: middle and normal hold sums times area until all are there. */
+static void join(bake_element *e, const lmb_vec3 corner[3], lmb_vec3 normal)
+{
+    const float area = triangle_area(corner), share = area / (e->area + area);
+    const lmb_vec3 middle = middle_of(corner);
+    const lmb_vec3 mean = add3(mul3(mul3(e->normal, e->facing), 1.0f - share), mul3(normal, share));
+    e->middle = add3(e->middle, mul3(sub3(middle, e->middle), share));
+    e->facing = length3(mean);
+    e->normal = e->facing > 1e-6f ? mul3(mean, 1.0f / e->facing) : e->normal;
+    e->area += area;
+    e->is_one = 0;
+    if (area > e->largest) {
+        e->largest = area;
+        memcpy(e->corner, corner, sizeof e->corner);
+    }
+    for (int k = 0; k < 3; ++k) {
+        const lmb_vec3 d = sub3(corner[k], e->middle);
+        e->reach2 = maxf(e->reach2, dot3(d, d));
+    }
+}
+
+static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
+{
+    const lmb_vec3 at = middle_of(corner), low = m->b->scene->bounds_min;
+    const float per = 2.0f / m->side;
+    const uint32_t cell[4] = {(uint32_t)clampf((at.x - low.x) * per, 0.0f, 1e6f),
+                              (uint32_t)clampf((at.y - low.y) * per, 0.0f, 1e6f),
+                              (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f), facing(normal)};
+    uint32_t h = cell[0] * 73856093u ^ cell[1] * 19349663u ^ cell[2] * 83492791u ^ cell[3] * 2654435761u;
+    h ^= h >> 15;
+    for (;; ++h) {
+        uint32_t *slot = &m->slot[5 * (size_t)(h & m->mask)];
+        if (slot[4] == 0) {
+            const uint32_t e = add_element(m, corner, normal);
+            memcpy(slot, cell, sizeof cell);
+            slot[4] = e + 1;
+            return e;
+        }
+        if (memcmp(slot, cell, sizeof cell) == 0) {
+            join(&m->b->element[slot[4] - 1], corner, normal);
+            return slot[4] - 1;
+        }
+    }
+}
+
+/* Halve a triangle at its longest edge until it is small enough; nodes into the section of pieces. */
+static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t node, int depth)
+{
+    bake_words *w = &m->b->section[LMB_TRANSFER_PIECES];
+    int from;
+    const float longest = longest_edge(&from, corner);
+    if (m->is_full) {
+        return 1;
+    }
+    if (depth == HALVINGS ||
+        (longest <= m->side && (longest <= CONTACT * m->side || bake_stands_free(&m->sight, m->b, corner, normal)))) {
+        const int small = depth == 0 && longest * 2.0f < m->side;
+        w->data[node] =
+            LMB_TRANSFER_LEAF | (small ? small_element(m, corner, normal) : add_element(m, corner, normal));
+        return 1;
+    }
+    const int to = (from + 1) % 3;
+    const lmb_vec3 mid = mul3(add3(corner[from], corner[to]), 0.5f);
+    lmb_vec3 half[2][3];
+    memcpy(half[0], corner, sizeof half[0]);
+    memcpy(half[1], corner, sizeof half[1]);
+    half[0][to] = mid;
+    half[1][from] = mid;
+    const size_t first = w->count;
+    if (!bake_put(w, 0, m->r) || !bake_put(w, 0, m->r)) {
+        return 0;
+    }
+    w->data[node] = (uint32_t)from << LMB_TRANSFER_EDGE_BIT | (uint32_t)first;
+    return halve(m, half[0], normal, first, depth + 1) && halve(m, half[1], normal, first + 1, depth + 1);
+}
+
+/* Both sides of a triangle: which show, by its material and how its instance mirrors it. */
+static int add_triangle(maker *m, uint32_t id)
+{
+    bake *b = m->b;
+    bake_words *surfaces = &b->section[LMB_TRANSFER_SURFACES], *pieces = &b->section[LMB_TRANSFER_PIECES];
+    lmb_triangle t;
+    lmb_vec3 normal;
+    float area;
+    const int exists = lmb_triangle_fetch(&t, b->scene, id) && lmb_triangle_shape(&normal, &area, &t);
+    for (int back = 0; back < 2; ++back) {
+        const int shows = exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 ||
+                                     back == is_mirrored(&t.instance->to_world));
+        surfaces->data[4 * (id - 1) + (size_t)back] = shows ? (uint32_t)pieces->count : LMB_TRANSFER_NONE;
+        if (shows && (!bake_put(pieces, 0, m->r) ||
+                      !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0))) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int make(maker *m)
+{
+    const uint32_t all = lmb_scene_triangles(m->b->scene);
+    m->b->section[LMB_TRANSFER_PIECES].count = 0;
+    m->b->element_count = 0;
+    memset(m->b->element, 0, m->b->set.elements * sizeof *m->b->element);
+    m->is_full = 0;
+    memset(m->slot, 0, 20 * ((size_t)m->mask + 1));
+    for (uint32_t id = 1; id <= all && !m->is_full; ++id) {
+        if (!add_triangle(m, id)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* --- order -------------------------------------------------------------------------------------------------------- */
+
+static uint32_t spread3(uint32_t v)
+{
+    uint32_t out = 0;
+    for (int i = 0; i < Z_BITS; ++i) {
+        out |= ((v >> i) & 1u) << (3 * i);
+    }
+    return out;
+}
+
+uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal)
+{
+    const lmb_vec3 low = scene->bounds_min, size = sub3(scene->bounds_max, low);
+    const float last = (float)((1 << Z_BITS) - 1), per = (last + 1.0f) / maxf(largest3(size), 1e-30f);
+    return facing(normal) << (3 * Z_BITS) | spread3((uint32_t)clampf((at.x - low.x) * per, 0.0f, last)) |
+           spread3((uint32_t)clampf((at.y - low.y) * per, 0.0f, last)) << 1 |
+           spread3((uint32_t)clampf((at.z - low.z) * per, 0.0f, last)) << 2;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const bake_element *x = a, *y = b;
+    return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->number < y->number ? -1 : 1;
+}
+
+/* Neighbours that face alike lie side by side, so that their means are of use. */
+static int put_in_order(bake *b, report *r)
+{
+    uint32_t *place = malloc((b->element_count + 1) * sizeof *place);
+    if (place == NULL) {
+        return report_fail(r, "not enough memory for %u elements", (unsigned)b->element_count);
+    }
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        b->element[i].key = bake_key(b->scene, b->element[i].middle, b->element[i].normal);
+    }
+    qsort(b->element, b->element_count, sizeof *b->element, by_key);
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        place[b->element[i].number] = i;
+    }
+    bake_words *pieces = &b->section[LMB_TRANSFER_PIECES];
+    for (size_t i = 0; i < pieces->count; ++i) {
+        if (pieces->data[i] & LMB_TRANSFER_LEAF) {
+            pieces->data[i] = LMB_TRANSFER_LEAF | place[pieces->data[i] & ~LMB_TRANSFER_LEAF];
+        }
+    }
+    free(place);
+    for (uint32_t i = 0; i < b->set.elements; ++i) {
+        if (!bake_put_float(&b->section[LMB_TRANSFER_AREAS], i < b->element_count ? b->element[i].area : 0.0f, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+int bake_elements(bake *b, report *r)
+{
+    maker m;
+    memset(&m, 0, sizeof m);
+    m.b = b;
+    m.r = r;
+    const uint32_t all = lmb_scene_triangles(b->scene);
+    m.mask = 4 * b->set.elements - 1;
+    m.slot = malloc(20 * ((size_t)m.mask + 1));
+    b->element = calloc(b->set.elements, sizeof *b->element);
+    if (m.slot == NULL || b->element == NULL || !bake_sight_begin(&m.sight, r)) {
+        free(m.slot);
+        bake_sight_end(&m.sight);
+        return report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
+    }
+    for (uint32_t i = 0; i < 4 * all; ++i) {
+        if (!bake_put(&b->section[LMB_TRANSFER_SURFACES], LMB_TRANSFER_NONE, r)) {
+            free(m.slot);
+            bake_sight_end(&m.sight);
+            return 0;
+        }
+    }
+    int ok;
+    m.side = sqrtf(b->area / (float)b->set.elements);
+    while ((ok = make(&m)) != 0 && m.is_full) {
+        m.side *= 1.1f;
+    }
+    free(m.slot);
+    bake_sight_end(&m.sight);
+    return ok && put_in_order(b, r);
+}

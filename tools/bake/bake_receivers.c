@@ -1,0 +1,513 @@
+/* bake_receivers.c: large triangles -> receivers, halved until what arrives is nearly linear between them. */
+#include "bake.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/base/vec.h"
+#include "../../src/raster/triangle.h"
+
+enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64 };
+#define STANDS 0.2f /* surplus of a triangle on which something stands, at least */
+
+/* A triangle of the division. */
+typedef struct piece {
+    lmb_vec3 corner[3], normal;
+    uint32_t receiver[3], node;
+    uint32_t mid;      /* receiver in the middle of its longest edge */
+    int from, depth;
+    int must_split;    /* something stands on it */
+    float surplus, error;
+} piece;
+
+typedef struct pieces {
+    piece *data;
+    size_t count, cap;
+} pieces;
+
+/* A receiver to be made, or a point that is only looked at. */
+typedef struct wanted {
+    lmb_vec3 at, normal;
+    uint32_t parent[3], receiver; /* receiver NONE: looked at: what differs from the mean of three parents */
+    size_t piece;
+    uint32_t key; /* place along a Z curve, by the side it faces */
+} wanted;
+
+typedef struct divider {
+    bake *b;
+    pieces now, waiting; /* to be looked at; with their errors */
+    wanted *queue;
+    size_t queued, queue_cap;
+    uint32_t *slot; /* of places: receiver + 1 */
+    uint32_t mask;
+    bake_sight sight;
+    report *r;
+} divider;
+
+/* --- lists -------------------------------------------------------------------------------------------------------- */
+
+static int grow(void **data, size_t *cap, size_t count, size_t each, report *r)
+{
+    if (count < *cap) {
+        return 1;
+    }
+    const size_t more = *cap > 0 ? 2 * *cap : 256;
+    void *p = realloc(*data, more * each);
+    if (p == NULL) {
+        return report_fail(r, "not enough memory for %.0f parts of the division", (double)more);
+    }
+    *data = p;
+    *cap = more;
+    return 1;
+}
+
+static int add_piece(pieces *list, const piece *p, report *r)
+{
+    if (!grow((void **)&list->data, &list->cap, list->count, sizeof *list->data, r)) {
+        return 0;
+    }
+    list->data[list->count++] = *p;
+    return 1;
+}
+
+static int enqueue(divider *d, const wanted *w)
+{
+    if (!grow((void **)&d->queue, &d->queue_cap, d->queued, sizeof *d->queue, d->r)) {
+        return 0;
+    }
+    d->queue[d->queued++] = *w;
+    return 1;
+}
+
+/* --- receivers by place ------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 middle_of(const lmb_vec3 corner[3])
+{
+    return mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+}
+
+static int is_there(const bake *b, const bake_receiver *v, lmb_vec3 at, lmb_vec3 normal)
+{
+    const lmb_vec3 d = sub3(v->place, at);
+    const float reach = 0.3f * b->set.smallest_m;
+    return dot3(d, d) < reach * reach && dot3(v->normal, normal) > 0.99f;
+}
+
+static uint32_t hash_of(const bake *b, lmb_vec3 at, int dx, int dy, int dz)
+{
+    const float per = 1.0f / b->set.smallest_m;
+    const uint32_t x = (uint32_t)(int32_t)floorf(at.x * per) + (uint32_t)dx, y = (uint32_t)(int32_t)floorf(at.y * per) + (uint32_t)dy,
+                   z = (uint32_t)(int32_t)floorf(at.z * per) + (uint32_t)dz;
+    uint32_t h = x * 73856093u ^ y * 19349663u ^ z * 83492791u;
+    return h ^ h >> 15;
+}
+
+/* The receiver near a place, or NONE. */
+static uint32_t find(const divider *d, lmb_vec3 at, lmb_vec3 normal)
+{
+    for (int i = 0; i < 27; ++i) {
+        uint32_t h = hash_of(d->b, at, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        for (; d->slot[h & d->mask] != 0; ++h) {
+            const uint32_t v = d->slot[h & d->mask] - 1;
+            if (is_there(d->b, &d->b->receiver[v], at, normal)) {
+                return v;
+            }
+        }
+    }
+    return LMB_TRANSFER_NONE;
+}
+
+static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 normal, uint32_t a, uint32_t b,
+                             int shared)
+{
+    bake *k = d->b;
+    size_t cap = k->receiver_cap;
+    const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1, 0};
+    if (k->receiver_count >= d->mask / 2 || !grow((void **)&k->receiver, &cap, k->receiver_count, sizeof *k->receiver, d->r) || !enqueue(d, &w)) {
+        report_fail(d->r, "too many receivers: %u", (unsigned)k->receiver_count);
+        return LMB_TRANSFER_NONE;
+    }
+    k->receiver_cap = (uint32_t)cap;
+    bake_receiver *v = &k->receiver[k->receiver_count];
+    memset(v, 0, sizeof *v);
+    v->place = place;
+    v->at = at;
+    v->normal = normal;
+    v->parent[0] = a;
+    v->parent[1] = b;
+    uint32_t h = hash_of(k, place, 0, 0, 0);
+    for (; shared && d->slot[h & d->mask] != 0; ++h) {
+    }
+    if (shared) {
+        d->slot[h & d->mask] = k->receiver_count + 1;
+    }
+    return k->receiver_count++;
+}
+
+static uint32_t receiver_at(divider *d, lmb_vec3 at, lmb_vec3 normal, lmb_vec3 towards, uint32_t a, uint32_t b)
+{
+    const uint32_t there = find(d, at, normal);
+    return there != LMB_TRANSFER_NONE ? there : add_receiver(d, at, bake_pulled(d->b, at, towards), normal, a, b, 1);
+}
+
+/* --- what stands on a triangle ------------------------------------------------------------------------------------ */
+
+/* Light that comes to a receiver, by what bake_reach found: in a solid hardly any. */
+static float openness(const bake *b, uint32_t receiver)
+{
+    const float *row = b->receiver[receiver].row;
+    float sum = 0.0f;
+    for (uint32_t i = 0; row != NULL && i < b->set.elements; ++i) {
+        sum += row[i] * b->element[i].light;
+    }
+    return sum;
+}
+
+/* A corner that does not see the leaf's anchor is lit as the last place on the way that does. */
+static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t parent)
+{
+    const lmb_vec3 corner = d->b->receiver[p->receiver[k]].at;
+    float low = 0.0f, high = 1.0f;
+    if (bake_sees(&d->sight, d->b, anchor, corner, p->normal)) {
+        return 1;
+    }
+    for (int i = 0; i < SEARCH; ++i) {
+        const float half = 0.5f * (low + high);
+        const lmb_vec3 at = add3(anchor, mul3(sub3(corner, anchor), half));
+        *(bake_sees(&d->sight, d->b, anchor, at, p->normal) ? &low : &high) = half;
+    }
+    const lmb_vec3 at = bake_pulled(d->b, add3(anchor, mul3(sub3(corner, anchor), low)), anchor);
+    const uint32_t there = find(d, at, p->normal);
+    p->receiver[k] = there != LMB_TRANSFER_NONE &&
+                             bake_sees(&d->sight, d->b, anchor, d->b->receiver[there].at, p->normal)
+                         ? there
+                         : add_receiver(d, at, at, p->normal, parent, parent, 0);
+    return p->receiver[k] != LMB_TRANSFER_NONE;
+}
+
+/* The anchor is the leaf's middle, or, where that lies in something that stands there, the corner that sees most. */
+static int mend_corners(divider *d, piece *p)
+{
+    const lmb_vec3 middle = middle_of(p->corner);
+    float most = -1.0f;
+    int best = 0;
+    for (int k = 0; k < 3; ++k) {
+        const float own = openness(d->b, p->receiver[k]);
+        best = own > most ? k : best;
+        most = maxf(most, own);
+    }
+    const uint32_t parent = p->receiver[best];
+    const lmb_vec3 corner = d->b->receiver[parent].at;
+    const lmb_vec3 anchor = bake_sees(&d->sight, d->b, middle, corner, p->normal) ? middle : corner;
+    for (int k = 0; k < 3; ++k) {
+        if (k != best && !mend_corner(d, p, k, anchor, parent)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* --- rows --------------------------------------------------------------------------------------------------------- */
+
+/* From a row that arrives to links: what the parents do not say. */
+static int settle(divider *d, const wanted *w, float *row)
+{
+    bake *b = d->b;
+    const uint32_t n = b->set.elements;
+    int parents = 0;
+    for (int k = 0; k < 3; ++k) {
+        parents += w->parent[k] != LMB_TRANSFER_NONE;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const float *from = w->parent[k] != LMB_TRANSFER_NONE ? b->receiver[w->parent[k]].row : NULL;
+        for (uint32_t i = 0; from != NULL && i < n; ++i) {
+            row[i] -= from[i] / (float)parents;
+        }
+    }
+    if (parents > 0 && w->piece != (size_t)-1) {
+        piece *p = &d->now.data[w->piece];
+        p->surplus = maxf(p->surplus, bake_surplus(b, row));
+    }
+    if (w->receiver == LMB_TRANSFER_NONE) {
+        return 1;
+    }
+    bake_receiver *v = &b->receiver[w->receiver];
+    bake_words *links = &b->section[LMB_TRANSFER_LINKS];
+    v->first_link = (uint32_t)links->count;
+    v->row = malloc(n * sizeof *v->row);
+    if (v->row == NULL) {
+        return report_fail(d->r, "not enough memory for %u receivers", (unsigned)b->receiver_count);
+    }
+    if (!bake_links(b, &row, 1, links, &v->links, &v->scale, d->r)) {
+        return 0;
+    }
+    memcpy(v->row, row, n * sizeof *v->row);
+    for (int k = 0; k < 2 && w->parent[k] != LMB_TRANSFER_NONE; ++k) {
+        const float *from = b->receiver[w->parent[k]].row;
+        for (uint32_t i = 0; i < n; ++i) {
+            v->row[i] += 0.5f * from[i];
+        }
+    }
+    return 1;
+}
+
+static int by_key(const void *a, const void *b)
+{
+    const wanted *x = a, *y = b;
+    if (x->key != y->key) {
+        return x->key < y->key ? -1 : 1;
+    }
+    return x->receiver != y->receiver ? (x->receiver < y->receiver ? -1 : 1) : x->piece < y->piece ? -1 : 1;
+}
+
+/* Everything in the queue. Neighbours go together: they see the same things. */
+static int make_rows(divider *d)
+{
+    for (size_t i = 0; i < d->queued; ++i) {
+        d->queue[i].key = bake_key(d->b->scene, d->queue[i].at, d->queue[i].normal);
+    }
+    qsort(d->queue, d->queued, sizeof *d->queue, by_key);
+    const uint32_t n = d->b->set.elements;
+    float *memory = malloc(BATCH * (size_t)n * sizeof *memory), *row[BATCH];
+    lmb_vec3 at[BATCH], normal[BATCH];
+    int ok = memory != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n);
+    for (size_t first = 0; ok && first < d->queued; first += BATCH) {
+        const int count = (int)(d->queued - first < BATCH ? d->queued - first : BATCH);
+        for (int k = 0; k < count; ++k) {
+            at[k] = d->queue[first + (size_t)k].at;
+            normal[k] = d->queue[first + (size_t)k].normal;
+            row[k] = memory + (size_t)k * n;
+        }
+        ok = bake_rows(d->b, at, normal, count, 1, row, d->r);
+        for (int k = 0; k < count && ok; ++k) {
+            ok = settle(d, &d->queue[first + (size_t)k], row[k]);
+        }
+    }
+    free(memory);
+    d->queued = 0;
+    return ok;
+}
+
+/* --- division ----------------------------------------------------------------------------------------------------- */
+
+static float longest_edge(int *from, const lmb_vec3 corner[3])
+{
+    float longest = -1.0f;
+    for (int k = 0; k < 3; ++k) {
+        const lmb_vec3 e = sub3(corner[(k + 1) % 3], corner[k]);
+        if (dot3(e, e) > longest) {
+            longest = dot3(e, e);
+            *from = k;
+        }
+    }
+    return sqrtf(longest);
+}
+
+static float area_of(const lmb_vec3 corner[3])
+{
+    return 0.5f * length3(cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0])));
+}
+
+/* The places where a piece is looked at: the middle of its longest edge, and its own. */
+static int look_at(divider *d, size_t i)
+{
+    piece *p = &d->now.data[i];
+    const float longest = longest_edge(&p->from, p->corner);
+    const int to = (p->from + 1) % 3;
+    p->mid = LMB_TRANSFER_NONE;
+    p->surplus = 0.0f;
+    p->must_split = 0;
+    if (longest <= d->b->set.smallest_m || p->depth == DEPTH) {
+        return 1;
+    }
+    const lmb_vec3 mid = mul3(add3(p->corner[p->from], p->corner[to]), 0.5f), middle = middle_of(p->corner);
+    const size_t before = d->queued;
+    p->must_split = !bake_stands_free(&d->sight, d->b, p->corner, p->normal);
+    p->mid = receiver_at(d, mid, p->normal, middle, p->receiver[p->from], p->receiver[to]);
+    if (d->queued > before) {
+        d->queue[before].piece = i;
+    } else if (p->mid != LMB_TRANSFER_NONE) { /* a neighbour's: looked at once more */
+        const wanted w = {d->b->receiver[p->mid].at, p->normal, {p->receiver[p->from], p->receiver[to], LMB_TRANSFER_NONE},
+                          LMB_TRANSFER_NONE, i, 0};
+        if (!enqueue(d, &w)) {
+            return 0;
+        }
+    }
+    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0};
+    return p->mid != LMB_TRANSFER_NONE && enqueue(d, &w);
+}
+
+static int put_leaf(divider *d, piece *p)
+{
+    bake_words *corners = &d->b->section[LMB_TRANSFER_CORNERS];
+    d->b->section[LMB_TRANSFER_DIVISIONS].data[p->node] =
+        LMB_TRANSFER_LEAF | (uint32_t)(corners->count / LMB_TRANSFER_CORNER_WORDS);
+    if (!mend_corners(d, p)) {
+        return 0;
+    }
+    return bake_put(corners, p->receiver[0], d->r) && bake_put(corners, p->receiver[1], d->r) &&
+           bake_put(corners, p->receiver[2], d->r);
+}
+
+/* Into halves, which are looked at next; `last`: they are leaves. */
+static int split(divider *d, const piece *p, int last)
+{
+    bake_words *w = &d->b->section[LMB_TRANSFER_DIVISIONS];
+    const int to = (p->from + 1) % 3;
+    const lmb_vec3 mid = mul3(add3(p->corner[p->from], p->corner[to]), 0.5f);
+    const uint32_t first = (uint32_t)w->count;
+    if (!bake_put(w, 0, d->r) || !bake_put(w, 0, d->r)) {
+        return 0;
+    }
+    w->data[p->node] = (uint32_t)p->from << LMB_TRANSFER_EDGE_BIT | first;
+    for (uint32_t h = 0; h < 2; ++h) {
+        const int k = h == 0 ? to : p->from;
+        piece half = *p;
+        half.corner[k] = mid;
+        half.receiver[k] = p->mid;
+        half.node = first + h;
+        ++half.depth;
+        if (!(last ? put_leaf(d, &half) : add_piece(&d->now, &half, d->r))) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Squared errors add up by area. */
+static float error_of(const bake *b, const piece *p)
+{
+    const float share = area_of(p->corner) / b->area * 1000.0f;
+    const float surplus = p->must_split ? maxf(p->surplus, STANDS) : p->surplus;
+    return surplus * surplus * share;
+}
+
+static int by_error(const void *a, const void *b)
+{
+    const piece *x = a, *y = b;
+    return x->error != y->error ? (x->error < y->error ? -1 : 1) : x->node < y->node ? -1 : 1;
+}
+
+/* Rows are made for neighbours together. */
+static int by_place(const void *a, const void *b)
+{
+    const piece *x = a, *y = b;
+    return x->node < y->node ? -1 : 1;
+}
+
+/* Look at the pieces at hand; those that can be halved wait with their errors, the others are leaves. */
+static int look_at_all(divider *d)
+{
+    qsort(d->now.data, d->now.count, sizeof *d->now.data, by_place);
+    for (size_t i = 0; i < d->now.count; ++i) {
+        if (!look_at(d, i)) {
+            return 0;
+        }
+    }
+    if (!make_rows(d)) {
+        return 0;
+    }
+    for (size_t i = 0; i < d->now.count; ++i) {
+        piece *p = &d->now.data[i];
+        p->error = error_of(d->b, p);
+        if (!(p->mid == LMB_TRANSFER_NONE ? put_leaf(d, p) : add_piece(&d->waiting, p, d->r))) {
+            return 0;
+        }
+    }
+    d->now.count = 0;
+    return make_rows(d);
+}
+
+/* Halve the pieces with the largest errors. 0 pieces are left in d->now where all are good enough. */
+static int halve_worst(divider *d)
+{
+    const float enough = d->b->set.division * d->b->set.division;
+    const size_t most = d->waiting.count / 4 + ROUND;
+    qsort(d->waiting.data, d->waiting.count, sizeof *d->waiting.data, by_error);
+    for (size_t i = 0; i < most && d->waiting.count > 0 && d->b->receiver_count < d->b->set.receivers; ++i) {
+        const piece p = d->waiting.data[d->waiting.count - 1];
+        if (p.error <= enough) {
+            break;
+        }
+        --d->waiting.count;
+        if (!split(d, &p, 0)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* --- roots -------------------------------------------------------------------------------------------------------- */
+
+static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
+{
+    bake_words *divisions = &d->b->section[LMB_TRANSFER_DIVISIONS];
+    piece p;
+    memset(&p, 0, sizeof p);
+    memcpy(p.corner, t->corner, sizeof p.corner);
+    p.normal = mul3(normal, back ? -1.0f : 1.0f);
+    p.node = (uint32_t)divisions->count;
+    d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + 2 + back] = p.node;
+    for (int k = 0; k < 3; ++k) {
+        p.receiver[k] =
+            receiver_at(d, p.corner[k], p.normal, middle_of(p.corner), LMB_TRANSFER_NONE, LMB_TRANSFER_NONE);
+        if (p.receiver[k] == LMB_TRANSFER_NONE) {
+            return 0;
+        }
+    }
+    return bake_put(divisions, 0, d->r) && add_piece(&d->now, &p, d->r);
+}
+
+static int add_roots(divider *d)
+{
+    const bake *b = d->b;
+    const uint32_t all = lmb_scene_triangles(b->scene);
+    for (uint32_t id = 1; id <= all; ++id) {
+        lmb_triangle t;
+        lmb_vec3 normal;
+        float area;
+        if (!lmb_triangle_fetch(&t, b->scene, id) || !lmb_triangle_shape(&normal, &area, &t) ||
+            bake_is_small(b, t.corner)) {
+            continue;
+        }
+        for (uint32_t back = 0; back < 2; ++back) {
+            if (b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + back] != LMB_TRANSFER_NONE &&
+                !add_root(d, &t, normal, id, back)) {
+                return 0;
+            }
+        }
+    }
+    for (size_t i = 0; i < d->queued; ++i) {
+        d->queue[i].piece = (size_t)-1;
+    }
+    return make_rows(d);
+}
+
+int bake_receivers(bake *b, report *r)
+{
+    divider d;
+    memset(&d, 0, sizeof d);
+    d.b = b;
+    d.r = r;
+    d.mask = (1u << 20) - 1;
+    d.slot = calloc((size_t)d.mask + 1, sizeof *d.slot);
+    int ok = d.slot != NULL || report_fail(r, "not enough memory for receivers");
+    ok = ok && bake_sight_begin(&d.sight, r) && add_roots(&d);
+    while (ok && d.now.count > 0) {
+        report_note(b->is_quiet, "bake: %u receivers, %.0f links", (unsigned)b->receiver_count,
+                    (double)b->section[LMB_TRANSFER_LINKS].count);
+        ok = look_at_all(&d) && halve_worst(&d);
+    }
+    for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their middles are there: they serve too */
+        ok = split(&d, &d.waiting.data[i], 1);
+    }
+    ok = ok && make_rows(&d);
+    free(d.slot);
+    bake_sight_end(&d.sight);
+    b->leaves = (uint32_t)(b->section[LMB_TRANSFER_CORNERS].count / LMB_TRANSFER_CORNER_WORDS);
+    free(d.queue);
+    free(d.now.data);
+    free(d.waiting.data);
+    return ok;
+}

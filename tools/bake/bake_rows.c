@@ -1,0 +1,202 @@
+/* bake_rows.c: what arrives of each element at some points: its form factor, and the share of it that they see. */
+#include "bake.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/pool.h"
+#include "../../src/base/poly.h"
+#include "../../src/base/vec.h"
+
+#define DISC2 100.0f /* squared distance, of a part's squared reach, from which it counts as a disc: 0.5 % at most */
+enum { CHUNK = 64, CUTS = 4 };
+
+/* Nearer than this, of an element's squared reach, it is cut into four, each again: what stands beside a point hides
+ * some of an element, and just what lies nearest counts most. */
+static const float cut2[CUTS] = {36.0f, 9.0f, 2.5f, 0.7f};
+
+typedef struct rows {
+    const bake *b;
+    const lmb_tile *tile;
+    const lmb_vec3 *at, *normal;
+    float *const *row;
+    int count, axes;
+    lmb_traversal *traversal; /* one a thread */
+} rows;
+
+/* What an element, or a part of one, gives to all points at once. */
+typedef struct part {
+    lmb_vec3 corner[3];
+    lmb_vec3 middle;
+    float area, reach2;
+} part;
+
+static lmb_vec3 middle_of(const lmb_vec3 corner[3])
+{
+    return mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+}
+
+/* --- form factors ------------------------------------------------------------------------------------------------- */
+
+/* From far away: of a part that lies wholly before the point. Along the direction to it. */
+static float disc_factor(lmb_vec3 *to, const bake_element *e, const part *p, lmb_vec3 d, float d2)
+{
+    const float cosine = -dot3(d, e->normal) * e->facing, per = 1.0f / sqrtf(d2);
+    *to = mul3(d, per);
+    return cosine > 0.0f ? cosine * per * p->area / (LMB_PI * d2 + p->area) : 0.0f;
+}
+
+static float factor_along(const bake_element *e, const part *p, lmb_vec3 at, lmb_vec3 face, lmb_vec3 along)
+{
+    return lmb_polygon_factor(at, face, along, p->corner, 3, e->normal);
+}
+
+/* Into out[0 .. axes - 1]; 0 where nothing arrives. */
+static int factors(float out[3], const bake_element *e, const part *p, lmb_vec3 at, lmb_vec3 n, int axes)
+{
+    const lmb_vec3 d = sub3(p->middle, at);
+    const float d2 = dot3(d, d);
+    if (d2 > DISC2 * p->reach2 || !e->is_one) {
+        lmb_vec3 to = vec3(0.0f, 0.0f, 0.0f);
+        const float f = d2 > 0.0f ? disc_factor(&to, e, p, d, d2) : 0.0f, cosine = f > 0.0f ? dot3(to, n) : 0.0f;
+        out[0] = axes == 1 ? f * cosine : f * to.x;
+        out[1] = f * to.y;
+        out[2] = f * to.z;
+        return f > 0.0f && cosine > 0.0f;
+    }
+    if (axes == 1) {
+        out[0] = factor_along(e, p, at, n, n);
+        return out[0] > 0.0f;
+    }
+    for (int k = 0; k < 3; ++k) {
+        const lmb_vec3 along = vec3(k == 0 ? 1.0f : 0.0f, k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f);
+        out[k] = factor_along(e, p, at, n, along) - factor_along(e, p, at, n, mul3(along, -1.0f));
+    }
+    return out[0] != 0.0f || out[1] != 0.0f || out[2] != 0.0f;
+}
+
+/* --- visibility --------------------------------------------------------------------------------------------------- */
+
+/* How often the element is cut for a point. */
+static int cuts_for(const bake_element *e, lmb_vec3 at)
+{
+    const lmb_vec3 d = sub3(e->middle, at);
+    int cuts = 0;
+    while (cuts < CUTS && e->is_one && dot3(d, d) < cut2[cuts] * e->reach2) {
+        ++cuts;
+    }
+    return cuts;
+}
+
+/* One part and the points that take it as a whole. */
+static void add_part(const rows *w, uint32_t j, const part *p, uint64_t points, int worker)
+{
+    const bake_element *e = &w->b->element[j];
+    const lmb_vec3 q = e->is_one ? p->middle : middle_of(p->corner);
+    float f[CHUNK][3];
+    uint64_t lit = 0;
+    for (uint64_t bits = points; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        lit |= (uint64_t)(factors(f[k], e, p, w->at[k], w->normal[k], w->axes) != 0) << k;
+    }
+    if (lit == 0) {
+        return;
+    }
+    const float noise = lmb_tile_noise(w->tile, lit) + lmb_place_noise(q, 0.0f);
+    lit &= ~lmb_occluded_tile(&w->b->bvh, w->b->kernels, w->tile, lit, q, noise, &w->traversal[worker]);
+    for (uint64_t bits = lit; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        for (int a = 0; a < w->axes; ++a) {
+            w->row[w->axes * k + a][j] += f[k][a];
+        }
+    }
+}
+
+/* Points take the parts of their own level; points[l]: those that want l cuts. */
+static void add_parts(const rows *w, uint32_t j, const part *p, const uint64_t points[CUTS + 1], int level, int worker)
+{
+    uint64_t finer = 0;
+    if (points[level] != 0) {
+        add_part(w, j, p, points[level], worker);
+    }
+    for (int l = level + 1; l <= CUTS; ++l) {
+        finer |= points[l];
+    }
+    if (finer == 0) {
+        return;
+    }
+    lmb_vec3 mid[3];
+    for (int k = 0; k < 3; ++k) {
+        mid[k] = mul3(add3(p->corner[k], p->corner[(k + 1) % 3]), 0.5f);
+    }
+    for (int k = 0; k < 4; ++k) {
+        part quarter = {{mid[0], mid[1], mid[2]}, p->middle, 0.25f * p->area, 0.25f * p->reach2};
+        if (k < 3) {
+            quarter.corner[0] = p->corner[k];
+            quarter.corner[1] = mid[k];
+            quarter.corner[2] = mid[(k + 2) % 3];
+            quarter.middle = middle_of(quarter.corner);
+        }
+        add_parts(w, j, &quarter, points, level + 1, worker);
+    }
+}
+
+static void element_job(void *user, int index, int worker)
+{
+    const rows *w = user;
+    const uint32_t per = w->b->set.elements / CHUNK, first = (uint32_t)index * per;
+    for (uint32_t j = first; j < first + per; ++j) {
+        const bake_element *e = &w->b->element[j];
+        uint64_t points[CUTS + 1] = {0, 0, 0, 0, 0};
+        part whole;
+        for (int k = 0; k < w->axes * w->count; ++k) {
+            w->row[k][j] = 0.0f;
+        }
+        if (!(e->area > 0.0f) || e->is_dark) {
+            continue;
+        }
+        for (int k = 0; k < w->count; ++k) {
+            const lmb_vec3 d = sub3(e->middle, w->at[k]);
+            if (!e->is_one || dot3(d, e->normal) < 0.0f) {
+                points[w->b->by_middles ? 0 : cuts_for(e, w->at[k])] |= (uint64_t)1 << k;
+            }
+        }
+        memcpy(whole.corner, e->corner, sizeof whole.corner);
+        whole.middle = e->middle;
+        whole.area = e->area;
+        whole.reach2 = e->reach2;
+        add_parts(w, j, &whole, points, 0, worker);
+    }
+}
+
+static void set_tile(lmb_tile *tile, const lmb_vec3 *at, const lmb_vec3 *normal, int count)
+{
+    memset(tile, 0, sizeof *tile);
+    tile->hits = count;
+    for (int k = 0; k < count; ++k) {
+        const float p[3] = {at[k].x, at[k].y, at[k].z}, n[3] = {normal[k].x, normal[k].y, normal[k].z};
+        for (int c = 0; c < 3; ++c) {
+            tile->position[c][k] = p[c];
+            tile->normal[c][k] = tile->face[c][k] = n[c];
+        }
+        tile->depth[k] = 1.0f;
+        tile->id[k] = 1;
+    }
+}
+
+int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
+              report *r)
+{
+    lmb_tile *tile = malloc(sizeof *tile);
+    lmb_traversal *traversal = calloc((size_t)b->set.threads, sizeof *traversal);
+    const int ok = tile != NULL && traversal != NULL;
+    if (ok) {
+        rows w = {b, tile, at, normal, row, count, axes, traversal};
+        set_tile(tile, at, normal, count);
+        pool_run(b->set.threads, CHUNK, element_job, &w);
+    }
+    free(tile);
+    free(traversal);
+    return ok || report_fail(r, "not enough memory for %d points", count);
+}

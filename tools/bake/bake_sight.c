@@ -1,0 +1,50 @@
+/* bake_sight.c: what stands on a triangle: do its corners see its middle, just over its plane? */
+#include "bake.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/base/vec.h"
+
+#define PULL 0.1f  /* of the smallest edge: receivers lie so far inside their triangle, off what stands at its edges */
+#define UP   0.05f /* of it: so high over a triangle its corners have to see its middle */
+
+int bake_sight_begin(bake_sight *s, report *r)
+{
+    memset(s, 0, sizeof *s);
+    s->tile = calloc(1, sizeof *s->tile);
+    if (s->tile == NULL) {
+        return report_fail(r, "not enough memory for a tile");
+    }
+    s->tile->hits = 1;
+    s->tile->id[0] = 1;
+    s->tile->depth[0] = 1.0f;
+    return 1;
+}
+
+void bake_sight_end(bake_sight *s) { free(s->tile); }
+
+lmb_vec3 bake_pulled(const bake *b, lmb_vec3 at, lmb_vec3 to)
+{
+    const lmb_vec3 d = sub3(to, at);
+    const float length = length3(d), step = minf(PULL * b->set.smallest_m, 0.25f * length);
+    return length > 0.0f ? add3(at, mul3(d, step / length)) : at;
+}
+
+int bake_sees(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 to, lmb_vec3 normal)
+{
+    const lmb_vec3 up = mul3(normal, UP * b->set.smallest_m), over = add3(from, up), end = add3(to, up);
+    s->tile->position[0][0] = over.x;
+    s->tile->position[1][0] = over.y;
+    s->tile->position[2][0] = over.z;
+    const float noise = lmb_place_noise(over, 0.0f) + lmb_place_noise(end, 0.0f);
+    return lmb_occluded_tile(&b->bvh, b->kernels, s->tile, 1, end, noise, &s->traversal) == 0;
+}
+
+int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb_vec3 normal)
+{
+    const lmb_vec3 middle = mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+    return bake_sees(s, b, middle, bake_pulled(b, corner[0], middle), normal) &&
+           bake_sees(s, b, middle, bake_pulled(b, corner[1], middle), normal) &&
+           bake_sees(s, b, middle, bake_pulled(b, corner[2], middle), normal);
+}

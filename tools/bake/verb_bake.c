@@ -1,0 +1,128 @@
+/* verb_bake.c: `lambent bake`: a scene that does not move -> its light transfer, in a file. */
+#include "verb_bake.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+#include "../../platform/host/pool.h"
+#include "../common/options.h"
+#include "../demo/demo_scene.h"
+#include "../model/model.h"
+#include "bake.h"
+
+typedef struct options {
+    const char *scene, *out, *scene_name;
+    float error, division, cluster, smallest;
+    int32_t elements, receivers, threads;
+    int is_quiet, is_verbose;
+} options;
+
+enum { EYES = 64 }; /* cameras of the scene that are looked from */
+
+#define AT(member) .at = offsetof(options, member)
+
+static const option_row rows[] = {
+    {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .help = ".gltf .glb .obj .ply, or `demo`"},
+    {.name = "-o", .value = "OUT.lmt", .kind = OPTION_TEXT, AT(out), .help = "for `lambent render --transfer`"},
+    {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
+     .help = "of a file with several scenes: which, by name or number"},
+    {.name = "--error", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
+     .help = "error of the links of a receiver"},
+    {.name = "--division", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
+     .help = "how far light may be from linear between receivers"},
+    {.name = "--elements", .value = "N", .kind = OPTION_POWER_OF_2, AT(elements), .low = 64,
+     .high = LMB_TRANSFER_MAX_ELEMENTS, .help = "pieces of surface that send light: 64, 256, 1024, 4096, 16384"},
+    {.name = "--receivers", .value = "N", .kind = OPTION_INT, AT(receivers), .low = 64, .high = 500000,
+     .help = "no further division from so many receivers on"},
+    {.name = "--cluster", .value = "M", .kind = OPTION_ABOVE, AT(cluster), .low = 0.0, .high = 1e5,
+     .help = "triangles under twice this, m, are lit by clusters of this size"},
+    {.name = "--smallest", .value = "M", .kind = OPTION_ABOVE, AT(smallest), .low = 0.0, .high = 1e5,
+     .help = "no edge under this, m, is halved"},
+    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
+     .help = "the file is the same with any (default: all processors)"},
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+static const option_table table = {
+    .verb = "bake",
+    .usage = "bake SCENE -o OUT.lmt [options]",
+    .about = "How light goes from each surface of a scene that does not move to each other, so that lights and cameras "
+             "may move at the price of direct light.",
+    .part = {rows},
+    .examples = "  lambent bake demo -o demo.lmt\n"
+                "  lambent render demo --transfer demo.lmt -o demo.png\n",
+};
+
+static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *eyes, uint32_t eye_count, report *r)
+{
+    static const char *const names[LMB_TRANSFER_SECTIONS] = {
+        "surfaces", "pieces", "areas", "divisions", "corners", "receivers", "links", "blends", "clusters", "cluster links"};
+    bake b;
+    bake_settings set;
+    file_bytes file = {NULL, 0};
+    memset(&b, 0, sizeof b);
+    memset(&set, 0, sizeof set);
+    set.error = o->error;
+    set.division = o->division;
+    set.cluster_m = o->cluster;
+    set.smallest_m = o->smallest;
+    set.elements = (uint32_t)o->elements;
+    set.receivers = (uint32_t)o->receivers;
+    set.threads = o->threads > 0 ? o->threads : pool_processors();
+    b.is_quiet = o->is_quiet || !o->is_verbose;
+    int ok = bake_begin(&b, scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) && bake_clusters(&b, r) &&
+             bake_file(&file, &b, r) && file_write(o->out, file.data, file.size, r);
+    if (ok && !o->is_quiet) {
+        printf("%s: %u elements, %u receivers, %.1f links each, %u clusters, %.1f links each, %.2f MB\n", o->out,
+               (unsigned)b.element_count, (unsigned)b.receiver_count,
+               (double)b.section[LMB_TRANSFER_LINKS].count / (b.receiver_count > 0 ? b.receiver_count : 1),
+               (unsigned)b.clusters,
+               (double)b.section[LMB_TRANSFER_CLUSTER_LINKS].count / 2.0 / (b.clusters > 0 ? b.clusters : 1),
+               (double)file.size * 1e-6);
+        for (int s = 0; s < LMB_TRANSFER_SECTIONS && o->is_verbose; ++s) {
+            printf("  %-14s %8.3f MB\n", names[s], 4e-6 * (double)b.section[s].count);
+        }
+    }
+    file_free(&file);
+    bake_free(&b);
+    return ok;
+}
+
+static int bake_model(const options *o, const lmb_scene *scene, const model *m, report *r)
+{
+    lmb_vec3 eyes[EYES];
+    uint32_t count = 0;
+    for (; count < EYES && count < m->camera_count; ++count) {
+        eyes[count] = m->cameras[count].eye;
+    }
+    return bake_scene(o, scene, eyes, count, r);
+}
+
+int verb_bake(int argc, char **argv)
+{
+    report r = {""};
+    options o;
+    model loaded;
+    model_notes notes;
+    const double start = host_seconds();
+    memset(&o, 0, sizeof o);
+    memset(&loaded, 0, sizeof loaded);
+    memset(&notes, 0, sizeof notes);
+    o.error = 0.004f;
+    o.division = 0.004f;
+    o.elements = 4096;
+    o.receivers = 8000;
+    const int asked = options_parse(&o, &table, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &table, &r);
+    }
+    const int is_demo = strcmp(o.scene, "demo") == 0;
+    int ok = file_can_write(o.out, &r) && (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) &&
+             bake_model(&o, is_demo ? demo_scene() : &loaded.scene, &loaded, &r);
+    model_free(&loaded);
+    report_note(!ok || !o.is_verbose, "baked in %.1f s", host_seconds() - start);
+    return ok ? 0 : report_end(&r, "bake", 1);
+}
