@@ -204,8 +204,8 @@ golden: $(B)/golden ## small scenes' hashes against the committed ones
 slivers: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
 	@$(RUN) $(B)/reference hard
 
-hard: $(B)/hard ## the gallery of hard cases, and what must not matter (ROOMS="raster shadow ..."; the table: bench hard)
-	@$(RUN) $(B)/hard $(ROOMS)
+hard: $(B)/hard ## the gallery of hard cases, and what must not matter (CASES="raster shadow ...")
+	@$(RUN) $(B)/hard $(CASES)
 
 golden-orders: $(B)/golden-orders ## the same hashes in pieces, in several orders, on 1 .. 8 threads; BACKENDS=all: each way by every machine
 	@$(RUN) $(B)/golden-orders$(EXE) $(if $(filter all,$(BACKENDS)),all)

@@ -281,6 +281,18 @@ status 2 bench demo --swep tree=8
 said "did you mean --sweep?"
 status 2 bench demo --shadwo-map 64
 said "did you mean --shadow-map?"
+status 2 render demo -o="$dir/bad.png"
+said "write \`-o $dir/bad.png\`"
+status 2 render demo --o=x.png
+said "unknown option --o; did you mean -o?"
+status 2 render demo -h=1
+said "-h takes no value"
+status 2 relief baek
+said "there is no \`relief baek\`; did you mean relief bake?"
+status 2 bench rastr
+said "there is no file \`rastr\`; did you mean bench raster?"
+status 2 render demo --quality drfat -o "$dir/bad.png"
+said "did you mean draft?"
 status 2 rendr demo
 said "did you mean render?"
 status 2 render demo --size 64x48 --size 32x24 -o "$dir/bad.png"
@@ -394,7 +406,7 @@ done
 find "$dir" \( -name '*killed*tmp*' -o -name '.write-*.tmp' \) -exec rm -f {} + # of those that were killed
 
 # A reader that goes away: the tool ends, with its own status or by the signal, and does not go on.
-check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^room"' sh "$TOOL"
+check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^group"' sh "$TOOL"
 
 left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
@@ -615,14 +627,27 @@ check "the gather's operations are counted" test "$machines" -eq "$(grep -c '"op
 status 0 bench gather --backend scalar --seconds 0.01
 check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' "$dir/out.txt"
 check "and no other" test "$(grep -c . "$dir/out.txt")" -eq 1
-# Every figure of a room on a line, and within its bound.
+# Every figure of a group of cases on a line, and within its bound.
 status 0 bench hard raster
 check "bench hard prints a line a case" test "$(grep -c '^raster ' "$dir/out.txt")" -ge 20
 status 0 bench hard mixed --json --backend scalar
 check "bench hard --json says which hold" test "$(grep -c ',"holds":true}$' "$dir/out.txt")" -ge 8
-status 1 bench hard nowhere
+status 2 bench hard nowhere
+said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far or whole"
+status 2 bench hard rastr
+said "did you mean raster?"
 status 2 bench hard raster shadow
 status 2 bench hard --seconds 1
+status 0 bench hard probe -q
+check "bench hard -q is its exit status" sh -c '! test -s "$1" && ! test -s "$2"' sh "$dir/out.txt" "$dir/err.txt"
+status 0 bench hard probe -v
+check "bench hard -v says how long it took" grep -q '^lambent: bench hard took .* s$' "$dir/err.txt"
+status 0 bench raster fill-depth --seconds 0.01 -q
+check "bench raster -q prints nothing" sh -c '! test -s "$1"' sh "$dir/out.txt"
+status 0 bench gather --backend scalar --seconds 0.01 --quiet
+check "bench gather -q prints nothing" sh -c '! test -s "$1"' sh "$dir/out.txt"
+status 2 bench gather -q -v
+said "--quiet and --verbose exclude each other"
 
 status 2 bench gather --backend nothing
 status 2 bench gather bunny
