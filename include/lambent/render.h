@@ -162,7 +162,7 @@ enum {
 /* The state of one light of a frame. */
 enum {
     LMB_LIGHT_DARK = 1,          /* gives no light: has no map, and is skipped */
-    LMB_LIGHT_MAP_REUSED = 2,    /* its shadow map is the last frame's */
+    LMB_SHADOW_MAP_REUSED = 2,   /* its shadow map is the last frame's */
     LMB_LIGHT_TEXELS_REUSED = 4, /* so are its faces of the tree */
     LMB_LIGHT_DIM = 8            /* does not bounce: lmb_frame.dim */
 };

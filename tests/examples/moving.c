@@ -47,7 +47,7 @@ int main(void)
         }
         still.view = moving.view;
         lmb_status status = lmb_render_reuse(&kept, &moving); /* `kept` is of zeros before the first frame */
-        maps_kept += (kept.light_state[0] & LMB_LIGHT_MAP_REUSED) != 0;
+        maps_kept += (kept.light_state[0] & LMB_SHADOW_MAP_REUSED) != 0;
         for (int more = status == LMB_OK; more; more = status == LMB_MORE) {
             status = lmb_render_step(&kept, 1000); /* a game would do something else in between */
         }
