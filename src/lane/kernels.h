@@ -64,7 +64,7 @@ enum {
     LMB_BOUNDS_PLANES = 20
 };
 
-/* What lies in a cut's `weighed`: nodes side by side, and what they were found to give the tile: value and most as in
+/* What lies in a cut's `bounds_of_nodes`: nodes side by side, and the light of each on the tile: value and upper as in
  * lmb_cut, and error. */
 typedef struct lmb_node_bounds {
     float node[LMB_BOUNDS_PLANES][LMB_BOUNDS_NODES];
@@ -73,7 +73,7 @@ typedef struct lmb_node_bounds {
 
 /* Both lie in public structs, as room whose size alone is told there. */
 typedef char lmb_resolve_batch_fits[sizeof(lmb_resolve_batch) <= sizeof(((lmb_tile *)0)->work) ? 1 : -1];
-typedef char lmb_weighed_fits[sizeof(lmb_node_bounds) == sizeof(((lmb_cut *)0)->bounds_of_nodes) ? 1 : -1];
+typedef char lmb_node_bounds_fits[sizeof(lmb_node_bounds) == sizeof(((lmb_cut *)0)->bounds_of_nodes) ? 1 : -1];
 
 /* One tile of a target, by rows of 8: steps are in elements. */
 typedef struct lmb_fill_tile {

@@ -192,7 +192,7 @@ static lmb_many_lights_source source_of(const lmb_light *l)
     return s;
 }
 
-/* Which side of space a spot shines to, 0 .. 5. */
+/* Which side of space a spot points to, 0 .. 5. */
 static uint32_t side_of(lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z);

@@ -1,7 +1,7 @@
 /* reflect.c: what a rough surface reflects of the world, by reflected direction, as a cube. Layer 6. [S16 S17 S22]
  *
  * The lobe of lmb_glossy for a viewer straight above, about a direction: D(h) G(l) / 4, that is rays in proportion to
- * D / 4, weighed by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of the lobe (filtered
+ * D / 4, weighted by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of the lobe (filtered
  * importance sampling, Krivanek and Colbert 2008). That viewers who look along the surface see a longer lobe is left
  * out, as in all such cubes. */
 #include <string.h>

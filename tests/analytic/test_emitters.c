@@ -14,7 +14,7 @@ void test_emitters(void);
 
 static uint32_t texels[SIDE * SIDE * 2];
 
-/* A unit square at height h of which x < PART shines down on another; no element ends there. */
+/* A unit square at height h of which x < PART emits light down on another; no element ends there. */
 #define PART (LIT / (double)SIDE)
 static void make_part_panel(double h)
 {

@@ -1,7 +1,8 @@
 /* main_orders.c: the golden cases cut into pieces, in several orders and on 1 .. 8 threads: the same hashes each way.
  *
- * A line a way, with the lines of the cases that differ. Cases take turns with the machines' kernels, and each case
- * from way to way: so every machine meets every number of threads, and every case. `ways all`: every machine each way.
+ * A line a way, with the lines of the cases that differ. Cases take the backends in turn, and each case from
+ * way to way: so every backend meets every number of threads, and every case. `golden-orders all`: each way by every
+ * backend.
  * Pictures go band by band, maps and targets by rows of tiles, the stages of a frame in parts; scratch holds noise
  * before each piece. Frames also leave nothing out, and keep all of one before. */
 #include <stdio.h>

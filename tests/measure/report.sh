@@ -1,7 +1,7 @@
 # report.sh: speed against error of three truth scenes and the demo: a page each, and README's table and picture.
 #
 # SCENES: which of the truth's. LMB_SHARED: the folder with truth/ (default ../shared). REPORT: where to (default
-# build/report). RUNS, LEDGER: see `lambent bench SCENE --help`. tests/results/README.md and tests/results/front.svg are written where all
+# build/report). RUNS, BREAKDOWN: see `lambent bench SCENE --help`. tests/results/README.md and tests/results/front.svg are written where all
 # of the usual scenes are there.
 . tests/scripts/checks.sh
 
@@ -14,7 +14,7 @@ mkdir -p "$to"
 sweep() {
     name=$1
     shift
-    if "$TOOL" bench "$@" --runs "${RUNS:-2}" --breakdown "${LEDGER:-8}" -o "$to/$name" --svg "$to/$name.svg" \
+    if "$TOOL" bench "$@" --runs "${RUNS:-2}" --breakdown "${BREAKDOWN:-8}" -o "$to/$name" --svg "$to/$name.svg" \
         >"$to/$name.txt"; then
         pass
         echo "$to/$name.html: $(sed -n 's/^.*"seconds": \([0-9.]*\),$/\1/p' "$to/$name.json" | head -n 1) s"

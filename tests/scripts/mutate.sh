@@ -2,7 +2,7 @@
 #
 #     mutate.sh FOLDER N SEED [MODULE...]     N seeded changes in these modules of src/ (all but lane and isa)
 #
-# Works on a copy in FOLDER/tree, with the kernels of two machines (scalar and AVX2), as each takes seconds to compile.
+# Works on a copy in FOLDER/tree, with the kernels of two backends (scalar and AVX2), as each takes seconds to compile.
 # Of each change: it does not build, or gives the same code, and is none; then the quickest tests first, until one
 # fails, ends badly or takes six times as long as without it: golden pictures, the unit tests of the module, hard cases;
 # with FULL=1 all others too. Only what follows from the changed file is built, and a program when its turn comes.

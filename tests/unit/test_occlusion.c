@@ -67,7 +67,7 @@ static void fill_tile(lmb_tile *tile, lmb_vec3 middle, float half, test_rng *r)
     }
 }
 
-/* Of a walk that knows nothing yet. */
+/* Of a traversal that knows nothing yet. */
 static float noise_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
     return lmb_tile_noise(tile, pixels) + lmb_place_noise(at, 0.0f);

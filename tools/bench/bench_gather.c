@@ -1,4 +1,4 @@
-/* bench_gather.c: times the far gather on a tile that every group lights, and holds it against the machine's bound. */
+/* bench_gather.c: times the far gather on a tile that every group lights, against the processor's bound. */
 #include "bench_gather.h"
 
 #include <stdio.h>

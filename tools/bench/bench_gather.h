@@ -1,4 +1,4 @@
-/* bench_gather.h: `lambent bench gather`: the far gather's speed, and its share of what the machine can do. */
+/* bench_gather.h: `lambent bench gather`: the far gather's speed, and its share of what the processor can do. */
 #ifndef BENCH_GATHER_H
 #define BENCH_GATHER_H
 

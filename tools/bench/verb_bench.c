@@ -122,7 +122,7 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Nothing but depths: what a machine's loads and stores bound. */
+/* Nothing but depths: the processor's loads and stores are the bound. */
 static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
 
 /* The longest of what one frame keeps a unit, or loads and stores, busy with. */
@@ -142,8 +142,8 @@ static void set_bound(timing *t, const canvas *c, const bench_scene *s, const be
     }
 }
 
-/* Two frames to warm up, then frames for the time asked for, each by itself, and the machine's loops between them: both
- * meet the same clock rate and the same neighbours. */
+/* Two frames to warm up, then frames for the time asked for, each by itself, and the processor's loops between them:
+ * both meet the same clock rate and the same neighbours. */
 static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, int cull)
 {
     bench_rates rates;

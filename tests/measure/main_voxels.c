@@ -1,6 +1,6 @@
-/* main_voxel.c: one bounce by cones through voxels against truth and closed forms: errors, time by stage, memory.
+/* main_voxels.c: one bounce by cones through voxels against truth and closed forms: errors, time by stage, memory.
  *                                                                                   [M6-M8 M11-M13 M20-M22]
- *     voxel [SCENE...]        cornell and corridor have bars
+ *     measure-voxels [SCENE...]        cornell and corridor have bars
  *
  * Seconds are of one core. `x`: times what one bounce by cuts with exact occlusion takes for its pixels (the tool's
  * default). Closed forms: tests/analytic/test_voxels.c. */
