@@ -268,6 +268,10 @@ int main(int argc, char **argv)
     golden_way threaded = {draw_rows, draw_map_rows, render_by_workers, again_by_workers, 0};
     const int order_count = sizeof orders / sizeof *orders;
     int failed = 0;
+    if (argc > 2 || (argc == 2 && !all)) {
+        printf("FAIL golden-orders takes `all` or nothing, not `%s`\n", argv[argc - 1]);
+        return 2;
+    }
     for (order_now = 0; order_now < order_count; ++order_now) {
         ordered.backend = all ? -1 : order_now;
         failed += run_way(orders[order_now].name, 0, &ordered);
