@@ -7,6 +7,7 @@
  *   bounced light          where no light meets a triangle, or all reflect 0: the first points' flux is 0
  *
  * And, where the frame allows it, lights whose bounce no pixel can show: by a conservative bound. */
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../raster/triangle.h"
 #include "stages.h"
@@ -107,7 +108,7 @@ static float upper_bounced(const lmb_render *r, const lmb_light *l, float albedo
 {
     const lmb_scene *s = r->frame.scene;
     const float largest = maxf(l->intensity[0], maxf(l->intensity[1], l->intensity[2]));
-    const float d2 = l->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : nearest2(s, r->triangles, l->position);
+    const float d2 = light_kind_is(l->kind, LIGHT_FAR) ? 1.0f : nearest2(s, r->triangles, l->position);
     const int32_t own = r->frame.bounces, bounces = own > 1 && !r->frame.truncated ? LMB_MAX_BOUNCES : own;
     float sum = 0.0f, share = 1.0f;
     for (int32_t i = 0; i < bounces; ++i) {

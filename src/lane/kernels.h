@@ -13,6 +13,7 @@
 #include <lambent/voxel.h>
 #include <lambent/relief.h>
 
+#include "../base/light_kind.h"
 #include "backends.h"
 
 /* A tile's rays, relative to the eye. Of pixel (x, y):

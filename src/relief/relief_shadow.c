@@ -6,6 +6,7 @@
  * that place, so a slope needs no bias; what is left over is curvature, and the warp's own error. */
 #include <lambent/relief.h>
 
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../map/part.h"
 #include "../raster/target.h"
@@ -104,8 +105,8 @@ static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light
 {
     r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
     r->plane = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
-    const int32_t f = light->kind == LMB_LIGHT_DIRECTIONAL ? lmb_shadow_map_part(map, r->at)
-                                                           : choose_face(map, sub3(r->at, light->position));
+    const int32_t f = light_kind_is(light->kind, LIGHT_FAR) ? lmb_shadow_map_part(map, r->at)
+                                                          : choose_face(map, sub3(r->at, light->position));
     const lmb_view *v = r->view = &map->view[f];
     const lmb_vec3 d = sub3(r->at, v->eye);
     const float size = (float)map->size;
