@@ -66,18 +66,7 @@ static double seconds_now(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
 static int load(work *w)
 {
-    char path[SHARED_PATH];
-    model_notes notes;
-    report r = {""};
-    memset(&notes, 0, sizeof notes);
-    truth_path(path, w->scene, "scene.gltf");
-    if (!truth_is_there(w->scene) || !truth_picture(&w->truth, w->scene, "pt_indirect1.pfm") ||
-        !truth_picture(&w->surface, w->scene, "gbuffer_depth.pfm")) {
-        return 0;
-    }
-    const int ok = model_load(&w->loaded, path, NULL, &notes, &r) && w->loaded.camera_count > 0;
-    CHECK_MSG(ok, "%s: %s", w->scene, r.text);
-    return ok;
+    return truth_scene(&w->loaded, &w->truth, &w->surface, w->scene);
 }
 
 static void set_frame(work *w)
@@ -134,9 +123,7 @@ static void close_scene(work *w)
     while (w->taken > 0) {
         free(w->memory[--w->taken]);
     }
-    image_free(&w->truth);
-    image_free(&w->surface);
-    model_free(&w->loaded);
+    truth_scene_free(&w->loaded, &w->truth, &w->surface);
 }
 
 /* --- a tile by brute force ---------------------------------------------------------------------------------------- */
