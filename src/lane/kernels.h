@@ -1,7 +1,7 @@
 /* kernels.h: the table of kernels that a backend fills in: the only way into isa/. Layer 2.
  *
- * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, on every backend.
- * */
+ * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, by every
+ * backend. */
 #ifndef LMB_LANE_KERNELS_H
 #define LMB_LANE_KERNELS_H
 

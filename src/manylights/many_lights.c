@@ -120,8 +120,7 @@ static uint32_t hash_of(const lmb_light *l)
 }
 
 /* A weighted random choice: of scores log2(u) / w with u from the hash, even in 0 .. 1, the largest is light i's with
- * the
- * chance w_i / sum w (Efraimidis and Spirakis 2006), whichever comes first. */
+ * the chance w_i / sum w (Efraimidis and Spirakis 2006), whichever comes first. */
 static float lot_of(uint32_t hash, float weight)
 {
     const float u = ((float)(hash >> 8) + 0.5f) * 0x1p-24f;

@@ -14,7 +14,7 @@
 #if LMB_RELIEF
 
 #define SLACK   1.0f  /* texels a receiver may lie behind what the map shows and still be lit */
-#define STEEP   4.0f  /* the plane of a receiver tells its depth this many texels from its own at most */
+#define STEEP   4.0f  /* a receiver's plane is extrapolated by this many texels at most */
 #define EDGE_ON 1e-3f
 
 /* --- the map ------------------------------------------------------------------------------------------------------ */
@@ -100,7 +100,7 @@ static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
     return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
 }
 
-/* 0 where the map does not have it. */
+/* 0 where the receiver lies outside the map. */
 static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile, int k)
 {
     r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);

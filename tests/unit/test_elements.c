@@ -364,8 +364,8 @@ static void test_refusals(void)
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, 0, tiles) == LMB_OK);
 }
 
-/* A wall beside a floor that emits light: two of its rows lie under the floor's plane and are not asked what they see.
- * */
+/* A wall beside a floor that emits light: two of its rows lie under the floor's plane and are not asked what they
+ * see. */
 static void test_asked(void)
 {
     lmb_bvh bvh;

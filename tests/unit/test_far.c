@@ -1,5 +1,5 @@
-/* test_far.c: large, small and distant worlds: what rounding may do, where a scene is fine, the faces of a sun's map.
- * */
+/* test_far.c: large, small and distant worlds: what rounding may do, where a scene is fine, the faces of a sun's
+ * map. */
 #include "../world.h"
 
 #include <stdlib.h>
