@@ -37,8 +37,7 @@ static void add_irradiance(int material, float radiance)
     }
 }
 
-/* --- walls that emit light
- * --------------------------------------------------------------------------------------------- */
+/* --- walls that emit light ---------------------------------------------------------------------------------------- */
 
 static void check_furnace(int32_t bounces)
 {
@@ -59,8 +58,7 @@ static void check_furnace(int32_t bounces)
     CHECK_MSG(max < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, max);
 }
 
-/* --- a panel that emits light
- * ------------------------------------------------------------------------------------------ */
+/* --- a panel that emits light ------------------------------------------------------------------------------------- */
 
 /* A unit square that emits light down on another from height h, without lights. The view is centred, so that nothing
  * depends on which way its pictures lie: E = pi L F. */

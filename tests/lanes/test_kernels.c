@@ -690,8 +690,7 @@ static int trial_node_bounds(const trial *t, test_rng r)
            same_floats(t, "node", want.it.node[0], got.it.node[0], LMB_BOUNDS_PLANES * LMB_BOUNDS_NODES);
 }
 
-/* --- glossy reflection
- * -------------------------------------------------------------------------------------------------------- */
+/* --- glossy reflection -------------------------------------------------------------------------------------------- */
 
 /* Lobes sharp and wide, with sums so far. Those of pixels that have none are as random. */
 static void make_glossy(lmb_glossy *out, const trial *t, test_rng *r, uint32_t rare)
