@@ -219,6 +219,13 @@ typedef struct lmb_pyramid {
     float at[3], per_high[3], per_low[3];
 } lmb_pyramid;
 
+/* A segment from a point: 1 / the distance to its other end along each axis, at most 1e20 where that is 0; and where in
+ * lmb_boxes the sides lie by which it enters and leaves them, in floats. */
+typedef struct lmb_segment {
+    lmb_vec3 at, per;
+    int32_t enter[3], leave[3];
+} lmb_segment;
+
 /* The world, for rays of one width. */
 typedef struct lmb_world_job {
     const void *texels;
@@ -323,6 +330,8 @@ struct lmb_kernels {
     uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i);
     /* The boxes that the pyramid may meet, a bit each. */
     uint32_t (*meets)(const lmb_pyramid *pyramid, const lmb_boxes *boxes);
+    /* Those that one segment meets. */
+    uint32_t (*meets_one)(const lmb_segment *segment, const lmb_boxes *boxes);
     /* `crossed` and `meets` for a light at infinity. */
     uint64_t (*sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job);
     uint32_t (*sun_meets)(const lmb_sun_sweep *sweep, const lmb_boxes *boxes);

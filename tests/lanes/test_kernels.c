@@ -862,6 +862,26 @@ static int trial_meets(const trial *t, test_rng r)
     return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
 }
 
+/* Along each axis forwards or backwards, or not at all. */
+static int trial_meets_one(const trial *t, test_rng r)
+{
+    static lmb_boxes boxes;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const lmb_vec3 at = place(&r, 2.0f, 0), to = place(&r, 2.0f, 0);
+    const float d[3] = {to.x - at.x, t->seed % 5u == 0 ? 0.0f : to.y - at.y, to.z - at.z};
+    const int32_t high = 3 * LMB_BOXES;
+    lmb_segment s;
+    s.at = at;
+    s.per = vec3(per(d[0]), per(d[1]), per(d[2]));
+    for (int c = 0; c < 3; ++c) {
+        s.enter[c] = c * LMB_BOXES + (d[c] < 0.0f ? high : 0);
+        s.leave[c] = c * LMB_BOXES + (d[c] < 0.0f ? 0 : high);
+    }
+    make_boxes(&boxes, &r, at, rare);
+    const uint32_t want = lmb_kernels_scalar.meets_one(&s, &boxes), got = t->kernels->meets_one(&s, &boxes);
+    return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
+}
+
 static int trial_sun_meets(const trial *t, test_rng r)
 {
     static lmb_boxes boxes;
@@ -1321,6 +1341,7 @@ static const struct kernel {
     {"segments", trial_segments},
     {"through", trial_through},
     {"meets", trial_meets},
+    {"meets_one", trial_meets_one},
     {"sun_crossed", trial_sun_crossed},
     {"sun_meets", trial_sun_meets},
     {"many_bounds", trial_many_lights_bounds},
