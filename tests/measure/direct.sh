@@ -3,7 +3,7 @@
 #
 # LMB_SHARED: the folder with truth/ and data/ (default ../shared). SIMPLE, MANY: which files below it. RUNS, FRAME (of the
 # simple ones, default 640x480). User seconds of the whole command. A simple scene passes where the default picture takes
-# 1.5 x as long as the direct one, and the light's map and tree (--stats), at most. Many lights, at 256 x 256, pass at 3 x
+# 1.5 x as long as the direct one, and the shadow map and the tree (--stats), at most. Many lights, at 256 x 256, pass at 3 x
 # the instructions of direct light by the same tree, or user seconds where valgrind is missing. Spots stand in for the
 # lights of MANY's file, and suns for that of a court that tests/scenes makes.
 . tests/measure/draw.sh
