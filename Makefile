@@ -274,9 +274,9 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
 .PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving scenes \
-    measure-truth measure-own measure-turned measure-full measure-times report measure-cuts measure-simplify \
-    measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-voxels large tiny \
-    run-demo run-statue cross check-tools
+    measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
+    measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
+    measure-voxels large tiny run-demo run-statue cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
@@ -355,6 +355,9 @@ measure-full: $(TOOL) ## six bounces against truth (SCENES, QUALITY=best, BOUNCE
 
 measure-times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS, FRAME)
 	@$(IN_SH) tests/measure/times.sh
+
+measure-direct: $(TOOL) $(B)/scenes ## what bounced light adds to the time of direct light
+	@$(IN_SH) tests/measure/direct.sh
 
 report: $(TOOL) ## speed against error: pages in build/report, the README's table and picture
 	@$(IN_SH) tests/measure/report.sh
