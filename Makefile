@@ -189,7 +189,7 @@ check-examples-tiny: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 unit: ## what functions do, alone and together
 analytic: ## light against closed forms
 truth: ## light against path-traced pictures, where ../shared is there (LMB_SHARED)
-lanes: ## each kernel by each machine against plain C; LANES_SEED=7 repeats a run
+lanes: ## each kernel by each backend against plain C; LANES_SEED=7 repeats a run
 
 unit analytic truth lanes: $(B)/tests
 	@$(RUN) $(B)/tests $@
@@ -201,13 +201,13 @@ unit-1 unit-2: $(B)/tests
 golden: $(B)/golden ## small scenes' hashes against the committed ones
 	@$(RUN) $(B)/golden$(EXE)
 
-slivers: $(B)/reference ## random slivers, specks, huge and cut triangles against the slow reference rasterizer
+slivers: $(B)/reference ## random slivers, specks, huge and cut triangles against a slow rasterizer
 	@$(RUN) $(B)/reference hard
 
-hard: $(B)/hard ## the gallery of hard cases, and what must not matter (ROOMS="raster shadow ..."; the table: bench hard)
-	@$(RUN) $(B)/hard $(ROOMS)
+hard: $(B)/hard ## the gallery of hard cases, and what must not matter (CASES="raster ...")
+	@$(RUN) $(B)/hard $(CASES)
 
-golden-orders: $(B)/golden-orders ## the same hashes in pieces, in several orders, on 1 .. 8 threads; BACKENDS=all: each way by every machine
+golden-orders: $(B)/golden-orders ## the same in pieces, in any order, on 1 .. 8 threads (BACKENDS=all)
 	@$(RUN) $(B)/golden-orders$(EXE) $(if $(filter all,$(BACKENDS)),all)
 
 replay: $(B)/replay ## the fuzz targets on their corpus
@@ -220,13 +220,13 @@ audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numb
 
 PREFIXES  ?= 20
 MUTATIONS ?= 200
-hostile: $(B)/hostile ## cut and changed samples through every parser: PREFIXES=20 of each, MUTATIONS=200 of each kind
+hostile: $(B)/hostile ## cut and changed samples through each parser (PREFIXES=20 MUTATIONS=200)
 	@sh tests/scripts/hostile.sh $< $(PREFIXES) $(MUTATIONS)
 
 hostile-cli: $(TOOL) ## absurd files through the whole tool
 	@$(IN_SH) tests/scripts/hostile_cli.sh
 
-layers: $(LIB) $(TOOL) ## includes and calls only go down: no circle among folders or files (tests/scripts/layers.txt)
+layers: $(LIB) $(TOOL) ## includes and calls only go down, without circles (layers.txt)
 	@$(IN_SH) tests/scripts/layers.sh
 
 symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
@@ -241,16 +241,16 @@ headers: ## each public header alone, as C99 and as C++
 layout: $(LIB) ## a program with other capacities than the library must not link
 	@$(IN_SH) tests/scripts/layout.sh
 
-guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: builds that would draw other pixels are refused
+guard: $(B)/golden $(LIB) ## -ffast-math, contraction, x87: such builds are refused
 	@$(IN_SH) tests/scripts/guard.sh
 
-one-command: ## a bare compiler command with all of src: builds, and the pictures are the same
+one-command: ## a bare compiler command with all of src gives the same pictures
 	@$(IN_SH) tests/scripts/one_command.sh
 
 tables: $(LIB) ## generated tables are what their generators print
 	@$(IN_SH) tests/scripts/tables.sh
 
-words: ## no old name or private phrase, no document with a link to nowhere, README within its bounds
+words: ## no old name or private phrase, no dead link, README within its bounds
 	@$(IN_SH) tests/scripts/words.sh
 
 readme: $(LIB) ## the README's examples compile and run
@@ -268,17 +268,17 @@ tool-setup: ## that check-tools removes nothing and says what it does
 cli: $(TOOL) ## the tool's files, exit statuses and messages
 	@$(IN_SH) tests/scripts/cli.sh
 
-# --- instruments and other machines ----------------------------------------------------------------------------------
+# --- instruments, and other processors -------------------------------------------------------------------------------
 
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
 .PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving scenes \
-    measure-truth measure-own measure-turned measure-full measure-times report measure-cuts measure-simplify \
-    measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-voxels large tiny \
-    run-demo run-statue cross check-tools
+    measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
+    measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
+    measure-voxels large tiny run-demo run-statue cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
-size: module-sizes ## code and data by module and function, here and on a Cortex-M4F; what bounced light takes of 48 KiB
+size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
 
@@ -297,7 +297,7 @@ asan: ## the checks under address and undefined-behaviour sanitizers
 	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
-msan: ## pictures, hard cases and the fuzz corpus where use of what was never set is an error
+msan: ## pictures, hard cases and the corpus under the memory sanitizer
 	+@$(MAKE) golden hard replay hostile BUILD=$(BUILD)/msan CC=clang \
 	    CFLAGS="-O1 -g -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 
@@ -307,7 +307,7 @@ FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,u
 FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr cli api
 MINUTES   ?= 1
-fuzz: ## each parser under libFuzzer for MINUTES=1 of CPU each (TARGETS="png gltf ...")
+fuzz: ## each parser under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers \
 	    && $(MAKE) $(FUZZER) BUILD=$(BUILD)/fuzz CC=clang CFLAGS="$(FUZZ_FLAGS)" LDFLAGS=-fsanitize=fuzzer
 	@sh tests/scripts/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)
@@ -316,83 +316,86 @@ $(B)/fuzzer: $(FUZZ_OBJ) $(LIB)
 
 N    ?= 60
 SEED ?= 1
-mutants: ## change one operator or constant of src/ at a time: do the tests notice? N=60 SEED=1 IN="raster light ..."
+mutants: ## src/ with one change at a time: do tests notice? (N=60 SEED=1 IN="raster")
 	@sh tests/scripts/mutate.sh $(BUILD)/mutants $(N) $(SEED) $(IN)
 
-cov: ## lines and branches of src/ that the checks run, by gcov; what is not covered
+cov: ## lines and branches of src/ that the checks run, by gcov; what they miss
 	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS:%=$(BUILD)/cov/default/%) BUILD=$(BUILD)/cov \
 	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage && sh tests/scripts/cov.sh $(BUILD)/cov
 
 static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/
 	@sh tests/scripts/static.sh $(BUILD)/static
 
-prove: ## Frama-C and Gappa on the raster's integers: nothing overflows, for any triangle in any frame
+prove: ## Frama-C and Gappa: no integer of the raster overflows in any frame
 	@sh tests/scripts/prove.sh $(BUILD)/prove
 
 decodes: $(B)/decodes ## the picture decoders against netpbm, libjpeg-turbo and libvips
 	@$(IN_SH) tests/scripts/decodes.sh $(B)/decodes
 
 ##@ Measure, against truth in ../shared where that is there (LMB_SHARED names it)
-reference: $(B)/reference ## coverage and depth of the raster workload against the slow reference rasterizer
+reference: $(B)/reference ## coverage and depth of the raster workload against a slow rasterizer
 	@$(RUN) $(B)/reference
 
-measure-moving: $(B)/measure-moving ## a light and a crate that move: what the cut adds to the change from frame to frame
+measure-moving: $(B)/measure-moving ## a light and a crate that move: how much cuts add from frame to frame
 	@$(RUN) $(B)/measure-moving
 
-scenes: $(B)/scenes ## a program that makes scenes of our own from a name and a seed: build/default/scenes --list
+scenes: $(B)/scenes ## a program that makes scenes from a name and a seed (scenes --list)
 
-measure-truth: $(TOOL) ## bounced light against truth: errors, work, time (SCENES="cornell ..." QUALITIES="draft ...")
+measure-truth: $(TOOL) ## bounced light against truth: errors, work, time (SCENES, QUALITIES)
 	@$(IN_SH) tests/measure/truth.sh
 
-measure-own: $(TOOL) $(B)/scenes ## the same on those and on scenes of our own, fitted and held out (LMB_OWN_TRUTH=DIR)
+measure-own: $(TOOL) $(B)/scenes ## the same, and on our own scenes, fitted and held out (LMB_OWN_TRUTH=DIR)
 	@$(IN_SH) tests/measure/own.sh
 
-measure-turned: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random, against upright (TURNS="1 2 ...")
+measure-turned: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random (TURNS="1 2 ...")
 	@$(IN_SH) tests/measure/turned.sh
 
-measure-full: $(TOOL) ## all light, six bounces, against truth, and its later part (SCENES="cornell ..." QUALITY=best BOUNCES=20)
+measure-full: $(TOOL) ## six bounces against truth (SCENES, QUALITY=best, BOUNCES=20)
 	@$(IN_SH) tests/measure/full.sh
 
-measure-times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS="1 2", FRAME=64x64)
+measure-times: $(TOOL) ## seconds of a 640x480 frame by stage (SCENES, QUALITIES, THREADS, FRAME)
 	@$(IN_SH) tests/measure/times.sh
 
-report: $(TOOL) ## speed against error: pages of three truth scenes and the demo in build/report, README's table and picture
+measure-direct: $(TOOL) $(B)/scenes ## what bounced light adds to the time of direct light
+	@$(IN_SH) tests/measure/direct.sh
+
+report: $(TOOL) ## speed against error: pages in build/report, the README's table and picture
 	@$(IN_SH) tests/measure/report.sh
 
 STEP ?= 17
-measure-cuts: $(B)/measure-cuts ## what cuts save: each STEP=17th tile by every texel of a 1024 x 1024 map (SCENES="cornell sponza")
+measure-cuts: $(B)/measure-cuts ## what cuts save against all texels of a 1024 map (STEP=17th tile, SCENES)
 	@$(RUN) $(B)/measure-cuts $(STEP) $(SCENES)
 
-measure-relight: $(B)/measure-relight ## objects lit by their world: each filter's errors and time, outdoor maps, gloss
+measure-relight: $(B)/measure-relight ## objects lit by their world: errors and time of filters and glossy lobes
 	@$(IN_SH) tests/measure/relight.sh
 
-measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add, against bars: distances, silhouettes, time of a million
+measure-simplify: $(B)/measure-simplify ## what simpler meshes lose and add: distances, silhouettes, time
 	@$(RUN) $(B)/measure-simplify
 
-measure-planes: $(B)/measure-planes ## planes found in noisy depth against known ones, and across frames of one world
+measure-planes: $(B)/measure-planes ## planes found in noisy depth against known ones, and across frames
 	@$(RUN) $(B)/measure-planes
 
-measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is known, against path-traced truth
+measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is known, against truth
 	@$(RUN) $(B)/measure-mixed
 
-measure-voxels: $(B)/measure-voxel ## one bounce by cones through voxels: errors, time, memory (SCENES="cornell ...")
-	@$(RUN) $(B)/measure-voxel $(SCENES)
+measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)
+	@$(RUN) $(B)/measure-voxels $(SCENES)
 
 ROWS ?= $(BUILD)/plan-rows.bin
-measure-plan: $(TOOL) $(B)/scenes ## settings chosen for budgets of error, against truth (BUDGETS, LMB_OWN_TRUTH)
+measure-plan: $(TOOL) $(B)/scenes ## settings chosen for budgets of error (BUDGETS, LMB_OWN_TRUTH)
 	@$(IN_SH) tests/measure/plan.sh
 
-plan-model: $(B)/measure-plan ## src/plan/plan_model.inc again: units of work, from five scenes by many settings
+plan-model: $(B)/measure-plan ## src/plan/plan_model.inc again, from five scenes by many settings
 	@rm -f $(ROWS); $(RUN) $(B)/measure-plan measure $(ROWS) demo cornell corridor point_room Duck; $(RUN) $(B)/measure-plan model $(ROWS) > $(ROWS).inc && mv $(ROWS).inc src/plan/plan_model.inc
 
 RELIEFS ?= quality own rooms causes speed
-measure-relief: $(B)/measure-relief ## reliefs against their complex models: errors, speed (RELIEFS="quality own ...")
+measure-relief: $(B)/measure-relief ## reliefs against their complex models: errors, speed (RELIEFS="own ...")
 	@$(RUN) $(B)/measure-relief $(RELIEFS)
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/scripts/large.sh
 
-##@ Other machines (PORT=cortex-m|riscv32|web builds for one)
+##@ Other processors (PORT=cortex-m|riscv32|web builds for one)
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/tiny.sh
 
@@ -417,7 +420,7 @@ define cross_sum
 endef
 
 .PHONY: cross-all more-tools $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%)
-cross: $(CROSS_TARGETS:%=cross-%) ## golden pictures on other compilers and machines; gets what it needs where it can
+cross: $(CROSS_TARGETS:%=cross-%) ## golden pictures by other compilers and processors; gets what it needs
 	$(call cross_sum,$(CROSS_TARGETS))
 
 cross-all: $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%) ## the same on all of tests/scripts/targets.mk
@@ -433,5 +436,5 @@ $(CROSS_TARGETS:%=cross-%) $(MORE_CROSS_TARGETS:%=cross-%): cross-%:
 more-tools: check-tools
 	@sh tests/scripts/tools.sh get $(sort $(foreach m,$(MORE_CROSS_TARGETS),$(needs_$(m))))
 
-check-tools: ## the outside tools of the checks: what is missing, and apt-get for it where that removes nothing
+check-tools: ## the outside tools of the checks: what is missing, and apt-get for it
 	@sh tests/scripts/tools.sh get

@@ -33,6 +33,30 @@ static inline int truth_picture(image *out, const char *scene, const char *file)
     return pfm_file(out, path);
 }
 
+/* A scene with a camera, its one bounce and its depth; 0 where they are not there. truth_scene_free releases them. */
+static inline int truth_scene(model *loaded, image *bounce, image *depth, const char *scene)
+{
+    char path[SHARED_PATH];
+    model_notes notes;
+    report r = {""};
+    memset(&notes, 0, sizeof notes);
+    truth_path(path, scene, "scene.gltf");
+    if (!truth_is_there(scene) || !truth_picture(bounce, scene, "pt_indirect1.pfm") ||
+        !truth_picture(depth, scene, "gbuffer_depth.pfm")) {
+        return 0;
+    }
+    const int ok = model_load(loaded, path, NULL, &notes, &r) && loaded->camera_count > 0;
+    CHECK_MSG(ok, "%s: %s", scene, r.text);
+    return ok;
+}
+
+static inline void truth_scene_free(model *loaded, image *bounce, image *depth)
+{
+    image_free(bounce);
+    image_free(depth);
+    model_free(loaded);
+}
+
 /* As large as the picture it is held against. */
 static inline void truth_view(lmb_view *v, const model_camera *c, const image *like)
 {

@@ -111,9 +111,10 @@ typedef struct lmb_frame {
     int32_t run_all;   /* 1: skip nothing and reuse nothing: the same bytes, to check that skipping changes none */
 } lmb_frame;
 
-/* How accurately bounced light is solved: the values of those numbers of lmb_frame_settings that are 0. README has the
- * errors against truth. Where LMB_MANY_LIGHTS_EVEN lights or more of `many_lights` are all the light there is, `error`
- * and `visibility` are larger (0.1 and 0.2 by default), and bounced light is gathered at every second pixel. */
+/* How accurately bounced light is solved: the values of those numbers of lmb_frame_settings that are 0; errors
+ * against truth are in tests/results/README.md. Where LMB_MANY_LIGHTS_EVEN lights or more of `many_lights` are all the
+ * light there is, `error` and `visibility` are larger (0.1 and 0.2 by default), and bounced light is gathered at every
+ * second pixel. */
 enum {
     LMB_QUALITY_DEFAULT = 0, /* tree 256, error 0.02, visibility 0.015 */
     LMB_QUALITY_DRAFT = 1,   /* tree 128, error 0.06, visibility 0.06 */
@@ -166,7 +167,7 @@ enum {
 /* The state of one light of a frame. */
 enum {
     LMB_LIGHT_DARK = 1,          /* gives no light: has no map, and is skipped */
-    LMB_LIGHT_MAP_REUSED = 2,    /* its shadow map is the last frame's */
+    LMB_SHADOW_MAP_REUSED = 2,   /* its shadow map is the last frame's */
     LMB_LIGHT_TEXELS_REUSED = 4, /* so are its faces of the tree */
     LMB_LIGHT_DIM = 8            /* does not bounce: lmb_frame.dim */
 };

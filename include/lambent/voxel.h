@@ -8,7 +8,7 @@
  *     per tile: lmb_cones_diffuse(..), lmb_cones_glossy(..)
  *
  * A voxel does not hold a colour and an alpha, but sums over the surfaces in it, by the six directions that they face:
- * so a parent is exactly the mean of its children, no light is lost on the way up, a thin wall does not shine through
+ * so a parent is exactly the mean of its children, no light is lost on the way up, a thin wall lets no light through
  * from its back, and it covers as much of a wide cone as of a narrow one. */
 #ifndef LMB_VOXEL_H
 #define LMB_VOXEL_H

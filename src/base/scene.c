@@ -3,6 +3,7 @@
 
 #include <stddef.h>
 
+#include "light_kind.h"
 #include "vec.h"
 #include "vertex.h"
 
@@ -80,18 +81,14 @@ static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
 
 static lmb_status check_light(const lmb_light *l)
 {
-    if (l->kind < LMB_LIGHT_POINT || l->kind > LMB_LIGHT_DIRECTIONAL)
+    if (!light_kind_is(l->kind, LIGHT_KNOWN))
         return LMB_ERR_FORMAT;
     if (!is_finite3(l->position) || !is_finite3(l->direction) || !are_finite(l->intensity, 3) ||
         !is_finite(l->cos_inner) || !is_finite(l->cos_outer))
         return LMB_ERR_ARG;
     if (l->intensity[0] < 0.0f || l->intensity[1] < 0.0f || l->intensity[2] < 0.0f)
         return LMB_ERR_ARG;
-    if (l->kind != LMB_LIGHT_POINT && absf(dot3(l->direction, l->direction) - 1.0f) > 1e-3f)
-        return LMB_ERR_ARG;
-    if (l->kind == LMB_LIGHT_SPOT && !(l->cos_outer > 0.0f && l->cos_inner >= l->cos_outer && l->cos_inner <= 1.0f))
-        return LMB_ERR_ARG;
-    return LMB_OK;
+    return light_shape_is_valid(l) ? LMB_OK : LMB_ERR_ARG;
 }
 
 /* Ids run without a gap from 1 on, so that an id finds its instance by bisection. */

@@ -192,7 +192,7 @@ NOINLINE int corners_see(const gather_corners *c, const lmb_march_job *m, const 
 /* Groups that are taken together. A pair is a chain of some thirty operations, each waiting for the last: done one
  * after another, every processor waits most of the time, whatever its width. So each step is done for all groups of a
  * block before the next: chains are short and many run side by side. The pairs lie in the caller's scratch. Narrow
- * machines look from two vectors of pixels at a time: what a group brings is read once for both. */
+ * backends take two vectors of pixels at a time: what a group brings is read once for both. */
 #if defined(LANE_PLAIN)
 enum { VECTORS = 1, WIDE = LANES, BLOCK = LANES > 1 ? 8 : 4 };
 #else

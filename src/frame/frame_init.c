@@ -38,7 +38,7 @@ static int is_measured(const block *b) { return b->memory == NULL; }
 
 /* --- settings ----------------------------------------------------------------------------------------------------- */
 
-/* Figures of the presets: README, "How good it is". */
+/* Error and time of the presets: tests/results/README.md. */
 static const struct preset {
     int32_t tree;
     float error, visibility;
@@ -181,7 +181,7 @@ static lmb_status place_groups(lmb_frame *f, const lmb_frame_settings *s, block 
 }
 
 #if LMB_TREES
-static lmb_status place_blockers(lmb_frame *f, block *b)
+static lmb_status place_bvh(lmb_frame *f, block *b)
 {
     const uint32_t triangles = lmb_scene_triangles(f->scene);
     const size_t bytes = lmb_bvh_bytes(triangles);
@@ -240,7 +240,7 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block
     lmb_status status = bounces && is_fixed(s) ? place_groups(f, s, b) : LMB_OK;
 #if LMB_TREES
     if (status == LMB_OK && (by_tree || f->many_lights != NULL)) {
-        status = place_blockers(f, b);
+        status = place_bvh(f, b);
     }
     if (status == LMB_OK && by_tree) {
         status = place_tree(f, s, b);

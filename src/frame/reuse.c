@@ -92,7 +92,7 @@ static int reuse_lights(old_frame *old, const lmb_render *r, const lmb_frame *f)
     int all = same_maps(r, f);
     for (uint32_t i = 0; i < f->scene->light_count && same_maps(r, f); ++i) {
         if (r->light_revision[i] == f->scene->lights[i].revision) {
-            old->light_state[i] = (uint8_t)(LMB_LIGHT_MAP_REUSED | (solved ? LMB_LIGHT_TEXELS_REUSED : 0));
+            old->light_state[i] = (uint8_t)(LMB_SHADOW_MAP_REUSED | (solved ? LMB_LIGHT_TEXELS_REUSED : 0));
         } else {
             all = 0;
         }
@@ -127,7 +127,7 @@ static void keep_places(lmb_render *r, const old_frame *old)
     for (uint32_t i = 0; i < r->frame.scene->light_count; ++i) {
         maps = maps && r->maps[i].faces == old->map_faces[i];
         texels = texels && maps && faces_that_bounce(r, i) == old->faces[i];
-        r->light_state[i] |= !maps ? 0 : texels ? old->light_state[i] : old->light_state[i] & LMB_LIGHT_MAP_REUSED;
+        r->light_state[i] |= !maps ? 0 : texels ? old->light_state[i] : old->light_state[i] & LMB_SHADOW_MAP_REUSED;
     }
 }
 

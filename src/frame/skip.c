@@ -6,7 +6,8 @@
  *                          no first points, and no shadow falls where a map names no triangle
  *   bounced light          where no light meets a triangle, or all reflect 0: the first points' flux is 0
  *
- * And, where the frame allows it, lights whose bounce no pixel can show: by a bound that is proven. */
+ * And, where the frame allows it, lights whose bounce no pixel can show: by a conservative bound. */
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../raster/triangle.h"
 #include "stages.h"
@@ -23,15 +24,15 @@
 
 static int any3(const float *c) { return c[0] > 0.0f || c[1] > 0.0f || c[2] > 0.0f; }
 
-/* Of the materials of what is drawn: does one reflect, shine, have a lobe? */
-typedef struct looks {
+/* Of the materials of what is drawn: does one reflect, emit, have a lobe? */
+typedef struct material_summary {
     int reflects, emits, is_glossy;
     float albedo; /* the largest */
-} looks;
+} material_summary;
 
-static looks looks_of(const lmb_scene *s)
+static material_summary summary_of(const lmb_scene *s)
 {
-    looks l = {0, 0, 0, 0.0f};
+    material_summary l = {0, 0, 0, 0.0f};
     for (uint32_t i = 0; i < s->instance_count; ++i) {
         const lmb_material *m = &s->materials[s->instances[i].material];
         if (s->meshes[s->instances[i].mesh].triangle_count > 0) {
@@ -107,7 +108,7 @@ static float upper_bounced(const lmb_render *r, const lmb_light *l, float albedo
 {
     const lmb_scene *s = r->frame.scene;
     const float largest = maxf(l->intensity[0], maxf(l->intensity[1], l->intensity[2]));
-    const float d2 = l->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : nearest2(s, r->triangles, l->position);
+    const float d2 = light_kind_is(l->kind, LIGHT_FAR) ? 1.0f : nearest2(s, r->triangles, l->position);
     const int32_t own = r->frame.bounces, bounces = own > 1 && !r->frame.truncated ? LMB_MAX_BOUNCES : own;
     float sum = 0.0f, share = 1.0f;
     for (int32_t i = 0; i < bounces; ++i) {
@@ -150,7 +151,7 @@ void lmb_render_skip(lmb_render *r)
     if (r->frame.run_all) {
         return;
     }
-    const looks l = looks_of(s);
+    const material_summary l = summary_of(s);
     r->emits = r->emits && l.emits;
     r->is_glossy = r->is_glossy && l.is_glossy;
     for (uint32_t i = 0; i < s->light_count; ++i) {

@@ -16,7 +16,7 @@ static lmb_status step_shadow_map(lmb_render *r, int32_t units)
     if (r->light == f->scene->light_count) {
         return LMB_OK;
     }
-    if (light_is(r, r->light, LMB_LIGHT_MAP_REUSED)) {
+    if (light_is(r, r->light, LMB_SHADOW_MAP_REUSED)) {
         ++r->light;
         return LMB_MORE;
     }
@@ -238,7 +238,7 @@ lmb_status lmb_render_solve(lmb_render *r, int32_t units)
 static int64_t rows_of(const lmb_render *r, uint32_t light)
 {
     const int64_t rows = r->frame.shadow_map / LMB_TILE;
-    return light_is(r, light, LMB_LIGHT_MAP_REUSED) ? 0 : r->maps[light].faces * rows;
+    return light_is(r, light, LMB_SHADOW_MAP_REUSED) ? 0 : r->maps[light].faces * rows;
 }
 
 /* Tile rows counted through all faces of all shadow maps, so that many lights are shared out whole. */

@@ -34,7 +34,7 @@
 
 static inline int32_t band_count(const lmb_view *v) { return (v->frame_height + LMB_TILE - 1) / LMB_TILE; }
 
-/* --- is it sound? ------------------------------------------------------------------------------------------------- */
+/* --- is it valid? ------------------------------------------------------------------------------------------------- */
 
 lmb_status lmb_render_check(const lmb_frame *frame);
 

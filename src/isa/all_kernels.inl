@@ -72,6 +72,7 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(segments),
     KERNEL(through),
     KERNEL(meets),
+    KERNEL(meets_one),
     KERNEL(sun_crossed),
     KERNEL(sun_meets),
     KERNEL(many_lights_bounds),

@@ -1,7 +1,7 @@
 /* kernels.h: the table of kernels that a backend fills in: the only way into isa/. Layer 2.
  *
- * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, on every backend.
- * */
+ * A kernel is a pure function over public structs and the plain jobs below. Same inputs, same bytes, by every
+ * backend. */
 #ifndef LMB_LANE_KERNELS_H
 #define LMB_LANE_KERNELS_H
 
@@ -13,6 +13,7 @@
 #include <lambent/voxel.h>
 #include <lambent/relief.h>
 
+#include "../base/light_kind.h"
 #include "backends.h"
 
 /* A tile's rays, relative to the eye. Of pixel (x, y):
@@ -64,7 +65,7 @@ enum {
     LMB_BOUNDS_PLANES = 20
 };
 
-/* What lies in a cut's `weighed`: nodes side by side, and what they were found to give the tile: value and most as in
+/* What lies in a cut's `bounds_of_nodes`: nodes side by side, and the light of each on the tile: value and upper as in
  * lmb_cut, and error. */
 typedef struct lmb_node_bounds {
     float node[LMB_BOUNDS_PLANES][LMB_BOUNDS_NODES];
@@ -73,7 +74,7 @@ typedef struct lmb_node_bounds {
 
 /* Both lie in public structs, as room whose size alone is told there. */
 typedef char lmb_resolve_batch_fits[sizeof(lmb_resolve_batch) <= sizeof(((lmb_tile *)0)->work) ? 1 : -1];
-typedef char lmb_weighed_fits[sizeof(lmb_node_bounds) == sizeof(((lmb_cut *)0)->bounds_of_nodes) ? 1 : -1];
+typedef char lmb_node_bounds_fits[sizeof(lmb_node_bounds) == sizeof(((lmb_cut *)0)->bounds_of_nodes) ? 1 : -1];
 
 /* One tile of a target, by rows of 8: steps are in elements. */
 typedef struct lmb_fill_tile {
@@ -218,6 +219,13 @@ typedef struct lmb_pyramid {
     float at[3], per_high[3], per_low[3];
 } lmb_pyramid;
 
+/* A segment from a point: 1 / the distance to its other end along each axis, at most 1e20 where that is 0; and where in
+ * lmb_boxes the sides lie by which it enters and leaves them, in floats. */
+typedef struct lmb_segment {
+    lmb_vec3 at, per;
+    int32_t enter[3], leave[3];
+} lmb_segment;
+
 /* The world, for rays of one width. */
 typedef struct lmb_world_job {
     const void *texels;
@@ -322,6 +330,8 @@ struct lmb_kernels {
     uint64_t (*through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i);
     /* The boxes that the pyramid may meet, a bit each. */
     uint32_t (*meets)(const lmb_pyramid *pyramid, const lmb_boxes *boxes);
+    /* Those that one segment meets. */
+    uint32_t (*meets_one)(const lmb_segment *segment, const lmb_boxes *boxes);
     /* `crossed` and `meets` for a light at infinity. */
     uint64_t (*sun_crossed)(const lmb_tile *tile, uint64_t pixels, const lmb_sun_job *job);
     uint32_t (*sun_meets)(const lmb_sun_sweep *sweep, const lmb_boxes *boxes);

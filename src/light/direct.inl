@@ -17,14 +17,14 @@ static void KERNEL(direct)(lmb_irradiance *out, const lmb_tile *tile, const lmb_
         lane3 n = lane3_load(tile->normal, k), face = lane3_load(tile->face, k);
         lane3 to; /* towards the light, unit */
         lane e = one;
-        if (job->kind == LMB_LIGHT_DIRECTIONAL) {
+        if (light_kind_is(job->kind, LIGHT_FAR)) {
             to = lane3_sub(lane3_splat(0.0f, 0.0f, 0.0f), travel);
         } else {
             to = lane3_sub(from, lane3_load(tile->position, k));
             lane inverse2 = lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-24f)));
             to = lane3_scale(to, lane_sqrt(inverse2));
             e = inverse2;
-            if (job->kind == LMB_LIGHT_SPOT) {
+            if (light_kind_is(job->kind, LIGHT_CONED)) {
                 e = lane_mul(e, direct_falloff(job, lane_sub(zero, lane3_dot(to, travel))));
             }
         }

@@ -115,7 +115,7 @@ static void KERNEL(glossy_direct)(lmb_glossy *inout, const lmb_tile *tile, const
         const lobe_pixels p = lobe_load(inout, tile, k);
         const lane3 sum = lobe_sum(inout, k), e = lane3_load(lit->rgb, k);
         lane3 to = lane3_splat(-light->direction.x, -light->direction.y, -light->direction.z);
-        if (light->kind != LMB_LIGHT_DIRECTIONAL) {
+        if (!light_kind_is(light->kind, LIGHT_FAR)) {
             to = lane3_sub(lane3_of(light->position), lane3_load(tile->position, k));
             to = lane3_scale(to, lane_sqrt(lane_div(one, lane_max(lane3_dot(to, to), lane_splat(1e-24f)))));
         }

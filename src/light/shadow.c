@@ -12,6 +12,7 @@
  * Rejected: depth with a slope-scaled bias (bunny_room: acne or 2 cm of detachment, nothing between). */
 #include "shadow.h"
 
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../map/part.h"
 #include "../raster/plane.h"
@@ -42,7 +43,7 @@ static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
 /* 0 where the receiver is outside the map: then nothing can shadow it (spots: it is outside the cone). */
 static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *light, lmb_vec3 p)
 {
-    const int directional = light->kind == LMB_LIGHT_DIRECTIONAL;
+    const int directional = light_kind_is(light->kind, LIGHT_FAR);
     int32_t f = LMB_TREES && directional ? lmb_shadow_map_part(map, p) : choose_face(map, sub3(p, light->position));
     const lmb_view *v = &map->view[f];
     lmb_vec3 d = sub3(p, v->eye);

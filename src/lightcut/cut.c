@@ -820,7 +820,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     const lmb_cut_params *cut_params = c->cut_params;
     c->p = p;
     memset(c->cut->use.traversal.last, 0, sizeof c->cut->use.traversal.last);
-    c->cut->use.traversal.asked = 0;
+    c->cut->use.traversal.asked = c->cut->use.traversal.alone = 0;
     c->noise = cut_params->bvh != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
     c->in_hull = cut_params->bvh != NULL ? lmb_hull_pixels(&cut_params->bvh->hull, c->tile, p->pixels) : 0;
     c->per_pixel = 1.0f / (float)count_bits_64(p->pixels);

@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+#include "../base/light_kind.h"
 #include "../base/poly.h"
 #include "../base/vec.h"
 #include "many_lights_cell.h"
@@ -106,10 +107,10 @@ static uint64_t spread_bits(uint32_t v)
 
 static uint32_t hash_of(const lmb_light *l)
 {
-    const lmb_vec3 p = l->kind == LMB_LIGHT_DIRECTIONAL ? vec3(0.0f, 0.0f, 0.0f) : l->position, d = l->direction;
+    const lmb_vec3 p = light_kind_is(l->kind, LIGHT_FAR) ? vec3(0.0f, 0.0f, 0.0f) : l->position, d = l->direction;
     const float v[11] = {p.x, p.y, p.z, l->intensity[0], l->intensity[1], l->intensity[2], d.x, d.y, d.z,
                          l->cos_inner, l->cos_outer};
-    const int count = l->kind == LMB_LIGHT_POINT ? 6 : l->kind == LMB_LIGHT_SPOT ? 11 : 9;
+    const int count = light_kind_is(l->kind, LIGHT_CONED) ? 11 : light_kind_is(l->kind, LIGHT_AIMED) ? 9 : 6;
     uint64_t h = 0;
     for (int i = 0; i < count; ++i) {
         h = (h ^ float_bits(v[i])) * UINT64_C(0x9e3779b97f4a7c15);
@@ -119,8 +120,7 @@ static uint32_t hash_of(const lmb_light *l)
 }
 
 /* A weighted random choice: of scores log2(u) / w with u from the hash, even in 0 .. 1, the largest is light i's with
- * the
- * chance w_i / sum w (Efraimidis and Spirakis 2006), whichever comes first. */
+ * the chance w_i / sum w (Efraimidis and Spirakis 2006), whichever comes first. */
 static float lot_of(uint32_t hash, float weight)
 {
     const float u = ((float)(hash >> 8) + 0.5f) * 0x1p-24f;
@@ -141,20 +141,6 @@ static lmb_many_lights_member member_of(const lmb_many_lights_source *source, fl
     return m;
 }
 
-/* As lmb_scene_check has it; NaN fails. */
-static int has_shape(const lmb_light *l)
-{
-    const float off = dot3(l->direction, l->direction) - 1.0f;
-    if (l->kind < LMB_LIGHT_POINT || l->kind > LMB_LIGHT_DIRECTIONAL) {
-        return 0;
-    }
-    if (l->kind != LMB_LIGHT_POINT && !(absf(off) <= 1e-3f)) {
-        return 0;
-    }
-    return l->kind != LMB_LIGHT_SPOT ||
-           (l->cos_outer > 0.0f && l->cos_inner >= l->cos_outer && l->cos_inner <= 1.0f);
-}
-
 static int is_inside(const lmb_many_lights *m, lmb_vec3 p)
 {
     return p.x >= m->low.x && p.x <= m->high.x && p.y >= m->low.y && p.y <= m->high.y && p.z >= m->low.z &&
@@ -171,7 +157,8 @@ static int is_taken(const lmb_many_lights *m, const lmb_light *l)
         }
         dark = dark && l->intensity[c] < maxf(m->quantum, 0x1p-60f);
     }
-    return !dark && has_shape(l) && (l->kind == LMB_LIGHT_DIRECTIONAL || is_inside(m, l->position));
+    return !dark && light_kind_is(l->kind, LIGHT_KNOWN) && light_shape_is_valid(l) &&
+           (light_kind_is(l->kind, LIGHT_FAR) || is_inside(m, l->position));
 }
 
 /* Under a micrometre is 0, and that without a sign: of two zeros the least would be the first to come. */
@@ -183,8 +170,8 @@ static lmb_many_lights_source source_of(const lmb_light *l)
 {
     lmb_many_lights_source s;
     memset(&s, 0, sizeof s);
-    s.position = plain3(l->kind == LMB_LIGHT_DIRECTIONAL ? mul3(l->direction, -1.0f) : l->position);
-    if (l->kind == LMB_LIGHT_SPOT) {
+    s.position = plain3(light_kind_is(l->kind, LIGHT_FAR) ? mul3(l->direction, -1.0f) : l->position);
+    if (light_kind_is(l->kind, LIGHT_CONED)) {
         s.direction = plain3(l->direction);
         s.cos_inner = l->cos_inner;
         s.cos_outer = l->cos_outer;
@@ -192,7 +179,7 @@ static lmb_many_lights_source source_of(const lmb_light *l)
     return s;
 }
 
-/* Which side of space a spot shines to, 0 .. 5. */
+/* Which side of space a spot points to, 0 .. 5. */
 static uint32_t side_of(lmb_vec3 d)
 {
     const float x = absf(d.x), y = absf(d.y), z = absf(d.z);
@@ -232,7 +219,7 @@ static void cell_of(lmb_many_lights_cell *out, const lmb_many_lights *m, const l
     memset(out, 0, sizeof *out);
     out->kind = kind_of(l);
     scale = lmb_many_lights_scale_of(m, out->kind);
-    if (l->kind == LMB_LIGHT_SPOT) {
+    if (light_kind_is(l->kind, LIGHT_CONED)) {
         set_shape(out, &source);
     }
     for (int c = 0; c < 3; ++c) {

@@ -107,10 +107,11 @@ static void KERNEL(many_lights_bounds)(float error[16], float light[16], float i
                                        const lmb_many_lights_job *job)
 {
     const uint32_t kind = many_lights->node[first].kind;
-    if (kind == LMB_LIGHT_DIRECTIONAL) {
+    const int coned = light_kind_is((int32_t)kind, LIGHT_CONED);
+    if (light_kind_is((int32_t)kind, LIGHT_FAR)) {
         KERNEL(many_suns)(error, light, inside, many_lights, first, count, job);
     } else {
-        KERNEL(many_places)(error, light, inside, many_lights, first, count, job, kind == LMB_LIGHT_SPOT);
+        KERNEL(many_places)(error, light, inside, many_lights, first, count, job, coned);
     }
 }
 
@@ -142,16 +143,18 @@ static inline lane many_falloff(lane3 at, const lmb_many_lights_source *spot, fl
 static inline lane many_light(lane3 at, lane3 n, lane3 face, const lmb_active_light *active)
 {
     const lane3 to = lane3_of(active->position);
-    return active->kind != LMB_LIGHT_DIRECTIONAL
-               ? many_factor(at, n, face, active)
-               : lane_keep(lane_lt(lane_splat(0.0f), lane3_dot(face, to)), many_cosine(lane3_dot(n, to)));
+    return light_kind_is((int32_t)active->kind, LIGHT_FAR)
+               ? lane_keep(lane_lt(lane_splat(0.0f), lane3_dot(face, to)), many_cosine(lane3_dot(n, to)))
+               : many_factor(at, n, face, active);
 }
 
 /* What comes with one of its two lights, for the pixels from k on. */
 static inline lane many_share(lane3 at, const lmb_active_light *active, int i, int k)
 {
     const lane seen = lane_keep(mask_of_bits((uint32_t)(active->seen[i] >> k)), lane_splat(active->share[i]));
-    return active->kind == LMB_LIGHT_SPOT ? lane_mul(seen, many_falloff(at, &active->source[i], active->per[i])) : seen;
+    return light_kind_is((int32_t)active->kind, LIGHT_CONED)
+               ? lane_mul(seen, many_falloff(at, &active->source[i], active->per[i]))
+               : seen;
 }
 
 static void KERNEL(many_lights_irradiance)(lmb_irradiance *inout, const lmb_tile *tile, uint64_t pixels,

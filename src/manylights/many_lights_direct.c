@@ -2,6 +2,7 @@
  * V29] */
 #include <string.h>
 
+#include "../base/light_kind.h"
 #include "../raster/tile.h"
 #include "many_lights_cut.h"
 
@@ -63,7 +64,7 @@ static uint64_t corners_of(uint64_t pixels)
 
 static uint64_t occluded_from(const lit_surface *s, uint64_t pixels, uint32_t kind, lmb_vec3 at)
 {
-    return kind == LMB_LIGHT_DIRECTIONAL
+    return light_kind_is((int32_t)kind, LIGHT_FAR)
                ? lmb_occluded_sun(s->query->bvh, s->kernels, s->tile, pixels, at, s->traversal)
                : lmb_occluded_tile(s->query->bvh, s->kernels, s->tile, pixels, at, s->noise, s->traversal);
 }
@@ -96,7 +97,7 @@ static int is_same_place(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b
 static int is_one_place(const lmb_many_lights_node *node, const lmb_many_lights_job *job)
 {
     const lmb_vec3 to = sub3(node->position, job->middle);
-    const float d2 = node->kind == LMB_LIGHT_DIRECTIONAL ? 1.0f : dot3(to, to);
+    const float d2 = light_kind_is((int32_t)node->kind, LIGHT_FAR) ? 1.0f : dot3(to, to);
     return is_same_place(node->strongest.position, node->median.position) || 12288.0f * node->spread < d2;
 }
 
@@ -161,7 +162,7 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
         return LMB_ERR_ARG;
     }
     memset(scratch->traversal.last, 0, sizeof scratch->traversal.last);
-    scratch->traversal.asked = 0;
+    scratch->traversal.asked = scratch->traversal.alone = 0;
     uint64_t left = query->many_lights->node_count > 0 ? tile_pixels(tile) : 0;
     for (int n = 1; left != 0; ++n) {
         lit_surface s;

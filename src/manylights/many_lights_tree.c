@@ -5,6 +5,7 @@
  * several kinds have a tree for each, under one root. */
 #include <string.h>
 
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "many_lights_cell.h"
 
@@ -95,7 +96,7 @@ static void set_planes(lmb_many_lights *m, uint32_t i, const lmb_many_lights_cel
         plane[(LMB_MANY_LIGHTS_POSITION + a) * m->plane_step] = at[a];
     }
     plane[LMB_MANY_LIGHTS_POWER * m->plane_step] = node->intensity[0] + node->intensity[1] + node->intensity[2];
-    if (node->kind == LMB_LIGHT_SPOT) {
+    if (light_kind_is((int32_t)node->kind, LIGHT_CONED)) {
         set_cone(m, i, c);
     }
 }
@@ -110,7 +111,7 @@ static void set_position(lmb_many_lights *m, lmb_many_lights_node *node, const l
     const lmb_many_lights_scale scale = lmb_many_lights_scale_of(m, c->kind);
     node->position = vec3(mean_of(c, 0, scale.low[0], scale.step), mean_of(c, 1, scale.low[1], scale.step),
                           mean_of(c, 2, scale.low[2], scale.step));
-    if (c->lights > 1 && node->kind == LMB_LIGHT_DIRECTIONAL) {
+    if (c->lights > 1 && light_kind_is((int32_t)node->kind, LIGHT_FAR)) {
         const float length = length3(node->position);
         node->position = length > 1e-6f ? mul3(node->position, 1.0f / length) : c->strongest.source.position;
     }

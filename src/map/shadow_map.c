@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "../base/light_kind.h"
 #include "../base/memory_check.h"
 #include "../base/vec.h"
 #include "../base/vertex.h"
@@ -19,10 +20,11 @@ int32_t lmb_shadow_map_faces(const lmb_light *light, const lmb_scene *scene)
     if (light == NULL || scene == NULL) {
         return 0;
     }
-    if (LMB_TREES && light->kind == LMB_LIGHT_DIRECTIONAL) {
-        return maxi(scene->core.faces, 1);
+    if (light_kind_is(light->kind, LIGHT_FAR)) {
+        return LMB_TREES ? maxi(scene->core.faces, 1) : 1;
     }
-    return light->kind == LMB_LIGHT_POINT || (light->kind == LMB_LIGHT_SPOT && light->cos_outer < COS_50) ? 6 : 1;
+    const int is_narrow = light_kind_is(light->kind, LIGHT_CONED) && !(light->cos_outer < COS_50);
+    return light_kind_is(light->kind, LIGHT_PLACED) && !is_narrow ? 6 : 1;
 }
 
 static int is_map(int32_t size, int32_t id_format)
@@ -240,7 +242,7 @@ static void fit_views(lmb_shadow_map *map, const lmb_light *light, const lmb_sce
         v->far_m = 0.0f;
         v->frame_width = v->frame_height = map->size;
         int meets = 1;
-        if (light->kind == LMB_LIGHT_DIRECTIONAL) {
+        if (light_kind_is(light->kind, LIGHT_FAR)) {
             const box b = box_of_face(scene, f, map->faces);
             fit_directional(v, light, &b);
 #if LMB_TREES
@@ -254,12 +256,12 @@ static void fit_views(lmb_shadow_map *map, const lmb_light *light, const lmb_sce
             fit_spot(v, light);
         } else {
             set_axes(v, cube_axis(f));
-            meets = light->kind != LMB_LIGHT_SPOT || meets_face(light, f);
+            meets = !light_kind_is(light->kind, LIGHT_CONED) || meets_face(light, f);
         }
         map->drawn |= (uint32_t)meets << f;
     }
 #if LMB_TREES
-    for (int32_t f = map->faces - 2; f >= 0 && light->kind == LMB_LIGHT_DIRECTIONAL; --f) {
+    for (int32_t f = map->faces - 2; f >= 0 && light_kind_is(light->kind, LIGHT_FAR); --f) {
         align(&map->view[f], &map->view[f + 1], map->size);
     }
 #endif
@@ -414,8 +416,8 @@ void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_shado
     const lmb_view *v = &map->view[face];
     float px = 2.0f * v->half_width / (float)map->size, py = 2.0f * v->half_height / (float)map->size;
     float sx = ((float)(2 * x + 1 - map->size) * 0.5f) * px, sy = ((float)(map->size - 2 * y - 1) * 0.5f) * py;
-    float power = light->kind == LMB_LIGHT_DIRECTIONAL ? px * py : texel_solid_angle(px, sx, sy);
-    if (light->kind == LMB_LIGHT_SPOT) {
+    float power = light_kind_is(light->kind, LIGHT_FAR) ? px * py : texel_solid_angle(px, sx, sy);
+    if (light_kind_is(light->kind, LIGHT_CONED)) {
         float share = 0.0f;
         for (int q = 0; q < 4; ++q) {
             float qx = sx + (q & 1 ? 0.25f : -0.25f) * px, qy = sy + (q & 2 ? 0.25f : -0.25f) * py;

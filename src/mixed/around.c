@@ -9,12 +9,12 @@
 
 #if LMB_MIXED
 
-#define MAX_RATIO 4.0f /* that light may grow by at a point: where next to nothing came before, cones are coarse */
+#define MAX_RATIO 4.0f /* by which light may grow at a point: cones are coarse where almost no light came before */
 
-#define FAR_SHARE 0.15f   /* of the distance from the object: how far apart points with one answer are */
-#define SAME_WAY 0.98f    /* cosine between the normals of points with one answer */
+#define FAR_SHARE 0.15f   /* of the distance from the object: closer points share one answer */
+#define SAME_WAY 0.98f    /* cosine between normals from which on points share one answer */
 
-enum { MAX_PARTS = 64 }; /* a triangle's side is divided by at most */
+enum { MAX_PARTS = 64 }; /* parts of a triangle's side at most */
 
 /* Of three corners' values, the one at barycentrics (b1, b2). */
 static float mix(float a, float b, float c, float b1, float b2) { return a + (b - a) * b1 + (c - a) * b2; }
@@ -128,7 +128,7 @@ static void put_point(lmb_tile *tile, int32_t k, const lmb_texel *from)
     tile->id[k] = 1;
 }
 
-/* Points that follow each other, face one way and lie close together: the first answers for all. */
+/* Consecutive points that face one way and lie close together take the answer of the first one. */
 static size_t run_end(const lmb_texel *all, size_t first, size_t count, float near)
 {
     size_t i = first + 1;

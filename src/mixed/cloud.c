@@ -11,7 +11,7 @@
 #define FARTHEST_M 1000.0f
 #define MIN_NOISE 2e-5f    /* 1/m */
 #define MAX_NOISE 0.02f
-#define DEPTH_STEP_M 0.001f  /* what distances are stored in, and a sensor's best */
+#define DEPTH_STEP_M 0.001f  /* the step in which files store distances, and the best that sensors do */
 
 enum { REACH = 4, BINS = 512 }; /* px between the points of a second difference */
 
@@ -23,7 +23,7 @@ size_t lmb_cloud_bytes(int32_t width, int32_t height)
     return (size_t)width * (size_t)height * (sizeof(float) + sizeof(lmb_vec3));
 }
 
-/* Across: the camera's x as far as it is level; where it stands upright, straight back. */
+/* The scene's x is the camera's x made level; where that is upright, the direction straight back. */
 lmb_axes lmb_axes_upright(lmb_vec3 up)
 {
     const lmb_vec3 side = absf(up.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, 1);

@@ -27,7 +27,8 @@ float lmb_real_albedo(float radiance, float irradiance)
         return 0.5f;
     }
     const float albedo = LMB_PI * radiance / irradiance;
-    return albedo > LMB_ALBEDO_MIN ? minf(albedo, LMB_ALBEDO_MAX) : LMB_ALBEDO_MIN; /* inf / inf: the least */
+    /* inf / inf is NaN, and gives the minimum. */
+    return albedo > LMB_ALBEDO_MIN ? minf(albedo, LMB_ALBEDO_MAX) : LMB_ALBEDO_MIN;
 }
 
 lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_irradiance *without,
@@ -40,7 +41,7 @@ lmb_status lmb_delta_tile(lmb_radiance *inout, const lmb_tile *real, const lmb_i
         for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
             const float delta = with->rgb[c][k] - without->rgb[c][k], photo = inout->rgb[c][k];
             if (real->id[k] != 0 && delta < 0.0f) {
-                /* Light that is taken away is a share of what the photo shows, whatever albedo that asks for. */
+                /* Light that the object takes away is taken as a share of what the photo shows: it needs no albedo. */
                 inout->rgb[c][k] = photo * maxf(with->rgb[c][k] / without->rgb[c][k], 0.0f);
             } else if (real->id[k] != 0 && delta > 0.0f) {
                 inout->rgb[c][k] = photo + lmb_real_albedo(photo, without->rgb[c][k]) * (1.0f / LMB_PI) * delta;
@@ -60,8 +61,8 @@ static float schlick(const lmb_tile *real, int32_t k, float specular)
     return specular + (1.0f - specular) * (m2 * m2 * m);
 }
 
-/* A photo shows at least what a varnish mirrors in it, and its own colour under that: so no more than MIRRORED of it
- * can go. Without that dark or colourful floors would turn black or gaudy where something hides a bright wall. */
+/* What a pixel of the photo shows is mirrored light over the colour of the surface itself, so at most MIRRORED of it
+ * can go. Without this limit dark or colourful floors turn black or garish where the object hides a bright wall. */
 static float mirrored(float photo, float share, float delta)
 {
     return photo + maxf(share * delta, -MIRRORED * photo);

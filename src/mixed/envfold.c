@@ -91,8 +91,9 @@ static lmb_vec3 direction_of(int32_t i)
     return cube_direction(i / (n * n), i % n, i / n % n, n);
 }
 
-/* The mean of the directions by the square of how far they outshine the mean: of one light that, and of several
- * something between that favours the brightest. Raised where it is too low to shadow anything but the horizon. */
+/* The mean direction, weighted by the square of the brightness above the mean: of one light it is that light, of
+ * several it lies between them, near the brightest. It is raised where a light so low would shadow nothing but the
+ * horizon. */
 lmb_vec3 lmb_env_brightest(const lmb_env *env, lmb_vec3 up)
 {
     float mean = 0.0f;

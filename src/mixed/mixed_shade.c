@@ -4,7 +4,8 @@
 
 #if LMB_MIXED
 
-/* What was measured must be nearer by two deviations to hide: else noise would eat the object where it stands. */
+/* The photo hides the object where its measured depth is nearer by two standard deviations: with less, noise would hide
+ * parts of the object where it stands. */
 static int is_hidden(const lmb_tile *object, const lmb_tile *real, const lmb_cloud *cloud, int32_t k)
 {
     if (real->id[k] == 0) {

@@ -101,7 +101,8 @@ static void fit_cells(lmb_point_grid *g, uint32_t count)
     g->cell = maxf(largest3(sub3(high, low)) / (float)LMB_POINT_CELLS, 1e-6f);
 }
 
-/* Counted, then put: first[c + 1] is where cell c's next one goes, and ends as where it ends. */
+/* Counts the points of each cell, then puts them there: first[c + 1] is where cell c's next point goes, and in the end
+ * where the cell ends. */
 static void sort_points(lmb_point_grid *g, uint32_t count)
 {
     uint32_t sum = 0;

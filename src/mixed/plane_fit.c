@@ -28,7 +28,7 @@ int lmb_plane_fit_solve(float slope[3], const plane_fit *f)
     const float xx = f->xx * i - x * x, yy = f->yy * i - y * y, xy = f->xy * i - x * y;
     const float xq = f->xq * i - x * q, yq = f->yq * i - y * q, det = xx * yy - xy * xy;
     if (!(det > 1e-4f * (xx + yy) * (xx + yy)) || !(xx + yy > 1e-12f)) {
-        return 0; /* narrower than a hundredth of its length */
+        return 0; /* the points form a strip narrower than a hundredth of its length */
     }
     slope[0] = (xq * yy - yq * xy) / det;
     slope[1] = (yq * xx - xq * xy) / det;

@@ -55,7 +55,7 @@ static int may_join(const lmb_planes *p, const lmb_cloud *cloud, int32_t at, uin
            plane_off(cloud, plane->slope, cloud->inverse[at], ray) <= BELONGS_OFF;
 }
 
-/* Edges' points, whose own normals are a mean of two surfaces': joined from the planes outwards. */
+/* Points at edges, whose normals are means of two surfaces, join the planes beside them. */
 static void spread(lmb_planes *p, const lmb_cloud *cloud)
 {
     const int32_t w = cloud->camera.width, h = cloud->camera.height;
@@ -148,7 +148,7 @@ void lmb_planes_outline(lmb_planes *planes, const lmb_cloud *cloud)
 
 /* --- measures ----------------------------------------------------------------------------------------------------- */
 
-/* Level with the camera's x, as far as the plane allows. */
+/* `across` is the direction in the plane that is nearest to the camera's x. */
 static void set_axes(lmb_flat *p)
 {
     const lmb_vec3 side = absf(p->normal.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 0, -1);
@@ -156,8 +156,9 @@ static void set_axes(lmb_flat *p)
     p->along = cross3(p->normal, p->across);
 }
 
-/* A pixel's piece of the plane, in units that all pixels of one plane share: its area goes with the cube of the
- * distance (z^2 of the pixel, z more for the slant n . ray = -distance / z). */
+/* The weighted sum of a plane's pixels. A pixel's weight is its area on the plane but for a factor that all pixels of
+ * the plane share, and goes with the cube of the distance (z^2 of the pixel, z more for the slant n . ray = -distance /
+ * z). */
 typedef struct middle {
     float x, y, z, weight;
 } middle;

@@ -57,7 +57,7 @@ int lmb_planes_anchor(lmb_vec3 *out, const lmb_planes *planes, const lmb_pinhole
 
 /* --- a place to stand --------------------------------------------------------------------------------------------- */
 
-/* An upright thing that asks for its place. */
+/* An upright object that is to be placed. */
 typedef struct standing {
     const lmb_planes *planes;
     const lmb_cloud *cloud;

@@ -7,10 +7,10 @@
 
 #if LMB_MIXED
 
-#define SAME_WAY 0.9781476f   /* cosine of 12 degrees: neighbours of a point inside a plane */
-#define GROWS_OVER 0.9063078f /* of 25: what noise may turn a point's normal by */
-#define ONE_PLANE 0.9975641f  /* of 4 */
-#define REACH_OFF 4.5f        /* standard deviations from pixel to pixel: over a hand's breadth sensors err by more */
+#define SAME_WAY 0.9781476f   /* cosine of 12 degrees, within which the neighbours of a seed face as it does */
+#define GROWS_OVER 0.9063078f /* of 25 degrees, by which noise may turn a point's normal */
+#define ONE_PLANE 0.9975641f  /* of 4 degrees, within which two planes may be one */
+#define REACH_OFF 4.5f        /* standard deviations from pixel to pixel; over more pixels sensors err by more */
 #define JOIN_OFF 7.0f
 #define APART_OFF 3.5f
 #define FIT_OFF 4.0f
@@ -92,7 +92,7 @@ static void begin(grower *g, int32_t x, int32_t y)
     add_pixel(g, at, ray);
 }
 
-/* Everything that hangs together with the first pixel; the plane follows what it has found each time that doubles. */
+/* Grows the region from its first pixel. The plane is fitted anew each time the region has doubled. */
 static void grow(grower *g, int32_t x, int32_t y)
 {
     int32_t next_fit = FIRST_FIT;
@@ -223,8 +223,8 @@ static void find_touching(touching *t, const lmb_planes *planes, const lmb_pinho
     }
 }
 
-/* Both face one way, and each lies on the other's continuation: parts of one surface that a sensor has bent, or that
- * something stands in front of, which must agree better. */
+/* Are they parts of one surface? Both face one way, and each lies on the other's continuation. Either a sensor has bent
+ * the surface, or something stands in front of it: then the planes must agree better. */
 static int are_one(const lmb_cloud *cloud, const lmb_flat *a, const lmb_flat *b, float off)
 {
     const lmb_vec3 at = mul3(b->centre, -1.0f / b->centre.z);

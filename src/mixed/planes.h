@@ -4,7 +4,8 @@
 
 #include "plane_fit.h"
 
-enum { LABEL_TRIED = 254, LABEL_HOLE = 255 }; /* beside 0 and planes: grew to nothing; looked at */
+/* Labels beside 0 and the planes' numbers: of a region that became no plane, and of a hole's pixels once visited. */
+enum { LABEL_TRIED = 254, LABEL_HOLE = 255 };
 
 /* Is there a picture's worth of labels, and of what was measured? */
 static inline int are_labels(const lmb_planes *planes, const lmb_cloud *cloud)

@@ -85,6 +85,29 @@ static uint32_t KERNEL(meets)(const lmb_pyramid *p, const lmb_boxes *boxes)
     return out;
 }
 
+/* Each axis has a side of the boxes where the segment enters, and one where it leaves. Written out by axis, so that all
+ * six numbers stay in registers. */
+static uint32_t KERNEL(meets_one)(const lmb_segment *s, const lmb_boxes *boxes)
+{
+    const float *side = (const float *)(const void *)boxes;
+    const lane3 at = lane3_of(s->at), per = lane3_of(s->per);
+    const float *x0 = side + s->enter[0], *y0 = side + s->enter[1], *z0 = side + s->enter[2];
+    const float *x1 = side + s->leave[0], *y1 = side + s->leave[1], *z1 = side + s->leave[2];
+    uint32_t out = 0;
+    for (int i = 0; i < LMB_BOXES; i += LANES) {
+        const lane ax = lane_mul(lane_sub(lane_load(x0 + i), at.x), per.x);
+        const lane ay = lane_mul(lane_sub(lane_load(y0 + i), at.y), per.y);
+        const lane az = lane_mul(lane_sub(lane_load(z0 + i), at.z), per.z);
+        const lane bx = lane_mul(lane_sub(lane_load(x1 + i), at.x), per.x);
+        const lane by = lane_mul(lane_sub(lane_load(y1 + i), at.y), per.y);
+        const lane bz = lane_mul(lane_sub(lane_load(z1 + i), at.z), per.z);
+        const lane from = lane_max(lane_max(ax, ay), lane_max(az, lane_splat(0.0f)));
+        const lane to = lane_min(lane_min(bx, by), lane_min(bz, lane_splat(1.0f)));
+        out |= mask_bits(crossed_some(from, to)) << i;
+    }
+    return out;
+}
+
 static uint64_t KERNEL(through)(const lmb_segments *segments, uint64_t pixels, const lmb_boxes *boxes, int i)
 {
     const lmb_vec3 low = sub3(vec3(boxes->low[0][i], boxes->low[1][i], boxes->low[2][i]), segments->at);

@@ -1,6 +1,8 @@
 /* occluded.c: a tile's segments to one point, traced through the BVH together. Layer 4. [V25] */
 #include <lambent/occlusion.h>
 
+#include <stddef.h>
+
 #include "../base/vec.h"
 #include "../lane/kernels.h"
 #include "../raster/resolve.h"
@@ -13,6 +15,10 @@
  * segment, because in a fine mesh most segments pass between triangles. */
 #define BY_PYRAMID 4
 #define FEW        7      /* up to so many pixels are traced alone: in foliage they lie far apart, in a wide pyramid */
+#ifndef WIDE
+#define WIDE       8u    /* boxes a pixel over which a pyramid is given up: each pixel alone meets fewer */
+#endif
+#define ALONE      15u   /* points after such a one whose segments are traced alone at once */
 #define MUCH       16     /* a triangle that blocks so many pixels is tested first for the next segments */
 #define THIN       1e-20f /* m: a pyramid is never thinner */
 
@@ -210,18 +216,15 @@ static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
     return children;
 }
 
-/* All pixels together, by one pyramid. */
-static uint64_t blocked_together(traversal *w)
+/* The pixels left together, by one pyramid. 0 where that takes more than `most` boxes: then some may still be blocked. */
+static int trace_together(traversal *w, uint32_t most)
 {
     const lmb_bvh *bvh = w->b;
-    const uint64_t pixels = w->left;
+    const uint32_t before = w->kept->asked;
     branch waiting[LMB_TRAVERSAL_LEVELS];
     rays r;
     int count = 0;
     uint32_t here = 0;
-    if (test_last(w)) {
-        return pixels;
-    }
     r.pyramid = pyramid_of(w->tile, w->left, w->at);
     r.leaves = 0;
     for (;;) {
@@ -229,7 +232,10 @@ static uint64_t blocked_together(traversal *w)
         waiting[count].children = test_node(w, &r, &bvh->node[here]);
         count += waiting[count].children != 0;
         if (count == 0 || w->left == 0) {
-            return pixels & ~w->left;
+            return 1;
+        }
+        if (w->kept->asked - before > most) {
+            return 0;
         }
         branch *up = &waiting[count - 1];
         here = bvh->node[up->node].first[LMB_BOXES - 1 - lowest_bit(up->children)];
@@ -238,39 +244,54 @@ static uint64_t blocked_together(traversal *w)
     }
 }
 
-/* Does a triangle block this one pixel? The same as `crossed` says, to the bit. */
-static int blocks_one(traversal *w, uint32_t triangle, int k)
+/* One pixel's segment. */
+typedef struct ray {
+    lmb_segment segment;
+    lmb_vec3 d; /* from the point to the pixel */
+} ray;
+
+static void ray_axis(lmb_segment *out, float *per, int axis, float d)
+{
+    enum { HIGH = (int)(offsetof(lmb_boxes, high) / sizeof(float)) };
+    const int back = d < 0.0f;
+    *per = 1.0f / (absf(d) < THIN ? back ? -THIN : THIN : d);
+    out->enter[axis] = axis * LMB_BOXES + (back ? HIGH : 0);
+    out->leave[axis] = axis * LMB_BOXES + (back ? 0 : HIGH);
+}
+
+static ray ray_of(const lmb_tile *tile, int k, lmb_vec3 at)
+{
+    ray r;
+    r.d = sub3(tile_vec(tile->position, k), at);
+    r.segment.at = at;
+    ray_axis(&r.segment, &r.segment.per.x, 0, r.d.x);
+    ray_axis(&r.segment, &r.segment.per.y, 1, r.d.y);
+    ray_axis(&r.segment, &r.segment.per.z, 2, r.d.z);
+    return r;
+}
+
+/* Does a triangle block this one pixel? The same as `crossed` says, to the bit, by the cheapest test first: turned
+ * round, an edge's plane is exactly negated. */
+static int blocks_one(traversal *w, uint32_t triangle, const ray *r)
 {
     const lmb_bvh_triangle *t = &w->b->triangle[triangle];
-    const lmb_vec3 d = sub3(tile_vec(w->tile->position, k), w->at);
-    const float ahead = dot3(t->normal, sub3(t->corner[0], w->at)), past = dot3(t->normal, d);
+    const lmb_vec3 *p = t->corner;
+    const lmb_vec3 a = sub3(p[0], w->at), b = sub3(p[1], w->at), c = sub3(p[2], w->at);
+    const float ahead = dot3(t->normal, a), side = ahead < 0.0f ? -1.0f : 1.0f, past = side * dot3(t->normal, r->d);
     lmb_cross_job job;
-    if (!(absf(ahead) < (ahead < 0.0f ? -past : past)) || !cross_job(&job, t, w->at, w->noise, w->b->noise)) {
-        return 0;
-    }
-    const float min = minf(minf(dot3(job.edge[0], d), dot3(job.edge[1], d)), dot3(job.edge[2], d));
-    return 0.0f <= min && job.beyond < dot3(job.normal, d) &&
+    return absf(ahead) < past && 0.0f <= side * dot3(edge_plane(b, c, sub3(p[2], p[1])), r->d) &&
+           0.0f <= side * dot3(edge_plane(c, a, sub3(p[0], p[2])), r->d) &&
+           0.0f <= side * dot3(edge_plane(a, b, sub3(p[1], p[0])), r->d) &&
+           cross_job(&job, t, w->at, w->noise, w->b->noise) && job.beyond < past &&
            (!(t->id & LMB_BVH_MASKED) || standing(w->b, t, &job, w->tile, w->left) != 0);
 }
 
-static int last_blocks_one(traversal *w, int k)
-{
-    for (int i = 0; i < LMB_LAST_OCCLUDERS && w->kept->last[i] != 0; ++i) {
-        const uint32_t triangle = w->kept->last[i] - 1;
-        if (blocks_one(w, triangle, k)) {
-            remember(w->kept->last, triangle);
-            return 1;
-        }
-    }
-    return 0;
-}
-
 /* Of a node's boxes that the segment meets, the leaves: 1 where one blocks. *children: those that are nodes. */
-static int node_blocks_one(uint32_t *children, traversal *w, const lmb_pyramid *p, const lmb_boxes *node, int k)
+static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *node, const ray *r)
 {
     *children = 0;
     ++w->kept->asked;
-    for (uint32_t bits = w->kernels->meets(p, node); bits != 0; bits &= bits - 1) {
+    for (uint32_t bits = w->kernels->meets_one(&r->segment, node); bits != 0; bits &= bits - 1) {
         const int i = lowest_bit(bits);
         if (node->count[i] == 0) {
             *children |= 1u << (LMB_BOXES - 1 - i);
@@ -278,7 +299,7 @@ static int node_blocks_one(uint32_t *children, traversal *w, const lmb_pyramid *
         }
         ++w->kept->asked;
         for (uint32_t j = 0; j < node->count[i]; ++j) {
-            if (blocks_one(w, node->first[i] + j, k)) {
+            if (blocks_one(w, node->first[i] + j, r)) {
                 return 1;
             }
         }
@@ -291,13 +312,10 @@ static int one_blocked(traversal *w, int k)
     branch waiting[LMB_TRAVERSAL_LEVELS];
     int count = 0;
     uint32_t here = 0;
-    if (last_blocks_one(w, k)) {
-        return 1;
-    }
-    const lmb_pyramid p = pyramid_of(w->tile, w->left, w->at);
+    const ray r = ray_of(w->tile, k, w->at);
     for (;;) {
         waiting[count].node = here;
-        if (node_blocks_one(&waiting[count].children, w, &p, &w->b->node[here], k)) {
+        if (node_blocks_one(&waiting[count].children, w, &w->b->node[here], &r)) {
             return 1;
         }
         count += waiting[count].children != 0;
@@ -320,9 +338,19 @@ uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const
         return 0;
     }
     if (count_bits_64(pixels) > FEW) {
-        return blocked_together(&w);
+        if (test_last(&w)) {
+            return pixels;
+        }
+        if (kept->alone > 0) {
+            --kept->alone;
+        } else if (trace_together(&w, WIDE * (uint32_t)count_bits_64(pixels))) {
+            return pixels & ~w.left;
+        } else {
+            kept->alone = ALONE;
+        }
     }
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+    occluded = pixels & ~w.left;
+    for (uint64_t bits = w.left; bits != 0; bits &= bits - 1) {
         w.left = bits & (~bits + 1);
         occluded |= one_blocked(&w, lowest_bit_64(bits)) ? w.left : 0;
     }

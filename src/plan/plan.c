@@ -36,7 +36,7 @@ static int why_light(const lmb_render *r, uint32_t i)
 {
     return light_is(r, i, LMB_LIGHT_DARK)         ? LMB_WHY_NO_LIGHT
            : r->maps[i].drawn == 0                ? LMB_WHY_PAST
-           : light_is(r, i, LMB_LIGHT_MAP_REUSED) ? LMB_WHY_REUSED
+           : light_is(r, i, LMB_SHADOW_MAP_REUSED) ? LMB_WHY_REUSED
            : light_is(r, i, LMB_LIGHT_DIM)        ? LMB_WHY_DIM
                                                   : LMB_WHY_RUNS;
 }
@@ -51,7 +51,7 @@ static void plan_maps(planner *p)
         uint32_t drawn = (uint32_t)count_bits_64(r->maps[i].drawn);
         p->out->light[i] = (uint8_t)why_light(r, i);
         p->out->faces += (uint32_t)r->maps[i].faces;
-        if (light_is(r, i, LMB_LIGHT_MAP_REUSED)) {
+        if (light_is(r, i, LMB_SHADOW_MAP_REUSED)) {
             ++kept;
             continue;
         }

@@ -1,9 +1,9 @@
 /* blur.c: irradiance by blurring a map's columns, then its rows. Layer 6. [S11-S13]
  *
- * The source blurs by cos of the angle in latitude, then in longitude, alike everywhere. But what a normal at one
- * latitude gets from another is max(0, n . d), which is such a product at the equator only. Fitted kernels are, for
- * each row of the result, the one or two products nearest to that by least squares over the sphere: found by turns, the
- * columns' best weights for the rows' and back. */
+ * The paper blurs by cos of the angle in latitude, then in longitude, alike everywhere. But the light that a normal at
+ * one latitude gets from another goes by max(0, n . d), which is such a product at the equator only. Fitted kernels are
+ * the one or two products nearest to that, by least squares over the sphere, for each row of the result. They are found
+ * by turns: the best weights of the columns for those of the rows, and back. */
 #include <string.h>
 
 #include "../base/memory_check.h"
@@ -50,7 +50,7 @@ static float sum_of(const float *v, int32_t n)
 /* The cosine of a lag of i steps, n to the full turn; 0 from a quarter turn on. */
 static float lag_cos(int32_t i, int32_t n) { return 4 * i < n ? lmb_cos(2.0f * LMB_PI * ((float)i / (float)n)) : 0.0f; }
 
-/* As the source has it: rows past a pole are those before it, half a turn on. */
+/* The kernels of the paper [S11]: rows past a pole are those before it, half a turn on. */
 static void set_source(lmb_probe_blur *b, int32_t row)
 {
     const int32_t h = b->height, w = b->width;
@@ -81,7 +81,7 @@ static float latitude_cos(const lmb_probe_table *t, int32_t row)
     return lmb_cos(LMB_PI * ((float)(2 * row + 1) / (float)(2 * t->height)));
 }
 
-/* What terms before have left of max(0, n . d) sqrt(area) at row y and lag x. */
+/* What the terms before leave of max(0, n . d) sqrt(area) at row y and lag x. */
 static float wanted(const fit *f, int32_t y, float lag, int32_t x)
 {
     const float up = latitude_cos(f->table, f->row), at = latitude_cos(f->table, y);
@@ -93,7 +93,7 @@ static float wanted(const fit *f, int32_t y, float lag, int32_t x)
     return v;
 }
 
-/* Columns' best weights for the row's, or the row's for the columns'. */
+/* The best weights of the columns for given weights of the row, or the other way round. */
 static void fit_turn(const fit *f, int of_columns)
 {
     const int32_t w = f->blur->width, h = f->blur->height;

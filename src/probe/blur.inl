@@ -1,6 +1,6 @@
 /* blur.inl: one row of a map's blur: down the columns, then along the row. Layer 6.                               [S11]
  *
- * Four sums side by side: one would wait for itself. Lanes are columns. */
+ * Four sums run side by side, as one alone would wait for its own last addition. Lanes are columns. */
 
 /* Rows of `map` times their weights. */
 LANE_INLINE lane blur_column(const float *map, const float *weight, int32_t height, size_t step)
@@ -15,7 +15,7 @@ LANE_INLINE lane blur_column(const float *map, const float *weight, int32_t heig
     return lane_add(lane_add(sum[0], sum[1]), lane_add(sum[2], sum[3]));
 }
 
-/* Twice, so that reading on past the end begins again. [S12] */
+/* The row lies there twice, so that reading past its end goes on from its beginning. [S12] */
 LANE_INLINE void blur_twice(float *line, int32_t width, int32_t x, lane v)
 {
     lane_store(line + x, v);

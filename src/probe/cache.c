@@ -25,7 +25,8 @@ int32_t lmb_probe_cache_name(lmb_probe_cache *inout, lmb_vec3 place)
     if (inout == NULL || !is_place(place) || named + 1 >= inout->count) {
         return -1;
     }
-    memset(&inout->slot[named], 0, sizeof *inout->slot); /* an object's that lies here is computed again elsewhere */
+    /* An object whose cubes lay here gets another slot, and they are computed again. */
+    memset(&inout->slot[named], 0, sizeof *inout->slot);
     inout->slot[named].kind = LMB_PROBE_NAMED;
     inout->slot[named].place = place;
     return named;
@@ -46,7 +47,7 @@ static int32_t find_named(const lmb_probe_cache *c, lmb_vec3 at)
     return found;
 }
 
-/* The owner's slot, or the one to take: free, or used longest ago. Frames are counted round. */
+/* The owner's slot, or the one to take: a free one, or the one used longest ago. Frame numbers may wrap. */
 static int32_t find_owned(const lmb_probe_cache *c, uint32_t owner, uint32_t frame)
 {
     int32_t best = -1;

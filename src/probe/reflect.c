@@ -1,7 +1,7 @@
 /* reflect.c: what a rough surface reflects of the world, by reflected direction, as a cube. Layer 6. [S16 S17 S22]
  *
  * The lobe of lmb_glossy for a viewer straight above, about a direction: D(h) G(l) / 4, that is rays in proportion to
- * D / 4, weighed by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of the lobe (filtered
+ * D / 4, weighted by Smith's G (Walter et al. 2007, Heitz 2014). Each ray is as wide as its share of the lobe (filtered
  * importance sampling, Krivanek and Colbert 2008). That viewers who look along the surface see a longer lobe is left
  * out, as in all such cubes. */
 #include <string.h>
@@ -13,7 +13,7 @@
 #if LMB_PROBES
 
 enum { RINGS = 8, AROUND = 8, RAYS = RINGS * AROUND };
-enum { FINE = 6 }; /* a mirror's rays each way in a texel: means over texels, as pictures have them */
+enum { FINE = 6 }; /* rays of a mirror's texel each way: its value is the mean over the texel, as in pictures */
 
 /* A ray about +z: one of AROUND in its ring. */
 typedef struct lobe_ray {
@@ -21,12 +21,12 @@ typedef struct lobe_ray {
     float weight, width; /* rad */
 } lobe_ray;
 
-/* Texels are 1 to 2 times as wide as what is asked for, and a bilinear read spreads them over twice that: asked is the
- * root of a half of a ray's share. */
+/* The width that is asked for is the root of half of a ray's share: texels are 1 to 2 times as wide as that, and a
+ * bilinear read spreads them over twice their width. */
 static const float share_read = 0.7f;
 
-/* Ring i holds 1 / RINGS of D down to the horizon, at its middle: tan^2 of the half vector's angle is a2 u / (1 - u),
- * and 1 at the horizon. Its rays lie half a step round from the next ring's. */
+/* Ring i stands for the i-th 1 / RINGS of D down to the horizon, and lies at its middle: tan^2 of the half vector's
+ * angle is a2 u / (1 - u), and 1 at the horizon. Its rays lie half a step round from the next ring's. */
 static float set_rays(lobe_ray out[RAYS], float alpha)
 {
     const float a2 = alpha * alpha, horizon = 1.0f / (1.0f + a2);

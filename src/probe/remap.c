@@ -6,13 +6,13 @@
 
 #if LMB_PROBES
 
-#define INSIDE 0.999f /* of the far world's size: where a place outside is pulled in to; or as far as the centre is */
+#define INSIDE 0.999f /* of the far world's size: places outside are pulled in to there, or to the centre's distance */
 
 static void set_cube(lmb_world_job *job, const lmb_world *w)
 {
     const lmb_world_pictures *p = &w->pictures;
     const lmb_vec3 middle = mul3(add3(p->low, p->high), 0.5f), half = mul3(sub3(p->high, p->low), 0.5f * INSIDE);
-    const float max = 0.5001f * LMB_PI; /* of a level's face over its texels: wider than the ray */
+    const float max = 0.5001f * LMB_PI; /* a face, rad: levels with texels narrower than the ray are passed over */
     int32_t level = 0;
     while (level + 1 < w->cube_levels && (float)w->cube[level].width * job->ray_width > max) {
         ++level;
@@ -30,7 +30,7 @@ static void set_cube(lmb_world_job *job, const lmb_world *w)
     job->reach_high = max3(add3(middle, half), p->centre);
 }
 
-/* A level's limit is a texel and a half of its own: the next one's would be nearer in size. */
+/* A level serves rays up to a texel and a half of its own: the next level's texels are nearer in size to wider ones. */
 static void set_ground(lmb_world_job *job, const lmb_world *w)
 {
     const lmb_world_pictures *p = &w->pictures;

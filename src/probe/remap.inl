@@ -58,7 +58,7 @@ typedef struct remap_spot {
     lane x, y;
 } remap_spot;
 
-/* Along d, of any length but 0. As cube_face. */
+/* The place that a ray along d meets, d of any length but 0; faces as in cube_face. */
 LANE_PART void remap_meet(remap_spot *out, const lmb_world_job *job, lane3 d)
 {
     const lane zero = lane_splat(0.0f), half_n = lane_splat(0.5f * (float)job->side);
@@ -87,7 +87,8 @@ LANE_PART lanei remap_texel(const lmb_world_job *job, const remap_spot *spot, la
                      lanei_add(lane_to_int(x), lanei_splat(job->cube_at)));
 }
 
-/* Weights of three texels in a row, at t -0.5 .. 0.5 from the second: the parabola that has their means. */
+/* Weights of three texels in a row, at t -0.5 .. 0.5 from the middle one: the value of the parabola whose means over
+ * the texels are theirs. */
 LANE_INLINE void remap_parabola(lane weight[3], lane t)
 {
     const lane half = lane_splat(0.5f), odd = lane_mul(half, t);
@@ -97,7 +98,7 @@ LANE_INLINE void remap_parabola(lane weight[3], lane t)
     weight[2] = lane_add(even, odd);
 }
 
-/* For rays whose mean over a texel or more is wanted: what blurs least. Never negative. */
+/* The filter that blurs least, for rays whose mean over a texel or more is wanted. Never negative. */
 LANE_PART remap_colour remap_nine(const lmb_world_job *job, const remap_spot *spot)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), half = lane_splat(0.5f),
@@ -217,7 +218,7 @@ LANE_PART remap_colour remap_ground(const lmb_world_job *job, lane x, lane z, la
     return remap_four(job, at, lane_sub(x, x0), lane_sub(z, y0));
 }
 
-/* Where `near` leaves something to see, `far`. */
+/* `near` over `far`. */
 LANE_PART lane3 remap_over(remap_colour near, remap_colour far)
 {
     return lane3_add(near.rgb, lane3_scale(far.rgb, lane_sub(lane_splat(1.0f), near.alpha)));
@@ -247,7 +248,8 @@ LANE_PART remap_hit remap_fall(const lmb_world_job *job, const remap_place *from
     if (mask_bits(met) == 0) {
         return hit;
     }
-    /* A ray's foot is longer than wide by per_down; its level's texels, by the square root. */
+    /* On the ground a ray covers an ellipse that is longer than wide by per_down: the level is chosen by the geometric
+     * mean of both. */
     const lane wide = lane_mul(lane_mul(hit.distance, lane_splat(job->ray_width)), lane_sqrt(per_down));
     const remap_colour colour = remap_ground(job, lane_keep(met, x), lane_keep(met, z), wide);
     hit.colour.rgb.x = lane_keep(met, colour.rgb.x);
@@ -257,7 +259,7 @@ LANE_PART remap_hit remap_fall(const lmb_world_job *job, const remap_place *from
     return hit;
 }
 
-/* Both candidates: the nearer over the other, or their mean where a ray meets both. */
+/* The nearer one over the other, or their mean where a ray meets both. */
 LANE_PART lane3 remap_mix(const lmb_world_job *job, const remap_hit *ground, remap_colour cube, lane far)
 {
     const lane one = lane_splat(1.0f), ground_alpha = ground->colour.alpha;

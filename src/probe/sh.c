@@ -17,7 +17,7 @@ static void row_waves(float out[WAVES], const float *row, const lmb_probe_table 
 {
     for (int32_t w = 0; w < WAVES; ++w) {
         const float *wave = t->wave + w * t->width;
-        float sum[8] = {0}; /* eight sums side by side, in any compiler's registers */
+        float sum[8] = {0}; /* eight sums side by side, which compilers keep in registers */
         for (int32_t x = 0; x < t->width; x += 8) {
             for (int32_t i = 0; i < 8; ++i) {
                 sum[i] += row[x + i] * wave[x + i];

@@ -110,7 +110,7 @@ static void set_lights(lmb_probe_table *t)
     }
 }
 
-/* The middle of four texels is where they meet. */
+/* The direction of four texels is that of the corner where they meet. */
 static void set_shares(lmb_probe_table *t, float start)
 {
     enum { SIDE = LMB_PROBE_SIDE + 2 };

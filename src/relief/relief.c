@@ -15,9 +15,9 @@ enum { HEADER_BYTES = 4 * LMB_RELIEF_HEADER_WORDS, VIEW_BYTES = 4 * LMB_RELIEF_V
 
 #define OWN_ORDER   0x01020304u
 #define OTHER_ORDER 0x04030201u
-#define MAX_COUNT   0x0fffffffu /* vertices, triangles: so that no product of theirs leaves 64 bits */
+#define MAX_COUNT   0x0fffffffu /* limit of vertices and of triangles: products with them fit 64 bits */
 
-/* A file being looked through. */
+/* A file while it is checked. */
 typedef struct source {
     const uint8_t *data;
     uint64_t bytes;
@@ -83,7 +83,7 @@ static lmb_view view_at(const source *s, uint64_t at)
     return v;
 }
 
-/* Products of what views hold stay far from the ends of a float. */
+/* Within these limits products of a view's lengths neither overflow nor vanish. */
 static int is_length(float v) { return v > 1e-9f && v < 1048576.0f; }
 
 static int is_view(const source *s, const lmb_view *v, uint64_t at)
@@ -98,7 +98,7 @@ static int is_view(const source *s, const lmb_view *v, uint64_t at)
                  texel_bytes(header(s, FORMAT), (uint64_t)v->frame_width * (uint64_t)v->frame_height));
 }
 
-/* scale * axis . (p - eye), and `rest` times w. */
+/* Row of a matrix that gives scale * axis . (p - eye) + rest * w. */
 static void set_row(float row[4], lmb_vec3 axis, float scale, lmb_vec3 eye)
 {
     const lmb_vec3 a = mul3(axis, scale);
@@ -298,7 +298,7 @@ static void turn(uint8_t *p, uint64_t count, int size)
     }
 }
 
-/* Sections that lie over each other would be turned twice: what comes out is looked through once more. */
+/* Bytes of sections that overlap would be swapped twice, so the swapped file is checked again. */
 lmb_status lmb_relief_swap(void *data, size_t bytes)
 {
     source s;

@@ -6,6 +6,7 @@
  * that place, so a slope needs no bias; what is left over is curvature, and the warp's own error. */
 #include <lambent/relief.h>
 
+#include "../base/light_kind.h"
 #include "../base/vec.h"
 #include "../map/part.h"
 #include "../raster/target.h"
@@ -13,7 +14,7 @@
 #if LMB_RELIEF
 
 #define SLACK   1.0f  /* texels a receiver may lie behind what the map shows and still be lit */
-#define STEEP   4.0f  /* the plane of a receiver tells its depth this many texels from its own at most */
+#define STEEP   4.0f  /* a receiver's plane is extrapolated by this many texels at most */
 #define EDGE_ON 1e-3f
 
 /* --- the map ------------------------------------------------------------------------------------------------------ */
@@ -99,13 +100,13 @@ static int32_t choose_face(const lmb_shadow_map *map, lmb_vec3 d)
     return a.y >= a.z ? 2 + (d.y < 0.0f) : 4 + (d.z < 0.0f);
 }
 
-/* 0 where the map does not have it. */
+/* 0 where the receiver lies outside the map. */
 static int find_receiver(receiver *r, const lmb_shadow_map *map, const lmb_light *light, const lmb_tile *tile, int k)
 {
     r->at = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
     r->plane = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
-    const int32_t f = light->kind == LMB_LIGHT_DIRECTIONAL ? lmb_shadow_map_part(map, r->at)
-                                                           : choose_face(map, sub3(r->at, light->position));
+    const int32_t f = light_kind_is(light->kind, LIGHT_FAR) ? lmb_shadow_map_part(map, r->at)
+                                                          : choose_face(map, sub3(r->at, light->position));
     const lmb_view *v = r->view = &map->view[f];
     const lmb_vec3 d = sub3(r->at, v->eye);
     const float size = (float)map->size;

@@ -7,14 +7,14 @@
 #define RELIEF_TURNED 0.02f /* a surface that rises along the ray by less is turned away from the eye */
 #define RELIEF_BEFORE 0.1f   /* pixels that a point may be before the surface, and ... */
 #define RELIEF_BEHIND 0.5f  /* ... behind it, to be on it */
-#define RELIEF_ROUNDS 3     /* surfaces that a ray may have passed closely, and the one that it meets */
-#define RELIEF_AS_EYE 0.5f  /* cosine, to the eye's ray, of views that tell what comes behind */
-#define RELIEF_SAME   0.99999f /* the same of a view that looks along the eye's own ray */
+#define RELIEF_ROUNDS 3     /* surfaces on a ray: those that it passes closely, and the one that it meets */
+#define RELIEF_AS_EYE 0.5f  /* cosine to the eye's ray from which on a view shows what comes behind */
+#define RELIEF_SAME   0.99999f /* the same, from which on both count as one direction */
 #define RELIEF_EQUAL  0.01f /* texels within which candidates are equally near: the first view's wins */
 #define RELIEF_RIM    0.01f /* texels that a point may be outside the outermost texels' middles, by rounding */
-#define RELIEF_NEAR   1.0f  /* texels that a view's candidate may be worse than the best to be looked at again, ... */
-#define RELIEF_FAR    4.0f  /* ... unless the best is so far off */
-#define RELIEF_SETTLED 0.3f /* pixels that a step has for the next to be the last */
+#define RELIEF_NEAR   1.0f  /* a view is dropped where its candidate is more texels worse than the best ... */
+#define RELIEF_FAR    4.0f  /* ... unless the best is farther off than this */
+#define RELIEF_SETTLED 0.3f /* a step of fewer pixels than this is the last */
 #define RELIEF_WORST  1e30f
 
 typedef struct relief_ray {
@@ -23,7 +23,7 @@ typedef struct relief_ray {
     lane pixel;        /* m of a pixel's side there */
 } relief_ray;
 
-/* What a view has to say of a point. */
+/* What a view shows at a point. */
 typedef struct relief_lookup {
     lane u, v, d;     /* the point's place */
     lane gap;         /* m, along the view's axis, from the point on to what is shown there */
@@ -36,7 +36,7 @@ typedef struct relief_lookup {
     lane_mask of[4];  /* which of them are on the candidate's surface */
     lane_mask some;   /* the view shows something there */
     lane_mask shown;  /* a candidate: that, turned to the eye */
-    lane_mask whole;  /* all four texels are of its surface */
+    lane_mask whole;  /* all four texels show its surface */
     lane_mask free;   /* the view sees through the point, in all four texels */
     lane_mask empty;  /* in one of them it shows nothing at all */
 } relief_lookup;
@@ -183,7 +183,7 @@ LANE_PART lane_mask relief_gather(lane s[4], relief_lookup *out, const lmb_relie
     return some;
 }
 
-/* A vector of pixels on its way. */
+/* A vector of pixels, and how far their rays have advanced. */
 typedef struct relief_way {
     relief_ray ray;
     lane t;          /* m from the simple surface */
@@ -281,7 +281,7 @@ NOINLINE void relief_lookup_nearest(relief_lookup *out, const lmb_relief_job *jo
     out->empty = relief_free(view, inside, mask_not(some));
 }
 
-/* From where the way is. */
+/* At the place that the ray has reached. */
 static inline void relief_lookup_at(relief_lookup *out, const lmb_relief_job *job, const lmb_relief_view *view,
                                     const relief_way *w)
 {
@@ -294,7 +294,7 @@ static inline void relief_lookup_at(relief_lookup *out, const lmb_relief_job *jo
 
 /* --- which views -------------------------------------------------------------------------------------------------- */
 
-/* The best three of all so far. */
+/* The three best so far. */
 typedef struct relief_best {
     lane value[3]; /* falling */
     lanei view[3];
@@ -376,14 +376,14 @@ static void KERNEL(relief_rank)(uint8_t votes[LMB_RELIEF_VIEWS], const lmb_tile 
 
 /* --- the way along the ray ---------------------------------------------------------------------------------------- */
 
-/* What the last look of a way says of the surface. */
+/* What the last lookup of a ray shows of the surface. */
 typedef struct relief_found {
     lane worth;      /* of the best candidate in the end ... */
     lane3 candidate; /* ... its place ... */
     lane_mask met;   /* ... and whether it is where the ray is */
     lane_mask seen_through;
-    lane_mask passed;  /* some view has the point before what it shows */
-    lane as_eye, onward; /* m to what the view shows that looks most as the eye does; as_eye: how much */
+    lane_mask passed;  /* the point lies in front of what some view shows */
+    lane as_eye, onward; /* m to what the view with the direction nearest to the eye's shows; as_eye: their cosine */
     lane weight, step; /* sums over the views that agree */
     lane3 codes, normal;
 } relief_found;
@@ -399,7 +399,7 @@ static inline lane relief_against(const lmb_relief_job *job, lane texel, const r
                     lane_pick(look->whole, lane_splat(0.0f), texel));
 }
 
-/* The best candidates' views, of pixels that move. */
+/* The views of the best candidates, for the pixels whose rays advance. */
 NOINLINE void relief_keep(relief_way *w, const lmb_relief_job *job, const relief_best *best)
 {
     const uint32_t moving = mask_bits(w->moving);
@@ -548,7 +548,7 @@ static inline void relief_clear(relief_found *f)
     f->candidate = f->codes = f->normal = lane3_splat(0.0f, 0.0f, 0.0f);
 }
 
-/* What view i, which looked where the way is now, says of the pixels `asked`. */
+/* Adds to `f` what view i shows of the pixels `asked`; `look` is its lookup at the place that the rays have reached. */
 NOINLINE void relief_hear(relief_found *f, const relief_way *w, const lmb_relief_job *job, int32_t i,
                             const relief_lookup *look, lane_mask asked)
 {
@@ -581,7 +581,7 @@ NOINLINE void relief_hear(relief_found *f, const relief_way *w, const lmb_relief
     relief_paint(f, job, view, look, lane_keep(says, relief_weight(job, texel, look, faces)));
 }
 
-/* The last look: the kept ones say what the surface is, the others whether it can be there. */
+/* The last lookup: the views that were kept show what the surface is, the others whether a surface can be there. */
 NOINLINE void relief_arrive(relief_found *f, const relief_way *w, const lmb_relief_job *job)
 {
     relief_clear(f);
@@ -646,7 +646,7 @@ NOINLINE void relief_store(lmb_tile *out, const relief_way *w, const relief_foun
     lane_store(out->depth + k, lane_pick(hit, depth, lane_load(out->depth + k)));
 }
 
-/* Each pixel until it moves by little. */
+/* Advances each pixel's ray until its step is short. */
 NOINLINE void relief_travel(relief_way *w, const lmb_relief_job *job)
 {
     const lane near = lane_mul(lane_splat(RELIEF_SETTLED), w->ray.pixel);
@@ -665,7 +665,7 @@ NOINLINE void relief_travel(relief_way *w, const lmb_relief_job *job)
     }
 }
 
-/* Which of these pixels' ways end over open ground: a view that looks about as the eye does shows nothing there. */
+/* The pixels whose rays end over open background: a view with about the eye's direction shows nothing there. */
 NOINLINE lane_mask relief_open(const relief_way *w, const lmb_relief_job *job, lane_mask of)
 {
     lane_mask open = mask_and(of, mask_not(of));
@@ -693,7 +693,7 @@ NOINLINE int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, c
     const lane_mask clear = mask_and(here, mask_not(f.seen_through));
     const lane_mask passed = mask_and(mask_and(w->live, f.passed), mask_not(clear));
     const lane_mask on = mask_and(passed, lane_lt(lane_splat(RELIEF_AS_EYE), f.as_eye));
-    const int away = last && job->outside; /* still on the way: round a model that has an outside, nothing more comes */
+    const int away = last && job->outside; /* where a model has an outside, nothing comes behind it */
     const lane_mask ends = last && !away ? passed : mask_and(passed, mask_not(on));
     const lane_mask open = relief_open(w, job, ends);
     const lane_mask hit = mask_or(clear, mask_and(mask_and(ends, some), mask_not(open)));
@@ -706,7 +706,7 @@ NOINLINE int relief_end(relief_way *w, lmb_relief_found *out, lmb_tile *inout, c
     return mask_bits(on) != 0;
 }
 
-/* A ray that passes a surface goes on to what the view shows there that looks most as the eye does. */
+/* A ray that passes a surface goes on to what the view with the direction nearest to the eye's shows there. */
 static void KERNEL(relief_warp)(lmb_relief_found *out, lmb_tile *inout, const lmb_relief_job *job)
 {
     const int rounds = job->as_is ? 1 : RELIEF_ROUNDS;

@@ -1,6 +1,6 @@
 /* cone.inl: radiance that cones gather from voxels. Layer 5. [M20-M22]
  *
- * Lanes are pixels; a cone's samples lie at the same distances for all of them, so levels are no lanes' matter.
+ * Lanes are pixels; a cone's samples lie at the same distances for all of them, so all lanes read the same levels.
  *
  * A sample is read between eight voxels' middles of two levels. With d the ray to a voxel's middle, which is as long as
  * the axis is by then, per leaf of way along the axis:
@@ -81,14 +81,15 @@ LANE_INLINE lanei cone_voxel(const lmb_cone_job *job, int32_t levels, lanei x, l
     return lanei_pick(inside, at, lanei_splat(0));
 }
 
-/* How much of what is double-sided may be the pixel's own along an axis: all of it, or what its front faces. */
+/* The part of double-sided coverage along an axis that may be the pixel's own plane: all of it, or what its front
+ * faces. */
 LANE_INLINE lane cone_own(lane sheet, lane towards, int32_t faced)
 {
     const lane zero = lane_splat(0.0f);
     return faced ? lane_max(lane_pick(lane_lt(towards, zero), lane_sub(zero, sheet), sheet), zero) : lane_abs(sheet);
 }
 
-/* Coverage along one axis; mine: what the pixel's own plane has of it; d: how far the ray goes. */
+/* Adds coverage along one axis. mine: the part of it that is the pixel's own plane; d: how far the ray goes. */
 LANE_INLINE void cone_add_axis(lane *met, lane *flat, lane *sheets, const lane pair[2], lane sheet, lane d,
                                lane weight, lane mine)
 {
@@ -179,11 +180,11 @@ NOINLINE void cone_level(cone_sum *sum, const lmb_cone_job *job, const cone_rays
     }
 }
 
-/* The expected number of surfaces that a ray meets in a leaf. `met`: |d_a| cover_a, whose sum is right for a corner of
- * walls and too
- * much for all else. Flat: |N . d|, and nothing where the ray leaves what is single-sided: on a ball's far side the
- * normal's parts face the ray along some axes. Round: the projection of an ellipsoid with these areas, the root of the
- * squares' sum. What is both, by parts: the root of the squares' sum with N's own taken out and (N . d)^2 put in. */
+/* The expected number of surfaces that a ray meets in a leaf. `met` is |d_a| cover_a; its sum is right for a corner
+ * of walls, and too much for all else. Flat surfaces count |N . d|, and nothing where the ray leaves what is
+ * single-sided: on a ball's far side the normal's parts face the ray along some axes. Round ones count the projection
+ * of an ellipsoid with these areas, which is the root of the squares' sum. What is both counts by parts: the root of
+ * the squares' sum with N's own part taken out and (N . d)^2 put in. */
 LANE_INLINE lane cone_crossed(lane cover, const cone_sum *sum)
 {
     const lane zero = lane_splat(0.0f);
@@ -194,7 +195,7 @@ LANE_INLINE lane cone_crossed(lane cover, const cone_sum *sum)
     return lane_min(cover, lane_sqrt(lane_add(lane_mul(through, through), lane_max(round, zero))));
 }
 
-/* What shows of C, see above. */
+/* V of the head of this file: the part of C whose light shows. */
 LANE_INLINE lane cone_shown(lane cover, const cone_sum *sum)
 {
     const lane zero = lane_splat(0.0f), part[3] = {sum->sheets.x, sum->sheets.y, sum->sheets.z};
@@ -207,8 +208,8 @@ LANE_INLINE lane cone_shown(lane cover, const cone_sum *sum)
     return lane_max(shown, lane_add(lane_mul(cover, lane_splat(0.1f)), lane_splat(1e-12f)));
 }
 
-/* What a step adds, and what it leaves open: under 1/1024 is none, for each lane alone, so that none knows when the
- * others are done. */
+/* Adds the light of a step, and returns what the step leaves open. Under 1/1024 counts as closed, for each lane by
+ * itself: so a lane does not depend on when others are done. */
 NOINLINE lane cone_scale(lmb_cone_seen *out, int k, const cone_sum *sum, float length, lane open)
 {
     const lane cover = lane_add(lane_add(sum->met.x, sum->met.y), sum->met.z),

@@ -1,6 +1,6 @@
 /* octree.h: where a voxel lies in the pool. Layer 5.
  *
- * Voxels 0 .. 7 are empty space and their own children, so a walk down may go on where nothing is stored. */
+ * Voxels 0 .. 7 are empty space and their own children, so a way down may go on where nothing is stored. */
 #ifndef LMB_VOXEL_OCTREE_H
 #define LMB_VOXEL_OCTREE_H
 

@@ -65,7 +65,7 @@ typedef struct span {
     int32_t first, last; /* cells */
 } span;
 
-/* What of the polygon lies in the cube along an axis: cut off what does not. */
+/* Cuts off what of the polygon lies outside the cube along an axis; returns the cells of the rest. */
 static span span_of(polygon *p, int axis, int32_t side)
 {
     polygon whole, rest;
@@ -180,7 +180,7 @@ static void add_polygon(builder *b, polygon *rest)
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
 
-/* How much of a masked triangle stands: of its middle, and half way to its corners. */
+/* The opaque share of a masked triangle, by four points: its middle, and half way from there to each corner. */
 static float standing(const lmb_triangle *t, const lmb_scene *scene)
 {
     static const float at[SAMPLES][2] = {{1.0f / 3.0f, 1.0f / 3.0f}, {2.0f / 3.0f, 1.0f / 6.0f},
@@ -242,8 +242,8 @@ static int add_parts(lmb_voxels *v, const lmb_voxel_part *parts, int32_t count)
     return !b.full;
 }
 
-/* Areas become what is seen of them. Both sides of a thing thinner than a voxel are seen one at a time. From the last
- * axis on: where a normal goes, its axis' areas have been read. */
+/* Areas become coverage. Of a double-sided thing thinner than a voxel one side is seen at a time: the larger of both
+ * areas counts. The loop begins at the last axis, because the normal is written where areas of later axes were. */
 static void finish(float *cover, uint32_t count)
 {
     for (int k = 2; k >= 0; --k) {

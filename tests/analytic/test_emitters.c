@@ -9,12 +9,11 @@ enum { FRAME = 32, MAP = 64, FACES = 1, ELEMENTS = 4096, BVH = 64, SIDE = 64, LI
 
 void test_emitters(void);
 
-/* --- part of a panel -------------------------------------------------------------------------------------------------
- * */
+/* --- part of a panel ---------------------------------------------------------------------------------------------- */
 
 static uint32_t texels[SIDE * SIDE * 2];
 
-/* A unit square at height h of which x < PART shines down on another; no element ends there. */
+/* A unit square at height h of which x < PART emits light down on another; no element ends there. */
 #define PART (LIT / (double)SIDE)
 static void make_part_panel(double h)
 {

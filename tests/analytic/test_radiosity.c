@@ -1,7 +1,7 @@
 /* test_radiosity.c: many bounces in closed rooms, and surfaces that emit light, against what energy says.
  *
  * In a closed room whose walls all reflect rho, light of power P makes them send P rho^k at the k-th reflection, so all
- * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls shine alike, every point sends the same: itself, what
+ * of N reflections P rho (1 - rho^N) / (1 - rho). Where all walls emit alike, every point sends the same: itself, what
  * others send straight to it, and that after N reflections are L (1 - rho^(N + 2)) / (1 - rho) everywhere; with the
  * rest of them, L / (1 - rho). What is sealed off stays dark. */
 enum { FRAME = 32, MAP = 128, FACES = 6, ELEMENTS = 4096, BVH = 64, BOUNCES = 12 };
@@ -37,8 +37,7 @@ static void add_irradiance(int material, float radiance)
     }
 }
 
-/* --- walls that emit light
- * --------------------------------------------------------------------------------------------- */
+/* --- walls that emit light ---------------------------------------------------------------------------------------- */
 
 static void check_furnace(int32_t bounces)
 {
@@ -54,15 +53,14 @@ static void check_furnace(int32_t bounces)
         max = fmax(max, fabs(off));
         mean += off / (FRAME * FRAME * 3);
     }
-    printf("  walls that shine, %2d bounces%s: %+.3f %% in the mean, %.3f %% off at most\n", (int)bounces,
+    printf("  walls that emit, %2d bounces%s: %+.3f %% in the mean, %.3f %% off at most\n", (int)bounces,
            truncated ? "" : " and the rest", mean * 100, max * 100);
     CHECK_MSG(max < 0.01 && fabs(mean) < 0.003, "%d bounces: %g, %g", (int)bounces, mean, max);
 }
 
-/* --- a panel that emits light
- * ------------------------------------------------------------------------------------------ */
+/* --- a panel that emits light ------------------------------------------------------------------------------------- */
 
-/* A unit square that emits light down on another from height h, with no lamp. The view is centred, so that nothing
+/* A unit square that emits light down on another from height h, without lights. The view is centred, so that nothing
  * depends on which way its pictures lie: E = pi L F. */
 static void check_panel(double h)
 {
@@ -88,24 +86,24 @@ static void check_panel(double h)
     CHECK_MSG(max < 0.01, "height %g: %g", h, max);
 }
 
-/* --- a lamp in a room --------------------------------------------------------------------------------------------- */
+/* --- a point light in a room -------------------------------------------------------------------------------------- */
 
 /* A point, or a panel on the ceiling; 4 pi W a channel. */
-enum { LAMP, PANEL };
+enum { POINT, PANEL };
 
 /* With a closed block that stands through the floor and a wall, or none. */
-static void make_room(int light, int block)
+static void make_room(int source, int block)
 {
-    static lmb_light lamp;
-    lamp = point_light(vec3(0.2f, 0.5f, -0.1f));
-    lamp.intensity[0] = lamp.intensity[1] = lamp.intensity[2] = 1.0f;
+    static lmb_light light;
+    light = point_light(vec3(0.2f, 0.5f, -0.1f));
+    light.intensity[0] = light.intensity[1] = light.intensity[2] = 1.0f;
     world_begin(rho, rho, rho);
     world_box(vec3(0, 0, 0), 1.0f);
     if (block) {
         world_box(vec3(0.7f, -0.8f, -0.3f), 0.35f);
     }
-    if (light == LAMP) {
-        world.scene.lights = &lamp;
+    if (source == POINT) {
+        world.scene.lights = &light;
         world.scene.light_count = 1;
     } else {
         world_part();
@@ -116,7 +114,7 @@ static void make_room(int light, int block)
     CHECK(world_end() == LMB_OK);
 }
 
-/* Light that all elements received; W, one channel. What comes straight from a lamp is not in it. */
+/* Light that all elements received; W, one channel. What comes straight from lights is not in it. */
 static double received(void)
 {
     const lmb_elements *e = &render.frame.elements;
@@ -127,13 +125,13 @@ static double received(void)
     return sum;
 }
 
-static void check_room(int light, int block, int32_t bounces)
+static void check_room(int source, int block, int32_t bounces)
 {
-    const double r = (double)rho, left = !truncated ? 0.0 : pow(r, light == LAMP ? bounces - 1 : bounces),
-                 want = 4.0 * PI * (light == LAMP ? r : 1.0) * (1.0 - left) / (1.0 - r);
-    make_room(light, block);
+    const double r = (double)rho, left = !truncated ? 0.0 : pow(r, source == POINT ? bounces - 1 : bounces),
+                 want = 4.0 * PI * (source == POINT ? r : 1.0) * (1.0 - left) / (1.0 - r);
+    make_room(source, block);
     draw(vec3(0.8f, 0.8f, 0.8f), vec3(0, -0.5f, -0.3f), LMB_SHOW_IRRADIANCE, bounces);
-    printf("  %s in a room%s, %2d bounces%s: %.4f of its energy\n", light == LAMP ? "lamp" : "panel",
+    printf("  %s in a room%s, %2d bounces%s: %.4f of its energy\n", source == POINT ? "point light" : "panel",
            block ? " with a block" : "", (int)bounces, truncated ? "" : " and the rest", received() / want);
     CHECK_MSG(fabs(received() / want - 1.0) < 0.01, "%d bounces: %g", (int)bounces, received() / want);
 }
@@ -144,9 +142,9 @@ static void check_rest(void)
     truncated = 0;
     check_furnace(2);
     check_furnace(3);
-    check_room(LAMP, 0, 2);
-    check_room(LAMP, 0, 4);
-    check_room(LAMP, 1, 4);
+    check_room(POINT, 0, 2);
+    check_room(POINT, 0, 4);
+    check_room(POINT, 1, 4);
     check_room(PANEL, 1, 4);
     truncated = 1;
 }
@@ -155,7 +153,7 @@ static void check_rest(void)
 static void check_white(void)
 {
     lmb_elements *e = &render.frame.elements;
-    make_room(LAMP, 0);
+    make_room(POINT, 0);
     for (int c = 0; c < 3; ++c) {
         world.material[0].albedo[c] = 1.0f;
     }
@@ -163,7 +161,7 @@ static void check_white(void)
     draw(vec3(0.8f, 0.8f, 0.8f), vec3(0, -0.5f, -0.3f), LMB_SHOW_IRRADIANCE, 3);
     truncated = 1;
     const double all = received() / (4.0 * PI);
-    printf("  lamp in a white room, 3 bounces and the rest: %.2f times what it gives, of %d\n", all,
+    printf("  point light in a white room, 3 bounces and the rest: %.2f times what it gives, of %d\n", all,
            (int)LMB_MAX_BOUNCES - 1);
     CHECK_MSG(all > 0.7 * (LMB_MAX_BOUNCES - 1) && all < 1.01 * (LMB_MAX_BOUNCES - 1), "%g", all);
     CHECK(lmb_elements_rest(NULL, NULL, 1) == LMB_ERR_ARG && lmb_elements_rest(e, NULL, -1) == LMB_ERR_ARG);
@@ -177,7 +175,7 @@ static int is_in_block(lmb_vec3 p)
 }
 
 /* Sides that look into the block, pieces of the room in it, and sides that look out of the room: all stay dark. Lit by
- * the panel: a lamp's map sees texels that snapping moves by a 256th of their size, and so under the block's edge. */
+ * the panel: a light's map sees texels that snapping moves by a 256th of their size, and so under the block's edge. */
 static void check_sealed(void)
 {
     const lmb_elements *e = &render.frame.elements;
@@ -214,9 +212,9 @@ void test_radiosity(void)
     check_panel(1.0);
     check_panel(0.3);
     check_panel(0.05);
-    check_room(LAMP, 0, 2);
-    check_room(LAMP, 0, BOUNCES);
-    check_room(LAMP, 1, BOUNCES);
+    check_room(POINT, 0, 2);
+    check_room(POINT, 0, BOUNCES);
+    check_room(POINT, 1, BOUNCES);
     check_room(PANEL, 0, 1);
     check_room(PANEL, 0, BOUNCES);
     check_room(PANEL, 1, BOUNCES);

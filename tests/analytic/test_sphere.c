@@ -21,12 +21,12 @@ static const float albedo = 0.5f;
 
 static void make_sphere(void)
 {
-    static lmb_light lamp;
-    lamp = point_light(vec3(0, 0, 0));
-    lamp.intensity[0] = lamp.intensity[1] = lamp.intensity[2] = 1.0f;
+    static lmb_light light;
+    light = point_light(vec3(0, 0, 0));
+    light.intensity[0] = light.intensity[1] = light.intensity[2] = 1.0f;
     world_begin(albedo, albedo, albedo);
     world_sphere(vec3(0, 0, 0), 1.0f, STACKS, SLICES);
-    world.scene.lights = &lamp;
+    world.scene.lights = &light;
     world.scene.light_count = 1;
     CHECK(world_end() == LMB_OK && world.count == TRIANGLES);
 }
@@ -112,7 +112,7 @@ static void check_bounce(const char *name, int32_t method, int32_t count)
     CHECK_MSG(groups.count >= 700, "%s: %d groups", name, (int)groups.count);
     CHECK_MSG(d.max < 0.01, "%s: %g", name, d.max);
     CHECK_MSG(d.mean < 0.004 && fabs(d.ratio - 1.001) < 0.003, "%s: %g %g", name, d.mean, d.ratio);
-    /* All light that leaves the lamp: 4 pi I rho. */
+    /* All that the light gives: 4 pi I rho. */
     CHECK_MSG(fabs(stats.flux_lit / (3.0 * 4.0 * PI * (double)albedo) - 1.0) < 1e-4, "%g", stats.flux_lit);
     CHECK_MSG(stats.flux_grouped > 0.999 * stats.flux_lit, "%g of %g", stats.flux_grouped, stats.flux_lit);
 }

@@ -33,7 +33,7 @@ static lmb_points points;
 static lmb_groups groups;
 static lmb_gather_scratch scratch;
 
-/* A unit square of radiosity 1 from `corner` along u and v, as BLOCK x BLOCK discs a group; it shines along `axis`. */
+/* A unit square of radiosity 1 from `corner` along u and v, as BLOCK x BLOCK discs a group; it emits along `axis`. */
 static void make_emitter(lmb_vec3 corner, lmb_vec3 u, lmb_vec3 v, lmb_vec3 axis)
 {
     const float side = 1.0f / (float)CUTS, group_side = side * (float)BLOCK;

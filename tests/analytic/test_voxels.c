@@ -182,7 +182,7 @@ static void check_open(void *memory, size_t bytes, float height, int count, doub
 void test_voxels(void)
 {
     const size_t bytes = lmb_voxels_bytes(CAP, LMB_VOXELS_ONE);
-    const lmb_light lamp = point_light(vec3(0, 0, 0));
+    const lmb_light light = point_light(vec3(0, 0, 0));
     void *memory = malloc(bytes);
     room_texels = calloc(6 * ROOM_SIDE * ROOM_SIDE, sizeof *room_texels);
     if (memory == NULL || room_texels == NULL) {
@@ -191,7 +191,7 @@ void test_voxels(void)
     world_begin(0.5f, 0.5f, 0.5f);
     world_sphere(vec3(0, 0, 0), 1.0f, STACKS, SLICES);
     CHECK(world_end() == LMB_OK);
-    lit_by(&lamp);
+    lit_by(&light);
     for (int32_t depth = 6; depth <= 7; ++depth) {
         check_sphere(memory, bytes, depth, 7, 0.1);
         check_sphere(memory, bytes, depth, 19, 0.05);

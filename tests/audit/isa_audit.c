@@ -1,4 +1,4 @@
-/* isa_audit.c: every kernel by the audited verbs, as the only machine there is; says at exit what they met. */
+/* isa_audit.c: every kernel by the audited verbs, as the only backend there is; says at exit what they met. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

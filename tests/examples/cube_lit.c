@@ -55,8 +55,8 @@ int main(void)
     lmb_mesh mesh[2];
     lmb_material material[2];
     lmb_instance place[2];
-    lmb_light lamp;
-    lmb_scene scene = room_scene(mesh, material, place, &lamp);
+    lmb_light light;
+    lmb_scene scene = room_scene(mesh, material, place, &light);
     lmb_probe probe;
     lmb_relight r;
     lmb_surface out;

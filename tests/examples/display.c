@@ -30,8 +30,8 @@ int main(void)
     lmb_mesh mesh[2];
     lmb_material material[2];
     lmb_instance place[2];
-    lmb_light lamp;
-    const lmb_scene scene = room_scene(mesh, material, place, &lamp);
+    lmb_light light;
+    const lmb_scene scene = room_scene(mesh, material, place, &light);
     lmb_frame_settings settings;
     lmb_frame frame;
     display screen = {0, 0};

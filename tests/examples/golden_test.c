@@ -49,9 +49,9 @@ static lmb_status draw_oracle(const lmb_surface *depth)
     lmb_mesh mesh[2];
     lmb_material material[2];
     lmb_instance place[2];
-    lmb_light lamp;
+    lmb_light light;
     lmb_target target;
-    lmb_scene scene = room_scene(mesh, material, place, &lamp); /* of which only the mesh is another */
+    lmb_scene scene = room_scene(mesh, material, place, &light); /* of which only the mesh is another */
     memset(&mesh[0], 0, sizeof mesh[0]);
     memset(&target, 0, sizeof target);
     target.depth = *depth;

@@ -1,4 +1,4 @@
-/* moving.c: an animation: first the camera moves, then the lamp. What did not change is kept from frame to frame.
+/* moving.c: an animation: first the camera moves, then the light. What did not change is kept from frame to frame.
  *
  * lmb_render_reuse is told by `revision` numbers what changed: raise a light's when it moves, an instance's when
  * it does. It keeps the rest (the shadow map and first points while the camera alone moves) and gives the bytes
@@ -21,8 +21,8 @@ int main(void)
     lmb_mesh mesh[2];
     lmb_material material[2];
     lmb_instance place[2];
-    lmb_light lamp;
-    const lmb_scene scene = room_scene(mesh, material, place, &lamp);
+    lmb_light light;
+    const lmb_scene scene = room_scene(mesh, material, place, &light);
     lmb_frame_settings settings;
     lmb_frame moving, still;
     uint64_t all = 0;
@@ -42,12 +42,12 @@ int main(void)
             const lmb_vec3 eye = {room_eye.x - 0.1f * (float)i, room_eye.y, room_eye.z};
             lmb_view_look_at(&moving.view, eye, room_middle, room_up, 0.8f, 64, 48);
         } else {
-            lamp.position.x += 0.1f;
-            ++lamp.revision;
+            light.position.x += 0.1f;
+            ++light.revision;
         }
         still.view = moving.view;
         lmb_status status = lmb_render_reuse(&kept, &moving); /* `kept` is of zeros before the first frame */
-        maps_kept += (kept.light_state[0] & LMB_LIGHT_MAP_REUSED) != 0;
+        maps_kept += (kept.light_state[0] & LMB_SHADOW_MAP_REUSED) != 0;
         for (int more = status == LMB_OK; more; more = status == LMB_MORE) {
             status = lmb_render_step(&kept, 1000); /* a game would do something else in between */
         }
@@ -60,6 +60,6 @@ int main(void)
     free(moving.scratch); /* the block begins with its scratches */
     free(still.scratch);
     const uint64_t expected = BY_CONFIG(UINT64_C(0x505bb1b3832c3a2c), UINT64_C(0xbe4bff20e34ea71f));
-    printf("6 frames, the lamp's map kept in %d of them\n", maps_kept);
+    printf("6 frames, the light's map kept in %d of them\n", maps_kept);
     return maps_kept != 2 || ends_with("moving", all, expected);
 }

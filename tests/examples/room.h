@@ -25,7 +25,7 @@ static const uint16_t red_indices[][3] = {{0, 1, 2}, {0, 2, 3}};
 static const lmb_vec3 room_eye = {0.9f, 1.1f, 2.6f}, room_middle = {-0.1f, 0.6f, -0.4f}, room_up = {0, 1, 0};
 
 /* Sets what its arguments point to: two meshes, materials and instances, and a light. */
-static inline lmb_scene room_scene(lmb_mesh mesh[2], lmb_material material[2], lmb_instance place[2], lmb_light *lamp)
+static inline lmb_scene room_scene(lmb_mesh mesh[2], lmb_material material[2], lmb_instance place[2], lmb_light *light)
 {
     static const float colour[2][3] = {{0.8f, 0.8f, 0.8f}, {0.8f, 0.1f, 0.1f}};
     lmb_scene s;
@@ -33,7 +33,7 @@ static inline lmb_scene room_scene(lmb_mesh mesh[2], lmb_material material[2], l
     memset(mesh, 0, 2 * sizeof *mesh);
     memset(material, 0, 2 * sizeof *material);
     memset(place, 0, 2 * sizeof *place);
-    memset(lamp, 0, sizeof *lamp);
+    memset(light, 0, sizeof *light);
     for (uint32_t i = 0; i < 2; ++i) {
         mesh[i].positions = i == 0 ? (const void *)white_corners : red_corners;
         mesh[i].indices = i == 0 ? (const void *)white_indices : red_indices;
@@ -50,13 +50,13 @@ static inline lmb_scene room_scene(lmb_mesh mesh[2], lmb_material material[2], l
         place[i].mesh = place[i].material = i;
         place[i].first_id = i == 0 ? 1 : 15;
     }
-    lamp->kind = LMB_LIGHT_SPOT;
-    lamp->position.y = 2.5f;
-    lamp->direction.y = -1.0f;
-    lamp->intensity[0] = lamp->intensity[1] = lamp->intensity[2] = 12.0f;
-    lamp->cos_inner = 0.9f;
-    lamp->cos_outer = 0.8f;
-    s.meshes = mesh, s.materials = material, s.instances = place, s.lights = lamp;
+    light->kind = LMB_LIGHT_SPOT;
+    light->position.y = 2.5f;
+    light->direction.y = -1.0f;
+    light->intensity[0] = light->intensity[1] = light->intensity[2] = 12.0f;
+    light->cos_inner = 0.9f;
+    light->cos_outer = 0.8f;
+    s.meshes = mesh, s.materials = material, s.instances = place, s.lights = light;
     s.mesh_count = s.material_count = s.instance_count = 2;
     s.light_count = 1;
     lmb_scene_bounds(&s.bounds_min, &s.bounds_max, &s);

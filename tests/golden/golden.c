@@ -1,8 +1,8 @@
 /* golden.c: pixel-exact cases: one line `name hash` each, the same on every machine and compiler, and in every
  * configuration that the case fits.
  *
- * Each case runs with the kernels of every machine that can run here (or the way's); a line names the ones whose hash
- * is not the table's.
+ * Each case runs by every backend that can run here (or by the way's); a line names the backends whose hash is not the
+ * table's.
  *
  * Freestanding and small (static memory under 256 KiB in the small configuration), so that a Cortex-M4F runs the very
  * same list. A hash changes only in a commit that explains the pixels. */
@@ -325,7 +325,7 @@ static lmb_light make_light(int kind)
     return l;
 }
 
-static uint64_t case_light_map(int variant)
+static uint64_t case_shadow_map(int variant)
 {
     lmb_shadow_map map;
     golden_soup(33u, 2.0f);
@@ -613,8 +613,8 @@ static uint64_t case_full_cut(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* The same with an error that is proven. */
-static uint64_t case_cut_proven(int variant)
+/* The same with a conservative error: by bounds instead of the rule. */
+static uint64_t case_cut_conservative(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
     (void)variant;
@@ -624,7 +624,7 @@ static uint64_t case_cut_proven(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
-/* Three bounces between the soup's elements; the whole picture. Variant 1: a part of it shines. */
+/* Three bounces between the soup's elements; the whole picture. Variant 1: a part of it emits light. */
 static uint64_t case_bounces(int variant)
 {
     lmb_frame f = soup_frame(1, 8);
@@ -832,7 +832,7 @@ static int32_t backend_count(void)
     return n;
 }
 
-/* `name hash`, where a machine's hash is wrong: that hash, WRONG and the machines. */
+/* `name hash`; where a backend's hash is wrong, that hash, WRONG and the backends. */
 static int run_case(char line[160], int32_t number)
 {
     const struct golden *c = &cases[number];

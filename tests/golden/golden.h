@@ -18,7 +18,7 @@ typedef struct golden_way {
 
 extern const golden_way golden_whole; /* each in one call */
 
-/* golden_run: all cases, with the way's machines, a line each to `put`; how many have another hash. */
+/* golden_run: all cases, by the way's backends, a line each to `put`; how many have another hash. */
 int golden_run(const golden_way *way, void (*put)(const char *line));
 
 #endif

@@ -115,7 +115,7 @@ static void set_probes(lmb_probe probe[2], relit_space *relit, probe_space *s)
     probe[1].glossy.texel = NULL; /* looks at the world itself */
 }
 
-/* Two instances with a probe each, a lamp, the world behind. Variant: LMB_RELIGHT_. */
+/* Two instances with a probe each, a light, the world behind. Variant: LMB_RELIGHT_. */
 uint64_t case_relit(int variant)
 {
     static const uint16_t probe_of[2] = {0, 1};

@@ -1,4 +1,4 @@
-/* main_golden.c: runs the golden pictures on any port: which machines, a line `name hash` each, then the counts.
+/* main_golden.c: runs the golden pictures on any port: which backends, a line `name hash` each, then the counts.
  *
  * A build that lmb_build_check refuses draws nothing. Where the port measures its stack, that is told too.
  *
@@ -18,7 +18,7 @@ static void put_line(const char *line)
 static void put_backends(void)
 {
     const lmb_kernels *kernels;
-    port_put("machines:");
+    port_put("backends:");
     for (int32_t i = 0; (kernels = lmb_kernels_at(i)) != NULL; ++i) {
         port_put(" ");
         port_put(lmb_kernels_name(kernels));

@@ -1,7 +1,8 @@
 /* main_orders.c: the golden cases cut into pieces, in several orders and on 1 .. 8 threads: the same hashes each way.
  *
- * A line a way, with the lines of the cases that differ. Cases take turns with the machines' kernels, and each case
- * from way to way: so every machine meets every number of threads, and every case. `ways all`: every machine each way.
+ * A line a way, with the lines of the cases that differ. Cases take the backends in turn, and each case from
+ * way to way: so every backend meets every number of threads, and every case. `golden-orders all`: each way by every
+ * backend.
  * Pictures go band by band, maps and targets by rows of tiles, the stages of a frame in parts; scratch holds noise
  * before each piece. Frames also leave nothing out, and keep all of one before. */
 #include <stdio.h>
@@ -267,6 +268,10 @@ int main(int argc, char **argv)
     golden_way threaded = {draw_rows, draw_map_rows, render_by_workers, again_by_workers, 0};
     const int order_count = sizeof orders / sizeof *orders;
     int failed = 0;
+    if (argc > 2 || (argc == 2 && !all)) {
+        printf("FAIL golden-orders takes `all` or nothing, not `%s`\n", argv[argc - 1]);
+        return 2;
+    }
     for (order_now = 0; order_now < order_count; ++order_now) {
         ordered.backend = all ? -1 : order_now;
         failed += run_way(orders[order_now].name, 0, &ordered);

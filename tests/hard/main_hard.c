@@ -2,7 +2,7 @@
  * what must not change a picture, and the same call made thousands of times.
  *
  *     hard              all
- *     hard ROOM...      these rooms of the gallery, or `invariants`, `again`
+ *     hard CASES...     these groups of cases (`lambent bench hard --help` lists them), or `invariants`, `again`
  * Ends with `N passed, N failed, N skipped`; exit status 1 where one failed. */
 #include <stdio.h>
 #include <string.h>
@@ -11,41 +11,66 @@
 
 int test_passed, test_failed, test_skipped;
 
-static void run_room(const char *room)
+static void run_group(int i)
 {
     static hard_list list;
-    CHECK_MSG(hard_run(&list, room, lmb_kernels_pick()), "%s: no such room, or no memory", room);
-    for (int i = 0; i < list.count; ++i) {
-        const hard_case *c = &list.item[i];
-        CHECK_MSG(hard_holds(c), "%s: %s: %g %s, may be %g", c->room, c->name, c->figure, c->unit, c->bound);
+    CHECK_MSG(hard_run(&list, i, lmb_kernels_pick()), "%s: no memory", hard_groups[i]);
+    for (int k = 0; k < list.count; ++k) {
+        const hard_case *c = &list.item[k];
+        CHECK_MSG(hard_holds(c), "%s: %s: %g %s, may be %g", c->group, c->name, c->figure, c->unit, c->bound);
     }
-    CHECK_MSG(list.count > 0, "%s has no case", room);
+    CHECK_MSG(list.count > 0, "%s has no case", hard_groups[i]);
 }
 
-static void run(const char *name)
+static void run_checks(void (*checks)(hard_stage *))
 {
-    if (strcmp(name, "invariants") != 0 && strcmp(name, "again") != 0) {
-        run_room(name);
-        return;
-    }
     hard_stage *stage = hard_stage_make(lmb_kernels_pick());
     CHECK(stage != NULL);
     if (stage != NULL) {
-        strcmp(name, "again") == 0 ? hard_again(stage) : hard_invariants(stage);
+        checks(stage);
     }
     hard_stage_free(stage);
 }
 
+static void tell(const char *name, int passed, int failed)
+{
+    printf("%s: %d passed, %d failed\n", name, test_passed - passed, test_failed - failed);
+}
+
+/* All where the name is NULL; 0 where there is none of that name. */
+static int run(const char *name)
+{
+    static const struct {
+        const char *name;
+        void (*run)(hard_stage *);
+    } checks[] = {{"invariants", hard_invariants}, {"again", hard_again}};
+    int found = 0;
+    for (int i = 0; hard_groups[i] != NULL; ++i) {
+        const int passed = test_passed, failed = test_failed;
+        if (name == NULL || strcmp(name, hard_groups[i]) == 0) {
+            run_group(i);
+            tell(hard_groups[i], passed, failed);
+            found = 1;
+        }
+    }
+    for (int i = 0; i < 2; ++i) {
+        const int passed = test_passed, failed = test_failed;
+        if (name == NULL || strcmp(name, checks[i].name) == 0) {
+            run_checks(checks[i].run);
+            tell(checks[i].name, passed, failed);
+            found = 1;
+        }
+    }
+    return found;
+}
+
 int main(int argc, char **argv)
 {
-    static const char *const all[] = {"raster", "shadow", "bounce",     "probe", "relief",
-                                      "mixed",  "far",    "all",        "invariants", "again"};
-    const int count = argc > 1 ? argc - 1 : (int)(sizeof all / sizeof *all);
-    for (int i = 0; i < count; ++i) {
-        const char *name = argc > 1 ? argv[1 + i] : all[i];
-        const int passed = test_passed, failed = test_failed;
-        run(name);
-        printf("%s: %d passed, %d failed\n", name, test_passed - passed, test_failed - failed);
+    if (argc < 2) {
+        run(NULL);
+    }
+    for (int i = 1; i < argc; ++i) {
+        CHECK_MSG(run(argv[i]), "%s: there are no such cases", argv[i]);
     }
     printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);
     return test_failed > 0;

@@ -1,4 +1,4 @@
-/* test_draws.c: whole draws of random triangles by every machine that runs here against scalar's: small and large ones,
+/* test_draws.c: whole draws of random triangles by every backend that runs here against scalar's: small and large ones,
  * clipped, edge-on and absurd, into each kind of window. What setup, fill_small and fill_large do together. */
 #include <lambent/lambent.h>
 

@@ -1,4 +1,4 @@
-/* test_kernels.c: every kernel of every machine that runs here against scalar's, on random and hard inputs.
+/* test_kernels.c: every kernel of every backend that runs here against scalar's, on random and hard inputs.
  *
  * Surfaces end where their memory ends, so that a sanitizer sees any read past them; what is around outputs stays. */
 #include <lambent/lambent.h>
@@ -41,7 +41,7 @@ static int differ(const float *want, const float *got, int n)
     return -1;
 }
 
-/* What runs: a machine, a kernel, a seed. */
+/* What runs: a backend, a kernel, a seed. */
 typedef struct trial {
     const lmb_kernels *kernels;
     const char *kernel;
@@ -647,7 +647,7 @@ static void make_bounded_node(lmb_node_bounds *out, int k, test_rng *r, const lm
     out->node[LMB_BOUNDS_COSINE][k] = test_random(r) % 3u ? number(r, -1.0f, 1.0f, rare) : 1.0f;
 }
 
-/* The weights of those that do not face away; the others' bytes are the machine's own. */
+/* The weights of those that do not face away; the others' bytes are the backend's own. */
 static int trial_node_bounds(const trial *t, test_rng r)
 {
     static GUARDED(lmb_node_bounds) want, got;
@@ -690,8 +690,7 @@ static int trial_node_bounds(const trial *t, test_rng r)
            same_floats(t, "node", want.it.node[0], got.it.node[0], LMB_BOUNDS_PLANES * LMB_BOUNDS_NODES);
 }
 
-/* --- glossy reflection
- * -------------------------------------------------------------------------------------------------------- */
+/* --- glossy reflection -------------------------------------------------------------------------------------------- */
 
 /* Lobes sharp and wide, with sums so far. Those of pixels that have none are as random. */
 static void make_glossy(lmb_glossy *out, const trial *t, test_rng *r, uint32_t rare)
@@ -708,7 +707,7 @@ static void make_glossy(lmb_glossy *out, const trial *t, test_rng *r, uint32_t r
     make_sums(out->rgb, r);
 }
 
-/* The same light on every machine; and what lights none of `lit`'s pixels left its sum and all else as it was. */
+/* The same light by every backend; and what lights none of `lit`'s pixels left its sum and all else as it was. */
 static int same_glossy(const trial *t, const lmb_glossy *want, const lmb_glossy *got, const lmb_glossy *before,
                        uint64_t lit)
 {
@@ -863,6 +862,26 @@ static int trial_meets(const trial *t, test_rng r)
     return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
 }
 
+/* Along each axis forwards or backwards, or not at all. */
+static int trial_meets_one(const trial *t, test_rng r)
+{
+    static lmb_boxes boxes;
+    const uint32_t rare = t->seed % 2u ? 20u : 0;
+    const lmb_vec3 at = place(&r, 2.0f, 0), to = place(&r, 2.0f, 0);
+    const float d[3] = {to.x - at.x, t->seed % 5u == 0 ? 0.0f : to.y - at.y, to.z - at.z};
+    const int32_t high = 3 * LMB_BOXES;
+    lmb_segment s;
+    s.at = at;
+    s.per = vec3(per(d[0]), per(d[1]), per(d[2]));
+    for (int c = 0; c < 3; ++c) {
+        s.enter[c] = c * LMB_BOXES + (d[c] < 0.0f ? high : 0);
+        s.leave[c] = c * LMB_BOXES + (d[c] < 0.0f ? 0 : high);
+    }
+    make_boxes(&boxes, &r, at, rare);
+    const uint32_t want = lmb_kernels_scalar.meets_one(&s, &boxes), got = t->kernels->meets_one(&s, &boxes);
+    return want >> LMB_BOXES == 0 && same_bytes(t, "boxes", &want, &got, sizeof want);
+}
+
 static int trial_sun_meets(const trial *t, test_rng r)
 {
     static lmb_boxes boxes;
@@ -938,30 +957,30 @@ static int trial_many_lights_bounds(const trial *t, test_rng r)
            same_floats(t, "inside", inside[0], inside[1], (int)count);
 }
 
-static lmb_active_light make_lamp(test_rng *r, uint32_t rare)
+static lmb_active_light make_active_light(test_rng *r, uint32_t rare)
 {
-    lmb_active_light lamp;
-    lamp.position = place(r, 3.0f, rare);
-    numbers(lamp.intensity, 3, r, 0.0f, 5.0f, rare);
-    lamp.spread = test_random(r) % 2u ? 0.0f : number(r, 0.0f, 0.5f, rare);
-    lamp.share[0] = test_uniform(r, 0.5f, 1.0f);
-    lamp.share[1] = 1.0f - lamp.share[0];
+    lmb_active_light light;
+    light.position = place(r, 3.0f, rare);
+    numbers(light.intensity, 3, r, 0.0f, 5.0f, rare);
+    light.spread = test_random(r) % 2u ? 0.0f : number(r, 0.0f, 0.5f, rare);
+    light.share[0] = test_uniform(r, 0.5f, 1.0f);
+    light.share[1] = 1.0f - light.share[0];
     for (int i = 0; i < 2; ++i) {
-        lamp.seen[i] = (uint64_t)test_random(r) << 32 | test_random(r);
-        lamp.source[i].position = place(r, 3.0f, rare);
-        lamp.source[i].direction = direction(r);
-        lamp.source[i].cos_outer = test_uniform(r, 0.0f, 1.0f);
-        lamp.per[i] = test_uniform(r, 1.0f, 20.0f);
+        light.seen[i] = (uint64_t)test_random(r) << 32 | test_random(r);
+        light.source[i].position = place(r, 3.0f, rare);
+        light.source[i].direction = direction(r);
+        light.source[i].cos_outer = test_uniform(r, 0.0f, 1.0f);
+        light.per[i] = test_uniform(r, 1.0f, 20.0f);
     }
-    lamp.kind = test_random(r) % 3u;
-    return lamp;
+    light.kind = test_random(r) % 3u;
+    return light;
 }
 
 static int trial_many_lights_irradiance(const trial *t, test_rng r)
 {
     static GUARDED(lmb_irradiance) want, got;
     static lmb_tile tile;
-    lmb_active_light lamp[9];
+    lmb_active_light light[9];
     const uint32_t rare = t->seed % 2u ? 20u : 0;
     const int32_t count = (int32_t)(test_random(&r) % 10u);
     GUARD(want);
@@ -970,11 +989,11 @@ static int trial_many_lights_irradiance(const trial *t, test_rng r)
     make_sums(want.it.rgb, &r);
     got.it = want.it;
     for (int32_t i = 0; i < count; ++i) {
-        lamp[i] = make_lamp(&r, rare);
+        light[i] = make_active_light(&r, rare);
     }
     const uint64_t pixels = random_pixels(t, &r);
-    lmb_kernels_scalar.many_lights_irradiance(&want.it, &tile, pixels, lamp, count);
-    t->kernels->many_lights_irradiance(&got.it, &tile, pixels, lamp, count);
+    lmb_kernels_scalar.many_lights_irradiance(&want.it, &tile, pixels, light, count);
+    t->kernels->many_lights_irradiance(&got.it, &tile, pixels, light, count);
     CHECK(canaries_stay(got.before, got.after));
     return same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
@@ -1322,6 +1341,7 @@ static const struct kernel {
     {"segments", trial_segments},
     {"through", trial_through},
     {"meets", trial_meets},
+    {"meets_one", trial_meets_one},
     {"sun_crossed", trial_sun_crossed},
     {"sun_meets", trial_sun_meets},
     {"many_bounds", trial_many_lights_bounds},

@@ -1,4 +1,4 @@
-/* test_verbs_scalar.c: the scalar lanes against plain C, and other machines' rows against the scalar ones. */
+/* test_verbs_scalar.c: the scalar lanes against plain C, and other backends' rows against the scalar ones. */
 #include "../../src/lane/lane_scalar.h"
 
 #include <lambent/raster.h>
@@ -99,7 +99,7 @@ static void make_hard(verb_input *in, test_rng *r, uint32_t pair)
     }
 }
 
-/* --- other machines ----------------------------------------------------------------------------------------------- */
+/* --- other backends ----------------------------------------------------------------------------------------------- */
 
 static int same(uint32_t a, uint32_t b, int results)
 {

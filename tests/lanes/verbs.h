@@ -1,4 +1,4 @@
-/* verbs.h: every lane verb applied to one set of inputs: each machine's rows are held against scalar's. */
+/* verbs.h: every lane verb applied to one set of inputs: each backend's rows are held against scalar's. */
 #ifndef TEST_VERBS_H
 #define TEST_VERBS_H
 
@@ -6,7 +6,7 @@
 
 #include "../../src/lane/backends.h"
 
-/* Pixels of an input, the widest machine's vector; as two rows in memory, values of both with what lies between. */
+/* Pixels of an input, the widest backend's vector; as two rows in memory, values of both with what lies between. */
 enum { VERB_LANES = 16, VERB_SURFACE = 22, VERB_TABLE = 40 };
 
 typedef struct verb_input {
@@ -58,7 +58,7 @@ typedef struct verb_output {
 LMB_BACKENDS(VERBS_OF)
 #undef VERBS_OF
 
-/* Inputs of hard and of random values; each machine's rows against scalar's. `run` is called only where it can run. */
+/* Inputs of hard and of random values; each backend's rows against scalar's. `run` is called only where it can run. */
 void verbs_compare(const char *backend, void (*run)(verb_output *out, const verb_input *in));
 
 #endif

@@ -1,4 +1,5 @@
-/* verbs.inl: one machine's verbs over one input: VERBS_RUN(name) is the including file's. */
+/* verbs.inl: part of the checks of lanes (tests/lanes): one backend's verbs over one input. VERBS_RUN(name) is the
+ * including file's, test_verbs_BACKEND.c. */
 #include <string.h>
 
 #include "../../src/lane/lane.h"

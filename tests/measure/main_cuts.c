@@ -19,7 +19,6 @@
 #include "../../src/lane/kernels.h"
 #include "../../src/raster/tile.h"
 #include "../../tools/picture/metrics.h"
-#include "../../tools/render/render_options.h"
 #include "../every_texel.h"
 #include "../truth_scene.h"
 
@@ -29,8 +28,9 @@ enum { MAP = 1024, STEP = 17 };
 
 static const struct preset {
     const char *name;
+    int32_t quality;
     int has_bars;
-} presets[] = {{"draft", 0}, {"default", 1}, {"best", 1}};
+} presets[] = {{"draft", LMB_QUALITY_DRAFT, 0}, {"default", LMB_QUALITY_DEFAULT, 1}, {"best", LMB_QUALITY_BEST, 1}};
 
 typedef struct counts {
     double pairs, seen, segments, seconds;
@@ -66,18 +66,7 @@ static double seconds_now(void) { return (double)clock() / CLOCKS_PER_SEC; }
 
 static int load(work *w)
 {
-    char path[SHARED_PATH];
-    model_notes notes;
-    report r = {""};
-    memset(&notes, 0, sizeof notes);
-    truth_path(path, w->scene, "scene.gltf");
-    if (!truth_is_there(w->scene) || !truth_picture(&w->truth, w->scene, "pt_indirect1.pfm") ||
-        !truth_picture(&w->surface, w->scene, "gbuffer_depth.pfm")) {
-        return 0;
-    }
-    const int ok = model_load(&w->loaded, path, NULL, &notes, &r) && w->loaded.camera_count > 0;
-    CHECK_MSG(ok, "%s: %s", w->scene, r.text);
-    return ok;
+    return truth_scene(&w->loaded, &w->truth, &w->surface, w->scene);
 }
 
 static void set_frame(work *w)
@@ -134,9 +123,7 @@ static void close_scene(work *w)
     while (w->taken > 0) {
         free(w->memory[--w->taken]);
     }
-    image_free(&w->truth);
-    image_free(&w->surface);
-    model_free(&w->loaded);
+    truth_scene_free(&w->loaded, &w->truth, &w->surface);
 }
 
 /* --- a tile by brute force ---------------------------------------------------------------------------------------- */
@@ -243,7 +230,7 @@ static void gather_brute(lmb_irradiance *light, work *w, const lmb_tile *tile, c
 
 /* --- the chosen tiles --------------------------------------------------------------------------------------------- */
 
-static void gather_cut(lmb_irradiance *light, work *w, const lmb_tile *tile, const render_options *how, counts *sum)
+static void gather_cut(lmb_irradiance *light, work *w, const lmb_tile *tile, const lmb_frame *how, counts *sum)
 {
     lmb_stats stats;
     lmb_cut_params cut_params;
@@ -270,7 +257,7 @@ static void store(float *out, const work *w, const lmb_irradiance *light, int32_
 }
 
 /* By a cut, or with `how` NULL by brute force. */
-static counts gather_tiles(work *w, float *out, const render_options *how)
+static counts gather_tiles(work *w, float *out, const lmb_frame *how)
 {
     const lmb_view *v = &w->frame.view;
     const int32_t across = (v->frame_width + LMB_TILE - 1) / LMB_TILE,
@@ -327,15 +314,25 @@ static void tell(const work *w, const char *name, const counts *sum, double trim
            sum->seconds, trim);
 }
 
+/* A quality's error and visibility: lmb_frame_init sets them. */
+static lmb_frame frame_of(const work *w, int32_t quality)
+{
+    lmb_frame_settings s;
+    lmb_frame f;
+    memset(&s, 0, sizeof s);
+    s.kernels = w->frame.kernels;
+    s.scene = w->frame.scene;
+    s.view = w->frame.view;
+    s.quality = quality;
+    void *memory = malloc(lmb_frame_bytes(&s));
+    CHECK(lmb_frame_init(&f, &s, memory, lmb_frame_bytes(&s)) == LMB_OK);
+    free(memory);
+    return f;
+}
+
 static void tell_cut(work *w, const struct preset *p, const counts *brute, double brute_trim)
 {
-    char *line[] = {"render", "demo", "-o", "a.pfm", "--quality", NULL};
-    char name[16];
-    static render_options how;
-    report r = {""};
-    snprintf(name, sizeof name, "%s", p->name);
-    line[5] = name;
-    CHECK(render_options_parse(&how, 6, line, &r));
+    const lmb_frame how = frame_of(w, p->quality);
     const counts cut = gather_tiles(w, w->cut, &how);
     const double added = trim_of(w, w->cut, w->truth.pixels) - brute_trim;
     tell(w, p->name, &cut, brute_trim + added);

@@ -1,9 +1,9 @@
 /* main_mixed.c: a virtual object put into a photo of which everything is known, against the path-traced answer. [M24]
  *
- *     mixed [SHARED [OUT.pfm]]        where SHARED holds truth/mixed_without and mixed_with (default ../shared)
+ *     measure-mixed [SHARED [OUT.pfm]]        where SHARED holds truth/mixed_without and mixed_with (default ../shared)
  *
  * The photo is the truth's picture without the two objects, its depth that picture's; both objects are the ones that
- * the truth has, where it has them, and the lamp is its lamp. All that reaches the photo is what `lambent mix` makes
+ * the truth has, where it has them, and so is the light. All that reaches the photo is what `lambent mix` makes
  * of it. Bars: 0.85 of the shadow in common (IoU); the sign of what changes right where the truth changes by more than
  * 2 % of its mean. The error is printed beside that of the photo left as it is. */
 #include <math.h>
@@ -21,7 +21,7 @@ enum { SIDE = 192, PIXELS = SIDE * SIDE };
 
 /* The scene of mixed_without/scene.json. */
 static const double eye[3] = {3.6, 1.6, 4.1}, target[3] = {1.6, 0.65, 1.0};
-static const lmb_light lamp = {{2.6f, 2.5f, 2.4f}, {-0.2996672f, -0.8324089f, -0.466149f}, {11.0f, 10.4f, 9.4f},
+static const lmb_light light = {{2.6f, 2.5f, 2.4f}, {-0.2996672f, -0.8324089f, -0.466149f}, {11.0f, 10.4f, 9.4f},
                                0.8386706f, 0.7660444f, LMB_LIGHT_SPOT, 0};
 
 typedef struct truth {
@@ -100,7 +100,7 @@ static int make_job(mix_job *j, const truth *t, char *object, report *r)
     if (!mix_options_parse(&j->o, 9, argv, r)) {
         return 0;
     }
-    j->o.lights[0] = lamp;
+    j->o.lights[0] = light;
     j->o.light_count = 1;
     j->frame.camera = camera;
     j->frame.has_pose = 1;
@@ -120,7 +120,7 @@ static int make_job(mix_job *j, const truth *t, char *object, report *r)
 
 /* --- figures ------------------------------------------------------------------------------------------------------ */
 
-/* Where the lamp reaches a surface without the object, and not with it, by the two maps. */
+/* Where the light reaches a surface without the object, and not with it, by the two maps. */
 static void our_shadow(uint8_t *out, mix_job *j)
 {
     static lmb_tile tile;

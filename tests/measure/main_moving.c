@@ -33,7 +33,7 @@ enum { BRUTE, SETTINGS = sizeof settings / sizeof *settings };
 
 typedef struct state {
     uint32_t map[2 * MAP * MAP], depth[SIDE * SIDE], id[SIDE * SIDE];
-    uint32_t tree[64 * MAP * MAP / 4 + 256], bvh[TRIANGLES * 128];
+    uint32_t tree[128 * MAP * MAP / 4 + 512], bvh[TRIANGLES * 128];
     lmb_band_scratch scratch;
     lmb_render render;
 } state;

@@ -1,6 +1,6 @@
 /* main_planes.c: the planes that are found in depth, against planes that are known. [M3 M4]
  *
- *     planes [SHARED]     where SHARED holds data/rgbd (default ../shared)
+ *     measure-planes [SHARED]     where SHARED holds data/rgbd (default ../shared)
  *
  * Rooms of known planes as a Kinect sees them: noise of 1.2 mm + 1.9 mm/m2 (z - 0.4 m)^2 (Nguyen et al. 2012), one
  * pixel of twenty missing. Bars: angle 0.5 degrees, offset 5 mm at the plane's middle, 0.9 of pixels in common (IoU).

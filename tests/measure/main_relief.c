@@ -1,6 +1,6 @@
 /* main_relief.c: reliefs against the complex models that they stand for: errors, speed, memory. [P1-P12]
  *
- *     relief [quality|own|rooms|causes|speed]...     all by default; a folder for pictures in LMB_PICTURES
+ *     measure-relief [quality|own|rooms|causes|speed]...     all by default; a folder for pictures in LMB_PICTURES
  *
  * Exit status 1 where a bar is passed. */
 #include <math.h>

@@ -2,7 +2,8 @@
 # in one table with what was fitted and what was held out, and the mean and the worst of each; then all bounces.
 #
 # LMB_OWN_TRUTH: the folder that tests/scenes/truth.sh filled, full/ in it by FULL=1; without it only the shared scenes are
-# drawn. SHARED_SCENES, OWN_SCENES, QUALITIES: which (default: all that is there). The shared scenes count as fitted.
+# drawn. SHARED_SCENES, OWN_SCENES, QUALITIES: which (default: all that is there). BOUNCES=1 leaves out all bounces. The
+# shared scenes count as fitted.
 . tests/measure/draw.sh
 
 compare=$truth/compare.py
@@ -140,6 +141,7 @@ else
     skip "LMB_OWN_TRUTH names no folder with truth of our own scenes (tests/scenes/truth.sh fills one)"
 fi
 sums
+[ "$BOUNCES" != 1 ] || finish
 
 printf '\n| scene, six bounces | trim of all light | mean | mean of later bounces |\n|---|---|---|---|\n'
 truth=${LMB_SHARED:-../shared}/truth

@@ -3,7 +3,7 @@
  * The world as a mesh (ground to its end at 150 m, a sphere of 128 x 64 quads) is drawn into six views of 64 x 64
  * pixels, one ray a pixel; each pixel reads the float pictures at its uv, bilinearly; 4 x 4 pixels become a light with
  * their exact solid angles; the 6 x 16 x 16 lights are summed by cosine for 6 x 8 x 8 normals. Drawing, reading and
- * summing are lambent's own, with the machine's kernels; reading pictures and reducing are plain C. */
+ * summing are lambent's own, by the backend's kernels; reading pictures and reducing are plain C. */
 #include <math.h>
 #include <string.h>
 

@@ -8,10 +8,10 @@
 
 # A table's cells from the stats of the last run.
 cells() {
-    maps=$(figure shadow_maps) blockers=$(figure blockers) points=$(figure first_points)
+    maps=$(figure shadow_maps) bvh=$(figure BVH) points=$(figure first_points)
     view=$(figure view) bands=$(figure bands)
-    awk "BEGIN { again = $view + $bands; printf \"%.3f | %.3f\", $maps + $blockers + $points + again, again }"
-    echo " | $maps | $blockers | $points | $view | $bands | $(cat "$work/user") | $(figure pairs) | $(figure segments)"
+    awk "BEGIN { again = $view + $bands; printf \"%.3f | %.3f\", $maps + $bvh + $points + again, again }"
+    echo " | $maps | $bvh | $points | $view | $bands | $(cat "$work/user") | $(figure pairs) | $(figure segments)"
 }
 
 row() {
@@ -28,7 +28,7 @@ row() {
     echo "| $1 | $2 | $3 | $(sort -n "$work/runs" | head -n 1) |"
 }
 
-echo "| scene | quality | threads | frame, s | again | shadow maps | blockers | first points | view | bands | user |" \
+echo "| scene | quality | threads | frame, s | again | shadow maps | BVH | first points | view | bands | user |" \
     "pairs | segments |"
 echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|"
 for scene in ${SCENES:-cornell bunny_room sponza}; do

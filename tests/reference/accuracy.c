@@ -34,8 +34,8 @@ typedef struct contest {
     uint32_t flags;
     int cull, backends;
     size_t step, count;      /* px from row to row; px with the padding */
-    canvas alone[BACKENDS];  /* the triangle at hand, by each machine; else empty */
-    canvas picture, another; /* of all, by the first machine; by one of the others, or without ids */
+    canvas alone[BACKENDS];  /* the triangle at hand, by each backend; else empty */
+    canvas picture, another; /* of all, by the first backend; by one of the others, or without ids */
     float *together;         /* the triangles alone, put together */
     uint32_t *together_id;
     double *best, *drawn;    /* the reference's depth in front; of the triangle that the picture shows */
@@ -177,7 +177,7 @@ static void count_error(error_count *n, float ours, double theirs)
  * it: half of 1/256 px is s / 512, or 32768 s. */
 static double step_bound(const ref_pixel *p) { return ldexp(7.0 * (double)p->high + 35.0 * p->slope, -24); }
 
-/* The same bytes by every machine; then the canvases are empty again. */
+/* The same bytes by every backend; then the canvases are empty again. */
 static void take_alone(contest *c, const fragment *f)
 {
     const uint32_t id = c->alone[0].id[f->at];
@@ -240,7 +240,7 @@ static void compare_triangles(contest *c)
 
 /* --- the picture -------------------------------------------------------------------------------------------------- */
 
-/* Machines and kinds of target: the pixels' bytes are the first machine's. */
+/* Backends and kinds of target: the pixels' bytes are the first backend's. */
 static void compare_backends(contest *c)
 {
     for (int run = 1; run < 2 * c->backends; ++run) {

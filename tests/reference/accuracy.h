@@ -16,7 +16,7 @@ typedef struct accuracy {
     error_count frame;   /* the picture of all */
     uint64_t outside;    /* alone: depth outside the triangle's own corner depths */
     uint64_t past_bound; /* alone: depth further off than binary32's steps explain */
-    uint64_t unlike;     /* pixels unlike the first machine's, or in the picture unlike its triangles put together */
+    uint64_t unlike;     /* pixels unlike the first backend's, or in the picture unlike its triangles put together */
     uint64_t fights;     /* of frame.pixels: another triangle in front */
     double fight_gap;    /* how far behind the reference's own it lies at most, ulps */
     /* The picture against the exact reference's, which knows no 24.8. */

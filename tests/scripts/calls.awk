@@ -1,7 +1,7 @@
 # calls.awk: gcc's call graphs (.ci, -fcallgraph-info=su) of the library -> each of its calls with the stack that it
 # takes at most, its own callees included: "BYTES NAME CHAIN".
 #
-# A call through the table of kernels may reach any machine's: the source line says which kernel. A call back to the
+# A call through the table of kernels may reach any backend's: the source line says which kernel. A call back to the
 # user, and what is not the library's (memset, soft floats), count as nothing.
 
 /^node:/ {
@@ -13,7 +13,7 @@
         kernel = name
         if (kernel ~ /^src\/isa\/isa_/ && sub(/^.*:/, "", kernel) &&
             sub(/_(scalar|sse2|avx2|avx512|neon|simd128)$/, "", kernel))
-            machines[kernel] = machines[kernel] " " name
+            backends[kernel] = backends[kernel] " " name
     }
 }
 
@@ -56,7 +56,7 @@ function callees(name,    list, place, n, i) {
     list = calls[name]
     n = split(through[name], place, " ")
     for (i = 1; i <= n; ++i)
-        list = list machines[kernel_at(place[i])]
+        list = list backends[kernel_at(place[i])]
     return list
 }
 

@@ -103,15 +103,15 @@ status 0 render demo $coarse --bounces 3 --elements 256 --threads 1 -o "$dir/opt
 check "threads do not change bounces" cmp "$dir/bounce3.pfm" "$dir/option.pfm"
 status 2 render demo $small --grouping zones --bounces 2 -o "$dir/option.pfm"
 status 2 render demo $coarse --bounces 0 -o "$dir/option.pfm"
-printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >"$dir/shine.mtl"
-printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
-    'f 1 2 3 4' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shine.obj"
-status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.5,2 --target 0,0.4,0 $cut -o "$dir/shine.pfm"
+printf 'newmtl lamp\nKe 2 3 4\nKd 0 0 0\n' >"$dir/emits.mtl"
+printf '%s\n' 'mtllib emits.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+    'f 1 2 3 4' 'usemtl lamp' 'f 5 6 7 8' >"$dir/emits.obj"
+status 0 render "$dir/emits.obj" --size 16x16 --eye 0,0.5,2 --target 0,0.4,0 $cut -o "$dir/emits.pfm"
 check "a lamp is enough light" sh -c '! grep -q "no light in" "$1"' sh "$dir/err.txt"
-status 0 render "$dir/shine.obj" --size 16x16 --eye 0,0.9,0 --target 0,0,0.1 $cut --show irradiance -o "$dir/floor.pfm"
+status 0 render "$dir/emits.obj" --size 16x16 --eye 0,0.9,0 --target 0,0,0.1 $cut --show irradiance -o "$dir/floor.pfm"
 check "its light is seen" test "$(tail -c 3072 "$dir/floor.pfm" | tr -d '\000' | wc -c)" -gt 2000
 # What stands between a lamp that is a surface and the floor blocks it, with no other lamp too.
-printf '%s\n' 'mtllib shine.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
+printf '%s\n' 'mtllib emits.mtl' 'v -1 0 -1' 'v 1 0 -1' 'v 1 0 1' 'v -1 0 1' 'v -1 1 -1' 'v 1 1 -1' 'v 1 1 1' 'v -1 1 1' \
     'v -2 0.5 -2' 'v 2 0.5 -2' 'v 2 0.5 2' 'v -2 0.5 2' 'f 1 2 3 4' 'f 9 10 11 12' 'usemtl lamp' 'f 5 6 7 8' >"$dir/shade.obj"
 status 0 render "$dir/shade.obj" --size 16x16 --eye 0,0.45,0 --target 0,0,0.1 --shadow-map 32 --show irradiance -o "$dir/shade.pfm"
 check "a shade is dark below" test "$(tail -c 3072 "$dir/shade.pfm" | tr -d '\000' | wc -c)" -eq 0
@@ -281,6 +281,18 @@ status 2 bench demo --swep tree=8
 said "did you mean --sweep?"
 status 2 bench demo --shadwo-map 64
 said "did you mean --shadow-map?"
+status 2 render demo -o="$dir/bad.png"
+said "write \`-o $dir/bad.png\`"
+status 2 render demo --o=x.png
+said "unknown option --o; did you mean -o?"
+status 2 render demo -h=1
+said "-h takes no value"
+status 2 relief baek
+said "there is no \`relief baek\`; did you mean relief bake?"
+status 2 bench rastr
+said "there is no file \`rastr\`; did you mean bench raster?"
+status 2 render demo --quality drfat -o "$dir/bad.png"
+said "did you mean draft?"
 status 2 rendr demo
 said "did you mean render?"
 status 2 render demo --size 64x48 --size 32x24 -o "$dir/bad.png"
@@ -394,11 +406,11 @@ done
 find "$dir" \( -name '*killed*tmp*' -o -name '.write-*.tmp' \) -exec rm -f {} + # of those that were killed
 
 # A reader that goes away: the tool ends, with its own status or by the signal, and does not go on.
-check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^room"' sh "$TOOL"
+check "a closed pipe ends the tool" sh -c '"$1" bench hard mixed | head -n 1 | grep -q "^group"' sh "$TOOL"
 
 left=$(find "$dir" -name '*tmp*' -o -name 'bad*' -o -name 'nowhere*')
 check "left behind: $left" test -z "$left"
-# The picture does not depend on how many threads draw it, nor on the machine's kernels.
+# The picture does not depend on how many threads draw it, nor on the backend.
 for option in "--threads 1 --profile exact" "--threads 3" "--backend scalar"; do
     check "render demo $option" "$TOOL" render demo --size 64x48 --shadow-map 128 --exposure 0 $option -o "$dir/way.ppm"
     cp "$dir/way.ppm" "$dir/way$((ways = ways + 1)).ppm"
@@ -428,12 +440,12 @@ status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --faces 65
 status 2 relight --world "$dir/white.pfm" --cube "$dir/bad.pfm" --filter sh4
 status 2 relight --cube "$dir/bad.pfm"
 status 0 relight --help
-# Objects in the built-in world: normal and gloss are the parts of both, on every machine; places along a path.
+# Objects in the built-in world: normal and glossy are the parts of both, everywhere; places along a path.
 field="relight --world demo --object demo --size 48x24 --exposure 0"
 for show in both normal glossy; do
     status 0 $field --show $show -o "$dir/field-$show.pfm"
 done
-check "gloss alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[0-9]"' sh "$TOOL" "$dir/field-glossy.pfm" "$dir/field-both.pfm"
+check "glossy alone is darker than both" sh -c '"$1" compare "$2" "$3" --json | grep -q "\"mean\":0\.[0-9]"' sh "$TOOL" "$dir/field-glossy.pfm" "$dir/field-both.pfm"
 status 0 $field --backend scalar -o "$dir/field-scalar.pfm"
 check "a backend changes the field" cmp "$dir/field-both.pfm" "$dir/field-scalar.pfm"
 status 0 $field --at 3,0,1 --roughness 0 --f0 0.9 --per-part --light sun:0,0,0:-1,-1,0:2,2,2 --cube "$dir/cube.pfm" -o "$dir/field.png"
@@ -602,27 +614,40 @@ status 2 bench threads gather
 status 2 bench threads --threads 2x
 status 2 bench threads --json
 BENCH_DATA= status 1 bench threads --seconds 0.01
-# The gather, a line for each machine that is here; how fast is nobody's promise.
+# The gather, a line for each backend that is here; how fast is nobody's promise.
 n='[0-9.]*(e[+-][0-9]*)?' # a number
 ops="\\{(\"[a-z]+\":$n,?){7}\\}"
 line="^\\{\"case\":\"gather\",\"backend\":\"[a-z0-9]+\",\"pairs_per_s\":$n,\"cycles_per_pair\":$n,\"bound_cycles\":$n,\"share\":$n"
 line="$line,\"unit\":\"[a-z]+\",\"ghz\":$n,\"ops_per_vector\":$ops,\"cycles_per_op\":$ops,\"load_per_op\":$ops\\}\$"
 status 0 bench gather --seconds 0.01 --json
-machines=$(grep -c . "$dir/out.txt")
-check "bench gather prints one object a line" test "$machines" -eq "$(grep -cE "$line" "$dir/out.txt")"
+backends=$(grep -c . "$dir/out.txt")
+check "bench gather prints one object a line" test "$backends" -eq "$(grep -cE "$line" "$dir/out.txt")"
 check "bench gather ends with the scalar lanes" sh -c 'tail -n 1 "$1" | grep -q "\"backend\":\"scalar\""' sh "$dir/out.txt"
-check "the gather's operations are counted" test "$machines" -eq "$(grep -c '"ops_per_vector":{"mul":[1-9][0-9.]*,"add":[1-9][0-9.]*,"max":[1-9][0-9.]*,"div":2[.0-9]*,"cmp":[1-9].*"sqrt":1[.0-9]*}' "$dir/out.txt")"
+check "the gather's operations are counted" test "$backends" -eq "$(grep -c '"ops_per_vector":{"mul":[1-9][0-9.]*,"add":[1-9][0-9.]*,"max":[1-9][0-9.]*,"div":2[.0-9]*,"cmp":[1-9].*"sqrt":1[.0-9]*}' "$dir/out.txt")"
 status 0 bench gather --backend scalar --seconds 0.01
 check "bench gather --backend measures that one" grep -q '^lambent,gather,backend=scalar,pairs_per_s=[1-9].*,share=[0-9.]*,unit=[a-z]*,ghz=' "$dir/out.txt"
 check "and no other" test "$(grep -c . "$dir/out.txt")" -eq 1
-# Every figure of a room on a line, and within its bound.
+# Every figure of a group of cases on a line, and within its bound.
 status 0 bench hard raster
 check "bench hard prints a line a case" test "$(grep -c '^raster ' "$dir/out.txt")" -ge 20
 status 0 bench hard mixed --json --backend scalar
 check "bench hard --json says which hold" test "$(grep -c ',"holds":true}$' "$dir/out.txt")" -ge 8
-status 1 bench hard nowhere
+status 2 bench hard nowhere
+said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far or whole"
+status 2 bench hard rastr
+said "did you mean raster?"
 status 2 bench hard raster shadow
 status 2 bench hard --seconds 1
+status 0 bench hard probe -q
+check "bench hard -q is its exit status" sh -c '! test -s "$1" && ! test -s "$2"' sh "$dir/out.txt" "$dir/err.txt"
+status 0 bench hard probe -v
+check "bench hard -v says how long it took" grep -q '^lambent: bench hard took .* s$' "$dir/err.txt"
+status 0 bench raster fill-depth --seconds 0.01 -q
+check "bench raster -q prints nothing" sh -c '! test -s "$1"' sh "$dir/out.txt"
+status 0 bench gather --backend scalar --seconds 0.01 --quiet
+check "bench gather -q prints nothing" sh -c '! test -s "$1"' sh "$dir/out.txt"
+status 2 bench gather -q -v
+said "--quiet and --verbose exclude each other"
 
 status 2 bench gather --backend nothing
 status 2 bench gather bunny

@@ -1,6 +1,6 @@
 # cov.sh: which lines and branches of src/ the checks run: cov.sh FOLDER, where `make cov` built them.
 #
-# A line counts where any of its copies was run (kernels are compiled for each machine; those that this processor lacks
+# A line counts where any of its copies was run (kernels are compiled for each backend; those that this processor lacks
 # count as not there), a branch where one of its two ways was taken, twice. What was not run is in FOLDER/uncovered.
 # Bars: 98 % of lines, 92 % of branches, and a reason in uncovered.txt beside this for each line that was not run.
 folder=$1

@@ -7,7 +7,7 @@ mkdir -p "$B/guard"
 golden="$(ls "$B"/obj/tests/golden/golden*.o) $B/obj/tests/golden/main_golden.o $B/obj/tools/demo/demo_scene.o
     $B/obj/platform/host/port_host.o"
 
-# compiles FILE FLAG...: after the house's own flags, so that they win.
+# compiles FILE FLAG...: FLAGs come after the Makefile's own, so that they win.
 compiles() {
     source=$1
     shift

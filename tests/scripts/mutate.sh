@@ -1,18 +1,18 @@
 # mutate.sh: test the tests: change one operator or constant of src/ at a time, and see whether a test notices.
 #
-#     mutate.sh FOLDER N SEED [ROOM...]     N seeded changes in these rooms of src/ (all but lane and isa)
+#     mutate.sh FOLDER N SEED [MODULE...]     N seeded changes in these modules of src/ (all but lane and isa)
 #
-# Works on a copy in FOLDER/tree, with the kernels of two machines (scalar and AVX2), as each takes seconds to compile.
+# Works on a copy in FOLDER/tree, with the kernels of two backends (scalar and AVX2), as each takes seconds to compile.
 # Of each change: it does not build, or gives the same code, and is none; then the quickest tests first, until one
-# fails, ends badly or takes six times as long as without it: golden pictures, the unit tests of the room, hard cases;
+# fails, ends badly or takes six times as long as without it: golden pictures, the unit tests of the module, hard cases;
 # with FULL=1 all others too. Only what follows from the changed file is built, and a program when its turn comes.
-# Prints a line each, those that no test noticed with their line, and killed / tried by room. Exit status 1 where under
+# Prints a line each, those that no test noticed with their line, and killed / tried by module. Exit status 1 where under
 # 85 % were noticed. Some changes change nothing (a bound that is never met, a tie that either way is right): survivors
 # are for reading, not for driving to nothing.
 # ONLY="NUMBER..." does some of them again; FILES=PATTERN takes only such files.
 folder=$1 wanted=$2 seed=$3
 shift 3
-rooms=${*:-base raster map occlusion light manylights bounce lightcut radiosity voxel probe relief mixed compose \
+modules=${*:-base raster map occlusion light manylights bounce lightcut radiosity voxel probe relief mixed compose \
 frame plan}
 mkdir -p "$folder/tree"
 folder=$(cd "$folder" && pwd)
@@ -35,20 +35,20 @@ make_it() {
     $build CFLAGS='-O1 -DLMB_HAVE_SSE2=0 -DLMB_HAVE_AVX512=0' "$@" >"$folder/build.log" 2>&1 </dev/null
 }
 
-# tests ROOM: what is run for a change there; NAME:WORD is a program and its word.
+# tests MODULE: what is run for a change there; NAME:WORD is a program and its word.
 tests() {
     case $1 in
-    base) echo tests:base tests:contracts tests:light hard:raster hard:all tests:tree tests:frames tests:many_lights \
+    base) echo tests:base tests:contracts tests:light hard:raster hard:whole tests:tree tests:frames tests:many_lights \
         tests:glossy ;;
     raster) echo hard:raster tests:resolve tests:textures tests:normal_map reference:hard hard:invariants \
         tests:raster ;;
-    map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:all tests:frames tests:relit \
+    map) echo tests:light tests:mixed tests:threads tests:elements hard:shadow hard:whole tests:frames tests:relit \
         tests:glossy ;;
-    occlusion) echo tests:occlusion hard:bounce hard:all tests:cut ;;
+    occlusion) echo tests:occlusion hard:bounce hard:whole tests:cut ;;
     manylights) echo tests:many_lights hard:bounce tests:elements tests:frames ;;
     light) echo tests:light hard:shadow tests:glossy tests:many_lights hard:bounce ;;
     bounce | lightcut | radiosity)
-        echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:all tests:elements \
+        echo tests:bounce hard:bounce tests:cut tests:tree tests:threads hard:whole tests:elements \
         tests:analytic tests:glossy tests:frames tests:map_picture tests:contracts ;;
     voxel) echo tests:voxel tests:voxels hard:mixed ;;
     probe) echo tests:probe tests:probe_cache hard:probe tests:relit tests:frames ;;
@@ -64,8 +64,8 @@ tests() {
 
 # candidates: FILE LINE COLUMN LENGTH TO of everything that can be changed, one a line.
 candidates() {
-    for room in $rooms; do
-        ls src/"$room"/*.c src/"$room"/*.inl src/"$room"/*.h 2>/dev/null
+    for module in $modules; do
+        ls src/"$module"/*.c src/"$module"/*.inl src/"$module"/*.h 2>/dev/null
     done | grep -v _table.inc | grep -e "${FILES:-.}" | while read -r file; do
         awk -v file="$file" '
             BEGIN {
@@ -130,12 +130,12 @@ run() {
     } 2>&1 | awk '{ last = $0 } /^FAIL| WRONG/ { exit } END { exit last != "status 0" }'
 }
 
-# What each test of the rooms takes without any change, six times and a little: as SECONDS NAME:WORD. Asked again where
+# What each test of the modules takes without any change, six times and a little: as SECONDS NAME:WORD. Asked again where
 # a program is newer.
 measure() {
-    rooms=$(cut -d/ -f2 "$folder/drawn" | sort -u)
+    modules=$(cut -d/ -f2 "$folder/drawn" | sort -u)
     find "$tree/$out" -maxdepth 1 -type f -newer "$folder/limits" 2>/dev/null | grep -q . && : >"$folder/limits"
-    for test in $(for room in $rooms; do tests "$room"; done | tr ' ' '\n' | sort -u); do
+    for test in $(for module in $modules; do tests "$module"; done | tr ' ' '\n' | sort -u); do
         ! grep -q " $test " "$folder/limits" || continue
         took=$(run "$test" 900; echo "failed $?"; times)
         case $took in "failed 0"*) ;; *) echo "$test fails without any change" >&2; return 1 ;; esac
@@ -146,7 +146,7 @@ measure() {
     sort -n -o "$folder/limits" "$folder/limits"
 }
 
-# order ROOM: as SECONDS:NAME:WORD, the quickest first.
+# order MODULE: as SECONDS:NAME:WORD, the quickest first.
 order() {
     tests "$1" | tr ' ' '\n' | awk '
         NR == FNR { wanted[$1] = 1; next }
@@ -160,7 +160,7 @@ is_same() {
     done | grep -q other
 }
 
-# verdict ROOM: the test that notices, `survived`, `same` or `none`.
+# verdict MODULE: the test that notices, `survived`, `same` or `none`.
 verdict() {
     make_it lib || { echo none; return; }
     ! is_same || { echo same; return; }
@@ -200,13 +200,13 @@ echo "$(wc -l <"$folder/drawn") of $(wc -l <"$folder/candidates") changes"
 : >"$folder/result"
 tab=$(printf '\t')
 while IFS="$tab" read -r number file line at from to; do
-    room=${file#src/}
-    room=${room%%/*}
+    module=${file#src/}
+    module=${module%%/*}
     touch "$folder/stamp"
     change "$file" "$line" "$at" "$from" "$to"
-    found=$(verdict "$room")
+    found=$(verdict "$module")
     restore "$file" "$found"
-    echo "$room $found" >>"$folder/result"
+    echo "$module $found" >>"$folder/result"
     echo "$number $file:$line [$from] -> [$to]: $found"
     [ "$found" != survived ] || sed -n "${line}p" "$folder/$file"
 done <"$folder/numbered"
@@ -215,7 +215,7 @@ awk '
     $2 == "none" || $2 == "same" { ++not; next }
     { ++tried[$1]; ++all; if ($2 != "survived") { ++killed[$1]; ++dead; ++by[$2] } }
     END {
-        for (room in tried) printf "%-10s %d of %d\n", room, killed[room], tried[room] | "sort"
+        for (module in tried) printf "%-10s %d of %d\n", module, killed[module], tried[module] | "sort"
         close("sort")
         for (test in by) printf "by %-12s %d\n", test, by[test] | "sort"
         close("sort")

@@ -1,14 +1,14 @@
-# rom.sh: the ROM that bounced light takes without trees (LMB_TREES 0): rooms raster, map, light (but light_tile,
+# rom.sh: the ROM that bounced light takes without trees (LMB_TREES 0): modules raster, map, light (but light_tile,
 # which is a frame's) and bounce whole, with the parts of the others and of the compiler's run time that they need, linked: rom.sh
 # BUDGET_BYTES; CC FLAGS B NM SIZE in the environment.
 . tests/scripts/checks.sh
 budget=$1
 
 objects=$(find "$B/obj/src" -name '*.o' | sort)
-rooms=$(printf '%s\n' "$objects" | grep -E '/src/((raster|map|light|bounce)/|occlusion/occlude\.o)' |
+modules=$(printf '%s\n' "$objects" | grep -E '/src/((raster|map|light|bounce)/|occlusion/occlude\.o)' |
     grep -v '/light/light_tile\.o$')
-roots=$($NM $rooms | awk '$2 == "T" { print "-Wl,-u," $3 }' | sort -u)
-check "the rooms link" $CC $FLAGS -nostdlib -o "$B/rom.elf" -Wl,--gc-sections -Wl,-e,lmb_kernels_pick $roots \
+roots=$($NM $modules | awk '$2 == "T" { print "-Wl,-u," $3 }' | sort -u)
+check "the modules link" $CC $FLAGS -nostdlib -o "$B/rom.elf" -Wl,--gc-sections -Wl,-e,lmb_kernels_pick $roots \
     -Wl,--unresolved-symbols=ignore-all $objects -lgcc
 [ $failed -eq 0 ] || finish
 

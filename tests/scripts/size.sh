@@ -1,21 +1,21 @@
-# size.sh: code and data of the library by room, and its largest functions and tables: B NM SIZE in the environment.
+# size.sh: code and data of the library by module, and its largest functions and tables: B NM SIZE in the environment.
 #
 # `code` holds constants and, on hosts, unwind tables.
 . tests/scripts/checks.sh
 objects=$(find "$B/obj/src" -name '*.o' | sort)
 
-echo "$B, bytes by room:"
+echo "$B, bytes by module:"
 $SIZE $objects | awk '
     NR == 1 { next }
     {
-        room = $NF; sub(/^.*\/obj\/src\//, "", room); sub(/\/.*/, "", room)
-        if (!(room in code)) order[n++] = room
-        code[room] += $1; data[room] += $2; bss[room] += $3
+        module = $NF; sub(/^.*\/obj\/src\//, "", module); sub(/\/.*/, "", module)
+        if (!(module in code)) order[n++] = module
+        code[module] += $1; data[module] += $2; bss[module] += $3
         all_code += $1; all_data += $2; all_bss += $3
     }
     END {
         form = "  %-10s %8s %8s %8s\n"
-        printf form, "room", "code", "data", "bss"
+        printf form, "module", "code", "data", "bss"
         for (i = 0; i < n; ++i) printf form, order[i], code[order[i]], data[order[i]], bss[order[i]]
         printf form, "all", all_code, all_data, all_bss
     }'

@@ -69,7 +69,7 @@ $(eval $(call linux,powerpc,powerpc-linux-gnu,qemu-ppc))
 $(eval $(call linux,ppc64,powerpc64-linux-gnu,qemu-ppc64))
 $(eval $(call linux,ppc64le,powerpc64le-linux-gnu,qemu-ppc64le))
 $(eval $(call linux,riscv64,riscv64-linux-gnu,qemu-riscv64))
-# Every kernel of AArch64 against plain C's. (gcc 12 for AArch64 fails on another room's tests.)
+# Every kernel of AArch64 against plain C's. (gcc 12 for AArch64 fails on another module's tests.)
 needs_neon := $(needs_aarch64)
 how_neon   := $(how_aarch64) TEST_SRC="$(wildcard tests/lanes/test_*.c)"
 goal_neon  := lanes

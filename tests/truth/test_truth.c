@@ -552,7 +552,7 @@ static float error_at(cut_errors *e, double share)
 }
 
 /* V27: without the BVH, at error 0.02 from a map of 256 texels a side: against every texel, in one tile of 31. By the
- * rule all but a thousandth of the pixels hold it, proven all. */
+ * rule all but a thousandth of the pixels hold it, by the conservative bound all. */
 static void check_cut_error(const char *name, int conservative, double most_share)
 {
     stage s;

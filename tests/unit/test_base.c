@@ -364,7 +364,7 @@ static void surface_sizes(void)
     CHECK(s.layout == LMB_LINEAR && s.stride_bytes == 8);
 }
 
-/* Where DESIGN's layout puts pixel (x, y) of a tiled surface of 4-byte values. */
+/* Where the layout of types.h puts pixel (x, y) of a tiled surface of 4-byte values. */
 static size_t tiled_place(int32_t x, int32_t y, int32_t width)
 {
     int32_t tiles = (width + 7) / 8;

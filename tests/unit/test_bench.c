@@ -69,8 +69,7 @@ static void check_knee(void)
     bench_results_free(&b);
 }
 
-/* --- the breakdown ---------------------------------------------------------------------------------------------------
- * */
+/* --- the breakdown ------------------------------------------------------------------------------------------------ */
 
 /* Two pixels that count and one that does not. Steps that do not overlap add up; equal ones count twice twice. */
 static void check_breakdown(void)

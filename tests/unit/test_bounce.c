@@ -726,7 +726,7 @@ static void run_grouping(const char *name, const lmb_grouping *g)
     check_groups(name, hash, count, flux);
 }
 
-/* Points of a furnished box under a lamp, joined to discs. */
+/* Points of a furnished box under a light, joined to discs. */
 static void room_points(int32_t size, int32_t block)
 {
     lmb_light l = point_light(vec3(0.1f, 0.3f, -0.1f));

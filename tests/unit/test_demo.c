@@ -1,4 +1,4 @@
-/* test_demo.c: the built-in scene: sound data, closed objects wound outwards, a room that faces inwards, its camera. */
+/* test_demo.c: the built-in scene: valid data, closed objects wound outwards, a room that faces inwards, its camera. */
 #include <math.h>
 #include <string.h>
 

@@ -225,15 +225,15 @@ static lmb_frame make_frame(int32_t bounces)
 
 static void make_room(int emits)
 {
-    static lmb_light lamp;
-    lamp = spot(vec3(0.2f, 0.8f, 0.1f), vec3(0, -1, 0), 20, 40);
+    static lmb_light light;
+    light = spot(vec3(0.2f, 0.8f, 0.1f), vec3(0, -1, 0), 20, 40);
     world_begin(0.7f, 0.6f, 0.5f);
     world_box(vec3(0, 0, 0), 1.0f);
     world_box(vec3(0.3f, -0.7f, -0.2f), 0.25f);
     world_part();
     world_quad(vec3(-0.5f, 0.9f, 0), vec3(0.2f, 0, 0), vec3(0, 0, 0.2f));
     world.material[1].emission[2] = emits ? 3.0f : 0.0f;
-    world.scene.lights = &lamp;
+    world.scene.lights = &light;
     world.scene.light_count = 1;
     CHECK(world_end() == LMB_OK);
 }
@@ -262,7 +262,7 @@ static void render_parts(lmb_frame *f, int32_t parts)
     CHECK(status == LMB_OK);
 }
 
-/* In one go, in small steps, in parts, by every machine, and as another view of what was solved. */
+/* In one go, in small steps, in parts, by every backend, and as another view of what was solved. */
 static void test_ways(void)
 {
     lmb_frame f;
@@ -364,8 +364,8 @@ static void test_refusals(void)
     CHECK(lmb_elements_receive(&f.elements, &own, NULL, &cut_params, 0, tiles) == LMB_OK);
 }
 
-/* A wall beside a floor that emits light: two of its rows lie under the floor's plane and are not asked what they see.
- * */
+/* A wall beside a floor that emits light: two of its rows lie under the floor's plane and are not asked what they
+ * see. */
 static void test_asked(void)
 {
     lmb_bvh bvh;
@@ -414,7 +414,7 @@ static void test_emission(void)
     for (int i = 0; i < FRAME * FRAME; ++i) {
         lit += picture[3 * i + 2] >= 3.0f;
     }
-    CHECK_MSG(lit == FRAME * FRAME, "%d pixels shine", lit);
+    CHECK_MSG(lit == FRAME * FRAME, "%d pixels are lit", lit);
 }
 
 void test_elements(void)

@@ -1,5 +1,5 @@
-/* test_far.c: large, small and distant worlds: what rounding may do, where a scene is fine, the faces of a sun's map.
- * */
+/* test_far.c: large, small and distant worlds: what rounding may do, where a scene is fine, the faces of a sun's
+ * map. */
 #include "../world.h"
 
 #include <stdlib.h>
@@ -97,8 +97,8 @@ static void test_hull(void)
 
 /* --- noise -------------------------------------------------------------------------------------------------------- */
 
-/* A board a hand's breadth over a floor, asked from close by: a triangle 100 km off must not make it leak, nor a walk
- * miss its box. */
+/* A board a hand's breadth over a floor, asked from close by: a triangle 100 km off must not make it leak, nor make the
+ * traversal miss its box. */
 static void test_stray_blocks_nothing(void)
 {
     test_rng r = {82};

@@ -107,7 +107,7 @@ static int make_kinds(kind *out)
     s = KIND("fixed by bands", &lit), s->quality = LMB_QUALITY_FIXED, s->by_bands = 1, s->points = 700;
     s = KIND("own picture", &lit), s->shadow_map = 32;
     CHECK(lmb_surface_init(&s->out, LMB_RGBA8, WIDE, HIGH, own_picture, sizeof own_picture) == LMB_OK);
-    s = KIND("shining", &emitting), s->elements = 64;
+    s = KIND("emitting", &emitting), s->elements = 64;
     s = KIND("many", &emitting), s->many_lights = &many_lights, s->elements = 256;
     s = KIND("many, direct", &lit), s->many_lights = &many_lights, s->show = LMB_SHOW_DIRECT;
     s = KIND("many, fixed", &lit), s->many_lights = &many_lights, s->quality = LMB_QUALITY_FIXED;

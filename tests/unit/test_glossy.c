@@ -201,7 +201,7 @@ static void disc_against_integral(void)
 /* A floor and a wall, and on it a box of the second material. */
 static lmb_frame room(float specular, float roughness)
 {
-    static lmb_light lamp;
+    static lmb_light light;
     const lmb_view v = look(vec3(0.5f, 2.0f, 5.0f), vec3(0, 0.5f, 0), 45.0, FRAME);
     world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 2.0f), mul3(X, 2.0f));
@@ -213,8 +213,8 @@ static lmb_frame room(float specular, float roughness)
         world.material[0].specular[c] = specular;
     }
     world.material[0].roughness = roughness;
-    lamp = spot(vec3(1, 4, 3), normalize3(vec3(-0.3f, -1, -1)), 25.0, 35.0);
-    world.scene.lights = &lamp;
+    light = spot(vec3(1, 4, 3), normalize3(vec3(-0.3f, -1, -1)), 25.0, 35.0);
+    world.scene.lights = &light;
     world.scene.light_count = 1;
     CHECK(lmb_scene_check(&world.scene) == LMB_OK);
     return bounce_frame(&v, 2);
@@ -356,11 +356,11 @@ static void mirrored_wall(float roughness, uint32_t elements, double low, double
     CHECK(feet > 10 && foot > foot_low * feet && foot < 1.2 * feet);
 }
 
-/* One lamp by hand: light 1, 2, 3 W/m2 from above, by every machine: what the factor says. Pixels that are dark, or
+/* One light by hand: light 1, 2, 3 W/m2 from above, by every backend: what the factor says. Pixels that are dark, or
  * without a lobe, get nothing. */
-static void one_lamp(void)
+static void one_light(void)
 {
-    const lmb_light lamp = point_light(vec3(0.3f, 0.2f, 2.0f));
+    const lmb_light light = point_light(vec3(0.3f, 0.2f, 2.0f));
     const lmb_kernels *kernels;
     lmb_view v = look(vec3(-0.2f, 0, 3), vec3(0, 0, 0), 40.0, FRAME);
     (void)room(0.3f, 0.5f);
@@ -379,10 +379,10 @@ static void one_lamp(void)
             }
         }
         CHECK(lmb_glossy_tile(&glossy, &tile, &v, &world.scene) == 1);
-        CHECK(lmb_glossy_direct(&glossy, kernels, &tile, &lit, &lamp) == LMB_OK);
+        CHECK(lmb_glossy_direct(&glossy, kernels, &tile, &lit, &light) == LMB_OK);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             const float f =
-                lmb_glossy_factor(&glossy, &tile, k, sub3(lamp.position, plane_vec(tile.position, k)), 0.0f);
+                lmb_glossy_factor(&glossy, &tile, k, sub3(light.position, plane_vec(tile.position, k)), 0.0f);
             const float wanted = k % 3 && k % 5 ? 2.0f * f : 0.0f;
             good += absf(glossy.rgb[1][k] - wanted) <= 1e-5f * wanted && (wanted > 0.01f || wanted == 0.0f);
             none += glossy.rgb[1][k] == 0.0f;
@@ -394,7 +394,7 @@ static void one_lamp(void)
     CHECK(lmb_glossy_tile(&glossy, &tile, &v, &world.scene) == 1 && glossy.towards[1][1] == 1.0f);
 }
 
-/* Black things with a lobe show the lamp, and each other's light. */
+/* Black things with a lobe show the light source, and each other's light. */
 static void black_lobes(void)
 {
     double mean[2];
@@ -442,7 +442,7 @@ void test_glossy(void)
     mirrored_wall(0.4f, 256, 0.87, 1.08, 0.75);
     mirrored_wall(0.4f, 4096, 0.97, 1.01, 0.93);
     mirrored_wall(0.6f, 256, 0.95, 1.01, 0.88);
-    one_lamp();
+    one_light();
     black_lobes();
     refusals();
 }

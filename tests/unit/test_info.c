@@ -220,7 +220,7 @@ static void json_of_gltf(const char *path, size_t png_size)
     json_free(&doc);
 }
 
-/* Bytes of a file's name that are no UTF-8 (a lone lead byte, an overlong one) still make sound JSON. */
+/* Bytes of a file's name that are no UTF-8 (a lone lead byte, an overlong one) still make valid JSON. */
 static void names_of_any_bytes(void)
 {
     const char *path = put_text("n\xC3 \xC0\xAF\xE2\x82\xAC.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");

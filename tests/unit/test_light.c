@@ -344,18 +344,18 @@ static void test_shadows(void)
 {
     static const int32_t sizes[] = {64, 256, SIDE};
     lmb_light day = sun(vec3(0.3f, -0.8f, -0.2f));
-    lmb_light lamp = point_light(vec3(-0.3f, 2.2f, 0.3f));
+    lmb_light light = point_light(vec3(-0.3f, 2.2f, 0.3f));
     lmb_light cone = spot(vec3(-0.6f, 2.5f, 0.4f), vec3(0.25f, -1, -0.15f), 25, 40);
     for (int i = 0; i < COUNT(sizes); ++i) {
         check_shadow("sun", day, sizes[i]);
-        check_shadow("point", lamp, sizes[i]);
+        check_shadow("point", light, sizes[i]);
         check_shadow("spot", cone, sizes[i]);
     }
     check_mask(day, SIDE);
-    check_mask(lamp, SIDE);
+    check_mask(light, SIDE);
     check_mask(cone, 256);
     check_low_plate(day);
-    check_low_plate(lamp);
+    check_low_plate(light);
     check_low_plate(cone);
 }
 

@@ -111,8 +111,8 @@ static void no_floor(void)
 
 /* --- what the photo says ------------------------------------------------------------------------------------------ */
 
-/* Surroundings of GREY give pi GREY, and a lamp from above 0.7 of that more, to the floor alone: there the photo's GREY
- * is that of an albedo of 1 / 1.7, and 1, which nothing has, on the wall. */
+/* Surroundings of GREY give pi GREY, and a light from above gives the floor alone 0.7 of that more: there the photo's
+ * GREY is that of an albedo of 1 / 1.7, and 1, which nothing has, on the wall. */
 static void albedo_is_told(void)
 {
     char light[80];
@@ -136,7 +136,7 @@ static void albedo_is_told(void)
     mix_job_free(j);
 }
 
-/* Nothing is put in: not a bit changes, whatever lamps there are. */
+/* Nothing is put in: not a bit changes, whatever lights there are. */
 static void nothing_changes(void)
 {
     char *more[] = {"--light", "sun:0,0,0:0.1,-1,0:2,2,2"};

@@ -67,7 +67,7 @@ static void fill_tile(lmb_tile *tile, lmb_vec3 middle, float half, test_rng *r)
     }
 }
 
-/* Of a walk that knows nothing yet. */
+/* Of a traversal that knows nothing yet. */
 static float noise_of(const lmb_tile *tile, uint64_t pixels, lmb_vec3 at)
 {
     return lmb_tile_noise(tile, pixels) + lmb_place_noise(at, 0.0f);
@@ -332,9 +332,43 @@ static void far_apart_among_leaves(void)
     CHECK_MSG(together <= alone, "%u boxes together, %u alone", (unsigned)together, (unsigned)alone);
 }
 
+/* A whole tile among leaves: its pyramid is given up, and the next points' segments are traced one by one, with the same
+ * answers. */
+static void wide_among_leaves(void)
+{
+    test_rng r = {82};
+    lmb_tile tile;
+    lmb_traversal kept;
+    int other = 0, alone = 0, blocked = 0;
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 5000; ++i) {
+        const lmb_vec3 at = random_point(&r, 1.0f);
+        world_triangle(at, add3(at, random_point(&r, 0.03f)), add3(at, random_point(&r, 0.03f)));
+    }
+    lmb_bvh b = bvh_of_world();
+    fill_tile(&tile, vec3(0, 0, 0), 1.0f, &r);
+    memset(&kept, 0, sizeof kept);
+    for (int round = 0; round < 40; ++round) {
+        const lmb_vec3 at = random_point(&r, 1.0f);
+        const float noise = noise_of(&tile, ~UINT64_C(0), at);
+        uint64_t each = 0;
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            lmb_traversal traversal;
+            memset(&traversal, 0, sizeof traversal);
+            each |= lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, (uint64_t)1 << k, at, noise, &traversal);
+        }
+        alone += kept.alone > 0;
+        other += each != lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at, noise, &kept);
+        blocked += each != 0;
+    }
+    CHECK_MSG(other == 0 && blocked > 20, "%d others, %d blocked", other, blocked);
+    CHECK_MSG(alone > 20, "%d points traced alone at once", alone);
+}
+
 void test_occlusion(void)
 {
     far_apart_among_leaves();
+    wide_among_leaves();
     every_triangle();
     every_triangle_of_suns();
     no_gap_no_acne();

@@ -12,7 +12,7 @@ void test_plan(void);
 #if LMB_PLAN && LMB_TREES
 
 static float whole[FRAME * FRAME * 3];
-static lmb_light lamps[2];
+static lmb_light lights[2];
 
 /* A closed room of 2 m around the origin, and the viewer in it; the others stand in its middle. */
 static void set_room(void)
@@ -29,7 +29,7 @@ static void set_room(void)
 static lmb_frame frame_of(uint32_t light_count)
 {
     const lmb_view v = look(vec3(0.1f, 0.2f, 0.9f), vec3(-0.1f, -0.2f, -1), 70, FRAME);
-    world.scene.lights = lamps;
+    world.scene.lights = lights;
     world.scene.light_count = light_count;
     CHECK(world_end() == LMB_OK);
     lmb_frame f = bounce_frame(&v, 1);
@@ -60,7 +60,7 @@ static int planes_of(void)
 
 static void test_convex(void)
 {
-    lamps[0] = spot(vec3(0.3f, 0.8f, 0.1f), vec3(-0.2f, -1, -0.1f), 25, 40);
+    lights[0] = spot(vec3(0.3f, 0.8f, 0.1f), vec3(-0.2f, -1, -0.1f), 25, 40);
     set_room();
     lmb_frame f = frame_of(1);
     CHECK(same_as_everything(&f) && planes_of() == 6 && render.frame.bvh.hull.count == 6);
@@ -74,7 +74,7 @@ static void test_convex(void)
     CHECK_MSG(planes_of() >= 6 && planes_of() <= 12, "%d", planes_of());
 }
 
-/* No walk: the tree of boxes may hold a wall right through the room. */
+/* No traversal: the tree of boxes may hold a wall right through the room. */
 static void test_no_traversal(void)
 {
     lmb_tile tile;
@@ -137,32 +137,32 @@ static uint32_t faces_drawn(int light)
 static void test_lights(void)
 {
     set_room();
-    lamps[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
-    lamps[1] = point_light(vec3(0, 0, 0));
-    memset(lamps[1].intensity, 0, sizeof lamps[1].intensity);
+    lights[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
+    lights[1] = point_light(vec3(0, 0, 0));
+    memset(lights[1].intensity, 0, sizeof lights[1].intensity);
     lmb_frame f = frame_of(LMB_MAX_LIGHTS > 1 ? 2 : 1);
     CHECK(same_as_everything(&f) && faces_drawn(0) == 6);
     CHECK(LMB_MAX_LIGHTS == 1 || (render.light_state[1] == LMB_LIGHT_DARK && faces_drawn(1) == 0));
-    lamps[1].intensity[2] = 1e-6f; /* little is not nothing */
+    lights[1].intensity[2] = 1e-6f; /* little is not nothing */
     CHECK(same_as_everything(&f) && (LMB_MAX_LIGHTS == 1 || (render.light_state[1] == 0 && faces_drawn(1) == 6)));
 }
 
-/* A lamp over a floor and before a wall: some of its faces look past both. */
+/* A light over a floor and before a wall: some of its faces look past both. */
 static void test_faces(void)
 {
     world_begin(0.7f, 0.6f, 0.5f);
     world_quad(vec3(0, 0, 0), Z, X);
     world_quad(vec3(0, 0.5f, -1), X, mul3(Y, 0.5f));
-    lamps[0] = point_light(vec3(0, 3, 0));
+    lights[0] = point_light(vec3(0, 3, 0));
     lmb_frame f = frame_of(1);
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 1u << 3);
-    lamps[0].position.y = 2.1f; /* the wall is 1 m high, 1 m away: its top is just under the pyramid's side */
+    lights[0].position.y = 2.1f; /* the wall is 1 m high, 1 m away: its top is just under the pyramid's side */
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 1u << 3);
-    lamps[0].position.y = 1.98f; /* and just in it */
+    lights[0].position.y = 1.98f; /* and just in it */
     CHECK(same_as_everything(&f) && (render.maps[0].drawn >> 5 & 1u) == 1u);
-    lamps[0] = spot(vec3(0, 3, 0), vec3(0, 1, 0), 10, 30); /* away from all */
+    lights[0] = spot(vec3(0, 3, 0), vec3(0, 1, 0), 10, 30); /* away from all */
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 0 && render.skips == LMB_SKIP_BOUNCE);
-    lamps[0] = spot(vec3(0, 3, 0), vec3(1, -1, 0), 10, 40);
+    lights[0] = spot(vec3(0, 3, 0), vec3(1, -1, 0), 10, 40);
     CHECK(same_as_everything(&f) && render.maps[0].drawn == 1 && render.skips == 0);
 }
 
@@ -171,7 +171,7 @@ static void test_faces(void)
 static void test_black(void)
 {
     set_room();
-    lamps[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
+    lights[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
     lmb_frame f = frame_of(1);
     memset(world.material[0].albedo, 0, sizeof world.material[0].albedo);
     CHECK(same_as_everything(&f) && render.skips == LMB_SKIP_BOUNCE); /* the other material has no triangle */
@@ -187,7 +187,7 @@ static void test_black(void)
 static void test_unused(void)
 {
     set_room();
-    lamps[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
+    lights[0] = point_light(vec3(0.2f, 0.4f, 0.3f));
     lmb_frame f = frame_of(1);
     world.material[1].emission[0] = world.material[1].specular[0] = 1.0f;
     world.material[1].roughness = 0.5f;
@@ -213,10 +213,10 @@ static void random_scene(test_rng *rng)
     }
     for (int i = 0; i < 2; ++i) {
         const lmb_vec3 at = vec3(test_uniform(rng, -3, 3), test_uniform(rng, -3, 3), test_uniform(rng, -3, 3));
-        lamps[i] = test_random(rng) % 2 == 0 ? point_light(at) : spot(at, mul3(at, -1.0f), 10, 45);
-        lamps[i].intensity[0] *= (float)(test_random(rng) % 3);
+        lights[i] = test_random(rng) % 2 == 0 ? point_light(at) : spot(at, mul3(at, -1.0f), 10, 45);
+        lights[i].intensity[0] *= (float)(test_random(rng) % 3);
         if (test_random(rng) % 4 == 0) {
-            memset(lamps[i].intensity, 0, sizeof lamps[i].intensity);
+            memset(lights[i].intensity, 0, sizeof lights[i].intensity);
         }
     }
 }

@@ -12,10 +12,10 @@ void test_plan_frame(void);
 
 static lmb_plan plan;
 static lmb_stats stats;
-static lmb_light lamps[2];
+static lmb_light lights[2];
 static float other[FRAME * FRAME * 3];
 
-/* A floor, a wall and a block; a lamp over them and one that looks away. */
+/* A floor, a wall and a block; a light over them and one that looks away. */
 static lmb_frame set_frame(void)
 {
     const lmb_view v = look(vec3(1.2f, 0.9f, 2.2f), vec3(-0.1f, -0.4f, 0), 60, FRAME);
@@ -23,10 +23,10 @@ static lmb_frame set_frame(void)
     world_quad(vec3(0, -1, 0), Z, X);
     world_quad(vec3(0, 0, -1), X, Y);
     world_box(vec3(0.2f, -0.7f, 0.1f), 0.3f);
-    lamps[0] = spot(vec3(0.3f, 1.4f, 0.8f), vec3(-0.2f, -1, -0.5f), 20, 40);
-    lamps[1] = lamps[0];
-    lamps[1].direction = vec3(0, 1, 0);
-    world.scene.lights = lamps;
+    lights[0] = spot(vec3(0.3f, 1.4f, 0.8f), vec3(-0.2f, -1, -0.5f), 20, 40);
+    lights[1] = lights[0];
+    lights[1].direction = vec3(0, 1, 0);
+    world.scene.lights = lights;
     world.scene.light_count = LMB_MAX_LIGHTS > 1 ? 2 : 1;
     CHECK(world_end() == LMB_OK);
     lmb_frame f = bounce_frame(&v, 1);
@@ -151,8 +151,8 @@ static void test_rows(void)
     finish();
     CHECK(lmb_render_reuse(&render, &f) == LMB_OK && lmb_plan_frame(&plan, &render, NULL) == LMB_OK);
     CHECK(bounces->why == LMB_WHY_REUSED && bounces->work == 0.0 && bounces->bytes == lmb_elements_bytes(ELEMENTS));
-    memset(lamps[0].intensity, 0, sizeof lamps[0].intensity);
-    memset(lamps[1].intensity, 0, sizeof lamps[1].intensity);
+    memset(lights[0].intensity, 0, sizeof lights[0].intensity);
+    memset(lights[1].intensity, 0, sizeof lights[1].intensity);
     make_plan(&f, NULL);
     CHECK(why_of(LMB_PLAN_DIRECT) == LMB_WHY_NO_LIGHT);
 }
@@ -308,7 +308,7 @@ static double largest_change(void)
     return max;
 }
 
-/* The lamp is 2.4 m over the floor, nothing is nearer than 1.2 m: E = 5 / d^2. */
+/* The light is 2.4 m over the floor, nothing is nearer than 1.2 m: E = 5 / d^2. */
 static void test_dim(void)
 {
     lmb_frame f = set_frame();
@@ -327,7 +327,7 @@ static void test_dim(void)
     CHECK(plan.light[0] == LMB_WHY_DIM && plan.row[LMB_PLAN_GATHER].why == LMB_WHY_DIM);
     CHECK(plan.row[LMB_PLAN_GATHER].proof == LMB_PROOF_BOUND && plan.row[LMB_PLAN_GATHER].bound == bound);
     CHECK(plan.row[LMB_PLAN_MAPS].why == LMB_WHY_RUNS);
-    lamps[0].position = vec3(0.2f, -0.4f, 0.1f); /* on the block: no bound */
+    lights[0].position = vec3(0.2f, -0.4f, 0.1f); /* on the block: no bound */
     CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.light_state[0] == 0);
 }
 

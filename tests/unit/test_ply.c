@@ -430,7 +430,7 @@ static void prefixes(int encoding)
                   (int)n, (int)w.size);
 }
 
-/* A byte changed gives another scene, a sound one, or a message. */
+/* A byte changed gives another valid scene, or a message. */
 static void damage(int encoding)
 {
     static const uint8_t flips[] = {1, 16, 128, 255};

@@ -217,10 +217,10 @@ static void background(stage *s)
     }
 }
 
-/* A lamp in a world without light, and its shadow. */
+/* One light in a dark world, and its shadow. */
 static float black(int c, lmb_vec3 d) { return 0.0f * white(c, d); }
 
-static void lamp(stage *s)
+static void one_light(stage *s)
 {
     const lmb_kernels *k = lmb_kernels_pick();
     lmb_light light = sun(vec3(1.0f, 0.0f, 0.0f));
@@ -320,7 +320,7 @@ void test_relit(void)
         mirror(s);
         normals(s);
         background(s);
-        lamp(s);
+        one_light(s);
         no_edges(s);
         refusals(s);
     }

@@ -195,7 +195,7 @@ static void test_bad_ids(const lmb_kernels *k)
     }
 }
 
-/* Coordinates that are no numbers: every machine's tile is the same. */
+/* Coordinates that are no numbers: every backend's tile is the same. */
 static void test_wild_coordinates(const lmb_kernels *k)
 {
     const float wild[4] = {NAN, INFINITY, -INFINITY, 3e38f};

@@ -225,7 +225,7 @@ static void count(counted_heap *t)
     t->view += (r->reuses & LMB_REUSE_VIEW) != 0;
     t->no_bounce += (r->skips & LMB_SKIP_BOUNCE) != 0;
     for (uint32_t i = 0; i < world.scene.light_count; ++i) {
-        t->maps += (r->light_state[i] & LMB_LIGHT_MAP_REUSED) != 0;
+        t->maps += (r->light_state[i] & LMB_SHADOW_MAP_REUSED) != 0;
         t->texels += (r->light_state[i] & LMB_LIGHT_TEXELS_REUSED) != 0;
         t->dark += (r->light_state[i] & LMB_LIGHT_DARK) != 0;
     }
@@ -269,8 +269,8 @@ static void test_is_reused(void)
     ++lights[0].revision;
     draw_reused();
     CHECK(memcmp(kept.out, fresh.out, sizeof kept.out) == 0);
-    CHECK((kept.render.light_state[0] & LMB_LIGHT_MAP_REUSED) == 0);
-    CHECK(LIGHTS == 1 || kept.render.light_state[1] == (LMB_LIGHT_MAP_REUSED | LMB_LIGHT_TEXELS_REUSED));
+    CHECK((kept.render.light_state[0] & LMB_SHADOW_MAP_REUSED) == 0);
+    CHECK(LIGHTS == 1 || kept.render.light_state[1] == (LMB_SHADOW_MAP_REUSED | LMB_LIGHT_TEXELS_REUSED));
     CHECK((kept.render.reuses & LMB_REUSE_BVH) != 0 && (kept.render.reuses & LMB_REUSE_VIEW) != 0);
     CHECK((kept.render.reuses & LMB_REUSE_BOUNCES) == 0);
 }

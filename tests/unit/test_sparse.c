@@ -149,7 +149,7 @@ LMB_POINTS_ARRAY(points, POINTS, MAP / 4);
 static lmb_groups groups;
 static lmb_band_scratch scratch;
 static lmb_render render;
-static lmb_light lamp;
+static lmb_light ceiling_light;
 
 static lmb_frame frame_of(float *out, int32_t step)
 {
@@ -239,8 +239,8 @@ void test_sparse(void)
     world_box(vec3(0, 0, 0), 1.0f);
     world_box(vec3(-0.3f, -0.8f, -0.3f), 0.2f);
     CHECK(world_end() == LMB_OK);
-    lamp = spot(vec3(0.5f, 0.8f, 0.1f), vec3(-0.5f, -1, -0.3f), 20, 40);
-    world.scene.lights = &lamp;
+    ceiling_light = spot(vec3(0.5f, 0.8f, 0.1f), vec3(-0.5f, -1, -0.3f), 20, 40);
+    world.scene.lights = &ceiling_light;
     world.scene.light_count = 1;
     compare_frames(2);
     compare_frames(4);

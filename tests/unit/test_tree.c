@@ -394,7 +394,7 @@ static void check_parts(const char *name, double bound)
     CHECK_MSG(edges > 100 && worst < bound, "%s: %d, %g", name, edges, worst);
 }
 
-/* A corner lit by a sun shines evenly: from the floor beside it, what the wall's texels give by their exact shapes
+/* A corner lit by a sun reflects evenly: from the floor beside it, what the wall's texels give by their exact shapes
  * against the wall as one square; and by rectangles, for what that would be. */
 static void check_beside(lmb_vec3 along, lmb_vec3 floor, lmb_vec3 wall)
 {
@@ -585,14 +585,14 @@ static void check_horizons(void)
     world_quad(vec3(0, 0, 0), mul3(Z, 5000), mul3(X, 5000));
     CHECK(world_end() == LMB_OK);
     for (int i = 0; i < 12; ++i) {
-        check_coarse("street lamp", spot(vec3(0, 2, 0), vec3(0.3f, -0.05f * (float)i, 1), 20, 45), 10000.0f);
+        check_coarse("street light", spot(vec3(0, 2, 0), vec3(0.3f, -0.05f * (float)i, 1), 20, 45), 10000.0f);
     }
     world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), mul3(Z, 4), mul3(X, 4));
     world_quad(vec3(0, 2, 4), mul3(X, 4), mul3(Y, 4));
     CHECK(world_end() == LMB_OK);
     for (int i = 0; i < 12; ++i) {
-        check_coarse("lamp on a wall", spot(vec3(0, 0.01f, 0), vec3(0.3f, 0.03f * (float)i, 1), 20, 45), 8.0f);
+        check_coarse("light on a wall", spot(vec3(0, 0.01f, 0), vec3(0.3f, 0.03f * (float)i, 1), 20, 45), 8.0f);
         check_coarse("sun along a wall", sun(vec3(0.0001f * (float)i, -1, 0.00002f)), 8.0f);
     }
 }

@@ -144,9 +144,9 @@ static size_t lit_count(void) { return (size_t)lit.faces * (size_t)(lit.size * l
 /* M7, M13: all of the map's light, by direction, on the leaves and as the root's mean. */
 static void light_is_whole(void)
 {
-    const lmb_light lamp = spot(vec3(0.2f, 2.5f, 1.0f), vec3(0, -1, -0.4f), 30, 40);
+    const lmb_light light = spot(vec3(0.2f, 2.5f, 1.0f), vec3(0, -1, -0.4f), 30, 40);
     double want[6] = {0, 0, 0, 0, 0, 0}, got[6][3], flux = 0.0, error = 0.0, max = 0.0;
-    lit_by(&lamp);
+    lit_by(&light);
     build_all(CAP, LMB_VOXELS_ONE, 6);
     CHECK(lmb_voxels_inject(&v, 0, lit.texel, lit_count()) == LMB_OK);
     for (size_t i = 0; i < lit_count(); ++i) {
@@ -195,7 +195,7 @@ static lmb_irradiance see(int32_t field, int32_t in_world, const lmb_env *env, f
 /* A room of a floor and two walls; a box stands in it where asked, in one of the worlds. */
 static void make_worlds(int object)
 {
-    const lmb_light lamp = spot(vec3(0.4f, 1.8f, 0.4f), vec3(-0.2f, -1, -0.2f), 40, 50);
+    const lmb_light light = spot(vec3(0.4f, 1.8f, 0.4f), vec3(-0.2f, -1, -0.2f), 40, 50);
     lmb_voxel_part parts[2];
     world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), Z, X);
@@ -213,8 +213,8 @@ static void make_worlds(int object)
     parts[1].count = object ? world.count - world.first : 0;
     CHECK(build(CAP, LMB_VOXELS_THREE, 5, parts, 2) == LMB_OK);
     for (int32_t w = 0; w < 2; ++w) {
-        world.instance[1].to_world.m[13] = w == 0 || !object ? 100.0f : 0.0f; /* out of the lamp's sight */
-        lit_by(&lamp);
+        world.instance[1].to_world.m[13] = w == 0 || !object ? 100.0f : 0.0f; /* out of the light's sight */
+        lit_by(&light);
         CHECK(lmb_voxels_inject(&v, w, lit.texel, lit_count()) == LMB_OK && v.lost[w] == 0.0);
         CHECK(lmb_voxels_filter(&v, w) == LMB_OK);
     }
@@ -321,13 +321,13 @@ static void open_sky(void)
 /* A wall that is lit from one side is dark from the other, and hides what is behind it. */
 static void walls_are_tight(void)
 {
-    const lmb_light lamp = spot(vec3(0.9f, 1.0f, 0), vec3(-1, -0.2f, 0), 30, 40);
+    const lmb_light above = spot(vec3(0.9f, 1.0f, 0), vec3(-1, -0.2f, 0), 30, 40);
     float open[LMB_TILE_PIXELS], max = 0.0f, front = 0.0f;
     world_begin(0.5f, 0.5f, 0.5f);
     world_quad(vec3(0, 0, 0), Z, X);
     world_quad(vec3(0.03f, 1, 0), Y, mul3(Z, 1.0f));
     CHECK(world_end() == LMB_OK);
-    lit_by(&lamp);
+    lit_by(&above);
     build_all(CAP, LMB_VOXELS_ONE, 6);
     CHECK(lmb_voxels_inject(&v, 0, lit.texel, lit_count()) == LMB_OK && lmb_voxels_filter(&v, 0) == LMB_OK);
     CHECK(lmb_cones_init(&cones, &v, 19) == LMB_OK);

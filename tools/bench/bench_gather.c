@@ -1,4 +1,4 @@
-/* bench_gather.c: times the far gather on a tile that every group lights, and holds it against the machine's bound. */
+/* bench_gather.c: times the far gather on a tile that every group lights, against the processor's bound. */
 #include "bench_gather.h"
 
 #include <stdio.h>
@@ -85,8 +85,8 @@ static void print_line(const lmb_kernels *kernels, double min, const bench_rates
     fflush(stdout);
 }
 
-/* The gather and the machine's loops by turns, so that both meet the same clock rate and the same neighbours. */
-static int bench_backend_gather(const lmb_kernels *kernels, double seconds, int json, report *r)
+/* The gather and the processor's loops by turns, so that both meet the same clock rate and the same neighbours. */
+static int bench_backend_gather(const lmb_kernels *kernels, const gather_options *o, report *r)
 {
     static workload w;
     bench_rates rates;
@@ -96,22 +96,25 @@ static int bench_backend_gather(const lmb_kernels *kernels, double seconds, int 
     }
     workload_make(&w);
     bench_operations_gather(counts, &w.tile, &w.groups);
-    const double end = host_seconds() + seconds;
+    const double end = host_seconds() + o->seconds;
     do {
         time_gather(&min, &w, kernels);
         bench_rates_step(&rates);
     } while (host_seconds() < end);
-    print_line(kernels, min, &rates, counts, (double)LMB_TILE_PIXELS * w.groups.count, json);
+    if (!o->is_quiet) {
+        print_line(kernels, min, &rates, counts, (double)LMB_TILE_PIXELS * w.groups.count, o->json);
+    }
     return 1;
 }
 
-int bench_gather(const lmb_kernels *kernels, double seconds, int json, report *r)
+int bench_gather(const gather_options *o, report *r)
 {
-    if (kernels != NULL) {
-        return bench_backend_gather(kernels, seconds, json, r);
+    const lmb_kernels *kernels;
+    if (o->kernels != NULL) {
+        return bench_backend_gather(o->kernels, o, r);
     }
     for (int32_t i = 0; (kernels = lmb_kernels_at(i)) != NULL; ++i) {
-        if (!bench_backend_gather(kernels, seconds, json, r)) {
+        if (!bench_backend_gather(kernels, o, r)) {
             return 0;
         }
     }

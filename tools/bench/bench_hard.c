@@ -18,35 +18,40 @@ static void print_number(double v)
 
 static void print_object(const hard_case *c)
 {
-    printf("{\"room\":\"%s\",\"case\":\"%s\",\"kind\":\"%s\",\"figure\":", c->room, c->name, hard_kind_name(c->kind));
+    printf("{\"group\":\"%s\",\"case\":\"%s\",\"kind\":\"%s\",\"figure\":", c->group, c->name, hard_kind_name(c->kind));
     print_number(c->figure);
     printf(",\"bound\":%.4g,\"unit\":\"%s\",\"holds\":%s}\n", c->bound, c->unit, hard_holds(c) ? "true" : "false");
 }
 
 static void print_line(const hard_case *c)
 {
-    printf("%-7s %-8s %10.4g %10.4g %-13s %-4s %s\n", c->room, hard_kind_name(c->kind), c->figure, c->bound, c->unit,
+    printf("%-7s %-8s %10.4g %10.4g %-13s %-4s %s\n", c->group, hard_kind_name(c->kind), c->figure, c->bound, c->unit,
            hard_holds(c) ? "" : "FAIL", c->name);
 }
 
-int bench_hard(const lmb_kernels *kernels, const char *room, int json, report *r)
+static void print_cases(const hard_list *list, int json)
+{
+    if (!json) {
+        printf("%-7s %-8s %10s %10s %-13s %-4s %s\n", "group", "kind", "figure", "bound", "unit", "", "case");
+    }
+    for (int i = 0; i < list->count; ++i) {
+        json ? print_object(&list->item[i]) : print_line(&list->item[i]);
+    }
+}
+
+int bench_hard(const hard_options *o, report *r)
 {
     hard_list *list = malloc(sizeof *list);
     int past = 0;
-    if (list == NULL) {
+    if (list == NULL || !hard_run(list, o->group, o->kernels)) {
+        free(list);
         return report_fail(r, "not enough memory for the gallery");
     }
-    if (!hard_run(list, room, kernels)) {
-        free(list);
-        return report_fail(r, "no room `%s`; rooms are raster, shadow, bounce, probe, relief, mixed, all", room);
-    }
-    if (!json) {
-        printf("%-7s %-8s %10s %10s %-13s %-4s %s\n", "room", "kind", "figure", "bound", "unit", "", "case");
+    if (!o->is_quiet) {
+        print_cases(list, o->json);
     }
     for (int i = 0; i < list->count; ++i) {
-        const hard_case *c = &list->item[i];
-        past += !hard_holds(c);
-        json ? print_object(c) : print_line(c);
+        past += !hard_holds(&list->item[i]);
     }
     free(list);
     return past == 0 || report_fail(r, "%d figures are past their bound: please tell us, with the table", past);

@@ -6,8 +6,13 @@
 
 #include "../common/report.h"
 
-/* bench_hard: the cases of a room, or of all where it is NULL; a line each. 1, or 0 with `r` set: no such room, no
- * memory, or a figure past its bound. */
-int bench_hard(const lmb_kernels *kernels, const char *room, int json, report *r);
+typedef struct hard_options {
+    const lmb_kernels *kernels;
+    int group; /* of hard_groups; under 0: all */
+    int json, is_quiet;
+} hard_options;
+
+/* bench_hard: a line a case. 1, or 0 with `r` set: no memory, or a figure past its bound. */
+int bench_hard(const hard_options *o, report *r);
 
 #endif

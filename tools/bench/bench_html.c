@@ -167,8 +167,7 @@ static void put_stages(text_buffer *out, const bench_results *b, const int *orde
     text_buffer_plain(out, "</table>\n");
 }
 
-/* --- the error breakdown ---------------------------------------------------------------------------------------------
- * */
+/* --- the error breakdown ------------------------------------------------------------------------------------------ */
 
 /* The row of that stage, or NULL: it was exact already. */
 static const bench_row *row_of(const bench_breakdown *l, const char *stage)

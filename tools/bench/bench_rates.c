@@ -1,4 +1,4 @@
-/* bench_rates.c: times the machines' loops, and draws from them the least that a mix of operations can take. */
+/* bench_rates.c: times the backends' loops, and draws from them the least that a mix of operations can take. */
 #include "bench_rates.h"
 
 #include <stddef.h>

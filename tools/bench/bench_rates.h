@@ -1,4 +1,4 @@
-/* bench_rates.h: what a machine can do at most: cycles of each operation, and how much of a unit each takes.
+/* bench_rates.h: what a backend can do at most: cycles of each operation, and how much of a unit each takes.
  *
  * Each operation is timed alone, on many independent values in registers, so that whatever carries it out (its unit) is
  * busy all the time; then with a little of another operation beside it. What the other adds is its load on that unit:
@@ -6,7 +6,7 @@
  *
  * The bound of a mix is the most loaded unit's time: from below, since loads, stores, masks, branches and waiting for
  * results count as nothing, and an operation that could go to either of two units counts for neither. Units are those
- * of operations that are one instruction on every machine: compare and pick may be several. */
+ * of operations that are one instruction of every backend: compare and pick may be several. */
 #ifndef BENCH_RATES_H
 #define BENCH_RATES_H
 
@@ -19,7 +19,7 @@ extern const char *const bench_op_names[BENCH_OPS];
 
 typedef void bench_loop(float *out, uint32_t rounds, const float *in);
 
-/* A machine's loops, compiled for it from bench_rates.inl. */
+/* A backend's loops, compiled for it from bench_rates.inl. */
 typedef struct bench_backend {
     const char *name; /* as its lmb_kernels' */
     int lanes, chains; /* independent values */
@@ -37,7 +37,7 @@ typedef struct bench_backend {
 #define BENCH_BESIDE(op) (BENCH_IS_SLOW(op) ? 4 : 2)
 enum { BENCH_ROWS = 18 };
 
-/* A machine's least times so far, s. Begin with bench_rates_begin; each bench_rates_step improves them. */
+/* A backend's least times so far, s. Begin with bench_rates_begin; each bench_rates_step improves them. */
 typedef struct bench_rates {
     const bench_backend *backend;
     double cycle;                                            /* a cycle */
@@ -45,13 +45,13 @@ typedef struct bench_rates {
     double store, read;                                      /* a value; four floats of one lane */
 } bench_rates;
 
-/* bench_rates_begin: 0 where `name` is no machine of this build. */
+/* bench_rates_begin: 0 where `name` is no backend of this build. */
 int bench_rates_begin(bench_rates *out, const char *name);
 /* bench_rates_step: every loop once more, about 2 ms. */
 void bench_rates_step(bench_rates *inout);
-/* Depths a second that the machine has at best read, tested and written in its cache, 16 KiB, after one more try. */
+/* Depths a second that the processor has at best read, tested and written in its cache, 16 KiB, after one more try. */
 double bench_rates_store(bench_rates *inout);
-/* Places a second that the machine's lanes have at best read four floats from in its cache, after one more try. */
+/* Places a second that the backend's lanes have at best read four floats from in its cache, after one more try. */
 double bench_rates_read(bench_rates *inout);
 /* Cycles of one operation on a vector. */
 double bench_rates_op(const bench_rates *r, int op);

@@ -1,4 +1,5 @@
-/* bench_rates.inl: loops that keep a unit of the machine busy with one operation and give it a little of another.
+/* bench_rates.inl: part of `lambent bench` (tools/bench): loops that keep a unit of the processor busy with one
+ * operation and give it a little of another. Each bench_rates_BACKEND.c compiles it for its backend.
  *
  * KERNEL(name), BACKEND and CHAINS, half of the operations under way, are the including file's. What goes in is read
  * from memory, so that no compiler works anything out beforehand; values stay between 1 and 2. */

@@ -215,7 +215,7 @@ int bench_scene_load(bench_scene *s, const bench_case *c, const char *folder, re
     }
     lmb_scene_bounds(&s->scene.bounds_min, &s->scene.bounds_max, &s->scene);
     set_view(&s->view, c);
-    return lmb_scene_check(&s->scene) == LMB_OK || report_fail(r, "%s: its scene is not sound", c->name);
+    return lmb_scene_check(&s->scene) == LMB_OK || report_fail(r, "%s: its scene is not valid", c->name);
 }
 
 void bench_scene_free(bench_scene *s)

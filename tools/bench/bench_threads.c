@@ -217,7 +217,9 @@ static int measure(bench_work *w, const threads_options *o, report *r)
     if (!good) {
         return report_fail(r, "%s: no processes to compare with: this system has no fork, or ended one", w->name);
     }
-    print_turns(w, &t, o);
+    if (!o->is_quiet) {
+        print_turns(w, &t, o);
+    }
     return 1;
 }
 

@@ -11,6 +11,7 @@ typedef struct threads_options {
     const lmb_kernels *kernels;
     int threads;    /* 2 .. POOL_MAX */
     double seconds; /* of each case */
+    int is_quiet;
 } threads_options;
 
 /* bench_threads: a line a case. 1, or 0 with `r` set. */

@@ -8,6 +8,7 @@
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
 #include "../common/options.h"
+#include "../hard/hard.h"
 #include "../render/bench_calibrate.h"
 #include "bench_gather.h"
 #include "bench_hard.h"
@@ -24,9 +25,10 @@ enum { CASES = 32 };
 typedef struct options {
     const char *folder;
     const lmb_kernels *kernels; /* NULL: not given */
-    const char *cases[CASES], *room;
+    const char *cases[CASES];
     int32_t case_count, threads;
-    int linear, json;
+    int32_t group; /* of hard_groups; -1: all */
+    int linear, json, is_quiet, is_verbose;
     float seconds; /* of each case */
 } options;
 
@@ -120,7 +122,7 @@ static int by_value(const void *a, const void *b)
     return x < y ? -1 : x > y;
 }
 
-/* Nothing but depths: what a machine's loads and stores bound. */
+/* Nothing but depths: the processor's loads and stores are the bound. */
 static int is_depth_fill(const bench_case *k) { return k->scene >= BENCH_FILL_PASS && k->look == BENCH_DEPTH; }
 
 /* The longest of what one frame keeps a unit, or loads and stores, busy with. */
@@ -140,8 +142,8 @@ static void set_bound(timing *t, const canvas *c, const bench_scene *s, const be
     }
 }
 
-/* Two frames to warm up, then frames for the time asked for, each by itself, and the machine's loops between them: both
- * meet the same clock rate and the same neighbours. */
+/* Two frames to warm up, then frames for the time asked for, each by itself, and the processor's loops between them:
+ * both meet the same clock rate and the same neighbours. */
 static void measure(timing *t, const canvas *c, const bench_scene *s, const options *o, int cull)
 {
     bench_rates rates;
@@ -205,7 +207,9 @@ static int run_case(const bench_case *k, const options *o, report *r)
     const int ok = canvas_make(&c, k, o, r);
     if (ok) {
         measure(&t, &c, &s, o, k->cull);
-        print_case(k, &s, &t, o);
+        if (!o->is_quiet) {
+            print_case(k, &s, &t, o);
+        }
         canvas_free(&c);
     }
     bench_scene_free(&s);
@@ -240,6 +244,7 @@ static int wanted_count(const options *o)
 #define ROW_SECONDS(text)                                                                                     \
     {.name = "--seconds", .value = "S", .kind = OPTION_ABOVE, AT(seconds), .low = 0, .high = 9999, .help = text}
 #define ROW_JSON {.name = "--json", .kind = OPTION_FLAG, AT(json), .help = "one object a line"}
+#define ROW_LOUDNESS OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took")
 #define END {.kind = OPTION_END}
 
 static const option_row raster_rows[] = {
@@ -251,12 +256,12 @@ static const option_row raster_rows[] = {
     ROW_SECONDS("of each case (default 1.5)"),
     {.name = "--linear", .kind = OPTION_FLAG, AT(linear),
      .help = "with depth copied into plain rows, which other programs read"},
-    ROW_JSON, OPTION_ASK, END,
+    ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
 static const option_row gather_rows[] = {
     OPTION_BACKEND_ROW(options, kernels),
     ROW_SECONDS("of each backend (default 1.5)"),
-    ROW_JSON, OPTION_ASK, END,
+    ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
 static const option_row threads_rows[] = {
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 2, .high = POOL_MAX,
@@ -264,13 +269,13 @@ static const option_row threads_rows[] = {
     ROW_FOLDER("sponza.mesh"),
     OPTION_BACKEND_ROW(options, kernels),
     ROW_SECONDS("of each case (default 4)"),
-    OPTION_ASK, END,
+    ROW_LOUDNESS, OPTION_ASK, END,
 };
 static const option_row hard_rows[] = {
-    {.name = "ROOM", .kind = OPTION_TEXT, .value = "", AT(room),
-     .help = "raster, shadow, bounce, probe, relief, mixed or all (default: all)"},
+    {.name = "CASES", .kind = OPTION_WORD, .value = "", AT(group), .words = hard_groups,
+     .help = "one group of cases (default: all)"},
     OPTION_BACKEND_ROW(options, kernels),
-    ROW_JSON, OPTION_ASK, END,
+    ROW_JSON, ROW_LOUDNESS, OPTION_ASK, END,
 };
 static const option_row calibrate_rows[] = {
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
@@ -294,15 +299,23 @@ static int run_raster(const options *o, report *r)
     return 1;
 }
 
-static int run_gather(const options *o, report *r) { return bench_gather(o->kernels, (double)o->seconds, o->json, r); }
+static int run_gather(const options *o, report *r)
+{
+    const gather_options gather = {o->kernels, (double)o->seconds, o->json, o->is_quiet};
+    return bench_gather(&gather, r);
+}
 
 static int run_threads(const options *o, report *r)
 {
-    const threads_options threads = {o->folder, o->kernels, (int)o->threads, (double)o->seconds};
+    const threads_options threads = {o->folder, o->kernels, (int)o->threads, (double)o->seconds, o->is_quiet};
     return bench_threads(&threads, r);
 }
 
-static int run_hard(const options *o, report *r) { return bench_hard(o->kernels, o->room, o->json, r); }
+static int run_hard(const options *o, report *r)
+{
+    const hard_options hard = {o->kernels, (int)o->group, o->json, o->is_quiet};
+    return bench_hard(&hard, r);
+}
 
 static int run_calibrate(const options *o, report *r)
 {
@@ -387,7 +400,7 @@ static const struct workload {
      0.0f,
      1,
      {.verb = "bench hard",
-      .usage = "bench hard [ROOM] [options]",
+      .usage = "bench hard [CASES] [options]",
       .about =
           "What renderers get wrong, tried here: a line a case, with its figure and what that may be at most. `exact` "
           "is 0 by design, `bounded` by arithmetic or a formula, `measured` against rays, sums and closed forms in "
@@ -414,7 +427,7 @@ static const option_table bench_table = {
              "bench raster [CASE...] [options]    how fast this machine draws the fixed workload\n"
              "bench gather [options]              how fast groups light pixels\n"
              "bench threads [options]             what threads gain, beside processes\n"
-             "bench hard [ROOM] [options]         what renderers get wrong\n"
+             "bench hard [CASES] [options]        what renderers get wrong\n"
              "bench --calibrate [--threads N]     units of work a second",
     .about =
         "Measures. Each has its own --help: lambent bench raster --help; lambent bench demo --help is that of SCENE.",
@@ -429,6 +442,7 @@ static int measure_workload(const struct workload *w, int argc, char **argv)
     options o;
     report r = {""};
     memset(&o, 0, sizeof o);
+    o.group = -1;
     o.folder = folder != NULL && folder[0] != '\0' ? folder : NULL;
     o.threads = w->threads;
     o.seconds = w->seconds;
@@ -440,7 +454,23 @@ static int measure_workload(const struct workload *w, int argc, char **argv)
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &w->table, &r);
     }
-    return w->run(&o, &r) ? 0 : report_end(&r, w->table.verb, 1);
+    const double start = host_seconds();
+    const int ok = w->run(&o, &r);
+    report_note(!o.is_verbose, "%s took %.1f s", w->table.verb, host_seconds() - start);
+    return ok ? 0 : report_end(&r, w->table.verb, 1);
+}
+
+/* A workload or a subject's name, where the word is like one and no file has it for its name. */
+static const char *meant_by(const char *word)
+{
+    static const char *const names[] = {"raster", "gather", "threads", "hard", "relight", "relief", "mix", NULL};
+    const char *meant = options_nearest(names, word);
+    FILE *file = meant != NULL && strcmp(meant, word) != 0 ? fopen(word, "rb") : NULL;
+    if (file != NULL) {
+        fclose(file);
+        return NULL;
+    }
+    return meant != NULL && strcmp(meant, word) != 0 ? meant : NULL;
 }
 
 int verb_bench(int argc, char **argv)
@@ -452,7 +482,12 @@ int verb_bench(int argc, char **argv)
         }
     }
     if (argc > 1 && (argv[1][0] != '-' || argv[1][1] == '\0')) {
-        return verb_bench_sweep(argc, argv);
+        const char *meant = meant_by(argv[1]);
+        if (meant == NULL) {
+            return verb_bench_sweep(argc, argv);
+        }
+        report_fail(&r, "there is no file `%s`; did you mean bench %s?", argv[1], meant);
+        return report_end(&r, "bench", 2);
     }
     int asked = options_parse(NULL, &bench_table, argc, argv, &r);
     if (asked == OPTIONS_RUN) {

@@ -76,28 +76,53 @@ int options_distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
-/* The name that is most like the word, if any is like it: a third of its letters may differ, one at least, or its end
- * be missing. */
-static const char *nearest(const option_table *const *tables, int count, const char *word)
+/* The name that is most like a word so far, and in how many letters it may differ. */
+typedef struct likeness {
+    const char *word, *found;
+    int letters;
+} likeness;
+
+/* A third of the word's letters may differ, one at least. */
+static likeness likeness_of(const char *word)
 {
     const int n = (int)strlen(word);
-    int best = n > 5 ? (n - 2) / 3 : 1;
-    const char *found = NULL;
+    const likeness l = {word, NULL, n > 5 ? (n - 2) / 3 : 1};
+    return l;
+}
+
+/* The word may also be the beginning of the name. */
+static void try_name(likeness *l, const char *name)
+{
+    const size_t n = strlen(l->word);
+    const int begun = n > 4 && strncmp(name, l->word, n) == 0;
+    const int far = begun ? 0 : options_distance(l->word, name);
+    if (far < l->letters || (far == l->letters && l->found == NULL)) {
+        l->letters = far;
+        l->found = name;
+    }
+}
+
+const char *options_nearest(const char *const *names, const char *word)
+{
+    likeness l = likeness_of(word);
+    for (int i = 0; names[i] != NULL; ++i) {
+        try_name(&l, names[i]);
+    }
+    return l.found;
+}
+
+static const char *nearest_option(const option_table *const *tables, int count, const char *word)
+{
+    likeness l = likeness_of(word);
     for (int k = 0; k < count; ++k) {
         const option_row *row;
         for (int i = 0; (row = options_row(tables[k], i)) != NULL; ++i) {
-            if (!is_option(row)) {
-                continue;
-            }
-            const int begun = n > 4 && strncmp(row->name, word, (size_t)n) == 0;
-            const int far = begun ? 0 : options_distance(word, row->name);
-            if (far < best || (far == best && found == NULL)) {
-                best = far;
-                found = row->name;
+            if (is_option(row)) {
+                try_name(&l, row->name);
             }
         }
     }
-    return found;
+    return l.found;
 }
 
 int options_unknown(const option_table *const *tables, int count, const char *word, report *r)
@@ -106,7 +131,14 @@ int options_unknown(const option_table *const *tables, int count, const char *wo
     const size_t n = strcspn(word, "=");
     memcpy(name, word, n < LETTERS ? n : LETTERS);
     name[n < LETTERS ? n : LETTERS] = '\0';
-    const char *meant = nearest(tables, count, name);
+    for (int k = 0; k < count; ++k) {
+        const option_row *row = options_find(tables[k], name);
+        if (row != NULL) { /* -o=x: of one letter */
+            return options_has_value(row) ? report_fail(r, "%s: write `%s %s`", word, name, word + n + 1)
+                                          : report_fail(r, "%s takes no value: %s", name, word);
+        }
+    }
+    const char *meant = nearest_option(tables, count, name);
     if (meant != NULL) {
         return report_fail(r, "unknown option %s; did you mean %s?", name, meant);
     }
@@ -166,9 +198,11 @@ typedef struct line {
 
 static int refuse(const option_row *row, const char *value, report *r)
 {
+    const char *meant = row->kind == OPTION_WORD ? options_nearest(row->words, value) : NULL;
     char expects[320];
     options_wants(expects, sizeof expects, row);
-    return report_fail(r, "%s: `%s` is not %s", row->name, value, expects);
+    return meant != NULL ? report_fail(r, "%s: `%s` is not %s; did you mean %s?", row->name, value, expects, meant)
+                         : report_fail(r, "%s: `%s` is not %s", row->name, value, expects);
 }
 
 /* `value` goes behind those that the row has already. */

@@ -86,6 +86,9 @@ int options_exclude(const option_row *a, const option_row *b);
 /* options_unknown: `r` says that there is no such option, and which one may be meant. Returns 0. */
 int options_unknown(const option_table *const *tables, int count, const char *word, report *r);
 
+/* options_nearest: the name that is most like the word; NULL where none is like it. `names` ends with NULL. */
+const char *options_nearest(const char *const *names, const char *word);
+
 /* options_distance: how many letters are to be changed, put in, left out or exchanged with the next one to make `a` of
  * `b`, which may each have 40; over 40 where they have more. */
 int options_distance(const char *a, const char *b);

@@ -139,6 +139,11 @@ static void print_row(FILE *out, const option_row *row)
     if (row->times > 1 && n >= 0 && (size_t)n < sizeof text) {
         n += snprintf(text + n, sizeof text - (size_t)n, " [up to %d times]", (int)row->times);
     }
+    if (row->kind == OPTION_WORD && row->value != NULL && n >= 0 && (size_t)n < sizeof text) {
+        char words[256];
+        join(words, sizeof words, row->words, ", ", " or ");
+        n += snprintf(text + n, sizeof text - (size_t)n, ": %s", words);
+    }
     if (row->kind == OPTION_BACKEND && n >= 0 && (size_t)n < sizeof text) {
         snprintf(text + n, sizeof text - (size_t)n, ": %s", backends);
     }

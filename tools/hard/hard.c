@@ -1,27 +1,27 @@
-/* hard.c: the gallery's table: which rooms there are, and what they found. */
+/* hard.c: the gallery's table: which groups of cases there are, and what they found. */
 #include "hard.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-const char *const hard_rooms[] = {"raster", "shadow", "bounce", "probe", "relief", "mixed", "far", "all", NULL};
+const char *const hard_groups[] = {"raster", "shadow", "bounce", "probe", "relief", "mixed", "far", "whole", NULL};
 
-static void (*const rooms[])(hard_list *) = {hard_raster, hard_shadow, hard_bounce, hard_probe,
-                                             hard_relief, hard_mixed,  hard_far,    hard_all};
+static void (*const groups[])(hard_list *) = {hard_raster, hard_shadow, hard_bounce, hard_probe,
+                                              hard_relief, hard_mixed,  hard_far,    hard_whole};
 
-int hard_run(hard_list *out, const char *room, const lmb_kernels *kernels)
+int hard_run(hard_list *out, int i, const lmb_kernels *kernels)
 {
-    int found = 0;
     memset(out, 0, sizeof *out);
     out->stage = hard_stage_make(kernels);
-    for (int i = 0; out->stage != NULL && hard_rooms[i] != NULL; ++i) {
-        if (room == NULL || strcmp(room, hard_rooms[i]) == 0) {
-            out->room = hard_rooms[i];
-            rooms[i](out);
-            found = 1;
+    if (out->stage == NULL) {
+        return 0;
+    }
+    for (int k = 0; hard_groups[k] != NULL; ++k) {
+        if (i < 0 || i == k) {
+            out->group = hard_groups[k];
+            groups[k](out);
         }
     }
     hard_stage_free(out->stage);
     out->stage = NULL;
-    return found;
+    return 1;
 }

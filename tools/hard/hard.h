@@ -7,18 +7,19 @@
 
 #include "hard_list.h"
 
-/* hard_run: the cases of the room of that name, or of all where it is NULL. 0: no such room, or no memory. */
-int hard_run(hard_list *out, const char *room, const lmb_kernels *kernels);
-extern const char *const hard_rooms[]; /* ends with NULL */
+extern const char *const hard_groups[]; /* the groups of cases; ends with NULL */
+
+/* hard_run: the cases of group i of hard_groups, or all where i < 0. 0: not enough memory. */
+int hard_run(hard_list *out, int i, const lmb_kernels *kernels);
 
 void hard_raster(hard_list *list);
-void hard_views(hard_list *list); /* the raster room's views */
+void hard_views(hard_list *list); /* the group raster's views */
 void hard_shadow(hard_list *list);
 void hard_bounce(hard_list *list);
 void hard_probe(hard_list *list);
 void hard_relief(hard_list *list);
 void hard_mixed(hard_list *list);
 void hard_far(hard_list *list);
-void hard_all(hard_list *list);
+void hard_whole(hard_list *list);
 
 #endif

@@ -10,7 +10,7 @@ void hard_put(hard_list *list, int kind, const char *name, double figure, double
         abort(); /* more cases than HARD_CASES are written down */
     }
     hard_case *c = &list->item[list->count++];
-    c->room = list->room;
+    c->group = list->group;
     c->name = name;
     c->unit = unit;
     c->kind = kind;

@@ -11,7 +11,7 @@
 enum { HARD_EXACT = 0, HARD_BOUNDED, HARD_MEASURED };
 
 typedef struct hard_case {
-    const char *room, *name, *unit;
+    const char *group, *name, *unit;
     int kind;
     double figure, bound; /* holds where figure <= bound; NaN never does */
 } hard_case;
@@ -21,11 +21,11 @@ enum { HARD_CASES = 192 };
 typedef struct hard_list {
     hard_case item[HARD_CASES];
     int count;
-    const char *room;
-    hard_stage *stage; /* the rooms' own, in turn */
+    const char *group;
+    hard_stage *stage; /* each group sets it up for itself */
 } hard_list;
 
-/* hard_put: one more case of the room at hand. */
+/* hard_put: one more case of the group that runs. */
 void hard_put(hard_list *list, int kind, const char *name, double figure, double bound, const char *unit);
 int hard_holds(const hard_case *c);
 const char *hard_kind_name(int kind);

@@ -1,5 +1,5 @@
-/* io_gltf_material.c: glTF materials, textures, samplers and images, as far as a Lambertian renderer has use for them.
- * */
+/* io_gltf_material.c: glTF materials, textures, samplers and images, as far as a Lambertian renderer has use for
+ * them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

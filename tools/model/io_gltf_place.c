@@ -64,7 +64,7 @@ static int light_kind(lmb_light *out, gltf *g, uint32_t light)
            json_fail(&g->doc, light, g->b->r, "type must be point, spot or directional");
 }
 
-/* A light of the document placed by a node: it shines along the node's -Z. */
+/* A light of the document placed by a node: it points along the node's -Z. */
 static int read_light(lmb_light *out, gltf *g, uint32_t light, const gltf_matrix *world, uint32_t node)
 {
     const json *doc = &g->doc;

@@ -147,7 +147,7 @@ static int finish(model_build *b)
         return 0;
     status = lmb_scene_check(scene);
     if (status != LMB_OK)
-        return report_fail(b->r, "%s: the scene that was read is not sound (%s); please report this file", b->path,
+        return report_fail(b->r, "%s: the scene that was read is not valid (%s); please report this file", b->path,
                            lmb_status_name(status));
     note_far_away(b);
     note_absurd_vertices(b);

@@ -22,7 +22,7 @@ int picture_read(stored_picture *out, const uint8_t *data, size_t size, const ch
 /* picture_read_codes: only pictures of codes, as textures are; linear light is refused. bitmap_free releases it. */
 int picture_read_codes(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 
-/* picture_pixels: at most so many will come of these bytes, as their header says; 0 where it says nothing sound. */
+/* picture_pixels: at most so many will come of these bytes, as their header says; 0 where the header is not valid. */
 uint64_t picture_pixels(const uint8_t *data, size_t size);
 
 void stored_picture_free(stored_picture *p);

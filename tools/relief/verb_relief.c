@@ -327,7 +327,13 @@ int verb_relief(int argc, char **argv)
     if (argc >= 2 && strcmp(argv[1], "render") == 0) {
         return verb_render_relief(argc - 1, argv + 1);
     }
+    static const char *const verbs[] = {"bake", "render", NULL};
     report r = {""};
+    const char *meant = argc >= 2 ? options_nearest(verbs, argv[1]) : NULL;
+    if (meant != NULL) {
+        report_fail(&r, "there is no `relief %s`; did you mean relief %s?", argv[1], meant);
+        return report_end(&r, "relief", 2);
+    }
     const int asked = options_parse(NULL, &both_table, argc, argv, &r);
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &both_table, &r);

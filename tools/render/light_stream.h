@@ -16,8 +16,8 @@ typedef struct light_stream {
     double stream_s, build_s;
 } light_stream;
 
-/* light_stream_take: the tree of the scene's lights, at most `cells`; *scene is left with none. 1, or 0 with `r` set.
- * */
+/* light_stream_take: the tree of the scene's lights, at most `cells`; *scene is left with none. 1, or 0 with `r`
+ * set. */
 int light_stream_take(light_stream *out, lmb_scene *scene, uint32_t cells, report *r);
 
 void light_stream_free(light_stream *m);

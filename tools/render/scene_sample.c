@@ -1,5 +1,5 @@
-/* scene_sample.c: a few tiles of a scene by one rung of a ladder of settings after another, each checked by the next.
- * */
+/* scene_sample.c: a few tiles of a scene by one rung of a ladder of settings after another, each checked by the
+ * next. */
 #include "scene_sample.h"
 
 #include <stdlib.h>

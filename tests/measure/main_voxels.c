@@ -1,6 +1,6 @@
-/* main_voxel.c: one bounce by cones through voxels against truth and closed forms: errors, time by stage, memory.
+/* main_voxels.c: one bounce by cones through voxels against truth and closed forms: errors, time by stage, memory.
  *                                                                                   [M6-M8 M11-M13 M20-M22]
- *     voxel [SCENE...]        cornell and corridor have bars
+ *     measure-voxels [SCENE...]        cornell and corridor have bars
  *
  * Seconds are of one core. `x`: times what one bounce by cuts with exact occlusion takes for its pixels (the tool's
  * default). Closed forms: tests/analytic/test_voxels.c. */
@@ -68,20 +68,9 @@ static double lap(double *from)
 
 static int load(work *w, const char *scene)
 {
-    char path[SHARED_PATH];
-    model_notes notes;
-    report r = {""};
     memset(w, 0, sizeof *w);
-    memset(&notes, 0, sizeof notes);
     w->scene = scene;
-    truth_path(path, scene, "scene.gltf");
-    if (!truth_is_there(scene) || !truth_picture(&w->truth, scene, "pt_indirect1.pfm") ||
-        !truth_picture(&w->surface, scene, "gbuffer_depth.pfm")) {
-        return 0;
-    }
-    const int ok = model_load(&w->loaded, path, NULL, &notes, &r) && w->loaded.camera_count > 0;
-    CHECK_MSG(ok, "%s: %s", scene, r.text);
-    return ok;
+    return truth_scene(&w->loaded, &w->truth, &w->surface, scene);
 }
 
 static void close_scene(work *w)
@@ -89,9 +78,7 @@ static void close_scene(work *w)
     while (w->taken > 0) {
         free(w->memory[--w->taken]);
     }
-    image_free(&w->truth);
-    image_free(&w->surface);
-    model_free(&w->loaded);
+    truth_scene_free(&w->loaded, &w->truth, &w->surface);
 }
 
 static void draw_eye(work *w)

@@ -1,4 +1,4 @@
-/* hard_all.c: hard cases of the whole: one room under every hard condition, its bounced light against rays in double.
+/* hard_whole.c: hard cases of the whole: one room under every hard condition, its bounced light against rays in double.
  *
  * The room has a floor, two walls, a ceiling and a crate under a spot. Rays cut each triangle into cells and sum what
  * they throw back; cells are coarse near a corner, so receivers lie a hand's breadth from other surfaces. */
@@ -289,7 +289,7 @@ static void finer(hard_list *l)
     slats(l);
 }
 
-void hard_all(hard_list *l)
+void hard_whole(hard_list *l)
 {
     conditions(l);
     mirrored(l);

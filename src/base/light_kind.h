@@ -1,0 +1,34 @@
+/* light_kind.h: which kinds of light have a place, a direction, a cone. Layer 1. */
+#ifndef LMB_BASE_LIGHT_KIND_H
+#define LMB_BASE_LIGHT_KIND_H
+
+#include <lambent/scene.h>
+
+#include "vec.h"
+
+/* A bit for each kind. FAR: comes from one direction and does not fall off with distance. */
+enum {
+    LIGHT_KNOWN = 1 << LMB_LIGHT_POINT | 1 << LMB_LIGHT_SPOT | 1 << LMB_LIGHT_DIRECTIONAL,
+    LIGHT_PLACED = 1 << LMB_LIGHT_POINT | 1 << LMB_LIGHT_SPOT,
+    LIGHT_FAR = LIGHT_KNOWN & ~LIGHT_PLACED,
+    LIGHT_AIMED = 1 << LMB_LIGHT_SPOT | 1 << LMB_LIGHT_DIRECTIONAL,
+    LIGHT_CONED = 1 << LMB_LIGHT_SPOT
+};
+
+/* 0 for kinds that nobody knows. */
+static inline int light_kind_is(int32_t kind, uint32_t which)
+{
+    return (uint32_t)kind < 32u && (which >> kind & 1u) != 0;
+}
+
+/* Of a known kind: a direction of unit length, a cone that opens outwards. NaN fails. */
+static inline int light_shape_is_valid(const lmb_light *l)
+{
+    if (light_kind_is(l->kind, LIGHT_AIMED) && !(absf(dot3(l->direction, l->direction) - 1.0f) <= 1e-3f)) {
+        return 0;
+    }
+    return !light_kind_is(l->kind, LIGHT_CONED) ||
+           (l->cos_outer > 0.0f && l->cos_inner >= l->cos_outer && l->cos_inner <= 1.0f);
+}
+
+#endif
