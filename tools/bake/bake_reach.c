@@ -11,10 +11,15 @@ enum { BATCH = 64 };
 #define ALBEDO 0.5f  /* of all surfaces */
 #define DARK   1e-6f /* of the brightest element: less came through a crack */
 
+typedef struct sender {
+    float light;
+    uint32_t element;
+} sender;
+
 typedef struct reach {
     bake *b;
     uint8_t *has_sent; /* an element */
-    uint32_t *order;   /* elements, brightest first */
+    sender *order;     /* the brightest first */
     float *memory;
     report *r;
 } reach;
@@ -50,12 +55,10 @@ static int send_around(reach *w, lmb_vec3 from)
     return send(w, at, normal, power, 6);
 }
 
-static const bake_element *sorted; /* by_light's, as qsort passes none on */
-
 static int by_light(const void *a, const void *b)
 {
-    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return sorted[x].light != sorted[y].light ? (sorted[x].light > sorted[y].light ? -1 : 1) : x < y ? -1 : 1;
+    const sender *x = a, *y = b;
+    return x->light != y->light ? (x->light > y->light ? -1 : 1) : x->element < y->element ? -1 : 1;
 }
 
 /* The brightest elements that have not sent their light yet; returns how many. */
@@ -64,13 +67,13 @@ static int next_senders(reach *w, uint32_t chosen[BATCH])
     const bake *b = w->b;
     int count = 0;
     for (uint32_t i = 0; i < b->element_count; ++i) {
-        w->order[i] = i;
+        w->order[i].element = i;
+        w->order[i].light = b->element[i].light;
     }
-    sorted = b->element;
     qsort(w->order, b->element_count, sizeof *w->order, by_light);
     for (uint32_t i = 0; i < b->element_count && count < BATCH; ++i) {
-        const uint32_t e = w->order[i];
-        if (!w->has_sent[e] && b->element[e].light > DARK * b->element[w->order[0]].light) {
+        const uint32_t e = w->order[i].element;
+        if (!w->has_sent[e] && w->order[i].light > DARK * w->order[0].light) {
             w->has_sent[e] = 1;
             chosen[count++] = e;
         }

@@ -28,17 +28,18 @@ static const option_row rows[] = {
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--error", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
-     .help = "error of the links of a receiver"},
+     .help = "what a receiver\'s links may be off by, as a share of all light around it (default 0.001)"},
     {.name = "--division", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
-     .help = "how far light may be from linear between receivers"},
+     .help = "how far light may be from linear between receivers, as such a share of a thousandth of all area "
+             "(default 0.008)"},
     {.name = "--elements", .value = "N", .kind = OPTION_POWER_OF_2, AT(elements), .low = 64,
-     .high = LMB_TRANSFER_MAX_ELEMENTS, .help = "pieces of surface that send light: 64, 256, 1024, 4096, 16384"},
+     .high = LMB_TRANSFER_MAX_ELEMENTS, .help = "pieces of surface that send light: 256, 1024, 4096 or 16384 (default 16384); fewer bake faster"},
     {.name = "--receivers", .value = "N", .kind = OPTION_INT, AT(receivers), .low = 64, .high = 500000,
-     .help = "no further division from so many receivers on"},
+     .help = "no triangle is halved from so many receivers on (default 12000)"},
     {.name = "--cluster", .value = "M", .kind = OPTION_ABOVE, AT(cluster), .low = 0.0, .high = 1e5,
-     .help = "triangles under twice this, m, are lit by clusters of this size"},
+     .help = "triangles of meshes under twice this, m, are lit by clusters of this size (default: by the scene)"},
     {.name = "--smallest", .value = "M", .kind = OPTION_ABOVE, AT(smallest), .low = 0.0, .high = 1e5,
-     .help = "no edge under this, m, is halved"},
+     .help = "no edge under this, m, is halved (default: by the scene)"},
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
      .help = "the file is the same with any (default: all processors)"},
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
@@ -49,8 +50,10 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "bake",
     .usage = "bake SCENE -o OUT.lmt [options]",
-    .about = "How light goes from each surface of a scene that does not move to each other, so that lights and cameras "
-             "may move at the price of direct light.",
+    .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds light "
+             "that is reflected once for less than what direct light takes, wherever lights and camera are. Colours "
+             "may change, too. What moves, emits light or is glossy, and further reflections, are not in it.\n"
+             "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
                 "  lambent render demo --transfer demo.lmt -o demo.png\n",
@@ -69,10 +72,13 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
     set.division = o->division;
     set.cluster_m = o->cluster;
     set.smallest_m = o->smallest;
+    if ((o->elements & 0x5555) == 0) {
+        return report_fail(r, "--elements %d is no power of 4; try %d", (int)o->elements, (int)o->elements / 2);
+    }
     set.elements = (uint32_t)o->elements;
     set.receivers = (uint32_t)o->receivers;
     set.threads = o->threads > 0 ? o->threads : pool_processors();
-    b.is_quiet = o->is_quiet || !o->is_verbose;
+    b.is_quiet = o->is_quiet || !(o->is_verbose || host_watched());
     int ok = bake_begin(&b, scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) && bake_clusters(&b, r) &&
              bake_file(&file, &b, r) && file_write(o->out, file.data, file.size, r);
     if (ok && !o->is_quiet) {
@@ -111,10 +117,10 @@ int verb_bake(int argc, char **argv)
     memset(&o, 0, sizeof o);
     memset(&loaded, 0, sizeof loaded);
     memset(&notes, 0, sizeof notes);
-    o.error = 0.004f;
-    o.division = 0.004f;
-    o.elements = 4096;
-    o.receivers = 8000;
+    o.error = 0.001f;
+    o.division = 0.008f;
+    o.elements = 16384;
+    o.receivers = 12000;
     const int asked = options_parse(&o, &table, argc, argv, &r);
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &table, &r);
