@@ -7,15 +7,17 @@
 
 #if LMB_TRANSFER
 
-/* What neighbouring pixels share: their triangle, its side, and three corners with their light. */
+/* What pixels of one triangle share, and what those on one of its leaves do. */
 typedef struct here {
     const lmb_transfer_light *light;
     const lmb_transfer *transfer;
-    transfer_triangle triangle; /* id 0: none */
+    const lmb_tile *tile;
+    transfer_triangle triangle;
     uint32_t root;
-    int is_mesh, has_leaf;
-    float to_leaf[3][3];        /* from the triangle's weights to the leaf's */
-    float corner[3][9];         /* light at the corners: of a leaf R, G, B; of a mesh by direction */
+    float b1[LMB_TILE_PIXELS], b2[LMB_TILE_PIXELS]; /* weights of its second and third corner */
+    int is_mesh;
+    float to_leaf[3][3]; /* from the triangle's weights to the leaf's */
+    float corner[3][9];  /* light at the leaf's corners: R, G, B; of a mesh each along x, y, z */
 } here;
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
@@ -37,7 +39,6 @@ static void set_corners(here *h, uint32_t place)
     const lmb_transfer *t = h->transfer;
     const uint32_t *corner = t->section[LMB_TRANSFER_CORNERS] + LMB_TRANSFER_CORNER_WORDS * (size_t)place;
     h->is_mesh = place >= t->leaves;
-    h->has_leaf = 1;
     for (int k = 0; k < 3; ++k) {
         if (h->is_mesh) {
             blend(h->corner[k], h->light,
@@ -48,11 +49,11 @@ static void set_corners(here *h, uint32_t place)
     }
 }
 
-/* Down to the leaf that holds the weights, with the matrix of all halvings on the way. */
-static void enter_leaf(here *h, const float weights[3])
+/* Down to the leaf that holds pixel k, with the matrix of all halvings on the way. */
+static void enter_leaf(here *h, int k)
 {
     const uint32_t *node = h->transfer->section[LMB_TRANSFER_DIVISIONS];
-    float w[3] = {weights[0], weights[1], weights[2]};
+    float w[3] = {1.0f - h->b1[k] - h->b2[k], h->b1[k], h->b2[k]};
     uint32_t at = h->root;
     memset(h->to_leaf, 0, sizeof h->to_leaf);
     h->to_leaf[0][0] = h->to_leaf[1][1] = h->to_leaf[2][2] = 1.0f;
@@ -71,45 +72,113 @@ static void enter_leaf(here *h, const float weights[3])
 /* --- pixels ------------------------------------------------------------------------------------------------------- */
 
 /* 0 where nothing receives light. */
-static int enter_triangle(here *h, const lmb_scene *scene, uint32_t id, lmb_vec3 face)
+static int enter_triangle(here *h, const lmb_scene *scene, int k)
 {
-    h->has_leaf = 0;
-    h->root = LMB_TRANSFER_NONE;
+    const uint32_t id = h->tile->id[k];
     if (id > h->transfer->count[LMB_TRANSFER_SURFACES] || !transfer_triangle_of(&h->triangle, scene, id)) {
-        h->triangle.id = id;
         return 0;
     }
+    const lmb_vec3 face = vec3(h->tile->face[0][k], h->tile->face[1][k], h->tile->face[2][k]);
     const uint32_t back = dot3(h->triangle.normal, face) < 0.0f;
     h->root = h->transfer->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (id - 1) + 2 + back];
     return h->root != LMB_TRANSFER_NONE;
 }
 
-/* The weights of the leaf's corners; 0 where the point lies on another leaf. */
-static int leaf_weights(float out[3], const here *h, const float w[3])
+/* The weights of all pixels on the triangle's plane; those of other triangles mean nothing. */
+static void set_weights(here *h)
 {
-    int inside = 1;
-    for (int k = 0; k < 3; ++k) {
-        out[k] = h->to_leaf[k][0] * w[0] + h->to_leaf[k][1] * w[1] + h->to_leaf[k][2] * w[2];
-        inside &= out[k] >= 0.0f;
+    const lmb_vec3 o = h->triangle.corner, u = h->triangle.along[0], v = h->triangle.along[1];
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const float x = h->tile->position[0][k] - o.x, y = h->tile->position[1][k] - o.y,
+                    z = h->tile->position[2][k] - o.z;
+        const float b1 = clampf(u.x * x + u.y * y + u.z * z, 0.0f, 1.0f);
+        h->b1[k] = b1;
+        h->b2[k] = clampf(v.x * x + v.y * y + v.z * z, 0.0f, 1.0f - b1);
     }
-    return inside;
 }
 
-static void light_pixel(float out[3], here *h, lmb_vec3 p, lmb_vec3 n)
+/* Of all pixels those on the leaf: where no corner's weight is under 0. One row of the matrix at a time. */
+static uint64_t on_leaf(const here *h)
 {
-    float w[3], own[3];
-    transfer_weights(w, &h->triangle, p);
-    if (!h->has_leaf || !leaf_weights(own, h, w)) {
-        enter_leaf(h, w);
-        leaf_weights(own, h, w);
+    float least[LMB_TILE_PIXELS];
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
+        const float w0 = h->to_leaf[0][0] * b0 + h->to_leaf[0][1] * b1 + h->to_leaf[0][2] * b2;
+        const float w1 = h->to_leaf[1][0] * b0 + h->to_leaf[1][1] * b1 + h->to_leaf[1][2] * b2;
+        const float w2 = h->to_leaf[2][0] * b0 + h->to_leaf[2][1] * b1 + h->to_leaf[2][2] * b2;
+        least[k] = minf(minf(w0, w1), w2);
     }
-    for (int c = 0; c < 3; ++c) {
-        float e = 0.0f;
-        for (int k = 0; k < 3; ++k) {
-            const float *at = h->corner[k] + (h->is_mesh ? 3 * c : c);
-            e += own[k] * (h->is_mesh ? n.x * at[0] + n.y * at[1] + n.z * at[2] : at[0]);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        out |= (uint64_t)(least[k] >= 0.0f) << k;
+    }
+    return out;
+}
+
+/* Light is linear on a leaf: the corners' light by the triangle's own weights. `each` numbers a corner. */
+static void at_triangle(float out[3][9], const here *h, int each)
+{
+    for (int i = 0; i < 3; ++i) {
+        for (int c = 0; c < each; ++c) {
+            out[i][c] = h->to_leaf[0][i] * h->corner[0][c] + h->to_leaf[1][i] * h->corner[1][c] +
+                        h->to_leaf[2][i] * h->corner[2][c];
         }
-        out[c] = maxf(e, 0.0f);
+    }
+}
+
+static void light_flat(lmb_irradiance *inout, const here *h, uint64_t pixels)
+{
+    float at[3][9];
+    at_triangle(at, h, 3);
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] += maxf(b0 * at[0][c] + b1 * at[1][c] + b2 * at[2][c], 0.0f);
+        }
+    }
+}
+
+static void light_mesh(lmb_irradiance *inout, const here *h, uint64_t pixels)
+{
+    float at[3][9];
+    at_triangle(at, h, 9);
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
+        for (int c = 0; c < 3; ++c) {
+            float e = 0.0f;
+            for (int a = 0; a < 3; ++a) {
+                e += h->tile->normal[a][k] *
+                     (b0 * at[0][3 * c + a] + b1 * at[1][3 * c + a] + b2 * at[2][3 * c + a]);
+            }
+            inout->rgb[c][k] += maxf(e, 0.0f);
+        }
+    }
+}
+
+/* Of `left` the pixels of the first one's triangle, on the same side of it. */
+static uint64_t alike(const lmb_tile *t, uint64_t left, int first)
+{
+    uint64_t out = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const float same = t->face[0][k] * t->face[0][first] + t->face[1][k] * t->face[1][first] +
+                           t->face[2][k] * t->face[2][first];
+        out |= (uint64_t)(t->id[k] == t->id[first] && same > 0.0f) << k;
+    }
+    return (out & left) | (uint64_t)1 << first;
+}
+
+/* Leaf by leaf: that of the first pixel left lights all pixels on it. */
+static void light_triangle(lmb_irradiance *inout, here *h, uint64_t pixels)
+{
+    set_weights(h);
+    while (pixels != 0) {
+        const int first = lowest_bit_64(pixels);
+        enter_leaf(h, first);
+        const uint64_t own = (on_leaf(h) & pixels) | (uint64_t)1 << first;
+        (h->is_mesh ? light_mesh : light_flat)(inout, h, own);
+        pixels &= ~own;
     }
 }
 
@@ -117,32 +186,24 @@ lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *li
                              const lmb_scene *scene, const lmb_tile *tile)
 {
     here h;
-    lmb_vec3 face = vec3(0.0f, 0.0f, 0.0f);
+    uint64_t left = 0;
     if (inout == NULL || light == NULL || light->receiver == NULL || transfer == NULL ||
         transfer->section[0] == NULL || scene == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
-    memset(&h, 0, sizeof h);
     h.light = light;
     h.transfer = transfer;
+    h.tile = tile;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const lmb_vec3 own = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
-        float e[3];
-        if (tile->id[k] == 0) {
-            continue;
+        left |= (uint64_t)(tile->id[k] != 0) << k;
+    }
+    while (left != 0) {
+        const int first = lowest_bit_64(left);
+        const uint64_t own = alike(tile, left, first);
+        if (enter_triangle(&h, scene, first)) {
+            light_triangle(inout, &h, own);
         }
-        if (tile->id[k] != h.triangle.id || dot3(own, face) < 0.0f) {
-            enter_triangle(&h, scene, tile->id[k], own);
-            face = own;
-        }
-        if (h.root == LMB_TRANSFER_NONE) {
-            continue;
-        }
-        light_pixel(e, &h, vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]),
-                    vec3(tile->normal[0][k], tile->normal[1][k], tile->normal[2][k]));
-        for (int c = 0; c < 3; ++c) {
-            inout->rgb[c][k] += e[c];
-        }
+        left &= ~own;
     }
     return LMB_OK;
 }
