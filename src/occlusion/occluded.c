@@ -216,8 +216,8 @@ static uint32_t test_node(traversal *w, rays *r, const lmb_boxes *node)
     return children;
 }
 
-/* The pixels left together, by one pyramid. 0 where that takes more than `most` boxes: then some may still be blocked. */
-static int trace_together(traversal *w, uint32_t most)
+/* The pixels left together, by one pyramid. 0 where that takes over `limit` boxes: some may still be blocked. */
+static int trace_together(traversal *w, uint32_t limit)
 {
     const lmb_bvh *bvh = w->b;
     const uint32_t before = w->kept->asked;
@@ -234,7 +234,7 @@ static int trace_together(traversal *w, uint32_t most)
         if (count == 0 || w->left == 0) {
             return 1;
         }
-        if (w->kept->asked - before > most) {
+        if (w->kept->asked - before > limit) {
             return 0;
         }
         branch *up = &waiting[count - 1];
