@@ -69,7 +69,6 @@ typedef struct lmb_transfer_light {
     float step;
 } lmb_transfer_light;
 
-#if LMB_TRANSFER
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -119,6 +118,5 @@ lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *li
 
 #ifdef __cplusplus
 }
-#endif
 #endif
 #endif

@@ -92,7 +92,7 @@ static lmb_status step_points(lmb_render *r, int32_t units)
         return LMB_OK;
     }
     if (requires_transfer(f) && r->light + r->face + r->progress == 0) {
-        lmb_transfer_clear(&f->transfer_light, f->transfer);
+        (void)lmb_transfer_clear(&f->transfer_light, f->transfer);
     }
     if (light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
         f->tree.faces += requires_cut(f) ? faces_that_bounce(r, r->light) : 0;

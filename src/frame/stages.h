@@ -4,9 +4,11 @@
 
 #include <lambent/render.h>
 
+/* A call that no build makes: for what it lacks. */
+#define never(call) ((void)sizeof(call), LMB_ERR_ARG)
+
 /* A build without trees refuses frames that ask for them (lmb_render_check), so none of these is ever called. */
 #if !LMB_TREES
-#define never(call) ((void)sizeof(call), LMB_ERR_ARG)
 #undef lmb_glossy_tile
 #undef lmb_gather_cut
 #undef lmb_many_lights_direct_tile
@@ -28,6 +30,14 @@
 #define lmb_many_lights_elements(...)    never(LMB_LAYOUT(lmb_many_lights_elements)(__VA_ARGS__))
 #define lmb_many_lights_elements_done(...) never(lmb_many_lights_elements_done(__VA_ARGS__))
 #define lmb_elements_tiles(...)   never(lmb_elements_tiles(__VA_ARGS__))
+#endif
+
+#if !LMB_TRANSFER
+#define lmb_transfer_clear(...)     never(lmb_transfer_clear(__VA_ARGS__))
+#define lmb_transfer_collect(...)   never(lmb_transfer_collect(__VA_ARGS__))
+#define lmb_transfer_send(...)      never(lmb_transfer_send(__VA_ARGS__))
+#define lmb_transfer_receivers(...) never(lmb_transfer_receivers(__VA_ARGS__))
+#define lmb_transfer_tile(...)      never(lmb_transfer_tile(__VA_ARGS__))
 #endif
 
 #define UNIT_TRIANGLES 1024u /* of a draw, for one unit of a step's work */

@@ -9,57 +9,58 @@
 
 enum { WAITING = 48 }; /* second halves on the way down: files have at most 40 halvings one in the other */
 
-typedef struct waiting {
-    surface_piece piece;
+/* A part of a triangle: its corners' barycentrics, and its share of the area. */
+typedef struct part {
+    float b1[3], b2[3], share;
     uint32_t node;
-} waiting;
+} part;
 
-/* One half of a piece: edge `from`'s middle in place of corner k. */
-static void halve(surface_piece *p, int from, int k)
+/* The half whose corner k is the middle of edge `from`. */
+static void halve(part *p, int from, int k, uint32_t node)
 {
     const int to = from == 2 ? 0 : from + 1;
-    const lmb_vec3 mid = mul3(add3(p->corner[from], p->corner[to]), 0.5f);
     const float b1 = 0.5f * (p->b1[from] + p->b1[to]), b2 = 0.5f * (p->b2[from] + p->b2[to]);
-    p->corner[k] = mid;
     p->b1[k] = b1;
     p->b2[k] = b2;
+    p->share *= 0.5f;
+    p->node = node;
 }
 
 /* Sums by area, in light->albedo; areas in light->power[..][0]. */
-static void add_piece(const lmb_transfer_light *light, const piece_source *s, const surface_piece *p, uint32_t element)
+static void add_part(const lmb_transfer_light *light, const piece_source *s, const part *p, uint32_t element)
 {
-    const float area = 0.5f * length3(piece_across(p->corner));
+    surface_piece piece;
     float albedo[3];
-    const float standing = area * lmb_source_albedo(albedo, s, p, area / s->area);
+    memset(&piece, 0, sizeof piece);
+    memcpy(piece.b1, p->b1, sizeof piece.b1);
+    memcpy(piece.b2, p->b2, sizeof piece.b2);
+    const float standing = s->area * p->share * lmb_source_albedo(albedo, s, &piece, p->share);
     for (int c = 0; c < 3; ++c) {
         light->albedo[element][c] += standing * albedo[c];
     }
     light->power[element][0] += standing;
 }
 
-/* All pieces below a root; the halves that wait lie in `stack`. */
-static void add_pieces(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, uint32_t root)
+/* All parts below a root; the halves that wait lie in `stack`. */
+static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, uint32_t root)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_PIECES];
-    waiting stack[WAITING];
+    part stack[WAITING];
     int count = 1;
     memset(&stack[0], 0, sizeof stack[0]);
-    memcpy(stack[0].piece.corner, s->triangle.corner, sizeof stack[0].piece.corner);
-    stack[0].piece.b1[1] = stack[0].piece.b2[2] = 1.0f;
+    stack[0].b1[1] = stack[0].b2[2] = stack[0].share = 1.0f;
     stack[0].node = root;
     while (count > 0) {
-        waiting here = stack[--count];
+        part here = stack[--count];
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < WAITING) {
             const int from = (int)(node[here.node] >> LMB_TRANSFER_EDGE_BIT & 3u), to = from == 2 ? 0 : from + 1;
             const uint32_t first = node[here.node] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
             stack[count] = here;
-            halve(&stack[count].piece, from, from);
-            stack[count++].node = first + 1;
-            halve(&here.piece, from, to);
-            here.node = first;
+            halve(&stack[count++], from, from, first + 1);
+            halve(&here, from, to, first);
         }
         if (node[here.node] & LMB_TRANSFER_LEAF) {
-            add_piece(light, s, &here.piece, node[here.node] & ~LMB_TRANSFER_LEAF);
+            add_part(light, s, &here, node[here.node] & ~LMB_TRANSFER_LEAF);
         }
     }
 }
@@ -78,7 +79,7 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
         const int exists = lmb_source_open(&s, scene, id);
         for (int back = 0; back < 2 && exists; ++back) {
             if (root[back] != LMB_TRANSFER_NONE) {
-                add_pieces(light, t, &s, root[back]);
+                add_parts(light, t, &s, root[back]);
             }
         }
     }

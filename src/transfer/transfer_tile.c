@@ -100,17 +100,17 @@ static void set_weights(here *h)
 /* Of all pixels those on the leaf: where no corner's weight is under 0. One row of the matrix at a time. */
 static uint64_t on_leaf(const here *h)
 {
-    float least[LMB_TILE_PIXELS];
+    float smallest[LMB_TILE_PIXELS];
     uint64_t out = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
         const float w0 = h->to_leaf[0][0] * b0 + h->to_leaf[0][1] * b1 + h->to_leaf[0][2] * b2;
         const float w1 = h->to_leaf[1][0] * b0 + h->to_leaf[1][1] * b1 + h->to_leaf[1][2] * b2;
         const float w2 = h->to_leaf[2][0] * b0 + h->to_leaf[2][1] * b1 + h->to_leaf[2][2] * b2;
-        least[k] = minf(minf(w0, w1), w2);
+        smallest[k] = minf(minf(w0, w1), w2);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        out |= (uint64_t)(least[k] >= 0.0f) << k;
+        out |= (uint64_t)(smallest[k] >= 0.0f) << k;
     }
     return out;
 }

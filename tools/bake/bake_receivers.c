@@ -186,16 +186,16 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
     return p->receiver[k] != LMB_TRANSFER_NONE;
 }
 
-/* The anchor is the leaf's middle, or, where that lies in something that stands there, the corner that sees most. */
+/* The anchor is the leaf's middle, or, where that lies in something that stands there, the corner that sees highest. */
 static int mend_corners(divider *d, piece *p)
 {
     const lmb_vec3 middle = middle_of(p->corner);
-    float most = -1.0f;
+    float highest = -1.0f;
     int best = 0;
     for (int k = 0; k < 3; ++k) {
         const float own = openness(d->b, p->receiver[k]);
-        best = own > most ? k : best;
-        most = maxf(most, own);
+        best = own > highest ? k : best;
+        highest = maxf(highest, own);
     }
     const uint32_t parent = p->receiver[best];
     const lmb_vec3 corner = d->b->receiver[parent].at;
@@ -423,9 +423,9 @@ static int look_at_all(divider *d)
 static int halve_worst(divider *d)
 {
     const float enough = d->b->set.division * d->b->set.division;
-    const size_t most = d->waiting.count / 4 + ROUND;
+    const size_t limit = d->waiting.count / 4 + ROUND;
     qsort(d->waiting.data, d->waiting.count, sizeof *d->waiting.data, by_error);
-    for (size_t i = 0; i < most && d->waiting.count > 0 && d->b->receiver_count < d->b->set.receivers; ++i) {
+    for (size_t i = 0; i < limit && d->waiting.count > 0 && d->b->receiver_count < d->b->set.receivers; ++i) {
         const piece p = d->waiting.data[d->waiting.count - 1];
         if (p.error <= enough) {
             break;
