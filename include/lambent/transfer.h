@@ -91,7 +91,8 @@ lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *
 
 /* lmb_transfer_materials: the elements' mean albedos, from the scene's materials: once, and when these change.
  * Cost: about 0.5 us an element. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene);
+lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_transfer *transfer,
+                                  const lmb_scene *scene);
 
 /* lmb_transfer_clear: no light. Begins a frame. */
 lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *transfer);

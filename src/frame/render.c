@@ -7,8 +7,9 @@
 static int points_have_parts(const lmb_render *r)
 {
     const lmb_frame *f = &r->frame;
-    if (!requires_bounce(f) || requires_transfer(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) || r->progress != 0 ||
-        r->light == f->scene->light_count || light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
+    if (!requires_bounce(f) || requires_transfer(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) ||
+        r->progress != 0 || r->light == f->scene->light_count ||
+        light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
         return 0;
     }
     return requires_cut(f) || lmb_points_have_room(&f->points, &r->maps[r->light], &f->grouping);

@@ -23,13 +23,14 @@ static inline int requires_transfer(const lmb_frame *f)
 
 static inline int requires_cut(const lmb_frame *f)
 {
-    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT && f->tree.texel != NULL;
+    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method == LMB_GROUP_CUT &&
+           f->tree.texel != NULL;
 }
 
 static inline int requires_groups(const lmb_frame *f)
 {
-    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT && f->points.data != NULL &&
-           f->groups != NULL;
+    return f->transfer == NULL && f->show != LMB_SHOW_DIRECT && f->grouping.method != LMB_GROUP_CUT &&
+           f->points.data != NULL && f->groups != NULL;
 }
 
 static inline int requires_bounce(const lmb_frame *f) 

@@ -65,15 +65,18 @@ static float texels_along(const piece_source *s, const surface_piece *p, const l
     float longest = 0.0f;
     for (int k = 0; k < 3; ++k) {
         const int to = (k + 1) % 3;
-        const float du = (piece_uv_at(s, 0, p->b1[to], p->b2[to]) - piece_uv_at(s, 0, p->b1[k], p->b2[k])) * (float)map->width;
-        const float dv = (piece_uv_at(s, 1, p->b1[to], p->b2[to]) - piece_uv_at(s, 1, p->b1[k], p->b2[k])) * (float)map->height;
+        const float du = (piece_uv_at(s, 0, p->b1[to], p->b2[to]) - piece_uv_at(s, 0, p->b1[k], p->b2[k])) *
+                         (float)map->width;
+        const float dv = (piece_uv_at(s, 1, p->b1[to], p->b2[to]) - piece_uv_at(s, 1, p->b1[k], p->b2[k])) *
+                         (float)map->height;
         longest = maxf(longest, du * du + dv * dv);
     }
     return longest < 1e30f ? sqrtf(longest) : 0.0f;
 }
 
 /* Add the map at a place of the piece, x and y of the way to its second and third corner, where it stands. */
-static int add_glow(float sum[3], const piece_source *s, const surface_piece *p, const lmb_texture *map, const float at[3])
+static int add_glow(float sum[3], const piece_source *s, const surface_piece *p, const lmb_texture *map,
+                    const float at[3])
 {
     const float b1 = piece_mix(p->b1[0], p->b1[1], p->b1[2], at[0], at[1]);
     const float b2 = piece_mix(p->b2[0], p->b2[1], p->b2[2], at[0], at[1]);

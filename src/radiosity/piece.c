@@ -45,11 +45,12 @@ static void albedo_at(float out[3], const piece_source *s, float b1, float b2, f
     const lmb_material *m = s->triangle.material;
     float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f}, code[4], diffuse = 1.0f;
     if (m->texture >= 0) {
-        lmb_texture_sample(texel, &s->scene->textures[m->texture], piece_uv_at(s, 0, b1, b2), piece_uv_at(s, 1, b1, b2), lod);
+        lmb_texture_sample(texel, &s->scene->textures[m->texture], piece_uv_at(s, 0, b1, b2), piece_uv_at(s, 1, b1, b2),
+                           lod);
     }
     if (m->metal_map > 0) {
-        lmb_normal_map_sample(code, &s->scene->textures[m->metal_map - 1], piece_uv_at(s, 0, b1, b2), piece_uv_at(s, 1, b1, b2),
-                              lod);
+        lmb_normal_map_sample(code, &s->scene->textures[m->metal_map - 1], piece_uv_at(s, 0, b1, b2),
+                              piece_uv_at(s, 1, b1, b2), lod);
         diffuse = 1.0f - metallic_of(m, code);
     }
     for (int c = 0; c < 3; ++c) {

@@ -13,9 +13,16 @@ enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS }; /* words of the header *
 #define OWN_ORDER 0x01020304u
 #define MAX_COUNT 0x10000000u /* entries of a section: no product of theirs leaves 64 bits, no place a halving's bits */
 
-static const uint32_t words_each[LMB_TRANSFER_SECTIONS] = {
-    LMB_TRANSFER_SURFACE_WORDS,  1, 1, 1, LMB_TRANSFER_CORNER_WORDS, LMB_TRANSFER_RECEIVER_WORDS, 1,
-    LMB_TRANSFER_BLEND_WORDS, LMB_TRANSFER_CLUSTER_WORDS, LMB_TRANSFER_CLUSTER_LINK_WORDS};
+static const uint32_t words_each[LMB_TRANSFER_SECTIONS] = {LMB_TRANSFER_SURFACE_WORDS,
+                                                           1,
+                                                           1,
+                                                           1,
+                                                           LMB_TRANSFER_CORNER_WORDS,
+                                                           LMB_TRANSFER_RECEIVER_WORDS,
+                                                           1,
+                                                           LMB_TRANSFER_BLEND_WORDS,
+                                                           LMB_TRANSFER_CLUSTER_WORDS,
+                                                           LMB_TRANSFER_CLUSTER_LINK_WORDS};
 
 static float as_float(uint32_t word)
 {

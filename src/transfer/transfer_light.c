@@ -91,8 +91,8 @@ static uint32_t element_at(const lmb_transfer *t, const transfer_triangle *trian
 {
     const lmb_vec3 ray = v->kind == LMB_PERSPECTIVE ? sub3(triangle->corner, v->eye) : mul3(v->back, -1.0f);
     const int back = dot3(triangle->normal, ray) > 0.0f;
-    const uint32_t root = t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (triangle->id - 1) +
-                                                            (uint32_t)back];
+    const uint32_t root =
+        t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (triangle->id - 1) + (uint32_t)back];
     float w[3];
     if (root == LMB_TRANSFER_NONE) {
         return LMB_TRANSFER_NONE;

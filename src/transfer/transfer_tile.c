@@ -149,8 +149,7 @@ static void light_mesh(lmb_irradiance *inout, const here *h, uint64_t pixels)
         for (int c = 0; c < 3; ++c) {
             float e = 0.0f;
             for (int a = 0; a < 3; ++a) {
-                e += h->tile->normal[a][k] *
-                     (b0 * at[0][3 * c + a] + b1 * at[1][3 * c + a] + b2 * at[2][3 * c + a]);
+                e += h->tile->normal[a][k] * (b0 * at[0][3 * c + a] + b1 * at[1][3 * c + a] + b2 * at[2][3 * c + a]);
             }
             inout->rgb[c][k] += maxf(e, 0.0f);
         }
@@ -162,8 +161,8 @@ static uint64_t alike(const lmb_tile *t, uint64_t left, int first)
 {
     uint64_t out = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float same = t->face[0][k] * t->face[0][first] + t->face[1][k] * t->face[1][first] +
-                           t->face[2][k] * t->face[2][first];
+        const float same =
+            t->face[0][k] * t->face[0][first] + t->face[1][k] * t->face[1][first] + t->face[2][k] * t->face[2][first];
         out |= (uint64_t)(t->id[k] == t->id[first] && same > 0.0f) << k;
     }
     return (out & left) | (uint64_t)1 << first;
@@ -187,8 +186,8 @@ lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *li
 {
     here h;
     uint64_t left = 0;
-    if (inout == NULL || light == NULL || light->receiver == NULL || transfer == NULL ||
-        transfer->section[0] == NULL || scene == NULL || tile == NULL) {
+    if (inout == NULL || light == NULL || light->receiver == NULL || transfer == NULL || transfer->section[0] == NULL ||
+        scene == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
     h.light = light;

@@ -26,7 +26,7 @@ typedef struct bake_words {
 
 /* A piece of surface that sends light. */
 typedef struct bake_element {
-    lmb_vec3 corner[3], middle, normal; /* of several small triangles: of the largest, but middle and normal are means */
+    lmb_vec3 corner[3], middle, normal; /* of several triangles the largest; middle, normal: means */
     float area;    /* m2, of all */
     float largest; /* of its triangles, m2 */
     float reach2;  /* its farthest corner from its middle, squared, m2 */
@@ -97,7 +97,8 @@ int bake_elements(bake *b, report *r);
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r);
 
 /* bake_rows: what arrives of each element at up to 64 points: form factor times the share that is seen.
- *   row   axes x count rows of set.elements. axes 1: on a plane of the normal; 3: along x, y, z, of what lies before it */
+ *   row   axes x count rows of set.elements. axes 1: on a plane of the normal; 3: along x, y, z, of what lies
+ *         before it */
 int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
               report *r);
 

@@ -217,8 +217,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     if (depth == HALVINGS ||
         (longest <= m->side && (longest <= CONTACT * m->side || bake_stands_free(&m->sight, m->b, corner, normal)))) {
         const int small = depth == 0 && longest * 2.0f < m->side;
-        w->data[node] =
-            LMB_TRANSFER_LEAF | (small ? small_element(m, corner, normal) : add_element(m, corner, normal));
+        w->data[node] = LMB_TRANSFER_LEAF | (small ? small_element(m, corner, normal) : add_element(m, corner, normal));
         return 1;
     }
     const int to = (from + 1) % 3;
@@ -246,8 +245,8 @@ static int add_triangle(maker *m, uint32_t id)
     float area;
     const int exists = lmb_triangle_fetch(&t, b->scene, id) && lmb_triangle_shape(&normal, &area, &t);
     for (int back = 0; back < 2; ++back) {
-        const int shows = exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 ||
-                                     back == is_mirrored(&t.instance->to_world));
+        const int shows =
+            exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world));
         surfaces->data[4 * (id - 1) + (size_t)back] = shows ? (uint32_t)pieces->count : LMB_TRANSFER_NONE;
         if (shows && (!bake_put(pieces, 0, m->r) ||
                       !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0))) {

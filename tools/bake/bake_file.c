@@ -4,9 +4,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const uint32_t words_each[LMB_TRANSFER_SECTIONS] = {
-    LMB_TRANSFER_SURFACE_WORDS,  1, 1, 1, LMB_TRANSFER_CORNER_WORDS, LMB_TRANSFER_RECEIVER_WORDS, 1,
-    LMB_TRANSFER_BLEND_WORDS, LMB_TRANSFER_CLUSTER_WORDS, LMB_TRANSFER_CLUSTER_LINK_WORDS};
+static const uint32_t words_each[LMB_TRANSFER_SECTIONS] = {LMB_TRANSFER_SURFACE_WORDS,
+                                                           1,
+                                                           1,
+                                                           1,
+                                                           LMB_TRANSFER_CORNER_WORDS,
+                                                           LMB_TRANSFER_RECEIVER_WORDS,
+                                                           1,
+                                                           LMB_TRANSFER_BLEND_WORDS,
+                                                           LMB_TRANSFER_CLUSTER_WORDS,
+                                                           LMB_TRANSFER_CLUSTER_LINK_WORDS};
 
 static int put_receivers(bake *b, report *r)
 {

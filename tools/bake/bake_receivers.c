@@ -15,9 +15,9 @@ enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64 };
 typedef struct piece {
     lmb_vec3 corner[3], normal;
     uint32_t receiver[3], node;
-    uint32_t mid;      /* receiver in the middle of its longest edge */
+    uint32_t mid; /* receiver in the middle of its longest edge */
     int from, depth;
-    int must_split;    /* something stands on it */
+    int must_split; /* something stands on it */
     float surplus, error;
 } piece;
 
@@ -97,7 +97,8 @@ static int is_there(const bake *b, const bake_receiver *v, lmb_vec3 at, lmb_vec3
 static uint32_t hash_of(const bake *b, lmb_vec3 at, int dx, int dy, int dz)
 {
     const float per = 1.0f / b->set.smallest_m;
-    const uint32_t x = (uint32_t)(int32_t)floorf(at.x * per) + (uint32_t)dx, y = (uint32_t)(int32_t)floorf(at.y * per) + (uint32_t)dy,
+    const uint32_t x = (uint32_t)(int32_t)floorf(at.x * per) + (uint32_t)dx,
+                   y = (uint32_t)(int32_t)floorf(at.y * per) + (uint32_t)dy,
                    z = (uint32_t)(int32_t)floorf(at.z * per) + (uint32_t)dz;
     uint32_t h = x * 73856093u ^ y * 19349663u ^ z * 83492791u;
     return h ^ h >> 15;
@@ -124,7 +125,8 @@ static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 n
     bake *k = d->b;
     size_t cap = k->receiver_cap;
     const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1, 0};
-    if (k->receiver_count >= d->mask / 2 || !grow((void **)&k->receiver, &cap, k->receiver_count, sizeof *k->receiver, d->r) || !enqueue(d, &w)) {
+    if (k->receiver_count >= d->mask / 2 ||
+        !grow((void **)&k->receiver, &cap, k->receiver_count, sizeof *k->receiver, d->r) || !enqueue(d, &w)) {
         report_fail(d->r, "too many receivers: %u", (unsigned)k->receiver_count);
         return LMB_TRANSFER_NONE;
     }
@@ -179,10 +181,10 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
     }
     const lmb_vec3 at = bake_pulled(d->b, add3(anchor, mul3(sub3(corner, anchor), low)), anchor);
     const uint32_t there = find(d, at, p->normal);
-    p->receiver[k] = there != LMB_TRANSFER_NONE &&
-                             bake_sees(&d->sight, d->b, anchor, d->b->receiver[there].at, p->normal)
-                         ? there
-                         : add_receiver(d, at, at, p->normal, parent, parent, 0);
+    p->receiver[k] =
+        there != LMB_TRANSFER_NONE && bake_sees(&d->sight, d->b, anchor, d->b->receiver[there].at, p->normal)
+            ? there
+            : add_receiver(d, at, at, p->normal, parent, parent, 0);
     return p->receiver[k] != LMB_TRANSFER_NONE;
 }
 
@@ -328,8 +330,9 @@ static int look_at(divider *d, size_t i)
     if (d->queued > before) {
         d->queue[before].piece = i;
     } else if (p->mid != LMB_TRANSFER_NONE) { /* a neighbour's: looked at once more */
-        const wanted w = {d->b->receiver[p->mid].at, p->normal, {p->receiver[p->from], p->receiver[to], LMB_TRANSFER_NONE},
-                          LMB_TRANSFER_NONE, i, 0};
+        const wanted w = {
+            d->b->receiver[p->mid].at, p->normal, {p->receiver[p->from], p->receiver[to], LMB_TRANSFER_NONE},
+            LMB_TRANSFER_NONE,         i,         0};
         if (!enqueue(d, &w)) {
             return 0;
         }

@@ -114,8 +114,8 @@ static void tell_how(const render_job *j)
         return;
     }
     report_note(0, "%d threads of %s lanes; --shadow-map %d --tree %d --error %.3g --visibility %.3g; %.0f KiB",
-                j->workers.threads, lmb_kernels_name(f->kernels), (int)f->shadow_map, (int)f->tree.size, (double)f->error,
-                (double)f->visibility, (double)(j->bytes + j->many_lights.bytes) / 1024.0);
+                j->workers.threads, lmb_kernels_name(f->kernels), (int)f->shadow_map, (int)f->tree.size,
+                (double)f->error, (double)f->visibility, (double)(j->bytes + j->many_lights.bytes) / 1024.0);
     report_note(0, "%-13s %8.1f ms", "reading", j->load_s * 1e3);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
         report_note(0, "%-13s %8.1f ms", stage_name(j, i), j->workers.stage_s[i] * 1e3);
