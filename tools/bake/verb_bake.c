@@ -101,6 +101,20 @@ static int bake_model(const options *o, const lmb_scene *scene, const model *m, 
     return bake_scene(o, scene, eyes, count, r);
 }
 
+static int is_complete(const options *o, report *r)
+{
+    if (o->scene == NULL) {
+        return report_fail(r, "no scene given");
+    }
+    if (o->out == NULL) {
+        return report_fail(r, "no output given; add -o FILE.lmt");
+    }
+    if ((o->elements & 0x55555555) == 0) {
+        return report_fail(r, "--elements: `%d` is not a power of four: 64, 256, 1024, 4096, 16384", (int)o->elements);
+    }
+    return 1;
+}
+
 int verb_bake(int argc, char **argv)
 {
     report r = {""};
@@ -115,7 +129,8 @@ int verb_bake(int argc, char **argv)
     o.division = 0.004f;
     o.elements = 4096;
     o.receivers = 8000;
-    const int asked = options_parse(&o, &table, argc, argv, &r);
+    int asked = options_parse(&o, &table, argc, argv, &r);
+    asked = asked == OPTIONS_RUN && !is_complete(&o, &r) ? OPTIONS_BAD : asked;
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &table, &r);
     }
