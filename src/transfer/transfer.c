@@ -8,7 +8,8 @@
 
 #if LMB_TRANSFER
 
-enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS }; /* words of the header */
+/* Words of the header. */
+enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS, RESERVED = COUNTS + LMB_TRANSFER_SECTIONS };
 
 #define OWN_ORDER 0x01020304u
 #define MAX_COUNT 0x10000000u /* entries of a section: no product of theirs leaves 64 bits, no place a halving's bits */
@@ -86,7 +87,13 @@ static int are_corners(const lmb_transfer *t)
     return t->leaves <= t->count[LMB_TRANSFER_CORNERS];
 }
 
-static int is_range(uint32_t first, uint32_t count, uint32_t all) { return first <= all && count <= all - first; }
+/* A range of links. `left`: those that no one has yet, as shared ones would make a short file take long. */
+static int take_range(uint32_t *left, uint32_t first, uint32_t count, uint32_t all)
+{
+    const int is_range = first <= all && count <= all - first && count <= *left;
+    *left -= is_range ? count : 0;
+    return is_range;
+}
 
 static uint32_t size_of(uint32_t code) { return code & 0x8000u ? 0x10000u - code : code; }
 
@@ -106,11 +113,12 @@ static int are_links(const lmb_transfer *t, uint32_t first, uint32_t count)
 /* Parents lie before their child: one pass in order finds all light. */
 static int are_receivers(const lmb_transfer *t)
 {
+    uint32_t left = t->count[LMB_TRANSFER_LINKS];
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_RECEIVERS]; ++i) {
         const uint32_t *r = t->section[LMB_TRANSFER_RECEIVERS] + LMB_TRANSFER_RECEIVER_WORDS * (size_t)i;
         const int is_root = r[0] == LMB_TRANSFER_NONE && r[1] == LMB_TRANSFER_NONE;
         if ((!is_root && (r[0] >= i || r[1] >= i)) || !is_scale(r[4]) ||
-            !is_range(r[2], r[3], t->count[LMB_TRANSFER_LINKS]) || !are_links(t, r[2], r[3])) {
+            !take_range(&left, r[2], r[3], t->count[LMB_TRANSFER_LINKS]) || !are_links(t, r[2], r[3])) {
             return 0;
         }
     }
@@ -135,9 +143,10 @@ static int are_cluster_links(const lmb_transfer *t, uint32_t first, uint32_t cou
 
 static int are_clusters(const lmb_transfer *t)
 {
+    uint32_t left = t->count[LMB_TRANSFER_CLUSTER_LINKS];
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_CLUSTERS]; ++i) {
         const uint32_t *c = t->section[LMB_TRANSFER_CLUSTERS] + LMB_TRANSFER_CLUSTER_WORDS * (size_t)i;
-        if (!is_scale(c[2]) || !is_range(c[0], c[1], t->count[LMB_TRANSFER_CLUSTER_LINKS]) ||
+        if (!is_scale(c[2]) || !take_range(&left, c[0], c[1], t->count[LMB_TRANSFER_CLUSTER_LINKS]) ||
             !are_cluster_links(t, c[0], c[1])) {
             return 0;
         }
@@ -172,6 +181,15 @@ static uint32_t nodes_of(uint32_t elements)
     return level == elements ? nodes : 0;
 }
 
+static int are_zeros(const uint32_t *word, int count)
+{
+    uint32_t all = 0;
+    for (int i = 0; i < count; ++i) {
+        all |= word[i];
+    }
+    return all == 0;
+}
+
 /* Where sections lie. 0: the words do not add up. */
 static int lay_out(lmb_transfer *out, const uint32_t *word, uint64_t words)
 {
@@ -199,7 +217,8 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
         return LMB_ERR_ALIGN;
     }
     if (bytes < 4 * LMB_TRANSFER_HEADER_WORDS || memcmp(data, "LMT\1", 4) != 0 || word[ORDER] != OWN_ORDER ||
-        word[SIZE] != bytes || bytes % 4 != 0 || !lay_out(&t, word, bytes / 4)) {
+        word[SIZE] != bytes || bytes % 4 != 0 || !are_zeros(word + RESERVED, LMB_TRANSFER_HEADER_WORDS - RESERVED) ||
+        !lay_out(&t, word, bytes / 4)) {
         return LMB_ERR_FORMAT;
     }
     t.scene[0] = word[SCENE];

@@ -155,10 +155,11 @@ static float radiosity_of(float out[3], const lmb_transfer_light *light, float a
     return maxf(maxf(out[0], out[1]), out[2]);
 }
 
+/* Means of areas near 1e30 m2, in a damaged file, may have left binary32. */
 static void put_node(lmb_transfer_light *light, uint32_t node, const float sent[3], float per)
 {
     for (int c = 0; c < 3; ++c) {
-        light->node[node][c] = (uint16_t)(sent[c] * per + 0.5f);
+        light->node[node][c] = (uint16_t)clampf(sent[c] * per + 0.5f, 0.0f, 65535.0f);
     }
 }
 

@@ -41,8 +41,10 @@ static void add_part(const lmb_transfer_light *light, const piece_source *s, con
     light->power[element][0] += standing;
 }
 
-/* All parts below a root; the halves that wait lie in `stack`. */
-static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, uint32_t root)
+/* All parts below a root; the halves that wait lie in `stack`. `left`: how many there may be yet, over all roots: in
+ * damaged files halves may share theirs, and ways down be more than anyone can go. */
+static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, uint32_t root,
+                      uint32_t *left)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_PIECES];
     part stack[WAITING];
@@ -50,8 +52,9 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
     memset(&stack[0], 0, sizeof stack[0]);
     stack[0].b1[1] = stack[0].b2[2] = stack[0].share = 1.0f;
     stack[0].node = root;
-    while (count > 0) {
+    while (count > 0 && *left > 0) {
         part here = stack[--count];
+        --*left;
         while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count < WAITING) {
             const int from = (int)(node[here.node] >> LMB_TRANSFER_EDGE_BIT & 3u), to = from == 2 ? 0 : from + 1;
             const uint32_t first = node[here.node] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
@@ -67,10 +70,12 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
 
 lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_transfer *t, const lmb_scene *scene)
 {
-    if (light == NULL || light->albedo == NULL || t == NULL || t->section[0] == NULL || scene == NULL) {
+    if (light == NULL || light->albedo == NULL || light->power == NULL || t == NULL ||
+        t->section[0] == NULL || scene == NULL) {
         return LMB_ERR_ARG;
     }
     const uint32_t elements = t->count[LMB_TRANSFER_AREAS], all = t->count[LMB_TRANSFER_SURFACES];
+    uint32_t left = t->count[LMB_TRANSFER_PIECES];
     memset(light->albedo, 0, elements * sizeof *light->albedo);
     memset(light->power, 0, elements * sizeof *light->power);
     for (uint32_t id = 1; id <= all; ++id) {
@@ -79,7 +84,7 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
         const int exists = lmb_source_open(&s, scene, id);
         for (int back = 0; back < 2 && exists; ++back) {
             if (root[back] != LMB_TRANSFER_NONE) {
-                add_parts(light, t, &s, root[back]);
+                add_parts(light, t, &s, root[back], &left);
             }
         }
     }

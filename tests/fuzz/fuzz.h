@@ -38,6 +38,7 @@ void fuzz_obj(const uint8_t *data, size_t size);
 void fuzz_mtl(const uint8_t *data, size_t size);
 void fuzz_ply(const uint8_t *data, size_t size);
 void fuzz_lmr(const uint8_t *data, size_t size);
+void fuzz_lmt(const uint8_t *data, size_t size);
 void fuzz_cli(const uint8_t *data, size_t size);
 void fuzz_api(const uint8_t *data, size_t size);
 

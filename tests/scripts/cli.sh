@@ -528,6 +528,45 @@ status 2 relief render "$dir/pit.lmr" -o "$dir/bad.png" --shadow-map 12
 status 0 relief --help
 status 0 relief bake --help
 status 0 relief render --help
+# Baked light of the box, empty and with a block in it: as bright as by the ordinary way, and the same by any threads.
+awk '/^v/ { v[++n] = $0; print } /^f/ { f[++m] = $0; print }
+    END { for (i = 1; i <= n; ++i) { split(v[i], p, " "); print "v", 0.3 * p[2] + 0.3, 0.3 * p[3] - 0.69, 0.3 * p[4] + 0.2 }
+          for (i = 1; i <= m; ++i) { split(f[i], p, " "); print "f", p[2] + n, p[3] + n, p[4] + n, p[5] + n } }' \
+    "$dir/box.obj" >"$dir/block.obj"
+inside="--eye -0.8,0.6,-0.8 --target 0.3,-0.6,0.3 --size 64x48 --light point:0.2,0.5,0:0,-1,0:5,4,3 --show indirect"
+for room in box:256:200 block:1024:1000; do
+    name=${room%%:*} receivers=${room##*:} elements=${room#*:}
+    elements=${elements%:*}
+    for threads in 1 2; do
+        status 0 bake "$dir/$name.obj" -o "$dir/$name-$threads.lmt" --elements $elements --receivers $receivers --threads $threads
+    done
+    check "bake tells what it made" grep -q "$name-2.lmt: .* elements, .* receivers, .* MB" "$dir/out.txt"
+    check "bakes of $name by one and two threads are equal" cmp -s "$dir/$name-1.lmt" "$dir/$name-2.lmt"
+    status 0 render "$dir/$name.obj" $inside --quality draft -o "$dir/$name-draft.pfm"
+    status 0 render "$dir/$name.obj" $inside --transfer "$dir/$name-1.lmt" -o "$dir/$name-baked.pfm"
+    status 0 compare "$dir/$name-baked.pfm" "$dir/$name-draft.pfm" --max lo=0.95,hi=1.05,trim=0.06
+    status 0 render "$dir/$name.obj" $inside --transfer "$dir/$name-1.lmt" --threads 1 -o "$dir/$name-again.pfm"
+    check "baked light by any threads is equal" cmp -s "$dir/$name-baked.pfm" "$dir/$name-again.pfm"
+done
+head -c 5000 "$dir/box-1.lmt" >"$dir/cut.lmt"
+status 1 render "$dir/box.obj" $inside --transfer "$dir/cut.lmt" -o "$dir/bad.pfm"
+said "cut.lmt: no light transfer, or a damaged one"
+status 1 render "$dir/box.obj" $inside --transfer "$dir/box.obj" -o "$dir/bad.pfm"
+status 1 render "$dir/box.obj" $inside --transfer "$dir/nowhere.lmt" -o "$dir/bad.pfm"
+status 1 render "$dir/box.obj" $inside --transfer "$dir/block-1.lmt" -o "$dir/bad.pfm"
+said "block-1.lmt: baked from another scene than"
+status 1 bake "$dir/nowhere.obj" -o "$dir/bad.lmt"
+status 1 bake "$dir/box.obj" -o "$dir/nowhere/bad.lmt"
+status 2 bake
+status 2 bake "$dir/box.obj"
+said "no output given"
+for elements in 32 128 1000 512 65536; do
+    status 2 bake "$dir/box.obj" -o "$dir/bad.lmt" --elements $elements
+done
+check "nothing bad was drawn or baked" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$dir"
+status 0 bake --help
+check "bake --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' "$dir/out.txt"
+status 0 bake -V
 # One photo of a wall, 24 x 24, grey, 2 m away; and what may not be there.
 half='\000\000\000\077'
 two='\000\000\000\100'

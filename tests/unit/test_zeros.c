@@ -5,11 +5,12 @@
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
+#include "../small_transfer.h"
 #include "../sphere_relief.h"
 
 void test_zeros(void);
 
-#if LMB_TREES && LMB_PROBES && LMB_VOXELS && LMB_MIXED && LMB_RELIEF && LMB_PLAN
+#if LMB_TREES && LMB_PROBES && LMB_VOXELS && LMB_MIXED && LMB_RELIEF && LMB_PLAN && LMB_TRANSFER
 
 /* --- arguments ---------------------------------------------------------------------------------------------------- */
 
@@ -116,6 +117,10 @@ static struct {
     lmb_facts facts;
     lmb_hull hull;
     lmb_frame_settings settings;
+    lmb_transfer transfer;
+    lmb_transfer_light transfer_light;
+    uint32_t *transfer_file;
+    size_t transfer_bytes;
 } g;
 
 /* Memory for a good one; 0: frees all. */
@@ -259,6 +264,15 @@ static void make_probe(void)
     r->eye = g.render.frame.eye;
 }
 
+static void make_transfer(void)
+{
+    g.transfer_file = room(4 * SMALL_TRANSFER_WORDS(lmb_scene_triangles(demo_scene())));
+    g.transfer_bytes = small_transfer(g.transfer_file, demo_scene());
+    CHECK(lmb_transfer_open(&g.transfer, g.transfer_file, g.transfer_bytes) == LMB_OK);
+    const size_t bytes = lmb_transfer_light_bytes(&g.transfer);
+    CHECK(lmb_transfer_light_init(&g.transfer_light, &g.transfer, room(bytes), bytes) == LMB_OK);
+}
+
 static void make_facts(void)
 {
     lmb_facts *f = &g.facts;
@@ -293,6 +307,8 @@ static int good_for_call(known *out, const argument *a)
         *out = (known){"lmb_surface", &g.render.frame.eye.depth, sizeof g.render.frame.eye.depth};
     } else if (calls_for("lmb_relief_open") || calls_for("lmb_relief_swap")) {
         *out = (known){"void", relief->file.data, relief->file.size};
+    } else if (calls_for("lmb_transfer_open")) {
+        *out = (known){"void", g.transfer_file, g.transfer_bytes};
     } else {
         return 0;
     }
@@ -361,6 +377,8 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_survey", &g.survey, sizeof g.survey},
         {"lmb_target", &f->eye, sizeof f->eye},
         {"lmb_tile", &g.tile, sizeof g.tile},
+        {"lmb_transfer", &g.transfer, sizeof g.transfer},
+        {"lmb_transfer_light", &g.transfer_light, sizeof g.transfer_light},
         {"lmb_tree", &f->tree, sizeof f->tree},
         {"lmb_view", &f->view, sizeof f->view},
         {"lmb_voxel_part", &part, sizeof part},
@@ -408,6 +426,9 @@ static void set_number(argument *a)
     }
     for (int i = 0; i < COUNT(own); ++i) {
         a->whole = calls_for(own[i].call) && strcmp(a->name, own[i].name) == 0 ? own[i].value : a->whole;
+    }
+    if (calls_for("lmb_transfer_open") && strcmp(a->name, "bytes") == 0) {
+        a->whole = (int64_t)g.transfer_bytes; /* whole, not a byte more */
     }
 }
 
@@ -533,6 +554,7 @@ void test_zeros(void)
     make_voxels();
     make_probe();
     make_facts();
+    make_transfer();
     for (int i = 0; i < COUNT(calls); ++i) {
         test_call(&calls[i]);
     }

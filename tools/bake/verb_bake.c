@@ -28,12 +28,13 @@ static const option_row rows[] = {
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--error", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
-     .help = "what a receiver\'s links may be off by, as a share of all light around it (default 0.001)"},
+     .help = "what a receiver's links may be off by, as a share of all light around it (default 0.001)"},
     {.name = "--division", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
      .help = "how far light may be from linear between receivers, as such a share of a thousandth of all area "
              "(default 0.008)"},
     {.name = "--elements", .value = "N", .kind = OPTION_POWER_OF_2, AT(elements), .low = 64,
-     .high = LMB_TRANSFER_MAX_ELEMENTS, .help = "pieces of surface that send light: 256, 1024, 4096 or 16384 (default 16384); fewer bake faster"},
+     .high = LMB_TRANSFER_MAX_ELEMENTS,
+     .help = "pieces of surface that send light: 256, 1024, 4096 or 16384 (default 16384); fewer bake faster"},
     {.name = "--receivers", .value = "N", .kind = OPTION_INT, AT(receivers), .low = 64, .high = 500000,
      .help = "no triangle is halved from so many receivers on (default 12000)"},
     {.name = "--cluster", .value = "M", .kind = OPTION_ABOVE, AT(cluster), .low = 0.0, .high = 1e5,
@@ -62,7 +63,8 @@ static const option_table table = {
 static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *eyes, uint32_t eye_count, report *r)
 {
     static const char *const names[LMB_TRANSFER_SECTIONS] = {
-        "surfaces", "pieces", "areas", "divisions", "corners", "receivers", "links", "blends", "clusters", "cluster links"};
+        "surfaces",  "pieces", "areas",  "divisions", "corners",
+        "receivers", "links",  "blends", "clusters",  "cluster links"};
     bake b;
     bake_settings set;
     file_bytes file = {NULL, 0};
@@ -72,14 +74,12 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
     set.division = o->division;
     set.cluster_m = o->cluster;
     set.smallest_m = o->smallest;
-    if ((o->elements & 0x5555) == 0) {
-        return report_fail(r, "--elements %d is no power of 4; try %d", (int)o->elements, (int)o->elements / 2);
-    }
     set.elements = (uint32_t)o->elements;
     set.receivers = (uint32_t)o->receivers;
     set.threads = o->threads > 0 ? o->threads : pool_processors();
     b.is_quiet = o->is_quiet || !(o->is_verbose || host_watched());
-    int ok = bake_begin(&b, scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) && bake_clusters(&b, r) &&
+    int ok = bake_begin(&b, scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) &&
+             bake_receivers(&b, r) && bake_clusters(&b, r) &&
              bake_file(&file, &b, r) && file_write(o->out, file.data, file.size, r);
     if (ok && !o->is_quiet) {
         printf("%s: %u elements, %u receivers, %.1f links each, %u clusters, %.1f links each, %.2f MB\n", o->out,
@@ -107,6 +107,20 @@ static int bake_model(const options *o, const lmb_scene *scene, const model *m, 
     return bake_scene(o, scene, eyes, count, r);
 }
 
+static int is_complete(const options *o, report *r)
+{
+    if (o->scene == NULL) {
+        return report_fail(r, "no scene given");
+    }
+    if (o->out == NULL) {
+        return report_fail(r, "no output given; add -o FILE.lmt");
+    }
+    if ((o->elements & 0x55555555) == 0) {
+        return report_fail(r, "--elements: `%d` is not a power of four: 64, 256, 1024, 4096, 16384", (int)o->elements);
+    }
+    return 1;
+}
+
 int verb_bake(int argc, char **argv)
 {
     report r = {""};
@@ -121,7 +135,8 @@ int verb_bake(int argc, char **argv)
     o.division = 0.008f;
     o.elements = 16384;
     o.receivers = 12000;
-    const int asked = options_parse(&o, &table, argc, argv, &r);
+    int asked = options_parse(&o, &table, argc, argv, &r);
+    asked = asked == OPTIONS_RUN && !is_complete(&o, &r) ? OPTIONS_BAD : asked;
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &table, &r);
     }

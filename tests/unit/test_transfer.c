@@ -1,0 +1,614 @@
+/* test_transfer.c: baked light: a file made by hand, each kind of damage to it, and a box that is baked here. */
+#include "../world.h"
+
+#include <stdlib.h>
+
+#include "../../src/raster/target.h"
+#include "../../tools/bake/bake.h"
+#include "../small_transfer.h"
+
+void test_transfer(void);
+
+#if LMB_TRANSFER
+
+enum { SMALL_WORDS = SMALL_TRANSFER_WORDS(ROOM_TRIANGLES), MAP = 128, FRAME = 40 };
+
+static small_room room;
+static uint32_t file[SMALL_WORDS], copy[SMALL_WORDS];
+static uint32_t map_memory[MAP * MAP * 2];
+
+static int is_near(float a, float b, float by) { return absf(a - b) <= by; }
+
+/* --- light in memory of its own ----------------------------------------------------------------------------------- */
+
+typedef struct lit {
+    const lmb_transfer *t;
+    const lmb_scene *scene;
+    void *memory;
+    size_t bytes;
+    lmb_transfer_light light;
+} lit;
+
+static lit lit_by(const lmb_transfer *t, const lmb_scene *scene)
+{
+    lit l;
+    memset(&l, 0, sizeof l);
+    l.t = t;
+    l.scene = scene;
+    l.bytes = lmb_transfer_light_bytes(t);
+    l.memory = malloc(l.bytes);
+    CHECK(lmb_transfer_light_init(&l.light, t, l.memory, l.bytes) == LMB_OK);
+    CHECK(lmb_transfer_materials(&l.light, t, scene) == LMB_OK);
+    CHECK(lmb_transfer_clear(&l.light, t) == LMB_OK);
+    return l;
+}
+
+static uint32_t places(const lmb_transfer *t)
+{
+    return t->count[LMB_TRANSFER_RECEIVERS] + t->count[LMB_TRANSFER_CLUSTERS];
+}
+
+/* All light, `piece` receivers at once. */
+static void receive(lit *l, uint32_t piece)
+{
+    const uint32_t all = places(l->t);
+    CHECK(lmb_transfer_send(&l->light, l->t) == LMB_OK);
+    for (uint32_t i = 0; i < all; i += piece) {
+        CHECK(lmb_transfer_receivers(&l->light, l->t, i, all - i < piece ? all : i + piece) == LMB_OK);
+    }
+}
+
+static lmb_shadow_map draw_map(const lmb_scene *scene)
+{
+    lmb_shadow_map map;
+    CHECK(lmb_shadow_map_init(&map, &scene->lights[0], scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    CHECK(lmb_shadow_map_clear(&map) == LMB_OK && map.faces == 1);
+    CHECK(lmb_shadow_map_draw(&map, lmb_kernels_pick(), scene, 1, lmb_scene_triangles(scene), NULL) == LMB_OK);
+    return map;
+}
+
+/* The map's only face, by one in each x each texels, `rows` blocks of rows at once. */
+static void collect(lit *l, const lmb_shadow_map *map, int32_t each, int32_t rows)
+{
+    const int32_t all = MAP / each;
+    for (int32_t y = 0; y < all; y += rows) {
+        CHECK(lmb_transfer_collect(&l->light, l->t, l->scene, &l->scene->lights[0], map, 0, each, y,
+                                   all - y < rows ? all : y + rows) == LMB_OK);
+    }
+}
+
+/* --- by hand ------------------------------------------------------------------------------------------------------ */
+
+static lmb_transfer open_small(void)
+{
+    lmb_transfer t;
+    small_room_make(&room);
+    CHECK(lmb_scene_check(&room.scene) == LMB_OK);
+    CHECK(small_transfer(file, &room.scene) == sizeof file);
+    CHECK(lmb_transfer_open(&t, file, sizeof file) == LMB_OK);
+    return t;
+}
+
+static void pixel(lmb_tile *tile, int k, uint32_t id, lmb_vec3 at, lmb_vec3 normal)
+{
+    tile->id[k] = id;
+    set_plane(tile->position, k, at);
+    set_plane(tile->face, k, normal);
+    set_plane(tile->normal, k, normal);
+}
+
+static void by_hand(void)
+{
+    static lmb_tile tile;
+    static const float power[SMALL_ELEMENTS] = {8, 4, 12, 16};
+    static const float sent[SMALL_ELEMENTS] = {4, 2, 3, 2}; /* half of it by area; in all 18 W of 8 m2 */
+    const lmb_vec3 down = vec3(0, -1, 0);
+    const lmb_transfer t = open_small();
+    lit l = lit_by(&t, &room.scene);
+    lmb_irradiance out;
+    CHECK(t.nodes == SMALL_NODES && t.leaves == 3 && lmb_transfer_fits(&t, &room.scene) == LMB_OK);
+    CHECK(l.bytes == 24 * SMALL_ELEMENTS + 8 * SMALL_NODES + 12 * SMALL_RECEIVERS + 36 * SMALL_CLUSTERS);
+    for (int i = 0; i < SMALL_ELEMENTS; ++i) {
+        CHECK(is_near(l.light.albedo[i][0], 0.5f, 1e-6f) && l.light.power[i][0] == 0.0f);
+        for (int c = 0; c < 3; ++c) {
+            l.light.power[i][c] = power[i] * (c == 2 ? 0.5f : 1.0f);
+        }
+    }
+    receive(&l, 1000);
+    for (int i = 0; i < SMALL_ELEMENTS; ++i) {
+        CHECK(is_near((float)l.light.node[i][0] * l.light.step, sent[i], 1e-4f));
+        CHECK(is_near((float)l.light.node[i][2] * l.light.step, 0.5f * sent[i], 1e-4f));
+    }
+    const float mean = (4.0f + 2.0f + 2.0f * 3.0f + 4.0f * 2.0f) / 8.0f;
+    CHECK(is_near((float)l.light.node[4][0] * l.light.step, mean, 1e-4f));
+    const float want[SMALL_RECEIVERS] = {1.0f, 0.5f + 3.0f / 32.0f, 0.25f + 3.0f / 16.0f, 0.125f + 3.0f / 8.0f,
+                                         0.5f * (1.5f + 3.0f / 32.0f) - mean / 16.0f};
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        CHECK_MSG(is_near(l.light.receiver[i][0], want[i], 1e-4f), "%d: %g, not %g", i,
+                  (double)l.light.receiver[i][0], (double)want[i]);
+        CHECK(is_near(l.light.receiver[i][2], 0.5f * want[i], 1e-4f));
+    }
+    const float cluster[SMALL_CLUSTERS][3] = {{0.125f * (4 - 2), -0.25f * (4 + 2), 2.0f / 64.0f}, {0, -1.5f, 0}};
+    for (int i = 0; i < 3 * SMALL_CLUSTERS; ++i) {
+        CHECK(is_near(l.light.cluster[i / 3][i % 3], cluster[i / 3][i % 3], 1e-4f));
+    }
+    memset(&out, 0, sizeof out);
+    memset(&tile, 0, sizeof tile);
+    pixel(&tile, 0, 1, vec3(-1, 0, -1), Y);
+    pixel(&tile, 1, 1, vec3(-1, 0, 0), Y);
+    pixel(&tile, 2, 1, vec3(-1, 0, 1), Y);
+    pixel(&tile, 3, 2, vec3(1, 0, -1), Y);
+    pixel(&tile, 4, 1, vec3(-1, 0, 0.5f), Y);
+    pixel(&tile, 5, 1, vec3(-1, 0, -1), down);      /* its back receives nothing */
+    pixel(&tile, 6, 3, vec3(-1, 1, -1), down);      /* blend 0 */
+    pixel(&tile, 7, 3, vec3(1, 1, 1), down);        /* blend 1 */
+    pixel(&tile, 8, 3, vec3(-1, 1, -1), X);         /* by direction */
+    pixel(&tile, 9, 3, vec3(-1, 1, -1), Y);         /* from above: less than none, so none */
+    pixel(&tile, 10, 5, vec3(-1, 1, -1), Y);        /* no such triangle */
+    set_plane(tile.face, 8, down);
+    set_plane(tile.face, 9, down);
+    out.rgb[0][0] = 7.0f; /* it adds */
+    CHECK(lmb_transfer_tile(&out, &l.light, &t, &room.scene, &tile) == LMB_OK);
+    const float pixels[12] = {7.0f + want[0], want[4], want[1], want[3], 0.5f * (want[4] + want[1]), 0.0f, 1.5f,
+                              55.0f / 255.0f * 1.5f + 200.0f / 255.0f * 1.5f, 0.25f, 0.0f, 0.0f, 0.0f};
+    for (int k = 0; k < 12; ++k) {
+        CHECK_MSG(is_near(out.rgb[0][k], pixels[k], 1e-4f), "pixel %d: %g, not %g", k, (double)out.rgb[0][k],
+                  (double)pixels[k]);
+    }
+    free(l.memory);
+}
+
+/* --- damage ------------------------------------------------------------------------------------------------------- */
+
+static void cut_off(void)
+{
+    lmb_transfer t;
+    for (size_t n = 0; n < sizeof file; ++n) {
+        memcpy(copy, file, sizeof file);
+        CHECK(n % 4 != 0 || lmb_transfer_open(&t, copy, n) == LMB_ERR_FORMAT);
+        copy[2] = (uint32_t)n;
+        CHECK_MSG(lmb_transfer_open(&t, copy, n) == LMB_ERR_FORMAT, "%d bytes that say so", (int)n);
+    }
+}
+
+static void bad_header(void)
+{
+    static const uint32_t turned[] = {1, 0x10000000u, 0x80000000u, 0xffffffffu};
+    lmb_transfer t;
+    for (int i = 0; i < LMB_TRANSFER_HEADER_WORDS * COUNT(turned); ++i) {
+        const int word = i / COUNT(turned);
+        memcpy(copy, file, sizeof file);
+        copy[word] ^= turned[i % COUNT(turned)];
+        const lmb_status status = lmb_transfer_open(&t, copy, sizeof copy);
+        if (word == 3 || word == 4) {
+            CHECK(status == LMB_OK && lmb_transfer_fits(&t, &room.scene) == LMB_ERR_SCENE);
+        } else {
+            CHECK_MSG(status == LMB_ERR_FORMAT, "word %d by %x", word, (unsigned)turned[i % COUNT(turned)]);
+        }
+    }
+    for (int i = 0; i < SMALL_WORDS; ++i) { /* as a machine of the other byte order writes it */
+        const uint32_t w = file[i];
+        copy[i] = i == 0 ? w : w >> 24 | (w >> 8 & 0xff00u) | (w & 0xff00u) << 8 | w << 24;
+    }
+    CHECK(lmb_transfer_open(&t, copy, sizeof copy) == LMB_ERR_FORMAT);
+}
+
+static void bad_words(void)
+{
+    static const struct { int section, word; uint32_t value; const char *what; } bad[] = {
+        {LMB_TRANSFER_SURFACES, 0, 6, "no such piece"},
+        {LMB_TRANSFER_SURFACES, 15, 6, "no such division"},
+        {LMB_TRANSFER_SURFACES, 3, 0xfffffffeu, "no such division"},
+        {LMB_TRANSFER_PIECES, 0, SMALL_HALF(0, 0), "a child that is its parent"},
+        {LMB_TRANSFER_PIECES, 4, SMALL_HALF(0, 1), "a child before its parent"},
+        {LMB_TRANSFER_PIECES, 0, SMALL_HALF(0, 5), "one child past the end"},
+        {LMB_TRANSFER_PIECES, 0, SMALL_HALF(0, 6), "children past the end"},
+        {LMB_TRANSFER_PIECES, 0, SMALL_HALF(3, 4), "no such edge"},
+        {LMB_TRANSFER_PIECES, 1, SMALL_LEAF(SMALL_ELEMENTS), "no such element"},
+        {LMB_TRANSFER_AREAS, 0, 0xbf800000u, "an area under 0"},
+        {LMB_TRANSFER_AREAS, 3, 0x7f800000u, "an endless area"},
+        {LMB_TRANSFER_AREAS, 2, 0x7fc00000u, "an area that is no number"},
+        {LMB_TRANSFER_DIVISIONS, 0, SMALL_HALF(0, 0), "a child that is its parent"},
+        {LMB_TRANSFER_DIVISIONS, 5, SMALL_HALF(0, 4), "a child before its parent"},
+        {LMB_TRANSFER_DIVISIONS, 0, SMALL_HALF(3, 4), "no such edge"},
+        {LMB_TRANSFER_DIVISIONS, 1, SMALL_LEAF(5), "no such corners"},
+        {LMB_TRANSFER_CORNERS, 0, SMALL_RECEIVERS, "no such receiver"},
+        {LMB_TRANSFER_CORNERS, 9, 2, "no such blend"},
+        {LMB_TRANSFER_RECEIVERS, 20, 4, "its own parent"},
+        {LMB_TRANSFER_RECEIVERS, 21, 5, "a parent behind it"},
+        {LMB_TRANSFER_RECEIVERS, 21, LMB_TRANSFER_NONE, "one parent"},
+        {LMB_TRANSFER_RECEIVERS, 0, 0, "the first has a parent"},
+        {LMB_TRANSFER_RECEIVERS, 2, 8, "links past the end"},
+        {LMB_TRANSFER_RECEIVERS, 2, 0xffffffffu, "links past the end"},
+        {LMB_TRANSFER_RECEIVERS, 3, 0xffffffffu, "links without end"},
+        {LMB_TRANSFER_RECEIVERS, 3, 9, "the same links twice"},
+        {LMB_TRANSFER_RECEIVERS, 4, 0xbf800000u, "a scale under 0"},
+        {LMB_TRANSFER_RECEIVERS, 4, 0x7f800000u, "an endless scale"},
+        {LMB_TRANSFER_LINKS, 0, SMALL_LINK(SMALL_NODES, 1), "no such node"},
+        {LMB_TRANSFER_LINKS, 1, SMALL_LINK(2, 16384), "weights over the sum"},
+        {LMB_TRANSFER_LINKS, 1, SMALL_LINK(2, -16384), "weights over the sum"},
+        {LMB_TRANSFER_LINKS, 8, SMALL_LINK(2, -32768), "a weight over the sum"},
+        {LMB_TRANSFER_BLENDS, 0, SMALL_CLUSTERS, "no such cluster"},
+        {LMB_TRANSFER_BLENDS, 4, SMALL_CLUSTERS << 16, "no such cluster"},
+        {LMB_TRANSFER_CLUSTERS, 0, 2, "links past the end"},
+        {LMB_TRANSFER_CLUSTERS, 1, 3, "the same links twice"},
+        {LMB_TRANSFER_CLUSTERS, 2, 0x7fc00000u, "a scale that is no number"},
+        {LMB_TRANSFER_CLUSTER_LINKS, 0, SMALL_LINK(SMALL_NODES, 1), "no such node"},
+        {LMB_TRANSFER_CLUSTER_LINKS, 0, SMALL_LINK(0, 28672), "weights along x over the sum"},
+        {LMB_TRANSFER_CLUSTER_LINKS, 1, 0x9fff, "weights along y over the sum"},
+        {LMB_TRANSFER_CLUSTER_LINKS, 1, 0x7e00e000u, "weights along z over the sum"},
+    };
+    lmb_transfer good, t;
+    CHECK(lmb_transfer_open(&good, file, sizeof file) == LMB_OK);
+    for (int i = 0; i < COUNT(bad); ++i) {
+        memcpy(copy, file, sizeof file);
+        copy[good.section[bad[i].section] - file + bad[i].word] = bad[i].value;
+        CHECK_MSG(lmb_transfer_open(&t, copy, sizeof copy) == LMB_ERR_FORMAT, "section %d, word %d: %s",
+                  bad[i].section, bad[i].word, bad[i].what);
+        CHECK(t.section[0] == NULL && lmb_transfer_light_bytes(&t) == 0);
+    }
+    memcpy(copy, file, sizeof file); /* the most that is allowed */
+    copy[good.section[LMB_TRANSFER_LINKS] - file + 1] = SMALL_LINK(2, -16383);
+    CHECK(lmb_transfer_open(&t, copy, sizeof copy) == LMB_OK);
+}
+
+/* Halves that two share: no more ways are gone than there are pieces. */
+static void shared_halves(void)
+{
+    enum { LINES = 200, WORDS = SMALL_WORDS + LINES - 6 };
+    static uint32_t word[WORDS];
+    const size_t at = LMB_TRANSFER_HEADER_WORDS + 4 * ROOM_TRIANGLES;
+    lmb_transfer t;
+    memcpy(word, file, at * sizeof *word);
+    for (uint32_t i = 0; i < LINES; ++i) {
+        word[at + i] = i + 2 < LINES ? SMALL_HALF(0, i + 1) : SMALL_LEAF(0);
+    }
+    memcpy(word + at + LINES, file + at + 6, sizeof file - (at + 6) * sizeof *word);
+    word[2] = sizeof word;
+    word[7] = LINES;
+    CHECK(lmb_transfer_open(&t, word, sizeof word) == LMB_OK);
+    lit l = lit_by(&t, &room.scene); /* ends */
+    free(l.memory);
+}
+
+static void bad_arguments(void)
+{
+    static lmb_tile tile;
+    static lmb_irradiance out;
+    static const lmb_transfer none;
+    static lmb_transfer_light dark;
+    lmb_transfer t;
+    lmb_transfer_light other;
+    uint32_t own[2];
+    const lmb_transfer good = open_small();
+    const lmb_shadow_map map = draw_map(&room.scene);
+    lit l = lit_by(&good, &room.scene);
+    const lmb_scene *s = &room.scene;
+    const lmb_light *from = &room.light;
+    memcpy(copy, file, sizeof file);
+    CHECK(lmb_transfer_open(NULL, copy, sizeof copy) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_open(&t, NULL, sizeof copy) == LMB_ERR_ARG);
+    for (int i = 1; i < 4; ++i) {
+        CHECK(lmb_transfer_open(&t, (const uint8_t *)copy + i, sizeof copy - 4) == LMB_ERR_ALIGN);
+    }
+    lmb_transfer_fingerprint(NULL, s);
+    lmb_transfer_fingerprint(own, NULL);
+    CHECK(lmb_transfer_fits(NULL, s) == LMB_ERR_ARG && lmb_transfer_fits(&good, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_fits(&none, s) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_light_bytes(NULL) == 0 && lmb_transfer_light_bytes(&none) == 0);
+    CHECK(lmb_transfer_light_init(NULL, &good, l.memory, l.bytes) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_light_init(&other, NULL, l.memory, l.bytes) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_light_init(&other, &none, l.memory, l.bytes) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_light_init(&other, &good, NULL, l.bytes) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_light_init(&other, &good, (uint8_t *)l.memory + 2, l.bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_transfer_light_init(&other, &good, l.memory, l.bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_transfer_materials(NULL, &good, s) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_materials(&dark, &good, s) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_materials(&l.light, NULL, s) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_materials(&l.light, &none, s) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_materials(&l.light, &good, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_clear(NULL, &good) == LMB_ERR_ARG && lmb_transfer_clear(&dark, &good) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_clear(&l.light, NULL) == LMB_ERR_ARG && lmb_transfer_clear(&l.light, &none) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_send(NULL, &good) == LMB_ERR_ARG && lmb_transfer_send(&dark, &good) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_send(&l.light, NULL) == LMB_ERR_ARG && lmb_transfer_send(&l.light, &none) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(NULL, &good, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&dark, &good, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, NULL, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, &none, 0, 0) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, &good, 2, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, &good, 0, places(&good) + 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(NULL, &l.light, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, &dark, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, &l.light, NULL, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, &l.light, &none, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, &l.light, &good, NULL, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, &l.light, &good, s, NULL) == LMB_ERR_ARG);
+    static const struct { int32_t face, each, first, past; } bad[] = {
+        {1, 1, 0, 1}, {-1, 1, 0, 1}, {0, 0, 0, 1}, {0, -1, 0, 1}, {0, 3, 0, 1}, {0, 2 * MAP, 0, 1}, {0, 1, -1, 1},
+        {0, 1, 2, 1}, {0, 1, 0, MAP + 1}, {0, 2, 0, MAP / 2 + 1}};
+    for (int i = 0; i < COUNT(bad); ++i) {
+        CHECK_MSG(lmb_transfer_collect(&l.light, &good, s, from, &map, bad[i].face, bad[i].each, bad[i].first,
+                                       bad[i].past) == LMB_ERR_ARG, "%d", i);
+    }
+    CHECK(lmb_transfer_collect(NULL, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&dark, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, NULL, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, &none, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, &good, NULL, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, &good, s, NULL, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, &good, s, from, NULL, 0, 1, 0, 1) == LMB_ERR_ARG);
+    free(l.memory);
+}
+
+/* Where triangles are decides, not their colours or lights. */
+static void fits(void)
+{
+    const lmb_transfer t = open_small();
+    room.material.albedo[0] = 0.9f;
+    room.material.emission[1] = 3.0f;
+    room.light.position.x = 0.5f;
+    room.scene.light_count = 0;
+    CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_OK);
+    room.instance.to_world.m[0] = -0.0f; /* no place changes by a zero's sign */
+    room.instance.to_world.m[0] = 1.0f;
+    room.instance.to_world.m[1] = -0.0f;
+    CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_OK);
+    room.instance.to_world.m[3] = room.instance.to_world.m[12] = 0.001f;
+    CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_ERR_SCENE);
+    room.instance.to_world.m[3] = room.instance.to_world.m[12] = 0.0f;
+    CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_OK);
+    room.material.flags = LMB_DOUBLE_SIDED;
+    CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_ERR_SCENE);
+    room.material.flags = 0;
+    room.corners[3][2][1] += 1e-6f;
+    CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_ERR_SCENE);
+    room.corners[3][2][1] = 1.0f;
+    room.mesh.triangle_count = 3;
+    CHECK(lmb_transfer_fits(&t, &room.scene) == LMB_ERR_SCENE);
+}
+
+/* --- a box -------------------------------------------------------------------------------------------------------- */
+
+static lmb_light box_light;
+
+static void make_box(void)
+{
+    world_begin(0.7f, 0.5f, 0.3f);
+    world_box(vec3(0, 0, 0), 1.5f);
+    world_part();
+    world_box(vec3(0.4f, -1.2f, 0.2f), 0.3f);
+    box_light = spot(vec3(-0.5f, 1.2f, 0.3f), vec3(0.3f, -1, 0), 25, 40);
+    world.scene.lights = &box_light;
+    world.scene.light_count = 1;
+    CHECK(world_end() == LMB_OK);
+}
+
+static file_bytes bake_box(int threads)
+{
+    bake b;
+    bake_settings set;
+    report r = {""};
+    file_bytes out = {NULL, 0};
+    memset(&b, 0, sizeof b);
+    memset(&set, 0, sizeof set);
+    set.error = set.division = 0.01f;
+    set.elements = 256;
+    set.receivers = 200;
+    set.threads = threads;
+    b.is_quiet = 1;
+    CHECK_MSG(bake_begin(&b, &world.scene, &set, &r) && bake_elements(&b, &r) && bake_reach(&b, NULL, 0, &r) &&
+                  bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_file(&out, &b, &r), "%s", r.text);
+    bake_free(&b);
+    return out;
+}
+
+static void is_same_by(const lmb_transfer *t, const lmb_scene *scene)
+{
+    static const int32_t rows[] = {1, 5, MAP / 2};
+    static const uint32_t pieces[] = {1, 3, 64};
+    const size_t elements = t->count[LMB_TRANSFER_AREAS];
+    const lmb_shadow_map map = draw_map(scene);
+    lit whole = lit_by(t, scene), l = lit_by(t, scene);
+    collect(&whole, &map, 1, MAP);
+    for (int i = 0; i < COUNT(rows); ++i) {
+        CHECK(lmb_transfer_clear(&l.light, t) == LMB_OK);
+        collect(&l, &map, 1, rows[i]);
+        CHECK_MSG(memcmp(l.light.power, whole.light.power, elements * sizeof *l.light.power) == 0, "by %d rows",
+                  (int)rows[i]);
+    }
+    receive(&whole, 1u << 20);
+    for (int i = 0; i < COUNT(pieces); ++i) {
+        memset(l.light.receiver, 0x3c, t->count[LMB_TRANSFER_RECEIVERS] * sizeof *l.light.receiver);
+        memset(l.light.cluster, 0x3c, t->count[LMB_TRANSFER_CLUSTERS] * sizeof *l.light.cluster);
+        receive(&l, pieces[i]);
+        CHECK_MSG(memcmp(l.memory, whole.memory, l.bytes) == 0, "by %d", (int)pieces[i]);
+    }
+    free(whole.memory);
+    free(l.memory);
+}
+
+/* What texels that show a surface say in all, W. */
+static double power_of(const lmb_shadow_map *map, const lmb_light *light, int c)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < MAP * MAP; ++i) {
+        const int32_t x = i % MAP, y = i / MAP;
+        const lmb_fill_tile tile = lmb_target_tile(&map->face[0], x / LMB_TILE, y / LMB_TILE);
+        float power[3];
+        lmb_light_texel_power(power, light, map, 0, x, y);
+        sum += ((const uint32_t *)tile.id)[y % LMB_TILE * tile.id_step + x % LMB_TILE] != 0 ? (double)power[c] : 0.0;
+    }
+    return sum;
+}
+
+static double sum_of(const lit *l, int c)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < l->t->count[LMB_TRANSFER_AREAS]; ++i) {
+        sum += (double)l->light.power[i][c];
+    }
+    return sum;
+}
+
+static void keeps_power(const lmb_transfer *t, const lmb_scene *scene)
+{
+    const lmb_shadow_map map = draw_map(scene);
+    lit l = lit_by(t, scene);
+    collect(&l, &map, 1, MAP);
+    for (int c = 0; c < 3; ++c) {
+        const double want = power_of(&map, scene->lights, c), got = sum_of(&l, c);
+        CHECK_MSG(want > 0.0 && fabs(got / want - 1.0) < 1e-4, "%g W of %g", got, want);
+    }
+    const double all = sum_of(&l, 0);
+    CHECK(lmb_transfer_clear(&l.light, t) == LMB_OK && sum_of(&l, 0) == 0.0);
+    collect(&l, &map, 4, MAP); /* by a 16th of the texels: near it */
+    CHECK_MSG(fabs(sum_of(&l, 0) / all - 1.0) < 0.01, "%g W of %g", sum_of(&l, 0), all);
+    free(l.memory);
+}
+
+/* `times` as strong a light gives so much more everywhere, but for the steps in which nodes send. */
+static void is_linear(const lmb_transfer *t, const lmb_scene *scene, float times)
+{
+    const lmb_light before = scene->lights[0];
+    const lmb_shadow_map map = draw_map(scene);
+    lit once = lit_by(t, scene), more = lit_by(t, scene);
+    lmb_light strong = before;
+    float worst = 0.0f, max = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        strong.intensity[c] *= times;
+    }
+    collect(&once, &map, 1, MAP);
+    CHECK(lmb_transfer_collect(&more.light, t, scene, &strong, &map, 0, 1, 0, MAP) == LMB_OK);
+    receive(&once, 1u << 20);
+    receive(&more, 1u << 20);
+    for (uint32_t i = 0; i < 3 * t->count[LMB_TRANSFER_RECEIVERS]; ++i) {
+        const float a = once.light.receiver[i / 3][i % 3], b = more.light.receiver[i / 3][i % 3];
+        worst = maxf(worst, absf(times * a - b));
+        max = maxf(max, b);
+    }
+    CHECK_MSG(max > 0.0f && worst <= 2.0f * more.light.step, "off by %g of %g, a step is %g", (double)worst,
+              (double)max, (double)more.light.step);
+    free(once.memory);
+    free(more.memory);
+}
+
+/* --- frames ------------------------------------------------------------------------------------------------------- */
+
+static lmb_render render;
+static float picture[2][FRAME * FRAME * 3];
+
+typedef struct framed {
+    lmb_frame frame;
+    void *memory;
+} framed;
+
+static framed frame_of(const lmb_transfer *t, const lmb_scene *scene, int which)
+{
+    framed f;
+    lmb_frame_settings s;
+    memset(&s, 0, sizeof s);
+    memset(picture[which], 0x3c, sizeof picture[which]);
+    s.kernels = lmb_kernels_pick();
+    s.scene = scene;
+    s.transfer = t;
+    s.view = look(vec3(-1.2f, 0.4f, -1.2f), vec3(0.4f, -0.8f, 0.4f), 80, FRAME);
+    s.show = LMB_SHOW_INDIRECT;
+    s.shadow_map = MAP;
+    CHECK(lmb_surface_init(&s.out, LMB_RGB32F, FRAME, FRAME, picture[which], sizeof picture[which]) == LMB_OK);
+    const size_t bytes = lmb_frame_bytes(&s);
+    f.memory = malloc(bytes);
+    CHECK(bytes > 0 && lmb_frame_init(&f.frame, &s, f.memory, bytes) == LMB_OK);
+    return f;
+}
+
+static int is_same_picture(void) { return memcmp(picture[0], picture[1], sizeof picture[0]) == 0; }
+
+static void draws_frames(const lmb_transfer *t, const lmb_scene *scene)
+{
+    static const int32_t units[] = {1, 3, 1000000};
+    framed f = frame_of(t, scene, 0);
+    double sum = 0.0;
+    CHECK(lmb_render_frame(&render, &f.frame) == LMB_OK);
+    for (int i = 0; i < FRAME * FRAME * 3; ++i) {
+        CHECK(picture[0][i] >= 0.0f || !"a pixel under 0");
+        sum += (double)picture[0][i];
+    }
+    CHECK(sum > 0.0);
+    free(f.memory);
+    for (int i = 0; i < COUNT(units); ++i) {
+        f = frame_of(t, scene, 1);
+        lmb_status status = lmb_render_begin(&render, &f.frame);
+        CHECK(status == LMB_OK);
+        while ((status = lmb_render_step(&render, units[i])) == LMB_MORE) {
+        }
+        CHECK_MSG(status == LMB_OK && is_same_picture(), "steps of %d", (int)units[i]);
+        free(f.memory);
+    }
+    f = frame_of(t, scene, 1);
+    CHECK(lmb_render_begin(&render, &f.frame) == LMB_OK);
+    while (render.stage < LMB_STAGE_BANDS && lmb_render_step(&render, 7) == LMB_MORE) {
+    }
+    CHECK(render.stage == LMB_STAGE_BANDS);
+    for (int32_t band = FRAME / LMB_TILE - 1; band >= 0; --band) {
+        CHECK(lmb_render_band(&render, render.frame.scratch, &render.frame.eye, &render.frame.out, band) == LMB_OK);
+    }
+    CHECK(is_same_picture());
+    free(f.memory);
+}
+
+/* Other colours without another file. */
+static void takes_materials(const lmb_transfer *t)
+{
+    lit l = lit_by(t, &world.scene);
+    CHECK(is_near(l.light.albedo[0][0], 0.7f, 1e-5f) && is_near(l.light.albedo[0][2], 0.3f, 1e-5f));
+    world.material[0].albedo[0] = world.material[1].albedo[0] = 0.1f;
+    CHECK(lmb_transfer_fits(t, &world.scene) == LMB_OK);
+    CHECK(lmb_transfer_materials(&l.light, t, &world.scene) == LMB_OK);
+    CHECK(is_near(l.light.albedo[0][0], 0.1f, 1e-5f) && l.light.power[0][0] == 0.0f);
+    world.material[0].albedo[0] = world.material[1].albedo[0] = 0.7f;
+    free(l.memory);
+}
+
+static void test_box(void)
+{
+    lmb_transfer t;
+    make_box();
+    file_bytes one = bake_box(1), two = bake_box(2);
+    CHECK(one.size == two.size && one.size > 0 && memcmp(one.data, two.data, one.size) == 0);
+    CHECK(lmb_transfer_open(&t, one.data, one.size) == LMB_OK);
+    CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
+    CHECK(t.count[LMB_TRANSFER_AREAS] == 256 && t.count[LMB_TRANSFER_RECEIVERS] > 100);
+    is_same_by(&t, &world.scene);
+    keeps_power(&t, &world.scene);
+    is_linear(&t, &world.scene, 2.0f);
+    is_linear(&t, &world.scene, 3.7f);
+    draws_frames(&t, &world.scene);
+    takes_materials(&t);
+    world.instance[1].to_world.m[3] = world.instance[1].to_world.m[12] = 0.1f;
+    CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_ERR_SCENE);
+    file_free(&one);
+    file_free(&two);
+}
+
+void test_transfer(void)
+{
+    const lmb_transfer t = open_small();
+    by_hand();
+    cut_off();
+    bad_header();
+    bad_words();
+    shared_halves();
+    bad_arguments();
+    is_same_by(&t, &room.scene);
+    keeps_power(&t, &room.scene);
+    is_linear(&t, &room.scene, 3.7f);
+    fits();
+    test_box();
+}
+
+#else
+
+void test_transfer(void) {}
+
+#endif
