@@ -37,7 +37,8 @@
 #define lmb_transfer_collect(...)   never(lmb_transfer_collect(__VA_ARGS__))
 #define lmb_transfer_send(...)      never(lmb_transfer_send(__VA_ARGS__))
 #define lmb_transfer_receivers(...) never(lmb_transfer_receivers(__VA_ARGS__))
-#define lmb_transfer_tile(...)      never(lmb_transfer_tile(__VA_ARGS__))
+#undef lmb_transfer_tile
+#define lmb_transfer_tile(...)      never(LMB_LAYOUT(lmb_transfer_tile)(__VA_ARGS__))
 #endif
 
 #define UNIT_TRIANGLES 1024u /* of a draw, for one unit of a step's work */

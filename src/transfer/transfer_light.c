@@ -148,6 +148,7 @@ static float area_of(const lmb_transfer *t, uint32_t element)
 /* What an element sends, W/m2; returns the largest of R, G, B. */
 static float radiosity_of(float out[3], const lmb_transfer_light *light, float area, uint32_t element)
 {
+    out[0] = out[1] = out[2] = 0.0f;
     for (int c = 0; c < 3; ++c) {
         out[c] = area > 0.0f ? light->albedo[element][c] * (light->power[element][c] / area) : 0.0f;
         out[c] = out[c] < 1e30f ? out[c] : 0.0f;
