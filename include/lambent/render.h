@@ -73,8 +73,8 @@ typedef struct lmb_frame {
     lmb_grouping grouping; /* zeros: defaults */
     int32_t occlusion;     /* LMB_OCCLUSION_* */
     int32_t steps;         /* 12 where 0: samples of a VIEW occlusion segment */
-    float error;           /* 0.02 where 0, by LMB_MANY_LIGHTS_EVEN lights 0.1: LMB_GROUP_CUT: lmb_cut_params's */
-    float visibility; /* 0.015 where 0, by LMB_MANY_LIGHTS_EVEN lights 0.2: LMB_OCCLUSION_EXACT: lmb_cut_params's */
+    float error;           /* of LMB_GROUP_CUT: lmb_cut_params.error. 0: 0.02, by LMB_MANY_LIGHTS_EVEN lights 0.1 */
+    float visibility;      /* of LMB_OCCLUSION_EXACT: lmb_cut_params.visibility. 0: 0.015, by such lights 0.2 */
     int32_t conservative;  /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cut_params's */
     float many_lights_error; /* 0.02 where 0: lmb_many_lights_query's */
     int32_t bounces;       /* 1 .. 64, 1 where 0: how often light is reflected before the surface that is seen;
@@ -129,7 +129,8 @@ typedef struct lmb_frame_settings {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
     const lmb_scene *scene; /* checked, with its lights; stays where it is */
     const lmb_many_lights *many_lights;   /* built; NULL: none. Its memory is its own */
-    const lmb_transfer *transfer;         /* opened, and baked from the scene; NULL: none. Its memory is its own */
+    const lmb_transfer *transfer;         /* opened, and baked from the scene, which lmb_transfer_fits checks and no
+                                             frame does; NULL: none. Its memory is its own */
     lmb_view view;          /* lmb_view_look_at makes one; its frame 1 .. LMB_MAX_SIDE px a side */
     lmb_surface out;        /* the caller's picture; data NULL: one in the block, at frame.out */
     int32_t format;         /* of one in the block: LMB_RGBA8 where 0 */
@@ -235,7 +236,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
- * A unit is 1,024 triangles of a draw, a row of shadow-map tiles or 64 elements of one bounce. A band counts as 8 (and
+ * A unit is 1,024 triangles of a draw, a row of shadow-map tiles, or 64 elements or receivers of one bounce. A band counts as 8 (and
  * draws the whole scene into its rows where the eye is band-sized). The discs of one face, the grouping, the BVH and
  * building the elements cannot be divided: each is one unit.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */

@@ -1,17 +1,19 @@
 /* transfer.h: bounced light of scenes that do not move, from a file that was baked once (`lambent bake`): lights and
- * cameras are free, and a frame's bounced light costs less than its direct light. Experimental.
+ * cameras may move. Bounced light then takes about 1.5 times the instructions of direct light. Experimental.
  *
  * The file holds, of all surfaces: *elements*, pieces that send light; *receivers*, points that receive it; and
  * *links*, which say how much of what a node of elements sends arrives at a receiver. Visibility is in the links, so
- * no frame tests it again. Albedo is not, so materials may change. Light goes through three steps:
+ * no frame tests it again. Albedo is not, so materials may change. Light goes through four steps:
  *
- *     lmb_transfer_collect(..)   what the texels of shadow maps hold, to the elements
- *     lmb_transfer_receive(..)   from the elements' nodes, by the links, to the receivers
- *     lmb_transfer_tile(..)      from the receivers to a tile's pixels
+ *     lmb_transfer_collect(..)    from the texels of shadow maps to the elements
+ *     lmb_transfer_send(..)       from what elements receive to what they and their nodes send
+ *     lmb_transfer_receivers(..)  from the nodes, by the links, to the receivers
+ *     lmb_transfer_tile(..)       from the receivers to a tile's pixels
  *
- * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each; a pixel takes
- * the mean of three, by its place among them. Small triangles take theirs from clusters of a mesh, which keep light by
- * direction. A receiver between two others holds only what differs from their mean.
+ * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each. A pixel
+ * interpolates the three receivers of its triangle by barycentric weights. The receiver in the middle of an edge stores
+ * its difference from the mean of the edge's two ends. Small triangles of meshes take their light from clusters, which
+ * keep it by direction.
  *
  * The sums over links are of integers, so they are the same in any order and width. */
 #ifndef LMB_TRANSFER_H
@@ -43,12 +45,14 @@ enum {
     LMB_TRANSFER_BLEND_WORDS = 3,
     LMB_TRANSFER_CLUSTER_WORDS = 3, /* first link, number of links, scale */
     LMB_TRANSFER_CLUSTER_LINK_WORDS = 2,
-    LMB_TRANSFER_MAX_ELEMENTS = 16384
+    LMB_TRANSFER_MAX_ELEMENTS = 16384,
+    LMB_TRANSFER_MAX_CLUSTERS = 65536,
+    LMB_TRANSFER_MAX_HALVINGS = 40 /* of a triangle; what lies deeper is not lit */
 };
 #define LMB_TRANSFER_NONE      0xffffffffu
 #define LMB_TRANSFER_LEAF      0x80000000u /* of a halving: the rest is an element, or the place of three corners */
 #define LMB_TRANSFER_EDGE_BIT  29          /* of others, bits 29 and 30: the edge that is halved; below: its halves */
-#define LMB_TRANSFER_MAX_SUM   32767       /* of the sizes of a receiver's weights, one axis of a cluster's too */
+#define LMB_TRANSFER_MAX_SUM   32767       /* of the absolute weights of a receiver, or of an axis of a cluster */
 
 /* A file in place, checked by lmb_transfer_open. */
 typedef struct lmb_transfer {
@@ -84,7 +88,7 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes);
 void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene);
 lmb_status lmb_transfer_fits(const lmb_transfer *transfer, const lmb_scene *scene);
 
-/* lmb_transfer_light_bytes: memory of the light: 32 bytes an element, 12 a receiver, 36 a cluster. 0: null.
+/* lmb_transfer_light_bytes: memory of the light: about 35 bytes an element, 12 a receiver, 36 a cluster. 0: null.
  * lmb_transfer_light_init: lay it out. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 size_t lmb_transfer_light_bytes(const lmb_transfer *transfer);
 lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *transfer, void *memory, size_t bytes);
@@ -99,7 +103,7 @@ lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *tra
 
 /* lmb_transfer_collect: add the power of one face of a shadow map to the elements that it shows: of one in each
  * `each` x `each` texels, which stands for all of them. Rows first .. past - 1 of such blocks; in order, because sums
- * are of binary32. About 10,000 blocks a light are enough.
+ * are of binary32. Use about 256 x 256 blocks for a light with one face.
  * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene,
                                 const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,

@@ -124,7 +124,7 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face);
  * light of all nodes. A node's error is the upper bound U of its light times the second order of its size and bend:
  * U min(1, R^2 / 2 d^2 + sin^2 a), and at least a quarter of U where a horizon goes through the node. Where LMB_MAX_CUT
  * nodes are not enough, each half of the pixels takes a cut of its own, as long as that reduces the error; else the
- * pixels are lit by the nodes there are, and stats->full_cuts counts them. Visibility is tested from every pixel
+ * pixels are lit by the nodes there are, and stats->full_cuts counts such clusters. Visibility is tested from every pixel
  * towards one texel of each node, which faces the pixels. Texels near a pixel count as their exact quads.
  * Returns LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_gather_cut(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_cut *scratch, const lmb_tile *tile,

@@ -79,7 +79,7 @@ typedef enum lmb_format {
  * the step from one row of tiles to the next. */
 enum { LMB_LINEAR = 0, LMB_TILED = 1 };
 
-/* A caller's pixels. The library never stores a pointer from one struct into another. */
+/* A caller's pixels. The library owns no memory: lmb_frame and lmb_render keep the caller's pointers. */
 typedef struct lmb_surface {
     void *data;           /* first row (LINEAR), first tile (TILED); NULL: no surface */
     int32_t width, height; /* px, <= LMB_MAX_SIDE */

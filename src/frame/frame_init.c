@@ -67,6 +67,9 @@ static lmb_status check(const lmb_frame_settings *s)
         (s->by_bands && s->threads > 1)) {
         return LMB_ERR_ARG;
     }
+    if (!LMB_TRANSFER && s->transfer != NULL) {
+        return LMB_ERR_ARG;
+    }
     if (is_fixed(s) && (s->bounces > 1 || s->grouping.method == LMB_GROUP_CUT)) {
         return LMB_ERR_ARG;
     }
@@ -234,7 +237,8 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block
     const int by_tree = bounces && !is_fixed(s);
 #if LMB_TRANSFER
     if (s->transfer != NULL) {
-        return s->show != LMB_SHOW_DIRECT ? place_transfer(f, b) : LMB_OK;
+        const lmb_status placed = s->show != LMB_SHOW_DIRECT ? place_transfer(f, b) : LMB_OK;
+        return placed == LMB_OK && f->many_lights != NULL ? place_bvh(f, b) : placed;
     }
 #endif
     lmb_status status = bounces && is_fixed(s) ? place_groups(f, s, b) : LMB_OK;

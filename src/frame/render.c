@@ -124,6 +124,12 @@ float lmb_render_progress(const char **name, const lmb_render *r)
         done = (float)r->light / lights;
         break;
     case LMB_STAGE_BOUNCES:
+        if (requires_transfer(&r->frame)) {
+            const uint32_t *count = r->frame.transfer->count;
+            done = (float)r->progress /
+                   maxf((float)count[LMB_TRANSFER_RECEIVERS] + (float)count[LMB_TRANSFER_CLUSTERS], 1.0f);
+            break;
+        }
         done = ((float)r->light + (float)r->progress / maxf((float)lmb_elements_tiles(&r->frame.elements), 1.0f)) /
                maxf((float)radiosity_bounces(r), 1.0f);
         break;

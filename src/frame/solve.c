@@ -87,12 +87,12 @@ static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
 static lmb_status step_points(lmb_render *r, int32_t units)
 {
     lmb_frame *f = &r->frame;
+    if (requires_transfer(f) && r->light + r->face + r->progress == 0) {
+        (void)lmb_transfer_clear(&f->transfer_light, f->transfer);
+    }
     if (!requires_bounce(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) ||
         r->light == f->scene->light_count) {
         return LMB_OK;
-    }
-    if (requires_transfer(f) && r->light + r->face + r->progress == 0) {
-        (void)lmb_transfer_clear(&f->transfer_light, f->transfer);
     }
     if (light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
         f->tree.faces += requires_cut(f) ? faces_that_bounce(r, r->light) : 0;

@@ -54,6 +54,9 @@ lmb_status lmb_render_check(const lmb_frame *f)
         !(f->error > 0.0f) || !(f->visibility > 0.0f)) {
         return LMB_ERR_ARG;
     }
+    if (!LMB_TRANSFER && f->transfer != NULL) {
+        return LMB_ERR_ARG;
+    }
     if (!LMB_TREES && (f->grouping.method == LMB_GROUP_CUT || f->many_lights != NULL)) {
         return LMB_ERR_ARG;
     }

@@ -56,14 +56,15 @@ static inline uint32_t halving_enter(float w[3], uint32_t node)
     return first + 1;
 }
 
-/* What the leaf says that holds the weights, which become those of its own corners. */
+/* What the leaf says that holds the weights, which become those of its own corners. LMB_TRANSFER_NONE: it lies deeper
+ * than any baked one. */
 static inline uint32_t halvings_find(const uint32_t *node, uint32_t root, float w[3])
 {
     uint32_t at = root;
-    while ((node[at] & LMB_TRANSFER_LEAF) == 0) {
+    for (int i = 0; i < LMB_TRANSFER_MAX_HALVINGS && (node[at] & LMB_TRANSFER_LEAF) == 0; ++i) {
         at = halving_enter(w, node[at]);
     }
-    return node[at] & ~LMB_TRANSFER_LEAF;
+    return (node[at] & LMB_TRANSFER_LEAF) != 0 ? node[at] & ~LMB_TRANSFER_LEAF : LMB_TRANSFER_NONE;
 }
 
 #endif

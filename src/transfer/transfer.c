@@ -225,7 +225,8 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
     t.scene[1] = word[SCENE + 1];
     t.leaves = word[LEAVES];
     t.nodes = nodes_of(t.count[LMB_TRANSFER_AREAS]);
-    if (t.nodes == 0 || !are_surfaces(&t) || !are_areas(&t) || !are_corners(&t) || !are_receivers(&t) ||
+    if (t.nodes == 0 || t.count[LMB_TRANSFER_CLUSTERS] > LMB_TRANSFER_MAX_CLUSTERS || !are_surfaces(&t) ||
+        !are_areas(&t) || !are_corners(&t) || !are_receivers(&t) ||
         !are_clusters(&t) || !are_blends(&t) ||
         !are_halvings(t.section[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_AREAS]) ||
         !are_halvings(t.section[LMB_TRANSFER_DIVISIONS], t.count[LMB_TRANSFER_DIVISIONS],
@@ -273,7 +274,8 @@ void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene)
             hash = hash_float(hash, t.corner[k].y);
             hash = hash_float(hash, t.corner[k].z);
         }
-        hash = hash_word(hash, t.material->flags & (LMB_DOUBLE_SIDED | LMB_ALPHA_MASK));
+        hash = hash_word(hash, (t.material->flags & (LMB_DOUBLE_SIDED | LMB_ALPHA_MASK)) |
+                                   (uint32_t)is_mirrored(&t.instance->to_world) << 31);
     }
     out[0] = (uint32_t)(hash & 0xffffffffu);
     out[1] = (uint32_t)(hash >> 32);

@@ -7,7 +7,7 @@
 
 #if LMB_TRANSFER
 
-enum { WAITING = 48 }; /* second halves on the way down: files have at most 40 halvings one in the other */
+enum { WAITING = LMB_TRANSFER_MAX_HALVINGS + 1 }; /* second halves on the way down */
 
 /* A part of a triangle: its corners' barycentrics, and its share of the area. */
 typedef struct part {

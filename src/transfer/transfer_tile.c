@@ -49,15 +49,15 @@ static void set_corners(here *h, uint32_t place)
     }
 }
 
-/* Down to the leaf that holds pixel k, with the matrix of all halvings on the way. */
-static void enter_leaf(here *h, int k)
+/* Down to the leaf that holds pixel k, with the matrix of all halvings on the way. 0 where it lies too deep. */
+static int enter_leaf(here *h, int k)
 {
     const uint32_t *node = h->transfer->section[LMB_TRANSFER_DIVISIONS];
     float w[3] = {1.0f - h->b1[k] - h->b2[k], h->b1[k], h->b2[k]};
     uint32_t at = h->root;
     memset(h->to_leaf, 0, sizeof h->to_leaf);
     h->to_leaf[0][0] = h->to_leaf[1][1] = h->to_leaf[2][2] = 1.0f;
-    while ((node[at] & LMB_TRANSFER_LEAF) == 0) {
+    for (int i = 0; i < LMB_TRANSFER_MAX_HALVINGS && (node[at] & LMB_TRANSFER_LEAF) == 0; ++i) {
         const int from = (int)(node[at] >> LMB_TRANSFER_EDGE_BIT & 3u), to = from == 2 ? 0 : from + 1;
         const int keeps = w[from] >= w[to] ? from : to, moves = keeps == from ? to : from;
         for (int c = 0; c < 3; ++c) {
@@ -66,7 +66,11 @@ static void enter_leaf(here *h, int k)
         }
         at = halving_enter(w, node[at]);
     }
+    if ((node[at] & LMB_TRANSFER_LEAF) == 0) {
+        return 0;
+    }
     set_corners(h, node[at] & ~LMB_TRANSFER_LEAF);
+    return 1;
 }
 
 /* --- pixels ------------------------------------------------------------------------------------------------------- */
@@ -174,9 +178,11 @@ static void light_triangle(lmb_irradiance *inout, here *h, uint64_t pixels)
     set_weights(h);
     while (pixels != 0) {
         const int first = lowest_bit_64(pixels);
-        enter_leaf(h, first);
-        const uint64_t own = (on_leaf(h) & pixels) | (uint64_t)1 << first;
-        (h->is_mesh ? light_mesh : light_flat)(inout, h, own);
+        uint64_t own = (uint64_t)1 << first;
+        if (enter_leaf(h, first)) {
+            own |= on_leaf(h) & pixels;
+            (h->is_mesh ? light_mesh : light_flat)(inout, h, own);
+        }
         pixels &= ~own;
     }
 }

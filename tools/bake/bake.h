@@ -117,6 +117,9 @@ int bake_clusters(bake *b, report *r);
 /* bake_key: the side of space that a normal faces, then the place along a Z curve: neighbours have near keys. */
 uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal);
 
+/* bake_cell: the cell of a grid, `per` a metre, within +-1e9. */
+int32_t bake_cell(float at, float per);
+
 int bake_is_small(const bake *b, const lmb_vec3 corner[3]);
 
 int bake_file(file_bytes *out, const bake *b, report *r);

@@ -38,9 +38,9 @@ static uint32_t hash_of(const int32_t cell[3])
 static void cell_of(int32_t cell[3], const bake *b, lmb_vec3 p)
 {
     const float per = 1.0f / b->set.cluster_m;
-    cell[0] = (int32_t)floorf(p.x * per);
-    cell[1] = (int32_t)floorf(p.y * per);
-    cell[2] = (int32_t)floorf(p.z * per);
+    cell[0] = bake_cell(p.x, per);
+    cell[1] = bake_cell(p.y, per);
+    cell[2] = bake_cell(p.z, per);
 }
 
 static int add_cluster(clusters *c, lmb_vec3 at, lmb_vec3 normal)
@@ -63,7 +63,7 @@ static int add_cluster(clusters *c, lmb_vec3 at, lmb_vec3 normal)
         c->data = data;
         c->cap = cap;
     }
-    if (c->count == 65536) {
+    if (c->count == LMB_TRANSFER_MAX_CLUSTERS) {
         return report_fail(c->r, "over 65,536 clusters of small triangles: a larger --cluster");
     }
     cluster *k = &c->data[c->count++];

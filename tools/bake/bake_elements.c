@@ -51,6 +51,8 @@ static float longest_edge(int *from, const lmb_vec3 corner[3])
     return sqrtf(longest);
 }
 
+int32_t bake_cell(float at, float per) { return (int32_t)clampf(floorf(at * per), -1e9f, 1e9f); }
+
 int bake_is_small(const bake *b, const lmb_vec3 corner[3])
 {
     int from;
@@ -163,7 +165,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 /* Means by area: middle and normal hold sums times area until all are there. */
 static void join(bake_element *e, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
-    const float area = triangle_area(corner), share = area / (e->area + area);
+    const float area = triangle_area(corner), share = area > 0.0f ? area / (e->area + area) : 0.0f;
     const lmb_vec3 middle = middle_of(corner);
     const lmb_vec3 mean = add3(mul3(mul3(e->normal, e->facing), 1.0f - share), mul3(normal, share));
     e->middle = add3(e->middle, mul3(sub3(middle, e->middle), share));

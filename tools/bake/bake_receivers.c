@@ -32,6 +32,7 @@ typedef struct wanted {
     uint32_t parent[3], receiver; /* receiver NONE: looked at: what differs from the mean of three parents */
     size_t piece;
     uint32_t key; /* place along a Z curve, by the side it faces */
+    size_t number;
 } wanted;
 
 typedef struct divider {
@@ -97,9 +98,8 @@ static int is_there(const bake *b, const bake_receiver *v, lmb_vec3 at, lmb_vec3
 static uint32_t hash_of(const bake *b, lmb_vec3 at, int dx, int dy, int dz)
 {
     const float per = 1.0f / b->set.smallest_m;
-    const uint32_t x = (uint32_t)(int32_t)floorf(at.x * per) + (uint32_t)dx,
-                   y = (uint32_t)(int32_t)floorf(at.y * per) + (uint32_t)dy,
-                   z = (uint32_t)(int32_t)floorf(at.z * per) + (uint32_t)dz;
+    const uint32_t x = (uint32_t)bake_cell(at.x, per) + (uint32_t)dx, y = (uint32_t)bake_cell(at.y, per) + (uint32_t)dy,
+                   z = (uint32_t)bake_cell(at.z, per) + (uint32_t)dz;
     uint32_t h = x * 73856093u ^ y * 19349663u ^ z * 83492791u;
     return h ^ h >> 15;
 }
@@ -124,7 +124,7 @@ static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 n
 {
     bake *k = d->b;
     size_t cap = k->receiver_cap;
-    const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1, 0};
+    const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1, 0, 0};
     if (k->receiver_count >= d->mask / 2 ||
         !grow((void **)&k->receiver, &cap, k->receiver_count, sizeof *k->receiver, d->r) || !enqueue(d, &w)) {
         report_fail(d->r, "too many receivers: %u", (unsigned)k->receiver_count);
@@ -260,7 +260,7 @@ static int by_key(const void *a, const void *b)
     if (x->key != y->key) {
         return x->key < y->key ? -1 : 1;
     }
-    return x->receiver != y->receiver ? (x->receiver < y->receiver ? -1 : 1) : x->piece < y->piece ? -1 : 1;
+    return x->number < y->number ? -1 : x->number > y->number;
 }
 
 /* Everything in the queue. Neighbours go together: they see the same things. */
@@ -268,6 +268,7 @@ static int make_rows(divider *d)
 {
     for (size_t i = 0; i < d->queued; ++i) {
         d->queue[i].key = bake_key(d->b->scene, d->queue[i].at, d->queue[i].normal);
+        d->queue[i].number = i;
     }
     qsort(d->queue, d->queued, sizeof *d->queue, by_key);
     const uint32_t n = d->b->set.elements;
@@ -330,14 +331,14 @@ static int look_at(divider *d, size_t i)
     if (d->queued > before) {
         d->queue[before].piece = i;
     } else if (p->mid != LMB_TRANSFER_NONE) { /* a neighbour's: looked at once more */
+        const uint32_t a = p->receiver[p->from], b = p->receiver[to];
         const wanted w = {
-            d->b->receiver[p->mid].at, p->normal, {p->receiver[p->from], p->receiver[to], LMB_TRANSFER_NONE},
-            LMB_TRANSFER_NONE,         i,         0};
+            d->b->receiver[p->mid].at, p->normal, {a, b, LMB_TRANSFER_NONE}, LMB_TRANSFER_NONE, i, 0, 0};
         if (!enqueue(d, &w)) {
             return 0;
         }
     }
-    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0};
+    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0, 0};
     return p->mid != LMB_TRANSFER_NONE && enqueue(d, &w);
 }
 
@@ -483,6 +484,11 @@ static int add_roots(divider *d)
     }
     for (size_t i = 0; i < d->queued; ++i) {
         d->queue[i].piece = (size_t)-1;
+    }
+    if (b->receiver_count > b->set.receivers) {
+        return report_fail(d->r, "%u receivers are wanted before any division, and --receivers allows %u; raise it, or "
+                           "light more triangles by clusters with a larger --cluster",
+                           (unsigned)b->receiver_count, (unsigned)b->set.receivers);
     }
     return make_rows(d);
 }

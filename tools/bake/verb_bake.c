@@ -52,8 +52,8 @@ static const option_table table = {
     .verb = "bake",
     .usage = "bake SCENE -o OUT.lmt [options]",
     .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds light "
-             "that is reflected once for less than what direct light takes, wherever lights and camera are. Colours "
-             "may change, too. What moves, emits light or is glossy, and further reflections, are not in it.\n"
+             "that is reflected once, many times faster than without, wherever lights and camera are. Colours may "
+             "change, too. What moves, emits light or is glossy, and further reflections, are not in it.\n"
              "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"

@@ -133,7 +133,8 @@ static uint32_t most_mapped(const render_job *j)
     const int bounces =
         j->o.show == LMB_SHOW_FULL || j->o.show == LMB_SHOW_INDIRECT || j->o.show == LMB_SHOW_IRRADIANCE;
     const int mirrors = j->o.glossy && lmb_scene_is_glossy(&j->scene);
-    return bounces && !mirrors && j->o.grouping.method == LMB_GROUP_CUT ? MAX_MAPPED : LMB_MAX_LIGHTS;
+    const int by_cuts = j->o.transfer == NULL && j->o.grouping.method == LMB_GROUP_CUT;
+    return bounces && !mirrors && by_cuts ? MAX_MAPPED : LMB_MAX_LIGHTS;
 }
 
 /* Lights that are too many for maps, or that were asked to, go into a tree. */
@@ -142,6 +143,10 @@ static int set_light_stream(render_job *j, report *r)
     const uint32_t cells = j->o.many_lights_cells > 0 ? (uint32_t)j->o.many_lights_cells : LIGHT_STREAM_CELLS;
     if (j->o.many_lights_cells == 0 && j->scene.light_count <= most_mapped(j)) {
         return 1;
+    }
+    if (j->o.transfer != NULL) {
+        return report_fail(r, "--transfer: the light of %u lights in a tree does not bounce by it; use at most %d, or "
+                              "none of --many-lights", (unsigned)j->scene.light_count, LMB_MAX_LIGHTS);
     }
     if (j->o.show != LMB_SHOW_DIRECT && j->o.grouping.method != LMB_GROUP_CUT) {
         return report_fail(r, "%s: %u lights bounce by --grouping cut only; or use --show direct", j->o.scene,
