@@ -86,6 +86,9 @@ static int by_place(const void *a, const void *b)
 /* Neighbours side by side, because they see the same things; then the slots again. */
 static void put_in_order(clusters *c)
 {
+    if (c->count == 0) {
+        return;
+    }
     for (size_t i = 0; i < c->count; ++i) {
         c->data[i].key = bake_key(c->b->scene, c->data[i].at, c->data[i].normal);
         c->data[i].next = (uint32_t)i;

@@ -63,6 +63,14 @@ static int grow(void **data, size_t *cap, size_t count, size_t each, report *r)
     return 1;
 }
 
+/* qsort takes no empty list without memory. */
+static void sort(void *data, size_t count, size_t each, int (*compare)(const void *, const void *))
+{
+    if (count > 0) {
+        qsort(data, count, each, compare);
+    }
+}
+
 static int add_piece(pieces *list, const piece *p, report *r)
 {
     if (!grow((void **)&list->data, &list->cap, list->count, sizeof *list->data, r)) {
@@ -270,7 +278,7 @@ static int make_rows(divider *d)
         d->queue[i].key = bake_key(d->b->scene, d->queue[i].at, d->queue[i].normal);
         d->queue[i].number = i;
     }
-    qsort(d->queue, d->queued, sizeof *d->queue, by_key);
+    sort(d->queue, d->queued, sizeof *d->queue, by_key);
     const uint32_t n = d->b->set.elements;
     float *memory = malloc(BATCH * (size_t)n * sizeof *memory), *row[BATCH];
     lmb_vec3 at[BATCH], normal[BATCH];
@@ -403,7 +411,7 @@ static int by_place(const void *a, const void *b)
 /* Look at the pieces at hand; those that can be halved wait with their errors, the others are leaves. */
 static int look_at_all(divider *d)
 {
-    qsort(d->now.data, d->now.count, sizeof *d->now.data, by_place);
+    sort(d->now.data, d->now.count, sizeof *d->now.data, by_place);
     for (size_t i = 0; i < d->now.count; ++i) {
         if (!look_at(d, i)) {
             return 0;
@@ -428,7 +436,7 @@ static int halve_worst(divider *d)
 {
     const float enough = d->b->set.division * d->b->set.division;
     const size_t limit = d->waiting.count / 4 + ROUND;
-    qsort(d->waiting.data, d->waiting.count, sizeof *d->waiting.data, by_error);
+    sort(d->waiting.data, d->waiting.count, sizeof *d->waiting.data, by_error);
     for (size_t i = 0; i < limit && d->waiting.count > 0 && d->b->receiver_count < d->b->set.receivers; ++i) {
         const piece p = d->waiting.data[d->waiting.count - 1];
         if (p.error <= enough) {
