@@ -17,7 +17,6 @@
 enum {
     HALVINGS = 32, /* of a triangle, the longest edge each time: 2^31 pieces of about one size, and 2^24 are the most */
     CELLS = 1 << 20,
-    Z_BITS = 9,
     MAX_PIECES = 64 /* an element: so that pieces too thin to have an area, or all hole, come to an end too */
 };
 
@@ -133,18 +132,8 @@ typedef struct maker {
     int full;
 } maker;
 
-/* Which of six sides of space a normal looks to. */
-static uint32_t facing(lmb_vec3 n)
-{
-    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
-    if (x >= y && x >= z) {
-        return n.x < 0.0f;
-    }
-    return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
-}
-
 /* The six sides' elements lie one behind the other: key / 2^27 is the side. */
-static uint32_t element_facing(const lmb_element *e) { return e->key >> (3 * Z_BITS); }
+static uint32_t element_facing(const lmb_element *e) { return e->key >> (3 * PIECE_Z_BITS); }
 
 static int32_t cell_of(float at, float low, float per_cell)
 {
@@ -253,7 +242,7 @@ static void add_piece(maker *m, const piece_source *s, const surface_piece *p, i
         e.fresh[0] = n.x;
         e.fresh[1] = n.y;
         e.fresh[2] = n.z;
-        e.key = facing(n) << (3 * Z_BITS);
+        e.key = piece_facing(n) << (3 * PIECE_Z_BITS);
         add_element(m, &e, small);
     }
 }
@@ -372,24 +361,9 @@ static float scene_area(const lmb_scene *scene)
 
 /* --- order -------------------------------------------------------------------------------------------------------- */
 
-/* Bits 0, 1, 2, .. to 0, 3, 6, .. */
-static uint32_t spread3(uint32_t v)
-{
-    uint32_t out = 0;
-    for (int i = 0; i < Z_BITS; ++i) {
-        out |= ((v >> i) & 1u) << (3 * i);
-    }
-    return out;
-}
-
 static void set_key(lmb_element *e, const lmb_scene *scene, float per)
 {
-    const lmb_vec3 at = piece_middle(e->corner), low = low_of(scene);
-    const float last = (float)((1 << Z_BITS) - 1);
-    const uint32_t x = (uint32_t)clampf((at.x - low.x) * per, 0.0f, last),
-                   y = (uint32_t)clampf((at.y - low.y) * per, 0.0f, last),
-                   z = (uint32_t)clampf((at.z - low.z) * per, 0.0f, last);
-    e->key |= spread3(x) | spread3(y) << 1 | spread3(z) << 2;
+    e->key |= piece_place(piece_middle(e->corner), low_of(scene), per);
 }
 
 static void sift(lmb_element *data, uint32_t at, uint32_t count)
@@ -423,7 +397,7 @@ static void sort(lmb_element *data, uint32_t count)
 static void put_in_order(lmb_elements *e, const lmb_scene *scene)
 {
     const lmb_vec3 size = sub3(high_of(scene), low_of(scene));
-    const float longest = largest3(size), per = longest > 0.0f ? (float)(1 << Z_BITS) / longest : 0.0f;
+    const float longest = largest3(size), per = longest > 0.0f ? (float)(1 << PIECE_Z_BITS) / longest : 0.0f;
     for (uint32_t i = 0; i < e->count; ++i) {
         set_key(&e->data[i], scene, per);
     }

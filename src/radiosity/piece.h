@@ -1,8 +1,10 @@
-/* piece.h: how a piece of a triangle looks: its place, and its mean albedo. Layer 8. */
+/* piece.h: a piece of a triangle: its place among others, and its mean albedo. Layer 8. */
 #ifndef LMB_RADIOSITY_PIECE_H
 #define LMB_RADIOSITY_PIECE_H
 
 #include "../raster/triangle.h"
+
+enum { PIECE_Z_BITS = 9 };
 
 /* A triangle with what its pieces share. */
 typedef struct piece_source {
@@ -39,6 +41,36 @@ static inline float piece_mix(float a, float b, float c, float b1, float b2)
 static inline float piece_uv_at(const piece_source *s, int c, float b1, float b2)
 {
     return piece_mix(s->uv[0][c], s->uv[1][c], s->uv[2][c], b1, b2);
+}
+
+/* Which of six sides of space a normal looks to. */
+static inline uint32_t piece_facing(lmb_vec3 n)
+{
+    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
+    if (x >= y && x >= z) {
+        return n.x < 0.0f;
+    }
+    return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
+}
+
+/* Bits 0, 1, 2, .. to 0, 3, 6, .. */
+static inline uint32_t piece_spread_bits(uint32_t v)
+{
+    uint32_t out = 0;
+    for (int i = 0; i < PIECE_Z_BITS; ++i) {
+        out |= ((v >> i) & 1u) << (3 * i);
+    }
+    return out;
+}
+
+/* The place along a Z curve of 2^PIECE_Z_BITS steps an axis from `low`, `per` of them a metre. */
+static inline uint32_t piece_place(lmb_vec3 at, lmb_vec3 low, float per)
+{
+    const float last = (float)((1 << PIECE_Z_BITS) - 1);
+    const uint32_t x = (uint32_t)clampf((at.x - low.x) * per, 0.0f, last),
+                   y = (uint32_t)clampf((at.y - low.y) * per, 0.0f, last),
+                   z = (uint32_t)clampf((at.z - low.z) * per, 0.0f, last);
+    return piece_spread_bits(x) | piece_spread_bits(y) << 1 | piece_spread_bits(z) << 2;
 }
 
 /* 1 where the triangle has an area. */

@@ -5,6 +5,7 @@
 
 #include "../base/vec.h"
 #include "../raster/triangle.h"
+#include "sections.h"
 
 #if LMB_TRANSFER
 
@@ -13,17 +14,6 @@ enum { MAGIC, ORDER, SIZE, SCENE, LEAVES = 5, COUNTS, RESERVED = COUNTS + LMB_TR
 
 #define OWN_ORDER 0x01020304u
 #define MAX_COUNT 0x10000000u /* entries of a section: no product of theirs leaves 64 bits, no place a halving's bits */
-
-static const uint32_t words_each[LMB_TRANSFER_SECTIONS] = {LMB_TRANSFER_SURFACE_WORDS,
-                                                           1,
-                                                           1,
-                                                           1,
-                                                           LMB_TRANSFER_CORNER_WORDS,
-                                                           LMB_TRANSFER_RECEIVER_WORDS,
-                                                           1,
-                                                           LMB_TRANSFER_BLEND_WORDS,
-                                                           LMB_TRANSFER_CLUSTER_WORDS,
-                                                           LMB_TRANSFER_CLUSTER_LINK_WORDS};
 
 static float as_float(uint32_t word)
 {
@@ -197,10 +187,10 @@ static int lay_out(lmb_transfer *out, const uint32_t *word, uint64_t words)
     for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {
         out->count[s] = word[COUNTS + s];
         out->section[s] = word + at;
-        if (out->count[s] >= MAX_COUNT || (uint64_t)out->count[s] * words_each[s] > words - at) {
+        if (out->count[s] >= MAX_COUNT || (uint64_t)out->count[s] * transfer_words_each[s] > words - at) {
             return 0;
         }
-        at += (uint64_t)out->count[s] * words_each[s];
+        at += (uint64_t)out->count[s] * transfer_words_each[s];
     }
     return at == words;
 }

@@ -130,30 +130,18 @@ static void at_triangle(float out[3][9], const here *h, int each)
     }
 }
 
-static void light_flat(lmb_irradiance *inout, const here *h, uint64_t pixels)
+/* Of a mesh what arrives along the pixel's normal; else the corners lie on its plane. */
+static void light_pixels(lmb_irradiance *inout, const here *h, uint64_t pixels)
 {
     float at[3][9];
-    at_triangle(at, h, 3);
+    at_triangle(at, h, h->is_mesh ? 9 : 3);
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
         for (int c = 0; c < 3; ++c) {
-            inout->rgb[c][k] += maxf(b0 * at[0][c] + b1 * at[1][c] + b2 * at[2][c], 0.0f);
-        }
-    }
-}
-
-static void light_mesh(lmb_irradiance *inout, const here *h, uint64_t pixels)
-{
-    float at[3][9];
-    at_triangle(at, h, 9);
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
-        for (int c = 0; c < 3; ++c) {
-            float e = 0.0f;
-            for (int a = 0; a < 3; ++a) {
-                e += h->tile->normal[a][k] * (b0 * at[0][3 * c + a] + b1 * at[1][3 * c + a] + b2 * at[2][3 * c + a]);
+            float e = h->is_mesh ? 0.0f : b0 * at[0][c] + b1 * at[1][c] + b2 * at[2][c];
+            for (int a = 3 * c; h->is_mesh && a < 3 * c + 3; ++a) {
+                e += h->tile->normal[a - 3 * c][k] * (b0 * at[0][a] + b1 * at[1][a] + b2 * at[2][a]);
             }
             inout->rgb[c][k] += maxf(e, 0.0f);
         }
@@ -181,7 +169,7 @@ static void light_triangle(lmb_irradiance *inout, here *h, uint64_t pixels)
         uint64_t own = (uint64_t)1 << first;
         if (enter_leaf(h, first)) {
             own |= on_leaf(h) & pixels;
-            (h->is_mesh ? light_mesh : light_flat)(inout, h, own);
+            light_pixels(inout, h, own);
         }
         pixels &= ~own;
     }

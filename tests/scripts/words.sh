@@ -1,5 +1,5 @@
 # words.sh: no name, option, file or phrase of words.txt in src, include, tools and documents; documents' links exist;
-# README.md within its bounds; and that a made-up leftover of each kind is found.
+# README.md and src/README.md within their bounds; and that a made-up leftover of each kind is found.
 #
 # words.txt has a line for each: `name WORD` (a whole identifier), `code WORD` (the same, but not in comments and strings,
 # as it is a word of English too), `option --WORD`, `file BASENAME`, `phrase WORDS`
@@ -70,6 +70,9 @@ elif [ "${README_BOUNDS:-1}" = 0 ]; then
 else
     fail "README.md has $lines lines and $numbers numbers; 150 and 60 are its bounds"
 fi
+
+words=$(cat src/README.md 2>/dev/null | wc -w)
+check "src/README.md has $words words; the plan is one page, 1200" test "$words" -le 1200
 
 # Would a leftover of each kind be found? A made-up tree with one of each; then the same tree without any.
 [ -z "$MADE" ] || finish

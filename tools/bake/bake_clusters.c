@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
+#include "bake_triangle.h"
 #include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, NEIGHBOURS = 4, TARGET = 2000, SHARING = 4 };
@@ -226,7 +226,7 @@ static int cluster_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal,
 {
     (void)id;
     (void)back;
-    return add_cluster(c, mul3(add3(add3(t->corner[0], t->corner[1]), t->corner[2]), 1.0f / 3.0f), normal);
+    return add_cluster(c, triangle_middle(t->corner), normal);
 }
 
 /* A leaf whose corners are blends of their own. */

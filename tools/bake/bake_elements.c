@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
-#include "../../src/raster/triangle.h"
+#include "bake_triangle.h"
+#include "../../src/radiosity/piece.h"
 
-enum { Z_BITS = 9, HALVINGS = 40, MESH = 500 };
+enum { MESH = 500 };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
 
 int bake_put(bake_words *w, uint32_t word, report *r)
@@ -33,30 +33,12 @@ int bake_put_float(bake_words *w, float v, report *r)
     return bake_put(w, word, r);
 }
 
-static float triangle_area(const lmb_vec3 corner[3])
-{
-    return 0.5f * length3(cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0])));
-}
-
-static float longest_edge(int *from, const lmb_vec3 corner[3])
-{
-    float longest = -1.0f;
-    for (int k = 0; k < 3; ++k) {
-        const lmb_vec3 d = sub3(corner[(k + 1) % 3], corner[k]);
-        if (dot3(d, d) > longest) {
-            longest = dot3(d, d);
-            *from = k;
-        }
-    }
-    return sqrtf(longest);
-}
-
 int32_t bake_cell(float at, float per) { return (int32_t)clampf(floorf(at * per), -1e9f, 1e9f); }
 
 int bake_is_small(const bake *b, const lmb_vec3 corner[3])
 {
     int from;
-    return longest_edge(&from, corner) < b->small_m;
+    return triangle_longest(&from, corner) < b->small_m;
 }
 
 /* Few small triangles are no mesh: a box's sides get receivers of their own. */
@@ -121,20 +103,6 @@ typedef struct maker {
     report *r;
 } maker;
 
-static uint32_t facing(lmb_vec3 n)
-{
-    const float x = absf(n.x), y = absf(n.y), z = absf(n.z);
-    if (x >= y && x >= z) {
-        return n.x < 0.0f;
-    }
-    return y >= z ? 2u + (n.y < 0.0f) : 4u + (n.z < 0.0f);
-}
-
-static lmb_vec3 middle_of(const lmb_vec3 corner[3])
-{
-    return mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
-}
-
 static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
     bake *b = m->b;
@@ -149,7 +117,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
         e->corner[1] = corner[2];
         e->corner[2] = corner[1];
     }
-    e->middle = middle_of(corner);
+    e->middle = triangle_middle(corner);
     e->normal = normal;
     e->area = e->largest = triangle_area(corner);
     e->facing = 1.0f;
@@ -166,7 +134,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 static void join(bake_element *e, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
     const float area = triangle_area(corner), share = area > 0.0f ? area / (e->area + area) : 0.0f;
-    const lmb_vec3 middle = middle_of(corner);
+    const lmb_vec3 middle = triangle_middle(corner);
     const lmb_vec3 mean = add3(mul3(mul3(e->normal, e->facing), 1.0f - share), mul3(normal, share));
     e->middle = add3(e->middle, mul3(sub3(middle, e->middle), share));
     e->facing = length3(mean);
@@ -185,11 +153,11 @@ static void join(bake_element *e, const lmb_vec3 corner[3], lmb_vec3 normal)
 
 static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
-    const lmb_vec3 at = middle_of(corner), low = m->b->scene->bounds_min;
+    const lmb_vec3 at = triangle_middle(corner), low = m->b->scene->bounds_min;
     const float per = 2.0f / m->side;
     const uint32_t cell[4] = {(uint32_t)clampf((at.x - low.x) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.y - low.y) * per, 0.0f, 1e6f),
-                              (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f), facing(normal)};
+                              (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f), piece_facing(normal)};
     uint32_t h = cell[0] * 73856093u ^ cell[1] * 19349663u ^ cell[2] * 83492791u ^ cell[3] * 2654435761u;
     h ^= h >> 15;
     for (;; ++h) {
@@ -212,11 +180,11 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
 {
     bake_words *w = &m->b->section[LMB_TRANSFER_PIECES];
     int from;
-    const float longest = longest_edge(&from, corner);
+    const float longest = triangle_longest(&from, corner);
     if (m->is_full) {
         return 1;
     }
-    if (depth == HALVINGS ||
+    if (depth == LMB_TRANSFER_MAX_HALVINGS ||
         (longest <= m->side && (longest <= CONTACT * m->side || bake_stands_free(&m->sight, m->b, corner, normal)))) {
         const int small = depth == 0 && longest * 2.0f < m->side;
         w->data[node] = LMB_TRANSFER_LEAF | (small ? small_element(m, corner, normal) : add_element(m, corner, normal));
@@ -276,22 +244,11 @@ static int make(maker *m)
 
 /* --- order -------------------------------------------------------------------------------------------------------- */
 
-static uint32_t spread3(uint32_t v)
-{
-    uint32_t out = 0;
-    for (int i = 0; i < Z_BITS; ++i) {
-        out |= ((v >> i) & 1u) << (3 * i);
-    }
-    return out;
-}
-
 uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal)
 {
-    const lmb_vec3 low = scene->bounds_min, size = sub3(scene->bounds_max, low);
-    const float last = (float)((1 << Z_BITS) - 1), per = (last + 1.0f) / maxf(largest3(size), 1e-30f);
-    return facing(normal) << (3 * Z_BITS) | spread3((uint32_t)clampf((at.x - low.x) * per, 0.0f, last)) |
-           spread3((uint32_t)clampf((at.y - low.y) * per, 0.0f, last)) << 1 |
-           spread3((uint32_t)clampf((at.z - low.z) * per, 0.0f, last)) << 2;
+    const float longest = largest3(sub3(scene->bounds_max, scene->bounds_min));
+    const float per = (float)(1 << PIECE_Z_BITS) / maxf(longest, 1e-30f);
+    return piece_facing(normal) << (3 * PIECE_Z_BITS) | piece_place(at, scene->bounds_min, per);
 }
 
 static int by_key(const void *a, const void *b)

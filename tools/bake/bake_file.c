@@ -4,16 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const uint32_t words_each[LMB_TRANSFER_SECTIONS] = {LMB_TRANSFER_SURFACE_WORDS,
-                                                           1,
-                                                           1,
-                                                           1,
-                                                           LMB_TRANSFER_CORNER_WORDS,
-                                                           LMB_TRANSFER_RECEIVER_WORDS,
-                                                           1,
-                                                           LMB_TRANSFER_BLEND_WORDS,
-                                                           LMB_TRANSFER_CLUSTER_WORDS,
-                                                           LMB_TRANSFER_CLUSTER_LINK_WORDS};
+#include "../../src/transfer/sections.h"
 
 static int put_receivers(bake *b, report *r)
 {
@@ -44,7 +35,7 @@ int bake_file(file_bytes *out, const bake *baked, report *r)
     lmb_transfer_fingerprint(head + 3, b.scene);
     head[5] = b.leaves;
     for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {
-        head[6 + s] = (uint32_t)(b.section[s].count / words_each[s]);
+        head[6 + s] = (uint32_t)(b.section[s].count / transfer_words_each[s]);
         words += b.section[s].count;
     }
     head[2] = (uint32_t)(4 * words);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
+#include "bake_triangle.h"
 #include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64 };
@@ -90,11 +90,6 @@ static int enqueue(divider *d, const wanted *w)
 }
 
 /* --- receivers by place ------------------------------------------------------------------------------------------- */
-
-static lmb_vec3 middle_of(const lmb_vec3 corner[3])
-{
-    return mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
-}
 
 static int is_there(const bake *b, const bake_receiver *v, lmb_vec3 at, lmb_vec3 normal)
 {
@@ -199,7 +194,7 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
 /* The anchor is the leaf's middle, or, where that lies in something that stands there, the corner that sees highest. */
 static int mend_corners(divider *d, piece *p)
 {
-    const lmb_vec3 middle = middle_of(p->corner);
+    const lmb_vec3 middle = triangle_middle(p->corner);
     float highest = -1.0f;
     int best = 0;
     for (int k = 0; k < 3; ++k) {
@@ -302,29 +297,11 @@ static int make_rows(divider *d)
 
 /* --- division ----------------------------------------------------------------------------------------------------- */
 
-static float longest_edge(int *from, const lmb_vec3 corner[3])
-{
-    float longest = -1.0f;
-    for (int k = 0; k < 3; ++k) {
-        const lmb_vec3 e = sub3(corner[(k + 1) % 3], corner[k]);
-        if (dot3(e, e) > longest) {
-            longest = dot3(e, e);
-            *from = k;
-        }
-    }
-    return sqrtf(longest);
-}
-
-static float area_of(const lmb_vec3 corner[3])
-{
-    return 0.5f * length3(cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0])));
-}
-
 /* The places where a piece is looked at: the middle of its longest edge, and its own. */
 static int look_at(divider *d, size_t i)
 {
     piece *p = &d->now.data[i];
-    const float longest = longest_edge(&p->from, p->corner);
+    const float longest = triangle_longest(&p->from, p->corner);
     const int to = (p->from + 1) % 3;
     p->mid = LMB_TRANSFER_NONE;
     p->surplus = 0.0f;
@@ -332,7 +309,7 @@ static int look_at(divider *d, size_t i)
     if (longest <= d->b->set.smallest_m || p->depth == DEPTH) {
         return 1;
     }
-    const lmb_vec3 mid = mul3(add3(p->corner[p->from], p->corner[to]), 0.5f), middle = middle_of(p->corner);
+    const lmb_vec3 mid = mul3(add3(p->corner[p->from], p->corner[to]), 0.5f), middle = triangle_middle(p->corner);
     const size_t before = d->queued;
     p->must_split = !bake_stands_free(&d->sight, d->b, p->corner, p->normal);
     p->mid = receiver_at(d, mid, p->normal, middle, p->receiver[p->from], p->receiver[to]);
@@ -390,7 +367,7 @@ static int split(divider *d, const piece *p, int last)
 /* Squared errors add up by area. */
 static float error_of(const bake *b, const piece *p)
 {
-    const float share = area_of(p->corner) / b->area * 1000.0f;
+    const float share = triangle_area(p->corner) / b->area * 1000.0f;
     const float surplus = p->must_split ? maxf(p->surplus, STANDS) : p->surplus;
     return surplus * surplus * share;
 }
@@ -463,7 +440,7 @@ static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t
     d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + 2 + back] = p.node;
     for (int k = 0; k < 3; ++k) {
         p.receiver[k] =
-            receiver_at(d, p.corner[k], p.normal, middle_of(p.corner), LMB_TRANSFER_NONE, LMB_TRANSFER_NONE);
+            receiver_at(d, p.corner[k], p.normal, triangle_middle(p.corner), LMB_TRANSFER_NONE, LMB_TRANSFER_NONE);
         if (p.receiver[k] == LMB_TRANSFER_NONE) {
             return 0;
         }

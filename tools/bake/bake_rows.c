@@ -7,7 +7,7 @@
 
 #include "../../platform/host/pool.h"
 #include "../../src/base/poly.h"
-#include "../../src/base/vec.h"
+#include "bake_triangle.h"
 
 #define DISC2 100.0f /* squared distance, of a part's squared reach, from which it counts as a disc: 0.5 % at most */
 enum { CHUNK = 64, CUTS = 4 };
@@ -31,11 +31,6 @@ typedef struct part {
     lmb_vec3 middle;
     float area, reach2;
 } part;
-
-static lmb_vec3 middle_of(const lmb_vec3 corner[3])
-{
-    return mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
-}
 
 /* --- form factors ------------------------------------------------------------------------------------------------- */
 
@@ -93,7 +88,7 @@ static int cuts_for(const bake_element *e, lmb_vec3 at)
 static void add_part(const rows *w, uint32_t j, const part *p, uint64_t points, int worker)
 {
     const bake_element *e = &w->b->element[j];
-    const lmb_vec3 q = e->is_one ? p->middle : middle_of(p->corner);
+    const lmb_vec3 q = e->is_one ? p->middle : triangle_middle(p->corner);
     float f[CHUNK][3];
     uint64_t lit = 0;
     for (uint64_t bits = points; bits != 0; bits &= bits - 1) {
@@ -136,7 +131,7 @@ static void add_parts(const rows *w, uint32_t j, const part *p, const uint64_t p
             quarter.corner[0] = p->corner[k];
             quarter.corner[1] = mid[k];
             quarter.corner[2] = mid[(k + 2) % 3];
-            quarter.middle = middle_of(quarter.corner);
+            quarter.middle = triangle_middle(quarter.corner);
         }
         add_parts(w, j, &quarter, points, level + 1, worker);
     }

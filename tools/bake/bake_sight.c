@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../src/base/vec.h"
+#include "bake_triangle.h"
 
 #define PULL 0.1f  /* of the smallest edge: receivers lie so far inside their triangle, off what stands at its edges */
 #define UP   0.05f /* of it: so high over a triangle its corners have to see its middle */
@@ -43,7 +43,7 @@ int bake_sees(bake_sight *s, const bake *b, lmb_vec3 from, lmb_vec3 to, lmb_vec3
 
 int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
-    const lmb_vec3 middle = mul3(add3(add3(corner[0], corner[1]), corner[2]), 1.0f / 3.0f);
+    const lmb_vec3 middle = triangle_middle(corner);
     return bake_sees(s, b, middle, bake_pulled(b, corner[0], middle), normal) &&
            bake_sees(s, b, middle, bake_pulled(b, corner[1], middle), normal) &&
            bake_sees(s, b, middle, bake_pulled(b, corner[2], middle), normal);
