@@ -160,6 +160,22 @@ static void by_hand(void)
 
 /* --- damage ------------------------------------------------------------------------------------------------------- */
 
+/* An element of half of triangle 1, dark, and all of triangle 2, bright: colours count by area, whatever the depth. */
+static void parts_by_area(void)
+{
+    static uint8_t colours[4 * 3 * ROOM_TRIANGLES];
+    lmb_transfer t = open_small();
+    memset(colours, 51, sizeof colours / 4);
+    memset(colours + sizeof colours / 4, 204, sizeof colours - sizeof colours / 4);
+    room.mesh.colours = colours;
+    file[LMB_TRANSFER_HEADER_WORDS + 4 * ROOM_TRIANGLES + 1] = SMALL_LEAF(0);
+    CHECK(lmb_transfer_open(&t, file, sizeof file) == LMB_OK);
+    lit l = lit_by(&t, &room.scene);
+    CHECK(is_near(l.light.albedo[0][0], 0.5f * (1.0f * 0.2f + 2.0f * 0.8f) / 3.0f, 1e-5f));
+    CHECK(is_near(l.light.albedo[1][1], 0.5f * 0.2f, 1e-5f));
+    free(l.memory);
+}
+
 static void cut_off(void)
 {
     lmb_transfer t;
@@ -593,8 +609,9 @@ static void test_box(void)
 
 void test_transfer(void)
 {
-    const lmb_transfer t = open_small();
     by_hand();
+    parts_by_area();
+    const lmb_transfer t = open_small();
     cut_off();
     bad_header();
     bad_words();
