@@ -10,6 +10,7 @@ enum { BATCH = 64 };
 
 #define ALBEDO 0.5f  /* of all surfaces */
 #define DARK   1e-6f /* of the brightest element: less came through a crack */
+#define HIDDEN 0.01  /* of the mean light: is put in order apart */
 
 typedef struct sender {
     float light;
@@ -125,6 +126,23 @@ static int is_side_reached(const reach *w, uint32_t root)
     return is_side_reached(w, first) || is_side_reached(w, first + 1);
 }
 
+/* What no light came to is no part of what a node sends, either: its mean is over what light comes to. */
+static void sort_out(const reach *w)
+{
+    bake *b = w->b;
+    double light = 0.0, area = 0.0;
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        light += (double)(b->element[i].light * b->element[i].area);
+        area += (double)b->element[i].area;
+    }
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        bake_element *e = &b->element[i];
+        e->is_hidden = (double)e->light < HIDDEN * light / area;
+        e->is_dark = !w->has_sent[i];
+        e->area = e->is_dark ? 0.0f : e->area;
+    }
+}
+
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
     reach w = {b, NULL, NULL, NULL, r};
@@ -149,8 +167,9 @@ int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
             surfaces->data[i] = LMB_TRANSFER_NONE;
         }
     }
-    for (uint32_t i = 0; ok && i < b->element_count; ++i) {
-        b->element[i].is_dark = !w.has_sent[i];
+    if (ok) {
+        sort_out(&w);
+        ok = bake_order(b, r);
     }
     free(w.has_sent);
     free(w.order);

@@ -51,9 +51,9 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "bake",
     .usage = "bake SCENE -o OUT.lmt [options]",
-    .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds light "
-             "that is reflected once, many times faster than without, wherever lights and camera are. Colours may "
-             "change, too. What moves, emits light or is glossy, and further reflections, are not in it.\n"
+    .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds bounced "
+             "light many times faster than without, wherever lights and camera are. Colours may change, too. What "
+             "moves or is glossy is not in it.\n"
              "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
@@ -64,7 +64,8 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
 {
     static const char *const names[LMB_TRANSFER_SECTIONS] = {
         "surfaces",  "pieces", "areas",  "divisions", "corners",
-        "receivers", "links",  "blends", "clusters",  "cluster links"};
+        "receivers", "links",  "blends", "clusters",  "cluster links",
+        "coarse",    "coarse links"};
     bake b;
     bake_settings set;
     file_bytes file = {NULL, 0};
@@ -79,7 +80,7 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
     set.threads = o->threads > 0 ? o->threads : pool_processors();
     b.is_quiet = o->is_quiet || !(o->is_verbose || host_watched());
     int ok = bake_begin(&b, scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) &&
-             bake_receivers(&b, r) && bake_clusters(&b, r) &&
+             bake_receivers(&b, r) && bake_clusters(&b, r) && bake_bounces(&b, r) &&
              bake_file(&file, &b, r) && file_write(o->out, file.data, file.size, r);
     if (ok && !o->is_quiet) {
         printf("%s: %u elements, %u receivers, %.1f links each, %u clusters, %.1f links each, %.2f MB\n", o->out,
