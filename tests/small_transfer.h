@@ -59,7 +59,7 @@ static inline size_t small_transfer(uint32_t *words, const lmb_scene *scene)
     memset(words, 0, LMB_TRANSFER_HEADER_WORDS * sizeof *words);
     memcpy(words, "LMT\1", 4);
     words[1] = 0x01020304u;
-    lmb_transfer_fingerprint(words + 3, scene);
+    lmb_transfer_fingerprint(words + 3, scene, NULL, 0);
     words[5] = 3;
     words[6] = all;
     for (uint32_t i = 0; i < 4 * all; ++i) {

@@ -16,6 +16,9 @@
  * its difference from the mean of the edge's two ends. Small triangles of meshes take their light from clusters, which
  * keep it by direction.
  *
+ * Objects that move take their light from a grid of places in the air, by direction. They cast shadows in direct light;
+ * bounced light they neither block nor reflect.
+ *
  * The sums over links are of integers, so they are the same in any order and width. */
 #ifndef LMB_TRANSFER_H
 #define LMB_TRANSFER_H
@@ -37,6 +40,10 @@ enum {
     LMB_TRANSFER_CLUSTER_LINKS,
     LMB_TRANSFER_COARSE, /* runs of elements, at most 1,024, to which light that is reflected again comes alike */
     LMB_TRANSFER_COARSE_LINKS,
+    LMB_TRANSFER_MOVING, /* first id, and past the last one, of triangles that may move, in order */
+    LMB_TRANSFER_GRID,   /* none or one: of places in the air, for light on what moves */
+    LMB_TRANSFER_AIR,    /* a place of the grid, along x, then y, then z: the first of six receivers, which face +x, -x,
+                            +y, -y, +z, -z; or LMB_TRANSFER_NONE, where no light comes */
     LMB_TRANSFER_SECTIONS
 };
 
@@ -50,6 +57,10 @@ enum {
     LMB_TRANSFER_CLUSTER_LINK_WORDS = 2,
     LMB_TRANSFER_COARSE_WORDS = 4, /* first element, first link, number of links, scale */
     LMB_TRANSFER_MAX_COARSE = 1024,
+    LMB_TRANSFER_MOVING_WORDS = 2,
+    LMB_TRANSFER_GRID_WORDS = 7, /* the first place, m, binary32; places a metre, binary32; how many along each axis */
+    LMB_TRANSFER_AIR_RECEIVERS = 6,
+    LMB_TRANSFER_MAX_AIR = 1024, /* places along an axis */
     LMB_TRANSFER_MAX_ELEMENTS = 16384,
     LMB_TRANSFER_MAX_CLUSTERS = 65536,
     LMB_TRANSFER_MAX_HALVINGS = 40 /* of a triangle; what lies deeper is not lit */
@@ -104,9 +115,10 @@ extern "C" {
 lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes);
 
 /* lmb_transfer_fingerprint: 64 bits of a checked scene's triangles: their corners in the world, their order, and which
- * sides of them show. Lights, colours and cameras are no part of it. Cost: a pass over the triangles.
+ * sides of them show. Lights, colours and cameras are no part of it, nor triangles of `count` ranges `moving`, as
+ * LMB_TRANSFER_MOVING has them, but for their number. Cost: a pass over the triangles.
  * lmb_transfer_fits: LMB_OK where the file was baked from this scene, else LMB_ERR_SCENE. */
-void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene);
+void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene, const uint32_t *moving, uint32_t count);
 lmb_status lmb_transfer_fits(const lmb_transfer *transfer, const lmb_scene *scene);
 
 /* lmb_transfer_light_bytes: memory of the light: about 50 bytes an element, 12 a receiver, 36 a cluster. 0: null.

@@ -174,6 +174,42 @@ static int are_coarse(const lmb_transfer *t)
     return count <= LMB_TRANSFER_MAX_COARSE;
 }
 
+/* Ranges of ids, none empty, in order and apart. */
+static int are_moving(const lmb_transfer *t)
+{
+    const uint32_t *range = t->section[LMB_TRANSFER_MOVING];
+    uint32_t past = 1;
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_MOVING]; ++i, range += LMB_TRANSFER_MOVING_WORDS) {
+        if (range[0] < past || range[1] <= range[0] || range[1] - 1 > t->count[LMB_TRANSFER_SURFACES]) {
+            return 0;
+        }
+        past = range[1];
+    }
+    return 1;
+}
+
+/* Each place has its receivers, all in a row, or none. */
+static int is_air(const lmb_transfer *t)
+{
+    const uint32_t *grid = t->section[LMB_TRANSFER_GRID], *air = t->section[LMB_TRANSFER_AIR];
+    const uint32_t count = t->count[LMB_TRANSFER_AIR], receivers = t->count[LMB_TRANSFER_RECEIVERS];
+    if (t->count[LMB_TRANSFER_GRID] == 0) {
+        return count == 0;
+    }
+    for (int k = 0; k < 3; ++k) {
+        if (!(absf(as_float(grid[k])) < 1e30f) || grid[4 + k] == 0 || grid[4 + k] > LMB_TRANSFER_MAX_AIR) {
+            return 0;
+        }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        if (air[i] != LMB_TRANSFER_NONE &&
+            (receivers < LMB_TRANSFER_AIR_RECEIVERS || air[i] > receivers - LMB_TRANSFER_AIR_RECEIVERS)) {
+            return 0;
+        }
+    }
+    return t->count[LMB_TRANSFER_GRID] == 1 && is_scale(grid[3]) && (uint64_t)grid[4] * grid[5] * grid[6] == count;
+}
+
 /* --- the file ----------------------------------------------------------------------------------------------------- */
 
 /* Elements and their means by fours, up to one; 0 where the number is no power of 4. */
@@ -233,7 +269,7 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
     t.nodes = nodes_of(t.count[LMB_TRANSFER_AREAS]);
     if (t.nodes == 0 || t.count[LMB_TRANSFER_CLUSTERS] > LMB_TRANSFER_MAX_CLUSTERS || !are_surfaces(&t) ||
         !are_areas(&t) || !are_corners(&t) || !are_receivers(&t) ||
-        !are_clusters(&t) || !are_blends(&t) || !are_coarse(&t) ||
+        !are_clusters(&t) || !are_blends(&t) || !are_coarse(&t) || !are_moving(&t) || !is_air(&t) ||
         !are_halvings(t.section[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_AREAS]) ||
         !are_halvings(t.section[LMB_TRANSFER_DIVISIONS], t.count[LMB_TRANSFER_DIVISIONS],
                       t.count[LMB_TRANSFER_CORNERS])) {
@@ -262,7 +298,7 @@ static uint64_t hash_float(uint64_t hash, float v)
     return hash_word(hash, word);
 }
 
-void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene)
+void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene, const uint32_t *moving, uint32_t count)
 {
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
     const uint32_t all = scene != NULL ? lmb_scene_triangles(scene) : 0;
@@ -270,8 +306,9 @@ void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene)
     if (out == NULL) {
         return;
     }
-    for (uint32_t id = 1; id <= all; ++id) {
-        if (!lmb_triangle_fetch(&t, scene, id)) {
+    for (uint32_t id = 1, range = 0; id <= all; ++id) {
+        range += range < count && id >= moving[2 * range + 1];
+        if ((range < count && id >= moving[2 * range]) || !lmb_triangle_fetch(&t, scene, id)) {
             hash = hash_word(hash, id);
             continue;
         }
@@ -293,7 +330,7 @@ lmb_status lmb_transfer_fits(const lmb_transfer *transfer, const lmb_scene *scen
     if (transfer == NULL || scene == NULL || transfer->section[0] == NULL) {
         return LMB_ERR_ARG;
     }
-    lmb_transfer_fingerprint(own, scene);
+    lmb_transfer_fingerprint(own, scene, transfer->section[LMB_TRANSFER_MOVING], transfer->count[LMB_TRANSFER_MOVING]);
     return transfer->count[LMB_TRANSFER_SURFACES] == lmb_scene_triangles(scene) && own[0] == transfer->scene[0] &&
                    own[1] == transfer->scene[1]
                ? LMB_OK

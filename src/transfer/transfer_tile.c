@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "air.h"
 #include "halvings.h"
 
 #if LMB_TRANSFER
@@ -175,6 +176,13 @@ static void light_triangle(lmb_irradiance *inout, here *h, uint64_t pixels)
     }
 }
 
+static void light_moving(lmb_irradiance *inout, const here *h, uint64_t pixels)
+{
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        lmb_transfer_air_pixel(inout, h->light, h->transfer, h->tile, lowest_bit_64(bits));
+    }
+}
+
 lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *light, const lmb_transfer *transfer,
                              const lmb_scene *scene, const lmb_tile *tile)
 {
@@ -193,7 +201,9 @@ lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *li
     while (left != 0) {
         const int first = lowest_bit_64(left);
         const uint64_t own = alike(tile, left, first);
-        if (enter_triangle(&h, scene, first)) {
+        if (lmb_transfer_moves(transfer, tile->id[first])) {
+            light_moving(inout, &h, own);
+        } else if (enter_triangle(&h, scene, first)) {
             light_triangle(inout, &h, own);
         }
         left &= ~own;

@@ -554,6 +554,11 @@ status 0 render "$dir/box.obj" $inside --transfer "$dir/box-1.lmt" --bounces 4 -
 check "so it does by two threads" cmp -s "$dir/box-four.pfm" "$dir/box-again.pfm"
 status 0 render "$dir/box.obj" $inside --bounces 4 -o "$dir/box-draft.pfm"
 status 0 compare "$dir/box-four.pfm" "$dir/box-draft.pfm" --max lo=0.95,hi=1.05,trim=0.06
+status 1 bake "$dir/block.obj" -o "$dir/bad.lmt" --elements 256 --moving 0
+said "no surface to light"
+for list in 1 0,0 0, x -1; do
+    status 1 bake "$dir/block.obj" -o "$dir/bad.lmt" --elements 256 --moving=$list
+done
 head -c 5000 "$dir/box-1.lmt" >"$dir/cut.lmt"
 status 1 render "$dir/box.obj" $inside --transfer "$dir/cut.lmt" -o "$dir/bad.pfm"
 said "cut.lmt: no light transfer, or a damaged one"

@@ -340,6 +340,42 @@ static void bad_words(void)
     CHECK(lmb_transfer_open(&t, copy, sizeof copy) == LMB_OK);
 }
 
+/* Triangle 2 moves, between two places in the air, of which the second has no light. */
+enum { AIR_WORDS = 11, AIRY_WORDS = SMALL_WORDS + AIR_WORDS };
+static uint32_t airy[AIRY_WORDS];
+
+static void put_air(void)
+{
+    const uint32_t air[AIR_WORDS] = {2, 3, float_bits(-1.0f), float_bits(0.5f), float_bits(0.0f), float_bits(0.5f), 2, 1, 1,
+                                     0, LMB_TRANSFER_NONE};
+    memcpy(airy, file, sizeof file);
+    memcpy(airy + SMALL_WORDS, air, sizeof air);
+    airy[2] = sizeof airy;
+    airy[6 + LMB_TRANSFER_MOVING] = airy[6 + LMB_TRANSFER_GRID] = 1;
+    airy[6 + LMB_TRANSFER_AIR] = 2;
+}
+
+/* The small file has five receivers, and a place in the air takes six. */
+static void bad_air(void)
+{
+    static const struct { int word; uint32_t value; const char *what; } bad[] = {
+        {0, 0, "no such id"},          {1, 2, "an empty range"},      {1, ROOM_TRIANGLES + 2, "no such id"},
+        {2, 0x7f800000u, "no place"},  {5, 0xbf800000u, "under no places a metre"}, {5, 0x7fc00000u, "no number"},
+        {6, 0, "no places"},           {6, 3, "more places than there are"}, {7, 2, "more places than there are"},
+        {8, LMB_TRANSFER_MAX_AIR + 1, "too many places"}, {9, 0, "six receivers of five"}, {9, 0xfffffffeu, "no receivers"},
+    };
+    lmb_transfer t;
+    put_air();
+    airy[SMALL_WORDS + 9] = LMB_TRANSFER_NONE;
+    CHECK(lmb_transfer_open(&t, airy, sizeof airy) == LMB_OK && t.count[LMB_TRANSFER_AIR] == 2);
+    for (int i = 0; i < COUNT(bad); ++i) {
+        put_air();
+        airy[SMALL_WORDS + 9] = LMB_TRANSFER_NONE;
+        airy[SMALL_WORDS + bad[i].word] = bad[i].value;
+        CHECK_MSG(lmb_transfer_open(&t, airy, sizeof airy) == LMB_ERR_FORMAT, "%s", bad[i].what);
+    }
+}
+
 /* Halves that two share: no more ways are gone than there are pieces. */
 static void shared_halves(void)
 {
@@ -379,8 +415,8 @@ static void bad_arguments(void)
     for (int i = 1; i < 4; ++i) {
         CHECK(lmb_transfer_open(&t, (const uint8_t *)copy + i, sizeof copy - 4) == LMB_ERR_ALIGN);
     }
-    lmb_transfer_fingerprint(NULL, s);
-    lmb_transfer_fingerprint(own, NULL);
+    lmb_transfer_fingerprint(NULL, s, NULL, 0);
+    lmb_transfer_fingerprint(own, NULL, NULL, 0);
     CHECK(lmb_transfer_fits(NULL, s) == LMB_ERR_ARG && lmb_transfer_fits(&good, NULL) == LMB_ERR_ARG);
     CHECK(lmb_transfer_fits(&none, s) == LMB_ERR_ARG);
     CHECK(lmb_transfer_light_bytes(NULL) == 0 && lmb_transfer_light_bytes(&none) == 0);
@@ -479,8 +515,11 @@ static void make_box(float y)
     CHECK(world_end() == LMB_OK);
 }
 
-static file_bytes bake_box(int threads)
+/* moves: the block does. */
+static file_bytes bake_box(int threads, int moves)
 {
+    static const uint32_t block[1] = {1};
+    bake_still_scene still = {world.scene, NULL};
     bake b;
     bake_settings set;
     report r = {""};
@@ -492,10 +531,12 @@ static file_bytes bake_box(int threads)
     set.receivers = 200;
     set.threads = threads;
     b.is_quiet = 1;
-    CHECK_MSG(bake_begin(&b, &world.scene, &set, &r) && bake_elements(&b, &r) && bake_reach(&b, NULL, 0, &r) &&
-                  bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_bounces(&b, &r) &&
-                  bake_file(&out, &b, &r), "%s", r.text);
+    CHECK_MSG((!moves || bake_still(&still, &world.scene, block, 1, &b.section[LMB_TRANSFER_MOVING], &r)) &&
+                  bake_begin(&b, &still.scene, &set, &r) && bake_elements(&b, &r) && bake_reach(&b, NULL, 0, &r) &&
+                  bake_receivers(&b, &r) && bake_air(&b, &r) && bake_clusters(&b, &r) &&
+                  bake_bounces(&b, &r) && bake_file(&out, &b, &r), "%s", r.text);
     bake_free(&b);
+    free(still.instance);
     return out;
 }
 
@@ -589,40 +630,82 @@ static void is_linear(const lmb_transfer *t, const lmb_scene *scene, float times
     free(more.memory);
 }
 
-/* All surfaces of a closed room emit and reflect alike: e / (1 - albedo) arrives everywhere, without any light. */
-static void furnace(void)
+enum { PASSES = 5, ALL = 64 };
+
+static const double FURNACE = 2.0 / 0.3; /* e / (1 - albedo), W/m2 */
+
+/* All surfaces of a closed room emit and reflect alike, and there is no light: so much arrives everywhere. */
+static lit furnace_of(const lmb_transfer *t)
 {
-    enum { PASSES = 5, ALL = 64 };
-    lmb_transfer opened;
-    const lmb_transfer *t = &opened;
-    make_box(-0.6f);
-    file_bytes file_of_box = bake_box(2);
-    CHECK(lmb_transfer_open(&opened, file_of_box.data, file_of_box.size) == LMB_OK);
     for (int k = 0; k < 2; ++k) {
         world.material[k].emission[0] = 2.0f / LMB_PI;
     }
     lit l = lit_by(t, &world.scene);
-    double sum = 0.0, area = 0.0;
     for (int pass = 0; pass < PASSES; ++pass) {
         CHECK(lmb_transfer_bounce(&l.light, t, pass < 2 ? pass : LMB_TRANSFER_SEND_RECEIVED) == LMB_OK);
     }
     CHECK(lmb_transfer_rest(&l.light, t, LMB_TRANSFER_SEND_RECEIVED, ALL) == LMB_OK);
     receive(&l, 1u << 20);
-    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
+    return l;
+}
+
+static void furnace(void)
+{
+    lmb_transfer t;
+    double sum = 0.0, area = 0.0;
+    make_box(-0.6f);
+    file_bytes baked = bake_box(2, 0);
+    CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
+    lit l = furnace_of(&t);
+    for (uint32_t i = 0; i < t.count[LMB_TRANSFER_AREAS]; ++i) {
         float own;
-        memcpy(&own, t->section[LMB_TRANSFER_AREAS] + i, sizeof own);
+        memcpy(&own, t.section[LMB_TRANSFER_AREAS] + i, sizeof own);
         sum += (double)(own * (l.light.albedo[i][0] * l.light.coarse[i].all[0] + l.light.emission[i][0]));
         area += (double)own;
     }
-    CHECK_MSG(fabs(sum / area / (2.0 / 0.3) - 1.0) < 0.03, "%g W/m2, not %g", sum / area, 2.0 / 0.3);
+    CHECK_MSG(fabs(sum / area / FURNACE - 1.0) < 0.03, "%g W/m2, not %g", sum / area, FURNACE);
     sum = 0.0;
-    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_RECEIVERS]; ++i) {
+    for (uint32_t i = 0; i < t.count[LMB_TRANSFER_RECEIVERS]; ++i) {
         sum += (double)l.light.receiver[i][0];
     }
-    sum /= (double)t->count[LMB_TRANSFER_RECEIVERS];
-    CHECK_MSG(fabs(sum / (2.0 / 0.3) - 1.0) < 0.03, "%g W/m2 arrive, not %g", sum, 2.0 / 0.3);
+    sum /= (double)t.count[LMB_TRANSFER_RECEIVERS];
+    CHECK_MSG(fabs(sum / FURNACE - 1.0) < 0.03, "%g W/m2 arrive, not %g", sum, FURNACE);
     free(l.memory);
-    file_free(&file_of_box);
+    file_free(&baked);
+}
+
+/* The block moves: the file fits wherever it is, and it is lit wherever it is, on all sides. */
+static void moving_block(void)
+{
+    static lmb_tile tile;
+    lmb_irradiance out;
+    lmb_transfer t;
+    make_box(-0.6f);
+    file_bytes baked = bake_box(2, 1);
+    CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
+    CHECK(t.count[LMB_TRANSFER_MOVING] == 1 && t.count[LMB_TRANSFER_GRID] == 1 && t.count[LMB_TRANSFER_AIR] > 500);
+    CHECK(t.section[LMB_TRANSFER_MOVING][0] == 13 && t.section[LMB_TRANSFER_MOVING][1] == 25);
+    CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
+    world.instance[1].to_world.m[12] = 0.5f;
+    CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
+    world.instance[0].to_world.m[12] = 0.5f;
+    CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_ERR_SCENE);
+    world.instance[0].to_world.m[12] = 0.0f;
+    lit l = furnace_of(&t);
+    memset(&tile, 0, sizeof tile);
+    memset(&out, 0, sizeof out);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) { /* spread over the room, and past it */
+        const lmb_vec3 n = normalize3(vec3((float)(k % 7) - 3.0f, (float)(k % 5) - 2.0f, (float)(k % 3) - 0.9f));
+        pixel(&tile, k, 13 + (uint32_t)k % 12,
+              vec3(0.5f * (float)(k % 4) - 0.8f, 0.5f * (float)(k / 4 % 4) - 0.8f, (float)(k / 16) - 1.7f), n);
+    }
+    CHECK(lmb_transfer_tile(&out, &l.light, &t, &world.scene, &tile) == LMB_OK);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        CHECK_MSG(fabs((double)out.rgb[0][k] / FURNACE - 1.0) < 0.04, "%d: %g, not %g", k, (double)out.rgb[0][k],
+                  FURNACE);
+    }
+    free(l.memory);
+    file_free(&baked);
 }
 
 /* --- frames ------------------------------------------------------------------------------------------------------- */
@@ -706,7 +789,7 @@ static void test_box(void)
 {
     lmb_transfer t;
     make_box(-1.2f); /* it stands on the floor */
-    file_bytes one = bake_box(1), two = bake_box(2);
+    file_bytes one = bake_box(1, 0), two = bake_box(2, 0);
     CHECK(one.size == two.size && one.size > 0 && memcmp(one.data, two.data, one.size) == 0);
     CHECK(lmb_transfer_open(&t, one.data, one.size) == LMB_OK);
     CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
@@ -733,6 +816,7 @@ void test_transfer(void)
     cut_off();
     bad_header();
     bad_words();
+    bad_air();
     shared_halves();
     bad_arguments();
     is_same_by(&t, &room.scene);
@@ -741,6 +825,7 @@ void test_transfer(void)
     fits();
     test_box();
     furnace();
+    moving_block();
 }
 
 #else

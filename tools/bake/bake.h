@@ -123,6 +123,19 @@ int bake_clusters(bake *b, report *r);
 /* Runs of elements, and the links by which light comes to them again. */
 int bake_bounces(bake *b, report *r);
 
+/* bake_air: receivers at places in the air, where objects move. */
+int bake_air(bake *b, report *r);
+
+/* bake_still: the scene with all triangles of some instances drawn together into a point, so that no step sees them;
+ * `ranges` becomes LMB_TRANSFER_MOVING. Free out->instance. */
+typedef struct bake_still_scene {
+    lmb_scene scene;
+    lmb_instance *instance;
+} bake_still_scene;
+
+int bake_still(bake_still_scene *out, const lmb_scene *scene, const uint32_t *moving, uint32_t count, bake_words *ranges,
+               report *r);
+
 /* bake_key: the side of space that a normal faces, then the place along a Z curve: neighbours have near keys. */
 uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal);
 

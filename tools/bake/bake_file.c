@@ -32,7 +32,8 @@ int bake_file(file_bytes *out, const bake *baked, report *r)
         return 0;
     }
     memcpy(head, "LMT\1", 4);
-    lmb_transfer_fingerprint(head + 3, b.scene);
+    lmb_transfer_fingerprint(head + 3, b.scene, b.section[LMB_TRANSFER_MOVING].data,
+                             (uint32_t)b.section[LMB_TRANSFER_MOVING].count / LMB_TRANSFER_MOVING_WORDS);
     head[5] = b.leaves;
     for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {
         head[6 + s] = (uint32_t)(b.section[s].count / transfer_words_each[s]);

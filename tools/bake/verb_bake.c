@@ -1,7 +1,9 @@
 /* verb_bake.c: `lambent bake`: a scene that does not move -> its light transfer, in a file. */
 #include "verb_bake.h"
 
+#include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../../platform/host/host.h"
@@ -12,12 +14,13 @@
 #include "bake.h"
 
 typedef struct options {
-    const char *scene, *out, *scene_name;
+    const char *scene, *out, *scene_name, *moving;
     float error, division, cluster, smallest;
     int32_t elements, receivers, threads;
     int is_quiet, is_verbose;
 } options;
 
+enum { MOVING = 256 }; /* objects, at most */
 enum { EYES = 64 }; /* cameras of the scene that are looked from */
 
 #define AT(member) .at = offsetof(options, member)
@@ -41,6 +44,9 @@ static const option_row rows[] = {
      .help = "triangles of meshes under twice this, m, are lit by clusters of this size (default: by the scene)"},
     {.name = "--smallest", .value = "M", .kind = OPTION_ABOVE, AT(smallest), .low = 0.0, .high = 1e5,
      .help = "no edge under this, m, is halved (default: by the scene)"},
+    {.name = "--moving", .value = "N[,N..]", .kind = OPTION_TEXT, AT(moving),
+     .help = "objects that may move, by number from 0, as `lambent play` has them: lit by light in the air, with shadows "
+             "of direct light; bounced light they neither block nor reflect"},
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
      .help = "the file is the same with any (default: all processors)"},
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
@@ -53,19 +59,42 @@ static const option_table table = {
     .usage = "bake SCENE -o OUT.lmt [options]",
     .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds bounced "
              "light many times faster than without, wherever lights and camera are. Colours may change, too. What "
-             "moves or is glossy is not in it.\n"
+             "is glossy is not in it.\n"
              "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
                 "  lambent render demo --transfer demo.lmt -o demo.png\n",
 };
 
-static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *eyes, uint32_t eye_count, report *r)
+/* `0,3,4`: numbers of the scene's objects, none twice. */
+static int parse_moving(uint32_t out[MOVING], uint32_t *count, const char *text, const lmb_scene *scene, report *r)
+{
+    const char *at = text;
+    *count = 0;
+    while (at != NULL && *count < MOVING) {
+        char *end;
+        const unsigned long n = *at >= '0' && *at <= '9' ? strtoul(at, &end, 10) : ULONG_MAX;
+        if (n >= scene->instance_count || (*end != ',' && *end != '\0')) {
+            return report_fail(r, "--moving: `%s` is no list of objects 0 .. %u, like 0,3", text,
+                               (unsigned)scene->instance_count - 1);
+        }
+        for (uint32_t i = 0; i < *count; ++i) {
+            if (out[i] == n) {
+                return report_fail(r, "--moving: object %lu twice", n);
+            }
+        }
+        out[(*count)++] = (uint32_t)n;
+        at = *end == ',' ? end + 1 : NULL;
+    }
+    return at == NULL || report_fail(r, "--moving: at most %d objects", MOVING);
+}
+
+static int bake_scene(const options *o, const lmb_scene *whole, const lmb_vec3 *eyes, uint32_t eye_count, report *r)
 {
     static const char *const names[LMB_TRANSFER_SECTIONS] = {
         "surfaces",  "pieces", "areas",  "divisions", "corners",
         "receivers", "links",  "blends", "clusters",  "cluster links",
-        "coarse",    "coarse links"};
+        "coarse",    "coarse links", "moving", "grid",  "air"};
     bake b;
     bake_settings set;
     file_bytes file = {NULL, 0};
@@ -79,8 +108,13 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
     set.receivers = (uint32_t)o->receivers;
     set.threads = o->threads > 0 ? o->threads : pool_processors();
     b.is_quiet = o->is_quiet || !(o->is_verbose || host_watched());
-    int ok = bake_begin(&b, scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) &&
-             bake_receivers(&b, r) && bake_clusters(&b, r) && bake_bounces(&b, r) &&
+    uint32_t moving[MOVING], count;
+    bake_still_scene still = {*whole, NULL};
+    int ok = parse_moving(moving, &count, o->moving, whole, r) &&
+             (count == 0 ||
+              bake_still(&still, whole, moving, count, &b.section[LMB_TRANSFER_MOVING], r)) &&
+             bake_begin(&b, &still.scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) &&
+             bake_receivers(&b, r) && bake_air(&b, r) && bake_clusters(&b, r) && bake_bounces(&b, r) &&
              bake_file(&file, &b, r) && file_write(o->out, file.data, file.size, r);
     if (ok && !o->is_quiet) {
         printf("%s: %u elements, %u receivers, %.1f links each, %u clusters, %.1f links each, %.2f MB\n", o->out,
@@ -94,6 +128,7 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
         }
     }
     file_free(&file);
+    free(still.instance);
     bake_free(&b);
     return ok;
 }

@@ -21,5 +21,6 @@ void hard_relief(hard_list *list);
 void hard_mixed(hard_list *list);
 void hard_far(hard_list *list);
 void hard_whole(hard_list *list);
+void hard_baked(hard_list *list);
 
 #endif

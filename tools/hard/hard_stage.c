@@ -285,6 +285,8 @@ lmb_status hard_frame(hard_stage *s, int32_t show, int32_t map, float error)
     f.occlusion = LMB_OCCLUSION_EXACT;
     f.error = error;
     f.visibility = 0.75f * error;
+    f.transfer = s->transfer;
+    f.transfer_light = s->transfer_light;
     f.map_memory = s->map_memory;
     f.map_bytes = s->map_bytes;
     f.eye = s->eye;

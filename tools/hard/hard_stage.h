@@ -32,6 +32,8 @@ typedef struct hard_stage {
     lmb_band_scratch scratch;
     lmb_render render;
     lmb_stats stats;
+    const lmb_transfer *transfer; /* NULL: bounced light by cuts */
+    lmb_transfer_light transfer_light;
     void *map_memory, *tree_memory, *bvh_memory;
     size_t map_bytes, tree_bytes, bvh_bytes;
 } hard_stage;

@@ -1,0 +1,191 @@
+/* hard_baked.c: hard cases of baked light: where it leaks, beside what cuts make of the same scenes. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../bake/bake.h"
+#include "hard.h"
+
+enum { SIDE = 48, FLOATS = SIDE * SIDE * 3, MAP = 512, ELEMENTS = 4096, RECEIVERS = 6000, LEAVES = 16 };
+
+static const double ALBEDO = 0.6;
+
+/* --- scenes, all lit by a spot; the floor is y = 0 ---------------------------------------------------------------- */
+
+/* A closed room, 4 x 2.4 x 4 m. */
+static void begin_room(hard_stage *s)
+{
+    hard_begin(s, ALBEDO);
+    hard_box(s, dvec_of(0, 1.2, 0), dvec_of(2, 1.2, 2));
+}
+
+static int end_room(hard_stage *s, dvec light, dvec towards)
+{
+    hard_spot(s, light, towards, 40.0, 20.0);
+    return hard_end(s);
+}
+
+/* A wall without thickness in the middle; light at x > 0. */
+static int thin_wall(hard_stage *s)
+{
+    begin_room(s);
+    hard_quad(s, dvec_of(0, 1.2, 0), dvec_of(0, 0, 2), dvec_of(0, 1.2, 0));
+    return end_room(s, dvec_of(0.9, 2.2, 0.3), dvec_of(0.5, 0, 0));
+}
+
+/* A closed cupboard of thin boards. */
+static int cupboard(hard_stage *s)
+{
+    begin_room(s);
+    hard_box(s, dvec_of(-1.2, 0.6, -1.2), dvec_of(0.4, 0.6, 0.4));
+    return end_room(s, dvec_of(0.9, 2.2, 0.9), dvec_of(0, 0, 0));
+}
+
+static int box_on_floor(hard_stage *s)
+{
+    begin_room(s);
+    hard_box(s, dvec_of(-0.2, 0.3, -0.4), dvec_of(0.3, 0.3, 0.3));
+    return end_room(s, dvec_of(1.2, 2.2, 1.0), dvec_of(0.6, 0, 0.4));
+}
+
+/* A board at the wall, and a book that stands on it. */
+static int book_on_shelf(hard_stage *s)
+{
+    begin_room(s);
+    hard_box(s, dvec_of(0, 1.0, -1.85), dvec_of(0.8, 0.015, 0.149));
+    hard_box(s, dvec_of(0.2, 1.14, -1.86), dvec_of(0.02, 0.125, 0.09));
+    return end_room(s, dvec_of(0.6, 2.2, 0.6), dvec_of(0, 0.6, -2));
+}
+
+/* Every other square of a screen over the floor is open; it moves no light aside, so a third of the floor sees it. */
+static int leaves(hard_stage *s)
+{
+    static uint8_t texels[4 * LEAVES * LEAVES];
+    begin_room(s);
+    const uint32_t k = hard_part(s, ALBEDO);
+    hard_quad(s, dvec_of(0, 1.2, 0), dvec_of(0, 0, 1.2), dvec_of(1.2, 0, 0));
+    for (int i = 0; i < LEAVES * LEAVES; ++i) {
+        memset(texels + 4 * i, 255, 4);
+        texels[4 * i + 3] = (i / LEAVES + i) & 1 ? 255 : 0;
+    }
+    s->texture.texels = texels;
+    s->texture.width = s->texture.height = LEAVES;
+    s->texture.levels = 1;
+    s->texture.filter = LMB_NEAREST;
+    s->material[k].texture = 0;
+    s->material[k].flags |= LMB_ALPHA_MASK;
+    s->material[k].alpha_cutoff = 0.5f;
+    return end_room(s, dvec_of(0.3, 2.3, 0.2), dvec_of(0, 0, 0));
+}
+
+/* --- baked, and drawn --------------------------------------------------------------------------------------------- */
+
+typedef struct baked {
+    file_bytes file;
+    lmb_transfer transfer;
+    void *memory;
+} baked;
+
+/* Eyes stand where pictures are taken from, so that what they see is never left out as the inside of a solid. */
+static int bake_it(baked *out, hard_stage *s, const lmb_vec3 *eyes, uint32_t count)
+{
+    static const bake_settings set = {
+        .error = 0.001f, .division = 0.008f, .elements = ELEMENTS, .receivers = RECEIVERS, .threads = 2};
+    bake b;
+    report r = {""};
+    memset(&b, 0, sizeof b);
+    memset(out, 0, sizeof *out);
+    b.is_quiet = 1;
+    int ok = bake_begin(&b, &s->scene, &set, &r) && bake_elements(&b, &r) && bake_reach(&b, eyes, count, &r) &&
+             bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_bounces(&b, &r) && bake_file(&out->file, &b, &r) &&
+             lmb_transfer_open(&out->transfer, out->file.data, out->file.size) == LMB_OK;
+    bake_free(&b);
+    const size_t bytes = ok ? lmb_transfer_light_bytes(&out->transfer) : 0;
+    out->memory = bytes > 0 ? malloc(bytes) : NULL;
+    ok = ok && out->memory != NULL &&
+         lmb_transfer_light_init(&s->transfer_light, &out->transfer, out->memory, bytes) == LMB_OK &&
+         lmb_transfer_materials(&s->transfer_light, &out->transfer, &s->scene) == LMB_OK;
+    s->transfer = ok ? &out->transfer : NULL;
+    return ok;
+}
+
+static void end_baked(baked *b, hard_stage *s)
+{
+    s->transfer = NULL;
+    free(b->memory);
+    file_free(&b->file);
+}
+
+/* Mean bounced light of a picture from there, by what s->transfer says; HUGE_VAL where it cannot be drawn. */
+static double mean_seen(hard_stage *s, dvec from, dvec target)
+{
+    double sum = 0.0;
+    hard_look(s, from, target, 90.0, SIDE);
+    if (hard_frame(s, LMB_SHOW_IRRADIANCE, MAP, 0.002f) != LMB_OK) {
+        return HUGE_VAL;
+    }
+    for (int i = 0; i < FLOATS; ++i) {
+        sum += (double)s->out[i];
+    }
+    return sum / FLOATS;
+}
+
+static lmb_vec3 eye_at(dvec v)
+{
+    float f[3];
+    dvec_write(f, v);
+    return (lmb_vec3){f[0], f[1], f[2]};
+}
+
+/* Mean light in the dark of what is in the light, %, by cuts and baked. */
+static void put_leak(hard_list *l, int (*make)(hard_stage *), const char *name, dvec dark, dvec to, double bound)
+{
+    hard_stage *s = l->stage;
+    const dvec lit = dvec_of(1.0, 1.6, 1.0), at = dvec_of(1.0, 0, 0);
+    const lmb_vec3 eyes[2] = {eye_at(dark), eye_at(lit)};
+    baked b;
+    if (!make(s) || !bake_it(&b, s, eyes, 2)) {
+        hard_put(l, HARD_MEASURED, name, HUGE_VAL, bound, "% of the lit side");
+        return;
+    }
+    const double by_bake = 100.0 * hard_share(mean_seen(s, dark, to), mean_seen(s, lit, at));
+    end_baked(&b, s);
+    hard_put(l, HARD_MEASURED, name, by_bake, bound, "% of the lit side");
+    hard_put(l, HARD_MEASURED, "by cuts", 100.0 * hard_share(mean_seen(s, dark, to), mean_seen(s, lit, at)), 0.001,
+             "% of the lit side");
+}
+
+/* RMSE of baked light against nearly exact cuts, %. */
+static void put_beside(hard_list *l, int (*make)(hard_stage *), const char *name, dvec from, dvec to, double bound)
+{
+    static float by_bake[FLOATS];
+    hard_stage *s = l->stage;
+    const lmb_vec3 eyes[1] = {eye_at(from)};
+    double off = 0.0, all = 0.0;
+    baked b;
+    const int ok = make(s) && bake_it(&b, s, eyes, 1) && mean_seen(s, from, to) < HUGE_VAL;
+    if (ok) {
+        memcpy(by_bake, s->out, sizeof by_bake);
+        end_baked(&b, s);
+    }
+    if (!ok || !(mean_seen(s, from, to) < HUGE_VAL)) {
+        hard_put(l, HARD_MEASURED, name, HUGE_VAL, bound, "% rmse");
+        return;
+    }
+    for (int i = 0; i < FLOATS; ++i) {
+        const double d = (double)by_bake[i] - (double)s->out[i];
+        off += d * d;
+        all += (double)s->out[i];
+    }
+    hard_put(l, HARD_MEASURED, name, 100.0 * hard_share(sqrt(off / FLOATS), all / FLOATS), bound, "% rmse");
+}
+
+void hard_baked(hard_list *l)
+{
+    put_leak(l, thin_wall, "baked: behind a thin wall", dvec_of(-1.0, 1.2, 0.5), dvec_of(-0.4, 0.8, -1), 1.0);
+    put_leak(l, cupboard, "baked: in a closed cupboard", dvec_of(-1.2, 0.6, -1.1), dvec_of(-1.3, 0.3, -1.5), 1.2);
+    put_beside(l, box_on_floor, "baked: a box on a floor, against cuts", dvec_of(0.8, 0.9, 0.8),
+               dvec_of(-0.2, 0.1, -0.4), 9.5);
+    put_beside(l, book_on_shelf, "a book on a shelf", dvec_of(0.5, 1.3, -1.0), dvec_of(0.1, 1.05, -1.9), 7.5);
+    put_beside(l, leaves, "under a screen of leaves", dvec_of(1.5, 0.6, 1.5), dvec_of(0, 0.2, 0), 6.5);
+}
