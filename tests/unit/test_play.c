@@ -94,10 +94,10 @@ static void sums_times_up(void)
         play_times_add(&t, &one);
     }
     const play_figure clock = play_times_of(&t, PLAY_WHOLE, 0), cpu = play_times_of(&t, PLAY_WHOLE, 1);
-    CHECK(clock.least == 1.0 && clock.median == 50.5 && clock.p95 == 95.0);
-    CHECK(cpu.least == 2.0 && cpu.median == 2.0 && cpu.p95 == 2.0);
+    CHECK(clock.low == 1.0 && clock.median == 50.5 && clock.p95 == 95.0);
+    CHECK(cpu.low == 2.0 && cpu.median == 2.0 && cpu.p95 == 2.0);
     t.count = 1;
-    CHECK(play_times_of(&t, PLAY_WHOLE, 0).p95 == play_times_of(&t, PLAY_WHOLE, 0).least);
+    CHECK(play_times_of(&t, PLAY_WHOLE, 0).p95 == play_times_of(&t, PLAY_WHOLE, 0).low);
     play_times_print(&b, &t);
     CHECK(strstr(b.data, "whole frame") != NULL && strstr(b.data, "bands") == NULL);
     text_buffer_free(&b);

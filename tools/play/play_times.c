@@ -44,7 +44,7 @@ play_figure play_times_of(const play_times *t, int row, int is_cpu)
         t->sorted[i] = is_cpu ? t->frame[i].cpu_s[row] : t->frame[i].clock_s[row];
     }
     qsort(t->sorted, (size_t)t->count, sizeof *t->sorted, rising);
-    f.least = t->sorted[0];
+    f.low = t->sorted[0];
     f.median = 0.5 * (t->sorted[(t->count - 1) / 2] + t->sorted[t->count / 2]);
     f.p95 = t->sorted[(int32_t)((95 * (int64_t)t->count + 99) / 100) - 1];
     return f;
@@ -77,7 +77,7 @@ void play_times_print(text_buffer *out, const play_times *t)
         const play_figure clock = play_times_of(t, row, 0), cpu = play_times_of(t, row, 1);
         if (row == PLAY_WHOLE || cpu.p95 >= 5e-7 || clock.p95 >= 5e-7) {
             text_buffer_add(out, "%-13s %8.2f %8.2f %8.2f   %8.2f %8.2f %8.2f\n", play_times_name(row),
-                            clock.least * 1e3, clock.median * 1e3, clock.p95 * 1e3, cpu.least * 1e3, cpu.median * 1e3,
+                            clock.low * 1e3, clock.median * 1e3, clock.p95 * 1e3, cpu.low * 1e3, cpu.median * 1e3,
                             cpu.p95 * 1e3);
         }
     }

@@ -14,9 +14,9 @@ typedef struct play_time {
     double clock_s[PLAY_ROWS], cpu_s[PLAY_ROWS];
 } play_time;
 
-/* p95: what 95 of 100 frames take no more than. */
+/* low: the least; p95: what 95 of 100 frames take no more than. */
 typedef struct play_figure {
-    double least, median, p95;
+    double low, median, p95;
 } play_figure;
 
 /* Zeroed: none. play_times_free releases it. */

@@ -138,7 +138,7 @@ static int write_stats(const play *p, report *r)
     for (int row = 0; row < PLAY_ROWS; ++row) {
         const play_figure clock = play_times_of(&p->times, row, 0), cpu = play_times_of(&p->times, row, 1);
         text_buffer_add(&b, "%s\n    \"%s\": {\"clock\": [%.6f, %.6f, %.6f], \"cpu\": [%.6f, %.6f, %.6f]}",
-                        row > 0 ? "," : "", play_times_name(row), clock.least, clock.median, clock.p95, cpu.least,
+                        row > 0 ? "," : "", play_times_name(row), clock.low, clock.median, clock.p95, cpu.low,
                         cpu.median, cpu.p95);
     }
     text_buffer_add(&b, "\n  },\n  \"figures\": [\"least\", \"median\", \"95 of 100\"], \"backend\": \"%s\"\n}\n",
