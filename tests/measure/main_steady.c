@@ -297,7 +297,8 @@ static int make_stage(report *r)
     stage.o.render.show = LMB_SHOW_IRRADIANCE;
     stage.job.o = stage.o.render;
     return play_motion_read(&stage.motion, &stage.o, r) && render_job_load(&stage.job, r) &&
-           render_job_set(&stage.job, r) && play_motion_make(&stage.motion, &stage.job, r);
+           play_motion_find(&stage.motion, &stage.job, r) && render_job_set(&stage.job, r) &&
+           play_motion_make(&stage.motion, r);
 }
 
 static int is_asked(const char *only, const char *what) { return only == NULL || strcmp(only, what) == 0; }

@@ -614,6 +614,42 @@ status 0 play "$dir/block.obj" $inside --quality best --gather full --frames 1 -
 check "the best has no error against itself" grep -q "trim 0.0000  rmse 0.0000" "$dir/out.txt"
 status 0 play "$dir/block.obj" $inside $baked --frames 1 -q -o "$dir/play_%02d.ppm"
 check "--quiet is quiet" sh -c '! cat "$1" "$2" | grep -q .' sh "$dir/out.txt" "$dir/err.txt"
+# The animations of a glTF file: light, camera and a triangle move by them, each frame the same alone.
+cat >"$dir/moving.gltf" <<'GLTF'
+{"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"nodes":[{"mesh":0},{"mesh":1},
+{"translation":[0,2,0],"extensions":{"KHR_lights_punctual":{"light":0}}},{"translation":[0,1.5,4],"camera":0}],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":4}]}},
+"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":1.333}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":4}}]},{"primitives":[{"attributes":{"POSITION":5}}]}],
+"animations":[{"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}},
+{"sampler":1,"target":{"node":2,"path":"translation"}},{"sampler":2,"target":{"node":3,"path":"translation"}}],
+"samplers":[{"input":0,"output":1},{"input":0,"output":2},{"input":0,"output":3}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR"},
+{"bufferView":0,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":0,"byteOffset":32,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":0,"byteOffset":56,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":0,"byteOffset":80,"componentType":5126,"count":6,"type":"VEC3"},
+{"bufferView":0,"byteOffset":152,"componentType":5126,"count":3,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteLength":188}],
+"buffers":[{"byteLength":188,"uri":"data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAACamRk/AAAAAJqZmT4AAAAAAAAAQAAAAAAAAAA/AAAAQM3MzD4AAAAAAACAPwAAgEAAAAA/mpmZPwAAgEAAAEDAAAAAAAAAQMAAAEBAAAAAAAAAQEAAAEBAAAAAAAAAQMAAAEDAAAAAAAAAQMAAAEDAAAAAAAAAQEAAAEBAAAAAAAAAQEAAAAC/mpmZPgAAAAAAAAA/mpmZPgAAAAAAAAAAAACAPwAAAAA="}]}
+GLTF
+for move in light camera object all; do
+    status 0 play "$dir/moving.gltf" --size 64x48 --quality draft --move $move --fps 2 --frames 3 -o "$dir/play_%02d.pfm"
+    status 0 play "$dir/moving.gltf" --size 64x48 --quality draft --move $move --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"
+    check "an animation moves --move $move, the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' \
+        sh "$dir/play" "$dir/alone"
+done
+status 0 render "$dir/moving.gltf" --size 64x48 --quality draft --light point:0.5,2,0.4:0,0,-1:4,4,4 -o "$dir/rendered.pfm"
+status 0 play "$dir/moving.gltf" --size 64x48 --quality draft --move light --fps 1 --from 1 --frames 1 -o "$dir/alone_%02d.pfm"
+check "an animated light lights as one that was put there" cmp -s "$dir/rendered.pfm" "$dir/alone_01.pfm"
+status 0 bake "$dir/moving.gltf" -o "$dir/moving.lmt" --elements 64 --receivers 64
+status 0 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moving.lmt" --frames 2
+check "that baked objects stand still is said" grep -q "objects stand still: what was baked" "$dir/err.txt"
+status 1 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moving.lmt" --move object --frames 2
+sed 's/"input":0,"output":2/"input":0,"output":3,"interpolation":"CUBICSPLINE"/' "$dir/moving.gltf" >"$dir/odd.gltf"
+status 0 render "$dir/odd.gltf" --size 64x48 --shadow-map 64 -o "$dir/odd.png"
+status 1 play "$dir/odd.gltf" --size 64x48 --frames 2
+said "2 values for 2 keys; or give --path"
 line() { # line NUMBER SAYS KEYS: a path file that is refused, by the line.
     printf "$3" >"$dir/bad.txt"
     status 1 play "$dir/block.obj" $inside --path "$dir/bad.txt" --frames 2 -o "$dir/bad%02d.pfm"
@@ -661,7 +697,8 @@ status 1 play "$dir/nowhere.obj" --frames 2
 status 1 play "$dir/block.obj" $inside --frames 2 -o "$dir/nowhere/bad%02d.pfm"
 status 1 play "$dir/block.obj" $inside --frames 2 --transfer "$dir/box-1.lmt" -o "$dir/bad%02d.pfm"
 status 2 play
-status 2 play "$dir/block.obj" --move object
+status 1 play "$dir/block.obj" --move object
+said "nothing in $dir/block.obj moves objects; give --path FILE"
 for pattern in bad.png bad%d.png bad%4d.png bad%00d.png bad%s.png bad%04d%04d.png bad%04d%%.png bad%04d bad%04d.gif bad%010d.png bad%04n.png; do
     status 2 play "$dir/block.obj" -o "$dir/$pattern"
 done

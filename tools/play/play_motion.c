@@ -1,4 +1,4 @@
-/* play_motion.c: moves lights, camera and objects to where they are at a frame: by keys, or by themselves. */
+/* play_motion.c: moves lights, camera and objects to where they are at a frame: by keys, animations, or themselves. */
 #include "play_motion.h"
 
 #include <math.h>
@@ -7,6 +7,7 @@
 
 #include "../../src/base/light_kind.h"
 #include "../../src/base/vec.h"
+#include "../render/render_view.h"
 #include "play_space.h"
 
 #define TURN_S 10.0      /* that a circle or swing takes by itself */
@@ -144,6 +145,27 @@ static void put_light(play_motion *m, uint32_t i, lmb_light wanted)
     }
 }
 
+/* Returns 1 where it is elsewhere than before. */
+static int put_object(play_motion *m, uint32_t i, const lmb_mat4 *to)
+{
+    if (memcmp(to, &m->instance[i].to_world, sizeof *to) == 0) {
+        return 0;
+    }
+    m->instance[i].to_world = *to;
+    ++m->instance[i].revision;
+    return 1;
+}
+
+/* Once objects have moved. */
+static int set_moved(play_motion *m, int32_t k, report *r)
+{
+    lmb_scene *s = &m->job->scene;
+    ++s->revision;
+    lmb_scene_bounds(&s->bounds_min, &s->bounds_max, s);
+    return lmb_scene_check(s) == LMB_OK || report_fail(r, "%s: at frame %d an object stands where it cannot",
+                                                       m->job->o.scene, (int)k);
+}
+
 static void put_keyed_light(play_motion *m, uint32_t i, const play_key *key)
 {
     lmb_light l = m->light_at_rest[i];
@@ -195,17 +217,11 @@ static int put_keyed_object(play_motion *m, uint32_t i, const play_key *key)
     to.m[12] = key->at.x;
     to.m[13] = key->at.y;
     to.m[14] = key->at.z;
-    if (memcmp(&to, &m->instance[i].to_world, sizeof to) == 0) {
-        return 0;
-    }
-    m->instance[i].to_world = to;
-    ++m->instance[i].revision;
-    return 1;
+    return put_object(m, i, &to);
 }
 
 static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
 {
-    lmb_scene *s = &m->job->scene;
     int moved = 0, ok = 1;
     for (uint32_t t = 0; ok && t < m->path.track_count; ++t) {
         const play_track *track = &m->path.track[t];
@@ -218,12 +234,31 @@ static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
             moved |= put_keyed_object(m, track->index, &key);
         }
     }
-    if (moved) {
-        ++s->revision;
-        lmb_scene_bounds(&s->bounds_min, &s->bounds_max, s);
+    return ok && (!moved || set_moved(m, k, r));
+}
+
+static int set_by_animations(play_motion *m, int32_t k, double time_s, report *r)
+{
+    const model *loaded = &m->job->loaded;
+    int moved = 0;
+    if (!model_pose(m->instance_posed, m->light_posed, m->camera, loaded, time_s)) {
+        return report_fail(r, "%s: at frame %d its animations lead nowhere: a scale of 0, or numbers that are too large",
+                           m->job->o.scene, (int)k);
     }
-    return ok && (!moved || lmb_scene_check(s) == LMB_OK ||
-                  report_fail(r, "%s: at frame %d an object stands where it cannot", m->options->path, (int)k));
+    for (uint32_t i = 0; (m->moves & PLAY_LIGHT) != 0 && i < m->job->scene.light_count; ++i) {
+        put_light(m, i, m->light_posed[i]);
+    }
+    for (uint32_t i = 0; (m->moves & PLAY_OBJECT) != 0 && i < m->job->scene.instance_count; ++i) {
+        moved |= put_object(m, i, &m->instance_posed[i].to_world);
+    }
+    if ((m->moves & PLAY_CAMERA) != 0 && m->camera_used >= 0) {
+        const model_camera *c = &m->camera[m->camera_used];
+        m->job->middle.eye = c->eye;
+        m->job->middle.right = c->right;
+        m->job->middle.up = c->up;
+        m->job->middle.back = c->back;
+    }
+    return !moved || set_moved(m, k, r);
 }
 
 int play_motion_set(play_motion *m, int32_t k, report *r)
@@ -232,6 +267,9 @@ int play_motion_set(play_motion *m, int32_t k, report *r)
     m->job->middle = m->view_at_rest;
     if (m->path.key_count > 0) {
         return set_by_path(m, k, time_s, r);
+    }
+    if (m->is_animated) {
+        return set_by_animations(m, k, time_s, r);
     }
     for (uint32_t i = 0; i < m->job->scene.light_count; ++i) {
         if (m->radius[i] > 0.0f) {
@@ -295,6 +333,83 @@ static int check_lights(play_motion *m, report *r)
     return 1;
 }
 
+/* Does any of the nodes that these stand for move? */
+static int any_moves(const struct model_motion *motion, const uint32_t *node, uint32_t count)
+{
+    int any = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        any |= node[i] != MODEL_NONE && motion->moves[node[i]];
+    }
+    return any;
+}
+
+/* What of `moves` the file's animations move: its own lights, the camera in use, objects. */
+static int animated(play_motion *m, report *r)
+{
+    const model *loaded = &m->job->loaded;
+    const struct model_motion *motion = loaded->motion;
+    const model_camera *camera = m->options->render.view.has_eye ? NULL : render_camera(&m->job->o, loaded, r);
+    int all = 0;
+    m->camera_used = camera != NULL ? (int32_t)(camera - loaded->cameras) : -1;
+    if (motion == NULL) {
+        return 0;
+    }
+    all |= m->options->render.light_count == 0 && any_moves(motion, motion->of_light, loaded->scene.light_count)
+               ? PLAY_LIGHT
+               : 0;
+    all |= camera != NULL && any_moves(motion, motion->of_camera + m->camera_used, 1) ? PLAY_CAMERA : 0;
+    all |= any_moves(motion, motion->of_instance, loaded->scene.instance_count) ? PLAY_OBJECT : 0;
+    return all & m->moves;
+}
+
+int play_motion_find(play_motion *m, render_job *j, report *r)
+{
+    const model *loaded = &j->loaded;
+    m->job = j;
+    if (m->path.key_count > 0) {
+        return 1;
+    }
+    int all = animated(m, r);
+    if (loaded->motion_problem.text[0] != '\0') {
+        return report_fail(r, "%s; or give --path", loaded->motion_problem.text);
+    }
+    if ((all & PLAY_OBJECT) != 0 && m->options->render.transfer != NULL) {
+        if (m->moves == PLAY_OBJECT) {
+            return report_fail(r, "--move object: what was baked holds for objects that stand still; leave out "
+                                  "--transfer");
+        }
+        report_note(m->options->render.view.is_quiet, "objects stand still: what was baked holds for those that do");
+        all &= ~PLAY_OBJECT;
+    }
+    if (all == 0 && m->moves == PLAY_OBJECT) {
+        return report_fail(r, "--move object: nothing in %s moves objects; give --path FILE", m->job->o.scene);
+    }
+    m->is_animated = all != 0;
+    m->moves = m->is_animated ? all : m->moves;
+    return 1;
+}
+
+/* Cameras as the file has them; lights and objects as they were before the motion took them. */
+static int take_poses(play_motion *m, report *r)
+{
+    const model *loaded = &m->job->loaded;
+    const size_t lights = m->job->scene.light_count * sizeof *m->light;
+    const size_t instances = m->job->scene.instance_count * sizeof *m->instance;
+    const size_t cameras = loaded->camera_count * sizeof *m->camera;
+    m->light_posed = malloc(lights + 1);
+    m->instance_posed = malloc(instances + 1);
+    m->camera = malloc(cameras + 1);
+    if (m->light_posed == NULL || m->instance_posed == NULL || m->camera == NULL) {
+        return report_fail(r, "not enough memory for what moves");
+    }
+    memcpy(m->light_posed, m->light_at_rest, lights);
+    memcpy(m->instance_posed, m->instance_at_rest, instances);
+    if (cameras > 0) {
+        memcpy(m->camera, loaded->cameras, cameras);
+    }
+    return 1;
+}
+
 static int take(play_motion *m, report *r)
 {
     const lmb_scene *s = &m->job->scene;
@@ -325,16 +440,21 @@ int play_motion_read(play_motion *m, const play_options *o, report *r)
     return o->path == NULL || play_path_read(&m->path, o->path, r);
 }
 
-int play_motion_make(play_motion *m, render_job *j, report *r)
+int play_motion_make(play_motion *m, report *r)
 {
-    m->job = j;
+    render_job *j = m->job;
     m->view_at_rest = j->middle;
-    if (!take(m, r) || !check_lights(m, r)) {
+    if (!take(m, r) || !check_lights(m, r) || (m->is_animated && !take_poses(m, r))) {
         return 0;
     }
     j->scene.lights = m->light;
     j->scene.instances = m->instance;
-    return m->path.key_count > 0 ? check_path(m, r) : find_room(m, r);
+    return m->path.key_count > 0 ? check_path(m, r) : m->is_animated || find_room(m, r);
+}
+
+double play_motion_end(const play_motion *m)
+{
+    return m->is_animated ? m->job->loaded.motion->end_s : play_path_end(&m->path);
 }
 
 void play_motion_free(play_motion *m)
@@ -343,6 +463,9 @@ void play_motion_free(play_motion *m)
     free(m->light_at_rest);
     free(m->instance);
     free(m->instance_at_rest);
+    free(m->light_posed);
+    free(m->instance_posed);
+    free(m->camera);
     free(m->radius);
     play_path_free(&m->path);
     memset(m, 0, sizeof *m);

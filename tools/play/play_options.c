@@ -48,9 +48,9 @@ static const option_row play_rows[] = {
              "without it, frames are drawn for their times alone"},
     {.kind = OPTION_TITLE, .help = "motion"},
     {.name = "--move", .kind = OPTION_WORD, AT(move), .words = moves, .values = move_values,
-     .help = "what moves (default all). By itself a light goes round its place in a circle (a sun's direction in a "
-             "cone), and the camera swings on an arc around what it looks at, once in 10 s, both as far as the "
-             "scene leaves room; objects move by --path alone"},
+     .help = "what moves (default all): by --path; else by a glTF file's animations of nodes, all of them together; "
+             "else by itself: a light goes round its place in a circle (a sun's direction in a cone) and the camera "
+             "swings on an arc around what it looks at, once in 10 s, both as far as the scene leaves room"},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path),
      .help = "what moves, by keys: lines of TIME WHAT X,Y,Z [X,Y,Z]: seconds; camera, light (or light:N) or object:N, "
              "numbered from 0; position; what it looks at or shines on (an object: faces with its +Z), where that "
@@ -94,11 +94,7 @@ static int check_together(const play_options *o, report *r)
     if (o->check > 0 && o->render.show == LMB_SHOW_DIRECT) {
         return report_fail(r, "--check: errors are of bounced light; --show full, indirect or irradiance");
     }
-    if (o->render.transfer != NULL && o->path == NULL && o->move == PLAY_OBJECT) {
-        return report_fail(r, "--move object: what was baked holds for objects that stand still; leave out --transfer");
-    }
-    return o->path != NULL || o->move != PLAY_OBJECT ||
-           report_fail(r, "--move object: objects move by --path FILE alone");
+    return 1;
 }
 
 int play_options_parse(play_options *o, int argc, char **argv, report *r)

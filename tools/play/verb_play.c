@@ -123,10 +123,11 @@ static void tell_frames(play *p)
 /* Frames of which nothing moves would look fast. */
 static void tell_end(const play *p)
 {
-    const double end = play_path_end(&p->motion.path);
+    const double end = play_motion_end(&p->motion);
     const double last = (double)(p->o.from + p->o.frames - 1) / (double)p->o.fps;
-    report_note(p->o.path == NULL || p->o.render.view.is_quiet || last <= end,
-                "note: %s ends at %.3g s, the frames at %.3g s: from there on nothing moves", p->o.path, end, last);
+    report_note((p->o.path == NULL && !p->motion.is_animated) || p->o.render.view.is_quiet || last <= end,
+                "note: %s ends at %.3g s, the frames at %.3g s: from there on nothing moves",
+                p->o.path != NULL ? p->o.path : p->o.render.scene, end, last);
 }
 
 static int write_stats(const play *p, report *r)
@@ -171,7 +172,7 @@ static int run(play *p, report *r)
 {
     p->job.o = p->o.render;
     if (!can_write(p, r) || !play_motion_read(&p->motion, &p->o, r) || !render_job_load(&p->job, r) ||
-        !render_job_set(&p->job, r) || !play_motion_make(&p->motion, &p->job, r) || !play_times_make(&p->times, p->o.frames, r) ||
+        !play_motion_find(&p->motion, &p->job, r) || !render_job_set(&p->job, r) || !play_motion_make(&p->motion, r) || !play_times_make(&p->times, p->o.frames, r) ||
         !find_exposure(p, r) || !draw_all(p, r)) {
         return 0;
     }
