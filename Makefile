@@ -273,8 +273,8 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving scenes \
-    measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
+.PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+    measure-steady scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels large tiny run-demo run-statue cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
@@ -338,6 +338,9 @@ reference: $(B)/reference ## coverage and depth of the raster workload against a
 
 measure-moving: $(B)/measure-moving ## a light and a crate that move: how much cuts add from frame to frame
 	@$(RUN) $(B)/measure-moving
+
+measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, pops, shifts (SCENES, ONLY=halving)
+	@$(IN_SH) tests/measure/steady.sh
 
 scenes: $(B)/scenes ## a program that makes scenes from a name and a seed (scenes --list)
 

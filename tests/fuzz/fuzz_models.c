@@ -4,6 +4,7 @@
 
 #include "../../tools/common/io_json.h"
 #include "../../tools/model/io_obj.h"
+#include "../../tools/model/model_motion.h"
 #include "fuzz.h"
 
 #define FOLDER "tests/fuzz/neighbours/" /* a.bin, a.mtl and a.png, for a model to name */
@@ -44,6 +45,36 @@ static void draw_scene(const lmb_scene *scene)
     }
 }
 
+static void *copy_of(const void *data, size_t bytes)
+{
+    void *to = malloc(bytes + 1);
+    fuzz_require(to != NULL);
+    if (bytes > 0) {
+        memcpy(to, data, bytes);
+    }
+    return to;
+}
+
+/* A motion has a pose at any time, or none; what it gives is numbers. */
+static void pose_scene(const model *m)
+{
+    static const double times[] = {0.0, 0.4, 1e6};
+    lmb_instance *instances = copy_of(m->scene.instances, m->scene.instance_count * sizeof *instances);
+    lmb_light *lights = copy_of(m->scene.lights, m->scene.light_count * sizeof *lights);
+    model_camera *cameras = copy_of(m->cameras, m->camera_count * sizeof *cameras);
+    for (int t = 0; t < 3; ++t) {
+        const int ok = model_pose(instances, lights, cameras, m, times[t]);
+        for (uint32_t i = 0; ok && i < m->scene.light_count; ++i) {
+            const lmb_vec3 at = lights[i].position, along = lights[i].direction;
+            fuzz_require(at.x - at.x == 0.0f && at.y - at.y == 0.0f && at.z - at.z == 0.0f);
+            fuzz_require(along.x >= -1.001f && along.x <= 1.001f && along.y >= -1.001f && along.y <= 1.001f);
+        }
+    }
+    free(instances);
+    free(lights);
+    free(cameras);
+}
+
 static void try_model(const char *path, const uint8_t *data, size_t size)
 {
     report r = {{0}};
@@ -52,6 +83,9 @@ static void try_model(const char *path, const uint8_t *data, size_t size)
     if (model_read(&m, path, NULL, data, size, &notes, &r)) {
         fuzz_require(r.text[0] == '\0' && lmb_scene_check(&m.scene) == LMB_OK);
         draw_scene(&m.scene);
+        if (m.motion != NULL) {
+            pose_scene(&m);
+        }
         model_make_glossy(&m);
         fuzz_require(lmb_scene_check(&m.scene) == LMB_OK);
         model_free(&m);

@@ -324,7 +324,7 @@ check "-v says how long what took" grep -q '^lambent: bands .* ms$' "$dir/err.tx
 check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh "$dir/loud.png" "$dir/hushed.png" "$dir/told.png"
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm" -q
 check "compare -q is its exit status" sh -c '! test -s "$1"' sh "$dir/out.txt"
-for verb in render relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
+for verb in render play relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
     "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix"; do
     status 0 $verb -V
     check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' "$dir/out.txt"
@@ -578,6 +578,143 @@ check "nothing bad was drawn or baked" sh -c '! ls "$1"/bad* 2>/dev/null | grep 
 status 0 bake --help
 check "bake --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' "$dir/out.txt"
 status 0 bake -V
+# Frames that move: each the same alone and among others, by cuts and by baked light; and as `render` has it.
+baked="--transfer $dir/block-1.lmt"
+for way in "--quality draft" "$baked"; do
+    for move in light camera all; do
+        status 0 play "$dir/block.obj" $inside $way --move $move --fps 2 --frames 4 -o "$dir/play_%02d.pfm"
+        check "frames move" sh -c '! cmp -s "$1_00.pfm" "$1_03.pfm"' sh "$dir/play"
+        status 0 play "$dir/block.obj" $inside $way --move $move --fps 2 --from 3 --frames 1 --threads 1 -o "$dir/alone_%02d.pfm"
+        check "a frame is the same alone, $way --move $move" cmp -s "$dir/play_03.pfm" "$dir/alone_03.pfm"
+    done
+done
+check "a frame's times are told" sh -c 'grep -q "^bands  *[0-9.]* " "$1" && grep -q "^whole frame  *[0-9.]* " "$1"' sh "$dir/out.txt"
+for extension in png hdr; do
+    status 0 play "$dir/block.obj" $inside $baked --frames 2 --fps 1 -o "$dir/play%02d.$extension"
+    status 0 play "$dir/block.obj" $inside $baked --frames 1 --fps 1 --from 1 -o "$dir/alone%02d.$extension"
+    check "a .$extension is the same alone" cmp -s "$dir/play01.$extension" "$dir/alone01.$extension"
+done
+printf '%s\n' "0 light 0.2,0.5,0 # begins here" "0 camera -0.8,0.6,-0.8 0.3,-0.6,0.3" "" \
+    "1 light 0.3,0.5,0.1" "1 camera -0.7,0.6,-0.8 0.2,-0.6,0.3" "3 light 0.5,0.4,0.2" "2 camera -0.5,0.6,-0.8 0,-0.5,0" >"$dir/keys.txt"
+status 0 play "$dir/block.obj" $inside $baked --path "$dir/keys.txt" --fps 1 --frames 4 -o "$dir/key%01d.pfm"
+status 0 render "$dir/block.obj" --eye -0.7,0.6,-0.8 --target 0.2,-0.6,0.3 --size 64x48 --light point:0.3,0.5,0.1:0,-1,0:5,4,3 \
+    --show indirect $baked -o "$dir/rendered.pfm"
+check "a frame at a key is as render has it" cmp -s "$dir/key1.pfm" "$dir/rendered.pfm"
+status 0 play "$dir/block.obj" $inside --path "$dir/keys.txt" --move camera --quality draft --fps 1 --from 2 --frames 3 -o "$dir/key%01d.pfm"
+check "that a path ends is said" grep -q "keys.txt ends at 3 s, the frames at 4 s: from there on nothing moves" "$dir/err.txt"
+check "after its last key nothing moves" cmp -s "$dir/key2.pfm" "$dir/key4.pfm"
+printf '0 object:0 0,0,0\n1 object:0 0.1,0,0 1,0,0\n' >"$dir/mixed.txt"
+status 1 play "$dir/block.obj" $inside --path "$dir/mixed.txt" --frames 2 -o "$dir/bad%02d.pfm"
+said "mixed.txt: line 2: keys of one thing have a target each, or none; see line 1"
+printf '0 object:0 0,0,0\n1 object:0 0.1,0,0\n' >"$dir/object.txt"
+status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --move object --quality draft --fps 2 --frames 3 -o "$dir/play_%02d.pfm"
+status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --quality draft --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"
+check "an object moves, and is the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' sh "$dir/play" "$dir/alone"
+status 1 play "$dir/block.obj" $inside --path "$dir/object.txt" $baked --frames 2 -o "$dir/bad%02d.pfm"
+said "object.txt: line 1: what was baked holds for objects that stand still"
+status 0 play "$dir/block.obj" $inside $baked --frames 3 --check 2 --stats "$dir/play.json"
+check "every second frame's error is told" sh -c 'test "$(grep -c "^frame [02] *trim 0\.[0-9]* *rmse 0\." "$1")" = 2' sh "$dir/out.txt"
+check "--stats of play has the whole frame" grep -q '"whole frame": {"clock": \[[0-9.]*, ' "$dir/play.json"
+status 0 play "$dir/block.obj" $inside --quality best --gather full --frames 1 --check 1
+check "the best has no error against itself" grep -q "trim 0.0000  rmse 0.0000" "$dir/out.txt"
+status 0 play "$dir/block.obj" $inside $baked --frames 1 -q -o "$dir/play_%02d.ppm"
+check "--quiet is quiet" sh -c '! cat "$1" "$2" | grep -q .' sh "$dir/out.txt" "$dir/err.txt"
+# The animations of a glTF file: light, camera and a triangle move by them, each frame the same alone.
+cat >"$dir/moving.gltf" <<'GLTF'
+{"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"nodes":[{"mesh":0},{"mesh":1},
+{"translation":[0,2,0],"extensions":{"KHR_lights_punctual":{"light":0}}},{"translation":[0,1.5,4],"camera":0}],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":4}]}},
+"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1,"aspectRatio":1.333}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":4}}]},{"primitives":[{"attributes":{"POSITION":5}}]}],
+"animations":[{"channels":[{"sampler":0,"target":{"node":1,"path":"translation"}},
+{"sampler":1,"target":{"node":2,"path":"translation"}},{"sampler":2,"target":{"node":3,"path":"translation"}}],
+"samplers":[{"input":0,"output":1},{"input":0,"output":2},{"input":0,"output":3}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR"},
+{"bufferView":0,"byteOffset":8,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":0,"byteOffset":32,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":0,"byteOffset":56,"componentType":5126,"count":2,"type":"VEC3"},
+{"bufferView":0,"byteOffset":80,"componentType":5126,"count":6,"type":"VEC3"},
+{"bufferView":0,"byteOffset":152,"componentType":5126,"count":3,"type":"VEC3"}],
+"bufferViews":[{"buffer":0,"byteLength":188}],
+"buffers":[{"byteLength":188,"uri":"data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAAAAAAAAAACamRk/AAAAAJqZmT4AAAAAAAAAQAAAAAAAAAA/AAAAQM3MzD4AAAAAAACAPwAAgEAAAAA/mpmZPwAAgEAAAEDAAAAAAAAAQMAAAEBAAAAAAAAAQEAAAEBAAAAAAAAAQMAAAEDAAAAAAAAAQMAAAEDAAAAAAAAAQEAAAEBAAAAAAAAAQEAAAAC/mpmZPgAAAAAAAAA/mpmZPgAAAAAAAAAAAACAPwAAAAA="}]}
+GLTF
+for move in light camera object all; do
+    status 0 play "$dir/moving.gltf" --size 64x48 --quality draft --move $move --fps 2 --frames 3 -o "$dir/play_%02d.pfm"
+    status 0 play "$dir/moving.gltf" --size 64x48 --quality draft --move $move --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"
+    check "an animation moves --move $move, the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' \
+        sh "$dir/play" "$dir/alone"
+done
+status 0 render "$dir/moving.gltf" --size 64x48 --quality draft --light point:0.5,2,0.4:0,0,-1:4,4,4 -o "$dir/rendered.pfm"
+status 0 play "$dir/moving.gltf" --size 64x48 --quality draft --move light --fps 1 --from 1 --frames 1 -o "$dir/alone_%02d.pfm"
+check "an animated light lights as one that was put there" cmp -s "$dir/rendered.pfm" "$dir/alone_01.pfm"
+status 0 bake "$dir/moving.gltf" -o "$dir/moving.lmt" --elements 64 --receivers 64
+status 0 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moving.lmt" --frames 2
+check "that baked objects stand still is said" grep -q "objects stand still: what was baked" "$dir/err.txt"
+status 1 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moving.lmt" --move object --frames 2
+sed 's/"input":0,"output":2/"input":0,"output":3,"interpolation":"CUBICSPLINE"/' "$dir/moving.gltf" >"$dir/odd.gltf"
+status 0 render "$dir/odd.gltf" --size 64x48 --shadow-map 64 -o "$dir/odd.png"
+status 1 play "$dir/odd.gltf" --size 64x48 --frames 2
+said "2 values for 2 keys; or give --path"
+line() { # line NUMBER SAYS KEYS: a path file that is refused, by the line.
+    printf "$3" >"$dir/bad.txt"
+    status 1 play "$dir/block.obj" $inside --path "$dir/bad.txt" --frames 2 -o "$dir/bad%02d.pfm"
+    said "bad.txt: line $1: $2"
+}
+long=$(printf '%0200d' 0)
+line 1 "begins with no time" 'camera 0,0,0\n'
+line 1 "begins with no time" '\000\001\002'
+line 2 "begins with no time" '0 light 0,0,0\n-1 light 0,0,0\n'
+line 1 "begins with no time" 'nan light 0,0,0\n'
+line 1 "begins with no time" '1e7 light 0,0,0\n'
+line 3 "a time alone" '# none\n\n0\n'
+line 1 "\`lamp\` moves nothing" '0 lamp 0,0,0\n'
+line 1 "\`object\`: write camera, light, light:N or object:N" '0 object 0,0,0\n'
+line 1 "\`camera:0\`: write" '0 camera:0 0,0,0\n'
+line 1 "\`light:-1\`: write" '0 light:-1 0,0,0\n'
+line 1 "\`light:\`: write" '0 light: 0,0,0\n'
+line 1 "no position" '0 light\n'
+line 1 "\`0,0\` is not X,Y,Z" '0 light 0,0\n'
+line 1 "\`0,0,2e6\` is not X,Y,Z within 1,000,000 m" '0 light 0,0,2e6\n'
+line 1 "\`nan,0,0\` is not" '0 light nan,0,0\n'
+line 1 "more than TIME WHAT" '0 light 0,0,0 1,1,1 2\n'
+line 1 "position and target are the same" '0 light 0,0,0 0,0,0\n'
+line 2 "not later than the key before it" '1 light 0,0,0\n1 light 0,0,1\n'
+line 1 "no light:1; the scene has 1, numbered from 0" '0 light:1 0,0,0\n'
+line 1 "no object:7; the scene has" '0 object:7 0,0,0\n'
+line 1 "\`00000000" "0 light 0$long,0,0\\n"
+line 1 "\`1,1,100000000" "0 camera 0,0,0 1,1,1$long\\n"
+awk 'BEGIN { for (i = 0; i < 10001; ++i) print i, "camera 0,0,0" }' >"$dir/bad.txt"
+status 1 play "$dir/block.obj" $inside --path "$dir/bad.txt" --frames 2
+said "bad.txt: line 10001: over 10000 keys"
+awk 'BEGIN { for (i = 0; i < 70; ++i) print "0 light:" i, "0,0,0" }' >"$dir/bad.txt"
+status 1 play "$dir/block.obj" $inside --path "$dir/bad.txt" --frames 2
+said "bad.txt: line 65: over 64 things that move"
+printf '# nothing\n' >"$dir/bad.txt"
+status 1 play "$dir/block.obj" $inside --path "$dir/bad.txt" --frames 2
+said "bad.txt: no keys in it"
+status 1 play "$dir/block.obj" $inside --path "$dir/keys.txt" --move object --frames 2
+said "keys.txt: nothing in it that --move lets move"
+printf '0 camera 0,0,0 0,1,0\n' >"$dir/bad.txt"
+status 1 play "$dir/block.obj" $inside --path "$dir/bad.txt" --frames 2
+said "at frame 0 the camera looks along what is up"
+status 1 play "$dir/block.obj" $inside --path "$dir/nowhere.txt" --frames 2
+status 1 play "$dir/nowhere.obj" --frames 2
+status 1 play "$dir/block.obj" $inside --frames 2 -o "$dir/nowhere/bad%02d.pfm"
+status 1 play "$dir/block.obj" $inside --frames 2 --transfer "$dir/box-1.lmt" -o "$dir/bad%02d.pfm"
+status 2 play
+status 1 play "$dir/block.obj" --move object
+said "nothing in $dir/block.obj moves objects; give --path FILE"
+for pattern in bad.png bad%d.png bad%4d.png bad%00d.png bad%s.png bad%04d%04d.png bad%04d%%.png bad%04d bad%04d.gif bad%010d.png bad%04n.png; do
+    status 2 play "$dir/block.obj" -o "$dir/$pattern"
+done
+for option in "--frames 0" "--frames 1e3" "--from -1" "--fps 0" "--check 0" "--move lamp" "--show depth" "--stereo 0.1"; do
+    status 2 play "$dir/block.obj" $option
+done
+status 2 play "$dir/block.obj" --check 1 --show direct
+check "nothing bad was played" sh -c '! ls "$1"/bad*.p* 2>/dev/null | grep -q .' sh "$dir"
+status 0 play --help
+check "play --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' "$dir/out.txt"
+status 0 play -V
 # One photo of a wall, 24 x 24, grey, 2 m away; and what may not be there.
 half='\000\000\000\077'
 two='\000\000\000\100'

@@ -604,6 +604,33 @@ static void keeps_power(const lmb_transfer *t, const lmb_scene *scene)
     free(l.memory);
 }
 
+/* In a closed room elements collect what a spot sends by closed form, 2 pi (1 - the mean of its cones' cosines) of its
+ * intensity, to 0.1 %: also where it lights parts of a few elements alone. */
+static void collects_all(const lmb_transfer *t)
+{
+    static const float cone[][2] = {{25.0f, 40.0f}, {44.0f, 45.0f}, {2.0f, 4.0f}, {1.0f, 1.5f}};
+    const lmb_light before = box_light;
+    for (int i = 0; i < 4; ++i) {
+        box_light = spot(vec3(-0.5f, 1.2f, 0.3f), vec3(0.31f, -1, 0.07f), (double)cone[i][0], (double)cone[i][1]);
+        const lmb_shadow_map map = draw_map(&world.scene);
+        lit l = lit_by(t, &world.scene);
+        collect(&l, &map, 1, MAP);
+        const double mean = 0.5 * ((double)box_light.cos_inner + (double)box_light.cos_outer);
+        uint32_t lit_elements = 0;
+        for (uint32_t k = 0; k < t->count[LMB_TRANSFER_AREAS]; ++k) {
+            lit_elements += l.light.power[k][0] > 0.0f;
+        }
+        for (int c = 0; c < 3; ++c) {
+            const double want = 2.0 * PI * (1.0 - mean) * (double)box_light.intensity[c], got = sum_of(&l, c);
+            CHECK_MSG(want > 0.0 && fabs(got / want - 1.0) < 1e-3, "%g degrees: %g W of %g", (double)cone[i][1], got,
+                      want);
+        }
+        CHECK_MSG(lit_elements > 0 && (cone[i][1] > 2.0f || lit_elements <= 4), "%u elements", (unsigned)lit_elements);
+        free(l.memory);
+    }
+    box_light = before;
+}
+
 /* `times` as strong a light gives so much more everywhere, but for the steps in which nodes send. */
 static void is_linear(const lmb_transfer *t, const lmb_scene *scene, float times)
 {
@@ -796,6 +823,7 @@ static void test_box(void)
     CHECK(t.count[LMB_TRANSFER_AREAS] == 256 && t.count[LMB_TRANSFER_RECEIVERS] > 100);
     is_same_by(&t, &world.scene);
     keeps_power(&t, &world.scene);
+    collects_all(&t);
     is_linear(&t, &world.scene, 2.0f);
     is_linear(&t, &world.scene, 3.7f);
     draws_frames(&t, &world.scene);

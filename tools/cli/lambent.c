@@ -12,6 +12,7 @@
 #include "verb_info.h"
 #include "../mix/verb_mix.h"
 #include "verb_plan.h"
+#include "../play/verb_play.h"
 #include "../relight/verb_relight.h"
 #include "../relief/verb_relief.h"
 #include "../render/verb_render.h"
@@ -24,6 +25,7 @@ static const struct verb {
     {"render", verb_render, "render SCENE -o OUT",
      "draw a scene (.gltf .glb .obj .ply, or `demo`) with bounced light"},
     {"bake", verb_bake, "bake SCENE -o OUT.lmt", "how light goes between a scene's surfaces, for lights that move"},
+    {"play", verb_play, "play SCENE --frames N", "frames with moving light, camera or objects, and what they take"},
     {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
     {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
     {"mix", verb_mix, "mix --frame PHOTO", "a virtual object in one photo with depth"},

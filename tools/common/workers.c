@@ -108,9 +108,10 @@ static lmb_status do_stages(workers *c, lmb_render *r, int32_t *stage, int32_t p
 {
     lmb_status status = LMB_MORE;
     while (status == LMB_MORE && r->stage < past) {
-        const double start = now(c);
+        const double start = now(c), cpu = host_cpu_seconds();
         *stage = r->stage;
         status = c->threads > 1 && lmb_render_has_parts(r) ? do_parts(c, r) : do_step(c, r);
+        c->stage_cpu_s[*stage] += host_cpu_seconds() - cpu;
         c->stage_s[*stage] += now(c) - start;
     }
     return status == LMB_MORE ? LMB_OK : status;
@@ -118,20 +119,33 @@ static lmb_status do_stages(workers *c, lmb_render *r, int32_t *stage, int32_t p
 
 static lmb_status do_bands(workers *c, lmb_render *r, int32_t *stage)
 {
-    const double start = now(c);
+    const double start = now(c), cpu = host_cpu_seconds();
     *stage = LMB_STAGE_BANDS;
     const int bands = (r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE, step = band_step(c);
     lmb_status status = share(c, r, (bands + step - 1) / step, draw_band);
+    c->stage_cpu_s[LMB_STAGE_BANDS] += host_cpu_seconds() - cpu;
     c->stage_s[LMB_STAGE_BANDS] += now(c) - start;
     return status;
 }
 
-lmb_status workers_light(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame, int32_t past)
+/* The stages before `past` of a frame that was begun with this status. */
+static lmb_status go_on(workers *c, int32_t *stage, lmb_render *r, lmb_status begun, int32_t past)
 {
-    const lmb_status status = lmb_render_begin(r, frame);
     *stage = LMB_STAGE_SHADOW_MAP;
     memset(c->stage_s, 0, sizeof c->stage_s);
-    return status != LMB_OK ? status : do_stages(c, r, stage, past);
+    memset(c->stage_cpu_s, 0, sizeof c->stage_cpu_s);
+    return begun != LMB_OK ? begun : do_stages(c, r, stage, past);
+}
+
+lmb_status workers_light(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame, int32_t past)
+{
+    return go_on(c, stage, r, lmb_render_begin(r, frame), past);
+}
+
+lmb_status workers_reuse(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)
+{
+    const lmb_status status = go_on(c, stage, r, lmb_render_reuse(r, frame), LMB_STAGE_BANDS);
+    return status != LMB_OK ? status : do_bands(c, r, stage);
 }
 
 lmb_status workers_render(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame)

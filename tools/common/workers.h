@@ -15,11 +15,15 @@ typedef struct workers {
     double (*clock)(void);          /* s; NULL: the time that passes */
     int32_t every;                  /* one band in so many is drawn; 0, 1: all */
     double stage_s[LMB_STAGE_DONE]; /* of the last frame and its further views, s */
+    double stage_cpu_s[LMB_STAGE_DONE]; /* the same of the processor, all threads together */
 } workers;
 
 /* workers_render: lmb_render_frame on all threads: the same bytes and, in frame->stats, the same counts. The frame's
  * callback is not called. *stage is the last one begun. Returns what lmb_render_begin, _step and _band do. */
 lmb_status workers_render(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
+
+/* workers_reuse: the same by lmb_render_reuse: what did not change since r's last frame is kept. */
+lmb_status workers_reuse(workers *c, int32_t *stage, lmb_render *r, const lmb_frame *frame);
 
 /* workers_light: the stages before `past` alone, of a frame that begins: its light's shadow maps, points, groups.
  * workers_again: lmb_render_again and the stages that follow; seconds add up to those before. */

@@ -132,21 +132,24 @@ static int add_instances(const gltf_tree *t, gltf *g)
     static const gltf_matrix unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
     shown *nodes = (shown *)build_scratch(g->b, t->count, sizeof *nodes);
     uint64_t total;
-    uint32_t i, k, c;
+    uint32_t i, k, c, *of;
     lmb_instance *to;
     if (!nodes || !make_meshes(nodes, &total, t, g))
         return 0;
     if (total > UINT32_MAX / sizeof *to)
         return report_fail(g->b->r, "%s: too many instances", g->b->path);
     to = g->b->instances = (lmb_instance *)build_keep(g->b, total, sizeof *to);
-    if (!to)
+    of = g->instance_node = (uint32_t *)build_keep(g->b, total, sizeof *of);
+    if (!to || !of)
         return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t mesh = nodes[i].mesh, size = mesh == JSON_NONE ? 0 : g->mesh_size[mesh];
         const gltf_matrix *world = &t->world[t->order[i]];
-        if (size > 0 && nodes[i].first != g->mesh_first[mesh])
+        const int is_posed = size > 0 && nodes[i].first != g->mesh_first[mesh];
+        if (is_posed)
             world = &unit;
-        for (k = 0; k < size; ++k, ++to) {
+        for (k = 0; k < size; ++k, ++to, ++of) {
+            *of = is_posed ? MODEL_NONE : i;
             for (c = 0; c < 16; ++c)
                 to->to_world.m[c] = (float)world->m[c];
             to->mesh = nodes[i].first + k;
@@ -186,7 +189,8 @@ static void tell_left_out(gltf *g)
     build_note_count(g->b, "light ranges ignored", n->ranges);
     build_note_count(g->b, "skinned nodes posed by their joints as the file places them", n->skins);
     build_note_count(g->b, "primitives with morph targets, which are ignored", n->morphs);
-    build_note_count(g->b, "animations ignored", json_count(&g->doc, json_member(&g->doc, 0, "animations")));
+    build_note_count(g->b, "animations, which move things in `lambent play` alone",
+                     json_count(&g->doc, json_member(&g->doc, 0, "animations")));
 }
 
 /* Meshes that the scene may need: one a primitive, and as many again for each skinned node's own. */
@@ -252,6 +256,7 @@ static int load_document(gltf *g)
     if (!check_version(g) || !check_extensions(g) || !gltf_lists(g) || !gltf_make_tree(&t, g) || !make_tables(&t, g) ||
         !gltf_materials(g) || !add_instances(&t, g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
         return 0;
+    gltf_motion(&t, g);
     tell_left_out(g);
     count_facts(g);
     return 1;

@@ -4,6 +4,7 @@
 
 #include "../common/io_json.h"
 #include "model_build.h"
+#include "model_motion.h"
 
 /* JSON nodes of a top-level array, so that an index is found without walking. */
 typedef struct gltf_list {
@@ -63,6 +64,7 @@ typedef struct gltf {
     uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
     gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */
     uint32_t default_material;        /* of primitives that name none; JSON_NONE until needed */
+    uint32_t *instance_node, *light_node, *camera_node; /* of the model's: place in the tree's order, or MODEL_NONE */
     gltf_counts left_out;
     report texture_error; /* the first one */
 } gltf;
@@ -111,11 +113,15 @@ int gltf_accessor_indices(uint32_t *out, const gltf *g, const gltf_accessor *a);
 
 /* io_gltf_tree.c */
 int gltf_make_tree(gltf_tree *t, gltf *g);
+int gltf_local(model_local *out, gltf *g, uint32_t node);
 void gltf_multiply(gltf_matrix *out, const gltf_matrix *a, const gltf_matrix *b);
 
 /* io_gltf_place.c: of the tree's nodes */
 int gltf_lights(const gltf_tree *t, gltf *g);
 int gltf_cameras(const gltf_tree *t, gltf *g);
+
+/* io_gltf_motion.c: after all that moves; sets the model's motion, or motion_problem */
+void gltf_motion(const gltf_tree *t, gltf *g);
 
 /* io_gltf_material.c */
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */

@@ -5,33 +5,6 @@
 
 #include "io_gltf.h"
 
-static lmb_vec3 to_vec3(double x, double y, double z)
-{
-    lmb_vec3 v;
-    v.x = (float)x;
-    v.y = (float)y;
-    v.z = (float)z;
-    return v;
-}
-
-/* v to length 1; 0 where it has none. */
-static int normalize(double v[3])
-{
-    const double d = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (!(d > 1e-30 && d < 1e30))
-        return 0;
-    v[0] /= d;
-    v[1] /= d;
-    v[2] /= d;
-    return 1;
-}
-
-static void cross(double out[3], const double a[3], const double b[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
 static int spot_cone(lmb_light *out, gltf *g, uint32_t light)
 {
     const json *doc = &g->doc;
@@ -68,7 +41,7 @@ static int light_kind(lmb_light *out, gltf *g, uint32_t light)
 static int read_light(lmb_light *out, gltf *g, uint32_t light, const gltf_matrix *world, uint32_t node)
 {
     const json *doc = &g->doc;
-    double colour[3] = {1, 1, 1}, intensity = 1, way[3];
+    double colour[3] = {1, 1, 1}, intensity = 1;
     int i;
     memset(out, 0, sizeof *out);
     if (!light_kind(out, g, light) || !json_read_doubles(colour, 3, doc, json_member(doc, light, "color"), g->b->r) ||
@@ -79,16 +52,9 @@ static int read_light(lmb_light *out, gltf *g, uint32_t light, const gltf_matrix
         if (!(value >= 0 && value <= 1e30))
             return json_fail(doc, light, g->b->r, "color x intensity is no intensity");
         out->intensity[i] = (float)value;
-        way[i] = -world->m[8 + i];
     }
-    if (!normalize(way)) {
-        if (out->kind != LMB_LIGHT_POINT)
-            return json_fail(doc, node, g->b->r, "its light has no direction: the node's scale is 0");
-        way[2] = -1; /* a point light has no use for it; the scene wants unit length */
-        way[0] = way[1] = 0;
-    }
-    out->direction = to_vec3(way[0], way[1], way[2]);
-    out->position = to_vec3(world->m[12], world->m[13], world->m[14]);
+    if (!model_place_light(out, world->m))
+        return json_fail(doc, node, g->b->r, "its light has no direction: the node's scale is 0");
     g->left_out.ranges += json_member(doc, light, "range") != JSON_NONE;
     return 1;
 }
@@ -109,7 +75,8 @@ int gltf_lights(const gltf_tree *t, gltf *g)
     for (i = 0; i < t->count; ++i)
         total += light_reference(g, g->nodes.items[t->order[i]]) != JSON_NONE;
     g->b->lights = (lmb_light *)build_keep(g->b, total, sizeof *g->b->lights);
-    if (!g->b->lights)
+    g->light_node = (uint32_t *)build_keep(g->b, total, sizeof *g->light_node);
+    if (!g->b->lights || !g->light_node)
         return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t index = t->order[i], node = g->nodes.items[index];
@@ -117,29 +84,10 @@ int gltf_lights(const gltf_tree *t, gltf *g)
             return 0;
         if (light == JSON_NONE)
             continue;
+        g->light_node[g->b->light_count] = i;
         if (!read_light(&g->b->lights[g->b->light_count++], g, light, &t->world[index], node))
             return 0;
     }
-    return 1;
-}
-
-/* Orthonormal axes of a node: back along its Z, up as near its Y as that allows; scale and mirroring drop out. */
-static int camera_axes(model_camera *out, gltf *g, const gltf_matrix *world, uint32_t node)
-{
-    double right[3], up[3], back[3];
-    int i;
-    for (i = 0; i < 3; ++i) {
-        up[i] = world->m[4 + i];
-        back[i] = world->m[8 + i];
-    }
-    cross(right, up, back);
-    if (!normalize(back) || !normalize(right))
-        return json_fail(&g->doc, node, g->b->r, "its camera has no direction: the node's scale is 0");
-    cross(up, back, right);
-    out->eye = to_vec3(world->m[12], world->m[13], world->m[14]);
-    out->right = to_vec3(right[0], right[1], right[2]);
-    out->up = to_vec3(up[0], up[1], up[2]);
-    out->back = to_vec3(back[0], back[1], back[2]);
     return 1;
 }
 
@@ -193,8 +141,8 @@ static int read_camera(model_camera *out, gltf *g, uint32_t camera, const gltf_m
     if (json_string(out->name, sizeof out->name, doc, json_member(doc, node, "name")) == 0 &&
         json_string(out->name, sizeof out->name, doc, json_member(doc, camera, "name")) == 0)
         snprintf(out->name, sizeof out->name, "camera %u", (unsigned)g->b->out->camera_count);
-    if (!camera_axes(out, g, world, node))
-        return 0;
+    if (!model_place_camera(out, world->m))
+        return json_fail(doc, node, g->b->r, "its camera has no direction: the node's scale is 0");
     if (json_equals(doc, json_member(doc, camera, "type"), "orthographic") && flat != JSON_NONE)
         return read_orthographic(out, g, flat);
     if (json_equals(doc, json_member(doc, camera, "type"), "perspective") && deep != JSON_NONE)
@@ -209,7 +157,8 @@ int gltf_cameras(const gltf_tree *t, gltf *g)
     for (i = 0; i < t->count; ++i)
         total += json_member(&g->doc, g->nodes.items[t->order[i]], "camera") != JSON_NONE;
     out->cameras = (model_camera *)build_keep(g->b, total, sizeof *out->cameras);
-    if (!out->cameras)
+    g->camera_node = (uint32_t *)build_keep(g->b, total, sizeof *g->camera_node);
+    if (!out->cameras || !g->camera_node)
         return 0;
     for (i = 0; i < t->count; ++i) {
         const uint32_t index = t->order[i], node = g->nodes.items[index];
@@ -219,7 +168,7 @@ int gltf_cameras(const gltf_tree *t, gltf *g)
             continue;
         if (!read_camera(&out->cameras[out->camera_count], g, camera, &t->world[index], node))
             return 0;
-        ++out->camera_count;
+        g->camera_node[out->camera_count++] = i;
     }
     return 1;
 }

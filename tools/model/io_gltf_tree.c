@@ -141,47 +141,33 @@ static int traversal(gltf_tree *t, gltf *g)
     return 1;
 }
 
-/* Translation * rotation * scale; the quaternion x, y, z, w is normalised first. */
-static int compose(gltf_matrix *out, const double t[3], const double q[4], const double s[3])
+/* The node's own way to its parent, as the document has it. */
+int gltf_local(model_local *out, gltf *g, uint32_t node)
 {
-    const double d = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    double x, y, z, w;
-    int i;
-    if (!(d > 1e-12))
-        return 0;
-    x = q[0] / d, y = q[1] / d, z = q[2] / d, w = q[3] / d;
-    out->m[0] = 1 - 2 * (y * y + z * z), out->m[1] = 2 * (x * y + z * w), out->m[2] = 2 * (x * z - y * w);
-    out->m[4] = 2 * (x * y - z * w), out->m[5] = 1 - 2 * (x * x + z * z), out->m[6] = 2 * (y * z + x * w);
-    out->m[8] = 2 * (x * z + y * w), out->m[9] = 2 * (y * z - x * w), out->m[10] = 1 - 2 * (x * x + y * y);
-    for (i = 0; i < 3; ++i) {
-        out->m[i] *= s[0];
-        out->m[4 + i] *= s[1];
-        out->m[8 + i] *= s[2];
-        out->m[12 + i] = t[i];
+    const json *doc = &g->doc;
+    const uint32_t whole = json_member(doc, node, "matrix");
+    memset(out, 0, sizeof *out);
+    out->q[3] = out->s[0] = out->s[1] = out->s[2] = 1;
+    out->is_matrix = whole != JSON_NONE;
+    if (out->is_matrix) {
+        const double *m = out->matrix;
+        if (!json_read_doubles(out->matrix, 16, doc, whole, g->b->r))
+            return 0;
+        return (m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1) ||
+               json_fail(doc, whole, g->b->r, "the last row must be 0 0 0 1");
     }
-    out->m[3] = out->m[7] = out->m[11] = 0;
-    out->m[15] = 1;
-    return 1;
+    return json_read_doubles(out->t, 3, doc, json_member(doc, node, "translation"), g->b->r) &&
+           json_read_doubles(out->q, 4, doc, json_member(doc, node, "rotation"), g->b->r) &&
+           json_read_doubles(out->s, 3, doc, json_member(doc, node, "scale"), g->b->r);
 }
 
 static int local_matrix(gltf_matrix *out, gltf *g, uint32_t node)
 {
-    const json *doc = &g->doc;
-    const uint32_t whole = json_member(doc, node, "matrix");
-    double t[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, s[3] = {1, 1, 1};
-    if (whole != JSON_NONE) {
-        if (!json_read_doubles(out->m, 16, doc, whole, g->b->r))
-            return 0;
-        if (out->m[3] != 0 || out->m[7] != 0 || out->m[11] != 0 || out->m[15] != 1)
-            return json_fail(doc, whole, g->b->r, "the last row must be 0 0 0 1");
-        return 1;
-    }
-    if (!json_read_doubles(t, 3, doc, json_member(doc, node, "translation"), g->b->r) ||
-        !json_read_doubles(q, 4, doc, json_member(doc, node, "rotation"), g->b->r) ||
-        !json_read_doubles(s, 3, doc, json_member(doc, node, "scale"), g->b->r))
+    model_local l;
+    if (!gltf_local(&l, g, node))
         return 0;
-    if (!compose(out, t, q, s))
-        return json_fail(doc, node, g->b->r, "rotation is no quaternion (its length is 0)");
+    if (!model_compose(out->m, &l))
+        return json_fail(&g->doc, node, g->b->r, "rotation is no quaternion (its length is 0)");
     return 1;
 }
 

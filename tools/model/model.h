@@ -58,6 +58,8 @@ typedef struct model {
     model_camera *cameras;
     uint32_t camera_count;
     model_lobe *lobes; /* by material; NULL: the format has none */
+    struct model_motion *motion; /* model_motion.h; NULL: nothing of the scene moves, or `motion_problem` says why */
+    report motion_problem;
     model_facts facts;
     void **blocks; /* every allocation, for model_free */
     uint32_t block_count, block_cap;

@@ -294,8 +294,7 @@ int render_job_refit(render_job *j, report *r)
     return 1;
 }
 
-/* The picture, the frame's state and its block. */
-static int take_memory(render_job *j, report *r)
+int render_job_take(render_job *j, report *r)
 {
     j->render = take(j, sizeof *j->render, r);
     if (j->render == NULL || !render_job_picture(j, &j->linear, r) || !render_job_refit(j, r)) {
@@ -327,7 +326,7 @@ int render_job_set(render_job *j, report *r)
     if (j->o.show == SHOW_POINTS && j->o.grouping.join <= 0.0f) {
         j->o.grouping.join = 1e-30f; /* first points as they are: none is so near another */
     }
-    return take_memory(j, r);
+    return render_job_take(j, r);
 }
 
 void render_job_apply(render_job *j, const lmb_settings *s)

@@ -43,6 +43,10 @@ int render_job_load(render_job *j, report *r);
 int render_job_set(render_job *j, report *r);
 void render_job_free(render_job *j);
 
+/* render_job_take: the picture, the frame and its block, of a job whose scene, view, eyes and threads are set: part of
+ * render_job_set, for jobs that are no run of their own. 1, or 0 with `r` set. */
+int render_job_take(render_job *j, report *r);
+
 /* render_job_refit: the frame and its block, again, as the options now are. 1, or 0 with `r` set. */
 int render_job_refit(render_job *j, report *r);
 

@@ -1,4 +1,4 @@
-/* render_options.c: the command lines of `lambent render` and `lambent plan`. */
+/* render_options.c: the command lines of `lambent render` and `lambent plan`; `lambent play` has most of the rows. */
 #include "render_options.h"
 
 #include <math.h>
@@ -111,7 +111,7 @@ static const int32_t show_values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT,     LMB_SH
 
 #define AT(member) .at = offsetof(render_options, member)
 
-static const option_row scene_rows[] = {
+const option_row render_scene_rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene),
      .help = ".gltf, .glb, .obj, .ply, or `demo`, a built-in room"},
     {.kind = OPTION_END},
@@ -124,7 +124,7 @@ static const option_row output_rows[] = {
     {.kind = OPTION_END},
 };
 
-static const option_row view_rows[] = {
+const option_row render_view_rows[] = {
     {.kind = OPTION_TITLE, .help = "view"},
     VIEW_OPTION_SIZE(render_options, view, "the picture, px (default: height 480, width by the camera's aspect)"),
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene_name),
@@ -132,12 +132,16 @@ static const option_row view_rows[] = {
     {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),
      .help = "one of the scene's cameras, by name or number from 0 (default 0)"},
     VIEW_OPTIONS_CAMERA(render_options, view, "where a camera of your own stands; with --target"),
+    {.kind = OPTION_END},
+};
+
+static const option_row stereo_rows[] = {
     {.name = "--stereo", .value = "METRES", .kind = OPTION_ABOVE, AT(stereo_m), .low = 0.0, .high = 1e6,
      .help = "two eyes that far apart, left | right side by side, each --size; one light serves both"},
     {.kind = OPTION_END},
 };
 
-static const option_row light_rows[] = {
+const option_row render_light_rows[] = {
     {.kind = OPTION_TITLE, .help = "light"},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(render_options, light_count),
      .times = RENDER_LIGHTS, .size = sizeof(lmb_light),
@@ -156,7 +160,7 @@ static const option_row light_rows[] = {
     {.kind = OPTION_END},
 };
 
-static const option_row bounce_rows[] = {
+const option_row render_bounce_rows[] = {
     {.kind = OPTION_TITLE, .help = "bounce"},
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities, .values = quality_values,
      .help = "sets --tree, --error and --visibility where they are not given; see README for each one's error and "
@@ -233,7 +237,7 @@ static const option_row bounce_rows[] = {
     {.kind = OPTION_END},
 };
 
-static const option_row picture_rows[] = {
+const option_row render_picture_rows[] = {
     {.kind = OPTION_TITLE, .help = "picture"},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(glossy),
      .help = "glTF's materials with highlights and reflections, by metallic, roughness and base colour "
@@ -273,7 +277,7 @@ static const option_row budget_rows[] = {
     {.kind = OPTION_END},
 };
 
-static const option_row other_rows[] = {
+const option_row render_other_rows[] = {
     {.kind = OPTION_TITLE, .help = "other"},
     {.name = "--profile", .value = "exact", .kind = OPTION_OWN, .parse = parse_profile,
      .expects = "exact (there is no other)",
@@ -298,7 +302,8 @@ const option_table render_table = {
     .verb = "render",
     .usage = "render SCENE -o OUT [options]",
     .about = "A scene in, a picture with bounced light out.",
-    .part = {scene_rows, output_rows, view_rows, light_rows, bounce_rows, picture_rows, budget_rows, other_rows},
+    .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, render_light_rows, render_bounce_rows,
+             render_picture_rows, budget_rows, render_other_rows},
     .examples = "  lambent render demo --size 320x240 -o demo.png\n"
                 "  lambent render demo --size 160x120 --show indirect -o light.pfm\n"
                 "  lambent render demo --size 160x120 --eye 0.5,1.25,2.5 --target 0.5,1,-1 \\\n"
@@ -318,7 +323,8 @@ const option_table plan_table = {
         "Pairs and segments of bounced light are told by a look at up to 192 tiles of the picture itself. So is the "
         "error of what is chosen for a budget, against a finer setting. No look costs over a quarter of the picture. "
         "Work is counted in units: one is a pixel lit by one node.",
-    .part = {scene_rows, json_rows, budget_rows, view_rows, light_rows, bounce_rows, picture_rows, other_rows},
+    .part = {render_scene_rows, json_rows, budget_rows, render_view_rows, stereo_rows, render_light_rows,
+             render_bounce_rows, render_picture_rows, render_other_rows},
     .examples = "  lambent plan demo --size 32x24\n"
                 "  what fits a frame of 16 ms on this machine:\n"
                 "    lambent plan demo --size 32x24 --budget-ms 16\n"
@@ -361,20 +367,10 @@ static int check_budget(const render_options *o, report *r)
     return 1;
 }
 
-static int check_together(const render_options *o, int plans, report *r)
+static int check_together(const render_options *o, report *r)
 {
-    if (o->scene == NULL) {
-        return report_fail(r, plans ? "no scene given; try: lambent plan demo"
-                                    : "no scene given; try: lambent render demo -o demo.png");
-    }
     if (!check_budget(o, r)) {
         return 0;
-    }
-    if (plans && o->show >= SHOW_DEPTH) {
-        return report_fail(r, "--show: plans are of pictures of light: full, direct, indirect or irradiance");
-    }
-    if (o->out == NULL && !plans) {
-        return report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
     }
     if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
         return report_fail(r, "--bounces above 1 needs --grouping cut");
@@ -402,20 +398,42 @@ static int check_together(const render_options *o, int plans, report *r)
     return 1;
 }
 
-int render_options_parse(render_options *o, int argc, char **argv, report *r)
+void render_options_begin(render_options *o)
 {
     memset(o, 0, sizeof *o);
     view_options_init(&o->view);
     o->grouping.method = o->occlusion = CHOSEN;
     o->exposure_ev = NAN;
     o->kernels = lmb_kernels_pick();
+}
+
+int render_options_complete(render_options *o, report *r)
+{
+    o->exposure_auto = isnan(o->exposure_ev) != 0;
+    o->exposure_ev = o->exposure_auto ? 0.0f : o->exposure_ev;
+    choose(o);
+    return check_together(o, r);
+}
+
+static int check_verb(const render_options *o, int plans, report *r)
+{
+    if (o->scene == NULL) {
+        return report_fail(r, plans ? "no scene given; try: lambent plan demo"
+                                    : "no scene given; try: lambent render demo -o demo.png");
+    }
+    if (plans && o->show >= SHOW_DEPTH) {
+        return report_fail(r, "--show: plans are of pictures of light: full, direct, indirect or irradiance");
+    }
+    return o->out != NULL || plans || report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
+}
+
+int render_options_parse(render_options *o, int argc, char **argv, report *r)
+{
+    render_options_begin(o);
     const int plans = strcmp(argv[0], "plan") == 0;
     const int asked = options_parse(o, plans ? &plan_table : &render_table, argc, argv, r);
     if (asked != OPTIONS_RUN) {
         return asked;
     }
-    o->exposure_auto = isnan(o->exposure_ev) != 0;
-    o->exposure_ev = o->exposure_auto ? 0.0f : o->exposure_ev;
-    choose(o);
-    return check_together(o, plans, r) ? OPTIONS_RUN : OPTIONS_BAD;
+    return check_verb(o, plans, r) && render_options_complete(o, r) ? OPTIONS_RUN : OPTIONS_BAD;
 }

@@ -57,6 +57,15 @@ typedef struct render_options {
 
 extern const option_table render_table, plan_table;
 
+/* Rows that other verbs have, too, whose struct begins with a render_options. */
+extern const option_row render_scene_rows[], render_view_rows[], render_light_rows[], render_bounce_rows[],
+    render_picture_rows[], render_other_rows[];
+
+/* render_options_begin: what holds where nothing is given. render_options_complete: what was left open, after the
+ * command line was read, and whether it goes together; 1, or 0 with `r` set. render_options_parse does both. */
+void render_options_begin(render_options *out);
+int render_options_complete(render_options *inout, report *r);
+
 /* For `render`, and for `plan`, which has no output: argv[0] says which. As options_parse. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);
 

@@ -7,7 +7,7 @@
 
 #include "../demo/demo_scene.h"
 
-static const model_camera *find_camera(const render_options *o, const model *m, report *r)
+const model_camera *render_camera(const render_options *o, const model *m, report *r)
 {
     char *end;
     long n;
@@ -55,7 +55,7 @@ int render_view(lmb_view *v, render_options *o, const model *loaded, const lmb_s
         view_size(&o->view, 4.0f / 3.0f);
         *v = demo_view(o->view.width, o->view.height);
     } else {
-        const model_camera *c = find_camera(o, loaded, r);
+        const model_camera *c = render_camera(o, loaded, r);
         if (c == NULL && r->text[0] != '\0') {
             return 0;
         }

@@ -10,4 +10,8 @@
  * view_from goes on. 1, or 0 with `r` set. */
 int render_view(lmb_view *out, render_options *o, const model *loaded, const lmb_scene *scene, report *r);
 
+/* render_camera: that of the file's cameras which the options ask for, else its first. NULL: none; `r` is set where one
+ * was asked for. */
+const model_camera *render_camera(const render_options *o, const model *loaded, report *r);
+
 #endif

@@ -1,0 +1,350 @@
+/* main_steady.c: does light that moves stay steady? measure-steady [residual|halving|shift] SCENE [options of
+ * `lambent play`]
+ *
+ * On irradiance of bounced light, grey, at places that are followed from frame to frame; all but shifts are shares of
+ * what the best settings give there and 1 % of its mean.
+ * `residual`: r = frame - best, at twenty times along the paths: the 99.9th percentiles of |r(t) - r(t-1)| and of
+ * |r(t+1) - 2 r(t) + r(t-1)| in 100, and beside them those of the best light's own steps.
+ * `halving`: the light alone moves, over a frame's time at four times: the largest change of any pixel between frames 1,
+ * 1/2 .. 1/64 of it apart. What does not shrink to 0.6 each time is a pop; where the largest is, is told.
+ * `shift`: the camera steps aside by 1/4 .. 16 px at what is ahead: RMSE of the change at a place beyond that of the best
+ * light, without the worst 1 %, of the mean. The bar is 2 %.
+ * Ends with `N passed, N failed, N skipped`. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../src/base/vec.h"
+#include "../test.h"
+#include "steady_frame.h"
+
+int test_passed, test_failed, test_skipped;
+
+enum { PAIRS = 20, FINEST = 64, LEVELS = 7, TIMES = 4 };
+#define SHRINKS 0.6
+#define SHIFTED 0.02
+
+static steady_stage stage;
+
+static int stop(const report *r)
+{
+    printf("FAIL %s\n", r->text);
+    printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed + 1, test_skipped);
+    return 1;
+}
+
+/* --- sorted errors ------------------------------------------------------------------------------------------------ */
+
+typedef struct list {
+    float *value;
+    size_t count, cap;
+} list;
+
+static int list_make(list *l, size_t cap)
+{
+    l->value = malloc(cap * sizeof *l->value);
+    l->count = 0;
+    l->cap = cap;
+    return l->value != NULL;
+}
+
+static void list_add(list *l, float v)
+{
+    if (l->count < l->cap) {
+        l->value[l->count++] = v;
+    }
+}
+
+static int rising(const void *a, const void *b)
+{
+    const float x = *(const float *)a, y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* What `share` of them are not over. */
+static double quantile(list *l, double share)
+{
+    qsort(l->value, l->count, sizeof *l->value, rising);
+    return l->count > 0 ? (double)l->value[(size_t)(share * (double)(l->count - 1))] : 0.0;
+}
+
+/* Of squares, without the worst 1 %. */
+static double trimmed_rmse(list *l)
+{
+    double sum = 0.0;
+    quantile(l, 1.0);
+    const size_t kept = l->count - l->count / 100;
+    for (size_t i = 0; i < kept; ++i) {
+        sum += (double)l->value[i];
+    }
+    return kept > 0 ? sqrt(sum / (double)kept) : 0.0;
+}
+
+static float mean_of(const float *rgb, int32_t pixels)
+{
+    double sum = 0.0;
+    for (int32_t i = 0; i < 3 * pixels; ++i) {
+        sum += (double)rgb[i];
+    }
+    return (float)(sum / (3.0 * (double)pixels));
+}
+
+/* --- residuals along the paths ------------------------------------------------------------------------------------ */
+
+enum { STEP, BEND, BEST_STEP, BEST_BEND, LISTS };
+
+static void add_residuals(list lists[LISTS], const steady_frame frame[3])
+{
+    const steady_frame *now = &frame[1];
+    const int32_t pixels = now->width * now->height;
+    const float floor_w = 0.01f * mean_of(now->best, pixels);
+    for (int32_t i = 0; i < pixels; ++i) {
+        float light[3], best[3], r[3];
+        int known = 1;
+        for (int t = 0; t < 3 && known; ++t) {
+            known = steady_look(&light[t], &best[t], &frame[t], now, i);
+            r[t] = light[t] - best[t];
+        }
+        if (known) {
+            const float per = 1.0f / (best[1] + floor_w);
+            list_add(&lists[STEP], absf(r[1] - r[0]) * per);
+            list_add(&lists[BEND], absf(r[2] - 2.0f * r[1] + r[0]) * per);
+            list_add(&lists[BEST_STEP], absf(best[1] - best[0]) * per);
+            list_add(&lists[BEST_BEND], absf(best[2] - 2.0f * best[1] + best[0]) * per);
+        }
+    }
+}
+
+/* Twenty times, half a second apart: the default paths' whole turn. */
+static int measure_residuals(steady_frame frame[3], report *r)
+{
+    list lists[LISTS];
+    const size_t most = (size_t)PAIRS * (size_t)frame->width * (size_t)frame->height;
+    int ok = 1;
+    memset(lists, 0, sizeof lists);
+    for (int i = 0; i < LISTS && ok; ++i) {
+        ok = list_make(&lists[i], most) || report_fail(r, "out of memory");
+    }
+    for (int pair = 0; pair < PAIRS && ok; ++pair) {
+        const int32_t k = 1 + (int32_t)((float)pair * 0.5f * stage.o.fps);
+        for (int t = 0; t < 3 && ok; ++t) {
+            ok = play_motion_set(&stage.motion, k + t - 1, r) && steady_draw(&frame[t], &stage, r);
+        }
+        if (ok) {
+            add_residuals(lists, frame);
+        }
+    }
+    if (ok) {
+        printf("residual   99.9 of 100 places: step %.4f, bend %.4f   (the best light's own: %.4f, %.4f)\n",
+               quantile(&lists[STEP], 0.999), quantile(&lists[BEND], 0.999), quantile(&lists[BEST_STEP], 0.999),
+               quantile(&lists[BEST_BEND], 0.999));
+        printf("residual   median:             step %.4f, bend %.4f   (the best light's own: %.4f, %.4f)\n",
+               quantile(&lists[STEP], 0.5), quantile(&lists[BEND], 0.5), quantile(&lists[BEST_STEP], 0.5),
+               quantile(&lists[BEST_BEND], 0.5));
+        CHECK(lists[STEP].count > most / 10);
+    }
+    for (int i = 0; i < LISTS; ++i) {
+        free(lists[i].value);
+    }
+    return ok;
+}
+
+/* --- steps halved ------------------------------------------------------------------------------------------------- */
+
+/* The largest change of a pixel between two frames, and where it is. */
+typedef struct change {
+    double size;
+    int32_t at, pixel;
+} change;
+
+static void keep_largest(change *c, const float *a, const float *b, int32_t pixels, float floor_w, int32_t at)
+{
+    for (int32_t i = 0; i < pixels; ++i) {
+        const float x = a[3 * i] + a[3 * i + 1] + a[3 * i + 2], y = b[3 * i] + b[3 * i + 1] + b[3 * i + 2];
+        const double size = (double)(absf(x - y) / (0.5f * (x + y) + 3.0f * floor_w));
+        if (size > c->size) {
+            c->size = size;
+            c->at = at;
+            c->pixel = i;
+        }
+    }
+}
+
+/* All frames of a frame's time, and from them each step's largest change. */
+static int halve(change level[LEVELS], float *kept, steady_frame *frame, int32_t first, report *r)
+{
+    const int32_t pixels = frame->width * frame->height;
+    const size_t floats = 3 * (size_t)pixels;
+    for (int32_t k = 0; k <= FINEST; ++k) {
+        if (!play_motion_set(&stage.motion, first + k, r) || !steady_draw(frame, &stage, r)) {
+            return 0;
+        }
+        memcpy(kept + (size_t)k * floats, frame->light, floats * sizeof *kept);
+    }
+    const float floor_w = 0.01f * mean_of(kept, pixels);
+    for (int l = 0; l < LEVELS; ++l) {
+        const int32_t step = FINEST >> l;
+        for (int32_t k = 0; k + step <= FINEST; k += step) {
+            keep_largest(&level[l], kept + (size_t)k * floats, kept + (size_t)(k + step) * floats, pixels, floor_w,
+                         first + k);
+        }
+    }
+    return 1;
+}
+
+static void tell_halving(const change level[LEVELS], int32_t width)
+{
+    printf("halving    largest change:");
+    for (int l = 0; l < LEVELS; ++l) {
+        printf(" %.5f", level[l].size);
+    }
+    printf("\nhalving    shrinks to:    ");
+    for (int l = 1; l < LEVELS; ++l) {
+        printf(" %.3f", level[l].size / level[l - 1].size);
+    }
+    printf("   at 1/64: frame %.4f, pixel %d,%d\n", (double)level[LEVELS - 1].at / FINEST,
+           (int)(level[LEVELS - 1].pixel % width), (int)(level[LEVELS - 1].pixel / width));
+    for (int l = 1; l < LEVELS; ++l) {
+        CHECK_MSG(level[l].size <= SHRINKS * level[l - 1].size, "1/%d of a frame: %g after %g", 1 << l, level[l].size,
+                  level[l - 1].size);
+    }
+}
+
+static int measure_halving(steady_frame *frame, report *r)
+{
+    change level[LEVELS];
+    const float swing = stage.motion.swing;
+    const size_t floats = 3 * (size_t)frame->width * (size_t)frame->height;
+    float *kept = malloc((FINEST + 1) * floats * sizeof *kept);
+    int ok = kept != NULL || report_fail(r, "out of memory");
+    memset(level, 0, sizeof level);
+    stage.motion.swing = 0.0f;
+    stage.motion.moves = PLAY_LIGHT;
+    stage.o.fps *= FINEST;
+    for (int t = 0; t < TIMES && ok; ++t) {
+        ok = halve(level, kept, frame, FINEST * (5 + 71 * t), r);
+    }
+    stage.o.fps /= FINEST;
+    stage.motion.swing = swing;
+    stage.motion.moves = stage.o.move;
+    free(kept);
+    if (ok) {
+        tell_halving(level, frame->width);
+    }
+    return ok;
+}
+
+/* --- shifts of the camera ----------------------------------------------------------------------------------------- */
+
+/* Metres a pixel at what is ahead. */
+static float pixel_m(const steady_frame *f)
+{
+    const int32_t middle = f->height / 2 * f->width + f->width / 2;
+    const float away = length3(sub3(f->place[middle], f->view.eye));
+    return 2.0f * f->view.half_width * (f->view.kind == LMB_PERSPECTIVE ? away : 1.0f) / (float)f->width;
+}
+
+static int measure_shift(const steady_frame *rest, steady_frame *frame, float pixels, report *r)
+{
+    const int32_t all = rest->width * rest->height;
+    list squares, own;
+    stage.job.middle = stage.motion.view_at_rest;
+    stage.job.middle.eye = add3(stage.job.middle.eye, mul3(stage.job.middle.right, pixels * pixel_m(rest)));
+    memset(&own, 0, sizeof own);
+    int ok = (list_make(&squares, (size_t)all) && list_make(&own, (size_t)all)) || report_fail(r, "out of memory");
+    ok = ok && steady_draw(frame, &stage, r);
+    for (int32_t i = 0; i < all && ok; ++i) {
+        float light[2], best[2];
+        if (steady_look(&light[0], &best[0], rest, rest, i) && steady_look(&light[1], &best[1], frame, rest, i)) {
+            const float d = (light[1] - light[0]) - (best[1] - best[0]);
+            list_add(&squares, d * d);
+            list_add(&own, (best[1] - best[0]) * (best[1] - best[0]));
+        }
+    }
+    if (ok) {
+        const double mean = (double)mean_of(rest->best, all), error = trimmed_rmse(&squares) / mean;
+        printf("shift      %5.2f px: %.4f   (the best light's own: %.4f; %.0f %% of the pixels)\n", (double)pixels, error,
+               trimmed_rmse(&own) / mean, 100.0 * (double)squares.count / (double)all);
+        CHECK_MSG(error <= SHIFTED, "a shift by %g px: %g", (double)pixels, error);
+    }
+    free(squares.value);
+    free(own.value);
+    return ok;
+}
+
+static int measure_shifts(steady_frame frame[2], report *r)
+{
+    static const float shifts[] = {0.25f, 1.0f, 3.0f, 8.0f, 16.0f};
+    if (!play_motion_set(&stage.motion, 0, r)) {
+        return 0;
+    }
+    stage.job.middle = stage.motion.view_at_rest;
+    if (!steady_draw(&frame[0], &stage, r)) {
+        return 0;
+    }
+    for (int i = 0; i < 5; ++i) {
+        if (!measure_shift(&frame[0], &frame[1], shifts[i], r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* ------------------------------------------------------------------------------------------------------------------ */
+
+static int make_stage(report *r)
+{
+    stage.o.render.show = LMB_SHOW_IRRADIANCE;
+    stage.job.o = stage.o.render;
+    return play_motion_read(&stage.motion, &stage.o, r) && render_job_load(&stage.job, r) &&
+           play_motion_find(&stage.motion, &stage.job, r) && render_job_set(&stage.job, r) &&
+           play_motion_make(&stage.motion, r);
+}
+
+static int is_asked(const char *only, const char *what) { return only == NULL || strcmp(only, what) == 0; }
+
+static int measure(const char *only, report *r)
+{
+    steady_frame with[3], plain;
+    int ok = make_stage(r);
+    const int32_t w = stage.job.o.view.width, h = stage.job.o.view.height;
+    memset(with, 0, sizeof with);
+    memset(&plain, 0, sizeof plain);
+    for (int i = 0; i < 3; ++i) {
+        ok = ok && (steady_frame_make(&with[i], w, h, 1) || report_fail(r, "out of memory"));
+    }
+    ok = ok && (steady_frame_make(&plain, w, h, 0) || report_fail(r, "out of memory"));
+    ok = ok && (!is_asked(only, "halving") || measure_halving(&plain, r)) &&
+         (!is_asked(only, "shift") || measure_shifts(with, r)) &&
+         (!is_asked(only, "residual") || measure_residuals(with, r));
+    for (int i = 0; i < 3; ++i) {
+        steady_frame_free(&with[i]);
+    }
+    steady_frame_free(&plain);
+    return ok;
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const parts[] = {"residual", "halving", "shift"};
+    report r = {""};
+    const char *only = NULL;
+    for (int i = 0; i < 3 && argc > 1 && only == NULL; ++i) {
+        only = strcmp(argv[1], parts[i]) == 0 ? parts[i] : NULL;
+    }
+    argc -= only != NULL;
+    argv += only != NULL;
+    const int asked = play_options_parse(&stage.o, argc, argv, &r);
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &play_table, &r);
+    }
+    const int ok = measure(only, &r);
+    play_check_free(&stage.check);
+    play_motion_free(&stage.motion);
+    render_job_free(&stage.job);
+    if (!ok) {
+        return stop(&r);
+    }
+    printf("%d passed, %d failed, %d skipped\n", test_passed, test_failed, test_skipped);
+    return test_failed > 0;
+}

@@ -1,0 +1,51 @@
+/* model_motion.h: a file's animations: where the nodes of its scene are at a time. */
+#ifndef MODEL_MOTION_H
+#define MODEL_MOTION_H
+
+#include "model.h"
+
+/* A node's way to its parent: translation, rotation (x, y, z, w) and scale, or a matrix. */
+typedef struct model_local {
+    double t[3], q[4], s[3], matrix[16];
+    int is_matrix;
+} model_local;
+
+enum { MODEL_TRANSLATION, MODEL_ROTATION, MODEL_SCALE };
+enum { MODEL_STEP, MODEL_LINEAR, MODEL_CUBIC };
+
+/* One of a node's three by its keys. */
+typedef struct model_track {
+    uint32_t node;
+    int what, between;
+    uint32_t count;     /* of the keys */
+    const float *time;  /* s, rising */
+    const float *value; /* 3 or 4 a key; MODEL_CUBIC: three of them: in-tangent, value, out-tangent */
+} model_track;
+
+#define MODEL_NONE UINT32_MAX
+
+/* Nodes are those of the scene, parents first. */
+struct model_motion {
+    uint32_t nodes, tracks;
+    const uint32_t *parent; /* MODEL_NONE: none */
+    const model_local *rest;
+    const model_track *track;
+    const uint32_t *of_instance, *of_light, *of_camera; /* their nodes; MODEL_NONE: stands still whatever moves */
+    uint8_t *moves;                                     /* a node: it or one above it has a track */
+    double (*world)[16];                                /* scratch of model_pose */
+    double end_s;                                       /* the last key */
+};
+
+/* model_pose: the model's instances, lights and cameras as they are at a time, in arrays of as many as the model has;
+ * only what moves is written. Before the first key and after the last one things stand as at it. 1, or 0 where
+ * something has no place: a scale of 0 where a direction is asked for, or numbers past binary32. */
+int model_pose(lmb_instance *instances, lmb_light *lights, model_camera *cameras, const model *of, double time_s);
+
+/* model_compose: a column-major matrix; 0 where the rotation has no length. */
+int model_compose(double out[16], const model_local *l);
+
+/* A light's place and direction, and a camera's place and axes, by their node's way to the world; 0: no direction. */
+int model_place_light(lmb_light *inout, const double world[16]);
+int model_place_camera(model_camera *inout, const double world[16]);
+
+#endif

@@ -1,0 +1,19 @@
+/* play_check.h: a frame's error against the best settings. */
+#ifndef PLAY_CHECK_H
+#define PLAY_CHECK_H
+
+#include "../picture/metrics.h"
+#include "../render/render_job.h"
+
+/* Zeroed: none. play_check_free releases it. */
+typedef struct play_check {
+    render_job best;
+    int is_made;
+} play_check;
+
+/* play_check_frame: the figures of j->linear, the job's frame as its scene and view are now. Memory is taken at the
+ * first. 1, or 0 with `r` set. */
+int play_check_frame(metrics *out, play_check *c, const render_job *j, report *r);
+void play_check_free(play_check *c);
+
+#endif

@@ -1,0 +1,112 @@
+/* play_options.c: the command line of `lambent play`: most of `render`'s, and what moves. */
+#include "play_options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "../common/options.h"
+#include "../picture/picture.h"
+#include "play_path.h"
+
+enum { MOST = 1000000, DIGITS = 9 };
+
+/* The one %0Nd of a pattern: what stands before it has `*before` characters; returns N, 0 where there is no such thing,
+ * or more than one, or any other `%`. */
+static int digits_of(const char *pattern, size_t *before)
+{
+    const char *p = strchr(pattern, '%');
+    *before = p != NULL ? (size_t)(p - pattern) : 0;
+    if (p == NULL || p[1] != '0' || p[2] < '1' || p[2] > '0' + DIGITS || p[3] != 'd' || strchr(p + 4, '%') != NULL) {
+        return 0;
+    }
+    return p[2] - '0';
+}
+
+static int parse_out(const char *text, void *at)
+{
+    size_t before;
+    return picture_option(text, at) && digits_of(text, &before) > 0;
+}
+
+int play_name(char *out, size_t size, const char *pattern, int32_t k, report *r)
+{
+    size_t before;
+    const int digits = digits_of(pattern, &before);
+    const int n = snprintf(out, size, "%.*s%0*d%s", (int)before, pattern, digits, (int)k, pattern + before + 4);
+    return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", pattern);
+}
+
+static const char *const moves[] = {"light", "camera", "object", "all", NULL};
+static const int32_t move_values[] = {PLAY_LIGHT, PLAY_CAMERA, PLAY_OBJECT, PLAY_LIGHT | PLAY_CAMERA | PLAY_OBJECT};
+
+#define AT(member) .at = offsetof(play_options, member)
+
+static const option_row play_rows[] = {
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(render.out), .parse = parse_out,
+     .expects = "a file name with one %0Nd, as frame_%04d.png; .png .ppm .pfm .hdr",
+     .help = "a picture a frame, its number in place of %0Nd: frame_%04d.png (.png .ppm display, .pfm .hdr linear); "
+             "without it, frames are drawn for their times alone"},
+    {.kind = OPTION_TITLE, .help = "motion"},
+    {.name = "--move", .kind = OPTION_WORD, AT(move), .words = moves, .values = move_values,
+     .help = "what moves (default all): by --path; else by a glTF file's animations of nodes, all of them together; "
+             "else by itself: a light goes round its place in a circle (a sun's direction in a cone) and the camera "
+             "swings on an arc around what it looks at, once in 10 s, both as far as the scene leaves room"},
+    {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path),
+     .help = "what moves, by keys: lines of TIME WHAT X,Y,Z [X,Y,Z]: seconds; camera, light (or light:N) or object:N, "
+             "numbered from 0; position; what it looks at or shines on (an object: faces with its +Z), where that "
+             "changes. A smooth curve goes through the keys of each; before and after them it stands still. # begins "
+             "a comment"},
+    {.name = "--frames", .value = "N", .kind = OPTION_INT, AT(frames), .low = 1, .high = MOST,
+     .help = "how many (default 60)"},
+    {.name = "--from", .value = "K", .kind = OPTION_INT, AT(from), .low = 0, .high = MOST,
+     .help = "the first frame's number (default 0); it has the same bytes as among others"},
+    {.name = "--fps", .value = "F", .kind = OPTION_ABOVE, AT(fps), .low = 0.0, .high = 1e5,
+     .help = "frames a second of the path: frame k is at k / F seconds (default 30)"},
+    {.name = "--check", .value = "K", .kind = OPTION_INT, AT(check), .low = 1, .high = MOST,
+     .help = "each Kth frame's error against the same frame by --quality best and --gather full, as `lambent compare` "
+             "has it"},
+    {.kind = OPTION_END},
+};
+
+const option_table play_table = {
+    .verb = "play",
+    .usage = "play SCENE --frames N [--move WHAT] [--path FILE] [--transfer FILE.lmt] [-o OUT]",
+    .about = "Frames of a scene whose lights, camera or objects move, and what they take: milliseconds a frame by "
+             "stage, the least, the median, and what 95 of 100 keep to, by the clock and of the processor (all "
+             "threads together; --threads 1: the drawing thread). A frame is made of the scene, the path and its "
+             "number alone. What did not move since the last one is kept, which changes no byte.",
+    .part = {render_scene_rows, play_rows, render_view_rows, render_light_rows, render_bounce_rows,
+             render_picture_rows, render_other_rows},
+    .examples = "  lambent play demo --size 64x48 --quality draft --frames 4 --check 2\n"
+                "  with bounced light by what was baked once:\n"
+                "    lambent bake demo -o demo.lmt --elements 1024 --receivers 2000\n"
+                "    lambent play demo --size 64x48 --transfer demo.lmt --frames 4 -o frame_%02d.png\n",
+};
+
+static int check_together(const play_options *o, report *r)
+{
+    if (o->render.scene == NULL) {
+        return report_fail(r, "no scene given; try: lambent play demo --frames 30");
+    }
+    if (o->render.show >= SHOW_DEPTH) {
+        return report_fail(r, "--show: frames are of light: full, direct, indirect or irradiance");
+    }
+    if (o->check > 0 && o->render.show == LMB_SHOW_DIRECT) {
+        return report_fail(r, "--check: errors are of bounced light; --show full, indirect or irradiance");
+    }
+    return 1;
+}
+
+int play_options_parse(play_options *o, int argc, char **argv, report *r)
+{
+    memset(o, 0, sizeof *o);
+    render_options_begin(&o->render);
+    o->move = PLAY_LIGHT | PLAY_CAMERA | PLAY_OBJECT;
+    o->frames = 60;
+    o->fps = 30.0f;
+    const int asked = options_parse(o, &play_table, argc, argv, r);
+    if (asked != OPTIONS_RUN) {
+        return asked;
+    }
+    return check_together(o, r) && render_options_complete(&o->render, r) ? OPTIONS_RUN : OPTIONS_BAD;
+}
