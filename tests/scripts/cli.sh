@@ -611,7 +611,7 @@ status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --move object --
 status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --quality draft --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"
 check "an object moves, and is the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' sh "$dir/play" "$dir/alone"
 status 1 play "$dir/block.obj" $inside --path "$dir/object.txt" $baked --frames 2 -o "$dir/bad%02d.pfm"
-said "object.txt: line 1: what was baked holds for objects that stand still"
+said "object.txt: line 1: object:0 stands still in what was baked; bake it with --moving 0"
 status 0 play "$dir/block.obj" $inside $baked --frames 3 --check 2 --stats "$dir/play.json"
 check "every second frame's error is told" sh -c 'test "$(grep -c "^frame [02] *trim 0\.[0-9]* *rmse 0\." "$1")" = 2' sh "$dir/out.txt"
 check "--stats of play has the whole frame" grep -q '"whole frame": {"clock": \[[0-9.]*, ' "$dir/play.json"
@@ -651,6 +651,12 @@ status 0 bake "$dir/moving.gltf" -o "$dir/moving.lmt" --elements 64 --receivers 
 status 0 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moving.lmt" --frames 2
 check "that baked objects stand still is said" grep -q "objects stand still: what was baked" "$dir/err.txt"
 status 1 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moving.lmt" --move object --frames 2
+status 0 bake "$dir/moving.gltf" -o "$dir/moves.lmt" --elements 64 --receivers 64 --moving 1
+status 0 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moves.lmt" --fps 2 --frames 3 -o "$dir/play_%02d.pfm"
+check "no object stands still" sh -c '! grep -q "stand still" "$1"' sh "$dir/err.txt"
+status 0 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moves.lmt" --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"
+check "a baked object moves, and is the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' \
+    sh "$dir/play" "$dir/alone"
 sed 's/"input":0,"output":2/"input":0,"output":3,"interpolation":"CUBICSPLINE"/' "$dir/moving.gltf" >"$dir/odd.gltf"
 status 0 render "$dir/odd.gltf" --size 64x48 --shadow-map 64 -o "$dir/odd.png"
 status 1 play "$dir/odd.gltf" --size 64x48 --frames 2
@@ -820,7 +826,7 @@ check "bench hard prints a line a case" test "$(grep -c '^raster ' "$dir/out.txt
 status 0 bench hard mixed --json --backend scalar
 check "bench hard --json says which hold" test "$(grep -c ',"holds":true}$' "$dir/out.txt")" -ge 8
 status 2 bench hard nowhere
-said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far or whole"
+said "CASES: \`nowhere\` is not raster, shadow, bounce, probe, relief, mixed, far, whole or baked"
 status 2 bench hard rastr
 said "did you mean raster?"
 status 2 bench hard raster shadow

@@ -289,6 +289,19 @@ int play_motion_set(play_motion *m, int32_t k, report *r)
 
 /* --- before the first --------------------------------------------------------------------------------------------- */
 
+/* Was it baked to move? Without a transfer all may. */
+static int may_move(const play_motion *m, uint32_t instance)
+{
+    const lmb_transfer *t = m->options->render.transfer != NULL ? &m->job->transfer : NULL;
+    const uint32_t id = m->job->scene.instances[instance].first_id;
+    int any = t == NULL;
+    for (uint32_t i = 0; t != NULL && i < t->count[LMB_TRANSFER_MOVING]; ++i) {
+        const uint32_t *range = t->section[LMB_TRANSFER_MOVING] + LMB_TRANSFER_MOVING_WORDS * (size_t)i;
+        any |= id >= range[0] && id < range[1];
+    }
+    return any;
+}
+
 /* Does the scene have what the path moves? */
 static int check_track(const play_motion *m, const play_track *t, report *r)
 {
@@ -303,9 +316,9 @@ static int check_track(const play_motion *m, const play_track *t, report *r)
         return report_fail(r, "%s: line %u: light:%u is a sun, which has a direction alone; give its keys a target",
                            m->options->path, (unsigned)t->line, (unsigned)t->index);
     }
-    return t->what != PLAY_OBJECT || m->options->render.transfer == NULL ||
-           report_fail(r, "%s: line %u: what was baked holds for objects that stand still; leave out --transfer",
-                       m->options->path, (unsigned)t->line);
+    return t->what != PLAY_OBJECT || may_move(m, t->index) ||
+           report_fail(r, "%s: line %u: object:%u stands still in what was baked; bake it with --moving %u, or leave out "
+                          "--transfer", m->options->path, (unsigned)t->line, (unsigned)t->index, (unsigned)t->index);
 }
 
 static int check_path(const play_motion *m, report *r)
@@ -362,6 +375,17 @@ static int animated(play_motion *m, report *r)
     return all & m->moves;
 }
 
+/* Does an animation move an object that was baked where it stands? */
+static int moves_baked(const play_motion *m)
+{
+    const struct model_motion *motion = m->job->loaded.motion;
+    int any = 0;
+    for (uint32_t i = 0; motion != NULL && i < m->job->loaded.scene.instance_count; ++i) {
+        any |= any_moves(motion, motion->of_instance + i, 1) && !may_move(m, i);
+    }
+    return any;
+}
+
 int play_motion_find(play_motion *m, render_job *j, report *r)
 {
     const model *loaded = &j->loaded;
@@ -373,10 +397,10 @@ int play_motion_find(play_motion *m, render_job *j, report *r)
     if (loaded->motion_problem.text[0] != '\0') {
         return report_fail(r, "%s; or give --path", loaded->motion_problem.text);
     }
-    if ((all & PLAY_OBJECT) != 0 && m->options->render.transfer != NULL) {
+    if ((all & PLAY_OBJECT) != 0 && moves_baked(m)) {
         if (m->moves == PLAY_OBJECT) {
-            return report_fail(r, "--move object: what was baked holds for objects that stand still; leave out "
-                                  "--transfer");
+            return report_fail(r, "--move object: what was baked holds for objects that stand still; name those that "
+                                  "move by `lambent bake --moving`, or leave out --transfer");
         }
         report_note(m->options->render.view.is_quiet, "objects stand still: what was baked holds for those that do");
         all &= ~PLAY_OBJECT;

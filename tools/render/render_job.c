@@ -55,7 +55,7 @@ static void note(const render_job *j, const char *format, ...)
 
 /* --- scene and lights --------------------------------------------------------------------------------------------- */
 
-int render_job_load(render_job *j, report *r)
+static int load_scene(render_job *j, report *r)
 {
     if (strcmp(j->o.scene, "demo") == 0) {
         j->scene = *demo_scene();
@@ -90,6 +90,8 @@ static int load_transfer(render_job *j, report *r)
     return lmb_transfer_fits(&j->transfer, &j->scene) == LMB_OK ||
            report_fail(r, "%s: baked from another scene than %s; bake it anew", j->o.transfer, j->o.scene);
 }
+
+int render_job_load(render_job *j, report *r) { return load_scene(j, r) && load_transfer(j, r); }
 
 /* Once nothing but memory can fail: an error is a line on its own. */
 static void tell_notes(const render_job *j)
@@ -306,9 +308,6 @@ int render_job_take(render_job *j, report *r)
 
 int render_job_set(render_job *j, report *r)
 {
-    if (!load_transfer(j, r)) {
-        return 0;
-    }
     if (!render_view(&j->middle, &j->o, &j->loaded, &j->scene, r)) {
         return 0;
     }
