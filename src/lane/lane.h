@@ -64,6 +64,19 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
+/* A word each. A backend's header may have its own. */
+#ifndef LANE_GATHERS_I32
+static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
+{
+    int32_t i[LANES];
+    lanei_store(i, at);
+    for (int k = 0; k < LANES; ++k) {
+        i[k] = p[i[k]];
+    }
+    return lanei_load(i);
+}
+#endif
+
 /* Four floats each, at 4 * `at`. A backend's header may have its own. */
 #ifndef LANE_GATHERS_RGBA_F32
 static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)

@@ -6,6 +6,7 @@
 #define LMB_LANE_AVX512_H
 
 #include "../base/vec.h"
+#include "sums_sse2.h"
 
 #define LANES 16
 
