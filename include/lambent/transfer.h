@@ -107,9 +107,9 @@ typedef struct lmb_transfer_kept {
     lmb_transfer_triangle triangle[LMB_TRANSFER_KEPT];
 } lmb_transfer_kept;
 
-/* A halving on the way to a leaf. A weight is w[0] + w[1] b1 + w[2] b2. */
+/* A halving on the way to a leaf. The weight of its corner k is weight[0][k] + weight[1][k] b1 + weight[2][k] b2. */
 typedef struct lmb_transfer_step {
-    float weight[3][3]; /* of the corners */
+    float weight[3][3];
     float side[3];      /* the next step's places have it over 0; or 0, in a first half */
     uint32_t at;        /* which it is */
     int32_t second;     /* 1: the next step is its second half */

@@ -84,8 +84,8 @@ static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
     const int32_t each = collected_each(map), rows = map->size / each, all = map->size / LMB_TILE;
     lmb_transfer_scratch *scratch = &f->scratch->gather.transfer;
     memset(scratch, 0, sizeof *scratch);
-    return lmb_transfer_collect(&f->transfer_light, f->kernels, scratch, f->transfer, f->scene, &f->scene->lights[r->light],
-                                map, (int32_t)r->face, each, rows * first / all, rows * past / all);
+    return lmb_transfer_collect(&f->transfer_light, f->kernels, scratch, f->transfer, f->scene,
+                                &f->scene->lights[r->light], map, (int32_t)r->face, each, rows * first / all, rows * past / all);
 }
 
 static lmb_status step_points(lmb_render *r, int32_t units)

@@ -301,9 +301,10 @@ typedef struct lmb_texel_run {
     uint32_t root;
 } lmb_texel_run;
 
-/* A leaf of a triangle's halvings: the leaf's own corners' weights, at weights b1 and b2 of the triangle's, are weight[0] + weight[1] b1 + weight[2] b2. */
+/* A leaf of a triangle's halvings. At weights b1 and b2 of the triangle's corners that of its own corner k is
+ * weight[0][k] + weight[1][k] b1 + weight[2][k] b2. */
 typedef struct lmb_transfer_leaf {
-    float weight[3][3];
+    const float (*weight)[3];
     float corner[3][9]; /* light there: R, G, B; of a mesh each along x, y, z */
     int32_t is_mesh;
 } lmb_transfer_leaf;
@@ -381,8 +382,8 @@ struct lmb_kernels {
      * are those of lmb_transfer's receivers, and of its clusters, along x, y and z. */
     void (*transfer_links)(int32_t out[3], const uint32_t *link, uint32_t count, uint16_t (*node)[4]);
     void (*transfer_directed_links)(int32_t out[3][3], const uint32_t *link, uint32_t count, uint16_t (*node)[4]);
-    /* For texels whose middles lie at sx[0 .. count - 1]: the power through each at 1 W/sr (1 W/m2 of suns), and the leaf
-     * of the run's triangle there, LMB_TRANSFER_LEAF taken off, or LMB_TRANSFER_NONE. Whole vectors are read and
+    /* For texels whose middles lie at sx[0 .. count - 1]: the power through each at 1 W/sr (1 W/m2 of suns), and the
+     * leaf of the run's triangle there, LMB_TRANSFER_LEAF taken off, or LMB_TRANSFER_NONE. Whole vectors are read and
      * written. */
     void (*texel_powers)(float *out, const float *sx, int32_t count, const lmb_texel_row *row);
     void (*texel_leaves)(uint32_t *out, const float *sx, int32_t count, const lmb_texel_run *run);

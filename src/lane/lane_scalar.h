@@ -128,9 +128,9 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at) { lane r; EACH(r
 /* Of a table of 16 values in memory; `at` is 0 .. 15. */
 static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
-/* Sums of 16-bit values times weights: four at once, modulo 2^32, exact in any order. A pair is two rows of four values;
- * `weights` has the first one's weight in the low half, the second's in the high half, both of 16 bits and signed. The
- * fourth value of each row is 0: the totals are of the other three. */
+/* Sums of 16-bit values times weights, modulo 2^32: exact in any order. A pair is two rows of four values; `weights` has
+ * the first one's weight in the low half, the second's in the high half, both signed. The fourth value of each row is
+ * 0: the totals are of the other three. */
 typedef struct lane_pair {
     const uint16_t *first, *second;
 } lane_pair;

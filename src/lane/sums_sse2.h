@@ -1,4 +1,4 @@
-/* sums_sse2.h: sums of 16-bit values times weights by SSE2, for all of x86. lane_scalar.h says what each must do. Layer 2.
+/* sums_sse2.h: sums of 16-bit values times weights by SSE2. lane_scalar.h says what each must do. Layer 2.
  *
  * Its products are of signed values: those of a row lie 32768 lower, the fourth too, which is 0 and so says by how much
  * the sums of the others lie too low. */

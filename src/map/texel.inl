@@ -1,4 +1,4 @@
-/* texel.inl: the power through the texels of a row of a shadow map, for one watt (a second of it) per steradian. Layer 4. */
+/* texel.inl: the power through texels of a row of a shadow map, of a light of 1 W/sr, or 1 W/m2 of suns. Layer 4. */
 #ifndef LMB_MAP_TEXEL_INL
 #define LMB_MAP_TEXEL_INL
 
@@ -16,10 +16,11 @@ LANE_INLINE lane texel_solid_angle(float p, lane x, float y)
 LANE_INLINE lane texel_spot(const lmb_texel_row *row, lane x, float y)
 {
     const lane zero = lane_splat(0.0f), one = lane_splat(1.0f), outer = lane_splat(row->cos_outer);
+    const lmb_vec3 right = row->right, up = row->up, back = row->back;
     lane3 ray;
-    ray.x = lane_sub(lane_add(lane_mul(lane_splat(row->right.x), x), lane_splat(row->up.x * y)), lane_splat(row->back.x));
-    ray.y = lane_sub(lane_add(lane_mul(lane_splat(row->right.y), x), lane_splat(row->up.y * y)), lane_splat(row->back.y));
-    ray.z = lane_sub(lane_add(lane_mul(lane_splat(row->right.z), x), lane_splat(row->up.z * y)), lane_splat(row->back.z));
+    ray.x = lane_sub(lane_add(lane_mul(lane_splat(right.x), x), lane_splat(up.x * y)), lane_splat(back.x));
+    ray.y = lane_sub(lane_add(lane_mul(lane_splat(right.y), x), lane_splat(up.y * y)), lane_splat(back.y));
+    ray.z = lane_sub(lane_add(lane_mul(lane_splat(right.z), x), lane_splat(up.z * y)), lane_splat(back.z));
     const lane cosine = lane_div(lane3_dot(lane3_of(row->direction), ray), lane_sqrt(lane3_dot(ray, ray)));
     lane t = one;
     if (row->cone > 1e-6f) {
@@ -33,7 +34,8 @@ LANE_INLINE lane texel_spot(const lmb_texel_row *row, lane x, float y)
 /* Averaged over the 2x2 quarter centres of a texel. */
 LANE_INLINE lane texel_spot_share(const lmb_texel_row *row, lane sx)
 {
-    const lane left = lane_add(sx, lane_splat(-0.25f * row->side_x)), right = lane_add(sx, lane_splat(0.25f * row->side_x));
+    const lane left = lane_add(sx, lane_splat(-0.25f * row->side_x));
+    const lane right = lane_add(sx, lane_splat(0.25f * row->side_x));
     const float low = row->sy + -0.25f * row->side_y, high = row->sy + 0.25f * row->side_y;
     lane share = lane_add(lane_splat(0.0f), texel_spot(row, left, low));
     share = lane_add(share, texel_spot(row, right, low));

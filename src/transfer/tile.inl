@@ -33,10 +33,12 @@ static uint64_t KERNEL(transfer_side)(float weight[2][LMB_TILE_PIXELS], const lm
     return out;
 }
 
-/* A leaf's corner's weight at pixels of the triangle. */
-LANE_INLINE lane leaf_weight(const float by[3], lane b1, lane b2)
+/* The weight of a leaf's corner at pixels of the triangle. */
+LANE_INLINE lane leaf_weight(const lmb_transfer_leaf *leaf, int corner, lane b1, lane b2)
 {
-    return lane_add(lane_add(lane_splat(by[0]), lane_mul(lane_splat(by[1]), b1)), lane_mul(lane_splat(by[2]), b2));
+    const float(*by)[3] = leaf->weight;
+    return lane_add(lane_add(lane_splat(by[0][corner]), lane_mul(lane_splat(by[1][corner]), b1)),
+                    lane_mul(lane_splat(by[2][corner]), b2));
 }
 
 /* Number c of each corner, by their weights. */
@@ -71,8 +73,7 @@ static uint64_t KERNEL(transfer_leaf)(lmb_irradiance *inout, float weight[2][LMB
             continue;
         }
         const lane b1 = lane_load(weight[0] + k), b2 = lane_load(weight[1] + k), zero = lane_splat(0.0f);
-        const lane w[3] = {leaf_weight(leaf->weight[0], b1, b2), leaf_weight(leaf->weight[1], b1, b2),
-                           leaf_weight(leaf->weight[2], b1, b2)};
+        const lane w[3] = {leaf_weight(leaf, 0, b1, b2), leaf_weight(leaf, 1, b1, b2), leaf_weight(leaf, 2, b1, b2)};
         const uint32_t on = mask_bits(lane_le(zero, lane_min(lane_min(w[0], w[1]), w[2])));
         const uint32_t own = (on | (uint32_t)(out >> k)) & mine;
         if (own == 0) {

@@ -45,17 +45,18 @@ static float weight_at(const float w[3], float b1, float b2) { return w[0] + w[1
  * the middle of the edge now. All these numbers are whole. */
 static void enter_half(lmb_transfer_step *s, uint32_t node, float b1, float b2)
 {
-    const int from = halving_from(node), to = halving_to(from);
+    const int from = halving_from(node), to = halving_to(from), other = 3 - from - to;
     float more[3];
     for (int c = 0; c < 3; ++c) {
-        more[c] = s->weight[from][c] - s->weight[to][c];
+        more[c] = s->weight[c][from] - s->weight[c][to];
     }
     s->second = weight_at(more, b1, b2) < 0.0f;
     const int keeps = s->second ? to : from, moves = s->second ? from : to;
-    memcpy(s[1].weight, s->weight, sizeof s->weight);
     for (int c = 0; c < 3; ++c) {
-        s->side[c] = s[1].weight[keeps][c] = s->second ? -more[c] : more[c];
-        s[1].weight[moves][c] = 2.0f * s->weight[moves][c];
+        s->side[c] = s->second ? -more[c] : more[c];
+        s[1].weight[c][keeps] = s->side[c];
+        s[1].weight[c][moves] = 2.0f * s->weight[c][moves];
+        s[1].weight[c][other] = s->weight[c][other];
     }
     s[1].at = halving_first(node) + (uint32_t)s->second;
 }
@@ -73,11 +74,11 @@ static uint32_t shared_steps(const lmb_transfer_scratch *s, float b1, float b2)
     return i;
 }
 
-/* Down to the leaf that holds a place of the triangle: the last of the steps. Returns what it says, or LMB_TRANSFER_NONE
- * where it lies too deep. */
+/* Down to the leaf that holds a place of the triangle: the last of the steps. Returns what it says, or
+ * LMB_TRANSFER_NONE where it lies too deep. */
 static uint32_t enter_leaf(lmb_transfer_scratch *s, const uint32_t *node, uint32_t root, float b1, float b2)
 {
-    static const float whole[3][3] = {{1, -1, -1}, {0, 1, 0}, {0, 0, 1}};
+    static const float whole[3][3] = {{1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}};
     if (s->root != root + 1) {
         s->root = root + 1;
         s->depth = 0;
@@ -115,7 +116,7 @@ static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint6
                                           s->weight[1][first]);
         uint64_t own = (uint64_t)1 << first;
         if (place != LMB_TRANSFER_NONE) {
-            memcpy(leaf.weight, s->step[s->depth].weight, sizeof leaf.weight);
+            leaf.weight = (const float(*)[3])s->step[s->depth].weight;
             set_corners(&leaf, j->light, j->transfer, place);
             own = j->kernels->transfer_leaf(inout, s->weight, j->tile, pixels, &leaf);
         }

@@ -1488,6 +1488,7 @@ static int trial_transfer_leaf(const trial *t, test_rng r)
     const uint32_t rare = t->seed % 3u ? 0 : 25u;
     const uint64_t left = random_pixels(t, &r) | (uint64_t)1 << test_random(&r) % LMB_TILE_PIXELS;
     lmb_transfer_leaf leaf;
+    float by[3][3];
     GUARD(want);
     GUARD(got);
     numbers(want.it.rgb[0], 3 * LMB_TILE_PIXELS, &r, 0.0f, 9.0f, 0);
@@ -1496,8 +1497,9 @@ static int trial_transfer_leaf(const trial *t, test_rng r)
     numbers(weight[0], 2 * LMB_TILE_PIXELS, &r, 0.0f, 0.5f, 0);
     numbers(leaf.corner[0], 27, &r, -0.5f, 3.0f, rare);
     for (int i = 0; i < 9; ++i) {
-        leaf.weight[i / 3][i % 3] = (float)((int32_t)(test_random(&r) % 7u) - (i % 3 ? 3 : 2));
+        by[i / 3][i % 3] = (float)((int32_t)(test_random(&r) % 7u) - (i / 3 ? 3 : 2));
     }
+    leaf.weight = (const float(*)[3])by;
     leaf.is_mesh = (int32_t)(test_random(&r) % 2u);
     const uint64_t a = lmb_kernels_scalar.transfer_leaf(&want.it, weight, &tile, left, &leaf),
                    b = t->kernels->transfer_leaf(&got.it, weight, &tile, left, &leaf);

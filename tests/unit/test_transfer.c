@@ -55,7 +55,8 @@ static void receive(lit *l, uint32_t piece)
     const uint32_t all = places(l->t);
     CHECK(lmb_transfer_send(&l->light, l->t) == LMB_OK);
     for (uint32_t i = 0; i < all; i += piece) {
-        CHECK(lmb_transfer_receivers(&l->light, lmb_kernels_pick(), l->t, i, all - i < piece ? all : i + piece) == LMB_OK);
+        const uint32_t past = all - i < piece ? all : i + piece;
+        CHECK(lmb_transfer_receivers(&l->light, lmb_kernels_pick(), l->t, i, past) == LMB_OK);
     }
 }
 
@@ -721,7 +722,8 @@ static void draws_tiles(const lmb_transfer *t, const lmb_scene *scene)
             memset(&fresh, 0, sizeof fresh);
             memset(&got, 0, sizeof got);
             if (b == 0) {
-                CHECK(lmb_transfer_tile(&want[at], kernels, &fresh, &f.frame.transfer_light, t, scene, &tile) == LMB_OK);
+                CHECK(lmb_transfer_tile(&want[at], kernels, &fresh, &f.frame.transfer_light, t, scene, &tile) ==
+                      LMB_OK);
                 sum += (double)want[at].rgb[0][LMB_TILE_PIXELS / 2];
             }
             CHECK(lmb_transfer_tile(&got, kernels, &scratch, &f.frame.transfer_light, t, scene, &tile) == LMB_OK);
