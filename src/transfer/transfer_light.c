@@ -186,8 +186,8 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kerne
                                 int32_t first, int32_t past)
 {
     if (!transfer_is_laid_out(light, t) || kernels == NULL || scratch == NULL || scene == NULL || from == NULL ||
-        map == NULL || each < 1 || (uint32_t)face >= (uint32_t)map->faces || map->size % each != 0 || first < 0 || past < first ||
-        past > map->size / each) {
+        map == NULL || each < 1 || (uint32_t)face >= (uint32_t)map->faces || map->size % each != 0 ||
+        first < 0 || past < first || past > map->size / each) {
         return LMB_ERR_ARG;
     }
     collection c = {light, kernels, t, scene, from, &map->view[face], &scratch->kept};
