@@ -34,13 +34,11 @@ LANE_INLINE lane texel_spot(const lmb_texel_row *row, lane x, float y)
 /* Averaged over the 2x2 quarter centres of a texel. */
 LANE_INLINE lane texel_spot_share(const lmb_texel_row *row, lane sx)
 {
-    const lane left = lane_add(sx, lane_splat(-0.25f * row->side_x));
-    const lane right = lane_add(sx, lane_splat(0.25f * row->side_x));
-    const float low = row->sy + -0.25f * row->side_y, high = row->sy + 0.25f * row->side_y;
-    lane share = lane_add(lane_splat(0.0f), texel_spot(row, left, low));
-    share = lane_add(share, texel_spot(row, right, low));
-    share = lane_add(share, texel_spot(row, left, high));
-    share = lane_add(share, texel_spot(row, right, high));
+    lane share = lane_splat(0.0f);
+    for (int q = 0; q < 4; ++q) {
+        const lane x = lane_add(sx, lane_splat((q & 1 ? 0.25f : -0.25f) * row->side_x));
+        share = lane_add(share, texel_spot(row, x, row->sy + (q & 2 ? 0.25f : -0.25f) * row->side_y));
+    }
     return lane_mul(share, lane_splat(0.25f));
 }
 
