@@ -47,6 +47,7 @@ typedef struct lmb_band_scratch {
     union {
         lmb_gather_scratch groups;
         lmb_cut cut;
+        lmb_transfer_scratch transfer;
     } gather;
     lmb_tile tile;
     lmb_irradiance direct, indirect;

@@ -1,5 +1,5 @@
 /* transfer.h: bounced light of scenes that do not move, from a file that was baked once (`lambent bake`): lights and
- * cameras may move. A frame then takes 1.4 to 2.9 times as long as by direct light alone. Experimental.
+ * cameras may move. A 640x480 frame then takes 1.5 to 1.9 times as long as by direct light alone. Experimental.
  *
  * The file holds, of all surfaces: *elements*, pieces that send light; *receivers*, points that receive it; and
  * *links*, which say how much of what a node of elements sends arrives at a receiver. Visibility is in the links, so
@@ -63,6 +63,7 @@ enum {
     LMB_TRANSFER_MAX_AIR = 1024, /* places along an axis */
     LMB_TRANSFER_MAX_ELEMENTS = 16384,
     LMB_TRANSFER_MAX_CLUSTERS = 65536,
+    LMB_TRANSFER_KEPT = 64, /* triangles */
     LMB_TRANSFER_MAX_HALVINGS = 40 /* of a triangle; what lies deeper is not lit */
 };
 #define LMB_TRANSFER_NONE      0xffffffffu
@@ -99,11 +100,40 @@ typedef struct lmb_transfer_light {
     float (*albedo)[3];   /* an element: 0 .. 1 */
     float (*emission)[3]; /* an element: W/m2 that it emits */
     lmb_transfer_coarse *coarse;
-    uint16_t (*node)[4]; /* a node: what it sends, in steps of `step` */
+    uint16_t (*node)[4]; /* a node: what it sends, in steps of `step`; then 0 */
     float (*receiver)[3]; /* W/m2 */
     float (*cluster)[9];  /* W/m2 along x, y, z, of R, then G, then B */
     float step;
 } lmb_transfer_light;
+
+/* A triangle of the scene. Its corners' weights at a point p on it are 1 - b1 - b2, b1 and b2. */
+typedef struct lmb_transfer_triangle {
+    lmb_vec3 corner, along[2]; /* b1 = along[0] . (p - corner), b2 = along[1] . (p - corner) */
+    lmb_vec3 normal;           /* of its front, unit */
+} lmb_transfer_triangle;
+
+/* Those met lately; all 0: none. */
+typedef struct lmb_transfer_kept {
+    uint32_t id[LMB_TRANSFER_KEPT]; /* or 0 */
+    lmb_transfer_triangle triangle[LMB_TRANSFER_KEPT];
+} lmb_transfer_kept;
+
+/* A halving on the way to a leaf. The weight of its corner k is weight[0][k] + weight[1][k] b1 + weight[2][k] b2. */
+typedef struct lmb_transfer_step {
+    float weight[3][3];
+    float side[3];      /* the next step's places have it over 0; or 0, in a first half */
+    uint32_t at;        /* which it is */
+    int32_t second;     /* 1: the next step is its second half */
+} lmb_transfer_step;
+
+/* What lmb_transfer_collect and lmb_transfer_tile keep from call to call, one for each thread: it changes no byte. Set
+ * it to 0 before the first call, and when the scene has changed. */
+typedef struct lmb_transfer_scratch {
+    lmb_transfer_kept kept;
+    lmb_transfer_step step[LMB_TRANSFER_MAX_HALVINGS + 1]; /* the last way down: the next one shares most of it */
+    uint32_t root, depth;                                  /* from where, plus 1; how many steps */
+    float weight[2][LMB_TILE_PIXELS]; /* of the pixels of one */
+} lmb_transfer_scratch;
 
 #ifdef __cplusplus
 extern "C" {
@@ -138,7 +168,8 @@ lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *tra
  * `each` x `each` texels, which stands for all of them. Rows first .. past - 1 of such blocks; in order, because sums
  * are of binary32. Use about 256 x 256 blocks for a light with one face.
  * LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene,
+lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kernels *kernels,
+                                lmb_transfer_scratch *scratch, const lmb_transfer *transfer, const lmb_scene *scene,
                                 const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,
                                 int32_t first, int32_t past);
 
@@ -155,12 +186,13 @@ lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *tran
 
 /* lmb_transfer_receivers: the light at receivers and clusters first .. past - 1, counted together, receivers first.
  * In order, in pieces of any size. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_transfer *transfer, uint32_t first,
-                                  uint32_t past);
+lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_kernels *kernels,
+                                  const lmb_transfer *transfer, uint32_t first, uint32_t past);
 
 /* lmb_transfer_tile: add the light that arrives at a tile's pixels. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *light, const lmb_transfer *transfer,
-                             const lmb_scene *scene, const lmb_tile *tile);
+lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_transfer_scratch *scratch,
+                             const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene,
+                             const lmb_tile *tile);
 
 #ifdef __cplusplus
 }

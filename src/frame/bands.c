@@ -95,6 +95,9 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
     lmb_target window = *eye;
     int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
     lmb_status status = lmb_render_view_band(r, &window, band);
+    if (requires_transfer(f)) {
+        memset(&scratch->gather.transfer, 0, sizeof scratch->gather.transfer);
+    }
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         const lmb_irradiance *indirect;
         status = block_light(&indirect, r, scratch, &window, x, band);

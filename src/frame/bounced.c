@@ -27,7 +27,8 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lm
         return LMB_OK;
     }
     if (requires_transfer(f)) {
-        return lmb_transfer_tile(inout, &f->transfer_light, f->transfer, f->scene, tile);
+        return lmb_transfer_tile(inout, f->kernels, &s->gather.transfer, &f->transfer_light, f->transfer, f->scene,
+                                 tile);
     }
     if (requires_cut(f)) {
         return gather_cuts(inout, glossy, r, s, tile, direct);

@@ -1,4 +1,6 @@
 /* solve.c: runs the stages that light goes through, by steps and in parts. Layer 10. [V33 V34] */
+#include <string.h>
+
 #include "../base/vec.h"
 #include "../bounce/points.h"
 #include "stages.h"
@@ -80,8 +82,10 @@ static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
     const lmb_frame *f = &r->frame;
     const lmb_shadow_map *map = &r->maps[r->light];
     const int32_t each = collected_each(map), rows = map->size / each, all = map->size / LMB_TILE;
-    return lmb_transfer_collect(&f->transfer_light, f->transfer, f->scene, &f->scene->lights[r->light], map,
-                                (int32_t)r->face, each, rows * first / all, rows * past / all);
+    lmb_transfer_scratch *scratch = &f->scratch->gather.transfer;
+    memset(scratch, 0, sizeof *scratch);
+    return lmb_transfer_collect(&f->transfer_light, f->kernels, scratch, f->transfer, f->scene,
+                                &f->scene->lights[r->light], map, (int32_t)r->face, each, rows * first / all, rows * past / all);
 }
 
 static lmb_status step_points(lmb_render *r, int32_t units)
@@ -217,7 +221,7 @@ static lmb_status step_receivers(lmb_render *r, int32_t units)
     const uint32_t all = f->transfer->count[LMB_TRANSFER_RECEIVERS] + f->transfer->count[LMB_TRANSFER_CLUSTERS],
                    first = r->progress, left = (all - first) / UNIT_RECEIVERS,
                    past = left < (uint32_t)units ? all : first + (uint32_t)units * UNIT_RECEIVERS;
-    const lmb_status status = lmb_transfer_receivers(&f->transfer_light, f->transfer, first, past);
+    const lmb_status status = lmb_transfer_receivers(&f->transfer_light, f->kernels, f->transfer, first, past);
     r->progress = past;
     return status != LMB_OK ? status : past < all ? LMB_MORE : LMB_OK;
 }

@@ -27,6 +27,12 @@
 #if LMB_TREES
 #include "../lightcut/gather_glossy.inl"
 #endif
+#if LMB_TRANSFER
+#include "../map/texel.inl"
+#include "../transfer/links.inl"
+#include "../transfer/leaves.inl"
+#include "../transfer/tile.inl"
+#endif
 #if LMB_PROBES
 #include "../probe/remap.inl"
 #include "../probe/share.inl"
@@ -81,6 +87,14 @@ const lmb_kernels KERNEL(lmb_kernels) = {
 #endif
 #if LMB_LOBES
     KERNEL(glossy_direct),
+#endif
+#if LMB_TRANSFER
+    KERNEL(transfer_links),
+    KERNEL(transfer_directed_links),
+    KERNEL(texel_powers),
+    KERNEL(texel_leaves),
+    KERNEL(transfer_side),
+    KERNEL(transfer_leaf),
 #endif
 #if LMB_PROBES
     KERNEL(remap),

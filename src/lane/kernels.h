@@ -7,6 +7,7 @@
 
 #include <lambent/bounce.h>
 #include <lambent/compose.h>
+#include <lambent/transfer.h>
 #include <lambent/tree.h>
 #include <lambent/many_lights.h>
 #include <lambent/probe.h>
@@ -282,6 +283,32 @@ typedef struct lmb_relief_found {
     uint64_t hit, missed;
 } lmb_relief_found;
 
+/* A row of a shadow map's texels. */
+typedef struct lmb_texel_row {
+    lmb_vec3 right, up, back;    /* the view's */
+    lmb_vec3 direction;          /* the light's; cone: between the cosines of its angles */
+    float cos_outer, cone;
+    float side_x, side_y, sy;    /* a texel's sides, and where the row's middle lies, at distance 1 (m for suns) */
+    float finer_x, finer_half;   /* half over 0: texels so near to finer_x are shown by a finer face */
+    int32_t is_far, is_coned;    /* as light_kind.h has it */
+} lmb_texel_row;
+
+/* A run of texels of one triangle in such a row: its weights are b = to + (from + by sx) d / (n + ny sx), and the
+ * halvings that pieces lie below. */
+typedef struct lmb_texel_run {
+    float to[2], from[2], by[2], d, n, n_by;
+    const uint32_t *node;
+    uint32_t root;
+} lmb_texel_run;
+
+/* A leaf of a triangle's halvings. At weights b1 and b2 of the triangle's corners that of its own corner k is
+ * weight[0][k] + weight[1][k] b1 + weight[2][k] b2. */
+typedef struct lmb_transfer_leaf {
+    const float (*weight)[3];
+    float corner[3][9]; /* light there: R, G, B; of a mesh each along x, y, z */
+    int32_t is_mesh;
+} lmb_transfer_leaf;
+
 struct lmb_kernels {
     const char *name;
     int32_t lanes;
@@ -349,6 +376,24 @@ struct lmb_kernels {
 #if LMB_LOBES
     /* What the lobes make of one light that brings `lit`: added. */
     void (*glossy_direct)(lmb_glossy *inout, const lmb_tile *tile, const lmb_irradiance *lit, const lmb_light *light);
+#endif
+#if LMB_TRANSFER
+    /* Sums of R, G and B of what the links' nodes send times their weights; the fourth value of each node is 0. Links
+     * are those of lmb_transfer's receivers, and of its clusters, along x, y and z. */
+    void (*transfer_links)(int32_t out[3], const uint32_t *link, uint32_t count, uint16_t (*node)[4]);
+    void (*transfer_directed_links)(int32_t out[3][3], const uint32_t *link, uint32_t count, uint16_t (*node)[4]);
+    /* For texels whose middles lie at sx[0 .. count - 1]: the power through each at 1 W/sr (1 W/m2 of suns), and the
+     * leaf of the run's triangle there, LMB_TRANSFER_LEAF taken off, or LMB_TRANSFER_NONE. Whole vectors are read and
+     * written. */
+    void (*texel_powers)(float *out, const float *sx, int32_t count, const lmb_texel_row *row);
+    void (*texel_leaves)(uint32_t *out, const float *sx, int32_t count, const lmb_texel_run *run);
+    /* Of the tile's pixels `left`, at least one, those of the first one's triangle on the same side of it, a bit each;
+     * b1 and b2 of these are set, of others they may be. */
+    uint64_t (*transfer_side)(float weight[2][LMB_TILE_PIXELS], const lmb_tile *tile, uint64_t left,
+                              const lmb_transfer_triangle *triangle);
+    /* Of such pixels those on the leaf, as which the first counts: they get its light, which is never under 0. */
+    uint64_t (*transfer_leaf)(lmb_irradiance *inout, float weight[2][LMB_TILE_PIXELS], const lmb_tile *tile,
+                              uint64_t left, const lmb_transfer_leaf *leaf);
 #endif
 #if LMB_PROBES
     /* Radiance of each of `count` directions from one place, 3 planes; `direction`: as lmb_probe_table's. */

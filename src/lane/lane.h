@@ -64,6 +64,19 @@ static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 }
 #endif
 
+/* A word each. A backend's header may have its own. */
+#ifndef LANE_GATHERS_I32
+static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
+{
+    int32_t i[LANES];
+    lanei_store(i, at);
+    for (int k = 0; k < LANES; ++k) {
+        i[k] = p[i[k]];
+    }
+    return lanei_load(i);
+}
+#endif
+
 /* Four floats each, at 4 * `at`. A backend's header may have its own. */
 #ifndef LANE_GATHERS_RGBA_F32
 static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
@@ -71,6 +84,29 @@ static inline void lane_gather_rgba_f32(lane out[4], const float *p, lanei at)
     at = lanei_mul(at, lanei_splat(4));
     for (int c = 0; c < 4; ++c) {
         out[c] = lane_gather_f32(p + c, at);
+    }
+}
+#endif
+
+/* Four links onto sums: a link's low half is the number of its row, the high half its weight. And four links of three
+ * weights and two words each: x over the row's number, y under z. A backend's header may have its own. */
+#ifndef LANE_ADDS_LINKS
+static inline lane_sums sums_add_links(lane_sums s, uint16_t (*row)[4], const uint32_t *link)
+{
+    for (int i = 0; i < 4; i += 2) {
+        const uint32_t a = link[i], b = link[i + 1];
+        s = sums_add(s, pair_load(row[a & 0xffffu], row[b & 0xffffu]), a >> 16 | (b & 0xffff0000u));
+    }
+    return s;
+}
+static inline void sums_add_directed(lane_sums s[3], uint16_t (*row)[4], const uint32_t *link)
+{
+    for (int i = 0; i < 8; i += 4) {
+        const uint32_t a = link[i], a_yz = link[i + 1], b = link[i + 2], b_yz = link[i + 3];
+        const lane_pair p = pair_load(row[a & 0xffffu], row[b & 0xffffu]);
+        s[0] = sums_add(s[0], p, a >> 16 | (b & 0xffff0000u));
+        s[1] = sums_add(s[1], p, (a_yz & 0xffffu) | b_yz << 16);
+        s[2] = sums_add(s[2], p, a_yz >> 16 | (b_yz & 0xffff0000u));
     }
 }
 #endif

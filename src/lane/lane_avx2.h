@@ -6,6 +6,7 @@
 #define LMB_LANE_AVX2_H
 
 #include "../base/vec.h"
+#include "sums_avx2.h"
 
 #define LANES 8
 
@@ -120,6 +121,11 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at)
 static inline lanei lanei_gather_rgba(const uint8_t *p, lanei at)
 {
     return _mm256_i32gather_epi32((const int *)(const void *)p, at, 4);
+}
+#define LANE_GATHERS_I32 1
+static inline lanei lanei_gather_i32(const int32_t *p, lanei at)
+{
+    return _mm256_i32gather_epi32((const int *)p, at, 4);
 }
 /* Eight rows of four, turned. */
 #define LANE_GATHERS_RGBA_F32 1

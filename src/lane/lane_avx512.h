@@ -6,6 +6,7 @@
 #define LMB_LANE_AVX512_H
 
 #include "../base/vec.h"
+#include "sums_avx2.h"
 
 #define LANES 16
 
@@ -93,6 +94,8 @@ static inline void laned_store(double *p, laned a)
     _mm512_storeu_pd(p + 8, a.hi);
 }
 
+#define LANE_GATHERS_I32 1
+static inline lanei lanei_gather_i32(const int32_t *p, lanei at) { return _mm512_i32gather_epi32(at, p, 4); }
 static inline lane lane_gather_f32(const float *p, lanei at) { return _mm512_i32gather_ps(at, p, 4); }
 /* One by one: the processor gathers 32 bits at least, and would read past the end. */
 static inline lane lane_gather_u16(const uint16_t *p, lanei at)

@@ -138,4 +138,33 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     vst1q_u32(p, vbslq_u32(m, vdupq_n_u32(id), vld1q_u32(p)));
 }
 
+/* Products are of signed values: those of a row lie 32768 lower, the fourth too, which is 0 and so says by how much the
+ * sums of the others lie too low. */
+typedef struct lane_pair {
+    int16x4_t first, second;
+} lane_pair;
+typedef int32x4_t lane_sums;
+static inline lane_pair pair_load(const uint16_t *first, const uint16_t *second)
+{
+    const uint16x4_t low = vdup_n_u16(0x8000);
+    lane_pair r;
+    r.first = vreinterpret_s16_u16(veor_u16(vld1_u16(first), low));
+    r.second = vreinterpret_s16_u16(veor_u16(vld1_u16(second), low));
+    return r;
+}
+static inline lane_sums sums_zero(void) { return vdupq_n_s32(0); }
+static inline lane_sums sums_add(lane_sums s, lane_pair p, uint32_t weights)
+{
+    const int16x4_t w = vreinterpret_s16_u32(vdup_n_u32(weights));
+    return vmlal_lane_s16(vmlal_lane_s16(s, p.first, w, 0), p.second, w, 1);
+}
+static inline void sums_store(int32_t out[3], lane_sums s)
+{
+    int32_t v[4];
+    vst1q_s32(v, vsubq_s32(s, vdupq_laneq_s32(s, 3)));
+    out[0] = v[0];
+    out[1] = v[1];
+    out[2] = v[2];
+}
+
 #endif

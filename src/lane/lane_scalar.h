@@ -128,6 +128,39 @@ static inline lane lane_gather_u16(const uint16_t *p, lanei at) { lane r; EACH(r
 /* Of a table of 16 values in memory; `at` is 0 .. 15. */
 static inline lane lane_table(const float *p, lanei at) { return lane_gather_f32(p, at); }
 
+/* Sums of 16-bit values times weights, modulo 2^32: exact in any order. A pair is two rows of four values; `weights` has
+ * the first one's weight in the low half, the second's in the high half, both signed. The fourth value of each row is
+ * 0: the totals are of the other three. */
+typedef struct lane_pair {
+    const uint16_t *first, *second;
+} lane_pair;
+typedef struct lane_sums {
+    uint32_t v[3];
+} lane_sums;
+static inline lane_pair pair_load(const uint16_t *first, const uint16_t *second)
+{
+    lane_pair r;
+    r.first = first;
+    r.second = second;
+    return r;
+}
+static inline lane_sums sums_zero(void) { lane_sums r = {{0, 0, 0}}; return r; }
+static inline lane_sums sums_add(lane_sums s, lane_pair p, uint32_t weights)
+{
+    const uint32_t first = (weights & 0xffffu) - ((weights & 0x8000u) << 1),
+                   second = (weights >> 16) - ((weights >> 15) & 0x10000u);
+    for (int c = 0; c < 3; ++c) {
+        s.v[c] += first * p.first[c] + second * p.second[c];
+    }
+    return s;
+}
+static inline void sums_store(int32_t out[3], lane_sums s)
+{
+    for (int c = 0; c < 3; ++c) {
+        out[c] = (int32_t)s.v[c];
+    }
+}
+
 /* Surfaces' memory. A backend wider than a tile's row covers the next row too: it lies `step` values further. 16-bit
  * values are 0 .. 65535, whole. */
 static inline lane lane_load_rows(const float *p, int32_t step) { (void)step; return lane_load(p); }

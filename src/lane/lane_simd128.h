@@ -137,4 +137,27 @@ static inline void lane_put_u32(uint32_t *p, int32_t step, uint32_t id, lane_mas
     wasm_v128_store(p, wasm_v128_bitselect(wasm_i32x4_splat((int32_t)id), wasm_v128_load(p), m));
 }
 
+/* Products are of signed values: those of a row lie 32768 lower, the fourth too, which is 0 and so says by how much the
+ * sums of the others lie too low. */
+typedef v128_t lane_pair;
+typedef v128_t lane_sums;
+static inline lane_pair pair_load(const uint16_t *first, const uint16_t *second)
+{
+    const v128_t a = wasm_v128_load64_zero(first), b = wasm_v128_load64_zero(second);
+    return wasm_v128_xor(wasm_i16x8_shuffle(a, b, 0, 8, 1, 9, 2, 10, 3, 11), wasm_i16x8_splat((int16_t)-32768));
+}
+static inline lane_sums sums_zero(void) { return wasm_i32x4_splat(0); }
+static inline lane_sums sums_add(lane_sums s, lane_pair p, uint32_t weights)
+{
+    return wasm_i32x4_add(s, wasm_i32x4_dot_i16x8(p, wasm_i32x4_splat((int32_t)weights)));
+}
+static inline void sums_store(int32_t out[3], lane_sums s)
+{
+    int32_t v[4];
+    wasm_v128_store(v, wasm_i32x4_sub(s, wasm_i32x4_shuffle(s, s, 3, 3, 3, 3)));
+    out[0] = v[0];
+    out[1] = v[1];
+    out[2] = v[2];
+}
+
 #endif

@@ -3,6 +3,7 @@
 #define LMB_LANE_SSE2_H
 
 #include "../base/vec.h"
+#include "sums_sse2.h"
 
 #include <emmintrin.h>
 

@@ -22,7 +22,7 @@
 /* Where the receiver lies in a face. */
 typedef struct place {
     const lmb_view *view;
-    const lmb_target *face;
+    int32_t face;
     float x, y; /* texels */
     float w;    /* m along the face's axis */
     lmb_vec3 towards; /* from the receiver to the light; directional: unit length */
@@ -53,7 +53,7 @@ static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *li
         return 0;
     }
     out->view = v;
-    out->face = &map->face[f];
+    out->face = f;
     out->x = (dot3(v->right, d) / (unit * v->half_width) * 0.5f + 0.5f) * size;
     out->y = (0.5f - dot3(v->up, d) / (unit * v->half_height) * 0.5f) * size;
     out->w = w;
@@ -61,11 +61,13 @@ static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *li
     return out->x >= 0.0f && out->y >= 0.0f && out->x <= size && out->y <= size;
 }
 
-static uint32_t texel_id(const lmb_target *face, int32_t x, int32_t y)
+static uint32_t texel_id(const lmb_fill_window *map, int32_t x, int32_t y)
 {
-    lmb_fill_tile t = lmb_target_tile(face, x / LMB_TILE, y / LMB_TILE);
-    int32_t at = (y % LMB_TILE) * t.id_step + x % LMB_TILE;
-    return t.id_format == LMB_ID16 ? ((const uint16_t *)t.id)[at] : ((const uint32_t *)t.id)[at];
+    const uint8_t *tile = (const uint8_t *)map->first.id + (ptrdiff_t)(y / LMB_TILE) * map->id_row +
+                          (ptrdiff_t)(x / LMB_TILE) * map->id_tile;
+    const int32_t at = (y % LMB_TILE) * map->first.id_step + x % LMB_TILE;
+    return map->first.id_format == LMB_ID16 ? ((const uint16_t *)(const void *)tile)[at]
+                                            : ((const uint32_t *)(const void *)tile)[at];
 }
 
 static float texel_depth(const lmb_target *face, int32_t x, int32_t y)
@@ -74,11 +76,19 @@ static float texel_depth(const lmb_target *face, int32_t x, int32_t y)
     return ((const float *)t.depth)[(y % LMB_TILE) * t.depth_step + x % LMB_TILE];
 }
 
+/* m: what rounding may have moved the position by. 2^-15 of the pixel's distance: of its place in its triangle's plane,
+ * whose edges are snapped to parts of a pixel; 2^-22 of its coordinates: a few roundings of the resolve. */
+static float noise_of(const lmb_shadow_query *query, const lmb_receiver *r)
+{
+    return 3.0517578e-5f * length3(sub3(r->position, query->eye)) + 2.3841858e-7f * length3(r->position);
+}
+
 enum { BESIDE = 0, OVER = 1, SHADOWS = 2 };
 
 /* Does triangle `id` lie over the receiver in the map, and is the receiver behind its plane? */
-static int ask_triangle(const lmb_scene *scene, uint32_t id, const lmb_receiver *r, const place *at)
+static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const place *at)
 {
+    const lmb_scene *scene = query->scene;
     lmb_triangle t;
     if (!lmb_triangle_fetch(&t, scene, id)) {
         return BESIDE;
@@ -98,7 +108,7 @@ static int ask_triangle(const lmb_scene *scene, uint32_t id, const lmb_receiver 
     float height = dot3(n, a) / sqrtf(nn);        /* of the plane over the receiver, m, signed */
     float rise = dot3(n, at->towards) / sqrtf(nn); /* towards the light on the same scale */
     float sum = e0 + e1 + e2;
-    if (height * rise <= 0.0f || absf(height) <= r->noise || sum == 0.0f) {
+    if (height * rise <= 0.0f || absf(height) <= noise_of(query, r) || sum == 0.0f) {
         return OVER; /* the plane is behind the receiver, or through it */
     }
     if (absf(height) >= absf(rise) && at->view->kind == LMB_PERSPECTIVE) {
@@ -108,10 +118,10 @@ static int ask_triangle(const lmb_scene *scene, uint32_t id, const lmb_receiver 
 }
 
 /* The nearest texel's surface against the receiver's own plane at that texel's middle. */
-static int lit_by_depth(const place *at, const lmb_receiver *r, int32_t x, int32_t y)
+static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lmb_receiver *r, int32_t x, int32_t y)
 {
     const lmb_view *v = at->view;
-    float size = (float)v->frame_width, d = texel_depth(at->face, x, y);
+    float size = (float)v->frame_width, d = texel_depth(&query->map->face[at->face], x, y);
     if (d == 0.0f) {
         return 1;
     }
@@ -128,34 +138,59 @@ static int lit_by_depth(const place *at, const lmb_receiver *r, int32_t x, int32
         return 1;
     }
     float own = minf(dot3(r->face, sub3(r->position, from)) / slope, at->w + 16.0f * texel);
-    return lmb_depth_view_z(v, d) >= own - texel - r->noise;
+    return lmb_depth_view_z(v, d) >= own - texel - noise_of(query, r);
 }
 
-int lmb_is_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *r)
+void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
+                    lmb_vec3 eye)
 {
+    out->map = map;
+    out->light = light;
+    out->scene = scene;
+    out->eye = eye;
+    out->face = -1;
+}
+
+/* The ids of the four texels around the place; 1 where all are the receiver's own. */
+static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, uint32_t own)
+{
+    const float left = at->x - 0.5f, top = at->y - 0.5f; /* over -1 */
+    const int32_t x0 = (int32_t)left - (left < 0.0f), y0 = (int32_t)top - (top < 0.0f), last = query->map->size - 1;
+    int same = 1;
+    if (at->face != query->face) {
+        query->face = at->face;
+        query->window = lmb_target_window(&query->map->face[at->face], at->view);
+    }
+    for (int q = 0; q < 4; ++q) {
+        seen[q] = texel_id(&query->window, mini(maxi(x0 + (q & 1), 0), last), mini(maxi(y0 + (q >> 1), 0), last));
+        same &= seen[q] == own;
+    }
+    return same;
+}
+
+int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
+{
+    const int32_t last = query->map->size - 1;
     place at;
     int over = 0;
     uint32_t seen[4];
-    if (!find_place(&at, map, light, r->position)) {
+    if (!find_place(&at, query->map, query->light, r->position) || four_ids(seen, query, &at, r->id)) {
         return 1;
     }
-    int32_t x0 = (int32_t)floorf(at.x - 0.5f), y0 = (int32_t)floorf(at.y - 0.5f);
     for (int q = 0; q < 4; ++q) {
-        int32_t x = mini(maxi(x0 + (q & 1), 0), map->size - 1), y = mini(maxi(y0 + (q >> 1), 0), map->size - 1);
         int known = 0;
-        seen[q] = texel_id(at.face, x, y);
         for (int p = 0; p < q; ++p) {
             known |= seen[p] == seen[q];
         }
         if (seen[q] == r->id) {
             over = 1;
         } else if (seen[q] != 0 && !known) {
-            int answer = ask_triangle(scene, seen[q], r, &at);
+            int answer = ask_triangle(query, seen[q], r, &at);
             if (answer == SHADOWS) {
                 return 0;
             }
             over |= answer == OVER;
         }
     }
-    return over || lit_by_depth(&at, r, mini((int32_t)at.x, map->size - 1), mini((int32_t)at.y, map->size - 1));
+    return over || lit_by_depth(query, &at, r, mini((int32_t)at.x, last), mini((int32_t)at.y, last));
 }

@@ -4,13 +4,26 @@
 
 #include <lambent/map.h>
 
+#include "../lane/kernels.h"
+
 /* A pixel's surface point. */
 typedef struct lmb_receiver {
     lmb_vec3 position, face; /* world; unit normal */
     uint32_t id;             /* its own triangle never shadows it */
-    float noise;             /* m: what rounding may have moved the position by */
 } lmb_receiver;
 
-int lmb_is_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *receiver);
+/* The shadow map of one light, for any number of points that `eye` sees. */
+typedef struct lmb_shadow_query {
+    const lmb_shadow_map *map;
+    const lmb_light *light;
+    const lmb_scene *scene;
+    lmb_vec3 eye;
+    lmb_fill_window window; /* of the face that was last looked at */
+    int32_t face;           /* -1: none */
+} lmb_shadow_query;
+
+void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
+                    lmb_vec3 eye);
+int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *receiver);
 
 #endif

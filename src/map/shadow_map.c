@@ -9,11 +9,17 @@
 #include "../base/vertex.h"
 #include "../raster/target.h"
 #include "part.h"
+#include "texel.h"
+
+#define LANE_ONE
+#define KERNEL(name) name##_of_one
+#include "../lane/lane_scalar.h"
+#include "../lane/lane.h"
+#include "texel.inl"
 
 #define COS_50 0.64278761f   /* half angle up to which one perspective face serves a spot */
 #define COS_CORNER 0.57735027f /* of the angle between a cube face's axis and its corner */
 #define SIN_CORNER 0.81649658f
-#define FLUX_FLOOR 8.2718061e-25f /* 2^-80 W: less is nothing, so that kernels meet no denormal */
 
 int32_t lmb_shadow_map_faces(const lmb_light *light, const lmb_scene *scene)
 {
@@ -367,44 +373,39 @@ lmb_status lmb_shadow_map_rows(const lmb_shadow_map *map, const lmb_kernels *ker
     return status;
 }
 
-/* Fall-off of a spot towards `ray` (any length), averaged over the 2x2 quarter centres of a texel by the caller. */
-static float spot_share(const lmb_light *light, lmb_vec3 ray)
+void lmb_texel_row_of(lmb_texel_row *out, const lmb_light *light, const lmb_shadow_map *map, int32_t face, int32_t y)
 {
-    float cosine = dot3(light->direction, ray) / length3(ray);
-    float width = light->cos_inner - light->cos_outer;
-    if (cosine <= light->cos_outer) {
-        return 0.0f;
-    }
-    float t = width > 1e-6f ? clampf((cosine - light->cos_outer) / width, 0.0f, 1.0f) : 1.0f;
-    return t * t * (3.0f - 2.0f * t);
-}
-
-/* Solid angle of a texel of side p at distance 1, its centre l away: p^2 / l^3 times the second-order term of the
- * integral of 1 / |x|^3 over the square. Differences of corner formulas cancel in binary32; this does not. */
-static float texel_solid_angle(float p, float x, float y)
-{
-    float l2 = 1.0f + x * x + y * y, l = sqrtf(l2);
-    return p * p / (l2 * l) * (1.0f + p * p * (1.0f / 24.0f) * (9.0f * (l2 - 1.0f) - 6.0f) / (l2 * l2));
-}
-
+    const lmb_view *v = &map->view[face];
+    memset(out, 0, sizeof *out);
+    out->right = v->right;
+    out->up = v->up;
+    out->back = v->back;
+    out->direction = light->direction;
+    out->cos_outer = light->cos_outer;
+    out->cone = light->cos_inner - light->cos_outer;
+    out->side_x = 2.0f * v->half_width / (float)map->size;
+    out->side_y = 2.0f * v->half_height / (float)map->size;
+    out->sy = texel_sy(v, map->size, y);
+    out->is_far = light_kind_is(light->kind, LIGHT_FAR);
+    out->is_coned = light_kind_is(light->kind, LIGHT_CONED);
 #if LMB_TREES
-/* Does the middle of a texel of a sun's map, which shows what it is, lie in a finer face? By the middle alone: mostly
- * faces end between texels (align), and where they do not, what neighbours overlap a face by is in the mean what is
- * left out so. By areas, a ring around the face would be dark. */
-static int is_finer(const lmb_shadow_map *map, int32_t face, float sx, float sy)
-{
-    const lmb_view *v = &map->view[face], *finer = v - 1;
-    if (face == 0 || v->kind != LMB_ORTHOGRAPHIC) {
-        return 0;
+    /* Which middles of a sun's map lie in a finer face, which shows what they do? By the middle alone: mostly faces end
+     * between texels (align), and where they do not, what neighbours overlap a face by is in the mean what is left out
+     * so. By areas, a ring around the face would be dark. */
+    if (face > 0 && v->kind == LMB_ORTHOGRAPHIC) {
+        const lmb_view *finer = v - 1;
+        const lmb_vec3 to = sub3(finer->eye, v->eye);
+        out->finer_x = dot3(v->right, to);
+        out->finer_half = absf(out->sy - dot3(v->up, to)) < finer->half_height ? finer->half_width : 0.0f;
     }
-    const lmb_vec3 to = sub3(finer->eye, v->eye);
-    return absf(sx - dot3(v->right, to)) < finer->half_width && absf(sy - dot3(v->up, to)) < finer->half_height;
-}
 #endif
+}
 
 void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_shadow_map *map, int32_t face, int32_t x,
                            int32_t y)
 {
+    lmb_texel_row row;
+    float power;
     if (out == NULL) {
         return;
     }
@@ -413,23 +414,10 @@ void lmb_light_texel_power(float out[3], const lmb_light *light, const lmb_shado
         (uint32_t)y >= (uint32_t)map->size) {
         return;
     }
-    const lmb_view *v = &map->view[face];
-    float px = 2.0f * v->half_width / (float)map->size, py = 2.0f * v->half_height / (float)map->size;
-    float sx = ((float)(2 * x + 1 - map->size) * 0.5f) * px, sy = ((float)(map->size - 2 * y - 1) * 0.5f) * py;
-    float power = light_kind_is(light->kind, LIGHT_FAR) ? px * py : texel_solid_angle(px, sx, sy);
-    if (light_kind_is(light->kind, LIGHT_CONED)) {
-        float share = 0.0f;
-        for (int q = 0; q < 4; ++q) {
-            float qx = sx + (q & 1 ? 0.25f : -0.25f) * px, qy = sy + (q & 2 ? 0.25f : -0.25f) * py;
-            share += spot_share(light, sub3(add3(mul3(v->right, qx), mul3(v->up, qy)), v->back));
-        }
-        power *= share * 0.25f;
-    }
-#if LMB_TREES
-    power = is_finer(map, face, sx, sy) ? 0.0f : power;
-#endif
+    const float sx = texel_sx(&map->view[face], map->size, x);
+    lmb_texel_row_of(&row, light, map, face, y);
+    texel_powers_of_one(&power, &sx, 1, &row);
     for (int c = 0; c < 3; ++c) {
-        float w = light->intensity[c] * power;
-        out[c] = w < FLUX_FLOOR ? 0.0f : w;
+        out[c] = texel_flux(light->intensity[c], power);
     }
 }

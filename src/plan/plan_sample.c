@@ -32,6 +32,9 @@ lmb_status lmb_render_tiles(uint64_t *shown, const lmb_render *r, lmb_band_scrat
 {
     const lmb_frame *f = &r->frame;
     lmb_status status = LMB_OK;
+    if (f->transfer != NULL) {
+        memset(&s->gather.transfer, 0, sizeof s->gather.transfer);
+    }
     for (int32_t part = 0; part < tiles && status == LMB_OK; ++part) {
         status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x + part * LMB_TILE, y);
         if (status == LMB_OK) {

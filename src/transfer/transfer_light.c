@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "../base/memory_check.h"
-#include "../map/footprint.h"
+#include "../map/texel.h"
 #include "../raster/target.h"
 #include "halvings.h"
 #include "links.h"
@@ -68,95 +68,145 @@ lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *t)
     return LMB_OK;
 }
 
-static uint32_t id_of(const lmb_target *face, int32_t x, int32_t y)
-{
-    const lmb_fill_tile t = lmb_target_tile(face, x / LMB_TILE, y / LMB_TILE);
-    const int32_t at = (y % LMB_TILE) * t.id_step + x % LMB_TILE;
-    return t.id_format == LMB_ID16 ? ((const uint16_t *)t.id)[at] : ((const uint32_t *)t.id)[at];
-}
+enum { CHUNK = 64, PADDED = CHUNK + 16 }; /* texels at once; with what whole vectors reach past them */
 
-/* Triangles met lately, by the low bits of their ids: walls and floors come back in every row. */
-enum { KEPT = 32 };
-typedef struct triangles {
-    transfer_triangle kept[KEPT]; /* id 0: none */
-} triangles;
+/* Part of a row of a map's blocks: of each block the id of the texel beside its middle. */
+typedef struct chunk {
+    uint32_t id[CHUNK];
+    float sx[PADDED], power[PADDED];
+    uint32_t element[PADDED];
+    int32_t count;
+} chunk;
 
-static const transfer_triangle *triangle_of(triangles *all, const lmb_scene *scene, uint32_t id)
+static void read_ids(chunk *c, const lmb_target *face, const lmb_view *v, int32_t x0, int32_t y, int32_t each)
 {
-    transfer_triangle *t = &all->kept[id % KEPT];
-    if (t->id != id && !transfer_triangle_of(t, scene, id)) {
-        t->id = 0;
-        return NULL;
+    const lmb_fill_window w = lmb_target_window(face, v);
+    const uint8_t *row = (const uint8_t *)w.first.id + (ptrdiff_t)(y / LMB_TILE) * w.id_row;
+    const int32_t step = (y % LMB_TILE) * w.first.id_step, is_16 = w.first.id_format == LMB_ID16;
+    for (int32_t i = 0; i < c->count; ++i) {
+        const int32_t x = (x0 + i) * each + each / 2, at = step + x % LMB_TILE;
+        const void *tile = row + (ptrdiff_t)(x / LMB_TILE) * w.id_tile;
+        c->id[i] = is_16 ? ((const uint16_t *)tile)[at] : ((const uint32_t *)tile)[at];
     }
-    return t;
 }
 
-/* The element that a texel shows: its middle on the triangle, on the side to the light. */
-static uint32_t element_at(const lmb_transfer *t, const transfer_triangle *triangle, const lmb_view *v, float sx,
-                           float sy)
+/* How the weights of a triangle's corners run along a row. In perspective the ray at sx meets its plane at
+ * n.(corner - eye) / n.ray, and weights are linear in that times the ray; for suns they are linear in sx. */
+static void set_run(lmb_texel_run *run, const lmb_transfer_triangle *t, const lmb_view *v, float sy)
+{
+    const lmb_vec3 from = sub3(v->eye, t->corner);
+    const lmb_vec3 middle = sub3(mul3(v->up, sy), v->back);
+    const float back = dot3(t->normal, v->back);
+    const int is_far = v->kind != LMB_PERSPECTIVE;
+    /* A sun's ray begins at eye + right sx + up sy: it goes on by what that lies over the plane. */
+    const lmb_vec3 start = add3(from, mul3(v->up, sy));
+    const float on = dot3(t->normal, start) / back, on_by = dot3(t->normal, v->right) / back;
+    for (int i = 0; i < 2; ++i) {
+        const lmb_vec3 a = t->along[i];
+        run->to[i] = is_far ? 0.0f : dot3(a, from);
+        run->from[i] = is_far ? dot3(a, sub3(start, mul3(v->back, on))) : dot3(a, middle);
+        run->by[i] = is_far ? dot3(a, sub3(v->right, mul3(v->back, on_by))) : dot3(a, v->right);
+    }
+    run->d = is_far ? 1.0f : -dot3(t->normal, from);
+    run->n = is_far ? 1.0f : dot3(t->normal, middle);
+    run->n_by = is_far ? 0.0f : dot3(t->normal, v->right);
+}
+
+/* Among pieces, the root of the triangle's side to the light. */
+static uint32_t root_of(const lmb_transfer *t, uint32_t id, const lmb_transfer_triangle *triangle, const lmb_view *v)
 {
     const lmb_vec3 ray = v->kind == LMB_PERSPECTIVE ? sub3(triangle->corner, v->eye) : mul3(v->back, -1.0f);
-    const int back = dot3(triangle->normal, ray) > 0.0f;
-    const uint32_t root =
-        t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (triangle->id - 1) + (uint32_t)back];
-    float w[3];
-    if (root == LMB_TRANSFER_NONE) {
-        return LMB_TRANSFER_NONE;
-    }
-    transfer_weights(w, triangle, footprint_over(v, triangle->corner, triangle->normal, sx, sy));
-    return halvings_find(t->section[LMB_TRANSFER_PIECES], root, w);
+    const uint32_t back = dot3(triangle->normal, ray) > 0.0f;
+    return t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + back];
 }
 
-lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_transfer *t, const lmb_scene *scene,
+/* What a collection is about. */
+typedef struct collection {
+    const lmb_transfer_light *light;
+    const lmb_kernels *kernels;
+    const lmb_transfer *transfer;
+    const lmb_scene *scene;
+    const lmb_light *from;
+    const lmb_view *view;
+    lmb_transfer_kept *kept;
+} collection;
+
+static void add_texels(const collection *c, const chunk *k, int32_t first, int32_t past)
+{
+    for (int32_t i = first; i < past; ++i) {
+        float *power = k->element[i] == LMB_TRANSFER_NONE ? NULL : c->light->power[k->element[i]];
+        for (int p = 0; p < 3 && power != NULL; ++p) {
+            power[p] += texel_flux(c->from->intensity[p], k->power[i]);
+        }
+    }
+}
+
+/* Runs of texels of one triangle. */
+static void collect_chunk(collection *c, chunk *k, float sy)
+{
+    for (int32_t i = 0, past; i < k->count; i = past) {
+        const uint32_t id = k->id[i];
+        lmb_texel_run run;
+        for (past = i + 1; past < k->count && k->id[past] == id;) {
+            ++past;
+        }
+        const lmb_transfer_triangle *triangle = id == 0 || id > c->transfer->count[LMB_TRANSFER_SURFACES]
+                                                    ? NULL
+                                                    : transfer_triangle_kept(c->kept, c->scene, id);
+        run.root = triangle != NULL ? root_of(c->transfer, id, triangle, c->view) : LMB_TRANSFER_NONE;
+        if (run.root != LMB_TRANSFER_NONE) {
+            run.node = c->transfer->section[LMB_TRANSFER_PIECES];
+            set_run(&run, triangle, c->view, sy);
+            c->kernels->texel_leaves(k->element + i, k->sx + i, past - i, &run);
+            add_texels(c, k, i, past);
+        }
+    }
+}
+
+static void collect_row(collection *c, const lmb_shadow_map *coarse, int32_t face, int32_t each, int32_t y)
+{
+    chunk k;
+    lmb_texel_row row;
+    memset(&k, 0, sizeof k);
+    lmb_texel_row_of(&row, c->from, coarse, face, y);
+    for (int32_t x = 0; x < coarse->size; x += CHUNK) {
+        k.count = mini(CHUNK, coarse->size - x);
+        for (int32_t i = 0; i < k.count; ++i) {
+            k.sx[i] = texel_sx(c->view, coarse->size, x + i);
+        }
+        read_ids(&k, &coarse->face[face], c->view, x, y * each + each / 2, each);
+        c->kernels->texel_powers(k.power, k.sx, k.count, &row);
+        collect_chunk(c, &k, row.sy);
+    }
+}
+
+lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kernels *kernels,
+                                lmb_transfer_scratch *scratch, const lmb_transfer *t, const lmb_scene *scene,
                                 const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,
                                 int32_t first, int32_t past)
 {
-    if (!transfer_is_laid_out(light, t) || scene == NULL || from == NULL || map == NULL || each < 1 ||
-        (uint32_t)face >= (uint32_t)map->faces || map->size % each != 0 || first < 0 || past < first ||
-        past > map->size / each) {
+    if (!transfer_is_laid_out(light, t) || kernels == NULL || scratch == NULL || scene == NULL || from == NULL ||
+        map == NULL || each < 1 || (uint32_t)face >= (uint32_t)map->faces || map->size % each != 0 ||
+        first < 0 || past < first || past > map->size / each) {
         return LMB_ERR_ARG;
     }
-    const lmb_view *v = &map->view[face];
+    collection c = {light, kernels, t, scene, from, &map->view[face], &scratch->kept};
     lmb_shadow_map coarse = *map;
-    triangles all;
     coarse.size = map->size / each;
-    memset(&all, 0, sizeof all);
-    for (int32_t i = first * coarse.size; i < past * coarse.size; ++i) {
-        const int32_t x = i % coarse.size, y = i / coarse.size;
-        const uint32_t id = id_of(&map->face[face], x * each + each / 2, y * each + each / 2);
-        const transfer_triangle *triangle =
-            id == 0 || id > t->count[LMB_TRANSFER_SURFACES] ? NULL : triangle_of(&all, scene, id);
-        float power[3];
-        if (triangle == NULL) {
-            continue;
-        }
-        const float px = 2.0f * v->half_width / (float)coarse.size, py = 2.0f * v->half_height / (float)coarse.size;
-        const float sx = ((float)(2 * x + 1 - coarse.size) * 0.5f) * px,
-                    sy = ((float)(coarse.size - 2 * y - 1) * 0.5f) * py;
-        const uint32_t element = element_at(t, triangle, v, sx, sy);
-        lmb_light_texel_power(power, from, &coarse, face, x, y);
-        for (int c = 0; c < 3 && element != LMB_TRANSFER_NONE; ++c) {
-            light->power[element][c] += power[c];
-        }
+    for (int32_t y = first; y < past; ++y) {
+        collect_row(&c, &coarse, face, each, y);
     }
     return LMB_OK;
 }
 
 /* --- nodes -> receivers ------------------------------------------------------------------------------------------- */
 
-static void receive(const lmb_transfer_light *light, const lmb_transfer *t, uint32_t i)
+static void receive(const lmb_transfer_light *light, const lmb_kernels *kernels, const lmb_transfer *t, uint32_t i)
 {
     const uint32_t *r = t->section[LMB_TRANSFER_RECEIVERS] + LMB_TRANSFER_RECEIVER_WORDS * (size_t)i;
-    const uint32_t *link = t->section[LMB_TRANSFER_LINKS] + r[2];
     const float scale = link_scale(r[4], light->step);
-    int32_t sum[3] = {0, 0, 0};
-    for (uint32_t k = 0; k < r[3]; ++k) {
-        const uint16_t *node = light->node[link[k] & 0xffffu];
-        const int32_t weight = link_weight(link[k] >> 16);
-        sum[0] += weight * (int32_t)node[0];
-        sum[1] += weight * (int32_t)node[1];
-        sum[2] += weight * (int32_t)node[2];
-    }
+    int32_t sum[3];
+    kernels->transfer_links(sum, t->section[LMB_TRANSFER_LINKS] + r[2], r[3], light->node);
     for (int c = 0; c < 3; ++c) {
         const float mean =
             r[0] == LMB_TRANSFER_NONE ? 0.0f : 0.5f * (light->receiver[r[0]][c] + light->receiver[r[1]][c]);
@@ -164,36 +214,33 @@ static void receive(const lmb_transfer_light *light, const lmb_transfer *t, uint
     }
 }
 
-static void receive_cluster(const lmb_transfer_light *light, const lmb_transfer *t, uint32_t i)
+static void receive_cluster(const lmb_transfer_light *light, const lmb_kernels *kernels, const lmb_transfer *t,
+                            uint32_t i)
 {
     const uint32_t *cluster = t->section[LMB_TRANSFER_CLUSTERS] + LMB_TRANSFER_CLUSTER_WORDS * (size_t)i;
     const uint32_t *link =
         t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)cluster[0];
     const float scale = link_scale(cluster[2], light->step);
-    int32_t sum[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    for (uint32_t k = 0; k < cluster[1]; ++k, link += LMB_TRANSFER_CLUSTER_LINK_WORDS) {
-        const uint16_t *node = light->node[link[0] & 0xffffu];
-        const int32_t weight[3] = {link_weight(link[0] >> 16), link_weight(link[1]), link_weight(link[1] >> 16)};
-        for (int c = 0; c < 9; ++c) {
-            sum[c] += weight[c % 3] * (int32_t)node[c / 3];
-        }
-    }
+    int32_t sum[3][3]; /* along x, y, z, of R, G, B */
+    kernels->transfer_directed_links(sum, link, cluster[1], light->node);
     for (int c = 0; c < 9; ++c) {
-        light->cluster[i][c] = scale * (float)sum[c];
+        light->cluster[i][c] = scale * (float)sum[c % 3][c / 3];
     }
 }
 
-lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_transfer *t, uint32_t first, uint32_t past)
+lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_kernels *kernels, const lmb_transfer *t,
+                                  uint32_t first, uint32_t past)
 {
     const uint32_t receivers = transfer_is_laid_out(light, t) ? t->count[LMB_TRANSFER_RECEIVERS] : 0;
-    if (!transfer_is_laid_out(light, t) || past < first || past > receivers + t->count[LMB_TRANSFER_CLUSTERS]) {
+    if (!transfer_is_laid_out(light, t) || kernels == NULL || past < first ||
+        past > receivers + t->count[LMB_TRANSFER_CLUSTERS]) {
         return LMB_ERR_ARG;
     }
     for (uint32_t i = first; i < past; ++i) {
         if (i < receivers) {
-            receive(light, t, i);
+            receive(light, kernels, t, i);
         } else {
-            receive_cluster(light, t, i - receivers);
+            receive_cluster(light, kernels, t, i - receivers);
         }
     }
     return LMB_OK;

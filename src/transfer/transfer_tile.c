@@ -3,23 +3,12 @@
 
 #include <string.h>
 
+#include "../lane/kernels.h"
+#include "../raster/tile.h"
 #include "air.h"
 #include "halvings.h"
 
 #if LMB_TRANSFER
-
-/* What pixels of one triangle share, and what those on one of its leaves do. */
-typedef struct here {
-    const lmb_transfer_light *light;
-    const lmb_transfer *transfer;
-    const lmb_tile *tile;
-    transfer_triangle triangle;
-    uint32_t root;
-    float b1[LMB_TILE_PIXELS], b2[LMB_TILE_PIXELS]; /* weights of its second and third corner */
-    int is_mesh;
-    float to_leaf[3][3]; /* from the triangle's weights to the leaf's */
-    float corner[3][9];  /* light at the leaf's corners: R, G, B; of a mesh each along x, y, z */
-} here;
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
 
@@ -35,178 +24,142 @@ static void blend(float out[9], const lmb_transfer_light *light, const uint32_t 
     }
 }
 
-static void set_corners(here *h, uint32_t place)
+static void set_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light, const lmb_transfer *t, uint32_t place)
 {
-    const lmb_transfer *t = h->transfer;
     const uint32_t *corner = t->section[LMB_TRANSFER_CORNERS] + LMB_TRANSFER_CORNER_WORDS * (size_t)place;
-    h->is_mesh = place >= t->leaves;
+    leaf->is_mesh = place >= t->leaves;
     for (int k = 0; k < 3; ++k) {
-        if (h->is_mesh) {
-            blend(h->corner[k], h->light,
+        if (leaf->is_mesh) {
+            blend(leaf->corner[k], light,
                   t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)corner[k]);
         } else {
-            memcpy(h->corner[k], h->light->receiver[corner[k]], 3 * sizeof h->corner[k][0]);
+            memcpy(leaf->corner[k], light->receiver[corner[k]], 3 * sizeof leaf->corner[k][0]);
         }
     }
 }
 
-/* Down to the leaf that holds pixel k, with the matrix of all halvings on the way. 0 where it lies too deep. */
-static int enter_leaf(here *h, int k)
+/* --- leaves ------------------------------------------------------------------------------------------------------- */
+
+static float weight_at(const float w[3], float b1, float b2) { return w[0] + w[1] * b1 + w[2] * b2; }
+
+/* Into the half that holds a place. The corner that it keeps loses what the other one weighs, which counts twice: it is
+ * the middle of the edge now. All these numbers are whole. */
+static void enter_half(lmb_transfer_step *s, uint32_t node, float b1, float b2)
 {
-    const uint32_t *node = h->transfer->section[LMB_TRANSFER_DIVISIONS];
-    float w[3] = {1.0f - h->b1[k] - h->b2[k], h->b1[k], h->b2[k]};
-    uint32_t at = h->root;
-    memset(h->to_leaf, 0, sizeof h->to_leaf);
-    h->to_leaf[0][0] = h->to_leaf[1][1] = h->to_leaf[2][2] = 1.0f;
-    for (int i = 0; i < LMB_TRANSFER_MAX_HALVINGS && (node[at] & LMB_TRANSFER_LEAF) == 0; ++i) {
-        const int from = (int)(node[at] >> LMB_TRANSFER_EDGE_BIT & 3u), to = from == 2 ? 0 : from + 1;
-        const int keeps = w[from] >= w[to] ? from : to, moves = keeps == from ? to : from;
-        for (int c = 0; c < 3; ++c) {
-            h->to_leaf[keeps][c] -= h->to_leaf[moves][c];
-            h->to_leaf[moves][c] *= 2.0f;
+    const int from = halving_from(node), to = halving_to(from), other = 3 - from - to;
+    float more[3];
+    for (int c = 0; c < 3; ++c) {
+        more[c] = s->weight[c][from] - s->weight[c][to];
+    }
+    s->second = weight_at(more, b1, b2) < 0.0f;
+    const int keeps = s->second ? to : from, moves = s->second ? from : to;
+    for (int c = 0; c < 3; ++c) {
+        s->side[c] = s->second ? -more[c] : more[c];
+        s[1].weight[c][keeps] = s->side[c];
+        s[1].weight[c][moves] = 2.0f * s->weight[c][moves];
+        s[1].weight[c][other] = s->weight[c][other];
+    }
+    s[1].at = halving_first(node) + (uint32_t)s->second;
+}
+
+/* How many steps of the last way down a place shares. */
+static uint32_t shared_steps(const lmb_transfer_scratch *s, float b1, float b2)
+{
+    uint32_t i = 0;
+    for (; i < s->depth; ++i) {
+        const float side = weight_at(s->step[i].side, b1, b2);
+        if (!(s->step[i].second ? side > 0.0f : side >= 0.0f)) {
+            break;
         }
-        at = halving_enter(w, node[at]);
     }
-    if ((node[at] & LMB_TRANSFER_LEAF) == 0) {
-        return 0;
+    return i;
+}
+
+/* Down to the leaf that holds a place of the triangle: the last of the steps. Returns what it says, or
+ * LMB_TRANSFER_NONE where it lies too deep. */
+static uint32_t enter_leaf(lmb_transfer_scratch *s, const uint32_t *node, uint32_t root, float b1, float b2)
+{
+    static const float whole[3][3] = {{1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}};
+    if (s->root != root + 1) {
+        s->root = root + 1;
+        s->depth = 0;
+        s->step[0].at = root;
+        memcpy(s->step[0].weight, whole, sizeof whole);
     }
-    set_corners(h, node[at] & ~LMB_TRANSFER_LEAF);
-    return 1;
+    uint32_t i = shared_steps(s, b1, b2);
+    for (; i < LMB_TRANSFER_MAX_HALVINGS && (node[s->step[i].at] & LMB_TRANSFER_LEAF) == 0; ++i) {
+        enter_half(&s->step[i], node[s->step[i].at], b1, b2);
+    }
+    s->depth = i;
+    const uint32_t word = node[s->step[i].at];
+    return (word & LMB_TRANSFER_LEAF) != 0 ? word & ~LMB_TRANSFER_LEAF : LMB_TRANSFER_NONE;
 }
 
 /* --- pixels ------------------------------------------------------------------------------------------------------- */
 
-/* 0 where nothing receives light. */
-static int enter_triangle(here *h, const lmb_scene *scene, int k)
-{
-    const uint32_t id = h->tile->id[k];
-    if (id > h->transfer->count[LMB_TRANSFER_SURFACES] || !transfer_triangle_of(&h->triangle, scene, id)) {
-        return 0;
-    }
-    const lmb_vec3 face = vec3(h->tile->face[0][k], h->tile->face[1][k], h->tile->face[2][k]);
-    const uint32_t back = dot3(h->triangle.normal, face) < 0.0f;
-    h->root = h->transfer->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (id - 1) + 2 + back];
-    return h->root != LMB_TRANSFER_NONE;
-}
+/* What a call is about. */
+typedef struct job {
+    const lmb_kernels *kernels;
+    lmb_transfer_scratch *scratch;
+    const lmb_transfer_light *light;
+    const lmb_transfer *transfer;
+    const lmb_tile *tile;
+} job;
 
-/* The weights of all pixels on the triangle's plane; those of other triangles mean nothing. */
-static void set_weights(here *h)
+/* Of one side of a triangle, leaf by leaf: that of the first pixel left lights all pixels on it. */
+static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint64_t pixels)
 {
-    const lmb_vec3 o = h->triangle.corner, u = h->triangle.along[0], v = h->triangle.along[1];
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float x = h->tile->position[0][k] - o.x, y = h->tile->position[1][k] - o.y,
-                    z = h->tile->position[2][k] - o.z;
-        const float b1 = clampf(u.x * x + u.y * y + u.z * z, 0.0f, 1.0f);
-        h->b1[k] = b1;
-        h->b2[k] = clampf(v.x * x + v.y * y + v.z * z, 0.0f, 1.0f - b1);
-    }
-}
-
-/* Of all pixels those on the leaf: where no corner's weight is under 0. One row of the matrix at a time. */
-static uint64_t on_leaf(const here *h)
-{
-    float smallest[LMB_TILE_PIXELS];
-    uint64_t out = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
-        const float w0 = h->to_leaf[0][0] * b0 + h->to_leaf[0][1] * b1 + h->to_leaf[0][2] * b2;
-        const float w1 = h->to_leaf[1][0] * b0 + h->to_leaf[1][1] * b1 + h->to_leaf[1][2] * b2;
-        const float w2 = h->to_leaf[2][0] * b0 + h->to_leaf[2][1] * b1 + h->to_leaf[2][2] * b2;
-        smallest[k] = minf(minf(w0, w1), w2);
-    }
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        out |= (uint64_t)(smallest[k] >= 0.0f) << k;
-    }
-    return out;
-}
-
-/* Light is linear on a leaf: the corners' light by the triangle's own weights. `each` numbers a corner. */
-static void at_triangle(float out[3][9], const here *h, int each)
-{
-    for (int i = 0; i < 3; ++i) {
-        for (int c = 0; c < each; ++c) {
-            out[i][c] = h->to_leaf[0][i] * h->corner[0][c] + h->to_leaf[1][i] * h->corner[1][c] +
-                        h->to_leaf[2][i] * h->corner[2][c];
-        }
-    }
-}
-
-/* Of a mesh what arrives along the pixel's normal; else the corners lie on its plane. */
-static void light_pixels(lmb_irradiance *inout, const here *h, uint64_t pixels)
-{
-    float at[3][9];
-    at_triangle(at, h, h->is_mesh ? 9 : 3);
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        const int k = lowest_bit_64(bits);
-        const float b1 = h->b1[k], b2 = h->b2[k], b0 = 1.0f - b1 - b2;
-        for (int c = 0; c < 3; ++c) {
-            float e = h->is_mesh ? 0.0f : b0 * at[0][c] + b1 * at[1][c] + b2 * at[2][c];
-            for (int a = 3 * c; h->is_mesh && a < 3 * c + 3; ++a) {
-                e += h->tile->normal[a - 3 * c][k] * (b0 * at[0][a] + b1 * at[1][a] + b2 * at[2][a]);
-            }
-            inout->rgb[c][k] += maxf(e, 0.0f);
-        }
-    }
-}
-
-/* Of `left` the pixels of the first one's triangle, on the same side of it. */
-static uint64_t alike(const lmb_tile *t, uint64_t left, int first)
-{
-    uint64_t out = 0;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const float same =
-            t->face[0][k] * t->face[0][first] + t->face[1][k] * t->face[1][first] + t->face[2][k] * t->face[2][first];
-        out |= (uint64_t)(t->id[k] == t->id[first] && same > 0.0f) << k;
-    }
-    return (out & left) | (uint64_t)1 << first;
-}
-
-/* Leaf by leaf: that of the first pixel left lights all pixels on it. */
-static void light_triangle(lmb_irradiance *inout, here *h, uint64_t pixels)
-{
-    set_weights(h);
+    lmb_transfer_scratch *s = j->scratch;
+    lmb_transfer_leaf leaf;
     while (pixels != 0) {
         const int first = lowest_bit_64(pixels);
+        const uint32_t place = enter_leaf(s, j->transfer->section[LMB_TRANSFER_DIVISIONS], root, s->weight[0][first],
+                                          s->weight[1][first]);
         uint64_t own = (uint64_t)1 << first;
-        if (enter_leaf(h, first)) {
-            own |= on_leaf(h) & pixels;
-            light_pixels(inout, h, own);
+        if (place != LMB_TRANSFER_NONE) {
+            leaf.weight = (const float(*)[3])s->step[s->depth].weight;
+            set_corners(&leaf, j->light, j->transfer, place);
+            own = j->kernels->transfer_leaf(inout, s->weight, j->tile, pixels, &leaf);
         }
         pixels &= ~own;
     }
 }
 
-static void light_moving(lmb_irradiance *inout, const here *h, uint64_t pixels)
+/* Of `left` the pixels on the first one's side of its triangle, lit where it receives light. */
+static uint64_t light_first(lmb_irradiance *inout, const job *j, const lmb_scene *scene, uint64_t left)
 {
-    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
-        lmb_transfer_air_pixel(inout, h->light, h->transfer, h->tile, lowest_bit_64(bits));
+    const int first = lowest_bit_64(left);
+    const uint32_t id = j->tile->id[first];
+    if (lmb_transfer_moves(j->transfer, id)) {
+        lmb_transfer_air_pixel(inout, j->light, j->transfer, j->tile, first);
+        return (uint64_t)1 << first;
     }
+    const lmb_transfer_triangle *triangle =
+        id > j->transfer->count[LMB_TRANSFER_SURFACES] ? NULL : transfer_triangle_kept(&j->scratch->kept, scene, id);
+    if (triangle == NULL) {
+        return (uint64_t)1 << first;
+    }
+    const uint64_t own = j->kernels->transfer_side(j->scratch->weight, j->tile, left, triangle);
+    const uint32_t back = dot3(triangle->normal, tile_vec(j->tile->face, first)) < 0.0f;
+    const uint32_t root =
+        j->transfer->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
+    if (root != LMB_TRANSFER_NONE) {
+        light_side(inout, j, root, own);
+    }
+    return own;
 }
 
-lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_transfer_light *light, const lmb_transfer *transfer,
-                             const lmb_scene *scene, const lmb_tile *tile)
+lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_transfer_scratch *scratch,
+                             const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene,
+                             const lmb_tile *tile)
 {
-    here h;
-    uint64_t left = 0;
-    if (inout == NULL || light == NULL || light->receiver == NULL || transfer == NULL || transfer->section[0] == NULL ||
-        scene == NULL || tile == NULL) {
+    const job j = {kernels, scratch, light, transfer, tile};
+    if (inout == NULL || kernels == NULL || scratch == NULL || light == NULL || light->receiver == NULL ||
+        transfer == NULL || transfer->section[0] == NULL || scene == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
-    h.light = light;
-    h.transfer = transfer;
-    h.tile = tile;
-    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        left |= (uint64_t)(tile->id[k] != 0) << k;
-    }
-    while (left != 0) {
-        const int first = lowest_bit_64(left);
-        const uint64_t own = alike(tile, left, first);
-        if (lmb_transfer_moves(transfer, tile->id[first])) {
-            light_moving(inout, &h, own);
-        } else if (enter_triangle(&h, scene, first)) {
-            light_triangle(inout, &h, own);
-        }
-        left &= ~own;
+    for (uint64_t left = kernels->resolve_shown(tile->id); left != 0;) {
+        left &= ~light_first(inout, &j, scene, left);
     }
     return LMB_OK;
 }

@@ -10,6 +10,7 @@
 enum { MAP = 32, SIDE = 16, MOST = 1 << 20 /* receivers */ };
 
 static uint32_t map_memory[MAP * MAP * 2];
+static lmb_transfer_scratch scratch;
 
 static lmb_shadow_map map_of(const lmb_scene *scene)
 {
@@ -30,6 +31,7 @@ static void draw(const lmb_transfer_light *light, const lmb_transfer *t, const l
     lmb_target target;
     lmb_view view;
     memset(&target, 0, sizeof target);
+    memset(&scratch, 0, sizeof scratch);
     lmb_surface_init(&target.depth, LMB_DEPTH32F, SIDE, SIDE, depth, sizeof depth);
     lmb_surface_init(&target.id, LMB_ID32, SIDE, SIDE, id, sizeof id);
     lmb_surface_clear(&target.depth);
@@ -42,7 +44,7 @@ static void draw(const lmb_transfer_light *light, const lmb_transfer *t, const l
         memset(&arrives, 0, sizeof arrives);
         fuzz_require(lmb_resolve_tile(&tile, lmb_kernels_pick(), &view, scene, &target, at % TILES * LMB_TILE,
                                       at / TILES * LMB_TILE) == LMB_OK);
-        fuzz_require(lmb_transfer_tile(&arrives, light, t, scene, &tile) == LMB_OK);
+        fuzz_require(lmb_transfer_tile(&arrives, lmb_kernels_pick(), &scratch, light, t, scene, &tile) == LMB_OK);
         for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
             fuzz_require(!(arrives.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] < 0.0f));
         }
@@ -55,6 +57,7 @@ static void light_room(const lmb_transfer *t, void *memory, size_t bytes, float 
     small_room room;
     lmb_transfer_light light;
     const uint32_t all = t->count[LMB_TRANSFER_RECEIVERS] + t->count[LMB_TRANSFER_CLUSTERS];
+    memset(&scratch, 0, sizeof scratch);
     small_room_make(&room);
     for (int c = 0; c < 3; ++c) {
         room.light.intensity[c] *= strength;
@@ -65,15 +68,16 @@ static void light_room(const lmb_transfer *t, void *memory, size_t bytes, float 
     fuzz_require(lmb_transfer_light_init(&light, t, memory, bytes) == LMB_OK);
     fuzz_require(lmb_transfer_materials(&light, t, &room.scene) == LMB_OK);
     fuzz_require(lmb_transfer_clear(&light, t) == LMB_OK);
-    fuzz_require(lmb_transfer_collect(&light, t, &room.scene, &room.light, &map, 0, 2, 0, MAP / 2) == LMB_OK);
+    fuzz_require(lmb_transfer_collect(&light, lmb_kernels_pick(), &scratch, t, &room.scene, &room.light, &map, 0, 2, 0,
+                                      MAP / 2) == LMB_OK);
     for (int what = LMB_TRANSFER_SEND_EMITTED; what <= LMB_TRANSFER_SEND_RECEIVED; ++what) {
         fuzz_require(lmb_transfer_bounce(&light, t, what) == LMB_OK);
     }
     fuzz_require(lmb_transfer_rest(&light, t, LMB_TRANSFER_SEND_RECEIVED, 8) == LMB_OK);
     fuzz_require(lmb_transfer_send(&light, t) == LMB_OK);
-    fuzz_require(lmb_transfer_receivers(&light, t, 0, all / 2) == LMB_OK);
-    fuzz_require(lmb_transfer_receivers(&light, t, all / 2, all) == LMB_OK);
-    fuzz_require(lmb_transfer_receivers(&light, t, 0, all + 1) == LMB_ERR_ARG);
+    fuzz_require(lmb_transfer_receivers(&light, lmb_kernels_pick(), t, 0, all / 2) == LMB_OK);
+    fuzz_require(lmb_transfer_receivers(&light, lmb_kernels_pick(), t, all / 2, all) == LMB_OK);
+    fuzz_require(lmb_transfer_receivers(&light, lmb_kernels_pick(), t, 0, all + 1) == LMB_ERR_ARG);
     draw(&light, t, &room.scene);
 }
 

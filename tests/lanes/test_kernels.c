@@ -1319,6 +1319,195 @@ static int trial_relief(const trial *t, test_rng r)
            same_bytes(t, "counts", &stats[0], &stats[1], sizeof stats[0]);
 }
 
+/* --- baked light -------------------------------------------------------------------------------------------------- */
+
+enum { NODES = 200, LINKS = 150, RUN = 40, PAST_RUN = RUN + 16, HALVES = 400 };
+
+static void make_nodes(uint16_t node[NODES][4], const trial *t, test_rng *r)
+{
+    for (int i = 0; i < 4 * NODES; ++i) {
+        node[i / 4][i % 4] = (uint16_t)(i % 4 == 3 ? 0u : t->seed % 3u == 0 ? 65535u : test_random(r) & 0xffffu);
+    }
+}
+
+/* A weight of either sign out of what is left of the most that they may sum up to, all of it now and then. */
+static uint32_t take_weight(uint32_t *left, test_rng *r)
+{
+    const uint32_t size = test_random(r) % 20u == 0 ? *left : test_random(r) % (*left / 8u + 1u);
+    *left -= size;
+    return (test_random(r) % 2u ? size : 0u - size) & 0xffffu;
+}
+
+static int64_t signed_weight(uint32_t code) { return (int64_t)(code & 0x7fffu) - (int64_t)(code & 0x8000u); }
+
+/* Against sums of 64 bits, by scalar too. */
+static int trial_transfer_links(const trial *t, test_rng r)
+{
+    static uint16_t node[NODES][4];
+    uint32_t link[LINKS], left = 32767, count = t->seed % 2u ? test_random(&r) % 5u : test_random(&r) % LINKS;
+    int64_t sum[3] = {0, 0, 0};
+    int32_t want[3], scalar[3], got[3];
+    make_nodes(node, t, &r);
+    for (uint32_t i = 0; i < count; ++i) {
+        link[i] = test_random(&r) % NODES | take_weight(&left, &r) << 16;
+        for (int c = 0; c < 3; ++c) {
+            sum[c] += signed_weight(link[i] >> 16) * node[link[i] & 0xffffu][c];
+        }
+    }
+    for (int c = 0; c < 3; ++c) {
+        want[c] = (int32_t)sum[c];
+        CHECK(want[c] == sum[c]);
+    }
+    lmb_kernels_scalar.transfer_links(scalar, link, count, node);
+    t->kernels->transfer_links(got, link, count, node);
+    return same_bytes(t, "scalar's", want, scalar, sizeof want) && same_bytes(t, "sums", want, got, sizeof want);
+}
+
+static int trial_transfer_directed_links(const trial *t, test_rng r)
+{
+    static uint16_t node[NODES][4];
+    uint32_t link[2 * LINKS], left[3] = {32767, 32767, 32767};
+    uint32_t count = t->seed % 2u ? test_random(&r) % 5u : test_random(&r) % LINKS;
+    int32_t want[3][3], scalar[3][3], got[3][3];
+    make_nodes(node, t, &r);
+    memset(want, 0, sizeof want);
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t x = take_weight(&left[0], &r), y = take_weight(&left[1], &r), z = take_weight(&left[2], &r);
+        link[2 * i] = test_random(&r) % NODES | x << 16;
+        link[2 * i + 1] = y | z << 16;
+        for (int c = 0; c < 3; ++c) {
+            want[0][c] += (int32_t)(signed_weight(x) * node[link[2 * i] & 0xffffu][c]);
+            want[1][c] += (int32_t)(signed_weight(y) * node[link[2 * i] & 0xffffu][c]);
+            want[2][c] += (int32_t)(signed_weight(z) * node[link[2 * i] & 0xffffu][c]);
+        }
+    }
+    lmb_kernels_scalar.transfer_directed_links(scalar, link, count, node);
+    t->kernels->transfer_directed_links(got, link, count, node);
+    return same_bytes(t, "scalar's", want, scalar, sizeof want) && same_bytes(t, "sums", want, got, sizeof want);
+}
+
+static int trial_texel_powers(const trial *t, test_rng r)
+{
+    static float sx[PAST_RUN], want[PAST_RUN], got[PAST_RUN];
+    const int32_t count = 1 + (int32_t)(test_random(&r) % RUN);
+    lmb_texel_row row;
+    memset(&row, 0, sizeof row);
+    row.right = direction_of_axis(&r);
+    row.up = direction_of_axis(&r);
+    row.back = direction_of_axis(&r);
+    row.direction = direction_of_axis(&r);
+    row.cos_outer = test_uniform(&r, 0.0f, 1.0f);
+    row.cone = test_random(&r) % 4u ? test_uniform(&r, 0.0f, 0.3f) : 0.0f;
+    row.side_x = test_uniform(&r, 0.001f, 0.1f);
+    row.side_y = test_uniform(&r, 0.001f, 0.1f);
+    row.sy = test_uniform(&r, -1.5f, 1.5f);
+    row.finer_x = test_uniform(&r, -1.0f, 1.0f);
+    row.finer_half = test_random(&r) % 2u ? test_uniform(&r, 0.0f, 1.0f) : 0.0f;
+    row.is_far = (int32_t)(t->seed % 2u);
+    row.is_coned = (int32_t)(t->seed / 2u % 2u);
+    numbers(sx, PAST_RUN, &r, -1.5f, 1.5f, 0);
+    lmb_kernels_scalar.texel_powers(want, sx, count, &row);
+    t->kernels->texel_powers(got, sx, count, &row);
+    return same_floats(t, "power", want, got, count);
+}
+
+/* Halvings of random edges; some ways down are longer than any may be. */
+static void make_halvings(uint32_t node[HALVES], const trial *t, test_rng *r)
+{
+    uint32_t next = 1;
+    for (uint32_t i = 0; i < HALVES; ++i) {
+        const int ends = next + 2 > HALVES || (i > 0 && test_random(r) % 3u == 0 && t->seed % 8u != 0);
+        node[i] = ends ? LMB_TRANSFER_LEAF | test_random(r) % 999u
+                       : (test_random(r) % 3u) << LMB_TRANSFER_EDGE_BIT | next;
+        next += ends ? 0 : t->seed % 8u ? 2 : 1;
+    }
+}
+
+static int trial_texel_leaves(const trial *t, test_rng r)
+{
+    static uint32_t node[HALVES], want[PAST_RUN], got[PAST_RUN];
+    static float sx[PAST_RUN];
+    const uint32_t rare = t->seed % 4u ? 0 : 9u;
+    const int32_t count = 1 + (int32_t)(test_random(&r) % RUN);
+    lmb_texel_run run;
+    make_halvings(node, t, &r);
+    run.node = node;
+    run.root = test_random(&r) % 4u;
+    run.d = number(&r, -2.0f, 2.0f, rare);
+    run.n = number(&r, -2.0f, 2.0f, rare);
+    run.n_by = number(&r, -0.2f, 0.2f, rare);
+    numbers(run.to, 2, &r, -1.0f, 1.0f, rare);
+    numbers(run.from, 2, &r, -1.0f, 1.0f, rare);
+    numbers(run.by, 2, &r, -1.0f, 1.0f, rare);
+    numbers(sx, PAST_RUN, &r, -1.0f, 1.0f, rare);
+    lmb_kernels_scalar.texel_leaves(want, sx, count, &run);
+    t->kernels->texel_leaves(got, sx, count, &run);
+    return same_bytes(t, "leaves", want, got, (size_t)count * sizeof *want);
+}
+
+/* The pixels' b1 and b2 of both, where `pixels` are. */
+static int same_weights(const trial *t, uint64_t pixels, float want[2][LMB_TILE_PIXELS],
+                        float got[2][LMB_TILE_PIXELS])
+{
+    for (int k = 0; k < 2 * LMB_TILE_PIXELS; ++k) {
+        const int i = k / LMB_TILE_PIXELS, p = k % LMB_TILE_PIXELS;
+        if ((pixels >> p & 1u) != 0 && !same_floats(t, i ? "b2" : "b1", &want[i][p], &got[i][p], 1)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int trial_transfer_side(const trial *t, test_rng r)
+{
+    static lmb_tile tile;
+    static float want[2][LMB_TILE_PIXELS], got[2][LMB_TILE_PIXELS];
+    const uint32_t rare = t->seed % 3u ? 0 : 25u;
+    const uint64_t left = random_pixels(t, &r) | (uint64_t)1 << test_random(&r) % LMB_TILE_PIXELS;
+    lmb_transfer_triangle triangle;
+    memset(&triangle, 0, sizeof triangle);
+    triangle.corner = place(&r, 2.0f, rare);
+    triangle.along[0] = place(&r, 1.0f, rare);
+    triangle.along[1] = place(&r, 1.0f, rare);
+    make_tile(&tile, &r, rare);
+    const uint64_t a = lmb_kernels_scalar.transfer_side(want, &tile, left, &triangle),
+                   b = t->kernels->transfer_side(got, &tile, left, &triangle);
+    CHECK((a & ~left) == 0 && (a & (left & (0 - left))) != 0);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        CHECK((a >> k & 1u) == 0 || tile.id[k] == tile.id[lowest_bit_64(left)]);
+        CHECK((a >> k & 1u) == 0 || (want[0][k] >= 0.0f && want[1][k] >= 0.0f && want[0][k] + want[1][k] < 1.0001f));
+    }
+    return same_bytes(t, "pixels", &a, &b, sizeof a) && same_weights(t, a, want, got);
+}
+
+static int trial_transfer_leaf(const trial *t, test_rng r)
+{
+    static GUARDED(lmb_irradiance) want, got;
+    static lmb_tile tile;
+    static float weight[2][LMB_TILE_PIXELS];
+    const uint32_t rare = t->seed % 3u ? 0 : 25u;
+    const uint64_t left = random_pixels(t, &r) | (uint64_t)1 << test_random(&r) % LMB_TILE_PIXELS;
+    lmb_transfer_leaf leaf;
+    float by[3][3];
+    GUARD(want);
+    GUARD(got);
+    numbers(want.it.rgb[0], 3 * LMB_TILE_PIXELS, &r, 0.0f, 9.0f, 0);
+    got.it = want.it;
+    make_tile(&tile, &r, rare);
+    numbers(weight[0], 2 * LMB_TILE_PIXELS, &r, 0.0f, 0.5f, 0);
+    numbers(leaf.corner[0], 27, &r, -0.5f, 3.0f, rare);
+    for (int i = 0; i < 9; ++i) {
+        by[i / 3][i % 3] = (float)((int32_t)(test_random(&r) % 7u) - (i / 3 ? 3 : 2));
+    }
+    leaf.weight = (const float(*)[3])by;
+    leaf.is_mesh = (int32_t)(test_random(&r) % 2u);
+    const uint64_t a = lmb_kernels_scalar.transfer_leaf(&want.it, weight, &tile, left, &leaf),
+                   b = t->kernels->transfer_leaf(&got.it, weight, &tile, left, &leaf);
+    CHECK((a & ~left) == 0 && (a & (left & (0 - left))) != 0 && canaries_stay(got.before, got.after));
+    return same_bytes(t, "pixels", &a, &b, sizeof a) &&
+           same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
+}
+
 /* --- all of them -------------------------------------------------------------------------------------------------- */
 
 static const struct kernel {
@@ -1355,6 +1544,12 @@ static const struct kernel {
     {"blur", trial_blur},
     {"cone", trial_cone},
     {"relief", trial_relief},
+    {"links", trial_transfer_links},
+    {"directed_links", trial_transfer_directed_links},
+    {"texel_powers", trial_texel_powers},
+    {"texel_leaves", trial_texel_leaves},
+    {"transfer_side", trial_transfer_side},
+    {"transfer_leaf", trial_transfer_leaf},
 };
 
 static void test_backend(const lmb_kernels *backend)

@@ -33,7 +33,7 @@ typedef struct verb_input {
     X(i_and, BITS) X(i_mul, BITS) X(i_shift, BITS) X(i_not_negative, BITS) X(i_equal, BITS) X(to_int, BITS) \
     X(trunc, BITS) X(gather_f32, BITS) X(gather_u16, BITS) X(load_rows, BITS) X(load_u16, BITS) X(column, BITS) \
     X(row, BITS) X(affine, BITS) X(dot, FLOAT) X(i_sub, BITS) X(i_min, BITS) X(i_max, BITS) X(i_pick, BITS) \
-    X(i_lt, BITS) X(from_int, BITS) X(table, BITS) X(gather_rgba, BITS) \
+    X(i_lt, BITS) X(from_int, BITS) X(table, BITS) X(gather_rgba, BITS) X(gather_i32, BITS) X(sums, BITS) \
     X(from_double, BITS)
 enum {
 #define VERB_NAME(name, results) VERB_##name,

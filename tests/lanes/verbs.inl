@@ -99,6 +99,25 @@ static inline void run_doubles(verb_output *out, const verb_input *in, int k)
     put_lane(out->row[VERB_from_double] + k, lane_from_double(laned_mul(i, laned_splat(1.0 / 3.0))));
 }
 
+/* Three pairs of rows that hold each lane's values; what their sums are goes into one number. */
+static inline void run_sums(verb_output *out, const verb_input *in, int k)
+{
+    for (int i = k; i < k + LANES; ++i) {
+        lane_sums sums = sums_zero();
+        uint16_t row[2][4];
+        int32_t v[3];
+        for (int j = 0; j < 3; ++j) {
+            for (int c = 0; c < 8; ++c) {
+                row[c / 4][c % 4] = (uint16_t)(c % 4 < 3 ? in->table_u16[(in->at[i] + 5 * j + c) % VERB_TABLE] : 0);
+            }
+            sums = sums_add(sums, pair_load(row[0], row[1]),
+                            j == 0 ? in->bits : j == 1 ? (uint32_t)in->i[i] : (uint32_t)in->m[i] * 0x10001u);
+        }
+        sums_store(v, sums);
+        out->row[VERB_sums][i] = (uint32_t)v[0] + 3u * (uint32_t)v[1] + 5u * (uint32_t)v[2];
+    }
+}
+
 static inline void run_memory(verb_output *out, const verb_input *in, int k)
 {
     const int p = k / 8 * in->step + k % 8;
@@ -108,6 +127,8 @@ static inline void run_memory(verb_output *out, const verb_input *in, int k)
     put_lane(out->row[VERB_gather_u16] + k, lane_gather_u16(in->table_u16, at));
     put_lane(out->row[VERB_table] + k, lane_table(in->table_f32, lanei_and(at, lanei_splat(15))));
     lanei_store((int32_t *)out->row[VERB_gather_rgba] + k, lanei_gather_rgba(in->table_rgba, at));
+    put_lanei(out->row[VERB_gather_i32] + k, lanei_gather_i32((const int32_t *)in->surface_u32,
+                                                             lanei_min(at, lanei_splat(VERB_SURFACE - 1))));
     put_lane(out->row[VERB_load_rows] + k, lane_load_rows(in->surface_f32 + p, in->step));
     put_lane(out->row[VERB_load_u16] + k, lane_load_u16(in->surface_u16 + p, in->step));
     lane_store_rows(out->stored_f32 + p, in->step, lane_load(in->a + k));
@@ -128,5 +149,6 @@ void VERBS_RUN(verb_output *out, const verb_input *in)
         run_integers(out, in, k);
         run_doubles(out, in, k);
         run_memory(out, in, k);
+        run_sums(out, in, k);
     }
 }

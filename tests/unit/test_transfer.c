@@ -16,6 +16,7 @@ enum { SMALL_WORDS = SMALL_TRANSFER_WORDS(ROOM_TRIANGLES), MAP = 128, FRAME = 40
 static small_room room;
 static uint32_t file[SMALL_WORDS], copy[SMALL_WORDS];
 static uint32_t map_memory[MAP * MAP * 2];
+static lmb_transfer_scratch scratch;
 
 static int is_near(float a, float b, float by) { return absf(a - b) <= by; }
 
@@ -54,7 +55,8 @@ static void receive(lit *l, uint32_t piece)
     const uint32_t all = places(l->t);
     CHECK(lmb_transfer_send(&l->light, l->t) == LMB_OK);
     for (uint32_t i = 0; i < all; i += piece) {
-        CHECK(lmb_transfer_receivers(&l->light, l->t, i, all - i < piece ? all : i + piece) == LMB_OK);
+        const uint32_t past = all - i < piece ? all : i + piece;
+        CHECK(lmb_transfer_receivers(&l->light, lmb_kernels_pick(), l->t, i, past) == LMB_OK);
     }
 }
 
@@ -71,9 +73,10 @@ static lmb_shadow_map draw_map(const lmb_scene *scene)
 static void collect(lit *l, const lmb_shadow_map *map, int32_t each, int32_t rows)
 {
     const int32_t all = MAP / each;
+    memset(&scratch, 0, sizeof scratch);
     for (int32_t y = 0; y < all; y += rows) {
-        CHECK(lmb_transfer_collect(&l->light, l->t, l->scene, &l->scene->lights[0], map, 0, each, y,
-                                   all - y < rows ? all : y + rows) == LMB_OK);
+        CHECK(lmb_transfer_collect(&l->light, lmb_kernels_pick(), &scratch, l->t, l->scene, &l->scene->lights[0], map,
+                                   0, each, y, all - y < rows ? all : y + rows) == LMB_OK);
     }
 }
 
@@ -149,7 +152,8 @@ static void by_hand(void)
     set_plane(tile.face, 8, down);
     set_plane(tile.face, 9, down);
     out.rgb[0][0] = 7.0f; /* it adds */
-    CHECK(lmb_transfer_tile(&out, &l.light, &t, &room.scene, &tile) == LMB_OK);
+    memset(&scratch, 0, sizeof scratch);
+    CHECK(lmb_transfer_tile(&out, lmb_kernels_pick(), &scratch, &l.light, &t, &room.scene, &tile) == LMB_OK);
     const float pixels[12] = {7.0f + want[0], want[4], want[1], want[3], 0.5f * (want[4] + want[1]), 0.0f, 1.5f,
                               55.0f / 255.0f * 1.5f + 200.0f / 255.0f * 1.5f, 0.25f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < 12; ++k) {
@@ -409,6 +413,7 @@ static void bad_arguments(void)
     lit l = lit_by(&good, &room.scene);
     const lmb_scene *s = &room.scene;
     const lmb_light *from = &room.light;
+    const lmb_kernels *all = lmb_kernels_pick();
     memcpy(copy, file, sizeof file);
     CHECK(lmb_transfer_open(NULL, copy, sizeof copy) == LMB_ERR_ARG);
     CHECK(lmb_transfer_open(&t, NULL, sizeof copy) == LMB_ERR_ARG);
@@ -441,33 +446,38 @@ static void bad_arguments(void)
     CHECK(lmb_transfer_rest(NULL, &good, 1, 1) == LMB_ERR_ARG && lmb_transfer_rest(&dark, &good, 1, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_rest(&l.light, &none, 1, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_rest(&l.light, &good, 1, -1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_receivers(NULL, &good, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_receivers(&dark, &good, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_receivers(&l.light, NULL, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_receivers(&l.light, &none, 0, 0) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_receivers(&l.light, &good, 2, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_receivers(&l.light, &good, 0, places(&good) + 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(NULL, &l.light, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, NULL, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, &dark, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, &l.light, NULL, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, &l.light, &none, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, &l.light, &good, NULL, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, &l.light, &good, s, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(NULL, all, &good, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&dark, all, &good, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, NULL, &good, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, all, NULL, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, all, &none, 0, 0) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, all, &good, 2, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_receivers(&l.light, all, &good, 0, places(&good) + 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(NULL, all, &scratch, &l.light, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, &scratch, &l.light, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, all, NULL, &l.light, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, all, &scratch, NULL, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, all, &scratch, &dark, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, NULL, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, &none, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, &good, NULL, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, &good, s, NULL) == LMB_ERR_ARG);
     static const struct { int32_t face, each, first, past; } bad[] = {
         {1, 1, 0, 1}, {-1, 1, 0, 1}, {0, 0, 0, 1}, {0, -1, 0, 1}, {0, 3, 0, 1}, {0, 2 * MAP, 0, 1}, {0, 1, -1, 1},
         {0, 1, 2, 1}, {0, 1, 0, MAP + 1}, {0, 2, 0, MAP / 2 + 1}};
     for (int i = 0; i < COUNT(bad); ++i) {
-        CHECK_MSG(lmb_transfer_collect(&l.light, &good, s, from, &map, bad[i].face, bad[i].each, bad[i].first,
-                                       bad[i].past) == LMB_ERR_ARG, "%d", i);
+        CHECK_MSG(lmb_transfer_collect(&l.light, all, &scratch, &good, s, from, &map, bad[i].face, bad[i].each,
+                                       bad[i].first, bad[i].past) == LMB_ERR_ARG, "%d", i);
     }
-    CHECK(lmb_transfer_collect(NULL, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_collect(&dark, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_collect(&l.light, NULL, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_collect(&l.light, &none, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_collect(&l.light, &good, NULL, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_collect(&l.light, &good, s, NULL, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_collect(&l.light, &good, s, from, NULL, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(NULL, all, &scratch, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&dark, all, &scratch, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, NULL, &scratch, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, all, NULL, &good, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, all, &scratch, NULL, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, all, &scratch, &none, s, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, all, &scratch, &good, NULL, from, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, all, &scratch, &good, s, NULL, &map, 0, 1, 0, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_collect(&l.light, all, &scratch, &good, s, from, NULL, 0, 1, 0, 1) == LMB_ERR_ARG);
     free(l.memory);
 }
 
@@ -643,7 +653,8 @@ static void is_linear(const lmb_transfer *t, const lmb_scene *scene, float times
         strong.intensity[c] *= times;
     }
     collect(&once, &map, 1, MAP);
-    CHECK(lmb_transfer_collect(&more.light, t, scene, &strong, &map, 0, 1, 0, MAP) == LMB_OK);
+    CHECK(lmb_transfer_collect(&more.light, lmb_kernels_pick(), &scratch, t, scene, &strong, &map, 0, 1, 0, MAP) ==
+          LMB_OK);
     receive(&once, 1u << 20);
     receive(&more, 1u << 20);
     for (uint32_t i = 0; i < 3 * t->count[LMB_TRANSFER_RECEIVERS]; ++i) {
@@ -705,6 +716,7 @@ static void furnace(void)
 static void moving_block(void)
 {
     static lmb_tile tile;
+    static lmb_transfer_scratch scratch;
     lmb_irradiance out;
     lmb_transfer t;
     make_box(-0.6f);
@@ -726,7 +738,7 @@ static void moving_block(void)
         pixel(&tile, k, 13 + (uint32_t)k % 12,
               vec3(0.5f * (float)(k % 4) - 0.8f, 0.5f * (float)(k / 4 % 4) - 0.8f, (float)(k / 16) - 1.7f), n);
     }
-    CHECK(lmb_transfer_tile(&out, &l.light, &t, &world.scene, &tile) == LMB_OK);
+    CHECK(lmb_transfer_tile(&out, lmb_kernels_pick(), &scratch, &l.light, &t, &world.scene, &tile) == LMB_OK);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         CHECK_MSG(fabs((double)out.rgb[0][k] / FURNACE - 1.0) < 0.04, "%d: %g, not %g", k, (double)out.rgb[0][k],
                   FURNACE);
@@ -799,6 +811,40 @@ static void draws_frames(const lmb_transfer *t, const lmb_scene *scene)
     free(f.memory);
 }
 
+/* What lmb_transfer_tile keeps from tile to tile changes nothing: a picture's tiles with one scratch and with new ones,
+ * by each backend. */
+static void draws_tiles(const lmb_transfer *t, const lmb_scene *scene)
+{
+    enum { TILES = FRAME / LMB_TILE };
+    static lmb_transfer_scratch fresh;
+    static lmb_irradiance want[TILES * TILES], got;
+    static lmb_tile tile;
+    const lmb_kernels *kernels;
+    framed f = frame_of(t, scene, 0);
+    double sum = 0.0;
+    CHECK(lmb_render_frame(&render, &f.frame) == LMB_OK);
+    memset(want, 0, sizeof want);
+    for (int32_t b = 0; (kernels = lmb_kernels_at(b)) != NULL; ++b) {
+        memset(&scratch, 0, sizeof scratch);
+        for (int32_t i = 0; i < TILES * TILES; ++i) {
+            const int32_t at = i * 7 % (TILES * TILES); /* not in order */
+            CHECK(lmb_resolve_tile(&tile, kernels, &f.frame.view, scene, &f.frame.eye, at % TILES * LMB_TILE,
+                                   at / TILES * LMB_TILE) == LMB_OK);
+            memset(&fresh, 0, sizeof fresh);
+            memset(&got, 0, sizeof got);
+            if (b == 0) {
+                CHECK(lmb_transfer_tile(&want[at], kernels, &fresh, &f.frame.transfer_light, t, scene, &tile) ==
+                      LMB_OK);
+                sum += (double)want[at].rgb[0][LMB_TILE_PIXELS / 2];
+            }
+            CHECK(lmb_transfer_tile(&got, kernels, &scratch, &f.frame.transfer_light, t, scene, &tile) == LMB_OK);
+            CHECK_MSG(memcmp(&got, &want[at], sizeof got) == 0, "tile %d by %s", (int)at, lmb_kernels_name(kernels));
+        }
+    }
+    CHECK(sum > 0.0);
+    free(f.memory);
+}
+
 /* Other colours without another file. */
 static void takes_materials(const lmb_transfer *t)
 {
@@ -827,6 +873,7 @@ static void test_box(void)
     is_linear(&t, &world.scene, 2.0f);
     is_linear(&t, &world.scene, 3.7f);
     draws_frames(&t, &world.scene);
+    draws_tiles(&t, &world.scene);
     takes_materials(&t);
     world.instance[1].to_world.m[3] = world.instance[1].to_world.m[12] = 0.1f;
     CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_ERR_SCENE);
