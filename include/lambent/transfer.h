@@ -13,7 +13,7 @@
  * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each. A pixel
  * interpolates the three receivers of its triangle by barycentric weights. The receiver in the middle of an edge stores
  * its difference from the mean of the edge's two ends. Small triangles of meshes take their light from clusters, which
- * keep it by direction.
+ * keep it by direction, as differences from blends of clusters around them.
  *
  * The sums over links are of integers, so they are the same in any order and width. */
 #ifndef LMB_TRANSFER_H
@@ -43,7 +43,7 @@ enum {
     LMB_TRANSFER_CORNER_WORDS = 3,
     LMB_TRANSFER_RECEIVER_WORDS = 5, /* two parents, first link, number of links, scale */
     LMB_TRANSFER_BLEND_WORDS = 3,
-    LMB_TRANSFER_CLUSTER_WORDS = 3, /* first link, number of links, scale */
+    LMB_TRANSFER_CLUSTER_WORDS = 6, /* a blend of clusters before it, first link, number of links, scale */
     LMB_TRANSFER_CLUSTER_LINK_WORDS = 2,
     LMB_TRANSFER_MAX_ELEMENTS = 16384,
     LMB_TRANSFER_MAX_CLUSTERS = 65536,

@@ -6,6 +6,7 @@
 #include "../base/memory_check.h"
 #include "../map/footprint.h"
 #include "../raster/target.h"
+#include "blend.h"
 #include "halvings.h"
 
 #if LMB_TRANSFER
@@ -255,18 +256,20 @@ static void receive_cluster(const lmb_transfer_light *light, const lmb_transfer 
 {
     const uint32_t *cluster = t->section[LMB_TRANSFER_CLUSTERS] + LMB_TRANSFER_CLUSTER_WORDS * (size_t)i;
     const uint32_t *link =
-        t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)cluster[0];
-    const float scale = scale_of(cluster[2], light->step);
+        t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)cluster[3];
+    const float scale = scale_of(cluster[5], light->step);
     int32_t sum[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
-    for (uint32_t k = 0; k < cluster[1]; ++k, link += LMB_TRANSFER_CLUSTER_LINK_WORDS) {
+    for (uint32_t k = 0; k < cluster[4]; ++k, link += LMB_TRANSFER_CLUSTER_LINK_WORDS) {
         const uint16_t *node = light->node[link[0] & 0xffffu];
         const int32_t weight[3] = {weight_of(link[0] >> 16), weight_of(link[1]), weight_of(link[1] >> 16)};
         for (int c = 0; c < 9; ++c) {
             sum[c] += weight[c % 3] * (int32_t)node[c / 3];
         }
     }
+    float parents[9];
+    transfer_blend(parents, light, cluster);
     for (int c = 0; c < 9; ++c) {
-        light->cluster[i][c] = scale * (float)sum[c];
+        light->cluster[i][c] = parents[c] + scale * (float)sum[c];
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "blend.h"
 #include "halvings.h"
 
 #if LMB_TRANSFER
@@ -22,18 +23,6 @@ typedef struct here {
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
 
-static void blend(float out[9], const lmb_transfer_light *light, const uint32_t *b)
-{
-    memset(out, 0, 9 * sizeof *out);
-    for (int k = 0; k < 4; ++k) {
-        const float *cluster = light->cluster[b[k / 2] >> 16 * (k % 2) & 0xffffu];
-        const float share = (float)(b[2] >> 8 * k & 255u) * (1.0f / 255.0f);
-        for (int c = 0; c < 9; ++c) {
-            out[c] += share * cluster[c];
-        }
-    }
-}
-
 static void set_corners(here *h, uint32_t place)
 {
     const lmb_transfer *t = h->transfer;
@@ -41,8 +30,8 @@ static void set_corners(here *h, uint32_t place)
     h->is_mesh = place >= t->leaves;
     for (int k = 0; k < 3; ++k) {
         if (h->is_mesh) {
-            blend(h->corner[k], h->light,
-                  t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)corner[k]);
+            transfer_blend(h->corner[k], h->light,
+                           t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)corner[k]);
         } else {
             memcpy(h->corner[k], h->light->receiver[corner[k]], 3 * sizeof h->corner[k][0]);
         }

@@ -95,7 +95,7 @@ static int is_there(const bake *b, const bake_receiver *v, lmb_vec3 at, lmb_vec3
 {
     const lmb_vec3 d = sub3(v->place, at);
     const float reach = 0.3f * b->set.smallest_m;
-    return dot3(d, d) < reach * reach && dot3(v->normal, normal) > 0.99f;
+    return dot3(d, d) < reach * reach && dot3(v->target.normal, normal) > 0.99f;
 }
 
 static uint32_t hash_of(const bake *b, lmb_vec3 at, int dx, int dy, int dz)
@@ -138,9 +138,11 @@ static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 n
     memset(v, 0, sizeof *v);
     v->place = place;
     v->at = at;
-    v->normal = normal;
-    v->parent[0] = a;
-    v->parent[1] = b;
+    v->target.normal = normal;
+    for (int i = 0; i < 2 && a != LMB_TRANSFER_NONE; ++i) {
+        v->target.parent[i] = i == 0 ? a : b;
+        v->target.share[i] = 0.5f;
+    }
     uint32_t h = hash_of(k, place, 0, 0, 0);
     for (; shared && d->slot[h & d->mask] != 0; ++h) {
     }
@@ -161,10 +163,10 @@ static uint32_t receiver_at(divider *d, lmb_vec3 at, lmb_vec3 normal, lmb_vec3 t
 /* Light that comes to a receiver, by what bake_reach found: in a solid hardly any. */
 static float openness(const bake *b, uint32_t receiver)
 {
-    const float *row = b->receiver[receiver].row;
+    const uint16_t *row = b->receiver[receiver].target.row;
     float sum = 0.0f;
     for (uint32_t i = 0; row != NULL && i < b->set.elements; ++i) {
-        sum += row[i] * b->element[i].light;
+        sum += bake_long(row[i]) * b->element[i].light;
     }
     return sum;
 }
@@ -215,45 +217,33 @@ static int mend_corners(divider *d, piece *p)
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
-/* From a row that arrives to links: what the parents do not say. */
+/* A receiver keeps its row; a piece what that differs by from its parents'. */
 static int settle(divider *d, const wanted *w, float *row)
 {
     bake *b = d->b;
     const uint32_t n = b->set.elements;
-    int parents = 0;
-    for (int k = 0; k < 3; ++k) {
-        parents += w->parent[k] != LMB_TRANSFER_NONE;
-    }
-    for (int k = 0; k < 3; ++k) {
-        const float *from = w->parent[k] != LMB_TRANSFER_NONE ? b->receiver[w->parent[k]].row : NULL;
-        for (uint32_t i = 0; from != NULL && i < n; ++i) {
-            row[i] -= from[i] / (float)parents;
+    if (w->receiver != LMB_TRANSFER_NONE) {
+        bake_target *t = &b->receiver[w->receiver].target;
+        t->row = malloc(n * sizeof *t->row);
+        if (t->row == NULL) {
+            return report_fail(d->r, "not enough memory for %u receivers", (unsigned)b->receiver_count);
+        }
+        for (uint32_t i = 0; i < n; ++i) {
+            t->row[i] = bake_short(row[i]);
         }
     }
-    if (parents > 0 && w->piece != (size_t)-1) {
-        piece *p = &d->now.data[w->piece];
-        p->surplus = maxf(p->surplus, bake_surplus(b, row));
-    }
-    if (w->receiver == LMB_TRANSFER_NONE) {
+    if (w->parent[0] == LMB_TRANSFER_NONE || w->piece == (size_t)-1) {
         return 1;
     }
-    bake_receiver *v = &b->receiver[w->receiver];
-    bake_words *links = &b->section[LMB_TRANSFER_LINKS];
-    v->first_link = (uint32_t)links->count;
-    v->row = malloc(n * sizeof *v->row);
-    if (v->row == NULL) {
-        return report_fail(d->r, "not enough memory for %u receivers", (unsigned)b->receiver_count);
-    }
-    if (!bake_links(b, &row, 1, links, &v->links, &v->scale, d->r)) {
-        return 0;
-    }
-    memcpy(v->row, row, n * sizeof *v->row);
-    for (int k = 0; k < 2 && w->parent[k] != LMB_TRANSFER_NONE; ++k) {
-        const float *from = b->receiver[w->parent[k]].row;
+    const int parents = w->parent[2] != LMB_TRANSFER_NONE ? 3 : 2;
+    for (int k = 0; k < parents; ++k) {
+        const uint16_t *from = b->receiver[w->parent[k]].target.row;
         for (uint32_t i = 0; i < n; ++i) {
-            v->row[i] += 0.5f * from[i];
+            row[i] -= bake_long(from[i]) * (1.0f / (float)parents);
         }
     }
+    piece *p = &d->now.data[w->piece];
+    p->surplus = maxf(p->surplus, bake_surplus(b, row));
     return 1;
 }
 
@@ -334,6 +324,9 @@ static int put_leaf(divider *d, piece *p)
         LMB_TRANSFER_LEAF | (uint32_t)(corners->count / LMB_TRANSFER_CORNER_WORDS);
     if (!mend_corners(d, p)) {
         return 0;
+    }
+    for (int k = 0; k < 3; ++k) {
+        d->b->receiver[p->receiver[k]].target.support += triangle_area(p->corner) * (1.0f / 3.0f);
     }
     return bake_put(corners, p->receiver[0], d->r) && bake_put(corners, p->receiver[1], d->r) &&
            bake_put(corners, p->receiver[2], d->r);
@@ -489,14 +482,15 @@ int bake_receivers(bake *b, report *r)
     int ok = d.slot != NULL || report_fail(r, "not enough memory for receivers");
     ok = ok && bake_sight_begin(&d.sight, r) && add_roots(&d);
     while (ok && d.now.count > 0) {
-        report_note(b->is_quiet, "bake: %u receivers, %.0f links", (unsigned)b->receiver_count,
-                    (double)b->section[LMB_TRANSFER_LINKS].count);
+        report_note(b->is_quiet, "bake: %u receivers", (unsigned)b->receiver_count);
         ok = look_at_all(&d) && halve_worst(&d);
     }
     for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their middles are there: they serve too */
         ok = split(&d, &d.waiting.data[i], 1);
     }
-    ok = ok && make_rows(&d);
+    ok = ok && make_rows(&d) &&
+         (b->receiver_count == 0 ||
+          bake_code(b, &b->receiver[0].target, sizeof *b->receiver, b->receiver_count, 1, r));
     free(d.slot);
     bake_sight_end(&d.sight);
     b->leaves = (uint32_t)(b->section[LMB_TRANSFER_CORNERS].count / LMB_TRANSFER_CORNER_WORDS);

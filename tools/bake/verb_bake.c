@@ -85,8 +85,8 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
         printf("%s: %u elements, %u receivers, %.1f links each, %u clusters, %.1f links each, %.2f MB\n", o->out,
                (unsigned)b.element_count, (unsigned)b.receiver_count,
                (double)b.section[LMB_TRANSFER_LINKS].count / (b.receiver_count > 0 ? b.receiver_count : 1),
-               (unsigned)b.clusters,
-               (double)b.section[LMB_TRANSFER_CLUSTER_LINKS].count / 2.0 / (b.clusters > 0 ? b.clusters : 1),
+               (unsigned)b.cluster_count,
+               (double)b.section[LMB_TRANSFER_CLUSTER_LINKS].count / 2.0 / (b.cluster_count > 0 ? b.cluster_count : 1),
                (double)file.size * 1e-6);
         for (int s = 0; s < LMB_TRANSFER_SECTIONS && o->is_verbose; ++s) {
             printf("  %-14s %8.3f MB\n", names[s], 4e-6 * (double)b.section[s].count);
