@@ -34,6 +34,8 @@ typedef struct bake_element {
     float reach2;  /* its farthest corner from its middle, squared, m2 */
     float facing;  /* length of the mean normal: 1 for one triangle */
     int is_one;
+    int is_stood_on; /* something stands on it */
+    float open;    /* share of it that light can come to; `middle` is that of it */
     int is_dark;   /* no light comes here */
     float light;   /* about how much comes, in any unit */
     uint32_t key, number; /* order along a Z curve; where it was made */
@@ -94,6 +96,9 @@ typedef struct bake {
     uint32_t cluster_count, cluster_cap;
 } bake;
 
+/* What of an element sends light, m2. */
+static inline float bake_open_area(const bake_element *e) { return e->is_dark ? 0.0f : e->area * e->open; }
+
 /* What bake_sees works with; one a thread. */
 typedef struct bake_sight {
     lmb_tile *tile;
@@ -118,14 +123,17 @@ int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report
 int bake_elements(bake *b, report *r);
 
 /* bake_reach: leave out the sides of surfaces that no way through the scene leads to from its lights and from `eyes`,
- * like the insides of boxes. With neither nothing is left out. */
+ * like the insides of boxes, and parts of elements on which something stands. With neither nothing is left out. Then
+ * the elements' areas are known. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r);
 
 /* bake_rows: what arrives of each element at up to 64 points: form factor times the share that is seen.
  *   row   axes x count rows of set.elements. axes 1: on a plane of the normal; 3: along x, y, z, of what lies
- *         before it */
+ *         before it
+ *   times  NULL, or for each element what its entries stand for: of those far from all points some are left out (0),
+ *          and others count for them */
 int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
-              report *r);
+              float *times, report *r);
 
 /* bake_links: choose nodes whose means stand for a row of elements; axes 1 or 3 rows that share them.
  *   row     becomes what the links say

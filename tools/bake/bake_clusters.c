@@ -125,7 +125,7 @@ static int make_rows(clusters *c)
         for (int k = 0; k < 3 * count; ++k) {
             row[k] = memory + (size_t)k * n;
         }
-        ok = bake_rows(b, at, normal, count, 3, row, c->r);
+        ok = bake_rows(b, at, normal, count, 3, row, NULL, c->r);
         for (int k = 0; k < count && ok; ++k) {
             ok = keep_row(&b->cluster[first + (uint32_t)k].target, row[3 * k], 3 * (size_t)n, c->r);
         }

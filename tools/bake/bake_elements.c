@@ -122,6 +122,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     e->area = e->largest = triangle_area(corner);
     e->facing = 1.0f;
     e->is_one = 1;
+    e->open = 1.0f;
     e->number = b->element_count;
     for (int k = 0; k < 3; ++k) {
         const lmb_vec3 d = sub3(corner[k], e->middle);
@@ -184,10 +185,12 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     if (m->is_full) {
         return 1;
     }
-    if (depth == LMB_TRANSFER_MAX_HALVINGS ||
-        (longest <= m->side && (longest <= CONTACT * m->side || bake_stands_free(&m->sight, m->b, corner, normal)))) {
-        const int small = depth == 0 && longest * 2.0f < m->side;
-        w->data[node] = LMB_TRANSFER_LEAF | (small ? small_element(m, corner, normal) : add_element(m, corner, normal));
+    const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
+    const int is_free = longest <= m->side && (is_small || bake_stands_free(&m->sight, m->b, corner, normal));
+    if (is_last || is_free || longest <= CONTACT * m->side) {
+        const uint32_t e = is_small ? small_element(m, corner, normal) : add_element(m, corner, normal);
+        w->data[node] = LMB_TRANSFER_LEAF | e;
+        m->b->element[e].is_stood_on = !is_free;
         return 1;
     }
     const int to = (from + 1) % 3;
@@ -278,11 +281,6 @@ static int put_in_order(bake *b, report *r)
         }
     }
     free(place);
-    for (uint32_t i = 0; i < b->set.elements; ++i) {
-        if (!bake_put_float(&b->section[LMB_TRANSFER_AREAS], i < b->element_count ? b->element[i].area : 0.0f, r)) {
-            return 0;
-        }
-    }
     return 1;
 }
 
