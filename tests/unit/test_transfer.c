@@ -413,7 +413,7 @@ static file_bytes bake_box(int threads)
     set.receivers = 200;
     set.threads = threads;
     b.is_quiet = 1;
-    CHECK_MSG(bake_begin(&b, &world.scene, &set, &r) && bake_elements(&b, &r) && bake_reach(&b, NULL, 0, &r) &&
+    CHECK_MSG(bake_begin(&b, &world.scene, &set, &r) && bake_reach(&b, NULL, 0, &r) &&
                   bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_file(&out, &b, &r), "%s", r.text);
     bake_free(&b);
     return out;

@@ -7,7 +7,7 @@
 
 #include "../../src/base/vec.h"
 
-enum { BATCH = 64, PARTS = 64, WITNESSES = 16 };
+enum { BATCH = 64, PARTS = 64, WITNESSES = 16, FEWEST = 1024 };
 #define OVER 0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
 
 #define ALBEDO 0.5f  /* of all surfaces */
@@ -63,14 +63,14 @@ static int by_light(const void *a, const void *b)
     return x->light != y->light ? (x->light > y->light ? -1 : 1) : x->element < y->element ? -1 : 1;
 }
 
-/* The brightest elements that have not sent their light yet; returns how many. */
+/* The brightest elements that have not sent their light yet, but for those that lie half in a solid; returns how many. */
 static int next_senders(reach *w, uint32_t chosen[BATCH])
 {
     const bake *b = w->b;
     int count = 0;
     for (uint32_t i = 0; i < b->element_count; ++i) {
         w->order[i].element = i;
-        w->order[i].light = b->element[i].light;
+        w->order[i].light = b->element[i].is_stood_on ? 0.0f : b->element[i].light;
     }
     qsort(w->order, b->element_count, sizeof *w->order, by_light);
     for (uint32_t i = 0; i < b->element_count && count < BATCH; ++i) {
@@ -121,7 +121,8 @@ static int is_side_reached(const reach *w, uint32_t root)
 {
     const uint32_t *node = w->b->section[LMB_TRANSFER_PIECES].data;
     if (node[root] & LMB_TRANSFER_LEAF) {
-        return w->has_sent[node[root] & ~LMB_TRANSFER_LEAF];
+        const uint32_t e = node[root] & ~LMB_TRANSFER_LEAF;
+        return w->b->element[e].is_stood_on ? w->b->element[e].open > 0.0f : w->has_sent[e];
     }
     const uint32_t first = node[root] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
     return is_side_reached(w, first) || is_side_reached(w, first + 1);
@@ -221,7 +222,7 @@ static int put_areas(bake *b, report *r)
     return 1;
 }
 
-int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
+static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
     reach w = {b, NULL, NULL, NULL, r};
     bake_words *surfaces = &b->section[LMB_TRANSFER_SURFACES];
@@ -229,7 +230,7 @@ int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
         for (uint32_t i = 0; i < b->element_count; ++i) {
             b->element[i].light = 1.0f;
         }
-        return put_areas(b, r);
+        return 1;
     }
     w.has_sent = calloc(b->set.elements, 1);
     w.order = malloc(b->set.elements * sizeof *w.order);
@@ -239,20 +240,29 @@ int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
     b->by_middles = 1; /* what lies half in a solid must not lead into it */
     ok = ok && spread(&w, eyes, count);
     b->by_middles = 0;
+    ok = ok && open_elements(&w);
     for (size_t i = 0; ok && i < surfaces->count; ++i) {
         if (i % LMB_TRANSFER_SURFACE_WORDS < 2 && surfaces->data[i] != LMB_TRANSFER_NONE &&
             !is_side_reached(&w, surfaces->data[i])) {
             surfaces->data[i] = LMB_TRANSFER_NONE;
         }
     }
-    ok = ok && open_elements(&w);
     for (uint32_t i = 0; ok && i < b->element_count; ++i) {
         bake_element *e = &b->element[i];
         e->is_dark = e->is_stood_on ? !(e->open > 0.0f) : !w.has_sent[i];
     }
-    ok = ok && put_areas(b, r);
     free(w.has_sent);
     free(w.order);
     free(w.memory);
     return ok;
+}
+
+/* Once by few elements, to leave out whole sides; then all elements lie on the others. */
+int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
+{
+    const uint32_t all = b->set.elements;
+    b->set.elements = all > FEWEST ? all / 4 : all;
+    int ok = bake_elements(b, r) && find_reached(b, eyes, count, r);
+    b->set.elements = all;
+    return ok && bake_elements(b, r) && find_reached(b, eyes, count, r) && put_areas(b, r);
 }

@@ -78,7 +78,7 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
     set.receivers = (uint32_t)o->receivers;
     set.threads = o->threads > 0 ? o->threads : pool_processors();
     b.is_quiet = o->is_quiet || !(o->is_verbose || host_watched());
-    int ok = bake_begin(&b, scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) &&
+    int ok = bake_begin(&b, scene, &set, r) && bake_reach(&b, eyes, eye_count, r) &&
              bake_receivers(&b, r) && bake_clusters(&b, r) &&
              bake_file(&file, &b, r) && file_write(o->out, file.data, file.size, r);
     if (ok && !o->is_quiet) {
