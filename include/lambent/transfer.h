@@ -38,6 +38,7 @@ enum {
 };
 
 enum {
+    LMB_TRANSFER_VERSION = 2, /* the file's fourth byte, behind `LMT` */
     LMB_TRANSFER_HEADER_WORDS = 24,
     LMB_TRANSFER_SURFACE_WORDS = 4,
     LMB_TRANSFER_CORNER_WORDS = 3,

@@ -128,7 +128,8 @@ static void by_hand(void)
                   (double)l.light.receiver[i][0], (double)want[i]);
         CHECK(is_near(l.light.receiver[i][2], 0.5f * want[i], 1e-4f));
     }
-    const float cluster[SMALL_CLUSTERS][3] = {{0.125f * (4 - 2), -0.25f * (4 + 2), 2.0f / 64.0f}, {0, -1.5f, 0}};
+    const float cluster[SMALL_CLUSTERS][3] = {
+        {0.125f * (4 - 2), -0.25f * (4 + 2), 2.0f / 64.0f}, {0.2f * 0.25f, 0.2f * -1.5f - 1.5f, 0.2f * 2.0f / 64.0f}};
     for (int i = 0; i < 3 * SMALL_CLUSTERS; ++i) {
         CHECK(is_near(l.light.cluster[i / 3][i % 3], cluster[i / 3][i % 3], 1e-4f));
     }
@@ -150,7 +151,7 @@ static void by_hand(void)
     out.rgb[0][0] = 7.0f; /* it adds */
     CHECK(lmb_transfer_tile(&out, &l.light, &t, &room.scene, &tile) == LMB_OK);
     const float pixels[12] = {7.0f + want[0], want[4], want[1], want[3], 0.5f * (want[4] + want[1]), 0.0f, 1.5f,
-                              55.0f / 255.0f * 1.5f + 200.0f / 255.0f * 1.5f, 0.25f, 0.0f, 0.0f, 0.0f};
+                              55.0f / 255.0f * 1.5f + 200.0f / 255.0f * 1.8f, 0.25f, 0.0f, 0.0f, 0.0f};
     for (int k = 0; k < 12; ++k) {
         CHECK_MSG(is_near(out.rgb[0][k], pixels[k], 1e-4f), "pixel %d: %g, not %g", k, (double)out.rgb[0][k],
                   (double)pixels[k]);
@@ -246,9 +247,15 @@ static void bad_words(void)
         {LMB_TRANSFER_LINKS, 8, SMALL_LINK(2, -32768), "a weight over the sum"},
         {LMB_TRANSFER_BLENDS, 0, SMALL_CLUSTERS, "no such cluster"},
         {LMB_TRANSFER_BLENDS, 4, SMALL_CLUSTERS << 16, "no such cluster"},
-        {LMB_TRANSFER_CLUSTERS, 0, 2, "links past the end"},
-        {LMB_TRANSFER_CLUSTERS, 1, 3, "the same links twice"},
-        {LMB_TRANSFER_CLUSTERS, 2, 0x7fc00000u, "a scale that is no number"},
+        {LMB_TRANSFER_BLENDS, 2, 255u | 1u << 8, "weights over their sum"},
+        {LMB_TRANSFER_CLUSTERS, 0, 1, "a parent behind it, though of no weight"},
+        {LMB_TRANSFER_CLUSTERS, 2, 1, "the first has a parent"},
+        {LMB_TRANSFER_CLUSTERS, 3, 2, "links past the end"},
+        {LMB_TRANSFER_CLUSTERS, 4, 3, "the same links twice"},
+        {LMB_TRANSFER_CLUSTERS, 5, 0x7fc00000u, "a scale that is no number"},
+        {LMB_TRANSFER_CLUSTERS, 6, 1, "its own parent"},
+        {LMB_TRANSFER_CLUSTERS, 7, 2u << 16, "no such parent"},
+        {LMB_TRANSFER_CLUSTERS, 8, 0x01010101u * 64u, "weights over their sum"},
         {LMB_TRANSFER_CLUSTER_LINKS, 0, SMALL_LINK(SMALL_NODES, 1), "no such node"},
         {LMB_TRANSFER_CLUSTER_LINKS, 0, SMALL_LINK(0, 28672), "weights along x over the sum"},
         {LMB_TRANSFER_CLUSTER_LINKS, 1, 0x9fff, "weights along y over the sum"},

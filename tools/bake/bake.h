@@ -166,7 +166,7 @@ static inline float bake_long(uint16_t v)
     return out;
 }
 
-/* bake_surplus: how much a row is at odds with light that is even over nodes of a 64th of the elements. */
+/* bake_surplus: how much a row is at odds with light that is even over nodes of a 256th of the elements, and of four. */
 float bake_surplus(const bake *b, const float *row);
 
 /* Receivers on large triangles, and clusters on small ones. */

@@ -65,7 +65,8 @@ int bake_file(file_bytes *out, bake *b, report *r)
     if (!put_receivers(b, r) || !put_clusters(b, r)) {
         return 0;
     }
-    memcpy(head, "LMT\2", 4);
+    memcpy(head, "LMT", 3);
+    ((uint8_t *)head)[3] = LMB_TRANSFER_VERSION;
     lmb_transfer_fingerprint(head + 3, b->scene);
     head[5] = b->leaves;
     for (int s = 0; s < LMB_TRANSFER_SECTIONS; ++s) {

@@ -28,7 +28,8 @@ static const option_row rows[] = {
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--error", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
-     .help = "what a receiver's links may be off by, as a share of all light around it (default 0.001)"},
+     .help = "what a link of a receiver that lights a 10,000th of all area has to save, as a share of all light around "
+             "it; the larger a receiver's area the less (default 0.00013)"},
     {.name = "--division", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
      .help = "how far light may be from linear between receivers, as such a share of a thousandth of all area "
              "(default 0.008)"},
@@ -131,7 +132,7 @@ int verb_bake(int argc, char **argv)
     memset(&o, 0, sizeof o);
     memset(&loaded, 0, sizeof loaded);
     memset(&notes, 0, sizeof notes);
-    o.error = 0.001f;
+    o.error = 0.00013f;
     o.division = 0.008f;
     o.elements = 16384;
     o.receivers = 12000;
