@@ -419,9 +419,8 @@ static file_bytes bake_box(int threads)
     set.elements = 256;
     set.receivers = 200;
     set.threads = threads;
-    b.is_quiet = 1;
     CHECK_MSG(bake_begin(&b, &world.scene, &set, &r) && bake_reach(&b, NULL, 0, &r) &&
-                  bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_file(&out, &b, &r), "%s", r.text);
+                  bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_code_all(&b, &r) && bake_file(&out, &b, &r), "%s", r.text);
     bake_free(&b);
     return out;
 }

@@ -18,6 +18,7 @@ typedef struct bake_settings {
     uint32_t elements;  /* a power of 4, up to LMB_TRANSFER_MAX_ELEMENTS */
     uint32_t receivers; /* at most */
     int threads;
+    int is_swapped;     /* the file is for the other byte order */
 } bake_settings;
 
 /* Words that grow. */
@@ -82,7 +83,9 @@ typedef struct bake {
     float small_m;  /* no edge of a small triangle is longer */
     uint32_t small_count;
     int by_middles; /* rows ask for elements' middles alone */
-    int is_quiet;
+    int is_watched; /* progress goes to a terminal */
+    double shown;   /* when it was, s; 0: never */
+    int is_coded;   /* areas of targets were handed up */
 
     bake_element *element; /* set.elements; past element_count without area */
     uint32_t element_count;
@@ -148,7 +151,7 @@ int bake_links(bake_linker *l, float *const *row, int axes, lmb_vec3 normal, flo
 /* bake_code: rows -> links: what each target's parents do not say of its row, which becomes what the file says. Parents
  * lie before their children. Links cost as much error, times the area that it shows on, at all targets alike.
  *   target   `each` bytes apart */
-int bake_code(const bake *b, bake_target *target, size_t each, uint32_t count, int axes, report *r);
+int bake_code(bake *b, bake_target *target, size_t each, uint32_t count, int axes, report *r);
 
 /* A row's entries: upper halves of binary32, to the nearest. */
 static inline uint16_t bake_short(float v)
@@ -184,8 +187,15 @@ uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal);
 /* bake_cell: the cell of a grid, `per` a metre, within +-1e9. */
 int32_t bake_cell(float at, float per);
 
+/* bake_tell: progress, in per cent of a step, a few times a second. bake_tell_end: its line is empty again. */
+void bake_tell(bake *b, const char *step, double share);
+void bake_tell_end(const bake *b);
+
 int bake_is_small(const bake *b, const lmb_vec3 corner[3]);
 
+/* bake_code_all: receivers and clusters, all again by another error where they have links.
+ * bake_file: the bytes of a .lmt. */
+int bake_code_all(bake *b, report *r);
 int bake_file(file_bytes *out, bake *b, report *r);
 void bake_free(bake *b);
 

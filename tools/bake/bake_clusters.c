@@ -117,6 +117,7 @@ static int make_rows(clusters *c)
     lmb_vec3 at[BATCH], normal[BATCH];
     int ok = memory != NULL || report_fail(c->r, "not enough memory for %u elements", (unsigned)n);
     for (uint32_t first = 0; ok && first < b->cluster_count; first += BATCH) {
+        bake_tell(b, "clusters", (double)first / (double)b->cluster_count);
         const int count = (int)(b->cluster_count - first < BATCH ? b->cluster_count - first : BATCH);
         for (int k = 0; k < count; ++k) {
             at[k] = b->cluster[first + (uint32_t)k].at;
@@ -269,9 +270,7 @@ int bake_clusters(bake *b, report *r)
     if (ok) {
         put_in_order(&c);
     }
-    ok = ok && make_rows(&c) && bake_parents(b, r) && visit(&c, bind_triangle) &&
-         (b->cluster_count == 0 ||
-          bake_code(b, &b->cluster[0].target, sizeof *b->cluster, b->cluster_count, 3, r));
+    ok = ok && make_rows(&c) && bake_parents(b, r) && visit(&c, bind_triangle);
     free(c.slot);
     return ok;
 }

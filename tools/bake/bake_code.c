@@ -10,7 +10,7 @@
 #define PARTS 1e-4f /* of all area: a receiver of so much has links of `error` each */
 
 typedef struct coder {
-    const bake *b;
+    bake *b;
     uint8_t *target;
     size_t each;
     int axes;
@@ -93,7 +93,9 @@ static uint32_t set_generations(const coder *c, uint32_t *generation, uint32_t c
 static int code_all(coder *c, uint32_t *generation, uint32_t *order, uint32_t count, report *r)
 {
     const uint32_t last = set_generations(c, generation, count);
-    hand_up(c, count);
+    if (!c->b->is_coded) {
+        hand_up(c, count);
+    }
     c->order = order;
     for (uint32_t g = 0; g <= last; ++g) {
         uint32_t own = 0;
@@ -113,7 +115,7 @@ static int code_all(coder *c, uint32_t *generation, uint32_t *order, uint32_t co
     return 1;
 }
 
-int bake_code(const bake *b, bake_target *target, size_t each, uint32_t count, int axes, report *r)
+int bake_code(bake *b, bake_target *target, size_t each, uint32_t count, int axes, report *r)
 {
     coder *c = calloc(1, sizeof *c);
     uint32_t *memory = malloc(2 * (size_t)(count + 1) * sizeof *memory);
@@ -137,5 +139,16 @@ int bake_code(const bake *b, bake_target *target, size_t each, uint32_t count, i
     }
     free(c);
     free(memory);
+    return ok;
+}
+
+int bake_code_all(bake *b, report *r)
+{
+    bake_tell(b, "links", 0.0);
+    const int ok =
+        (b->receiver_count == 0 ||
+         bake_code(b, &b->receiver[0].target, sizeof *b->receiver, b->receiver_count, 1, r)) &&
+        (b->cluster_count == 0 || bake_code(b, &b->cluster[0].target, sizeof *b->cluster, b->cluster_count, 3, r));
+    b->is_coded = 1;
     return ok;
 }

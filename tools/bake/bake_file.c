@@ -54,6 +54,16 @@ static int put_clusters(bake *b, report *r)
     return 1;
 }
 
+static void swap_words(uint8_t *data, size_t bytes)
+{
+    for (size_t i = 4; i + 4 <= bytes; i += 4) { /* behind `LMT` and the version */
+        const uint8_t word[4] = {data[i], data[i + 1], data[i + 2], data[i + 3]};
+        for (size_t k = 0; k < 4; ++k) {
+            data[i + k] = word[3 - k];
+        }
+    }
+}
+
 int bake_file(file_bytes *out, bake *b, report *r)
 {
     uint32_t head[LMB_TRANSFER_HEADER_WORDS] = {0, 0x01020304u};
@@ -88,7 +98,13 @@ int bake_file(file_bytes *out, bake *b, report *r)
             at += 4 * b->section[s].count;
         }
     }
-    return lmb_transfer_open(&own, out->data, out->size) == LMB_OK || report_fail(r, "what was baked does not open");
+    if (lmb_transfer_open(&own, out->data, out->size) != LMB_OK) {
+        return report_fail(r, "what was baked does not open");
+    }
+    if (b->set.is_swapped) {
+        swap_words(out->data, out->size);
+    }
+    return 1;
 }
 
 void bake_free(bake *b)

@@ -523,15 +523,13 @@ int bake_receivers(bake *b, report *r)
     int ok = d.slot != NULL || report_fail(r, "not enough memory for receivers");
     ok = ok && bake_sight_begin(&d.sight, r) && add_roots(&d);
     while (ok && d.now.count > 0) {
-        report_note(b->is_quiet, "bake: %u receivers", (unsigned)b->receiver_count);
+        bake_tell(b, "receivers", minf((float)b->receiver_count / (float)b->set.receivers, 1.0f));
         ok = look_at_all(&d) && halve_worst(&d);
     }
     for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their middles are there: they serve too */
         ok = split(&d, &d.waiting.data[i], 1);
     }
-    ok = ok && make_rows(&d) &&
-         (b->receiver_count == 0 ||
-          bake_code(b, &b->receiver[0].target, sizeof *b->receiver, b->receiver_count, 1, r));
+    ok = ok && make_rows(&d);
     free(d.slot);
     bake_sight_end(&d.sight);
     b->leaves = (uint32_t)(b->section[LMB_TRANSFER_CORNERS].count / LMB_TRANSFER_CORNER_WORDS);
