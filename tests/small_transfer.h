@@ -11,10 +11,10 @@
 #include "../src/base/vec.h"
 
 /* The floor is halved: elements 0 and 1 are the halves of triangle 1, 2 is triangle 2, 3 all of the ceiling. Receivers
- * 0 .. 3 are the floor's corners, 4 lies between 0 and 1. The ceiling has clusters; the
- * second one takes a fifth of the first one's light. */
+ * 0 .. 3 are the floor's corners, 4 lies between 0 and 1. The ceiling has clusters; the second one takes a fifth of the
+ * first one's light. Each element is a coarse one too. */
 enum { ROOM_TRIANGLES = 4, SMALL_ELEMENTS = 4, SMALL_NODES = 5, SMALL_RECEIVERS = 5, SMALL_CLUSTERS = 2 };
-#define SMALL_TRANSFER_WORDS(triangles) (113 + 4 * (triangles))
+#define SMALL_TRANSFER_WORDS(triangles) (135 + 4 * (triangles))
 
 #define SMALL_ONE      (1.0f / 32768.0f) /* scale: a weight of 32768 would be 1 */
 #define SMALL_LINK(node, weight) ((uint32_t)(uint16_t)(int16_t)(weight) << 16 | (uint32_t)(node))
@@ -53,6 +53,9 @@ static inline size_t small_transfer(uint32_t *words, const lmb_scene *scene)
     const uint32_t cluster_links[] = {SMALL_LINK(0, 4096),  SMALL_LINK(-8192 & 0xffff, 0),
                                       SMALL_LINK(1, -4096), SMALL_LINK(-8192 & 0xffff, 512),
                                       SMALL_LINK(2, 0),     SMALL_LINK(-16384 & 0xffff, 0)};
+    const uint32_t coarse[] = {0, 0, 1, one, 1, 1, 1, one, 2, 2, 1, one, 3, 3, 3, one};
+    const uint32_t coarse_links[] = {SMALL_LINK(3, 8192), SMALL_LINK(3, 8192), SMALL_LINK(3, 8192),
+                                     SMALL_LINK(0, 2048), SMALL_LINK(1, 2048), SMALL_LINK(2, 4096)};
     small_words w = {words, LMB_TRANSFER_HEADER_WORDS};
     memset(words, 0, LMB_TRANSFER_HEADER_WORDS * sizeof *words);
     memcpy(words, "LMT\2", 4);
@@ -72,6 +75,8 @@ static inline size_t small_transfer(uint32_t *words, const lmb_scene *scene)
     small_put(&w, 13, blends, 6, LMB_TRANSFER_BLEND_WORDS);
     small_put(&w, 14, clusters, 12, LMB_TRANSFER_CLUSTER_WORDS);
     small_put(&w, 15, cluster_links, 6, LMB_TRANSFER_CLUSTER_LINK_WORDS);
+    small_put(&w, 16, coarse, 16, LMB_TRANSFER_COARSE_WORDS);
+    small_put(&w, 17, coarse_links, 6, 1);
     words[2] = (uint32_t)(4 * w.count);
     return 4 * w.count;
 }

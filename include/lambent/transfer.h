@@ -3,10 +3,11 @@
  *
  * The file holds, of all surfaces: *elements*, pieces that send light; *receivers*, points that receive it; and
  * *links*, which say how much of what a node of elements sends arrives at a receiver. Visibility is in the links, so
- * no frame tests it again. Albedo is not, so materials may change. Light goes through four steps:
+ * no frame tests it again. Albedo and emission are not, so materials may change. Light goes through five steps:
  *
  *     lmb_transfer_collect(..)    from the texels of shadow maps to the elements
- *     lmb_transfer_send(..)       from what elements receive to what they and their nodes send
+ *     lmb_transfer_bounce(..)     further reflections, from elements to at most 1,024 coarse ones
+ *     lmb_transfer_send(..)       from what elements receive and emit to what they and their nodes send
  *     lmb_transfer_receivers(..)  from the nodes, by the links, to the receivers
  *     lmb_transfer_tile(..)       from the receivers to a tile's pixels
  *
@@ -34,6 +35,8 @@ enum {
     LMB_TRANSFER_BLENDS,   /* up to four clusters and their weights */
     LMB_TRANSFER_CLUSTERS,
     LMB_TRANSFER_CLUSTER_LINKS,
+    LMB_TRANSFER_COARSE, /* runs of elements, at most 1,024, to which light that is reflected again comes alike */
+    LMB_TRANSFER_COARSE_LINKS,
     LMB_TRANSFER_SECTIONS
 };
 
@@ -46,6 +49,8 @@ enum {
     LMB_TRANSFER_BLEND_WORDS = 3,
     LMB_TRANSFER_CLUSTER_WORDS = 6, /* a blend of clusters before it, first link, number of links, scale */
     LMB_TRANSFER_CLUSTER_LINK_WORDS = 2,
+    LMB_TRANSFER_COARSE_WORDS = 4, /* first element, first link, number of links, scale */
+    LMB_TRANSFER_MAX_COARSE = 1024,
     LMB_TRANSFER_MAX_ELEMENTS = 16384,
     LMB_TRANSFER_MAX_CLUSTERS = 65536,
     LMB_TRANSFER_MAX_HALVINGS = 40 /* of a triangle; what lies deeper is not lit */
@@ -64,10 +69,26 @@ typedef struct lmb_transfer {
     uint32_t scene[2]; /* what it was baked from: lmb_transfer_fingerprint */
 } lmb_transfer;
 
+/* A coarse element: the mean by area of a run of elements. */
+typedef struct lmb_transfer_coarse {
+    float albedo[3], area; /* m2 */
+    float sent[3], came[3]; /* of the last reflection, W/m2 */
+    float all[3];           /* that came of all reflections but the first, W/m2 */
+} lmb_transfer_coarse;
+
+/* What a reflection begins with. */
+enum {
+    LMB_TRANSFER_SEND_EMITTED,  /* what surfaces emit; first, where any does */
+    LMB_TRANSFER_SEND_COLLECTED, /* what they reflect of the lights' light and of what was emitted; once */
+    LMB_TRANSFER_SEND_RECEIVED  /* what they reflect of what came last */
+};
+
 /* The light in the air, in the caller's memory. */
 typedef struct lmb_transfer_light {
-    float (*power)[3];   /* an element: W that arrive; after lmb_transfer_send W/m2 that it sends */
-    float (*albedo)[3];  /* an element: 0 .. 1 */
+    float (*power)[3];    /* an element: W that arrive */
+    float (*albedo)[3];   /* an element: 0 .. 1 */
+    float (*emission)[3]; /* an element: W/m2 that it emits */
+    lmb_transfer_coarse *coarse;
     uint16_t (*node)[4]; /* a node: what it sends, in steps of `step` */
     float (*receiver)[3]; /* W/m2 */
     float (*cluster)[9];  /* W/m2 along x, y, z, of R, then G, then B */
@@ -89,13 +110,13 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes);
 void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene);
 lmb_status lmb_transfer_fits(const lmb_transfer *transfer, const lmb_scene *scene);
 
-/* lmb_transfer_light_bytes: memory of the light: about 35 bytes an element, 12 a receiver, 36 a cluster. 0: null.
+/* lmb_transfer_light_bytes: memory of the light: about 50 bytes an element, 12 a receiver, 36 a cluster. 0: null.
  * lmb_transfer_light_init: lay it out. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 size_t lmb_transfer_light_bytes(const lmb_transfer *transfer);
 lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *transfer, void *memory, size_t bytes);
 
-/* lmb_transfer_materials: the elements' mean albedos, from the scene's materials: once, and when these change.
- * Cost: about 0.5 us an element. LMB_OK or LMB_ERR_ARG. */
+/* lmb_transfer_materials: the elements' mean albedos and emission, from the scene's materials: once, and when these
+ * change. Cost: about 0.5 us an element. LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_transfer *transfer,
                                   const lmb_scene *scene);
 
@@ -110,7 +131,15 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_trans
                                 const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,
                                 int32_t first, int32_t past);
 
-/* lmb_transfer_send: after all maps: what arrived, times albedo, becomes what elements and their nodes send. */
+/* lmb_transfer_bounce: after all maps: elements send what the enum above says, and coarse ones receive it.
+ * lmb_transfer_rest: after these, an estimate of `bounces` further ones, from how much weaker the last one, of `what`,
+ * grew.
+ * Cost: about 200,000 products. LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_transfer_bounce(lmb_transfer_light *light, const lmb_transfer *transfer, int what);
+lmb_status lmb_transfer_rest(lmb_transfer_light *light, const lmb_transfer *transfer, int what, int32_t bounces);
+
+/* lmb_transfer_send: after all maps and bounces: what arrived, times albedo, and what is emitted become what elements
+ * and their nodes send. */
 lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *transfer);
 
 /* lmb_transfer_receivers: the light at receivers and clusters first .. past - 1, counted together, receivers first.

@@ -125,11 +125,31 @@ static lmb_status step_points(lmb_render *r, int32_t units)
     return LMB_MORE;
 }
 
+/* What elements of a transfer send: reflection after reflection, then all of it. r->progress counts them. */
+static lmb_status step_sent(lmb_render *r)
+{
+    lmb_frame *f = &r->frame;
+    lmb_transfer_light *light = &f->transfer_light;
+    const uint32_t emits = r->emits != 0, passes = (uint32_t)f->bounces - 1 + emits, pass = r->progress++;
+    if (pass < passes) {
+        const int what = pass == 0 && emits       ? LMB_TRANSFER_SEND_EMITTED
+                         : pass == emits          ? LMB_TRANSFER_SEND_COLLECTED
+                                                  : LMB_TRANSFER_SEND_RECEIVED;
+        const lmb_status status = lmb_transfer_bounce(light, f->transfer, what);
+        return status != LMB_OK ? status : LMB_MORE;
+    }
+    if (f->bounces > 1 && !f->truncated) {
+        const int last = f->bounces > 2 ? LMB_TRANSFER_SEND_RECEIVED : LMB_TRANSFER_SEND_COLLECTED;
+        (void)lmb_transfer_rest(light, f->transfer, last, LMB_MAX_BOUNCES - f->bounces);
+    }
+    return lmb_transfer_send(light, f->transfer);
+}
+
 static lmb_status step_groups(lmb_render *r)
 {
     lmb_frame *f = &r->frame;
     if (requires_transfer(f)) {
-        return skips(r, LMB_SKIP_BOUNCE) ? LMB_OK : lmb_transfer_send(&f->transfer_light, f->transfer);
+        return skips(r, LMB_SKIP_BOUNCE) ? LMB_OK : step_sent(r);
     }
     if (requires_elements(r)) {
         return reuses(r, LMB_REUSE_BOUNCES) ? LMB_OK : lmb_elements_build(&f->elements, f->scene, &f->tree);

@@ -35,6 +35,8 @@
 #if !LMB_TRANSFER
 #define lmb_transfer_clear(...)     never(lmb_transfer_clear(__VA_ARGS__))
 #define lmb_transfer_collect(...)   never(lmb_transfer_collect(__VA_ARGS__))
+#define lmb_transfer_bounce(...)    never(lmb_transfer_bounce(__VA_ARGS__))
+#define lmb_transfer_rest(...)      never(lmb_transfer_rest(__VA_ARGS__))
 #define lmb_transfer_send(...)      never(lmb_transfer_send(__VA_ARGS__))
 #define lmb_transfer_receivers(...) never(lmb_transfer_receivers(__VA_ARGS__))
 #undef lmb_transfer_tile

@@ -46,6 +46,13 @@ static int fits_tree(const lmb_frame *f)
     return each * f->tree.size == f->shadow_map && (each == 1 || each == 2 || each == 4 || each == 8);
 }
 
+/* Is there what further reflections take? */
+static int reflects_again(const lmb_frame *f)
+{
+    return requires_transfer(f) ? f->transfer->count[LMB_TRANSFER_COARSE] > 0
+                                : requires_cut(f) && f->elements.data != NULL;
+}
+
 lmb_status lmb_render_check(const lmb_frame *f)
 {
     if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
@@ -61,7 +68,7 @@ lmb_status lmb_render_check(const lmb_frame *f)
         return LMB_ERR_ARG;
     }
     if (f->bounces < 1 || f->bounces > LMB_MAX_BOUNCES ||
-        (f->bounces > 1 && requires_bounce(f) && (!requires_cut(f) || f->elements.data == NULL))) {
+        (f->bounces > 1 && requires_bounce(f) && !reflects_again(f))) {
         return LMB_ERR_ARG;
     }
     if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4) {

@@ -1,5 +1,7 @@
-/* piece.c: the mean albedo of a piece of a triangle, by four points of its textures. Layer 8. */
+/* piece.c: what a piece of a triangle reflects, by four points of its textures, and what it emits. Layer 8. */
 #include "piece.h"
+
+#include <string.h>
 
 #include "../base/poly.h"
 #include "../base/vertex.h"
@@ -80,6 +82,70 @@ float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_pi
         albedo[c] /= (float)maxi(standing, 1);
     }
     return (float)standing / SAMPLES;
+}
+
+/* --- what it emits ------------------------------------------------------------------------------------------------ */
+
+enum { MAX_ROWS = 4, MAX_ROWS_BARE = 32 /* of a piece; of one whose map has no levels */ };
+
+/* Texels along the longest edge of a piece, in a map. */
+static float texels_along(const piece_source *s, const surface_piece *p, const lmb_texture *map)
+{
+    float longest = 0.0f;
+    for (int k = 0; k < 3; ++k) {
+        const int to = (k + 1) % 3;
+        const float du = (piece_uv_at(s, 0, p->b1[to], p->b2[to]) - piece_uv_at(s, 0, p->b1[k], p->b2[k])) *
+                         (float)map->width;
+        const float dv = (piece_uv_at(s, 1, p->b1[to], p->b2[to]) - piece_uv_at(s, 1, p->b1[k], p->b2[k])) *
+                         (float)map->height;
+        longest = maxf(longest, du * du + dv * dv);
+    }
+    return longest < 1e30f ? sqrtf(longest) : 0.0f;
+}
+
+/* Add the map at a place of the piece, x and y of the way to its second and third corner, where it stands. */
+static int add_glow(float sum[3], const piece_source *s, const surface_piece *p, const lmb_texture *map,
+                    const float at[3])
+{
+    const float b1 = piece_mix(p->b1[0], p->b1[1], p->b1[2], at[0], at[1]);
+    const float b2 = piece_mix(p->b2[0], p->b2[1], p->b2[2], at[0], at[1]);
+    float texel[4];
+    if (!lmb_triangle_opaque(&s->triangle, s->scene, b1, b2)) {
+        return 0;
+    }
+    lmb_texture_sample(texel, map, piece_uv_at(s, 0, b1, b2), piece_uv_at(s, 1, b1, b2), at[2]);
+    for (int c = 0; c < 3; ++c) {
+        sum[c] += texel[c];
+    }
+    return 1;
+}
+
+/* The mean over a piece: at the middles of rows x rows alike triangles, so many that a texel of the level is not
+ * stepped over. A map may glow in few texels of thousands, and the light of a whole element comes from here. */
+void lmb_source_emission(float out[3], const piece_source *s, const surface_piece *p)
+{
+    const lmb_material *m = s->triangle.material;
+    memcpy(out, m->emission, sizeof m->emission);
+    if (m->emission_map == 0 || !(largest3(vec3(out[0], out[1], out[2])) > 0.0f)) {
+        return;
+    }
+    lmb_texture map = s->scene->textures[m->emission_map - 1];
+    map.filter = map.levels > 1 ? LMB_TRILINEAR : map.filter;
+    const float along = texels_along(s, p, &map), max = map.levels > 1 ? MAX_ROWS : MAX_ROWS_BARE;
+    const int rows = (int)clampf(along, 0.0f, max - 1.0f) + 1;
+    const float step = 1.0f / (float)rows, lod = along > max ? lmb_log2(along * step) : 0.0f;
+    float sum[3] = {0.0f, 0.0f, 0.0f};
+    int standing = 0;
+    for (int i = 0; i < rows * rows; ++i) {
+        const int row = i / rows, column = i % rows, down = row + column >= rows; /* the far half, turned over */
+        const float x = (float)(down ? rows - 1 - column : column), y = (float)(down ? rows - 1 - row : row);
+        const float third = down ? 2.0f / 3.0f : 1.0f / 3.0f;
+        const float at[3] = {(x + third) * step, (y + third) * step, lod};
+        standing += add_glow(sum, s, p, &map, at);
+    }
+    for (int c = 0; c < 3; ++c) {
+        out[c] *= sum[c] / (float)maxi(standing, 1);
+    }
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* piece.h: a piece of a triangle: its place among others, and its mean albedo. Layer 8. */
+/* piece.h: a piece of a triangle: its place among others, its mean albedo and emission. Layer 8. */
 #ifndef LMB_RADIOSITY_PIECE_H
 #define LMB_RADIOSITY_PIECE_H
 
@@ -78,5 +78,9 @@ int lmb_source_open(piece_source *out, const lmb_scene *scene, uint32_t id);
 
 /* The mean albedo of a piece, and the share of it that stands, by four points. `share`: its area's, of its triangle. */
 float lmb_source_albedo(float albedo[3], const piece_source *s, const surface_piece *p, float share);
+
+/* The mean radiance that a piece emits, W/(sr m2): at the middles of up to 32 x 32 alike triangles, of those that
+ * stand. */
+void lmb_source_emission(float out[3], const piece_source *s, const surface_piece *p);
 
 #endif

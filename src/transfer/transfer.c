@@ -87,11 +87,11 @@ static int take_range(uint32_t *left, uint32_t first, uint32_t count, uint32_t a
 
 static uint32_t size_of(uint32_t code) { return code & 0x8000u ? 0x10000u - code : code; }
 
-static int are_links(const lmb_transfer *t, uint32_t first, uint32_t count)
+static int are_links(const lmb_transfer *t, int section, uint32_t first, uint32_t count)
 {
     uint32_t sum = 0;
     for (uint32_t i = first; i < first + count; ++i) {
-        const uint32_t link = t->section[LMB_TRANSFER_LINKS][i];
+        const uint32_t link = t->section[section][i];
         sum += size_of(link >> 16);
         if ((link & 0xffffu) >= t->nodes || sum > LMB_TRANSFER_MAX_SUM) {
             return 0;
@@ -108,7 +108,7 @@ static int are_receivers(const lmb_transfer *t)
         const uint32_t *r = t->section[LMB_TRANSFER_RECEIVERS] + LMB_TRANSFER_RECEIVER_WORDS * (size_t)i;
         const int is_root = r[0] == LMB_TRANSFER_NONE && r[1] == LMB_TRANSFER_NONE;
         if ((!is_root && (r[0] >= i || r[1] >= i)) || !is_scale(r[4]) ||
-            !take_range(&left, r[2], r[3], t->count[LMB_TRANSFER_LINKS]) || !are_links(t, r[2], r[3])) {
+            !take_range(&left, r[2], r[3], t->count[LMB_TRANSFER_LINKS]) || !are_links(t, LMB_TRANSFER_LINKS, r[2], r[3])) {
             return 0;
         }
     }
@@ -172,6 +172,22 @@ static int are_blends(const lmb_transfer *t)
     return 1;
 }
 
+/* Runs of elements, from the first on. */
+static int are_coarse(const lmb_transfer *t)
+{
+    const uint32_t count = t->count[LMB_TRANSFER_COARSE];
+    uint32_t left = t->count[LMB_TRANSFER_COARSE_LINKS];
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t *c = t->section[LMB_TRANSFER_COARSE] + LMB_TRANSFER_COARSE_WORDS * (size_t)i;
+        if ((i == 0 ? c[0] != 0 : c[0] <= c[-LMB_TRANSFER_COARSE_WORDS]) || c[0] >= t->count[LMB_TRANSFER_AREAS] ||
+            !is_scale(c[3]) || !take_range(&left, c[1], c[2], t->count[LMB_TRANSFER_COARSE_LINKS]) ||
+            !are_links(t, LMB_TRANSFER_COARSE_LINKS, c[1], c[2])) {
+            return 0;
+        }
+    }
+    return count <= LMB_TRANSFER_MAX_COARSE;
+}
+
 /* --- the file ----------------------------------------------------------------------------------------------------- */
 
 /* Elements and their means by fours, up to one; 0 where the number is no power of 4. */
@@ -232,7 +248,7 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
     t.nodes = nodes_of(t.count[LMB_TRANSFER_AREAS]);
     if (t.nodes == 0 || t.count[LMB_TRANSFER_CLUSTERS] > LMB_TRANSFER_MAX_CLUSTERS || !are_surfaces(&t) ||
         !are_areas(&t) || !are_corners(&t) || !are_receivers(&t) ||
-        !are_clusters(&t) || !are_blends(&t) ||
+        !are_clusters(&t) || !are_blends(&t) || !are_coarse(&t) ||
         !are_halvings(t.section[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_PIECES], t.count[LMB_TRANSFER_AREAS]) ||
         !are_halvings(t.section[LMB_TRANSFER_DIVISIONS], t.count[LMB_TRANSFER_DIVISIONS],
                       t.count[LMB_TRANSFER_CORNERS])) {

@@ -1,4 +1,4 @@
-/* transfer_light.c: light from shadow maps to elements, and by links to receivers. Layer 9. */
+/* transfer_light.c: light from shadow maps to elements, and by links from nodes to receivers. Layer 9. */
 #include <lambent/transfer.h>
 
 #include <string.h>
@@ -8,13 +8,9 @@
 #include "../raster/target.h"
 #include "blend.h"
 #include "halvings.h"
+#include "links.h"
 
 #if LMB_TRANSFER
-
-static int is_laid_out(const lmb_transfer_light *light, const lmb_transfer *t)
-{
-    return light != NULL && light->power != NULL && t != NULL && t->section[0] != NULL;
-}
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
@@ -22,8 +18,9 @@ size_t lmb_transfer_light_bytes(const lmb_transfer *t)
 {
     return t == NULL || t->section[0] == NULL
                ? 0
-               : t->count[LMB_TRANSFER_AREAS] * (size_t)24 + t->nodes * (size_t)8 +
-                     t->count[LMB_TRANSFER_RECEIVERS] * (size_t)12 + t->count[LMB_TRANSFER_CLUSTERS] * (size_t)36;
+               : t->count[LMB_TRANSFER_AREAS] * (size_t)36 + t->nodes * (size_t)8 +
+                     t->count[LMB_TRANSFER_RECEIVERS] * (size_t)12 + t->count[LMB_TRANSFER_CLUSTERS] * (size_t)36 +
+                     t->count[LMB_TRANSFER_COARSE] * sizeof(lmb_transfer_coarse);
 }
 
 lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *t, void *memory, size_t bytes)
@@ -42,6 +39,10 @@ lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *
     at += 3 * (size_t)t->count[LMB_TRANSFER_AREAS];
     out->albedo = (float(*)[3])(void *)at;
     at += 3 * (size_t)t->count[LMB_TRANSFER_AREAS];
+    out->emission = (float(*)[3])(void *)at;
+    at += 3 * (size_t)t->count[LMB_TRANSFER_AREAS];
+    out->coarse = (lmb_transfer_coarse *)(void *)at;
+    at += t->count[LMB_TRANSFER_COARSE] * (sizeof(lmb_transfer_coarse) / sizeof *at);
     out->receiver = (float(*)[3])(void *)at;
     at += 3 * (size_t)t->count[LMB_TRANSFER_RECEIVERS];
     out->cluster = (float(*)[9])(void *)at;
@@ -55,10 +56,15 @@ lmb_status lmb_transfer_light_init(lmb_transfer_light *out, const lmb_transfer *
 
 lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *t)
 {
-    if (!is_laid_out(light, t)) {
+    if (!transfer_is_laid_out(light, t)) {
         return LMB_ERR_ARG;
     }
     memset(light->power, 0, t->count[LMB_TRANSFER_AREAS] * sizeof *light->power);
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_COARSE]; ++i) {
+        lmb_transfer_coarse *c = &light->coarse[i];
+        c->came[0] = c->came[1] = c->came[2] = 0.0f;
+        c->all[0] = c->all[1] = c->all[2] = 0.0f;
+    }
     light->step = 0.0f;
     return LMB_OK;
 }
@@ -106,7 +112,7 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_trans
                                 const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,
                                 int32_t first, int32_t past)
 {
-    if (!is_laid_out(light, t) || scene == NULL || from == NULL || map == NULL || each < 1 ||
+    if (!transfer_is_laid_out(light, t) || scene == NULL || from == NULL || map == NULL || each < 1 ||
         (uint32_t)face >= (uint32_t)map->faces || map->size % each != 0 || first < 0 || past < first ||
         past > map->size / each) {
         return LMB_ERR_ARG;
@@ -137,110 +143,17 @@ lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_trans
     return LMB_OK;
 }
 
-/* --- elements -> nodes -------------------------------------------------------------------------------------------- */
-
-static float area_of(const lmb_transfer *t, uint32_t element)
-{
-    float area;
-    memcpy(&area, t->section[LMB_TRANSFER_AREAS] + element, sizeof area);
-    return area;
-}
-
-/* What an element sends, W/m2; returns the largest of R, G, B. */
-static float radiosity_of(float out[3], const lmb_transfer_light *light, float area, uint32_t element)
-{
-    out[0] = out[1] = out[2] = 0.0f;
-    for (int c = 0; c < 3; ++c) {
-        out[c] = area > 0.0f ? light->albedo[element][c] * (light->power[element][c] / area) : 0.0f;
-        out[c] = out[c] < 1e30f ? out[c] : 0.0f;
-    }
-    return maxf(maxf(out[0], out[1]), out[2]);
-}
-
-/* Means of areas near 1e30 m2, in a damaged file, may have left binary32. */
-static void put_node(lmb_transfer_light *light, uint32_t node, const float sent[3], float per)
-{
-    for (int c = 0; c < 3; ++c) {
-        light->node[node][c] = (uint16_t)clampf(sent[c] * per + 0.5f, 0.0f, 65535.0f);
-    }
-}
-
-/* Means by area over 4, 16, .. elements; light that waits on the way up lies in a sum a level. */
-typedef struct level_sum {
-    float sent[3], area;
-    int count;
-} level_sum;
-
-enum { LEVELS = 8 }; /* 4^7 elements */
-
-/* Nodes lie level by level: the elements, then fours of them. */
-static void add_up(lmb_transfer_light *light, const lmb_transfer *t, float per)
-{
-    level_sum level[LEVELS];
-    uint32_t first[LEVELS], next[LEVELS], of = t->count[LMB_TRANSFER_AREAS], at = 0;
-    memset(level, 0, sizeof level);
-    for (int l = 0; l < LEVELS; ++l) {
-        first[l] = next[l] = at;
-        at += of;
-        of /= 4;
-    }
-    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
-        float sent[3], area = area_of(t, i);
-        radiosity_of(sent, light, area, i);
-        put_node(light, i, sent, per);
-        for (int l = 1; l < LEVELS && first[l] < t->nodes; ++l) {
-            level_sum *s = &level[l];
-            for (int c = 0; c < 3; ++c) {
-                s->sent[c] += sent[c] * area;
-            }
-            s->area += area;
-            if (++s->count < 4) {
-                break;
-            }
-            for (int c = 0; c < 3; ++c) {
-                sent[c] = s->area > 0.0f ? s->sent[c] / s->area : 0.0f;
-            }
-            area = s->area;
-            put_node(light, next[l]++, sent, per);
-            memset(s, 0, sizeof *s);
-        }
-    }
-}
-
-lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *t)
-{
-    float max = 0.0f, sent[3];
-    if (!is_laid_out(light, t)) {
-        return LMB_ERR_ARG;
-    }
-    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
-        max = maxf(max, radiosity_of(sent, light, area_of(t, i), i));
-    }
-    light->step = max > 1e-30f ? max / 65535.0f : 0.0f;
-    add_up(light, t, light->step > 0.0f ? 65534.5f / max : 0.0f);
-    return LMB_OK;
-}
-
 /* --- nodes -> receivers ------------------------------------------------------------------------------------------- */
-
-static float scale_of(uint32_t word, float step)
-{
-    float scale;
-    memcpy(&scale, &word, sizeof scale);
-    return scale * step;
-}
-
-static int32_t weight_of(uint32_t code) { return (int32_t)(code & 0xffffu) - (int32_t)((code & 0x8000u) << 1); }
 
 static void receive(const lmb_transfer_light *light, const lmb_transfer *t, uint32_t i)
 {
     const uint32_t *r = t->section[LMB_TRANSFER_RECEIVERS] + LMB_TRANSFER_RECEIVER_WORDS * (size_t)i;
     const uint32_t *link = t->section[LMB_TRANSFER_LINKS] + r[2];
-    const float scale = scale_of(r[4], light->step);
+    const float scale = link_scale(r[4], light->step);
     int32_t sum[3] = {0, 0, 0};
     for (uint32_t k = 0; k < r[3]; ++k) {
         const uint16_t *node = light->node[link[k] & 0xffffu];
-        const int32_t weight = weight_of(link[k] >> 16);
+        const int32_t weight = link_weight(link[k] >> 16);
         sum[0] += weight * (int32_t)node[0];
         sum[1] += weight * (int32_t)node[1];
         sum[2] += weight * (int32_t)node[2];
@@ -257,11 +170,11 @@ static void receive_cluster(const lmb_transfer_light *light, const lmb_transfer 
     const uint32_t *cluster = t->section[LMB_TRANSFER_CLUSTERS] + LMB_TRANSFER_CLUSTER_WORDS * (size_t)i;
     const uint32_t *link =
         t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)cluster[3];
-    const float scale = scale_of(cluster[5], light->step);
+    const float scale = link_scale(cluster[5], light->step);
     int32_t sum[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0};
     for (uint32_t k = 0; k < cluster[4]; ++k, link += LMB_TRANSFER_CLUSTER_LINK_WORDS) {
         const uint16_t *node = light->node[link[0] & 0xffffu];
-        const int32_t weight[3] = {weight_of(link[0] >> 16), weight_of(link[1]), weight_of(link[1] >> 16)};
+        const int32_t weight[3] = {link_weight(link[0] >> 16), link_weight(link[1]), link_weight(link[1] >> 16)};
         for (int c = 0; c < 9; ++c) {
             sum[c] += weight[c % 3] * (int32_t)node[c / 3];
         }
@@ -275,8 +188,8 @@ static void receive_cluster(const lmb_transfer_light *light, const lmb_transfer 
 
 lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_transfer *t, uint32_t first, uint32_t past)
 {
-    const uint32_t receivers = is_laid_out(light, t) ? t->count[LMB_TRANSFER_RECEIVERS] : 0;
-    if (!is_laid_out(light, t) || past < first || past > receivers + t->count[LMB_TRANSFER_CLUSTERS]) {
+    const uint32_t receivers = transfer_is_laid_out(light, t) ? t->count[LMB_TRANSFER_RECEIVERS] : 0;
+    if (!transfer_is_laid_out(light, t) || past < first || past > receivers + t->count[LMB_TRANSFER_CLUSTERS]) {
         return LMB_ERR_ARG;
     }
     for (uint32_t i = first; i < past; ++i) {

@@ -1,8 +1,9 @@
-/* transfer_materials.c: the mean albedos of elements, from the scene's materials. Layer 9. */
+/* transfer_materials.c: the mean albedos and emission of elements, from the scene's materials. Layer 9. */
 #include <lambent/transfer.h>
 
 #include <string.h>
 
+#include "../base/poly.h"
 #include "../radiosity/piece.h"
 
 #if LMB_TRANSFER
@@ -26,17 +27,19 @@ static void halve(part *p, int from, int k, uint32_t node)
     p->node = node;
 }
 
-/* Sums by area, in light->albedo; areas in light->power[..][0]. */
+/* Sums by area, in light->albedo and emission; areas in light->power[..][0]. */
 static void add_part(const lmb_transfer_light *light, const piece_source *s, const part *p, uint32_t element)
 {
     surface_piece piece;
-    float albedo[3];
+    float albedo[3], emission[3];
     memset(&piece, 0, sizeof piece);
     memcpy(piece.b1, p->b1, sizeof piece.b1);
     memcpy(piece.b2, p->b2, sizeof piece.b2);
     const float standing = s->area * p->share * lmb_source_albedo(albedo, s, &piece, p->share);
+    lmb_source_emission(emission, s, &piece);
     for (int c = 0; c < 3; ++c) {
         light->albedo[element][c] += standing * albedo[c];
+        light->emission[element][c] += standing * emission[c];
     }
     light->power[element][0] += standing;
 }
@@ -68,6 +71,47 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
     }
 }
 
+static float area_of(const lmb_transfer *t, uint32_t element)
+{
+    float area;
+    memcpy(&area, t->section[LMB_TRANSFER_AREAS] + element, sizeof area);
+    return area;
+}
+
+/* Sums by area become means. */
+static void end_means(const lmb_transfer_light *light, const lmb_transfer *t)
+{
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
+        const float per = light->power[i][0] > 0.0f ? 1.0f / light->power[i][0] : 0.0f, area = area_of(t, i);
+        for (int c = 0; c < 3; ++c) {
+            light->albedo[i][c] = minf(light->albedo[i][c] * per, 1.0f);
+            light->emission[i][c] = area > 0.0f ? minf(LMB_PI * light->emission[i][c] / area, 1e30f) : 0.0f;
+        }
+    }
+}
+
+static void set_coarse(const lmb_transfer_light *light, const lmb_transfer *t)
+{
+    const uint32_t count = t->count[LMB_TRANSFER_COARSE], *first = t->section[LMB_TRANSFER_COARSE];
+    memset(light->coarse, 0, count * sizeof *light->coarse);
+    for (uint32_t i = 0, e = 0; i < count; ++i) {
+        lmb_transfer_coarse *coarse = &light->coarse[i];
+        const uint32_t past =
+            i + 1 < count ? first[LMB_TRANSFER_COARSE_WORDS * (size_t)(i + 1)] : t->count[LMB_TRANSFER_AREAS];
+        for (; e < past; ++e) {
+            const float area = area_of(t, e);
+            coarse->area += area;
+            for (int c = 0; c < 3; ++c) {
+                coarse->albedo[c] += light->albedo[e][c] * area;
+            }
+        }
+        const float per = coarse->area > 0.0f ? 1.0f / coarse->area : 0.0f;
+        for (int c = 0; c < 3; ++c) {
+            coarse->albedo[c] = minf(coarse->albedo[c] * per, 1.0f);
+        }
+    }
+}
+
 lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_transfer *t, const lmb_scene *scene)
 {
     if (light == NULL || light->albedo == NULL || light->power == NULL || t == NULL ||
@@ -77,6 +121,7 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
     const uint32_t elements = t->count[LMB_TRANSFER_AREAS], all = t->count[LMB_TRANSFER_SURFACES];
     uint32_t left = t->count[LMB_TRANSFER_PIECES];
     memset(light->albedo, 0, elements * sizeof *light->albedo);
+    memset(light->emission, 0, elements * sizeof *light->emission);
     memset(light->power, 0, elements * sizeof *light->power);
     for (uint32_t id = 1; id <= all; ++id) {
         piece_source s;
@@ -88,12 +133,8 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
             }
         }
     }
-    for (uint32_t i = 0; i < elements; ++i) {
-        const float per = light->power[i][0] > 0.0f ? 1.0f / light->power[i][0] : 0.0f;
-        for (int c = 0; c < 3; ++c) {
-            light->albedo[i][c] = minf(light->albedo[i][c] * per, 1.0f);
-        }
-    }
+    end_means(light, t);
+    set_coarse(light, t);
     memset(light->power, 0, elements * sizeof *light->power);
     return LMB_OK;
 }

@@ -66,6 +66,10 @@ static void light_room(const lmb_transfer *t, void *memory, size_t bytes, float 
     fuzz_require(lmb_transfer_materials(&light, t, &room.scene) == LMB_OK);
     fuzz_require(lmb_transfer_clear(&light, t) == LMB_OK);
     fuzz_require(lmb_transfer_collect(&light, t, &room.scene, &room.light, &map, 0, 2, 0, MAP / 2) == LMB_OK);
+    for (int what = LMB_TRANSFER_SEND_EMITTED; what <= LMB_TRANSFER_SEND_RECEIVED; ++what) {
+        fuzz_require(lmb_transfer_bounce(&light, t, what) == LMB_OK);
+    }
+    fuzz_require(lmb_transfer_rest(&light, t, LMB_TRANSFER_SEND_RECEIVED, 8) == LMB_OK);
     fuzz_require(lmb_transfer_send(&light, t) == LMB_OK);
     fuzz_require(lmb_transfer_receivers(&light, t, 0, all / 2) == LMB_OK);
     fuzz_require(lmb_transfer_receivers(&light, t, all / 2, all) == LMB_OK);

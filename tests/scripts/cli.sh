@@ -548,6 +548,12 @@ for room in box:256:200 block:1024:1000; do
     status 0 render "$dir/$name.obj" $inside --transfer "$dir/$name-1.lmt" --threads 1 -o "$dir/$name-again.pfm"
     check "baked light by any threads is equal" cmp -s "$dir/$name-baked.pfm" "$dir/$name-again.pfm"
 done
+status 0 render "$dir/box.obj" $inside --transfer "$dir/box-1.lmt" --bounces 4 --threads 1 -o "$dir/box-four.pfm"
+check "a transfer reflects light again" sh -c '! cmp -s "$1" "$2"' sh "$dir/box-baked.pfm" "$dir/box-four.pfm"
+status 0 render "$dir/box.obj" $inside --transfer "$dir/box-1.lmt" --bounces 4 --threads 2 -o "$dir/box-again.pfm"
+check "so it does by two threads" cmp -s "$dir/box-four.pfm" "$dir/box-again.pfm"
+status 0 render "$dir/box.obj" $inside --bounces 4 -o "$dir/box-draft.pfm"
+status 0 compare "$dir/box-four.pfm" "$dir/box-draft.pfm" --max lo=0.95,hi=1.05,trim=0.06
 head -c 5000 "$dir/box-1.lmt" >"$dir/cut.lmt"
 status 1 render "$dir/box.obj" $inside --transfer "$dir/cut.lmt" -o "$dir/bad.pfm"
 said "cut.lmt: a damaged light transfer"

@@ -107,7 +107,8 @@ static void by_hand(void)
     lit l = lit_by(&t, &room.scene);
     lmb_irradiance out;
     CHECK(t.nodes == SMALL_NODES && t.leaves == 3 && lmb_transfer_fits(&t, &room.scene) == LMB_OK);
-    CHECK(l.bytes == 24 * SMALL_ELEMENTS + 8 * SMALL_NODES + 12 * SMALL_RECEIVERS + 36 * SMALL_CLUSTERS);
+    CHECK(l.bytes == 36 * SMALL_ELEMENTS + 8 * SMALL_NODES + 12 * SMALL_RECEIVERS + 36 * SMALL_CLUSTERS +
+                       SMALL_ELEMENTS * sizeof(lmb_transfer_coarse));
     for (int i = 0; i < SMALL_ELEMENTS; ++i) {
         CHECK(is_near(l.light.albedo[i][0], 0.5f, 1e-6f) && l.light.power[i][0] == 0.0f);
         for (int c = 0; c < 3; ++c) {
@@ -156,6 +157,68 @@ static void by_hand(void)
         CHECK_MSG(is_near(out.rgb[0][k], pixels[k], 1e-4f), "pixel %d: %g, not %g", k, (double)out.rgb[0][k],
                   (double)pixels[k]);
     }
+    free(l.memory);
+}
+
+static void are_near(const lit *l, const char *what, const float *got, const float want[SMALL_ELEMENTS], float share)
+{
+    for (int i = 0; i < SMALL_ELEMENTS; ++i) {
+        const float is = got[i * (int)(sizeof *l->light.coarse / sizeof *got)];
+        CHECK_MSG(is_near(is, share * want[i], 2e-4f), "%s: %g at %d, not %g", what, (double)is, i,
+                  (double)(share * want[i]));
+    }
+}
+
+/* The floor hears a quarter of the ceiling; this hears a 16th of one half, of the other, and an eighth of the rest. */
+static void again_by_hand(void)
+{
+    static const float power[SMALL_ELEMENTS] = {8, 4, 12, 16};
+    static const float first[SMALL_ELEMENTS] = {0.5f, 0.5f, 0.5f, 0.75f}, second[] = {0.09375f, 0.09375f, 0.09375f, 0.0625f};
+    static const float both[SMALL_ELEMENTS] = {0.59375f, 0.59375f, 0.59375f, 0.8125f};
+    const float kept = 0.0126953125f / 0.09375f, by_all = (4 * 0.25f + 4 * 0.375f) / (4.0f + 2.0f + 6.0f + 8.0f);
+    const lmb_transfer t = open_small();
+    lit l = lit_by(&t, &room.scene);
+    for (int i = 0; i < SMALL_ELEMENTS; ++i) {
+        l.light.power[i][0] = power[i];
+        l.light.power[i][2] = 0.5f * power[i];
+        CHECK(is_near(l.light.coarse[i].albedo[0], 0.5f, 1e-6f));
+    }
+    CHECK(lmb_transfer_bounce(&l.light, &t, LMB_TRANSFER_SEND_COLLECTED) == LMB_OK);
+    are_near(&l, "came", l.light.coarse[0].came, first, 1.0f);
+    are_near(&l, "came, blue", l.light.coarse[0].came + 2, first, 0.5f);
+    CHECK(lmb_transfer_rest(&l.light, &t, LMB_TRANSFER_SEND_COLLECTED, 1) == LMB_OK);
+    are_near(&l, "with the rest", l.light.coarse[0].all, first, 1.0f + by_all);
+    CHECK(lmb_transfer_clear(&l.light, &t) == LMB_OK && l.light.coarse[3].all[0] == 0.0f);
+    for (int i = 0; i < SMALL_ELEMENTS; ++i) {
+        l.light.power[i][0] = power[i];
+    }
+    CHECK(lmb_transfer_bounce(&l.light, &t, LMB_TRANSFER_SEND_COLLECTED) == LMB_OK);
+    CHECK(lmb_transfer_bounce(&l.light, &t, LMB_TRANSFER_SEND_RECEIVED) == LMB_OK);
+    are_near(&l, "came again", l.light.coarse[0].came, second, 1.0f);
+    are_near(&l, "all", l.light.coarse[0].all, both, 1.0f);
+    CHECK(lmb_transfer_rest(&l.light, &t, LMB_TRANSFER_SEND_RECEIVED, 2) == LMB_OK);
+    CHECK(is_near(l.light.coarse[3].all[0], 0.8125f + 0.0625f * (kept + kept * kept), 2e-4f));
+    CHECK(lmb_transfer_send(&l.light, &t) == LMB_OK);
+    CHECK(is_near((float)l.light.node[3][0] * l.light.step, 2.0f + 0.5f * l.light.coarse[3].all[0], 2e-4f));
+    free(l.memory);
+}
+
+/* 1 W/m2 everywhere: what comes of it is reflected with what was collected. */
+static void emits_by_hand(void)
+{
+    const lmb_transfer t = open_small();
+    room.material.emission[1] = 1.0f / LMB_PI;
+    lit l = lit_by(&t, &room.scene);
+    l.light.power[3][1] = 16.0f;
+    CHECK(is_near(l.light.emission[0][1], 1.0f, 1e-6f) && l.light.emission[3][0] == 0.0f);
+    CHECK(lmb_transfer_bounce(&l.light, &t, LMB_TRANSFER_SEND_EMITTED) == LMB_OK);
+    CHECK(is_near(l.light.coarse[0].came[1], 0.25f, 1e-4f) && is_near(l.light.coarse[3].came[1], 0.25f, 1e-4f));
+    CHECK(l.light.coarse[0].came[0] == 0.0f);
+    CHECK(lmb_transfer_bounce(&l.light, &t, LMB_TRANSFER_SEND_COLLECTED) == LMB_OK);
+    CHECK(is_near(l.light.coarse[0].came[1], 0.25f * (2.0f + 0.125f), 1e-4f));
+    CHECK(lmb_transfer_send(&l.light, &t) == LMB_OK);
+    const float all = 0.25f + 0.25f * (0.125f); /* of the ceiling: the floor's second share */
+    CHECK(is_near((float)l.light.node[3][1] * l.light.step, 1.0f + 2.0f + 0.5f * all, 2e-4f));
     free(l.memory);
 }
 
@@ -260,6 +323,15 @@ static void bad_words(void)
         {LMB_TRANSFER_CLUSTER_LINKS, 0, SMALL_LINK(0, 28672), "weights along x over the sum"},
         {LMB_TRANSFER_CLUSTER_LINKS, 1, 0x9fff, "weights along y over the sum"},
         {LMB_TRANSFER_CLUSTER_LINKS, 1, 0x7e00e000u, "weights along z over the sum"},
+        {LMB_TRANSFER_COARSE, 0, 1, "an element before the first"},
+        {LMB_TRANSFER_COARSE, 8, 1, "a run without elements"},
+        {LMB_TRANSFER_COARSE, 12, SMALL_ELEMENTS, "no such element"},
+        {LMB_TRANSFER_COARSE, 1, 6, "links past the end"},
+        {LMB_TRANSFER_COARSE, 14, 4, "links past the end"},
+        {LMB_TRANSFER_COARSE, 2, 5, "the same links twice"},
+        {LMB_TRANSFER_COARSE, 3, 0x7f800000u, "an endless scale"},
+        {LMB_TRANSFER_COARSE_LINKS, 0, SMALL_LINK(SMALL_NODES, 1), "no such node"},
+        {LMB_TRANSFER_COARSE_LINKS, 4, SMALL_LINK(1, 28672), "weights over the sum"},
     };
     lmb_transfer good, t;
     CHECK(lmb_transfer_open(&good, file, sizeof file) == LMB_OK);
@@ -334,6 +406,12 @@ static void bad_arguments(void)
     CHECK(lmb_transfer_clear(&l.light, NULL) == LMB_ERR_ARG && lmb_transfer_clear(&l.light, &none) == LMB_ERR_ARG);
     CHECK(lmb_transfer_send(NULL, &good) == LMB_ERR_ARG && lmb_transfer_send(&dark, &good) == LMB_ERR_ARG);
     CHECK(lmb_transfer_send(&l.light, NULL) == LMB_ERR_ARG && lmb_transfer_send(&l.light, &none) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_bounce(NULL, &good, 0) == LMB_ERR_ARG && lmb_transfer_bounce(&dark, &good, 0) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_bounce(&l.light, NULL, 0) == LMB_ERR_ARG && lmb_transfer_bounce(&l.light, &none, 0) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_bounce(&l.light, &good, -1) == LMB_ERR_ARG && lmb_transfer_bounce(&l.light, &good, 3) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_rest(NULL, &good, 1, 1) == LMB_ERR_ARG && lmb_transfer_rest(&dark, &good, 1, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_rest(&l.light, &none, 1, 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_rest(&l.light, &good, 1, -1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(NULL, &good, 0, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(&dark, &good, 0, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(&l.light, NULL, 0, 1) == LMB_ERR_ARG);
@@ -395,12 +473,13 @@ static void fits(void)
 
 static lmb_light box_light;
 
-static void make_box(void)
+/* A room with a block at a height. */
+static void make_box(float y)
 {
     world_begin(0.7f, 0.5f, 0.3f);
     world_box(vec3(0, 0, 0), 1.5f);
     world_part();
-    world_box(vec3(0.4f, -1.2f, 0.2f), 0.3f);
+    world_box(vec3(0.4f, y, 0.2f), 0.3f);
     box_light = spot(vec3(-0.5f, 1.2f, 0.3f), vec3(0.3f, -1, 0), 25, 40);
     world.scene.lights = &box_light;
     world.scene.light_count = 1;
@@ -415,12 +494,14 @@ static file_bytes bake_box(int threads)
     file_bytes out = {NULL, 0};
     memset(&b, 0, sizeof b);
     memset(&set, 0, sizeof set);
-    set.error = set.division = 0.01f;
+    set.error = 0.0013f;
+    set.division = 0.01f;
     set.elements = 256;
     set.receivers = 200;
     set.threads = threads;
-    CHECK_MSG(bake_begin(&b, &world.scene, &set, &r) && bake_reach(&b, NULL, 0, &r) &&
-                  bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_code_all(&b, &r) && bake_file(&out, &b, &r), "%s", r.text);
+    CHECK_MSG(bake_begin(&b, &world.scene, &set, &r) && bake_reach(&b, NULL, 0, &r) && bake_receivers(&b, &r) &&
+                  bake_clusters(&b, &r) && bake_bounces(&b, &r) && bake_code_all(&b, &r) && bake_file(&out, &b, &r),
+              "%s", r.text);
     bake_free(&b);
     return out;
 }
@@ -515,6 +596,42 @@ static void is_linear(const lmb_transfer *t, const lmb_scene *scene, float times
     free(more.memory);
 }
 
+/* All surfaces of a closed room emit and reflect alike: e / (1 - albedo) arrives everywhere, without any light. */
+static void furnace(void)
+{
+    enum { PASSES = 5, ALL = 64 };
+    lmb_transfer opened;
+    const lmb_transfer *t = &opened;
+    make_box(-0.6f);
+    file_bytes file_of_box = bake_box(2);
+    CHECK(lmb_transfer_open(&opened, file_of_box.data, file_of_box.size) == LMB_OK);
+    for (int k = 0; k < 2; ++k) {
+        world.material[k].emission[0] = 2.0f / LMB_PI;
+    }
+    lit l = lit_by(t, &world.scene);
+    double sum = 0.0, area = 0.0;
+    for (int pass = 0; pass < PASSES; ++pass) {
+        CHECK(lmb_transfer_bounce(&l.light, t, pass < 2 ? pass : LMB_TRANSFER_SEND_RECEIVED) == LMB_OK);
+    }
+    CHECK(lmb_transfer_rest(&l.light, t, LMB_TRANSFER_SEND_RECEIVED, ALL) == LMB_OK);
+    receive(&l, 1u << 20);
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
+        float own;
+        memcpy(&own, t->section[LMB_TRANSFER_AREAS] + i, sizeof own);
+        sum += (double)(own * (l.light.albedo[i][0] * l.light.coarse[i].all[0] + l.light.emission[i][0]));
+        area += (double)own;
+    }
+    CHECK_MSG(fabs(sum / area / (2.0 / 0.3) - 1.0) < 0.03, "%g W/m2, not %g", sum / area, 2.0 / 0.3);
+    sum = 0.0;
+    for (uint32_t i = 0; i < t->count[LMB_TRANSFER_RECEIVERS]; ++i) {
+        sum += (double)l.light.receiver[i][0];
+    }
+    sum /= (double)t->count[LMB_TRANSFER_RECEIVERS];
+    CHECK_MSG(fabs(sum / (2.0 / 0.3) - 1.0) < 0.03, "%g W/m2 arrive, not %g", sum, 2.0 / 0.3);
+    free(l.memory);
+    file_free(&file_of_box);
+}
+
 /* --- frames ------------------------------------------------------------------------------------------------------- */
 
 static lmb_render render;
@@ -595,7 +712,7 @@ static void takes_materials(const lmb_transfer *t)
 static void test_box(void)
 {
     lmb_transfer t;
-    make_box();
+    make_box(-1.2f); /* it stands on the floor */
     file_bytes one = bake_box(1), two = bake_box(2);
     CHECK(one.size == two.size && one.size > 0 && memcmp(one.data, two.data, one.size) == 0);
     CHECK(lmb_transfer_open(&t, one.data, one.size) == LMB_OK);
@@ -616,6 +733,8 @@ static void test_box(void)
 void test_transfer(void)
 {
     by_hand();
+    again_by_hand();
+    emits_by_hand();
     parts_by_area();
     const lmb_transfer t = open_small();
     cut_off();
@@ -628,6 +747,7 @@ void test_transfer(void)
     is_linear(&t, &room.scene, 3.7f);
     fits();
     test_box();
+    furnace();
 }
 
 #else

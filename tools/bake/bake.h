@@ -37,7 +37,9 @@ typedef struct bake_element {
     int is_one;
     int is_stood_on; /* something stands on it */
     float open;    /* share of it that light can come to; `middle` is that of it */
+    int emits;     /* one of its triangles does */
     int is_dark;   /* no light comes here */
+    int is_hidden; /* hardly any does: inside of a solid, it may be, through a crack */
     float light;   /* about how much comes, in any unit */
     uint32_t key, number; /* order along a Z curve; where it was made */
 } bake_element;
@@ -125,6 +127,10 @@ int bake_put_float(bake_words *w, float v, report *r);
 int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report *r);
 int bake_elements(bake *b, report *r);
 
+/* bake_order: put elements in order, so that neighbours that face alike lie side by side: their means become nodes.
+ * Hidden ones and those that emit lie apart, as what others send is not like what they do. */
+int bake_order(bake *b, report *r);
+
 /* bake_reach: leave out the sides of surfaces that no way through the scene leads to from its lights and from `eyes`,
  * like the insides of boxes, and parts of elements on which something stands. With neither nothing is left out. Then
  * the elements' areas are known. */
@@ -180,6 +186,8 @@ int bake_clusters(bake *b, report *r);
  * bake_parents: up to four of former generations, by which each one's row is nearly a sum of theirs; these come first. */
 void bake_generations(bake_cluster *c, uint32_t count, float cell);
 int bake_parents(bake *b, report *r);
+/* Runs of elements, and the links by which light comes to them again. */
+int bake_bounces(bake *b, report *r);
 
 /* bake_key: the side of space that a normal faces, then the place along a Z curve: neighbours have near keys. */
 uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal);

@@ -101,6 +101,7 @@ typedef struct maker {
     uint32_t mask;
     uint8_t *is_reached; /* a side of a triangle */
     int is_full;
+    int emits; /* the triangle at hand */
     report *r;
 } maker;
 
@@ -124,6 +125,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     e->facing = 1.0f;
     e->is_one = 1;
     e->open = 1.0f;
+    e->emits = m->emits;
     e->number = b->element_count;
     for (int k = 0; k < 3; ++k) {
         const lmb_vec3 d = sub3(corner[k], e->middle);
@@ -159,7 +161,8 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
     const float per = 2.0f / m->side;
     const uint32_t cell[4] = {(uint32_t)clampf((at.x - low.x) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.y - low.y) * per, 0.0f, 1e6f),
-                              (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f), piece_facing(normal)};
+                              (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f),
+                              piece_facing(normal) | (uint32_t)m->emits << 3};
     uint32_t h = cell[0] * 73856093u ^ cell[1] * 19349663u ^ cell[2] * 83492791u ^ cell[3] * 2654435761u;
     h ^= h >> 15;
     for (;; ++h) {
@@ -218,6 +221,7 @@ static int add_triangle(maker *m, uint32_t id)
     lmb_vec3 normal;
     float area;
     const int exists = lmb_triangle_fetch(&t, b->scene, id) && lmb_triangle_shape(&normal, &area, &t);
+    m->emits = exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
     for (int back = 0; back < 2; ++back) {
         const int shows =
             exists && m->is_reached[2 * (id - 1) + (size_t)back] && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world));
@@ -261,27 +265,34 @@ static int by_key(const void *a, const void *b)
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->number < y->number ? -1 : 1;
 }
 
-/* Neighbours that face alike lie side by side, so that their means are of use. */
-static int put_in_order(bake *b, report *r)
+int bake_order(bake *b, report *r)
 {
     uint32_t *place = malloc((b->element_count + 1) * sizeof *place);
     if (place == NULL) {
         return report_fail(r, "not enough memory for %u elements", (unsigned)b->element_count);
     }
     for (uint32_t i = 0; i < b->element_count; ++i) {
-        b->element[i].key = bake_key(b->scene, b->element[i].middle, b->element[i].normal);
+        bake_element *e = &b->element[i];
+        e->number = i;
+        e->key = bake_key(b->scene, e->middle, e->normal) | (uint32_t)e->is_hidden << 31 | (uint32_t)e->emits << 30;
     }
     qsort(b->element, b->element_count, sizeof *b->element, by_key);
     for (uint32_t i = 0; i < b->element_count; ++i) {
         place[b->element[i].number] = i;
     }
-    bake_words *pieces = &b->section[LMB_TRANSFER_PIECES];
+    bake_words *pieces = &b->section[LMB_TRANSFER_PIECES], *areas = &b->section[LMB_TRANSFER_AREAS];
     for (size_t i = 0; i < pieces->count; ++i) {
         if (pieces->data[i] & LMB_TRANSFER_LEAF) {
             pieces->data[i] = LMB_TRANSFER_LEAF | place[pieces->data[i] & ~LMB_TRANSFER_LEAF];
         }
     }
     free(place);
+    areas->count = 0;
+    for (uint32_t i = 0; i < b->set.elements; ++i) {
+        if (!bake_put_float(areas, i < b->element_count ? bake_open_area(&b->element[i]) : 0.0f, r)) {
+            return 0;
+        }
+    }
     return 1;
 }
 
@@ -322,5 +333,5 @@ int bake_elements(bake *b, report *r)
     free(m.slot);
     free(m.is_reached);
     bake_sight_end(&m.sight);
-    return ok && put_in_order(b, r);
+    return ok && bake_order(b, r);
 }

@@ -12,6 +12,7 @@ enum { BATCH = 64, PARTS = 64, WITNESSES = 16, FEWEST = 1024 };
 
 #define ALBEDO 0.5f  /* of all surfaces */
 #define DARK   1e-6f /* of the brightest element: less came through a crack */
+#define HIDDEN 0.01  /* of the mean light: is put in order apart */
 
 typedef struct sender {
     float light;
@@ -211,15 +212,21 @@ static int open_elements(reach *w)
     return tile != NULL || report_fail(w->r, "not enough memory for a tile");
 }
 
-static int put_areas(bake *b, report *r)
+/* What no light came to is no part of what a node sends, either: its mean is over what light comes to. */
+static void sort_out(const reach *w)
 {
-    for (uint32_t i = 0; i < b->set.elements; ++i) {
-        const float area = i < b->element_count ? bake_open_area(&b->element[i]) : 0.0f;
-        if (!bake_put_float(&b->section[LMB_TRANSFER_AREAS], area, r)) {
-            return 0;
-        }
+    bake *b = w->b;
+    double light = 0.0, area = 0.0;
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        light += (double)(b->element[i].light * b->element[i].area);
+        area += (double)b->element[i].area;
     }
-    return 1;
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        bake_element *e = &b->element[i];
+        e->is_hidden = !e->is_stood_on && (double)e->light < HIDDEN * light / area;
+        e->is_dark = e->is_stood_on ? !(e->open > 0.0f) : !w->has_sent[i];
+        e->area = e->is_dark ? 0.0f : e->area;
+    }
 }
 
 static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
@@ -247,9 +254,9 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
             surfaces->data[i] = LMB_TRANSFER_NONE;
         }
     }
-    for (uint32_t i = 0; ok && i < b->element_count; ++i) {
-        bake_element *e = &b->element[i];
-        e->is_dark = e->is_stood_on ? !(e->open > 0.0f) : !w.has_sent[i];
+    if (ok) {
+        sort_out(&w);
+        ok = bake_order(b, r);
     }
     free(w.has_sent);
     free(w.order);
@@ -264,5 +271,5 @@ int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
     b->set.elements = all > FEWEST ? all / 4 : all;
     int ok = bake_elements(b, r) && find_reached(b, eyes, count, r);
     b->set.elements = all;
-    return ok && bake_elements(b, r) && find_reached(b, eyes, count, r) && put_areas(b, r);
+    return ok && bake_elements(b, r) && find_reached(b, eyes, count, r);
 }

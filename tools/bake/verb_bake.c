@@ -75,9 +75,9 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "bake",
     .usage = "bake SCENE -o OUT.lmt [options]",
-    .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds light "
-             "that is reflected once, many times faster than without, wherever lights and camera are. Colours may "
-             "change, too. What moves, emits light or is glossy, and further reflections, are not in it.\n"
+    .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds bounced "
+             "light many times faster than without, wherever lights and camera are. Colours may change, too. What "
+             "moves or is glossy is not in it.\n"
              "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
@@ -88,7 +88,8 @@ static void tell(const options *o, const bake *b, size_t bytes)
 {
     static const char *const names[LMB_TRANSFER_SECTIONS] = {
         "surfaces",  "pieces", "areas",  "divisions", "corners",
-        "receivers", "links",  "blends", "clusters",  "cluster links"};
+        "receivers", "links",  "blends", "clusters",  "cluster links",
+        "coarse",    "coarse links"};
     const double links = (double)b->section[LMB_TRANSFER_LINKS].count, receivers = b->receiver_count;
     const double more = (double)b->section[LMB_TRANSFER_CLUSTER_LINKS].count / LMB_TRANSFER_CLUSTER_LINK_WORDS;
     if (o->is_quiet) {
@@ -144,7 +145,7 @@ static int bake_scene(const options *o, const lmb_scene *scene, const lmb_vec3 *
     set.is_swapped = o->is_big != is_own_big();
     b.is_watched = host_watched() && !o->is_quiet;
     int ok = bake_begin(&b, scene, &set, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) &&
-             bake_clusters(&b, r) && make_file(&file, o, &b, r) && file_write(o->out, file.data, file.size, r);
+             bake_clusters(&b, r) && bake_bounces(&b, r) && make_file(&file, o, &b, r) && file_write(o->out, file.data, file.size, r);
     if (ok) {
         tell(o, &b, file.size);
     }

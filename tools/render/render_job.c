@@ -98,9 +98,8 @@ static int load_transfer(render_job *j, report *r)
     if (j->o.transfer == NULL) {
         return 1;
     }
-    if (j->o.bounces > 1 || has_budget(&j->o.budget, j->o.budget_ms)) {
-        return report_fail(r, "--transfer: light is reflected once, and as well as it was baked: neither --bounces nor "
-                              "--budget-... go with it");
+    if (has_budget(&j->o.budget, j->o.budget_ms)) {
+        return report_fail(r, "--transfer: light is as exact as it was baked: no --budget-... goes with it");
     }
     if (!file_read(&j->transfer_file, j->o.transfer, r)) {
         return 0;
