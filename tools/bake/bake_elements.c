@@ -224,7 +224,8 @@ static int add_triangle(maker *m, uint32_t id)
     m->emits = exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
     for (int back = 0; back < 2; ++back) {
         const int shows =
-            exists && m->is_reached[2 * (id - 1) + (size_t)back] && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world));
+            exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world)) &&
+            m->is_reached[2 * (id - 1) + (size_t)back];
         surfaces->data[4 * (id - 1) + (size_t)back] = shows ? (uint32_t)pieces->count : LMB_TRANSFER_NONE;
         if (shows && (!bake_put(pieces, 0, m->r) ||
                       !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0))) {

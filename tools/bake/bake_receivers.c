@@ -10,7 +10,7 @@
 #include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64 };
-#define STANDS 0.1f /* surplus of a triangle on which something stands: what its corners differ by is no measure there */
+#define STANDS 0.1f /* surplus of a triangle on which something stands: what its corners differ by says nothing */
 
 /* A triangle of the division. */
 typedef struct piece {
