@@ -7,7 +7,8 @@
 
 #include "../../src/base/vec.h"
 
-enum { BATCH = 64, PARTS = 64, WITNESSES = 16, FEWEST = 1024 };
+enum { BATCH = 64, PARTS = 64, WITNESSES = 64 };
+#define BRIGHT 0.01f /* of the mean */
 #define OVER 0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
 
 #define ALBEDO 0.5f  /* of all surfaces */
@@ -24,6 +25,7 @@ typedef struct reach {
     uint8_t *has_sent; /* an element */
     sender *order;     /* the brightest first */
     float *memory;
+    float bright; /* light over this came through no crack */
     report *r;
 } reach;
 
@@ -194,6 +196,9 @@ static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_tr
     for (uint64_t bits = ~hidden; bits != 0; bits &= bits - 1) {
         sum = add3(sum, at[lowest_bit_64(bits)]);
     }
+    if (open == 0 && e->light > w->bright) { /* its middle is lit, by what is none of those */
+        return;
+    }
     e->open = (float)open * (1.0f / (float)PARTS);
     e->middle = open > 0 ? mul3(sum, 1.0f / (float)open) : e->middle;
 }
@@ -203,6 +208,9 @@ static int open_elements(reach *w)
     lmb_tile *tile = calloc(1, sizeof *tile);
     lmb_traversal traversal;
     memset(&traversal, 0, sizeof traversal);
+    for (uint32_t i = 0; i < w->b->element_count; ++i) {
+        w->bright += BRIGHT * w->b->element[i].light / (float)w->b->element_count;
+    }
     for (uint32_t i = 0; tile != NULL && i < w->b->element_count; ++i) {
         if (w->b->element[i].is_stood_on) {
             open_element(w, &w->b->element[i], tile, &traversal);
@@ -231,7 +239,7 @@ static void sort_out(const reach *w)
 
 static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
-    reach w = {b, NULL, NULL, NULL, r};
+    reach w = {b, NULL, NULL, NULL, 0.0f, r};
     bake_words *surfaces = &b->section[LMB_TRANSFER_SURFACES];
     if (count + b->scene->light_count == 0) {
         for (uint32_t i = 0; i < b->element_count; ++i) {
@@ -264,12 +272,8 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     return ok;
 }
 
-/* Once by few elements, to leave out whole sides; then all elements lie on the others. */
+/* Once to leave out whole sides; then all elements lie on the others. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
-    const uint32_t all = b->set.elements;
-    b->set.elements = all > FEWEST ? all / 4 : all;
-    int ok = bake_elements(b, r) && find_reached(b, eyes, count, r);
-    b->set.elements = all;
-    return ok && bake_elements(b, r) && find_reached(b, eyes, count, r);
+    return bake_elements(b, r) && find_reached(b, eyes, count, r) && bake_elements(b, r) && find_reached(b, eyes, count, r);
 }
