@@ -11,9 +11,10 @@
 #include "../src/base/vec.h"
 
 /* The floor is halved: elements 0 and 1 are the halves of triangle 1, 2 is triangle 2, 3 all of the ceiling. Receivers
- * 0 .. 3 are the floor's corners, 4 lies between 0 and 1. The ceiling has clusters. Each element is a coarse one too. */
+ * 0 .. 3 are the floor's corners, 4 lies between 0 and 1. The ceiling has clusters; the second one takes a fifth of the
+ * first one's light. Each element is a coarse one too. */
 enum { ROOM_TRIANGLES = 4, SMALL_ELEMENTS = 4, SMALL_NODES = 5, SMALL_RECEIVERS = 5, SMALL_CLUSTERS = 2 };
-#define SMALL_TRANSFER_WORDS(triangles) (129 + 4 * (triangles))
+#define SMALL_TRANSFER_WORDS(triangles) (135 + 4 * (triangles))
 
 #define SMALL_ONE      (1.0f / 32768.0f) /* scale: a weight of 32768 would be 1 */
 #define SMALL_LINK(node, weight) ((uint32_t)(uint16_t)(int16_t)(weight) << 16 | (uint32_t)(node))
@@ -48,7 +49,7 @@ static inline size_t small_transfer(uint32_t *words, const lmb_scene *scene)
                               SMALL_LINK(2, 1024),  SMALL_LINK(3, 4096), SMALL_LINK(2, 2048),
                               SMALL_LINK(3, 2048),  SMALL_LINK(2, 4096), SMALL_LINK(4, -2048)};
     const uint32_t blends[] = {0u | 1u << 16, 0u, 255u, 0u | 1u << 16, 0u, 55u | 200u << 8};
-    const uint32_t clusters[] = {0, 2, one, 2, 1, one};
+    const uint32_t clusters[] = {0, 0, 0, 0, 2, one, 0, 0, 51, 2, 1, one};
     const uint32_t cluster_links[] = {SMALL_LINK(0, 4096),  SMALL_LINK(-8192 & 0xffff, 0),
                                       SMALL_LINK(1, -4096), SMALL_LINK(-8192 & 0xffff, 512),
                                       SMALL_LINK(2, 0),     SMALL_LINK(-16384 & 0xffff, 0)};
@@ -57,7 +58,7 @@ static inline size_t small_transfer(uint32_t *words, const lmb_scene *scene)
                                      SMALL_LINK(0, 2048), SMALL_LINK(1, 2048), SMALL_LINK(2, 4096)};
     small_words w = {words, LMB_TRANSFER_HEADER_WORDS};
     memset(words, 0, LMB_TRANSFER_HEADER_WORDS * sizeof *words);
-    memcpy(words, "LMT\1", 4);
+    memcpy(words, "LMT\2", 4);
     words[1] = 0x01020304u;
     lmb_transfer_fingerprint(words + 3, scene, NULL, 0);
     words[5] = 3;
@@ -72,7 +73,7 @@ static inline size_t small_transfer(uint32_t *words, const lmb_scene *scene)
     small_put(&w, 11, receivers, 25, LMB_TRANSFER_RECEIVER_WORDS);
     small_put(&w, 12, links, 9, 1);
     small_put(&w, 13, blends, 6, LMB_TRANSFER_BLEND_WORDS);
-    small_put(&w, 14, clusters, 6, LMB_TRANSFER_CLUSTER_WORDS);
+    small_put(&w, 14, clusters, 12, LMB_TRANSFER_CLUSTER_WORDS);
     small_put(&w, 15, cluster_links, 6, LMB_TRANSFER_CLUSTER_LINK_WORDS);
     small_put(&w, 16, coarse, 16, LMB_TRANSFER_COARSE_WORDS);
     small_put(&w, 17, coarse_links, 6, 1);

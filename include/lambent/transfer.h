@@ -14,7 +14,7 @@
  * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each. A pixel
  * interpolates the three receivers of its triangle by barycentric weights. The receiver in the middle of an edge stores
  * its difference from the mean of the edge's two ends. Small triangles of meshes take their light from clusters, which
- * keep it by direction.
+ * keep it by direction, as differences from blends of clusters around them.
  *
  * Objects that move take their light from a grid of places in the air, by direction. They cast shadows in direct light;
  * bounced light they neither block nor reflect.
@@ -48,12 +48,13 @@ enum {
 };
 
 enum {
+    LMB_TRANSFER_VERSION = 2, /* the file's fourth byte, behind `LMT` */
     LMB_TRANSFER_HEADER_WORDS = 24,
     LMB_TRANSFER_SURFACE_WORDS = 4,
     LMB_TRANSFER_CORNER_WORDS = 3,
     LMB_TRANSFER_RECEIVER_WORDS = 5, /* two parents, first link, number of links, scale */
     LMB_TRANSFER_BLEND_WORDS = 3,
-    LMB_TRANSFER_CLUSTER_WORDS = 3, /* first link, number of links, scale */
+    LMB_TRANSFER_CLUSTER_WORDS = 6, /* a blend of clusters before it, first link, number of links, scale */
     LMB_TRANSFER_CLUSTER_LINK_WORDS = 2,
     LMB_TRANSFER_COARSE_WORDS = 4, /* first element, first link, number of links, scale */
     LMB_TRANSFER_MAX_COARSE = 1024,

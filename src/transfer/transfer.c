@@ -131,28 +131,42 @@ static int are_cluster_links(const lmb_transfer *t, uint32_t first, uint32_t cou
     return 1;
 }
 
+/* Up to four clusters, 16 bits each, of the first `clusters`, and four weights of 8 bits: 255 in all, at most. A weight
+ * of 0 says that there is none. */
+static int is_blend(const uint32_t *b, uint32_t clusters)
+{
+    uint32_t sum = 0;
+    for (int k = 0; k < 4; ++k) {
+        const uint32_t weight = b[2] >> 8 * k & 255u, cluster = b[k / 2] >> 16 * (k % 2) & 0xffffu;
+        sum += weight;
+        if (cluster >= clusters && (cluster > 0 || weight > 0)) {
+            return 0;
+        }
+    }
+    return sum <= 255;
+}
+
+/* Those that a cluster is a blend of lie before it. */
 static int are_clusters(const lmb_transfer *t)
 {
     uint32_t left = t->count[LMB_TRANSFER_CLUSTER_LINKS];
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_CLUSTERS]; ++i) {
         const uint32_t *c = t->section[LMB_TRANSFER_CLUSTERS] + LMB_TRANSFER_CLUSTER_WORDS * (size_t)i;
-        if (!is_scale(c[2]) || !take_range(&left, c[0], c[1], t->count[LMB_TRANSFER_CLUSTER_LINKS]) ||
-            !are_cluster_links(t, c[0], c[1])) {
+        if (!is_blend(c, i) || !is_scale(c[5]) ||
+            !take_range(&left, c[3], c[4], t->count[LMB_TRANSFER_CLUSTER_LINKS]) || !are_cluster_links(t, c[3], c[4])) {
             return 0;
         }
     }
     return 1;
 }
 
-/* Four clusters, 16 bits each, and four weights of 8 bits. */
 static int are_blends(const lmb_transfer *t)
 {
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_BLENDS]; ++i) {
-        const uint32_t *b = t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)i;
-        for (int k = 0; k < 4; ++k) {
-            if ((b[k / 2] >> 16 * (k % 2) & 0xffffu) >= t->count[LMB_TRANSFER_CLUSTERS]) {
-                return 0;
-            }
+        if (t->count[LMB_TRANSFER_CLUSTERS] == 0 ||
+            !is_blend(t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)i,
+                      t->count[LMB_TRANSFER_CLUSTERS])) {
+            return 0;
         }
     }
     return 1;
@@ -258,7 +272,8 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
     if ((uintptr_t)data % 4 != 0) {
         return LMB_ERR_ALIGN;
     }
-    if (bytes < 4 * LMB_TRANSFER_HEADER_WORDS || memcmp(data, "LMT\1", 4) != 0 || word[ORDER] != OWN_ORDER ||
+    if (bytes < 4 * LMB_TRANSFER_HEADER_WORDS || memcmp(data, "LMT", 3) != 0 ||
+        ((const uint8_t *)data)[3] != LMB_TRANSFER_VERSION || word[ORDER] != OWN_ORDER ||
         word[SIZE] != bytes || bytes % 4 != 0 || !are_zeros(word + RESERVED, LMB_TRANSFER_HEADER_WORDS - RESERVED) ||
         !lay_out(&t, word, bytes / 4)) {
         return LMB_ERR_FORMAT;

@@ -6,6 +6,7 @@
 #include "../base/memory_check.h"
 #include "../map/texel.h"
 #include "../raster/target.h"
+#include "blend.h"
 #include "halvings.h"
 #include "links.h"
 
@@ -219,12 +220,14 @@ static void receive_cluster(const lmb_transfer_light *light, const lmb_kernels *
 {
     const uint32_t *cluster = t->section[LMB_TRANSFER_CLUSTERS] + LMB_TRANSFER_CLUSTER_WORDS * (size_t)i;
     const uint32_t *link =
-        t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)cluster[0];
-    const float scale = link_scale(cluster[2], light->step);
+        t->section[LMB_TRANSFER_CLUSTER_LINKS] + LMB_TRANSFER_CLUSTER_LINK_WORDS * (size_t)cluster[3];
+    const float scale = link_scale(cluster[5], light->step);
     int32_t sum[3][3]; /* along x, y, z, of R, G, B */
-    kernels->transfer_directed_links(sum, link, cluster[1], light->node);
+    float parents[9];
+    kernels->transfer_directed_links(sum, link, cluster[4], light->node);
+    transfer_blend(parents, light, cluster);
     for (int c = 0; c < 9; ++c) {
-        light->cluster[i][c] = scale * (float)sum[c % 3][c / 3];
+        light->cluster[i][c] = parents[c] + scale * (float)sum[c % 3][c / 3];
     }
 }
 

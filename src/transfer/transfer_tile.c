@@ -6,23 +6,12 @@
 #include "../lane/kernels.h"
 #include "../raster/tile.h"
 #include "air.h"
+#include "blend.h"
 #include "halvings.h"
 
 #if LMB_TRANSFER
 
 /* --- corners ------------------------------------------------------------------------------------------------------ */
-
-static void blend(float out[9], const lmb_transfer_light *light, const uint32_t *b)
-{
-    memset(out, 0, 9 * sizeof *out);
-    for (int k = 0; k < 4; ++k) {
-        const float *cluster = light->cluster[b[k / 2] >> 16 * (k % 2) & 0xffffu];
-        const float share = (float)(b[2] >> 8 * k & 255u) * (1.0f / 255.0f);
-        for (int c = 0; c < 9; ++c) {
-            out[c] += share * cluster[c];
-        }
-    }
-}
 
 static void set_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light, const lmb_transfer *t, uint32_t place)
 {
@@ -30,8 +19,8 @@ static void set_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light
     leaf->is_mesh = place >= t->leaves;
     for (int k = 0; k < 3; ++k) {
         if (leaf->is_mesh) {
-            blend(leaf->corner[k], light,
-                  t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)corner[k]);
+            transfer_blend(leaf->corner[k], light,
+                           t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)corner[k]);
         } else {
             memcpy(leaf->corner[k], light->receiver[corner[k]], 3 * sizeof leaf->corner[k][0]);
         }

@@ -561,7 +561,27 @@ for list in 1 0,0 0, x -1; do
 done
 head -c 5000 "$dir/box-1.lmt" >"$dir/cut.lmt"
 status 1 render "$dir/box.obj" $inside --transfer "$dir/cut.lmt" -o "$dir/bad.pfm"
-said "cut.lmt: no light transfer, or a damaged one"
+said "cut.lmt: a damaged light transfer"
+status 0 bake "$dir/box.obj" -o "$dir/little.lmt" --elements 256 --receivers 200 --endian little --report
+check "bake tells the bytes of each part" grep -q '  links  *[0-9]* bytes' "$dir/out.txt"
+status 0 bake "$dir/box.obj" -o "$dir/big.lmt" --elements 256 --receivers 200 --endian big
+check "the other byte order has the same bytes, turned round" sh -c '
+    od -An -v -tx1 -w4 "$1" | sed 1d >"$1.txt"; od -An -v -tx1 -w4 "$2" | sed 1d | awk "{ print \" \" \$4, \$3, \$2, \$1 }" |
+    cmp -s - "$1.txt"' sh "$dir/little.lmt" "$dir/big.lmt"
+check "the byte order is that of this machine" sh -c 'cmp -s "$1" "$3" || cmp -s "$2" "$3"' sh "$dir/little.lmt" "$dir/big.lmt" "$dir/box-1.lmt"
+cmp -s "$dir/little.lmt" "$dir/box-1.lmt" && other=big || other=little
+status 1 render "$dir/box.obj" $inside --transfer "$dir/$other.lmt" -o "$dir/bad.pfm"
+said "$other.lmt: baked for $other-endian machines, unlike this one"
+{ printf 'LMT\001'; tail -c +5 "$dir/box-1.lmt"; } >"$dir/old.lmt"
+status 1 render "$dir/box.obj" $inside --transfer "$dir/old.lmt" -o "$dir/bad.pfm"
+said "old.lmt: a light transfer of version 1, and this reads version 2"
+budget=$(($(wc -c <"$dir/box-1.lmt") * 3 / 4))
+status 0 bake "$dir/box.obj" -o "$dir/less.lmt" --elements 256 --receivers 200 --budget-bytes $budget
+check "bake says by which error a file fits" grep -q "by --error .*, which fits into $budget bytes" "$dir/out.txt"
+check "a file with a budget is within it" sh -c 'test $(wc -c <"$1") -le '$budget sh "$dir/less.lmt"
+status 1 bake "$dir/box.obj" -o "$dir/bad.lmt" --elements 256 --receivers 200 --budget-bytes 1000
+said "without any link it is"
+status 2 bake "$dir/box.obj" -o "$dir/bad.lmt" --endian middle
 status 1 render "$dir/box.obj" $inside --transfer "$dir/box.obj" -o "$dir/bad.pfm"
 status 1 render "$dir/box.obj" $inside --transfer "$dir/nowhere.lmt" -o "$dir/bad.pfm"
 status 1 render "$dir/box.obj" $inside --transfer "$dir/block-1.lmt" -o "$dir/bad.pfm"

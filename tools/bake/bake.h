@@ -4,6 +4,8 @@
 
 #include <lambent/lambent.h>
 
+#include <string.h>
+
 #include "../common/io_file.h"
 #include "../common/report.h"
 
@@ -16,6 +18,7 @@ typedef struct bake_settings {
     uint32_t elements;  /* a power of 4, up to LMB_TRANSFER_MAX_ELEMENTS */
     uint32_t receivers; /* at most */
     int threads;
+    int is_swapped;     /* the file is for the other byte order */
 } bake_settings;
 
 /* Words that grow. */
@@ -32,6 +35,8 @@ typedef struct bake_element {
     float reach2;  /* its farthest corner from its middle, squared, m2 */
     float facing;  /* length of the mean normal: 1 for one triangle */
     int is_one;
+    int is_stood_on; /* something stands on it */
+    float open;    /* share of it that light can come to; `middle` is that of it */
     int emits;     /* one of its triangles does */
     int is_dark;   /* no light comes here */
     int is_hidden; /* hardly any does: inside of a solid, it may be, through a crack */
@@ -39,14 +44,36 @@ typedef struct bake_element {
     uint32_t key, number; /* order along a Z curve; where it was made */
 } bake_element;
 
+enum { BAKE_PARENTS = 4 };
+
+/* What receives light: what its parents do, by their shares, and what its links say. */
+typedef struct bake_target {
+    uint16_t *row; /* what arrives of each element, along each axis: upper halves of binary32 */
+    uint32_t parent[BAKE_PARENTS];
+    float share[BAKE_PARENTS]; /* 0: none */
+    float support;             /* m2 that it lights */
+    lmb_vec3 normal;
+    bake_words link;
+    uint32_t links;
+    float scale;
+} bake_target;
+
 /* A point that receives light. */
 typedef struct bake_receiver {
-    lmb_vec3 place, at, normal; /* `at` lies a little inside the triangle at whose corner `place` is */
-    uint32_t parent[2]; /* LMB_TRANSFER_NONE: none */
-    float *row;         /* what arrives of each element, as the file will have it */
-    uint32_t first_link, links;
-    float scale;
+    lmb_vec3 place, at; /* `at` lies a little inside the triangle at whose corner `place` is */
+    bake_target target;
 } bake_receiver;
+
+/* Neighbouring small triangles that face alike. */
+typedef struct bake_cluster {
+    lmb_vec3 at;
+    bake_target target;
+    int32_t cell[3];
+    uint32_t next; /* of the same slot, + 1 */
+    uint32_t key, generation;
+} bake_cluster;
+
+typedef struct bake_linker bake_linker; /* what bake_links works with; one a thread */
 
 typedef struct bake {
     bake_settings set;
@@ -58,7 +85,9 @@ typedef struct bake {
     float small_m;  /* no edge of a small triangle is longer */
     uint32_t small_count;
     int by_middles; /* rows ask for elements' middles alone */
-    int is_quiet;
+    int is_watched; /* progress goes to a terminal */
+    double shown;   /* when it was, s; 0: never */
+    int is_coded;   /* areas of targets were handed up */
 
     bake_element *element; /* set.elements; past element_count without area */
     uint32_t element_count;
@@ -68,8 +97,12 @@ typedef struct bake {
 
     bake_words section[LMB_TRANSFER_SECTIONS];
     uint32_t leaves; /* of corners: those of receivers, which come first */
-    uint32_t clusters;
+    bake_cluster *cluster;
+    uint32_t cluster_count, cluster_cap;
 } bake;
+
+/* What of an element sends light, m2. */
+static inline float bake_open_area(const bake_element *e) { return e->is_dark ? 0.0f : e->area * e->open; }
 
 /* What bake_sees works with; one a thread. */
 typedef struct bake_sight {
@@ -99,27 +132,60 @@ int bake_elements(bake *b, report *r);
 int bake_order(bake *b, report *r);
 
 /* bake_reach: leave out the sides of surfaces that no way through the scene leads to from its lights and from `eyes`,
- * like the insides of boxes. With neither nothing is left out. */
+ * like the insides of boxes, and parts of elements on which something stands. With neither nothing is left out. Then
+ * the elements' areas are known. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r);
 
 /* bake_rows: what arrives of each element at up to 64 points: form factor times the share that is seen.
  *   row   axes x count rows of set.elements. axes 1: on a plane of the normal; 3: along x, y, z, of what lies
- *         before it */
+ *         before it
+ *   times  NULL, or for each element what its entries stand for: of those far from all points some are left out (0),
+ *          and others count for them */
 int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
-              report *r);
+              float *times, report *r);
 
 /* bake_links: choose nodes whose means stand for a row of elements; axes 1 or 3 rows that share them.
- *   row    becomes what the links say
+ *   row     becomes what the links say
+ *   normal  3 axes: what arrives across it counts less
+ *   price   squared error that a link has to save
  *   *count, *scale  what was put into `links`, and a weight's unit */
-int bake_links(const bake *b, float *const *row, int axes, bake_words *links, uint32_t *count, float *scale, report *r);
+bake_linker *bake_linker_new(const bake *b, report *r);
+void bake_linker_free(bake_linker *l);
+int bake_links(bake_linker *l, float *const *row, int axes, lmb_vec3 normal, float price, bake_words *links,
+               uint32_t *count, float *scale, report *r);
 
-/* bake_surplus: how much a row is at odds with light that is even over nodes of a 64th of the elements. */
+/* bake_code: rows -> links: what each target's parents do not say of its row, which becomes what the file says. Parents
+ * lie before their children. Links cost as much error, times the area that it shows on, at all targets alike.
+ *   target   `each` bytes apart */
+int bake_code(bake *b, bake_target *target, size_t each, uint32_t count, int axes, report *r);
+
+/* A row's entries: upper halves of binary32, to the nearest. */
+static inline uint16_t bake_short(float v)
+{
+    uint32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    return (uint16_t)((bits + 0x7fffu + (bits >> 16 & 1u)) >> 16);
+}
+
+static inline float bake_long(uint16_t v)
+{
+    const uint32_t bits = (uint32_t)v << 16;
+    float out;
+    memcpy(&out, &bits, sizeof out);
+    return out;
+}
+
+/* bake_surplus: how much a row is at odds with light that is even over nodes of a 256th of the elements, and of four. */
 float bake_surplus(const bake *b, const float *row);
 
 /* Receivers on large triangles, and clusters on small ones. */
 int bake_receivers(bake *b, report *r);
 int bake_clusters(bake *b, report *r);
 
+/* bake_generations: few clusters far apart first, then more and more between them; in any order of theirs.
+ * bake_parents: up to four of former generations, by which each one's row is nearly a sum of theirs; these come first. */
+void bake_generations(bake_cluster *c, uint32_t count, float cell);
+int bake_parents(bake *b, report *r);
 /* Runs of elements, and the links by which light comes to them again. */
 int bake_bounces(bake *b, report *r);
 
@@ -142,9 +208,16 @@ uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal);
 /* bake_cell: the cell of a grid, `per` a metre, within +-1e9. */
 int32_t bake_cell(float at, float per);
 
+/* bake_tell: progress, in per cent of a step, a few times a second. bake_tell_end: its line is empty again. */
+void bake_tell(bake *b, const char *step, double share);
+void bake_tell_end(const bake *b);
+
 int bake_is_small(const bake *b, const lmb_vec3 corner[3]);
 
-int bake_file(file_bytes *out, const bake *b, report *r);
+/* bake_code_all: receivers and clusters, all again by another error where they have links.
+ * bake_file: the bytes of a .lmt. */
+int bake_code_all(bake *b, report *r);
+int bake_file(file_bytes *out, bake *b, report *r);
 void bake_free(bake *b);
 
 #endif

@@ -9,8 +9,8 @@
 
 enum { SIDES = LMB_TRANSFER_AIR_RECEIVERS, TOGETHER = 10, PLACES = 1500 };
 
-#define LOOSE 8.0f /* times a receiver's error: the grid is coarse itself */
-#define SEEN  0.05f /* of all around a place: where less light can come from, it is taken to lie in a solid */
+#define SUPPORT 1.5e-6f /* of all area, that a receiver counts as much as: the grid is coarse itself */
+#define SEEN    0.05f /* of all around a place: where less light can come from, it is taken to lie in a solid */
 
 typedef struct air {
     bake *b;
@@ -54,11 +54,9 @@ static lmb_vec3 side_of(int side)
 }
 
 /* A receiver that is its own: all of its row becomes links. */
-static int add_receiver(air *a, lmb_vec3 at, lmb_vec3 normal, float *row)
+static int add_receiver(air *a, lmb_vec3 at, lmb_vec3 normal, const float *row)
 {
-    bake *b = a->b, loose = *b;
-    float *const rows[1] = {row};
-    loose.set.error *= LOOSE;
+    bake *b = a->b;
     if (b->receiver_count == b->receiver_cap) {
         const uint32_t cap = 2 * b->receiver_cap + 64;
         bake_receiver *more = realloc(b->receiver, cap * sizeof *more);
@@ -71,10 +69,13 @@ static int add_receiver(air *a, lmb_vec3 at, lmb_vec3 normal, float *row)
     bake_receiver *v = &b->receiver[b->receiver_count++];
     memset(v, 0, sizeof *v);
     v->place = v->at = at;
-    v->normal = normal;
-    v->parent[0] = v->parent[1] = LMB_TRANSFER_NONE;
-    v->first_link = (uint32_t)b->section[LMB_TRANSFER_LINKS].count;
-    return bake_links(&loose, rows, 1, &b->section[LMB_TRANSFER_LINKS], &v->links, &v->scale, a->r);
+    v->target.normal = normal;
+    v->target.support = SUPPORT * b->area;
+    v->target.row = malloc(b->set.elements * sizeof *v->target.row);
+    for (uint32_t e = 0; v->target.row != NULL && e < b->set.elements; ++e) {
+        v->target.row[e] = bake_short(row[e]);
+    }
+    return v->target.row != NULL || report_fail(a->r, "not enough memory for %u receivers", (unsigned)b->receiver_count);
 }
 
 static float sum_of(const air *a, int first)
@@ -98,7 +99,7 @@ static int add_places(air *a, uint32_t first, uint32_t past)
         at[k] = place_of(a, first + (uint32_t)(k / SIDES));
         normal[k] = side_of(k % SIDES);
     }
-    if (!bake_rows(a->b, at, normal, count, 1, a->row, a->r)) {
+    if (!bake_rows(a->b, at, normal, count, 1, a->row, NULL, a->r)) {
         return 0;
     }
     for (int k = 0; k < count; k += SIDES) {

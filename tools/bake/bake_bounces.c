@@ -25,12 +25,12 @@ static run run_of(const bake *b, uint32_t first, uint32_t past, float floor)
     run out = {first, past, 0.0f};
     float area = 0.0f, light = 0.0f, off = 0.0f;
     for (uint32_t e = first; e < past; ++e) {
-        area += b->element[e].area;
-        light += b->element[e].area * b->element[e].light;
+        area += bake_open_area(&b->element[e]);
+        light += bake_open_area(&b->element[e]) * b->element[e].light;
     }
     const float mean = area > 0.0f ? light / area : 0.0f;
     for (uint32_t e = first; e < past; ++e) {
-        off += b->element[e].area * absf(b->element[e].light - mean);
+        off += bake_open_area(&b->element[e]) * absf(b->element[e].light - mean);
     }
     out.error = past - first > 1 && area > 0.0f ? off / (mean + floor) + FLAT * area : 0.0f;
     return out;
@@ -42,10 +42,10 @@ static uint32_t middle_of(const bake *b, const run *r)
     float area = 0.0f, half = 0.0f;
     uint32_t at = r->first;
     for (uint32_t e = r->first; e < r->past; ++e) {
-        area += b->element[e].area;
+        area += bake_open_area(&b->element[e]);
     }
     while (at + 1 < r->past && half < 0.5f * area) {
-        half += b->element[at++].area;
+        half += bake_open_area(&b->element[at++]);
     }
     return at > r->first ? at : r->first + 1;
 }
@@ -56,7 +56,7 @@ static uint32_t part(run *runs, const bake *b)
     double light = 0.0;
     uint32_t count = 1;
     for (uint32_t e = 0; e < b->element_count; ++e) {
-        light += (double)(b->element[e].area * b->element[e].light);
+        light += (double)(bake_open_area(&b->element[e]) * b->element[e].light);
     }
     const float floor = 0.1f * (float)(light / (double)b->area);
     runs[0] = run_of(b, 0, b->set.elements, floor);
@@ -94,9 +94,9 @@ static uint32_t element_at(const bake *b, const run *r, float at)
 {
     uint32_t last = r->first;
     for (uint32_t e = r->first; e < r->past && at >= 0.0f; ++e) {
-        if (b->element[e].area > 0.0f) {
+        if (bake_open_area(&b->element[e]) > 0.0f) {
             last = e;
-            at -= b->element[e].area;
+            at -= bake_open_area(&b->element[e]);
         }
     }
     return last;
@@ -116,7 +116,7 @@ static void add_looks(looks *l, const bake *b, const run *r, uint32_t of)
 {
     float area = 0.0f;
     for (uint32_t e = r->first; e < r->past; ++e) {
-        area += b->element[e].area;
+        area += bake_open_area(&b->element[e]);
     }
     for (int k = 0; k < POINTS && area > 0.0f; ++k) {
         add_look(l, &b->element[element_at(b, r, area * ((float)k + 0.5f) / (float)POINTS)], of);
@@ -131,7 +131,7 @@ static int look(float *const *row, const bake *b, const run *runs, uint32_t coun
     for (uint32_t i = 0; i < count; ++i) {
         add_looks(&l, b, &runs[i], i);
     }
-    if (l.count > 0 && !bake_rows(b, l.at, l.normal, l.count, 1, row, r)) {
+    if (l.count > 0 && !bake_rows(b, l.at, l.normal, l.count, 1, row, NULL, r)) {
         return 0;
     }
     for (int k = l.count; k < TOGETHER * POINTS; ++k) {
@@ -151,16 +151,16 @@ static int look(float *const *row, const bake *b, const run *runs, uint32_t coun
     return 1;
 }
 
-static int put_run(bake *b, const run *own, float *row, report *r)
+static int put_run(bake *b, bake_linker *linker, const run *own, float *row, report *r)
 {
-    bake loose = *b;
     bake_words *to = &b->section[LMB_TRANSFER_COARSE];
     const size_t first = b->section[LMB_TRANSFER_COARSE_LINKS].count;
+    const float error = LOOSE * b->set.error;
     float *const rows[1] = {row};
     uint32_t count;
     float scale;
-    loose.set.error *= LOOSE;
-    return bake_links(&loose, rows, 1, &b->section[LMB_TRANSFER_COARSE_LINKS], &count, &scale, r) &&
+    return bake_links(linker, rows, 1, vec3(0.0f, 0.0f, 1.0f), error * error, &b->section[LMB_TRANSFER_COARSE_LINKS],
+                      &count, &scale, r) &&
            bake_put(to, own->first, r) && bake_put(to, (uint32_t)first, r) && bake_put(to, count, r) &&
            bake_put_float(to, scale, r);
 }
@@ -170,7 +170,8 @@ int bake_bounces(bake *b, report *r)
     float *row[TOGETHER * POINTS];
     float *memory = malloc((size_t)TOGETHER * POINTS * b->set.elements * sizeof *memory);
     run *runs = malloc(LMB_TRANSFER_MAX_COARSE * sizeof *runs);
-    int ok = (memory != NULL && runs != NULL) || report_fail(r, "not enough memory for further reflections");
+    bake_linker *linker = bake_linker_new(b, r);
+    int ok = (linker != NULL && memory != NULL && runs != NULL) || report_fail(r, "not enough memory for further reflections");
     const uint32_t count = ok ? part(runs, b) : 0;
     for (int k = 0; k < TOGETHER * POINTS && ok; ++k) {
         row[k] = memory + (size_t)k * b->set.elements;
@@ -182,9 +183,10 @@ int bake_bounces(bake *b, report *r)
         const uint32_t some = count - i < TOGETHER ? count - i : TOGETHER;
         ok = look(row, b, runs + i, some, r);
         for (uint32_t k = 0; k < some && ok; ++k) {
-            ok = put_run(b, &runs[i + k], row[k], r);
+            ok = put_run(b, linker, &runs[i + k], row[k], r);
         }
     }
+    bake_linker_free(linker);
     free(memory);
     free(runs);
     return ok;

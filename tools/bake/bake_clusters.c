@@ -13,17 +13,8 @@ enum { BATCH = 64, NEIGHBOURS = 4, TARGET = 2000, SHARING = 4 };
 #define BLEND 0.3f /* down to which a corner takes light from one */
 #define REACH 1.3f /* cells */
 
-typedef struct cluster {
-    lmb_vec3 at, normal;
-    int32_t cell[3];
-    uint32_t next; /* of the same slot, + 1 */
-    uint32_t key;
-} cluster;
-
 typedef struct clusters {
     bake *b;
-    cluster *data;
-    size_t count, cap;
     uint32_t *slot; /* number + 1 */
     uint32_t mask;
     report *r;
@@ -47,59 +38,75 @@ static int add_cluster(clusters *c, lmb_vec3 at, lmb_vec3 normal)
 {
     int32_t cell[3];
     cell_of(cell, c->b, at);
+    bake *b = c->b;
     uint32_t *slot = &c->slot[hash_of(cell) & c->mask];
-    for (uint32_t i = *slot; i != 0; i = c->data[i - 1].next) {
-        const cluster *k = &c->data[i - 1];
-        if (memcmp(k->cell, cell, sizeof cell) == 0 && dot3(k->normal, normal) > ALIKE) {
+    for (uint32_t i = *slot; i != 0; i = b->cluster[i - 1].next) {
+        const bake_cluster *k = &b->cluster[i - 1];
+        if (memcmp(k->cell, cell, sizeof cell) == 0 && dot3(k->target.normal, normal) > ALIKE) {
             return 1;
         }
     }
-    if (c->count == c->cap) {
-        const size_t cap = c->cap > 0 ? 2 * c->cap : 256;
-        cluster *data = realloc(c->data, cap * sizeof *data);
-        if (data == NULL) {
-            return report_fail(c->r, "not enough memory for %.0f clusters", (double)cap);
-        }
-        c->data = data;
-        c->cap = cap;
-    }
-    if (c->count == LMB_TRANSFER_MAX_CLUSTERS) {
+    if (b->cluster_count == LMB_TRANSFER_MAX_CLUSTERS) {
         return report_fail(c->r, "over 65,536 clusters of small triangles: a larger --cluster");
     }
-    cluster *k = &c->data[c->count++];
+    if (b->cluster_count == b->cluster_cap) {
+        const uint32_t cap = b->cluster_cap > 0 ? 2 * b->cluster_cap : 256;
+        bake_cluster *data = realloc(b->cluster, cap * sizeof *data);
+        if (data == NULL) {
+            return report_fail(c->r, "not enough memory for %u clusters", (unsigned)cap);
+        }
+        b->cluster = data;
+        b->cluster_cap = cap;
+    }
+    bake_cluster *k = &b->cluster[b->cluster_count++];
+    memset(k, 0, sizeof *k);
     k->at = at;
-    k->normal = normal;
+    k->target.normal = normal;
     memcpy(k->cell, cell, sizeof cell);
     k->next = *slot;
-    *slot = (uint32_t)c->count;
+    *slot = b->cluster_count;
     return 1;
 }
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
-static int by_place(const void *a, const void *b)
+static int by_generation(const void *a, const void *b)
 {
-    const cluster *x = a, *y = b;
+    const bake_cluster *x = a, *y = b;
+    if (x->generation != y->generation) {
+        return x->generation < y->generation ? -1 : 1;
+    }
     return x->key != y->key ? (x->key < y->key ? -1 : 1) : x->next < y->next ? -1 : 1;
 }
 
-/* Neighbours side by side, because they see the same things; then the slots again. */
+/* Parents first, then neighbours side by side, because they see the same things; then the slots again. */
 static void put_in_order(clusters *c)
 {
-    if (c->count == 0) {
+    bake *b = c->b;
+    if (b->cluster_count == 0) {
         return;
     }
-    for (size_t i = 0; i < c->count; ++i) {
-        c->data[i].key = bake_key(c->b->scene, c->data[i].at, c->data[i].normal);
-        c->data[i].next = (uint32_t)i;
+    for (uint32_t i = 0; i < b->cluster_count; ++i) {
+        b->cluster[i].key = bake_key(b->scene, b->cluster[i].at, b->cluster[i].target.normal);
+        b->cluster[i].next = i;
     }
-    qsort(c->data, c->count, sizeof *c->data, by_place);
+    bake_generations(b->cluster, b->cluster_count, b->set.cluster_m);
+    qsort(b->cluster, b->cluster_count, sizeof *b->cluster, by_generation);
     memset(c->slot, 0, ((size_t)c->mask + 1) * sizeof *c->slot);
-    for (size_t i = 0; i < c->count; ++i) {
-        uint32_t *slot = &c->slot[hash_of(c->data[i].cell) & c->mask];
-        c->data[i].next = *slot;
-        *slot = (uint32_t)i + 1;
+    for (uint32_t i = 0; i < b->cluster_count; ++i) {
+        uint32_t *slot = &c->slot[hash_of(b->cluster[i].cell) & c->mask];
+        b->cluster[i].next = *slot;
+        *slot = i + 1;
     }
+}
+
+static int keep_row(bake_target *t, const float *row, size_t words, report *r)
+{
+    t->row = malloc(words * sizeof *t->row);
+    for (size_t i = 0; t->row != NULL && i < words; ++i) {
+        t->row[i] = bake_short(row[i]);
+    }
+    return t->row != NULL || report_fail(r, "not enough memory for the light at clusters");
 }
 
 static int make_rows(clusters *c)
@@ -109,22 +116,19 @@ static int make_rows(clusters *c)
     float *memory = malloc(3 * BATCH * (size_t)n * sizeof *memory), *row[3 * BATCH];
     lmb_vec3 at[BATCH], normal[BATCH];
     int ok = memory != NULL || report_fail(c->r, "not enough memory for %u elements", (unsigned)n);
-    for (size_t first = 0; ok && first < c->count; first += BATCH) {
-        const int count = (int)(c->count - first < BATCH ? c->count - first : BATCH);
+    for (uint32_t first = 0; ok && first < b->cluster_count; first += BATCH) {
+        bake_tell(b, "clusters", (double)first / (double)b->cluster_count);
+        const int count = (int)(b->cluster_count - first < BATCH ? b->cluster_count - first : BATCH);
         for (int k = 0; k < count; ++k) {
-            at[k] = c->data[first + (size_t)k].at;
-            normal[k] = c->data[first + (size_t)k].normal;
+            at[k] = b->cluster[first + (uint32_t)k].at;
+            normal[k] = b->cluster[first + (uint32_t)k].target.normal;
         }
         for (int k = 0; k < 3 * count; ++k) {
             row[k] = memory + (size_t)k * n;
         }
-        ok = bake_rows(b, at, normal, count, 3, row, c->r);
+        ok = bake_rows(b, at, normal, count, 3, row, NULL, c->r);
         for (int k = 0; k < count && ok; ++k) {
-            bake_words *links = &b->section[LMB_TRANSFER_CLUSTER_LINKS], *w = &b->section[LMB_TRANSFER_CLUSTERS];
-            uint32_t before = (uint32_t)(links->count / LMB_TRANSFER_CLUSTER_LINK_WORDS), used;
-            float scale;
-            ok = bake_links(b, row + 3 * k, 3, links, &used, &scale, c->r) && bake_put(w, before, c->r) &&
-                 bake_put(w, used, c->r) && bake_put_float(w, scale, c->r);
+            ok = keep_row(&b->cluster[first + (uint32_t)k].target, row[3 * k], 3 * (size_t)n, c->r);
         }
     }
     free(memory);
@@ -154,18 +158,18 @@ static void offer(candidate best[NEIGHBOURS], uint32_t number, float weight)
 /* Of all clusters, where none is within reach: the nearest that does not face away; where all do, the nearest. */
 static void offer_nearest(candidate best[NEIGHBOURS], const clusters *c, lmb_vec3 p, lmb_vec3 n)
 {
-    for (size_t i = 0; i < c->count; ++i) {
-        const lmb_vec3 d = sub3(c->data[i].at, p);
-        const float away = dot3(c->data[i].normal, n) > 0.0f ? 1.0f : 1e6f;
-        offer(best, (uint32_t)i, 1.0f / (away * (dot3(d, d) + 1e-12f)));
+    for (uint32_t i = 0; i < c->b->cluster_count; ++i) {
+        const lmb_vec3 d = sub3(c->b->cluster[i].at, p);
+        const float away = dot3(c->b->cluster[i].target.normal, n) > 0.0f ? 1.0f : 1e6f;
+        offer(best, i, 1.0f / (away * (dot3(d, d) + 1e-12f)));
     }
     for (int k = 1; k < NEIGHBOURS; ++k) {
         best[k].weight = 0.0f;
     }
 }
 
-/* Four clusters and their weights, of 255 in all. */
-static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n)
+/* Four clusters and their weights, of 255 in all. They light `area`. */
+static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, float area)
 {
     candidate best[NEIGHBOURS] = {{0, 0.0f}, {0, 0.0f}, {0, 0.0f}, {0, 0.0f}};
     bake_words *w = &c->b->section[LMB_TRANSFER_BLENDS];
@@ -174,9 +178,9 @@ static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n)
     cell_of(middle, c->b, p);
     for (int i = 0; i < 27; ++i) {
         const int32_t cell[3] = {middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
-        for (uint32_t k = c->slot[hash_of(cell) & c->mask]; k != 0; k = c->data[k - 1].next) {
-            const cluster *o = &c->data[k - 1];
-            const float far = length3(sub3(o->at, p)) / (REACH * c->b->set.cluster_m), cosine = dot3(o->normal, n);
+        for (uint32_t k = c->slot[hash_of(cell) & c->mask]; k != 0; k = c->b->cluster[k - 1].next) {
+            const bake_cluster *o = &c->b->cluster[k - 1];
+            const float far = length3(sub3(o->at, p)) / (REACH * c->b->set.cluster_m), cosine = dot3(o->target.normal, n);
             if (memcmp(o->cell, cell, sizeof cell) == 0 && far < 1.0f && cosine > BLEND) {
                 const float v = (1.0f - far) * (1.0f - far) * (cosine - BLEND) * (cosine - BLEND);
                 offer(best, k - 1, v * v);
@@ -193,6 +197,7 @@ static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n)
     for (int k = NEIGHBOURS - 1; k >= 0 && sum > 0.0f; --k) {
         const uint32_t own = k == 0 ? left : (uint32_t)(best[k].weight / sum * 255.0f + 0.5f);
         weights |= (own > left ? left : own) << 8 * k;
+        c->b->cluster[best[k].cluster].target.support += area * best[k].weight / sum;
         left -= own > left ? left : own;
     }
     return bake_put(w, best[0].cluster | best[1].cluster << 16, c->r) &&
@@ -240,7 +245,7 @@ static int bind_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, ui
     }
     for (int k = 0; k < 3; ++k) {
         const uint32_t blend = (uint32_t)(b->section[LMB_TRANSFER_BLENDS].count / LMB_TRANSFER_BLEND_WORDS);
-        if (!bake_put(corners, blend, c->r) || !put_blend(c, t->corner[k], normal)) {
+        if (!bake_put(corners, blend, c->r) || !put_blend(c, t->corner[k], normal, triangle_area(t->corner) * (1.0f / 3.0f))) {
             return 0;
         }
     }
@@ -249,14 +254,15 @@ static int bind_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, ui
 
 int bake_clusters(bake *b, report *r)
 {
-    clusters c = {b, NULL, 0, 0, NULL, (1u << 18) - 1, r};
+    clusters c = {b, NULL, (1u << 18) - 1, r};
     c.slot = calloc((size_t)c.mask + 1, sizeof *c.slot);
     int ok = c.slot != NULL || report_fail(r, "not enough memory for clusters");
     while (ok) {
-        c.count = 0;
+        b->cluster_count = 0;
         memset(c.slot, 0, ((size_t)c.mask + 1) * sizeof *c.slot);
         ok = visit(&c, cluster_triangle);
-        if (c.count >= TARGET || c.count * SHARING > b->small_count || b->set.cluster_m < b->set.smallest_m) {
+        if (b->cluster_count >= TARGET || b->cluster_count * SHARING > b->small_count ||
+            b->set.cluster_m < b->set.smallest_m) {
             break;
         }
         b->set.cluster_m *= 0.8f;
@@ -264,9 +270,7 @@ int bake_clusters(bake *b, report *r)
     if (ok) {
         put_in_order(&c);
     }
-    ok = ok && make_rows(&c) && visit(&c, bind_triangle);
-    b->clusters = (uint32_t)c.count;
+    ok = ok && make_rows(&c) && bake_parents(b, r) && visit(&c, bind_triangle);
     free(c.slot);
-    free(c.data);
     return ok;
 }

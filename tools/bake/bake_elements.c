@@ -99,6 +99,7 @@ typedef struct maker {
     float side;
     uint32_t *slot; /* of small triangles' cells: an element's number + 1 */
     uint32_t mask;
+    uint8_t *is_reached; /* a side of a triangle */
     int is_full;
     int emits; /* the triangle at hand */
     report *r;
@@ -123,6 +124,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     e->area = e->largest = triangle_area(corner);
     e->facing = 1.0f;
     e->is_one = 1;
+    e->open = 1.0f;
     e->emits = m->emits;
     e->number = b->element_count;
     for (int k = 0; k < 3; ++k) {
@@ -187,10 +189,12 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     if (m->is_full) {
         return 1;
     }
-    if (depth == LMB_TRANSFER_MAX_HALVINGS ||
-        (longest <= m->side && (longest <= CONTACT * m->side || bake_stands_free(&m->sight, m->b, corner, normal)))) {
-        const int small = depth == 0 && longest * 2.0f < m->side;
-        w->data[node] = LMB_TRANSFER_LEAF | (small ? small_element(m, corner, normal) : add_element(m, corner, normal));
+    const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
+    const int is_free = longest <= m->side && (is_small || bake_stands_free(&m->sight, m->b, corner, normal));
+    if (is_last || is_free || longest <= CONTACT * m->side) {
+        const uint32_t e = is_small ? small_element(m, corner, normal) : add_element(m, corner, normal);
+        w->data[node] = LMB_TRANSFER_LEAF | e;
+        m->b->element[e].is_stood_on = !is_free;
         return 1;
     }
     const int to = (from + 1) % 3;
@@ -220,7 +224,8 @@ static int add_triangle(maker *m, uint32_t id)
     m->emits = exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
     for (int back = 0; back < 2; ++back) {
         const int shows =
-            exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world));
+            exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world)) &&
+            m->is_reached[2 * (id - 1) + (size_t)back];
         surfaces->data[4 * (id - 1) + (size_t)back] = shows ? (uint32_t)pieces->count : LMB_TRANSFER_NONE;
         if (shows && (!bake_put(pieces, 0, m->r) ||
                       !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0))) {
@@ -285,11 +290,28 @@ int bake_order(bake *b, report *r)
     free(place);
     areas->count = 0;
     for (uint32_t i = 0; i < b->set.elements; ++i) {
-        if (!bake_put_float(areas, i < b->element_count ? b->element[i].area : 0.0f, r)) {
+        if (!bake_put_float(areas, i < b->element_count ? bake_open_area(&b->element[i]) : 0.0f, r)) {
             return 0;
         }
     }
     return 1;
+}
+
+/* Which sides are there: all, or those that an earlier call kept. */
+static int set_reached(maker *m, uint32_t all)
+{
+    bake_words *surfaces = &m->b->section[LMB_TRANSFER_SURFACES];
+    const int is_first = surfaces->count == 0;
+    m->is_reached = malloc(2 * (size_t)all + 1);
+    for (uint32_t i = 0; is_first && i < LMB_TRANSFER_SURFACE_WORDS * all; ++i) {
+        if (!bake_put(surfaces, LMB_TRANSFER_NONE, m->r)) {
+            return 0;
+        }
+    }
+    for (uint32_t i = 0; m->is_reached != NULL && i < 2 * all; ++i) {
+        m->is_reached[i] = is_first || surfaces->data[LMB_TRANSFER_SURFACE_WORDS * (i / 2) + i % 2] != LMB_TRANSFER_NONE;
+    }
+    return m->is_reached != NULL || report_fail(m->r, "not enough memory for %u triangles", (unsigned)all);
 }
 
 int bake_elements(bake *b, report *r)
@@ -298,28 +320,19 @@ int bake_elements(bake *b, report *r)
     memset(&m, 0, sizeof m);
     m.b = b;
     m.r = r;
-    const uint32_t all = lmb_scene_triangles(b->scene);
     m.mask = 4 * b->set.elements - 1;
     m.slot = malloc(20 * ((size_t)m.mask + 1));
+    free(b->element);
     b->element = calloc(b->set.elements, sizeof *b->element);
-    if (m.slot == NULL || b->element == NULL || !bake_sight_begin(&m.sight, r)) {
-        free(m.slot);
-        bake_sight_end(&m.sight);
-        return report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
-    }
-    for (uint32_t i = 0; i < 4 * all; ++i) {
-        if (!bake_put(&b->section[LMB_TRANSFER_SURFACES], LMB_TRANSFER_NONE, r)) {
-            free(m.slot);
-            bake_sight_end(&m.sight);
-            return 0;
-        }
-    }
-    int ok;
-    m.side = sqrtf(b->area / (float)b->set.elements);
-    while ((ok = make(&m)) != 0 && m.is_full) {
+    int ok = (m.slot != NULL && b->element != NULL) ||
+             report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
+    ok = ok && bake_sight_begin(&m.sight, r) && set_reached(&m, lmb_scene_triangles(b->scene));
+    m.side = 0.5f * sqrtf(b->area / (float)b->set.elements);
+    while (ok && (ok = make(&m)) != 0 && m.is_full) {
         m.side *= 1.1f;
     }
     free(m.slot);
+    free(m.is_reached);
     bake_sight_end(&m.sight);
     return ok && bake_order(b, r);
 }

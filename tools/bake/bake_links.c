@@ -8,13 +8,51 @@
 #include "../../src/base/vec.h"
 
 enum { AXES = 3, MAX_LINKS = 4096 };
+#define ACROSS 0.35f /* of an error across the normal: what counts of it on surfaces turned by up to some 50 degrees */
 
 /* Sums over a node's elements, of one row. */
 typedef struct sums {
-    float w[AXES]; /* what arrives */
+    float w[AXES]; /* what arrives; of three axes along the linker's own */
     float a;       /* area */
     float error;   /* squared error of taking the node as one */
 } sums;
+
+/* A node that is to be linked, or taken apart. */
+typedef struct entry {
+    float error;
+    uint32_t node;
+} entry;
+
+struct bake_linker {
+    const bake *b;
+    int axes;
+    lmb_vec3 axis[AXES]; /* the last one the normal */
+    sums *sum;
+    entry heap[MAX_LINKS + 4];
+};
+
+bake_linker *bake_linker_new(const bake *b, report *r)
+{
+    bake_linker *l = calloc(1, sizeof *l);
+    if (l != NULL) {
+        l->b = b;
+        l->sum = malloc(((size_t)b->set.elements / 3 * 4 + 2) * sizeof *l->sum);
+    }
+    if (l == NULL || l->sum == NULL) {
+        bake_linker_free(l);
+        report_fail(r, "not enough memory for links to %u elements", (unsigned)b->set.elements);
+        return NULL;
+    }
+    return l;
+}
+
+void bake_linker_free(bake_linker *l)
+{
+    if (l != NULL) {
+        free(l->sum);
+        free(l);
+    }
+}
 
 /* A node as one says that each child gives as much as its area is. The error is what that is off by, times how much
  * light differs among the children. Lit and dark places meet along lines: a node of twice the side is as likely again
@@ -60,33 +98,46 @@ static uint32_t root_of(uint32_t elements)
     return nodes - 1;
 }
 
-static void set_sums(sums *s, const bake *b, float *const *row, int axes)
+/* Each error counts in full along the normal, and less across it. */
+static void set_axes(bake_linker *l, int axes, lmb_vec3 normal)
 {
-    const uint32_t n = b->set.elements;
+    l->axes = axes;
+    l->axis[2] = normal;
+    l->axis[0] = normalize3(cross3(normal, absf(normal.x) < 0.7f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f)));
+    l->axis[1] = cross3(normal, l->axis[0]);
+}
+
+static void set_leaf(const bake_linker *l, sums *s, float *const *row, uint32_t i)
+{
+    memset(s, 0, sizeof *s);
+    s->a = bake_open_area(&l->b->element[i]);
+    s->w[0] = row[0][i];
+    if (l->axes == AXES) {
+        const lmb_vec3 v = vec3(row[0][i], row[1][i], row[2][i]);
+        s->w[0] = ACROSS * dot3(v, l->axis[0]);
+        s->w[1] = ACROSS * dot3(v, l->axis[1]);
+        s->w[2] = dot3(v, l->axis[2]);
+    }
+}
+
+static void set_sums(bake_linker *l, float *const *row)
+{
+    const uint32_t n = l->b->set.elements;
     float likely = 1.0f;
     for (uint32_t i = 0; i < n; ++i) {
-        memset(&s[i], 0, sizeof s[i]);
-        s[i].a = b->element[i].area;
-        for (int k = 0; k < axes; ++k) {
-            s[i].w[k] = row[k][i];
-        }
+        set_leaf(l, &l->sum[i], row, i);
     }
     uint32_t below = 0, at = n;
     for (uint32_t count = n / 4; count > 0; count /= 4, likely *= 2.0f) {
         for (uint32_t i = 0; i < count; ++i) {
-            join(&s[at + i], &s[below + 4 * i], likely);
+            join(&l->sum[at + i], &l->sum[below + 4 * i], likely);
         }
         below = at;
         at += count;
     }
 }
 
-/* --- a cut: the node with the largest error is taken apart until their sum is small enough ------------------------ */
-
-typedef struct entry {
-    float error;
-    uint32_t node;
-} entry;
+/* --- a cut: the node with the largest error is taken apart until each is small enough ------------------------------ */
 
 static void push(entry *heap, uint32_t *count, entry e)
 {
@@ -113,32 +164,23 @@ static entry pop(entry *heap, uint32_t *count)
     return top;
 }
 
-static uint32_t cut(entry *heap, const sums *s, uint32_t elements, float error2)
+static uint32_t cut(bake_linker *l, float price)
 {
+    const uint32_t elements = l->b->set.elements, top = root_of(elements);
+    const sums *s = l->sum;
+    const entry root = {s[top].error, top};
     uint32_t count = 0, first;
-    const uint32_t top = root_of(elements);
-    entry root = {s[top].error, top};
-    float sum = root.error;
-    push(heap, &count, root);
-    while (sum > error2 && count + 3 < MAX_LINKS && heap[0].error > 0.0f) {
-        const entry e = pop(heap, &count);
+    push(l->heap, &count, root);
+    while (count + 3 < MAX_LINKS && l->heap[0].error > price) {
+        const entry e = pop(l->heap, &count);
         const uint32_t level = level_of(elements, &first, e.node), below = first - (elements >> 2 * (level - 1));
-        sum = maxf(sum - e.error, 0.0f);
         for (uint32_t k = 0; k < 4; ++k) {
             const uint32_t child = below + 4 * (e.node - first) + k;
-            entry c = {s[child].error, child};
-            sum += c.error;
-            push(heap, &count, c);
+            const entry c = {s[child].error, child};
+            push(l->heap, &count, c);
         }
     }
     return count;
-}
-
-/* Links that hardly count go, smallest first, as long as the sum of their squares is small enough. */
-static int by_size(const void *a, const void *b)
-{
-    const entry *x = a, *y = b;
-    return x->error != y->error ? (x->error < y->error ? -1 : 1) : x->node < y->node ? -1 : 1;
 }
 
 static int by_node(const void *a, const void *b)
@@ -147,20 +189,17 @@ static int by_node(const void *a, const void *b)
     return x->node < y->node ? -1 : 1;
 }
 
-static uint32_t drop_small(entry *heap, const sums *s, uint32_t count, float error2)
+/* Links that hardly count go. */
+static uint32_t drop_small(bake_linker *l, uint32_t count, float price)
 {
-    uint32_t gone = 0;
-    float sum = 0.0f;
+    uint32_t kept = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        heap[i].error = size_of(&s[heap[i].node]);
+        if (size_of(&l->sum[l->heap[i].node]) > price) {
+            l->heap[kept++] = l->heap[i];
+        }
     }
-    qsort(heap, count, sizeof *heap, by_size);
-    while (gone < count && sum + heap[gone].error <= error2) {
-        sum += heap[gone++].error;
-    }
-    memmove(heap, heap + gone, (count - gone) * sizeof *heap);
-    qsort(heap, count - gone, sizeof *heap, by_node);
-    return count - gone;
+    qsort(l->heap, kept, sizeof *l->heap, by_node);
+    return kept;
 }
 
 /* --- weights ------------------------------------------------------------------------------------------------------ */
@@ -178,6 +217,19 @@ static void make_up(sums *s, const entry *link, uint32_t count, const sums *all)
         for (uint32_t i = 0; i < count && absf(share) < 0.5f; ++i) {
             s[link[i].node].w[k] += share * absf(s[link[i].node].w[k]);
         }
+    }
+}
+
+/* From the linker's axes to those of rows. */
+static void turn_back(const bake_linker *l, uint32_t count)
+{
+    for (uint32_t i = 0; l->axes == AXES && i < count; ++i) {
+        float *w = l->sum[l->heap[i].node].w;
+        const lmb_vec3 across = add3(mul3(l->axis[0], w[0]), mul3(l->axis[1], w[1]));
+        const lmb_vec3 turned = add3(mul3(across, 1.0f / ACROSS), mul3(l->axis[2], w[2]));
+        w[0] = turned.x;
+        w[1] = turned.y;
+        w[2] = turned.z;
     }
 }
 
@@ -200,7 +252,7 @@ static void spread(const bake *b, float *row, uint32_t node, float weight, float
     uint32_t first;
     const uint32_t level = level_of(b->set.elements, &first, node), from = (node - first) << 2 * level;
     for (uint32_t i = from; i < from + (1u << 2 * level); ++i) {
-        row[i] = area > 0.0f ? weight * (b->element[i].area / area) : 0.0f;
+        row[i] = area > 0.0f ? weight * (bake_open_area(&b->element[i]) / area) : 0.0f;
     }
 }
 
@@ -210,48 +262,46 @@ static int put_link(bake_words *links, uint32_t node, const int32_t *weight, int
            (axes == 1 || bake_put(links, ((uint32_t)weight[1] & 0xffffu) | ((uint32_t)weight[2] & 0xffffu) << 16, r));
 }
 
-int bake_links(const bake *b, float *const *row, int axes, bake_words *links, uint32_t *count, float *scale, report *r)
+int bake_links(bake_linker *l, float *const *row, int axes, lmb_vec3 normal, float price, bake_words *links,
+               uint32_t *count, float *scale, report *r)
 {
-    const float error2 = b->set.error * b->set.error;
-    sums *s = malloc(((size_t)b->set.elements / 3 * 4 + 2) * sizeof *s);
-    entry *heap = malloc((MAX_LINKS + 4) * sizeof *heap);
-    int ok = s != NULL && heap != NULL;
+    int ok = 1;
+    set_axes(l, axes, normal);
+    set_sums(l, row);
+    const uint32_t chosen = drop_small(l, cut(l, price), price);
+    make_up(l->sum, l->heap, chosen, &l->sum[root_of(l->b->set.elements)]);
+    turn_back(l, chosen);
     *count = 0;
-    *scale = 0.0f;
-    if (ok) {
-        set_sums(s, b, row, axes);
-        const uint32_t chosen = drop_small(heap, s, cut(heap, s, b->set.elements, error2), error2);
-        make_up(s, heap, chosen, &s[root_of(b->set.elements)]);
-        *scale = scale_for(s, heap, chosen);
+    *scale = scale_for(l->sum, l->heap, chosen);
+    for (int k = 0; k < axes; ++k) {
+        memset(row[k], 0, l->b->set.elements * sizeof *row[k]);
+    }
+    for (uint32_t i = 0; i < chosen && ok && *scale > 0.0f; ++i) {
+        const sums *node = &l->sum[l->heap[i].node];
+        int32_t weight[AXES] = {0, 0, 0};
         for (int k = 0; k < axes; ++k) {
-            memset(row[k], 0, b->set.elements * sizeof *row[k]);
+            weight[k] = (int32_t)lrintf(node->w[k] / *scale);
+            spread(l->b, row[k], l->heap[i].node, (float)weight[k] * *scale, node->a);
         }
-        for (uint32_t i = 0; i < chosen && ok && *scale > 0.0f; ++i) {
-            const sums *node = &s[heap[i].node];
-            int32_t weight[AXES] = {0, 0, 0};
-            for (int k = 0; k < axes; ++k) {
-                weight[k] = (int32_t)lrintf(node->w[k] / *scale);
-                spread(b, row[k], heap[i].node, (float)weight[k] * *scale, node->a);
-            }
-            if (weight[0] != 0 || weight[1] != 0 || weight[2] != 0) {
-                ok = put_link(links, heap[i].node, weight, axes, r);
-                ++*count;
-            }
+        if (weight[0] != 0 || weight[1] != 0 || weight[2] != 0) {
+            ok = put_link(links, l->heap[i].node, weight, axes, r);
+            ++*count;
         }
     }
-    free(s);
-    free(heap);
-    return ok || report_fail(r, "not enough memory for the links of a receiver");
+    return ok;
 }
 
+/* Groups of a 256th of the elements, and fours: beside these receivers light has finer detail. */
 float bake_surplus(const bake *b, const float *row)
 {
-    const uint32_t each = b->set.elements / 256 > 0 ? b->set.elements / 256 : 1;
+    const uint32_t each = b->set.elements / 256 > 4 ? b->set.elements / 256 : 4;
     float sum2 = 0.0f;
     for (uint32_t i = 0; i < b->set.elements; i += each) {
         float sum = 0.0f;
-        for (uint32_t k = 0; k < each; ++k) {
-            sum += row[i + k];
+        for (uint32_t k = i; k < i + each; k += 4) {
+            const float four = row[k] + row[k + 1] + row[k + 2] + row[k + 3];
+            sum2 += four * four;
+            sum += four;
         }
         sum2 += sum * sum;
     }

@@ -1,12 +1,15 @@
 /* bake_reach.c: which sides of surfaces light can come to, and be seen from: the insides of solids are left out. */
 #include "bake.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../../src/base/vec.h"
 
-enum { BATCH = 64 };
+enum { BATCH = 64, PARTS = 64, WITNESSES = 64 };
+#define BRIGHT 0.01f /* of the mean */
+#define OVER 0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
 
 #define ALBEDO 0.5f  /* of all surfaces */
 #define DARK   1e-6f /* of the brightest element: less came through a crack */
@@ -22,6 +25,7 @@ typedef struct reach {
     uint8_t *has_sent; /* an element */
     sender *order;     /* the brightest first */
     float *memory;
+    float bright; /* light over this came through no crack */
     report *r;
 } reach;
 
@@ -32,7 +36,7 @@ static int send(reach *w, const lmb_vec3 *at, const lmb_vec3 *normal, const floa
     for (int k = 0; k < count; ++k) {
         row[k] = w->memory + (size_t)k * w->b->set.elements;
     }
-    if (!bake_rows(w->b, at, normal, count, 1, row, w->r)) {
+    if (!bake_rows(w->b, at, normal, count, 1, row, NULL, w->r)) {
         return 0;
     }
     for (int k = 0; k < count; ++k) {
@@ -62,14 +66,14 @@ static int by_light(const void *a, const void *b)
     return x->light != y->light ? (x->light > y->light ? -1 : 1) : x->element < y->element ? -1 : 1;
 }
 
-/* The brightest elements that have not sent their light yet; returns how many. */
+/* The brightest elements that have not sent their light yet, but for those that lie half in a solid; returns how many. */
 static int next_senders(reach *w, uint32_t chosen[BATCH])
 {
     const bake *b = w->b;
     int count = 0;
     for (uint32_t i = 0; i < b->element_count; ++i) {
         w->order[i].element = i;
-        w->order[i].light = b->element[i].light;
+        w->order[i].light = b->element[i].is_stood_on ? 0.0f : b->element[i].light;
     }
     qsort(w->order, b->element_count, sizeof *w->order, by_light);
     for (uint32_t i = 0; i < b->element_count && count < BATCH; ++i) {
@@ -120,10 +124,100 @@ static int is_side_reached(const reach *w, uint32_t root)
 {
     const uint32_t *node = w->b->section[LMB_TRANSFER_PIECES].data;
     if (node[root] & LMB_TRANSFER_LEAF) {
-        return w->has_sent[node[root] & ~LMB_TRANSFER_LEAF];
+        const uint32_t e = node[root] & ~LMB_TRANSFER_LEAF;
+        return w->b->element[e].is_stood_on ? w->b->element[e].open > 0.0f : w->has_sent[e];
     }
     const uint32_t first = node[root] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
     return is_side_reached(w, first) || is_side_reached(w, first + 1);
+}
+
+/* --- elements on which something stands --------------------------------------------------------------------------- */
+
+/* The nearest reached elements that it faces, and that face it. Returns how many. */
+static int witnesses_of(lmb_vec3 out[WITNESSES], const reach *w, const bake_element *e)
+{
+    float far[WITNESSES];
+    int found = 0;
+    for (uint32_t i = 0; i < w->b->element_count; ++i) {
+        const bake_element *o = &w->b->element[i];
+        const lmb_vec3 d = sub3(o->middle, e->middle);
+        const float d2 = dot3(d, d);
+        if (!w->has_sent[i] || o->is_stood_on || dot3(d, e->normal) < 0.1f * sqrtf(d2) || dot3(d, o->normal) > 0.0f ||
+            (found == WITNESSES && d2 >= far[found - 1])) {
+            continue;
+        }
+        found += found < WITNESSES;
+        int at = found - 1;
+        for (; at > 0 && far[at - 1] > d2; --at) {
+            far[at] = far[at - 1];
+            out[at] = out[at - 1];
+        }
+        far[at] = d2;
+        out[at] = o->middle;
+    }
+    return found;
+}
+
+/* The middles of its 64 parts, and places just over them. */
+static void set_parts(const bake *b, const bake_element *e, lmb_vec3 at[PARTS], lmb_tile *tile)
+{
+    const lmb_vec3 u = mul3(sub3(e->corner[1], e->corner[0]), 0.125f), v = mul3(sub3(e->corner[2], e->corner[0]), 0.125f);
+    const lmb_vec3 up = mul3(e->normal, OVER * b->set.smallest_m);
+    int count = 0;
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 15 - 2 * y; ++x) {
+            const float third = x % 2 == 0 ? 1.0f / 3.0f : 2.0f / 3.0f;
+            const lmb_vec3 p =
+                add3(e->corner[0], add3(mul3(u, (float)(x / 2) + third), mul3(v, (float)y + third)));
+            at[count] = p;
+            tile->position[0][count] = p.x + up.x;
+            tile->position[1][count] = p.y + up.y;
+            tile->position[2][count] = p.z + up.z;
+            tile->depth[count] = 1.0f;
+            tile->id[count++] = 1;
+        }
+    }
+    tile->hits = count;
+}
+
+/* Parts are open that see some surface that light came to. */
+static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_traversal *traversal)
+{
+    lmb_vec3 witness[WITNESSES], at[PARTS], sum = vec3(0.0f, 0.0f, 0.0f);
+    uint64_t hidden = ~(uint64_t)0;
+    const int count = witnesses_of(witness, w, e);
+    set_parts(w->b, e, at, tile);
+    const float noise = lmb_tile_noise(tile, hidden);
+    for (int k = 0; k < count && hidden != 0; ++k) {
+        hidden &= lmb_occluded_tile(&w->b->bvh, w->b->kernels, tile, hidden, witness[k],
+                                    noise + lmb_place_noise(witness[k], 0.0f), traversal);
+    }
+    const int open = PARTS - count_bits_64(hidden);
+    for (uint64_t bits = ~hidden; bits != 0; bits &= bits - 1) {
+        sum = add3(sum, at[lowest_bit_64(bits)]);
+    }
+    if (open == 0 && e->light > w->bright) { /* its middle is lit, by what is none of those */
+        return;
+    }
+    e->open = (float)open * (1.0f / (float)PARTS);
+    e->middle = open > 0 ? mul3(sum, 1.0f / (float)open) : e->middle;
+}
+
+static int open_elements(reach *w)
+{
+    lmb_tile *tile = calloc(1, sizeof *tile);
+    lmb_traversal traversal;
+    memset(&traversal, 0, sizeof traversal);
+    for (uint32_t i = 0; i < w->b->element_count; ++i) {
+        w->bright += BRIGHT * w->b->element[i].light / (float)w->b->element_count;
+    }
+    for (uint32_t i = 0; tile != NULL && i < w->b->element_count; ++i) {
+        if (w->b->element[i].is_stood_on) {
+            open_element(w, &w->b->element[i], tile, &traversal);
+        }
+    }
+    free(tile);
+    return tile != NULL || report_fail(w->r, "not enough memory for a tile");
 }
 
 /* What no light came to is no part of what a node sends, either: its mean is over what light comes to. */
@@ -137,15 +231,15 @@ static void sort_out(const reach *w)
     }
     for (uint32_t i = 0; i < b->element_count; ++i) {
         bake_element *e = &b->element[i];
-        e->is_hidden = (double)e->light < HIDDEN * light / area;
-        e->is_dark = !w->has_sent[i];
+        e->is_hidden = !e->is_stood_on && (double)e->light < HIDDEN * light / area;
+        e->is_dark = e->is_stood_on ? !(e->open > 0.0f) : !w->has_sent[i];
         e->area = e->is_dark ? 0.0f : e->area;
     }
 }
 
-int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
+static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
-    reach w = {b, NULL, NULL, NULL, r};
+    reach w = {b, NULL, NULL, NULL, 0.0f, r};
     bake_words *surfaces = &b->section[LMB_TRANSFER_SURFACES];
     if (count + b->scene->light_count == 0) {
         for (uint32_t i = 0; i < b->element_count; ++i) {
@@ -161,6 +255,7 @@ int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
     b->by_middles = 1; /* what lies half in a solid must not lead into it */
     ok = ok && spread(&w, eyes, count);
     b->by_middles = 0;
+    ok = ok && open_elements(&w);
     for (size_t i = 0; ok && i < surfaces->count; ++i) {
         if (i % LMB_TRANSFER_SURFACE_WORDS < 2 && surfaces->data[i] != LMB_TRANSFER_NONE &&
             !is_side_reached(&w, surfaces->data[i])) {
@@ -175,4 +270,10 @@ int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
     free(w.order);
     free(w.memory);
     return ok;
+}
+
+/* Once to leave out whole sides; then all elements lie on the others. */
+int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
+{
+    return bake_elements(b, r) && find_reached(b, eyes, count, r) && bake_elements(b, r) && find_reached(b, eyes, count, r);
 }

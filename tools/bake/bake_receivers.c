@@ -5,11 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../platform/host/pool.h"
 #include "bake_triangle.h"
 #include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64 };
-#define STANDS 0.2f /* surplus of a triangle on which something stands, at least */
+#define STANDS 0.1f /* surplus of a triangle on which something stands: what its corners differ by says nothing */
 
 /* A triangle of the division. */
 typedef struct piece {
@@ -32,6 +33,7 @@ typedef struct wanted {
     uint32_t parent[3], receiver; /* receiver NONE: looked at: what differs from the mean of three parents */
     size_t piece;
     uint32_t key; /* place along a Z curve, by the side it faces */
+    float surplus;
     size_t number;
 } wanted;
 
@@ -95,7 +97,7 @@ static int is_there(const bake *b, const bake_receiver *v, lmb_vec3 at, lmb_vec3
 {
     const lmb_vec3 d = sub3(v->place, at);
     const float reach = 0.3f * b->set.smallest_m;
-    return dot3(d, d) < reach * reach && dot3(v->normal, normal) > 0.99f;
+    return dot3(d, d) < reach * reach && dot3(v->target.normal, normal) > 0.99f;
 }
 
 static uint32_t hash_of(const bake *b, lmb_vec3 at, int dx, int dy, int dz)
@@ -127,7 +129,7 @@ static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 n
 {
     bake *k = d->b;
     size_t cap = k->receiver_cap;
-    const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1, 0, 0};
+    const wanted w = {at, normal, {a, b, LMB_TRANSFER_NONE}, k->receiver_count, (size_t)-1, 0, 0.0f, 0};
     if (k->receiver_count >= d->mask / 2 ||
         !grow((void **)&k->receiver, &cap, k->receiver_count, sizeof *k->receiver, d->r) || !enqueue(d, &w)) {
         report_fail(d->r, "too many receivers: %u", (unsigned)k->receiver_count);
@@ -138,9 +140,11 @@ static uint32_t add_receiver(divider *d, lmb_vec3 place, lmb_vec3 at, lmb_vec3 n
     memset(v, 0, sizeof *v);
     v->place = place;
     v->at = at;
-    v->normal = normal;
-    v->parent[0] = a;
-    v->parent[1] = b;
+    v->target.normal = normal;
+    for (int i = 0; i < 2 && a != LMB_TRANSFER_NONE; ++i) {
+        v->target.parent[i] = i == 0 ? a : b;
+        v->target.share[i] = 0.5f;
+    }
     uint32_t h = hash_of(k, place, 0, 0, 0);
     for (; shared && d->slot[h & d->mask] != 0; ++h) {
     }
@@ -161,10 +165,10 @@ static uint32_t receiver_at(divider *d, lmb_vec3 at, lmb_vec3 normal, lmb_vec3 t
 /* Light that comes to a receiver, by what bake_reach found: in a solid hardly any. */
 static float openness(const bake *b, uint32_t receiver)
 {
-    const float *row = b->receiver[receiver].row;
+    const uint16_t *row = b->receiver[receiver].target.row;
     float sum = 0.0f;
     for (uint32_t i = 0; row != NULL && i < b->set.elements; ++i) {
-        sum += row[i] * b->element[i].light;
+        sum += bake_long(row[i]) * b->element[i].light;
     }
     return sum;
 }
@@ -215,55 +219,83 @@ static int mend_corners(divider *d, piece *p)
 
 /* --- rows --------------------------------------------------------------------------------------------------------- */
 
-/* From a row that arrives to links: what the parents do not say. */
-static int settle(divider *d, const wanted *w, float *row)
+/* One batch: what is wanted, and its rows. */
+typedef struct batch {
+    divider *d;
+    wanted *wanted;
+    float *const *row;
+    const float *times; /* NULL: rows are whole */
+} batch;
+
+/* A receiver keeps its row; of what is not a root the surplus is what that differs by from its parents'. */
+static void settle(void *user, int index, int worker)
 {
-    bake *b = d->b;
+    const batch *k = user;
+    const bake *b = k->d->b;
     const uint32_t n = b->set.elements;
-    int parents = 0;
-    for (int k = 0; k < 3; ++k) {
-        parents += w->parent[k] != LMB_TRANSFER_NONE;
+    wanted *w = &k->wanted[index];
+    float *row = k->row[index];
+    const int parents = w->parent[0] == LMB_TRANSFER_NONE ? 0 : w->parent[2] == LMB_TRANSFER_NONE ? 2 : 3;
+    (void)worker;
+    for (uint32_t i = 0; w->receiver != LMB_TRANSFER_NONE && i < n; ++i) {
+        b->receiver[w->receiver].target.row[i] = bake_short(row[i]);
     }
-    for (int k = 0; k < 3; ++k) {
-        const float *from = w->parent[k] != LMB_TRANSFER_NONE ? b->receiver[w->parent[k]].row : NULL;
-        for (uint32_t i = 0; from != NULL && i < n; ++i) {
-            row[i] -= from[i] / (float)parents;
-        }
-    }
-    if (parents > 0 && w->piece != (size_t)-1) {
-        piece *p = &d->now.data[w->piece];
-        p->surplus = maxf(p->surplus, bake_surplus(b, row));
-    }
-    if (w->receiver == LMB_TRANSFER_NONE) {
-        return 1;
-    }
-    bake_receiver *v = &b->receiver[w->receiver];
-    bake_words *links = &b->section[LMB_TRANSFER_LINKS];
-    v->first_link = (uint32_t)links->count;
-    v->row = malloc(n * sizeof *v->row);
-    if (v->row == NULL) {
-        return report_fail(d->r, "not enough memory for %u receivers", (unsigned)b->receiver_count);
-    }
-    if (!bake_links(b, &row, 1, links, &v->links, &v->scale, d->r)) {
-        return 0;
-    }
-    memcpy(v->row, row, n * sizeof *v->row);
-    for (int k = 0; k < 2 && w->parent[k] != LMB_TRANSFER_NONE; ++k) {
-        const float *from = b->receiver[w->parent[k]].row;
+    for (int p = 0; p < parents && w->piece != (size_t)-1; ++p) {
+        const uint16_t *from = b->receiver[w->parent[p]].target.row;
         for (uint32_t i = 0; i < n; ++i) {
-            v->row[i] += 0.5f * from[i];
+            row[i] -= bake_long(from[i]) * (1.0f / (float)parents);
         }
     }
-    return 1;
+    for (uint32_t i = 0; k->times != NULL && i < n; ++i) {
+        row[i] *= k->times[i];
+    }
+    w->surplus = parents > 0 && w->piece != (size_t)-1 ? bake_surplus(b, row) : 0.0f;
 }
 
 static int by_key(const void *a, const void *b)
 {
     const wanted *x = a, *y = b;
+    if ((x->receiver == LMB_TRANSFER_NONE) != (y->receiver == LMB_TRANSFER_NONE)) {
+        return x->receiver == LMB_TRANSFER_NONE ? 1 : -1;
+    }
     if (x->key != y->key) {
         return x->key < y->key ? -1 : 1;
     }
     return x->number < y->number ? -1 : x->number > y->number;
+}
+
+static int keep_rows(divider *d, const wanted *w, int count)
+{
+    for (int k = 0; k < count; ++k) {
+        bake_target *t = w[k].receiver != LMB_TRANSFER_NONE ? &d->b->receiver[w[k].receiver].target : NULL;
+        if (t != NULL && (t->row = malloc(d->b->set.elements * sizeof *t->row)) == NULL) {
+            return report_fail(d->r, "not enough memory for %u receivers", (unsigned)d->b->receiver_count);
+        }
+    }
+    return 1;
+}
+
+/* Points that are only looked at get along with a quarter of the far elements. */
+static int make_batch(divider *d, wanted *w, int count, float *const *row, float *times)
+{
+    const int is_look = w->receiver == LMB_TRANSFER_NONE;
+    lmb_vec3 at[BATCH], normal[BATCH];
+    batch k = {d, w, row, is_look ? times : NULL};
+    for (int i = 0; i < count; ++i) {
+        at[i] = w[i].at;
+        normal[i] = w[i].normal;
+    }
+    if (!keep_rows(d, w, count) || !bake_rows(d->b, at, normal, count, 1, row, is_look ? times : NULL, d->r)) {
+        return 0;
+    }
+    pool_run(d->b->set.threads, count, settle, &k);
+    for (int i = 0; i < count; ++i) {
+        if (w[i].piece != (size_t)-1) {
+            piece *p = &d->now.data[w[i].piece];
+            p->surplus = maxf(p->surplus, w[i].surplus);
+        }
+    }
+    return 1;
 }
 
 /* Everything in the queue. Neighbours go together: they see the same things. */
@@ -275,20 +307,19 @@ static int make_rows(divider *d)
     }
     sort(d->queue, d->queued, sizeof *d->queue, by_key);
     const uint32_t n = d->b->set.elements;
-    float *memory = malloc(BATCH * (size_t)n * sizeof *memory), *row[BATCH];
-    lmb_vec3 at[BATCH], normal[BATCH];
+    float *memory = malloc((BATCH + 1) * (size_t)n * sizeof *memory), *row[BATCH];
     int ok = memory != NULL || report_fail(d->r, "not enough memory for %u elements", (unsigned)n);
-    for (size_t first = 0; ok && first < d->queued; first += BATCH) {
-        const int count = (int)(d->queued - first < BATCH ? d->queued - first : BATCH);
-        for (int k = 0; k < count; ++k) {
-            at[k] = d->queue[first + (size_t)k].at;
-            normal[k] = d->queue[first + (size_t)k].normal;
-            row[k] = memory + (size_t)k * n;
+    for (int k = 0; k < BATCH; ++k) {
+        row[k] = ok ? memory + (size_t)k * n : NULL;
+    }
+    for (size_t first = 0, count; ok && first < d->queued; first += count) {
+        wanted *w = &d->queue[first];
+        for (count = 1; count < BATCH && first + count < d->queued; ++count) {
+            if ((w[count].receiver == LMB_TRANSFER_NONE) != (w->receiver == LMB_TRANSFER_NONE)) {
+                break;
+            }
         }
-        ok = bake_rows(d->b, at, normal, count, 1, row, d->r);
-        for (int k = 0; k < count && ok; ++k) {
-            ok = settle(d, &d->queue[first + (size_t)k], row[k]);
-        }
+        ok = make_batch(d, w, (int)count, row, memory + BATCH * (size_t)n);
     }
     free(memory);
     d->queued = 0;
@@ -318,12 +349,12 @@ static int look_at(divider *d, size_t i)
     } else if (p->mid != LMB_TRANSFER_NONE) { /* a neighbour's: looked at once more */
         const uint32_t a = p->receiver[p->from], b = p->receiver[to];
         const wanted w = {
-            d->b->receiver[p->mid].at, p->normal, {a, b, LMB_TRANSFER_NONE}, LMB_TRANSFER_NONE, i, 0, 0};
+            d->b->receiver[p->mid].at, p->normal, {a, b, LMB_TRANSFER_NONE}, LMB_TRANSFER_NONE, i, 0, 0.0f, 0};
         if (!enqueue(d, &w)) {
             return 0;
         }
     }
-    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0, 0};
+    const wanted w = {middle, p->normal, {p->receiver[0], p->receiver[1], p->receiver[2]}, LMB_TRANSFER_NONE, i, 0, 0.0f, 0};
     return p->mid != LMB_TRANSFER_NONE && enqueue(d, &w);
 }
 
@@ -334,6 +365,9 @@ static int put_leaf(divider *d, piece *p)
         LMB_TRANSFER_LEAF | (uint32_t)(corners->count / LMB_TRANSFER_CORNER_WORDS);
     if (!mend_corners(d, p)) {
         return 0;
+    }
+    for (int k = 0; k < 3; ++k) {
+        d->b->receiver[p->receiver[k]].target.support += triangle_area(p->corner) * (1.0f / 3.0f);
     }
     return bake_put(corners, p->receiver[0], d->r) && bake_put(corners, p->receiver[1], d->r) &&
            bake_put(corners, p->receiver[2], d->r);
@@ -368,7 +402,7 @@ static int split(divider *d, const piece *p, int last)
 static float error_of(const bake *b, const piece *p)
 {
     const float share = triangle_area(p->corner) / b->area * 1000.0f;
-    const float surplus = p->must_split ? maxf(p->surplus, STANDS) : p->surplus;
+    const float surplus = p->must_split ? STANDS : p->surplus;
     return surplus * surplus * share;
 }
 
@@ -489,8 +523,7 @@ int bake_receivers(bake *b, report *r)
     int ok = d.slot != NULL || report_fail(r, "not enough memory for receivers");
     ok = ok && bake_sight_begin(&d.sight, r) && add_roots(&d);
     while (ok && d.now.count > 0) {
-        report_note(b->is_quiet, "bake: %u receivers, %.0f links", (unsigned)b->receiver_count,
-                    (double)b->section[LMB_TRANSFER_LINKS].count);
+        bake_tell(b, "receivers", minf((float)b->receiver_count / (float)b->set.receivers, 1.0f));
         ok = look_at_all(&d) && halve_worst(&d);
     }
     for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their middles are there: they serve too */

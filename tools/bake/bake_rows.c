@@ -10,7 +10,7 @@
 #include "bake_triangle.h"
 
 #define DISC2 100.0f /* squared distance, of a part's squared reach, from which it counts as a disc: 0.5 % at most */
-enum { CHUNK = 64, CUTS = 4 };
+enum { CHUNK = 64, CUTS = 4, FEW = 4 };
 
 /* Nearer than this, of an element's squared reach, it is cut into four, each again: what stands beside a point hides
  * some of an element, and just what lies nearest counts most. */
@@ -21,6 +21,7 @@ typedef struct rows {
     const lmb_tile *tile;
     const lmb_vec3 *at, *normal;
     float *const *row;
+    float *times;
     int count, axes;
     lmb_traversal *traversal; /* one a thread */
 } rows;
@@ -84,8 +85,8 @@ static int cuts_for(const bake_element *e, lmb_vec3 at)
     return cuts;
 }
 
-/* One part and the points that take it as a whole. */
-static void add_part(const rows *w, uint32_t j, const part *p, uint64_t points, int worker)
+/* One part and the points that take it as a whole; `share` of it counts. */
+static void add_part(const rows *w, uint32_t j, const part *p, float share, uint64_t points, int worker)
 {
     const bake_element *e = &w->b->element[j];
     const lmb_vec3 q = e->is_one ? p->middle : triangle_middle(p->corner);
@@ -94,6 +95,9 @@ static void add_part(const rows *w, uint32_t j, const part *p, uint64_t points, 
     for (uint64_t bits = points; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
         lit |= (uint64_t)(factors(f[k], e, p, w->at[k], w->normal[k], w->axes) != 0) << k;
+        for (int a = 0; a < w->axes; ++a) {
+            f[k][a] *= share;
+        }
     }
     if (lit == 0) {
         return;
@@ -113,7 +117,7 @@ static void add_parts(const rows *w, uint32_t j, const part *p, const uint64_t p
 {
     uint64_t finer = 0;
     if (points[level] != 0) {
-        add_part(w, j, p, points[level], worker);
+        add_part(w, j, p, level == 0 ? w->b->element[j].open : 1.0f, points[level], worker);
     }
     for (int l = level + 1; l <= CUTS; ++l) {
         finer |= points[l];
@@ -126,7 +130,7 @@ static void add_parts(const rows *w, uint32_t j, const part *p, const uint64_t p
         mid[k] = mul3(add3(p->corner[k], p->corner[(k + 1) % 3]), 0.5f);
     }
     for (int k = 0; k < 4; ++k) {
-        part quarter = {{mid[0], mid[1], mid[2]}, p->middle, 0.25f * p->area, 0.25f * p->reach2};
+        part quarter = {{mid[0], mid[1], mid[2]}, triangle_middle(mid), 0.25f * p->area, 0.25f * p->reach2};
         if (k < 3) {
             quarter.corner[0] = p->corner[k];
             quarter.corner[1] = mid[k];
@@ -148,6 +152,9 @@ static void element_job(void *user, int index, int worker)
         for (int k = 0; k < w->axes * w->count; ++k) {
             w->row[k][j] = 0.0f;
         }
+        if (w->times != NULL) {
+            w->times[j] = 1.0f;
+        }
         if (!(e->area > 0.0f) || e->is_dark) {
             continue;
         }
@@ -155,6 +162,12 @@ static void element_job(void *user, int index, int worker)
             const lmb_vec3 d = sub3(e->middle, w->at[k]);
             if (!e->is_one || dot3(d, e->normal) < 0.0f) {
                 points[w->b->by_middles ? 0 : cuts_for(e, w->at[k])] |= (uint64_t)1 << k;
+            }
+        }
+        if (w->times != NULL && (points[1] | points[2] | points[3] | points[4]) == 0) {
+            w->times[j] = j % FEW == j / FEW % FEW ? (float)FEW : 0.0f;
+            if (w->times[j] == 0.0f) {
+                continue;
             }
         }
         memcpy(whole.corner, e->corner, sizeof whole.corner);
@@ -181,13 +194,13 @@ static void set_tile(lmb_tile *tile, const lmb_vec3 *at, const lmb_vec3 *normal,
 }
 
 int bake_rows(const bake *b, const lmb_vec3 *at, const lmb_vec3 *normal, int count, int axes, float *const *row,
-              report *r)
+              float *times, report *r)
 {
     lmb_tile *tile = malloc(sizeof *tile);
     lmb_traversal *traversal = calloc((size_t)b->set.threads, sizeof *traversal);
     const int ok = tile != NULL && traversal != NULL;
     if (ok) {
-        rows w = {b, tile, at, normal, row, count, axes, traversal};
+        rows w = {b, tile, at, normal, row, times, count, axes, traversal};
         set_tile(tile, at, normal, count);
         pool_run(b->set.threads, CHUNK, element_job, &w);
     }

@@ -16,8 +16,8 @@
 typedef struct options {
     const char *scene, *out, *scene_name, *moving;
     float error, division, cluster, smallest;
-    int32_t elements, receivers, threads;
-    int is_quiet, is_verbose;
+    int32_t elements, receivers, threads, budget, is_big;
+    int is_quiet, is_verbose, has_report;
 } options;
 
 enum { MOVING = 256 }; /* objects, at most */
@@ -25,13 +25,16 @@ enum { EYES = 64 }; /* cameras of the scene that are looked from */
 
 #define AT(member) .at = offsetof(options, member)
 
+static const char *const orders[] = {"little", "big", NULL};
+
 static const option_row rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .help = ".gltf .glb .obj .ply, or `demo`"},
     {.name = "-o", .value = "OUT.lmt", .kind = OPTION_TEXT, AT(out), .help = "for `lambent render --transfer`"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--error", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
-     .help = "what a receiver's links may be off by, as a share of all light around it (default 0.001)"},
+     .help = "what a link of a receiver that lights a 10,000th of all area has to save, as a share of all light around "
+             "it; the larger a receiver's area the less (default 0.00013)"},
     {.name = "--division", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
      .help = "how far light may be from linear between receivers, as such a share of a thousandth of all area "
              "(default 0.008)"},
@@ -47,6 +50,11 @@ static const option_row rows[] = {
     {.name = "--moving", .value = "N[,N..]", .kind = OPTION_TEXT, AT(moving),
      .help = "objects that may move, by number from 0, as `lambent play` has them: lit by light in the air, with shadows "
              "of direct light; bounced light they neither block nor reflect"},
+    {.name = "--budget-bytes", .value = "N", .kind = OPTION_INT, AT(budget), .low = 1000, .high = 2000000000,
+     .help = "a larger --error where the file would be larger than this; which one is said"},
+    {.name = "--endian", .kind = OPTION_WORD, .value = "", AT(is_big), .words = orders,
+     .help = "byte order of the machine that reads the file (default: of this one)"},
+    {.name = "--report", .kind = OPTION_FLAG, AT(has_report), .help = "bytes of the file, part by part"},
     {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = POOL_MAX,
      .help = "the file is the same with any (default: all processors)"},
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long it took"),
@@ -89,12 +97,52 @@ static int parse_moving(uint32_t out[MOVING], uint32_t *count, const char *text,
     return at == NULL || report_fail(r, "--moving: at most %d objects", MOVING);
 }
 
-static int bake_scene(const options *o, const lmb_scene *whole, const lmb_vec3 *eyes, uint32_t eye_count, report *r)
+static void tell(const options *o, const bake *b, size_t bytes)
 {
     static const char *const names[LMB_TRANSFER_SECTIONS] = {
         "surfaces",  "pieces", "areas",  "divisions", "corners",
         "receivers", "links",  "blends", "clusters",  "cluster links",
         "coarse",    "coarse links", "moving", "grid",  "air"};
+    const double links = (double)b->section[LMB_TRANSFER_LINKS].count, receivers = b->receiver_count;
+    const double more = (double)b->section[LMB_TRANSFER_CLUSTER_LINKS].count / LMB_TRANSFER_CLUSTER_LINK_WORDS;
+    if (o->is_quiet) {
+        return;
+    }
+    printf("%s: %u elements, %.0f receivers, %.1f links each, %u clusters, %.1f links each, %.2f MB\n", o->out,
+           (unsigned)b->element_count, receivers, links / (receivers > 0.0 ? receivers : 1.0),
+           (unsigned)b->cluster_count, more / (b->cluster_count > 0 ? b->cluster_count : 1), (double)bytes * 1e-6);
+    if (b->set.error > o->error) {
+        printf("  by --error %.3g, which fits into %d bytes\n", (double)b->set.error, (int)o->budget);
+    }
+    for (int s = 0; s < LMB_TRANSFER_SECTIONS && o->has_report; ++s) {
+        printf("  %-14s %10.0f bytes\n", names[s], 4.0 * (double)b->section[s].count);
+    }
+}
+
+static int is_own_big(void)
+{
+    const uint32_t one = 1;
+    return *(const uint8_t *)(const void *)&one == 0;
+}
+
+/* The file; as long as it is too large with a larger error. */
+static int make_file(file_bytes *file, const options *o, bake *b, report *r)
+{
+    int ok = bake_code_all(b, r) && bake_file(file, b, r);
+    while (ok && o->budget > 0 && file->size > (size_t)o->budget && b->set.error < 1.0f) {
+        const float over = (float)file->size / (float)o->budget;
+        file_free(file);
+        b->set.error *= over < 1.1f ? 1.1f : over > 4.0f ? 4.0f : over;
+        ok = bake_code_all(b, r) && bake_file(file, b, r);
+    }
+    bake_tell_end(b);
+    return ok && (o->budget == 0 || file->size <= (size_t)o->budget ||
+                  report_fail(r, "--budget-bytes %d: without any link it is %.0f bytes; fewer --receivers or --elements",
+                              (int)o->budget, (double)file->size));
+}
+
+static int bake_scene(const options *o, const lmb_scene *whole, const lmb_vec3 *eyes, uint32_t eye_count, report *r)
+{
     bake b;
     bake_settings set;
     file_bytes file = {NULL, 0};
@@ -107,25 +155,17 @@ static int bake_scene(const options *o, const lmb_scene *whole, const lmb_vec3 *
     set.elements = (uint32_t)o->elements;
     set.receivers = (uint32_t)o->receivers;
     set.threads = o->threads > 0 ? o->threads : pool_processors();
-    b.is_quiet = o->is_quiet || !(o->is_verbose || host_watched());
+    set.is_swapped = o->is_big != is_own_big();
+    b.is_watched = host_watched() && !o->is_quiet;
     uint32_t moving[MOVING], count;
     bake_still_scene still = {*whole, NULL};
     int ok = parse_moving(moving, &count, o->moving, whole, r) &&
-             (count == 0 ||
-              bake_still(&still, whole, moving, count, &b.section[LMB_TRANSFER_MOVING], r)) &&
-             bake_begin(&b, &still.scene, &set, r) && bake_elements(&b, r) && bake_reach(&b, eyes, eye_count, r) &&
-             bake_receivers(&b, r) && bake_air(&b, r) && bake_clusters(&b, r) && bake_bounces(&b, r) &&
-             bake_file(&file, &b, r) && file_write(o->out, file.data, file.size, r);
-    if (ok && !o->is_quiet) {
-        printf("%s: %u elements, %u receivers, %.1f links each, %u clusters, %.1f links each, %.2f MB\n", o->out,
-               (unsigned)b.element_count, (unsigned)b.receiver_count,
-               (double)b.section[LMB_TRANSFER_LINKS].count / (b.receiver_count > 0 ? b.receiver_count : 1),
-               (unsigned)b.clusters,
-               (double)b.section[LMB_TRANSFER_CLUSTER_LINKS].count / 2.0 / (b.clusters > 0 ? b.clusters : 1),
-               (double)file.size * 1e-6);
-        for (int s = 0; s < LMB_TRANSFER_SECTIONS && o->is_verbose; ++s) {
-            printf("  %-14s %8.3f MB\n", names[s], 4e-6 * (double)b.section[s].count);
-        }
+             (count == 0 || bake_still(&still, whole, moving, count, &b.section[LMB_TRANSFER_MOVING], r)) &&
+             bake_begin(&b, &still.scene, &set, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) &&
+             bake_air(&b, r) && bake_clusters(&b, r) && bake_bounces(&b, r) && make_file(&file, o, &b, r) &&
+             file_write(o->out, file.data, file.size, r);
+    if (ok) {
+        tell(o, &b, file.size);
     }
     file_free(&file);
     free(still.instance);
@@ -167,10 +207,11 @@ int verb_bake(int argc, char **argv)
     memset(&o, 0, sizeof o);
     memset(&loaded, 0, sizeof loaded);
     memset(&notes, 0, sizeof notes);
-    o.error = 0.001f;
+    o.error = 0.00013f;
     o.division = 0.008f;
     o.elements = 16384;
     o.receivers = 12000;
+    o.is_big = is_own_big();
     int asked = options_parse(&o, &table, argc, argv, &r);
     asked = asked == OPTIONS_RUN && !is_complete(&o, &r) ? OPTIONS_BAD : asked;
     if (asked != OPTIONS_RUN) {

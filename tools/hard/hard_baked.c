@@ -90,14 +90,13 @@ typedef struct baked {
 static int bake_it(baked *out, hard_stage *s, const lmb_vec3 *eyes, uint32_t count)
 {
     static const bake_settings set = {
-        .error = 0.001f, .division = 0.008f, .elements = ELEMENTS, .receivers = RECEIVERS, .threads = 2};
+        .error = 0.00013f, .division = 0.008f, .elements = ELEMENTS, .receivers = RECEIVERS, .threads = 2};
     bake b;
     report r = {""};
     memset(&b, 0, sizeof b);
     memset(out, 0, sizeof *out);
-    b.is_quiet = 1;
-    int ok = bake_begin(&b, &s->scene, &set, &r) && bake_elements(&b, &r) && bake_reach(&b, eyes, count, &r) &&
-             bake_receivers(&b, &r) && bake_clusters(&b, &r) && bake_bounces(&b, &r) && bake_file(&out->file, &b, &r) &&
+    int ok = bake_begin(&b, &s->scene, &set, &r) && bake_reach(&b, eyes, count, &r) && bake_receivers(&b, &r) &&
+             bake_clusters(&b, &r) && bake_bounces(&b, &r) && bake_code_all(&b, &r) && bake_file(&out->file, &b, &r) &&
              lmb_transfer_open(&out->transfer, out->file.data, out->file.size) == LMB_OK;
     bake_free(&b);
     const size_t bytes = ok ? lmb_transfer_light_bytes(&out->transfer) : 0;
