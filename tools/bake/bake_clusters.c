@@ -256,7 +256,8 @@ int bake_clusters(bake *b, report *r)
         c.count = 0;
         memset(c.slot, 0, ((size_t)c.mask + 1) * sizeof *c.slot);
         ok = visit(&c, cluster_triangle);
-        if (c.count >= TARGET || c.count * SHARING > b->small_count || b->set.cluster_m < b->set.smallest_m) {
+        if (b->has_cluster_m || c.count >= TARGET || c.count * SHARING > b->small_count ||
+            b->set.cluster_m < b->set.smallest_m) {
             break;
         }
         b->set.cluster_m *= 0.8f;
