@@ -15,7 +15,7 @@ BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
 B      := $(BUILD)/$(CONFIG)
 
 # Programs of small machines, which say how many instructions a frame takes.
-LIVE := live baked
+LIVE := live baked gouraud
 
 # A port names its compiler, start-up sources, libraries, and what runs its programs (RUN).
 include platform/$(PORT)/port.mk
@@ -164,8 +164,8 @@ $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
 $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 
 # The words of baked light, which tests/scripts/live.sh puts there.
-$(B)/obj/platform/cortex-m/main_baked.o: $(wildcard $(B)/baked.inc)
-$(B)/obj/platform/cortex-m/main_baked.o: COMPILE += -I$(B)
+$(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: $(wildcard $(B)/baked.inc)
+$(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: COMPILE += -I$(B)
 
 .PHONY: FORCE
 FORCE:

@@ -159,3 +159,12 @@ int lmb_is_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_scen
     }
     return over || lit_by_depth(&at, r, mini((int32_t)at.x, map->size - 1), mini((int32_t)at.y, map->size - 1));
 }
+
+#if LMB_TRANSFER
+int lmb_is_lit_by_depth(const lmb_shadow_map *map, const lmb_light *light, const lmb_receiver *r)
+{
+    place at;
+    return !find_place(&at, map, light, r->position) ||
+           lit_by_depth(&at, r, mini((int32_t)at.x, map->size - 1), mini((int32_t)at.y, map->size - 1));
+}
+#endif

@@ -13,4 +13,7 @@ typedef struct lmb_receiver {
 
 int lmb_is_lit(const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene, const lmb_receiver *receiver);
 
+/* By the depth of the nearest texel alone: a tenth of the work, off by a texel. */
+int lmb_is_lit_by_depth(const lmb_shadow_map *map, const lmb_light *light, const lmb_receiver *receiver);
+
 #endif

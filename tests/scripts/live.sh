@@ -21,7 +21,7 @@ without='-DLMB_TREES=0 -DLMB_TRANSFER=1 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXE
 without="$without -DLMB_MAX_CUT=6 -DLMB_MANY_LIGHTS_CUT=16"
 make_here() { $MAKE "$@" PORT=host CONFIG=tiny BUILD="$BUILD/live" CFLAGS="-O2 $without"; }
 make_there() { $MAKE "$@" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m/live" CFLAGS="-O2 $without" LDFLAGS=; }
-programs='live baked'
+programs='live baked gouraud'
 check "for this machine" make_here $(for p in $programs; do echo "$here/$p"; done)
 check "for a Cortex-M4F" make_there $(for p in $programs; do echo "$there/$p"; done)
 [ $failed -eq 0 ] || finish
@@ -45,4 +45,6 @@ for p in $programs; do
 done
 bound "direct light" "$(taken live)" 70000
 bound "baked light on top of it" $(($(taken baked) - $(taken live))) 30000
+bound "light at corners" "$(taken gouraud)" 13000
+bound "light at corners, where the light stands still" "$(awk '/^instructions / { print $NF }' "$there/gouraud.out")" 8000
 finish
