@@ -14,6 +14,9 @@ PORT   ?= host
 BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
 B      := $(BUILD)/$(CONFIG)
 
+# Programs of small machines, which say how many instructions a frame takes.
+LIVE := live baked gouraud
+
 # A port names its compiler, start-up sources, libraries, and what runs its programs (RUN).
 include platform/$(PORT)/port.mk
 
@@ -68,6 +71,7 @@ MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measur
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -113,6 +117,7 @@ $(B)/golden: $(GOLDEN_OBJ)
 $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
+$(foreach f,$(LIVE),$(eval $(B)/$(f): $(call live_of,$(f))))
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
 $(B)/decodes: $(DECODE_OBJ) $(LIB)
@@ -122,7 +127,8 @@ $(B)/scenes: $(SCENES_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/decodes $(B)/scenes $(B)/fuzzer:
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(LIVE:%=$(B)/%) $(B)/decodes \
+    $(B)/scenes $(B)/fuzzer:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -157,17 +163,22 @@ $(B)/obj/tests/unit/test_zeros.o: COMPILE += -I$(B)
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
 $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 
+# The words of baked light, which tests/scripts/live.sh puts there.
+$(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: $(wildcard $(B)/baked.inc)
+$(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: COMPILE += -I$(B)
+
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(REPLAY_OBJ) $(HOSTILE_OBJ) \
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
+    $(REPLAY_OBJ) $(HOSTILE_OBJ) \
     $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
 # The longest first: what runs beside them fills the second core.
 
-CHECKS ?= one-command unit tiny statue analytic truth lanes golden golden-orders audit slivers hard replay hostile \
+CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
           hostile-cli layers symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
@@ -184,6 +195,7 @@ $(CHECKS:%=check-%): check-%: $(LIB) $(TOOL) $(PROGRAMS:%=$(B)/%)
 
 # They make the library in the same place.
 check-statue: $(filter check-tiny,$(CHECKS:%=check-%))
+check-live: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 check-examples-tiny: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 
 unit: ## what functions do, alone and together
@@ -276,7 +288,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
-    measure-voxels large tiny run-demo run-statue cross check-tools
+    measure-voxels large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
@@ -405,12 +417,15 @@ tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/statue.sh
 
+live: $(TOOL) ## light that moves in 160 KiB on a Cortex-M4F (qemu): pictures as here, instructions a frame
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/live.sh
+
 # For compilers whose programs nothing here can run.
 .PHONY: compiles
 compiles: $(LIB_OBJ)
 	@echo "$(words $(LIB_OBJ)) passed, 0 failed, 0 skipped"
 
-run-demo run-statue: run-%: $(B)/%
+run-demo run-statue $(LIVE:%=run-%): run-%: $(B)/%
 	@$(RUN) $<
 
 # CROSS_TARGETS, MORE_CROSS_TARGETS, and for each needs_NAME and how_NAME.

@@ -106,8 +106,8 @@
 #define LMB_PLAN 1
 #endif
 
-/* 0: this build has no baked light transfer (lambent/transfer.h), which takes trees. Saves about 6 KiB of ROM on a
- * Cortex-M4F. */
+/* 0: this build has no baked light transfer (lambent/transfer.h). Saves about 6 KiB of ROM on a Cortex-M4F. 1 in a build
+ * without trees: it has transfer alone. */
 #ifndef LMB_TRANSFER
 #define LMB_TRANSFER LMB_TREES
 #endif

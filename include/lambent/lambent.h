@@ -19,6 +19,7 @@
 #include "env.h"
 #include "relief.h"
 #include "transfer.h"
+#include "gouraud.h"
 #include "mixed.h"
 #include "compose.h"
 #include "relight.h"

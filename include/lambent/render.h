@@ -96,8 +96,9 @@ typedef struct lmb_frame {
     lmb_transfer_light transfer_light;   /* laid out for it, with the scene's materials */
     lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: these cast none */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and materials that emit; data NULL: none of these */
-    lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
-    lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
+    lmb_target eye;     /* depth and id of the whole frame; when memory is short, of a strip of some bands of 8 rows:
+                           the scene is drawn again for each strip */
+    lmb_surface eye_depth; /* with such an `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
     lmb_band_scratch *scratch;
     /* where to */
     lmb_surface out; /* the whole frame; or 8 rows, handed to `callback` band by band */
@@ -237,14 +238,15 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
- * A unit is 1,024 triangles of a draw, a row of shadow-map tiles, or 64 elements or receivers of one bounce. A band counts as 8 (and
- * draws the whole scene into its rows where the eye is band-sized). The discs of one face, the grouping, the BVH and
- * building the elements cannot be divided: each is one unit.
+ * A unit is 1,024 triangles of a draw, a row of shadow-map tiles, or 64 elements or receivers of one bounce. A band
+ * counts as 8 (and the first of a strip draws the whole scene, where the eye is smaller than the frame). The discs of one
+ * face, the grouping, the BVH and building the elements cannot be divided: each is one unit.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 
 /* lmb_render_band: draw one band of the picture, whole; legal from LMB_STAGE_BANDS on, in any order, on any thread with
- * its own scratch (and, with a band-sized eye, its own `eye`). Band b is rows 8b .. 8b + 7.
+ * its own scratch (and, where that is smaller than the frame, its own `eye`, of which it takes 8 rows, and which is not
+ * frame.eye while lmb_render_step is in a strip). Band b is rows 8b .. 8b + 7.
  * `out` is the whole frame, or 8 rows that take the band. Returns LMB_OK, LMB_ERR_ARG or LMB_ERR_FORMAT. */
 lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
                            const lmb_surface *out, int32_t band);

@@ -77,32 +77,21 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
     return lmb_render_block(r, s, window, x, band * LMB_TILE, mini(LMB_SPARSE_TILES, ahead));
 }
 
-lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
-                           const lmb_surface *out, int32_t band)
+/* Of depth and ids in `window`. */
+static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *window,
+                             const lmb_surface *out, int32_t band)
 {
-    if (r == NULL || scratch == NULL || eye == NULL || out == NULL || r->stage < LMB_STAGE_BANDS || band < 0 ||
-        band >= band_count(&r->frame.view)) {
-        return LMB_ERR_ARG;
-    }
-    lmb_status valid = lmb_render_check_out(out, &r->frame.view);
-    if (valid != LMB_OK) {
-        return valid;
-    }
-    if (r->failed != LMB_OK) {
-        return r->failed;
-    }
     const lmb_frame *f = &r->frame;
-    lmb_target window = *eye;
-    int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
-    lmb_status status = lmb_render_view_band(r, &window, band);
+    const int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
+    lmb_status status = LMB_OK;
     if (requires_transfer(f)) {
         memset(&scratch->gather.transfer, 0, sizeof scratch->gather.transfer);
     }
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         const lmb_irradiance *indirect;
-        status = block_light(&indirect, r, scratch, &window, x, band);
+        status = block_light(&indirect, r, scratch, window, x, band);
         if (status == LMB_OK) {
-            status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, &window, x, band * LMB_TILE);
+            status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, window, x, band * LMB_TILE);
         }
         if (status == LMB_OK) {
             status = light_pixels(r, scratch, indirect);
@@ -112,6 +101,24 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
         }
     }
     return status;
+}
+
+lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const lmb_target *eye,
+                           const lmb_surface *out, int32_t band)
+{
+    lmb_target window;
+    if (r == NULL || scratch == NULL || eye == NULL || out == NULL || r->stage < LMB_STAGE_BANDS || band < 0 ||
+        band >= band_count(&r->frame.view)) {
+        return LMB_ERR_ARG;
+    }
+    lmb_status status = lmb_render_check_out(out, &r->frame.view);
+    if (status == LMB_OK) {
+        status = r->failed;
+    }
+    if (status == LMB_OK) {
+        status = lmb_render_view_band(r, &window, eye, band);
+    }
+    return status == LMB_OK ? light_band(r, scratch, &window, out, band) : status;
 }
 
 /* 1 to go on. */
@@ -135,7 +142,11 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units)
     for (int32_t n = 0; (n == 0 || n + BAND_UNITS <= units) && r->progress < (uint32_t)bands; n += BAND_UNITS) {
         int32_t band = (int32_t)r->progress++;
         memset(&r->frame.scratch->counts, 0, sizeof r->frame.scratch->counts);
-        lmb_status status = lmb_render_band(r, r->frame.scratch, &r->frame.eye, &r->frame.out, band);
+        lmb_target window;
+        lmb_status status = lmb_render_view_strip(r, &window, band);
+        if (status == LMB_OK) {
+            status = light_band(r, r->frame.scratch, &window, &r->frame.out, band);
+        }
         if (status != LMB_OK) {
             return status;
         }

@@ -1,6 +1,7 @@
-/* eye.c: depth and ids of the view: the whole frame by steps or in parts, or one band. Layer 10. */
+/* eye.c: depth and ids of the view: the whole frame by steps or in parts, a strip of bands, or one band. Layer 10. */
 #include <string.h>
 
+#include "../base/vec.h"
 #include "../bounce/points.h"
 #include "../raster/target.h"
 #include "stages.h"
@@ -60,14 +61,34 @@ lmb_status lmb_render_view_part(const lmb_render *r, int32_t part, int32_t parts
                     first == 0 ? stats : NULL);
 }
 
-lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *eye, int32_t band)
+/* `bands` of them from `first` on into the first rows of an eye that is smaller than the frame. */
+static lmb_status draw_bands(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t first, int32_t bands)
 {
-    const lmb_frame *f = &r->frame;
-    if (is_whole(&eye->depth, &f->view)) {
+    lmb_target_rows(out, eye, 0, bands);
+    out->y0 = first * LMB_TILE;
+    clear_target(out);
+    return lmb_draw(out, r->frame.kernels, &r->frame.view, r->frame.scene, 1, r->triangles, LMB_CULL_BACK, NULL);
+}
+
+lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t band)
+{
+    *out = *eye;
+    return is_whole(&eye->depth, &r->frame.view) ? LMB_OK : draw_bands(r, out, eye, band, 1);
+}
+
+lmb_status lmb_render_view_strip(const lmb_render *r, lmb_target *out, int32_t band)
+{
+    const lmb_target *eye = &r->frame.eye;
+    const int32_t bands = eye->depth.height / LMB_TILE, first = band - band % bands;
+    if (is_whole(&eye->depth, &r->frame.view)) {
+        *out = *eye;
         return LMB_OK;
     }
-    eye->y0 = band * LMB_TILE;
-    lmb_surface_clear(&eye->depth);
-    lmb_surface_clear(&eye->id);
-    return lmb_draw(eye, f->kernels, &f->view, f->scene, 1, r->triangles, LMB_CULL_BACK, NULL);
+    lmb_status status = LMB_OK;
+    if (band == first) {
+        status = draw_bands(r, out, eye, first, mini(bands, band_count(&r->frame.view) - first));
+    }
+    lmb_target_rows(out, eye, band - first, 1);
+    out->y0 = band * LMB_TILE;
+    return status;
 }

@@ -238,7 +238,11 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block
 #if LMB_TRANSFER
     if (s->transfer != NULL) {
         const lmb_status placed = s->show != LMB_SHOW_DIRECT ? place_transfer(f, b) : LMB_OK;
+#if LMB_TREES
         return placed == LMB_OK && f->many_lights != NULL ? place_bvh(f, b) : placed;
+#else
+        return placed;
+#endif
     }
 #endif
     lmb_status status = bounces && is_fixed(s) ? place_groups(f, s, b) : LMB_OK;

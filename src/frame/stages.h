@@ -85,8 +85,10 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units);
 
 /* --- of a band ---------------------------------------------------------------------------------------------------- */
 
-/* Depth and ids of the band: in the whole frame's target, or drawn at once into a band-sized one. */
-lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *eye, int32_t band);
+/* Where the depth and ids of the band are: in the whole frame's eye, or drawn now into the first rows of a smaller one.
+ * lmb_render_view_strip: of frame.eye, where bands come in order: into a strip of several when its first one comes. */
+lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t band);
+lmb_status lmb_render_view_strip(const lmb_render *r, lmb_target *out, int32_t band);
 
 /* Set scratch->direct: that of scratch->tile where it is shown, else 0; and add what the lobes make of it, NULL:
  * without. scratch->indirect is written. */

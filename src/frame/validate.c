@@ -14,7 +14,7 @@ static lmb_status check_eye(const lmb_frame *f)
         return status;
     }
     if (f->eye.id.data == NULL || f->eye.x0 != 0 || f->eye.y0 != 0 || d->width != f->view.frame_width ||
-        (d->height != f->view.frame_height && d->height != LMB_TILE)) {
+        (d->height != f->view.frame_height && d->height % LMB_TILE != 0)) {
         return LMB_ERR_ARG;
     }
     const lmb_surface *map = occluding_depth(f);

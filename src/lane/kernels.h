@@ -122,6 +122,16 @@ enum { LMB_SMALL_24_8 = 64 * 256 /* sides of a box under which edges fit 32 bits
 
 /* LMB_BATCH triangles of one instance. Bit k of a set is triangle k. Those in `small` have what follows; the others of
  * `in` are `dropped`, `other` (clipped or large: one by one, by setup.c) or invisible. */
+#if LMB_PLAIN_LANES == 1
+/* A corner that was transformed. */
+typedef struct lmb_batch_corner {
+    int32_t x, y; /* 24.8 */
+    float d;
+    uint32_t vertex, is_out; /* vertex + 1, 0: none; why it cannot be used as it is */
+} lmb_batch_corner;
+enum { LMB_BATCH_CORNERS = 32 };
+#endif
+
 typedef struct lmb_batch {
     int32_t e[3][LMB_BATCH], ex[3][LMB_BATCH], ey[3][LMB_BATCH]; /* at the first pixel of the box's first tile */
     int32_t x0[LMB_BATCH], y0[LMB_BATCH], x1[LMB_BATCH], y1[LMB_BATCH]; /* pixels of the frame, in the window */
@@ -129,6 +139,9 @@ typedef struct lmb_batch {
     float d_min[LMB_BATCH], d_max[LMB_BATCH];
     uint32_t in; /* there, and every index inside the mesh */
     uint32_t small, other, drawn, dropped; /* drawn: of neither of the latter, with area and not culled */
+#if LMB_PLAIN_LANES == 1
+    lmb_batch_corner kept[LMB_BATCH_CORNERS]; /* of the instance, for batches to come: by a vertex's lowest bits */
+#endif
 } lmb_batch;
 
 /* Edge i is e >= 0 inside, in units of 1/256 px x px: e(x + 1) = e(x) + ex. */

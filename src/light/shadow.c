@@ -194,3 +194,14 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
     }
     return over || lit_by_depth(query, &at, r, mini((int32_t)at.x, last), mini((int32_t)at.y, last));
 }
+
+#if LMB_TRANSFER
+int lmb_is_lit_by_depth(const lmb_shadow_query *query, const lmb_receiver *r)
+{
+    const int32_t last = query->map->size - 1;
+    place at;
+    return !find_place(&at, query->map, query->light, r->position) ||
+           lit_by_depth(query, &at, r, mini((int32_t)at.x, last), mini((int32_t)at.y, last));
+}
+#endif
+

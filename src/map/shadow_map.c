@@ -114,6 +114,7 @@ static void fit_directional(lmb_view *v, const lmb_light *light, const box *b)
     v->eye = add3(mul3(add3(b->low, b->high), 0.5f), mul3(v->back, deep + margin));
 }
 
+#if LMB_TREES
 /* The same for one of several boxes. Its view is as deep as the scene, to contain casters above and receivers below.
  * The eye is at the box's centre, which keeps coordinates small. */
 static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lmb_scene *scene)
@@ -127,7 +128,6 @@ static void fit_part(lmb_view *v, const lmb_light *light, const box *b, const lm
     v->far_m = deep - up;
 }
 
-#if LMB_TREES
 static int is_same(lmb_vec3 a, lmb_vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 /* Extents along a view's right, up and back, from its eye. */

@@ -8,7 +8,7 @@
 #include "../raster/resolve.h"
 #include "../raster/texture.h"
 
-#if LMB_TREES
+#if LMB_TREES || LMB_TRANSFER
 
 enum { SAMPLES = 4 };
 

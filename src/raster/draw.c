@@ -3,8 +3,11 @@
  * Batches of LMB_BATCH triangles are transformed and set up side by side (setup.inl); small ones are filled in runs
  * (fill_small.inl). What is clipped, large or full of holes goes one by one through draw_one.c, in its place in the
  * order. Corners are transformed anew for each triangle: looking shared ones up costs as much as it saves once eight
- * are transformed at a time (bunny, AVX2: 4.2 ms with a cache, 4.4 without), and takes memory. */
+ * are transformed at a time (bunny, AVX2: 4.2 ms with a cache, 4.4 without), and takes memory. Backends of one lane keep
+ * a few. */
 #include <lambent/raster.h>
+
+#include <string.h>
 
 #include "draw_one.h"
 #include "target.h"
@@ -89,6 +92,9 @@ static void draw_instance_range(const lmb_fill_context *c, lmb_batch *batch, con
 {
     lmb_draw_instance d;
     set_instance(&d, c, instance, flags);
+#if LMB_PLAIN_LANES == 1
+    memset(batch->kept, 0, sizeof batch->kept);
+#endif
     while (first < past) {
         uint32_t count = past - first < LMB_BATCH ? past - first : LMB_BATCH;
         draw_batch(c, &d, batch, count, first, stats);

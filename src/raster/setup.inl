@@ -7,6 +7,7 @@
 
 #include "../base/vertex.h"
 
+#if LANES > 1
 /* Corners of a batch, m in model space. All are fetched before the first are used: a vector is loaded late from what
  * was just stored number by number. */
 typedef struct setup_corners {
@@ -49,13 +50,13 @@ LANE_INLINE uint32_t setup_fetch_all(setup_corners *out, const lmb_mesh *mesh, u
     return in;
 }
 
-/* The same, with code of its own for the usual formats; but not in a backend of one lane, where size counts. */
+/* The same, with code of its own for the usual formats. */
 static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uint32_t first, uint32_t count)
 {
     if (count < LMB_BATCH) {
         memset(out, 0, sizeof *out); /* empty places hold numbers */
     }
-    if (LANES > 1 && mesh->index_format == LMB_INDEX_U32 && mesh->position_format == LMB_POSITION_F32) {
+    if (mesh->index_format == LMB_INDEX_U32 && mesh->position_format == LMB_POSITION_F32) {
         lmb_mesh usual = *mesh;
         usual.index_format = LMB_INDEX_U32;
         usual.position_format = LMB_POSITION_F32;
@@ -63,6 +64,7 @@ static inline uint32_t setup_fetch(setup_corners *out, const lmb_mesh *mesh, uin
     }
     return setup_fetch_all(out, mesh, first, count);
 }
+#endif
 
 typedef struct setup_corner {
     lanei x, y; /* 24.8 */
@@ -92,6 +94,49 @@ static inline lanei setup_floor(lane v)
     return lanei_pick(lane_lt(v, lane_from_int(i)), lanei_sub(i, lanei_splat(1)), i);
 }
 
+/* A corner before the division. */
+typedef struct setup_point {
+    lane x, y, z, w;
+} setup_point;
+
+/* `out`: is it outside the near plane, left, right, top, bottom? Returns whether it is sane. */
+LANE_INLINE lane_mask setup_project(setup_point *to, lane_mask out[5], const lmb_setup_job *job, lane3 p)
+{
+    const lane zero = lane_splat(0.0f);
+    lane along_x = setup_row(job->row[0], p), along_y = setup_row(job->row[1], p), along = setup_row(job->row[2], p);
+    setup_point r;
+    r.x = lane_mul(along_x, lane_splat(job->scale_x));
+    r.y = lane_mul(along_y, lane_splat(job->scale_y));
+    r.w = along;
+    r.z = lane_splat(job->near_m);
+    if (job->orthographic) {
+        r.z = lane_mul(lane_sub(lane_splat(job->far_m), along), lane_splat(job->depth_scale));
+        r.w = lane_splat(1.0f);
+    }
+    const lane wide = lane_mul(lane_splat(job->guard_x), r.w), high = lane_mul(lane_splat(job->guard_y), r.w);
+    out[0] = lane_lt(lane_sub(r.w, r.z), zero);
+    out[1] = lane_lt(lane_add(wide, r.x), zero);
+    out[2] = lane_lt(lane_sub(wide, r.x), zero);
+    out[3] = lane_lt(lane_sub(high, r.y), zero);
+    out[4] = lane_lt(lane_add(high, r.y), zero);
+    *to = r;
+    return mask_and(mask_and(setup_sane(along_x), setup_sane(along_y)), setup_sane(along));
+}
+
+/* What is clipped or insane, and so not good, is not used, and must not reach the conversion to int. */
+LANE_INLINE setup_corner setup_snap(const lmb_setup_job *job, const setup_point *p, lane_mask good)
+{
+    const lane one = lane_splat(1.0f), inverse = lane_div(one, lane_pick(good, p->w, one));
+    const lane x = lane_mul(lane_mul(lane_keep(good, p->x), inverse), lane_splat(job->snap_x)),
+               y = lane_mul(lane_mul(lane_keep(good, p->y), inverse), lane_splat(job->snap_y));
+    setup_corner c;
+    c.x = setup_floor(lane_add(x, lane_splat(0.5f)));
+    c.y = setup_floor(lane_sub(lane_splat(0.5f), y));
+    c.d = lane_mul(lane_keep(good, p->z), inverse);
+    return c;
+}
+
+#if LANES > 1
 /* A corner that lies so; returns where it is neither outside a plane nor insane. */
 LANE_INLINE lane_mask setup_side(setup_sides *inout, lane_mask sane, const lane_mask out[5])
 {
@@ -107,34 +152,16 @@ LANE_INLINE lane_mask setup_side(setup_sides *inout, lane_mask sane, const lane_
 NOINLINE setup_corner setup_transform(setup_sides *sides, const lmb_setup_job *job,
                                          const float (*position)[LMB_BATCH], int k)
 {
-    const lane zero = lane_splat(0.0f), one = lane_splat(1.0f);
     lane3 p;
     p.x = lane_load(position[0] + k);
     p.y = lane_load(position[1] + k);
     p.z = lane_load(position[2] + k);
-    lane along_x = setup_row(job->row[0], p), along_y = setup_row(job->row[1], p), along = setup_row(job->row[2], p);
-    lane x = lane_mul(along_x, lane_splat(job->scale_x)), y = lane_mul(along_y, lane_splat(job->scale_y));
-    lane w = along, z = lane_splat(job->near_m);
-    if (job->orthographic) {
-        z = lane_mul(lane_sub(lane_splat(job->far_m), along), lane_splat(job->depth_scale));
-        w = one;
-    }
-    lane wide = lane_mul(lane_splat(job->guard_x), w), high = lane_mul(lane_splat(job->guard_y), w);
-    const lane_mask out[5] = {lane_lt(lane_sub(w, z), zero), lane_lt(lane_add(wide, x), zero),
-                              lane_lt(lane_sub(wide, x), zero), lane_lt(lane_sub(high, y), zero),
-                              lane_lt(lane_add(high, y), zero)};
-    /* What is clipped or insane is not used, and must not reach the conversion to int. */
-    const lane_mask good = setup_side(
-        sides, mask_and(mask_and(setup_sane(along_x), setup_sane(along_y)), setup_sane(along)), out);
-    setup_corner c;
-    lane inverse = lane_div(one, lane_pick(good, w, one));
-    x = lane_mul(lane_mul(lane_keep(good, x), inverse), lane_splat(job->snap_x));
-    y = lane_mul(lane_mul(lane_keep(good, y), inverse), lane_splat(job->snap_y));
-    c.x = setup_floor(lane_add(x, lane_splat(0.5f)));
-    c.y = setup_floor(lane_sub(lane_splat(0.5f), y));
-    c.d = lane_mul(lane_keep(good, z), inverse);
-    return c;
+    setup_point at;
+    lane_mask out[5];
+    const lane_mask sane = setup_project(&at, out, job, p);
+    return setup_snap(job, &at, setup_side(sides, sane, out));
 }
+#endif
 
 static inline lanei setup_min3(lanei a, lanei b, lanei c) { return lanei_min(a, lanei_min(b, c)); }
 static inline lanei setup_max3(lanei a, lanei b, lanei c) { return lanei_max(a, lanei_max(b, c)); }
@@ -190,24 +217,19 @@ LANE_INLINE setup_corner setup_either(lane_mask m, const setup_corner *a, const 
     return c;
 }
 
-/* Triangles k .. k + LANES - 1. In KERNEL(setup)'s loop compilers would keep what does not change, two dozen vectors,
- * on the stack. */
-NOINLINE void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
+/* Triangles k .. k + LANES - 1, from their corners, which change; `in`: those that are there. */
+LANE_INLINE void setup_triangles(lmb_batch *out, const lmb_setup_job *job, const setup_sides *sides, lane_mask in,
+                                 setup_corner *a, setup_corner *b, setup_corner *c, int k)
 {
     const lanei zero = lanei_splat(0);
-    const lane_mask in = mask_of_bits(out->in >> k);
-    setup_sides sides = {in, mask_not(in), {in, in, in, in, in}};
-    setup_corner a = setup_transform(&sides, job, corners->position[0], k),
-                 b = setup_transform(&sides, job, corners->position[1], k),
-                 c = setup_transform(&sides, job, corners->position[2], k);
-    const lane_mask hidden = mask_or(sides.all[0], mask_or(mask_or(sides.all[1], sides.all[2]),
-                                                           mask_or(sides.all[3], sides.all[4])));
-    const lane_mask sane = sides.sane, whole = mask_and(sane, mask_not(sides.any));
-    lanei x0 = setup_min3(a.x, b.x, c.x), x1 = setup_max3(a.x, b.x, c.x);
-    lanei y0 = setup_min3(a.y, b.y, c.y), y1 = setup_max3(a.y, b.y, c.y);
+    const lane_mask hidden = mask_or(sides->all[0], mask_or(mask_or(sides->all[1], sides->all[2]),
+                                                            mask_or(sides->all[3], sides->all[4])));
+    const lane_mask sane = sides->sane, whole = mask_and(sane, mask_not(sides->any));
+    lanei x0 = setup_min3(a->x, b->x, c->x), x1 = setup_max3(a->x, b->x, c->x);
+    lanei y0 = setup_min3(a->y, b->y, c->y), y1 = setup_max3(a->y, b->y, c->y);
     const lanei limit = lanei_splat(LMB_SMALL_24_8);
     lane_mask small = mask_and(whole, mask_and(lanei_lt(lanei_sub(x1, x0), limit), lanei_lt(lanei_sub(y1, y0), limit)));
-    lanei bx = lanei_sub(b.x, a.x), by = lanei_sub(b.y, a.y), cx = lanei_sub(c.x, a.x), cy = lanei_sub(c.y, a.y);
+    lanei bx = lanei_sub(b->x, a->x), by = lanei_sub(b->y, a->y), cx = lanei_sub(c->x, a->x), cy = lanei_sub(c->y, a->y);
     /* Of the others the products may not fit: they are given none. */
     bx = lanei_pick(small, bx, zero), by = lanei_pick(small, by, zero);
     cx = lanei_pick(small, cx, zero), cy = lanei_pick(small, cy, zero);
@@ -232,19 +254,31 @@ NOINLINE void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_
     lanei_store(out->x1 + k, px1);
     lanei_store(out->y1 + k, py1);
     /* What is not shown takes the place of corner a, so that no sum below leaves 32 bits. */
-    b.x = lanei_add(a.x, bx), b.y = lanei_add(a.y, by), c.x = lanei_add(a.x, cx), c.y = lanei_add(a.y, cy);
+    b->x = lanei_add(a->x, bx), b->y = lanei_add(a->y, by), c->x = lanei_add(a->x, cx), c->y = lanei_add(a->y, cy);
     px0 = lanei_pick(shown, px0, lanei_splat(job->x0)), py0 = lanei_pick(shown, py0, lanei_splat(job->y0));
     lanei_store(out->x0 + k, px0);
     lanei_store(out->y0 + k, py0);
-    const setup_corner second = setup_either(turned, &c, &b), third = setup_either(turned, &b, &c);
+    const setup_corner second = setup_either(turned, c, b), third = setup_either(turned, b, c);
     area = lanei_pick(turned, lanei_sub(zero, area), lanei_pick(shown, area, lanei_splat(1)));
     lanei x = lanei_add(lanei_mul(lanei_shift(px0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_x));
     lanei y = lanei_add(lanei_mul(lanei_shift(py0, 3), lanei_splat(LMB_TILE * 256)), lanei_splat(job->origin_y));
-    x = lanei_pick(shown, x, a.x), y = lanei_pick(shown, y, a.y);
-    setup_edge_lanes(out, 0, k, &a, &second, x, y);
+    x = lanei_pick(shown, x, a->x), y = lanei_pick(shown, y, a->y);
+    setup_edge_lanes(out, 0, k, a, &second, x, y);
     setup_edge_lanes(out, 1, k, &second, &third, x, y);
-    setup_edge_lanes(out, 2, k, &third, &a, x, y);
-    setup_depth(out, k, &a, &second, &third, area);
+    setup_edge_lanes(out, 2, k, &third, a, x, y);
+    setup_depth(out, k, a, &second, &third, area);
+}
+
+#if LANES > 1
+/* In KERNEL(setup)'s loop compilers would keep what does not change, two dozen vectors, on the stack. */
+NOINLINE void setup_lanes(lmb_batch *out, const lmb_setup_job *job, const setup_corners *corners, int k)
+{
+    const lane_mask in = mask_of_bits(out->in >> k);
+    setup_sides sides = {in, mask_not(in), {in, in, in, in, in}};
+    setup_corner a = setup_transform(&sides, job, corners->position[0], k),
+                 b = setup_transform(&sides, job, corners->position[1], k),
+                 c = setup_transform(&sides, job, corners->position[2], k);
+    setup_triangles(out, job, &sides, in, &a, &b, &c, k);
 }
 
 static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first,
@@ -257,3 +291,79 @@ static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_me
         setup_lanes(out, job, &corners, k);
     }
 }
+#else
+/* One at a time, triangles share two corners in three with those just before: a corner is transformed once while no
+ * other one takes its place among those that are kept. */
+enum { SETUP_INSANE = 1, SETUP_OUTSIDE = 62 }; /* of is_out: bits 1 .. 5, one a plane */
+
+static void setup_keep(lmb_batch_corner *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t vertex)
+{
+    const lmb_vec3 p = mesh_position(mesh, vertex);
+    setup_point at;
+    lane_mask side[5];
+    const lane_mask sane = setup_project(&at, side, job, lane3_splat(p.x, p.y, p.z));
+    out->vertex = vertex + 1;
+    out->is_out = (~mask_bits(sane) & SETUP_INSANE) | mask_bits(side[0]) << 1 | mask_bits(side[1]) << 2 |
+                  mask_bits(side[2]) << 3 | mask_bits(side[3]) << 4 | mask_bits(side[4]) << 5;
+    if (out->is_out == 0) {
+        const setup_corner c = setup_snap(job, &at, mask_of_bits(1));
+        lanei_store(&out->x, c.x);
+        lanei_store(&out->y, c.y);
+        lane_store(&out->d, c.d);
+    }
+}
+
+/* A corner, transformed or kept; 0 where the mesh has no such vertex. */
+static int setup_find(lmb_batch_corner *out, lmb_batch *b, const lmb_setup_job *job, const lmb_mesh *mesh,
+                      uint32_t vertex)
+{
+    lmb_batch_corner *own = &b->kept[vertex % LMB_BATCH_CORNERS];
+    if (vertex >= mesh->vertex_count) {
+        return 0;
+    }
+    if (own->vertex != vertex + 1) {
+        setup_keep(own, job, mesh, vertex);
+    }
+    *out = *own;
+    return 1;
+}
+
+LANE_INLINE setup_corner setup_of(const lmb_batch_corner *c)
+{
+    setup_corner r;
+    r.x = lanei_splat(c->x);
+    r.y = lanei_splat(c->y);
+    r.d = lane_splat(c->d);
+    return r;
+}
+
+static void setup_one(lmb_batch *out, const lmb_setup_job *job, const lmb_batch_corner c[3], int k)
+{
+    const uint32_t any = c[0].is_out | c[1].is_out | c[2].is_out, all = c[0].is_out & c[1].is_out & c[2].is_out;
+    const lane_mask in = mask_of_bits(1), none = mask_of_bits(0);
+    const setup_sides inside = {in, none, {none, none, none, none, none}};
+    out->in |= 1u << k;
+    if (any != 0) {
+        out->dropped |= (any & SETUP_INSANE) << k;
+        out->other |= (uint32_t)((any & SETUP_INSANE) == 0 && (all & SETUP_OUTSIDE) == 0) << k;
+        return;
+    }
+    setup_corner first = setup_of(&c[0]), second = setup_of(&c[1]), third = setup_of(&c[2]);
+    setup_triangles(out, job, &inside, in, &first, &second, &third, k);
+}
+
+static void KERNEL(setup)(lmb_batch *out, const lmb_setup_job *job, const lmb_mesh *mesh, uint32_t first,
+                          uint32_t count)
+{
+    lmb_batch_corner c[3];
+    out->in = out->small = out->other = out->drawn = out->dropped = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        uint32_t vertex[3];
+        mesh_triangle(mesh, first + k, vertex);
+        if (setup_find(&c[0], out, job, mesh, vertex[0]) && setup_find(&c[1], out, job, mesh, vertex[1]) &&
+            setup_find(&c[2], out, job, mesh, vertex[2])) {
+            setup_one(out, job, c, (int)k);
+        }
+    }
+}
+#endif

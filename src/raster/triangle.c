@@ -43,7 +43,7 @@ int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
     return 1;
 }
 
-#if LMB_TREES
+#if LMB_TREES || LMB_TRANSFER
 int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *t)
 {
     const lmb_vec3 n = cross3(sub3(t->corner[1], t->corner[0]), sub3(t->corner[2], t->corner[0]));

@@ -44,6 +44,9 @@ uint64_t case_folded(int variant);
 #if LMB_VOXELS && !defined(LMB_CONFIG_TINY)
 uint64_t case_voxels(int variant); /* golden_voxel.c */
 #endif
+#if LMB_TRANSFER
+uint64_t case_gouraud(int variant); /* golden_gouraud.c */
+#endif
 #if LMB_RELIEF
 uint64_t case_relief(int variant); /* golden_relief.c */
 #endif

@@ -311,7 +311,8 @@ static lmb_status run_to_bands(const lmb_frame *f)
     return status;
 }
 
-/* Bands in random order, by two scratches in turn, whole or band-sized eyes, into the frame or 8 rows of their own. */
+/* Bands in random order, by two scratches in turn, whole eyes or those of 8 or 16 rows, into the frame or 8 rows of
+ * their own. */
 static void check_bands(const lmb_scene *scene, lmb_view view, int small_eye, int small_out)
 {
     test_rng r = {31u + (uint64_t)small_eye + 2u * (uint64_t)small_out};
@@ -319,7 +320,7 @@ static void check_bands(const lmb_scene *scene, lmb_view view, int small_eye, in
     lmb_frame f = plain_frame(scene, view, &other);
     lmb_target eye;
     if (small_eye) {
-        set_eye(&f, LMB_TILE, LMB_TILED, LMB_DEPTH32F, LMB_ID32);
+        set_eye(&f, (small_out ? 2 : 1) * LMB_TILE, LMB_TILED, LMB_DEPTH32F, LMB_ID32);
         f.eye_depth = target_surface(LMB_DEPTH32F, LMB_TILED, view.frame_width, view.frame_height, m.whole_depth);
     }
     eye = f.eye;
@@ -342,7 +343,7 @@ static void check_bands(const lmb_scene *scene, lmb_view view, int small_eye, in
     CHECK_MSG(same_picture(&reference, &other), "small eye %d, small out %d", small_eye, small_out);
 }
 
-/* Memory of other shapes: eyes of a band, rows instead of tiles, 16-bit ids. */
+/* Memory of other shapes: eyes of a band or two, rows instead of tiles, 16-bit ids. */
 static void check_memory(const lmb_scene *scene, lmb_view view, const lmb_frame *how, int first, int stride)
 {
     for (int i = first; i < 16; i += stride) {
@@ -351,7 +352,7 @@ static void check_memory(const lmb_scene *scene, lmb_view view, const lmb_frame 
         f.occlusion = how->occlusion;
         f.grouping.method = how->grouping.method;
         f.id_format = i & 4 ? LMB_ID16 : 0;
-        set_eye(&f, i & 8 ? LMB_TILE : view.frame_height, layout, LMB_DEPTH32F, id);
+        set_eye(&f, i & 8 ? (i & 4 ? 2 : 1) * LMB_TILE : view.frame_height, layout, LMB_DEPTH32F, id);
         if (i & 8) {
             f.eye_depth = target_surface(LMB_DEPTH32F, layout, view.frame_width, view.frame_height, m.whole_depth);
         }
@@ -723,6 +724,7 @@ static void test_refused(void)
     REFUSED(f.eye.depth.data = NULL, LMB_ERR_ARG);
     REFUSED(f.eye.id.data = NULL, LMB_ERR_ARG);
     REFUSED(f.eye.y0 = 8, LMB_ERR_ARG);
+    REFUSED(f.occlusion = LMB_OCCLUSION_NONE; f.eye.depth.height = f.eye.id.height = 12, LMB_ERR_ARG);
     REFUSED(f.eye.depth.height = f.eye.id.height = 16, LMB_ERR_ARG);
     REFUSED(f.occlusion = LMB_OCCLUSION_NONE; f.eye.depth.width = f.eye.id.width = WIDTH - 8, LMB_ERR_ARG);
     REFUSED(f.occlusion = LMB_OCCLUSION_NONE; set_eye(&f, LMB_TILE, LMB_TILED, LMB_DEPTH32F, LMB_ID32); f.eye.y0 = 8,

@@ -119,6 +119,7 @@ static struct {
     lmb_frame_settings settings;
     lmb_transfer transfer;
     lmb_transfer_light transfer_light;
+    lmb_gouraud gouraud;
     uint32_t *transfer_file;
     size_t transfer_bytes;
 } g;
@@ -271,6 +272,14 @@ static void make_transfer(void)
     CHECK(lmb_transfer_open(&g.transfer, g.transfer_file, g.transfer_bytes) == LMB_OK);
     const size_t bytes = lmb_transfer_light_bytes(&g.transfer);
     CHECK(lmb_transfer_light_init(&g.transfer_light, &g.transfer, room(bytes), bytes) == LMB_OK);
+    g.gouraud.scene = demo_scene();
+    g.gouraud.transfer = &g.transfer;
+    g.gouraud.light = &g.transfer_light;
+    g.gouraud.direct = room(SMALL_RECEIVERS * sizeof *g.gouraud.direct);
+    g.gouraud.scratch = room(sizeof *g.gouraud.scratch);
+    g.gouraud.depth = room(24 * 16 * sizeof *g.gouraud.depth);
+    g.gouraud.view = demo_view(24, 16);
+    CHECK(lmb_surface_init(&g.gouraud.out, LMB_RGB565, 24, 16, room(24 * 16 * 2), 24 * 16 * 2) == LMB_OK);
 }
 
 static void make_facts(void)
@@ -379,6 +388,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_tile", &g.tile, sizeof g.tile},
         {"lmb_transfer", &g.transfer, sizeof g.transfer},
         {"lmb_transfer_light", &g.transfer_light, sizeof g.transfer_light},
+        {"lmb_gouraud", &g.gouraud, sizeof g.gouraud},
         {"lmb_tree", &f->tree, sizeof f->tree},
         {"lmb_view", &f->view, sizeof f->view},
         {"lmb_voxel_part", &part, sizeof part},

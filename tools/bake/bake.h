@@ -84,6 +84,7 @@ typedef struct bake {
     float area;    /* m2, of all that receives */
     float small_m;  /* no edge of a small triangle is longer */
     uint32_t small_count;
+    int has_cluster_m; /* the settings say how large clusters are: they do not shrink until there are many */
     int by_middles; /* rows ask for elements' middles alone */
     int is_watched; /* progress goes to a terminal */
     double shown;   /* when it was, s; 0: never */

@@ -261,7 +261,7 @@ int bake_clusters(bake *b, report *r)
         b->cluster_count = 0;
         memset(c.slot, 0, ((size_t)c.mask + 1) * sizeof *c.slot);
         ok = visit(&c, cluster_triangle);
-        if (b->cluster_count >= TARGET || b->cluster_count * SHARING > b->small_count ||
+        if (b->has_cluster_m || b->cluster_count >= TARGET || b->cluster_count * SHARING > b->small_count ||
             b->set.cluster_m < b->set.smallest_m) {
             break;
         }

@@ -81,7 +81,8 @@ int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report
     if (!(b->area > 0.0f)) {
         return report_fail(r, "no surface to light: all triangles are points or lines");
     }
-    if (b->set.cluster_m <= 0.0f) {
+    b->has_cluster_m = set->cluster_m > 0.0f;
+    if (!b->has_cluster_m) {
         b->set.cluster_m = sqrtf(b->area / 6000.0f);
     }
     set_small(b);

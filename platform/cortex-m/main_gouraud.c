@@ -1,0 +1,106 @@
+/* main_gouraud.c: the demo scene by light at corners, 160x120 in RGB565, in less than 160 KiB of RAM: the shadow map,
+ * what surfaces throw back by the transfer that tests/scripts/live.sh bakes, and the picture.
+ *
+ * Prints the picture's hash, the instructions that the frame took (0: unknown), and those of a frame whose light stands
+ * still, and the RAM. Runs on a host too: the hash must be the same. */
+#include <lambent/lambent.h>
+
+#include "../../tools/demo/demo_scene.h"
+#include "../port_say.h"
+#include "count.h"
+
+enum { WIDTH = 160, HEIGHT = 120, MAP_SIZE = 48, RECEIVERS = 512 };
+
+static const uint32_t baked[] = {
+#include "baked.inc"
+};
+
+/* Words, so that everything is aligned to 4. */
+static uint32_t picture[WIDTH * HEIGHT / 2];
+static uint16_t depth[WIDTH * HEIGHT];
+static uint32_t map_memory[MAP_SIZE * MAP_SIZE * 6 / 4];
+static uint32_t light_memory[5600];
+static float direct[RECEIVERS][3];
+static lmb_transfer transfer;
+static lmb_transfer_light light;
+static lmb_shadow_map map;
+static lmb_gouraud_scratch scratch;
+static lmb_transfer_scratch collecting;
+static lmb_gouraud frame;
+
+static lmb_status place(void)
+{
+    const lmb_scene *scene = demo_scene();
+    lmb_status s = lmb_build_check();
+    if (s == LMB_OK)
+        s = lmb_surface_init(&frame.out, LMB_RGB565, WIDTH, HEIGHT, picture, sizeof picture);
+    if (s == LMB_OK)
+        s = lmb_transfer_open(&transfer, baked, sizeof baked);
+    if (s == LMB_OK)
+        s = lmb_transfer_fits(&transfer, scene);
+    if (s == LMB_OK && transfer.count[LMB_TRANSFER_RECEIVERS] > RECEIVERS)
+        s = LMB_ERR_CAPACITY;
+    if (s == LMB_OK)
+        s = lmb_transfer_light_init(&light, &transfer, light_memory, sizeof light_memory);
+    if (s == LMB_OK)
+        s = lmb_transfer_materials(&light, &transfer, scene);
+    frame.scene = scene;
+    frame.transfer = &transfer;
+    frame.light = &light;
+    frame.maps = &map;
+    frame.direct = direct;
+    frame.scratch = &scratch;
+    frame.view = demo_view(WIDTH, HEIGHT);
+    frame.depth = depth;
+    return s;
+}
+
+/* What changes with the light alone: its map, and what the receivers get. */
+static lmb_status light_up(void)
+{
+    const lmb_scene *scene = frame.scene;
+    lmb_status s =
+        lmb_shadow_map_init(&map, &scene->lights[0], scene, MAP_SIZE, LMB_ID16, map_memory, sizeof map_memory);
+    if (s == LMB_OK)
+        s = lmb_gouraud_map(&map, scene, &scratch);
+    if (s == LMB_OK)
+        s = lmb_transfer_clear(&light, &transfer);
+    for (int32_t f = 0; f < map.faces && s == LMB_OK; ++f)
+        s = lmb_transfer_collect(&light, lmb_kernels_pick(), &collecting, &transfer, scene, &scene->lights[0], &map, f, 1,
+                                 0, MAP_SIZE);
+    if (s == LMB_OK)
+        s = lmb_transfer_send(&light, &transfer);
+    if (s == LMB_OK)
+        s = lmb_transfer_receivers(&light, lmb_kernels_pick(), &transfer, 0,
+                                   transfer.count[LMB_TRANSFER_RECEIVERS] + transfer.count[LMB_TRANSFER_CLUSTERS]);
+    return s;
+}
+
+static lmb_status draw(void)
+{
+    const lmb_status s = lmb_gouraud_begin(&frame);
+    return s == LMB_OK ? lmb_gouraud_draw(&frame, 1, lmb_scene_triangles(frame.scene)) : s;
+}
+
+int main(void)
+{
+    lmb_status s = place();
+    count_start();
+    if (s == LMB_OK)
+        s = light_up();
+    const uint32_t lit = count_taken();
+    if (s == LMB_OK)
+        s = draw();
+    const uint32_t taken = count_taken();
+    if (s != LMB_OK) {
+        port_put(lmb_status_name(s));
+        port_put("\n");
+        return 1;
+    }
+    port_put("demo-gouraud-160x120-rgb565 ");
+    say_hex(lmb_surface_hash(&frame.out));
+    say_count("\ninstructions ", taken);
+    say_count(" of them where the light stands still ", taken - lit);
+    port_put("\n");
+    return say_ram();
+}

@@ -1,0 +1,495 @@
+/* gouraud.c: a scene's triangles, as a transfer divides them, with light at their corners. Layer 10. */
+#include <lambent/gouraud.h>
+
+#include <string.h>
+
+#include "../base/poly.h"
+#include "../base/surface_check.h"
+#include "../base/vec.h"
+#include "../base/vertex.h"
+#include "../raster/target.h"
+#include "gouraud_fill.h"
+#include "gouraud_light.h"
+
+#if LMB_TRANSFER
+
+/* 1/16 px, each way: triangles so small have the colour of their first corner, or are asked whether they cover a
+ * pixel before they are lit. */
+enum { TINY = 2 * 16, SMALL = 4 * 16 };
+
+/* A corner of a mesh, kept by the low bits of its number: its next triangles come soon. */
+typedef struct kept {
+    uint32_t vertex, outside; /* number + 1, 0: none */
+    float x, y, z, w;
+    int32_t px, py; /* gouraud_corner's, where it is outside of nothing */
+    float d;
+    uint32_t lit; /* which side the colour is of, 1 or 2; 0: none yet */
+    float colour[3], spare[3];
+} kept;
+
+/* A part of a triangle: where its corners are, their colours, and where it is among divisions. */
+typedef struct part {
+    lmb_vec3 at[3];
+    float b1[3], b2[3];
+    uint32_t node, spare;
+} part;
+
+typedef char scratch_fits[sizeof(kept) == sizeof(((lmb_gouraud_scratch *)0)->corner[0]) &&
+                                  sizeof(part) == sizeof(((lmb_gouraud_scratch *)0)->part[0])
+                              ? 1
+                              : -1];
+
+/* What is the same for an instance's triangles. */
+typedef struct drawing {
+    const lmb_gouraud *g; /* NULL: a map */
+    const lmb_scene *scene;
+    gouraud_target target;
+    gouraud_view of_world, of_mesh;
+    kept *kept;
+    part *parts;
+    const lmb_instance *instance;
+    const lmb_mesh *mesh;
+    const lmb_material *material;
+    lmb_vec3 cofactor[3];
+    float albedo[3], gain;
+    int is_mirrored;
+} drawing;
+
+/* A triangle of it. */
+typedef struct triangle {
+    uint32_t id, vertex[3];
+    kept *corner[3];
+    uint32_t any;
+    int back, is_tiny, is_small;
+} triangle;
+
+static void set_instance(drawing *d, const lmb_view *v, const lmb_instance *instance)
+{
+    const float *m = instance->to_world.m;
+    const lmb_vec3 x = vec3(m[0], m[1], m[2]), y = vec3(m[4], m[5], m[6]), z = vec3(m[8], m[9], m[10]);
+    d->instance = instance;
+    d->mesh = &d->scene->meshes[instance->mesh];
+    d->material = &d->scene->materials[instance->material];
+    d->is_mirrored = is_mirrored(&instance->to_world);
+    d->cofactor[0] = cross3(y, z);
+    d->cofactor[1] = cross3(z, x);
+    d->cofactor[2] = cross3(x, y);
+    lmb_gouraud_view_of(&d->of_mesh, v, &instance->to_world);
+    if (d->g != NULL) {
+        lmb_gouraud_albedo(d->albedo, d->scene, d->material);
+    }
+    memset(d->kept, 0, LMB_GOURAUD_KEPT * sizeof *d->kept);
+}
+
+static void keep(kept *out, const drawing *d, uint32_t vertex)
+{
+    gouraud_point p;
+    out->vertex = vertex + 1;
+    out->lit = 0;
+    out->colour[0] = out->colour[1] = out->colour[2] = 0.0f;
+    out->px = out->py = 0;
+    out->d = 0.0f;
+    out->outside = lmb_gouraud_project(&p, &d->of_mesh, mesh_position(d->mesh, vertex));
+    out->x = p.x, out->y = p.y, out->z = p.z, out->w = p.w;
+    if (out->outside == 0) {
+        lmb_gouraud_point_of(&out->px, &out->py, &out->d, &d->target, &p);
+    }
+}
+
+/* Which side is seen, by the volume that its corners span with the eye; 0 is the front. */
+static int shows_back(const drawing *d, const kept *a, const kept *b, const kept *c)
+{
+    float volume;
+    if (d->of_mesh.is_far) {
+        volume = (b->x - a->x) * (c->y - a->y) - (c->x - a->x) * (b->y - a->y);
+    } else {
+        volume = a->x * (b->y * c->w - c->y * b->w) + b->x * (c->y * a->w - a->y * c->w) +
+                 c->x * (a->y * b->w - b->y * a->w);
+    }
+    return (volume < 0.0f) != d->is_mirrored;
+}
+
+/* A corner, in its place, or in `spare` where another corner of the same triangle has that. */
+static kept *find_corner(const drawing *d, const triangle *t, int i, kept *spare)
+{
+    const uint32_t vertex = t->vertex[i];
+    kept *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
+    if (own->vertex == vertex + 1) {
+        return own;
+    }
+    for (int k = 0; k < i; ++k) {
+        own = t->corner[k] == own ? spare : own;
+    }
+    keep(own, d, vertex);
+    return own;
+}
+
+/* Does the box of a triangle that is outside of nothing hold the middle of a pixel? */
+static int may_cover(triangle *t, const drawing *d)
+{
+    kept *const *c = t->corner;
+    const int32_t x0 = mini(c[0]->px, mini(c[1]->px, c[2]->px)), x1 = maxi(c[0]->px, maxi(c[1]->px, c[2]->px)),
+                  y0 = mini(c[0]->py, mini(c[1]->py, c[2]->py)), y1 = maxi(c[0]->py, maxi(c[1]->py, c[2]->py));
+    t->is_tiny = x1 - x0 < TINY && y1 - y0 < TINY;
+    t->is_small = x1 - x0 < SMALL && y1 - y0 < SMALL;
+    return (x0 + 7) >> 4 < (x1 + 7) >> 4 && (y0 + 7) >> 4 < (y1 + 7) >> 4 && x1 > 0 && y1 > 0 &&
+           x0 < 16 * d->target.width && y0 < 16 * d->target.height;
+}
+
+/* How far a point lies inside of an edge, times its length, in 1/256 px2; `turn` 1 or -1. */
+static int32_t inside_of(const kept *from, const kept *to, int32_t x, int32_t y, int32_t turn)
+{
+    return turn * ((to->px - from->px) * (y - from->py) - (to->py - from->py) * (x - from->px));
+}
+
+/* May a small triangle cover the middle of a pixel? Edges are rounded along rows: by less than SLACK. */
+static int covers(const triangle *t)
+{
+    enum { SLACK = 8 };
+    const kept *a = t->corner[0], *b = t->corner[1], *c = t->corner[2];
+    const int32_t x0 = (mini(a->px, mini(b->px, c->px)) + 7) >> 4, x1 = (maxi(a->px, maxi(b->px, c->px)) + 7) >> 4,
+                  y0 = (mini(a->py, mini(b->py, c->py)) + 7) >> 4, y1 = (maxi(a->py, maxi(b->py, c->py)) + 7) >> 4;
+    const int32_t turn = inside_of(a, b, c->px, c->py, 1) < 0 ? -1 : 1;
+    for (int32_t y = 16 * y0 + 8; y < 16 * y1 + 8; y += 16) {
+        for (int32_t x = 16 * x0 + 8; x < 16 * x1 + 8; x += 16) {
+            if (inside_of(a, b, x, y, turn) >= -SLACK && inside_of(b, c, x, y, turn) >= -SLACK &&
+                inside_of(c, a, x, y, turn) >= -SLACK) {
+                return 1;
+            }
+        }
+    }
+    return 0;
+}
+
+/* 1 where triangle n of the mesh may be seen. */
+static int find_triangle(triangle *out, kept spare[3], const drawing *d, uint32_t n)
+{
+    uint32_t all = GOURAUD_OUTSIDE;
+    if (d->mesh->index_format == LMB_INDEX_U16) {
+        const uint16_t *index = (const uint16_t *)d->mesh->indices + 3 * (size_t)n;
+        out->vertex[0] = index[0];
+        out->vertex[1] = index[1];
+        out->vertex[2] = index[2];
+    } else {
+        mesh_triangle(d->mesh, n, out->vertex);
+    }
+    out->any = 0;
+    for (int i = 0; i < 3; ++i) {
+        if (out->vertex[i] >= d->mesh->vertex_count) {
+            return 0;
+        }
+        out->corner[i] = find_corner(d, out, i, &spare[i]);
+        out->any |= out->corner[i]->outside;
+        all &= out->corner[i]->outside;
+    }
+    out->is_tiny = out->is_small = 0;
+    if (all != 0 || (out->any == 0 && !may_cover(out, d))) {
+        return 0;
+    }
+    out->back = shows_back(d, out->corner[0], out->corner[1], out->corner[2]);
+    return (!out->back || (d->material->flags & LMB_DOUBLE_SIDED) != 0) && (!out->is_small || covers(out));
+}
+
+/* --- a whole triangle --------------------------------------------------------------------------------------------- */
+
+/* By the colours that its corners keep. */
+static void fill_whole(const drawing *d, const triangle *t)
+{
+    gouraud_corner c[3];
+    gouraud_point p[3];
+    for (int i = 0; i < 3 && t->any == 0; ++i) {
+        const kept *k = t->corner[i];
+        c[i].x = k->px, c[i].y = k->py, c[i].d = k->d;
+        c[i].colour[0] = k->colour[0], c[i].colour[1] = k->colour[1], c[i].colour[2] = k->colour[2];
+    }
+    if (t->any == 0) {
+        lmb_gouraud_fill(&d->target, c, t->id, t->is_tiny ? GOURAUD_FLAT : GOURAUD_MIXED);
+        return;
+    }
+    for (int i = 0; i < 3; ++i) {
+        const kept *k = t->corner[i];
+        p[i].x = k->x, p[i].y = k->y, p[i].z = k->z, p[i].w = k->w;
+        p[i].colour[0] = k->colour[0], p[i].colour[1] = k->colour[1], p[i].colour[2] = k->colour[2];
+    }
+    lmb_gouraud_clip(&d->target, p, t->any, t->id, GOURAUD_MIXED);
+}
+
+/* --- light -------------------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 world_of(const drawing *d, uint32_t vertex)
+{
+    return transform_point(&d->instance->to_world, mesh_position(d->mesh, vertex));
+}
+
+/* The triangle's unit normal, on the side that is seen. */
+static lmb_vec3 face_of(const drawing *d, const triangle *t)
+{
+    const lmb_vec3 a = world_of(d, t->vertex[0]), n = cross3(sub3(world_of(d, t->vertex[1]), a),
+                                                             sub3(world_of(d, t->vertex[2]), a));
+    return mul3(normalize3(n), t->back != d->is_mirrored ? -1.0f : 1.0f);
+}
+
+/* The corner's own, on the side that is seen. */
+static lmb_vec3 normal_of(const drawing *d, const triangle *t, int i)
+{
+    const lmb_vec3 own = mesh_normal(d->mesh, t->vertex[i]);
+    const lmb_vec3 n = normalize3(add3(add3(mul3(d->cofactor[0], own.x), mul3(d->cofactor[1], own.y)),
+                                       mul3(d->cofactor[2], own.z)));
+    return mul3(n, t->back != d->is_mirrored ? -1.0f : 1.0f);
+}
+
+static void albedo_at(float out[3], const drawing *d, const triangle *t, float b1, float b2)
+{
+    float colour[3][4];
+    out[0] = d->albedo[0], out[1] = d->albedo[1], out[2] = d->albedo[2];
+    if (d->mesh->colours == NULL) {
+        return;
+    }
+    for (int i = 0; i < 3; ++i) {
+        mesh_colour(d->mesh, t->vertex[i], colour[i]);
+    }
+    for (int c = 0; c < 3; ++c) {
+        out[c] *= colour[0][c] + ((colour[1][c] - colour[0][c]) * b1 + (colour[2][c] - colour[0][c]) * b2);
+    }
+}
+
+/* The colour of a mesh's corner; where the mesh has normals, one for all of its triangles on this side, by the blend of
+ * the first that is seen: clusters are far larger than triangles. `blend` NULL: nothing is thrown back to it. */
+static void light_corner(const drawing *d, const triangle *t, int i, const uint32_t *blend)
+{
+    static const float at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    const int is_smooth = d->mesh->normals != NULL;
+    kept *k = t->corner[i];
+    float e[3] = {0.0f, 0.0f, 0.0f}, albedo[3];
+    if (is_smooth && k->lit == 1u + (uint32_t)t->back) {
+        return;
+    }
+    const lmb_vec3 normal = is_smooth ? normal_of(d, t, i) : face_of(d, t);
+    k->lit = 1u + (uint32_t)t->back;
+    lmb_gouraud_direct(e, d->g, world_of(d, t->vertex[i]), normal, t->id, 0);
+    if (blend != NULL) {
+        lmb_gouraud_blend(e, d->g, blend[i], normal);
+    }
+    albedo_at(albedo, d, t, at[i][0], at[i][1]);
+    lmb_gouraud_colour(k->colour, e, albedo, d->gain);
+}
+
+/* Small triangles of a mesh. */
+static void draw_small(const drawing *d, const triangle *t, const uint32_t *blend)
+{
+    for (int i = 0; i < (t->is_tiny ? 1 : 3); ++i) {
+        light_corner(d, t, i, blend);
+    }
+    fill_whole(d, t);
+}
+
+/* --- a divided triangle ------------------------------------------------------------------------------------------- */
+
+static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, const uint32_t *receiver, lmb_vec3 face)
+{
+    gouraud_point p[3];
+    uint32_t any = 0, all = GOURAUD_OUTSIDE;
+    for (int i = 0; i < 3; ++i) {
+        const uint32_t outside = lmb_gouraud_project(&p[i], &d->of_world, leaf->at[i]);
+        any |= outside;
+        all &= outside;
+    }
+    if (all != 0) {
+        return;
+    }
+    for (int i = 0; i < 3; ++i) {
+        float *direct = d->g->direct[receiver[i]], e[3], albedo[3];
+        if (direct[0] < 0.0f) {
+            direct[0] = direct[1] = direct[2] = 0.0f;
+            lmb_gouraud_direct(direct, d->g, leaf->at[i], face, t->id, 1);
+        }
+        for (int c = 0; c < 3; ++c) {
+            e[c] = direct[c] + maxf(d->g->light->receiver[receiver[i]][c], 0.0f);
+        }
+        albedo_at(albedo, d, t, leaf->b1[i], leaf->b2[i]);
+        lmb_gouraud_colour(p[i].colour, e, albedo, d->gain);
+    }
+    if (any == 0) {
+        const gouraud_corner c[3] = {lmb_gouraud_place(&d->target, &p[0]), lmb_gouraud_place(&d->target, &p[1]),
+                                     lmb_gouraud_place(&d->target, &p[2])};
+        lmb_gouraud_fill(&d->target, c, t->id, GOURAUD_GROWN);
+    } else {
+        lmb_gouraud_clip(&d->target, p, any, t->id, GOURAUD_GROWN);
+    }
+}
+
+/* The half whose corner k is the middle of edge `from`; exactly the same middle for both triangles that share it. */
+static void halve(part *p, int from, int k, uint32_t node)
+{
+    const int to = from == 2 ? 0 : from + 1;
+    const lmb_vec3 middle = mul3(add3(p->at[from], p->at[to]), 0.5f);
+    const float b1 = 0.5f * (p->b1[from] + p->b1[to]), b2 = 0.5f * (p->b2[from] + p->b2[to]);
+    p->at[k] = middle;
+    p->b1[k] = b1;
+    p->b2[k] = b2;
+    p->node = node;
+}
+
+/* All leaves below a root. `left`: how many there may be, for damaged files. */
+static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
+{
+    const lmb_transfer *file = d->g->transfer;
+    const uint32_t *node = file->section[LMB_TRANSFER_DIVISIONS], *corners = file->section[LMB_TRANSFER_CORNERS];
+    const lmb_vec3 face = face_of(d, t);
+    uint32_t left = file->count[LMB_TRANSFER_DIVISIONS];
+    int count = 1;
+    part *first = &d->parts[0];
+    memset(first, 0, sizeof *first);
+    for (int i = 0; i < 3; ++i) {
+        first->at[i] = world_of(d, t->vertex[i]);
+    }
+    first->b1[1] = first->b2[2] = 1.0f;
+    first->node = root;
+    for (; count > 0 && left > 0; --left) {
+        part here = d->parts[--count];
+        while ((node[here.node] & LMB_TRANSFER_LEAF) == 0 && count <= LMB_TRANSFER_MAX_HALVINGS) {
+            const int from = (int)(node[here.node] >> LMB_TRANSFER_EDGE_BIT & 3u), to = from == 2 ? 0 : from + 1;
+            const uint32_t child = node[here.node] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+            d->parts[count] = here;
+            halve(&d->parts[count++], from, from, child + 1);
+            halve(&here, from, to, child);
+        }
+        const uint32_t place = node[here.node] & ~LMB_TRANSFER_LEAF;
+        if ((node[here.node] & LMB_TRANSFER_LEAF) != 0 && place < file->leaves) {
+            draw_leaf(d, t, &here, corners + LMB_TRANSFER_CORNER_WORDS * (size_t)place, face);
+        }
+    }
+}
+
+static void draw_triangle(const drawing *d, const triangle *t)
+{
+    if (d->g == NULL) {
+        fill_whole(d, t);
+        return;
+    }
+    const lmb_transfer *file = d->g->transfer;
+    const uint32_t root = file->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(t->id - 1) + 2 +
+                                                               (t->back ? 1u : 0u)];
+    const uint32_t word = root != LMB_TRANSFER_NONE ? file->section[LMB_TRANSFER_DIVISIONS][root] : 0;
+    if (root == LMB_TRANSFER_NONE) {
+        draw_small(d, t, NULL);
+    } else if ((word & LMB_TRANSFER_LEAF) != 0 && (word & ~LMB_TRANSFER_LEAF) >= file->leaves) {
+        draw_small(d, t, file->section[LMB_TRANSFER_CORNERS] +
+                             LMB_TRANSFER_CORNER_WORDS * (size_t)(word & ~LMB_TRANSFER_LEAF));
+    } else {
+        draw_divided(d, t, root);
+    }
+}
+
+static void draw_range(drawing *d, const lmb_view *v, uint32_t first_id, uint32_t past)
+{
+    const uint32_t all = lmb_scene_triangles(d->scene);
+    past = past < all + 1 ? past : all + 1;
+    for (uint32_t i = 0; i < d->scene->instance_count; ++i) {
+        const lmb_instance *instance = &d->scene->instances[i];
+        const uint32_t own = instance->first_id, own_past = own + d->scene->meshes[instance->mesh].triangle_count;
+        const uint32_t from = first_id > own ? first_id : own, to = past < own_past ? past : own_past;
+        if (from < to) {
+            set_instance(d, v, instance);
+        }
+        for (uint32_t id = from; id < to; ++id) {
+            triangle t;
+            kept spare[3];
+            t.id = id;
+            if (find_triangle(&t, spare, d, id - own)) {
+                draw_triangle(d, &t);
+            }
+        }
+    }
+}
+
+/* --- frames ------------------------------------------------------------------------------------------------------- */
+
+static void lay_rows(lmb_surface *s)
+{
+    if (s->layout == LMB_TILED) {
+        s->layout = LMB_LINEAR;
+        s->stride_bytes /= LMB_TILE;
+    }
+}
+
+lmb_status lmb_gouraud_map(lmb_shadow_map *map, const lmb_scene *scene, lmb_gouraud_scratch *scratch)
+{
+    drawing d;
+    if (map == NULL || scene == NULL || scratch == NULL || map->size < 1 || map->size > LMB_GOURAUD_MAX_SIDE ||
+        map->faces < 1) {
+        return LMB_ERR_ARG;
+    }
+    memset(&d, 0, sizeof d);
+    d.scene = scene;
+    d.kept = (kept *)(void *)scratch->corner;
+    for (int32_t f = 0; f < map->faces; ++f) {
+        lmb_target *face = &map->face[f];
+        lmb_surface_clear(&face->depth);
+        lmb_surface_clear(&face->id);
+        lay_rows(&face->depth);
+        lay_rows(&face->id);
+        d.target.depth = (float *)face->depth.data;
+        d.target.id = face->id.data;
+        d.target.id_format = face->id.format;
+        d.target.width = d.target.height = d.target.step = map->size;
+        if ((map->drawn >> f & 1u) != 0) {
+            draw_range(&d, &map->view[f], 1, UINT32_MAX);
+        }
+    }
+    return LMB_OK;
+}
+
+static int is_complete(const lmb_gouraud *g)
+{
+    return g != NULL && g->scene != NULL && g->transfer != NULL && g->transfer->section[0] != NULL && g->light != NULL &&
+           g->light->receiver != NULL && g->direct != NULL && g->scratch != NULL && g->depth != NULL &&
+           g->transfer->count[LMB_TRANSFER_SURFACES] == lmb_scene_triangles(g->scene) &&
+           lmb_view_is_valid(&g->view) && lmb_surface_is_valid(&g->out) && g->out.width == g->view.frame_width &&
+           g->out.height == g->view.frame_height;
+}
+
+lmb_status lmb_gouraud_begin(const lmb_gouraud *g)
+{
+    if (!is_complete(g)) {
+        return LMB_ERR_ARG;
+    }
+    if (g->out.format != LMB_RGB565 || g->out.layout != LMB_LINEAR) {
+        return LMB_ERR_FORMAT;
+    }
+    if (g->out.width > LMB_GOURAUD_MAX_SIDE || g->out.height > LMB_GOURAUD_MAX_SIDE) {
+        return LMB_ERR_CAPACITY;
+    }
+    lmb_surface_clear(&g->out);
+    memset(g->depth, 0, (size_t)g->out.width * (size_t)g->out.height * sizeof *g->depth);
+    for (uint32_t i = 0; i < g->transfer->count[LMB_TRANSFER_RECEIVERS]; ++i) {
+        g->direct[i][0] = -1.0f;
+    }
+    return LMB_OK;
+}
+
+lmb_status lmb_gouraud_draw(const lmb_gouraud *g, uint32_t first_id, uint32_t count)
+{
+    static const lmb_mat4 unit = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    drawing d;
+    if (!is_complete(g) || first_id == 0 || g->out.format != LMB_RGB565 || g->out.width > LMB_GOURAUD_MAX_SIDE ||
+        g->out.height > LMB_GOURAUD_MAX_SIDE) {
+        return LMB_ERR_ARG;
+    }
+    memset(&d, 0, sizeof d);
+    d.g = g;
+    d.scene = g->scene;
+    d.kept = (kept *)(void *)g->scratch->corner;
+    d.parts = (part *)(void *)g->scratch->part;
+    d.gain = lmb_exp2(g->exposure_ev) * 0.31830989f;
+    d.target.pixel = (uint16_t *)g->out.data;
+    d.target.pixel_step = g->out.stride_bytes / (int32_t)sizeof(uint16_t);
+    d.target.depth16 = g->depth;
+    d.target.width = d.target.step = g->out.width;
+    d.target.height = g->out.height;
+    lmb_gouraud_view_of(&d.of_world, &g->view, &unit);
+    draw_range(&d, &g->view, first_id, count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count);
+    return LMB_OK;
+}
+
+#endif

@@ -1,0 +1,270 @@
+/* test_gouraud.c: light at corners: coverage, the shadow map, what pixels show, pieces, and what is refused. */
+#include "../world.h"
+
+#include <stdlib.h>
+
+#include "../../src/base/codec.h"
+#include "../../src/gouraud/gouraud_fill.h"
+#include "../small_transfer.h"
+
+void test_gouraud(void);
+
+#if LMB_TRANSFER
+
+enum { SIDE = 64, MAP = 64, WORDS = SMALL_TRANSFER_WORDS(ROOM_TRIANGLES) };
+
+static small_room room;
+static uint32_t file[WORDS], light_memory[256], map_memory[6 * MAP * MAP * 2], other_memory[6 * MAP * MAP * 2];
+static uint32_t picture[SIDE * SIDE / 2], before[SIDE * SIDE / 2];
+static uint16_t depth[SIDE * SIDE];
+static float direct[SMALL_RECEIVERS][3];
+static lmb_gouraud_scratch scratch;
+static lmb_transfer transfer;
+static lmb_transfer_light light;
+static lmb_shadow_map map;
+
+static const uint16_t *pixels(void) { return (const uint16_t *)picture; }
+
+/* --- coverage ----------------------------------------------------------------------------------------------------- */
+
+static float id_depth[SIDE * SIDE];
+static uint32_t ids[SIDE * SIDE];
+
+static gouraud_target id_target(void)
+{
+    gouraud_target t;
+    memset(&t, 0, sizeof t);
+    t.depth = id_depth;
+    t.id = ids;
+    t.id_format = LMB_ID32;
+    t.width = t.height = t.step = SIDE;
+    return t;
+}
+
+/* How often triangles around a point cover each pixel of the square that they fill. */
+static void cover(uint8_t times[SIDE * SIDE], const int32_t square[4][2], int32_t x, int32_t y, int how)
+{
+    const gouraud_target t = id_target();
+    memset(times, 0, SIDE * SIDE);
+    for (int i = 0; i < 4; ++i) {
+        gouraud_corner c[3];
+        memset(c, 0, sizeof c);
+        c[0].x = x, c[0].y = y;
+        c[1].x = square[i][0], c[1].y = square[i][1];
+        c[2].x = square[(i + 1) % 4][0], c[2].y = square[(i + 1) % 4][1];
+        c[0].d = c[1].d = c[2].d = 0.5f;
+        memset(id_depth, 0, sizeof id_depth);
+        lmb_gouraud_fill(&t, c, 1, how);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            times[k] = (uint8_t)(times[k] + (id_depth[k] > 0.0f));
+        }
+    }
+}
+
+/* Neighbours share every pixel's middle, and leave none out: also where corners lie far outside. */
+static void covers_once(void)
+{
+    static uint8_t times[SIDE * SIDE], grown[SIDE * SIDE];
+    test_rng r = {5};
+    for (int round = 0; round < 200; ++round) {
+        const int32_t reach = round % 2 ? 900 : 0;
+        const int32_t low_x = 100 - reach + (int32_t)(test_random(&r) % 100u), low_y = 90 - reach + (int32_t)(test_random(&r) % 100u),
+                      high_x = 700 + reach + (int32_t)(test_random(&r) % 200u), high_y = 720 + reach + (int32_t)(test_random(&r) % 200u);
+        const int32_t square[4][2] = {{low_x, low_y}, {high_x, low_y}, {high_x, high_y}, {low_x, high_y}};
+        const int32_t x = low_x + 1 + (int32_t)(test_random(&r) % (uint32_t)(high_x - low_x - 1)),
+                      y = low_y + 1 + (int32_t)(test_random(&r) % (uint32_t)(high_y - low_y - 1));
+        int wrong = 0, gaps = 0;
+        cover(times, square, x, y, GOURAUD_MIXED);
+        cover(grown, square, x, y, GOURAUD_GROWN);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            const int32_t px = 16 * (k % SIDE) + 8, py = 16 * (k / SIDE) + 8;
+            const int is_in = px >= low_x && px < high_x && py >= low_y && py < high_y;
+            wrong += times[k] != is_in;
+            gaps += grown[k] < is_in;
+        }
+        CHECK_MSG(wrong == 0, "round %d: %d pixels are not covered once", round, wrong);
+        CHECK_MSG(gaps == 0, "round %d: %d pixels are left out", round, gaps);
+    }
+}
+
+/* --- frames ------------------------------------------------------------------------------------------------------- */
+
+static lmb_gouraud frame_of(lmb_vec3 eye, lmb_vec3 target)
+{
+    lmb_gouraud g;
+    memset(&g, 0, sizeof g);
+    small_room_make(&room);
+    CHECK(lmb_scene_check(&room.scene) == LMB_OK);
+    CHECK(lmb_transfer_open(&transfer, file, small_transfer(file, &room.scene)) == LMB_OK);
+    CHECK(lmb_transfer_light_init(&light, &transfer, light_memory, sizeof light_memory) == LMB_OK);
+    CHECK(lmb_surface_init(&g.out, LMB_RGB565, SIDE, SIDE, picture, sizeof picture) == LMB_OK);
+    CHECK(lmb_view_look_at(&g.view, eye, target, vec3(0, 0, 1), 0.8f, SIDE, SIDE) == LMB_OK);
+    g.scene = &room.scene;
+    g.transfer = &transfer;
+    g.light = &light;
+    g.direct = direct;
+    g.scratch = &scratch;
+    g.depth = depth;
+    return g;
+}
+
+static void draw(const lmb_gouraud *g)
+{
+    CHECK(lmb_gouraud_begin(g) == LMB_OK);
+    CHECK(lmb_gouraud_draw(g, 1, ROOM_TRIANGLES) == LMB_OK);
+}
+
+static int red_of(int k) { return pixels()[k] >> 11; }
+static int green_of(int k) { return pixels()[k] >> 5 & 63; }
+
+/* From above, the floor alone. Even light gives even pixels; light that grows along x grows. */
+static void shows_receivers(void)
+{
+    const lmb_gouraud g = frame_of(vec3(0, 0.9f, 0), vec3(0, 0, 0));
+    const float e = 2.0f, code = lmb_srgb_encode(e * 0.5f / 3.14159265f);
+    int off = 0, empty = 0;
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        light.receiver[i][0] = light.receiver[i][1] = light.receiver[i][2] = e;
+    }
+    draw(&g);
+    for (int k = 0; k < SIDE * SIDE; ++k) {
+        empty += depth[k] == 0;
+        off += fabsf((float)red_of(k) - code * 31.0f / 255.0f) > 1.0f ||
+               fabsf((float)green_of(k) - code * 63.0f / 255.0f) > 1.0f;
+    }
+    CHECK_MSG(empty == 0 && off == 0, "%d empty, %d off", empty, off);
+    /* Corners 0 and 1 are at x -1, 2 and 3 at x 1; 4 between 0 and 1. The picture's right is -x. */
+    const float at[SMALL_RECEIVERS] = {0.0f, 0.0f, 4.0f, 4.0f, 0.0f};
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        light.receiver[i][0] = light.receiver[i][1] = light.receiver[i][2] = at[i];
+    }
+    draw(&g);
+    int falls = 0;
+    for (int y = 0; y < SIDE; ++y) {
+        for (int x = 4; x < SIDE; ++x) {
+            falls += green_of(y * SIDE + x) < green_of(y * SIDE + x - 4) - 1;
+        }
+    }
+    const int left = green_of(SIDE * SIDE / 2 + 2), right = green_of(SIDE * SIDE / 2 + SIDE - 3);
+    CHECK_MSG((left > right ? left - right : right - left) > 10, "left %d, right %d", left, right);
+    CHECK_MSG(left > right || falls == 0, "%d fall", falls);
+}
+
+/* Ids as the rasterizer's, but for what faces away from the light. */
+static void draws_maps(void)
+{
+    lmb_shadow_map other;
+    int differ = 0, shown = 0;
+    small_room_make(&room);
+    CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    CHECK(lmb_shadow_map_init(&other, &room.light, &room.scene, MAP, LMB_ID32, other_memory, sizeof other_memory) ==
+          LMB_OK);
+    CHECK(lmb_shadow_map_clear(&other) == LMB_OK);
+    CHECK(lmb_shadow_map_draw(&other, lmb_kernels_pick(), &room.scene, 1, ROOM_TRIANGLES, NULL) == LMB_OK);
+    for (int twice = 0; twice < 2; ++twice) {
+        CHECK(lmb_gouraud_map(&map, &room.scene, &scratch) == LMB_OK);
+    }
+    const uint32_t *own = map.face[0].id.data, *tiled = other.face[0].id.data;
+    for (int y = 0; y < MAP; ++y) {
+        for (int x = 0; x < MAP; ++x) {
+            const uint32_t id = tiled[(y / 8 * (MAP / 8) + x / 8) * 64 + y % 8 * 8 + x % 8];
+            shown += id != 0;
+            differ += id != own[y * MAP + x];
+        }
+    }
+    CHECK_MSG(shown > MAP * MAP / 2 && differ <= MAP, "%d differ of %d", differ, shown);
+    CHECK(lmb_gouraud_map(NULL, &room.scene, &scratch) == LMB_ERR_ARG);
+    CHECK(lmb_gouraud_map(&map, NULL, &scratch) == LMB_ERR_ARG);
+    CHECK(lmb_gouraud_map(&map, &room.scene, NULL) == LMB_ERR_ARG);
+}
+
+/* Direct light reaches corners inside the cone; something over them takes it away. */
+static void casts_shadows(void)
+{
+    lmb_gouraud g = frame_of(vec3(0, 0.9f, 0), vec3(0, 0, 0));
+    room.light.cos_outer = 0.3f;
+    room.light.cos_inner = 0.35f;
+    CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    CHECK(lmb_gouraud_map(&map, &room.scene, &scratch) == LMB_OK);
+    memset(light_memory, 0, sizeof light_memory);
+    g.maps = &map;
+    draw(&g);
+    int lit = 0;
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        const lmb_vec3 at = i == 4 ? vec3(-1, 0, 0) : vec3(i < 2 ? -1.0f : 1.0f, 0, i == 1 || i == 2 ? 1.0f : -1.0f);
+        const lmb_vec3 to = sub3(room.light.position, at);
+        const float d2 = dot3(to, to), cosine = to.y / sqrtf(d2), spread = (cosine - 0.3f) / 0.05f,
+                    t = clampf(spread, 0.0f, 1.0f), want = 2.0f / d2 * cosine * t * t * (3.0f - 2.0f * t);
+        CHECK_MSG(fabsf(direct[i][0] - want) < 1e-3f, "%d: %g, not %g", i, (double)direct[i][0], (double)want);
+        lit += direct[i][0] > 0.0f;
+    }
+    CHECK(lit > 0);
+    /* All but triangle 3's id hidden by the ceiling, which is brought under the light. */
+    for (int k = 0; k < 3; ++k) {
+        room.corners[2][k][1] = room.corners[3][k][1] = 0.5f;
+        room.corners[2][k][0] *= -1.0f, room.corners[3][k][0] *= -1.0f; /* it faces up */
+    }
+    CHECK(lmb_gouraud_map(&map, &room.scene, &scratch) == LMB_OK);
+    CHECK(lmb_gouraud_begin(&g) == LMB_OK && lmb_gouraud_draw(&g, 1, 2) == LMB_OK);
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        CHECK_MSG(direct[i][0] == 0.0f, "%d: %g", i, (double)direct[i][0]);
+    }
+}
+
+static void in_pieces(void)
+{
+    const lmb_gouraud g = frame_of(vec3(0.4f, 0.5f, 2.0f), vec3(0, 0.5f, 0));
+    for (int i = 0; i < SMALL_RECEIVERS; ++i) {
+        light.receiver[i][0] = (float)i;
+    }
+    draw(&g);
+    memcpy(before, picture, sizeof before);
+    CHECK(lmb_gouraud_begin(&g) == LMB_OK);
+    for (uint32_t id = 1; id <= ROOM_TRIANGLES; ++id) {
+        CHECK(lmb_gouraud_draw(&g, id, 1) == LMB_OK);
+    }
+    CHECK(memcmp(before, picture, sizeof before) == 0);
+    CHECK(lmb_gouraud_draw(&g, 5, UINT32_MAX) == LMB_OK);
+    CHECK(memcmp(before, picture, sizeof before) == 0);
+}
+
+#define REFUSED(change, status) \
+    do { \
+        lmb_gouraud g = whole; \
+        change; \
+        CHECK_MSG(lmb_gouraud_begin(&g) == (status), "%s", #change); \
+    } while (0)
+
+static void refuses(void)
+{
+    const lmb_gouraud whole = frame_of(vec3(0, 0.9f, 0), vec3(0, 0, 0));
+    CHECK(lmb_gouraud_begin(&whole) == LMB_OK);
+    REFUSED(g.scene = NULL, LMB_ERR_ARG);
+    REFUSED(g.transfer = NULL, LMB_ERR_ARG);
+    REFUSED(g.light = NULL, LMB_ERR_ARG);
+    REFUSED(g.direct = NULL, LMB_ERR_ARG);
+    REFUSED(g.scratch = NULL, LMB_ERR_ARG);
+    REFUSED(g.depth = NULL, LMB_ERR_ARG);
+    REFUSED(g.out.data = NULL, LMB_ERR_ARG);
+    REFUSED(g.view.frame_width = SIDE - 1, LMB_ERR_ARG);
+    REFUSED(g.out.format = LMB_RGB555, LMB_ERR_FORMAT);
+    REFUSED(g.out.width = g.view.frame_width = 1024; g.out.stride_bytes = 2048, LMB_ERR_CAPACITY);
+    CHECK(lmb_gouraud_begin(NULL) == LMB_ERR_ARG && lmb_gouraud_draw(NULL, 1, 1) == LMB_ERR_ARG);
+    CHECK(lmb_gouraud_draw(&whole, 0, 1) == LMB_ERR_ARG);
+}
+
+void test_gouraud(void)
+{
+    covers_once();
+    shows_receivers();
+    draws_maps();
+    casts_shadows();
+    in_pieces();
+    refuses();
+}
+
+#else
+
+void test_gouraud(void) {}
+
+#endif
