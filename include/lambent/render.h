@@ -34,6 +34,10 @@
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
 enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
 
+/* A gather_step: samples 8 px apart, and closer where light or surfaces ask for it; what lies between goes on by their
+ * slopes. The picture is a function of scene, view and settings, whatever the order, threads and bands. */
+enum { LMB_GATHER_ADAPTIVE = 8 };
+
 /* Light gathered for some pixels of a block of tiles side by side. */
 typedef struct lmb_sparse {
     lmb_tile together;                      /* the next pixels: their positions, faces, normals and ids */
@@ -82,7 +86,8 @@ typedef struct lmb_frame {
                               counts */
     int32_t truncated;     /* 1: light that is reflected more than `bounces` times is missing; 0: with `bounces` over 1
                               it is estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
-    int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile */
+    int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile; or
+                              LMB_GATHER_ADAPTIVE, with `lattice` */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's shadow map: the sum of lmb_shadow_map_bytes over the lights */
@@ -95,6 +100,7 @@ typedef struct lmb_frame {
     lmb_transfer_light transfer_light;   /* laid out for it, with the scene's materials */
     lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: these cast none */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and materials that emit; data NULL: none of these */
+    lmb_lattice lattice; /* LMB_GATHER_ADAPTIVE: of the view's size; tile NULL: none */
     lmb_target eye;     /* depth and id of the whole frame, or of one band (8 rows) when memory is short */
     lmb_surface eye_depth; /* with a band-sized `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
     lmb_band_scratch *scratch;
@@ -148,6 +154,7 @@ typedef struct lmb_frame_settings {
     uint32_t elements;      /* a power of 4, 64 .. 2^24. 0: 65,536 for more than one bounce, else 16,384 (tiny: 1,024
                                and 256). None where bounces, many_lights and materials need none */
     lmb_grouping grouping;  /* LMB_QUALITY_FIXED: method is not LMB_GROUP_CUT */
+    int32_t gather_step;    /* lmb_frame's, 1 where 0 (2 by LMB_MANY_LIGHTS_EVEN lights) */
     uint32_t points;        /* LMB_QUALITY_FIXED: first points. 0: four a block of texels, the most there can be */
     int32_t id_format;      /* 0: LMB_ID16 for scenes under 65,536 triangles, else LMB_ID32 */
 } lmb_frame_settings;
@@ -197,6 +204,7 @@ typedef enum lmb_stage {
     LMB_STAGE_GROUPS,
     LMB_STAGE_BOUNCES,
     LMB_STAGE_VIEW,
+    LMB_STAGE_SAMPLES, /* LMB_GATHER_ADAPTIVE; other frames go on to LMB_STAGE_BANDS at once */
     LMB_STAGE_BANDS,
     LMB_STAGE_DONE
 } lmb_stage;
