@@ -603,8 +603,12 @@ static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_
     return out;
 }
 
-/* Does light change by much over what is around? */
-static int is_uneven(const lmb_lattice *l, const around *a) { return a->high - a->low > UNEVEN * l->mean; }
+/* Does light change by much around a pixel? */
+static int is_uneven(const lmb_lattice *l, const window *w, int32_t x, int32_t y)
+{
+    const around a = around_of(l, w, x, y, FAR, 0);
+    return a.high - a.low > UNEVEN * l->mean;
+}
 
 /* Ask for those of the late pixels that have no sample within `reach`; with `uneven` only where light changes. */
 static void ask_around(const lmb_lattice *l, const window *w, int32_t reach, int uneven)
@@ -615,8 +619,7 @@ static void ask_around(const lmb_lattice *l, const window *w, int32_t reach, int
             for (uint64_t bits = tile->late; bits != 0; bits &= bits - 1) {
                 const int k = lowest_bit_64(bits);
                 const int32_t x = tx * LMB_TILE + k % LMB_TILE, y = ty * LMB_TILE + k / LMB_TILE;
-                const around a = around_of(l, w, x, y, FAR, 0);
-                if ((!uneven || is_uneven(l, &a)) && !(around_of(l, w, x, y, reach, 1).sum > 0.0f)) {
+                if (!(around_of(l, w, x, y, reach, 1).sum > 0.0f) && (!uneven || is_uneven(l, w, x, y))) {
                     tile->wanted |= (uint64_t)1 << k;
                 }
             }
