@@ -288,10 +288,9 @@ static int texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *t
     int is_crease = 0;
     out->area = 4.0f * length3(cross3(*u, *v));
     if (!tree_is_whole(t)) {
-        const lmb_node_ref at = {(uint16_t)face, (uint16_t)x, (uint16_t)y, 0};
-        const float exact = lmb_crease_share(tree, at), rectangle = wide * high / 65536.0f;
-        is_crease = exact >= 0.0f;
-        share = is_crease ? exact : rectangle;
+        const float rectangle = wide * high / 65536.0f;
+        is_crease = t->share >= 0.0f;
+        share = is_crease ? t->share : rectangle;
         out->area *= share / rectangle;
     }
     for (int c = 0; c < 3; ++c) {
@@ -437,6 +436,18 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     }
 }
 
+/* How much of the light of texels where planes meet is their own: each node and pack that holds one asks for it. */
+static void set_shares(const lmb_tree *tree, uint32_t face)
+{
+    lmb_texel *all = tree->texel + (size_t)face * (size_t)tree->size * (size_t)tree->size;
+    for (int32_t i = 0; i < tree->size * tree->size; ++i) {
+        if (flux_sum(all[i].flux) > 0.0f && !tree_is_whole(&all[i])) {
+            const lmb_node_ref at = {(uint16_t)face, (uint16_t)(i % tree->size), (uint16_t)(i / tree->size), 0};
+            all[i].share = lmb_crease_share(tree, at);
+        }
+    }
+}
+
 lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
 {
     if (tree == NULL || tree->texel == NULL || face >= tree->face_cap) {
@@ -444,6 +455,7 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
     }
     if (tree->element == NULL) {
         lmb_crease_find(tree, face);
+        set_shares(tree, face);
     }
     for (int level = 1; level <= tree_root_level(tree); ++level) {
         const int32_t side = tree->size >> level;
