@@ -233,7 +233,8 @@ const option_row render_bounce_rows[] = {
      .help = "samples of a view march (default 12)"},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
      .help = "at every pixel (default; half with many lights), or at every second or fourth each way and between "
-             "them where surface and light go on; pixels that have no such neighbours are gathered too"},
+             "them where surface and light go on; pixels that have no such neighbours are gathered too. adaptive: at "
+             "every eighth, and closer where light asks for it: the fastest, by a smaller --error closer"},
     {.kind = OPTION_END},
 };
 
