@@ -13,13 +13,12 @@
 
 #define ALIKE  0.95f /* least cosine between the normals of pixels that share light */
 #define OVER   1e-3f /* most that either lies over the other's plane, of their distance, squared: where both are flat */
-#define FIRST  0.3f  /* of a corner's light that none around it predicts: its surplus */
 #define ENOUGH 0.9f  /* least share of the bilinear weights that a pixel's corners must have, */
-#define NEAR   2     /* but for pixels that lie within so many px of one */
+#define NEAR   1     /* but for pixels that lie within so many px of one */
 #define REACH  6     /* px each way from a pixel that no corner explains to a sample, */
-#define CLOSE  2     /* or so many, where the samples within */
+#define CLOSE  1     /* or so many, where the samples within */
 #define FAR    14    /* px differ */
-#define UNEVEN 0.2f  /* by more than this share of the mean light */
+#define UNEVEN 0.3f  /* by more than this share of the mean light */
 
 /* --- layout ------------------------------------------------------------------------------------------------------- */
 
@@ -308,14 +307,14 @@ static float surplus_at(const lmb_lattice *l, const cell *c, int32_t x, int32_t 
         return 0.0f;
     }
     set_agreements(agree, c, p.tile, p.k);
-    const int predicted = agree[0] + agree[1] + agree[2] + agree[3] > 0.0f;
-    if (predicted) {
-        mix(by, c, agree, x, y);
+    if (!(agree[0] + agree[1] + agree[2] + agree[3] > 0.0f)) {
+        return 0.0f; /* nothing predicts the first sample of a surface */
     }
+    mix(by, c, agree, x, y);
     for (int k = 0; k < 3; ++k) {
         sum += absf(p.tile->light.rgb[k][p.k] - by[k]);
     }
-    return predicted ? sum : sum * FIRST;
+    return sum;
 }
 
 static void ask(const lmb_lattice *l, int32_t x, int32_t y)
