@@ -217,7 +217,7 @@ extern "C" {
  * and lmb_render. 0 for settings that lmb_frame_init refuses, and for sizes that this target cannot address.
  *
  * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the shadow map, 5 the tree,
- * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82. At 160x120 in the
+ * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82; LMB_GATHER_ADAPTIVE 15 MiB more. At 160x120 in the
  * tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
 size_t lmb_frame_bytes(const lmb_frame_settings *settings);
@@ -246,7 +246,7 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
  *
  * A unit is 1,024 triangles of a draw, a row of shadow-map tiles, or 64 elements or receivers of one bounce. A band counts as 8 (and
  * draws the whole scene into its rows where the eye is band-sized). The discs of one face, the grouping, the BVH and
- * building the elements cannot be divided: each is one unit.
+ * building the elements cannot be divided: each is one unit. A window of 64 x 64 px of LMB_STAGE_SAMPLES counts as 64.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 
@@ -260,7 +260,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * light and objects stand still. r goes back to LMB_STAGE_VIEW; maps, points, groups and trees stay, and are only
  * read.
  *
- *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step,
+ *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step, lattice,
  *          exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
  *          was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
