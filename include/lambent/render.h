@@ -217,7 +217,8 @@ extern "C" {
  * and lmb_render. 0 for settings that lmb_frame_init refuses, and for sizes that this target cannot address.
  *
  * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the shadow map, 5 the tree,
- * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82; LMB_GATHER_ADAPTIVE 15 MiB more. At 160x120 in the
+ * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82; LMB_GATHER_ADAPTIVE 15
+ * MiB more. At 160x120 in the
  * tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
 size_t lmb_frame_bytes(const lmb_frame_settings *settings);
@@ -260,8 +261,8 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * light and objects stand still. r goes back to LMB_STAGE_VIEW; maps, points, groups and trees stay, and are only
  * read.
  *
- *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step, lattice,
- *          exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
+ *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step,
+ *          lattice, exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
  *          was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG
