@@ -9,9 +9,33 @@ typedef struct lmb_radiance {
     float rgb[3][LMB_TILE_PIXELS];
 } lmb_radiance;
 
+/* What LMB_GATHER_ADAPTIVE keeps of a tile of the frame: what a gather reads of its pixels, and their light. */
+typedef struct lmb_lattice_tile {
+    float position[3][LMB_TILE_PIXELS], face[3][LMB_TILE_PIXELS], normal[3][LMB_TILE_PIXELS];
+    lmb_irradiance light;
+    uint64_t shown, known, wanted, late; /* pixels with a surface; those gathered; to gather next; to light by those */
+    int32_t flat;                  /* 1: all that are shown lie on one plane and are shaded as such */
+} lmb_lattice_tile;
+
+/* The pixels of a frame at which bounced light is gathered: first every 8th each way, then in cells of 4, 2 and 1 px
+ * where the light asks for it. Laid out by lmb_lattice_init. */
+typedef struct lmb_lattice {
+    lmb_lattice_tile *tile; /* by rows of the frame's tiles */
+    uint8_t *divided;       /* of each cell of 8, 4 and 2 px: 1 where it is divided */
+    int32_t width, height;  /* of the frame, px */
+    float mean;             /* light of the first samples, W/m2, R + G + B */
+    float split;            /* cells are divided where (surplus / 3 of the mean)^2 x px^2 is over this */
+} lmb_lattice;
+
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* lmb_lattice_bytes: memory for a lattice of a frame of so many pixels; 0 where a side is under 1 or over
+ * LMB_MAX_SIDE. lmb_lattice_init: lay one out in it. `memory` is aligned as for a uint64_t. LMB_OK, LMB_ERR_ARG,
+ * LMB_ERR_ALIGN or LMB_ERR_CAPACITY. Both are missing in builds without trees. */
+size_t lmb_lattice_bytes(int32_t width, int32_t height);
+lmb_status lmb_lattice_init(lmb_lattice *out, int32_t width, int32_t height, void *memory, size_t bytes);
 
 /* Light gathered at every second or fourth pixel each way (step 2 or 4), for all of them.
  *

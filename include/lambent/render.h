@@ -34,6 +34,10 @@
 /* What of the light to write. Linear formats get it as radiance (SHOW_IRRADIANCE: W/m2, before the albedo). */
 enum { LMB_SHOW_FULL = 0, LMB_SHOW_DIRECT = 1, LMB_SHOW_INDIRECT = 2, LMB_SHOW_IRRADIANCE = 3 };
 
+/* A gather_step: samples 8 px apart, and closer where light or surfaces ask for it; what lies between goes on by their
+ * slopes. The picture is a function of scene, view and settings, whatever the order, threads and bands. */
+enum { LMB_GATHER_ADAPTIVE = 8 };
+
 /* Light gathered for some pixels of a block of tiles side by side. */
 typedef struct lmb_sparse {
     lmb_tile together;                      /* the next pixels: their positions, faces, normals and ids */
@@ -83,7 +87,8 @@ typedef struct lmb_frame {
                               counts */
     int32_t truncated;     /* 1: light that is reflected more than `bounces` times is missing; 0: with `bounces` over 1
                               it is estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
-    int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile */
+    int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile; or
+                              LMB_GATHER_ADAPTIVE, with `lattice` */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's shadow map: the sum of lmb_shadow_map_bytes over the lights */
@@ -96,6 +101,7 @@ typedef struct lmb_frame {
     lmb_transfer_light transfer_light;   /* laid out for it, with the scene's materials */
     lmb_bvh bvh; /* LMB_OCCLUSION_EXACT, and shadows of many_lights; triangle NULL: these cast none */
     lmb_elements elements; /* for bounces > 1, bounced many_lights, and materials that emit; data NULL: none of these */
+    lmb_lattice lattice; /* LMB_GATHER_ADAPTIVE: of the view's size; tile NULL: none */
     lmb_target eye;     /* depth and id of the whole frame; when memory is short, of a strip of some bands of 8 rows:
                            the scene is drawn again for each strip */
     lmb_surface eye_depth; /* with such an `eye` and VIEW occlusion: depth of the whole frame (16 bit will do) */
@@ -150,6 +156,7 @@ typedef struct lmb_frame_settings {
     uint32_t elements;      /* a power of 4, 64 .. 2^24. 0: 65,536 for more than one bounce, else 16,384 (tiny: 1,024
                                and 256). None where bounces, many_lights and materials need none */
     lmb_grouping grouping;  /* LMB_QUALITY_FIXED: method is not LMB_GROUP_CUT */
+    int32_t gather_step;    /* lmb_frame's, 1 where 0 (2 by LMB_MANY_LIGHTS_EVEN lights) */
     uint32_t points;        /* LMB_QUALITY_FIXED: first points. 0: four a block of texels, the most there can be */
     int32_t id_format;      /* 0: LMB_ID16 for scenes under 65,536 triangles, else LMB_ID32 */
 } lmb_frame_settings;
@@ -199,6 +206,7 @@ typedef enum lmb_stage {
     LMB_STAGE_GROUPS,
     LMB_STAGE_BOUNCES,
     LMB_STAGE_VIEW,
+    LMB_STAGE_SAMPLES, /* LMB_GATHER_ADAPTIVE; other frames go on to LMB_STAGE_BANDS at once */
     LMB_STAGE_BANDS,
     LMB_STAGE_DONE
 } lmb_stage;
@@ -211,7 +219,8 @@ extern "C" {
  * and lmb_render. 0 for settings that lmb_frame_init refuses, and for sizes that this target cannot address.
  *
  * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the shadow map, 5 the tree,
- * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82. At 160x120 in the
+ * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82; LMB_GATHER_ADAPTIVE 15
+ * MiB more. At 160x120 in the
  * tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
 size_t lmb_frame_bytes(const lmb_frame_settings *settings);
@@ -239,8 +248,9 @@ lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame);
 /* lmb_render_step: do up to `units` units of work, at least one.
  *
  * A unit is 1,024 triangles of a draw, a row of shadow-map tiles, or 64 elements or receivers of one bounce. A band
- * counts as 8 (and the first of a strip draws the whole scene, where the eye is smaller than the frame). The discs of one
- * face, the grouping, the BVH and building the elements cannot be divided: each is one unit.
+ * counts as 8 (and the first of a strip draws the whole scene, where the eye is smaller than the frame), a window of
+ * 64 x 64 px of LMB_STAGE_SAMPLES as 64. The discs of one face, the grouping, the BVH and building the elements cannot
+ * be divided: each is one unit.
  * Returns LMB_MORE, LMB_OK when the frame is done, or an error of the stage. */
 lmb_status lmb_render_step(lmb_render *r, int32_t units);
 
@@ -256,7 +266,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * read.
  *
  *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step,
- *          exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
+ *          lattice, exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
  *          was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG

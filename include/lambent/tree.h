@@ -9,12 +9,13 @@
 #include "bounce.h"
 #include "occlusion.h"
 
-/* A first point. 40 bytes. */
+/* A first point. 44 bytes. */
 typedef struct lmb_texel {
     lmb_vec3 position, normal; /* m; unit, on the lit side */
     float flux[3];             /* outgoing Lambertian power, W; all 0: no first point */
     uint8_t side[4];           /* how far its surface extends from its middle, left, right, up and down, in 1/256
                                   texel: 128 to the texel's edge, else to where its plane meets the neighbour's */
+    float share;               /* where a side is not 128: of its flux, what its exact shape has; under 0: its sides' */
 } lmb_texel;
 
 /* The first points of a square of texels. 96 bytes.

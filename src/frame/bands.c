@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "../base/vec.h"
+#include "../compose/lattice.h"
 #include "../light/light_tile.h"
 #include "stages.h"
 #include "requires.h"
@@ -69,6 +70,10 @@ static lmb_status block_light(const lmb_irradiance **out, const lmb_render *r, l
     const lmb_frame *f = &r->frame;
     const int32_t part = x / LMB_TILE % LMB_SPARSE_TILES;
     const int sparse = f->gather_step > 1 && !skips(r, LMB_SKIP_BOUNCE);
+    if (requires_samples(r)) {
+        *out = &lattice_tile(&f->lattice, x / LMB_TILE, band)->light;
+        return LMB_OK;
+    }
     *out = sparse ? &s->sparse.light[part] : NULL;
     if (!sparse || part > 0) {
         return LMB_OK;

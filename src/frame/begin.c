@@ -38,6 +38,9 @@ void lmb_render_defaults(lmb_frame *f)
     f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;
     f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : VISIBILITY;
     f->gather_step = f->gather_step != 0 && requires_bounce(f) ? f->gather_step : 1;
+    if (f->gather_step == LMB_GATHER_ADAPTIVE && requires_transfer(f)) {
+        f->gather_step = 1; /* what was baked costs a pixel less than a sample */
+    }
 }
 
 lmb_status lmb_render_begin(lmb_render *r, const lmb_frame *frame)
@@ -84,6 +87,7 @@ static void set_picture(lmb_frame *f, const lmb_frame *from)
     f->conservative = from->conservative;
     f->many_lights_error = from->many_lights_error;
     f->gather_step = from->gather_step;
+    f->lattice = from->lattice;
     f->exposure_ev = from->exposure_ev;
     f->eye = from->eye;
     f->eye_depth = from->eye_depth;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "requires.h"
+#include "stages.h"
 
 #define LINE 64u /* bytes: parts begin at multiples of this */
 
@@ -63,7 +64,8 @@ static lmb_status check(const lmb_frame_settings *s)
         s->view.frame_height < 1 || s->view.frame_height > LMB_MAX_SIDE || s->show < LMB_SHOW_FULL ||
         s->show > LMB_SHOW_IRRADIANCE || s->quality < LMB_QUALITY_DEFAULT || s->quality > LMB_QUALITY_FIXED ||
         s->bounces < 0 || s->bounces > LMB_MAX_BOUNCES || s->threads < 0 || s->threads > MAX_THREADS ||
-        s->shadow_map < 0 || s->tree < 0 || !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
+        s->shadow_map < 0 || s->tree < 0 || s->gather_step < 0 || s->gather_step == 3 ||
+        (s->gather_step > 4 && s->gather_step != LMB_GATHER_ADAPTIVE) || !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
         (s->by_bands && s->threads > 1)) {
         return LMB_ERR_ARG;
     }
@@ -111,7 +113,7 @@ static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
     f->error = s->error != 0.0f ? s->error : p->error;
     f->visibility = s->visibility != 0.0f ? s->visibility : p->visibility;
     f->bounces = s->bounces;
-    f->gather_step = even ? 2 : 1;
+    f->gather_step = s->gather_step != 0 ? s->gather_step : even ? 2 : 1;
     f->id_format = s->id_format != 0 ? s->id_format : lmb_scene_triangles(s->scene) <= 65535u ? LMB_ID16 : LMB_ID32;
 }
 
@@ -263,6 +265,20 @@ static lmb_status place_bounced(lmb_frame *f, const lmb_frame_settings *s, block
     return status;
 }
 
+/* Of frames that bounce light. */
+static lmb_status place_lattice(lmb_frame *f, block *b)
+{
+    const lmb_view *v = &f->view;
+    if (f->gather_step != LMB_GATHER_ADAPTIVE || f->show == LMB_SHOW_DIRECT) {
+        return LMB_OK;
+    }
+    const size_t bytes = lmb_lattice_bytes(v->frame_width, v->frame_height);
+    void *memory = take(b, bytes);
+    return bytes == 0         ? LMB_ERR_ARG
+           : is_measured(b) ? LMB_OK
+                              : lmb_lattice_init(&f->lattice, v->frame_width, v->frame_height, memory, bytes);
+}
+
 static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const uint64_t scratch = sizeof *f->scratch * (uint64_t)(s->threads > 1 ? s->threads : 1);
@@ -274,6 +290,9 @@ static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, block *b)
     }
     if (status == LMB_OK) {
         status = place_bounced(f, s, b);
+    }
+    if (status == LMB_OK) {
+        status = place_lattice(f, b);
     }
     if (status == LMB_OK && !is_measured(b)) {
         memset(f->scratch, 0, (size_t)scratch);

@@ -29,6 +29,8 @@ int32_t lmb_render_has_parts(const lmb_render *r)
         return has_bounces(r) && r->progress == 0 && !requires_transfer(&r->frame);
     case LMB_STAGE_VIEW:
         return r->progress == 0 && !reuses(r, LMB_REUSE_VIEW);
+    case LMB_STAGE_SAMPLES:
+        return r->progress == 0 && is_whole(&r->frame.eye.depth, &r->frame.view);
     default:
         return 0;
     }
@@ -40,8 +42,9 @@ lmb_status lmb_render_part(const lmb_render *r, lmb_band_scratch *scratch, int32
     if (!lmb_render_has_parts(r) || scratch == NULL || part < 0 || part >= parts || parts > 65535) {
         return LMB_ERR_ARG;
     }
-    return r->stage == LMB_STAGE_VIEW ? lmb_render_view_part(r, part, parts, stats)
-                                      : lmb_render_solve_part(r, scratch, part, parts, stats);
+    return r->stage == LMB_STAGE_VIEW      ? lmb_render_view_part(r, part, parts, stats)
+           : r->stage == LMB_STAGE_SAMPLES ? lmb_render_samples_part(r, scratch, part, parts, stats)
+                                           : lmb_render_solve_part(r, scratch, part, parts, stats);
 }
 
 /* The stage is complete, or has failed. */
@@ -53,7 +56,7 @@ static lmb_status end_stage(lmb_render *r, lmb_status status)
         return status;
     }
     if (status == LMB_OK) {
-        ++r->stage;
+        r->stage += r->stage == LMB_STAGE_VIEW && !requires_samples(r) ? 2 : 1;
         r->light = r->face = r->progress = 0;
     }
     return r->stage == LMB_STAGE_DONE ? LMB_OK : LMB_MORE;
@@ -64,7 +67,7 @@ lmb_status lmb_render_parts_done(lmb_render *r, int32_t parts)
     if (!lmb_render_has_parts(r) || parts < 1) {
         return LMB_ERR_ARG;
     }
-    return end_stage(r, lmb_render_solve_on(r, parts));
+    return end_stage(r, r->stage == LMB_STAGE_SAMPLES ? lmb_render_samples_on(r) : lmb_render_solve_on(r, parts));
 }
 
 lmb_status lmb_render_step(lmb_render *r, int32_t units)
@@ -85,6 +88,8 @@ lmb_status lmb_render_step(lmb_render *r, int32_t units)
         return end_stage(r, lmb_render_solve(r, units));
     case LMB_STAGE_VIEW:
         return end_stage(r, lmb_render_view(r, units));
+    case LMB_STAGE_SAMPLES:
+        return end_stage(r, lmb_render_samples(r, units));
     case LMB_STAGE_BANDS:
         return end_stage(r, lmb_render_bands(r, units));
     default:
@@ -106,7 +111,7 @@ lmb_status lmb_render_frame(lmb_render *r, const lmb_frame *frame)
 float lmb_render_progress(const char **name, const lmb_render *r)
 {
     static const char *const names[] = {"shadow maps", "BVH",  "first points", "groups",
-                                        "bounces",     "view", "bands",        "done"};
+                                        "bounces",     "view", "samples",      "bands", "done"};
     const int is_over = r == NULL || r->frame.scene == NULL || r->stage < 0 || r->stage > LMB_STAGE_DONE;
     if (name != NULL) {
         *name = names[is_over ? LMB_STAGE_DONE : r->stage];
@@ -135,6 +140,9 @@ float lmb_render_progress(const char **name, const lmb_render *r)
         break;
     case LMB_STAGE_VIEW:
         done = (float)r->progress / triangles;
+        break;
+    case LMB_STAGE_SAMPLES:
+        done = (float)r->light / 8.0f;
         break;
     case LMB_STAGE_BANDS:
         done = (float)r->progress / (float)band_count(&r->frame.view);

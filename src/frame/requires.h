@@ -38,6 +38,12 @@ static inline int requires_bounce(const lmb_frame *f)
     return requires_cut(f) || requires_groups(f) || requires_transfer(f);
 }
 
+/* Is bounced light gathered at a lattice's samples? */
+static inline int requires_samples(const lmb_render *r)
+{
+    return LMB_TREES && r->frame.gather_step == LMB_GATHER_ADAPTIVE && !(LMB_PLAN && (r->skips & LMB_SKIP_BOUNCE) != 0);
+}
+
 /* What is left out and what is kept; nothing in builds without plan. */
 static inline int skips(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->skips & what) != 0; }
 static inline int reuses(const lmb_render *r, uint32_t what) { return LMB_PLAN && (r->reuses & what) != 0; }

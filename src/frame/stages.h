@@ -32,6 +32,11 @@
 #define lmb_elements_tiles(...)   never(lmb_elements_tiles(__VA_ARGS__))
 #endif
 
+#if !LMB_TREES
+#define lmb_lattice_bytes(...)        ((void)sizeof(lmb_lattice_bytes(__VA_ARGS__)), (size_t)0)
+#define lmb_lattice_init(...)         never(lmb_lattice_init(__VA_ARGS__))
+#endif
+
 #if !LMB_TRANSFER
 #define lmb_transfer_clear(...)     never(lmb_transfer_clear(__VA_ARGS__))
 #define lmb_transfer_collect(...)   never(lmb_transfer_collect(__VA_ARGS__))
@@ -79,6 +84,17 @@ lmb_status lmb_render_solve_on(lmb_render *r, int32_t parts);
 /* LMB_STAGE_VIEW. */
 lmb_status lmb_render_view(lmb_render *r, int32_t units);
 lmb_status lmb_render_view_part(const lmb_render *r, int32_t part, int32_t parts, lmb_stats *stats);
+
+/* LMB_STAGE_SAMPLES. on: the next phase. */
+lmb_status lmb_render_samples(lmb_render *r, int32_t units);
+lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *scratch, int32_t part, int32_t parts,
+                                   lmb_stats *stats);
+lmb_status lmb_render_samples_on(lmb_render *r);
+#if !LMB_TREES
+#define lmb_render_samples(...)       never(lmb_render_samples(__VA_ARGS__))
+#define lmb_render_samples_part(...)  never(lmb_render_samples_part(__VA_ARGS__))
+#define lmb_render_samples_on(...)    never(lmb_render_samples_on(__VA_ARGS__))
+#endif
 
 /* LMB_STAGE_BANDS. */
 lmb_status lmb_render_bands(lmb_render *r, int32_t units);

@@ -53,6 +53,12 @@ static int reflects_again(const lmb_frame *f)
                                 : requires_cut(f) && f->elements.data != NULL;
 }
 
+static int has_lattice(const lmb_frame *f)
+{
+    return LMB_TREES && f->gather_step == LMB_GATHER_ADAPTIVE && f->lattice.tile != NULL &&
+           f->lattice.width == f->view.frame_width && f->lattice.height == f->view.frame_height;
+}
+
 lmb_status lmb_render_check(const lmb_frame *f)
 {
     if (f->kernels == NULL || f->scene == NULL || f->scratch == NULL || f->show < LMB_SHOW_FULL ||
@@ -71,7 +77,7 @@ lmb_status lmb_render_check(const lmb_frame *f)
         (f->bounces > 1 && requires_bounce(f) && !reflects_again(f))) {
         return LMB_ERR_ARG;
     }
-    if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4) {
+    if (f->gather_step != 1 && f->gather_step != 2 && f->gather_step != 4 && !has_lattice(f)) {
         return LMB_ERR_ARG;
     }
     if (f->scene->light_count > LMB_MAX_LIGHTS) {

@@ -215,12 +215,6 @@ lmb_status lmb_tree_texels(const lmb_tree *tree, const lmb_kernels *kernels, lmb
 
 /* --- a texel's quad ----------------------------------------------------------------------------------------------- */
 
-void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
-{
-    lmb_vec3 u, v;
-    lmb_tree_texel_quad(out, &u, &v, tree, face, x, y);
-}
-
 /* Of its own cell and of those neighbours' of which it may have a part. u, v: whole sides. */
 static void set_box(lmb_node *out, const lmb_texel *t, lmb_vec3 u, lmb_vec3 v)
 {
@@ -259,8 +253,9 @@ static void set_element_box(lmb_node *out, const lmb_texel *t, const lmb_element
     }
 }
 
-int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
-                        int32_t y)
+/* The box of a whole texel's light only where it is asked for. */
+static int texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
+                      int32_t y, int boxed)
 {
     const lmb_texel *t = tree_texel(tree, face, x, y);
     const lmb_element *element = tree_element(tree, x, y);
@@ -283,7 +278,9 @@ int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree 
     const float wide = (float)(side[SIDE_LEFT] + side[SIDE_RIGHT]), right = (float)(side[SIDE_RIGHT] - side[SIDE_LEFT]),
                 high = (float)(side[SIDE_UP] + side[SIDE_DOWN]), down = (float)(side[SIDE_DOWN] - side[SIDE_UP]);
     footprint_sides(u, v, &tree->view[face], tree->size, t->position, t->normal);
-    set_box(out, t, *u, *v);
+    if (boxed || !tree_is_whole(t)) {
+        set_box(out, t, *u, *v);
+    }
     out->centre = add3(t->position, sub3(mul3(*u, right / 512.0f), mul3(*v, down / 512.0f)));
     *u = mul3(*u, wide / 512.0f);
     *v = mul3(*v, high / 512.0f);
@@ -291,16 +288,27 @@ int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree 
     int is_crease = 0;
     out->area = 4.0f * length3(cross3(*u, *v));
     if (!tree_is_whole(t)) {
-        const lmb_node_ref at = {(uint16_t)face, (uint16_t)x, (uint16_t)y, 0};
-        const float exact = lmb_crease_share(tree, at), rectangle = wide * high / 65536.0f;
-        is_crease = exact >= 0.0f;
-        share = is_crease ? exact : rectangle;
+        const float rectangle = wide * high / 65536.0f;
+        is_crease = t->share >= 0.0f;
+        share = is_crease ? t->share : rectangle;
         out->area *= share / rectangle;
     }
     for (int c = 0; c < 3; ++c) {
         out->flux[c] = t->flux[c] * share;
     }
     return is_crease;
+}
+
+int lmb_tree_texel_quad(lmb_node *out, lmb_vec3 *u, lmb_vec3 *v, const lmb_tree *tree, uint32_t face, int32_t x,
+                        int32_t y)
+{
+    return texel_quad(out, u, v, tree, face, x, y, 0);
+}
+
+void lmb_tree_texel_node(lmb_node *out, const lmb_tree *tree, uint32_t face, int32_t x, int32_t y)
+{
+    lmb_vec3 u, v;
+    texel_quad(out, &u, &v, tree, face, x, y, 1);
 }
 
 /* --- sums --------------------------------------------------------------------------------------------------------- */
@@ -428,6 +436,18 @@ static void merge(lmb_node *out, const lmb_node child[4], const lmb_tree *tree, 
     }
 }
 
+/* How much of the light of texels where planes meet is their own: each node and pack that holds one asks for it. */
+static void set_shares(const lmb_tree *tree, uint32_t face)
+{
+    lmb_texel *all = tree->texel + (size_t)face * (size_t)tree->size * (size_t)tree->size;
+    for (int32_t i = 0; i < tree->size * tree->size; ++i) {
+        if (flux_sum(all[i].flux) > 0.0f && !tree_is_whole(&all[i])) {
+            const lmb_node_ref at = {(uint16_t)face, (uint16_t)(i % tree->size), (uint16_t)(i / tree->size), 0};
+            all[i].share = lmb_crease_share(tree, at);
+        }
+    }
+}
+
 lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
 {
     if (tree == NULL || tree->texel == NULL || face >= tree->face_cap) {
@@ -435,6 +455,7 @@ lmb_status lmb_tree_sum(const lmb_tree *tree, uint32_t face)
     }
     if (tree->element == NULL) {
         lmb_crease_find(tree, face);
+        set_shares(tree, face);
     }
     for (int level = 1; level <= tree_root_level(tree); ++level) {
         const int32_t side = tree->size >> level;

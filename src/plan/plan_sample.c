@@ -88,7 +88,7 @@ lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band
 {
     lmb_status status = LMB_OK;
     if (out == NULL || scratch == NULL || places == NULL || !lmb_can_sample(r) ||
-        (r->frame.gather_step > 1 && places->tiles == 1)) {
+        (r->frame.gather_step > 1 && places->tiles == 1) || r->frame.gather_step > 4) {
         return LMB_ERR_ARG;
     }
     out->tiles = places->tiles;

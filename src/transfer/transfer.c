@@ -321,6 +321,7 @@ void lmb_transfer_fingerprint(uint32_t out[2], const lmb_scene *scene, const uin
     if (out == NULL) {
         return;
     }
+    count = moving != NULL ? count : 0;
     for (uint32_t id = 1, range = 0; id <= all; ++id) {
         range += range < count && id >= moving[2 * range + 1];
         if ((range < count && id >= moving[2 * range]) || !lmb_triangle_fetch(&t, scene, id)) {

@@ -605,6 +605,21 @@ static uint64_t case_cut(int variant)
     return hash_frame(GOLDEN_START, &f);
 }
 
+#ifndef LMB_CONFIG_TINY
+/* Bounced light at the samples of a lattice, which the small configuration's memory has no room for. Variant 0: of the
+ * room, by groups; 1: of the soup, by cuts, where hardly a pixel explains another. */
+static uint64_t case_adaptive(int variant)
+{
+    static uint64_t lattice[10 * 8 * (sizeof(lmb_lattice_tile) / 8) + 1024];
+    lmb_frame f = variant ? soup_frame(1, 8) : demo_frame();
+    f.show = LMB_SHOW_INDIRECT;
+    f.gather_step = LMB_GATHER_ADAPTIVE;
+    f.occlusion = variant ? LMB_OCCLUSION_EXACT : f.occlusion;
+    const lmb_status status = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
+    return hash_frame(golden_hash_u32(GOLDEN_START, (uint32_t)status), &f);
+}
+#endif
+
 /* Cuts of more nodes than the small configuration holds. */
 static uint64_t case_full_cut(int variant)
 {

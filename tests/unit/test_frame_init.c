@@ -105,6 +105,8 @@ static int make_kinds(kind *out)
     s = KIND("cuts by bands", &lit), s->by_bands = 1, s->format = LMB_RGB32F;
     s = KIND("fixed", &lit), s->quality = LMB_QUALITY_FIXED;
     s = KIND("fixed by bands", &lit), s->quality = LMB_QUALITY_FIXED, s->by_bands = 1, s->points = 700;
+    s = KIND("adaptive", &lit), s->gather_step = LMB_GATHER_ADAPTIVE, s->quality = LMB_QUALITY_DRAFT;
+    s = KIND("adaptive by bands", &lit), s->gather_step = LMB_GATHER_ADAPTIVE, s->by_bands = 1, s->format = LMB_RGB32F;
     s = KIND("own picture", &lit), s->shadow_map = 32;
     CHECK(lmb_surface_init(&s->out, LMB_RGBA8, WIDE, HIGH, own_picture, sizeof own_picture) == LMB_OK);
     s = KIND("emitting", &emitting), s->elements = 64;
@@ -151,7 +153,7 @@ static uint64_t by_hand_hash(const lmb_frame *like)
     lmb_frame f = *like;
     const size_t tree = lmb_tree_bytes(f.tree.face_cap, f.tree.size);
     const size_t bvh = lmb_bvh_bytes(f.bvh.triangle_cap);
-    void *memory[5] = {malloc(f.map_bytes + 1), malloc(tree + 1), malloc(bvh + 1), NULL, NULL};
+    void *memory[6] = {malloc(f.map_bytes + 1), malloc(tree + 1), malloc(bvh + 1), NULL, NULL, NULL};
     f.map_memory = memory[0];
     f.scratch = &scratch;
     CHECK(lmb_surface_init(&f.eye.depth, LMB_DEPTH32F, WIDE, f.eye.depth.height, depth, sizeof depth) == LMB_OK);
@@ -175,6 +177,10 @@ static uint64_t by_hand_hash(const lmb_frame *like)
         memory[4] = malloc(points);
         f.groups = &groups;
         CHECK(lmb_points_init(&f.points, f.points.cap, MAP / LMB_TILE, memory[4], points) == LMB_OK);
+    }
+    if (f.lattice.tile != NULL) {
+        memory[5] = malloc(lmb_lattice_bytes(WIDE, HIGH));
+        CHECK(lmb_lattice_init(&f.lattice, WIDE, HIGH, memory[5], lmb_lattice_bytes(WIDE, HIGH)) == LMB_OK);
     }
     const uint64_t hash = drawn_hash(&f);
     for (int i = 0; i < COUNT(memory); ++i) {

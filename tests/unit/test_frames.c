@@ -793,12 +793,12 @@ static void test_progress(void)
         float now = lmb_render_progress(&name, &m.render);
         wrong += name == NULL || !(now >= 0.0f && now <= 1.0f) || m.render.stage < stage;
         wrong += m.render.stage == stage && now < before;
-        wrong += m.render.stage > stage + 1;
+        wrong += m.render.stage > stage + 1 + (m.render.stage == LMB_STAGE_BANDS); /* it has no samples */
         stages += m.render.stage != stage;
         stage = m.render.stage;
         before = now;
     } while (lmb_render_step(&m.render, 1) == LMB_MORE);
-    CHECK(wrong == 0 && stages == LMB_STAGE_DONE && lmb_render_progress(&name, &m.render) == 1.0f);
+    CHECK(wrong == 0 && stages == LMB_STAGE_DONE - 1 && lmb_render_progress(&name, &m.render) == 1.0f);
     CHECK(lmb_render_progress(&name, NULL) == 1.0f && name != NULL);
 }
 

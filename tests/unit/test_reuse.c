@@ -26,7 +26,7 @@ enum { POINTS = 4 * MAP * MAP / 64 * FACES, TRIANGLES = 64 };
 /* All that a frame is drawn in. */
 typedef struct state {
     uint32_t map[FACES * MAP * MAP * 2], depth[FRAME * FRAME], id[FRAME * FRAME];
-    uint32_t tree[FACES * (MAP * MAP * 18 + 64)], bvh[TRIANGLES * 29 + 2048], elements[ELEMENTS * 44 + 64];
+    uint32_t tree[FACES * (MAP * MAP * 19 + 64)], bvh[TRIANGLES * 29 + 2048], elements[ELEMENTS * 44 + 64];
     lmb_point points[POINTS];
     uint32_t cells[MAP * MAP / 64 + 1];
     lmb_groups groups;

@@ -171,7 +171,7 @@ static void test_stages_with_parts(void)
     int32_t stage;
     CHECK(!lmb_render_has_parts(NULL) && lmb_render_parts_done(NULL, 1) == LMB_ERR_ARG);
     CHECK(lmb_render_begin(&m.render, &f) == LMB_OK);
-    for (stage = LMB_STAGE_SHADOW_MAP; stage < LMB_STAGE_BANDS; ++stage) {
+    for (stage = LMB_STAGE_SHADOW_MAP; stage < LMB_STAGE_SAMPLES; ++stage) {
         const int whole =
             stage == LMB_STAGE_GROUPS || stage == LMB_STAGE_BVH || stage == LMB_STAGE_BOUNCES;
         CHECK_MSG(lmb_render_has_parts(&m.render) == !whole, "stage %d", (int)stage);

@@ -10,7 +10,7 @@
 #include "bench_subject.h"
 
 static const char *const stages[BENCH_STAGES] = {"shadow maps", "BVH",  "first points", "groups",
-                                                 "bounces",     "view", "pixels",       NULL};
+                                                 "bounces",     "view", "samples",      "pixels", NULL};
 
 static const bench_try tries[] = {
     {"presets", "", 4, 0},

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { BENCH_STAGES = 8, BENCH_FIGURES = 8, BENCH_ROWS = 8, BENCH_BREAKDOWNS = 4, BENCH_NAME = 96,
+enum { BENCH_STAGES = 9, BENCH_FIGURES = 8, BENCH_ROWS = 8, BENCH_BREAKDOWNS = 4, BENCH_NAME = 96,
        BENCH_COMMAND = 1024, BENCH_POINTS = 256 };
 
 /* Three codes a pixel, rows from the top; the report owns them. */

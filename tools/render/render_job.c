@@ -258,6 +258,7 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     s.error = o->error;
     s.visibility = o->visibility;
     s.elements = (uint32_t)o->elements;
+    s.gather_step = o->gather_step;
     s.id_format = LMB_ID32;
     return s;
 }

@@ -61,7 +61,7 @@ static asked_lights sum_asked(const render_job *j)
 static int write_stats(const render_job *j, report *r)
 {
     static const char *const names[] = {"shadow_maps", "BVH", "first_points", "groups",
-                                        "bounces",    "view",     "bands"};
+                                        "bounces",    "view",     "samples", "bands"};
     char text[2048];
     int n = 0;
     const lmb_stats *s = &j->stats;

@@ -1,0 +1,228 @@
+/* adaptive.c: bounced light at the samples of a lattice, level after level, and between them. Layer 10.
+ *
+ * r->light is the phase, r->progress the band or window at hand. In a phase a window writes its own pixels alone and
+ * reads of others what the phases before wrote: so any order and number of threads gives the same bytes. */
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../bounce/points.h"
+#include "../compose/lattice.h"
+#include "../raster/tile.h"
+#include "stages.h"
+#include "requires.h"
+
+#if LMB_TREES
+
+enum {
+    SURFACES = 0, /* bands: what their pixels show */
+    LEVELS = 1,   /* windows: samples of the first level, the second, ... */
+    FILL = LEVELS + LATTICE_LEVELS,
+    REST, /* what no sample explains */
+    PHASES
+};
+enum { WINDOW_UNITS = 64 };
+
+#define SPLIT 28.0f /* of the allowed error, squared: lmb_lattice.split */
+
+static lmb_status take_surfaces(const lmb_render *r, lmb_band_scratch *s, int32_t band)
+{
+    const lmb_frame *f = &r->frame;
+    lmb_target eye;
+    lmb_status status = lmb_render_view_band(r, &eye, &f->eye, band);
+    for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
+        status = lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &eye, x, band * LMB_TILE);
+        if (status == LMB_OK) {
+            const int lobes = requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene);
+            lmb_lattice_put(&f->lattice, &s->tile, lobes);
+        }
+    }
+    return status;
+}
+
+/* --- packs: wanted pixels of one surface, gathered as a tile ------------------------------------------------------- */
+
+/* Tile i of a window along a curve that stays near where it was (Morton). */
+static lmb_lattice_tile *tile_along(const lmb_lattice *l, const int32_t column[2], const int32_t row[2], int32_t i)
+{
+    int32_t x = 0, y = 0;
+    for (int32_t bit = 0; 1 << bit < LATTICE_WINDOW; ++bit) {
+        x |= (i >> (2 * bit) & 1) << bit;
+        y |= (i >> (2 * bit + 1) & 1) << bit;
+    }
+    return column[0] + x < column[1] && row[0] + y < row[1] ? lattice_tile(l, column[0] + x, row[0] + y) : NULL;
+}
+
+/* As tile_plane. */
+static int on_plane(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b, int k)
+{
+    const lmb_vec3 n = tile_vec(a->face, i), d = sub3(tile_vec(b->position, k), tile_vec(a->position, i));
+    const float height = dot3(n, d);
+    return dot3(n, tile_vec(b->face, k)) >= TILE_COS_25 && height * height <= TILE_FLAT * TILE_FLAT * dot3(d, d);
+}
+
+static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from)
+{
+    for (int c = 0; c < 3; ++c) {
+        out->position[c][to] = in->position[c][from];
+        out->face[c][to] = in->face[c][from];
+        out->normal[c][to] = in->normal[c][from];
+    }
+    out->depth[to] = 1.0f;
+    out->id[to] = 1;
+}
+
+/* A pack under way: its pixels lie in s->sparse.together, and where they come from in its light. */
+typedef struct pack {
+    const lmb_render *r;
+    lmb_band_scratch *s;
+    int32_t column[2], row[2];
+    lmb_lattice_tile *seed;
+    int seed_pixel;
+    int32_t count;
+    uint16_t tile[LMB_TILE_PIXELS]; /* along the curve */
+} pack;
+
+static void put_alike(pack *p, lmb_lattice_tile *tile, int32_t i)
+{
+    for (uint64_t bits = tile->wanted; bits != 0 && p->count < LMB_TILE_PIXELS; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        if (p->seed == NULL) {
+            p->seed = tile;
+            p->seed_pixel = k;
+        }
+        if (on_plane(p->seed, p->seed_pixel, tile, k)) {
+            put_pixel(&p->s->sparse.together, p->count, tile, k);
+            p->s->sparse.pixel[p->count] = (uint16_t)k;
+            p->tile[p->count++] = (uint16_t)i;
+            tile->wanted &= ~((uint64_t)1 << k);
+        }
+    }
+}
+
+static lmb_status gather_pack(const pack *p)
+{
+    lmb_sparse *sparse = &p->s->sparse;
+    memset(&p->s->indirect, 0, sizeof p->s->indirect);
+    const lmb_status status = lmb_render_gather(&p->s->indirect, NULL, p->r, p->s, &sparse->together, NULL);
+    for (int32_t i = 0; i < p->count; ++i) {
+        lmb_lattice_tile *tile = tile_along(&p->r->frame.lattice, p->column, p->row, p->tile[i]);
+        for (int c = 0; c < 3; ++c) {
+            tile->light.rgb[c][sparse->pixel[i]] = p->s->indirect.rgb[c][i];
+        }
+        tile->known |= (uint64_t)1 << sparse->pixel[i];
+    }
+    return status;
+}
+
+/* Gather the wanted pixels of a window. */
+static lmb_status gather_window(const lmb_render *r, lmb_band_scratch *s, int32_t window)
+{
+    const lmb_lattice *l = &r->frame.lattice;
+    lmb_status status = LMB_OK;
+    pack p;
+    p.r = r;
+    p.s = s;
+    lmb_lattice_window(p.column, p.row, l, window);
+    for (int32_t first = 0; first < LATTICE_WINDOW * LATTICE_WINDOW && status == LMB_OK;) {
+        const lmb_lattice_tile *at = tile_along(l, p.column, p.row, first);
+        if (at == NULL || at->wanted == 0) {
+            ++first;
+            continue;
+        }
+        p.seed = NULL;
+        p.count = 0;
+        memset(&s->sparse.together, 0, sizeof s->sparse.together);
+        for (int32_t i = first; i < LATTICE_WINDOW * LATTICE_WINDOW && p.count < LMB_TILE_PIXELS; ++i) {
+            lmb_lattice_tile *tile = tile_along(l, p.column, p.row, i);
+            if (tile != NULL && tile->wanted != 0) {
+                put_alike(&p, tile, i);
+            }
+        }
+        status = gather_pack(&p);
+    }
+    return status;
+}
+
+/* --- phases ------------------------------------------------------------------------------------------------------- */
+
+static int32_t pieces_of(const lmb_render *r)
+{
+    return r->light == SURFACES ? band_count(&r->frame.view) : lmb_lattice_windows(&r->frame.lattice);
+}
+
+static lmb_status do_piece(const lmb_render *r, lmb_band_scratch *s, int32_t i)
+{
+    const lmb_lattice *l = &r->frame.lattice;
+    if (r->light == SURFACES) {
+        return take_surfaces(r, s, i);
+    }
+    if (r->light == FILL) {
+        lmb_lattice_fill(l, i);
+        return LMB_OK;
+    }
+    if (r->light == REST) {
+        lmb_lattice_rest(l, i);
+    }
+    lmb_status status = gather_window(r, s, i);
+    if (r->light == REST && status == LMB_OK) {
+        lmb_lattice_closer(l, i);
+        status = gather_window(r, s, i);
+        lmb_lattice_late(l, i);
+    }
+    return status;
+}
+
+static void add_counts(lmb_stats *stats, const lmb_stats *counts)
+{
+    if (stats != NULL) {
+        stats->pairs += counts->pairs;
+        stats->segments += counts->segments;
+        stats->full_cuts += counts->full_cuts;
+    }
+}
+
+/* The next phase. */
+lmb_status lmb_render_samples_on(lmb_render *r)
+{
+    const int32_t level = (int32_t)r->light - LEVELS;
+    if (level == 0) {
+        r->frame.lattice.mean = lmb_lattice_mean(&r->frame.lattice);
+        r->frame.lattice.split = SPLIT * r->frame.error * r->frame.error;
+    }
+    if (level >= 0 && level < LATTICE_LEVELS - 1) {
+        lmb_lattice_divide(&r->frame.lattice, level);
+    }
+    r->progress = 0;
+    return ++r->light < PHASES ? LMB_MORE : LMB_OK;
+}
+
+lmb_status lmb_render_samples(lmb_render *r, int32_t units)
+{
+    lmb_band_scratch *s = r->frame.scratch;
+    const int32_t each = r->light == SURFACES ? LMB_TILE : WINDOW_UNITS;
+    for (int32_t n = 0; (n == 0 || n + each <= units) && (int32_t)r->progress < pieces_of(r); n += each) {
+        memset(&s->counts, 0, sizeof s->counts);
+        const lmb_status status = do_piece(r, s, (int32_t)r->progress++);
+        if (status != LMB_OK) {
+            return status;
+        }
+        add_counts(r->frame.stats, &s->counts);
+    }
+    return (int32_t)r->progress < pieces_of(r) ? LMB_MORE : lmb_render_samples_on(r);
+}
+
+lmb_status lmb_render_samples_part(const lmb_render *r, lmb_band_scratch *s, int32_t part, int32_t parts,
+                                   lmb_stats *stats)
+{
+    int64_t first, past;
+    lmb_status status = LMB_OK;
+    memset(&s->counts, 0, sizeof s->counts);
+    share_out(&first, &past, pieces_of(r), part, parts);
+    for (int64_t i = first; i < past && status == LMB_OK; ++i) {
+        status = do_piece(r, s, (int32_t)i);
+    }
+    add_counts(stats, &s->counts);
+    return status;
+}
+
+#endif

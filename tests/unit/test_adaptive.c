@@ -1,0 +1,374 @@
+/* test_adaptive.c: LMB_GATHER_ADAPTIVE: few samples where light is smooth, more where it is not, and always the same
+ * bytes: in any order, by any band, thread and back end. */
+#include <lambent/lambent.h>
+
+#include <stdlib.h>
+
+#include "../../src/compose/lattice.h"
+#include "../../tools/demo/demo_scene.h"
+#include "../world.h"
+
+void test_adaptive(void);
+
+/* --- a lattice by itself ------------------------------------------------------------------------------------------ */
+
+enum { WIDE = 100, HIGH = 75, TILES = 13 * 10 };
+
+static uint64_t lattice_memory[TILES * (sizeof(lmb_lattice_tile) / 8) + 1024];
+static lmb_tile tile;
+
+typedef float (*light_at)(float x, float y);
+
+static float even(float x, float y) { return 0.3f + 0.0f * (x + y); }
+static float curved(float x, float y) { return 2.0f + 0.01f * x - 0.02f * y + 1e-4f * (x * x - x * y); }
+static float stepped(float x, float y) { return x + 0.3f * y > 61.0f ? 1.0f : 3.0f; }
+
+/* A wall of a centimetre a pixel; in columns from `bent` on it is another one, across it. */
+static lmb_lattice wall(int32_t bent)
+{
+    lmb_lattice l;
+    CHECK(lmb_lattice_bytes(WIDE, HIGH) <= sizeof lattice_memory);
+    CHECK(lmb_lattice_init(&l, WIDE, HIGH, lattice_memory, sizeof lattice_memory) == LMB_OK);
+    memset(lattice_memory, 0x5a, sizeof lattice_memory);
+    for (int32_t i = 0; i < TILES; ++i) {
+        memset(&tile, 0, sizeof tile);
+        tile.x = i % 13 * 8;
+        tile.y = i / 13 * 8;
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            const int32_t x = tile.x + k % 8, y = tile.y + k / 8, over = x > bent ? x - bent : 0;
+            if (x < WIDE && y < HIGH) {
+                set_plane(tile.position, k, vec3(0.01f * (float)(x - over), 0.01f * (float)y, 0.01f * (float)over));
+                set_plane(tile.face, k, x >= bent ? vec3(-1, 0, 0) : Z);
+                set_plane(tile.normal, k, x >= bent ? vec3(-1, 0, 0) : Z);
+                tile.id[k] = 1;
+            }
+        }
+        lmb_lattice_put(&l, &tile, 0);
+    }
+    return l;
+}
+
+/* What is asked for, asked. Returns how many. */
+static int gather(const lmb_lattice *l, light_at light)
+{
+    int count = 0;
+    for (int32_t i = 0; i < TILES; ++i) {
+        lmb_lattice_tile *t = &l->tile[i];
+        CHECK((t->wanted & (t->known | ~t->shown)) == 0);
+        for (uint64_t bits = t->wanted; bits != 0; bits &= bits - 1, ++count) {
+            const int k = lowest_bit_64(bits);
+            for (int c = 0; c < 3; ++c) {
+                t->light.rgb[c][k] = (float)(c + 1) * light((float)(i % 13 * 8 + k % 8), (float)(i / 13 * 8 + k / 8));
+            }
+        }
+        t->known |= t->wanted;
+        t->wanted = 0;
+    }
+    return count;
+}
+
+/* All that a frame does. Returns how many samples it took. */
+static int solve(lmb_lattice *l, light_at light)
+{
+    int count = gather(l, light);
+    l->mean = lmb_lattice_mean(l);
+    l->split = 0.1f;
+    for (int32_t level = 0; level < LATTICE_LEVELS - 1; ++level) {
+        lmb_lattice_divide(l, level);
+        count += gather(l, light);
+    }
+    for (int32_t w = 0; w < lmb_lattice_windows(l); ++w) {
+        lmb_lattice_fill(l, w);
+    }
+    for (int32_t w = 0; w < lmb_lattice_windows(l); ++w) {
+        lmb_lattice_rest(l, w);
+        count += gather(l, light);
+        lmb_lattice_closer(l, w);
+        count += gather(l, light);
+        lmb_lattice_late(l, w);
+    }
+    return count;
+}
+
+/* The largest error of a pixel; `off`: how many are off by over a tenth. */
+static float worst(const lmb_lattice *l, light_at light, int *off)
+{
+    float out = 0.0f;
+    *off = 0;
+    for (int32_t y = 0; y < HIGH; ++y) {
+        for (int32_t x = 0; x < WIDE; ++x) {
+            const lmb_lattice_tile *t = lattice_tile(l, x / 8, y / 8);
+            for (int c = 0; c < 3; ++c) {
+                const float is = t->light.rgb[c][y % 8 * 8 + x % 8] / (float)(c + 1),
+                            e = absf(is - light((float)x, (float)y));
+                out = maxf(out, e);
+                *off += c == 0 && e > 0.1f;
+            }
+        }
+    }
+    return out;
+}
+
+enum { FIRST = 14 * 11 /* columns 0, 8 .. 96 and 99, rows 0 .. 72 and 74 */ };
+
+static void test_lattice(void)
+{
+    int off = 0;
+    lmb_lattice l = wall(WIDE);
+    CHECK(solve(&l, even) == FIRST && worst(&l, even, &off) == 0.0f); /* exactly */
+    l = wall(WIDE);
+    CHECK(solve(&l, curved) == FIRST);
+    CHECK_MSG(worst(&l, curved, &off) < 2e-3f, "%g", (double)worst(&l, curved, &off)); /* 5e-3 without slopes */
+    l = wall(WIDE);
+    int count = solve(&l, stepped);
+    worst(&l, stepped, &off);
+    printf("  an edge of light: %d of %d pixels are gathered, %d are off\n", count, WIDE * HIGH, off);
+    CHECK(count > FIRST + 100 && count < WIDE * HIGH / 5 && off < WIDE * HIGH / 100);
+}
+
+/* Two walls with different light meet within cells: neither takes the other's. */
+static float either(float x, float y) { return x >= 45.0f ? 10.0f + 0.0f * y : 1.0f; }
+
+static void test_two_walls(void)
+{
+    int off = 0;
+    lmb_lattice l = wall(45);
+    const int count = solve(&l, either);
+    CHECK_MSG(worst(&l, either, &off) < 1e-5f, "%g", (double)worst(&l, either, &off)); /* of 1 and 10 */
+    CHECK_MSG(count < WIDE * HIGH / 8, "%d", count);
+}
+
+static void test_memory(void)
+{
+    lmb_lattice l;
+    const size_t bytes = lmb_lattice_bytes(16, 9);
+    CHECK(bytes > 4 * sizeof(lmb_lattice_tile) && bytes < 5 * sizeof(lmb_lattice_tile));
+    CHECK(lmb_lattice_bytes(0, 9) == 0 && lmb_lattice_bytes(9, -1) == 0 && lmb_lattice_bytes(LMB_MAX_SIDE + 1, 9) == 0);
+    CHECK(lmb_lattice_init(NULL, 16, 9, lattice_memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_lattice_init(&l, 16, 9, NULL, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_lattice_init(&l, 16, 0, lattice_memory, bytes) == LMB_ERR_ARG);
+    CHECK(lmb_lattice_init(&l, 16, 9, (char *)lattice_memory + 4, bytes) == LMB_ERR_ALIGN);
+    CHECK(lmb_lattice_init(&l, 16, 9, lattice_memory, bytes - 1) == LMB_ERR_CAPACITY);
+    CHECK(lmb_lattice_init(&l, 16, 9, lattice_memory, bytes) == LMB_OK && l.width == 16 && l.height == 9);
+}
+
+/* --- frames ------------------------------------------------------------------------------------------------------- */
+
+static lmb_render render;
+static lmb_band_scratch other_scratch;
+static lmb_frame frame;
+static void *block;
+
+static lmb_frame_settings settings_of(const lmb_scene *scene, lmb_view view, int32_t step)
+{
+    lmb_frame_settings s;
+    memset(&s, 0, sizeof s);
+    s.kernels = lmb_kernels_pick();
+    s.scene = scene;
+    s.view = view;
+    s.format = LMB_RGB32F;
+    s.show = LMB_SHOW_IRRADIANCE;
+    s.quality = LMB_QUALITY_DRAFT;
+    s.shadow_map = 128;
+    s.gather_step = step;
+    return s;
+}
+
+static void lay_out(const lmb_frame_settings *s)
+{
+    const size_t bytes = lmb_frame_bytes(s);
+    free(block);
+    block = malloc(bytes);
+    CHECK(bytes > 0 && block != NULL && lmb_frame_init(&frame, s, block, bytes) == LMB_OK);
+}
+
+static uint64_t rows_hash;
+
+static int add_rows(void *user, const lmb_surface *rows, int32_t y)
+{
+    const uint8_t *data = rows->data;
+    for (int32_t i = 0; i < rows->height * rows->width * 12; ++i) {
+        rows_hash =
+            (rows_hash ^ data[(ptrdiff_t)(i / (rows->width * 12)) * rows->stride_bytes + i % (rows->width * 12)]) *
+            UINT64_C(0x100000001b3);
+    }
+    (void)user;
+    (void)y;
+    return 0;
+}
+
+static uint64_t hash_of(void)
+{
+    rows_hash = 1;
+    for (int32_t y = 0; y < frame.view.frame_height; y += 8) {
+        lmb_surface rows = frame.out;
+        rows.data = (uint8_t *)rows.data + (ptrdiff_t)y * rows.stride_bytes;
+        rows.height = mini(8, frame.view.frame_height - y);
+        add_rows(NULL, &rows, y);
+    }
+    return rows_hash;
+}
+
+static uint64_t drawn(const lmb_frame_settings *s)
+{
+    lay_out(s);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    return hash_of();
+}
+
+/* In parts from the last to the first, by noisy scratch. */
+static uint64_t drawn_in_parts(const lmb_frame_settings *s, int32_t parts)
+{
+    lmb_status status;
+    lay_out(s);
+    status = lmb_render_begin(&render, &frame);
+    while (status >= 0 && render.stage < LMB_STAGE_BANDS) {
+        if (render.stage == LMB_STAGE_SAMPLES) {
+            CHECK(lmb_render_has_parts(&render));
+        }
+        if (lmb_render_has_parts(&render)) {
+            for (int32_t i = parts - 1; i >= 0; --i) {
+                memset(&other_scratch, 0x3c, sizeof other_scratch);
+                CHECK(lmb_render_part(&render, &other_scratch, i, parts, NULL) == LMB_OK);
+            }
+            status = lmb_render_parts_done(&render, parts);
+        } else {
+            status = lmb_render_step(&render, 1);
+        }
+    }
+    CHECK(status == LMB_MORE);
+    for (int32_t band = (frame.view.frame_height - 1) / 8; band >= 0; --band) {
+        memset(&other_scratch, 0x3c, sizeof other_scratch);
+        CHECK(lmb_render_band(&render, &other_scratch, &frame.eye, &frame.out, band) == LMB_OK);
+    }
+    return hash_of();
+}
+
+static uint64_t drawn_by_bands(lmb_frame_settings s)
+{
+    s.by_bands = 1;
+    lay_out(&s);
+    frame.callback = add_rows;
+    rows_hash = 1;
+    lmb_status status = lmb_render_begin(&render, &frame);
+    while (status == LMB_OK || status == LMB_MORE) {
+        status = lmb_render_step(&render, 1);
+        if (status == LMB_OK) {
+            break;
+        }
+    }
+    CHECK(status == LMB_OK);
+    return rows_hash;
+}
+
+static void test_same_bytes(int32_t width, int32_t height)
+{
+    const lmb_frame_settings s = settings_of(demo_scene(), demo_view(width, height), LMB_GATHER_ADAPTIVE);
+    const uint64_t whole = drawn(&s);
+    CHECK(lmb_render_reuse(&render, &frame) == LMB_OK && render.stage == LMB_STAGE_SHADOW_MAP);
+    while (lmb_render_step(&render, 7) == LMB_MORE) {
+    }
+    CHECK(render.failed == LMB_OK && hash_of() == whole);
+    CHECK(drawn_in_parts(&s, 1) == whole && drawn_in_parts(&s, 5) == whole);
+    CHECK(drawn_by_bands(s) == whole);
+    for (int32_t i = 1; lmb_kernels_at(i) != NULL; ++i) {
+        lmb_frame_settings by = s;
+        by.kernels = lmb_kernels_at(i);
+        CHECK_MSG(drawn(&by) == whole, "%s", lmb_kernels_name(by.kernels));
+    }
+}
+
+enum { PICTURE = 160 * 120 * 3 };
+static float full[PICTURE], adaptive[PICTURE];
+
+/* RMSE of the adaptive picture against the full one, over its mean; *share: of the pixels that were gathered. */
+static float error_of(const lmb_scene *scene, lmb_view view, float *share)
+{
+    lmb_frame_settings s = settings_of(scene, view, 1);
+    double sum = 0.0, mean = 0.0;
+    int64_t known = 0, shown = 0;
+    drawn(&s);
+    memcpy(full, frame.out.data, sizeof full);
+    s.gather_step = LMB_GATHER_ADAPTIVE;
+    drawn(&s);
+    memcpy(adaptive, frame.out.data, sizeof adaptive);
+    for (int i = 0; i < PICTURE; ++i) {
+        sum += (double)(full[i] - adaptive[i]) * (double)(full[i] - adaptive[i]);
+        mean += (double)full[i];
+    }
+    for (int i = 0; i < 20 * 15; ++i) {
+        known += count_bits_64(render.frame.lattice.tile[i].known);
+        shown += count_bits_64(render.frame.lattice.tile[i].shown);
+    }
+    *share = (float)known / (float)shown;
+    return sqrtf((float)(sum / PICTURE)) / (float)(mean / PICTURE);
+}
+
+/* A floor lit by a wall that a spot lights. */
+static void test_flat_wall(void)
+{
+    float share = 0.0f;
+    world_begin(0.7f, 0.6f, 0.5f);
+    world_quad(vec3(0, 0, 0), vec3(3, 0, 0), vec3(0, 0, -3));
+    world_quad(vec3(0, 2, -3), vec3(3, 0, 0), vec3(0, 2, 0));
+    CHECK(world_end() == LMB_OK);
+    lmb_light lamp = spot(vec3(0, 1.5f, 0.0f), vec3(0, 0, -1), 20, 35);
+    world.scene.lights = &lamp;
+    world.scene.light_count = 1;
+    lmb_view view;
+    CHECK(lmb_view_look_at(&view, vec3(0, 1.8f, 2.0f), vec3(0, 0, -1.0f), vec3(0, 1, 0), 0.8f, 160, 120) == LMB_OK);
+    const float error = error_of(&world.scene, view, &share);
+    printf("  floor before a lit wall: %.2f %% of the pixels, error %.4f\n", (double)(100.0f * share), (double)error);
+    CHECK(share < 0.06f && error < 0.02f);
+}
+
+/* The camera moves by parts of a step: the lattice lies elsewhere, the error stays what it is. */
+static void test_shift(void)
+{
+    float least = 1.0f, most = 0.0f;
+    for (int i = 0; i < 4; ++i) {
+        static const float pixels[4] = {0.0f, 0.25f, 1.0f, 3.0f};
+        lmb_view view = demo_view(160, 120);
+        float share = 0.0f;
+        view.eye = add3(view.eye, mul3(view.right, 0.02f * pixels[i]));
+        const float error = error_of(demo_scene(), view, &share);
+        least = minf(least, error);
+        most = maxf(most, error);
+        CHECK_MSG(share < 0.25f, "%g", (double)share);
+    }
+    printf("  gallery, shifted by up to 3 px: errors %.4f .. %.4f\n", (double)least, (double)most);
+    CHECK(most < 0.09f && most < 1.5f * least);
+}
+
+static void test_refused(void)
+{
+    lmb_frame_settings s = settings_of(demo_scene(), demo_view(40, 30), 5);
+    CHECK(lmb_frame_bytes(&s) == 0);
+    s.gather_step = 1;
+    lay_out(&s);
+    frame.gather_step = LMB_GATHER_ADAPTIVE;
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* no lattice */
+    s.gather_step = LMB_GATHER_ADAPTIVE;
+    lay_out(&s);
+    CHECK(lmb_render_begin(&render, &frame) == LMB_OK);
+    frame.view.frame_width = 32;
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* of another size */
+    s.show = LMB_SHOW_DIRECT;
+    lay_out(&s);
+    CHECK(frame.lattice.tile == NULL && lmb_render_frame(&render, &frame) == LMB_OK);
+}
+
+void test_adaptive(void)
+{
+    test_lattice();
+    test_two_walls();
+    test_memory();
+    test_same_bytes(83, 61);
+    test_same_bytes(1, 9);
+    test_same_bytes(129, 17);
+    test_flat_wall();
+    test_shift();
+    test_refused();
+    free(block);
+    block = NULL;
+}
