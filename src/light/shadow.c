@@ -61,11 +61,12 @@ static int find_place(place *out, const lmb_shadow_map *map, const lmb_light *li
     return out->x >= 0.0f && out->y >= 0.0f && out->x <= size && out->y <= size;
 }
 
-static uint32_t texel_id(const lmb_fill_window *map, int32_t x, int32_t y)
+/* x, y: not under 0. */
+static uint32_t texel_id(const lmb_fill_window *map, uint32_t x, uint32_t y)
 {
     const uint8_t *tile = (const uint8_t *)map->first.id + (ptrdiff_t)(y / LMB_TILE) * map->id_row +
                           (ptrdiff_t)(x / LMB_TILE) * map->id_tile;
-    const int32_t at = (y % LMB_TILE) * map->first.id_step + x % LMB_TILE;
+    const uint32_t at = (y % LMB_TILE) * (uint32_t)map->first.id_step + x % LMB_TILE;
     return map->first.id_format == LMB_ID16 ? ((const uint16_t *)(const void *)tile)[at]
                                             : ((const uint32_t *)(const void *)tile)[at];
 }
@@ -162,7 +163,8 @@ static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, 
         query->window = lmb_target_window(&query->map->face[at->face], at->view);
     }
     for (int q = 0; q < 4; ++q) {
-        seen[q] = texel_id(&query->window, mini(maxi(x0 + (q & 1), 0), last), mini(maxi(y0 + (q >> 1), 0), last));
+        seen[q] = texel_id(&query->window, (uint32_t)mini(maxi(x0 + (q & 1), 0), last),
+                           (uint32_t)mini(maxi(y0 + (q >> 1), 0), last));
         same &= seen[q] == own;
     }
     return same;
