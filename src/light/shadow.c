@@ -118,9 +118,11 @@ static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_re
     return lmb_triangle_opaque(&t, scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
 }
 
-/* The nearest texel's surface against the receiver's own plane at that texel's middle. */
-static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lmb_receiver *r, int32_t x, int32_t y)
+/* The nearest texel's surface against the receiver's own plane at that texel's middle. noise: m, of the receiver's
+ * position. */
+static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lmb_receiver *r, float noise)
 {
+    const int32_t last = query->map->size - 1, x = mini((int32_t)at->x, last), y = mini((int32_t)at->y, last);
     const lmb_view *v = at->view;
     float size = (float)v->frame_width, d = texel_depth(&query->map->face[at->face], x, y);
     if (d == 0.0f) {
@@ -139,7 +141,7 @@ static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lm
         return 1;
     }
     float own = minf(dot3(r->face, sub3(r->position, from)) / slope, at->w + 16.0f * texel);
-    return lmb_depth_view_z(v, d) >= own - texel - noise_of(query, r);
+    return lmb_depth_view_z(v, d) >= own - texel - noise;
 }
 
 void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
@@ -172,7 +174,6 @@ static int four_ids(uint32_t seen[4], lmb_shadow_query *query, const place *at, 
 
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
 {
-    const int32_t last = query->map->size - 1;
     place at;
     int over = 0;
     uint32_t seen[4];
@@ -194,16 +195,13 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
             over |= answer == OVER;
         }
     }
-    return over || lit_by_depth(query, &at, r, mini((int32_t)at.x, last), mini((int32_t)at.y, last));
+    return over || lit_by_depth(query, &at, r, noise_of(query, r));
 }
 
 #if LMB_TRANSFER
 int lmb_is_lit_by_depth(const lmb_shadow_query *query, const lmb_receiver *r)
 {
-    const int32_t last = query->map->size - 1;
     place at;
-    return !find_place(&at, query->map, query->light, r->position) ||
-           lit_by_depth(query, &at, r, mini((int32_t)at.x, last), mini((int32_t)at.y, last));
+    return !find_place(&at, query->map, query->light, r->position) || lit_by_depth(query, &at, r, 0.0f);
 }
 #endif
-
