@@ -79,11 +79,11 @@ lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *out, const lmb_
 lmb_status lmb_render_view_strip(const lmb_render *r, lmb_target *out, int32_t band)
 {
     const lmb_target *eye = &r->frame.eye;
-    const int32_t bands = eye->depth.height / LMB_TILE, first = band - band % bands;
     if (is_whole(&eye->depth, &r->frame.view)) {
         *out = *eye;
         return LMB_OK;
     }
+    const int32_t bands = eye->depth.height / LMB_TILE, first = band - band % bands; /* not whole: some of 8 rows */
     lmb_status status = LMB_OK;
     if (band == first) {
         status = draw_bands(r, out, eye, first, mini(bands, band_count(&r->frame.view) - first));

@@ -76,8 +76,8 @@ least() {
         awk '/^whole frame/ { print $6 }'
 }
 
-# times SIZE: `direct baked ratio`.
-times() {
+# frame_times SIZE: `direct baked ratio`.
+frame_times() {
     direct=$(least "$1" --show direct)
     echo "$direct $(least "$1" --transfer "$file")" | awk '{ printf "%.1f %.1f %.2f\n", $1, $2, $2 / $1 }'
 }
@@ -85,7 +85,7 @@ times() {
 row() {
     place_scene "$1" && bake "$1" || { fail "$1: no transfer"; return; }
     set -- "$1" $(bars_of "$1") $(error "$1" 1) $(error "$1" 6)
-    echo "| $1 | $6, $7, $8, $9 | ${10} | $baked | $seconds | $(times 640x480) | $(times 320x240) |" | tee "$work/row"
+    echo "| $1 | $6, $7, $8, $9 | ${10} | $baked | $seconds | $(frame_times 640x480) | $(frame_times 320x240) |" | tee "$work/row"
     awk -F '|' -v trim="$2" -v rmse="$3" -v mb="$4" -v s="$5" '{
         split($3, e, ", "); n = split($5, b, " "); split($7, big, " "); split($8, small, " ")
         bad = (e[1] + 0 > trim && e[1] != "-") || (e[2] + 0 > rmse && e[2] != "-") || b[n - 1] + 0 > mb || $6 + 0 > s || big[3] > 1.75 || small[3] > 1.75
