@@ -286,7 +286,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
 .PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
-    measure-steady scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
+    measure-steady measure-baked scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
@@ -350,6 +350,9 @@ reference: $(B)/reference ## coverage and depth of the raster workload against a
 
 measure-moving: $(B)/measure-moving ## a light and a crate that move: how much cuts add from frame to frame
 	@$(RUN) $(B)/measure-moving
+
+measure-baked: $(TOOL) ## baked light against truth, its files and frames (SCENES, TURN=37, FILES=folder)
+	@$(IN_SH) tests/measure/baked.sh
 
 measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, pops, shifts (SCENES, ONLY=halving)
 	@$(IN_SH) tests/measure/steady.sh
