@@ -417,6 +417,20 @@ static int is_whole(const float agree[4])
     return agree[0] == 1.0f && agree[1] == 1.0f && agree[2] == 1.0f && agree[3] == 1.0f;
 }
 
+/* No other pixel is written: a sample may be read by another window at the same time. */
+static void put_row(float *to, const float light[LMB_TILE], uint64_t own)
+{
+    if (own == 0xff) {
+        memcpy(to, light, LMB_TILE * sizeof *to);
+        return;
+    }
+    for (int32_t i = 0; i < LMB_TILE; ++i) {
+        if (own >> i & 1u) {
+            to[i] = light[i];
+        }
+    }
+}
+
 /* What `mix` gives where all corners count in full, for pixels of a tile: row by row, from the left side of the cell to
  * the right. Equal corners give exactly their light. */
 static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t y, uint64_t pixels)
@@ -436,12 +450,13 @@ static void mix_whole(lmb_lattice_tile *tile, const cell *c, int32_t x, int32_t 
                         low = minf(minf(at[0].light[k], at[1].light[k]), minf(at[2].light[k], at[3].light[k])),
                         high = maxf(maxf(at[0].light[k], at[1].light[k]), maxf(at[2].light[k], at[3].light[k])),
                         lower = maxf(low - 0.5f * (high - low), 0.0f), upper = high + 0.5f * (high - low);
-            float *to = tile->light.rgb[k] + LMB_TILE * row;
+            float light[LMB_TILE];
             for (int32_t i = 0; i < LMB_TILE; ++i) {
                 const float dx = 0.5f * (float)(x + i - c->x[0]), u = (float)(x + i - c->x[0]) / c->width;
-                const float from = left + s0 * dx, light = from + u * (right + s1 * (dx - half_width) - from);
-                to[i] = own >> i & 1u ? clampf(light, lower, upper) : to[i];
+                const float from = left + s0 * dx;
+                light[i] = clampf(from + u * (right + s1 * (dx - half_width) - from), lower, upper);
             }
+            put_row(tile->light.rgb[k] + LMB_TILE * row, light, own);
         }
     }
 }
@@ -548,7 +563,7 @@ typedef struct window {
 
 static window window_of(const lmb_lattice *l, int32_t i)
 {
-    window w;
+    window w = {{0, 0}, {0, 0}};
     lmb_lattice_window(w.column, w.row, l, i);
     return w;
 }

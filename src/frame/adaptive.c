@@ -106,6 +106,9 @@ static lmb_status gather_pack(const pack *p)
     const lmb_status status = lmb_render_gather(&p->s->indirect, NULL, p->r, p->s, &sparse->together, NULL);
     for (int32_t i = 0; i < p->count; ++i) {
         lmb_lattice_tile *tile = tile_along(&p->r->frame.lattice, p->column, p->row, p->tile[i]);
+        if (tile == NULL) {
+            continue; /* no pack has such a one */
+        }
         for (int c = 0; c < 3; ++c) {
             tile->light.rgb[c][sparse->pixel[i]] = p->s->indirect.rgb[c][i];
         }

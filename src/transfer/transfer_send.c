@@ -114,7 +114,7 @@ static void put_nodes(lmb_transfer_light *light, const lmb_transfer *t, int what
 /* All nodes, in steps of a 65,535th of the largest. */
 static void send(lmb_transfer_light *light, const lmb_transfer *t, int what)
 {
-    float max = 0.0f, sent[3];
+    float max = 0.0f, sent[3] = {0.0f, 0.0f, 0.0f};
     cursor w = cursor_at(light, t, what, 0);
     for (uint32_t i = 0; i < t->count[LMB_TRANSFER_AREAS]; ++i) {
         (void)element_sent(sent, &w, i);
@@ -138,7 +138,7 @@ lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *t)
 /* The mean by area of what a coarse element's elements send. */
 static void set_sent(lmb_transfer_light *light, const lmb_transfer *t, uint32_t i, int what)
 {
-    float sum[3] = {0.0f, 0.0f, 0.0f}, sent[3];
+    float sum[3] = {0.0f, 0.0f, 0.0f}, sent[3] = {0.0f, 0.0f, 0.0f};
     cursor w = cursor_at(light, t, what, i);
     for (uint32_t e = first_of(t, i), past = w.past; e < past; ++e) {
         const float area = element_sent(sent, &w, e);

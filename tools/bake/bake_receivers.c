@@ -10,6 +10,7 @@
 #include "../../src/raster/triangle.h"
 
 enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64 };
+#define DIM    0.25f /* of the mean light: where less comes, errors count less */
 #define STANDS 0.1f /* surplus of a triangle on which something stands: what its corners differ by says nothing */
 
 /* A triangle of the division. */
@@ -20,6 +21,7 @@ typedef struct piece {
     int from, depth;
     int must_split; /* something stands on it */
     float surplus, error;
+    float light; /* the most that comes to an element of its root */
 } piece;
 
 typedef struct pieces {
@@ -45,6 +47,7 @@ typedef struct divider {
     uint32_t *slot; /* of places: receiver + 1 */
     uint32_t mask;
     bake_sight sight;
+    float light; /* the elements' mean */
     report *r;
 } divider;
 
@@ -398,12 +401,13 @@ static int split(divider *d, const piece *p, int last)
     return 1;
 }
 
-/* Squared errors add up by area. */
-static float error_of(const bake *b, const piece *p)
+/* Squared errors add up by area. They count less on sides to which little light comes: into a solid, through a crack,
+ * it may be. */
+static float error_of(const divider *d, const piece *p)
 {
-    const float share = triangle_area(p->corner) / b->area * 1000.0f;
+    const float share = triangle_area(p->corner) / d->b->area * 1000.0f;
     const float surplus = p->must_split ? STANDS : p->surplus;
-    return surplus * surplus * share;
+    return surplus * surplus * share * minf(p->light / (DIM * d->light), 1.0f);
 }
 
 static int by_error(const void *a, const void *b)
@@ -433,7 +437,7 @@ static int look_at_all(divider *d)
     }
     for (size_t i = 0; i < d->now.count; ++i) {
         piece *p = &d->now.data[i];
-        p->error = error_of(d->b, p);
+        p->error = error_of(d, p);
         if (!(p->mid == LMB_TRANSFER_NONE ? put_leaf(d, p) : add_piece(&d->waiting, p, d->r))) {
             return 0;
         }
@@ -463,6 +467,17 @@ static int halve_worst(divider *d)
 
 /* --- roots -------------------------------------------------------------------------------------------------------- */
 
+/* The most light that comes to an element below a node of the pieces. */
+static float brightest(const bake *b, uint32_t node)
+{
+    const uint32_t word = b->section[LMB_TRANSFER_PIECES].data[node];
+    if (word & LMB_TRANSFER_LEAF) {
+        return b->element[word & ~LMB_TRANSFER_LEAF].light;
+    }
+    const uint32_t first = word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+    return maxf(brightest(b, first), brightest(b, first + 1));
+}
+
 static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
 {
     bake_words *divisions = &d->b->section[LMB_TRANSFER_DIVISIONS];
@@ -471,6 +486,7 @@ static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t
     memcpy(p.corner, t->corner, sizeof p.corner);
     p.normal = mul3(normal, back ? -1.0f : 1.0f);
     p.node = (uint32_t)divisions->count;
+    p.light = brightest(d->b, d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + back]);
     d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + 2 + back] = p.node;
     for (int k = 0; k < 3; ++k) {
         p.receiver[k] =
@@ -512,18 +528,29 @@ static int add_roots(divider *d)
     return make_rows(d);
 }
 
+static float mean_light(const bake *b)
+{
+    double light = 0.0, area = 0.0;
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        light += (double)(b->element[i].light * bake_open_area(&b->element[i]));
+        area += (double)bake_open_area(&b->element[i]);
+    }
+    return area > 0.0 && light > 0.0 ? (float)(light / area) : 1.0f;
+}
+
 int bake_receivers(bake *b, report *r)
 {
     divider d;
     memset(&d, 0, sizeof d);
     d.b = b;
     d.r = r;
+    d.light = mean_light(b);
     d.mask = (1u << 20) - 1;
     d.slot = calloc((size_t)d.mask + 1, sizeof *d.slot);
     int ok = d.slot != NULL || report_fail(r, "not enough memory for receivers");
     ok = ok && bake_sight_begin(&d.sight, r) && add_roots(&d);
     while (ok && d.now.count > 0) {
-        bake_tell(b, "receivers", minf((float)b->receiver_count / (float)b->set.receivers, 1.0f));
+        bake_tell(b, "receivers", (double)minf((float)b->receiver_count / (float)b->set.receivers, 1.0f));
         ok = look_at_all(&d) && halve_worst(&d);
     }
     for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their middles are there: they serve too */
