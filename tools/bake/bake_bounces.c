@@ -9,7 +9,7 @@
 
 enum { POINTS = 2, TOGETHER = 64 / POINTS }; /* looked from, of a run: in the middle of each part of its area */
 
-#define LOOSE 8.0f /* times a receiver's error: a run stands for many places, and what it sends is seen by all */
+#define LOOSE 24.0f /* times a receiver's error: a run stands for many places, and what it sends is seen by all */
 #define FLAT  0.2f /* error of a run to which light comes evenly, beside its relative deviation: large ones are parted */
 
 /* --- runs --------------------------------------------------------------------------------------------------------- */

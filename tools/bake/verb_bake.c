@@ -34,7 +34,7 @@ static const option_row rows[] = {
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--error", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
      .help = "what a link of a receiver that lights a 10,000th of all area has to save, as a share of all light around "
-             "it; the larger a receiver's area the less (default 0.00013)"},
+             "it; the larger a receiver's area the less (default 0.00014)"},
     {.name = "--division", .kind = OPTION_ABOVE, AT(division), .low = 0.0, .high = 1.0,
      .help = "how far light may be from linear between receivers, as such a share of a thousandth of all area "
              "(default 0.008)"},
@@ -211,7 +211,7 @@ int verb_bake(int argc, char **argv)
     memset(&o, 0, sizeof o);
     memset(&loaded, 0, sizeof loaded);
     memset(&notes, 0, sizeof notes);
-    o.error = 0.00013f;
+    o.error = 0.00014f;
     o.division = 0.008f;
     o.elements = 16384;
     o.receivers = 12000;
