@@ -57,24 +57,14 @@ static int book_on_shelf(hard_stage *s)
     return end_room(s, dvec_of(0.6, 2.2, 0.6), dvec_of(0, 0.6, -2));
 }
 
-/* Every other square of a screen over the floor is open; it moves no light aside, so a third of the floor sees it. */
+/* A screen between lamp and floor; every other of its squares is a hole. */
 static int leaves(hard_stage *s)
 {
     static uint8_t texels[4 * LEAVES * LEAVES];
     begin_room(s);
     const uint32_t k = hard_part(s, ALBEDO);
     hard_quad(s, dvec_of(0, 1.2, 0), dvec_of(0, 0, 1.2), dvec_of(1.2, 0, 0));
-    for (int i = 0; i < LEAVES * LEAVES; ++i) {
-        memset(texels + 4 * i, 255, 4);
-        texels[4 * i + 3] = (i / LEAVES + i) & 1 ? 255 : 0;
-    }
-    s->texture.texels = texels;
-    s->texture.width = s->texture.height = LEAVES;
-    s->texture.levels = 1;
-    s->texture.filter = LMB_NEAREST;
-    s->material[k].texture = 0;
-    s->material[k].flags |= LMB_ALPHA_MASK;
-    s->material[k].alpha_cutoff = 0.5f;
+    hard_holes(s, k, texels, LEAVES);
     return end_room(s, dvec_of(0.3, 2.3, 0.2), dvec_of(0, 0, 0));
 }
 

@@ -233,20 +233,10 @@ static void masked(hard_list *l)
 {
     static uint8_t texels[HOLES * HOLES * 4];
     hard_stage *s = l->stage;
-    for (int i = 0; i < HOLES * HOLES; ++i) {
-        memset(texels + 4 * i, 255, 4);
-        texels[4 * i + 3] = ((i % HOLES) ^ (i / HOLES)) & 1 ? 0 : 255;
-    }
     begin_floor(s, dvec_of(0, 0, 0));
     const uint32_t k = hard_part(s, 0.5);
     hard_quad(s, dvec_of(0, 1, 0), dvec_of(1, 0, 0), dvec_of(0, 0, -1));
-    s->texture.texels = texels;
-    s->texture.width = s->texture.height = HOLES;
-    s->texture.levels = 1;
-    s->texture.filter = LMB_NEAREST;
-    s->material[k].texture = 0;
-    s->material[k].flags |= LMB_ALPHA_MASK;
-    s->material[k].alpha_cutoff = 0.5f;
+    hard_holes(s, k, texels, HOLES);
     hard_sun(s, dvec_of(0.2, -1, 0.1), 3.0);
     hard_end(s);
     const shadow_count n = judge(s, HARD_MAP, sees_through_holes);

@@ -126,6 +126,21 @@ void hard_ball(hard_stage *s, dvec centre, double radius, int slices)
     }
 }
 
+void hard_holes(hard_stage *s, uint32_t part, uint8_t *texels, int side)
+{
+    for (int i = 0; i < side * side; ++i) {
+        memset(texels + 4 * i, 255, 4);
+        texels[4 * i + 3] = ((i % side) ^ (i / side)) & 1 ? 0 : 255;
+    }
+    s->texture.texels = texels;
+    s->texture.width = s->texture.height = (uint16_t)side;
+    s->texture.levels = 1;
+    s->texture.filter = LMB_NEAREST;
+    s->material[part].texture = 0;
+    s->material[part].flags |= LMB_ALPHA_MASK;
+    s->material[part].alpha_cutoff = 0.5f;
+}
+
 static dvec placed(const lmb_mat4 *t, const float p[3])
 {
     const float *m = t->m;

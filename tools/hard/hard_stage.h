@@ -53,6 +53,9 @@ void hard_triangle(hard_stage *s, dvec a, dvec b, dvec c);
 void hard_quad(hard_stage *s, dvec centre, dvec u, dvec v);
 void hard_box(hard_stage *s, dvec centre, dvec half);
 void hard_ball(hard_stage *s, dvec centre, double radius, int slices);
+/* A part becomes a screen: every other of side x side squares is a hole. texels: 4 side^2, written, and read until the
+ * next hard_begin. */
+void hard_holes(hard_stage *s, uint32_t part, uint8_t *texels, int side);
 /* Checks, numbers and bounds it; may be called again after a change. 1, or 0 where the library refuses it. */
 int hard_end(hard_stage *s);
 
