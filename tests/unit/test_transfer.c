@@ -719,6 +719,35 @@ static void furnace(void)
     file_free(&baked);
 }
 
+/* At a place of the grid each normal along an axis takes the receiver that faces its way. */
+static void by_side(lit *l)
+{
+    static lmb_tile tile;
+    const uint32_t *grid = l->t->section[LMB_TRANSFER_GRID], *air = l->t->section[LMB_TRANSFER_AIR];
+    uint32_t place = 0;
+    lmb_irradiance out;
+    float low[3], per;
+    while (air[place] == LMB_TRANSFER_NONE) {
+        ++place;
+    }
+    memcpy(low, grid, sizeof low);
+    memcpy(&per, grid + 3, sizeof per);
+    const lmb_vec3 at = vec3(low[0] + (float)(place % grid[4]) / per, low[1] + (float)(place / grid[4] % grid[5]) / per,
+                             low[2] + (float)(place / grid[4] / grid[5]) / per);
+    memset(&tile, 0, sizeof tile);
+    memset(&out, 0, sizeof out);
+    for (int k = 0; k < LMB_TRANSFER_AIR_RECEIVERS; ++k) {
+        const float sign = k % 2 ? -1.0f : 1.0f;
+        l->light.receiver[air[place] + (uint32_t)k][0] = 100.0f * (float)(k + 1);
+        pixel(&tile, k, 13, at, vec3(k / 2 == 0 ? sign : 0.0f, k / 2 == 1 ? sign : 0.0f, k / 2 == 2 ? sign : 0.0f));
+    }
+    memset(&scratch, 0, sizeof scratch);
+    CHECK(lmb_transfer_tile(&out, lmb_kernels_pick(), &scratch, &l->light, l->t, l->scene, &tile) == LMB_OK);
+    for (int k = 0; k < LMB_TRANSFER_AIR_RECEIVERS; ++k) {
+        CHECK_MSG(is_near(out.rgb[0][k], 100.0f * (float)(k + 1), 0.1f), "side %d: %g", k, (double)out.rgb[0][k]);
+    }
+}
+
 /* The block moves: the file fits wherever it is, and it is lit wherever it is, on all sides. */
 static void moving_block(void)
 {
@@ -750,6 +779,7 @@ static void moving_block(void)
         CHECK_MSG(fabs((double)out.rgb[0][k] / FURNACE - 1.0) < 0.04, "%d: %g, not %g", k, (double)out.rgb[0][k],
                   FURNACE);
     }
+    by_side(&l);
     free(l.memory);
     file_free(&baked);
 }
