@@ -1,6 +1,7 @@
 /* config.h: every capacity and switch of lambent, with its unit, its cost and what happens when it is full.
  *
- * Each is #ifndef: define it on the compiler's command line (for the library and the application alike).
+ * What stands in #ifndef is yours: define it on the compiler's command line (for the library and the application
+ * alike). The others follow from it, or from LMB_CONFIG_TINY, or are part of the arithmetic.
  * LMB_CONFIG_TINY picks the small set in one word. Capacities are not sizes: a run may use any size up to them. */
 #ifndef LMB_CONFIG_H
 #define LMB_CONFIG_H
@@ -110,6 +111,11 @@
  * without trees: it has transfer alone. */
 #ifndef LMB_TRANSFER
 #define LMB_TRANSFER LMB_TREES
+#endif
+
+/* 0: this build has no anti-aliasing: one sample a pixel. */
+#ifndef LMB_MULTISAMPLE
+#define LMB_MULTISAMPLE LMB_TREES
 #endif
 
 /* Reference views of one relief. 224 bytes each, in lmb_relief. More: the file is refused. */

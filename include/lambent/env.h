@@ -1,11 +1,12 @@
-/* env.h: a cube of light from far away, with levels: RGBA half floats in the caller's memory. [M14 M19 M22]
+/* env.h: a cube of light from far away, with levels: RGBA half floats in the caller's memory; a clear sky; the cube as
+ * lights. [M14 M19 M22]
  *
  * Six faces of n x n texels in GL order (+x -x +y -y +z -z), rows from the top: with s, t in -1 .. 1 the direction is
  * (1,-t,-s) (-1,-t,s) (s,1,t) (s,-1,-t) (s,-t,1) (-s,-t,-1). Each level halves the one before, down to one texel. */
 #ifndef LMB_ENV_H
 #define LMB_ENV_H
 
-#include "types.h"
+#include "scene.h"
 
 #define LMB_ENV_LEVELS 12 /* of faces of 2048 texels a side, the largest */
 
@@ -37,6 +38,25 @@ void lmb_env_dim(const lmb_env *out, const lmb_env *from, const float share[3]);
 /* lmb_env_sample: radiance from `direction` (any length; none: -z) within a cone, tan_half the tangent of its half
  * angle: between the two levels whose texels are next to that wide, bilinearly across the faces' edges. */
 void lmb_env_sample(float out[3], const lmb_env *env, lmb_vec3 direction, float tan_half);
+
+/* lmb_env_sky: level 0 becomes a clear daylight sky with +Y up, and a ground of one radiance below the horizon. Source:
+ * Preetham, Shirley, Smits: A Practical Analytic Model for Daylight, 1999. The sun's disc is no part of it.
+ *
+ *   to_sun     towards the sun, any length; at most 85 degrees from the zenith, else it counts as 85
+ *   turbidity  how hazy the air is: 2 very clear .. 10 hazy; beyond, and NaN, the nearer of them
+ *   scale      W/(m2 sr) of 1 kcd/m2: 0.025 beside a sun of 3 W/m2
+ * Cost: about 0.3 us a texel. LMB_OK or LMB_ERR_ARG.
+ * Not there, as the next two, in builds without trees. */
+lmb_status lmb_env_sky(const lmb_env *env, lmb_vec3 to_sun, float turbidity, float scale, const float ground[3]);
+
+/* lmb_env_take_sun: a source of light that is small and strong becomes a light of its own, for a shadow map and so for
+ * sharp shadows: what texels within 3 degrees of the brightest one have over 8 times the mean leaves level 0 and comes
+ * from one direction in *out. 1, or 0 with both as they were where that is less than a tenth of all light. */
+int lmb_env_take_sun(lmb_light *out, const lmb_env *env);
+
+/* lmb_env_lights: one directional light for each texel of a level that is not black; 6 n n at most where its faces have
+ * n x n. Their number; 0 where more than `cap` are needed, or there is no such level. */
+uint32_t lmb_env_lights(lmb_light *out, uint32_t cap, const lmb_env *env, int32_t level);
 
 #ifdef __cplusplus
 }

@@ -29,7 +29,7 @@ typedef struct lmb_gouraud {
     const lmb_scene *scene;          /* checked */
     const lmb_transfer *transfer;    /* opened, and baked from the scene */
     const lmb_transfer_light *light; /* after lmb_transfer_receivers */
-    const lmb_shadow_map *maps;      /* one a light, drawn; NULL: nothing is lit directly */
+    const lmb_shadow_map *maps;      /* one a light, by lmb_gouraud_map; NULL: nothing is lit directly */
     float (*direct)[3];              /* a receiver each: what arrives straight from the lights */
     lmb_gouraud_scratch *scratch;
     lmb_view view;                   /* its frame is the picture */

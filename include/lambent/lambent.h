@@ -4,6 +4,7 @@
 
 #include "config.h"
 #include "types.h"
+#include "numbers.h"
 #include "surface.h"
 #include "scene.h"
 #include "raster.h"

@@ -70,6 +70,8 @@ enum { LMB_LAST_OCCLUDERS = 4 };
 typedef struct lmb_traversal {
     uint32_t last[LMB_LAST_OCCLUDERS]; /* number in lmb_bvh + 1, the latest first; 0: none */
     uint32_t asked;                   /* nodes and leaves tested so far: the cost of traversals; wraps */
+    uint32_t first;   /* the caller's: is tested before those, as in `last` */
+    uint32_t blocker; /* the triangle that blocked a pixel last, as in `last` */
     uint32_t alone;                   /* how many more tiles' segments are traced one by one */
     lmb_segments segments;
 } lmb_traversal;

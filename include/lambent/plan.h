@@ -180,7 +180,8 @@ lmb_status lmb_survey_even(lmb_survey *out, const lmb_render *r, int32_t tiles, 
  *   r       as above; read.
  *   places  of a survey by a gather_step of 1 where this is by 1, else of one over 1; or that by 1 again, to compare.
  *   max     units of work after which no further place is sampled; 0: no limit. out->places says how many were.
- * Returns LMB_OK or LMB_ERR_ARG. Cost: that of the places. */
+ * Returns LMB_OK or LMB_ERR_ARG; that too by LMB_GATHER_ADAPTIVE, whose samples depend on those of the whole frame: some
+ * places do not tell what it takes. Cost: that of the places. */
 lmb_status lmb_render_sample(lmb_tile_sample *out, const lmb_render *r, lmb_band_scratch *scratch,
                              const lmb_survey *places, double max);
 

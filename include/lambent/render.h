@@ -19,7 +19,7 @@
  *   received light      LMB_SHOW_IRRADIANCE as the picture; a tile at a time: lmb_direct_tile, lmb_gather_tile
  *
  * Glossy materials (lmb_material.specular; builds with trees) reflect the scene's lights, and bounced light by
- * LMB_GROUP_CUT; fixed groups and direct light of `many_lights` reach their diffuse part alone. Tiles that show a lobe
+ * LMB_GROUP_CUT or a transfer; fixed groups and direct light of `many_lights` reach their diffuse part alone. Tiles that show a lobe
  * are gathered at each pixel, whatever gather_step is. LMB_SHOW_IRRADIANCE has no lobes. */
 #ifndef LMB_RENDER_H
 #define LMB_RENDER_H
@@ -27,6 +27,7 @@
 #include "bounce.h"
 #include "compose.h"
 #include "elements.h"
+#include "env.h"
 #include "many_lights.h"
 #include "transfer.h"
 #include "tree.h"
@@ -46,6 +47,23 @@ typedef struct lmb_sparse {
     lmb_irradiance light[LMB_SPARSE_TILES]; /* of the block's pixels */
 } lmb_sparse;
 
+/* Where frame.samples is over 1: what works on the samples of one band. 20 KiB, and the memory of `eye`. */
+typedef struct lmb_multisample {
+    lmb_target eye;    /* depth and ids: as wide as the frame, 8 rows a sample, one sample below the other */
+    lmb_view view;     /* of one sample */
+    lmb_target window; /* the sample's rows of `eye` */
+    lmb_tile tile;     /* what the sample shows of a tile's pixels */
+    lmb_irradiance middle, light;         /* bounced light: at the pixels' middles, and at the sample */
+    int16_t middle_of[LMB_TILE_PIXELS];   /* the pixel whose middle shows the sample's surface, or -1 */
+    uint64_t lobe_pixels;                 /* pixels whose middle shows a lobe */
+    lmb_radiance lobes;                   /* what lobes make of bounced light at the middles */
+    lmb_radiance sum;                     /* the samples so far */
+    lmb_tile extra;                       /* surfaces that samples show and no pixel's middle does */
+    lmb_irradiance extra_light;           /* bounced light of `extra` */
+    uint8_t extra_pixel[LMB_TILE_PIXELS]; /* the pixel of each surface of `extra` */
+    int32_t extras;                       /* surfaces in `extra` */
+} lmb_multisample;
+
 /* Everything that works on one band. Place it in fast RAM; one for each thread that draws bands. */
 typedef struct lmb_band_scratch {
     union {
@@ -60,6 +78,7 @@ typedef struct lmb_band_scratch {
     lmb_many_lights_scratch many_lights;
     lmb_sparse sparse; /* where gather_step is over 1 */
     lmb_glossy glossy; /* where a material has a lobe */
+    lmb_multisample *multisample; /* where frame.samples is over 1 */
 } lmb_band_scratch;
 
 /* Called once a finished band, with a surface of up to 8 rows whose first is row y of the frame. Return 0 to go on,
@@ -71,6 +90,8 @@ typedef struct lmb_frame {
     const lmb_kernels *kernels; /* lmb_kernels_pick(), or one backend's own on small targets */
     const lmb_scene *scene;     /* checked */
     const lmb_many_lights *many_lights; /* built: lights beside the scene's; they bounce by `elements`. NULL: none */
+    const lmb_env *background; /* what pixels without a surface show, with its levels; it lights nothing, which
+                                  lmb_env_lights are for. NULL: black, as always without trees (LMB_TREES 0) */
     lmb_view view;
     /* how */
     int32_t show;          /* LMB_SHOW_* */
@@ -82,6 +103,9 @@ typedef struct lmb_frame {
     float visibility;      /* of LMB_OCCLUSION_EXACT: lmb_cut_params.visibility. 0: 0.015, by such lights 0.2 */
     int32_t conservative;  /* 1: LMB_GROUP_CUT: `error` is a bound: lmb_cut_params's */
     float many_lights_error; /* 0.02 where 0: lmb_many_lights_query's */
+    int32_t gather_many_lights; /* 1: what they send straight to surfaces is gathered with bounced light, at
+                                   `gather_step` and once for each surface of a pixel: for light from all sides, a sky's
+                                   say. SHOW_INDIRECT has it then, and SHOW_DIRECT has not, as with emission */
     int32_t bounces;       /* 1 .. 64, 1 where 0: how often light is reflected before the surface that is seen;
                               LMB_GROUP_CUT. Light straight from a material that emits is not reflected: it always
                               counts */
@@ -89,6 +113,9 @@ typedef struct lmb_frame {
                               it is estimated, up to LMB_MAX_BOUNCES: lmb_elements_rest */
     int32_t gather_step;   /* bounced light at every 1 (or 0), 2 or 4 pixels each way: see lmb_upsample_tile; or
                               LMB_GATHER_ADAPTIVE, with `lattice` */
+    int32_t samples;       /* of coverage and direct light a pixel: 1 (or 0), 4, 8 or 16, with scratch.multisample; the
+                              picture is their mean. Bounced light is gathered once for each surface of a pixel, but
+                              lobes only where some pixel's middle shows the surface. Each band draws the scene once more for each sample */
     float exposure_ev;
     /* memory */
     void *map_memory; /* every light's shadow map: the sum of lmb_shadow_map_bytes over the lights */
@@ -157,6 +184,7 @@ typedef struct lmb_frame_settings {
                                and 256). None where bounces, many_lights and materials need none */
     lmb_grouping grouping;  /* LMB_QUALITY_FIXED: method is not LMB_GROUP_CUT */
     int32_t gather_step;    /* lmb_frame's, 1 where 0 (2 by LMB_MANY_LIGHTS_EVEN lights) */
+    int32_t samples;        /* lmb_frame's, 1 where 0 */
     uint32_t points;        /* LMB_QUALITY_FIXED: first points. 0: four a block of texels, the most there can be */
     int32_t id_format;      /* 0: LMB_ID16 for scenes under 65,536 triangles, else LMB_ID32 */
 } lmb_frame_settings;
@@ -266,7 +294,7 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
  * read.
  *
  *   frame  kernels, view, show, occlusion, steps, error, visibility, conservative, many_lights_error, gather_step,
- *          lattice, exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
+ *          lattice, samples, exposure_ev, eye, eye_depth, scratch, out, callback, user and stats are taken from it; the rest stays as it
  *          was at lmb_render_begin.
  * The bytes are those of lmb_render_frame of the same view. Two pictures at once: copy r, and give each copy an eye,
  * scratch and out of its own. Legal from LMB_STAGE_VIEW on. Returns LMB_OK and what lmb_render_begin does; LMB_ERR_ARG

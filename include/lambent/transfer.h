@@ -5,7 +5,8 @@
  * *links*, which say how much of what a node of elements sends arrives at a receiver. Visibility is in the links, so
  * no frame tests it again. Albedo and emission are not, so materials may change. Light goes through five steps:
  *
- *     lmb_transfer_collect(..)    from the texels of shadow maps to the elements
+ *     lmb_transfer_collect(..)    from the texels of shadow maps to the elements; lmb_transfer_many_lights(..), from
+ *                                 lights without maps
  *     lmb_transfer_bounce(..)     further reflections, from elements to at most 1,024 coarse ones
  *     lmb_transfer_send(..)       from what elements receive and emit to what they and their nodes send
  *     lmb_transfer_receivers(..)  from the nodes, by the links, to the receivers
@@ -14,7 +15,8 @@
  * Receivers lie at the corners of triangles that the baker halved until light is nearly linear on each. A pixel
  * interpolates the three receivers of its triangle by barycentric weights. The receiver in the middle of an edge stores
  * its difference from the mean of the edge's two ends. Small triangles of meshes take their light from clusters, which
- * keep it by direction, as differences from blends of clusters around them.
+ * keep it by direction, as differences from blends of clusters around them. So do large triangles with a normal map or
+ * a lobe: each of their receivers is a cluster, and each of their blends one of these.
  *
  * Objects that move take their light from a grid of places in the air, by direction. They cast shadows in direct light;
  * bounced light they neither block nor reflect.
@@ -23,6 +25,7 @@
 #ifndef LMB_TRANSFER_H
 #define LMB_TRANSFER_H
 
+#include "elements.h"
 #include "map.h"
 #include "light.h"
 
@@ -32,7 +35,7 @@ enum {
     LMB_TRANSFER_PIECES,   /* halvings down to elements */
     LMB_TRANSFER_AREAS,    /* of elements, m2, binary32 */
     LMB_TRANSFER_DIVISIONS, /* halvings down to corners */
-    LMB_TRANSFER_CORNERS,  /* three a leaf: receivers; then three a small triangle: blends */
+    LMB_TRANSFER_CORNERS,  /* three a leaf: receivers; then three a leaf that keeps light by direction: blends */
     LMB_TRANSFER_RECEIVERS,
     LMB_TRANSFER_LINKS,
     LMB_TRANSFER_BLENDS,   /* up to four clusters and their weights */
@@ -65,6 +68,13 @@ enum {
     LMB_TRANSFER_MAX_ELEMENTS = 16384,
     LMB_TRANSFER_MAX_CLUSTERS = 65536,
     LMB_TRANSFER_KEPT = 64, /* triangles */
+    LMB_TRANSFER_CELLS = 4,    /* of a block, each way: see lmb_transfer_collect */
+    LMB_TRANSFER_BLOCK_CELLS = LMB_TRANSFER_CELLS * LMB_TRANSFER_CELLS,
+    LMB_TRANSFER_SHOWN = 36,    /* triangles of a face at hand: see below */
+    LMB_TRANSFER_SHARING = 10,  /* triangles that share a block by their outlines */
+    LMB_TRANSFER_SHARERS = 8,  /* triangles that share a tile of blocks */
+    LMB_TRANSFER_ALL_ROWS = 255,
+    LMB_TRANSFER_PARTS = 16,   /* of one's light, that wait to be halved */
     LMB_TRANSFER_MAX_HALVINGS = 40 /* of a triangle; what lies deeper is not lit */
 };
 #define LMB_TRANSFER_NONE      0xffffffffu
@@ -95,6 +105,12 @@ enum {
     LMB_TRANSFER_SEND_RECEIVED  /* what they reflect of what came last */
 };
 
+/* An element's largest piece: its middle, m, unit normal, and area, m2; 0: there is none. */
+typedef struct lmb_transfer_place {
+    lmb_vec3 position, normal;
+    float area;
+} lmb_transfer_place;
+
 /* The light in the air, in the caller's memory. */
 typedef struct lmb_transfer_light {
     float (*power)[3];    /* an element: W that arrive */
@@ -104,6 +120,9 @@ typedef struct lmb_transfer_light {
     uint16_t (*node)[4]; /* a node: what it sends, in steps of `step`; then 0 */
     float (*receiver)[3]; /* W/m2 */
     float (*cluster)[9];  /* W/m2 along x, y, z, of R, then G, then B */
+    lmb_transfer_place *place; /* an element's, for lmb_transfer_many_lights: the caller's, set before
+                                  lmb_transfer_materials; NULL after lmb_transfer_light_init: none */
+    struct lmb_transfer_part *part; /* LMB_TRANSFER_PARTS, of the triangle that lmb_transfer_collect is at */
     float step;
 } lmb_transfer_light;
 
@@ -127,13 +146,66 @@ typedef struct lmb_transfer_step {
     int32_t second;     /* 1: the next step is its second half */
 } lmb_transfer_step;
 
-/* What lmb_transfer_collect and lmb_transfer_tile keep from call to call, one for each thread: it changes no byte. Set
- * it to 0 before the first call, and when the scene has changed. */
-typedef struct lmb_transfer_scratch {
+/* A triangle as a face of a shadow map shows it. Its functions are linear in a cell's column and row: the value in the
+ * first cell, the step by column, the step by row. */
+typedef struct lmb_transfer_shown {
+    uint32_t id;         /* or 0 */
+    uint32_t root;       /* among pieces, of the side to the light; or LMB_TRANSFER_NONE */
+    int32_t has_outline; /* 0: cut out by a mask, or seen edge on: it has the cells whose middles show it */
+    float corner[3][3];  /* weights of its corners, times its nearness where rays meet in a point */
+    float per[3];        /* 1 / what these change by over a cell */
+    float cosine[3];     /* of the angle between the edges that meet at a corner */
+    float near[3];       /* 1 / distance along the view; of suns, minus the distance */
+} lmb_transfer_shown;
+
+/* What lmb_transfer_collect works on: 8 x 8 blocks. */
+typedef struct lmb_transfer_sharer {
+    uint32_t id, root;            /* as above */
+    uint32_t rows;                /* a bit each: those that have a share */
+    float corner[3][3];           /* as above, by block */
+    float share[LMB_TILE_PIXELS]; /* of each block's light */
+} lmb_transfer_sharer;
+
+typedef struct lmb_transfer_part {
+    uint32_t at;                  /* a halving */
+    int32_t depth;                /* of it */
+    uint32_t rows;                /* a bit each: of others the light is not told */
+    float corner[3][3];           /* as above, of the halving's corners, by block */
+    float light[LMB_TILE_PIXELS]; /* of each block: whole numbers, 2^24 for all that a block could bring */
+} lmb_transfer_part;
+
+/* The ids that a block's cells show, in the order of the first cell of each. */
+typedef struct lmb_transfer_several {
+    int32_t count; /* over LMB_TRANSFER_SHARING: more than these */
+    uint32_t id[LMB_TRANSFER_SHARING];
+} lmb_transfer_several;
+
+typedef struct lmb_transfer_collecting {
+    lmb_transfer_shown shown[LMB_TRANSFER_SHOWN];
+    uint32_t block_id[LMB_TILE + 2][LMB_TILE + 2]; /* the one id of a block's cells, or LMB_TRANSFER_NONE */
+    lmb_transfer_several several[3][LMB_TILE + 2]; /* the ids of blocks that show several: of three rows of blocks */
+    lmb_transfer_shown outline[LMB_TRANSFER_SHARING]; /* the elements that share the block at hand */
+    lmb_transfer_sharer sharer[LMB_TRANSFER_SHARERS];
+    int32_t sharers;
+    float share[LMB_TRANSFER_SHARING][LMB_TRANSFER_BLOCK_CELLS]; /* each outline's share of each cell, 0 to 1 */
+    float power[LMB_TILE_PIXELS + 16]; /* of the cells, padded to a whole vector */
+} lmb_transfer_collecting;
+
+/* What lmb_transfer_tile keeps from call to call. */
+typedef struct lmb_transfer_met {
     lmb_transfer_kept kept;
     lmb_transfer_step step[LMB_TRANSFER_MAX_HALVINGS + 1]; /* the last way down: the next one shares most of it */
-    uint32_t root, depth;                                  /* from where, plus 1; how many steps */
-    float weight[2][LMB_TILE_PIXELS]; /* of the pixels of one */
+    uint32_t root;                                         /* where that way began, plus 1; 0: there is none */
+    uint32_t depth;                                        /* its steps */
+    float weight[2][LMB_TILE_PIXELS];                      /* of the pixels of one step */
+} lmb_transfer_met;
+
+/* What lmb_transfer_collect and lmb_transfer_tile work on, one for each thread: what it holds changes no byte. Set it to
+ * 0 before the first call of lmb_transfer_tile, and when the scene has changed. lmb_transfer_collect may find anything
+ * in it, and leaves nothing of use to lmb_transfer_tile. */
+typedef union lmb_transfer_scratch {
+    lmb_transfer_met met;
+    lmb_transfer_collecting collecting;
 } lmb_transfer_scratch;
 
 #ifdef __cplusplus
@@ -165,14 +237,26 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
 /* lmb_transfer_clear: no light. Begins a frame. */
 lmb_status lmb_transfer_clear(lmb_transfer_light *light, const lmb_transfer *transfer);
 
-/* lmb_transfer_collect: add the power of one face of a shadow map to the elements that it shows: of one in each
- * `each` x `each` texels, which stands for all of them. Rows first .. past - 1 of such blocks; in order, because sums
- * are of binary32. Use about 256 x 256 blocks for a light with one face.
+/* lmb_transfer_collect: add the power of one face of a shadow map to the elements that it shows, by blocks of
+ * `each` x `each` texels. Rows first .. past - 1 of blocks, in order, in pieces of any size: eight rows are added when
+ * the last of them is asked for. Use about 256 x 256 blocks for a light with one face.
+ * A block's light is parted at the borders of triangles and of elements, by area: as the light moves, it crosses these
+ * little by little.
  * LMB_OK or LMB_ERR_ARG. */
 lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kernels *kernels,
                                 lmb_transfer_scratch *scratch, const lmb_transfer *transfer, const lmb_scene *scene,
                                 const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,
                                 int32_t first, int32_t past);
+
+/* lmb_transfer_tiles: how many times 64 elements there are.
+ * lmb_transfer_many_lights: add what a tree of lights sends to elements of the tiles first .. past - 1. Any tiles in any
+ * order, at once on any threads, each with its own scratches (of own_scratch kernels, tile and fresh are used). An
+ * element is lit as light->place says. Cost: a tile's cut and its shadows, as of 64 pixels. LMB_OK or LMB_ERR_ARG.
+ *                                                                                                         [V3] */
+int32_t lmb_transfer_tiles(const lmb_transfer *transfer);
+lmb_status lmb_transfer_many_lights(const lmb_transfer_light *light, const lmb_transfer *transfer,
+                                    const lmb_element_scratch *own_scratch, lmb_many_lights_scratch *scratch,
+                                    const lmb_many_lights_query *query, int32_t first, int32_t past);
 
 /* lmb_transfer_bounce: after all maps: elements send what the enum above says, and coarse ones receive it.
  * lmb_transfer_rest: after these, an estimate of `bounces` further ones, from how much weaker the last one, of `what`,
@@ -190,10 +274,14 @@ lmb_status lmb_transfer_send(lmb_transfer_light *light, const lmb_transfer *tran
 lmb_status lmb_transfer_receivers(const lmb_transfer_light *light, const lmb_kernels *kernels,
                                   const lmb_transfer *transfer, uint32_t first, uint32_t past);
 
-/* lmb_transfer_tile: add the light that arrives at a tile's pixels. LMB_OK or LMB_ERR_ARG. */
-lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_transfer_scratch *scratch,
-                             const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene,
-                             const lmb_tile *tile);
+/* lmb_transfer_tile: add the light that arrives at a tile's pixels. LMB_OK or LMB_ERR_ARG.
+ *
+ *   glossy  the tile's lobes, to which what they make of that light is added; NULL: none. A lobe sees all light as one
+ *           disc in its mean direction, where the file keeps directions; else straight above. That is right for rough
+ *           surfaces; smooth ones show no pictures of the room. Lobes of what moves get none. */
+lmb_status lmb_transfer_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_kernels *kernels,
+                             lmb_transfer_scratch *scratch, const lmb_transfer_light *light,
+                             const lmb_transfer *transfer, const lmb_scene *scene, const lmb_tile *tile);
 
 #ifdef __cplusplus
 }

@@ -52,11 +52,13 @@ enum { LMB_PERSPECTIVE = 0, LMB_ORTHOGRAPHIC = 1 };
 typedef struct lmb_view {
     lmb_vec3 eye;
     lmb_vec3 right, up, back;
-    float half_width, half_height; /* perspective: tangents of the half angles; orthographic: metres */
-    float near_m, far_m;           /* near_m > 1e-30, as are the half sizes; orthographic: near_m < far_m, and
+    float half_width, half_height;     /* perspective: tangents of the half angles; orthographic: metres */
+    float near_m, far_m;               /* near_m > 1e-30, as are the half sizes; orthographic: near_m < far_m, and
                                       < -1e-30 where it is behind the eye. far_m: orthographic views, 16-bit depth */
-    int32_t kind;                  /* LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC */
+    int32_t kind;                      /* LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC */
     int32_t frame_width, frame_height; /* px of the whole frame, <= LMB_MAX_FRAME */
+    int32_t sample_x, sample_y; /* where in each pixel it is seen, from the middle to the right and down, 1/256 px:
+                                      -128 .. 127; 0 in builds without LMB_MULTISAMPLE */
 } lmb_view;
 
 /* Pixel formats. Depth and id surfaces hold whole tiles: their memory is what lmb_surface_bytes says. */
@@ -81,12 +83,12 @@ enum { LMB_LINEAR = 0, LMB_TILED = 1 };
 
 /* A caller's pixels. The library owns no memory: lmb_frame and lmb_render keep the caller's pointers. */
 typedef struct lmb_surface {
-    void *data;           /* first row (LINEAR), first tile (TILED); NULL: no surface */
+    void *data;            /* first row (LINEAR), first tile (TILED); NULL: no surface */
     int32_t width, height; /* px, <= LMB_MAX_SIDE */
-    int32_t stride_bytes; /* may be negative for colour (bottom-up pictures) */
-    uint8_t format;       /* lmb_format */
-    uint8_t layout;       /* LMB_LINEAR or LMB_TILED */
-    uint16_t reserved;    /* 0 */
+    int32_t stride_bytes;  /* may be negative for colour (bottom-up pictures) */
+    uint8_t format;        /* lmb_format */
+    uint8_t layout;        /* LMB_LINEAR or LMB_TILED */
+    uint16_t reserved;     /* 0 */
 } lmb_surface;
 
 /* What calls did and what they dropped: bad data is counted, never an error. Counters only grow; zero them yourself. */
@@ -97,12 +99,12 @@ typedef struct lmb_stats {
     uint32_t first_points;
     uint32_t discs;
     uint32_t groups;
-    uint32_t regroups;          /* times grouping restarted because LMB_MAX_GROUPS was reached */
+    uint32_t regroups; /* times grouping restarted because LMB_MAX_GROUPS was reached */
     uint32_t bands;
-    uint64_t pairs, segments;   /* LMB_GROUP_CUT: pixels x nodes that light them; segments tested for visibility */
-    uint64_t full_cuts;         /* pixel clusters lit by fewer nodes than asked for: LMB_MAX_CUT was reached */
-    double flux_lit;            /* W: outgoing power of all first points, sum of R, G, B */
-    double flux_grouped;        /* W: the same over the groups; less only where strict zones drop some [V20] */
+    uint64_t pairs, segments; /* LMB_GROUP_CUT: pixels x nodes that light them; segments tested for visibility */
+    uint64_t full_cuts;       /* pixel clusters lit by fewer nodes than asked for: LMB_MAX_CUT was reached */
+    double flux_lit;          /* W: outgoing power of all first points, sum of R, G, B */
+    double flux_grouped;      /* W: the same over the groups; less only where strict zones drop some [V20] */
 } lmb_stats;
 
 #define LMB_VERSION 100 /* 0.1.0: major * 10000 + minor * 100 + patch */
@@ -120,6 +122,11 @@ const char *lmb_status_name(lmb_status status);
  * multiply and an add, that denormals are not flushed, that shifts are arithmetic, and that none of the compiler faults
  * met so far is there (clang 14 for 32-bit MIPS, tcc 0.9.27). LMB_OK or LMB_ERR_BUILD. Call it once at start. */
 lmb_status lmb_build_check(void);
+
+/* lmb_view_sample: sample i of `samples` (1, 4, 8 or 16) a pixel: sets sample_x and sample_y. The patterns are those that
+ * Direct3D 11 and Vulkan call standard: nearly horizontal and nearly vertical edges meet each sample of 4 or 8 at another
+ * place. LMB_OK or LMB_ERR_ARG. Missing in builds without LMB_MULTISAMPLE. */
+lmb_status lmb_view_sample(lmb_view *inout, int32_t samples, int32_t i);
 
 /* lmb_view_look_at: a perspective view from `eye` towards `target`.
  *

@@ -9,7 +9,7 @@
 #include "../port_say.h"
 #include "count.h"
 
-enum { WIDTH = 160, HEIGHT = 120, MAP_SIZE = 48, RECEIVERS = 512 };
+enum { WIDTH = 160, HEIGHT = 120, MAP_SIZE = 40, RECEIVERS = 512 };
 
 static const uint32_t baked[] = {
 #include "baked.inc"
@@ -19,7 +19,7 @@ static const uint32_t baked[] = {
 static uint32_t picture[WIDTH * HEIGHT / 2];
 static uint16_t depth[WIDTH * HEIGHT];
 static uint32_t map_memory[MAP_SIZE * MAP_SIZE * 6 / 4];
-static uint32_t light_memory[5600];
+static uint32_t light_memory[6800];
 static float direct[RECEIVERS][3];
 static lmb_transfer transfer;
 static lmb_transfer_light light;
@@ -27,6 +27,10 @@ static lmb_shadow_map map;
 static lmb_gouraud_scratch scratch;
 static lmb_transfer_scratch collecting;
 static lmb_gouraud frame;
+
+/* Instructions up to the end of a stage. */
+enum { MAP, ELEMENTS, RECEIVERS_LIT, DRAWN, STAGES };
+static uint32_t taken[STAGES];
 
 static lmb_status place(void)
 {
@@ -63,16 +67,19 @@ static lmb_status light_up(void)
         lmb_shadow_map_init(&map, &scene->lights[0], scene, MAP_SIZE, LMB_ID16, map_memory, sizeof map_memory);
     if (s == LMB_OK)
         s = lmb_gouraud_map(&map, scene, &scratch);
+    taken[MAP] = count_taken();
     if (s == LMB_OK)
         s = lmb_transfer_clear(&light, &transfer);
     for (int32_t f = 0; f < map.faces && s == LMB_OK; ++f)
         s = lmb_transfer_collect(&light, lmb_kernels_pick(), &collecting, &transfer, scene, &scene->lights[0], &map, f, 1,
                                  0, MAP_SIZE);
+    taken[ELEMENTS] = count_taken();
     if (s == LMB_OK)
         s = lmb_transfer_send(&light, &transfer);
     if (s == LMB_OK)
         s = lmb_transfer_receivers(&light, lmb_kernels_pick(), &transfer, 0,
                                    transfer.count[LMB_TRANSFER_RECEIVERS] + transfer.count[LMB_TRANSFER_CLUSTERS]);
+    taken[RECEIVERS_LIT] = count_taken();
     return s;
 }
 
@@ -88,10 +95,9 @@ int main(void)
     count_start();
     if (s == LMB_OK)
         s = light_up();
-    const uint32_t lit = count_taken();
     if (s == LMB_OK)
         s = draw();
-    const uint32_t taken = count_taken();
+    taken[DRAWN] = count_taken();
     if (s != LMB_OK) {
         port_put(lmb_status_name(s));
         port_put("\n");
@@ -99,8 +105,11 @@ int main(void)
     }
     port_put("demo-gouraud-160x120-rgb565 ");
     say_hex(lmb_surface_hash(&frame.out));
-    say_count("\ninstructions ", taken);
-    say_count(" of them where the light stands still ", taken - lit);
+    say_count("\ninstructions ", taken[DRAWN]);
+    say_count(" map ", taken[MAP]);
+    say_count(" elements ", taken[ELEMENTS] - taken[MAP]);
+    say_count(" receivers ", taken[RECEIVERS_LIT] - taken[ELEMENTS]);
+    say_count(" of them where the light stands still ", taken[DRAWN] - taken[RECEIVERS_LIT]);
     port_put("\n");
     return say_ram();
 }

@@ -20,7 +20,7 @@ static const uint32_t baked[] = {
 #include "baked.inc"
 };
 static lmb_transfer transfer;
-static uint32_t light[5600];
+static uint32_t light[6800];
 static const char name[] = "demo-baked";
 #else
 static const char name[] = "demo-direct";

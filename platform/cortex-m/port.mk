@@ -33,7 +33,7 @@ RUN           = qemu-system-arm -M $(BOARD) -display none -monitor none -serial 
 RAM_BYTES     = 4194304
 ROM_BYTES     = 524288
 $(B)/demo: RAM_BYTES = 262144
-$(LIVE:%=$(B)/%): RAM_BYTES = 163840
+$(addprefix $(B)/,live baked gouraud): RAM_BYTES = 163840
 $(B)/baked $(B)/gouraud: ROM_BYTES = 1048576
 
 # Every instruction takes 1 ns (count.h).

@@ -1,9 +1,10 @@
 /* host.c: the clock, the terminal and the file limit of a desktop: POSIX, Windows, or plain C. */
 #if !defined(_WIN32)
-#define _XOPEN_SOURCE 600 /* clock_gettime, isatty, mkdir, SIGXFSZ */
+#define _XOPEN_SOURCE 600 /* clock_gettime, isatty, mkdir, SIGXFSZ, sigaction */
 #endif
 #include "host.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,6 +19,7 @@ double host_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 double host_cpu_seconds(void) { return (double)clock() / CLOCKS_PER_SEC; }
 int host_watched(void) { return _isatty(2); }
 #else
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 static int make_folder(const char *path) { return mkdir(path, 0777); }
@@ -41,6 +43,62 @@ int host_watched(void) { return isatty(STDERR_FILENO); }
 void host_outlive_file_limit(void) { signal(SIGXFSZ, SIG_IGN); }
 #else
 void host_outlive_file_limit(void) {}
+#endif
+
+#define BLANKS "                                        "
+static const char blank_line[] = "\r" BLANKS BLANKS "\r";
+
+#if defined(_WIN32)
+void host_take_streams(void) {}
+void host_end_cleanly(void (*clean)(void)) { (void)clean; }
+void host_hold_signals(int is_held) { (void)is_held; }
+void host_wipe_line(void) { fputs(blank_line, stderr); }
+#else
+static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
+static void (*clean_up)(void);
+
+void host_take_streams(void)
+{
+    for (int i = 0; i < 3; ++i) {
+        if (fcntl(i, F_GETFD) == -1 && errno == EBADF) { /* the lowest number that is free is this one */
+            (void)!open("/dev/null", i == 0 ? O_WRONLY : O_RDONLY);
+        }
+    }
+}
+
+/* The signal waits until its handler has returned; then it ends the program, as none handles it any more. */
+static void end(int number)
+{
+    clean_up();
+    raise(number);
+}
+
+void host_end_cleanly(void (*clean)(void))
+{
+    clean_up = clean;
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i) {
+        struct sigaction now, new;
+        memset(&new, 0, sizeof new);
+        new.sa_handler = end;
+        new.sa_flags = (int)SA_RESETHAND;
+        sigemptyset(&new.sa_mask);
+        if (sigaction(ends[i], NULL, &now) == 0 && now.sa_handler != SIG_IGN) {
+            sigaction(ends[i], &new, NULL);
+        }
+    }
+}
+
+void host_hold_signals(int is_held)
+{
+    sigset_t all;
+    sigemptyset(&all);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; ++i) {
+        sigaddset(&all, ends[i]);
+    }
+    sigprocmask(is_held ? SIG_BLOCK : SIG_UNBLOCK, &all, NULL);
+}
+
+void host_wipe_line(void) { (void)!write(STDERR_FILENO, blank_line, sizeof blank_line - 1); }
 #endif
 
 /* Linux's list of processors: `model name : NAME` once for each. */

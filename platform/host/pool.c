@@ -4,6 +4,8 @@
 #endif
 #include "pool.h"
 
+int pool_threads(int asked) { return asked < 1 ? pool_processors() : asked > POOL_MAX ? POOL_MAX : asked; }
+
 #ifdef _WIN32
 
 int pool_processors(void) { return 1; }

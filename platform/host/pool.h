@@ -8,6 +8,9 @@ enum { POOL_MAX = 64 };
 /* Processors that can work at once, 1 .. POOL_MAX; 1 where the system does not say or has no threads. */
 int pool_processors(void);
 
+/* pool_threads: as many as were asked for, at most POOL_MAX; 0: one a processor. */
+int pool_threads(int asked);
+
 /* One piece of work, 0 <= index < count, done by one of the workers 0 .. threads - 1; worker 0 is the caller. */
 typedef void (*pool_job)(void *user, int index, int worker);
 

@@ -17,9 +17,14 @@
 /* The part of lmb_build_check that needs no kernel: 1 where this target's plain C computes as everybody else's. */
 int lmb_base_is_exact(void);
 
-/* In addition to -ffp-contract=off: gcc ignores this pragma, clang honours it for plain expressions. */
+/* No fused multiply-adds, also where -ffp-contract=off was forgotten: in its own dialects, -std=gnu17 by default, gcc
+ * fuses on each processor that can, as a Cortex-M4F. With -std=c99 it does so only where it is told to
+ * (-ffp-contract=fast), which no macro says and lmb_build_check finds. gcc ignores the standard's pragma; clang honours
+ * it, but with -ffp-contract=fast. */
 #if defined(__clang__)
 #pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__) && !defined(__STRICT_ANSI__)
+#pragma GCC optimize("fp-contract=off")
 #endif
 
 #endif

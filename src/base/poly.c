@@ -52,6 +52,9 @@ float lmb_cos(float x)
     return k == 1 || k == 2 ? -v : v;
 }
 
+/* -0 is 0, too. */
+float lmb_sqrt(float x) { return x > 0.0f ? sqrtf(x) : 0.0f; }
+
 float lmb_tan(float x) { return lmb_sin(x) / lmb_cos(x); }
 
 /* asin s - s = s z A(z), z = s^2 <= 1/4: error 4.9e-9. */

@@ -7,6 +7,7 @@
 #ifndef LMB_BASE_POLY_H
 #define LMB_BASE_POLY_H
 
+#include <lambent/numbers.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -28,11 +29,6 @@ static inline float bits_float(uint32_t u)
     memcpy(&v, &u, sizeof v);
     return v;
 }
-
-/* lmb_sin, lmb_cos: of x radians, |x| <= 64; anything else, NaN too, counts as 0.
- * Absolute error < 6e-8 up to |x| = pi/4, < 8e-8 up to 64. */
-float lmb_sin(float x);
-float lmb_cos(float x);
 
 /* lmb_tan: lmb_sin(x) / lmb_cos(x), the same domain. Relative error < 2.5e-7, near the poles too: no float is one. */
 float lmb_tan(float x);

@@ -1,4 +1,4 @@
-/* view.c: a camera from its position and its target. Layer 1. */
+/* view.c: a camera from its position and its target, and where in a pixel its samples lie. Layer 1. */
 #include "poly.h"
 #include "vec.h"
 
@@ -41,6 +41,28 @@ lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_ve
     v.kind = LMB_PERSPECTIVE;
     v.frame_width = width;
     v.frame_height = height;
+    v.sample_x = v.sample_y = 0;
     *out = v;
     return LMB_OK;
 }
+
+#if LMB_MULTISAMPLE
+
+lmb_status lmb_view_sample(lmb_view *inout, int32_t samples, int32_t i)
+{
+    /* From the middle to the right and down, 1/16 px. */
+    static const int8_t by_4[][2] = {{-2, -6}, {6, -2}, {-6, 2}, {2, 6}};
+    static const int8_t by_8[][2] = {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}};
+    static const int8_t by_16[][2] = {{1, 1},  {-1, -3}, {-3, 2},  {4, -1}, {-5, -2}, {2, 5},  {5, 3}, {3, -5},
+                                      {-2, 6}, {0, -7},  {-4, -6}, {-6, 4}, {-8, 0},  {7, -4}, {6, 7}, {-7, -8}};
+    static const int8_t middle[][2] = {{0, 0}};
+    const int8_t(*at)[2] = samples == 1 ? middle : samples == 4 ? by_4 : samples == 8 ? by_8 : by_16;
+    if (inout == NULL || i < 0 || i >= samples || (samples != 1 && samples != 4 && samples != 8 && samples != 16)) {
+        return LMB_ERR_ARG;
+    }
+    inout->sample_x = at[i][0] * 16;
+    inout->sample_y = at[i][1] * 16;
+    return LMB_OK;
+}
+
+#endif

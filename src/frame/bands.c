@@ -1,66 +1,44 @@
-/* bands.c: direct and bounced light of tiles, and bands of them to the picture and the caller. Layer 10. */
+/* bands.c: tiles of a band to the picture, and bands to the caller. Layer 10. */
+#include <float.h>
 #include <string.h>
 
+#include "../base/poly.h"
 #include "../base/vec.h"
 #include "../compose/lattice.h"
-#include "../light/light_tile.h"
 #include "stages.h"
 #include "requires.h"
 
 #define BAND_UNITS 8
 
-/* SHOW_IRRADIANCE is what arrives before the albedo. */
-static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
-
-lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *s)
+/* Of several samples a pixel, light of a display is white before the mean is taken. */
+static float white_of(const lmb_frame *f, const lmb_surface *out)
 {
-    const lmb_frame *f = &r->frame;
-    const light_tile lit = {f->kernels, f->scene, &f->view, &s->tile};
-    lmb_many_lights_query query;
-    lmb_status status = LMB_OK;
-    memset(&s->direct, 0, sizeof s->direct);
-    for (uint32_t i = 0; requires_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
-        if (!light_is(r, i, LMB_LIGHT_DARK)) {
-            status = lmb_light_tile_add(&s->direct, glossy, &s->indirect, &lit, i, &r->maps[i]);
-        }
-    }
-    if (requires_many_lights(f) && status == LMB_OK) {
-        query.many_lights = f->many_lights;
-        query.bvh = f->bvh.triangle != NULL ? &f->bvh : NULL;
-        query.error = f->many_lights_error;
-        query.each = 0;
-        status = lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, &s->tile, &query);
-    }
-    return status;
+    return out->format == LMB_RGB32F ? FLT_MAX : lmb_exp2(-f->exposure_ev);
 }
 
 /* Direct and bounced light of the tile at hand; of the latter `indirect` where that is known, NULL: gathered here,
  * always where there are lobes. */
-NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect)
+NOINLINE lmb_status light_pixels(const lmb_render *r, lmb_band_scratch *s, const lmb_irradiance *indirect,
+                                 const lmb_surface *out, int32_t band)
 {
     const lmb_frame *f = &r->frame;
+    const int many = requires_multisample(f);
     lmb_glossy *glossy =
         requires_glossy(r) && lmb_glossy_tile(&s->glossy, &s->tile, &f->view, f->scene) ? &s->glossy : NULL;
-    lmb_status status = lmb_render_direct(r, glossy, s);
-    if ((indirect == NULL || glossy != NULL) && status == LMB_OK) {
+    const int gathers = indirect == NULL || glossy != NULL;
+    lmb_status status = LMB_OK;
+    if (!many || gathers) {
+        status = lmb_render_direct(r, many ? NULL : glossy, s, &s->tile, &f->view);
+    }
+    if (gathers && status == LMB_OK) {
         indirect = &s->indirect;
         memset(&s->indirect, 0, sizeof s->indirect);
         status = lmb_render_gather(&s->indirect, glossy, r, s, &s->tile, requires_direct(f) ? &s->direct : NULL);
     }
-    if (status == LMB_OK && f->show == LMB_SHOW_IRRADIANCE) {
-        show_irradiance(&s->radiance, indirect);
-        return LMB_OK;
+    if (status == LMB_OK && many) {
+        return lmb_multisample_light(r, s, indirect, glossy, band, white_of(f, out));
     }
-    if (status == LMB_OK) {
-        status = lmb_compose_tile(&s->radiance, f->kernels, &s->tile, &s->direct, indirect);
-    }
-    if (status == LMB_OK && glossy != NULL) {
-        status = lmb_compose_glossy(&s->radiance, glossy);
-    }
-    if (status == LMB_OK && r->emits && requires_direct(f)) {
-        status = lmb_compose_emission(&s->radiance, f->scene, &f->view, &s->tile);
-    }
-    return status;
+    return status == LMB_OK ? lmb_render_radiance(r, glossy, s, &s->tile, &f->view, indirect) : status;
 }
 
 /* The bounced light of the tile at column x where blocks are gathered: all of one with its first tile. Else NULL. */
@@ -88,9 +66,9 @@ static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, con
 {
     const lmb_frame *f = &r->frame;
     const int32_t out_y0 = is_whole(out, &f->view) ? 0 : band * LMB_TILE;
-    lmb_status status = LMB_OK;
+    lmb_status status = requires_multisample(f) ? lmb_multisample_draw(r, scratch, band) : LMB_OK;
     if (requires_transfer(f)) {
-        memset(&scratch->gather.transfer, 0, sizeof scratch->gather.transfer);
+        memset(&scratch->gather.transfer.met, 0, sizeof scratch->gather.transfer.met);
     }
     for (int32_t x = 0; x < f->view.frame_width && status == LMB_OK; x += LMB_TILE) {
         const lmb_irradiance *indirect;
@@ -99,7 +77,7 @@ static lmb_status light_band(const lmb_render *r, lmb_band_scratch *scratch, con
             status = lmb_resolve_tile(&scratch->tile, f->kernels, &f->view, f->scene, window, x, band * LMB_TILE);
         }
         if (status == LMB_OK) {
-            status = light_pixels(r, scratch, indirect);
+            status = light_pixels(r, scratch, indirect, out, band);
         }
         if (status == LMB_OK) {
             status = lmb_store_tile(out, f->kernels, 0, out_y0, &scratch->radiance, x, band * LMB_TILE, f->exposure_ev);
@@ -119,6 +97,9 @@ lmb_status lmb_render_band(const lmb_render *r, lmb_band_scratch *scratch, const
     lmb_status status = lmb_render_check_out(out, &r->frame.view);
     if (status == LMB_OK) {
         status = r->failed;
+    }
+    if (status == LMB_OK) {
+        status = lmb_multisample_check(&r->frame, scratch);
     }
     if (status == LMB_OK) {
         status = lmb_render_view_band(r, &window, eye, band);

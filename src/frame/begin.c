@@ -35,6 +35,7 @@ void lmb_render_defaults(lmb_frame *f)
     const int even = (f->error == 0.0f || f->visibility == 0.0f) && wants_even_light(f);
     f->bounces = f->bounces != 0 ? f->bounces : 1;
     f->steps = f->steps != 0 ? f->steps : STEPS;
+    f->samples += f->samples == 0;
     f->error = f->error != 0.0f ? f->error : even ? EVEN_ERROR : ERROR;
     f->visibility = f->visibility != 0.0f ? f->visibility : even ? EVEN_VISIBLE : VISIBILITY;
     f->gather_step = f->gather_step != 0 && requires_bounce(f) ? f->gather_step : 1;
@@ -86,8 +87,11 @@ static void set_picture(lmb_frame *f, const lmb_frame *from)
     f->visibility = from->visibility;
     f->conservative = from->conservative;
     f->many_lights_error = from->many_lights_error;
+    f->gather_many_lights = from->gather_many_lights;
+    f->background = from->background;
     f->gather_step = from->gather_step;
     f->lattice = from->lattice;
+    f->samples = from->samples;
     f->exposure_ev = from->exposure_ev;
     f->eye = from->eye;
     f->eye_depth = from->eye_depth;

@@ -1,6 +1,21 @@
 /* bounced.c: the bounced light of a tile, from cuts of the trees or from groups. Layer 10. */
+#include "../base/vec.h"
 #include "stages.h"
 #include "requires.h"
+
+/* A pack of samples lies apart, so that its cut goes by its nearest sample and is too fine for the others; what a sample
+ * is off by is smaller than what the light between samples is. */
+#define SPREAD_VISIBILITY 1.5f /* of what is allowed to pixels side by side */
+
+/* Light that many lights send straight. Samples of a pack lie apart: each tests every shadow for itself. */
+NOINLINE lmb_status gather_many_lights(lmb_irradiance *inout, const lmb_render *r, lmb_band_scratch *s,
+                                     const lmb_tile *tile)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, f->many_lights_error,
+                                         tile != &s->tile, 1};
+    return lmb_many_lights_direct_tile(inout, f->kernels, &s->many_lights, tile, &query);
+}
 
 /* What the light's shadow maps bounce, and what elements send. */
 static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_render *r, lmb_band_scratch *s,
@@ -10,6 +25,11 @@ static lmb_status gather_cuts(lmb_irradiance *inout, lmb_glossy *glossy, const l
     lmb_cut_params cut_params = cut_params_of(f, &s->counts);
     cut_params.glossy = glossy;
     cut_params.direct = direct;
+    cut_params.beside = gathers_many_lights(f) ? inout : NULL;
+    if (f->gather_step == LMB_GATHER_ADAPTIVE && tile == &s->sparse.together) {
+        cut_params.visibility *= SPREAD_VISIBILITY;
+        cut_params.spread = 1;
+    }
     lmb_status status = lmb_gather_cut(inout, f->kernels, &s->gather.cut, tile, &f->tree, &cut_params);
     if (status == LMB_OK && requires_elements(r)) {
         cut_params.beside = inout;
@@ -26,9 +46,15 @@ lmb_status lmb_render_gather(lmb_irradiance *inout, lmb_glossy *glossy, const lm
     if (skips(r, LMB_SKIP_BOUNCE)) {
         return LMB_OK;
     }
+    if (gathers_many_lights(f)) {
+        const lmb_status status = gather_many_lights(inout, r, s, tile);
+        if (status != LMB_OK) {
+            return status;
+        }
+    }
     if (requires_transfer(f)) {
-        return lmb_transfer_tile(inout, f->kernels, &s->gather.transfer, &f->transfer_light, f->transfer, f->scene,
-                                 tile);
+        return lmb_transfer_tile(inout, glossy, f->kernels, &s->gather.transfer, &f->transfer_light, f->transfer,
+                                 f->scene, tile);
     }
     if (requires_cut(f)) {
         return gather_cuts(inout, glossy, r, s, tile, direct);

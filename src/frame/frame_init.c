@@ -66,7 +66,8 @@ static lmb_status check(const lmb_frame_settings *s)
         s->bounces < 0 || s->bounces > LMB_MAX_BOUNCES || s->threads < 0 || s->threads > MAX_THREADS ||
         s->shadow_map < 0 || s->tree < 0 || s->gather_step < 0 || s->gather_step == 3 ||
         (s->gather_step > 4 && s->gather_step != LMB_GATHER_ADAPTIVE) || !(s->error >= 0.0f) || !(s->visibility >= 0.0f) ||
-        (s->by_bands && s->threads > 1)) {
+        (s->by_bands && s->threads > 1) || (s->samples > 1 && !LMB_MULTISAMPLE) ||
+        (s->samples > 1 && s->samples != 4 && s->samples != 8 && s->samples != 16) || s->samples < 0) {
         return LMB_ERR_ARG;
     }
     if (!LMB_TRANSFER && s->transfer != NULL) {
@@ -113,6 +114,7 @@ static void set_numbers(lmb_frame *f, const lmb_frame_settings *s)
     f->error = s->error != 0.0f ? s->error : p->error;
     f->visibility = s->visibility != 0.0f ? s->visibility : p->visibility;
     f->bounces = s->bounces;
+    f->samples = s->samples != 0 ? s->samples : 1;
     f->gather_step = s->gather_step != 0 ? s->gather_step : even ? 2 : 1;
     f->id_format = s->id_format != 0 ? s->id_format : lmb_scene_triangles(s->scene) <= 65535u ? LMB_ID16 : LMB_ID32;
 }
@@ -222,11 +224,15 @@ static lmb_status place_tree(lmb_frame *f, const lmb_frame_settings *s, block *b
 static lmb_status place_transfer(lmb_frame *f, block *b)
 {
     const size_t bytes = lmb_transfer_light_bytes(f->transfer);
-    void *memory = take(b, bytes);
+    void *memory = take(b, bytes), *places = NULL;
+    if (f->many_lights != NULL) {
+        places = take(b, f->transfer->count[LMB_TRANSFER_AREAS] * sizeof(lmb_transfer_place));
+    }
     if (bytes == 0 || is_measured(b)) {
         return bytes == 0 ? LMB_ERR_ARG : LMB_OK;
     }
     const lmb_status status = lmb_transfer_light_init(&f->transfer_light, f->transfer, memory, bytes);
+    f->transfer_light.place = (lmb_transfer_place *)places;
     return status != LMB_OK ? status : lmb_transfer_materials(&f->transfer_light, f->transfer, f->scene);
 }
 #endif
@@ -279,6 +285,27 @@ static lmb_status place_lattice(lmb_frame *f, block *b)
                               : lmb_lattice_init(&f->lattice, v->frame_width, v->frame_height, memory, bytes);
 }
 
+/* One for each thread. */
+static lmb_status place_multisample(lmb_frame *f, const lmb_frame_settings *s, block *b)
+{
+    lmb_status status = LMB_OK;
+    for (int32_t i = 0; requires_multisample(f) && i < (s->threads > 1 ? s->threads : 1) && status == LMB_OK; ++i) {
+        lmb_target eye;
+        memset(&eye, 0, sizeof eye);
+        lmb_multisample *m = (lmb_multisample *)take(b, sizeof *m);
+        status = place_surface(&eye.depth, LMB_DEPTH32F, &f->view, LMB_TILE * f->samples, b);
+        if (status == LMB_OK) {
+            status = place_surface(&eye.id, f->id_format, &f->view, LMB_TILE * f->samples, b);
+        }
+        if (status == LMB_OK && !is_measured(b)) {
+            memset(m, 0, sizeof *m);
+            m->eye = eye;
+            f->scratch[i].multisample = m;
+        }
+    }
+    return status;
+}
+
 static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, block *b)
 {
     const uint64_t scratch = sizeof *f->scratch * (uint64_t)(s->threads > 1 ? s->threads : 1);
@@ -297,7 +324,7 @@ static lmb_status lay_out(lmb_frame *f, const lmb_frame_settings *s, block *b)
     if (status == LMB_OK && !is_measured(b)) {
         memset(f->scratch, 0, (size_t)scratch);
     }
-    return status;
+    return status == LMB_OK ? place_multisample(f, s, b) : status;
 }
 
 /* --- calls -------------------------------------------------------------------------------------------------------- */

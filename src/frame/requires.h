@@ -13,7 +13,12 @@ static inline int is_whole(const lmb_surface *s, const lmb_view *v)
 
 static inline int requires_direct(const lmb_frame *f) { return f->show == LMB_SHOW_FULL || f->show == LMB_SHOW_DIRECT; }
 
-static inline int requires_many_lights(const lmb_frame *f) { return requires_direct(f) && f->many_lights != NULL; }
+static inline int requires_many_lights(const lmb_frame *f)
+{
+    return requires_direct(f) && f->many_lights != NULL && f->gather_many_lights == 0;
+}
+
+static inline int requires_multisample(const lmb_frame *f) { return LMB_MULTISAMPLE && f->samples > 1; }
 
 /* Does bounced light come by what was baked? */
 static inline int requires_transfer(const lmb_frame *f)
@@ -74,6 +79,18 @@ static inline int requires_many_lights_bounce(const lmb_frame *f)
 {
     return LMB_TREES && f->many_lights != NULL && f->many_lights->lights > 0 && requires_cut(f) &&
            f->elements.data != NULL;
+}
+
+/* Do many lights light the elements of what was baked? */
+static inline int requires_many_lights_transfer(const lmb_frame *f)
+{
+    return LMB_TREES && requires_transfer(f) && f->many_lights != NULL && f->many_lights->lights > 0;
+}
+
+/* Do many lights light pixels where bounced light is gathered? */
+static inline int gathers_many_lights(const lmb_frame *f)
+{
+    return LMB_TREES && f->many_lights != NULL && f->gather_many_lights != 0 && f->show != LMB_SHOW_DIRECT;
 }
 
 /* Does light come from elements too? */

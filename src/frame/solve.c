@@ -1,5 +1,4 @@
 /* solve.c: runs the stages that light goes through, by steps and in parts. Layer 10. [V33 V34] */
-#include <string.h>
 
 #include "../base/vec.h"
 #include "../bounce/points.h"
@@ -83,9 +82,29 @@ static lmb_status collect_rows(const lmb_render *r, int32_t first, int32_t past)
     const lmb_shadow_map *map = &r->maps[r->light];
     const int32_t each = collected_each(map), rows = map->size / each, all = map->size / LMB_TILE;
     lmb_transfer_scratch *scratch = &f->scratch->gather.transfer;
-    memset(scratch, 0, sizeof *scratch);
     return lmb_transfer_collect(&f->transfer_light, f->kernels, scratch, f->transfer, f->scene,
                                 &f->scene->lights[r->light], map, (int32_t)r->face, each, rows * first / all, rows * past / all);
+}
+
+static lmb_many_lights_query elements_query(const lmb_frame *f)
+{
+    const float error = (f->many_lights_error > 0.0f ? f->many_lights_error : 0.02f) * ELEMENT_ERROR;
+    const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, error, 1, 0};
+    return query;
+}
+
+/* Lights without maps into the transfer's elements; a unit is a tile of these. */
+static lmb_status step_many_lights(lmb_render *r, int32_t units)
+{
+    const lmb_frame *f = &r->frame;
+    const lmb_many_lights_query query = elements_query(f);
+    const lmb_element_scratch own = {f->kernels, NULL, &f->scratch->tile, NULL, &f->scratch->indirect};
+    const int32_t tiles = lmb_transfer_tiles(f->transfer), first = (int32_t)r->progress,
+                  past = tiles - first < units ? tiles : first + units;
+    const lmb_status status = lmb_transfer_many_lights(&f->transfer_light, f->transfer, &own,
+                                                       &f->scratch->many_lights, &query, first, past);
+    r->progress = (uint32_t)past;
+    return status != LMB_OK ? status : past < tiles ? LMB_MORE : LMB_OK;
 }
 
 static lmb_status step_points(lmb_render *r, int32_t units)
@@ -94,9 +113,11 @@ static lmb_status step_points(lmb_render *r, int32_t units)
     if (requires_transfer(f) && r->light + r->face + r->progress == 0) {
         (void)lmb_transfer_clear(&f->transfer_light, f->transfer);
     }
-    if (!requires_bounce(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS) ||
-        r->light == f->scene->light_count) {
+    if (!requires_bounce(f) || skips(r, LMB_SKIP_BOUNCE) || reuses(r, LMB_REUSE_POINTS)) {
         return LMB_OK;
+    }
+    if (r->light == f->scene->light_count) {
+        return requires_many_lights_transfer(f) ? step_many_lights(r, units) : LMB_OK;
     }
     if (light_is(r, r->light, LMB_LIGHT_TEXELS_REUSED | LMB_LIGHT_DIM)) {
         f->tree.faces += requires_cut(f) ? faces_that_bounce(r, r->light) : 0;
@@ -169,8 +190,7 @@ static lmb_status receive_direct(const lmb_render *r, const lmb_element_scratch 
                                  const lmb_cut_params *cut_params, int32_t first, int32_t past)
 {
     const lmb_frame *f = &r->frame;
-    const float error = (f->many_lights_error > 0.0f ? f->many_lights_error : 0.02f) * ELEMENT_ERROR;
-    const lmb_many_lights_query query = {f->many_lights, f->bvh.triangle != NULL ? &f->bvh : NULL, error, 1};
+    const lmb_many_lights_query query = elements_query(f);
     const lmb_status status =
         r->emits ? lmb_elements_receive(&f->elements, own, NULL, cut_params, first, past) : LMB_OK;
     return status != LMB_OK || !requires_many_lights_bounce(f)

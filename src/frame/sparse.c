@@ -5,21 +5,9 @@
  * microseconds. */
 #include <string.h>
 
-#include "../base/vec.h"
+#include "../raster/tile.h"
 #include "stages.h"
 #include "requires.h"
-
-/* What a gather reads of a pixel. */
-static void put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
-{
-    for (int c = 0; c < 3; ++c) {
-        out->position[c][to] = in->position[c][from];
-        out->face[c][to] = in->face[c][from];
-        out->normal[c][to] = in->normal[c][from];
-    }
-    out->depth[to] = in->depth[from];
-    out->id[to] = in->id[from];
-}
 
 /* Gather the pixels put together, and hand out their light. Their tile has no corners to ask first: its `hits` is 0. */
 static lmb_status gather_together(const lmb_render *r, lmb_band_scratch *s)
@@ -49,7 +37,7 @@ static lmb_status put_together(const lmb_render *r, lmb_band_scratch *s, int32_t
     }
     for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
         const int k = lowest_bit_64(bits);
-        put_pixel(&sparse->together, sparse->count, &s->tile, k);
+        tile_put_pixel(&sparse->together, sparse->count, &s->tile, k);
         sparse->pixel[sparse->count++] = (uint16_t)(part * LMB_TILE_PIXELS + k);
     }
     return status;

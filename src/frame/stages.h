@@ -4,6 +4,8 @@
 
 #include <lambent/render.h>
 
+#include "../base/exact.h"
+
 /* A call that no build makes: for what it lacks. */
 #define never(call) ((void)sizeof(call), LMB_ERR_ARG)
 
@@ -44,8 +46,14 @@
 #define lmb_transfer_rest(...)      never(lmb_transfer_rest(__VA_ARGS__))
 #define lmb_transfer_send(...)      never(lmb_transfer_send(__VA_ARGS__))
 #define lmb_transfer_receivers(...) never(lmb_transfer_receivers(__VA_ARGS__))
+#define lmb_transfer_tiles(...)     never(lmb_transfer_tiles(__VA_ARGS__))
 #undef lmb_transfer_tile
 #define lmb_transfer_tile(...)      never(LMB_LAYOUT(lmb_transfer_tile)(__VA_ARGS__))
+#endif
+
+#if !LMB_TRANSFER || !LMB_TREES
+#undef lmb_transfer_many_lights
+#define lmb_transfer_many_lights(...) never(LMB_LAYOUT(lmb_transfer_many_lights)(__VA_ARGS__))
 #endif
 
 #define UNIT_TRIANGLES 1024u /* of a draw, for one unit of a step's work */
@@ -106,9 +114,36 @@ lmb_status lmb_render_bands(lmb_render *r, int32_t units);
 lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t band);
 lmb_status lmb_render_view_strip(const lmb_render *r, lmb_target *out, int32_t band);
 
-/* Set scratch->direct: that of scratch->tile where it is shown, else 0; and add what the lobes make of it, NULL:
- * without. scratch->indirect is written. */
-lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *scratch);
+/* Set scratch->direct: that of the tile, resolved for `view`, where it is shown, else 0; and add what the lobes make of
+ * it, NULL: without. scratch->indirect is written. */
+lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *scratch, const lmb_tile *tile,
+                             const lmb_view *view);
+
+/* Set scratch->radiance: what the tile's pixels send to the viewer by scratch->direct, `indirect`, their lobes (NULL:
+ * none) and what they emit. */
+lmb_status lmb_render_radiance(const lmb_render *r, const lmb_glossy *glossy, lmb_band_scratch *scratch,
+                               const lmb_tile *tile, const lmb_view *view, const lmb_irradiance *indirect);
+
+/* --- several samples a pixel --------------------------------------------------------------------------------------- */
+
+/* Do frame and scratch have what frame.samples asks for? LMB_OK or LMB_ERR_ARG. */
+lmb_status lmb_multisample_check(const lmb_frame *f, const lmb_band_scratch *scratch);
+
+/* Draw depth and ids of a band for each sample. */
+lmb_status lmb_multisample_draw(const lmb_render *r, lmb_band_scratch *scratch, int32_t band);
+
+/* Set scratch->radiance of scratch->tile's pixels to the mean of their samples, each of them `white` at most.
+ *
+ *   middle  bounced light at the pixels' middles.
+ *   lobes   what lobes make of it there, NULL: none. May be scratch->glossy, which is written. */
+lmb_status lmb_multisample_light(const lmb_render *r, lmb_band_scratch *scratch, const lmb_irradiance *middle,
+                                 const lmb_glossy *lobes, int32_t band, float white);
+#if !LMB_MULTISAMPLE
+#define lmb_multisample_check(f, s) \
+    ((void)sizeof(lmb_multisample_check(f, s)), (f)->samples == 1 ? LMB_OK : LMB_ERR_ARG)
+#define lmb_multisample_draw(...)  never(lmb_multisample_draw(__VA_ARGS__))
+#define lmb_multisample_light(...) never(lmb_multisample_light(__VA_ARGS__))
+#endif
 
 /* Add the bounced light of a tile's pixels, and what its lobes make of it, NULL: without. direct: what is shown with
  * it, so that errors are told of both; or NULL. LMB_OK, or what the gather returns. */

@@ -73,6 +73,9 @@ lmb_status lmb_render_check(const lmb_frame *f)
     if (!LMB_TREES && (f->grouping.method == LMB_GROUP_CUT || f->many_lights != NULL)) {
         return LMB_ERR_ARG;
     }
+    if (requires_many_lights_transfer(f) && f->transfer_light.place == NULL) {
+        return LMB_ERR_ARG;
+    }
     if (f->bounces < 1 || f->bounces > LMB_MAX_BOUNCES ||
         (f->bounces > 1 && requires_bounce(f) && !reflects_again(f))) {
         return LMB_ERR_ARG;
@@ -91,5 +94,8 @@ lmb_status lmb_render_check(const lmb_frame *f)
         return LMB_ERR_SCENE;
     }
     lmb_status status = check_eye(f);
+    if (status == LMB_OK) {
+        status = lmb_multisample_check(f, f->scratch);
+    }
     return status != LMB_OK ? status : lmb_render_check_out(&f->out, &f->view);
 }

@@ -19,7 +19,7 @@ enum { TINY = 2 * 16, SMALL = 4 * 16 };
 
 /* A corner of a mesh, kept by the low bits of its number: its next triangles come soon. */
 typedef struct kept {
-    uint32_t vertex, outside; /* number + 1, 0: none */
+    uint32_t vertex, outside;
     float x, y, z, w;
     int32_t px, py; /* gouraud_corner's, where it is outside of nothing */
     float d;
@@ -44,7 +44,8 @@ typedef struct drawing {
     const lmb_gouraud *g; /* NULL: a map */
     const lmb_scene *scene;
     gouraud_target target;
-    gouraud_view of_world, of_mesh;
+    gouraud_view of_world, of_mesh; /* of_mesh and place: of positions as they are stored */
+    float place[3][4];              /* in the world */
     kept *kept;
     part *parts;
     const lmb_instance *instance;
@@ -52,15 +53,15 @@ typedef struct drawing {
     const lmb_material *material;
     lmb_vec3 cofactor[3];
     float albedo[3], gain;
-    int is_mirrored;
+    int is_mirrored, shows_backs;
 } drawing;
 
 /* A triangle of it. */
 typedef struct triangle {
-    uint32_t id, vertex[3];
+    uint32_t id;
     kept *corner[3];
     uint32_t any;
-    int back, is_tiny, is_small;
+    int back, is_tiny;
 } triangle;
 
 static void set_instance(drawing *d, const lmb_view *v, const lmb_instance *instance)
@@ -74,29 +75,47 @@ static void set_instance(drawing *d, const lmb_view *v, const lmb_instance *inst
     d->cofactor[0] = cross3(y, z);
     d->cofactor[1] = cross3(z, x);
     d->cofactor[2] = cross3(x, y);
+    d->shows_backs = (d->material->flags & LMB_DOUBLE_SIDED) != 0;
     lmb_gouraud_view_of(&d->of_mesh, v, &instance->to_world);
+    for (int i = 0; i < 3; ++i) {
+        d->place[i][0] = m[i], d->place[i][1] = m[4 + i], d->place[i][2] = m[8 + i], d->place[i][3] = m[12 + i];
+    }
+    if (d->mesh->position_format != LMB_POSITION_F32) {
+        lmb_gouraud_scale(d->of_mesh.row, d->mesh->position_scale, d->mesh->position_offset);
+        lmb_gouraud_scale(d->place, d->mesh->position_scale, d->mesh->position_offset);
+    }
     if (d->g != NULL) {
         lmb_gouraud_albedo(d->albedo, d->scene, d->material);
     }
-    memset(d->kept, 0, LMB_GOURAUD_KEPT * sizeof *d->kept);
+    for (uint32_t i = 0; i < LMB_GOURAUD_KEPT; ++i) {
+        d->kept[i].vertex = i + 1; /* whose place is another */
+    }
+}
+
+/* In the numbers that of_mesh and place take. */
+static lmb_vec3 stored_position(const lmb_mesh *m, uint32_t vertex)
+{
+    if (m->position_format == LMB_POSITION_F32) {
+        return mesh_position(m, vertex);
+    }
+    const int16_t *at = (const int16_t *)m->positions + (size_t)vertex * 4;
+    return vec3((float)at[0], (float)at[1], (float)at[2]);
 }
 
 static void keep(kept *out, const drawing *d, uint32_t vertex)
 {
     gouraud_point p;
-    out->vertex = vertex + 1;
+    out->vertex = vertex;
     out->lit = 0;
-    out->colour[0] = out->colour[1] = out->colour[2] = 0.0f;
-    out->px = out->py = 0;
-    out->d = 0.0f;
-    out->outside = lmb_gouraud_project(&p, &d->of_mesh, mesh_position(d->mesh, vertex));
+    out->outside = gouraud_project(&p, &d->of_mesh, stored_position(d->mesh, vertex));
     out->x = p.x, out->y = p.y, out->z = p.z, out->w = p.w;
     if (out->outside == 0) {
-        lmb_gouraud_point_of(&out->px, &out->py, &out->d, &d->target, &p);
+        gouraud_point_of(&out->px, &out->py, &out->d, &d->target, &p);
     }
 }
 
-/* Which side is seen, by the volume that its corners span with the eye; 0 is the front. */
+/* Which side is seen of a triangle that is outside of something, by the volume that its corners span with the eye; 0 is
+ * the front. */
 static int shows_back(const drawing *d, const kept *a, const kept *b, const kept *c)
 {
     float volume;
@@ -109,85 +128,102 @@ static int shows_back(const drawing *d, const kept *a, const kept *b, const kept
     return (volume < 0.0f) != d->is_mirrored;
 }
 
-/* A corner, in its place, or in `spare` where another corner of the same triangle has that. */
-static kept *find_corner(const drawing *d, const triangle *t, int i, kept *spare)
+/* A corner that is not kept yet: in its place, or in `spare` where another corner of the same triangle has that. NULL:
+ * there is no such vertex. */
+static kept *new_corner(const drawing *d, uint32_t vertex, const kept *other, const kept *another, kept *spare)
 {
-    const uint32_t vertex = t->vertex[i];
     kept *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
-    if (own->vertex == vertex + 1) {
-        return own;
+    if (vertex >= d->mesh->vertex_count) {
+        return NULL;
     }
-    for (int k = 0; k < i; ++k) {
-        own = t->corner[k] == own ? spare : own;
-    }
+    own = own == other || own == another ? spare : own;
     keep(own, d, vertex);
     return own;
 }
 
-/* Does the box of a triangle that is outside of nothing hold the middle of a pixel? */
-static int may_cover(triangle *t, const drawing *d)
+static inline kept *find_corner(const drawing *d, uint32_t vertex, const kept *other, const kept *another, kept *spare)
 {
-    kept *const *c = t->corner;
-    const int32_t x0 = mini(c[0]->px, mini(c[1]->px, c[2]->px)), x1 = maxi(c[0]->px, maxi(c[1]->px, c[2]->px)),
-                  y0 = mini(c[0]->py, mini(c[1]->py, c[2]->py)), y1 = maxi(c[0]->py, maxi(c[1]->py, c[2]->py));
-    t->is_tiny = x1 - x0 < TINY && y1 - y0 < TINY;
-    t->is_small = x1 - x0 < SMALL && y1 - y0 < SMALL;
-    return (x0 + 7) >> 4 < (x1 + 7) >> 4 && (y0 + 7) >> 4 < (y1 + 7) >> 4 && x1 > 0 && y1 > 0 &&
-           x0 < 16 * d->target.width && y0 < 16 * d->target.height;
+    kept *own = &d->kept[vertex % LMB_GOURAUD_KEPT];
+    return own->vertex == vertex ? own : new_corner(d, vertex, other, another, spare);
 }
 
-/* How far a point lies inside of an edge, times its length, in 1/256 px2; `turn` 1 or -1. */
-static int32_t inside_of(const kept *from, const kept *to, int32_t x, int32_t y, int32_t turn)
+/* How far a place, x and y, lies inside of an edge, times its length, in 1/256 px2, and that plus by how much a pixel
+ * further along x and y. */
+typedef struct side {
+    int32_t at, per_x, per_y;
+} side;
+
+enum { SLACK = 8 }; /* edges are rounded along rows: by less */
+
+static side side_of(const kept *from, const kept *to, int32_t x, int32_t y, int32_t turn)
 {
-    return turn * ((to->px - from->px) * (y - from->py) - (to->py - from->py) * (x - from->px));
+    const int32_t dx = turn * (to->px - from->px), dy = turn * (to->py - from->py);
+    const side s = {dx * (y - from->py) - dy * (x - from->px) + SLACK, -16 * dy, 16 * dx};
+    return s;
 }
 
-/* May a small triangle cover the middle of a pixel? Edges are rounded along rows: by less than SLACK. */
-static int covers(const triangle *t)
+/* Does a small triangle cover the middle of one of the pixels from x, y to before past_x, past_y? */
+static int covers(const triangle *t, int32_t turn, int32_t x, int32_t y, int32_t past_x, int32_t past_y)
 {
-    enum { SLACK = 8 };
     const kept *a = t->corner[0], *b = t->corner[1], *c = t->corner[2];
-    const int32_t x0 = (mini(a->px, mini(b->px, c->px)) + 7) >> 4, x1 = (maxi(a->px, maxi(b->px, c->px)) + 7) >> 4,
-                  y0 = (mini(a->py, mini(b->py, c->py)) + 7) >> 4, y1 = (maxi(a->py, maxi(b->py, c->py)) + 7) >> 4;
-    const int32_t turn = inside_of(a, b, c->px, c->py, 1) < 0 ? -1 : 1;
-    for (int32_t y = 16 * y0 + 8; y < 16 * y1 + 8; y += 16) {
-        for (int32_t x = 16 * x0 + 8; x < 16 * x1 + 8; x += 16) {
-            if (inside_of(a, b, x, y, turn) >= -SLACK && inside_of(b, c, x, y, turn) >= -SLACK &&
-                inside_of(c, a, x, y, turn) >= -SLACK) {
+    side s = side_of(a, b, 16 * x + 8, 16 * y + 8, turn), u = side_of(b, c, 16 * x + 8, 16 * y + 8, turn),
+         v = side_of(c, a, 16 * x + 8, 16 * y + 8, turn);
+    for (; y < past_y; ++y) {
+        int32_t at_s = s.at, at_u = u.at, at_v = v.at;
+        for (int32_t i = x; i < past_x; ++i) {
+            if ((at_s | at_u | at_v) >= 0) {
                 return 1;
             }
+            at_s += s.per_x, at_u += u.per_x, at_v += v.per_x;
         }
+        s.at += s.per_y, u.at += u.per_y, v.at += v.per_y;
     }
     return 0;
 }
 
-/* 1 where triangle n of the mesh may be seen. */
-static int find_triangle(triangle *out, kept spare[3], const drawing *d, uint32_t n)
+/* Is a triangle that is outside of nothing seen, and may it cover the middle of a pixel? Sides are those of the corners
+ * as they were placed, so that neighbours agree, and a closed mesh's are half as many by few products. */
+static int may_cover(triangle *t, const drawing *d, const kept *a, const kept *b, const kept *c)
 {
-    uint32_t all = GOURAUD_OUTSIDE;
-    if (d->mesh->index_format == LMB_INDEX_U16) {
-        const uint16_t *index = (const uint16_t *)d->mesh->indices + 3 * (size_t)n;
-        out->vertex[0] = index[0];
-        out->vertex[1] = index[1];
-        out->vertex[2] = index[2];
-    } else {
-        mesh_triangle(d->mesh, n, out->vertex);
-    }
-    out->any = 0;
-    for (int i = 0; i < 3; ++i) {
-        if (out->vertex[i] >= d->mesh->vertex_count) {
-            return 0;
-        }
-        out->corner[i] = find_corner(d, out, i, &spare[i]);
-        out->any |= out->corner[i]->outside;
-        all &= out->corner[i]->outside;
-    }
-    out->is_tiny = out->is_small = 0;
-    if (all != 0 || (out->any == 0 && !may_cover(out, d))) {
+    const int32_t area = (b->px - a->px) * (c->py - a->py) - (c->px - a->px) * (b->py - a->py);
+    t->back = (area > 0) != d->is_mirrored;
+    if (area == 0 || (t->back && !d->shows_backs)) {
         return 0;
     }
-    out->back = shows_back(d, out->corner[0], out->corner[1], out->corner[2]);
-    return (!out->back || (d->material->flags & LMB_DOUBLE_SIDED) != 0) && (!out->is_small || covers(out));
+    const int32_t x0 = mini(a->px, mini(b->px, c->px)), x1 = maxi(a->px, maxi(b->px, c->px)),
+                  y0 = mini(a->py, mini(b->py, c->py)), y1 = maxi(a->py, maxi(b->py, c->py));
+    const int32_t first_x = (x0 + 7) >> 4, past_x = (x1 + 7) >> 4, first_y = (y0 + 7) >> 4, past_y = (y1 + 7) >> 4;
+    if (first_x >= past_x || first_y >= past_y || x1 <= 0 || y1 <= 0 || x0 >= 16 * d->target.width ||
+        y0 >= 16 * d->target.height) {
+        return 0;
+    }
+    t->is_tiny = x1 - x0 < TINY && y1 - y0 < TINY;
+    return x1 - x0 >= SMALL || y1 - y0 >= SMALL || covers(t, area < 0 ? -1 : 1, first_x, first_y, past_x, past_y);
+}
+
+/* 1 where triangle n of the mesh may be seen. */
+static int find_triangle(triangle *out, kept spare[2], const drawing *d, uint32_t n)
+{
+    uint32_t vertex[3];
+    if (d->mesh->index_format == LMB_INDEX_U16) {
+        const uint16_t *index = (const uint16_t *)d->mesh->indices + 3 * (size_t)n;
+        vertex[0] = index[0], vertex[1] = index[1], vertex[2] = index[2];
+    } else {
+        mesh_triangle(d->mesh, n, vertex);
+    }
+    kept *a = find_corner(d, vertex[0], NULL, NULL, NULL), *b = find_corner(d, vertex[1], a, NULL, &spare[0]),
+         *c = find_corner(d, vertex[2], a, b, &spare[1]);
+    if (a == NULL || b == NULL || c == NULL) {
+        return 0;
+    }
+    out->corner[0] = a, out->corner[1] = b, out->corner[2] = c;
+    out->any = a->outside | b->outside | c->outside;
+    out->is_tiny = 0;
+    if (out->any == 0) {
+        return may_cover(out, d, a, b, c);
+    }
+    out->back = shows_back(d, a, b, c);
+    return (a->outside & b->outside & c->outside) == 0 && (!out->back || d->shows_backs);
 }
 
 /* --- a whole triangle --------------------------------------------------------------------------------------------- */
@@ -218,23 +254,24 @@ static void fill_whole(const drawing *d, const triangle *t)
 
 static lmb_vec3 world_of(const drawing *d, uint32_t vertex)
 {
-    return transform_point(&d->instance->to_world, mesh_position(d->mesh, vertex));
+    const lmb_vec3 at = stored_position(d->mesh, vertex);
+    return vec3(gouraud_along(d->place[0], at), gouraud_along(d->place[1], at), gouraud_along(d->place[2], at));
 }
 
 /* The triangle's unit normal, on the side that is seen. */
 static lmb_vec3 face_of(const drawing *d, const triangle *t)
 {
-    const lmb_vec3 a = world_of(d, t->vertex[0]), n = cross3(sub3(world_of(d, t->vertex[1]), a),
-                                                             sub3(world_of(d, t->vertex[2]), a));
+    const lmb_vec3 a = world_of(d, t->corner[0]->vertex),
+                   n = cross3(sub3(world_of(d, t->corner[1]->vertex), a), sub3(world_of(d, t->corner[2]->vertex), a));
     return mul3(normalize3(n), t->back != d->is_mirrored ? -1.0f : 1.0f);
 }
 
 /* The corner's own, on the side that is seen. */
 static lmb_vec3 normal_of(const drawing *d, const triangle *t, int i)
 {
-    const lmb_vec3 own = mesh_normal(d->mesh, t->vertex[i]);
-    const lmb_vec3 n = normalize3(add3(add3(mul3(d->cofactor[0], own.x), mul3(d->cofactor[1], own.y)),
-                                       mul3(d->cofactor[2], own.z)));
+    const lmb_vec3 own = mesh_normal(d->mesh, t->corner[i]->vertex);
+    const lmb_vec3 n =
+        normalize3(add3(add3(mul3(d->cofactor[0], own.x), mul3(d->cofactor[1], own.y)), mul3(d->cofactor[2], own.z)));
     return mul3(n, t->back != d->is_mirrored ? -1.0f : 1.0f);
 }
 
@@ -246,7 +283,7 @@ static void albedo_at(float out[3], const drawing *d, const triangle *t, float b
         return;
     }
     for (int i = 0; i < 3; ++i) {
-        mesh_colour(d->mesh, t->vertex[i], colour[i]);
+        mesh_colour(d->mesh, t->corner[i]->vertex, colour[i]);
     }
     for (int c = 0; c < 3; ++c) {
         out[c] *= colour[0][c] + ((colour[1][c] - colour[0][c]) * b1 + (colour[2][c] - colour[0][c]) * b2);
@@ -257,20 +294,22 @@ static void albedo_at(float out[3], const drawing *d, const triangle *t, float b
  * the first that is seen: clusters are far larger than triangles. `blend` NULL: nothing is thrown back to it. */
 static void light_corner(const drawing *d, const triangle *t, int i, const uint32_t *blend)
 {
-    static const float at[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     const int is_smooth = d->mesh->normals != NULL;
     kept *k = t->corner[i];
-    float e[3] = {0.0f, 0.0f, 0.0f}, albedo[3];
+    float e[3] = {0.0f, 0.0f, 0.0f}, albedo[4];
     if (is_smooth && k->lit == 1u + (uint32_t)t->back) {
         return;
     }
     const lmb_vec3 normal = is_smooth ? normal_of(d, t, i) : face_of(d, t);
     k->lit = 1u + (uint32_t)t->back;
-    lmb_gouraud_direct(e, d->g, world_of(d, t->vertex[i]), normal, t->id, 0);
+    lmb_gouraud_direct(e, d->g, world_of(d, t->corner[i]->vertex), normal, t->id, 0);
     if (blend != NULL) {
         lmb_gouraud_blend(e, d->g, blend[i], normal);
     }
-    albedo_at(albedo, d, t, at[i][0], at[i][1]);
+    mesh_colour(d->mesh, k->vertex, albedo);
+    for (int c = 0; c < 3; ++c) {
+        albedo[c] *= d->albedo[c];
+    }
     lmb_gouraud_colour(k->colour, e, albedo, d->gain);
 }
 
@@ -285,12 +324,27 @@ static void draw_small(const drawing *d, const triangle *t, const uint32_t *blen
 
 /* --- a divided triangle ------------------------------------------------------------------------------------------- */
 
-static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, const uint32_t *receiver, lmb_vec3 face)
+/* Light at a corner of a leaf: straight from the lights, once for all that share its receiver, and thrown back. */
+static void light_at(float e[3], const drawing *d, const triangle *t, lmb_vec3 at, uint32_t receiver, lmb_vec3 face)
+{
+    float *direct = d->g->direct[receiver];
+    if (direct[0] < 0.0f) {
+        direct[0] = direct[1] = direct[2] = 0.0f;
+        lmb_gouraud_direct(direct, d->g, at, face, t->id, 1);
+    }
+    for (int c = 0; c < 3; ++c) {
+        e[c] = direct[c] + maxf(d->g->light->receiver[receiver][c], 0.0f);
+    }
+}
+
+/* `corner`: receivers, or, where light is kept by direction, blends. */
+static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, const uint32_t *corner, int is_directed,
+                      lmb_vec3 face)
 {
     gouraud_point p[3];
     uint32_t any = 0, all = GOURAUD_OUTSIDE;
     for (int i = 0; i < 3; ++i) {
-        const uint32_t outside = lmb_gouraud_project(&p[i], &d->of_world, leaf->at[i]);
+        const uint32_t outside = gouraud_project(&p[i], &d->of_world, leaf->at[i]);
         any |= outside;
         all &= outside;
     }
@@ -298,13 +352,12 @@ static void draw_leaf(const drawing *d, const triangle *t, const part *leaf, con
         return;
     }
     for (int i = 0; i < 3; ++i) {
-        float *direct = d->g->direct[receiver[i]], e[3], albedo[3];
-        if (direct[0] < 0.0f) {
-            direct[0] = direct[1] = direct[2] = 0.0f;
-            lmb_gouraud_direct(direct, d->g, leaf->at[i], face, t->id, 1);
-        }
-        for (int c = 0; c < 3; ++c) {
-            e[c] = direct[c] + maxf(d->g->light->receiver[receiver[i]][c], 0.0f);
+        float e[3] = {0.0f, 0.0f, 0.0f}, albedo[3];
+        if (is_directed) {
+            lmb_gouraud_direct(e, d->g, leaf->at[i], face, t->id, 1);
+            lmb_gouraud_blend(e, d->g, corner[i], face);
+        } else {
+            light_at(e, d, t, leaf->at[i], corner[i], face);
         }
         albedo_at(albedo, d, t, leaf->b1[i], leaf->b2[i]);
         lmb_gouraud_colour(p[i].colour, e, albedo, d->gain);
@@ -341,7 +394,7 @@ static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
     part *first = &d->parts[0];
     memset(first, 0, sizeof *first);
     for (int i = 0; i < 3; ++i) {
-        first->at[i] = world_of(d, t->vertex[i]);
+        first->at[i] = world_of(d, t->corner[i]->vertex);
     }
     first->b1[1] = first->b2[2] = 1.0f;
     first->node = root;
@@ -355,8 +408,8 @@ static void draw_divided(const drawing *d, const triangle *t, uint32_t root)
             halve(&here, from, to, child);
         }
         const uint32_t place = node[here.node] & ~LMB_TRANSFER_LEAF;
-        if ((node[here.node] & LMB_TRANSFER_LEAF) != 0 && place < file->leaves) {
-            draw_leaf(d, t, &here, corners + LMB_TRANSFER_CORNER_WORDS * (size_t)place, face);
+        if ((node[here.node] & LMB_TRANSFER_LEAF) != 0) {
+            draw_leaf(d, t, &here, corners + LMB_TRANSFER_CORNER_WORDS * (size_t)place, place >= file->leaves, face);
         }
     }
 }
@@ -368,14 +421,15 @@ static void draw_triangle(const drawing *d, const triangle *t)
         return;
     }
     const lmb_transfer *file = d->g->transfer;
-    const uint32_t root = file->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(t->id - 1) + 2 +
-                                                               (t->back ? 1u : 0u)];
+    const uint32_t root = file->section[LMB_TRANSFER_SURFACES]
+                                       [LMB_TRANSFER_SURFACE_WORDS * (size_t)(t->id - 1) + 2 + (t->back ? 1u : 0u)];
     const uint32_t word = root != LMB_TRANSFER_NONE ? file->section[LMB_TRANSFER_DIVISIONS][root] : 0;
     if (root == LMB_TRANSFER_NONE) {
         draw_small(d, t, NULL);
     } else if ((word & LMB_TRANSFER_LEAF) != 0 && (word & ~LMB_TRANSFER_LEAF) >= file->leaves) {
-        draw_small(d, t, file->section[LMB_TRANSFER_CORNERS] +
-                             LMB_TRANSFER_CORNER_WORDS * (size_t)(word & ~LMB_TRANSFER_LEAF));
+        draw_small(d, t,
+                   file->section[LMB_TRANSFER_CORNERS] +
+                       LMB_TRANSFER_CORNER_WORDS * (size_t)(word & ~LMB_TRANSFER_LEAF));
     } else {
         draw_divided(d, t, root);
     }
@@ -394,7 +448,7 @@ static void draw_range(drawing *d, const lmb_view *v, uint32_t first_id, uint32_
         }
         for (uint32_t id = from; id < to; ++id) {
             triangle t;
-            kept spare[3];
+            kept spare[2];
             t.id = id;
             if (find_triangle(&t, spare, d, id - own)) {
                 draw_triangle(d, &t);
@@ -432,7 +486,8 @@ lmb_status lmb_gouraud_map(lmb_shadow_map *map, const lmb_scene *scene, lmb_gour
         d.target.depth = (float *)face->depth.data;
         d.target.id = face->id.data;
         d.target.id_format = face->id.format;
-        d.target.width = d.target.height = d.target.step = map->size;
+        d.target.step = map->size;
+        lmb_gouraud_size(&d.target, map->size, map->size);
         if ((map->drawn >> f & 1u) != 0) {
             draw_range(&d, &map->view[f], 1, UINT32_MAX);
         }
@@ -440,13 +495,23 @@ lmb_status lmb_gouraud_map(lmb_shadow_map *map, const lmb_scene *scene, lmb_gour
     return LMB_OK;
 }
 
+/* Row by row, as lmb_gouraud_map leaves them. */
+static int are_maps(const lmb_shadow_map *maps, uint32_t count)
+{
+    int all = 1;
+    for (uint32_t i = 0; maps != NULL && i < count; ++i) {
+        all &= maps[i].faces > 0 && maps[i].face[0].depth.layout == LMB_LINEAR;
+    }
+    return all;
+}
+
 static int is_complete(const lmb_gouraud *g)
 {
-    return g != NULL && g->scene != NULL && g->transfer != NULL && g->transfer->section[0] != NULL && g->light != NULL &&
-           g->light->receiver != NULL && g->direct != NULL && g->scratch != NULL && g->depth != NULL &&
-           g->transfer->count[LMB_TRANSFER_SURFACES] == lmb_scene_triangles(g->scene) &&
-           lmb_view_is_valid(&g->view) && lmb_surface_is_valid(&g->out) && g->out.width == g->view.frame_width &&
-           g->out.height == g->view.frame_height;
+    return g != NULL && g->scene != NULL && g->transfer != NULL && g->transfer->section[0] != NULL &&
+           g->light != NULL && g->light->receiver != NULL && g->direct != NULL && g->scratch != NULL &&
+           g->depth != NULL && g->transfer->count[LMB_TRANSFER_SURFACES] == lmb_scene_triangles(g->scene) &&
+           are_maps(g->maps, g->scene->light_count) && lmb_view_is_valid(&g->view) && lmb_surface_is_valid(&g->out) &&
+           g->out.width == g->view.frame_width && g->out.height == g->view.frame_height;
 }
 
 lmb_status lmb_gouraud_begin(const lmb_gouraud *g)
@@ -485,8 +550,8 @@ lmb_status lmb_gouraud_draw(const lmb_gouraud *g, uint32_t first_id, uint32_t co
     d.target.pixel = (uint16_t *)g->out.data;
     d.target.pixel_step = g->out.stride_bytes / (int32_t)sizeof(uint16_t);
     d.target.depth16 = g->depth;
-    d.target.width = d.target.step = g->out.width;
-    d.target.height = g->out.height;
+    d.target.step = g->out.width;
+    lmb_gouraud_size(&d.target, g->out.width, g->out.height);
     lmb_gouraud_view_of(&d.of_world, &g->view, &unit);
     draw_range(&d, &g->view, first_id, count > UINT32_MAX - first_id ? UINT32_MAX : first_id + count);
     return LMB_OK;

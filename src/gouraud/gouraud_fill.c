@@ -1,27 +1,15 @@
 /* gouraud_fill.c: clips, and fills row by row: edges and colours in integers. Layer 10.
  *
  * Corners lie within GOURAUD_GUARD times the target, of LMB_GOURAUD_MAX_SIDE px: differences are at most 16,384 in 1/16
- * px, so that an area, and 2^14 times a difference, fit 32 bits. An edge's place in a row depends on its two ends alone, taken from top to bottom: neighbours share it,
- * and a pixel whose middle lies on it belongs to one of them. */
+ * px, so that an area, and 2^14 times a difference, fit 32 bits. An edge's place in a row depends on its two ends alone,
+ * taken from top to bottom: neighbours share it, and a pixel whose middle lies on it belongs to one of them. */
 #include "gouraud_fill.h"
+
+#include <string.h>
 
 #include "../base/vec.h"
 
 #if LMB_TRANSFER
-
-/* Of bits that are not 0. */
-static inline int highest_bit(uint32_t bits)
-{
-#if defined(__GNUC__)
-    return 31 - __builtin_clz(bits);
-#else
-    int n = 0;
-    for (; (bits >>= 1) != 0;) {
-        ++n;
-    }
-    return n;
-#endif
-}
 
 enum { CORNERS = 8 }; /* of a triangle that five planes have cut */
 
@@ -38,32 +26,43 @@ static void set_row(float row[4], lmb_vec3 axis, const lmb_mat4 *t, lmb_vec3 eye
 
 void lmb_gouraud_view_of(gouraud_view *out, const lmb_view *v, const lmb_mat4 *to_world)
 {
-    set_row(out->row[0], v->right, to_world, v->eye);
-    set_row(out->row[1], v->up, to_world, v->eye);
+    set_row(out->row[0], mul3(v->right, 1.0f / v->half_width), to_world, v->eye);
+    set_row(out->row[1], mul3(v->up, 1.0f / v->half_height), to_world, v->eye);
     set_row(out->row[2], mul3(v->back, -1.0f), to_world, v->eye);
-    out->scale_x = 1.0f / v->half_width;
-    out->scale_y = 1.0f / v->half_height;
     out->near_m = v->near_m;
     out->far_m = v->far_m;
     out->is_far = v->kind == LMB_ORTHOGRAPHIC;
     out->depth_scale = out->is_far ? 1.0f / (v->far_m - v->near_m) : 0.0f;
 }
 
-static float along(const float row[4], lmb_vec3 p) { return row[0] * p.x + row[1] * p.y + row[2] * p.z + row[3]; }
-
-uint32_t lmb_gouraud_project(gouraud_point *out, const gouraud_view *v, lmb_vec3 p)
+void lmb_gouraud_scale(float rows[3][4], lmb_vec3 scale, lmb_vec3 offset)
 {
-    const float x = along(v->row[0], p), y = along(v->row[1], p), w = along(v->row[2], p);
-    out->x = x * v->scale_x;
-    out->y = y * v->scale_y;
-    out->z = v->is_far ? (v->far_m - w) * v->depth_scale : v->near_m;
-    out->w = v->is_far ? 1.0f : w;
-    const float guard = (float)GOURAUD_GUARD * out->w;
-    if (!(x * x + y * y + w * w < 1e12f)) { /* 1,000 km, or no number */
+    for (int i = 0; i < 3; ++i) {
+        float *row = rows[i];
+        row[3] = gouraud_along(row, offset);
+        row[0] *= scale.x, row[1] *= scale.y, row[2] *= scale.z;
+    }
+}
+
+/* Beyond 1,000 km, or no number: outside of all. */
+uint32_t lmb_gouraud_outside(const gouraud_point *p)
+{
+    const float guard = (float)GOURAUD_GUARD * p->w;
+    if (!(absf(p->x) < 1e9f && absf(p->y) < 1e9f && absf(p->w) < 1e6f)) {
         return GOURAUD_OUTSIDE;
     }
-    return (uint32_t)(out->w < out->z) | (uint32_t)(guard + out->x < 0.0f) << 1 | (uint32_t)(guard - out->x < 0.0f) << 2 |
-           (uint32_t)(guard - out->y < 0.0f) << 3 | (uint32_t)(guard + out->y < 0.0f) << 4;
+    return (uint32_t)(p->w < p->z) | (uint32_t)(guard + p->x < 0.0f) << 1 | (uint32_t)(guard - p->x < 0.0f) << 2 |
+           (uint32_t)(guard - p->y < 0.0f) << 3 | (uint32_t)(guard + p->y < 0.0f) << 4;
+}
+
+void lmb_gouraud_size(gouraud_target *t, int32_t width, int32_t height)
+{
+    t->width = width;
+    t->height = height;
+    t->half[0] = 8.0f * (float)width;
+    t->half[1] = 8.0f * (float)height;
+    t->middle[0] = t->half[0] + 0.5f + (float)GOURAUD_BIAS;
+    t->middle[1] = t->half[1] + 0.5f + (float)GOURAUD_BIAS;
 }
 
 /* How far inside a plane a point is. */
@@ -71,11 +70,16 @@ static float inside(const gouraud_point *p, int plane)
 {
     const float guard = (float)GOURAUD_GUARD * p->w;
     switch (plane) {
-    case 0: return p->w - p->z;
-    case 1: return guard + p->x;
-    case 2: return guard - p->x;
-    case 3: return guard - p->y;
-    default: return guard + p->y;
+    case 0:
+        return p->w - p->z;
+    case 1:
+        return guard + p->x;
+    case 2:
+        return guard - p->x;
+    case 3:
+        return guard - p->y;
+    default:
+        return guard + p->y;
     }
 }
 
@@ -111,26 +115,10 @@ static int cut_plane(gouraud_point *out, const gouraud_point *p, int count, int 
     return n;
 }
 
-/* 1/16 px from the target's edge. */
-static int32_t to_sixteenths(float part, int32_t size)
-{
-    const float at = (part + 1.0f) * (8.0f * (float)size) + 0.5f;
-    const int32_t i = (int32_t)at;
-    return i - ((float)i > at);
-}
-
-void lmb_gouraud_point_of(int32_t *x, int32_t *y, float *d, const gouraud_target *t, const gouraud_point *p)
-{
-    const float inverse = 1.0f / p->w;
-    *x = to_sixteenths(p->x * inverse, t->width);
-    *y = to_sixteenths(-p->y * inverse, t->height);
-    *d = p->z * inverse; /* at most 1: raster/setup.c */
-}
-
 gouraud_corner lmb_gouraud_place(const gouraud_target *t, const gouraud_point *p)
 {
     gouraud_corner c;
-    lmb_gouraud_point_of(&c.x, &c.y, &c.d, t, p);
+    gouraud_point_of(&c.x, &c.y, &c.d, t, p);
     c.colour[0] = p->colour[0], c.colour[1] = p->colour[1], c.colour[2] = p->colour[2];
     return c;
 }
@@ -198,57 +186,116 @@ static int32_t edge_growth(const edge *e) { return ((e->slope < 0 ? -e->slope : 
 /* The first pixel whose middle is not left of x. */
 static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
 
-/* A number that is linear on the triangle, within 0 .. max. */
+/* A number that is linear on the triangle, within 0 .. max; whole numbers where it is gentle. */
 typedef struct plane {
-    float at, per_x, per_y, max; /* at the first corner; per px */
+    float at, per_x, per_y, max;   /* at the first corner; per px */
+    int32_t first, step_x, step_y; /* in the middle of the target's first pixel; to the next one, and to the next row */
+    int is_gentle;
 } plane;
 
-static plane plane_of(const gouraud_corner c[3], float f0, float f1, float f2, float per_area, float max)
+/* Per px: by so much 31 bits hold the number wherever a pixel and a corner may lie. */
+#define GENTLE 262144.0f
+
+/* All but the whole numbers. */
+static void set_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area, float max)
 {
     const float a = f1 - f0, b = f2 - f0;
-    plane p;
-    p.at = f0;
-    p.per_x = (a * (float)(c[2].y - c[0].y) - b * (float)(c[1].y - c[0].y)) * per_area;
-    p.per_y = (b * (float)(c[1].x - c[0].x) - a * (float)(c[2].x - c[0].x)) * per_area;
-    p.max = max;
-    return p;
+    out->at = f0;
+    out->per_x = (a * (float)(c[2].y - c[0].y) - b * (float)(c[1].y - c[0].y)) * per_area;
+    out->per_y = (b * (float)(c[1].x - c[0].x) - a * (float)(c[2].x - c[0].x)) * per_area;
+    out->max = max;
+}
+
+/* Whole numbers beside it, where they will do. */
+static void set_whole_plane(plane *out, const gouraud_corner c[3], float f0, float f1, float f2, float per_area,
+                            float max)
+{
+    set_plane(out, c, f0, f1, f2, per_area, max);
+    out->is_gentle = absf(out->per_x) < GENTLE && absf(out->per_y) < GENTLE;
+    if (out->is_gentle) {
+        out->step_x = (int32_t)out->per_x;
+        out->step_y = (int32_t)out->per_y;
+        out->first = (int32_t)(f0 + (out->per_x * (float)(8 - c[0].x) + out->per_y * (float)(8 - c[0].y)) * 0.0625f);
+    }
 }
 
 /* x and y: px from the first corner. */
-static float plane_at(const plane *p, float x, float y) { return clampf(p->at + p->per_y * y + p->per_x * x, 0.0f, p->max); }
+static float plane_at(const plane *p, float x, float y)
+{
+    return clampf(p->at + p->per_y * y + p->per_x * x, 0.0f, p->max);
+}
 
 /* A number along a row: at its first pixel, and from pixel to pixel, both ends within the plane's range. */
 typedef struct ramp {
     int32_t at, step;
 } ramp;
 
-static ramp ramp_of(const plane *p, float x, float y, int32_t count)
+static ramp ramp_between(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
 {
+    const float dx = (float)(16 * x + 8 - c->x) * 0.0625f, dy = (float)(16 * y + 8 - c->y) * 0.0625f;
     ramp r;
-    r.at = (int32_t)plane_at(p, x, y);
-    r.step = 0;
-    if (count > 1) {
-        r.step = ((int32_t)plane_at(p, x + (float)(count - 1), y) - r.at) / (count - 1);
+    r.at = (int32_t)plane_at(p, dx, dy);
+    r.step = count > 1 ? ((int32_t)plane_at(p, dx + (float)(count - 1), dy) - r.at) / (count - 1) : 0;
+    return r;
+}
+
+/* Middles of pixels beside an edge may lie a little outside of the triangle. */
+static inline ramp ramp_of(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+{
+    const uint32_t max = (uint32_t)(int32_t)p->max;
+    ramp r;
+    r.at = p->first + p->step_y * y + p->step_x * x;
+    r.step = p->step_x;
+    if (!p->is_gentle || (uint32_t)r.at > max || (uint32_t)(r.at + r.step * (count - 1)) > max) {
+        r = ramp_between(p, c, x, y, count);
     }
     return r;
 }
 
-/* Bayer's matrix (1973) of 4 x 4 in sixteenths, less half of one. */
-static const uint16_t dither[4][4] = {{2048, 34816, 10240, 43008},
-                                      {51200, 18432, 59392, 26624},
-                                      {14336, 47104, 6144, 38912},
-                                      {63488, 30720, 55296, 22528}};
+/* Colours: 5, 6 and 5 bits, and 11 below them. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
+enum { FRACTION = 11 };
 
-/* 0 .. 2^30 in 16 bits: an exponent of 4 and 12 below its leading bit, so that far surfaces are told apart like near
- * ones; under 2^15 all 12 are of one size. */
-static uint16_t depth_code(int32_t depth)
+static uint32_t red_and_blue(int32_t red, int32_t blue) { return ((uint32_t)red << 16) + (uint32_t)blue; }
+
+static uint16_t pixel_of(uint32_t red_blue, uint32_t green)
 {
-    const uint32_t v = (uint32_t)depth;
-    if (v < 32768u) {
-        return (uint16_t)(v >> 3);
+    return (uint16_t)((red_blue >> 16 & 0xf800u) | (green & 0x1f800u) >> (FRACTION - 5) |
+                      (red_blue & 0xffffu) >> FRACTION);
+}
+
+/* Bayer's matrix (1973) of 4 x 4 in sixteenths, less half of one: of red and of blue. */
+#define BOTH(a) ((uint32_t)(a) << 16 | (uint32_t)(a))
+static const uint32_t dither[4][4] = {{BOTH(64), BOTH(1088), BOTH(320), BOTH(1344)},
+                                      {BOTH(1600), BOTH(576), BOTH(1856), BOTH(832)},
+                                      {BOTH(448), BOTH(1472), BOTH(192), BOTH(1216)},
+                                      {BOTH(1984), BOTH(960), BOTH(1728), BOTH(704)}};
+
+/* A depth in 16 bits: the four lowest of its exponent and twelve of its fraction, so that far surfaces are told apart
+ * like near ones. */
+#define LEAST_DEPTH 1.5262604e-5f /* 2^-16 and a step: code 1 */
+#define MOST_DEPTH  0.9998779f    /* 1 less a step: code 65535 */
+
+static uint16_t depth_code(float depth)
+{
+    uint32_t bits;
+    memcpy(&bits, &depth, sizeof bits);
+    return (uint16_t)((bits - ((127u - 16u) << 23)) >> 11);
+}
+
+typedef struct depth_ramp {
+    float at, step;
+} depth_ramp;
+
+static inline depth_ramp depths_of(const plane *p, const gouraud_corner *c, int32_t x, int32_t y, int32_t count)
+{
+    const float dx = (float)(16 * x + 8 - c->x) * 0.0625f, dy = (float)(16 * y + 8 - c->y) * 0.0625f;
+    const float more = (float)(count - 1), at = p->at + p->per_y * dy + p->per_x * dx, end = at + p->per_x * more;
+    depth_ramp d = {at, p->per_x};
+    if (!(at >= LEAST_DEPTH && at <= MOST_DEPTH && end >= LEAST_DEPTH && end <= MOST_DEPTH)) {
+        d.at = clampf(at, LEAST_DEPTH, MOST_DEPTH);
+        d.step = count > 1 ? (clampf(end, LEAST_DEPTH, MOST_DEPTH) - d.at) / more : 0.0f;
     }
-    const int bit = highest_bit(v);
-    return (uint16_t)((uint32_t)(bit - 14) << 12 | (v >> (bit - 12) & 4095u));
+    return d;
 }
 
 typedef struct filler {
@@ -257,28 +304,29 @@ typedef struct filler {
     plane depth, colour[3];
     uint32_t id;
     int how;
-    int32_t flat[3];     /* the colour of GOURAUD_FLAT */
-    int32_t first, past; /* pixels across that it may cover */
+    uint32_t red_blue, green; /* the colour of GOURAUD_FLAT */
+    int32_t first, past;      /* pixels across that it may cover */
 } filler;
 
-/* Colours have 16 bits below those that are kept. */
 static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
 {
     const gouraud_target *t = f->t;
-    const float dx = (float)(16 * x + 8 - f->c[0].x) * 0.0625f, dy = (float)(16 * y + 8 - f->c[0].y) * 0.0625f;
-    const ramp d = ramp_of(&f->depth, dx, dy, count), r = ramp_of(&f->colour[0], dx, dy, count),
-               g = ramp_of(&f->colour[1], dx, dy, count), b = ramp_of(&f->colour[2], dx, dy, count);
-    uint16_t *depth = t->depth16 + y * t->step + x, *pixel = t->pixel + y * t->pixel_step + x;
-    const uint16_t *threshold = dither[y & 3];
-    int32_t at = d.at, red = r.at, green = g.at, blue = b.at;
-    for (int32_t i = 0; i < count; ++i) {
+    const depth_ramp d = depths_of(&f->depth, f->c, x, y, count);
+    const ramp r = ramp_of(&f->colour[0], f->c, x, y, count), g = ramp_of(&f->colour[1], f->c, x, y, count),
+               b = ramp_of(&f->colour[2], f->c, x, y, count);
+    uint16_t *depth = t->depth16 + y * t->step + x, *pixel = t->pixel + y * t->pixel_step + x, *past = pixel + count;
+    const uint32_t *threshold = dither[y & 3], red_blue_step = red_and_blue(r.step, b.step);
+    uint32_t red_blue = red_and_blue(r.at, b.at);
+    int32_t green = g.at;
+    float at = d.at;
+    for (; pixel != past; ++pixel, ++depth, ++x) {
         const uint16_t own = depth_code(at);
-        if (own > depth[i]) {
-            const int32_t low = threshold[(x + i) & 3];
-            depth[i] = own;
-            pixel[i] = (uint16_t)((red + low) >> 16 << 11 | (green + low) >> 16 << 5 | (blue + low) >> 16);
+        if (own > *depth) {
+            const uint32_t low = threshold[x & 3];
+            *depth = own;
+            *pixel = pixel_of(red_blue + low, (uint32_t)green + (low & 0xffffu));
         }
-        at += d.step, red += r.step, green += g.step, blue += b.step;
+        at += d.step, red_blue += red_blue_step, green += g.step;
     }
 }
 
@@ -286,17 +334,15 @@ static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
 static void fill_row_flat(const filler *f, int32_t x, int32_t y, int32_t count)
 {
     const gouraud_target *t = f->t;
-    const float dx = (float)(16 * x + 8 - f->c[0].x) * 0.0625f, dy = (float)(16 * y + 8 - f->c[0].y) * 0.0625f;
-    const ramp d = ramp_of(&f->depth, dx, dy, count);
-    uint16_t *depth = t->depth16 + y * t->step + x, *pixel = t->pixel + y * t->pixel_step + x;
-    int32_t at = d.at;
-    for (int32_t i = 0; i < count; ++i, at += d.step) {
+    const depth_ramp d = depths_of(&f->depth, f->c, x, y, count);
+    uint16_t *depth = t->depth16 + y * t->step + x, *pixel = t->pixel + y * t->pixel_step + x, *past = pixel + count;
+    float at = d.at;
+    for (; pixel != past; ++pixel, ++depth, ++x, at += d.step) {
         const uint16_t own = depth_code(at);
-        if (own > depth[i]) {
-            const int32_t low = dither[y & 3][(x + i) & 3];
-            depth[i] = own;
-            pixel[i] = (uint16_t)((f->flat[0] + low) >> 16 << 11 | (f->flat[1] + low) >> 16 << 5 |
-                                  (f->flat[2] + low) >> 16);
+        if (own > *depth) {
+            const uint32_t low = dither[y & 3][x & 3];
+            *depth = own;
+            *pixel = pixel_of(f->red_blue + low, f->green + (low & 0xffffu));
         }
     }
 }
@@ -348,19 +394,21 @@ static void fill_between(const filler *f, const edge *a, const edge *b, int32_t 
 static void set_planes(filler *f, float per_area)
 {
     const gouraud_corner *c = f->c;
+    set_plane(&f->depth, c, c[0].d, c[1].d, c[2].d, per_area, 1.0f);
     if (f->t->pixel == NULL) {
-        f->depth = plane_of(c, c[0].d, c[1].d, c[2].d, per_area, 1.0f);
         return;
     }
-    const float scale[3] = {31.0f * 65536.0f / 255.0f, 63.0f * 65536.0f / 255.0f, 31.0f * 65536.0f / 255.0f};
-    const float max = 1073741760.0f; /* with a step more still 31 bits */
-    f->depth = plane_of(c, c[0].d * max, c[1].d * max, c[2].d * max, per_area, max);
+    const float full[3] = {31.0f * 2048.0f, 63.0f * 2048.0f, 31.0f * 2048.0f};
+    if (f->how == GOURAUD_FLAT) {
+        const float *code = c[0].colour;
+        f->red_blue = red_and_blue((int32_t)(code[0] * (full[0] / 255.0f)), (int32_t)(code[2] * (full[2] / 255.0f)));
+        f->green = (uint32_t)(int32_t)(code[1] * (full[1] / 255.0f));
+        return;
+    }
     for (int i = 0; i < 3; ++i) {
-        const float first = c[0].colour[i] * scale[i], max_colour = 255.0f * scale[i];
-        f->flat[i] = (int32_t)first;
-        if (f->how != GOURAUD_FLAT) {
-            f->colour[i] = plane_of(c, first, c[1].colour[i] * scale[i], c[2].colour[i] * scale[i], per_area, max_colour);
-        }
+        const float per = full[i] / 255.0f;
+        set_whole_plane(&f->colour[i], c, c[0].colour[i] * per, c[1].colour[i] * per, c[2].colour[i] * per, per_area,
+                        full[i]);
     }
 }
 

@@ -30,7 +30,8 @@
 #if LMB_TRANSFER
 #include "../map/texel.inl"
 #include "../transfer/links.inl"
-#include "../transfer/leaves.inl"
+#include "../transfer/share.inl"
+#include "../transfer/halve.inl"
 #include "../transfer/tile.inl"
 #endif
 #if LMB_PROBES
@@ -92,7 +93,8 @@ const lmb_kernels KERNEL(lmb_kernels) = {
     KERNEL(transfer_links),
     KERNEL(transfer_directed_links),
     KERNEL(texel_powers),
-    KERNEL(texel_leaves),
+    KERNEL(transfer_share),
+    KERNEL(transfer_halve),
     KERNEL(transfer_side),
     KERNEL(transfer_leaf),
 #endif

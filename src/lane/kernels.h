@@ -104,7 +104,7 @@ typedef struct lmb_setup_job {
     float near_m, far_m, depth_scale;
     int32_t orthographic;
     int32_t cull;                /* 0: neither; -1: counter-clockwise triangles go, 1: clockwise ones */
-    int32_t origin_x, origin_y;  /* centre of the frame's pixel (0, 0), 24.8 from the frame's middle */
+    int32_t origin_x, origin_y;  /* where the frame's pixel (0, 0) is seen, 24.8 from its middle */
     int32_t x0, y0, x1, y1;      /* the window's first and last pixels, in the frame */
 } lmb_setup_job;
 
@@ -306,20 +306,12 @@ typedef struct lmb_texel_row {
     int32_t is_far, is_coned;    /* as light_kind.h has it */
 } lmb_texel_row;
 
-/* A run of texels of one triangle in such a row: its weights are b = to + (from + by sx) d / (n + ny sx), and the
- * halvings that pieces lie below. */
-typedef struct lmb_texel_run {
-    float to[2], from[2], by[2], d, n, n_by;
-    const uint32_t *node;
-    uint32_t root;
-} lmb_texel_run;
-
 /* A leaf of a triangle's halvings. At weights b1 and b2 of the triangle's corners that of its own corner k is
  * weight[0][k] + weight[1][k] b1 + weight[2][k] b2. */
 typedef struct lmb_transfer_leaf {
     const float (*weight)[3];
-    float corner[3][9]; /* light there: R, G, B; of a mesh each along x, y, z */
-    int32_t is_mesh;
+    float corner[3][9]; /* light there: R, G, B; by direction each along x, y, z */
+    int32_t is_directed;
 } lmb_transfer_leaf;
 
 struct lmb_kernels {
@@ -395,18 +387,26 @@ struct lmb_kernels {
      * are those of lmb_transfer's receivers, and of its clusters, along x, y and z. */
     void (*transfer_links)(int32_t out[3], const uint32_t *link, uint32_t count, uint16_t (*node)[4]);
     void (*transfer_directed_links)(int32_t out[3][3], const uint32_t *link, uint32_t count, uint16_t (*node)[4]);
-    /* For texels whose middles lie at sx[0 .. count - 1]: the power through each at 1 W/sr (1 W/m2 of suns), and the
-     * leaf of the run's triangle there, LMB_TRANSFER_LEAF taken off, or LMB_TRANSFER_NONE. Whole vectors are read and
-     * written. */
+    /* The power through texels whose middles lie at sx[0 .. count - 1], at 1 W/sr (1 W/m2 of suns). Whole vectors are
+     * read and written. */
     void (*texel_powers)(float *out, const float *sx, int32_t count, const lmb_texel_row *row);
-    void (*texel_leaves)(uint32_t *out, const float *sx, int32_t count, const lmb_texel_run *run);
+    /* Shares of triangles in the `cells` x `cells` cells of a block whose first cell is `at` of the face; others may be
+     * written. An id 0 stands for what lies behind all. */
+    void (*transfer_share)(float out[LMB_TRANSFER_SHARING][LMB_TRANSFER_BLOCK_CELLS], const lmb_transfer_shown *shown,
+                           int32_t count, const float at[2], int32_t cells);
+    /* Blocks' light in `rows`, a bit each, parted by a line, line[0] + line[1] column + line[2] row = 0: `light` keeps the
+     * second half's. Other rows are not read; they may be written. Returns a bit for each row where the first half has
+     * some, and from bit 8 on where the second has. Light: whole numbers up to 2^24. */
+    uint32_t (*transfer_halve)(float first[LMB_TILE_PIXELS], float light[LMB_TILE_PIXELS], const float line[3],
+                               uint32_t rows);
     /* Of the tile's pixels `left`, at least one, those of the first one's triangle on the same side of it, a bit each;
      * b1 and b2 of these are set, of others they may be. */
     uint64_t (*transfer_side)(float weight[2][LMB_TILE_PIXELS], const lmb_tile *tile, uint64_t left,
                               const lmb_transfer_triangle *triangle);
-    /* Of such pixels those on the leaf, as which the first counts: they get its light, which is never under 0. */
-    uint64_t (*transfer_leaf)(lmb_irradiance *inout, float weight[2][LMB_TILE_PIXELS], const lmb_tile *tile,
-                              uint64_t left, const lmb_transfer_leaf *leaf);
+    /* Of such pixels those on the leaf, as which the first counts: they get its light, which is never under 0; and
+     * `glossy`, where it is not NULL, what their lobes make of it. */
+    uint64_t (*transfer_leaf)(lmb_irradiance *inout, lmb_glossy *glossy, float weight[2][LMB_TILE_PIXELS],
+                              const lmb_tile *tile, uint64_t left, const lmb_transfer_leaf *leaf);
 #endif
 #if LMB_PROBES
     /* Radiance of each of `count` directions from one place, 3 planes; `direction`: as lmb_probe_table's. */

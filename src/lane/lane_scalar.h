@@ -145,14 +145,35 @@ static inline lane_pair pair_load(const uint16_t *first, const uint16_t *second)
     return r;
 }
 static inline lane_sums sums_zero(void) { lane_sums r = {{0, 0, 0}}; return r; }
+/* Written out, as EACH. Of `weight` the high half counts. */
+static inline lane_sums sums_add_row(lane_sums s, const uint16_t *row, uint32_t weight)
+{
+    const uint32_t w = (uint32_t)((int32_t)weight >> 16);
+    s.v[0] += w * row[0];
+    s.v[1] += w * row[1];
+    s.v[2] += w * row[2];
+    return s;
+}
 static inline lane_sums sums_add(lane_sums s, lane_pair p, uint32_t weights)
 {
-    const uint32_t first = (weights & 0xffffu) - ((weights & 0x8000u) << 1),
-                   second = (weights >> 16) - ((weights >> 15) & 0x10000u);
-    for (int c = 0; c < 3; ++c) {
-        s.v[c] += first * p.first[c] + second * p.second[c];
+    return sums_add_row(sums_add_row(s, p.first, weights << 16), p.second, weights);
+}
+#define LANE_ADDS_LINKS
+static inline lane_sums sums_add_links(lane_sums s, uint16_t (*row)[4], const uint32_t *link)
+{
+    for (int i = 0; i < 4; ++i) {
+        s = sums_add_row(s, row[link[i] & 0xffffu], link[i]);
     }
     return s;
+}
+static inline void sums_add_directed(lane_sums s[3], uint16_t (*row)[4], const uint32_t *link)
+{
+    for (int i = 0; i < 8; i += 2) {
+        const uint16_t *of = row[link[i] & 0xffffu];
+        s[0] = sums_add_row(s[0], of, link[i]);
+        s[1] = sums_add_row(s[1], of, link[i + 1] << 16);
+        s[2] = sums_add_row(s[2], of, link[i + 1]);
+    }
 }
 static inline void sums_store(int32_t out[3], lane_sums s)
 {

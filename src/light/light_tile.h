@@ -4,6 +4,8 @@
 
 #include <lambent/light.h>
 
+#include "../base/exact.h"
+
 typedef struct light_tile {
     const lmb_kernels *kernels;
     const lmb_scene *scene;

@@ -197,11 +197,3 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
     }
     return over || lit_by_depth(query, &at, r, noise_of(query, r));
 }
-
-#if LMB_TRANSFER
-int lmb_is_lit_by_depth(const lmb_shadow_query *query, const lmb_receiver *r)
-{
-    place at;
-    return !find_place(&at, query->map, query->light, r->position) || lit_by_depth(query, &at, r, 0.0f);
-}
-#endif

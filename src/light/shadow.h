@@ -26,7 +26,4 @@ void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_
                     lmb_vec3 eye);
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *receiver);
 
-/* By the depth of the nearest texel alone: a tenth of the work, off by a texel. */
-int lmb_is_lit_by_depth(const lmb_shadow_query *query, const lmb_receiver *receiver);
-
 #endif

@@ -153,6 +153,48 @@ static void add_irradiance(lmb_irradiance *inout, lmb_many_lights_scratch *scrat
     }
 }
 
+#define LITTLE 0.2f    /* of the light arrives: windows lie between the nodes of the first cut */
+#define FINEST 0.0625f /* of the error that was asked for: the least share that a second cut takes */
+
+/* The share of the cut's light that arrived, in the mean over the surface's pixels. */
+static float seen_share(const lmb_irradiance *arrived, float light, const lit_surface *s)
+{
+    float sum = 0.0f;
+    int count = 0;
+    for (uint64_t bits = s->pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        sum += arrived->rgb[0][k] + arrived->rgb[1][k] + arrived->rgb[2][k];
+        ++count;
+    }
+    return sum / maxf((float)count * light, 1e-30f);
+}
+
+static void light_part(lmb_irradiance *out, lmb_many_lights_scratch *scratch, const lit_surface *s,
+                       const lmb_many_lights_query *query)
+{
+    memset(out, 0, sizeof *out);
+    lmb_many_lights_cut(scratch, s->kernels, query, &s->job);
+    add_irradiance(out, scratch, s);
+}
+
+/* By one cut; by a second one where most of its light is blocked: few of its nodes are then all there is. */
+NOINLINE void light_by_seen(lmb_irradiance *inout, lmb_many_lights_scratch *scratch, const lit_surface *s)
+{
+    lmb_many_lights_query finer = *s->query;
+    lmb_irradiance arrived;
+    light_part(&arrived, scratch, s, s->query);
+    const float share = seen_share(&arrived, scratch->light, s);
+    if (share < LITTLE && finer.bvh != NULL) {
+        finer.error = scratch->allowed * maxf(share, FINEST);
+        light_part(&arrived, scratch, s, &finer);
+    }
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            inout->rgb[c][k] += arrived.rgb[c][k];
+        }
+    }
+}
+
 lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels,
                                        lmb_many_lights_scratch *scratch, const lmb_tile *tile,
                                        const lmb_many_lights_query *query)
@@ -162,6 +204,7 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
         return LMB_ERR_ARG;
     }
     memset(scratch->traversal.last, 0, sizeof scratch->traversal.last);
+    scratch->traversal.first = 0;
     scratch->traversal.asked = scratch->traversal.alone = 0;
     uint64_t left = query->many_lights->node_count > 0 ? tile_pixels(tile) : 0;
     for (int n = 1; left != 0; ++n) {
@@ -174,8 +217,12 @@ lmb_status lmb_many_lights_direct_tile(lmb_irradiance *inout, const lmb_kernels 
         s.corners = corners_of(s.pixels);
         s.noise = lmb_tile_noise(tile, s.pixels);
         s.job = job_of(tile, s.pixels);
-        lmb_many_lights_cut(scratch, kernels, query, &s.job);
-        add_irradiance(inout, scratch, &s);
+        if (query->by_seen) {
+            light_by_seen(inout, scratch, &s);
+        } else {
+            lmb_many_lights_cut(scratch, kernels, query, &s.job);
+            add_irradiance(inout, scratch, &s);
+        }
         left &= ~s.pixels;
     }
     return LMB_OK;

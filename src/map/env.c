@@ -7,7 +7,7 @@
 #include "../base/memory_check.h"
 #include "cube.h"
 
-#if LMB_MIXED || LMB_VOXELS
+#if LMB_MIXED || LMB_VOXELS || LMB_TREES
 
 static int32_t level_count(int32_t size)
 {

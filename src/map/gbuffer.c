@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "../base/exact.h"
+
 static int is_surface(const lmb_surface *s, int32_t format, const lmb_view *view)
 {
     return s == NULL || (s->data != NULL && s->format == format && s->width == view->frame_width &&

@@ -140,6 +140,7 @@ static void test_triangle(traversal *w, uint32_t triangle, uint64_t asked)
     if (cross_job(&job, t, w->at, w->noise, w->b->noise)) {
         const uint64_t crossed = w->kernels->crossed(w->tile, w->left & asked, &job);
         w->left &= ~(crossed != 0 && (t->id & LMB_BVH_MASKED) ? standing(w->b, t, &job, w->tile, crossed) : crossed);
+        w->kept->blocker = crossed != 0 ? triangle + 1 : w->kept->blocker;
     }
 }
 
@@ -300,6 +301,7 @@ static int node_blocks_one(uint32_t *children, traversal *w, const lmb_boxes *no
         ++w->kept->asked;
         for (uint32_t j = 0; j < node->count[i]; ++j) {
             if (blocks_one(w, node->first[i] + j, r)) {
+                w->kept->blocker = node->first[i] + j + 1;
                 return 1;
             }
         }
@@ -337,7 +339,13 @@ uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const
     if (bvh == NULL || kernels == NULL || tile == NULL || kept == NULL || pixels == 0 || bvh->node_count == 0) {
         return 0;
     }
-    if (count_bits_64(pixels) > FEW) {
+    if (kept->first != 0) {
+        test_triangle(&w, kept->first - 1, pixels);
+        if (w.left == 0) {
+            return pixels;
+        }
+    }
+    if (count_bits_64(w.left) > FEW) {
         if (test_last(&w)) {
             return pixels;
         }
@@ -355,6 +363,19 @@ uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const
         occluded |= one_blocked(&w, lowest_bit_64(bits)) ? w.left : 0;
     }
     return occluded;
+}
+
+/* For one pixel, the points from which a triangle blocks it are a convex set. */
+int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
+                      const lmb_vec3 *at, int count, float noise, uint32_t triangle)
+{
+    const lmb_bvh_triangle *t = bvh != NULL && triangle != 0 ? &bvh->triangle[triangle - 1] : NULL;
+    int blocked = t != NULL && !(t->id & LMB_BVH_MASKED);
+    for (int i = 0; i < count && blocked; ++i) {
+        lmb_cross_job job;
+        blocked = cross_job(&job, t, at[i], noise, bvh->noise) && kernels->crossed(tile, pixels, &job) == pixels;
+    }
+    return blocked;
 }
 
 #endif

@@ -21,6 +21,11 @@
 /* Of the size of a convex room, where nothing can block: hull.c. */
 #define LMB_NOISE_HULL 3.8146973e-6f /* 2^-18 */
 
+/* 1 where one triangle (number + 1, as in lmb_traversal; 0: none) blocks all of the pixels from each of `count` points:
+ * then from all that lies between these, too. 0 where it may have holes. Otherwise as lmb_occluded_tile. */
+int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
+                      const lmb_vec3 *at, int count, float noise, uint32_t triangle);
+
 /* How far boxes reach past what they hold: of their size and of their coordinates. */
 #define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
 #define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */

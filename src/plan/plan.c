@@ -160,7 +160,7 @@ static void plan_gather(planner *p, lmb_why none)
     const lmb_frame *f = &p->r->frame;
     lmb_plan_row *row = &p->out->row[LMB_PLAN_GATHER], *traversal = &p->out->row[LMB_PLAN_OCCLUSION];
     lmb_hull hull;
-    row->bytes = sizeof(lmb_band_scratch);
+    row->bytes = sizeof(lmb_band_scratch) + (f->samples > 1 ? sizeof(lmb_multisample) : 0);
     if (none != LMB_WHY_RUNS) {
         leave_out(p, LMB_PLAN_GATHER, none);
         leave_out(p, LMB_PLAN_OCCLUSION, none);

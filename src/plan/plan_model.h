@@ -4,6 +4,8 @@
 
 #include <lambent/plan.h>
 
+#include "../base/exact.h"
+
 typedef struct plan_model {
     float units[LMB_OPS]; /* work of each operation */
 } plan_model;

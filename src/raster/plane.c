@@ -2,6 +2,7 @@
 #include "plane.h"
 
 #include "../base/vec.h"
+#include "target.h"
 
 #define LANE_ONE
 #include "../lane/lane_scalar.h"
@@ -12,8 +13,8 @@ void lmb_resolve_rays(lmb_rays *out, const lmb_view *v, int32_t x, int32_t y)
 {
     const lmb_vec3 none = vec3(0.0f, 0.0f, 0.0f);
     float per_x = 2.0f * v->half_width / (float)v->frame_width, per_y = 2.0f * v->half_height / (float)v->frame_height;
-    float sx = ((float)(2 * x + 1 - v->frame_width) * 0.5f) * per_x;
-    float sy = ((float)(v->frame_height - 2 * y - 1) * 0.5f) * per_y;
+    float sx = ((float)(256 * x + view_origin_x(v)) * (1.0f / 256.0f)) * per_x;
+    float sy = ((float)-(256 * y + view_origin_y(v)) * (1.0f / 256.0f)) * per_y;
     lmb_vec3 first = add3(mul3(v->right, sx), mul3(v->up, sy));
     lmb_vec3 step_x = mul3(v->right, per_x), step_y = mul3(v->up, -per_y);
     int perspective = v->kind == LMB_PERSPECTIVE;

@@ -68,8 +68,8 @@ lmb_fill_window lmb_target_window(const lmb_target *t, const lmb_view *view)
     w.tiles_y = (t->depth.height + LMB_TILE - 1) / LMB_TILE;
     w.x0 = t->x0;
     w.y0 = t->y0;
-    w.origin_x = 128 - view->frame_width * 128;
-    w.origin_y = 128 - view->frame_height * 128;
+    w.origin_x = view_origin_x(view);
+    w.origin_y = view_origin_y(view);
     w.d_scale = w.d_bias = 0.0f;
     if (t->depth.format == LMB_DEPTH16) {
         lmb_depth16_coding(&w.d_scale, &w.d_bias, view);
@@ -86,13 +86,19 @@ static int is_unit(lmb_vec3 v)
 /* So that 1 / a length is a number. */
 #define MIN_M 1e-30f
 
+/* -128 .. 127; in builds of one sample a pixel its middle. */
+static int is_in_pixel(int32_t sample)
+{
+    return LMB_MULTISAMPLE ? (uint32_t)sample + 128u < 256u : sample == 0;
+}
+
 int lmb_view_is_valid(const lmb_view *v)
 {
     return v->half_width > MIN_M && v->half_height > MIN_M && v->half_width < 1e30f && v->half_height < 1e30f &&
            (v->near_m > MIN_M || (v->kind == LMB_ORTHOGRAPHIC && v->near_m < -MIN_M)) && is_unit(v->right) &&
            is_unit(v->up) && is_unit(v->back) && is_sane(v->eye.x) && is_sane(v->eye.y) && is_sane(v->eye.z) &&
            v->frame_width > 0 && v->frame_height > 0 && v->frame_width <= LMB_MAX_FRAME &&
-           v->frame_height <= LMB_MAX_FRAME &&
+           v->frame_height <= LMB_MAX_FRAME && is_in_pixel(v->sample_x) && is_in_pixel(v->sample_y) &&
            (v->kind == LMB_PERSPECTIVE || (v->kind == LMB_ORTHOGRAPHIC && v->far_m > v->near_m));
 }
 

@@ -4,6 +4,16 @@
 
 #include "../lane/kernels.h"
 
+/* Where the frame's pixel (0, 0) is seen, from the frame's middle to the right and down, 1/256 px. */
+static inline int32_t view_origin_x(const lmb_view *v)
+{
+    return 128 - v->frame_width * 128 + (LMB_MULTISAMPLE ? v->sample_x : 0);
+}
+static inline int32_t view_origin_y(const lmb_view *v)
+{
+    return 128 - v->frame_height * 128 + (LMB_MULTISAMPLE ? v->sample_y : 0);
+}
+
 /* Can a frame be seen this way? */
 int lmb_view_is_valid(const lmb_view *view);
 

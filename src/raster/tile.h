@@ -12,6 +12,18 @@
 
 static inline lmb_vec3 tile_vec(const float (*p)[LMB_TILE_PIXELS], int k) { return vec3(p[0][k], p[1][k], p[2][k]); }
 
+/* What a gather reads of a pixel. */
+static inline void tile_put_pixel(lmb_tile *out, int to, const lmb_tile *in, int from)
+{
+    for (int c = 0; c < 3; ++c) {
+        out->position[c][to] = in->position[c][from];
+        out->face[c][to] = in->face[c][from];
+        out->normal[c][to] = in->normal[c][from];
+    }
+    out->depth[to] = in->depth[from];
+    out->id[to] = in->id[from];
+}
+
 /* Those with a surface. */
 static inline uint64_t tile_pixels(const lmb_tile *tile)
 {

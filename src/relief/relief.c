@@ -80,6 +80,7 @@ static lmb_view view_at(const source *s, uint64_t at)
     v.kind = (int32_t)word_at(s, at + 4 * V_KIND);
     v.frame_width = (int32_t)word_at(s, at + 4 * V_WIDTH);
     v.frame_height = (int32_t)word_at(s, at + 4 * V_HEIGHT);
+    v.sample_x = v.sample_y = 0;
     return v;
 }
 

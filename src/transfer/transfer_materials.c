@@ -44,10 +44,24 @@ static void add_part(const lmb_transfer_light *light, const piece_source *s, con
     light->power[element][0] += standing;
 }
 
+/* Of an element's parts the largest says where it is; of equal ones the first. */
+static void set_place(lmb_transfer_place *out, const piece_source *s, const part *p, float side)
+{
+    const lmb_vec3 *corner = s->triangle.corner;
+    const float third = 1.0f / 3.0f;
+    const float b1 = (p->b1[0] + p->b1[1] + p->b1[2]) * third, b2 = (p->b2[0] + p->b2[1] + p->b2[2]) * third;
+    if (!(s->area * p->share > out->area)) {
+        return;
+    }
+    out->area = s->area * p->share;
+    out->normal = mul3(s->normal, side);
+    out->position = add3(corner[0], add3(mul3(sub3(corner[1], corner[0]), b1), mul3(sub3(corner[2], corner[0]), b2)));
+}
+
 /* All parts below a root; the halves that wait lie in `stack`. `left`: how many there may be yet, over all roots: in
  * damaged files halves may share theirs, and ways down be more than anyone can go. */
-static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, uint32_t root,
-                      uint32_t *left)
+static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, const piece_source *s, int back,
+                      uint32_t root, uint32_t *left)
 {
     const uint32_t *node = t->section[LMB_TRANSFER_PIECES];
     part stack[WAITING];
@@ -66,7 +80,11 @@ static void add_parts(const lmb_transfer_light *light, const lmb_transfer *t, co
             halve(&here, from, to, first);
         }
         if (node[here.node] & LMB_TRANSFER_LEAF) {
-            add_part(light, s, &here, node[here.node] & ~LMB_TRANSFER_LEAF);
+            const uint32_t element = node[here.node] & ~LMB_TRANSFER_LEAF;
+            add_part(light, s, &here, element);
+            if (light->place != NULL) {
+                set_place(&light->place[element], s, &here, back ? -1.0f : 1.0f);
+            }
         }
     }
 }
@@ -123,13 +141,16 @@ lmb_status lmb_transfer_materials(const lmb_transfer_light *light, const lmb_tra
     memset(light->albedo, 0, elements * sizeof *light->albedo);
     memset(light->emission, 0, elements * sizeof *light->emission);
     memset(light->power, 0, elements * sizeof *light->power);
+    if (light->place != NULL) {
+        memset(light->place, 0, elements * sizeof *light->place);
+    }
     for (uint32_t id = 1; id <= all; ++id) {
         piece_source s;
         const uint32_t *root = t->section[LMB_TRANSFER_SURFACES] + LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1);
         const int exists = lmb_source_open(&s, scene, id);
         for (int back = 0; back < 2 && exists; ++back) {
             if (root[back] != LMB_TRANSFER_NONE) {
-                add_parts(light, t, &s, root[back], &left);
+                add_parts(light, t, &s, back, root[back], &left);
             }
         }
     }

@@ -35,7 +35,7 @@ static cursor cursor_at(const lmb_transfer_light *light, const lmb_transfer *t, 
     return w;
 }
 
-static float finite(float v) { return v < 1e30f ? v : 0.0f; }
+static float no_infinity(float v) { return v < 1e30f ? v : 0.0f; }
 
 /* W/m2, of the next element; returns its area, m2. */
 static float element_sent(float sent[3], cursor *w, uint32_t i)
@@ -56,7 +56,7 @@ static float element_sent(float sent[3], cursor *w, uint32_t i)
     for (int c = 0; c < 3; ++c) {
         const float came = coarse == NULL || w->what == LMB_TRANSFER_SEND_EMITTED ? 0.0f
                            : w->what == SEND_ALL ? coarse->all[c] : coarse->came[c];
-        sent[c] = finite(light->albedo[i][c] * (per * light->power[i][c] + came) + (emits ? light->emission[i][c] : 0.0f));
+        sent[c] = no_infinity(light->albedo[i][c] * (per * light->power[i][c] + came) + (emits ? light->emission[i][c] : 0.0f));
     }
     return area;
 }
@@ -148,7 +148,7 @@ static void set_sent(lmb_transfer_light *light, const lmb_transfer *t, uint32_t 
     }
     lmb_transfer_coarse *to = &light->coarse[i];
     for (int c = 0; c < 3; ++c) {
-        to->sent[c] = to->area > 0.0f ? finite(sum[c] / to->area) : 0.0f;
+        to->sent[c] = to->area > 0.0f ? no_infinity(sum[c] / to->area) : 0.0f;
     }
 }
 
@@ -167,8 +167,8 @@ static void receive(lmb_transfer_light *light, const lmb_transfer *t, uint32_t i
         sum[2] += weight * (int32_t)node[2];
     }
     for (int c = 0; c < 3; ++c) {
-        to->came[c] = finite(maxf(scale * (float)sum[c], 0.0f));
-        to->all[c] = finite(to->all[c] + to->came[c]);
+        to->came[c] = no_infinity(maxf(scale * (float)sum[c], 0.0f));
+        to->all[c] = no_infinity(to->all[c] + to->came[c]);
     }
 }
 
@@ -215,7 +215,7 @@ lmb_status lmb_transfer_rest(lmb_transfer_light *light, const lmb_transfer *t, i
             more = (more + 1.0f) * kept;
         }
         for (uint32_t i = 0; i < t->count[LMB_TRANSFER_COARSE]; ++i) {
-            light->coarse[i].all[c] = finite(light->coarse[i].all[c] + more * light->coarse[i].came[c]);
+            light->coarse[i].all[c] = no_infinity(light->coarse[i].all[c] + more * light->coarse[i].came[c]);
         }
     }
     return LMB_OK;

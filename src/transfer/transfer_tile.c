@@ -16,9 +16,9 @@
 static void set_corners(lmb_transfer_leaf *leaf, const lmb_transfer_light *light, const lmb_transfer *t, uint32_t place)
 {
     const uint32_t *corner = t->section[LMB_TRANSFER_CORNERS] + LMB_TRANSFER_CORNER_WORDS * (size_t)place;
-    leaf->is_mesh = place >= t->leaves;
+    leaf->is_directed = place >= t->leaves;
     for (int k = 0; k < 3; ++k) {
-        if (leaf->is_mesh) {
+        if (leaf->is_directed) {
             transfer_blend(leaf->corner[k], light,
                            t->section[LMB_TRANSFER_BLENDS] + LMB_TRANSFER_BLEND_WORDS * (size_t)corner[k]);
         } else {
@@ -52,7 +52,7 @@ static void enter_half(lmb_transfer_step *s, uint32_t node, float b1, float b2)
 }
 
 /* How many steps of the last way down a place shares. */
-static uint32_t shared_steps(const lmb_transfer_scratch *s, float b1, float b2)
+static uint32_t shared_steps(const lmb_transfer_met *s, float b1, float b2)
 {
     uint32_t i = 0;
     for (; i < s->depth; ++i) {
@@ -66,7 +66,7 @@ static uint32_t shared_steps(const lmb_transfer_scratch *s, float b1, float b2)
 
 /* Down to the leaf that holds a place of the triangle: the last of the steps. Returns what it says, or
  * LMB_TRANSFER_NONE where it lies too deep. */
-static uint32_t enter_leaf(lmb_transfer_scratch *s, const uint32_t *node, uint32_t root, float b1, float b2)
+static uint32_t enter_leaf(lmb_transfer_met *s, const uint32_t *node, uint32_t root, float b1, float b2)
 {
     static const float whole[3][3] = {{1, 0, 0}, {-1, 1, 0}, {-1, 0, 1}};
     if (s->root != root + 1) {
@@ -89,7 +89,8 @@ static uint32_t enter_leaf(lmb_transfer_scratch *s, const uint32_t *node, uint32
 /* What a call is about. */
 typedef struct job {
     const lmb_kernels *kernels;
-    lmb_transfer_scratch *scratch;
+    lmb_glossy *glossy; /* or NULL */
+    lmb_transfer_met *met;
     const lmb_transfer_light *light;
     const lmb_transfer *transfer;
     const lmb_tile *tile;
@@ -98,7 +99,7 @@ typedef struct job {
 /* Of one side of a triangle, leaf by leaf: that of the first pixel left lights all pixels on it. */
 static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint64_t pixels)
 {
-    lmb_transfer_scratch *s = j->scratch;
+    lmb_transfer_met *s = j->met;
     lmb_transfer_leaf leaf;
     while (pixels != 0) {
         const int first = lowest_bit_64(pixels);
@@ -108,7 +109,7 @@ static void light_side(lmb_irradiance *inout, const job *j, uint32_t root, uint6
         if (place != LMB_TRANSFER_NONE) {
             leaf.weight = (const float(*)[3])s->step[s->depth].weight;
             set_corners(&leaf, j->light, j->transfer, place);
-            own = j->kernels->transfer_leaf(inout, s->weight, j->tile, pixels, &leaf);
+            own = j->kernels->transfer_leaf(inout, j->glossy, s->weight, j->tile, pixels, &leaf);
         }
         pixels &= ~own;
     }
@@ -124,11 +125,11 @@ static uint64_t light_first(lmb_irradiance *inout, const job *j, const lmb_scene
         return (uint64_t)1 << first;
     }
     const lmb_transfer_triangle *triangle =
-        id > j->transfer->count[LMB_TRANSFER_SURFACES] ? NULL : transfer_triangle_kept(&j->scratch->kept, scene, id);
+        id > j->transfer->count[LMB_TRANSFER_SURFACES] ? NULL : transfer_triangle_kept(&j->met->kept, scene, id);
     if (triangle == NULL) {
         return (uint64_t)1 << first;
     }
-    const uint64_t own = j->kernels->transfer_side(j->scratch->weight, j->tile, left, triangle);
+    const uint64_t own = j->kernels->transfer_side(j->met->weight, j->tile, left, triangle);
     const uint32_t back = dot3(triangle->normal, tile_vec(j->tile->face, first)) < 0.0f;
     const uint32_t root =
         j->transfer->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
@@ -138,15 +139,15 @@ static uint64_t light_first(lmb_irradiance *inout, const job *j, const lmb_scene
     return own;
 }
 
-lmb_status lmb_transfer_tile(lmb_irradiance *inout, const lmb_kernels *kernels, lmb_transfer_scratch *scratch,
-                             const lmb_transfer_light *light, const lmb_transfer *transfer, const lmb_scene *scene,
-                             const lmb_tile *tile)
+lmb_status lmb_transfer_tile(lmb_irradiance *inout, lmb_glossy *glossy, const lmb_kernels *kernels,
+                             lmb_transfer_scratch *scratch, const lmb_transfer_light *light,
+                             const lmb_transfer *transfer, const lmb_scene *scene, const lmb_tile *tile)
 {
-    const job j = {kernels, scratch, light, transfer, tile};
     if (inout == NULL || kernels == NULL || scratch == NULL || light == NULL || light->receiver == NULL ||
         transfer == NULL || transfer->section[0] == NULL || scene == NULL || tile == NULL) {
         return LMB_ERR_ARG;
     }
+    const job j = {kernels, glossy, &scratch->met, light, transfer, tile};
     for (uint64_t left = kernels->resolve_shown(tile->id); left != 0;) {
         left &= ~light_first(inout, &j, scene, left);
     }

@@ -1,0 +1,79 @@
+/* shade.c: direct light of a tile, and what its pixels send to the viewer. Layer 10. */
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../light/light_tile.h"
+#include "../raster/plane.h"
+#include "../raster/tile.h"
+#include "stages.h"
+#include "requires.h"
+
+/* SHOW_IRRADIANCE is what arrives before the albedo. */
+static void show_irradiance(lmb_radiance *out, const lmb_irradiance *e) { memcpy(out->rgb, e->rgb, sizeof out->rgb); }
+
+lmb_status lmb_render_direct(const lmb_render *r, lmb_glossy *glossy, lmb_band_scratch *s, const lmb_tile *tile,
+                             const lmb_view *view)
+{
+    const lmb_frame *f = &r->frame;
+    const light_tile lit = {f->kernels, f->scene, view, tile};
+    lmb_many_lights_query query;
+    lmb_status status = LMB_OK;
+    memset(&s->direct, 0, sizeof s->direct);
+    for (uint32_t i = 0; requires_direct(f) && i < f->scene->light_count && status == LMB_OK; ++i) {
+        if (!light_is(r, i, LMB_LIGHT_DARK)) {
+            status = lmb_light_tile_add(&s->direct, glossy, &s->indirect, &lit, i, &r->maps[i]);
+        }
+    }
+    if (requires_many_lights(f) && status == LMB_OK) {
+        query.many_lights = f->many_lights;
+        query.bvh = f->bvh.triangle != NULL ? &f->bvh : NULL;
+        query.error = f->many_lights_error;
+        query.each = query.by_seen = 0;
+        status = lmb_many_lights_direct_tile(&s->direct, f->kernels, &s->many_lights, tile, &query);
+    }
+    return status;
+}
+
+#if LMB_TREES
+
+/* What lies behind all surfaces, where a tile's pixels show none. */
+static void show_background(lmb_radiance *inout, const lmb_frame *f, const lmb_view *view, const lmb_tile *tile)
+{
+    lmb_rays rays;
+    const float pixel = view->kind == LMB_PERSPECTIVE ? view->half_height / (float)view->frame_height : 0.0f;
+    lmb_resolve_rays(&rays, view, tile->x, tile->y);
+    for (uint64_t bits = ~tile_pixels(tile); bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const lmb_vec3 across = mul3(rays.rx, (float)(k % LMB_TILE)), down = mul3(rays.ry, (float)(k / LMB_TILE));
+        float rgb[3];
+        lmb_env_sample(rgb, f->background, add3(rays.direction, add3(across, down)), pixel);
+        for (int c = 0; c < 3; ++c) {
+            inout->rgb[c][k] = rgb[c];
+        }
+    }
+}
+
+#endif
+
+lmb_status lmb_render_radiance(const lmb_render *r, const lmb_glossy *glossy, lmb_band_scratch *s, const lmb_tile *tile,
+                               const lmb_view *view, const lmb_irradiance *indirect)
+{
+    const lmb_frame *f = &r->frame;
+    if (f->show == LMB_SHOW_IRRADIANCE) {
+        show_irradiance(&s->radiance, indirect);
+        return LMB_OK;
+    }
+    lmb_status status = lmb_compose_tile(&s->radiance, f->kernels, tile, &s->direct, indirect);
+    if (status == LMB_OK && glossy != NULL) {
+        status = lmb_compose_glossy(&s->radiance, glossy);
+    }
+    if (status == LMB_OK && r->emits && requires_direct(f)) {
+        status = lmb_compose_emission(&s->radiance, f->scene, view, tile);
+    }
+#if LMB_TREES
+    if (f->background != NULL && requires_direct(f) && tile_pixels(tile) != UINT64_MAX) {
+        show_background(&s->radiance, f, view, tile);
+    }
+#endif
+    return status;
+}

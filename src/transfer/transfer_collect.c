@@ -1,0 +1,655 @@
+/* transfer_collect.c: light from shadow maps to elements. Layer 9.
+ *
+ * A face of a map is taken by blocks of texels, 8 x 8 of them at once. First each block's light is shared by the
+ * triangles that it shows: its cells, at most 4 x 4, look at the ids around them, and a triangle has the part of a cell
+ * that its outline has. Then the light of each triangle goes down its halvings: a line parts it between the halves.
+ * All of these parts change little by little as the light moves. */
+#include <lambent/transfer.h>
+
+#include <string.h>
+
+#include "../base/vec.h"
+#include "../map/texel.h"
+#include "../raster/target.h"
+#include "halvings.h"
+#include "links.h"
+
+#if LMB_TRANSFER
+
+#define WHOLE 16777216.0f /* 2^24: what no block's light is over, and binary32 counts to */
+
+enum { VISITS = 8192 }; /* halvings of a tile's triangle; what is left goes down whole */
+
+/* What a collection is about. */
+typedef struct collection {
+    const lmb_transfer_light *light;
+    const lmb_kernels *kernels;
+    const lmb_transfer *transfer;
+    const lmb_scene *scene;
+    const lmb_light *from;
+    const lmb_shadow_map *blocks; /* the map, were its texels the blocks */
+    const lmb_target *face;
+    const lmb_view *view;
+    lmb_fill_window ids;
+    lmb_transfer_collecting *work;
+    int32_t size, cells, step; /* texels of the map each way; cells of a block; texels of a cell */
+    float scale;               /* of whole numbers, per W */
+    int32_t first[2];          /* the tile's first block: column, row */
+} collection;
+
+/* --- triangles on the face ---------------------------------------------------------------------------------------- */
+
+/* An affine function of the place in the view's plane, as one of a cell's column and row. */
+static void by_cells(float out[3], const collection *c, float at, float by_x, float by_y)
+{
+    const lmb_view *v = c->view;
+    const int32_t middle = c->step / 2;
+    const float step = (float)c->step * 2.0f / (float)c->size;
+    out[0] = at + by_x * texel_sx(v, c->size, middle) + by_y * texel_sy(v, c->size, middle);
+    out[1] = by_x * step * v->half_width;
+    out[2] = -by_y * step * v->half_height;
+}
+
+/* a . p over a place in the view's plane, where p begins at `from` and goes on by the place, and by `back` against the
+ * view. */
+static void set_function(float out[3], const collection *c, lmb_vec3 a, lmb_vec3 from, float back)
+{
+    const lmb_view *v = c->view;
+    by_cells(out, c, dot3(a, from) - back * dot3(a, v->back), dot3(a, v->right), dot3(a, v->up));
+}
+
+/* In perspective the ray at (sx, sy) meets the triangle's plane at 1 / near, near = n.ray / n.(corner - eye); weights
+ * are along.(eye - corner) + along.ray / near. A sun's ray meets it at n.(start - corner) / n.back, and weights are
+ * linear. */
+static int set_outline(lmb_transfer_shown *s, const collection *c, const lmb_transfer_triangle *t)
+{
+    const lmb_view *v = c->view;
+    const int is_far = v->kind != LMB_PERSPECTIVE;
+    const lmb_vec3 from = sub3(v->eye, t->corner);
+    const float d = is_far ? dot3(t->normal, v->back) : -dot3(t->normal, from);
+    if (!(absf(d) > 1e-20f)) {
+        return 0;
+    }
+    set_function(s->near, c, mul3(t->normal, 1.0f / d), is_far ? from : vec3(0, 0, 0), is_far ? 0.0f : 1.0f);
+    for (int i = 0; i < 2; ++i) {
+        const float times = is_far ? -dot3(t->along[i], v->back) : dot3(t->along[i], from);
+        set_function(s->corner[i + 1], c, t->along[i], is_far ? from : vec3(0, 0, 0), is_far ? 0.0f : 1.0f);
+        for (int k = 0; k < 3; ++k) {
+            s->corner[i + 1][k] += times * s->near[k];
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        const float all = is_far ? (k == 0 ? 1.0f : 0.0f) : s->near[k];
+        s->corner[0][k] = all - s->corner[1][k] - s->corner[2][k];
+        s->near[k] = is_far ? -s->near[k] : s->near[k];
+    }
+    for (int k = 0; k < 3; ++k) {
+        s->per[k] = 1.0f / maxf(absf(s->corner[k][1]) + absf(s->corner[k][2]), 1e-30f);
+    }
+    for (int k = 0; k < 3; ++k) {
+        const float *a = s->corner[(k + 1) % 3], *b = s->corner[(k + 2) % 3];
+        const float lengths = (a[1] * a[1] + a[2] * a[2]) * (b[1] * b[1] + b[2] * b[2]);
+        s->cosine[k] = clampf((a[1] * b[1] + a[2] * b[2]) / sqrtf(maxf(lengths, 1e-30f)), -1.0f, 1.0f);
+    }
+    return 1;
+}
+
+static void set_shown(lmb_transfer_shown *s, const collection *c, uint32_t id)
+{
+    lmb_transfer_triangle t;
+    lmb_triangle of;
+    memset(s, 0, sizeof *s);
+    s->id = id;
+    s->root = LMB_TRANSFER_NONE;
+    if (id > c->transfer->count[LMB_TRANSFER_SURFACES] || !lmb_triangle_fetch(&of, c->scene, id) ||
+        !transfer_triangle_of(&t, c->scene, id)) {
+        return;
+    }
+    const lmb_vec3 ray = c->view->kind == LMB_PERSPECTIVE ? sub3(t.corner, c->view->eye) : mul3(c->view->back, -1.0f);
+    const uint32_t back = dot3(t.normal, ray) > 0.0f;
+    s->root = c->transfer->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + back];
+    s->has_outline = set_outline(s, c, &t) && (of.material->flags & LMB_ALPHA_MASK) == 0;
+}
+
+/* NULL where nothing is shown. */
+static const lmb_transfer_shown *shown(const collection *c, uint32_t id)
+{
+    lmb_transfer_shown *s = &c->work->shown[id % LMB_TRANSFER_SHOWN];
+    if (id != 0 && s->id != id) {
+        set_shown(s, c, id);
+    }
+    return id != 0 ? s : NULL;
+}
+
+static float value(const float f[3], float x, float y) { return f[0] + f[1] * x + f[2] * y; }
+
+/* --- a triangle's light down its halvings ------------------------------------------------------------------------- */
+
+static void add_light(const collection *c, uint32_t element, int32_t sum)
+{
+    const float power = (float)sum / c->scale;
+    for (int i = 0; i < 3; ++i) {
+        c->light->power[element][i] += texel_flux(c->from->intensity[i], power);
+    }
+}
+
+/* Into a half: the corner that it keeps loses what the other one weighs, which counts twice. */
+static void enter_half(lmb_transfer_part *p, uint32_t node, int second)
+{
+    const int from = halving_from(node), to = halving_to(from);
+    const int keeps = second ? to : from, moves = second ? from : to;
+    for (int k = 0; k < 3; ++k) {
+        p->corner[keeps][k] -= p->corner[moves][k];
+        p->corner[moves][k] *= 2.0f;
+    }
+    p->at = halving_first(node) + (uint32_t)second;
+    ++p->depth;
+}
+
+/* Goes on with one half, or with both: then the second waits. Returns how many parts there are. */
+static int32_t halve(const collection *c, int32_t parts, uint32_t node, int can_part)
+{
+    lmb_transfer_part *p = &c->light->part[parts - 1];
+    const int from = halving_from(node), to = halving_to(from);
+    float line[3];
+    for (int k = 0; k < 3; ++k) {
+        line[k] = p->corner[from][k] - p->corner[to][k];
+    }
+    const float by = absf(line[1]) + absf(line[2]), middle = value(line, 3.5f, 3.5f);
+    if (!can_part || parts == LMB_TRANSFER_PARTS || !(absf(middle) < 4.0f * by)) {
+        enter_half(p, node, middle < 0.0f);
+        return parts;
+    }
+    for (int k = 0; k < 3; ++k) {
+        line[k] /= by;
+    }
+    const uint32_t has = c->kernels->transfer_halve(p[1].light, p->light, line, p->rows);
+    p[1].rows = has & LMB_TRANSFER_ALL_ROWS;
+    p->rows = has >> LMB_TILE;
+    if (p[1].rows != 0 && p->rows != 0) {
+        memcpy(p[1].corner, p->corner, sizeof p->corner);
+        p[1].depth = p->depth;
+        enter_half(p, node, 1);
+        enter_half(p + 1, node, 0);
+        return parts + 1;
+    }
+    const int is_second = p->rows != 0;
+    if (!is_second) {
+        memcpy(p->light, p[1].light, sizeof p->light);
+        p->rows = p[1].rows;
+    }
+    enter_half(p, node, is_second);
+    return parts;
+}
+
+static int32_t sum_of(const lmb_transfer_part *p)
+{
+    int32_t sum = 0;
+    for (int y = 0; y < LMB_TILE; ++y) {
+        if ((p->rows >> y & 1u) == 0) {
+            continue;
+        }
+        for (int x = 0; x < LMB_TILE; ++x) {
+            sum += (int32_t)p->light[LMB_TILE * y + x];
+        }
+    }
+    return sum;
+}
+
+/* From the first of the parts, with its light. */
+static void collect_parts(const collection *c)
+{
+    const uint32_t *node = c->transfer->section[LMB_TRANSFER_PIECES];
+    for (int32_t parts = 1, visits = 0; parts > 0; ++visits) {
+        const lmb_transfer_part *p = &c->light->part[parts - 1];
+        const uint32_t word = node[p->at];
+        if ((word & LMB_TRANSFER_LEAF) != 0) {
+            add_light(c, word & ~LMB_TRANSFER_LEAF, sum_of(p));
+            --parts;
+        } else if (p->depth == LMB_TRANSFER_MAX_HALVINGS) {
+            --parts;
+        } else {
+            parts = halve(c, parts, word, visits < VISITS);
+        }
+    }
+}
+
+/* A triangle's functions by blocks of the tile at hand. */
+static void set_corners(float corner[3][3], const collection *c, const lmb_transfer_shown *s)
+{
+    const float cells = (float)c->cells;
+    /* The middle of the first block, in cells. */
+    const float in = 0.5f * (cells - 1.0f) + ((float)(c->step % 2 - 1) * 0.5f) / (float)c->step;
+    for (int k = 0; k < 3; ++k) {
+        const float *f = s->corner[k];
+        corner[k][0] = value(f, (float)c->first[0] * cells + in, (float)c->first[1] * cells + in);
+        corner[k][1] = f[1] * cells;
+        corner[k][2] = f[2] * cells;
+    }
+}
+
+static void collect_sharer(const collection *c, const lmb_transfer_sharer *from)
+{
+    lmb_transfer_part *p = c->light->part;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        p->light[k] = (float)(int32_t)(minf(from->share[k], 1.0f) * c->work->power[k]);
+    }
+    p->rows = from->rows;
+    p->at = from->root;
+    p->depth = 0;
+    memcpy(p->corner, from->corner, sizeof p->corner);
+    collect_parts(c);
+}
+
+/* --- shares of triangles ------------------------------------------------------------------------------------------ */
+
+static void collect_sharers(const collection *c)
+{
+    for (int32_t i = 0; i < c->work->sharers; ++i) {
+        collect_sharer(c, &c->work->sharer[i]);
+    }
+    c->work->sharers = 0;
+}
+
+/* Its place among the sharers, which are collected where there are too many; or NULL, where it has no elements. */
+static lmb_transfer_sharer *sharer_of(const collection *c, uint32_t id)
+{
+    lmb_transfer_collecting *w = c->work;
+    for (int32_t i = 0; i < w->sharers; ++i) {
+        if (w->sharer[i].id == id) {
+            return &w->sharer[i];
+        }
+    }
+    const lmb_transfer_shown *s = shown(c, id);
+    if (s == NULL || s->root == LMB_TRANSFER_NONE) {
+        return NULL;
+    }
+    if (w->sharers == LMB_TRANSFER_SHARERS) {
+        collect_sharers(c);
+    }
+    lmb_transfer_sharer *to = &w->sharer[w->sharers++];
+    memset(to, 0, sizeof *to);
+    to->id = id;
+    to->root = s->root;
+    set_corners(to->corner, c, s);
+    return to;
+}
+
+static void add_share(const collection *c, uint32_t id, int block, float share)
+{
+    if (share > 0.0f) {
+        lmb_transfer_sharer *to = sharer_of(c, id);
+        if (to != NULL) {
+            to->share[block] += share;
+            to->rows |= 1u << block / LMB_TILE;
+        }
+    }
+}
+
+/* --- ids of blocks ------------------------------------------------------------------------------------------------ */
+
+/* Eight ids beside each other, of which x is one. */
+static const uint8_t *ids_at(const collection *c, int32_t x, int32_t y)
+{
+    const lmb_fill_window *w = &c->ids;
+    const int32_t bytes = w->first.id_format == LMB_ID16 ? 2 : 4;
+    return (const uint8_t *)w->first.id + (ptrdiff_t)(y / LMB_TILE) * w->id_row +
+           (ptrdiff_t)(x / LMB_TILE) * w->id_tile + (ptrdiff_t)(y % LMB_TILE) * w->first.id_step * bytes;
+}
+
+/* A texel of a cell's row or column; beyond the face, of its last one. */
+static int32_t texel_of(const collection *c, int32_t cell)
+{
+    return maxi(mini(cell, c->size / c->step - 1), 0) * c->step + c->step / 2;
+}
+
+/* One of eight ids beside each other. */
+static uint32_t id_in(const collection *c, const uint8_t *eight, int32_t i)
+{
+    return c->ids.first.id_format == LMB_ID16 ? ((const uint16_t *)(const void *)eight)[i]
+                                              : ((const uint32_t *)(const void *)eight)[i];
+}
+
+/* What the middle of a block's cell shows. */
+static uint32_t cell_id(const collection *c, int32_t x, int32_t y, int32_t column, int32_t row)
+{
+    const int32_t at = texel_of(c, (c->first[0] + x) * c->cells + column);
+    return id_in(c, ids_at(c, at, texel_of(c, (c->first[1] + y) * c->cells + row)), at % LMB_TILE);
+}
+
+/* One more id, unless it is among them. */
+static void add_id(lmb_transfer_several *to, uint32_t id)
+{
+    int32_t i = 0;
+    while (i < mini(to->count, LMB_TRANSFER_SHARING) && to->id[i] != id) {
+        ++i;
+    }
+    if (i < to->count) {
+        return;
+    }
+    to->count = mini(i + 1, LMB_TRANSFER_SHARING + 1);
+    if (i < LMB_TRANSFER_SHARING) {
+        to->id[i] = id;
+    }
+}
+
+static lmb_transfer_several *several_of(const collection *c, int32_t x, int32_t y)
+{
+    return &c->work->several[(y + 1) % 3][x + 1];
+}
+
+static uint32_t *block_id(const collection *c, int32_t x, int32_t y) { return &c->work->block_id[y + 1][x + 1]; }
+
+/* Of a block in an eight of texels whose rows are at hand, from texel `in` of it; or of any, where `row` is NULL. */
+static void read_block(const collection *c, int32_t x, int32_t y, const uint8_t *const *row, ptrdiff_t at, int32_t in)
+{
+    lmb_transfer_several *to = several_of(c, x, y);
+    uint32_t last = LMB_TRANSFER_NONE;
+    to->count = 0;
+    for (int32_t i = 0; i < c->cells; ++i) {
+        for (int32_t k = 0; k < c->cells; ++k) {
+            const uint32_t id =
+                row != NULL ? id_in(c, row[i] + at, in + k * c->step + c->step / 2) : cell_id(c, x, y, k, i);
+            if (id != last) {
+                add_id(to, id);
+            }
+            last = id;
+        }
+    }
+    *block_id(c, x, y) = to->count == 1 ? to->id[0] : LMB_TRANSFER_NONE;
+}
+
+/* The id of all of an eight of texels, in `rows` rows; or LMB_TRANSFER_NONE, where there are others. */
+static uint32_t only_of(const uint8_t *const row[LMB_TRANSFER_CELLS], int32_t rows, ptrdiff_t at, int is_16)
+{
+    if (is_16) {
+        const uint16_t id = *(const uint16_t *)(const void *)(row[0] + at);
+        uint16_t other = 0;
+        for (int32_t y = 0; y < rows; ++y) {
+            const uint16_t *ids = (const uint16_t *)(const void *)(row[y] + at);
+            for (int k = 0; k < LMB_TILE; ++k) {
+                other |= (uint16_t)(ids[k] ^ id);
+            }
+        }
+        return other == 0 ? id : LMB_TRANSFER_NONE;
+    }
+    const uint32_t id = *(const uint32_t *)(const void *)(row[0] + at);
+    uint32_t other = 0;
+    for (int32_t y = 0; y < rows; ++y) {
+        const uint32_t *ids = (const uint32_t *)(const void *)(row[y] + at);
+        for (int k = 0; k < LMB_TILE; ++k) {
+            other |= ids[k] ^ id;
+        }
+    }
+    return other == 0 ? id : LMB_TRANSFER_NONE;
+}
+
+/* The blocks of an eight of texels, as far as they lie in the tile or beside it: together, where it has one id. */
+static void read_eight(const collection *c, int32_t first, int32_t y, const uint8_t *const row[LMB_TRANSFER_CELLS],
+                       ptrdiff_t at)
+{
+    const int32_t each = c->cells * c->step, blocks = LMB_TILE / each;
+    const uint32_t id = only_of(row, c->cells, at, c->ids.first.id_format == LMB_ID16);
+    for (int32_t k = maxi(-1 - first, 0); k < mini(LMB_TILE + 1 - first, blocks); ++k) {
+        if (id != LMB_TRANSFER_NONE) {
+            *block_id(c, first + k, y) = id;
+        } else {
+            read_block(c, first + k, y, row, at, k * each);
+        }
+    }
+}
+
+/* A row of the tile's blocks, or one beside it. */
+NOINLINE void read_row(const collection *c, int32_t y)
+{
+    const int32_t each = c->cells * c->step, blocks = LMB_TILE % each == 0 ? LMB_TILE / each : 1;
+    const uint8_t *row[LMB_TRANSFER_CELLS];
+    for (int32_t i = 0; i < c->cells; ++i) {
+        row[i] = ids_at(c, 0, texel_of(c, (c->first[1] + y) * c->cells + i));
+    }
+    for (int32_t x = -blocks; x <= LMB_TILE; x += blocks) {
+        const int32_t eight = (c->first[0] + x) * each / LMB_TILE;
+        if (LMB_TILE % each == 0 && c->first[0] + x >= 0 && eight < c->size / LMB_TILE) {
+            read_eight(c, x, y, row, (ptrdiff_t)eight * c->ids.id_tile);
+            continue;
+        }
+        for (int32_t k = maxi(x, -1); k < mini(x + blocks, LMB_TILE + 1); ++k) {
+            read_block(c, k, y, NULL, 0, 0);
+        }
+    }
+}
+
+/* Does all of a row of blocks show this one id? */
+static int is_row_of(const collection *c, int32_t y, uint32_t id)
+{
+    const uint32_t *own = block_id(c, -1, y);
+    uint32_t other = 0;
+    for (int k = 0; k < LMB_TILE + 2; ++k) {
+        other |= own[k] ^ id;
+    }
+    return other == 0 && id != LMB_TRANSFER_NONE;
+}
+
+/* --- shares of blocks --------------------------------------------------------------------------------------------- */
+
+/* Each cell to what its middle shows. */
+static void share_by_ids(const collection *c, int32_t x, int32_t y)
+{
+    const float each = 1.0f / (float)(c->cells * c->cells);
+    for (int32_t i = 0; i < c->cells; ++i) {
+        for (int32_t k = 0; k < c->cells; ++k) {
+            add_share(c, cell_id(c, x, y, k, i), LMB_TILE * y + x, each);
+        }
+    }
+}
+
+/* The triangles that a block and those around it show: one may reach into it in a tip that no middle shows. */
+static void block_shows(lmb_transfer_several *out, const collection *c, int32_t x, int32_t y)
+{
+    out->count = 0;
+    for (int32_t i = 0; i < 9 && out->count <= LMB_TRANSFER_SHARING; ++i) {
+        const int32_t at_x = x + i % 3 - 1, at_y = y + i / 3 - 1;
+        const uint32_t only = *block_id(c, at_x, at_y);
+        if (only != LMB_TRANSFER_NONE) {
+            add_id(out, only);
+            continue;
+        }
+        const lmb_transfer_several *s = several_of(c, at_x, at_y);
+        for (int32_t k = 0; k < mini(s->count, LMB_TRANSFER_SHARING); ++k) {
+            add_id(out, s->id[k]);
+        }
+        out->count = maxi(out->count, s->count);
+    }
+}
+
+/* Their outlines; most are those of the block before. Returns 0 where one has none. */
+static int find_outlines(const collection *c, const lmb_transfer_several *of)
+{
+    lmb_transfer_shown *outline = c->work->outline;
+    for (int32_t i = 0; i < of->count; ++i) {
+        if (outline[i].id == of->id[i]) {
+            continue;
+        }
+        const lmb_transfer_shown *s = shown(c, of->id[i]);
+        if (s == NULL) {
+            outline[i].id = 0;
+        } else if (s->has_outline) {
+            outline[i] = *s;
+        } else {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void share_by_outlines(const collection *c, int32_t x, int32_t y, const lmb_transfer_several *of)
+{
+    const int32_t cells = c->cells;
+    const float each = 1.0f / (float)(cells * cells);
+    const float at[2] = {(float)((c->first[0] + x) * cells), (float)((c->first[1] + y) * cells)};
+    float(*share)[LMB_TRANSFER_BLOCK_CELLS] = c->work->share, sum[LMB_TRANSFER_SHARING];
+    c->kernels->transfer_share(share, c->work->outline, of->count, at, cells);
+    for (int32_t i = 0; i < of->count; ++i) {
+        sum[i] = 0.0f;
+        for (int32_t k = 0; k < LMB_TRANSFER_CELLS * cells; k += LMB_TRANSFER_CELLS) {
+            for (int32_t column = 0; column < cells; ++column) {
+                sum[i] += share[i][k + column];
+            }
+        }
+    }
+    for (int32_t i = 0; i < of->count; ++i) {
+        add_share(c, of->id[i], LMB_TILE * y + x, sum[i] * each);
+    }
+}
+
+/* Do a block and those around it show one triangle? */
+static int is_of_one(const collection *c, int32_t x, int32_t y)
+{
+    const uint32_t id = *block_id(c, x, y);
+    uint32_t other = 0;
+    for (int32_t i = -1; i <= 1; ++i) {
+        const uint32_t *row = block_id(c, x - 1, y + i);
+        other |= (row[0] ^ id) | (row[1] ^ id) | (row[2] ^ id);
+    }
+    return other == 0 && id != LMB_TRANSFER_NONE;
+}
+
+static void share_block(const collection *c, int32_t x, int32_t y)
+{
+    lmb_transfer_several of;
+    if (is_of_one(c, x, y)) {
+        add_share(c, *block_id(c, x, y), LMB_TILE * y + x, 1.0f);
+        return;
+    }
+    block_shows(&of, c, x, y);
+    if (of.count > LMB_TRANSFER_SHARING || !find_outlines(c, &of)) {
+        share_by_ids(c, x, y);
+    } else {
+        share_by_outlines(c, x, y, &of);
+    }
+}
+
+static void share_row(const collection *c, int32_t y)
+{
+    for (int32_t x = 0; x < LMB_TILE; ++x) {
+        if (c->work->power[LMB_TILE * y + x] > 0.0f) {
+            share_block(c, x, y);
+        }
+    }
+}
+
+/* --- tiles of blocks ---------------------------------------------------------------------------------------------- */
+
+/* What goes through each block, in whole numbers' steps; 0 where it is none. */
+NOINLINE int read_powers(const collection *c)
+{
+    const int32_t columns = mini(c->blocks->size - c->first[0], LMB_TILE);
+    float *power = c->work->power, sx[LMB_TILE + 16];
+    int is_any = 0;
+    for (int32_t x = 0; x < LMB_TILE + 16; ++x) {
+        sx[x] = texel_sx(c->view, c->blocks->size, c->first[0] + mini(x, LMB_TILE - 1));
+    }
+    for (int32_t y = 0; y < LMB_TILE; ++y) {
+        lmb_texel_row row;
+        lmb_texel_row_of(&row, c->from, c->blocks, (int32_t)(c->face - c->blocks->face), c->first[1] + y);
+        c->kernels->texel_powers(power + LMB_TILE * y, sx, LMB_TILE, &row);
+    }
+    for (int32_t y = 0; y < LMB_TILE; ++y) {
+        for (int32_t x = c->first[1] + y < c->blocks->size ? columns : 0; x < LMB_TILE; ++x) {
+            power[LMB_TILE * y + x] = 0.0f;
+        }
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        power[k] = minf(power[k] * c->scale, WHOLE);
+        is_any |= power[k] >= 1.0f;
+    }
+    return is_any;
+}
+
+/* All blocks to one triangle. */
+static void share_all(const collection *c, uint32_t id)
+{
+    lmb_transfer_sharer *to = sharer_of(c, id);
+    for (int block = 0; block < LMB_TILE_PIXELS && to != NULL; ++block) {
+        to->share[block] = 1.0f;
+        to->rows = LMB_TRANSFER_ALL_ROWS;
+    }
+}
+
+/* Rows of blocks are shared when the one below is known; those of one triangle at the end, as all may be of it. */
+static void collect_tile(const collection *c)
+{
+    int is_one = 1;
+    if (!read_powers(c)) {
+        return;
+    }
+    for (int32_t y = -1, next = 0; y <= LMB_TILE; ++y) {
+        read_row(c, y);
+        is_one = is_one && is_row_of(c, y, *block_id(c, -1, -1));
+        for (; !is_one && next < y; ++next) {
+            share_row(c, next);
+        }
+    }
+    if (is_one) {
+        share_all(c, *block_id(c, -1, -1));
+    }
+    collect_sharers(c);
+}
+
+/* Cells of a block, each way. */
+static int32_t cells_of(int32_t each)
+{
+    int32_t cells = LMB_TRANSFER_CELLS;
+    while (each % cells != 0) {
+        --cells;
+    }
+    return cells;
+}
+
+lmb_status lmb_transfer_collect(const lmb_transfer_light *light, const lmb_kernels *kernels,
+                                lmb_transfer_scratch *scratch, const lmb_transfer *t, const lmb_scene *scene,
+                                const lmb_light *from, const lmb_shadow_map *map, int32_t face, int32_t each,
+                                int32_t first, int32_t past)
+{
+    if (!transfer_is_laid_out(light, t) || kernels == NULL || scratch == NULL || scene == NULL || from == NULL ||
+        map == NULL || each < 1 || (uint32_t)face >= (uint32_t)map->faces || map->size % each != 0 || first < 0 ||
+        past < first || past > map->size / each) {
+        return LMB_ERR_ARG;
+    }
+    lmb_shadow_map blocks = *map;
+    blocks.size = map->size / each;
+    const lmb_view *v = &map->view[face];
+    const int32_t cells = cells_of(each);
+    const float side_x = 2.0f * v->half_width / (float)blocks.size, side_y = 2.0f * v->half_height / (float)blocks.size;
+    collection c = {light,
+                    kernels,
+                    t,
+                    scene,
+                    from,
+                    &blocks,
+                    &blocks.face[face],
+                    v,
+                    lmb_target_window(&map->face[face], v),
+                    &scratch->collecting,
+                    map->size,
+                    cells,
+                    each / cells,
+                    WHOLE / (side_x * side_y),
+                    {0, 0}};
+    memset(c.work->shown, 0, sizeof c.work->shown);
+    memset(c.work->outline, 0, sizeof c.work->outline);
+    c.work->sharers = 0;
+    for (int32_t y = first; y < past; ++y) {
+        if (y % LMB_TILE != LMB_TILE - 1 && y != blocks.size - 1) {
+            continue;
+        }
+        c.first[1] = y / LMB_TILE * LMB_TILE;
+        for (c.first[0] = 0; c.first[0] < blocks.size; c.first[0] += LMB_TILE) {
+            collect_tile(&c);
+        }
+    }
+    memset(&scratch->met, 0, sizeof scratch->met);
+    return LMB_OK;
+}
+
+#endif
