@@ -10,6 +10,9 @@
 #if LMB_TREES
 
 #define MUCH  16             /* a triangle that blocks so many pixels is tested first for the next rays */
+#define FEW   7              /* up to so many pixels are traced alone, as in occluded.c */
+#define WIDE  8u             /* boxes a pixel after which a sweep is given up: each pixel alone meets fewer */
+#define ALONE 15u            /* directions after such a one in which pixels are traced alone at once */
 #define ALONG 9.5367432e-7f  /* 2^-20: cosine under which rays run along a triangle, and it blocks none */
 #define THIN  1e-20f
 #define TRIANGLE_NOISE 0x1p-21f /* of how far its corners are */
@@ -137,9 +140,11 @@ typedef struct sun_branch {
     uint32_t node, boxes;
 } sun_branch;
 
-static void sun_descend(sun_traversal *w)
+/* The pixels left, as one sweep. 0 where that takes over `limit` boxes: some may still be blocked. */
+static int sun_descend(sun_traversal *w, uint32_t limit)
 {
     const lmb_sun_sweep sweep = sweep_of(w);
+    const uint32_t before = w->kept->asked;
     sun_branch waiting[LMB_TRAVERSAL_LEVELS];
     int count = 1;
     waiting[0].node = 0;
@@ -150,6 +155,9 @@ static void sun_descend(sun_traversal *w)
         if (top->boxes == 0) {
             --count;
             continue;
+        }
+        if (++w->kept->asked - before > limit) {
+            return 0;
         }
         const int i = lowest_bit(top->boxes);
         top->boxes &= top->boxes - 1;
@@ -162,6 +170,29 @@ static void sun_descend(sun_traversal *w)
             ++count;
         }
     }
+    return 1;
+}
+
+/* Rays that fill a wide sweep, as from pixels that lie apart, meet most of its boxes one by one. */
+static void sun_trace(sun_traversal *w)
+{
+    const uint64_t pixels = w->left;
+    uint64_t open = 0;
+    if (count_bits_64(pixels) > FEW) {
+        if (w->kept->alone > 0) {
+            --w->kept->alone;
+        } else if (sun_descend(w, WIDE * (uint32_t)count_bits_64(pixels))) {
+            return;
+        } else {
+            w->kept->alone = ALONE;
+        }
+    }
+    for (uint64_t bits = w->left; bits != 0; bits &= bits - 1) {
+        w->left = bits & (~bits + 1);
+        (void)sun_descend(w, ~0u);
+        open |= w->left;
+    }
+    w->left = open;
 }
 
 uint64_t lmb_occluded_sun(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
@@ -174,7 +205,7 @@ uint64_t lmb_occluded_sun(const lmb_bvh *bvh, const lmb_kernels *kernels, const 
                   noise_of(tile, pixels), pixels};
     test_kept(&w);
     if (w.left != 0) {
-        sun_descend(&w);
+        sun_trace(&w);
     }
     return pixels & ~w.left;
 }
