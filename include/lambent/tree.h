@@ -58,6 +58,13 @@ typedef struct lmb_node_ref {
 
 enum { LMB_CUT_BUCKETS = 512 };
 
+/* The number of a node in a cut, or -1. */
+#if LMB_MAX_CUT < 32768
+typedef int16_t lmb_cut_slot;
+#else
+typedef int32_t lmb_cut_slot;
+#endif
+
 /* One tile's cut; one a thread. */
 typedef struct lmb_cut {
     int32_t count;                     /* nodes, with those that were split since */
@@ -65,9 +72,12 @@ typedef struct lmb_cut {
     lmb_node_ref ref[LMB_MAX_CUT];
     float value[LMB_MAX_CUT];          /* irradiance that it gives where it is seen, W/m2, R + G + B */
     float upper[LMB_MAX_CUT];          /* upper bound of that */
-    float error[LMB_MAX_CUT];          /* estimated error of taking it as one disc */
-    int32_t next[LMB_MAX_CUT];         /* the next node in its bucket */
-    int32_t bucket[LMB_CUT_BUCKETS];   /* the first node of each; buckets are sorted by exponent and first bit */
+    union {
+        float error[LMB_MAX_CUT];      /* of a node that a pixel sees: estimated error of taking it as one disc */
+        uint32_t blocker[LMB_MAX_CUT]; /* of one that none sees: a triangle that blocked one, + 1; 0: unknown */
+    } of;
+    lmb_cut_slot next[LMB_MAX_CUT];    /* the next node in its bucket */
+    lmb_cut_slot bucket[LMB_CUT_BUCKETS]; /* the first node of each; buckets are sorted by exponent and first bit */
     float bounds_of_nodes[23][LMB_BOUNDS_NODES]; /* nodes side by side; src/lightcut says what each plane holds */
     lmb_emitter emitter[LMB_CUT_BLOCK];
     union {
@@ -92,6 +102,8 @@ typedef struct lmb_cut_params {
     const lmb_irradiance *beside; /* or NULL: further light of the pixels, for `error` and `visibility`; may be the
                                      irradiance that is added to */
     float lower;                  /* light that every pixel has besides, W/m2, R + G + B */
+    int32_t spread;               /* 1: the pixels lie apart: what is all behind a pixel is not tested, and what one
+                                     triangle hides from all of them is not divided. It changes what is divided */
     lmb_glossy *glossy;           /* the tile's lobes, to which their reflection of the nodes is added; NULL: none */
 } lmb_cut_params;
 

@@ -22,6 +22,7 @@
 #define DARK       0.03  /* pixels that see less than this share of their unblocked light count as dark */
 #define BENT       0.98f /* agreement of normals under which it is tested which children face the pixels */
 #define HOLDS      100.0 /* factor over the allowed error that tells of nodes with pixels inside: fewer pixels help */
+#define WIDER      1.001f /* of a box against what lies in it, for rounding */
 #define CLOSER     0.7   /* a half that reduces the error to this share is worth its cut */
 enum { SIDE = 4 /* a near leaf is SIDE x SIDE parts to a lobe */ };
 enum { NONE = -1, GONE = 0xffff /* the level of a slot without a node */ };
@@ -151,7 +152,7 @@ static void wait(cutter *c, int32_t i)
     if (c->cut->ref[i].level > 0) {
         const int b = bucket_of(c->key[i]);
         c->cut->next[i] = c->cut->bucket[b];
-        c->cut->bucket[b] = i;
+        c->cut->bucket[b] = (lmb_cut_slot)i;
         c->highest = b > c->highest ? b : c->highest;
     }
 }
@@ -182,7 +183,7 @@ static double seen_value(const cutter *c, int32_t i)
  * values. */
 static double counted_error(const cutter *c, int32_t i)
 {
-    const double e = (double)c->cut->error[i];
+    const double e = (double)c->cut->of.error[i];
     return c->cut_params->conservative ? e : e * e;
 }
 
@@ -192,10 +193,13 @@ static double allowed_error(const cutter *c)
     return c->cut_params->conservative ? upper : maxd(upper * upper, c->floor * c->floor);
 }
 
+/* What no pixel sees gives no light, and so no error. */
 static void count_in(cutter *c, int32_t i, double sign)
 {
-    c->value += sign * seen_value(c, i);
-    c->error += sign * counted_error(c, i);
+    if (c->cut->visible[i] != 0) {
+        c->value += sign * seen_value(c, i);
+        c->error += sign * counted_error(c, i);
+    }
 }
 
 /* Node k of the bounded nodes into slot i. */
@@ -203,7 +207,7 @@ static void put(cutter *c, int32_t i, lmb_node_ref at, int k, uint64_t visible)
 {
     const lmb_node_bounds *w = bounds_of(c->cut);
     c->cut->ref[i] = at;
-    c->cut->error[i] = at.level > 0 ? w->error[k] : 0.0f;
+    c->cut->of.error[i] = at.level > 0 ? w->error[k] : 0.0f;
     c->cut->value[i] = w->value[k];
     c->cut->upper[i] = w->upper[k];
     c->cut->visible[i] = visible;
@@ -235,6 +239,20 @@ NOINLINE uint64_t turned_from(const cutter *c, uint64_t pixels, const lmb_texel 
         const float noise = ends + LMB_NOISE_TRIANGLE * length3(d);
         const int before = dot3(tile_vec(c->tile->face, k), d) > noise && -dot3(seen->normal, d) > noise;
         out |= (uint64_t)!before << k;
+    }
+    return out;
+}
+
+/* Of `pixels`, those that all of a node is behind. */
+static uint64_t before_all_of(const cutter *c, uint64_t pixels, lmb_node_ref at)
+{
+    lmb_node texel;
+    const lmb_node *n = pixels != 0 ? node_at(&texel, c->tree, at) : NULL;
+    uint64_t out = 0;
+    for (uint64_t bits = pixels; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        const float high = dot3(tile_vec(c->tile->face, k), sub3(n->middle, tile_vec(c->tile->position, k)));
+        out |= (uint64_t)(high + n->radius < 0.0f) << k;
     }
     return out;
 }
@@ -293,15 +311,21 @@ static float texel_noise(const cutter *c, uint32_t face, lmb_vec3 at)
     return lmb_place_noise(at, c->tree->element != NULL ? 0.0f : length3(sub3(at, c->tree->view[face].eye)));
 }
 
-/* Elements lie on both sides of walls; a light's texels are all on the side that it lights, and always tested. */
-static void test_visibility(cutter *c, int32_t i)
+/* The triangle that hid a node which no pixel sees, + 1; else 0. */
+static uint32_t blocker_of(const lmb_cut *cut, int32_t i) { return cut->visible[i] == 0 ? cut->of.blocker[i] : 0; }
+
+/* Elements lie on both sides of walls, so pixels behind them are left out; a light's texels are all on the side that it
+ * lights. Pixels that lie apart leave out what is behind them: to find their own surface there takes many boxes.
+ * blocker: is tested first, where not 0. */
+static void test_visibility(cutter *c, int32_t i, uint32_t blocker)
 {
     const lmb_node_ref at = c->cut->ref[i];
     const lmb_texel *seen = visibility_point(c, at);
     const float noise = c->noise + texel_noise(c, at.face, seen->position);
     count_in(c, i, -1.0);
-    if (c->tree->element != NULL && !all_before(c, seen, noise)) {
-        c->cut->visible[i] &= ~turned_from(c, c->cut->visible[i], seen, noise);
+    if ((c->tree->element != NULL || c->cut_params->spread) && !all_before(c, seen, noise)) {
+        const uint64_t turned = turned_from(c, c->cut->visible[i], seen, noise);
+        c->cut->visible[i] &= ~(c->tree->element != NULL ? turned : before_all_of(c, turned, at));
     }
     if (c->cut_params->stats != NULL) {
         c->cut_params->stats->segments += (uint64_t)count_bits_64(c->cut->visible[i]);
@@ -310,9 +334,14 @@ static void test_visibility(cutter *c, int32_t i)
     if ((asked & c->in_hull) != 0 && lmb_hull_holds(&c->cut_params->bvh->hull, seen->position)) {
         asked &= ~c->in_hull;
     }
+    c->cut->use.traversal.first = blocker;
+    c->cut->use.traversal.blocker = 0;
     c->cut->visible[i] &=
         ~lmb_occluded_tile(c->cut_params->bvh, c->kernels, c->tile, asked, seen->position, noise,
                           &c->cut->use.traversal);
+    if (c->cut->visible[i] == 0) {
+        c->cut->of.blocker[i] = c->cut->use.traversal.blocker;
+    }
     count_in(c, i, 1.0);
 }
 
@@ -357,6 +386,7 @@ static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
 {
     const lmb_node_ref from = c->cut->ref[i];
     const int first = parts_of(c, i);
+    const uint32_t blocker = blocker_of(c->cut, i);
     int32_t slot = i;
     count_in(c, i, -1.0);
     c->cut->ref[i].level = GONE;
@@ -365,7 +395,7 @@ static void divide(cutter *c, int32_t i, uint64_t visible, int asks)
             const int32_t to = slot >= 0 ? slot : c->cut->count++;
             put(c, to, part_at(from, k), first + k, visible);
             if (asks) {
-                test_visibility(c, to);
+                test_visibility(c, to, blocker);
             }
             wait(c, to);
             slot = NONE;
@@ -381,6 +411,26 @@ static double allowed_upper(const cutter *c, double lower)
     return maxd((double)c->cut_params->visibility * (c->beside + maxd(c->value, lower)), c->floor);
 }
 
+/* Does one triangle stand between all of the pixels and all of the node in slot i? By the corners of the node's box:
+ * then no part of it is seen, and it need not be divided to find that out. */
+static int is_dark(const cutter *c, int32_t i)
+{
+    const lmb_node_ref at = c->cut->ref[i];
+    lmb_vec3 corner[8];
+    if (blocker_of(c->cut, i) == 0 || at.level == 0) {
+        return 0;
+    }
+    const lmb_node *n = tree_node(c->tree, at);
+    const lmb_vec3 out = mul3(n->normal, n->half[0] * WIDER), across = mul3(n->across, n->half[1] * WIDER),
+                   up = mul3(cross3(n->normal, n->across), n->half[2] * WIDER);
+    for (int k = 0; k < 8; ++k) {
+        const lmb_vec3 side = k & 1 ? across : mul3(across, -1.0f), high = k & 2 ? up : mul3(up, -1.0f);
+        corner[k] = add3(add3(n->middle, add3(side, high)), k & 4 ? out : mul3(out, -1.0f));
+    }
+    return lmb_occluded_from(c->cut_params->bvh, c->kernels, c->tile, c->p->pixels, corner, 8,
+                             2.0f * (c->noise + texel_noise(c, at.face, n->middle)), blocker_of(c->cut, i));
+}
+
 /* Subdivide the node with the largest upper bound until no node exceeds the allowed bound. Returns 0, or, where the cut
  * is full, by what factor the largest exceeds it. */
 static double divide_by_upper(cutter *c, double lower, int asks)
@@ -388,7 +438,9 @@ static double divide_by_upper(cutter *c, double lower, int asks)
     int32_t i = largest(c);
     while (i != NONE && has_room(c) && (double)c->cut->upper[i] > allowed_upper(c, lower)) {
         c->cut->bucket[c->highest] = c->cut->next[i];
-        divide(c, i, c->p->pixels, asks);
+        if (!asks || !c->cut_params->spread || !is_dark(c, i)) {
+            divide(c, i, c->p->pixels, asks);
+        }
         i = largest(c);
     }
     return i != NONE && !has_room(c) ? (double)c->cut->upper[i] / maxd(allowed_upper(c, lower), 1e-30) : 0.0;
@@ -448,7 +500,7 @@ NOINLINE void begin(cutter *c)
 /* Put the visible nodes into buckets, to be split for their shape. */
 static void wait_by_error(cutter *c)
 {
-    empty_buckets(c, c->cut->error);
+    empty_buckets(c, c->cut->of.error);
     c->error = 0.0;
     for (int32_t i = 0; i < c->cut->count; ++i) {
         if (c->cut->ref[i].level != GONE && c->cut->visible[i] != 0) {
@@ -470,7 +522,7 @@ static double take_cut(cutter *c)
         const double lower = c->value * DARK;
         for (int32_t i = 0; i < c->cut->count; ++i) {
             if (c->cut->ref[i].level != GONE) {
-                test_visibility(c, i);
+                test_visibility(c, i, 0);
             }
         }
         over = divide_by_upper(c, lower, 1);
@@ -792,7 +844,7 @@ static double beside(const lmb_cut_params *cut_params, const lmb_pixel_cluster *
 }
 
 /* Half of some pixels: the first ones along the longer side of their cluster's box. */
-static uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
+NOINLINE uint64_t half_of(const lmb_pixel_cluster *p, const lmb_tile *tile)
 {
     const lmb_vec3 along = p->half[2] > p->half[1] ? p->axis[2] : p->axis[1];
     float at[LMB_TILE_PIXELS] = {0};
@@ -820,6 +872,7 @@ static int light_together(lmb_irradiance *inout, cutter *c, lmb_pixel_cluster *p
     const lmb_cut_params *cut_params = c->cut_params;
     c->p = p;
     memset(c->cut->use.traversal.last, 0, sizeof c->cut->use.traversal.last);
+    c->cut->use.traversal.first = 0;
     c->cut->use.traversal.asked = c->cut->use.traversal.alone = 0;
     c->noise = cut_params->bvh != NULL ? lmb_tile_noise(c->tile, p->pixels) : 0.0f;
     c->in_hull = cut_params->bvh != NULL ? lmb_hull_pixels(&cut_params->bvh->hull, c->tile, p->pixels) : 0;
