@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../common/io_file.h"
+#include "../common/progress.h"
 #include "../common/report.h"
 
 /* How accurately; errors are of light that all surfaces send alike. */
@@ -16,7 +17,7 @@ typedef struct bake_settings {
     float cluster_m;    /* triangles under twice this are lit by clusters of that size; 0: by the scene's area */
     float smallest_m;   /* no edge under it is halved; 0: by the scene's area */
     uint32_t elements;  /* a power of 4, up to LMB_TRANSFER_MAX_ELEMENTS */
-    uint32_t receivers; /* at most */
+    uint32_t receivers; /* at most; 0: 12,000 beside those at triangles' corners */
     int threads;
     int is_swapped;     /* the file is for the other byte order */
 } bake_settings;
@@ -61,6 +62,7 @@ typedef struct bake_target {
 /* A point that receives light. */
 typedef struct bake_receiver {
     lmb_vec3 place, at; /* `at` lies a little inside the triangle at whose corner `place` is */
+    float light; /* that comes to it: what bake_reach found that elements get, by its row; in a solid hardly any */
     bake_target target;
 } bake_receiver;
 
@@ -86,8 +88,6 @@ typedef struct bake {
     uint32_t small_count;
     int has_cluster_m; /* the settings say how large clusters are: they do not shrink until there are many */
     int by_middles; /* rows ask for elements' middles alone */
-    int is_watched; /* progress goes to a terminal */
-    double shown;   /* when it was, s; 0: never */
     int is_coded;   /* areas of targets were handed up */
 
     bake_element *element; /* set.elements; past element_count without area */
@@ -96,6 +96,7 @@ typedef struct bake {
     bake_receiver *receiver;
     uint32_t receiver_count, receiver_cap;
 
+    uint8_t *small_open; /* of each side of small triangles: which of bake_quarters light comes to; NULL: all */
     bake_words section[LMB_TRANSFER_SECTIONS];
     uint32_t leaves; /* of corners: those of receivers, which come first */
     bake_cluster *cluster;
@@ -136,6 +137,27 @@ int bake_order(bake *b, report *r);
  * like the insides of boxes, and parts of elements on which something stands. With neither nothing is left out. Then
  * the elements' areas are known. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r);
+
+/* bake_smalls: b->small_open, by the light of elements. bake_quarters: a triangle's middle, and places towards its
+ * corners. */
+int bake_smalls(bake *b, report *r);
+void bake_quarters(lmb_vec3 out[4], const lmb_vec3 corner[3]);
+
+/* The nearest of what was put in. */
+enum { BAKE_NEAREST = 64 };
+typedef struct bake_nearest {
+    lmb_vec3 at[BAKE_NEAREST];
+    float far2[BAKE_NEAREST]; /* squared distance, m2, rising */
+    int count, limit;
+} bake_nearest;
+
+static inline int bake_is_near(const bake_nearest *n, float far2)
+{
+    return n->count < n->limit || far2 < n->far2[n->count - 1];
+}
+
+/* bake_nearest_put: what bake_is_near. */
+void bake_nearest_put(bake_nearest *n, lmb_vec3 at, float far2);
 
 /* bake_rows: what arrives of each element at up to 64 points: form factor times the share that is seen.
  *   row   axes x count rows of set.elements. axes 1: on a plane of the normal; 3: along x, y, z, of what lies
@@ -183,6 +205,11 @@ float bake_surplus(const bake *b, const float *row);
 int bake_receivers(bake *b, report *r);
 int bake_clusters(bake *b, report *r);
 
+/* bake_directed: receivers of surfaces with a normal map or a lobe become clusters, after both.
+ * bake_cluster_rows: what arrives at clusters, along x, y and z; neighbours lie side by side. */
+int bake_directed(bake *b, report *r);
+int bake_cluster_rows(bake *b, bake_cluster *const *cluster, uint32_t all, report *r);
+
 /* bake_generations: few clusters far apart first, then more and more between them; in any order of theirs.
  * bake_parents: up to four of former generations, by which each one's row is nearly a sum of theirs; these come first. */
 void bake_generations(bake_cluster *c, uint32_t count, float cell);
@@ -208,10 +235,6 @@ uint32_t bake_key(const lmb_scene *scene, lmb_vec3 at, lmb_vec3 normal);
 
 /* bake_cell: the cell of a grid, `per` a metre, within +-1e9. */
 int32_t bake_cell(float at, float per);
-
-/* bake_tell: progress, in per cent of a step, a few times a second. bake_tell_end: its line is empty again. */
-void bake_tell(bake *b, const char *step, double share);
-void bake_tell_end(const bake *b);
 
 int bake_is_small(const bake *b, const lmb_vec3 corner[3]);
 

@@ -141,6 +141,7 @@ int bake_air(bake *b, report *r)
     }
     const uint32_t all = a.count[0] * a.count[1] * a.count[2];
     for (uint32_t i = 0; i < all && ok; i += TOGETHER) {
+        progress_tell("air", (double)i / (double)all);
         ok = add_places(&a, i, all - i < TOGETHER ? all : i + TOGETHER);
     }
     free(a.memory);

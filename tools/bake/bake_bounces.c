@@ -180,6 +180,7 @@ int bake_bounces(bake *b, report *r)
         qsort(runs, count, sizeof *runs, by_first);
     }
     for (uint32_t i = 0; i < count && ok; i += TOGETHER) {
+        progress_tell("bounces", (double)i / (double)count);
         const uint32_t some = count - i < TOGETHER ? count - i : TOGETHER;
         ok = look(row, b, runs + i, some, r);
         for (uint32_t k = 0; k < some && ok; ++k) {

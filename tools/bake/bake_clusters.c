@@ -109,29 +109,41 @@ static int keep_row(bake_target *t, const float *row, size_t words, report *r)
     return t->row != NULL || report_fail(r, "not enough memory for the light at clusters");
 }
 
-static int make_rows(clusters *c)
+int bake_cluster_rows(bake *b, bake_cluster *const *cluster, uint32_t all, report *r)
 {
-    bake *b = c->b;
     const uint32_t n = b->set.elements;
     float *memory = malloc(3 * BATCH * (size_t)n * sizeof *memory), *row[3 * BATCH];
     lmb_vec3 at[BATCH], normal[BATCH];
-    int ok = memory != NULL || report_fail(c->r, "not enough memory for %u elements", (unsigned)n);
-    for (uint32_t first = 0; ok && first < b->cluster_count; first += BATCH) {
-        bake_tell(b, "clusters", (double)first / (double)b->cluster_count);
-        const int count = (int)(b->cluster_count - first < BATCH ? b->cluster_count - first : BATCH);
+    int ok = memory != NULL || report_fail(r, "not enough memory for %u elements", (unsigned)n);
+    for (uint32_t first = 0; ok && first < all; first += BATCH) {
+        progress_tell("clusters", (double)first / (double)all);
+        const int count = (int)(all - first < BATCH ? all - first : BATCH);
         for (int k = 0; k < count; ++k) {
-            at[k] = b->cluster[first + (uint32_t)k].at;
-            normal[k] = b->cluster[first + (uint32_t)k].target.normal;
+            at[k] = cluster[first + (uint32_t)k]->at;
+            normal[k] = cluster[first + (uint32_t)k]->target.normal;
         }
         for (int k = 0; k < 3 * count; ++k) {
             row[k] = memory + (size_t)k * n;
         }
-        ok = bake_rows(b, at, normal, count, 3, row, NULL, c->r);
+        ok = bake_rows(b, at, normal, count, 3, row, NULL, r);
         for (int k = 0; k < count && ok; ++k) {
-            ok = keep_row(&b->cluster[first + (uint32_t)k].target, row[3 * k], 3 * (size_t)n, c->r);
+            ok = keep_row(&cluster[first + (uint32_t)k]->target, row[3 * k], 3 * (size_t)n, r);
         }
     }
     free(memory);
+    return ok;
+}
+
+static int make_rows(clusters *c)
+{
+    const uint32_t all = c->b->cluster_count;
+    bake_cluster **order = malloc(((size_t)all + 1) * sizeof *order);
+    int ok = order != NULL || report_fail(c->r, "not enough memory for %u clusters", (unsigned)all);
+    for (uint32_t i = 0; ok && i < all; ++i) {
+        order[i] = &c->b->cluster[i];
+    }
+    ok = ok && bake_cluster_rows(c->b, order, all, c->r);
+    free(order);
     return ok;
 }
 
@@ -180,7 +192,8 @@ static int put_blend(clusters *c, lmb_vec3 p, lmb_vec3 n, float area)
         const int32_t cell[3] = {middle[0] + i % 3 - 1, middle[1] + i / 3 % 3 - 1, middle[2] + i / 9 - 1};
         for (uint32_t k = c->slot[hash_of(cell) & c->mask]; k != 0; k = c->b->cluster[k - 1].next) {
             const bake_cluster *o = &c->b->cluster[k - 1];
-            const float far = length3(sub3(o->at, p)) / (REACH * c->b->set.cluster_m), cosine = dot3(o->target.normal, n);
+            const float far = length3(sub3(o->at, p)) / (REACH * c->b->set.cluster_m),
+                        cosine = dot3(o->target.normal, n);
             if (memcmp(o->cell, cell, sizeof cell) == 0 && far < 1.0f && cosine > BLEND) {
                 const float v = (1.0f - far) * (1.0f - far) * (cosine - BLEND) * (cosine - BLEND);
                 offer(best, k - 1, v * v);
@@ -227,11 +240,18 @@ static int visit(clusters *c, int (*each)(clusters *, const lmb_triangle *, lmb_
     return 1;
 }
 
+/* At a place that light comes to. Triangles without any take theirs from clusters around them. */
 static int cluster_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
 {
-    (void)id;
-    (void)back;
-    return add_cluster(c, triangle_middle(t->corner), normal);
+    const uint32_t open = c->b->small_open == NULL ? 1u : c->b->small_open[2 * (id - 1) + back];
+    lmb_vec3 place[4];
+    bake_quarters(place, t->corner);
+    for (int k = 0; k < 4; ++k) {
+        if ((open >> k & 1u) != 0) {
+            return add_cluster(c, place[k], normal);
+        }
+    }
+    return 1;
 }
 
 /* A leaf whose corners are blends of their own. */
@@ -245,7 +265,8 @@ static int bind_triangle(clusters *c, const lmb_triangle *t, lmb_vec3 normal, ui
     }
     for (int k = 0; k < 3; ++k) {
         const uint32_t blend = (uint32_t)(b->section[LMB_TRANSFER_BLENDS].count / LMB_TRANSFER_BLEND_WORDS);
-        if (!bake_put(corners, blend, c->r) || !put_blend(c, t->corner[k], normal, triangle_area(t->corner) * (1.0f / 3.0f))) {
+        if (!bake_put(corners, blend, c->r) ||
+            !put_blend(c, t->corner[k], normal, triangle_area(t->corner) * (1.0f / 3.0f))) {
             return 0;
         }
     }
@@ -261,6 +282,11 @@ int bake_clusters(bake *b, report *r)
         b->cluster_count = 0;
         memset(c.slot, 0, ((size_t)c.mask + 1) * sizeof *c.slot);
         ok = visit(&c, cluster_triangle);
+        if (ok && b->cluster_count == 0 && b->small_open != NULL) { /* none is open: then all are alike */
+            free(b->small_open);
+            b->small_open = NULL;
+            continue;
+        }
         if (b->has_cluster_m || b->cluster_count >= TARGET || b->cluster_count * SHARING > b->small_count ||
             b->set.cluster_m < b->set.smallest_m) {
             break;

@@ -15,6 +15,7 @@ typedef struct coder {
     size_t each;
     int axes;
     const uint32_t *order; /* of one generation */
+    uint32_t own;          /* that it has */
     bake_linker *linker[POOL_MAX];
     float *memory[POOL_MAX];
     uint8_t has_failed[POOL_MAX];
@@ -40,6 +41,9 @@ static void code_one(void *user, int index, int worker)
 {
     coder *c = user;
     const bake *b = c->b;
+    if (worker == 0) {
+        progress_tell("links", (double)index / (double)c->own);
+    }
     const uint32_t n = b->set.elements;
     bake_target *t = target_at(c, c->order[index]);
     float *row[3] = {c->memory[worker], c->memory[worker] + n, c->memory[worker] + 2 * (size_t)n};
@@ -104,6 +108,7 @@ static int code_all(coder *c, uint32_t *generation, uint32_t *order, uint32_t co
                 order[own++] = i;
             }
         }
+        c->own = own;
         pool_run(c->b->set.threads, (int)own, code_one, c);
         for (int k = 0; k < c->b->set.threads; ++k) {
             if (c->has_failed[k]) {
@@ -144,7 +149,6 @@ int bake_code(bake *b, bake_target *target, size_t each, uint32_t count, int axe
 
 int bake_code_all(bake *b, report *r)
 {
-    bake_tell(b, "links", 0.0);
     const int ok =
         (b->receiver_count == 0 ||
          bake_code(b, &b->receiver[0].target, sizeof *b->receiver, b->receiver_count, 1, r)) &&

@@ -10,6 +10,7 @@
 
 enum { MESH = 500 };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
+#define CLOSER  0.5f /* of that, where there are elements left for it */
 
 int bake_put(bake_words *w, uint32_t word, report *r)
 {
@@ -97,7 +98,7 @@ int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report
 typedef struct maker {
     bake *b;
     bake_sight sight;
-    float side;
+    float side, contact;
     uint32_t *slot; /* of small triangles' cells: an element's number + 1 */
     uint32_t mask;
     uint8_t *is_reached; /* a side of a triangle */
@@ -192,7 +193,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     }
     const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
     const int is_free = longest <= m->side && (is_small || bake_stands_free(&m->sight, m->b, corner, normal));
-    if (is_last || is_free || longest <= CONTACT * m->side) {
+    if (is_last || is_free || longest <= m->contact * m->side) {
         const uint32_t e = is_small ? small_element(m, corner, normal) : add_element(m, corner, normal);
         w->data[node] = LMB_TRANSFER_LEAF | e;
         m->b->element[e].is_stood_on = !is_free;
@@ -329,8 +330,14 @@ int bake_elements(bake *b, report *r)
              report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
     ok = ok && bake_sight_begin(&m.sight, r) && set_reached(&m, lmb_scene_triangles(b->scene));
     m.side = 0.5f * sqrtf(b->area / (float)b->set.elements);
+    m.contact = CONTACT;
     while (ok && (ok = make(&m)) != 0 && m.is_full) {
         m.side *= 1.1f;
+    }
+    m.contact = CLOSER * CONTACT; /* light leaks through a thin wall by the elements that it cuts */
+    if (ok && (ok = make(&m)) != 0 && m.is_full) {
+        m.contact = CONTACT;
+        ok = make(&m);
     }
     free(m.slot);
     free(m.is_reached);

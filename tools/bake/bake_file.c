@@ -124,5 +124,6 @@ void bake_free(bake *b)
     }
     free(b->receiver);
     free(b->element);
+    free(b->small_open);
     free(b->bvh_memory);
 }

@@ -7,9 +7,9 @@
 
 #include "../../src/base/vec.h"
 
-enum { BATCH = 64, PARTS = 64, WITNESSES = 64 };
+enum { BATCH = 64, PARTS = 64, WITNESSES = BAKE_NEAREST };
 #define BRIGHT 0.01f /* of the mean */
-#define OVER 0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
+#define OVER   0.05f /* of the smallest edge: parts of an element are looked at from so far over it */
 
 #define ALBEDO 0.5f  /* of all surfaces */
 #define DARK   1e-6f /* of the brightest element: less came through a crack */
@@ -105,7 +105,9 @@ static int spread(reach *w, const lmb_vec3 *eyes, uint32_t count)
             return 0;
         }
     }
-    for (int n = next_senders(w, chosen); n > 0; n = next_senders(w, chosen)) {
+    uint32_t done = 0;
+    for (int n = next_senders(w, chosen); n > 0; n = next_senders(w, chosen), done += (uint32_t)n) {
+        progress_tell("surfaces", (double)done / (double)w->b->element_count);
         for (int k = 0; k < n; ++k) {
             const bake_element *e = &w->b->element[chosen[k]];
             at[k] = e->middle;
@@ -133,42 +135,33 @@ static int is_side_reached(const reach *w, uint32_t root)
 
 /* --- elements on which something stands --------------------------------------------------------------------------- */
 
-/* The nearest reached elements that it faces, and that face it. Returns how many. */
-static int witnesses_of(lmb_vec3 out[WITNESSES], const reach *w, const bake_element *e)
+/* The nearest reached elements that it faces, and that face it. */
+static void find_witnesses(bake_nearest *out, const reach *w, const bake_element *e)
 {
-    float far[WITNESSES];
-    int found = 0;
+    out->count = 0;
+    out->limit = WITNESSES;
     for (uint32_t i = 0; i < w->b->element_count; ++i) {
         const bake_element *o = &w->b->element[i];
         const lmb_vec3 d = sub3(o->middle, e->middle);
         const float d2 = dot3(d, d);
-        if (!w->has_sent[i] || o->is_stood_on || dot3(d, e->normal) < 0.1f * sqrtf(d2) || dot3(d, o->normal) > 0.0f ||
-            (found == WITNESSES && d2 >= far[found - 1])) {
-            continue;
+        if (w->has_sent[i] && !o->is_stood_on && dot3(d, e->normal) >= 0.1f * sqrtf(d2) && dot3(d, o->normal) <= 0.0f &&
+            bake_is_near(out, d2)) {
+            bake_nearest_put(out, o->middle, d2);
         }
-        found += found < WITNESSES;
-        int at = found - 1;
-        for (; at > 0 && far[at - 1] > d2; --at) {
-            far[at] = far[at - 1];
-            out[at] = out[at - 1];
-        }
-        far[at] = d2;
-        out[at] = o->middle;
     }
-    return found;
 }
 
 /* The middles of its 64 parts, and places just over them. */
 static void set_parts(const bake *b, const bake_element *e, lmb_vec3 at[PARTS], lmb_tile *tile)
 {
-    const lmb_vec3 u = mul3(sub3(e->corner[1], e->corner[0]), 0.125f), v = mul3(sub3(e->corner[2], e->corner[0]), 0.125f);
+    const lmb_vec3 u = mul3(sub3(e->corner[1], e->corner[0]), 0.125f),
+                   v = mul3(sub3(e->corner[2], e->corner[0]), 0.125f);
     const lmb_vec3 up = mul3(e->normal, OVER * b->set.smallest_m);
     int count = 0;
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 15 - 2 * y; ++x) {
             const float third = x % 2 == 0 ? 1.0f / 3.0f : 2.0f / 3.0f;
-            const lmb_vec3 p =
-                add3(e->corner[0], add3(mul3(u, (float)(x / 2) + third), mul3(v, (float)y + third)));
+            const lmb_vec3 p = add3(e->corner[0], add3(mul3(u, (float)(x / 2) + third), mul3(v, (float)y + third)));
             at[count] = p;
             tile->position[0][count] = p.x + up.x;
             tile->position[1][count] = p.y + up.y;
@@ -183,14 +176,15 @@ static void set_parts(const bake *b, const bake_element *e, lmb_vec3 at[PARTS], 
 /* Parts are open that see some surface that light came to. */
 static void open_element(const reach *w, bake_element *e, lmb_tile *tile, lmb_traversal *traversal)
 {
-    lmb_vec3 witness[WITNESSES], at[PARTS], sum = vec3(0.0f, 0.0f, 0.0f);
+    bake_nearest witness;
+    lmb_vec3 at[PARTS], sum = vec3(0.0f, 0.0f, 0.0f);
     uint64_t hidden = ~(uint64_t)0;
-    const int count = witnesses_of(witness, w, e);
+    find_witnesses(&witness, w, e);
     set_parts(w->b, e, at, tile);
     const float noise = lmb_tile_noise(tile, hidden);
-    for (int k = 0; k < count && hidden != 0; ++k) {
-        hidden &= lmb_occluded_tile(&w->b->bvh, w->b->kernels, tile, hidden, witness[k],
-                                    noise + lmb_place_noise(witness[k], 0.0f), traversal);
+    for (int k = 0; k < witness.count && hidden != 0; ++k) {
+        hidden &= lmb_occluded_tile(&w->b->bvh, w->b->kernels, tile, hidden, witness.at[k],
+                                    noise + lmb_place_noise(witness.at[k], 0.0f), traversal);
     }
     const int open = PARTS - count_bits_64(hidden);
     for (uint64_t bits = ~hidden; bits != 0; bits &= bits - 1) {
@@ -255,9 +249,11 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
     b->by_middles = 1; /* what lies half in a solid must not lead into it */
     ok = ok && spread(&w, eyes, count);
     b->by_middles = 0;
-    ok = ok && open_elements(&w);
+    ok = ok && open_elements(&w) && bake_smalls(b, r);
     for (size_t i = 0; ok && i < surfaces->count; ++i) {
-        if (i % LMB_TRANSFER_SURFACE_WORDS < 2 && surfaces->data[i] != LMB_TRANSFER_NONE &&
+        const size_t back = i % LMB_TRANSFER_SURFACE_WORDS;
+        if (back < 2 && surfaces->data[i] != LMB_TRANSFER_NONE &&
+            b->small_open[2 * (i / LMB_TRANSFER_SURFACE_WORDS) + back] == 0 &&
             !is_side_reached(&w, surfaces->data[i])) {
             surfaces->data[i] = LMB_TRANSFER_NONE;
         }
@@ -275,5 +271,6 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
 /* Once to leave out whole sides; then all elements lie on the others. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r)
 {
-    return bake_elements(b, r) && find_reached(b, eyes, count, r) && bake_elements(b, r) && find_reached(b, eyes, count, r);
+    return bake_elements(b, r) && find_reached(b, eyes, count, r) && bake_elements(b, r) &&
+           find_reached(b, eyes, count, r);
 }

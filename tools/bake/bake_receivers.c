@@ -9,8 +9,10 @@
 #include "bake_triangle.h"
 #include "../../src/raster/triangle.h"
 
-enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64 };
+enum { BATCH = 64, DEPTH = 24, SEARCH = 6, ROUND = 64, PLACES = 4, DIVIDING = 12000 };
 #define DIM    0.25f /* of the mean light: where less comes, errors count less */
+#define BURIED 2.0f /* times as much light comes to a place within a leaf as to its corners: these lie in something */
+#define WAIT   0.1f  /* of the worst error: what is off by less waits, as receivers may run out */
 #define STANDS 0.1f /* surplus of a triangle on which something stands: what its corners differ by says nothing */
 
 /* A triangle of the division. */
@@ -21,7 +23,8 @@ typedef struct piece {
     int from, depth;
     int must_split; /* something stands on it */
     float surplus, error;
-    float light; /* the most that comes to an element of its root */
+    uint32_t source; /* node among pieces of which it is part, or the same: both are halved alike */
+    float light;     /* the most that comes to an element there */
 } piece;
 
 typedef struct pieces {
@@ -41,7 +44,7 @@ typedef struct wanted {
 
 typedef struct divider {
     bake *b;
-    pieces now, waiting; /* to be looked at; with their errors */
+    pieces now, waiting, leaves; /* to be looked at; with their errors; done */
     wanted *queue;
     size_t queued, queue_cap;
     uint32_t *slot; /* of places: receiver + 1 */
@@ -165,17 +168,6 @@ static uint32_t receiver_at(divider *d, lmb_vec3 at, lmb_vec3 normal, lmb_vec3 t
 
 /* --- what stands on a triangle ------------------------------------------------------------------------------------ */
 
-/* Light that comes to a receiver, by what bake_reach found: in a solid hardly any. */
-static float openness(const bake *b, uint32_t receiver)
-{
-    const uint16_t *row = b->receiver[receiver].target.row;
-    float sum = 0.0f;
-    for (uint32_t i = 0; row != NULL && i < b->set.elements; ++i) {
-        sum += bake_long(row[i]) * b->element[i].light;
-    }
-    return sum;
-}
-
 /* A corner that does not see the leaf's anchor is lit as the last place on the way that does. */
 static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t parent)
 {
@@ -198,22 +190,31 @@ static int mend_corner(divider *d, piece *p, int k, lmb_vec3 anchor, uint32_t pa
     return p->receiver[k] != LMB_TRANSFER_NONE;
 }
 
-/* The anchor is the leaf's middle, or, where that lies in something that stands there, the corner that sees highest. */
-static int mend_corners(divider *d, piece *p)
+/* The leaf's middle, or, where that lies in something that stands there, the corner to which most light comes. Where
+ * much more comes to a place within the leaf all corners are buried, and it is that place. */
+static int mend_corners(divider *d, piece *p, const float light[PLACES])
 {
-    const lmb_vec3 middle = triangle_middle(p->corner);
+    lmb_vec3 place[PLACES];
     float highest = -1.0f;
-    int best = 0;
+    int best = 0, open = 0;
+    bake_quarters(place, p->corner);
     for (int k = 0; k < 3; ++k) {
-        const float own = openness(d->b, p->receiver[k]);
+        const float own = d->b->receiver[p->receiver[k]].light;
         best = own > highest ? k : best;
         highest = maxf(highest, own);
     }
+    for (int k = 1; k < PLACES; ++k) {
+        open = light[k] > light[open] ? k : open;
+    }
     const uint32_t parent = p->receiver[best];
     const lmb_vec3 corner = d->b->receiver[parent].at;
-    const lmb_vec3 anchor = bake_sees(&d->sight, d->b, middle, corner, p->normal) ? middle : corner;
+    const int is_buried = light[open] > BURIED * highest;
+    lmb_vec3 anchor = place[open];
+    if (!is_buried) {
+        anchor = bake_sees(&d->sight, d->b, place[0], corner, p->normal) ? place[0] : corner;
+    }
     for (int k = 0; k < 3; ++k) {
-        if (k != best && !mend_corner(d, p, k, anchor, parent)) {
+        if ((is_buried || k != best) && !mend_corner(d, p, k, anchor, parent)) {
             return 0;
         }
     }
@@ -240,8 +241,13 @@ static void settle(void *user, int index, int worker)
     float *row = k->row[index];
     const int parents = w->parent[0] == LMB_TRANSFER_NONE ? 0 : w->parent[2] == LMB_TRANSFER_NONE ? 2 : 3;
     (void)worker;
-    for (uint32_t i = 0; w->receiver != LMB_TRANSFER_NONE && i < n; ++i) {
-        b->receiver[w->receiver].target.row[i] = bake_short(row[i]);
+    if (w->receiver != LMB_TRANSFER_NONE) {
+        bake_receiver *v = &b->receiver[w->receiver];
+        v->light = 0.0f;
+        for (uint32_t i = 0; i < n; ++i) {
+            v->target.row[i] = bake_short(row[i]);
+            v->light += row[i] * b->element[i].light;
+        }
     }
     for (int p = 0; p < parents && w->piece != (size_t)-1; ++p) {
         const uint16_t *from = b->receiver[w->parent[p]].target.row;
@@ -361,19 +367,125 @@ static int look_at(divider *d, size_t i)
     return p->mid != LMB_TRANSFER_NONE && enqueue(d, &w);
 }
 
-static int put_leaf(divider *d, piece *p)
+/* A leaf's place in the file; its corners are mended when all are there. */
+static int put_leaf(divider *d, const piece *p)
 {
-    bake_words *corners = &d->b->section[LMB_TRANSFER_CORNERS];
-    d->b->section[LMB_TRANSFER_DIVISIONS].data[p->node] =
-        LMB_TRANSFER_LEAF | (uint32_t)(corners->count / LMB_TRANSFER_CORNER_WORDS);
-    if (!mend_corners(d, p)) {
+    d->b->section[LMB_TRANSFER_DIVISIONS].data[p->node] = LMB_TRANSFER_LEAF | (uint32_t)d->leaves.count;
+    return add_piece(&d->leaves, p, d->r);
+}
+
+/* How much light comes to places within leaves. */
+static int light_places(divider *d, const uint32_t *leaf, int count, float light[BATCH], float *memory)
+{
+    const uint32_t n = d->b->set.elements;
+    lmb_vec3 at[BATCH], normal[BATCH];
+    float *row[BATCH], *times = memory + BATCH * (size_t)n;
+    for (int i = 0; i < PLACES * count; ++i) {
+        row[i] = memory + (size_t)i * n;
+        normal[i] = d->leaves.data[leaf[i / PLACES]].normal;
+        if (i % PLACES == 0) {
+            bake_quarters(at + i, d->leaves.data[leaf[i / PLACES]].corner);
+        }
+    }
+    if (!bake_rows(d->b, at, normal, PLACES * count, 1, row, times, d->r)) {
         return 0;
     }
-    for (int k = 0; k < 3; ++k) {
-        d->b->receiver[p->receiver[k]].target.support += triangle_area(p->corner) * (1.0f / 3.0f);
+    for (int i = 0; i < PLACES * count; ++i) {
+        light[i] = 0.0f;
+        for (uint32_t e = 0; e < n; ++e) {
+            light[i] += row[i][e] * times[e] * d->b->element[e].light;
+        }
     }
-    return bake_put(corners, p->receiver[0], d->r) && bake_put(corners, p->receiver[1], d->r) &&
-           bake_put(corners, p->receiver[2], d->r);
+    return 1;
+}
+
+/* At most BATCH / PLACES leaves. */
+static int mend_some(divider *d, const uint32_t *leaf, int count, float *memory)
+{
+    float light[BATCH];
+    if (count > 0 && !light_places(d, leaf, count, light, memory)) {
+        return 0;
+    }
+    for (int i = 0; i < count; ++i) {
+        if (!mend_corners(d, &d->leaves.data[leaf[i]], light + PLACES * i)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* From its middle, as a leaf would be mended: corners lie where the first triangle at them had them. */
+static int sees_corners(divider *d, const piece *p)
+{
+    const lmb_vec3 middle = triangle_middle(p->corner);
+    for (int k = 0; k < 3; ++k) {
+        if (!bake_sees(&d->sight, d->b, middle, d->b->receiver[p->receiver[k]].at, p->normal)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Leaves on which something stands. */
+static int mend_leaves(divider *d)
+{
+    float *memory = malloc((BATCH + 1) * (size_t)d->b->set.elements * sizeof *memory);
+    uint32_t leaf[BATCH / PLACES];
+    int count = 0, ok = memory != NULL || report_fail(d->r, "not enough memory for %u elements",
+                                                      (unsigned)d->b->set.elements);
+    for (uint32_t i = 0; ok && i < d->leaves.count; ++i) {
+        const piece *p = &d->leaves.data[i];
+        leaf[count] = i;
+        count += !sees_corners(d, p);
+        if (count == BATCH / PLACES) {
+            ok = mend_some(d, leaf, count, memory);
+            count = 0;
+        }
+    }
+    ok = ok && mend_some(d, leaf, count, memory);
+    free(memory);
+    return ok;
+}
+
+/* Into the file. */
+static int put_leaves(divider *d)
+{
+    for (size_t i = 0; i < d->leaves.count; ++i) {
+        const piece *p = &d->leaves.data[i];
+        for (int k = 0; k < 3; ++k) {
+            d->b->receiver[p->receiver[k]].target.support += triangle_area(p->corner) * (1.0f / 3.0f);
+            if (!bake_put(&d->b->section[LMB_TRANSFER_CORNERS], p->receiver[k], d->r)) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* The most light that comes to an element below a node of the pieces. */
+static float brightest(const bake *b, uint32_t node)
+{
+    const uint32_t word = b->section[LMB_TRANSFER_PIECES].data[node];
+    if (word & LMB_TRANSFER_LEAF) {
+        return b->element[word & ~LMB_TRANSFER_LEAF].light;
+    }
+    const uint32_t first = word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+    return maxf(brightest(b, first), brightest(b, first + 1));
+}
+
+/* The half's own part of the elements. One on which something stands has its middle in that, it may be: then what comes
+ * there says nothing. */
+static void enter_source(const bake *b, piece *half, uint32_t h)
+{
+    const uint32_t *node = b->section[LMB_TRANSFER_PIECES].data, word = node[half->source];
+    if (word & LMB_TRANSFER_LEAF) {
+        return;
+    }
+    half->source = (word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u)) + h;
+    const uint32_t own = node[half->source];
+    if ((own & LMB_TRANSFER_LEAF) == 0 || !b->element[own & ~LMB_TRANSFER_LEAF].is_stood_on) {
+        half->light = brightest(b, half->source);
+    }
 }
 
 /* Into halves, which are looked at next; `last`: they are leaves. */
@@ -394,6 +506,7 @@ static int split(divider *d, const piece *p, int last)
         half.receiver[k] = p->mid;
         half.node = first + h;
         ++half.depth;
+        enter_source(d->b, &half, h);
         if (!(last ? put_leaf(d, &half) : add_piece(&d->now, &half, d->r))) {
             return 0;
         }
@@ -401,8 +514,8 @@ static int split(divider *d, const piece *p, int last)
     return 1;
 }
 
-/* Squared errors add up by area. They count less on sides to which little light comes: into a solid, through a crack,
- * it may be. */
+/* Squared errors add up by area. They count less where little light comes to the elements: into a solid, through
+ * a crack, it may be. */
 static float error_of(const divider *d, const piece *p)
 {
     const float share = triangle_area(p->corner) / d->b->area * 1000.0f;
@@ -452,9 +565,10 @@ static int halve_worst(divider *d)
     const float enough = d->b->set.division * d->b->set.division;
     const size_t limit = d->waiting.count / 4 + ROUND;
     sort(d->waiting.data, d->waiting.count, sizeof *d->waiting.data, by_error);
+    const float worst = d->waiting.count > 0 ? d->waiting.data[d->waiting.count - 1].error : 0.0f;
     for (size_t i = 0; i < limit && d->waiting.count > 0 && d->b->receiver_count < d->b->set.receivers; ++i) {
         const piece p = d->waiting.data[d->waiting.count - 1];
-        if (p.error <= enough) {
+        if (p.error <= maxf(enough, WAIT * worst)) {
             break;
         }
         --d->waiting.count;
@@ -467,17 +581,6 @@ static int halve_worst(divider *d)
 
 /* --- roots -------------------------------------------------------------------------------------------------------- */
 
-/* The most light that comes to an element below a node of the pieces. */
-static float brightest(const bake *b, uint32_t node)
-{
-    const uint32_t word = b->section[LMB_TRANSFER_PIECES].data[node];
-    if (word & LMB_TRANSFER_LEAF) {
-        return b->element[word & ~LMB_TRANSFER_LEAF].light;
-    }
-    const uint32_t first = word & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
-    return maxf(brightest(b, first), brightest(b, first + 1));
-}
-
 static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t id, uint32_t back)
 {
     bake_words *divisions = &d->b->section[LMB_TRANSFER_DIVISIONS];
@@ -486,7 +589,8 @@ static int add_root(divider *d, const lmb_triangle *t, lmb_vec3 normal, uint32_t
     memcpy(p.corner, t->corner, sizeof p.corner);
     p.normal = mul3(normal, back ? -1.0f : 1.0f);
     p.node = (uint32_t)divisions->count;
-    p.light = brightest(d->b, d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + back]);
+    p.source = d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + back];
+    p.light = brightest(d->b, p.source);
     d->b->section[LMB_TRANSFER_SURFACES].data[4 * (id - 1) + 2 + back] = p.node;
     for (int k = 0; k < 3; ++k) {
         p.receiver[k] =
@@ -520,6 +624,9 @@ static int add_roots(divider *d)
     for (size_t i = 0; i < d->queued; ++i) {
         d->queue[i].piece = (size_t)-1;
     }
+    if (b->set.receivers == 0) {
+        d->b->set.receivers = b->receiver_count + DIVIDING;
+    }
     if (b->receiver_count > b->set.receivers) {
         return report_fail(d->r, "%u receivers are wanted before any division, and --receivers allows %u; raise it, or "
                            "light more triangles by clusters with a larger --cluster",
@@ -550,18 +657,19 @@ int bake_receivers(bake *b, report *r)
     int ok = d.slot != NULL || report_fail(r, "not enough memory for receivers");
     ok = ok && bake_sight_begin(&d.sight, r) && add_roots(&d);
     while (ok && d.now.count > 0) {
-        bake_tell(b, "receivers", (double)minf((float)b->receiver_count / (float)b->set.receivers, 1.0f));
+        progress_tell("receivers", (double)minf((float)b->receiver_count / (float)b->set.receivers, 1.0f));
         ok = look_at_all(&d) && halve_worst(&d);
     }
     for (size_t i = 0; ok && i < d.waiting.count; ++i) { /* their middles are there: they serve too */
         ok = split(&d, &d.waiting.data[i], 1);
     }
-    ok = ok && make_rows(&d);
+    ok = ok && make_rows(&d) && mend_leaves(&d) && put_leaves(&d) && make_rows(&d);
     free(d.slot);
     bake_sight_end(&d.sight);
     b->leaves = (uint32_t)(b->section[LMB_TRANSFER_CORNERS].count / LMB_TRANSFER_CORNER_WORDS);
     free(d.queue);
     free(d.now.data);
     free(d.waiting.data);
+    free(d.leaves.data);
     return ok;
 }

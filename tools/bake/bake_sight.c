@@ -1,4 +1,4 @@
-/* bake_sight.c: what stands on a triangle: do its corners see its middle, just over its plane? */
+/* bake_sight.c: what stands on a triangle: do its corners see its middle, just over its plane? And what lies near. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -47,4 +47,16 @@ int bake_stands_free(bake_sight *s, const bake *b, const lmb_vec3 corner[3], lmb
     return bake_sees(s, b, middle, bake_pulled(b, corner[0], middle), normal) &&
            bake_sees(s, b, middle, bake_pulled(b, corner[1], middle), normal) &&
            bake_sees(s, b, middle, bake_pulled(b, corner[2], middle), normal);
+}
+
+void bake_nearest_put(bake_nearest *n, lmb_vec3 at, float far2)
+{
+    n->count += n->count < n->limit;
+    int k = n->count - 1;
+    for (; k > 0 && n->far2[k - 1] > far2; --k) {
+        n->far2[k] = n->far2[k - 1];
+        n->at[k] = n->at[k - 1];
+    }
+    n->far2[k] = far2;
+    n->at[k] = at;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/progress.h"
 #include "bench_breakdown.h"
 #include "bench_breakdowns.h"
 
@@ -79,7 +80,7 @@ static int follow(chain *c, bench_breakdown *l, sweep *s, int point, image *fine
     for (int i = 0; i < subject->exact_count && ok; ++i) {
         const bench_exact *e = &subject->exact[i];
         const int is_exact = e->by != NULL && !names(&line, e->by);
-        bench_progress(s, words[0] != '\0' ? words : "default");
+        progress_whole(words[0] != '\0' ? words : "default", s->done / s->all);
         s->done += (double)DRAWN_WEIGHT / s->o->breakdown;
         ok = bench_line_add(&line, e->words) || report_fail(r, "too many options");
         const float *to = is_exact ? NULL : lead(c, s, &line, i, finest);

@@ -57,7 +57,7 @@ static const option_row sweep_rows[] = {
     {.name = "--runs", .value = "N", .kind = OPTION_INT, AT(runs), .low = 1, .high = 1000,
      .help = "runs of a setting, of which the least time counts, stage by stage (default 3, after one that warms up; "
              "no further one once 3 s have passed)"},
-    {.name = "--truth", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(truth),
+    {.name = "--truth", .value = "FILE.pfm", .kind = OPTION_TEXT, AT(truth), .file = OPTION_READS,
      .help = "errors against this picture (default: against its own most exact settings)"},
     {.kind = OPTION_END},
 };
@@ -80,12 +80,12 @@ static const option_row output_rows[] = {
     {.name = "-o", .value = "NAME", .kind = OPTION_OWN, .parse = parse_out,
      .expects = "a name that .html, .csv and .json are put behind",
      .help = "NAME.html, NAME.csv and NAME.json"},
-    {.name = "--html", .value = "FILE", .kind = OPTION_TEXT, AT(html),
+    {.name = "--html", .value = "FILE", .kind = OPTION_TEXT, AT(html), .file = OPTION_WRITES,
      .help = "needs nothing else: the front of speed against error with its knee, what each option costs and buys, "
              "pictures and heat maps, memory, and the command line of each setting"},
-    {.name = "--csv", .value = "FILE", .kind = OPTION_TEXT, AT(csv), .help = "a line a setting"},
-    {.name = "--json", .value = "FILE", .kind = OPTION_TEXT, AT(json), .help = "all figures"},
-    {.name = "--svg", .value = "FILE", .kind = OPTION_TEXT, AT(svg), .help = "the front alone"},
+    {.name = "--csv", .value = "FILE", .kind = OPTION_TEXT, AT(csv), .file = OPTION_WRITES, .help = "a line a setting"},
+    {.name = "--json", .value = "FILE", .kind = OPTION_TEXT, AT(json), .file = OPTION_WRITES, .help = "all figures"},
+    {.name = "--svg", .value = "FILE", .kind = OPTION_TEXT, AT(svg), .file = OPTION_WRITES, .help = "the front alone"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no table and no progress"},
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, AT(is_verbose),
      .help = "say each setting's command before it is measured"},

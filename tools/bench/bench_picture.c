@@ -39,7 +39,7 @@ void bench_picture_of(bench_picture *out, const image *linear, float exposure_ev
     image small;
     memset(out, 0, sizeof *out);
     if (shrink(&small, linear, square_side(linear->width, linear->height))) {
-        out->rgb = picture_codes(&small, exposure_ev);
+        out->rgb = picture_codes(&small, exposure_ev, PICTURE_CLIPPED);
         out->width = small.width;
         out->height = small.height;
     }

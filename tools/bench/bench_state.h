@@ -20,7 +20,4 @@ typedef struct sweep {
 /* sweep_line: the words of a setting, behind what was given. */
 int sweep_line(bench_line *out, const sweep *s, const char *words, report *r);
 
-/* bench_progress: the line about how far it is, where someone watches; NULL: wipe it. */
-void bench_progress(const sweep *s, const char *what);
-
 #endif

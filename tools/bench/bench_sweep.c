@@ -9,6 +9,7 @@
 #include <lambent/lambent.h>
 
 #include "../../platform/host/host.h"
+#include "../common/progress.h"
 #include "../../platform/host/pool.h"
 #include "../picture/metrics.h"
 #include "../picture/picture.h"
@@ -79,8 +80,8 @@ static void take_times(bench_point *p, const bench_shot *shot)
     p->threads = shot->threads;
 }
 
-/* The first setting has to be drawn: what stops it stops all. A later one that does not go with what was given is told
- * of in its place. */
+/* The first setting has to be drawn: what stops it, or what the machine lacks, stops all. A later one that does not go
+ * with what was given is told of in its place. */
 static int measure(sweep *s, const bench_task *t, report *r)
 {
     const bench_way way = {s->o->runs, 1};
@@ -101,7 +102,7 @@ static int measure(sweep *s, const bench_task *t, report *r)
     report_note(!s->o->is_verbose, "%s", p->command + strspn(p->command, " "));
     if (!s->o->subject->draw(&shot, &line, &way, &own)) {
         snprintf(p->failure, sizeof p->failure, "%.150s", own.text);
-        return number > 0 || report_fail(r, "%s", own.text);
+        return (number > 0 && !report_is_system(&own)) || report_fail(r, "%s", own.text);
     }
     if (number == 0 && s->truth.surface == NULL) { /* a truth from a file: where the first picture shows something */
         s->truth.surface = shot.surface;
@@ -126,13 +127,13 @@ static int get_truth(sweep *s, report *r)
         }
     } else {
         s->truth.is_own = 1;
-        bench_progress(s, "the truth");
+        progress_whole("the truth", s->done / s->all);
         if (!sweep_line(&line, s, "", r) || !bench_truth_make(&s->truth, s->o, &line, r)) {
             return 0;
         }
         s->done += TRUTH_WEIGHT;
     }
-    s->exposure_ev = picture_auto_exposure(&s->truth.picture);
+    s->exposure_ev = picture_auto_exposure(&s->truth.picture, PICTURE_CLIPPED);
     bench_picture_of(&s->b->truth_picture, &s->truth.picture, s->exposure_ev);
     return 1;
 }
@@ -184,7 +185,7 @@ static int run(sweep *s, report *r)
     }
     describe(s);
     for (int i = 0; i < s->tasks; ++i) {
-        bench_progress(s, s->task[i].words[0] != '\0' ? s->task[i].words : "default");
+        progress_whole(s->task[i].words[0] != '\0' ? s->task[i].words : "default", s->done / s->all);
         if (!measure(s, &s->task[i], r)) {
             return 0;
         }
@@ -204,7 +205,7 @@ int bench_sweep(bench_results *out, const bench_options *o, report *r)
     s->b = out;
     s->start = host_seconds();
     const int ok = run(s, r);
-    bench_progress(s, NULL);
+    progress_end();
     out->seconds = host_seconds() - s->start;
     for (int i = 0; i < BENCH_POINTS; ++i) {
         image_free(&s->kept[i]);

@@ -55,6 +55,7 @@ static void keep(const image *picture, const char *path)
     report unheard = {""};
     file_bytes file = {NULL, 0};
     host_make_folders(path);
+    remove(path); /* it may be there and damaged: what was read is not written over */
     if (pfm_encode(&file, picture, &unheard)) {
         file_write(path, file.data, file.size, &unheard);
         file_free(&file);

@@ -4,22 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../common/progress.h"
 #include "bench_chart.h"
 #include "bench_html.h"
 #include "bench_sweep.h"
 #include "bench_task.h"
 #include "bench_table.h"
-
-static int can_write(const bench_options *o, report *r)
-{
-    const char *const paths[] = {o->html, o->csv, o->json, o->svg};
-    for (int i = 0; i < 4; ++i) {
-        if (paths[i] != NULL && !file_can_write(paths[i], r)) {
-            return 0;
-        }
-    }
-    return 1;
-}
 
 static int write_one(const char *path, void (*fill)(text_buffer *out, const bench_results *b), const bench_results *b,
                      report *r)
@@ -39,16 +29,18 @@ static int tell(const bench_results *b, report *r)
     text_buffer p;
     memset(&p, 0, sizeof p);
     bench_table(&p, b);
-    const int ok = !p.is_short && fputs(p.data, stdout) >= 0 && fflush(stdout) == 0;
+    const int ok = !p.is_short && fputs(p.data, report_words()) >= 0;
     text_buffer_free(&p);
-    return ok || report_fail(r, "standard output: cannot be written");
+    return (ok || report_fail(r, "out of memory")) && report_flush(r);
 }
 
 static int sweep_and_write(const bench_options *o, report *r)
 {
     bench_results b;
     memset(&b, 0, sizeof b);
-    const int ok = can_write(o, r) && bench_sweep(&b, o, r) && write_one(o->html, bench_html, &b, r) &&
+    option_table own;
+    bench_options_table(&own, o->subject);
+    const int ok = options_files(o, &own, r) && bench_sweep(&b, o, r) && write_one(o->html, bench_html, &b, r) &&
                    write_one(o->csv, bench_csv, &b, r) && write_one(o->json, bench_json, &b, r) &&
                    write_one(o->svg, fill_svg, &b, r) && (o->is_quiet || tell(&b, r));
     bench_results_free(&b);
@@ -78,5 +70,8 @@ int verb_bench_sweep(int argc, char **argv)
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &own, &r);
     }
-    return sweep_and_write(&o, &r) ? 0 : report_end(&r, "bench", 1);
+    progress_begin(o.is_quiet, "bench");
+    const int ok = sweep_and_write(&o, &r);
+    progress_end();
+    return ok ? 0 : report_end(&r, "bench", 1);
 }

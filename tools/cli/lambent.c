@@ -5,10 +5,13 @@
 #include <lambent/lambent.h>
 
 #include "../../platform/host/host.h"
+#include "../common/io_file.h"
 #include "../common/options.h"
+#include "../common/progress.h"
 #include "../bake/verb_bake.h"
 #include "../bench/verb_bench.h"
 #include "verb_compare.h"
+#include "verb_doctor.h"
 #include "verb_info.h"
 #include "../mix/verb_mix.h"
 #include "verb_plan.h"
@@ -35,6 +38,7 @@ static const struct verb {
     {"bench", verb_bench, "bench SCENE", "speed against error: what each setting costs and buys"},
     {"bench", verb_bench, "bench raster|gather|hard",
      "how fast this machine draws and lights; what renderers get wrong"},
+    {"doctor", verb_doctor, "doctor", "this build and its back ends: do they draw what they should?"},
 };
 enum { VERBS = sizeof verbs / sizeof *verbs };
 
@@ -45,7 +49,8 @@ static void print_usage(void)
         printf("  %-25s %s\n", verbs[i].usage, verbs[i].help);
     }
     fputs("\n"
-          "  lambent VERB --help       what a verb takes\n"
+          "  lambent help VERB         what a verb takes; the same as lambent VERB --help\n"
+          "  lambent help --man        all of it as a man page\n"
           "  lambent --version\n\n"
           "examples\n"
           "  lambent render demo -o demo.png\n", stdout);
@@ -77,21 +82,102 @@ static int run(int argc, char **argv)
     return 2;
 }
 
-int main(int argc, char **argv)
+/* --- help --------------------------------------------------------------------------------------------------------- */
+
+/* All that has a help of its own. */
+static const char *const pages[][2] = {
+    {"render", NULL},     {"bake", NULL},        {"play", NULL},        {"relight", NULL},
+    {"relief", NULL},     {"relief", "bake"},    {"relief", "render"},  {"mix", NULL},
+    {"plan", NULL},       {"compare", NULL},     {"info", NULL},        {"bench", NULL},
+    {"bench", "SCENE"},   {"bench", "relight"},  {"bench", "relief"},   {"bench", "mix"},
+    {"bench", "raster"},  {"bench", "gather"},   {"bench", "threads"},  {"bench", "hard"},
+    {"bench", "--calibrate"}, {"doctor", NULL},
+};
+
+enum { HELP_WORDS = 4 };
+
+/* The words, as VERB ... --help. */
+static int help(int count, char **words)
 {
-    host_outlive_file_limit();
-    if (lmb_build_check() != LMB_OK) {
-        fputs("lambent: this build does not compute like others (contraction, fast math or flushed denormals): pixels "
-              "would differ; build with the Makefile's flags\n", stderr);
-        return 1;
+    static char name[] = "lambent", ask[] = "--help";
+    char *argv[HELP_WORDS + 3] = {name};
+    int argc = 1;
+    for (; argc <= count && argc <= HELP_WORDS; ++argc) {
+        argv[argc] = words[argc - 1];
     }
+    argv[argc++] = ask;
+    argv[argc] = NULL;
+    return run(argc, argv);
+}
+
+static int print_man(void)
+{
+    int status = 0;
+    options_form(1);
+    printf(".TH LAMBENT 1 \"\" \"lambent %d.%d.%d\" \"User Commands\"\n.SH NAME\n"
+           "lambent \\- draws, measures and converts scenes with bounced light\n.SH SYNOPSIS\n.nf\n",
+           LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100);
+    for (int i = 0; i < VERBS; ++i) {
+        printf("lambent %s ...\n", verbs[i].usage);
+    }
+    fputs(".fi\n", stdout);
+    for (size_t i = 0; i < sizeof pages / sizeof *pages && status == 0; ++i) {
+        char words[2][16];
+        char *both[2] = {words[0], words[1]};
+        snprintf(words[0], sizeof words[0], "%s", pages[i][0]);
+        snprintf(words[1], sizeof words[1], "%s", pages[i][1] != NULL ? pages[i][1] : "");
+        status = help(pages[i][1] != NULL ? 2 : 1, both);
+    }
+    return status;
+}
+
+/* `lambent help`, `lambent --help`, with or without the words of a verb. */
+static int answer_help(int argc, char **argv)
+{
+    if (argc > 2 && strcmp(argv[2], "--man") == 0) {
+        return print_man();
+    }
+    if (argc > 2 && argv[2][0] != '-' && strcmp(argv[2], "help") != 0) {
+        return help(argc - 2, argv + 2);
+    }
+    print_usage();
+    return 0;
+}
+
+/* --- all ---------------------------------------------------------------------------------------------------------- */
+
+/* In a signal handler, before the program ends. */
+static void clean_up(void)
+{
+    file_drop_aside();
+    progress_wipe();
+}
+
+static int start(int argc, char **argv)
+{
     if (argc >= 2 && (is_one_of(argv[1], "--help", "-h") || strcmp(argv[1], "help") == 0)) {
-        print_usage();
-        return 0;
+        return answer_help(argc, argv);
     }
     if (argc >= 2 && is_one_of(argv[1], "--version", "-V")) {
         options_version(stdout);
         return 0;
     }
+    if (lmb_build_check() != LMB_OK && (argc < 2 || strcmp(argv[1], "doctor") != 0)) {
+        fputs("lambent: this build does not compute like others (contraction, fast math or flushed denormals): pixels "
+              "would differ; build with the Makefile's flags; lambent doctor tells more\n", stderr);
+        return 1;
+    }
     return run(argc, argv);
+}
+
+/* What was printed may still wait, and find the disk full. */
+int main(int argc, char **argv)
+{
+    report r = {""};
+    host_take_streams();
+    host_outlive_file_limit();
+    host_end_cleanly(clean_up);
+    const int status = start(argc, argv);
+    file_keep_end();
+    return status != 0 || report_flush(&r) ? status : report_end(&r, argc >= 2 ? argv[1] : "", 1);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../common/options.h"
+#include "../common/progress.h"
 #include "../picture/image.h"
 #include "../picture/metrics.h"
 #include "../picture/picture_read.h"
@@ -47,17 +48,17 @@ typedef struct results {
 #define AT(member) .at = offsetof(options, member)
 
 static const option_row rows[] = {
-    {.name = "A", .kind = OPTION_TEXT, .value = "", AT(test), .help = "the picture"},
-    {.name = "B", .kind = OPTION_TEXT, .value = "", AT(truth), .help = "the truth"},
-    {.name = "--mask", .value = "FILE", .kind = OPTION_TEXT, AT(mask),
+    {.name = "A", .kind = OPTION_TEXT, .value = "", AT(test), .file = OPTION_READS, .help = "the picture"},
+    {.name = "B", .kind = OPTION_TEXT, .value = "", AT(truth), .file = OPTION_READS, .help = "the truth"},
+    {.name = "--mask", .value = "FILE", .kind = OPTION_TEXT, AT(mask), .file = OPTION_READS,
      .help = "count only pixels whose third channel in FILE (3-channel PFM) is over 0.5"},
-    {.name = "--classes", .value = "FILE", .kind = OPTION_TEXT, AT(classes),
+    {.name = "--classes", .value = "FILE", .kind = OPTION_TEXT, AT(classes), .file = OPTION_READS,
      .help = "class of each pixel (1-channel PFM)"},
     {.name = "--max", .value = "KEY=V,...", .kind = OPTION_TEXT, AT(max),
      .help = "upper bounds for trim, rmse, e50, e95, e99; lo and hi bound mean; leak bounds |leak - 1|"},
     {.name = "--json", .kind = OPTION_FLAG, AT(json),
      .help = "one object on one line; what is infinite or was not measured is null"},
-    {.name = "--heat", .value = "OUT.png", .kind = OPTION_TEXT, AT(heat),
+    {.name = "--heat", .value = "OUT.png", .kind = OPTION_TEXT, AT(heat), .file = OPTION_WRITES,
      .help = "|a - b| / (b + 0.01 mean of B), grey: 0 black, 0.2 blue, 0.4 purple, 0.6 orange, 0.8 yellow, 1 and "
              "over white, in equal steps of lightness; dark grey: masked; green: not finite"},
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, AT(is_quiet), .help = "no figures: the exit status alone"},
@@ -415,6 +416,7 @@ static void tell_taken(FILE *err, const loaded *l, const options *o, const metri
 /* Figures go out before the heat picture is tried, so that a full disk does not take them along. */
 static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, const options *o, report *r)
 {
+    out = o->heat && file_is_stdout(o->heat) ? err : out;
     tell_taken(err, l, o, &res->figures);
     if (!o->is_quiet)
         o->json ? print_json(out, res, l) : print_text(out, res, o);
@@ -427,7 +429,7 @@ static int deliver(FILE *out, FILE *err, const results *res, const loaded *l, co
 static int run(FILE *out, FILE *err, loaded *l, const options *o, report *r)
 {
     results res;
-    if (!load_all(l, o, r))
+    if (!options_files(o, &table, r) || !load_all(l, o, r))
         return COMPARE_FAILED;
     if (!check_sizes(l, o, r))
         return COMPARE_SIZES;
@@ -445,11 +447,10 @@ int compare_to(FILE *out, FILE *err, int argc, char **argv)
     const int asked = parse_options(&o, argc, argv, &r);
     if (asked != OPTIONS_RUN)
         return options_answer_to(out, err, asked, &table, &r);
+    progress_begin(o.is_quiet, "compare");
     const int status = run(out, err, &l, &o, &r);
     loaded_free(&l);
-    if (r.text[0] != '\0')
-        fprintf(err, "lambent compare: %s\n", r.text);
-    return status;
+    return r.text[0] != '\0' ? report_end_to(err, &r, "compare", status) : status;
 }
 
 int verb_compare(int argc, char **argv)

@@ -8,6 +8,7 @@
 
 #include "../../platform/host/host.h"
 #include "../common/options.h"
+#include "../common/progress.h"
 #include "../model/model.h"
 #include "../picture/image.h"
 #include "../picture/picture.h"
@@ -547,7 +548,8 @@ static int file_info(FILE *out, const options *o, report *r)
     file_bytes file = {NULL, 0};
     if (!file_read(&file, o->path, r))
         return 0;
-    int is_picture = picture_begins(file.data, file.size) || picture_format(o->path) != PICTURE_UNKNOWN;
+    int is_named = !file_is_stdout(o->path) && picture_format(o->path) != PICTURE_UNKNOWN;
+    int is_picture = is_named || picture_begins(file.data, file.size);
     int ok = (is_picture ? picture_info : scene_info)(out, o, &file, r);
     file_free(&file);
     return ok;
@@ -567,6 +569,7 @@ int info_to(FILE *out, FILE *err, int argc, char **argv)
     if (asked != OPTIONS_RUN) {
         return options_answer_to(out, err, asked, &table, &r);
     }
+    progress_begin(o.is_quiet, "info");
     const double start = host_seconds();
     int ok = file_info(out, &o, &r);
     ok = ok && ((fflush(out) == 0 && !ferror(out)) || report_fail(&r, "the figures could not be written"));

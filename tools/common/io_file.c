@@ -4,12 +4,15 @@
 #endif
 #include "io_file.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+
+#include "../../platform/host/host.h"
 
 #ifdef _WIN32
 #include <io.h>
@@ -34,7 +37,92 @@ static const char *reason(void)
     return errno ? strerror(errno) : "the system does not say why";
 }
 
+static int is_keeping;
+
+void file_keep_all(void)
+{
+    is_keeping = 1;
+}
+
+int file_is_stdout(const char *path)
+{
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0) return 1;
+    return isalpha((unsigned char)path[0]) && isalpha((unsigned char)path[1]) && isalpha((unsigned char)path[2]) &&
+           strcmp(path + 3, ":-") == 0;
+}
+
+/* --- what is read, which nothing may be written over --- */
+
+#ifdef _WIN32
+
+void file_keep_end(void)
+{
+    is_keeping = 0;
+}
+
+/* Files have no number here. */
+int file_keep(const char *path, report *r)
+{
+    (void)path;
+    (void)r;
+    return 1;
+}
+
+#else
+
+typedef struct file_number {
+    dev_t device;
+    ino_t inode;
+} file_number;
+
+static struct kept_files {
+    file_number *file;
+    size_t count, cap;
+} kept;
+
+void file_keep_end(void)
+{
+    free(kept.file);
+    memset(&kept, 0, sizeof kept);
+    is_keeping = 0;
+}
+
+static int is_kept(const struct stat *s)
+{
+    size_t i;
+    for (i = 0; i < kept.count; ++i)
+        if (kept.file[i].device == s->st_dev && kept.file[i].inode == s->st_ino) return 1;
+    return 0;
+}
+
+int file_keep(const char *path, report *r)
+{
+    struct stat s;
+    file_number *grown;
+    if (stat(path, &s) != 0 || !S_ISREG(s.st_mode) || is_kept(&s)) return 1;
+    if (kept.count == kept.cap) {
+        grown = realloc(kept.file, (2 * kept.cap + 16) * sizeof *grown);
+        if (!grown) return report_fail(r, "%s: out of memory", path);
+        kept.file = grown;
+        kept.cap = 2 * kept.cap + 16;
+    }
+    kept.file[kept.count].device = s.st_dev;
+    kept.file[kept.count++].inode = s.st_ino;
+    return 1;
+}
+
+#endif
+
 /* --- reading --- */
+
+/* That there is no such file is its user's affair, and so is what may not be read. */
+static int cannot_read(report *r, const char *path, const char *what)
+{
+    const int error = errno, is_users = error == ENOENT || error == ENOTDIR || error == EACCES || error == EISDIR ||
+                                        error == ENAMETOOLONG || error == EINVAL;
+    const char *why = reason();
+    return (is_users ? report_fail : report_fail_system)(r, "%s: cannot be %s: %s", path, what, why);
+}
 
 void file_free(file_bytes *file)
 {
@@ -65,9 +153,29 @@ static int read_all(file_bytes *out, FILE *f, const char *path, report *r)
         if (out->size == cap && !grow(out, &cap, path, r)) return 0;
         errno = 0;
         out->size += fread(out->data + out->size, 1, cap - out->size, f);
-        if (ferror(f)) return report_fail(r, "%s: cannot be read: %s", path, reason());
+        if (ferror(f)) return cannot_read(r, path, "read");
         if (out->size < cap) return 1; /* fread stops short only at the end or at an error */
     }
+}
+
+/* Standard input is there once. */
+static FILE *open_input(const char *path, report *r)
+{
+    static int is_taken;
+    FILE *f;
+    if (strcmp(path, "-") != 0) {
+        errno = 0;
+        f = fopen(path, "rb");
+        if (!f) cannot_read(r, path, "opened");
+        return f;
+    }
+    if (is_taken) report_fail_usage(r, "-: standard input has been read; give one of both as a file");
+#ifdef _WIN32
+    _setmode(_fileno(stdin), _O_BINARY);
+#endif
+    f = is_taken ? NULL : stdin;
+    is_taken = 1;
+    return f;
 }
 
 int file_read(file_bytes *out, const char *path, report *r)
@@ -78,11 +186,10 @@ int file_read(file_bytes *out, const char *path, report *r)
 
     out->data = NULL;
     out->size = 0;
-    errno = 0;
-    f = fopen(path, "rb");
-    if (!f) return report_fail(r, "%s: cannot be opened: %s", path, reason());
-    done = read_all(out, f, path, r);
-    fclose(f);
+    f = open_input(path, r);
+    if (!f) return 0;
+    done = (f == stdin || !is_keeping || file_keep(path, r)) && read_all(out, f, path, r);
+    if (f != stdin) fclose(f);
     if (!done) {
         file_free(out);
         return 0;
@@ -96,7 +203,7 @@ int file_is_plain(const char *path, report *r)
 {
     struct stat s;
     errno = 0;
-    if (stat(path, &s) != 0) return report_fail(r, "%s: cannot be opened: %s", path, reason());
+    if (stat(path, &s) != 0) return cannot_read(r, path, "opened");
     return IS_KIND(s, REG) || report_fail(r, "%s: not a file", path);
 }
 
@@ -112,16 +219,6 @@ static int write_and_close(FILE *f, const void *data, size_t size)
     closed = fclose(f) == 0;
     if (!whole) errno = error;
     return whole && closed;
-}
-
-/* Pipes, devices, terminals: nothing can be renamed over them. */
-static int write_direct(const char *path, const void *data, size_t size, report *r)
-{
-    FILE *f;
-    errno = 0;
-    f = fopen(path, "wb");
-    if (!f || !write_and_close(f, data, size)) return report_fail(r, "%s: cannot be written: %s", path, reason());
-    return 1;
 }
 
 #ifdef _WIN32
@@ -148,6 +245,11 @@ static int replace(const char *from, const char *to)
 {
     errno = 0;
     return MoveFileExA(from, to, MOVEFILE_REPLACE_EXISTING) != 0;
+}
+
+static void remove_now(const char *path)
+{
+    remove(path);
 }
 
 static const char *name_in(const char *path)
@@ -186,6 +288,12 @@ static int replace(const char *from, const char *to)
     return rename(from, to) == 0;
 }
 
+/* In a signal handler, too. */
+static void remove_now(const char *path)
+{
+    unlink(path);
+}
+
 static const char *name_in(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -194,19 +302,53 @@ static const char *name_in(const char *path)
 
 #endif
 
+/* The file that stands aside now; a signal that ends the program takes it along. */
+static char *volatile aside;
+
+void file_drop_aside(void)
+{
+    char *path = aside;
+    if (path) remove_now(path);
+}
+
+static void drop(char *temporary)
+{
+    int error = errno;
+    remove_now(temporary);
+    aside = NULL;
+    errno = error;
+}
+
+/* No signal between making it and knowing its name: a name that was taken is another's file. */
+static int create_aside(char *temporary, int mode)
+{
+    int fd, error;
+    host_hold_signals(1);
+    errno = 0;
+    fd = create_exclusive(temporary, mode);
+    error = errno;
+    if (fd >= 0) aside = temporary;
+    host_hold_signals(0);
+    errno = error;
+    return fd;
+}
+
 /* A new file in the directory of `path`, under a name that nobody has; `temporary` holds strlen(path) + SUFFIX_MAX. */
 static FILE *open_beside(char *temporary, const char *path, int mode)
 {
     size_t directory = (size_t)(name_in(path) - path);
     int i, fd = -1;
+    FILE *f;
     memcpy(temporary, path, directory);
     for (i = 0; i < NAME_TRIES && fd < 0; ++i) {
         snprintf(temporary + directory, SUFFIX_MAX, ".write-%u-%d.tmp", process_number(), i);
-        errno = 0;
-        fd = create_exclusive(temporary, mode);
+        fd = create_aside(temporary, mode);
         if (fd < 0 && errno != EEXIST) return NULL;
     }
-    return fd < 0 ? NULL : open_stream(fd);
+    if (fd < 0) return NULL;
+    f = open_stream(fd);
+    if (!f) drop(temporary);
+    return f;
 }
 
 static int write_aside(const char *path, int mode, const void *data, size_t size, report *r)
@@ -218,95 +360,192 @@ static int write_aside(const char *path, int mode, const void *data, size_t size
     if (!temporary) return report_fail(r, "%s: out of memory", path);
     f = open_beside(temporary, path, mode);
     if (!f) {
-        report_fail(r, "%s: cannot be written: no file can be made in its directory: %s", path, reason());
+        report_fail(r, "%s: cannot be written: no file can be made in its folder: %s", path, reason());
         free(temporary);
         return 0;
     }
     done = write_and_close(f, data, size) && replace(temporary, path);
     if (!done) {
         report_fail(r, "%s: cannot be written: %s", path, reason());
-        remove(temporary);
+        drop(temporary);
     }
+    aside = NULL;
     free(temporary);
     return done;
 }
 
+/* --- where it goes --- */
+
+/* Over `over`, by a file beside it; or, where that is NULL, straight to what has the name. */
+typedef struct place {
+    char *over;
+    int mode; /* permissions of the file that is there; -1: there is none */
+} place;
+
+static int cannot(report *r, const char *path, const char *why)
+{
+    return report_fail(r, "%s: cannot be written: %s", path, why);
+}
+
+static int take_place(place *out, const char *path, report *r)
+{
+    const size_t bytes = strlen(path) + 1;
+    out->over = malloc(bytes);
+    if (!out->over) return report_fail(r, "%s: out of memory", path);
+    memcpy(out->over, path, bytes);
+    return 1;
+}
+
 #ifdef _WIN32
 
-int file_write(const char *path, const void *data, size_t size, report *r)
+static int find_place(place *out, const char *path, report *r)
 {
     struct _stat s;
-    if (_stat(path, &s) == 0 && !(s.st_mode & _S_IFREG)) return write_direct(path, data, size, r);
-    return write_aside(path, -1, data, size, r);
+    out->over = NULL;
+    out->mode = -1;
+    if (_stat(path, &s) == 0 && (s.st_mode & _S_IFDIR)) return cannot(r, path, "it is a folder");
+    if (_stat(path, &s) == 0 && !(s.st_mode & _S_IFREG)) return 1;
+    return take_place(out, path, r);
 }
 
 #else
+
+/* A link stays, and what it points to is replaced; except where it stands for an open file (/dev/fd/3). */
+static int follow(place *out, const char *path, report *r)
+{
+    out->over = realpath(path, NULL);
+    return out->over || report_fail(r, "%s: cannot be written: the link's target: %s", path, reason());
+}
+
+/* What is there may be replaced only where it may be written. */
+static int find_place(place *out, const char *path, report *r)
+{
+    struct stat s;
+    int is_link;
+    out->over = NULL;
+    out->mode = -1;
+    errno = 0;
+    if (lstat(path, &s) != 0) return errno == ENOENT ? take_place(out, path, r) : cannot(r, path, reason());
+    is_link = S_ISLNK(s.st_mode);
+    if (is_link && stat(path, &s) != 0)
+        return report_fail(r, "%s: cannot be written: the link's target: %s", path, reason());
+    if (S_ISDIR(s.st_mode)) return cannot(r, path, "it is a folder");
+    if (access(path, W_OK) != 0) return cannot(r, path, reason());
+    if (!S_ISREG(s.st_mode) || (is_link && (strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0)))
+        return 1;
+    if (is_kept(&s))
+        return report_fail_usage(r, "%s: cannot be written: it is read by the same command; give another name", path);
+    out->mode = (int)(s.st_mode & 0777);
+    return is_link ? follow(out, path, r) : take_place(out, path, r);
+}
+
+#endif
+
+/* Pipes, devices, terminals: nothing can be renamed over them. */
+static int write_direct(const char *path, const void *data, size_t size, report *r)
+{
+    FILE *f;
+    errno = 0;
+    f = fopen(path, "wb");
+    if (!f || !write_and_close(f, data, size)) return cannot(r, path, reason());
+    return 1;
+}
 
 /* The standard streams have names too; what a program printed before stays before. */
 static int write_stream(FILE *f, const char *path, const void *data, size_t size, report *r)
 {
     errno = 0;
-    if ((size > 0 && fwrite(data, 1, size, f) != size) || fflush(f) != 0)
-        return report_fail(r, "%s: cannot be written: %s", path, reason());
+#ifdef _WIN32
+    _setmode(_fileno(f), _O_BINARY);
+#endif
+    if ((size > 0 && fwrite(data, 1, size, f) != size) || fflush(f) != 0) return cannot(r, path, reason());
     return 1;
-}
-
-/* A regular file's replacement; one that may not be written may not be replaced either. */
-static int write_over(const char *path, const struct stat *s, const void *data, size_t size, report *r)
-{
-    errno = 0;
-    if (access(path, W_OK) != 0) return report_fail(r, "%s: cannot be written: %s", path, reason());
-    return write_aside(path, (int)(s->st_mode & 0777), data, size, r);
-}
-
-/* A link stays, and what it points to is replaced; except where it stands for an open file (/dev/fd/3). */
-static int write_linked(const char *path, const void *data, size_t size, report *r)
-{
-    char *target;
-    struct stat s;
-    int done;
-
-    errno = 0;
-    if (stat(path, &s) != 0) return report_fail(r, "%s: cannot be written: the link's target: %s", path, reason());
-    if (!S_ISREG(s.st_mode) || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0)
-        return write_direct(path, data, size, r);
-    target = realpath(path, NULL);
-    if (!target) return report_fail(r, "%s: cannot be written: the link's target: %s", path, reason());
-    done = write_over(target, &s, data, size, r);
-    free(target);
-    return done;
 }
 
 int file_write(const char *path, const void *data, size_t size, report *r)
 {
-    struct stat s;
-    if (strcmp(path, "/dev/stdout") == 0) return write_stream(stdout, path, data, size, r);
+    place to;
+    int done;
+    if (file_is_stdout(path)) return write_stream(stdout, path, data, size, r);
     if (strcmp(path, "/dev/stderr") == 0) return write_stream(stderr, path, data, size, r);
-    if (lstat(path, &s) != 0) return write_aside(path, -1, data, size, r);
-    if (S_ISLNK(s.st_mode)) return write_linked(path, data, size, r);
-    if (!S_ISREG(s.st_mode)) return write_direct(path, data, size, r);
-    return write_over(path, &s, data, size, r);
+    if (!find_place(&to, path, r)) return 0;
+    done = to.over ? write_aside(to.over, to.mode, data, size, r) : write_direct(path, data, size, r);
+    free(to.over);
+    return done;
 }
 
+int file_may_replace(const char *path, report *r)
+{
+    place to;
+    if (!find_place(&to, path, r)) return 0;
+    free(to.over);
+    return 1;
+}
+
+#ifdef _WIN32
+static int is_one_place(const char *a, const char *b) { return strcmp(a, b) == 0; }
+#else
+/* Where a path's last name begins. */
+static const char *last_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+static int stat_folder(struct stat *out, const char *path)
+{
+    const size_t bytes = (size_t)(last_name(path) - path);
+    char *folder = malloc(bytes + 2);
+    int found;
+    if (!folder) return 0;
+    memcpy(folder, path, bytes);
+    strcpy(folder + bytes, ".");
+    found = stat(folder, out) == 0;
+    free(folder);
+    return found;
+}
+
+static int is_one_place(const char *a, const char *b)
+{
+    struct stat to_a, to_b;
+    return strcmp(last_name(a), last_name(b)) == 0 && stat_folder(&to_a, a) && stat_folder(&to_b, b) &&
+           to_a.st_dev == to_b.st_dev && to_a.st_ino == to_b.st_ino;
+}
 #endif
+
+int file_is_same_place(const char *a, const char *b)
+{
+    place to_a, to_b;
+    report unread = {""};
+    int same = 0;
+    if (strcmp(a, b) == 0 || (file_is_stdout(a) && file_is_stdout(b))) return 1;
+    if (file_is_stdout(a) || file_is_stdout(b) || !find_place(&to_a, a, &unread)) return 0;
+    if (find_place(&to_b, b, &unread)) {
+        same = to_a.over && to_b.over && is_one_place(to_a.over, to_b.over);
+        free(to_b.over);
+    }
+    free(to_a.over);
+    return same;
+}
 
 int file_can_write(const char *path, report *r)
 {
-    struct stat s;
+    place to;
     char *temporary;
-    FILE *f;
-    int exists = stat(path, &s) == 0;
-    if (exists && IS_KIND(s, DIR)) return report_fail(r, "%s: cannot be written: it is a folder", path);
-    if (exists && !IS_KIND(s, REG)) return 1; /* a device or a pipe: only writing tells */
-    temporary = malloc(strlen(path) + SUFFIX_MAX);
-    if (!temporary) return report_fail(r, "%s: out of memory", path);
-    f = open_beside(temporary, path, -1);
-    if (!f) {
-        report_fail(r, "%s: cannot be written: no file can be made in its directory: %s", path, reason());
+    FILE *f = NULL;
+    if (file_is_stdout(path) || strcmp(path, "/dev/stderr") == 0) return 1;
+    if (!find_place(&to, path, r)) return 0;
+    if (!to.over) return 1; /* a device or a pipe: only writing tells */
+    temporary = malloc(strlen(to.over) + SUFFIX_MAX);
+    if (!temporary) {
+        report_fail(r, "%s: out of memory", path);
+    } else if (!(f = open_beside(temporary, to.over, -1))) {
+        report_fail(r, "%s: cannot be written: no file can be made in its folder: %s", path, reason());
     } else {
         fclose(f);
-        remove(temporary);
+        drop(temporary);
     }
     free(temporary);
+    free(to.over);
     return f != NULL;
 }

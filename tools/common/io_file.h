@@ -15,12 +15,21 @@ typedef struct file_bytes {
 
 /* All functions below return 1, or 0 with `r` set and nothing allocated, nothing left on disk. */
 
-/* file_read: the whole file (regular or pipe), at most 4 GiB. */
+/* file_read: the whole file (regular or pipe), at most 4 GiB; `-` is standard input. */
 int file_read(file_bytes *out, const char *path, report *r);
 void file_free(file_bytes *file);
 
 /* file_is_plain: a regular file, or a link to one; no folder, device or pipe. */
 int file_is_plain(const char *path, report *r);
+
+/* file_is_stdout: `-`, /dev/stdout, or `png:-` with any three letters: a name that says the format, too. */
+int file_is_stdout(const char *path);
+
+/* file_keep: this file is read by the same command: from now on no other may be written over it, whatever its name.
+ * file_keep_all: so is each that file_read reads from now on. file_keep_end: the command is over, all are forgotten. */
+int file_keep(const char *path, report *r);
+void file_keep_all(void);
+void file_keep_end(void);
 
 /* file_write: write `size` bytes to `path`, whole or not at all: to a temporary file beside it, flushed and closed
  * with every error checked, then renamed over it. Existing special files (/dev/stdout, pipes) are written directly. */
@@ -28,5 +37,15 @@ int file_write(const char *path, const void *data, size_t size, report *r);
 
 /* file_can_write: could file_write begin? Ask before long work. Leaves nothing behind. */
 int file_can_write(const char *path, report *r);
+
+/* file_may_replace: is what is there, if anything is, a file that file_write would replace? Of the many names of one
+ * folder file_can_write is asked for one. */
+int file_may_replace(const char *path, report *r);
+
+/* file_is_same_place: would file_write write both names to one place? Links are followed. */
+int file_is_same_place(const char *a, const char *b);
+
+/* file_drop_aside: remove the temporary file, if there is one: for signals that end the program. */
+void file_drop_aside(void);
 
 #endif

@@ -25,6 +25,11 @@ int option_word(const char *text, const char *const *words, const int32_t *value
 /* spot|point|sun:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER] */
 int option_light(const char *text, lmb_light *out);
 
+/* Samples a pixel, an int32_t by words. */
+extern const char *const option_samples[];
+extern const char *const option_tones[]; /* by their places the values of PICTURE_CURVED and PICTURE_CLIPPED */
+extern const int32_t option_sample_values[];
+
 /* A float: stops, -60 .. 60, or NaN for `auto`. */
 #define OPTION_STOPS_WANTS "stops, -60 .. 60, or auto"
 int option_stops(const char *text, void *at);

@@ -93,6 +93,9 @@ static likeness likeness_of(const char *word)
 /* The word may also be the beginning of the name. */
 static void try_name(likeness *l, const char *name)
 {
+    if (name[0] >= '0' && name[0] <= '9') {
+        return; /* 3 is not 4 misspelt */
+    }
     const size_t n = strlen(l->word);
     const int begun = n > 4 && strncmp(name, l->word, n) == 0;
     const int far = begun ? 0 : options_distance(l->word, name);
@@ -308,6 +311,10 @@ int options_parse(void *out, const option_table *t, int argc, char **argv, repor
     return OPTIONS_RUN;
 }
 
+static int is_man_page;
+
+void options_form(int is_man) { is_man_page = is_man; }
+
 int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, const report *r)
 {
     if (asked == OPTIONS_BAD) {
@@ -315,7 +322,7 @@ int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, co
         return 2;
     }
     if (asked == OPTIONS_ASK_HELP) {
-        options_help(out, t);
+        (is_man_page ? options_man : options_help)(out, t);
     } else {
         options_version(out);
     }

@@ -7,6 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "../../platform/host/pool.h"
 #include "report.h"
 
 /* What kind of value, and what it is stored as. */
@@ -44,10 +45,13 @@ typedef struct option_row {
     double low, high;
     const char *const *words; /* ends with NULL */
     const int32_t *values;    /* of the words; NULL: their places */
+    int file;              /* of a text: OPTION_READS, OPTION_WRITES: it names a file; 0: it does not */
     int (*parse)(const char *text, void *at); /* 1, or 0 where the text is none */
     const char *expects;   /* what the value has to be; NULL: by kind and range */
     const char *help;    /* one text, folded where it is printed; a line break stays */
 } option_row;
+
+enum { OPTION_READS = 1, OPTION_WRITES };
 
 enum { OPTION_PARTS = 10, OPTION_ROWS = 96 };
 
@@ -67,11 +71,20 @@ enum { OPTIONS_BAD, OPTIONS_RUN, OPTIONS_ASK_HELP, OPTIONS_ASK_VERSION };
  * `--name value` or `--name=value`; behind `--` nothing is an option. OPTIONS_BAD: `r` says why. */
 int options_parse(void *out, const option_table *t, int argc, char **argv, report *r);
 
+/* options_files: before the work: can every file be written that is to be, is none of them one that is read, and no two
+ * the same? `out` is what options_parse filled. 1, or 0 with `r` set. A second time, once models are read, it knows what
+ * they have beside them. */
+int options_files(const void *out, const option_table *t, report *r);
+
 /* options_answer: what is to be done where OPTIONS_RUN was not the answer; returns the exit status. */
 int options_answer(int asked, const option_table *t, const report *r);
 int options_answer_to(FILE *out, FILE *err, int asked, const option_table *t, const report *r);
 
 void options_help(FILE *out, const option_table *t);
+
+/* options_man: the same as a part of a man page. options_form: which of both OPTIONS_ASK_HELP is answered with. */
+void options_man(FILE *out, const option_table *t);
+void options_form(int is_man);
 void options_version(FILE *out);
 
 /* options_find: the row that a word names, with its value or without; NULL where there is none. */
@@ -86,7 +99,7 @@ int options_exclude(const option_row *a, const option_row *b);
 /* options_unknown: `r` says that there is no such option, and which one may be meant. Returns 0. */
 int options_unknown(const option_table *const *tables, int count, const char *word, report *r);
 
-/* options_nearest: the name that is most like the word; NULL where none is like it. `names` ends with NULL. */
+/* options_nearest: the name that is most like the word; NULL where none is like it. Numbers are no names. `names` ends with NULL. */
 const char *options_nearest(const char *const *names, const char *word);
 
 /* options_distance: how many letters are to be changed, put in, left out or exchanged with the next one to make `a` of
@@ -101,6 +114,12 @@ int options_distance(const char *a, const char *b);
     {.name = "--quiet", .brief = "-q", .kind = OPTION_QUIET, .at = offsetof(type, quiet),                   \
      .help = "say nothing but errors"},                                                                     \
     {.name = "--verbose", .brief = "-v", .kind = OPTION_VERBOSE, .at = offsetof(type, verbose), .help = more}
+#define OPTION_THREADS_ROW(type, threads, what)                                                             \
+    {.name = "--threads", .value = "N", .kind = OPTION_INT, .at = offsetof(type, threads), .low = 1, .high = POOL_MAX, \
+     .help = what " at once; it has the same bytes by any number (default: the processors)"}
+#define OPTION_TONE_ROW(type, tone)                                                                         \
+    {.name = "--tone", .kind = OPTION_WORD, .at = offsetof(type, tone), .words = option_tones,              \
+     .help = "how display formats show light over white: by a curve that keeps it apart (default), or clipped"}
 #define OPTION_BACKEND_ROW(type, kernels)                                                                   \
     {.name = "--backend", .value = "NAME", .kind = OPTION_BACKEND, .at = offsetof(type, kernels),           \
      .help = "whose instructions draw: the same bytes by any (default: the fastest that this processor has)"}

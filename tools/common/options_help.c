@@ -97,19 +97,25 @@ static void print_title(FILE *out, const char *title)
     fold(out, title, 0, 0);
 }
 
+void options_value(char *out, size_t size, const option_row *row)
+{
+    out[0] = '\0';
+    if (row->value != NULL) {
+        snprintf(out, size, "%s", row->value);
+    } else if (row->kind == OPTION_WORD) {
+        join(out, size, row->words, "|", "|");
+    } else if (row->kind == OPTION_POINT) {
+        snprintf(out, size, "X,Y,Z");
+    } else if (row->kind == OPTION_LIGHT) {
+        snprintf(out, size, "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]");
+    }
+}
+
 /* "-h, --help", "--show full|direct|...": how wide it is, WIDTH where a list is too long for a line. */
 static int print_name(FILE *out, const option_row *row)
 {
-    char value[256] = "";
-    if (row->value != NULL) {
-        snprintf(value, sizeof value, "%s", row->value);
-    } else if (row->kind == OPTION_WORD) {
-        join(value, sizeof value, row->words, "|", "|");
-    } else if (row->kind == OPTION_POINT) {
-        snprintf(value, sizeof value, "X,Y,Z");
-    } else if (row->kind == OPTION_LIGHT) {
-        snprintf(value, sizeof value, "KIND:PX,PY,PZ:DX,DY,DZ:R,G,B[:INNER,OUTER]");
-    }
+    char value[256];
+    options_value(value, sizeof value, row);
     const int begin = fprintf(out, "%*s%s%s%s%s", INDENT, "", row->brief != NULL ? row->brief : "",
                               row->brief != NULL ? ", " : "", row->name, value[0] != '\0' ? " " : "");
     int at = begin, is_folded = 0;
@@ -125,29 +131,41 @@ static int print_name(FILE *out, const option_row *row)
     return is_folded ? WIDTH : at;
 }
 
+void options_text(char *out, size_t size, const option_row *row)
+{
+    char range[96];
+    range_of(range, sizeof range, row);
+    int n = snprintf(out, size, range[0] != '\0' ? "%s [%s]" : "%s%s", row->help, range);
+    if (row->times > 1 && n >= 0 && (size_t)n < size) {
+        n += snprintf(out + n, size - (size_t)n, " [up to %d times]", (int)row->times);
+    }
+    if (row->kind == OPTION_WORD && row->value != NULL && n >= 0 && (size_t)n < size) {
+        char words[256];
+        join(words, sizeof words, row->words, ", ", " or ");
+        n += snprintf(out + n, size - (size_t)n, ": %s", words);
+    }
+    if (row->kind == OPTION_BACKEND && n >= 0 && (size_t)n < size) {
+        snprintf(out + n, size - (size_t)n, ": %s", backends);
+    }
+}
+
 static void print_row(FILE *out, const option_row *row)
 {
-    char text[2048], range[96];
+    char text[2048];
     int at = print_name(out, row);
     if (at + 1 >= COLUMN) {
         fputc('\n', out);
         at = 0;
     }
     fprintf(out, "%*s", COLUMN - at, "");
-    range_of(range, sizeof range, row);
-    int n = snprintf(text, sizeof text, range[0] != '\0' ? "%s [%s]" : "%s%s", row->help, range);
-    if (row->times > 1 && n >= 0 && (size_t)n < sizeof text) {
-        n += snprintf(text + n, sizeof text - (size_t)n, " [up to %d times]", (int)row->times);
-    }
-    if (row->kind == OPTION_WORD && row->value != NULL && n >= 0 && (size_t)n < sizeof text) {
-        char words[256];
-        join(words, sizeof words, row->words, ", ", " or ");
-        n += snprintf(text + n, sizeof text - (size_t)n, ": %s", words);
-    }
-    if (row->kind == OPTION_BACKEND && n >= 0 && (size_t)n < sizeof text) {
-        snprintf(text + n, sizeof text - (size_t)n, ": %s", backends);
-    }
+    options_text(text, sizeof text, row);
     fold(out, text, COLUMN, COLUMN);
+}
+
+const char *options_status(const option_table *t)
+{
+    return t->status != NULL ? t->status : "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage, "
+                                           "also one file for two purposes";
 }
 
 void options_help(FILE *out, const option_table *t)
@@ -172,6 +190,5 @@ void options_help(FILE *out, const option_table *t)
     print_title(out, "examples");
     fputs(t->examples, out);
     fputc('\n', out);
-    fold(out, t->status != NULL ? t->status
-                                : "exit status: 0 done, 1 a file that cannot be read or written, 2 bad usage", 0, 0);
+    fold(out, options_status(t), 0, 0);
 }

@@ -1,28 +1,84 @@
 /* report.c: keeps the first failure's one line. */
 #include "report.h"
 
+#include "progress.h"
+
+#include <errno.h>
 #include <stdarg.h>
-#include <stdio.h>
+#include <string.h>
+
+enum { OF_FILES, OF_SYSTEM, OF_USAGE }; /* whose fault a failure is: the last byte of its text */
+
+static void set_text(report *r, int kind, const char *format, va_list args)
+{
+    if (r == NULL || r->text[0] != '\0') {
+        return;
+    }
+    vsnprintf(r->text, sizeof r->text - 1, format, args);
+    for (char *c = r->text; *c != '\0'; ++c) { /* file names may hold anything; a report stays one printable line */
+        if ((unsigned char)*c < 32 || *c == 127) {
+            *c = '?';
+        }
+    }
+    r->text[sizeof r->text - 1] = (char)kind;
+}
 
 int report_fail(report *r, const char *format, ...)
 {
     va_list args;
-    char *c;
-
-    if (!r || r->text[0]) return 0;
     va_start(args, format);
-    vsnprintf(r->text, sizeof r->text, format, args);
+    set_text(r, strstr(format, "memory") != NULL ? OF_SYSTEM : OF_FILES, format, args);
     va_end(args);
-    for (c = r->text; *c; ++c) { /* file names may hold anything; a report stays one printable line */
-        if ((unsigned char)*c < 32 || *c == 127) *c = '?';
-    }
     return 0;
+}
+
+int report_fail_system(report *r, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    set_text(r, OF_SYSTEM, format, args);
+    va_end(args);
+    return 0;
+}
+
+int report_fail_usage(report *r, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    set_text(r, OF_USAGE, format, args);
+    va_end(args);
+    return 0;
+}
+
+int report_is_system(const report *r) { return r->text[0] != '\0' && r->text[sizeof r->text - 1] == OF_SYSTEM; }
+
+static int is_taken;
+
+FILE *report_words(void) { return is_taken ? stderr : stdout; }
+
+void report_say(const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    vfprintf(report_words(), format, args);
+    va_end(args);
+}
+
+void report_take_stdout(void) { is_taken = 1; }
+
+int report_flush(report *r)
+{
+    errno = 0;
+    return (fflush(stdout) == 0 && !ferror(stdout)) ||
+           report_fail(r, "standard output: cannot be written%s%s", errno != 0 ? ": " : "",
+                       errno != 0 ? strerror(errno) : "");
 }
 
 void report_note(int is_quiet, const char *format, ...)
 {
     va_list args;
     if (!is_quiet) {
+        progress_wipe();
         va_start(args, format);
         fputs("lambent: ", stderr);
         vfprintf(stderr, format, args);
@@ -33,6 +89,12 @@ void report_note(int is_quiet, const char *format, ...)
 
 int report_end(const report *r, const char *verb, int status)
 {
-    fprintf(stderr, "lambent %s: %s\n", verb, r->text);
-    return status;
+    progress_end();
+    return report_end_to(stderr, r, verb, status);
+}
+
+int report_end_to(FILE *err, const report *r, const char *verb, int status)
+{
+    fprintf(err, "lambent %s: %s\n", verb, r->text);
+    return r->text[0] != '\0' && r->text[sizeof r->text - 1] == OF_USAGE ? 2 : status;
 }

@@ -3,6 +3,7 @@
 #define REPORT_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 #if defined(__GNUC__)
 #define REPORT_PRINTF(f, a) __attribute__((format(printf, f, a)))
@@ -12,17 +13,37 @@
 
 /* Zero it before use. The first failure wins; later ones keep it. */
 typedef struct report {
-    char text[512]; /* "" while nothing went wrong; no newline */
+    char text[512]; /* "" while nothing went wrong; no newline. The last byte: the kind, see report_is_system */
 } report;
 
 /* report_fail: set the text ("FILE: what is wrong at PLACE; what to do") if none is set. Always returns 0, so that
  * a parser can `return report_fail(...)`. */
 int report_fail(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
 
+/* report_words: where a verb's words go: stdout; stderr once report_take_stdout has said that a file goes there.
+ * report_say: printf to there. */
+FILE *report_words(void);
+void report_say(const char *format, ...) REPORT_PRINTF(1, 2);
+void report_take_stdout(void);
+
+/* report_flush: 1 where all that was said on stdout could be written, else 0 with `r` set. */
+int report_flush(report *r);
+
+/* report_fail_system: the same where no file is at fault: the machine has no more memory or open files. A line of
+ * report_fail about memory is such a one, too. report_is_system: is it one? */
+int report_is_system(const report *r);
+int report_fail_system(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
+
+/* report_fail_usage: the same where the command line is at fault, though its options alone do not show it: one file for
+ * two purposes. */
+int report_fail_usage(report *r, const char *format, ...) REPORT_PRINTF(2, 3);
+
 /* report_note: a line on stderr behind `lambent: `, unless it is to be quiet. */
 void report_note(int is_quiet, const char *format, ...) REPORT_PRINTF(2, 3);
 
-/* report_end: tell the line, behind `lambent VERB: `, and return what the verb exits with: `status`. */
+/* report_end: tell the line, behind `lambent VERB: `, and return what the verb exits with: `status`, or 2
+ * after report_fail_usage. */
 int report_end(const report *r, const char *verb, int status);
+int report_end_to(FILE *err, const report *r, const char *verb, int status);
 
 #endif

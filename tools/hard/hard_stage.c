@@ -17,10 +17,12 @@ hard_stage *hard_stage_make(const lmb_kernels *kernels)
     s->map_bytes = lmb_shadow_map_bytes(HARD_FACES, HARD_MAP, LMB_ID32);
     s->tree_bytes = lmb_tree_bytes(HARD_FACES, HARD_TREE);
     s->bvh_bytes = lmb_bvh_bytes(HARD_TRIANGLES);
+    s->lattice_bytes = lmb_lattice_bytes(HARD_SIDE, HARD_SIDE);
     s->map_memory = malloc(s->map_bytes);
     s->tree_memory = malloc(s->tree_bytes);
     s->bvh_memory = malloc(s->bvh_bytes);
-    if (s->map_memory == NULL || s->tree_memory == NULL || s->bvh_memory == NULL) {
+    s->lattice_memory = malloc(s->lattice_bytes);
+    if (s->map_memory == NULL || s->tree_memory == NULL || s->bvh_memory == NULL || s->lattice_memory == NULL) {
         hard_stage_free(s);
         return NULL;
     }
@@ -33,6 +35,7 @@ void hard_stage_free(hard_stage *s)
         free(s->map_memory);
         free(s->tree_memory);
         free(s->bvh_memory);
+        free(s->lattice_memory);
         free(s);
     }
 }
@@ -309,6 +312,8 @@ lmb_status hard_frame(hard_stage *s, int32_t show, int32_t map, float error)
     f.stats = &s->stats;
     lmb_tree_init(&f.tree, HARD_FACES, map < HARD_TREE ? map : HARD_TREE, s->tree_memory, s->tree_bytes);
     lmb_bvh_init(&f.bvh, HARD_TRIANGLES, s->bvh_memory, s->bvh_bytes);
+    f.gather_step = s->gather_step;
+    lmb_lattice_init(&f.lattice, side, side, s->lattice_memory, s->lattice_bytes);
     lmb_surface_init(&f.out, LMB_RGB32F, side, side, s->out, sizeof s->out);
     lmb_surface_clear(&s->eye.depth);
     lmb_surface_clear(&s->eye.id);

@@ -34,8 +34,9 @@ typedef struct hard_stage {
     lmb_stats stats;
     const lmb_transfer *transfer; /* NULL: bounced light by cuts */
     lmb_transfer_light transfer_light;
-    void *map_memory, *tree_memory, *bvh_memory;
-    size_t map_bytes, tree_bytes, bvh_bytes;
+    int32_t gather_step; /* 0: every pixel */
+    void *map_memory, *tree_memory, *bvh_memory, *lattice_memory;
+    size_t map_bytes, tree_bytes, bvh_bytes, lattice_bytes;
 } hard_stage;
 
 /* NULL: no memory. */

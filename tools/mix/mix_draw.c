@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../platform/host/pool.h"
+#include "../common/progress.h"
 #include "../picture/picture.h"
 
 /* Everything that one tile is made in. */
@@ -170,17 +172,51 @@ static void draw_batch(drawing *d, mix_job *j, int32_t x, int32_t y)
     }
 }
 
-int mix_draw(mix_job *j, report *r)
+/* Rows of tiles that several threads draw, each in a drawing of its own. */
+typedef struct rows {
+    mix_job *jobs; /* by thread: the job, with a place of its own for cones */
+    drawing *drawings;
+    int threads;
+} rows;
+
+static void draw_row(void *user, int row, int thread)
 {
-    drawing *d = mix_take(j, sizeof *d, r);
-    if (d == NULL || !mix_image(&j->picture, j->frame.light.width, j->frame.light.height, r) ||
-        !draw_object(d, j, r)) {
+    const rows *all = user;
+    mix_job *j = &all->jobs[thread];
+    for (int32_t x = 0; x < j->picture.width; x += MIX_BATCH * LMB_TILE) {
+        draw_batch(&all->drawings[thread], j, x, row * LMB_TILE);
+    }
+    if (thread == 0) {
+        progress_tell("picture", (double)(row * LMB_TILE) / (double)j->picture.height);
+    }
+}
+
+static int take_rows(rows *out, mix_job *j, report *r)
+{
+    out->threads = pool_threads(j->o.threads);
+    const size_t n = (size_t)out->threads;
+    out->jobs = mix_take(j, n * sizeof *out->jobs, r);
+    out->drawings = mix_take(j, n * sizeof *out->drawings, r);
+    lmb_cone_scratch *scratch = mix_take(j, n * sizeof *scratch, r);
+    if (out->jobs == NULL || out->drawings == NULL || scratch == NULL ||
+        !mix_image(&j->picture, j->frame.light.width, j->frame.light.height, r) ||
+        !draw_object(&out->drawings[0], j, r)) {
         return 0;
     }
-    for (int32_t y = 0; y < j->picture.height; y += LMB_TILE) {
-        for (int32_t x = 0; x < j->picture.width; x += MIX_BATCH * LMB_TILE) {
-            draw_batch(d, j, x, y);
-        }
+    for (size_t i = 0; i < n; ++i) {
+        out->jobs[i] = *j;
+        out->jobs[i].scratch = &scratch[i];
+        out->drawings[i] = out->drawings[0];
     }
+    return 1;
+}
+
+int mix_draw(mix_job *j, report *r)
+{
+    rows all;
+    if (!take_rows(&all, j, r)) {
+        return 0;
+    }
+    pool_run(all.threads, (j->picture.height + LMB_TILE - 1) / LMB_TILE, draw_row, &all);
     return 1;
 }

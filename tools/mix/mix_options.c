@@ -47,8 +47,9 @@ static const option_row photo_rows[] = {
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
      .help = "PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
              "camera_to_world (4 x 4, rows) where it is known"},
-    {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .help = ".png .jpg .pfm"},
-    {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth),
+    {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
+     .help = ".png .jpg .pfm"},
+    {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth), .file = OPTION_READS,
      .help = "along the camera's axis, registered to the photo: 16-bit grey .png or .pfm; 0 is not measured"},
     {.name = "--depth-scale", .value = "S", .kind = OPTION_NUMBER, AT(source.depth_scale), .low = 1e-9, .high = 1e6,
      .help = "m of a unit of it (default 0.001 for .png, 1 for .pfm)"},
@@ -60,7 +61,7 @@ static const option_row photo_rows[] = {
 
 static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = "object"},
-    {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object),
+    {.name = "--object", .value = "MESH", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
      .help = ".gltf .glb .obj .ply, +Y up; without one the photo comes out as it went in"},
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale), .low = 1e-6, .high = 1e6,
      .help = "m of a unit of the mesh (default: a sixth of the plane's side in all, or what fits)"},
@@ -79,7 +80,7 @@ static const option_row light_rows[] = {
      .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; in the "
              "frame's world, or without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 "
              "sr). Default: a sun is guessed"},
-    {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world),
+    {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
      .help = "what is around, a panorama or cube (default: folded from the photo)"},
     {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness,
      .expects = "R or R,F, 0 .. 1",
@@ -96,9 +97,9 @@ static const option_row light_rows[] = {
 
 static const option_row output_rows[] = {
     {.kind = OPTION_TITLE, .help = "output"},
-    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option,
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = ".png .ppm .pfm .hdr"},
+     .help = PICTURE_OPTION_HELP},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = "final: the photo with the object (default);\ndelta: what changed on real surfaces; in .png and .ppm "
              "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
@@ -107,9 +108,10 @@ static const option_row output_rows[] = {
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = "stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)"},
-    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats),
+    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
      .help = "planes, voxels, seconds by stage"},
     OPTION_BACKEND_ROW(mix_options, kernels),
+    OPTION_THREADS_ROW(mix_options, threads, "draw the picture"),
     OPTION_LOUDNESS(mix_options, is_quiet, is_verbose, "say how long each stage took"),
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -131,7 +133,8 @@ const option_table mix_table = {
                 "    printf 'f %s\\n' '1 2 3' '1 4 2' '2 4 3' '3 4 1' >>tent.obj\n"
                 "    lambent mix --photo photo.png --depth depth.pfm --intrinsics 72.43,72.43,39.5,29.5 \\\n"
                 "        --object tent.obj --voxels 5 -o mixed.png\n",
-    .status = "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage",
+    .status = "exit status: 0 done, 1 a file that cannot be read or written, or nothing to stand on, 2 bad usage, also one file "
+              "for two purposes",
 };
 
 static int complete(const mix_options *o, report *r)

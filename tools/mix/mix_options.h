@@ -29,6 +29,7 @@ typedef struct mix_options {
     float exposure_ev;
     int is_quiet, is_verbose; /* nothing but errors is said; also how long each stage took */
     const lmb_kernels *kernels;
+    int32_t threads; /* 0: as many as there are processors */
 } mix_options;
 
 extern const option_table mix_table;

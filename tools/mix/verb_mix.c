@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
+#include "../common/progress.h"
 #include "../picture/picture.h"
 #include "mix_job.h"
 
@@ -62,7 +63,7 @@ static float exposure(const mix_job *j)
     if (!isnan(j->o.exposure_ev)) {
         return j->o.exposure_ev;
     }
-    return j->frame.photo.codes.texels != NULL ? 0.0f : picture_auto_exposure(&j->frame.light);
+    return j->frame.photo.codes.texels != NULL ? 0.0f : picture_auto_exposure(&j->frame.light, PICTURE_CLIPPED);
 }
 
 /* Seconds since *from, which becomes now. */
@@ -78,7 +79,7 @@ static int make_picture(mix_job *j, double *from, report *r)
     if (j->o.show == MIX_PLANES) {
         return mix_show_planes(j, r);
     }
-    int ok = mix_place(j, r);
+    int ok = mix_place(j, r) && options_files(&j->o, &mix_table, r); /* with what the object's file has beside it */
     j->place_s = lap(from);
     ok = ok && mix_light(j, r);
     j->light_s = lap(from);
@@ -117,8 +118,8 @@ static int write_stats(const mix_job *j, report *r)
 static int mix(mix_job *j, report *r)
 {
     double from = host_seconds();
-    int ok = file_can_write(j->o.out, r) && (j->o.stats == NULL || file_can_write(j->o.stats, r)) &&
-             mix_frame_read(&j->frame, &j->o.source, r);
+    int ok = options_files(&j->o, &mix_table, r) && mix_frame_read(&j->frame, &j->o.source, r) &&
+             options_files(&j->o, &mix_table, r);
     j->read_s = lap(&from);
     ok = ok && mix_find_planes(j, r);
     j->planes_s = lap(&from);
@@ -127,7 +128,7 @@ static int mix(mix_job *j, report *r)
     }
     tell(j);
     tell_times(j);
-    return picture_write(j->o.out, &j->picture, exposure(j), r) && (j->o.stats == NULL || write_stats(j, r));
+    return picture_write(j->o.out, &j->picture, exposure(j), PICTURE_CLIPPED, r) && (j->o.stats == NULL || write_stats(j, r));
 }
 
 int verb_mix(int argc, char **argv)
@@ -143,7 +144,9 @@ int verb_mix(int argc, char **argv)
         free(j);
         return options_answer(asked, &mix_table, &r);
     }
+    progress_begin(j->o.is_quiet, "mix");
     const int ok = mix(j, &r);
+    progress_end();
     mix_job_free(j);
     return ok ? 0 : report_end(&r, "mix", 1);
 }

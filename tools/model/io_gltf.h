@@ -42,7 +42,7 @@ typedef struct gltf_counts {
     uint32_t points_lines, without_positions, ragged, zero_normals, bare;       /* primitives, vertices */
     uint32_t textures, blends, metals, metal_maps, unlit, emissive_maps; /* materials */
     uint32_t occlusion_maps, odd_normal_maps, without_uvs;                         /* materials, primitives */
-    uint32_t ranges, skins, morphs;                                                /* lights, nodes, meshes */
+    uint32_t ranges, skins, morphs, no_roots;                                      /* lights, nodes, meshes, nodes */
 } gltf_counts;
 
 typedef struct gltf {
@@ -59,7 +59,8 @@ typedef struct gltf {
     gltf_uv *material_uv;             /* by material */
     int32_t *slots[2];                /* by texture, as colour or normal map: index in b->textures, or SLOT_ */
     lmb_texture *image_texels[2];     /* by image, the same: what is decoded already; texels NULL: nothing yet */
-    gltf_mean *image_means;           /* by image */
+    uint32_t *image_content;          /* by image: equal for equal bytes, once it is decoded */
+    gltf_mean *image_means;           /* by those numbers */
     uint32_t *mesh_first, *mesh_size; /* by mesh: its run in b->meshes; mesh_first JSON_NONE: not made yet */
     uint32_t *mesh_material, *mesh_primitive; /* by lambent mesh: index; JSON node */
     gltf_influences *mesh_influences;         /* by lambent mesh, for as often as it is posed */

@@ -66,7 +66,8 @@ static int image_decode(lmb_texture *out, gltf *g, uint32_t index, int kind, int
     if (!known->texels || (mips && known->levels == 1)) {
         if (!image_bytes(&bytes, place, g, index, why))
             return 0;
-        ok = build_texels(g->b, known, bytes.data, bytes.size, mips ? kind : TEXELS_PLAIN, place, why);
+        ok = build_texels(g->b, known, bytes.data, bytes.size, mips ? kind : TEXELS_PLAIN, place,
+                          &g->image_content[index], why);
         if (!ok)
             return 0;
     }
@@ -228,14 +229,15 @@ static int texture_mean(const gltf_mean **out, gltf *g, uint32_t info, const lmb
     if (!gltf_item(&texture, g, &g->textures, json_member(&g->doc, info, "index")) ||
         !texture_image(&index, g, texture))
         return 0;
-    if (!g->image_means[index].known) {
+    gltf_mean *mean = &g->image_means[g->image_content[index]];
+    if (!mean->known) {
         memset(&map, 0, sizeof map);
         map.texels = (uint8_t *)(uintptr_t)made->texels; /* only read */
         map.width = made->width;
         map.height = made->height;
-        measure(&g->image_means[index], &map);
+        measure(mean, &map);
     }
-    *out = &g->image_means[index];
+    *out = mean;
     return 1;
 }
 
@@ -430,9 +432,10 @@ static int make_tables(gltf *g)
         for (i = 0; i < g->textures.count; ++i)
             g->slots[k][i] = SLOT_UNKNOWN;
     }
+    g->image_content = (uint32_t *)build_scratch(g->b, g->images.count, sizeof *g->image_content);
     g->image_means = (gltf_mean *)build_scratch(g->b, g->images.count, sizeof *g->image_means);
     g->b->textures = (lmb_texture *)build_keep(g->b, 2 * (uint64_t)g->textures.count, sizeof *g->b->textures);
-    return g->image_means && g->b->textures;
+    return g->image_content && g->image_means && g->b->textures;
 }
 
 int gltf_materials(gltf *g)

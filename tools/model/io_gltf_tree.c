@@ -26,20 +26,46 @@ static int find_parents(gltf_tree *t, gltf *g)
     return 1;
 }
 
-/* Append a node, once: with one parent each, only a root named twice could come again. */
-static int push_root(uint32_t *stack, uint32_t *depth, const gltf_tree *t, const gltf *g, uint32_t reference,
-                     uint8_t *seen)
+/* What is known of a node and those above it while roots are found. */
+enum { UNKNOWN, NAMED, BELOW_NAMED, ALONE };
+
+/* Does a node that the scene names stand above this one? Each node is walked over once. */
+static int is_below_named(uint8_t *known, const gltf_tree *t, uint32_t node)
 {
-    uint32_t root;
-    if (!gltf_index(&root, g, &g->nodes, reference))
-        return 0;
-    if (t->parent[root] != JSON_NONE)
-        return json_fail(&g->doc, reference, g->b->r, "node %u is a child of node %u, not a root; export again",
-                         (unsigned)root, (unsigned)t->parent[root]);
-    if (seen[root])
-        return json_fail(&g->doc, reference, g->b->r, "node %u stands there twice", (unsigned)root);
-    seen[root] = 1;
-    stack[(*depth)++] = root;
+    uint32_t up = t->parent[node], i;
+    while (up != JSON_NONE && known[up] == UNKNOWN)
+        up = t->parent[up];
+    const int below = up != JSON_NONE && known[up] != ALONE;
+    for (i = t->parent[node]; i != up; i = t->parent[i])
+        known[i] = below ? BELOW_NAMED : ALONE;
+    return below;
+}
+
+/* The nodes that a scene names, each once. It should name roots alone: a child of one that it draws stays below that, and
+ * any other child is a root from here on. */
+static int push_named(uint32_t *stack, uint32_t *depth, gltf_tree *t, gltf *g, uint32_t nodes, uint8_t *known)
+{
+    uint32_t i, root;
+    for (i = json_first(&g->doc, nodes); i != JSON_NONE; i = json_next(&g->doc, i)) {
+        if (!gltf_index(&root, g, &g->nodes, i))
+            return 0;
+        if (known[root] == NAMED) {
+            ++g->left_out.no_roots;
+        } else {
+            known[root] = NAMED;
+            stack[(*depth)++] = root;
+        }
+    }
+    const uint32_t named = *depth;
+    for (i = *depth = 0; i < named; ++i) {
+        root = stack[i];
+        const int below = t->parent[root] != JSON_NONE && is_below_named(known, t, root);
+        g->left_out.no_roots += t->parent[root] != JSON_NONE;
+        if (!below) {
+            t->parent[root] = JSON_NONE;
+            stack[(*depth)++] = root;
+        }
+    }
     return 1;
 }
 
@@ -79,7 +105,7 @@ static int find_scene(uint32_t *out, gltf *g, const gltf_list *scenes)
 }
 
 /* The roots of the scene; of a document without scenes, all there are. */
-static int push_roots(uint32_t *stack, uint32_t *depth, const gltf_tree *t, gltf *g, uint8_t *seen)
+static int push_roots(uint32_t *stack, uint32_t *depth, gltf_tree *t, gltf *g, uint8_t *known)
 {
     model_facts *facts = &g->b->out->facts;
     gltf_list scenes;
@@ -94,9 +120,8 @@ static int push_roots(uint32_t *stack, uint32_t *depth, const gltf_tree *t, gltf
     } else {
         const uint32_t scene = scenes.items[facts->scene], nodes = json_member(&g->doc, scene, "nodes");
         json_string(facts->scene_name, sizeof facts->scene_name, &g->doc, json_member(&g->doc, scene, "name"));
-        for (i = json_first(&g->doc, nodes); i != JSON_NONE; i = json_next(&g->doc, i))
-            if (!push_root(stack, depth, t, g, i, seen))
-                return 0;
+        if (!push_named(stack, depth, t, g, nodes, known))
+            return 0;
     }
     reverse(stack, 0, *depth);
     return 1;
@@ -122,8 +147,8 @@ static int refuse_cycles(const gltf_tree *t, gltf *g)
 static int traversal(gltf_tree *t, gltf *g)
 {
     uint32_t *stack = (uint32_t *)build_scratch(g->b, g->nodes.count, sizeof *stack), depth = 0, from, c, child;
-    uint8_t *seen = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
-    if (!stack || !seen || !find_parents(t, g) || !refuse_cycles(t, g) || !push_roots(stack, &depth, t, g, seen))
+    uint8_t *known = (uint8_t *)build_scratch(g->b, g->nodes.count, 1);
+    if (!stack || !known || !find_parents(t, g) || !refuse_cycles(t, g) || !push_roots(stack, &depth, t, g, known))
         return 0;
     while (depth > 0) {
         const uint32_t node = stack[--depth];

@@ -274,7 +274,7 @@ static int load_map(int32_t *slot, model_build *b, const obj_map *map, report *w
     if (!build_is_relative(map->path))
         return report_fail(why, "%.100s: not a path from the model's folder", map->path);
     if (!build_sibling(path, sizeof path, b, map->path, why) || !build_read(b, &bytes, path, why) ||
-        !build_texels(b, to, bytes.data, bytes.size, TEXELS_COLOUR, path, why))
+        !build_texels(b, to, bytes.data, bytes.size, TEXELS_COLOUR, path, NULL, why))
         return 0;
     to->wrap_s = to->wrap_t = map->wrap;
     to->filter = LMB_TRILINEAR;

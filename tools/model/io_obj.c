@@ -403,6 +403,8 @@ static int load_libraries(obj *o)
             if (!is_read_before(before, &count, file.data) &&
                 !mtl_read(o->b, &o->names, text_open(file.data, file.size, path)))
                 return 0;
+        } else if (o->b->r->text[0]) {
+            return 0;
         } else if (!split_library(o, o->libraries[i]) && missing++ == 0) {
             first = why;
         }

@@ -94,7 +94,7 @@ typedef struct ply {
     uint32_t *cut, *links;
     uint64_t cut_steps; /* polygon_cut_within's, left for all faces */
     streams s;
-    uint32_t degenerate, overlapping, zero_normals, unused;
+    uint32_t degenerate, overlapping, zero_normals, unused, unknown_lines;
 } ply;
 
 static int fail(const ply *p, const char *format, ...) REPORT_PRINTF(2, 3);
@@ -238,34 +238,51 @@ static int read_property(ply *p, const slice *words, int n)
         return fail(p, "property %.*s is of no type of PLY 1.0", shown(out->name), out->name.at);
     if (!take_role(p, e, out))
         return 0;
-    e->bytes += p->format == TEXT ? 2 : (is_list ? out->count_type : out->type)->size;
     e->has_lists = e->has_lists || is_list;
     ++p->property_count;
     ++e->properties;
     return 1;
 }
 
-/* A line behind the first two; *done at end_header. */
+/* Lines of the header, or of text between items, that are for people. */
+static int is_remark(slice word) { return slice_is(word, "comment") || slice_is(word, "obj_info"); }
+
+/* A line behind the first one; *done at end_header. Other readers pass over what they do not know, as a comment's second
+ * line without its keyword: so does this one, and says so. */
 static int read_header_line(ply *p, int *done)
 {
     slice words[MAX_WORDS], extra;
     int n = 0;
     while (n < MAX_WORDS && next_word(&words[n], p))
         ++n;
-    if (n == 0 || slice_is(words[0], "comment") || slice_is(words[0], "obj_info"))
+    if (n == 0 || is_remark(words[0]))
         return 1;
-    if (next_word(&extra, p))
+    const int kind = slice_is(words[0], "format")       ? 1
+                     : slice_is(words[0], "element")    ? 2
+                     : slice_is(words[0], "property")   ? 3
+                     : slice_is(words[0], "end_header") ? 4
+                                                        : 0;
+    if (kind > 0 && (next_word(&extra, p) || (kind == 4 && n > 1)))
         return fail(p, "more words than a line of the header has");
-    if (slice_is(words[0], "format"))
-        return read_format(p, words, n);
-    if (p->format == NO_FORMAT)
-        return fail(p, "the format must come first");
-    if (slice_is(words[0], "element"))
-        return read_element(p, words, n);
-    if (slice_is(words[0], "property"))
-        return read_property(p, words, n);
-    *done = n == 1 && slice_is(words[0], "end_header");
-    return *done || fail(p, "\"%.*s\" is not a line of a PLY header", shown(words[0]), words[0].at);
+    p->unknown_lines += kind == 0;
+    *done = kind == 4;
+    return kind == 1 ? read_format(p, words, n)
+         : kind == 2 ? read_element(p, words, n)
+         : kind == 3 ? read_property(p, words, n)
+                     : 1;
+}
+
+/* The bytes that an item takes at least, now that the format is known, wherever it stood. */
+static void count_bytes(ply *p)
+{
+    uint32_t i, k;
+    for (i = 0; i < p->element_count; ++i) {
+        element *e = &p->elements[i];
+        for (k = 0; k < e->properties; ++k) {
+            const property *prop = &p->properties[e->first + k];
+            e->bytes += p->format == TEXT ? 2 : (prop->count_type ? prop->count_type : prop->type)->size;
+        }
+    }
 }
 
 static int read_header(ply *p)
@@ -277,8 +294,11 @@ static int read_header(ply *p)
         if (!next_line(p) || !read_header_line(p, &done))
             return 0;
     }
+    if (p->format == NO_FORMAT)
+        return fail(p, "no line before it says the format");
     if (!next_line(p))
         return 0;
+    count_bytes(p);
     p->in_bytes = p->format != TEXT;
     if (!p->vertex || !p->face || p->vertex->count == 0 || p->face->count == 0)
         return report_fail(p->b->r, "%s: no faces; points and lines are not drawn, give a polygon model", p->b->path);
@@ -394,11 +414,23 @@ static int take_list(ply *p, const property *list)
     return 1;
 }
 
-/* In text, an item is a line; empty ones are passed over. */
+/* In text, an item is a line; empty ones and comments are passed over. */
 static void skip_empty_lines(ply *p)
 {
-    while (p->format == TEXT && p->at < p->end && (*p->at == '\n' || is_blank(*p->at)))
-        p->line += *p->at++ == '\n';
+    while (p->format == TEXT && p->at < p->end) {
+        const uint8_t *begin = p->at;
+        slice word;
+        if (!is_blank(*begin) && *begin != '\n' && *begin != 'c' && *begin != 'o')
+            return;
+        if (next_word(&word, p) && !is_remark(word)) {
+            p->at = begin;
+            return;
+        }
+        while (p->at < p->end && *p->at != '\n')
+            ++p->at;
+        p->line += p->at < p->end;
+        p->at += p->at < p->end;
+    }
 }
 
 static int end_line(ply *p)
@@ -677,6 +709,7 @@ static void tell_left_out(const ply *p)
     uint32_t i, others = 0;
     for (i = 0; i < p->element_count; ++i)
         others += p->elements[i].kind == OTHER && p->elements[i].count > 0;
+    build_note_count(p->b, "lines of the header that mean nothing here passed over", p->unknown_lines);
     build_note_count(p->b, "kinds of elements other than vertex and face skipped", others);
     build_note_count(p->b, "faces with fewer than 3 corners skipped", p->degenerate);
     build_note_count(p->b, "concave faces too large or too tangled to cut well, which may overlap themselves",
@@ -687,7 +720,12 @@ static void tell_left_out(const ply *p)
 
 int ply_begins(const uint8_t *data, size_t size)
 {
-    return (size >= 4 && memcmp(data, "ply\n", 4) == 0) || (size >= 5 && memcmp(data, "ply\r\n", 5) == 0);
+    size_t at = 3;
+    if (size < 4 || memcmp(data, "ply", 3) != 0)
+        return 0;
+    while (at < size && is_blank(data[at]))
+        ++at;
+    return at < size && data[at] == '\n';
 }
 
 int ply_load(model_build *b, const uint8_t *data, size_t size)

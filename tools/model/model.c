@@ -22,6 +22,27 @@ static int number_triangles(model_build *b)
     return 1;
 }
 
+/* A few bytes can place a mesh once more, or show a stream of vertices in one mesh more: time would go with the product. */
+static int check_work(model_build *b)
+{
+    const model_facts *f = &b->out->facts;
+    const uint64_t bytes = f->file_bytes + f->neighbour_bytes, paid = bytes * MODEL_TRIANGLES_PER_BYTE;
+    uint64_t placed = 0, corners = 0;
+    uint32_t i;
+    for (i = 0; i < b->instance_count; ++i)
+        placed += b->meshes[b->instances[i].mesh].triangle_count;
+    for (i = 0; i < b->mesh_count; ++i)
+        corners += (uint64_t)b->meshes[i].vertex_count + b->meshes[i].triangle_count;
+    if (placed > MODEL_FREE_TRIANGLES + paid)
+        return report_fail(b->r, "%s: %" PRIu64 " triangles in its instances, of files of %" PRIu64 " bytes; beyond %"
+                           PRIu64 " it may be %d a byte; place meshes less often", b->path, placed, bytes,
+                           MODEL_FREE_TRIANGLES, MODEL_TRIANGLES_PER_BYTE);
+    return corners <= MODEL_FREE_CORNERS + paid ||
+           report_fail(b->r, "%s: %" PRIu64 " vertices and triangles in its meshes, of files of %" PRIu64
+                       " bytes; beyond %" PRIu64 " it may be %d a byte; join meshes that share their vertices", b->path,
+                       corners, bytes, MODEL_FREE_CORNERS, MODEL_TRIANGLES_PER_BYTE);
+}
+
 #define EXACT_BOUNDS (UINT64_C(1) << 24) /* placed vertices up to which the scene's box is that of them all */
 
 /* The box of one mesh's finite vertices, by its eight corners; 0 where it has none. */
@@ -131,7 +152,7 @@ static int finish(model_build *b)
 {
     lmb_scene *scene = &b->out->scene;
     lmb_status status;
-    if (!number_triangles(b))
+    if (!number_triangles(b) || !check_work(b))
         return 0;
     scene->meshes = b->meshes;
     scene->materials = b->materials;
@@ -171,7 +192,7 @@ static int has_extension(const char *path, const char *extension)
 typedef int (*model_reader)(model_build *b, const uint8_t *data, size_t size);
 
 /* glTF by its magic, its extension or a first brace; PLY by its first line or its extension; OBJ, which has no mark,
- * by its extension alone; else NULL. */
+ * by its extension alone, or as text from standard input; else NULL. */
 static model_reader find_reader(const char *path, const file_bytes *file)
 {
     size_t i = 0;
@@ -183,9 +204,9 @@ static model_reader find_reader(const char *path, const file_bytes *file)
         return obj_load;
     while (i < file->size && strchr(" \t\r\n", file->data[i]) && file->data[i])
         ++i;
-    return has_extension(path, ".gltf") || has_extension(path, ".glb") || (i < file->size && file->data[i] == '{')
-               ? gltf_load
-               : NULL;
+    if (has_extension(path, ".gltf") || has_extension(path, ".glb") || (i < file->size && file->data[i] == '{'))
+        return gltf_load;
+    return strcmp(path, "-") == 0 && file->size > 0 && !memchr(file->data, 0, file->size) ? obj_load : NULL;
 }
 
 static int load_content(model_build *b, const file_bytes *file)
@@ -215,6 +236,7 @@ int model_read(model *out, const char *path, const char *scene, const uint8_t *d
     b.scene = scene;
     b.budget = MODEL_BYTES_FREE + (uint64_t)size * MODEL_BYTES_PER_BYTE;
     b.pixel_budget = MODEL_FREE_PIXELS + (uint64_t)size * MODEL_PIXELS_PER_BYTE;
+    b.large_picture = MODEL_LARGE_PICTURE;
     out->facts.file_bytes = size;
     ok = load_content(&b, &file) && finish(&b);
     out->facts.loading_bytes =

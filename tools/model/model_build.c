@@ -160,7 +160,13 @@ static build_neighbour *add_neighbour(model_build *b, const char *path, report *
     return to;
 }
 
-int build_read(model_build *b, file_bytes *out, const char *path, report *r)
+/* What the machine lacks is no property of the model, of which parts are left out: it cannot be read at all. */
+static int pass_on(model_build *b, const report *why)
+{
+    return report_is_system(why) ? report_fail_system(b->r, "%s", why->text) : 0;
+}
+
+static int read_neighbour(model_build *b, file_bytes *out, const char *path, report *r)
 {
     char tidy[MODEL_PATH_MAX];
     build_neighbour *to;
@@ -172,6 +178,8 @@ int build_read(model_build *b, file_bytes *out, const char *path, report *r)
             *out = b->neighbours[i].file;
             return 1;
         }
+    if (strcmp(path, "-") == 0)
+        return report_fail(r, "-: a file of this name beside the model is not read");
     if (!file_is_plain(path, r))
         return 0;
     to = add_neighbour(b, tidy, r);
@@ -187,6 +195,11 @@ int build_read(model_build *b, file_bytes *out, const char *path, report *r)
     b->pixel_budget += (uint64_t)out->size * MODEL_PIXELS_PER_BYTE;
     b->out->facts.neighbour_bytes += out->size;
     return 1;
+}
+
+int build_read(model_build *b, file_bytes *out, const char *path, report *r)
+{
+    return read_neighbour(b, out, path, r) || pass_on(b, r);
 }
 
 void build_forget(model_build *b)
@@ -235,6 +248,7 @@ static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, c
     texels = (uint8_t *)add_block(b->out, bytes, 1);
     if (!texels) {
         report_fail(why, "%s: no memory left for textures; shrink them", name);
+        pass_on(b, why);
         return NULL;
     }
     b->out->facts.texel_bytes += bytes;
@@ -242,23 +256,108 @@ static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, c
     return texels;
 }
 
-/* A picture pays for its bytes too: the same ones may be shown under any number of names, and each is decoded anew. */
-int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size, const char *name, report *why)
+/* A picture pays for its bytes too: a decoder may read them all before it finds a fault. */
+static int pay_picture(model_build *b, uint64_t pixels, size_t size, const char *name, report *why)
 {
-    const uint64_t pixels = picture_pixels(data, size);
-    memset(out, 0, sizeof *out);
-    if (pixels > b->pixel_budget)
+    if (pixels > b->pixel_budget && pixels <= b->large_picture)
+        b->large_picture = 0;
+    else if (pixels > b->pixel_budget)
         return report_fail(why, "%s: %" PRIu64 " pixels are more than the model's pictures may still have, which is %"
-                           PRIu64 "; shrink them", name, pixels, b->pixel_budget);
-    b->pixel_budget -= pixels;
+                           PRIu64 " (%d for each byte of the files); shrink them", name, pixels,
+                           b->pixel_budget > b->large_picture ? b->pixel_budget : b->large_picture,
+                           MODEL_PIXELS_PER_BYTE);
+    else
+        b->pixel_budget -= pixels;
     if (size > b->pixel_budget)
         return report_fail(why, "%s: %zu bytes; the model's pictures have been decoded too often", name, size);
     b->pixel_budget -= size;
-    return picture_read_codes(out, data, size, name, why);
+    return 1;
 }
 
-int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int kind, const char *name,
-                 report *why)
+int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size, const char *name, report *why)
+{
+    memset(out, 0, sizeof *out);
+    if (!pay_picture(b, picture_work(data, size), size, name, why))
+        return 0;
+    if (!picture_read_codes(out, data, size, name, why))
+        return pass_on(b, why);
+    if (out->note != NULL)
+        build_note(b, "%s: %s", name, out->note);
+    return 1;
+}
+
+/* --- pictures that are the same byte for byte --- */
+
+enum { HASHED_PER_PIXEL = 8 }; /* bytes that are compared in about the time that a pixel is decoded */
+
+static uint64_t hash_of(const uint8_t *data, size_t size)
+{
+    uint64_t hash = size, word;
+    for (size_t at = 0; at < size; at += sizeof word) {
+        const size_t n = size - at < sizeof word ? size - at : sizeof word;
+        word = 0;
+        memcpy(&word, data + at, n);
+        hash = (hash ^ word) * UINT64_C(0x9E3779B97F4A7C15);
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+/* The slot of these bytes, or the free one where they belong. */
+static uint32_t *slot_of(const model_build *b, uint64_t hash, const uint8_t *data, size_t size)
+{
+    const uint32_t mask = b->content_slot_count - 1;
+    uint32_t at = (uint32_t)hash & mask;
+    for (; b->content_slots[at] != 0; at = (at + 1) & mask) {
+        const build_content *c = &b->contents[b->content_slots[at] - 1];
+        if (c->hash == hash && c->size == size && (c->data == data || memcmp(c->data, data, size) == 0))
+            break;
+    }
+    return &b->content_slots[at];
+}
+
+/* Room for twice as many, each in its slot again. */
+static int grow_contents(model_build *b)
+{
+    const uint32_t slots = b->content_slot_count > 0 ? 2 * b->content_slot_count : 32;
+    build_content *grown = (build_content *)build_scratch(b, slots / 2, sizeof *grown);
+    uint32_t *table = (uint32_t *)build_scratch(b, slots, sizeof *table);
+    if (!grown || !table)
+        return 0;
+    if (b->content_count > 0)
+        memcpy(grown, b->contents, b->content_count * sizeof *grown);
+    b->contents = grown;
+    b->content_slots = table;
+    b->content_slot_count = slots;
+    for (uint32_t i = 0; i < b->content_count; ++i)
+        *slot_of(b, grown[i].hash, grown[i].data, grown[i].size) = i + 1;
+    return 1;
+}
+
+/* The number of these bytes; also known ones pay for being looked at. */
+static int find_content(uint32_t *out, model_build *b, const uint8_t *data, size_t size, const char *name, report *why)
+{
+    const uint64_t price = size / HASHED_PER_PIXEL + 1;
+    if (price > b->pixel_budget)
+        return report_fail(why, "%s: the model's pictures have been decoded too often; name each once", name);
+    b->pixel_budget -= price;
+    if (2 * b->content_count == b->content_slot_count && !grow_contents(b))
+        return 0;
+    const uint64_t hash = hash_of(data, size);
+    uint32_t *slot = slot_of(b, hash, data, size);
+    if (*slot == 0) {
+        build_content *c = &b->contents[b->content_count];
+        c->data = data;
+        c->size = size;
+        c->hash = hash;
+        *slot = ++b->content_count;
+    }
+    *out = *slot - 1;
+    return 1;
+}
+
+static int decode_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int kind, const char *name,
+                         report *why)
 {
     bitmap map;
     int32_t levels;
@@ -276,4 +375,22 @@ int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t s
     }
     bitmap_free(&map);
     return texels != NULL;
+}
+
+int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int kind, const char *name,
+                 uint32_t *content, report *why)
+{
+    uint32_t at = 0;
+    if (!find_content(&at, b, data, size, name, why))
+        return 0;
+    lmb_texture *known = &b->contents[at].texels[kind];
+    if (!known->texels && !decode_texels(b, known, data, size, kind, name, why))
+        return 0;
+    out->texels = known->texels;
+    out->width = known->width;
+    out->height = known->height;
+    out->levels = known->levels;
+    if (content != NULL)
+        *content = at;
+    return 1;
 }

@@ -7,8 +7,12 @@
 
 #define MODEL_BYTES_PER_BYTE 96                  /* memory a reader may take for each byte of input ... */
 #define MODEL_BYTES_FREE     (16u << 20)         /* ... beside these */
-#define MODEL_FREE_PIXELS    (UINT64_C(1) << 26) /* and bytes, of all pictures as often as they are decoded, and ... */
-#define MODEL_PIXELS_PER_BYTE 64                 /* ... for each byte of the files; 8 bytes of memory each at most */
+#define MODEL_PIXELS_PER_BYTE 64                 /* of all pictures as often as they are decoded, their bytes counted ... */
+#define MODEL_FREE_PIXELS    (UINT64_C(1) << 24) /* ... beside these, ... */
+#define MODEL_LARGE_PICTURE  (UINT64_C(1) << 26) /* ... and one that has more; 8 bytes of memory a pixel at most */
+#define MODEL_TRIANGLES_PER_BYTE 64              /* of all instances for each byte of the files; of all meshes, their ... */
+#define MODEL_FREE_TRIANGLES (UINT64_C(1) << 26) /* ... vertices counted, as they may share them; beside these, ... */
+#define MODEL_FREE_CORNERS   (UINT64_C(1) << 24) /* ... and these */
 #define MODEL_PATH_MAX       4096                /* bytes of a path that a reader composes */
 
 /* A file beside the model, by its path without doubled slashes and /./. */
@@ -16,6 +20,14 @@ typedef struct build_neighbour {
     char *path;
     file_bytes file;
 } build_neighbour;
+
+/* A picture's bytes, which may be shown under any number of names, and what was decoded of them by TEXELS_. */
+typedef struct build_content {
+    const uint8_t *data;
+    size_t size;
+    uint64_t hash;
+    lmb_texture texels[3]; /* texels NULL: nothing yet */
+} build_content;
 
 /* A scene under construction; the arrays are blocks of `out`. */
 typedef struct model_build {
@@ -27,6 +39,10 @@ typedef struct model_build {
     const char *scene;     /* wanted of several, by name or number; NULL: the file chooses */
     uint64_t budget;       /* bytes that may still be allocated */
     uint64_t pixel_budget; /* pixels that may still be decoded */
+    uint64_t large_picture; /* pixels that one picture may have beyond that; 0: one had */
+    build_content *contents; /* pictures; found by their hashes through content_slots, a power of two, 0: free */
+    uint32_t *content_slots;
+    uint32_t content_count, content_slot_count;
     build_neighbour *neighbours; /* files read beside the model, each once */
     uint32_t neighbour_count, neighbour_cap;
     lmb_mesh *meshes; /* positions are LMB_POSITION_F32 */
@@ -77,10 +93,11 @@ int build_picture(model_build *b, bitmap *out, const uint8_t *data, size_t size,
 /* What an image's lower levels are means of; TEXELS_PLAIN has none. */
 enum { TEXELS_PLAIN = 0, TEXELS_COLOUR, TEXELS_NORMALS };
 
-/* build_texels: decode a picture into out->texels, width, height and the levels of its `kind`; `name` for messages.
- * 0 with `why` set, which need not end the loading. */
+/* build_texels: decode a picture into out->texels, width, height and the levels of its `kind`; equal bytes are decoded
+ * once. `name` for messages; the bytes stay until loading ends. *content: numbers equal bytes alike, from 0; may be
+ * NULL. 0 with `why` set, which need not end the loading. */
 int build_texels(model_build *b, lmb_texture *out, const uint8_t *data, size_t size, int kind, const char *name,
-                 report *why);
+                 uint32_t *content, report *why);
 
 /* The readers: fill the arrays of `b`; first_id and bounds are set afterwards. 1, or 0 with b->r set. */
 int gltf_load(model_build *b, const uint8_t *data, size_t size);

@@ -20,6 +20,7 @@ typedef struct image {
 typedef struct bitmap {
     int32_t width, height;
     uint8_t *texels; /* width * height * 4 */
+    const char *note; /* what its file has against the format, though it could be read; NULL: nothing */
 } bitmap;
 
 /* All functions below return 1, or 0 with `r` set and nothing allocated, nothing left on disk. */
@@ -29,8 +30,10 @@ typedef struct bitmap {
 int png_decode(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 /* png_decode_16: a grey PNG of 16 bits, nothing else: the high byte as red, the low one as green. */
 int png_decode_16(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
-/* png_encode: 8-bit RGB from rows of RGB bytes, deflate-compressed with adaptive filters. Allocates *out. */
+/* png_encode: 8-bit RGB from rows of RGB bytes, deflate-compressed with adaptive filters. Allocates *out.
+ * png_encode_alpha: RGBA, colours not multiplied by alpha. */
 int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r);
+int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r);
 
 int pfm_decode(image *out, const uint8_t *data, size_t size, const char *name, report *r);
 int pfm_encode(file_bytes *out, const image *in, report *r); /* little-endian, bottom row first */

@@ -411,5 +411,6 @@ int jpeg_decode(bitmap *out, const uint8_t *data, size_t size, const char *name,
     if (!out->texels) return 0;
     out->width = (int32_t)j.width;
     out->height = (int32_t)j.height;
+    out->note = j.note;
     return 1;
 }

@@ -61,6 +61,7 @@ typedef struct jpeg_reader {
     uint16_t quant[JPEG_TABLES][64]; /* rows of 8; the first entry is 0 while a table is not defined */
     jpeg_code dc[JPEG_TABLES], ac[JPEG_TABLES];
     uint32_t restart; /* MCUs between restart markers; 0: none */
+    const char *note; /* as bitmap's */
     uint64_t idle;    /* of JPEG_IDLE_BLOCKS and what the file adds: left for all further scans */
 
     jpeg_component *scan[JPEG_COMPONENTS]; /* of this scan, as is all below */

@@ -1,19 +1,19 @@
-/* io_png_write.c: RGB pictures as PNG, each row with the filter whose bytes are the smallest. */
+/* io_png_write.c: RGB and RGBA pictures as PNG, each row with the filter whose bytes are the smallest. */
 #include "image.h"
 #include "io_png.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIXEL_BYTES = 3, IDAT_MAX = 1 << 18 };
+enum { IDAT_MAX = 1 << 18 };
 
 /* One row filtered in one way; the sum of its bytes' magnitudes tells how small they are. */
-static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *above, size_t n, int filter)
+static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *above, size_t n, size_t pixel, int filter)
 {
     uint64_t sum = 0;
     size_t i;
     for (i = 0; i < n; ++i) {
-        int left = i < PIXEL_BYTES ? 0 : row[i - PIXEL_BYTES], corner = i < PIXEL_BYTES ? 0 : above[i - PIXEL_BYTES];
+        int left = i < pixel ? 0 : row[i - pixel], corner = i < pixel ? 0 : above[i - pixel];
         int guess = filter == PNG_SUB       ? left
                     : filter == PNG_UP      ? above[i]
                     : filter == PNG_AVERAGE ? (left + above[i]) / 2
@@ -26,7 +26,7 @@ static uint64_t filter_row(uint8_t *out, const uint8_t *row, const uint8_t *abov
 }
 
 /* All rows, each behind its filter's number. `trial` holds one row; `zeros` stands for the row above the first. */
-static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, int32_t height, uint8_t *trial,
+static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, size_t pixel, int32_t height, uint8_t *trial,
                         const uint8_t *zeros)
 {
     const uint8_t *above = zeros;
@@ -35,7 +35,7 @@ static void filter_rows(uint8_t *out, const uint8_t *rgb, size_t n, int32_t heig
         uint64_t best = UINT64_MAX;
         int filter;
         for (filter = 0; filter < PNG_FILTERS; ++filter) {
-            uint64_t sum = filter_row(trial, rgb, above, n, filter);
+            uint64_t sum = filter_row(trial, rgb, above, n, pixel, filter);
             if (sum < best) {
                 best = sum;
                 out[0] = (uint8_t)filter;
@@ -56,9 +56,9 @@ static uint8_t *put_chunk(uint8_t *to, const char *type, const uint8_t *body, si
 }
 
 /* Signature, header, image data in pieces, end; NULL when memory is short. */
-static uint8_t *assemble(size_t *out_size, const uint8_t *packed, size_t n, int32_t width, int32_t height)
+static uint8_t *assemble(size_t *out_size, const uint8_t *packed, size_t n, int32_t width, int32_t height, int alpha)
 {
-    uint8_t header[PNG_HEADER_BYTES] = {0, 0, 0, 0, 0, 0, 0, 0, 8, 2, 0, 0, 0}; /* 8 bits, RGB */
+    uint8_t header[PNG_HEADER_BYTES] = {0, 0, 0, 0, 0, 0, 0, 0, 8, alpha ? 6 : 2, 0, 0, 0}; /* 8 bits, RGBA or RGB */
     size_t pieces = n / IDAT_MAX + 1, i;
     uint8_t *data = malloc(PNG_SIGNATURE_BYTES + PNG_HEADER_BYTES + n + (pieces + 2) * PNG_CHUNK_FRAME), *to = data;
 
@@ -73,8 +73,9 @@ static uint8_t *assemble(size_t *out_size, const uint8_t *packed, size_t n, int3
     return data;
 }
 
-int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r)
+static int encode(file_bytes *out, const uint8_t *pixels, int32_t width, int32_t height, int alpha, report *r)
 {
+    const size_t pixel = alpha ? 4 : 3;
     uint8_t *rows, *packed;
     size_t n, size, packed_size;
 
@@ -82,14 +83,24 @@ int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t heigh
     out->size = 0;
     if (width < 1 || height < 1 || !picture_fits((uint64_t)width, (uint64_t)height))
         return report_fail(r, "PNG: cannot write %d x %d pixels; 1 to 2^28 fit", (int)width, (int)height);
-    n = (size_t)width * PIXEL_BYTES;
+    n = (size_t)width * pixel;
     size = (size_t)height * (1 + n);
     rows = calloc(1, size + 2 * n); /* at the end, one row to try filters in and one of zeros */
-    if (rows) filter_rows(rows, rgb, n, height, rows + size, rows + size + n);
+    if (rows) filter_rows(rows, pixels, n, pixel, height, rows + size, rows + size + n);
     if (rows && deflate_zlib(&packed, &packed_size, rows, size)) {
-        out->data = assemble(&out->size, packed, packed_size, width, height);
+        out->data = assemble(&out->size, packed, packed_size, width, height, alpha);
         free(packed);
     }
     free(rows);
     return out->data ? 1 : report_fail(r, "PNG: out of memory for %d x %d pixels", (int)width, (int)height);
+}
+
+int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r)
+{
+    return encode(out, rgb, width, height, 0, r);
+}
+
+int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r)
+{
+    return encode(out, rgba, width, height, 1, r);
 }

@@ -8,10 +8,25 @@
 
 #include <lambent/lambent.h>
 
+/* `-` is a PNG, `pfm:-` what it says. */
+static int stdout_format(const char *path)
+{
+    static const char *const names[] = {"png:-", "ppm:-", "pfm:-", "hdr:-"};
+    for (int i = 0; i < 4; ++i) {
+        if (strcmp(path, names[i]) == 0) {
+            return PICTURE_PNG + i;
+        }
+    }
+    return strcmp(path, "-") == 0 ? PICTURE_PNG : PICTURE_UNKNOWN;
+}
+
 int picture_format(const char *path)
 {
     static const char *const endings[] = {".png", ".ppm", ".pfm", ".hdr"};
     size_t n = strlen(path);
+    if (file_is_stdout(path)) {
+        return stdout_format(path);
+    }
     for (int i = 0; i < 4 && n > 4; ++i) {
         int same = 1;
         for (size_t k = 0; k < 4; ++k) {
@@ -28,8 +43,12 @@ int picture_is_linear(int format) { return format == PICTURE_PFM || format == PI
 
 int picture_option(const char *text, void *at) { return picture_format(*(const char **)at = text) != PICTURE_UNKNOWN; }
 
+#define SHOULDER    0.76f  /* Khronos PBR Neutral: 0.8, less the reflectance of 0.04 that its toe takes away */
+#define FADES       0.15f  /* how soon bright colours are white: Khronos PBR Neutral's desaturation */
+#define SHOULDER_EV 0.375f /* the brightest hundredth lies on the shoulder: middle tones gain that */
+
 /* A histogram of the brightest channel in eighths of a stop: no sorting, no memory. */
-float picture_auto_exposure(const image *p)
+float picture_auto_exposure(const image *p, int tone)
 {
     enum { STEPS = 512, MIDDLE = 256 };
     uint32_t counts[STEPS] = {0}, lit = 0, above = 0;
@@ -46,14 +65,55 @@ float picture_auto_exposure(const image *p)
     for (int step = STEPS - 1; step >= 0; --step) {
         above += counts[step];
         if (above * 100u >= lit && lit > 0) {
-            return -(float)(step + 1 - MIDDLE) / 8.0f;
+            return -(float)(step + 1 - MIDDLE) / 8.0f + (tone == PICTURE_CURVED ? SHOULDER_EV : 0.0f);
         }
     }
     return 0.0f;
 }
 
-/* By the library's own tone curve, tile by tile. */
-uint8_t *picture_codes(const image *p, float exposure_ev)
+/* Khronos PBR Neutral's shoulder, of one pixel. */
+static void curve(float rgb[3])
+{
+    const float peak = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2])), room = 1.0f - SHOULDER;
+    if (!(peak > SHOULDER)) {
+        return;
+    }
+    const float bent = 1.0f - room * room / (peak + room - SHOULDER);
+    const float faded = 1.0f - 1.0f / (FADES * (peak - bent) + 1.0f);
+    for (int c = 0; c < 3; ++c) {
+        const float scaled = rgb[c] / peak * bent;
+        rgb[c] = scaled + (bent - scaled) * faded;
+    }
+}
+
+void picture_expose(image *p, float exposure_ev, int tone)
+{
+    const size_t pixels = (size_t)p->width * (size_t)p->height;
+    const float by = exp2f(exposure_ev);
+    for (size_t i = 0; i < pixels; ++i) {
+        float *rgb = p->pixels + 3 * i;
+        for (int c = 0; c < 3; ++c) {
+            rgb[c] = fminf(rgb[c] * by, 3e38f);
+        }
+        if (tone == PICTURE_CURVED) {
+            curve(rgb);
+        }
+    }
+}
+
+static int copy_of(image *out, const image *p)
+{
+    const size_t bytes = (size_t)p->width * (size_t)p->height * 3 * sizeof(float);
+    *out = *p;
+    out->pixels = malloc(bytes);
+    if (out->pixels != NULL) {
+        memcpy(out->pixels, p->pixels, bytes);
+    }
+    return out->pixels != NULL;
+}
+
+/* As a display shows it, tile by tile. */
+static uint8_t *codes_of(const image *p, float exposure_ev)
 {
     const lmb_kernels *kernels = lmb_kernels_pick();
     size_t pixels = (size_t)p->width * (size_t)p->height;
@@ -84,14 +144,29 @@ uint8_t *picture_codes(const image *p, float exposure_ev)
     return rgba;
 }
 
-int picture_write(const char *path, const image *p, float exposure_ev, report *r)
+uint8_t *picture_codes(const image *p, float exposure_ev, int tone)
+{
+    image shown;
+    if (tone == PICTURE_CLIPPED) {
+        return codes_of(p, exposure_ev);
+    }
+    if (!copy_of(&shown, p)) {
+        return NULL;
+    }
+    picture_expose(&shown, exposure_ev, tone);
+    uint8_t *codes = codes_of(&shown, 0.0f);
+    image_free(&shown);
+    return codes;
+}
+
+int picture_write(const char *path, const image *p, float exposure_ev, int tone, report *r)
 {
     file_bytes file = {NULL, 0};
     int format = picture_format(path), ok;
     if (picture_is_linear(format)) {
         ok = format == PICTURE_PFM ? pfm_encode(&file, p, r) : hdr_encode(&file, p, r);
     } else {
-        uint8_t *rgb = picture_codes(p, exposure_ev);
+        uint8_t *rgb = picture_codes(p, exposure_ev, tone);
         if (rgb == NULL) {
             return report_fail(r, "%s: not enough memory for the picture; try a smaller --size", path);
         }
@@ -101,5 +176,38 @@ int picture_write(const char *path, const image *p, float exposure_ev, report *r
     }
     ok = ok && file_write(path, file.data, file.size, r);
     file_free(&file);
+    return ok;
+}
+
+/* Light as if the surface filled the pixel. */
+static int divide_by(image *out, const image *p, const float *alpha)
+{
+    const size_t pixels = (size_t)p->width * (size_t)p->height;
+    *out = *p;
+    out->pixels = malloc(pixels * 3 * sizeof *out->pixels);
+    for (size_t i = 0; out->pixels != NULL && i < 3 * pixels; ++i) {
+        out->pixels[i] = alpha[i / 3] > 0.0f ? p->pixels[i] / alpha[i / 3] : 0.0f;
+    }
+    return out->pixels != NULL;
+}
+
+int picture_write_alpha(const char *path, const image *p, const float *alpha, float exposure_ev, int tone, report *r)
+{
+    const size_t pixels = (size_t)p->width * (size_t)p->height;
+    file_bytes file = {NULL, 0};
+    image whole;
+    uint8_t *rgb = divide_by(&whole, p, alpha) ? picture_codes(&whole, exposure_ev, tone) : NULL;
+    uint8_t *rgba = malloc(4 * pixels);
+    int ok = rgb != NULL && rgba != NULL;
+    for (size_t i = 0; ok && i < pixels; ++i) {
+        memcpy(rgba + 4 * i, rgb + 3 * i, 3);
+        rgba[4 * i + 3] = (uint8_t)(alpha[i] * 255.0f + 0.5f);
+    }
+    ok = ok ? png_encode_alpha(&file, rgba, p->width, p->height, r) && file_write(path, file.data, file.size, r)
+            : report_fail(r, "%s: not enough memory for the picture; try a smaller --size", path);
+    file_free(&file);
+    free(rgba);
+    free(rgb);
+    image_free(&whole);
     return ok;
 }

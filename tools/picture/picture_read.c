@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "../common/progress.h"
 #include "io_jpeg.h"
 #include "io_png.h"
 #include "io_ppm_read.h"
@@ -191,20 +192,38 @@ int picture_read(stored_picture *out, const uint8_t *data, size_t size, const ch
     }
     if (!kind->read_codes(&out->codes, data, size, name, r))
         return 0;
+    if (out->codes.note != NULL)
+        report_note(progress_is_quiet(), "note: %s: %s", name, out->codes.note);
     out->width = out->codes.width;
     out->height = out->codes.height;
     out->channels = code_channels(kind, data, size, &out->codes);
     return 1;
 }
 
-uint64_t picture_pixels(const uint8_t *data, size_t size)
+/* Scans that a JPEG may have: its data never has these two bytes in a row but for that. */
+static uint64_t count_scans(const uint8_t *data, size_t size)
+{
+    const uint8_t *at = data, *end = data + size;
+    uint64_t scans = 0;
+    while (end - at > 1 && (at = memchr(at, 0xFF, (size_t)(end - at) - 1)) != NULL)
+        scans += *++at == 0xDA;
+    return scans;
+}
+
+static uint64_t jpeg_work(const uint8_t *data, size_t size)
+{
+    const uint8_t *frame = jpeg_frame(data, size);
+    const uint64_t pixels =
+        frame ? (uint64_t)(frame[5] << 8 | frame[6]) * (uint64_t)(frame[7] << 8 | frame[8]) : 0;
+    return frame && frame[1] == 0xC2 ? pixels + (pixels + 3) / 4 * count_scans(data, size) : pixels;
+}
+
+uint64_t picture_work(const uint8_t *data, size_t size)
 {
     if (is_png(data, size) && size >= 24)
         return (uint64_t)get_u32_be(data + 16) * get_u32_be(data + 20);
-    if (is_jpeg(data, size)) {
-        const uint8_t *frame = jpeg_frame(data, size);
-        return frame ? (uint64_t)(frame[5] << 8 | frame[6]) * (uint64_t)(frame[7] << 8 | frame[8]) : 0;
-    }
+    if (is_jpeg(data, size))
+        return jpeg_work(data, size);
     return size;
 }
 

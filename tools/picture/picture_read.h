@@ -17,13 +17,15 @@ typedef struct stored_picture {
 /* picture_begins: is this a picture, of a kind that is read or one that is only known by name? */
 int picture_begins(const uint8_t *data, size_t size);
 
-/* Both return 1, or 0 with `r` set and nothing allocated; `name` stands in messages. */
+/* Both return 1, or 0 with `r` set and nothing allocated; `name` stands in messages. picture_read says on stderr what a
+ * file has against its format though it could be read (bitmap.note). */
 int picture_read(stored_picture *out, const uint8_t *data, size_t size, const char *name, report *r);
 /* picture_read_codes: only pictures of codes, as textures are; linear light is refused. bitmap_free releases it. */
 int picture_read_codes(bitmap *out, const uint8_t *data, size_t size, const char *name, report *r);
 
-/* picture_pixels: at most so many will come of these bytes, as their header says; 0 where the header is not valid. */
-uint64_t picture_pixels(const uint8_t *data, size_t size);
+/* picture_work: what decoding these bytes takes at most, in pixels of a plain picture: those of the header, and of a
+ * progressive JPEG a quarter more for each scan, which goes over all of its blocks; 0 where the header is not valid. */
+uint64_t picture_work(const uint8_t *data, size_t size);
 
 void stored_picture_free(stored_picture *p);
 

@@ -51,7 +51,7 @@ static const option_row play_rows[] = {
      .help = "what moves (default all): by --path; else by a glTF file's animations of nodes, all of them together; "
              "else by itself: a light goes round its place in a circle (a sun's direction in a cone) and the camera "
              "swings on an arc around what it looks at, once in 10 s, both as far as the scene leaves room"},
-    {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path),
+    {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = "what moves, by keys: lines of TIME WHAT X,Y,Z [X,Y,Z]: seconds; camera, light (or light:N) or object:N, "
              "numbered from 0; position; what it looks at or shines on (an object: faces with its +Z), where that "
              "changes. A smooth curve goes through the keys of each; before and after them it stands still. # begins "

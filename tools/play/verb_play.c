@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
+#include "../common/progress.h"
 #include "../common/text_buffer.h"
 #include "../picture/picture.h"
 #include "../render/render_exposure.h"
@@ -71,7 +72,7 @@ static int write_frame(play *p, int32_t k, report *r)
 {
     char name[NAME];
     return p->o.render.out == NULL || (play_name(name, sizeof name, p->o.render.out, k, r) &&
-                                       picture_write(name, &p->job.linear, p->exposure_ev, r));
+                                       picture_write(name, &p->job.linear, p->exposure_ev, p->job.o.tone, r));
 }
 
 static int check_frame(play *p, int32_t k, report *r)
@@ -91,22 +92,17 @@ static int check_frame(play *p, int32_t k, report *r)
 
 static int draw_all(play *p, report *r)
 {
-    const int watched = host_watched() && !p->o.render.view.is_quiet;
     int ok = 1;
     for (int32_t i = 0; ok && i < p->o.frames; ++i) {
         const int32_t k = p->o.from + i;
         play_time took;
-        if (watched) {
-            fprintf(stderr, "\rframe %d of %d ", (int)i + 1, (int)p->o.frames);
-        }
+        progress_whole("frames", (double)i / (double)p->o.frames);
         ok = draw(p, k, &took, r) && write_frame(p, k, r) && check_frame(p, k, r);
         if (ok) {
             play_times_add(&p->times, &took);
         }
     }
-    if (watched) {
-        fprintf(stderr, "\r%40s\r", "");
-    }
+    progress_end();
     return ok;
 }
 
@@ -152,9 +148,12 @@ static int write_stats(const play *p, report *r)
 static int can_write(const play *p, report *r)
 {
     char name[NAME];
-    const render_options *o = &p->o.render;
-    return (o->out == NULL || (play_name(name, sizeof name, o->out, p->o.from, r) && file_can_write(name, r))) &&
-           (o->stats == NULL || file_can_write(o->stats, r));
+    int ok = options_files(&p->o, &play_table, r);
+    for (int32_t i = 0; ok && p->o.render.out != NULL && i < p->o.frames; ++i) {
+        ok = play_name(name, sizeof name, p->o.render.out, p->o.from + i, r) &&
+             (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
+    }
+    return ok;
 }
 
 static int tell(play *p, report *r)
@@ -163,15 +162,16 @@ static int tell(play *p, report *r)
         return report_fail(r, "out of memory");
     }
     if (!p->o.render.view.is_quiet && p->said.data != NULL) {
-        fputs(p->said.data, stdout);
+        fputs(p->said.data, report_words());
     }
-    return (fflush(stdout) == 0 && !ferror(stdout)) || report_fail(r, "standard output: cannot be written");
+    return report_flush(r);
 }
 
 static int run(play *p, report *r)
 {
     p->job.o = p->o.render;
     if (!can_write(p, r) || !play_motion_read(&p->motion, &p->o, r) || !render_job_load(&p->job, r) ||
+        !can_write(p, r) ||
         !play_motion_find(&p->motion, &p->job, r) || !render_job_set(&p->job, r) || !play_motion_make(&p->motion, r) || !play_times_make(&p->times, p->o.frames, r) ||
         !find_exposure(p, r) || !draw_all(p, r)) {
         return 0;
@@ -190,6 +190,7 @@ int verb_play(int argc, char **argv)
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, &play_table, &r);
     }
+    progress_begin(p.o.render.view.is_quiet, "play");
     const int ok = run(&p, &r);
     play_check_free(&p.check);
     play_times_free(&p.times);

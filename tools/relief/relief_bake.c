@@ -7,6 +7,8 @@
 
 #include "../../src/base/codec.h"
 #include "../../src/base/vec.h"
+#include "../../platform/host/pool.h"
+#include "../common/progress.h"
 
 void relief_bake_free(relief_bake *bake)
 {
@@ -76,15 +78,12 @@ static void set_texel(texel *t, const float *normal, const float *colour, int co
     lmb_octahedral_encode(t->normal, vec3(normal[0], normal[1], normal[2]));
 }
 
-int relief_add_planes(relief_bake *bake, const lmb_view *view, const float *depth, const float *normal,
-                      const float *colour, int codes, report *r)
+/* A view's picture in the place that is its own. */
+static int pack(relief_picture *p, int32_t format, const lmb_view *view, const float *depth, const float *normal,
+                const float *colour, int codes, report *r)
 {
     const size_t count = (size_t)view->frame_width * (size_t)view->frame_height;
-    const int full = bake->format == LMB_RELIEF_FULL;
-    relief_picture *p = &bake->picture[bake->views];
-    if (bake->views == LMB_RELIEF_VIEWS) {
-        return report_fail(r, "more than %d views", LMB_RELIEF_VIEWS);
-    }
+    const int full = format == LMB_RELIEF_FULL;
     p->view = *view;
     p->bytes = full ? 12 * count : 4 * count + (count + 1) / 2 * 4;
     p->texels = calloc(p->bytes, 1);
@@ -99,8 +98,23 @@ int relief_add_planes(relief_bake *bake, const lmb_view *view, const float *dept
             (full ? put_full : put_packed)(p->texels, count, i, &t);
         }
     }
-    ++bake->views;
     return 1;
+}
+
+static int has_room(const relief_bake *bake, int32_t count, report *r)
+{
+    return bake->views + count <= LMB_RELIEF_VIEWS || report_fail(r, "more than %d views", LMB_RELIEF_VIEWS);
+}
+
+int relief_add_planes(relief_bake *bake, const lmb_view *view, const float *depth, const float *normal,
+                      const float *colour, int codes, report *r)
+{
+    if (!has_room(bake, 1, r)) {
+        return 0;
+    }
+    const int ok = pack(&bake->picture[bake->views], bake->format, view, depth, normal, colour, codes, r);
+    bake->views += ok;
+    return ok;
 }
 
 /* --- drawing ------------------------------------------------------------------------------------------------------ */
@@ -149,7 +163,7 @@ static canvas *canvas_make(const lmb_view *v, report *r)
     return c;
 }
 
-int relief_add(relief_bake *bake, const lmb_scene *scene, const lmb_view *view, report *r)
+static int draw(relief_picture *out, int32_t format, const lmb_scene *scene, const lmb_view *view, report *r)
 {
     const lmb_kernels *kernels = lmb_kernels_pick();
     canvas *c = canvas_make(view, r);
@@ -160,10 +174,56 @@ int relief_add(relief_bake *bake, const lmb_scene *scene, const lmb_view *view, 
     for (int32_t band = 0; status == LMB_OK && band < (view->frame_height + 7) / 8; ++band) {
         status = lmb_gbuffer_band(&c->depth, &c->normal, &c->albedo, &c->tile, kernels, view, scene, &c->target, band);
     }
-    const int ok = status == LMB_OK ? relief_add_planes(bake, view, c->depth.data, c->normal.data, c->albedo.data, 0, r)
-                                    : report_fail(r, "a view could not be drawn: %s", lmb_status_name(status));
+    const int ok = status == LMB_OK
+                       ? pack(out, format, view, c->depth.data, c->normal.data, c->albedo.data, 0, r)
+                       : report_fail(r, "a view could not be drawn: %s", lmb_status_name(status));
     canvas_free(c);
     return ok;
+}
+
+/* Views that several threads draw. */
+typedef struct drawing {
+    relief_bake *bake;
+    const lmb_scene *scene;
+    const lmb_view *view;
+    int32_t count;
+    report failed[LMB_RELIEF_VIEWS]; /* by view */
+} drawing;
+
+static void draw_one(void *user, int i, int thread)
+{
+    drawing *d = user;
+    draw(&d->bake->picture[d->bake->views + i], d->bake->format, d->scene, &d->view[i], &d->failed[i]);
+    if (thread == 0) {
+        progress_tell("views", (double)i / (double)d->count);
+    }
+}
+
+int relief_add_views(relief_bake *bake, const lmb_scene *scene, const lmb_view *view, int32_t count, int threads,
+                     report *r)
+{
+    static drawing d;
+    if (!has_room(bake, count, r)) {
+        return 0;
+    }
+    memset(&d, 0, sizeof d);
+    d.bake = bake;
+    d.scene = scene;
+    d.view = view;
+    d.count = count;
+    pool_run(threads, count, draw_one, &d);
+    bake->views += count;
+    for (int32_t i = 0; i < count; ++i) {
+        if (d.failed[i].text[0] != '\0') {
+            return report_fail(r, "%s", d.failed[i].text);
+        }
+    }
+    return 1;
+}
+
+int relief_add(relief_bake *bake, const lmb_scene *scene, const lmb_view *view, report *r)
+{
+    return relief_add_views(bake, scene, view, 1, 1, r);
 }
 
 /* --- the file ----------------------------------------------------------------------------------------------------- */

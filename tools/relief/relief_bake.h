@@ -44,7 +44,10 @@ void relief_directions(lmb_vec3 *out, int32_t count);
 int relief_greedy(lmb_vec3 *out, int32_t count, const triangle_mesh *mesh, const lmb_scene *scene, int32_t size,
                   report *r);
 
-/* relief_add: draw a view of the scene and keep it. 1, or 0 with `r` set. */
+/* relief_add_views: draw views of the scene, so many threads at once, and keep them; relief_add: one. 1, or 0 with `r`
+ * set. */
+int relief_add_views(relief_bake *bake, const lmb_scene *scene, const lmb_view *view, int32_t count, int threads,
+                     report *r);
 int relief_add(relief_bake *bake, const lmb_scene *scene, const lmb_view *view, report *r);
 
 /* relief_add_planes: the same of a picture that is there: depth m along the axis (0: nothing), normals, linear or

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
+#include "../../platform/host/pool.h"
+#include "../common/progress.h"
 #include "relief_bounce.h"
 
 /* One kind of geometry: what its pixels are resolved from, and its shadow map. */
@@ -15,15 +17,28 @@ typedef struct layer {
     void *depth_memory, *id_memory, *map_memory;
 } layer;
 
+struct work;
+
+/* What one thread draws a tile in. */
+typedef struct pen {
+    struct work *of;
+    lmb_tile tile, other;
+    lmb_irradiance direct, open, indirect;
+    relief_bounce bounce; /* the work's, with a cut of its own */
+    lmb_radiance radiance, open_radiance;
+    lmb_relief_stats stats;
+    lmb_status failed;
+} pen;
+
 typedef struct work {
     relief_frame *out;
     const relief_shot *shot;
     lmb_scene simple;
     layer plain, relief; /* scene NULL: there is none */
-    lmb_tile tile, other;
-    lmb_irradiance direct, open, indirect;
+    lmb_tile tile;       /* of shadow maps */
     relief_bounce bounce;
-    lmb_radiance radiance, open_radiance;
+    pen *pens;
+    int threads;
 } work;
 
 static void *take(work *w, size_t bytes, report *r)
@@ -95,20 +110,20 @@ static int draw_maps(work *w, report *r)
 /* --- a tile ------------------------------------------------------------------------------------------------------- */
 
 /* The nearer of both kinds. */
-static lmb_status resolve(work *w, int32_t x, int32_t y)
+static lmb_status resolve(pen *w, int32_t x, int32_t y)
 {
-    const relief_shot *s = w->shot;
+    const relief_shot *s = w->of->shot;
     lmb_status status = LMB_OK;
-    if (w->plain.scene != NULL) {
-        status = lmb_resolve_tile(&w->tile, s->kernels, &s->view, w->plain.scene, &w->plain.target, x, y);
+    if (w->of->plain.scene != NULL) {
+        status = lmb_resolve_tile(&w->tile, s->kernels, &s->view, w->of->plain.scene, &w->of->plain.target, x, y);
     }
-    if (status == LMB_OK && w->relief.scene != NULL) {
-        lmb_tile *t = w->plain.scene != NULL ? &w->other : &w->tile;
-        status = lmb_resolve_tile(t, s->kernels, &s->view, w->relief.scene, &w->relief.target, x, y);
+    if (status == LMB_OK && w->of->relief.scene != NULL) {
+        lmb_tile *t = w->of->plain.scene != NULL ? &w->other : &w->tile;
+        status = lmb_resolve_tile(t, s->kernels, &s->view, w->of->relief.scene, &w->of->relief.target, x, y);
         if (status == LMB_OK) {
-            status = lmb_relief_tile(t, &w->out->stats, s->kernels, s->relief, &s->view, &s->how);
+            status = lmb_relief_tile(t, &w->stats, s->kernels, s->relief, &s->view, &s->how);
         }
-        if (status == LMB_OK && w->plain.scene != NULL) {
+        if (status == LMB_OK && w->of->plain.scene != NULL) {
             lmb_relief_nearer(&w->tile, t);
         }
     }
@@ -116,12 +131,12 @@ static lmb_status resolve(work *w, int32_t x, int32_t y)
 }
 
 /* Ordinary geometry's shadow by its triangles, the relief's by its depths. */
-static lmb_status light_tile(work *w)
+static lmb_status light_tile(pen *w)
 {
-    const relief_shot *s = w->shot;
+    const relief_shot *s = w->of->shot;
     const int shadows = s->shadow_map > 0;
-    const lmb_shadow_map *map = shadows && w->plain.scene != NULL ? &w->plain.map : NULL;
-    const lmb_scene *scene = w->plain.scene != NULL ? w->plain.scene : w->relief.scene;
+    const lmb_shadow_map *map = shadows && w->of->plain.scene != NULL ? &w->of->plain.map : NULL;
+    const lmb_scene *scene = w->of->plain.scene != NULL ? w->of->plain.scene : w->of->relief.scene;
     memset(&w->direct, 0, sizeof w->direct);
     memset(&w->open, 0, sizeof w->open);
     lmb_status status = lmb_direct_tile(&w->open, s->kernels, &w->tile, &s->view, scene, s->light, NULL);
@@ -130,8 +145,8 @@ static lmb_status light_tile(work *w)
     } else {
         status = lmb_direct_tile(&w->direct, s->kernels, &w->tile, &s->view, scene, s->light, map);
     }
-    if (status == LMB_OK && shadows && w->relief.scene != NULL) {
-        const uint64_t lit = lmb_relief_lit(&w->relief.map, s->light, &w->tile);
+    if (status == LMB_OK && shadows && w->of->relief.scene != NULL) {
+        const uint64_t lit = lmb_relief_lit(&w->of->relief.map, s->light, &w->tile);
         for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
             for (int c = 0; c < 3 && (lit >> k & 1u) == 0; ++c) {
                 w->direct.rgb[c][k] = 0.0f;
@@ -142,23 +157,24 @@ static lmb_status light_tile(work *w)
 }
 
 /* What the light sends on, and what comes from everywhere. */
-static lmb_status bounce_tile(work *w)
+static lmb_status bounce_tile(pen *w)
 {
     uint64_t of_relief = 0;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        const int is_relief = w->plain.scene == NULL || w->tile.id[k] == LMB_MAX_TRIANGLES;
-        of_relief |= (uint64_t)(w->relief.scene != NULL && is_relief) << k;
+        const int is_relief = w->of->plain.scene == NULL || w->tile.id[k] == LMB_MAX_TRIANGLES;
+        of_relief |= (uint64_t)(w->of->relief.scene != NULL && is_relief) << k;
         for (int c = 0; c < 3; ++c) {
-            w->indirect.rgb[c][k] = w->shot->ambient;
+            w->indirect.rgb[c][k] = w->of->shot->ambient;
         }
     }
-    return w->shot->bounce == 0 ? LMB_OK : relief_bounce_tile(&w->indirect, &w->bounce, w->shot->kernels, &w->tile,
-                                                              of_relief);
+    return w->of->shot->bounce == 0
+               ? LMB_OK
+               : relief_bounce_tile(&w->indirect, &w->bounce, w->of->shot->kernels, &w->tile, of_relief);
 }
 
-static void store(work *w)
+static void store(pen *w)
 {
-    relief_frame *f = w->out;
+    relief_frame *f = w->of->out;
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t x = w->tile.x + k % LMB_TILE, y = w->tile.y + k / LMB_TILE;
         if (x >= f->width || y >= f->height) {
@@ -176,20 +192,20 @@ static void store(work *w)
     }
 }
 
-static lmb_status draw_tile(work *w, int32_t x, int32_t y)
+static lmb_status draw_tile(pen *w, int32_t x, int32_t y)
 {
     lmb_status status = resolve(w, x, y);
-    if (status == LMB_OK && w->shot->light != NULL) {
+    if (status == LMB_OK && w->of->shot->light != NULL) {
         status = light_tile(w);
     }
-    if (status == LMB_OK && w->shot->light != NULL) {
+    if (status == LMB_OK && w->of->shot->light != NULL) {
         status = bounce_tile(w);
     }
-    if (status == LMB_OK && w->shot->light != NULL) {
-        status = lmb_compose_tile(&w->radiance, w->shot->kernels, &w->tile, &w->direct, &w->indirect);
+    if (status == LMB_OK && w->of->shot->light != NULL) {
+        status = lmb_compose_tile(&w->radiance, w->of->shot->kernels, &w->tile, &w->direct, &w->indirect);
     }
-    if (status == LMB_OK && w->shot->light != NULL) {
-        status = lmb_compose_tile(&w->open_radiance, w->shot->kernels, &w->tile, &w->open, &w->indirect);
+    if (status == LMB_OK && w->of->shot->light != NULL) {
+        status = lmb_compose_tile(&w->open_radiance, w->of->shot->kernels, &w->tile, &w->open, &w->indirect);
     }
     store(w);
     return status;
@@ -204,6 +220,51 @@ static lmb_status draw_layer(work *w, layer *l)
                                        lmb_scene_triangles(l->scene), 0, NULL);
 }
 
+static void draw_row(void *user, int row, int thread)
+{
+    work *w = user;
+    pen *p = &w->pens[thread];
+    for (int32_t x = 0; x < w->out->width && p->failed == LMB_OK; x += LMB_TILE) {
+        p->failed = draw_tile(p, x, row * LMB_TILE);
+    }
+    if (thread == 0) {
+        progress_tell("picture", (double)(row * LMB_TILE) / (double)w->out->height);
+    }
+}
+
+static void add_stats(lmb_relief_stats *sum, const lmb_relief_stats *more)
+{
+    sum->pixels += more->pixels;
+    sum->hits += more->hits;
+    sum->missed += more->missed;
+    sum->holes += more->holes;
+}
+
+static lmb_status draw_rows(work *w)
+{
+    lmb_status status = LMB_OK;
+    pool_run(w->threads, (w->out->height + LMB_TILE - 1) / LMB_TILE, draw_row, w);
+    for (int i = 0; i < w->threads; ++i) {
+        add_stats(&w->out->stats, &w->pens[i].stats);
+        status = status != LMB_OK ? status : w->pens[i].failed;
+    }
+    return status;
+}
+
+/* The bounced light's trees are shared; the cut through them is each thread's own. */
+static int take_pens(work *w, report *r)
+{
+    for (int i = 0; i < w->threads; ++i) {
+        pen *p = &w->pens[i];
+        p->of = w;
+        p->bounce = w->bounce;
+        if (w->bounce.cut != NULL && i > 0 && (p->bounce.cut = take(w, sizeof *p->bounce.cut, r)) == NULL) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 static int draw(work *w, report *r)
 {
     relief_frame *f = w->out;
@@ -216,6 +277,9 @@ static int draw(work *w, report *r)
                             w->shot->bounce, r)) {
         return 0;
     }
+    if (!take_pens(w, r)) {
+        return 0;
+    }
     now = host_cpu_seconds();
     f->light_s = now - since;
     lmb_status status = draw_layer(w, &w->plain);
@@ -224,10 +288,8 @@ static int draw(work *w, report *r)
     }
     since = host_cpu_seconds();
     f->draw_s = since - now;
-    for (int32_t y = 0; y < f->height && status == LMB_OK; y += LMB_TILE) {
-        for (int32_t x = 0; x < f->width && status == LMB_OK; x += LMB_TILE) {
-            status = draw_tile(w, x, y);
-        }
+    if (status == LMB_OK) {
+        status = draw_rows(w);
     }
     f->band_s = host_cpu_seconds() - since;
     return status == LMB_OK || report_fail(r, "drawing stopped: %s", lmb_status_name(status));
@@ -246,6 +308,8 @@ static int begin(work *w, report *r)
     f->rgb = take(w, 3 * pixels * sizeof(float), r);
     f->open = take(w, 3 * pixels * sizeof(float), r);
     f->lit = take(w, pixels, r);
+    w->threads = s->threads > 1 ? s->threads : 1;
+    w->pens = take(w, (size_t)w->threads * sizeof *w->pens, r);
     w->plain.scene = s->scene;
     if (s->relief != NULL) {
         lmb_relief_scene(&w->simple, s->relief);
@@ -274,6 +338,10 @@ int relief_shoot(relief_frame *out, const relief_shot *shot, report *r)
     const int ok = begin(w, r) && draw(w, r);
     layer_free(&w->plain);
     layer_free(&w->relief);
+    for (int i = 1; w->pens != NULL && i < w->threads; ++i) {
+        free(w->pens[i].bounce.cut);
+    }
+    free(w->pens);
     relief_bounce_free(&w->bounce);
     free(w);
     if (!ok) {

@@ -16,6 +16,7 @@ typedef struct relief_shot {
     const lmb_light *light;   /* NULL: only what the surfaces are */
     int32_t shadow_map;        /* texels a side; 0: no shadow */
     float ambient;            /* irradiance from everywhere, W/m2 */
+    int threads;              /* that draw the picture at once; 0: one */
     int32_t bounce;           /* texels a side of the map that the light bounces from, a power of two; 0: it does not */
 } relief_shot;
 

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../common/option_value.h"
+#include "../common/progress.h"
 #include "../common/view_options.h"
 #include "../model/model.h"
 #include "../picture/picture.h"
@@ -26,6 +27,7 @@ typedef struct options {
     int32_t shadow_map, show;
     float ambient, exposure_ev; /* NaN: chosen by the picture */
     const lmb_kernels *kernels;
+    int32_t threads;
 } options;
 
 /* --- command line ------------------------------------------------------------------------------------------------- */
@@ -37,7 +39,8 @@ static const char *const shows[] = {"full", "depth", "normal", "albedo", "lit", 
 #define AT(member) .at = offsetof(options, member)
 
 static const option_row rows[] = {
-    {.name = "FILE.lmr", .kind = OPTION_TEXT, .value = "", AT(file), .help = "what `lambent relief bake` made"},
+    {.name = "FILE.lmr", .kind = OPTION_TEXT, .value = "", AT(file), .file = OPTION_READS,
+     .help = "what `lambent relief bake` made"},
     {.kind = OPTION_TITLE, .help = "view"},
     VIEW_OPTION_SIZE(options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(options, view, "where the camera stands (default: the whole model from a little above)"),
@@ -54,21 +57,22 @@ static const option_row rows[] = {
      .help = "texels a side of its shadow map (default 1024); 0: no shadows"},
     {.name = "--ambient", .value = "E", .kind = OPTION_NUMBER, AT(ambient), .low = 0, .high = 1e6,
      .help = "irradiance from everywhere, W/m2 (default 0.3)"},
-    {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with),
+    {.name = "--with", .value = "SCENE", .kind = OPTION_TEXT, AT(with), .file = OPTION_READS,
      .help = "other geometry in the same picture: both shadow and hide each other"},
     {.name = "--bounce", .kind = OPTION_FLAG, AT(bounce),
      .help = "light once reflected, too, by the other geometry and the simple model"},
     {.kind = OPTION_TITLE, .help = "output"},
-    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option,
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = ".png .ppm .pfm .hdr"},
+     .help = PICTURE_OPTION_HELP},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .help = "(default full)"},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = "stops, display formats only (default 0)"},
-    {.name = "--compare", .value = "MODEL", .kind = OPTION_TEXT, AT(compare),
+    {.name = "--compare", .value = "MODEL", .kind = OPTION_TEXT, AT(compare), .file = OPTION_READS,
      .help = "draws the complex model too, and prints speed and errors side by side"},
     OPTION_BACKEND_ROW(options, kernels),
+    OPTION_THREADS_ROW(options, threads, "draw the picture"),
     OPTION_LOUDNESS(options, view.is_quiet, view.is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -220,28 +224,28 @@ static int write_frame(const options *o, relief_frame *f, report *r)
 {
     show(f, o->show);
     const image out = {f->width, f->height, 3, f->rgb};
-    const float ev = o->show == SHOW_DEPTH || isnan(o->exposure_ev) ? picture_auto_exposure(&out) : o->exposure_ev;
-    return picture_write(o->out, &out, ev, r);
+    const float ev = o->show == SHOW_DEPTH || isnan(o->exposure_ev) ? picture_auto_exposure(&out, PICTURE_CLIPPED) : o->exposure_ev;
+    return picture_write(o->out, &out, ev, PICTURE_CLIPPED, r);
 }
 
 static void tell(const relief_frame *f)
 {
     const lmb_relief_stats *s = &f->stats;
     const double n = s->pixels > 0 ? (double)s->pixels : 1.0;
-    printf("pixels of the simple model %.0f: hit %.2f %%, passed %.2f %%, holes %.2f %%\n", (double)s->pixels,
+    report_say("pixels of the simple model %.0f: hit %.2f %%, passed %.2f %%, holes %.2f %%\n", (double)s->pixels,
            100.0 * (double)s->hits / n, 100.0 * (double)s->missed / n, 100.0 * (double)s->holes / n);
 }
 
 static void tell_compared(const relief_frame *f, const relief_frame *truth, const relief_figures *e)
 {
-    printf("%-22s %12s %12s\n", "", "relief", "direct");
-    printf("%-22s %12.2f %12.2f\n", "shadow map, ms", 1e3 * f->light_s, 1e3 * truth->light_s);
-    printf("%-22s %12.2f %12.2f\n", "triangles, ms", 1e3 * f->draw_s, 1e3 * truth->draw_s);
-    printf("%-22s %12.2f %12.2f\n", "pixels, ms", 1e3 * f->band_s, 1e3 * truth->band_s);
-    printf("outline %.2f px (median), covered by both %.2f %%\n", e->silhouette_px, 100.0 * e->iou);
-    printf("depth %.4f %% of the diagonal (median), %.4f %% (95 of 100)\n", 100.0 * e->depth_50, 100.0 * e->depth_95);
-    printf("normals %.2f degrees (median), %.1f (95 of 100)\n", e->normal_50, e->normal_95);
-    printf("light %.2f dB, without cast shadows %.2f; reflectance %.2f dB; lit or not as it should %.2f %%\n",
+    report_say("%-22s %12s %12s\n", "", "relief", "direct");
+    report_say("%-22s %12.2f %12.2f\n", "shadow map, ms", 1e3 * f->light_s, 1e3 * truth->light_s);
+    report_say("%-22s %12.2f %12.2f\n", "triangles, ms", 1e3 * f->draw_s, 1e3 * truth->draw_s);
+    report_say("%-22s %12.2f %12.2f\n", "pixels, ms", 1e3 * f->band_s, 1e3 * truth->band_s);
+    report_say("outline %.2f px (median), covered by both %.2f %%\n", e->silhouette_px, 100.0 * e->iou);
+    report_say("depth %.4f %% of the diagonal (median), %.4f %% (95 of 100)\n", 100.0 * e->depth_50, 100.0 * e->depth_95);
+    report_say("normals %.2f degrees (median), %.1f (95 of 100)\n", e->normal_50, e->normal_95);
+    report_say("light %.2f dB, without cast shadows %.2f; reflectance %.2f dB; lit or not as it should %.2f %%\n",
            e->shadowed_db, e->psnr_db, e->albedo_db, 100.0 * e->lit);
 }
 
@@ -277,9 +281,10 @@ static int render(work *w, options *o, report *r)
                            LMB_LIGHT_DIRECTIONAL, 0};
     memset(&shot, 0, sizeof shot);
     w->sun = sun;
-    if (!file_can_write(o->out, r) || !open_relief(w, o->file, r) ||
+    if (!options_files(o, &table, r) || !open_relief(w, o->file, r) ||
         (o->with != NULL && !load(&w->with, o->with, r)) ||
-        (o->compare != NULL && !load_truth(w, o->compare, r)) || !choose_view(&shot.view, w, o, r)) {
+        (o->compare != NULL && !load_truth(w, o->compare, r)) ||
+        !options_files(o, &table, r) || !choose_view(&shot.view, w, o, r)) {
         return 0;
     }
     shot.kernels = o->kernels;
@@ -289,6 +294,7 @@ static int render(work *w, options *o, report *r)
     shot.light = o->has_light ? &o->light : &w->sun;
     shot.shadow_map = o->shadow_map;
     shot.ambient = o->ambient;
+    shot.threads = pool_threads(o->threads);
     shot.bounce = o->bounce ? BOUNCE_MAP : 0;
     if (!relief_shoot(&f, &shot, r)) {
         return 0;
@@ -312,10 +318,12 @@ static int verb_render_relief(int argc, char **argv)
         return options_answer(asked, &table, &r);
     }
     work *w = calloc(1, sizeof *w);
+    progress_begin(o.view.is_quiet, "relief render");
     const int ok = w != NULL ? render(w, &o, &r) : report_fail(&r, "out of memory");
     if (w != NULL) {
         work_free(w);
     }
+    progress_end();
     return ok ? 0 : report_end(&r, "relief render", 1);
 }
 

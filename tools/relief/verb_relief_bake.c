@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
+#include "../common/progress.h"
 #include "../mesh/enclose.h"
 #include "../model/model.h"
 #include "relief_bake.h"
@@ -19,6 +20,7 @@ typedef struct options {
     const char *frame[LMB_RELIEF_VIEWS]; /* photos' */
     int32_t frames;
     float block;
+    int32_t threads;
 } options;
 
 static int parse_views(const char *text, void *at)
@@ -35,8 +37,9 @@ static int parse_views(const char *text, void *at)
 #define AT(member) .at = offsetof(options, member)
 
 static const option_row rows[] = {
-    {.name = "MODEL", .kind = OPTION_TEXT, .value = "", AT(model), .help = ".gltf .glb .obj .ply"},
-    {.name = "-o", .value = "OUT.lmr", .kind = OPTION_TEXT, AT(out),
+    {.name = "MODEL", .kind = OPTION_TEXT, .value = "", AT(model), .file = OPTION_READS,
+     .help = ".gltf .glb .obj .ply"},
+    {.name = "-o", .value = "OUT.lmr", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
      .help = "what `lambent relief render` draws, in place from flash too"},
     {.name = "--views", .value = "N|greedy:N|FILE", .kind = OPTION_OWN, .parse = parse_views,
      .expects = "1 .. 64, greedy:N, or a file of cameras",
@@ -44,7 +47,7 @@ static const option_row rows[] = {
              "of 98 sides the N that see most;\nFILE: cameras of your own, a line each: EX EY EZ TX TY TZ FOV (eye, "
              "target, degrees)"},
     RELIEF_OPTIONS_BAKE(options),
-    {.name = "--simple", .value = "FILE", .kind = OPTION_TEXT, AT(simple),
+    {.name = "--simple", .value = "FILE", .kind = OPTION_TEXT, AT(simple), .file = OPTION_READS,
      .help = "a simple model of your own, near to the complex one; moved out where that sticks out"},
     {.name = "--as-is", .kind = OPTION_FLAG, AT(as_is), .help = "leaves it as it is"},
     {.kind = OPTION_TITLE, .help = "photos"},
@@ -55,6 +58,7 @@ static const option_row rows[] = {
     {.name = "--block", .value = "M", .kind = OPTION_NUMBER, AT(block), .low = 1e-4, .high = 1e4,
      .help = "its simple model: cubes of this size that hold a point of a photo (default 1/24 of all)"},
     {.kind = OPTION_TITLE, .help = "other"},
+    OPTION_THREADS_ROW(options, threads, "draw the views"),
     OPTION_LOUDNESS(options, is_quiet, is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -263,25 +267,22 @@ static int choose_views(work *w, const options *o, report *r)
 
 static void tell(const work *w, const options *o, const relief_coverage *c)
 {
-    printf("%s: %u triangles as %u, %d views of %d x %d, %.0f bytes\n", o->out, (unsigned)w->mesh.triangle_count,
+    report_say("%s: %u triangles as %u, %d views of %d x %d, %.0f bytes\n", o->out, (unsigned)w->mesh.triangle_count,
            (unsigned)w->simple.triangle_count, (int)w->views, (int)o->size, (int)o->size, (double)w->file.size);
-    printf("surface that no view sees: %.2f %%; none within 60 degrees of its normal: %.2f %%\n", 100.0 * c->unseen,
+    report_say("surface that no view sees: %.2f %%; none within 60 degrees of its normal: %.2f %%\n", 100.0 * c->unseen,
            100.0 * c->slanted);
 }
 
 static int bake(work *w, const options *o, report *r)
 {
     relief_coverage coverage;
-    if (!file_can_write(o->out, r) || !load_complex(w, o, r) || !choose_views(w, o, r) || !make_simple(w, o, r)) {
+    if (!options_files(o, &table, r) || !load_complex(w, o, r) || !options_files(o, &table, r) ||
+        !choose_views(w, o, r) || !make_simple(w, o, r)) {
         return 0;
     }
     w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
-    for (int32_t i = 0; i < w->views; ++i) {
-        if (!relief_add(&w->bake, &w->scene, &w->view[i], r)) {
-            return 0;
-        }
-    }
-    if (!relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, r) ||
+    if (!relief_add_views(&w->bake, &w->scene, w->view, w->views, pool_threads(o->threads), r) ||
+        !relief_cover(&coverage, &w->bake, &w->mesh, r) || !relief_encode(&w->file, &w->bake, &w->simple, r) ||
         !file_write(o->out, w->file.data, w->file.size, r)) {
         return 0;
     }
@@ -318,14 +319,14 @@ static int bake_photos(work *w, const options *o, report *r)
     relief_photo photo[LMB_RELIEF_VIEWS];
     memset(photo, 0, sizeof photo);
     w->bake.format = o->is_packed ? LMB_RELIEF_PACKED : LMB_RELIEF_FULL;
-    const int ok = file_can_write(o->out, r) && add_photos(w, o, photo, r) &&
+    const int ok = options_files(o, &table, r) && add_photos(w, o, photo, r) &&
                    relief_encode(&w->file, &w->bake, &w->simple, r) &&
                    file_write(o->out, w->file.data, w->file.size, r);
     for (int32_t i = 0; i < o->frames; ++i) {
         relief_photo_free(&photo[i]);
     }
     if (ok && !o->is_quiet) {
-        printf("%s: %d photos on %u triangles, %.0f bytes\n", o->out, (int)o->frames,
+        report_say("%s: %d photos on %u triangles, %.0f bytes\n", o->out, (int)o->frames,
                (unsigned)w->simple.triangle_count, (double)w->file.size);
     }
     return ok;
@@ -341,10 +342,12 @@ int verb_relief_bake(int argc, char **argv)
         return options_answer(asked, &table, &r);
     }
     work *w = calloc(1, sizeof *w);
+    progress_begin(o.is_quiet, "relief bake");
     const int ok = w != NULL ? (o.frames > 0 ? bake_photos : bake)(w, &o, &r) : report_fail(&r, "out of memory");
     if (w != NULL) {
         work_free(w);
     }
+    progress_end();
     report_note(!ok || !o.is_verbose, "baked in %.1f s", host_seconds() - start);
     return ok ? 0 : report_end(&r, "relief bake", 1);
 }

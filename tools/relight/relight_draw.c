@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../platform/host/pool.h"
+#include "../common/progress.h"
 #include "../picture/picture.h"
 #include "relight_figures.h"
 #include "relight_path.h"
@@ -32,8 +34,14 @@ typedef struct stage {
     lmb_shadow_map maps[RELIGHT_LIGHTS];
     void *map_memory[RELIGHT_LIGHTS], *depth_memory, *id_memory;
     lmb_relight relight;
-    lmb_relight_scratch scratch;
+    lmb_relight_scratch *scratch; /* by thread */
+    int threads;
+    lmb_surface out;
+    lmb_status failed[POOL_MAX]; /* by thread */
     image picture;
+    float *one;       /* a sample of each pixel, where there are several */
+    int32_t samples;
+    double done, all; /* places of the path */
 } stage;
 
 static void *take(size_t bytes, report *r)
@@ -133,23 +141,55 @@ static int draw_shadows(stage *s, report *r)
 
 /* --- a picture ---------------------------------------------------------------------------------------------------- */
 
-static int draw(stage *s, report *r)
+static void draw_band(void *user, int band, int thread)
+{
+    stage *s = user;
+    const lmb_status status = lmb_relight_band(&s->relight, &s->scratch[thread], &s->out, band);
+    s->failed[thread] = status != LMB_OK ? status : s->failed[thread];
+    if (thread == 0) {
+        progress_tell("pictures", (s->done + (double)(band * LMB_TILE) / ((double)s->out.height * s->samples)) / s->all);
+    }
+}
+
+/* One sample of each pixel into `pixels`. */
+static lmb_status draw_sample(stage *s, float *pixels)
 {
     lmb_relight *l = &s->relight;
     const lmb_scene *scene = l->scene;
-    lmb_surface out;
-    memset(&out, 0, sizeof out);
-    out.data = s->picture.pixels;
-    out.width = s->picture.width;
-    out.height = s->picture.height;
-    out.stride_bytes = out.width * 3 * (int32_t)sizeof(float);
-    out.format = LMB_RGB32F;
+    memset(s->failed, 0, sizeof s->failed);
+    memset(&s->out, 0, sizeof s->out);
+    s->out.data = pixels;
+    s->out.width = s->picture.width;
+    s->out.height = s->picture.height;
+    s->out.stride_bytes = s->out.width * 3 * (int32_t)sizeof(float);
+    s->out.format = LMB_RGB32F;
     lmb_surface_clear(&l->eye.depth);
     lmb_surface_clear(&l->eye.id);
     lmb_status status =
         lmb_draw(&l->eye, l->kernels, &l->view, scene, 1, lmb_scene_triangles(scene), LMB_CULL_BACK, NULL);
-    for (int32_t band = 0; band < (out.height + LMB_TILE - 1) / LMB_TILE && status == LMB_OK; ++band) {
-        status = lmb_relight_band(l, &s->scratch, &out, band);
+    if (status == LMB_OK) {
+        pool_run(s->threads, (s->out.height + LMB_TILE - 1) / LMB_TILE, draw_band, s);
+    }
+    for (int i = 0; i < s->threads; ++i) {
+        status = status != LMB_OK ? status : s->failed[i];
+    }
+    return status;
+}
+
+static int draw(stage *s, report *r)
+{
+    const size_t numbers = 3 * (size_t)s->picture.width * (size_t)s->picture.height;
+    const float weight = 1.0f / (float)s->samples;
+    lmb_status status = LMB_OK;
+    for (int32_t i = 0; i < s->samples && status == LMB_OK; ++i) {
+        status = lmb_view_sample(&s->relight.view, s->samples, i);
+        if (status == LMB_OK) {
+            status = draw_sample(s, s->one != NULL ? s->one : s->picture.pixels);
+        }
+        for (size_t k = 0; s->one != NULL && k < numbers; ++k) {
+            s->picture.pixels[k] = (i > 0 ? s->picture.pixels[k] : 0.0f) + weight * s->one[k];
+        }
+        s->done += 1.0 / (double)s->samples;
     }
     return status == LMB_OK || report_fail(r, "%s: drawing stopped: %s", s->o->object, lmb_status_name(status));
 }
@@ -158,10 +198,10 @@ static int draw(stage *s, report *r)
 static int write(stage *s, const char *path, report *r)
 {
     if (isnan(s->o->exposure_ev) && !picture_is_linear(picture_format(path))) {
-        s->o->exposure_ev = picture_auto_exposure(&s->picture) + 0.0f; /* no minus zero */
+        s->o->exposure_ev = picture_auto_exposure(&s->picture, s->o->tone) + 0.0f; /* no minus zero */
         report_note(s->o->view.is_quiet, "exposure %+.3g EV (auto)", (double)s->o->exposure_ev);
     }
-    return picture_write(path, &s->picture, s->o->exposure_ev, r);
+    return picture_write(path, &s->picture, s->o->exposure_ev, s->o->tone, r);
 }
 
 /* OUT.png -> OUT-0007.png */
@@ -183,11 +223,11 @@ static int draw_along(stage *s, report *r)
             !draw_shadows(s, r) || !draw(s, r) || !write(s, name, r)) {
             return 0;
         }
-        printf("%s  %g,%g,%g  %s\n", name, (double)at.x, (double)at.y, (double)at.z,
+        report_say("%s  %g,%g,%g  %s\n", name, (double)at.x, (double)at.y, (double)at.z,
                s->cache.kept - kept == s->figures.owners ? "kept" : "computed");
     }
-    printf("light computed %u times, kept %u times\n", (unsigned)s->cache.computed, (unsigned)s->cache.kept);
-    return (fflush(stdout) == 0 && !ferror(stdout)) || report_fail(r, "standard output: cannot be written");
+    report_say("light computed %u times, kept %u times\n", (unsigned)s->cache.computed, (unsigned)s->cache.kept);
+    return report_flush(r);
 }
 
 /* --- before the first --------------------------------------------------------------------------------------------- */
@@ -209,11 +249,13 @@ static int take_cache(stage *s, report *r)
     const size_t probes = LMB_MAX_PROBES * RELIGHT_GLOSSY_CUBES * sizeof *s->probes;
     s->probes = take(probes, r);
     s->probe_of = take(f->scene.instance_count * sizeof *s->probe_of, r);
+    s->threads = pool_threads(o->threads);
+    s->scratch = take((size_t)s->threads * sizeof *s->scratch, r);
     s->planes = take(3 * 6 * 64 * 64 * sizeof *s->planes, r);
     if (s->probes != NULL) {
         memset(s->probes, 0, probes);
     }
-    return s->probes != NULL && s->probe_of != NULL && s->planes != NULL;
+    return s->probes != NULL && s->probe_of != NULL && s->planes != NULL && s->scratch != NULL;
 }
 
 /* The box of all places of a path, for a camera that sees them all. */
@@ -258,7 +300,10 @@ static int take_frame(stage *s, report *r)
     s->depth_memory = take(depth, r);
     s->id_memory = take(id, r);
     s->picture.pixels = take((size_t)w * (size_t)h * 3 * sizeof(float), r);
-    if (s->depth_memory == NULL || s->id_memory == NULL || s->picture.pixels == NULL) {
+    s->samples = s->o->samples != 0 ? s->o->samples : picture_is_linear(picture_format(s->o->out)) ? 1 : 4;
+    s->one = s->samples > 1 ? take((size_t)w * (size_t)h * 3 * sizeof(float), r) : NULL;
+    if (s->depth_memory == NULL || s->id_memory == NULL || s->picture.pixels == NULL ||
+        (s->samples > 1 && s->one == NULL)) {
         return 0;
     }
     s->picture.width = w;
@@ -281,6 +326,7 @@ static int take_frame(stage *s, report *r)
 static int run(stage *s, report *r)
 {
     const relight_options *o = s->o;
+    s->all = 1.0;
     if ((o->path != NULL && !place_list_read(&s->path, o->path, r)) ||
         !figures_load(&s->figures, o, o->path != NULL ? 1 : (uint32_t)o->at_count, r) || !take_cache(s, r)) {
         return 0;
@@ -289,6 +335,7 @@ static int run(stage *s, report *r)
         figures_stand(&s->figures, (uint32_t)i, o->at[i]);
     }
     if (o->path != NULL) {
+        s->all = (double)s->path.count;
         frame_path(s);
     } else {
         figures_bounds(&s->figures);
@@ -314,6 +361,8 @@ static void stage_free(stage *s)
     free(s->probes);
     free(s->probe_of);
     free(s->planes);
+    free(s->scratch);
+    free(s->one);
     free(s->depth_memory);
     free(s->id_memory);
     image_free(&s->picture);

@@ -62,7 +62,7 @@ static const char *const shows[] = {"both", "normal", "glossy", NULL}; /* in the
 
 static const option_row world_rows[] = {
     {.kind = OPTION_TITLE, .help = "world"},
-    {.name = "--world", .value = "FILE|PREFIX", .kind = OPTION_TEXT, AT(world),
+    {.name = "--world", .value = "FILE|PREFIX", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
      .help = "one file: six faces (+x -x +y -y +z -z from the top or the left), or the whole sphere, twice as wide "
              "as high; or six files, PREFIXpx PREFIXnx ... PREFIXnz (.pfm .hdr .png .jpg), of which some may be "
              "missing; or `demo`, a built-in field with places of its own"},
@@ -73,7 +73,7 @@ static const option_row world_rows[] = {
     {.name = "--world-box", .value = "X0,Y0,Z0,X1,Y1,Z1", .kind = OPTION_OWN, .parse = parse_box,
      .expects = "X0,Y0,Z0,X1,Y1,Z1, the smaller ones first",
      .help = "or on the walls of this box; the centre lies inside"},
-    {.name = "--ground", .value = "FILE", .kind = OPTION_TEXT, AT(ground),
+    {.name = "--ground", .value = "FILE", .kind = OPTION_TEXT, AT(ground), .file = OPTION_READS,
      .help = "the ground from above, right +x, down +z; transparent where it is not known"},
     {.name = "--ground-size", .value = "W,D", .kind = OPTION_NUMBERS, AT(ground_size), .size = 2, .low = 1e-6,
      .high = 1e30, .expects = "W,D over 0",
@@ -100,20 +100,21 @@ static const option_row light_rows[] = {
      .help = "cosine: exact, from 6 x 8 x 8 directions (default); off by about 0.5 %;\nsh9, sh16, sh25: spherical "
              "harmonics: 1 %, the same, 0.6 %; may be negative beside sharp lights;\nblur, blur1, blur2: by rows and "
              "columns: the source's 6 %, one product fitted a row 4 %, two 1.5 %"},
-    {.name = "--cube", .value = "OUT", .kind = OPTION_OWN, AT(cube), .parse = picture_option,
+    {.name = "--cube", .value = "OUT", .kind = OPTION_OWN, AT(cube), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = "W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to look at)"},
+     .help = "W/m2, N wide and 6 N high, faces +x -x +y -y +z -z from the top (.pfm .hdr; .png .ppm to look at; "
+             "-, ppm:-, pfm:-, hdr:- are standard output)"},
     {.name = "--faces", .value = "N", .kind = OPTION_INT, AT(faces), .low = 1, .high = 64,
      .help = "texels of a face's side (default 8)"},
-    {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .parse = picture_option,
+    {.name = "--map", .value = "OUT", .kind = OPTION_OWN, AT(map), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = "what the place sees, 128 x 64: longitude from -180 degrees, north on top; W/(sr m2)"},
+     .help = "what the place sees, 128 x 64: longitude from -180 degrees, north on top; W/(sr m2); files as --cube"},
     {.kind = OPTION_END},
 };
 
 static const option_row object_rows[] = {
     {.kind = OPTION_TITLE, .help = "objects"},
-    {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object),
+    {.name = "--object", .value = "FILE", .kind = OPTION_TEXT, AT(object), .file = OPTION_READS,
      .help = ".gltf .glb .obj .ply, or `demo`, a figure: stands with the middle of its box's bottom at --at, and is "
              "lit as its box's middle is"},
     {.name = "--scale", .value = "M", .kind = OPTION_NUMBER, AT(scale_m), .low = 1e-3, .high = 1e5,
@@ -129,7 +130,7 @@ static const option_row object_rows[] = {
      .help = "a light or sun beside the world's light, as in `lambent render`"},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = "all light, that by normals alone, or what is mirrored alone (default both)"},
-    {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path),
+    {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
      .help = "places of the object, X,Y,Z a line: a picture each, OUT with -0000, -0001, ..."},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
      .help = "an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
@@ -144,15 +145,19 @@ static const option_row object_rows[] = {
 
 static const option_row picture_rows[] = {
     {.kind = OPTION_TITLE, .help = "picture"},
-    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option,
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = ".png .ppm (display), .pfm .hdr (linear)"},
+     .help = PICTURE_OPTION_HELP},
     VIEW_OPTION_SIZE(relight_options, view, "px (default 640x480)"),
     VIEW_OPTIONS_CAMERA(relight_options, view, "where the camera stands (default: so that all objects fit)"),
+    {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
+     .help = "a pixel; their mean is shown (default 4 for .png and .ppm, 1 for .pfm and .hdr)"},
+    OPTION_TONE_ROW(relight_options, tone),
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = "stops, display formats only (default auto: said on stderr)"},
     OPTION_BACKEND_ROW(relight_options, kernels),
+    OPTION_THREADS_ROW(relight_options, threads, "draw the objects' picture"),
     OPTION_LOUDNESS(relight_options, view.is_quiet, view.is_verbose, "say how long what took"),
     OPTION_ASK,
     {.kind = OPTION_END},
@@ -183,6 +188,9 @@ static int check_together(const relight_options *o, report *r)
     }
     if ((o->object == NULL) != (o->out == NULL)) {
         return report_fail(r, "--object and -o go together");
+    }
+    if (o->path != NULL && o->out != NULL && file_is_stdout(o->out)) {
+        return report_fail(r, "--path draws a picture a place: give -o a file name");
     }
     if (o->path != NULL && (o->object == NULL || o->at_count > 0)) {
         return report_fail(r, "--path moves one --object; leave --at out");

@@ -33,8 +33,11 @@ typedef struct relight_options {
     int32_t filter, faces, show;
     view_options view;
     const char *out, *cube, *map;
+    int32_t samples;   /* a pixel; 0: by the output's format */
+    int32_t tone;      /* PICTURE_ */
     float exposure_ev; /* NaN: chosen by the picture */
     const lmb_kernels *kernels;
+    int32_t threads; /* 0: as many as there are processors */
 } relight_options;
 
 extern const option_table relight_table;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "../../platform/host/host.h"
+#include "../common/progress.h"
 #include "../picture/picture.h"
 #include "relight_draw.h"
 #include "relight_light.h"
@@ -19,20 +20,9 @@ static int write_planes(const char *path, const float *planes, int32_t width, in
     for (size_t i = 0; i < 3 * pixels; ++i) {
         out.pixels[i] = planes[i % 3 * pixels + i / 3];
     }
-    const int ok = picture_write(path, &out, picture_auto_exposure(&out), r);
+    const int ok = picture_write(path, &out, picture_auto_exposure(&out, PICTURE_CLIPPED), PICTURE_CLIPPED, r);
     image_free(&out);
     return ok;
-}
-
-static int can_write(const relight_options *o, report *r)
-{
-    const char *const paths[] = {o->cube, o->map, o->path == NULL ? o->out : NULL};
-    for (int i = 0; i < 3; ++i) {
-        if (paths[i] != NULL && !file_can_write(paths[i], r)) {
-            return 0;
-        }
-    }
-    return 1;
 }
 
 /* Of the one place that was asked for; with an object, of its middle. */
@@ -48,7 +38,7 @@ static int relight(relight_light *w, relight_options *o, report *r)
     lmb_vec3 at = o->at[0];
     const int is_brief = !o->view.is_verbose;
     const double start = host_seconds();
-    if (!can_write(o, r) || !relight_light_make(w, o, r)) {
+    if (!options_files(o, &relight_table, r) || !relight_light_make(w, o, r) || !options_files(o, &relight_table, r)) {
         return 0;
     }
     const double made = host_seconds();
@@ -74,10 +64,12 @@ int verb_relight(int argc, char **argv)
         return options_answer(asked, &relight_table, &r);
     }
     relight_light *w = calloc(1, sizeof *w);
+    progress_begin(o.view.is_quiet, "relight");
     const int ok = w != NULL ? relight(w, &o, &r) : report_fail(&r, "out of memory");
     if (w != NULL) {
         relight_light_free(w);
         free(w);
     }
+    progress_end();
     return ok ? 0 : report_end(&r, "relight", 1);
 }

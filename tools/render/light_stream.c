@@ -1,4 +1,4 @@
-/* light_stream.c: a scene's lights as a tree, for scenes with more of them than maps. */
+/* light_stream.c: lights as a tree: of a scene with more of them than maps, and of a sky. */
 #include "light_stream.h"
 
 #include <math.h>
@@ -34,12 +34,14 @@ static void widen(extent *e, const lmb_light *l)
     e->high = (lmb_vec3){fmaxf(e->high.x, p.x), fmaxf(e->high.y, p.y), fmaxf(e->high.z, p.z)};
 }
 
-static extent measure(const lmb_scene *s)
+static extent measure(const light_list lists[2])
 {
     extent e;
     memset(&e, 0, sizeof e);
-    for (uint32_t i = 0; i < s->light_count; ++i) {
-        widen(&e, &s->lights[i]);
+    for (int k = 0; k < 2; ++k) {
+        for (uint32_t i = 0; i < lists[k].count; ++i) {
+            widen(&e, &lists[k].lights[i]);
+        }
     }
     return e;
 }
@@ -55,8 +57,9 @@ static void *take(light_stream *m, size_t bytes, report *r)
     return p;
 }
 
-static int take_tree(light_stream *m, const lmb_scene *scene, const extent *e, uint32_t cells, report *r)
+static int take_tree(light_stream *m, const light_list lists[2], uint32_t cells, report *r)
 {
+    const extent measured = measure(lists), *e = &measured;
     const double start = host_seconds();
     const size_t bytes = lmb_many_lights_bytes(cells);
     const float max = (float)fmin(fmax(e->max, 0x1p-59), 0x1p+59);
@@ -65,21 +68,18 @@ static int take_tree(light_stream *m, const lmb_scene *scene, const extent *e, u
         return 0;
     }
     lmb_status status = lmb_many_lights_init(&m->tree, cells, e->low, e->high, max, m->tree_memory, bytes);
-    status = status == LMB_OK ? lmb_many_lights_add(&m->tree, scene->lights, scene->light_count) : status;
+    for (int k = 0; k < 2 && status == LMB_OK; ++k) {
+        status = lists[k].count > 0 ? lmb_many_lights_add(&m->tree, lists[k].lights, lists[k].count) : LMB_OK;
+    }
     m->stream_s = host_seconds() - start;
     status = status == LMB_OK ? lmb_many_lights_build(&m->tree) : status;
     m->build_s = host_seconds() - start - m->stream_s;
-    return status == LMB_OK ||
-           report_fail(r, "the tree of %u lights: %s", (unsigned)scene->light_count, lmb_status_name(status));
+    return status == LMB_OK || report_fail(r, "the tree of %u lights: %s",
+                                           (unsigned)(lists[0].count + lists[1].count), lmb_status_name(status));
 }
 
-int light_stream_take(light_stream *m, lmb_scene *scene, uint32_t cells, report *r)
+int light_stream_take(light_stream *m, const light_list lists[2], uint32_t cells, report *r)
 {
-    const extent e = measure(scene);
     memset(m, 0, sizeof *m);
-    if (!take_tree(m, scene, &e, cells, r)) {
-        return 0;
-    }
-    scene->light_count = 0;
-    return 1;
+    return take_tree(m, lists, cells, r);
 }

@@ -1,4 +1,4 @@
-/* light_stream.h: a scene's lights as a tree, for scenes with more of them than maps. */
+/* light_stream.h: lights as a tree: of a scene with more of them than maps, and of a sky. */
 #ifndef LIGHT_STREAM_H
 #define LIGHT_STREAM_H
 
@@ -16,9 +16,13 @@ typedef struct light_stream {
     double stream_s, build_s;
 } light_stream;
 
-/* light_stream_take: the tree of the scene's lights, at most `cells`; *scene is left with none. 1, or 0 with `r`
- * set. */
-int light_stream_take(light_stream *out, lmb_scene *scene, uint32_t cells, report *r);
+typedef struct light_list {
+    const lmb_light *lights;
+    uint32_t count;
+} light_list;
+
+/* light_stream_take: the tree of the lights of both lists, at most `cells`. 1, or 0 with `r` set. */
+int light_stream_take(light_stream *out, const light_list lists[2], uint32_t cells, report *r);
 
 void light_stream_free(light_stream *m);
 

@@ -2,35 +2,11 @@
 #include "render_draw.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "../../platform/host/host.h"
+#include "../common/progress.h"
 #include "../picture/picture.h"
 #include "map_picture.h"
-
-static void show_progress(const lmb_render *render, double since)
-{
-    const char *name;
-    float part = lmb_render_progress(&name, render);
-    double passed = host_seconds() - since;
-    char bar[21];
-    for (int i = 0; i < 20; ++i) {
-        bar[i] = (float)i < part * 20.0f ? '#' : '.';
-    }
-    bar[20] = '\0';
-    if (render->stage == LMB_STAGE_BANDS && part > 0.02f) {
-        fprintf(stderr, "\r%-12s [%s] %3.0f %%  %.0f s left   ", name, bar, (double)part * 100.0,
-                passed / (double)part - passed);
-    } else {
-        fprintf(stderr, "\r%-12s [%s] %3.0f %%               ", name, bar, (double)part * 100.0);
-    }
-}
-
-typedef struct watcher {
-    int32_t stage;
-    double start, stage_start, shown; /* s; shown 0: nothing was */
-} watcher;
 
 /* What stopped a frame, in words. The memory is sized here, so little can. */
 static int explain(const render_job *j, lmb_status status, int stage, report *r)
@@ -42,19 +18,12 @@ static int explain(const render_job *j, lmb_status status, int stage, report *r)
     return report_fail(r, "%s: rendering stopped: %s", j->o.scene, lmb_status_name(status));
 }
 
-/* A second of silence first, then ten times a second. */
 static void watch(void *user, const lmb_render *at)
 {
-    watcher *w = user;
-    const double now = host_seconds();
-    if (at->stage != w->stage) {
-        w->stage = at->stage;
-        w->stage_start = now;
-    }
-    if (now - w->start > 1.0 && now - w->shown > 0.1) {
-        show_progress(at, w->stage_start);
-        w->shown = now;
-    }
+    const char *name;
+    const float part = lmb_render_progress(&name, at);
+    (void)user;
+    progress_tell(name, (double)part);
 }
 
 /* The frame `how` for all eyes; the light's stages once a run. */
@@ -71,15 +40,9 @@ static lmb_status draw_eyes(render_job *j, workers *c, int32_t *stage, lmb_frame
 
 static int draw(render_job *j, report *r)
 {
-    watcher w = {LMB_STAGE_SHADOW_MAP, host_seconds(), 0.0, 0.0};
-    w.stage_start = w.start;
-    j->workers.tell = host_watched() && !j->o.view.is_quiet ? watch : NULL;
-    j->workers.user = &w;
     int32_t stage;
+    j->workers.tell = watch;
     lmb_status status = draw_eyes(j, &j->workers, &stage, j->frame, &j->linear);
-    if (w.shown > 0.0) {
-        fprintf(stderr, "\r%60s\r", "");
-    }
     return status == LMB_OK || explain(j, status, stage, r);
 }
 

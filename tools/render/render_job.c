@@ -2,7 +2,6 @@
 #include "render_job.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,9 +10,11 @@
 #include "../picture/picture.h"
 #include "own_light.h"
 #include "render_view.h"
+#include "../../src/raster/triangle.h"
 
 #define HALF_STEP   0.00015f /* of black in 8 bits: radiance at exposure 0 */
-#define MAX_MAPPED 32 /* lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
+#define SKY_ERROR   0.01f /* of a sky's light, that one of its nodes may be wrong by */
+#define MAX_MAPPED  32 /* lights with maps that bounce, by default: 100 take 160 times as long as in a tree */
 
 void render_job_free(render_job *j)
 {
@@ -22,6 +23,8 @@ void render_job_free(render_job *j)
     free(j->render);
     image_free(&j->linear);
     light_stream_free(&j->many_lights);
+    world_free(&j->around);
+    free(j->with_sun);
     model_free(&j->loaded);
     file_free(&j->transfer_file);
 }
@@ -35,22 +38,6 @@ static void *take(render_job *j, size_t bytes, report *r)
                     (double)bytes / 1048576.0);
     }
     return p;
-}
-
-/* To whoever watches. */
-static void note(const render_job *j, const char *format, ...) REPORT_PRINTF(2, 3);
-
-static void note(const render_job *j, const char *format, ...)
-{
-    va_list args;
-    if (j->o.view.is_quiet) {
-        return;
-    }
-    va_start(args, format);
-    fputs("lambent: ", stderr);
-    vfprintf(stderr, format, args);
-    fputc('\n', stderr);
-    va_end(args);
 }
 
 /* --- scene and lights --------------------------------------------------------------------------------------------- */
@@ -111,13 +98,55 @@ static int load_transfer(render_job *j, report *r)
            report_fail(r, "%s: baked from another scene than %s; bake it anew", j->o.transfer, j->o.scene);
 }
 
-int render_job_load(render_job *j, report *r) { return load_scene(j, r) && load_transfer(j, r); }
+/* Was it baked with light by direction? All leaves of a triangle alike. */
+static int keeps_direction(const lmb_transfer *t, uint32_t root)
+{
+    const uint32_t *node = t->section[LMB_TRANSFER_DIVISIONS];
+    while ((node[root] & LMB_TRANSFER_LEAF) == 0) {
+        root = node[root] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+    }
+    return (node[root] & ~LMB_TRANSFER_LEAF) >= t->leaves;
+}
+
+/* Triangles of which a normal map or a lobe is lit as if all light came from straight above. */
+static uint32_t without_direction(const render_job *j)
+{
+    const lmb_transfer *t = &j->transfer;
+    uint32_t count = 0;
+    for (uint32_t id = 1; id <= t->count[LMB_TRANSFER_SURFACES]; ++id) {
+        const uint32_t *root = t->section[LMB_TRANSFER_SURFACES] + LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2;
+        const lmb_material *m = &j->scene.materials[lmb_instance_of(&j->scene, id)->material];
+        const int takes_direction =
+            m->normal_scale != 0.0f || m->specular[0] > 0.0f || m->specular[1] > 0.0f || m->specular[2] > 0.0f;
+        count += takes_direction && ((root[0] != LMB_TRANSFER_NONE && !keeps_direction(t, root[0])) ||
+                                     (root[1] != LMB_TRANSFER_NONE && !keeps_direction(t, root[1])));
+    }
+    return count;
+}
+
+int render_job_load(render_job *j, report *r)
+{
+    if (!load_scene(j, r) || !load_transfer(j, r)) {
+        return 0;
+    }
+    const uint32_t left_out = j->o.transfer != NULL ? without_direction(j) : 0;
+    if (left_out > 0) {
+        report_note(j->o.view.is_quiet,
+                    "%s: keeps no directions for %u triangles with a normal map or a lobe, which bounced light leaves "
+                    "out; bake it anew%s",
+                    j->o.transfer, (unsigned)left_out, j->o.glossy ? " with --glossy" : "");
+    }
+    if (j->o.transfer != NULL && j->o.glossy && j->transfer.count[LMB_TRANSFER_MOVING] > 0) {
+        report_note(j->o.view.is_quiet, "%s: lobes of objects that move reflect no bounced light", j->o.transfer);
+    }
+    return 1;
+}
 
 /* Once nothing but memory can fail: an error is a line on its own. */
 static void tell_notes(const render_job *j)
 {
     for (uint32_t i = 0; i < j->notes.count; ++i) {
-        note(j, "note: %s", j->notes.line[i]);
+        report_note(j->o.view.is_quiet, "note: %s", j->notes.line[i]);
     }
 }
 
@@ -127,23 +156,114 @@ static int emits_itself(const render_job *j)
     return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_emits(&j->scene);
 }
 
-/* Without lights: a sun, but where what emits light is the scene's light. 0 with `r` set: out of memory. */
+/* 1: it has lights, or what emits light is the scene's light. 0: it has none. -1 with `r` set: out of memory. */
+static int is_lit(const render_job *j, report *r)
+{
+    if (j->scene.light_count > 0) {
+        return 1;
+    }
+    const float own = emits_itself(j) ? own_light(&j->scene, r) : 0.0f;
+    return own < 0.0f ? -1 : own >= OWN_LIGHT;
+}
+
+/* Fixed groups have no light of a sky: nothing of it would bounce. */
+static int can_bounce_many(const render_job *j)
+{
+    return j->o.transfer != NULL || j->o.show == LMB_SHOW_DIRECT || j->o.grouping.method == LMB_GROUP_CUT;
+}
+
+/* The sky's sun behind the scene's lights. */
+static int add_sun(render_job *j, report *r)
+{
+    const uint32_t count = j->scene.light_count;
+    if (!j->around.has_sun) {
+        return 1;
+    }
+    j->with_sun = take(j, (count + 1) * sizeof *j->with_sun, r);
+    if (j->with_sun == NULL) {
+        return 0;
+    }
+    if (count > 0) {
+        memcpy(j->with_sun, j->scene.lights, count * sizeof *j->with_sun);
+    }
+    j->with_sun[count] = j->around.sun;
+    j->scene.lights = j->with_sun;
+    j->scene.light_count = count + 1;
+    return 1;
+}
+
+/* What is cut out stands on nothing, and what was baked knows no ground. */
+static int wants_ground(const render_job *j)
+{
+    return !j->o.no_ground && j->o.background.kind == BACKGROUND_WORLD && j->o.transfer == NULL;
+}
+
+/* By itself only in `render`, where no settings are chosen: what is reckoned for a budget leaves a sky's light out. */
+static int wants_sky(const render_job *j)
+{
+    return j->o.has_sky && can_bounce_many(j) && !has_budget(&j->o.budget, j->o.budget_ms);
+}
+
+static void tell_world(const render_job *j)
+{
+    const world *w = &j->around;
+    if (j->o.world == NULL) {
+        report_note(j->o.view.is_quiet, "no light in %s: a clear sky%s; --world and --light set others%s", j->o.scene,
+                    w->has_ground ? " and a ground below" : "", w->has_ground ? ", --ground none leaves it alone" : "");
+    }
+    if (w->count == 0 && !w->has_sun) {
+        report_note(j->o.view.is_quiet, "note: %s gives no light", j->o.world);
+    }
+    if (j->o.glossy && lmb_scene_is_glossy(&j->scene)) {
+        report_note(j->o.view.is_quiet, "note: lobes mirror the sun and what bounces, but not the sky");
+    }
+}
+
+static int set_world(render_job *j, int lit, report *r)
+{
+    const int is_sky = j->o.world == NULL || strcmp(j->o.world, "sky") == 0;
+    world *w = &j->around;
+    if (!can_bounce_many(j)) {
+        return report_fail(r, "--world: a sky's light bounces by --grouping cut alone; or use --world none");
+    }
+    if (has_budget(&j->o.budget, j->o.budget_ms)) {
+        return report_fail(r, "--world: settings for a budget are reckoned without a sky's light; use --quality");
+    }
+    if (!(is_sky ? world_sky(w, r) : world_read(w, j->o.world, r)) ||
+        (!lit && wants_ground(j) && !world_put_ground(w, &j->scene, j->middle.eye, r)) || !world_light(w, r) ||
+        !add_sun(j, r)) {
+        return 0;
+    }
+    if (shows_map(j->o.show) && j->scene.light_count == 0) {
+        return report_fail(r, "--show: %s has no sun, and no other light has a map; add one by --light", j->o.world);
+    }
+    tell_world(j);
+    return 1;
+}
+
+/* Those of the command line or the scene, and of what lies around it. */
 static int set_lights(render_job *j, report *r)
 {
+    static const lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f,
+                                  LMB_LIGHT_DIRECTIONAL, 0};
     if (j->o.light_count > 0) {
         j->scene.lights = j->o.lights;
         j->scene.light_count = j->o.light_count;
-    } else if (j->scene.light_count == 0) {
-        const float own = emits_itself(j) ? own_light(&j->scene, r) : 0.0f;
-        if (own < 0.0f || own >= OWN_LIGHT) {
-            return own >= 0.0f;
-        }
-        lmb_light sun = {{0, 0, 0}, {-0.45f, -0.8f, -0.3968627f}, {3.0f, 2.9f, 2.7f}, 1.0f, 1.0f, LMB_LIGHT_DIRECTIONAL,
-                         0};
+    }
+    const int lit = is_lit(j, r);
+    const int wants_none = j->o.world != NULL && strcmp(j->o.world, "none") == 0;
+    if (lit < 0) {
+        return 0;
+    }
+    if (j->o.world == NULL ? !lit && wants_sky(j) : !wants_none) {
+        return set_world(j, lit, r);
+    }
+    if (!lit) {
         j->sun = sun;
         j->scene.lights = &j->sun;
         j->scene.light_count = 1;
-        note(j, "no light in %s: a sun of 3 W/m2 from the upper right; --light sets others", j->o.scene);
+        report_note(j->o.view.is_quiet, "no light in %s: a sun of 3 W/m2 from the upper right; --light sets others",
+                    j->o.scene);
     }
     return 1;
 }
@@ -154,30 +274,33 @@ static uint32_t most_mapped(const render_job *j)
     const int bounces =
         j->o.show == LMB_SHOW_FULL || j->o.show == LMB_SHOW_INDIRECT || j->o.show == LMB_SHOW_IRRADIANCE;
     const int mirrors = j->o.glossy && lmb_scene_is_glossy(&j->scene);
-    const int by_cuts = j->o.transfer == NULL && j->o.grouping.method == LMB_GROUP_CUT;
+    const int by_cuts = j->o.transfer != NULL || j->o.grouping.method == LMB_GROUP_CUT;
     return bounces && !mirrors && by_cuts ? MAX_MAPPED : LMB_MAX_LIGHTS;
 }
 
-/* Lights that are too many for maps, or that were asked to, go into a tree. */
+/* Lights that are too many for maps, or that were asked to, go into a tree; those of a sky always do. */
 static int set_light_stream(render_job *j, report *r)
 {
     const uint32_t cells = j->o.many_lights_cells > 0 ? (uint32_t)j->o.many_lights_cells : LIGHT_STREAM_CELLS;
-    if (j->o.many_lights_cells == 0 && j->scene.light_count <= most_mapped(j)) {
+    const int too_many = j->o.many_lights_cells > 0 || j->scene.light_count > most_mapped(j);
+    const light_list lists[2] = {{j->scene.lights, too_many ? j->scene.light_count : 0},
+                                 {j->around.lights, j->around.count}};
+    if (lists[0].count + lists[1].count == 0) {
         return 1;
     }
-    if (j->o.transfer != NULL) {
-        return report_fail(r, "--transfer: the light of %u lights in a tree does not bounce by it; use at most %d, or "
-                              "none of --many-lights", (unsigned)j->scene.light_count, LMB_MAX_LIGHTS);
-    }
-    if (j->o.show != LMB_SHOW_DIRECT && j->o.grouping.method != LMB_GROUP_CUT) {
+    if (!can_bounce_many(j)) {
         return report_fail(r, "%s: %u lights bounce by --grouping cut only; or use --show direct", j->o.scene,
-                           (unsigned)j->scene.light_count);
+                           (unsigned)(lists[0].count + lists[1].count));
     }
-    if (!light_stream_take(&j->many_lights, &j->scene, cells, r)) {
+    if (!light_stream_take(&j->many_lights, lists, cells, r)) {
         return 0;
     }
-    note(j, "%u lights in %u cells (--many-lights)", (unsigned)j->many_lights.tree.lights,
-         (unsigned)j->many_lights.tree.cell_count);
+    j->gathers_sky = !too_many && j->o.show != LMB_SHOW_DIRECT;
+    if (too_many) {
+        j->scene.light_count = 0;
+        report_note(j->o.view.is_quiet, "%u lights in %u cells (--many-lights)", (unsigned)j->many_lights.tree.lights,
+                    (unsigned)j->many_lights.tree.cell_count);
+    }
     return 1;
 }
 
@@ -232,6 +355,14 @@ int render_job_picture(render_job *j, image *out, report *r)
 }
 
 /* What the options ask of the frame's memory. `bare`: the scene without lights, for what shows none. */
+/* Pictures for displays have smooth edges; linear ones are for measuring, and depth and ids have no mean. */
+static int32_t samples_of(const render_options *o)
+{
+    const int shows_light = o->show <= LMB_SHOW_IRRADIANCE;
+    const int is_for_display = o->out != NULL && !picture_is_linear(picture_format(o->out));
+    return !shows_light ? 1 : o->samples != 0 ? o->samples : is_for_display ? 4 : 1;
+}
+
 static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare)
 {
     const render_options *o = &j->o;
@@ -259,6 +390,7 @@ static lmb_frame_settings settings_of(const render_job *j, const lmb_scene *bare
     s.visibility = o->visibility;
     s.elements = (uint32_t)o->elements;
     s.gather_step = o->gather_step;
+    s.samples = samples_of(o);
     s.id_format = LMB_ID32;
     return s;
 }
@@ -277,7 +409,10 @@ static void set_numbers(render_job *j)
     lmb_frame *f = &j->frame;
     f->scene = &j->scene;
     f->show = j->o.show < SHOW_DEPTH ? j->o.show : j->o.show == SHOW_OCCLUSION ? LMB_SHOW_IRRADIANCE : LMB_SHOW_FULL;
-    f->many_lights_error = j->o.light_error;
+    f->many_lights_error = j->o.light_error > 0.0f ? j->o.light_error : j->gathers_sky ? SKY_ERROR : 0.0f;
+    f->gather_many_lights = j->gathers_sky;
+    f->background =
+        j->around.env.texels != NULL && j->o.background.kind == BACKGROUND_WORLD ? &j->around.env : NULL;
     f->occlusion = j->o.occlusion;
     f->steps = j->o.steps;
     f->conservative = j->o.conservative;
@@ -341,8 +476,7 @@ int render_job_set(render_job *j, report *r)
     if (!shows_attribute(j->o.show) && (!set_lights(j, r) || !set_light_stream(j, r))) {
         return 0;
     }
-    j->workers.threads = j->o.threads > 0 ? j->o.threads : pool_processors();
-    j->workers.threads = j->workers.threads > POOL_MAX ? POOL_MAX : j->workers.threads;
+    j->workers.threads = pool_threads(j->o.threads);
     if (j->o.show == SHOW_POINTS && j->o.grouping.join <= 0.0f) {
         j->o.grouping.join = 1e-30f; /* first points as they are: none is so near another */
     }

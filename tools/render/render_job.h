@@ -9,6 +9,7 @@
 #include "../model/model.h"
 #include "../picture/image.h"
 #include "light_stream.h"
+#include "world.h"
 #include "render_options.h"
 
 /* One run, from the options to the picture. Everything here is freed by render_job_free. */
@@ -19,7 +20,9 @@ typedef struct render_job {
     model loaded;
     model_notes notes;
     lmb_scene scene; /* the loaded or built-in one, with the lights of this run */
-    lmb_light sun;
+    world around; /* a sky, or none */
+    int32_t gathers_sky; /* many_lights are the sky's alone */
+    lmb_light sun, *with_sun; /* of a scene without light; the scene's lights and the sky's sun */
     lmb_view middle; /* between the eyes */
     int32_t eyes;    /* 1, or 2: side by side in the picture */
     light_stream many_lights;

@@ -58,6 +58,46 @@ static int parse_misfits(const char *text, void *at)
     return parse_flag_word(text, "keep", "drop", LMB_ZONES_STRICT, at);
 }
 
+/* Two digits of a colour, or -1. */
+static int hex_byte(const char *at)
+{
+    int value = 0;
+    for (int i = 0; i < 2; ++i) {
+        const char c = at[i];
+        const int digit = c >= '0' && c <= '9'   ? c - '0'
+                          : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                          : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                                 : -1;
+        if (digit < 0) {
+            return -1;
+        }
+        value = 16 * value + digit;
+    }
+    return value;
+}
+
+static int parse_background(const char *text, void *at)
+{
+    render_background *b = at;
+    memset(b, 0, sizeof *b);
+    if (strcmp(text, "world") == 0) {
+        return 1;
+    }
+    if (strcmp(text, "transparent") == 0) {
+        b->kind = BACKGROUND_TRANSPARENT;
+        return 1;
+    }
+    b->kind = BACKGROUND_COLOUR;
+    text += *text == '#';
+    int ok = strlen(text) == 6;
+    for (int c = 0; c < 3 && ok; ++c) {
+        const int value = hex_byte(text + 2 * c);
+        b->rgb[c] = (uint8_t)value;
+        ok = value >= 0;
+    }
+    return ok;
+}
+
 static int parse_centre(const char *text, void *at)
 {
     return parse_flag_word(text, "barycentre", "disc", LMB_POINT_CENTRE, at);
@@ -112,15 +152,15 @@ static const int32_t show_values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT,     LMB_SH
 #define AT(member) .at = offsetof(render_options, member)
 
 const option_row render_scene_rows[] = {
-    {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene),
+    {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .file = OPTION_READS,
      .help = ".gltf, .glb, .obj, .ply, or `demo`, a built-in room"},
     {.kind = OPTION_END},
 };
 
 static const option_row output_rows[] = {
-    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .parse = picture_option,
+    {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
-     .help = "the picture: .png .ppm (display), .pfm .hdr (linear)"},
+     .help = "the picture: " PICTURE_OPTION_HELP},
     {.kind = OPTION_END},
 };
 
@@ -132,6 +172,25 @@ const option_row render_view_rows[] = {
     {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),
      .help = "one of the scene's cameras, by name or number from 0 (default 0)"},
     VIEW_OPTIONS_CAMERA(render_options, view, "where a camera of your own stands; with --target"),
+    {.kind = OPTION_END},
+};
+
+static const char *const grounds[] = {"auto", "none", NULL};
+static const int32_t ground_values[] = {0, 1};
+
+static const option_row world_rows[] = {
+    {.kind = OPTION_TITLE, .help = "world"},
+    {.name = "--world", .value = "FILE|sky|none", .kind = OPTION_TEXT, AT(world),
+     .help = "what lies around the scene, lights it and is seen behind it: a clear sky with a sun, or a picture of all "
+             "directions (.hdr, .pfm, .png, .jpg; twice as wide as high, or a cube's faces) (default: sky where the "
+             "scene has no light of its own, else none)"},
+    {.name = "--ground", .kind = OPTION_WORD, AT(no_ground), .words = grounds, .values = ground_values,
+     .help = "auto: under a scene without lights and without a floor lies a grey ground (default), but not before a "
+             "--background of its own"},
+    {.name = "--background", .value = "RRGGBB|world|transparent", .kind = OPTION_OWN, AT(background),
+     .parse = parse_background, .expects = "world, transparent, or a colour such as ffffff",
+     .help = "what is seen where no surface is: a colour, the world (default; black where there is none), or "
+             "nothing, a PNG with alpha"},
     {.kind = OPTION_END},
 };
 
@@ -156,7 +215,7 @@ const option_row render_light_rows[] = {
              "the memory of thousands. By itself, with 16384 cells, where there are more than 128 lights, or more "
              "than 32 that bounce by cuts"},
     {.name = "--light-error", .value = "E", .kind = OPTION_NUMBER, AT(light_error), .low = 1e-6, .high = 1,
-     .help = "share of a pixel's light that one node of that tree may be wrong by (default 0.02)"},
+     .help = "share of a pixel's light that one node of that tree may be wrong by (default 0.02; of a sky alone 0.01)"},
     {.kind = OPTION_END},
 };
 
@@ -165,7 +224,7 @@ const option_row render_bounce_rows[] = {
     {.name = "--quality", .kind = OPTION_WORD, AT(quality), .words = qualities, .values = quality_values,
      .help = "sets --tree, --error and --visibility where they are not given; see README for each one's error and "
              "time"},
-    {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer),
+    {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,
      .help = "bounced light by what `lambent bake` made of this scene"},
     {.name = "--tree", .value = "N", .kind = OPTION_POWER_OF_2, AT(tree), .low = 8, .high = 4096,
      .help = "first points a side of a shadow map, to an eighth of --shadow-map"},
@@ -242,7 +301,8 @@ const option_row render_picture_rows[] = {
     {.kind = OPTION_TITLE, .help = "picture"},
     {.name = "--glossy", .kind = OPTION_FLAG, AT(glossy),
      .help = "glTF's materials with highlights and reflections, by metallic, roughness and base colour "
-             "(metallic-roughness maps by texel): of the lights with maps, and of what bounces, by --grouping cut. "
+             "(metallic-roughness maps by texel): of the lights with maps, and of what bounces, by --grouping cut or "
+             "--transfer. "
              "Else, and in OBJ, PLY and `demo`, materials are Lambertian"},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .values = show_values,
      .help = "light (default full; irradiance: bounced, before albedo);\ndepth, eye-distance, normal, albedo: of "
@@ -251,6 +311,10 @@ const option_row render_picture_rows[] = {
              "send, W/m2 (discs, where --join or --thin is given); the number of the group that owns a texel, 0 "
              "dark, -1 dropped;\nocclusion: the share of the bounced light that --occlusion blocks.\nDisplay formats "
              "scale distances, near is bright, and give each group a colour"},
+    {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
+     .help = "a pixel, of edges and direct light; bounced light is gathered once for each surface that it shows "
+             "(default 4 for .png and .ppm, 1 for .pfm and .hdr; --show depth and what else is no light takes no more)"},
+    OPTION_TONE_ROW(render_options, tone),
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = "stops, display formats only (default auto, by the light that surfaces reflect: said on stderr). .pfm "
@@ -284,9 +348,9 @@ const option_row render_other_rows[] = {
      .expects = "exact (there is no other)",
      .help = "the only one: the same bytes on every machine"},
     OPTION_BACKEND_ROW(render_options, kernels),
-    {.name = "--threads", .value = "N", .kind = OPTION_INT, AT(threads), .low = 1, .high = 64,
-     .help = "that draw at once; the picture does not depend on it (default: the processors)"},
-    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .help = "time by stage, counts, bytes"},
+    OPTION_THREADS_ROW(render_options, threads, "draw the picture"),
+    {.name = "--stats", .value = "FILE.json", .kind = OPTION_TEXT, AT(stats), .file = OPTION_WRITES,
+     .help = "time by stage, counts, bytes"},
     OPTION_LOUDNESS(render_options, view.is_quiet, view.is_verbose,
                     "say what it draws with, and how long each stage took"),
     OPTION_ASK,
@@ -303,8 +367,8 @@ const option_table render_table = {
     .verb = "render",
     .usage = "render SCENE -o OUT [options]",
     .about = "A scene in, a picture with bounced light out.",
-    .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, render_light_rows, render_bounce_rows,
-             render_picture_rows, budget_rows, render_other_rows},
+    .part = {render_scene_rows, output_rows, render_view_rows, stereo_rows, world_rows, render_light_rows,
+             render_bounce_rows, render_picture_rows, budget_rows, render_other_rows},
     .examples = "  lambent render demo --size 320x240 -o demo.png\n"
                 "  lambent render demo --size 160x120 --show indirect -o light.pfm\n"
                 "  lambent render demo --size 160x120 --eye 0.5,1.25,2.5 --target 0.5,1,-1 \\\n"
@@ -315,7 +379,7 @@ const option_table plan_table = {
     .verb = "plan",
     .usage = "plan SCENE [options]",
     .about =
-        "What `lambent render` with the same options would do, and draws nothing: the stages it runs, with counted "
+        "What `lambent render` with the same options would do (by --world none), and draws nothing: the stages it runs, with counted "
         "operations, units of work and memory; those it leaves out, and why. `exact`: the picture has the same "
         "bytes as with it; that is proved, and tested. Without a budget nothing else is left out:\n"
         "a light of 0 W (no map, no light); a light that faces past (the faces of its map that see nothing of the "
@@ -334,6 +398,15 @@ const option_table plan_table = {
                 "  what fits a small memory, or by how much nothing does:\n"
                 "    lambent plan demo --size 32x24 --budget-bytes 400KiB\n",
 };
+
+static const char *show_name(int32_t show)
+{
+    int i = 0;
+    while (show_values[i] != show) {
+        ++i;
+    }
+    return shows[i];
+}
 
 static void choose(render_options *o)
 {
@@ -373,6 +446,15 @@ static int check_together(const render_options *o, report *r)
     if (!check_budget(o, r)) {
         return 0;
     }
+    if (o->background.kind != BACKGROUND_WORLD && o->show > LMB_SHOW_IRRADIANCE) {
+        return report_fail(r, "--background: only pictures of light have one; use --show full, direct or indirect");
+    }
+    if (o->background.kind == BACKGROUND_TRANSPARENT && o->out != NULL && picture_format(o->out) != PICTURE_PNG) {
+        return report_fail(r, "--background transparent: of the formats PNG alone has alpha; name a .png");
+    }
+    if (o->background.kind == BACKGROUND_COLOUR && o->out != NULL && picture_is_linear(picture_format(o->out))) {
+        return report_fail(r, "--background: colours are a display's; name a .png or a .ppm");
+    }
     if (o->bounces > 1 && o->grouping.method != LMB_GROUP_CUT) {
         return report_fail(r, "--bounces above 1 needs --grouping cut");
     }
@@ -387,6 +469,10 @@ static int check_together(const render_options *o, report *r)
     }
     if (o->grouping.method == LMB_GROUP_CUT && (o->show == SHOW_POINTS || o->show == SHOW_GROUPS)) {
         return report_fail(r, "--show points, groups: a cut is each tile's own; use --grouping zones, greedy or none");
+    }
+    if (o->samples > 1 && o->show > LMB_SHOW_IRRADIANCE) {
+        return report_fail(r, "--samples %d: only light has a mean over a pixel; --show %s takes one sample",
+                           (int)o->samples, show_name(o->show));
     }
     if (o->show == SHOW_OCCLUSION && o->occlusion == LMB_OCCLUSION_NONE) {
         return report_fail(r, "--show occlusion wants an --occlusion other than none");

@@ -23,6 +23,13 @@ static inline int has_budget(const lmb_budget *b, float ms)
 
 static inline int shows_map(int32_t show) { return show >= SHOW_LIGHT_DISTANCE && show <= SHOW_GROUPS; }
 
+enum { BACKGROUND_WORLD = 0, BACKGROUND_TRANSPARENT, BACKGROUND_COLOUR };
+
+typedef struct render_background {
+    int32_t kind;   /* BACKGROUND_ */
+    uint8_t rgb[3]; /* display codes, of a colour */
+} render_background;
+
 typedef struct render_options {
     const char *scene, *out, *stats, *transfer;
     view_options view;
@@ -30,6 +37,10 @@ typedef struct render_options {
     const char *camera;     /* name or number; NULL: the first */
     lmb_light lights[RENDER_LIGHTS];
     uint32_t light_count;
+    const char *world; /* NULL: a sky where the scene has no light; sky, none, or a file */
+    int32_t has_sky; /* where the scene has no light: of `render`, and of no other verb */
+    int32_t no_ground;
+    render_background background;
     float stereo_m; /* between the eyes; 0: one eye */
     int32_t show;
     int32_t shadow_map; /* 0: chosen */
@@ -44,9 +55,11 @@ typedef struct render_options {
     int32_t many_lights_cells; /* 0: only where the scene has too many lights for maps */
     float light_error;
     int32_t gather_step; /* 1, 2, 4; 0: default */
+    int32_t samples;     /* a pixel; 0: by the output's format */
     int glossy;          /* materials get their lobe */
     int32_t exposure_auto;
     float exposure_ev;
+    int32_t tone; /* PICTURE_ */
     const lmb_kernels *kernels;
     int32_t threads; /* 0: as many as there are processors */
     lmb_budget budget; /* zeros: none */

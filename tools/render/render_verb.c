@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "../common/progress.h"
+
 int render_verb(const option_table *t, int argc, char **argv, int (*run)(render_job *j, report *r))
 {
     report r = {""};
@@ -12,7 +14,9 @@ int render_verb(const option_table *t, int argc, char **argv, int (*run)(render_
     if (asked != OPTIONS_RUN) {
         return options_answer(asked, t, &r);
     }
+    progress_begin(j.o.view.is_quiet, t->verb);
     const int ok = run(&j, &r);
+    progress_end();
     render_job_free(&j);
     return ok ? 0 : report_end(&r, t->verb, 1);
 }

@@ -3,11 +3,13 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../../platform/host/host.h"
 #include "../picture/grey.h"
 #include "../picture/picture.h"
+#include "background.h"
 #include "budget.h"
 #include "render_draw.h"
 #include "render_exposure.h"
@@ -125,12 +127,12 @@ static void tell_how(const render_job *j)
 
 static void tell_demo(const render_job *j)
 {
-    printf("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->linear.width, (int)j->linear.height,
+    report_say("%s: %d x %d, %u triangles, %u groups\n", j->o.out, (int)j->linear.width, (int)j->linear.height,
            (unsigned)lmb_scene_triangles(&j->scene), (unsigned)j->stats.groups);
     for (int i = 0; i < LMB_STAGE_DONE; ++i) {
-        printf("  %-13s %8.1f ms\n", stage_name(j, i), j->workers.stage_s[i] * 1e3);
+        report_say("  %-13s %8.1f ms\n", stage_name(j, i), j->workers.stage_s[i] * 1e3);
     }
-    printf("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
+    report_say("  %.1f %% of the light in the picture is indirect\n", j->indirect_share * 100.0);
 }
 
 /* How much of the picture's light has bounced: the same frame again, direct light only, which costs little. */
@@ -143,6 +145,25 @@ static int measure_share(render_job *j, report *r)
     const int ok = render_draw_once_more(j, &direct, f, r);
     j->indirect_share = ok && full > 0.0 ? 1.0 - mean(&direct) / full : 0.0;
     image_free(&direct);
+    return ok;
+}
+
+/* With what lies behind the surfaces, where that is no part of what was drawn. */
+static int write_picture(render_job *j, float ev, int tone, report *r)
+{
+    if (j->o.background.kind == BACKGROUND_WORLD) {
+        return picture_write(j->o.out, &j->linear, ev, tone, r);
+    }
+    float *cover = background_cover(j, r);
+    int ok = cover != NULL;
+    if (ok && j->o.background.kind == BACKGROUND_TRANSPARENT) {
+        ok = picture_write_alpha(j->o.out, &j->linear, cover, ev, tone, r);
+    } else if (ok) {
+        picture_expose(&j->linear, ev, tone);
+        background_colour(&j->linear, j, cover);
+        ok = picture_write(j->o.out, &j->linear, 0.0f, PICTURE_CLIPPED, r);
+    }
+    free(cover);
     return ok;
 }
 
@@ -164,7 +185,7 @@ static int save(render_job *j, report *r)
         }
         report_note(j->o.view.is_quiet, "exposure %+.3g EV (auto)", (double)ev);
     }
-    return picture_write(j->o.out, &j->linear, ev, r);
+    return write_picture(j, ev, j->o.show < SHOW_DEPTH ? j->o.tone : PICTURE_CLIPPED, r);
 }
 
 /* Strict zones: what they lost [V20]. */
@@ -201,8 +222,8 @@ static void tell_full_cuts(const render_job *j)
 static int run(render_job *j, report *r)
 {
     double start = host_seconds();
-    if (!file_can_write(j->o.out, r) || (j->o.stats != NULL && !file_can_write(j->o.stats, r)) ||
-        !render_job_load(j, r)) {
+    j->o.has_sky = 1;
+    if (!options_files(&j->o, &render_table, r) || !render_job_load(j, r) || !options_files(&j->o, &render_table, r)) {
         return 0;
     }
     j->load_s = host_seconds() - start;

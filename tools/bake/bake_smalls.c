@@ -1,0 +1,195 @@
+/* bake_smalls.c: of small triangles the places that light comes to: meshes reach into walls, and into each other. */
+#include "bake.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../platform/host/pool.h"
+#include "bake_triangle.h"
+#include "../../src/raster/triangle.h"
+
+enum { QUARTERS = 4, TOGETHER = LMB_TILE_PIXELS / QUARTERS, WITNESSES = 24 };
+#define OVER  0.05f /* of the smallest edge: places are looked at from so far over them */
+#define FAINT 0.01  /* of the mean light: elements to which less comes are no witnesses */
+
+/* A side of a small triangle: it lies on an element with others. */
+typedef struct side {
+    uint32_t element, number; /* 2 (id - 1) + back */
+} side;
+
+typedef struct smalls {
+    bake *b;
+    side *list;
+    uint32_t count;
+    uint32_t *job; /* sides that are looked at together: the first of each, and the end */
+    uint32_t jobs;
+    float faint;
+    lmb_tile *tile[POOL_MAX];
+    lmb_traversal *traversal[POOL_MAX];
+} smalls;
+
+void bake_quarters(lmb_vec3 out[4], const lmb_vec3 corner[3])
+{
+    out[0] = triangle_middle(corner);
+    for (int k = 0; k < 3; ++k) {
+        out[1 + k] = mul3(add3(out[0], corner[k]), 0.5f);
+    }
+}
+
+/* The nearest elements with light that could be seen from around an element. */
+static void find_witnesses(bake_nearest *out, const smalls *w, uint32_t element)
+{
+    const bake_element *e = &w->b->element[element];
+    out->count = 0;
+    out->limit = WITNESSES;
+    for (uint32_t i = 0; i < w->b->element_count; ++i) {
+        const bake_element *o = &w->b->element[i];
+        const lmb_vec3 at = o->is_one ? o->middle : triangle_middle(o->corner), d = sub3(at, e->middle);
+        const float d2 = dot3(d, d);
+        if (i != element && o->light > w->faint && !o->is_stood_on && dot3(d, o->normal) <= 0.0f &&
+            dot3(d, e->normal) >= 0.0f && bake_is_near(out, d2)) {
+            bake_nearest_put(out, at, d2);
+        }
+    }
+}
+
+static void put_places(lmb_tile *tile, const bake *b, uint32_t number)
+{
+    lmb_triangle t;
+    lmb_vec3 normal, place[QUARTERS];
+    float area;
+    if (!lmb_triangle_fetch(&t, b->scene, number / 2 + 1) || !lmb_triangle_shape(&normal, &area, &t)) {
+        return;
+    }
+    normal = mul3(normal, number % 2 ? -1.0f : 1.0f);
+    bake_quarters(place, t.corner);
+    for (int k = 0; k < QUARTERS; ++k) {
+        const lmb_vec3 p = add3(place[k], mul3(normal, OVER * b->set.smallest_m));
+        const float at[3] = {p.x, p.y, p.z}, n[3] = {normal.x, normal.y, normal.z};
+        for (int c = 0; c < 3; ++c) {
+            tile->position[c][tile->hits] = at[c];
+            tile->face[c][tile->hits] = n[c];
+        }
+        tile->depth[tile->hits] = 1.0f;
+        tile->id[tile->hits++] = 1;
+    }
+}
+
+static uint64_t before(const lmb_tile *tile, lmb_vec3 q)
+{
+    uint64_t out = 0;
+    for (int k = 0; k < tile->hits; ++k) {
+        const lmb_vec3 p = vec3(tile->position[0][k], tile->position[1][k], tile->position[2][k]);
+        const lmb_vec3 n = vec3(tile->face[0][k], tile->face[1][k], tile->face[2][k]);
+        out |= (uint64_t)(dot3(sub3(q, p), n) > 0.0f) << k;
+    }
+    return out;
+}
+
+/* Places are open that see some element to which light comes. */
+static void look(void *user, int index, int worker)
+{
+    const smalls *w = user;
+    lmb_tile *tile = w->tile[worker];
+    const side *s = w->list + w->job[index];
+    const uint32_t count = w->job[index + 1] - w->job[index];
+    bake_nearest witness;
+    uint64_t open = 0;
+    find_witnesses(&witness, w, s->element);
+    tile->hits = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        put_places(tile, w->b, s[i].number);
+    }
+    const uint64_t all = ~(uint64_t)0 >> (LMB_TILE_PIXELS - QUARTERS * (int)count);
+    const float noise = lmb_tile_noise(tile, all);
+    for (int k = 0; k < witness.count && open != all; ++k) {
+        const uint64_t ask = all & ~open & before(tile, witness.at[k]);
+        if (ask != 0) {
+            open |= ask & ~lmb_occluded_tile(&w->b->bvh, w->b->kernels, tile, ask, witness.at[k],
+                                             noise + lmb_place_noise(witness.at[k], 0.0f), w->traversal[worker]);
+        }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        w->b->small_open[s[i].number] = (uint8_t)(open >> QUARTERS * i & ((1u << QUARTERS) - 1u));
+    }
+}
+
+static int by_element(const void *a, const void *b)
+{
+    const side *x = a, *y = b;
+    return x->element != y->element ? (x->element < y->element ? -1 : 1) : x->number < y->number ? -1 : 1;
+}
+
+/* All sides that are there, those of an element together. */
+static void put_sides(smalls *w)
+{
+    const bake *b = w->b;
+    const uint32_t *root = b->section[LMB_TRANSFER_SURFACES].data, *node = b->section[LMB_TRANSFER_PIECES].data;
+    for (uint32_t id = 1; id <= lmb_scene_triangles(b->scene); ++id) {
+        lmb_triangle t;
+        if (!lmb_triangle_fetch(&t, b->scene, id) || !bake_is_small(b, t.corner)) {
+            continue;
+        }
+        for (uint32_t back = 0; back < 2; ++back) {
+            uint32_t at = root[LMB_TRANSFER_SURFACE_WORDS * (id - 1) + back];
+            while (at != LMB_TRANSFER_NONE && (node[at] & LMB_TRANSFER_LEAF) == 0) {
+                at = node[at] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
+            }
+            if (at != LMB_TRANSFER_NONE) {
+                w->list[w->count].element = node[at] & ~LMB_TRANSFER_LEAF;
+                w->list[w->count++].number = 2 * (id - 1) + back;
+            }
+        }
+    }
+    if (w->count > 0) {
+        qsort(w->list, w->count, sizeof *w->list, by_element);
+    }
+    for (uint32_t i = 0; i < w->count; ++i) {
+        const uint32_t first = w->jobs > 0 ? w->job[w->jobs - 1] : 0;
+        if (w->jobs == 0 || i - first == TOGETHER || w->list[i].element != w->list[first].element) {
+            w->job[w->jobs++] = i;
+        }
+    }
+    w->job[w->jobs] = w->count;
+}
+
+static int make(smalls *w, report *r)
+{
+    const size_t sides = 2 * (size_t)lmb_scene_triangles(w->b->scene);
+    int ok = 1;
+    w->list = malloc(sides * sizeof *w->list + 1);
+    w->job = malloc((sides + 1) * sizeof *w->job);
+    free(w->b->small_open);
+    w->b->small_open = calloc(sides + 1, 1);
+    for (int k = 0; k < w->b->set.threads; ++k) {
+        w->tile[k] = calloc(1, sizeof *w->tile[k]);
+        w->traversal[k] = calloc(1, sizeof *w->traversal[k]);
+        ok = ok && w->tile[k] != NULL && w->traversal[k] != NULL;
+    }
+    return (ok && w->list != NULL && w->job != NULL && w->b->small_open != NULL) ||
+           report_fail(r, "not enough memory for %.0f sides of triangles", (double)sides);
+}
+
+int bake_smalls(bake *b, report *r)
+{
+    smalls w;
+    double light = 0.0;
+    memset(&w, 0, sizeof w);
+    w.b = b;
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        light += (double)b->element[i].light / (double)b->element_count;
+    }
+    w.faint = (float)(FAINT * light);
+    const int ok = make(&w, r);
+    if (ok) {
+        put_sides(&w);
+        pool_run(b->set.threads, (int)w.jobs, look, &w);
+    }
+    for (int k = 0; k < b->set.threads; ++k) {
+        free(w.tile[k]);
+        free(w.traversal[k]);
+    }
+    free(w.list);
+    free(w.job);
+    return ok;
+}

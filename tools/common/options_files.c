@@ -1,0 +1,64 @@
+/* options_files.c: the files that a command line names: read, written, never both. */
+#include <string.h>
+
+#include "io_file.h"
+#include "options_table.h"
+
+/* The name that a row took; NULL where it has none to do with such files. */
+static const char *name_of(const void *out, const option_row *row, int file)
+{
+    const char *name = NULL;
+    if (row->file == file) {
+        memcpy(&name, (const char *)out + row->at, sizeof name);
+    }
+    return name;
+}
+
+/* Neither standard input nor what is built in is a file. */
+static int keep_inputs(const void *out, const option_table *t, report *r)
+{
+    const option_row *row;
+    for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
+        const char *name = name_of(out, row, OPTION_READS);
+        if (name != NULL && strcmp(name, "-") != 0 && strcmp(name, "demo") != 0 && !file_keep(name, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* The row before `end` that writes to the same place; NULL where none does. */
+static const option_row *find_same(const void *out, const option_table *t, int end, const char *name)
+{
+    for (int i = 0; i < end; ++i) {
+        const option_row *row = options_row(t, i);
+        const char *other = name_of(out, row, OPTION_WRITES);
+        if (other != NULL && file_is_same_place(other, name)) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+int options_files(const void *out, const option_table *t, report *r)
+{
+    const option_row *row;
+    file_keep_all();
+    if (!keep_inputs(out, t, r)) {
+        return 0;
+    }
+    for (int i = 0; (row = options_row(t, i)) != NULL; ++i) {
+        const char *name = name_of(out, row, OPTION_WRITES);
+        const option_row *same = name != NULL ? find_same(out, t, i, name) : NULL;
+        if (same != NULL) {
+            return report_fail_usage(r, "%s: both %s and %s; give them names of their own", name, same->name, row->name);
+        }
+        if (name != NULL && file_is_stdout(name)) {
+            report_take_stdout();
+        }
+        if (name != NULL && !file_can_write(name, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}

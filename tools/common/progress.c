@@ -1,0 +1,99 @@
+/* progress.c: one line on a terminal that says how far the work is. */
+#include "progress.h"
+
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "../../platform/host/host.h"
+
+#define SILENT_S 1.0 /* what is done sooner is not told */
+#define EVERY_S  0.2
+
+static struct watch {
+    int is_on, is_whole, is_quiet;
+    const char *verb;
+    char step[40];
+    double share;                    /* that was told last */
+    double begun, step_begun, shown; /* s */
+} watch;
+
+static volatile sig_atomic_t has_line;
+
+void progress_begin(int is_quiet, const char *verb)
+{
+    memset(&watch, 0, sizeof watch);
+    watch.is_quiet = is_quiet;
+    watch.is_on = !is_quiet && host_watched();
+    watch.verb = verb;
+    watch.begun = watch.step_begun = watch.is_on ? host_seconds() : 0.0;
+}
+
+int progress_is_quiet(void) { return watch.is_quiet; }
+
+/* Of little that took a short time nobody knows how long the rest takes. */
+static void left_of(char *out, size_t size, double share, double passed)
+{
+    const double more = share > (passed > 2.0 ? 1e-6 : 0.02) ? passed / share - passed : -1.0;
+    out[0] = '\0';
+    if (more >= 99.5) {
+        snprintf(out, size, ", %.0f min left", more / 60.0);
+    } else if (more >= 0.0) {
+        snprintf(out, size, ", %.0f s left", more);
+    }
+}
+
+static void show(const char *name, double share, double begun, double now)
+{
+    char line[128], left[40];
+    if (now - watch.begun < SILENT_S || now - watch.shown < EVERY_S) {
+        return;
+    }
+    left_of(left, sizeof left, share, now - begun);
+    snprintf(line, sizeof line, "lambent %s: %s %.0f %%%s", watch.verb, name, 100.0 * share, left);
+    has_line = 1;
+    watch.shown = now;
+    fprintf(stderr, "\r%-78.78s", line);
+}
+
+void progress_tell(const char *step, double share)
+{
+    if (!watch.is_on) {
+        return;
+    }
+    const double now = host_seconds();
+    if (watch.is_whole) { /* the line comes, though its part is a long one */
+        show(watch.step, watch.share, watch.begun, now);
+        return;
+    }
+    if (strncmp(step, watch.step, sizeof watch.step - 1) != 0 || share < watch.share) { /* a new one, or once more */
+        snprintf(watch.step, sizeof watch.step, "%s", step);
+        watch.step_begun = now;
+    }
+    watch.share = share;
+    show(watch.step, share, watch.step_begun, now);
+}
+
+void progress_whole(const char *part, double share)
+{
+    if (watch.is_on) {
+        watch.is_whole = 1;
+        watch.share = share;
+        snprintf(watch.step, sizeof watch.step, "%s", part);
+        show(part, share, watch.begun, host_seconds());
+    }
+}
+
+void progress_wipe(void)
+{
+    if (has_line) {
+        host_wipe_line();
+        has_line = 0;
+    }
+}
+
+void progress_end(void)
+{
+    progress_wipe();
+    watch.is_on = 0;
+}
