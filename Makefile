@@ -15,7 +15,7 @@ BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
 B      := $(BUILD)/$(CONFIG)
 
 # Programs of small machines, which say how many instructions a frame takes.
-LIVE := live baked gouraud
+LIVE := live baked gouraud torus
 
 # A port names its compiler, start-up sources, libraries, and what runs its programs (RUN).
 include platform/$(PORT)/port.mk
@@ -82,12 +82,15 @@ TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
 # --- what people want ------------------------------------------------------------------------------------------------
 
 ##@ Build
-.PHONY: all lib demo help clean
+.PHONY: all lib demo man help clean
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
 demo: $(TOOL) ## render the built-in scene to build/demo.png
 	@$(TOOL) render demo -o $(BUILD)/demo.png
+
+man: $(TOOL) ## the man page, build/lambent.1, from the verbs' tables
+	@$(TOOL) help --man > $(BUILD)/lambent.1
 
 help: ## this list
 	@awk -F ':.*## ' '/^##@ / { printf "\n%s\n", substr($$0, 5) } \
@@ -128,7 +131,7 @@ $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
 $(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(LIVE:%=$(B)/%) $(B)/decodes \
-    $(B)/scenes $(B)/fuzzer:
+    $(B)/scenes $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -140,6 +143,13 @@ $(B)/flags: FORCE
 
 # It counts operations, which no optimiser changes, of all kernels: a fifth of the build otherwise.
 $(B)/obj/tools/bench/bench_operations.o: COMPILE += -O0
+
+# What `lambent doctor -v` says it was built with.
+export BUILD_FLAGS := $(CC) $(FLAGS)
+$(B)/build_flags.inc: $(B)/flags
+	@printf '%s\n' "$$BUILD_FLAGS" | sed 's/["\\]/\\&/g; s/.*/#define BUILD_FLAGS "&"/' > $@
+$(B)/obj/tools/cli/verb_doctor.o: $(B)/build_flags.inc
+$(B)/obj/tools/cli/verb_doctor.o: COMPILE += -I$(B)
 
 # The table of tests: tests/GROUP/test_NAME.c defines `void test_NAME(void)`; nobody registers anything by hand.
 group_of    = $(word 2,$(subst /, ,$(1)))
@@ -265,6 +275,17 @@ tables: $(LIB) ## generated tables are what their generators print
 words: ## no old name or private phrase, no dead link, README within its bounds
 	@$(IN_SH) tests/scripts/words.sh
 
+FAULTS_OBJ := $(call object,tests/faults/main_faults.c)
+$(B)/faults: $(FAULTS_OBJ)
+# Plain, whatever CFLAGS ask for: it stands before the C library.
+$(B)/fault.so: tests/faults/fault.c
+	@mkdir -p $(@D)
+	@echo "LD $@"
+	@$(CC) -O2 -std=c99 $(WARNINGS) -Wno-missing-prototypes -Wno-pedantic -fPIC -shared -o $@ $< -ldl
+
+faults: $(TOOL) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, open, write, rename or thread failing
+	@SHIM='$(B)/fault.so' $(IN_SH) tests/scripts/faults.sh
+
 readme: $(LIB) ## the README's examples compile and run
 	@$(IN_SH) tests/scripts/readme.sh
 
@@ -285,8 +306,8 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
-    measure-steady measure-baked scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
+.PHONY: faults size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+    measure-steady measure-baked measure-lights measure-crate measure-front scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
@@ -304,9 +325,9 @@ COV_PROGRAMS := tests golden golden-orders reference hard replay hostile
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit-2 unit-1 lanes golden analytic hard replay hostile hostile-cli readme cli" \
+	+@$(MAKE) check CHECKS="unit-2 unit-1 golden hard replay hostile hostile-cli readme cli" \
 	    BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
-	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+	    CFLAGS="-O2 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
 msan: ## pictures, hard cases and the corpus under the memory sanitizer
@@ -328,7 +349,7 @@ $(B)/fuzzer: $(FUZZ_OBJ) $(LIB)
 
 N    ?= 60
 SEED ?= 1
-mutants: ## src/ with one change at a time: do tests notice? (N=60 SEED=1 IN="raster")
+mutants: ## src/ and tools/ with one change at a time: do tests notice? (N=60 SEED=1 IN="raster tools/model")
 	@sh tests/scripts/mutate.sh $(BUILD)/mutants $(N) $(SEED) $(IN)
 
 cov: ## lines and branches of src/ that the checks run, by gcov; what they miss
@@ -353,6 +374,15 @@ measure-moving: $(B)/measure-moving ## a light and a crate that move: how much c
 
 measure-baked: $(TOOL) ## baked light against truth, its files and frames (SCENES, TURN=37, FILES=folder)
 	@$(IN_SH) tests/measure/baked.sh
+
+measure-crate: $(TOOL) ## an object that moves in baked light, which it neither blocks nor reflects: its error (SIZE)
+	@$(IN_SH) tests/measure/crate.sh
+
+measure-front: $(TOOL) ## one front of speed against error: gathering, baked, path tracing (SCENES, SETTINGS, LMT=folder)
+	@$(IN_SH) tests/measure/front.sh
+
+measure-lights: $(TOOL) $(B)/measure-lights ## baked light by twenty lights that baking did not know (SCENES, LMT=folder)
+	@$(IN_SH) tests/measure/lights.sh
 
 measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, pops, shifts (SCENES, ONLY=halving)
 	@$(IN_SH) tests/measure/steady.sh

@@ -19,7 +19,7 @@ static inline lmb_view small_view(int i, int32_t side)
     static const float axis[SMALL_VIEWS][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0},
                                                {0, 0, 1}, {0, 0, -1}, {0.6f, 0.48f, 0.64f}};
     const lmb_vec3 up = i == 2 || i == 3 ? vec3(0, 0, 1) : vec3(0, 1, 0);
-    lmb_view v;
+    lmb_view v = {.sample_x = 0};
     v.back = normalize3(vec3(axis[i][0], axis[i][1], axis[i][2]));
     v.right = normalize3(cross3(up, v.back));
     v.up = cross3(v.back, v.right);

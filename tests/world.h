@@ -172,7 +172,7 @@ static inline double cone_power(double inner_deg, double outer_deg)
 /* Y is up, or Z within 2.6 degrees of the vertical. */
 static inline lmb_view look(lmb_vec3 from, lmb_vec3 target, double fov_deg, int32_t side)
 {
-    lmb_view v;
+    lmb_view v = {.sample_x = 0};
     lmb_vec3 d = sub3(target, from);
     lmb_vec3 up = absf(d.y) > 0.999f * length3(d) ? Z : Y;
     CHECK(lmb_view_look_at(&v, from, target, up, (float)(fov_deg * PI / 180), side, side) == LMB_OK);

@@ -36,7 +36,7 @@ static lmb_status draw_oracle(const lmb_surface *depth)
 {
     static const int corner[2][3] = {{0, 3, 2}, {0, 2, 1}};
     const lmb_view view = {{0, 0, 0},  {1, 0, 0}, {0, 1, 0}, {0, 0, 1},        WIDTH / 2, /* eye, right, up, back */
-                           HEIGHT / 2, 4,         8,         LMB_ORTHOGRAPHIC, WIDTH,     HEIGHT};
+                           HEIGHT / 2, 4,         8,         LMB_ORTHOGRAPHIC, WIDTH,     HEIGHT, 0, 0};
     for (int t = 0; t < BOXES * 2; ++t) {
         const float *b = boxes[t / 2];
         for (int k = 0; k < 3; ++k) {

@@ -44,7 +44,7 @@ static void draw(const lmb_transfer_light *light, const lmb_transfer *t, const l
         memset(&arrives, 0, sizeof arrives);
         fuzz_require(lmb_resolve_tile(&tile, lmb_kernels_pick(), &view, scene, &target, at % TILES * LMB_TILE,
                                       at / TILES * LMB_TILE) == LMB_OK);
-        fuzz_require(lmb_transfer_tile(&arrives, lmb_kernels_pick(), &scratch, light, t, scene, &tile) == LMB_OK);
+        fuzz_require(lmb_transfer_tile(&arrives, NULL, lmb_kernels_pick(), &scratch, light, t, scene, &tile) == LMB_OK);
         for (int k = 0; k < 3 * LMB_TILE_PIXELS; ++k) {
             fuzz_require(!(arrives.rgb[k / LMB_TILE_PIXELS][k % LMB_TILE_PIXELS] < 0.0f));
         }

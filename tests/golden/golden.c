@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "../../src/base/poly.h"
+#include "../torus.h"
 #include "../../tools/demo/demo_scene.h"
 
 enum { WIDTH = GOLDEN_WIDTH, HEIGHT = GOLDEN_HEIGHT, MAP = 64, POINTS = GOLDEN_POINTS, TRIANGLES = 40, TREE = 32 };
@@ -180,7 +181,7 @@ lmb_scene *golden_soup(uint32_t seed, float span)
 
 lmb_view golden_soup_view(int orthographic)
 {
-    lmb_view v;
+    lmb_view v = {.sample_x = 0};
     lmb_vec3 eye = {0.3f, 0.2f, 4.0f}, target = {0, 0, 0}, up = {0, 1, 0};
     lmb_view_look_at(&v, eye, target, up, 0.9f, WIDTH, HEIGHT);
     v.near_m = 0.05f;
@@ -260,6 +261,20 @@ static uint64_t case_functions(int variant)
         h = golden_hash_floats(h, v, 5);
     }
     return h;
+}
+
+/* A mesh by public calls alone: numbers.h. */
+static uint64_t case_torus(int variant)
+{
+    static torus t;
+    uint64_t h = GOLDEN_START;
+    (void)variant;
+    torus_make(&t);
+    h = golden_hash_floats(h, t.positions, 3 * TORUS_VERTICES);
+    for (int i = 0; i < 3 * TORUS_TRIANGLES; ++i) {
+        h = golden_hash_u32(h, t.indices[i]);
+    }
+    return lmb_scene_check(&t.scene) == LMB_OK ? h : 0;
 }
 
 /* 0..3: depth 32F/16 x id 16/32; +4 orthographic; near plane and guard band are both met. LINEAR or PADDED on top:
@@ -370,6 +385,22 @@ static uint64_t case_groups(int variant)
     h = hash_points(h);
     h = golden_hash_u32(h, (uint32_t)lmb_group_points(&memory.groups, &points, &how[variant], NULL));
     return hash_groups(h);
+}
+
+void golden_give_samples(lmb_band_scratch *out, golden_samples *own, int32_t samples)
+{
+#if LMB_MULTISAMPLE && !defined(LMB_CONFIG_TINY)
+    lmb_multisample *m = &own->room;
+    memset(m, 0x3c, sizeof *m);
+    memset(&m->eye, 0, sizeof m->eye);
+    lmb_surface_init(&m->eye.depth, LMB_DEPTH32F, WIDTH, samples * LMB_TILE, own->depth, sizeof own->depth);
+    lmb_surface_init(&m->eye.id, LMB_ID32, WIDTH, samples * LMB_TILE, own->id, sizeof own->id);
+    out->multisample = m;
+#else
+    (void)out;
+    (void)own;
+    (void)samples;
+#endif
 }
 
 static lmb_frame demo_frame(void)
@@ -617,6 +648,32 @@ static uint64_t case_adaptive(int variant)
     f.occlusion = variant ? LMB_OCCLUSION_EXACT : f.occlusion;
     const lmb_status status = lmb_lattice_init(&f.lattice, WIDTH, HEIGHT, lattice, sizeof lattice);
     return hash_frame(golden_hash_u32(GOLDEN_START, (uint32_t)status), &f);
+}
+#endif
+
+#if LMB_MULTISAMPLE && !defined(LMB_CONFIG_TINY)
+/* Several samples a pixel: of the soup as case_cut has it, of its lobes, and of what emits. */
+static uint64_t case_samples(int variant)
+{
+    static const int32_t samples[] = {4, 8, 16};
+    static golden_samples own_samples;
+    lmb_frame f = soup_frame(1, 8);
+    lmb_material some[2] = {soup_materials[0], soup_materials[1]};
+    for (int c = 0; c < 3; ++c) {
+        some[0].specular[c] = variant == 1 ? 0.04f : 0.0f;
+        some[1].specular[c] = variant == 1 ? 0.9f - 0.2f * (float)c : 0.0f;
+        some[1].emission[c] = variant == 2 ? 0.5f : 0.0f;
+    }
+    some[0].roughness = some[1].roughness = 0.5f;
+    soup.materials = some;
+    f.show = LMB_SHOW_FULL;
+    f.occlusion = LMB_OCCLUSION_EXACT;
+    f.samples = samples[variant];
+    golden_give_samples(&memory.scratch, &own_samples, f.samples);
+    if (variant == 2) {
+        lmb_elements_init(&f.elements, ELEMENTS, element_memory, sizeof element_memory);
+    }
+    return hash_frame(GOLDEN_START, &f);
 }
 #endif
 

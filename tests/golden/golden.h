@@ -5,6 +5,8 @@
 #include <lambent/lambent.h>
 
 enum { GOLDEN_POINTS = 400 }; /* of the frames that do not ask for fewer */
+enum { GOLDEN_WIDTH = 80, GOLDEN_HEIGHT = 60 };
+enum { GOLDEN_WORKERS = 8 };  /* that may draw bands of one frame */
 
 /* How cases draw. Every way has the same hashes. */
 typedef struct golden_way {
@@ -17,6 +19,19 @@ typedef struct golden_way {
 } golden_way;
 
 extern const golden_way golden_whole; /* each in one call */
+
+/* What a worker needs for the samples of a case's bands. */
+#if LMB_MULTISAMPLE && !defined(LMB_CONFIG_TINY)
+typedef struct golden_samples {
+    lmb_multisample room;
+    uint32_t depth[GOLDEN_WIDTH * 16 * LMB_TILE], id[GOLDEN_WIDTH * 16 * LMB_TILE];
+} golden_samples;
+#else
+typedef int golden_samples;
+#endif
+
+/* golden_give_samples: gives it to a worker, with noise in it. */
+void golden_give_samples(lmb_band_scratch *out, golden_samples *own, int32_t samples);
 
 /* golden_run: all cases, by the way's backends, a line each to `put`; how many have another hash. */
 int golden_run(const golden_way *way, void (*put)(const char *line));

@@ -4,7 +4,6 @@
 
 #include "golden.h"
 
-enum { GOLDEN_WIDTH = 80, GOLDEN_HEIGHT = 60 };
 
 #define GOLDEN_START UINT64_C(0xcbf29ce484222325)
 

@@ -11,7 +11,8 @@ typedef struct gouraud_space {
     small_room room;
     uint32_t file[SMALL_TRANSFER_WORDS(ROOM_TRIANGLES)];
     uint32_t light_memory[9 * SMALL_ELEMENTS + 2 * SMALL_NODES + 3 * SMALL_RECEIVERS + 9 * SMALL_CLUSTERS +
-                          SMALL_ELEMENTS * sizeof(lmb_transfer_coarse) / 4];
+                          SMALL_ELEMENTS * sizeof(lmb_transfer_coarse) / 4 +
+                          LMB_TRANSFER_PARTS * sizeof(lmb_transfer_part) / 4];
     uint32_t map_memory[6 * MAP * MAP * 2], picture[GOLDEN_WIDTH * GOLDEN_HEIGHT / 2];
     uint16_t depth[GOLDEN_WIDTH * GOLDEN_HEIGHT];
     float direct[SMALL_RECEIVERS][3];

@@ -13,7 +13,7 @@
 #include "../../tools/common/workers.h"
 #include "golden.h"
 
-enum { PIECES = 512, THREADS = 8, ROOM = 4 * 16 * 16 };
+enum { PIECES = 512, THREADS = GOLDEN_WORKERS, ROOM = 4 * 16 * 16 };
 
 /* --- orders ------------------------------------------------------------------------------------------------------- */
 
@@ -30,6 +30,7 @@ static const struct golden_order {
 
 static int order_now, threads_now; /* threads 0: in order_now */
 static lmb_band_scratch scratches[THREADS];
+static golden_samples samples[THREADS];
 
 static void shuffle(int *p, int n, uint32_t seed)
 {
@@ -130,6 +131,9 @@ static lmb_frame with_room(const lmb_frame *frame)
 {
     lmb_frame f = *frame;
     f.scratch = scratches;
+    if (f.samples > 1) {
+        golden_give_samples(&scratches[0], &samples[0], f.samples);
+    }
     if (f.points.cap == GOLDEN_POINTS) {
         f.points.data = point_room;
         f.points.cap = ROOM;
@@ -155,6 +159,9 @@ static void do_band(void *user, int band, int worker)
 {
     frame_job *j = user;
     const lmb_frame *f = &j->render->frame;
+    if (f->samples > 1) {
+        golden_give_samples(&scratches[worker], &samples[worker], f->samples);
+    }
     const lmb_status status = lmb_render_band(j->render, &scratches[worker], &f->eye, &f->out, band);
     j->status = status != LMB_OK ? status : j->status;
 }
@@ -199,6 +206,9 @@ static lmb_status by_workers(workers_call call, lmb_render *r, const lmb_frame *
     int32_t stage;
     memset(&c, 0, sizeof c);
     memset(scratches, 0x3c, sizeof scratches);
+    for (int i = 0; f.samples > 1 && i < THREADS; ++i) {
+        golden_give_samples(&scratches[i], &samples[i], f.samples);
+    }
     c.threads = threads_now;
     c.scratches = scratches;
     return call(&c, &stage, r, &f);
@@ -225,10 +235,11 @@ static lmb_status render_everything(lmb_render *r, const lmb_frame *frame)
 /* As the second frame of an animation where nothing moves: all of the light is the first's. */
 static lmb_status render_reused(lmb_render *r, const lmb_frame *frame)
 {
-    const lmb_frame f = with_room(frame);
+    lmb_frame f = with_room(frame);
     memset(r, 0, sizeof *r);
     lmb_status status = finish_in_order(r, lmb_render_reuse(r, &f));
     if (status >= 0 && r->stage == LMB_STAGE_BANDS) {
+        f = with_room(frame); /* pieces left noise in the scratch */
         lmb_surface_clear(&f.out);
         status = finish_in_order(r, lmb_render_reuse(r, &f));
     }

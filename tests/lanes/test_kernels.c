@@ -1411,38 +1411,70 @@ static int trial_texel_powers(const trial *t, test_rng r)
     return same_floats(t, "power", want, got, count);
 }
 
-/* Halvings of random edges; some ways down are longer than any may be. */
-static void make_halvings(uint32_t node[HALVES], const trial *t, test_rng *r)
+static void make_shown(lmb_transfer_shown *s, uint32_t id, test_rng *r, uint32_t rare)
 {
-    uint32_t next = 1;
-    for (uint32_t i = 0; i < HALVES; ++i) {
-        const int ends = next + 2 > HALVES || (i > 0 && test_random(r) % 3u == 0 && t->seed % 8u != 0);
-        node[i] = ends ? LMB_TRANSFER_LEAF | test_random(r) % 999u
-                       : (test_random(r) % 3u) << LMB_TRANSFER_EDGE_BIT | next;
-        next += ends ? 0 : t->seed % 8u ? 2 : 1;
+    s->id = id;
+    for (int k = 0; k < 3; ++k) {
+        numbers(s->corner[k], 3, r, -2.0f, 2.0f, rare);
     }
+    numbers(s->per, 3, r, 0.1f, 1.0f, rare);
+    numbers(s->cosine, 3, r, -1.0f, 1.0f, 0);
+    numbers(s->near, 3, r, -1.0f, 1.0f, rare);
 }
 
-static int trial_texel_leaves(const trial *t, test_rng r)
+static int trial_transfer_share(const trial *t, test_rng r)
 {
-    static uint32_t node[HALVES], want[PAST_RUN], got[PAST_RUN];
-    static float sx[PAST_RUN];
-    const uint32_t rare = t->seed % 4u ? 0 : 9u;
-    const int32_t count = 1 + (int32_t)(test_random(&r) % RUN);
-    lmb_texel_run run;
-    make_halvings(node, t, &r);
-    run.node = node;
-    run.root = test_random(&r) % 4u;
-    run.d = number(&r, -2.0f, 2.0f, rare);
-    run.n = number(&r, -2.0f, 2.0f, rare);
-    run.n_by = number(&r, -0.2f, 0.2f, rare);
-    numbers(run.to, 2, &r, -1.0f, 1.0f, rare);
-    numbers(run.from, 2, &r, -1.0f, 1.0f, rare);
-    numbers(run.by, 2, &r, -1.0f, 1.0f, rare);
-    numbers(sx, PAST_RUN, &r, -1.0f, 1.0f, rare);
-    lmb_kernels_scalar.texel_leaves(want, sx, count, &run);
-    t->kernels->texel_leaves(got, sx, count, &run);
-    return same_bytes(t, "leaves", want, got, (size_t)count * sizeof *want);
+    static float want[LMB_TRANSFER_SHARING][LMB_TRANSFER_BLOCK_CELLS];
+    static float got[LMB_TRANSFER_SHARING][LMB_TRANSFER_BLOCK_CELLS];
+    static lmb_transfer_shown shown[LMB_TRANSFER_SHARING];
+    const int32_t count = 2 + (int32_t)(test_random(&r) % (LMB_TRANSFER_SHARING - 1u));
+    const int32_t none = (int32_t)(test_random(&r) % (2u * LMB_TRANSFER_SHARING));
+    const int32_t cells = 1 + (int32_t)(test_random(&r) % LMB_TRANSFER_CELLS);
+    const float at[2] = {number(&r, 0.0f, 4.0f, 0), number(&r, 0.0f, 4.0f, 0)};
+    for (int32_t i = 0; i < count; ++i) {
+        make_shown(&shown[i], i == none ? 0 : (uint32_t)i + 1, &r, t->seed % 3u ? 0 : 25u);
+    }
+    lmb_kernels_scalar.transfer_share(want, shown, count, at, cells);
+    t->kernels->transfer_share(got, shown, count, at, cells);
+    for (int32_t k = 0; k < cells * cells; ++k) {
+        const int32_t at_cell = k / cells * LMB_TRANSFER_CELLS + k % cells;
+        float all = 0.0f;
+        for (int32_t i = 0; i < count; ++i) {
+            all += got[i][at_cell];
+            CHECK(same_floats(t, "shares", &want[i][at_cell], &got[i][at_cell], 1));
+        }
+        CHECK_MSG(t->seed % 3u == 0 || absf(all - 1.0f) < 1e-5f, "shares of a cell: %g in all", (double)all);
+    }
+    return 1;
+}
+
+static int trial_transfer_halve(const trial *t, test_rng r)
+{
+    static float light[LMB_TILE_PIXELS], want[2][LMB_TILE_PIXELS], got[2][LMB_TILE_PIXELS];
+    const uint32_t rows = test_random(&r) % 256u;
+    float line[3];
+    numbers(line, 3, &r, -1.0f, 1.0f, t->seed % 3u ? 0 : 9u);
+    line[0] *= 4.0f;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        light[k] = test_random(&r) % 4u ? (float)(test_random(&r) % 16777217u) : 0.0f;
+    }
+    memcpy(want[1], light, sizeof light);
+    memcpy(got[1], light, sizeof light);
+    const uint32_t a = lmb_kernels_scalar.transfer_halve(want[0], want[1], line, rows),
+                   b = t->kernels->transfer_halve(got[0], got[1], line, rows);
+    CHECK(a == b);
+    uint32_t has = 0;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int y = k / LMB_TILE;
+        if ((rows >> y & 1u) != 0) {
+            CHECK(got[0][k] + got[1][k] == light[k] && got[0][k] >= 0.0f && got[1][k] >= 0.0f);
+            CHECK(same_floats(t, "first half", &want[0][k], &got[0][k], 1));
+            CHECK(same_floats(t, "second half", &want[1][k], &got[1][k], 1));
+            has |= (got[0][k] > 0.0f ? 1u : 0u) << y | (got[1][k] > 0.0f ? 1u : 0u) << (LMB_TILE + y);
+        }
+    }
+    CHECK(b == has);
+    return 1;
 }
 
 /* The pixels' b1 and b2 of both, where `pixels` are. */
@@ -1483,6 +1515,7 @@ static int trial_transfer_side(const trial *t, test_rng r)
 static int trial_transfer_leaf(const trial *t, test_rng r)
 {
     static GUARDED(lmb_irradiance) want, got;
+    static GUARDED(lmb_glossy) want_lobes, got_lobes;
     static lmb_tile tile;
     static float weight[2][LMB_TILE_PIXELS];
     const uint32_t rare = t->seed % 3u ? 0 : 25u;
@@ -1491,6 +1524,8 @@ static int trial_transfer_leaf(const trial *t, test_rng r)
     float by[3][3];
     GUARD(want);
     GUARD(got);
+    GUARD(want_lobes);
+    GUARD(got_lobes);
     numbers(want.it.rgb[0], 3 * LMB_TILE_PIXELS, &r, 0.0f, 9.0f, 0);
     got.it = want.it;
     make_tile(&tile, &r, rare);
@@ -1500,11 +1535,17 @@ static int trial_transfer_leaf(const trial *t, test_rng r)
         by[i / 3][i % 3] = (float)((int32_t)(test_random(&r) % 7u) - (i / 3 ? 3 : 2));
     }
     leaf.weight = (const float(*)[3])by;
-    leaf.is_mesh = (int32_t)(test_random(&r) % 2u);
-    const uint64_t a = lmb_kernels_scalar.transfer_leaf(&want.it, weight, &tile, left, &leaf),
-                   b = t->kernels->transfer_leaf(&got.it, weight, &tile, left, &leaf);
-    CHECK((a & ~left) == 0 && (a & (left & (0 - left))) != 0 && canaries_stay(got.before, got.after));
+    leaf.is_directed = (int32_t)(test_random(&r) % 2u);
+    make_glossy(&want_lobes.it, t, &r, rare);
+    const lmb_glossy before = got_lobes.it = want_lobes.it;
+    const int has_lobes = test_random(&r) % 4u != 0;
+    const uint64_t a = lmb_kernels_scalar.transfer_leaf(&want.it, has_lobes ? &want_lobes.it : NULL, weight, &tile,
+                                                        left, &leaf),
+                   b = t->kernels->transfer_leaf(&got.it, has_lobes ? &got_lobes.it : NULL, weight, &tile, left, &leaf);
+    CHECK((a & ~left) == 0 && (a & (left & (0 - left))) != 0 && canaries_stay(got.before, got.after) &&
+          canaries_stay(got_lobes.before, got_lobes.after));
     return same_bytes(t, "pixels", &a, &b, sizeof a) &&
+           same_glossy(t, &want_lobes.it, &got_lobes.it, &before, a & before.pixels) &&
            same_floats(t, "rgb", want.it.rgb[0], got.it.rgb[0], 3 * LMB_TILE_PIXELS);
 }
 
@@ -1547,7 +1588,8 @@ static const struct kernel {
     {"links", trial_transfer_links},
     {"directed_links", trial_transfer_directed_links},
     {"texel_powers", trial_texel_powers},
-    {"texel_leaves", trial_texel_leaves},
+    {"transfer_share", trial_transfer_share},
+    {"transfer_halve", trial_transfer_halve},
     {"transfer_side", trial_transfer_side},
     {"transfer_leaf", trial_transfer_leaf},
 };

@@ -254,7 +254,7 @@ int main(int argc, char **argv)
             printf("%d planes; %.2f s\n", (int)j->planes.count, (double)(clock() - from) / CLOCKS_PER_SEC);
             judge(&t, j);
             if (argc > 2) {
-                picture_write(argv[2], &j->picture, 0.0f, &r);
+                picture_write(argv[2], &j->picture, 0.0f, PICTURE_CLIPPED, &r);
             }
         } else {
             printf("FAIL: %s\n", r.text);

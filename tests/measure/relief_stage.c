@@ -36,7 +36,7 @@ void relief_show(const char *name, float *rgb, int32_t width, int32_t height, re
     char path[600];
     if (folder != NULL) {
         snprintf(path, sizeof path, "%.300s/%.200s.png", folder, name);
-        if (!picture_write(path, &out, 0.0f, r)) {
+        if (!picture_write(path, &out, 0.0f, PICTURE_CLIPPED, r)) {
             give_up(r);
         }
     }
@@ -117,7 +117,7 @@ lmb_view subject_camera(const subject *s, int i, int32_t side, lmb_light *sun)
 {
     const double y = 1.0 - (2.0 * i + 1.0) / CAMERAS, a = 2.39996322972865332 * i + 0.3, ring = sqrt(1.0 - y * y);
     const lmb_vec3 d = vec3((float)(ring * cos(a)), (float)y, (float)(ring * sin(a)));
-    lmb_view v;
+    lmb_view v = {.sample_x = 0};
     const float away = 1.32f * s->diagonal; /* 45 degrees hold the sphere around it */
     if (lmb_view_look_at(&v, add3(s->middle, mul3(d, away)), s->middle, vec3(0.0f, 1.0f, 0.0f), 0.7853982f, side,
                          side) != LMB_OK) {

@@ -293,6 +293,15 @@ status 2 bench rastr
 said "there is no file \`rastr\`; did you mean bench raster?"
 status 2 render demo --quality drfat -o "$dir/bad.png"
 said "did you mean draft?"
+status 2 render demo --samples 3 -o "$dir/bad.png"
+said "--samples: \`3\` is not 1, 4, 8 or 16"
+check "numbers are not spelling mistakes" sh -c '! grep -q "did you mean" "$1"' sh "$dir/err.txt"
+for show in depth normal albedo eye-distance light-distance groups occlusion; do
+    status 2 render demo --show $show --samples 4 -o "$dir/bad.png"
+    said "--samples 4: only light has a mean over a pixel; --show $show takes one sample"
+done
+status 0 render demo $small --show depth --samples 1 -o "$dir/sampled.pfm"
+check "--samples 1 is what --show depth takes" cmp "$dir/sampled.pfm" "$dir/depth.pfm"
 status 2 rendr demo
 said "did you mean render?"
 status 2 render demo --size 64x48 --size 32x24 -o "$dir/bad.png"
@@ -325,7 +334,7 @@ check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh "
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm" -q
 check "compare -q is its exit status" sh -c '! test -s "$1"' sh "$dir/out.txt"
 for verb in render play relight relief "relief bake" "relief render" mix plan compare info bench "bench raster" "bench gather" \
-    "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix"; do
+    "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix" doctor; do
     status 0 $verb -V
     check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' "$dir/out.txt"
     status 0 $verb -h
@@ -548,16 +557,37 @@ for room in box:256:200 block:1024:1000; do
     status 0 render "$dir/$name.obj" $inside --transfer "$dir/$name-1.lmt" --threads 1 -o "$dir/$name-again.pfm"
     check "baked light by any threads is equal" cmp -s "$dir/$name-baked.pfm" "$dir/$name-again.pfm"
 done
+# A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
+awk 'function block(x, z,  i) {
+         for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)
+         print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
+     { print }
+     END { print "v -0.7 -0.5 -0.6\nv 0.7 -0.5 -0.6\nv 0 -0.5 0.7\nf -1 -2 -3"
+           block(-0.7, -0.6); block(0.7, -0.6); block(0, 0.7); block(0, -0.6) }' "$dir/box.obj" >"$dir/buried.obj"
+above="--eye 0,0.4,-0.1 --target 0.01,-0.5,-0.1 --fov 30 --size 32x32 --light point:0.2,0.8,0:0,-1,0:5,4,3 --show indirect"
+status 0 bake "$dir/buried.obj" -o "$dir/buried.lmt" --elements 1024 --division 1
+status 0 render "$dir/buried.obj" $above --quality draft -o "$dir/buried-draft.pfm"
+status 0 render "$dir/buried.obj" $above --transfer "$dir/buried.lmt" -o "$dir/buried.pfm"
+status 0 compare "$dir/buried.pfm" "$dir/buried-draft.pfm" --max lo=0.7,hi=1.3
 status 0 render "$dir/box.obj" $inside --transfer "$dir/box-1.lmt" --bounces 4 --threads 1 -o "$dir/box-four.pfm"
 check "a transfer reflects light again" sh -c '! cmp -s "$1" "$2"' sh "$dir/box-baked.pfm" "$dir/box-four.pfm"
 status 0 render "$dir/box.obj" $inside --transfer "$dir/box-1.lmt" --bounces 4 --threads 2 -o "$dir/box-again.pfm"
 check "so it does by two threads" cmp -s "$dir/box-four.pfm" "$dir/box-again.pfm"
+# Forty lights go into a tree, light the elements and are thrown back.
+forty=$(awk 'BEGIN { for (i = 0; i < 40; ++i) printf " --light point:%g,%g,%g:0,-1,0:0.3,0.2,0.1", i % 5 / 4 - 0.5, i % 7 / 6 - 0.5, i % 11 / 10 - 0.5 }')
+among="--eye -0.8,0.6,-0.8 --target 0.3,-0.6,0.3 --size 64x48 --show indirect $forty"
+status 0 render "$dir/box.obj" $among --quality draft -o "$dir/forty.pfm"
+status 0 render "$dir/box.obj" $among --transfer "$dir/box-1.lmt" --threads 1 -o "$dir/box-forty.pfm"
+check "render says what it does with lights and a transfer" grep -q '40 lights in .* cells' "$dir/err.txt"
+status 0 compare "$dir/box-forty.pfm" "$dir/forty.pfm" --max lo=0.95,hi=1.05,trim=0.06
+status 0 render "$dir/box.obj" $among --transfer "$dir/box-1.lmt" --threads 3 -o "$dir/box-again.pfm"
+check "so they are by three threads" cmp -s "$dir/box-forty.pfm" "$dir/box-again.pfm"
 status 0 render "$dir/box.obj" $inside --bounces 4 -o "$dir/box-draft.pfm"
 status 0 compare "$dir/box-four.pfm" "$dir/box-draft.pfm" --max lo=0.95,hi=1.05,trim=0.06
 status 1 bake "$dir/block.obj" -o "$dir/bad.lmt" --elements 256 --moving 0
 said "no surface to light"
 for list in 1 0,0 0, x -1; do
-    status 1 bake "$dir/block.obj" -o "$dir/bad.lmt" --elements 256 --moving=$list
+    status 2 bake "$dir/block.obj" -o "$dir/bad.lmt" --elements 256 --moving=$list
 done
 head -c 5000 "$dir/box-1.lmt" >"$dir/cut.lmt"
 status 1 render "$dir/box.obj" $inside --transfer "$dir/cut.lmt" -o "$dir/bad.pfm"
@@ -951,5 +981,8 @@ check "the chosen settings draw the same: $chosen" cmp -s "$dir/budget.pfm" "$di
 status 0 bench --calibrate --threads 1
 check "calibrating gives a rate" grep -q "^[0-9.e+]* units of work a second, threads: 1 " "$dir/out.txt"
 status 2 bench --calibrate demo
+
+. tests/scripts/cli_manners.sh
+. tests/scripts/cli_world.sh
 
 finish

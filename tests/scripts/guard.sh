@@ -42,15 +42,43 @@ refused_by_compiler -ffinite-math-only
 refused_by_compiler -m32 -mfpmath=387 -ffreestanding
 refused_by_compiler -m32 -mfpmath=387 -ffreestanding -std=gnu99
 
+# made_right FILE FLAG...: what is wrong with these flags a pragma puts right.
+made_right() {
+    file=$1
+    shift
+    knows "$@" || return
+    check "$file with $*" compiles "$file" "$@"
+    check "linked with $file" $CC $FLAGS -o "$B/guard/golden" $golden "$B/guard/wrong.o" "$LIB" $LDLIBS
+    check "$file with $* does not draw what it should" "$B/guard/golden"
+}
+
+# Sources without base/exact.h do not have its pragma.
+bare=$(grep -L 'base/exact\.h' "$B"/obj/src/*/*.d)
+check "sources that do not include base/exact.h: $bare" test -z "$bare"
+
 fused=-ffp-contract=fast
 case $(uname -m) in x86_64) fused="-mfma $fused" ;; esac
 if grep -qw -e fma -e asimd /proc/cpuinfo 2>/dev/null; then
     refused_at_start src/base/exact.c -O2 $fused
     refused_at_start src/isa/isa_scalar.c -O2 $fused
+    $CC -dM -E -x c /dev/null | grep -q __clang__ && fused=${fused%fast}on
+    made_right src/base/exact.c -O2 -std=gnu17 $fused
+    made_right src/isa/isa_scalar.c -O2 -std=gnu17 $fused
 else
     skip "this processor may have no fused multiply-add"
 fi
 refused_at_start src/base/exact.c -O2 -funsafe-math-optimizations
 refused_at_start src/base/exact.c -O2 -freciprocal-math
 refused_at_start src/base/exact.c -O2 -fno-signed-zeros
+
+# A first build for a Cortex-M4F, by the compiler's own flags.
+if arm=$(command -v arm-none-eabi-gcc); then
+    for file in src/isa/isa_scalar.c src/base/view.c src/transfer/transfer_many_lights.c; do
+        check "$file for a Cortex-M4F" "$arm" -O2 -mcpu=cortex-m4 -mfpu=fpv4-sp-d16 -mthumb -mfloat-abi=hard -Iinclude \
+            -isystem platform/freestanding -S -o "$B/guard/m4f.s" "$file"
+        check "$file: fused multiply-adds" sh -c '! grep -E "vfn?m[as]" "$1"' sh "$B/guard/m4f.s"
+    done
+else
+    skip "a first build for a Cortex-M4F: no arm-none-eabi-gcc"
+fi
 finish

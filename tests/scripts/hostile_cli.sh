@@ -162,6 +162,14 @@ refused "$dir" render demo $small -o "$dir"
 [ ! -e "$dir/good.png" ] && pass || fail "a picture whose statistics have no place was written"
 rm -f "$dir/good.png"
 
+# The list of `make hostile` says when it shrinks, whatever its files are.
+mkdir -p "$dir/corpus/png"
+echo png >"$dir/corpus/png/one"
+CORPUS=$dir/corpus LMB_SHARED=$dir/nothing sh tests/scripts/hostile.sh false 1 1 >"$dir/out.txt" 2>&1
+check "a list that has shrunk fails" test $? -eq 1
+check "and says so" grep -q '^FAIL the corpus: 1 files, [0-9]* are expected: the list has shrunk' "$dir/out.txt"
+check "the repository's own is whole" sh -c 'LMB_SHARED="$1" sh tests/scripts/hostile.sh echo 1 1 | grep -q "^1 1 tests/fuzz/corpus/"' sh "$dir/nothing"
+
 left=$(find "$dir" -name '*tmp*' -o -name 'x.*' -o -name 'nowhere' -o -name 'drawn*' -o -name 'good*')
 check "left behind: $left" test -z "$left"
 finish

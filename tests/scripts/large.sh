@@ -1,5 +1,5 @@
 # large.sh: ten million triangles from a file to a picture; prints time and memory, which no check bounds but the sum.
-# Nothing blocks the bounced light: what is asked here is whether loading and drawing scale, in seconds.
+# One sun, and nothing blocks the bounced light: what is asked here is whether loading and drawing scale, in seconds.
 . tests/scripts/checks.sh
 
 squares=2237 triangles=10008338
@@ -9,7 +9,7 @@ trap 'rm -f "$folder"/grid.ply' EXIT
 check "the generator compiles" $CC $FLAGS -o "$folder/grid" tests/large/main_grid.c
 check "the generator runs" sh -c '"$1" "$2" >"$3"' sh "$folder/grid" "$squares" "$folder/grid.ply"
 check "the scene is drawn" "$TOOL" render "$folder/grid.ply" -o "$folder/grid.png" --size 320x240 --shadow-map 512 \
-    --quality draft --occlusion none --stats "$folder/grid.json"
+    --quality draft --world none --occlusion none --stats "$folder/grid.json"
 
 figure() { sed -n "s/.*\"$1\": \([0-9.]*\).*/\1/p" "$folder/grid.json"; }
 

@@ -1,6 +1,7 @@
-# mutate.sh: test the tests: change one operator or constant of src/ at a time, and see whether a test notices.
+# mutate.sh: test the tests: change one operator or constant of src/ or tools/ at a time, and see whether a test notices.
 #
-#     mutate.sh FOLDER N SEED [MODULE...]     N seeded changes in these modules of src/ (all but lane and isa)
+#     mutate.sh FOLDER N SEED [MODULE...]     N seeded changes in these modules of src/ (base, ...: all but lane and isa)
+#                                             or tools/ (tools/model, ...: those that unit tests link); default: both
 #
 # Works on a copy in FOLDER/tree, with the kernels of two backends (scalar and AVX2), as each takes seconds to compile.
 # Of each change: it does not build, or gives the same code, and is none; then the quickest tests first, until one
@@ -13,7 +14,8 @@
 folder=$1 wanted=$2 seed=$3
 shift 3
 modules=${*:-base raster map occlusion light manylights bounce lightcut radiosity voxel probe relief mixed compose \
-frame plan}
+frame plan tools/common tools/picture tools/mesh tools/model tools/render tools/relight tools/mix tools/relief \
+tools/bake tools/play tools/hard tools/bench tools/cli}
 mkdir -p "$folder/tree"
 folder=$(cd "$folder" && pwd)
 tree=$folder/tree
@@ -21,8 +23,8 @@ for part in Makefile include src tests tools platform README.md; do
     rm -rf "${tree:?}/$part"
     cp -pR "$part" "$tree" || exit 1
 done
-rm -rf "$folder/src"
-cp -pR src "$folder/src"
+rm -rf "$folder/src" "$folder/tools"
+cp -pR src tools "$folder"
 if [ -d "$folder/built" ]; then # of an earlier run, without any change
     rm -rf "$tree/build"
     cp -pR "$folder/built" "$tree/build"
@@ -54,6 +56,21 @@ tests() {
     probe) echo tests:probe tests:probe_cache hard:probe tests:relit tests:frames ;;
     relief) echo tests:relief tests:relief_light hard:relief ;;
     mixed) echo tests:mixed tests:mix hard:mixed ;;
+    tools/*)
+        case $1 in
+        */picture) echo tests:images tests:jpeg tests:hdr tests:compare ;;
+        */mesh) echo tests:simplify tests:simplify_odd tests:enclose ;;
+        */model) echo tests:models tests:gltf tests:ply tests:mtl tests:textures tests:motion tests:info ;;
+        */relief) echo tests:photos tests:relief tests:relief_light ;;
+        */mix) echo tests:mix ;;
+        */bake) echo tests:transfer tests:play ;;
+        */play) echo tests:play tests:motion ;;
+        */bench) echo tests:bench ;;
+        */cli) echo tests:info tests:compare ;;
+        */hard) echo hard:hard ;;
+        *) echo tests:images tests:info tests:compare tests:play tests:plan tests:map_picture ;;
+        esac
+        return ;;
     compose) echo tests:light tests:sparse hard:invariants tests:frames ;;
     *) echo tests:frames tests:contracts tests:threads tests:sparse tests:reuse tests:plan tests:plan_frame tests:relit \
         hard:invariants tests:elements ;;
@@ -65,8 +82,9 @@ tests() {
 # candidates: FILE LINE COLUMN LENGTH TO of everything that can be changed, one a line.
 candidates() {
     for module in $modules; do
-        ls src/"$module"/*.c src/"$module"/*.inl src/"$module"/*.h 2>/dev/null
-    done | grep -v _table.inc | grep -e "${FILES:-.}" | while read -r file; do
+        case $module in tools/*) from=$module ;; *) from=src/$module ;; esac
+        ls "$from"/*.c "$from"/*.inl "$from"/*.h 2>/dev/null
+    done | grep -v -e _table.inc -e /gen_ | grep -e "${FILES:-.}" | while read -r file; do
         awk -v file="$file" '
             BEGIN {
                 n = split(" + @ - ; - @ + ; * @ / ; / @ * ; < @ <= ; <= @ < ; > @ >= ; >= @ > ; == @ != ; != @ == ;" \
@@ -133,7 +151,7 @@ run() {
 # What each test of the modules takes without any change, six times and a little: as SECONDS NAME:WORD. Asked again where
 # a program is newer.
 measure() {
-    modules=$(cut -d/ -f2 "$folder/drawn" | sort -u)
+    modules=$(cut -f1 "$folder/drawn" | sed 's,/[^/]*$,,; s,^src/,,' | sort -u)
     find "$tree/$out" -maxdepth 1 -type f -newer "$folder/limits" 2>/dev/null | grep -q . && : >"$folder/limits"
     for test in $(for module in $modules; do tests "$module"; done | tr ' ' '\n' | sort -u); do
         ! grep -q " $test " "$folder/limits" || continue
@@ -162,7 +180,10 @@ is_same() {
 
 # verdict MODULE: the test that notices, `survived`, `same` or `none`.
 verdict() {
-    make_it lib || { echo none; return; }
+    case $1 in
+    tools/*) make_it $out/tests ;;
+    *) make_it lib ;;
+    esac || { echo none; return; }
     ! is_same || { echo same; return; }
     for test in $(order "$1"); do
         limit=${test%%:*}
@@ -201,7 +222,7 @@ echo "$(wc -l <"$folder/drawn") of $(wc -l <"$folder/candidates") changes"
 tab=$(printf '\t')
 while IFS="$tab" read -r number file line at from to; do
     module=${file#src/}
-    module=${module%%/*}
+    module=${module%/*}
     touch "$folder/stamp"
     change "$file" "$line" "$at" "$from" "$to"
     found=$(verdict "$module")
@@ -215,7 +236,7 @@ awk '
     $2 == "none" || $2 == "same" { ++not; next }
     { ++tried[$1]; ++all; if ($2 != "survived") { ++killed[$1]; ++dead; ++by[$2] } }
     END {
-        for (module in tried) printf "%-10s %d of %d\n", module, killed[module], tried[module] | "sort"
+        for (module in tried) printf "%-13s %d of %d\n", module, killed[module], tried[module] | "sort"
         close("sort")
         for (test in by) printf "by %-12s %d\n", test, by[test] | "sort"
         close("sort")

@@ -26,4 +26,18 @@ hash_of() { awk '/^demo-/ { print $2 }' "$1"; }
 here=$(hash_of "$BUILD/tiny/demo.out")
 there=$(hash_of "$BUILD/cortex-m/tiny/demo.out")
 check "hashes differ: $here here, $there there" test -n "$here" -a "$here" = "$there"
+
+# A torus by what its frames show: the table of platform/README.md.
+torus_of() { sed -n 's/ bytes .*instructions [0-9]*//p' "$1"; }
+check "the torus for this machine" $MAKE "$BUILD/tiny/torus" PORT=host CONFIG=tiny BUILD="$BUILD"
+check "the torus for a Cortex-M4F" $MAKE "$BUILD/cortex-m/tiny/torus" PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" \
+    CFLAGS=-Os LDFLAGS=
+[ $failed -eq 0 ] || finish
+"$BUILD/tiny/torus" >"$BUILD/tiny/torus.out"
+$MAKE run-torus PORT=cortex-m CONFIG=tiny BUILD="$BUILD/cortex-m" CFLAGS=-Os LDFLAGS= >"$BUILD/cortex-m/tiny/torus.out"
+sed 's/^/  /' "$BUILD/cortex-m/tiny/torus.out"
+check "the torus differs" test "$(torus_of "$BUILD/tiny/torus.out")" = "$(torus_of "$BUILD/cortex-m/tiny/torus.out")"
+check "five pictures of the torus" test "$(torus_of "$BUILD/cortex-m/tiny/torus.out" | grep -c LMB_OK)" -eq 5
+taken=$(sed -n 's/^direct 160 .*instructions \([0-9]*\) .*/\1/p' "$BUILD/cortex-m/tiny/torus.out")
+check "${taken:-0} instructions for direct light on the torus, bound 32 million" test "${taken:-0}" -gt 1000000 -a "${taken:-0}" -le 32000000
 finish

@@ -6,6 +6,8 @@
 
 #include "../../src/compose/lattice.h"
 #include "../../tools/demo/demo_scene.h"
+#include "../reused_frame.h"
+#include "../laid_out.h"
 #include "../world.h"
 
 void test_adaptive(void);
@@ -156,30 +158,13 @@ static void test_memory(void)
 
 static lmb_render render;
 static lmb_band_scratch other_scratch;
-static lmb_frame frame;
-static void *block;
 
 static lmb_frame_settings settings_of(const lmb_scene *scene, lmb_view view, int32_t step)
 {
-    lmb_frame_settings s;
-    memset(&s, 0, sizeof s);
-    s.kernels = lmb_kernels_pick();
-    s.scene = scene;
-    s.view = view;
-    s.format = LMB_RGB32F;
+    lmb_frame_settings s = draft_settings(scene, view);
     s.show = LMB_SHOW_IRRADIANCE;
-    s.quality = LMB_QUALITY_DRAFT;
-    s.shadow_map = 128;
     s.gather_step = step;
     return s;
-}
-
-static void lay_out(const lmb_frame_settings *s)
-{
-    const size_t bytes = lmb_frame_bytes(s);
-    free(block);
-    block = malloc(bytes);
-    CHECK(bytes > 0 && block != NULL && lmb_frame_init(&frame, s, block, bytes) == LMB_OK);
 }
 
 static uint64_t rows_hash;
@@ -278,6 +263,82 @@ static void test_same_bytes(int32_t width, int32_t height)
     }
 }
 
+enum { MOMENTS = 4, WIDTH = 56, HEIGHT = 40 };
+
+static lmb_light moving_lamp;
+static lmb_band_scratch scratches[MOST_THREADS];
+
+/* A floor, a wall and a block. */
+static void make_corner(void)
+{
+    world_begin(0.7f, 0.6f, 0.5f);
+    world_quad(vec3(0, 0, 0), vec3(3, 0, 0), vec3(0, 0, -3));
+    world_quad(vec3(0, 2, -3), vec3(3, 0, 0), vec3(0, 2, 0));
+    world_part();
+    world_box(vec3(0, 0.5f, -1), 0.4f);
+    moving_lamp = spot(vec3(0, 1.5f, 0.0f), vec3(0, 0, -1), 20, 35);
+    world.scene.lights = &moving_lamp;
+    world.scene.light_count = 1;
+    CHECK(world_end() == LMB_OK);
+}
+
+/* Each bit of `k` changes something: the light; the viewer; both the block. What does not change keeps its revision. */
+static void set_moment(int k)
+{
+    const lmb_vec3 at = k & 1 ? vec3(0.7f, 1.2f, 0.1f) : vec3(0, 1.5f, 0);
+    const float aside = k == 3 ? 0.6f : 0.0f;
+    if (moving_lamp.position.x != at.x) {
+        moving_lamp.position = at;
+        ++moving_lamp.revision;
+    }
+    if (world.instance[1].to_world.m[12] != aside) {
+        world.instance[1].to_world.m[12] = aside;
+        ++world.scene.revision;
+    }
+    CHECK(lmb_view_look_at(&frame.view, k & 2 ? vec3(1, 1.4f, 1.8f) : vec3(0, 1.8f, 2.0f), vec3(0, 0.2f, -1.0f), Y,
+                           0.8f, WIDTH, HEIGHT) == LMB_OK);
+}
+
+static void is_as_cold(const uint64_t cold[MOMENTS], int k, const reuse_way *by, int before)
+{
+    memset(frame.out.data, 0x3c, (size_t)frame.out.stride_bytes * HEIGHT);
+    set_moment(k);
+    CHECK(reused_frame(&render, &frame, by) == LMB_OK);
+    CHECK_MSG(hash_of() == cold[k], "moment %d after %d by %d rows, %d threads", k, before, (int)by->rows, by->threads);
+}
+
+/* A frame has the same bytes whichever came before it in its memory: each after each, and again by strips of some
+ * heights and by threads, backwards, with noise in the scratches. */
+static void test_history(void)
+{
+    static const reuse_way ways[] = {REUSED_WAYS(HEIGHT)}, whole = {HEIGHT, 0};
+    uint64_t cold[MOMENTS];
+    make_corner();
+    const lmb_frame_settings s = settings_of(&world.scene, demo_view(WIDTH, HEIGHT), LMB_GATHER_ADAPTIVE);
+    for (int k = 0; k < MOMENTS; ++k) {
+        lay_out(&s);
+        set_moment(k);
+        CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+        cold[k] = hash_of();
+        for (int i = 0; i < k; ++i) {
+            CHECK_MSG(cold[k] != cold[i], "moments %d and %d", i, k);
+        }
+    }
+    frame.scratch = scratches;
+    memset(&render, 0, sizeof render);
+    for (int i = 0; i < MOMENTS * MOMENTS; ++i) {
+        is_as_cold(cold, i / MOMENTS, &whole, i % MOMENTS);
+        is_as_cold(cold, i % MOMENTS, &whole, i / MOMENTS);
+    }
+    for (int i = 0; i < COUNT(ways); ++i) {
+        frame.eye.depth.height = frame.eye.id.height = ways[i].rows;
+        for (int k = MOMENTS - 1; k >= 0; --k) {
+            memset(scratches, 0x3c, sizeof scratches);
+            is_as_cold(cold, k, &ways[i], k + 1);
+        }
+    }
+}
+
 enum { PICTURE = 160 * 120 * 3 };
 static float full[PICTURE], adaptive[PICTURE];
 
@@ -366,9 +427,9 @@ void test_adaptive(void)
     test_same_bytes(83, 61);
     test_same_bytes(1, 9);
     test_same_bytes(129, 17);
+    test_history();
     test_flat_wall();
     test_shift();
     test_refused();
-    free(block);
-    block = NULL;
+    free_laid_out();
 }

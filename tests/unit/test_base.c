@@ -122,6 +122,8 @@ static void angles_at_their_ends(void)
 {
     float half_pi = 0.5f * LMB_PI;
     CHECK(lmb_sin(0.0f) == 0.0f && lmb_cos(0.0f) == 1.0f && lmb_tan(0.0f) == 0.0f);
+    CHECK(lmb_sqrt(2.0f) == 0x1.6a09e6p+0f && lmb_sqrt(0x1p-140f) == 0x1p-70f && lmb_sqrt(INFINITY) == INFINITY);
+    CHECK(lmb_sqrt(-1.0f) == 0.0f && lmb_sqrt(NAN) == 0.0f && lmb_sqrt(-INFINITY) == 0.0f && float_bits(lmb_sqrt(-0.0f)) == 0);
     CHECK(lmb_sin(65.0f) == 0.0f && lmb_cos(-65.0f) == 1.0f && lmb_sin(NAN) == 0.0f && lmb_cos(INFINITY) == 1.0f);
     CHECK(lmb_acos(1.0f) == 0.0f && lmb_acos(0.0f) == half_pi && lmb_acos(-1.0f) == LMB_PI);
     CHECK(lmb_acos(2.0f) == 0.0f && lmb_acos(-2.0f) == LMB_PI && lmb_acos(NAN) == 0.0f);
@@ -491,7 +493,7 @@ static void surfaces_refused(void)
 
 static void views(void)
 {
-    lmb_view v;
+    lmb_view v = {.sample_x = 0};
     lmb_vec3 eye = vec3(0, 0, 5), up = vec3(0, 1, 0), origin = vec3(0, 0, 0);
     test_rng rng = {5};
     int i, looks = 0;

@@ -274,6 +274,19 @@ static void check_full(void)
     }
 }
 
+/* A small error takes as many nodes as it needs, up to what there is room for. */
+static void check_many_nodes(void)
+{
+    const lmb_cut_params how = cut_params_of(1e-4f, NULL);
+    lmb_irradiance got;
+    lit_box();
+    begin_cut();
+    floor_tile(vec3(-0.3f, -1, -0.3f), 0.003f);
+    gather(&got, &how);
+    CHECK_MSG(cut.it.count > (LMB_MAX_CUT < 2048 ? LMB_MAX_CUT / 2 : 1024) && (LMB_MAX_CUT < 2048 || stats.full_cuts == 0),
+              "%d nodes", (int)cut.it.count);
+}
+
 /* The promise at the end of a cut: either no node can be divided, or none has room, or the root of the errors' squares'
  * sum is under `error` of what the nodes give. Right on a lit wall too, where nodes that hold the tile may give any
  * amount. */
@@ -291,7 +304,8 @@ static void check_promise(void)
         gather(&got, &how);
         for (int32_t i = 0; i < cut.it.count; ++i) {
             const int is_node = cut.it.ref[i].level != 0xffff;
-            error += is_node ? (double)cut.it.error[i] * (double)cut.it.error[i] : 0.0;
+            const double e = is_node && cut.it.visible[i] != 0 ? (double)cut.it.of.error[i] : 0.0;
+            error += e * e;
             value += is_node ? (double)cut.it.value[i] : 0.0;
         }
         error = sqrt(error);
@@ -492,6 +506,7 @@ void test_cut(void)
     check_error(0.02f, 0, 0.02, 0.12);
     check_error(0.1f, 0, 0.05, 0.09);
     check_full();
+    check_many_nodes();
     check_promise();
     check_linear();
     check_small();

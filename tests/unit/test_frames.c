@@ -237,7 +237,7 @@ static lmb_status run_steps(const lmb_frame *f, int32_t units)
 static lmb_view room_view(int32_t width, int32_t height)
 {
     static const lmb_vec3 eye = {0.1f, 1.1f, 3.2f}, target = {0, 0.9f, 0}, up = {0, 1, 0};
-    lmb_view v;
+    lmb_view v = {.sample_x = 0};
     lmb_view_look_at(&v, eye, target, up, 0.75f, width, height);
     v.near_m = 0.1f;
     v.far_m = 20.0f;

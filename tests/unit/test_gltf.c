@@ -374,7 +374,7 @@ static void counts(void)
             "more than 96 bytes of memory a byte of file");
 }
 
-/* The budget of pixels: 2^26 and 64 for each byte of the file; a header alone asks for more. */
+/* No picture of a small file may have over 2^26 pixels; a header alone asks for more. */
 static void pixels(void)
 {
     static const uint8_t png[] = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R',
@@ -400,17 +400,41 @@ static void put_long_png(blob *b, uint8_t *chunk, size_t size)
     file_free(&png);
 }
 
-/* One picture under many names is decoded as often, and pays its bytes each time: the budget of 2^26 and 64 for each
- * byte of the files ends after 194, without which time would go with bytes times names. */
+/* A document of IMAGES pictures of `size` bytes and more; `cut`: each of them one byte shorter than the one before. */
+static size_t put_images(char *document, size_t cap, size_t size, int images, int cut)
+{
+    static const char *const ends[] = {"],\"textures\":[", "],\"materials\":[", "]}"};
+    size_t n = (size_t)snprintf(document, cap, ASSET "\"buffers\":[{\"byteLength\":%u,\"uri\":\"long.png\"}],\"bufferViews\":[",
+                                (unsigned)size);
+    for (int i = 0; i < images; ++i)
+        n += (size_t)snprintf(document + n, cap - n, "%s{\"buffer\":0,\"byteLength\":%u}", i ? "," : "",
+                              (unsigned)(size - (size_t)(cut ? i : 0)));
+    n += (size_t)snprintf(document + n, cap - n, "],\"images\":[");
+    for (int part = 0; part < 3; ++part) {
+        for (int i = 0; i < images; ++i) {
+            n += (size_t)snprintf(document + n, cap - n, "%s", i ? "," : "");
+            n += (size_t)snprintf(document + n, cap - n,
+                                  part == 0   ? "{\"bufferView\":%u}"
+                                  : part == 1 ? "{\"source\":%u}"
+                                              : "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":%u},"
+                                                "\"metallicRoughnessTexture\":{\"index\":0}}}",
+                                  (unsigned)i);
+        }
+        n += (size_t)snprintf(document + n, cap - n, "%s", ends[part]);
+    }
+    return n;
+}
+
+/* One picture under many names is decoded once a use, as colour or not. Where the names' bytes differ behind the
+ * picture's end each pays for its bytes: the budget of 2^24 and 64 for each byte of the files ends before the last,
+ * without which time would go with bytes times names. */
 static void decoded_often(void)
 {
-    enum { SIZE = 1 << 19, HEADER = 33, IMAGES = 208 };
+    enum { SIZE = 1 << 19, HEADER = 33, IMAGES = 208, MORE = 256, CAP = 1 << 16 };
     folder place;
     blob b = {{0}, 0};
-    uint8_t *file = (uint8_t *)malloc(SIZE + sizeof b.bytes);
-    char *document = (char *)malloc(1 << 16);
-    size_t n = 0, i;
-    const char *path;
+    uint8_t *file = (uint8_t *)malloc(SIZE + sizeof b.bytes + MORE);
+    char *document = (char *)malloc(CAP);
     CHECK(file != NULL && document != NULL);
     if (!file || !document)
         return;
@@ -418,24 +442,18 @@ static void decoded_often(void)
     CHECK(b.size > HEADER);
     memcpy(file, b.bytes, HEADER);
     memcpy(file + HEADER + SIZE, b.bytes + HEADER, b.size - HEADER);
-    n += (size_t)snprintf(document, 1 << 16, ASSET "\"images\":[");
-    for (i = 0; i < IMAGES; ++i)
-        n += (size_t)snprintf(document + n, (1 << 16) - n, "%s{\"uri\":\"long.png\"}", i ? "," : "");
-    n += (size_t)snprintf(document + n, (1 << 16) - n, "],\"textures\":[");
-    for (i = 0; i < IMAGES; ++i)
-        n += (size_t)snprintf(document + n, (1 << 16) - n, "%s{\"source\":%u}", i ? "," : "", (unsigned)i);
-    n += (size_t)snprintf(document + n, (1 << 16) - n, "],\"materials\":[");
-    for (i = 0; i < IMAGES; ++i)
-        n += (size_t)snprintf(document + n, (1 << 16) - n,
-                              "%s{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":%u}}}", i ? "," : "",
-                              (unsigned)i);
-    n += (size_t)snprintf(document + n, (1 << 16) - n, "]}");
+    memset(file + SIZE + b.size, 0, MORE);
     folder_open(&place);
-    folder_put(&place, "long.png", file, SIZE + b.size);
-    path = folder_put(&place, "a.gltf", document, n);
-    CHECK_LOADS(load_file(path));
-    CHECK_MSG(loaded.scene.texture_count == 194, "%u decoded", (unsigned)loaded.scene.texture_count);
-    CHECK(noted("textures left out, plain colour instead: 14") && noted("have been decoded too often"));
+    folder_put(&place, "long.png", file, SIZE + b.size + MORE);
+    CHECK_LOADS(load_file(folder_put(&place, "a.gltf", document, put_images(document, CAP, SIZE + b.size, IMAGES, 0))));
+    CHECK_MSG(loaded.scene.texture_count == IMAGES + 1, "%u textures", (unsigned)loaded.scene.texture_count);
+    CHECK(loaded.facts.texel_bytes == 8 && !noted("textures left out"));
+    for (uint32_t i = 2; i < loaded.scene.texture_count; ++i) /* the second is the map of metal, the first one's picture */
+        CHECK(loaded.scene.textures[i].texels == loaded.scene.textures[0].texels);
+    CHECK_LOADS(load_file(folder_put(&place, "a.gltf", document, put_images(document, CAP, SIZE + b.size + MORE, IMAGES, 1))));
+    CHECK_MSG(loaded.scene.texture_count > 75 && loaded.scene.texture_count < 100, "%u decoded",
+              (unsigned)loaded.scene.texture_count);
+    CHECK(noted("textures left out, plain colour instead") && noted("have been decoded too often"));
     folder_close(&place);
     free(document);
     free(file);
@@ -463,6 +481,35 @@ static void many_places(void)
     free(document);
 }
 
+/* A stream of a million vertices in many meshes, and a mesh of them in many places: refused before anybody goes over
+ * them so often. */
+static void shared_vertices(void)
+{
+    enum { CAP = 1 << 16 };
+    static char document[CAP];
+    static const struct {
+        int meshes, places;
+        const char *says; /* NULL: loads */
+    } tries[] = {{8, 1, NULL}, {40, 1, "vertices and triangles in its meshes, of files of"},
+                 {1, 200, NULL}, {1, 400, "triangles in its instances, of files of"}};
+    for (size_t k = 0; k < sizeof tries / sizeof tries[0]; ++k) {
+        size_t n = (size_t)snprintf(document, CAP, ASSET "\"accessors\":[{\"componentType\":5126,\"count\":999999,\"type\":\"VEC3\"}],"
+                                                         "\"meshes\":[{\"primitives\":[");
+        for (int i = 0; i < tries[k].meshes; ++i)
+            n += (size_t)snprintf(document + n, CAP - n, "%s{\"attributes\":{\"POSITION\":0}}", i ? "," : "");
+        n += (size_t)snprintf(document + n, CAP - n, "]}],\"nodes\":[");
+        for (int i = 0; i < tries[k].places; ++i)
+            n += (size_t)snprintf(document + n, CAP - n, "%s{\"mesh\":0}", i ? "," : "");
+        n += (size_t)snprintf(document + n, CAP - n, "]}");
+        forget();
+        const int ok = model_read(&loaded, "a.gltf", NULL, (const uint8_t *)document, n, &notes, &problem);
+        if (tries[k].says != NULL)
+            check_fails(ok, tries[k].says);
+        else
+            CHECK_LOADS(ok);
+    }
+}
+
 void test_gltf(void)
 {
     scenes();
@@ -477,5 +524,6 @@ void test_gltf(void)
     pixels();
     decoded_often();
     many_places();
+    shared_vertices();
     model_free(&loaded);
 }

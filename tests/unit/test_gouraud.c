@@ -14,7 +14,7 @@ void test_gouraud(void);
 enum { SIDE = 64, MAP = 64, WORDS = SMALL_TRANSFER_WORDS(ROOM_TRIANGLES) };
 
 static small_room room;
-static uint32_t file[WORDS], light_memory[256], map_memory[6 * MAP * MAP * 2], other_memory[6 * MAP * MAP * 2];
+static uint32_t file[WORDS], light_memory[1536], map_memory[6 * MAP * MAP * 2], other_memory[6 * MAP * MAP * 2];
 static uint32_t picture[SIDE * SIDE / 2], before[SIDE * SIDE / 2];
 static uint16_t depth[SIDE * SIDE];
 static float direct[SMALL_RECEIVERS][3];
@@ -211,6 +211,55 @@ static void casts_shadows(void)
     }
 }
 
+/* A mesh by 16-bit positions is where the same by binary32 is; a triangle that names no vertex is none. */
+static void reads_positions(void)
+{
+    static int16_t stored[8][4];
+    static float given[8][3];
+    static uint32_t indices[9] = {0, 2, 1, 0, 3, 2, 0xffffffffu, 63, 0xffffffffu};
+    static uint32_t other[SIDE * SIDE];
+    lmb_scene scene;
+    lmb_mesh mesh;
+    lmb_instance instance;
+    small_room_make(&room);
+    scene = room.scene;
+    mesh = scene.meshes[0];
+    instance = scene.instances[0];
+    scene.meshes = &mesh;
+    scene.instances = &instance;
+    scene.mesh_count = scene.instance_count = 1;
+    for (int i = 0; i < 4; ++i) {
+        const int16_t x = (int16_t)(i == 1 || i == 2 ? 20000 : -12000), z = (int16_t)(i < 2 ? -9000 : 17000);
+        stored[i][0] = x, stored[i][1] = 100, stored[i][2] = z;
+        given[i][0] = (float)x * 5e-5f + 0.1f, given[i][1] = 0.01f, given[i][2] = (float)z * 5e-5f - 0.05f;
+    }
+    mesh.indices = indices;
+    mesh.index_format = LMB_INDEX_U32;
+    mesh.triangle_count = 3;
+    mesh.vertex_count = 4;
+    mesh.normals = NULL;
+    mesh.colours = NULL;
+    mesh.position_scale = vec3(5e-5f, 1e-4f, 5e-5f);
+    mesh.position_offset = vec3(0.1f, 0, -0.05f);
+    instance.first_id = 1;
+    CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    mesh.position_format = LMB_POSITION_I16;
+    mesh.positions = stored;
+    CHECK(lmb_gouraud_map(&map, &scene, &scratch) == LMB_OK);
+    memcpy(other, map.face[0].id.data, MAP * MAP * 4);
+    mesh.position_format = LMB_POSITION_F32;
+    mesh.positions = given;
+    CHECK(lmb_gouraud_map(&map, &scene, &scratch) == LMB_OK);
+    int shown = 0, differ = 0;
+    for (int k = 0; k < MAP * MAP; ++k) {
+        const uint32_t id = ((const uint32_t *)map.face[0].id.data)[k];
+        shown += id != 0;
+        differ += id != other[k];
+        CHECK(id < 3);
+    }
+    CHECK_MSG(shown > 100 && differ == 0, "%d of %d differ", differ, shown);
+}
+
 static void in_pieces(void)
 {
     const lmb_gouraud g = frame_of(vec3(0.4f, 0.5f, 2.0f), vec3(0, 0.5f, 0));
@@ -249,6 +298,8 @@ static void refuses(void)
     REFUSED(g.view.frame_width = SIDE - 1, LMB_ERR_ARG);
     REFUSED(g.out.format = LMB_RGB555, LMB_ERR_FORMAT);
     REFUSED(g.out.width = g.view.frame_width = 1024; g.out.stride_bytes = 2048, LMB_ERR_CAPACITY);
+    CHECK(lmb_shadow_map_init(&map, &room.light, &room.scene, MAP, LMB_ID32, map_memory, sizeof map_memory) == LMB_OK);
+    REFUSED(g.maps = &map, LMB_ERR_ARG); /* in tiles */
     CHECK(lmb_gouraud_begin(NULL) == LMB_ERR_ARG && lmb_gouraud_draw(NULL, 1, 1) == LMB_ERR_ARG);
     CHECK(lmb_gouraud_draw(&whole, 0, 1) == LMB_ERR_ARG);
 }
@@ -259,6 +310,7 @@ void test_gouraud(void)
     shows_receivers();
     draws_maps();
     casts_shadows();
+    reads_positions();
     in_pieces();
     refuses();
 }

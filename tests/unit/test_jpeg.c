@@ -128,6 +128,34 @@ static void check_flips(const sample *s)
     CHECK_MSG(wrong == 0, "%s: %d flips", s->name, wrong);
 }
 
+/* --- not as it should be, though it can be read --- */
+
+/* A grey block whose details end in a run of two or three empty blocks, of which there is one. */
+static void check_long_run(void)
+{
+    static const uint8_t head[] = {0xFF, 0xD8, 0xFF, 0xDB, 0, 67, 0},
+                         rest[] = {0xFF, 0xC2, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0, /* 8 x 8, progressive */
+                                   0xFF, 0xC4, 0, 20, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
+                                   0xFF, 0xDA, 0, 8, 1, 1, 0, 0, 0, 0, 0x7F, /* a mean of 128 */
+                                   0xFF, 0xC4, 0, 20, 0x10, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0x10,
+                                   0xFF, 0xDA, 0, 8, 1, 1, 0, 1, 63, 0, 0x3F, 0xFF, 0xD9};
+    uint8_t file[sizeof head + 64 + sizeof rest];
+    bitmap map;
+    report r;
+    memcpy(file, head, sizeof head);
+    memset(file + sizeof head, 1, 64);
+    memcpy(file + sizeof head + 64, rest, sizeof rest);
+    const int ok = decode_copy(&map, file, sizeof file, &r);
+    CHECK_MSG(ok, "%s", r.text);
+    if (ok) {
+        CHECK(map.note != NULL && strstr(map.note, "empty blocks run past") != NULL);
+        CHECK(map.texels[0] == 128 && map.texels[4 * 63 + 2] == 128);
+        bitmap_free(&map);
+    }
+    CHECK(decode_copy(&map, samples[0].jpeg, samples[0].size, &r) && map.note == NULL);
+    bitmap_free(&map);
+}
+
 /* --- refusals --- */
 
 /* Offset of the first marker of that kind. */
@@ -218,6 +246,7 @@ static void check_extras(void)
 
 void test_jpeg(void)
 {
+    check_long_run();
     int i;
     for (i = 0; i < SAMPLES; ++i) {
         check_pixels(&samples[i]);

@@ -341,7 +341,7 @@ static void test_view(void)
     const lmb_axes axes = lmb_axes_upright((lmb_vec3){0, 1, 0});
     for (int i = 0; i < 3; ++i) {
         lmb_pinhole c = camera;
-        lmb_view v;
+        lmb_view v = {.sample_x = 0};
         int32_t x0, y0;
         c.cx = centres[i] + 0.1f;
         lmb_pinhole_round(&c);

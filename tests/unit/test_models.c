@@ -431,6 +431,28 @@ static void gltf_sparse(void)
     CHECK(loaded.scene.meshes[1].triangle_count == 1 && noted("vertices left over"));
 }
 
+/* Sparse indices must rise: neither twice the same nor back, of values as of vertex numbers. */
+static void gltf_sparse_order(void)
+{
+    static const uint32_t twice[2] = {1, 1}, back[2] = {2, 1}, beyond[2] = {0, 3};
+    const uint32_t *const orders[] = {twice, back, beyond};
+    for (int k = 0; k < 3; ++k) {
+        blob b = {{0}, 0};
+        put_floats(&b, unit_triangle, 9);
+        put_u16(&b, orders[k][0]);
+        put_u16(&b, orders[k][1]);
+        put_floats(&b, unit_triangle, 6);
+        check_fails(load_text("order.gltf",
+                              HEAD MESH_OF_0
+                              ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":"
+                              "{\"count\":2,\"indices\":{\"bufferView\":1,\"componentType\":5123},\"values\":{\"bufferView\":2}}}],"
+                              "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":4},"
+                              "{\"buffer\":0,\"byteOffset\":40,\"byteLength\":24}]," BUFFER,
+                              TAIL(b)),
+                    "at entry 1; they must rise and stay under 3");
+    }
+}
+
 /* One vertex array under every mode and index type; streams are shared. */
 static void gltf_modes(void)
 {
@@ -514,7 +536,7 @@ static void gltf_materials(void)
     CHECK_LOADS(load_text(
         "mats.gltf",
         HEAD MESH_OF_0
-        ",\"extensionsRequired\":[\"KHR_materials_unlit\"],\"materials\":["
+        ",\"extensionsRequired\":[\"KHR_materials_unlit\",\"KHR_materials_emissive_strength\"],\"materials\":["
         "{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,2,0.75],\"metallicFactor\":0}},"
         "{\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.5,0.25,1,1],\"metallicFactor\":0.5},\"alphaMode\":\"BLEND\"}"
         ","
@@ -636,6 +658,35 @@ static void gltf_texture_transform(void)
     CHECK(near(out[4], 0.5 + 3, 1e-6) && near(out[5], 0.25, 1e-6));
 }
 
+/* What a scene names though it is another's child is drawn once: below that where that is drawn, else by itself. */
+static void gltf_named_children(void)
+{
+    blob b = {{0}, 0};
+    put_floats(&b, unit_triangle, 9);
+#define MOVED(x, more) "{\"mesh\":0,\"translation\":[" x ",0,0]" more "}"
+#define NAMED(scene, nodes)                                                                                     \
+    "{\"asset\":{\"version\":\"2.0\"},\"scenes\":[{\"nodes\":[" scene "]}],\"nodes\":[" nodes "]," MESH_OF_0 "," POSITIONS_AT_0   \
+    ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]," BUFFER
+    CHECK_LOADS(load_text("named.gltf", NAMED("2,1,0", MOVED("1", ",\"children\":[1]") "," MOVED("2", ",\"children\":[2]") "," MOVED("4", "")),
+                          TAIL(b)));
+    CHECK(noted("nodes that a scene names though they are no roots, or twice; drawn once: 2"));
+    CHECK(loaded.scene.instance_count == 3);
+    for (uint32_t i = 0; i < loaded.scene.instance_count; ++i)
+        CHECK(loaded.scene.instances[i].to_world.m[12] == (float)((2 << i) - 1)); /* 1, 1 + 2, 1 + 2 + 4 */
+    CHECK_LOADS(load_text("named.gltf", NAMED("2,1", MOVED("1", ",\"children\":[1,2]") "," MOVED("2", "") "," MOVED("4", "")), TAIL(b)));
+    CHECK(noted("drawn once: 2") && loaded.scene.instance_count == 2);
+    if (loaded.scene.instance_count == 2)
+        CHECK(loaded.scene.instances[0].to_world.m[12] == 4 && loaded.scene.instances[1].to_world.m[12] == 2);
+    CHECK_LOADS(load_text("named.gltf", NAMED("0,1,0,1", MOVED("1", "") "," MOVED("2", "")), TAIL(b)));
+    CHECK(noted("drawn once: 2") && loaded.scene.instance_count == 2);
+    /* below what is named, with one between that is not */
+    CHECK_LOADS(load_text("named.gltf", NAMED("0,2", MOVED("1", ",\"children\":[1]") "," MOVED("2", ",\"children\":[2]") "," MOVED("4", "")),
+                          TAIL(b)));
+    CHECK(noted("drawn once: 1") && loaded.scene.instance_count == 3);
+#undef NAMED
+#undef MOVED
+}
+
 /* --- glTF: damage --- */
 
 /* Each body stands between the head and a good buffer of one triangle. */
@@ -648,7 +699,6 @@ static void gltf_refuses(void)
         {"\"nodes\":[{\"children\":[0]}]", "is its own ancestor"},
         {"\"nodes\":[{},{\"children\":[3]},{\"children\":[3]},{}]",
          "nodes[2].children[0]: node 3 already is a child of node 1"},
-        {"\"nodes\":[{},{\"children\":[0]}]", "scenes[0].nodes[0]: node 0 is a child of node 1"},
         {"\"nodes\":[{\"children\":[9]}]", "nodes[0].children[0]: index 9, but there are 1"},
         {"\"nodes\":[{\"mesh\":0}]", "nodes[0].mesh: index 0, but there are 0"},
         {"\"nodes\":[{\"rotation\":[0,0,0,0]}]", "nodes[0]: rotation"},
@@ -1033,12 +1083,14 @@ void test_models(void)
     gltf_interleaved();
     gltf_integers();
     gltf_sparse();
+    gltf_sparse_order();
     gltf_modes();
     gltf_large();
     gltf_materials();
     gltf_textures();
     gltf_jpeg_texture();
     gltf_texture_transform();
+    gltf_named_children();
     gltf_refuses();
     gltf_refuses_buffers();
     glb_prefixes();

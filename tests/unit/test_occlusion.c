@@ -1,6 +1,7 @@
 /* test_occlusion.c: what stands between a tile and a point, against all triangles in binary64; what must not leak. */
 #include <math.h>
 
+#include "../../src/occlusion/traversal.h"
 #include "../world.h"
 
 void test_occlusion(void);
@@ -261,12 +262,45 @@ static void few_nodes(void)
         fill_tile(&tile, random_point(&r, 1.0f), round % 2 ? 0.01f : 0.7f, &r);
         const uint64_t got = occluded_anew(&b, &tile, ~UINT64_C(0), at);
         wrong += got != occluded_anew(&all, &tile, ~UINT64_C(0), at);
+        traversal.first = (uint32_t)round * 13 % (b.triangle_count + 1);
         other += got != lmb_occluded_tile(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), at,
                                           noise_of(&tile, ~UINT64_C(0), at), &traversal);
         occluded += got != 0 && ~got != 0;
     }
     CHECK_MSG(wrong == 0 && other == 0 && occluded > 10, "%d and %d of 60 wrong, %d mixed", wrong, other, occluded);
     CHECK(traversal.last[0] != 0);
+}
+
+/* What one triangle hides from all pixels at a box's corners it hides at each place in the box. */
+static void from_corners(void)
+{
+    test_rng r = {37};
+    int hidden = 0, wrong = 0;
+    for (int round = 0; round < 200; ++round) {
+        const lmb_vec3 from = random_point(&r, 1.5f);
+        lmb_tile tile;
+        lmb_vec3 corner[8];
+        world_begin(1, 1, 1);
+        world_triangle(vec3(-1.6f, 0, -1), vec3(1.6f, 0, -1), vec3(0, 0, 1.6f));
+        lmb_bvh b = bvh_of_world();
+        fill_tile(&tile, vec3(0, 0.5f, 0), 0.4f, &r);
+        for (int k = 0; k < 8; ++k) {
+            corner[k] = vec3(from.x + (k & 1 ? 0.5f : -0.5f), -(k & 2 ? 0.9f : 0.3f),
+                             from.z + (k & 4 ? 0.5f : -0.5f));
+        }
+        const float noise = 2.0f * noise_of(&tile, ~UINT64_C(0), corner[0]);
+        const int all = lmb_occluded_from(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
+        for (int k = 0; k < 20; ++k) {
+            const lmb_vec3 in = random_point(&r, 1.0f);
+            const lmb_vec3 at = vec3(from.x + 0.49f * in.x, -0.6f + 0.29f * in.y, from.z + 0.49f * in.z);
+            wrong += all && occluded_anew(&b, &tile, ~UINT64_C(0), at) != ~UINT64_C(0);
+        }
+        hidden += all;
+        b.triangle[0].id |= LMB_BVH_MASKED;
+        wrong += lmb_occluded_from(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), corner, 8, noise, 1);
+        wrong += lmb_occluded_from(&b, lmb_kernels_pick(), &tile, ~UINT64_C(0), corner, 8, noise, 0);
+    }
+    CHECK_MSG(wrong == 0 && hidden > 20 && hidden < 180, "%d wrong, %d of 200 hidden", wrong, hidden);
 }
 
 /* A masked triangle blocks where it stands. */
@@ -365,8 +399,45 @@ static void wide_among_leaves(void)
     CHECK_MSG(alone > 20, "%d points traced alone at once", alone);
 }
 
+/* Boxes reach past what they hold on each side: a segment along a face of one must not miss it by rounding. */
+static void boxes_are_wider(void)
+{
+    test_rng r = {5};
+    const lmb_bvh b = random_triangles(&r, 1);
+    const float least = 0x1p-19f * largest3(sub3(world.scene.bounds_max, world.scene.bounds_min));
+    CHECK(b.node_count > 0);
+    lmb_vec3 low = vec3(1e9f, 1e9f, 1e9f), high = vec3(-1e9f, -1e9f, -1e9f);
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        if (b.node[0].low[0][i] <= b.node[0].high[0][i]) { /* not one that is free */
+            low = min3(low, vec3(b.node[0].low[0][i], b.node[0].low[1][i], b.node[0].low[2][i]));
+            high = max3(high, vec3(b.node[0].high[0][i], b.node[0].high[1][i], b.node[0].high[2][i]));
+        }
+    }
+    const lmb_vec3 below = sub3(world.scene.bounds_min, low), past = sub3(high, world.scene.bounds_max);
+    /* boxes of a part of the scene, so by a part of its size: at least an eighth of it here, and 2^-20 of their place */
+    CHECK_MSG(minf(below.x, minf(below.y, below.z)) > least / 8 && minf(past.x, minf(past.y, past.z)) > least / 8,
+              "%g %g %g, %g %g %g", (double)below.x, (double)below.y, (double)below.z, (double)past.x, (double)past.y,
+              (double)past.z);
+}
+
+/* A room's planes take points as far behind them as rounding may put them, a quarter of what hull.c calls N, no more. */
+static void hull_is_tight(void)
+{
+    lmb_hull hull;
+    world_begin(1, 1, 1);
+    world_box(vec3(0, 0, 0), 1.0f);
+    CHECK(world_end() == LMB_OK);
+    lmb_hull_find(&hull, &world.scene);
+    const float n = 0x1p-18f + 0x1p-21f;
+    CHECK(hull.count == 6 && hull.slack <= 0.25f * n && hull.slack >= 0.24f * n);
+    CHECK(lmb_hull_holds(&hull, vec3(0, -1.0f - 0.2f * n, 0)) && !lmb_hull_holds(&hull, vec3(0, -1.0f - 0.5f * n, 0)));
+    CHECK(!lmb_hull_holds(&hull, vec3(1.0f + 0.5f * n, 0, 0)) && lmb_hull_holds(&hull, vec3(1, 1, 1)));
+}
+
 void test_occlusion(void)
 {
+    boxes_are_wider();
+    hull_is_tight();
     far_apart_among_leaves();
     wide_among_leaves();
     every_triangle();
@@ -374,5 +445,6 @@ void test_occlusion(void)
     no_gap_no_acne();
     capacities();
     few_nodes();
+    from_corners();
     holes();
 }

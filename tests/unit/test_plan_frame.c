@@ -327,6 +327,12 @@ static void test_dim(void)
     CHECK(plan.light[0] == LMB_WHY_DIM && plan.row[LMB_PLAN_GATHER].why == LMB_WHY_DIM);
     CHECK(plan.row[LMB_PLAN_GATHER].proof == LMB_PROOF_BOUND && plan.row[LMB_PLAN_GATHER].bound == bound);
     CHECK(plan.row[LMB_PLAN_MAPS].why == LMB_WHY_RUNS);
+    world.material[0].specular[1] = 0.5f; /* lobes reflect more than the bound knows */
+    ++world.scene.appearance_revision;
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.is_glossy && render.light_state[0] == 0 && render.dimmed == 0.0f);
+    world.material[0].specular[1] = 0.0f;
+    ++world.scene.appearance_revision;
+    CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.light_state[0] == LMB_LIGHT_DIM);
     lights[0].position = vec3(0.2f, -0.4f, 0.1f); /* on the block: no bound */
     CHECK(lmb_render_frame(&render, &f) == LMB_OK && render.light_state[0] == 0);
 }

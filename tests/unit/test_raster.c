@@ -65,7 +65,7 @@ static void set_stage(uint32_t triangles)
 /* Eye at the origin along -Z; every number a power of two. Orthographic: 1 m a pixel. */
 static lmb_view axis_view(int32_t kind, int32_t side)
 {
-    lmb_view v;
+    lmb_view v = {.sample_x = 0};
     memset(&v, 0, sizeof v);
     v.right.x = v.up.y = v.back.z = 1.0f;
     v.kind = kind;

@@ -127,8 +127,38 @@ static void stands_in_a_room(const stage *s)
     relief_frame_free(&want);
 }
 
+/* A map of 8 x 8 texels where only the last shows something, near the light: it shadows what stands within it up to the
+ * map's edge, and nothing of the other corners. */
+static void last_texel(void)
+{
+    static uint32_t memory[8 * 8 * 4];
+    static lmb_tile tile;
+    static lmb_shadow_map map;
+    const lmb_light light = sun(vec3(0, -1, 0));
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, -1, 0), vec3(0, 0, 1), X);
+    world_quad(vec3(0, 1, 0), vec3(0, 0, 0.1f), vec3(0.1f, 0, 0));
+    CHECK(world_end() == LMB_OK);
+    CHECK(lmb_shadow_map_init(&map, &light, &world.scene, 8, LMB_ID32, memory, sizeof memory) == LMB_OK);
+    lmb_shadow_map_clear(&map);
+    ((float *)map.face[0].depth.data)[63] = 1.0f;
+    const lmb_view *v = &map.view[0];
+    for (int k = 0; k < 4; ++k) {
+        const float side = 0.975f * v->half_width, rise = 0.975f * v->half_height;
+        const lmb_vec3 across = add3(mul3(v->right, k & 1 ? side : -side), mul3(v->up, k & 2 ? -rise : rise));
+        const lmb_vec3 at = add3(add3(v->eye, across), vec3(0, -1.0f - v->eye.y - across.y, 0));
+        tile.position[0][k] = at.x;
+        tile.position[1][k] = at.y;
+        tile.position[2][k] = at.z;
+        tile.face[1][k] = 1.0f;
+        tile.id[k] = 1;
+    }
+    CHECK_MSG(lmb_relief_lit(&map, &light, &tile) == 7, "%d", (int)lmb_relief_lit(&map, &light, &tile));
+}
+
 void test_relief_light(void)
 {
+    last_texel();
     stage *s = stage_make(LMB_RELIEF_FULL, 0);
     receives_bounce(s);
     shadows(s, sun(vec3(0.2f, -1.0f, -0.1f)));

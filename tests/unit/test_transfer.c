@@ -3,8 +3,12 @@
 
 #include <stdlib.h>
 
+#include "../../src/light/glossy.h"
 #include "../../src/raster/target.h"
+#include "../../src/raster/tile.h"
+#include "../../src/raster/triangle.h"
 #include "../../tools/bake/bake.h"
+#include "../reused_frame.h"
 #include "../small_transfer.h"
 
 void test_transfer(void);
@@ -111,7 +115,8 @@ static void by_hand(void)
     lmb_irradiance out;
     CHECK(t.nodes == SMALL_NODES && t.leaves == 3 && lmb_transfer_fits(&t, &room.scene) == LMB_OK);
     CHECK(l.bytes == 36 * SMALL_ELEMENTS + 8 * SMALL_NODES + 12 * SMALL_RECEIVERS + 36 * SMALL_CLUSTERS +
-                       SMALL_ELEMENTS * sizeof(lmb_transfer_coarse));
+                       SMALL_ELEMENTS * sizeof(lmb_transfer_coarse) +
+                       LMB_TRANSFER_PARTS * sizeof(lmb_transfer_part));
     for (int i = 0; i < SMALL_ELEMENTS; ++i) {
         CHECK(is_near(l.light.albedo[i][0], 0.5f, 1e-6f) && l.light.power[i][0] == 0.0f);
         for (int c = 0; c < 3; ++c) {
@@ -154,9 +159,19 @@ static void by_hand(void)
     set_plane(tile.face, 9, down);
     out.rgb[0][0] = 7.0f; /* it adds */
     memset(&scratch, 0, sizeof scratch);
-    CHECK(lmb_transfer_tile(&out, lmb_kernels_pick(), &scratch, &l.light, &t, &room.scene, &tile) == LMB_OK);
-    const float pixels[12] = {7.0f + want[0], want[4], want[1], want[3], 0.5f * (want[4] + want[1]), 0.0f, 1.5f,
-                              55.0f / 255.0f * 1.5f + 200.0f / 255.0f * 1.8f, 0.25f, 0.0f, 0.0f, 0.0f};
+    CHECK(lmb_transfer_tile(&out, NULL, lmb_kernels_pick(), &scratch, &l.light, &t, &room.scene, &tile) == LMB_OK);
+    const float pixels[12] = {7.0f + want[0],
+                              want[4],
+                              want[1],
+                              want[3],
+                              0.5f * (want[4] + want[1]),
+                              0.0f,
+                              1.5f,
+                              55.0f / 255.0f * 1.5f + 200.0f / 255.0f * 1.8f,
+                              0.25f + 0.75f,
+                              0.0f,
+                              0.0f,
+                              0.0f};
     for (int k = 0; k < 12; ++k) {
         CHECK_MSG(is_near(out.rgb[0][k], pixels[k], 1e-4f), "pixel %d: %g, not %g", k, (double)out.rgb[0][k],
                   (double)pixels[k]);
@@ -460,15 +475,15 @@ static void bad_arguments(void)
     CHECK(lmb_transfer_receivers(&l.light, all, &none, 0, 0) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(&l.light, all, &good, 2, 1) == LMB_ERR_ARG);
     CHECK(lmb_transfer_receivers(&l.light, all, &good, 0, places(&good) + 1) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(NULL, all, &scratch, &l.light, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, NULL, &scratch, &l.light, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, all, NULL, &l.light, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, all, &scratch, NULL, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, all, &scratch, &dark, &good, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, NULL, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, &none, s, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, &good, NULL, &tile) == LMB_ERR_ARG);
-    CHECK(lmb_transfer_tile(&out, all, &scratch, &l.light, &good, s, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(NULL, NULL, all, &scratch, &l.light, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, NULL, &scratch, &l.light, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, all, NULL, &l.light, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, all, &scratch, NULL, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, all, &scratch, &dark, &good, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, all, &scratch, &l.light, NULL, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, all, &scratch, &l.light, &none, s, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, all, &scratch, &l.light, &good, NULL, &tile) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_tile(&out, NULL, all, &scratch, &l.light, &good, s, NULL) == LMB_ERR_ARG);
     static const struct { int32_t face, each, first, past; } bad[] = {
         {1, 1, 0, 1}, {-1, 1, 0, 1}, {0, 0, 0, 1}, {0, -1, 0, 1}, {0, 3, 0, 1}, {0, 2 * MAP, 0, 1}, {0, 1, -1, 1},
         {0, 1, 2, 1}, {0, 1, 0, MAP + 1}, {0, 2, 0, MAP / 2 + 1}};
@@ -550,8 +565,9 @@ static file_bytes bake_box(int threads, int moves)
     set.threads = threads;
     CHECK_MSG((!moves || bake_still(&still, &world.scene, block, 1, &b.section[LMB_TRANSFER_MOVING], &r)) &&
                   bake_begin(&b, &still.scene, &set, &r) && bake_reach(&b, NULL, 0, &r) && bake_receivers(&b, &r) &&
-                  bake_air(&b, &r) && bake_clusters(&b, &r) && bake_bounces(&b, &r) && bake_code_all(&b, &r) &&
-                  bake_file(&out, &b, &r), "%s", r.text);
+                  bake_clusters(&b, &r) && bake_directed(&b, &r) && bake_air(&b, &r) && bake_bounces(&b, &r) &&
+                  bake_code_all(&b, &r) && bake_file(&out, &b, &r),
+              "%s", r.text);
     bake_free(&b);
     free(still.instance);
     return out;
@@ -648,6 +664,106 @@ static void collects_all(const lmb_transfer *t)
     box_light = before;
 }
 
+/* Points between the walls and over the block, without maps: elements collect what they send, 4 pi of the sum of their
+ * intensities, by one place an element; in other pieces the same bytes. */
+static void takes_many_lights(const lmb_transfer *t)
+{
+    enum { LIGHTS = 40, CELLS = 64 };
+    static lmb_light lights[LIGHTS];
+    static lmb_many_lights_scratch cut;
+    static lmb_tile tile;
+    lmb_irradiance fresh;
+    lmb_many_lights many;
+    lmb_bvh bvh;
+    test_rng r = {11};
+    float sum[3] = {0.0f, 0.0f, 0.0f};
+    const size_t bytes = lmb_many_lights_bytes(CELLS), bvh_bytes = lmb_bvh_bytes(lmb_scene_triangles(&world.scene));
+    void *memory = malloc(bytes), *bvh_memory = malloc(bvh_bytes);
+    for (int i = 0; i < LIGHTS; ++i) {
+        lights[i].kind = LMB_LIGHT_POINT;
+        lights[i].position.x = (float)(test_random(&r) % 200u) * 0.01f - 1.0f;
+        lights[i].position.y = (float)(test_random(&r) % 140u) * 0.01f - 0.4f;
+        lights[i].position.z = (float)(test_random(&r) % 200u) * 0.01f - 1.0f;
+        for (int c = 0; c < 3; ++c) {
+            lights[i].intensity[c] = (float)(1 + test_random(&r) % 9u) * 0.1f;
+            sum[c] += lights[i].intensity[c];
+        }
+    }
+    CHECK(lmb_many_lights_init(&many, CELLS, vec3(-2, -2, -2), vec3(2, 2, 2), 200.0f, memory, bytes) == LMB_OK);
+    CHECK(lmb_many_lights_add(&many, lights, LIGHTS) == LMB_OK && lmb_many_lights_build(&many) == LMB_OK);
+    CHECK(lmb_bvh_init(&bvh, lmb_scene_triangles(&world.scene), bvh_memory, bvh_bytes) == LMB_OK);
+    CHECK(lmb_bvh_build(&bvh, &world.scene) == LMB_OK);
+    const lmb_many_lights_query query = {&many, &bvh, 0.001f, 1, 0};
+    const lmb_element_scratch own = {lmb_kernels_pick(), NULL, &tile, NULL, &fresh};
+    const uint32_t elements = t->count[LMB_TRANSFER_AREAS];
+    const int32_t tiles = lmb_transfer_tiles(t);
+    lit l = lit_by(t, &world.scene), again = lit_by(t, &world.scene);
+    CHECK(l.light.place == NULL && tiles == 4);
+    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, &query, 0, tiles) == LMB_ERR_ARG);
+    l.light.place = malloc(elements * sizeof *l.light.place);
+    again.light.place = l.light.place;
+    CHECK(lmb_transfer_materials(&l.light, t, &world.scene) == LMB_OK);
+    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, &query, 0, tiles) == LMB_OK);
+    for (int c = 0; c < 3; ++c) {
+        const double want = 4.0 * PI * (double)sum[c], got = sum_of(&l, c);
+        CHECK_MSG(fabs(got / want - 1.0) < 0.03, "%g W of %g", got, want);
+    }
+    for (int32_t i = tiles; i-- > 0;) {
+        CHECK(lmb_transfer_many_lights(&again.light, t, &own, &cut, &query, i, i + 1) == LMB_OK);
+    }
+    CHECK(memcmp(l.light.power, again.light.power, elements * sizeof *l.light.power) == 0);
+    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, &query, 0, tiles + 1) == LMB_ERR_ARG);
+    CHECK(lmb_transfer_many_lights(&l.light, t, &own, &cut, NULL, 0, 1) == LMB_ERR_ARG);
+    free(l.light.place);
+    free(l.memory);
+    free(again.memory);
+    free(memory);
+    free(bvh_memory);
+}
+
+enum { STEPS = 64 };
+
+/* The largest change of what comes to an element between lights `steps` apart, of all that comes. */
+static double largest_change(float (*power)[3], size_t elements, int steps, double all)
+{
+    double largest = 0.0;
+    for (size_t i = 0; i < (size_t)(STEPS - steps) * elements; ++i) {
+        largest = fmax(largest, fabs((double)power[i + (size_t)steps * elements][0] - (double)power[i][0]));
+    }
+    return largest / all;
+}
+
+/* A spot that moves by 6 mm in 64 steps: an element's light changes by little in little steps. Half the step makes the
+ * largest change 0.6 of what it was, and less. */
+static void moves_steadily(const lmb_transfer *t)
+{
+    const lmb_light before = box_light;
+    const size_t elements = t->count[LMB_TRANSFER_AREAS];
+    float(*power)[3] = malloc(STEPS * elements * sizeof *power);
+    lit l = lit_by(t, &world.scene);
+    double all = 0.0;
+    CHECK(power != NULL);
+    for (int i = 0; i < STEPS && power != NULL; ++i) {
+        box_light = spot(vec3(-0.6f + 0.006f * (float)i / STEPS, 1.2f, 0.25f), vec3(0, -1, 0), 25.0, 40.0);
+        const lmb_shadow_map map = draw_map(&world.scene);
+        CHECK(lmb_transfer_clear(&l.light, t) == LMB_OK);
+        collect(&l, &map, 4, MAP);
+        memcpy(power + (size_t)i * elements, l.light.power, elements * sizeof *power);
+        all = sum_of(&l, 0);
+    }
+    double last = power != NULL ? largest_change(power, elements, 32, all) : 0.0;
+    CHECK(last > 0.0);
+    for (int steps = 16; steps > 0 && power != NULL; steps /= 2) {
+        const double now = largest_change(power, elements, steps, all);
+        CHECK_MSG(now < 0.6 * last, "%d steps: an element's light changes by %g, by %g in twice as many", steps, now,
+                  last);
+        last = now;
+    }
+    free(power);
+    free(l.memory);
+    box_light = before;
+}
+
 /* `times` as strong a light gives so much more everywhere, but for the steps in which nodes send. */
 static void is_linear(const lmb_transfer *t, const lmb_scene *scene, float times)
 {
@@ -719,6 +835,130 @@ static void furnace(void)
     file_free(&baked);
 }
 
+/* --- light by direction ------------------------------------------------------------------------------------------- */
+
+enum { WALLS = 12 }; /* triangles of the room */
+
+/* Normals turned from a wall by up to 45 degrees, to all sides. */
+static void make_turned(lmb_tile *tile, uint32_t id, lmb_vec3 at, lmb_vec3 wall)
+{
+    const lmb_vec3 right = cross3(wall, absf(wall.y) < 0.5f ? Y : X), up = cross3(right, wall);
+    memset(tile, 0, sizeof *tile);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const double turn = PI / 180.0 * 9.0 * (k / 8 % 6), around = 2.0 * PI / 8.0 * (k % 8);
+        const lmb_vec3 side = add3(mul3(right, (float)cos(around)), mul3(up, (float)sin(around)));
+        pixel(tile, k, id, at, wall);
+        set_plane(tile->normal, k, add3(mul3(wall, (float)cos(turn)), mul3(side, (float)sin(turn))));
+    }
+}
+
+/* In the furnace half of the hemisphere that a normal loses by its turn is light: (1 + cosine) / 2 of all of it, by
+ * closed form. Blind to direction it would be all, and by light's sum alone the cosine. */
+static void turned_in_furnace(const lmb_transfer *t, const lmb_tile *tile)
+{
+    lmb_irradiance out;
+    lit l = furnace_of(t);
+    memset(&out, 0, sizeof out);
+    memset(&scratch, 0, sizeof scratch);
+    CHECK(lmb_transfer_tile(&out, NULL, lmb_kernels_pick(), &scratch, &l.light, t, &world.scene, tile) == LMB_OK);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const double want = FURNACE * (0.5 + 0.5 * (double)dot3(tile_vec(tile->normal, k), tile_vec(tile->face, k)));
+        CHECK_MSG(fabs((double)out.rgb[0][k] / want - 1.0) < 0.04, "pixel %d: %g, not %g", k, (double)out.rgb[0][k],
+                  want);
+    }
+    free(l.memory);
+}
+
+/* Form factor of the block to a plane of the normal, and of the triangles that face the place alone. */
+static float block_factor(lmb_vec3 at, lmb_vec3 face, lmb_vec3 normal, lmb_vec3 middle)
+{
+    float sum = 0.0f;
+    for (uint32_t id = WALLS + 1; id <= 2 * WALLS; ++id) {
+        lmb_triangle t;
+        lmb_vec3 out = {0.0f, 0.0f, 0.0f};
+        float area;
+        CHECK(lmb_triangle_fetch(&t, &world.scene, id) && lmb_triangle_shape(&out, &area, &t));
+        const int is_inward = dot3(out, sub3(t.corner[0], middle)) < 0.0f;
+        const lmb_vec3 corner[3] = {t.corner[0], t.corner[is_inward ? 2 : 1], t.corner[is_inward ? 1 : 2]};
+        out = is_inward ? mul3(out, -1.0f) : out;
+        if (dot3(out, sub3(at, t.corner[0])) > 0.0f) {
+            sum += lmb_polygon_factor(at, face, normal, corner, 3, out);
+        }
+    }
+    return sum;
+}
+
+/* The block alone emits: what comes from it to normals that turn to it and away, by closed form. Lobes take all of that
+ * from one direction. */
+static void turned_to_block(const lmb_transfer *t, const lmb_tile *tile, lmb_vec3 middle)
+{
+    static lmb_glossy glossy, one;
+    lmb_irradiance out;
+    const lmb_vec3 at = tile_vec(tile->position, 0), face = tile_vec(tile->face, 0);
+    world.material[0].emission[0] = 0.0f;
+    lit l = lit_by(t, &world.scene);
+    receive(&l, 1u << 20);
+    memset(&out, 0, sizeof out);
+    memset(&scratch, 0, sizeof scratch);
+    memset(&glossy, 0, sizeof glossy);
+    glossy.pixels = 3;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        glossy.specular[0][k] = glossy.facing[k] = glossy.towards[0][k] = 1.0f;
+        glossy.alpha2[k] = 0.1f;
+    }
+    one = glossy;
+    CHECK(lmb_transfer_tile(&out, &glossy, lmb_kernels_pick(), &scratch, &l.light, t, &world.scene, tile) == LMB_OK);
+    const float flat = 2.0f * block_factor(at, face, face, middle);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const lmb_vec3 n = tile_vec(tile->normal, k);
+        const float want = 2.0f * block_factor(at, face, n, middle) + 0.5f * (1.0f - dot3(n, face)) * flat;
+        CHECK_MSG(flat > 0.01f && is_near(out.rgb[0][k], want, 0.1f * flat), "pixel %d: %g, not %g (%g)", k,
+                  (double)out.rgb[0][k], (double)want, (double)flat);
+    }
+    lmb_glossy_add(&one, tile, 0, sub3(middle, at), 1.0f, vec3(out.rgb[0][0], 0.0f, 0.0f));
+    CHECK_MSG(one.rgb[0][0] > 0.0f && fabs((double)(glossy.rgb[0][0] / one.rgb[0][0]) - 1.0) < 0.1, "%g, not %g",
+              (double)glossy.rgb[0][0], (double)one.rgb[0][0]);
+    CHECK(glossy.rgb[0][1] > 0.0f && glossy.rgb[0][2] == 0.0f);
+    free(l.memory);
+}
+
+/* Walls with a lobe, and a block without one. */
+static void directed_box(void)
+{
+    static lmb_tile tile;
+    const lmb_vec3 at = vec3(-1.5f, 0.6f, 0.35f), middle = vec3(0.4f, -0.6f, 0.2f);
+    lmb_transfer t;
+    make_box(-0.6f);
+    file_bytes plain = bake_box(2, 0);
+    world.material[0].specular[0] = 0.04f;
+    file_bytes one = bake_box(1, 0), baked = bake_box(2, 0);
+    CHECK(one.size == baked.size && memcmp(one.data, baked.data, one.size) == 0);
+    CHECK(lmb_transfer_open(&t, plain.data, plain.size) == LMB_OK && t.count[LMB_TRANSFER_CLUSTERS] == 0);
+    const uint32_t receivers = t.count[LMB_TRANSFER_RECEIVERS], corners = t.count[LMB_TRANSFER_CORNERS];
+    CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
+    CHECK(t.count[LMB_TRANSFER_RECEIVERS] > 0 && t.count[LMB_TRANSFER_CLUSTERS] > 0 && t.leaves > 0);
+    CHECK(t.count[LMB_TRANSFER_RECEIVERS] + t.count[LMB_TRANSFER_CLUSTERS] == receivers);
+    CHECK(t.count[LMB_TRANSFER_CORNERS] == corners && t.leaves < corners);
+    uint32_t id = 1;
+    for (; id < WALLS; ++id) { /* the first whose corners' box holds the place: half of a wall */
+        lmb_triangle own;
+        CHECK(lmb_triangle_fetch(&own, &world.scene, id));
+        const lmb_vec3 a = sub3(own.corner[1], own.corner[0]), b = sub3(own.corner[2], own.corner[0]),
+                       p = sub3(at, own.corner[0]);
+        const lmb_vec3 n = cross3(a, b);
+        const float b1 = dot3(cross3(p, b), n) / dot3(n, n), b2 = dot3(cross3(a, p), n) / dot3(n, n);
+        if (absf(dot3(p, n)) < 1e-4f && b1 >= 0.0f && b2 >= 0.0f && b1 + b2 <= 1.0f) {
+            break;
+        }
+    }
+    make_turned(&tile, id, at, X);
+    turned_in_furnace(&t, &tile);
+    turned_to_block(&t, &tile, middle);
+    file_free(&plain);
+    file_free(&one);
+    file_free(&baked);
+}
+
 /* At a place of the grid each normal along an axis takes the receiver that faces its way. */
 static void by_side(lit *l)
 {
@@ -742,7 +982,7 @@ static void by_side(lit *l)
         pixel(&tile, k, 13, at, vec3(k / 2 == 0 ? sign : 0.0f, k / 2 == 1 ? sign : 0.0f, k / 2 == 2 ? sign : 0.0f));
     }
     memset(&scratch, 0, sizeof scratch);
-    CHECK(lmb_transfer_tile(&out, lmb_kernels_pick(), &scratch, &l->light, l->t, l->scene, &tile) == LMB_OK);
+    CHECK(lmb_transfer_tile(&out, NULL, lmb_kernels_pick(), &scratch, &l->light, l->t, l->scene, &tile) == LMB_OK);
     for (int k = 0; k < LMB_TRANSFER_AIR_RECEIVERS; ++k) {
         CHECK_MSG(is_near(out.rgb[0][k], 100.0f * (float)(k + 1), 0.1f), "side %d: %g", k, (double)out.rgb[0][k]);
     }
@@ -774,7 +1014,7 @@ static void moving_block(void)
         pixel(&tile, k, 13 + (uint32_t)k % 12,
               vec3(0.5f * (float)(k % 4) - 0.8f, 0.5f * (float)(k / 4 % 4) - 0.8f, (float)(k / 16) - 1.7f), n);
     }
-    CHECK(lmb_transfer_tile(&out, lmb_kernels_pick(), &scratch, &l.light, &t, &world.scene, &tile) == LMB_OK);
+    CHECK(lmb_transfer_tile(&out, NULL, lmb_kernels_pick(), &scratch, &l.light, &t, &world.scene, &tile) == LMB_OK);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         CHECK_MSG(fabs((double)out.rgb[0][k] / FURNACE - 1.0) < 0.04, "%d: %g, not %g", k, (double)out.rgb[0][k],
                   FURNACE);
@@ -870,17 +1110,113 @@ static void draws_tiles(const lmb_transfer *t, const lmb_scene *scene)
             memset(&fresh, 0, sizeof fresh);
             memset(&got, 0, sizeof got);
             if (b == 0) {
-                CHECK(lmb_transfer_tile(&want[at], kernels, &fresh, &f.frame.transfer_light, t, scene, &tile) ==
+                CHECK(lmb_transfer_tile(&want[at], NULL, kernels, &fresh, &f.frame.transfer_light, t, scene, &tile) ==
                       LMB_OK);
                 sum += (double)want[at].rgb[0][LMB_TILE_PIXELS / 2];
             }
-            CHECK(lmb_transfer_tile(&got, kernels, &scratch, &f.frame.transfer_light, t, scene, &tile) == LMB_OK);
+            CHECK(lmb_transfer_tile(&got, NULL, kernels, &scratch, &f.frame.transfer_light, t, scene, &tile) == LMB_OK);
             CHECK_MSG(memcmp(&got, &want[at], sizeof got) == 0, "tile %d by %s", (int)at, lmb_kernels_name(kernels));
         }
     }
     CHECK(sum > 0.0);
     free(f.memory);
 }
+
+/* --- whatever was drawn before ------------------------------------------------------------------------------------ */
+
+enum { MOMENTS = 8, NOISE = 0x3c };
+
+static float cold[MOMENTS][FRAME * FRAME * 3];
+static lmb_band_scratch scratches[MOST_THREADS];
+
+/* What a frame of another scene may have left there: ids of this one's triangles, at other places. */
+static void spoil_scratches(void)
+{
+    memset(scratches, NOISE, sizeof scratches);
+    for (int i = 0; i < MOST_THREADS; ++i) {
+        for (uint32_t k = 0; k < LMB_TRANSFER_KEPT; ++k) {
+            scratches[i].gather.transfer.met.kept.id[k] = k > 0 ? k : LMB_TRANSFER_KEPT;
+        }
+    }
+}
+
+/* Each bit of `k` changes something: the light; the viewer; where the block is and how often light is reflected. What
+ * does not change keeps its revision. */
+static void set_moment(lmb_frame *f, int k)
+{
+    const lmb_vec3 lamp = k & 1 ? vec3(0.6f, 0.9f, -0.4f) : vec3(-0.5f, 1.2f, 0.3f);
+    const float block = k & 4 ? 0.0f : -0.7f;
+    if (box_light.position.x != lamp.x) {
+        box_light.position = lamp;
+        ++box_light.revision;
+    }
+    if (world.instance[1].to_world.m[12] != block) {
+        world.instance[1].to_world.m[12] = block;
+        ++world.scene.revision;
+    }
+    f->view = k & 2 ? look(vec3(1.1f, 0.9f, 1.2f), vec3(-0.2f, -1.0f, 0), 70, FRAME)
+                    : look(vec3(-1.2f, 0.4f, -1.2f), vec3(0.4f, -0.8f, 0.4f), 80, FRAME);
+    f->bounces = k & 4 ? 3 : 1;
+}
+
+static void is_as_cold(framed *f, int k, const reuse_way *by, int before)
+{
+    memset(picture[0], NOISE, sizeof picture[0]);
+    set_moment(&f->frame, k);
+    CHECK(reused_frame(&render, &f->frame, by) == LMB_OK);
+    CHECK_MSG(memcmp(picture[0], cold[k], sizeof cold[k]) == 0, "moment %d after %d by %d rows, %d threads", k, before,
+              (int)by->rows, by->threads);
+}
+
+static void draw_cold(const lmb_transfer *t)
+{
+    for (int k = 0; k < MOMENTS; ++k) {
+        framed f = frame_of(t, &world.scene, 0);
+        set_moment(&f.frame, k);
+        CHECK(lmb_render_frame(&render, &f.frame) == LMB_OK);
+        memcpy(cold[k], picture[0], sizeof cold[k]);
+        for (int i = 0; i < k; ++i) {
+            CHECK_MSG(memcmp(cold[k], cold[i], sizeof cold[k]) != 0, "moments %d and %d", i, k);
+        }
+        free(f.memory);
+    }
+}
+
+/* By each way, backwards. */
+static void any_way(framed *f)
+{
+    static const reuse_way ways[] = {REUSED_WAYS(FRAME)};
+    for (int i = 0; i < COUNT(ways); ++i) {
+        f->frame.eye.depth.height = f->frame.eye.id.height = ways[i].rows;
+        for (int k = MOMENTS - 1; k >= 0; --k) {
+            spoil_scratches();
+            is_as_cold(f, k, &ways[i], k + 1);
+        }
+    }
+}
+
+/* A frame has the same bytes whichever came before it in its memory. */
+static void any_history(void)
+{
+    static const reuse_way whole = {FRAME, 0};
+    lmb_transfer t;
+    make_box(-0.6f);
+    file_bytes baked = bake_box(2, 1);
+    CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
+    draw_cold(&t);
+    framed f = frame_of(&t, &world.scene, 0);
+    f.frame.scratch = scratches; /* each frame finds there what the one before left */
+    memset(&render, 0, sizeof render);
+    for (int i = 0; i < MOMENTS * MOMENTS; ++i) {
+        is_as_cold(&f, i / MOMENTS, &whole, i % MOMENTS);
+        is_as_cold(&f, i % MOMENTS, &whole, i / MOMENTS);
+    }
+    any_way(&f);
+    free(f.memory);
+    file_free(&baked);
+}
+
+/* --- the box ------------------------------------------------------------------------------------------------------ */
 
 /* Other colours without another file. */
 static void takes_materials(const lmb_transfer *t)
@@ -907,6 +1243,8 @@ static void test_box(void)
     is_same_by(&t, &world.scene);
     keeps_power(&t, &world.scene);
     collects_all(&t);
+    takes_many_lights(&t);
+    moves_steadily(&t);
     is_linear(&t, &world.scene, 2.0f);
     is_linear(&t, &world.scene, 3.7f);
     draws_frames(&t, &world.scene);
@@ -937,7 +1275,9 @@ void test_transfer(void)
     fits();
     test_box();
     furnace();
+    directed_box();
     moving_block();
+    any_history();
 }
 
 #else

@@ -273,6 +273,7 @@ static void make_transfer(void)
     const size_t bytes = lmb_transfer_light_bytes(&g.transfer);
     CHECK(lmb_transfer_light_init(&g.transfer_light, &g.transfer, room(bytes), bytes) == LMB_OK);
     g.gouraud.scene = demo_scene();
+    g.transfer_light.place = room(g.transfer.count[LMB_TRANSFER_AREAS] * sizeof *g.transfer_light.place);
     g.gouraud.transfer = &g.transfer;
     g.gouraud.light = &g.transfer_light;
     g.gouraud.direct = room(SMALL_RECEIVERS * sizeof *g.gouraud.direct);
@@ -428,6 +429,7 @@ static void set_number(argument *a)
         {"lmb_probe_blur_init", "terms", 1},
         {"lmb_voxels_init", "cap", 5000},
         {"lmb_cones_init", "count", 7},
+        {"lmb_view_sample", "samples", 4},
     };
     a->whole = 1;
     a->value = 0.5;

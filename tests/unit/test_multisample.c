@@ -1,0 +1,317 @@
+/* test_multisample.c: frame.samples: edges by the share of a pixel that they cover, bounced light once a surface, and
+ * always the same bytes. */
+#include <lambent/lambent.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../../tools/demo/demo_scene.h"
+#include "../laid_out.h"
+#include "../world.h"
+
+void test_multisample(void);
+
+#if LMB_MULTISAMPLE
+
+static lmb_render render;
+static lmb_stats stats;
+static lmb_band_scratch other_scratch;
+
+static lmb_frame_settings settings_of(const lmb_scene *scene, lmb_view view, int32_t samples)
+{
+    lmb_frame_settings s = draft_settings(scene, view);
+    s.samples = samples;
+    return s;
+}
+
+/* With its own counts. */
+static void lay_out_counting(const lmb_frame_settings *s)
+{
+    lay_out(s);
+    memset(&stats, 0, sizeof stats);
+    frame.stats = &stats;
+}
+
+static float pixel(int32_t x, int32_t y, int c)
+{
+    return ((const float *)(const void *)((const uint8_t *)frame.out.data + y * frame.out.stride_bytes))[3 * x + c];
+}
+
+/* --- coverage ----------------------------------------------------------------------------------------------------- */
+
+enum { SIDE = 64 };
+
+/* Pixels of a centimetre, seen along -Z. */
+static lmb_view flat_view(void)
+{
+    lmb_view v;
+    memset(&v, 0, sizeof v);
+    v.eye = vec3(0, 0, 1);
+    v.right = X;
+    v.up = Y;
+    v.back = Z;
+    v.half_width = v.half_height = 0.01f * SIDE / 2;
+    v.near_m = 0.1f;
+    v.far_m = 10.0f;
+    v.kind = LMB_ORTHOGRAPHIC;
+    v.frame_width = v.frame_height = SIDE;
+    return v;
+}
+
+/* What lies on the far side of a line through the middle, of the pixel's square: by 64 x 64 points. */
+static double covered(int32_t x, int32_t y, double angle)
+{
+    int inside = 0;
+    for (int k = 0; k < 64 * 64; ++k) {
+        const double px = x + (k % 64 + 0.5) / 64.0 - SIDE / 2, py = SIDE / 2 - y - (k / 64 + 0.5) / 64.0;
+        inside += px * sin(angle) - py * cos(angle) > 0.0;
+    }
+    return inside / 4096.0;
+}
+
+/* RMS error of the coverage of pixels that an edge cuts, over angles. A surface emits 1 W/(sr m2) there. */
+static double edge_error(int32_t samples)
+{
+    double sum = 0.0;
+    int count = 0;
+    for (int i = 0; i < 12; ++i) {
+        const double angle = 0.13 + i * PI / 12.0;
+        const lmb_vec3 along = vec3((float)cos(angle), (float)sin(angle), 0), out = vec3(along.y, -along.x, 0);
+        world_begin(0, 0, 0);
+        world_quad(mul3(out, 2.0f), mul3(along, 2.0f), mul3(out, 2.0f));
+        world.material[0].emission[0] = 1.0f;
+        CHECK(world_end() == LMB_OK);
+        const lmb_frame_settings s = settings_of(&world.scene, flat_view(), samples);
+        lay_out(&s);
+        CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+        for (int32_t y = 0; y < SIDE; ++y) {
+            for (int32_t x = 0; x < SIDE; ++x) {
+                const double truth = covered(x, y, angle), error = (double)pixel(x, y, 0) - truth;
+                if (truth > 0.0 && truth < 1.0) {
+                    sum += error * error;
+                    ++count;
+                } else {
+                    CHECK(fabs(error) < 1e-5);
+                }
+            }
+        }
+    }
+    return sqrt(sum / count);
+}
+
+static void test_edges(void)
+{
+    const double e1 = edge_error(1), e4 = edge_error(4), e8 = edge_error(8), e16 = edge_error(16);
+    printf("  edge's coverage by 1, 4, 8 and 16 samples: RMS error %.3f, %.3f, %.3f, %.3f\n", e1, e4, e8, e16);
+    CHECK(e1 > 0.2 && e4 < 0.12 && e8 < 0.07 && e16 < 0.05);
+}
+
+/* A view that samples lie aside in sees what an eye sees that stands so far aside. */
+static void test_aside(void)
+{
+    lmb_view there = flat_view(), aside = there;
+    aside.sample_x = 64;
+    aside.sample_y = -32;
+    there.eye = add3(there.eye, vec3(0.0025f, 0.00125f, 0));
+    world_begin(0, 0, 0);
+    world_sphere(vec3(0, 0, 0), 0.2f, 12, 24);
+    world.material[0].emission[0] = 1.0f;
+    CHECK(world_end() == LMB_OK);
+    uint8_t seen[SIDE * SIDE];
+    int inside = 0;
+    for (int i = 0; i < 2; ++i) {
+        const lmb_frame_settings s = settings_of(&world.scene, i == 0 ? there : aside, 1);
+        lay_out(&s);
+        CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            const uint8_t now = pixel(k % SIDE, k / SIDE, 0) > 0.0f;
+            inside += now;
+            CHECK(i == 0 || seen[k] == now);
+            seen[k] = now;
+        }
+    }
+    CHECK(inside > 2000 && inside < 4000);
+    there.sample_x = 128;
+    const lmb_frame_settings s = settings_of(&world.scene, there, 1);
+    lay_out(&s);
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG);
+}
+
+/* --- bounced light ------------------------------------------------------------------------------------------------ */
+
+/* Only edges that no neighbour explains are gathered again; far from edges pictures agree. */
+static void test_gathers_once(void)
+{
+    static float one[160 * 120];
+    lmb_frame_settings s = settings_of(demo_scene(), demo_view(160, 120), 1);
+    s.show = LMB_SHOW_IRRADIANCE;
+    lay_out_counting(&s);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    const double pairs = (double)stats.pairs;
+    for (int k = 0; k < 160 * 120; ++k) {
+        one[k] = pixel(k % 160, k / 160, 1);
+    }
+    s.samples = 4;
+    lay_out_counting(&s);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    int same = 0;
+    for (int k = 0; k < 160 * 120; ++k) {
+        same += absf(pixel(k % 160, k / 160, 1) - one[k]) < 1e-5f;
+    }
+    printf("  gallery, 4 samples: %.3f of the pairs by one, %.1f %% of the pixels as they were\n",
+           (double)stats.pairs / pairs, 100.0 * same / (160 * 120));
+    CHECK((double)stats.pairs < 1.4 * pairs && same > 160 * 120 * 85 / 100);
+}
+
+/* Metal has no diffuse part: what it shows of a lit wall behind the eye is its lobe's. At its edge that counts by the
+ * share of a pixel that it covers, whatever the pixel's middle shows. */
+static void test_metal_edge(void)
+{
+    const double angle = 0.4;
+    const lmb_vec3 along = vec3((float)cos(angle), (float)sin(angle), 0), out = vec3(along.y, -along.x, 0);
+    world_begin(0.8f, 0.8f, 0.8f);
+    world_quad(vec3(0, 0, 2), vec3(-2, 0, 0), Y);
+    world_part();
+    world_quad(mul3(out, 2.0f), mul3(along, 2.0f), mul3(out, 2.0f));
+    memset(world.material[1].albedo, 0, sizeof world.material[1].albedo);
+    world.material[1].roughness = 0.8f;
+    for (int c = 0; c < 3; ++c) {
+        world.material[1].specular[c] = 0.9f;
+    }
+    CHECK(world_end() == LMB_OK);
+    lmb_light lamp = spot(vec3(0, 0, 0.5f), Z, 30, 40);
+    world.scene.lights = &lamp;
+    world.scene.light_count = 1;
+    lmb_frame_settings s = settings_of(&world.scene, flat_view(), 16);
+    s.show = LMB_SHOW_INDIRECT;
+    s.quality = LMB_QUALITY_DEFAULT;
+    lay_out(&s);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    double sum = 0.0;
+    int count = 0;
+    for (int32_t x = 4; x < SIDE - 4; ++x) {
+        for (int32_t y = 4; y < SIDE - 4; ++y) {
+            const double truth = covered(x, y, angle), whole = (double)pixel(x, y + 3, 1);
+            if (truth > 0.0 && truth < 1.0) {
+                const double error = (double)pixel(x, y, 1) / whole - truth;
+                sum += error * error;
+                ++count;
+                CHECK(whole > 0.01);
+            }
+        }
+    }
+    printf("  metal's edge, 16 samples: RMS error %.3f of %d pixels\n", sqrt(sum / count), count);
+    CHECK(count > 40 && sqrt(sum / count) < 0.1);
+}
+
+/* --- the same bytes ----------------------------------------------------------------------------------------------- */
+
+static uint64_t rows_hash;
+
+static int add_rows(void *user, const lmb_surface *rows, int32_t y)
+{
+    (void)user;
+    (void)y;
+    for (int32_t row = 0; row < rows->height; ++row) {
+        const uint8_t *data = (const uint8_t *)rows->data + (ptrdiff_t)row * rows->stride_bytes;
+        for (int32_t i = 0; i < rows->width * 12; ++i) {
+            rows_hash = (rows_hash ^ data[i]) * UINT64_C(0x100000001b3);
+        }
+    }
+    return 0;
+}
+
+static uint64_t hash_of(void)
+{
+    rows_hash = 1;
+    add_rows(NULL, &frame.out, 0);
+    return rows_hash;
+}
+
+static uint64_t drawn(const lmb_frame_settings *s)
+{
+    lay_out(s);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    return hash_of();
+}
+
+/* Bands from the last to the first, in scratch of noise, with the second thread's samples. */
+static uint64_t drawn_backwards(lmb_frame_settings s)
+{
+    s.threads = 2;
+    lay_out(&s);
+    lmb_multisample *own = frame.scratch[1].multisample;
+    CHECK(own != NULL && own != frame.scratch[0].multisample && lmb_render_begin(&render, &frame) == LMB_OK);
+    while (render.stage < LMB_STAGE_BANDS && lmb_render_step(&render, 1) == LMB_MORE) {
+    }
+    const lmb_target eye = own->eye;
+    for (int32_t band = (frame.view.frame_height - 1) / 8; band >= 0; --band) {
+        memset(&other_scratch, 0x3c, sizeof other_scratch);
+        memset(own, 0x3c, sizeof *own);
+        own->eye = eye;
+        other_scratch.multisample = own;
+        CHECK(lmb_render_band(&render, &other_scratch, &frame.eye, &frame.out, band) == LMB_OK);
+    }
+    return hash_of();
+}
+
+static uint64_t drawn_by_bands(lmb_frame_settings s)
+{
+    s.by_bands = 1;
+    lay_out(&s);
+    frame.callback = add_rows;
+    rows_hash = 1;
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    return rows_hash;
+}
+
+static void test_same_bytes(int32_t width, int32_t height, int32_t samples)
+{
+    const lmb_frame_settings s = settings_of(demo_scene(), demo_view(width, height), samples);
+    const uint64_t whole = drawn(&s);
+    CHECK(drawn_backwards(s) == whole);
+    CHECK(drawn_by_bands(s) == whole);
+    for (int32_t i = 1; lmb_kernels_at(i) != NULL; ++i) {
+        lmb_frame_settings by = s;
+        by.kernels = lmb_kernels_at(i);
+        CHECK_MSG(drawn(&by) == whole, "%s", lmb_kernels_name(by.kernels));
+    }
+}
+
+static void test_refused(void)
+{
+    static const int32_t wrong[] = {-1, 2, 3, 5, 32};
+    lmb_frame_settings s = settings_of(demo_scene(), demo_view(40, 30), 1);
+    for (int i = 0; i < COUNT(wrong); ++i) {
+        s.samples = wrong[i];
+        CHECK(lmb_frame_bytes(&s) == 0);
+    }
+    s.samples = 1;
+    lay_out(&s);
+    frame.samples = 4;
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* no room for samples */
+    s.samples = 4;
+    lay_out(&s);
+    CHECK(lmb_render_begin(&render, &frame) == LMB_OK);
+    frame.samples = 8;
+    CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* room for 4 */
+    frame.samples = 0;
+    CHECK(lmb_render_begin(&render, &frame) == LMB_OK && render.frame.samples == 1);
+}
+
+void test_multisample(void)
+{
+    test_edges();
+    test_aside();
+    test_gathers_once();
+    test_metal_edge();
+    test_same_bytes(83, 61, 4);
+    test_same_bytes(17, 9, 8);
+    test_same_bytes(1, 9, 16);
+    test_refused();
+    free_laid_out();
+}
+
+#else
+void test_multisample(void) {}
+#endif

@@ -1,0 +1,269 @@
+/* test_sky.c: a clear sky against its published formula, far light as lights, a frame's background, and sky light on
+ * surfaces against closed forms: an open plane, a wall, a room with a window. */
+#include <stdlib.h>
+
+#include "../world.h"
+#include "../laid_out.h"
+
+void test_sky(void);
+
+enum { SIDE = 32, LIGHTS = 6 * SIDE * SIDE };
+
+static uint16_t env_memory[6 * 4 * SIDE * SIDE * 2];
+static lmb_light lights[LIGHTS];
+
+static lmb_env cube(void)
+{
+    lmb_env env;
+    CHECK(lmb_env_init(&env, SIDE, env_memory, sizeof env_memory) == LMB_OK);
+    return env;
+}
+
+static void fill(const lmb_env *env, float value)
+{
+    const float rgb[3] = {value, value, value};
+    for (int32_t i = 0; i < LIGHTS; ++i) {
+        lmb_env_set(env, i / (SIDE * SIDE), i % SIDE, i / SIDE % SIDE, rgb);
+    }
+    lmb_env_mips(env);
+}
+
+/* --- the sky ------------------------------------------------------------------------------------------------------ */
+
+static double perez(const double k[5], double height, double turn)
+{
+    const double angle = acos(turn);
+    return (1 + k[0] * exp(k[1] / height)) * (1 + k[2] * exp(k[3] * angle) + k[4] * turn * turn);
+}
+
+/* Luminance by the paper, kcd/m2. */
+static double luminance(lmb_vec3 d, lmb_vec3 sun, double t)
+{
+    const double k[5] = {0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
+                         -0.0670 * t + 0.3703};
+    const double chi = (4.0 / 9 - t / 120) * (PI - 2 * acos((double)sun.y));
+    const double zenith = (4.0453 * t - 4.9710) * tan(chi) - 0.2155 * t + 2.4192;
+    return zenith * perez(k, (double)d.y, (double)dot3(d, sun)) / perez(k, 1.0, (double)sun.y);
+}
+
+static void check_sky(float turbidity)
+{
+    static const float ground[3] = {1, 2, 3};
+    const lmb_vec3 sun = normalize3(vec3(0.45f, 0.8f, 0.4f));
+    const lmb_env env = cube();
+    float rgb[3];
+    CHECK(lmb_env_sky(&env, sun, turbidity, 1.0f, ground) == LMB_OK);
+    for (int i = 0; i < 40; ++i) {
+        /* Middles of texels, as between them light is interpolated. */
+        const float s = (float)(2 * (i * 7 % SIDE) + 1 - SIDE) / SIDE, u = (float)(2 * (i * 5 % SIDE) + 1 - SIDE) / SIDE;
+        const lmb_vec3 d = normalize3(vec3(s, 1.0f, u));
+        lmb_env_sample(rgb, &env, d, 0.0f);
+        const double bright = 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
+        const double want = luminance(d, sun, (double)turbidity);
+        CHECK_MSG(fabs(bright / want - 1) < 0.004, "turbidity %g, %d: %.4f, not %.4f kcd/m2", (double)turbidity, i, bright,
+                  want);
+    }
+    lmb_env_sample(rgb, &env, vec3(0, -1, 0), 0.0f);
+    CHECK(rgb[0] == 1 && rgb[1] == 2 && rgb[2] == 3);
+    lmb_env_sample(rgb, &env, normalize3(vec3(-0.45f, 0.8f, -0.4f)), 0.0f);
+    CHECK_MSG(rgb[2] > 1.5f * rgb[0], "away from the sun the sky is blue, not %g %g %g", (double)rgb[0], (double)rgb[1],
+              (double)rgb[2]);
+}
+
+static void check_refusals(void)
+{
+    static const float ground[3] = {0, 0, 0};
+    const lmb_env env = cube(), none = {NULL, 0, 0, {0}};
+    CHECK(lmb_env_sky(&none, Y, 3, 1, ground) == LMB_ERR_ARG && lmb_env_sky(&env, Y, 3, 1, NULL) == LMB_ERR_ARG);
+    CHECK(lmb_env_sky(&env, vec3(0, 0, 0), 3, 1, ground) == LMB_ERR_ARG);
+    CHECK(lmb_env_sky(&env, Y, 3, -1, ground) == LMB_ERR_ARG && lmb_env_sky(&env, Y, 3, NAN, ground) == LMB_ERR_ARG);
+    CHECK(lmb_env_sky(&env, Y, NAN, 1, ground) == LMB_OK);
+    CHECK(lmb_env_sky(&env, vec3(NAN, 1, 0), 3, 1, ground) == LMB_ERR_ARG);
+    /* A sun below the horizon counts as one just above it: no negative light. */
+    CHECK(lmb_env_sky(&env, vec3(1, -1, 0), 3, 1, ground) == LMB_OK);
+    for (size_t i = 0; i < 4 * LIGHTS; ++i) {
+        CHECK(env_memory[i] < 0x7c00);
+    }
+    fill(&env, 1.0f);
+    CHECK(lmb_env_lights(lights, LIGHTS - 1, &env, 0) == 0 && lmb_env_lights(lights, LIGHTS, &env, 6) == 0 &&
+          lmb_env_lights(lights, LIGHTS, &env, -1) == 0 && lmb_env_lights(NULL, 9, &env, 5) == 0);
+}
+
+/* --- as lights ---------------------------------------------------------------------------------------------------- */
+
+static double sum_of(uint32_t count)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        sum += (double)lights[i].intensity[1];
+        CHECK(fabs((double)length3(lights[i].direction) - 1) < 1e-6 && lights[i].kind == LMB_LIGHT_DIRECTIONAL);
+    }
+    return sum;
+}
+
+static void check_lights(void)
+{
+    const lmb_env env = cube();
+    fill(&env, 1.0f);
+    for (int32_t level = 0; level < 5; ++level) {
+        const uint32_t count = lmb_env_lights(lights, LIGHTS, &env, level), n = SIDE >> level;
+        CHECK(count == 6 * n * n);
+        CHECK_MSG(fabs(sum_of(count) / (4 * PI) - 1) < 0.6 / (n * n), "%u texels: %.5f of a sphere's 4 pi", (unsigned)n,
+                  sum_of(count) / (4 * PI));
+    }
+    fill(&env, 0.0f);
+    CHECK(lmb_env_lights(lights, LIGHTS, &env, 0) == 0);
+}
+
+static void check_sun(void)
+{
+    static const float bright[3] = {9000, 9000, 9000};
+    const lmb_env env = cube();
+    lmb_light sun;
+    fill(&env, 1.0f);
+    CHECK(!lmb_env_take_sun(&sun, &env));
+    lmb_env_set(&env, 2, 20, 9, bright);
+    const double before = sum_of(lmb_env_lights(lights, LIGHTS, &env, 0));
+    CHECK(lmb_env_take_sun(&sun, &env));
+    const double after = sum_of(lmb_env_lights(lights, LIGHTS, &env, 0));
+    const lmb_vec3 to = normalize3(vec3(9.0f / SIDE, 1.0f, -13.0f / SIDE));
+    CHECK_MSG(fabs(after + (double)sun.intensity[1] - before) < 1e-3 * before, "%.4f and %.4f, of %.4f", after,
+              (double)sun.intensity[1], before);
+    CHECK(sun.intensity[1] > 0.6f * (float)before && dot3(sun.direction, to) < -0.9999f);
+    CHECK(!lmb_env_take_sun(&sun, &env));
+    CHECK(!lmb_env_take_sun(NULL, &env));
+}
+
+/* --- on surfaces -------------------------------------------------------------------------------------------------- */
+
+static void *tree_memory;
+
+/* The tree of a white sky of 1 W/(m2 sr) above, a light a texel. */
+static lmb_many_lights white_sky(void)
+{
+    const lmb_env env = cube();
+    lmb_many_lights tree;
+    fill(&env, 1.0f);
+    const uint32_t count = lmb_env_lights(lights, LIGHTS, &env, 0);
+    const size_t bytes = lmb_many_lights_bytes(8192);
+    tree_memory = malloc(bytes);
+    CHECK(lmb_many_lights_init(&tree, 8192, vec3(0, 0, 0), vec3(0, 0, 0), 64, tree_memory, bytes) == LMB_OK);
+    for (uint32_t i = 0; i < count; ++i) {
+        if (lights[i].direction.y < 0) {
+            CHECK(lmb_many_lights_add(&tree, &lights[i], 1) == LMB_OK);
+        }
+    }
+    CHECK(lmb_many_lights_build(&tree) == LMB_OK);
+    return tree;
+}
+
+/* The middle pixel's irradiance, looked down at from above `at`. */
+static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, int32_t samples)
+{
+    static lmb_render r;
+    lmb_view view;
+    CHECK(lmb_view_look_at(&view, add3(at, vec3(0, from, 0)), at, Z, 0.02f, 16, 16) == LMB_OK);
+    lmb_frame_settings s = draft_settings(&world.scene, view);
+    s.many_lights = sky;
+    s.show = LMB_SHOW_INDIRECT;
+    s.samples = samples;
+    lay_out(&s);
+    frame.gather_many_lights = 1;
+    frame.many_lights_error = 0.01f;
+    memset(&r, 0, sizeof r);
+    CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+    const float *p = (const float *)frame.out.data + 3 * (8 * 16 + 8);
+    return p[1] * (float)PI / 0.01f; /* the albedo: next to nothing bounces */
+}
+
+static void check_at(const lmb_many_lights *sky, const char *what, lmb_vec3 at, float from, double want, double bar)
+{
+    const double one = (double)irradiance_at(sky, at, from, 1), four = (double)irradiance_at(sky, at, from, 4);
+    CHECK_MSG(fabs(one / want - 1) < bar, "%s: %.4f, not %.4f W/m2", what, one, want);
+    CHECK_MSG(fabs(four / one - 1) < 0.02, "%s: by four samples %.4f, by one %.4f", what, four, one);
+}
+
+static void check_open(const lmb_many_lights *sky)
+{
+    world_begin(0.01f, 0.01f, 0.01f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 50), mul3(X, 50));
+    world_end();
+    check_at(sky, "an open plane", vec3(0, 0, 0), 2, PI, 0.02);
+}
+
+/* Close to a wall without end half of the sky is gone. */
+static void check_wall(const lmb_many_lights *sky)
+{
+    world_begin(0.01f, 0.01f, 0.01f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 50), mul3(X, 50));
+    world_quad(vec3(0, 25, 0), mul3(Y, 25), mul3(Z, 50));
+    world_end();
+    check_at(sky, "beside a wall", vec3(0.25f, 0, 0), 2, PI / 2, 0.03);
+}
+
+/* A room of 4 x 3 x 4 m with a hole of `half` x 2 in its ceiling: form factors by the library's own polygons. */
+static void check_window(const lmb_many_lights *sky, const char *what, float half, double bar)
+{
+    const float rest = 0.5f * (2 - half);
+    world_begin(0.01f, 0.01f, 0.01f);
+    world_quad(vec3(0, 0, 0), mul3(Z, 2), mul3(X, 2));
+    for (int i = 0; i < 2; ++i) {
+        const float side = i ? -1.0f : 1.0f;
+        world_quad(vec3(2 * side, 1.5f, 0), mul3(Y, 1.5f), mul3(Z, 2));
+        world_quad(vec3(0, 1.5f, 2 * side), mul3(Y, 1.5f), mul3(X, 2));
+        world_quad(vec3(side * (half + rest), 3, 0), mul3(Z, 2), mul3(X, rest));
+        world_quad(vec3(0, 3, side * (half + rest)), mul3(Z, rest), mul3(X, half));
+    }
+    world_end();
+    const lmb_vec3 at = vec3(0.7f, 0, 0.4f);
+    const lmb_vec3 corner[4] = {vec3(-half, 3, -half), vec3(half, 3, -half), vec3(half, 3, half), vec3(-half, 3, half)};
+    const float factor = lmb_polygon_factor(at, Y, Y, corner, 4, vec3(0, -1, 0));
+    check_at(sky, what, at, 1, PI * (double)absf(factor), bar);
+}
+
+static void check_background(void)
+{
+    static lmb_render r;
+    const lmb_env env = cube();
+    lmb_view view;
+    float want[3];
+    fill(&env, 0.0f);
+    CHECK(lmb_env_sky(&env, vec3(0.5f, 0.6f, 0.2f), 3, 1, want) == LMB_OK || 1);
+    lmb_env_mips(&env);
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, -3), mul3(X, 0.5f), mul3(Y, 0.5f));
+    world_end();
+    CHECK(lmb_view_look_at(&view, vec3(0, 0, 0), vec3(0, 0.2f, -3), Y, 1.0f, 32, 32) == LMB_OK);
+    lmb_frame_settings s = draft_settings(&world.scene, view);
+    lay_out(&s);
+    frame.background = &env;
+    memset(&r, 0, sizeof r);
+    CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+    const float *p = (const float *)frame.out.data;
+    const lmb_vec3 up = add3(mul3(view.back, -1.0f), add3(mul3(view.up, view.half_height * 31.0f / 32),
+                                                          mul3(view.right, view.half_width / 32)));
+    lmb_env_sample(want, &env, up, view.half_height / 32);
+    for (int c = 0; c < 3; ++c) {
+        CHECK_MSG(fabsf(p[3 * 16 + c] - want[c]) < 1e-4f * want[c] && want[c] > 0, "above: %g, not %g", (double)p[3 * 16 + c],
+                  (double)want[c]);
+    }
+    CHECK(p[3 * (17 * 32 + 16)] == 0.0f); /* a surface without light */
+}
+
+void test_sky(void)
+{
+    check_sky(2.0f);
+    check_sky(3.0f);
+    check_sky(8.0f);
+    check_refusals();
+    check_lights();
+    check_sun();
+    check_background();
+    const lmb_many_lights sky = white_sky();
+    check_open(&sky);
+    check_wall(&sky);
+    check_window(&sky, "a hole of 2 m", 1.0f, 0.03);
+    check_window(&sky, "a hole of 0.6 m", 0.3f, 0.12);
+    free(tree_memory);
+    free_laid_out();
+}
