@@ -2,6 +2,7 @@
 . tests/scripts/checks.sh
 
 dir=$B/cli
+case $TOOL in /*) lambent=$TOOL ;; *) lambent=$PWD/$TOOL ;; esac
 rm -rf "$dir"
 mkdir -p "$dir"
 
@@ -269,7 +270,7 @@ said() { check "lambent says: $1" grep -qF -e "$1" "$dir/err.txt"; }
 status 0 render demo --size=64x48 --shadow-map=64 --exposure=0 -o "$dir/inside.pfm"
 check "--name=value is --name value" cmp "$dir/demo.pfm" "$dir/inside.pfm"
 cp "$dir/one.obj" "$dir/-q.obj"
-(cd "$dir" && "$OLDPWD/$TOOL" info -- -q.obj >out.txt 2>err.txt)
+(cd "$dir" && "$lambent" info -- -q.obj >out.txt 2>err.txt)
 check "behind -- a word that begins with - is no option" grep -q '^triangles' "$dir/out.txt"
 status 2 render demo --visibilty 0.1 -o "$dir/bad.png"
 said "unknown option --visibilty; did you mean --visibility?"
@@ -342,7 +343,7 @@ for verb in render play relight relief "relief bake" "relief render" mix plan co
     check "$verb --help has under 100 columns" awk 'length($0) > 99 { exit 1 }' "$dir/help.txt"
     # What is pasted works: all lines below `examples` that begin with two blanks, but those that end in a colon.
     mkdir -p "$dir/paste"
-    { printf 'set -e\nlambent() { "%s" "$@"; }\n' "$PWD/$TOOL"
+    { printf 'set -e\nlambent() { "%s" "$@"; }\n' "$lambent"
       sed -n '/^examples$/,/^exit status/{/^  .*[^:]$/p;}' "$dir/help.txt"; } >"$dir/paste/run.sh"
     check "$verb --help has an example" test "$(grep -c . "$dir/paste/run.sh")" -gt 2
     check "$verb --help's example works when pasted" sh -c 'cd "$1" && XDG_CACHE_HOME=. sh ./run.sh >said.txt 2>&1' sh "$dir/paste"

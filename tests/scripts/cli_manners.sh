@@ -3,7 +3,6 @@
 
 m=$dir/manners
 mkdir -p "$m"
-lambent=$PWD/$TOOL
 few="--size 32x24 --shadow-map 64 --quality draft"
 
 # --- standard output and input ---

@@ -1,5 +1,5 @@
-/* main.c: runs the tests: tests [GROUP | NAME]... [K/N]   without words, all of them; K/N: of these each N-th, from the
- * K-th on.
+/* main.c: runs the tests: tests [GROUP | NAME | -NAME]... [K/N]   without words, all of them; -NAME: but that one; K/N: of
+ * these each N-th, from the K-th on.
  *
  * The Makefile lists them in tests.inc, a line TEST(group, name) for each tests/GROUP/test_NAME.c. */
 #include "../test.h"
@@ -24,10 +24,13 @@ enum { TEST_COUNT = sizeof tests / sizeof tests[0] };
 
 static int is_wanted(const struct test *t, int argc, char **argv)
 {
-    for (int i = 1; i < argc; ++i)
-        if (!strcmp(argv[i], t->group) || !strcmp(argv[i], t->name))
-            return 1;
-    return argc < 2;
+    int wanted = argc < 2;
+    for (int i = 1; i < argc; ++i) {
+        if (argv[i][0] == '-' && !strcmp(argv[i] + 1, t->name))
+            return 0;
+        wanted |= !strcmp(argv[i], t->group) || !strcmp(argv[i], t->name);
+    }
+    return wanted;
 }
 
 /* One line a test, so that a crash shows where it happened. */
@@ -61,7 +64,7 @@ int main(int argc, char **argv)
         --argc;
     }
     for (int i = 1; i < argc; ++i)
-        if (!count_of(argv[i])) {
+        if (!count_of(argv[i] + (argv[i][0] == '-'))) {
             printf("FAIL there is no test or group `%s`\n", argv[i]);
             ++test_failed;
         }

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../common/view_options.h"
+#include "../common/view_frame.h"
 #include "../model/model.h"
 #include "../relief/relief_bake.h"
 #include "../relief/relief_draw.h"

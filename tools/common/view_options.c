@@ -1,4 +1,4 @@
-/* view_options.c: views that the command line describes, and views that frame a scene. */
+/* view_options.c: views that the command line describes. */
 #include "view_options.h"
 
 #include <math.h>
@@ -37,58 +37,18 @@ void view_size(view_options *o, float aspect)
     }
 }
 
-static lmb_vec3 bounds_corner(const lmb_scene *s, int i)
-{
-    lmb_vec3 c = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
-                  i & 4 ? s->bounds_max.z : s->bounds_min.z};
-    return c;
-}
-
-static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
-{
-    return axis.x * (a.x - b.x) + axis.y * (a.y - b.y) + axis.z * (a.z - b.z);
-}
-
-/* How far back the eye must stand from `centre` for every corner of the bounds to fit, with a little air. */
-static float fitting_distance(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
-{
-    float away = 0.0f;
-    for (int i = 0; i < 8; ++i) {
-        lmb_vec3 c = bounds_corner(s, i);
-        float wide = fabsf(along(v->right, c, centre)) / v->half_width,
-              high = fabsf(along(v->up, c, centre)) / v->half_height;
-        away = fmaxf(away, along(v->back, c, centre) + 1.05f * fmaxf(wide, high));
-    }
-    return away;
-}
-
-/* The whole scene, from a little above and to the side. */
-int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char *name, report *r)
-{
-    lmb_vec3 lo = scene->bounds_min, hi = scene->bounds_max;
-    lmb_vec3 centre = {(lo.x + hi.x) * 0.5f, (lo.y + hi.y) * 0.5f, (lo.z + hi.z) * 0.5f};
-    lmb_vec3 from = {centre.x + 0.45f, centre.y + 0.35f, centre.z + 0.82f};
-    view_size(o, 0.0f);
-    if (!(hi.x > lo.x || hi.y > lo.y || hi.z > lo.z)) {
-        return report_fail(r, "%s: nothing to see: the scene has no extent", name);
-    }
-    if (lmb_view_look_at(v, from, centre, o->up, 0.698f, o->width, o->height) != LMB_OK) {
-        return report_fail(r, "%s: no view frames the scene; give --eye and --target", name);
-    }
-    float away = fitting_distance(scene, v, centre);
-    v->eye.x = centre.x + away * v->back.x;
-    v->eye.y = centre.y + away * v->back.y;
-    v->eye.z = centre.z + away * v->back.z;
-    report_note(o->is_quiet, "no camera in %s: framing the scene from %.4g,%.4g,%.4g", name, (double)v->eye.x,
-                (double)v->eye.y, (double)v->eye.z);
-    return 1;
-}
-
 int view_look(lmb_view *v, view_options *o, report *r)
 {
     view_size(o, 0.0f);
     return lmb_view_look_at(v, o->eye, o->target, o->up, o->fov_deg * 0.017453293f, o->width, o->height) == LMB_OK ||
            report_fail(r, "--eye, --target and --up do not make a view: they must not lie on one line");
+}
+
+static lmb_vec3 bounds_corner(const lmb_scene *s, int i)
+{
+    lmb_vec3 c = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
+                  i & 4 ? s->bounds_max.z : s->bounds_min.z};
+    return c;
 }
 
 static float from_eye(const lmb_scene *s, lmb_vec3 eye)

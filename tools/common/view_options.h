@@ -38,11 +38,8 @@ int view_options_check(const view_options *o, report *r);
 /* view_size: where no size was given: height 480, width by an aspect (0: 4 / 3). */
 void view_size(view_options *o, float aspect);
 
-/* view_look: from --eye to --target. view_frame: the whole scene, from a little above and to the side; says so on
- * stderr, where `name` is the scene's. Both set the size where it was left open, but not near_m. 1, or 0 with `r`
- * set. */
+/* view_look: from --eye to --target, with the size where it was left open, but not near_m. 1, or 0 with `r` set. */
 int view_look(lmb_view *out, view_options *o, report *r);
-int view_frame(lmb_view *out, view_options *o, const lmb_scene *scene, const char *name, report *r);
 
 /* view_from: `middle` moved right_m metres to its right, with the near and far plane of where it then stands. */
 lmb_view view_from(const lmb_view *middle, float right_m, const lmb_scene *scene);

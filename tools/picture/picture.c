@@ -45,30 +45,48 @@ int picture_option(const char *text, void *at) { return picture_format(*(const c
 
 #define SHOULDER    0.76f  /* Khronos PBR Neutral: 0.8, less the reflectance of 0.04 that its toe takes away */
 #define FADES       0.15f  /* how soon bright colours are white: Khronos PBR Neutral's desaturation */
+#define MEDIAN_EV   -1.25f  /* half of the pixels are darker than 0.42 */
 #define SHOULDER_EV 0.375f /* the brightest hundredth lies on the shoulder: middle tones gain that */
 
-/* A histogram of the brightest channel in eighths of a stop: no sorting, no memory. */
-float picture_auto_exposure(const image *p, int tone)
+enum { STEPS = 512, MIDDLE = 256, STEPS_PER_STOP = 8 };
+
+/* How many pixels are so bright, by eighths of a stop: no sorting, no memory. */
+typedef struct brightness {
+    uint32_t counts[STEPS], lit;
+} brightness;
+
+static void add_brightness(brightness *b, float v)
 {
-    enum { STEPS = 512, MIDDLE = 256 };
-    uint32_t counts[STEPS] = {0}, lit = 0, above = 0;
-    size_t pixels = (size_t)p->width * (size_t)p->height;
-    for (size_t i = 0; i < pixels; ++i) {
-        const float *v = p->pixels + 3 * i;
-        float max = v[0] > v[1] ? v[0] : v[1];
-        max = v[2] > max ? v[2] : max;
-        if (max > 1e-9f && max < 1e9f) {
-            ++counts[(int)(log2((double)max) * 8.0 + MIDDLE)];
-            ++lit;
-        }
+    if (v > 1e-9f && v < 1e9f) {
+        ++b->counts[(int)(log2((double)v) * STEPS_PER_STOP + MIDDLE)];
+        ++b->lit;
     }
+}
+
+/* Stops that bring the brightest of a share of the lit pixels to 1. */
+static float stops_to_one(const brightness *b, uint32_t share)
+{
+    uint32_t above = 0;
     for (int step = STEPS - 1; step >= 0; --step) {
-        above += counts[step];
-        if (above * 100u >= lit && lit > 0) {
-            return -(float)(step + 1 - MIDDLE) / 8.0f + (tone == PICTURE_CURVED ? SHOULDER_EV : 0.0f);
+        above += b->counts[step];
+        if (above * (uint64_t)share >= b->lit && b->lit > 0) {
+            return -(float)(step + 1 - MIDDLE) / STEPS_PER_STOP;
         }
     }
     return 0.0f;
+}
+
+float picture_auto_exposure(const image *p, int tone)
+{
+    brightness peak = {{0}, 0}, luminance = {{0}, 0};
+    const size_t pixels = (size_t)p->width * (size_t)p->height;
+    for (size_t i = 0; i < pixels; ++i) {
+        const float *v = p->pixels + 3 * i;
+        add_brightness(&peak, fmaxf(v[0], fmaxf(v[1], v[2])));
+        add_brightness(&luminance, 0.2126f * v[0] + 0.7152f * v[1] + 0.0722f * v[2]);
+    }
+    const float highest = stops_to_one(&peak, 100) + (tone == PICTURE_CURVED ? SHOULDER_EV : 0.0f);
+    return tone == PICTURE_CURVED && luminance.lit > 0 ? fminf(highest, stops_to_one(&luminance, 2) + MEDIAN_EV) : highest;
 }
 
 /* Khronos PBR Neutral's shoulder, of one pixel. */

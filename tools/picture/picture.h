@@ -25,7 +25,8 @@ int picture_option(const char *text, void *at);
 enum { PICTURE_CURVED = 0, PICTURE_CLIPPED };
 
 /* The stops that bring the brightest hundredth of the pixels just under white, or where the curve has it at 0.93 of
- * white; 0 for a black frame. */
+ * white. With the curve fewer, where half of the pixels would be over 0.42 of white: something white among white has
+ * tones too. 0 for a black frame. */
 float picture_auto_exposure(const image *linear, int tone);
 
 /* picture_codes: three display codes a pixel. The caller's to free; NULL where memory is short. */

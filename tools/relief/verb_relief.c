@@ -8,7 +8,7 @@
 
 #include "../common/option_value.h"
 #include "../common/progress.h"
-#include "../common/view_options.h"
+#include "../common/view_frame.h"
 #include "../model/model.h"
 #include "../picture/picture.h"
 #include "relief_compare.h"

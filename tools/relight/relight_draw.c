@@ -8,6 +8,7 @@
 
 #include "../../platform/host/pool.h"
 #include "../common/progress.h"
+#include "../common/view_frame.h"
 #include "../picture/picture.h"
 #include "relight_figures.h"
 #include "relight_path.h"

@@ -1,13 +1,15 @@
 /* render_exposure.c: a picture's stops, by the light that surfaces reflect. */
 #include "render_exposure.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "../picture/picture.h"
 #include "background.h"
 
-#define NOTHING 1e-4f /* what is left of a glow's light counts from this share of it on: less is rounding */
+#define GROUND_EV 1.25f
+#define NOTHING   1e-4f /* what is left of a glow's light counts from this share of it on: less is rounding */
 
 /* What the surfaces of a tile of the eye drawn last emit. */
 static void put_emitted(image *out, const render_job *j, int32_t x, int32_t y)
@@ -90,6 +92,44 @@ static int leave_background(image *inout, const render_job *j, report *r)
     return cover != NULL;
 }
 
+/* A pixel as it is, or black. 1 where it is inside and has any light. */
+static int keep(image *inout, int32_t x, int32_t y, int is_kept)
+{
+    if (x >= inout->width || y >= inout->height) {
+        return 0;
+    }
+    float *rgb = inout->pixels + 3 * ((size_t)y * (size_t)inout->width + (size_t)x);
+    for (int c = 0; c < 3 && !is_kept; ++c) {
+        rgb[c] = 0.0f;
+    }
+    return rgb[0] + rgb[1] + rgb[2] > 0.0f;
+}
+
+/* The picture without the ground that was put below the scene, in `inout`'s place. 1 where anything is left. */
+static int leave_ground(image *inout, const render_job *j)
+{
+    const lmb_frame *f = &j->render->frame;
+    lmb_tile *tile = &j->frame.scratch->tile;
+    int any = 0;
+    for (int32_t y = 0; y < inout->height; y += LMB_TILE) {
+        for (int32_t x = 0; x < inout->width; x += LMB_TILE) {
+            const int shows = lmb_resolve_albedo(tile, f->kernels, &f->view, f->scene, &f->eye, x, y) == LMB_OK;
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                const int is_own = shows && tile->id[k] != 0 && tile->id[k] < j->around.ground_id;
+                any |= keep(inout, x + k % LMB_TILE, y + k / LMB_TILE, is_own);
+            }
+        }
+    }
+    return any;
+}
+
+/* By what stands on the ground, but with the ground at most so far over white: a black thing on snow is still dark. */
+static float exposure_with_ground(image *inout, const render_job *j)
+{
+    const float all = picture_auto_exposure(inout, j->o.tone);
+    return leave_ground(inout, j) ? fminf(picture_auto_exposure(inout, j->o.tone), all + GROUND_EV) : all;
+}
+
 static int take_copy(image *out, const image *from)
 {
     const size_t bytes = (size_t)from->width * (size_t)from->height * 3 * sizeof(float);
@@ -136,7 +176,10 @@ int render_exposure(float *ev, const render_job *j, report *r)
         ok = take_copy(&by, &j->linear) || short_of_memory(j, r);
     }
     ok = ok && (j->frame.background == NULL || leave_background(&by, j, r));
-    *ev = ok ? picture_auto_exposure(&by, j->o.tone) + 0.0f : 0.0f; /* no minus zero */
+    if (ok) {
+        const float stops = j->around.has_ground ? exposure_with_ground(&by, j) : picture_auto_exposure(&by, j->o.tone);
+        *ev = stops + 0.0f; /* no minus zero */
+    }
     image_free(&by);
     return ok;
 }

@@ -166,7 +166,8 @@ static const option_row output_rows[] = {
 
 const option_row render_view_rows[] = {
     {.kind = OPTION_TITLE, .help = "view"},
-    VIEW_OPTION_SIZE(render_options, view, "the picture, px (default: height 480, width by the camera's aspect)"),
+    VIEW_OPTION_SIZE(render_options, view, "the picture, px (default: height 480, width by the camera's aspect; without a "
+                     "camera by the scene's shape)"),
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes (default: its own choice)"},
     {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/view_frame.h"
 #include "../demo/demo_scene.h"
 
 const model_camera *render_camera(const render_options *o, const model *m, report *r)

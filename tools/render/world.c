@@ -264,7 +264,7 @@ static void put_disc(world *w, lmb_scene *s)
     }
     instance->mesh = s->mesh_count++;
     instance->material = s->material_count++;
-    instance->first_id = lmb_scene_triangles(s) + 1;
+    w->ground_id = instance->first_id = lmb_scene_triangles(s) + 1;
     ++s->instance_count;
 }
 

@@ -14,6 +14,7 @@ typedef struct world {
     uint32_t count;
     lmb_light sun;
     int has_sun, is_sky, has_ground;
+    uint32_t ground_id; /* its first triangle's: the last ones are its own */
     /* A scene's arrays with the ground behind what they had. */
     lmb_mesh *meshes;
     lmb_material *materials;
