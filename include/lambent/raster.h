@@ -37,7 +37,8 @@ typedef struct lmb_tile {
     } work;
 } lmb_tile;
 
-enum { LMB_CULL_BACK = 1 /* drop back faces of single-sided materials (cameras); lights see both sides */ };
+enum { LMB_CULL_BACK = 1, /* drop back faces of single-sided materials (cameras); lights see both sides */
+       LMB_BLEND = 2      /* LMB_ALPHA_BLEND shows by sample (cameras); lights see it by alpha_cutoff */ };
 
 #ifdef __cplusplus
 extern "C" {
@@ -59,7 +60,7 @@ const char *lmb_kernels_name(const lmb_kernels *kernels);
  *   view     the frame's camera or light face.
  *   scene    checked by lmb_scene_check. ids past its end are ignored.
  *   first_id at least 1: id 0 is nothing.
- *   flags    LMB_CULL_BACK or 0.
+ *   flags    LMB_CULL_BACK, LMB_BLEND, both or 0.
  *   stats    counts triangles; may be NULL.
  *
  * Returns LMB_OK, LMB_ERR_ARG (null, id 0, window outside the frame or not on tiles, bad view or stride) or

@@ -44,7 +44,10 @@ typedef struct lmb_texture {
 } lmb_texture;
 
 enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
-       LMB_ALPHA_MASK = 2    /* holes where alpha < alpha_cutoff: takes the masked path */ };
+       LMB_ALPHA_MASK = 2,   /* holes where alpha < alpha_cutoff: takes the masked path */
+       LMB_ALPHA_BLEND = 4   /* with LMB_ALPHA_MASK: a camera sees it in alpha's share of a pixel's samples, and what is
+                                behind it in the others, by an ordered pattern of 8 x 8 pixels; 64 levels without
+                                samples. Light goes by alpha_cutoff. Not in builds without LMB_MULTISAMPLE */ };
 
 /* Lower bound of a lobe's alpha = roughness^2: a point light's highlight stays under 3,200 times the reflectance, and
  * the lobe's numbers stay far from the limits of binary32. */

@@ -41,7 +41,7 @@ lmb_status lmb_render_view(lmb_render *r, int32_t units)
         clear_target(&whole);
     }
     lmb_status status = lmb_draw(&whole, f->kernels, &f->view, f->scene, r->progress + 1,
-                                 (uint32_t)units * UNIT_TRIANGLES, LMB_CULL_BACK, f->stats);
+                                 (uint32_t)units * UNIT_TRIANGLES, LMB_CULL_BACK | LMB_BLEND, f->stats);
     r->progress += (uint32_t)units * UNIT_TRIANGLES;
     return status != LMB_OK ? status : r->progress >= r->triangles ? LMB_OK : LMB_MORE;
 }
@@ -57,7 +57,7 @@ lmb_status lmb_render_view_part(const lmb_render *r, int32_t part, int32_t parts
     }
     lmb_target_rows(&window, &whole, (int32_t)first, (int32_t)(past - first));
     clear_target(&window);
-    return lmb_draw(&window, f->kernels, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK,
+    return lmb_draw(&window, f->kernels, &f->view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND,
                     first == 0 ? stats : NULL);
 }
 
@@ -67,7 +67,7 @@ static lmb_status draw_bands(const lmb_render *r, lmb_target *out, const lmb_tar
     lmb_target_rows(out, eye, 0, bands);
     out->y0 = first * LMB_TILE;
     clear_target(out);
-    return lmb_draw(out, r->frame.kernels, &r->frame.view, r->frame.scene, 1, r->triangles, LMB_CULL_BACK, NULL);
+    return lmb_draw(out, r->frame.kernels, &r->frame.view, r->frame.scene, 1, r->triangles, LMB_CULL_BACK | LMB_BLEND, NULL);
 }
 
 lmb_status lmb_render_view_band(const lmb_render *r, lmb_target *out, const lmb_target *eye, int32_t band)

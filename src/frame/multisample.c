@@ -43,7 +43,7 @@ lmb_status lmb_multisample_draw(const lmb_render *r, lmb_band_scratch *s, int32_
         set_sample(m, f, i, band);
         lmb_surface_clear(&m->window.depth);
         lmb_surface_clear(&m->window.id);
-        status = lmb_draw(&m->window, f->kernels, &m->view, f->scene, 1, r->triangles, LMB_CULL_BACK, NULL);
+        status = lmb_draw(&m->window, f->kernels, &m->view, f->scene, 1, r->triangles, LMB_CULL_BACK | LMB_BLEND, NULL);
     }
     return status;
 }

@@ -60,6 +60,7 @@ static void set_instance(lmb_draw_instance *d, const lmb_fill_context *c, const 
     d->cull = (flags & LMB_CULL_BACK) != 0 && (material->flags & LMB_DOUBLE_SIDED) == 0;
     d->job.cull = d->cull ? (d->mirrored ? -1 : 1) : 0;
     d->masked = (material->flags & LMB_ALPHA_MASK) != 0;
+    d->blends = LMB_MULTISAMPLE && (flags & LMB_BLEND) != 0 && (material->flags & LMB_ALPHA_BLEND) != 0;
     d->mesh = &c->scene->meshes[instance->mesh];
     d->first_id = instance->first_id;
 }

@@ -45,7 +45,7 @@ static int fill_polygon(const lmb_fill_context *c, const lmb_draw_instance *d, c
         lmb_setup setup;
         if (lmb_setup_triangle(&setup, &first, &before, &next) && !(d->cull && setup.back != d->mirrored)) {
             if (d->masked) {
-                lmb_fill_masked(c, &setup, id);
+                lmb_fill_masked(c, &setup, id, LMB_MULTISAMPLE && d->blends);
             } else {
                 c->kernels->fill_large(&c->window, &setup, id);
             }

@@ -9,7 +9,7 @@
 typedef struct lmb_draw_instance {
     lmb_setup_job job;
     lmb_clip_guard guard;
-    int32_t mirrored, cull, masked;
+    int32_t mirrored, cull, masked, blends;
     const lmb_mesh *mesh;
     uint32_t first_id;
 } lmb_draw_instance;

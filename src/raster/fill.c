@@ -14,14 +14,37 @@ typedef struct masked_surface {
     lmb_rays rays;
     lmb_plane plane;
     lmb_resolve_alpha alpha;
+    int blends;
+    uint32_t id;
+    int32_t x, y; /* of the tile at hand, px */
 } masked_surface;
 
+/* The alpha from which on pixel (x, y) of the tile shows a surface that blends: 1/512 .. 511/512, by Bayer's 8 x 8.
+ *
+ * The samples of a pixel lie in different columns, one in each of as many strips as there are samples, and so do their
+ * thresholds. Each triangle begins elsewhere, and with several samples each of its pixels takes the quarters in an order
+ * of its own: by the same thresholds a nearer surface would hide what blends behind it. */
+static float threshold(const masked_surface *s, const lmb_view *v, int32_t x, int32_t y)
+{
+    const int32_t a = x ^ y, rank = (a & 1) << 5 | (y & 1) << 4 | (a & 2) << 2 | (y & 2) << 1 | (a & 4) >> 1 |
+                                    (y & 4) >> 2;
+    const uint32_t own = s->id * 2654435761u;
+    const uint32_t place = (uint32_t)(s->x + x) * 2246822519u + (uint32_t)(s->y + y) * 3266489917u;
+    const uint32_t mixed = ((own ^ place) >> 15 ^ own ^ place) * 668265263u;
+    const uint32_t quarter = (v->sample_x | v->sample_y) != 0 ? mixed >> 30 : 0;
+    const uint32_t at = (uint32_t)(v->sample_x + 128 + 4 * rank) + 4 * (own >> 26) + 64 * quarter;
+    return ((float)(at & 255u) + 0.5f) * (1.0f / 256.0f);
+}
+
 /* At pixel (x, y) of the tile: surface, or a hole? */
-static int stands_at(const masked_surface *s, const lmb_scene *scene, int32_t x, int32_t y)
+static int stands_at(masked_surface *s, const lmb_fill_context *c, int32_t x, int32_t y)
 {
     float b1, b2;
+    if (LMB_MULTISAMPLE && s->blends) {
+        s->alpha.cutoff = threshold(s, c->view, x, y);
+    }
     lmb_resolve_point(&b1, &b2, &s->plane, &s->rays, (float)x, (float)y);
-    return lmb_resolve_opaque(&s->alpha, scene, b1, b2);
+    return lmb_resolve_opaque(&s->alpha, c->scene, b1, b2);
 }
 
 /* Value by value as fill.inl. */
@@ -47,20 +70,20 @@ static void put_id(const lmb_fill_tile *tile, int32_t at, uint32_t id)
 
 /* The triangle covers pixel (x, y): where it is nearer and no hole, it shows. */
 static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
-                       const masked_surface *s, int32_t x, int32_t y)
+                       masked_surface *s, int32_t x, int32_t y)
 {
     const int32_t at = y * tile->depth_step + x;
     const float d = depth_at(job, x, y);
     if (tile->depth_format == LMB_DEPTH32F) {
         float *was = (float *)tile->depth + at;
-        if (!(*was < d) || !stands_at(s, c->scene, x, y)) {
+        if (!(*was < d) || !stands_at(s, c, x, y)) {
             return;
         }
         *was = d;
     } else {
         uint16_t *was = (uint16_t *)tile->depth + at;
         const float code = code_of(job, d);
-        if (!((float)*was < code) || !stands_at(s, c->scene, x, y)) {
+        if (!((float)*was < code) || !stands_at(s, c, x, y)) {
             return;
         }
         *was = (uint16_t)code;
@@ -70,7 +93,7 @@ static void fill_pixel(const lmb_fill_context *c, const lmb_fill_tile *tile, con
 
 /* Pixels one by one: asking for alpha costs more than vectors would save, and opaque scenes never come here. */
 static void fill_tile_masked(const lmb_fill_context *c, const lmb_fill_tile *tile, const lmb_fill_job *job,
-                             const masked_surface *s)
+                             masked_surface *s)
 {
     const int32_t *e = job->e, *ex = job->ex, *ey = job->ey;
     for (int32_t y = 0; y < LMB_TILE; ++y) {
@@ -123,7 +146,7 @@ NOINLINE int set_surface(masked_surface *out, const lmb_fill_context *c, uint32_
     return 1;
 }
 
-void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
+void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id, int blends)
 {
     const lmb_target *target = c->target;
     int32_t tx0, tx1, ty0, ty1;
@@ -132,6 +155,8 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
     if (!set_surface(&surface, c, id)) {
         return;
     }
+    surface.blends = LMB_MULTISAMPLE && blends;
+    surface.id = id;
     tile_span(&tx0, &tx1, s->x_min, s->x_max, c->view->frame_width, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, c->view->frame_height, target->y0, target->depth.height);
     job.dx = (float)s->d_x;
@@ -148,7 +173,9 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id)
             if (enter_tile(&job, s, x_24_8, y_24_8)) {
                 lmb_fill_tile tile = lmb_target_tile(target, tx, ty);
                 job.d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
-                lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
+                surface.x = target->x0 + tx * LMB_TILE;
+                surface.y = y;
+                lmb_resolve_rays(&surface.rays, c->view, surface.x, y);
                 fill_tile_masked(c, &tile, &job, &surface);
             }
         }

@@ -14,7 +14,8 @@ typedef struct lmb_fill_context {
     lmb_fill_window window;
 } lmb_fill_context;
 
-/* A triangle whose material has holes: every pixel that passes the depth test also tests its alpha. */
-void lmb_fill_masked(const lmb_fill_context *context, const lmb_setup *setup, uint32_t id);
+/* A triangle whose material has holes: every pixel that passes the depth test also tests its alpha. blends: by the
+ * sample's threshold instead of the material's. */
+void lmb_fill_masked(const lmb_fill_context *context, const lmb_setup *setup, uint32_t id, int blends);
 
 #endif

@@ -652,10 +652,10 @@ static uint64_t case_adaptive(int variant)
 #endif
 
 #if LMB_MULTISAMPLE && !defined(LMB_CONFIG_TINY)
-/* Several samples a pixel: of the soup as case_cut has it, of its lobes, and of what emits. */
+/* Several samples a pixel: of the soup as case_cut has it, of its lobes, of what emits, and of what blends. */
 static uint64_t case_samples(int variant)
 {
-    static const int32_t samples[] = {4, 8, 16};
+    static const int32_t samples[] = {4, 8, 16, 4};
     static golden_samples own_samples;
     lmb_frame f = soup_frame(1, 8);
     lmb_material some[2] = {soup_materials[0], soup_materials[1]};
@@ -665,6 +665,10 @@ static uint64_t case_samples(int variant)
         some[1].emission[c] = variant == 2 ? 0.5f : 0.0f;
     }
     some[0].roughness = some[1].roughness = 0.5f;
+    if (variant == 3) {
+        some[1].flags |= LMB_ALPHA_MASK | LMB_ALPHA_BLEND;
+        some[1].alpha = 0.6f;
+    }
     soup.materials = some;
     f.show = LMB_SHOW_FULL;
     f.occlusion = LMB_OCCLUSION_EXACT;

@@ -550,7 +550,7 @@ static void gltf_materials(void)
         return;
     CHECK(m[0].albedo[0] == 0.5f && m[0].albedo[1] == 0.25f && m[0].albedo[2] == 1 && m[0].alpha == 0.75f);
     CHECK(m[0].flags == LMB_DOUBLE_SIDED && m[0].texture == -1);
-    CHECK(m[1].albedo[0] == 0.25f && m[1].flags == LMB_ALPHA_MASK && m[1].alpha_cutoff == 0.5f && noted("BLEND"));
+    CHECK(m[1].albedo[0] == 0.25f && m[1].flags == (LMB_ALPHA_MASK | LMB_ALPHA_BLEND) && m[1].alpha_cutoff == 0.5f && noted("BLEND"));
     CHECK(m[2].albedo[0] == 0.02f && m[2].albedo[2] == 0.04f && m[2].flags == LMB_ALPHA_MASK);
     CHECK(m[2].alpha_cutoff == 0.25f && m[3].albedo[0] == 1 && noted("unlit materials") && noted("metallic materials"));
     CHECK(noted("emissive materials") && loaded.scene.instances[0].material == 4);
@@ -916,7 +916,7 @@ static void obj_materials(void)
     CHECK(loaded.scene.material_count == 7 && loaded.scene.instance_count == 6 && loaded.scene.texture_count == 0);
     if (loaded.scene.material_count != 7 || loaded.scene.mesh_count != 6)
         return;
-    CHECK(m[1].albedo[0] == 0.5f && m[1].albedo[2] == 1 && m[1].alpha == 1 && m[1].flags == LMB_DOUBLE_SIDED);
+    CHECK(m[1].albedo[0] == 0.5f && m[1].albedo[2] == 1 && m[1].alpha == 0.5f && (m[1].flags & LMB_ALPHA_BLEND));
     CHECK(m[2].alpha == 0 && (m[2].flags & LMB_ALPHA_MASK) && m[3].albedo[0] == 0.8f && m[4].albedo[0] == 0.125f);
     CHECK(m[5].alpha == 0 && m[6].albedo[0] == 0.8f && loaded.scene.meshes[0].triangle_count == 2);
     CHECK(noted("left out, plain colour instead: 1 (first:") && noted("missing.mtl") && noted("drawn grey: 1"));

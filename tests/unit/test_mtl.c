@@ -77,11 +77,14 @@ static void emission_refuses(void)
 static void opacity(void)
 {
     CHECK_LOADS(load_library("newmtl a\nd 0.5\nTr 0.5\nnewmtl b\nTr 0.25\n"));
-    CHECK(noted("drawn opaque: 2") && notes.count == 1 && loaded.scene.materials[1].alpha == 1);
+    const lmb_material *m = loaded.scene.materials;
+    CHECK(noted("by alpha 0.5: 2") && notes.count == 1 && m[1].alpha == 0.5f && m[2].alpha == 0.75f);
+    CHECK((m[1].flags & LMB_ALPHA_BLEND) && (m[1].flags & LMB_ALPHA_MASK) && m[1].alpha_cutoff == 0.5f);
     CHECK_LOADS(load_library("newmtl a\nd 1\nTr 0\nnewmtl b\nd 0\n"));
     CHECK(notes.count == 0 && loaded.scene.materials[1].alpha == 1 && loaded.scene.materials[2].alpha == 0);
     CHECK_LOADS(load_library("newmtl a\nd 0.5\nd 1\nnewmtl b\nd\nTr\nd none\n"));
-    CHECK(notes.count == 0);
+    CHECK(notes.count == 0 && loaded.scene.materials[1].alpha == 1);
+    CHECK(!(loaded.scene.materials[1].flags & (LMB_ALPHA_BLEND | LMB_ALPHA_MASK)));
 }
 
 static void maps_left_out(void)

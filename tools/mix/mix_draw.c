@@ -51,7 +51,7 @@ static int draw_object(drawing *d, mix_job *j, report *r)
         return 1;
     }
     const lmb_status status = lmb_draw(&d->eye, j->o.kernels, &d->view, &j->scene, j->real_triangles + 1,
-                                       j->object_triangles, LMB_CULL_BACK, NULL);
+                                       j->object_triangles, LMB_CULL_BACK | LMB_BLEND, NULL);
     return status == LMB_OK || report_fail(r, "the object cannot be drawn: %s", lmb_status_name(status));
 }
 

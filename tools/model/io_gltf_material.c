@@ -330,6 +330,7 @@ static int read_alpha(lmb_material *out, gltf *g, uint32_t material)
         return 1;
     if (json_equals(&g->doc, mode, "BLEND")) {
         ++g->left_out.blends;
+        out->flags |= LMB_ALPHA_BLEND;
     } else if (!json_equals(&g->doc, mode, "MASK")) {
         return json_fail(&g->doc, mode, g->b->r, "must be OPAQUE, MASK or BLEND");
     } else if (!json_read_double(&cutoff, &g->doc, json_member(&g->doc, material, "alphaCutoff"), g->b->r)) {

@@ -186,16 +186,16 @@ static int read_map(obj_material *m, model_build *b, cursor *c)
     return 1;
 }
 
-/* d 0 and Tr 1 make a surface vanish; everything between is drawn opaque. */
+/* d 0 and Tr 1 make a surface vanish; what lies between blends. The last of them holds. */
 static void read_opacity(lmb_material *out, obj_material *m, double visible)
 {
     m->left_out &= (uint8_t)~OBJ_LEFT_OPACITY;
     if (visible > 0 && visible < 1)
         m->left_out |= OBJ_LEFT_OPACITY;
-    if (visible > 0)
-        return;
-    out->alpha = 0.0f;
-    out->flags |= LMB_ALPHA_MASK;
+    out->alpha = visible > 0 ? visible < 1 ? (float)visible : 1.0f : 0.0f;
+    out->alpha_cutoff = 0.5f;
+    out->flags &= ~(uint32_t)(LMB_ALPHA_MASK | LMB_ALPHA_BLEND);
+    out->flags |= visible < 1 ? LMB_ALPHA_MASK | LMB_ALPHA_BLEND : 0;
 }
 
 /* What a statement asks for that is not done; 0: nothing, or it is without a value. */
@@ -331,7 +331,7 @@ void mtl_tell_left_out(model_build *b, const obj_names *names)
     static const struct {
         uint8_t left_out;
         const char *says;
-    } all[] = {{OBJ_LEFT_OPACITY, "materials partly transparent (d, Tr), drawn opaque"},
+    } all[] = {{OBJ_LEFT_OPACITY, "materials partly transparent (d, Tr), which light passes or does not by alpha 0.5"},
                {OBJ_LEFT_OPACITY_MAP, "materials whose map of opacity (map_d) is left out"},
                {OBJ_LEFT_EMISSION_MAP, "materials whose map of emission (map_Ke) is left out"},
                {OBJ_LEFT_BUMP, "materials whose bump or normal map is left out"},

@@ -167,7 +167,7 @@ static lmb_status draw_sample(stage *s, float *pixels)
     lmb_surface_clear(&l->eye.depth);
     lmb_surface_clear(&l->eye.id);
     lmb_status status =
-        lmb_draw(&l->eye, l->kernels, &l->view, scene, 1, lmb_scene_triangles(scene), LMB_CULL_BACK, NULL);
+        lmb_draw(&l->eye, l->kernels, &l->view, scene, 1, lmb_scene_triangles(scene), LMB_CULL_BACK | LMB_BLEND, NULL);
     if (status == LMB_OK) {
         pool_run(s->threads, (s->out.height + LMB_TILE - 1) / LMB_TILE, draw_band, s);
     }

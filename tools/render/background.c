@@ -27,7 +27,7 @@ static lmb_status add_sample(float *cover, const render_job *j, lmb_frame *f, in
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
     const lmb_status status =
-        lmb_draw(&f->eye, f->kernels, &view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, NULL);
+        lmb_draw(&f->eye, f->kernels, &view, f->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND, NULL);
     for (int32_t y = 0; y < view.frame_height && status == LMB_OK; y += LMB_TILE) {
         for (int32_t x = 0; x < view.frame_width; x += LMB_TILE) {
             add_tile(cover, j, f, &view, x0, x, y);

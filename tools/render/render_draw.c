@@ -111,7 +111,7 @@ static lmb_status draw_attribute(render_job *j)
     const lmb_surface *albedo = j->o.show == SHOW_ALBEDO ? &f->out : NULL;
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
-    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK, &j->stats);
+    lmb_status status = lmb_draw(&f->eye, f->kernels, &f->view, &j->scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND, &j->stats);
     for (int32_t band = 0; status == LMB_OK && band < (f->view.frame_height + 7) / 8; ++band) {
         status =
             lmb_gbuffer_band(depth, normal, albedo, &f->scratch->tile, f->kernels, &f->view, &j->scene, &f->eye, band);

@@ -1,0 +1,110 @@
+/* test_blend.c: surfaces that blend show in alpha's share of the samples, one behind the other too. */
+#include "../world.h"
+
+void test_blend(void);
+
+#if LMB_MULTISAMPLE
+
+enum { SIDE = 64 };
+
+static struct {
+    uint32_t depth[SIDE * SIDE], id[SIDE * SIDE];
+} blend;
+
+/* How often each triangle's id shows, of all pixels and `samples`. */
+static void count_ids(uint32_t counts[8], int32_t samples, uint32_t flags)
+{
+    lmb_view v;
+    lmb_target t;
+    memset(&t, 0, sizeof t);
+    memset(counts, 0, 8 * sizeof *counts);
+    CHECK(lmb_view_look_at(&v, vec3(0, 0, 5), vec3(0, 0, 0), Y, 0.6f, SIDE, SIDE) == LMB_OK);
+    v.near_m = 0.1f;
+    for (int32_t i = 0; i < samples; ++i) {
+        lmb_view sample = v;
+        lmb_view_sample(&sample, samples, i);
+        lmb_surface_init(&t.depth, LMB_DEPTH32F, SIDE, SIDE, blend.depth, sizeof blend.depth);
+        lmb_surface_init(&t.id, LMB_ID32, SIDE, SIDE, blend.id, sizeof blend.id);
+        lmb_surface_clear(&t.depth);
+        lmb_surface_clear(&t.id);
+        CHECK(lmb_draw(&t, lmb_kernels_at(0), &sample, &world.scene, 1, 8, flags, NULL) == LMB_OK);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            ++counts[blend.id[k] & 7];
+        }
+    }
+}
+
+/* Two walls that fill the picture, the nearer one first, and an opaque one behind both. */
+static void walls(float near_alpha, float far_alpha)
+{
+    world_begin(0.5f, 0.5f, 0.5f);
+    world_quad(vec3(0, 0, 1), mul3(X, 9), mul3(Y, 9));
+    world_part();
+    world_quad(vec3(0, 0, 0), mul3(X, 9), mul3(Y, 9));
+    world.material[0].alpha = near_alpha;
+    world.material[1].alpha = far_alpha;
+    for (int i = 0; i < 2; ++i) {
+        world.material[i].flags |= LMB_ALPHA_MASK | LMB_ALPHA_BLEND;
+        world.material[i].alpha_cutoff = 0.5f;
+    }
+    CHECK(world_end() == LMB_OK);
+}
+
+static void check_shares(float near_alpha, float far_alpha, int32_t samples)
+{
+    const double all = (double)samples * SIDE * SIDE;
+    uint32_t n[8];
+    walls(near_alpha, far_alpha);
+    count_ids(n, samples, LMB_CULL_BACK | LMB_BLEND);
+    const double near_share = (n[1] + n[2]) / all, far_share = (n[3] + n[4]) / all;
+    CHECK_MSG(fabs(near_share - (double)near_alpha) <= 1.0 / 64, "%g of %g", near_share, (double)near_alpha);
+    const double want = (1.0 - near_share) * (double)far_alpha, within = samples == 1 ? 0.2 : samples == 4 ? 0.04 : 0.02;
+    CHECK_MSG(fabs(far_share - want) <= within, "%d samples: %g instead of %g", (int)samples, far_share, want);
+}
+
+/* Of four samples of a pixel, a half shows twice. */
+static void check_strips(void)
+{
+    static uint8_t shows[SIDE * SIDE];
+    lmb_view v;
+    lmb_target t;
+    int wrong = 0;
+    memset(&t, 0, sizeof t);
+    memset(shows, 0, sizeof shows);
+    walls(0.5f, 1.0f);
+    CHECK(lmb_view_look_at(&v, vec3(0, 0, 5), vec3(0, 0, 0), Y, 0.6f, SIDE, SIDE) == LMB_OK);
+    v.near_m = 0.1f;
+    for (int32_t i = 0; i < 4; ++i) {
+        lmb_view sample = v;
+        lmb_view_sample(&sample, 4, i);
+        lmb_surface_init(&t.depth, LMB_DEPTH32F, SIDE, SIDE, blend.depth, sizeof blend.depth);
+        lmb_surface_init(&t.id, LMB_ID32, SIDE, SIDE, blend.id, sizeof blend.id);
+        lmb_surface_clear(&t.depth);
+        lmb_surface_clear(&t.id);
+        CHECK(lmb_draw(&t, lmb_kernels_at(0), &sample, &world.scene, 1, 8, LMB_BLEND, NULL) == LMB_OK);
+        for (int k = 0; k < SIDE * SIDE; ++k) {
+            shows[k] = (uint8_t)(shows[k] + (blend.id[k] == 1 || blend.id[k] == 2));
+        }
+    }
+    for (int k = 0; k < SIDE * SIDE; ++k) {
+        wrong += shows[k] != 2;
+    }
+    CHECK_MSG(wrong <= SIDE, "%d", wrong); /* but where two triangles meet within a pixel */
+}
+
+void test_blend(void)
+{
+    static const float alphas[] = {0.0f, 0.1f, 0.3f, 0.5f, 0.77f, 1.0f};
+    uint32_t n[8];
+    for (int i = 0; i < COUNT(alphas) * COUNT(alphas); ++i) {
+        check_shares(alphas[i % COUNT(alphas)], alphas[i / COUNT(alphas)], i % 3 == 0 ? 1 : i % 3 == 1 ? 4 : 16);
+    }
+    check_strips();
+    walls(0.6f, 1.0f); /* lights go by the cutoff */
+    count_ids(n, 1, 0);
+    CHECK(n[1] + n[2] == SIDE * SIDE);
+}
+
+#else
+void test_blend(void) { test_skip("no samples in this build"); }
+#endif
