@@ -7,6 +7,7 @@
 
 #define FRAME_FOV 0.698f /* 40 degrees */
 #define AIR       0.94   /* of the picture is filled, across or up */
+#define MUCH      0.25f
 #define LONG      1.5f   /* as wide, from front to back: is seen from the side */
 #define SIDE      0.02   /* of the scene's size: as near to a side of its bounds, surfaces close that side */
 #define WALL      0.6    /* shares of a side that make it a wall, or open */
@@ -113,19 +114,25 @@ static void fit(lmb_view *v, const scene_reach *r, lmb_vec3 centre, float size)
     v->eye.z = centre.z + x * v->right.z + y * v->up.z + z * v->back.z;
 }
 
-/* The shape of picture that a scene fills best, of four: width over height. */
+/* How far from square a scene is in a picture of that shape, width over height: as powers of e. */
+static float misfit(float shape, float wide, float high) { return fabsf(logf(shape * high / wide)); }
+
+/* The shape of picture that a scene fills best, of four; 4:3 where no other is much better. */
 static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
 {
-    static const float shapes[4] = {0.5f, 0.75f, 4.0f / 3.0f, 2.0f};
-    float wide = 0.0f, high = 0.0f, best = 4.0f / 3.0f;
+    static const float usual = 4.0f / 3.0f, shapes[3] = {0.5f, 0.75f, 2.0f};
+    float wide = 0.0f, high = 0.0f, best = usual;
     for (int i = 0; i < 8; ++i) {
         const lmb_vec3 p = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
                             i & 4 ? s->bounds_max.z : s->bounds_min.z};
         wide = fmaxf(wide, fabsf(along(v->right, p, centre)));
         high = fmaxf(high, fabsf(along(v->up, p, centre)));
     }
-    for (int i = 0; i < 4 && wide > 0.0f && high > 0.0f; ++i) {
-        best = fabsf(logf(shapes[i] * high / wide)) < fabsf(logf(best * high / wide)) ? shapes[i] : best;
+    for (int i = 0; i < 3 && wide > 0.0f && high > 0.0f; ++i) {
+        best = misfit(shapes[i], wide, high) + MUCH < misfit(usual, wide, high) &&
+                       misfit(shapes[i], wide, high) < misfit(best, wide, high)
+                   ? shapes[i]
+                   : best;
     }
     return best;
 }
