@@ -307,7 +307,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 # What bounced light does without.
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
-.PHONY: faults size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
+.PHONY: faults paths size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-baked measure-lights measure-crate measure-front scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
@@ -440,6 +440,9 @@ plan-model: $(B)/measure-plan ## src/plan/plan_model.inc again, from five scenes
 RELIEFS ?= quality own rooms causes speed
 measure-relief: $(B)/measure-relief ## reliefs against their complex models: errors, speed (RELIEFS="own ...")
 	@$(RUN) $(B)/measure-relief $(RELIEFS)
+
+paths: ## what the documents tell new users to type, in a clean copy
+	@$(IN_SH) tests/scripts/paths.sh
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/scripts/large.sh
