@@ -326,7 +326,7 @@ COV_PROGRAMS := tests golden golden-orders reference hard replay hostile
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="unit-2 unit-1 golden hard replay hostile hostile-cli readme cli" \
+	+@$(MAKE) check CHECKS="cli hard unit-1 unit-2 golden replay hostile hostile-cli readme" \
 	    BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O2 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
