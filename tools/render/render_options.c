@@ -166,8 +166,9 @@ static const option_row output_rows[] = {
 
 const option_row render_view_rows[] = {
     {.kind = OPTION_TITLE, .help = "view"},
-    VIEW_OPTION_SIZE(render_options, view, "the picture, px (default: height 480, width by the camera's aspect; without a "
-                     "camera by the scene's shape)"),
+    VIEW_OPTION_SIZE(render_options, view,
+                     "the picture, px (default: height 480, width by the camera's aspect; without a camera by the "
+                     "scene's shape)"),
     {.name = "--scene", .value = "NAME|N", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes (default: its own choice)"},
     {.name = "--camera", .value = "NAME|N", .kind = OPTION_TEXT, AT(camera),
@@ -292,9 +293,9 @@ const option_row render_bounce_rows[] = {
     {.name = "--steps", .value = "N", .kind = OPTION_INT, AT(steps), .low = 1, .high = 64,
      .help = "samples of a view march (default 12)"},
     {.name = "--gather", .kind = OPTION_WORD, AT(gather_step), .words = gathers, .values = gather_values,
-     .help = "at every pixel (default; half with many lights), or at every second or fourth each way and between "
-             "them where surface and light go on; pixels that have no such neighbours are gathered too. adaptive: at "
-             "every eighth, and closer where light asks for it: the fastest, by a smaller --error closer"},
+     .help = "at every pixel (default; half with many lights; adaptive under a sky), or at every second or fourth each "
+             "way and between them where surface and light go on; pixels that have no such neighbours are gathered "
+             "too. adaptive: at every eighth, and closer where light asks for it: the fastest, by a smaller --error closer"},
     {.kind = OPTION_END},
 };
 
