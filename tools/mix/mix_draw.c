@@ -8,15 +8,19 @@
 #include "../common/progress.h"
 #include "../picture/picture.h"
 
+enum { MIX_SAMPLES = 16 }; /* at most */
+
 /* Everything that one tile is made in. */
 typedef struct drawing {
-    lmb_view view;
-    int32_t x0, y0; /* of the photo in the view's frame */
-    lmb_target eye; /* the object's */
+    lmb_view view[MIX_SAMPLES]; /* by sample */
+    int32_t x0, y0;              /* of the photo in the views' frame */
+    lmb_target eye[MIX_SAMPLES]; /* the object's, by sample */
+    int32_t samples;             /* a pixel, of the object */
     mix_batch batch;
     lmb_tile object;
     lmb_irradiance lit;
     lmb_radiance light, photo;
+    lmb_radiance bare; /* the photo before the object */
     lmb_cone_seen seen[2];
 } drawing;
 
@@ -31,7 +35,7 @@ int mix_image(image *out, int32_t width, int32_t height, report *r)
 
 /* --- the object's depth and ids ----------------------------------------------------------------------------------- */
 
-static int draw_object(drawing *d, mix_job *j, report *r)
+static int draw_sample(drawing *d, mix_job *j, int32_t i, report *r)
 {
     const int32_t w = (j->frame.camera.width + LMB_TILE - 1) / LMB_TILE * LMB_TILE,
                   h = (j->frame.camera.height + LMB_TILE - 1) / LMB_TILE * LMB_TILE;
@@ -40,27 +44,46 @@ static int draw_object(drawing *d, mix_job *j, report *r)
     if (depth == NULL || id == NULL) {
         return 0;
     }
-    if (lmb_photo_view(&d->view, &d->x0, &d->y0, &j->frame.camera, &j->axes) != LMB_OK) {
+    lmb_target *eye = &d->eye[i];
+    lmb_surface_init(&eye->depth, LMB_DEPTH32F, w, h, depth, depth_bytes);
+    lmb_surface_init(&eye->id, LMB_ID32, w, h, id, id_bytes);
+    eye->x0 = d->x0;
+    eye->y0 = d->y0;
+    d->view[i] = d->view[0];
+    lmb_status status = d->samples > 1 ? lmb_view_sample(&d->view[i], d->samples, i) : LMB_OK;
+    if (status == LMB_OK && j->object_triangles > 0) {
+        status = lmb_draw(eye, j->o.kernels, &d->view[i], &j->scene, j->real_triangles + 1, j->object_triangles,
+                          LMB_CULL_BACK | LMB_BLEND, NULL);
+    }
+    return status == LMB_OK || report_fail(r, "the object cannot be drawn: %s", lmb_status_name(status));
+}
+
+/* Differences and the object alone are for measuring: one sample. */
+static int32_t samples_of(const mix_options *o)
+{
+    const int is_linear = picture_is_linear(picture_format(o->out));
+    return o->show != MIX_FINAL ? 1 : o->samples != 0 ? o->samples : is_linear ? 1 : 4;
+}
+
+static int draw_object(drawing *d, mix_job *j, report *r)
+{
+    d->samples = samples_of(&j->o);
+    if (lmb_photo_view(&d->view[0], &d->x0, &d->y0, &j->frame.camera, &j->axes) != LMB_OK) {
         return report_fail(r, "intrinsics: the camera's axis is too far outside the photo");
     }
-    lmb_surface_init(&d->eye.depth, LMB_DEPTH32F, w, h, depth, depth_bytes);
-    lmb_surface_init(&d->eye.id, LMB_ID32, w, h, id, id_bytes);
-    d->eye.x0 = d->x0;
-    d->eye.y0 = d->y0;
-    if (j->object_triangles == 0) {
-        return 1;
+    int32_t i = d->samples;
+    while (i > 0 && draw_sample(d, j, i - 1, r)) { /* the first last: the others' views begin as its own */
+        --i;
     }
-    const lmb_status status = lmb_draw(&d->eye, j->o.kernels, &d->view, &j->scene, j->real_triangles + 1,
-                                       j->object_triangles, LMB_CULL_BACK | LMB_BLEND, NULL);
-    return status == LMB_OK || report_fail(r, "the object cannot be drawn: %s", lmb_status_name(status));
+    return i == 0;
 }
 
 /* --- light -------------------------------------------------------------------------------------------------------- */
 
-static void add_lights(lmb_irradiance *inout, const mix_job *j, const drawing *d, const lmb_tile *tile, int with)
+static void add_lights(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int with)
 {
     for (int32_t i = 0; i < j->light_count; ++i) {
-        lmb_direct_tile(inout, j->o.kernels, tile, &d->view, &j->scene, &j->lights[i], &j->maps[i][with]);
+        lmb_direct_tile(inout, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][with]);
     }
 }
 
@@ -87,11 +110,11 @@ static void put_tile(image *p, const lmb_radiance *in, int32_t x, int32_t y)
     }
 }
 
-static void light_object(drawing *d, const mix_job *j)
+static void light_object(drawing *d, const mix_job *j, const lmb_view *view)
 {
     memset(&d->lit, 0, sizeof d->lit);
     mix_cones_tile(&d->lit, j, &d->object);
-    add_lights(&d->lit, j, d, &d->object, 1);
+    add_lights(&d->lit, j, view, &d->object, 1);
     lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
 }
 
@@ -138,24 +161,62 @@ static void mirror(drawing *d, const mix_job *j, const lmb_tile *real)
     lmb_mirror_tile(&d->photo, real, &j->planes, &j->frame.camera, j->floor, &d->seen[0], &d->seen[1], j->o.specular);
 }
 
+/* One sample of the object over the photo. Returns the pixels that show it. */
+static uint64_t put_sample(drawing *d, mix_job *j, const lmb_tile *real, int32_t sample)
+{
+    const lmb_view *view = &d->view[sample];
+    if (lmb_resolve_tile(&d->object, j->o.kernels, view, &j->scene, &d->eye[sample], d->x0 + real->x,
+                         d->y0 + real->y) != LMB_OK || d->object.hits == 0) {
+        return 0;
+    }
+    light_object(d, j, view);
+    return lmb_object_tile(&d->photo, &d->light, &d->object, real, &j->cloud);
+}
+
+static void add_part(lmb_radiance *inout, const lmb_radiance *one, float weight)
+{
+    for (int c = 0; c < 3; ++c) {
+        for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+            inout->rgb[c][k] += weight * one->rgb[c][k];
+        }
+    }
+}
+
+/* The mean of its samples over the photo; what none of them covers stays the photo's, bit for bit. */
+static uint64_t put_object(drawing *d, mix_job *j, const lmb_tile *real)
+{
+    lmb_radiance mean;
+    uint64_t shown = 0;
+    if (d->samples == 1) {
+        return put_sample(d, j, real, 0);
+    }
+    d->bare = d->photo;
+    memset(&mean, 0, sizeof mean);
+    for (int32_t i = 0; i < d->samples; ++i) {
+        d->photo = d->bare;
+        shown |= put_sample(d, j, real, i);
+        add_part(&mean, &d->photo, 1.0f / (float)d->samples);
+    }
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        for (int c = 0; c < 3; ++c) {
+            d->photo.rgb[c][k] = shown >> k & 1u ? mean.rgb[c][k] : d->bare.rgb[c][k];
+        }
+    }
+    return shown;
+}
+
 static void draw_tile(drawing *d, mix_job *j, int32_t i)
 {
-    uint64_t shown = 0;
     const lmb_tile *real = &d->batch.real[i];
     get_photo(&d->photo, &j->frame.light, real->x, real->y);
     for (int32_t with = 0; with < 2; ++with) {
-        add_lights(&d->batch.light[with][i], j, d, real, with);
+        add_lights(&d->batch.light[with][i], j, &d->view[0], real, with);
     }
     lmb_delta_tile(&d->photo, real, &d->batch.light[0][i], &d->batch.light[1][i]);
     if (is_varnished(j, real)) {
         mirror(d, j, real);
     }
-    if (lmb_resolve_tile(&d->object, j->o.kernels, &d->view, &j->scene, &d->eye, d->x0 + real->x, d->y0 + real->y) ==
-            LMB_OK && d->object.hits > 0) {
-        light_object(d, j);
-        shown = lmb_object_tile(&d->photo, &d->light, &d->object, real, &j->cloud);
-    }
-    choose(d, j, real, shown);
+    choose(d, j, real, put_object(d, j, real));
     put_tile(&j->picture, &d->photo, real->x, real->y);
 }
 

@@ -105,6 +105,8 @@ static const option_row output_rows[] = {
              "round middle grey;\nplanes: each in its colour;\nvoxels: the light in them as the camera sees "
              "it;\nenv: the surroundings as a cube, faces +x -x +y -y +z -z from the top;\nobject: alone, before "
              "black"},
+    {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
+     .help = "a pixel, of the object over the photo (default 4 for .png and .ppm, 1 for .pfm and .hdr)"},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = "stops, for .png and .ppm (default auto: 0; where the photo is linear, so that it fits)"},

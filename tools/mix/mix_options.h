@@ -24,6 +24,7 @@ typedef struct mix_options {
     int32_t light_count;
     int32_t show, shadow_map, depth; /* depth: of the voxels */
     int32_t cones;    /* 7, 19 or 37 */
+    int32_t samples;  /* a pixel; 0: by the output's format */
     float roughness;  /* of the plane's varnish, and its reflectance */
     float specular;   /* 0: there is none */
     float exposure_ev;

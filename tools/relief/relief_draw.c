@@ -33,6 +33,8 @@ typedef struct pen {
 typedef struct work {
     relief_frame *out;
     const relief_shot *shot;
+    lmb_view view;       /* the shot's, of the sample at hand */
+    int32_t samples, drawn; /* a pixel; how many of them are whole */
     lmb_scene simple;
     layer plain, relief; /* scene NULL: there is none */
     lmb_tile tile;       /* of shadow maps */
@@ -115,13 +117,13 @@ static lmb_status resolve(pen *w, int32_t x, int32_t y)
     const relief_shot *s = w->of->shot;
     lmb_status status = LMB_OK;
     if (w->of->plain.scene != NULL) {
-        status = lmb_resolve_tile(&w->tile, s->kernels, &s->view, w->of->plain.scene, &w->of->plain.target, x, y);
+        status = lmb_resolve_tile(&w->tile, s->kernels, &w->of->view, w->of->plain.scene, &w->of->plain.target, x, y);
     }
     if (status == LMB_OK && w->of->relief.scene != NULL) {
         lmb_tile *t = w->of->plain.scene != NULL ? &w->other : &w->tile;
-        status = lmb_resolve_tile(t, s->kernels, &s->view, w->of->relief.scene, &w->of->relief.target, x, y);
+        status = lmb_resolve_tile(t, s->kernels, &w->of->view, w->of->relief.scene, &w->of->relief.target, x, y);
         if (status == LMB_OK) {
-            status = lmb_relief_tile(t, &w->stats, s->kernels, s->relief, &s->view, &s->how);
+            status = lmb_relief_tile(t, &w->stats, s->kernels, s->relief, &w->of->view, &s->how);
         }
         if (status == LMB_OK && w->of->plain.scene != NULL) {
             lmb_relief_nearer(&w->tile, t);
@@ -139,11 +141,11 @@ static lmb_status light_tile(pen *w)
     const lmb_scene *scene = w->of->plain.scene != NULL ? w->of->plain.scene : w->of->relief.scene;
     memset(&w->direct, 0, sizeof w->direct);
     memset(&w->open, 0, sizeof w->open);
-    lmb_status status = lmb_direct_tile(&w->open, s->kernels, &w->tile, &s->view, scene, s->light, NULL);
+    lmb_status status = lmb_direct_tile(&w->open, s->kernels, &w->tile, &w->of->view, scene, s->light, NULL);
     if (status != LMB_OK || map == NULL) {
         w->direct = w->open;
     } else {
-        status = lmb_direct_tile(&w->direct, s->kernels, &w->tile, &s->view, scene, s->light, map);
+        status = lmb_direct_tile(&w->direct, s->kernels, &w->tile, &w->of->view, scene, s->light, map);
     }
     if (status == LMB_OK && shadows && w->of->relief.scene != NULL) {
         const uint64_t lit = lmb_relief_lit(&w->of->relief.map, s->light, &w->tile);
@@ -186,7 +188,7 @@ static void store(pen *w)
         for (size_t c = 0; c < 3; ++c) {
             f->normal[3 * at + c] = w->tile.normal[c][k];
             f->albedo[3 * at + c] = w->tile.albedo[c][k];
-            f->rgb[3 * at + c] = w->radiance.rgb[c][k];
+            f->rgb[3 * at + c] += w->radiance.rgb[c][k] / (float)w->of->samples;
             f->open[3 * at + c] = w->open_radiance.rgb[c][k];
         }
     }
@@ -215,9 +217,12 @@ static lmb_status draw_tile(pen *w, int32_t x, int32_t y)
 
 static lmb_status draw_layer(work *w, layer *l)
 {
-    return l->scene == NULL ? LMB_OK
-                            : lmb_draw(&l->target, w->shot->kernels, &w->shot->view, l->scene, 1,
-                                       lmb_scene_triangles(l->scene), 0, NULL);
+    if (l->scene == NULL) {
+        return LMB_OK;
+    }
+    lmb_surface_clear(&l->target.depth);
+    lmb_surface_clear(&l->target.id);
+    return lmb_draw(&l->target, w->shot->kernels, &w->view, l->scene, 1, lmb_scene_triangles(l->scene), 0, NULL);
 }
 
 static void draw_row(void *user, int row, int thread)
@@ -228,7 +233,7 @@ static void draw_row(void *user, int row, int thread)
         p->failed = draw_tile(p, x, row * LMB_TILE);
     }
     if (thread == 0) {
-        progress_tell("picture", (double)(row * LMB_TILE) / (double)w->out->height);
+        progress_tell("picture", (w->drawn + row * LMB_TILE / (double)w->out->height) / (double)w->samples);
     }
 }
 
@@ -243,6 +248,10 @@ static void add_stats(lmb_relief_stats *sum, const lmb_relief_stats *more)
 static lmb_status draw_rows(work *w)
 {
     lmb_status status = LMB_OK;
+    memset(&w->out->stats, 0, sizeof w->out->stats);
+    for (int i = 0; i < w->threads; ++i) {
+        memset(&w->pens[i].stats, 0, sizeof w->pens[i].stats);
+    }
     pool_run(w->threads, (w->out->height + LMB_TILE - 1) / LMB_TILE, draw_row, w);
     for (int i = 0; i < w->threads; ++i) {
         add_stats(&w->out->stats, &w->pens[i].stats);
@@ -265,6 +274,27 @@ static int take_pens(work *w, report *r)
     return 1;
 }
 
+static lmb_status draw_sample(work *w, int32_t i)
+{
+    relief_frame *f = w->out;
+    double since = host_cpu_seconds(), now;
+    lmb_status status = w->samples > 1 ? lmb_view_sample(&w->view, w->samples, i) : LMB_OK;
+    w->drawn = i;
+    if (status == LMB_OK) {
+        status = draw_layer(w, &w->plain);
+    }
+    if (status == LMB_OK) {
+        status = draw_layer(w, &w->relief);
+    }
+    now = host_cpu_seconds();
+    f->draw_s += now - since;
+    if (status == LMB_OK) {
+        status = draw_rows(w);
+    }
+    f->band_s += host_cpu_seconds() - now;
+    return status;
+}
+
 static int draw(work *w, report *r)
 {
     relief_frame *f = w->out;
@@ -282,16 +312,10 @@ static int draw(work *w, report *r)
     }
     now = host_cpu_seconds();
     f->light_s = now - since;
-    lmb_status status = draw_layer(w, &w->plain);
-    if (status == LMB_OK) {
-        status = draw_layer(w, &w->relief);
+    lmb_status status = LMB_OK;
+    for (int32_t i = 0; i < w->samples && status == LMB_OK; ++i) {
+        status = draw_sample(w, i);
     }
-    since = host_cpu_seconds();
-    f->draw_s = since - now;
-    if (status == LMB_OK) {
-        status = draw_rows(w);
-    }
-    f->band_s = host_cpu_seconds() - since;
     return status == LMB_OK || report_fail(r, "drawing stopped: %s", lmb_status_name(status));
 }
 
@@ -335,6 +359,8 @@ int relief_shoot(relief_frame *out, const relief_shot *shot, report *r)
     }
     w->out = out;
     w->shot = shot;
+    w->view = shot->view;
+    w->samples = shot->samples > 1 ? shot->samples : 1;
     const int ok = begin(w, r) && draw(w, r);
     layer_free(&w->plain);
     layer_free(&w->relief);

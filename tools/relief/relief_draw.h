@@ -18,9 +18,11 @@ typedef struct relief_shot {
     float ambient;            /* irradiance from everywhere, W/m2 */
     int threads;              /* that draw the picture at once; 0: one */
     int32_t bounce;           /* texels a side of the map that the light bounces from, a power of two; 0: it does not */
+    int32_t samples;          /* a pixel, of `rgb`: their mean; 1, 4, 8 or 16, or 0: one */
 } relief_shot;
 
-/* Planes of width x height pixels, rows from the top. relief_frame_free releases them. */
+/* Planes of width x height pixels, rows from the top; by several samples a pixel all but `rgb` are of the last of them.
+ * relief_frame_free releases them. */
 typedef struct relief_frame {
     int32_t width, height;
     float *depth;                  /* m along the view's axis; 0: nothing */
@@ -28,7 +30,7 @@ typedef struct relief_frame {
     float *open;                   /* radiance if nothing cast a shadow */
     uint8_t *lit;                  /* 1: some of the light arrives */
     lmb_relief_stats stats;
-    double light_s, draw_s, band_s; /* processor time: the shadow map; triangles; attributes and light */
+    double light_s, draw_s, band_s; /* of all samples; processor time: the shadow map; triangles; attributes and light */
     size_t bytes;                   /* memory while it was drawn, without models */
 } relief_frame;
 

@@ -24,7 +24,7 @@ typedef struct options {
     lmb_relief_how how;
     lmb_light light;
     int32_t has_light, bounce;
-    int32_t shadow_map, show;
+    int32_t shadow_map, show, samples;
     float ambient, exposure_ev; /* NaN: chosen by the picture */
     const lmb_kernels *kernels;
     int32_t threads;
@@ -66,6 +66,8 @@ static const option_row rows[] = {
      .expects = PICTURE_OPTION_WANTS,
      .help = PICTURE_OPTION_HELP},
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows, .help = "(default full)"},
+    {.name = "--samples", .kind = OPTION_WORD, AT(samples), .words = option_samples, .values = option_sample_values,
+     .help = "a pixel, of the light (default 4 for .png and .ppm, 1 for .pfm and .hdr; with --compare 1)"},
     {.name = "--exposure", .value = "EV|auto", .kind = OPTION_OWN, AT(exposure_ev), .parse = option_stops,
      .expects = OPTION_STOPS_WANTS,
      .help = "stops, display formats only (default 0)"},
@@ -220,6 +222,13 @@ static void show(relief_frame *f, int32_t what)
     }
 }
 
+/* What is no light has no mean over a pixel, and the complex model is drawn by one sample. */
+static int32_t samples_of(const options *o)
+{
+    const int is_linear = picture_is_linear(picture_format(o->out));
+    return o->show != SHOW_FULL || o->compare != NULL ? 1 : o->samples != 0 ? o->samples : is_linear ? 1 : 4;
+}
+
 static int write_frame(const options *o, relief_frame *f, report *r)
 {
     show(f, o->show);
@@ -296,6 +305,7 @@ static int render(work *w, options *o, report *r)
     shot.ambient = o->ambient;
     shot.threads = pool_threads(o->threads);
     shot.bounce = o->bounce ? BOUNCE_MAP : 0;
+    shot.samples = samples_of(o);
     if (!relief_shoot(&f, &shot, r)) {
         return 0;
     }

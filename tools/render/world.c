@@ -317,12 +317,13 @@ int world_put_ground(world *w, lmb_scene *s, lmb_vec3 eye, report *r)
 
 /* --- lights ------------------------------------------------------------------------------------------------------- */
 
-/* Those from below the horizon go. */
-static void keep_upper(world *w)
+/* What the ground hides from all of the scene goes: it is up to two radii high, and sees less deep over the rim. */
+static void leave_hidden(world *w)
 {
+    const float reach = w->is_sky ? SKY_REACH : WORLD_REACH, lowest = 2.0f / sqrtf(4.0f + reach * reach);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < w->count; ++i) {
-        if (w->lights[i].direction.y < 0.0f) {
+        if (w->lights[i].direction.y < lowest) {
             w->lights[kept++] = w->lights[i];
         }
     }
@@ -378,7 +379,7 @@ int world_light(world *w, report *r)
         list_lights(w);
     }
     if (w->has_ground) {
-        keep_upper(w);
+        leave_hidden(w);
     }
     return 1;
 }
