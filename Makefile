@@ -331,8 +331,9 @@ asan: ## the checks under address and undefined-behaviour sanitizers
 	    CFLAGS="-O2 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 # In plain C: of AVX2's and AVX-512's permutations it does not know which places they read, and asks for all.
+MSAN_CHECKS ?= golden hard replay hostile
 msan: ## pictures, hard cases and the corpus under the memory sanitizer
-	+@$(MAKE) golden hard replay hostile BUILD=$(BUILD)/msan CC=clang \
+	+@$(MAKE) check CHECKS="$(MSAN_CHECKS)" BUILD=$(BUILD)/msan CC=clang \
 	    CFLAGS="-O1 -g -fsanitize=memory -DLMB_HAVE_AVX512=0 -DLMB_HAVE_AVX2=0 -DLMB_HAVE_SSE2=0"
 
 FUZZER     := $(BUILD)/fuzz/default/fuzzer
