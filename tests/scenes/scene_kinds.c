@@ -37,7 +37,7 @@ const scene_kind scene_kinds[] = {
     {"small_room", HELD_OUT, build_small_room, "a spot on a wall, two crates"},
     {"small_stairs", HELD_OUT, build_small_stairs, "nine steps under a lamp"},
     {"doorway", HELD_OUT, build_doorway, "a lit room behind a door and a screen"},
-    {"leaves", HELD_OUT, build_leaves, "120 large leaves in the sun"},
+    {"leaves", HELD_OUT, build_leaves, "40 large leaves in the sun"},
     {"glow", HELD_OUT, build_glow, "a panel that emits light"},
     {"alcove", HELD_OUT, build_alcove, "a lamp in a side room: light by two bounces"},
 };

@@ -85,7 +85,6 @@ void build_alcove(made_scene *s)
     shell(s, p.floor, p.white, p.white, at(-deep, 0, 0), at(4, 2.5, 4));
     panel(s, p.white, at(0, 0, 0), at(0, 0, 4), at(0, 2.5, 0), &mouth, 1);
     panel(s, p.red, at(-deep, 0, 1.9), at(deep, 0, 0), at(0, 2.5, 0), NULL, 0);
-    crate(s, p.green, at(1.9, 0, 1.2), at(0.7, 0.9, 0.7), 30);
     spot(s, at(-0.7, 2.3, 0.9), at(-deep, 1.0, 1.2), 50, 30, 45);
     look(s, at(3.7, 1.6, 3.7), at(0.8, 0.9, 1.2), 65);
 }
