@@ -1,7 +1,8 @@
 /* test_small_truth.c: six small scenes against truth by our own path tracer, which shares no code with src/. [V25]
  *
  * Bounced light is kept in tests/truth/small, 64 x 64 pixels each: `make small-truth` makes it again. Direct light is
- * exact and traced here. Nothing outside the repository is needed. LMB_TRUTH_ALL draws all scenes by `best`, too. */
+ * exact and traced here. Nothing outside the repository is needed. LMB_TRUTH_ALL
+ * draws all scenes by `best`, too. */
 #include "../own_scene.h"
 #include <math.h>
 
