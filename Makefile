@@ -53,7 +53,8 @@ SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.
 
 LIB_OBJ    := $(call object,$(LIB_SRC))
 TOOL_OBJ   := $(call object,$(TOOL_SRC))
-TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
+TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC) tests/truth/path.c) \
+              $(filter-out %/lambent.o,$(TOOL_OBJ))
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
 GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 ORDERS_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_orders.c tools/demo/demo_scene.c tools/common/workers.c \
@@ -66,6 +67,7 @@ DECODE_OBJ := $(call object,tests/decodes/main_decodes.c) $(filter-out %/lambent
 REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
+PATH_OBJ   := $(call object,tests/truth/main_path.c tests/truth/path.c $(SCENES_SRC))
 # tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program measure-NAME.
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
@@ -127,11 +129,12 @@ $(B)/decodes: $(DECODE_OBJ) $(LIB)
 $(B)/reference: $(REFERENCE_OBJ) $(LIB)
 $(B)/hard: $(HARD_OBJ) $(LIB)
 $(B)/scenes: $(SCENES_OBJ)
+$(B)/path: $(PATH_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
 $(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(LIVE:%=$(B)/%) $(B)/decodes \
-    $(B)/scenes $(B)/fuzzer $(B)/faults:
+    $(B)/scenes $(B)/path $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
 
@@ -182,7 +185,7 @@ FORCE:
 
 -include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
     $(REPLAY_OBJ) $(HOSTILE_OBJ) \
-    $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
+    $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(PATH_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
 # --- checks: each is a target of its own, ends with `N passed, N failed, N skipped`, and fails where one failed -------
 
@@ -210,7 +213,7 @@ check-examples-tiny: $(filter check-tiny check-statue,$(CHECKS:%=check-%))
 
 unit: ## what functions do, alone and together
 analytic: ## light against closed forms
-truth: ## light against path-traced pictures, where ../shared is there (LMB_SHARED)
+truth: ## light against path-traced pictures: small ones, and those of ../shared (LMB_SHARED)
 lanes: ## each kernel by each backend against plain C; LANES_SEED=7 repeats a run
 
 unit analytic truth lanes: $(B)/tests
@@ -308,7 +311,8 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
 .PHONY: faults paths size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
-    measure-steady measure-baked measure-lights measure-crate measure-front scenes measure-truth measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
+    measure-steady measure-baked measure-lights measure-crate measure-front scenes small-truth measure-truth \
+    measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
@@ -390,6 +394,9 @@ measure-steady: $(TOOL) $(B)/measure-steady ## baked light that moves: steps, po
 	@$(IN_SH) tests/measure/steady.sh
 
 scenes: $(B)/scenes ## a program that makes scenes from a name and a seed (scenes --list)
+
+small-truth: $(B)/path ## tests/truth/small by our own path tracer, made again (NAMES): ten minutes
+	@$(RUN) $(B)/path -o tests/truth/small $(NAMES)
 
 measure-truth: $(TOOL) ## bounced light against truth: errors, work, time (SCENES, QUALITIES)
 	@$(IN_SH) tests/measure/truth.sh

@@ -12,7 +12,15 @@
 #include "../tools/render/render_draw.h"
 #include "scenes/scenes.h"
 
-enum { OWN_SIDE = 32 }; /* pixels of the truths that are kept here */
+enum { OWN_SIDE = 32, OWN_LARGEST = 64 }; /* pixels of the truths that are kept here */
+
+/* What is drawn of a scene. `surface`: as metrics_input has it, or NULL: where truth has green light. */
+typedef struct own_how {
+    const char *preset, *show;
+    int side, bounces;
+    const image *truth; /* NULL: nothing is measured */
+    const float *surface;
+} own_how;
 
 typedef struct own_drawn {
     int ok;
@@ -48,32 +56,33 @@ static inline const char *own_write(folder *f, const char *name, const scene_pla
 }
 
 /* Where no light has bounced to there is no surface: the rooms have no such place. */
-static inline int own_measure(metrics *m, const image *drawn, const image *truth, report *r)
+static inline int own_measure(metrics *m, const image *drawn, const own_how *how, report *r)
 {
-    static float surface[OWN_SIDE * OWN_SIDE * 3];
+    static float surface[OWN_LARGEST * OWN_LARGEST * 3];
+    const image *truth = how->truth;
     metrics_input in;
     memset(&in, 0, sizeof in);
-    if (truth->width != OWN_SIDE || truth->height != OWN_SIDE || truth->channels != 3) {
+    if (how->side > OWN_LARGEST || truth->width != how->side || truth->height != how->side || truth->channels != 3) {
         return report_fail(r, "truth of another size");
     }
-    for (int i = 0; i < OWN_SIDE * OWN_SIDE; ++i) {
+    for (int i = 0; i < how->side * how->side; ++i) {
         surface[3 * i + 2] = truth->pixels[3 * i + 1] > 0.0f ? 1.0f : 0.0f;
     }
     in.test = drawn->pixels;
     in.truth = truth->pixels;
-    in.surface = surface;
-    in.width = in.height = OWN_SIDE;
+    in.surface = how->surface != NULL ? how->surface : surface;
+    in.width = in.height = how->side;
     in.channels = 3;
     return metrics_measure(m, &in, r);
 }
 
-/* Bounced light by a preset; `truth` may be NULL. */
-static inline void own_draw(own_drawn *out, const char *name, const scene_place *place, const char *preset,
-                            const image *truth)
+/* The scene by a preset, on one thread, with light of its own alone and no more than `bounces` reflections. Elements are
+ * those of one bounce, which take a fifth of a second at most. */
+static inline void own_draw_as(own_drawn *out, const char *name, const scene_place *place, const own_how *how)
 {
-    char verb[] = "render", path[FOLDER_PATH], quality[16];
-    char *line[] = {verb,     path,       "-o",        "none.pfm", "--size",    "32x32",
-                    "--show", "indirect", "--quality", quality,    "--threads", "1"};
+    char verb[] = "render", path[FOLDER_PATH], quality[16], show[16], size[32], bounces[16];
+    char *line[] = {verb,      path,    "-o",     "none.pfm", "--size",  size,   "--show",     show,    "--quality", quality,
+                    "--bounces", bounces, "--rest", "none",     "--world", "none", "--elements", "16384", "--threads", "1"};
     static render_job j;
     report r = {""};
     folder f;
@@ -83,16 +92,27 @@ static inline void own_draw(own_drawn *out, const char *name, const scene_place 
     const char *model_path = own_write(&f, name, place);
     if (model_path != NULL) {
         snprintf(path, sizeof path, "%s", model_path);
-        snprintf(quality, sizeof quality, "%s", preset);
+        snprintf(quality, sizeof quality, "%s", how->preset);
+        snprintf(show, sizeof show, "%s", how->show);
+        snprintf(size, sizeof size, "%dx%d", how->side, how->side);
+        snprintf(bounces, sizeof bounces, "%d", how->bounces);
         out->ok = render_options_parse(&j.o, COUNT_OF(line), line, &r) && render_job_load(&j, &r) &&
                   render_job_set(&j, &r) && render_draw(&j, &r) &&
-                  (truth == NULL || own_measure(&out->error, &j.linear, truth, &r));
+                  (how->truth == NULL || own_measure(&out->error, &j.linear, how, &r));
         out->pairs = (double)j.stats.pairs;
         out->segments = (double)j.stats.segments;
-        CHECK_MSG(out->ok, "%s, %s: %s", name, preset, r.text);
+        CHECK_MSG(out->ok, "%s, %s: %s", name, how->preset, r.text);
         render_job_free(&j);
     }
     folder_close(&f);
+}
+
+/* One bounce by a preset; `truth` may be NULL. */
+static inline void own_draw(own_drawn *out, const char *name, const scene_place *place, const char *preset,
+                            const image *truth)
+{
+    const own_how how = {preset, "indirect", OWN_SIDE, 1, truth, NULL};
+    own_draw_as(out, name, place, &how);
 }
 
 #endif

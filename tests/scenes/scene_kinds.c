@@ -34,6 +34,12 @@ const scene_kind scene_kinds[] = {
     {"reeds", HELD_OUT, build_reeds, "900 blades before a wall"},
     {"foliage20k", HELD_OUT, build_foliage20k, "20,000 leaves in the sun"},
     {"terrain_in", HELD_OUT, build_terrain_in, "the house on 4 km of land, from inside"},
+    {"small_room", HELD_OUT, build_small_room, "a spot on a wall, two crates"},
+    {"small_stairs", HELD_OUT, build_small_stairs, "nine steps under a lamp"},
+    {"doorway", HELD_OUT, build_doorway, "a lit room behind a door and a screen"},
+    {"leaves", HELD_OUT, build_leaves, "40 large leaves in the sun"},
+    {"glow", HELD_OUT, build_glow, "a panel that emits light"},
+    {"alcove", HELD_OUT, build_alcove, "a lamp in a side room: light by two bounces"},
 };
 
 const int scene_kind_count = COUNT_OF(scene_kinds);

@@ -44,6 +44,8 @@ void build_foliage(made_scene *s) { tree(s, 2000, 0.22); }
 
 void build_foliage20k(made_scene *s) { tree(s, 20000, 0.09); }
 
+void build_leaves(made_scene *s) { tree(s, 40, 0.9); }
+
 /* Upright blades before a wall. */
 void build_reeds(made_scene *s)
 {

@@ -182,12 +182,22 @@ static void write_nodes(FILE *f, const made_scene *s)
             s->fov_deg * RADIANS, s->near_m);
 }
 
+static int emits(const made_scene *s)
+{
+    double most = 0;
+    for (int i = 0; i < 3 * s->material_count; ++i) {
+        most = fmax(most, s->emission[i / 3][i % 3]);
+    }
+    return most > 0;
+}
+
 static void write_lights(FILE *f, const made_scene *s)
 {
     static const char *const kinds[] = {"spot", "point", "directional"};
     fprintf(
         f,
-        " \"extensionsUsed\": [\"KHR_lights_punctual\"],\n \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [");
+        " \"extensionsUsed\": [\"KHR_lights_punctual\"%s],\n \"extensions\": {\"KHR_lights_punctual\": {\"lights\": [",
+        emits(s) ? ", \"KHR_materials_emissive_strength\"" : "");
     for (int i = 0; i < s->light_count; ++i) {
         const scene_light *l = &s->lights[i];
         const double max = fmax(l->rgb[0], fmax(l->rgb[1], l->rgb[2]));
@@ -202,6 +212,18 @@ static void write_lights(FILE *f, const made_scene *s)
     fprintf(f, "]}},\n");
 }
 
+/* glTF keeps the factor within 0 .. 1. */
+static void write_emission(FILE *f, const double rgb[3])
+{
+    const double max = fmax(rgb[0], fmax(rgb[1], rgb[2]));
+    if (max > 0) {
+        fprintf(f,
+                ", \"emissiveFactor\": [%.9g, %.9g, %.9g], \"extensions\": {\"KHR_materials_emissive_strength\": "
+                "{\"emissiveStrength\": %.9g}}",
+                rgb[0] / max, rgb[1] / max, rgb[2] / max, max);
+    }
+}
+
 static void write_meshes(FILE *f, const made_scene *s, const bin_part *parts)
 {
     const char *comma = "";
@@ -209,8 +231,10 @@ static void write_meshes(FILE *f, const made_scene *s, const bin_part *parts)
     for (int m = 0; m < s->material_count; ++m) {
         fprintf(f,
                 "%s\n  {\"doubleSided\": true, \"pbrMetallicRoughness\": {\"baseColorFactor\": [%.9g, %.9g, %.9g, 1], "
-                "\"metallicFactor\": 0, \"roughnessFactor\": 1}}",
+                "\"metallicFactor\": 0, \"roughnessFactor\": 1}",
                 m > 0 ? "," : "", s->albedo[m][0], s->albedo[m][1], s->albedo[m][2]);
+        write_emission(f, s->emission[m]);
+        fprintf(f, "}");
     }
     fprintf(
         f,

@@ -29,6 +29,7 @@ typedef struct made_scene {
     uint8_t *materials; /* 1 a triangle */
     uint32_t triangles, room;
     double albedo[SCENE_MATERIALS][3];
+    double emission[SCENE_MATERIALS][3]; /* radiance of both sides, W/(sr m2) */
     int material_count;
     scene_light lights[SCENE_LIGHTS];
     int light_count;
@@ -66,7 +67,7 @@ void scene_turn_any(scene_place *p, uint64_t seed);
 void scene_put(made_scene *s, const scene_place *p);
 
 /* scene_write: scene.gltf, scene.bin (what lambent reads), scene.txt and scene.box (what the path tracer of the truth
- * reads: a view of `size` x `size` pixels) in a folder that exists. 1, or 0 where a file cannot be written. */
+ * reads, which knows no emission: a view of `size` x `size` pixels) in a folder that exists. 1, or 0 where a file cannot be written. */
 int scene_write(const made_scene *s, const char *folder, int size);
 
 /* --- what kinds are built with ------------------------------------------------------------------------------------ */
@@ -160,5 +161,11 @@ void build_terrain_out(made_scene *s);
 void build_courtyard(made_scene *s);
 void build_city(made_scene *s);
 void build_cave(made_scene *s);
+void build_small_room(made_scene *s);
+void build_small_stairs(made_scene *s);
+void build_doorway(made_scene *s);
+void build_leaves(made_scene *s);
+void build_glow(made_scene *s);
+void build_alcove(made_scene *s);
 
 #endif

@@ -1,0 +1,90 @@
+/* scene_small.c: scenes of at most a few hundred triangles, for truth that is kept in the repository. */
+#include <stddef.h>
+
+#include "scenes.h"
+
+typedef struct paints {
+    int floor, white, red, green;
+} paints;
+
+static paints four_paints(made_scene *s)
+{
+    paints p;
+    p.floor = paint(s, 0.5, 0.4, 0.3);
+    p.white = paint(s, 0.75, 0.74, 0.72);
+    p.red = paint(s, 0.6, 0.15, 0.12);
+    p.green = paint(s, 0.2, 0.5, 0.25);
+    return p;
+}
+
+/* A spot on the left wall; crates stand in the light that it reflects. */
+void build_small_room(made_scene *s)
+{
+    const svec size = at(any_between(s, 3.8, 4.2), 2.6, any_between(s, 3.8, 4.2));
+    const paints p = four_paints(s);
+    shell(s, p.floor, p.white, p.white, at(0, 0, 0), size);
+    panel(s, p.red, at(0.01, 0.3, 0.5), at(0, 0, 2.2), at(0, 1.6, 0), NULL, 0);
+    crate(s, p.green, at(1.5, 0, 1.2), at(0.7, 1.1, 0.7), any_between(s, 15, 35));
+    crate(s, p.white, at(2.6, 0, 1.9), at(0.6, 0.6, 0.6), any_between(s, -30, -10));
+    spot(s, at(0.6 * size.x, 2.4, 0.5 * size.z), at(0, 0.9, 0.4 * size.z), 30, 25, 40);
+    look(s, at(size.x - 0.3, 1.6, size.z - 0.3), at(1.2, 0.8, 1.0), 65);
+}
+
+/* Nine steps along a wall, under a lamp. */
+void build_small_stairs(made_scene *s)
+{
+    enum { STEPS = 9 };
+    const double rise = any_between(s, 0.16, 0.19), tread = any_between(s, 0.25, 0.3), wide = 1.2;
+    const svec size = at(STEPS * tread + 2.4, STEPS * rise + 2.2, 3.2);
+    const paints p = four_paints(s);
+    shell(s, p.floor, p.white, p.white, at(0, 0, 0), size);
+    for (int i = 0; i < STEPS; ++i) {
+        box(s, p.red, at(1.0 + i * tread, i * rise, 0), at(1.0 + (i + 1) * tread, (i + 1) * rise, wide));
+    }
+    box(s, p.green, at(1.0 + STEPS * tread, 0, 0), at(size.x, STEPS * rise, wide));
+    point(s, at(0.5 * size.x, size.y - 0.5, 2.2), 8);
+    look(s, at(0.4, 1.6, size.z - 0.3), at(1.0 + 0.6 * STEPS * tread, 0.9, 0.5), 65);
+}
+
+/* The lit room behind a door, before which a screen stands; seen from the dark room. */
+void build_doorway(made_scene *s)
+{
+    const paints p = four_paints(s);
+    const opening door = {1.2, 0, any_between(s, 2.1, 2.3), 2.0};
+    const double far_x = any_between(s, 6.8, 7.2);
+    shell(s, p.floor, p.white, p.white, at(0, 0, 0), at(far_x, 2.6, 3.6));
+    wall(s, p.white, at(3.5, 0, 0), at(0, 0, 3.6), at(0, 2.6, 0), at(0.15, 0, 0), &door, 1);
+    box(s, p.green, at(2.6, 0, 1.5), at(2.66, 1.5, 2.7));
+    crate(s, p.red, at(1.3, 0, 0.8), at(0.6, 0.6, 0.6), 20);
+    spot(s, at(5.2, 2.4, 1.8), at(5.6, 0, 1.6), 60, 35, 50);
+    look(s, at(0.3, 1.6, 3.2), at(3.0, 0.9, 1.4), 70);
+}
+
+/* A panel that emits light hangs over crates; no other light. */
+void build_glow(made_scene *s)
+{
+    const svec size = at(any_between(s, 3.4, 3.8), 2.6, any_between(s, 3.4, 3.8));
+    const paints p = four_paints(s);
+    const int lamp = paint(s, 0.3, 0.3, 0.3);
+    s->emission[lamp][0] = 9;
+    s->emission[lamp][1] = 8;
+    s->emission[lamp][2] = 6;
+    shell(s, p.floor, p.white, p.white, at(0, 0, 0), size);
+    panel(s, lamp, at(1.2, 1.9, 1.1), at(1.0, 0, 0), at(0, 0.25, 0.7), NULL, 0);
+    crate(s, p.red, at(1.1, 0, 1.2), at(0.6, 1.0, 0.6), any_between(s, 20, 40));
+    crate(s, p.green, at(2.3, 0, 1.6), at(0.6, 0.5, 0.6), any_between(s, -20, 0));
+    look(s, at(size.x - 0.3, 1.5, size.z - 0.3), at(1.2, 0.7, 1.0), 65);
+}
+
+/* A lamp's light falls on the end of a side room that most of what is seen does not see: it comes by two bounces. */
+void build_alcove(made_scene *s)
+{
+    const paints p = four_paints(s);
+    const opening mouth = {0.3, 0, any_between(s, 1.6, 1.8), 2.5};
+    const double deep = any_between(s, 1.9, 2.1);
+    shell(s, p.floor, p.white, p.white, at(-deep, 0, 0), at(4, 2.5, 4));
+    panel(s, p.white, at(0, 0, 0), at(0, 0, 4), at(0, 2.5, 0), &mouth, 1);
+    panel(s, p.red, at(-deep, 0, 1.9), at(deep, 0, 0), at(0, 2.5, 0), NULL, 0);
+    spot(s, at(-0.7, 2.3, 0.9), at(-deep, 1.0, 1.2), 50, 30, 45);
+    look(s, at(3.7, 1.6, 3.7), at(0.8, 0.9, 1.2), 65);
+}
