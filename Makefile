@@ -166,8 +166,8 @@ HEADERS := $(sort $(wildcard include/lambent/*.h))
 $(B)/calls.inc: $(HEADERS) tests/scripts/prototypes.awk tests/scripts/zeros.awk
 	@mkdir -p $(@D)
 	@awk -f tests/scripts/prototypes.awk $(HEADERS) | awk -f tests/scripts/zeros.awk > $@
-$(B)/obj/tests/unit/test_zeros.o: $(B)/calls.inc
-$(B)/obj/tests/unit/test_zeros.o: COMPILE += -I$(B)
+$(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: $(B)/calls.inc
+$(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: COMPILE += -I$(B)
 
 # A relief's words, which tests/scripts/statue.sh puts there.
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
@@ -339,7 +339,7 @@ FUZZER     := $(BUILD)/fuzz/default/fuzzer
 FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
               -Wno-missing-prototypes
 FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt cli api
+TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt cli api calls stages
 MINUTES   ?= 1
 fuzz: ## each parser under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers \
