@@ -236,8 +236,8 @@ golden-orders: $(B)/golden-orders ## the same in pieces, in any order, on 1 .. 8
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
 
-# corpus/api has coordinates and matrices of 1e-40, whose products are what they are.
-AUDIT_CORPUS = $(filter-out tests/fuzz/corpus/api/%,$(wildcard tests/fuzz/corpus/*/*))
+# These have coordinates and matrices of 1e-40, whose products are what they are.
+AUDIT_CORPUS = $(filter-out $(addprefix tests/fuzz/corpus/,api/% calls/% stages/%),$(wildcard tests/fuzz/corpus/*/*))
 audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numbers that int32 does not hold?
 	@$(RUN) $(B)/audit-golden && $(RUN) $(B)/audit-replay $(AUDIT_CORPUS)
 
@@ -341,7 +341,7 @@ FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,u
 FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt cli api calls stages
 MINUTES   ?= 1
-fuzz: ## each parser under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
+fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers \
 	    && $(MAKE) $(FUZZER) BUILD=$(BUILD)/fuzz CC=clang CFLAGS="$(FUZZ_FLAGS)" LDFLAGS=-fsanitize=fuzzer
 	@sh tests/scripts/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)

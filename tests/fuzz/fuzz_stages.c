@@ -63,10 +63,7 @@ static lmb_vec3 cross(lmb_vec3 a, lmb_vec3 b)
 }
 static int is_unit(lmb_vec3 v) { return fabsf(dot(v, v) - 1.0f) < 1e-4f; }
 static int is_finite(float v) { return v - v == 0.0f; }
-static int is_near(lmb_vec3 v)
-{
-    return fabsf(v.x) < 1e6f && fabsf(v.y) < 1e6f && fabsf(v.z) < 1e6f;
-} /* the world's size */
+static int is_near(lmb_vec3 v) { return fabsf(v.x) < 1e5f && fabsf(v.y) < 1e5f && fabsf(v.z) < 1e5f; }
 static int is_light(float v) { return is_finite(v) && v >= 0.0f; }
 
 /* Of length 1, of whatever came. */
@@ -370,7 +367,8 @@ static void pixels(source *b)
         if (fitted == LMB_OK) {
             lmb_shadow_map_clear(&map);
             const lmb_status shadowed = lmb_shadow_map_draw(&map, kernels, &d.scene, 1, TRIANGLES, NULL);
-            fuzz_require(shadowed == LMB_OK || !is_near(d.light.position));
+            fuzz_require(shadowed == LMB_OK || !is_near(d.light.position) || !is_near(d.scene.bounds_min) ||
+                         !is_near(d.scene.bounds_max)); /* else views may begin outside of the world */
             fuzz_require(lmb_direct_tile(&lit[n], kernels, &tile[n], &v, &d.scene, &d.light, &map) == LMB_OK);
         }
         hidden[n] = lmb_occluded_tile(&bvh, kernels, &tile[n], asked, at, noise, &kept);
@@ -464,6 +462,7 @@ static void plan(source *b)
     lmb_plan_cost(&c, &f, rung, fixed);
     if (lmb_plan_choose(&c, &f, &budget, fixed) == LMB_OK) {
         fuzz_require(c.rung >= 0 && c.rung < LMB_PLAN_RUNGS && (c.meets == 0 || c.meets == 1));
+        fuzz_require(c.bytes - fixed < UINT64_C(1) << 63);
         fuzz_require(c.settings.shadow_map % 8 == 0 && (c.settings.tree & (c.settings.tree - 1)) == 0);
         fuzz_require(f.max < 64 || (c.settings.tree <= f.max && c.settings.shadow_map <= f.max));
     }
