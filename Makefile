@@ -169,8 +169,8 @@ HEADERS := $(sort $(wildcard include/lambent/*.h))
 $(B)/calls.inc: $(HEADERS) tests/scripts/prototypes.awk tests/scripts/zeros.awk
 	@mkdir -p $(@D)
 	@awk -f tests/scripts/prototypes.awk $(HEADERS) | awk -f tests/scripts/zeros.awk > $@
-$(B)/obj/tests/unit/test_zeros.o: $(B)/calls.inc
-$(B)/obj/tests/unit/test_zeros.o: COMPILE += -I$(B)
+$(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: $(B)/calls.inc
+$(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: COMPILE += -I$(B)
 
 # A relief's words, which tests/scripts/statue.sh puts there.
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
@@ -239,8 +239,8 @@ golden-orders: $(B)/golden-orders ## the same in pieces, in any order, on 1 .. 8
 replay: $(B)/replay ## the fuzz targets on their corpus
 	@$(RUN) $(B)/replay tests/fuzz/corpus/*/*
 
-# corpus/api has coordinates and matrices of 1e-40, whose products are what they are.
-AUDIT_CORPUS = $(filter-out tests/fuzz/corpus/api/%,$(wildcard tests/fuzz/corpus/*/*))
+# These have coordinates and matrices of 1e-40, whose products are what they are.
+AUDIT_CORPUS = $(filter-out $(addprefix tests/fuzz/corpus/,api/% calls/% stages/%),$(wildcard tests/fuzz/corpus/*/*))
 audit: $(B)/audit-golden $(B)/audit-replay ## do kernels meet denormals, or numbers that int32 does not hold?
 	@$(RUN) $(B)/audit-golden && $(RUN) $(B)/audit-replay $(AUDIT_CORPUS)
 
@@ -344,9 +344,9 @@ FUZZER     := $(BUILD)/fuzz/default/fuzzer
 FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
               -Wno-missing-prototypes
 FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt cli api
+TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt cli api calls stages
 MINUTES   ?= 1
-fuzz: ## each parser under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
+fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers \
 	    && $(MAKE) $(FUZZER) BUILD=$(BUILD)/fuzz CC=clang CFLAGS="$(FUZZ_FLAGS)" LDFLAGS=-fsanitize=fuzzer
 	@sh tests/scripts/fuzz.sh $(FUZZER) $(BUILD)/fuzz $(MINUTES) $(TARGETS)

@@ -130,7 +130,7 @@ lmb_status lmb_view_sample(lmb_view *inout, int32_t samples, int32_t i);
 
 /* lmb_view_look_at: a perspective view from `eye` towards `target`.
  *
- *   vfov_rad  vertical angle of view, 0 < vfov_rad < pi.   width, height  the frame, px; pixels are square.
+ *   vfov_rad  vertical angle of view, 1e-29 < vfov_rad < pi.   width, height  the frame, px; pixels are square.
  * Returns LMB_OK, or LMB_ERR_ARG (target at eye, up along the view, sizes outside) and leaves `out` alone. */
 lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_vec3 up, float vfov_rad, int32_t width,
                             int32_t height);

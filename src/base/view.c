@@ -4,6 +4,7 @@
 
 #define DEFAULT_NEAR_M 0.01f
 #define DEFAULT_FAR_M 1000.0f
+#define MIN_HALF 1e-30f /* lmb_view's */
 
 static int is_sane3(lmb_vec3 v) { return is_sane(v.x) && is_sane(v.y) && is_sane(v.z); }
 
@@ -36,6 +37,8 @@ lmb_status lmb_view_look_at(lmb_view *out, lmb_vec3 eye, lmb_vec3 target, lmb_ve
     v.eye = eye;
     v.half_height = lmb_tan(0.5f * vfov_rad);
     v.half_width = v.half_height * ((float)width / (float)height);
+    if (!(minf(v.half_width, v.half_height) > MIN_HALF)) /* a tangent next to pi / 2 may come out below 0, too */
+        return LMB_ERR_ARG;
     v.near_m = DEFAULT_NEAR_M;
     v.far_m = DEFAULT_FAR_M;
     v.kind = LMB_PERSPECTIVE;

@@ -27,14 +27,14 @@ lmb_status lmb_compose_emission(lmb_radiance *inout, const lmb_scene *scene, con
     lmb_painter painter;
     lmb_painter_begin(&painter, scene, view, tile);
 #endif
-    for (int k = 0; scene->materials != NULL && k < LMB_TILE_PIXELS; ++k) {
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         float texel[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-        if (tile->id[k] == 0) {
-            continue;
-        }
-        if (m == NULL || tile->id[k] != id) {
+        if (tile->id[k] != id) {
             id = tile->id[k];
-            m = &scene->materials[lmb_instance_of(scene, id)->material];
+            m = lmb_material_of(scene, id);
+        }
+        if (m == NULL) {
+            continue;
         }
 #if LMB_LOBES
         if (m->emission_map > 0) {

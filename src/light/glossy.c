@@ -56,15 +56,15 @@ int lmb_glossy_tile(lmb_glossy *out, const lmb_tile *tile, const lmb_view *view,
         return 0;
     }
     out->pixels = 0;
-    if (tile == NULL || view == NULL || scene == NULL || scene->materials == NULL) {
+    if (tile == NULL || view == NULL || scene == NULL) {
         return 0;
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-        if (tile->id[k] != 0 && tile->id[k] != id) {
+        if (tile->id[k] != id) {
             id = tile->id[k];
-            m = &scene->materials[lmb_instance_of(scene, id)->material];
+            m = lmb_material_of(scene, id);
         }
-        if (tile->id[k] != 0 && (m->specular[0] > 0.0f || m->specular[1] > 0.0f || m->specular[2] > 0.0f)) {
+        if (m != NULL && (m->specular[0] > 0.0f || m->specular[1] > 0.0f || m->specular[2] > 0.0f)) {
             float roughness;
             if (out->pixels == 0) {
                 clear(out);

@@ -39,7 +39,8 @@ void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung)
 {
     if (out != NULL && facts != NULL && facts->max >= LMB_TILE) {
         const struct rung *at = &ladder[clampi(rung, 0, LMB_PLAN_RUNGS - 1)];
-        out->tree = mini(at->tree, facts->max);
+        for (out->tree = at->tree; out->tree > facts->max; out->tree /= 2) {
+        }
         out->shadow_map = map_for(out->tree, facts);
         out->error = at->error;
         out->visibility = at->visibility;
@@ -47,6 +48,9 @@ void lmb_plan_rung(lmb_settings *out, const lmb_facts *facts, int32_t rung)
         out->occlusion = LMB_OCCLUSION_EXACT;
     }
 }
+
+/* Facts are the caller's: they may be absurd. 0 for what is negative or no number. */
+static uint64_t count_of(double n, uint64_t max) { return n >= (double)max ? max : n > 0.0 ? (uint64_t)n : 0; }
 
 /* The light of elements takes a cut of its own, thought to be as large. */
 void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, double pairs, double segments,
@@ -72,8 +76,8 @@ void lmb_model_cost(lmb_choice *out, const plan_model *m, const lmb_facts *f, do
     for (int i = 0; i < LMB_OPS; ++i) {
         out->work += out->op[i] * (double)m->units[i];
     }
-    const uint32_t faces = f->faces > 1.0 ? (uint32_t)f->faces : 1;
-    out->bytes = fixed + (uint64_t)(texels * 8.0) + (uint64_t)lmb_tree_bytes(faces, s->tree);
+    const uint32_t faces = f->faces > 1.0 ? (uint32_t)count_of(f->faces, UINT32_MAX) : 1;
+    out->bytes = fixed + count_of(texels * 8.0, UINT64_C(1) << 62) + (uint64_t)lmb_tree_bytes(faces, s->tree);
 }
 
 static void set_cost(lmb_choice *out, const lmb_facts *facts, int32_t rung, uint64_t fixed)

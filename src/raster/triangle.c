@@ -22,6 +22,12 @@ const lmb_instance *lmb_instance_of(const lmb_scene *scene, uint32_t id)
     return id - instance->first_id < scene->meshes[instance->mesh].triangle_count ? instance : NULL;
 }
 
+const lmb_material *lmb_material_of(const lmb_scene *scene, uint32_t id)
+{
+    const lmb_instance *instance = lmb_instance_of(scene, id);
+    return instance == NULL ? NULL : &scene->materials[instance->material];
+}
+
 int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id)
 {
     const lmb_instance *instance = lmb_instance_of(scene, id);

@@ -18,6 +18,9 @@ typedef struct lmb_triangle {
 /* The instance that owns an id, or NULL. Binary search: instances are numbered in order. */
 const lmb_instance *lmb_instance_of(const lmb_scene *scene, uint32_t id);
 
+/* Its material, or NULL: tiles hold ids that are none of the scene's, as lmb_relief_nearer leaves them. */
+const lmb_material *lmb_material_of(const lmb_scene *scene, uint32_t id);
+
 /* The front's unit normal and the area, m2; 0 where a corner is absurd or the triangle a speck: twice its area under
  * 1e-30 m2, where squares are no normal numbers. */
 int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *triangle);

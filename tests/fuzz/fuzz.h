@@ -1,4 +1,4 @@
-/* fuzz.h: the fuzz targets: one a parser, one for the library, each on bytes that may be anything. The same functions
+/* fuzz.h: the fuzz targets: one a parser, three for the library, each on bytes that may be anything. The same functions
  * replay a file.
  *
  * Models lie in tests/fuzz/neighbours, whose files they may name, as seen from the repository's root: run there. */
@@ -41,6 +41,8 @@ void fuzz_lmr(const uint8_t *data, size_t size);
 void fuzz_lmt(const uint8_t *data, size_t size);
 void fuzz_cli(const uint8_t *data, size_t size);
 void fuzz_api(const uint8_t *data, size_t size);
+void fuzz_calls(const uint8_t *data, size_t size);
+void fuzz_stages(const uint8_t *data, size_t size);
 
 /* fuzz_repair: for a target that reads PNG, put right checksums over whatever a mutation left of one's chunks, unless
  * the seed is a multiple of eight; without them nothing behind them would be reached. Other bytes stay. */

@@ -1,5 +1,6 @@
-# zeros.awk: tests/unit/test_zeros.c's table of all public calls, from the lines of prototypes.awk: a function that makes
-# each, its pointers from `pointer`, its other arguments from `whole`, `number` and `vector`.
+# zeros.awk: the table of all public calls for tests/unit/test_zeros.c and tests/fuzz/fuzz_calls.c, from the lines of
+# prototypes.awk: a function that makes each, its pointers from `pointer`, its other arguments from `whole`, `number` and
+# `vector`.
 BEGIN { FS = "|" }
 {
     n = $3 == "void" ? 0 : split($3, parameter, ";")
@@ -8,13 +9,15 @@ BEGIN { FS = "|" }
         match(parameter[i], /[a-z_][A-Za-z0-9_]*(\[[A-Za-z0-9_]*\])*$/)
         name = substr(parameter[i], RSTART)
         type = substr(parameter[i], 1, RSTART - 1)
-        many = match(name, /\[[A-Za-z0-9_]*\]/) ? substr(name, RSTART + 1, RLENGTH - 2) : 1
+        many = 1
+        for (rest = name; match(rest, /\[[A-Za-z0-9_]*\]/); rest = substr(rest, RSTART + RLENGTH))
+            many = (many == 1 ? "" : many " * ") substr(rest, RSTART + 1, RLENGTH - 2)
         is_pointer = type ~ /\*/ || name ~ /\[/
         sub(/\[.*/, "", name)
         gsub(/const |[ *]*$/, "", type)
         at = "&a[" (i - 1) "]"
         # Of unknown length, or made by the library: what `pointer` has.
-        size = type ~ /^lmb_/ && type != "lmb_kernels" && (type != "lmb_vec3" || many > 1) ? many " * sizeof(" type ")" : "0"
+        size = many != 1 || type ~ /^lmb_/ && type != "lmb_kernels" && (type != "lmb_vec3" || many > 1) ? many " * sizeof(" type ")" : "0"
         arg = is_pointer ? "pointer(" at ", " size ")" : type == "lmb_vec3" ? "vector(" at ")" : "(" type ")" (type ~ /float|double/ ? "number(" : "whole(") at ")"
         args = args (i > 1 ? ", " : "") arg
         kinds = kinds (i > 1 ? ", " : "") "{\"" type "\", \"" name "\", " is_pointer "}"

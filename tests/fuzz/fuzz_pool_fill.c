@@ -1,0 +1,304 @@
+/* fuzz_pool_fill.c: what a program sets public structs to between calls. */
+#include "fuzz_pool.h"
+
+#if FUZZ_CALLS
+
+#include <stddef.h>
+#include <string.h>
+
+#define SLOT(type) ((type *)pool_slot(#type, 0))
+#define COUNT(a)   ((int)(sizeof(a) / sizeof *(a)))
+
+/* --- good values, by `how`: 0 is the plainest --------------------------------------------------------------------- */
+
+static void set_surface(lmb_surface *s, int32_t format, int32_t width, int32_t height)
+{
+    const size_t bytes = lmb_surface_bytes(format, width, height);
+    fuzz_require(lmb_surface_init(s, format, width, height, pool_block(bytes), bytes) == LMB_OK);
+}
+
+static void fill_surface(void *out, int how)
+{
+    static const uint8_t formats[] = {LMB_RGB32F, LMB_R32F,   LMB_DEPTH32F, LMB_ID32,   LMB_RGBA8,     LMB_BGRA8,
+                                      LMB_RGB565, LMB_RGB555, LMB_DEPTH16,  LMB_ID16, LMB_RGB565_BE};
+    set_surface(out, formats[how % COUNT(formats)], POOL_WIDE, how & 64 ? POOL_SMALL : POOL_HIGH);
+}
+
+static void fill_target(void *out, int how)
+{
+    lmb_target *t = out;
+    const int32_t height = how & 4 ? LMB_TILE : POOL_HIGH;
+    memset(t, 0, sizeof *t);
+    set_surface(&t->depth, how & 1 ? LMB_DEPTH16 : LMB_DEPTH32F, POOL_WIDE, height);
+    set_surface(&t->id, how & 2 ? LMB_ID16 : LMB_ID32, POOL_WIDE, height);
+}
+
+static void fill_view(void *out, int how)
+{
+    const lmb_vec3 eye = how == 0 ? (lmb_vec3){0.5f, 0.6f, 2.5f} : pool_vector((uint8_t)how), up = {0, 1, 0};
+    lmb_view_look_at(out, eye, (lmb_vec3){0, 0.5f, 0}, up, 0.9f, POOL_WIDE, POOL_HIGH);
+}
+
+static void fill_light(void *out, int how)
+{
+    lmb_light *l = out;
+    for (int i = 0; i < POOL_LIGHTS; ++i) {
+        l[i] = pool_scene(1)->lights[(i + how) % 3];
+        l[i].position = pool_vector((uint8_t)(144 + 5 * i));
+    }
+}
+
+static void fill_settings(void *out, int how)
+{
+    lmb_frame_settings *s = out;
+    memset(s, 0, sizeof *s);
+    s->kernels = lmb_kernels_at(how >> 6) ? lmb_kernels_at(how >> 6) : lmb_kernels_pick();
+    s->scene = pool_scene(how & 3);
+    fill_view(&s->view, 0);
+    s->shadow_map = POOL_MAP;
+    s->tree = POOL_MAP / 2;
+    s->error = s->visibility = 0.2f;
+    s->elements = 64;
+    s->points = how & 4 ? 0 : 64; /* 0: as many as there can be */
+    s->quality = how & 4 ? LMB_QUALITY_FIXED : LMB_QUALITY_DRAFT;
+    s->bounces = how & 8 && !(how & 4) ? 2 : 1;
+    s->gather_step = how & 16 ? LMB_GATHER_ADAPTIVE : 1;
+    s->samples = how & 32 ? 4 : 1;
+}
+
+static void fill_cut_params(void *out, int how)
+{
+    *(lmb_cut_params *)out = (lmb_cut_params){.error = 0.2f, .visibility = 0.2f, .bvh = how & 1 ? NULL : SLOT(lmb_bvh)};
+}
+
+static void fill_occluder(void *out, int how)
+{
+    *(lmb_occluder *)out = (lmb_occluder){SLOT(lmb_view), &SLOT(lmb_target)->depth, 1 + how % 2, 8};
+}
+
+static void fill_many_lights_query(void *out, int how)
+{
+    *(lmb_many_lights_query *)out =
+        (lmb_many_lights_query){SLOT(lmb_many_lights), SLOT(lmb_bvh), 0.1f, how & 1, how >> 1 & 1};
+}
+
+static void fill_pinhole(void *out, int how)
+{
+    *(lmb_pinhole *)out = (lmb_pinhole){POOL_WIDE, POOL_HIGH, 20.0f, 20.0f, 11.5f, (float)how + 7.5f};
+}
+
+static void fill_axes(void *out, int how)
+{
+    *(lmb_axes *)out = lmb_axes_upright(how == 0 ? (lmb_vec3){0, 1, 0} : (lmb_vec3){0.28f, 0.96f, 0});
+}
+
+static void fill_pictures(void *out, int how)
+{
+    lmb_world_pictures *p = out;
+    const size_t face = POOL_SMALL * POOL_SMALL * 3 * sizeof(float),
+                 ground = POOL_SMALL * POOL_SMALL * 4 * sizeof(float);
+    memset(p, 0, sizeof *p);
+    for (int f = 0; f < 6; ++f) {
+        float *rgb = how & 1 << f ? NULL : pool_block(face);
+        if (rgb != NULL) {
+            memcpy(rgb, pool_raw + f, face);
+        }
+        p->face[f] = rgb;
+    }
+    p->face_size = POOL_SMALL;
+    p->radius = 5.0f;
+    p->low = (lmb_vec3){-5, -5, -5};
+    p->high = (lmb_vec3){5, 5, 5};
+    p->shape = how >> 6 & 1;
+    if (how & 128) {
+        p->ground = memcpy(pool_block(ground), pool_raw, ground);
+        p->ground_width = p->ground_height = POOL_SMALL;
+        p->ground_x = p->ground_z = p->ground_y = -1.0f;
+        p->ground_width_m = p->ground_depth_m = 2.0f;
+    }
+}
+
+static void fill_world_query(void *out, int how)
+{
+    *(lmb_world_query *)out = (lmb_world_query){SLOT(lmb_world), 0.02f, how & 1};
+}
+
+static void fill_parts(void *out, int how)
+{
+    lmb_voxel_part *p = out;
+    for (int i = 0; i < POOL_PARTS; ++i) {
+        const lmb_scene *s = pool_scene(how + i);
+        p[i] = (lmb_voxel_part){s, 1, lmb_scene_triangles(s), {i == 0, 1}};
+    }
+}
+
+static void fill_trace(void *out, int how)
+{
+    *(lmb_cone_trace *)out = (lmb_cone_trace){lmb_kernels_pick(), SLOT(lmb_voxels), how % 3, how >> 2 & 1,
+                                              how & 8 ? SLOT(lmb_env) : NULL, SLOT(lmb_cone_scratch), how >> 4 & 1};
+}
+
+static void fill_policy(void *out, int how) { *(lmb_probe_policy *)out = (lmb_probe_policy){0.1f, how % 4}; }
+
+static void fill_relight(void *out, int how)
+{
+    lmb_relight *r = out;
+    uint16_t *of = pool_block(2 * sizeof *of); /* the scenes have up to two instances */
+    memset(r, 0, sizeof *r);
+    of[1] = (uint16_t)(how >> 6);
+    r->kernels = lmb_kernels_pick();
+    r->scene = pool_scene(how & 3);
+    r->maps = how & 4 ? SLOT(lmb_shadow_map) : NULL;
+    r->world = how & 8 ? NULL : SLOT(lmb_world);
+    r->probes = SLOT(lmb_probe);
+    r->probe_of = of;
+    r->probe_count = 1;
+    r->view = *SLOT(lmb_view);
+    r->eye = *SLOT(lmb_target);
+}
+
+static void fill_probe(void *out, int how)
+{
+    *(lmb_probe *)out = (lmb_probe){*SLOT(lmb_probe_cube), *SLOT(lmb_probe_cube)};
+    if (how & 1) {
+        ((lmb_probe *)out)->glossy.texel = NULL;
+    }
+}
+
+static void fill_gouraud(void *out, int how)
+{
+    lmb_gouraud *g = out;
+    const lmb_transfer *t = SLOT(lmb_transfer);
+    memset(g, 0, sizeof *g);
+    g->scene = pool_scene(how & 3);
+    g->transfer = t;
+    g->light = SLOT(lmb_transfer_light);
+    g->maps = how & 4 ? NULL : SLOT(lmb_shadow_map);
+    g->direct = pool_block((t->count[LMB_TRANSFER_RECEIVERS] + 8) * sizeof *g->direct); /* of a file opened later too */
+    g->scratch = SLOT(lmb_gouraud_scratch);
+    fill_view(&g->view, 0);
+    set_surface(&g->out, LMB_RGB565, POOL_WIDE, POOL_HIGH);
+    g->depth = pool_block(POOL_WIDE * POOL_HIGH * sizeof *g->depth);
+}
+
+static void fill_receiver(void *out, int how)
+{
+    lmb_irradiance *two = pool_slot("lmb_irradiance", 1);
+    *(lmb_element_scratch *)out = (lmb_element_scratch){how & 1 ? lmb_kernels_named("scalar") : lmb_kernels_pick(),
+                                                        SLOT(lmb_cut), SLOT(lmb_tile), SLOT(lmb_irradiance), two};
+}
+
+static void fill_facts(void *out, int how)
+{
+    lmb_facts *f = out;
+    memset(f, 0, sizeof *f);
+    f->triangles = f->faces = f->tiles = f->lights = f->bounces = f->elements = 10.0;
+    f->pairs = f->segments = 1e5;
+    f->wanted_map = f->max = POOL_MAP;
+    for (int i = 0; i < LMB_PLAN_RUNGS; ++i) {
+        f->rung[i] = (lmb_rung){how & 1 << i ? 0 : 10, 100.0f * (float)(1 + i), 50.0f, 0.1f / (float)(1 + i)};
+    }
+}
+
+static void fill_budget(void *out, int how)
+{
+    *(lmb_budget *)out = (lmb_budget){1e6, 0.1f, how ? UINT64_C(1) << how % 40 : 0};
+}
+
+/* By hand, as a program that rasterizes itself would: numbers of the first 32 odd ones too, ids of small scenes. */
+static void fill_tile(void *out, int how)
+{
+    lmb_tile *t = out;
+    float *const plane[] = {t->position[0], t->position[1], t->position[2], t->albedo[0], t->albedo[1], t->albedo[2],
+                            t->uv[0],       t->uv[1],       t->depth};
+    memset(t, 0, sizeof *t);
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        for (int i = 0; i < COUNT(plane); ++i) {
+            plane[i][k] = how == 0 ? 0.0625f * (float)(k + i + 1) : pool_float((uint8_t)(how + how * i + k / 8));
+        }
+        t->face[k / 8 % 3][k] = t->normal[k / 8 % 3][k] = k & 1 ? -1.0f : 1.0f;
+        t->id[k] = 1 + (uint32_t)k / 22;
+    }
+    t->hits = LMB_TILE_PIXELS;
+}
+
+/* Planes of a struct of floats alone. */
+static void fill_floats(float *out, size_t count, int how)
+{
+    for (size_t i = 0; i < count; ++i) {
+        out[i] = how == 0 ? 1.0f : pool_float((uint8_t)(how + (int)(i / 16) * (how >> 5)));
+    }
+}
+
+static void fill_irradiance(void *out, int how) { fill_floats(out, sizeof(lmb_irradiance) / sizeof(float), how); }
+static void fill_seen(void *out, int how) { fill_floats(out, sizeof(lmb_cone_seen) / sizeof(float), how); }
+static void fill_places(void *out, int how) { fill_floats(out, POOL_PLACES * 3, how == 0 ? 170 : how | 32); }
+
+static void fill_texels(void *out, int how)
+{
+    lmb_texel *t = out;
+    for (int i = 0; i < POOL_TEXELS; ++i) {
+        const uint8_t n = (uint8_t)(how == 0 ? 140 + i % 16 : how + i);
+        t[i] = (lmb_texel){pool_vector(n),
+                           {0, i & 1 ? -1.0f : 1.0f, 0},
+                           {1, 0.5f, pool_float((uint8_t)how)},
+                           {128, 128, 128, 128},
+                           1.0f};
+    }
+}
+
+/* For anti-aliasing; its target has 8 rows for each of 16 samples. */
+static void fill_scratch(void *out, int how)
+{
+    lmb_multisample *m = SLOT(lmb_multisample);
+    set_surface(&m->eye.depth, LMB_DEPTH32F, POOL_WIDE, how & 1 ? 64 : 128);
+    set_surface(&m->eye.id, LMB_ID32, POOL_WIDE, how & 1 ? 64 : 128);
+    ((lmb_band_scratch *)out)->multisample = m;
+}
+
+static void fill_transfer_light(void *out, int how)
+{
+    lmb_transfer_light *l = out;
+    const uint32_t elements = SLOT(lmb_transfer)->count[LMB_TRANSFER_AREAS];
+    l->place = how & 1 ? NULL : pool_block((elements + 8) * sizeof *l->place);
+}
+
+/* How a frame's parts that lmb_frame_init does not set may come from elsewhere; itself by that call. */
+static void fill_frame(void *out, int how)
+{
+    lmb_frame *f = out;
+    f->stats = how & 1 ? NULL : SLOT(lmb_stats);
+    f->many_lights = how & 2 ? SLOT(lmb_many_lights) : NULL;
+    f->background = how & 4 ? SLOT(lmb_env) : NULL;
+    f->transfer = how & 8 ? SLOT(lmb_transfer) : f->transfer;
+    f->transfer_light = how & 8 ? *SLOT(lmb_transfer_light) : f->transfer_light;
+    set_surface(&f->out, how & 16 ? LMB_RGB565 : LMB_RGB32F, POOL_WIDE, POOL_HIGH);
+}
+
+static const struct {
+    const char *type;
+    void (*fill)(void *out, int how);
+} fills[] = {
+    {"lmb_surface", fill_surface}, {"lmb_target", fill_target}, {"lmb_view", fill_view}, {"lmb_light", fill_light},
+    {"lmb_frame_settings", fill_settings}, {"lmb_cut_params", fill_cut_params}, {"lmb_occluder", fill_occluder},
+    {"lmb_many_lights_query", fill_many_lights_query}, {"lmb_pinhole", fill_pinhole}, {"lmb_axes", fill_axes},
+    {"lmb_world_pictures", fill_pictures}, {"lmb_world_query", fill_world_query}, {"lmb_voxel_part", fill_parts},
+    {"lmb_cone_trace", fill_trace}, {"lmb_probe_policy", fill_policy}, {"lmb_relight", fill_relight},
+    {"lmb_probe", fill_probe}, {"lmb_gouraud", fill_gouraud}, {"lmb_element_scratch", fill_receiver},
+    {"lmb_facts", fill_facts}, {"lmb_budget", fill_budget}, {"lmb_tile", fill_tile},
+    {"lmb_irradiance", fill_irradiance}, {"lmb_cone_seen", fill_seen}, {"lmb_vec3", fill_places},
+    {"lmb_texel", fill_texels}, {"lmb_band_scratch", fill_scratch}, {"lmb_transfer_light", fill_transfer_light},
+    {"lmb_frame", fill_frame},
+};
+
+void pool_fill(const uint8_t b[12])
+{
+    const int i = pool_nearest(&fills[0].type, sizeof *fills, COUNT(fills), (uint16_t)(b[0] | b[1] << 8));
+    if (b[4] != 0) { /* plain arrays change too */
+        fill_floats(pool_raw, COUNT(pool_raw), b[4] == 1 ? 0 : b[4]);
+    }
+    pool_say("fill %s %d: %d\n", fills[i].type, b[2] % POOL_SLOTS, b[3]);
+    fills[i].fill(pool_slot(fills[i].type, b[2]), b[3]);
+}
+
+#endif
