@@ -155,8 +155,10 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
     if (!set_surface(&surface, c, id)) {
         return;
     }
-    surface.blends = LMB_MULTISAMPLE && blends;
-    surface.id = id;
+    if (LMB_MULTISAMPLE) {
+        surface.blends = blends;
+        surface.id = id;
+    }
     tile_span(&tx0, &tx1, s->x_min, s->x_max, c->view->frame_width, target->x0, target->depth.width);
     tile_span(&ty0, &ty1, s->y_min, s->y_max, c->view->frame_height, target->y0, target->depth.height);
     job.dx = (float)s->d_x;
@@ -173,9 +175,11 @@ void lmb_fill_masked(const lmb_fill_context *c, const lmb_setup *s, uint32_t id,
             if (enter_tile(&job, s, x_24_8, y_24_8)) {
                 lmb_fill_tile tile = lmb_target_tile(target, tx, ty);
                 job.d = (float)(s->d_origin + s->d_x * (x_24_8 * (1.0 / 256.0)) + s->d_y * (y_24_8 * (1.0 / 256.0)));
-                surface.x = target->x0 + tx * LMB_TILE;
-                surface.y = y;
-                lmb_resolve_rays(&surface.rays, c->view, surface.x, y);
+                if (LMB_MULTISAMPLE) {
+                    surface.x = target->x0 + tx * LMB_TILE;
+                    surface.y = y;
+                }
+                lmb_resolve_rays(&surface.rays, c->view, target->x0 + tx * LMB_TILE, y);
                 fill_tile_masked(c, &tile, &job, &surface);
             }
         }
