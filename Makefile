@@ -74,6 +74,11 @@ measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+# The room: the port's ROOM_SRC, or its start-up sources, and what all ports share. A port.mk may name what its emulator
+# takes, ROOM_IMAGE, with a rule that makes it of $(B)/room, and how that runs, ROOM_RUN.
+ROOM_IMAGE ?= $(B)/room
+ROOM_RUN   ?= $(RUN)
+ROOM_OBJ   := $(call object,platform/demo/main_room.c platform/demo/room.c $(or $(ROOM_SRC),$(PORT_SRC))) $(LIB_OBJ)
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -122,6 +127,7 @@ $(B)/golden: $(GOLDEN_OBJ)
 $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
+$(B)/room: $(ROOM_OBJ)
 $(foreach f,$(LIVE),$(eval $(B)/$(f): $(call live_of,$(f))))
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
@@ -133,7 +139,7 @@ $(B)/path: $(PATH_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(LIVE:%=$(B)/%) $(B)/decodes \
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/room $(LIVE:%=$(B)/%) $(B)/decodes \
     $(B)/scenes $(B)/path $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
@@ -183,7 +189,7 @@ $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.
 .PHONY: FORCE
 FORCE:
 
--include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
+-include $(patsubst %.o,%.d,$(sort $(LIB_OBJ) $(TOOL_OBJ) $(TEST_OBJ) $(GOLDEN_OBJ) $(ORDERS_OBJ) $(DEMO_OBJ) $(STATUE_OBJ) $(ROOM_OBJ) $(foreach f,$(LIVE),$(call live_of,$(f))) \
     $(REPLAY_OBJ) $(HOSTILE_OBJ) \
     $(DECODE_OBJ) $(REFERENCE_OBJ) $(HARD_OBJ) $(SCENES_OBJ) $(PATH_OBJ) $(foreach f,$(MEASURES),$(call measure_of,$(f))) $(AUDITED)))
 
@@ -316,9 +322,14 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
-size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB
+ifeq ($(PORT),host)
+size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB; PORT=...: of the port's room
 	+@sh tests/scripts/tools.sh need arm-none-eabi-gcc \
 	    && $(MAKE) module-sizes rom PORT=cortex-m CONFIG=tiny BUILD=$(BUILD)/size LDFLAGS= CFLAGS='-Os $(WITHOUT)'
+else
+size: $(ROOM_IMAGE)
+	@$(SIZE) $(B)/room | awk 'NR == 2 { print "rom " $$1 + $$2 " bytes, ram " $$2 + $$3 " bytes" }'
+endif
 
 module-sizes: $(LIB)
 	@$(IN_SH) tests/scripts/size.sh
@@ -472,6 +483,11 @@ compiles: $(LIB_OBJ)
 
 run-demo run-statue $(LIVE:%=run-%): run-%: $(B)/%
 	@$(RUN) $<
+
+.PHONY: room run
+room: $(ROOM_IMAGE) ## the port's program that all ports show (PORT=...)
+run: $(ROOM_IMAGE) ## that program in the port's emulator: hashes, costs
+	@$(ROOM_RUN) $<
 
 # CROSS_TARGETS, MORE_CROSS_TARGETS, and for each needs_NAME and how_NAME.
 include tests/scripts/targets.mk

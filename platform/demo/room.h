@@ -1,0 +1,72 @@
+/* room.h: the demo that every port shows: a baked room, whose lamp and camera move along a fixed path of ROOM_FRAMES
+ * frames. Integers alone, so that machines without an FPU draw it, and each machine the same.
+ *
+ *     room_open(..)       memory for one size of picture
+ *     room_path(..)       where lamp and camera are in a frame;  room_steer(..): moved by buttons
+ *     room_draw(..)       a frame, in bands of rows from top to bottom, each handed to `put`
+ *     room_rgb555(..), room_rgb565(..)  a row of it in a display's own format, dithered
+ *     room_hash(..)       of colours before dithering: equal on all machines
+ */
+#ifndef ROOM_H
+#define ROOM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+    ROOM_FRAMES = 60,
+    ROOM_MAX_WIDTH = 640, /* px */
+    ROOM_MAX_HEIGHT = 480
+};
+
+/* Where lamp and camera are. Lengths in 1/1024 m, angles in 1/65536 of a turn. */
+typedef struct room_pose {
+    int32_t eye[3], yaw, pitch; /* yaw 0: towards -Z; larger turns to the left. Larger pitch looks up */
+    int32_t lamp[3];
+} room_pose;
+
+enum {
+    ROOM_LEFT = 1, ROOM_RIGHT = 2, ROOM_UP = 4, ROOM_DOWN = 8,                  /* turn the camera */
+    ROOM_LAMP_LEFT = 16, ROOM_LAMP_RIGHT = 32, ROOM_LAMP_NEAR = 64, ROOM_LAMP_FAR = 128 /* move the lamp */
+};
+
+/* Stages whose cost is told apart. */
+enum { ROOM_TRANSFORM, ROOM_LIGHT, ROOM_FILL, ROOM_SHOW, ROOM_STAGES };
+
+/* rgb: 0x00RRGGBB, width x rows of them, of the rows from y on. */
+typedef void room_put(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows);
+
+typedef struct room {
+    int32_t width, height, rows; /* px; rows of a band */
+    void *memory, *band;
+    size_t memory_bytes, band_bytes;
+    uint32_t (*clock)(void);      /* counts up, and may wrap; NULL: nothing is counted */
+    uint32_t taken[ROOM_STAGES];  /* by the last frame */
+} room;
+
+/* room_bytes: memory beside the band; room_band_bytes: of a band, for the fastest memory that there is. 0: bad size. */
+size_t room_bytes(int32_t width, int32_t height);
+size_t room_band_bytes(int32_t width, int32_t rows);
+
+/* room_open: both blocks lie on 4 bytes and stay the room's. 0, or 1: bad size, too little memory or damaged data. */
+int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memory, size_t bytes, void *band,
+              size_t band_bytes);
+
+/* room_path: of frame 0 .. ROOM_FRAMES - 1; others wrap. room_steer: one frame of held buttons, kept within the room. */
+void room_path(room_pose *out, int32_t frame);
+void room_steer(room_pose *inout, uint32_t buttons);
+
+/* The time that `put` takes is no stage's; whoever gives it adds it to taken[ROOM_SHOW]. */
+void room_draw(room *r, const room_pose *pose, room_put *put, void *user);
+
+/* room_hash: FNV-1a of 32 bits over R, G, B of each pixel; begin with ROOM_HASH, go on with the last result. */
+#define ROOM_HASH 2166136261u
+uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count);
+
+/* A row: 5 bits a colour by Bayer's 4 x 4 matrix: the code c of 0 .. 255 becomes (c * 31 * 16 + t * 255 + 127) / (255 * 16)
+ * rounded down, with t of 0 .. 15 by x & 3 and y & 3; green of RGB565 with 63 for 31. room_rgb555: red in the low bits,
+ * as on GBA, DS and PlayStation. room_rgb565: red in the high bits. */
+void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
+void room_rgb565(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
+
+#endif

@@ -1,0 +1,27 @@
+/* room_port.h: what main_room.c needs from a machine, beside port.h: memory, a screen, a clock, buttons, an end. */
+#ifndef ROOM_PORT_H
+#define ROOM_PORT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The picture's size and a band's rows, px. */
+extern const int32_t port_width, port_height, port_rows;
+
+/* room_bytes of memory for the port's size, and room_band_bytes of the fastest. Each lies on 4 bytes. */
+void *port_memory(size_t *bytes);
+void *port_band_memory(size_t *bytes);
+
+/* A clock that counts up and may wrap, and what it counts: "instructions", "cycles", "us". It may stand still at 0. */
+uint32_t port_clock(void);
+extern const char *const port_clock_unit;
+
+/* A band in 0x00RRGGBB onto the screen that is not shown yet; then that screen is shown. */
+void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows);
+void port_show_frame(void);
+
+/* Buttons that are held, of room.h; PORT_NO_BUTTONS: there are none, and the program ends after its path. */
+#define PORT_NO_BUTTONS 0xffffffffu
+uint32_t port_buttons(void);
+
+#endif

@@ -1,0 +1,59 @@
+/* port_room.c: room_port.h on a machine with libc: frames of any size, as WIDTH HEIGHT ROWS of the build say, into a
+ * picture room.ppm where ROOM_PICTURE names one. */
+#include "../demo/room_port.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "../demo/room.h"
+
+#ifndef ROOM_WIDTH
+#define ROOM_WIDTH  320
+#define ROOM_HEIGHT 240
+#define ROOM_ROWS   16
+#endif
+
+const int32_t port_width = ROOM_WIDTH, port_height = ROOM_HEIGHT, port_rows = ROOM_ROWS;
+const char *const port_clock_unit = "us";
+
+static uint8_t picture[ROOM_HEIGHT][ROOM_WIDTH][3];
+
+static void *get(size_t *bytes, size_t wanted)
+{
+    *bytes = wanted;
+    return malloc(wanted);
+}
+
+void *port_memory(size_t *bytes) { return get(bytes, room_bytes(ROOM_WIDTH, ROOM_HEIGHT)); }
+
+void *port_band_memory(size_t *bytes) { return get(bytes, room_band_bytes(ROOM_WIDTH, ROOM_ROWS)); }
+
+uint32_t port_clock(void) { return (uint32_t)((double)clock() * 1e6 / (double)CLOCKS_PER_SEC); }
+
+void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+{
+    (void)user;
+    for (int32_t i = 0; i < width * rows; ++i) {
+        uint8_t *out = picture[y + i / width][i % width];
+        out[0] = (uint8_t)(rgb[i] >> 16), out[1] = (uint8_t)(rgb[i] >> 8), out[2] = (uint8_t)rgb[i];
+    }
+}
+
+void port_show_frame(void)
+{
+    static int frame;
+    const char *folder = getenv("ROOM_PICTURES"); /* gets frame_00.ppm and on */
+    char name[512];
+    if (folder == NULL || snprintf(name, sizeof name, "%s/frame_%02d.ppm", folder, frame++) >= (int)sizeof name)
+        return;
+    FILE *file = fopen(name, "wb");
+    if (file != NULL) {
+        fprintf(file, "P6\n%d %d\n255\n", ROOM_WIDTH, ROOM_HEIGHT);
+        fwrite(picture, sizeof picture, 1, file);
+        fclose(file);
+    }
+}
+
+uint32_t port_buttons(void) { return PORT_NO_BUTTONS; }
