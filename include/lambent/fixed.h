@@ -15,7 +15,7 @@
 
 enum {
     LMB_FIXED_VERSION = 1,       /* the blob's fourth byte, behind `LMF` */
-    LMB_FIXED_HEADER_WORDS = 16,
+    LMB_FIXED_HEADER_WORDS = 20,
     LMB_FIXED_RECEIVER_WORDS = 3,
     LMB_FIXED_ROW_WORDS = 2,
     LMB_FIXED_REACH = 8191,      /* units: of coordinates, each way */
@@ -34,7 +34,8 @@ enum {
 /* A blob in place: 32-bit words of the machine's byte order.
  *
  *   header      magic, words in all, log2 of units a metre, vertices, triangles, elements, words of links, places along
- *               x, y, z, the first place's x, y, z, places' distance in units, two words 0
+ *               x, y, z, the first place's x, y, z, places' distance in units, where in the world x, y, z = 0 is, in
+ *               units, three words 0
  *   receivers   vertices, then elements: x | y << 16, z | nx << 16 | ny << 24, nz | r << 8 | g << 16 | b << 24: position
  *               in units, normal in 1/127, square roots of the linear albedo in 1/255
  *   triangles   two words: a | b << 16, c; counter-clockwise from their front, which alone is seen
@@ -46,7 +47,7 @@ typedef struct lmb_fixed {
     const uint32_t *receiver, *triangle, *row, *link, *valid, *seen;
     uint32_t vertices, triangles, elements, place_words;
     int32_t units_log2;
-    int32_t places[3], first[3], spacing;
+    int32_t places[3], first[3], spacing, origin[3];
 } lmb_fixed;
 
 /* Position in units; axes of length LMB_FIXED_ONE, orthogonal: right, up, back. */

@@ -8,7 +8,7 @@
 #define MAGIC_SWAPPED (0x00464d4cu | (uint32_t)LMB_FIXED_VERSION << 24)
 
 enum { MAGIC_AT, WORDS_AT, UNITS_AT, VERTICES_AT, TRIANGLES_AT, ELEMENTS_AT, LINK_WORDS_AT, PLACES_AT, FIRST_AT = 10,
-       SPACING_AT = 13, ZEROS_AT };
+       SPACING_AT = 13, ORIGIN_AT, ZEROS_AT = 17 };
 
 static int is_place(int32_t v) { return v >= -LMB_FIXED_REACH && v <= LMB_FIXED_REACH; }
 
@@ -18,7 +18,7 @@ static int take_header(lmb_fixed *s, const uint32_t *word, size_t words)
     uint32_t places = 1;
     if (words < LMB_FIXED_HEADER_WORDS || word[WORDS_AT] != words || word[UNITS_AT] > 16 || word[VERTICES_AT] < 3 ||
         word[VERTICES_AT] > LMB_FIXED_MAX_VERTICES || word[TRIANGLES_AT] > LMB_FIXED_MAX_TRIANGLES ||
-        word[ELEMENTS_AT] > LMB_FIXED_MAX_ELEMENTS || word[ZEROS_AT] != 0 || word[ZEROS_AT + 1] != 0 ||
+        word[ELEMENTS_AT] > LMB_FIXED_MAX_ELEMENTS || (word[ZEROS_AT] | word[ZEROS_AT + 1] | word[ZEROS_AT + 2]) != 0 ||
         word[SPACING_AT] < 16 || word[SPACING_AT] > 2 * LMB_FIXED_REACH) {
         return 0;
     }
@@ -30,6 +30,7 @@ static int take_header(lmb_fixed *s, const uint32_t *word, size_t words)
     for (int i = 0; i < 3; ++i) {
         const uint32_t n = word[PLACES_AT + i];
         s->first[i] = (int32_t)word[FIRST_AT + i];
+        s->origin[i] = (int32_t)word[ORIGIN_AT + i];
         if (n < 1 || n > LMB_FIXED_MAX_PLACES || !is_place(s->first[i]) ||
             (n > 1 && n - 1 > (uint32_t)(2 * LMB_FIXED_REACH) / word[SPACING_AT])) {
             return 0;
