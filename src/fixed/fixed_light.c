@@ -9,7 +9,7 @@
 
 enum { LIGHT_MOST = 1 << 26, FULL = 32768, AROUND = 8 };
 
-/* Which places are around the lamp, and what of each counts; all of them FULL together. */
+/* Which places are around the lamp, and what of each counts; all of them less than FULL together. */
 typedef struct around {
     uint32_t word[AROUND], bit[AROUND], weight[AROUND];
     int count;
@@ -70,7 +70,7 @@ static void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
         const int32_t free = zeros_above(sum);
         out->word[k] = place[k] >> 5;
         out->bit[k] = place[k] & 31u;
-        out->weight[k] = high_of(weight[k] << 15, reciprocal(sum << free)) >> (30 - free);
+        out->weight[k] = high_of(weight[k] * (FULL - 1u), reciprocal(sum << free)) >> (30 - free);
     }
 }
 
