@@ -150,6 +150,18 @@ typedef struct variable {
     const char *key, *value;
 } variable;
 
+typedef struct memory_piece {
+    uint64_t flags; /* 1: constant */
+    const char *data;
+    size_t offset, start, select, disconnect, bytes;
+    const char *space;
+} memory_piece;
+
+typedef struct memory_map {
+    const memory_piece *pieces;
+    unsigned count;
+} memory_map;
+
 typedef struct log_callback {
     void (*log)(int level, const char *format, ...);
 } log_callback;
@@ -187,6 +199,24 @@ static struct {
     unsigned format;
 } screen;
 
+static struct {
+    const void *data;
+    size_t bytes;
+} writable[32]; /* memory that the core tells by itself */
+static int writable_count;
+
+static void keep_pieces(const memory_map *map)
+{
+    writable_count = 0;
+    for (unsigned i = 0; i < map->count && writable_count < 32; ++i) {
+        const memory_piece *p = &map->pieces[i];
+        if (p->data == NULL || (p->flags & 1))
+            continue;
+        writable[writable_count].data = p->data + p->offset;
+        writable[writable_count++].bytes = p->bytes;
+    }
+}
+
 static long frame = -1; /* -1: --until's text was not said yet */
 
 static void on_log(int level, const char *format, ...)
@@ -203,7 +233,7 @@ static void on_log(int level, const char *format, ...)
 static bool on_environment(unsigned command, void *data)
 {
     enum { CAN_DUPE = 3, SYSTEM_FOLDER = 9, PIXEL_FORMAT = 10, VARIABLE = 15, CHANGED = 17, LOG = 27 };
-    enum { SAVE_FOLDER = 31 };
+    enum { SAVE_FOLDER = 31, MEMORY_MAPS = 36 };
     switch (command & 0xffffu) {
     case CAN_DUPE: *(bool *)data = true; return true;
     case SYSTEM_FOLDER:
@@ -220,6 +250,7 @@ static bool on_environment(unsigned command, void *data)
                 v->value = asked.options[i] + length + 1;
         return v->value != NULL;
     }
+    case MEMORY_MAPS: keep_pieces(data); return true;
     case CHANGED: *(bool *)data = false; return true;
     case LOG: ((log_callback *)data)->log = on_log; return true;
     default: return false;
@@ -323,20 +354,24 @@ static int open_rom(void)
 
 /* --- what the program says ---------------------------------------------------------------------------------------- */
 
-static const text_block *find_block(void)
+static const text_block *block_within(const char *memory, size_t bytes)
 {
-    enum { SAVE_RAM = 0, SYSTEM_RAM = 2 };
-    static const unsigned kinds[] = {SYSTEM_RAM, SAVE_RAM};
     static const uint32_t marks[TEXT_MARKS] = {TEXT_MARK(0), TEXT_MARK(1), TEXT_MARK(2), TEXT_MARK(3),
                                                TEXT_MARK(4), TEXT_MARK(5), TEXT_MARK(6), TEXT_MARK(7)};
-    for (int k = 0; k < 2; ++k) {
-        const char *memory = core.retro_get_memory_data(kinds[k]);
-        const size_t bytes = memory ? core.retro_get_memory_size(kinds[k]) : 0;
-        for (size_t at = 0; at + sizeof(text_block) <= bytes; at += 4)
-            if (memcmp(memory + at, marks, sizeof marks) == 0)
-                return (const void *)(memory + at);
-    }
+    for (size_t at = 0; memory != NULL && at + sizeof(text_block) <= bytes; at += 4)
+        if (memcmp(memory + at, marks, sizeof marks) == 0)
+            return (const void *)(memory + at);
     return NULL;
+}
+
+static const text_block *find_block(void)
+{
+    enum { SYSTEM_RAM = 2 };
+    const char *memory = core.retro_get_memory_data(SYSTEM_RAM);
+    const text_block *found = block_within(memory, core.retro_get_memory_size(SYSTEM_RAM));
+    for (int i = 0; i < writable_count && found == NULL; ++i)
+        found = block_within(writable[i].data, writable[i].bytes);
+    return found;
 }
 
 /* Prints what is new. 1: --until's text is among all that was said. */
