@@ -18,11 +18,12 @@ $(B)/obj/platform/demo/room.o: COMPILE += -marm -O2
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -marm -fno-builtin -fno-tree-loop-distribute-patterns
 
 ROOM_IMAGE   := $(B)/room.gba
+# The linker script is a part of the program.
 $(B)/obj/platform/gba/start_gba.o: platform/gba/gba.ld
 $(ROOM_IMAGE): $(B)/room $(LRHOST)
 	@$(CROSS_PREFIX)objcopy -O binary $< $@
-ROOM_RUN      = $(LRHOST) $(call core_of,mgba) --system $(B) --until 'end of path' --bits 5 -o $(B)/room.ppm \
-                $(patsubst %,--press %,$(PRESS))
+ROOM_RUN      = $(LRHOST) $(call core_of,mgba) --system $(B) --until 'end of path' --bits 5 \
+                -o $(B)/room.ppm $(PRESS:%=--press %)
 
 # As lrhost's --press takes them.
 PRESS        ?=

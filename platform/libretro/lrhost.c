@@ -1,12 +1,15 @@
 /* lrhost.c: runs a program in a libretro core without a window: presses buttons, prints what the program says
  * (text_block.h) and writes the screen as a picture. Struct layouts and numbers are libretro's ABI, version 1. */
+#define _GNU_SOURCE /* dl_iterate_phdr */
 #include <dlfcn.h>
+#include <link.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "text_block.h"
 
@@ -217,6 +220,8 @@ static void keep_pieces(const memory_map *map)
     }
 }
 
+static FILE *words_out; /* the program's words; standard output is the core's, as its log */
+
 static long frame = -1; /* -1: --until's text was not said yet */
 
 static void on_log(int level, const char *format, ...)
@@ -364,13 +369,35 @@ static const text_block *block_within(const char *memory, size_t bytes)
     return NULL;
 }
 
+
+/* The writable data of the core, where one that shows no memory has it. */
+static int search_core(struct dl_phdr_info *library, size_t bytes, void *found)
+{
+    (void)bytes;
+    if (strcmp(library->dlpi_name, asked.core) != 0)
+        return 0;
+    for (int i = 0; i < library->dlpi_phnum; ++i) {
+        const ElfW(Phdr) *part = &library->dlpi_phdr[i];
+        if (part->p_type == PT_LOAD && (part->p_flags & PF_W) && *(const text_block **)found == NULL)
+            *(const text_block **)found = block_within((const char *)(library->dlpi_addr + part->p_vaddr), part->p_memsz);
+    }
+    return 1;
+}
+
+/* Stays where it is once it is found; looking for it takes a while. */
 static const text_block *find_block(void)
 {
-    enum { SYSTEM_RAM = 2 };
+    enum { SYSTEM_RAM = 2, SELDOM = 10 };
+    static const text_block *found;
+    static unsigned calls;
+    if (found != NULL || calls++ % SELDOM != 0)
+        return found;
     const char *memory = core.retro_get_memory_data(SYSTEM_RAM);
-    const text_block *found = block_within(memory, core.retro_get_memory_size(SYSTEM_RAM));
+    found = block_within(memory, core.retro_get_memory_size(SYSTEM_RAM));
     for (int i = 0; i < writable_count && found == NULL; ++i)
         found = block_within(writable[i].data, writable[i].bytes);
+    if (memory == NULL && writable_count == 0)
+        dl_iterate_phdr(search_core, &found);
     return found;
 }
 
@@ -386,8 +413,8 @@ static bool listen(void)
     if (bytes == printed)
         return false;
     for (; printed < bytes; ++printed)
-        putchar(said[printed] = block->text[printed]);
-    fflush(stdout);
+        fputc(said[printed] = block->text[printed], words_out);
+    fflush(words_out);
     return asked.until != NULL && strstr(said, asked.until) != NULL;
 }
 
@@ -450,11 +477,11 @@ static int run(void)
 {
     if (asked.until != NULL) {
         long waited = 0;
-        while (!listen()) {
+        do {
             if (waited++ == asked.limit)
                 return failed("--until", "the program has not said it within --limit frames");
             core.retro_run();
-        }
+        } while (!listen());
     }
     for (frame = 0; frame < asked.frames; ++frame) {
         core.retro_run();
@@ -463,10 +490,21 @@ static int run(void)
     return asked.picture ? write_picture() : 0;
 }
 
+/* Cores write to standard output: that goes to stderr with --log, and nowhere without. */
+static int keep_output(void)
+{
+    const int own = dup(STDOUT_FILENO);
+    words_out = own < 0 ? NULL : fdopen(own, "w");
+    if (words_out == NULL || freopen("/dev/null", "w", stdout) == NULL ||
+        (asked.log && dup2(STDERR_FILENO, STDOUT_FILENO) < 0))
+        return failed("standard output", "cannot be kept apart from the core's");
+    return 0;
+}
+
 int main(int count, char **words)
 {
     int status = read_command_line(count, words);
-    if (status != 0 || (status = open_core()) != 0)
+    if (status != 0 || (status = keep_output()) != 0 || (status = open_core()) != 0)
         return status;
     status = open_rom();
     if (status == 0) {
