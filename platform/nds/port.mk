@@ -15,8 +15,8 @@ PORT_LDLIBS  := -lgcc
 # Hot code is for speed.
 $(B)/obj/platform/demo/room.o: COMPILE += -O2
 
-# A loop in memset that the compiler turns into a call of memset would never end.
-$(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+# A loop in memset that the compiler turns into a call of memset would never end; at the start memset is not there yet.
+$(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/nds/start_nds.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 # The linker script is a part of the program.
 $(B)/obj/platform/nds/start_nds.o: platform/nds/nds.ld
