@@ -48,6 +48,7 @@ __asm__(".section .vectors, \"ax\"\n"
         "\tmcr p15, 0, r0, c5, c0, 3\n"
         "\tldr r0, =0x5307d\n" /* protection, both caches, both memories on */
         "\tmcr p15, 0, r0, c1, c0, 0\n"
+        "without_protection:\n" /* where qemu begins, which has no such memories */
         "\tldr sp, =stack_top\n"
         "\tldr r0, =start\n"
         "\tbx r0\n"
