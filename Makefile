@@ -12,7 +12,11 @@ MAKEFLAGS += --no-print-directory
 CONFIG ?= default
 PORT   ?= host
 BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
-B      := $(BUILD)/$(CONFIG)
+# ROOM=pixel: the room with light by pixel, in the tiny configuration and without what it does not draw by; built apart.
+ifeq ($(ROOM),pixel)
+override CONFIG := tiny
+endif
+B      := $(BUILD)/$(CONFIG)$(if $(filter pixel,$(ROOM)),-pixel)
 
 # Programs of small machines, which say how many instructions a frame takes.
 LIVE := live baked gouraud torus
@@ -28,6 +32,11 @@ config_default :=
 config_tiny    := -DLMB_CONFIG_TINY
 ifeq ($(origin config_$(CONFIG)),undefined)
 $(error CONFIG=$(CONFIG): there are `default` and `tiny`)
+endif
+
+ifeq ($(ROOM),pixel)
+config_$(CONFIG) += -DLMB_TREES=0 -DLMB_TRANSFER=1 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 \
+    -DLMB_PLAN=0 -DLMB_MAX_CUT=6 -DLMB_MANY_LIGHTS_CUT=16
 endif
 
 WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble-promotion
@@ -78,7 +87,9 @@ live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.
 # takes, ROOM_IMAGE, with a rule that makes it of $(B)/room, and how that runs, ROOM_RUN.
 ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
-ROOM_OBJ   := $(call object,platform/demo/main_room.c platform/demo/room.c $(or $(ROOM_SRC),$(PORT_SRC))) $(LIB_OBJ)
+ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
+              $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
+ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC))) $(LIB_OBJ)
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -185,6 +196,18 @@ $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 # The words of baked light, which tests/scripts/live.sh puts there.
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: $(wildcard $(B)/baked.inc)
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: COMPILE += -I$(B)
+
+# The words of baked light for the room by pixel, by this machine's tool. PIXEL_FRAMES of a port.mk: 1 without an FPU.
+HOST_CC ?= cc
+$(B)/room_pixel.inc: $(sort $(wildcard tools/bake/*.c tools/demo/*.c src/transfer/*.c))
+	@mkdir -p $(@D)
+	+@$(MAKE) build/lambent PORT=host CONFIG=default BUILD=build CC='$(HOST_CC)' CFLAGS=-O2 LDFLAGS= ROOM= >$@.log
+	@build/lambent bake demo -o $@.lmt --endian little --elements 256 --receivers 300 --cluster 0.6 --error 0.00065 \
+	    --once >>$@.log
+	@od -An -v -tx4 --endian=little $@.lmt | sed 's/ *\([0-9a-f][0-9a-f]*\)/0x\1,/g' >$@
+$(B)/obj/platform/demo/room_pixel.o: $(B)/room_pixel.inc
+$(B)/obj/platform/demo/room_pixel.o: COMPILE += -I$(B)
+$(B)/obj/platform/demo/main_pixel.o: COMPILE += -DPIXEL_FRAMES=$(or $(PIXEL_FRAMES),3)
 
 .PHONY: FORCE
 FORCE:
