@@ -1,6 +1,6 @@
 # lambent: library, tool, checks and instruments. `make help` lists the targets; nothing is configured beforehand.
 #
-#   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|riscv32|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
+#   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|riscv|cortex-a|aarch64|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
 #
 # Everything a build makes lies in $(BUILD)/$(CONFIG). CFLAGS and LDFLAGS are yours: what exactness needs comes after.
 
@@ -489,7 +489,7 @@ paths: ## what the documents tell new users to type, in a clean copy
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/scripts/large.sh
 
-##@ Other processors (PORT=cortex-m|riscv32|web builds for one)
+##@ Other processors (PORT=cortex-m|riscv|cortex-a|aarch64|web builds for one)
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/tiny.sh
 
