@@ -90,7 +90,8 @@ ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
 ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
               $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
-ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC))) $(LIB_OBJ)
+ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/base/% src/fixed/%,$(LIB_SRC)))
+ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LIB))
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay

@@ -21,8 +21,8 @@ static lmb_status place_surfaces(room_pixel *r, uint32_t *memory)
         s = lmb_surface_init(&f->eye.id, LMB_ID16, r->width, ROOM_PIXEL_STRIP, memory, row * ROOM_PIXEL_STRIP / 2);
     memory += r->width * ROOM_PIXEL_STRIP / 2;
     f->map_memory = memory;
-    f->map_bytes = (size_t)ROOM_PIXEL_MAP * ROOM_PIXEL_MAP * 6;
-    memory += ROOM_PIXEL_MAP * ROOM_PIXEL_MAP * 6 / 4;
+    f->map_bytes = 4 * (size_t)ROOM_PIXEL_MAP_WORDS;
+    memory += ROOM_PIXEL_MAP_WORDS;
     if (s == LMB_OK)
         s = lmb_transfer_light_init(&f->transfer_light, &r->transfer, memory, 4 * (size_t)ROOM_PIXEL_LIGHT_WORDS);
     return s;
@@ -51,7 +51,9 @@ lmb_status room_pixel_open(room_pixel *out, int32_t width, int32_t height, uint3
     *out = nothing;
     out->width = width, out->height = height;
     out->scene = *demo_scene();
-    out->lamp = out->scene.lights[0];
+    out->lamp.kind = LMB_LIGHT_POINT;
+    for (int i = 0; i < 3; ++i)
+        out->lamp.intensity[i] = 9.424778f; /* a white surface 1 m away is shown three times as bright as white */
     out->scene.lights = &out->lamp;
     lmb_status s = width % 8 == 0 && height % 8 == 0 ? lmb_build_check() : LMB_ERR_ARG;
     if (s == LMB_OK)

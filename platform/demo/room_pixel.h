@@ -14,15 +14,15 @@
 enum {
     ROOM_PIXEL_BAND = 8,   /* rows */
     ROOM_PIXEL_STRIP = 24, /* rows whose depth and ids are kept: the scene is drawn once for each strip */
-    ROOM_PIXEL_MAP = 80,   /* texels of the shadow map's side */
+    ROOM_PIXEL_MAP = 32,   /* texels of the side of each of the shadow map's six faces */
+    ROOM_PIXEL_MAP_WORDS = ROOM_PIXEL_MAP * ROOM_PIXEL_MAP * 6 * 6 / 4, /* depth and 16-bit ids */
     ROOM_PIXEL_LIGHT_WORDS = 6800
 };
 
 /* Words of memory for a picture `width` px wide, which is a multiple of 8: a band of colours, a strip's depth and 16-bit
- * ids, the shadow map's depth and 16-bit ids, and the baked light's state. */
-#define ROOM_PIXEL_WORDS(width)                                                                                        \
-    ((width) * (ROOM_PIXEL_BAND + ROOM_PIXEL_STRIP + ROOM_PIXEL_STRIP / 2) + ROOM_PIXEL_MAP * ROOM_PIXEL_MAP * 6 / 4 + \
-     ROOM_PIXEL_LIGHT_WORDS)
+ * ids, the shadow map, and the baked light's state. */
+#define ROOM_PIXEL_WORDS(width)                                                                                    \
+    ((width) * (ROOM_PIXEL_BAND + ROOM_PIXEL_STRIP + ROOM_PIXEL_STRIP / 2) + ROOM_PIXEL_MAP_WORDS + ROOM_PIXEL_LIGHT_WORDS)
 
 /* Stages whose cost is told apart. */
 enum { ROOM_PIXEL_MAPPED, ROOM_PIXEL_LIT, ROOM_PIXEL_FILLED, ROOM_PIXEL_SHOWN, ROOM_PIXEL_STAGES };
