@@ -24,7 +24,7 @@ ROOM_RAM     ?= 163840
 ROOM_ROM     ?= 1048576
 COUNTED      ?= instructions
 COUNTER      := $(BUILD)/qemu_count.so
-ROOM_RUN      = $(filter-out -kernel,$(RUN)) -plugin $(COUNTER),file=$(B)/room.counts,what=$(COUNTED) -kernel
+ROOM_RUN      = $(filter-out -kernel,$(RUN)) -plugin $(COUNTER),counts=$(B)/room.counts,what=$(COUNTED) -kernel
 run: SEMIHOSTING = enable=on,target=native,chardev=console,arg=room,arg=$(B)/room.counts,arg=$(B)/room.ppm$(FRAMES:%=,arg=%)
 $(B)/room: RAM_BYTES = $(ROOM_RAM)
 $(B)/room: ROM_BYTES = $(ROOM_ROM)

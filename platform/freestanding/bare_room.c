@@ -15,7 +15,7 @@
 #define BARE_ROWS 8
 #endif
 #ifndef BARE_ROOM_BYTES
-#define BARE_ROOM_BYTES 20480 /* room_bytes of the size below */
+#define BARE_ROOM_BYTES 16384 /* room_bytes of the size below */
 #endif
 
 enum { WIDTH = 160, HEIGHT = 120, LINE = 512 };
@@ -44,27 +44,26 @@ static char line[LINE];
 static uintptr_t counts = NO_FILE, picture = NO_FILE;
 static int is_all;
 
-/* The next word of the line, which ends there; NULL: none. */
-static char *next_word(char **at)
+/* The next word of the line, with a 0 behind it, and its length. */
+static char *next_word(char **at, uint32_t *length)
 {
-    char *word = *at;
+    char *word = *at, *past;
     while (*word == ' ')
         ++word;
-    *at = word;
-    while (**at != ' ' && **at != 0)
-        ++*at;
-    if (**at == ' ')
-        *(*at)++ = 0;
-    return *word ? word : NULL;
+    for (past = word; *past != ' ' && *past != 0;)
+        ++past;
+    *length = (uint32_t)(past - word);
+    *at = *past ? past + 1 : past;
+    *past = 0;
+    return word;
 }
 
-static uintptr_t open_file(const char *name, uint32_t mode)
+static uintptr_t open_file(char **at, uint32_t mode)
 {
-    size_t length = 0;
-    if (name == NULL || (name[0] == '-' && name[1] == 0))
+    uint32_t length;
+    const char *name = next_word(at, &length);
+    if (length == 0 || (length == 1 && name[0] == '-'))
         return NO_FILE;
-    while (name[length])
-        ++length;
     const uintptr_t file = call(SYS_OPEN, (uintptr_t)name, mode, length);
     return (uint32_t)file == 0xffffffffu ? NO_FILE : file;
 }
@@ -78,10 +77,12 @@ static void open_files(void)
     if ((uint32_t)call(SYS_GET_CMDLINE, (uintptr_t)line, sizeof line - 1, 0) != 0)
         return;
     char *at = line;
-    next_word(&at);
-    counts = open_file(next_word(&at), READ_BYTES);
-    picture = open_file(next_word(&at), WRITE_BYTES);
-    is_all = next_word(&at) != NULL;
+    uint32_t length;
+    next_word(&at, &length);
+    counts = open_file(&at, READ_BYTES);
+    picture = open_file(&at, WRITE_BYTES);
+    next_word(&at, &length);
+    is_all = length != 0;
 }
 
 /* --- the clock: what the plugin of qemu counted ---------------------------------------------------------------------- */
@@ -90,6 +91,7 @@ static char unit[16] = "of no clock";
 const char *const port_clock_unit = unit;
 
 /* The plugin looks for calls of it. */
+void bare_mark(void);
 __attribute__((noinline)) void bare_mark(void) { __asm__ volatile("" ::: "memory"); }
 
 uint32_t port_clock(void)

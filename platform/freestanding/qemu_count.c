@@ -1,5 +1,5 @@
 /* qemu_count.c: a plugin for qemu's emulator of processors, which counts what a program without operating system does:
- * `-plugin FILE.so,file=COUNTS,what=instructions|loads|stores`.
+ * `-plugin FILE.so,counts=COUNTS,what=instructions|loads|stores`.
  *
  * Whenever the program calls bare_mark (bare_room.c), the count goes into COUNTS, where the program reads it: its lower 32
  * bits, least byte first, then the word of what was counted. A load or store of several registers counts each of them.
@@ -60,8 +60,8 @@ __attribute__((visibility("default"))) int qemu_plugin_install(plugin_id id, con
 {
     (void)info;
     for (int i = 0; i < count; ++i)
-        if (strncmp(word[i], "file=", 5) == 0)
-            file = fopen(word[i] + 5, "wb");
+        if (strncmp(word[i], "counts=", 7) == 0)
+            file = fopen(word[i] + 7, "wb");
         else if (strcmp(word[i], "what=loads") == 0)
             what = "loads";
         else if (strcmp(word[i], "what=stores") == 0)
@@ -69,7 +69,7 @@ __attribute__((visibility("default"))) int qemu_plugin_install(plugin_id id, con
         else if (strcmp(word[i], "what=instructions") != 0)
             return fprintf(stderr, "qemu_count: unknown word %s\n", word[i]);
     if (file == NULL)
-        return fprintf(stderr, "qemu_count: file=COUNTS is missing, or cannot be written\n");
+        return fprintf(stderr, "qemu_count: counts=COUNTS is missing, or cannot be written\n");
     qemu_plugin_register_vcpu_tb_trans_cb(id, translate);
     return 0;
 }
