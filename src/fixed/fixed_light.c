@@ -254,7 +254,7 @@ static void shade(lmb_fixed_vertex *out, const lmb_fixed_frame *f, const lamp_no
     }
     for (int c = 0; c < 3; ++c) {
         const uint32_t light = reflected(e[c] + more[c], r.albedo[c]);
-        out->colour[c] = (uint8_t)((srgb_of(light >> 2) + 127u) >> 8);
+        out->colour[c] = (uint8_t)within((int32_t)(srgb_of(light >> 2) + 127u) >> 8, FIXED_LEAST, FIXED_MOST);
     }
 }
 

@@ -62,9 +62,9 @@ static fixed_corner random_corner(test_rng *rng)
     fixed_corner c;
     c.x = (int32_t)(test_random(rng) % 1400) - 200;
     c.y = (int32_t)(test_random(rng) % 1400) - 200;
-    c.depth = (int32_t)(test_random(rng) % 65535) + 1;
+    c.depth = FIXED_LEAST_DEPTH + (int32_t)(test_random(rng) % (FIXED_MOST_DEPTH - FIXED_LEAST_DEPTH + 1));
     for (int i = 0; i < 3; ++i) {
-        c.colour[i] = (int32_t)(test_random(rng) % 256);
+        c.colour[i] = FIXED_LEAST + (int32_t)(test_random(rng) % (FIXED_MOST - FIXED_LEAST + 1));
     }
     return c;
 }
@@ -308,7 +308,7 @@ static void test_one_link(void)
     for (uint32_t i = 0; i < s.vertices; ++i) {
         fixed_receiver r;
         fixed_receiver_at(&r, &s, i);
-        if ((f.vertex[i].flags & FIXED_USED) && f.vertex[i].colour[1] == 0) { /* no direct light */
+        if ((f.vertex[i].flags & FIXED_USED) && f.vertex[i].colour[1] <= FIXED_LEAST) { /* no direct light */
             uint32_t any = 1;
             for (uint32_t e = 0; e < s.elements; ++e) {
                 any |= f.direct[e][0] | f.direct[e][1] | f.direct[e][2];
