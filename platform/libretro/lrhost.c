@@ -176,6 +176,8 @@ static struct {
     void (*retro_run)(void);
     void *(*retro_get_memory_data)(unsigned);
     size_t (*retro_get_memory_size)(unsigned);
+    size_t (*retro_serialize_size)(void);
+    bool (*retro_serialize)(void *, size_t);
 } core;
 
 enum { SHORT_1555, WORD_8888, SHORT_565 }; /* pixel formats */
@@ -287,6 +289,8 @@ static int open_core(void)
     CALL(retro_run)
     CALL(retro_get_memory_data)
     CALL(retro_get_memory_size)
+    CALL(retro_serialize_size)
+    CALL(retro_serialize)
 #undef CALL
     core.retro_set_environment(on_environment);
     core.retro_init();
@@ -323,20 +327,43 @@ static int open_rom(void)
 
 /* --- what the program says ---------------------------------------------------------------------------------------- */
 
+static const text_block *find_in(const char *memory, size_t bytes, size_t step)
+{
+    static const uint32_t marks[TEXT_MARKS] = {TEXT_MARK(0), TEXT_MARK(1), TEXT_MARK(2), TEXT_MARK(3),
+                                               TEXT_MARK(4), TEXT_MARK(5), TEXT_MARK(6), TEXT_MARK(7)};
+    for (size_t at = 0; at + sizeof(text_block) <= bytes; at += step)
+        if (memcmp(memory + at, marks, sizeof marks) == 0)
+            return (const void *)(memory + at);
+    return NULL;
+}
+
+/* For cores that hand out no memory: in what they would save, now and then, as that takes long. A copy, aligned. */
+static const text_block *find_saved(void)
+{
+    enum { TURNS = 30 };
+    static text_block found;
+    static char *state;
+    static size_t bytes;
+    static int turn;
+    if (turn++ % TURNS != 0)
+        return NULL;
+    if (state == NULL && ((bytes = core.retro_serialize_size()) == 0 || (state = malloc(bytes)) == NULL))
+        return NULL;
+    const void *block = core.retro_serialize(state, bytes) ? find_in(state, bytes, 1) : NULL;
+    return block ? memcpy(&found, block, sizeof found) : NULL;
+}
+
 static const text_block *find_block(void)
 {
     enum { SAVE_RAM = 0, SYSTEM_RAM = 2 };
     static const unsigned kinds[] = {SYSTEM_RAM, SAVE_RAM};
-    static const uint32_t marks[TEXT_MARKS] = {TEXT_MARK(0), TEXT_MARK(1), TEXT_MARK(2), TEXT_MARK(3),
-                                               TEXT_MARK(4), TEXT_MARK(5), TEXT_MARK(6), TEXT_MARK(7)};
     for (int k = 0; k < 2; ++k) {
         const char *memory = core.retro_get_memory_data(kinds[k]);
-        const size_t bytes = memory ? core.retro_get_memory_size(kinds[k]) : 0;
-        for (size_t at = 0; at + sizeof(text_block) <= bytes; at += 4)
-            if (memcmp(memory + at, marks, sizeof marks) == 0)
-                return (const void *)(memory + at);
+        const text_block *block = find_in(memory, memory ? core.retro_get_memory_size(kinds[k]) : 0, 4);
+        if (block != NULL)
+            return block;
     }
-    return NULL;
+    return core.retro_get_memory_size(SYSTEM_RAM) == 0 ? find_saved() : NULL;
 }
 
 /* Prints what is new. 1: --until's text is among all that was said. */

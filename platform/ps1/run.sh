@@ -11,5 +11,5 @@ set -- "$@" ${ROOM_PADS:+$(printf -- '--press %s ' $ROOM_PADS)}
 folder=$1 host=$2 core=$3 image=$4
 shift 4
 [ -f "$core" ] || { echo "run.sh: no $core (Debian: libretro-beetle-psx)" >&2; exit 2; }
-exec "$host" "$core" "$image" --system "$folder/system" --until 'end of path' --limit "${ROOM_LIMIT:-60000}" \
+exec "$host" "$core" "$image" --system "$folder/system" --until 'end of path' --limit "${ROOM_LIMIT:-4000}" \
     --frames "${ROOM_AFTER:-60}" --bits 5 ${ROOM_PICTURE:+-o "$ROOM_PICTURE"} "$@"
