@@ -68,9 +68,10 @@ REFERENCE_OBJ := $(call object,$(sort $(wildcard tests/reference/*.c))) $(filter
 HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/lambent.o,$(TOOL_OBJ))
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
 PATH_OBJ   := $(call object,tests/truth/main_path.c tests/truth/path.c $(SCENES_SRC))
+measure_fixed := platform/demo/room.c
 # tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program measure-NAME.
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
-measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c)) \
+measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)

@@ -1,9 +1,41 @@
-/* room.c: a stand-in with the room's interface, to bring ports up with. */
+/* room.c: the demo that every port shows, by integers alone: lmb_fixed with a path for lamp and camera. */
 #include "room.h"
+
+static const uint32_t baked[] = {
+#include "room_data.inc"
+};
+
+enum {
+    STEP = 512,         /* of a held button: 1/65536 of a turn */
+    LAMP_STEP = 32,     /* 1/1024 m */
+    STEEPEST = 8192,    /* of pitch */
+    LAMP = 3 * LMB_FIXED_WHITE
+};
+
+/* The room's own walls are at x = -2 .. 2 m, y = 0 .. 2.75, z = -2 .. 2.75. */
+static const int32_t lamp_low[3] = {-1900, 200, -1900}, lamp_high[3] = {1900, 2700, 2700};
+
+/* A sixteenth of a quarter of a wave each, in 1/16384. */
+static const int16_t quarter[17] = {0,     1606,  3196,  4756,  6270,  7723,  9102,  10394, 11585,
+                                    12665, 13623, 14449, 15137, 15679, 16069, 16305, 16384};
+
+/* Of an angle in 1/65536 of a turn. */
+static int32_t sine(int32_t angle)
+{
+    const int32_t at = angle & 0x3fff, is_second = angle >> 14 & 1, x = is_second ? 0x4000 - at : at, i = x >> 10;
+    const int32_t v = i == 16 ? quarter[16] : quarter[i] + (((quarter[i + 1] - quarter[i]) * (x & 1023)) >> 10);
+    return angle >> 15 & 1 ? -v : v;
+}
+
+static int32_t cosine(int32_t angle) { return sine(angle + 0x4000); }
 
 size_t room_bytes(int32_t width, int32_t height)
 {
-    return width > 0 && height > 0 && width <= ROOM_MAX_WIDTH && height <= ROOM_MAX_HEIGHT ? 4 : 0;
+    lmb_fixed scene;
+    return width > 0 && height > 0 && width <= ROOM_MAX_WIDTH && height <= ROOM_MAX_HEIGHT &&
+                   lmb_fixed_open(&scene, baked, sizeof baked) == LMB_OK
+               ? lmb_fixed_memory(&scene, scene.triangles)
+               : 0;
 }
 
 size_t room_band_bytes(int32_t width, int32_t rows) { return width > 0 && rows > 0 ? (size_t)(width * rows) * 6 : 0; }
@@ -13,46 +45,92 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
 {
     static const room nothing;
     *out = nothing;
-    if (room_bytes(width, height) == 0 || rows < 1 || bytes < room_bytes(width, height) ||
-        band_bytes < room_band_bytes(width, rows))
+    if (width < 1 || height < 1 || width > ROOM_MAX_WIDTH || height > ROOM_MAX_HEIGHT || rows < 1 || band == NULL ||
+        band_bytes < room_band_bytes(width, rows) || lmb_fixed_open(&out->scene, baked, sizeof baked) != LMB_OK ||
+        lmb_fixed_lay(&out->frame, &out->scene, out->scene.triangles, memory, bytes) != LMB_OK)
         return 1;
     out->width = width, out->height = height, out->rows = rows;
     out->memory = memory, out->band = band;
     out->memory_bytes = bytes, out->band_bytes = band_bytes;
+    out->frame.pixel = band;
+    out->frame.depth = (uint16_t *)(out->frame.pixel + width * rows);
+    out->frame.view.width = width, out->frame.view.height = height;
+    out->frame.view.focal = (height * 4392) >> 8; /* 8 / tan(25 degrees): 50 degrees from top to bottom */
+    out->frame.view.near_units = 128;
+    out->frame.bounces = 2;
+    for (int i = 0; i < 3; ++i)
+        out->frame.lamp.intensity[i] = LAMP;
     return 0;
 }
 
 void room_path(room_pose *out, int32_t frame)
 {
-    static const room_pose start = {{0, 1454, 2764}, 0, 0, {0, 2048, 0}};
-    *out = start;
-    out->yaw = frame * 100;
-    out->lamp[0] = (frame - 30) * 20;
+    const int32_t n = frame % ROOM_FRAMES, turn = (n < 0 ? n + ROOM_FRAMES : n) * 65536 / ROOM_FRAMES;
+    out->eye[0] = (sine(turn) * 900) >> 14;
+    out->eye[1] = 1450 + ((sine(2 * turn) * 120) >> 14);
+    out->eye[2] = 2350 + ((cosine(turn) * 250) >> 14);
+    out->yaw = (sine(turn) * 2600) >> 14;
+    out->pitch = -900;
+    out->lamp[0] = (cosine(turn + 8192) * 1250) >> 14;
+    out->lamp[1] = 2050 + ((sine(turn) * 350) >> 14);
+    out->lamp[2] = 500 + ((sine(turn + 8192) * 1300) >> 14);
+}
+
+static int32_t within(int32_t v, int32_t low, int32_t high) { return v < low ? low : v > high ? high : v; }
+
+/* To the blob's units. */
+static void units_of(int32_t out[3], const lmb_fixed *s, const int32_t at[3])
+{
+    for (int i = 0; i < 3; ++i) {
+        const int32_t up = s->units_log2 - 10;
+        out[i] = (up > 0 ? at[i] * (1 << up) : at[i] >> -up) - s->origin[i];
+    }
 }
 
 void room_steer(room_pose *inout, uint32_t buttons)
 {
-    inout->yaw += (int32_t)(buttons & 1u) * 512 - (int32_t)(buttons >> 1 & 1u) * 512;
-    inout->pitch += (int32_t)(buttons >> 2 & 1u) * 512 - (int32_t)(buttons >> 3 & 1u) * 512;
-    inout->lamp[0] += (int32_t)(buttons >> 5 & 1u) * 64 - (int32_t)(buttons >> 4 & 1u) * 64;
-    inout->lamp[2] += (int32_t)(buttons >> 6 & 1u) * 64 - (int32_t)(buttons >> 7 & 1u) * 64;
+    const int32_t way[3] = {(int32_t)(buttons >> 5 & 1u) - (int32_t)(buttons >> 4 & 1u), 0,
+                            (int32_t)(buttons >> 6 & 1u) - (int32_t)(buttons >> 7 & 1u)};
+    inout->yaw += ((int32_t)(buttons & 1u) - (int32_t)(buttons >> 1 & 1u)) * STEP;
+    inout->pitch += ((int32_t)(buttons >> 2 & 1u) - (int32_t)(buttons >> 3 & 1u)) * STEP;
+    inout->pitch = within(inout->pitch, -STEEPEST, STEEPEST);
+    for (int i = 0; i < 3; ++i)
+        inout->lamp[i] = within(inout->lamp[i] + way[i] * LAMP_STEP, lamp_low[i], lamp_high[i]);
+}
+
+/* Turned about y by yaw, then about its own x by pitch. */
+static void set_view(lmb_fixed_view *v, const lmb_fixed *s, const room_pose *pose)
+{
+    const int32_t sy = sine(pose->yaw), cy = cosine(pose->yaw), sp = sine(pose->pitch), cp = cosine(pose->pitch);
+    units_of(v->eye, s, pose->eye);
+    v->axis[0][0] = cy, v->axis[0][1] = 0, v->axis[0][2] = -sy;
+    v->axis[1][0] = (sy * sp) >> 14, v->axis[1][1] = cp, v->axis[1][2] = (cy * sp) >> 14;
+    v->axis[2][0] = (sy * cp) >> 14, v->axis[2][1] = -sp, v->axis[2][2] = (cy * cp) >> 14;
 }
 
 void room_draw(room *r, const room_pose *pose, room_put *put, void *user)
 {
-    uint32_t *pixel = r->band;
-    const uint32_t from = r->clock ? r->clock() : 0;
+    uint32_t from = r->clock ? r->clock() : 0;
+    lmb_fixed_frame *f = &r->frame;
+    set_view(&f->view, &r->scene, pose);
+    units_of(f->lamp.position, &r->scene, pose->lamp);
+    for (int stage = ROOM_TRANSFORM; stage <= ROOM_LIGHT; ++stage) {
+        if (stage == ROOM_TRANSFORM)
+            lmb_fixed_transform(f);
+        else
+            lmb_fixed_light(f);
+        const uint32_t now = r->clock ? r->clock() : 0;
+        r->taken[stage] = now - from;
+        from = now;
+    }
+    r->taken[ROOM_FILL] = 0;
     for (int32_t y = 0; y < r->height; y += r->rows) {
         const int32_t rows = r->rows < r->height - y ? r->rows : r->height - y;
-        for (int32_t i = 0; i < rows * r->width; ++i) {
-            const int32_t x = i % r->width, row = y + i / r->width;
-            const uint32_t red = (uint32_t)(x * 255 / r->width), green = (uint32_t)(row * 255 / r->height);
-            const int32_t at = r->width / 2 + pose->lamp[0] * r->width / 2048;
-            pixel[i] = red << 16 | green << 8 | (x > at - 8 && x < at + 8 ? 255u : (uint32_t)(pose->yaw >> 6 & 255));
-        }
-        put(user, pixel, r->width, y, rows);
+        from = r->clock ? r->clock() : 0;
+        lmb_fixed_band(f, y, y + rows);
+        r->taken[ROOM_FILL] += (r->clock ? r->clock() : 0) - from;
+        put(user, f->pixel, r->width, y, rows);
     }
-    r->taken[ROOM_FILL] = r->clock ? r->clock() - from : 0;
 }
 
 uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count)

@@ -10,8 +10,7 @@
 #ifndef ROOM_H
 #define ROOM_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include <lambent/fixed.h>
 
 enum {
     ROOM_FRAMES = 60,
@@ -42,6 +41,8 @@ typedef struct room {
     size_t memory_bytes, band_bytes;
     uint32_t (*clock)(void);      /* counts up, and may wrap; NULL: nothing is counted */
     uint32_t taken[ROOM_STAGES];  /* by the last frame */
+    lmb_fixed scene;
+    lmb_fixed_frame frame;
 } room;
 
 /* room_bytes: memory beside the band; room_band_bytes: of a band, for the fastest memory that there is. 0: bad size. */

@@ -1,0 +1,132 @@
+/* fixed.h: frames by integers alone, for machines without an FPU: triangles with light at their vertices, 0x00RRGGBB.
+ * No float, no division. Experimental.
+ *
+ *     lmb_fixed_open(..)       a baked scene, used in place: `lambent pack` or tools/pack makes it
+ *     lmb_fixed_transform(..)  vertices to the screen; which triangles are seen
+ *     lmb_fixed_light(..)      a lamp's light at those vertices, with what surfaces throw back
+ *     lmb_fixed_band(..)       rows of the picture, in bands of any height: the same pixels
+ *
+ * Nothing of a scene moves but its lamp and its camera. Where the lamp is hidden from a vertex was baked for a lattice of
+ * places, and is mixed between them: shadows are as sharp as places are close. */
+#ifndef LMB_FIXED_H
+#define LMB_FIXED_H
+
+#include "types.h"
+
+enum {
+    LMB_FIXED_VERSION = 1,       /* the blob's fourth byte, behind `LMF` */
+    LMB_FIXED_HEADER_WORDS = 20,
+    LMB_FIXED_RECEIVER_WORDS = 3,
+    LMB_FIXED_ROW_WORDS = 2,
+    LMB_FIXED_REACH = 8191,      /* units: of coordinates, each way */
+    LMB_FIXED_MAX_SIDE = 640,    /* px */
+    LMB_FIXED_MAX_VERTICES = 16384,
+    LMB_FIXED_MAX_TRIANGLES = 32767,
+    LMB_FIXED_MAX_ELEMENTS = 256,
+    LMB_FIXED_MAX_PLACES = 4096,
+    LMB_FIXED_MAX_LINKS = 254,   /* of a row */
+    LMB_FIXED_MAX_SUM = 32767,   /* of a row's weights: times 65535 it fits 31 bits */
+    LMB_FIXED_SCALE = 36,        /* fraction bits of a row's scale: its weights times it sum up to 1 at most */
+    LMB_FIXED_ONE = 16384,       /* of axes, directions and cosines */
+    LMB_FIXED_WHITE = 4096       /* of intensity: a white surface 1 m away that faces the lamp is shown just white */
+};
+
+/* A blob in place: 32-bit words of the machine's byte order.
+ *
+ *   header      magic, words in all, log2 of units a metre, vertices, triangles, elements, words of links, places along
+ *               x, y, z, the first place's x, y, z, places' distance in units, where in the world x, y, z = 0 is, in
+ *               units, three words 0
+ *   receivers   vertices, then elements: x | y << 16, z | nx << 16 | ny << 24, nz | r << 8 | g << 16 | b << 24: position
+ *               in units, normal in 1/127, square roots of the linear albedo in 1/255
+ *   triangles   two words: a | b << 16, c; counter-clockwise from their front, which alone is seen
+ *   rows        of each receiver: first word among links | links << 24, an even number; scale
+ *   links       two a word, the first in the low half: weight << 8 | element
+ *   places      a bit each: 1 where a lamp may be
+ *   seen        of each receiver a bit a place, in whole words: 1 where nothing hides the place */
+typedef struct lmb_fixed {
+    const uint32_t *receiver, *triangle, *row, *link, *valid, *seen;
+    uint32_t vertices, triangles, elements, place_words;
+    int32_t units_log2;
+    int32_t places[3], first[3], spacing, origin[3];
+} lmb_fixed;
+
+/* Position in units; axes of length LMB_FIXED_ONE, orthogonal: right, up, back. */
+typedef struct lmb_fixed_view {
+    int32_t eye[3], axis[3][3];
+    int32_t focal;         /* 1/16 px: half the height / tan(half the vertical angle of view) */
+    int32_t width, height; /* px of the whole picture */
+    int32_t near_units;    /* nothing nearer is seen, at least 16 */
+} lmb_fixed_view;
+
+/* A point light, or a spot: full inside of the inner cone, 0 outside of the outer one. */
+typedef struct lmb_fixed_lamp {
+    int32_t position[3];  /* units */
+    int32_t direction[3]; /* LMB_FIXED_ONE long; of spots */
+    uint32_t intensity[3]; /* LMB_FIXED_WHITE; below 2^20 */
+    int32_t cos_inner, cos_outer; /* LMB_FIXED_ONE; equal ones: a point light */
+} lmb_fixed_lamp;
+
+/* A vertex on the screen. 10 bytes. */
+typedef struct lmb_fixed_vertex {
+    int16_t x, y;      /* 1/16 px from the picture's left upper corner, less a bias of the middle */
+    uint16_t depth;    /* larger is nearer */
+    uint8_t colour[3]; /* sRGB */
+    uint8_t flags;
+} lmb_fixed_vertex;
+
+/* A triangle that may be seen. */
+typedef struct lmb_fixed_seen {
+    uint16_t triangle; /* and a bit where it is to be clipped */
+    int16_t first, past; /* rows */
+} lmb_fixed_seen;
+
+/* What is drawn, and the caller's memory for it. */
+typedef struct lmb_fixed_frame {
+    const lmb_fixed *scene;
+    lmb_fixed_view view;
+    lmb_fixed_lamp lamp;
+    int32_t bounces;        /* 0 .. 3: how often surfaces throw light back */
+    lmb_fixed_vertex *vertex;      /* a vertex each */
+    lmb_fixed_seen *seen;          /* a triangle each; fewer leave out what does not fit */
+    uint16_t (*element)[4];        /* an element each: what it throws back */
+    uint32_t (*direct)[3];         /* an element each: what the lamp sends there */
+    uint32_t seen_cap, seen_count; /* count: set by lmb_fixed_transform */
+    uint32_t *pixel;               /* of a band: width x rows */
+    uint16_t *depth;               /* likewise */
+    uint32_t background;
+} lmb_fixed_frame;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* lmb_fixed_open: use a blob in place; `data` is 4-byte aligned and stays where it is. All of it is checked, in one
+ * pass: afterwards no number of it can lead outside of its memory or overflow a sum.
+ * LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN, LMB_ERR_FORMAT (no blob, cut off, damaged), or LMB_ERR_BUILD: it has the other byte
+ * order. */
+lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes);
+
+/* lmb_fixed_memory: bytes of vertex, seen (of seen_cap), element and direct together; 0: null.
+ * lmb_fixed_lay: lay them out in 4-byte aligned memory. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
+size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap);
+lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes);
+
+/* lmb_fixed_look_at: eye and axes of a view that is upright. LMB_OK or LMB_ERR_ARG: target at eye, straight above or
+ * below it, or one of them out of LMB_FIXED_REACH. */
+lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const int32_t target[3]);
+
+/* lmb_fixed_transform, then lmb_fixed_light: LMB_OK or LMB_ERR_ARG (null, a number out of its range). */
+lmb_status lmb_fixed_transform(lmb_fixed_frame *frame);
+lmb_status lmb_fixed_light(lmb_fixed_frame *frame);
+
+/* lmb_fixed_band: rows `first` .. `past` - 1 of the picture into the band's memory, its first row first. LMB_OK or
+ * LMB_ERR_ARG. */
+lmb_status lmb_fixed_band(const lmb_fixed_frame *frame, int32_t first, int32_t past);
+
+/* lmb_fixed_place: may a lamp be at a position? 1 where a place around it is valid. */
+int lmb_fixed_place(const lmb_fixed *scene, const int32_t position[3]);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,285 @@
+/* fixed.c: a frame by integers: vertices to the screen, what is seen, and the bands. Layer 10.
+ *
+ * Coordinates are of 14 bits and axes of 15, so that a turned vertex fits 30 bits; it is kept in 1/16 unit, 20 bits. On
+ * the screen a guard of 12 times the sides, in 1/16 px, keeps differences below 2^14 and areas below 2^29. */
+#include <lambent/fixed.h>
+
+#include <string.h>
+
+#include "fixed_part.h"
+#include "number.h"
+
+enum { GUARD = 12, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
+
+/* A vertex as the camera sees it: right, up, ahead; 1/16 unit. */
+typedef struct seen_from {
+    int32_t v[3], colour[3];
+} seen_from;
+
+static void turn(int32_t v[3], const lmb_fixed_view *view, const int32_t at[3])
+{
+    const int32_t x = at[0] - view->eye[0], y = at[1] - view->eye[1], z = at[2] - view->eye[2];
+    for (int i = 0; i < 3; ++i) {
+        const int32_t *a = view->axis[i];
+        v[i] = (a[0] * x + a[1] * y + a[2] * z) >> 10;
+    }
+    v[2] = -v[2];
+}
+
+/* How far inside of a plane; the near one, then left, right, below, above; fits 31 bits. */
+static int32_t inside(const int32_t v[3], const lmb_fixed_view *view, int plane)
+{
+    const int64_t to = plane < 3 ? (int64_t)GUARD * view->width * v[2] : (int64_t)GUARD * view->height * v[2],
+                  own = (int64_t)view->focal * v[plane < 3 ? 0 : 1];
+    return plane == 0 ? v[2] - 16 * view->near_units : (int32_t)((plane & 1 ? to + own : to - own) >> 5);
+}
+
+/* To the screen; 0 where a plane cuts it off, as its coordinates would not fit. */
+static int project(int32_t out[3], const int32_t v[3], const lmb_fixed_view *view)
+{
+    const int32_t free = zeros_above((uint32_t)v[2]), guard_x = GUARD * view->width, guard_y = GUARD * view->height;
+    const uint32_t per = reciprocal((uint32_t)v[2] << free);
+    /* v / z in 2^-(41 - free), and then in 2^-16 */
+    const int32_t x = signed_high_of(v[0] * 2048, (int32_t)per) >> (25 - free),
+                  y = signed_high_of(v[1] * 2048, (int32_t)per) >> (25 - free);
+    const int64_t sx = ((int64_t)x * view->focal + 32768) >> 16, sy = ((int64_t)y * view->focal + 32768) >> 16;
+    const uint32_t depth = high_of((uint32_t)view->near_units * 16u * 65535u, per) >> (30 - free);
+    out[0] = (int32_t)(sx < -guard_x ? -guard_x : sx > guard_x ? guard_x : sx) + 8 * view->width;
+    out[1] = 8 * view->height - (int32_t)(sy < -guard_y ? -guard_y : sy > guard_y ? guard_y : sy);
+    out[2] = (int32_t)(depth > 65535u ? 65535u : depth);
+    return sx >= -guard_x && sx <= guard_x && sy >= -guard_y && sy <= guard_y;
+}
+
+static uint8_t outside(const int32_t v[3], const lmb_fixed_view *view)
+{
+    uint32_t flags = 0;
+    for (int plane = 0; plane < 5; ++plane) {
+        flags |= (uint32_t)(inside(v, view, plane) < 0) << plane;
+    }
+    return (uint8_t)flags;
+}
+
+static void place_vertex(lmb_fixed_vertex *out, const lmb_fixed_view *view, const uint32_t *word)
+{
+    int32_t at[3], v[3], p[3];
+    fixed_place_of(at, word);
+    turn(v, view, at);
+    out->flags = 0;
+    if (v[2] < 16 * view->near_units) {
+        out->flags = outside(v, view);
+        return;
+    }
+    if (!project(p, v, view)) {
+        out->flags = outside(v, view);
+    }
+    out->x = (int16_t)p[0];
+    out->y = (int16_t)p[1];
+    out->depth = (uint16_t)p[2];
+}
+
+/* --- what planes cut ---------------------------------------------------------------------------------------------- */
+
+/* From a, inside, to b, outside. */
+static void cut(seen_from *out, const seen_from *a, const seen_from *b, int32_t in, int32_t beyond)
+{
+    const uint32_t whole = (uint32_t)in + (uint32_t)-beyond;
+    const int32_t free = zeros_above(whole);
+    const uint32_t share = high_of((uint32_t)in << free, reciprocal(whole << free)); /* 2^-30 */
+    for (int i = 0; i < 3; ++i) {
+        out->v[i] = a->v[i] + (int32_t)(((int64_t)(b->v[i] - a->v[i]) * share) >> 30);
+        out->colour[i] = a->colour[i] + (int32_t)(((int64_t)(b->colour[i] - a->colour[i]) * share) >> 30);
+    }
+}
+
+/* Always from the inside to the outside, so that neighbours cut a shared edge at one place. Rounding may leave a shape
+ * that is not quite convex: corners beyond the last are left out. */
+static int cut_plane(seen_from *out, const seen_from *p, int count, const lmb_fixed_view *view, int plane)
+{
+    int n = 0;
+    for (int i = 0; i < count && n + 2 <= FIXED_CORNERS; ++i) {
+        const seen_from *a = &p[i], *b = &p[i + 1 < count ? i + 1 : 0];
+        const int32_t at = inside(a->v, view, plane), bt = inside(b->v, view, plane);
+        if (at >= 0) {
+            out[n++] = *a;
+        }
+        if (at >= 0 && bt < 0) {
+            cut(&out[n++], a, b, at, bt);
+        } else if (at < 0 && bt >= 0) {
+            cut(&out[n++], b, a, bt, at);
+        }
+    }
+    return n;
+}
+
+static void triangle_of(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
+{
+    const uint32_t *t = s->triangle + 2 * triangle;
+    out[0] = t[0] & 0xffffu, out[1] = t[0] >> 16, out[2] = t[1];
+}
+
+int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
+{
+    seen_from a[FIXED_CORNERS], b[FIXED_CORNERS];
+    uint32_t vertex[3];
+    int count = 3;
+    triangle_of(vertex, f->scene, triangle);
+    for (int i = 0; i < 3; ++i) {
+        int32_t at[3];
+        fixed_place_of(at, f->scene->receiver + LMB_FIXED_RECEIVER_WORDS * vertex[i]);
+        turn(a[i].v, &f->view, at);
+        for (int c = 0; c < 3; ++c) {
+            a[i].colour[c] = f->vertex[vertex[i]].colour[c];
+        }
+    }
+    for (int plane = 0; plane < 5 && count >= 3; ++plane) {
+        count = cut_plane(b, a, count, &f->view, plane);
+        memcpy(a, b, (size_t)count * sizeof *a);
+    }
+    for (int i = 0; i < count; ++i) {
+        int32_t p[3];
+        a[i].v[2] = most(a[i].v[2], 16 * f->view.near_units);
+        project(p, a[i].v, &f->view);
+        out[i].x = p[0], out[i].y = p[1], out[i].depth = p[2];
+        memcpy(out[i].colour, a[i].colour, sizeof out[i].colour);
+    }
+    return count;
+}
+
+/* --- what is seen ------------------------------------------------------------------------------------------------- */
+
+static int32_t area_of(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x2, int32_t y2)
+{
+    return (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
+}
+
+/* Rows whose middles lie between; 1 where there are any, and pixels across. */
+static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
+{
+    const int32_t first = most((y0 + 7) >> 4, 0), past = least((y1 + 7) >> 4, view->height);
+    out->first = (int16_t)first;
+    out->past = (int16_t)past;
+    return first < past && x1 > 0 && x0 < 16 * view->width && (x0 + 7) >> 4 < (x1 + 8) >> 4;
+}
+
+static int see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
+{
+    fixed_corner c[FIXED_CORNERS];
+    const int count = lmb_fixed_clip(c, f, triangle);
+    int32_t x0, x1, y0, y1, area = 0;
+    if (count < 3) {
+        return 0;
+    }
+    x0 = x1 = c[0].x, y0 = y1 = c[0].y;
+    for (int i = 1; i < count; ++i) {
+        x0 = least(x0, c[i].x), x1 = most(x1, c[i].x), y0 = least(y0, c[i].y), y1 = most(y1, c[i].y);
+    }
+    for (int i = 2; i < count; ++i) {
+        area += area_of(c[0].x, c[0].y, c[i - 1].x, c[i - 1].y, c[i].x, c[i].y);
+    }
+    return area < 0 && set_rows(out, &f->view, x0, x1, y0, y1);
+}
+
+static int see(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
+{
+    uint32_t vertex[3];
+    triangle_of(vertex, f->scene, triangle);
+    const lmb_fixed_vertex *a = &f->vertex[vertex[0]], *b = &f->vertex[vertex[1]], *c = &f->vertex[vertex[2]];
+    out->triangle = (uint16_t)triangle;
+    if (((a->flags | b->flags | c->flags) & FIXED_OUTSIDE) != 0) {
+        out->triangle |= FIXED_CUT;
+        return (a->flags & b->flags & c->flags & FIXED_OUTSIDE) == 0 && see_cut(out, f, triangle);
+    }
+    if (area_of(a->x, a->y, b->x, b->y, c->x, c->y) >= 0) {
+        return 0;
+    }
+    return set_rows(out, &f->view, least(a->x, least(b->x, c->x)), most(a->x, most(b->x, c->x)),
+                    least(a->y, least(b->y, c->y)), most(a->y, most(b->y, c->y)));
+}
+
+static int is_between(int32_t v, int32_t low, int32_t high) { return v >= low && v <= high; }
+
+static int has_memory(const lmb_fixed_frame *f)
+{
+    return f != NULL && f->scene != NULL && f->scene->receiver != NULL && f->vertex != NULL && f->seen != NULL;
+}
+
+static int is_view(const lmb_fixed_view *v)
+{
+    for (int i = 0; i < 3; ++i) {
+        int64_t length = 0;
+        for (int c = 0; c < 3; ++c) {
+            length += (int64_t)v->axis[i][c] * v->axis[i][c];
+        }
+        if (!is_between(v->eye[i], -LMB_FIXED_REACH, LMB_FIXED_REACH) || length > 16400 * 16400) {
+            return 0;
+        }
+    }
+    return is_between(v->width, 1, LMB_FIXED_MAX_SIDE) && is_between(v->height, 1, LMB_FIXED_MAX_SIDE) &&
+           is_between(v->focal, 1, MAX_FOCAL) && is_between(v->near_units, MIN_NEAR, MAX_NEAR);
+}
+
+lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
+{
+    if (!has_memory(f) || !is_view(&f->view)) {
+        return LMB_ERR_ARG;
+    }
+    const lmb_fixed *s = f->scene;
+    for (uint32_t i = 0; i < s->vertices; ++i) {
+        place_vertex(&f->vertex[i], &f->view, s->receiver + LMB_FIXED_RECEIVER_WORDS * i);
+    }
+    f->seen_count = 0;
+    for (uint32_t t = 0; t < s->triangles && f->seen_count < f->seen_cap; ++t) {
+        if (see(&f->seen[f->seen_count], f, t)) {
+            uint32_t vertex[3];
+            triangle_of(vertex, s, t);
+            for (int i = 0; i < 3; ++i) {
+                f->vertex[vertex[i]].flags |= FIXED_USED;
+            }
+            f->seen_count += 1;
+        }
+    }
+    return LMB_OK;
+}
+
+/* --- bands -------------------------------------------------------------------------------------------------------- */
+
+static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t triangle)
+{
+    fixed_corner c[FIXED_CORNERS];
+    if ((triangle & FIXED_CUT) == 0) {
+        uint32_t vertex[3];
+        triangle_of(vertex, f->scene, triangle);
+        for (int i = 0; i < 3; ++i) {
+            const lmb_fixed_vertex *v = &f->vertex[vertex[i]];
+            c[i].x = v->x, c[i].y = v->y, c[i].depth = v->depth;
+            c[i].colour[0] = v->colour[0], c[i].colour[1] = v->colour[1], c[i].colour[2] = v->colour[2];
+        }
+        lmb_fixed_fill(b, &c[0], &c[1], &c[2]);
+        return;
+    }
+    const int count = lmb_fixed_clip(c, f, triangle & ~(uint32_t)FIXED_CUT);
+    for (int i = 2; i < count; ++i) {
+        lmb_fixed_fill(b, &c[0], &c[i - 1], &c[i]);
+    }
+}
+
+lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
+{
+    if (!has_memory(f) || !is_view(&f->view) || f->pixel == NULL || f->depth == NULL || first < 0 || past <= first ||
+        past > f->view.height) {
+        return LMB_ERR_ARG;
+    }
+    const fixed_band b = {f->pixel, f->depth, f->view.width, first, past};
+    const size_t pixels = (size_t)b.width * (size_t)(past - first);
+    memset(b.depth, 0, pixels * sizeof *b.depth);
+    for (size_t i = 0; i < pixels; ++i) {
+        b.pixel[i] = f->background;
+    }
+    for (uint32_t i = 0; i < f->seen_count; ++i) {
+        const lmb_fixed_seen *s = &f->seen[i];
+        if (s->first < past && s->past > first) {
+            draw(&b, f, s->triangle);
+        }
+    }
+    return LMB_OK;
+}

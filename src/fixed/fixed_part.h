@@ -1,0 +1,59 @@
+/* fixed_part.h: what the parts of a frame by integers share. Layer 10. */
+#ifndef LMB_FIXED_PART_H
+#define LMB_FIXED_PART_H
+
+#include <lambent/fixed.h>
+
+enum { FIXED_NEAR = 1, FIXED_OUTSIDE = 31, FIXED_USED = 32, FIXED_CUT = 0x8000 };
+
+typedef struct fixed_receiver {
+    int32_t at[3], normal[3];
+    uint32_t albedo[3];
+} fixed_receiver;
+
+static inline int32_t fixed_half(uint32_t word, int high)
+{
+    return (int32_t)(int16_t)(high ? word >> 16 : word & 0xffffu);
+}
+
+static inline int32_t fixed_byte(uint32_t word, int shift) { return (int32_t)(int8_t)(word >> shift & 255u); }
+
+static inline void fixed_place_of(int32_t at[3], const uint32_t *w)
+{
+    at[0] = fixed_half(w[0], 0);
+    at[1] = fixed_half(w[0], 1);
+    at[2] = fixed_half(w[1], 0);
+}
+
+static inline void fixed_receiver_at(fixed_receiver *out, const lmb_fixed *s, uint32_t i)
+{
+    const uint32_t *w = s->receiver + LMB_FIXED_RECEIVER_WORDS * i;
+    fixed_place_of(out->at, w);
+    out->normal[0] = fixed_byte(w[1], 16);
+    out->normal[1] = fixed_byte(w[1], 24);
+    out->normal[2] = fixed_byte(w[2], 0);
+    for (int c = 0; c < 3; ++c) {
+        out->albedo[c] = w[2] >> (8 + 8 * c) & 255u;
+    }
+}
+
+/* On the screen: 1/16 px; depth of 16 bits; sRGB codes. */
+typedef struct fixed_corner {
+    int32_t x, y, depth, colour[3];
+} fixed_corner;
+
+/* A band: rows first .. past - 1 of a picture. */
+typedef struct fixed_band {
+    uint32_t *pixel;
+    uint16_t *depth;
+    int32_t width, first, past;
+} fixed_band;
+
+/* lmb_fixed_clip: a triangle that is partly outside -> corners of what is inside, up to FIXED_CORNERS; their number. */
+enum { FIXED_CORNERS = 9 };
+int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle);
+
+/* lmb_fixed_fill: corners clockwise or not; within a guard of 12 times the sides in 1/16 px. */
+void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_corner *c1, const fixed_corner *c2);
+
+#endif

@@ -1,0 +1,69 @@
+/* number.h: integers in place of floats: reciprocals, powers of lengths, sRGB codes. Layer 10. */
+#ifndef LMB_FIXED_NUMBER_H
+#define LMB_FIXED_NUMBER_H
+
+#include <stdint.h>
+
+/* The high half of a product. */
+static inline uint32_t high_of(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
+static inline int32_t signed_high_of(int32_t a, int32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
+
+static inline int32_t least(int32_t a, int32_t b) { return a < b ? a : b; }
+static inline int32_t most(int32_t a, int32_t b) { return a > b ? a : b; }
+static inline int32_t within(int32_t v, int32_t low, int32_t high) { return v < low ? low : v > high ? high : v; }
+
+/* Zeros above the highest 1 of a number that is not 0. */
+static inline int32_t zeros_above(uint32_t v)
+{
+#if defined(__GNUC__) && !(defined(__arm__) && (!defined(__ARM_ARCH) || __ARM_ARCH < 5)) && !defined(__ARM_ARCH_6M__)
+    return __builtin_clz((unsigned)v) - (int32_t)(8 * sizeof(unsigned) - 32);
+#else
+    int32_t n = 0;
+    if ((v & 0xffff0000u) == 0) {
+        n += 16, v <<= 16;
+    }
+    if ((v & 0xff000000u) == 0) {
+        n += 8, v <<= 8;
+    }
+    if ((v & 0xf0000000u) == 0) {
+        n += 4, v <<= 4;
+    }
+    if ((v & 0xc0000000u) == 0) {
+        n += 2, v <<= 2;
+    }
+    return n + (int32_t)(~v >> 31);
+#endif
+}
+
+extern const uint16_t lmb_fixed_reciprocals[256];
+extern const uint16_t lmb_fixed_cubes[194];
+extern const uint16_t lmb_fixed_srgb[2][65];
+
+/* 2^62 / v of a v from 2^31 on, less up to 2^-17 of it: below 2^31. */
+static inline uint32_t reciprocal(uint32_t v)
+{
+    const uint32_t r = (uint32_t)lmb_fixed_reciprocals[(v >> 23) & 255u] << 15;
+    return high_of(r, 0x80000000u - high_of(v, r)) << 2;
+}
+
+/* (v / 2^28)^-1.5 of a v from 2^28 to before 2^30, in 1/65536, within 2^-13 of it. */
+static inline uint32_t inverse_cube(uint32_t v)
+{
+    const uint32_t at = (v >> 22) - 64u, low = lmb_fixed_cubes[at];
+    return low - (((low - lmb_fixed_cubes[at + 1]) * ((v >> 10) & 4095u)) >> 12);
+}
+
+/* A linear number of 14 bits -> an sRGB code in 1/256. */
+static inline uint32_t srgb_of(uint32_t v)
+{
+    const uint16_t *t;
+    v = v > 16383u ? 16383u : v;
+    if (v < 1024u) {
+        t = &lmb_fixed_srgb[0][v >> 4];
+        return t[0] + (((t[1] - (uint32_t)t[0]) * (v & 15u)) >> 4);
+    }
+    t = &lmb_fixed_srgb[1][v >> 8];
+    return t[0] + (((t[1] - (uint32_t)t[0]) * (v & 255u)) >> 8);
+}
+
+#endif

@@ -1,0 +1,574 @@
+/* vertex_light.c: vertices, elements, what each sees of lamps and of each other, and the words of all that. */
+#include "vertex_light.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../common/progress.h"
+
+enum { SAMPLES = 8, MOST_LINKS = 128 };
+#define OVER  0.004 /* m: so high over a surface light is taken */
+#define TRUST 0.5   /* of directions: a point that meets more backs is inside of a solid */
+
+/* A vertex or an element. */
+typedef struct receiver {
+    dvec at, normal;
+    double albedo[3], area;
+    dvec sample[SAMPLES], face[SAMPLES];
+    int samples;
+    uint32_t place;
+    const lmb_material *material;
+} receiver;
+
+typedef struct piece {
+    dvec middle;
+    double area, albedo[3];
+    uint32_t element;
+} piece;
+
+typedef struct baking {
+    vl_mesh m;
+    vl_sight sight;
+    vl_lattice lattice;
+    receiver *receiver; /* vertices, then elements */
+    uint32_t vertices, elements, hidden;
+    uint32_t (*corner)[3]; /* of a triangle: vertices */
+    piece *piece;          /* of a triangle */
+    uint32_t *words, count, cap, link_words;
+    int32_t units_log2, origin[3];
+} baking;
+
+/* --- vertices ----------------------------------------------------------------------------------------------------- */
+
+static dvec inner(const vl_mesh *m, const vl_triangle *t, double a, double b, double c)
+{
+    return dvec_add(dvec_add(dvec_mul(m->place[t->p[0]], a), dvec_mul(m->place[t->p[1]], b)), dvec_mul(m->place[t->p[2]], c));
+}
+
+static double area_of(const vl_mesh *m, const vl_triangle *t)
+{
+    return 0.5 * dvec_length(dvec_turn(m->place[t->p[0]], m->place[t->p[1]], m->place[t->p[2]]));
+}
+
+/* Triangles of which nothing can be seen, as something stands on them. */
+static void drop_buried(baking *b)
+{
+    static const double at[7][3] = {{0.34, 0.33, 0.33}, {0.9, 0.05, 0.05}, {0.05, 0.9, 0.05}, {0.05, 0.05, 0.9},
+                                    {0.48, 0.48, 0.04}, {0.04, 0.48, 0.48}, {0.48, 0.04, 0.48}};
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < b->m.triangles; ++i) {
+        const vl_triangle t = b->m.triangle[i];
+        int seen = 0;
+        for (int k = 0; k < 7 && !seen; ++k) {
+            const dvec p = dvec_add(inner(&b->m, &t, at[k][0], at[k][1], at[k][2]), dvec_mul(t.face, OVER));
+            seen = vl_buried(&b->sight, p, t.face) < TRUST;
+        }
+        if (seen) {
+            b->m.triangle[kept++] = t;
+        }
+    }
+    b->hidden = b->m.triangles - kept;
+    b->m.triangles = kept;
+}
+
+static uint32_t vertex_of(baking *b, const vl_triangle *t, int k)
+{
+    uint32_t i = 0;
+    for (; i < b->vertices; ++i) {
+        const receiver *v = &b->receiver[i];
+        if (v->place == t->p[k] && v->material == t->material && dvec_dot(v->normal, t->n[k]) > 0.999) {
+            return i;
+        }
+    }
+    b->receiver[i].place = t->p[k];
+    b->receiver[i].at = b->m.place[t->p[k]];
+    b->receiver[i].normal = t->n[k];
+    b->receiver[i].material = t->material;
+    b->vertices += 1;
+    return i;
+}
+
+/* The mean of the surface's colours around a vertex: nearer ones count more. */
+static void add_albedo(receiver *v, const vl_mesh *m, const vl_triangle *t, int k)
+{
+    enum { STEPS = 12 };
+    const double area = area_of(m, t);
+    for (int i = 0; i < STEPS; ++i) {
+        for (int j = 0; i + j < STEPS; ++j) {
+            const double x = (i + 1.0 / 3.0) / STEPS, y = (j + 1.0 / 3.0) / STEPS, own = 1.0 - x - y;
+            double weight[3], colour[3];
+            weight[k] = own, weight[(k + 1) % 3] = x, weight[(k + 2) % 3] = y;
+            vl_albedo(colour, m, t, weight);
+            for (int c = 0; c < 3; ++c) {
+                v->albedo[c] += area * own * colour[c];
+            }
+            v->area += area * own;
+        }
+    }
+}
+
+static int make_vertices(baking *b, report *r)
+{
+    static const double pulls[4] = {0.03, 0.12, 0.3, 0.6};
+    b->corner = calloc(b->m.triangles, sizeof *b->corner);
+    b->receiver = calloc(3 * (size_t)b->m.triangles + LMB_FIXED_MAX_ELEMENTS, sizeof *b->receiver);
+    unsigned char *level = calloc(3 * (size_t)b->m.triangles, 1);
+    if (b->corner == NULL || b->receiver == NULL || level == NULL) {
+        free(level);
+        return report_fail(r, "not enough memory for vertices");
+    }
+    for (uint32_t i = 0; i < b->m.triangles; ++i) {
+        const vl_triangle *t = &b->m.triangle[i];
+        for (int k = 0; k < 3; ++k) {
+            const uint32_t own = vertex_of(b, t, k);
+            receiver *v = &b->receiver[own];
+            b->corner[i][k] = own;
+            add_albedo(v, &b->m, t, k);
+            /* where something stands on the vertex, light is taken beside that */
+            for (int step = 0; step < 4 && (v->samples == 0 || step <= level[own]); ++step) {
+                const dvec middle = inner(&b->m, t, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0);
+                const dvec p = dvec_add(dvec_mix(v->at, middle, pulls[step]), dvec_mul(t->face, OVER));
+                if (vl_buried(&b->sight, p, t->face) >= TRUST) {
+                    continue;
+                }
+                if (v->samples > 0 && step < level[own]) {
+                    v->samples = 0;
+                }
+                level[own] = (unsigned char)step;
+                if (v->samples < SAMPLES) {
+                    v->face[v->samples] = t->face;
+                    v->sample[v->samples++] = p;
+                }
+                break;
+            }
+        }
+    }
+    for (uint32_t i = 0; i < b->vertices; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            b->receiver[i].albedo[c] /= b->receiver[i].area;
+        }
+    }
+    free(level);
+    return 1;
+}
+
+/* --- elements ----------------------------------------------------------------------------------------------------- */
+
+#define NORMAL_M 0.8 /* m that a normal's change by 1 counts for */
+
+static void features(double out[6], const baking *b, uint32_t triangle)
+{
+    const dvec p = b->piece[triangle].middle, n = b->m.triangle[triangle].face;
+    out[0] = p.x, out[1] = p.y, out[2] = p.z;
+    out[3] = NORMAL_M * n.x, out[4] = NORMAL_M * n.y, out[5] = NORMAL_M * n.z;
+}
+
+/* How much a group of triangles spreads, and along what most: area times its squared spread. */
+static double spread_of(int *axis, double *middle, const baking *b, uint32_t element)
+{
+    double area = 0.0, sum[6] = {0}, square[6] = {0}, f[6];
+    for (uint32_t i = 0; i < b->m.triangles; ++i) {
+        if (b->piece[i].element == element) {
+            features(f, b, i);
+            area += b->piece[i].area;
+            for (int k = 0; k < 6; ++k) {
+                sum[k] += b->piece[i].area * f[k];
+                square[k] += b->piece[i].area * f[k] * f[k];
+            }
+        }
+    }
+    double best = -1.0;
+    for (int k = 0; k < 6; ++k) {
+        const double own = square[k] - sum[k] * sum[k] / area;
+        if (own > best) {
+            best = own;
+            *axis = k;
+            *middle = sum[k] / area;
+        }
+    }
+    return best;
+}
+
+static int split_worst(baking *b)
+{
+    int worst_axis = 0, axis = 0;
+    double worst = 1e-9, worst_middle = 0.0, middle = 0.0;
+    uint32_t which = LMB_FIXED_MAX_ELEMENTS;
+    for (uint32_t e = 0; e < b->elements; ++e) {
+        const double own = spread_of(&axis, &middle, b, e);
+        if (own > worst) {
+            worst = own, worst_axis = axis, worst_middle = middle, which = e;
+        }
+    }
+    if (which == LMB_FIXED_MAX_ELEMENTS) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < b->m.triangles; ++i) {
+        double f[6];
+        features(f, b, i);
+        if (b->piece[i].element == which && f[worst_axis] > worst_middle) {
+            b->piece[i].element = b->elements;
+        }
+    }
+    b->elements += 1;
+    return 1;
+}
+
+static void finish_element(baking *b, uint32_t e)
+{
+    receiver *out = &b->receiver[b->vertices + e];
+    double nearest = 1e30;
+    uint32_t first[SAMPLES];
+    for (uint32_t i = 0; i < b->m.triangles; ++i) {
+        const piece *p = &b->piece[i];
+        if (p->element == e) {
+            out->area += p->area;
+            out->at = dvec_add(out->at, dvec_mul(p->middle, p->area));
+            out->normal = dvec_add(out->normal, dvec_mul(b->m.triangle[i].face, p->area));
+            for (int c = 0; c < 3; ++c) {
+                out->albedo[c] += p->albedo[c] * p->area;
+            }
+        }
+    }
+    out->at = dvec_mul(out->at, 1.0 / out->area);
+    out->normal = dvec_unit(out->normal);
+    for (int c = 0; c < 3; ++c) {
+        out->albedo[c] /= out->area;
+    }
+    /* light is taken in its largest triangles that lie open */
+    for (;;) {
+        uint32_t best = b->m.triangles;
+        for (uint32_t i = 0; i < b->m.triangles; ++i) {
+            int is_new = b->piece[i].element == e && (best == b->m.triangles || b->piece[i].area > b->piece[best].area);
+            for (int k = 0; k < out->samples && is_new; ++k) {
+                is_new = first[k] != i;
+            }
+            best = is_new ? i : best;
+        }
+        if (best == b->m.triangles || out->samples == SAMPLES) {
+            break;
+        }
+        first[out->samples] = best;
+        out->face[out->samples] = b->m.triangle[best].face;
+        out->sample[out->samples++] = dvec_add(b->piece[best].middle, dvec_mul(b->m.triangle[best].face, OVER));
+    }
+    /* on the surface */
+    const dvec mean = out->at;
+    for (int k = 0; k < out->samples; ++k) {
+        const dvec off = dvec_sub(b->piece[first[k]].middle, mean);
+        if (dvec_dot(off, off) < nearest) {
+            nearest = dvec_dot(off, off);
+            out->at = b->piece[first[k]].middle;
+        }
+    }
+}
+
+static int make_elements(baking *b, uint32_t wanted, report *r)
+{
+    b->piece = calloc(b->m.triangles, sizeof *b->piece);
+    if (b->piece == NULL) {
+        return report_fail(r, "not enough memory for elements");
+    }
+    for (uint32_t i = 0; i < b->m.triangles; ++i) {
+        piece *p = &b->piece[i];
+        const vl_triangle *t = &b->m.triangle[i];
+        p->middle = inner(&b->m, t, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0);
+        p->area = area_of(&b->m, t);
+        for (int k = 0; k < 3; ++k) {
+            for (int c = 0; c < 3; ++c) {
+                p->albedo[c] += b->receiver[b->corner[i][k]].albedo[c] / 3.0;
+            }
+        }
+    }
+    b->elements = 1;
+    while (b->elements < wanted && split_worst(b)) {
+    }
+    for (uint32_t e = 0; e < b->elements; ++e) {
+        finish_element(b, e);
+    }
+    return 1;
+}
+
+/* --- words -------------------------------------------------------------------------------------------------------- */
+
+static int put(baking *b, uint32_t word, report *r)
+{
+    if (b->count == b->cap) {
+        const uint32_t cap = b->cap > 0 ? 2 * b->cap : 4096;
+        uint32_t *more = realloc(b->words, cap * sizeof *more);
+        if (more == NULL) {
+            return report_fail(r, "not enough memory for %u words", (unsigned)cap);
+        }
+        b->words = more;
+        b->cap = cap;
+    }
+    b->words[b->count++] = word;
+    return 1;
+}
+
+static uint32_t byte_of(double v, double low, double high)
+{
+    const double at = floor(v + 0.5);
+    return (uint32_t)(int32_t)(at < low ? low : at > high ? high : at) & 255u;
+}
+
+static uint32_t unit_of(const baking *b, double v, int axis)
+{
+    return (uint32_t)((int32_t)floor(ldexp(v, b->units_log2) + 0.5) - b->origin[axis]);
+}
+
+static void set_units(baking *b)
+{
+    double low[3] = {1e30, 1e30, 1e30}, high[3] = {-1e30, -1e30, -1e30}, reach = 0.0, half = 0.0;
+    for (uint32_t i = 0; i < b->m.places; ++i) {
+        const double at[3] = {b->m.place[i].x, b->m.place[i].y, b->m.place[i].z};
+        for (int k = 0; k < 3; ++k) {
+            low[k] = at[k] < low[k] ? at[k] : low[k];
+            high[k] = at[k] > high[k] ? at[k] : high[k];
+            reach = fabs(at[k]) > reach ? fabs(at[k]) : reach;
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        half = 0.5 * (high[k] - low[k]) > half ? 0.5 * (high[k] - low[k]) : half;
+    }
+    for (b->units_log2 = 16; b->units_log2 > 0 && ldexp(half, b->units_log2) > LMB_FIXED_REACH - 2; --b->units_log2) {
+    }
+    for (int k = 0; k < 3; ++k) {
+        b->origin[k] = ldexp(reach, b->units_log2) > LMB_FIXED_REACH - 2
+                           ? (int32_t)floor(ldexp(0.5 * (low[k] + high[k]), b->units_log2))
+                           : 0;
+    }
+}
+
+static int put_receiver(baking *b, const receiver *v, report *r)
+{
+    const uint32_t x = unit_of(b, v->at.x, 0), y = unit_of(b, v->at.y, 1), z = unit_of(b, v->at.z, 2);
+    const uint32_t nx = byte_of(127.0 * v->normal.x, -127, 127), ny = byte_of(127.0 * v->normal.y, -127, 127),
+                   nz = byte_of(127.0 * v->normal.z, -127, 127);
+    uint32_t root[3];
+    for (int c = 0; c < 3; ++c) {
+        root[c] = byte_of(255.0 * sqrt(v->albedo[c]), 0, 255);
+    }
+    return put(b, (x & 0xffffu) | y << 16, r) && put(b, (z & 0xffffu) | nx << 16 | ny << 24, r) &&
+           put(b, nz | root[0] << 8 | root[1] << 16 | root[2] << 24, r);
+}
+
+/* --- links -------------------------------------------------------------------------------------------------------- */
+
+static lmb_vec3 narrowed(dvec v)
+{
+    lmb_vec3 out = {dvec_narrow(v.x), dvec_narrow(v.y), dvec_narrow(v.z)};
+    return out;
+}
+
+/* The share of a receiver's view that each element fills. */
+static void factors(double *out, baking *b, const receiver *v)
+{
+    for (uint32_t e = 0; e < b->elements; ++e) {
+        out[e] = 0.0;
+    }
+    for (int k = 0; k < v->samples; ++k) {
+        for (uint32_t i = 0; i < b->m.triangles; ++i) {
+            const vl_triangle *t = &b->m.triangle[i];
+            lmb_vec3 corner[3];
+            for (int c = 0; c < 3; ++c) {
+                corner[c] = narrowed(b->m.place[t->p[c]]);
+            }
+            const double f = (double)lmb_polygon_factor(narrowed(v->sample[k]), narrowed(v->face[k]), narrowed(v->normal),
+                                                        corner, 3, narrowed(t->face));
+            if (f <= 1e-6) {
+                continue;
+            }
+            int seen = 0;
+            for (int c = 0; c < 3; ++c) {
+                const dvec to = inner(&b->m, t, c == 0 ? 0.6 : 0.2, c == 1 ? 0.6 : 0.2, c == 2 ? 0.6 : 0.2);
+                seen += vl_sees(&b->sight, v->sample[k], dvec_add(to, dvec_mul(t->face, OVER)));
+            }
+            out[b->piece[i].element] += f * seen / 3.0 / v->samples;
+        }
+    }
+}
+
+/* A row's largest links; what the others carry goes to these. Row and links go to their own places. */
+static int put_links(baking *b, uint32_t row[2], const receiver *v, uint32_t most_links, baking *links, report *r)
+{
+    double f[LMB_FIXED_MAX_ELEMENTS], all = 0.0;
+    uint32_t chosen[MOST_LINKS], count = 0, weight[MOST_LINKS], sum = 0;
+    factors(f, b, v);
+    for (uint32_t e = 0; e < b->elements; ++e) {
+        all += f[e];
+    }
+    all = all > 0.999 ? 0.999 : all;
+    double largest = 0.0;
+    while (count < most_links) {
+        uint32_t best = b->elements;
+        for (uint32_t e = 0; e < b->elements; ++e) {
+            if (f[e] > 0.0 && (best == b->elements || f[e] > f[best])) {
+                best = e;
+            }
+        }
+        if (best == b->elements) {
+            break;
+        }
+        largest = count == 0 ? f[best] : largest;
+        weight[count] = (uint32_t)floor(255.0 * f[best] / largest + 0.5);
+        f[best] = 0.0;
+        if (weight[count] == 0) {
+            break;
+        }
+        sum += weight[count];
+        chosen[count++] = best;
+    }
+    if (count % 2 == 1) {
+        weight[count] = 0;
+        chosen[count++] = 0;
+    }
+    row[0] = links->count | count << 24;
+    row[1] = sum > 0 ? (uint32_t)floor(ldexp(all / sum, LMB_FIXED_SCALE)) : 0;
+    for (uint32_t k = 0; k < count; k += 2) {
+        if (!put(links, weight[k] << 8 | chosen[k] | (weight[k + 1] << 8 | chosen[k + 1]) << 16, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* --- lamps -------------------------------------------------------------------------------------------------------- */
+
+/* A bit each place; where a lamp is behind the surface, which it does not light, as if it were seen. */
+static int put_seen(baking *b, const receiver *v, report *r)
+{
+    const uint32_t words = (b->lattice.all + 31) / 32;
+    for (uint32_t w = 0; w < words; ++w) {
+        uint32_t bits = 0;
+        for (uint32_t i = 32 * w; i < 32 * w + 32 && i < b->lattice.all; ++i) {
+            const dvec lamp = vl_lattice_place(&b->lattice, i);
+            int seen = 0;
+            for (int k = 0; k < v->samples && b->lattice.valid[i]; ++k) {
+                const int behind = dvec_dot(v->face[k], dvec_sub(lamp, v->sample[k])) < 0.0;
+                seen += behind || vl_sees(&b->sight, v->sample[k], lamp) ? 1 : -1;
+            }
+            bits |= (uint32_t)(seen > 0) << (i & 31u);
+        }
+        if (!put(b, bits, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int put_valid(baking *b, report *r)
+{
+    for (uint32_t w = 0; w < (b->lattice.all + 31) / 32; ++w) {
+        uint32_t bits = 0;
+        for (uint32_t i = 32 * w; i < 32 * w + 32 && i < b->lattice.all; ++i) {
+            bits |= (uint32_t)b->lattice.valid[i] << (i & 31u);
+        }
+        if (!put(b, bits, r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int put_all(baking *b, const vertex_light_options *o, report *r)
+{
+    const uint32_t all = b->vertices + b->elements;
+    uint32_t header[LMB_FIXED_HEADER_WORDS] = {0x4c4d4600u | LMB_FIXED_VERSION, 0};
+    baking links;
+    int ok = 1;
+    memset(&links, 0, sizeof links);
+    header[2] = (uint32_t)b->units_log2;
+    header[3] = b->vertices, header[4] = b->m.triangles, header[5] = b->elements;
+    for (int k = 0; k < 3; ++k) {
+        header[7 + k] = (uint32_t)b->lattice.count[k];
+        header[10 + k] = unit_of(b, b->lattice.first[k], k);
+        header[14 + k] = (uint32_t)b->origin[k];
+    }
+    header[13] = (uint32_t)floor(ldexp(b->lattice.spacing, b->units_log2) + 0.5);
+    for (uint32_t i = 0; i < LMB_FIXED_HEADER_WORDS && ok; ++i) {
+        ok = put(b, header[i], r);
+    }
+    for (uint32_t i = 0; i < all && ok; ++i) {
+        ok = put_receiver(b, &b->receiver[i], r);
+    }
+    for (uint32_t i = 0; i < b->m.triangles && ok; ++i) {
+        ok = put(b, b->corner[i][0] | b->corner[i][1] << 16, r) && put(b, b->corner[i][2], r);
+    }
+    for (uint32_t i = 0; i < all && ok; ++i) {
+        uint32_t row[2];
+        ok = put_links(b, row, &b->receiver[i], o->links, &links, r) && put(b, row[0], r) && put(b, row[1], r);
+        progress_tell("links", (double)i / all);
+    }
+    b->link_words = links.count;
+    for (uint32_t i = 0; i < links.count && ok; ++i) {
+        ok = put(b, links.words[i], r);
+    }
+    free(links.words);
+    ok = ok && put_valid(b, r);
+    for (uint32_t i = 0; i < all && ok; ++i) {
+        ok = put_seen(b, &b->receiver[i], r);
+        progress_tell("lamps", (double)i / all);
+    }
+    if (ok) {
+        b->words[1] = b->count;
+        b->words[6] = b->link_words;
+    }
+    return ok;
+}
+
+int vertex_light_make(uint32_t **words, uint32_t *count, vertex_light_facts *facts, const lmb_scene *scene,
+                      const vertex_light_options *options, report *r)
+{
+    vertex_light_options o = *options;
+    baking b;
+    lmb_fixed opened;
+    memset(&b, 0, sizeof b);
+    memset(facts, 0, sizeof *facts);
+    *words = NULL;
+    *count = 0;
+    o.vertices = o.vertices > 0 ? o.vertices : 600;
+    o.elements = o.elements > 0 && o.elements <= LMB_FIXED_MAX_ELEMENTS ? o.elements : 192;
+    o.links = o.links > 0 && o.links < MOST_LINKS ? o.links : 48;
+    o.places = o.places > 0 ? o.places : 512;
+    int ok = vl_mesh_build(&b.m, scene, o.vertices, r) && vl_sight_begin(&b.sight, &b.m, r) &&
+             vl_lattice_make(&b.lattice, &b.m, &b.sight, o.places, r) &&
+             vl_mesh_divide(&b.m, &b.sight, &b.lattice, o.vertices, r);
+    if (ok) {
+        drop_buried(&b);
+        set_units(&b);
+        ok = b.m.triangles > 0 || report_fail(r, "no triangle of the scene can be seen");
+    }
+    ok = ok && make_vertices(&b, r) && make_elements(&b, o.elements, r);
+    if (ok && (b.vertices > LMB_FIXED_MAX_VERTICES || b.m.triangles > LMB_FIXED_MAX_TRIANGLES)) {
+        ok = report_fail(r, "%u vertices: more than %d", (unsigned)b.vertices, (int)LMB_FIXED_MAX_VERTICES);
+    }
+    ok = ok && put_all(&b, &o, r);
+    if (ok && lmb_fixed_open(&opened, b.words, 4 * (size_t)b.count) != LMB_OK) {
+        ok = report_fail(r, "the blob that was made is refused");
+    }
+    if (ok) {
+        *words = b.words;
+        *count = b.count;
+        b.words = NULL;
+        facts->vertices = b.vertices;
+        facts->triangles = b.m.triangles;
+        facts->elements = b.elements;
+        facts->links = 2 * b.link_words;
+        facts->places = b.lattice.all;
+        facts->hidden = b.hidden;
+        for (uint32_t i = 0; i < b.lattice.all; ++i) {
+            facts->valid += b.lattice.valid[i];
+        }
+        facts->unit_m = ldexp(1.0, -b.units_log2);
+        facts->spacing_m = b.lattice.spacing;
+    }
+    free(b.words);
+    free(b.receiver);
+    free(b.corner);
+    free(b.piece);
+    free(b.lattice.valid);
+    vl_sight_end(&b.sight);
+    vl_mesh_free(&b.m);
+    return ok;
+}
