@@ -4,10 +4,10 @@ CROSS_PREFIX := $(MIPSEL)
 CFLAGS       ?= -O2
 include platform/freestanding/tools.mk
 
-PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c)
+PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
 PORT_CFLAGS  := -march=r3000 -mabi=32 -msoft-float -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
-PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -T platform/ps1/ps1.ld
+PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/ps1/ps1.ld
 PORT_LDLIBS  :=
 RUN          := false
 
