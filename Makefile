@@ -1,6 +1,6 @@
 # lambent: library, tool, checks and instruments. `make help` lists the targets; nothing is configured beforehand.
 #
-#   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|riscv32|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
+#   make [TARGET] [CONFIG=default|tiny] [PORT=host|cortex-m|riscv|cortex-a|aarch64|web] [CC=...] [CFLAGS=...] [BUILD=...] [V=1]
 #
 # Everything a build makes lies in $(BUILD)/$(CONFIG). CFLAGS and LDFLAGS are yours: what exactness needs comes after.
 
@@ -12,7 +12,11 @@ MAKEFLAGS += --no-print-directory
 CONFIG ?= default
 PORT   ?= host
 BUILD  ?= build$(if $(filter-out host,$(PORT)),/$(PORT))
-B      := $(BUILD)/$(CONFIG)
+# ROOM=pixel: the room with light by pixel, in the tiny configuration and without what it does not draw by; built apart.
+ifeq ($(ROOM),pixel)
+override CONFIG := tiny
+endif
+B      := $(BUILD)/$(CONFIG)$(if $(filter pixel,$(ROOM)),-pixel)
 
 # Programs of small machines, which say how many instructions a frame takes.
 LIVE := live baked gouraud torus
@@ -28,6 +32,11 @@ config_default :=
 config_tiny    := -DLMB_CONFIG_TINY
 ifeq ($(origin config_$(CONFIG)),undefined)
 $(error CONFIG=$(CONFIG): there are `default` and `tiny`)
+endif
+
+ifeq ($(ROOM),pixel)
+config_$(CONFIG) += -DLMB_TREES=0 -DLMB_TRANSFER=1 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 \
+    -DLMB_PLAN=0 -DLMB_MAX_CUT=6 -DLMB_MANY_LIGHTS_CUT=16
 endif
 
 WARNINGS := -Wall -Wextra -pedantic -Wshadow -Wvla -Wmissing-prototypes -Wdouble-promotion
@@ -79,7 +88,10 @@ live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.
 # takes, ROOM_IMAGE, with a rule that makes it of $(B)/room, and how that runs, ROOM_RUN.
 ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
-ROOM_OBJ   := $(call object,platform/demo/main_room.c platform/demo/room.c $(or $(ROOM_SRC),$(PORT_SRC))) $(LIB_OBJ)
+ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
+              $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
+ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/base/% src/fixed/%,$(LIB_SRC)))
+ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LIB))
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -186,6 +198,18 @@ $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 # The words of baked light, which tests/scripts/live.sh puts there.
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: $(wildcard $(B)/baked.inc)
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: COMPILE += -I$(B)
+
+# The words of baked light for the room by pixel, by this machine's tool. PIXEL_FRAMES of a port.mk: 1 without an FPU.
+HOST_CC ?= cc
+$(B)/room_pixel.inc: $(sort $(wildcard tools/bake/*.c tools/demo/*.c src/transfer/*.c))
+	@mkdir -p $(@D)
+	+@$(MAKE) build/lambent PORT=host CONFIG=default BUILD=build CC='$(HOST_CC)' CFLAGS=-O2 LDFLAGS= ROOM= >$@.log
+	@build/lambent bake demo -o $@.lmt --endian little --elements 256 --receivers 300 --cluster 0.6 --error 0.00065 \
+	    --once >>$@.log
+	@od -An -v -tx4 --endian=little $@.lmt | sed 's/ *\([0-9a-f][0-9a-f]*\)/0x\1,/g' >$@
+$(B)/obj/platform/demo/room_pixel.o: $(B)/room_pixel.inc
+$(B)/obj/platform/demo/room_pixel.o: COMPILE += -I$(B)
+$(B)/obj/platform/demo/main_pixel.o: COMPILE += -DPIXEL_FRAMES=$(or $(PIXEL_FRAMES),3)
 
 .PHONY: FORCE
 FORCE:
@@ -467,7 +491,7 @@ paths: ## what the documents tell new users to type, in a clean copy
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/scripts/large.sh
 
-##@ Other processors (PORT=cortex-m|riscv32|web builds for one)
+##@ Other processors (PORT=cortex-m|riscv|cortex-a|aarch64|web builds for one)
 tiny: ## the demo in 256 KiB on a Cortex-M4F (qemu); the same pixels as here
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/tiny.sh
 

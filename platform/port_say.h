@@ -13,6 +13,16 @@ static inline void say_hex(uint64_t v)
     port_put(text);
 }
 
+/* 32 bits, eight digits. */
+static inline void say_word(uint32_t v)
+{
+    char text[9];
+    for (int i = 0; i < 8; ++i)
+        text[i] = "0123456789abcdef"[(v >> (28 - 4 * i)) & 15u];
+    text[8] = 0;
+    port_put(text);
+}
+
 static inline void say_number(uint32_t v)
 {
     char text[11];

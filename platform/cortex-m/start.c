@@ -1,21 +1,24 @@
-/* start.c: a Cortex-M with an FPU: vectors, reset, semihosting. */
+/* start.c: a Cortex-M: vectors, reset, semihosting. */
 #include "../freestanding/bare.h"
 
 void reset(void);
 
-void semihost(uint32_t operation, const void *argument)
+uintptr_t semihost(uint32_t operation, const void *argument)
 {
-    register uint32_t r0 __asm__("r0") = operation;
+    register uintptr_t r0 __asm__("r0") = operation;
     register const void *r1 __asm__("r1") = argument;
     __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+    return r0;
 }
 
 /* The FPU comes first: a compiler may clear .bss with its registers. */
 void reset(void)
 {
+#if defined(__ARM_FP)
     volatile uint32_t *cpacr = (volatile uint32_t *)0xe000ed88u;
     *cpacr |= 0xfu << 20;
     __asm__ volatile("dsb\n\tisb" ::: "memory");
+#endif
 #if defined(__ARM_FEATURE_MVE)
     /* Helium: no loop's tail is predicated (FPSCR.LTPSIZE = 4), or its instructions would skip lanes. */
     uint32_t fpscr;

@@ -21,7 +21,7 @@ void port_put(const char *text) { semihost(SYS_WRITE0, text); }
 
 static void leave(uint32_t status)
 {
-    uint32_t block[2] = {STOPPED_BY_APPLICATION, 0};
+    uintptr_t block[2] = {STOPPED_BY_APPLICATION, 0};
     block[1] = status;
     for (;;)
         semihost(SYS_EXIT_EXTENDED, block);

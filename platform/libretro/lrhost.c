@@ -1,12 +1,15 @@
 /* lrhost.c: runs a program in a libretro core without a window: presses buttons, prints what the program says
  * (text_block.h) and writes the screen as a picture. Struct layouts and numbers are libretro's ABI, version 1. */
+#define _GNU_SOURCE /* dl_iterate_phdr */
 #include <dlfcn.h>
+#include <link.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "text_block.h"
 
@@ -150,6 +153,18 @@ typedef struct variable {
     const char *key, *value;
 } variable;
 
+typedef struct memory_piece {
+    uint64_t flags; /* 1: constant */
+    const char *data;
+    size_t offset, start, select, disconnect, bytes;
+    const char *space;
+} memory_piece;
+
+typedef struct memory_map {
+    const memory_piece *pieces;
+    unsigned count;
+} memory_map;
+
 typedef struct log_callback {
     void (*log)(int level, const char *format, ...);
 } log_callback;
@@ -176,8 +191,6 @@ static struct {
     void (*retro_run)(void);
     void *(*retro_get_memory_data)(unsigned);
     size_t (*retro_get_memory_size)(unsigned);
-    size_t (*retro_serialize_size)(void);
-    bool (*retro_serialize)(void *, size_t);
 } core;
 
 enum { SHORT_1555, WORD_8888, SHORT_565 }; /* pixel formats */
@@ -188,6 +201,26 @@ static struct {
     size_t pitch;
     unsigned format;
 } screen;
+
+static struct {
+    const void *data;
+    size_t bytes;
+} writable[32]; /* memory that the core tells by itself */
+static int writable_count;
+
+static void keep_pieces(const memory_map *map)
+{
+    writable_count = 0;
+    for (unsigned i = 0; i < map->count && writable_count < 32; ++i) {
+        const memory_piece *p = &map->pieces[i];
+        if (p->data == NULL || (p->flags & 1))
+            continue;
+        writable[writable_count].data = p->data + p->offset;
+        writable[writable_count++].bytes = p->bytes;
+    }
+}
+
+static FILE *words_out; /* the program's words; standard output is the core's, as its log */
 
 static long frame = -1; /* -1: --until's text was not said yet */
 
@@ -205,7 +238,7 @@ static void on_log(int level, const char *format, ...)
 static bool on_environment(unsigned command, void *data)
 {
     enum { CAN_DUPE = 3, SYSTEM_FOLDER = 9, PIXEL_FORMAT = 10, VARIABLE = 15, CHANGED = 17, LOG = 27 };
-    enum { SAVE_FOLDER = 31 };
+    enum { SAVE_FOLDER = 31, MEMORY_MAPS = 36 };
     switch (command & 0xffffu) {
     case CAN_DUPE: *(bool *)data = true; return true;
     case SYSTEM_FOLDER:
@@ -222,6 +255,7 @@ static bool on_environment(unsigned command, void *data)
                 v->value = asked.options[i] + length + 1;
         return v->value != NULL;
     }
+    case MEMORY_MAPS: keep_pieces(data); return true;
     case CHANGED: *(bool *)data = false; return true;
     case LOG: ((log_callback *)data)->log = on_log; return true;
     default: return false;
@@ -289,8 +323,6 @@ static int open_core(void)
     CALL(retro_run)
     CALL(retro_get_memory_data)
     CALL(retro_get_memory_size)
-    CALL(retro_serialize_size)
-    CALL(retro_serialize)
 #undef CALL
     core.retro_set_environment(on_environment);
     core.retro_init();
@@ -327,43 +359,46 @@ static int open_rom(void)
 
 /* --- what the program says ---------------------------------------------------------------------------------------- */
 
-static const text_block *find_in(const char *memory, size_t bytes, size_t step)
+static const text_block *block_within(const char *memory, size_t bytes)
 {
     static const uint32_t marks[TEXT_MARKS] = {TEXT_MARK(0), TEXT_MARK(1), TEXT_MARK(2), TEXT_MARK(3),
                                                TEXT_MARK(4), TEXT_MARK(5), TEXT_MARK(6), TEXT_MARK(7)};
-    for (size_t at = 0; at + sizeof(text_block) <= bytes; at += step)
+    for (size_t at = 0; memory != NULL && at + sizeof(text_block) <= bytes; at += 4)
         if (memcmp(memory + at, marks, sizeof marks) == 0)
             return (const void *)(memory + at);
     return NULL;
 }
 
-/* For cores that hand out no memory: in what they would save, now and then, as that takes long. A copy, aligned. */
-static const text_block *find_saved(void)
+
+/* The writable data of the core, where one that shows no memory has it. */
+static int search_core(struct dl_phdr_info *library, size_t bytes, void *found)
 {
-    enum { TURNS = 30 };
-    static text_block found;
-    static char *state;
-    static size_t bytes;
-    static int turn;
-    if (turn++ % TURNS != 0)
-        return NULL;
-    if (state == NULL && ((bytes = core.retro_serialize_size()) == 0 || (state = malloc(bytes)) == NULL))
-        return NULL;
-    const void *block = core.retro_serialize(state, bytes) ? find_in(state, bytes, 1) : NULL;
-    return block ? memcpy(&found, block, sizeof found) : NULL;
+    (void)bytes;
+    if (strcmp(library->dlpi_name, asked.core) != 0)
+        return 0;
+    for (int i = 0; i < library->dlpi_phnum; ++i) {
+        const ElfW(Phdr) *part = &library->dlpi_phdr[i];
+        if (part->p_type == PT_LOAD && (part->p_flags & PF_W) && *(const text_block **)found == NULL)
+            *(const text_block **)found = block_within((const char *)(library->dlpi_addr + part->p_vaddr), part->p_memsz);
+    }
+    return 1;
 }
 
+/* Stays where it is once it is found; looking for it takes a while. */
 static const text_block *find_block(void)
 {
-    enum { SAVE_RAM = 0, SYSTEM_RAM = 2 };
-    static const unsigned kinds[] = {SYSTEM_RAM, SAVE_RAM};
-    for (int k = 0; k < 2; ++k) {
-        const char *memory = core.retro_get_memory_data(kinds[k]);
-        const text_block *block = find_in(memory, memory ? core.retro_get_memory_size(kinds[k]) : 0, 4);
-        if (block != NULL)
-            return block;
-    }
-    return core.retro_get_memory_size(SYSTEM_RAM) == 0 ? find_saved() : NULL;
+    enum { SYSTEM_RAM = 2, SELDOM = 10 };
+    static const text_block *found;
+    static unsigned calls;
+    if (found != NULL || calls++ % SELDOM != 0)
+        return found;
+    const char *memory = core.retro_get_memory_data(SYSTEM_RAM);
+    found = block_within(memory, core.retro_get_memory_size(SYSTEM_RAM));
+    for (int i = 0; i < writable_count && found == NULL; ++i)
+        found = block_within(writable[i].data, writable[i].bytes);
+    if (memory == NULL && writable_count == 0)
+        dl_iterate_phdr(search_core, &found);
+    return found;
 }
 
 /* Prints what is new. 1: --until's text is among all that was said. */
@@ -378,8 +413,8 @@ static bool listen(void)
     if (bytes == printed)
         return false;
     for (; printed < bytes; ++printed)
-        putchar(said[printed] = block->text[printed]);
-    fflush(stdout);
+        fputc(said[printed] = block->text[printed], words_out);
+    fflush(words_out);
     return asked.until != NULL && strstr(said, asked.until) != NULL;
 }
 
@@ -442,11 +477,11 @@ static int run(void)
 {
     if (asked.until != NULL) {
         long waited = 0;
-        while (!listen()) {
+        do {
             if (waited++ == asked.limit)
                 return failed("--until", "the program has not said it within --limit frames");
             core.retro_run();
-        }
+        } while (!listen());
     }
     for (frame = 0; frame < asked.frames; ++frame) {
         core.retro_run();
@@ -455,10 +490,21 @@ static int run(void)
     return asked.picture ? write_picture() : 0;
 }
 
+/* Cores write to standard output: that goes to stderr with --log, and nowhere without. */
+static int keep_output(void)
+{
+    const int own = dup(STDOUT_FILENO);
+    words_out = own < 0 ? NULL : fdopen(own, "w");
+    if (words_out == NULL || freopen("/dev/null", "w", stdout) == NULL ||
+        (asked.log && dup2(STDERR_FILENO, STDOUT_FILENO) < 0))
+        return failed("standard output", "cannot be kept apart from the core's");
+    return 0;
+}
+
 int main(int count, char **words)
 {
     int status = read_command_line(count, words);
-    if (status != 0 || (status = open_core()) != 0)
+    if (status != 0 || (status = keep_output()) != 0 || (status = open_core()) != 0)
         return status;
     status = open_rom();
     if (status == 0) {

@@ -97,7 +97,7 @@ how_cortex-m7    := PORT=cortex-m CORE=m7
 needs_cortex-m55 := $(needs_cortex-m4f)
 how_cortex-m55   := PORT=cortex-m CORE=m55 CFLAGS=-O3
 needs_riscv32    := riscv64-unknown-elf-gcc qemu-system-riscv32
-how_riscv32      := PORT=riscv32 CFLAGS=-O2
+how_riscv32      := PORT=riscv CFLAGS=-O2
 
 needs_web        := clang wasm-ld node
 how_web          := PORT=web

@@ -1,4 +1,4 @@
-/* start_riscv32.c: a riscv32 hart in machine mode: reset, semihosting. */
+/* start_riscv.c: a RISC-V hart of 32 or 64 bits in machine mode: reset, semihosting. */
 #include "../freestanding/bare.h"
 
 void fault(void);
@@ -20,13 +20,14 @@ __asm__(".section .vectors, \"ax\"\n"
 __attribute__((aligned(4), used)) void fault(void) { bare_fault(); }
 
 /* Three instructions of four bytes each, in one page, are the call. */
-void semihost(uint32_t operation, const void *argument)
+uintptr_t semihost(uint32_t operation, const void *argument)
 {
-    register uint32_t a0 __asm__("a0") = operation;
+    register uintptr_t a0 __asm__("a0") = operation;
     register const void *a1 __asm__("a1") = argument;
     __asm__ volatile(".option push\n\t.option norvc\n\t.balign 16\n\t"
                      "slli x0, x0, 0x1f\n\tebreak\n\tsrai x0, x0, 7\n\t.option pop"
                      : "+r"(a0)
                      : "r"(a1)
                      : "memory");
+    return a0;
 }

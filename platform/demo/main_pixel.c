@@ -1,0 +1,70 @@
+/* main_pixel.c: the room with light by pixel, 160 x 120 on any machine: frame 0 of its path, and where PIXEL_FRAMES is 3
+ * frames 30 and 59, with hashes and costs. */
+#include "../port.h"
+#include "../port_say.h"
+#include "room_pixel.h"
+#include "room_port.h"
+
+#ifndef PIXEL_FRAMES
+#define PIXEL_FRAMES 3
+#endif
+
+enum { WIDTH = 160, HEIGHT = 120 };
+
+static room_pixel shown;
+static uint32_t memory[ROOM_PIXEL_WORDS(WIDTH)];
+static uint32_t hash;
+
+static void show(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+{
+    hash = room_hash(hash, rgb, width * rows);
+    port_show_band(user, rgb, width, y, rows);
+}
+
+static void say_frame(int32_t frame)
+{
+    static const char *const names[ROOM_PIXEL_STAGES] = {"map", "light", "fill", "show"};
+    uint32_t all = 0;
+    say_count("frame ", (uint32_t)frame);
+    port_put(" ");
+    say_word(hash);
+    say_count("\ncost ", (uint32_t)frame);
+    port_put(":");
+    for (int i = 0; i < ROOM_PIXEL_STAGES; ++i) {
+        port_put(" ");
+        port_put(names[i]);
+        say_count(" ", shown.taken[i]);
+        all += shown.taken[i];
+    }
+    say_count(" all ", all);
+    port_put(" ");
+    port_put(port_clock_unit);
+    port_put("\n");
+}
+
+int main(void)
+{
+    static const int32_t frames[] = {0, 30, 59};
+    lmb_status s = room_pixel_open(&shown, WIDTH, HEIGHT, memory);
+    shown.clock = port_clock;
+    for (int i = 0; i < PIXEL_FRAMES && s == LMB_OK; ++i) {
+        room_pose pose;
+        room_path(&pose, frames[i]);
+        hash = ROOM_HASH;
+        s = room_pixel_draw(&shown, &pose, show, NULL);
+        if (s == LMB_OK) {
+            port_show_frame();
+            say_frame(frames[i]);
+        }
+    }
+    if (s != LMB_OK) {
+        port_put("room, light by pixel: ");
+        port_put(lmb_status_name(s));
+        port_put("\n");
+        return 1;
+    }
+    if (say_ram() != 0)
+        return 1;
+    port_put("end of path\n");
+    return 0;
+}
