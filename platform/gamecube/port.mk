@@ -21,3 +21,10 @@ $(B)/room.dol: $(B)/room
 $(B)/room: platform/gamecube/start_gamecube.S
 # A loop in memset that the compiler turns into a call of memset would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+
+COUNTED       := GAMECUBE
+COUNTED_ROWS  ?= 4
+COUNTED_AT    := 0x10003100
+COUNTED_SRC   := platform/gamecube/row_gamecube.c
+COUNTED_QEMU  := qemu-ppc
+COUNTED_MODEL := ppc750

@@ -29,3 +29,9 @@ $(B)/%_n64.so: platform/n64/%_n64.c platform/n64/port_n64.h
 $(B)/room: platform/n64/start_n64.S
 # A loop in memset that the compiler turns into a call of memset would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+
+COUNTED       := N64
+COUNTED_ROWS  ?= 3
+COUNTED_AT    := 0x400400
+COUNTED_QEMU  := qemu-mips
+COUNTED_MODEL := vr4300

@@ -16,7 +16,7 @@ static const uint32_t steps[4][4] = {{7, 135, 39, 167}, {199, 71, 231, 103}, {55
 enum { CREATE_DIRTY = 0x0d, WRITE_BACK_INVALIDATE = 0x15 };
 
 /* Five bits of red, green and blue: c * 31 + step over 255, by which 255 divides exactly for all below 65535. */
-static uint32_t pixel(uint32_t rgb, uint32_t step)
+static inline __attribute__((always_inline)) uint32_t pixel(uint32_t rgb, uint32_t step)
 {
     const uint32_t two = rgb & 0xff00ffu, one = rgb >> 8 & 0xffu;
     const uint32_t m = (two << 5) - two + (step | step << 16), g = (one << 5) - one + step;

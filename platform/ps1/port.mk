@@ -30,3 +30,9 @@ $(B)/bios.bin: platform/ps1/bios_ps1.S
 $(B)/room: platform/ps1/start_ps1.S
 # A loop in memset that the compiler turns into a call of memset would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+
+COUNTED       := PS1
+COUNTED_ROWS  ?= 16
+COUNTED_AT    := 0x410000
+COUNTED_QEMU  := qemu-mipsel
+COUNTED_MODEL := r3000
