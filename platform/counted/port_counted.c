@@ -41,7 +41,11 @@ static long call(long number, long a, long b, long c)
 }
 
 #if defined(__mips__)
+#if _MIPS_SIM == _ABIN32
+enum { WRITE = 6001, EXIT = 6058 };
+#else
 enum { WRITE = 4004, EXIT = 4001 };
+#endif
 #else
 enum { WRITE = 4, EXIT = 1 };
 #endif

@@ -279,6 +279,12 @@ static void pay(const meaning *m, uint64_t before)
     functions[m->function].cycles += now - before;
 }
 
+static void next_cycle(uint64_t at_least)
+{
+    now = at_least;
+    slots = moves = products = 0;
+}
+
 /* Whether the last jump was taken, and guessed. */
 static void look_back(uint64_t at)
 {
@@ -287,18 +293,14 @@ static void look_back(uint64_t at)
     uint8_t *g = &guesses[jump->at >> 2 & 511];
     const bool went = at != jump->at + 4;
     if (went != (*g >= 2))
-        now += 5, slots = 0;
+        next_cycle(now + 5);
+    else if (went) /* what follows comes with the next cycle */
+        next_cycle(now + 1);
     if (went)
         *g = (uint8_t)(*g < 3 ? *g + 1 : 3);
     else
         *g = (uint8_t)(*g > 0 ? *g - 1 : 0);
     jump = NULL;
-}
-
-static void next_cycle(uint64_t at_least)
-{
-    now = at_least;
-    slots = moves = products = 0;
 }
 
 static void issue_two(const meaning *m, uint64_t when)

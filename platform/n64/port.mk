@@ -5,7 +5,7 @@ CFLAGS       ?= -O2
 include platform/freestanding/tools.mk
 
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
-PORT_CFLAGS  := -march=vr4300 -mabi=32 -mfp32 -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
+PORT_CFLAGS  := -march=vr4300 -mabi=n32 -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
 PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/n64/n64.ld
 PORT_LDLIBS  :=
@@ -31,7 +31,7 @@ $(B)/room: platform/n64/start_n64.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := N64
-COUNTED_ROWS  ?= 3
+COUNTED_ROWS ?= 16
 COUNTED_AT    := 0x400400
-COUNTED_QEMU  := qemu-mips
+COUNTED_QEMU  := qemu-mipsn32
 COUNTED_MODEL := vr4300

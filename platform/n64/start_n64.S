@@ -82,7 +82,7 @@ start:
     bne   $8, $29, 5b
     nop
     addiu $29, $29, -32
-    lui   $8, 0x2000            /* Status: the FPU is on, with 16 pairs of registers; interrupts are off */
+    lui   $8, 0x2400            /* Status: the FPU is on, with 32 registers of 64 bits; interrupts are off */
     mtc0  $8, $12
     nop
     nop
