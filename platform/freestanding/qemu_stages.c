@@ -55,8 +55,8 @@ static const struct {
     int stage;
 } beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_band", FILL},
                   {"port_show_band", SHOW},           {"port_show_frame", SHOW},  {"room_hash", BESIDE},
-                  {"room_path", BESIDE},              {"say_count", BESIDE},      {"port_calibrate", BESIDE},
-                  {"port_calibrated", BESIDE}};
+                  {"room_path", BESIDE},              {"room_steer", BESIDE},     {"say_count", BESIDE},
+                  {"port_calibrate", BESIDE},         {"port_calibrated", BESIDE}};
 enum { BEGINNINGS = sizeof beginnings / sizeof beginnings[0] };
 
 typedef struct counts {
@@ -90,7 +90,7 @@ static int function_of(const char *name, uint64_t at)
     return i;
 }
 
-static void say(const char *what, uint64_t (*of)(const counts *))
+static void say(const char *what, uint64_t (*of)(const counts *), const char *unit)
 {
     uint64_t all = 0;
     printf("%s %ld:", what, frame);
@@ -98,7 +98,7 @@ static void say(const char *what, uint64_t (*of)(const counts *))
         printf(" %s %llu", stage_names[i], (unsigned long long)of(&taken[i]));
         all += of(&taken[i]);
     }
-    printf(" all %llu\n", (unsigned long long)all);
+    printf(" all %llu%s\n", (unsigned long long)all, unit);
 }
 
 static uint64_t instructions_of(const counts *c) { return c->instructions; }
@@ -125,10 +125,10 @@ static void say_functions(void)
 static void end_frame(void)
 {
     if (frame == 0 || frame == 30 || frame == 59) {
-        say("instructions", instructions_of);
-        say("loads", loads_of);
-        say("stores", stores_of);
-        say("cycles", cycles_of);
+        say("instructions", instructions_of, "");
+        say("loads", loads_of, "");
+        say("stores", stores_of, "");
+        say(is_arm9 ? "cost" : "model", cycles_of, " cycles by model");
         if (shows_functions)
             say_functions();
     }
@@ -150,7 +150,7 @@ static void begin(int which)
         printf("calibration: %llu instructions, %llu cycles\n", (unsigned long long)taken[BESIDE].instructions,
                (unsigned long long)taken[BESIDE].cycles);
     stage = beginnings[which].stage;
-    if (strcmp(function, "room_path") == 0)
+    if (strcmp(function, "room_path") == 0 || strcmp(function, "room_steer") == 0)
         end_frame();
 }
 

@@ -21,10 +21,11 @@ $(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/gba/start_gba.o: COMPI
 ROOM_IMAGE   := $(B)/room.gba
 # The linker script is a part of the program.
 $(B)/obj/platform/gba/start_gba.o: platform/gba/gba.ld
-$(ROOM_IMAGE): $(B)/room $(LRHOST)
+$(ROOM_IMAGE): $(B)/room $(LRHOST) $(STAGES)
 	@$(CROSS_PREFIX)objcopy -O binary $< $@
-ROOM_RUN      = $(LRHOST) $(call core_of,mgba) --system $(B) --until 'end of path' --bits 5 \
-                -o $(B)/room.ppm $(PRESS:%=--press %)
+ROOM_RUN      = B=$(B) LRHOST=$(LRHOST) CORE=$(call core_of,mgba) SCREEN='--bits 5 --frames 300' PRESS='$(PRESS)' \
+                PLUGIN=$(STAGES) MODEL=arm7 BEGIN=reset CROSS=$(CROSS_PREFIX) WITHOUT='^nothing' \
+                sh platform/libretro/run_room.sh
 
 # As lrhost's --press takes them.
 PRESS        ?=

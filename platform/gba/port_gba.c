@@ -1,6 +1,7 @@
 /* port_gba.c: the room on a Game Boy Advance: its 240 x 160 screen, buttons, and a clock of processor cycles. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
+#include "../freestanding/arm_calibrate.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
 #include "../port_say.h"
@@ -52,8 +53,10 @@ void port_ram_used(port_ram *out)
 
 /* --- time --------------------------------------------------------------------------------------------------------- */
 
+ARM_CALIBRATE
+
 /* Timer 3 counts what timer 2 wraps. */
-void gba_begin(void)
+static void start_clock(void)
 {
     REGISTER_16(TIMER_3) = 0;
     REGISTER_16(TIMER_2) = 0;
@@ -68,6 +71,19 @@ uint32_t port_clock(void)
         if (REGISTER_16(TIMER_3) == high)
             return high << 16 | low;
     }
+}
+
+/* A load from slow RAM waits 5 cycles. */
+void gba_begin(void)
+{
+    start_clock();
+    const uint32_t from = port_clock();
+    port_calibrate(ewram_begin);
+    const uint32_t loops = port_clock() - from;
+    port_calibrated();
+    say_count("calibration: ", loops);
+    say_count(" cycles, known ", 4 * CALIBRATE_TURNS + (7 + 5) * CALIBRATE_LOADS);
+    port_put(" and a call\n");
 }
 
 /* --- screen and buttons ------------------------------------------------------------------------------------------- */

@@ -22,16 +22,17 @@ $(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/nds/start_nds.o: COMPI
 $(B)/obj/platform/nds/start_nds.o: platform/nds/nds.ld
 
 ROOM_IMAGE   := $(B)/room.nds
-$(ROOM_IMAGE): $(B)/room $(BUILD)/nds_image $(LRHOST)
+$(ROOM_IMAGE): $(B)/room $(BUILD)/nds_image $(LRHOST) $(STAGES)
 	@$(CROSS_PREFIX)objcopy -O binary $< $(B)/room.bin
 	@$(BUILD)/nds_image $(B)/room.bin $@
 $(BUILD)/nds_image: platform/nds/nds_image.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(HOST_CC) -O2 -std=c99 -Wall -Wextra -pedantic -o $@ $<
-ROOM_RUN      = $(LRHOST) $(call core_of,desmume) --option desmume_cpu_mode=interpreter --system $(B) \
-                --until 'end of path' --bits 5 \
-                --crop 256x192+0+0 -o $(B)/room.ppm $(PRESS:%=--press %)
+SCREEN       := --bits 5 --crop 256x192+0+0 --option desmume_cpu_mode=interpreter --frames 120
+ROOM_RUN      = B=$(B) LRHOST=$(LRHOST) CORE=$(call core_of,desmume) SCREEN='$(SCREEN)' PRESS='$(PRESS)' \
+                PLUGIN=$(STAGES) MODEL=arm9 BEGIN=without_protection CROSS=$(CROSS_PREFIX) WITHOUT='^cost' \
+                sh platform/libretro/run_room.sh
 
 # As lrhost's --press takes them.
 PRESS        ?=

@@ -1,6 +1,7 @@
 /* port_nds.c: the room on a Nintendo DS: its upper screen of 256 x 192, buttons, and a clock of bus cycles. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
+#include "../freestanding/arm_calibrate.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
 #include "../port_say.h"
@@ -48,6 +49,8 @@ void port_ram_used(port_ram *out)
 
 /* --- time --------------------------------------------------------------------------------------------------------- */
 
+ARM_CALIBRATE
+
 /* Timer 1 counts what timer 0 wraps; they go at half the processor's clock. */
 static void start_clock(void)
 {
@@ -73,6 +76,8 @@ static uint32_t hidden; /* the bank that is not shown */
 void nds_begin(void)
 {
     start_clock();
+    port_calibrate((const uint32_t *)0x02000000);
+    port_calibrated();
     REGISTER_16(POWER) = 0x8203;        /* both screens, the main one above */
     REGISTER_8(BANK_A) = 0x80;          /* banks A and B are the processor's, and shown as they are */
     REGISTER_8(BANK_A + 1) = 0x80;

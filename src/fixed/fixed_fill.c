@@ -29,9 +29,10 @@ static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e
 /* The first pixel whose middle is not left of x. */
 static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
 
-/* At the first corner, in 1/16 px from there. */
+/* At the first corner; per 1/16 px from there; per pixel, as rows go on. */
 typedef struct plane {
     uint32_t at, per_x, per_y;
+    int32_t step;
 } plane;
 
 /* A triangle's numbers that all planes need. */
@@ -50,23 +51,41 @@ static uint32_t share(const slant *s, int64_t n, int bits)
 
 static int is_steep(const slant *s, int64_t n, int steep) { return ((n < 0 ? -n : n) >> steep) > s->area; }
 
-/* Numbers f0, f1, f2 at the corners, with `bits` below 1. A triangle so steep that all of the change is within 1/16 px
- * has their mean. */
-static void set_plane(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2, int bits, int steep)
+enum { DEPTH_BITS = 14, DEPTH_STEEP = 12, COLOUR_BITS = 16, COLOUR_STEEP = 4 };
+
+static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
+
+/* Depths f0, f1, f2 at the corners. A triangle so steep that all of the change is within 1/16 px has their mean. */
+static void set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0;
     const int64_t x = (int64_t)a * s->y2 - (int64_t)b * s->y1, y = (int64_t)b * s->x1 - (int64_t)a * s->x2;
-    if (is_steep(s, x, steep) || is_steep(s, y, steep)) {
-        out->at = ((uint32_t)(f0 + f1 + f2) * 21845u >> 16) << bits;
+    if (is_steep(s, x, DEPTH_STEEP) || is_steep(s, y, DEPTH_STEEP)) {
+        out->at = mean_of(f0, f1, f2) << DEPTH_BITS;
         out->per_x = out->per_y = 0;
-        return;
+    } else {
+        out->at = (uint32_t)f0 << DEPTH_BITS;
+        out->per_x = share(s, x, DEPTH_BITS);
+        out->per_y = share(s, y, DEPTH_BITS);
     }
-    out->at = (uint32_t)f0 << bits;
-    out->per_x = share(s, x, bits);
-    out->per_y = share(s, y, bits);
+    out->step = (int32_t)(out->per_x * 16u);
 }
 
-enum { DEPTH_BITS = 14, DEPTH_STEEP = 12, COLOUR_BITS = 16, COLOUR_STEEP = 4 };
+/* Likewise of colours, whose products fit 32 bits; half of a code more. A step is in 1/256 of a code. */
+static void set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+{
+    const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
+    if ((x < 0 ? -x : x) >> COLOUR_STEEP > s->area || (y < 0 ? -y : y) >> COLOUR_STEEP > s->area) {
+        out->at = (mean_of(f0, f1, f2) << COLOUR_BITS) + 32768u;
+        out->per_x = out->per_y = 0;
+    } else {
+        const int32_t left = s->free + COLOUR_BITS - 30;
+        out->at = ((uint32_t)f0 << COLOUR_BITS) + 32768u;
+        out->per_x = (uint32_t)signed_high_of(left >= 0 ? x * (1 << left) : x >> -left, s->per);
+        out->per_y = (uint32_t)signed_high_of(left >= 0 ? y * (1 << left) : y >> -left, s->per);
+    }
+    out->step = (int32_t)(out->per_x * 16u + 128u) >> 8;
+}
 
 typedef struct filler {
     const fixed_band *b;
@@ -96,39 +115,55 @@ static ramp ramp_within(int32_t at, int32_t step, int32_t count, int32_t max)
     return r;
 }
 
+/* What a row's pixels begin with and add. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
+typedef struct span {
+    uint32_t depth, depth_step, red_blue, red_blue_step, green, green_step;
+} span;
+
+#define FILL_PIXEL                                                       \
+    if (depth >> DEPTH_BITS > *to_depth) {                               \
+        *to_depth = (uint16_t)(depth >> DEPTH_BITS);                     \
+        *to = (red_blue >> 8 & 0xff00ffu) | (green & 0xff00u);           \
+    }                                                                    \
+    ++to_depth, ++to;                                                    \
+    depth += depth_step, red_blue += red_blue_step, green += green_step;
+
+/* Two a turn; by itself, so that all of it is in registers. */
+NOINLINE void fill_pixels(uint32_t *to, uint16_t *to_depth, int32_t count, const span *s)
+{
+    uint32_t depth = s->depth, red_blue = s->red_blue, green = s->green;
+    const uint32_t depth_step = s->depth_step, red_blue_step = s->red_blue_step, green_step = s->green_step;
+    const uint16_t *const past = to_depth + count;
+    if (count & 1) {
+        FILL_PIXEL
+    }
+    while (to_depth != past) {
+        FILL_PIXEL
+        FILL_PIXEL
+    }
+}
+
+/* A plane from dx, dy on, in 1/16 px, for `count` pixels: within 0 .. max, after a shift. */
+static inline ramp ramp_of(const plane *p, uint32_t dx, uint32_t dy, int32_t count, int shift, uint32_t max)
+{
+    ramp r = {(uint32_t)((int32_t)(p->at + p->per_x * dx + p->per_y * dy) >> shift), p->step};
+    if (r.at > max || r.at + (uint32_t)r.step * (uint32_t)(count - 1) > max) {
+        r = ramp_within((int32_t)r.at, r.step, count, (int32_t)max);
+    }
+    return r;
+}
+
 static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
 {
     const fixed_band *b = f->b;
     const uint32_t dx = (uint32_t)(16 * x + 8 - f->c->x), dy = (uint32_t)(16 * y + 8 - f->c->y);
-    ramp d, c[3];
-    d.at = f->depth.at + f->depth.per_x * dx + f->depth.per_y * dy;
-    d.step = (int32_t)(f->depth.per_x * 16u);
-    if (d.at > 0x3fffffffu || d.at + (uint32_t)d.step * (uint32_t)(count - 1) > 0x3fffffffu) {
-        d = ramp_within((int32_t)d.at, d.step, count, 0x3fffffff);
-    }
-    for (int i = 0; i < 3; ++i) {
-        const plane *p = &f->colour[i];
-        /* half of a code more, in 1/256 of one */
-        c[i].at = (uint32_t)((int32_t)(p->at + p->per_x * dx + p->per_y * dy + 32768u) >> 8);
-        c[i].step = (int32_t)(p->per_x * 16u + 128u) >> 8;
-        if (c[i].at > 0xffffu || c[i].at + (uint32_t)c[i].step * (uint32_t)(count - 1) > 0xffffu) {
-            c[i] = ramp_within((int32_t)c[i].at, c[i].step, count, 0xffff);
-        }
-    }
+    const ramp d = ramp_of(&f->depth, dx, dy, count, 0, 0x3fffffffu), red = ramp_of(&f->colour[0], dx, dy, count, 8, 0xffffu),
+               green = ramp_of(&f->colour[1], dx, dy, count, 8, 0xffffu),
+               blue = ramp_of(&f->colour[2], dx, dy, count, 8, 0xffffu);
+    const span s = {d.at, (uint32_t)d.step, (red.at << 16) + blue.at, ((uint32_t)red.step << 16) + (uint32_t)blue.step,
+                    green.at, (uint32_t)green.step};
     const int32_t at = b->width * (y - b->first) + x;
-    uint16_t *depth = b->depth + at, *const past = depth + count;
-    uint32_t *pixel = b->pixel + at, own = d.at, green = c[1].at;
-    /* red over blue in one word: no sum of blue leaves its 16 bits */
-    uint32_t red_blue = (c[0].at << 16) + c[2].at;
-    const uint32_t step = (uint32_t)d.step, green_step = (uint32_t)c[1].step,
-                   red_blue_step = ((uint32_t)c[0].step << 16) + (uint32_t)c[2].step;
-    for (; depth != past; ++depth, ++pixel) {
-        if (own >> DEPTH_BITS > *depth) {
-            *depth = (uint16_t)(own >> DEPTH_BITS);
-            *pixel = (red_blue >> 8 & 0xff00ffu) | (green & 0xff00u);
-        }
-        own += step, red_blue += red_blue_step, green += green_step;
-    }
+    fill_pixels(b->pixel + at, b->depth + at, count, &s);
 }
 
 /* Rows whose middles lie on both edges. */
@@ -180,9 +215,9 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
     f.c = c0;
     f.first = most((least(c0->x, least(c1->x, c2->x)) + 7) >> 4, 0);
     f.past = least((most(c0->x, most(c1->x, c2->x)) + 8) >> 4, b->width);
-    set_plane(&f.depth, &s, c0->depth, c1->depth, c2->depth, DEPTH_BITS, DEPTH_STEEP);
+    set_depth(&f.depth, &s, c0->depth, c1->depth, c2->depth);
     for (int i = 0; i < 3; ++i) {
-        set_plane(&f.colour[i], &s, c0->colour[i], c1->colour[i], c2->colour[i], COLOUR_BITS, COLOUR_STEEP);
+        set_colour(&f.colour[i], &s, c0->colour[i], c1->colour[i], c2->colour[i]);
     }
     const edge whole = edge_of(top, bottom), upper = edge_of(top, middle), lower = edge_of(middle, bottom);
     fill_between(&f, &whole, &upper, top->y, middle->y);

@@ -4,6 +4,13 @@
 
 #include <stdint.h>
 
+/* For loops that want all registers. */
+#if defined(__GNUC__)
+#define NOINLINE static __attribute__((noinline))
+#else
+#define NOINLINE static
+#endif
+
 /* The high half of a product. */
 static inline uint32_t high_of(uint32_t a, uint32_t b) { return (uint32_t)(((uint64_t)a * b) >> 32); }
 static inline int32_t signed_high_of(int32_t a, int32_t b) { return (int32_t)(((int64_t)a * b) >> 32); }
