@@ -92,6 +92,9 @@ ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),mai
               $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
 ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/base/% src/fixed/%,$(LIB_SRC)))
 ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LIB))
+ifdef COUNTED
+include platform/counted/counted.mk
+endif
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay

@@ -1,0 +1,161 @@
+/* port_n64.c: what the room needs from a Nintendo 64: memory, picture by the video interface, controller, clock, text.
+ *
+ * Own start-up code (start_n64.S), no SDK. Pictures lie in RDRAM as RGBA5551; each line of 16 bytes is made in the data
+ * cache without being fetched, filled and written back at once. */
+#include "../demo/room.h"
+#include "../demo/room_port.h"
+#include "../libretro/text_block.h"
+#include "../port.h"
+#include "port_n64.h"
+
+enum { WIDTH = 320, HEIGHT = 240, ROWS = 3, LINE = 16 /* bytes of a line of the data cache */ };
+
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+
+/* --- registers and RDRAM past the cache --------------------------------------------------------------------------- */
+
+static volatile uint32_t *reg(uint32_t address) { return (volatile uint32_t *)(uintptr_t)address; }
+static uint32_t physical(const volatile void *p) { return (uint32_t)(uintptr_t)p & 0x1fffffffu; }
+
+#define VI(n) (*reg(0xa4400000u + 4 * (n)))
+enum { VI_CONTROL, VI_ORIGIN, VI_WIDTH, VI_INTERRUPT, VI_LINE };
+
+#define SI(n) (*reg(0xa4800000u + 4 * (n)))
+enum { SI_RAM, SI_READ, SI_WRITE = 4, SI_STATUS = 6 };
+
+/* --- text and end ------------------------------------------------------------------------------------------------- */
+
+/* In lines of the cache of its own, as all of it goes past the cache. */
+static text_block said __attribute__((aligned(64), section(".data.said"))) = TEXT_BLOCK;
+
+/* The text port of a development cartridge, which emulators have too; others ignore it. */
+static void viewer_put(const char *text)
+{
+    uint32_t n = 0, word = 0;
+    for (; text[n]; ++n) {
+        word |= (uint32_t)(uint8_t)text[n] << (24 - 8 * (n & 3));
+        if ((n & 3) == 3 || text[n + 1] == 0) {
+            *reg(0xb3ff0020u + (n & ~3u)) = word;
+            word = 0;
+        }
+    }
+    *reg(0xb3ff0014u) = n;
+}
+
+void port_put(const char *text)
+{
+    text_block_put((text_block *)((uintptr_t)&said | 0x20000000u), text);
+    viewer_put(text);
+}
+
+void port_leave(uint32_t status) { port_put(status ? "left: failed\n" : "left: done\n"); }
+
+/* --- memory ------------------------------------------------------------------------------------------------------- */
+
+extern uint32_t image_begin[], bss_begin[], bss_end[], stack_end[], stack_top[];
+
+static uint32_t band[WIDTH * ROWS * 6 / 4] __attribute__((aligned(16)));
+static uint16_t screens[2][HEIGHT][WIDTH] __attribute__((aligned(64)));
+static uint32_t hidden; /* the screen that is not shown */
+
+/* What neither the program nor the stack has. */
+void *port_memory(size_t *bytes)
+{
+    *bytes = (size_t)((uintptr_t)stack_end - (uintptr_t)bss_end);
+    return bss_end;
+}
+
+void *port_band_memory(size_t *bytes)
+{
+    *bytes = sizeof band;
+    return band;
+}
+
+void port_ram_used(port_ram *out)
+{
+    const uint32_t *deepest = stack_end;
+    while (deepest < stack_top && *deepest == 0x5a5aa5a5u)
+        ++deepest;
+    out->data = (uint32_t)((uintptr_t)bss_begin - (uintptr_t)image_begin);
+    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin) + (uint32_t)room_bytes(WIDTH, HEIGHT);
+    out->stack = (uint32_t)((uintptr_t)stack_top - (uintptr_t)deepest);
+    out->size = 4u << 20;
+}
+
+/* --- clock -------------------------------------------------------------------------------------------------------- */
+
+const char *const port_clock_unit = "cycles";
+
+/* Count steps with every second cycle of the processor. */
+uint32_t port_clock(void)
+{
+    uint32_t count;
+    __asm__ volatile("mfc0 %0, $9" : "=r"(count));
+    return 2 * count;
+}
+
+/* --- picture ------------------------------------------------------------------------------------------------------ */
+
+static uint32_t lit; /* whether the video interface shows anything yet */
+
+void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+{
+    (void)user;
+    for (int32_t row = 0; row < rows; ++row)
+        n64_row(screens[hidden][y + row], rgb + row * width, width, y + row);
+}
+
+/* NTSC, 320 x 240 of 16 bits: no anti-aliasing, each pixel on two dots. */
+static void light_up(void)
+{
+    static const uint32_t from_interrupt[] = {0x200,      0,       0x03e52239, 0x20d,      0xc15,
+                                              0x0c150c15, 0x6c02ec, 0x220202, 0x0e0204, 0x200, 0x400};
+    VI(VI_CONTROL) = 0x3202;
+    VI(VI_WIDTH) = WIDTH;
+    for (uint32_t i = 0; i < sizeof from_interrupt / sizeof *from_interrupt; ++i)
+        VI(VI_INTERRUPT + i) = from_interrupt[i];
+    lit = 1;
+}
+
+/* The field that is under way still reads the other screen: the change is seen with the next. */
+void port_show_frame(void)
+{
+    VI(VI_ORIGIN) = physical(screens[hidden]);
+    if (!lit)
+        light_up();
+    hidden ^= 1;
+}
+
+/* --- controller --------------------------------------------------------------------------------------------------- */
+
+/* What the joybus processor is told: controller 0: send 1 byte (1: state), take 4; end of commands; go. */
+static uint32_t pif[16] __attribute__((aligned(16)));
+
+static void pif_transfer(uint32_t direction)
+{
+    SI(SI_RAM) = physical(pif);
+    SI(direction) = 0x1fc007c0u;
+    while (SI(SI_STATUS) & 3u) {}
+    SI(SI_STATUS) = 0;
+}
+
+uint32_t port_buttons(void)
+{
+    static const uint32_t from[][2] = {
+        {0x02000000u, ROOM_LEFT}, {0x01000000u, ROOM_RIGHT}, {0x08000000u, ROOM_UP}, {0x04000000u, ROOM_DOWN},
+        {0x00020000u, ROOM_LAMP_LEFT}, {0x00010000u, ROOM_LAMP_RIGHT},
+        {0x00040000u, ROOM_LAMP_NEAR}, {0x00080000u, ROOM_LAMP_FAR}};
+    volatile uint32_t *block = reg((uint32_t)(uintptr_t)pif | 0x20000000u);
+    uint32_t held = 0;
+    for (uint32_t i = 0; i < 16; ++i)
+        block[i] = 0;
+    block[0] = 0xff010401u, block[1] = 0xffffffffu, block[2] = 0xfe000000u, block[15] = 1;
+    pif_transfer(SI_WRITE);
+    pif_transfer(SI_READ);
+    if (block[0] >> 8 & 0x80u) /* no answer: nothing is plugged in */
+        return PORT_NO_BUTTONS;
+    for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
+        if (block[1] & from[i][0])
+            held |= from[i][1];
+    return block[1] & 0x10000000u ? PORT_NO_BUTTONS : held; /* Start: the end */
+}

@@ -1,0 +1,95 @@
+/* start_n64.S: cartridge header, boot code, and the way into main of a Nintendo 64 program.
+ *
+ * The boot code stands where a cartridge has its IPL3 and runs in the signal processor's data memory. It copies the
+ * program to RDRAM. A real console needs an IPL3 that its lock-out chip knows and that sets RDRAM up: emulators do
+ * not ask. */
+    .set noreorder
+    .set noat
+
+    .section .header, "ax"
+    .word 0x80371240            /* timing of the cartridge bus */
+    .word 0x0000000f            /* clock rate: the standard one */
+    .word 0x80000400            /* where the program begins */
+    .word 0x00001444            /* release */
+    .word 0, 0, 0, 0            /* checksums: of commercial boot code only */
+    .ascii "LAMBENT ROOM        "
+    .word 0, 0
+    .ascii "NLRE"               /* cartridge, two letters, North America */
+
+/* --- boot code, at 0xa4000040: by position alone ------------------------------------------------------------------ */
+    lui   $8, 0xa460            /* peripheral interface: one transfer from the cartridge to RDRAM */
+    li    $9, 0x400
+    sw    $9, 0($8)
+    lui   $9, 0x1000
+    ori   $9, $9, 0x1000
+    sw    $9, 4($8)
+    lui   $9, %hi(image_last)
+    addiu $9, $9, %lo(image_last)
+    sw    $9, 12($8)
+1:  lw    $9, 16($8)
+    andi  $9, $9, 3
+    bnez  $9, 1b
+    nop
+
+/* Caches come up with anything in them: all lines become invalid. 16 KiB by 32 bytes, 8 KiB by 16 bytes. */
+    mtc0  $0, $28
+    mtc0  $0, $29
+    lui   $8, 0x8000
+    ori   $9, $8, 0x4000
+2:  cache 0x08, 0($8)
+    addiu $8, $8, 32
+    bne   $8, $9, 2b
+    nop
+    lui   $8, 0x8000
+    ori   $9, $8, 0x2000
+3:  cache 0x09, 0($8)
+    addiu $8, $8, 16
+    bne   $8, $9, 3b
+    nop
+    mfc0  $8, $16               /* Config.K0 = 3: kseg0 is cached, written back */
+    li    $9, ~7
+    and   $8, $8, $9
+    ori   $8, $8, 3
+    mtc0  $8, $16
+    nop
+    nop
+    lui   $8, %hi(start)
+    addiu $8, $8, %lo(start)
+    jr    $8
+    nop
+
+/* --- in RDRAM, cached --------------------------------------------------------------------------------------------- */
+    .section .start, "ax"
+    .global start
+start:
+    lui   $8, %hi(bss_begin)
+    addiu $8, $8, %lo(bss_begin)
+    lui   $9, %hi(bss_end)
+    addiu $9, $9, %lo(bss_end)
+4:  sw    $0, 0($8)
+    addiu $8, $8, 4
+    sltu  $10, $8, $9
+    bnez  $10, 4b
+    nop
+    lui   $29, %hi(stack_top)
+    addiu $29, $29, %lo(stack_top)
+    lui   $8, %hi(stack_end)    /* the stack is painted, so that its depth can be told */
+    addiu $8, $8, %lo(stack_end)
+    lui   $9, 0x5a5a
+    ori   $9, $9, 0xa5a5
+5:  sw    $9, 0($8)
+    addiu $8, $8, 4
+    bne   $8, $29, 5b
+    nop
+    addiu $29, $29, -32
+    lui   $8, 0x2400            /* Status: the FPU is on, with 32 registers of 64 bits; interrupts are off */
+    mtc0  $8, $12
+    nop
+    nop
+    ctc1  $0, $31               /* to nearest, no traps, denormals are kept */
+    jal   main
+    nop
+    jal   port_leave
+    move  $4, $2
+6:  b     6b
+    nop

@@ -1,0 +1,38 @@
+# ps1: PlayStation (R3000A, no FPU), without SDK and BIOS; in beetle-psx, by the libretro host of our own.
+MIPSEL       ?= mipsel-linux-gnu-
+CROSS_PREFIX := $(MIPSEL)
+CFLAGS       ?= -O2
+include platform/freestanding/tools.mk
+
+PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
+PORT_CFLAGS  := -march=r3000 -mabi=32 -msoft-float -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
+                -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
+PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/ps1/ps1.ld
+PORT_LDLIBS  :=
+RUN          := false
+
+ROOM_SRC     := platform/ps1/port_ps1.c $(PORT_SRC)
+ROOM_IMAGE    = $(B)/room.exe
+ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/ps1/run.sh $(B) $(LRHOST) $(call core_of,mednafen_psx)
+
+include platform/libretro/lrhost.mk
+
+$(B)/room.exe: $(B)/room $(B)/bios.bin $(LRHOST)
+	@$(CROSS_PREFIX)objcopy -O binary -j .header -j .text $< $@
+
+$(B)/bios.bin: platform/ps1/bios_ps1.S
+	@mkdir -p $(@D)
+	@$(CC) -march=r3000 -mabi=32 -mfp32 -mno-abicalls -fno-pic -nostdlib -static -Wl,--build-id=none -Wl,-Ttext=0xbfc00000 \
+	    -Wl,-e,bios -o $(B)/bios $<
+	@$(CROSS_PREFIX)objcopy -O binary -j .text $(B)/bios $@
+	@truncate -s 512K $@
+
+$(B)/room: platform/ps1/start_ps1.S
+# A loop in memset that the compiler turns into a call of memset would never end.
+$(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+
+COUNTED       := PS1
+COUNTED_ROWS  ?= 16
+COUNTED_AT    := 0x410000
+COUNTED_QEMU  := qemu-mipsel
+COUNTED_MODEL := r3000

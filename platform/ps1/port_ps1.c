@@ -1,0 +1,184 @@
+/* port_ps1.c: what the room needs from a PlayStation: memory, picture, controller, clock, text.
+ *
+ * No BIOS call and no SDK. The picture is drawn in RAM; the graphics processor only takes it over into its memory, a band
+ * at a time, by DMA from one of two buffers while the next band is drawn. */
+#include "../demo/room.h"
+#include "../demo/room_port.h"
+#include "../libretro/text_block.h"
+#include "../port.h"
+
+enum { WIDTH = 320, HEIGHT = 240, ROWS = 16 };
+
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+
+static volatile uint32_t *reg(uint32_t address) { return (volatile uint32_t *)(uintptr_t)address; }
+static volatile uint16_t *reg16(uint32_t address) { return (volatile uint16_t *)(uintptr_t)address; }
+static volatile uint8_t *reg8(uint32_t address) { return (volatile uint8_t *)(uintptr_t)address; }
+
+/* --- text and end ------------------------------------------------------------------------------------------------- */
+
+static text_block said = TEXT_BLOCK;
+
+void port_put(const char *text) { text_block_put(&said, text); }
+
+/* From start_ps1.S, with main's status. */
+void port_leave(uint32_t status);
+
+void port_leave(uint32_t status) { port_put(status ? "left: failed\n" : "left: done\n"); }
+
+/* --- memory ------------------------------------------------------------------------------------------------------- */
+
+extern uint32_t image_begin[], bss_begin[], bss_end[], stack_end[], stack_top[];
+
+static uint32_t band[WIDTH * ROWS * 6 / 4];
+
+void *port_memory(size_t *bytes)
+{
+    *bytes = (size_t)((uintptr_t)stack_end - (uintptr_t)bss_end);
+    return bss_end;
+}
+
+void *port_band_memory(size_t *bytes)
+{
+    *bytes = sizeof band;
+    return band;
+}
+
+void port_ram_used(port_ram *out)
+{
+    const uint32_t *deepest = stack_end;
+    while (deepest < stack_top && *deepest == 0x5a5aa5a5u)
+        ++deepest;
+    out->data = (uint32_t)((uintptr_t)bss_begin - (uintptr_t)image_begin);
+    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin) + (uint32_t)room_bytes(WIDTH, HEIGHT);
+    out->stack = (uint32_t)((uintptr_t)stack_top - (uintptr_t)deepest);
+    out->size = 2u << 20;
+}
+
+/* --- clock -------------------------------------------------------------------------------------------------------- */
+
+const char *const port_clock_unit = "cycles";
+
+#define COUNT(n) (*reg(0x1f801100u + 16u * (n)))
+#define COUNT_MODE(n) (*reg(0x1f801104u + 16u * (n)))
+enum { LINE_CYCLES = 2153, WRAP = 8 * 65536 };
+
+/* Counter 2 steps every 8 cycles and wraps after 15 ms, counter 1 with each line of the picture, to tell how often. */
+uint32_t port_clock(void)
+{
+    static uint32_t cycles, eights, lines, begun;
+    if (!begun) {
+        COUNT_MODE(1) = 0x100, COUNT_MODE(2) = 0x200;
+        begun = 1;
+    }
+    const uint32_t e = COUNT(2) & 0xffffu, l = COUNT(1) & 0xffffu;
+    const uint32_t fine = 8 * ((e - eights) & 0xffffu), coarse = LINE_CYCLES * ((l - lines) & 0xffffu);
+    const uint32_t wraps = coarse + WRAP / 2 < fine ? 0 : (coarse + WRAP / 2 - fine) / WRAP;
+    eights = e, lines = l;
+    return cycles += fine + wraps * WRAP;
+}
+
+/* --- picture ------------------------------------------------------------------------------------------------------ */
+
+#define GPU_DATA (*reg(0x1f801810u))
+#define GPU_CONTROL (*reg(0x1f801814u))
+#define DMA_FROM (*reg(0x1f8010a0u))
+#define DMA_BLOCKS (*reg(0x1f8010a4u))
+#define DMA_MODE (*reg(0x1f8010a8u))
+#define DMA_ENABLED (*reg(0x1f8010f0u))
+enum { BUSY = 0x01000000, TO_GPU = 0x201, BLOCK = 16 /* words */ };
+
+static uint16_t sent[2][WIDTH * ROWS] __attribute__((aligned(4)));
+static uint32_t next, hidden, lit;
+
+static void wait_for_dma(void)
+{
+    while (DMA_MODE & BUSY) {}
+}
+
+/* NTSC, 320 x 240 of 15 bits; the picture is still dark. */
+static void light_up(void)
+{
+    static const uint32_t commands[] = {0x00000000, 0x08000001, 0x05000000, 0x06c60260, 0x07040010, 0x04000002};
+    for (uint32_t i = 0; i < sizeof commands / sizeof *commands; ++i)
+        GPU_CONTROL = commands[i];
+    DMA_ENABLED |= 0x800;
+    lit = 1;
+}
+
+void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+{
+    uint16_t *out = sent[next];
+    (void)user;
+    if (!lit)
+        light_up();
+    for (int32_t row = 0; row < rows; ++row)
+        room_rgb555(out + row * width, rgb + row * width, width, y + row);
+    wait_for_dma();
+    while (!(GPU_CONTROL & 0x04000000u)) {}
+    GPU_DATA = 0xa0000000u; /* copy to the graphics memory: place, size, pixels */
+    GPU_DATA = (hidden * 256u + (uint32_t)y) << 16;
+    GPU_DATA = (uint32_t)rows << 16 | (uint32_t)width;
+    DMA_FROM = (uint32_t)(uintptr_t)out & 0x1fffffu;
+    DMA_BLOCKS = (uint32_t)(width * rows / 2 / BLOCK) << 16 | BLOCK;
+    DMA_MODE = BUSY | TO_GPU;
+    next ^= 1;
+}
+
+void port_show_frame(void)
+{
+    wait_for_dma();
+    GPU_CONTROL = 0x05000000u | hidden * 256u << 10;
+    GPU_CONTROL = 0x03000000u;
+    hidden ^= 1;
+}
+
+/* --- controller --------------------------------------------------------------------------------------------------- */
+
+#define PAD_DATA (*reg8(0x1f801040u))
+#define PAD_STATUS (*reg(0x1f801044u))
+#define PAD_MODE (*reg16(0x1f801048u))
+#define PAD_CONTROL (*reg16(0x1f80104au))
+#define PAD_RATE (*reg16(0x1f80104eu))
+enum { TAKEN = 2, PATIENCE = 2000 };
+
+static void pause(uint32_t turns)
+{
+    while (turns--)
+        __asm__ volatile("");
+}
+
+/* One byte each way; 0xff where nobody answers. */
+static uint32_t exchange(uint32_t byte)
+{
+    PAD_DATA = (uint8_t)byte;
+    for (int i = 0; i < PATIENCE; ++i)
+        if (PAD_STATUS & TAKEN) {
+            const uint32_t got = PAD_DATA;
+            pause(200);
+            return got;
+        }
+    return 0xff;
+}
+
+uint32_t port_buttons(void)
+{
+    static const uint32_t from[][2] = {
+        {0x80, ROOM_LEFT}, {0x20, ROOM_RIGHT}, {0x10, ROOM_UP}, {0x40, ROOM_DOWN},
+        {0x8000, ROOM_LAMP_LEFT}, {0x2000, ROOM_LAMP_RIGHT}, {0x4000, ROOM_LAMP_NEAR}, {0x1000, ROOM_LAMP_FAR}};
+    uint32_t held = 0;
+    PAD_CONTROL = 0x40;
+    PAD_RATE = 0x88, PAD_MODE = 0x0d;
+    PAD_CONTROL = 0x1003;
+    pause(400);
+    exchange(0x01);
+    const uint32_t kind = exchange(0x42), mark = exchange(0);
+    const uint32_t low = exchange(0), high = exchange(0), up = ~(low | high << 8) & 0xffffu;
+    PAD_CONTROL = 0;
+    if (kind == 0xff || mark != 0x5a || up & 8) /* no controller, or Start: the end */
+        return PORT_NO_BUTTONS;
+    for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
+        if (up & from[i][0])
+            held |= from[i][1];
+    return held;
+}
