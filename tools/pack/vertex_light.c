@@ -6,7 +6,7 @@
 
 #include "../common/progress.h"
 
-enum { SAMPLES = 8, MOST_LINKS = 128 };
+enum { SAMPLES = 32, ELEMENT_SAMPLES = 8, MOST_LINKS = 128 };
 #define OVER  0.004 /* m: so high over a surface light is taken */
 #define TRUST 0.5   /* of directions: a point that meets more backs is inside of a solid */
 
@@ -15,6 +15,7 @@ typedef struct receiver {
     dvec at, normal;
     double albedo[3], area;
     dvec sample[SAMPLES], face[SAMPLES];
+    double weight[SAMPLES]; /* all of them 1 together */
     int samples;
     uint32_t place;
     const lmb_material *material;
@@ -107,48 +108,55 @@ static void add_albedo(receiver *v, const vl_mesh *m, const vl_triangle *t, int 
     }
 }
 
+/* Light is the mean around the vertex, of what is open: what stands on the surface hides the rest. */
+static void add_samples(receiver *v, const baking *b, const vl_triangle *t)
+{
+    static const double pulls[4] = {0.08, 0.3, 0.55, 0.85};
+    const dvec middle = inner(&b->m, t, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0);
+    for (int step = 0; step < 4 && v->samples < SAMPLES; ++step) {
+        const dvec p = dvec_add(dvec_mix(v->at, middle, pulls[step]), dvec_mul(t->face, OVER));
+        if (vl_buried(&b->sight, p, t->face) < TRUST) {
+            const double own = 1.0 - pulls[step] * 2.0 / 3.0;
+            v->face[v->samples] = t->face;
+            v->weight[v->samples] = own * own * (0.1 + pulls[step]) * area_of(&b->m, t);
+            v->sample[v->samples++] = p;
+        }
+    }
+}
+
+static void even_weights(receiver *v)
+{
+    double sum = 0.0;
+    for (int k = 0; k < v->samples; ++k) {
+        sum += v->weight[k];
+    }
+    for (int k = 0; k < v->samples; ++k) {
+        v->weight[k] /= sum;
+    }
+}
+
 static int make_vertices(baking *b, report *r)
 {
-    static const double pulls[4] = {0.03, 0.12, 0.3, 0.6};
     b->corner = calloc(b->m.triangles, sizeof *b->corner);
     b->receiver = calloc(3 * (size_t)b->m.triangles + LMB_FIXED_MAX_ELEMENTS, sizeof *b->receiver);
-    unsigned char *level = calloc(3 * (size_t)b->m.triangles, 1);
-    if (b->corner == NULL || b->receiver == NULL || level == NULL) {
-        free(level);
+    if (b->corner == NULL || b->receiver == NULL) {
         return report_fail(r, "not enough memory for vertices");
     }
     for (uint32_t i = 0; i < b->m.triangles; ++i) {
         const vl_triangle *t = &b->m.triangle[i];
         for (int k = 0; k < 3; ++k) {
             const uint32_t own = vertex_of(b, t, k);
-            receiver *v = &b->receiver[own];
             b->corner[i][k] = own;
-            add_albedo(v, &b->m, t, k);
-            /* where something stands on the vertex, light is taken beside that */
-            for (int step = 0; step < 4 && (v->samples == 0 || step <= level[own]); ++step) {
-                const dvec middle = inner(&b->m, t, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0);
-                const dvec p = dvec_add(dvec_mix(v->at, middle, pulls[step]), dvec_mul(t->face, OVER));
-                if (vl_buried(&b->sight, p, t->face) >= TRUST) {
-                    continue;
-                }
-                if (v->samples > 0 && step < level[own]) {
-                    v->samples = 0;
-                }
-                level[own] = (unsigned char)step;
-                if (v->samples < SAMPLES) {
-                    v->face[v->samples] = t->face;
-                    v->sample[v->samples++] = p;
-                }
-                break;
-            }
+            add_albedo(&b->receiver[own], &b->m, t, k);
+            add_samples(&b->receiver[own], b, t);
         }
     }
     for (uint32_t i = 0; i < b->vertices; ++i) {
+        even_weights(&b->receiver[i]);
         for (int c = 0; c < 3; ++c) {
             b->receiver[i].albedo[c] /= b->receiver[i].area;
         }
     }
-    free(level);
     return 1;
 }
 
@@ -245,13 +253,15 @@ static void finish_element(baking *b, uint32_t e)
             }
             best = is_new ? i : best;
         }
-        if (best == b->m.triangles || out->samples == SAMPLES) {
+        if (best == b->m.triangles || out->samples == ELEMENT_SAMPLES) {
             break;
         }
         first[out->samples] = best;
+        out->weight[out->samples] = b->piece[best].area;
         out->face[out->samples] = b->m.triangle[best].face;
         out->sample[out->samples++] = dvec_add(b->piece[best].middle, dvec_mul(b->m.triangle[best].face, OVER));
     }
+    even_weights(out);
     /* on the surface */
     const dvec mean = out->at;
     for (int k = 0; k < out->samples; ++k) {
@@ -384,7 +394,7 @@ static void factors(double *out, baking *b, const receiver *v)
                 const dvec to = inner(&b->m, t, c == 0 ? 0.6 : 0.2, c == 1 ? 0.6 : 0.2, c == 2 ? 0.6 : 0.2);
                 seen += vl_sees(&b->sight, v->sample[k], dvec_add(to, dvec_mul(t->face, OVER)));
             }
-            out[b->piece[i].element] += f * seen / 3.0 / v->samples;
+            out[b->piece[i].element] += f * seen / 3.0 * v->weight[k];
         }
     }
 }
@@ -443,12 +453,12 @@ static int put_seen(baking *b, const receiver *v, report *r)
         uint32_t bits = 0;
         for (uint32_t i = 32 * w; i < 32 * w + 32 && i < b->lattice.all; ++i) {
             const dvec lamp = vl_lattice_place(&b->lattice, i);
-            int seen = 0;
+            double seen = 0.0;
             for (int k = 0; k < v->samples && b->lattice.valid[i]; ++k) {
                 const int behind = dvec_dot(v->face[k], dvec_sub(lamp, v->sample[k])) < 0.0;
-                seen += behind || vl_sees(&b->sight, v->sample[k], lamp) ? 1 : -1;
+                seen += behind || vl_sees(&b->sight, v->sample[k], lamp) ? v->weight[k] : 0.0;
             }
-            bits |= (uint32_t)(seen > 0) << (i & 31u);
+            bits |= (uint32_t)(seen > 0.5) << (i & 31u);
         }
         if (!put(b, bits, r)) {
             return 0;

@@ -344,7 +344,7 @@ static int add_edge(dividing *d, const vl_triangle *t, int from, report *r)
         e->score = 0.0;
     }
     if (e->length > SHORTEST) {
-        const double s = e->length * (bend(d, t, from) + EVEN * e->length);
+        const double s = e->length * sqrt(e->length) * (bend(d, t, from) + EVEN * sqrt(e->length));
         e->score = e->score > s ? e->score : s;
     }
     return 1;
