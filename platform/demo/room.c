@@ -141,24 +141,86 @@ uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count)
     return hash;
 }
 
-static const uint8_t bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+/* t * 255 + 127 over 16, and 1: the threshold t of Bayer's matrix in the sum below. */
+static uint32_t threshold(int32_t x, int32_t y)
+{
+    static const uint8_t bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return (bayer[y & 3][x & 3] * 255u + 127u) / 16 + 1;
+}
 
-static uint32_t dithered(uint32_t code, uint32_t most, uint32_t t) { return (code * most * 16 + t * 255 + 127) / 4080; }
+/* (c * 31 * 16 + t * 255 + 127) / 4080 of two codes c at once, one in each half. With y = c * 31 + (t * 255 + 127) / 16, of
+ * 13 bits, y / 255 is (y + 1 + y / 256) / 256, and y + 1 may stand for y in the smaller term. */
+static inline uint32_t two_of_31(uint32_t codes, uint32_t thresholds)
+{
+    const uint32_t y = codes * 31 + thresholds;
+    return (y + (y >> 8 & 0xff00ffu)) >> 8 & 0x1f001fu;
+}
+
+/* Likewise with 63 for 31: y of 14 bits. */
+static inline uint32_t two_of_63(uint32_t codes, uint32_t thresholds)
+{
+    const uint32_t y = codes * 63 + thresholds;
+    return (y + (y >> 8 & 0xff00ffu)) >> 8 & 0x3f003fu;
+}
+
+/* Thresholds of a row's four columns: each for red and blue at once, and of two neighbours for green. */
+typedef struct columns {
+    uint32_t both[4], pair[2];
+} columns;
+
+static void set_columns(columns *out, int32_t y)
+{
+    for (int32_t x = 0; x < 4; ++x)
+        out->both[x] = threshold(x, y) * 0x10001u;
+    for (int32_t i = 0; i < 2; ++i)
+        out->pair[i] = (out->both[2 * i] & 0xffffu) | (out->both[2 * i + 1] & 0xffff0000u);
+}
+
+/* The two pixels' greens: one in each half. */
+static inline uint32_t greens(const uint32_t *rgb) { return (rgb[0] >> 8 & 0xffu) | (rgb[1] & 0xff00u) << 8; }
+
+static inline void two_555(uint16_t *out, const uint32_t *rgb, const columns *c, int i)
+{
+    const uint32_t first = two_of_31(rgb[0] & 0xff00ffu, c->both[2 * i]);
+    const uint32_t second = two_of_31(rgb[1] & 0xff00ffu, c->both[2 * i + 1]);
+    const uint32_t green = two_of_31(greens(rgb), c->pair[i]);
+    out[0] = (uint16_t)(first >> 16 | first << 10 | green << 5);
+    out[1] = (uint16_t)(second >> 16 | second << 10 | green >> 11);
+}
+
+static inline void two_565(uint16_t *out, const uint32_t *rgb, const columns *c, int i)
+{
+    const uint32_t first = two_of_31(rgb[0] & 0xff00ffu, c->both[2 * i]);
+    const uint32_t second = two_of_31(rgb[1] & 0xff00ffu, c->both[2 * i + 1]);
+    const uint32_t green = two_of_63(greens(rgb), c->pair[i]);
+    out[0] = (uint16_t)(first >> 5 | first | green << 5);
+    out[1] = (uint16_t)(second >> 5 | second | green >> 11);
+}
 
 void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y)
 {
+    columns c;
+    set_columns(&c, y);
+    for (; width >= 4; width -= 4, out += 4, rgb += 4) {
+        two_555(out, rgb, &c, 0);
+        two_555(out + 2, rgb + 2, &c, 1);
+    }
     for (int32_t x = 0; x < width; ++x) {
-        const uint32_t t = bayer[y & 3][x & 3], c = rgb[x];
-        out[x] = (uint16_t)(dithered(c >> 16 & 255u, 31, t) | dithered(c >> 8 & 255u, 31, t) << 5 |
-                            dithered(c & 255u, 31, t) << 10);
+        const uint32_t q = two_of_31(rgb[x] & 0xff00ffu, c.both[x]);
+        out[x] = (uint16_t)(q >> 16 | q << 10 | two_of_31(rgb[x] >> 8 & 0xffu, c.both[x]) << 5);
     }
 }
 
 void room_rgb565(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y)
 {
+    columns c;
+    set_columns(&c, y);
+    for (; width >= 4; width -= 4, out += 4, rgb += 4) {
+        two_565(out, rgb, &c, 0);
+        two_565(out + 2, rgb + 2, &c, 1);
+    }
     for (int32_t x = 0; x < width; ++x) {
-        const uint32_t t = bayer[y & 3][x & 3], c = rgb[x];
-        out[x] = (uint16_t)(dithered(c >> 16 & 255u, 31, t) << 11 | dithered(c >> 8 & 255u, 63, t) << 5 |
-                            dithered(c & 255u, 31, t));
+        const uint32_t q = two_of_31(rgb[x] & 0xff00ffu, c.both[x]);
+        out[x] = (uint16_t)(q >> 5 | q | two_of_63(rgb[x] >> 8 & 0xffu, c.both[x]) << 5);
     }
 }

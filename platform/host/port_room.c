@@ -1,5 +1,6 @@
-/* port_room.c: room_port.h on a machine with libc: frames of any size, as WIDTH HEIGHT ROWS of the build say, into a
- * picture room.ppm where ROOM_PICTURE names one. */
+/* port_room.c: room_port.h on a machine with libc: frames of any size, as ROOM_SIZE of the build says. The folder
+ * ROOM_PICTURES gets them as pictures, with ROOM_COLOURS=555 as a screen of 5 bits a colour shows them. After the path it
+ * draws a frame for each number of ROOM_HELD, the buttons that are held. */
 #include "../demo/room_port.h"
 
 #include <stdio.h>
@@ -20,6 +21,17 @@ const char *const port_clock_unit = "us";
 
 static uint8_t picture[ROOM_HEIGHT][ROOM_WIDTH][3];
 
+static uint8_t widened(unsigned bits) { return (uint8_t)(bits << 3 | bits >> 2); }
+
+static void put_555(const uint32_t *rgb, int32_t y)
+{
+    uint16_t row[ROOM_WIDTH];
+    room_rgb555(row, rgb, ROOM_WIDTH, y);
+    for (int32_t x = 0; x < ROOM_WIDTH; ++x)
+        for (int i = 0; i < 3; ++i)
+            picture[y][x][i] = widened(row[x] >> 5 * i & 31u);
+}
+
 static void *get(size_t *bytes, size_t wanted)
 {
     *bytes = wanted;
@@ -35,6 +47,11 @@ uint32_t port_clock(void) { return (uint32_t)((double)clock() * 1e6 / (double)CL
 void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
 {
     (void)user;
+    if (getenv("ROOM_COLOURS")) {
+        for (int32_t i = 0; i < rows; ++i)
+            put_555(rgb + i * width, y + i);
+        return;
+    }
     for (int32_t i = 0; i < width * rows; ++i) {
         uint8_t *out = picture[y + i / width][i % width];
         out[0] = (uint8_t)(rgb[i] >> 16), out[1] = (uint8_t)(rgb[i] >> 8), out[2] = (uint8_t)rgb[i];
@@ -56,4 +73,15 @@ void port_show_frame(void)
     }
 }
 
-uint32_t port_buttons(void) { return PORT_NO_BUTTONS; }
+uint32_t port_buttons(void)
+{
+    static const char *at;
+    char *end;
+    if (at == NULL && (at = getenv("ROOM_HELD")) == NULL)
+        return PORT_NO_BUTTONS;
+    const unsigned long held = strtoul(at, &end, 10);
+    if (end == at)
+        return PORT_NO_BUTTONS;
+    at = end;
+    return (uint32_t)held;
+}

@@ -46,7 +46,7 @@ static int project(int32_t out[3], const int32_t v[3], const lmb_fixed_view *vie
     const uint32_t depth = high_of((uint32_t)view->near_units * 16u * 65535u, per) >> (30 - free);
     out[0] = (int32_t)(sx < -guard_x ? -guard_x : sx > guard_x ? guard_x : sx) + 8 * view->width;
     out[1] = 8 * view->height - (int32_t)(sy < -guard_y ? -guard_y : sy > guard_y ? guard_y : sy);
-    out[2] = (int32_t)(depth > 65535u ? 65535u : depth);
+    out[2] = within((int32_t)depth, FIXED_LEAST_DEPTH, FIXED_MOST_DEPTH);
     return sx >= -guard_x && sx <= guard_x && sy >= -guard_y && sy <= guard_y;
 }
 
@@ -111,6 +111,16 @@ static int cut_plane(seen_from *out, const seen_from *p, int count, const lmb_fi
     return n;
 }
 
+/* 0 where all of it is inside, which mostly it is. */
+static int is_cut(const seen_from *p, int count, const lmb_fixed_view *view, int plane)
+{
+    int32_t any = 0;
+    for (int i = 0; i < count; ++i) {
+        any |= inside(p[i].v, view, plane);
+    }
+    return any < 0;
+}
+
 static void triangle_of(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
 {
     const uint32_t *t = s->triangle + 2 * triangle;
@@ -119,7 +129,7 @@ static void triangle_of(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
 
 int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
 {
-    seen_from a[FIXED_CORNERS], b[FIXED_CORNERS];
+    seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
     uint32_t vertex[3];
     int count = 3;
     triangle_of(vertex, f->scene, triangle);
@@ -132,8 +142,10 @@ int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, ui
         }
     }
     for (int plane = 0; plane < 5 && count >= 3; ++plane) {
-        count = cut_plane(b, a, count, &f->view, plane);
-        memcpy(a, b, (size_t)count * sizeof *a);
+        if (is_cut(a, count, &f->view, plane)) {
+            count = cut_plane(b, a, count, &f->view, plane);
+            swap = a, a = b, b = swap;
+        }
     }
     for (int i = 0; i < count; ++i) {
         int32_t p[3];
@@ -272,8 +284,12 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
     const fixed_band b = {f->pixel, f->depth, f->view.width, first, past};
     const size_t pixels = (size_t)b.width * (size_t)(past - first);
     memset(b.depth, 0, pixels * sizeof *b.depth);
-    for (size_t i = 0; i < pixels; ++i) {
-        b.pixel[i] = f->background;
+    if (f->background == (f->background & 255u) * 0x01010101u) {
+        memset(b.pixel, (int)(f->background & 255u), pixels * sizeof *b.pixel);
+    } else {
+        for (size_t i = 0; i < pixels; ++i) {
+            b.pixel[i] = f->background;
+        }
     }
     for (uint32_t i = 0; i < f->seen_count; ++i) {
         const lmb_fixed_seen *s = &f->seen[i];

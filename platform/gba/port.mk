@@ -1,0 +1,31 @@
+# gba: a Game Boy Advance (ARM7TDMI, no FPU, 32 KiB of fast and 256 KiB of slow RAM), without SDK, under mGBA by lrhost.
+ARM         ?= arm-none-eabi-
+CROSS_PREFIX := $(ARM)
+include platform/freestanding/tools.mk
+include platform/libretro/lrhost.mk
+
+PORT_SRC     := platform/gba/start_gba.c platform/gba/port_gba.c platform/freestanding/memory.c \
+                platform/freestanding/floorf.c
+PORT_CFLAGS  := -mcpu=arm7tdmi -mthumb -mthumb-interwork -ffreestanding -fbuiltin -ffunction-sections \
+                -fdata-sections -isystem platform/freestanding
+PORT_LDFLAGS := -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--no-warn-rwx-segments -T platform/gba/gba.ld
+PORT_LDLIBS  := -lgcc
+
+# What gba.ld puts into fast RAM has the wide instructions; ROM, of 16 bits, has the narrow ones.
+$(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o): COMPILE += -marm -O2
+
+# A loop in memset that the compiler turns into a call of memset would never end; at the start memset is not there yet.
+$(B)/obj/platform/freestanding/memory.o: COMPILE += -marm
+$(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/gba/start_gba.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+
+ROOM_IMAGE   := $(B)/room.gba
+# The linker script is a part of the program.
+$(B)/obj/platform/gba/start_gba.o: platform/gba/gba.ld
+$(ROOM_IMAGE): $(B)/room $(LRHOST) $(STAGES)
+	@$(CROSS_PREFIX)objcopy -O binary $< $@
+ROOM_RUN      = B=$(B) LRHOST=$(LRHOST) CORE=$(call core_of,mgba) SCREEN='--bits 5 --frames 300' PRESS='$(PRESS)' \
+                PLUGIN=$(STAGES) MODEL=arm7 BEGIN=reset CROSS=$(CROSS_PREFIX) WITHOUT='^nothing' \
+                sh platform/libretro/run_room.sh
+
+# As lrhost's --press takes them.
+PRESS        ?=

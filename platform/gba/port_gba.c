@@ -1,0 +1,123 @@
+/* port_gba.c: the room on a Game Boy Advance: its 240 x 160 screen, buttons, and a clock of processor cycles. */
+#include "../demo/room.h"
+#include "../demo/room_port.h"
+#include "../freestanding/arm_calibrate.h"
+#include "../libretro/text_block.h"
+#include "../port.h"
+#include "../port_say.h"
+#include "gba.h"
+
+enum { WIDTH = 240, HEIGHT = 160, ROWS = 8 };
+
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+const char *const port_clock_unit = "cycles";
+
+/* --- words -------------------------------------------------------------------------------------------------------- */
+
+__attribute__((section(".ewram"))) static text_block text = TEXT_BLOCK;
+
+void port_put(const char *words) { text_block_put(&text, words); }
+
+/* --- memory ------------------------------------------------------------------------------------------------------- */
+
+static uint32_t band[WIDTH * ROWS * 6 / 4]; /* fast, as all that is not said to be elsewhere */
+static size_t taken;
+
+/* What the screen does not show yet lies in front of the room's memory. */
+static uint16_t *hidden(void) { return (uint16_t *)(void *)ewram_end; }
+
+void *port_memory(size_t *bytes)
+{
+    uint32_t *begin = ewram_end + WIDTH * HEIGHT * 2 / 4;
+    const size_t free_bytes = (size_t)(ewram_top - begin) * 4, wanted = room_bytes(WIDTH, HEIGHT);
+    *bytes = taken = wanted < free_bytes ? wanted : free_bytes;
+    return begin;
+}
+
+void *port_band_memory(size_t *bytes)
+{
+    *bytes = sizeof band;
+    return band;
+}
+
+void port_ram_used(port_ram *out)
+{
+    const uint32_t *deepest = stack_bottom;
+    while (deepest < stack_top && *deepest == STACK_PAINT)
+        ++deepest;
+    out->data = (uint32_t)((fast_end - fast_begin) + (data_end - data_begin) + (ewram_end - ewram_begin)) * 4;
+    out->bss = (uint32_t)(bss_end - bss_begin) * 4 + WIDTH * HEIGHT * 2 + (uint32_t)taken;
+    out->stack = (uint32_t)(stack_top - deepest) * 4;
+    out->size = (32u << 10) + (256u << 10);
+}
+
+/* --- time --------------------------------------------------------------------------------------------------------- */
+
+ARM_CALIBRATE
+
+/* Timer 3 counts what timer 2 wraps. */
+static void start_clock(void)
+{
+    REGISTER_16(TIMER_3) = 0;
+    REGISTER_16(TIMER_2) = 0;
+    REGISTER_16(TIMER_3 + 2) = 0x84;
+    REGISTER_16(TIMER_2 + 2) = 0x80;
+}
+
+uint32_t port_clock(void)
+{
+    for (;;) {
+        const uint32_t high = REGISTER_16(TIMER_3), low = REGISTER_16(TIMER_2);
+        if (REGISTER_16(TIMER_3) == high)
+            return high << 16 | low;
+    }
+}
+
+/* A load from slow RAM waits 5 cycles. */
+void gba_begin(void)
+{
+    start_clock();
+    const uint32_t from = port_clock();
+    port_calibrate(ewram_begin);
+    const uint32_t loops = port_clock() - from;
+    port_calibrated();
+    say_count("calibration: ", loops);
+    say_count(" cycles, known ", 4 * CALIBRATE_TURNS + (7 + 5) * CALIBRATE_LOADS);
+    port_put(" and a call\n");
+}
+
+/* --- screen and buttons ------------------------------------------------------------------------------------------- */
+
+void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+{
+    (void)user;
+    uint16_t *to = hidden() + y * WIDTH;
+    for (int32_t i = 0; i < rows; ++i, to += WIDTH, rgb += width)
+        room_rgb555(to, rgb, width, y + i);
+}
+
+void port_show_frame(void)
+{
+    REGISTER_16(DISPLAY_CONTROL) = 0x0403; /* mode 3, background 2 */
+    REGISTER_32(DMA_3_FROM) = (uint32_t)(uintptr_t)hidden();
+    REGISTER_32(DMA_3_TO) = VIDEO_RAM;
+    REGISTER_32(DMA_3_COUNT) = DMA_NOW_BY_WORDS | WIDTH * HEIGHT / 2;
+}
+
+/* Says what is held, so that who reads it can draw the same frames elsewhere. */
+uint32_t port_buttons(void)
+{
+    static const uint8_t meaning[10] = {
+        [4] = ROOM_RIGHT,     [5] = ROOM_LEFT,      [6] = ROOM_UP,         [7] = ROOM_DOWN,       /* the cross */
+        [9] = ROOM_LAMP_LEFT, [8] = ROOM_LAMP_RIGHT, [0] = ROOM_LAMP_NEAR, [1] = ROOM_LAMP_FAR}; /* L, R; A, B */
+    const uint32_t up = REGISTER_16(KEYS);
+    uint32_t held = 0;
+    for (int i = 0; i < 10; ++i)
+        if (!(up >> i & 1u))
+            held |= meaning[i];
+    if (held) {
+        say_count("held ", held);
+        port_put("\n");
+    }
+    return held;
+}

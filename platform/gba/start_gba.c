@@ -1,0 +1,59 @@
+/* start_gba.c: a Game Boy Advance cartridge: header, stacks, RAM as C wants it, main; then it stands still. */
+#include "gba.h"
+
+int main(void);
+void start(void);
+
+/* The header has no logo, which the machine's own ROM asks for: emulators and development cartridges start without it.
+ * The byte at 0xbd makes the sum of 0xa0 .. 0xbd, with 0x19, a multiple of 256. */
+__asm__(".section .vectors, \"ax\"\n"
+        ".arm\n"
+        ".globl reset\n"
+        "reset:\n"
+        "\tb 1f\n"
+        "\t.space 0xa0 - 4\n"
+        "\t.ascii \"LAMBENT ROOM\"\n" /* title */
+        "\t.ascii \"LMBE00\"\n"       /* the program's and the maker's code */
+        "\t.byte 0x96\n"
+        "\t.space 0xbd - 0xb3\n"
+        "\t.byte -(0x19 + 'L' + 'A' + 'M' + 'B' + 'E' + 'N' + 'T' + ' ' + 'R' + 'O' + 'O' + 'M' + 'L' + 'M' + 'B' + 'E'"
+        " + '0' + '0' + 0x96) & 0xff\n"
+        "\t.space 2\n"
+        "1:\tldr r0, =0x04000208\n" /* no interrupts */
+        "\tmov r1, #0\n"
+        "\tstr r1, [r0]\n"
+        "\tmov r0, #0x1f\n" /* system mode */
+        "\tmsr cpsr_c, r0\n"
+        "\tldr sp, =stack_top\n"
+        "\tldr r0, =start\n"
+        "\tbx r0\n"
+        "\t.pool\n"
+        ".text\n");
+
+static void copy(uint32_t *to, const uint32_t *end, const uint32_t *from)
+{
+    while (to < end)
+        *to++ = *from++;
+}
+
+static void fill(uint32_t *to, const uint32_t *end, uint32_t value)
+{
+    while (to < end)
+        *to++ = value;
+}
+
+void start(void)
+{
+    uint32_t *stack;
+    REGISTER_16(WAIT_CONTROL) = 0x4317; /* ROM: 3 wait states, then 1 a halfword, read ahead */
+    copy(fast_begin, fast_end, fast_image);
+    copy(data_begin, data_end, data_image);
+    copy(ewram_begin, ewram_end, ewram_image);
+    fill(bss_begin, bss_end, 0);
+    __asm__ volatile("mov %0, sp" : "=r"(stack));
+    fill(stack_bottom, stack, STACK_PAINT);
+    gba_begin();
+    main();
+    for (;;) {
+    }
+}
