@@ -90,7 +90,7 @@ ROOM_IMAGE ?= $(B)/room
 ROOM_RUN   ?= $(RUN)
 ROOM_DEMO  := $(addprefix platform/demo/,room.c $(if $(filter pixel,$(ROOM)),main_pixel.c room_pixel.c,main_room.c)) \
               $(if $(filter pixel,$(ROOM)),tools/demo/demo_scene.c)
-ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/base/% src/fixed/%,$(LIB_SRC)))
+ROOM_LIB   := $(if $(filter pixel,$(ROOM)),$(LIB_SRC),$(filter src/fixed/%,$(LIB_SRC)))
 ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LIB))
 ifdef COUNTED
 include platform/counted/counted.mk
@@ -503,6 +503,10 @@ statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pi
 
 live: $(TOOL) ## light that moves in 160 KiB on a Cortex-M4F (qemu): pictures as here, instructions a frame
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/live.sh
+
+.PHONY: linux-fb
+linux-fb: ## the room on a file that stands for Linux's framebuffer device
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/linux_fb.sh
 
 # For compilers whose programs nothing here can run.
 .PHONY: compiles

@@ -15,7 +15,7 @@
 #define BARE_ROWS 8
 #endif
 #ifndef BARE_ROOM_BYTES
-#define BARE_ROOM_BYTES 16384 /* room_bytes of the size below */
+#define BARE_ROOM_BYTES 18432 /* room_bytes of the size below */
 #endif
 
 enum { WIDTH = 160, HEIGHT = 120, LINE = 512 };

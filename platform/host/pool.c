@@ -1,21 +1,56 @@
-/* pool.c: POSIX threads that live as long as one pool_run; elsewhere the caller does it all. */
-#if !defined(_WIN32) && !defined(_XOPEN_SOURCE)
+/* pool.c: threads that live as long as one pool_run: POSIX's or Windows's. */
+#if defined(_WIN32)
+#undef _WIN32_WINNT
+#define _WIN32_WINNT 0x0600 /* SRWLOCK: Windows Vista */
+#elif !defined(_XOPEN_SOURCE)
 #define _XOPEN_SOURCE 700 /* sysconf, pthread */
+#if defined(__APPLE__)
+#define _DARWIN_C_SOURCE /* _SC_NPROCESSORS_ONLN */
+#endif
 #endif
 #include "pool.h"
 
-int pool_threads(int asked) { return asked < 1 ? pool_processors() : asked > POOL_MAX ? POOL_MAX : asked; }
+typedef struct worker worker;
+static void work(worker *w);
 
-#ifdef _WIN32
+/* --- what the systems call it: a lock, a thread, how many processors ---------------------------------------------- */
 
-int pool_processors(void) { return 1; }
+#if defined(_WIN32)
 
-void pool_run(int threads, int count, pool_job job, void *user)
+#include <windows.h>
+
+#include <process.h>
+
+typedef SRWLOCK lock;
+typedef HANDLE thread;
+#define LOCK_FREE SRWLOCK_INIT
+static void hold(lock *l) { AcquireSRWLockExclusive(l); }
+static void let_go(lock *l) { ReleaseSRWLockExclusive(l); }
+
+static unsigned __stdcall begin(void *argument)
 {
-    (void)threads;
-    for (int i = 0; i < count; ++i) {
-        job(user, i, 0);
-    }
+    work(argument);
+    return 0;
+}
+
+/* The C library's, which gives the thread its own errno. */
+static int start(thread *out, worker *w)
+{
+    *out = (HANDLE)_beginthreadex(NULL, 0, begin, w, 0, NULL);
+    return *out != NULL;
+}
+
+static void join(thread t)
+{
+    WaitForSingleObject(t, INFINITE);
+    CloseHandle(t);
+}
+
+static long processors(void)
+{
+    SYSTEM_INFO about;
+    GetSystemInfo(&about);
+    return (long)about.dwNumberOfProcessors;
 }
 
 #else
@@ -23,44 +58,68 @@ void pool_run(int threads, int count, pool_job job, void *user)
 #include <pthread.h>
 #include <unistd.h>
 
-typedef struct pool {
-    pthread_mutex_t lock; /* of `next` */
-    int next, count;      /* parts that nobody has taken: next .. count - 1 */
-    pool_job job;
-    void *user;
-} pool;
+typedef pthread_mutex_t lock;
+typedef pthread_t thread;
+#define LOCK_FREE PTHREAD_MUTEX_INITIALIZER
+static void hold(lock *l) { pthread_mutex_lock(l); }
+static void let_go(lock *l) { pthread_mutex_unlock(l); }
 
-typedef struct worker {
-    pool *shared;
-    int number; /* and its first part: by no lock, which would hide from a race detector what two parts both touch */
-    pthread_t thread;
-} worker;
+static void *begin(void *argument)
+{
+    work(argument);
+    return NULL;
+}
 
-int pool_processors(void)
+static int start(thread *out, worker *w) { return pthread_create(out, NULL, begin, w) == 0; }
+static void join(thread t) { pthread_join(t, NULL); }
+
+static long processors(void)
 {
 #ifdef _SC_NPROCESSORS_ONLN
-    long n = sysconf(_SC_NPROCESSORS_ONLN);
-    return n < 1 ? 1 : n > POOL_MAX ? POOL_MAX : (int)n;
+    return sysconf(_SC_NPROCESSORS_ONLN);
 #else
     return 1;
 #endif
 }
 
+#endif
+
+/* --- the pool ----------------------------------------------------------------------------------------------------- */
+
+typedef struct pool {
+    lock next_lock;
+    int next, count; /* parts that nobody has taken: next .. count - 1 */
+    pool_job job;
+    void *user;
+} pool;
+
+struct worker {
+    pool *shared;
+    int number; /* and its first part: by no lock, which would hide from a race detector what two parts both touch */
+    thread own;
+};
+
+int pool_processors(void)
+{
+    const long n = processors();
+    return n < 1 ? 1 : n > POOL_MAX ? POOL_MAX : (int)n;
+}
+
+int pool_threads(int asked) { return asked < 1 ? pool_processors() : asked > POOL_MAX ? POOL_MAX : asked; }
+
 static int take(pool *p)
 {
-    pthread_mutex_lock(&p->lock);
+    hold(&p->next_lock);
     int i = p->next < p->count ? p->next++ : -1;
-    pthread_mutex_unlock(&p->lock);
+    let_go(&p->next_lock);
     return i;
 }
 
-static void *work(void *argument)
+static void work(worker *w)
 {
-    worker *w = argument;
     for (int i = w->number; i >= 0; i = take(w->shared)) {
         w->shared->job(w->shared->user, i, w->number);
     }
-    return NULL;
 }
 
 void pool_run(int threads, int count, pool_job job, void *user)
@@ -68,14 +127,14 @@ void pool_run(int threads, int count, pool_job job, void *user)
     threads = threads < 1 ? 1 : threads;
     threads = threads > count ? count : threads;
     threads = threads > POOL_MAX ? POOL_MAX : threads;
-    pool p = {PTHREAD_MUTEX_INITIALIZER, threads, count, job, user};
+    pool p = {LOCK_FREE, threads, count, job, user};
     worker workers[POOL_MAX];
     int started = 1;
     for (int i = 0; i < POOL_MAX; ++i) {
         workers[i].shared = &p;
         workers[i].number = i;
     }
-    while (started < threads && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0) {
+    while (started < threads && start(&workers[started].own, &workers[started])) {
         ++started;
     }
     for (int i = started; i < threads; ++i) {
@@ -85,8 +144,6 @@ void pool_run(int threads, int count, pool_job job, void *user)
         work(&workers[0]);
     }
     for (int i = 1; i < started; ++i) {
-        pthread_join(workers[i].thread, NULL);
+        join(workers[i].own);
     }
 }
-
-#endif
