@@ -115,6 +115,7 @@ typedef struct maker {
     uint8_t *is_reached; /* a side of a triangle */
     int is_full;
     int emits; /* the triangle at hand */
+    int is_small;
     uint32_t own; /* its side: 2 (id - 1) + back */
     report *r;
 } maker;
@@ -204,6 +205,12 @@ int bake_join(const bake *b, bake_element *e)
     return 1;
 }
 
+/* No light comes to the triangle at hand, as far as is known: it shares no element with others. */
+static uint32_t is_closed(const maker *m)
+{
+    return m->b->small_open != NULL && m->is_small && m->b->small_open[m->own] == 0;
+}
+
 static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
     const lmb_vec3 at = triangle_middle(corner), low = m->b->scene->bounds_min;
@@ -211,7 +218,7 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
     const uint32_t cell[4] = {(uint32_t)clampf((at.x - low.x) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.y - low.y) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f),
-                              piece_facing(normal) | (uint32_t)m->emits << 3};
+                              piece_facing(normal) | (uint32_t)m->emits << 3 | is_closed(m) << 4};
     uint32_t h = cell[0] * 73856093u ^ cell[1] * 19349663u ^ cell[2] * 83492791u ^ cell[3] * 2654435761u;
     h ^= h >> 15;
     for (;; ++h) {
@@ -272,6 +279,7 @@ static int add_triangle(maker *m, uint32_t id)
     float area;
     const int exists = lmb_triangle_fetch(&t, b->scene, id) && lmb_triangle_shape(&normal, &area, &t);
     m->emits = exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
+    m->is_small = exists && bake_is_small(b, t.corner);
     for (int back = 0; back < 2; ++back) {
         const int shows =
             exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world)) &&
