@@ -9,6 +9,7 @@
 #include "../common/io_file.h"
 #include "../common/progress.h"
 #include "../common/report.h"
+#include "bake_triangle.h"
 
 /* How accurately; errors are of light that all surfaces send alike. */
 typedef struct bake_settings {
@@ -31,6 +32,7 @@ typedef struct bake_words {
 /* A piece of surface that sends light. */
 typedef struct bake_element {
     lmb_vec3 corner[3], middle, normal; /* of several triangles the largest; middle, normal: means */
+    lmb_vec3 place; /* of several triangles: the middle of the largest one */
     float area;    /* m2, of all */
     float largest; /* of its triangles, m2 */
     float reach2;  /* its farthest corner from its middle, squared, m2 */
@@ -43,7 +45,18 @@ typedef struct bake_element {
     int is_hidden; /* hardly any does: inside of a solid, it may be, through a crack */
     float light;   /* about how much comes, in any unit */
     uint32_t key, number; /* order along a Z curve; where it was made */
+    uint32_t first_part, parts; /* its triangles, where it has several */
 } bake_element;
+
+/* One of an element's triangles: its corners go round its normal. */
+typedef struct bake_part {
+    lmb_vec3 corner[3], normal;
+    lmb_vec3 middle; /* of what light can come to */
+    float open;      /* the share of it */
+    float area;      /* of all, m2 */
+    uint32_t element;
+    uint32_t side; /* 2 (id - 1) + back, where it is all of a triangle; or LMB_TRANSFER_NONE */
+} bake_part;
 
 enum { BAKE_PARENTS = 4 };
 
@@ -92,6 +105,8 @@ typedef struct bake {
 
     bake_element *element; /* set.elements; past element_count without area */
     uint32_t element_count;
+    bake_part *part; /* of elements of several triangles; those of one lie side by side */
+    uint32_t part_count, part_cap;
 
     bake_receiver *receiver;
     uint32_t receiver_count, receiver_cap;
@@ -105,6 +120,17 @@ typedef struct bake {
 
 /* What of an element sends light, m2. */
 static inline float bake_open_area(const bake_element *e) { return e->is_dark ? 0.0f : e->area * e->open; }
+
+/* A place on an element. Of several triangles the largest one is taken: their mean middle may lie inside a solid. */
+static inline lmb_vec3 bake_place(const bake_element *e) { return e->is_one ? e->middle : e->place; }
+
+/* The normal there. */
+static inline lmb_vec3 bake_facing(const bake_element *e)
+{
+    const lmb_vec3 across = cross3(sub3(e->corner[1], e->corner[0]), sub3(e->corner[2], e->corner[0]));
+    const float length = length3(across);
+    return e->is_one || !(length > 0.0f) ? e->normal : mul3(across, 1.0f / length);
+}
 
 /* What bake_sees works with; one a thread. */
 typedef struct bake_sight {
@@ -133,12 +159,15 @@ int bake_elements(bake *b, report *r);
  * Hidden ones and those that emit lie apart, as what others send is not like what they do. */
 int bake_order(bake *b, report *r);
 
+/* bake_join: an element's means, and its largest triangle, by what is open of its parts. 0: nothing is. */
+int bake_join(const bake *b, bake_element *e);
+
 /* bake_reach: leave out the sides of surfaces that no way through the scene leads to from its lights and from `eyes`,
  * like the insides of boxes, and parts of elements on which something stands. With neither nothing is left out. Then
  * the elements' areas are known. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r);
 
-/* bake_smalls: b->small_open, by the light of elements. bake_quarters: a triangle's middle, and places towards its
+/* bake_smalls: b->small_open, by the light of elements; and what is open of parts. bake_quarters: a triangle's middle, and places towards its
  * corners. */
 int bake_smalls(bake *b, report *r);
 void bake_quarters(lmb_vec3 out[4], const lmb_vec3 corner[3]);

@@ -102,13 +102,10 @@ static uint32_t element_at(const bake *b, const run *r, float at)
     return last;
 }
 
-/* Of means of several triangles the largest one is looked from: their middle may lie inside. */
 static void add_look(looks *l, const bake_element *e, uint32_t of)
 {
-    const lmb_vec3 across = cross3(sub3(e->corner[1], e->corner[0]), sub3(e->corner[2], e->corner[0]));
-    const float length = length3(across);
-    l->at[l->count] = e->is_one ? e->middle : triangle_middle(e->corner);
-    l->normal[l->count] = e->is_one || !(length > 0.0f) ? e->normal : mul3(across, 1.0f / length);
+    l->at[l->count] = bake_place(e);
+    l->normal[l->count] = bake_facing(e);
     l->of[l->count++] = of;
 }
 

@@ -11,6 +11,7 @@
 enum { MESH = 500 };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
 #define CLOSER  0.5f /* of that, where there are elements left for it */
+#define SLIVER  (1.0f / 16.0f) /* of a square of that size: smaller triangles share elements, or slivers take them all */
 
 int bake_put(bake_words *w, uint32_t word, report *r)
 {
@@ -93,6 +94,16 @@ int bake_begin(bake *b, const lmb_scene *scene, const bake_settings *set, report
     return 1;
 }
 
+/* Corners that go round the normal. */
+static void put_round(lmb_vec3 corner[3], lmb_vec3 normal)
+{
+    if (dot3(normal, cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]))) < 0.0f) {
+        const lmb_vec3 last = corner[2];
+        corner[2] = corner[1];
+        corner[1] = last;
+    }
+}
+
 /* --- pieces ------------------------------------------------------------------------------------------------------- */
 
 typedef struct maker {
@@ -104,8 +115,35 @@ typedef struct maker {
     uint8_t *is_reached; /* a side of a triangle */
     int is_full;
     int emits; /* the triangle at hand */
+    int is_small;
+    uint32_t own; /* its side: 2 (id - 1) + back */
     report *r;
 } maker;
+
+/* A triangle of an element that has several, or may get more. */
+static int add_part(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, uint32_t element, uint32_t side)
+{
+    bake *b = m->b;
+    if (b->part_count == b->part_cap) {
+        const uint32_t cap = b->part_cap > 0 ? 2 * b->part_cap : 1024;
+        bake_part *data = realloc(b->part, cap * sizeof *data);
+        if (data == NULL) {
+            return report_fail(m->r, "not enough memory for %u parts of elements", (unsigned)cap);
+        }
+        b->part = data;
+        b->part_cap = cap;
+    }
+    bake_part *p = &b->part[b->part_count++];
+    memcpy(p->corner, corner, sizeof p->corner);
+    put_round(p->corner, normal);
+    p->normal = normal;
+    p->middle = triangle_middle(corner);
+    p->area = triangle_area(corner);
+    p->open = 1.0f;
+    p->element = element;
+    p->side = side;
+    return 1;
+}
 
 static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 {
@@ -117,10 +155,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     bake_element *e = &b->element[b->element_count];
     memset(e, 0, sizeof *e);
     memcpy(e->corner, corner, sizeof e->corner);
-    if (dot3(normal, cross3(sub3(corner[1], corner[0]), sub3(corner[2], corner[0]))) < 0.0f) {
-        e->corner[1] = corner[2];
-        e->corner[2] = corner[1];
-    }
+    put_round(e->corner, normal);
     e->middle = triangle_middle(corner);
     e->normal = normal;
     e->area = e->largest = triangle_area(corner);
@@ -136,25 +171,44 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     return b->element_count++;
 }
 
-/* Means by area: middle and normal hold sums times area until all are there. */
-static void join(bake_element *e, const lmb_vec3 corner[3], lmb_vec3 normal)
+int bake_join(const bake *b, bake_element *e)
 {
-    const float area = triangle_area(corner), share = area > 0.0f ? area / (e->area + area) : 0.0f;
-    const lmb_vec3 middle = triangle_middle(corner);
-    const lmb_vec3 mean = add3(mul3(mul3(e->normal, e->facing), 1.0f - share), mul3(normal, share));
-    e->middle = add3(e->middle, mul3(sub3(middle, e->middle), share));
-    e->facing = length3(mean);
-    e->normal = e->facing > 1e-6f ? mul3(mean, 1.0f / e->facing) : e->normal;
-    e->area += area;
-    e->is_one = 0;
-    if (area > e->largest) {
-        e->largest = area;
-        memcpy(e->corner, corner, sizeof e->corner);
+    const bake_part *p = b->part + e->first_part;
+    lmb_vec3 middle = vec3(0.0f, 0.0f, 0.0f), normal = middle;
+    float area = 0.0f, largest = 0.0f;
+    for (uint32_t i = 0; i < e->parts; ++i) {
+        const float own = p[i].area * p[i].open;
+        area += own;
+        middle = add3(middle, mul3(p[i].middle, own));
+        normal = add3(normal, mul3(p[i].normal, own));
+        if (own > largest) {
+            largest = own;
+            e->place = p[i].middle;
+            memcpy(e->corner, p[i].corner, sizeof e->corner);
+        }
     }
-    for (int k = 0; k < 3; ++k) {
-        const lmb_vec3 d = sub3(corner[k], e->middle);
-        e->reach2 = maxf(e->reach2, dot3(d, d));
+    if (!(area > 0.0f)) {
+        return 0;
     }
+    e->area = area;
+    e->largest = largest;
+    e->middle = mul3(middle, 1.0f / area);
+    e->facing = length3(normal) / area;
+    e->normal = e->facing > 1e-6f ? normalize3(normal) : e->normal;
+    e->reach2 = 0.0f;
+    for (uint32_t i = 0; i < e->parts; ++i) {
+        for (int k = 0; k < 3 && p[i].open > 0.0f; ++k) {
+            const lmb_vec3 d = sub3(p[i].corner[k], e->middle);
+            e->reach2 = maxf(e->reach2, dot3(d, d));
+        }
+    }
+    return 1;
+}
+
+/* No light comes to the triangle at hand, as far as is known: it shares no element with others. */
+static uint32_t is_closed(const maker *m)
+{
+    return m->b->small_open != NULL && m->is_small && m->b->small_open[m->own] == 0;
 }
 
 static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
@@ -164,7 +218,7 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
     const uint32_t cell[4] = {(uint32_t)clampf((at.x - low.x) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.y - low.y) * per, 0.0f, 1e6f),
                               (uint32_t)clampf((at.z - low.z) * per, 0.0f, 1e6f),
-                              piece_facing(normal) | (uint32_t)m->emits << 3};
+                              piece_facing(normal) | (uint32_t)m->emits << 3 | is_closed(m) << 4};
     uint32_t h = cell[0] * 73856093u ^ cell[1] * 19349663u ^ cell[2] * 83492791u ^ cell[3] * 2654435761u;
     h ^= h >> 15;
     for (;; ++h) {
@@ -176,7 +230,7 @@ static uint32_t small_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 norma
             return e;
         }
         if (memcmp(slot, cell, sizeof cell) == 0) {
-            join(&m->b->element[slot[4] - 1], corner, normal);
+            m->b->element[slot[4] - 1].is_one = 0;
             return slot[4] - 1;
         }
     }
@@ -194,10 +248,11 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
     const int is_free = longest <= m->side && (is_small || bake_stands_free(&m->sight, m->b, corner, normal));
     if (is_last || is_free || longest <= m->contact * m->side) {
-        const uint32_t e = is_small ? small_element(m, corner, normal) : add_element(m, corner, normal);
+        const int is_shared = is_free && (is_small || triangle_area(corner) < SLIVER * m->side * m->side);
+        const uint32_t e = is_shared ? small_element(m, corner, normal) : add_element(m, corner, normal);
         w->data[node] = LMB_TRANSFER_LEAF | e;
         m->b->element[e].is_stood_on = !is_free;
-        return 1;
+        return !is_shared || add_part(m, corner, normal, e, depth == 0 ? m->own : LMB_TRANSFER_NONE);
     }
     const int to = (from + 1) % 3;
     const lmb_vec3 mid = mul3(add3(corner[from], corner[to]), 0.5f);
@@ -224,10 +279,12 @@ static int add_triangle(maker *m, uint32_t id)
     float area;
     const int exists = lmb_triangle_fetch(&t, b->scene, id) && lmb_triangle_shape(&normal, &area, &t);
     m->emits = exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
+    m->is_small = exists && bake_is_small(b, t.corner);
     for (int back = 0; back < 2; ++back) {
         const int shows =
             exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world)) &&
             m->is_reached[2 * (id - 1) + (size_t)back];
+        m->own = 2 * (id - 1) + (uint32_t)back;
         surfaces->data[4 * (id - 1) + (size_t)back] = shows ? (uint32_t)pieces->count : LMB_TRANSFER_NONE;
         if (shows && (!bake_put(pieces, 0, m->r) ||
                       !halve(m, t.corner, mul3(normal, back ? -1.0f : 1.0f), pieces->count - 1, 0))) {
@@ -237,11 +294,39 @@ static int add_triangle(maker *m, uint32_t id)
     return 1;
 }
 
+static int by_element(const void *a, const void *b)
+{
+    const bake_part *x = a, *y = b;
+    return x->element != y->element ? (x->element < y->element ? -1 : 1) : 0;
+}
+
+/* Each element's own parts, side by side. */
+static void take_parts(bake *b)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < b->part_count; ++i) {
+        if (!b->element[b->part[i].element].is_one) {
+            b->part[kept++] = b->part[i];
+        }
+    }
+    b->part_count = kept;
+    if (kept > 0) {
+        qsort(b->part, kept, sizeof *b->part, by_element);
+    }
+    for (uint32_t i = 0; i < kept; ++i) {
+        bake_element *e = &b->element[b->part[i].element];
+        e->first_part = e->parts++ == 0 ? i : e->first_part;
+    }
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        (void)bake_join(b, &b->element[i]);
+    }
+}
+
 static int make(maker *m)
 {
     const uint32_t all = lmb_scene_triangles(m->b->scene);
     m->b->section[LMB_TRANSFER_PIECES].count = 0;
-    m->b->element_count = 0;
+    m->b->element_count = m->b->part_count = 0;
     memset(m->b->element, 0, m->b->set.elements * sizeof *m->b->element);
     m->is_full = 0;
     memset(m->slot, 0, 20 * ((size_t)m->mask + 1));
@@ -249,6 +334,9 @@ static int make(maker *m)
         if (!add_triangle(m, id)) {
             return 0;
         }
+    }
+    if (!m->is_full) {
+        take_parts(m->b);
     }
     return 1;
 }
@@ -282,6 +370,9 @@ int bake_order(bake *b, report *r)
     qsort(b->element, b->element_count, sizeof *b->element, by_key);
     for (uint32_t i = 0; i < b->element_count; ++i) {
         place[b->element[i].number] = i;
+    }
+    for (uint32_t i = 0; i < b->part_count; ++i) {
+        b->part[i].element = place[b->part[i].element];
     }
     bake_words *pieces = &b->section[LMB_TRANSFER_PIECES], *areas = &b->section[LMB_TRANSFER_AREAS];
     for (size_t i = 0; i < pieces->count; ++i) {

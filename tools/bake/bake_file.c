@@ -124,6 +124,7 @@ void bake_free(bake *b)
     }
     free(b->receiver);
     free(b->element);
+    free(b->part);
     free(b->small_open);
     free(b->bvh_memory);
 }

@@ -110,8 +110,8 @@ static int spread(reach *w, const lmb_vec3 *eyes, uint32_t count)
         progress_tell("surfaces", (double)done / (double)w->b->element_count);
         for (int k = 0; k < n; ++k) {
             const bake_element *e = &w->b->element[chosen[k]];
-            at[k] = e->middle;
-            normal[k] = e->normal;
+            at[k] = bake_place(e);
+            normal[k] = bake_facing(e);
             power[k] = ALBEDO * e->light * e->area;
         }
         if (!send(w, at, normal, power, n)) {
@@ -142,11 +142,11 @@ static void find_witnesses(bake_nearest *out, const reach *w, const bake_element
     out->limit = WITNESSES;
     for (uint32_t i = 0; i < w->b->element_count; ++i) {
         const bake_element *o = &w->b->element[i];
-        const lmb_vec3 d = sub3(o->middle, e->middle);
+        const lmb_vec3 place = bake_place(o), d = sub3(place, e->middle);
         const float d2 = dot3(d, d);
         if (w->has_sent[i] && !o->is_stood_on && dot3(d, e->normal) >= 0.1f * sqrtf(d2) && dot3(d, o->normal) <= 0.0f &&
             bake_is_near(out, d2)) {
-            bake_nearest_put(out, o->middle, d2);
+            bake_nearest_put(out, place, d2);
         }
     }
 }
@@ -206,12 +206,23 @@ static int open_elements(reach *w)
         w->bright += BRIGHT * w->b->element[i].light / (float)w->b->element_count;
     }
     for (uint32_t i = 0; tile != NULL && i < w->b->element_count; ++i) {
-        if (w->b->element[i].is_stood_on) {
+        if (w->b->element[i].is_stood_on && w->b->element[i].is_one) {
             open_element(w, &w->b->element[i], tile, &traversal);
         }
     }
     free(tile);
     return tile != NULL || report_fail(w->r, "not enough memory for a tile");
+}
+
+/* Of several triangles those parts count that see a lit surface. */
+static void join_elements(bake *b)
+{
+    for (uint32_t i = 0; i < b->element_count; ++i) {
+        bake_element *e = &b->element[i];
+        if (!bake_join(b, e) && e->is_stood_on && !e->is_one) {
+            e->open = 0.0f;
+        }
+    }
 }
 
 /* What no light came to is no part of what a node sends, either: its mean is over what light comes to. */
@@ -259,6 +270,7 @@ static int find_reached(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r
         }
     }
     if (ok) {
+        join_elements(b);
         sort_out(&w);
         ok = bake_order(b, r);
     }

@@ -15,6 +15,7 @@ enum { CHUNK = 64, CUTS = 4, FEW = 4 };
 /* Nearer than this, of an element's squared reach, it is cut into four, each again: what stands beside a point hides
  * some of an element, and just what lies nearest counts most. */
 static const float cut2[CUTS] = {36.0f, 9.0f, 2.5f, 0.7f};
+#define APART2 16.0f /* likewise: nearer than this each of an element's triangles counts by itself */
 
 typedef struct rows {
     const bake *b;
@@ -86,10 +87,10 @@ static int cuts_for(const bake_element *e, lmb_vec3 at)
 }
 
 /* One part and the points that take it as a whole; `share` of it counts. */
-static void add_part(const rows *w, uint32_t j, const part *p, float share, uint64_t points, int worker)
+static void add_part(const rows *w, const bake_element *e, uint32_t j, const part *p, float share, uint64_t points,
+                     int worker)
 {
-    const bake_element *e = &w->b->element[j];
-    const lmb_vec3 q = e->is_one ? p->middle : triangle_middle(p->corner);
+    const lmb_vec3 q = e->is_one ? p->middle : e->place;
     float f[CHUNK][3];
     uint64_t lit = 0;
     for (uint64_t bits = points; bits != 0; bits &= bits - 1) {
@@ -113,11 +114,12 @@ static void add_part(const rows *w, uint32_t j, const part *p, float share, uint
 }
 
 /* Points take the parts of their own level; points[l]: those that want l cuts. */
-static void add_parts(const rows *w, uint32_t j, const part *p, const uint64_t points[CUTS + 1], int level, int worker)
+static void add_parts(const rows *w, const bake_element *e, uint32_t j, const part *p, const uint64_t points[CUTS + 1],
+                      int level, int worker)
 {
     uint64_t finer = 0;
     if (points[level] != 0) {
-        add_part(w, j, p, level == 0 ? w->b->element[j].open : 1.0f, points[level], worker);
+        add_part(w, e, j, p, level == 0 ? e->open : 1.0f, points[level], worker);
     }
     for (int l = level + 1; l <= CUTS; ++l) {
         finer |= points[l];
@@ -137,18 +139,73 @@ static void add_parts(const rows *w, uint32_t j, const part *p, const uint64_t p
             quarter.corner[2] = mid[(k + 2) % 3];
             quarter.middle = triangle_middle(quarter.corner);
         }
-        add_parts(w, j, &quarter, points, level + 1, worker);
+        add_parts(w, e, j, &quarter, points, level + 1, worker);
     }
+}
+
+/* Points of `of` before one triangle, each with as many cuts as it wants. */
+static void add_triangle(const rows *w, const bake_element *e, uint32_t j, uint64_t of, int worker)
+{
+    uint64_t points[CUTS + 1] = {0, 0, 0, 0, 0};
+    part whole;
+    for (uint64_t bits = of; bits != 0; bits &= bits - 1) {
+        const int k = lowest_bit_64(bits);
+        if (!e->is_one || dot3(sub3(e->middle, w->at[k]), e->normal) < 0.0f) {
+            points[w->b->by_middles ? 0 : cuts_for(e, w->at[k])] |= (uint64_t)1 << k;
+        }
+    }
+    memcpy(whole.corner, e->corner, sizeof whole.corner);
+    whole.middle = e->middle;
+    whole.area = e->area;
+    whole.reach2 = e->reach2;
+    add_parts(w, e, j, &whole, points, 0, worker);
+}
+
+/* Each triangle of an element as if it were one of its own. */
+static void add_apart(const rows *w, uint32_t j, uint64_t points, int worker)
+{
+    const bake_element *of = &w->b->element[j];
+    for (uint32_t i = of->first_part; i < of->first_part + of->parts; ++i) {
+        const bake_part *p = &w->b->part[i];
+        bake_element e;
+        if (!(p->open > 0.0f)) {
+            continue;
+        }
+        memset(&e, 0, sizeof e);
+        memcpy(e.corner, p->corner, sizeof e.corner);
+        e.middle = p->middle;
+        e.normal = p->normal;
+        e.area = p->area;
+        e.open = p->open;
+        e.facing = 1.0f;
+        e.is_one = 1;
+        for (int k = 0; k < 3; ++k) {
+            const lmb_vec3 d = sub3(p->corner[k], e.middle);
+            e.reach2 = maxf(e.reach2, dot3(d, d));
+        }
+        add_triangle(w, &e, j, points, worker);
+    }
+}
+
+/* Which points are so near to an element that it is no disc for them. */
+static uint64_t near_points(const rows *w, const bake_element *e)
+{
+    const float reach2 = (e->is_one ? cut2[0] : APART2) * e->reach2;
+    uint64_t near = 0;
+    for (int k = 0; k < w->count && !w->b->by_middles; ++k) {
+        const lmb_vec3 d = sub3(e->middle, w->at[k]);
+        near |= (uint64_t)(dot3(d, d) < reach2) << k;
+    }
+    return near;
 }
 
 static void element_job(void *user, int index, int worker)
 {
     const rows *w = user;
     const uint32_t per = w->b->set.elements / CHUNK, first = (uint32_t)index * per;
+    const uint64_t all = ~(uint64_t)0 >> (CHUNK - w->count);
     for (uint32_t j = first; j < first + per; ++j) {
         const bake_element *e = &w->b->element[j];
-        uint64_t points[CUTS + 1] = {0, 0, 0, 0, 0};
-        part whole;
         for (int k = 0; k < w->axes * w->count; ++k) {
             w->row[k][j] = 0.0f;
         }
@@ -158,23 +215,17 @@ static void element_job(void *user, int index, int worker)
         if (!(e->area > 0.0f) || e->is_dark) {
             continue;
         }
-        for (int k = 0; k < w->count; ++k) {
-            const lmb_vec3 d = sub3(e->middle, w->at[k]);
-            if (!e->is_one || dot3(d, e->normal) < 0.0f) {
-                points[w->b->by_middles ? 0 : cuts_for(e, w->at[k])] |= (uint64_t)1 << k;
-            }
-        }
-        if (w->times != NULL && (points[1] | points[2] | points[3] | points[4]) == 0) {
+        const uint64_t near = near_points(w, e);
+        if (w->times != NULL && near == 0) {
             w->times[j] = j % FEW == j / FEW % FEW ? (float)FEW : 0.0f;
             if (w->times[j] == 0.0f) {
                 continue;
             }
         }
-        memcpy(whole.corner, e->corner, sizeof whole.corner);
-        whole.middle = e->middle;
-        whole.area = e->area;
-        whole.reach2 = e->reach2;
-        add_parts(w, j, &whole, points, 0, worker);
+        if (!e->is_one && near != 0) {
+            add_apart(w, j, near, worker);
+        }
+        add_triangle(w, e, j, e->is_one ? all : all & ~near, worker);
     }
 }
 

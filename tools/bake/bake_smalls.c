@@ -12,9 +12,10 @@ enum { QUARTERS = 4, TOGETHER = LMB_TILE_PIXELS / QUARTERS, WITNESSES = 24 };
 #define OVER  0.05f /* of the smallest edge: places are looked at from so far over them */
 #define FAINT 0.01  /* of the mean light: elements to which less comes are no witnesses */
 
-/* A side of a small triangle: it lies on an element with others. */
+/* A side of a small triangle, or part of one: it lies on an element with others. */
 typedef struct side {
-    uint32_t element, number; /* 2 (id - 1) + back */
+    uint32_t element, number; /* 2 (id - 1) + back, or LMB_TRANSFER_NONE */
+    uint32_t part;            /* or LMB_TRANSFER_NONE */
 } side;
 
 typedef struct smalls {
@@ -44,7 +45,7 @@ static void find_witnesses(bake_nearest *out, const smalls *w, uint32_t element)
     out->limit = WITNESSES;
     for (uint32_t i = 0; i < w->b->element_count; ++i) {
         const bake_element *o = &w->b->element[i];
-        const lmb_vec3 at = o->is_one ? o->middle : triangle_middle(o->corner), d = sub3(at, e->middle);
+        const lmb_vec3 at = bake_place(o), d = sub3(at, e->middle);
         const float d2 = dot3(d, d);
         if (i != element && o->light > w->faint && !o->is_stood_on && dot3(d, o->normal) <= 0.0f &&
             dot3(d, e->normal) >= 0.0f && bake_is_near(out, d2)) {
@@ -53,16 +54,30 @@ static void find_witnesses(bake_nearest *out, const smalls *w, uint32_t element)
     }
 }
 
-static void put_places(lmb_tile *tile, const bake *b, uint32_t number)
+static int side_shape(lmb_vec3 corner[3], lmb_vec3 *normal, const bake *b, const side *s)
 {
     lmb_triangle t;
-    lmb_vec3 normal, place[QUARTERS];
     float area;
-    if (!lmb_triangle_fetch(&t, b->scene, number / 2 + 1) || !lmb_triangle_shape(&normal, &area, &t)) {
+    if (s->part != LMB_TRANSFER_NONE) {
+        memcpy(corner, b->part[s->part].corner, 3 * sizeof *corner);
+        *normal = b->part[s->part].normal;
+        return 1;
+    }
+    if (!lmb_triangle_fetch(&t, b->scene, s->number / 2 + 1) || !lmb_triangle_shape(normal, &area, &t)) {
+        return 0;
+    }
+    memcpy(corner, t.corner, 3 * sizeof *corner);
+    *normal = mul3(*normal, s->number % 2 ? -1.0f : 1.0f);
+    return 1;
+}
+
+static void put_places(lmb_tile *tile, const bake *b, const side *s)
+{
+    lmb_vec3 corner[3], normal, place[QUARTERS];
+    if (!side_shape(corner, &normal, b, s)) {
         return;
     }
-    normal = mul3(normal, number % 2 ? -1.0f : 1.0f);
-    bake_quarters(place, t.corner);
+    bake_quarters(place, corner);
     for (int k = 0; k < QUARTERS; ++k) {
         const lmb_vec3 p = add3(place[k], mul3(normal, OVER * b->set.smallest_m));
         const float at[3] = {p.x, p.y, p.z}, n[3] = {normal.x, normal.y, normal.z};
@@ -86,6 +101,19 @@ static uint64_t before(const lmb_tile *tile, lmb_vec3 q)
     return out;
 }
 
+/* Its quarters that light comes to. */
+static void open_part(bake_part *p, uint32_t own)
+{
+    const int count = count_bits_64(own);
+    lmb_vec3 place[QUARTERS], sum = vec3(0.0f, 0.0f, 0.0f);
+    bake_quarters(place, p->corner);
+    for (int k = 0; k < QUARTERS; ++k) {
+        sum = (own >> k & 1u) != 0 ? add3(sum, place[k]) : sum;
+    }
+    p->open = (float)count * (1.0f / QUARTERS);
+    p->middle = count > 0 ? mul3(sum, 1.0f / (float)count) : p->middle;
+}
+
 /* Places are open that see some element to which light comes. */
 static void look(void *user, int index, int worker)
 {
@@ -98,7 +126,7 @@ static void look(void *user, int index, int worker)
     find_witnesses(&witness, w, s->element);
     tile->hits = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        put_places(tile, w->b, s[i].number);
+        put_places(tile, w->b, &s[i]);
     }
     const uint64_t all = ~(uint64_t)0 >> (LMB_TILE_PIXELS - QUARTERS * (int)count);
     const float noise = lmb_tile_noise(tile, all);
@@ -110,14 +138,29 @@ static void look(void *user, int index, int worker)
         }
     }
     for (uint32_t i = 0; i < count; ++i) {
-        w->b->small_open[s[i].number] = (uint8_t)(open >> QUARTERS * i & ((1u << QUARTERS) - 1u));
+        const uint32_t own = (uint32_t)(open >> QUARTERS * i) & ((1u << QUARTERS) - 1u);
+        if (s[i].number != LMB_TRANSFER_NONE) {
+            w->b->small_open[s[i].number] = (uint8_t)own;
+        }
+        if (s[i].part != LMB_TRANSFER_NONE) {
+            open_part(&w->b->part[s[i].part], own);
+        }
     }
 }
 
 static int by_element(const void *a, const void *b)
 {
     const side *x = a, *y = b;
-    return x->element != y->element ? (x->element < y->element ? -1 : 1) : x->number < y->number ? -1 : 1;
+    if (x->element != y->element) {
+        return x->element < y->element ? -1 : 1;
+    }
+    return x->number != y->number ? (x->number < y->number ? -1 : 1) : x->part < y->part ? -1 : 1;
+}
+
+static void add_side(smalls *w, uint32_t element, uint32_t number, uint32_t part)
+{
+    const side s = {element, number, part};
+    w->list[w->count++] = s;
 }
 
 /* All sides that are there, those of an element together. */
@@ -125,6 +168,12 @@ static void put_sides(smalls *w)
 {
     const bake *b = w->b;
     const uint32_t *root = b->section[LMB_TRANSFER_SURFACES].data, *node = b->section[LMB_TRANSFER_PIECES].data;
+    for (uint32_t i = 0; i < b->part_count; ++i) {
+        add_side(w, b->part[i].element, b->part[i].side, i);
+        if (b->part[i].side != LMB_TRANSFER_NONE) {
+            w->b->small_open[b->part[i].side] = 1; /* is there */
+        }
+    }
     for (uint32_t id = 1; id <= lmb_scene_triangles(b->scene); ++id) {
         lmb_triangle t;
         if (!lmb_triangle_fetch(&t, b->scene, id) || !bake_is_small(b, t.corner)) {
@@ -135,9 +184,8 @@ static void put_sides(smalls *w)
             while (at != LMB_TRANSFER_NONE && (node[at] & LMB_TRANSFER_LEAF) == 0) {
                 at = node[at] & ((1u << LMB_TRANSFER_EDGE_BIT) - 1u);
             }
-            if (at != LMB_TRANSFER_NONE) {
-                w->list[w->count].element = node[at] & ~LMB_TRANSFER_LEAF;
-                w->list[w->count++].number = 2 * (id - 1) + back;
+            if (at != LMB_TRANSFER_NONE && b->small_open[2 * (id - 1) + back] == 0) {
+                add_side(w, node[at] & ~LMB_TRANSFER_LEAF, 2 * (id - 1) + back, LMB_TRANSFER_NONE);
             }
         }
     }
@@ -155,10 +203,10 @@ static void put_sides(smalls *w)
 
 static int make(smalls *w, report *r)
 {
-    const size_t sides = 2 * (size_t)lmb_scene_triangles(w->b->scene);
+    const size_t sides = 2 * (size_t)lmb_scene_triangles(w->b->scene), all = sides + w->b->part_count;
     int ok = 1;
-    w->list = malloc(sides * sizeof *w->list + 1);
-    w->job = malloc((sides + 1) * sizeof *w->job);
+    w->list = malloc(all * sizeof *w->list + 1);
+    w->job = malloc((all + 1) * sizeof *w->job);
     free(w->b->small_open);
     w->b->small_open = calloc(sides + 1, 1);
     for (int k = 0; k < w->b->set.threads; ++k) {
