@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "../../src/base/vec.h"
 #include "../../src/raster/triangle.h"
 
 #define FRAME_FOV 0.698f /* 40 degrees */
@@ -18,6 +19,16 @@ static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
     return axis.x * (a.x - b.x) + axis.y * (a.y - b.y) + axis.z * (a.z - b.z);
 }
 
+/* Triangle `id` where it is drawn: what has a corner that is not finite or 2^20 m away is not, and would be framed. */
+static int fetch_drawn(lmb_triangle *t, const lmb_scene *s, uint32_t id)
+{
+    int is_drawn = lmb_triangle_fetch(t, s, id);
+    for (int k = 0; k < 3 && is_drawn; ++k) {
+        is_drawn = is_sane(t->corner[k].x) && is_sane(t->corner[k].y) && is_sane(t->corner[k].z);
+    }
+    return is_drawn;
+}
+
 /* Which of the six sides of the bounds surfaces close, as shares of their area: two of each axis, the lower one first. */
 static void find_closed(double closed[6], const lmb_scene *s)
 {
@@ -28,7 +39,7 @@ static void find_closed(double closed[6], const lmb_scene *s)
         closed[side] = 0.0;
     }
     for (uint32_t id = 1; id <= lmb_scene_triangles(s); ++id) {
-        if (!lmb_triangle_fetch(&t, s, id)) {
+        if (!fetch_drawn(&t, s, id)) {
             continue;
         }
         for (int side = 0; side < 6; ++side) {
@@ -95,7 +106,8 @@ static scene_reach reach_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 cent
     scene_reach r = {-1e300, -1e300, -1e300, -1e300, -1e300};
     lmb_triangle t;
     for (uint32_t id = 1; id <= lmb_scene_triangles(s); ++id) {
-        for (int k = 0; lmb_triangle_fetch(&t, s, id) && k < 3; ++k) {
+        const int corners = fetch_drawn(&t, s, id) ? 3 : 0;
+        for (int k = 0; k < corners; ++k) {
             add_reach(&r, v, t.corner[k], centre);
         }
     }
@@ -117,10 +129,10 @@ static void fit(lmb_view *v, const scene_reach *r, lmb_vec3 centre, float size)
 /* How far from square a scene is in a picture of that shape, width over height: as powers of e. */
 static float misfit(float shape, float wide, float high) { return fabsf(logf(shape * high / wide)); }
 
-/* The shape of picture that a scene fills best, of four; 4:3 where no other is much better. */
+/* The shape of picture that a scene fills best, of six; 4:3 where no other is much better. */
 static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
 {
-    static const float usual = 4.0f / 3.0f, shapes[3] = {0.5f, 0.75f, 2.0f};
+    static const float usual = 4.0f / 3.0f, shapes[5] = {1.0f / 3.0f, 0.5f, 0.75f, 2.0f, 3.0f};
     float wide = 0.0f, high = 0.0f, best = usual;
     for (int i = 0; i < 8; ++i) {
         const lmb_vec3 p = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
@@ -128,7 +140,7 @@ static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
         wide = fmaxf(wide, fabsf(along(v->right, p, centre)));
         high = fmaxf(high, fabsf(along(v->up, p, centre)));
     }
-    for (int i = 0; i < 3 && wide > 0.0f && high > 0.0f; ++i) {
+    for (int i = 0; i < 5 && wide > 0.0f && high > 0.0f; ++i) {
         best = misfit(shapes[i], wide, high) + MUCH < misfit(usual, wide, high) &&
                        misfit(shapes[i], wide, high) < misfit(best, wide, high)
                    ? shapes[i]
@@ -153,6 +165,9 @@ int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char 
         return report_fail(r, "%s: no view frames the scene; give --eye and --target", name);
     }
     const scene_reach all = reach_of(scene, v, centre);
+    if (all.front < -1e299) {
+        return report_fail(r, "%s: nothing to see: each triangle has a corner that is not finite or 2^20 m away", name);
+    }
     fit(v, &all, centre, size);
     report_note(o->is_quiet, "no camera in %s: framing the scene from %.4g,%.4g,%.4g", name, (double)v->eye.x,
                 (double)v->eye.y, (double)v->eye.z);
