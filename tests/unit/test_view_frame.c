@@ -112,7 +112,7 @@ static void check_shapes(void)
     check_box("tiny cube", vec3(0, 0, 0), 1e-4f, 1e-4f, 1e-4f, 0.3);
     check_box("huge cube", vec3(0, 0, 0), 9e3f, 9e3f, 9e3f, 0.3);
     check_box("far cube", vec3(900, -40, 3000), 1, 1, 1, 0.3);
-    check_box("plate", vec3(0, 0, 0), 5, 0.05f, 5, 0.15);
+    check_box("plate", vec3(0, 0, 0), 5, 0.05f, 5, 0.3);
     check_box("wall", vec3(0, 2, 0), 6, 2, 0.1f, 0.3);
     check_box("wall from its side", vec3(0, 2, 0), 0.1f, 2, 6, 0.3);
     check_box("tower", vec3(0, 10, 0), 1, 10, 1, 0.06);

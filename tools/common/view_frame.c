@@ -10,6 +10,7 @@
 #define AIR       0.94   /* of the picture is filled, across or up */
 #define MUCH      0.25f
 #define LONG      1.5f   /* as wide, from front to back: is seen from the side */
+#define FLAT      0.2f   /* as high, of the shorter side: is seen from higher up */
 #define SIDE      0.02   /* of the scene's size: as near to a side of its bounds, surfaces close that side */
 #define WALL      0.6    /* shares of a side that make it a wall, or open */
 #define HOLE      0.3
@@ -62,10 +63,12 @@ static void find_closed(double closed[6], const lmb_scene *s)
 }
 
 /* Towards the eye: from a little above, to the right of the front (+Z). What is long from front to back is seen from its
- * right side instead, and a room with one open wall through that. */
+ * right side instead, what is flat from higher up, and a room with one open wall through that. */
 static lmb_vec3 direction_to_eye(const lmb_scene *s)
 {
-    static const lmb_vec3 front = {0.45f, 0.35f, 0.82f}, right = {0.82f, 0.35f, 0.45f};
+    const float x = s->bounds_max.x - s->bounds_min.x, y = s->bounds_max.y - s->bounds_min.y,
+                z = s->bounds_max.z - s->bounds_min.z, up = y < FLAT * minf(x, z) ? 0.8f : 0.35f;
+    const lmb_vec3 front = {0.45f, up, 0.82f}, right = {0.82f, up, 0.45f};
     static const lmb_vec3 through[6] = {{-0.95f, 0.2f, 0.3f}, {0.95f, 0.2f, 0.3f}, {0.3f, -0.95f, 0.3f},
                                         {0.35f, 0.9f, 0.6f},  {0.3f, 0.2f, -0.95f}, {0.3f, 0.2f, 0.95f}};
     double closed[6];
@@ -81,7 +84,7 @@ static lmb_vec3 direction_to_eye(const lmb_scene *s)
     if (walls == 5 && holes == 1 && open != 2) {
         return through[open];
     }
-    return s->bounds_max.z - s->bounds_min.z > LONG * (s->bounds_max.x - s->bounds_min.x) ? right : front;
+    return z > LONG * x ? right : front;
 }
 
 /* How far the scene reaches in a view, seen from `centre`: the maximum of every plane's distance through it. */
