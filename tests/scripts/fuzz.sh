@@ -1,5 +1,6 @@
-# fuzz.sh: runs each fuzz target for some CPU minutes, 0: for five seconds: fuzz.sh FUZZER FOLDER MINUTES TARGET...
+# fuzz.sh: runs each fuzz target for some CPU minutes: fuzz.sh FUZZER FOLDER MINUTES TARGET...
 #
+# MINUTES 0 are five seconds, and twenty of the library's calls and stages, whose inputs take the longest to grow.
 # Starts from tests/fuzz/corpus and the sample data where that is; what is found to be of use is kept in FOLDER/TARGET
 # for the next run, findings in FOLDER/TARGET-crash-* and the like. Goes in slices, because the engine's own limit
 # counts time on the wall; so does its limit for one input, and a busy machine takes 25 s for what needs one. Says how
@@ -8,7 +9,6 @@
 fuzzer=$1 folder=$2 minutes=$3
 shift 3
 shared=${LMB_SHARED:-../shared}
-[ "$minutes" -gt 0 ] && slice=120 || slice=5
 
 # seconds: what the finished children of this shell took, and the system for them (the memory of large pictures is most
 # of some targets). A pipe or $(...) would ask a shell of its own.
@@ -43,6 +43,11 @@ run() {
     done
     count "$1"
     begun=$seconds executions=0
+    case $minutes/$1 in
+    0/calls | 0/stages) slice=20 ;;
+    0/*) slice=5 ;;
+    *) slice=120 ;;
+    esac
     while
         "$fuzzer" "$1" $options -max_total_time=$slice -artifact_prefix="$folder/$1-" "$folder/$1" \
             "tests/fuzz/corpus/$1" "$folder/samples/$1" >"$folder/$1.log" 2>&1
@@ -66,7 +71,7 @@ tell() {
         "$(ls "$folder/$1" | wc -l) inputs kept: $verdict" | tee "$folder/$1.said"
 }
 
-# Five seconds each: two at a time.
+# Seconds each: two at a time.
 [ "$minutes" -gt 0 ] && at_once=1 || at_once=2
 running=0
 for target in "$@"; do

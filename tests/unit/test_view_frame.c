@@ -112,7 +112,7 @@ static void check_shapes(void)
     check_box("tiny cube", vec3(0, 0, 0), 1e-4f, 1e-4f, 1e-4f, 0.3);
     check_box("huge cube", vec3(0, 0, 0), 9e3f, 9e3f, 9e3f, 0.3);
     check_box("far cube", vec3(900, -40, 3000), 1, 1, 1, 0.3);
-    check_box("plate", vec3(0, 0, 0), 5, 0.05f, 5, 0.15);
+    check_box("plate", vec3(0, 0, 0), 5, 0.05f, 5, 0.3);
     check_box("wall", vec3(0, 2, 0), 6, 2, 0.1f, 0.3);
     check_box("wall from its side", vec3(0, 2, 0), 0.1f, 2, 6, 0.3);
     check_box("tower", vec3(0, 10, 0), 1, 10, 1, 0.06);
@@ -154,11 +154,37 @@ static void check_rooms(void)
     }
 }
 
+/* A corner far outside, or none at all, takes its triangles out of the picture: the others are framed as without it. */
+static void check_strays(void)
+{
+    static const float strays[3] = {1e10f, -INFINITY, NAN};
+    for (int i = 0; i < 3; ++i) {
+        view_options o = options_of(WIDTH, HEIGHT);
+        report r = {0};
+        lmb_view v;
+        memset(&v, 0, sizeof v);
+        world_begin(0.5f, 0.5f, 0.5f);
+        box_at(vec3(0, 0, 0), 1, 1, 1);
+        world_quad(vec3(0, strays[i], 0), X, Z);
+        CHECK(world_end() == LMB_OK);
+        world.count -= 2; /* which reach_in and check_framed measure */
+        check_framed("a cube and strays", 0.3);
+        world_begin(0.5f, 0.5f, 0.5f);
+        world_quad(vec3(strays[i], 0, 0), X, Z);
+        world_triangle(vec3(0, 0, 0), vec3(1, 0, 0), vec3(0, 0, strays[i]));
+        world_end();
+        CHECK(!view_frame(&v, &o, &world.scene, "it", &r));
+    }
+}
+
 void test_view_frame(void)
 {
     check_shapes();
     check_size(1, 1, 1, 640);
-    check_size(1, 5, 1, 240);
-    check_size(5, 0.5f, 1, 960);
+    check_size(1, 3, 1, 240);
+    check_size(1, 5, 1, 160);
+    check_size(5, 1, 2, 960);
+    check_size(5, 0.5f, 1, 1440);
     check_rooms();
+    check_strays();
 }

@@ -3,12 +3,14 @@
 
 #include <math.h>
 
+#include "../../src/base/vec.h"
 #include "../../src/raster/triangle.h"
 
 #define FRAME_FOV 0.698f /* 40 degrees */
 #define AIR       0.94   /* of the picture is filled, across or up */
 #define MUCH      0.25f
 #define LONG      1.5f   /* as wide, from front to back: is seen from the side */
+#define FLAT      0.2f   /* as high, of the shorter side: is seen from higher up */
 #define SIDE      0.02   /* of the scene's size: as near to a side of its bounds, surfaces close that side */
 #define WALL      0.6    /* shares of a side that make it a wall, or open */
 #define HOLE      0.3
@@ -16,6 +18,16 @@
 static float along(lmb_vec3 axis, lmb_vec3 a, lmb_vec3 b)
 {
     return axis.x * (a.x - b.x) + axis.y * (a.y - b.y) + axis.z * (a.z - b.z);
+}
+
+/* Triangle `id` where it is drawn: what has a corner that is not finite or 2^20 m away is not, and would be framed. */
+static int fetch_drawn(lmb_triangle *t, const lmb_scene *s, uint32_t id)
+{
+    int is_drawn = lmb_triangle_fetch(t, s, id);
+    for (int k = 0; k < 3 && is_drawn; ++k) {
+        is_drawn = is_sane(t->corner[k].x) && is_sane(t->corner[k].y) && is_sane(t->corner[k].z);
+    }
+    return is_drawn;
 }
 
 /* Which of the six sides of the bounds surfaces close, as shares of their area: two of each axis, the lower one first. */
@@ -28,7 +40,7 @@ static void find_closed(double closed[6], const lmb_scene *s)
         closed[side] = 0.0;
     }
     for (uint32_t id = 1; id <= lmb_scene_triangles(s); ++id) {
-        if (!lmb_triangle_fetch(&t, s, id)) {
+        if (!fetch_drawn(&t, s, id)) {
             continue;
         }
         for (int side = 0; side < 6; ++side) {
@@ -51,10 +63,12 @@ static void find_closed(double closed[6], const lmb_scene *s)
 }
 
 /* Towards the eye: from a little above, to the right of the front (+Z). What is long from front to back is seen from its
- * right side instead, and a room with one open wall through that. */
+ * right side instead, what is flat from higher up, and a room with one open wall through that. */
 static lmb_vec3 direction_to_eye(const lmb_scene *s)
 {
-    static const lmb_vec3 front = {0.45f, 0.35f, 0.82f}, right = {0.82f, 0.35f, 0.45f};
+    const float x = s->bounds_max.x - s->bounds_min.x, y = s->bounds_max.y - s->bounds_min.y,
+                z = s->bounds_max.z - s->bounds_min.z, up = y < FLAT * minf(x, z) ? 0.8f : 0.35f;
+    const lmb_vec3 front = {0.45f, up, 0.82f}, right = {0.82f, up, 0.45f};
     static const lmb_vec3 through[6] = {{-0.95f, 0.2f, 0.3f}, {0.95f, 0.2f, 0.3f}, {0.3f, -0.95f, 0.3f},
                                         {0.35f, 0.9f, 0.6f},  {0.3f, 0.2f, -0.95f}, {0.3f, 0.2f, 0.95f}};
     double closed[6];
@@ -70,7 +84,7 @@ static lmb_vec3 direction_to_eye(const lmb_scene *s)
     if (walls == 5 && holes == 1 && open != 2) {
         return through[open];
     }
-    return s->bounds_max.z - s->bounds_min.z > LONG * (s->bounds_max.x - s->bounds_min.x) ? right : front;
+    return z > LONG * x ? right : front;
 }
 
 /* How far the scene reaches in a view, seen from `centre`: the maximum of every plane's distance through it. */
@@ -95,7 +109,8 @@ static scene_reach reach_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 cent
     scene_reach r = {-1e300, -1e300, -1e300, -1e300, -1e300};
     lmb_triangle t;
     for (uint32_t id = 1; id <= lmb_scene_triangles(s); ++id) {
-        for (int k = 0; lmb_triangle_fetch(&t, s, id) && k < 3; ++k) {
+        const int corners = fetch_drawn(&t, s, id) ? 3 : 0;
+        for (int k = 0; k < corners; ++k) {
             add_reach(&r, v, t.corner[k], centre);
         }
     }
@@ -117,10 +132,10 @@ static void fit(lmb_view *v, const scene_reach *r, lmb_vec3 centre, float size)
 /* How far from square a scene is in a picture of that shape, width over height: as powers of e. */
 static float misfit(float shape, float wide, float high) { return fabsf(logf(shape * high / wide)); }
 
-/* The shape of picture that a scene fills best, of four; 4:3 where no other is much better. */
+/* The shape of picture that a scene fills best, of six; 4:3 where no other is much better. */
 static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
 {
-    static const float usual = 4.0f / 3.0f, shapes[3] = {0.5f, 0.75f, 2.0f};
+    static const float usual = 4.0f / 3.0f, shapes[5] = {1.0f / 3.0f, 0.5f, 0.75f, 2.0f, 3.0f};
     float wide = 0.0f, high = 0.0f, best = usual;
     for (int i = 0; i < 8; ++i) {
         const lmb_vec3 p = {i & 1 ? s->bounds_max.x : s->bounds_min.x, i & 2 ? s->bounds_max.y : s->bounds_min.y,
@@ -128,7 +143,7 @@ static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
         wide = fmaxf(wide, fabsf(along(v->right, p, centre)));
         high = fmaxf(high, fabsf(along(v->up, p, centre)));
     }
-    for (int i = 0; i < 3 && wide > 0.0f && high > 0.0f; ++i) {
+    for (int i = 0; i < 5 && wide > 0.0f && high > 0.0f; ++i) {
         best = misfit(shapes[i], wide, high) + MUCH < misfit(usual, wide, high) &&
                        misfit(shapes[i], wide, high) < misfit(best, wide, high)
                    ? shapes[i]
@@ -153,6 +168,9 @@ int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char 
         return report_fail(r, "%s: no view frames the scene; give --eye and --target", name);
     }
     const scene_reach all = reach_of(scene, v, centre);
+    if (all.front < -1e299) {
+        return report_fail(r, "%s: nothing to see: each triangle has a corner that is not finite or 2^20 m away", name);
+    }
     fit(v, &all, centre, size);
     report_note(o->is_quiet, "no camera in %s: framing the scene from %.4g,%.4g,%.4g", name, (double)v->eye.x,
                 (double)v->eye.y, (double)v->eye.z);
