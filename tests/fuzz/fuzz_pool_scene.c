@@ -50,7 +50,7 @@ static void make_materials(world *w)
     for (int i = 0; i < TEXTURE * TEXTURE * 4; ++i) {
         w->texels[i] = (uint8_t)(i * 37);
     }
-    w->texture = (lmb_texture){w->texels, TEXTURE, TEXTURE, 1, LMB_WRAP_MIRROR, LMB_WRAP_REPEAT, LMB_BILINEAR};
+    w->texture = (lmb_texture){w->texels, TEXTURE, TEXTURE, 1, LMB_WRAP_MIRROR, LMB_WRAP_REPEAT, LMB_BILINEAR, 0};
 }
 
 static void make_world(world *w)
