@@ -2,7 +2,7 @@
  *
  *     lmb_pack_open(&pack, words, bytes);                  checks all of it once
  *     lmb_pack_scene(&scene, &pack, memory, lmb_pack_bytes(&pack));
- *     lmb_pack_pose(&scene, &pack, memory, bytes, time_s);             what its animations move
+ *     lmb_pack_pose(&scene, &pack, time_s);                            what its animations move
  *     lmb_pack_view(&view, &pack, &scene, 0, time_s, width, height);   what its camera sees
  *     lmb_transfer_open(&transfer, lmb_pack_part(&pack, LMB_PACK_TRANSFER, &n), n);
  *
@@ -107,11 +107,11 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
 /* lmb_pack_pose: instances and lights as the animations have them at a time. Before the first key and after the last one
  * things stand as at it. Revisions of what changed are raised, and bounds are found anew where instances did.
  *
- *   inout          as lmb_pack_scene made it in `memory`, of which `bytes` are there
- * Returns LMB_OK; LMB_ERR_ARG, _ALIGN, _CAPACITY; LMB_ERR_SCENE: a scale of 0 where a direction is asked for, or numbers
- * past binary32; what is behind that stays. Cost: the nodes above each instance and light that moves, some 200
+ *   inout  as lmb_pack_scene made it: instances and lights are written where they lie in its memory
+ * Returns LMB_OK; LMB_ERR_ARG (a scene of another file); LMB_ERR_SCENE: a scale of 0 where a direction is asked for, or
+ * numbers past binary32; what is behind that stays. Cost: the nodes above each instance and light that moves, some 200
  * operations each; and one pass over all vertices where instances moved. */
-lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, void *memory, size_t bytes, float time_s);
+lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s);
 
 /* lmb_pack_view: what camera `camera` sees at a time, on a frame of square pixels.
  *

@@ -212,7 +212,7 @@ int lmb_pack_place_light(lmb_light *inout, const lmb_pack *p, uint32_t i, float 
     if (!world_of(&world, p, node, time_s)) {
         return 0;
     }
-    lmb_vec3 way = mul3(column(&world, 2), -1.0f);
+    lmb_vec3 way = sub3(vec3(0.0f, 0.0f, 0.0f), column(&world, 2));
     if (to_unit(&way)) {
         inout->direction = way;
     } else if (inout->kind != LMB_LIGHT_POINT) {

@@ -384,21 +384,15 @@ lmb_status lmb_pack_scene(lmb_scene *out, const lmb_pack *pack, void *memory, si
 
 /* --- at a time ---------------------------------------------------------------------------------------------------- */
 
-lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, void *memory, size_t bytes, float time_s)
+lmb_status lmb_pack_pose(lmb_scene *inout, const lmb_pack *pack, float time_s)
 {
-    const lmb_status status = check_pack(pack, memory, bytes);
-    if (inout == NULL || status != LMB_OK) {
-        return inout == NULL ? LMB_ERR_ARG : status;
-    }
-    const layout l = lay_out(pack);
-    lmb_instance *instances = (lmb_instance *)(void *)((uint8_t *)memory + l.instances);
-    lmb_light *lights = (lmb_light *)(void *)((uint8_t *)memory + l.lights);
-    int moved = 0;
-    if (inout->instances != instances || inout->lights != lights ||
-        inout->instance_count != pack->count[LMB_PACK_INSTANCES] ||
-        inout->light_count != pack->count[LMB_PACK_LIGHTS]) {
+    if (inout == NULL || pack == NULL || pack->data == NULL || inout->instance_count != pack->count[LMB_PACK_INSTANCES] ||
+        inout->light_count != pack->count[LMB_PACK_LIGHTS] || inout->mesh_count != pack->count[LMB_PACK_MESHES]) {
         return LMB_ERR_ARG;
     }
+    lmb_instance *instances = (lmb_instance *)(uintptr_t)inout->instances; /* const is the scene's view of them alone */
+    lmb_light *lights = (lmb_light *)(uintptr_t)inout->lights;
+    int moved = 0;
     for (uint32_t i = 0; i < inout->instance_count; ++i) {
         lmb_instance to = instances[i];
         if (!lmb_pack_place_instance(&to, pack, i, time_s)) {
