@@ -41,7 +41,7 @@ static inline void small_pair(small_file *f, uint32_t a, uint32_t b)
     memcpy(&f->word[f->count++], pair, sizeof pair);
 }
 
-static inline void small_bytes(small_file *f, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
+static inline void small_four(small_file *f, uint32_t a, uint32_t b, uint32_t c, uint32_t d)
 {
     const uint8_t byte[4] = {(uint8_t)a, (uint8_t)b, (uint8_t)c, (uint8_t)d};
     memcpy(&f->word[f->count++], byte, sizeof byte);
@@ -135,11 +135,11 @@ static inline size_t small_pack(uint32_t *words)
     small_part(&f, LMB_PACK_MESHES, begin);
     texels[0] = begin = small_here(&f); /* 4 x 4, three levels, by a palette; 2 x 2, one level, in 16 bits */
     for (uint32_t i = 0; i < 16; ++i) {
-        small_bytes(&f, 16 * i, 255 - 16 * i, 128, 255);
+        small_four(&f, 16 * i, 255 - 16 * i, 128, 255);
     }
-    small_bytes(&f, 0x10, 0x32, 0x54, 0x76);
-    small_bytes(&f, 0x98, 0xba, 0xdc, 0xfe);
-    small_bytes(&f, 0x53, 0xb9, 0x07, 0);
+    small_four(&f, 0x10, 0x32, 0x54, 0x76);
+    small_four(&f, 0x98, 0xba, 0xdc, 0xfe);
+    small_four(&f, 0x53, 0xb9, 0x07, 0);
     texels[1] = small_here(&f);
     small_pair(&f, 0xf800, 0x07e0);
     small_pair(&f, 0x001f, 0x8410);
