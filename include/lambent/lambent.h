@@ -20,6 +20,7 @@
 #include "env.h"
 #include "relief.h"
 #include "transfer.h"
+#include "pack.h"
 #include "gouraud.h"
 #include "fixed.h"
 #include "mixed.h"

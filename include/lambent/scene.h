@@ -32,7 +32,15 @@ typedef struct lmb_mesh {
 enum { LMB_WRAP_REPEAT = 0, LMB_WRAP_CLAMP = 1, LMB_WRAP_MIRROR = 2 };
 enum { LMB_NEAREST = 0, LMB_BILINEAR = 1, LMB_TRILINEAR = 2 };
 
-/* An image: RGBA8; level 0 first, each next level half the size (floor, at least 1), tightly packed. A base colour is
+/* How a texture's texels are stored. All but RGBA8 are for builds with LMB_TEXTURE_FORMATS; they are sampled pixel by
+ * pixel, as the RGBA8 codes that they stand for. */
+enum { LMB_TEXELS_RGBA8 = 0, /* bytes R G B A */
+       LMB_TEXELS_RGB565 = 1, /* uint16 in the machine's byte order, red in the high bits; the high bits of a channel
+                                 fill the low ones of its code; alpha is 255 */
+       LMB_TEXELS_PALETTE4 = 2 /* 16 colours as bytes R G B A, then 4 bits a texel, the first one in the low bits;
+                                  each level begins a byte */ };
+
+/* An image: level 0 first, each next level half the size (floor, at least 1), tightly packed. A base colour is
  * sRGB-coded with linear alpha: lmb_texture_mips fills its levels. A normal map is glTF's: R G B = 0 .. 255 stand for
  * -1 .. 1 towards larger u, smaller v, and out of the surface: lmb_normal_map_mips fills its levels. */
 typedef struct lmb_texture {
@@ -41,6 +49,7 @@ typedef struct lmb_texture {
     uint8_t levels;         /* 1: no mips */
     uint8_t wrap_s, wrap_t;
     uint8_t filter;
+    uint8_t format;         /* LMB_TEXELS_RGBA8, ... */
 } lmb_texture;
 
 enum { LMB_DOUBLE_SIDED = 1, /* not set: back faces are culled in the camera's view (never in a light's) */
@@ -157,6 +166,9 @@ void lmb_scene_core(lmb_core *out, const lmb_scene *scene);
 
 /* lmb_texture_bytes: memory of `levels` levels of a width x height image, 4 bytes a texel; 0 for a bad size. */
 size_t lmb_texture_bytes(int32_t width, int32_t height, int32_t levels);
+
+/* lmb_texture_format_bytes: the same of a format's texels, a palette included; 0 for an unknown format, too. */
+size_t lmb_texture_format_bytes(int32_t format, int32_t width, int32_t height, int32_t levels);
 
 /* lmb_texture_level_count: levels down to 1x1. */
 int32_t lmb_texture_level_count(int32_t width, int32_t height);

@@ -25,6 +25,21 @@ size_t lmb_texture_bytes(int32_t width, int32_t height, int32_t levels)
     return texels * 4;
 }
 
+size_t lmb_texture_format_bytes(int32_t format, int32_t width, int32_t height, int32_t levels)
+{
+    const size_t rgba = lmb_texture_bytes(width, height, levels);
+    size_t nibbles = 64;
+    if (format == LMB_TEXELS_RGBA8)
+        return rgba;
+    if (format == LMB_TEXELS_RGB565)
+        return rgba / 2;
+    if (format != LMB_TEXELS_PALETTE4 || rgba == 0)
+        return 0;
+    for (int32_t i = 0; i < levels; ++i)
+        nibbles += ((size_t)maxi(width >> i, 1) * (size_t)maxi(height >> i, 1) + 1) / 2;
+    return nibbles;
+}
+
 typedef void (*mean_of_four)(uint8_t out[4], const uint8_t *const from[4]);
 
 /* Mean of four texels: colour weighted by alpha, so that what is invisible does not bleed; where all four are

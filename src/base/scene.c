@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "light_kind.h"
+#include "scene_check.h"
 #include "vec.h"
 #include "vertex.h"
 
@@ -25,7 +26,7 @@ static int is_finite3(lmb_vec3 v) { return is_finite(v.x) && is_finite(v.y) && i
 
 static int is_aligned(const void *p) { return ((uintptr_t)p & 3u) == 0; }
 
-static lmb_status check_mesh(const lmb_mesh *m)
+lmb_status lmb_check_mesh(const lmb_mesh *m)
 {
     if (m->position_format > LMB_POSITION_I16 || m->uv_format > LMB_UV_U16 || m->index_format > LMB_INDEX_U32)
         return LMB_ERR_FORMAT;
@@ -51,14 +52,15 @@ static lmb_status check_texture(const lmb_texture *t)
         return LMB_ERR_ARG;
     if (!is_aligned(t->texels))
         return LMB_ERR_ALIGN;
-    if (t->wrap_s > LMB_WRAP_MIRROR || t->wrap_t > LMB_WRAP_MIRROR || t->filter > LMB_TRILINEAR)
+    if (t->wrap_s > LMB_WRAP_MIRROR || t->wrap_t > LMB_WRAP_MIRROR || t->filter > LMB_TRILINEAR ||
+        t->format > (LMB_TEXTURE_FORMATS ? LMB_TEXELS_PALETTE4 : LMB_TEXELS_RGBA8))
         return LMB_ERR_FORMAT;
     return LMB_OK;
 }
 
 static int is_share(float v) { return v >= 0.0f && v <= 1.0f; }
 
-static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
+lmb_status lmb_check_material(const lmb_material *m, uint32_t texture_count)
 {
     if (m->albedo[0] < 0.0f || m->albedo[1] < 0.0f || m->albedo[2] < 0.0f)
         return LMB_ERR_ARG;
@@ -79,7 +81,7 @@ static lmb_status check_material(const lmb_material *m, uint32_t texture_count)
     return LMB_OK;
 }
 
-static lmb_status check_light(const lmb_light *l)
+lmb_status lmb_check_light(const lmb_light *l)
 {
     if (!light_kind_is(l->kind, LIGHT_KNOWN))
         return LMB_ERR_FORMAT;
@@ -127,23 +129,28 @@ static int is_core(const lmb_core *c)
             c->wide_low.z <= c->wide_high.z);
 }
 
+lmb_status lmb_check_bounds(const lmb_scene *s)
+{
+    return is_finite3(s->bounds_min) && is_finite3(s->bounds_max) && s->bounds_min.x <= s->bounds_max.x &&
+                   s->bounds_min.y <= s->bounds_max.y && s->bounds_min.z <= s->bounds_max.z && is_core(&s->core)
+               ? LMB_OK
+               : LMB_ERR_ARG;
+}
+
 lmb_status lmb_scene_check(const lmb_scene *scene)
 {
     lmb_status status = LMB_OK;
     uint32_t i;
-    if (!scene || !has_arrays(scene) || !is_finite3(scene->bounds_min) || !is_finite3(scene->bounds_max))
-        return LMB_ERR_ARG;
-    if (scene->bounds_min.x > scene->bounds_max.x || scene->bounds_min.y > scene->bounds_max.y ||
-        scene->bounds_min.z > scene->bounds_max.z || !is_core(&scene->core))
+    if (!scene || !has_arrays(scene) || lmb_check_bounds(scene) != LMB_OK)
         return LMB_ERR_ARG;
     for (i = 0; i < scene->mesh_count && status == LMB_OK; ++i)
-        status = check_mesh(&scene->meshes[i]);
+        status = lmb_check_mesh(&scene->meshes[i]);
     for (i = 0; i < scene->texture_count && status == LMB_OK; ++i)
         status = check_texture(&scene->textures[i]);
     for (i = 0; i < scene->material_count && status == LMB_OK; ++i)
-        status = check_material(&scene->materials[i], scene->texture_count);
+        status = lmb_check_material(&scene->materials[i], scene->texture_count);
     for (i = 0; i < scene->light_count && status == LMB_OK; ++i)
-        status = check_light(&scene->lights[i]);
+        status = lmb_check_light(&scene->lights[i]);
     return status == LMB_OK ? check_instances(scene) : status;
 }
 

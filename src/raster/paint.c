@@ -76,6 +76,23 @@ static void paint_levels(lmb_tile *out, const lmb_resolve_batch *b, const lmb_te
     }
 }
 
+#if LMB_TEXTURE_FORMATS
+/* The kernel knows RGBA8 alone. */
+static void paint_coded(lmb_tile *out, const lmb_resolve_batch *b, const lmb_texture *t)
+{
+    for (int32_t k = 0; k < LMB_TILE_PIXELS; ++k) {
+        float texel[4];
+        if (b->slot[k] < 0) {
+            continue;
+        }
+        lmb_texture_sample(texel, t, out->uv[0][k], out->uv[1][k], 0.0f);
+        for (int c = 0; c < 3; ++c) {
+            out->albedo[c][k] *= texel[c];
+        }
+    }
+}
+#endif
+
 /* How a triangle's texture coordinates lie in the world. */
 typedef struct tangent_frame {
     lmb_vec3 tangent[3]; /* towards larger u, at the corners */
@@ -288,6 +305,10 @@ void lmb_paint_tile(lmb_tile *out, const lmb_resolve_batch *batch, const lmb_ker
     const lmb_material *m = batch->material;
     if (m->texture >= 0 && has_lod(&scene->textures[m->texture]) && batch->mesh->uvs != NULL) {
         paint_levels(out, batch, &scene->textures[m->texture]);
+#if LMB_TEXTURE_FORMATS
+    } else if (m->texture >= 0 && scene->textures[m->texture].format != LMB_TEXELS_RGBA8) {
+        paint_coded(out, batch, &scene->textures[m->texture]);
+#endif
     } else if (m->texture >= 0) {
         kernels->texture(out, batch, &scene->textures[m->texture]);
     }

@@ -11,14 +11,23 @@ typedef struct level {
     int32_t width, height;
 } level;
 
+enum { PALETTE_BYTES = 64 };
+
+static int is_rgba8(const lmb_texture *t) { return !LMB_TEXTURE_FORMATS || t->format == LMB_TEXELS_RGBA8; }
+
+static size_t bytes_of(const lmb_texture *t, size_t texels)
+{
+    return is_rgba8(t) ? 4 * texels : t->format == LMB_TEXELS_RGB565 ? 2 * texels : (texels + 1) / 2;
+}
+
 static level find_level(const lmb_texture *t, int32_t n)
 {
     level l;
-    l.texels = t->texels;
+    l.texels = t->texels + (!is_rgba8(t) && t->format == LMB_TEXELS_PALETTE4 ? PALETTE_BYTES : 0);
     l.width = t->width;
     l.height = t->height;
     for (int32_t i = 0; i < n; ++i) {
-        l.texels += (size_t)l.width * (size_t)l.height * 4;
+        l.texels += bytes_of(t, (size_t)l.width * (size_t)l.height);
         l.width = maxi(l.width / 2, 1);
         l.height = maxi(l.height / 2, 1);
     }
@@ -96,12 +105,35 @@ static footprint find_texels(const lmb_texture *t, int32_t n, float u, float v, 
     return f;
 }
 
+#if LMB_TEXTURE_FORMATS
+/* The R G B A that a texel of another format stands for. */
+static const uint8_t *find_codes(uint8_t out[4], const lmb_texture *t, const uint8_t *texels, size_t at)
+{
+    if (t->format == LMB_TEXELS_PALETTE4) {
+        return t->texels + 4 * (size_t)(texels[at / 2] >> 4 * (at & 1u) & 15u);
+    }
+    const uint32_t v = ((const uint16_t *)(const void *)texels)[at];
+    const uint32_t r = v >> 11, g = v >> 5 & 63u, b = v & 31u;
+    out[0] = (uint8_t)(r << 3 | r >> 2);
+    out[1] = (uint8_t)(g << 2 | g >> 4);
+    out[2] = (uint8_t)(b << 3 | b >> 2);
+    out[3] = 255;
+    return out;
+}
+#endif
+
 static void add_texels(float out[4], const lmb_texture *t, const footprint *f, int32_t codes)
 {
     for (int k = 0; k < f->count; ++k) {
         const int32_t x = wrap_texel(f->x + (k & 1), f->from.width, t->wrap_s),
                       y = wrap_texel(f->y + (k >> 1), f->from.height, t->wrap_t);
-        const uint8_t *p = f->from.texels + 4 * ((size_t)y * (size_t)f->from.width + (size_t)x);
+        const size_t at = (size_t)y * (size_t)f->from.width + (size_t)x;
+#if LMB_TEXTURE_FORMATS
+        uint8_t codes_of[4];
+        const uint8_t *p = is_rgba8(t) ? f->from.texels + 4 * at : find_codes(codes_of, t, f->from.texels, at);
+#else
+        const uint8_t *p = f->from.texels + 4 * at;
+#endif
         for (int c = 0; c < 3; ++c) {
             out[c] += f->share[k] * decode(codes, p[c]);
         }

@@ -115,6 +115,7 @@ static int64_t good_number(const argument *a)
         {"lmb_shadow_map_rows", "past", POOL_MAP / 8},
         {"lmb_transfer_collect", "past", POOL_MAP / 8},
         {"lmb_transfer_receivers", "past", 7},
+        {NULL, "camera", 0},
         {NULL, "x", 0},
         {NULL, "y", 0},
         {NULL, "x0", 0},
@@ -195,22 +196,42 @@ static int is_struct(const argument *a)
     return strncmp(a->type, "lmb_", 4) == 0 && strcmp(a->type, "lmb_kernels") != 0;
 }
 
-/* A scene that lmb_relief_scene may write. */
-static void *spare_scene(void) { return pool_block(sizeof(lmb_scene)); }
+/* A scene that lmb_relief_scene or lmb_pack_scene may write; of the sample for what poses it. */
+static void *spare_scene(int is_posed)
+{
+    lmb_scene *s = pool_block(sizeof *s);
+    size_t bytes;
+    lmb_pack pack;
+    if (is_posed) {
+        const uint32_t *words = pool_pack(&bytes);
+        fuzz_require(lmb_pack_open(&pack, words, bytes) == LMB_OK);
+        bytes = lmb_pack_bytes(&pack);
+        fuzz_require(lmb_pack_scene(s, &pack, pool_block(bytes), bytes) == LMB_OK);
+    }
+    return s;
+}
+
+static int is_spare(const argument *a)
+{
+    return (is_named(a, "out") && (calls_for("lmb_relief_scene") || calls_for("lmb_pack_scene"))) ||
+           (calls_for("lmb_pack_pose") && is_named(a, "inout"));
+}
 
 static void take_struct(argument *a)
 {
     a->is_ready = 1;
-    a->memory = a->byte >= 240                     ? NULL
-                : calls_for("lmb_relief_scene") && is_named(a, "out") ? spare_scene()
-                                                   : pool_slot(a->type, a->byte);
+    a->memory = a->byte >= 240 ? NULL
+                : strcmp(a->type, "lmb_scene") == 0 && is_spare(a) ? spare_scene(calls_for("lmb_pack_pose"))
+                                                                   : pool_slot(a->type, a->byte);
 }
 
 /* A file to be opened: the sample, with one word of it changed; its length is in the argument `bytes`. */
 static void take_file(argument *a, argument *size)
 {
     size_t bytes = 0;
-    const uint32_t *words = strstr(at_call, "relief") ? pool_relief(&bytes) : pool_transfer(&bytes);
+    const uint32_t *words = strstr(at_call, "relief") ? pool_relief(&bytes)
+                            : strstr(at_call, "pack") ? pool_pack(&bytes)
+                                                      : pool_transfer(&bytes);
     uint32_t *copy = pool_block(bytes);
     memcpy(copy, words, bytes);
     if (a->byte >= 32) {

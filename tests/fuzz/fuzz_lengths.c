@@ -59,6 +59,8 @@ LENGTH(lmb_depth_linearize, out,
                          ->height *(size_t)lmb_pixel_bytes(S(2, lmb_surface)->format)
                    : 0)
 LENGTH(lmb_transfer_light_init, memory, lmb_transfer_light_bytes(a[1].memory))
+LENGTH(lmb_pack_scene, memory, lmb_pack_bytes(a[1].memory))
+LENGTH(lmb_pack_part, bytes, sizeof(size_t))
 LENGTH(lmb_tree_init, memory, lmb_tree_bytes(U(1), W(2)))
 LENGTH(lmb_voxels_init, memory, lmb_voxels_bytes(U(1), W(2)))
 LENGTH(lmb_cloud_nearest, out, within(W(1), LMB_NEAREST_CAP, 4))
@@ -108,6 +110,8 @@ static const struct {
     IS(lmb_surface_init, data),
     IS(lmb_depth_linearize, out),
     IS(lmb_transfer_light_init, memory),
+    IS(lmb_pack_scene, memory),
+    IS(lmb_pack_part, bytes),
     IS(lmb_tree_init, memory),
     IS(lmb_voxels_init, memory),
     IS(lmb_cloud_nearest, out),

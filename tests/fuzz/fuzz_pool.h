@@ -56,9 +56,10 @@ void pool_make_scenes(void);
 void pool_check_scenes(void);
 const lmb_scene *pool_scene(int i);
 
-/* pool_transfer, pool_relief: the files' words, for a copy. */
+/* pool_transfer, pool_relief, pool_pack: the files' words, for a copy. */
 const uint32_t *pool_transfer(size_t *bytes);
 const uint32_t *pool_relief(size_t *bytes);
+const uint32_t *pool_pack(size_t *bytes);
 
 /* pool_say: printed where the environment has LMB_FUZZ_SAY: what an input does. */
 extern int pool_says;

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "../small_relief.h"
+#include "../small_pack.h"
 #include "../small_transfer.h"
 
 enum { LIGHTS = 3, TEXTURE = 4, RELIEF_SIDE = 8 };
@@ -28,7 +29,8 @@ static world worlds[2]; /* with everything; and the one that changes */
 static lmb_scene none, relief_scene;
 static lmb_relief relief;
 static uint32_t relief_words[SMALL_WORDS(RELIEF_SIDE)], transfer_words[SMALL_TRANSFER_WORDS(ROOM_TRIANGLES)];
-static size_t relief_bytes, transfer_bytes;
+static uint32_t pack_words[SMALL_PACK_WORDS];
+static size_t relief_bytes, transfer_bytes, pack_bytes;
 static uint64_t sums[POOL_SCENES];
 
 static void make_materials(world *w)
@@ -50,7 +52,7 @@ static void make_materials(world *w)
     for (int i = 0; i < TEXTURE * TEXTURE * 4; ++i) {
         w->texels[i] = (uint8_t)(i * 37);
     }
-    w->texture = (lmb_texture){w->texels, TEXTURE, TEXTURE, 1, LMB_WRAP_MIRROR, LMB_WRAP_REPEAT, LMB_BILINEAR};
+    w->texture = (lmb_texture){w->texels, TEXTURE, TEXTURE, 1, LMB_WRAP_MIRROR, LMB_WRAP_REPEAT, LMB_BILINEAR, 0};
 }
 
 static void make_world(world *w)
@@ -122,6 +124,7 @@ void pool_make_scenes(void)
         make_world(&worlds[1]);
         fresh = worlds[1];
         transfer_bytes = small_transfer(transfer_words, &room.scene);
+        pack_bytes = small_pack(pack_words);
         relief_bytes = small_relief(relief_words, LMB_RELIEF_FULL, RELIEF_SIDE);
         fuzz_require(lmb_relief_open(&relief, relief_words, relief_bytes) == LMB_OK);
         lmb_relief_scene(&relief_scene, &relief);
@@ -186,6 +189,12 @@ const uint32_t *pool_relief(size_t *bytes)
 {
     *bytes = relief_bytes;
     return relief_words;
+}
+
+const uint32_t *pool_pack(size_t *bytes)
+{
+    *bytes = pack_bytes;
+    return pack_words;
 }
 
 #endif

@@ -297,7 +297,7 @@ static int make(drawn *d, source *b)
     for (int i = 0; i < 16; ++i) {
         d->texel[i] = (uint32_t)i * 0x17935713u;
     }
-    d->texture = (lmb_texture){(const uint8_t *)d->texel, 4, 4, 1, take(b) % 3, take(b) % 3, take(b) % 3};
+    d->texture = (lmb_texture){(const uint8_t *)d->texel, 4, 4, 1, take(b) % 3, take(b) % 3, take(b) % 3, 0};
     d->mesh.positions = d->corner;
     d->mesh.uvs = d->uv;
     d->mesh.vertex_count = 3 * TRIANGLES;

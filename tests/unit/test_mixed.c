@@ -579,7 +579,7 @@ static void check_coloured(lmb_scene *scene, lmb_mesh *mesh, lmb_material *mater
     static const float uvs[8] = {0.25f, 0.5f, 0.75f, 0.5f, 0.25f, 0.5f};
     static const uint16_t uvs_16[8] = {16384, 32768, 49151, 32768, 16384, 32768};
     static const uint8_t black_to_white[8] = {0, 0, 0, 255, 255, 255, 255, 255};
-    const lmb_texture texture = {black_to_white, 2, 1, 1, LMB_WRAP_CLAMP, LMB_WRAP_CLAMP, LMB_BILINEAR};
+    const lmb_texture texture = {black_to_white, 2, 1, 1, LMB_WRAP_CLAMP, LMB_WRAP_CLAMP, LMB_BILINEAR, 0};
     scene->textures = &texture;
     scene->texture_count = 1;
     mesh->colours = colours;

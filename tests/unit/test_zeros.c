@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../../tools/demo/demo_scene.h"
+#include "../small_pack.h"
 #include "../small_transfer.h"
 #include "../sphere_relief.h"
 
@@ -122,6 +123,10 @@ static struct {
     lmb_gouraud gouraud;
     uint32_t *transfer_file;
     size_t transfer_bytes;
+    lmb_pack pack;
+    lmb_scene pack_scene;
+    uint32_t *pack_file;
+    size_t pack_bytes;
 } g;
 
 /* Memory for a good one; 0: frees all. */
@@ -283,6 +288,15 @@ static void make_transfer(void)
     CHECK(lmb_surface_init(&g.gouraud.out, LMB_RGB565, 24, 16, room(24 * 16 * 2), 24 * 16 * 2) == LMB_OK);
 }
 
+static void make_pack(void)
+{
+    g.pack_file = room(4 * SMALL_PACK_WORDS);
+    g.pack_bytes = small_pack(g.pack_file);
+    CHECK(lmb_pack_open(&g.pack, g.pack_file, g.pack_bytes) == LMB_OK);
+    const size_t bytes = lmb_pack_bytes(&g.pack);
+    CHECK(lmb_pack_scene(&g.pack_scene, &g.pack, room(bytes), bytes) == LMB_OK);
+}
+
 static void make_facts(void)
 {
     lmb_facts *f = &g.facts;
@@ -319,6 +333,10 @@ static int good_for_call(known *out, const argument *a)
         *out = (known){"void", relief->file.data, relief->file.size};
     } else if (calls_for("lmb_transfer_open")) {
         *out = (known){"void", g.transfer_file, g.transfer_bytes};
+    } else if (calls_for("lmb_pack_open")) {
+        *out = (known){"void", g.pack_file, g.pack_bytes};
+    } else if (calls_for("lmb_pack_pose") || calls_for("lmb_pack_view")) {
+        *out = (known){"lmb_scene", &g.pack_scene, sizeof g.pack_scene};
     } else {
         return 0;
     }
@@ -367,6 +385,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_many_lights", &g.many_lights, sizeof g.many_lights},
         {"lmb_many_lights_query", &many_lights_query, sizeof many_lights_query},
         {"lmb_occluder", &g.occluder, sizeof g.occluder},
+        {"lmb_pack", &g.pack, sizeof g.pack},
         {"lmb_pinhole", &camera, sizeof camera},
         {"lmb_planes", &g.planes, sizeof g.planes},
         {"lmb_point_grid", &g.grid, sizeof g.grid},
@@ -416,7 +435,7 @@ static void set_number(argument *a)
         const char *name;
         int value;
     } all[] = {
-        {"x", 0},       {"y", 0},      {"x0", 0},         {"y0", 0},        {"face", 0},   {"into", 0}, {"first", 0},
+        {"x", 0},       {"y", 0},      {"camera", 0},      {"x0", 0},         {"y0", 0},        {"face", 0},   {"into", 0}, {"first", 0},
         {"tile_y0", 0}, {"band", 0},   {"part", 0},       {"p", 0},         {"from", 0},   {"k", 4},    {"slots", 4},
         {"step", 4},    {"depth", 5},  {"id_format", LMB_ID32}, {"n", SIDE}, {"side", SMALL}, {"size", SIDE},
         {"width", WIDE}, {"height", HIGH}, {"max", SIDE}, {"terms", 9}, {"c", 0}, {"field", 0}, {"level", 0},
@@ -441,6 +460,9 @@ static void set_number(argument *a)
     }
     if (calls_for("lmb_transfer_open") && strcmp(a->name, "bytes") == 0) {
         a->whole = (int64_t)g.transfer_bytes; /* whole, not a byte more */
+    }
+    if (calls_for("lmb_pack_open") && strcmp(a->name, "bytes") == 0) {
+        a->whole = (int64_t)g.pack_bytes;
     }
 }
 
@@ -567,6 +589,7 @@ void test_zeros(void)
     make_probe();
     make_facts();
     make_transfer();
+    make_pack();
     for (int i = 0; i < COUNT(calls); ++i) {
         test_call(&calls[i]);
     }

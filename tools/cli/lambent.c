@@ -14,6 +14,7 @@
 #include "verb_doctor.h"
 #include "verb_info.h"
 #include "../mix/verb_mix.h"
+#include "../pack/verb_pack.h"
 #include "verb_plan.h"
 #include "../play/verb_play.h"
 #include "../relight/verb_relight.h"
@@ -28,6 +29,7 @@ static const struct verb {
     {"render", verb_render, "render SCENE -o OUT",
      "draw a scene (.gltf .glb .obj .ply, or `demo`) with bounced light"},
     {"bake", verb_bake, "bake SCENE -o OUT.lmt", "how light goes between a scene's surfaces, for lights that move"},
+    {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "a scene as one file, or C array, that programs use in place"},
     {"play", verb_play, "play SCENE --frames N", "frames with moving light, camera or objects, and what they take"},
     {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
     {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
@@ -86,7 +88,8 @@ static int run(int argc, char **argv)
 
 /* All that has a help of its own. */
 static const char *const pages[][2] = {
-    {"render", NULL},     {"bake", NULL},        {"play", NULL},        {"relight", NULL},
+    {"render", NULL},     {"bake", NULL},        {"pack", NULL},        {"play", NULL},
+    {"relight", NULL},
     {"relief", NULL},     {"relief", "bake"},    {"relief", "render"},  {"mix", NULL},
     {"plan", NULL},       {"compare", NULL},     {"info", NULL},        {"bench", NULL},
     {"bench", "SCENE"},   {"bench", "relight"},  {"bench", "relief"},   {"bench", "mix"},

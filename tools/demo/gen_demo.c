@@ -722,7 +722,7 @@ static void build_scene(void)
 static lmb_status measure(lmb_vec3 *low, lmb_vec3 *high, const lmb_light *light)
 {
     static lmb_mesh meshes[SHAPES];
-    static lmb_texture texture = {texels, TILE_TEXELS, TILE_TEXELS, TILE_LEVELS, 0, 0, LMB_TRILINEAR};
+    static lmb_texture texture = {texels, TILE_TEXELS, TILE_TEXELS, TILE_LEVELS, 0, 0, LMB_TRILINEAR, 0};
     lmb_scene scene;
     int i;
     memset(&scene, 0, sizeof scene);
@@ -773,7 +773,7 @@ int main(void)
     print_array("tile", "texels", STREAM_U8, texels,
                 (uint32_t)lmb_texture_bytes(TILE_TEXELS, TILE_TEXELS, TILE_LEVELS));
     printf("static const lmb_texture demo_textures[1] = {\n    {tile_texels.v, %d, %d, %d, LMB_WRAP_REPEAT, "
-           "LMB_WRAP_REPEAT, LMB_TRILINEAR},\n};\n\n",
+           "LMB_WRAP_REPEAT, LMB_TRILINEAR, LMB_TEXELS_RGBA8},\n};\n\n",
            TILE_TEXELS, TILE_TEXELS, TILE_LEVELS);
     printf("static const lmb_mesh demo_meshes[%d] = {\n", SHAPES);
     for (i = 0; i < SHAPES; ++i) {

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "io_lmp.h"
 #include "io_ply.h"
 #include "model_build.h"
 
@@ -101,7 +102,7 @@ static void note_absurd_vertices(model_build *b)
     uint32_t i, v;
     for (i = 0; i < b->mesh_count; ++i) {
         const float *p = (const float *)b->meshes[i].positions;
-        for (v = 0; v < b->meshes[i].vertex_count; ++v, p += 3)
+        for (v = 0; b->meshes[i].position_format == LMB_POSITION_F32 && v < b->meshes[i].vertex_count; ++v, p += 3)
             absurd += !(fabsf(p[0]) < 1048576.0f && fabsf(p[1]) < 1048576.0f && fabsf(p[2]) < 1048576.0f);
     }
     if (absurd)
@@ -191,13 +192,15 @@ static int has_extension(const char *path, const char *extension)
 
 typedef int (*model_reader)(model_build *b, const uint8_t *data, size_t size);
 
-/* glTF by its magic, its extension or a first brace; PLY by its first line or its extension; OBJ, which has no mark,
+/* Packed scenes by their magic; glTF by its magic, its extension or a first brace; PLY by its first line or its extension; OBJ, which has no mark,
  * by its extension alone, or as text from standard input; else NULL. */
 static model_reader find_reader(const char *path, const file_bytes *file)
 {
     size_t i = 0;
     if (file->size >= 4 && memcmp(file->data, "glTF", 4) == 0)
         return gltf_load;
+    if (lmp_begins(file->data, file->size))
+        return lmp_load;
     if (ply_begins(file->data, file->size) || has_extension(path, ".ply"))
         return ply_load;
     if (has_extension(path, ".obj"))
@@ -213,7 +216,7 @@ static int load_content(model_build *b, const file_bytes *file)
 {
     const model_reader read = find_reader(b->path, file);
     if (!read)
-        return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj or .ply file", b->path);
+        return report_fail(b->r, "%s: not a model that lambent reads; give a .gltf, .glb, .obj, .ply or .lmp file", b->path);
     if (b->scene && read != gltf_load)
         return report_fail(b->r, "%s: --scene %.60s: only glTF files hold several", b->path, b->scene);
     return read(b, file->data, file->size);

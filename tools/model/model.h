@@ -11,7 +11,7 @@ typedef struct model_camera {
     lmb_vec3 eye, right, up, back; /* world, orthonormal */
     int orthographic;
     float yfov_rad;                /* perspective */
-    float half_width, half_height; /* orthographic, metres */
+    float half_width, half_height; /* orthographic: metres; perspective: tangents of packed scenes, else 0 */
     float aspect;                  /* width / height; 0: not given */
     float near_m, far_m;           /* far_m 0: not given */
 } model_camera;
@@ -27,7 +27,7 @@ typedef struct model_extension {
 
 /* What the file itself holds, drawn or not. 0 also where its format has no such thing. */
 typedef struct model_facts {
-    const char *format;        /* "glTF", "GLB", "OBJ", "PLY", a literal; NULL: its reader does not say */
+    const char *format;        /* "glTF", "GLB", "OBJ", "PLY", "LMP", a literal; NULL: its reader does not say */
     uint32_t scenes, scene;    /* described; the one that was read, from 0 */
     char scene_name[64];
     uint32_t nodes, meshes, primitives;
@@ -60,6 +60,7 @@ typedef struct model {
     model_lobe *lobes; /* by material; NULL: the format has none */
     struct model_motion *motion; /* model_motion.h; NULL: nothing of the scene moves, or `motion_problem` says why */
     report motion_problem;
+    const lmb_pack *pack; /* a packed scene, in memory of the model's; NULL: it is none */
     model_facts facts;
     void **blocks; /* every allocation, for model_free */
     uint32_t block_count, block_cap;
@@ -71,7 +72,7 @@ typedef struct model_notes {
     uint32_t count;
 } model_notes;
 
-/* model_load: .gltf, .glb, .obj or .ply by content and extension; of several scenes the one of the name or number
+/* model_load: .gltf, .glb, .obj, .ply or .lmp by content and extension; of several scenes the one of the name or number
  * `scene`, or with NULL the file's own choice. Returns 1, or 0 with `r` set and *out empty. */
 int model_load(model *out, const char *path, const char *scene, model_notes *notes, report *r);
 

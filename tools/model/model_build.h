@@ -45,7 +45,7 @@ typedef struct model_build {
     uint32_t content_count, content_slot_count;
     build_neighbour *neighbours; /* files read beside the model, each once */
     uint32_t neighbour_count, neighbour_cap;
-    lmb_mesh *meshes; /* positions are LMB_POSITION_F32 */
+    lmb_mesh *meshes;
     lmb_material *materials;
     lmb_texture *textures;
     lmb_instance *instances;

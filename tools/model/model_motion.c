@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "../../src/pack/motion.h"
+
 /* --- matrices ----------------------------------------------------------------------------------------------------- */
 
 int model_compose(double m[16], const model_local *l)
@@ -206,10 +208,34 @@ static int place(const struct model_motion *m, uint32_t node, uint32_t *track, d
 
 static int is_moved(const struct model_motion *m, uint32_t node) { return node != MODEL_NONE && m->moves[node]; }
 
+/* Of a packed scene, by the library: as a program has it that draws the file. */
+static int pose_pack(lmb_instance *instances, lmb_light *lights, model_camera *cameras, const model *of, float time_s)
+{
+    uint32_t i;
+    lmb_view v;
+    memset(&v, 0, sizeof v);
+    for (i = 0; i < of->scene.instance_count; ++i)
+        if (!lmb_pack_place_instance(&instances[i], of->pack, i, time_s))
+            return 0;
+    for (i = 0; i < of->scene.light_count; ++i)
+        if (!lmb_pack_place_light(&lights[i], of->pack, i, time_s))
+            return 0;
+    for (i = 0; i < of->camera_count; ++i) {
+        model_camera *c = &cameras[i];
+        v.eye = c->eye, v.right = c->right, v.up = c->up, v.back = c->back;
+        if (!lmb_pack_place_camera(&v, of->pack, i, time_s))
+            return 0;
+        c->eye = v.eye, c->right = v.right, c->up = v.up, c->back = v.back;
+    }
+    return 1;
+}
+
 int model_pose(lmb_instance *instances, lmb_light *lights, model_camera *cameras, const model *of, double time_s)
 {
     const struct model_motion *m = of->motion;
     uint32_t i, c, track = 0;
+    if (of->pack)
+        return pose_pack(instances, lights, cameras, of, (float)time_s);
     for (i = 0; i < m->nodes; ++i)
         if (!place(m, i, &track, time_s))
             return 0;

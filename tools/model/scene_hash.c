@@ -62,7 +62,8 @@ static uint64_t hash_texture(uint64_t hash, const lmb_texture *t)
     hash = HASH_OF(hash, t->wrap_t);
     hash = HASH_OF(hash, t->filter);
     hash = HASH_OF(hash, t->width);
-    return hash_array(hash, t->texels, 1, lmb_texture_bytes(t->width, t->height, t->levels));
+    hash = t->format != LMB_TEXELS_RGBA8 ? HASH_OF(hash, t->format) : hash;
+    return hash_array(hash, t->texels, 1, lmb_texture_format_bytes(t->format, t->width, t->height, t->levels));
 }
 
 static uint64_t hash_light(uint64_t hash, const lmb_light *l)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../demo/demo_scene.h"
+#include "../model/io_lmt.h"
 #include "../picture/picture.h"
 #include "own_light.h"
 #include "render_view.h"
@@ -60,26 +61,6 @@ static int load_scene(render_job *j, report *r)
            report_fail(r, "%s: nothing to draw: no triangles; `lambent info` says what is in it", j->o.scene);
 }
 
-/* Why a file is refused, of what its first words say. */
-static int refuse_transfer(const render_job *j, report *r)
-{
-    const uint8_t *head = j->transfer_file.data;
-    if (j->transfer_file.size < 8 || memcmp(head, "LMT", 3) != 0) {
-        return report_fail(r, "%s: no light transfer, or a damaged one; `lambent bake` makes them", j->o.transfer);
-    }
-    if (head[3] != LMB_TRANSFER_VERSION) {
-        return report_fail(r, "%s: a light transfer of version %d, and this reads version %d; bake it anew",
-                           j->o.transfer, head[3], LMB_TRANSFER_VERSION);
-    }
-    const uint32_t order = (uint32_t)head[4] << 24 | (uint32_t)head[5] << 16 | (uint32_t)head[6] << 8 | head[7];
-    const uint32_t own = 0x01020304u;
-    if ((order == 0x01020304u || order == 0x04030201u) && memcmp(head + 4, &own, 4) != 0) {
-        return report_fail(r, "%s: baked for %s-endian machines, unlike this one; `lambent bake --endian %s`",
-                           j->o.transfer, order == own ? "big" : "little", order == own ? "little" : "big");
-    }
-    return report_fail(r, "%s: a damaged light transfer; bake it anew", j->o.transfer);
-}
-
 /* The baked light transfer, if one is asked for. */
 static int load_transfer(render_job *j, report *r)
 {
@@ -89,11 +70,9 @@ static int load_transfer(render_job *j, report *r)
     if (has_budget(&j->o.budget, j->o.budget_ms)) {
         return report_fail(r, "--transfer: light is as exact as it was baked: no --budget-... goes with it");
     }
-    if (!file_read(&j->transfer_file, j->o.transfer, r)) {
+    if (!file_read(&j->transfer_file, j->o.transfer, r) ||
+        !lmt_open(&j->transfer, &j->transfer_file, j->o.transfer, r)) {
         return 0;
-    }
-    if (lmb_transfer_open(&j->transfer, j->transfer_file.data, j->transfer_file.size) != LMB_OK) {
-        return refuse_transfer(j, r);
     }
     return lmb_transfer_fits(&j->transfer, &j->scene) == LMB_OK ||
            report_fail(r, "%s: baked from another scene than %s; bake it anew", j->o.transfer, j->o.scene);

@@ -37,7 +37,7 @@ static void use_camera(render_options *o, lmb_view *v, const model_camera *c)
     v->up = c->up;
     v->back = c->back;
     v->kind = c->orthographic ? LMB_ORTHOGRAPHIC : LMB_PERSPECTIVE;
-    v->half_height = c->orthographic ? c->half_height : tanf(0.5f * c->yfov_rad);
+    v->half_height = c->half_height > 0.0f ? c->half_height : tanf(0.5f * c->yfov_rad);
     v->half_width = v->half_height * aspect;
     v->near_m = c->near_m;
     v->far_m = c->far_m;
