@@ -74,6 +74,8 @@ measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
+PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page.c) \
+              $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ)) $(LIB)
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -122,6 +124,7 @@ $(B)/golden: $(GOLDEN_OBJ)
 $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
+$(B)/page-hash: $(PAGE_OBJ)
 $(foreach f,$(LIVE),$(eval $(B)/$(f): $(call live_of,$(f))))
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
@@ -133,7 +136,7 @@ $(B)/path: $(PATH_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(LIVE:%=$(B)/%) $(B)/decodes \
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
     $(B)/scenes $(B)/path $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
@@ -464,6 +467,10 @@ statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pi
 
 live: $(TOOL) ## light that moves in 160 KiB on a Cortex-M4F (qemu): pictures as here, instructions a frame
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/live.sh
+
+.PHONY: web-check
+web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromium: clicks, drags, keys, files, hashes
+	+@$(IN_SH) tests/scripts/web_check.sh
 
 # For compilers whose programs nothing here can run.
 .PHONY: compiles

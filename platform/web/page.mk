@@ -13,7 +13,8 @@ PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
-              -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL -DLMB_MIXED=0 -DLMB_VOXELS=0 -MMD -MP
+              -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL \
+              -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAIN_LANES=4 -MMD -MP
 # Below the module's data and its 1 MiB of stack: 256 KiB for the kernels' data and a stack that nobody uses.
 PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features --max-memory=2147483648 \
              --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
@@ -32,11 +33,12 @@ endef
 $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,-Oz))
 $(eval $(call page_objects,simd,-msimd128,-O2))
--include $(patsubst %.c,$(PAGE)/main/%.d,$(PAGE_SRC))
+-include $(patsubst %.c,$(PAGE)/main/%.d,$(PAGE_SRC)) $(wildcard $(PAGE)/scalar/*/*/*.d $(PAGE)/simd/*/*/*.d)
 
-$(PAGE)/flags: platform/web/page.mk
+export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST)
+$(PAGE)/flags: FORCE
 	@mkdir -p $(@D)
-	@touch $@
+	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
 
 $(PAGE)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE)/main/%.o)
 	@echo "LD $@"
@@ -54,3 +56,6 @@ $(PAGE)/%: platform/web/page/%
 
 .PHONY: page
 page: $(patsubst %,$(PAGE)/%.wasm.gz,lambent kernels_scalar kernels_simd) $(PAGE)/index.html $(PAGE)/lambent.js
+	+@$(MAKE) PORT=host BUILD=build CC=gcc all build/default/scenes
+	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
+	@ls -l $(PAGE)/*.gz $(PAGE)/index.html $(PAGE)/lambent.js | awk '{ n += $$5 } END { print n " bytes without scenes" }'
