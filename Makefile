@@ -95,6 +95,8 @@ ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LI
 ifdef COUNTED
 include platform/counted/counted.mk
 endif
+PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page.c) \
+              $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ)) $(LIB)
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -144,6 +146,7 @@ $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
 $(B)/room: $(ROOM_OBJ)
+$(B)/page-hash: $(PAGE_OBJ)
 $(foreach f,$(LIVE),$(eval $(B)/$(f): $(call live_of,$(f))))
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)
@@ -155,7 +158,7 @@ $(B)/path: $(PATH_OBJ)
 $(B)/audit-golden: $(filter-out $(LIB_OBJ),$(GOLDEN_OBJ)) $(AUDITED)
 $(B)/audit-replay: $(REPLAY_OBJ) $(AUDITED)
 $(foreach f,$(MEASURES),$(eval $(B)/measure-$(f): $(call measure_of,$(f)) $(LIB)))
-$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/room $(LIVE:%=$(B)/%) $(B)/decodes \
+$(TOOL) $(PROGRAMS:%=$(B)/%) $(MEASURES:%=$(B)/measure-%) $(B)/demo $(B)/statue $(B)/room $(LIVE:%=$(B)/%) $(B)/page-hash $(B)/decodes \
     $(B)/scenes $(B)/path $(B)/fuzzer $(B)/faults:
 	@echo "LD $@"
 	@$(LINK) -o $@ $^ $(PORT_LDLIBS) $(LDLIBS)
@@ -522,6 +525,9 @@ live: $(TOOL) ## light that moves in 160 KiB on a Cortex-M4F (qemu): pictures as
 .PHONY: linux-fb
 linux-fb: ## the room on a file that stands for Linux's framebuffer device
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/linux_fb.sh
+.PHONY: web-check
+web-check: $(TOOL) $(B)/page-hash ## the page of platform/web in headless Chromium: clicks, drags, keys, files, hashes
+	+@$(IN_SH) tests/scripts/web_check.sh
 
 # For compilers whose programs nothing here can run.
 .PHONY: compiles

@@ -10,3 +10,4 @@ RUN          := node platform/web/run.mjs
 
 # A loop in memset that the compiler turns into a call of memset would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin
+include platform/web/page.mk

@@ -36,7 +36,9 @@
  * colours and light (x86-64). Else one: four written out are spilled, and cost a Cortex-M4F 14 KiB of ROM and 2.5 times
  * the time, a PowerPC 1.5 KiB of stack, and Windows, whose functions keep ten vectors for their callers, as much.
  * Pixels are the same: a lane never meets another. */
-#if (LMB_TARGET_X86 && !defined(_WIN32)) || LMB_TARGET_NEON || LMB_TARGET_WASM
+#if defined(LMB_PLAIN_LANES)
+/* The builder's: kernels of two kinds that are joined to one program want one layout. */
+#elif (LMB_TARGET_X86 && !defined(_WIN32)) || LMB_TARGET_NEON || LMB_TARGET_WASM
 #define LMB_PLAIN_LANES 4
 #else
 #define LMB_PLAIN_LANES 1

@@ -1,0 +1,61 @@
+# page.mk: `make PORT=web page`: the page in $(B)/page, of Debian's wasi-libc; its light is baked by the host's tool.
+#
+# One module has all but the kernels, and two have those, scalar and simd128, for fixed places in the memory that all
+# import; lambent.js joins one to the first. The memory is shared, though only page_pool.c has atomics: only the worker
+# that draws ever calls the C library.
+
+PAGE      := $(B)/page
+WASI      ?= /usr
+PAGE_LIBC := $(WASI)/lib/wasm32-wasi
+PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
+PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c %/gen_demo.c %/gen_srgb.c, \
+             $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief,tools/$(d)/*.c) \
+             platform/web/page/*.c)))
+PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
+PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
+              -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL \
+              -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAIN_LANES=4 -MMD -MP
+# Below the module's data and its 1 MiB of stack: 256 KiB for the kernels' data and a stack that nobody uses.
+PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features --max-memory=2147483648 \
+             --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
+PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
+PAGE_SIDE := --global-base=1024 -z stack-size=16
+# What frames of the page run most is for speed, the rest for size.
+PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
+page_opt   = $(if $(filter $(PAGE_FAST),$(1)),-O2,-Oz)
+
+# $(1): a folder of objects, $(2): flags, $(3): how they are optimised.
+define page_objects
+$(PAGE)/$(1)/%.o: %.c $(PAGE)/flags
+	@mkdir -p $$(@D)
+	@clang $(PAGE_FLAGS) $(2) $(3) $$(if $$(findstring page_pool,$$<),-matomics -mbulk-memory) -c $$< -o $$@
+endef
+$(eval $(call page_objects,main,,$$(call page_opt,$$<)))
+$(eval $(call page_objects,scalar,,-Oz))
+$(eval $(call page_objects,simd,-msimd128,-O2))
+-include $(patsubst %.c,$(PAGE)/main/%.d,$(PAGE_SRC)) $(wildcard $(PAGE)/scalar/*/*/*.d $(PAGE)/simd/*/*/*.d)
+
+export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST)
+$(PAGE)/flags: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
+
+$(PAGE)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE)/main/%.o)
+	@echo "LD $@"
+	@$(PAGE_LINK) $(PAGE_MAIN) -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a $(PAGE_RT)
+$(PAGE)/kernels_scalar.wasm: $(patsubst %.c,$(PAGE)/scalar/%.o,src/isa/isa_scalar.c $(PAGE_KERNELS))
+	@$(PAGE_LINK) $(PAGE_SIDE) --export=lmb_kernels_scalar -o $@ $^ $(PAGE_LIBC)/libc.a
+$(PAGE)/kernels_simd.wasm: $(patsubst %.c,$(PAGE)/simd/%.o,src/isa/isa_simd128.c $(PAGE_KERNELS))
+	@$(PAGE_LINK) $(PAGE_SIDE) --export=lmb_kernels_simd128 -o $@ $^ $(PAGE_LIBC)/libc.a
+
+$(PAGE)/%.gz: $(PAGE)/%
+	@gzip -9nc $< > $@
+
+$(PAGE)/%: platform/web/page/%
+	@cp $< $@
+
+.PHONY: page
+page: $(patsubst %,$(PAGE)/%.wasm.gz,lambent kernels_scalar kernels_simd) $(PAGE)/index.html $(PAGE)/lambent.js
+	+@$(MAKE) PORT=host BUILD=build CC=gcc all build/default/scenes
+	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
+	@ls -l $(PAGE)/*.gz $(PAGE)/index.html $(PAGE)/lambent.js | awk '{ n += $$5 } END { print n " bytes without scenes" }'

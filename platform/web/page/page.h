@@ -1,0 +1,88 @@
+/* page.h: what the page calls of its WebAssembly module: one scene at hand, drawn in steps; files; the tool's verbs. */
+#ifndef PAGE_H
+#define PAGE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __wasm__
+#define PAGE_CALL(name) __attribute__((export_name(#name)))
+#else
+#define PAGE_CALL(name)
+#endif
+
+/* page_take, page_give: memory for what is handed over. page_ready: the library was compiled so that it draws the right
+ * pixels. */
+PAGE_CALL(page_take) void *page_take(size_t bytes);
+PAGE_CALL(page_give) void page_give(void *memory);
+PAGE_CALL(page_ready) int page_ready(void);
+
+/* page_use_kernels: those whose struct another module has at `words`, and whose functions are in this one's table from
+ * `first_function` on. Before anything is drawn. */
+PAGE_CALL(page_use_kernels) void page_use_kernels(const uint32_t *words, uint32_t first_function);
+
+/* page_file_put: a file by its name, in place of one that had it; `data` is from page_take and belongs to the files from
+ * now on. 1, or 0: too many, or too long a name. */
+PAGE_CALL(page_file_put) int page_file_put(const char *name, uint8_t *data, size_t size);
+PAGE_CALL(page_file_data) const uint8_t *page_file_data(const char *name);
+PAGE_CALL(page_file_size) size_t page_file_size(const char *name);
+PAGE_CALL(page_file_drop) void page_file_drop(const char *name);
+
+/* page_help: a helper's whole life. page_helpers: how many have come. page_take_helpers: those take part from now on;
+ * returns the number of threads. */
+PAGE_CALL(page_help) void page_help(void);
+PAGE_CALL(page_helpers) int32_t page_helpers(void);
+PAGE_CALL(page_take_helpers) int32_t page_take_helpers(void);
+
+/* `words` are a command line of the tool, a word a line. page_run: a verb, whole: its exit status. page_open: `render`,
+ * loaded and set but not drawn: the scene at hand, in place of the last. 1, or 0 where page_report says why. */
+PAGE_CALL(page_run) int page_run(const char *words);
+PAGE_CALL(page_open) int page_open(const char *words);
+PAGE_CALL(page_report) const char *page_report(void);
+
+/* What the page is told of the scene at hand: PAGE_NUMBERS doubles. */
+enum {
+    PAGE_WIDTH, PAGE_HEIGHT, PAGE_TRIANGLES, PAGE_LIGHTS, PAGE_BAKED, PAGE_THREADS,
+    PAGE_EYE, PAGE_RIGHT = PAGE_EYE + 3, PAGE_UP = PAGE_RIGHT + 3, PAGE_BACK = PAGE_UP + 3,
+    PAGE_HALF_WIDTH = PAGE_BACK + 3, PAGE_HALF_HEIGHT, PAGE_LOW, PAGE_HIGH = PAGE_LOW + 3,
+    PAGE_LIGHT = PAGE_HIGH + 3, /* kind, position, direction: of the light at hand */
+    PAGE_PROGRESS = PAGE_LIGHT + 7, PAGE_TRIM, PAGE_RMSE, PAGE_DROPPED, PAGE_MEMORY, PAGE_NUMBERS
+};
+PAGE_CALL(page_numbers) const double *page_numbers(uint32_t light);
+
+/* page_look: the camera, from one point to another. page_put_light: where a light is and shines to. 1, or 0: refused. */
+PAGE_CALL(page_look) int page_look(float ex, float ey, float ez, float tx, float ty, float tz);
+PAGE_CALL(page_put_light) int page_put_light(uint32_t i, float x, float y, float z, float dx, float dy, float dz);
+
+/* A frame. page_begin: `target` is one of PAGE_TO_; `show` LMB_SHOW_*. page_step: some of it, at most `bands` bands: 1:
+ * more is to be done, 0: done, -1: page_report says why not. PAGE_TO_SCREEN has the exposure that page_set_exposure gave;
+ * page_exposure chooses one by the frame PAGE_TO_LINEAR, unless the options name one. page_to_pixels: that frame to the
+ * screen. page_pixels: RGBA. */
+enum { PAGE_TO_SCREEN, PAGE_TO_LINEAR, PAGE_TO_BEST };
+PAGE_CALL(page_begin) int page_begin(int target, int show);
+PAGE_CALL(page_step) int page_step(int bands);
+PAGE_CALL(page_exposure) float page_exposure(void);
+PAGE_CALL(page_set_exposure) void page_set_exposure(float ev);
+PAGE_CALL(page_exposure_now) float page_exposure_now(void);
+PAGE_CALL(page_to_pixels) int page_to_pixels(void);
+PAGE_CALL(page_pixels) uint8_t *page_pixels(void);
+PAGE_CALL(page_hash) const char *page_hash(void);
+
+/* page_measure: PAGE_TRIM and PAGE_RMSE of the linear frame against the best one. 1, or 0. */
+PAGE_CALL(page_measure) int page_measure(void);
+
+/* page_show: what the scene was opened to show where that is no light, whole, as RGBA of page_show_width pixels a row and
+ * page_show_height rows; NULL where page_report says why not. */
+PAGE_CALL(page_show) uint8_t *page_show(void);
+PAGE_CALL(page_show_width) int32_t page_show_width(void);
+PAGE_CALL(page_show_height) int32_t page_show_height(void);
+
+/* page_cut: the nodes that light the surface at a pixel, of the frame that is done: PAGE_NODE floats each: a place, its
+ * radius, its light, the share of the pixels that see it, its level, light's face and texel in that. *count: how many;
+ * 0 where no cut lights the frame. */
+enum { PAGE_NODE = 10 };
+PAGE_CALL(page_cut) const float *page_cut(int32_t x, int32_t y);
+PAGE_CALL(page_cut_count) int32_t page_cut_count(void);
+PAGE_CALL(page_cut_size) int32_t page_cut_size(void);
+
+#endif

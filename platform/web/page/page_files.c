@@ -1,0 +1,114 @@
+/* page_files.c: the tool's files (io_file.h) in memory: what the page hands in, and what a verb writes. */
+#include "page.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../../tools/common/io_file.h"
+
+enum { FILES = 256, NAME_BYTES = 256 };
+
+static struct kept {
+    char name[NAME_BYTES]; /* "": free */
+    uint8_t *data;
+    size_t size;
+} files[FILES];
+
+/* Its place; of a new name a free one; NULL: none is left, or the name is too long. */
+static struct kept *find(const char *name, int is_new)
+{
+    struct kept *empty = NULL;
+    if (name[0] == '\0' || strlen(name) >= NAME_BYTES) {
+        return NULL;
+    }
+    for (int i = 0; i < FILES; ++i) {
+        if (strcmp(files[i].name, name) == 0) {
+            return &files[i];
+        }
+        empty = empty == NULL && files[i].name[0] == '\0' ? &files[i] : empty;
+    }
+    return is_new ? empty : NULL;
+}
+
+int page_file_put(const char *name, uint8_t *data, size_t size)
+{
+    struct kept *k = find(name, 1);
+    if (k == NULL) {
+        free(data);
+        return 0;
+    }
+    free(k->data);
+    strcpy(k->name, name);
+    k->data = data;
+    k->size = size;
+    return 1;
+}
+
+const uint8_t *page_file_data(const char *name)
+{
+    const struct kept *k = find(name, 0);
+    return k != NULL ? k->data : NULL;
+}
+
+size_t page_file_size(const char *name)
+{
+    const struct kept *k = find(name, 0);
+    return k != NULL ? k->size : 0;
+}
+
+void page_file_drop(const char *name)
+{
+    struct kept *k = find(name, 0);
+    if (k != NULL) {
+        free(k->data);
+        memset(k, 0, sizeof *k);
+    }
+}
+
+/* --- io_file.h ---------------------------------------------------------------------------------------------------- */
+
+static int copy_to(file_bytes *out, const void *data, size_t size, const char *path, report *r)
+{
+    out->data = malloc(size > 0 ? size : 1);
+    out->size = out->data != NULL ? size : 0;
+    if (out->data == NULL) {
+        return report_fail(r, "%s: out of memory after 0 bytes", path);
+    }
+    memcpy(out->data, data, size);
+    return 1;
+}
+
+int file_is_plain(const char *path, report *r)
+{
+    return find(path, 0) != NULL || report_fail(r, "%s: is not here; drop it together with the scene", path);
+}
+
+int file_read(file_bytes *out, const char *path, report *r)
+{
+    const struct kept *k = find(path, 0);
+    memset(out, 0, sizeof *out);
+    return file_is_plain(path, r) && copy_to(out, k->data, k->size, path, r);
+}
+
+void file_free(file_bytes *file)
+{
+    free(file->data);
+    memset(file, 0, sizeof *file);
+}
+
+int file_write(const char *path, const void *data, size_t size, report *r)
+{
+    file_bytes copy;
+    return copy_to(&copy, data, size, path, r) &&
+           (page_file_put(path, copy.data, copy.size) || report_fail(r, "%s: too many files", path));
+}
+
+/* There are no devices, no other names of one file, and nothing that a signal would leave behind. */
+int file_is_stdout(const char *path) { return strcmp(path, "-") == 0; }
+int file_keep(const char *path, report *r) { return (void)path, (void)r, 1; }
+void file_keep_all(void) {}
+void file_keep_end(void) {}
+int file_can_write(const char *path, report *r) { return (void)path, (void)r, 1; }
+int file_may_replace(const char *path, report *r) { return (void)path, (void)r, 1; }
+int file_is_same_place(const char *a, const char *b) { return strcmp(a, b) == 0; }
+void file_drop_aside(void) {}

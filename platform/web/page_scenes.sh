@@ -1,0 +1,55 @@
+# page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: what the page offers beside itself: scenes with their baked light, a
+# relief, a picture by `lambent mix`, and scenes.json, which names the scenes. What is there already stays.
+set -e
+tool=$1 scenes=$2 to=$3
+
+bake() { # SCENE NAME
+    if [ ! -s "$to/$2.lmt" ]; then
+        "$tool" bake "$1" --elements 4096 -q -o "$to/$2.lmt"
+    fi
+}
+
+# A fluted vase, turned about its axis: N corners a ring, of which every twelfth part is a flute.
+vase() {
+    awk 'BEGIN {
+        pi = 3.14159265358979; rings = 80; n = 192
+        for (i = 0; i <= rings; ++i) {
+            h = i / rings
+            r = 0.16 + 0.2 * sin(pi * h ^ 0.7) ^ 2 + 0.07 * h ^ 6
+            for (k = 0; k < n; ++k) {
+                a = 2 * pi * k / n
+                f = r * (1 - 0.06 * sin(pi * h) * (1 + cos(12 * a)) / 2)
+                printf "v %.5f %.5f %.5f\n", f * sin(a), h, f * cos(a)
+            }
+        }
+        for (i = 0; i < rings; ++i) for (k = 0; k < n; ++k) {
+            a = i * n + k + 1; b = i * n + (k + 1) % n + 1
+            printf "f %d %d %d\nf %d %d %d\n", a, b, b + n, a, b + n, a + n
+        }
+        printf "v 0 0 0\nv 0 0.97 0\n"
+        c = (rings + 1) * n + 1; top = rings * n
+        for (k = 0; k < n; ++k) printf "f %d %d %d\n", c, (k + 1) % n + 1, k + 1
+        for (k = 0; k < n; ++k) printf "f %d %d %d\n", c + 1, top + k + 1, top + (k + 1) % n + 1
+    }'
+}
+
+bake demo demo
+list='{"name": "demo", "file": "demo", "transfer": "demo.lmt"}'
+for name in small_room gallery furnished; do
+    if [ ! -s "$to/$name/scene.gltf" ]; then
+        mkdir -p "$to/$name"
+        "$scenes" $name -o "$to/$name"
+        rm -f "$to/$name/scene.txt" "$to/$name/scene.box"
+    fi
+    bake "$to/$name/scene.gltf" $name
+    list="$list,
+ {\"name\": \"$(echo $name | tr _ ' ')\", \"file\": \"$name/scene.gltf\", \"files\": [\"$name/scene.gltf\", \"$name/scene.bin\"],
+  \"transfer\": \"$name.lmt\"}"
+done
+printf '[%s]\n' "$list" > "$to/scenes.json"
+if [ ! -s "$to/relief.lmr" ]; then
+    vase > "$to/vase.obj"
+    "$tool" relief bake "$to/vase.obj" --size 128 --triangles 600 -q -o "$to/relief.lmr"
+    rm -f "$to/vase.obj"
+fi
+cp tests/results/mixed.png "$to/mixed.png"

@@ -1,0 +1,38 @@
+// browser.mjs: a static server on loopback and headless Chromium for the page's tests and times.
+import fs from 'fs';
+import http from 'http';
+import path from 'path';
+import { createRequire } from 'module';
+
+const kinds = { html: 'text/html', js: 'text/javascript', json: 'application/json', png: 'image/png' };
+
+// Serves the folders, the first that has a file; isolated: with the headers that let a page use threads.
+export function serve(folders, isIsolated) {
+    const server = http.createServer((asked, answer) => {
+        let name = path.normalize(decodeURIComponent(asked.url.split('?')[0]));
+        if (name.endsWith('/')) name += 'index.html';
+        const file = folders.map((f) => path.join(f, name)).find((f) => fs.existsSync(f));
+        if (!file) {
+            answer.writeHead(404).end();
+            return;
+        }
+        const headers = { 'content-type': kinds[name.split('.').pop()] || 'application/octet-stream' };
+        if (isIsolated) {
+            headers['cross-origin-opener-policy'] = 'same-origin';
+            headers['cross-origin-embedder-policy'] = 'require-corp';
+        }
+        answer.writeHead(200, headers);
+        fs.createReadStream(file).pipe(answer);
+    });
+    return new Promise((done) => server.listen(0, '127.0.0.1', () =>
+        done({ url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() })));
+}
+
+// modules: the folder that has node_modules/playwright-core.
+export function browser(modules) {
+    const { chromium } = createRequire(path.resolve(modules, 'x.js'))('playwright-core');
+    return chromium.launch({
+        executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+        args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+               '--disable-component-update', '--disable-sync'] });
+}
