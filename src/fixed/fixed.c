@@ -143,7 +143,7 @@ static void triangle_of(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
     out[0] = t[0] & 0xffffu, out[1] = t[0] >> 16, out[2] = t[1];
 }
 
-int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
+int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
 {
     seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
     uint32_t vertex[3];
@@ -168,8 +168,10 @@ int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, ui
         int32_t p[3];
         a[i].v[2] = most(a[i].v[2], 16 * f->view.near_units);
         project(p, a[i].v, &l);
-        out[i].x = p[0], out[i].y = p[1], out[i].depth = p[2];
-        memcpy(out[i].colour, a[i].colour, sizeof out[i].colour);
+        out[i].x = (int16_t)p[0], out[i].y = (int16_t)p[1], out[i].depth = (uint16_t)p[2];
+        for (int c = 0; c < 3; ++c) {
+            out[i].colour[c] = (uint8_t)a[i].colour[c];
+        }
     }
     return count;
 }
@@ -192,7 +194,7 @@ static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0,
 
 static int see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
 {
-    fixed_corner c[FIXED_CORNERS];
+    lmb_fixed_vertex c[FIXED_CORNERS];
     const int count = lmb_fixed_clip(c, f, triangle);
     int32_t x0, x1, y0, y1, area = 0;
     if (count < 3) {
@@ -275,18 +277,12 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
 
 static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t triangle)
 {
-    fixed_corner c[FIXED_CORNERS];
     if ((triangle & FIXED_CUT) == 0) {
-        uint32_t vertex[3];
-        triangle_of(vertex, f->scene, triangle);
-        for (int i = 0; i < 3; ++i) {
-            const lmb_fixed_vertex *v = &f->vertex[vertex[i]];
-            c[i].x = v->x, c[i].y = v->y, c[i].depth = v->depth;
-            c[i].colour[0] = v->colour[0], c[i].colour[1] = v->colour[1], c[i].colour[2] = v->colour[2];
-        }
-        lmb_fixed_fill(b, &c[0], &c[1], &c[2]);
+        const uint32_t *t = f->scene->triangle + 2 * triangle;
+        lmb_fixed_fill(b, &f->vertex[t[0] & 0xffffu], &f->vertex[t[0] >> 16], &f->vertex[t[1]]);
         return;
     }
+    lmb_fixed_vertex c[FIXED_CORNERS];
     const int count = lmb_fixed_clip(c, f, triangle & ~(uint32_t)FIXED_CUT);
     for (int i = 2; i < count; ++i) {
         lmb_fixed_fill(b, &c[0], &c[i - 1], &c[i]);
