@@ -223,7 +223,7 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
+          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -285,6 +285,9 @@ hostile-cli: $(TOOL) ## absurd files through the whole tool
 
 layers: $(LIB) $(TOOL) ## includes and calls only go down, without circles (layers.txt)
 	@$(IN_SH) tests/scripts/layers.sh
+
+no-float: ## frames by integers alone ask a Cortex-M0+ for no float; their ROM
+	@$(IN_SH) tests/scripts/no_float.sh
 
 symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
 	@$(IN_SH) tests/scripts/symbols.sh

@@ -19,6 +19,7 @@ enum {
     LMB_FIXED_RECEIVER_WORDS = 3,
     LMB_FIXED_ROW_WORDS = 2,
     LMB_FIXED_REACH = 8191,      /* units: of coordinates, each way */
+    LMB_FIXED_EYE = 24576,       /* likewise of a camera */
     LMB_FIXED_MAX_SIDE = 640,    /* px */
     LMB_FIXED_MAX_VERTICES = 16384,
     LMB_FIXED_MAX_TRIANGLES = 32767,
@@ -111,7 +112,7 @@ size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap);
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes);
 
 /* lmb_fixed_look_at: eye and axes of a view that is upright. LMB_OK or LMB_ERR_ARG: target at eye, straight above or
- * below it, or one of them out of LMB_FIXED_REACH. */
+ * below it, eye out of LMB_FIXED_EYE or target out of LMB_FIXED_REACH. */
 lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const int32_t target[3]);
 
 /* lmb_fixed_transform, then lmb_fixed_light: LMB_OK or LMB_ERR_ARG (null, a number out of its range). Stack: 2.5 KiB. */

@@ -1,6 +1,7 @@
 /* fixed.c: a frame by integers: vertices to the screen, what is seen, and the bands. Layer 10.
  *
- * Coordinates are of 14 bits and axes of 15, so that a turned vertex fits 30 bits; it is kept in 1/16 unit, 20 bits. On
+ * Coordinates are of 14 bits, the camera's of 16, and axes of 15, so that a turned vertex fits 31 bits; it is kept in
+ * 1/16 unit, 21 bits, below 2^31 / 2048. On
  * the screen a guard of 12 times the sides, in 1/16 px, keeps differences below 2^14 and areas below 2^29. */
 #include <lambent/fixed.h>
 
@@ -241,7 +242,7 @@ static int is_view(const lmb_fixed_view *v)
         for (int c = 0; c < 3; ++c) {
             length += (int64_t)v->axis[i][c] * v->axis[i][c];
         }
-        if (!is_between(v->eye[i], -LMB_FIXED_REACH, LMB_FIXED_REACH) || length > 16400 * 16400) {
+        if (!is_between(v->eye[i], -LMB_FIXED_EYE, LMB_FIXED_EYE) || length > 16400 * 16400) {
             return 0;
         }
     }
