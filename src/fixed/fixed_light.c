@@ -1,5 +1,4 @@
-/* fixed_light.c: a lamp's light at the vertices that are seen: directly by what the lattice of places knows, and thrown
- * back by links. Layer 10.
+/* fixed_light.c: light at the vertices that are seen: a lamp's, and what is thrown back, by links. Layer 10.
  *
  * Light is what a white surface shows, in 1/65536 of the picture's white: at most LIGHT_MOST. */
 #include <lambent/fixed.h>
