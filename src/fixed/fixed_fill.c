@@ -218,7 +218,8 @@ static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, i
     }
 }
 
-void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1, const lmb_fixed_vertex *c2)
+void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
+                    const lmb_fixed_vertex *c2)
 {
     const lmb_fixed_vertex *top = c0, *middle = c1, *bottom = c2, *swap;
     filler f;

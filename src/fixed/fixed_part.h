@@ -52,6 +52,7 @@ enum { FIXED_CORNERS = 9 };
 int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle);
 
 /* lmb_fixed_fill: corners clockwise or not; within a guard of 12 times the sides in 1/16 px. */
-void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1, const lmb_fixed_vertex *c2);
+void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
+                    const lmb_fixed_vertex *c2);
 
 #endif

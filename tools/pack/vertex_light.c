@@ -43,7 +43,8 @@ typedef struct baking {
 
 static dvec inner(const vl_mesh *m, const vl_triangle *t, double a, double b, double c)
 {
-    return dvec_add(dvec_add(dvec_mul(m->place[t->p[0]], a), dvec_mul(m->place[t->p[1]], b)), dvec_mul(m->place[t->p[2]], c));
+    return dvec_add(dvec_add(dvec_mul(m->place[t->p[0]], a), dvec_mul(m->place[t->p[1]], b)),
+                    dvec_mul(m->place[t->p[2]], c));
 }
 
 static double area_of(const vl_mesh *m, const vl_triangle *t)
@@ -539,7 +540,8 @@ static int put_all(baking *b, const vertex_light_options *o, report *r)
     for (uint32_t i = 0; i < all && ok; ++i) {
         uint32_t row[2];
         /* elements, whose light is thrown back once more, do with half of the links */
-        ok = put_links(b, row, &b->receiver[i], i < b->vertices ? o->links : (o->links + 1) / 2, &links, r) && put(b, row[0], r) && put(b, row[1], r);
+        ok = put_links(b, row, &b->receiver[i], i < b->vertices ? o->links : (o->links + 1) / 2, &links, r) &&
+             put(b, row[0], r) && put(b, row[1], r);
         progress_tell("links", (double)i / all);
     }
     b->link_words = links.count;
