@@ -1,4 +1,4 @@
-/* fixed_light.c: light at the vertices that are seen: a lamp's, and what is thrown back, by links. Layer 10.
+/* fixed_light.c: light at the vertices that are seen: the lamp's, and what is thrown back, by links. Layer 10.
  *
  * Light is what a white surface shows, in 1/65536 of the picture's white: at most LIGHT_MOST. */
 #include <lambent/fixed.h>

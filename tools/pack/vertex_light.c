@@ -477,7 +477,7 @@ static int put_links(baking *b, uint32_t row[2], const receiver *v, uint32_t mos
 
 /* --- lamps -------------------------------------------------------------------------------------------------------- */
 
-/* A bit each place; where a lamp is behind the surface, which it does not light, as if it were seen. */
+/* A bit each place; where the lamp is behind the surface, which it does not light, as if it were seen. */
 static int put_seen(baking *b, const receiver *v, report *r)
 {
     const uint32_t words = (b->lattice.all + 31) / 32;
