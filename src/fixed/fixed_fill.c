@@ -10,7 +10,7 @@ typedef struct edge {
     int32_t x, y, slope; /* 1/16 px; slope in 2^-14 */
 } edge;
 
-static edge edge_of(const fixed_corner *from, const fixed_corner *to)
+static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
 {
     const int32_t down = to->y - from->y;
     edge e = {from->x, from->y, 0};
@@ -38,14 +38,16 @@ typedef struct plane {
 typedef struct slant {
     int32_t x1, y1, x2, y2; /* from the first corner */
     int32_t area, per, free; /* twice the area, 1/256 px2; 2^62 / (area << free) */
+    int32_t size;            /* bits of what the corners are apart at most, 1/16 px */
 } slant;
 
 enum {
     DEPTH_BITS = 14, DEPTH_STEEP = 12, /* bits below 1; 2^steep a 1/16 px is the most that is told apart */
     COLOUR_BITS = 16, COLOUR_STEEP = 4,
-    /* By so much a 1/16 px, and over so many px, what lies between FIXED_LEAST and FIXED_MOST at the corners stays within
-     * its bits: an edge is up to 1/20 px off, and a colour's step 1/512 of a code. */
-    DEPTH_GENTLE = 1 << 17, COLOUR_GENTLE = 1 << 14, GENTLE_ACROSS = 256
+    /* A plane that changes by at most so much, 2^bits, along and down a triangle, and over so many px: what lies between
+     * FIXED_LEAST and FIXED_MOST at the corners then stays within its bits in all pixels, as edges are off by 2^-13 of
+     * the triangle's size, and a colour's step by 1/512 of a code. */
+    DEPTH_GENTLE = 17, COLOUR_GENTLE = 10, GENTLE_ACROSS = 256
 };
 
 /* n / area in 2^-DEPTH_BITS: what is shifted fits 31 bits, as n is at most 2^DEPTH_STEEP times the area. */
@@ -62,7 +64,10 @@ static uint32_t colour_share(const slant *s, int32_t n)
     return (uint32_t)signed_high_of(left >= 0 ? n * (1 << left) : n >> -left, s->per);
 }
 
-static int is_within(uint32_t v, uint32_t reach) { return v + reach <= 2u * reach; }
+static int is_gentle(const plane *p, uint32_t most_of)
+{
+    return p->per_x + most_of <= 2u * most_of && p->per_y + most_of <= 2u * most_of;
+}
 
 static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
@@ -79,7 +84,7 @@ static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t
     out->at = (uint32_t)f0 << DEPTH_BITS;
     out->per_x = depth_share(s, x);
     out->per_y = depth_share(s, y);
-    return is_within(out->per_x, DEPTH_GENTLE) && is_within(out->per_y, DEPTH_GENTLE);
+    return is_gentle(out, 1u << (DEPTH_GENTLE + DEPTH_BITS - 1 - s->size));
 }
 
 /* Likewise, half of a code more, to be rounded. */
@@ -94,7 +99,7 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
     out->at = ((uint32_t)f0 << COLOUR_BITS) + 32768u;
     out->per_x = colour_share(s, x);
     out->per_y = colour_share(s, y);
-    return is_within(out->per_x, COLOUR_GENTLE) && is_within(out->per_y, COLOUR_GENTLE);
+    return is_gentle(out, 1u << (COLOUR_GENTLE + COLOUR_BITS - s->size));
 }
 
 /* A row's first pixel, and what each next one adds. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
@@ -133,7 +138,7 @@ typedef struct filler {
     int is_gentle;
 } filler;
 
-static void set_row(uint32_t *at, uint32_t *to_x, uint32_t *to_y, const plane *p, const fixed_corner *c, int32_t y)
+static void set_row(uint32_t *at, uint32_t *to_x, uint32_t *to_y, const plane *p, const lmb_fixed_vertex *c, int32_t y)
 {
     *at = p->at + p->per_x * (uint32_t)(8 - c->x) + p->per_y * (uint32_t)(16 * y + 8 - c->y);
     *to_x = p->per_x * 16u;
@@ -184,7 +189,7 @@ static void fill_steep(const filler *f, int32_t x, int32_t count, uint32_t *to, 
     fill_pixels(to, to_depth, count, &s);
 }
 
-/* Rows whose middles lie on both edges. */
+/* Rows whose middles lie on both edges, the left one first. */
 static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
 {
     const int32_t first = most((top + 7) >> 4, f->b->first), end = least((past + 7) >> 4, f->b->past),
@@ -198,8 +203,8 @@ static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, i
     uint32_t *to = f->b->pixel + width * (first - f->b->first);
     uint16_t *to_depth = f->b->depth + width * (first - f->b->first);
     for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width, to_depth += width) {
-        const int32_t x = most(first_pixel(least(u, v)), f->first);
-        const int32_t count = least(first_pixel(most(u, v)), f->past) - x;
+        const int32_t x = most(first_pixel(u), f->first);
+        const int32_t count = least(first_pixel(v), f->past) - x;
         if (count > 0 && f->is_gentle) {
             const uint32_t at = (uint32_t)x;
             s.depth = f->depth + f->depth_x * at;
@@ -213,12 +218,13 @@ static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, i
     }
 }
 
-void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_corner *c1, const fixed_corner *c2)
+void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
+                    const lmb_fixed_vertex *c2)
 {
-    const fixed_corner *top = c0, *middle = c1, *bottom = c2, *swap;
+    const lmb_fixed_vertex *top = c0, *middle = c1, *bottom = c2, *swap;
     filler f;
     plane p;
-    slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0};
+    slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0, 0};
     int32_t area = s.x1 * s.y2 - s.x2 * s.y1;
     if (area == 0) {
         return;
@@ -240,6 +246,9 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
         area = -area;
         s.x1 = -s.x1, s.y1 = -s.y1, s.x2 = -s.x2, s.y2 = -s.y2;
     }
+    const uint32_t apart = (uint32_t)(s.x1 < 0 ? -s.x1 : s.x1) | (uint32_t)(s.x2 < 0 ? -s.x2 : s.x2) |
+                           (uint32_t)(s.y1 < 0 ? -s.y1 : s.y1) | (uint32_t)(s.y2 < 0 ? -s.y2 : s.y2);
+    s.size = 32 - zeros_above(apart);
     s.area = area;
     s.free = zeros_above((uint32_t)area);
     s.per = (int32_t)reciprocal((uint32_t)area << s.free);
@@ -256,12 +265,13 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
     f.is_gentle &= set_colour(&p, &s, c0->colour[2], c1->colour[2], c2->colour[2]);
     set_row(&f.blue, &f.blue_x, &f.blue_y, &p, c0, y);
     const edge whole = edge_of(top, bottom);
+    const int32_t turn = (middle->x - top->x) * (bottom->y - top->y) - (bottom->x - top->x) * (middle->y - top->y);
     if (middle->y > 16 * b->first) {
         const edge upper = edge_of(top, middle);
-        fill_between(&f, &whole, &upper, top->y, middle->y);
+        fill_between(&f, turn > 0 ? &whole : &upper, turn > 0 ? &upper : &whole, top->y, middle->y);
     }
     if (middle->y < 16 * b->past) {
         const edge lower = edge_of(middle, bottom);
-        fill_between(&f, &whole, &lower, middle->y, bottom->y);
+        fill_between(&f, turn > 0 ? &whole : &lower, turn > 0 ? &lower : &whole, middle->y, bottom->y);
     }
 }
