@@ -31,7 +31,7 @@ $(B)/room: platform/n64/start_n64.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := N64
-COUNTED_ROWS ?= 16
+COUNTED_ROWS  ?= 4
 COUNTED_AT    := 0x400400
 COUNTED_QEMU  := qemu-mipsn32
 COUNTED_MODEL := vr4300

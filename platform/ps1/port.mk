@@ -32,7 +32,7 @@ $(B)/room: platform/ps1/start_ps1.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := PS1
-COUNTED_ROWS  ?= 16
+COUNTED_ROWS  ?= 240
 COUNTED_AT    := 0x410000
 COUNTED_QEMU  := qemu-mipsel
 COUNTED_MODEL := r3000
