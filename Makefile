@@ -380,7 +380,7 @@ FUZZER     := $(BUILD)/fuzz/default/fuzzer
 FUZZ_FLAGS := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all \
               -Wno-missing-prototypes
 FUZZ_OBJ   := $(call object,tests/fuzz/main_fuzz.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
-TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt cli api calls stages
+TARGETS   ?= png jpeg hdr pfm ppm picture inflate json gltf obj mtl ply lmr lmt lmf cli api calls stages
 MINUTES   ?= 1
 fuzz: ## each parser, and the library's calls, under libFuzzer (MINUTES=1 of CPU each, TARGETS="png ...")
 	+@sh tests/scripts/tools.sh need clang clang-sanitizers \

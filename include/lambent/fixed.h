@@ -70,7 +70,7 @@ typedef struct lmb_fixed_lamp {
 typedef struct lmb_fixed_vertex {
     int16_t x, y;      /* 1/16 px from the picture's left upper corner, less a bias of the middle */
     uint16_t depth;    /* larger is nearer */
-    uint8_t colour[3]; /* sRGB */
+    uint8_t colour[3]; /* sRGB, 1 .. 254 */
     uint8_t flags;
 } lmb_fixed_vertex;
 

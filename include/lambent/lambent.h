@@ -21,6 +21,7 @@
 #include "relief.h"
 #include "transfer.h"
 #include "gouraud.h"
+#include "fixed.h"
 #include "mixed.h"
 #include "compose.h"
 #include "relight.h"

@@ -46,7 +46,7 @@ static int project(int32_t out[3], const int32_t v[3], const lmb_fixed_view *vie
     const uint32_t depth = high_of((uint32_t)view->near_units * 16u * 65535u, per) >> (30 - free);
     out[0] = (int32_t)(sx < -guard_x ? -guard_x : sx > guard_x ? guard_x : sx) + 8 * view->width;
     out[1] = 8 * view->height - (int32_t)(sy < -guard_y ? -guard_y : sy > guard_y ? guard_y : sy);
-    out[2] = (int32_t)(depth > 65535u ? 65535u : depth);
+    out[2] = within((int32_t)depth, FIXED_LEAST_DEPTH, FIXED_MOST_DEPTH);
     return sx >= -guard_x && sx <= guard_x && sy >= -guard_y && sy <= guard_y;
 }
 

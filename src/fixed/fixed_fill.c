@@ -29,10 +29,9 @@ static int32_t edge_at(const edge *e, int32_t middle) { return e->x * 1024 + ((e
 /* The first pixel whose middle is not left of x. */
 static int32_t first_pixel(int32_t x) { return (x + 8191) >> 14; }
 
-/* At the first corner; per 1/16 px from there; per pixel, as rows go on. */
+/* A number that is linear on the triangle: at the first corner, and in 1/16 px from there. */
 typedef struct plane {
     uint32_t at, per_x, per_y;
-    int32_t step;
 } plane;
 
 /* A triangle's numbers that all planes need. */
@@ -41,81 +40,64 @@ typedef struct slant {
     int32_t area, per, free; /* twice the area, 1/256 px2; 2^62 / (area << free) */
 } slant;
 
-/* n / area in 2^-bits. n fits 31 bits after the shift: it is at most 2^steep times the area. */
-static uint32_t share(const slant *s, int64_t n, int bits)
+enum {
+    DEPTH_BITS = 14, DEPTH_STEEP = 12, /* bits below 1; 2^steep a 1/16 px is the most that is told apart */
+    COLOUR_BITS = 16, COLOUR_STEEP = 4,
+    /* By so much a 1/16 px, and over so many px, what lies between FIXED_LEAST and FIXED_MOST at the corners stays within
+     * its bits: an edge is up to 1/20 px off, and a colour's step 1/512 of a code. */
+    DEPTH_GENTLE = 1 << 17, COLOUR_GENTLE = 1 << 14, GENTLE_ACROSS = 256
+};
+
+/* n / area in 2^-DEPTH_BITS: what is shifted fits 31 bits, as n is at most 2^DEPTH_STEEP times the area. */
+static uint32_t depth_share(const slant *s, int64_t n)
 {
-    const int32_t left = s->free + bits - 30;
-    const int32_t shifted = left >= 0 ? (int32_t)n * (1 << left) : (int32_t)(n >> -left);
-    return (uint32_t)signed_high_of(shifted, s->per);
+    const int32_t left = s->free + DEPTH_BITS - 30;
+    return (uint32_t)signed_high_of(left >= 0 ? (int32_t)n * (1 << left) : (int32_t)(n >> -left), s->per);
 }
 
-static int is_steep(const slant *s, int64_t n, int steep) { return ((n < 0 ? -n : n) >> steep) > s->area; }
+/* Likewise; the area's `free` is at least 3. */
+static uint32_t colour_share(const slant *s, int32_t n)
+{
+    const int32_t left = s->free + COLOUR_BITS - 30;
+    return (uint32_t)signed_high_of(left >= 0 ? n * (1 << left) : n >> -left, s->per);
+}
 
-enum { DEPTH_BITS = 14, DEPTH_STEEP = 12, COLOUR_BITS = 16, COLOUR_STEEP = 4 };
+static int is_within(uint32_t v, uint32_t reach) { return v + reach <= 2u * reach; }
 
 static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
-/* Depths f0, f1, f2 at the corners. A triangle so steep that all of the change is within 1/16 px has their mean. */
-static void set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+/* A triangle so steep that all of the change is within 1/16 px has its corners' mean. 1 where it is gentle. */
+static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0;
     const int64_t x = (int64_t)a * s->y2 - (int64_t)b * s->y1, y = (int64_t)b * s->x1 - (int64_t)a * s->x2;
-    if (is_steep(s, x, DEPTH_STEEP) || is_steep(s, y, DEPTH_STEEP)) {
+    if ((x < 0 ? -x : x) >> DEPTH_STEEP > s->area || (y < 0 ? -y : y) >> DEPTH_STEEP > s->area) {
         out->at = mean_of(f0, f1, f2) << DEPTH_BITS;
         out->per_x = out->per_y = 0;
-    } else {
-        out->at = (uint32_t)f0 << DEPTH_BITS;
-        out->per_x = share(s, x, DEPTH_BITS);
-        out->per_y = share(s, y, DEPTH_BITS);
+        return 1;
     }
-    out->step = (int32_t)(out->per_x * 16u);
+    out->at = (uint32_t)f0 << DEPTH_BITS;
+    out->per_x = depth_share(s, x);
+    out->per_y = depth_share(s, y);
+    return is_within(out->per_x, DEPTH_GENTLE) && is_within(out->per_y, DEPTH_GENTLE);
 }
 
-/* Likewise of colours, whose products fit 32 bits; half of a code more. A step is in 1/256 of a code. */
-static void set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
+/* Likewise, half of a code more, to be rounded. */
+static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
     const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> COLOUR_STEEP > s->area || (y < 0 ? -y : y) >> COLOUR_STEEP > s->area) {
         out->at = (mean_of(f0, f1, f2) << COLOUR_BITS) + 32768u;
         out->per_x = out->per_y = 0;
-    } else {
-        const int32_t left = s->free + COLOUR_BITS - 30;
-        out->at = ((uint32_t)f0 << COLOUR_BITS) + 32768u;
-        out->per_x = (uint32_t)signed_high_of(left >= 0 ? x * (1 << left) : x >> -left, s->per);
-        out->per_y = (uint32_t)signed_high_of(left >= 0 ? y * (1 << left) : y >> -left, s->per);
+        return 1;
     }
-    out->step = (int32_t)(out->per_x * 16u + 128u) >> 8;
+    out->at = ((uint32_t)f0 << COLOUR_BITS) + 32768u;
+    out->per_x = colour_share(s, x);
+    out->per_y = colour_share(s, y);
+    return is_within(out->per_x, COLOUR_GENTLE) && is_within(out->per_y, COLOUR_GENTLE);
 }
 
-typedef struct filler {
-    const fixed_band *b;
-    const fixed_corner *c;
-    plane depth, colour[3];
-    int32_t first, past; /* pixels across that it may cover */
-} filler;
-
-/* A number along a row. */
-typedef struct ramp {
-    uint32_t at;
-    int32_t step;
-} ramp;
-
-/* Pixels' middles beside an edge may lie a little outside of the triangle: both ends within 0 .. max. */
-static ramp ramp_within(int32_t at, int32_t step, int32_t count, int32_t max)
-{
-    const int32_t end = within((int32_t)((uint32_t)at + (uint32_t)step * (uint32_t)(count - 1)), 0, max);
-    ramp r = {(uint32_t)within(at, 0, max), 0};
-    if (count > 1) {
-        const int32_t free = zeros_above((uint32_t)(count - 1)), way = end - (int32_t)r.at;
-        const uint32_t size = (uint32_t)(way < 0 ? -way : way),
-                       each = high_of(size, reciprocal((uint32_t)(count - 1) << free)) >> (30 - free);
-        const uint32_t whole = each * (uint32_t)(count - 1) > size ? each - 1 : each;
-        r.step = way < 0 ? -(int32_t)whole : (int32_t)whole;
-    }
-    return r;
-}
-
-/* What a row's pixels begin with and add. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
+/* A row's first pixel, and what each next one adds. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
 typedef struct span {
     uint32_t depth, depth_step, red_blue, red_blue_step, green, green_step;
 } span;
@@ -143,43 +125,91 @@ NOINLINE void fill_pixels(uint32_t *to, uint16_t *to_depth, int32_t count, const
     }
 }
 
-/* A plane from dx, dy on, in 1/16 px, for `count` pixels: within 0 .. max, after a shift. */
-static inline ramp ramp_of(const plane *p, uint32_t dx, uint32_t dy, int32_t count, int shift, uint32_t max)
+/* Numbers of the row at hand, in the middle of the band's first column; to the next pixel and row. */
+typedef struct filler {
+    const fixed_band *b;
+    uint32_t depth, red, green, blue, depth_x, red_x, green_x, blue_x, depth_y, red_y, green_y, blue_y;
+    int32_t first, past; /* pixels across that it may cover */
+    int is_gentle;
+} filler;
+
+static void set_row(uint32_t *at, uint32_t *to_x, uint32_t *to_y, const plane *p, const fixed_corner *c, int32_t y)
 {
-    ramp r = {(uint32_t)((int32_t)(p->at + p->per_x * dx + p->per_y * dy) >> shift), p->step};
-    if (r.at > max || r.at + (uint32_t)r.step * (uint32_t)(count - 1) > max) {
-        r = ramp_within((int32_t)r.at, r.step, count, (int32_t)max);
+    *at = p->at + p->per_x * (uint32_t)(8 - c->x) + p->per_y * (uint32_t)(16 * y + 8 - c->y);
+    *to_x = p->per_x * 16u;
+    *to_y = p->per_y * 16u;
+}
+
+/* A number along a row. */
+typedef struct ramp {
+    uint32_t at;
+    int32_t step;
+} ramp;
+
+/* Pixels' middles beside an edge may lie a little outside of the triangle: both ends within 0 .. max. */
+static ramp ramp_within(uint32_t from, int32_t step, int32_t count, int32_t max)
+{
+    ramp r = {from, step};
+    if (from <= (uint32_t)max && from + (uint32_t)step * (uint32_t)(count - 1) <= (uint32_t)max) {
+        return r;
+    }
+    const int32_t end = within((int32_t)(from + (uint32_t)step * (uint32_t)(count - 1)), 0, max);
+    r.at = (uint32_t)within((int32_t)from, 0, max);
+    r.step = 0;
+    if (count > 1) {
+        const int32_t free = zeros_above((uint32_t)(count - 1)), way = end - (int32_t)r.at;
+        const uint32_t size = (uint32_t)(way < 0 ? -way : way),
+                       each = high_of(size, reciprocal((uint32_t)(count - 1) << free)) >> (30 - free);
+        const uint32_t whole = each * (uint32_t)(count - 1) > size ? each - 1 : each;
+        r.step = way < 0 ? -(int32_t)whole : (int32_t)whole;
     }
     return r;
 }
 
-static void fill_row(const filler *f, int32_t x, int32_t y, int32_t count)
+/* In 1/256 of a code. */
+static int32_t colour_step(uint32_t to_x) { return (int32_t)(to_x + 128u) >> 8; }
+
+static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t x, int32_t count)
 {
-    const fixed_band *b = f->b;
-    const uint32_t dx = (uint32_t)(16 * x + 8 - f->c->x), dy = (uint32_t)(16 * y + 8 - f->c->y);
-    const ramp d = ramp_of(&f->depth, dx, dy, count, 0, 0x3fffffffu), red = ramp_of(&f->colour[0], dx, dy, count, 8, 0xffffu),
-               green = ramp_of(&f->colour[1], dx, dy, count, 8, 0xffffu),
-               blue = ramp_of(&f->colour[2], dx, dy, count, 8, 0xffffu);
-    const span s = {d.at, (uint32_t)d.step, (red.at << 16) + blue.at, ((uint32_t)red.step << 16) + (uint32_t)blue.step,
-                    green.at, (uint32_t)green.step};
-    const int32_t at = b->width * (y - b->first) + x;
-    fill_pixels(b->pixel + at, b->depth + at, count, &s);
+    return ramp_within((uint32_t)((int32_t)(from + to_x * (uint32_t)x) >> 8), colour_step(to_x), count, 0xffff);
+}
+
+static void fill_steep(const filler *f, int32_t x, int32_t count, uint32_t *to, uint16_t *to_depth)
+{
+    const ramp r = colour_ramp(f->red, f->red_x, x, count), g = colour_ramp(f->green, f->green_x, x, count),
+               b = colour_ramp(f->blue, f->blue_x, x, count),
+               d = ramp_within(f->depth + f->depth_x * (uint32_t)x, (int32_t)f->depth_x, count, 0x3fffffff);
+    const span s = {d.at, (uint32_t)d.step, (r.at << 16) + b.at, ((uint32_t)r.step << 16) + (uint32_t)b.step,
+                    g.at, (uint32_t)g.step};
+    fill_pixels(to, to_depth, count, &s);
 }
 
 /* Rows whose middles lie on both edges. */
-static void fill_between(const filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
+static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
 {
-    const int32_t first = most((top + 7) >> 4, f->b->first), end = least((past + 7) >> 4, f->b->past);
+    const int32_t first = most((top + 7) >> 4, f->b->first), end = least((past + 7) >> 4, f->b->past),
+                  width = f->b->width;
     if (first >= end) {
         return;
     }
+    span s = {0, f->depth_x, 0, ((uint32_t)colour_step(f->red_x) << 16) + (uint32_t)colour_step(f->blue_x),
+              0, (uint32_t)colour_step(f->green_x)};
     int32_t u = edge_at(a, 16 * first + 8), v = edge_at(b, 16 * first + 8);
-    for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope) {
+    uint32_t *to = f->b->pixel + width * (first - f->b->first);
+    uint16_t *to_depth = f->b->depth + width * (first - f->b->first);
+    for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width, to_depth += width) {
         const int32_t x = most(first_pixel(least(u, v)), f->first);
         const int32_t count = least(first_pixel(most(u, v)), f->past) - x;
-        if (count > 0) {
-            fill_row(f, x, y, count);
+        if (count > 0 && f->is_gentle) {
+            const uint32_t at = (uint32_t)x;
+            s.depth = f->depth + f->depth_x * at;
+            s.red_blue = ((f->red + f->red_x * at) << 8 & 0xffff0000u) + ((f->blue + f->blue_x * at) >> 8);
+            s.green = (f->green + f->green_x * at) >> 8;
+            fill_pixels(to + x, to_depth + x, count, &s);
+        } else if (count > 0) {
+            fill_steep(f, x, count, to + x, to_depth + x);
         }
+        f->depth += f->depth_y, f->red += f->red_y, f->green += f->green_y, f->blue += f->blue_y;
     }
 }
 
@@ -187,6 +217,7 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
 {
     const fixed_corner *top = c0, *middle = c1, *bottom = c2, *swap;
     filler f;
+    plane p;
     slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0};
     int32_t area = s.x1 * s.y2 - s.x2 * s.y1;
     if (area == 0) {
@@ -201,7 +232,8 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
     if (middle->y < top->y) {
         swap = top, top = middle, middle = swap;
     }
-    if ((bottom->y + 7) >> 4 <= most((top->y + 7) >> 4, b->first) || (top->y + 7) >> 4 >= b->past) {
+    const int32_t y = most((top->y + 7) >> 4, b->first);
+    if (least((bottom->y + 7) >> 4, b->past) <= y) {
         return;
     }
     if (area < 0) {
@@ -212,14 +244,24 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
     s.free = zeros_above((uint32_t)area);
     s.per = (int32_t)reciprocal((uint32_t)area << s.free);
     f.b = b;
-    f.c = c0;
     f.first = most((least(c0->x, least(c1->x, c2->x)) + 7) >> 4, 0);
     f.past = least((most(c0->x, most(c1->x, c2->x)) + 8) >> 4, b->width);
-    set_depth(&f.depth, &s, c0->depth, c1->depth, c2->depth);
-    for (int i = 0; i < 3; ++i) {
-        set_colour(&f.colour[i], &s, c0->colour[i], c1->colour[i], c2->colour[i]);
+    f.is_gentle = f.past - f.first <= GENTLE_ACROSS;
+    f.is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
+    set_row(&f.depth, &f.depth_x, &f.depth_y, &p, c0, y);
+    f.is_gentle &= set_colour(&p, &s, c0->colour[0], c1->colour[0], c2->colour[0]);
+    set_row(&f.red, &f.red_x, &f.red_y, &p, c0, y);
+    f.is_gentle &= set_colour(&p, &s, c0->colour[1], c1->colour[1], c2->colour[1]);
+    set_row(&f.green, &f.green_x, &f.green_y, &p, c0, y);
+    f.is_gentle &= set_colour(&p, &s, c0->colour[2], c1->colour[2], c2->colour[2]);
+    set_row(&f.blue, &f.blue_x, &f.blue_y, &p, c0, y);
+    const edge whole = edge_of(top, bottom);
+    if (middle->y > 16 * b->first) {
+        const edge upper = edge_of(top, middle);
+        fill_between(&f, &whole, &upper, top->y, middle->y);
     }
-    const edge whole = edge_of(top, bottom), upper = edge_of(top, middle), lower = edge_of(middle, bottom);
-    fill_between(&f, &whole, &upper, top->y, middle->y);
-    fill_between(&f, &whole, &lower, middle->y, bottom->y);
+    if (middle->y < 16 * b->past) {
+        const edge lower = edge_of(middle, bottom);
+        fill_between(&f, &whole, &lower, middle->y, bottom->y);
+    }
 }

@@ -9,7 +9,7 @@
 
 enum { LIGHT_MOST = 1 << 26, FULL = 32768, AROUND = 8 };
 
-/* Which places are around the lamp, and what of each counts; all of them FULL together. */
+/* Which places are around the lamp, and what of each counts; all of them less than FULL together. */
 typedef struct around {
     uint32_t word[AROUND], bit[AROUND], weight[AROUND];
     int count;
@@ -70,7 +70,7 @@ static void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
         const int32_t free = zeros_above(sum);
         out->word[k] = place[k] >> 5;
         out->bit[k] = place[k] & 31u;
-        out->weight[k] = high_of(weight[k] << 15, reciprocal(sum << free)) >> (30 - free);
+        out->weight[k] = high_of(weight[k] * (FULL - 1u), reciprocal(sum << free)) >> (30 - free);
     }
 }
 
@@ -254,7 +254,7 @@ static void shade(lmb_fixed_vertex *out, const lmb_fixed_frame *f, const lamp_no
     }
     for (int c = 0; c < 3; ++c) {
         const uint32_t light = reflected(e[c] + more[c], r.albedo[c]);
-        out->colour[c] = (uint8_t)((srgb_of(light >> 2) + 127u) >> 8);
+        out->colour[c] = (uint8_t)within((int32_t)(srgb_of(light >> 2) + 127u) >> 8, FIXED_LEAST, FIXED_MOST);
     }
 }
 

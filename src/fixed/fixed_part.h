@@ -37,7 +37,10 @@ static inline void fixed_receiver_at(fixed_receiver *out, const lmb_fixed *s, ui
     }
 }
 
-/* On the screen: 1/16 px; depth of 16 bits; sRGB codes. */
+/* Of colours and depths: what filling rounds then stays within 8 and 16 bits. */
+enum { FIXED_LEAST = 1, FIXED_MOST = 254, FIXED_LEAST_DEPTH = 16, FIXED_MOST_DEPTH = 65519 };
+
+/* On the screen: 1/16 px; depth; sRGB codes. */
 typedef struct fixed_corner {
     int32_t x, y, depth, colour[3];
 } fixed_corner;

@@ -46,14 +46,14 @@ extern const uint16_t lmb_fixed_reciprocals[256];
 extern const uint16_t lmb_fixed_cubes[194];
 extern const uint16_t lmb_fixed_srgb[2][65];
 
-/* 2^62 / v of a v from 2^31 on, less up to 2^-17 of it: below 2^31. */
+/* 2^62 / v of a v from 2^31 on, within 2^-17 below it and 2^-29 above it; less than 2^31. */
 static inline uint32_t reciprocal(uint32_t v)
 {
     const uint32_t r = (uint32_t)lmb_fixed_reciprocals[(v >> 23) & 255u] << 15;
     return high_of(r, 0x80000000u - high_of(v, r)) << 2;
 }
 
-/* (v / 2^28)^-1.5 of a v from 2^28 to before 2^30, in 1/65536, within 2^-13 of it. */
+/* (v / 2^28)^-1.5 of a v from 2^28 to before 2^30, in 1/65536, within 2^-12 of it. */
 static inline uint32_t inverse_cube(uint32_t v)
 {
     const uint32_t at = (v >> 22) - 64u, low = lmb_fixed_cubes[at];

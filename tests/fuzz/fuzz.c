@@ -6,11 +6,11 @@
 #include <string.h>
 
 const char *const fuzz_names[] = {"png",  "jpeg", "hdr", "pfm", "ppm", "picture", "inflate",
-                                  "json", "gltf", "obj", "mtl", "ply", "lmr", "lmt", "cli", "api",
+                                  "json", "gltf", "obj", "mtl", "ply", "lmr", "lmt", "lmf", "cli", "api",
                                   "calls", "stages", NULL};
 
 static const fuzz_target targets[] = {fuzz_png,  fuzz_jpeg, fuzz_hdr, fuzz_pfm, fuzz_ppm, fuzz_picture, fuzz_inflate,
-                                      fuzz_json, fuzz_gltf, fuzz_obj, fuzz_mtl, fuzz_ply, fuzz_lmr, fuzz_lmt, fuzz_cli,
+                                      fuzz_json, fuzz_gltf, fuzz_obj, fuzz_mtl, fuzz_ply, fuzz_lmr, fuzz_lmt, fuzz_lmf, fuzz_cli,
                                       fuzz_api,  fuzz_calls, fuzz_stages};
 
 fuzz_target fuzz_find(const char *name)

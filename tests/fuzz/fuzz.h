@@ -39,6 +39,7 @@ void fuzz_mtl(const uint8_t *data, size_t size);
 void fuzz_ply(const uint8_t *data, size_t size);
 void fuzz_lmr(const uint8_t *data, size_t size);
 void fuzz_lmt(const uint8_t *data, size_t size);
+void fuzz_lmf(const uint8_t *data, size_t size);
 void fuzz_cli(const uint8_t *data, size_t size);
 void fuzz_api(const uint8_t *data, size_t size);
 void fuzz_calls(const uint8_t *data, size_t size);

@@ -46,6 +46,7 @@ uint64_t case_voxels(int variant); /* golden_voxel.c */
 #if LMB_TRANSFER
 uint64_t case_gouraud(int variant); /* golden_gouraud.c */
 #endif
+uint64_t case_fixed(int variant); /* golden_fixed.c */
 #if LMB_RELIEF
 uint64_t case_relief(int variant); /* golden_relief.c */
 #endif
