@@ -88,7 +88,6 @@ typedef struct lmb_fixed_frame {
     int32_t bounces;        /* 0 .. 3: how often surfaces throw light back */
     lmb_fixed_vertex *vertex;      /* a vertex each */
     lmb_fixed_seen *seen;          /* a triangle each; fewer leave out what does not fit */
-    uint16_t (*element)[4];        /* an element each: what it throws back */
     uint32_t (*direct)[3];         /* an element each: what the lamp sends there */
     uint32_t seen_cap, seen_count; /* count: set by lmb_fixed_transform */
     uint32_t *pixel;               /* of a band: width x rows */
@@ -106,7 +105,7 @@ extern "C" {
  * order. */
 lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes);
 
-/* lmb_fixed_memory: bytes of vertex, seen (of seen_cap), element and direct together; 0: null.
+/* lmb_fixed_memory: bytes of vertex, seen (of seen_cap) and direct together; 0: null.
  * lmb_fixed_lay: lay them out in 4-byte aligned memory. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap);
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes);
@@ -115,7 +114,7 @@ lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_
  * below it, or one of them out of LMB_FIXED_REACH. */
 lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const int32_t target[3]);
 
-/* lmb_fixed_transform, then lmb_fixed_light: LMB_OK or LMB_ERR_ARG (null, a number out of its range). */
+/* lmb_fixed_transform, then lmb_fixed_light: LMB_OK or LMB_ERR_ARG (null, a number out of its range). Stack: 2.5 KiB. */
 lmb_status lmb_fixed_transform(lmb_fixed_frame *frame);
 lmb_status lmb_fixed_light(lmb_fixed_frame *frame);
 

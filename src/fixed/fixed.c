@@ -9,21 +9,36 @@
 #include "fixed_part.h"
 #include "number.h"
 
-enum { GUARD = 12, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
+enum { GUARD = 12, MIN_FOCAL = 16, MAX_FOCAL = 16383, MIN_NEAR = 16, MAX_NEAR = 4095 };
 
 /* A vertex as the camera sees it: right, up, ahead; 1/16 unit. */
 typedef struct seen_from {
     int32_t v[3], colour[3];
 } seen_from;
 
+/* What a view's vertices share: in 1/16 px the guard, in 2^-16 what of x / z and y / z it allows. */
+typedef struct looking {
+    const lmb_fixed_view *view;
+    int32_t guard_x, guard_y, most_x, most_y;
+} looking;
+
+static looking look_through(const lmb_fixed_view *view)
+{
+    const int32_t free = zeros_above((uint32_t)view->focal);
+    const uint32_t per = reciprocal((uint32_t)view->focal << free);
+    looking l = {view, GUARD * view->width, GUARD * view->height, 0, 0};
+    l.most_x = (int32_t)(high_of((uint32_t)l.guard_x << 16, per) >> (30 - free));
+    l.most_y = (int32_t)(high_of((uint32_t)l.guard_y << 16, per) >> (30 - free));
+    return l;
+}
+
 static void turn(int32_t v[3], const lmb_fixed_view *view, const int32_t at[3])
 {
     const int32_t x = at[0] - view->eye[0], y = at[1] - view->eye[1], z = at[2] - view->eye[2];
-    for (int i = 0; i < 3; ++i) {
-        const int32_t *a = view->axis[i];
-        v[i] = (a[0] * x + a[1] * y + a[2] * z) >> 10;
-    }
-    v[2] = -v[2];
+    const int32_t *right = view->axis[0], *up = view->axis[1], *back = view->axis[2];
+    v[0] = (right[0] * x + right[1] * y + right[2] * z) >> 10;
+    v[1] = (up[0] * x + up[1] * y + up[2] * z) >> 10;
+    v[2] = -((back[0] * x + back[1] * y + back[2] * z) >> 10);
 }
 
 /* How far inside of a plane; the near one, then left, right, below, above; fits 31 bits. */
@@ -34,20 +49,21 @@ static int32_t inside(const int32_t v[3], const lmb_fixed_view *view, int plane)
     return plane == 0 ? v[2] - 16 * view->near_units : (int32_t)((plane & 1 ? to + own : to - own) >> 5);
 }
 
-/* To the screen; 0 where a plane cuts it off, as its coordinates would not fit. */
-static int project(int32_t out[3], const int32_t v[3], const lmb_fixed_view *view)
+/* To the screen; 0 where the guard cuts it off, to which it is taken then. */
+static int project(int32_t out[3], const int32_t v[3], const looking *l)
 {
-    const int32_t free = zeros_above((uint32_t)v[2]), guard_x = GUARD * view->width, guard_y = GUARD * view->height;
+    const lmb_fixed_view *view = l->view;
+    const int32_t free = zeros_above((uint32_t)v[2]);
     const uint32_t per = reciprocal((uint32_t)v[2] << free);
     /* v / z in 2^-(41 - free), and then in 2^-16 */
     const int32_t x = signed_high_of(v[0] * 2048, (int32_t)per) >> (25 - free),
                   y = signed_high_of(v[1] * 2048, (int32_t)per) >> (25 - free);
-    const int64_t sx = ((int64_t)x * view->focal + 32768) >> 16, sy = ((int64_t)y * view->focal + 32768) >> 16;
-    const uint32_t depth = high_of((uint32_t)view->near_units * 16u * 65535u, per) >> (30 - free);
-    out[0] = (int32_t)(sx < -guard_x ? -guard_x : sx > guard_x ? guard_x : sx) + 8 * view->width;
-    out[1] = 8 * view->height - (int32_t)(sy < -guard_y ? -guard_y : sy > guard_y ? guard_y : sy);
+    const int32_t near_x = within(x, -l->most_x, l->most_x), near_y = within(y, -l->most_y, l->most_y);
+    const uint32_t depth = high_of((uint32_t)view->near_units * (16u * 65535u), per) >> (30 - free);
+    out[0] = 8 * view->width + ((near_x * view->focal + 32768) >> 16);
+    out[1] = 8 * view->height - ((near_y * view->focal + 32768) >> 16);
     out[2] = within((int32_t)depth, FIXED_LEAST_DEPTH, FIXED_MOST_DEPTH);
-    return sx >= -guard_x && sx <= guard_x && sy >= -guard_y && sy <= guard_y;
+    return x == near_x && y == near_y;
 }
 
 static uint8_t outside(const int32_t v[3], const lmb_fixed_view *view)
@@ -59,18 +75,18 @@ static uint8_t outside(const int32_t v[3], const lmb_fixed_view *view)
     return (uint8_t)flags;
 }
 
-static void place_vertex(lmb_fixed_vertex *out, const lmb_fixed_view *view, const uint32_t *word)
+static void place_vertex(lmb_fixed_vertex *out, const looking *l, const uint32_t *word)
 {
     int32_t at[3], v[3], p[3];
     fixed_place_of(at, word);
-    turn(v, view, at);
+    turn(v, l->view, at);
     out->flags = 0;
-    if (v[2] < 16 * view->near_units) {
-        out->flags = outside(v, view);
+    if (v[2] < 16 * l->view->near_units) {
+        out->flags = outside(v, l->view);
         return;
     }
-    if (!project(p, v, view)) {
-        out->flags = outside(v, view);
+    if (!project(p, v, l)) {
+        out->flags = outside(v, l->view);
     }
     out->x = (int16_t)p[0];
     out->y = (int16_t)p[1];
@@ -132,6 +148,7 @@ int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, ui
     seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
     uint32_t vertex[3];
     int count = 3;
+    const looking l = look_through(&f->view);
     triangle_of(vertex, f->scene, triangle);
     for (int i = 0; i < 3; ++i) {
         int32_t at[3];
@@ -150,7 +167,7 @@ int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, ui
     for (int i = 0; i < count; ++i) {
         int32_t p[3];
         a[i].v[2] = most(a[i].v[2], 16 * f->view.near_units);
-        project(p, a[i].v, &f->view);
+        project(p, a[i].v, &l);
         out[i].x = p[0], out[i].y = p[1], out[i].depth = p[2];
         memcpy(out[i].colour, a[i].colour, sizeof out[i].colour);
     }
@@ -227,7 +244,7 @@ static int is_view(const lmb_fixed_view *v)
         }
     }
     return is_between(v->width, 1, LMB_FIXED_MAX_SIDE) && is_between(v->height, 1, LMB_FIXED_MAX_SIDE) &&
-           is_between(v->focal, 1, MAX_FOCAL) && is_between(v->near_units, MIN_NEAR, MAX_NEAR);
+           is_between(v->focal, MIN_FOCAL, MAX_FOCAL) && is_between(v->near_units, MIN_NEAR, MAX_NEAR);
 }
 
 lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
@@ -236,8 +253,9 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
         return LMB_ERR_ARG;
     }
     const lmb_fixed *s = f->scene;
+    const looking l = look_through(&f->view);
     for (uint32_t i = 0; i < s->vertices; ++i) {
-        place_vertex(&f->vertex[i], &f->view, s->receiver + LMB_FIXED_RECEIVER_WORDS * i);
+        place_vertex(&f->vertex[i], &l, s->receiver + LMB_FIXED_RECEIVER_WORDS * i);
     }
     f->seen_count = 0;
     for (uint32_t t = 0; t < s->triangles && f->seen_count < f->seen_cap; ++t) {
@@ -284,8 +302,8 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
     const fixed_band b = {f->pixel, f->depth, f->view.width, first, past};
     const size_t pixels = (size_t)b.width * (size_t)(past - first);
     memset(b.depth, 0, pixels * sizeof *b.depth);
-    if (f->background == (f->background & 255u) * 0x01010101u) {
-        memset(b.pixel, (int)(f->background & 255u), pixels * sizeof *b.pixel);
+    if (f->background == 0) {
+        memset(b.pixel, 0, pixels * sizeof *b.pixel);
     } else {
         for (size_t i = 0; i < pixels; ++i) {
             b.pixel[i] = f->background;

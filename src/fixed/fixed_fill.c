@@ -38,14 +38,16 @@ typedef struct plane {
 typedef struct slant {
     int32_t x1, y1, x2, y2; /* from the first corner */
     int32_t area, per, free; /* twice the area, 1/256 px2; 2^62 / (area << free) */
+    int32_t size;            /* bits of what the corners are apart at most, 1/16 px */
 } slant;
 
 enum {
     DEPTH_BITS = 14, DEPTH_STEEP = 12, /* bits below 1; 2^steep a 1/16 px is the most that is told apart */
     COLOUR_BITS = 16, COLOUR_STEEP = 4,
-    /* By so much a 1/16 px, and over so many px, what lies between FIXED_LEAST and FIXED_MOST at the corners stays within
-     * its bits: an edge is up to 1/20 px off, and a colour's step 1/512 of a code. */
-    DEPTH_GENTLE = 1 << 17, COLOUR_GENTLE = 1 << 14, GENTLE_ACROSS = 256
+    /* A plane that changes by at most so much, 2^bits, along and down a triangle, and over so many px: what lies between
+     * FIXED_LEAST and FIXED_MOST at the corners then stays within its bits in all pixels, as edges are off by 2^-13 of
+     * the triangle's size, and a colour's step by 1/512 of a code. */
+    DEPTH_GENTLE = 17, COLOUR_GENTLE = 10, GENTLE_ACROSS = 256
 };
 
 /* n / area in 2^-DEPTH_BITS: what is shifted fits 31 bits, as n is at most 2^DEPTH_STEEP times the area. */
@@ -62,7 +64,10 @@ static uint32_t colour_share(const slant *s, int32_t n)
     return (uint32_t)signed_high_of(left >= 0 ? n * (1 << left) : n >> -left, s->per);
 }
 
-static int is_within(uint32_t v, uint32_t reach) { return v + reach <= 2u * reach; }
+static int is_gentle(const plane *p, uint32_t most_of)
+{
+    return p->per_x + most_of <= 2u * most_of && p->per_y + most_of <= 2u * most_of;
+}
 
 static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
@@ -79,7 +84,7 @@ static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t
     out->at = (uint32_t)f0 << DEPTH_BITS;
     out->per_x = depth_share(s, x);
     out->per_y = depth_share(s, y);
-    return is_within(out->per_x, DEPTH_GENTLE) && is_within(out->per_y, DEPTH_GENTLE);
+    return is_gentle(out, 1u << (DEPTH_GENTLE + DEPTH_BITS - 1 - s->size));
 }
 
 /* Likewise, half of a code more, to be rounded. */
@@ -94,7 +99,7 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
     out->at = ((uint32_t)f0 << COLOUR_BITS) + 32768u;
     out->per_x = colour_share(s, x);
     out->per_y = colour_share(s, y);
-    return is_within(out->per_x, COLOUR_GENTLE) && is_within(out->per_y, COLOUR_GENTLE);
+    return is_gentle(out, 1u << (COLOUR_GENTLE + COLOUR_BITS - s->size));
 }
 
 /* A row's first pixel, and what each next one adds. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
@@ -218,7 +223,7 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
     const fixed_corner *top = c0, *middle = c1, *bottom = c2, *swap;
     filler f;
     plane p;
-    slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0};
+    slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0, 0};
     int32_t area = s.x1 * s.y2 - s.x2 * s.y1;
     if (area == 0) {
         return;
@@ -240,6 +245,9 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
         area = -area;
         s.x1 = -s.x1, s.y1 = -s.y1, s.x2 = -s.x2, s.y2 = -s.y2;
     }
+    const uint32_t apart = (uint32_t)(s.x1 < 0 ? -s.x1 : s.x1) | (uint32_t)(s.x2 < 0 ? -s.x2 : s.x2) |
+                           (uint32_t)(s.y1 < 0 ? -s.y1 : s.y1) | (uint32_t)(s.y2 < 0 ? -s.y2 : s.y2);
+    s.size = 32 - zeros_above(apart);
     s.area = area;
     s.free = zeros_above((uint32_t)area);
     s.per = (int32_t)reciprocal((uint32_t)area << s.free);

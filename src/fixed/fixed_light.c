@@ -186,7 +186,7 @@ static uint32_t reflected(uint32_t v, uint32_t root)
 }
 
 /* What elements send, 1/65536 of white >> down. */
-static void links_at(uint32_t out[3], const lmb_fixed *s, uint16_t (*element)[4], uint32_t receiver, int32_t down)
+NOINLINE void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*element)[4], uint32_t receiver, int32_t down)
 {
     const uint32_t *row = s->row + LMB_FIXED_ROW_WORDS * receiver, *link = s->link + (row[0] & 0xffffffu),
                    *past = link + (row[0] >> 25);
@@ -214,7 +214,7 @@ static void set_sent(uint16_t out[4], const uint32_t light[3], const fixed_recei
 }
 
 /* What elements send in all; by how much it is shifted down. */
-static int32_t solve(const lmb_fixed_frame *f, const lamp_now *l)
+static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_now *l)
 {
     const lmb_fixed *s = f->scene;
     fixed_receiver r;
@@ -230,27 +230,28 @@ static int32_t solve(const lmb_fixed_frame *f, const lamp_now *l)
         for (uint32_t i = 0; i < s->elements; ++i) {
             uint32_t more[3] = {0, 0, 0};
             if (bounce > 0) {
-                links_at(more, s, f->element, s->vertices + i, down);
+                links_at(more, s, (const uint16_t(*)[4])sent, s->vertices + i, down);
             }
             for (int c = 0; c < 3; ++c) {
                 more[c] += f->direct[i][c];
             }
             fixed_receiver_at(&r, s, s->vertices + i);
-            set_sent(f->element[i], more, &r, down);
+            set_sent(sent[i], more, &r, down);
         }
     }
     return down;
 }
 
-static void shade(lmb_fixed_vertex *out, const lmb_fixed_frame *f, const lamp_now *l, uint32_t i, int32_t down)
+static void shade(lmb_fixed_vertex *out, const uint16_t (*sent)[4], int has_bounces, const lamp_now *l, uint32_t i,
+                  int32_t down)
 {
-    const lmb_fixed *s = f->scene;
+    const lmb_fixed *s = l->s;
     uint32_t e[3], more[3] = {0, 0, 0};
     fixed_receiver r;
     fixed_receiver_at(&r, s, i);
     direct_at(e, l, &r, s->seen + (size_t)s->place_words * i);
-    if (f->bounces > 0) {
-        links_at(more, s, f->element, i, down);
+    if (has_bounces) {
+        links_at(more, s, sent, i, down);
     }
     for (int c = 0; c < 3; ++c) {
         const uint32_t light = reflected(e[c] + more[c], r.albedo[c]);
@@ -273,16 +274,17 @@ static int is_lamp(const lmb_fixed_lamp *l)
 
 lmb_status lmb_fixed_light(lmb_fixed_frame *f)
 {
+    uint16_t sent[LMB_FIXED_MAX_ELEMENTS][4]; /* on the stack, which mostly is the fastest memory */
     lamp_now l;
-    if (f == NULL || f->scene == NULL || f->scene->receiver == NULL || f->vertex == NULL || f->element == NULL ||
-        f->direct == NULL || f->bounces < 0 || f->bounces > 3 || !is_lamp(&f->lamp)) {
+    if (f == NULL || f->scene == NULL || f->scene->receiver == NULL || f->vertex == NULL || f->direct == NULL ||
+        f->bounces < 0 || f->bounces > 3 || !is_lamp(&f->lamp)) {
         return LMB_ERR_ARG;
     }
     set_lamp(&l, f->scene, &f->lamp);
-    const int32_t down = f->bounces > 0 ? solve(f, &l) : 0;
+    const int32_t down = f->bounces > 0 ? solve(sent, f, &l) : 0;
     for (uint32_t i = 0; i < f->scene->vertices; ++i) {
         if (f->vertex[i].flags & FIXED_USED) {
-            shade(&f->vertex[i], f, &l, i, down);
+            shade(&f->vertex[i], (const uint16_t(*)[4])sent, f->bounces > 0, &l, i, down);
         }
     }
     return LMB_OK;

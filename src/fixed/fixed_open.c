@@ -136,8 +136,7 @@ size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap)
     if (scene == NULL || scene->receiver == NULL || seen_cap > LMB_FIXED_MAX_TRIANGLES) {
         return 0;
     }
-    return sizeof(uint32_t[3]) * scene->elements + sizeof(uint16_t[4]) * scene->elements +
-           (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4 + sizeof(lmb_fixed_seen) * seen_cap;
+    return sizeof(uint32_t[3]) * scene->elements + (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4 + sizeof(lmb_fixed_seen) * seen_cap;
 }
 
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes)
@@ -156,8 +155,6 @@ lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_
     frame->scene = scene;
     frame->direct = (uint32_t(*)[3])(void *)at;
     at += sizeof(uint32_t[3]) * scene->elements;
-    frame->element = (uint16_t(*)[4])(void *)at;
-    at += sizeof(uint16_t[4]) * scene->elements;
     frame->vertex = (lmb_fixed_vertex *)(void *)at;
     at += (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4;
     frame->seen = (lmb_fixed_seen *)(void *)at;
