@@ -52,12 +52,6 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
     out->width = width, out->height = height, out->rows = rows;
     out->memory = memory, out->band = band;
     out->memory_bytes = bytes, out->band_bytes = band_bytes;
-    /* Light is done before there are bands: what it reads most lies where they come to lie, if there is room. */
-    const size_t direct = sizeof *out->frame.direct * out->scene.elements;
-    if (band_bytes >= direct + sizeof *out->frame.element * out->scene.elements) {
-        out->frame.direct = band;
-        out->frame.element = (uint16_t(*)[4])(void *)((char *)band + direct);
-    }
     out->frame.pixel = band;
     out->frame.depth = (uint16_t *)(out->frame.pixel + width * rows);
     out->frame.view.width = width, out->frame.view.height = height;
