@@ -15,10 +15,10 @@ ROOM_SRC     := $(addprefix platform/n64/,port_n64.c row_n64.c) $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.z64
 ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/n64/run.sh $(B)
 
-# The cartridge's size is a power of two, as mupen64plus wants at least 1 MiB.
+# The cartridge takes whole MiB, as mupen64plus wants at least one.
 $(B)/room.z64: $(B)/room $(B)/screen_n64.so $(B)/pad_n64.so
 	@$(CROSS_PREFIX)objcopy -O binary -j .header -j .text $< $@
-	@truncate -s 1M $@
+	@truncate -s %1M $@
 
 HOST_CC      ?= cc
 $(B)/%_n64.so: platform/n64/%_n64.c platform/n64/port_n64.h

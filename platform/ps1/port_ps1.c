@@ -101,7 +101,7 @@ static void wait_for_dma(void)
 /* NTSC, 320 x 240 of 15 bits; the picture is still dark. */
 static void light_up(void)
 {
-    static const uint32_t commands[] = {0x00000000, 0x08000001, 0x05000000, 0x06c60260, 0x07040010, 0x04000002};
+    static const uint32_t commands[] = {0x00000000, 0x08000001, 0x05000000, 0x06c58258, 0x07040010, 0x04000002};
     for (uint32_t i = 0; i < sizeof commands / sizeof *commands; ++i)
         GPU_CONTROL = commands[i];
     DMA_ENABLED |= 0x800;
