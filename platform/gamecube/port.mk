@@ -7,7 +7,8 @@ include platform/freestanding/tools.mk
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c floorf.c sqrtf.c)
 PORT_CFLAGS  := -mcpu=750 -fno-pic -msdata=none -mno-altivec -ffreestanding -fbuiltin -fno-stack-protector \
                 -ffunction-sections -fdata-sections -isystem platform/freestanding
-PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/gamecube/gamecube.ld
+PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
+                -Wl,--no-warn-rwx-segments -T platform/gamecube/gamecube.ld
 PORT_LDLIBS  := -lgcc
 RUN          := false
 

@@ -1,4 +1,5 @@
-/* port_gamecube.c: what the room needs from a GameCube: memory, picture by the video interface, controller, clock, text.
+/* port_gamecube.c: what the room needs from a GameCube: memory, picture by the video interface, controller, clock,
+ * text.
  *
  * Own start-up code, no SDK. The picture is made by the processor alone, as YCbCr in RAM. */
 #include "port_gamecube.h"

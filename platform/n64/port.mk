@@ -7,7 +7,8 @@ include platform/freestanding/tools.mk
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
 PORT_CFLAGS  := -march=vr4300 -mabi=n32 -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
-PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/n64/n64.ld
+PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
+                -Wl,--no-warn-rwx-segments -T platform/n64/n64.ld
 PORT_LDLIBS  :=
 RUN          := false
 
