@@ -1,10 +1,12 @@
 # counted.mk: the room's cost on a console that qemu has the processor of: make PORT=... count.
 #
-# Wants of the port: COUNTED (its name in port_counted.c), COUNTED_ROWS (of a band), COUNTED_AT (where code lies: the same as
+# Wants of the port: COUNTED (its name in port_counted.c), COUNTED_ROWS (of a band), COUNTED_AT (where code lies:
+# the same as
 # on the console by the cache's size), COUNTED_SRC (the port's rows), COUNTED_QEMU and COUNTED_MODEL.
 HOST_CC     ?= cc
 COUNTED_OBJ := $(call object,$(ROOM_DEMO) platform/counted/port_counted.c $(COUNTED_SRC) $(PORT_SRC) $(ROOM_LIB))
-$(B)/obj/platform/counted/port_counted.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns -DCOUNTED_$(COUNTED) -DCOUNTED_ROWS=$(COUNTED_ROWS)
+$(B)/obj/platform/counted/port_counted.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns \
+                -DCOUNTED_$(COUNTED) -DCOUNTED_ROWS=$(COUNTED_ROWS)
 -include $(B)/obj/platform/counted/port_counted.d
 
 $(B)/counted: $(COUNTED_OBJ)

@@ -1,4 +1,5 @@
-/* port_counted.c: a console's frames as a Linux program without libc, for qemu's user mode and its plugin qemu_caches.c:
+/* port_counted.c: a console's frames as a Linux program without libc, for qemu's user mode and its plugin
+ * qemu_caches.c:
  * the same object files as on the console, but for the port's own. Says the hashes; the plugin counts. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"

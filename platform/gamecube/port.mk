@@ -4,10 +4,11 @@ CROSS_PREFIX := $(POWERPC)
 CFLAGS       ?= -O2
 include platform/freestanding/tools.mk
 
-PORT_SRC     := $(addprefix platform/freestanding/,memory.c floorf.c)
+PORT_SRC     := $(addprefix platform/freestanding/,memory.c floorf.c sqrtf.c)
 PORT_CFLAGS  := -mcpu=750 -fno-pic -msdata=none -mno-altivec -ffreestanding -fbuiltin -fno-stack-protector \
                 -ffunction-sections -fdata-sections -isystem platform/freestanding
-PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/gamecube/gamecube.ld
+PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
+                -Wl,--no-warn-rwx-segments -T platform/gamecube/gamecube.ld
 PORT_LDLIBS  := -lgcc
 RUN          := false
 
@@ -23,7 +24,7 @@ $(B)/room: platform/gamecube/start_gamecube.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := GAMECUBE
-COUNTED_ROWS  ?= 4
+COUNTED_ROWS  ?= 16
 COUNTED_AT    := 0x10003100
 COUNTED_SRC   := platform/gamecube/row_gamecube.c
 COUNTED_QEMU  := qemu-ppc

@@ -1,4 +1,5 @@
-/* port_gamecube.c: what the room needs from a GameCube: memory, picture by the video interface, controller, clock, text.
+/* port_gamecube.c: what the room needs from a GameCube: memory, picture by the video interface, controller, clock,
+ * text.
  *
  * Own start-up code, no SDK. The picture is made by the processor alone, as YCbCr in RAM. */
 #include "port_gamecube.h"
@@ -6,8 +7,9 @@
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../port.h"
+#include "../port_say.h"
 
-enum { WIDTH = 640, HEIGHT = 480, ROWS = 4 };
+enum { WIDTH = 640, HEIGHT = 480, ROWS = 16 };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
 
@@ -134,6 +136,16 @@ void port_show_frame(void)
 enum { SI_OUT = 0, SI_IN = 4, SI_POLL = 0x30, SI_STATUS = 0x38 };
 
 /* The serial interface asks the controller by itself, twice a field. */
+/* Says what is held, so that who reads it can draw the same frames elsewhere. */
+static uint32_t told(uint32_t held)
+{
+    if (held) {
+        say_count("held ", held);
+        port_put("\n");
+    }
+    return held;
+}
+
 uint32_t port_buttons(void)
 {
     static const uint32_t from[][2] = {
@@ -155,5 +167,5 @@ uint32_t port_buttons(void)
     for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
         if (state & from[i][0])
             held |= from[i][1];
-    return held;
+    return told(held);
 }

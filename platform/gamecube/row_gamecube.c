@@ -26,26 +26,37 @@ static void make_tables(void)
     table.is_made = 1;
 }
 
-static inline uint32_t luma(uint32_t c)
+/* The tables by six addresses in registers, which the compiler would else make of one each time. */
+typedef struct bases {
+    const uint16_t *y[3];
+    const uint32_t *chroma[3];
+} bases;
+
+static inline uint32_t luma(const bases *t, uint32_t c)
 {
-    return (uint32_t)table.y[0][c >> 16] + table.y[1][c >> 8 & 255u] + table.y[2][c & 255u];
+    return (uint32_t)t->y[0][c >> 16] + t->y[1][c >> 8 & 255u] + t->y[2][c & 255u];
 }
 
-static inline uint32_t two(uint32_t a, uint32_t b)
+static inline uint32_t two(const bases *t, uint32_t a, uint32_t b)
 {
     const uint32_t mean = (a & b) + ((a ^ b) >> 1 & 0x7f7f7fu);
-    const uint32_t c = table.chroma[0][mean >> 16] + table.chroma[1][mean >> 8 & 255u] + table.chroma[2][mean & 255u];
-    return (luma(a) << 16 & 0xff000000u) | (c >> 8 & 0xff0000u) | (luma(b) & 0xff00u) | (c >> 8 & 0xffu);
+    const uint32_t c = t->chroma[0][mean >> 16] + t->chroma[1][mean >> 8 & 255u] + t->chroma[2][mean & 255u];
+    return (luma(t, a) << 16 & 0xff000000u) | (c >> 8 & 0xff00ffu) | (luma(t, b) & 0xff00u);
 }
 
 void gamecube_row(uint32_t *out, const uint32_t *rgb, int32_t width)
 {
+    bases t;
     if (!table.is_made)
         make_tables();
+    for (int i = 0; i < 3; ++i) {
+        t.y[i] = table.y[i], t.chroma[i] = table.chroma[i];
+        __asm__("" : "+r"(t.y[i]), "+r"(t.chroma[i]));
+    }
     for (const uint32_t *end = rgb + width; rgb < end; rgb += 16, out += LINE / 4) {
         __asm__ volatile("dcbz 0, %0" : : "r"(out) : "memory"); /* the line is ours without being fetched */
         for (int i = 0; i < LINE / 4; ++i)
-            out[i] = two(rgb[2 * i], rgb[2 * i + 1]);
+            out[i] = two(&t, rgb[2 * i], rgb[2 * i + 1]);
         __asm__ volatile("dcbf 0, %0" : : "r"(out) : "memory"); /* and goes to RAM, where it is shown from */
     }
 }

@@ -7,7 +7,7 @@
 #include "../port_say.h"
 #include "gba.h"
 
-enum { WIDTH = 240, HEIGHT = 160, ROWS = 8 };
+enum { WIDTH = 240, HEIGHT = 160, ROWS = 10 };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
 const char *const port_clock_unit = "cycles";

@@ -21,11 +21,13 @@ same_hashes() {
     [ "$(wc -l < "$out/hashes.txt")" = 3 ] && grep '^frame' "$host/path/said.txt" | diff - "$out/hashes.txt"
 }
 
+rm -f "$out/room.txt" "$out/room.ppm" # of another run
 host "$host/path"
 check "it runs" make run PORT="$port"
 check "hashes of frames 0, 30 and 59" same_hashes
 check "the screen after the path is frame 59" cmp "$host/path/frame_59.ppm" "$out/room.ppm"
 
+rm -f "$out/room.txt" "$out/room.ppm"
 # What was held, frame by frame, is what the console says; then the last picture is the host's.
 check "it runs with buttons" make run PORT="$port" PRESS="$press"
 held=$(sed -n 's/^held //p' "$out/room.txt" | tr '\n' ' ')

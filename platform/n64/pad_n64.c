@@ -1,7 +1,9 @@
-/* pad_n64.c: an input plugin of mupen64plus: one controller, whose buttons are those of a list. Built as a shared library
+/* pad_n64.c: an input plugin of mupen64plus: one controller, whose buttons are those of a list. Built as a shared
+ * library
  * for the emulator's machine.
  *
- * ROOM_PADS holds hexadecimal numbers as the controller sends them, one each time that it is asked; Start (10) follows. */
+ * ROOM_PADS holds hexadecimal numbers as the controller sends them, one each time that it is asked; Start (10)
+ * follows. */
 #include <stdint.h>
 #include <stdlib.h>
 

@@ -7,7 +7,8 @@ include platform/freestanding/tools.mk
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
 PORT_CFLAGS  := -march=vr4300 -mabi=n32 -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
-PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/n64/n64.ld
+PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
+                -Wl,--no-warn-rwx-segments -T platform/n64/n64.ld
 PORT_LDLIBS  :=
 RUN          := false
 
@@ -15,10 +16,10 @@ ROOM_SRC     := $(addprefix platform/n64/,port_n64.c row_n64.c) $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.z64
 ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/n64/run.sh $(B)
 
-# The cartridge's size is a power of two, as mupen64plus wants at least 1 MiB.
+# The cartridge takes whole MiB, as mupen64plus wants at least one.
 $(B)/room.z64: $(B)/room $(B)/screen_n64.so $(B)/pad_n64.so
 	@$(CROSS_PREFIX)objcopy -O binary -j .header -j .text $< $@
-	@truncate -s 1M $@
+	@truncate -s %1M $@
 
 HOST_CC      ?= cc
 $(B)/%_n64.so: platform/n64/%_n64.c platform/n64/port_n64.h
@@ -31,7 +32,7 @@ $(B)/room: platform/n64/start_n64.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := N64
-COUNTED_ROWS ?= 16
+COUNTED_ROWS  ?= 4
 COUNTED_AT    := 0x400400
 COUNTED_QEMU  := qemu-mipsn32
 COUNTED_MODEL := vr4300

@@ -6,9 +6,10 @@
 #include "../demo/room_port.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
+#include "../port_say.h"
 #include "port_n64.h"
 
-enum { WIDTH = 320, HEIGHT = 240, ROWS = 3, LINE = 16 /* bytes of a line of the data cache */ };
+enum { WIDTH = 320, HEIGHT = 240, ROWS = 4, LINE = 16 /* bytes of a line of the data cache */ };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
 
@@ -139,6 +140,16 @@ static void pif_transfer(uint32_t direction)
     SI(SI_STATUS) = 0;
 }
 
+/* Says what is held, so that who reads it can draw the same frames elsewhere. */
+static uint32_t told(uint32_t held)
+{
+    if (held) {
+        say_count("held ", held);
+        port_put("\n");
+    }
+    return held;
+}
+
 uint32_t port_buttons(void)
 {
     static const uint32_t from[][2] = {
@@ -157,5 +168,5 @@ uint32_t port_buttons(void)
     for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
         if (block[1] & from[i][0])
             held |= from[i][1];
-    return block[1] & 0x10000000u ? PORT_NO_BUTTONS : held; /* Start: the end */
+    return block[1] & 0x10000000u ? PORT_NO_BUTTONS : told(held); /* Start: the end */
 }

@@ -33,7 +33,8 @@ static inline void four(uint32_t *to, uint64_t a, uint64_t b, const uint64_t ste
     const uint64_t green = by_255((a >> 8 & pair) << 16 | (b >> 8 & pair), step[2]);
     const uint64_t first = by_255(a & FOUR(255, 255, 255, 255), step[0]);
     const uint64_t second = by_255(b & FOUR(255, 255, 255, 255), step[1]);
-    const uint64_t p = (first >> 5 | first << 1 | green >> 10) & kept, q = (second >> 5 | second << 1 | green << 6) & kept;
+    const uint64_t p = (first >> 5 | first << 1 | green >> 10) & kept;
+    const uint64_t q = (second >> 5 | second << 1 | green << 6) & kept;
     to[0] = (uint32_t)(p >> 16 | p) | 0x10001u;
     to[1] = (uint32_t)(q >> 16 | q) | 0x10001u;
 }

@@ -20,5 +20,5 @@ HOME=$here/home SDL_VIDEODRIVER=dummy SDL_AUDIODRIVER=dummy timeout "${ROOM_SECO
     --gfx "$here/screen_n64.so" --input "$here/pad_n64.so" --audio dummy --rsp dummy --nosaveoptions --nospeedlimit \
     --emumode "${ROOM_MODE:-2}" "$image" >"$log" 2>&1
 status=$?
-grep -a '^\(frame\|cost\|ram\|end\|room\|fault\) ' "$log" || status=1
+grep -a '^\(held\|frame\|cost\|ram\|end\|room\|fault\) ' "$log" || status=1
 [ "$status" = 0 ] || { echo "run.sh: failed, see $log" >&2; exit 1; }

@@ -1,4 +1,5 @@
-/* bios_ps1.S: what an emulator of the PlayStation starts instead of the console's BIOS, of our own: it sets up the bus and
+/* bios_ps1.S: what an emulator of the PlayStation starts instead of the console's BIOS, of our own: it sets up the
+ * bus and
  * the instruction cache, and goes to where the emulator puts its loader of programs.
  *
  * The loader is beetle-psx's: it stands in for the BIOS' shell at 0xbfc06990, copies a program (PS-X EXE) to RAM and

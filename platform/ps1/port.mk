@@ -7,7 +7,8 @@ include platform/freestanding/tools.mk
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
 PORT_CFLAGS  := -march=r3000 -mabi=32 -msoft-float -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
-PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack -Wl,--no-warn-rwx-segments -T platform/ps1/ps1.ld
+PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
+                -Wl,--no-warn-rwx-segments -T platform/ps1/ps1.ld
 PORT_LDLIBS  :=
 RUN          := false
 
@@ -22,7 +23,8 @@ $(B)/room.exe: $(B)/room $(B)/bios.bin $(LRHOST)
 
 $(B)/bios.bin: platform/ps1/bios_ps1.S
 	@mkdir -p $(@D)
-	@$(CC) -march=r3000 -mabi=32 -mfp32 -mno-abicalls -fno-pic -nostdlib -static -Wl,--build-id=none -Wl,-Ttext=0xbfc00000 \
+	@$(CC) -march=r3000 -mabi=32 -mfp32 -mno-abicalls -fno-pic -nostdlib -static -Wl,--build-id=none \
+	    -Wl,-Ttext=0xbfc00000 \
 	    -Wl,-e,bios -o $(B)/bios $<
 	@$(CROSS_PREFIX)objcopy -O binary -j .text $(B)/bios $@
 	@truncate -s 512K $@
@@ -32,7 +34,7 @@ $(B)/room: platform/ps1/start_ps1.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := PS1
-COUNTED_ROWS  ?= 16
+COUNTED_ROWS  ?= 240
 COUNTED_AT    := 0x410000
 COUNTED_QEMU  := qemu-mipsel
 COUNTED_MODEL := r3000

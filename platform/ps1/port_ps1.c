@@ -1,13 +1,15 @@
 /* port_ps1.c: what the room needs from a PlayStation: memory, picture, controller, clock, text.
  *
- * No BIOS call and no SDK. The picture is drawn in RAM; the graphics processor only takes it over into its memory, a band
- * at a time, by DMA from one of two buffers while the next band is drawn. */
+ * No BIOS call and no SDK. The picture is drawn in RAM; the graphics processor only takes it over into its memory, some
+ * rows at a time, by DMA from one of two buffers while the next rows are dithered. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
+#include "../port_say.h"
 
-enum { WIDTH = 320, HEIGHT = 240, ROWS = 16 };
+/* One band, as there is no data cache that a smaller one could live in. It is sent in pieces. */
+enum { WIDTH = 320, HEIGHT = 240, ROWS = HEIGHT, SENT_ROWS = 16 };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
 
@@ -88,7 +90,7 @@ uint32_t port_clock(void)
 #define DMA_ENABLED (*reg(0x1f8010f0u))
 enum { BUSY = 0x01000000, TO_GPU = 0x201, BLOCK = 16 /* words */ };
 
-static uint16_t sent[2][WIDTH * ROWS] __attribute__((aligned(4)));
+static uint16_t sent[2][WIDTH * SENT_ROWS] __attribute__((aligned(4)));
 static uint32_t next, hidden, lit;
 
 static void wait_for_dma(void)
@@ -99,19 +101,16 @@ static void wait_for_dma(void)
 /* NTSC, 320 x 240 of 15 bits; the picture is still dark. */
 static void light_up(void)
 {
-    static const uint32_t commands[] = {0x00000000, 0x08000001, 0x05000000, 0x06c60260, 0x07040010, 0x04000002};
+    static const uint32_t commands[] = {0x00000000, 0x08000001, 0x05000000, 0x06c58258, 0x07040010, 0x04000002};
     for (uint32_t i = 0; i < sizeof commands / sizeof *commands; ++i)
         GPU_CONTROL = commands[i];
     DMA_ENABLED |= 0x800;
     lit = 1;
 }
 
-void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+static void send(const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
 {
     uint16_t *out = sent[next];
-    (void)user;
-    if (!lit)
-        light_up();
     for (int32_t row = 0; row < rows; ++row)
         room_rgb555(out + row * width, rgb + row * width, width, y + row);
     wait_for_dma();
@@ -123,6 +122,15 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
     DMA_BLOCKS = (uint32_t)(width * rows / 2 / BLOCK) << 16 | BLOCK;
     DMA_MODE = BUSY | TO_GPU;
     next ^= 1;
+}
+
+void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+{
+    (void)user;
+    if (!lit)
+        light_up();
+    for (int32_t at = 0; at < rows; at += SENT_ROWS)
+        send(rgb + at * width, width, y + at, rows - at < SENT_ROWS ? rows - at : SENT_ROWS);
 }
 
 void port_show_frame(void)
@@ -161,6 +169,16 @@ static uint32_t exchange(uint32_t byte)
     return 0xff;
 }
 
+/* Says what is held, so that who reads it can draw the same frames elsewhere. */
+static uint32_t told(uint32_t held)
+{
+    if (held) {
+        say_count("held ", held);
+        port_put("\n");
+    }
+    return held;
+}
+
 uint32_t port_buttons(void)
 {
     static const uint32_t from[][2] = {
@@ -169,7 +187,7 @@ uint32_t port_buttons(void)
     uint32_t held = 0;
     PAD_CONTROL = 0x40;
     PAD_RATE = 0x88, PAD_MODE = 0x0d;
-    PAD_CONTROL = 0x1003;
+    PAD_CONTROL = 0x1007;
     pause(400);
     exchange(0x01);
     const uint32_t kind = exchange(0x42), mark = exchange(0);
@@ -180,5 +198,5 @@ uint32_t port_buttons(void)
     for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
         if (up & from[i][0])
             held |= from[i][1];
-    return held;
+    return told(held);
 }

@@ -26,6 +26,10 @@ packages_of() {
     riscv64-unknown-elf-gcc) echo gcc-riscv64-unknown-elf ;;
     qemu-system-riscv32) echo qemu-system-misc ;;
     qemu-*) echo qemu-user ;;
+    mupen64plus) echo mupen64plus-ui-console mupen64plus-data ;;
+    mednafen_psx_libretro.so) echo libretro-beetle-psx ;;
+    dolphin-emu-nogui) echo dolphin-emu ;;
+    Xvfb) echo xvfb ;;
     djpeg | cjpeg) echo libjpeg-turbo-progs ;;
     pngtopam) echo netpbm ;;
     vips) echo libvips-tools ;;
@@ -52,6 +56,9 @@ missing() {
         clang-sanitizers) sanitizes || echo "$command" ;;
         gcc-m32) echo 'int main(void) { return 0; }' | gcc -m32 -I/usr/include/x86_64-linux-gnu -x c -o /dev/null - \
             >/dev/null 2>&1 || echo "$command" ;;
+        mupen64plus | dolphin-emu-nogui) [ -x "/usr/games/$command" ] || command -v "$command" >/dev/null 2>&1 ||
+            echo "$command" ;;
+        *_libretro.so) ls /usr/lib/*/libretro/"$command" >/dev/null 2>&1 || echo "$command" ;;
         wine64) [ -x /usr/lib/wine/wine64 ] || command -v wine64 >/dev/null 2>&1 || echo "$command" ;;
         *) command -v "$command" >/dev/null 2>&1 || echo "$command" ;;
         esac
