@@ -223,7 +223,7 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
+          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -286,6 +286,9 @@ hostile-cli: $(TOOL) ## absurd files through the whole tool
 layers: $(LIB) $(TOOL) ## includes and calls only go down, without circles (layers.txt)
 	@$(IN_SH) tests/scripts/layers.sh
 
+no-float: ## frames by integers alone ask a Cortex-M0+ for no float; their ROM
+	@$(IN_SH) tests/scripts/no_float.sh
+
 symbols: $(LIB) ## what the library calls (mem*, sqrtf, floorf) and exports (lmb_*)
 	@$(IN_SH) tests/scripts/symbols.sh
 
@@ -345,7 +348,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
     measure-steady measure-baked measure-lights measure-crate measure-front scenes small-truth measure-truth \
     measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
-    measure-voxels large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
+    measure-voxels measure-fixed large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
 size: module-sizes ## code and data by module, here and on a Cortex-M4F, and of its 48 KiB; PORT=...: of the port's room
@@ -473,6 +476,9 @@ measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is
 
 measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)
 	@$(RUN) $(B)/measure-voxels $(SCENES)
+
+measure-fixed: $(TOOL) $(B)/measure-fixed ## light by vertex in integers against lmb_render: errors (SCENES)
+	@$(IN_SH) tests/measure/fixed.sh
 
 ROWS ?= $(BUILD)/plan-rows.bin
 measure-plan: $(TOOL) $(B)/scenes ## settings chosen for budgets of error (BUDGETS, LMB_OWN_TRUTH)

@@ -3,7 +3,7 @@
  *
  *     lmb_fixed_open(..)       a baked scene, used in place: `lambent pack` or tools/pack makes it
  *     lmb_fixed_transform(..)  vertices to the screen; which triangles are seen
- *     lmb_fixed_light(..)      a lamp's light at those vertices, with what surfaces throw back
+ *     lmb_fixed_light(..)      the lamp's light at those vertices, with what surfaces throw back
  *     lmb_fixed_band(..)       rows of the picture, in bands of any height: the same pixels
  *
  * Nothing of a scene moves but its lamp and its camera. Where the lamp is hidden from a vertex was baked for a lattice of
@@ -19,6 +19,7 @@ enum {
     LMB_FIXED_RECEIVER_WORDS = 3,
     LMB_FIXED_ROW_WORDS = 2,
     LMB_FIXED_REACH = 8191,      /* units: of coordinates, each way */
+    LMB_FIXED_EYE = 24576,       /* likewise of a camera */
     LMB_FIXED_MAX_SIDE = 640,    /* px */
     LMB_FIXED_MAX_VERTICES = 16384,
     LMB_FIXED_MAX_TRIANGLES = 32767,
@@ -41,7 +42,7 @@ enum {
  *   triangles   two words: a | b << 16, c; counter-clockwise from their front, which alone is seen
  *   rows        of each receiver: first word among links | links << 24, an even number; scale
  *   links       two a word, the first in the low half: weight << 8 | element
- *   places      a bit each: 1 where a lamp may be
+ *   places      a bit each: 1 where the lamp may be
  *   seen        of each receiver a bit a place, in whole words: 1 where nothing hides the place */
 typedef struct lmb_fixed {
     const uint32_t *receiver, *triangle, *row, *link, *valid, *seen;
@@ -111,7 +112,7 @@ size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap);
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes);
 
 /* lmb_fixed_look_at: eye and axes of a view that is upright. LMB_OK or LMB_ERR_ARG: target at eye, straight above or
- * below it, or one of them out of LMB_FIXED_REACH. */
+ * below it, eye out of LMB_FIXED_EYE or target out of LMB_FIXED_REACH. */
 lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const int32_t target[3]);
 
 /* lmb_fixed_transform, then lmb_fixed_light: LMB_OK or LMB_ERR_ARG (null, a number out of its range). Stack: 2.5 KiB. */
@@ -122,7 +123,7 @@ lmb_status lmb_fixed_light(lmb_fixed_frame *frame);
  * LMB_ERR_ARG. */
 lmb_status lmb_fixed_band(const lmb_fixed_frame *frame, int32_t first, int32_t past);
 
-/* lmb_fixed_place: may a lamp be at a position? 1 where a place around it is valid. */
+/* lmb_fixed_place: may the lamp be at a position? 1 where a place around it is valid. */
 int lmb_fixed_place(const lmb_fixed *scene, const int32_t position[3]);
 
 #ifdef __cplusplus

@@ -9,7 +9,7 @@ enum {
     STEP = 512,         /* of a held button: 1/65536 of a turn */
     LAMP_STEP = 32,     /* 1/1024 m */
     STEEPEST = 8192,    /* of pitch */
-    LAMP = 3 * LMB_FIXED_WHITE
+    LAMP = 2 * LMB_FIXED_WHITE
 };
 
 /* The room's own walls are at x = -2 .. 2 m, y = 0 .. 2.75, z = -2 .. 2.75. */

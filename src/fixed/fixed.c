@@ -1,6 +1,7 @@
 /* fixed.c: a frame by integers: vertices to the screen, what is seen, and the bands. Layer 10.
  *
- * Coordinates are of 14 bits and axes of 15, so that a turned vertex fits 30 bits; it is kept in 1/16 unit, 20 bits. On
+ * Coordinates are of 14 bits, the camera's of 16, and axes of 15, so that a turned vertex fits 31 bits; it is kept in
+ * 1/16 unit, 21 bits, below 2^31 / 2048. On
  * the screen a guard of 12 times the sides, in 1/16 px, keeps differences below 2^14 and areas below 2^29. */
 #include <lambent/fixed.h>
 
@@ -143,7 +144,7 @@ static void triangle_of(uint32_t out[3], const lmb_fixed *s, uint32_t triangle)
     out[0] = t[0] & 0xffffu, out[1] = t[0] >> 16, out[2] = t[1];
 }
 
-int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
+int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle)
 {
     seen_from one[FIXED_CORNERS], other[FIXED_CORNERS], *a = one, *b = other, *swap;
     uint32_t vertex[3];
@@ -168,8 +169,10 @@ int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, ui
         int32_t p[3];
         a[i].v[2] = most(a[i].v[2], 16 * f->view.near_units);
         project(p, a[i].v, &l);
-        out[i].x = p[0], out[i].y = p[1], out[i].depth = p[2];
-        memcpy(out[i].colour, a[i].colour, sizeof out[i].colour);
+        out[i].x = (int16_t)p[0], out[i].y = (int16_t)p[1], out[i].depth = (uint16_t)p[2];
+        for (int c = 0; c < 3; ++c) {
+            out[i].colour[c] = (uint8_t)a[i].colour[c];
+        }
     }
     return count;
 }
@@ -192,7 +195,7 @@ static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0,
 
 static int see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
 {
-    fixed_corner c[FIXED_CORNERS];
+    lmb_fixed_vertex c[FIXED_CORNERS];
     const int count = lmb_fixed_clip(c, f, triangle);
     int32_t x0, x1, y0, y1, area = 0;
     if (count < 3) {
@@ -239,7 +242,7 @@ static int is_view(const lmb_fixed_view *v)
         for (int c = 0; c < 3; ++c) {
             length += (int64_t)v->axis[i][c] * v->axis[i][c];
         }
-        if (!is_between(v->eye[i], -LMB_FIXED_REACH, LMB_FIXED_REACH) || length > 16400 * 16400) {
+        if (!is_between(v->eye[i], -LMB_FIXED_EYE, LMB_FIXED_EYE) || length > 16400 * 16400) {
             return 0;
         }
     }
@@ -275,18 +278,12 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
 
 static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t triangle)
 {
-    fixed_corner c[FIXED_CORNERS];
     if ((triangle & FIXED_CUT) == 0) {
-        uint32_t vertex[3];
-        triangle_of(vertex, f->scene, triangle);
-        for (int i = 0; i < 3; ++i) {
-            const lmb_fixed_vertex *v = &f->vertex[vertex[i]];
-            c[i].x = v->x, c[i].y = v->y, c[i].depth = v->depth;
-            c[i].colour[0] = v->colour[0], c[i].colour[1] = v->colour[1], c[i].colour[2] = v->colour[2];
-        }
-        lmb_fixed_fill(b, &c[0], &c[1], &c[2]);
+        const uint32_t *t = f->scene->triangle + 2 * triangle;
+        lmb_fixed_fill(b, &f->vertex[t[0] & 0xffffu], &f->vertex[t[0] >> 16], &f->vertex[t[1]]);
         return;
     }
+    lmb_fixed_vertex c[FIXED_CORNERS];
     const int count = lmb_fixed_clip(c, f, triangle & ~(uint32_t)FIXED_CUT);
     for (int i = 2; i < count; ++i) {
         lmb_fixed_fill(b, &c[0], &c[i - 1], &c[i]);

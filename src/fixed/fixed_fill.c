@@ -10,7 +10,7 @@ typedef struct edge {
     int32_t x, y, slope; /* 1/16 px; slope in 2^-14 */
 } edge;
 
-static edge edge_of(const fixed_corner *from, const fixed_corner *to)
+static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
 {
     const int32_t down = to->y - from->y;
     edge e = {from->x, from->y, 0};
@@ -138,7 +138,7 @@ typedef struct filler {
     int is_gentle;
 } filler;
 
-static void set_row(uint32_t *at, uint32_t *to_x, uint32_t *to_y, const plane *p, const fixed_corner *c, int32_t y)
+static void set_row(uint32_t *at, uint32_t *to_x, uint32_t *to_y, const plane *p, const lmb_fixed_vertex *c, int32_t y)
 {
     *at = p->at + p->per_x * (uint32_t)(8 - c->x) + p->per_y * (uint32_t)(16 * y + 8 - c->y);
     *to_x = p->per_x * 16u;
@@ -189,7 +189,7 @@ static void fill_steep(const filler *f, int32_t x, int32_t count, uint32_t *to, 
     fill_pixels(to, to_depth, count, &s);
 }
 
-/* Rows whose middles lie on both edges. */
+/* Rows whose middles lie on both edges, the left one first. */
 static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
 {
     const int32_t first = most((top + 7) >> 4, f->b->first), end = least((past + 7) >> 4, f->b->past),
@@ -203,8 +203,8 @@ static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, i
     uint32_t *to = f->b->pixel + width * (first - f->b->first);
     uint16_t *to_depth = f->b->depth + width * (first - f->b->first);
     for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width, to_depth += width) {
-        const int32_t x = most(first_pixel(least(u, v)), f->first);
-        const int32_t count = least(first_pixel(most(u, v)), f->past) - x;
+        const int32_t x = most(first_pixel(u), f->first);
+        const int32_t count = least(first_pixel(v), f->past) - x;
         if (count > 0 && f->is_gentle) {
             const uint32_t at = (uint32_t)x;
             s.depth = f->depth + f->depth_x * at;
@@ -218,9 +218,10 @@ static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, i
     }
 }
 
-void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_corner *c1, const fixed_corner *c2)
+void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
+                    const lmb_fixed_vertex *c2)
 {
-    const fixed_corner *top = c0, *middle = c1, *bottom = c2, *swap;
+    const lmb_fixed_vertex *top = c0, *middle = c1, *bottom = c2, *swap;
     filler f;
     plane p;
     slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0, 0};
@@ -264,12 +265,13 @@ void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_cor
     f.is_gentle &= set_colour(&p, &s, c0->colour[2], c1->colour[2], c2->colour[2]);
     set_row(&f.blue, &f.blue_x, &f.blue_y, &p, c0, y);
     const edge whole = edge_of(top, bottom);
+    const int32_t turn = (middle->x - top->x) * (bottom->y - top->y) - (bottom->x - top->x) * (middle->y - top->y);
     if (middle->y > 16 * b->first) {
         const edge upper = edge_of(top, middle);
-        fill_between(&f, &whole, &upper, top->y, middle->y);
+        fill_between(&f, turn > 0 ? &whole : &upper, turn > 0 ? &upper : &whole, top->y, middle->y);
     }
     if (middle->y < 16 * b->past) {
         const edge lower = edge_of(middle, bottom);
-        fill_between(&f, &whole, &lower, middle->y, bottom->y);
+        fill_between(&f, turn > 0 ? &whole : &lower, turn > 0 ? &lower : &whole, middle->y, bottom->y);
     }
 }

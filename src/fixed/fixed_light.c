@@ -1,5 +1,4 @@
-/* fixed_light.c: a lamp's light at the vertices that are seen: directly by what the lattice of places knows, and thrown
- * back by links. Layer 10.
+/* fixed_light.c: light at the vertices that are seen: the lamp's, and what is thrown back, by links. Layer 10.
  *
  * Light is what a white surface shows, in 1/65536 of the picture's white: at most LIGHT_MOST. */
 #include <lambent/fixed.h>
@@ -186,7 +185,8 @@ static uint32_t reflected(uint32_t v, uint32_t root)
 }
 
 /* What elements send, 1/65536 of white >> down. */
-NOINLINE void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*element)[4], uint32_t receiver, int32_t down)
+NOINLINE void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*element)[4], uint32_t receiver,
+                       int32_t down)
 {
     const uint32_t *row = s->row + LMB_FIXED_ROW_WORDS * receiver, *link = s->link + (row[0] & 0xffffffu),
                    *past = link + (row[0] >> 25);

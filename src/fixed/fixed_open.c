@@ -136,7 +136,8 @@ size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap)
     if (scene == NULL || scene->receiver == NULL || seen_cap > LMB_FIXED_MAX_TRIANGLES) {
         return 0;
     }
-    return sizeof(uint32_t[3]) * scene->elements + (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4 + sizeof(lmb_fixed_seen) * seen_cap;
+    return sizeof(uint32_t[3]) * scene->elements +
+           (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4 + sizeof(lmb_fixed_seen) * seen_cap;
 }
 
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes)

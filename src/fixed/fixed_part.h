@@ -40,11 +40,6 @@ static inline void fixed_receiver_at(fixed_receiver *out, const lmb_fixed *s, ui
 /* Of colours and depths: what filling rounds then stays within 8 and 16 bits. */
 enum { FIXED_LEAST = 1, FIXED_MOST = 254, FIXED_LEAST_DEPTH = 16, FIXED_MOST_DEPTH = 65519 };
 
-/* On the screen: 1/16 px; depth; sRGB codes. */
-typedef struct fixed_corner {
-    int32_t x, y, depth, colour[3];
-} fixed_corner;
-
 /* A band: rows first .. past - 1 of a picture. */
 typedef struct fixed_band {
     uint32_t *pixel;
@@ -54,9 +49,10 @@ typedef struct fixed_band {
 
 /* lmb_fixed_clip: a triangle that is partly outside -> corners of what is inside, up to FIXED_CORNERS; their number. */
 enum { FIXED_CORNERS = 9 };
-int lmb_fixed_clip(fixed_corner out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle);
+int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle);
 
 /* lmb_fixed_fill: corners clockwise or not; within a guard of 12 times the sides in 1/16 px. */
-void lmb_fixed_fill(const fixed_band *b, const fixed_corner *c0, const fixed_corner *c1, const fixed_corner *c2);
+void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
+                    const lmb_fixed_vertex *c2);
 
 #endif

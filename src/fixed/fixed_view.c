@@ -4,10 +4,19 @@
 #include "fixed_part.h"
 #include "number.h"
 
-/* To the length LMB_FIXED_ONE, within 2^-12 of it; its parts are below 2^14. 0: it has no length. */
+static uint32_t far2_of(const int32_t v[3])
+{
+    return (uint32_t)(v[0] * v[0]) + (uint32_t)(v[1] * v[1]) + (uint32_t)(v[2] * v[2]);
+}
+
+/* To the length LMB_FIXED_ONE, within 2^-12 of it; its parts are below 2^15. 0: it has no length. */
 static int make_one(int32_t v[3])
 {
-    const uint32_t far2 = (uint32_t)(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    uint32_t far2 = far2_of(v);
+    if (far2 >= 1u << 30) {
+        v[0] >>= 1, v[1] >>= 1, v[2] >>= 1;
+        far2 = far2_of(v);
+    }
     if (far2 == 0) {
         return 0;
     }
@@ -19,10 +28,10 @@ static int make_one(int32_t v[3])
     return 1;
 }
 
-static int is_far(const int32_t v[3])
+static int is_far(const int32_t v[3], int32_t reach)
 {
     for (int i = 0; i < 3; ++i) {
-        if (v[i] < -LMB_FIXED_REACH || v[i] > LMB_FIXED_REACH) {
+        if (v[i] < -reach || v[i] > reach) {
             return 1;
         }
     }
@@ -31,7 +40,8 @@ static int is_far(const int32_t v[3])
 
 lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const int32_t target[3])
 {
-    if (inout == NULL || eye == NULL || target == NULL || is_far(eye) || is_far(target)) {
+    if (inout == NULL || eye == NULL || target == NULL || is_far(eye, LMB_FIXED_EYE) ||
+        is_far(target, LMB_FIXED_REACH)) {
         return LMB_ERR_ARG;
     }
     int32_t back[3] = {eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]};
@@ -44,7 +54,7 @@ lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const 
         return LMB_ERR_ARG;
     }
     for (int i = 0; i < 3; ++i) {
-        const int a = (i + 1) % 3, b = (i + 2) % 3;
+        const int a = i == 2 ? 0 : i + 1, b = i == 0 ? 2 : i - 1;
         inout->eye[i] = eye[i];
         inout->axis[0][i] = right[i];
         inout->axis[1][i] = (back[a] * right[b] - back[b] * right[a]) >> 14;

@@ -3,9 +3,9 @@
  *
  *     measure-fixed write OUT.inc      the demo's blob, as the numbers of a C array
  *     measure-fixed picture N OUT.png  frame N of the room, 320 x 240
- *     measure-fixed linear SCENE FRAME BOUNCES full|indirect GAIN OUT.pfm
- *                                      a frame's radiance; prints the camera and lamp of the room's frame as the
- *                                      tool's options
+ *     measure-fixed options SCENE FRAME   the frame's camera and lamp as options of `lambent render`
+ *     measure-fixed errors SCENE FOLDER GAIN [VERTICES ELEMENTS LINKS PLACES]
+ *                                      against FOLDER/FRAME_bBOUNCES_direct|full|indirect.pfm; GAIN keeps all below white
  */
 #include <math.h>
 #include <stdio.h>
@@ -18,6 +18,14 @@
 #include "../../tools/model/model.h"
 #include "../../tools/pack/vertex_light.h"
 #include "../../tools/picture/image.h"
+#include "../../tools/picture/metrics.h"
+
+static void say_facts(uint32_t words, const vertex_light_facts *f)
+{
+    printf("%u words, %u vertices, %u triangles (%u hidden left out), %u elements, %u links, %u of %u places, %.3f m apart\n",
+           (unsigned)words, (unsigned)f->vertices, (unsigned)f->triangles, (unsigned)f->hidden, (unsigned)f->elements,
+           (unsigned)f->links, (unsigned)f->valid, (unsigned)f->places, f->spacing_m);
+}
 
 static int write_blob(const char *path, const vertex_light_options *o, report *r)
 {
@@ -36,10 +44,7 @@ static int write_blob(const char *path, const vertex_light_options *o, report *r
     }
     fprintf(f, "\n");
     free(words);
-    printf("%u words, %u vertices, %u triangles (%u hidden left out), %u elements, %u links, %u of %u places, %.3f m apart\n",
-           (unsigned)count, (unsigned)facts.vertices, (unsigned)facts.triangles, (unsigned)facts.hidden,
-           (unsigned)facts.elements, (unsigned)facts.links, (unsigned)facts.valid, (unsigned)facts.places,
-           facts.spacing_m);
+    say_facts(count, &facts);
     return fclose(f) == 0 || report_fail(r, "%s: cannot be written", path);
 }
 
@@ -108,7 +113,7 @@ static void set_frame(lmb_fixed_frame *f, const lmb_view *v, const lmb_light *l,
     f->view.near_units = whole(0.06 * per) > 16 ? whole(0.06 * per) : 16;
 }
 
-/* Frame N of the room as the tool has it: its camera and lamp. */
+/* Frame N of the room. */
 static void room_frame(lmb_view *v, lmb_light *l, int32_t n)
 {
     room_pose pose;
@@ -123,13 +128,61 @@ static void room_frame(lmb_view *v, lmb_light *l, int32_t n)
     l->position.z = (float)(pose.lamp[2] / 1024.0);
     l->intensity[0] = l->intensity[1] = l->intensity[2] = 9.42477796f;
     lmb_view_look_at(v, eye, to, up, 0.872664626f, WIDTH, HEIGHT);
-    printf("--eye %.6f,%.6f,%.6f --target %.6f,%.6f,%.6f --fov 50 --light point:%.6f,%.6f,%.6f:0,-1,0:%g,%g,%g\n",
-           (double)eye.x, (double)eye.y, (double)eye.z, (double)to.x, (double)to.y, (double)to.z, (double)l->position.x,
-           (double)l->position.y, (double)l->position.z, (double)l->intensity[0], (double)l->intensity[1],
-           (double)l->intensity[2]);
 }
 
-/* What `bounces` show; less what the lamp alone does, where is_indirect. */
+/* As options of the tool. */
+static void say_frame(const lmb_view *v, const lmb_light *l)
+{
+    printf("--eye %.6f,%.6f,%.6f --target %.6f,%.6f,%.6f --fov %.6f --light %s:%.6f,%.6f,%.6f:%.6f,%.6f,%.6f:%g,%g,%g",
+           (double)v->eye.x, (double)v->eye.y, (double)v->eye.z, (double)(v->eye.x - v->back.x),
+           (double)(v->eye.y - v->back.y), (double)(v->eye.z - v->back.z),
+           atan((double)v->half_height) * 360.0 / 3.141592653589793, l->kind == LMB_LIGHT_SPOT ? "spot" : "point",
+           (double)l->position.x, (double)l->position.y, (double)l->position.z, (double)l->direction.x,
+           (double)l->direction.y, (double)l->direction.z + (l->kind == LMB_LIGHT_SPOT ? 0.0 : 1.0),
+           (double)l->intensity[0], (double)l->intensity[1], (double)l->intensity[2]);
+    if (l->kind == LMB_LIGHT_SPOT) {
+        printf(":%.6f,%.6f", acos((double)l->cos_inner) * 180.0 / 3.141592653589793,
+               acos((double)l->cos_outer) * 180.0 / 3.141592653589793);
+    }
+    printf("\n");
+}
+
+/* --- scenes ------------------------------------------------------------------------------------------------------- */
+
+typedef struct subject {
+    const char *name;
+    model m;
+    int is_demo;
+} subject;
+
+static int load(subject *s, const char *name, report *r)
+{
+    model_notes notes;
+    memset(s, 0, sizeof *s);
+    memset(&notes, 0, sizeof notes);
+    s->name = name;
+    s->is_demo = strcmp(name, "demo") == 0;
+    return s->is_demo || model_load(&s->m, name, NULL, &notes, r);
+}
+
+/* A scene of a file has its own camera and light alone, whatever the frame. */
+static int pose(lmb_view *v, lmb_light *l, const subject *s, int32_t frame, report *r)
+{
+    if (s->is_demo) {
+        room_frame(v, l, frame);
+        return 1;
+    }
+    if (s->m.camera_count == 0 || s->m.scene.light_count == 0) {
+        return report_fail(r, "%s: has no camera or no light", s->name);
+    }
+    const model_camera *c = &s->m.cameras[0];
+    const lmb_vec3 to = {c->eye.x - c->back.x, c->eye.y - c->back.y, c->eye.z - c->back.z};
+    *l = s->m.scene.lights[0];
+    lmb_view_look_at(v, c->eye, to, c->up, c->yfov_rad, WIDTH, HEIGHT);
+    return 1;
+}
+
+/* What `bounces` show is added, times a sign. */
 static int draw_linear(float *out, lmb_fixed_frame *f, int32_t bounces, float sign, double gain, report *r)
 {
     f->bounces = bounces;
@@ -143,68 +196,83 @@ static int draw_linear(float *out, lmb_fixed_frame *f, int32_t bounces, float si
     return 1;
 }
 
-typedef struct errors_of {
-    const char *scene, *out;
-    int32_t frame, bounces, is_indirect;
-    double gain;
-    vertex_light_options o;
-} errors_of;
+/* Against FOLDER/FRAME_bBOUNCES_WHAT.pfm; where that is not, nothing. */
+static int compare(lmb_fixed_frame *f, const char *folder, int32_t frame, int32_t bounces, const char *what, double gain,
+                   report *r)
+{
+    static float own[3 * WIDTH * HEIGHT];
+    char path[512];
+    image truth;
+    file_bytes file = {NULL, 0};
+    metrics m;
+    report missing = {""};
+    snprintf(path, sizeof path, "%s/%d_b%d_%s.pfm", folder, (int)frame, (int)bounces, what);
+    if (!file_read(&file, path, &missing)) {
+        return 1;
+    }
+    int ok = pfm_decode(&truth, file.data, file.size, path, r);
+    const metrics_input in = {own, truth.pixels, NULL, NULL, WIDTH, HEIGHT, 3};
+    memset(own, 0, sizeof own);
+    ok = ok && draw_linear(own, f, strcmp(what, "direct") == 0 ? 0 : bounces, 1.0f, gain, r) &&
+         (strcmp(what, "indirect") != 0 || draw_linear(own, f, 0, -1.0f, gain, r)) && metrics_measure(&m, &in, r);
+    if (ok) {
+        printf("frame %2d, bounces %d, %-8s  trim %.3f  rmse %.3f  e50 %.3f  mean %.3f\n", (int)frame, (int)bounces, what,
+               m.trim, m.rmse, m.e50, m.mean);
+    }
+    file_free(&file);
+    image_free(&truth);
+    return ok;
+}
 
-static int linear(const errors_of *e, report *r)
+static int errors(subject *s, const char *folder, double gain, const vertex_light_options *o, report *r)
 {
     static uint32_t pixel[WIDTH * HEIGHT];
     static uint16_t depth[WIDTH * HEIGHT];
-    model m;
-    model_notes notes;
-    lmb_view view;
-    lmb_light light;
-    lmb_fixed s;
+    static const int32_t frames[3] = {0, 30, 59};
+    static const char *const whats[3] = {"direct", "full", "indirect"};
+    lmb_fixed blob;
     lmb_fixed_frame f;
     vertex_light_facts facts;
     uint32_t *words = NULL, count;
-    file_bytes file = {NULL, 0};
-    image picture_of = {WIDTH, HEIGHT, 3, NULL};
-    memset(&m, 0, sizeof m);
-    memset(&notes, 0, sizeof notes);
+    void *memory = NULL;
     memset(&f, 0, sizeof f);
-    const int is_demo = strcmp(e->scene, "demo") == 0;
-    if (!is_demo && !model_load(&m, e->scene, NULL, &notes, r)) {
-        return 0;
-    }
-    if (is_demo) {
-        room_frame(&view, &light, e->frame);
-    } else if (m.camera_count == 0 || m.scene.light_count == 0) {
-        return report_fail(r, "%s: has no camera or no light", e->scene);
-    } else {
-        const model_camera *c = &m.cameras[0];
-        light = m.scene.lights[0];
-        const lmb_vec3 to = {c->eye.x - c->back.x, c->eye.y - c->back.y, c->eye.z - c->back.z};
-        lmb_view_look_at(&view, c->eye, to, c->up, c->yfov_rad, WIDTH, HEIGHT);
-        printf("\n");
-    }
-    int ok = vertex_light_make(&words, &count, &facts, is_demo ? demo_scene() : &m.scene, &e->o, r);
-    ok = ok && lmb_fixed_open(&s, words, 4 * (size_t)count) == LMB_OK;
-    void *memory = ok ? malloc(lmb_fixed_memory(&s, s.triangles)) : NULL;
-    picture_of.pixels = calloc((size_t)3 * WIDTH * HEIGHT, sizeof(float));
-    ok = ok && memory != NULL && picture_of.pixels != NULL &&
-         lmb_fixed_lay(&f, &s, s.triangles, memory, lmb_fixed_memory(&s, s.triangles)) == LMB_OK;
+    int ok = vertex_light_make(&words, &count, &facts, s->is_demo ? demo_scene() : &s->m.scene, o, r) &&
+             lmb_fixed_open(&blob, words, 4 * (size_t)count) == LMB_OK;
+    memory = ok ? malloc(lmb_fixed_memory(&blob, blob.triangles)) : NULL;
+    ok = ok && memory != NULL &&
+         lmb_fixed_lay(&f, &blob, blob.triangles, memory, lmb_fixed_memory(&blob, blob.triangles)) == LMB_OK;
+    f.pixel = pixel;
+    f.depth = depth;
     if (ok) {
-        set_frame(&f, &view, &light, e->gain);
-        f.pixel = pixel;
-        f.depth = depth;
-        ok = draw_linear(picture_of.pixels, &f, e->bounces, 1.0f, e->gain, r) &&
-             (!e->is_indirect || draw_linear(picture_of.pixels, &f, 0, -1.0f, e->gain, r)) &&
-             pfm_encode(&file, &picture_of, r) && file_write(e->out, file.data, file.size, r);
+        say_facts(count, &facts);
     }
-    fprintf(stderr, "%u words, %u vertices, %u triangles, %u elements, %u links, %u of %u places %.3f m apart\n",
-            (unsigned)count, (unsigned)facts.vertices, (unsigned)facts.triangles, (unsigned)facts.elements,
-            (unsigned)facts.links, (unsigned)facts.valid, (unsigned)facts.places, facts.spacing_m);
-    file_free(&file);
-    free(picture_of.pixels);
+    for (int i = 0; i < (s->is_demo ? 3 : 1) && ok; ++i) {
+        lmb_view view;
+        lmb_light light;
+        ok = pose(&view, &light, s, frames[i], r);
+        if (ok) {
+            set_frame(&f, &view, &light, gain);
+        }
+        for (int32_t bounces = 1; bounces <= 3 && ok; bounces += 2) {
+            for (int k = 0; k < 3 && ok; ++k) {
+                ok = compare(&f, folder, frames[i], bounces, whats[k], gain, r);
+            }
+        }
+    }
     free(memory);
     free(words);
-    model_free(&m);
-    return ok || report_fail(r, "%s: cannot be drawn", e->scene);
+    return ok || report_fail(r, "%s: cannot be drawn", s->name);
+}
+
+static int say_options(const subject *s, int32_t frame, report *r)
+{
+    lmb_view view;
+    lmb_light light;
+    if (!pose(&view, &light, s, frame, r)) {
+        return 0;
+    }
+    say_frame(&view, &light);
+    return 1;
 }
 
 /* --- */
@@ -227,13 +295,18 @@ int main(int argc, char **argv)
         ok = write_blob(argv[2], &o, &r);
     } else if (argc == 4 && strcmp(argv[1], "picture") == 0) {
         ok = picture(atoi(argv[2]), argv[3], &r);
-    } else if (argc >= 8 && strcmp(argv[1], "linear") == 0) {
-        errors_of e = {argv[2], argv[7], atoi(argv[3]), atoi(argv[4]), strcmp(argv[5], "indirect") == 0, atof(argv[6]), o};
-        set_options(&e.o, argv + 8);
-        ok = linear(&e, &r);
+    } else if (argc >= 4 && (strcmp(argv[1], "errors") == 0 || strcmp(argv[1], "options") == 0)) {
+        const int is_errors = strcmp(argv[1], "errors") == 0;
+        subject s;
+        if (is_errors && argc > 5) {
+            set_options(&o, argv + 5);
+        }
+        ok = load(&s, argv[2], &r) && (is_errors ? errors(&s, argv[3], argc > 4 ? atof(argv[4]) : 0.25, &o, &r)
+                                                 : say_options(&s, atoi(argv[3]), &r));
+        model_free(&s.m);
     } else {
-        fprintf(stderr, "measure-fixed: `write OUT.inc [VERTICES ELEMENTS LINKS PLACES]`, `picture N OUT.png` or\n"
-                        "  `linear SCENE FRAME BOUNCES full|indirect GAIN OUT.pfm [VERTICES ..]`\n");
+        fprintf(stderr, "measure-fixed: `write OUT.inc [VERTICES ELEMENTS LINKS PLACES]`, `picture N OUT.png`,\n"
+                        "  `options SCENE FRAME` or `errors SCENE FOLDER GAIN [VERTICES ..]`\n");
         return 2;
     }
     if (!ok) {

@@ -57,20 +57,21 @@ static void clear(void)
     memset(depth, 0, sizeof depth);
 }
 
-static fixed_corner random_corner(test_rng *rng)
+static lmb_fixed_vertex random_corner(test_rng *rng)
 {
-    fixed_corner c;
-    c.x = (int32_t)(test_random(rng) % 1400) - 200;
-    c.y = (int32_t)(test_random(rng) % 1400) - 200;
-    c.depth = FIXED_LEAST_DEPTH + (int32_t)(test_random(rng) % (FIXED_MOST_DEPTH - FIXED_LEAST_DEPTH + 1));
+    lmb_fixed_vertex c;
+    c.x = (int16_t)((int32_t)(test_random(rng) % 1400) - 200);
+    c.y = (int16_t)((int32_t)(test_random(rng) % 1400) - 200);
+    c.depth = (uint16_t)(FIXED_LEAST_DEPTH + test_random(rng) % (FIXED_MOST_DEPTH - FIXED_LEAST_DEPTH + 1));
     for (int i = 0; i < 3; ++i) {
-        c.colour[i] = FIXED_LEAST + (int32_t)(test_random(rng) % (FIXED_MOST - FIXED_LEAST + 1));
+        c.colour[i] = (uint8_t)(FIXED_LEAST + test_random(rng) % (FIXED_MOST - FIXED_LEAST + 1));
     }
+    c.flags = 0;
     return c;
 }
 
 /* Which pixels a triangle covers: of one depth, so that all are drawn. */
-static void cover(uint8_t *count, fixed_corner a, fixed_corner b, fixed_corner c)
+static void cover(uint8_t *count, lmb_fixed_vertex a, lmb_fixed_vertex b, lmb_fixed_vertex c)
 {
     const fixed_band band = {pixel, depth, SIDE, 0, SIDE};
     clear();
@@ -89,14 +90,14 @@ static void test_fans(void)
     test_rng rng = {5};
     int twice = 0, gaps = 0;
     for (int n = 0; n < 400; ++n) {
-        fixed_corner middle = random_corner(&rng), ring[AROUND];
-        middle.x = 300 + (int32_t)(test_random(&rng) % 400), middle.y = 300 + (int32_t)(test_random(&rng) % 400);
+        lmb_fixed_vertex middle = random_corner(&rng), ring[AROUND];
+        middle.x = (int16_t)(300 + test_random(&rng) % 400), middle.y = (int16_t)(300 + test_random(&rng) % 400);
         for (int i = 0; i < AROUND; ++i) {
             const double turn = (i + (double)test_uniform(&rng, 0.0f, 0.8f)) * 6.283185307 / AROUND;
             const double far = 500.0 + (double)(test_random(&rng) % 400);
             ring[i] = random_corner(&rng);
-            ring[i].x = middle.x + (int32_t)(far * cos(turn));
-            ring[i].y = middle.y + (int32_t)(far * sin(turn));
+            ring[i].x = (int16_t)(middle.x + (int32_t)(far * cos(turn)));
+            ring[i].y = (int16_t)(middle.y + (int32_t)(far * sin(turn)));
         }
         memset(count, 0, sizeof count);
         for (int i = 0; i < AROUND; ++i) {
@@ -119,10 +120,10 @@ static void test_planes(void)
     int outside = 0;
     for (int n = 0; n < 3000; ++n) {
         const fixed_band band = {pixel, depth, SIDE, 0, SIDE};
-        fixed_corner c[3] = {random_corner(&rng), random_corner(&rng), random_corner(&rng)};
+        lmb_fixed_vertex c[3] = {random_corner(&rng), random_corner(&rng), random_corner(&rng)};
         if (n % 3 == 0) { /* a sliver */
-            c[2].x = (c[0].x + c[1].x) / 2 + (int32_t)(test_random(&rng) % 5);
-            c[2].y = (c[0].y + c[1].y) / 2;
+            c[2].x = (int16_t)((c[0].x + c[1].x) / 2 + (int32_t)(test_random(&rng) % 5));
+            c[2].y = (int16_t)((c[0].y + c[1].y) / 2);
         }
         clear();
         lmb_fixed_fill(&band, &c[0], &c[1], &c[2]);

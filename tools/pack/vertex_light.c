@@ -6,7 +6,7 @@
 
 #include "../common/progress.h"
 
-enum { SAMPLES = 32, ELEMENT_SAMPLES = 8, MOST_LINKS = 128 };
+enum { SAMPLES = 32, ELEMENT_SAMPLES = 8, MOST_LINKS = 129 /* and one to make an even number */ };
 #define OVER  0.004 /* m: so high over a surface light is taken */
 #define TRUST 0.5   /* of directions: a point that meets more backs is inside of a solid */
 
@@ -43,7 +43,8 @@ typedef struct baking {
 
 static dvec inner(const vl_mesh *m, const vl_triangle *t, double a, double b, double c)
 {
-    return dvec_add(dvec_add(dvec_mul(m->place[t->p[0]], a), dvec_mul(m->place[t->p[1]], b)), dvec_mul(m->place[t->p[2]], c));
+    return dvec_add(dvec_add(dvec_mul(m->place[t->p[0]], a), dvec_mul(m->place[t->p[1]], b)),
+                    dvec_mul(m->place[t->p[2]], c));
 }
 
 static double area_of(const vl_mesh *m, const vl_triangle *t)
@@ -399,40 +400,71 @@ static void factors(double *out, baking *b, const receiver *v)
     }
 }
 
-/* A row's largest links; what the others carry goes to these. Row and links go to their own places. */
+/* How much it matters that element `to` stands for `from`: what that carries, by how far they are apart. */
+static double cost_of(const baking *b, uint32_t from, uint32_t to, double carried)
+{
+    const receiver *x = &b->receiver[b->vertices + from], *y = &b->receiver[b->vertices + to];
+    const dvec way = dvec_sub(x->at, y->at), turn = dvec_sub(x->normal, y->normal);
+    return carried * (dvec_dot(way, way) + NORMAL_M * NORMAL_M * dvec_dot(turn, turn));
+}
+
+/* So many elements at most: the one that matters least gives what it carries to the one nearest to it, until then. Were
+ * the smallest left out instead, far walls that the lamp is at would be lost: a fifth of the light. */
+static void merge_links(double *f, const baking *b, uint32_t most_links)
+{
+    uint32_t nearest[LMB_FIXED_MAX_ELEMENTS], count = 0;
+    double cost[LMB_FIXED_MAX_ELEMENTS];
+    for (uint32_t e = 0; e < b->elements; ++e) {
+        count += f[e] > 0.0;
+        nearest[e] = b->elements;
+    }
+    for (; count > most_links; --count) {
+        uint32_t least_of = b->elements;
+        for (uint32_t e = 0; e < b->elements; ++e) {
+            if (f[e] <= 0.0) {
+                continue;
+            }
+            if (nearest[e] == b->elements || f[nearest[e]] <= 0.0) {
+                nearest[e] = b->elements;
+                for (uint32_t k = 0; k < b->elements; ++k) {
+                    if (k != e && f[k] > 0.0 &&
+                        (nearest[e] == b->elements || cost_of(b, e, k, 1.0) < cost_of(b, e, nearest[e], 1.0))) {
+                        nearest[e] = k;
+                    }
+                }
+            }
+            cost[e] = cost_of(b, e, nearest[e], f[e]);
+            least_of = least_of == b->elements || cost[e] < cost[least_of] ? e : least_of;
+        }
+        f[nearest[least_of]] += f[least_of];
+        f[least_of] = 0.0;
+    }
+}
+
+/* A row and its links, which go to their own places. */
 static int put_links(baking *b, uint32_t row[2], const receiver *v, uint32_t most_links, baking *links, report *r)
 {
-    double f[LMB_FIXED_MAX_ELEMENTS], all = 0.0;
+    double f[LMB_FIXED_MAX_ELEMENTS], all = 0.0, largest = 0.0;
     uint32_t chosen[MOST_LINKS], count = 0, weight[MOST_LINKS], sum = 0;
     factors(f, b, v);
     for (uint32_t e = 0; e < b->elements; ++e) {
         all += f[e];
     }
-    all = all > 0.999 ? 0.999 : all;
-    double largest = 0.0;
-    while (count < most_links) {
-        uint32_t best = b->elements;
-        for (uint32_t e = 0; e < b->elements; ++e) {
-            if (f[e] > 0.0 && (best == b->elements || f[e] > f[best])) {
-                best = e;
-            }
-        }
-        if (best == b->elements) {
-            break;
-        }
-        largest = count == 0 ? f[best] : largest;
-        weight[count] = (uint32_t)floor(255.0 * f[best] / largest + 0.5);
-        f[best] = 0.0;
-        if (weight[count] == 0) {
-            break;
-        }
+    merge_links(f, b, most_links);
+    for (uint32_t e = 0; e < b->elements; ++e) {
+        largest = f[e] > largest ? f[e] : largest;
+    }
+    for (uint32_t e = 0; e < b->elements && largest > 0.0; ++e) {
+        weight[count] = (uint32_t)floor(255.0 * f[e] / largest + 0.5);
         sum += weight[count];
-        chosen[count++] = best;
+        chosen[count] = e;
+        count += weight[count] > 0;
     }
     if (count % 2 == 1) {
         weight[count] = 0;
         chosen[count++] = 0;
     }
+    all = all > 0.999 ? 0.999 : all;
     row[0] = links->count | count << 24;
     row[1] = sum > 0 ? (uint32_t)floor(ldexp(all / sum, LMB_FIXED_SCALE)) : 0;
     for (uint32_t k = 0; k < count; k += 2) {
@@ -445,7 +477,7 @@ static int put_links(baking *b, uint32_t row[2], const receiver *v, uint32_t mos
 
 /* --- lamps -------------------------------------------------------------------------------------------------------- */
 
-/* A bit each place; where a lamp is behind the surface, which it does not light, as if it were seen. */
+/* A bit each place; where the lamp is behind the surface, which it does not light, as if it were seen. */
 static int put_seen(baking *b, const receiver *v, report *r)
 {
     const uint32_t words = (b->lattice.all + 31) / 32;
@@ -507,7 +539,9 @@ static int put_all(baking *b, const vertex_light_options *o, report *r)
     }
     for (uint32_t i = 0; i < all && ok; ++i) {
         uint32_t row[2];
-        ok = put_links(b, row, &b->receiver[i], o->links, &links, r) && put(b, row[0], r) && put(b, row[1], r);
+        /* elements, whose light is thrown back once more, do with half of the links */
+        ok = put_links(b, row, &b->receiver[i], i < b->vertices ? o->links : (o->links + 1) / 2, &links, r) &&
+             put(b, row[0], r) && put(b, row[1], r);
         progress_tell("links", (double)i / all);
     }
     b->link_words = links.count;
@@ -539,7 +573,7 @@ int vertex_light_make(uint32_t **words, uint32_t *count, vertex_light_facts *fac
     *count = 0;
     o.vertices = o.vertices > 0 ? o.vertices : 600;
     o.elements = o.elements > 0 && o.elements <= LMB_FIXED_MAX_ELEMENTS ? o.elements : 192;
-    o.links = o.links > 0 && o.links < MOST_LINKS ? o.links : 48;
+    o.links = o.links > 0 && o.links < MOST_LINKS ? o.links : 32;
     o.places = o.places > 0 ? o.places : 512;
     int ok = vl_mesh_build(&b.m, scene, o.vertices, r) && vl_sight_begin(&b.sight, &b.m, r) &&
              vl_lattice_make(&b.lattice, &b.m, &b.sight, o.places, r) &&

@@ -1,4 +1,4 @@
-/* vertex_light_sight.c: what stands between two points, what is inside of a solid, and where a lamp may be. */
+/* vertex_light_sight.c: what stands between two points, what is inside of a solid, and where the lamp may be. */
 #include "vertex_light.h"
 
 #include <stdlib.h>

@@ -1,0 +1,23 @@
+# no_float.sh: that a frame by integers has no float: src/fixed and the room compiled for a Cortex-M0+ ask the compiler's
+# run time for no float and no division in a frame; and their ROM. Without the compiler: skipped.
+. tests/scripts/checks.sh
+
+if ! missing=$(sh tests/scripts/tools.sh need arm-none-eabi-gcc 2>&1); then
+    skip "no float in src/fixed: $missing"
+    finish
+fi
+folder=$B/no_float
+mkdir -p "$folder"
+for source in src/fixed/*.c platform/demo/room.c; do
+    object=$folder/$(basename "$source" .c).o
+    check "$source compiles" arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -mfloat-abi=soft -std=c99 -Os -ffp-contract=off \
+        -Iinclude -isystem platform/freestanding -c "$source" -o "$object"
+    helpers=$(arm-none-eabi-nm -u "$object" | grep -oE '__aeabi_([fd][a-z0-9]*|[iul]+2[fd]|[iul]*div[a-z]*)' | grep -v idiv0 | sort -u)
+    case $source in
+    # once, when a blob is opened or a pose is made
+    */fixed_open.c | */room.c) helpers=$(printf '%s' "$helpers" | grep -v div) ;;
+    esac
+    check "$source asks for $helpers" test -z "$helpers"
+done
+arm-none-eabi-size -t "$folder"/fixed*.o "$folder"/number.o | awk 'END { print "rom of src/fixed: " $1 + $2 " bytes" }'
+finish
