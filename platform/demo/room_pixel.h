@@ -32,7 +32,7 @@ typedef struct room_pixel {
     lmb_render render;
     lmb_band_scratch scratch;
     lmb_transfer transfer;
-    lmb_scene scene; /* the demo's, with a lamp that moves */
+    lmb_scene scene; /* the demo's; its light moves */
     lmb_light lamp;
     int32_t width, height;
     uint32_t (*clock)(void); /* counts up, and may wrap; NULL: nothing is counted */
