@@ -1,8 +1,8 @@
 /* start_cortex_a.c: a Cortex-A of 32 bits: vectors, reset, semihosting. Caches and MMU stay off. */
 #include "../freestanding/bare.h"
 
-/* Eight vectors; the first is reset. NEON and VFP first (CPACR, FPEXC.EN, no flush to zero): a compiler may clear memory
- * by their registers. Then the vectors' own address (VBAR). */
+/* Eight vectors; the first is reset. NEON and VFP first (CPACR, FPEXC.EN, no flush to zero): a compiler may clear
+ * memory by their registers. Then the vectors' own address (VBAR). */
 __asm__(".section .vectors, \"ax\"\n"
         ".arm\n"
         ".fpu neon\n"

@@ -1,7 +1,9 @@
 # cortex-m: a Cortex-M without operating system or libc, under qemu; output by semihosting. CORE: m0plus without an FPU
-# (on the Cortex-M3 of mps2-an385, which runs its instructions), m4f (mps2-an386), m7 (mps2-an500), m33 (mps2-an505), m55
-# with Helium (mps3-an547).
+# (on the Cortex-M3 of mps2-an385, which runs its instructions), m4f (mps2-an386), m7 (mps2-an500), m33 (mps2-an505),
+# m55 with Helium (mps3-an547).
 CORE        ?= m4f
+# Of `make ports`.
+ROOMS       := CORE=m0plus CORE=m4f CORE=m7 CORE=m33 CORE=m55
 ARM         ?= arm-none-eabi-
 CROSS_PREFIX := $(ARM)
 include platform/freestanding/tools.mk

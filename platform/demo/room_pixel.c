@@ -93,7 +93,8 @@ static lmb_status place(room_pixel *r, const room_pose *pose)
 {
     const float metre = 1.0f / 1024.0f, level = cosine(pose->pitch), vfov_rad = 0.872664626f; /* 50 degrees */
     const lmb_vec3 eye = {(float)pose->eye[0] * metre, (float)pose->eye[1] * metre, (float)pose->eye[2] * metre};
-    const lmb_vec3 target = {eye.x - sine(pose->yaw) * level, eye.y + sine(pose->pitch), eye.z - cosine(pose->yaw) * level};
+    const lmb_vec3 target = {eye.x - sine(pose->yaw) * level, eye.y + sine(pose->pitch),
+                             eye.z - cosine(pose->yaw) * level};
     const lmb_vec3 up = {0, 1, 0};
     r->lamp.position.x = (float)pose->lamp[0] * metre;
     r->lamp.position.y = (float)pose->lamp[1] * metre;
@@ -104,7 +105,9 @@ static lmb_status place(room_pixel *r, const room_pose *pose)
 
 static int stage_of(int32_t stage)
 {
-    return stage == LMB_STAGE_SHADOW_MAP ? ROOM_PIXEL_MAPPED : stage < LMB_STAGE_VIEW ? ROOM_PIXEL_LIT : ROOM_PIXEL_FILLED;
+    return stage == LMB_STAGE_SHADOW_MAP ? ROOM_PIXEL_MAPPED
+           : stage < LMB_STAGE_VIEW      ? ROOM_PIXEL_LIT
+                                         : ROOM_PIXEL_FILLED;
 }
 
 lmb_status room_pixel_draw(room_pixel *r, const room_pose *pose, room_put *put, void *user)

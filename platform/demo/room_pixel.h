@@ -19,10 +19,11 @@ enum {
     ROOM_PIXEL_LIGHT_WORDS = 6144
 };
 
-/* Words of memory for a picture `width` px wide, which is a multiple of 8: a band of colours, a strip's depth and 16-bit
- * ids, the shadow map, and the baked light's state. */
-#define ROOM_PIXEL_WORDS(width)                                                                                    \
-    ((width) * (ROOM_PIXEL_BAND + ROOM_PIXEL_STRIP + ROOM_PIXEL_STRIP / 2) + ROOM_PIXEL_MAP_WORDS + ROOM_PIXEL_LIGHT_WORDS)
+/* Words of memory for a picture `width` px wide, which is a multiple of 8: a band of colours, a strip's depth and
+ * 16-bit ids, the shadow map, and the baked light's state. */
+#define ROOM_PIXEL_WORDS(width)                                                                    \
+    ((width) * (ROOM_PIXEL_BAND + ROOM_PIXEL_STRIP + ROOM_PIXEL_STRIP / 2) + ROOM_PIXEL_MAP_WORDS + \
+     ROOM_PIXEL_LIGHT_WORDS)
 
 /* Stages whose cost is told apart. */
 enum { ROOM_PIXEL_MAPPED, ROOM_PIXEL_LIT, ROOM_PIXEL_FILLED, ROOM_PIXEL_SHOWN, ROOM_PIXEL_STAGES };
@@ -32,7 +33,7 @@ typedef struct room_pixel {
     lmb_render render;
     lmb_band_scratch scratch;
     lmb_transfer transfer;
-    lmb_scene scene; /* the demo's, with a lamp that moves */
+    lmb_scene scene; /* the demo's; its light moves */
     lmb_light lamp;
     int32_t width, height;
     uint32_t (*clock)(void); /* counts up, and may wrap; NULL: nothing is counted */
@@ -41,8 +42,8 @@ typedef struct room_pixel {
     void *user;
 } room_pixel;
 
-/* room_pixel_open: `memory` has ROOM_PIXEL_WORDS(width) words and stays the room's; width and height are multiples of 8.
- * The library's status. */
+/* room_pixel_open: `memory` has ROOM_PIXEL_WORDS(width) words and stays the room's; width and height are multiples of
+ * 8. The library's status. */
 lmb_status room_pixel_open(room_pixel *out, int32_t width, int32_t height, uint32_t *memory);
 
 /* room_pixel_draw: the time that `put` takes is counted as ROOM_PIXEL_SHOWN. The library's status. */

@@ -17,15 +17,16 @@ RUN           = $(QEMU) -display none -monitor none -serial none -chardev stdio,
 # A loop in memset that the compiler turns into a call of memset would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
-# The room, counted exactly by a plugin of this machine's qemu: COUNTED=instructions, loads or stores. Its screen is read
-# back to room.ppm; FRAMES=all puts all frames there, one behind the other. ROOM_RAM: what there is of RAM.
+# The room, counted exactly by a plugin of this machine's qemu: COUNTED=instructions, loads or stores. Its screen is
+# read back to room.ppm; FRAMES=all puts all frames there, one behind the other. ROOM_RAM: what there is of RAM.
 ROOM_SRC      = $(PORT_SRC) platform/freestanding/bare_room.c
 ROOM_RAM     ?= 163840
 ROOM_ROM     ?= 1048576
 COUNTED      ?= instructions
 COUNTER      := $(BUILD)/qemu_count.so
 ROOM_RUN      = $(filter-out -kernel,$(RUN)) -plugin $(COUNTER),counts=$(B)/room.counts,what=$(COUNTED) -kernel
-run: SEMIHOSTING = enable=on,target=native,chardev=console,arg=room,arg=$(B)/room.counts,arg=$(B)/room.ppm$(FRAMES:%=,arg=%)
+ROOM_WORDS    = arg=room,arg=$(B)/room.counts,arg=$(B)/room.ppm$(FRAMES:%=,arg=%)
+run: SEMIHOSTING = enable=on,target=native,chardev=console,$(ROOM_WORDS)
 $(B)/room: RAM_BYTES = $(ROOM_RAM)
 $(B)/room: ROM_BYTES = $(ROOM_ROM)
 $(B)/obj/platform/freestanding/bare_room.o: COMPILE += $(BARE_ROOM)

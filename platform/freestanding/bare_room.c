@@ -1,5 +1,5 @@
-/* bare_room.c: room_port.h on a machine without operating system: 160 x 120 in RGB565 in memory, as a display would fetch
- * it; what a debugger, or qemu, stores for the program is reached by semihosting.
+/* bare_room.c: room_port.h on a machine without operating system: 160 x 120 in RGB565 in memory, as a display would
+ * fetch it; what a debugger, or qemu, stores for the program is reached by semihosting.
  *
  * The words of the program's command line, as far as there are any, are `room COUNTS PICTURE [all]`: COUNTS is where
  * qemu_count.c puts its counts, PICTURE gets the last picture as PPM, or with `all` each picture behind the other. `-`
@@ -27,7 +27,7 @@ static uint16_t screen[HEIGHT][WIDTH];
 void *port_memory(size_t *bytes) { return *bytes = sizeof memory, memory; }
 void *port_band_memory(size_t *bytes) { return *bytes = sizeof band, band; }
 
-/* --- files of the machine behind the debugger ------------------------------------------------------------------------ */
+/* --- files of the machine behind the debugger ---------------------------------------------------------------------- */
 
 enum { SYS_OPEN = 0x01, SYS_WRITE = 0x05, SYS_READ = 0x06, SYS_SEEK = 0x0a, SYS_GET_CMDLINE = 0x15 };
 enum { READ_BYTES = 1, WRITE_BYTES = 5 }; /* "rb", "wb" */
@@ -85,7 +85,7 @@ static void open_files(void)
     is_all = length != 0;
 }
 
-/* --- the clock: what the plugin of qemu counted ---------------------------------------------------------------------- */
+/* --- the clock: what the plugin of qemu counted -------------------------------------------------------------------- */
 
 static char unit[16] = "of no clock";
 const char *const port_clock_unit = unit;
@@ -108,7 +108,7 @@ uint32_t port_clock(void)
     return said[0] | (uint32_t)said[1] << 8 | (uint32_t)said[2] << 16 | (uint32_t)said[3] << 24;
 }
 
-/* --- the screen ------------------------------------------------------------------------------------------------------ */
+/* --- the screen ---------------------------------------------------------------------------------------------------- */
 
 void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
 {

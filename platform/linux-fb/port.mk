@@ -1,4 +1,4 @@
-# linux-fb: the room on /dev/fb0 of a Linux without a window system. Its test draws into a file that stands for the device.
+# linux-fb: the room on /dev/fb0 of a Linux without a window system. Its test draws into a file in the device's place.
 PORT_SRC    := platform/host/port_host.c
 PORT_LDLIBS := -lm
 RUN         :=

@@ -1,5 +1,5 @@
-/* port_linux_fb.c: the room on Linux's framebuffer device, without a window system: 16 or 32 bits a pixel, in the middle of
- * the screen.
+/* port_linux_fb.c: the room on Linux's framebuffer device, without a window system: 16 or 32 bits a pixel, in the
+ * middle of the screen.
  *
  * Environment: FB_DEVICE, /dev/fb0 where it is not set; FB_FILE in its place: a plain file of FB_SIZE, "320x240x16" (or
  * x32), that stands for the screen's memory; FB_SECONDS: how long the last picture stays after the path. */
@@ -46,7 +46,8 @@ static void ask_device(int file, const char *name)
 
 static void make_file(int file, const char *name)
 {
-    static const struct fb_bitfield of_16[] = {{11, 5, 0}, {5, 6, 0}, {0, 5, 0}}, of_32[] = {{16, 8, 0}, {8, 8, 0}, {0, 8, 0}};
+    static const struct fb_bitfield of_16[] = {{11, 5, 0}, {5, 6, 0}, {0, 5, 0}};
+    static const struct fb_bitfield of_32[] = {{16, 8, 0}, {8, 8, 0}, {0, 8, 0}};
     const char *size = getenv("FB_SIZE");
     if (sscanf(size ? size : "320x240x16", "%ux%ux%u", &screen.width, &screen.height, &screen.bits) != 3 ||
         screen.width > 16384 || screen.height > 16384 || (screen.bits != 16 && screen.bits != 32))

@@ -1,13 +1,13 @@
-/* port_null.c: a port that does nothing: copy its folder, and fill in what the comments say, in their order. It builds by
- * any compiler, and its room draws into nothing. platform/README.md has the steps. */
+/* port_null.c: a port that does nothing: copy its folder, and fill in what the comments say, in their order. It builds
+ * by any compiler, and its room draws into nothing. platform/README.md has the steps. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../port.h"
 
 enum { WIDTH = 160, HEIGHT = 120, ROWS = 8, ROOM_BYTES = 24576 };
 
-/* 1. Start, where no system calls main. The entry sets the stack pointer, turns the FPU on, copies .data from ROM, clears
- * .bss, calls main and goes to 3 with what main returns. Memory is not clear before: no C but this may run until then. */
+/* 1. Start, where no system calls main. The entry sets the stack pointer, turns the FPU on, copies .data from ROM,
+ * clears .bss, calls main and goes to 3 with what main returns. No other C may run before memory is clear. */
 
 /* 2. Output: text to a serial line, a debugger, a log. The first thing to get going: all else is found by it. */
 void port_put(const char *text) { (void)text; }

@@ -1,6 +1,7 @@
 # riscv: a RISC-V without operating system or libc, under qemu's `virt`; output by semihosting. XLEN: 32 with a
 # single-precision FPU (RV32IMAFC), 64 with both precisions (RV64GC).
 XLEN        ?= 32
+ROOMS       := XLEN=32 XLEN=64
 RISCV       ?= riscv64-unknown-elf-
 CROSS_PREFIX := $(RISCV)
 include platform/freestanding/tools.mk

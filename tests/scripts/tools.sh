@@ -25,10 +25,11 @@ packages_of() {
     qemu-system-arm) echo qemu-system-arm ;;
     riscv64-unknown-elf-gcc) echo gcc-riscv64-unknown-elf ;;
     qemu-system-riscv32) echo qemu-system-misc ;;
-    qemu-*) echo qemu-user ;;
+    qemu-system-aarch64) echo qemu-system-arm ;;
+    libretro-* | dolphin-emu*) echo "${1%-nogui}" ;;
     mupen64plus) echo mupen64plus-ui-console mupen64plus-data ;;
+    qemu-*) echo qemu-user ;;
     mednafen_psx_libretro.so) echo libretro-beetle-psx ;;
-    dolphin-emu-nogui) echo dolphin-emu ;;
     Xvfb) echo xvfb ;;
     djpeg | cjpeg) echo libjpeg-turbo-progs ;;
     pngtopam) echo netpbm ;;
@@ -56,9 +57,11 @@ missing() {
         clang-sanitizers) sanitizes || echo "$command" ;;
         gcc-m32) echo 'int main(void) { return 0; }' | gcc -m32 -I/usr/include/x86_64-linux-gnu -x c -o /dev/null - \
             >/dev/null 2>&1 || echo "$command" ;;
-        mupen64plus | dolphin-emu-nogui) [ -x "/usr/games/$command" ] || command -v "$command" >/dev/null 2>&1 ||
-            echo "$command" ;;
         *_libretro.so) ls /usr/lib/*/libretro/"$command" >/dev/null 2>&1 || echo "$command" ;;
+        libretro-mgba) ls /usr/lib/*/libretro/mgba_libretro.so >/dev/null 2>&1 || echo "$command" ;;
+        libretro-desmume) ls /usr/lib/*/libretro/desmume_libretro.so >/dev/null 2>&1 || echo "$command" ;;
+        libretro-beetle-psx) ls /usr/lib/*/libretro/mednafen_psx_libretro.so >/dev/null 2>&1 || echo "$command" ;;
+        mupen64plus | dolphin-emu-nogui) PATH=$PATH:/usr/games command -v "$command" >/dev/null 2>&1 || echo "$command" ;;
         wine64) [ -x /usr/lib/wine/wine64 ] || command -v wine64 >/dev/null 2>&1 || echo "$command" ;;
         *) command -v "$command" >/dev/null 2>&1 || echo "$command" ;;
         esac

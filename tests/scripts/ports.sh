@@ -1,0 +1,136 @@
+# ports.sh: the room on all ports: builds, runs each in its emulator, and holds its hashes against those of this machine's
+# room of the same size. Prints one table, which is in BUILD/ports/table.md too. MAKE, BUILD; ROOM=pixel: light by pixel;
+# PORTS="cortex-m gba": these alone.
+#
+# A port is a folder of platform/ whose port.mk speaks of the room. `ROOMS := WORD ...` there names variants, each a word
+# for make. A size is found in the port's own source: `WIDTH = N, HEIGHT = N`; 160 x 120 where there is none.
+. tests/scripts/checks.sh
+
+# What a port needs, in words of tools.sh.
+needs() {
+    case $1 in
+    cortex-m | cortex-a) echo arm-none-eabi-gcc qemu-system-arm ;;
+    aarch64) echo aarch64-linux-gnu-gcc qemu-system-aarch64 ;;
+    riscv) echo riscv64-unknown-elf-gcc qemu-system-riscv32 ;;
+    gba) echo arm-none-eabi-gcc qemu-system-arm libretro-mgba ;;
+    nds) echo arm-none-eabi-gcc qemu-system-arm libretro-desmume ;;
+    ps1) echo mipsel-linux-gnu-gcc qemu-mipsel libretro-beetle-psx ;;
+    n64) echo mips-linux-gnu-gcc qemu-mips mupen64plus ;;
+    gamecube) echo powerpc-linux-gnu-gcc qemu-ppc dolphin-emu-nogui ;;
+    esac
+}
+
+out=$BUILD/ports
+mkdir -p "$out"
+all=
+for mk in platform/*/port.mk; do
+    name=${mk%/port.mk} name=${name##*/}
+    case $name in host | null | counted | web) continue ;; esac
+    grep -qE '^ROOM_|bare\.mk' "$mk" && all="$all $name"
+done
+PORTS=${PORTS:-$all}
+for name in $PORTS; do
+    needs "$name"
+done | tr ' ' '\n' | sort -u >"$out/needs"
+# shellcheck disable=SC2046
+[ ! -s "$out/needs" ] || sh tests/scripts/tools.sh get $(cat "$out/needs") 2>&1
+
+# size NAME: width and height.
+size() {
+    if [ "$ROOM" = pixel ]; then
+        echo 160 120
+    else
+        found=$(sed -n 's/^enum {.*WIDTH = \([0-9]*\), HEIGHT = \([0-9]*\).*/\1 \2/p' platform/"$1"/port_*.c 2>/dev/null | head -n 1)
+        echo "${found:-160 120}"
+    fi
+}
+
+# host WIDTH HEIGHT: the hashes of this machine's room.
+host() {
+    if [ ! -s "$out/host-$1x$2.txt" ]; then
+        $MAKE room PORT=host CONFIG=default ROOM_SIZE="$1 $2 8" BUILD="$out/host-$1x$2" ROOM="$ROOM" >"$out/host.log" 2>&1 &&
+            $MAKE run PORT=host CONFIG=default ROOM_SIZE="$1 $2 8" BUILD="$out/host-$1x$2" ROOM="$ROOM" \
+                >"$out/host-$1x$2.txt" 2>>"$out/host.log"
+    fi
+    grep '^frame ' "$out/host-$1x$2.txt"
+}
+
+# stages FILE: the numbers of the dearest frame; with `all`: the last of them alone.
+stages() {
+    awk -v last="$2" '/^cost / { for (i = 3; i < NF; i += 2) if ($i == "all" && $(i + 1) > most) {
+            most = $(i + 1); line = ""
+            for (k = 4; k <= i + 1; k += 2) line = line " " sprintf("%.2f", $k / 1e6) " |"
+            unit = $NF }
+        } END { if (last) printf "%.2f", most / 1e6; else print line, unit }' "$1"
+}
+
+rm -f "$out"/host-*.txt
+stage_names=$([ "$ROOM" = pixel ] && echo "map | light | fill" || echo "transform | light | fill")
+{
+    echo "| port | size | ROM, KiB | RAM, KiB | $stage_names | show | all | unit, millions a frame | loads | stores | hashes of 0, 30, 59 | match |"
+    echo "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+} >"$out/table.md"
+
+# port NAME [WORD]: a row of the table.
+port() {
+    name=$1 word=$2
+    label=$name${word:+ ${word#*=}}
+    dir=$out/$name${word:+-${word#*=}}
+    said=$dir.txt
+    size=$(size "$name")
+    # shellcheck disable=SC2046,SC2086
+    if [ -n "$(needs "$name")" ] && ! missing=$(sh tests/scripts/tools.sh need $(needs "$name") 2>&1); then
+        skip "$label: $missing"
+        return
+    fi
+    # shellcheck disable=SC2086
+    if ! $MAKE room PORT="$name" $word BUILD="$dir" ROOM="$ROOM" >"$dir.log" 2>&1; then
+        fail "$label does not build: $(tail -n 2 "$dir.log")"
+        return
+    fi
+    # shellcheck disable=SC2086
+    $MAKE run PORT="$name" $word BUILD="$dir" ROOM="$ROOM" >"$said" 2>>"$dir.log" || fail "$label: see $dir.log"
+    # shellcheck disable=SC2086
+    memory=$($MAKE size PORT="$name" $word BUILD="$dir" ROOM="$ROOM" 2>/dev/null | sed -n 's/^rom \([0-9]*\) bytes, ram \([0-9]*\) bytes/\1 \2/p')
+    rom=${memory% *} ram=$(sed -n 's/^ram \([0-9]*\) of .*/\1/p' "$said")
+    ram=${ram:-${memory#* }}
+    loads=- stores=-
+    if grep -q 'bare\.mk' "platform/$name/port.mk"; then
+        for counted in loads stores; do
+            # shellcheck disable=SC2086
+            $MAKE run PORT="$name" $word BUILD="$dir" ROOM="$ROOM" COUNTED=$counted >"$dir.$counted" 2>>"$dir.log"
+        done
+        loads=$(stages "$dir.loads" all) stores=$(stages "$dir.stores" all)
+    fi
+    # Machines without an FPU draw frame 0 alone by pixel.
+    # shellcheck disable=SC2086
+    host $size >"$dir.expected"
+    grep '^frame ' "$said" >"$dir.hashes"
+    frames=$(wc -l <"$dir.hashes")
+    match=no
+    if [ "$frames" -gt 0 ] && head -n "$frames" "$dir.expected" | cmp -s - "$dir.hashes" &&
+        { [ "$frames" -eq 3 ] || [ "$ROOM" = pixel ]; }; then
+        match=yes
+        pass
+    else
+        fail "$label: its hashes are not this machine's: $(tr '\n' ' ' <"$dir.hashes"), $(tr '\n' ' ' <"$dir.expected")"
+    fi
+    stages=$(stages "$said")
+    hashes=$(awk '{ printf "%s ", $3 }' "$dir.hashes")
+    kib() { awk -v n="$1" 'BEGIN { if (n + 0 > 0) printf "%.1f", n / 1024; else print "-" }'; }
+    [ "${stages# }" != "" ] && [ "${stages# }" != " " ] || stages=" - | - | - | - | - | -"
+    echo "| $label | $(echo "$size" | tr ' ' x) | $(kib "$rom") | $(kib "$ram") |$stages | $loads | $stores | $hashes| $match |" >>"$out/table.md"
+}
+
+for name in $PORTS; do
+    variants=$(sed -n 's/^ROOMS *:= *//p' "platform/$name/port.mk")
+    if [ -n "$variants" ]; then
+        for word in $variants; do
+            port "$name" "$word"
+        done
+    else
+        port "$name"
+    fi
+done
+cat "$out/table.md"
+finish
