@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../../platform/host/host.h"
-#include "../../tools/demo/demo_scene.h"
+#include "../../tools/common/io_file.h"
 #include "../../tools/model/model.h"
 
 enum { RUNS = 15, WIDE = 320, HIGH = 240 };
