@@ -366,7 +366,7 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
 .PHONY: faults paths size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
-    measure-steady measure-baked measure-lights measure-crate measure-front scenes small-truth measure-truth \
+    measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth measure-truth \
     measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels measure-fixed large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
@@ -437,6 +437,9 @@ reference: $(B)/reference ## coverage and depth of the raster workload against a
 
 measure-moving: $(B)/measure-moving ## a light and a crate that move: how much cuts add from frame to frame
 	@$(RUN) $(B)/measure-moving
+
+measure-pack: $(TOOL) $(B)/measure-pack ## packed scenes: bytes by part beside the gzipped source, load time (SCENES)
+	@$(IN_SH) tests/measure/pack.sh
 
 measure-baked: $(TOOL) ## baked light against truth, its files and frames (SCENES, TURN=37, FILES=folder)
 	@$(IN_SH) tests/measure/baked.sh

@@ -22,6 +22,7 @@ for format in ppm pfm hdr; do
 done
 pipe=-
 piped bake box.lmt bake "$dir/box.obj" --elements 64 --receivers 64
+piped pack box.lmp pack "$dir/box.obj"
 piped "relief bake" pit.lmr relief bake "$dir/pit.obj" --size 16 --triangles 20 --views 6
 piped "relief render" pit.png relief render "$m/pit.lmr" --size 32x24
 piped mix mixed.png mix $seen $tent
@@ -141,6 +142,7 @@ done
 refused "$nowhere/x00.png: cannot be written" play "$m/no.gltf" -o "$nowhere/x%02d.png"
 refused "$nowhere/s.json: cannot be written" render "$m/no.gltf" -o "$m/x.png" --stats "$nowhere/s.json"
 refused "$nowhere/x.lmt: cannot be written" bake "$m/no.gltf" -o "$nowhere/x.lmt"
+refused "$nowhere/x.lmp: cannot be written" pack "$m/no.gltf" -o "$nowhere/x.lmp"
 refused "$nowhere/x.lmr: cannot be written" relief bake "$m/no.gltf" -o "$nowhere/x.lmr"
 refused "$nowhere/x.svg: cannot be written" bench "$m/no.gltf" --svg "$nowhere/x.svg"
 mkdir -p "$m/folder.png"
@@ -217,6 +219,8 @@ if [ -e /dev/full ]; then
     full plan demo --size 32x24 --json
     full bake "$dir/box.obj" --elements 64 --receivers 64 -o "$m/x.lmt"
     full bake "$dir/box.obj" --elements 64 --receivers 64 -q -o -
+    full pack "$dir/box.obj" -o "$m/x.lmp"
+    full pack "$dir/box.obj" -q -o -
     full play "$dir/box.obj" --size 16x16 --quality draft --frames 2
     full relief bake "$dir/pit.obj" --size 16 --triangles 20 --views 6 -o "$m/x.lmr"
     full relief render "$m/pit.lmr" --size 32x24 -o "$m/x.png"

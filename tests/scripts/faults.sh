@@ -38,6 +38,7 @@ make_inputs() {
         "$tool" render demo $eye -q --show depth -o depth.pfm &&
         "$tool" relight --world demo -q --cube cube.pfm &&
         "$tool" bake tent.obj -q --elements 64 --receivers 64 -o tent.lmt &&
+        "$tool" pack tent.obj -q --position-error 0 --order file -o tent.lmp &&
         "$tool" relief bake tent.obj -q --size 16 --triangles 8 --views 6 -o tent.lmr
 }
 check "inputs are made" make_inputs
@@ -52,6 +53,10 @@ render demo --size 16x16 --shadow-map 64 --threads 2 -q -o -
 plan tent.obj --size 24x16 --shadow-map 64 --threads 1 --budget-error 0.2 -q
 bake tent.obj -q --elements 64 --receivers 64 --threads 2 -o out/a.lmt
 bake floor.gltf -q --elements 64 --receivers 64 --threads 2 --once -o out/a.lmt
+pack tent.obj -q -o out/a.lmp
+pack floor.gltf -q -o out/a.c
+pack tent.lmp --transfer tent.lmt -q -o out/a.lmp
+info tent.lmp -q
 play tent.obj --size 16x16 --shadow-map 64 --quality draft --frames 2 --threads 2 -q -o out/a%02d.png --stats out/a.json
 relight --world cube.pfm --object tent.obj --size 24x16 --threads 2 -q --cube out/c.pfm -o out/a.png
 relight --world demo --object demo --path path.txt --size 16x16 --threads 1 -q -o out/a.ppm

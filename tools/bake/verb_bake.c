@@ -29,7 +29,7 @@ static const char *const orders[] = {"little", "big", NULL};
 
 static const option_row rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .file = OPTION_READS,
-     .help = ".gltf .glb .obj .ply, or `demo`"},
+     .help = ".gltf .glb .obj .ply .lmp, or `demo`"},
     {.name = "-o", .value = "OUT.lmt", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
      .help = "for `lambent render --transfer`"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),

@@ -10,7 +10,7 @@ enum { COLOURS = 16, ROUNDS = 12, BITS = 5, CELLS = 2 << 3 * BITS };
 
 /* --- 16 bits ------------------------------------------------------------------------------------------------------ */
 
-static uint32_t nearest(uint32_t code, uint32_t most) { return (code * most * 2 + 255) / 510; }
+static uint32_t nearest(uint32_t code, uint32_t limit) { return (code * limit * 2 + 255) / 510; }
 
 static int64_t put_rgb565(pack_buffer *out, const uint8_t *rgba, size_t texels, size_t judged)
 {
@@ -95,13 +95,13 @@ static int first_colours(bunch *palette, const bunch *cell, int cells)
 {
     int count = 0;
     while (count < COLOURS) {
-        int64_t most = 0, far;
+        int64_t gain = 0, far;
         int worst = -1;
         for (int i = 0; i < cells; ++i) {
             nearest_of(palette, count, cell[i].colour, &far);
             far = count == 0 ? cell[i].count : cell[i].count * far;
-            if (far > most) {
-                most = far;
+            if (far > gain) {
+                gain = far;
                 worst = i;
             }
         }

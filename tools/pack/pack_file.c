@@ -5,7 +5,7 @@
 #include "../../src/pack/records.h"
 #include "pack.h"
 
-enum { APART = 16 }; /* parts begin on multiples of it: a cache's line, and what copying machinery asks for */
+enum { ALIGNMENT = 16 }; /* of parts: a cache has lines, and some copying hardware takes no less */
 
 /* What is read first stands first. */
 static const int order[] = {LMB_PACK_SCENE, LMB_PACK_MESHES, LMB_PACK_MATERIALS, LMB_PACK_TEXTURES, LMB_PACK_INSTANCES,
@@ -14,7 +14,7 @@ static const int order[] = {LMB_PACK_SCENE, LMB_PACK_MESHES, LMB_PACK_MATERIALS,
                             LMB_PACK_INDICES, LMB_PACK_TEXELS};
 enum { PARTS = sizeof order / sizeof *order };
 
-static uint32_t apart(uint32_t at) { return (at + APART - 1) / APART * APART; }
+static uint32_t aligned(uint32_t at) { return (at + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
 /* Offsets of records of a kind: word `first` and `count` - 1 more. */
 static void set_offsets(uint8_t *file, const uint32_t *at, const pack *p, int kind, int first, int count, int to)
@@ -42,7 +42,7 @@ int pack_file(file_bytes *out, const pack *p, report *r)
     bytes += 4 * LMB_PACK_PART_WORDS * (uint64_t)head[3];
     for (int i = 0; i < PARTS; ++i) {
         if (p->part[order[i]].size > 0) {
-            bytes = apart((uint32_t)bytes);
+            bytes = aligned((uint32_t)bytes);
             at[order[i]] = (uint32_t)bytes;
             bytes += p->part[order[i]].size;
         }

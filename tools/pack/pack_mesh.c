@@ -36,7 +36,7 @@ typedef struct vertex_table {
 /* How much longer a vector of a mesh can become in the world: at least the largest singular value. */
 static double growth_of(const float *m)
 {
-    double most = 0.0;
+    double upper = 0.0;
     for (int a = 0; a < 3; ++a) {
         double sum = 0.0;
         for (int b = 0; b < 3; ++b) {
@@ -46,9 +46,9 @@ static double growth_of(const float *m)
             }
             sum += fabs(dot);
         }
-        most = sum > most ? sum : most;
+        upper = sum > upper ? sum : upper;
     }
-    return sqrt(most);
+    return sqrt(upper);
 }
 
 static void add_map(mesh_job *j, const lmb_scene *s, uint32_t texture)
@@ -138,21 +138,21 @@ static double power_of_2(double at_most)
 
 static double widest(const mesh_job *j)
 {
-    double most = 0.0;
+    double upper = 0.0;
     for (int k = 0; k < 3; ++k) {
         const double wide = floor(j->high[k] / j->step + 0.5) - floor(j->low[k] / j->step + 0.5);
-        most = wide > most ? wide : most;
+        upper = wide > upper ? wide : upper;
     }
-    return most;
+    return upper;
 }
 
 static double farthest(const mesh_job *j)
 {
-    double most = 0.0;
+    double upper = 0.0;
     for (int k = 0; k < 3; ++k) {
-        most = fmax(most, fmax(fabs(j->low[k]), fabs(j->high[k])) / j->step);
+        upper = fmax(upper, fmax(fabs(j->low[k]), fabs(j->high[k])) / j->step);
     }
-    return most;
+    return upper;
 }
 
 static int fits(const mesh_job *j) { return widest(j) <= 65535.0 && farthest(j) < EXACT; }
@@ -408,12 +408,12 @@ static int pack_one(pack *out, const mesh_job *job, const pack_settings *set, re
     memset(&t, 0, sizeof t);
     j.mesh = &m;
     t.each = words_of(&j);
-    const size_t corners = 3 * (size_t)m.triangle_count, most = corners < m.vertex_count ? corners : m.vertex_count;
-    for (t.slots = 16; t.slots < 2 * most; t.slots *= 2) {
+    const size_t corners = 3 * (size_t)m.triangle_count, upper = corners < m.vertex_count ? corners : m.vertex_count;
+    for (t.slots = 16; t.slots < 2 * upper; t.slots *= 2) {
     }
-    uint32_t *index = malloc((corners + 1) * sizeof *index), *number = malloc((most + 1) * sizeof *number),
-             *moved = malloc((most + 1) * t.each * sizeof *moved);
-    t.word = malloc((most + 1) * t.each * sizeof *t.word);
+    uint32_t *index = malloc((corners + 1) * sizeof *index), *number = malloc((upper + 1) * sizeof *number),
+             *moved = malloc((upper + 1) * t.each * sizeof *moved);
+    t.word = malloc((upper + 1) * t.each * sizeof *t.word);
     t.slot = calloc(t.slots, sizeof *t.slot);
     int ok = index != NULL && number != NULL && moved != NULL && t.word != NULL && t.slot != NULL;
     if (ok) {

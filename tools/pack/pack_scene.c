@@ -190,6 +190,16 @@ static int rebase(uint32_t *word, const lmb_pack *from, int kind)
     return 1;
 }
 
+/* Does it still open once its parts lie elsewhere? A stream may have gone on in another part. */
+static int is_whole(const pack *p, report *r)
+{
+    file_bytes file = {NULL, 0};
+    lmb_pack opened;
+    const int ok = pack_file(&file, p, r) && lmb_pack_open(&opened, file.data, file.size) == LMB_OK;
+    file_free(&file);
+    return ok;
+}
+
 int pack_take(pack *out, const lmb_pack *from, const char *path, report *r)
 {
     /* Kind of the records, the word with an offset, how many follow it, what it leads to. */
@@ -211,5 +221,6 @@ int pack_take(pack *out, const lmb_pack *from, const char *path, report *r)
             }
         }
     }
-    return ok || report_fail(r, "%s: a packed scene whose parts lie in one another; pack its source anew", path);
+    return (ok && is_whole(out, r)) ||
+           report_fail(r, "%s: a packed scene whose parts lie in one another; pack its source anew", path);
 }

@@ -153,7 +153,7 @@ static const int32_t show_values[] = {LMB_SHOW_FULL, LMB_SHOW_DIRECT,     LMB_SH
 
 const option_row render_scene_rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .file = OPTION_READS,
-     .help = ".gltf, .glb, .obj, .ply, or `demo`, a built-in room"},
+     .help = ".gltf, .glb, .obj, .ply, .lmp, or `demo`, a built-in room"},
     {.kind = OPTION_END},
 };
 
