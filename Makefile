@@ -75,7 +75,7 @@ measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page.c) \
-              $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ)) $(LIB)
+              $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ))
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -124,7 +124,7 @@ $(B)/golden: $(GOLDEN_OBJ)
 $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
-$(B)/page-hash: $(PAGE_OBJ)
+$(B)/page-hash: $(PAGE_OBJ) $(LIB)
 $(foreach f,$(LIVE),$(eval $(B)/$(f): $(call live_of,$(f))))
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)

@@ -8,18 +8,19 @@ PAGE      := $(B)/page
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
-PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c %/gen_demo.c %/gen_srgb.c, \
+PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c %/gen_demo.c %/gen_srgb.c %/demo_scene.c, \
              $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief,tools/$(d)/*.c) \
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
               -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL \
-              -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAIN_LANES=4 -MMD -MP
-# Below the module's data and its 1 MiB of stack: 256 KiB for the kernels' data and a stack that nobody uses.
+              -DLMB_MIXED=0 -DLMB_VOXELS=0 -MMD -MP
+# Below the module's data and its 1 MiB of stack: 128 KiB each for the data of the kernels and
+# of the demo, and stacks that nobody uses.
 PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features --max-memory=2147483648 \
              --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
 PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
-PAGE_SIDE := --global-base=1024 -z stack-size=16
+PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed, the rest for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
 page_opt   = $(if $(filter $(PAGE_FAST),$(1)),-O2,-Oz)
@@ -32,7 +33,8 @@ $(PAGE)/$(1)/%.o: %.c $(PAGE)/flags
 endef
 $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,-Oz))
-$(eval $(call page_objects,simd,-msimd128,-O2))
+# Plain C's lanes set the layout of what modules hand each other: one, as without simd128.
+$(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,-O2))
 -include $(patsubst %.c,$(PAGE)/main/%.d,$(PAGE_SRC)) $(wildcard $(PAGE)/scalar/*/*/*.d $(PAGE)/simd/*/*/*.d)
 
 export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST)
@@ -44,18 +46,22 @@ $(PAGE)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE)/main/%.o)
 	@echo "LD $@"
 	@$(PAGE_LINK) $(PAGE_MAIN) -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a $(PAGE_RT)
 $(PAGE)/kernels_scalar.wasm: $(patsubst %.c,$(PAGE)/scalar/%.o,src/isa/isa_scalar.c $(PAGE_KERNELS))
-	@$(PAGE_LINK) $(PAGE_SIDE) --export=lmb_kernels_scalar -o $@ $^ $(PAGE_LIBC)/libc.a
+	@$(PAGE_LINK) $(PAGE_SIDE)=1024 --export=lmb_kernels_scalar -o $@ $^ $(PAGE_LIBC)/libc.a
 $(PAGE)/kernels_simd.wasm: $(patsubst %.c,$(PAGE)/simd/%.o,src/isa/isa_simd128.c $(PAGE_KERNELS))
-	@$(PAGE_LINK) $(PAGE_SIDE) --export=lmb_kernels_simd128 -o $@ $^ $(PAGE_LIBC)/libc.a
+	@$(PAGE_LINK) $(PAGE_SIDE)=1024 --export=lmb_kernels_simd128 -o $@ $^ $(PAGE_LIBC)/libc.a
 
-$(PAGE)/%.gz: $(PAGE)/%
-	@gzip -9nc $< > $@
+$(PAGE)/demo.wasm: $(patsubst %.c,$(PAGE)/scalar/%.o,tools/demo/demo_scene.c src/base/view.c)
+	@$(PAGE_LINK) $(PAGE_SIDE)=131072 --export=demo_scene --export=demo_view -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a
 
+$(PAGE)/%.wasm.lzma: $(PAGE)/%.wasm
+	@xz --format=lzma --lzma1=preset=9e,pb=0 -c $< > $@
+
+# Without comments and indentation.
 $(PAGE)/%: platform/web/page/%
-	@cp $< $@
+	@sed -e 's/^ *//' -e '/^\/\/ /d' -e '/^$$/d' $< > $@
 
 .PHONY: page
-page: $(patsubst %,$(PAGE)/%.wasm.gz,lambent kernels_scalar kernels_simd) $(PAGE)/index.html $(PAGE)/lambent.js
+page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js
 	+@$(MAKE) PORT=host BUILD=build CC=gcc all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
-	@ls -l $(PAGE)/*.gz $(PAGE)/index.html $(PAGE)/lambent.js | awk '{ n += $$5 } END { print n " bytes without scenes" }'
+	@ls -l $(PAGE)/[!d]*.lzma $(PAGE)/index.html $(PAGE)/lambent.js | awk '{ n += $$5 } END { print n " bytes without scenes" }'

@@ -9,8 +9,8 @@ const AT = { width: 0, height: 1, triangles: 2, lights: 3, baked: 4, threads: 5,
 const TO_SCREEN = 0, TO_LINEAR = 1, TO_BEST = 2;
 const FULL = 0, DIRECT = 1, INDIRECT = 2;
 const NODE = 10;
-const FILES = ['./', 'index.html', 'lambent.js', 'lambent.wasm.gz', 'kernels_scalar.wasm.gz', 'kernels_simd.wasm.gz',
-               'scenes.json'];
+const FILES = ['./', 'index.html', 'lambent.js', 'lambent.wasm.lzma', 'kernels_scalar.wasm.lzma', 'kernels_simd.wasm.lzma',
+               'demo.wasm.lzma', 'scenes.json'];
 
 // --- the modules, joined: in the worker that draws and in each helper ----------------------------------------------
 
@@ -21,7 +21,125 @@ const SIMD = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123
 async function compile(file) {
     const answer = await fetch(file);
     if (!answer.ok) throw new Error(`${file}: the server says ${answer.status}`);
-    return WebAssembly.compile(await new Response(answer.body.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+    return WebAssembly.compile(unlzma(new Uint8Array(await answer.arrayBuffer())));
+}
+
+// A file of `xz --format=lzma`: a range coder's bits, each by the probability that came of those before it.
+function unlzma(src) {
+    const lc = src[0] % 9, lp = (src[0] / 9 | 0) % 5, pb = src[0] / 45 | 0;
+    const MATCH = 0, REP = 192, REP0 = 204, REP1 = 216, REP2 = 228, REP0_LONG = 240, SLOT = 432, SPECIAL = 688,
+          ALIGN = 816, LENGTH = 832, REP_LENGTH = 1346, LITERAL = 1860;
+    const p = new Uint16Array(LITERAL + (0x300 << (lc + lp))).fill(1024);
+    let out = new Uint8Array(1 << 20), n = 0, at = 18, range = 0xffffffff;
+    let code = (src[14] << 24 | src[15] << 16 | src[16] << 8 | src[17]) >>> 0;
+    let state = 0, rep0 = 0, rep1 = 0, rep2 = 0, rep3 = 0;
+    const feed = () => {
+        if (range < 0x1000000) {
+            range = range * 256;
+            code = (code << 8 | src[at++]) >>> 0;
+        }
+    };
+    const bit = (i) => {
+        feed();
+        const bound = (range >>> 11) * p[i];
+        if (code < bound) {
+            range = bound;
+            p[i] += (2048 - p[i]) >> 5;
+            return 0;
+        }
+        range -= bound;
+        code -= bound;
+        p[i] -= p[i] >> 5;
+        return 1;
+    };
+    const tree = (from, bits) => {
+        let m = 1;
+        for (let i = 0; i < bits; ++i) m = m << 1 | bit(from + m);
+        return m - (1 << bits);
+    };
+    const reverse = (from, bits) => {
+        let m = 1, sum = 0;
+        for (let i = 0; i < bits; ++i) {
+            const b = bit(from + m);
+            m = m << 1 | b;
+            sum |= b << i;
+        }
+        return sum;
+    };
+    const length = (from, place) => !bit(from) ? tree(from + 2 + (place << 3), 3)
+        : !bit(from + 1) ? 8 + tree(from + 130 + (place << 3), 3) : 16 + tree(from + 258, 8);
+    for (;;) {
+        if (at > src.length + 8) throw new Error('a module ends too soon');
+        if (n + 300 > out.length) {
+            const wider = new Uint8Array(2 * out.length);
+            wider.set(out);
+            out = wider;
+        }
+        const place = n & (1 << pb) - 1;
+        if (!bit(MATCH + (state << 4) + place)) {
+            const from = LITERAL + 0x300 * (((n & (1 << lp) - 1) << lc) + ((n ? out[n - 1] : 0) >> 8 - lc));
+            let sign = 1;
+            if (state >= 7) {
+                let like = out[n - rep0 - 1];
+                for (let same = true; same && sign < 256; like <<= 1) {
+                    const b = bit(from + (1 + (like >> 7 & 1) << 8) + sign);
+                    same = b === (like >> 7 & 1);
+                    sign = sign << 1 | b;
+                }
+            }
+            while (sign < 256) sign = sign << 1 | bit(from + sign);
+            out[n++] = sign & 255;
+            state = state < 4 ? 0 : state < 10 ? state - 3 : state - 6;
+            continue;
+        }
+        let count;
+        if (bit(REP + state)) {
+            if (!bit(REP0 + state)) {
+                if (!bit(REP0_LONG + (state << 4) + place)) {
+                    state = state < 7 ? 9 : 11;
+                    out[n] = out[n - rep0 - 1];
+                    ++n;
+                    continue;
+                }
+            } else {
+                let to = rep1;
+                if (bit(REP1 + state)) {
+                    to = rep2;
+                    if (bit(REP2 + state)) {
+                        to = rep3;
+                        rep3 = rep2;
+                    }
+                    rep2 = rep1;
+                }
+                rep1 = rep0;
+                rep0 = to;
+            }
+            count = length(REP_LENGTH, place);
+            state = state < 7 ? 8 : 11;
+        } else {
+            rep3 = rep2;
+            rep2 = rep1;
+            rep1 = rep0;
+            count = length(LENGTH, place);
+            state = state < 7 ? 7 : 10;
+            const slot = tree(SLOT + (Math.min(count, 3) << 6), 6), bits = (slot >> 1) - 1;
+            rep0 = slot < 4 ? slot : (2 | slot & 1) << bits;
+            if (slot >= 4 && slot < 14) rep0 += reverse(SPECIAL + rep0 - slot, bits);
+            else if (slot >= 14) {
+                let direct = 0;
+                for (let i = 4; i < bits; ++i) {
+                    feed();
+                    range = range >>> 1;
+                    const b = code >= range ? 1 : 0;
+                    if (b) code -= range;
+                    direct = direct << 1 | b;
+                }
+                rep0 = rep0 + (direct << 4) + reverse(ALIGN, 4) | 0;
+                if (rep0 === -1) return out.subarray(0, n);
+            }
+        }
+        for (count += 2; count > 0; --count, ++n) out[n] = out[n - rep0 - 1];
+    }
 }
 
 // The kernels' functions go behind the other module's in its table, at the same numbers in every thread.
@@ -106,14 +224,21 @@ function engine() {
         const isThreaded = self.crossOriginIsolated && o.threads > 1;
         const kernels = o.kernels || (WebAssembly.validate(SIMD) ? 'simd' : 'scalar');
         const modules = {};
-        [modules.main, modules.kernels] =
-            await Promise.all([compile('lambent.wasm.gz'), compile(`kernels_${kernels}.wasm.gz`)]);
+        let demo;
+        [modules.main, modules.kernels, demo] = await Promise.all(
+            ['lambent', `kernels_${kernels}`, 'demo'].map((name) => compile(`${name}.wasm.lzma`)));
         memory = new WebAssembly.Memory({ initial: 512, maximum: 32768, shared: true });
         const all = await join(modules, memory, (line) => said.push(line));
         main = all.main;
         main.__wasm_call_ctors();
         all.kernels.__stack_pointer.value = main.page_take(KERNELS_STACK) + KERNELS_STACK & -16;
         main.page_use_kernels((all.kernels.lmb_kernels_scalar || all.kernels.lmb_kernels_simd128).value, all.first);
+        const room = (await WebAssembly.instantiate(demo, { env: { memory } })).exports;
+        room.__stack_pointer.value = main.page_take(KERNELS_STACK) + KERNELS_STACK & -16;
+        const at = main.__indirect_function_table.grow(2);
+        main.__indirect_function_table.set(at, room.demo_scene);
+        main.__indirect_function_table.set(at + 1, room.demo_view);
+        main.page_use_demo(at, at + 1);
         if (!main.page_ready()) throw new Error('this browser computes otherwise than IEEE binary32 asks for');
         for (let i = 1; isThreaded && i < o.threads; ++i) {
             const stacks = [main.page_take(STACK) + STACK & -16, main.page_take(KERNELS_STACK) + KERNELS_STACK & -16];

@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <lambent/lambent.h>
+
 #ifdef __wasm__
 #define PAGE_CALL(name) __attribute__((export_name(#name)))
 #else
@@ -20,6 +22,10 @@ PAGE_CALL(page_ready) int page_ready(void);
 /* page_use_kernels: those whose struct another module has at `words`, and whose functions are in this one's table from
  * `first_function` on. Before anything is drawn. */
 PAGE_CALL(page_use_kernels) void page_use_kernels(const uint32_t *words, uint32_t first_function);
+
+/* page_use_demo: the built-in scene's two functions, in this module's table. */
+PAGE_CALL(page_use_demo)
+void page_use_demo(const lmb_scene *(*its_scene)(void), lmb_view (*its_view)(int32_t width, int32_t height));
 
 /* page_file_put: a file by its name, in place of one that had it; `data` is from page_take and belongs to the files from
  * now on. 1, or 0: too many, or too long a name. */
