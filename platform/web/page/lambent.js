@@ -217,7 +217,7 @@ function engine() {
     }
     function send(kind, more) {
         const p = picture();
-        postMessage({ kind, ...p, ...more }, [p.pixels]);
+        postMessage({ kind, serial: scene && scene.serial, ...p, ...more }, [p.pixels]);
     }
 
     async function start(o) {
@@ -263,7 +263,7 @@ function engine() {
         if (o.look) main.page_look(...o.look);
         for (const l of o.lights || []) main.page_put_light(...l);
         if (o.exposure !== undefined) main.page_set_exposure(o.exposure);
-        scene = { show: o.show, slow: !!o.slow, exposed: o.exposure !== undefined, still: !!o.still, last: Infinity };
+        scene = { show: o.show, serial: o.serial, exposed: o.exposure !== undefined, still: !!o.still, last: Infinity };
         const lights = [];
         const n = numbers();
         for (let i = 0; i < n[AT.lights]; ++i) lights.push(numbers(i).slice(AT.light, AT.light + 7));
@@ -508,7 +508,8 @@ function page() {
             if (m.why !== undefined) w.failed(new Error(m.why));
             else w.done(m.value);
         } else if (m.kind === 'frame' || m.kind === 'part') {
-            if (tab !== 'bounce' || showsWhole()) return;
+            if (tab !== 'bounce' || showsWhole() || m.serial !== opening) return;
+            if (m.kind === 'frame' && show() === 'full' && !quick) now.exposure = m.exposure;
             put(m);
             $('bar').style.width = m.kind === 'frame' ? 0 : `${100 * m.progress}%`;
             if (m.kind === 'frame') tellFrame(m);
@@ -723,9 +724,23 @@ function page() {
     const allLights = () => lights.map((l, i) => [i, ...l.position, ...l.direction]);
 
     // The scene anew, by what the controls say; camera, lights and exposure stay.
-    let opening = 0;
+    let opening = 0, quick = false;
+    async function openOnce(more) {
+        const turnOf = opening;
+        const answer = await call('open', {
+            serial: turnOf, still: showsWhole() || asked.has('still'), look: camera ? [...camera.eye, ...camera.target] : undefined,
+            lights: camera ? allLights() : undefined, exposure: now.exposure, ...more });
+        if (turnOf !== opening) return null;
+        const n = answer.numbers;
+        if (!camera) takeLights(n, answer.lights);
+        camera.halfWidth = n[AT.halfWidth];
+        camera.halfHeight = n[AT.halfHeight];
+        $('triangles').textContent = n[AT.triangles].toLocaleString('en');
+        return answer;
+    }
     async function open(isNew) {
-        const turnOf = ++opening;
+        let turnOf = ++opening;
+        quick = false;
         try {
             if (isNew) {
                 camera = null;
@@ -733,21 +748,22 @@ function page() {
                 cut = null;
             }
             const level = LEVELS[$('quality').value];
-            await have([...(now.files || []), level === 'baked' && now.transfer]);
-            if (turnOf !== opening) return;
-            frames = [];
             $('level').textContent = level;
             $('error').textContent = '';
-            const answer = await call('open', {
-                words: words(), show: showNumber(), still: showsWhole() || asked.has('still'),
-                look: camera ? [...camera.eye, ...camera.target] : undefined,
-                lights: camera ? allLights() : undefined, exposure: now.exposure });
+            await have(now.files || []);
             if (turnOf !== opening) return;
-            const n = answer.numbers;
-            if (!camera) takeLights(n, answer.lights);
-            camera.halfWidth = n[AT.halfWidth];
-            camera.halfHeight = n[AT.halfHeight];
-            $('triangles').textContent = n[AT.triangles].toLocaleString('en');
+            if (level === 'baked' && now.transfer && !now.have.has(now.transfer)) { // direct light while that is under way
+                quick = true;
+                await openOnce({ words: ['render', now.file, '-o', 'page.ppm', '--size', $('size').value, '--samples', '1',
+                                         '--show', 'direct'], show: DIRECT });
+                await have([now.transfer]);
+                if (turnOf !== opening) return;
+                quick = false;
+                turnOf = ++opening;
+            }
+            frames = [];
+            const answer = await openOnce({ words: words(), show: showNumber() });
+            if (!answer) return;
             const notes = answer.said.filter((s) => s.includes('note:') || s.includes('no light'));
             say(notes.length > 0 ? notes[0].replace(/^lambent: (note: )?/, '')
                                  : level === 'baked' && now.transfer && show() === 'cut' ? 'cuts light what is not baked: shown by draft'
