@@ -5,6 +5,7 @@
 # that draws ever calls the C library.
 
 PAGE      := $(B)/page
+PAGE_WORK := $(B)/page-work
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
@@ -27,7 +28,7 @@ page_opt   = $(if $(filter $(PAGE_FAST),$(1)),-O2,-Oz)
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.
 define page_objects
-$(PAGE)/$(1)/%.o: %.c $(PAGE)/flags
+$(PAGE_WORK)/$(1)/%.o: %.c $(PAGE_WORK)/flags
 	@mkdir -p $$(@D)
 	@clang $(PAGE_FLAGS) $(2) $(3) $$(if $$(findstring page_pool,$$<),-matomics -mbulk-memory) -c $$< -o $$@
 endef
@@ -35,33 +36,36 @@ $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,-Oz))
 # Plain C's lanes set the layout of what modules hand each other: one, as without simd128.
 $(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,-O2))
--include $(patsubst %.c,$(PAGE)/main/%.d,$(PAGE_SRC)) $(wildcard $(PAGE)/scalar/*/*/*.d $(PAGE)/simd/*/*/*.d)
+-include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
 
 export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST)
-$(PAGE)/flags: FORCE
+$(PAGE_WORK)/flags: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
 
-$(PAGE)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE)/main/%.o)
+$(PAGE_WORK)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE_WORK)/main/%.o)
 	@echo "LD $@"
 	@$(PAGE_LINK) $(PAGE_MAIN) -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a $(PAGE_RT)
-$(PAGE)/kernels_scalar.wasm: $(patsubst %.c,$(PAGE)/scalar/%.o,src/isa/isa_scalar.c $(PAGE_KERNELS))
+$(PAGE_WORK)/kernels_scalar.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,src/isa/isa_scalar.c $(PAGE_KERNELS))
 	@$(PAGE_LINK) $(PAGE_SIDE)=1024 --export=lmb_kernels_scalar -o $@ $^ $(PAGE_LIBC)/libc.a
-$(PAGE)/kernels_simd.wasm: $(patsubst %.c,$(PAGE)/simd/%.o,src/isa/isa_simd128.c $(PAGE_KERNELS))
+$(PAGE_WORK)/kernels_simd.wasm: $(patsubst %.c,$(PAGE_WORK)/simd/%.o,src/isa/isa_simd128.c $(PAGE_KERNELS))
 	@$(PAGE_LINK) $(PAGE_SIDE)=1024 --export=lmb_kernels_simd128 -o $@ $^ $(PAGE_LIBC)/libc.a
 
-$(PAGE)/demo.wasm: $(patsubst %.c,$(PAGE)/scalar/%.o,tools/demo/demo_scene.c src/base/view.c)
+$(PAGE_WORK)/demo.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,tools/demo/demo_scene.c src/base/view.c src/base/poly.c)
 	@$(PAGE_LINK) $(PAGE_SIDE)=131072 --export=demo_scene --export=demo_view -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a
 
-$(PAGE)/%.wasm.lzma: $(PAGE)/%.wasm
+$(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
+	@mkdir -p $(@D)
 	@xz --format=lzma --lzma1=preset=9e,pb=0 -c $< > $@
 
 # Without comments and indentation.
 $(PAGE)/%: platform/web/page/%
+	@mkdir -p $(@D)
 	@sed -e 's/^ *//' -e '/^\/\/ /d' -e '/^$$/d' $< > $@
 
 .PHONY: page
 page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js
-	+@$(MAKE) PORT=host BUILD=build CC=gcc all build/default/scenes
+	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
-	@ls -l $(PAGE)/[!d]*.lzma $(PAGE)/index.html $(PAGE)/lambent.js | awk '{ n += $$5 } END { print n " bytes without scenes" }'
+	@cd $(PAGE) && cat index.html lambent.js lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \
+	    | sed 's/$$/ bytes that a browser loads, without scenes/'
