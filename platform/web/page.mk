@@ -9,7 +9,8 @@ PAGE_WORK := $(B)/page-work
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
-PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c %/gen_demo.c %/gen_srgb.c %/demo_scene.c, \
+PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c \
+             %/gen_demo.c %/gen_srgb.c %/demo_scene.c, \
              $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief,tools/$(d)/*.c) \
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
@@ -18,8 +19,8 @@ PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99
               -DLMB_MIXED=0 -DLMB_VOXELS=0 -MMD -MP
 # Below the module's data and its 1 MiB of stack: 128 KiB each for the data of the kernels and
 # of the demo, and stacks that nobody uses.
-PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features --max-memory=2147483648 \
-             --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
+PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features \
+             --max-memory=2147483648 --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
 PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
 PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed, the rest for size.
@@ -36,7 +37,8 @@ $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,-Oz))
 # Plain C's lanes set the layout of what modules hand each other: one, as without simd128.
 $(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,-O2))
--include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
+-include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) \
+         $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
 
 export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST)
 $(PAGE_WORK)/flags: FORCE
@@ -52,7 +54,8 @@ $(PAGE_WORK)/kernels_simd.wasm: $(patsubst %.c,$(PAGE_WORK)/simd/%.o,src/isa/isa
 	@$(PAGE_LINK) $(PAGE_SIDE)=1024 --export=lmb_kernels_simd128 -o $@ $^ $(PAGE_LIBC)/libc.a
 
 $(PAGE_WORK)/demo.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,tools/demo/demo_scene.c src/base/view.c src/base/poly.c)
-	@$(PAGE_LINK) $(PAGE_SIDE)=131072 --export=demo_scene --export=demo_view -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a
+	@$(PAGE_LINK) $(PAGE_SIDE)=131072 --export=demo_scene --export=demo_view -o $@ $^ $(PAGE_LIBC)/libm.a \
+	    $(PAGE_LIBC)/libc.a
 
 $(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
 	@mkdir -p $(@D)

@@ -1,4 +1,4 @@
-# page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: what the page offers beside itself: scenes with their baked light, a
+# page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: what the page offers beside itself: scenes with baked light, a
 # relief, a picture by `lambent mix`, and scenes.json, which names the scenes. What is there already stays.
 set -e
 tool=$1 scenes=$2 to=$3

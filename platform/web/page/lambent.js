@@ -1,5 +1,5 @@
-// lambent.js: the page's one script, in four roles: the page itself, the worker that draws, its helpers, and the service
-// worker that keeps the page for when there is no network.
+// lambent.js: the page's one script, in four roles: the page itself, the worker that draws, its helpers, and the
+// service worker that keeps the page for when there is no network.
 'use strict';
 
 // What page.h has: PAGE_WIDTH and on, and PAGE_TO_.
