@@ -74,7 +74,7 @@ measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$
     $(filter-out %/lambent.o,$(TOOL_OBJ))
 DEMO_OBJ   := $(call object,platform/cortex-m/main_tiny.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 live_of     = $(call object,platform/cortex-m/main_$(1).c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
-PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page.c) \
+PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page_scene.c) \
               $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ))
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 

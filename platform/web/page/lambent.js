@@ -2,7 +2,7 @@
 // service worker that keeps the page for when there is no network.
 'use strict';
 
-// What page.h has: PAGE_WIDTH and on, and PAGE_TO_.
+// What page_calls.h has: PAGE_WIDTH and on, and PAGE_TO_.
 const AT = { width: 0, height: 1, triangles: 2, lights: 3, baked: 4, threads: 5, eye: 6, right: 9, up: 12, back: 15,
              halfWidth: 18, halfHeight: 19, low: 20, high: 23, light: 26, progress: 33, trim: 34, rmse: 35, dropped: 36,
              memory: 37, count: 38 };

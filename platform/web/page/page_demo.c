@@ -1,5 +1,5 @@
 /* page_demo.c: in place of demo_scene.c: the built-in scene of another module, which is a scene beside the page. */
-#include "page.h"
+#include "page_calls.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* page_pool.c: pool.h by the page's workers, which wait in page_help: each is an instance on the same memory. */
-#include "page.h"
+#include "page_calls.h"
 
 #include "../../host/pool.h"
 

@@ -1,6 +1,6 @@
-/* page.h: what the page calls of its WebAssembly module: one scene at hand, drawn in steps; files; the tool's verbs. */
-#ifndef PAGE_H
-#define PAGE_H
+/* page_calls.h: what the page calls of its WebAssembly module: one scene at hand, drawn in steps; files; the tool's verbs. */
+#ifndef PAGE_CALLS_H
+#define PAGE_CALLS_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
-/* page.c: the scene at hand of a page: opened by the tool's own options, drawn by steps, measured, shown from inside. */
-#include "page.h"
+/* page_scene.c: the scene at hand of a page: opened by the tool's own options, drawn by steps, measured, shown from inside. */
+#include "page_calls.h"
 
 #include <math.h>
 #include <stdio.h>
