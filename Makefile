@@ -95,8 +95,8 @@ ROOM_OBJ   := $(call object,$(ROOM_DEMO) $(or $(ROOM_SRC),$(PORT_SRC)) $(ROOM_LI
 ifdef COUNTED
 include platform/counted/counted.mk
 endif
-PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page.c) \
-              $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ)) $(LIB)
+PAGE_OBJ   := $(call object,tests/web/main_page.c platform/web/page/page_scene.c) \
+              $(filter-out %/lambent.o %/verb_relief_bake.o,$(TOOL_OBJ))
 STATUE_OBJ := $(call object,platform/cortex-m/main_statue.c $(PORT_SRC)) $(LIB_OBJ)
 
 PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golden audit-replay
@@ -146,7 +146,7 @@ $(B)/golden-orders: $(ORDERS_OBJ)
 $(B)/demo: $(DEMO_OBJ)
 $(B)/statue: $(STATUE_OBJ)
 $(B)/room: $(ROOM_OBJ)
-$(B)/page-hash: $(PAGE_OBJ)
+$(B)/page-hash: $(PAGE_OBJ) $(LIB)
 $(foreach f,$(LIVE),$(eval $(B)/$(f): $(call live_of,$(f))))
 $(B)/replay: $(REPLAY_OBJ) $(LIB)
 $(B)/hostile: $(HOSTILE_OBJ) $(LIB)

@@ -5,57 +5,70 @@
 # that draws ever calls the C library.
 
 PAGE      := $(B)/page
+PAGE_WORK := $(B)/page-work
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
-PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c %/gen_demo.c %/gen_srgb.c, \
+PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c \
+             %/gen_demo.c %/gen_srgb.c %/demo_scene.c, \
              $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief,tools/$(d)/*.c) \
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
               -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL \
-              -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAIN_LANES=4 -MMD -MP
-# Below the module's data and its 1 MiB of stack: 256 KiB for the kernels' data and a stack that nobody uses.
-PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features --max-memory=2147483648 \
-             --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
+              -DLMB_MIXED=0 -DLMB_VOXELS=0 -MMD -MP
+# Below the module's data and its 1 MiB of stack: 128 KiB each for the data of the kernels and
+# of the demo, and stacks that nobody uses.
+PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features \
+             --max-memory=2147483648 --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
 PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
-PAGE_SIDE := --global-base=1024 -z stack-size=16
+PAGE_SIDE := -z stack-size=16 --global-base
 # What frames of the page run most is for speed, the rest for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
 page_opt   = $(if $(filter $(PAGE_FAST),$(1)),-O2,-Oz)
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.
 define page_objects
-$(PAGE)/$(1)/%.o: %.c $(PAGE)/flags
+$(PAGE_WORK)/$(1)/%.o: %.c $(PAGE_WORK)/flags
 	@mkdir -p $$(@D)
 	@clang $(PAGE_FLAGS) $(2) $(3) $$(if $$(findstring page_pool,$$<),-matomics -mbulk-memory) -c $$< -o $$@
 endef
 $(eval $(call page_objects,main,,$$(call page_opt,$$<)))
 $(eval $(call page_objects,scalar,,-Oz))
-$(eval $(call page_objects,simd,-msimd128,-O2))
--include $(patsubst %.c,$(PAGE)/main/%.d,$(PAGE_SRC)) $(wildcard $(PAGE)/scalar/*/*/*.d $(PAGE)/simd/*/*/*.d)
+# Plain C's lanes set the layout of what modules hand each other: one, as without simd128.
+$(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,-O2))
+-include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) \
+         $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
 
 export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST)
-$(PAGE)/flags: FORCE
+$(PAGE_WORK)/flags: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
 
-$(PAGE)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE)/main/%.o)
+$(PAGE_WORK)/lambent.wasm: $(PAGE_SRC:%.c=$(PAGE_WORK)/main/%.o)
 	@echo "LD $@"
 	@$(PAGE_LINK) $(PAGE_MAIN) -o $@ $^ $(PAGE_LIBC)/libm.a $(PAGE_LIBC)/libc.a $(PAGE_RT)
-$(PAGE)/kernels_scalar.wasm: $(patsubst %.c,$(PAGE)/scalar/%.o,src/isa/isa_scalar.c $(PAGE_KERNELS))
-	@$(PAGE_LINK) $(PAGE_SIDE) --export=lmb_kernels_scalar -o $@ $^ $(PAGE_LIBC)/libc.a
-$(PAGE)/kernels_simd.wasm: $(patsubst %.c,$(PAGE)/simd/%.o,src/isa/isa_simd128.c $(PAGE_KERNELS))
-	@$(PAGE_LINK) $(PAGE_SIDE) --export=lmb_kernels_simd128 -o $@ $^ $(PAGE_LIBC)/libc.a
+$(PAGE_WORK)/kernels_scalar.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,src/isa/isa_scalar.c $(PAGE_KERNELS))
+	@$(PAGE_LINK) $(PAGE_SIDE)=1024 --export=lmb_kernels_scalar -o $@ $^ $(PAGE_LIBC)/libc.a
+$(PAGE_WORK)/kernels_simd.wasm: $(patsubst %.c,$(PAGE_WORK)/simd/%.o,src/isa/isa_simd128.c $(PAGE_KERNELS))
+	@$(PAGE_LINK) $(PAGE_SIDE)=1024 --export=lmb_kernels_simd128 -o $@ $^ $(PAGE_LIBC)/libc.a
 
-$(PAGE)/%.gz: $(PAGE)/%
-	@gzip -9nc $< > $@
+$(PAGE_WORK)/demo.wasm: $(patsubst %.c,$(PAGE_WORK)/scalar/%.o,tools/demo/demo_scene.c src/base/view.c src/base/poly.c)
+	@$(PAGE_LINK) $(PAGE_SIDE)=131072 --export=demo_scene --export=demo_view -o $@ $^ $(PAGE_LIBC)/libm.a \
+	    $(PAGE_LIBC)/libc.a
 
+$(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
+	@mkdir -p $(@D)
+	@xz --format=lzma --lzma1=preset=9e,pb=0 -c $< > $@
+
+# Without comments and indentation.
 $(PAGE)/%: platform/web/page/%
-	@cp $< $@
+	@mkdir -p $(@D)
+	@sed -e 's/^ *//' -e '/^\/\/ /d' -e '/^$$/d' $< > $@
 
 .PHONY: page
-page: $(patsubst %,$(PAGE)/%.wasm.gz,lambent kernels_scalar kernels_simd) $(PAGE)/index.html $(PAGE)/lambent.js
-	+@$(MAKE) PORT=host BUILD=build CC=gcc all build/default/scenes
+page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js
+	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
-	@ls -l $(PAGE)/*.gz $(PAGE)/index.html $(PAGE)/lambent.js | awk '{ n += $$5 } END { print n " bytes without scenes" }'
+	@cd $(PAGE) && cat index.html lambent.js lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \
+	    | sed 's/$$/ bytes that a browser loads, without scenes/'

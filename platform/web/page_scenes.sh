@@ -1,4 +1,4 @@
-# page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: what the page offers beside itself: scenes with their baked light, a
+# page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: what the page offers beside itself: scenes with baked light, a
 # relief, a picture by `lambent mix`, and scenes.json, which names the scenes. What is there already stays.
 set -e
 tool=$1 scenes=$2 to=$3
@@ -9,10 +9,10 @@ bake() { # SCENE NAME
     fi
 }
 
-# A fluted vase, turned about its axis: N corners a ring, of which every twelfth part is a flute.
+# A fluted vase, turned about its axis: twelve flutes.
 vase() {
     awk 'BEGIN {
-        pi = 3.14159265358979; rings = 80; n = 192
+        pi = 3.14159265358979; rings = 48; n = 144
         for (i = 0; i <= rings; ++i) {
             h = i / rings
             r = 0.16 + 0.2 * sin(pi * h ^ 0.7) ^ 2 + 0.07 * h ^ 6
@@ -35,7 +35,7 @@ vase() {
 
 bake demo demo
 list='{"name": "demo", "file": "demo", "transfer": "demo.lmt"}'
-for name in small_room gallery furnished; do
+for name in small_room gallery; do
     if [ ! -s "$to/$name/scene.gltf" ]; then
         mkdir -p "$to/$name"
         "$scenes" $name -o "$to/$name"
@@ -49,7 +49,7 @@ done
 printf '[%s]\n' "$list" > "$to/scenes.json"
 if [ ! -s "$to/relief.lmr" ]; then
     vase > "$to/vase.obj"
-    "$tool" relief bake "$to/vase.obj" --size 128 --triangles 600 -q -o "$to/relief.lmr"
+    "$tool" relief bake "$to/vase.obj" --views 18 --size 128 --triangles 600 -q -o "$to/relief.lmr"
     rm -f "$to/vase.obj"
 fi
 cp tests/results/mixed.png "$to/mixed.png"

@@ -16,5 +16,5 @@ if [ ! -d $modules/node_modules/playwright-core ]; then
     mkdir -p $modules
     npm install --no-audit --no-fund --prefix $modules playwright-core >/dev/null 2>&1 || skip "npm gets no playwright-core"
 fi
-${MAKE:-make} PORT=web CC=clang CFLAGS=-O2 page >/dev/null || exit 1
+${MAKE:-make} PORT=web page >/dev/null || exit 1
 node tests/web/page_test.mjs build/web/default/page $modules "$B/page-hash" build/web/shots

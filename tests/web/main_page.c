@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../../platform/web/page/page.h"
+#include "../../platform/web/page/page_calls.h"
 
 enum { LINE = 4096 };
 

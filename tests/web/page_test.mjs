@@ -166,7 +166,7 @@ const drop = (files) => page.evaluate((files) => {
 }, files);
 await nextFrame(page, () => drop([['steps.obj', 'v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv -1 1 -1\nv 1 1 -1\n' +
                                    'f 1 3 2\nf 1 4 3\nf 1 2 6\nf 1 6 5\n']]));
-check('a dropped scene opens', await page.textContent('#triangles') !== '' && await page.inputValue('#scene') === '4');
+check('a dropped scene opens', await page.textContent('#triangles') !== '' && await page.inputValue('#scene') === '3');
 await shot(page, 'dropped');
 await drop([['broken.glb', 'glTF and nothing more']]);
 await page.waitForFunction(() => document.getElementById('say').className === 'bad');

@@ -1,4 +1,4 @@
-// page_times.mjs: frames a second of the page in Chromium: page_times.mjs PAGE MODULES SCENE=FOLDER[:LMT]... ; demo=PAGE.
+// page_times.mjs: frames a second of the page in Chromium: page_times.mjs PAGE MODULES SCENE=FOLDER[:LMT] ...
 //
 // 640x480 baked, and 320x240 adaptive, by two threads: the least and the median of 30 frames whose light circles.
 import fs from 'fs';

@@ -1,16 +1,16 @@
-// lambent.js: the page's one script, in four roles: the page itself, the worker that draws, its helpers, and the service
-// worker that keeps the page for when there is no network.
+// lambent.js: the page's one script, in four roles: the page itself, the worker that draws, its helpers, and the
+// service worker that keeps the page for when there is no network.
 'use strict';
 
-// What page.h has: PAGE_WIDTH and on, and PAGE_TO_.
+// What page_calls.h has: PAGE_WIDTH and on, and PAGE_TO_.
 const AT = { width: 0, height: 1, triangles: 2, lights: 3, baked: 4, threads: 5, eye: 6, right: 9, up: 12, back: 15,
              halfWidth: 18, halfHeight: 19, low: 20, high: 23, light: 26, progress: 33, trim: 34, rmse: 35, dropped: 36,
              memory: 37, count: 38 };
 const TO_SCREEN = 0, TO_LINEAR = 1, TO_BEST = 2;
 const FULL = 0, DIRECT = 1, INDIRECT = 2;
 const NODE = 10;
-const FILES = ['./', 'index.html', 'lambent.js', 'lambent.wasm.gz', 'kernels_scalar.wasm.gz', 'kernels_simd.wasm.gz',
-               'scenes.json'];
+const FILES = ['./', 'index.html', 'lambent.js', 'lambent.wasm.lzma', 'kernels_scalar.wasm.lzma', 'kernels_simd.wasm.lzma',
+               'demo.wasm.lzma', 'scenes.json'];
 
 // --- the modules, joined: in the worker that draws and in each helper ----------------------------------------------
 
@@ -21,7 +21,125 @@ const SIMD = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123
 async function compile(file) {
     const answer = await fetch(file);
     if (!answer.ok) throw new Error(`${file}: the server says ${answer.status}`);
-    return WebAssembly.compile(await new Response(answer.body.pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
+    return WebAssembly.compile(unlzma(new Uint8Array(await answer.arrayBuffer())));
+}
+
+// A file of `xz --format=lzma`: a range coder's bits, each by the probability that came of those before it.
+function unlzma(src) {
+    const lc = src[0] % 9, lp = (src[0] / 9 | 0) % 5, pb = src[0] / 45 | 0;
+    const MATCH = 0, REP = 192, REP0 = 204, REP1 = 216, REP2 = 228, REP0_LONG = 240, SLOT = 432, SPECIAL = 688,
+          ALIGN = 816, LENGTH = 832, REP_LENGTH = 1346, LITERAL = 1860;
+    const p = new Uint16Array(LITERAL + (0x300 << (lc + lp))).fill(1024);
+    let out = new Uint8Array(1 << 20), n = 0, at = 18, range = 0xffffffff;
+    let code = (src[14] << 24 | src[15] << 16 | src[16] << 8 | src[17]) >>> 0;
+    let state = 0, rep0 = 0, rep1 = 0, rep2 = 0, rep3 = 0;
+    const feed = () => {
+        if (range < 0x1000000) {
+            range = range * 256;
+            code = (code << 8 | src[at++]) >>> 0;
+        }
+    };
+    const bit = (i) => {
+        feed();
+        const bound = (range >>> 11) * p[i];
+        if (code < bound) {
+            range = bound;
+            p[i] += (2048 - p[i]) >> 5;
+            return 0;
+        }
+        range -= bound;
+        code -= bound;
+        p[i] -= p[i] >> 5;
+        return 1;
+    };
+    const tree = (from, bits) => {
+        let m = 1;
+        for (let i = 0; i < bits; ++i) m = m << 1 | bit(from + m);
+        return m - (1 << bits);
+    };
+    const reverse = (from, bits) => {
+        let m = 1, sum = 0;
+        for (let i = 0; i < bits; ++i) {
+            const b = bit(from + m);
+            m = m << 1 | b;
+            sum |= b << i;
+        }
+        return sum;
+    };
+    const length = (from, place) => !bit(from) ? tree(from + 2 + (place << 3), 3)
+        : !bit(from + 1) ? 8 + tree(from + 130 + (place << 3), 3) : 16 + tree(from + 258, 8);
+    for (;;) {
+        if (at > src.length + 8) throw new Error('a module ends too soon');
+        if (n + 300 > out.length) {
+            const wider = new Uint8Array(2 * out.length);
+            wider.set(out);
+            out = wider;
+        }
+        const place = n & (1 << pb) - 1;
+        if (!bit(MATCH + (state << 4) + place)) {
+            const from = LITERAL + 0x300 * (((n & (1 << lp) - 1) << lc) + ((n ? out[n - 1] : 0) >> 8 - lc));
+            let sign = 1;
+            if (state >= 7) {
+                let like = out[n - rep0 - 1];
+                for (let same = true; same && sign < 256; like <<= 1) {
+                    const b = bit(from + (1 + (like >> 7 & 1) << 8) + sign);
+                    same = b === (like >> 7 & 1);
+                    sign = sign << 1 | b;
+                }
+            }
+            while (sign < 256) sign = sign << 1 | bit(from + sign);
+            out[n++] = sign & 255;
+            state = state < 4 ? 0 : state < 10 ? state - 3 : state - 6;
+            continue;
+        }
+        let count;
+        if (bit(REP + state)) {
+            if (!bit(REP0 + state)) {
+                if (!bit(REP0_LONG + (state << 4) + place)) {
+                    state = state < 7 ? 9 : 11;
+                    out[n] = out[n - rep0 - 1];
+                    ++n;
+                    continue;
+                }
+            } else {
+                let to = rep1;
+                if (bit(REP1 + state)) {
+                    to = rep2;
+                    if (bit(REP2 + state)) {
+                        to = rep3;
+                        rep3 = rep2;
+                    }
+                    rep2 = rep1;
+                }
+                rep1 = rep0;
+                rep0 = to;
+            }
+            count = length(REP_LENGTH, place);
+            state = state < 7 ? 8 : 11;
+        } else {
+            rep3 = rep2;
+            rep2 = rep1;
+            rep1 = rep0;
+            count = length(LENGTH, place);
+            state = state < 7 ? 7 : 10;
+            const slot = tree(SLOT + (Math.min(count, 3) << 6), 6), bits = (slot >> 1) - 1;
+            rep0 = slot < 4 ? slot : (2 | slot & 1) << bits;
+            if (slot >= 4 && slot < 14) rep0 += reverse(SPECIAL + rep0 - slot, bits);
+            else if (slot >= 14) {
+                let direct = 0;
+                for (let i = 4; i < bits; ++i) {
+                    feed();
+                    range = range >>> 1;
+                    const b = code >= range ? 1 : 0;
+                    if (b) code -= range;
+                    direct = direct << 1 | b;
+                }
+                rep0 = rep0 + (direct << 4) + reverse(ALIGN, 4) | 0;
+                if (rep0 === -1) return out.subarray(0, n);
+            }
+        }
+        for (count += 2; count > 0; --count, ++n) out[n] = out[n - rep0 - 1];
+    }
 }
 
 // The kernels' functions go behind the other module's in its table, at the same numbers in every thread.
@@ -99,21 +217,28 @@ function engine() {
     }
     function send(kind, more) {
         const p = picture();
-        postMessage({ kind, ...p, ...more }, [p.pixels]);
+        postMessage({ kind, serial: scene && scene.serial, ...p, ...more }, [p.pixels]);
     }
 
     async function start(o) {
         const isThreaded = self.crossOriginIsolated && o.threads > 1;
         const kernels = o.kernels || (WebAssembly.validate(SIMD) ? 'simd' : 'scalar');
         const modules = {};
-        [modules.main, modules.kernels] =
-            await Promise.all([compile('lambent.wasm.gz'), compile(`kernels_${kernels}.wasm.gz`)]);
+        let demo;
+        [modules.main, modules.kernels, demo] = await Promise.all(
+            ['lambent', `kernels_${kernels}`, 'demo'].map((name) => compile(`${name}.wasm.lzma`)));
         memory = new WebAssembly.Memory({ initial: 512, maximum: 32768, shared: true });
         const all = await join(modules, memory, (line) => said.push(line));
         main = all.main;
         main.__wasm_call_ctors();
         all.kernels.__stack_pointer.value = main.page_take(KERNELS_STACK) + KERNELS_STACK & -16;
         main.page_use_kernels((all.kernels.lmb_kernels_scalar || all.kernels.lmb_kernels_simd128).value, all.first);
+        const room = (await WebAssembly.instantiate(demo, { env: { memory } })).exports;
+        room.__stack_pointer.value = main.page_take(KERNELS_STACK) + KERNELS_STACK & -16;
+        const at = main.__indirect_function_table.grow(2);
+        main.__indirect_function_table.set(at, room.demo_scene);
+        main.__indirect_function_table.set(at + 1, room.demo_view);
+        main.page_use_demo(at, at + 1);
         if (!main.page_ready()) throw new Error('this browser computes otherwise than IEEE binary32 asks for');
         for (let i = 1; isThreaded && i < o.threads; ++i) {
             const stacks = [main.page_take(STACK) + STACK & -16, main.page_take(KERNELS_STACK) + KERNELS_STACK & -16];
@@ -138,7 +263,7 @@ function engine() {
         if (o.look) main.page_look(...o.look);
         for (const l of o.lights || []) main.page_put_light(...l);
         if (o.exposure !== undefined) main.page_set_exposure(o.exposure);
-        scene = { show: o.show, slow: !!o.slow, exposed: o.exposure !== undefined, still: !!o.still, last: Infinity };
+        scene = { show: o.show, serial: o.serial, exposed: o.exposure !== undefined, still: !!o.still, last: Infinity };
         const lights = [];
         const n = numbers();
         for (let i = 0; i < n[AT.lights]; ++i) lights.push(numbers(i).slice(AT.light, AT.light + 7));
@@ -383,7 +508,8 @@ function page() {
             if (m.why !== undefined) w.failed(new Error(m.why));
             else w.done(m.value);
         } else if (m.kind === 'frame' || m.kind === 'part') {
-            if (tab !== 'bounce' || showsWhole()) return;
+            if (tab !== 'bounce' || showsWhole() || m.serial !== opening) return;
+            if (m.kind === 'frame' && show() === 'full' && !quick) now.exposure = m.exposure;
             put(m);
             $('bar').style.width = m.kind === 'frame' ? 0 : `${100 * m.progress}%`;
             if (m.kind === 'frame') tellFrame(m);
@@ -598,9 +724,23 @@ function page() {
     const allLights = () => lights.map((l, i) => [i, ...l.position, ...l.direction]);
 
     // The scene anew, by what the controls say; camera, lights and exposure stay.
-    let opening = 0;
+    let opening = 0, quick = false;
+    async function openOnce(more) {
+        const turnOf = opening;
+        const answer = await call('open', {
+            serial: turnOf, still: showsWhole() || asked.has('still'), look: camera ? [...camera.eye, ...camera.target] : undefined,
+            lights: camera ? allLights() : undefined, exposure: now.exposure, ...more });
+        if (turnOf !== opening) return null;
+        const n = answer.numbers;
+        if (!camera) takeLights(n, answer.lights);
+        camera.halfWidth = n[AT.halfWidth];
+        camera.halfHeight = n[AT.halfHeight];
+        $('triangles').textContent = n[AT.triangles].toLocaleString('en');
+        return answer;
+    }
     async function open(isNew) {
-        const turnOf = ++opening;
+        let turnOf = ++opening;
+        quick = false;
         try {
             if (isNew) {
                 camera = null;
@@ -608,21 +748,22 @@ function page() {
                 cut = null;
             }
             const level = LEVELS[$('quality').value];
-            await have([...(now.files || []), level === 'baked' && now.transfer]);
-            if (turnOf !== opening) return;
-            frames = [];
             $('level').textContent = level;
             $('error').textContent = '';
-            const answer = await call('open', {
-                words: words(), show: showNumber(), still: showsWhole() || asked.has('still'),
-                look: camera ? [...camera.eye, ...camera.target] : undefined,
-                lights: camera ? allLights() : undefined, exposure: now.exposure });
+            await have(now.files || []);
             if (turnOf !== opening) return;
-            const n = answer.numbers;
-            if (!camera) takeLights(n, answer.lights);
-            camera.halfWidth = n[AT.halfWidth];
-            camera.halfHeight = n[AT.halfHeight];
-            $('triangles').textContent = n[AT.triangles].toLocaleString('en');
+            if (level === 'baked' && now.transfer && !now.have.has(now.transfer)) { // direct light while that is under way
+                quick = true;
+                await openOnce({ words: ['render', now.file, '-o', 'page.ppm', '--size', $('size').value, '--samples', '1',
+                                         '--show', 'direct'], show: DIRECT });
+                await have([now.transfer]);
+                if (turnOf !== opening) return;
+                quick = false;
+                turnOf = ++opening;
+            }
+            frames = [];
+            const answer = await openOnce({ words: words(), show: showNumber() });
+            if (!answer) return;
             const notes = answer.said.filter((s) => s.includes('note:') || s.includes('no light'));
             say(notes.length > 0 ? notes[0].replace(/^lambent: (note: )?/, '')
                                  : level === 'baked' && now.transfer && show() === 'cut' ? 'cuts light what is not baked: shown by draft'

@@ -1,5 +1,5 @@
 /* page_files.c: the tool's files (io_file.h) in memory: what the page hands in, and what a verb writes. */
-#include "page.h"
+#include "page_calls.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* page_host.c: host.h on a page: the browser's clock, and nothing to clean up. */
 #include "../../../platform/host/host.h"
 
-#include "page.h"
+#include "page_calls.h"
 
 __attribute__((import_module("env"), import_name("now"))) double page_now_ms(void);
 

@@ -1,6 +1,6 @@
 /* page_kernels.c: in place of isa_pick.c: the kernels of another module, in whose table of functions they have other
  * numbers. */
-#include "page.h"
+#include "page_calls.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* page_pool.c: pool.h by the page's workers, which wait in page_help: each is an instance on the same memory. */
-#include "page.h"
+#include "page_calls.h"
 
 #include "../../host/pool.h"
 
@@ -7,7 +7,7 @@
  * and reads what the next turn writes. */
 static struct shared {
     int32_t helpers;             /* that have come */
-    int32_t there, start;        /* with the caller, those that take part, 0: not yet known; the turn before their first */
+    int32_t there, start;        /* those that take part, the caller too, 0: not yet known; the turn before their first */
     int32_t turn, busy;
     int32_t threads, next, count; /* of the turn */
     pool_job job;

@@ -1,9 +1,11 @@
-/* page.h: what the page calls of its WebAssembly module: one scene at hand, drawn in steps; files; the tool's verbs. */
-#ifndef PAGE_H
-#define PAGE_H
+/* page_calls.h: what the page calls of its WebAssembly module: one scene at hand, drawn in steps; files; the tool's verbs. */
+#ifndef PAGE_CALLS_H
+#define PAGE_CALLS_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include <lambent/lambent.h>
 
 #ifdef __wasm__
 #define PAGE_CALL(name) __attribute__((export_name(#name)))
@@ -21,8 +23,12 @@ PAGE_CALL(page_ready) int page_ready(void);
  * `first_function` on. Before anything is drawn. */
 PAGE_CALL(page_use_kernels) void page_use_kernels(const uint32_t *words, uint32_t first_function);
 
-/* page_file_put: a file by its name, in place of one that had it; `data` is from page_take and belongs to the files from
- * now on. 1, or 0: too many, or too long a name. */
+/* page_use_demo: the built-in scene's two functions, in this module's table. */
+PAGE_CALL(page_use_demo)
+void page_use_demo(const lmb_scene *(*its_scene)(void), lmb_view (*its_view)(int32_t width, int32_t height));
+
+/* page_file_put: a file by its name, in place of one that had it; `data` is from page_take and belongs to the files
+ * from now on. 1, or 0: too many, or too long a name. */
 PAGE_CALL(page_file_put) int page_file_put(const char *name, uint8_t *data, size_t size);
 PAGE_CALL(page_file_data) const uint8_t *page_file_data(const char *name);
 PAGE_CALL(page_file_size) size_t page_file_size(const char *name);
@@ -50,13 +56,13 @@ enum {
 };
 PAGE_CALL(page_numbers) const double *page_numbers(uint32_t light);
 
-/* page_look: the camera, from one point to another. page_put_light: where a light is and shines to. 1, or 0: refused. */
+/* page_look: the camera, from one point to another. page_put_light: where a light is and shines to. 1; 0: refused. */
 PAGE_CALL(page_look) int page_look(float ex, float ey, float ez, float tx, float ty, float tz);
 PAGE_CALL(page_put_light) int page_put_light(uint32_t i, float x, float y, float z, float dx, float dy, float dz);
 
 /* A frame. page_begin: `target` is one of PAGE_TO_; `show` LMB_SHOW_*. page_step: some of it, at most `bands` bands: 1:
- * more is to be done, 0: done, -1: page_report says why not. PAGE_TO_SCREEN has the exposure that page_set_exposure gave;
- * page_exposure chooses one by the frame PAGE_TO_LINEAR, unless the options name one. page_to_pixels: that frame to the
+ * more is to be done, 0: done, -1: page_report says why not. PAGE_TO_SCREEN has the exposure that page_set_exposure
+ * gave; page_exposure chooses one by the frame PAGE_TO_LINEAR, unless the options name one. page_to_pixels: that frame to the
  * screen. page_pixels: RGBA. */
 enum { PAGE_TO_SCREEN, PAGE_TO_LINEAR, PAGE_TO_BEST };
 PAGE_CALL(page_begin) int page_begin(int target, int show);
@@ -71,8 +77,8 @@ PAGE_CALL(page_hash) const char *page_hash(void);
 /* page_measure: PAGE_TRIM and PAGE_RMSE of the linear frame against the best one. 1, or 0. */
 PAGE_CALL(page_measure) int page_measure(void);
 
-/* page_show: what the scene was opened to show where that is no light, whole, as RGBA of page_show_width pixels a row and
- * page_show_height rows; NULL where page_report says why not. */
+/* page_show: what the scene was opened to show where that is no light, whole, as RGBA of page_show_width pixels a row
+ * and page_show_height rows; NULL where page_report says why not. */
 PAGE_CALL(page_show) uint8_t *page_show(void);
 PAGE_CALL(page_show_width) int32_t page_show_width(void);
 PAGE_CALL(page_show_height) int32_t page_show_height(void);

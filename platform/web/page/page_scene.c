@@ -1,5 +1,5 @@
-/* page.c: the scene at hand of a page: opened by the tool's own options, drawn by steps, measured, and shown from inside. */
-#include "page.h"
+/* page_scene.c: the scene at hand of a page: opened by the tool's own options, drawn by steps, measured, shown from inside. */
+#include "page_calls.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -355,7 +355,8 @@ static void draw_band(void *user, int part, int worker)
 {
     const work *w = user;
     const lmb_frame *f = &w->job->render->frame;
-    keep(worker, lmb_render_band(w->job->render, &w->job->workers.scratches[worker], &f->eye, &f->out, w->first + part));
+    lmb_band_scratch *scratch = &w->job->workers.scratches[worker];
+    keep(worker, lmb_render_band(w->job->render, scratch, &f->eye, &f->out, w->first + part));
 }
 
 static lmb_status share(work *w, int parts, pool_job job)
