@@ -148,6 +148,7 @@ static int add_part(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, uint32_
     p->area = triangle_area(corner);
     p->open = 1.0f;
     p->element = element;
+    p->number = b->part_count;
     p->side = side;
     return 1;
 }
@@ -163,9 +164,9 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     memset(e, 0, sizeof *e);
     memcpy(e->corner, corner, sizeof e->corner);
     put_round(e->corner, normal);
-    e->middle = triangle_middle(corner);
+    e->middle = e->place = triangle_middle(corner);
     e->normal = normal;
-    e->area = e->largest = triangle_area(corner);
+    e->area = triangle_area(corner);
     e->facing = 1.0f;
     e->is_one = 1;
     e->open = 1.0f;
@@ -178,7 +179,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     return b->element_count++;
 }
 
-int bake_join(const bake *b, bake_element *e)
+void bake_join(const bake *b, bake_element *e)
 {
     const bake_part *p = b->part + e->first_part;
     lmb_vec3 middle = vec3(0.0f, 0.0f, 0.0f), normal = middle;
@@ -195,10 +196,9 @@ int bake_join(const bake *b, bake_element *e)
         }
     }
     if (!(area > 0.0f)) {
-        return 0;
+        return;
     }
     e->area = area;
-    e->largest = largest;
     e->middle = mul3(middle, 1.0f / area);
     e->facing = length3(normal) / area;
     e->normal = e->facing > 1e-6f ? normalize3(normal) : e->normal;
@@ -209,7 +209,6 @@ int bake_join(const bake *b, bake_element *e)
             e->reach2 = maxf(e->reach2, dot3(d, d));
         }
     }
-    return 1;
 }
 
 /* No light comes to the triangle at hand, as far as is known: it shares no element with others. */
@@ -305,7 +304,7 @@ static int add_triangle(maker *m, uint32_t id)
 static int by_element(const void *a, const void *b)
 {
     const bake_part *x = a, *y = b;
-    return x->element != y->element ? (x->element < y->element ? -1 : 1) : 0;
+    return x->element != y->element ? (x->element < y->element ? -1 : 1) : x->number < y->number ? -1 : 1;
 }
 
 /* Each element's own parts, side by side. */
@@ -326,7 +325,7 @@ static void take_parts(bake *b)
         e->first_part = e->parts++ == 0 ? i : e->first_part;
     }
     for (uint32_t i = 0; i < b->element_count; ++i) {
-        (void)bake_join(b, &b->element[i]);
+        bake_join(b, &b->element[i]);
     }
 }
 
