@@ -34,7 +34,6 @@ typedef struct bake_element {
     lmb_vec3 corner[3], middle, normal; /* of several triangles the largest; middle, normal: means */
     lmb_vec3 place; /* of several triangles: the middle of the largest one */
     float area;    /* m2, of all */
-    float largest; /* of its triangles, m2 */
     float reach2;  /* its farthest corner from its middle, squared, m2 */
     float facing;  /* length of the mean normal: 1 for one triangle */
     int is_one;
@@ -54,7 +53,7 @@ typedef struct bake_part {
     lmb_vec3 middle; /* of what light can come to */
     float open;      /* the share of it */
     float area;      /* of all, m2 */
-    uint32_t element;
+    uint32_t element, number; /* of which it is one; where it was made */
     uint32_t side; /* 2 (id - 1) + back, where it is all of a triangle; or LMB_TRANSFER_NONE */
 } bake_part;
 
@@ -159,16 +158,16 @@ int bake_elements(bake *b, report *r);
  * Hidden ones and those that emit lie apart, as what others send is not like what they do. */
 int bake_order(bake *b, report *r);
 
-/* bake_join: an element's means, and its largest triangle, by what is open of its parts. 0: nothing is. */
-int bake_join(const bake *b, bake_element *e);
+/* bake_join: an element's means, and its largest triangle, by what is open of its parts, if anything is. */
+void bake_join(const bake *b, bake_element *e);
 
 /* bake_reach: leave out the sides of surfaces that no way through the scene leads to from its lights and from `eyes`,
  * like the insides of boxes, and parts of elements on which something stands. With neither nothing is left out. Then
  * the elements' areas are known. */
 int bake_reach(bake *b, const lmb_vec3 *eyes, uint32_t count, report *r);
 
-/* bake_smalls: b->small_open, by the light of elements; and what is open of parts. bake_quarters: a triangle's middle, and places towards its
- * corners. */
+/* bake_smalls: b->small_open, by the light of elements; and what is open of parts. bake_quarters: a triangle's middle,
+ * and places towards its corners. */
 int bake_smalls(bake *b, report *r);
 void bake_quarters(lmb_vec3 out[4], const lmb_vec3 corner[3]);
 

@@ -11,7 +11,7 @@
 enum { MESH = 500 };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
 #define CLOSER  0.5f /* of that, where there are elements left for it */
-#define SLIVER  (1.0f / 16.0f) /* of a square of that size: smaller triangles share elements, or slivers take them all */
+#define SLIVER  0.25f /* of that size: narrower triangles share elements, or they would take them all */
 
 int bake_put(bake_words *w, uint32_t word, report *r)
 {
@@ -104,6 +104,12 @@ static void put_round(lmb_vec3 corner[3], lmb_vec3 normal)
     }
 }
 
+static int is_narrow(const lmb_vec3 corner[3], float width)
+{
+    int from;
+    return 2.0f * triangle_area(corner) < width * triangle_longest(&from, corner);
+}
+
 /* --- pieces ------------------------------------------------------------------------------------------------------- */
 
 typedef struct maker {
@@ -115,7 +121,8 @@ typedef struct maker {
     uint8_t *is_reached; /* a side of a triangle */
     int is_full;
     int emits; /* the triangle at hand */
-    int is_small;
+    int is_small, is_sliver;
+    int has_slivers; /* many: few get elements of their own, as a thin wall's edge should */
     uint32_t own; /* its side: 2 (id - 1) + back */
     report *r;
 } maker;
@@ -141,6 +148,7 @@ static int add_part(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, uint32_
     p->area = triangle_area(corner);
     p->open = 1.0f;
     p->element = element;
+    p->number = b->part_count;
     p->side = side;
     return 1;
 }
@@ -156,9 +164,9 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     memset(e, 0, sizeof *e);
     memcpy(e->corner, corner, sizeof e->corner);
     put_round(e->corner, normal);
-    e->middle = triangle_middle(corner);
+    e->middle = e->place = triangle_middle(corner);
     e->normal = normal;
-    e->area = e->largest = triangle_area(corner);
+    e->area = triangle_area(corner);
     e->facing = 1.0f;
     e->is_one = 1;
     e->open = 1.0f;
@@ -171,7 +179,7 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
     return b->element_count++;
 }
 
-int bake_join(const bake *b, bake_element *e)
+void bake_join(const bake *b, bake_element *e)
 {
     const bake_part *p = b->part + e->first_part;
     lmb_vec3 middle = vec3(0.0f, 0.0f, 0.0f), normal = middle;
@@ -188,10 +196,9 @@ int bake_join(const bake *b, bake_element *e)
         }
     }
     if (!(area > 0.0f)) {
-        return 0;
+        return;
     }
     e->area = area;
-    e->largest = largest;
     e->middle = mul3(middle, 1.0f / area);
     e->facing = length3(normal) / area;
     e->normal = e->facing > 1e-6f ? normalize3(normal) : e->normal;
@@ -202,7 +209,6 @@ int bake_join(const bake *b, bake_element *e)
             e->reach2 = maxf(e->reach2, dot3(d, d));
         }
     }
-    return 1;
 }
 
 /* No light comes to the triangle at hand, as far as is known: it shares no element with others. */
@@ -248,7 +254,7 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
     const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
     const int is_free = longest <= m->side && (is_small || bake_stands_free(&m->sight, m->b, corner, normal));
     if (is_last || is_free || longest <= m->contact * m->side) {
-        const int is_shared = is_free && (is_small || triangle_area(corner) < SLIVER * m->side * m->side);
+        const int is_shared = is_free && (is_small || m->is_sliver);
         const uint32_t e = is_shared ? small_element(m, corner, normal) : add_element(m, corner, normal);
         w->data[node] = LMB_TRANSFER_LEAF | e;
         m->b->element[e].is_stood_on = !is_free;
@@ -280,6 +286,7 @@ static int add_triangle(maker *m, uint32_t id)
     const int exists = lmb_triangle_fetch(&t, b->scene, id) && lmb_triangle_shape(&normal, &area, &t);
     m->emits = exists && largest3(vec3(t.material->emission[0], t.material->emission[1], t.material->emission[2])) > 0.0f;
     m->is_small = exists && bake_is_small(b, t.corner);
+    m->is_sliver = exists && m->has_slivers && is_narrow(t.corner, SLIVER * m->side);
     for (int back = 0; back < 2; ++back) {
         const int shows =
             exists && ((t.material->flags & LMB_DOUBLE_SIDED) != 0 || back == is_mirrored(&t.instance->to_world)) &&
@@ -297,7 +304,7 @@ static int add_triangle(maker *m, uint32_t id)
 static int by_element(const void *a, const void *b)
 {
     const bake_part *x = a, *y = b;
-    return x->element != y->element ? (x->element < y->element ? -1 : 1) : 0;
+    return x->element != y->element ? (x->element < y->element ? -1 : 1) : x->number < y->number ? -1 : 1;
 }
 
 /* Each element's own parts, side by side. */
@@ -318,8 +325,18 @@ static void take_parts(bake *b)
         e->first_part = e->parts++ == 0 ? i : e->first_part;
     }
     for (uint32_t i = 0; i < b->element_count; ++i) {
-        (void)bake_join(b, &b->element[i]);
+        bake_join(b, &b->element[i]);
     }
+}
+
+static uint32_t slivers(const maker *m)
+{
+    uint32_t count = 0;
+    lmb_triangle t;
+    for (uint32_t id = 1; id <= lmb_scene_triangles(m->b->scene); ++id) {
+        count += lmb_triangle_fetch(&t, m->b->scene, id) && is_narrow(t.corner, SLIVER * m->side);
+    }
+    return count;
 }
 
 static int make(maker *m)
@@ -329,6 +346,7 @@ static int make(maker *m)
     m->b->element_count = m->b->part_count = 0;
     memset(m->b->element, 0, m->b->set.elements * sizeof *m->b->element);
     m->is_full = 0;
+    m->has_slivers = slivers(m) >= MESH;
     memset(m->slot, 0, 20 * ((size_t)m->mask + 1));
     for (uint32_t id = 1; id <= all && !m->is_full; ++id) {
         if (!add_triangle(m, id)) {

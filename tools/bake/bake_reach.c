@@ -206,7 +206,7 @@ static int open_elements(reach *w)
         w->bright += BRIGHT * w->b->element[i].light / (float)w->b->element_count;
     }
     for (uint32_t i = 0; tile != NULL && i < w->b->element_count; ++i) {
-        if (w->b->element[i].is_stood_on && w->b->element[i].is_one) {
+        if (w->b->element[i].is_stood_on) {
             open_element(w, &w->b->element[i], tile, &traversal);
         }
     }
@@ -218,10 +218,7 @@ static int open_elements(reach *w)
 static void join_elements(bake *b)
 {
     for (uint32_t i = 0; i < b->element_count; ++i) {
-        bake_element *e = &b->element[i];
-        if (!bake_join(b, e) && e->is_stood_on && !e->is_one) {
-            e->open = 0.0f;
-        }
+        bake_join(b, &b->element[i]);
     }
 }
 

@@ -15,7 +15,7 @@ enum { CHUNK = 64, CUTS = 4, FEW = 4 };
 /* Nearer than this, of an element's squared reach, it is cut into four, each again: what stands beside a point hides
  * some of an element, and just what lies nearest counts most. */
 static const float cut2[CUTS] = {36.0f, 9.0f, 2.5f, 0.7f};
-#define APART2 16.0f /* likewise: nearer than this each of an element's triangles counts by itself */
+#define APART2 6.25f /* likewise: nearer than this each of an element's triangles counts by itself */
 
 typedef struct rows {
     const bake *b;
