@@ -366,8 +366,8 @@ cli: $(TOOL) ## the tool's files, exit statuses and messages
 WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS=0 -DLMB_PLAN=0
 
 .PHONY: faults paths size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
-    measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth measure-truth \
-    measure-own measure-turned measure-full measure-times measure-direct report measure-cuts \
+    measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
+    measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
     measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
     measure-voxels measure-fixed large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
@@ -466,6 +466,9 @@ measure-truth: $(TOOL) ## bounced light against truth: errors, work, time (SCENE
 
 measure-own: $(TOOL) $(B)/scenes ## the same, and on our own scenes, fitted and held out (LMB_OWN_TRUTH=DIR)
 	@$(IN_SH) tests/measure/own.sh
+
+measure-defaults: $(TOOL) ## models without camera and light: do they fill the frame, and have they tones? (MODELS)
+	@python3 tests/measure/defaults.py $(TOOL) $(BUILD)/defaults $(MODELS)
 
 measure-turned: $(TOOL) $(B)/scenes ## work and error of those scenes turned at random (TURNS="1 2 ...")
 	@$(IN_SH) tests/measure/turned.sh
