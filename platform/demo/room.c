@@ -148,8 +148,8 @@ static uint32_t threshold(int32_t x, int32_t y)
     return (bayer[y & 3][x & 3] * 255u + 127u) / 16 + 1;
 }
 
-/* (c * 31 * 16 + t * 255 + 127) / 4080 of two codes c at once, one in each half. With y = c * 31 + (t * 255 + 127) / 16, of
- * 13 bits, y / 255 is (y + 1 + y / 256) / 256, and y + 1 may stand for y in the smaller term. */
+/* (c * 31 * 16 + t * 255 + 127) / 4080 of two codes c at once, one in each half. With y = c * 31 + (t * 255 + 127) / 16
+ * of 13 bits, y / 255 is (y + 1 + y / 256) / 256, and y + 1 may stand for y in the smaller term. */
 static inline uint32_t two_of_31(uint32_t codes, uint32_t thresholds)
 {
     const uint32_t y = codes * 31 + thresholds;

@@ -1,8 +1,8 @@
 /* arm_calibrate.h: loops of known cost, by which counts and models of cycles are checked: CALIBRATE_TURNS turns of a
  * subtraction and a jump, then CALIBRATE_LOADS of a load, a line of 32 bytes further each time, and these two.
  *
- * On an ARM7TDMI and an ARM946E-S from the fastest memory a turn of the first takes 4 cycles. One of the second takes 7 on
- * the first, and the memory's wait states; 5 on the second, and what a miss takes. */
+ * On an ARM7TDMI and an ARM946E-S from the fastest memory a turn of the first takes 4 cycles. One of the second takes 7
+ * on the first, and the memory's wait states; 5 on the second, and what a miss takes. */
 #ifndef ARM_CALIBRATE_H
 #define ARM_CALIBRATE_H
 

@@ -1,18 +1,18 @@
-/* qemu_stages.c: a plugin for qemu's emulator of ARM processors: what the room costs by stage on consoles that qemu does
- * not have: `-plugin FILE.so,model=arm7|arm9[,frames=N][,functions=on]`.
+/* qemu_stages.c: a plugin for qemu's emulator of ARM processors: what the room costs by stage on consoles that qemu
+ * does not have: `-plugin FILE.so,model=arm7|arm9[,frames=N][,functions=on]`.
  *
- * The console's own program runs where all of its addresses are RAM; nothing answers there, and the frames are the same.
- * Instructions, loads and stores are exact. Cycles are a model, by the processors' manuals:
+ * The console's own program runs where all of its addresses are RAM; nothing answers there, and the frames are the
+ * same. Instructions, loads and stores are exact. Cycles are a model, by the processors' manuals:
  *
- *   arm9  ARM946E-S: an instruction takes 1; multiplies 2, long ones 3; jumps 3; loads of n registers n, at least 2; one
- *         more where the next instruction needs what is loaded. Main memory, 0x02000000 on, has caches of four ways and 32
- *         bytes a line, 8 KiB for instructions and 4 KiB for data: a miss takes 46, a write that misses 18. All else is
- *         beside the processor, or written through its buffer, and takes none.
- *   arm7  ARM7TDMI: loads 3 and one more for each register, stores 2 likewise; jumps 3; multiplies 3, long ones 5; and the
- *         Game Boy Advance's wait states of data, by address. Instructions in ROM take 3 (narrow) or 6.
+ *   arm9  ARM946E-S: an instruction takes 1; multiplies 2, long ones 3; jumps 3; loads of n registers n, at least 2;
+ *         one more where the next instruction needs what is loaded. Main memory, 0x02000000 on, has caches of four ways
+ *         and 32 bytes a line, 8 KiB for instructions and 4 KiB for data: a miss takes 46, a write that misses 18.
+ *         All else is beside the processor, or written through its buffer, and takes none.
+ *   arm7  ARM7TDMI: loads 3 and one more for each register, stores 2 likewise; jumps 3; multiplies 3, long ones 5; and
+ *         the Game Boy Advance's wait states of data, by address. Instructions in ROM take 3 (narrow) or 6.
  *
- * It prints lines as the room does, and ends the emulator after the last frame. Built for the machine that emulates. The
- * few declarations stand here as distributions package qemu without its header. */
+ * It prints lines as the room does, and ends the emulator after the last frame. Built for the machine that emulates.
+ * The few declarations stand here as distributions package qemu without its header. */
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>

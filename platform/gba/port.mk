@@ -12,11 +12,13 @@ PORT_LDFLAGS := -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--no-warn-rwx-segm
 PORT_LDLIBS  := -lgcc
 
 # What gba.ld puts into fast RAM has the wide instructions; ROM, of 16 bits, has the narrow ones.
-$(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o): COMPILE += -marm -O2
+HOT_OBJ := $(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o)
+$(HOT_OBJ): COMPILE += -marm -O2
 
 # A loop in memset that the compiler turns into a call of memset would never end; at the start memset is not there yet.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -marm
-$(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/gba/start_gba.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+$(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/gba/start_gba.o: COMPILE += \
+    -fno-builtin -fno-tree-loop-distribute-patterns
 
 ROOM_IMAGE   := $(B)/room.gba
 # The linker script is a part of the program.

@@ -1,6 +1,6 @@
 /* port_room.c: room_port.h on a machine with libc: frames of any size, as ROOM_SIZE of the build says. The folder
- * ROOM_PICTURES gets them as pictures, with ROOM_COLOURS=555 as a screen of 5 bits a colour shows them. After the path it
- * draws a frame for each number of ROOM_HELD, the buttons that are held. */
+ * ROOM_PICTURES gets them as pictures, with ROOM_COLOURS=555 as a screen of 5 bits a colour shows them. After the path
+ * it draws a frame for each number of ROOM_HELD, the buttons that are held. */
 #include "../demo/room_port.h"
 
 #include <stdio.h>

@@ -378,8 +378,9 @@ static int search_core(struct dl_phdr_info *library, size_t bytes, void *found)
         return 0;
     for (int i = 0; i < library->dlpi_phnum; ++i) {
         const ElfW(Phdr) *part = &library->dlpi_phdr[i];
+        const char *memory = (const char *)(library->dlpi_addr + part->p_vaddr);
         if (part->p_type == PT_LOAD && (part->p_flags & PF_W) && *(const text_block **)found == NULL)
-            *(const text_block **)found = block_within((const char *)(library->dlpi_addr + part->p_vaddr), part->p_memsz);
+            *(const text_block **)found = block_within(memory, part->p_memsz);
     }
     return 1;
 }

@@ -1,8 +1,8 @@
 # run_room.sh: the room on a console of lrhost, then what it costs by qemu_stages.c: run_room.sh IMAGE
 #
-# LRHOST, CORE, SCREEN: lrhost's options for the core; B: where room and room.ppm are; PRESS: buttons as lrhost takes them;
-# PLUGIN, MODEL: of qemu_stages.c; BEGIN: the symbol where qemu begins; CROSS: the toolchain's prefix; WITHOUT: lines that
-# are left out of what the console says.
+# LRHOST, CORE, SCREEN: lrhost's options for the core; B: where room and room.ppm are; PRESS: buttons as lrhost takes
+# them; PLUGIN, MODEL: of qemu_stages.c; BEGIN: the symbol where qemu begins; CROSS: the toolchain's prefix; WITHOUT:
+# lines that are left out of what the console says.
 image=$1
 set --
 for press in $PRESS; do

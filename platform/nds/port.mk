@@ -13,10 +13,12 @@ PORT_LDFLAGS := -nostdlib -nostartfiles -Wl,--gc-sections -Wl,--no-warn-rwx-segm
 PORT_LDLIBS  := -lgcc
 
 # Hot code is for speed.
-$(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o): COMPILE += -O2
+HOT_OBJ := $(B)/obj/platform/demo/room.o $(foreach f,fixed fixed_fill fixed_light number,$(B)/obj/src/fixed/$(f).o)
+$(HOT_OBJ): COMPILE += -O2
 
 # A loop in memset that the compiler turns into a call of memset would never end; at the start memset is not there yet.
-$(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/nds/start_nds.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
+$(B)/obj/platform/freestanding/memory.o $(B)/obj/platform/nds/start_nds.o: COMPILE += \
+    -fno-builtin -fno-tree-loop-distribute-patterns
 
 # The linker script is a part of the program.
 $(B)/obj/platform/nds/start_nds.o: platform/nds/nds.ld
