@@ -1,5 +1,5 @@
 /* screen_n64.c: a video plugin of mupen64plus without a window: it shows the picture that the video interface reads, as
- * a file, and the program's text. Built as a shared library for the emulator's machine.
+ * a file, and the program's text. Built as a shared library for the emulator's video.
  *
  * ROOM_PICTURE names the file. It is written when the program ends, of what the interface's registers point at. */
 #include <dlfcn.h>
@@ -22,7 +22,7 @@ typedef struct video_info {
 
 enum { PLUGIN_VIDEO = 2, STOP = 6 };
 
-static video_info machine;
+static video_info video;
 static int (*command)(int, int, void *);
 
 int PluginStartup(void *core, void *context, void (*debug)(void *, int, const char *));
@@ -73,7 +73,7 @@ int PluginGetVersion(int *type, int *version, int *interface, const char **name,
 
 int InitiateGFX(video_info info)
 {
-    machine = info;
+    video = info;
     return 1;
 }
 
@@ -101,7 +101,7 @@ enum { RDRAM_BYTES = 4 << 20, MOST = 640 };
 static uint32_t word_at(uint32_t address)
 {
     uint32_t word;
-    memcpy(&word, machine.rdram + (address & (RDRAM_BYTES - 1)), 4);
+    memcpy(&word, video.rdram + (address & (RDRAM_BYTES - 1)), 4);
     return word;
 }
 
@@ -112,11 +112,11 @@ static uint8_t full(uint32_t five) { return (uint8_t)(five << 3 | five >> 2); }
 /* As many pixels as the registers' ranges and scales show, taken at whole places. */
 static int write_picture(const char *path)
 {
-    const uint32_t dots = (*machine.across & 0x3ff) - (*machine.across >> 16 & 0x3ff);
-    const uint32_t halves = (*machine.down & 0x3ff) - (*machine.down >> 16 & 0x3ff);
-    const uint32_t width = dots * (*machine.scale_x & 0xfff) >> 10, height = halves * (*machine.scale_y & 0xfff) >> 11;
+    const uint32_t dots = (*video.across & 0x3ff) - (*video.across >> 16 & 0x3ff);
+    const uint32_t halves = (*video.down & 0x3ff) - (*video.down >> 16 & 0x3ff);
+    const uint32_t width = dots * (*video.scale_x & 0xfff) >> 10, height = halves * (*video.scale_y & 0xfff) >> 11;
     FILE *file;
-    if ((*machine.control & 3) != 2 || width == 0 || width > MOST || height == 0 || height > MOST) {
+    if ((*video.control & 3) != 2 || width == 0 || width > MOST || height == 0 || height > MOST) {
         fprintf(stderr, "screen_n64: the video interface shows no 16-bit picture\n");
         return 0;
     }
@@ -127,7 +127,7 @@ static int write_picture(const char *path)
     fprintf(file, "P6\n%u %u\n255\n", width, height);
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
-            const uint32_t c = half_at(*machine.origin + 2 * (y * *machine.width + x));
+            const uint32_t c = half_at(*video.origin + 2 * (y * *video.width + x));
             const uint8_t rgb[3] = {full(c >> 11), full(c >> 6 & 31), full(c >> 1 & 31)};
             fwrite(rgb, 1, 3, file);
         }
@@ -142,7 +142,7 @@ static uint32_t find_text(void)
     static const uint32_t marks[TEXT_MARKS] = {TEXT_MARK(0), TEXT_MARK(1), TEXT_MARK(2), TEXT_MARK(3),
                                                TEXT_MARK(4), TEXT_MARK(5), TEXT_MARK(6), TEXT_MARK(7)};
     for (uint32_t at = 0; at < RDRAM_BYTES - sizeof(text_block); at += 64)
-        if (memcmp(machine.rdram + at, marks, sizeof marks) == 0)
+        if (memcmp(video.rdram + at, marks, sizeof marks) == 0)
             return at;
     return 0;
 }

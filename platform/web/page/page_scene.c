@@ -25,7 +25,7 @@ typedef struct command {
     int count;
 } command;
 
-static struct page {
+static struct state {
     render_job job, best; /* best: for errors; its scene is the job's */
     command line;
     lmb_light *lights; /* the scene's, to be moved */
@@ -40,14 +40,14 @@ static struct page {
     int32_t cut_count;
     lmb_status failed[POOL_MAX];
     report r;
-} page;
+} state;
 
 void *page_take(size_t bytes) { return malloc(bytes > 0 ? bytes : 1); }
 void page_give(void *memory) { free(memory); }
 int page_ready(void) { return lmb_build_check() == LMB_OK; }
-const char *page_report(void) { return page.r.text; }
+const char *page_report(void) { return state.r.text; }
 
-static void begin_report(void) { memset(&page.r, 0, sizeof page.r); }
+static void begin_report(void) { memset(&state.r, 0, sizeof state.r); }
 
 /* --- command lines ------------------------------------------------------------------------------------------------ */
 
@@ -62,7 +62,7 @@ static int command_read(command *out, const char *words)
     memset(out, 0, sizeof *out);
     out->text = malloc(strlen(words) + 1);
     if (out->text == NULL) {
-        return report_fail(&page.r, "out of memory");
+        return report_fail(&state.r, "out of memory");
     }
     strcpy(out->text, words);
     for (char *at = out->text; at != NULL && *at != '\0' && out->count < WORDS;) {
@@ -73,7 +73,7 @@ static int command_read(command *out, const char *words)
             *end = '\0';
         }
     }
-    return out->count > 0 || report_fail(&page.r, "no words");
+    return out->count > 0 || report_fail(&state.r, "no words");
 }
 
 /* Baking takes minutes and the tool's readers of photos: it is left to the tool. */
@@ -81,7 +81,7 @@ int verb_relief_bake(int argc, char **argv)
 {
     (void)argc;
     (void)argv;
-    return report_fail(&page.r, "a page bakes no relief; use `lambent relief bake`") + 2;
+    return report_fail(&state.r, "a page bakes no relief; use `lambent relief bake`") + 2;
 }
 
 int page_run(const char *words)
@@ -109,72 +109,72 @@ int page_run(const char *words)
 /* The best frame's job borrows scene and lights. */
 static void close_best(void)
 {
-    if (page.has_best) {
-        memset(&page.best.many_lights, 0, sizeof page.best.many_lights);
-        render_job_free(&page.best);
+    if (state.has_best) {
+        memset(&state.best.many_lights, 0, sizeof state.best.many_lights);
+        render_job_free(&state.best);
     }
-    memset(&page.best, 0, sizeof page.best);
-    page.has_best = 0;
+    memset(&state.best, 0, sizeof state.best);
+    state.has_best = 0;
 }
 
 static void close_scene(void)
 {
     close_best();
-    render_job_free(&page.job);
-    memset(&page.job, 0, sizeof page.job);
-    free(page.lights);
-    free(page.pixels);
-    free(page.shown);
-    page.lights = NULL;
-    page.pixels = page.shown = NULL;
-    page.drawn = NULL;
-    page.is_open = 0;
-    command_free(&page.line);
+    render_job_free(&state.job);
+    memset(&state.job, 0, sizeof state.job);
+    free(state.lights);
+    free(state.pixels);
+    free(state.shown);
+    state.lights = NULL;
+    state.pixels = state.shown = NULL;
+    state.drawn = NULL;
+    state.is_open = 0;
+    command_free(&state.line);
 }
 
 /* Lights that may move, of a scene that may be constant. */
 static int own_lights(void)
 {
-    lmb_scene *s = &page.job.scene;
-    const size_t bytes = s->light_count * sizeof *page.lights;
-    page.lights = malloc(bytes > 0 ? bytes : 1);
-    if (page.lights == NULL) {
-        return report_fail(&page.r, "out of memory");
+    lmb_scene *s = &state.job.scene;
+    const size_t bytes = s->light_count * sizeof *state.lights;
+    state.lights = malloc(bytes > 0 ? bytes : 1);
+    if (state.lights == NULL) {
+        return report_fail(&state.r, "out of memory");
     }
     if (bytes > 0) {
-        memcpy(page.lights, s->lights, bytes);
+        memcpy(state.lights, s->lights, bytes);
     }
-    s->lights = page.lights;
+    s->lights = state.lights;
     return 1;
 }
 
 static int open_scene(const char *words)
 {
-    render_job *j = &page.job;
-    if (!command_read(&page.line, words)) {
+    render_job *j = &state.job;
+    if (!command_read(&state.line, words)) {
         return 0;
     }
-    if (render_options_parse(&j->o, page.line.count, page.line.word, &page.r) != OPTIONS_RUN) {
-        return report_fail(&page.r, "these options show their help, and draw nothing");
+    if (render_options_parse(&j->o, state.line.count, state.line.word, &state.r) != OPTIONS_RUN) {
+        return report_fail(&state.r, "these options show their help, and draw nothing");
     }
     j->o.has_sky = 1;
-    if (!render_job_load(j, &page.r) || !render_job_set(j, &page.r) || !own_lights()) {
+    if (!render_job_load(j, &state.r) || !render_job_set(j, &state.r) || !own_lights()) {
         return 0;
     }
-    page.pixels = malloc((size_t)j->linear.width * (size_t)j->linear.height * 4);
-    page.exposure_ev = j->o.exposure_ev;
-    return page.pixels != NULL || report_fail(&page.r, "out of memory");
+    state.pixels = malloc((size_t)j->linear.width * (size_t)j->linear.height * 4);
+    state.exposure_ev = j->o.exposure_ev;
+    return state.pixels != NULL || report_fail(&state.r, "out of memory");
 }
 
 int page_open(const char *words)
 {
     begin_report();
     close_scene();
-    page.is_open = open_scene(words);
-    if (!page.is_open) {
+    state.is_open = open_scene(words);
+    if (!state.is_open) {
         close_scene();
     }
-    return page.is_open;
+    return state.is_open;
 }
 
 static void put_vector(double *to, lmb_vec3 v)
@@ -193,16 +193,16 @@ static double progress_of(const render_job *j)
     const double bands = (double)((j->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE);
     return j->render->stage < LMB_STAGE_BANDS
                ? 0.5 * ((double)j->render->stage + (double)lmb_render_progress(&name, j->render)) / LMB_STAGE_BANDS
-               : 0.5 + 0.5 * (double)page.band / bands;
+               : 0.5 + 0.5 * (double)state.band / bands;
 }
 
 const double *page_numbers(uint32_t light)
 {
     static double n[PAGE_NUMBERS];
-    const render_job *j = &page.job;
+    const render_job *j = &state.job;
     const lmb_view *v = &j->middle;
     memset(n, 0, sizeof n);
-    if (!page.is_open) {
+    if (!state.is_open) {
         return n;
     }
     n[PAGE_WIDTH] = j->o.view.width;
@@ -220,13 +220,13 @@ const double *page_numbers(uint32_t light)
     put_vector(n + PAGE_LOW, j->scene.bounds_min);
     put_vector(n + PAGE_HIGH, j->scene.bounds_max);
     if (light < j->scene.light_count) {
-        n[PAGE_LIGHT] = page.lights[light].kind;
-        put_vector(n + PAGE_LIGHT + 1, page.lights[light].position);
-        put_vector(n + PAGE_LIGHT + 4, page.lights[light].direction);
+        n[PAGE_LIGHT] = state.lights[light].kind;
+        put_vector(n + PAGE_LIGHT + 1, state.lights[light].position);
+        put_vector(n + PAGE_LIGHT + 4, state.lights[light].direction);
     }
-    n[PAGE_PROGRESS] = progress_of(page.drawn);
-    n[PAGE_TRIM] = (double)page.trim;
-    n[PAGE_RMSE] = (double)page.rmse;
+    n[PAGE_PROGRESS] = progress_of(state.drawn);
+    n[PAGE_TRIM] = (double)state.trim;
+    n[PAGE_RMSE] = (double)state.rmse;
     n[PAGE_DROPPED] = j->stats.triangles_dropped;
     n[PAGE_MEMORY] = (double)(j->bytes + j->many_lights.bytes);
     return n;
@@ -235,8 +235,8 @@ const double *page_numbers(uint32_t light)
 int page_look(float ex, float ey, float ez, float tx, float ty, float tz)
 {
     const lmb_vec3 eye = {ex, ey, ez}, target = {tx, ty, tz}, up = {0.0f, 1.0f, 0.0f};
-    lmb_view look, *v = &page.job.middle;
-    if (!page.is_open || lmb_view_look_at(&look, eye, target, up, 1.0f, 8, 8) != LMB_OK) {
+    lmb_view look, *v = &state.job.middle;
+    if (!state.is_open || lmb_view_look_at(&look, eye, target, up, 1.0f, 8, 8) != LMB_OK) {
         return 0;
     }
     v->eye = look.eye;
@@ -248,15 +248,15 @@ int page_look(float ex, float ey, float ez, float tx, float ty, float tz)
 
 int page_put_light(uint32_t i, float x, float y, float z, float dx, float dy, float dz)
 {
-    if (!page.is_open || i >= page.job.scene.light_count) {
+    if (!state.is_open || i >= state.job.scene.light_count) {
         return 0;
     }
-    const lmb_light before = page.lights[i];
-    lmb_light *l = &page.lights[i];
+    const lmb_light before = state.lights[i];
+    lmb_light *l = &state.lights[i];
     l->position = (lmb_vec3){x, y, z};
     l->direction = (lmb_vec3){dx, dy, dz};
     l->revision += 1;
-    if (lmb_scene_check(&page.job.scene) != LMB_OK) {
+    if (lmb_scene_check(&state.job.scene) != LMB_OK) {
         *l = before;
         return 0;
     }
@@ -268,11 +268,11 @@ int page_put_light(uint32_t i, float x, float y, float z, float dx, float dy, fl
 /* The scene as it is now, by the best settings. */
 static int open_best(void)
 {
-    render_job *b = &page.best;
-    const render_job *j = &page.job;
+    render_job *b = &state.best;
+    const render_job *j = &state.job;
     b->scene = j->scene;
     b->middle = j->middle;
-    if (page.has_best) {
+    if (state.has_best) {
         return 1;
     }
     b->o = j->o;
@@ -288,20 +288,20 @@ static int open_best(void)
     b->many_lights.tree = j->many_lights.tree;
     b->gathers_sky = j->gathers_sky;
     b->workers.threads = j->workers.threads;
-    page.has_best = 1;
-    if (!render_job_take(b, &page.r)) {
+    state.has_best = 1;
+    if (!render_job_take(b, &state.r)) {
         close_best();
     }
-    return page.has_best;
+    return state.has_best;
 }
 
 static lmb_surface screen(void)
 {
     lmb_surface s;
     memset(&s, 0, sizeof s);
-    s.data = page.pixels;
-    s.width = page.job.linear.width;
-    s.height = page.job.linear.height;
+    s.data = state.pixels;
+    s.width = state.job.linear.width;
+    s.height = state.job.linear.height;
     s.stride_bytes = 4 * s.width;
     s.format = LMB_RGBA8;
     return s;
@@ -310,26 +310,26 @@ static lmb_surface screen(void)
 int page_begin(int target, int show)
 {
     begin_report();
-    page.drawn = NULL;
-    page.cut_count = 0;
-    if (!page.is_open || (target == PAGE_TO_BEST && !open_best())) {
+    state.drawn = NULL;
+    state.cut_count = 0;
+    if (!state.is_open || (target == PAGE_TO_BEST && !open_best())) {
         return 0;
     }
-    render_job *j = target == PAGE_TO_BEST ? &page.best : &page.job;
+    render_job *j = target == PAGE_TO_BEST ? &state.best : &state.job;
     render_job_eye(j, &j->frame, &j->linear, 0);
     j->frame.show = show;
     j->frame.exposure_ev = 0.0f;
     if (target == PAGE_TO_SCREEN) {
         j->frame.out = screen();
-        j->frame.exposure_ev = page.exposure_ev;
+        j->frame.exposure_ev = state.exposure_ev;
     }
     memset(&j->stats, 0, sizeof j->stats);
     const lmb_status status = lmb_render_reuse(j->render, &j->frame);
     if (status != LMB_OK) {
-        return report_fail(&page.r, "%s: drawing stopped: %s", page.job.o.scene, lmb_status_name(status));
+        return report_fail(&state.r, "%s: drawing stopped: %s", state.job.o.scene, lmb_status_name(status));
     }
-    page.drawn = j;
-    page.band = 0;
+    state.drawn = j;
+    state.band = 0;
     return 1;
 }
 
@@ -341,7 +341,7 @@ typedef struct work {
 static void keep(int worker, lmb_status status)
 {
     if (status != LMB_OK) {
-        page.failed[worker] = status;
+        state.failed[worker] = status;
     }
 }
 
@@ -361,12 +361,12 @@ static void draw_band(void *user, int part, int worker)
 
 static lmb_status share(work *w, int parts, pool_job job)
 {
-    memset(page.failed, 0, sizeof page.failed);
+    memset(state.failed, 0, sizeof state.failed);
     w->parts = parts;
     pool_run(w->job->workers.threads, parts, job, w);
     for (int i = 0; i < POOL_MAX; ++i) {
-        if (page.failed[i] != LMB_OK) {
-            return page.failed[i];
+        if (state.failed[i] != LMB_OK) {
+            return state.failed[i];
         }
     }
     return LMB_OK;
@@ -386,16 +386,16 @@ static lmb_status step_stage(work *w)
 static lmb_status step_bands(work *w, int bands)
 {
     const int32_t all = (w->job->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE;
-    const int32_t left = all - page.band, count = bands < left ? bands : left;
-    w->first = page.band;
-    page.band += count;
+    const int32_t left = all - state.band, count = bands < left ? bands : left;
+    w->first = state.band;
+    state.band += count;
     const lmb_status status = share(w, count, draw_band);
-    return status == LMB_OK && page.band < all ? LMB_MORE : status;
+    return status == LMB_OK && state.band < all ? LMB_MORE : status;
 }
 
 int page_step(int bands)
 {
-    work w = {page.drawn, 0, 0};
+    work w = {state.drawn, 0, 0};
     if (w.job == NULL) {
         return -1;
     }
@@ -404,21 +404,21 @@ int page_step(int bands)
     if (status == LMB_OK || status == LMB_MORE) {
         return status == LMB_MORE || is_light;
     }
-    page.drawn = NULL;
-    report_fail(&page.r, "%s: drawing stopped: %s", page.job.o.scene, lmb_status_name(status));
+    state.drawn = NULL;
+    report_fail(&state.r, "%s: drawing stopped: %s", state.job.o.scene, lmb_status_name(status));
     return -1;
 }
 
 float page_exposure(void)
 {
-    if (page.is_open && page.job.o.exposure_auto && !render_exposure(&page.exposure_ev, &page.job, &page.r)) {
-        page.exposure_ev = 0.0f;
+    if (state.is_open && state.job.o.exposure_auto && !render_exposure(&state.exposure_ev, &state.job, &state.r)) {
+        state.exposure_ev = 0.0f;
     }
-    return page.exposure_ev;
+    return state.exposure_ev;
 }
 
-void page_set_exposure(float ev) { page.exposure_ev = ev; }
-float page_exposure_now(void) { return page.exposure_ev; }
+void page_set_exposure(float ev) { state.exposure_ev = ev; }
+float page_exposure_now(void) { return state.exposure_ev; }
 
 static int put_codes(uint8_t *rgba, const image *from, float ev)
 {
@@ -429,12 +429,12 @@ static int put_codes(uint8_t *rgba, const image *from, float ev)
         rgba[4 * i + 3] = 255;
     }
     free(codes);
-    return codes != NULL || report_fail(&page.r, "out of memory");
+    return codes != NULL || report_fail(&state.r, "out of memory");
 }
 
-int page_to_pixels(void) { return page.is_open && put_codes(page.pixels, &page.job.linear, page.exposure_ev); }
+int page_to_pixels(void) { return state.is_open && put_codes(state.pixels, &state.job.linear, state.exposure_ev); }
 
-uint8_t *page_pixels(void) { return page.pixels; }
+uint8_t *page_pixels(void) { return state.pixels; }
 
 const char *page_hash(void)
 {
@@ -450,20 +450,20 @@ int page_measure(void)
     metrics m;
     metrics_input in;
     begin_report();
-    if (!page.has_best) {
-        return report_fail(&page.r, "the best frame is not drawn yet");
+    if (!state.has_best) {
+        return report_fail(&state.r, "the best frame is not drawn yet");
     }
     memset(&in, 0, sizeof in);
-    in.test = page.job.linear.pixels;
-    in.truth = page.best.linear.pixels;
-    in.width = page.best.linear.width;
-    in.height = page.best.linear.height;
-    in.channels = page.best.linear.channels;
-    if (!metrics_measure(&m, &in, &page.r)) {
+    in.test = state.job.linear.pixels;
+    in.truth = state.best.linear.pixels;
+    in.width = state.best.linear.width;
+    in.height = state.best.linear.height;
+    in.channels = state.best.linear.channels;
+    if (!metrics_measure(&m, &in, &state.r)) {
         return 0;
     }
-    page.trim = (float)m.trim;
-    page.rmse = (float)m.rmse;
+    state.trim = (float)m.trim;
+    state.rmse = (float)m.rmse;
     return 1;
 }
 
@@ -472,7 +472,7 @@ int page_measure(void)
 static void grey(image *p)
 {
     float near_m, far_m;
-    switch (page.job.o.show) {
+    switch (state.job.o.show) {
     case SHOW_DEPTH: grey_depths(p); break;
     case SHOW_EYE_DISTANCE:
     case SHOW_LIGHT_DISTANCE: grey_distances(p, &near_m, &far_m); break;
@@ -484,29 +484,29 @@ static void grey(image *p)
 
 uint8_t *page_show(void)
 {
-    render_job *j = &page.job;
+    render_job *j = &state.job;
     begin_report();
-    if (!page.is_open || !render_draw(j, &page.r)) {
+    if (!state.is_open || !render_draw(j, &state.r)) {
         return NULL;
     }
     grey(&j->linear);
-    if (j->linear.channels == 1 && !image_widen(&j->linear, &page.r)) {
+    if (j->linear.channels == 1 && !image_widen(&j->linear, &state.r)) {
         return NULL;
     }
-    free(page.shown);
-    page.shown = malloc((size_t)j->linear.width * (size_t)j->linear.height * 4);
-    page.shown_width = j->linear.width;
-    page.shown_height = j->linear.height;
-    if (page.shown == NULL || !put_codes(page.shown, &j->linear, 0.0f)) {
-        report_fail(&page.r, "out of memory");
-        free(page.shown);
-        page.shown = NULL;
+    free(state.shown);
+    state.shown = malloc((size_t)j->linear.width * (size_t)j->linear.height * 4);
+    state.shown_width = j->linear.width;
+    state.shown_height = j->linear.height;
+    if (state.shown == NULL || !put_codes(state.shown, &j->linear, 0.0f)) {
+        report_fail(&state.r, "out of memory");
+        free(state.shown);
+        state.shown = NULL;
     }
-    return page.shown;
+    return state.shown;
 }
 
-int32_t page_show_width(void) { return page.shown_width; }
-int32_t page_show_height(void) { return page.shown_height; }
+int32_t page_show_width(void) { return state.shown_width; }
+int32_t page_show_height(void) { return state.shown_height; }
 
 /* --- the cut of a pixel ------------------------------------------------------------------------------------------- */
 
@@ -548,18 +548,18 @@ static void put_node(float *out, const lmb_tree *tree, const lmb_cut *cut, int32
 
 const float *page_cut(int32_t x, int32_t y)
 {
-    render_job *j = &page.job;
-    const lmb_frame *f = page.is_open && j->render != NULL ? &j->render->frame : NULL;
-    page.cut_count = 0;
+    render_job *j = &state.job;
+    const lmb_frame *f = state.is_open && j->render != NULL ? &j->render->frame : NULL;
+    state.cut_count = 0;
     if (f == NULL || f->tree.texel == NULL || j->render->stage < LMB_STAGE_BANDS || x < 0 || y < 0 ||
         x >= f->view.frame_width || y >= f->view.frame_height) {
-        return page.cut;
+        return state.cut;
     }
     lmb_band_scratch *s = j->frame.scratch;
     lmb_cut *cut = &s->gather.cut;
     if (lmb_resolve_tile(&s->tile, f->kernels, &f->view, f->scene, &f->eye, x & -LMB_TILE, y & -LMB_TILE) != LMB_OK ||
         !keep_surface(&s->tile, y % LMB_TILE * LMB_TILE + x % LMB_TILE)) {
-        return page.cut;
+        return state.cut;
     }
     lmb_cut_params how;
     memset(&how, 0, sizeof how);
@@ -569,15 +569,15 @@ const float *page_cut(int32_t x, int32_t y)
     memset(&s->indirect, 0, sizeof s->indirect);
     cut->count = 0;
     if (lmb_gather_cut(&s->indirect, f->kernels, cut, &s->tile, &f->tree, &how) != LMB_OK) {
-        return page.cut;
+        return state.cut;
     }
-    for (int32_t i = 0; i < cut->count && page.cut_count < CUT_NODES; ++i) {
+    for (int32_t i = 0; i < cut->count && state.cut_count < CUT_NODES; ++i) {
         if (cut->ref[i].level <= tree_root_level(&f->tree) && cut->visible[i] != 0 && cut->value[i] > 0.0f) {
-            put_node(page.cut + PAGE_NODE * page.cut_count++, &f->tree, cut, i, s->tile.hits);
+            put_node(state.cut + PAGE_NODE * state.cut_count++, &f->tree, cut, i, s->tile.hits);
         }
     }
-    return page.cut;
+    return state.cut;
 }
 
-int32_t page_cut_count(void) { return page.cut_count; }
-int32_t page_cut_size(void) { return page.job.frame.tree.size; }
+int32_t page_cut_count(void) { return state.cut_count; }
+int32_t page_cut_size(void) { return state.job.frame.tree.size; }
