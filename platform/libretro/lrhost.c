@@ -70,11 +70,11 @@ static bool read_press(const char *text)
     return false;
 }
 
-static bool read_long(const char *text, long low, long high, long *out)
+static bool read_long(const char *text, long lowest, long highest, long *out)
 {
     char *end;
     *out = strtol(text, &end, 10);
-    return end != text && *end == 0 && *out >= low && *out <= high;
+    return end != text && *end == 0 && *out >= lowest && *out <= highest;
 }
 
 static bool read_value(const char *name, const char *value)
