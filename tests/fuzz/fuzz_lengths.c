@@ -33,7 +33,7 @@ static size_t shadow_map(const argument *a)
 }
 
 /* Bytes that `of` of a call asks for; `memory`, `data` and plain arrays. */
-#define LENGTH(of, name, bytes) static size_t of##_##name(const argument *a) { return bytes; }
+#define LENGTH(of, name, bytes) static size_t of##_##name(const argument *a) { (void)a; return bytes; }
 LENGTH(lmb_points_init, memory, lmb_points_bytes(U(1), U(2)))
 LENGTH(lmb_lattice_init, memory, lmb_lattice_bytes(W(1), W(2)))
 LENGTH(lmb_elements_init, memory, lmb_elements_bytes(U(1)))
