@@ -33,22 +33,22 @@ static void draw(const lmb_scene *scene, const lmb_view *view)
 }
 
 /* The scene at some times, by each camera. */
-static void play(const lmb_pack *pack)
+static void play(const lmb_pack *file)
 {
     static const float times[] = {-1.0f, 0.0f, 0.4f, 1.5f, 1e30f};
-    const size_t bytes = lmb_pack_bytes(pack);
+    const size_t bytes = lmb_pack_bytes(file);
     void *memory = bytes <= MEMORY ? malloc(bytes + 1) : NULL;
     lmb_scene scene;
     lmb_view view;
     if (memory != NULL && bytes > 0) {
-        fuzz_require(lmb_pack_scene(&scene, pack, memory, bytes - 1) == LMB_ERR_CAPACITY);
-        fuzz_require(lmb_pack_scene(&scene, pack, memory, bytes) == LMB_OK);
+        fuzz_require(lmb_pack_scene(&scene, file, memory, bytes - 1) == LMB_ERR_CAPACITY);
+        fuzz_require(lmb_pack_scene(&scene, file, memory, bytes) == LMB_OK);
         for (size_t i = 0; i < sizeof times / sizeof *times; ++i) {
-            const lmb_status posed = lmb_pack_pose(&scene, pack, times[i]);
+            const lmb_status posed = lmb_pack_pose(&scene, file, times[i]);
             fuzz_require(posed == LMB_OK || posed == LMB_ERR_SCENE);
             fuzz_require(lmb_scene_check(&scene) == LMB_OK);
-            for (uint32_t c = 0; c < 4 && c < pack->count[LMB_PACK_CAMERAS]; ++c) {
-                if (lmb_pack_view(&view, pack, &scene, c, times[i], SIDE, SIDE) == LMB_OK) {
+            for (uint32_t c = 0; c < 4 && c < file->count[LMB_PACK_CAMERAS]; ++c) {
+                if (lmb_pack_view(&view, file, &scene, c, times[i], SIDE, SIDE) == LMB_OK) {
                     draw(&scene, &view);
                 }
             }
