@@ -167,7 +167,7 @@ int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f
     }
     for (int i = 0; i < count; ++i) {
         int32_t p[3];
-        a[i].v[2] = most(a[i].v[2], 16 * f->view.near_units);
+        a[i].v[2] = maxi(a[i].v[2], 16 * f->view.near_units);
         project(p, a[i].v, &l);
         out[i].x = (int16_t)p[0], out[i].y = (int16_t)p[1], out[i].depth = (uint16_t)p[2];
         for (int c = 0; c < 3; ++c) {
@@ -187,7 +187,7 @@ static int32_t area_of(int32_t x0, int32_t y0, int32_t x1, int32_t y1, int32_t x
 /* Rows whose middles lie between; 1 where there are any, and pixels across. */
 static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0, int32_t x1, int32_t y0, int32_t y1)
 {
-    const int32_t first = most((y0 + 7) >> 4, 0), past = least((y1 + 7) >> 4, view->height);
+    const int32_t first = maxi((y0 + 7) >> 4, 0), past = mini((y1 + 7) >> 4, view->height);
     out->first = (int16_t)first;
     out->past = (int16_t)past;
     return first < past && x1 > 0 && x0 < 16 * view->width && (x0 + 7) >> 4 < (x1 + 8) >> 4;
@@ -203,7 +203,7 @@ static int see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t trian
     }
     x0 = x1 = c[0].x, y0 = y1 = c[0].y;
     for (int i = 1; i < count; ++i) {
-        x0 = least(x0, c[i].x), x1 = most(x1, c[i].x), y0 = least(y0, c[i].y), y1 = most(y1, c[i].y);
+        x0 = mini(x0, c[i].x), x1 = maxi(x1, c[i].x), y0 = mini(y0, c[i].y), y1 = maxi(y1, c[i].y);
     }
     for (int i = 2; i < count; ++i) {
         area += area_of(c[0].x, c[0].y, c[i - 1].x, c[i - 1].y, c[i].x, c[i].y);
@@ -224,8 +224,8 @@ static int see(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
     if (area_of(a->x, a->y, b->x, b->y, c->x, c->y) >= 0) {
         return 0;
     }
-    return set_rows(out, &f->view, least(a->x, least(b->x, c->x)), most(a->x, most(b->x, c->x)),
-                    least(a->y, least(b->y, c->y)), most(a->y, most(b->y, c->y)));
+    return set_rows(out, &f->view, mini(a->x, mini(b->x, c->x)), maxi(a->x, maxi(b->x, c->x)),
+                    mini(a->y, mini(b->y, c->y)), maxi(a->y, maxi(b->y, c->y)));
 }
 
 static int is_between(int32_t v, int32_t low, int32_t high) { return v >= low && v <= high; }

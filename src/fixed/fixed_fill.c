@@ -192,7 +192,7 @@ static void fill_steep(const filler *f, int32_t x, int32_t count, uint32_t *to, 
 /* Rows whose middles lie on both edges, the left one first. */
 static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
 {
-    const int32_t first = most((top + 7) >> 4, f->b->first), end = least((past + 7) >> 4, f->b->past),
+    const int32_t first = maxi((top + 7) >> 4, f->b->first), end = mini((past + 7) >> 4, f->b->past),
                   width = f->b->width;
     if (first >= end) {
         return;
@@ -203,8 +203,8 @@ static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, i
     uint32_t *to = f->b->pixel + width * (first - f->b->first);
     uint16_t *to_depth = f->b->depth + width * (first - f->b->first);
     for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width, to_depth += width) {
-        const int32_t x = most(first_pixel(u), f->first);
-        const int32_t count = least(first_pixel(v), f->past) - x;
+        const int32_t x = maxi(first_pixel(u), f->first);
+        const int32_t count = mini(first_pixel(v), f->past) - x;
         if (count > 0 && f->is_gentle) {
             const uint32_t at = (uint32_t)x;
             s.depth = f->depth + f->depth_x * at;
@@ -238,8 +238,8 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_f
     if (middle->y < top->y) {
         swap = top, top = middle, middle = swap;
     }
-    const int32_t y = most((top->y + 7) >> 4, b->first);
-    if (least((bottom->y + 7) >> 4, b->past) <= y) {
+    const int32_t y = maxi((top->y + 7) >> 4, b->first);
+    if (mini((bottom->y + 7) >> 4, b->past) <= y) {
         return;
     }
     if (area < 0) {
@@ -253,8 +253,8 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_f
     s.free = zeros_above((uint32_t)area);
     s.per = (int32_t)reciprocal((uint32_t)area << s.free);
     f.b = b;
-    f.first = most((least(c0->x, least(c1->x, c2->x)) + 7) >> 4, 0);
-    f.past = least((most(c0->x, most(c1->x, c2->x)) + 8) >> 4, b->width);
+    f.first = maxi((mini(c0->x, mini(c1->x, c2->x)) + 7) >> 4, 0);
+    f.past = mini((maxi(c0->x, maxi(c1->x, c2->x)) + 8) >> 4, b->width);
     f.is_gentle = f.past - f.first <= GENTLE_ACROSS;
     f.is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
     set_row(&f.depth, &f.depth_x, &f.depth_y, &p, c0, y);

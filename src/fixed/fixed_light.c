@@ -35,9 +35,9 @@ static int32_t cell_of(uint32_t *part, int32_t at, int32_t places, int32_t spaci
     int32_t cell = (int32_t)(high_of((uint32_t)off << 16, per) >> (30 - free)) >> 16;
     /* `off` has 15 bits: one more at most */
     cell += (cell + 1) * spacing <= off;
-    cell = most(least(cell, places - 2), 0);
+    cell = maxi(mini(cell, places - 2), 0);
     off -= cell * spacing;
-    *part = (uint32_t)least((int32_t)(high_of((uint32_t)off << 17, per) >> (39 - free)), 256);
+    *part = (uint32_t)mini((int32_t)(high_of((uint32_t)off << 17, per) >> (39 - free)), 256);
     return cell;
 }
 
@@ -45,7 +45,7 @@ static int is_valid(const lmb_fixed *s, uint32_t place) { return (int)(s->valid[
 
 static void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
 {
-    uint32_t part[3], place[AROUND], weight[AROUND], sum = 0;
+    uint32_t part[3], place[AROUND] = {0}, weight[AROUND] = {0}, sum = 0;
     int32_t cell[3];
     for (int i = 0; i < 3; ++i) {
         cell[i] = cell_of(&part[i], at[i] - s->first[i], s->places[i], s->spacing);
@@ -56,7 +56,7 @@ static void find_places(around *out, const lmb_fixed *s, const int32_t at[3])
         for (int i = 2; i >= 0; --i) {
             const int up = k >> i & 1;
             own *= up ? part[i] : 256 - part[i];
-            index = index * (uint32_t)s->places[i] + (uint32_t)least(cell[i] + up, s->places[i] - 1);
+            index = index * (uint32_t)s->places[i] + (uint32_t)mini(cell[i] + up, s->places[i] - 1);
         }
         own >>= 9; /* of 2^24 */
         if (own > 1 && is_valid(s, index)) {
@@ -198,7 +198,7 @@ NOINLINE void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*ele
         green += w * a[1] + x * b[1];
         blue += w * a[2] + x * b[2];
     }
-    const int32_t up = most(down - 4, 0), less = most(4 - down, 0);
+    const int32_t up = maxi(down - 4, 0), less = maxi(4 - down, 0);
     out[0] = high_of(red, row[1]) << up >> less;
     out[1] = high_of(green, row[1]) << up >> less;
     out[2] = high_of(blue, row[1]) << up >> less;
@@ -225,7 +225,7 @@ static int32_t solve(uint16_t (*sent)[4], const lmb_fixed_frame *f, const lamp_n
         any |= f->direct[i][0] | f->direct[i][1] | f->direct[i][2];
     }
     /* a factor of 2 for what comes by further bounces */
-    const int32_t down = most(17 - zeros_above(any), 0);
+    const int32_t down = maxi(17 - zeros_above(any), 0);
     for (int32_t bounce = 0; bounce < f->bounces; ++bounce) {
         for (uint32_t i = 0; i < s->elements; ++i) {
             uint32_t more[3] = {0, 0, 0};
