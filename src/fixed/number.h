@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "../base/exact.h"
+
 /* For loops that want all registers. */
 #if defined(__GNUC__)
 #define NOINLINE static __attribute__((noinline))
