@@ -61,6 +61,7 @@ LENGTH(lmb_depth_linearize, out,
 LENGTH(lmb_transfer_light_init, memory, lmb_transfer_light_bytes(a[1].memory))
 LENGTH(lmb_pack_scene, memory, lmb_pack_bytes(a[1].memory))
 LENGTH(lmb_pack_part, bytes, sizeof(size_t))
+LENGTH(lmb_fixed_lay, memory, lmb_fixed_memory(a[1].memory, U(2)))
 LENGTH(lmb_tree_init, memory, lmb_tree_bytes(U(1), W(2)))
 LENGTH(lmb_voxels_init, memory, lmb_voxels_bytes(U(1), W(2)))
 LENGTH(lmb_cloud_nearest, out, within(W(1), LMB_NEAREST_CAP, 4))
@@ -84,6 +85,7 @@ LENGTH(lmb_transfer_fingerprint, moving, within(U(3), POOL_PLACES, 8))
 LENGTH(lmb_texture_mips, texels, lmb_texture_bytes(W(1), W(2), W(3)))
 LENGTH(lmb_normal_map_mips, texels, lmb_texture_bytes(W(1), W(2), W(3)))
 static size_t any_int32_t(const argument *a) { return (void)a, sizeof(int32_t); }
+static size_t any_place(const argument *a) { return (void)a, 3 * sizeof(int32_t); }
 static size_t any_double(const argument *a) { return (void)a, sizeof(double); }
 
 #define IS(of, name) {#of, #name, of##_##name}
@@ -112,6 +114,7 @@ static const struct {
     IS(lmb_transfer_light_init, memory),
     IS(lmb_pack_scene, memory),
     IS(lmb_pack_part, bytes),
+    IS(lmb_fixed_lay, memory),
     IS(lmb_tree_init, memory),
     IS(lmb_voxels_init, memory),
     IS(lmb_cloud_nearest, out),
@@ -136,6 +139,9 @@ static const struct {
     IS(lmb_normal_map_mips, texels),
     {"lmb_two_maps", "memory", two_maps},
     {"lmb_shadow_map_init", "memory", shadow_map},
+    {"lmb_fixed_look_at", "eye", any_place},
+    {"lmb_fixed_look_at", "target", any_place},
+    {"lmb_fixed_place", "position", any_place},
     {"lmb_photo_view", "x0", any_int32_t},
     {"lmb_photo_view", "y0", any_int32_t},
     {"lmb_surface_diff", "x", any_int32_t},
