@@ -140,8 +140,8 @@ static void test_planes(void)
                 const int own = (int)(pixel[i] >> (16 - 8 * k) & 255u);
                 const double want = c[0].colour[k] + (c[1].colour[k] - c[0].colour[k]) * b1 +
                                     (c[2].colour[k] - c[0].colour[k]) * b2;
-                const int low = least(c[0].colour[k], least(c[1].colour[k], c[2].colour[k])),
-                          high = most(c[0].colour[k], most(c[1].colour[k], c[2].colour[k]));
+                const int low = mini(c[0].colour[k], mini(c[1].colour[k], c[2].colour[k])),
+                          high = maxi(c[0].colour[k], maxi(c[1].colour[k], c[2].colour[k]));
                 most_off = is_fat ? larger(most_off, fabs(own - want)) : most_off;
                 outside += own < low - 17 || own > high + 17;
             }
@@ -188,7 +188,7 @@ static void test_frames(void)
         for (int k = 0; k < 4; ++k) {
             for (int32_t y = 0; y < HEIGHT; y += rows[k]) {
                 f.pixel = picture[1] + WIDTH * y;
-                CHECK(lmb_fixed_band(&f, y, least(y + rows[k], HEIGHT)) == LMB_OK);
+                CHECK(lmb_fixed_band(&f, y, mini(y + rows[k], HEIGHT)) == LMB_OK);
             }
             differ += memcmp(picture[0], picture[1], sizeof picture[0]) != 0;
         }

@@ -127,7 +127,15 @@ static struct {
     lmb_scene pack_scene;
     uint32_t *pack_file;
     size_t pack_bytes;
+    lmb_fixed fixed;
+    lmb_fixed_frame fixed_frame;
 } g;
+
+/* The room that ports show. */
+static const uint32_t fixed_file[] = {
+#include "../../platform/demo/room_data.inc"
+};
+static const int32_t fixed_places[2][3] = {{0, 400, 700}, {0, 300, -300}};
 
 /* Memory for a good one; 0: frees all. */
 static void *room(size_t bytes)
@@ -297,6 +305,21 @@ static void make_pack(void)
     CHECK(lmb_pack_scene(&g.pack_scene, &g.pack, room(bytes), bytes) == LMB_OK);
 }
 
+static void make_fixed(void)
+{
+    lmb_fixed_frame *f = &g.fixed_frame;
+    CHECK(lmb_fixed_open(&g.fixed, fixed_file, sizeof fixed_file) == LMB_OK);
+    const size_t bytes = lmb_fixed_memory(&g.fixed, g.fixed.triangles);
+    CHECK(lmb_fixed_lay(f, &g.fixed, g.fixed.triangles, room(bytes), bytes) == LMB_OK);
+    f->view.width = WIDE, f->view.height = HIGH;
+    f->view.focal = 1000, f->view.near_units = 128;
+    CHECK(lmb_fixed_look_at(&f->view, fixed_places[0], fixed_places[1]) == LMB_OK);
+    f->lamp.position[1] = 1000;
+    f->lamp.intensity[0] = f->lamp.intensity[1] = f->lamp.intensity[2] = 9000;
+    f->pixel = room(WIDE * HIGH * sizeof *f->pixel);
+    f->depth = room(WIDE * HIGH * sizeof *f->depth);
+}
+
 static void make_facts(void)
 {
     lmb_facts *f = &g.facts;
@@ -333,6 +356,10 @@ static int good_for_call(known *out, const argument *a)
         *out = (known){"void", relief->file.data, relief->file.size};
     } else if (calls_for("lmb_transfer_open")) {
         *out = (known){"void", g.transfer_file, g.transfer_bytes};
+    } else if (calls_for("lmb_fixed_open")) {
+        *out = (known){"void", fixed_file, sizeof fixed_file};
+    } else if (calls_for("lmb_fixed_look_at") || calls_for("lmb_fixed_place")) {
+        *out = (known){"int32_t", fixed_places[strcmp(a->name, "target") == 0], sizeof fixed_places[0]};
     } else if (calls_for("lmb_pack_open")) {
         *out = (known){"void", g.pack_file, g.pack_bytes};
     } else if (calls_for("lmb_pack_pose") || calls_for("lmb_pack_view")) {
@@ -379,6 +406,7 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_frame_settings", &g.settings, sizeof g.settings},
         {"lmb_groups", &g.groups, sizeof g.groups},
         {"lmb_hull", &g.hull, sizeof g.hull},
+        {"lmb_fixed", &g.fixed, sizeof g.fixed},
         {"lmb_light", f->scene->lights, sizeof *f->scene->lights},
         {"lmb_shadow_map", g.render.maps, sizeof *g.render.maps},
         {"lmb_tile_sample", &g.query, sizeof g.query},
@@ -409,6 +437,8 @@ static const void *good_one(const argument *a, size_t *bytes)
         {"lmb_transfer", &g.transfer, sizeof g.transfer},
         {"lmb_transfer_light", &g.transfer_light, sizeof g.transfer_light},
         {"lmb_gouraud", &g.gouraud, sizeof g.gouraud},
+        {"lmb_fixed_frame", &g.fixed_frame, sizeof g.fixed_frame},
+        {"lmb_fixed_view", &g.fixed_frame.view, sizeof g.fixed_frame.view},
         {"lmb_tree", &f->tree, sizeof f->tree},
         {"lmb_view", &f->view, sizeof f->view},
         {"lmb_voxel_part", &part, sizeof part},
@@ -460,6 +490,9 @@ static void set_number(argument *a)
     }
     if (calls_for("lmb_transfer_open") && strcmp(a->name, "bytes") == 0) {
         a->whole = (int64_t)g.transfer_bytes; /* whole, not a byte more */
+    }
+    if (calls_for("lmb_fixed_open") && strcmp(a->name, "bytes") == 0) {
+        a->whole = (int64_t)sizeof fixed_file;
     }
     if (calls_for("lmb_pack_open") && strcmp(a->name, "bytes") == 0) {
         a->whole = (int64_t)g.pack_bytes;
@@ -590,6 +623,7 @@ void test_zeros(void)
     make_facts();
     make_transfer();
     make_pack();
+    make_fixed();
     for (int i = 0; i < COUNT(calls); ++i) {
         test_call(&calls[i]);
     }
