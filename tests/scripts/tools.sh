@@ -55,6 +55,9 @@ missing() {
     for command in "$@"; do
         case $command in
         clang-sanitizers) sanitizes || echo "$command" ;;
+        # A cross compiler may be there without its libc.
+        *-linux-gnu*-gcc) echo '#include <stdio.h>' | "$command" -E -x c -o /dev/null - >/dev/null 2>&1 \
+            || echo "$command" ;;
         gcc-m32) echo 'int main(void) { return 0; }' | gcc -m32 -I/usr/include/x86_64-linux-gnu -x c -o /dev/null - \
             >/dev/null 2>&1 || echo "$command" ;;
         *_libretro.so) ls /usr/lib/*/libretro/"$command" >/dev/null 2>&1 || echo "$command" ;;

@@ -181,6 +181,9 @@ static uint32_t add_element(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal)
 
 void bake_join(const bake *b, bake_element *e)
 {
+    if (e->parts == 0) {
+        return;
+    }
     const bake_part *p = b->part + e->first_part;
     lmb_vec3 middle = vec3(0.0f, 0.0f, 0.0f), normal = middle;
     float area = 0.0f, largest = 0.0f;
