@@ -418,9 +418,11 @@ SEED ?= 1
 mutants: ## src/ and tools/ with one change at a time: do tests notice? (N=60 SEED=1 IN="raster tools/model")
 	@sh tests/scripts/mutate.sh $(BUILD)/mutants $(N) $(SEED) $(IN)
 
-cov: ## lines and branches of src/ that the checks run, by gcov; what they miss
-	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS:%=$(BUILD)/cov/default/%) BUILD=$(BUILD)/cov \
-	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage && sh tests/scripts/cov.sh $(BUILD)/cov
+COV    ?= src
+cov: ## lines and branches of src/ that the checks run, by gcov; what they miss (COV=tools: of tools/)
+	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(BUILD)/cov/lambent $(COV_PROGRAMS:%=$(BUILD)/cov/default/%) \
+	    BUILD=$(BUILD)/cov CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage \
+	    && CC='$(CC)' FLAGS='$(FLAGS) --coverage' LDLIBS='$(LDLIBS)' sh tests/scripts/cov.sh $(BUILD)/cov $(COV)
 
 static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/
 	@sh tests/scripts/static.sh $(BUILD)/static
