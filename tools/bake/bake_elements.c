@@ -8,7 +8,7 @@
 #include "bake_triangle.h"
 #include "../../src/radiosity/piece.h"
 
-enum { MESH = 500 };
+enum { MESH = 500, CROWD = 8 };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
 #define CLOSER  0.5f /* of that, where there are elements left for it */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, or they would take them all */
@@ -332,24 +332,27 @@ static void take_parts(bake *b)
     }
 }
 
+/* Long ones alone: a mesh's small triangles share elements anyway, and are no reason for a window's jambs to do so. */
 static uint32_t slivers(const maker *m)
 {
     uint32_t count = 0;
     lmb_triangle t;
     for (uint32_t id = 1; id <= lmb_scene_triangles(m->b->scene); ++id) {
-        count += lmb_triangle_fetch(&t, m->b->scene, id) && is_narrow(t.corner, SLIVER * m->side);
+        int from;
+        count += lmb_triangle_fetch(&t, m->b->scene, id) && 2.0f * triangle_longest(&from, t.corner) >= m->side &&
+                 is_narrow(t.corner, SLIVER * m->side);
     }
     return count;
 }
 
 static int make(maker *m)
 {
-    const uint32_t all = lmb_scene_triangles(m->b->scene);
+    const uint32_t all = lmb_scene_triangles(m->b->scene), long_ones = slivers(m);
     m->b->section[LMB_TRANSFER_PIECES].count = 0;
     m->b->element_count = m->b->part_count = 0;
     memset(m->b->element, 0, m->b->set.elements * sizeof *m->b->element);
     m->is_full = 0;
-    m->has_slivers = slivers(m) >= MESH;
+    m->has_slivers = long_ones >= MESH && long_ones * CROWD >= m->b->set.elements;
     memset(m->slot, 0, 20 * ((size_t)m->mask + 1));
     for (uint32_t id = 1; id <= all && !m->is_full; ++id) {
         if (!add_triangle(m, id)) {

@@ -187,14 +187,14 @@ static void add_apart(const rows *w, uint32_t j, uint64_t points, int worker)
     }
 }
 
-/* Which points are so near to an element that it is no disc for them. */
+/* Which points are so near to an element that it is no disc for them; those behind one triangle get nothing of it. */
 static uint64_t near_points(const rows *w, const bake_element *e)
 {
     const float reach2 = (e->is_one ? cut2[0] : APART2) * e->reach2;
     uint64_t near = 0;
     for (int k = 0; k < w->count && !w->b->by_middles; ++k) {
         const lmb_vec3 d = sub3(e->middle, w->at[k]);
-        near |= (uint64_t)(dot3(d, d) < reach2) << k;
+        near |= (uint64_t)(dot3(d, d) < reach2 && (!e->is_one || dot3(d, e->normal) < 0.0f)) << k;
     }
     return near;
 }
