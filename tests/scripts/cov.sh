@@ -1,8 +1,8 @@
-# cov.sh: which lines and branches of src/ or tools/ the checks run: cov.sh FOLDER src|tools, where `make cov` built them.
+# cov.sh: which lines and branches of src/ or tools/ the checks run: cov.sh FOLDER src|tools, as `make cov` built it.
 #
 # A line counts where any of its copies was run (kernels are compiled for each backend; those that this processor lacks
 # count as not there), a branch where one of its two ways was taken, twice. What was not run is in FOLDER/uncovered.
-# Bars of src/: 98 % of lines, 92 % of branches, and a reason in uncovered.txt beside this for each line that was not run.
+# Bars of src/: 98 % of lines, 92 % of branches, a reason in uncovered.txt beside this for each line that was not run.
 # Of tools/: 85 % of lines. What handles a failed allocation or write is left to `make faults`, and not counted as run.
 folder=$1
 tree=$2
@@ -31,8 +31,8 @@ esac >"$folder/run.log" 2>&1
 find "$b/obj/$tree" -name '*.gcda' | grep -v -e neon -e simd128 | sed 's/gcda$/o/' >"$folder/objects"
 rm -f "$folder/uncovered"
 reasons=tests/scripts/uncovered.txt
-xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncovered" -v reasons="$reasons" -v tree="$tree" \
-    -v least_lines=$lines -v least_branches=$branches '
+xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncovered" -v reasons="$reasons" \
+    -v tree="$tree" -v least_lines=$lines -v least_branches=$branches '
     # FILE | part of the line | why; each for one line.
     function read_reasons(    row, part) {
         while ((getline row < reasons) > 0) {
