@@ -558,6 +558,30 @@ for room in box:256:200 block:1024:1000; do
     status 0 render "$dir/$name.obj" $inside --transfer "$dir/$name-1.lmt" --threads 1 -o "$dir/$name-again.pfm"
     check "baked light by any threads is equal" cmp -s "$dir/$name-baked.pfm" "$dir/$name-again.pfm"
 done
+# Long slivers: narrow strips over a floor, and splinters beside them as a mesh has.
+strips() { # strips STRIPS SPLINTERS ELEMENTS: how many elements they get, in `elements`.
+    awk -v strips=$1 -v splinters=$2 'BEGIN {
+        print "v -2 0 2\nv 2 0 2\nv 2 0 -2\nv -2 0 -2\nf -4 -3 -2 -1"
+        for (i = 0; i < strips; ++i) {
+            z = -1.9 + 3.8 * i / strips
+            printf "v -1.5 0.5 %.5f\nv 1.5 0.5 %.5f\nv 1.5 0.5 %.5f\nv -1.5 0.5 %.5f\nf -4 -3 -2 -1\n", z + 0.002, z + 0.002, z, z
+        }
+        for (i = 0; i < splinters; ++i) {
+            x = -1.95 + 0.0003 * i
+            printf "v %.5f 1 1.9\nv %.5f 1 1.9\nv %.5f 1 1.86\nf -3 -2 -1\n", x, x + 0.0002, x
+        }
+    }' >"$dir/strips.obj"
+    status 0 bake "$dir/strips.obj" -o "$dir/strips.lmt" --elements $3 --receivers 3000
+    elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' "$dir/out.txt")
+}
+strips 8 0 1024
+alone=$elements
+strips 8 600 1024
+check "a mesh's splinters leave strips their elements: $elements, $alone without" test "$elements" -le $((alone + 16))
+strips 300 0 1024
+check "many strips share elements, and the floor has some: $elements" test "$elements" -gt 512
+strips 255 0 4096
+check "strips that crowd nothing out keep their elements: $elements" test "$elements" -lt 3300
 # A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
 awk 'function block(x, z,  i) {
          for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)
