@@ -386,7 +386,8 @@ module-sizes: $(LIB)
 rom: module-sizes
 	@$(IN_SH) tests/scripts/rom.sh 49152
 
-COV_PROGRAMS := tests golden golden-orders reference hard replay hostile
+COV_PROGRAMS_src   := $(addprefix default/,tests replay golden golden-orders reference hard hostile)
+COV_PROGRAMS_tools := default/tests default/replay lambent
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
@@ -420,8 +421,8 @@ mutants: ## src/ and tools/ with one change at a time: do tests notice? (N=60 SE
 
 COV    ?= src
 cov: ## lines and branches of src/ that the checks run, by gcov; what they miss (COV=tools: of tools/)
-	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(BUILD)/cov/lambent $(COV_PROGRAMS:%=$(BUILD)/cov/default/%) \
-	    BUILD=$(BUILD)/cov CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage \
+	+@sh tests/scripts/tools.sh need gcov && $(MAKE) $(COV_PROGRAMS_$(COV):%=$(BUILD)/cov/%) BUILD=$(BUILD)/cov \
+	    CFLAGS="-O1 -g --coverage" LDFLAGS=--coverage \
 	    && CC='$(CC)' FLAGS='$(FLAGS) --coverage' LDLIBS='$(LDLIBS)' sh tests/scripts/cov.sh $(BUILD)/cov $(COV)
 
 static: ## cppcheck, clang-tidy, gcc -fanalyzer and -Wconversion over src/

@@ -3,10 +3,17 @@
 # A line counts where any of its copies was run (kernels are compiled for each backend; those that this processor lacks
 # count as not there), a branch where one of its two ways was taken, twice. What was not run is in FOLDER/uncovered.
 # Bars of src/: 98 % of lines, 92 % of branches, a reason in uncovered.txt beside this for each line that was not run.
-# Of tools/: 85 % of lines. What handles a failed allocation or write is left to `make faults`, and not counted as run.
+# Of tools/: 85 % of lines. Failed allocations and writes are provoked by `make faults`, which does not count here.
 folder=$1
 tree=$2
 b=$folder/default
+case $tree in
+src | tools) ;;
+*)
+    echo "cov.sh: COV is src or tools, not $tree" >&2
+    exit 2
+    ;;
+esac
 find "$folder" -name '*.gcda' -exec rm -f {} +
 case $tree in
 src)
@@ -78,10 +85,12 @@ xargs gcov -b -c -t <"$folder/objects" 2>/dev/null | awk -v out="$folder/uncover
             printf "%-28s lines %4d of %4d, %5.1f %%   branches %4d of %4d, %5.1f %%\n", f, hit[f], lines[f],
                 100 * hit[f] / lines[f], went[f], ways[f], ways[f] ? 100 * went[f] / ways[f] : 100 | "sort -t, -k2 -n"
         close("sort -t, -k2 -n")
-        if (tree == "src") read_reasons()
-        for (k in there) if (tree == "src") {
-            split(k, p, ":")
-            if (!(k in run) && !reason_of(p[1], text[k])) { print "no reason: " k ":" text[k]; ++open }
+        if (tree == "src") {
+            read_reasons()
+            for (k in there) {
+                split(k, p, ":")
+                if (!(k in run) && !reason_of(p[1], text[k])) { print "no reason: " k ":" text[k]; ++open }
+            }
         }
         for (i = 1; i <= rows; ++i)
             print at_file[i] ": " at_text[i] ": " why[i] (told[i] ? "" : " (here it was run)")

@@ -40,6 +40,13 @@ check "a package would be removed" test ! -e "$dir/told.removed"
 check "what is left out, and why, is not said" grep -q 'left out: greedy-tool.* gcc-multilib' "$dir/said"
 check "what is not to be had is not said" grep -q 'not to be had: lost-tool' "$dir/said"
 
+# A cross compiler whose libc is not there finds no header of it.
+printf '#!/bin/sh\nexec gcc "$@" -nostdinc\n' >"$dir/bin/bare-linux-gnu-gcc"
+printf '#!/bin/sh\nexec gcc "$@"\n' >"$dir/bin/whole-linux-gnu-gcc"
+chmod +x "$dir/bin/bare-linux-gnu-gcc" "$dir/bin/whole-linux-gnu-gcc"
+get bare-linux-gnu-gcc whole-linux-gnu-gcc
+check "a compiler without its libc does not count as missing" grep -q '^missing: bare-linux-gnu-gcc$' "$dir/said"
+
 get sh
 check "apt-get is asked though nothing is missing" test ! -s "$dir/told"
 
