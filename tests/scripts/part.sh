@@ -1,4 +1,5 @@
-# part.sh: run one part of the checks, keep its log, show one line and its seconds: part.sh NAME COMMAND...
+# part.sh: run one part of the checks, keep its log, show one line and its seconds, on the clock and of
+# the processors: part.sh NAME COMMAND...
 #
 # The command's last line `N passed, N failed, N skipped` counts (a prefix is fine); one that is missing, or an exit
 # status that it does not explain, counts as one failed. LOGS: folder for NAME.log. NEEDS: commands without which the
@@ -34,5 +35,8 @@ case "$V/$line" in
 /*", 0 failed,"*) shown=$(grep '^skipped: ' "$log") ;;
 *) shown=$(cat "$log") ;;
 esac
-printf '%s%-14s %s, %d s\n' "${shown:+$shown
-}" "$name" "$line" $(($(date +%s) - begun))
+times >"$log.times"
+spent=$(awk 'NR == 2 { gsub(/[ms]/, " "); print int($1 * 60 + $2 + $3 * 60 + $4 + 0.5) }' "$log.times")
+rm -f "$log.times"
+printf '%s%-14s %s, %d s (%s of CPU)\n' "${shown:+$shown
+}" "$name" "$line" $(($(date +%s) - begun)) "$spent"
