@@ -49,7 +49,12 @@ static inline lmb_vec3 normalize3(lmb_vec3 a)
 static inline float minf(float a, float b) { return a < b ? a : b; }
 static inline float maxf(float a, float b) { return a > b ? a : b; }
 static inline float clampf(float v, float lo, float hi) { return v < lo ? lo : v > hi ? hi : v; }
-static inline float absf(float a) { return a < 0.0f ? -a : a; }
+/* One instruction where the compiler is told; 0 of -0 by both. */
+#if defined(__GNUC__)
+static inline float absf(float a) { return __builtin_fabsf(a); }
+#else
+static inline float absf(float a) { return a <= 0.0f ? 0.0f - a : a; }
+#endif
 static inline lmb_vec3 min3(lmb_vec3 a, lmb_vec3 b) { return vec3(minf(a.x, b.x), minf(a.y, b.y), minf(a.z, b.z)); }
 static inline lmb_vec3 max3(lmb_vec3 a, lmb_vec3 b) { return vec3(maxf(a.x, b.x), maxf(a.y, b.y), maxf(a.z, b.z)); }
 static inline float largest3(lmb_vec3 v) { return maxf(maxf(absf(v.x), absf(v.y)), absf(v.z)); }

@@ -77,7 +77,7 @@ static int is_lit_exactly(const lmb_gouraud *g, uint32_t i, lmb_vec3 at, lmb_vec
 {
     const lmb_receiver r = {at, normal, id};
     lmb_shadow_query query;
-    lmb_shadow_ask(&query, &g->maps[i], &g->scene->lights[i], g->scene, g->view.eye);
+    lmb_shadow_ask(&query, &g->maps[i], &g->scene->lights[i], g->scene, &g->view);
     return lmb_is_lit(&query, &r);
 }
 

@@ -40,7 +40,7 @@ lmb_status lmb_direct_tile(lmb_irradiance *inout, const lmb_kernels *kernels, co
         return LMB_ERR_ARG;
     }
     lmb_direct_job job = make_job(light);
-    lmb_shadow_ask(&query, map, light, scene, view->eye);
+    lmb_shadow_ask(&query, map, light, scene, view);
     kernels->direct(&one, tile, &job);
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         int dark = tile->id[k] == 0 || (one.rgb[0][k] == 0.0f && one.rgb[1][k] == 0.0f && one.rgb[2][k] == 0.0f);

@@ -81,41 +81,63 @@ static float texel_depth(const lmb_target *face, int32_t x, int32_t y)
  * whose edges are snapped to parts of a pixel; 2^-22 of its coordinates: a few roundings of the resolve. */
 static float noise_of(const lmb_shadow_query *query, const lmb_receiver *r)
 {
-    return 3.0517578e-5f * length3(sub3(r->position, query->eye)) + 2.3841858e-7f * length3(r->position);
+    return 3.0517578e-5f * length3(sub3(r->position, query->view->eye)) + 2.3841858e-7f * length3(r->position);
 }
 
-enum { BESIDE = 0, OVER = 1, SHADOWS = 2 };
+/* What a ray from a place to the light says of a triangle; THROUGH, besides: its plane goes through the place. */
+enum { BESIDE = 0, OVER = 1, SHADOWS = 2, THROUGH = 4 };
 
-/* Does triangle `id` lie over the receiver in the map, and is the receiver behind its plane? */
-static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const place *at)
+/* Does a triangle lie over a place in the map, and is the place behind its plane? n: the triangle's normal, of any
+ * length. noise: m, of the place. */
+static int ask_from(lmb_vec3 *n, const lmb_shadow_query *query, const lmb_triangle *t, lmb_vec3 p, const place *at,
+                    float noise)
 {
-    const lmb_scene *scene = query->scene;
-    lmb_triangle t;
-    if (!lmb_triangle_fetch(&t, scene, id)) {
-        return BESIDE;
-    }
-    lmb_vec3 a = sub3(t.corner[0], r->position), b = sub3(t.corner[1], r->position), c = sub3(t.corner[2], r->position);
-    lmb_vec3 n = cross3(sub3(b, a), sub3(c, a));
-    float nn = dot3(n, n);
+    lmb_vec3 a = sub3(t->corner[0], p), b = sub3(t->corner[1], p), c = sub3(t->corner[2], p);
+    *n = cross3(sub3(b, a), sub3(c, a));
+    const float nn = dot3(*n, *n);
     if (!(nn > 1e-36f)) {
         return BESIDE;
     }
+    float height = dot3(*n, a) / sqrtf(nn); /* of the plane over the place, m, signed */
+    const int through = absf(height) <= noise ? THROUGH : 0;
     /* The ray to the light in the triangle's edges: all of one sign when it passes inside. */
     float e0 = dot3(at->towards, cross3(b, c)), e1 = dot3(at->towards, cross3(c, a)),
           e2 = dot3(at->towards, cross3(a, b));
     if (!((e0 >= 0.0f && e1 >= 0.0f && e2 >= 0.0f) || (e0 <= 0.0f && e1 <= 0.0f && e2 <= 0.0f))) {
-        return BESIDE;
+        return BESIDE | through;
     }
-    float height = dot3(n, a) / sqrtf(nn);        /* of the plane over the receiver, m, signed */
-    float rise = dot3(n, at->towards) / sqrtf(nn); /* towards the light on the same scale */
+    float rise = dot3(*n, at->towards) / sqrtf(nn); /* towards the light on the same scale */
     float sum = e0 + e1 + e2;
-    if (height * rise <= 0.0f || absf(height) <= noise_of(query, r) || sum == 0.0f) {
-        return OVER; /* the plane is behind the receiver, or through it */
+    if (height * rise <= 0.0f || through || sum == 0.0f) {
+        return OVER | through; /* the plane is behind the place, or through it */
     }
     if (absf(height) >= absf(rise) && at->view->kind == LMB_PERSPECTIVE) {
         return OVER; /* beyond the light */
     }
-    return lmb_triangle_opaque(&t, scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
+    return lmb_triangle_opaque(t, query->scene, e1 / sum, e2 / sum) ? SHADOWS : BESIDE;
+}
+
+/* A receiver on the line where its triangle meets another one, as a floor's at the foot of a wall: rounding alone would
+ * say on which side of the wall it lies, and a wall whose back is lit would have bright specks along its foot. The eye
+ * tells: it sees the receiver, so a place a little nearer to it, at most 64 times the noise, is on the receiver's side
+ * and answers too. */
+static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_receiver *r, const place *at, float noise)
+{
+    lmb_triangle t;
+    lmb_vec3 n;
+    if (!lmb_triangle_fetch(&t, query->scene, id)) {
+        return BESIDE;
+    }
+    const int answer = ask_from(&n, query, &t, r->position, at, noise);
+    if ((answer & THROUGH) != 0 && query->view->kind == LMB_PERSPECTIVE) {
+        const lmb_vec3 way = sub3(query->view->eye, r->position);
+        const float change = absf(dot3(n, way)), length = sqrtf(dot3(n, n));
+        if (16.0f * change >= length * length3(way) &&
+            ask_from(&n, query, &t, add3(r->position, mul3(way, 4.0f * noise * length / change)), at, noise) == SHADOWS) {
+            return SHADOWS;
+        }
+    }
+    return answer & (OVER | SHADOWS);
 }
 
 /* The nearest texel's surface against the receiver's own plane at that texel's middle. noise: m, of the receiver's
@@ -145,12 +167,12 @@ static int lit_by_depth(const lmb_shadow_query *query, const place *at, const lm
 }
 
 void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
-                    lmb_vec3 eye)
+                    const lmb_view *view)
 {
     out->map = map;
     out->light = light;
     out->scene = scene;
-    out->eye = eye;
+    out->view = view;
     out->face = -1;
 }
 
@@ -180,6 +202,7 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
     if (!find_place(&at, query->map, query->light, r->position) || four_ids(seen, query, &at, r->id)) {
         return 1;
     }
+    const float noise = noise_of(query, r);
     for (int q = 0; q < 4; ++q) {
         int known = 0;
         for (int p = 0; p < q; ++p) {
@@ -188,12 +211,12 @@ int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *r)
         if (seen[q] == r->id) {
             over = 1;
         } else if (seen[q] != 0 && !known) {
-            int answer = ask_triangle(query, seen[q], r, &at);
+            int answer = ask_triangle(query, seen[q], r, &at, noise);
             if (answer == SHADOWS) {
                 return 0;
             }
             over |= answer == OVER;
         }
     }
-    return over || lit_by_depth(query, &at, r, noise_of(query, r));
+    return over || lit_by_depth(query, &at, r, noise);
 }

@@ -12,18 +12,18 @@ typedef struct lmb_receiver {
     uint32_t id;             /* its own triangle never shadows it */
 } lmb_receiver;
 
-/* The shadow map of one light, for any number of points that `eye` sees. */
+/* The shadow map of one light, for any number of points that a view sees. */
 typedef struct lmb_shadow_query {
     const lmb_shadow_map *map;
     const lmb_light *light;
     const lmb_scene *scene;
-    lmb_vec3 eye;
+    const lmb_view *view;
     lmb_fill_window window; /* of the face that was last looked at */
     int32_t face;           /* -1: none */
 } lmb_shadow_query;
 
 void lmb_shadow_ask(lmb_shadow_query *out, const lmb_shadow_map *map, const lmb_light *light, const lmb_scene *scene,
-                    lmb_vec3 eye);
+                    const lmb_view *view);
 int lmb_is_lit(lmb_shadow_query *query, const lmb_receiver *receiver);
 
 #endif

@@ -191,6 +191,29 @@ static void thin(hard_list *l)
     put_both(l, &n, "a wall of 1 mm: acne", 0.1, "its shadow: lit", 0.3);
 }
 
+/* A room's corner by a floor and a wall whose back a sun lights, seen from within; turned about the foot, and with a
+ * row of pixels on it or nearly: pixels of the floor that are lit. */
+static void foot_of_wall(hard_list *l)
+{
+    enum { PLACES = 24 };
+    hard_stage *s = l->stage;
+    double specks = 0.0, pixels = 0.0;
+    for (int i = 0; i < PLACES; ++i) {
+        const dvec along = dvec_of(cos(0.7 * i), 0, sin(0.7 * i)), in = dvec_of(-along.z, 0, along.x);
+        hard_begin(s, 0.7);
+        hard_quad(s, dvec_mul(in, 4.0), dvec_mul(along, 8.0), dvec_mul(in, -4.0));
+        hard_quad(s, dvec_of(0, 4, 0), dvec_mul(along, 8.0), dvec_of(0, 4, 0));
+        const dvec eye = dvec_add(dvec_mul(in, 2.0), dvec_of(0, 1.0 + 1e-6 * i, 0));
+        hard_look(s, eye, dvec_of(1e-6 * i, 1.0, 0), 2.0 * 180.0 / PI * atan(0.25 * SIDE / 16.5), SIDE);
+        hard_sun(s, dvec_add(dvec_mul(in, 0.8), dvec_of(0, -0.6, 0)), 3.0);
+        hard_end(s);
+        const shadow_count n = judge(s, HARD_MAP, sees_by_triangles);
+        pixels += n.lit + n.dark;
+        specks += n.leaks + n.lit - n.acne;
+    }
+    hard_put(l, HARD_EXACT, "the foot of a wall whose back is lit: lit", pixels > 0.0 ? specks : HUGE_VAL, 0, "px");
+}
+
 /* --- transforms, masks, motion ------------------------------------------------------------------------------------ */
 
 static void transforms(hard_list *l)
@@ -291,6 +314,7 @@ void hard_shadow(hard_list *l)
     grazing(l);
     near_lights(l);
     thin(l);
+    foot_of_wall(l);
     transforms(l);
     masked(l);
     motion(l);
