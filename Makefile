@@ -391,7 +391,7 @@ COV_PROGRAMS_tools := default/tests default/replay lambent
 
 ASAN_CC ?= clang
 asan: ## the checks under address and undefined-behaviour sanitizers
-	+@$(MAKE) check CHECKS="cli hard unit-1 unit-2 golden replay hostile hostile-cli readme" \
+	+@SHORT=1 $(MAKE) check CHECKS="cli hard unit-1 unit-2 golden replay hostile hostile-cli readme" \
 	    BUILD=$(BUILD)/asan CC=$(ASAN_CC) \
 	    CFLAGS="-O2 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 

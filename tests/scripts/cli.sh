@@ -1,4 +1,6 @@
 # cli.sh: what the tool writes, says and returns; TOOL and B in the environment.
+#
+# SHORT=1, for builds that are slow: without the minutes of light that other checks run too.
 . tests/scripts/checks.sh
 
 dir=$B/cli
@@ -209,14 +211,16 @@ status 1 render demo $small --many-lights 4 --grouping zones -o "$dir/bad.pfm"
 status 0 render "$dir/many.gltf" $look --grouping zones --show direct -o "$dir/zones.pfm"
 check "direct light knows no grouping" cmp "$dir/direct.pfm" "$dir/zones.pfm"
 status 2 render demo $small --profile fast -o "$dir/bad.pfm"
-for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
-    for bounces in 1 3; do
-        how="demo --size 64x48 --exposure 0 --light $light --shadow-map 512 --show indirect --bounces $bounces"
-        status 0 render $how --many-lights 4 --gather full --elements 65536 -o "$dir/elements.pfm"
-        status 0 render $how -o "$dir/own.pfm"
-        status 0 compare "$dir/elements.pfm" "$dir/own.pfm" --max trim=0.05
+if [ -z "$SHORT" ]; then
+    for light in point:-0.5,2,0.5:0,-1,0:9,9,9 spot:-0.5,2,0.5:0.3,-1,0:9,9,9:20,40; do
+        for bounces in 1 3; do
+            how="demo --size 64x48 --exposure 0 --light $light --shadow-map 512 --show indirect --bounces $bounces"
+            status 0 render $how --many-lights 4 --gather full --elements 65536 -o "$dir/elements.pfm"
+            status 0 render $how -o "$dir/own.pfm"
+            status 0 compare "$dir/elements.pfm" "$dir/own.pfm" --max trim=0.05
+        done
     done
-done
+fi
 status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 -o "$dir/once.pfm"
 status 0 render demo $small --many-lights 4 --elements 1024 --bounces 2 --threads 3 --backend scalar -o "$dir/threads.pfm"
 check "threads or lanes change what many lights bounce" cmp "$dir/once.pfm" "$dir/threads.pfm"
@@ -240,7 +244,7 @@ status 2 render "$dir/many.gltf" --light-error 0 -o "$dir/bad.pfm"
 status 0 render demo $small --occlusion none --error-bound 0.001 --show indirect -o "$dir/proved.pfm"
 status 0 render demo $small --occlusion none --error 0.0001 --show indirect -o "$dir/ruled.pfm"
 status 0 compare "$dir/proved.pfm" "$dir/ruled.pfm"
-status 0 render demo $small --bounces 3 --show occlusion -o "$dir/blocked.pfm"
+[ -n "$SHORT" ] || status 0 render demo $small --bounces 3 --show occlusion -o "$dir/blocked.pfm"
 
 # Help and version go to stdout.
 status 0 --version
@@ -346,7 +350,8 @@ for verb in render play relight relief "relief bake" "relief render" mix pack pl
     { printf 'set -e\nlambent() { "%s" "$@"; }\n' "$lambent"
       sed -n '/^examples$/,/^exit status/{/^  .*[^:]$/p;}' "$dir/help.txt"; } >"$dir/paste/run.sh"
     check "$verb --help has an example" test "$(grep -c . "$dir/paste/run.sh")" -gt 2
-    check "$verb --help's example works when pasted" sh -c 'cd "$1" && XDG_CACHE_HOME=. sh ./run.sh >said.txt 2>&1' sh "$dir/paste"
+    [ -n "$SHORT" ] || check "$verb --help's example works when pasted" \
+        sh -c 'cd "$1" && XDG_CACHE_HOME=. sh ./run.sh >said.txt 2>&1' sh "$dir/paste"
 done
 
 # Bad usage.
@@ -574,14 +579,16 @@ strips() { # strips STRIPS SPLINTERS ELEMENTS: how many elements they get, in `e
     status 0 bake "$dir/strips.obj" -o "$dir/strips.lmt" --elements $3 --receivers 3000
     elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' "$dir/out.txt")
 }
-strips 8 0 1024
-alone=$elements
-strips 8 600 1024
-check "a mesh's splinters leave strips their elements: $elements, $alone without" test "$elements" -le $((alone + 16))
-strips 300 0 1024
-check "many strips share elements, and the floor has some: $elements" test "$elements" -gt 512
-strips 255 0 4096
-check "strips that crowd nothing out keep their elements: $elements" test "$elements" -lt 3300
+if [ -z "$SHORT" ]; then
+    strips 8 0 1024
+    alone=$elements
+    strips 8 600 1024
+    check "a mesh's splinters leave strips their elements: $elements, $alone without" test "$elements" -le $((alone + 16))
+    strips 300 0 1024
+    check "many strips share elements, and the floor has some: $elements" test "$elements" -gt 512
+    strips 255 0 4096
+    check "strips that crowd nothing out keep their elements: $elements" test "$elements" -lt 3300
+fi
 # A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
 awk 'function block(x, z,  i) {
          for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)
@@ -866,9 +873,11 @@ status 2 mix $seen -o "$dir/bad.png" --roughness 2
 status 2 mix $seen -o "$dir/bad.png" --show object
 status 0 mix --help
 # The fixed workload: its own quads need no files.
-check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
-check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
-check "bench raster holds filling against a peak" sh -c '"$1" bench raster fill-depth-pass --seconds 0.01 --json | grep -q ",.pixels_per_s.:[1-9][^,]*,.peak.:[1-9][^,]*,.*.share.:[0-9.]*}$"' sh "$TOOL"
+if [ -z "$SHORT" ]; then
+    check "bench raster draws the quads" sh -c '"$1" bench raster fill-depth --seconds 0.01 | grep -c "^lambent,fill-depth-.*,tris=64,cpu_min_ms=[0-9]" | grep -qx 2' sh "$TOOL"
+    check "bench raster prints JSON" sh -c '"$1" bench raster fill-gouraud --seconds 0.01 --json | grep -q "^{.case.:.fill-gouraud-1280x720.,"' sh "$TOOL"
+    check "bench raster holds filling against a peak" sh -c '"$1" bench raster fill-depth-pass --seconds 0.01 --json | grep -q ",.pixels_per_s.:[1-9][^,]*,.peak.:[1-9][^,]*,.*.share.:[0-9.]*}$"' sh "$TOOL"
+fi
 status 2 bench raster nonsense
 status 2 bench raster fill-depth --seconds 1x
 status 2 bench raster fill-depth --seconds 0.01 --threads 2
@@ -980,8 +989,10 @@ status 0 plan demo --size 240x180 --threads 1 --budget-error 0.2 --json
 check "a look takes at most a quarter of what it plans" awk -F '"look_work": |"estimated_work": ' '
     /"look_work"/ { look = $3 + 0; work = $2 + 0 } END { exit !(look > 0 && look <= 0.25 * work) }' "$dir/out.txt"
 check "what is chosen for an error is checked" grep -q '"checked": true' "$dir/out.txt"
-status 0 plan demo --size 240x180 --threads 1 --budget-error 0.00001
-check "an error that no setting has is said" grep -q "^no setting .*the budget" "$dir/out.txt"
+if [ -z "$SHORT" ]; then
+    status 0 plan demo --size 240x180 --threads 1 --budget-error 0.00001
+    check "an error that no setting has is said" grep -q "^no setting .*the budget" "$dir/out.txt"
+fi
 status 0 plan $corner --budget-ms 16 --rate 1e4
 check "so are 160 units" grep -q "no setting meets the budget; the nearest takes [0-9.e+]* x the work" "$dir/out.txt"
 status 0 plan --help
