@@ -681,6 +681,12 @@ check "after its last key nothing moves" cmp -s "$dir/key2.pfm" "$dir/key4.pfm"
 printf '0 object:0 0,0,0\n1 object:0 0.1,0,0 1,0,0\n' >"$dir/mixed.txt"
 status 1 play "$dir/block.obj" $inside --path "$dir/mixed.txt" --frames 2 -o "$dir/bad%02d.pfm"
 said "mixed.txt: line 2: keys of one thing have a target each, or none; see line 1"
+for what in light camera object:0; do
+    printf "0 $what -0.2,0.5,0 0.2,0.5,0\n2 $what 0.2,0.5,0 -0.2,0.5,0\n" >"$dir/meets.txt"
+    status 1 play "$dir/block.obj" $inside --path "$dir/meets.txt" --quality draft --fps 1 --frames 2 -o "$dir/bad%02d.pfm"
+    said "meets.txt: at frame 1 what line 1 moves stands at its own target; move one of its keys"
+    rm -f "$dir/bad00.pfm"
+done
 printf '0 object:0 0,0,0\n1 object:0 0.1,0,0\n' >"$dir/object.txt"
 status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --move object --quality draft --fps 2 --frames 3 -o "$dir/play_%02d.pfm"
 status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --quality draft --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"
