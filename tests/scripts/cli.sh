@@ -582,6 +582,18 @@ strips 300 0 1024
 check "many strips share elements, and the floor has some: $elements" test "$elements" -gt 512
 strips 255 0 4096
 check "strips that crowd nothing out keep their elements: $elements" test "$elements" -lt 3300
+# Slivers in a room, many of them through a block: they crowd nothing out there either.
+awk 'function block(x0, y0, z0, x1, y1, z1,  i) {
+         for (i = 0; i < 8; ++i) print "v", i % 2 ? x1 : x0, int(i / 2) % 2 ? y1 : y0, (i > 3 ? z1 : z0)
+         print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
+     BEGIN { block(0, 0, 0, 4, 3, 4); block(1, 0, 1, 2, 1, 2)
+             for (i = 0; i < 600; ++i) {
+                 x = 0.2 + 0.006 * i
+                 printf "v %.5f 0.5 0.2\nv %.5f 0.5 0.2\nv %.5f 0.5 3.8\nf -3 -1 -2\n", x, x + 0.003, x + 0.003
+             } }' >"$dir/through.obj"
+status 0 bake "$dir/through.obj" -o "$dir/through.lmt" --elements 256 --division 1 --error 1 --once
+elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' "$dir/out.txt")
+check "slivers through a block leave the room its elements: $elements" test "$elements" -gt 128
 # A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
 awk 'function block(x, z,  i) {
          for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)
