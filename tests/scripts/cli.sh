@@ -558,6 +558,15 @@ for room in box:256:200 block:1024:1000; do
     status 0 render "$dir/$name.obj" $inside --transfer "$dir/$name-1.lmt" --threads 1 -o "$dir/$name-again.pfm"
     check "baked light by any threads is equal" cmp -s "$dir/$name-baked.pfm" "$dir/$name-again.pfm"
 done
+# A closed room that no light or camera of the scene sees into is dark, but where --eye is in it.
+status 0 bake "$dir/box.obj" -o "$dir/eye.lmt" --elements 256 --receivers 200 --eye 5,0,0
+status 0 render "$dir/box.obj" $inside --transfer "$dir/eye.lmt" -o "$dir/dark.pfm"
+check "a closed room that nothing sees into is dark" sh -c '! "$1" compare "$2" "$3" --max lo=0.01 >/dev/null' sh "$TOOL" \
+    "$dir/dark.pfm" "$dir/box-draft.pfm"
+status 0 bake "$dir/box.obj" -o "$dir/eye.lmt" --elements 256 --receivers 200 --eye 5,0,0 --eye 0.2,0.5,0
+status 0 render "$dir/box.obj" $inside --transfer "$dir/eye.lmt" -o "$dir/lit.pfm"
+status 0 compare "$dir/lit.pfm" "$dir/box-draft.pfm" --max lo=0.95,hi=1.05,trim=0.06
+status 2 bake "$dir/box.obj" -o "$dir/bad.lmt" --eye 5,0
 # Long slivers: narrow strips over a floor, and splinters beside them as a mesh has.
 strips() { # strips STRIPS SPLINTERS ELEMENTS: how many elements they get, in `elements`.
     awk -v strips=$1 -v splinters=$2 'BEGIN {
