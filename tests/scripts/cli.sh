@@ -563,6 +563,15 @@ for room in box:256:200 block:1024:1000; do
     status 0 render "$dir/$name.obj" $inside --transfer "$dir/$name-1.lmt" --threads 1 -o "$dir/$name-again.pfm"
     check "baked light by any threads is equal" cmp -s "$dir/$name-baked.pfm" "$dir/$name-again.pfm"
 done
+# A closed room that no light or camera of the scene sees into is dark, but where --eye is in it.
+status 0 bake "$dir/box.obj" -o "$dir/eye.lmt" --elements 256 --receivers 200 --eye 5,0,0
+status 0 render "$dir/box.obj" $inside --transfer "$dir/eye.lmt" -o "$dir/dark.pfm"
+check "a closed room that nothing sees into is dark" sh -c '! "$1" compare "$2" "$3" --max lo=0.01 >/dev/null' sh "$TOOL" \
+    "$dir/dark.pfm" "$dir/box-draft.pfm"
+status 0 bake "$dir/box.obj" -o "$dir/eye.lmt" --elements 256 --receivers 200 --eye 5,0,0 --eye 0.2,0.5,0
+status 0 render "$dir/box.obj" $inside --transfer "$dir/eye.lmt" -o "$dir/lit.pfm"
+status 0 compare "$dir/lit.pfm" "$dir/box-draft.pfm" --max lo=0.95,hi=1.05,trim=0.06
+status 2 bake "$dir/box.obj" -o "$dir/bad.lmt" --eye 5,0
 # Long slivers: narrow strips over a floor, and splinters beside them as a mesh has.
 strips() { # strips STRIPS SPLINTERS ELEMENTS: how many elements they get, in `elements`.
     awk -v strips=$1 -v splinters=$2 'BEGIN {
@@ -589,6 +598,18 @@ if [ -z "$SHORT" ]; then
     strips 255 0 4096
     check "strips that crowd nothing out keep their elements: $elements" test "$elements" -lt 3300
 fi
+# Slivers in a room, many of them through a block: they crowd nothing out there either.
+awk 'function block(x0, y0, z0, x1, y1, z1,  i) {
+         for (i = 0; i < 8; ++i) print "v", i % 2 ? x1 : x0, int(i / 2) % 2 ? y1 : y0, (i > 3 ? z1 : z0)
+         print "f -8 -6 -5 -7\nf -4 -3 -1 -2\nf -8 -7 -3 -4\nf -6 -2 -1 -5\nf -8 -4 -2 -6\nf -7 -5 -1 -3" }
+     BEGIN { block(0, 0, 0, 4, 3, 4); block(1, 0, 1, 2, 1, 2)
+             for (i = 0; i < 600; ++i) {
+                 x = 0.2 + 0.006 * i
+                 printf "v %.5f 0.5 0.2\nv %.5f 0.5 0.2\nv %.5f 0.5 3.8\nf -3 -1 -2\n", x, x + 0.003, x + 0.003
+             } }' >"$dir/through.obj"
+status 0 bake "$dir/through.obj" -o "$dir/through.lmt" --elements 256 --division 1 --error 1 --once
+elements=$(sed -n 's/.*: \([0-9]*\) elements.*/\1/p' "$dir/out.txt")
+check "slivers through a block leave the room its elements: $elements" test "$elements" -gt 128
 # A panel whose corners, and the middle of its longest edge, lie in blocks: light comes to the rest of it.
 awk 'function block(x, z,  i) {
          for (i = 0; i < 8; ++i) print "v", x + (i % 2 ? 0.12 : -0.12), int(i / 2) % 2 ? -0.3 : -0.7, z + (i > 3 ? 0.12 : -0.12)
@@ -688,6 +709,12 @@ check "after its last key nothing moves" cmp -s "$dir/key2.pfm" "$dir/key4.pfm"
 printf '0 object:0 0,0,0\n1 object:0 0.1,0,0 1,0,0\n' >"$dir/mixed.txt"
 status 1 play "$dir/block.obj" $inside --path "$dir/mixed.txt" --frames 2 -o "$dir/bad%02d.pfm"
 said "mixed.txt: line 2: keys of one thing have a target each, or none; see line 1"
+for what in light camera object:0; do
+    printf "0 $what -0.2,0.5,0 0.2,0.5,0\n2 $what 0.2,0.5,0 -0.2,0.5,0\n" >"$dir/meets.txt"
+    status 1 play "$dir/block.obj" $inside --path "$dir/meets.txt" --quality draft --fps 1 --frames 2 -o "$dir/bad%02d.pfm"
+    said "meets.txt: at frame 1 what line 1 moves stands at its own target; move one of its keys"
+    rm -f "$dir/bad00.pfm"
+done
 printf '0 object:0 0,0,0\n1 object:0 0.1,0,0\n' >"$dir/object.txt"
 status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --move object --quality draft --fps 2 --frames 3 -o "$dir/play_%02d.pfm"
 status 0 play "$dir/block.obj" $inside --path "$dir/object.txt" --quality draft --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"

@@ -8,7 +8,7 @@
 #include "bake_triangle.h"
 #include "../../src/radiosity/piece.h"
 
-enum { MESH = 500, CROWD = 8 };
+enum { MESH = 500, CROWD = 8, WASTE = 4 };
 #define CONTACT 0.2f /* of an element's size: so small are those on which something stands */
 #define CLOSER  0.5f /* of that, where there are elements left for it */
 #define SLIVER  0.25f /* of that size: narrower triangles share elements, or they would take them all */
@@ -123,6 +123,8 @@ typedef struct maker {
     int emits; /* the triangle at hand */
     int is_small, is_sliver;
     int has_slivers; /* many: few get elements of their own, as a thin wall's edge should */
+    int had_slivers; /* when elements were as small as they may be */
+    int is_crowded;  /* so many go through something that they share elements there, too */
     uint32_t own; /* its side: 2 (id - 1) + back */
     report *r;
 } maker;
@@ -255,7 +257,8 @@ static int halve(maker *m, const lmb_vec3 corner[3], lmb_vec3 normal, size_t nod
         return 1;
     }
     const int is_small = depth == 0 && longest * 2.0f < m->side, is_last = depth == LMB_TRANSFER_MAX_HALVINGS;
-    const int is_free = longest <= m->side && (is_small || bake_stands_free(&m->sight, m->b, corner, normal));
+    const int is_free = longest <= m->side && (is_small || (m->is_crowded && m->is_sliver) ||
+                                               bake_stands_free(&m->sight, m->b, corner, normal));
     if (is_last || is_free || longest <= m->contact * m->side) {
         const int is_shared = is_free && (is_small || m->is_sliver);
         const uint32_t e = is_shared ? small_element(m, corner, normal) : add_element(m, corner, normal);
@@ -353,6 +356,7 @@ static int make(maker *m)
     memset(m->b->element, 0, m->b->set.elements * sizeof *m->b->element);
     m->is_full = 0;
     m->has_slivers = long_ones >= MESH && long_ones * CROWD >= m->b->set.elements;
+    m->had_slivers |= m->has_slivers;
     memset(m->slot, 0, 20 * ((size_t)m->mask + 1));
     for (uint32_t id = 1; id <= all && !m->is_full; ++id) {
         if (!add_triangle(m, id)) {
@@ -431,6 +435,17 @@ static int set_reached(maker *m, uint32_t all)
     return m->is_reached != NULL || report_fail(m->r, "not enough memory for %u triangles", (unsigned)all);
 }
 
+/* Elements as small as they may be. */
+static int make_small(maker *m)
+{
+    int ok = 1;
+    m->side = 0.5f * sqrtf(m->b->area / (float)m->b->set.elements);
+    while (ok && (ok = make(m)) != 0 && m->is_full) {
+        m->side *= 1.1f;
+    }
+    return ok;
+}
+
 int bake_elements(bake *b, report *r)
 {
     maker m;
@@ -444,10 +459,11 @@ int bake_elements(bake *b, report *r)
     int ok = (m.slot != NULL && b->element != NULL) ||
              report_fail(r, "not enough memory for %u elements", (unsigned)b->set.elements);
     ok = ok && bake_sight_begin(&m.sight, r) && set_reached(&m, lmb_scene_triangles(b->scene));
-    m.side = 0.5f * sqrtf(b->area / (float)b->set.elements);
     m.contact = CONTACT;
-    while (ok && (ok = make(&m)) != 0 && m.is_full) {
-        m.side *= 1.1f;
+    ok = ok && make_small(&m);
+    if (ok && m.had_slivers && b->element_count < b->set.elements / WASTE) { /* else a room would be a few elements */
+        m.is_crowded = 1;
+        ok = make_small(&m);
     }
     m.contact = CLOSER * CONTACT; /* light leaks through a thin wall by the elements that it cuts */
     if (ok && (ok = make(&m)) != 0 && m.is_full) {

@@ -13,15 +13,16 @@
 #include "../model/model.h"
 #include "bake.h"
 
+enum { MOVING = 256 }; /* objects, at most */
+enum { EYES = 64 };    /* that are given, and cameras of the scene */
+
 typedef struct options {
     const char *scene, *out, *scene_name, *moving;
     float error, division, cluster, smallest;
-    int32_t elements, receivers, threads, budget, is_big;
+    lmb_vec3 eye[EYES];
+    int32_t elements, receivers, threads, budget, is_big, eyes;
     int is_quiet, is_verbose, has_report, is_once, is_glossy;
 } options;
-
-enum { MOVING = 256 }; /* objects, at most */
-enum { EYES = 64 }; /* cameras of the scene that are looked from */
 
 #define AT(member) .at = offsetof(options, member)
 
@@ -55,6 +56,9 @@ static const option_row rows[] = {
      .help = "objects that may move, by number from 0, as `lambent play` has them: lit by light in the air, with shadows "
              "of direct light; bounced light they neither block nor reflect, which leaves a crate in a "
              "room with a trim of 0.15 to 0.22"},
+    {.name = "--eye", .value = "X,Y,Z", .kind = OPTION_POINT, AT(eye), .counts = offsetof(options, eyes), .times = EYES,
+     .size = sizeof(lmb_vec3),
+     .help = "a place of a camera or light to come, beside those of the scene: for rooms that these see nothing of"},
     {.name = "--once", .kind = OPTION_FLAG, AT(is_once),
      .help = "for pictures with one reflection: no links for further ones, which saves a tenth of the file, and memory of "
              "small machines"},
@@ -77,6 +81,8 @@ static const option_table table = {
     .usage = "bake SCENE -o OUT.lmt [options]",
     .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds bounced "
              "light many times faster than without, wherever lights and camera are. Colours may change, too.\n"
+             "Surfaces stay dark that no light would reach from any light or camera of the scene, after any number of "
+             "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is.\n"
              "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
@@ -182,10 +188,11 @@ static int bake_scene(const options *o, const lmb_scene *whole, const lmb_vec3 *
 
 static int bake_model(const options *o, const lmb_scene *scene, const model *m, report *r)
 {
-    lmb_vec3 eyes[EYES];
-    uint32_t count = 0;
-    for (; count < EYES && count < m->camera_count; ++count) {
-        eyes[count] = m->cameras[count].eye;
+    lmb_vec3 eyes[2 * EYES];
+    uint32_t count = (uint32_t)o->eyes;
+    memcpy(eyes, o->eye, sizeof o->eye);
+    for (uint32_t i = 0; i < EYES && i < m->camera_count; ++i) {
+        eyes[count++] = m->cameras[i].eye;
     }
     return bake_scene(o, scene, eyes, count, r);
 }

@@ -15,6 +15,7 @@
 #define CONE   0.2f      /* tangent of a sun's */
 #define SWING  0.35f     /* rad, the largest */
 #define SMALLER 0.8f     /* tried next where there is no room */
+#define LEAST_M 1e-6f    /* from a place to its target: nearer there is no direction between them */
 #define AIR    1.2f      /* so much farther than it moves there has to be room */
 enum { TRIES = 16, PLACES = 64 };
 
@@ -226,6 +227,10 @@ static int set_by_path(play_motion *m, int32_t k, double time_s, report *r)
     for (uint32_t t = 0; ok && t < m->path.track_count; ++t) {
         const play_track *track = &m->path.track[t];
         const play_key key = play_path_at(&m->path, track, time_s);
+        if ((track->what & m->moves) != 0 && key.has_target && !(length3(sub3(key.target, key.at)) > LEAST_M)) {
+            return report_fail(r, "%s: at frame %d what line %u moves stands at its own target; move one of its keys",
+                               m->options->path, (int)k, (unsigned)track->line);
+        }
         if ((track->what & m->moves) == PLAY_LIGHT) {
             put_keyed_light(m, track->index, &key);
         } else if ((track->what & m->moves) == PLAY_CAMERA) {
