@@ -4,6 +4,7 @@
 
 #include "../world.h"
 #include "../laid_out.h"
+#include "../torus.h"
 
 void test_sky(void);
 
@@ -221,6 +222,51 @@ static void check_window(const lmb_many_lights *sky, const char *what, float hal
     check_at(sky, what, at, 1, PI * (double)absf(factor), bar);
 }
 
+/* A torus under the sky, by few samples; all lengths times `scale`. */
+static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
+{
+    static lmb_render r;
+    static torus t;
+    lmb_view view;
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    torus_make(&t);
+    for (int i = 0; i < 3 * TORUS_VERTICES; ++i) {
+        t.positions[i] *= scale;
+    }
+    for (int i = 0; i < 12; ++i) {
+        t.floor[i] *= scale;
+    }
+    t.scene.light_count = 0;
+    lmb_scene_bounds(&t.scene.bounds_min, &t.scene.bounds_max, &t.scene);
+    CHECK(lmb_view_look_at(&view, mul3(vec3(3, 3, 5), scale), mul3(vec3(0, 0.5f, 0), scale), Y, 0.7f, 64, 48) == LMB_OK);
+    lmb_frame_settings s = draft_settings(&t.scene, view);
+    s.many_lights = sky;
+    s.show = LMB_SHOW_INDIRECT;
+    s.gather_step = LMB_GATHER_ADAPTIVE;
+    lay_out(&s);
+    frame.gather_many_lights = 1;
+    frame.many_lights_error = 0.01f;
+    memset(&r, 0, sizeof r);
+    CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+    for (int32_t y = 0; y < 48; ++y) {
+        const uint8_t *row = (const uint8_t *)frame.out.data + y * frame.out.stride_bytes;
+        for (int i = 0; i < 64 * 12; ++i) {
+            hash = (hash ^ row[i]) * UINT64_C(0x100000001b3);
+        }
+    }
+    return hash;
+}
+
+/* Nothing is measured in metres: powers of two change no bit. */
+static void check_scales(const lmb_many_lights *sky)
+{
+    static const float scales[] = {1.0f / 256, 1.0f / 64, 64, 4096, 65536};
+    const uint64_t want = scaled_hash(sky, 1);
+    for (int i = 0; i < COUNT(scales); ++i) {
+        CHECK_MSG(scaled_hash(sky, scales[i]) == want, "%g times as large: other bits", (double)scales[i]);
+    }
+}
+
 static void check_background(void)
 {
     static lmb_render r;
@@ -261,6 +307,7 @@ void test_sky(void)
     check_background();
     const lmb_many_lights sky = white_sky();
     check_open(&sky);
+    check_scales(&sky);
     check_wall(&sky);
     check_window(&sky, "a hole of 2 m", 1.0f, 0.03);
     check_window(&sky, "a hole of 0.6 m", 0.3f, 0.12);
