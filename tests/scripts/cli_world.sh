@@ -31,6 +31,16 @@ check "a scene with lights has no sky" sh -c '! grep -q sky "$1"' sh "$dir/err.t
 status 0 render "$w/floor.obj" $look -o "$w/floor.pfm"
 check "no second floor" grep -q "a clear sky; " "$dir/err.txt"
 
+# A mountain of 20 km stands on a ground, too; one of 200 km does not, as its ground's rim would lie over 2^20 m away.
+for size in 20000 200000; do
+    awk -v size=$size '/^v/ { print "v", size * $2, size * $3, size * $4; next } { print }' "$w/box.obj" >"$w/$size.obj"
+    status 0 render "$w/$size.obj" --size 32x24 --quality draft -o "$w/mountain.png"
+    case $size in
+    20000) check "a ground below 20 km" grep -q "a clear sky and a ground below" "$dir/err.txt" ;;
+    *) check "none below 200 km" grep -q "a clear sky; " "$dir/err.txt" ;;
+    esac
+done
+
 # --- pictures of the world ---
 
 # 32 x 16 pixels: red above, black below.
