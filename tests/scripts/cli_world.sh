@@ -41,6 +41,10 @@ for size in 20000 200000; do
     esac
 done
 
+sed 's/^v \([^ ]*\)/v 2\1e6/; s/^v 2-/v -2/' "$w/box.obj" >"$w/away.obj"
+status 1 render "$w/away.obj" $few -o "$w/bad.png"
+said "each triangle has a corner that is not finite or 2^20 m away"
+
 # --- pictures of the world ---
 
 # 32 x 16 pixels: red above, black below.
