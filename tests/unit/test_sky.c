@@ -5,6 +5,8 @@
 #include "../world.h"
 #include "../laid_out.h"
 #include "../torus.h"
+#include "../../tools/picture/picture.h"
+#include "../../tools/picture/world_read.h"
 
 void test_sky(void);
 
@@ -133,6 +135,41 @@ static void check_sun(void)
     CHECK(sun.intensity[1] > 0.6f * (float)before && dot3(sun.direction, to) < -0.9999f);
     CHECK(!lmb_env_take_sun(&sun, &env));
     CHECK(!lmb_env_take_sun(NULL, &env));
+}
+
+/* --- a picture of the whole sphere ----------------------------------------------------------------------------------- */
+
+enum { ACROSS = 128, DOWN = 64 };
+
+/* W/m2, over the cube. */
+static double light_of(const lmb_world_pictures *w)
+{
+    const int n = w->face_size;
+    double sum = 0;
+    for (int i = 0; i < 6 * n * n; ++i) {
+        const double s = (2 * (i % n) + 1.0) / n - 1, t = (2 * (i / n % n) + 1.0) / n - 1;
+        sum += (double)w->face[i / (n * n)][3 * (i % (n * n))] * 4 / (n * n) / pow(1 + s * s + t * t, 1.5);
+    }
+    return sum;
+}
+
+/* A sun of one pixel keeps its light, wherever it stands. */
+static void check_picture_sun(const char *path, int x, int y)
+{
+    static float pixels[3 * ACROSS * DOWN];
+    const image p = {ACROSS, DOWN, 3, pixels};
+    lmb_world_pictures got;
+    world_pictures own;
+    report r = {""};
+    memset(&got, 0, sizeof got);
+    memset(&own, 0, sizeof own);
+    pixels[3 * (ACROSS * y + x)] = 1000;
+    CHECK(picture_write(path, &p, 0, PICTURE_CLIPPED, &r) && world_read_cube(&got, &own, path, &r));
+    const double want = 1000 * (2 * PI / ACROSS) * (cos(PI * y / DOWN) - cos(PI * (y + 1) / DOWN)), light = light_of(&got);
+    CHECK_MSG(fabs(light / want - 1) < 0.3, "a sun at pixel %d, %d: %.4f, not %.4f W/m2", x, y, light, want);
+    pixels[3 * (ACROSS * y + x)] = 0;
+    world_pictures_free(&own);
+    remove(path);
 }
 
 /* --- on surfaces -------------------------------------------------------------------------------------------------- */
@@ -305,6 +342,9 @@ void test_sky(void)
     check_lights();
     check_sun();
     check_background();
+    for (int i = 0; i < 60; ++i) {
+        check_picture_sun("lambent_test_world.pfm", i * 41 % ACROSS, 2 + i);
+    }
     const lmb_many_lights sky = white_sky();
     check_open(&sky);
     check_scales(&sky);
