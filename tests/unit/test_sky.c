@@ -59,7 +59,7 @@ static void check_sky(float turbidity)
     for (int i = 0; i < 40; ++i) {
         /* Middles of texels, as between them light is interpolated. */
         const float s = (float)(2 * (i * 7 % SIDE) + 1 - SIDE) / SIDE, u = (float)(2 * (i * 5 % SIDE) + 1 - SIDE) / SIDE;
-        const lmb_vec3 d = normalize3(vec3(s, 1.0f, u));
+        const lmb_vec3 d = normalize3(i % 2 ? vec3(s, 1.0f, u) : vec3(1.0f, (float)(i / 2 % 4 * 2 + 1) / SIDE, u));
         lmb_env_sample(rgb, &env, d, 0.0f);
         const double bright = 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
         const double want = luminance(d, sun, (double)turbidity);
