@@ -60,14 +60,15 @@ static int on_plane(const lmb_lattice_tile *a, int i, const lmb_lattice_tile *b,
     return dot3(n, tile_vec(b->face, k)) >= TILE_COS_25 && height * height <= TILE_FLAT * TILE_FLAT * dot3(d, d);
 }
 
-static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from)
+/* Its depth says how far rounding may have left it off its surface. */
+static void put_pixel(lmb_tile *out, int to, const lmb_lattice_tile *in, int from, const lmb_view *view)
 {
     for (int c = 0; c < 3; ++c) {
         out->position[c][to] = in->position[c][from];
         out->face[c][to] = in->face[c][from];
         out->normal[c][to] = in->normal[c][from];
     }
-    out->depth[to] = 1.0f;
+    out->depth[to] = absf(dot3(view->back, sub3(tile_vec(in->position, from), view->eye)));
     out->id[to] = 1;
 }
 
@@ -91,7 +92,7 @@ static void put_alike(pack *p, lmb_lattice_tile *tile, int32_t i)
             p->seed_pixel = k;
         }
         if (on_plane(p->seed, p->seed_pixel, tile, k)) {
-            put_pixel(&p->s->sparse.together, p->count, tile, k);
+            put_pixel(&p->s->sparse.together, p->count, tile, k, &p->r->frame.view);
             p->s->sparse.pixel[p->count] = (uint16_t)k;
             p->tile[p->count++] = (uint16_t)i;
             tile->wanted &= ~((uint64_t)1 << k);

@@ -26,10 +26,39 @@ check "the same bytes by one thread and plain C" cmp "$w/sky.pfm" "$w/again.pfm"
 status 0 render demo $few -o "$w/demo.pfm"
 check "a scene with lights has no sky" sh -c '! grep -q sky "$1"' sh "$dir/err.txt"
 
+# Lamps that are switched off are no light.
+printf '%s' '{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],"nodes":[{"mesh":0},
+ {"extensions":{"KHR_lights_punctual":{"light":0}},"translation":[0,3,0]}],
+ "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+ "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,
+ "uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+ "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point","intensity":0}]}}}' >"$w/off.gltf"
+status 0 render "$w/off.gltf" --size 32x24 --quality draft -o "$w/off.png"
+check "a sky where lamps are off" grep -q "a clear sky and a ground below" "$dir/err.txt"
+status 0 render "$w/off.gltf" --size 32x24 --quality draft --world none -o "$w/off.png"
+sed 's/"intensity":0/"intensity":1/' "$w/off.gltf" >"$w/on.gltf"
+status 0 render "$w/on.gltf" --size 32x24 --quality draft -o "$w/off.png"
+check "none where one is on" sh -c '! grep -q sky "$1"' sh "$dir/err.txt"
+
 # A floor of its own, seen from above, is ground enough.
 { cat "$w/box.obj"; printf '%s\n' 'v -3 0 3' 'v 3 0 3' 'v 3 0 -3' 'v -3 0 -3' 'f 9 10 11 12'; } >"$w/floor.obj"
 status 0 render "$w/floor.obj" $look -o "$w/floor.pfm"
 check "no second floor" grep -q "a clear sky; " "$dir/err.txt"
+
+# A mountain of 20 km stands on a ground, too; one of 200 km does not, as its ground's rim would lie over 2^20 m away.
+for size in 20000 200000; do
+    awk -v size=$size '/^v/ { print "v", size * $2, size * $3, size * $4; next } { print }' "$w/box.obj" >"$w/$size.obj"
+    status 0 render "$w/$size.obj" --size 32x24 --quality draft -o "$w/mountain.png"
+    case $size in
+    20000) check "a ground below 20 km" grep -q "a clear sky and a ground below" "$dir/err.txt" ;;
+    *) check "none below 200 km" grep -q "a clear sky; " "$dir/err.txt" ;;
+    esac
+done
+
+sed 's/^v \([^ ]*\)/v 2\1e6/; s/^v 2-/v -2/' "$w/box.obj" >"$w/away.obj"
+status 1 render "$w/away.obj" $few -o "$w/bad.png"
+said "each triangle has a corner that is not finite or 2^20 m away"
 
 # --- pictures of the world ---
 

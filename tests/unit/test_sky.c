@@ -4,6 +4,9 @@
 
 #include "../world.h"
 #include "../laid_out.h"
+#include "../torus.h"
+#include "../../tools/picture/picture.h"
+#include "../../tools/picture/world_read.h"
 
 void test_sky(void);
 
@@ -56,7 +59,7 @@ static void check_sky(float turbidity)
     for (int i = 0; i < 40; ++i) {
         /* Middles of texels, as between them light is interpolated. */
         const float s = (float)(2 * (i * 7 % SIDE) + 1 - SIDE) / SIDE, u = (float)(2 * (i * 5 % SIDE) + 1 - SIDE) / SIDE;
-        const lmb_vec3 d = normalize3(vec3(s, 1.0f, u));
+        const lmb_vec3 d = normalize3(i % 2 ? vec3(s, 1.0f, u) : vec3(1.0f, (float)(i / 2 % 4 * 2 + 1) / SIDE, u));
         lmb_env_sample(rgb, &env, d, 0.0f);
         const double bright = 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
         const double want = luminance(d, sun, (double)turbidity);
@@ -132,6 +135,41 @@ static void check_sun(void)
     CHECK(sun.intensity[1] > 0.6f * (float)before && dot3(sun.direction, to) < -0.9999f);
     CHECK(!lmb_env_take_sun(&sun, &env));
     CHECK(!lmb_env_take_sun(NULL, &env));
+}
+
+/* --- a picture of the whole sphere ----------------------------------------------------------------------------------- */
+
+enum { ACROSS = 128, DOWN = 64 };
+
+/* W/m2, over the cube. */
+static double light_of(const lmb_world_pictures *w)
+{
+    const int n = w->face_size;
+    double sum = 0;
+    for (int i = 0; i < 6 * n * n; ++i) {
+        const double s = (2 * (i % n) + 1.0) / n - 1, t = (2 * (i / n % n) + 1.0) / n - 1;
+        sum += (double)w->face[i / (n * n)][3 * (i % (n * n))] * 4 / (n * n) / pow(1 + s * s + t * t, 1.5);
+    }
+    return sum;
+}
+
+/* A sun of one pixel keeps its light, wherever it stands. */
+static void check_picture_sun(const char *path, int x, int y)
+{
+    static float pixels[3 * ACROSS * DOWN];
+    const image p = {ACROSS, DOWN, 3, pixels};
+    lmb_world_pictures got;
+    world_pictures own;
+    report r = {""};
+    memset(&got, 0, sizeof got);
+    memset(&own, 0, sizeof own);
+    pixels[3 * (ACROSS * y + x)] = 1000;
+    CHECK(picture_write(path, &p, 0, PICTURE_CLIPPED, &r) && world_read_cube(&got, &own, path, &r));
+    const double want = 1000 * (2 * PI / ACROSS) * (cos(PI * y / DOWN) - cos(PI * (y + 1) / DOWN)), light = light_of(&got);
+    CHECK_MSG(fabs(light / want - 1) < 0.3, "a sun at pixel %d, %d: %.4f, not %.4f W/m2", x, y, light, want);
+    pixels[3 * (ACROSS * y + x)] = 0;
+    world_pictures_free(&own);
+    remove(path);
 }
 
 /* --- on surfaces -------------------------------------------------------------------------------------------------- */
@@ -221,6 +259,51 @@ static void check_window(const lmb_many_lights *sky, const char *what, float hal
     check_at(sky, what, at, 1, PI * (double)absf(factor), bar);
 }
 
+/* A torus under the sky, by few samples; all lengths times `scale`. */
+static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
+{
+    static lmb_render r;
+    static torus t;
+    lmb_view view;
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    torus_make(&t);
+    for (int i = 0; i < 3 * TORUS_VERTICES; ++i) {
+        t.positions[i] *= scale;
+    }
+    for (int i = 0; i < 12; ++i) {
+        t.floor[i] *= scale;
+    }
+    t.scene.light_count = 0;
+    lmb_scene_bounds(&t.scene.bounds_min, &t.scene.bounds_max, &t.scene);
+    CHECK(lmb_view_look_at(&view, mul3(vec3(3, 3, 5), scale), mul3(vec3(0, 0.5f, 0), scale), Y, 0.7f, 64, 48) == LMB_OK);
+    lmb_frame_settings s = draft_settings(&t.scene, view);
+    s.many_lights = sky;
+    s.show = LMB_SHOW_INDIRECT;
+    s.gather_step = LMB_GATHER_ADAPTIVE;
+    lay_out(&s);
+    frame.gather_many_lights = 1;
+    frame.many_lights_error = 0.01f;
+    memset(&r, 0, sizeof r);
+    CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+    for (int32_t y = 0; y < 48; ++y) {
+        const uint8_t *row = (const uint8_t *)frame.out.data + y * frame.out.stride_bytes;
+        for (int i = 0; i < 64 * 12; ++i) {
+            hash = (hash ^ row[i]) * UINT64_C(0x100000001b3);
+        }
+    }
+    return hash;
+}
+
+/* Nothing is measured in metres: powers of two change no bit. */
+static void check_scales(const lmb_many_lights *sky)
+{
+    static const float scales[] = {1.0f / 256, 1.0f / 64, 64, 4096, 65536};
+    const uint64_t want = scaled_hash(sky, 1);
+    for (int i = 0; i < COUNT(scales); ++i) {
+        CHECK_MSG(scaled_hash(sky, scales[i]) == want, "%g times as large: other bits", (double)scales[i]);
+    }
+}
+
 static void check_background(void)
 {
     static lmb_render r;
@@ -259,8 +342,12 @@ void test_sky(void)
     check_lights();
     check_sun();
     check_background();
+    for (int i = 0; i < 60; ++i) {
+        check_picture_sun("lambent_test_world.pfm", i * 41 % ACROSS, 2 + i);
+    }
     const lmb_many_lights sky = white_sky();
     check_open(&sky);
+    check_scales(&sky);
     check_wall(&sky);
     check_window(&sky, "a hole of 2 m", 1.0f, 0.03);
     check_window(&sky, "a hole of 0.6 m", 0.3f, 0.12);

@@ -62,6 +62,16 @@ static void check_exposure(void)
     uint8_t *codes = picture_codes(&p, 0.0f, PICTURE_CURVED);
     CHECK(codes != NULL && codes[0] == 255 && codes[897] == 137);
     free(codes);
+    for (int i = 0; i < 900; ++i) {
+        pixels[i] = i < 12 ? 4.0f : 0.25f; /* a 75th of the pixels is no speck, and keeps its tones */
+    }
+    CHECK(picture_auto_exposure(&p, PICTURE_CLIPPED) == -2.125f && picture_auto_exposure(&p, PICTURE_CURVED) == -1.75f);
+    for (int i = 0; i < 900; ++i) {
+        pixels[i] = i < 18 ? 1e5f : 0.01f; /* a lamp close to a wall */
+    }
+    codes = picture_codes(&p, picture_auto_exposure(&p, PICTURE_CURVED), PICTURE_CURVED);
+    CHECK_MSG(codes != NULL && codes[0] == 255 && codes[899] > 38 && codes[899] < 48, "%d", codes[899]);
+    free(codes);
 }
 
 static void check_alpha(const char *path)

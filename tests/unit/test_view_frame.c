@@ -154,6 +154,43 @@ static void check_rooms(void)
     }
 }
 
+/* Towards the eye. */
+static lmb_vec3 seen_from(void)
+{
+    view_options o = options_of(WIDTH, HEIGHT);
+    report r = {0};
+    lmb_view v;
+    memset(&v, 0, sizeof v);
+    CHECK(world_end() == LMB_OK && view_frame(&v, &o, &world.scene, "it", &r));
+    return v.back;
+}
+
+/* What is a little deeper than wide is seen from the front; what is long, from its right side. */
+static void check_sides(void)
+{
+    static const float deep[2] = {1.3f, 1.7f};
+    for (int i = 0; i < 2; ++i) {
+        world_begin(0.5f, 0.5f, 0.5f);
+        box_at(vec3(0, 0, 0), 1, 1, deep[i]);
+        const lmb_vec3 back = seen_from();
+        CHECK_MSG(i == 0 ? back.z > back.x : back.x > back.z, "%g deep: from %g, %g", (double)deep[i], (double)back.x,
+                  (double)back.z);
+    }
+}
+
+/* Five boards with gaps between them are no room: they are seen as other things are, not through the open side. */
+static void check_boards(void)
+{
+    const lmb_vec3 half[3] = {mul3(X, 2), mul3(Y, 1.5f), mul3(Z, 2)};
+    world_begin(0.5f, 0.5f, 0.5f);
+    for (int i = 0; i < 5; ++i) {
+        const lmb_vec3 out = i & 1 ? half[i / 2] : mul3(half[i / 2], -1.0f);
+        world_quad(out, mul3(half[(i / 2 + 1) % 3], 0.65f), mul3(half[(i / 2 + 2) % 3], 0.65f));
+    }
+    const lmb_vec3 back = seen_from();
+    CHECK_MSG(back.x > 0.4f, "boards: from %g, %g, %g", (double)back.x, (double)back.y, (double)back.z);
+}
+
 /* A corner far outside, or none at all, takes its triangles out of the picture: the others are framed as without it. */
 static void check_strays(void)
 {
@@ -186,5 +223,7 @@ void test_view_frame(void)
     check_size(5, 1, 2, 960);
     check_size(5, 0.5f, 1, 1440);
     check_rooms();
+    check_sides();
+    check_boards();
     check_strays();
 }

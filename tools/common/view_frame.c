@@ -152,12 +152,25 @@ static float shape_of(const lmb_scene *s, const lmb_view *v, lmb_vec3 centre)
     return best;
 }
 
+static int shows_any(const lmb_scene *s)
+{
+    lmb_triangle t;
+    uint32_t id = lmb_scene_triangles(s);
+    while (id > 0 && !fetch_drawn(&t, s, id)) {
+        --id;
+    }
+    return id > 0;
+}
+
 int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char *name, report *r)
 {
     const lmb_vec3 lo = scene->bounds_min, hi = scene->bounds_max, to_eye = direction_to_eye(scene);
     const lmb_vec3 centre = {(lo.x + hi.x) * 0.5f, (lo.y + hi.y) * 0.5f, (lo.z + hi.z) * 0.5f};
     const float size = fmaxf(hi.x - lo.x, fmaxf(hi.y - lo.y, hi.z - lo.z));
     const lmb_vec3 from = {centre.x + size * to_eye.x, centre.y + size * to_eye.y, centre.z + size * to_eye.z};
+    if (!shows_any(scene)) {
+        return report_fail(r, "%s: nothing to see: each triangle has a corner that is not finite or 2^20 m away", name);
+    }
     if (!(size > 0.0f)) {
         return report_fail(r, "%s: nothing to see: the scene has no extent", name);
     }
@@ -168,9 +181,6 @@ int view_frame(lmb_view *v, view_options *o, const lmb_scene *scene, const char 
         return report_fail(r, "%s: no view frames the scene; give --eye and --target", name);
     }
     const scene_reach all = reach_of(scene, v, centre);
-    if (all.front < -1e299) {
-        return report_fail(r, "%s: nothing to see: each triangle has a corner that is not finite or 2^20 m away", name);
-    }
     fit(v, &all, centre, size);
     report_note(o->is_quiet, "no camera in %s: framing the scene from %.4g,%.4g,%.4g", name, (double)v->eye.x,
                 (double)v->eye.y, (double)v->eye.z);

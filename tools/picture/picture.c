@@ -47,6 +47,7 @@ int picture_option(const char *text, void *at) { return picture_format(*(const c
 #define FADES       0.15f  /* how soon bright colours are white: Khronos PBR Neutral's desaturation */
 #define MEDIAN_EV   -1.25f  /* half of the pixels are darker than 0.42 */
 #define SHOULDER_EV 0.375f /* the brightest hundredth lies on the shoulder: middle tones gain that */
+#define DARKEST_EV  -5.5f  /* half of them are brighter than code 40 of 255, though a lamp beside a wall is then white */
 
 enum { STEPS = 512, MIDDLE = 256, STEPS_PER_STOP = 8 };
 
@@ -86,7 +87,11 @@ float picture_auto_exposure(const image *p, int tone)
         add_brightness(&luminance, 0.2126f * v[0] + 0.7152f * v[1] + 0.0722f * v[2]);
     }
     const float highest = stops_to_one(&peak, 100) + (tone == PICTURE_CURVED ? SHOULDER_EV : 0.0f);
-    return tone == PICTURE_CURVED && luminance.lit > 0 ? fminf(highest, stops_to_one(&luminance, 2) + MEDIAN_EV) : highest;
+    if (tone != PICTURE_CURVED || luminance.lit == 0) {
+        return highest;
+    }
+    const float median = stops_to_one(&luminance, 2);
+    return fmaxf(fminf(highest, median + MEDIAN_EV), median + DARKEST_EV);
 }
 
 /* Khronos PBR Neutral's shoulder, of one pixel. */

@@ -74,8 +74,8 @@ static int read_strip(lmb_world_pictures *out, world_pictures *own, const stored
     return 1;
 }
 
-/* Bilinear, round the seam. */
-static void sphere_at(double sum[3], const stored_picture *p, const double d[3])
+/* Bilinear, round the seam, times `weight`. */
+static void sphere_at(double sum[3], const stored_picture *p, const double d[3], double weight)
 {
     const double pi = 3.14159265358979, length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double u = (0.5 + atan2(d[0], -d[2]) / (2 * pi)) * p->width - 0.5,
@@ -88,7 +88,7 @@ static void sphere_at(double sum[3], const stored_picture *p, const double d[3])
         y = y < 0 ? 0 : y >= p->height ? p->height - 1 : y;
         pixel_at(rgba, p, (size_t)y * (size_t)p->width + (size_t)x);
         for (int c = 0; c < 3; ++c) {
-            sum[c] += 0.25 * (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy) * (double)rgba[c];
+            sum[c] += weight * (k & 1 ? fx : 1 - fx) * (k >> 1 ? fy : 1 - fy) * (double)rgba[c];
         }
     }
 }
@@ -100,7 +100,16 @@ static void face_point(double d[3], int face, double s, double t)
     memcpy(d, p[face], sizeof p[face]);
 }
 
-/* Each texel is the mean of four places. */
+enum { MAX_PLACES = 16 };
+
+/* Of a texel, each way: pixels near the poles are narrower, and a sun of one pixel must not lie between two places. */
+static int places_of(const double d[3])
+{
+    const double across = sqrt(d[0] * d[0] + d[2] * d[2]), length = sqrt(across * across + d[1] * d[1]);
+    return MAX_PLACES * across < 2.0 * length ? MAX_PLACES : 2 * (int)(length / across + 0.4);
+}
+
+/* Each texel is the mean of four places, or more towards the poles. */
 static int read_sphere(lmb_world_pictures *out, world_pictures *own, const stored_picture *p, const char *path,
                        report *r)
 {
@@ -112,10 +121,12 @@ static int read_sphere(lmb_world_pictures *out, world_pictures *own, const store
         }
         for (int32_t at = 0; at < side * side; ++at) {
             double sum[3] = {0, 0, 0}, d[3];
-            for (int k = 0; k < 4; ++k) {
-                face_point(d, i, (2 * (at % side) + 0.5 + (k & 1)) / side - 1,
-                           (2 * (at / side) + 0.5 + (k >> 1)) / side - 1);
-                sphere_at(sum, p, d);
+            face_point(d, i, (2 * (at % side) + 1.0) / side - 1, (2 * (at / side) + 1.0) / side - 1);
+            const int places = places_of(d);
+            for (int k = 0; k < places * places; ++k) {
+                face_point(d, i, (2 * (at % side) + (2 * (k % places) + 1.0) / places) / side - 1,
+                           (2 * (at / side) + (2 * (k / places) + 1.0) / places) / side - 1);
+                sphere_at(sum, p, d, 1.0 / (places * places));
             }
             for (int c = 0; c < 3; ++c) {
                 own->face[i][3 * (size_t)at + (size_t)c] = (float)sum[c];

@@ -136,10 +136,21 @@ static int emits_itself(const render_job *j)
     return j->o.grouping.method == LMB_GROUP_CUT && lmb_scene_emits(&j->scene);
 }
 
+/* Lamps that a program exports switched off are no light; those of the command line are as they were asked for. */
+static int has_lights(const render_job *j)
+{
+    int any = j->o.light_count > 0;
+    for (uint32_t i = 0; i < j->scene.light_count && !any; ++i) {
+        const float *rgb = j->scene.lights[i].intensity;
+        any = rgb[0] > 0.0f || rgb[1] > 0.0f || rgb[2] > 0.0f;
+    }
+    return any;
+}
+
 /* 1: it has lights, or what emits light is the scene's light. 0: it has none. -1 with `r` set: out of memory. */
 static int is_lit(const render_job *j, report *r)
 {
-    if (j->scene.light_count > 0) {
+    if (has_lights(j)) {
         return 1;
     }
     const float own = emits_itself(j) ? own_light(&j->scene, r) : 0.0f;
@@ -238,7 +249,7 @@ static int set_lights(render_job *j, report *r)
     if (j->o.world == NULL ? !lit && wants_sky(j) : !wants_none) {
         return set_world(j, lit, r);
     }
-    if (!lit) {
+    if (!lit && j->scene.light_count == 0) {
         j->sun = sun;
         j->scene.lights = &j->sun;
         j->scene.light_count = 1;

@@ -295,12 +295,20 @@ static int lies_apart(const lmb_scene *s, float radius)
     return BELOW * radius > 4e-7f * fabsf(s->bounds_min.y);
 }
 
+/* Are corners of the ground within 2^20 m of the origin, so that they are drawn? */
+static int is_within(const lmb_scene *s, float reach)
+{
+    const float x = fmaxf(fabsf(s->bounds_min.x), fabsf(s->bounds_max.x)),
+                z = fmaxf(fabsf(s->bounds_min.z), fabsf(s->bounds_max.z));
+    return fmaxf(fmaxf(x, z), fabsf(s->bounds_min.y)) + reach < 1048576.0f;
+}
+
 int world_put_ground(world *w, lmb_scene *s, lmb_vec3 eye, report *r)
 {
     const float wide = s->bounds_max.x - s->bounds_min.x, deep = s->bounds_max.z - s->bounds_min.z,
                 high = s->bounds_max.y - s->bounds_min.y;
     const float radius = 0.5f * sqrtf(wide * wide + deep * deep + high * high);
-    if (!(radius > 0.0f) || radius * SKY_REACH > 1e5f || lmb_scene_triangles(s) > UINT32_MAX / 2 ||
+    if (!(radius > 0.0f) || !is_within(s, radius * SKY_REACH) || lmb_scene_triangles(s) > UINT32_MAX / 2 ||
         is_inside(eye, s) || eye.y < s->bounds_min.y || !lies_apart(s, radius) || has_floor(s)) {
         return 1;
     }
