@@ -1,8 +1,12 @@
 /* build.c: builds the BVH of a scene's triangles, sixteen boxes a node, in the caller's arrays. Layer 4.
  *
- * Top down, in place: a node's triangles are cut in two where the surface-area heuristic over 16 bins of their middles
- * says (Wald 2007), then the part with the largest surface again, until there are sixteen. Below a depth that only
- * hostile scenes reach cuts go by halves, so that the depth is bounded. */
+ * Top down, in place: a node's triangles are cut in two where the surface-area heuristic says (Wald 2007), then the
+ * part with the largest surface again, until there are sixteen. Many triangles are cut between bins of their middles
+ * along the three axes, which one pass fills; of up to five triangles every cut is tried. A node is cut by halves where
+ * all middles are in one place, or where it has more triangles than the levels below it hold: so the depth is bounded.
+ *
+ * While the tree grows, only boxes and ids are there, as items in the triangles' place: 32 bytes instead of 52. Boxes
+ * are minima and maxima, which no order of joining changes, so every machine builds the same tree. */
 #include <lambent/occlusion.h>
 
 #include <string.h>
@@ -14,7 +18,12 @@
 
 #if LMB_TREES
 
-enum { BINS = 16, LEAF = 4, HALVES_FROM = LMB_TRAVERSAL_LEVELS - 8 };
+enum {
+    BINS = 16,  /* along each axis */
+    LESS = 16,  /* up to so many items go into half as many bins: most cuts are small ones */
+    FEW = 5,    /* of up to so many items all cuts are tried */
+    LEAF = 4    /* triangles of a leaf, at most, while there are nodes */
+};
 
 size_t lmb_bvh_bytes(uint32_t n)
 {
@@ -40,170 +49,299 @@ lmb_status lmb_bvh_init(lmb_bvh *out, uint32_t n, void *memory, size_t bytes)
     return LMB_OK;
 }
 
-/* --- triangles ---------------------------------------------------------------------------------------------------- */
-
-/* 1 where the triangle can block. */
-static int take_triangle(lmb_bvh_triangle *out, const lmb_triangle *t)
-{
-    float area;
-    memcpy(out->corner, t->corner, sizeof out->corner);
-    out->id = t->id | (t->material->flags & LMB_ALPHA_MASK ? LMB_BVH_MASKED : 0);
-    return lmb_triangle_shape(&out->normal, &area, t);
-}
-
-static void take_triangles(lmb_bvh *inout, const lmb_scene *scene)
-{
-    const uint32_t all = lmb_scene_triangles(scene);
-    lmb_triangle t;
-    inout->triangle_count = 0;
-    for (uint32_t id = 1; id <= all; ++id) {
-        lmb_bvh_triangle *b = &inout->triangle[inout->triangle_count];
-        if (lmb_triangle_fetch(&t, scene, id) && take_triangle(b, &t)) {
-            ++inout->triangle_count;
-        }
-    }
-}
-
 /* --- boxes -------------------------------------------------------------------------------------------------------- */
 
-static float axis3(lmb_vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
+/* A box; an item is that of a triangle. Four numbers each, which compilers take as vectors: the fourth ones of an item
+ * are the two halves of its id, and mean nothing elsewhere. */
 typedef struct span {
-    lmb_vec3 low, high;
+    float low[4], high[4];
 } span;
 
 static span span_none(void)
 {
-    span s;
-    s.low = vec3(3e38f, 3e38f, 3e38f);
-    s.high = vec3(-3e38f, -3e38f, -3e38f);
+    const span s = {{3e38f, 3e38f, 3e38f, 0.0f}, {-3e38f, -3e38f, -3e38f, 0.0f}};
     return s;
 }
 
-static span span_join(span a, span b)
+/* In loops of their own, or gcc makes no vectors of them. */
+static inline void span_join(span *inout, span with)
 {
-    a.low = min3(a.low, b.low);
-    a.high = max3(a.high, b.high);
-    return a;
+    for (int c = 0; c < 4; ++c) {
+        inout->low[c] = with.low[c] < inout->low[c] ? with.low[c] : inout->low[c];
+    }
+    for (int c = 0; c < 4; ++c) {
+        inout->high[c] = with.high[c] > inout->high[c] ? with.high[c] : inout->high[c];
+    }
 }
 
-static span span_of(const lmb_bvh_triangle *t)
+static inline float half_area(const span *s)
 {
-    span s;
-    s.low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]);
-    s.high = max3(max3(t->corner[0], t->corner[1]), t->corner[2]);
+    float d[4];
+    for (int c = 0; c < 4; ++c) {
+        d[c] = s->high[c] - s->low[c];
+    }
+    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+}
+
+static span span_of(const span *item, uint32_t count)
+{
+    span s = span_none();
+    for (uint32_t i = 0; i < count; ++i) {
+        span_join(&s, item[i]);
+    }
     return s;
 }
 
-static float half_area(const span *s)
+/* --- triangles ---------------------------------------------------------------------------------------------------- */
+
+static void set_item(span *out, const lmb_triangle *t)
 {
-    lmb_vec3 d = sub3(s->high, s->low);
-    return d.x * d.y + d.y * d.z + d.z * d.x;
+    const lmb_vec3 low = min3(min3(t->corner[0], t->corner[1]), t->corner[2]);
+    const lmb_vec3 high = max3(max3(t->corner[0], t->corner[1]), t->corner[2]);
+    out->low[0] = low.x;
+    out->low[1] = low.y;
+    out->low[2] = low.z;
+    out->low[3] = (float)(t->id & 0xffffu);
+    out->high[0] = high.x;
+    out->high[1] = high.y;
+    out->high[2] = high.z;
+    out->high[3] = (float)(t->id >> 16);
 }
 
-/* Twice a triangle's middle. */
-static lmb_vec3 middle(const lmb_bvh_triangle *t)
+static uint32_t item_id(const span *s) { return (uint32_t)s->low[3] | (uint32_t)s->high[3] << 16; }
+
+/* As lmb_triangle_fetch; *instance is where the last triangle was found, and most often this one too. */
+static int fetch(lmb_triangle *out, const lmb_instance **instance, const lmb_scene *scene, uint32_t id)
 {
-    span s = span_of(t);
-    return add3(s.low, s.high);
+    if (*instance == NULL || id - (*instance)->first_id >= scene->meshes[(*instance)->mesh].triangle_count) {
+        *instance = lmb_instance_of(scene, id);
+    }
+    return *instance != NULL && triangle_of(out, scene, *instance, id);
 }
 
-/* Where middles fall into bins along an axis. */
-typedef struct binning {
-    float low, per_bin; /* bins a metre; 0: all in one place */
-    int axis;
-} binning;
-
-static int bin_of(const binning *b, const lmb_bvh_triangle *t)
+/* The items of all triangles that can block; how many. */
+static uint32_t take_items(span *out, const lmb_scene *scene)
 {
-    return mini((int)((axis3(middle(t), b->axis) - b->low) * b->per_bin), BINS - 1);
+    const uint32_t all = lmb_scene_triangles(scene);
+    const lmb_instance *instance = NULL;
+    uint32_t count = 0;
+    for (uint32_t id = 1; id <= all; ++id) {
+        lmb_triangle t;
+        lmb_vec3 normal;
+        float longest;
+        if (fetch(&t, &instance, scene, id) && triangle_cross(&normal, &longest, &t)) {
+            set_item(&out[count++], &t);
+        }
+    }
+    return count;
 }
 
-static binning binning_of(const span *middles, int axis)
+/* Triangles in the order of the items that lie in their place: first all ids go to the end of it, where each is read
+ * before a triangle covers it. */
+static void place_triangles(lmb_bvh_triangle *t, uint32_t count, const lmb_scene *scene)
 {
-    binning b;
-    const float wide = axis3(middles->high, axis) - axis3(middles->low, axis);
-    b.axis = axis;
-    b.low = axis3(middles->low, axis);
-    b.per_bin = wide > 1e-30f ? (float)BINS * 0.9999f / wide : 0.0f;
-    return b;
-}
-
-/* The best cut along one axis: triangles of bins below `bin` to the left. Cost: areas x triangles; 3e38: none. */
-typedef struct cut {
-    binning bins;
-    int bin;
-    float cost;
-} cut;
-
-static cut best_cut(const binning *bins, const lmb_bvh_triangle *t, uint32_t count)
-{
-    span box[BINS], right[BINS], left = span_none();
-    uint32_t in[BINS] = {0}, below = 0;
-    cut best;
-    best.bins = *bins;
-    best.bin = 0;
-    best.cost = 3e38f;
-    for (int i = 0; i < BINS; ++i) {
-        box[i] = span_none();
+    const span *item = (const span *)(const void *)t;
+    uint32_t *id = (uint32_t *)(void *)((char *)t + (size_t)count * (sizeof *t - sizeof *id));
+    const lmb_instance *instance = NULL;
+    for (uint32_t i = 0; i < count; ++i) {
+        id[i] = item_id(&item[i]);
     }
     for (uint32_t i = 0; i < count; ++i) {
-        const int bin = bin_of(bins, &t[i]);
-        box[bin] = span_join(box[bin], span_of(&t[i]));
-        ++in[bin];
+        const uint32_t own = id[i];
+        lmb_triangle from;
+        lmb_vec3 normal;
+        float longest;
+        if (fetch(&from, &instance, scene, own) && triangle_cross(&normal, &longest, &from)) {
+            memcpy(t[i].corner, from.corner, sizeof from.corner);
+            t[i].normal = normalize3(normal);
+            t[i].id = own | (from.material->flags & LMB_ALPHA_MASK ? LMB_BVH_MASKED : 0);
+        }
     }
-    right[BINS - 1] = box[BINS - 1];
-    for (int i = BINS - 2; i >= 0; --i) {
-        right[i] = span_join(right[i + 1], box[i]);
+}
+
+/* Both lie in the triangles' place. */
+typedef char items_fit[sizeof(span) + sizeof(uint32_t) <= sizeof(lmb_bvh_triangle) ? 1 : -1];
+
+/* --- cuts --------------------------------------------------------------------------------------------------------- */
+
+/* The best cut of some items in two. Cost: areas x triangles; 3e38: there is none. */
+typedef struct cut {
+    float cost;
+    span left, right;
+    uint32_t below;           /* items on the left */
+    uint8_t order[FEW];       /* few items: those on the left, then the others */
+    int axis, bin;            /* many: those on the left are in bins below this */
+    float low[4], per_bin[4]; /* bins a metre of twice the middle; 0: all in one place */
+} cut;
+
+/* Where twice the middles fall into bins along each axis. */
+static void set_bins(cut *out, int bins, const span *item, uint32_t count)
+{
+    span middles = span_none();
+    for (uint32_t i = 0; i < count; ++i) {
+        span m;
+        for (int c = 0; c < 4; ++c) {
+            m.low[c] = item[i].low[c] + item[i].high[c];
+        }
+        for (int c = 0; c < 4; ++c) {
+            middles.low[c] = m.low[c] < middles.low[c] ? m.low[c] : middles.low[c];
+        }
+        for (int c = 0; c < 4; ++c) {
+            middles.high[c] = m.low[c] > middles.high[c] ? m.low[c] : middles.high[c];
+        }
     }
-    for (int i = 1; i < BINS; ++i) {
-        left = span_join(left, box[i - 1]);
-        below += in[i - 1];
+    out->low[3] = out->per_bin[3] = 0.0f;
+    for (int c = 0; c < 3; ++c) {
+        const float wide = middles.high[c] - middles.low[c];
+        out->low[c] = middles.low[c];
+        out->per_bin[c] = wide > 1e-30f ? (float)bins * 0.9999f / wide : 0.0f;
+    }
+}
+
+/* An item's bins along the three axes. */
+static inline void bins_of(int32_t out[4], const cut *c, const span *item)
+{
+    for (int k = 0; k < 4; ++k) {
+        out[k] = (int32_t)((item->low[k] + item->high[k] - c->low[k]) * c->per_bin[k]);
+    }
+}
+
+/* What is in the bins of an axis. */
+typedef struct bins {
+    span box[BINS];
+    uint32_t count[BINS];
+} bins;
+
+static void fill_bins(bins out[3], int many, const cut *c, const span *item, uint32_t count)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int i = 0; i < many; ++i) {
+            out[axis].box[i] = span_none();
+            out[axis].count[i] = 0;
+        }
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        const span from = item[i];
+        int32_t bin[4];
+        bins_of(bin, c, &from);
+        span_join(&out[0].box[bin[0]], from);
+        span_join(&out[1].box[bin[1]], from);
+        span_join(&out[2].box[bin[2]], from);
+        ++out[0].count[bin[0]];
+        ++out[1].count[bin[1]];
+        ++out[2].count[bin[2]];
+    }
+}
+
+/* The cheapest cut between the bins of an axis; 1 where it is cheaper than *best was. */
+static int sweep(cut *best, const bins *b, int many, uint32_t count)
+{
+    float right[BINS];
+    span s = span_none();
+    int found = 0;
+    uint32_t below = 0;
+    for (int i = many - 1; i > 0; --i) {
+        span_join(&s, b->box[i]);
+        right[i] = half_area(&s);
+    }
+    s = span_none();
+    for (int i = 1; i < many; ++i) {
+        span_join(&s, b->box[i - 1]);
+        below += b->count[i - 1];
         if (below > 0 && below < count) {
-            const float cost = half_area(&left) * (float)below + half_area(&right[i]) * (float)(count - below);
-            if (cost < best.cost) {
-                best.cost = cost;
-                best.bin = i;
+            const float cost = half_area(&s) * (float)(int32_t)below + right[i] * (float)(int32_t)(count - below);
+            if (cost < best->cost) {
+                best->cost = cost;
+                best->below = below;
+                best->bin = i;
+                found = 1;
             }
         }
     }
-    return best;
+    return found;
 }
 
-/* Triangles below the cut first; how many. */
-static uint32_t part(lmb_bvh_triangle *t, uint32_t count, const cut *c)
+/* Many items: the best cut between bins. */
+static void cut_bins(cut *best, const span *item, uint32_t count)
 {
+    bins b[3];
+    const int many = count > LESS ? BINS : BINS / 2;
+    set_bins(best, many, item, count);
+    fill_bins(b, many, best, item, count);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (best->per_bin[axis] > 0.0f && sweep(best, &b[axis], many, count)) {
+            best->axis = axis;
+        }
+    }
+    best->left = best->right = span_none();
+    for (int i = 0; i < many && best->cost < 3e38f; ++i) {
+        span_join(i < best->bin ? &best->left : &best->right, b[best->axis].box[i]);
+    }
+}
+
+/* Of all axes. */
+static float middle_sum(const span *s)
+{
+    return (s->low[0] + s->high[0]) + (s->low[1] + s->high[1]) + (s->low[2] + s->high[2]);
+}
+
+/* Few items: the best of all cuts, the lower part on the left as with bins. A set of items is a number, a bit each. */
+static void cut_few(cut *best, const span *item, uint32_t count)
+{
+    span box[1 << FEW];
+    float area[1 << FEW], many[1 << FEW];
+    const uint32_t all = (1u << count) - 1;
+    uint32_t left = 0;
+    box[0] = span_none();
+    many[0] = 0.0f;
+    for (uint32_t set = 1; set < all; ++set) {
+        box[set] = box[set & (set - 1)];
+        many[set] = many[set & (set - 1)] + 1.0f;
+        span_join(&box[set], item[lowest_bit(set)]);
+        area[set] = half_area(&box[set]) * many[set];
+    }
+    for (uint32_t set = 1; 2 * set <= all; ++set) {
+        const float cost = area[set] + area[all ^ set];
+        if (cost < best->cost) {
+            best->cost = cost;
+            left = set;
+        }
+    }
+    if (middle_sum(&box[left]) > middle_sum(&box[all ^ left])) {
+        left ^= all;
+    }
+    best->below = 0;
+    for (uint32_t bits = left; bits != 0; bits &= bits - 1) {
+        best->order[best->below++] = (uint8_t)lowest_bit(bits);
+    }
+    for (uint32_t bits = all ^ left, at = best->below; bits != 0; bits &= bits - 1) {
+        best->order[at++] = (uint8_t)lowest_bit(bits);
+    }
+}
+
+static void part_few(cut *c, span *item, uint32_t count)
+{
+    span in[FEW];
+    memcpy(in, item, count * sizeof *item);
+    c->left = c->right = span_none();
+    for (uint32_t i = 0; i < count; ++i) {
+        item[i] = in[c->order[i]];
+        span_join(i < c->below ? &c->left : &c->right, item[i]);
+    }
+}
+
+/* Items below the cut first. */
+static void part_bins(const cut *c, span *item, uint32_t count)
+{
+    const int axis = c->axis, bin = c->bin;
+    const float low = c->low[axis], per_bin = c->per_bin[axis];
     uint32_t below = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        if (bin_of(&c->bins, &t[i]) < c->bin) {
-            const lmb_bvh_triangle swap = t[i];
-            t[i] = t[below];
-            t[below++] = swap;
-        }
+        const span from = item[i];
+        item[i] = item[below];
+        item[below] = from;
+        below += (int32_t)((from.low[axis] + from.high[axis] - low) * per_bin) < bin;
     }
-    return below;
-}
-
-/* The best cut of a node's triangles; cost 3e38: all lie in one place. */
-static cut find_cut(const lmb_bvh_triangle *t, uint32_t count)
-{
-    span middles = span_none();
-    cut best;
-    memset(&best, 0, sizeof best);
-    best.cost = 3e38f;
-    for (uint32_t i = 0; i < count; ++i) {
-        const lmb_vec3 m = middle(&t[i]);
-        middles.low = min3(middles.low, m);
-        middles.high = max3(middles.high, m);
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        const binning bins = binning_of(&middles, axis);
-        if (bins.per_bin > 0.0f) {
-            const cut c = best_cut(&bins, t, count);
-            best = c.cost < best.cost ? c : best;
-        }
-    }
-    return best;
 }
 
 /* --- nodes -------------------------------------------------------------------------------------------------------- */
@@ -211,50 +349,58 @@ static cut find_cut(const lmb_bvh_triangle *t, uint32_t count)
 /* Triangles that lie together. */
 typedef struct run {
     span box;
+    float area;
     uint32_t first, count;
     int whole; /* no cut of it pays */
 } run;
 
-static run run_of(const lmb_bvh_triangle *t, uint32_t first, uint32_t count)
+static void set_run(run *out, const span *box, uint32_t first, uint32_t count)
 {
-    run r;
-    r.box = span_none();
-    r.first = first;
-    r.count = count;
-    r.whole = count == 1;
-    for (uint32_t i = 0; i < count; ++i) {
-        r.box = span_join(r.box, span_of(&t[first + i]));
-    }
-    return r;
+    out->box = *box;
+    out->area = half_area(box);
+    out->first = first;
+    out->count = count;
+    out->whole = count == 1;
 }
 
-/* Cut a run in two, the second into *more; 0 where that does not pay. */
-static int cut_run(lmb_bvh *b, run *r, run *more, int depth)
+/* Cut a run in two, the second into *more; 0 where that does not pay. *halves: by halves; set where that alone cuts. */
+static int cut_run(span *items, run *r, run *more, int *halves)
 {
-    lmb_bvh_triangle *t = b->triangle + r->first;
-    const run old = *r;
+    span *item = items + r->first;
+    const uint32_t first = r->first, count = r->count;
     cut best;
     best.cost = 3e38f;
-    if (depth < HALVES_FROM) {
-        best = find_cut(t, r->count);
+    if (count <= FEW) {
+        cut_few(&best, item, count);
+    } else if (!*halves) {
+        cut_bins(&best, item, count);
     }
-    /* Asking a box costs about what asking a triangle does. */
-    if (r->count <= LEAF && !(best.cost + half_area(&r->box) < half_area(&r->box) * (float)r->count)) {
+    /* Testing a box costs about what testing a triangle does. */
+    if (count <= LEAF && !(best.cost + r->area < r->area * (float)count)) {
         r->whole = 1;
         return 0;
     }
-    const uint32_t below = best.cost < 3e38f ? part(t, r->count, &best) : r->count / 2;
-    *r = run_of(b->triangle, old.first, below);
-    *more = run_of(b->triangle, old.first + below, old.count - below);
+    if (count <= FEW) {
+        part_few(&best, item, count);
+    } else if (best.cost < 3e38f) {
+        part_bins(&best, item, count);
+    } else {
+        *halves = 1;
+        best.below = count / 2;
+        best.left = span_of(item, best.below);
+        best.right = span_of(item + best.below, count - best.below);
+    }
+    set_run(r, &best.left, first, best.below);
+    set_run(more, &best.right, first + best.below, count - best.below);
     return 1;
 }
 
-/* The run to cut next: the largest box; or -1. */
-static int largest_run(const run *r, int count)
+/* The run to cut next: the largest box, or by halves the one of most triangles; or -1. */
+static int next_run(const run *r, int count, int halves)
 {
     int best = -1;
     for (int i = 0; i < count; ++i) {
-        if (!r[i].whole && (best < 0 || half_area(&r[best].box) < half_area(&r[i].box))) {
+        if (!r[i].whole && (best < 0 || (halves ? r[best].count < r[i].count : r[best].area < r[i].area))) {
             best = i;
         }
     }
@@ -263,35 +409,47 @@ static int largest_run(const run *r, int count)
 
 static void set_box(lmb_boxes *node, int i, const run *r)
 {
-    const float size = largest3(sub3(r->box.high, r->box.low)),
-                place = maxf(largest3(r->box.low), largest3(r->box.high)),
-                wide = r->count > 0 ? LMB_BOX_SIZE * size + LMB_BOX_PLACE * place : 0.0f;
-    const lmb_vec3 low = sub3(r->box.low, vec3(wide, wide, wide)), high = add3(r->box.high, vec3(wide, wide, wide));
-    node->low[0][i] = low.x;
-    node->low[1][i] = low.y;
-    node->low[2][i] = low.z;
-    node->high[0][i] = high.x;
-    node->high[1][i] = high.y;
-    node->high[2][i] = high.z;
+    const float *low = r->box.low, *high = r->box.high;
+    const float size = maxf(high[0] - low[0], maxf(high[1] - low[1], high[2] - low[2])),
+                place = maxf(maxf(high[0], maxf(high[1], high[2])), -minf(low[0], minf(low[1], low[2]))),
+                wide = LMB_BOX_SIZE * size + LMB_BOX_PLACE * place;
+    for (int c = 0; c < 3; ++c) {
+        node->low[c][i] = low[c] - wide;
+        node->high[c][i] = high[c] + wide;
+    }
     node->first[i] = r->first;
     node->count[i] = r->count;
 }
 
-/* Fill a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
-static void fill_node(lmb_bvh *b, uint32_t at, uint32_t first, uint32_t count, int depth)
+/* One that holds nothing. */
+static void set_no_box(lmb_boxes *node, int i)
 {
+    for (int c = 0; c < 3; ++c) {
+        node->low[c][i] = 3e38f;
+        node->high[c][i] = -3e38f;
+    }
+    node->first[i] = node->count[i] = 0;
+}
+
+/* Fill a node with the triangles first .. first + count - 1 as up to sixteen leaves. */
+static void fill_node(lmb_boxes *node, span *items, uint32_t first, uint32_t count, int depth)
+{
+    const int too_many = count > (uint64_t)LEAF << 4 * (LMB_TRAVERSAL_LEVELS - 1 - depth);
     run r[LMB_BOXES];
-    int runs = 1, next;
-    r[0] = run_of(b->triangle, first, count);
-    while (runs < LMB_BOXES && (next = largest_run(r, runs)) >= 0) {
-        runs += cut_run(b, &r[next], &r[runs], depth);
+    int runs = 1, next, halves = too_many;
+    const span box = span_of(items + first, count);
+    set_run(&r[0], &box, first, count);
+    while (runs < LMB_BOXES && (next = next_run(r, runs, halves)) >= 0) {
+        int by_halves = halves;
+        const int whole = runs == 1;
+        runs += cut_run(items, &r[next], &r[runs], &by_halves);
+        halves = whole ? by_halves : halves;
     }
     for (int i = 0; i < LMB_BOXES; ++i) {
         if (i < runs) {
-            set_box(&b->node[at], i, &r[i]);
+            set_box(node, i, &r[i]);
         } else {
-            const run none = {span_none(), 0, 0, 1};
-            set_box(&b->node[at], i, &none);
+            set_no_box(node, i);
         }
     }
 }
@@ -303,14 +461,14 @@ typedef struct branch {
 } branch;
 
 /* Leaves of a node that are too large become nodes, on level `deep`. */
-static branch branch_at(lmb_bvh *b, uint32_t at, int deep)
+static branch branch_at(lmb_bvh *b, span *items, uint32_t at, int deep)
 {
     lmb_boxes *node = &b->node[at];
     branch out = {at, 0};
     for (int i = 0; i < LMB_BOXES; ++i) {
         if (node->count[i] > LEAF && b->node_count < b->node_cap && deep < LMB_TRAVERSAL_LEVELS) {
             const uint32_t child = b->node_count++;
-            fill_node(b, child, node->first[i], node->count[i], deep);
+            fill_node(&b->node[child], items, node->first[i], node->count[i], deep);
             node->first[i] = child;
             node->count[i] = 0;
             out.children |= 1u << (LMB_BOXES - 1 - i);
@@ -320,11 +478,11 @@ static branch branch_at(lmb_bvh *b, uint32_t at, int deep)
 }
 
 /* Depth first, the last child before the others. */
-static void grow(lmb_bvh *b)
+static void grow(lmb_bvh *b, span *items)
 {
     branch way[LMB_TRAVERSAL_LEVELS];
     int depth = 0;
-    way[0] = branch_at(b, 0, 1);
+    way[0] = branch_at(b, items, 0, 1);
     while (depth >= 0) {
         branch *up = &way[depth];
         if (up->children == 0) {
@@ -333,7 +491,7 @@ static void grow(lmb_bvh *b)
             const int i = LMB_BOXES - 1 - lowest_bit(up->children);
             up->children &= up->children - 1;
             ++depth;
-            way[depth] = branch_at(b, b->node[up->node].first[i], depth + 1);
+            way[depth] = branch_at(b, items, b->node[up->node].first[i], depth + 1);
         }
     }
 }
@@ -349,11 +507,13 @@ lmb_status lmb_bvh_build(lmb_bvh *inout, const lmb_scene *scene)
     if (lmb_scene_triangles(scene) > inout->triangle_cap) {
         return LMB_ERR_CAPACITY;
     }
-    take_triangles(inout, scene);
+    span *items = (span *)(void *)inout->triangle;
+    inout->triangle_count = take_items(items, scene);
     if (inout->triangle_count > 0) {
-        fill_node(inout, 0, 0, inout->triangle_count, 0);
+        fill_node(inout->node, items, 0, inout->triangle_count, 0);
         inout->node_count = 1;
-        grow(inout);
+        grow(inout, items);
+        place_triangles(inout->triangle, inout->triangle_count, scene);
     }
     lmb_hull_find(&inout->hull, scene);
     inout->noise = inout->hull.count > 0 ? 4.0f * inout->hull.slack : 0.0f;

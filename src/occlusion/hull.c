@@ -70,6 +70,29 @@ static void measure(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
     out->slack = (step + FAR * maxf(largest3(low), largest3(high))) * (LMB_NOISE_HULL * 0.25f);
 }
 
+/* Are there more normals than a hull may have planes? Told after a few triangles of most scenes. */
+static int has_many_normals(lmb_hull *scratch, const lmb_scene *scene, uint32_t triangles)
+{
+    lmb_triangle t;
+    lmb_vec3 normal;
+    int count = 0;
+    for (uint32_t id = 1; id <= triangles; ++id) {
+        int k = 0;
+        if (!take(&t, &normal, scene, id)) {
+            continue;
+        }
+        while (k < count && !is_same(normal, scratch->normal[k], 1.0f) && !is_same(normal, scratch->normal[k], -1.0f)) {
+            ++k;
+        }
+        if (k == LMB_HULL_PLANES) {
+            return 1;
+        }
+        scratch->normal[k] = normal;
+        count = maxi(count, k + 1);
+    }
+    return 0;
+}
+
 /* Every plane once. 0 where there are too many. */
 static int find_planes(lmb_hull *out, const lmb_scene *scene, uint32_t triangles)
 {
@@ -123,6 +146,9 @@ void lmb_hull_find(lmb_hull *out, const lmb_scene *scene)
         return;
     }
     out->count = 0;
+    if (has_many_normals(out, scene, triangles)) {
+        return;
+    }
     measure(out, scene, triangles);
     is_convex = find_planes(out, scene, triangles);
     for (int k = 0; k < out->count && is_convex; ++k) {

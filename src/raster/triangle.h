@@ -5,6 +5,7 @@
 #include <lambent/raster.h>
 
 #include "../base/vec.h"
+#include "../base/vertex.h"
 
 typedef struct lmb_triangle {
     const lmb_instance *instance;
@@ -27,5 +28,42 @@ int lmb_triangle_shape(lmb_vec3 *normal, float *area, const lmb_triangle *triang
 
 /* 1, or 0 where the id names no drawable triangle. */
 int lmb_triangle_fetch(lmb_triangle *out, const lmb_scene *scene, uint32_t id);
+
+/* The same, where its instance is known. */
+static inline int triangle_of(lmb_triangle *out, const lmb_scene *scene, const lmb_instance *instance, uint32_t id)
+{
+    out->id = id;
+    out->instance = instance;
+    out->mesh = &scene->meshes[instance->mesh];
+    out->material = &scene->materials[instance->material];
+    for (uint32_t k = 0; k < 3; ++k) {
+        const uint32_t vertex = mesh_index(out->mesh, 3 * (id - instance->first_id) + k);
+        if (vertex >= out->mesh->vertex_count) {
+            return 0;
+        }
+        out->vertex[k] = vertex;
+        out->corner[k] = transform_point(&instance->to_world, mesh_position(out->mesh, vertex));
+    }
+    return 1;
+}
+
+/* The front's normal, as long as its *longest component is 1, and how long that was: about twice the area. 0 as in
+ * lmb_triangle_shape. Signs are as good as random, so they are not branched on. */
+static inline int triangle_cross(lmb_vec3 *normal, float *longest, const lmb_triangle *t)
+{
+    const lmb_vec3 n = cross3(sub3(t->corner[1], t->corner[0]), sub3(t->corner[2], t->corner[0]));
+    const float largest = maxf(maxf(maxf(n.x, -n.x), maxf(n.y, -n.y)), maxf(n.z, -n.z));
+    for (int k = 0; k < 3; ++k) {
+        if (!is_place(t->corner[k])) {
+            return 0;
+        }
+    }
+    if (!(largest > 1e-30f)) {
+        return 0;
+    }
+    *longest = largest;
+    *normal = mul3(n, 1.0f / largest); /* so that no square is too small or too large */
+    return 1;
+}
 
 #endif

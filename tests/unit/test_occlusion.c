@@ -420,6 +420,191 @@ static void boxes_are_wider(void)
               (double)past.z);
 }
 
+/* --- the tree ----------------------------------------------------------------------------------------------------- */
+
+/* What is found out about a tree: the levels below a node, how often each triangle lies in a leaf, the largest leaf. */
+typedef struct tree_facts {
+    uint8_t in_leaves[WORLD_TRIANGLES];
+    uint32_t nodes, largest, outside;
+} tree_facts;
+
+/* Are a triangle's corners in a box? */
+static int is_in(const lmb_boxes *node, int i, const lmb_bvh_triangle *t)
+{
+    int in = 1;
+    for (int k = 0; k < 3; ++k) {
+        const float at[3] = {t->corner[k].x, t->corner[k].y, t->corner[k].z};
+        for (int c = 0; c < 3; ++c) {
+            in = in && node->low[c][i] < at[c] && at[c] < node->high[c][i];
+        }
+    }
+    return in;
+}
+
+/* The levels from a node down; all that lies below one of its boxes must be in it. */
+static uint32_t walk_tree(tree_facts *f, const lmb_bvh *b, uint32_t at, const lmb_boxes *above[], const int in[],
+                          int deep)
+{
+    uint32_t levels = 0;
+    ++f->nodes;
+    for (int i = 0; i < LMB_BOXES && deep < LMB_TRAVERSAL_LEVELS; ++i) {
+        const lmb_boxes *node = &b->node[at];
+        const lmb_boxes *way[LMB_TRAVERSAL_LEVELS];
+        int box[LMB_TRAVERSAL_LEVELS];
+        for (int k = 0; k < deep; ++k) {
+            way[k] = above[k];
+            box[k] = in[k];
+        }
+        way[deep] = node;
+        box[deep] = i;
+        if (node->low[0][i] > node->high[0][i]) {
+            continue;
+        }
+        if (node->count[i] == 0) {
+            const uint32_t below = walk_tree(f, b, node->first[i], way, box, deep + 1);
+            levels = below > levels ? below : levels;
+        }
+        for (uint32_t k = 0; k < node->count[i]; ++k) {
+            ++f->in_leaves[node->first[i] + k];
+            for (int up = 0; up <= deep; ++up) {
+                f->outside += !is_in(way[up], box[up], &b->triangle[node->first[i] + k]);
+            }
+        }
+        f->largest = node->count[i] > f->largest ? node->count[i] : f->largest;
+    }
+    return levels + 1;
+}
+
+/* The world's tree has every triangle once, in each box above it, in leaves of four unless nodes ran out. */
+static uint32_t check_tree(const char *name, uint32_t dropped)
+{
+    static tree_facts f;
+    static uint8_t seen[WORLD_TRIANGLES + 1];
+    const lmb_bvh b = bvh_of_world();
+    uint32_t wrong = 0, not_once = 0;
+    memset(&f, 0, sizeof f);
+    memset(seen, 0, sizeof seen);
+    CHECK_MSG(b.triangle_count == world.count - dropped && b.node_count > 0, "%s: %u triangles, %u nodes", name,
+              (unsigned)b.triangle_count, (unsigned)b.node_count);
+    const uint32_t levels = walk_tree(&f, &b, 0, NULL, NULL, 0);
+    for (uint32_t i = 0; i < b.triangle_count; ++i) {
+        const lmb_bvh_triangle *t = &b.triangle[i];
+        const uint32_t id = t->id & ~LMB_BVH_MASKED;
+        not_once += f.in_leaves[i] != 1 || seen[id]++ != 0;
+        wrong += id == 0 || id > world.count || memcmp(t->corner, world.corners[id - 1], sizeof t->corner) != 0 ||
+                 !(absf(length3(t->normal) - 1.0f) < 1e-5f);
+    }
+    CHECK_MSG(not_once == 0 && wrong == 0 && f.outside == 0, "%s: %u not once, %u wrong, %u outside", name,
+              (unsigned)not_once, (unsigned)wrong, (unsigned)f.outside);
+    CHECK_MSG(f.nodes == b.node_count && (f.largest <= 4 || b.node_count == b.node_cap),
+              "%s: %u nodes of %u, a leaf of %u", name, (unsigned)f.nodes, (unsigned)b.node_count, (unsigned)f.largest);
+    return levels;
+}
+
+static void small_triangle(lmb_vec3 at, float size, test_rng *r)
+{
+    world_triangle(at, add3(at, random_point(r, size)), add3(at, random_point(r, size)));
+}
+
+/* All in one place, one after the other, one far away, needles, and as far out as scenes reach. */
+static void hostile_trees(void)
+{
+    test_rng r = {101};
+    uint32_t levels;
+    world_begin(1, 1, 1);
+    for (int i = 1; i <= 9000; ++i) { /* one middle, sizes apart: no bin parts them */
+        const float s = (float)i;
+        world_triangle(vec3(-s, -s, 0), vec3(s, -s, 0), vec3(0, s, 0));
+    }
+    CHECK_MSG((levels = check_tree("one middle", 0)) <= 4, "%u levels", (unsigned)levels);
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 9000; ++i) {
+        world_triangle(vec3(1, 2, 3), vec3(2, 2, 3), vec3(1, 4, 3));
+    }
+    CHECK_MSG((levels = check_tree("one triangle", 0)) <= 4, "%u levels", (unsigned)levels);
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 9000; ++i) { /* a speck of many, and few at the ends of the world */
+        const float far = i % 3000 == 1 ? 1e6f : 0.0f;
+        small_triangle(add3(vec3(i & 1 ? far : -far, far, 0), random_point(&r, 1e-3f)), far > 0.0f ? 9.0f : 1e-3f, &r);
+    }
+    CHECK_MSG((levels = check_tree("a speck", 0)) <= 8, "%u levels", (unsigned)levels);
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 9000; ++i) { /* clumps, each a quarter of the one before: the largest box is cut first */
+        float s = 5e5f;
+        for (int k = 0; k < i % 30; ++k) {
+            s *= 0.25f;
+        }
+        small_triangle(vec3(s, s, s), 0.5f * s, &r);
+    }
+    CHECK_MSG((levels = check_tree("by quarters", 0)) == LMB_TRAVERSAL_LEVELS, "%u levels", (unsigned)levels);
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 3000; ++i) {
+        const lmb_vec3 at = random_point(&r, 1e6f), long_way = random_point(&r, 1e4f);
+        world_triangle(at, add3(at, long_way), add3(at, add3(long_way, random_point(&r, 1.0f))));
+    }
+    CHECK_MSG((levels = check_tree("needles", 0)) <= 8, "%u levels", (unsigned)levels);
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 64; ++i) { /* a third has no area, a third lies out of the world */
+        const lmb_vec3 at = random_point(&r, 1.0f), far = vec3(2e6f, 0, 0);
+        world_triangle(at, add3(at, X), i % 3 == 0 ? add3(at, mul3(X, 2)) : i % 3 == 1 ? far : add3(at, Y));
+    }
+    world.scene.bounds_max = vec3(1, 1, 1);
+    check_tree("left out", 43);
+    world_begin(1, 1, 1);
+    small_triangle(vec3(0, 0, 0), 1.0f, &r);
+    CHECK(check_tree("one", 0) == 1);
+}
+
+/* Every machine builds this tree, bit for bit: boxes and ids as words. A wider cut or another order shows here. */
+static void one_tree_everywhere(void)
+{
+    test_rng r = {103};
+    uint32_t hash = 2166136261u;
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 2000; ++i) {
+        small_triangle(random_point(&r, i % 5 == 0 ? 10.0f : 1.0f), i % 7 == 0 ? 1.0f : 0.05f, &r);
+    }
+    const lmb_bvh b = bvh_of_world();
+    for (uint32_t i = 0; i < b.node_count; ++i) {
+        uint32_t word[sizeof *b.node / 4];
+        memcpy(word, &b.node[i], sizeof word);
+        for (size_t k = 0; k < sizeof word / 4; ++k) {
+            hash = (hash ^ word[k]) * 16777619u;
+        }
+    }
+    for (uint32_t i = 0; i < b.triangle_count; ++i) {
+        hash = (hash ^ b.triangle[i].id) * 16777619u;
+    }
+    CHECK_MSG(hash == 0x3be78654u, "%08x", (unsigned)hash);
+}
+
+/* Five triangles whose best cut no plane across an axis makes: two crossing pairs. The tree's boxes are the pairs'. */
+static void few_by_every_cut(void)
+{
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 6; ++i) { /* three thin, long ones along x at y = 0, three along y at x = 0, middles mixed */
+        const float at = 0.01f * (float)(i / 2);
+        if (i & 1) {
+            world_triangle(vec3(at, -5, at), vec3(at, 5, at), vec3(at + 0.001f, 5, at));
+        } else {
+            world_triangle(vec3(-5, at, at), vec3(5, at, at), vec3(5, at + 0.001f, at));
+        }
+    }
+    world.count = 5;
+    const lmb_bvh b = bvh_of_world();
+    CHECK(b.node_count == 1);
+    int boxes = 0;
+    for (int i = 0; i < LMB_BOXES; ++i) {
+        if (b.node[0].count[i] > 0) {
+            const int wide = b.node[0].high[0][i] - b.node[0].low[0][i] > 9.0f,
+                      high = b.node[0].high[1][i] - b.node[0].low[1][i] > 9.0f;
+            CHECK_MSG(wide != high, "box %d holds both kinds", i);
+            ++boxes;
+        }
+    }
+    CHECK_MSG(boxes >= 2, "%d boxes", boxes);
+}
+
 /* A room's planes take points as far behind them as rounding may put them, a quarter of what hull.c calls N, no more. */
 static void hull_is_tight(void)
 {
@@ -438,6 +623,9 @@ void test_occlusion(void)
 {
     boxes_are_wider();
     hull_is_tight();
+    hostile_trees();
+    one_tree_everywhere();
+    few_by_every_cut();
     far_apart_among_leaves();
     wide_among_leaves();
     every_triangle();
