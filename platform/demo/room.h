@@ -26,7 +26,8 @@ typedef struct room_pose {
 
 enum {
     ROOM_LEFT = 1, ROOM_RIGHT = 2, ROOM_UP = 4, ROOM_DOWN = 8,                  /* turn the camera */
-    ROOM_LAMP_LEFT = 16, ROOM_LAMP_RIGHT = 32, ROOM_LAMP_NEAR = 64, ROOM_LAMP_FAR = 128 /* move the lamp */
+    ROOM_LAMP_LEFT = 16, ROOM_LAMP_RIGHT = 32, ROOM_LAMP_NEAR = 64, ROOM_LAMP_FAR = 128, /* move the lamp */
+    ROOM_BUTTONS = 8
 };
 
 /* Stages whose cost is told apart. */

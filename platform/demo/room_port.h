@@ -24,4 +24,13 @@ void port_show_frame(void);
 #define PORT_NO_BUTTONS 0xffffffffu
 uint32_t port_buttons(void);
 
+/* What is held of room.h's buttons, by the bits of a machine's own word that mean each of them, in their order. */
+static inline uint32_t room_held(uint32_t word, const uint32_t bits[8])
+{
+    uint32_t held = 0;
+    for (int i = 0; i < 8; ++i)
+        held |= (uint32_t)((word & bits[i]) != 0) << i;
+    return held;
+}
+
 #endif
