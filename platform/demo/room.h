@@ -65,9 +65,9 @@ void room_draw(room *r, const room_pose *pose, room_put *put, void *user);
 #define ROOM_HASH 2166136261u
 uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count);
 
-/* A row: 5 bits a colour by Bayer's 4 x 4 matrix: the code c of 0 .. 255 becomes (c * 31 * 16 + t * 255 + 127) / (255 * 16)
- * rounded down, with t of 0 .. 15 by x & 3 and y & 3; green of RGB565 with 63 for 31. room_rgb555: red in the low bits,
- * as on GBA, DS and PlayStation. room_rgb565: red in the high bits. */
+/* A row, dithered by Bayer's 4 x 4 matrix t of 0 .. 15 by x & 3 and y & 3: the code c of 0 .. 255 becomes
+ * (c - c / 32 + t / 2) / 8 of 5 bits, each quotient rounded down; green of RGB565 (c - c / 64 + t / 4) / 4 of 6 bits.
+ * room_rgb555: red in the low bits, as on GBA, DS and PlayStation. room_rgb565: red in the high bits. */
 void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
 void room_rgb565(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
 
