@@ -17,7 +17,8 @@ void port_ram_used(port_ram *out)
     while (deepest < stack_top && *deepest == STACK_PAINT)
         ++deepest;
     out->data = (uint32_t)((uintptr_t)bss_begin - (uintptr_t)image_begin);
-    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin) + (uint32_t)room_bytes(port_width, port_height);
+    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin);
+    out->bss += (uint32_t)room_bytes_kept(port_width, port_height);
     out->stack = (uint32_t)((uintptr_t)stack_top - (uintptr_t)deepest);
     out->size = console_ram_bytes;
 }

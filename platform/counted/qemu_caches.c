@@ -29,7 +29,8 @@ static const char *const stage_names[] = {"transform", "light", "fill", "show"};
 static const struct {
     const char *function;
     int stage;
-} beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_band", FILL},
+} beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_prepare", FILL},
+                  {"lmb_fixed_band", FILL},
                   {"port_show_band", SHOW},           {"port_show_frame", BESIDE}, {"room_hash", BESIDE},
                   {"room_path", BESIDE},              {"say_count", BESIDE},       {"counted_end", BESIDE},
                   {"counted_turns", BESIDE},          {"counted_loads", BESIDE},   {"counted_products", BESIDE}};

@@ -34,8 +34,14 @@ size_t room_bytes(int32_t width, int32_t height)
     lmb_fixed scene;
     return width > 0 && height > 0 && width <= ROOM_MAX_WIDTH && height <= ROOM_MAX_HEIGHT &&
                    lmb_fixed_open(&scene, baked, sizeof baked) == LMB_OK
-               ? lmb_fixed_memory(&scene, scene.triangles)
+               ? (lmb_fixed_memory(&scene, scene.triangles) + 3) / 4 * 4
                : 0;
+}
+
+size_t room_bytes_kept(int32_t width, int32_t height)
+{
+    const size_t bytes = room_bytes(width, height);
+    return bytes > 0 ? bytes + ROOM_KEPT * sizeof(lmb_fixed_ready) : 0;
 }
 
 size_t room_band_bytes(int32_t width, int32_t rows) { return width > 0 && rows > 0 ? (size_t)(width * rows) * 6 : 0; }
@@ -49,6 +55,11 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
         band_bytes < room_band_bytes(width, rows) || lmb_fixed_open(&out->scene, baked, sizeof baked) != LMB_OK ||
         lmb_fixed_lay(&out->frame, &out->scene, out->scene.triangles, memory, bytes) != LMB_OK)
         return 1;
+    const size_t needed = room_bytes(width, height), kept = (bytes - needed) / sizeof(lmb_fixed_ready);
+    if (bytes > needed && kept > 0) {
+        out->frame.ready = (lmb_fixed_ready *)(void *)((unsigned char *)memory + needed);
+        out->frame.ready_cap = kept < ROOM_KEPT ? (uint32_t)kept : ROOM_KEPT;
+    }
     out->width = width, out->height = height, out->rows = rows;
     out->memory = memory, out->band = band;
     out->memory_bytes = bytes, out->band_bytes = band_bytes;
@@ -57,6 +68,7 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
     out->frame.view.width = width, out->frame.view.height = height;
     out->frame.view.focal = (height * 4392) >> 8; /* 8 / tan(25 degrees): 50 degrees from top to bottom */
     out->frame.view.near_units = 128;
+    out->frame.background = LMB_FIXED_COVERED; /* the room is closed */
     out->frame.bounces = 2;
     for (int i = 0; i < 3; ++i)
         out->frame.lamp.intensity[i] = LAMP;
@@ -123,7 +135,8 @@ void room_draw(room *r, const room_pose *pose, room_put *put, void *user)
         r->taken[stage] = now - from;
         from = now;
     }
-    r->taken[ROOM_FILL] = 0;
+    lmb_fixed_prepare(f);
+    r->taken[ROOM_FILL] = (r->clock ? r->clock() : 0) - from;
     for (int32_t y = 0; y < r->height; y += r->rows) {
         const int32_t rows = r->rows < r->height - y ? r->rows : r->height - y;
         from = r->clock ? r->clock() : 0;

@@ -14,6 +14,7 @@
 
 enum {
     ROOM_FRAMES = 60,
+    ROOM_KEPT = 480, /* triangles */
     ROOM_MAX_WIDTH = 640, /* px */
     ROOM_MAX_HEIGHT = 480
 };
@@ -46,8 +47,10 @@ typedef struct room {
     lmb_fixed_frame frame;
 } room;
 
-/* room_bytes: memory beside the band; room_band_bytes: of a band, for the fastest memory that there is. 0: bad size. */
+/* room_bytes: memory beside the band; room_bytes_kept: with more, a frame's bands share what they know of up to
+ * ROOM_KEPT triangles; room_band_bytes: of a band, for the fastest memory that there is. 0: bad size. */
 size_t room_bytes(int32_t width, int32_t height);
+size_t room_bytes_kept(int32_t width, int32_t height);
 size_t room_band_bytes(int32_t width, int32_t rows);
 
 /* room_open: both blocks lie on 4 bytes and stay the room's. 0, or 1: bad size, too little memory or damaged data. */

@@ -8,7 +8,7 @@
 /* The picture's size and a band's rows, px. */
 extern const int32_t port_width, port_height, port_rows;
 
-/* room_bytes of memory for the port's size, and room_band_bytes of the fastest. Each lies on 4 bytes. */
+/* room_bytes or room_bytes_kept of memory for the port's size, and room_band_bytes of the fastest. Each lies on 4 bytes. */
 void *port_memory(size_t *bytes);
 void *port_band_memory(size_t *bytes);
 

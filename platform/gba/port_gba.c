@@ -29,7 +29,7 @@ static uint16_t *hidden(void) { return (uint16_t *)(void *)ewram_end; }
 void *port_memory(size_t *bytes)
 {
     uint32_t *begin = ewram_end + WIDTH * HEIGHT * 2 / 4;
-    const size_t free_bytes = (size_t)(ewram_top - begin) * 4, wanted = room_bytes(WIDTH, HEIGHT);
+    const size_t free_bytes = (size_t)(ewram_top - begin) * 4, wanted = room_bytes_kept(WIDTH, HEIGHT);
     *bytes = taken = wanted < free_bytes ? wanted : free_bytes;
     return begin;
 }

@@ -14,7 +14,7 @@ enum {
 };
 
 /* Code and data in the memories beside the processor, with their images in main memory. */
-extern uint32_t fast_image[], fast_begin[], fast_end[], near_begin[], near_end[], bss_begin[], bss_end[];
+extern uint32_t fast_image[], fast_begin[], fast_end[], fast_top[], near_begin[], near_end[], bss_begin[], bss_end[];
 extern uint32_t data_begin[], data_end[], image_begin[], main_top[];
 
 /* Before main: the clock starts, the screen is on. */

@@ -20,13 +20,12 @@ void port_put(const char *words) { text_block_put(&text, words); }
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
 __attribute__((section(".near"))) static uint32_t band[WIDTH * ROWS * 6 / 4];
-static size_t taken;
 
+/* What the code leaves of the memory that it lies in. */
 void *port_memory(size_t *bytes)
 {
-    const size_t free_bytes = (size_t)(main_top - bss_end) * 4, wanted = room_bytes(WIDTH, HEIGHT);
-    *bytes = taken = wanted < free_bytes ? wanted : free_bytes;
-    return bss_end;
+    *bytes = (size_t)(fast_top - fast_end) * 4;
+    return fast_end;
 }
 
 void *port_band_memory(size_t *bytes)
@@ -37,8 +36,8 @@ void *port_band_memory(size_t *bytes)
 
 void port_ram_used(port_ram *out)
 {
-    out->data = (uint32_t)((data_end - image_begin) + (fast_end - fast_begin)) * 4; /* the program itself is in RAM */
-    out->bss = (uint32_t)((bss_end - bss_begin) + (near_end - near_begin)) * 4 + (uint32_t)taken;
+    out->data = (uint32_t)((data_end - image_begin) + (fast_top - fast_begin)) * 4; /* the program itself is in RAM */
+    out->bss = (uint32_t)((bss_end - bss_begin) + (near_end - near_begin)) * 4;
     out->stack = handheld_stack();
     out->size = (4096u + 32u + 16u) << 10;
 }

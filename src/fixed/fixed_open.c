@@ -161,5 +161,7 @@ lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_
     frame->seen = (lmb_fixed_seen *)(void *)at;
     frame->seen_cap = seen_cap;
     frame->seen_count = 0;
+    frame->ready = NULL;
+    frame->ready_cap = frame->ready_count = 0;
     return LMB_OK;
 }
