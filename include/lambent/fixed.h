@@ -27,6 +27,7 @@ enum {
     LMB_FIXED_MAX_ELEMENTS = 256,
     LMB_FIXED_MAX_PLACES = 4096,
     LMB_FIXED_MAX_LINKS = 254,   /* of a row */
+    LMB_FIXED_GROUP = 8,
     LMB_FIXED_MAX_SUM = 32767,   /* of a row's weights: times 65535 it fits 31 bits */
     LMB_FIXED_SCALE = 36,        /* fraction bits of a row's scale: its weights times it sum up to 1 at most */
     LMB_FIXED_ONE = 16384,       /* of axes, directions and cosines */
@@ -86,6 +87,11 @@ typedef struct lmb_fixed_seen {
     int16_t first, past; /* rows */
 } lmb_fixed_seen;
 
+/* Rows that LMB_FIXED_GROUP triangles which may be seen lie in, so that bands pass all of them over at once. */
+typedef struct lmb_fixed_rows {
+    int16_t first, past;
+} lmb_fixed_rows;
+
 /* An edge in a row, and a row further: 2^-14 px. */
 typedef struct lmb_fixed_edge {
     int32_t at, slope;
@@ -109,6 +115,7 @@ typedef struct lmb_fixed_frame {
     int32_t bounces;        /* 0 .. 3: how often surfaces throw light back */
     lmb_fixed_vertex *vertex;      /* a vertex each */
     lmb_fixed_seen *seen;          /* a triangle each; fewer leave out what does not fit */
+    lmb_fixed_rows *group;         /* of LMB_FIXED_GROUP of these */
     uint32_t (*direct)[3];         /* an element each: what the lamp sends there */
     uint32_t seen_cap, seen_count; /* count: set by lmb_fixed_transform */
     lmb_fixed_ready *ready;        /* or null: one each of the first triangles that are seen, as many as there are */
@@ -128,7 +135,7 @@ extern "C" {
  * order. */
 lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes);
 
-/* lmb_fixed_memory: bytes of vertex, seen (of seen_cap) and direct together; 0: null.
+/* lmb_fixed_memory: bytes of vertex, seen (of seen_cap), group and direct together; 0: null.
  * lmb_fixed_lay: lay them out in 4-byte aligned memory. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap);
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes);

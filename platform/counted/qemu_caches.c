@@ -33,6 +33,7 @@ static const struct {
                   {"lmb_fixed_band", FILL},
                   {"port_show_band", SHOW},           {"port_show_frame", BESIDE}, {"room_hash", BESIDE},
                   {"room_path", BESIDE},              {"say_count", BESIDE},       {"counted_end", BESIDE},
+                  {"port_ram_used", BESIDE},          {"lmb_render_begin", FILL},  {"lmb_render_step", FILL},
                   {"counted_turns", BESIDE},          {"counted_loads", BESIDE},   {"counted_products", BESIDE}};
 enum { BEGINNINGS = sizeof beginnings / sizeof beginnings[0], FUNCTIONS = 512 };
 
@@ -118,7 +119,7 @@ static void begin(int which)
     if (strncmp(function, "counted_", 8) == 0)
         memset(taken, 0, sizeof taken);
     stage = beginnings[which].stage;
-    if (strcmp(function, "room_path") == 0 || (strcmp(function, "say_count") == 0 && frame == 59))
+    if (strcmp(function, "room_path") == 0 || strcmp(function, "port_ram_used") == 0)
         end_frame();
 }
 

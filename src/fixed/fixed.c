@@ -233,7 +233,8 @@ static int is_between(int32_t v, int32_t low, int32_t high) { return v >= low &&
 
 static int has_memory(const lmb_fixed_frame *f)
 {
-    return f != NULL && f->scene != NULL && f->scene->receiver != NULL && f->vertex != NULL && f->seen != NULL;
+    return f != NULL && f->scene != NULL && f->scene->receiver != NULL && f->vertex != NULL && f->seen != NULL &&
+           f->group != NULL;
 }
 
 static int is_view(const lmb_fixed_view *v)
@@ -249,6 +250,16 @@ static int is_view(const lmb_fixed_view *v)
     }
     return is_between(v->width, 1, LMB_FIXED_MAX_SIDE) && is_between(v->height, 1, LMB_FIXED_MAX_SIDE) &&
            is_between(v->focal, MIN_FOCAL, MAX_FOCAL) && is_between(v->near_units, MIN_NEAR, MAX_NEAR);
+}
+
+static void put_in_group(lmb_fixed_rows *group, uint32_t place, const lmb_fixed_seen *s)
+{
+    if (place == 0 || s->first < group->first) {
+        group->first = s->first;
+    }
+    if (place == 0 || s->past > group->past) {
+        group->past = s->past;
+    }
 }
 
 lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
@@ -271,10 +282,11 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
             for (int i = 0; i < 3; ++i) {
                 f->vertex[vertex[i]].flags |= FIXED_USED;
             }
-            for (uint32_t i = 1; i < count; ++i) {
+            for (uint32_t i = 0; i < count; ++i) {
                 first[i] = *first;
+                put_in_group(&f->group[f->seen_count / LMB_FIXED_GROUP], f->seen_count % LMB_FIXED_GROUP, first);
+                f->seen_count += 1;
             }
-            f->seen_count += count;
         }
     }
     return LMB_OK;
@@ -368,6 +380,11 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
     }
     for (uint32_t i = 0; i < f->seen_count; ++i) {
         const lmb_fixed_seen *s = &f->seen[i];
+        const lmb_fixed_rows *g = &f->group[i / LMB_FIXED_GROUP];
+        if (i % LMB_FIXED_GROUP == 0 && (g->first >= past || g->past <= first)) {
+            i += LMB_FIXED_GROUP - 1;
+            continue;
+        }
         if (s->first >= past || s->past <= first) {
             continue;
         }
