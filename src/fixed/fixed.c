@@ -252,13 +252,16 @@ static int is_view(const lmb_fixed_view *v)
            is_between(v->focal, MIN_FOCAL, MAX_FOCAL) && is_between(v->near_units, MIN_NEAR, MAX_NEAR);
 }
 
-static void put_in_group(lmb_fixed_rows *group, uint32_t place, const lmb_fixed_seen *s)
+static void set_groups(const lmb_fixed_frame *f)
 {
-    if (place == 0 || s->first < group->first) {
-        group->first = s->first;
-    }
-    if (place == 0 || s->past > group->past) {
-        group->past = s->past;
+    for (uint32_t i = 0; i < f->seen_count; i += LMB_FIXED_GROUP) {
+        const uint32_t past = f->seen_count - i < LMB_FIXED_GROUP ? f->seen_count : i + LMB_FIXED_GROUP;
+        int32_t first_row = f->seen[i].first, past_row = f->seen[i].past;
+        for (uint32_t k = i + 1; k < past; ++k) {
+            first_row = mini(first_row, f->seen[k].first), past_row = maxi(past_row, f->seen[k].past);
+        }
+        f->group[i / LMB_FIXED_GROUP].first = (int16_t)first_row;
+        f->group[i / LMB_FIXED_GROUP].past = (int16_t)past_row;
     }
 }
 
@@ -282,13 +285,13 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
             for (int i = 0; i < 3; ++i) {
                 f->vertex[vertex[i]].flags |= FIXED_USED;
             }
-            for (uint32_t i = 0; i < count; ++i) {
+            for (uint32_t i = 1; i < count; ++i) {
                 first[i] = *first;
-                put_in_group(&f->group[f->seen_count / LMB_FIXED_GROUP], f->seen_count % LMB_FIXED_GROUP, first);
-                f->seen_count += 1;
             }
+            f->seen_count += count;
         }
     }
+    set_groups(f);
     return LMB_OK;
 }
 

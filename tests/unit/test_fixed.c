@@ -70,13 +70,21 @@ static lmb_fixed_vertex random_corner(test_rng *rng)
     return c;
 }
 
+static void fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1, const lmb_fixed_vertex *c2)
+{
+    lmb_fixed_ready r;
+    if (lmb_fixed_set_up(&r, c0, c1, c2, b->width, b->first, b->past)) {
+        lmb_fixed_fill(b, &r);
+    }
+}
+
 /* Which pixels a triangle covers: of one depth, so that all are drawn. */
 static void cover(uint8_t *count, lmb_fixed_vertex a, lmb_fixed_vertex b, lmb_fixed_vertex c)
 {
     const fixed_band band = {pixel, depth, SIDE, 0, SIDE};
     clear();
     a.depth = b.depth = c.depth = 1000;
-    lmb_fixed_fill(&band, &a, &b, &c);
+    fill(&band, &a, &b, &c);
     for (int i = 0; i < SIDE * SIDE; ++i) {
         count[i] = (uint8_t)(count[i] + (depth[i] != 0));
     }
@@ -126,7 +134,7 @@ static void test_planes(void)
             c[2].y = (int16_t)((c[0].y + c[1].y) / 2);
         }
         clear();
-        lmb_fixed_fill(&band, &c[0], &c[1], &c[2]);
+        fill(&band, &c[0], &c[1], &c[2]);
         const double x1 = c[1].x - c[0].x, y1 = c[1].y - c[0].y, x2 = c[2].x - c[0].x, y2 = c[2].y - c[0].y,
                      area = x1 * y2 - x2 * y1;
         for (int i = 0; i < SIDE * SIDE; ++i) {
