@@ -322,8 +322,8 @@ lmb_status lmb_fixed_prepare(lmb_fixed_frame *f)
         return LMB_ERR_ARG;
     }
     f->ready_count = 0;
-    const uint32_t most = f->ready == NULL ? 0 : f->ready_cap < f->seen_count ? f->ready_cap : f->seen_count;
-    for (uint32_t i = 0, next; i < most; i = next) {
+    const uint32_t cap = f->ready == NULL ? 0 : f->ready_cap < f->seen_count ? f->ready_cap : f->seen_count;
+    for (uint32_t i = 0, next; i < cap; i = next) {
         const uint32_t triangle = f->seen[i].triangle;
         next = i + 1;
         if ((triangle & FIXED_CUT) == 0) {
@@ -332,7 +332,7 @@ lmb_status lmb_fixed_prepare(lmb_fixed_frame *f)
             while (next < f->seen_count && f->seen[next].triangle == triangle) {
                 ++next;
             }
-            if (next > most) {
+            if (next > cap) {
                 break;
             }
             prepare_cut(&f->ready[i], (int)(next - i), f, triangle);
