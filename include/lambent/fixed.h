@@ -4,6 +4,7 @@
  *     lmb_fixed_open(..)       a baked scene, used in place: `lambent pack` or tools/pack makes it
  *     lmb_fixed_transform(..)  vertices to the screen; which triangles are seen
  *     lmb_fixed_light(..)      the lamp's light at those vertices, with what surfaces throw back
+ *     lmb_fixed_prepare(..)    where there is memory: each triangle's numbers once, not in each band
  *     lmb_fixed_band(..)       rows of the picture, in bands of any height: the same pixels
  *
  * Nothing of a scene moves but its lamp and its camera. Where the lamp is hidden from a vertex was baked for a lattice of
@@ -26,11 +27,16 @@ enum {
     LMB_FIXED_MAX_ELEMENTS = 256,
     LMB_FIXED_MAX_PLACES = 4096,
     LMB_FIXED_MAX_LINKS = 254,   /* of a row */
+    LMB_FIXED_GROUP = 8,
     LMB_FIXED_MAX_SUM = 32767,   /* of a row's weights: times 65535 it fits 31 bits */
     LMB_FIXED_SCALE = 36,        /* fraction bits of a row's scale: its weights times it sum up to 1 at most */
     LMB_FIXED_ONE = 16384,       /* of axes, directions and cosines */
     LMB_FIXED_WHITE = 4096       /* of intensity: a white surface 1 m away that faces the lamp is shown just white */
 };
+
+/* As background: surfaces cover the whole picture, so that bands are not cleared first. Where none does, pixels keep what
+ * they were. */
+#define LMB_FIXED_COVERED 0xffffffffu
 
 /* A blob in place: 32-bit words of the machine's byte order.
  *
@@ -75,11 +81,31 @@ typedef struct lmb_fixed_vertex {
     uint8_t flags;
 } lmb_fixed_vertex;
 
-/* A triangle that may be seen. */
+/* A triangle that may be seen; one that is to be clipped stands there once for each triangle of what is left. */
 typedef struct lmb_fixed_seen {
     uint16_t triangle; /* and a bit where it is to be clipped */
     int16_t first, past; /* rows */
 } lmb_fixed_seen;
+
+/* Rows that LMB_FIXED_GROUP triangles which may be seen lie in, so that bands pass all of them over at once. */
+typedef struct lmb_fixed_rows {
+    int16_t first, past;
+} lmb_fixed_rows;
+
+/* An edge in a row, and a row further: 2^-14 px. */
+typedef struct lmb_fixed_edge {
+    int32_t at, slope;
+} lmb_fixed_edge;
+
+/* A triangle ready to be filled: depth, red, green, blue in the row `first`, in the middle of the first pixel; to the next
+ * pixel and row. The edge over all rows, and those above and below the corner between. 84 bytes. */
+typedef struct lmb_fixed_ready {
+    int16_t first, middle, past; /* rows */
+    int16_t left, right;         /* pixels across that it may cover */
+    uint8_t is_gentle, is_whole_left;
+    uint32_t at[4], per_x[4], per_y[4];
+    lmb_fixed_edge whole, upper, lower;
+} lmb_fixed_ready;
 
 /* What is drawn, and the caller's memory for it. */
 typedef struct lmb_fixed_frame {
@@ -89,11 +115,14 @@ typedef struct lmb_fixed_frame {
     int32_t bounces;        /* 0 .. 3: how often surfaces throw light back */
     lmb_fixed_vertex *vertex;      /* a vertex each */
     lmb_fixed_seen *seen;          /* a triangle each; fewer leave out what does not fit */
+    lmb_fixed_rows *group;         /* of LMB_FIXED_GROUP of these */
     uint32_t (*direct)[3];         /* an element each: what the lamp sends there */
     uint32_t seen_cap, seen_count; /* count: set by lmb_fixed_transform */
+    lmb_fixed_ready *ready;        /* or null: one each of the first triangles that are seen, as many as there are */
+    uint32_t ready_cap, ready_count; /* count: set by lmb_fixed_prepare */
     uint32_t *pixel;               /* of a band: width x rows */
     uint16_t *depth;               /* likewise */
-    uint32_t background;
+    uint32_t background;           /* or LMB_FIXED_COVERED */
 } lmb_fixed_frame;
 
 #ifdef __cplusplus
@@ -106,7 +135,7 @@ extern "C" {
  * order. */
 lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes);
 
-/* lmb_fixed_memory: bytes of vertex, seen (of seen_cap) and direct together; 0: null.
+/* lmb_fixed_memory: bytes of vertex, seen (of seen_cap), group and direct together; 0: null.
  * lmb_fixed_lay: lay them out in 4-byte aligned memory. LMB_OK, LMB_ERR_ARG, LMB_ERR_ALIGN or LMB_ERR_CAPACITY. */
 size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap);
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes);
@@ -118,6 +147,10 @@ lmb_status lmb_fixed_look_at(lmb_fixed_view *inout, const int32_t eye[3], const 
 /* lmb_fixed_transform, then lmb_fixed_light: LMB_OK or LMB_ERR_ARG (null, a number out of its range). Stack: 2.5 KiB. */
 lmb_status lmb_fixed_transform(lmb_fixed_frame *frame);
 lmb_status lmb_fixed_light(lmb_fixed_frame *frame);
+
+/* lmb_fixed_prepare: after light, fill `ready`; bands then make nothing again that stands there. The pixels are the same.
+ * LMB_OK, also where `ready` is null, or LMB_ERR_ARG. */
+lmb_status lmb_fixed_prepare(lmb_fixed_frame *frame);
 
 /* lmb_fixed_band: rows `first` .. `past` - 1 of the picture into the band's memory, its first row first. LMB_OK or
  * LMB_ERR_ARG. */

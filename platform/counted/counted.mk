@@ -1,8 +1,7 @@
 # counted.mk: the room's cost on a console that qemu has the processor of: make PORT=... count.
 #
 # Wants of the port: COUNTED (its name in port_counted.c), COUNTED_ROWS (of a band), COUNTED_AT (where code lies:
-# the same as
-# on the console by the cache's size), COUNTED_SRC (the port's rows), COUNTED_QEMU and COUNTED_MODEL.
+# the same as on the console by the cache's size), COUNTED_SRC (the port's rows), COUNTED_QEMU and COUNTED_MODEL.
 HOST_CC     ?= cc
 COUNTED_OBJ := $(call object,$(ROOM_DEMO) platform/counted/port_counted.c $(COUNTED_SRC) $(PORT_SRC) $(ROOM_LIB))
 $(B)/obj/platform/counted/port_counted.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns \
@@ -14,7 +13,7 @@ $(B)/counted: $(COUNTED_OBJ)
 	@$(CC) $(FLAGS) -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
 	    -Wl,--no-warn-rwx-segments -Wl,-Ttext=$(COUNTED_AT) -Wl,-e,_start -o $@ $^ $(PORT_LDLIBS)
 
-$(B)/qemu_caches.so: platform/counted/qemu_caches.c
+$(B)/qemu_caches.so: platform/counted/qemu_caches.c platform/freestanding/qemu_interface.h
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(HOST_CC) -O2 -std=c99 -Wall -Wextra -pedantic -fPIC -shared -o $@ $<

@@ -1,57 +1,25 @@
 /* qemu_caches.c: a plugin for qemu's user mode: what the room costs by stage on consoles with MIPS and PowerPC
- * processors:
- * `-plugin FILE.so,model=vr4300|r3000|ppc750[,functions=on]`, with a program of port_counted.c.
+ * processors: `-plugin FILE.so,model=vr4300|r3000|ppc750[,functions=on]`, with a program of port_counted.c.
  *
- * Instructions, loads and stores are exact. Cycles are a model of a pipeline in order, whose instructions wait for
- * what they
- * use, with the processor's caches as they are:
+ * Instructions, loads and stores are exact. Cycles are a model of a pipeline in order, whose instructions wait for what
+ * they use, with the processor's caches as they are:
  *
- *   vr4300  one instruction a cycle; a value that is loaded can be used after 2 cycles; products 5, divisions 37,
- *           and all
- *           waits for them; 16 KiB of code by 32 bytes, a miss 46; 8 KiB of data by 16 bytes, written back, a miss
- *           42, and
- *           20 more where the line that goes was written. Lines of the screen are made without being fetched: 20 each.
- *   r3000   one instruction a cycle; data is in RAM, without cache: a load takes 5, a store goes through a buffer
- *           of four
- *           that empties by one in 5; products 10 and divisions 36, which only their result waits for; 4 KiB of
- *           code by 16
- *           bytes, a miss 7.
- *   ppc750  two instructions a cycle, of them one load or store and one product; loads 2, products 4, divisions
- *           19, floats
- *           3; jumps are guessed by 512 two-bit counters, 5 where wrong; 32 KiB of code and of data by 32 bytes, 8
- *           ways;
- *           behind them 256 KiB, two ways, 10; main memory 60. Lines of the screen take 10 each.
- *
- * The declarations of qemu's interface stand here as distributions package qemu without its header. */
+ *   vr4300  one instruction a cycle; a value that is loaded can be used after 2 cycles; products 5, divisions 37, and all
+ *           waits for them; 16 KiB of code by 32 bytes, a miss 46; 8 KiB of data by 16 bytes, written back, a miss 42,
+ *           and 20 more where the line that goes was written. Lines of the screen are made without being fetched: 20
+ *           each.
+ *   r3000   one instruction a cycle; data is in RAM, without cache: a load takes 5, a store goes through a buffer of
+ *           four that empties by one in 5; products 10 and divisions 36, which only their result waits for; 4 KiB of
+ *           code by 16 bytes, a miss 7.
+ *   ppc750  two instructions a cycle, of them one load or store and one product; loads 2, products 4, divisions 19,
+ *           floats 3; jumps are guessed by 512 two-bit counters, 5 where wrong; 32 KiB of code and of data by 32 bytes,
+ *           8 ways; behind them 256 KiB, two ways, 10; main memory 60. Lines of the screen take 10 each. */
 #define _POSIX_C_SOURCE 200809L /* strdup */
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef uint64_t plugin_id;
-typedef struct qemu_plugin_tb block;
-typedef struct qemu_plugin_insn instruction;
-
-enum { NO_REGISTERS = 0, READS_AND_WRITES = 3 };
-
-extern void qemu_plugin_register_vcpu_tb_trans_cb(plugin_id id, void (*call)(plugin_id id, block *b));
-extern size_t qemu_plugin_tb_n_insns(const block *b);
-extern instruction *qemu_plugin_tb_get_insn(const block *b, size_t index);
-extern const char *qemu_plugin_insn_symbol(const instruction *i);
-extern const void *qemu_plugin_insn_data(const instruction *i);
-extern uint64_t qemu_plugin_insn_vaddr(const instruction *i);
-extern void qemu_plugin_register_vcpu_insn_exec_cb(instruction *i, void (*call)(unsigned cpu, void *user),
-                                                   int registers, void *user);
-extern void qemu_plugin_register_vcpu_mem_cb(instruction *i,
-                                             void (*call)(unsigned cpu, uint32_t info, uint64_t at, void *user),
-                                             int registers, int access, void *user);
-extern bool qemu_plugin_mem_is_store(uint32_t info);
-
-__attribute__((visibility("default"))) int qemu_plugin_version = 1;
-int qemu_plugin_install(plugin_id id, const void *info, int count, char **word);
+#include "../freestanding/qemu_interface.h"
 
 /* --- what is counted ---------------------------------------------------------------------------------------------- */
 
@@ -61,9 +29,11 @@ static const char *const stage_names[] = {"transform", "light", "fill", "show"};
 static const struct {
     const char *function;
     int stage;
-} beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_band", FILL},
+} beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_prepare", FILL},
+                  {"lmb_fixed_band", FILL},
                   {"port_show_band", SHOW},           {"port_show_frame", BESIDE}, {"room_hash", BESIDE},
                   {"room_path", BESIDE},              {"say_count", BESIDE},       {"counted_end", BESIDE},
+                  {"port_ram_used", BESIDE},          {"lmb_render_begin", FILL},  {"lmb_render_step", FILL},
                   {"counted_turns", BESIDE},          {"counted_loads", BESIDE},   {"counted_products", BESIDE}};
 enum { BEGINNINGS = sizeof beginnings / sizeof beginnings[0], FUNCTIONS = 512 };
 
@@ -149,7 +119,7 @@ static void begin(int which)
     if (strncmp(function, "counted_", 8) == 0)
         memset(taken, 0, sizeof taken);
     stage = beginnings[which].stage;
-    if (strcmp(function, "room_path") == 0 || (strcmp(function, "say_count") == 0 && frame == 59))
+    if (strcmp(function, "room_path") == 0 || strcmp(function, "port_ram_used") == 0)
         end_frame();
 }
 
@@ -446,7 +416,7 @@ static void set_cache(cache *c, uint32_t bytes, uint32_t line_log2, uint32_t way
     c->line_log2 = line_log2, c->ways = ways, c->sets = (bytes >> line_log2) / ways;
 }
 
-__attribute__((visibility("default"))) int qemu_plugin_install(plugin_id id, const void *info, int count, char **word)
+QEMU_EXPORTED int qemu_plugin_install(plugin_id id, const void *info, int count, char **word)
 {
     bool known = false;
     (void)info;

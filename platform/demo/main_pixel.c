@@ -4,6 +4,7 @@
 #include "../port_say.h"
 #include "room_pixel.h"
 #include "room_port.h"
+#include "room_say.h"
 
 #ifndef PIXEL_FRAMES
 #define PIXEL_FRAMES 3
@@ -11,6 +12,7 @@
 
 enum { WIDTH = 160, HEIGHT = 120 };
 
+static const char *const stage_names[ROOM_PIXEL_STAGES] = {"map", "light", "fill", "show"};
 static room_pixel shown;
 static uint32_t memory[ROOM_PIXEL_WORDS(WIDTH)];
 static uint32_t hash;
@@ -19,27 +21,6 @@ static void show(void *user, const uint32_t *rgb, int32_t width, int32_t y, int3
 {
     hash = room_hash(hash, rgb, width * rows);
     port_show_band(user, rgb, width, y, rows);
-}
-
-static void say_frame(int32_t frame)
-{
-    static const char *const names[ROOM_PIXEL_STAGES] = {"map", "light", "fill", "show"};
-    uint32_t all = 0;
-    say_count("frame ", (uint32_t)frame);
-    port_put(" ");
-    say_word(hash);
-    say_count("\ncost ", (uint32_t)frame);
-    port_put(":");
-    for (int i = 0; i < ROOM_PIXEL_STAGES; ++i) {
-        port_put(" ");
-        port_put(names[i]);
-        say_count(" ", shown.taken[i]);
-        all += shown.taken[i];
-    }
-    say_count(" all ", all);
-    port_put(" ");
-    port_put(port_clock_unit);
-    port_put("\n");
 }
 
 int main(void)
@@ -54,7 +35,7 @@ int main(void)
         s = room_pixel_draw(&shown, &pose, show, NULL);
         if (s == LMB_OK) {
             port_show_frame();
-            say_frame(frames[i]);
+            say_frame(frames[i], hash, stage_names, shown.taken, ROOM_PIXEL_STAGES);
         }
     }
     if (s != LMB_OK) {

@@ -3,7 +3,9 @@
 #include "../port_say.h"
 #include "room.h"
 #include "room_port.h"
+#include "room_say.h"
 
+static const char *const stage_names[ROOM_STAGES] = {"transform", "light", "fill", "show"};
 static room shown;
 static uint32_t hash, asked; /* of the frame at hand; whether anybody asks for it */
 
@@ -14,36 +16,6 @@ static void show(void *user, const uint32_t *rgb, int32_t width, int32_t y, int3
     const uint32_t from = port_clock();
     port_show_band(user, rgb, width, y, rows);
     shown.taken[ROOM_SHOW] += port_clock() - from;
-}
-
-static void say_hash(int32_t frame)
-{
-    static const char digits[] = "0123456789abcdef";
-    char text[10];
-    for (int i = 0; i < 8; ++i)
-        text[i] = digits[hash >> (28 - 4 * i) & 15u];
-    text[8] = '\n', text[9] = 0;
-    say_count("frame ", (uint32_t)frame);
-    port_put(" ");
-    port_put(text);
-}
-
-static void say_cost(int32_t frame)
-{
-    static const char *const names[ROOM_STAGES] = {"transform", "light", "fill", "show"};
-    uint32_t all = 0;
-    say_count("cost ", (uint32_t)frame);
-    port_put(":");
-    for (int i = 0; i < ROOM_STAGES; ++i) {
-        port_put(" ");
-        port_put(names[i]);
-        say_count(" ", shown.taken[i]);
-        all += shown.taken[i];
-    }
-    say_count(" all ", all);
-    port_put(" ");
-    port_put(port_clock_unit);
-    port_put("\n");
 }
 
 static void draw(const room_pose *pose)
@@ -68,15 +40,17 @@ int main(void)
         asked = i == 0 || i == 30 || i == 59;
         hash = ROOM_HASH;
         draw(&pose);
-        if (asked) {
-            say_hash(i);
-            say_cost(i);
-        }
+        if (asked)
+            say_frame(i, hash, stage_names, shown.taken, ROOM_STAGES);
     }
     if (say_ram() != 0)
         return 1;
     port_put("end of path\n");
     for (uint32_t held; (held = port_buttons()) != PORT_NO_BUTTONS;) {
+        if (held) { /* so that who reads it can draw the same frames elsewhere */
+            say_count("held ", held);
+            port_put("\n");
+        }
         room_steer(&pose, held);
         draw(&pose);
     }

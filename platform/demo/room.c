@@ -34,8 +34,14 @@ size_t room_bytes(int32_t width, int32_t height)
     lmb_fixed scene;
     return width > 0 && height > 0 && width <= ROOM_MAX_WIDTH && height <= ROOM_MAX_HEIGHT &&
                    lmb_fixed_open(&scene, baked, sizeof baked) == LMB_OK
-               ? lmb_fixed_memory(&scene, scene.triangles)
+               ? (lmb_fixed_memory(&scene, scene.triangles) + 3) / 4 * 4
                : 0;
+}
+
+size_t room_bytes_kept(int32_t width, int32_t height)
+{
+    const size_t bytes = room_bytes(width, height);
+    return bytes > 0 ? bytes + ROOM_KEPT * sizeof(lmb_fixed_ready) : 0;
 }
 
 size_t room_band_bytes(int32_t width, int32_t rows) { return width > 0 && rows > 0 ? (size_t)(width * rows) * 6 : 0; }
@@ -49,6 +55,11 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
         band_bytes < room_band_bytes(width, rows) || lmb_fixed_open(&out->scene, baked, sizeof baked) != LMB_OK ||
         lmb_fixed_lay(&out->frame, &out->scene, out->scene.triangles, memory, bytes) != LMB_OK)
         return 1;
+    const size_t needed = room_bytes(width, height), kept = (bytes - needed) / sizeof(lmb_fixed_ready);
+    if (bytes > needed && kept > 0) {
+        out->frame.ready = (lmb_fixed_ready *)(void *)((unsigned char *)memory + needed);
+        out->frame.ready_cap = kept < ROOM_KEPT ? (uint32_t)kept : ROOM_KEPT;
+    }
     out->width = width, out->height = height, out->rows = rows;
     out->memory = memory, out->band = band;
     out->memory_bytes = bytes, out->band_bytes = band_bytes;
@@ -57,6 +68,7 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
     out->frame.view.width = width, out->frame.view.height = height;
     out->frame.view.focal = (height * 4392) >> 8; /* 8 / tan(25 degrees): 50 degrees from top to bottom */
     out->frame.view.near_units = 128;
+    out->frame.background = LMB_FIXED_COVERED; /* the room is closed */
     out->frame.bounces = 2;
     for (int i = 0; i < 3; ++i)
         out->frame.lamp.intensity[i] = LAMP;
@@ -123,7 +135,8 @@ void room_draw(room *r, const room_pose *pose, room_put *put, void *user)
         r->taken[stage] = now - from;
         from = now;
     }
-    r->taken[ROOM_FILL] = 0;
+    lmb_fixed_prepare(f);
+    r->taken[ROOM_FILL] = (r->clock ? r->clock() : 0) - from;
     for (int32_t y = 0; y < r->height; y += r->rows) {
         const int32_t rows = r->rows < r->height - y ? r->rows : r->height - y;
         from = r->clock ? r->clock() : 0;
@@ -141,86 +154,50 @@ uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count)
     return hash;
 }
 
-/* t * 255 + 127 over 16, and 1: the threshold t of Bayer's matrix in the sum below. */
 static uint32_t threshold(int32_t x, int32_t y)
 {
     static const uint8_t bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
-    return (bayer[y & 3][x & 3] * 255u + 127u) / 16 + 1;
+    return bayer[y & 3][x & 3];
 }
 
-/* (c * 31 * 16 + t * 255 + 127) / 4080 of two codes c at once, one in each half. With y = c * 31 + (t * 255 + 127) / 16
- * of 13 bits, y / 255 is (y + 1 + y / 256) / 256, and y + 1 may stand for y in the smaller term. */
-static inline uint32_t two_of_31(uint32_t codes, uint32_t thresholds)
+/* All three colours at once: c - c / 32 + t / 2 is at most 255. */
+static inline uint16_t pixel_555(uint32_t rgb, uint32_t steps)
 {
-    const uint32_t y = codes * 31 + thresholds;
-    return (y + (y >> 8 & 0xff00ffu)) >> 8 & 0x1f001fu;
+    const uint32_t v = rgb - (rgb >> 5 & 0x070707u) + steps;
+    return (uint16_t)(v >> 19 | (v >> 6 & 0x3e0u) | (v << 7 & 0x7c00u));
 }
 
-/* Likewise with 63 for 31: y of 14 bits. */
-static inline uint32_t two_of_63(uint32_t codes, uint32_t thresholds)
+/* Likewise, with c - c / 64 + t / 4 of green. */
+static inline uint16_t pixel_565(uint32_t rgb, uint32_t steps)
 {
-    const uint32_t y = codes * 63 + thresholds;
-    return (y + (y >> 8 & 0xff00ffu)) >> 8 & 0x3f003fu;
-}
-
-/* Thresholds of a row's four columns: each for red and blue at once, and of two neighbours for green. */
-typedef struct columns {
-    uint32_t both[4], pair[2];
-} columns;
-
-static void set_columns(columns *out, int32_t y)
-{
-    for (int32_t x = 0; x < 4; ++x)
-        out->both[x] = threshold(x, y) * 0x10001u;
-    for (int32_t i = 0; i < 2; ++i)
-        out->pair[i] = (out->both[2 * i] & 0xffffu) | (out->both[2 * i + 1] & 0xffff0000u);
-}
-
-/* The two pixels' greens: one in each half. */
-static inline uint32_t greens(const uint32_t *rgb) { return (rgb[0] >> 8 & 0xffu) | (rgb[1] & 0xff00u) << 8; }
-
-static inline void two_555(uint16_t *out, const uint32_t *rgb, const columns *c, int i)
-{
-    const uint32_t first = two_of_31(rgb[0] & 0xff00ffu, c->both[2 * i]);
-    const uint32_t second = two_of_31(rgb[1] & 0xff00ffu, c->both[2 * i + 1]);
-    const uint32_t green = two_of_31(greens(rgb), c->pair[i]);
-    out[0] = (uint16_t)(first >> 16 | first << 10 | green << 5);
-    out[1] = (uint16_t)(second >> 16 | second << 10 | green >> 11);
-}
-
-static inline void two_565(uint16_t *out, const uint32_t *rgb, const columns *c, int i)
-{
-    const uint32_t first = two_of_31(rgb[0] & 0xff00ffu, c->both[2 * i]);
-    const uint32_t second = two_of_31(rgb[1] & 0xff00ffu, c->both[2 * i + 1]);
-    const uint32_t green = two_of_63(greens(rgb), c->pair[i]);
-    out[0] = (uint16_t)(first >> 5 | first | green << 5);
-    out[1] = (uint16_t)(second >> 5 | second | green >> 11);
+    const uint32_t v = rgb - ((rgb >> 5 & 0x070007u) | (rgb >> 6 & 0x000300u)) + steps;
+    return (uint16_t)((v >> 8 & 0xf800u) | (v >> 5 & 0x7e0u) | (v >> 3 & 31u));
 }
 
 void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y)
 {
-    columns c;
-    set_columns(&c, y);
+    uint32_t steps[4];
+    for (int32_t x = 0; x < 4; ++x)
+        steps[x] = (threshold(x, y) >> 1) * 0x010101u;
+    const uint32_t s0 = steps[0], s1 = steps[1], s2 = steps[2], s3 = steps[3];
     for (; width >= 4; width -= 4, out += 4, rgb += 4) {
-        two_555(out, rgb, &c, 0);
-        two_555(out + 2, rgb + 2, &c, 1);
+        out[0] = pixel_555(rgb[0], s0), out[1] = pixel_555(rgb[1], s1);
+        out[2] = pixel_555(rgb[2], s2), out[3] = pixel_555(rgb[3], s3);
     }
-    for (int32_t x = 0; x < width; ++x) {
-        const uint32_t q = two_of_31(rgb[x] & 0xff00ffu, c.both[x]);
-        out[x] = (uint16_t)(q >> 16 | q << 10 | two_of_31(rgb[x] >> 8 & 0xffu, c.both[x]) << 5);
-    }
+    for (int32_t x = 0; x < width; ++x)
+        out[x] = pixel_555(rgb[x], steps[x]);
 }
 
 void room_rgb565(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y)
 {
-    columns c;
-    set_columns(&c, y);
+    uint32_t steps[4];
+    for (int32_t x = 0; x < 4; ++x)
+        steps[x] = (threshold(x, y) >> 1) * 0x010001u + ((threshold(x, y) >> 2) << 8);
+    const uint32_t s0 = steps[0], s1 = steps[1], s2 = steps[2], s3 = steps[3];
     for (; width >= 4; width -= 4, out += 4, rgb += 4) {
-        two_565(out, rgb, &c, 0);
-        two_565(out + 2, rgb + 2, &c, 1);
+        out[0] = pixel_565(rgb[0], s0), out[1] = pixel_565(rgb[1], s1);
+        out[2] = pixel_565(rgb[2], s2), out[3] = pixel_565(rgb[3], s3);
     }
-    for (int32_t x = 0; x < width; ++x) {
-        const uint32_t q = two_of_31(rgb[x] & 0xff00ffu, c.both[x]);
-        out[x] = (uint16_t)(q >> 5 | q | two_of_63(rgb[x] >> 8 & 0xffu, c.both[x]) << 5);
-    }
+    for (int32_t x = 0; x < width; ++x)
+        out[x] = pixel_565(rgb[x], steps[x]);
 }

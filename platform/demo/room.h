@@ -14,6 +14,7 @@
 
 enum {
     ROOM_FRAMES = 60,
+    ROOM_KEPT = 480, /* triangles */
     ROOM_MAX_WIDTH = 640, /* px */
     ROOM_MAX_HEIGHT = 480
 };
@@ -26,7 +27,8 @@ typedef struct room_pose {
 
 enum {
     ROOM_LEFT = 1, ROOM_RIGHT = 2, ROOM_UP = 4, ROOM_DOWN = 8,                  /* turn the camera */
-    ROOM_LAMP_LEFT = 16, ROOM_LAMP_RIGHT = 32, ROOM_LAMP_NEAR = 64, ROOM_LAMP_FAR = 128 /* move the lamp */
+    ROOM_LAMP_LEFT = 16, ROOM_LAMP_RIGHT = 32, ROOM_LAMP_NEAR = 64, ROOM_LAMP_FAR = 128, /* move the lamp */
+    ROOM_BUTTONS = 8
 };
 
 /* Stages whose cost is told apart. */
@@ -45,8 +47,10 @@ typedef struct room {
     lmb_fixed_frame frame;
 } room;
 
-/* room_bytes: memory beside the band; room_band_bytes: of a band, for the fastest memory that there is. 0: bad size. */
+/* room_bytes: memory beside the band; room_bytes_kept: with more, a frame's bands share what they know of up to
+ * ROOM_KEPT triangles; room_band_bytes: of a band, for the fastest memory that there is. 0: bad size. */
 size_t room_bytes(int32_t width, int32_t height);
+size_t room_bytes_kept(int32_t width, int32_t height);
 size_t room_band_bytes(int32_t width, int32_t rows);
 
 /* room_open: both blocks lie on 4 bytes and stay the room's. 0, or 1: bad size, too little memory or damaged data. */
@@ -64,9 +68,9 @@ void room_draw(room *r, const room_pose *pose, room_put *put, void *user);
 #define ROOM_HASH 2166136261u
 uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count);
 
-/* A row: 5 bits a colour by Bayer's 4 x 4 matrix: the code c of 0 .. 255 becomes (c * 31 * 16 + t * 255 + 127) / (255 * 16)
- * rounded down, with t of 0 .. 15 by x & 3 and y & 3; green of RGB565 with 63 for 31. room_rgb555: red in the low bits,
- * as on GBA, DS and PlayStation. room_rgb565: red in the high bits. */
+/* A row, dithered by Bayer's 4 x 4 matrix t of 0 .. 15 by x & 3 and y & 3: the code c of 0 .. 255 becomes
+ * (c - c / 32 + t / 2) / 8 of 5 bits, each quotient rounded down; green of RGB565 (c - c / 64 + t / 4) / 4 of 6 bits.
+ * room_rgb555: red in the low bits, as on GBA, DS and PlayStation. room_rgb565: red in the high bits. */
 void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
 void room_rgb565(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
 

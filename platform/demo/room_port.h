@@ -8,7 +8,7 @@
 /* The picture's size and a band's rows, px. */
 extern const int32_t port_width, port_height, port_rows;
 
-/* room_bytes of memory for the port's size, and room_band_bytes of the fastest. Each lies on 4 bytes. */
+/* room_bytes or room_bytes_kept of memory for the port's size, and room_band_bytes of the fastest. Each lies on 4 bytes. */
 void *port_memory(size_t *bytes);
 void *port_band_memory(size_t *bytes);
 
@@ -23,5 +23,14 @@ void port_show_frame(void);
 /* Buttons that are held, of room.h; PORT_NO_BUTTONS: there are none, and the program ends after its path. */
 #define PORT_NO_BUTTONS 0xffffffffu
 uint32_t port_buttons(void);
+
+/* What is held of room.h's buttons, by the bits of a machine's own word that mean each of them, in their order. */
+static inline uint32_t room_held(uint32_t word, const uint32_t bits[8])
+{
+    uint32_t held = 0;
+    for (int i = 0; i < 8; ++i)
+        held |= (uint32_t)((word & bits[i]) != 0) << i;
+    return held;
+}
 
 #endif

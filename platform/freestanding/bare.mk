@@ -33,7 +33,7 @@ $(B)/obj/platform/freestanding/bare_room.o: COMPILE += $(BARE_ROOM)
 
 HOST_CC ?= cc
 run: $(COUNTER)
-$(COUNTER): platform/freestanding/qemu_count.c
+$(COUNTER): platform/freestanding/qemu_count.c platform/freestanding/qemu_interface.h
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(HOST_CC) -std=c99 -O2 -Wall -Wextra -pedantic -fPIC -shared -o $@ $<

@@ -3,33 +3,11 @@
  *
  * Whenever the program calls bare_mark (bare_room.c), the count goes into COUNTS, where the program reads it: its lower
  * 32 bits, least byte first, then the word of what was counted. A load or store of several registers counts each of them.
- * The counts are exact, and equal in every run. Built for the machine that emulates. The few declarations stand here as
- * distributions package qemu without its header. */
-#include <stdbool.h>
-#include <stdint.h>
+ * The counts are exact, and equal in every run. Built for the machine that emulates. */
 #include <stdio.h>
 #include <string.h>
 
-typedef uint64_t plugin_id;
-typedef struct qemu_plugin_tb block;
-typedef struct qemu_plugin_insn instruction;
-
-enum { INLINE_ADD = 0, NO_REGISTERS = 0, READS_AND_WRITES = 3 };
-
-extern void qemu_plugin_register_vcpu_tb_trans_cb(plugin_id id, void (*call)(plugin_id id, block *b));
-extern size_t qemu_plugin_tb_n_insns(const block *b);
-extern instruction *qemu_plugin_tb_get_insn(const block *b, size_t index);
-extern const char *qemu_plugin_insn_symbol(const instruction *i);
-extern void qemu_plugin_register_vcpu_insn_exec_inline(instruction *i, int operation, void *at, uint64_t add);
-extern void qemu_plugin_register_vcpu_insn_exec_cb(instruction *i, void (*call)(unsigned cpu, void *user),
-                                                   int registers, void *user);
-extern void qemu_plugin_register_vcpu_mem_cb(instruction *i,
-                                             void (*call)(unsigned cpu, uint32_t about, uint64_t at, void *user),
-                                             int registers, int access, void *user);
-extern bool qemu_plugin_mem_is_store(uint32_t about);
-
-__attribute__((visibility("default"))) int qemu_plugin_version = 1;
-int qemu_plugin_install(plugin_id id, const void *info, int count, char **word);
+#include "qemu_interface.h"
 
 static uint64_t counted;
 static const char *what = "instructions";
@@ -67,7 +45,7 @@ static void translate(plugin_id id, block *b)
     }
 }
 
-__attribute__((visibility("default"))) int qemu_plugin_install(plugin_id id, const void *info, int count, char **word)
+QEMU_EXPORTED int qemu_plugin_install(plugin_id id, const void *info, int count, char **word)
 {
     (void)info;
     for (int i = 0; i < count; ++i)

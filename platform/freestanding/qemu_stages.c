@@ -11,37 +11,12 @@
  *   arm7  ARM7TDMI: loads 3 and one more for each register, stores 2 likewise; jumps 3; multiplies 3, long ones 5; and
  *         the Game Boy Advance's wait states of data, by address. Instructions in ROM take 3 (narrow) or 6.
  *
- * It prints lines as the room does, and ends the emulator after the last frame. Built for the machine that emulates.
- * The few declarations stand here as distributions package qemu without its header. */
-#include <stdbool.h>
-#include <stdint.h>
+ * It prints lines as the room does, and ends the emulator after the last frame. Built for the machine that emulates. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef uint64_t plugin_id;
-typedef struct qemu_plugin_tb block;
-typedef struct qemu_plugin_insn instruction;
-
-enum { NO_REGISTERS = 0, READS_AND_WRITES = 3 };
-
-extern void qemu_plugin_register_vcpu_tb_trans_cb(plugin_id id, void (*call)(plugin_id id, block *b));
-extern size_t qemu_plugin_tb_n_insns(const block *b);
-extern uint64_t qemu_plugin_tb_vaddr(const block *b);
-extern instruction *qemu_plugin_tb_get_insn(const block *b, size_t index);
-extern const char *qemu_plugin_insn_symbol(const instruction *i);
-extern const void *qemu_plugin_insn_data(const instruction *i);
-extern size_t qemu_plugin_insn_size(const instruction *i);
-extern void qemu_plugin_register_vcpu_tb_exec_cb(block *b, void (*call)(unsigned cpu, void *user), int registers,
-                                                 void *user);
-extern void qemu_plugin_register_vcpu_mem_cb(instruction *i,
-                                             void (*call)(unsigned cpu, uint32_t info, uint64_t at, void *user),
-                                             int registers, int access, void *user);
-extern bool qemu_plugin_mem_is_store(uint32_t info);
-extern unsigned qemu_plugin_mem_size_shift(uint32_t info);
-
-__attribute__((visibility("default"))) int qemu_plugin_version = 1;
-int qemu_plugin_install(plugin_id id, const void *info, int count, char **word);
+#include "qemu_interface.h"
 
 /* --- what is counted ---------------------------------------------------------------------------------------------- */
 
@@ -53,7 +28,8 @@ static const char *const stage_names[] = {"transform", "light", "fill", "show"};
 static const struct {
     const char *function;
     int stage;
-} beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_band", FILL},
+} beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_prepare", FILL},
+                  {"lmb_fixed_band", FILL},
                   {"port_show_band", SHOW},           {"port_show_frame", SHOW},  {"room_hash", BESIDE},
                   {"room_path", BESIDE},              {"room_steer", BESIDE},     {"say_count", BESIDE},
                   {"port_calibrate", BESIDE},         {"port_calibrated", BESIDE}};
@@ -340,7 +316,7 @@ static void translate(plugin_id id, block *b)
     qemu_plugin_register_vcpu_tb_exec_cb(b, execute, NO_REGISTERS, s);
 }
 
-__attribute__((visibility("default"))) int qemu_plugin_install(plugin_id id, const void *info, int count, char **word)
+QEMU_EXPORTED int qemu_plugin_install(plugin_id id, const void *info, int count, char **word)
 {
     bool known = false;
     (void)info;

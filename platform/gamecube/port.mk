@@ -12,7 +12,7 @@ PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,n
 PORT_LDLIBS  := -lgcc
 RUN          := false
 
-ROOM_SRC     := $(addprefix platform/gamecube/,port_gamecube.c row_gamecube.c) $(PORT_SRC)
+ROOM_SRC     := $(addprefix platform/gamecube/,port_gamecube.c row_gamecube.c) platform/consoles/ram_program.c $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.dol
 ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/gamecube/run.sh $(B)
 
@@ -24,7 +24,7 @@ $(B)/room: platform/gamecube/start_gamecube.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := GAMECUBE
-COUNTED_ROWS  ?= 16
+COUNTED_ROWS  ?= 8
 COUNTED_AT    := 0x10003100
 COUNTED_SRC   := platform/gamecube/row_gamecube.c
 COUNTED_QEMU  := qemu-ppc

@@ -4,12 +4,12 @@
  * Own start-up code, no SDK. The picture is made by the processor alone, as YCbCr in RAM. */
 #include "port_gamecube.h"
 
+#include "../consoles/consoles.h"
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../port.h"
-#include "../port_say.h"
 
-enum { WIDTH = 640, HEIGHT = 480, ROWS = 16 };
+enum { WIDTH = 640, HEIGHT = 480, ROWS = 8 };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
 
@@ -41,37 +41,18 @@ void port_put(const char *text)
     }
 }
 
-void port_leave(uint32_t status) { port_put(status ? "left: failed\n" : "left: done\n"); }
-
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-extern uint32_t image_begin[], bss_begin[], bss_end[], stack_end[], stack_top[];
+const uint32_t console_ram_bytes = 24u << 20;
 
 static uint32_t band[WIDTH * ROWS * 6 / 4] __attribute__((aligned(32)));
 static uint32_t screens[2][HEIGHT][WIDTH / 2] __attribute__((aligned(32)));
 static uint32_t hidden, lit;
 
-void *port_memory(size_t *bytes)
-{
-    *bytes = (size_t)((uintptr_t)stack_end - (uintptr_t)bss_end);
-    return bss_end;
-}
-
 void *port_band_memory(size_t *bytes)
 {
     *bytes = sizeof band;
     return band;
-}
-
-void port_ram_used(port_ram *out)
-{
-    const uint32_t *deepest = stack_end;
-    while (deepest < stack_top && *deepest == 0x5a5aa5a5u)
-        ++deepest;
-    out->data = (uint32_t)((uintptr_t)bss_begin - (uintptr_t)image_begin);
-    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin) + (uint32_t)room_bytes(WIDTH, HEIGHT);
-    out->stack = (uint32_t)((uintptr_t)stack_top - (uintptr_t)deepest);
-    out->size = 24u << 20;
 }
 
 /* --- clock -------------------------------------------------------------------------------------------------------- */
@@ -136,24 +117,11 @@ void port_show_frame(void)
 enum { SI_OUT = 0, SI_IN = 4, SI_POLL = 0x30, SI_STATUS = 0x38 };
 
 /* The serial interface asks the controller by itself, twice a field. */
-/* Says what is held, so that who reads it can draw the same frames elsewhere. */
-static uint32_t told(uint32_t held)
-{
-    if (held) {
-        say_count("held ", held);
-        port_put("\n");
-    }
-    return held;
-}
-
 uint32_t port_buttons(void)
 {
-    static const uint32_t from[][2] = {
-        {0x00010000, ROOM_LEFT}, {0x00020000, ROOM_RIGHT}, {0x00080000, ROOM_UP}, {0x00040000, ROOM_DOWN},
-        {0x02000000, ROOM_LAMP_LEFT}, {0x04000000, ROOM_LAMP_RIGHT},
-        {0x01000000, ROOM_LAMP_NEAR}, {0x08000000, ROOM_LAMP_FAR}};
+    static const uint32_t bits[ROOM_BUTTONS] = {0x00010000, 0x00020000, 0x00080000, 0x00040000,
+                                                0x02000000, 0x04000000, 0x01000000, 0x08000000};
     static uint32_t asked;
-    uint32_t held = 0;
     if (!asked) {
         SI(SI_OUT) = 0x00400300u;
         SI(SI_POLL) = 0x00f70280u;
@@ -164,8 +132,5 @@ uint32_t port_buttons(void)
     const uint32_t state = SI(SI_IN);
     if (state & 0x90000000u) /* no controller, or Start: the end */
         return PORT_NO_BUTTONS;
-    for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
-        if (state & from[i][0])
-            held |= from[i][1];
-    return told(held);
+    return room_held(state, bits);
 }

@@ -9,7 +9,4 @@
  * Y, Cb, Y, Cr; out lies on 32 bytes. */
 void gamecube_row(uint32_t *out, const uint32_t *rgb, int32_t width);
 
-/* From start_gamecube.S, with main's status. */
-void port_leave(uint32_t status);
-
 #endif

@@ -46,5 +46,5 @@ until grep -qa 'left: ' "$log" 2>/dev/null || [ "$left" = 0 ]; do
 done
 kill "$process" 2>/dev/null
 wait "$process" 2>/dev/null
-sed -n 's/.*OSREPORT.*: \(\(held\|frame\|cost\|ram\|end\|room\|left\)[: ].*\)/\1/p' "$log"
+sed -n 's/.*OSREPORT.*: \(\(held\|frame\|cost\|ram\|end\|room\|left\)[: ].*\)/\1/p' "$log" | tr -d '\r'
 grep -qa 'left: done' "$log"

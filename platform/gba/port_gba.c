@@ -29,7 +29,7 @@ static uint16_t *hidden(void) { return (uint16_t *)(void *)ewram_end; }
 void *port_memory(size_t *bytes)
 {
     uint32_t *begin = ewram_end + WIDTH * HEIGHT * 2 / 4;
-    const size_t free_bytes = (size_t)(ewram_top - begin) * 4, wanted = room_bytes(WIDTH, HEIGHT);
+    const size_t free_bytes = (size_t)(ewram_top - begin) * 4, wanted = room_bytes_kept(WIDTH, HEIGHT);
     *bytes = taken = wanted < free_bytes ? wanted : free_bytes;
     return begin;
 }
@@ -42,12 +42,9 @@ void *port_band_memory(size_t *bytes)
 
 void port_ram_used(port_ram *out)
 {
-    const uint32_t *deepest = stack_bottom;
-    while (deepest < stack_top && *deepest == STACK_PAINT)
-        ++deepest;
     out->data = (uint32_t)((fast_end - fast_begin) + (data_end - data_begin) + (ewram_end - ewram_begin)) * 4;
     out->bss = (uint32_t)(bss_end - bss_begin) * 4 + WIDTH * HEIGHT * 2 + (uint32_t)taken;
-    out->stack = (uint32_t)(stack_top - deepest) * 4;
+    out->stack = handheld_stack();
     out->size = (32u << 10) + (256u << 10);
 }
 
@@ -55,28 +52,10 @@ void port_ram_used(port_ram *out)
 
 ARM_CALIBRATE
 
-/* Timer 3 counts what timer 2 wraps. */
-static void start_clock(void)
-{
-    REGISTER_16(TIMER_3) = 0;
-    REGISTER_16(TIMER_2) = 0;
-    REGISTER_16(TIMER_3 + 2) = 0x84;
-    REGISTER_16(TIMER_2 + 2) = 0x80;
-}
-
-uint32_t port_clock(void)
-{
-    for (;;) {
-        const uint32_t high = REGISTER_16(TIMER_3), low = REGISTER_16(TIMER_2);
-        if (REGISTER_16(TIMER_3) == high)
-            return high << 16 | low;
-    }
-}
-
 /* A load from slow RAM waits 5 cycles. */
 void gba_begin(void)
 {
-    start_clock();
+    handheld_start_clock();
     const uint32_t from = port_clock();
     port_calibrate(ewram_begin);
     const uint32_t loops = port_clock() - from;
@@ -86,7 +65,7 @@ void gba_begin(void)
     port_put(" and a call\n");
 }
 
-/* --- screen and buttons ------------------------------------------------------------------------------------------- */
+/* --- screen ------------------------------------------------------------------------------------------------------- */
 
 void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
 {
@@ -102,22 +81,4 @@ void port_show_frame(void)
     REGISTER_32(DMA_3_FROM) = (uint32_t)(uintptr_t)hidden();
     REGISTER_32(DMA_3_TO) = VIDEO_RAM;
     REGISTER_32(DMA_3_COUNT) = DMA_NOW_BY_WORDS | WIDTH * HEIGHT / 2;
-}
-
-/* Says what is held, so that who reads it can draw the same frames elsewhere. */
-uint32_t port_buttons(void)
-{
-    static const uint8_t meaning[10] = {
-        [4] = ROOM_RIGHT,     [5] = ROOM_LEFT,      [6] = ROOM_UP,         [7] = ROOM_DOWN,       /* the cross */
-        [9] = ROOM_LAMP_LEFT, [8] = ROOM_LAMP_RIGHT, [0] = ROOM_LAMP_NEAR, [1] = ROOM_LAMP_FAR}; /* L, R; A, B */
-    const uint32_t up = REGISTER_16(KEYS);
-    uint32_t held = 0;
-    for (int i = 0; i < 10; ++i)
-        if (!(up >> i & 1u))
-            held |= meaning[i];
-    if (held) {
-        say_count("held ", held);
-        port_put("\n");
-    }
-    return held;
 }

@@ -30,28 +30,14 @@ __asm__(".section .vectors, \"ax\"\n"
         "\t.pool\n"
         ".text\n");
 
-static void copy(uint32_t *to, const uint32_t *end, const uint32_t *from)
-{
-    while (to < end)
-        *to++ = *from++;
-}
-
-static void fill(uint32_t *to, const uint32_t *end, uint32_t value)
-{
-    while (to < end)
-        *to++ = value;
-}
-
 void start(void)
 {
-    uint32_t *stack;
     REGISTER_16(WAIT_CONTROL) = 0x4317; /* ROM: 3 wait states, then 1 a halfword, read ahead */
-    copy(fast_begin, fast_end, fast_image);
-    copy(data_begin, data_end, data_image);
-    copy(ewram_begin, ewram_end, ewram_image);
-    fill(bss_begin, bss_end, 0);
-    __asm__ volatile("mov %0, sp" : "=r"(stack));
-    fill(stack_bottom, stack, STACK_PAINT);
+    copy_words(fast_begin, fast_end, fast_image);
+    copy_words(data_begin, data_end, data_image);
+    copy_words(ewram_begin, ewram_end, ewram_image);
+    fill_words(bss_begin, bss_end, 0);
+    paint_stack();
     gba_begin();
     main();
     for (;;) {

@@ -12,7 +12,7 @@ $(LRHOST): platform/libretro/lrhost.c platform/libretro/text_block.h
 
 # qemu_stages.c, for ports of ARM processors.
 STAGES  := $(BUILD)/qemu_stages.so
-$(STAGES): platform/freestanding/qemu_stages.c
+$(STAGES): platform/freestanding/qemu_stages.c platform/freestanding/qemu_interface.h
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(HOST_CC) -O2 -std=c99 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -pedantic -shared -fPIC -o $@ $<

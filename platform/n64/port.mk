@@ -12,7 +12,7 @@ PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,n
 PORT_LDLIBS  :=
 RUN          := false
 
-ROOM_SRC     := $(addprefix platform/n64/,port_n64.c row_n64.c) $(PORT_SRC)
+ROOM_SRC     := $(addprefix platform/n64/,port_n64.c row_n64.c) platform/consoles/ram_program.c $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.z64
 ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/n64/run.sh $(B)
 
@@ -27,7 +27,7 @@ $(B)/%_n64.so: platform/n64/%_n64.c platform/n64/port_n64.h
 	@echo "LD $@"
 	@$(HOST_CC) -std=c99 -O2 $(WARNINGS) -D_GNU_SOURCE -fPIC -shared -o $@ $< -ldl
 
-$(B)/room: platform/n64/start_n64.S
+$(B)/room: platform/n64/start_n64.S platform/consoles/begin_mips.S
 # A loop in memset that the compiler turns into a call of memset would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 

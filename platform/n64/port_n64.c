@@ -4,9 +4,9 @@
  * cache without being fetched, filled and written back at once. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
+#include "../consoles/consoles.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
-#include "../port_say.h"
 #include "port_n64.h"
 
 enum { WIDTH = 320, HEIGHT = 240, ROWS = 4, LINE = 16 /* bytes of a line of the data cache */ };
@@ -49,38 +49,18 @@ void port_put(const char *text)
     viewer_put(text);
 }
 
-void port_leave(uint32_t status) { port_put(status ? "left: failed\n" : "left: done\n"); }
-
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-extern uint32_t image_begin[], bss_begin[], bss_end[], stack_end[], stack_top[];
+const uint32_t console_ram_bytes = 4u << 20;
 
 static uint32_t band[WIDTH * ROWS * 6 / 4] __attribute__((aligned(16)));
 static uint16_t screens[2][HEIGHT][WIDTH] __attribute__((aligned(64)));
 static uint32_t hidden; /* the screen that is not shown */
 
-/* What neither the program nor the stack has. */
-void *port_memory(size_t *bytes)
-{
-    *bytes = (size_t)((uintptr_t)stack_end - (uintptr_t)bss_end);
-    return bss_end;
-}
-
 void *port_band_memory(size_t *bytes)
 {
     *bytes = sizeof band;
     return band;
-}
-
-void port_ram_used(port_ram *out)
-{
-    const uint32_t *deepest = stack_end;
-    while (deepest < stack_top && *deepest == 0x5a5aa5a5u)
-        ++deepest;
-    out->data = (uint32_t)((uintptr_t)bss_begin - (uintptr_t)image_begin);
-    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin) + (uint32_t)room_bytes(WIDTH, HEIGHT);
-    out->stack = (uint32_t)((uintptr_t)stack_top - (uintptr_t)deepest);
-    out->size = 4u << 20;
 }
 
 /* --- clock -------------------------------------------------------------------------------------------------------- */
@@ -140,24 +120,11 @@ static void pif_transfer(uint32_t direction)
     SI(SI_STATUS) = 0;
 }
 
-/* Says what is held, so that who reads it can draw the same frames elsewhere. */
-static uint32_t told(uint32_t held)
-{
-    if (held) {
-        say_count("held ", held);
-        port_put("\n");
-    }
-    return held;
-}
-
 uint32_t port_buttons(void)
 {
-    static const uint32_t from[][2] = {
-        {0x02000000u, ROOM_LEFT}, {0x01000000u, ROOM_RIGHT}, {0x08000000u, ROOM_UP}, {0x04000000u, ROOM_DOWN},
-        {0x00020000u, ROOM_LAMP_LEFT}, {0x00010000u, ROOM_LAMP_RIGHT},
-        {0x00040000u, ROOM_LAMP_NEAR}, {0x00080000u, ROOM_LAMP_FAR}};
+    static const uint32_t bits[ROOM_BUTTONS] = {0x02000000u, 0x01000000u, 0x08000000u, 0x04000000u,
+                                                0x00020000u, 0x00010000u, 0x00040000u, 0x00080000u};
     volatile uint32_t *block = reg((uint32_t)(uintptr_t)pif | 0x20000000u);
-    uint32_t held = 0;
     for (uint32_t i = 0; i < 16; ++i)
         block[i] = 0;
     block[0] = 0xff010401u, block[1] = 0xffffffffu, block[2] = 0xfe000000u, block[15] = 1;
@@ -165,8 +132,5 @@ uint32_t port_buttons(void)
     pif_transfer(SI_READ);
     if (block[0] >> 8 & 0x80u) /* no answer: nothing is plugged in */
         return PORT_NO_BUTTONS;
-    for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
-        if (block[1] & from[i][0])
-            held |= from[i][1];
-    return block[1] & 0x10000000u ? PORT_NO_BUTTONS : told(held); /* Start: the end */
+    return block[1] & 0x10000000u ? PORT_NO_BUTTONS : room_held(block[1], bits); /* Start: the end */
 }

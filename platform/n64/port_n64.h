@@ -7,7 +7,4 @@
 /* n64_row: a row of room.h's colours, a multiple of 8 of them; out lies on 16 bytes. */
 void n64_row(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
 
-/* From start_n64.S, with main's status. */
-void port_leave(uint32_t status);
-
 #endif

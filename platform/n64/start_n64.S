@@ -62,26 +62,7 @@
     .section .start, "ax"
     .global start
 start:
-    lui   $8, %hi(bss_begin)
-    addiu $8, $8, %lo(bss_begin)
-    lui   $9, %hi(bss_end)
-    addiu $9, $9, %lo(bss_end)
-4:  sw    $0, 0($8)
-    addiu $8, $8, 4
-    sltu  $10, $8, $9
-    bnez  $10, 4b
-    nop
-    lui   $29, %hi(stack_top)
-    addiu $29, $29, %lo(stack_top)
-    lui   $8, %hi(stack_end)    /* the stack is painted, so that its depth can be told */
-    addiu $8, $8, %lo(stack_end)
-    lui   $9, 0x5a5a
-    ori   $9, $9, 0xa5a5
-5:  sw    $9, 0($8)
-    addiu $8, $8, 4
-    bne   $8, $29, 5b
-    nop
-    addiu $29, $29, -32
+#include "../consoles/begin_mips.S"
     lui   $8, 0x2400            /* Status: the FPU is on, with 32 registers of 64 bits; interrupts are off */
     mtc0  $8, $12
     nop
@@ -91,5 +72,5 @@ start:
     nop
     jal   port_leave
     move  $4, $2
-6:  b     6b
+3:  b     3b
     nop

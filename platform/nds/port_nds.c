@@ -4,7 +4,6 @@
 #include "../freestanding/arm_calibrate.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
-#include "../port_say.h"
 #include "nds.h"
 
 enum { WIDTH = 256, HEIGHT = 192, ROWS = 8 };
@@ -21,13 +20,12 @@ void port_put(const char *words) { text_block_put(&text, words); }
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
 __attribute__((section(".near"))) static uint32_t band[WIDTH * ROWS * 6 / 4];
-static size_t taken;
 
+/* What the code leaves of the memory that it lies in. */
 void *port_memory(size_t *bytes)
 {
-    const size_t free_bytes = (size_t)(main_top - bss_end) * 4, wanted = room_bytes(WIDTH, HEIGHT);
-    *bytes = taken = wanted < free_bytes ? wanted : free_bytes;
-    return bss_end;
+    *bytes = (size_t)(fast_top - fast_end) * 4;
+    return fast_end;
 }
 
 void *port_band_memory(size_t *bytes)
@@ -38,12 +36,9 @@ void *port_band_memory(size_t *bytes)
 
 void port_ram_used(port_ram *out)
 {
-    const uint32_t *deepest = stack_bottom;
-    while (deepest < stack_top && *deepest == STACK_PAINT)
-        ++deepest;
-    out->data = (uint32_t)((data_end - image_begin) + (fast_end - fast_begin)) * 4; /* the program itself is in RAM */
-    out->bss = (uint32_t)((bss_end - bss_begin) + (near_end - near_begin)) * 4 + (uint32_t)taken;
-    out->stack = (uint32_t)(stack_top - deepest) * 4;
+    out->data = (uint32_t)((data_end - image_begin) + (fast_top - fast_begin)) * 4; /* the program itself is in RAM */
+    out->bss = (uint32_t)((bss_end - bss_begin) + (near_end - near_begin)) * 4;
+    out->stack = handheld_stack();
     out->size = (4096u + 32u + 16u) << 10;
 }
 
@@ -51,31 +46,13 @@ void port_ram_used(port_ram *out)
 
 ARM_CALIBRATE
 
-/* Timer 1 counts what timer 0 wraps; they go at half the processor's clock. */
-static void start_clock(void)
-{
-    REGISTER_16(TIMER_1) = 0;
-    REGISTER_16(TIMER_0) = 0;
-    REGISTER_16(TIMER_1 + 2) = 0x84;
-    REGISTER_16(TIMER_0 + 2) = 0x80;
-}
-
-uint32_t port_clock(void)
-{
-    for (;;) {
-        const uint32_t high = REGISTER_16(TIMER_1), low = REGISTER_16(TIMER_0);
-        if (REGISTER_16(TIMER_1) == high)
-            return high << 16 | low;
-    }
-}
-
-/* --- screen and buttons ------------------------------------------------------------------------------------------- */
+/* --- screen ------------------------------------------------------------------------------------------------------- */
 
 static uint32_t hidden; /* the bank that is not shown */
 
 void nds_begin(void)
 {
-    start_clock();
+    handheld_start_clock();
     port_calibrate((const uint32_t *)0x02000000);
     port_calibrated();
     REGISTER_16(POWER) = 0x8203;        /* both screens, the main one above */
@@ -96,22 +73,4 @@ void port_show_frame(void)
 {
     REGISTER_32(DISPLAY_CONTROL) = 0x00020000u | hidden << 18;
     hidden ^= 1;
-}
-
-/* Says what is held, so that who reads it can draw the same frames elsewhere. */
-uint32_t port_buttons(void)
-{
-    static const uint8_t meaning[10] = {
-        [4] = ROOM_RIGHT,     [5] = ROOM_LEFT,       [6] = ROOM_UP,        [7] = ROOM_DOWN,     /* the cross */
-        [9] = ROOM_LAMP_LEFT, [8] = ROOM_LAMP_RIGHT, [0] = ROOM_LAMP_NEAR, [1] = ROOM_LAMP_FAR}; /* L, R; A, B */
-    const uint32_t up = REGISTER_16(KEYS);
-    uint32_t held = 0;
-    for (int i = 0; i < 10; ++i)
-        if (!(up >> i & 1u))
-            held |= meaning[i];
-    if (held) {
-        say_count("held ", held);
-        port_put("\n");
-    }
-    return held;
 }

@@ -55,27 +55,13 @@ __asm__(".section .vectors, \"ax\"\n"
         "\t.pool\n"
         ".text\n");
 
-static void copy(uint32_t *to, const uint32_t *end, const uint32_t *from)
-{
-    while (to < end)
-        *to++ = *from++;
-}
-
-static void fill(uint32_t *to, const uint32_t *end, uint32_t value)
-{
-    while (to < end)
-        *to++ = value;
-}
-
 void start(void)
 {
-    uint32_t *stack;
     REGISTER_32(INTERRUPTS) = 0;
-    copy(fast_begin, fast_end, fast_image);
-    fill(near_begin, near_end, 0);
-    fill(bss_begin, bss_end, 0);
-    __asm__ volatile("mov %0, sp" : "=r"(stack));
-    fill(stack_bottom, stack, STACK_PAINT);
+    copy_words(fast_begin, fast_end, fast_image);
+    fill_words(near_begin, near_end, 0);
+    fill_words(bss_begin, bss_end, 0);
+    paint_stack();
     nds_begin();
     main();
     for (;;) {

@@ -12,7 +12,7 @@ PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,n
 PORT_LDLIBS  :=
 RUN          := false
 
-ROOM_SRC     := platform/ps1/port_ps1.c $(PORT_SRC)
+ROOM_SRC     := platform/ps1/port_ps1.c platform/consoles/ram_program.c $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.exe
 ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/ps1/run.sh $(B) $(LRHOST) $(call core_of,mednafen_psx)
 
@@ -29,7 +29,7 @@ $(B)/bios.bin: platform/ps1/bios_ps1.S
 	@$(CROSS_PREFIX)objcopy -O binary -j .text $(B)/bios $@
 	@truncate -s 512K $@
 
-$(B)/room: platform/ps1/start_ps1.S
+$(B)/room: platform/ps1/start_ps1.S platform/consoles/begin_mips.S
 # A loop in memset that the compiler turns into a call of memset would never end.
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 

@@ -4,9 +4,9 @@
  * rows at a time, by DMA from one of two buffers while the next rows are dithered. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
+#include "../consoles/consoles.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
-#include "../port_say.h"
 
 /* One band, as there is no data cache that a smaller one could live in. It is sent in pieces. */
 enum { WIDTH = 320, HEIGHT = 240, ROWS = HEIGHT, SENT_ROWS = 16 };
@@ -23,38 +23,16 @@ static text_block said = TEXT_BLOCK;
 
 void port_put(const char *text) { text_block_put(&said, text); }
 
-/* From start_ps1.S, with main's status. */
-void port_leave(uint32_t status);
-
-void port_leave(uint32_t status) { port_put(status ? "left: failed\n" : "left: done\n"); }
-
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-extern uint32_t image_begin[], bss_begin[], bss_end[], stack_end[], stack_top[];
+const uint32_t console_ram_bytes = 2u << 20;
 
 static uint32_t band[WIDTH * ROWS * 6 / 4];
-
-void *port_memory(size_t *bytes)
-{
-    *bytes = (size_t)((uintptr_t)stack_end - (uintptr_t)bss_end);
-    return bss_end;
-}
 
 void *port_band_memory(size_t *bytes)
 {
     *bytes = sizeof band;
     return band;
-}
-
-void port_ram_used(port_ram *out)
-{
-    const uint32_t *deepest = stack_end;
-    while (deepest < stack_top && *deepest == 0x5a5aa5a5u)
-        ++deepest;
-    out->data = (uint32_t)((uintptr_t)bss_begin - (uintptr_t)image_begin);
-    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin) + (uint32_t)room_bytes(WIDTH, HEIGHT);
-    out->stack = (uint32_t)((uintptr_t)stack_top - (uintptr_t)deepest);
-    out->size = 2u << 20;
 }
 
 /* --- clock -------------------------------------------------------------------------------------------------------- */
@@ -169,22 +147,9 @@ static uint32_t exchange(uint32_t byte)
     return 0xff;
 }
 
-/* Says what is held, so that who reads it can draw the same frames elsewhere. */
-static uint32_t told(uint32_t held)
-{
-    if (held) {
-        say_count("held ", held);
-        port_put("\n");
-    }
-    return held;
-}
-
 uint32_t port_buttons(void)
 {
-    static const uint32_t from[][2] = {
-        {0x80, ROOM_LEFT}, {0x20, ROOM_RIGHT}, {0x10, ROOM_UP}, {0x40, ROOM_DOWN},
-        {0x8000, ROOM_LAMP_LEFT}, {0x2000, ROOM_LAMP_RIGHT}, {0x4000, ROOM_LAMP_NEAR}, {0x1000, ROOM_LAMP_FAR}};
-    uint32_t held = 0;
+    static const uint32_t bits[ROOM_BUTTONS] = {0x80, 0x20, 0x10, 0x40, 0x8000, 0x2000, 0x4000, 0x1000};
     PAD_CONTROL = 0x40;
     PAD_RATE = 0x88, PAD_MODE = 0x0d;
     PAD_CONTROL = 0x1007;
@@ -195,8 +160,5 @@ uint32_t port_buttons(void)
     PAD_CONTROL = 0;
     if (kind == 0xff || mark != 0x5a || up & 8) /* no controller, or Start: the end */
         return PORT_NO_BUTTONS;
-    for (uint32_t i = 0; i < sizeof from / sizeof *from; ++i)
-        if (up & from[i][0])
-            held |= from[i][1];
-    return told(held);
+    return room_held(up, bits);
 }

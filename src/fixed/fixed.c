@@ -193,7 +193,8 @@ static int set_rows(lmb_fixed_seen *out, const lmb_fixed_view *view, int32_t x0,
     return first < past && x1 > 0 && x0 < 16 * view->width && (x0 + 7) >> 4 < (x1 + 8) >> 4;
 }
 
-static int see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
+/* How many triangles are left of it. */
+static uint32_t see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
 {
     lmb_fixed_vertex c[FIXED_CORNERS];
     const int count = lmb_fixed_clip(c, f, triangle);
@@ -208,10 +209,10 @@ static int see_cut(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t trian
     for (int i = 2; i < count; ++i) {
         area += area_of(c[0].x, c[0].y, c[i - 1].x, c[i - 1].y, c[i].x, c[i].y);
     }
-    return area < 0 && set_rows(out, &f->view, x0, x1, y0, y1);
+    return area < 0 && set_rows(out, &f->view, x0, x1, y0, y1) ? (uint32_t)(count - 2) : 0;
 }
 
-static int see(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
+static uint32_t see(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
 {
     uint32_t vertex[3];
     triangle_of(vertex, f->scene, triangle);
@@ -219,20 +220,21 @@ static int see(lmb_fixed_seen *out, const lmb_fixed_frame *f, uint32_t triangle)
     out->triangle = (uint16_t)triangle;
     if (((a->flags | b->flags | c->flags) & FIXED_OUTSIDE) != 0) {
         out->triangle |= FIXED_CUT;
-        return (a->flags & b->flags & c->flags & FIXED_OUTSIDE) == 0 && see_cut(out, f, triangle);
+        return (a->flags & b->flags & c->flags & FIXED_OUTSIDE) == 0 ? see_cut(out, f, triangle) : 0;
     }
     if (area_of(a->x, a->y, b->x, b->y, c->x, c->y) >= 0) {
         return 0;
     }
-    return set_rows(out, &f->view, mini(a->x, mini(b->x, c->x)), maxi(a->x, maxi(b->x, c->x)),
-                    mini(a->y, mini(b->y, c->y)), maxi(a->y, maxi(b->y, c->y)));
+    return (uint32_t)set_rows(out, &f->view, mini(a->x, mini(b->x, c->x)), maxi(a->x, maxi(b->x, c->x)),
+                              mini(a->y, mini(b->y, c->y)), maxi(a->y, maxi(b->y, c->y)));
 }
 
 static int is_between(int32_t v, int32_t low, int32_t high) { return v >= low && v <= high; }
 
 static int has_memory(const lmb_fixed_frame *f)
 {
-    return f != NULL && f->scene != NULL && f->scene->receiver != NULL && f->vertex != NULL && f->seen != NULL;
+    return f != NULL && f->scene != NULL && f->scene->receiver != NULL && f->vertex != NULL && f->seen != NULL &&
+           f->group != NULL;
 }
 
 static int is_view(const lmb_fixed_view *v)
@@ -250,6 +252,19 @@ static int is_view(const lmb_fixed_view *v)
            is_between(v->focal, MIN_FOCAL, MAX_FOCAL) && is_between(v->near_units, MIN_NEAR, MAX_NEAR);
 }
 
+static void set_groups(const lmb_fixed_frame *f)
+{
+    for (uint32_t i = 0; i < f->seen_count; i += LMB_FIXED_GROUP) {
+        const uint32_t past = f->seen_count - i < LMB_FIXED_GROUP ? f->seen_count : i + LMB_FIXED_GROUP;
+        int32_t first_row = f->seen[i].first, past_row = f->seen[i].past;
+        for (uint32_t k = i + 1; k < past; ++k) {
+            first_row = mini(first_row, f->seen[k].first), past_row = maxi(past_row, f->seen[k].past);
+        }
+        f->group[i / LMB_FIXED_GROUP].first = (int16_t)first_row;
+        f->group[i / LMB_FIXED_GROUP].past = (int16_t)past_row;
+    }
+}
+
 lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
 {
     if (!has_memory(f) || !is_view(&f->view)) {
@@ -260,33 +275,93 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
     for (uint32_t i = 0; i < s->vertices; ++i) {
         place_vertex(&f->vertex[i], &l, s->receiver + LMB_FIXED_RECEIVER_WORDS * i);
     }
-    f->seen_count = 0;
+    f->seen_count = f->ready_count = 0;
     for (uint32_t t = 0; t < s->triangles && f->seen_count < f->seen_cap; ++t) {
-        if (see(&f->seen[f->seen_count], f, t)) {
+        lmb_fixed_seen *first = &f->seen[f->seen_count];
+        const uint32_t count = see(first, f, t);
+        if (count > 0 && count <= f->seen_cap - f->seen_count) {
             uint32_t vertex[3];
             triangle_of(vertex, s, t);
             for (int i = 0; i < 3; ++i) {
                 f->vertex[vertex[i]].flags |= FIXED_USED;
             }
-            f->seen_count += 1;
+            for (uint32_t i = 1; i < count; ++i) {
+                first[i] = *first;
+            }
+            f->seen_count += count;
         }
     }
+    set_groups(f);
     return LMB_OK;
 }
 
 /* --- bands -------------------------------------------------------------------------------------------------------- */
 
-static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t triangle)
+static int set_up(lmb_fixed_ready *out, const lmb_fixed_frame *f, uint32_t triangle, int32_t first, int32_t past)
 {
+    const uint32_t *t = f->scene->triangle + 2 * triangle;
+    return lmb_fixed_set_up(out, &f->vertex[t[0] & 0xffffu], &f->vertex[t[0] >> 16], &f->vertex[t[1]], f->view.width,
+                            first, past);
+}
+
+static void prepare_cut(lmb_fixed_ready *out, int places, const lmb_fixed_frame *f, uint32_t triangle)
+{
+    lmb_fixed_vertex c[FIXED_CORNERS];
+    const int count = lmb_fixed_clip(c, f, triangle & ~(uint32_t)FIXED_CUT);
+    for (int k = 0; k < places; ++k) {
+        out[k].first = out[k].past = 0;
+        if (k + 2 < count) {
+            lmb_fixed_set_up(&out[k], &c[0], &c[k + 1], &c[k + 2], f->view.width, 0, f->view.height);
+        }
+    }
+}
+
+lmb_status lmb_fixed_prepare(lmb_fixed_frame *f)
+{
+    if (!has_memory(f) || !is_view(&f->view)) {
+        return LMB_ERR_ARG;
+    }
+    f->ready_count = 0;
+    const uint32_t cap = f->ready == NULL ? 0 : f->ready_cap < f->seen_count ? f->ready_cap : f->seen_count;
+    for (uint32_t i = 0, next; i < cap; i = next) {
+        const uint32_t triangle = f->seen[i].triangle;
+        next = i + 1;
+        if ((triangle & FIXED_CUT) == 0) {
+            set_up(&f->ready[i], f, triangle, 0, f->view.height);
+        } else {
+            while (next < f->seen_count && f->seen[next].triangle == triangle) {
+                ++next;
+            }
+            if (next > cap) {
+                break;
+            }
+            prepare_cut(&f->ready[i], (int)(next - i), f, triangle);
+        }
+        f->ready_count = next;
+    }
+    return LMB_OK;
+}
+
+/* What is not prepared: of one that is cut all at its first place. */
+static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t i)
+{
+    const uint32_t triangle = f->seen[i].triangle;
+    lmb_fixed_ready r;
     if ((triangle & FIXED_CUT) == 0) {
-        const uint32_t *t = f->scene->triangle + 2 * triangle;
-        lmb_fixed_fill(b, &f->vertex[t[0] & 0xffffu], &f->vertex[t[0] >> 16], &f->vertex[t[1]]);
+        if (set_up(&r, f, triangle, b->first, b->past)) {
+            lmb_fixed_fill(b, &r);
+        }
+        return;
+    }
+    if (i > 0 && f->seen[i - 1].triangle == triangle) {
         return;
     }
     lmb_fixed_vertex c[FIXED_CORNERS];
     const int count = lmb_fixed_clip(c, f, triangle & ~(uint32_t)FIXED_CUT);
-    for (int i = 2; i < count; ++i) {
-        lmb_fixed_fill(b, &c[0], &c[i - 1], &c[i]);
+    for (int k = 2; k < count; ++k) {
+        if (lmb_fixed_set_up(&r, &c[0], &c[k - 1], &c[k], b->width, b->first, b->past)) {
+            lmb_fixed_fill(b, &r);
+        }
     }
 }
 
@@ -301,15 +376,25 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
     memset(b.depth, 0, pixels * sizeof *b.depth);
     if (f->background == 0) {
         memset(b.pixel, 0, pixels * sizeof *b.pixel);
-    } else {
+    } else if (f->background != LMB_FIXED_COVERED) {
         for (size_t i = 0; i < pixels; ++i) {
             b.pixel[i] = f->background;
         }
     }
     for (uint32_t i = 0; i < f->seen_count; ++i) {
         const lmb_fixed_seen *s = &f->seen[i];
-        if (s->first < past && s->past > first) {
-            draw(&b, f, s->triangle);
+        const lmb_fixed_rows *g = &f->group[i / LMB_FIXED_GROUP];
+        if (i % LMB_FIXED_GROUP == 0 && (g->first >= past || g->past <= first)) {
+            i += LMB_FIXED_GROUP - 1;
+            continue;
+        }
+        if (s->first >= past || s->past <= first) {
+            continue;
+        }
+        if (i < f->ready_count) {
+            lmb_fixed_fill(&b, &f->ready[i]);
+        } else {
+            draw(&b, f, i);
         }
     }
     return LMB_OK;

@@ -18,7 +18,7 @@ static edge edge_of(const lmb_fixed_vertex *from, const lmb_fixed_vertex *to)
         const int32_t free = zeros_above((uint32_t)down);
         const uint32_t per = reciprocal((uint32_t)down << free);
         /* the difference is of 15 bits, `free` of 18 to 31 */
-        e.slope = (int32_t)((((int64_t)(to->x - from->x) * 32768 * per) >> 32) >> (31 - free));
+        e.slope = signed_high_of((to->x - from->x) * 32768, (int32_t)per) >> (31 - free);
     }
     return e;
 }
@@ -50,17 +50,11 @@ enum {
     DEPTH_GENTLE = 17, COLOUR_GENTLE = 10, GENTLE_ACROSS = 256
 };
 
-/* n / area in 2^-DEPTH_BITS: what is shifted fits 31 bits, as n is at most 2^DEPTH_STEEP times the area. */
-static uint32_t depth_share(const slant *s, int64_t n)
+/* n / area in 2^-bits: what is shifted fits 31 bits, as n is at most 2^DEPTH_STEEP or 2^COLOUR_STEEP times the area, whose
+ * `free` is at least 3. */
+static uint32_t share(const slant *s, int32_t n, int32_t bits)
 {
-    const int32_t left = s->free + DEPTH_BITS - 30;
-    return (uint32_t)signed_high_of(left >= 0 ? (int32_t)n * (1 << left) : (int32_t)(n >> -left), s->per);
-}
-
-/* Likewise; the area's `free` is at least 3. */
-static uint32_t colour_share(const slant *s, int32_t n)
-{
-    const int32_t left = s->free + COLOUR_BITS - 30;
+    const int32_t left = s->free + bits - 30;
     return (uint32_t)signed_high_of(left >= 0 ? n * (1 << left) : n >> -left, s->per);
 }
 
@@ -71,19 +65,19 @@ static int is_gentle(const plane *p, uint32_t most_of)
 
 static uint32_t mean_of(int32_t f0, int32_t f1, int32_t f2) { return (uint32_t)(f0 + f1 + f2) * 21845u >> 16; }
 
-/* A triangle so steep that all of the change is within 1/16 px has its corners' mean. 1 where it is gentle. */
+/* A triangle so steep that all of the change is within 1/16 px has its corners' mean. 1 where it is gentle. Differences of
+ * depths are below 65,504 and of places below 15,361, as the guard has it: both products together fit 31 bits. */
 static int set_depth(plane *out, const slant *s, int32_t f0, int32_t f1, int32_t f2)
 {
-    const int32_t a = f1 - f0, b = f2 - f0;
-    const int64_t x = (int64_t)a * s->y2 - (int64_t)b * s->y1, y = (int64_t)b * s->x1 - (int64_t)a * s->x2;
+    const int32_t a = f1 - f0, b = f2 - f0, x = a * s->y2 - b * s->y1, y = b * s->x1 - a * s->x2;
     if ((x < 0 ? -x : x) >> DEPTH_STEEP > s->area || (y < 0 ? -y : y) >> DEPTH_STEEP > s->area) {
         out->at = mean_of(f0, f1, f2) << DEPTH_BITS;
         out->per_x = out->per_y = 0;
         return 1;
     }
     out->at = (uint32_t)f0 << DEPTH_BITS;
-    out->per_x = depth_share(s, x);
-    out->per_y = depth_share(s, y);
+    out->per_x = share(s, x, DEPTH_BITS);
+    out->per_y = share(s, y, DEPTH_BITS);
     return is_gentle(out, 1u << (DEPTH_GENTLE + DEPTH_BITS - 1 - s->size));
 }
 
@@ -97,8 +91,8 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
         return 1;
     }
     out->at = ((uint32_t)f0 << COLOUR_BITS) + 32768u;
-    out->per_x = colour_share(s, x);
-    out->per_y = colour_share(s, y);
+    out->per_x = share(s, x, COLOUR_BITS);
+    out->per_y = share(s, y, COLOUR_BITS);
     return is_gentle(out, 1u << (COLOUR_GENTLE + COLOUR_BITS - s->size));
 }
 
@@ -130,20 +124,13 @@ NOINLINE void fill_pixels(uint32_t *to, uint16_t *to_depth, int32_t count, const
     }
 }
 
-/* Numbers of the row at hand, in the middle of the band's first column; to the next pixel and row. */
+/* Numbers of the row at hand, in the middle of the picture's first column; to the next pixel and row. */
 typedef struct filler {
     const fixed_band *b;
     uint32_t depth, red, green, blue, depth_x, red_x, green_x, blue_x, depth_y, red_y, green_y, blue_y;
-    int32_t first, past; /* pixels across that it may cover */
+    int32_t left, right; /* pixels across that it may cover */
     int is_gentle;
 } filler;
-
-static void set_row(uint32_t *at, uint32_t *to_x, uint32_t *to_y, const plane *p, const lmb_fixed_vertex *c, int32_t y)
-{
-    *at = p->at + p->per_x * (uint32_t)(8 - c->x) + p->per_y * (uint32_t)(16 * y + 8 - c->y);
-    *to_x = p->per_x * 16u;
-    *to_y = p->per_y * 16u;
-}
 
 /* A number along a row. */
 typedef struct ramp {
@@ -189,22 +176,18 @@ static void fill_steep(const filler *f, int32_t x, int32_t count, uint32_t *to, 
     fill_pixels(to, to_depth, count, &s);
 }
 
-/* Rows whose middles lie on both edges, the left one first. */
-static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, int32_t past)
+/* Rows first .. end - 1 between two edges, the left one first, which go on to the row `end`. */
+static void fill_between(filler *f, lmb_fixed_edge *a, lmb_fixed_edge *b, int32_t first, int32_t end)
 {
-    const int32_t first = maxi((top + 7) >> 4, f->b->first), end = mini((past + 7) >> 4, f->b->past),
-                  width = f->b->width;
-    if (first >= end) {
-        return;
-    }
+    const int32_t width = f->b->width;
     span s = {0, f->depth_x, 0, ((uint32_t)colour_step(f->red_x) << 16) + (uint32_t)colour_step(f->blue_x),
               0, (uint32_t)colour_step(f->green_x)};
-    int32_t u = edge_at(a, 16 * first + 8), v = edge_at(b, 16 * first + 8);
+    int32_t u = a->at, v = b->at;
     uint32_t *to = f->b->pixel + width * (first - f->b->first);
     uint16_t *to_depth = f->b->depth + width * (first - f->b->first);
     for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width, to_depth += width) {
-        const int32_t x = maxi(first_pixel(u), f->first);
-        const int32_t count = mini(first_pixel(v), f->past) - x;
+        const int32_t x = maxi(first_pixel(u), f->left);
+        const int32_t count = mini(first_pixel(v), f->right) - x;
         if (count > 0 && f->is_gentle) {
             const uint32_t at = (uint32_t)x;
             s.depth = f->depth + f->depth_x * at;
@@ -216,19 +199,58 @@ static void fill_between(filler *f, const edge *a, const edge *b, int32_t top, i
         }
         f->depth += f->depth_y, f->red += f->red_y, f->green += f->green_y, f->blue += f->blue_y;
     }
+    a->at = u, b->at = v;
 }
 
-void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
-                    const lmb_fixed_vertex *c2)
+void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r)
+{
+    const int32_t first = maxi(r->first, b->first), past = mini(r->past, b->past), middle = within(r->middle, first, past);
+    if (first >= past) {
+        return;
+    }
+    const uint32_t down = (uint32_t)(first - r->first);
+    const uint32_t *y = r->per_y, *x = r->per_x;
+    filler f = {b, r->at[0], r->at[1], r->at[2], r->at[3], x[0], x[1], x[2], x[3], y[0], y[1], y[2], y[3],
+                r->left, r->right, r->is_gentle};
+    lmb_fixed_edge whole = r->whole;
+    if (down > 0) {
+        f.depth += y[0] * down, f.red += y[1] * down, f.green += y[2] * down, f.blue += y[3] * down;
+        whole.at += whole.slope * (int32_t)down;
+    }
+    if (first < middle) {
+        lmb_fixed_edge upper = r->upper;
+        upper.at += upper.slope * (int32_t)down;
+        fill_between(&f, r->is_whole_left ? &whole : &upper, r->is_whole_left ? &upper : &whole, first, middle);
+    }
+    if (middle < past) {
+        lmb_fixed_edge lower = r->lower;
+        lower.at += lower.slope * (middle - r->middle);
+        fill_between(&f, r->is_whole_left ? &whole : &lower, r->is_whole_left ? &lower : &whole, middle, past);
+    }
+}
+
+/* In the middle of a row. */
+static void set_edge(lmb_fixed_edge *out, const lmb_fixed_vertex *from, const lmb_fixed_vertex *to, int32_t row)
+{
+    const edge e = edge_of(from, to);
+    out->at = edge_at(&e, 16 * row + 8);
+    out->slope = e.slope;
+}
+
+static void set_number(lmb_fixed_ready *out, int i, const plane *p, const lmb_fixed_vertex *c)
+{
+    out->at[i] = p->at + p->per_x * (uint32_t)(8 - c->x) + p->per_y * (uint32_t)(16 * out->first + 8 - c->y);
+    out->per_x[i] = p->per_x * 16u;
+    out->per_y[i] = p->per_y * 16u;
+}
+
+int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
+                     const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past)
 {
     const lmb_fixed_vertex *top = c0, *middle = c1, *bottom = c2, *swap;
-    filler f;
     plane p;
     slant s = {c1->x - c0->x, c1->y - c0->y, c2->x - c0->x, c2->y - c0->y, 0, 0, 0, 0};
     int32_t area = s.x1 * s.y2 - s.x2 * s.y1;
-    if (area == 0) {
-        return;
-    }
     if (middle->y < top->y) {
         swap = top, top = middle, middle = swap;
     }
@@ -238,10 +260,13 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_f
     if (middle->y < top->y) {
         swap = top, top = middle, middle = swap;
     }
-    const int32_t y = maxi((top->y + 7) >> 4, b->first);
-    if (mini((bottom->y + 7) >> 4, b->past) <= y) {
-        return;
+    const int32_t y0 = maxi((top->y + 7) >> 4, first), y2 = mini((bottom->y + 7) >> 4, past),
+                  y1 = within((middle->y + 7) >> 4, y0, y2);
+    out->first = out->past = 0;
+    if (area == 0 || y0 >= y2) {
+        return 0;
     }
+    out->first = (int16_t)y0, out->middle = (int16_t)y1, out->past = (int16_t)y2;
     if (area < 0) {
         area = -area;
         s.x1 = -s.x1, s.y1 = -s.y1, s.x2 = -s.x2, s.y2 = -s.y2;
@@ -252,26 +277,24 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_f
     s.area = area;
     s.free = zeros_above((uint32_t)area);
     s.per = (int32_t)reciprocal((uint32_t)area << s.free);
-    f.b = b;
-    f.first = maxi((mini(c0->x, mini(c1->x, c2->x)) + 7) >> 4, 0);
-    f.past = mini((maxi(c0->x, maxi(c1->x, c2->x)) + 8) >> 4, b->width);
-    f.is_gentle = f.past - f.first <= GENTLE_ACROSS;
-    f.is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
-    set_row(&f.depth, &f.depth_x, &f.depth_y, &p, c0, y);
-    f.is_gentle &= set_colour(&p, &s, c0->colour[0], c1->colour[0], c2->colour[0]);
-    set_row(&f.red, &f.red_x, &f.red_y, &p, c0, y);
-    f.is_gentle &= set_colour(&p, &s, c0->colour[1], c1->colour[1], c2->colour[1]);
-    set_row(&f.green, &f.green_x, &f.green_y, &p, c0, y);
-    f.is_gentle &= set_colour(&p, &s, c0->colour[2], c1->colour[2], c2->colour[2]);
-    set_row(&f.blue, &f.blue_x, &f.blue_y, &p, c0, y);
-    const edge whole = edge_of(top, bottom);
-    const int32_t turn = (middle->x - top->x) * (bottom->y - top->y) - (bottom->x - top->x) * (middle->y - top->y);
-    if (middle->y > 16 * b->first) {
-        const edge upper = edge_of(top, middle);
-        fill_between(&f, turn > 0 ? &whole : &upper, turn > 0 ? &upper : &whole, top->y, middle->y);
+    out->left = (int16_t)maxi((mini(c0->x, mini(c1->x, c2->x)) + 7) >> 4, 0);
+    out->right = (int16_t)mini((maxi(c0->x, maxi(c1->x, c2->x)) + 8) >> 4, width);
+    int is_gentle = out->right - out->left <= GENTLE_ACROSS;
+    is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
+    set_number(out, 0, &p, c0);
+    for (int i = 0; i < 3; ++i) {
+        is_gentle &= set_colour(&p, &s, c0->colour[i], c1->colour[i], c2->colour[i]);
+        set_number(out, 1 + i, &p, c0);
     }
-    if (middle->y < 16 * b->past) {
-        const edge lower = edge_of(middle, bottom);
-        fill_between(&f, turn > 0 ? &whole : &lower, turn > 0 ? &lower : &whole, middle->y, bottom->y);
+    out->is_gentle = (uint8_t)is_gentle;
+    out->is_whole_left =
+        (middle->x - top->x) * (bottom->y - top->y) - (bottom->x - top->x) * (middle->y - top->y) > 0;
+    set_edge(&out->whole, top, bottom, y0);
+    if (y0 < y1) {
+        set_edge(&out->upper, top, middle, y0);
     }
+    if (y1 < y2) {
+        set_edge(&out->lower, middle, bottom, y1);
+    }
+    return 1;
 }

@@ -280,6 +280,7 @@ lmb_status lmb_fixed_light(lmb_fixed_frame *f)
         f->bounces < 0 || f->bounces > 3 || !is_lamp(&f->lamp)) {
         return LMB_ERR_ARG;
     }
+    f->ready_count = 0;
     set_lamp(&l, f->scene, &f->lamp);
     const int32_t down = f->bounces > 0 ? solve(sent, f, &l) : 0;
     for (uint32_t i = 0; i < f->scene->vertices; ++i) {

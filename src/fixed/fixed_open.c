@@ -131,13 +131,15 @@ lmb_status lmb_fixed_open(lmb_fixed *out, const void *data, size_t bytes)
     return LMB_OK;
 }
 
+static size_t groups_of(uint32_t seen_cap) { return (seen_cap + LMB_FIXED_GROUP - 1) / LMB_FIXED_GROUP; }
+
 size_t lmb_fixed_memory(const lmb_fixed *scene, uint32_t seen_cap)
 {
     if (scene == NULL || scene->receiver == NULL || seen_cap > LMB_FIXED_MAX_TRIANGLES) {
         return 0;
     }
-    return sizeof(uint32_t[3]) * scene->elements +
-           (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4 + sizeof(lmb_fixed_seen) * seen_cap;
+    return sizeof(uint32_t[3]) * scene->elements + (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4 +
+           sizeof(lmb_fixed_rows) * groups_of(seen_cap) + sizeof(lmb_fixed_seen) * seen_cap;
 }
 
 lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_t seen_cap, void *memory, size_t bytes)
@@ -158,8 +160,12 @@ lmb_status lmb_fixed_lay(lmb_fixed_frame *frame, const lmb_fixed *scene, uint32_
     at += sizeof(uint32_t[3]) * scene->elements;
     frame->vertex = (lmb_fixed_vertex *)(void *)at;
     at += (sizeof(lmb_fixed_vertex) * scene->vertices + 3) / 4 * 4;
+    frame->group = (lmb_fixed_rows *)(void *)at;
+    at += sizeof(lmb_fixed_rows) * groups_of(seen_cap);
     frame->seen = (lmb_fixed_seen *)(void *)at;
     frame->seen_cap = seen_cap;
     frame->seen_count = 0;
+    frame->ready = NULL;
+    frame->ready_cap = frame->ready_count = 0;
     return LMB_OK;
 }

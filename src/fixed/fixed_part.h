@@ -51,8 +51,12 @@ typedef struct fixed_band {
 enum { FIXED_CORNERS = 9 };
 int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle);
 
-/* lmb_fixed_fill: corners clockwise or not; within a guard of 12 times the sides in 1/16 px. */
-void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
-                    const lmb_fixed_vertex *c2);
+/* lmb_fixed_set_up: corners clockwise or not, within a guard of 12 times the sides in 1/16 px; of a picture so wide, the
+ * rows first .. past - 1. 0, and no rows, where it covers none. */
+int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
+                     const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past);
+
+/* lmb_fixed_fill: the rows of it that the band has. */
+void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r);
 
 #endif

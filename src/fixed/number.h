@@ -21,10 +21,11 @@ static inline int32_t mini(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t maxi(int32_t a, int32_t b) { return a > b ? a : b; }
 static inline int32_t within(int32_t v, int32_t low, int32_t high) { return v < low ? low : v > high ? high : v; }
 
-/* Zeros above the highest 1 of a number that is not 0. */
+/* Zeros above the highest 1 of a number that is not 0. By an instruction where the processor has one. */
 static inline int32_t zeros_above(uint32_t v)
 {
-#if defined(__GNUC__) && !(defined(__arm__) && (!defined(__ARM_ARCH) || __ARM_ARCH < 5)) && !defined(__ARM_ARCH_6M__)
+#if defined(__GNUC__) && !(defined(__arm__) && (!defined(__ARM_ARCH) || __ARM_ARCH < 5)) && \
+    !defined(__ARM_ARCH_6M__) && !(defined(__mips) && __mips < 32)
     return __builtin_clz((unsigned)v) - (int32_t)(8 * sizeof(unsigned) - 32);
 #else
     int32_t n = 0;

@@ -1,4 +1,5 @@
-/* fuzz_fixed.c: a blob of light by vertex opened, and where it opens, frames of it in bands of two heights. */
+/* fuzz_fixed.c: a blob of light by vertex opened, and where it opens, frames of it in bands of two heights, prepared
+ * or not. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,9 +8,10 @@
 #include "../small_fixed.h"
 #include "fuzz.h"
 
-enum { WIDTH = 48, HEIGHT = 32 };
+enum { WIDTH = 48, HEIGHT = 32, READY = 64 };
 
 static uint32_t pixel[2][WIDTH * HEIGHT];
+static lmb_fixed_ready ready[READY];
 static uint16_t depth[WIDTH * HEIGHT];
 
 static void draw(lmb_fixed_frame *f, int which)
@@ -21,6 +23,9 @@ static void draw(lmb_fixed_frame *f, int which)
     fuzz_require(lmb_fixed_light(f) == LMB_OK);
     f->pixel = pixel[0];
     fuzz_require(lmb_fixed_band(f, 0, HEIGHT) == LMB_OK);
+    f->ready = ready;
+    f->ready_cap = which < 5 ? READY : READY / 8;
+    fuzz_require(lmb_fixed_prepare(f) == LMB_OK);
     for (int32_t y = 0; y < HEIGHT; y += 5) {
         f->pixel = pixel[1] + WIDTH * y;
         fuzz_require(lmb_fixed_band(f, y, y + 5 < HEIGHT ? y + 5 : HEIGHT) == LMB_OK);

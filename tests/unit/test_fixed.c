@@ -70,13 +70,21 @@ static lmb_fixed_vertex random_corner(test_rng *rng)
     return c;
 }
 
+static void fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1, const lmb_fixed_vertex *c2)
+{
+    lmb_fixed_ready r;
+    if (lmb_fixed_set_up(&r, c0, c1, c2, b->width, b->first, b->past)) {
+        lmb_fixed_fill(b, &r);
+    }
+}
+
 /* Which pixels a triangle covers: of one depth, so that all are drawn. */
 static void cover(uint8_t *count, lmb_fixed_vertex a, lmb_fixed_vertex b, lmb_fixed_vertex c)
 {
     const fixed_band band = {pixel, depth, SIDE, 0, SIDE};
     clear();
     a.depth = b.depth = c.depth = 1000;
-    lmb_fixed_fill(&band, &a, &b, &c);
+    fill(&band, &a, &b, &c);
     for (int i = 0; i < SIDE * SIDE; ++i) {
         count[i] = (uint8_t)(count[i] + (depth[i] != 0));
     }
@@ -126,7 +134,7 @@ static void test_planes(void)
             c[2].y = (int16_t)((c[0].y + c[1].y) / 2);
         }
         clear();
-        lmb_fixed_fill(&band, &c[0], &c[1], &c[2]);
+        fill(&band, &c[0], &c[1], &c[2]);
         const double x1 = c[1].x - c[0].x, y1 = c[1].y - c[0].y, x2 = c[2].x - c[0].x, y2 = c[2].y - c[0].y,
                      area = x1 * y2 - x2 * y1;
         for (int i = 0; i < SIDE * SIDE; ++i) {
@@ -171,10 +179,14 @@ static void make_frame(lmb_fixed *s, lmb_fixed_frame *f, int which)
     f->background = 0xff00ffu;
 }
 
-/* From within a closed room no pixel is left, near planes and guards or not; bands of any height are the picture's. */
+static lmb_fixed_ready ready[256];
+
+/* From within a closed room no pixel is left, near planes and guards or not; bands of any height are the picture's, by as
+ * many prepared triangles as there is memory for. */
 static void test_frames(void)
 {
     static const int32_t rows[4] = {1, 7, 16, 33};
+    static const uint32_t caps[4] = {0, 3, 10, 256};
     lmb_fixed s;
     lmb_fixed_frame f;
     for (int which = 0; which < 8; ++which) {
@@ -186,12 +198,23 @@ static void test_frames(void)
             left += picture[0][i] == f.background;
         }
         for (int k = 0; k < 4; ++k) {
+            f.ready = ready;
+            f.ready_cap = caps[(k + which) % 4];
+            memset(ready, 0x55, sizeof ready);
+            memset(picture[1], 0x55, sizeof picture[1]);
+            CHECK(lmb_fixed_prepare(&f) == LMB_OK);
+            CHECK(f.ready_count <= f.ready_cap && (f.ready_cap < f.seen_count || f.ready_count == f.seen_count));
             for (int32_t y = 0; y < HEIGHT; y += rows[k]) {
                 f.pixel = picture[1] + WIDTH * y;
                 CHECK(lmb_fixed_band(&f, y, mini(y + rows[k], HEIGHT)) == LMB_OK);
             }
             differ += memcmp(picture[0], picture[1], sizeof picture[0]) != 0;
         }
+        f.background = LMB_FIXED_COVERED;
+        memset(picture[1], 0x55, sizeof picture[1]);
+        f.pixel = picture[1];
+        CHECK(lmb_fixed_band(&f, 0, HEIGHT) == LMB_OK);
+        differ += memcmp(picture[0], picture[1], sizeof picture[0]) != 0;
         CHECK_MSG(left == 0 && differ == 0, "frame %d: %d pixels left, %d band heights differ", which, left, differ);
     }
 }
@@ -373,7 +396,7 @@ static void test_arguments(void)
     CHECK(lmb_fixed_place(&s, at) == 1 && lmb_fixed_place(&s, corner) == 0 && lmb_fixed_place(&s, far_away) == 0);
     CHECK(lmb_fixed_band(&f, 0, HEIGHT + 1) == LMB_ERR_ARG && lmb_fixed_band(&f, 4, 4) == LMB_ERR_ARG);
     f.view.width = LMB_FIXED_MAX_SIDE + 1;
-    CHECK(lmb_fixed_transform(&f) == LMB_ERR_ARG);
+    CHECK(lmb_fixed_transform(&f) == LMB_ERR_ARG && lmb_fixed_prepare(&f) == LMB_ERR_ARG);
     f.view.width = WIDTH;
     f.view.axis[0][0] = 32768;
     CHECK(lmb_fixed_transform(&f) == LMB_ERR_ARG);

@@ -1,0 +1,26 @@
+/* ram_program.c: memory and end of a program that lies in a console's RAM, with its stack at the end of it. */
+#include "../demo/room.h"
+#include "../demo/room_port.h"
+#include "../port.h"
+#include "consoles.h"
+
+/* What neither the program nor the stack has. */
+void *port_memory(size_t *bytes)
+{
+    *bytes = (size_t)((uintptr_t)stack_end - (uintptr_t)bss_end);
+    return bss_end;
+}
+
+void port_ram_used(port_ram *out)
+{
+    const uint32_t *deepest = stack_end;
+    while (deepest < stack_top && *deepest == STACK_PAINT)
+        ++deepest;
+    out->data = (uint32_t)((uintptr_t)bss_begin - (uintptr_t)image_begin);
+    out->bss = (uint32_t)((uintptr_t)bss_end - (uintptr_t)bss_begin);
+    out->bss += (uint32_t)room_bytes_kept(port_width, port_height);
+    out->stack = (uint32_t)((uintptr_t)stack_top - (uintptr_t)deepest);
+    out->size = console_ram_bytes;
+}
+
+void port_leave(uint32_t status) { port_put(status ? "left: failed\n" : "left: done\n"); }
