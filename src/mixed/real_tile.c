@@ -23,6 +23,9 @@ static int32_t frame_side(int32_t *at, float centre, int32_t pixels)
     return 2 * *at + twice;
 }
 
+/* Half of a picture at 1 m: a focal length near the ends of binary32 leaves none. */
+static int is_field(float half) { return half > 1e-30f && half < 1e30f; }
+
 lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pinhole *camera, const lmb_axes *axes)
 {
     if (out == NULL || x0 == NULL || y0 == NULL || camera == NULL || axes == NULL ||
@@ -41,7 +44,10 @@ lmb_status lmb_photo_view(lmb_view *out, int32_t *x0, int32_t *y0, const lmb_pin
     out->frame_height = frame_side(y0, camera->cy, camera->height);
     out->half_width = 0.5f * (float)out->frame_width / camera->fx;
     out->half_height = 0.5f * (float)out->frame_height / camera->fy;
-    return out->frame_width <= LMB_MAX_FRAME && out->frame_height <= LMB_MAX_FRAME ? LMB_OK : LMB_ERR_ARG;
+    return out->frame_width <= LMB_MAX_FRAME && out->frame_height <= LMB_MAX_FRAME && is_field(out->half_width) &&
+                   is_field(out->half_height)
+               ? LMB_OK
+               : LMB_ERR_ARG;
 }
 
 /* The corners of a cell are on its plane. */

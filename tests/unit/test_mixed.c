@@ -353,6 +353,20 @@ static void test_view(void)
     }
 }
 
+/* Focal lengths that leave no field of view, or one without end. */
+static void test_no_view(void)
+{
+    static const float focal[4] = {3e33f, INFINITY, 1e-31f, 1e-42f};
+    const lmb_axes axes = lmb_axes_upright((lmb_vec3){0, 1, 0});
+    for (int i = 0; i < 8; ++i) {
+        lmb_pinhole c = camera;
+        lmb_view v;
+        int32_t x0, y0;
+        *(i & 1 ? &c.fx : &c.fy) = focal[i / 2];
+        CHECK_MSG(lmb_photo_view(&v, &x0, &y0, &c, &axes) == LMB_ERR_ARG, "%d: %g", i & 1, (double)focal[i / 2]);
+    }
+}
+
 /* --- environment -------------------------------------------------------------------------------------------------- */
 
 static void test_half(void)
@@ -703,6 +717,7 @@ void test_mixed(void)
     test_many_planes(s);
     test_mesh(s);
     test_view();
+    test_no_view();
     test_half();
     test_fold();
     test_brightest();

@@ -47,7 +47,7 @@ int picture_option(const char *text, void *at) { return picture_format(*(const c
 #define FADES       0.15f  /* how soon bright colours are white: Khronos PBR Neutral's desaturation */
 #define MEDIAN_EV   -1.25f  /* half of the pixels are darker than 0.42 */
 #define SHOULDER_EV 0.375f /* the brightest hundredth lies on the shoulder: middle tones gain that */
-#define DARKEST_EV  -5.5f  /* half of them are brighter than code 40 of 255, though a lamp beside a wall is then white */
+#define DARKEST_EV  -5.5f  /* half of them are brighter than code 40 of 255, though the brightest are then white */
 
 enum { STEPS = 512, MIDDLE = 256, STEPS_PER_STOP = 8 };
 
