@@ -19,26 +19,42 @@ done
 find src include tools platform -type f \( -name '*.[ch]' -o -name '*.inl' -o -name '*.inc' \) | sort > "$tmp/code"
 find . -name '*.md' ! -path './build/*' ! -path './.git/*' | sed 's,^\./,,' | sort > "$tmp/documents"
 
-# The texts: NEWS.md without its table of old names.
-while read -r f; do
-    case $f in
-    NEWS.md) awk '/^## Old names/ { old = 1 } /^## / && !/^## Old names/ { old = 0 } { print old ? "" : $0 }' "$f" ;;
-    *) cat "$f" ;;
-    esac > "$tmp/text"
-    grep -nwF -f "$tmp/name" "$tmp/text" | sed "s|^|$f:|" >> "$tmp/found-name"
-    grep -nwF -e NOTHING-LIKE-THIS -f "$tmp/option" "$tmp/text" | sed "s|^|$f:|" >> "$tmp/found-option"
-    case $f in
-    *.md) ;;
-    *)
-        awk -f "$dir/bare_code.awk" "$tmp/text" | grep -nwF -f "$tmp/code-name" | sed "s|^|$f:|" >> "$tmp/found-code"
-        ;;
-    esac
-    # One line a file, without the marks of comments, so that a phrase is found wherever its line ends.
-    sed -e 's,^ *\(/\*\|\*\|//\) ,,' -e 's,^ *,,' "$tmp/text" | tr '\n' ' ' | tr -s ' ' > "$tmp/line"
-    grep -oF -f "$tmp/phrase" "$tmp/line" | sort | uniq -c | sed "s|^|$f: |" >> "$tmp/found-phrase"
-done <<END
-$(cat "$tmp/code" "$tmp/documents")
-END
+# The texts in one, and beside each of its lines where it comes from: a process a file would take minutes.
+# NEWS.md goes without its table of old names.
+texts() { # texts LIST PROGRAM: the files that LIST names, by an awk program that prints lines, and `where` beside them.
+    : > "$tmp/where"
+    tr '\n' '\0' < "$1" | xargs -0 awk -v where="$tmp/where" "$2" > "$tmp/text"
+}
+# found KIND PATTERNS OPTION...: lines of the text that have one of the patterns, and where.
+found() {
+    kind=$1 patterns=$2
+    shift 2
+    grep -n "$@" -F -e NOTHING-LIKE-THIS -f "$patterns" "$tmp/text" |
+        awk -v where="$tmp/where" '
+            { at = $0; sub(/:.*/, "", at); sub(/^[0-9]*:/, "") }
+            { while (line < at && (getline place < where) > 0) ++line; print place ":" $0 }' >> "$tmp/found-$kind"
+}
+cat "$tmp/code" "$tmp/documents" > "$tmp/all"
+texts "$tmp/all" '
+    FNR == 1 { old = 0 }
+    FILENAME ~ /NEWS\.md$/ && /^## / { old = /^## Old names/ }
+    { print old ? "" : $0; print FILENAME ":" FNR > where }'
+found name "$tmp/name" -w
+found option "$tmp/option" -w
+# One line a file, without the marks of comments, so that a phrase is found wherever its line ends.
+: > "$tmp/lines"
+awk -v where="$tmp/where" -v lines="$tmp/lines" '
+    { getline place < where; sub(/:[0-9]*$/, "", place) }
+    place != file { if (NR > 1) print ""; file = place; print file > lines }
+    { sub(/^ *(\/\*|\*|\/\/) /, ""); sub(/^ */, ""); gsub(/ +/, " "); printf "%s ", $0 }
+    END { print "" }' "$tmp/text" > "$tmp/line"
+mv "$tmp/line" "$tmp/text"
+mv "$tmp/lines" "$tmp/where"
+found phrase "$tmp/phrase" -o
+texts "$tmp/code" "FNR == 1 { inside = 0 }
+    $(cat "$dir/bare_code.awk")
+    { print FILENAME \":\" FNR > where }"
+found code "$tmp/code-name" -w
 
 cat "$tmp/code" "$tmp/documents" | sed 's,.*/,,' | grep -xF -f "$tmp/file" > "$tmp/found-file"
 for kind in name code option file phrase; do
