@@ -31,7 +31,7 @@ found() {
     shift 2
     grep -n "$@" -F -e NOTHING-LIKE-THIS -f "$patterns" "$tmp/text" |
         awk -v where="$tmp/where" '
-            { at = $0; sub(/:.*/, "", at); sub(/^[0-9]*:/, "") }
+            { at = $0 + 0; sub(/^[0-9]*:/, "") }
             { while (line < at && (getline place < where) > 0) ++line; print place ":" $0 }' >> "$tmp/found-$kind"
 }
 cat "$tmp/code" "$tmp/documents" > "$tmp/all"
