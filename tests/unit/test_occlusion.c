@@ -1,5 +1,6 @@
 /* test_occlusion.c: what stands between a tile and a point, against all triangles in binary64; what must not leak. */
 #include <math.h>
+#include <stdlib.h>
 
 #include "../../src/occlusion/traversal.h"
 #include "../world.h"
@@ -578,6 +579,45 @@ static void one_tree_everywhere(void)
     CHECK_MSG(hash == 0x3be78654u, "%08x", (unsigned)hash);
 }
 
+/* More triangles than 16 bits count: eight stacks in a row keep their ids, each where its instance stands. */
+static void many_ids(void)
+{
+    enum { EACH = 9000, STACKS = 8, ALL = EACH * STACKS };
+    test_rng r = {105};
+    lmb_instance stack[STACKS];
+    lmb_bvh b;
+    const size_t bytes = lmb_bvh_bytes(ALL);
+    void *room = malloc(bytes);
+    uint8_t *seen = calloc(ALL + 1, 1);
+    uint32_t wrong = 0;
+    world_begin(1, 1, 1);
+    for (int i = 0; i < EACH; ++i) {
+        small_triangle(random_point(&r, 1.0f), 0.05f, &r);
+    }
+    CHECK(world_end() == LMB_OK && room != NULL && seen != NULL);
+    lmb_scene scene = world.scene;
+    for (uint32_t i = 0; i < STACKS; ++i) {
+        stack[i] = world.instance[0];
+        stack[i].to_world.m[12] = 4.0f * (float)i;
+        stack[i].first_id = 1 + EACH * i;
+    }
+    scene.instances = stack;
+    scene.instance_count = STACKS;
+    CHECK(lmb_bvh_init(&b, ALL, room, bytes) == LMB_OK && lmb_bvh_build(&b, &scene) == LMB_OK);
+    for (uint32_t i = 0; i < b.triangle_count; ++i) {
+        const uint32_t id = b.triangle[i].id, own = (id - 1) % EACH, at = (id - 1) / EACH;
+        if (id == 0 || id > ALL || seen[id]++ != 0) {
+            ++wrong;
+        } else {
+            wrong += b.triangle[i].corner[0].x != world.corners[own][0][0] + 4.0f * (float)at;
+        }
+    }
+    CHECK_MSG(b.triangle_count == ALL && wrong == 0, "%u triangles, %u wrong", (unsigned)b.triangle_count,
+              (unsigned)wrong);
+    free(seen);
+    free(room);
+}
+
 /* Five triangles whose best cut no plane across an axis makes: two crossing pairs. The tree's boxes are the pairs'. */
 static void few_by_every_cut(void)
 {
@@ -625,6 +665,7 @@ void test_occlusion(void)
     hull_is_tight();
     hostile_trees();
     one_tree_everywhere();
+    many_ids();
     few_by_every_cut();
     far_apart_among_leaves();
     wide_among_leaves();
