@@ -205,14 +205,15 @@ $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: $(wildcard $(B)/baked.inc)
 $(B)/obj/platform/cortex-m/main_baked.o $(B)/obj/platform/cortex-m/main_gouraud.o: COMPILE += -I$(B)
 
-# The words of baked light for the room by pixel, by this machine's tool. PIXEL_FRAMES of a port.mk: 1 without an FPU.
+# The words of baked light for the room by pixel, by this machine's tool. Of a port.mk: PIXEL_FRAMES, 1 without an FPU;
+# ENDIAN, big or little.
 HOST_CC ?= cc
 $(B)/room_pixel.inc: $(sort $(wildcard tools/bake/*.c tools/demo/*.c src/transfer/*.c))
 	@mkdir -p $(@D)
 	+@$(MAKE) build/lambent PORT=host CONFIG=default BUILD=build CC='$(HOST_CC)' CFLAGS=-O2 LDFLAGS= ROOM= >$@.log
-	@build/lambent bake demo -o $@.lmt --endian little --elements 256 --receivers 300 --cluster 0.6 --error 0.00065 \
-	    --once >>$@.log
-	@od -An -v -tx4 --endian=little $@.lmt | sed 's/ *\([0-9a-f][0-9a-f]*\)/0x\1,/g' >$@
+	@build/lambent bake demo -o $@.lmt --endian $(or $(ENDIAN),little) --elements 256 --receivers 300 \
+	    --cluster 0.6 --error 0.00065 --once >>$@.log
+	@od -An -v -tx4 --endian=$(or $(ENDIAN),little) $@.lmt | sed 's/ *\([0-9a-f][0-9a-f]*\)/0x\1,/g' >$@
 $(B)/obj/platform/demo/room_pixel.o: $(B)/room_pixel.inc
 $(B)/obj/platform/demo/room_pixel.o: COMPILE += -I$(B)
 $(B)/obj/platform/demo/main_pixel.o: COMPILE += -DPIXEL_FRAMES=$(or $(PIXEL_FRAMES),3)

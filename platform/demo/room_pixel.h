@@ -16,7 +16,7 @@ enum {
     ROOM_PIXEL_STRIP = 16, /* rows whose depth and ids are kept: the scene is drawn once for each strip */
     ROOM_PIXEL_MAP = 32,   /* texels of the side of each of the shadow map's six faces */
     ROOM_PIXEL_MAP_WORDS = ROOM_PIXEL_MAP * ROOM_PIXEL_MAP * 6 * 6 / 4, /* depth and 16-bit ids */
-    ROOM_PIXEL_LIGHT_WORDS = 6144
+    ROOM_PIXEL_LIGHT_WORDS = 6400
 };
 
 /* Words of memory for a picture `width` px wide, which is a multiple of 8: a band of colours, a strip's depth and

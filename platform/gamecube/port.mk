@@ -11,6 +11,7 @@ PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,n
                 -Wl,--no-warn-rwx-segments -T platform/gamecube/gamecube.ld
 PORT_LDLIBS  := -lgcc
 RUN          := false
+ENDIAN       := big
 
 ROOM_SRC     := $(addprefix platform/gamecube/,port_gamecube.c row_gamecube.c) platform/consoles/ram_program.c $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.dol

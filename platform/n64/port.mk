@@ -11,6 +11,7 @@ PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,n
                 -Wl,--no-warn-rwx-segments -T platform/n64/n64.ld
 PORT_LDLIBS  :=
 RUN          := false
+ENDIAN       := big
 
 ROOM_SRC     := $(addprefix platform/n64/,port_n64.c row_n64.c) platform/consoles/ram_program.c $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.z64
