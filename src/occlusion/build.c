@@ -76,11 +76,8 @@ static inline void span_join(span *inout, span with)
 
 static inline float half_area(const span *s)
 {
-    float d[4];
-    for (int c = 0; c < 4; ++c) {
-        d[c] = s->high[c] - s->low[c];
-    }
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+    const float x = s->high[0] - s->low[0], y = s->high[1] - s->low[1], z = s->high[2] - s->low[2];
+    return x * y + y * z + z * x;
 }
 
 static span span_of(const span *item, uint32_t count)
