@@ -1,5 +1,5 @@
 /* transfer.h: bounced light of scenes that do not move, from a file that was baked once (`lambent bake`): lights and
- * cameras may move. A 640x480 frame then takes 1.5 to 1.9 times as long as by direct light alone. Experimental.
+ * cameras may move. A 640x480 frame then takes up to 3.3 times as long as by direct light alone. Experimental.
  *
  * The file holds, of all surfaces: *elements*, pieces that send light; *receivers*, points that receive it; and
  * *links*, which say how much of what a node of elements sends arrives at a receiver. Visibility is in the links, so

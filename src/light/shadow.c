@@ -129,8 +129,9 @@ static int ask_triangle(const lmb_shadow_query *query, uint32_t id, const lmb_re
         return BESIDE;
     }
     const int answer = ask_from(&n, query, &t, r->position, at, noise);
-    if ((answer & THROUGH) != 0 && query->view->kind == LMB_PERSPECTIVE) {
-        const lmb_vec3 way = sub3(query->view->eye, r->position);
+    if ((answer & THROUGH) != 0) {
+        const lmb_view *v = query->view;
+        const lmb_vec3 way = v->kind == LMB_PERSPECTIVE ? sub3(v->eye, r->position) : v->back;
         const float change = absf(dot3(n, way)), length = sqrtf(dot3(n, n));
         if (16.0f * change >= length * length3(way) &&
             ask_from(&n, query, &t, add3(r->position, mul3(way, 4.0f * noise * length / change)), at, noise) == SHADOWS) {

@@ -195,21 +195,27 @@ static lmb_many_lights white_sky(void)
     return tree;
 }
 
-/* The middle pixel's irradiance, looked down at from above `at`. */
-static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, int32_t samples)
+/* A frame of the light that arrives from a sky. */
+static void draw_sky_light(lmb_frame_settings *s, const lmb_many_lights *sky)
 {
     static lmb_render r;
-    lmb_view view;
-    CHECK(lmb_view_look_at(&view, add3(at, vec3(0, from, 0)), at, Z, 0.02f, 16, 16) == LMB_OK);
-    lmb_frame_settings s = draft_settings(&world.scene, view);
-    s.many_lights = sky;
-    s.show = LMB_SHOW_INDIRECT;
-    s.samples = samples;
-    lay_out(&s);
+    s->many_lights = sky;
+    s->show = LMB_SHOW_INDIRECT;
+    lay_out(s);
     frame.gather_many_lights = 1;
     frame.many_lights_error = 0.01f;
     memset(&r, 0, sizeof r);
     CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+}
+
+/* The middle pixel's irradiance, looked down at from above `at`. */
+static float irradiance_at(const lmb_many_lights *sky, lmb_vec3 at, float from, int32_t samples)
+{
+    lmb_view view;
+    CHECK(lmb_view_look_at(&view, add3(at, vec3(0, from, 0)), at, Z, 0.02f, 16, 16) == LMB_OK);
+    lmb_frame_settings s = draft_settings(&world.scene, view);
+    s.samples = samples;
+    draw_sky_light(&s, sky);
     const float *p = (const float *)frame.out.data + 3 * (8 * 16 + 8);
     return p[1] * (float)PI / 0.01f; /* the albedo: next to nothing bounces */
 }
@@ -262,7 +268,6 @@ static void check_window(const lmb_many_lights *sky, const char *what, float hal
 /* A torus under the sky, by few samples; all lengths times `scale`. */
 static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
 {
-    static lmb_render r;
     static torus t;
     lmb_view view;
     uint64_t hash = UINT64_C(0xcbf29ce484222325);
@@ -277,14 +282,8 @@ static uint64_t scaled_hash(const lmb_many_lights *sky, float scale)
     lmb_scene_bounds(&t.scene.bounds_min, &t.scene.bounds_max, &t.scene);
     CHECK(lmb_view_look_at(&view, mul3(vec3(3, 3, 5), scale), mul3(vec3(0, 0.5f, 0), scale), Y, 0.7f, 64, 48) == LMB_OK);
     lmb_frame_settings s = draft_settings(&t.scene, view);
-    s.many_lights = sky;
-    s.show = LMB_SHOW_INDIRECT;
     s.gather_step = LMB_GATHER_ADAPTIVE;
-    lay_out(&s);
-    frame.gather_many_lights = 1;
-    frame.many_lights_error = 0.01f;
-    memset(&r, 0, sizeof r);
-    CHECK(lmb_render_frame(&r, &frame) == LMB_OK);
+    draw_sky_light(&s, sky);
     for (int32_t y = 0; y < 48; ++y) {
         const uint8_t *row = (const uint8_t *)frame.out.data + y * frame.out.stride_bytes;
         for (int i = 0; i < 64 * 12; ++i) {

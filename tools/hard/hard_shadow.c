@@ -207,9 +207,17 @@ static void foot_of_wall(hard_list *l)
         hard_look(s, eye, dvec_of(1e-6 * i, 1.0, 0), 2.0 * 180.0 / PI * atan(0.25 * SIDE / 16.5), SIDE);
         hard_sun(s, dvec_add(dvec_mul(in, 0.8), dvec_of(0, -0.6, 0)), 3.0);
         hard_end(s);
-        const shadow_count n = judge(s, HARD_MAP, sees_by_triangles);
-        pixels += n.lit + n.dark;
-        specks += n.leaks + n.lit - n.acne;
+        for (int kind = LMB_PERSPECTIVE; kind <= LMB_ORTHOGRAPHIC; ++kind) {
+            if (kind == LMB_ORTHOGRAPHIC) { /* half a pixel up, a row's middles see the foot */
+                const dvec up = dvec_mul(dvec_sub(dvec_of(0, 2, 0), in), 2.0 / SIDE / sqrt(5.0));
+                hard_look(s, dvec_add(dvec_add(dvec_mul(in, 2.0), dvec_of(0, 1.0, 0)), up), up, 60.0, SIDE);
+                s->view.kind = LMB_ORTHOGRAPHIC;
+                s->view.half_width = s->view.half_height = 2.0f;
+            }
+            const shadow_count n = judge(s, HARD_MAP, sees_by_triangles);
+            pixels += n.lit + n.dark;
+            specks += n.leaks + n.lit - n.acne;
+        }
     }
     hard_put(l, HARD_EXACT, "the foot of a wall whose back is lit: lit", pixels > 0.0 ? specks : HUGE_VAL, 0, "px");
 }
