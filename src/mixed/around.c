@@ -105,7 +105,8 @@ size_t lmb_around_points(lmb_texel *out, size_t cap, const lmb_scene *scene, uin
     if (scene == NULL || env == NULL || !(leaf > 0.0f) || (out == NULL && cap > 0)) {
         return 0;
     }
-    for (uint32_t i = 0; i < count; ++i) {
+    const uint32_t all = lmb_scene_triangles(scene);
+    for (uint32_t i = 0; i < count && first_id + i <= all; ++i) {
         lmb_triangle t;
         if (lmb_triangle_fetch(&t, scene, first_id + i)) {
             n += put_triangle(n < cap ? out + n : NULL, n < cap ? cap - n : 0, &t, scene, leaf, env);
