@@ -82,9 +82,10 @@ static const option_table table = {
     .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds bounced "
              "light many times faster than without, wherever lights and camera are. Colours may change, too.\n"
              "Surfaces stay dark that no light would reach from any light or camera of the scene, after any number of "
-             "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is. Of a scene "
-             "with more than 64 cameras the first 64 count.\n"
-             "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
+             "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is. Of a "
+             "scene with more than 64 cameras the first 64 count.\n"
+             "Takes seconds to minutes, and memory while it does: 2 bytes x elements x receivers, 6 bytes x elements x "
+             "clusters, and up to 100 MB beside the scene's own; by default half a gigabyte for a room.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
                 "  lambent render demo --transfer demo.lmt -o demo.png\n",
