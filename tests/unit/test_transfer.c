@@ -601,6 +601,34 @@ static void is_pinned(const char *name, const file_bytes *baked, uint64_t wanted
     CHECK_MSG(hash == wanted, "what was baked of %s is 0x%016llx", name, (unsigned long long)hash);
 }
 
+/* A panel whose corners, and the middle of its longest edge, lie in blocks; places in the air do, too, where a small
+ * block moves. */
+static void bytes_of_buried(void)
+{
+    static const uint32_t small[1] = {1};
+    bake_settings set;
+    world_begin(0.7f, 0.5f, 0.3f);
+    world_box(vec3(0, 0, 0), 1.5f);
+    world_triangle(vec3(-1, -0.6f, -0.8f), vec3(0, -0.6f, 1), vec3(1, -0.6f, -0.8f));
+    world_box(vec3(-1, -0.6f, -0.8f), 0.3f);
+    world_box(vec3(1, -0.6f, -0.8f), 0.3f);
+    world_box(vec3(0, -0.6f, 1), 0.3f);
+    world_box(vec3(0, -0.6f, -0.8f), 0.3f);
+    world_part();
+    world_box(vec3(0, 0.8f, 0), 0.1f);
+    world.scene.lights = &box_light;
+    world.scene.light_count = 1;
+    CHECK(world_end() == LMB_OK);
+    memset(&set, 0, sizeof set);
+    set.error = 0.0013f;
+    set.division = 1.0f;
+    set.elements = 256;
+    set.threads = 2;
+    file_bytes baked = bake_whole(&world.scene, &set, small);
+    is_pinned("a panel in blocks", &baked, 0x4ec947cfeb2b6049u);
+    file_free(&baked);
+}
+
 /* Large triangles, and small ones that share clusters and elements. */
 static void bytes_of_demo(void)
 {
@@ -1388,6 +1416,7 @@ void test_transfer(void)
     moving_block();
     any_history();
     draws_directed();
+    bytes_of_buried();
     bytes_of_demo();
 }
 
