@@ -547,6 +547,11 @@ void lmb_lattice_fill(const lmb_lattice *l, int32_t window)
 {
     int32_t column[2], row[2];
     lmb_lattice_window(column, row, l, window);
+    for (int32_t ty = row[0]; ty < row[1]; ++ty) {
+        for (int32_t tx = column[0]; tx < column[1]; ++tx) {
+            lattice_tile(l, tx, ty)->early = lattice_tile(l, tx, ty)->known;
+        }
+    }
     for (int32_t y = row[0] * LMB_TILE; y < row[1] * LMB_TILE; y += LATTICE_STEP) {
         for (int32_t x = column[0] * LMB_TILE; x < column[1] * LMB_TILE; x += LATTICE_STEP) {
             fill_divided(l, x, y);
@@ -586,12 +591,23 @@ static void add_around(around *out, const lmb_lattice_tile *tile, int k, float w
     out->sum += weight;
 }
 
-/* Of the window's samples, with `wanted` also those to be, all that are within `reach` px of pixel (x, y) each way. */
+/* The pixels of a tile that are read from within the window: beyond it those that no other window changes meanwhile.
+ * `wanted`: also those to be, and none beyond it. */
+static uint64_t samples_of(const lmb_lattice *l, const window *w, int32_t tx, int32_t ty, int wanted)
+{
+    const lmb_lattice_tile *tile = lattice_tile(l, tx, ty);
+    if (tx < w->column[0] || tx >= w->column[1] || ty < w->row[0] || ty >= w->row[1]) {
+        return wanted ? 0 : tile->early;
+    }
+    return wanted ? tile->known | tile->wanted : tile->known;
+}
+
+/* Of the samples, with `wanted` also those to be, all that are within `reach` px of pixel (x, y) each way. */
 static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_t y, int32_t reach, int wanted)
 {
     const pixel own = pixel_at(l, x, y);
-    const int32_t left = maxi(x - reach, w->column[0] * LMB_TILE), right = mini(x + reach, w->column[1] * LMB_TILE - 1),
-                  top = maxi(y - reach, w->row[0] * LMB_TILE), bottom = mini(y + reach, w->row[1] * LMB_TILE - 1);
+    const int32_t left = maxi(x - reach, 0), right = mini(x + reach, l->width - 1), top = maxi(y - reach, 0),
+                  bottom = mini(y + reach, l->height - 1);
     around out;
     memset(&out, 0, sizeof out);
     for (int32_t ty = top / LMB_TILE; ty <= bottom / LMB_TILE; ++ty) {
@@ -599,8 +615,8 @@ static around around_of(const lmb_lattice *l, const window *w, int32_t x, int32_
             const lmb_lattice_tile *tile = lattice_tile(l, tx, ty);
             const int32_t columns[2] = {maxi(left - tx * LMB_TILE, 0), mini(right + 1 - tx * LMB_TILE, LMB_TILE)};
             const int32_t rows[2] = {maxi(top - ty * LMB_TILE, 0), mini(bottom + 1 - ty * LMB_TILE, LMB_TILE)};
-            for (uint64_t bits = (wanted ? tile->known | tile->wanted : tile->known) & within(columns, rows); bits != 0;
-                 bits &= bits - 1) {
+            uint64_t bits = samples_of(l, w, tx, ty, wanted) & within(columns, rows);
+            for (; bits != 0; bits &= bits - 1) {
                 const int k = lowest_bit_64(bits);
                 const float dx = (float)(tx * LMB_TILE + k % LMB_TILE - x),
                             dy = (float)(ty * LMB_TILE + k / LMB_TILE - y), d2 = 0.5f + dx * dx + dy * dy,

@@ -766,6 +766,14 @@ check "no object stands still" sh -c '! grep -q "stand still" "$1"' sh "$dir/err
 status 0 play "$dir/moving.gltf" --size 64x48 --transfer "$dir/moves.lmt" --fps 2 --from 2 --frames 1 -o "$dir/alone_%02d.pfm"
 check "a baked object moves, and is the same alone" sh -c '! cmp -s "$1_00.pfm" "$1_02.pfm" && cmp -s "$1_02.pfm" "$2_02.pfm"' \
     sh "$dir/play" "$dir/alone"
+# The first 64 cameras count, and that is said of more.
+for more in 63 64; do
+    sed "s/\"camera\":0}]/\"camera\":0}$(awk -v n=$more 'BEGIN { while (n-- > 0) printf ",{\"camera\":0}" }')]/" "$dir/moving.gltf" >"$dir/eyes.gltf"
+    status 0 bake "$dir/eyes.gltf" -o "$dir/eyes.lmt" --elements 64 --receivers 64
+    check "cameras that do not count: $more and one" test "$(grep -c "eyes.gltf has 65 cameras, of which the first 64 count" "$dir/err.txt")" -eq $((more - 63))
+done
+status 0 bake "$dir/eyes.gltf" -o "$dir/eyes.lmt" --elements 64 --receivers 64 -q
+check "--quiet says nothing of them" test ! -s "$dir/err.txt"
 sed 's/"input":0,"output":2/"input":0,"output":3,"interpolation":"CUBICSPLINE"/' "$dir/moving.gltf" >"$dir/odd.gltf"
 status 0 render "$dir/odd.gltf" --size 64x48 --shadow-map 64 -o "$dir/odd.png"
 status 1 play "$dir/odd.gltf" --size 64x48 --frames 2

@@ -170,18 +170,22 @@ printf 'newmtl cloth\nmap_Kd cloth.png\n' >"$m/cloth.mtl"
 cp "$m/cloth.obj" "$m/scene.png"
 ln "$m/scene.png" "$m/hard.png"
 ln -s scene.png "$m/soft.png"
+for kind in lmt lmr; do
+    ln "$m/scene.png" "$m/scene.$kind"
+done
+ln -s cloth.png "$m/cloth.lmt"
 sum() { cat "$m/scene.png" "$m/cloth.png" "$m/cloth.mtl" | cksum; }
 kept=$(sum)
 for out in scene.png hard.png soft.png ../manners/scene.png; do
     misused "cannot be written: it is read by the same command" render "$m/scene.png" $few -o "$m/$out"
 done
 for in in hard.png soft.png; do
-    misused "scene.png: cannot be written: it is read by the same command" bake "$m/$in" -o "$m/scene.png"
-    misused "scene.png: cannot be written: it is read by the same command" relief bake "$m/$in" -o "$m/scene.png"
+    misused "scene.lmt: cannot be written: it is read by the same command" bake "$m/$in" -o "$m/scene.lmt"
+    misused "scene.lmr: cannot be written: it is read by the same command" relief bake "$m/$in" -o "$m/scene.lmr"
 done
 misused "cannot be written: it is read" render "$m/cloth.obj" $few -o "$m/cloth.png"
 misused "cannot be written: it is read" render "$m/cloth.obj" $few -o "$m/x.png" --stats "$m/cloth.mtl"
-misused "cannot be written: it is read" bake "$m/cloth.obj" --elements 64 --receivers 64 -o "$m/cloth.png"
+misused "cannot be written: it is read" bake "$m/cloth.obj" --elements 64 --receivers 64 -o "$m/cloth.lmt"
 misused "cannot be written: it is read" mix $seen --object "$m/cloth.obj" -o "$m/cloth.png"
 misused "cannot be written: it is read" compare "$m/cloth.png" "$m/demo.pfm" --heat "$m/cloth.png"
 misused "cannot be written: it is read" relight --world "$m/cloth.png" --cube "$m/cloth.png"
@@ -189,6 +193,20 @@ cp "$m/cloth.png" "$m/cloth01.png"
 misused "cloth01.png: cannot be written: it is read" play "$m/cloth.obj" --size 16x16 --frames 2 --path "$m/cloth01.png" -o "$m/cloth%02d.png"
 absent "$m/cloth00.png"
 check "what is read stays as it was" test "$(sum)" = "$kept"
+
+# --- no file of lambent's own under the name of another kind ---
+
+for out in x.png X.PPM x.pfm x.hdr x.jpg x.jpeg x.gltf x.GLB x.obj x.mtl x.ply x.lmp x.lmr; do
+    misused "$out: what is written is a .lmt, and" bake "$dir/box.obj" --elements 64 --receivers 64 -o "$m/$out"
+    absent "$m/$out"
+done
+misused "x.lmt: what is written is a .lmp, and .lmt files are something else; name it *.lmp" pack demo -o "$m/x.lmt"
+misused "x.png: what is written is a .lmr, and .png files are something else; name it *.lmr" relief bake "$m/cloth.obj" -o "$m/x.png"
+absent "$m/x.png"
+for out in room room.baked room.lmt ROOM.LMT png .lmt x.png.lmt; do
+    status 0 bake "$dir/box.obj" --elements 64 --receivers 64 -q -o "$m/$out"
+    check "$out is a transfer" cmp -s "$m/$out" "$m/room"
+done
 misused "x.pfm: both -o and --stats; give them names of their own" render demo -o "$m/x.pfm" --stats "$m/x.pfm"
 misused "both -o and --stats" render demo -o "$m/x.pfm" --stats "$m/./x.pfm"
 ln -s y.pfm "$m/x-link.pfm" && : >"$m/y.pfm"

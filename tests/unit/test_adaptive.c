@@ -140,6 +140,18 @@ static void test_two_walls(void)
     CHECK_MSG(count < WIDE * HIGH / 8, "%d", count);
 }
 
+/* A corner in the dark, six pixels before the next window: light grows beyond it too, and does not jump there. */
+static float rising(float x, float y) { return x >= 58.0f ? minf(0.3f + 0.04f * (x - 58.0f), 1.0f) : 2.0f + 0.0f * y; }
+
+static void test_window_side(void)
+{
+    int off = 0;
+    lmb_lattice l = wall(58);
+    const int count = solve(&l, rising);
+    CHECK_MSG(worst(&l, rising, &off) < 0.1f, "%g, %d are off", (double)worst(&l, rising, &off), off);
+    CHECK_MSG(count < WIDE * HIGH / 8, "%d", count);
+}
+
 static void test_memory(void)
 {
     lmb_lattice l;
@@ -423,6 +435,7 @@ void test_adaptive(void)
 {
     test_lattice();
     test_two_walls();
+    test_window_side();
     test_memory();
     test_same_bytes(83, 61);
     test_same_bytes(1, 9);

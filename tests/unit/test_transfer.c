@@ -8,12 +8,15 @@
 #include "../../src/raster/tile.h"
 #include "../../src/raster/triangle.h"
 #include "../../tools/bake/bake.h"
+#include "../../tools/demo/demo_scene.h"
 #include "../reused_frame.h"
 #include "../small_transfer.h"
 
 void test_transfer(void);
 
 #if LMB_TRANSFER
+
+#define HASH_BEGIN 0xcbf29ce484222325u
 
 enum { SMALL_WORDS = SMALL_TRANSFER_WORDS(ROOM_TRIANGLES), MAP = 128, FRAME = 40 };
 
@@ -547,30 +550,99 @@ static void make_box(float y)
     CHECK(world_end() == LMB_OK);
 }
 
-/* moves: the block does. */
-static file_bytes bake_box(int threads, int moves)
+/* All steps of `lambent bake`. moves: the object that does, or NULL. */
+static file_bytes bake_whole(const lmb_scene *scene, const bake_settings *set, const uint32_t *moves)
 {
-    static const uint32_t block[1] = {1};
-    bake_still_scene still = {world.scene, NULL};
+    bake_still_scene still = {*scene, NULL};
     bake b;
-    bake_settings set;
     report r = {""};
     file_bytes out = {NULL, 0};
     memset(&b, 0, sizeof b);
-    memset(&set, 0, sizeof set);
-    set.error = 0.0013f;
-    set.division = 0.01f;
-    set.elements = 256;
-    set.receivers = 200;
-    set.threads = threads;
-    CHECK_MSG((!moves || bake_still(&still, &world.scene, block, 1, &b.section[LMB_TRANSFER_MOVING], &r)) &&
-                  bake_begin(&b, &still.scene, &set, &r) && bake_reach(&b, NULL, 0, &r) && bake_receivers(&b, &r) &&
+    CHECK_MSG((moves == NULL || bake_still(&still, scene, moves, 1, &b.section[LMB_TRANSFER_MOVING], &r)) &&
+                  bake_begin(&b, &still.scene, set, &r) && bake_reach(&b, NULL, 0, &r) && bake_receivers(&b, &r) &&
                   bake_clusters(&b, &r) && bake_directed(&b, &r) && bake_air(&b, &r) && bake_bounces(&b, &r) &&
                   bake_code_all(&b, &r) && bake_file(&out, &b, &r),
               "%s", r.text);
     bake_free(&b);
     free(still.instance);
     return out;
+}
+
+/* moves: the block does. */
+static file_bytes bake_box(int threads, int moves)
+{
+    static const uint32_t block[1] = {1};
+    bake_settings set;
+    memset(&set, 0, sizeof set);
+    set.error = 0.0013f;
+    set.division = 0.01f;
+    set.elements = 256;
+    set.receivers = 200;
+    set.threads = threads;
+    return bake_whole(&world.scene, &set, moves ? block : NULL);
+}
+
+/* Light stays nearly the same with one link fewer, or with one piece that is looked at from elsewhere: only the numbers
+ * themselves show that. They are the same on all machines. */
+static uint64_t hash_words(uint64_t hash, const void *words, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) {
+        uint32_t word;
+        memcpy(&word, (const uint8_t *)words + 4 * i, sizeof word);
+        hash = (hash ^ word) * 0x100000001b3u;
+    }
+    return hash;
+}
+
+/* A file's words, in either order of their bytes. */
+static void is_pinned(const char *name, const file_bytes *baked, uint64_t wanted)
+{
+    const uint64_t hash = baked->size < 4 ? 0 : hash_words(HASH_BEGIN, baked->data + 4, baked->size / 4 - 1);
+    CHECK_MSG(hash == wanted, "what was baked of %s is 0x%016llx", name, (unsigned long long)hash);
+}
+
+/* A panel whose corners, and the middle of its longest edge, lie in blocks; places in the air do, too, where a small
+ * block moves. */
+static void bytes_of_buried(void)
+{
+    static const uint32_t small[1] = {1};
+    bake_settings set;
+    world_begin(0.7f, 0.5f, 0.3f);
+    world_box(vec3(0, 0, 0), 1.5f);
+    world_triangle(vec3(-1, -0.6f, -0.8f), vec3(0, -0.6f, 1), vec3(1, -0.6f, -0.8f));
+    world_box(vec3(-1, -0.6f, -0.8f), 0.3f);
+    world_box(vec3(1, -0.6f, -0.8f), 0.3f);
+    world_box(vec3(0, -0.6f, 1), 0.3f);
+    world_box(vec3(0, -0.6f, -0.8f), 0.3f);
+    world_part();
+    world_box(vec3(0, 0.8f, 0), 0.1f);
+    world.scene.lights = &box_light;
+    world.scene.light_count = 1;
+    CHECK(world_end() == LMB_OK);
+    memset(&set, 0, sizeof set);
+    set.error = 0.0013f;
+    set.division = 1.0f;
+    set.elements = 256;
+    set.threads = 2;
+    file_bytes baked = bake_whole(&world.scene, &set, small);
+    is_pinned("a panel in blocks", &baked, 0x4ec947cfeb2b6049u);
+    file_free(&baked);
+}
+
+/* Large triangles, and small ones that share clusters and elements. */
+static void bytes_of_demo(void)
+{
+    bake_settings set;
+    memset(&set, 0, sizeof set);
+    set.error = 0.00014f;
+    set.division = 0.008f;
+    set.elements = 256;
+    set.receivers = 300;
+    set.cluster_m = 0.3f;
+    set.threads = 2;
+    file_bytes baked = bake_whole(demo_scene(), &set, NULL);
+    is_pinned("the demo", &baked, 0x9a5b319bf7f23ed3u);
+    file_free(&baked);
 }
 
 static void is_same_by(const lmb_transfer *t, const lmb_scene *scene)
@@ -635,6 +707,30 @@ static void keeps_power(const lmb_transfer *t, const lmb_scene *scene)
     collect(&l, &map, 4, MAP); /* by a 16th of the texels: near it */
     CHECK_MSG(fabs(sum_of(&l, 0) / all - 1.0) < 0.01, "%g W of %g", sum_of(&l, 0), all);
     free(l.memory);
+}
+
+/* Light goes through the holes of a masked floor and belongs to nothing: its outline says nothing of them. */
+static void keeps_masked_power(const lmb_transfer *t)
+{
+    static uint8_t texels[64][4];
+    static float uvs[ROOM_TRIANGLES][3][2];
+    static const lmb_texture holes = {texels[0], 8, 8, 1, LMB_WRAP_REPEAT, LMB_WRAP_REPEAT, LMB_NEAREST, 0};
+    const small_room whole = room;
+    for (int i = 0; i < 64; ++i) {
+        memset(texels[i], (i % 8 + i / 8) % 2 ? 255 : 0, 4);
+    }
+    for (int i = 0; i < 3 * ROOM_TRIANGLES; ++i) {
+        uvs[i / 3][i % 3][0] = room.corners[i / 3][i % 3][0];
+        uvs[i / 3][i % 3][1] = room.corners[i / 3][i % 3][2];
+    }
+    room.mesh.uvs = uvs;
+    room.scene.textures = &holes;
+    room.scene.texture_count = 1;
+    room.material.texture = 0;
+    room.material.alpha_cutoff = 0.5f;
+    room.material.flags |= LMB_ALPHA_MASK;
+    keeps_power(t, &room.scene);
+    room = whole;
 }
 
 /* In a closed room elements collect what a spot sends by closed form, 2 pi (1 - the mean of its cones' cosines) of its
@@ -933,6 +1029,7 @@ static void directed_box(void)
     world.material[0].specular[0] = 0.04f;
     file_bytes one = bake_box(1, 0), baked = bake_box(2, 0);
     CHECK(one.size == baked.size && memcmp(one.data, baked.data, one.size) == 0);
+    is_pinned("walls with a lobe", &one, 0xcf1ba42fa8f3da64u);
     CHECK(lmb_transfer_open(&t, plain.data, plain.size) == LMB_OK && t.count[LMB_TRANSFER_CLUSTERS] == 0);
     const uint32_t receivers = t.count[LMB_TRANSFER_RECEIVERS], corners = t.count[LMB_TRANSFER_CORNERS];
     CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
@@ -997,6 +1094,7 @@ static void moving_block(void)
     make_box(-0.6f);
     file_bytes baked = bake_box(2, 1);
     CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
+    is_pinned("a block that moves", &baked, 0x8413ad8ddc469b50u);
     CHECK(t.count[LMB_TRANSFER_MOVING] == 1 && t.count[LMB_TRANSFER_GRID] == 1 && t.count[LMB_TRANSFER_AIR] > 500);
     CHECK(t.section[LMB_TRANSFER_MOVING][0] == 13 && t.section[LMB_TRANSFER_MOVING][1] == 25);
     CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
@@ -1086,6 +1184,29 @@ static void draws_frames(const lmb_transfer *t, const lmb_scene *scene)
     }
     CHECK(is_same_picture());
     free(f.memory);
+}
+
+/* Numbers of a picture whose light is reflected three times, and of the elements' light by blocks of texels. */
+static void draws_pinned(const char *name, const lmb_transfer *t, const lmb_scene *scene, uint64_t frame,
+                         uint64_t light)
+{
+    framed f = frame_of(t, scene, 0);
+    const lmb_shadow_map map = draw_map(scene);
+    lit l = lit_by(t, scene);
+    uint64_t hash = HASH_BEGIN;
+    f.frame.bounces = 3;
+    CHECK(lmb_render_frame(&render, &f.frame) == LMB_OK);
+    CHECK_MSG((hash = hash_words(hash, picture[0], FRAME * FRAME * 3)) == frame, "%s is drawn as 0x%016llx", name,
+              (unsigned long long)hash);
+    hash = HASH_BEGIN;
+    for (int32_t each = 1; each <= 16; each *= 2) {
+        CHECK(lmb_transfer_clear(&l.light, t) == LMB_OK);
+        collect(&l, &map, each, MAP);
+        hash = hash_words(hash, l.light.power, 3 * (size_t)t->count[LMB_TRANSFER_AREAS]);
+    }
+    CHECK_MSG(hash == light, "%s gets light 0x%016llx", name, (unsigned long long)hash);
+    free(f.memory);
+    free(l.memory);
 }
 
 /* What lmb_transfer_tile keeps from tile to tile changes nothing: a picture's tiles with one scratch and with new ones,
@@ -1203,6 +1324,7 @@ static void any_history(void)
     make_box(-0.6f);
     file_bytes baked = bake_box(2, 1);
     CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
+    draws_pinned("a block that moves", &t, &world.scene, 0x1ef85db8cbe617bdu, 0xb0bdbacff342fd01u);
     draw_cold(&t);
     framed f = frame_of(&t, &world.scene, 0);
     f.frame.scratch = scratches; /* each frame finds there what the one before left */
@@ -1213,6 +1335,18 @@ static void any_history(void)
     }
     any_way(&f);
     free(f.memory);
+    file_free(&baked);
+}
+
+/* Walls with a lobe keep light by direction. */
+static void draws_directed(void)
+{
+    lmb_transfer t;
+    make_box(-0.6f);
+    world.material[0].specular[0] = 0.04f;
+    file_bytes baked = bake_box(2, 0);
+    CHECK(lmb_transfer_open(&t, baked.data, baked.size) == LMB_OK);
+    draws_pinned("walls with a lobe", &t, &world.scene, 0x663ece421bc59eb7u, 0x8573165df04f2f10u);
     file_free(&baked);
 }
 
@@ -1237,6 +1371,7 @@ static void test_box(void)
     make_box(-1.2f); /* it stands on the floor */
     file_bytes one = bake_box(1, 0), two = bake_box(2, 0);
     CHECK(one.size == two.size && one.size > 0 && memcmp(one.data, two.data, one.size) == 0);
+    is_pinned("a box with a block on its floor", &one, 0x225ae05e8cc363d7u);
     CHECK(lmb_transfer_open(&t, one.data, one.size) == LMB_OK);
     CHECK(lmb_transfer_fits(&t, &world.scene) == LMB_OK);
     CHECK(t.count[LMB_TRANSFER_AREAS] == 256 && t.count[LMB_TRANSFER_RECEIVERS] > 100);
@@ -1248,6 +1383,7 @@ static void test_box(void)
     is_linear(&t, &world.scene, 2.0f);
     is_linear(&t, &world.scene, 3.7f);
     draws_frames(&t, &world.scene);
+    draws_pinned("a box with a block on its floor", &t, &world.scene, 0x9960555ac6a2886eu, 0xf9f04970fe85142bu);
     draws_tiles(&t, &world.scene);
     takes_materials(&t);
     world.instance[1].to_world.m[3] = world.instance[1].to_world.m[12] = 0.1f;
@@ -1271,6 +1407,7 @@ void test_transfer(void)
     bad_arguments();
     is_same_by(&t, &room.scene);
     keeps_power(&t, &room.scene);
+    keeps_masked_power(&t);
     is_linear(&t, &room.scene, 3.7f);
     fits();
     test_box();
@@ -1278,6 +1415,9 @@ void test_transfer(void)
     directed_box();
     moving_block();
     any_history();
+    draws_directed();
+    bytes_of_buried();
+    bytes_of_demo();
 }
 
 #else

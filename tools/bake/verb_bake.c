@@ -82,8 +82,10 @@ static const option_table table = {
     .about = "How light goes between the surfaces of a scene that does not move: `render --transfer` then adds bounced "
              "light many times faster than without, wherever lights and camera are. Colours may change, too.\n"
              "Surfaces stay dark that no light would reach from any light or camera of the scene, after any number of "
-             "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is.\n"
-             "Takes seconds to minutes, and 4 bytes x elements x receivers of memory.",
+             "reflections: the insides of solids, and closed rooms without a light or camera, for which --eye is. Of a "
+             "scene with more than 64 cameras the first 64 count.\n"
+             "Takes seconds to minutes, and memory while it does: 2 bytes x elements x receivers, 6 bytes x elements x "
+             "clusters, and up to 100 MB beside the scene's own; by default half a gigabyte for a room.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
                 "  lambent render demo --transfer demo.lmt -o demo.png\n",
@@ -191,6 +193,8 @@ static int bake_model(const options *o, const lmb_scene *scene, const model *m, 
     lmb_vec3 eyes[2 * EYES];
     uint32_t count = (uint32_t)o->eyes;
     memcpy(eyes, o->eye, sizeof o->eye);
+    report_note(o->is_quiet || m->camera_count <= EYES, "note: %s has %u cameras, of which the first %d count; rooms that "
+                "only others see into stay dark, but for --eye", o->scene, (unsigned)m->camera_count, EYES);
     for (uint32_t i = 0; i < EYES && i < m->camera_count; ++i) {
         eyes[count++] = m->cameras[i].eye;
     }
@@ -208,7 +212,7 @@ static int is_complete(const options *o, report *r)
     if ((o->elements & 0x55555555) == 0) {
         return report_fail(r, "--elements: `%d` is not a power of four: 64, 256, 1024, 4096, 16384", (int)o->elements);
     }
-    return 1;
+    return file_suits(o->out, ".lmt", r);
 }
 
 int verb_bake(int argc, char **argv)

@@ -51,6 +51,27 @@ int file_is_stdout(const char *path)
            strcmp(path + 3, ":-") == 0;
 }
 
+static int is_same_word(const char *a, const char *b)
+{
+    for (; *a != '\0' && tolower((unsigned char)*a) == *b; ++a, ++b) {
+    }
+    return *a == *b;
+}
+
+int file_suits(const char *path, const char *own, report *r)
+{
+    static const char *const known[] = {".png", ".ppm", ".pfm", ".hdr", ".jpg", ".jpeg", ".gltf",
+                                        ".glb", ".obj", ".mtl", ".ply", ".lmp", ".lmr", ".lmt"};
+    const char *ending = strrchr(path, '.');
+    for (size_t i = 0; ending != NULL && i < sizeof known / sizeof known[0]; ++i) {
+        if (is_same_word(ending, known[i]) && strcmp(own, known[i]) != 0) {
+            return report_fail(r, "-o %s: what is written is a %s, and %s files are something else; name it *%s", path,
+                               own, known[i], own);
+        }
+    }
+    return 1;
+}
+
 /* --- what is read, which nothing may be written over --- */
 
 #ifdef _WIN32

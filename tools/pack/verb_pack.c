@@ -298,7 +298,10 @@ static int is_complete(const options *o, report *r)
     if (o->out == NULL) {
         return report_fail(r, "no output given; add -o FILE.lmp or -o FILE.c");
     }
-    return o->name == NULL || is_code(o->out) || report_fail(r, "--name is of a C array; name the output FILE.c");
+    if (o->name != NULL && !is_code(o->out)) {
+        return report_fail(r, "--name is of a C array; name the output FILE.c");
+    }
+    return file_suits(o->out, ".lmp", r);
 }
 
 int verb_pack(int argc, char **argv)

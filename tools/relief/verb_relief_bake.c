@@ -94,7 +94,10 @@ static int parse(options *o, int argc, char **argv, report *r)
     if (o->as_is && o->simple == NULL) {
         return report_fail(r, "--as-is needs --simple FILE");
     }
-    return o->out != NULL ? OPTIONS_RUN : report_fail(r, "no output given; add -o FILE.lmr");
+    if (o->out == NULL) {
+        return report_fail(r, "no output given; add -o FILE.lmr");
+    }
+    return file_suits(o->out, ".lmr", r) ? OPTIONS_RUN : OPTIONS_BAD;
 }
 
 /* --- work --------------------------------------------------------------------------------------------------------- */
