@@ -408,7 +408,7 @@ static uint64_t trace(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, l
                   : lmb_occluded_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), kept);
 }
 
-/* Far from the origin boxes lie over one another, and a pixel alone would meet nearly all of them: so the tile's pixels
+/* Far from the origin boxes lie over one another, and a pixel alone would meet nearly all of them: so the pixels
  * are traced as one after the first that does. Boxes asked for stay near those of one pixel, the answers as they are. */
 static void overlapping_boxes(void)
 {
