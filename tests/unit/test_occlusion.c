@@ -446,6 +446,36 @@ static void overlapping_boxes(void)
     }
 }
 
+/* Is a pixel `below` under a square that lies `away` along an axis, with light from straight above, found in shadow? */
+static int is_under(int axis, float away, float depth, float below)
+{
+    const lmb_vec3 axes[3] = {X, Y, Z}, at = mul3(axes[axis], away), up = axes[(axis + 1) % 3];
+    lmb_tile tile;
+    world_begin(1, 1, 1);
+    world_quad(at, mul3(axes[axis], 0.5f), mul3(axes[(axis + 2) % 3], 0.5f));
+    lmb_bvh b = bvh_of_world();
+    b.noise = 0.0f; /* of a room that is convex */
+    memset(&tile, 0, sizeof tile);
+    set_plane(tile.position, 5, sub3(at, mul3(up, below)));
+    tile.depth[5] = depth;
+    return occluded_sun_anew(&b, &tile, 1u << 5, up) != 0;
+}
+
+/* A surface does not shade itself where rounding left its pixel below it: by up to 2^-22 of its largest coordinate and
+ * 2^-20 of its distance from the eye. What is further below lies in its shadow. */
+static void rounding_of_suns(void)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int side = -1; side <= 1; side += 2) {
+            const float away = (float)side * 1024.0f, place = 0x1p-12f, way = 0x1p-10f;
+            CHECK(!is_under(axis, away, 0.0f, 0.9f * place) && is_under(axis, away, 0.0f, 1.1f * place));
+            CHECK(!is_under(axis, away, 1024.0f, 0.9f * (place + way)));
+            CHECK(is_under(axis, away, 1024.0f, 1.1f * (place + way)));
+        }
+        CHECK(!is_under(axis, 0.0f, 1024.0f, 0x1.ep-11f) && is_under(axis, 0.0f, 1024.0f, 0x1.2p-10f));
+    }
+}
+
 /* Boxes reach past what they hold on each side: a segment along a face of one must not miss it by rounding. */
 static void boxes_are_wider(void)
 {
@@ -716,6 +746,7 @@ void test_occlusion(void)
     far_apart_among_leaves();
     wide_among_leaves();
     overlapping_boxes();
+    rounding_of_suns();
     every_triangle();
     every_triangle_of_suns();
     no_gap_no_acne();
