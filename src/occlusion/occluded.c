@@ -358,9 +358,19 @@ uint64_t lmb_occluded_tile(const lmb_bvh *bvh, const lmb_kernels *kernels, const
         }
     }
     occluded = pixels & ~w.left;
-    for (uint64_t bits = w.left; bits != 0; bits &= bits - 1) {
-        w.left = bits & (~bits + 1);
-        occluded |= one_blocked(&w, lowest_bit_64(bits)) ? w.left : 0;
+    uint32_t boxes = 0;
+    for (uint64_t bits = w.left; bits != 0;) {
+        const uint64_t now = boxes > LMB_MANY_BOXES ? bits : bits & (~bits + 1);
+        const uint32_t before = kept->asked;
+        w.left = now;
+        if ((now & (now - 1)) != 0) {
+            (void)trace_together(&w, ~0u);
+        } else {
+            w.left = one_blocked(&w, lowest_bit_64(now)) ? 0 : now;
+        }
+        occluded |= now & ~w.left;
+        bits &= ~now;
+        boxes = kept->asked - before;
     }
     return occluded;
 }

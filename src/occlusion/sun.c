@@ -204,10 +204,14 @@ static void sun_trace(sun_traversal *w)
             w->kept->alone = ALONE;
         }
     }
-    for (uint64_t bits = w->left; bits != 0; bits &= bits - 1) {
-        w->left = bits & (~bits + 1);
+    uint32_t boxes = 0;
+    for (uint64_t bits = w->left; bits != 0;) {
+        const uint32_t before = w->kept->asked;
+        w->left = boxes > LMB_MANY_BOXES ? bits : bits & (~bits + 1);
+        bits &= ~w->left;
         (void)sun_descend(w, ~0u);
         open |= w->left;
+        boxes = w->kept->asked - before;
     }
     w->left = open;
 }

@@ -26,6 +26,10 @@
 int lmb_occluded_from(const lmb_bvh *bvh, const lmb_kernels *kernels, const lmb_tile *tile, uint64_t pixels,
                       const lmb_vec3 *at, int count, float noise, uint32_t triangle);
 
+/* Boxes that one pixel alone meets only where most of them lie over one another, as those of long needles do, or of a
+ * mesh far from the origin. The pixels after it then go together, that each triangle is tested once for all of them. */
+#define LMB_MANY_BOXES 256u
+
 /* How far boxes reach past what they hold: of their size and of their coordinates. */
 #define LMB_BOX_SIZE  3.8146973e-6f /* 2^-18 */
 #define LMB_BOX_PLACE 9.5367432e-7f /* 2^-20 */

@@ -141,6 +141,13 @@ for map in no_pixels few_bytes bomb; do
     printf 'newmtl a\nmap_Kd %s.png\n' $map >"$dir/$map.mtl"
     drawn $map.obj
 done
+# 256 MiB of texels and a third for the levels below are there once. Sanitizers want terabytes of addresses.
+if (ulimit -v 450000 && exec "$TOOL" info "$dir/no_pixels.obj") >"$dir/out" 2>&1; then
+    (ulimit -v 450000 && exec "$TOOL" info "$dir/bomb.obj") >"$dir/out" 2>&1 && grep -q '^notes  *0' "$dir/out" && pass ||
+        fail "bomb.obj: its picture takes more than 450 MB: $(tail -1 "$dir/out")"
+else
+    skip "a limit of memory: not to be had here"
+fi
 
 # Output that cannot be: a full disk, a file where a folder should be, statistics that have no place.
 if [ -c /dev/full ]; then

@@ -425,6 +425,38 @@ static size_t put_images(char *document, size_t cap, size_t size, int images, in
     return n;
 }
 
+/* What pictures may have is counted to the pixel: 2^24 are free, 64 more for each byte of the files, and one picture
+ * may have more than is left. Each decoding pays for its pixels and its bytes, and each name an eighth of its bytes. */
+static void pixels_left(void)
+{
+    enum { WIDTH = 4096, HEIGHT = 2048, IMAGES = 3, CAP = 4096 };
+    folder place;
+    file_bytes png = {NULL, 0};
+    char document[CAP], said[120];
+    uint8_t *rgb = (uint8_t *)calloc((size_t)WIDTH * HEIGHT, 3);
+    uint8_t *file = NULL;
+    CHECK(rgb != NULL && png_encode(&png, rgb, WIDTH, HEIGHT, &problem));
+    free(rgb);
+    if (png.data != NULL && (file = (uint8_t *)calloc(png.size + IMAGES, 1)) != NULL) {
+        const size_t size = png.size + IMAGES, n = put_images(document, CAP, size, IMAGES, 1);
+        memcpy(file, png.data, png.size);
+        folder_open(&place);
+        folder_put(&place, "long.png", file, size);
+        CHECK_LOADS(load_file(folder_put(&place, "a.gltf", document, n)));
+        folder_close(&place);
+        /* The first is decoded as colour and as the map of metal, and the second is the one that has more. */
+        const size_t decoded = size + size + (size - 1),
+                     named = 2 * (size / 8 + 1) + ((size - 1) / 8 + 1) + ((size - 2) / 8 + 1);
+        snprintf(said, sizeof said,
+                 "images[2]: 8388608 pixels are more than the model's pictures may still have, which is %u ",
+                 (unsigned)(64 * (size + n) - decoded - named));
+        CHECK_MSG(noted(said), "not: %s", said);
+        CHECK_MSG(loaded.scene.texture_count == 3, "%u textures", (unsigned)loaded.scene.texture_count);
+    }
+    free(file);
+    file_free(&png);
+}
+
 /* One picture under many names is decoded once a use, as colour or not. Where the names' bytes differ behind the
  * picture's end each pays for its bytes: the budget of 2^24 and 64 for each byte of the files ends before the last,
  * without which time would go with bytes times names. */
@@ -522,6 +554,7 @@ void test_gltf(void)
     neighbours();
     counts();
     pixels();
+    pixels_left();
     decoded_often();
     many_places();
     shared_vertices();

@@ -580,6 +580,10 @@ static void check_kinds(test_rng *r)
         }
         grove_make(&g, 400, 900.0f, lights, 300);
         CHECK(g.many_lights.lights == 300 && g.many_lights.node[0].lights == 300);
+        for (uint32_t i = 0; i < g.many_lights.node_count; ++i) { /* of suns the mean is a direction, too */
+            const lmb_many_lights_node *n = &g.many_lights.node[i];
+            CHECK(n->kind != LMB_LIGHT_DIRECTIONAL || absf(length3(n->position) - 1.0f) < 1e-4f);
+        }
         for (int i = 0; i < 64; ++i) {
             make_floor_tile(&tile, vec3(-1.9f + 0.45f * (float)(i % 8), -0.9f, -2.9f + 0.45f * (float)(i / 8)));
             sum_lights(want, &tile, 300, &bvh);

@@ -163,6 +163,62 @@ static void test_gathers_once(void)
     CHECK((double)stats.pairs < 1.4 * pairs && same > 160 * 120 * 85 / 100);
 }
 
+enum { FLOOR_ALONE, STEPS, GROOVES, BOARDS };
+
+/* Pairs of pixels and lights that `samples` of a floor take, which a lit wall behind the eye lights. Every column of
+ * pixels has its middles on a strip of its own; between two of them lies nothing, a board over the floor, or the two
+ * sides of a groove; or a board over the first column of each tile, and a little of the tile before. */
+static double floor_pairs(int between, int32_t samples)
+{
+    const float px = 0.01f, half_gap = between == FLOOR_ALONE || between == BOARDS ? 0.0f : 0.2f * px;
+    world_begin(0.8f, 0.8f, 0.8f);
+    world_quad(vec3(0, 0, 2), vec3(-2, 0, 0), Y);
+    world_part();
+    for (int i = 0; i <= SIDE; ++i) {
+        const float x = ((float)i - SIDE / 2) * px;
+        for (int k = 0; k < 4; ++k) {
+            const lmb_vec3 at = vec3(x, ((float)k - 1.5f) * 16 * px, -0.5f), along = vec3(0, 8 * px, 0);
+            world_quad(add3(at, vec3(0.5f * px, 0, 0)), vec3(0.5f * px - half_gap, 0, 0), along);
+            if (between == BOARDS && i % LMB_TILE == 0) {
+                world_quad(add3(at, vec3(0.5f * px, 0, 2 * px)), vec3(0.7f * px, 0, 0), along);
+            } else if (between == STEPS) {
+                world_quad(add3(at, vec3(0, 0, 2 * px)), vec3(half_gap, 0, 0), along);
+            } else if (between == GROOVES) {
+                world_quad(sub3(at, vec3(0.5f * half_gap, 0, half_gap)), vec3(0.5f * half_gap, 0, -half_gap), along);
+                world_quad(sub3(at, vec3(-0.5f * half_gap, 0, half_gap)), vec3(0.5f * half_gap, 0, half_gap), along);
+            }
+        }
+    }
+    CHECK(world_end() == LMB_OK);
+    lmb_light lamp = spot(vec3(0, 0, 0.5f), Z, 30, 40);
+    lamp.intensity[0] = lamp.intensity[1] = lamp.intensity[2];
+    world.scene.lights = &lamp;
+    world.scene.light_count = 1;
+    lmb_frame_settings s = settings_of(&world.scene, flat_view(), samples);
+    s.show = LMB_SHOW_INDIRECT;
+    lay_out_counting(&s);
+    CHECK(lmb_render_frame(&render, &frame) == LMB_OK);
+    for (int32_t k = 0; k < SIDE * SIDE; ++k) { /* all is grey, so its light is */
+        const int32_t x = k % SIDE, y = k / SIDE;
+        CHECK(pixel(x, y, 0) > 0.0f && pixel(x, y, 0) == pixel(x, y, 1) && pixel(x, y, 1) == pixel(x, y, 2));
+    }
+    return (double)stats.pairs;
+}
+
+/* Samples take the light of a middle near them where its surface goes on, whatever its triangles. Where it steps or
+ * turns light is gathered for what no middle shows, and kept: four times as many samples ask for no more. */
+static void test_goes_on(void)
+{
+    CHECK(floor_pairs(FLOOR_ALONE, 1) > 1000 && floor_pairs(FLOOR_ALONE, 16) == floor_pairs(FLOOR_ALONE, 1));
+    const double one = floor_pairs(STEPS, 1), four = floor_pairs(STEPS, 4), more = floor_pairs(STEPS, 16);
+    CHECK_MSG(four > 1.3 * one && more < 1.02 * four, "steps: %g pairs, by 4 samples %g, by 16 %g", one, four, more);
+    const double flat = floor_pairs(GROOVES, 1), sides = floor_pairs(GROOVES, 4);
+    CHECK_MSG(sides > 2 * flat, "grooves: %g pairs, by 4 samples %g", flat, sides);
+    /* No tile knows the next one's middles, nor takes those of its own first column for them. */
+    const double boards = floor_pairs(BOARDS, 1), edges = floor_pairs(BOARDS, 4);
+    CHECK_MSG(edges > 1.05 * boards && edges < 1.5 * boards, "boards: %g pairs, by 4 samples %g", boards, edges);
+}
+
 /* Metal has no diffuse part: what it shows of a lit wall behind the eye is its lobe's. At its edge that counts by the
  * share of a pixel that it covers, whatever the pixel's middle shows. */
 static void test_metal_edge(void)
@@ -295,6 +351,17 @@ static void test_refused(void)
     CHECK(lmb_render_begin(&render, &frame) == LMB_OK);
     frame.samples = 8;
     CHECK(lmb_render_begin(&render, &frame) == LMB_ERR_ARG); /* room for 4 */
+    for (int i = 0; i < 5; ++i) {
+        lay_out(&s);
+        lmb_multisample *m = frame.scratch[0].multisample;
+        m->eye.id.data = i == 0 ? NULL : m->eye.id.data;
+        m->eye.depth.width -= i == 1;
+        m->eye.depth.height -= i == 2;
+        frame.view.sample_x = i == 3;
+        frame.view.sample_y = i == 4;
+        CHECK_MSG(lmb_render_begin(&render, &frame) == LMB_ERR_ARG, "%d", i);
+    }
+    lay_out(&s);
     frame.samples = 0;
     CHECK(lmb_render_begin(&render, &frame) == LMB_OK && render.frame.samples == 1);
 }
@@ -304,6 +371,7 @@ void test_multisample(void)
     test_edges();
     test_aside();
     test_gathers_once();
+    test_goes_on();
     test_metal_edge();
     test_same_bytes(83, 61, 4);
     test_same_bytes(17, 9, 8);

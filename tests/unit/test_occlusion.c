@@ -400,6 +400,82 @@ static void wide_among_leaves(void)
     CHECK_MSG(alone > 20, "%d points traced alone at once", alone);
 }
 
+/* From a point that lies near the tile; or along the way to it from the origin, to infinity. */
+static uint64_t trace(const lmb_bvh *b, const lmb_tile *tile, uint64_t pixels, lmb_vec3 at, int is_sun,
+                      lmb_traversal *kept)
+{
+    return is_sun ? lmb_occluded_sun(b, lmb_kernels_pick(), tile, pixels, normalize3(at), kept)
+                  : lmb_occluded_tile(b, lmb_kernels_pick(), tile, pixels, at, noise_of(tile, pixels, at), kept);
+}
+
+/* Far from the origin boxes lie over one another, and a pixel alone would meet nearly all of them: so the pixels
+ * are traced as one after the first that does. Boxes asked for stay near those of one pixel, the answers as they are. */
+static void overlapping_boxes(void)
+{
+    test_rng r = {83};
+    const lmb_vec3 away = vec3(1e6f, 1e6f, 1e6f);
+    lmb_tile tile;
+    world_begin(1, 1, 1);
+    for (int i = 0; i < 6000; ++i) {
+        const lmb_vec3 at = add3(away, random_point(&r, 1.0f));
+        world_triangle(at, add3(at, random_point(&r, 0.2f)), add3(at, random_point(&r, 0.2f)));
+    }
+    const lmb_bvh b = bvh_of_world();
+    fill_tile(&tile, away, 1.0f, &r);
+    for (int is_sun = 0; is_sun < 2; ++is_sun) {
+        uint32_t together = 0, alone = 0;
+        int other = 0, open = 0;
+        for (int round = 0; round < 20; ++round) {
+            const lmb_vec3 way = random_point(&r, 1.0f);
+            lmb_traversal kept;
+            uint64_t each = 0;
+            memset(&kept, 0, sizeof kept);
+            const uint64_t all = trace(&b, &tile, ~UINT64_C(0), add3(away, way), is_sun, &kept);
+            together += kept.asked;
+            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+                memset(&kept, 0, sizeof kept);
+                each |= trace(&b, &tile, (uint64_t)1 << k, add3(away, way), is_sun, &kept);
+                alone += kept.asked;
+            }
+            other += count_bits_64(all ^ each);
+            open += count_bits_64(~each);
+        }
+        /* A sun's rays allow for the rounding of all pixels that are asked for, so some lie otherwise alone. */
+        CHECK_MSG(other <= is_sun * open / 16 && open > 200, "%d others, %d open", other, open);
+        CHECK_MSG(together < alone / 8, "%u boxes together, %u alone", (unsigned)together, (unsigned)alone);
+    }
+}
+
+/* Is a pixel `below` under a square that lies `away` along an axis, with light from straight above, found in shadow? */
+static int is_under(int axis, float away, float depth, float below)
+{
+    const lmb_vec3 axes[3] = {X, Y, Z}, at = mul3(axes[axis], away), up = axes[(axis + 1) % 3];
+    lmb_tile tile;
+    world_begin(1, 1, 1);
+    world_quad(at, mul3(axes[axis], 0.5f), mul3(axes[(axis + 2) % 3], 0.5f));
+    lmb_bvh b = bvh_of_world();
+    b.noise = 0.0f; /* of a room that is convex */
+    memset(&tile, 0, sizeof tile);
+    set_plane(tile.position, 5, sub3(at, mul3(up, below)));
+    tile.depth[5] = depth;
+    return occluded_sun_anew(&b, &tile, 1u << 5, up) != 0;
+}
+
+/* A surface does not shade itself where rounding left its pixel below it: by up to 2^-22 of its largest coordinate and
+ * 2^-20 of its distance from the eye. What is further below lies in its shadow. */
+static void rounding_of_suns(void)
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int side = -1; side <= 1; side += 2) {
+            const float away = (float)side * 1024.0f, place = 0x1p-12f, way = 0x1p-10f;
+            CHECK(!is_under(axis, away, 0.0f, 0.9f * place) && is_under(axis, away, 0.0f, 1.1f * place));
+            CHECK(!is_under(axis, away, 1024.0f, 0.9f * (place + way)));
+            CHECK(is_under(axis, away, 1024.0f, 1.1f * (place + way)));
+        }
+        CHECK(!is_under(axis, 0.0f, 1024.0f, 0x1.ep-11f) && is_under(axis, 0.0f, 1024.0f, 0x1.2p-10f));
+    }
+}
+
 /* Boxes reach past what they hold on each side: a segment along a face of one must not miss it by rounding. */
 static void boxes_are_wider(void)
 {
@@ -669,6 +745,8 @@ void test_occlusion(void)
     few_by_every_cut();
     far_apart_among_leaves();
     wide_among_leaves();
+    overlapping_boxes();
+    rounding_of_suns();
     every_triangle();
     every_triangle_of_suns();
     no_gap_no_acne();

@@ -191,6 +191,20 @@ static void check_boards(void)
     CHECK_MSG(back.x > 0.4f, "boards: from %g, %g, %g", (double)back.x, (double)back.y, (double)back.z);
 }
 
+/* A wall closes a side of the bounds that it stands within a fiftieth of their size from. Behind one that stands deeper
+ * the room is open there, and is seen through that side. */
+static void check_niche(void)
+{
+    static const float deep[2] = {0.015f, 0.025f};
+    for (int i = 0; i < 2; ++i) {
+        room_without(1);
+        world_quad(vec3(2.0f - 4.0f * deep[i], 0, 0), mul3(Y, 1.5f), mul3(Z, 2));
+        const lmb_vec3 back = seen_from();
+        CHECK_MSG(i == 0 ? back.x < 0.6f : back.x > 0.8f, "a wall %g deep: from %g, %g, %g", (double)deep[i],
+                  (double)back.x, (double)back.y, (double)back.z);
+    }
+}
+
 /* A corner far outside, or none at all, takes its triangles out of the picture: the others are framed as without it. */
 static void check_strays(void)
 {
@@ -225,5 +239,6 @@ void test_view_frame(void)
     check_rooms();
     check_sides();
     check_boards();
+    check_niche();
     check_strays();
 }

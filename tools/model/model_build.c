@@ -235,24 +235,28 @@ int build_sibling(char *out, size_t cap, const model_build *b, const char *name,
     return 1;
 }
 
-/* Level 0 to the model's memory, with room for `levels`. */
-static uint8_t *keep_texels(model_build *b, const bitmap *map, int32_t levels, const char *name, report *why)
+/* A decoded picture becomes the model's level 0, with room for `levels` behind it: where it lies, or the large ones
+ * would be there twice. */
+static uint8_t *keep_texels(model_build *b, bitmap *map, int32_t levels, const char *name, report *why)
 {
-    size_t bytes = lmb_texture_bytes(map->width, map->height, levels);
+    const size_t bytes = lmb_texture_bytes(map->width, map->height, levels);
+    model *m = b->out;
     uint8_t *texels = NULL;
     if (bytes == 0) {
         report_fail(why, "%s: %dx%d pixels; sides may have up to %d", name, (int)map->width, (int)map->height,
                     LMB_MAX_SIDE);
         return NULL;
     }
-    texels = (uint8_t *)add_block(b->out, bytes, 1);
+    texels = reserve_block(m) ? (uint8_t *)realloc(map->texels, bytes) : NULL;
     if (!texels) {
         report_fail(why, "%s: no memory left for textures; shrink them", name);
         pass_on(b, why);
         return NULL;
     }
-    b->out->facts.texel_bytes += bytes;
-    memcpy(texels, map->texels, (size_t)map->width * (size_t)map->height * 4);
+    map->texels = NULL;
+    m->blocks[m->block_count++] = texels;
+    m->facts.memory_bytes += bytes;
+    m->facts.texel_bytes += bytes;
     return texels;
 }
 
