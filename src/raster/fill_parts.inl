@@ -14,19 +14,17 @@ typedef struct fill_parts {
     float dx[LMB_BATCH], dy[LMB_BATCH];                   /* of every tile */
 } fill_parts;
 
-/* Does some box touch more than two tiles in a row? */
-LANE_INLINE int parts_are_wide(const lmb_batch *b, uint32_t bits)
+/* Triangles whose box touches more than two tiles in a row, a bit each. */
+LANE_INLINE uint32_t parts_wide(const lmb_batch *b, uint32_t bits)
 {
     const lanei two = lanei_splat(2);
+    uint32_t wide = 0;
     for (int k = 0; k < LMB_BATCH && bits >> k != 0; k += LANES) {
         const lanei x = lanei_sub(lanei_shift(lanei_load(b->x1 + k), 3), lanei_shift(lanei_load(b->x0 + k), 3)),
                     y = lanei_sub(lanei_shift(lanei_load(b->y1 + k), 3), lanei_shift(lanei_load(b->y0 + k), 3));
-        const lane_mask wide = mask_not(mask_and(lanei_lt(x, two), lanei_lt(y, two)));
-        if ((mask_bits(wide) & (bits >> k)) != 0) {
-            return 1;
-        }
+        wide |= mask_bits(mask_not(mask_and(lanei_lt(x, two), lanei_lt(y, two)))) << k;
     }
-    return 0;
+    return wide & bits;
 }
 
 LANE_INLINE void parts_slopes(fill_parts *out, const lmb_batch *b, uint32_t bits)

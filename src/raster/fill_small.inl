@@ -96,6 +96,7 @@ LANE_INLINE void small_fill(const lmb_fill_window *w, lmb_fill_job *job, const l
 
 #if LANES >= LMB_TILE
 #include "fill_parts.inl"
+enum { PARTS_PAY = 4 }; /* fewer triangles are not worth four parities */
 #endif
 
 static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uint32_t bits, uint32_t first_id)
@@ -103,12 +104,13 @@ static void KERNEL(fill_small)(const lmb_fill_window *w, const lmb_batch *b, uin
     const int kind = fill_kind(&w->first);
     lmb_fill_job job;
 #if LANES >= LMB_TILE
-    if (kind != FILL_ANY && !parts_are_wide(b, bits)) {
-        if (kind == FILL_PLAIN) {
-            parts_fill(w, b, bits, first_id, FILL_PLAIN);
-        } else {
-            parts_fill(w, b, bits, first_id, FILL_ID32);
-        }
+    /* Wide triangles go one by one: where ids tell who came first, so does all of their batch. */
+    const uint32_t wide = kind != FILL_ANY ? parts_wide(b, bits) : bits;
+    if (kind == FILL_PLAIN && count_bits_16(bits & ~wide) >= PARTS_PAY) {
+        parts_fill(w, b, bits & ~wide, first_id, FILL_PLAIN);
+        bits = wide;
+    } else if (kind == FILL_ID32 && wide == 0) {
+        parts_fill(w, b, bits, first_id, FILL_ID32);
         return;
     }
 #endif
