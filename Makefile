@@ -545,7 +545,10 @@ ports: ## the room on every port, in its emulator, against this machine's: one t
 console-abis: ## the library for Microsoft's and System V's x86-64 with AVX2 and for AArch64, from C and from C++
 	@$(IN_SH) tests/scripts/console_abis.sh
 
-.PHONY: linux-fb
+.PHONY: linux-fb null-port
+null-port: ## a port that begins as a copy of platform/null, in a tree of its own
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/null_port.sh
+
 linux-fb: ## the room on a file that stands for Linux's framebuffer device
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' sh tests/scripts/linux_fb.sh
 .PHONY: web-check

@@ -7,7 +7,7 @@
 # PORT_LDLIBS   -lgcc without a libc, -lm with one
 # RUN           what runs a program that stands behind it: an emulator. Empty: it runs here
 # ROOM_IMAGE    what the emulator takes, where that is not $(B)/room, with a rule that makes it
-PORT_SRC    := platform/null/port_null.c
+PORT_SRC    := platform/$(PORT)/port_$(PORT).c
 PORT_CFLAGS :=
 PORT_LDFLAGS :=
 PORT_LDLIBS :=

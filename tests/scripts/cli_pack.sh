@@ -54,6 +54,23 @@ said "cut.lmp: a packed scene of"
 { head -c 200 "$p/demo.lmp"; head -c 600 /dev/zero | tr '\000' '\377'; tail -c +801 "$p/demo.lmp"; } >"$p/damaged.lmp"
 status 1 info "$p/damaged.lmp"
 said "damaged.lmp: a damaged packed scene"
+# Wherever it is cut, and wherever its header's words are others: one line, status 1, and no picture. There is no
+# checksum: a changed byte that leaves a whole scene, of a colour for instance, is a different scene.
+broken() {
+    rm -f "$p/broken.png"
+    status 1 info "$p/broken.lmp"
+    status 1 render "$p/broken.lmp" $small -o "$p/broken.png"
+    check "$1: no picture" test ! -e "$p/broken.png"
+}
+size=$(wc -c <"$p/demo.lmp" | tr -d ' ')
+for cut in 0 1 3 4 8 31 32 215 216 $((size - 4)) $((size - 1)); do
+    head -c "$cut" "$p/demo.lmp" >"$p/broken.lmp"
+    broken "cut after $cut bytes"
+done
+for at in 0 4 8 15 16 31 36 40 47; do
+    { head -c "$at" "$p/demo.lmp"; printf '\377'; tail -c +$((at + 2)) "$p/demo.lmp"; } >"$p/broken.lmp"
+    broken "another byte at $at"
+done
 status 0 info "$p/demo.lmp"
 check "info knows packed scenes" grep -q 'demo.lmp: LMP$' "$dir/out.txt"
 

@@ -2,7 +2,7 @@
 # room of the same size. Prints one table, which is in BUILD/ports/table.md too. MAKE, BUILD; ROOM=pixel: light by pixel;
 # PORTS="cortex-m gba": these alone.
 #
-# A port is a folder of platform/ whose port.mk speaks of the room. `ROOMS := WORD ...` there names variants, each a word
+# A port is a folder of platform/ that has a port.mk. `ROOMS := WORD ...` there names variants, each a word
 # for make. A size is found in the port's own source: `WIDTH = N, HEIGHT = N`; 160 x 120 where there is none.
 . tests/scripts/checks.sh
 
@@ -25,8 +25,8 @@ mkdir -p "$out"
 all=
 for mk in platform/*/port.mk; do
     name=${mk%/port.mk} name=${name##*/}
-    case $name in host | null | counted | web) continue ;; esac
-    grep -qE '^ROOM_|bare\.mk' "$mk" && all="$all $name"
+    case $name in host | null | web) continue ;; esac
+    all="$all $name"
 done
 PORTS=${PORTS:-$all}
 for name in $PORTS; do
@@ -52,8 +52,11 @@ host() {
             $MAKE run PORT=host CONFIG=default ROOM_SIZE="$1 $2 8" BUILD="$out/host-$1x$2" ROOM="$ROOM" \
                 >"$out/host-$1x$2.txt" 2>>"$out/host.log"
     fi
-    grep '^frame ' "$out/host-$1x$2.txt"
+    frames_of "$out/host-$1x$2.txt"
 }
+
+# frames_of FILE: its hashes. A port without a screen may have put a picture's bytes between them.
+frames_of() { LC_ALL=C grep -a '^frame ' "$1"; }
 
 # stages FILE: the numbers of the dearest frame; with `all`: the last of them alone.
 stages() {
@@ -101,7 +104,7 @@ port() {
     rom=${memory% *} ram=$(sed -n 's/^ram \([0-9]*\) of .*/\1/p' "$said")
     ram=${ram:-${memory#* }}
     loads=- stores=- costs=$said
-    grep '^frame ' "$said" >"$dir.hashes.run"
+    frames_of "$said" >"$dir.hashes.run"
     if grep -q 'bare\.mk' "platform/$name/port.mk"; then
         for counted in loads stores; do
             # shellcheck disable=SC2086
@@ -115,13 +118,13 @@ port() {
         $MAKE count PORT="$name" BUILD="$dir" >"$dir.count" 2>&1 || fail "$label: see $dir.count"
         counted "$dir.count"
         sed -n 's/^cycles \(.*\)/cost \1 model/p' "$dir.count" >"$dir.cycles"
-        grep '^frame ' "$dir.count" | cmp -s - "$dir.hashes.run" || fail "$label: counted frames have other hashes"
+        frames_of "$dir.count" | cmp -s - "$dir.hashes.run" || fail "$label: counted frames have other hashes"
         costs=$dir.cycles
     fi
     # Machines without an FPU draw frame 0 alone by pixel.
     # shellcheck disable=SC2086
     host $size >"$dir.expected"
-    grep '^frame ' "$said" >"$dir.hashes"
+    frames_of "$said" >"$dir.hashes"
     frames=$(wc -l <"$dir.hashes")
     match=no
     if [ "$frames" -gt 0 ] && head -n "$frames" "$dir.expected" | cmp -s - "$dir.hashes" &&

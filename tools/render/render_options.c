@@ -227,7 +227,7 @@ const option_row render_bounce_rows[] = {
      .help = "sets --tree, --error and --visibility where they are not given; see README for each one's error and "
              "time"},
     {.name = "--transfer", .value = "FILE.lmt", .kind = OPTION_TEXT, AT(transfer), .file = OPTION_READS,
-     .help = "bounced light by what `lambent bake` made of this scene"},
+     .help = "bounced light by what `lambent bake` made of this scene; also a .lmp that has it within"},
     {.name = "--tree", .value = "N", .kind = OPTION_POWER_OF_2, AT(tree), .low = 8, .high = 4096,
      .help = "first points a side of a shadow map, to an eighth of --shadow-map"},
     {.name = "--error", .value = "E", .kind = OPTION_NUMBER, AT(error), .low = 1e-4, .high = 10,
