@@ -7,6 +7,7 @@
 PAGE      := $(B)/page
 PAGE_WORK := $(B)/page-work
 WASI      ?= /usr
+PAGE_BYTES := 307200
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
 PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c \
@@ -23,9 +24,11 @@ PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --sha
              --max-memory=2147483648 --gc-sections --strip-all --export=__stack_pointer --export-table --growable-table
 PAGE_MAIN := -z stack-size=1048576 --global-base=262144 --initial-memory=33554432 --export=__wasm_call_ctors
 PAGE_SIDE := -z stack-size=16 --global-base
-# What frames of the page run most is for speed, the rest for size.
+# What frames of the page run most is for speed; the rest, and what runs once a scene or for few pixels, for size.
 PAGE_FAST := src/raster/% src/lightcut/% src/transfer/% src/occlusion/% src/light/%
-page_opt   = $(if $(filter $(PAGE_FAST),$(1)),-O2,-Oz)
+PAGE_ONCE := src/occlusion/build.c src/raster/clip.c src/raster/fill.c src/transfer/transfer.c \
+             $(patsubst %,src/transfer/transfer_%.c,air many_lights materials)
+page_opt   = $(if $(filter $(PAGE_FAST),$(filter-out $(PAGE_ONCE),$(1))),-O2,-Oz)
 
 # $(1): a folder of objects, $(2): flags, $(3): how they are optimised.
 define page_objects
@@ -40,7 +43,7 @@ $(eval $(call page_objects,simd,-msimd128 -DLMB_PLAIN_LANES=1,-O2))
 -include $(patsubst %.c,$(PAGE_WORK)/main/%.d,$(PAGE_SRC)) \
          $(wildcard $(PAGE_WORK)/scalar/*/*/*.d $(PAGE_WORK)/simd/*/*/*.d)
 
-export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST)
+export PAGE_LINE := $(PAGE_FLAGS) $(PAGE_FAST) $(PAGE_ONCE)
 $(PAGE_WORK)/flags: FORCE
 	@mkdir -p $(@D)
 	@printf '%s\n' "$$PAGE_LINE" | cmp -s - $@ || printf '%s\n' "$$PAGE_LINE" > $@
@@ -64,11 +67,12 @@ $(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
 # Without comments and indentation.
 $(PAGE)/%: platform/web/page/%
 	@mkdir -p $(@D)
-	@sed -e 's/^ *//' -e '/^\/\/ /d' -e '/^$$/d' $< > $@
+	@sed -e 's/^ *//' -e '/^\/\/ /d' -e 's|\([;{},)]\)  *// .*|\1|' -e '/^$$/d' $< > $@
 
 .PHONY: page
 page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js
 	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
-	@cd $(PAGE) && cat index.html lambent.js lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \
-	    | sed 's/$$/ bytes that a browser loads, without scenes/'
+	@bytes=$$(cd $(PAGE) && cat index.html lambent.js lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c); \
+	    echo "$$bytes bytes that a browser loads, without scenes"; \
+	    [ $$bytes -le $(PAGE_BYTES) ] || { echo "over $(PAGE_BYTES) bytes"; exit 1; }
