@@ -4,7 +4,7 @@
 # get: installs what is missing, of the usual ones or of these, where apt-get and the right to use it are there. Says
 # what it does and what stays missing. It never removes a package: what needs that is left out.
 all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
-    arm-none-eabi-gcc qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips cppcheck
+    arm-none-eabi-gcc arm-newlib qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips cppcheck
     clang-tidy"
 
 packages_of() {
@@ -22,6 +22,7 @@ packages_of() {
     gcc-m32) echo gcc-12-multilib libc6-dev-i386 ;;
     x86_64-w64-mingw32-gcc) echo gcc-mingw-w64-x86-64-win32 ;;
     arm-none-eabi-gcc) echo gcc-arm-none-eabi ;;
+    arm-newlib) echo libnewlib-arm-none-eabi ;;
     qemu-system-arm) echo qemu-system-arm ;;
     riscv64-unknown-elf-gcc) echo gcc-riscv64-unknown-elf ;;
     qemu-system-riscv32) echo qemu-system-misc ;;
@@ -57,6 +58,9 @@ missing() {
         clang-sanitizers) sanitizes || echo "$command" ;;
         # A cross compiler may be there without its libc.
         *-linux-gnu*-gcc) echo '#include <stdio.h>' | "$command" -E -x c -o /dev/null - >/dev/null 2>&1 \
+            || echo "$command" ;;
+        # The C library of bare Arm machines, for who brings no headers.
+        arm-newlib) echo '#include <string.h>' | arm-none-eabi-gcc -E -x c -o /dev/null - >/dev/null 2>&1 \
             || echo "$command" ;;
         gcc-m32) echo 'int main(void) { return 0; }' | gcc -m32 -I/usr/include/x86_64-linux-gnu -x c -o /dev/null - \
             >/dev/null 2>&1 || echo "$command" ;;
