@@ -7,7 +7,6 @@
 PAGE      := $(B)/page
 PAGE_WORK := $(B)/page-work
 WASI      ?= /usr
-PAGE_BYTES := 307200
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
 PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c \
@@ -73,6 +72,5 @@ $(PAGE)/%: platform/web/page/%
 page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js
 	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
-	@bytes=$$(cd $(PAGE) && cat index.html lambent.js lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c); \
-	    echo "$$bytes bytes that a browser loads, without scenes"; \
-	    [ $$bytes -le $(PAGE_BYTES) ] || { echo "over $(PAGE_BYTES) bytes"; exit 1; }
+	@cd $(PAGE) && cat index.html lambent.js lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \
+	    | sed 's/$$/ bytes that a browser loads, without scenes/'

@@ -4,7 +4,7 @@
  * On irradiance of bounced light, grey, at places that are followed from frame to frame; all but shifts are shares of
  * what the best settings give there and 1 % of its mean.
  * `residual`: r = frame - best, at twenty times along the paths: the 99.9th percentiles of |r(t) - r(t-1)| and of
- * |r(t+1) - 2 r(t) + r(t-1)| in 100, and beside them those of the best light's own steps.
+ * |r(t+1) - 2 r(t) + r(t-1)|, and beside them those of the best light's own steps.
  * `halving`: the light alone moves, over a frame's time at four times: the largest change of any pixel between frames 1,
  * 1/2 .. 1/64 of it apart. What does not shrink to 0.6 each time is a pop; where the largest is, is told.
  * `shift`: the camera steps aside by 1/4 .. 16 px at what is ahead: RMSE of the change at a place beyond that of the best

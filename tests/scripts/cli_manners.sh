@@ -197,11 +197,11 @@ check "what is read stays as it was" test "$(sum)" = "$kept"
 # --- no file of lambent's own under the name of another kind ---
 
 for out in x.png X.PPM x.pfm x.hdr x.jpg x.jpeg x.gltf x.GLB x.obj x.mtl x.ply x.lmp x.lmr; do
-    misused "$out: what is written is a .lmt, and" bake "$dir/box.obj" --elements 64 --receivers 64 -o "$m/$out"
+    misused "$out: a .lmt file would be written, under the name of a" bake "$dir/box.obj" --elements 64 --receivers 64 -o "$m/$out"
     absent "$m/$out"
 done
-misused "x.lmt: what is written is a .lmp, and .lmt files are something else; name it *.lmp" pack demo -o "$m/x.lmt"
-misused "x.png: what is written is a .lmr, and .png files are something else; name it *.lmr" relief bake "$m/cloth.obj" -o "$m/x.png"
+misused "x.lmt: a .lmp file would be written, under the name of a .lmt file; name it *.lmp" pack demo -o "$m/x.lmt"
+misused "x.png: a .lmr file would be written, under the name of a .png file; name it *.lmr" relief bake "$m/cloth.obj" -o "$m/x.png"
 absent "$m/x.png"
 for out in room room.baked room.lmt ROOM.LMT png .lmt x.png.lmt; do
     status 0 bake "$dir/box.obj" --elements 64 --receivers 64 -q -o "$m/$out"

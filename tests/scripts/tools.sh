@@ -4,8 +4,8 @@
 # get: installs what is missing, of the usual ones or of these, where apt-get and the right to use it are there. Says
 # what it does and what stays missing. It never removes a package: what needs that is left out.
 all="clang clang-sanitizers wasm-ld node aarch64-linux-gnu-gcc qemu-aarch64 mips-linux-gnu-gcc qemu-mips
-    arm-none-eabi-gcc arm-newlib qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips cppcheck
-    clang-tidy"
+    arm-none-eabi-gcc arm-newlib qemu-system-arm riscv64-unknown-elf-gcc qemu-system-riscv32 djpeg cjpeg pngtopam vips
+    cppcheck clang-tidy"
 
 packages_of() {
     case $1 in
@@ -59,7 +59,7 @@ missing() {
         # A cross compiler may be there without its libc.
         *-linux-gnu*-gcc) echo '#include <stdio.h>' | "$command" -E -x c -o /dev/null - >/dev/null 2>&1 \
             || echo "$command" ;;
-        # The C library of bare Arm machines, for who brings no headers.
+        # The C library of bare Arm machines, for builds that bring no headers of their own.
         arm-newlib) echo '#include <string.h>' | arm-none-eabi-gcc -E -x c -o /dev/null - >/dev/null 2>&1 \
             || echo "$command" ;;
         gcc-m32) echo 'int main(void) { return 0; }' | gcc -m32 -I/usr/include/x86_64-linux-gnu -x c -o /dev/null - \

@@ -568,16 +568,24 @@ static file_bytes bake_whole(const lmb_scene *scene, const bake_settings *set, c
     return out;
 }
 
+/* So few that a file takes no second. */
+static bake_settings few(float error, float division, int receivers)
+{
+    bake_settings set;
+    memset(&set, 0, sizeof set);
+    set.error = error;
+    set.division = division;
+    set.elements = 256;
+    set.receivers = receivers;
+    set.threads = 2;
+    return set;
+}
+
 /* moves: the block does. */
 static file_bytes bake_box(int threads, int moves)
 {
     static const uint32_t block[1] = {1};
-    bake_settings set;
-    memset(&set, 0, sizeof set);
-    set.error = 0.0013f;
-    set.division = 0.01f;
-    set.elements = 256;
-    set.receivers = 200;
+    bake_settings set = few(0.0013f, 0.01f, 200);
     set.threads = threads;
     return bake_whole(&world.scene, &set, moves ? block : NULL);
 }
@@ -606,7 +614,7 @@ static void is_pinned(const char *name, const file_bytes *baked, uint64_t wanted
 static void bytes_of_buried(void)
 {
     static const uint32_t small[1] = {1};
-    bake_settings set;
+    const bake_settings set = few(0.0013f, 1.0f, 0);
     world_begin(0.7f, 0.5f, 0.3f);
     world_box(vec3(0, 0, 0), 1.5f);
     world_triangle(vec3(-1, -0.6f, -0.8f), vec3(0, -0.6f, 1), vec3(1, -0.6f, -0.8f));
@@ -619,11 +627,6 @@ static void bytes_of_buried(void)
     world.scene.lights = &box_light;
     world.scene.light_count = 1;
     CHECK(world_end() == LMB_OK);
-    memset(&set, 0, sizeof set);
-    set.error = 0.0013f;
-    set.division = 1.0f;
-    set.elements = 256;
-    set.threads = 2;
     file_bytes baked = bake_whole(&world.scene, &set, small);
     is_pinned("a panel in blocks", &baked, 0x4ec947cfeb2b6049u);
     file_free(&baked);
@@ -632,14 +635,8 @@ static void bytes_of_buried(void)
 /* Large triangles, and small ones that share clusters and elements. */
 static void bytes_of_demo(void)
 {
-    bake_settings set;
-    memset(&set, 0, sizeof set);
-    set.error = 0.00014f;
-    set.division = 0.008f;
-    set.elements = 256;
-    set.receivers = 300;
+    bake_settings set = few(0.00014f, 0.008f, 300);
     set.cluster_m = 0.3f;
-    set.threads = 2;
     file_bytes baked = bake_whole(demo_scene(), &set, NULL);
     is_pinned("the demo", &baked, 0x9a5b319bf7f23ed3u);
     file_free(&baked);

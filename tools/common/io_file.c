@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "../../platform/host/host.h"
+#include "ending.h"
 
 #ifdef _WIN32
 #include <io.h>
@@ -51,21 +52,13 @@ int file_is_stdout(const char *path)
            strcmp(path + 3, ":-") == 0;
 }
 
-static int is_same_word(const char *a, const char *b)
-{
-    for (; *a != '\0' && tolower((unsigned char)*a) == *b; ++a, ++b) {
-    }
-    return *a == *b;
-}
-
 int file_suits(const char *path, const char *own, report *r)
 {
     static const char *const known[] = {".png", ".ppm", ".pfm", ".hdr", ".jpg", ".jpeg", ".gltf",
                                         ".glb", ".obj", ".mtl", ".ply", ".lmp", ".lmr", ".lmt"};
-    const char *ending = strrchr(path, '.');
-    for (size_t i = 0; ending != NULL && i < sizeof known / sizeof known[0]; ++i) {
-        if (is_same_word(ending, known[i]) && strcmp(own, known[i]) != 0) {
-            return report_fail(r, "-o %s: what is written is a %s, and %s files are something else; name it *%s", path,
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i) {
+        if (has_ending(path, known[i]) && strcmp(own, known[i]) != 0) {
+            return report_fail(r, "-o %s: a %s file would be written, under the name of a %s file; name it *%s", path,
                                own, known[i], own);
         }
     }

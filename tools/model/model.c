@@ -1,9 +1,9 @@
 /* model.c: picks the reader by content, and finishes what it built. */
-#include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
+#include "../common/ending.h"
 #include "io_lmp.h"
 #include "io_ply.h"
 #include "model_build.h"
@@ -178,18 +178,6 @@ static int finish(model_build *b)
     return 1;
 }
 
-/* Does the path end in `extension` (lower case, with its point)? */
-static int has_extension(const char *path, const char *extension)
-{
-    size_t n = strlen(path), e = strlen(extension), i;
-    if (n < e)
-        return 0;
-    for (i = 0; i < e; ++i)
-        if (tolower((unsigned char)path[n - e + i]) != extension[i])
-            return 0;
-    return 1;
-}
-
 typedef int (*model_reader)(model_build *b, const uint8_t *data, size_t size);
 
 /* Packed scenes by their magic; glTF by its magic, its extension or a first brace; PLY by its first line or its extension; OBJ, which has no mark,
@@ -201,13 +189,13 @@ static model_reader find_reader(const char *path, const file_bytes *file)
         return gltf_load;
     if (lmp_begins(file->data, file->size))
         return lmp_load;
-    if (ply_begins(file->data, file->size) || has_extension(path, ".ply"))
+    if (ply_begins(file->data, file->size) || has_ending(path, ".ply"))
         return ply_load;
-    if (has_extension(path, ".obj"))
+    if (has_ending(path, ".obj"))
         return obj_load;
     while (i < file->size && strchr(" \t\r\n", file->data[i]) && file->data[i])
         ++i;
-    if (has_extension(path, ".gltf") || has_extension(path, ".glb") || (i < file->size && file->data[i] == '{'))
+    if (has_ending(path, ".gltf") || has_ending(path, ".glb") || (i < file->size && file->data[i] == '{'))
         return gltf_load;
     return strcmp(path, "-") == 0 && file->size > 0 && !memchr(file->data, 0, file->size) ? obj_load : NULL;
 }

@@ -1,12 +1,13 @@
 /* picture.c: a linear frame -> the file format its name asks for. */
 #include "picture.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <lambent/lambent.h>
+
+#include "../common/ending.h"
 
 /* `-` is a PNG, `pfm:-` what it says. */
 static int stdout_format(const char *path)
@@ -23,16 +24,11 @@ static int stdout_format(const char *path)
 int picture_format(const char *path)
 {
     static const char *const endings[] = {".png", ".ppm", ".pfm", ".hdr"};
-    size_t n = strlen(path);
     if (file_is_stdout(path)) {
         return stdout_format(path);
     }
-    for (int i = 0; i < 4 && n > 4; ++i) {
-        int same = 1;
-        for (size_t k = 0; k < 4; ++k) {
-            same &= tolower((unsigned char)path[n - 4 + k]) == endings[i][k];
-        }
-        if (same) {
+    for (int i = 0; i < 4 && strlen(path) > 4; ++i) {
+        if (has_ending(path, endings[i])) {
             return PICTURE_PNG + i;
         }
     }
