@@ -54,7 +54,7 @@ static inline size_t small_fixed(uint32_t *out)
     const uint32_t header[LMB_FIXED_HEADER_WORDS] = {
         0x4c4d4600u | LMB_FIXED_VERSION, SMALL_FIXED_WORDS, 10, SMALL_FIXED_VERTICES, SMALL_FIXED_TRIANGLES,
         SMALL_FIXED_FACES, SMALL_FIXED_RECEIVERS * SMALL_FIXED_LINKS / 2, 3, 3, 3, (uint32_t)-1500, (uint32_t)-1500,
-        (uint32_t)-1500, 1500, 0, 0, 0, 0, 0, 0};
+        (uint32_t)-1500, 1500, 0, 0, 0, SMALL_FIXED_TRIANGLES / 2, 0, 0};
     enum { N = SMALL_FIXED_ACROSS };
     uint32_t *at = out, dice = 1;
     for (int i = 0; i < LMB_FIXED_HEADER_WORDS; ++i) {

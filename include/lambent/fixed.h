@@ -42,17 +42,19 @@ enum {
  *
  *   header      magic, words in all, log2 of units a metre, vertices, triangles, elements, words of links, places along
  *               x, y, z, the first place's x, y, z, places' distance in units, where in the world x, y, z = 0 is, in
- *               units, three words 0
+ *               units, triangles of the hull, two words 0
  *   receivers   vertices, then elements: x | y << 16, z | nx << 16 | ny << 24, nz | r << 8 | g << 16 | b << 24: position
  *               in units, normal in 1/127, square roots of the linear albedo in 1/255
- *   triangles   two words: a | b << 16, c; counter-clockwise from their front, which alone is seen
+ *   triangles   two words: a | b << 16, c; counter-clockwise from their front, which alone is seen. First those of the
+ *               hull: walls that have all of the scene before them. They are drawn without depths, as nothing that is
+ *               seen lies behind one, and no two of them before each other
  *   rows        of each receiver: first word among links | links << 24, an even number; scale
  *   links       two a word, the first in the low half: weight << 8 | element
  *   places      a bit each: 1 where the lamp may be
  *   seen        of each receiver a bit a place, in whole words: 1 where nothing hides the place */
 typedef struct lmb_fixed {
     const uint32_t *receiver, *triangle, *row, *link, *valid, *seen;
-    uint32_t vertices, triangles, elements, place_words;
+    uint32_t vertices, triangles, hull, elements, place_words;
     int32_t units_log2;
     int32_t places[3], first[3], spacing, origin[3];
 } lmb_fixed;

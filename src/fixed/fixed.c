@@ -297,11 +297,16 @@ lmb_status lmb_fixed_transform(lmb_fixed_frame *f)
 
 /* --- bands -------------------------------------------------------------------------------------------------------- */
 
+static int is_hull(const lmb_fixed_frame *f, uint32_t triangle)
+{
+    return (triangle & ~(uint32_t)FIXED_CUT) < f->scene->hull;
+}
+
 static int set_up(lmb_fixed_ready *out, const lmb_fixed_frame *f, uint32_t triangle, int32_t first, int32_t past)
 {
     const uint32_t *t = f->scene->triangle + 2 * triangle;
     return lmb_fixed_set_up(out, &f->vertex[t[0] & 0xffffu], &f->vertex[t[0] >> 16], &f->vertex[t[1]], f->view.width,
-                            first, past);
+                            first, past, !is_hull(f, triangle));
 }
 
 static void prepare_cut(lmb_fixed_ready *out, int places, const lmb_fixed_frame *f, uint32_t triangle)
@@ -311,7 +316,8 @@ static void prepare_cut(lmb_fixed_ready *out, int places, const lmb_fixed_frame 
     for (int k = 0; k < places; ++k) {
         out[k].first = out[k].past = 0;
         if (k + 2 < count) {
-            lmb_fixed_set_up(&out[k], &c[0], &c[k + 1], &c[k + 2], f->view.width, 0, f->view.height);
+            lmb_fixed_set_up(&out[k], &c[0], &c[k + 1], &c[k + 2], f->view.width, 0, f->view.height,
+                             !is_hull(f, triangle));
         }
     }
 }
@@ -359,7 +365,7 @@ static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t i)
     lmb_fixed_vertex c[FIXED_CORNERS];
     const int count = lmb_fixed_clip(c, f, triangle & ~(uint32_t)FIXED_CUT);
     for (int k = 2; k < count; ++k) {
-        if (lmb_fixed_set_up(&r, &c[0], &c[k - 1], &c[k], b->width, b->first, b->past)) {
+        if (lmb_fixed_set_up(&r, &c[0], &c[k - 1], &c[k], b->width, b->first, b->past, b->depth != NULL)) {
             lmb_fixed_fill(b, &r);
         }
     }
@@ -371,9 +377,8 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
         past > f->view.height) {
         return LMB_ERR_ARG;
     }
-    const fixed_band b = {f->pixel, f->depth, f->view.width, first, past};
+    fixed_band b = {f->pixel, NULL, f->view.width, first, past};
     const size_t pixels = (size_t)b.width * (size_t)(past - first);
-    memset(b.depth, 0, pixels * sizeof *b.depth);
     if (f->background == 0) {
         memset(b.pixel, 0, pixels * sizeof *b.pixel);
     } else if (f->background != LMB_FIXED_COVERED) {
@@ -390,6 +395,10 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
         }
         if (s->first >= past || s->past <= first) {
             continue;
+        }
+        if (b.depth == NULL && !is_hull(f, s->triangle)) { /* the hull's triangles are the first */
+            b.depth = f->depth;
+            memset(b.depth, 0, pixels * sizeof *b.depth);
         }
         if (i < f->ready_count) {
             lmb_fixed_fill(&b, &f->ready[i]);

@@ -109,8 +109,8 @@ typedef struct span {
     ++to_depth, ++to;                                                    \
     depth += depth_step, red_blue += red_blue_step, green += green_step;
 
-/* Two a turn; by itself, so that all of it is in registers. */
-NOINLINE void fill_pixels(uint32_t *to, uint16_t *to_depth, int32_t count, const span *s)
+/* Two a turn. */
+LOOP_APART void fill_pixels(uint32_t *to, uint16_t *to_depth, int32_t count, const span *s)
 {
     uint32_t depth = s->depth, red_blue = s->red_blue, green = s->green;
     const uint32_t depth_step = s->depth_step, red_blue_step = s->red_blue_step, green_step = s->green_step;
@@ -121,6 +121,31 @@ NOINLINE void fill_pixels(uint32_t *to, uint16_t *to_depth, int32_t count, const
     while (to_depth != past) {
         FILL_PIXEL
         FILL_PIXEL
+    }
+}
+
+#define HULL_PIXEL                                               \
+    *to++ = (red_blue >> 8 & 0xff00ffu) | (green & 0xff00u);     \
+    red_blue += red_blue_step, green += green_step;
+
+/* Of the hull: nothing that was drawn lies before it. Four a turn. */
+LOOP_APART void fill_hull_pixels(uint32_t *to, int32_t count, const span *s)
+{
+    uint32_t red_blue = s->red_blue, green = s->green;
+    const uint32_t red_blue_step = s->red_blue_step, green_step = s->green_step;
+    const uint32_t *const past = to + count;
+    if (count & 1) {
+        HULL_PIXEL
+    }
+    if (count & 2) {
+        HULL_PIXEL
+        HULL_PIXEL
+    }
+    while (to != past) {
+        HULL_PIXEL
+        HULL_PIXEL
+        HULL_PIXEL
+        HULL_PIXEL
     }
 }
 
@@ -169,10 +194,14 @@ static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t x, int32_t count)
 static void fill_steep(const filler *f, int32_t x, int32_t count, uint32_t *to, uint16_t *to_depth)
 {
     const ramp r = colour_ramp(f->red, f->red_x, x, count), g = colour_ramp(f->green, f->green_x, x, count),
-               b = colour_ramp(f->blue, f->blue_x, x, count),
-               d = ramp_within(f->depth + f->depth_x * (uint32_t)x, (int32_t)f->depth_x, count, 0x3fffffff);
-    const span s = {d.at, (uint32_t)d.step, (r.at << 16) + b.at, ((uint32_t)r.step << 16) + (uint32_t)b.step,
-                    g.at, (uint32_t)g.step};
+               b = colour_ramp(f->blue, f->blue_x, x, count);
+    span s = {0, 0, (r.at << 16) + b.at, ((uint32_t)r.step << 16) + (uint32_t)b.step, g.at, (uint32_t)g.step};
+    if (to_depth == NULL) {
+        fill_hull_pixels(to, count, &s);
+        return;
+    }
+    const ramp d = ramp_within(f->depth + f->depth_x * (uint32_t)x, (int32_t)f->depth_x, count, 0x3fffffff);
+    s.depth = d.at, s.depth_step = (uint32_t)d.step;
     fill_pixels(to, to_depth, count, &s);
 }
 
@@ -184,20 +213,28 @@ static void fill_between(filler *f, lmb_fixed_edge *a, lmb_fixed_edge *b, int32_
               0, (uint32_t)colour_step(f->green_x)};
     int32_t u = a->at, v = b->at;
     uint32_t *to = f->b->pixel + width * (first - f->b->first);
-    uint16_t *to_depth = f->b->depth + width * (first - f->b->first);
-    for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width, to_depth += width) {
+    uint16_t *to_depth = f->b->depth == NULL ? NULL : f->b->depth + width * (first - f->b->first);
+    for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width) {
         const int32_t x = maxi(first_pixel(u), f->left);
         const int32_t count = mini(first_pixel(v), f->right) - x;
         if (count > 0 && f->is_gentle) {
             const uint32_t at = (uint32_t)x;
-            s.depth = f->depth + f->depth_x * at;
             s.red_blue = ((f->red + f->red_x * at) << 8 & 0xffff0000u) + ((f->blue + f->blue_x * at) >> 8);
             s.green = (f->green + f->green_x * at) >> 8;
-            fill_pixels(to + x, to_depth + x, count, &s);
+            if (to_depth == NULL) {
+                fill_hull_pixels(to + x, count, &s);
+            } else {
+                s.depth = f->depth + f->depth_x * at;
+                fill_pixels(to + x, to_depth + x, count, &s);
+            }
         } else if (count > 0) {
-            fill_steep(f, x, count, to + x, to_depth + x);
+            fill_steep(f, x, count, to + x, to_depth == NULL ? NULL : to_depth + x);
         }
-        f->depth += f->depth_y, f->red += f->red_y, f->green += f->green_y, f->blue += f->blue_y;
+        if (to_depth != NULL) {
+            to_depth += width;
+            f->depth += f->depth_y;
+        }
+        f->red += f->red_y, f->green += f->green_y, f->blue += f->blue_y;
     }
     a->at = u, b->at = v;
 }
@@ -245,7 +282,7 @@ static void set_number(lmb_fixed_ready *out, int i, const plane *p, const lmb_fi
 }
 
 int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
-                     const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past)
+                     const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past, int has_depth)
 {
     const lmb_fixed_vertex *top = c0, *middle = c1, *bottom = c2, *swap;
     plane p;
@@ -280,8 +317,12 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
     out->left = (int16_t)maxi((mini(c0->x, mini(c1->x, c2->x)) + 7) >> 4, 0);
     out->right = (int16_t)mini((maxi(c0->x, maxi(c1->x, c2->x)) + 8) >> 4, width);
     int is_gentle = out->right - out->left <= GENTLE_ACROSS;
-    is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
-    set_number(out, 0, &p, c0);
+    if (has_depth) {
+        is_gentle &= set_depth(&p, &s, c0->depth, c1->depth, c2->depth);
+        set_number(out, 0, &p, c0);
+    } else {
+        out->at[0] = out->per_x[0] = out->per_y[0] = 0;
+    }
     for (int i = 0; i < 3; ++i) {
         is_gentle &= set_colour(&p, &s, c0->colour[i], c1->colour[i], c2->colour[i]);
         set_number(out, 1 + i, &p, c0);

@@ -185,7 +185,7 @@ static uint32_t reflected(uint32_t v, uint32_t root)
 }
 
 /* What elements send, 1/65536 of white >> down. */
-NOINLINE void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*element)[4], uint32_t receiver,
+LOOP_APART void links_at(uint32_t out[3], const lmb_fixed *s, const uint16_t (*element)[4], uint32_t receiver,
                        int32_t down)
 {
     const uint32_t *row = s->row + LMB_FIXED_ROW_WORDS * receiver, *link = s->link + (row[0] & 0xffffffu),

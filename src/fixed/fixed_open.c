@@ -8,7 +8,7 @@
 #define MAGIC_SWAPPED (0x00464d4cu | (uint32_t)LMB_FIXED_VERSION << 24)
 
 enum { MAGIC_AT, WORDS_AT, UNITS_AT, VERTICES_AT, TRIANGLES_AT, ELEMENTS_AT, LINK_WORDS_AT, PLACES_AT, FIRST_AT = 10,
-       SPACING_AT = 13, ORIGIN_AT, ZEROS_AT = 17 };
+       SPACING_AT = 13, ORIGIN_AT, HULL_AT = 17, ZEROS_AT };
 
 static int is_place(int32_t v) { return v >= -LMB_FIXED_REACH && v <= LMB_FIXED_REACH; }
 
@@ -18,13 +18,15 @@ static int take_header(lmb_fixed *s, const uint32_t *word, size_t words)
     uint32_t places = 1;
     if (words < LMB_FIXED_HEADER_WORDS || word[WORDS_AT] != words || word[UNITS_AT] > 16 || word[VERTICES_AT] < 3 ||
         word[VERTICES_AT] > LMB_FIXED_MAX_VERTICES || word[TRIANGLES_AT] > LMB_FIXED_MAX_TRIANGLES ||
-        word[ELEMENTS_AT] > LMB_FIXED_MAX_ELEMENTS || (word[ZEROS_AT] | word[ZEROS_AT + 1] | word[ZEROS_AT + 2]) != 0 ||
+        word[ELEMENTS_AT] > LMB_FIXED_MAX_ELEMENTS || word[HULL_AT] > word[TRIANGLES_AT] ||
+        (word[ZEROS_AT] | word[ZEROS_AT + 1]) != 0 ||
         word[SPACING_AT] < 16 || word[SPACING_AT] > 2 * LMB_FIXED_REACH) {
         return 0;
     }
     s->units_log2 = (int32_t)word[UNITS_AT];
     s->vertices = word[VERTICES_AT];
     s->triangles = word[TRIANGLES_AT];
+    s->hull = word[HULL_AT];
     s->elements = word[ELEMENTS_AT];
     s->spacing = (int32_t)word[SPACING_AT];
     for (int i = 0; i < 3; ++i) {

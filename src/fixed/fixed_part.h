@@ -43,7 +43,7 @@ enum { FIXED_LEAST = 1, FIXED_MOST = 254, FIXED_LEAST_DEPTH = 16, FIXED_MOST_DEP
 /* A band: rows first .. past - 1 of a picture. */
 typedef struct fixed_band {
     uint32_t *pixel;
-    uint16_t *depth;
+    uint16_t *depth; /* null: of the hull alone */
     int32_t width, first, past;
 } fixed_band;
 
@@ -52,11 +52,11 @@ enum { FIXED_CORNERS = 9 };
 int lmb_fixed_clip(lmb_fixed_vertex out[FIXED_CORNERS], const lmb_fixed_frame *f, uint32_t triangle);
 
 /* lmb_fixed_set_up: corners clockwise or not, within a guard of 12 times the sides in 1/16 px; of a picture so wide, the
- * rows first .. past - 1. 0, and no rows, where it covers none. */
+ * rows first .. past - 1; without depth where it is filled by a band without. 0, and no rows, where it covers none. */
 int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1,
-                     const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past);
+                     const lmb_fixed_vertex *c2, int32_t width, int32_t first, int32_t past, int has_depth);
 
-/* lmb_fixed_fill: the rows of it that the band has. */
+/* lmb_fixed_fill: the rows of it that the band has; all of its pixels where the band has no depth. */
 void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r);
 
 #endif

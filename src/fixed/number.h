@@ -6,11 +6,11 @@
 
 #include "../base/exact.h"
 
-/* For loops that want all registers. */
-#if defined(__GNUC__)
-#define NOINLINE static __attribute__((noinline))
+/* For loops that want all registers, where there are few. */
+#if defined(__GNUC__) && (defined(__arm__) || defined(__i386__))
+#define LOOP_APART static __attribute__((noinline))
 #else
-#define NOINLINE static
+#define LOOP_APART static
 #endif
 
 /* The high half of a product. */

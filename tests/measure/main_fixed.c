@@ -22,9 +22,10 @@
 
 static void say_facts(uint32_t words, const vertex_light_facts *f)
 {
-    printf("%u words, %u vertices, %u triangles (%u hidden left out), %u elements, %u links, %u of %u places, %.3f m apart\n",
-           (unsigned)words, (unsigned)f->vertices, (unsigned)f->triangles, (unsigned)f->hidden, (unsigned)f->elements,
-           (unsigned)f->links, (unsigned)f->valid, (unsigned)f->places, f->spacing_m);
+    printf("%u words, %u vertices, %u triangles (%u of the hull, %u hidden left out), %u elements, %u links, %u of %u places, "
+           "%.3f m apart\n",
+           (unsigned)words, (unsigned)f->vertices, (unsigned)f->triangles, (unsigned)f->hull, (unsigned)f->hidden,
+           (unsigned)f->elements, (unsigned)f->links, (unsigned)f->valid, (unsigned)f->places, f->spacing_m);
 }
 
 static int write_blob(const char *path, const vertex_light_options *o, report *r)

@@ -32,7 +32,7 @@ typedef struct baking {
     vl_sight sight;
     vl_lattice lattice;
     receiver *receiver; /* vertices, then elements */
-    uint32_t vertices, elements, hidden;
+    uint32_t vertices, elements, hidden, hull;
     uint32_t (*corner)[3]; /* of a triangle: vertices */
     piece *piece;          /* of a triangle */
     uint32_t *words, count, cap, link_words;
@@ -71,6 +71,47 @@ static void drop_buried(baking *b)
     }
     b->hidden = b->m.triangles - kept;
     b->m.triangles = kept;
+}
+
+#define BEHIND 1e-3 /* m: so far something may lie behind a triangle of the hull, as places are rounded */
+
+static int is_hull(const baking *b, const vl_triangle *t)
+{
+    const dvec at = b->m.place[t->p[0]];
+    for (uint32_t i = 0; i < b->m.triangles; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            if (dvec_dot(t->face, dvec_sub(b->m.place[b->m.triangle[i].p[k]], at)) < -BEHIND) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* Triangles that have all of the scene before them come first; the order is kept otherwise. */
+static int put_hull_first(baking *b, report *r)
+{
+    vl_triangle *sorted = malloc(b->m.triangles * sizeof *sorted);
+    unsigned char *hull = malloc(b->m.triangles);
+    const int ok = (sorted != NULL && hull != NULL) || report_fail(r, "not enough memory for triangles");
+    uint32_t count = 0;
+    for (uint32_t i = 0; ok && i < b->m.triangles; ++i) {
+        hull[i] = (unsigned char)is_hull(b, &b->m.triangle[i]);
+        b->hull += hull[i];
+    }
+    for (int which = 1; ok && which >= 0; --which) {
+        for (uint32_t i = 0; i < b->m.triangles; ++i) {
+            if (hull[i] == which) {
+                sorted[count++] = b->m.triangle[i];
+            }
+        }
+    }
+    if (ok) {
+        memcpy(b->m.triangle, sorted, count * sizeof *sorted);
+    }
+    free(sorted);
+    free(hull);
+    return ok;
 }
 
 static uint32_t vertex_of(baking *b, const vl_triangle *t, int k)
@@ -527,6 +568,7 @@ static int put_all(baking *b, const vertex_light_options *o, report *r)
         header[10 + k] = unit_of(b, b->lattice.first[k], k);
         header[14 + k] = (uint32_t)b->origin[k];
     }
+    header[17] = b->hull;
     header[13] = (uint32_t)floor(ldexp(b->lattice.spacing, b->units_log2) + 0.5);
     for (uint32_t i = 0; i < LMB_FIXED_HEADER_WORDS && ok; ++i) {
         ok = put(b, header[i], r);
@@ -571,9 +613,9 @@ int vertex_light_make(uint32_t **words, uint32_t *count, vertex_light_facts *fac
     memset(facts, 0, sizeof *facts);
     *words = NULL;
     *count = 0;
-    o.vertices = o.vertices > 0 ? o.vertices : 600;
+    o.vertices = o.vertices > 0 ? o.vertices : 560;
     o.elements = o.elements > 0 && o.elements <= LMB_FIXED_MAX_ELEMENTS ? o.elements : 192;
-    o.links = o.links > 0 && o.links < MOST_LINKS ? o.links : 32;
+    o.links = o.links > 0 && o.links < MOST_LINKS ? o.links : 20;
     o.places = o.places > 0 ? o.places : 512;
     int ok = vl_mesh_build(&b.m, scene, o.vertices, r) && vl_sight_begin(&b.sight, &b.m, r) &&
              vl_lattice_make(&b.lattice, &b.m, &b.sight, o.places, r) &&
@@ -582,6 +624,7 @@ int vertex_light_make(uint32_t **words, uint32_t *count, vertex_light_facts *fac
         drop_buried(&b);
         set_units(&b);
         ok = b.m.triangles > 0 || report_fail(r, "no triangle of the scene can be seen");
+        ok = ok && put_hull_first(&b, r);
     }
     ok = ok && make_vertices(&b, r) && make_elements(&b, o.elements, r);
     if (ok && (b.vertices > LMB_FIXED_MAX_VERTICES || b.m.triangles > LMB_FIXED_MAX_TRIANGLES)) {
@@ -601,6 +644,7 @@ int vertex_light_make(uint32_t **words, uint32_t *count, vertex_light_facts *fac
         facts->links = 2 * b.link_words;
         facts->places = b.lattice.all;
         facts->hidden = b.hidden;
+        facts->hull = b.hull;
         for (uint32_t i = 0; i < b.lattice.all; ++i) {
             facts->valid += b.lattice.valid[i];
         }

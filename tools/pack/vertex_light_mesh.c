@@ -10,7 +10,7 @@
 #include "../mesh/simplify.h"
 
 enum { FINE = 300 };          /* triangles of a smooth mesh that is drawn with fewer */
-#define SMOOTH_SHARE 0.33     /* of the vertices: for such meshes */
+#define SMOOTH_SHARE 0.26     /* of the vertices: for such meshes */
 #define WELD 1e-4             /* m */
 
 static dvec widened(lmb_vec3 v) { return dvec_of((double)v.x, (double)v.y, (double)v.z); }
