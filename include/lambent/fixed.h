@@ -1,4 +1,5 @@
-/* fixed.h: frames by integers alone, for machines without an FPU: triangles with light at their vertices, 0x00RRGGBB.
+/* fixed.h: frames by integers alone, for machines without an FPU: triangles with light at their vertices, in 32-bit words
+ * or dithered in 16 bits.
  * No float, no division. Experimental.
  *
  *     lmb_fixed_open(..)       a baked scene, used in place: `lambent pack` or tools/pack makes it
@@ -37,6 +38,11 @@ enum {
 /* As background: surfaces cover the whole picture, so that bands are not cleared first. Where none does, pixels keep what
  * they were. */
 #define LMB_FIXED_COVERED 0xffffffffu
+
+/* Formats of a picture: 0x00RRGGBB, codes up to LMB_FIXED_RGB_MOST; or 16 bits, dithered: red in the low five bits, or in
+ * the high ones with the last bit 1. A code c of 0x00RRGGBB becomes (c + t / 2) / 8, each quotient rounded down, where t is
+ * of Bayer's 4 x 4 matrix of 0 .. 15 by x & 3 and y & 3. */
+enum { LMB_FIXED_RGB888, LMB_FIXED_BGR555, LMB_FIXED_RGBA5551, LMB_FIXED_RGB_MOST = 248 };
 
 /* A blob in place: 32-bit words of the machine's byte order.
  *
@@ -79,7 +85,7 @@ typedef struct lmb_fixed_lamp {
 typedef struct lmb_fixed_vertex {
     int16_t x, y;      /* 1/16 px from the picture's left upper corner, less a bias of the middle */
     uint16_t depth;    /* larger is nearer */
-    uint8_t colour[3]; /* sRGB, 1 .. 254 */
+    uint8_t colour[3]; /* sRGB, 1 .. 247 */
     uint8_t flags;
 } lmb_fixed_vertex;
 
@@ -122,9 +128,11 @@ typedef struct lmb_fixed_frame {
     uint32_t seen_cap, seen_count; /* count: set by lmb_fixed_transform */
     lmb_fixed_ready *ready;        /* or null: one each of the first triangles that are seen, as many as there are */
     uint32_t ready_cap, ready_count; /* count: set by lmb_fixed_prepare */
-    uint32_t *pixel;               /* of a band: width x rows */
-    uint16_t *depth;               /* likewise */
-    uint32_t background;           /* or LMB_FIXED_COVERED */
+    int32_t format;
+    uint32_t *pixel;               /* of a band: width x rows, of LMB_FIXED_RGB888 */
+    uint16_t *pixel_16;            /* or of the other formats, which may be the screen's own memory */
+    uint16_t *depth;               /* width x rows, too */
+    uint32_t background;           /* 0x00RRGGBB, codes up to LMB_FIXED_RGB_MOST; or LMB_FIXED_COVERED */
 } lmb_fixed_frame;
 
 #ifdef __cplusplus

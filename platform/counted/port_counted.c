@@ -6,21 +6,21 @@
 #include "../port.h"
 
 #if defined(COUNTED_N64)
-#define N64_NO_CACHE_OPERATIONS /* only the system may */
-#include "../n64/row_n64.c"
-enum { WIDTH = 320, HEIGHT = 240, ROWS = COUNTED_ROWS };
+#define N64_NO_CACHE_OPERATIONS
+#include "../n64/lines_n64.h"
+enum { WIDTH = 320, HEIGHT = 240, ROWS = COUNTED_ROWS, FORMAT = LMB_FIXED_RGBA5551 };
 #elif defined(COUNTED_PS1)
-enum { WIDTH = 320, HEIGHT = 240, ROWS = COUNTED_ROWS };
+enum { WIDTH = 320, HEIGHT = 240, ROWS = COUNTED_ROWS, FORMAT = LMB_FIXED_BGR555 };
 #else
 #include "../gamecube/port_gamecube.h"
-enum { WIDTH = 640, HEIGHT = 480, ROWS = COUNTED_ROWS };
+enum { WIDTH = 640, HEIGHT = 480, ROWS = COUNTED_ROWS, FORMAT = LMB_FIXED_RGB888 };
 #endif
 
-const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS, port_format = FORMAT;
 const char *const port_clock_unit = "nothing";
 
 static uint32_t memory[65536] __attribute__((aligned(64)));
-static uint32_t band[WIDTH * ROWS * 6 / 4] __attribute__((aligned(64)));
+static uint32_t band[ROOM_BAND_BYTES(WIDTH, ROWS) / 4] __attribute__((aligned(64)));
 static uint32_t screen[WIDTH * HEIGHT / 2] __attribute__((aligned(64), used));
 
 /* --- the system --------------------------------------------------------------------------------------------------- */
@@ -75,24 +75,34 @@ void *port_band_memory(size_t *bytes)
     return band;
 }
 
-/* --- picture, by the console's own rows --------------------------------------------------------------------------- */
+/* --- picture, as on the console ----------------------------------------------------------------------------------- */
+
+uint16_t *port_screen_rows(int32_t y)
+{
+    uint16_t *rows = (uint16_t *)screen + y * WIDTH;
+#if defined(COUNTED_N64)
+    n64_make_lines(rows, (size_t)(HEIGHT - y < ROWS ? HEIGHT - y : ROWS) * WIDTH * sizeof *rows);
+#endif
+    return rows;
+}
 
 void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
 {
     (void)user;
-    for (int32_t row = 0; row < rows; ++row) {
-        const uint32_t *from = rgb + row * width;
-#if defined(COUNTED_N64)
-        n64_row((uint16_t *)screen + (y + row) * width, from, width, y + row);
-#elif defined(COUNTED_PS1)
-        room_rgb555((uint16_t *)screen + (y + row) % 16 * width, from, width, y + row);
+#if defined(COUNTED_GAMECUBE)
+    for (int32_t row = 0; row < rows; ++row)
+        gamecube_row(screen + (y + row) * width / 2, rgb + row * width, width);
 #else
-        gamecube_row(screen + (y + row) * width / 2, from, width);
+    (void)rgb, (void)width, (void)y, (void)rows;
 #endif
-    }
 }
 
-void port_show_frame(void) {}
+void port_show_frame(void)
+{
+#if defined(COUNTED_N64)
+    n64_write_back();
+#endif
+}
 
 /* --- calibration: what the model must say of loops whose cost is known -------------------------------------------- */
 

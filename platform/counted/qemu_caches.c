@@ -31,7 +31,7 @@ static const struct {
     int stage;
 } beginnings[] = {{"lmb_fixed_transform", TRANSFORM}, {"lmb_fixed_light", LIGHT}, {"lmb_fixed_prepare", FILL},
                   {"lmb_fixed_band", FILL},
-                  {"port_show_band", SHOW},           {"port_show_frame", BESIDE}, {"room_hash", BESIDE},
+                  {"port_show_band", SHOW}, {"port_screen_rows", SHOW},           {"port_show_frame", SHOW}, {"room_frame_hash", BESIDE},
                   {"room_path", BESIDE},              {"say_count", BESIDE},       {"counted_end", BESIDE},
                   {"port_ram_used", BESIDE},          {"lmb_render_begin", FILL},  {"lmb_render_step", FILL},
                   {"counted_turns", BESIDE},          {"counted_loads", BESIDE},   {"counted_products", BESIDE}};
@@ -48,7 +48,7 @@ static struct {
 static int function_count;
 
 static counts taken[STAGES + 1];
-static int stage = BESIDE, calibrated;
+static int stage = BESIDE, calibrated, is_hashing;
 static long frame = -1;
 static bool shows_functions;
 static enum { VR4300, R3000, PPC750 } model;
@@ -118,7 +118,9 @@ static void begin(int which)
                 (unsigned long long)taken[BESIDE].instructions, (unsigned long long)taken[BESIDE].cycles);
     if (strncmp(function, "counted_", 8) == 0)
         memset(taken, 0, sizeof taken);
-    stage = beginnings[which].stage;
+    is_hashing = strcmp(function, "room_frame_hash") == 0 ||
+                 (is_hashing && strcmp(function, "say_count") != 0 && strcmp(function, "room_path") != 0);
+    stage = is_hashing ? BESIDE : beginnings[which].stage;
     if (strcmp(function, "room_path") == 0 || strcmp(function, "port_ram_used") == 0)
         end_frame();
 }

@@ -44,15 +44,14 @@ size_t room_bytes_kept(int32_t width, int32_t height)
     return bytes > 0 ? bytes + ROOM_KEPT * sizeof(lmb_fixed_ready) : 0;
 }
 
-size_t room_band_bytes(int32_t width, int32_t rows) { return width > 0 && rows > 0 ? (size_t)(width * rows) * 6 : 0; }
-
 int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memory, size_t bytes, void *band,
               size_t band_bytes)
 {
     static const room nothing;
     *out = nothing;
     if (width < 1 || height < 1 || width > ROOM_MAX_WIDTH || height > ROOM_MAX_HEIGHT || rows < 1 || band == NULL ||
-        band_bytes < room_band_bytes(width, rows) || lmb_fixed_open(&out->scene, baked, sizeof baked) != LMB_OK ||
+        band_bytes < (size_t)ROOM_DEPTH_BYTES(width, rows) ||
+        lmb_fixed_open(&out->scene, baked, sizeof baked) != LMB_OK ||
         lmb_fixed_lay(&out->frame, &out->scene, out->scene.triangles, memory, bytes) != LMB_OK)
         return 1;
     const size_t needed = room_bytes(width, height), kept = (bytes - needed) / sizeof(lmb_fixed_ready);
@@ -60,11 +59,12 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
         out->frame.ready = (lmb_fixed_ready *)(void *)((unsigned char *)memory + needed);
         out->frame.ready_cap = kept < ROOM_KEPT ? (uint32_t)kept : ROOM_KEPT;
     }
-    out->width = width, out->height = height, out->rows = rows;
+    out->width = width, out->height = height;
+    out->rows = out->put_rows = rows;
+    while (band_bytes < (size_t)ROOM_BAND_BYTES(width, out->put_rows))
+        --out->put_rows;
     out->memory = memory, out->band = band;
     out->memory_bytes = bytes, out->band_bytes = band_bytes;
-    out->frame.pixel = band;
-    out->frame.depth = (uint16_t *)(out->frame.pixel + width * rows);
     out->frame.view.width = width, out->frame.view.height = height;
     out->frame.view.focal = (height * 4392) >> 8; /* 8 / tan(25 degrees): 50 degrees from top to bottom */
     out->frame.view.near_units = 128;
@@ -120,30 +120,69 @@ static void set_view(lmb_fixed_view *v, const lmb_fixed *s, const room_pose *pos
     v->axis[2][0] = (sy * cp) >> 14, v->axis[2][1] = -sp, v->axis[2][2] = (cy * cp) >> 14;
 }
 
-void room_draw(room *r, const room_pose *pose, room_put *put, void *user)
+static uint32_t now(const room *r) { return r->clock ? r->clock() : 0; }
+
+void room_see(room *r, const room_pose *pose)
 {
-    uint32_t from = r->clock ? r->clock() : 0;
     lmb_fixed_frame *f = &r->frame;
     set_view(&f->view, &r->scene, pose);
     units_of(f->lamp.position, &r->scene, pose->lamp);
-    for (int stage = ROOM_TRANSFORM; stage <= ROOM_LIGHT; ++stage) {
-        if (stage == ROOM_TRANSFORM)
-            lmb_fixed_transform(f);
-        else
-            lmb_fixed_light(f);
-        const uint32_t now = r->clock ? r->clock() : 0;
-        r->taken[stage] = now - from;
-        from = now;
-    }
+    const uint32_t begun = now(r);
+    lmb_fixed_transform(f);
+    const uint32_t seen = now(r);
+    lmb_fixed_light(f);
+    const uint32_t lit = now(r);
     lmb_fixed_prepare(f);
-    r->taken[ROOM_FILL] = (r->clock ? r->clock() : 0) - from;
-    for (int32_t y = 0; y < r->height; y += r->rows) {
-        const int32_t rows = r->rows < r->height - y ? r->rows : r->height - y;
-        from = r->clock ? r->clock() : 0;
-        lmb_fixed_band(f, y, y + rows);
-        r->taken[ROOM_FILL] += (r->clock ? r->clock() : 0) - from;
+    r->taken[ROOM_TRANSFORM] = seen - begun, r->taken[ROOM_LIGHT] = lit - seen, r->taken[ROOM_FILL] = now(r) - lit;
+    r->taken[ROOM_SHOW] = 0;
+}
+
+static int32_t draw_band(room *r, int32_t y, int32_t cap)
+{
+    const int32_t rows = cap < r->height - y ? cap : r->height - y;
+    const uint32_t from = now(r);
+    lmb_fixed_band(&r->frame, y, y + rows);
+    r->taken[ROOM_FILL] += now(r) - from;
+    return rows;
+}
+
+void room_put_bands(room *r, room_put *put, void *user)
+{
+    lmb_fixed_frame *f = &r->frame;
+    f->format = LMB_FIXED_RGB888;
+    f->pixel = r->band;
+    f->depth = (uint16_t *)(f->pixel + r->width * r->put_rows);
+    for (int32_t y = 0, rows; y < r->height; y += rows) {
+        rows = draw_band(r, y, r->put_rows);
         put(user, f->pixel, r->width, y, rows);
     }
+}
+
+void room_draw_on(room *r, int32_t format, room_rows *rows)
+{
+    lmb_fixed_frame *f = &r->frame;
+    f->format = format;
+    f->depth = r->band;
+    for (int32_t y = 0; y < r->height; y += r->rows) {
+        f->pixel_16 = rows(y);
+        draw_band(r, y, r->rows);
+    }
+}
+
+static void add_hash(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+{
+    uint32_t *hash = user;
+    (void)y;
+    *hash = room_hash(*hash, rgb, width * rows);
+}
+
+uint32_t room_frame_hash(room *r)
+{
+    uint32_t hash = ROOM_HASH, (*const clock)(void) = r->clock;
+    r->clock = NULL;
+    room_put_bands(r, add_hash, &hash);
+    r->clock = clock;
+    return hash;
 }
 
 uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count)
@@ -160,32 +199,25 @@ static uint32_t threshold(int32_t x, int32_t y)
     return bayer[y & 3][x & 3];
 }
 
-/* All three colours at once: c - c / 32 + t / 2 is at most 255. */
-static inline uint16_t pixel_555(uint32_t rgb, uint32_t steps)
+static uint32_t level(uint32_t rgb, int shift, uint32_t step)
 {
-    const uint32_t v = rgb - (rgb >> 5 & 0x070707u) + steps;
-    return (uint16_t)(v >> 19 | (v >> 6 & 0x3e0u) | (v << 7 & 0x7c00u));
-}
-
-/* Likewise, with c - c / 64 + t / 4 of green. */
-static inline uint16_t pixel_565(uint32_t rgb, uint32_t steps)
-{
-    const uint32_t v = rgb - ((rgb >> 5 & 0x070007u) | (rgb >> 6 & 0x000300u)) + steps;
-    return (uint16_t)((v >> 8 & 0xf800u) | (v >> 5 & 0x7e0u) | (v >> 3 & 31u));
+    const uint32_t c = rgb >> shift & 255u;
+    return ((c > 248 ? 248 : c) + step) >> 3;
 }
 
 void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y)
 {
-    uint32_t steps[4];
-    for (int32_t x = 0; x < 4; ++x)
-        steps[x] = (threshold(x, y) >> 1) * 0x010101u;
-    const uint32_t s0 = steps[0], s1 = steps[1], s2 = steps[2], s3 = steps[3];
-    for (; width >= 4; width -= 4, out += 4, rgb += 4) {
-        out[0] = pixel_555(rgb[0], s0), out[1] = pixel_555(rgb[1], s1);
-        out[2] = pixel_555(rgb[2], s2), out[3] = pixel_555(rgb[3], s3);
+    for (int32_t x = 0; x < width; ++x) {
+        const uint32_t step = threshold(x, y) / 2;
+        out[x] = (uint16_t)(level(rgb[x], 16, step) | level(rgb[x], 8, step) << 5 | level(rgb[x], 0, step) << 10);
     }
-    for (int32_t x = 0; x < width; ++x)
-        out[x] = pixel_555(rgb[x], steps[x]);
+}
+
+/* All three colours at once: c - c / 32 + t / 2, and c - c / 64 + t / 4 of green, are at most 255. */
+static inline uint16_t pixel_565(uint32_t rgb, uint32_t steps)
+{
+    const uint32_t v = rgb - ((rgb >> 5 & 0x070007u) | (rgb >> 6 & 0x000300u)) + steps;
+    return (uint16_t)((v >> 8 & 0xf800u) | (v >> 5 & 0x7e0u) | (v >> 3 & 31u));
 }
 
 void room_rgb565(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y)

@@ -3,9 +3,11 @@
  *
  *     room_open(..)       memory for one size of picture
  *     room_path(..)       where lamp and camera are in a frame;  room_steer(..): moved by buttons
- *     room_draw(..)       a frame, in bands of rows from top to bottom, each handed to `put`
- *     room_rgb555(..), room_rgb565(..)  a row of it in a display's own format, dithered
- *     room_hash(..)       of colours before dithering: equal on all machines
+ *     room_see(..)        a frame begins: what is seen, and its light
+ *     room_put_bands(..)  then its rows from top to bottom, each band handed to `put`
+ *     room_draw_on(..)    or straight onto a screen of 16 bits
+ *     room_frame_hash(..) of its colours before dithering: equal on all machines
+ *     room_rgb555(..), room_rgb565(..)  a row of 0x00RRGGBB in a display's own format, dithered
  */
 #ifndef ROOM_H
 #define ROOM_H
@@ -37,8 +39,12 @@ enum { ROOM_TRANSFORM, ROOM_LIGHT, ROOM_FILL, ROOM_SHOW, ROOM_STAGES };
 /* rgb: 0x00RRGGBB, width x rows of them, of the rows from y on. */
 typedef void room_put(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows);
 
+/* Where a screen that is not shown yet has the rows from y on, without gaps between them. */
+typedef uint16_t *room_rows(int32_t y);
+
 typedef struct room {
-    int32_t width, height, rows; /* px; rows of a band */
+    int32_t width, height; /* px */
+    int32_t rows, put_rows; /* of a band that is drawn straight onto a screen, and of one that is handed on */
     void *memory, *band;
     size_t memory_bytes, band_bytes;
     uint32_t (*clock)(void);      /* counts up, and may wrap; NULL: nothing is counted */
@@ -48,12 +54,15 @@ typedef struct room {
 } room;
 
 /* room_bytes: memory beside the band; room_bytes_kept: with more, a frame's bands share what they know of up to
- * ROOM_KEPT triangles; room_band_bytes: of a band, for the fastest memory that there is. 0: bad size. */
+ * ROOM_KEPT triangles; room_band_bytes: of a band, for the fastest memory that there is: colours and depths, or depths
+ * alone where its colours go onto the screen. 0: bad size. */
 size_t room_bytes(int32_t width, int32_t height);
 size_t room_bytes_kept(int32_t width, int32_t height);
-size_t room_band_bytes(int32_t width, int32_t rows);
+#define ROOM_BAND_BYTES(width, rows) ((width) * (rows) * 6)
+#define ROOM_DEPTH_BYTES(width, rows) ((width) * ((rows) < 3 ? 6 : (rows) * 2))
 
-/* room_open: both blocks lie on 4 bytes and stay the room's. 0, or 1: bad size, too little memory or damaged data. */
+/* room_open: both blocks lie on 4 bytes and stay the room's; `rows` is of bands of depths, or of both. 0, or 1: bad size,
+ * too little memory or damaged data. */
 int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memory, size_t bytes, void *band,
               size_t band_bytes);
 
@@ -61,16 +70,22 @@ int room_open(room *out, int32_t width, int32_t height, int32_t rows, void *memo
 void room_path(room_pose *out, int32_t frame);
 void room_steer(room_pose *inout, uint32_t buttons);
 
-/* The time that `put` takes is no stage's; whoever gives it adds it to taken[ROOM_SHOW]. */
-void room_draw(room *r, const room_pose *pose, room_put *put, void *user);
+/* The time that `put` takes is no stage's; whoever gives it adds it to taken[ROOM_SHOW]. `format`: of lambent/fixed.h, one
+ * of 16 bits. */
+void room_see(room *r, const room_pose *pose);
+void room_put_bands(room *r, room_put *put, void *user);
+void room_draw_on(room *r, int32_t format, room_rows *rows);
+
+/* room_frame_hash: of the frame that was begun last, by bands of its own, whose time is no stage's. */
+uint32_t room_frame_hash(room *r);
 
 /* room_hash: FNV-1a of 32 bits over R, G, B of each pixel; begin with ROOM_HASH, go on with the last result. */
 #define ROOM_HASH 2166136261u
 uint32_t room_hash(uint32_t hash, const uint32_t *rgb, int32_t count);
 
-/* A row, dithered by Bayer's 4 x 4 matrix t of 0 .. 15 by x & 3 and y & 3: the code c of 0 .. 255 becomes
- * (c - c / 32 + t / 2) / 8 of 5 bits, each quotient rounded down; green of RGB565 (c - c / 64 + t / 4) / 4 of 6 bits.
- * room_rgb555: red in the low bits, as on GBA, DS and PlayStation. room_rgb565: red in the high bits. */
+/* A row, dithered by Bayer's 4 x 4 matrix t of 0 .. 15 by x & 3 and y & 3, each quotient rounded down.
+ * room_rgb555: red in the low bits, the code c of 0 .. 255 becomes (min(c, 248) + t / 2) / 8, as in lambent/fixed.h.
+ * room_rgb565: red in the high bits, (c - c / 32 + t / 2) / 8, and green (c - c / 64 + t / 4) / 4. */
 void room_rgb555(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
 void room_rgb565(uint16_t *out, const uint32_t *rgb, int32_t width, int32_t y);
 

@@ -5,10 +5,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The picture's size and a band's rows, px. */
-extern const int32_t port_width, port_height, port_rows;
+/* The picture's size and a band's rows, px; its format, of lambent/fixed.h: where it has 16 bits, bands of room.c are drawn
+ * straight onto the screen. */
+extern const int32_t port_width, port_height, port_rows, port_format;
 
-/* room_bytes or room_bytes_kept of memory for the port's size, and room_band_bytes of the fastest. Each lies on 4 bytes. */
+/* room_bytes or room_bytes_kept of memory for the port's size, and of the fastest ROOM_BAND_BYTES, or ROOM_DEPTH_BYTES
+ * where the format has 16 bits. Each lies on 4 bytes. */
 void *port_memory(size_t *bytes);
 void *port_band_memory(size_t *bytes);
 
@@ -16,8 +18,10 @@ void *port_band_memory(size_t *bytes);
 uint32_t port_clock(void);
 extern const char *const port_clock_unit;
 
-/* A band in 0x00RRGGBB onto the screen that is not shown yet; then that screen is shown. */
+/* A band in 0x00RRGGBB onto the screen that is not shown yet; or, of a format of 16 bits, where on it rows from y on lie.
+ * Then that screen is shown. */
 void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows);
+uint16_t *port_screen_rows(int32_t y);
 void port_show_frame(void);
 
 /* Buttons that are held, of room.h; PORT_NO_BUTTONS: there are none, and the program ends after its path. */

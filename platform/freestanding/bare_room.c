@@ -19,7 +19,8 @@
 #endif
 
 enum { WIDTH = 160, HEIGHT = 120, LINE = 512 };
-const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = BARE_ROWS;
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = BARE_ROWS,
+              port_format = LMB_FIXED_RGB888;
 
 static uint32_t memory[BARE_ROOM_BYTES / 4], band[WIDTH * BARE_ROWS * 6 / 4];
 static uint16_t screen[HEIGHT][WIDTH];
@@ -116,6 +117,8 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
     for (int32_t i = 0; i < rows; ++i)
         room_rgb565(screen[y + i], rgb + i * width, width, y + i);
 }
+
+uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* of a format of 16 bits alone */
 
 void port_show_frame(void)
 {

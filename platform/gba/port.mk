@@ -4,7 +4,7 @@ CROSS_PREFIX := $(ARM)
 include platform/freestanding/tools.mk
 include platform/libretro/lrhost.mk
 
-PORT_SRC     := platform/gba/start_gba.c platform/gba/port_gba.c platform/consoles/handheld.c \
+PORT_SRC     := platform/gba/start_gba.c platform/gba/port_gba.c platform/consoles/handheld.c platform/consoles/screen_16.c \
                 platform/freestanding/memory.c platform/freestanding/floorf.c
 PORT_CFLAGS  := -mcpu=arm7tdmi -mthumb -mthumb-interwork -ffreestanding -fbuiltin -ffunction-sections \
                 -fdata-sections -isystem platform/freestanding

@@ -7,9 +7,10 @@
 #include "../port_say.h"
 #include "gba.h"
 
-enum { WIDTH = 240, HEIGHT = 160, ROWS = 10 };
+enum { WIDTH = 240, HEIGHT = 160, ROWS = 20 };
 
-const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS,
+              port_format = LMB_FIXED_BGR555;
 const char *const port_clock_unit = "cycles";
 
 /* --- words -------------------------------------------------------------------------------------------------------- */
@@ -20,7 +21,7 @@ void port_put(const char *words) { text_block_put(&text, words); }
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-static uint32_t band[WIDTH * ROWS * 6 / 4]; /* fast, as all that is not said to be elsewhere */
+static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4]; /* fast, as all that is not said to be elsewhere */
 static size_t taken;
 
 /* What the screen does not show yet lies in front of the room's memory. */
@@ -67,13 +68,7 @@ void gba_begin(void)
 
 /* --- screen ------------------------------------------------------------------------------------------------------- */
 
-void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
-{
-    (void)user;
-    uint16_t *to = hidden() + y * WIDTH;
-    for (int32_t i = 0; i < rows; ++i, to += WIDTH, rgb += width)
-        room_rgb555(to, rgb, width, y + i);
-}
+uint16_t *port_screen_rows(int32_t y) { return hidden() + y * WIDTH; }
 
 void port_show_frame(void)
 {

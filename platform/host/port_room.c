@@ -16,7 +16,8 @@
 #define ROOM_ROWS   16
 #endif
 
-const int32_t port_width = ROOM_WIDTH, port_height = ROOM_HEIGHT, port_rows = ROOM_ROWS;
+const int32_t port_width = ROOM_WIDTH, port_height = ROOM_HEIGHT, port_rows = ROOM_ROWS,
+              port_format = LMB_FIXED_RGB888;
 const char *const port_clock_unit = "us";
 
 static uint8_t picture[ROOM_HEIGHT][ROOM_WIDTH][3];
@@ -40,7 +41,7 @@ static void *get(size_t *bytes, size_t wanted)
 
 void *port_memory(size_t *bytes) { return get(bytes, room_bytes(ROOM_WIDTH, ROOM_HEIGHT)); }
 
-void *port_band_memory(size_t *bytes) { return get(bytes, room_band_bytes(ROOM_WIDTH, ROOM_ROWS)); }
+void *port_band_memory(size_t *bytes) { return get(bytes, ROOM_BAND_BYTES(ROOM_WIDTH, ROOM_ROWS)); }
 
 uint32_t port_clock(void) { return (uint32_t)((double)clock() * 1e6 / (double)CLOCKS_PER_SEC); }
 
@@ -57,6 +58,8 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
         out[0] = (uint8_t)(rgb[i] >> 16), out[1] = (uint8_t)(rgb[i] >> 8), out[2] = (uint8_t)rgb[i];
     }
 }
+
+uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; } /* of a format of 16 bits alone */
 
 void port_show_frame(void)
 {

@@ -188,6 +188,7 @@ static struct {
     bool (*retro_load_game)(const game_info *);
     void (*retro_unload_game)(void);
     void (*retro_get_system_av_info)(void *);
+    void (*retro_set_controller_port_device)(unsigned port, unsigned device);
     void (*retro_run)(void);
     void *(*retro_get_memory_data)(unsigned);
     size_t (*retro_get_memory_size)(unsigned);
@@ -287,9 +288,11 @@ static size_t on_samples(const int16_t *data, size_t frames)
 
 static void on_poll(void) {}
 
+enum { JOYPAD = 1 };
+
 static int16_t on_input(unsigned port, unsigned device, unsigned index, unsigned id)
 {
-    enum { JOYPAD = 1, ALL_AS_BITS = 256 };
+    enum { ALL_AS_BITS = 256 };
     unsigned held = 0;
     (void)index;
     if (port != 0 || device != JOYPAD)
@@ -320,6 +323,7 @@ static int open_core(void)
     CALL(retro_load_game)
     CALL(retro_unload_game)
     CALL(retro_get_system_av_info)
+    CALL(retro_set_controller_port_device)
     CALL(retro_run)
     CALL(retro_get_memory_data)
     CALL(retro_get_memory_size)
@@ -354,6 +358,7 @@ static int open_rom(void)
     if (!core.retro_load_game(&game))
         return failed(asked.rom, "the core refuses it; --log may say why");
     core.retro_get_system_av_info(timing);
+    core.retro_set_controller_port_device(0, JOYPAD); /* else some cores have nothing plugged in */
     return 0;
 }
 

@@ -13,7 +13,7 @@ PORT_LDLIBS  :=
 RUN          := false
 ENDIAN       := big
 
-ROOM_SRC     := $(addprefix platform/n64/,port_n64.c row_n64.c) platform/consoles/ram_program.c $(PORT_SRC)
+ROOM_SRC     := platform/n64/port_n64.c $(addprefix platform/consoles/,ram_program.c screen_16.c) $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.z64
 ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/n64/run.sh $(B)
 
@@ -23,7 +23,7 @@ $(B)/room.z64: $(B)/room $(B)/screen_n64.so $(B)/pad_n64.so
 	@truncate -s %1M $@
 
 HOST_CC      ?= cc
-$(B)/%_n64.so: platform/n64/%_n64.c platform/n64/port_n64.h
+$(B)/%_n64.so: platform/n64/%_n64.c
 	@mkdir -p $(@D)
 	@echo "LD $@"
 	@$(HOST_CC) -std=c99 -O2 $(WARNINGS) -D_GNU_SOURCE -fPIC -shared -o $@ $< -ldl
@@ -33,7 +33,7 @@ $(B)/room: platform/n64/start_n64.S platform/consoles/begin_mips.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := N64
-COUNTED_ROWS  ?= 4
+COUNTED_ROWS  ?= 12
 COUNTED_AT    := 0x400400
 COUNTED_QEMU  := qemu-mipsn32
 COUNTED_MODEL := vr4300

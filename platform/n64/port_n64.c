@@ -1,17 +1,19 @@
 /* port_n64.c: what the room needs from a Nintendo 64: memory, picture by the video interface, controller, clock, text.
  *
- * Own start-up code (start_n64.S), no SDK. Pictures lie in RDRAM as RGBA5551; each line of 16 bytes is made in the data
- * cache without being fetched, filled and written back at once. */
+ * Own start-up code (start_n64.S), no SDK. Pictures lie in RDRAM as RGBA5551; a band's lines of 16 bytes are made in the
+ * data cache without being fetched. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../consoles/consoles.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
-#include "port_n64.h"
+#include "../port_say.h"
+#include "lines_n64.h"
 
-enum { WIDTH = 320, HEIGHT = 240, ROWS = 4, LINE = 16 /* bytes of a line of the data cache */ };
+enum { WIDTH = 320, HEIGHT = 240, ROWS = 12 };
 
-const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS,
+              port_format = LMB_FIXED_RGBA5551;
 
 /* --- registers and RDRAM past the cache --------------------------------------------------------------------------- */
 
@@ -49,11 +51,24 @@ void port_put(const char *text)
     viewer_put(text);
 }
 
+/* Called by the start-up where an instruction cannot go on. */
+void n64_fault(uint32_t cause, uint32_t at, uint32_t wanted);
+
+void n64_fault(uint32_t cause, uint32_t at, uint32_t wanted)
+{
+    say_count("fault ", cause >> 2 & 31u);
+    port_put(" at ");
+    say_word(at);
+    port_put(" of ");
+    say_word(wanted);
+    port_put("\nleft: failed\n");
+}
+
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
 const uint32_t console_ram_bytes = 4u << 20;
 
-static uint32_t band[WIDTH * ROWS * 6 / 4] __attribute__((aligned(16)));
+static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4] __attribute__((aligned(16)));
 static uint16_t screens[2][HEIGHT][WIDTH] __attribute__((aligned(64)));
 static uint32_t hidden; /* the screen that is not shown */
 
@@ -79,11 +94,10 @@ uint32_t port_clock(void)
 
 static uint32_t lit; /* whether the video interface shows anything yet */
 
-void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+uint16_t *port_screen_rows(int32_t y)
 {
-    (void)user;
-    for (int32_t row = 0; row < rows; ++row)
-        n64_row(screens[hidden][y + row], rgb + row * width, width, y + row);
+    n64_make_lines(screens[hidden][y], sizeof screens[hidden][y] * (size_t)(HEIGHT - y < ROWS ? HEIGHT - y : ROWS));
+    return screens[hidden][y];
 }
 
 /* NTSC, 320 x 240 of 16 bits: no anti-aliasing, each pixel on two dots. */
@@ -101,6 +115,7 @@ static void light_up(void)
 /* The field that is under way still reads the other screen: the change is seen with the next. */
 void port_show_frame(void)
 {
+    n64_write_back();
     VI(VI_ORIGIN) = physical(screens[hidden]);
     if (!lit)
         light_up();

@@ -68,9 +68,32 @@ start:
     nop
     nop
     ctc1  $0, $31               /* to nearest, no traps, denormals are kept */
+    lui   $8, 0xa000            /* what stops the processor is told: a jump at its vector, past the cache */
+    lui   $9, %hi(fault_jump)
+    addiu $9, $9, %lo(fault_jump)
+    lw    $10, 0($9)
+    sw    $10, 0x180($8)
+    lw    $10, 4($9)
+    sw    $10, 0x184($8)
+    lw    $10, 8($9)
+    sw    $10, 0x188($8)
+    sw    $0, 0x18c($8)
     jal   main
     nop
     jal   port_leave
     move  $4, $2
 3:  b     3b
+    nop
+
+fault_jump:
+    lui   $26, %hi(fault)
+    addiu $26, $26, %lo(fault)
+    jr    $26
+fault:
+    mfc0  $4, $13               /* Cause, the instruction, the address that it wanted */
+    mfc0  $5, $14
+    mfc0  $6, $8
+    jal   n64_fault
+    nop
+4:  b     4b
     nop

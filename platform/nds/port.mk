@@ -5,7 +5,7 @@ CROSS_PREFIX := $(ARM)
 include platform/freestanding/tools.mk
 include platform/libretro/lrhost.mk
 
-PORT_SRC     := platform/nds/start_nds.c platform/nds/port_nds.c platform/consoles/handheld.c \
+PORT_SRC     := platform/nds/start_nds.c platform/nds/port_nds.c platform/consoles/handheld.c platform/consoles/screen_16.c \
                 platform/freestanding/memory.c platform/freestanding/floorf.c
 PORT_CFLAGS  := -mcpu=arm946e-s -marm -ffreestanding -fbuiltin -ffunction-sections -fdata-sections \
                 -isystem platform/freestanding

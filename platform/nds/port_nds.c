@@ -8,7 +8,8 @@
 
 enum { WIDTH = 256, HEIGHT = 192, ROWS = 8 };
 
-const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS,
+              port_format = LMB_FIXED_BGR555;
 const char *const port_clock_unit = "bus cycles";
 
 /* --- words -------------------------------------------------------------------------------------------------------- */
@@ -19,7 +20,7 @@ void port_put(const char *words) { text_block_put(&text, words); }
 
 /* --- memory ------------------------------------------------------------------------------------------------------- */
 
-__attribute__((section(".near"))) static uint32_t band[WIDTH * ROWS * 6 / 4];
+__attribute__((section(".near"))) static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4];
 
 /* What the code leaves of the memory that it lies in. */
 void *port_memory(size_t *bytes)
@@ -61,13 +62,7 @@ void nds_begin(void)
 }
 
 /* The bank takes no bytes, but halfwords and words. */
-void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
-{
-    (void)user;
-    uint16_t *to = (uint16_t *)(VIDEO_RAM + hidden * BANK_BYTES) + y * WIDTH;
-    for (int32_t i = 0; i < rows; ++i, to += WIDTH, rgb += width)
-        room_rgb555(to, rgb, width, y + i);
-}
+uint16_t *port_screen_rows(int32_t y) { return (uint16_t *)(VIDEO_RAM + hidden * BANK_BYTES) + y * WIDTH; }
 
 void port_show_frame(void)
 {

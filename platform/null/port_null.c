@@ -19,11 +19,12 @@ uint32_t port_clock(void) { return 0; }
 const char *const port_clock_unit = "of no clock";
 
 /* 5. A screen, and memory to draw in. The picture's size is yours, up to ROOM_MAX_WIDTH x ROOM_MAX_HEIGHT. The band is
- * read and written most: it wants the fastest memory. 4 bytes of colour and 2 of depth a pixel. */
-const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+ * read and written most: it wants the fastest memory. 4 bytes of colour and 2 of depth a pixel. A screen of 16 bits may be
+ * drawn on straight: name its format, one of lambent/fixed.h, and where its rows are; then the band has depths alone. */
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS, port_format = LMB_FIXED_RGB888;
 
 /* room_bytes() of them at least, or the room says so. */
-static uint32_t memory[ROOM_BYTES / 4], band[WIDTH * ROWS * 6 / 4];
+static uint32_t memory[ROOM_BYTES / 4], band[ROOM_BAND_BYTES(WIDTH, ROWS) / 4];
 
 void *port_memory(size_t *bytes)
 {
@@ -43,6 +44,8 @@ void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, i
 {
     (void)user, (void)rgb, (void)width, (void)y, (void)rows;
 }
+
+uint16_t *port_screen_rows(int32_t y) { return (void)y, NULL; }
 
 /* The picture is whole: wait for the display, and show it. */
 void port_show_frame(void) {}

@@ -12,7 +12,7 @@ PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,n
 PORT_LDLIBS  :=
 RUN          := false
 
-ROOM_SRC     := platform/ps1/port_ps1.c platform/consoles/ram_program.c $(PORT_SRC)
+ROOM_SRC     := platform/ps1/port_ps1.c $(addprefix platform/consoles/,ram_program.c screen_16.c) $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.exe
 ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/ps1/run.sh $(B) $(LRHOST) $(call core_of,mednafen_psx)
 

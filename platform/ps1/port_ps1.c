@@ -1,17 +1,16 @@
 /* port_ps1.c: what the room needs from a PlayStation: memory, picture, controller, clock, text.
  *
- * No BIOS call and no SDK. The picture is drawn in RAM; the graphics processor only takes it over into its memory, some
- * rows at a time, by DMA from one of two buffers while the next rows are dithered. */
+ * No BIOS call and no SDK. The picture is drawn in RAM; the graphics processor only takes it over into its memory, by DMA. */
 #include "../demo/room.h"
 #include "../demo/room_port.h"
 #include "../consoles/consoles.h"
 #include "../libretro/text_block.h"
 #include "../port.h"
 
-/* One band, as there is no data cache that a smaller one could live in. It is sent in pieces. */
-enum { WIDTH = 320, HEIGHT = 240, ROWS = HEIGHT, SENT_ROWS = 16 };
+/* One band, as there is no data cache that a smaller one could live in. */
+enum { WIDTH = 320, HEIGHT = 240, ROWS = HEIGHT };
 
-const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS;
+const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS, port_format = LMB_FIXED_BGR555;
 
 static volatile uint32_t *reg(uint32_t address) { return (volatile uint32_t *)(uintptr_t)address; }
 static volatile uint16_t *reg16(uint32_t address) { return (volatile uint16_t *)(uintptr_t)address; }
@@ -27,7 +26,7 @@ void port_put(const char *text) { text_block_put(&said, text); }
 
 const uint32_t console_ram_bytes = 2u << 20;
 
-static uint32_t band[WIDTH * ROWS * 6 / 4];
+static uint32_t band[ROOM_DEPTH_BYTES(WIDTH, ROWS) / 4];
 
 void *port_band_memory(size_t *bytes)
 {
@@ -68,8 +67,8 @@ uint32_t port_clock(void)
 #define DMA_ENABLED (*reg(0x1f8010f0u))
 enum { BUSY = 0x01000000, TO_GPU = 0x201, BLOCK = 16 /* words */ };
 
-static uint16_t sent[2][WIDTH * SENT_ROWS] __attribute__((aligned(4)));
-static uint32_t next, hidden, lit;
+static uint16_t picture[HEIGHT][WIDTH] __attribute__((aligned(4)));
+static uint32_t hidden, lit; /* hidden: the half of the graphics memory that is not shown */
 
 static void wait_for_dma(void)
 {
@@ -86,33 +85,24 @@ static void light_up(void)
     lit = 1;
 }
 
-static void send(const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
+uint16_t *port_screen_rows(int32_t y) { return picture[y]; }
+
+static void send(void)
 {
-    uint16_t *out = sent[next];
-    for (int32_t row = 0; row < rows; ++row)
-        room_rgb555(out + row * width, rgb + row * width, width, y + row);
-    wait_for_dma();
     while (!(GPU_CONTROL & 0x04000000u)) {}
     GPU_DATA = 0xa0000000u; /* copy to the graphics memory: place, size, pixels */
-    GPU_DATA = (hidden * 256u + (uint32_t)y) << 16;
-    GPU_DATA = (uint32_t)rows << 16 | (uint32_t)width;
-    DMA_FROM = (uint32_t)(uintptr_t)out & 0x1fffffu;
-    DMA_BLOCKS = (uint32_t)(width * rows / 2 / BLOCK) << 16 | BLOCK;
+    GPU_DATA = hidden * 256u << 16;
+    GPU_DATA = (uint32_t)HEIGHT << 16 | (uint32_t)WIDTH;
+    DMA_FROM = (uint32_t)(uintptr_t)picture & 0x1fffffu;
+    DMA_BLOCKS = (uint32_t)(WIDTH * HEIGHT / 2 / BLOCK) << 16 | BLOCK;
     DMA_MODE = BUSY | TO_GPU;
-    next ^= 1;
-}
-
-void port_show_band(void *user, const uint32_t *rgb, int32_t width, int32_t y, int32_t rows)
-{
-    (void)user;
-    if (!lit)
-        light_up();
-    for (int32_t at = 0; at < rows; at += SENT_ROWS)
-        send(rgb + at * width, width, y + at, rows - at < SENT_ROWS ? rows - at : SENT_ROWS);
 }
 
 void port_show_frame(void)
 {
+    if (!lit)
+        light_up();
+    send();
     wait_for_dma();
     GPU_CONTROL = 0x05000000u | hidden * 256u << 10;
     GPU_CONTROL = 0x03000000u;
@@ -152,7 +142,8 @@ uint32_t port_buttons(void)
     static const uint32_t bits[ROOM_BUTTONS] = {0x80, 0x20, 0x10, 0x40, 0x8000, 0x2000, 0x4000, 0x1000};
     PAD_CONTROL = 0x40;
     PAD_RATE = 0x88, PAD_MODE = 0x0d;
-    PAD_CONTROL = 0x1007;
+    PAD_CONTROL = 0x1003; /* both ways begin with a byte that is sent: were receiving asked for alone, it would run ahead */
+    (void)PAD_DATA;       /* what is left from before; from here on bytes are taken */
     pause(400);
     exchange(0x01);
     const uint32_t kind = exchange(0x42), mark = exchange(0);

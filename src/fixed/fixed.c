@@ -373,18 +373,14 @@ static void draw(const fixed_band *b, const lmb_fixed_frame *f, uint32_t i)
 
 lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
 {
-    if (!has_memory(f) || !is_view(&f->view) || f->pixel == NULL || f->depth == NULL || first < 0 || past <= first ||
-        past > f->view.height) {
+    void *pixel = f != NULL && f->format != LMB_FIXED_RGB888 ? (void *)f->pixel_16 : f != NULL ? (void *)f->pixel : NULL;
+    if (!has_memory(f) || !is_view(&f->view) || pixel == NULL || f->depth == NULL || first < 0 || past <= first ||
+        past > f->view.height || f->format < 0 || f->format > LMB_FIXED_RGBA5551) {
         return LMB_ERR_ARG;
     }
-    fixed_band b = {f->pixel, NULL, f->view.width, first, past};
-    const size_t pixels = (size_t)b.width * (size_t)(past - first);
-    if (f->background == 0) {
-        memset(b.pixel, 0, pixels * sizeof *b.pixel);
-    } else if (f->background != LMB_FIXED_COVERED) {
-        for (size_t i = 0; i < pixels; ++i) {
-            b.pixel[i] = f->background;
-        }
+    fixed_band b = {pixel, NULL, f->view.width, first, past, f->format};
+    if (f->background != LMB_FIXED_COVERED) {
+        lmb_fixed_clear(&b, f->background);
     }
     for (uint32_t i = 0; i < f->seen_count; ++i) {
         const lmb_fixed_seen *s = &f->seen[i];
@@ -398,7 +394,7 @@ lmb_status lmb_fixed_band(const lmb_fixed_frame *f, int32_t first, int32_t past)
         }
         if (b.depth == NULL && !is_hull(f, s->triangle)) { /* the hull's triangles are the first */
             b.depth = f->depth;
-            memset(b.depth, 0, pixels * sizeof *b.depth);
+            memset(b.depth, 0, (size_t)b.width * (size_t)(past - first) * sizeof *b.depth);
         }
         if (i < f->ready_count) {
             lmb_fixed_fill(&b, &f->ready[i]);

@@ -96,56 +96,103 @@ static int set_colour(plane *out, const slant *s, int32_t f0, int32_t f1, int32_
     return is_gentle(out, 1u << (COLOUR_GENTLE + COLOUR_BITS - s->size));
 }
 
-/* A row's first pixel, and what each next one adds. Red lies over blue in one word: no sum of blue leaves its 16 bits. */
+/* A row's first pixel, and what each next one adds. Red lies over blue in one word, both in 1/256 of a code: no sum of
+ * blue leaves its 16 bits. `dither`: what is added to a code of each of four pixels, from the first one on, in the place
+ * of red, blue and green alike. */
 typedef struct span {
     uint32_t depth, depth_step, red_blue, red_blue_step, green, green_step;
+    const uint32_t *dither;
 } span;
 
-#define FILL_PIXEL                                                       \
-    if (depth >> DEPTH_BITS > *to_depth) {                               \
-        *to_depth = (uint16_t)(depth >> DEPTH_BITS);                     \
-        *to = (red_blue >> 8 & 0xff00ffu) | (green & 0xff00u);           \
-    }                                                                    \
-    ++to_depth, ++to;                                                    \
+/* Bayer's 4 x 4 matrix of 0 .. 15, halved, over a row and on, so that four may begin at any of the first four. */
+#define D(t) ((t) / 2u * 0x01000100u)
+#define ROW(a, b, c, d) {D(a), D(b), D(c), D(d), D(a), D(b), D(c), D(d)}
+static const uint32_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(3, 11, 1, 9), ROW(15, 7, 13, 5)};
+
+/* rb: red over blue, g: green, both with their dither. Nothing is dithered of 8 bits. */
+#define PACK_888(rb, g, d)  (((rb) >> 8 & 0xff00ffu) | ((g) & 0xff00u))
+#define PACK_555(rb, g, d)  (((rb) + (d)) >> 27 | (((g) + (d)) >> 6 & 0x3e0u) | (((rb) + (d)) >> 1 & 0x7c00u))
+#define PACK_5551(rb, g, d) \
+    (((rb) + (d)) >> 16 & 0xf800u) | (((g) + (d)) >> 5 & 0x7c0u) | (((rb) + (d)) >> 10 & 0x3eu) | 1u
+
+#define DEEP_PIXEL(type, pack, which)                                            \
+    if (depth >> DEPTH_BITS > *to_depth) {                                       \
+        *to_depth = (uint16_t)(depth >> DEPTH_BITS);                             \
+        *to = (type)(pack(red_blue, green, dither[which]));                      \
+    }                                                                            \
+    ++to_depth, ++to;                                                            \
     depth += depth_step, red_blue += red_blue_step, green += green_step;
 
-/* Two a turn. */
-LOOP_APART void fill_pixels(uint32_t *to, uint16_t *to_depth, int32_t count, const span *s)
+#define HULL_PIXEL(type, pack, dither)              \
+    *to++ = (type)(pack(red_blue, green, dither));  \
+    red_blue += red_blue_step, green += green_step; \
+    ONE_BY_ONE(red_blue, green);
+
+/* A format's two loops: before what was drawn, and of the hull, which nothing lies behind. */
+#define LOOPS(name, type, pack)                                                                                   \
+    static void fill_deep_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                  \
+    {                                                                                                             \
+        type *to = pixels;                                                                                        \
+        const uint32_t *const dither = s->dither;                                                                 \
+        uint32_t depth = s->depth, red_blue = s->red_blue, green = s->green, at = 0;                              \
+        const uint32_t depth_step = s->depth_step, red_blue_step = s->red_blue_step, green_step = s->green_step;  \
+        const uint16_t *const past = to_depth + count;                                                            \
+        (void)dither;                                                                                             \
+        if (count & 1) {                                                                                          \
+            DEEP_PIXEL(type, pack, at)                                                                            \
+            ++at;                                                                                                 \
+        }                                                                                                         \
+        for (; to_depth != past; at = (at + 2) & 3u) {                                                            \
+            DEEP_PIXEL(type, pack, at)                                                                            \
+            DEEP_PIXEL(type, pack, at + 1)                                                                        \
+        }                                                                                                         \
+    }                                                                                                             \
+    static void fill_hull_##name(void *pixels, uint16_t *to_depth, int32_t count, const span *s)                  \
+    {                                                                                                             \
+        type *to = pixels;                                                                                        \
+        uint32_t red_blue = s->red_blue, green = s->green;                                                        \
+        const uint32_t red_blue_step = s->red_blue_step, green_step = s->green_step, d0 = s->dither[0],           \
+                       d1 = s->dither[1], d2 = s->dither[2], d3 = s->dither[3];                                   \
+        const type *const past = to + count, *const fours = to + (count & ~3);                                    \
+        (void)to_depth, (void)d0, (void)d1, (void)d2, (void)d3;                                                   \
+        while (to != fours) {                                                                                     \
+            HULL_PIXEL(type, pack, d0)                                                                            \
+            HULL_PIXEL(type, pack, d1)                                                                            \
+            HULL_PIXEL(type, pack, d2)                                                                            \
+            HULL_PIXEL(type, pack, d3)                                                                            \
+        }                                                                                                         \
+        if (to != past) {                                                                                         \
+            HULL_PIXEL(type, pack, d0)                                                                            \
+        }                                                                                                         \
+        if (to != past) {                                                                                         \
+            HULL_PIXEL(type, pack, d1)                                                                            \
+        }                                                                                                         \
+        if (to != past) {                                                                                         \
+            HULL_PIXEL(type, pack, d2)                                                                            \
+        }                                                                                                         \
+    }
+LOOPS(888, uint32_t, PACK_888)
+LOOPS(555, uint16_t, PACK_555)
+LOOPS(5551, uint16_t, PACK_5551)
+
+typedef void fill_loop(void *pixels, uint16_t *to_depth, int32_t count, const span *s);
+
+static fill_loop *loop_of(const fixed_band *b)
 {
-    uint32_t depth = s->depth, red_blue = s->red_blue, green = s->green;
-    const uint32_t depth_step = s->depth_step, red_blue_step = s->red_blue_step, green_step = s->green_step;
-    const uint16_t *const past = to_depth + count;
-    if (count & 1) {
-        FILL_PIXEL
-    }
-    while (to_depth != past) {
-        FILL_PIXEL
-        FILL_PIXEL
-    }
+    static fill_loop *const loops[3][2] = {{fill_hull_888, fill_deep_888}, {fill_hull_555, fill_deep_555},
+                                           {fill_hull_5551, fill_deep_5551}};
+    return loops[b->format][b->depth != NULL];
 }
 
-#define HULL_PIXEL                                               \
-    *to++ = (red_blue >> 8 & 0xff00ffu) | (green & 0xff00u);     \
-    red_blue += red_blue_step, green += green_step;
+/* How far pixels are apart: a shift. */
+static int32_t bytes_log2(const fixed_band *b) { return b->format == LMB_FIXED_RGB888 ? 2 : 1; }
 
-/* Of the hull: nothing that was drawn lies before it. Four a turn. */
-LOOP_APART void fill_hull_pixels(uint32_t *to, int32_t count, const span *s)
+void lmb_fixed_clear(const fixed_band *b, uint32_t colour)
 {
-    uint32_t red_blue = s->red_blue, green = s->green;
-    const uint32_t red_blue_step = s->red_blue_step, green_step = s->green_step;
-    const uint32_t *const past = to + count;
-    if (count & 1) {
-        HULL_PIXEL
-    }
-    if (count & 2) {
-        HULL_PIXEL
-        HULL_PIXEL
-    }
-    while (to != past) {
-        HULL_PIXEL
-        HULL_PIXEL
-        HULL_PIXEL
-        HULL_PIXEL
+    span s = {0, 0, (colour & 0xff00ffu) << 8, 0, colour & 0xff00u, 0, NULL};
+    for (int32_t y = b->first; y < b->past; ++y) {
+        s.dither = dithers[y & 3];
+        loop_of(b)((unsigned char *)b->pixel + (b->width * (y - b->first) << bytes_log2(b)), NULL, b->width, &s);
     }
 }
 
@@ -155,6 +202,7 @@ typedef struct filler {
     uint32_t depth, red, green, blue, depth_x, red_x, green_x, blue_x, depth_y, red_y, green_y, blue_y;
     int32_t left, right; /* pixels across that it may cover */
     int is_gentle;
+    fill_loop *loop;
 } filler;
 
 /* A number along a row. */
@@ -188,53 +236,45 @@ static int32_t colour_step(uint32_t to_x) { return (int32_t)(to_x + 128u) >> 8; 
 
 static ramp colour_ramp(uint32_t from, uint32_t to_x, int32_t x, int32_t count)
 {
-    return ramp_within((uint32_t)((int32_t)(from + to_x * (uint32_t)x) >> 8), colour_step(to_x), count, 0xffff);
+    return ramp_within((uint32_t)((int32_t)(from + to_x * (uint32_t)x) >> 8), colour_step(to_x), count, FIXED_TOP);
 }
 
-static void fill_steep(const filler *f, int32_t x, int32_t count, uint32_t *to, uint16_t *to_depth)
+static void set_steep(span *s, const filler *f, int32_t x, int32_t count)
 {
     const ramp r = colour_ramp(f->red, f->red_x, x, count), g = colour_ramp(f->green, f->green_x, x, count),
-               b = colour_ramp(f->blue, f->blue_x, x, count);
-    span s = {0, 0, (r.at << 16) + b.at, ((uint32_t)r.step << 16) + (uint32_t)b.step, g.at, (uint32_t)g.step};
-    if (to_depth == NULL) {
-        fill_hull_pixels(to, count, &s);
-        return;
-    }
-    const ramp d = ramp_within(f->depth + f->depth_x * (uint32_t)x, (int32_t)f->depth_x, count, 0x3fffffff);
-    s.depth = d.at, s.depth_step = (uint32_t)d.step;
-    fill_pixels(to, to_depth, count, &s);
+               b = colour_ramp(f->blue, f->blue_x, x, count),
+               d = ramp_within(f->depth + f->depth_x * (uint32_t)x, (int32_t)f->depth_x, count, 0x3fffffff);
+    s->depth = d.at, s->depth_step = (uint32_t)d.step;
+    s->red_blue = (r.at << 16) + b.at, s->red_blue_step = ((uint32_t)r.step << 16) + (uint32_t)b.step;
+    s->green = g.at, s->green_step = (uint32_t)g.step;
 }
 
 /* Rows first .. end - 1 between two edges, the left one first, which go on to the row `end`. */
 static void fill_between(filler *f, lmb_fixed_edge *a, lmb_fixed_edge *b, int32_t first, int32_t end)
 {
-    const int32_t width = f->b->width;
     span s = {0, f->depth_x, 0, ((uint32_t)colour_step(f->red_x) << 16) + (uint32_t)colour_step(f->blue_x),
-              0, (uint32_t)colour_step(f->green_x)};
+              0, (uint32_t)colour_step(f->green_x), NULL};
+    const int32_t width = f->b->width, log2 = bytes_log2(f->b), above = width * (first - f->b->first);
     int32_t u = a->at, v = b->at;
-    uint32_t *to = f->b->pixel + width * (first - f->b->first);
-    uint16_t *to_depth = f->b->depth == NULL ? NULL : f->b->depth + width * (first - f->b->first);
-    for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width) {
+    unsigned char *to = (unsigned char *)f->b->pixel + (above << log2);
+    uint16_t *to_depth = f->b->depth == NULL ? NULL : f->b->depth + above;
+    for (int32_t y = first; y < end; ++y, u += a->slope, v += b->slope, to += width << log2) {
         const int32_t x = maxi(first_pixel(u), f->left);
         const int32_t count = mini(first_pixel(v), f->right) - x;
-        if (count > 0 && f->is_gentle) {
+        if (count > 0) {
             const uint32_t at = (uint32_t)x;
-            s.red_blue = ((f->red + f->red_x * at) << 8 & 0xffff0000u) + ((f->blue + f->blue_x * at) >> 8);
-            s.green = (f->green + f->green_x * at) >> 8;
-            if (to_depth == NULL) {
-                fill_hull_pixels(to + x, count, &s);
-            } else {
+            if (f->is_gentle) {
                 s.depth = f->depth + f->depth_x * at;
-                fill_pixels(to + x, to_depth + x, count, &s);
+                s.red_blue = ((f->red + f->red_x * at) << 8 & 0xffff0000u) + ((f->blue + f->blue_x * at) >> 8);
+                s.green = (f->green + f->green_x * at) >> 8;
+            } else {
+                set_steep(&s, f, x, count);
             }
-        } else if (count > 0) {
-            fill_steep(f, x, count, to + x, to_depth == NULL ? NULL : to_depth + x);
+            s.dither = dithers[y & 3] + (x & 3);
+            f->loop(to + (x << log2), to_depth == NULL ? NULL : to_depth + x, count, &s);
         }
-        if (to_depth != NULL) {
-            to_depth += width;
-            f->depth += f->depth_y;
-        }
-        f->red += f->red_y, f->green += f->green_y, f->blue += f->blue_y;
+        to_depth = to_depth == NULL ? NULL : to_depth + width;
+        f->depth += f->depth_y, f->red += f->red_y, f->green += f->green_y, f->blue += f->blue_y;
     }
     a->at = u, b->at = v;
 }
@@ -248,7 +288,7 @@ void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r)
     const uint32_t down = (uint32_t)(first - r->first);
     const uint32_t *y = r->per_y, *x = r->per_x;
     filler f = {b, r->at[0], r->at[1], r->at[2], r->at[3], x[0], x[1], x[2], x[3], y[0], y[1], y[2], y[3],
-                r->left, r->right, r->is_gentle};
+                r->left, r->right, r->is_gentle, loop_of(b)};
     lmb_fixed_edge whole = r->whole;
     if (down > 0) {
         f.depth += y[0] * down, f.red += y[1] * down, f.green += y[2] * down, f.blue += y[3] * down;

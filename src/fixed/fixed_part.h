@@ -37,14 +37,14 @@ static inline void fixed_receiver_at(fixed_receiver *out, const lmb_fixed *s, ui
     }
 }
 
-/* Of colours and depths: what filling rounds then stays within 8 and 16 bits. */
-enum { FIXED_LEAST = 1, FIXED_MOST = 254, FIXED_LEAST_DEPTH = 16, FIXED_MOST_DEPTH = 65519 };
+/* Of colours and depths: what filling rounds then stays within FIXED_TOP, to which a dither adds 7 codes, and 16 bits. */
+enum { FIXED_LEAST = 1, FIXED_MOST = 247, FIXED_TOP = 0xf8ff, FIXED_LEAST_DEPTH = 16, FIXED_MOST_DEPTH = 65519 };
 
 /* A band: rows first .. past - 1 of a picture. */
 typedef struct fixed_band {
-    uint32_t *pixel;
+    void *pixel;     /* of a format's 4 or 2 bytes */
     uint16_t *depth; /* null: of the hull alone */
-    int32_t width, first, past;
+    int32_t width, first, past, format;
 } fixed_band;
 
 /* lmb_fixed_clip: a triangle that is partly outside -> corners of what is inside, up to FIXED_CORNERS; their number. */
@@ -58,5 +58,8 @@ int lmb_fixed_set_up(lmb_fixed_ready *out, const lmb_fixed_vertex *c0, const lmb
 
 /* lmb_fixed_fill: the rows of it that the band has; all of its pixels where the band has no depth. */
 void lmb_fixed_fill(const fixed_band *b, const lmb_fixed_ready *r);
+
+/* lmb_fixed_clear: all of the band's pixels, 0x00RRGGBB. */
+void lmb_fixed_clear(const fixed_band *b, uint32_t colour);
 
 #endif

@@ -65,7 +65,7 @@ static void keep(void *user, const uint32_t *pixel, int32_t width, int32_t y, in
 
 static int picture(int32_t frame, const char *path, report *r)
 {
-    static uint32_t band[WIDTH * ROWS * 6 / 4];
+    static uint32_t band[ROOM_BAND_BYTES(WIDTH, ROWS) / 4];
     room shown;
     room_pose pose;
     file_bytes file = {NULL, 0};
@@ -77,7 +77,8 @@ static int picture(int32_t frame, const char *path, report *r)
         return report_fail(r, "the room does not open");
     }
     room_path(&pose, frame);
-    room_draw(&shown, &pose, keep, NULL);
+    room_see(&shown, &pose);
+    room_put_bands(&shown, keep, NULL);
     printf("frame %d %08x, %u triangles\n", (int)frame, (unsigned)hash, (unsigned)shown.frame.seen_count);
     const int ok = png_encode(&file, rgb, WIDTH, HEIGHT, r) && file_write(path, file.data, file.size, r);
     file_free(&file);

@@ -73,7 +73,7 @@ static lmb_fixed_vertex random_corner(test_rng *rng)
 static void fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixed_vertex *c1, const lmb_fixed_vertex *c2)
 {
     lmb_fixed_ready r;
-    if (lmb_fixed_set_up(&r, c0, c1, c2, b->width, b->first, b->past)) {
+    if (lmb_fixed_set_up(&r, c0, c1, c2, b->width, b->first, b->past, b->depth != NULL)) {
         lmb_fixed_fill(b, &r);
     }
 }
@@ -81,7 +81,7 @@ static void fill(const fixed_band *b, const lmb_fixed_vertex *c0, const lmb_fixe
 /* Which pixels a triangle covers: of one depth, so that all are drawn. */
 static void cover(uint8_t *count, lmb_fixed_vertex a, lmb_fixed_vertex b, lmb_fixed_vertex c)
 {
-    const fixed_band band = {pixel, depth, SIDE, 0, SIDE};
+    const fixed_band band = {pixel, depth, SIDE, 0, SIDE, LMB_FIXED_RGB888};
     clear();
     a.depth = b.depth = c.depth = 1000;
     fill(&band, &a, &b, &c);
@@ -127,7 +127,7 @@ static void test_planes(void)
     double most_off = 0.0, most_far = 0.0;
     int outside = 0;
     for (int n = 0; n < 3000; ++n) {
-        const fixed_band band = {pixel, depth, SIDE, 0, SIDE};
+        const fixed_band band = {pixel, depth, SIDE, 0, SIDE, LMB_FIXED_RGB888};
         lmb_fixed_vertex c[3] = {random_corner(&rng), random_corner(&rng), random_corner(&rng)};
         if (n % 3 == 0) { /* a sliver */
             c[2].x = (int16_t)((c[0].x + c[1].x) / 2 + (int32_t)(test_random(&rng) % 5));
@@ -219,6 +219,73 @@ static void test_frames(void)
     }
 }
 
+/* A code with its dither in 5 bits. */
+static uint32_t level(uint32_t code, int x, int y)
+{
+    static const uint32_t bayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+    return (code + bayer[y & 3][x & 3] / 2) / 8;
+}
+
+/* Formats of 16 bits are the 32-bit picture's codes, dithered, in bands of any height. */
+static void test_formats(void)
+{
+    static uint16_t small[WIDTH * HEIGHT];
+    lmb_fixed s;
+    lmb_fixed_frame f;
+    for (int which = 0; which < 8; ++which) {
+        make_frame(&s, &f, which);
+        f.background = which & 1 ? LMB_FIXED_COVERED : 0xf80010u;
+        CHECK(lmb_fixed_transform(&f) == LMB_OK && lmb_fixed_light(&f) == LMB_OK);
+        if (which & 2) {
+            f.seen_count = f.seen_count / 2; /* so that some background is left */
+        }
+        memset(picture[0], 0, sizeof picture[0]);
+        memset(small, 0, sizeof small);
+        CHECK(lmb_fixed_band(&f, 0, HEIGHT) == LMB_OK);
+        for (f.format = LMB_FIXED_BGR555; f.format <= LMB_FIXED_RGBA5551; ++f.format) {
+            int wrong = 0;
+            for (int32_t y = 0; y < HEIGHT; y += 5 + which) {
+                f.pixel_16 = small + WIDTH * y;
+                CHECK(lmb_fixed_band(&f, y, mini(y + 5 + which, HEIGHT)) == LMB_OK);
+            }
+            for (int i = 0; i < WIDTH * HEIGHT; ++i) {
+                const uint32_t c = picture[0][i], r = level(c >> 16, i % WIDTH, i / WIDTH),
+                               g = level(c >> 8 & 255u, i % WIDTH, i / WIDTH), b = level(c & 255u, i % WIDTH, i / WIDTH);
+                const uint32_t wanted = f.format == LMB_FIXED_BGR555 ? r | g << 5 | b << 10
+                                                                     : r << 11 | g << 6 | b << 1 | 1u;
+                wrong += c != 0 && small[i] != wanted;
+            }
+            CHECK_MSG(wrong == 0, "frame %d, format %d: %d pixels", which, (int)f.format, wrong);
+        }
+        f.format = LMB_FIXED_RGBA5551 + 1;
+        CHECK(lmb_fixed_band(&f, 0, HEIGHT) == LMB_ERR_ARG);
+        f.format = LMB_FIXED_BGR555, f.pixel_16 = NULL;
+        CHECK(lmb_fixed_band(&f, 0, HEIGHT) == LMB_ERR_ARG);
+    }
+}
+
+/* The hull without depths is the hull with depths, but where its edges meet what stands on it. */
+static void test_hull(void)
+{
+    lmb_fixed s;
+    lmb_fixed_frame f;
+    for (int which = 0; which < 8; ++which) {
+        int differ = 0;
+        for (int k = 0; k < 2; ++k) {
+            make_frame(&s, &f, which);
+            CHECK(s.hull == s.triangles / 2);
+            s.hull = k ? s.hull : 0;
+            f.pixel = picture[k];
+            CHECK(lmb_fixed_transform(&f) == LMB_OK && lmb_fixed_light(&f) == LMB_OK);
+            CHECK(lmb_fixed_band(&f, 0, HEIGHT) == LMB_OK);
+        }
+        for (int i = 0; i < WIDTH * HEIGHT; ++i) {
+            differ += picture[0][i] != picture[1][i];
+        }
+        CHECK_MSG(differ <= 4, "frame %d: %d pixels differ", which, differ);
+    }
+}
+
 /* Cameras everywhere in the room, right at its walls and edges, too: closed, whatever is cut. */
 static void test_views(void)
 {
@@ -279,7 +346,7 @@ static void test_light(void)
             for (int c = 0; c < 3 && (f.vertex[i].flags & FIXED_USED); ++c) {
                 const double v = light * (r.albedo[c] / 255.0) * (r.albedo[c] / 255.0), x = v > 1.0 ? 1.0 : v,
                              code = 255.0 * (x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055);
-                most_off = larger(most_off, fabs(f.vertex[i].colour[c] - code));
+                most_off = larger(most_off, fabs(f.vertex[i].colour[c] - (code > FIXED_MOST ? FIXED_MOST : code)));
             }
         }
     }
@@ -374,7 +441,8 @@ static void test_refused(void)
         CHECK(open_with(i, 0x7fffffffu) == LMB_ERR_FORMAT);
     }
     CHECK(open_with(10, 8192) == LMB_ERR_FORMAT && open_with(13, 15) == LMB_ERR_FORMAT);
-    CHECK(open_with(13, 8192) == LMB_ERR_FORMAT && open_with(17, 1) == LMB_ERR_FORMAT);
+    CHECK(open_with(18, 1) == LMB_ERR_FORMAT && open_with(19, 1) == LMB_ERR_FORMAT);
+    CHECK(open_with(13, 8192) == LMB_ERR_FORMAT && open_with(17, SMALL_FIXED_TRIANGLES + 1) == LMB_ERR_FORMAT);
     CHECK(open_with(20, 0x2000) == LMB_ERR_FORMAT);                 /* a place beyond 8191 */
     CHECK(open_with(21, 0x7f7f0000u) == LMB_ERR_FORMAT);            /* a normal that is too long */
     CHECK(open_with(rows - 1, SMALL_FIXED_VERTICES) == LMB_ERR_FORMAT);
@@ -414,6 +482,8 @@ void test_fixed(void)
     test_fans();
     test_planes();
     test_frames();
+    test_formats();
+    test_hull();
     test_views();
     test_light();
     test_bounces();
