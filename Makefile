@@ -107,7 +107,7 @@ TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
 # --- what people want ------------------------------------------------------------------------------------------------
 
 ##@ Build
-.PHONY: all lib demo man help clean
+.PHONY: all lib demo man docs docs-check help clean
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
@@ -116,6 +116,10 @@ demo: $(TOOL) ## render the built-in scene to build/demo.png
 
 man: $(TOOL) ## the man page, build/lambent.1, from the verbs' tables
 	@$(TOOL) help --man > $(BUILD)/lambent.1
+
+docs: ## the reference, build/docs/html/index.html: headers, documents, the systems (needs doxygen)
+	@mkdir -p $(BUILD)/docs
+	@DOCS_TOP='$(CURDIR)' DOCS_OUT='$(BUILD)/docs' doxygen tools/docs/Doxyfile
 
 help: ## this list
 	@awk -F ':.*## ' '/^##@ / { printf "\n%s\n", substr($$0, 5) } \
@@ -524,6 +528,9 @@ measure-relief: $(B)/measure-relief ## reliefs against their complex models: err
 
 paths: ## what the documents tell new users to type, in a clean copy
 	@$(IN_SH) tests/scripts/paths.sh
+
+docs-check: $(TOOL) $(LIB) ## code and commands of the documents; the reference's links and widths
+	+@BUILD='$(BUILD)' MAKE='$(MAKE)' $(IN_SH) tests/scripts/docs_check.sh
 
 large: $(TOOL) ## ten million triangles from a file to a picture; time and memory
 	@$(IN_SH) tests/scripts/large.sh

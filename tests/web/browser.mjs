@@ -4,7 +4,8 @@ import http from 'http';
 import path from 'path';
 import { createRequire } from 'module';
 
-const kinds = { html: 'text/html', js: 'text/javascript', json: 'application/json', png: 'image/png' };
+const kinds = { html: 'text/html', js: 'text/javascript', json: 'application/json', png: 'image/png', svg: 'image/svg+xml',
+                css: 'text/css' };
 
 // Serves the folders, the first that has a file; isolated: with the headers that let a page use threads.
 export function serve(folders, isIsolated) {
