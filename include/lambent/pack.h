@@ -11,8 +11,9 @@
  * A .lmp, version 1: 32-bit words in the byte order that word 1 tells. Offsets are bytes from the file's start,
  * multiples of 4; an offset of 0 says that there is nothing.
  *   word 0  the bytes L M P 1           word 3  parts, 1 .. LMB_PACK_MOST_PARTS
- *        1  0x01020304                       4 .. 7  0
- *        2  bytes of the file                8  of each part: kind, offset, bytes, 0
+ *        1  0x01020304                       4 .. 6  0
+ *        2  bytes of the file                7  FNV-1a, 32 bits, of all other bytes; 0: not told
+ *                                            8  of each part: kind, offset, bytes, 0
  * No kind stands twice; unknown kinds are passed over. Records, in words; floats are binary32:
  *   SCENE      bounds_min, bounds_max; lmb_core: low, high, wide_low, wide_high, faces; then 0
  *   MESHES     vertices, triangles, position_format | uv_format << 8 | index_format << 16, offsets of positions, normals,
@@ -89,7 +90,7 @@ extern "C" {
  *
  * Returns LMB_OK, LMB_ERR_ARG (null), LMB_ERR_ALIGN (data not on 4 bytes), LMB_ERR_FORMAT (no .lmp of version 1, the other
  * byte order, cut off, an offset, index or number that may not be). `out` is then all 0. No number of a file that it takes
- * leads outside: vertex indices are checked, too. The parts TRANSFER and VERTEX_LIGHT are checked by who opens them.
+ * leads outside: vertex indices are checked, too; word 7 is not, which `lambent` does. The parts TRANSFER and VERTEX_LIGHT are checked by who opens them.
  * Cost: one pass over indices and records; vertices and texels are not read. */
 lmb_status lmb_pack_open(lmb_pack *out, const void *data, size_t bytes);
 

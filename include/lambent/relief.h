@@ -15,7 +15,7 @@
  *         4  views, 1 .. LMB_RELIEF_VIEWS      12  LMB_INDEX_U16 or LMB_INDEX_U32
  *         5  offset of their records           13  0
  *         6  vertices of the simple model      14  0
- *         7  triangles                         15  0
+ *         7  triangles                         15  FNV-1a, 32 bits, of all other bytes; 0: not told
  * A view's record, 20 words: eye, right, up, back (3 floats each), half_width, half_height, near_m, far_m, as lmb_view
  * has them; LMB_PERSPECTIVE or LMB_ORTHOGRAPHIC; width, height, texels, 2 .. 4096; offset of its texels.
  * An orthographic view shows all of the model. Texels, row by row from the top, the low byte first on every target:

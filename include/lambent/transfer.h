@@ -52,7 +52,7 @@ enum {
 
 enum {
     LMB_TRANSFER_VERSION = 2, /* the file's fourth byte, behind `LMT` */
-    LMB_TRANSFER_HEADER_WORDS = 24,
+    LMB_TRANSFER_HEADER_WORDS = 24, /* the last one: FNV-1a, 32 bits, of all other bytes; 0: not told, never checked here */
     LMB_TRANSFER_SURFACE_WORDS = 4,
     LMB_TRANSFER_CORNER_WORDS = 3,
     LMB_TRANSFER_RECEIVER_WORDS = 5, /* two parents, first link, number of links, scale */

@@ -9,14 +9,14 @@ PAGE_WORK := $(B)/page-work
 WASI      ?= /usr
 PAGE_LIBC := $(WASI)/lib/wasm32-wasi
 PAGE_RT    = $(firstword $(wildcard $(WASI)/lib/llvm-*/lib/clang/*/lib/wasi/libclang_rt.builtins-wasm32.a))
-PAGE_SRC  := $(filter-out src/isa/% src/mixed/% src/voxel/% tools/common/io_file.c tools/relief/verb_relief_bake.c \
-             %/gen_demo.c %/gen_srgb.c %/demo_scene.c, \
-             $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief,tools/$(d)/*.c) \
+PAGE_SRC  := $(filter-out src/isa/% tools/common/io_file.c tools/relief/verb_relief_bake.c \
+             %/gen_demo.c %/gen_srgb.c %/demo_scene.c tools/picture/io_png_write.c tools/picture/io_deflate.c, \
+             $(sort $(wildcard src/*/*.c $(foreach d,common picture mesh model demo render relight relief mix,tools/$(d)/*.c) \
              platform/web/page/*.c)))
 PAGE_KERNELS := src/base/codec.c src/base/poly.c src/bounce/polygon.c src/raster/plane.c src/raster/texture.c
 PAGE_FLAGS := --target=wasm32-wasi -isystem $(WASI)/include/wasm32-wasi -std=c99 -ffp-contract=off -fno-math-errno \
               -fno-builtin-bcmp -Wall -Wextra -Iinclude -D_WASI_EMULATED_SIGNAL \
-              -DLMB_MIXED=0 -DLMB_VOXELS=0 -MMD -MP
+              -MMD -MP
 # Below the module's data and its 1 MiB of stack: 128 KiB each for the data of the kernels and
 # of the demo, and stacks that nobody uses.
 PAGE_LINK := wasm-ld -O2 --compress-relocations --no-entry --import-memory --shared-memory --no-check-features \
@@ -64,13 +64,18 @@ $(PAGE)/%.wasm.lzma: $(PAGE_WORK)/%.wasm
 	@xz --format=lzma --lzma1=preset=9e,pb=0 -c $< > $@
 
 # Without comments and indentation.
+PAGE_BARE := sed -e 's/^ *//' -e '/^\/\/ /d' -e 's|\([;{},)]\)  *// .*|\1|' -e '/^$$/d'
 $(PAGE)/%: platform/web/page/%
 	@mkdir -p $(@D)
-	@sed -e 's/^ *//' -e '/^\/\/ /d' -e 's|\([;{},)]\)  *// .*|\1|' -e '/^$$/d' $< > $@
+	@$(PAGE_BARE) $< > $@
+$(PAGE)/page.js.lzma $(PAGE)/body.html.lzma: $(PAGE)/%.lzma: platform/web/page/%
+	@mkdir -p $(@D)
+	@$(PAGE_BARE) $< | xz --format=lzma --lzma1=preset=9e,pb=0 > $@
 
 .PHONY: page
-page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js
+page: $(patsubst %,$(PAGE)/%.wasm.lzma,lambent kernels_scalar kernels_simd demo) $(PAGE)/index.html $(PAGE)/lambent.js \
+      $(PAGE)/page.js.lzma $(PAGE)/body.html.lzma
 	+@$(MAKE) PORT=host BUILD=build all build/default/scenes
 	@sh platform/web/page_scenes.sh build/lambent build/default/scenes $(PAGE)
-	@cd $(PAGE) && cat index.html lambent.js lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \
+	@cd $(PAGE) && cat index.html lambent.js page.js.lzma body.html.lzma lambent.wasm.lzma kernels_simd.wasm.lzma | wc -c \
 	    | sed 's/$$/ bytes that a browser loads, without scenes/'

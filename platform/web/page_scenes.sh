@@ -1,5 +1,5 @@
 # page_scenes.sh: page_scenes.sh TOOL SCENES FOLDER: what the page offers beside itself: scenes with baked light, a
-# relief, a picture by `lambent mix`, and scenes.json, which names the scenes. What is there already stays.
+# relief, a photo with depth for `lambent mix`, and scenes.json, which names the scenes. What is there already stays.
 set -e
 tool=$1 scenes=$2 to=$3
 
@@ -47,9 +47,12 @@ for name in small_room gallery; do
   \"transfer\": \"$name.lmt\"}"
 done
 printf '[%s]\n' "$list" > "$to/scenes.json"
-if [ ! -s "$to/relief.lmr" ]; then
-    vase > "$to/vase.obj"
-    "$tool" relief bake "$to/vase.obj" --views 18 --size 128 --triangles 600 -q -o "$to/relief.lmr"
-    rm -f "$to/vase.obj"
+if [ ! -s "$to/mix/depth.pfm" ]; then
+    mkdir -p "$to/mix"
+    vase > "$to/mix/vase.obj"
+    "$tool" render demo --size 480x360 -q -o "$to/mix/photo.png"
+    "$tool" render demo --size 480x360 --show depth -q -o "$to/mix/depth.pfm"
 fi
-cp tests/results/mixed.png "$to/mixed.png"
+if [ ! -s "$to/relief.lmr" ]; then
+    "$tool" relief bake "$to/mix/vase.obj" --views 18 --size 128 --triangles 600 -q -o "$to/relief.lmr"
+fi

@@ -204,7 +204,7 @@ static int is_header(const uint32_t *word, size_t bytes)
         word[SIZE] % 4 != 0 || word[PARTS] == 0 || word[PARTS] > LMB_PACK_MOST_PARTS) {
         return 0;
     }
-    for (int i = RESERVED; i < LMB_PACK_HEADER_WORDS; ++i) {
+    for (int i = RESERVED; i < LMB_PACK_HEADER_WORDS - 1; ++i) { /* the last one is the tool's checksum */
         rest |= word[i];
     }
     return rest == 0 && 4 * (LMB_PACK_HEADER_WORDS + LMB_PACK_PART_WORDS * word[PARTS]) <= word[SIZE];

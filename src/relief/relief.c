@@ -9,7 +9,7 @@
 #if LMB_RELIEF
 
 enum { MAGIC, ORDER, SIZE, FORMAT, VIEWS, RECORDS, VERTICES, TRIANGLES, POSITIONS, NORMALS, COLOURS, INDICES,
-       INDEX_FORMAT, NONE }; /* words of the header */
+       INDEX_FORMAT, NONE }; /* words of the header; the last one is the tool's checksum */
 enum { V_KIND = 16, V_WIDTH, V_HEIGHT, V_TEXELS }; /* words of a view's record, after its 16 floats */
 enum { HEADER_BYTES = 4 * LMB_RELIEF_HEADER_WORDS, VIEW_BYTES = 4 * LMB_RELIEF_VIEW_WORDS, MAX_SIDE = 4096 };
 
@@ -166,7 +166,7 @@ static lmb_status check_header(const source *s)
                    vertices = header(s, VERTICES), triangles = header(s, TRIANGLES);
     if (header(s, SIZE) > s->bytes || (format != LMB_RELIEF_FULL && format != LMB_RELIEF_PACKED) || views == 0 ||
         vertices > MAX_COUNT || triangles > MAX_COUNT || (index != LMB_INDEX_U16 && index != LMB_INDEX_U32) ||
-        (header(s, NONE) | header(s, NONE + 1) | header(s, NONE + 2)) != 0) {
+        (header(s, NONE) | header(s, NONE + 1)) != 0) {
         return LMB_ERR_FORMAT;
     }
     if (!holds_array(s, POSITIONS, vertices, 12) || !holds_array(s, NORMALS, vertices, 4) ||

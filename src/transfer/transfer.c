@@ -274,7 +274,7 @@ lmb_status lmb_transfer_open(lmb_transfer *out, const void *data, size_t bytes)
     }
     if (bytes < 4 * LMB_TRANSFER_HEADER_WORDS || memcmp(data, "LMT", 3) != 0 ||
         ((const uint8_t *)data)[3] != LMB_TRANSFER_VERSION || word[ORDER] != OWN_ORDER ||
-        word[SIZE] != bytes || bytes % 4 != 0 || !are_zeros(word + RESERVED, LMB_TRANSFER_HEADER_WORDS - RESERVED) ||
+        word[SIZE] != bytes || bytes % 4 != 0 || !are_zeros(word + RESERVED, LMB_TRANSFER_HEADER_WORDS - 1 - RESERVED) ||
         !lay_out(&t, word, bytes / 4)) {
         return LMB_ERR_FORMAT;
     }

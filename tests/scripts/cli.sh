@@ -493,8 +493,17 @@ check "nothing was left behind" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' s
 printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nv 0 0 0.3\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n' >"$dir/pit.obj"
 printf 'v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 7 8\n' >"$dir/box.obj"
 printf '# eye, target, degrees\n0 0 5 0 0 0 40\n\n3 2 4 0 0 0 40\n' >"$dir/cameras.txt"
+# bit FILE AT OUT: the file, its byte at AT with another lowest bit.
+bit() {
+    value=$(od -An -tu1 -j"$2" -N1 "$1" | tr -d ' ')
+    # shellcheck disable=SC2059
+    { head -c "$2" "$1"; printf "\\$(printf %03o $((value / 2 * 2 + 1 - value % 2)))"; tail -c +$(($2 + 2)) "$1"; } >"$3"
+}
 status 0 relief bake "$dir/pit.obj" -o "$dir/pit.lmr" --simple "$dir/box.obj" --size 32
 check "relief bake tells what it saw" grep -q 'as 12, 26 views of 32 x 32, .* bytes' "$dir/out.txt"
+bit "$dir/pit.lmr" 3000 "$dir/bit.lmr"
+status 1 relief render "$dir/bit.lmr" -o "$dir/bad.png"
+said "bit.lmr: a damaged .lmr file"
 sed 's/1/0.9/g' "$dir/box.obj" | sed 's/^f.*//' >"$dir/less.obj"
 grep '^f' "$dir/box.obj" >>"$dir/less.obj"
 status 0 relief bake "$dir/pit.obj" -o "$dir/less.lmr" --simple "$dir/less.obj" --as-is --size 16
@@ -648,8 +657,8 @@ said "cut.lmt: a damaged light transfer"
 status 0 bake "$dir/box.obj" -o "$dir/little.lmt" --elements 256 --receivers 200 --endian little --report
 check "bake tells the bytes of each part" grep -q '  links  *[0-9]* bytes' "$dir/out.txt"
 status 0 bake "$dir/box.obj" -o "$dir/big.lmt" --elements 256 --receivers 200 --endian big
-check "the other byte order has the same bytes, turned round" sh -c '
-    od -An -v -tx1 -w4 "$1" | sed 1d >"$1.txt"; od -An -v -tx1 -w4 "$2" | sed 1d | awk "{ print \" \" \$4, \$3, \$2, \$1 }" |
+check "the other byte order has the same bytes but the checksum, turned round" sh -c '
+    od -An -v -tx1 -w4 "$1" | sed "1d;24d" >"$1.txt"; od -An -v -tx1 -w4 "$2" | sed "1d;24d" | awk "{ print \" \" \$4, \$3, \$2, \$1 }" |
     cmp -s - "$1.txt"' sh "$dir/little.lmt" "$dir/big.lmt"
 check "the byte order is that of this machine" sh -c 'cmp -s "$1" "$3" || cmp -s "$2" "$3"' sh "$dir/little.lmt" "$dir/big.lmt" "$dir/box-1.lmt"
 cmp -s "$dir/little.lmt" "$dir/box-1.lmt" && other=big || other=little

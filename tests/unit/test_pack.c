@@ -6,6 +6,7 @@
 
 #include "../../src/base/vertex.h"
 #include "../../src/raster/texture.h"
+#include "../../tools/common/checksum.h"
 #include "../../tools/demo/demo_scene.h"
 #include "../../tools/model/model_motion.h"
 #include "../../tools/pack/pack.h"
@@ -490,8 +491,33 @@ static void test_swapped(void)
     pack_free(&parts);
 }
 
+/* Any byte of a file that has a checksum, in either byte order. */
+static void test_checksum(void)
+{
+    static uint32_t file_words[SMALL_PACK_WORDS];
+    const size_t bytes = make_small();
+    file_bytes file = {(uint8_t *)file_words, bytes};
+    memcpy(file_words, words, sizeof file_words);
+    for (int order = 0; order < 2; ++order) {
+        if (order == 1) {
+            lmb_pack own;
+            CHECK(lmb_pack_open(&own, file_words, bytes) == LMB_OK);
+            pack_swap(&file, &own);
+        }
+        checksum_put(&file, LMB_PACK_HEADER_WORDS);
+        CHECK(checksum_fits(file.data, bytes, LMB_PACK_HEADER_WORDS));
+        for (size_t at = 12; at < bytes; ++at) {
+            file.data[at] ^= 0x10;
+            CHECK_MSG(!checksum_fits(file.data, bytes, LMB_PACK_HEADER_WORDS), "byte %d", (int)at);
+            file.data[at] ^= 0x10;
+        }
+    }
+    CHECK(checksum_fits((const uint8_t *)words, bytes, LMB_PACK_HEADER_WORDS)); /* has none */
+}
+
 void test_pack(void)
 {
+    test_checksum();
     test_in_place();
     test_refused();
     test_damaged();

@@ -150,7 +150,7 @@ static void bad_files(const stage *s)
     static const struct { int word; uint32_t value; } bad[] = {
         {0, 0}, {1, 5}, {2, 0xffffffffu}, {3, 2}, {4, 0}, {4, 0x10000u}, {5, 2}, {5, 0xfffffff0u}, {6, 0x0fffffffu},
         {7, 0x0fffffffu}, {8, 65}, {8, 0xfffffff0u}, {9, 0}, {10, 0xfffffff0u}, {11, 0xfffffff0u}, {12, 0}, {12, 3},
-        {13, 1}, {14, 1}, {15, 1}, {16, 0x7f800000u}, {19, 0}, {28, 0}, {29, 0xbf800000u}, {30, 0}, {31, 0x7f800000u},
+        {13, 1}, {14, 1}, {16, 0x7f800000u}, {19, 0}, {28, 0}, {29, 0xbf800000u}, {30, 0}, {31, 0x7f800000u},
         {32, 2},
         {33, 1}, {33, 0x80000000u}, {34, 5000}, {35, 0xfffffff0u}, {35, 3}};
     const lmb_relief none = s->relief;

@@ -181,11 +181,29 @@ check('and the page goes on', await colours(page) > 100);
 
 for (const tab of ['relight', 'relief', 'mix']) {
     await page.click(`#tab-${tab}`);
-    if (tab !== 'mix') await page.waitForFunction((t) => document.body.dataset.other === t, tab);
-    else await page.waitForTimeout(800);
+    await page.waitForFunction((t) => document.body.dataset.other === t, tab);
     check(`${tab} shows a picture`, await colours(page) > 200, await colours(page));
     await shot(page, `tab_${tab}`);
 }
+const mixed = () => page.evaluate(() => document.getElementById('view').toDataURL());
+const moved = async (what, hands) => {
+    const was = await mixed();
+    await hands();
+    await page.waitForFunction((w) => document.getElementById('view').toDataURL() !== w, was);
+    await page.waitForFunction(() => document.getElementById('bar').style.width === '0px');
+    check(what, await mixed() !== was);
+};
+await moved('a drag moves the light on the vase', async () => {
+    const at = await middle(page);
+    await page.mouse.move(at.x, at.y);
+    await page.mouse.down();
+    await page.mouse.move(at.x + 120, at.y, { steps: 3 });
+    await page.mouse.up();
+});
+await shot(page, 'mix_dragged');
+await moved('and so does an arrow key', () => page.press('#picture', 'ArrowLeft'));
+await moved('mix shows what changed', () => page.selectOption('#mix-show', 'delta'));
+await shot(page, 'mix_delta');
 await page.context().close();
 
 // --- a phone -----------------------------------------------------------------------------------------------------

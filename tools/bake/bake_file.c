@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../src/transfer/sections.h"
+#include "../common/checksum.h"
 
 /* Its links: the first one's place, their number, their unit. */
 static int put_links(bake_words *to, bake_words *links, const bake_target *t, uint32_t words_each, report *r)
@@ -105,6 +106,7 @@ int bake_file(file_bytes *out, bake *b, report *r)
     if (b->set.is_swapped) {
         swap_words(out->data, out->size);
     }
+    checksum_put(out, LMB_TRANSFER_HEADER_WORDS);
     return 1;
 }
 

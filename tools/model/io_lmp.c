@@ -5,6 +5,7 @@
 
 #include "../../src/pack/motion.h"
 #include "../../src/pack/records.h"
+#include "../common/checksum.h"
 #include "model_motion.h"
 
 int lmp_begins(const uint8_t *data, size_t size) { return size >= 4 && memcmp(data, "LMP", 3) == 0; }
@@ -187,7 +188,7 @@ int lmp_load(model_build *b, const uint8_t *data, size_t size)
         return 0;
     }
     memcpy(copy, data, size);
-    if (lmb_pack_open(p, copy, size) != LMB_OK) {
+    if (lmb_pack_open(p, copy, size) != LMB_OK || !checksum_fits(copy, size, LMB_PACK_HEADER_WORDS)) {
         return lmp_refuse(b->path, data, size, b->r);
     }
     b->out->pack = p;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "../common/checksum.h"
 #include "io_lmp.h"
 
 /* Why a file is refused, of what its first words say. */
@@ -30,7 +31,7 @@ int lmt_open(lmb_transfer *out, const file_bytes *file, const char *path, report
     size_t size = file->size;
     lmb_pack pack;
     if (lmp_begins(data, size)) {
-        if (lmb_pack_open(&pack, data, size) != LMB_OK) {
+        if (lmb_pack_open(&pack, data, size) != LMB_OK || !checksum_fits(data, size, LMB_PACK_HEADER_WORDS)) {
             return lmp_refuse(path, data, size, r);
         }
         data = lmb_pack_part(&pack, LMB_PACK_TRANSFER, &size);
@@ -38,5 +39,6 @@ int lmt_open(lmb_transfer *out, const file_bytes *file, const char *path, report
             return report_fail(r, "%s: a packed scene without baked light; `lambent pack --transfer` puts it in", path);
         }
     }
-    return lmb_transfer_open(out, data, size) == LMB_OK || refuse(data, size, path, r);
+    return (lmb_transfer_open(out, data, size) == LMB_OK && checksum_fits(data, size, LMB_TRANSFER_HEADER_WORDS)) ||
+           refuse(data, size, path, r);
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "../../src/pack/records.h"
+#include "../common/checksum.h"
 #include "pack.h"
 
 enum { ALIGNMENT = 16 }; /* of parts: a cache has lines, and some copying hardware takes no less */
@@ -75,6 +76,7 @@ int pack_file(file_bytes *out, const pack *p, report *r)
     set_offsets(out->data, at, p, LMB_PACK_MESHES, 8, 1, LMB_PACK_INDICES);
     set_offsets(out->data, at, p, LMB_PACK_TEXTURES, 0, 1, LMB_PACK_TEXELS);
     set_offsets(out->data, at, p, LMB_PACK_TRACKS, 2, 2, LMB_PACK_KEYS);
+    checksum_put(out, LMB_PACK_HEADER_WORDS);
     return 1;
 }
 
@@ -141,4 +143,5 @@ void pack_swap(file_bytes *inout, const lmb_pack *p)
     uint32_t parts;
     memcpy(&parts, file + 12, sizeof parts);
     swap(file + 4, LMB_PACK_HEADER_WORDS - 1 + LMB_PACK_PART_WORDS * (size_t)parts, 4);
+    checksum_put(inout, LMB_PACK_HEADER_WORDS);
 }

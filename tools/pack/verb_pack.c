@@ -168,6 +168,9 @@ static int put_transfer(pack *p, const options *o, report *r)
         memcpy(&size, words + 8, sizeof size);
         p->part[LMB_PACK_TRANSFER].size = 0;
         pack_put(&p->part[LMB_PACK_TRANSFER], words, size);
+        if (!p->part[LMB_PACK_TRANSFER].is_short) { /* the checksum of the whole file covers it */
+            memset(p->part[LMB_PACK_TRANSFER].data + 4 * (LMB_TRANSFER_HEADER_WORDS - 1), 0, 4);
+        }
     }
     free(memory);
     file_free(&file);

@@ -8,6 +8,7 @@
 #include "../../src/base/codec.h"
 #include "../../src/base/vec.h"
 #include "../../platform/host/pool.h"
+#include "../common/checksum.h"
 #include "../common/progress.h"
 
 void relief_bake_free(relief_bake *bake)
@@ -368,5 +369,6 @@ int relief_encode(file_bytes *out, const relief_bake *bake, const triangle_mesh 
         return report_fail(r, "not enough memory for a file of %.0f bytes", (double)out->size);
     }
     put_file(&w, bake, simple, out->size);
+    checksum_put(out, LMB_RELIEF_HEADER_WORDS);
     return opens(out, r);
 }

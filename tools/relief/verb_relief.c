@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../common/checksum.h"
 #include "../common/option_value.h"
 #include "../common/progress.h"
 #include "../common/view_frame.h"
@@ -162,7 +163,11 @@ static int open_relief(work *w, const char *path, report *r)
     if (!file_read(&w->file, path, r)) {
         return 0;
     }
+    const int fits = checksum_fits(w->file.data, w->file.size, LMB_RELIEF_HEADER_WORDS);
     lmb_status status = lmb_relief_swap(w->file.data, w->file.size);
+    if (status == LMB_OK && !fits) {
+        return report_fail(r, "%s: a damaged .lmr file; copy it anew, or bake it anew", path);
+    }
     if (status == LMB_OK) {
         status = lmb_relief_open(&w->relief, w->file.data, w->file.size);
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../../../tools/common/io_file.h"
+#include "../../../tools/picture/image.h"
 
 enum { FILES = 256, NAME_BYTES = 256 };
 
@@ -112,3 +113,15 @@ int file_can_write(const char *path, report *r) { return (void)path, (void)r, 1;
 int file_may_replace(const char *path, report *r) { return (void)path, (void)r, 1; }
 int file_is_same_place(const char *a, const char *b) { return strcmp(a, b) == 0; }
 void file_drop_aside(void) {}
+
+/* --- image.h: the page shows what verbs write as .ppm, so it has no packer --------------------------------------------- */
+
+static int is_ppm_only(report *r) { return report_fail(r, "a page writes no .png; name a .ppm"); }
+int png_encode(file_bytes *out, const uint8_t *rgb, int32_t width, int32_t height, report *r)
+{
+    return (void)out, (void)rgb, (void)width, (void)height, is_ppm_only(r);
+}
+int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_t height, report *r)
+{
+    return png_encode(out, rgba, width, height, r);
+}

@@ -11,6 +11,7 @@
 #include "../../../tools/picture/metrics.h"
 #include "../../../tools/picture/picture.h"
 #include "../../../tools/relief/verb_relief.h"
+#include "../../../tools/mix/verb_mix.h"
 #include "../../../tools/relight/verb_relight.h"
 #include "../../../tools/render/render_draw.h"
 #include "../../../tools/render/render_exposure.h"
@@ -89,7 +90,7 @@ int page_run(const char *words)
     static const struct verb {
         const char *name;
         int (*run)(int argc, char **argv);
-    } verbs[] = {{"render", verb_render}, {"relight", verb_relight}, {"relief", verb_relief}};
+    } verbs[] = {{"render", verb_render}, {"relight", verb_relight}, {"relief", verb_relief}, {"mix", verb_mix}};
     command c;
     int status = 2;
     begin_report();
