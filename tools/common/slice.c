@@ -132,104 +132,6 @@ int slice_job(uint64_t *out, const void *options, const option_table *t, int arg
     return 1;
 }
 
-/* --- bytes -------------------------------------------------------------------------------------------------------- */
-
-void slice_put(slice_bytes *b, const void *data, size_t size)
-{
-    if (size > b->cap - b->size && !b->is_short) {
-        const size_t cap = 2 * b->cap + size + 4096;
-        uint8_t *more = realloc(b->data, cap);
-        b->is_short = more == NULL;
-        b->data = more != NULL ? more : b->data;
-        b->cap = more != NULL ? cap : b->cap;
-    }
-    if (!b->is_short && size > 0) {
-        memcpy(b->data + b->size, data, size);
-        b->size += size;
-    }
-}
-
-void slice_put_int(slice_bytes *b, int32_t v)
-{
-    uint8_t bytes[4];
-    put_u32_le(bytes, (uint32_t)v);
-    slice_put(b, bytes, sizeof bytes);
-}
-
-void slice_put_long(slice_bytes *b, uint64_t v)
-{
-    slice_put_int(b, (int32_t)(uint32_t)v);
-    slice_put_int(b, (int32_t)(uint32_t)(v >> 32));
-}
-
-void slice_put_float(slice_bytes *b, float v)
-{
-    int32_t bits;
-    memcpy(&bits, &v, sizeof bits);
-    slice_put_int(b, bits);
-}
-
-void slice_put_floats(slice_bytes *b, const float *v, size_t count)
-{
-    for (size_t i = 0; i < count; ++i) {
-        slice_put_float(b, v[i]);
-    }
-}
-
-void slice_put_double(slice_bytes *b, double v)
-{
-    uint64_t bits;
-    memcpy(&bits, &v, sizeof bits);
-    slice_put_long(b, bits);
-}
-
-const uint8_t *slice_get(slice_reader *s, size_t size)
-{
-    const uint8_t *at = s->at;
-    if ((size_t)(s->end - at) < size) {
-        s->is_short = 1;
-        s->at = s->end;
-        return NULL;
-    }
-    s->at += size;
-    return at;
-}
-
-int32_t slice_get_int(slice_reader *s)
-{
-    const uint8_t *at = slice_get(s, 4);
-    return at != NULL ? (int32_t)get_u32_le(at) : 0;
-}
-
-uint64_t slice_get_long(slice_reader *s)
-{
-    const uint64_t low = (uint32_t)slice_get_int(s);
-    return low | (uint64_t)(uint32_t)slice_get_int(s) << 32;
-}
-
-float slice_get_float(slice_reader *s)
-{
-    const int32_t bits = slice_get_int(s);
-    float v;
-    memcpy(&v, &bits, sizeof v);
-    return v;
-}
-
-void slice_get_floats(float *out, slice_reader *s, size_t count)
-{
-    for (size_t i = 0; i < count; ++i) {
-        out[i] = slice_get_float(s);
-    }
-}
-
-double slice_get_double(slice_reader *s)
-{
-    const uint64_t bits = slice_get_long(s);
-    double v;
-    memcpy(&v, &bits, sizeof v);
-    return v;
-}
-
 /* --- the file ----------------------------------------------------------------------------------------------------- */
 
 int slice_name(char out[SLICE_NAME], const char *path, slice s, report *r)
@@ -241,21 +143,21 @@ int slice_name(char out[SLICE_NAME], const char *path, slice s, report *r)
     return (n > 0 && n < SLICE_NAME) || report_fail(r, "%s: the name is too long", path);
 }
 
-int slice_write(const char *path, slice s, int32_t kind, uint64_t job, const char *about, const slice_bytes *says,
+int slice_write(const char *path, slice s, int32_t kind, uint64_t job, const char *about, const byte_buffer *says,
                 report *r)
 {
-    slice_bytes b = {NULL, 0, 0, says->is_short};
-    slice_put(&b, magic, 8);
-    slice_put_int(&b, VERSION);
-    slice_put_int(&b, kind);
-    slice_put_int(&b, s.number);
-    slice_put_int(&b, s.count);
-    slice_put_long(&b, job);
-    slice_put_long(&b, strlen(about));
-    slice_put_long(&b, says->size);
-    slice_put(&b, about, strlen(about));
-    slice_put(&b, says->data, says->size);
-    slice_put_long(&b, slice_hash(SLICE_HASH, b.data, b.size));
+    byte_buffer b = {NULL, 0, 0, says->is_short};
+    byte_put(&b, magic, 8);
+    byte_put_int(&b, VERSION);
+    byte_put_int(&b, kind);
+    byte_put_int(&b, s.number);
+    byte_put_int(&b, s.count);
+    byte_put_long(&b, job);
+    byte_put_long(&b, strlen(about));
+    byte_put_long(&b, says->size);
+    byte_put(&b, about, strlen(about));
+    byte_put(&b, says->data, says->size);
+    byte_put_long(&b, slice_hash(SLICE_HASH, b.data, b.size));
     const int ok = b.is_short ? report_fail(r, "%s: not enough memory for the slice", path)
                               : file_write(path, b.data, b.size, r);
     free(b.data);
@@ -281,31 +183,31 @@ int slice_read(slice_file *out, const char *path, report *r)
         return 0;
     }
     const size_t size = out->file.size;
-    slice_reader s = {out->file.data, out->file.data + size, 0};
-    if (size < 8 || memcmp(slice_get(&s, 8), magic, 8) != 0) {
+    byte_reader s = {out->file.data, out->file.data + size, 0};
+    if (size < 8 || memcmp(byte_get(&s, 8), magic, 8) != 0) {
         return refuse(out, path, "no slice of `lambent ... --slice`", r);
     }
     if (size < HEADER + TAIL) {
         return refuse(out, path, "cut off", r);
     }
-    if (slice_get_int(&s) != VERSION) {
+    if (byte_get_int(&s) != VERSION) {
         return refuse(out, path, "a slice of another version of lambent", r);
     }
-    out->kind = slice_get_int(&s);
-    out->slice.number = slice_get_int(&s);
-    out->slice.count = slice_get_int(&s);
-    out->job = slice_get_long(&s);
-    const uint64_t about = slice_get_long(&s), says = slice_get_long(&s), inside = size - HEADER - TAIL;
+    out->kind = byte_get_int(&s);
+    out->slice.number = byte_get_int(&s);
+    out->slice.count = byte_get_int(&s);
+    out->job = byte_get_long(&s);
+    const uint64_t about = byte_get_long(&s), says = byte_get_long(&s), inside = size - HEADER - TAIL;
     if (about > inside || says > inside - about) {
         return refuse(out, path, "cut off", r);
     }
-    slice_reader tail = {out->file.data + size - TAIL, out->file.data + size, 0};
-    out->hash = slice_get_long(&tail);
+    byte_reader tail = {out->file.data + size - TAIL, out->file.data + size, 0};
+    out->hash = byte_get_long(&tail);
     if (about + says != inside || about >= SLICE_ABOUT ||
         out->hash != slice_hash(SLICE_HASH, out->file.data, size - TAIL)) {
         return refuse(out, path, "damaged", r);
     }
-    memcpy(out->about, slice_get(&s, (size_t)about), (size_t)about);
+    memcpy(out->about, byte_get(&s, (size_t)about), (size_t)about);
     out->says.at = s.at;
     out->says.end = s.at + says;
     return (out->slice.count >= 1 && out->slice.count <= SLICE_MOST && out->slice.number >= 1 &&

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "byte_buffer.h"
 #include "io_file.h"
 #include "options.h"
 
@@ -43,37 +44,10 @@ int slice_job(uint64_t *out, const void *options, const option_table *t, int arg
 #define SLICE_HASH UINT64_C(0xcbf29ce484222325)
 uint64_t slice_hash(uint64_t hash, const void *data, size_t size);
 
-/* Bytes that grow: what a slice says. Once memory is short they stay as they are, and `is_short` is set. */
-typedef struct slice_bytes {
-    uint8_t *data;
-    size_t size, cap;
-    int is_short;
-} slice_bytes;
-
-void slice_put(slice_bytes *b, const void *data, size_t size);
-void slice_put_int(slice_bytes *b, int32_t v);
-void slice_put_long(slice_bytes *b, uint64_t v);
-void slice_put_float(slice_bytes *b, float v);
-void slice_put_floats(slice_bytes *b, const float *v, size_t count);
-void slice_put_double(slice_bytes *b, double v);
-
-/* What is read back. Past its end everything is 0, and `is_short` is set. */
-typedef struct slice_reader {
-    const uint8_t *at, *end;
-    int is_short;
-} slice_reader;
-
-const uint8_t *slice_get(slice_reader *s, size_t size); /* NULL past the end */
-int32_t slice_get_int(slice_reader *s);
-uint64_t slice_get_long(slice_reader *s);
-float slice_get_float(slice_reader *s);
-void slice_get_floats(float *out, slice_reader *s, size_t count);
-double slice_get_double(slice_reader *s);
-
 /* slice_name: OUT.IofN. slice_write: that file, whole or not at all: of which work and job it is, a line about it, what
  * it says, and a hash of all. Both: 1, or 0 with `r` set. */
 int slice_name(char out[SLICE_NAME], const char *path, slice s, report *r);
-int slice_write(const char *path, slice s, int32_t kind, uint64_t job, const char *about, const slice_bytes *says,
+int slice_write(const char *path, slice s, int32_t kind, uint64_t job, const char *about, const byte_buffer *says,
                 report *r);
 
 /* One file, read back and checked. slice_file_free releases it. */
@@ -83,7 +57,7 @@ typedef struct slice_file {
     int32_t kind;
     uint64_t job, hash;
     char about[SLICE_ABOUT];
-    slice_reader says;
+    byte_reader says;
 } slice_file;
 
 /* slice_read: 1; 0 with `r` set, where it cannot be read, is no slice, is cut off or damaged. */

@@ -4,21 +4,21 @@
 #include "../picture/picture.h"
 #include "play_options.h"
 
-int play_slice_put(slice_bytes *to, int32_t k, int format, const image *linear, float exposure_ev, int tone, report *r)
+int play_slice_put(byte_buffer *to, int32_t k, int format, const image *linear, float exposure_ev, int tone, report *r)
 {
     file_bytes file;
     if (!picture_encode(&file, format, linear, exposure_ev, tone, r)) {
         return 0;
     }
-    slice_put_int(to, k);
-    slice_put_int(to, format);
-    slice_put_long(to, file.size);
-    slice_put(to, file.data, file.size);
+    byte_put_int(to, k);
+    byte_put_int(to, format);
+    byte_put_long(to, file.size);
+    byte_put(to, file.data, file.size);
     file_free(&file);
     return !to->is_short || report_fail(r, "not enough memory for the frames of a slice; use more slices");
 }
 
-int play_slice_write(const char *out, slice s, uint64_t job, const char *about, const slice_bytes *made, report *r)
+int play_slice_write(const char *out, slice s, uint64_t job, const char *about, const byte_buffer *made, report *r)
 {
     char name[SLICE_NAME];
     return slice_name(name, out, s, r) && slice_write(name, s, SLICE_PLAY, job, about, made, r);
@@ -31,10 +31,10 @@ static int put_frames(const char *path, const char *pattern, int is_look, report
     char name[SLICE_NAME];
     int ok = slice_read(&f, path, r);
     while (ok && f.says.at < f.says.end) {
-        const int32_t k = slice_get_int(&f.says);
-        const int format = slice_get_int(&f.says);
-        const uint64_t size = slice_get_long(&f.says);
-        const uint8_t *data = size <= (size_t)(f.says.end - f.says.at) ? slice_get(&f.says, (size_t)size) : NULL;
+        const int32_t k = byte_get_int(&f.says);
+        const int format = byte_get_int(&f.says);
+        const uint64_t size = byte_get_long(&f.says);
+        const uint8_t *data = size <= (size_t)(f.says.end - f.says.at) ? byte_get(&f.says, (size_t)size) : NULL;
         if (data == NULL || k < 0) {
             ok = report_fail(r, "%s: damaged", path);
         } else if (format != picture_format(pattern)) {

@@ -26,7 +26,7 @@ typedef struct play {
     play_times times;
     play_check check;
     text_buffer said; /* on stdout, once all is done */
-    slice_bytes made; /* frames of a slice */
+    byte_buffer made; /* frames of a slice */
     float exposure_ev;
 } play;
 

@@ -20,38 +20,38 @@ static int32_t bands_of(const exposure_view *v) { return (v->height + LMB_TILE -
 
 /* --- out ---------------------------------------------------------------------------------------------------------- */
 
-static void put_head(slice_bytes *b, const render_finish *f)
+static void put_head(byte_buffer *b, const render_finish *f)
 {
     const exposure_view *v = &f->view;
-    slice_put_int(b, f->format);
-    slice_put_int(b, f->background.kind);
-    slice_put(b, f->background.rgb, 3);
-    slice_put_int(b, f->tone);
-    slice_put_int(b, f->exposure_auto);
-    slice_put_float(b, f->exposure_ev);
-    slice_put_int(b, v->width);
-    slice_put_int(b, v->height);
-    slice_put_int(b, v->eye_width);
-    slice_put_int(b, v->samples);
-    slice_put_int(b, v->tone);
-    slice_put_int(b, (v->emitted != NULL ? HAS_EMITTED : 0) | (v->cover != NULL ? HAS_COVER : 0) |
+    byte_put_int(b, f->format);
+    byte_put_int(b, f->background.kind);
+    byte_put(b, f->background.rgb, 3);
+    byte_put_int(b, f->tone);
+    byte_put_int(b, f->exposure_auto);
+    byte_put_float(b, f->exposure_ev);
+    byte_put_int(b, v->width);
+    byte_put_int(b, v->height);
+    byte_put_int(b, v->eye_width);
+    byte_put_int(b, v->samples);
+    byte_put_int(b, v->tone);
+    byte_put_int(b, (v->emitted != NULL ? HAS_EMITTED : 0) | (v->cover != NULL ? HAS_COVER : 0) |
                          (v->own != NULL ? HAS_OWN : 0));
 }
 
-static void put_band(slice_bytes *b, const exposure_view *v, const image *linear, int32_t band)
+static void put_band(byte_buffer *b, const exposure_view *v, const image *linear, int32_t band)
 {
     const size_t rows = (size_t)rows_of(v, band), first = (size_t)band * LMB_TILE;
     const size_t wide = (size_t)v->width, eye = (size_t)v->eye_width;
-    slice_put_floats(b, linear->pixels + 3 * wide * first, 3 * wide * rows);
-    slice_put_floats(b, v->emitted != NULL ? v->emitted + 3 * eye * first : NULL, v->emitted != NULL ? 3 * eye * rows : 0);
-    slice_put_floats(b, v->cover != NULL ? v->cover + wide * first : NULL, v->cover != NULL ? wide * rows : 0);
-    slice_put(b, v->own != NULL ? v->own + eye * first : NULL, v->own != NULL ? eye * rows : 0);
+    byte_put_floats(b, linear->pixels + 3 * wide * first, 3 * wide * rows);
+    byte_put_floats(b, v->emitted != NULL ? v->emitted + 3 * eye * first : NULL, v->emitted != NULL ? 3 * eye * rows : 0);
+    byte_put_floats(b, v->cover != NULL ? v->cover + wide * first : NULL, v->cover != NULL ? wide * rows : 0);
+    byte_put(b, v->own != NULL ? v->own + eye * first : NULL, v->own != NULL ? eye * rows : 0);
 }
 
 int render_slice_write(const render_job *j, const render_finish *f, report *r)
 {
     char name[SLICE_NAME], about[SLICE_ABOUT];
-    slice_bytes b = {NULL, 0, 0, 0};
+    byte_buffer b = {NULL, 0, 0, 0};
     const int32_t bands = slice_items(j->o.slice, bands_of(&f->view));
     snprintf(about, sizeof about, "render %.100s, %d x %d", j->o.scene, (int)f->view.width, (int)f->view.height);
     put_head(&b, f);
@@ -67,26 +67,26 @@ int render_slice_write(const render_job *j, const render_finish *f, report *r)
 /* --- back --------------------------------------------------------------------------------------------------------- */
 
 /* Returns what lies beside the light, or -1. */
-static int get_head(render_finish *f, slice_reader *s)
+static int get_head(render_finish *f, byte_reader *s)
 {
     exposure_view *v = &f->view;
     memset(f, 0, sizeof *f);
-    f->format = slice_get_int(s);
-    f->background.kind = slice_get_int(s);
-    const uint8_t *rgb = slice_get(s, 3);
+    f->format = byte_get_int(s);
+    f->background.kind = byte_get_int(s);
+    const uint8_t *rgb = byte_get(s, 3);
     if (rgb == NULL) {
         return -1;
     }
     memcpy(f->background.rgb, rgb, 3);
-    f->tone = slice_get_int(s);
-    f->exposure_auto = slice_get_int(s);
-    f->exposure_ev = slice_get_float(s);
-    v->width = slice_get_int(s);
-    v->height = slice_get_int(s);
-    v->eye_width = slice_get_int(s);
-    v->samples = slice_get_int(s);
-    v->tone = slice_get_int(s);
-    const int has = slice_get_int(s);
+    f->tone = byte_get_int(s);
+    f->exposure_auto = byte_get_int(s);
+    f->exposure_ev = byte_get_float(s);
+    v->width = byte_get_int(s);
+    v->height = byte_get_int(s);
+    v->eye_width = byte_get_int(s);
+    v->samples = byte_get_int(s);
+    v->tone = byte_get_int(s);
+    const int has = byte_get_int(s);
     const int ok = !s->is_short && v->width > 0 && v->height > 0 && v->eye_width > 0 && v->eye_width <= v->width &&
                    picture_fits((uint64_t)v->width, (uint64_t)v->height) && has >= 0 && has < 8 &&
                    ((has & HAS_COVER) != 0 || f->background.kind == BACKGROUND_WORLD);
@@ -110,18 +110,18 @@ static int take(render_finish *f, image *linear, int has, report *r)
            report_fail(r, "not enough memory for %d x %d pixels", (int)v->width, (int)v->height);
 }
 
-static void get_band(const exposure_view *v, image *linear, slice_reader *s, int32_t band)
+static void get_band(const exposure_view *v, image *linear, byte_reader *s, int32_t band)
 {
     const size_t rows = (size_t)rows_of(v, band), first = (size_t)band * LMB_TILE;
     const size_t wide = (size_t)v->width, eye = (size_t)v->eye_width;
-    slice_get_floats(linear->pixels + 3 * wide * first, s, 3 * wide * rows);
+    byte_get_floats(linear->pixels + 3 * wide * first, s, 3 * wide * rows);
     if (v->emitted != NULL) {
-        slice_get_floats(v->emitted + 3 * eye * first, s, 3 * eye * rows);
+        byte_get_floats(v->emitted + 3 * eye * first, s, 3 * eye * rows);
     }
     if (v->cover != NULL) {
-        slice_get_floats(v->cover + wide * first, s, wide * rows);
+        byte_get_floats(v->cover + wide * first, s, wide * rows);
     }
-    const uint8_t *own = v->own != NULL ? slice_get(s, eye * rows) : NULL;
+    const uint8_t *own = v->own != NULL ? byte_get(s, eye * rows) : NULL;
     if (own != NULL) {
         memcpy(v->own + eye * first, own, eye * rows);
     }
