@@ -283,7 +283,8 @@ static int read_primitive(gltf *g, uint32_t primitive)
         !read_positions(out, g, position) || !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) ||
         !read_uvs(out, g, attributes, material) ||
         !read_tangents(out, g, json_member(&g->doc, attributes, "TANGENT"), material) ||
-        !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) || !read_triangles(out, g, primitive, mode))
+        !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) ||
+        !gltf_light_mesh(g, out, attributes) || !read_triangles(out, g, primitive, mode))
         return 0;
     if (out->triangle_count == 0)
         return 1;
