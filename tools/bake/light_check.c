@@ -52,12 +52,14 @@ static void bilinear(float out[3], const lmb_texture *t, float u, float v)
 }
 
 /* What the file says of a place. */
-static void light_of(float out[3], const model *m, uint32_t id, lmb_vec3 at)
+static void light_of(float out[3], const void *user, uint32_t id, lmb_vec3 at, lmb_vec3 normal)
 {
+    const model *m = user;
     const model_light *l = &m->light;
     lmb_triangle t;
     float w[3], uv[2] = {0.0f, 0.0f};
     memset(out, 0, 3 * sizeof *out);
+    (void)normal;
     if (!lmb_triangle_fetch(&t, &m->scene, id)) {
         return;
     }
@@ -80,18 +82,18 @@ static void light_of(float out[3], const model *m, uint32_t id, lmb_vec3 at)
     }
 }
 
-/* Of one tile, into `out`; `loaded` NULL: as it was baked from. */
-static void light_tile(checked *p, float *out, light_solve *s, const model *loaded, int32_t x, int32_t y)
+/* Of one tile, into `out`; `of` NULL: as it was baked from. */
+static void light_tile(checked *p, float *out, light_solve *s, const light_source *of, int32_t x, int32_t y)
 {
     lmb_frame *f = &s->job.frame;
-    const lmb_scene *scene = loaded != NULL ? &loaded->scene : &s->job.scene;
+    const lmb_scene *scene = of != NULL ? of->scene : &s->job.scene;
     static lmb_tile tile;
     lmb_irradiance light;
     memset(&light, 0, sizeof light);
     if (lmb_resolve_tile(&tile, f->kernels, &f->view, scene, &f->eye, x, y) != LMB_OK) {
         return;
     }
-    if (loaded == NULL) {
+    if (of == NULL) {
         lmb_transfer_tile(&light, NULL, f->kernels, &s->scratch, &s->job.render->frame.transfer_light, f->transfer, scene,
                           &tile);
     }
@@ -102,18 +104,19 @@ static void light_tile(checked *p, float *out, light_solve *s, const model *load
         }
         const size_t at = 3 * ((size_t)py * (size_t)p->width + (size_t)px);
         float own[3] = {light.rgb[0][k], light.rgb[1][k], light.rgb[2][k]};
-        if (loaded != NULL && tile.id[k] != 0) {
-            light_of(own, loaded, tile.id[k], vec3(tile.position[0][k], tile.position[1][k], tile.position[2][k]));
+        if (of != NULL && tile.id[k] != 0) {
+            of->light(own, of->user, tile.id[k], vec3(tile.position[0][k], tile.position[1][k], tile.position[2][k]),
+                      vec3(tile.normal[0][k], tile.normal[1][k], tile.normal[2][k]));
         }
         memcpy(out + at, own, sizeof own);
         p->surface[at + 2] += tile.id[k] != 0 ? 0.5f : 0.0f; /* both show a surface: 1 */
     }
 }
 
-static int draw(checked *p, float *out, light_solve *s, const model *loaded, report *r)
+static int draw(checked *p, float *out, light_solve *s, const light_source *of, report *r)
 {
     lmb_frame *f = &s->job.frame;
-    const lmb_scene *scene = loaded != NULL ? &loaded->scene : &s->job.scene;
+    const lmb_scene *scene = of != NULL ? of->scene : &s->job.scene;
     lmb_surface_clear(&f->eye.depth);
     lmb_surface_clear(&f->eye.id);
     if (lmb_draw(&f->eye, f->kernels, &f->view, scene, 1, UINT32_MAX - 1, LMB_CULL_BACK | LMB_BLEND, NULL) != LMB_OK) {
@@ -121,7 +124,7 @@ static int draw(checked *p, float *out, light_solve *s, const model *loaded, rep
     }
     for (int32_t y = 0; y < p->height; y += LMB_TILE) {
         for (int32_t x = 0; x < p->width; x += LMB_TILE) {
-            light_tile(p, out, s, loaded, x, y);
+            light_tile(p, out, s, of, x, y);
         }
     }
     return 1;
@@ -148,25 +151,33 @@ static int compare(const checked *p, const char *path, const char *form, int is_
     return 1;
 }
 
-int light_check(const char *path, light_solve *s, const char *form, int is_quiet, report *r)
+int light_compare(const char *path, light_solve *s, const light_source *of, const char *form, int is_quiet, report *r)
 {
-    model loaded;
-    model_notes notes;
     checked p = {NULL, NULL, NULL, s->job.linear.width, s->job.linear.height};
     const size_t floats = 3 * (size_t)p.width * (size_t)p.height;
-    memset(&loaded, 0, sizeof loaded);
-    memset(&notes, 0, sizeof notes);
     p.truth = calloc(floats, sizeof *p.truth);
     p.test = calloc(floats, sizeof *p.test);
     p.surface = calloc(floats, sizeof *p.surface);
     memset(&s->scratch, 0, sizeof s->scratch);
-    int ok = (p.truth != NULL && p.test != NULL && p.surface != NULL) || report_fail(r, "not enough memory to check %s", path);
-    ok = ok && model_load(&loaded, path, NULL, &notes, r) &&
-         (loaded.light.scale > 0.0f || report_fail(r, "%s: its light does not read back", path)) &&
-         draw(&p, p.truth, s, NULL, r) && draw(&p, p.test, s, &loaded, r) && compare(&p, path, form, is_quiet, r);
-    model_free(&loaded);
+    const int ok = ((p.truth != NULL && p.test != NULL && p.surface != NULL) ||
+                    report_fail(r, "not enough memory to check %s", path)) &&
+                   draw(&p, p.truth, s, NULL, r) && draw(&p, p.test, s, of, r) && compare(&p, path, form, is_quiet, r);
     free(p.truth);
     free(p.test);
     free(p.surface);
+    return ok;
+}
+
+int light_check(const char *path, light_solve *s, const char *form, int is_quiet, report *r)
+{
+    model loaded;
+    model_notes notes;
+    memset(&loaded, 0, sizeof loaded);
+    memset(&notes, 0, sizeof notes);
+    const light_source of = {&loaded.scene, light_of, &loaded};
+    const int ok = model_load(&loaded, path, NULL, &notes, r) &&
+                   (loaded.light.scale > 0.0f || report_fail(r, "%s: its light does not read back", path)) &&
+                   light_compare(path, s, &of, form, is_quiet, r);
+    model_free(&loaded);
     return ok;
 }

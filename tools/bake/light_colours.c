@@ -9,13 +9,15 @@
 #include "bake_triangle.h"
 
 #define INSIDE 0.002f /* of the way to its middle: a leaf's corners are asked for so far inside of it */
-enum { CONFORM = 24 };
+#define LINEAR 0.03f  /* of the mean light: by so much it may be off in the middle of an edge */
+enum { CONFORM = 24, ROUNDS = 5, TOGETHER = SOLVE_PLACES / 3 };
 
 /* A leaf of the division. */
 typedef struct leaf {
     light_corner corner[3];
     lmb_vec3 face;
     uint32_t id;
+    uint32_t number;   /* when it was made */
     float light[3][3]; /* W/m2 */
 } leaf;
 
@@ -103,6 +105,7 @@ static int put_leaf(colours *c, const light_corner corner[3], lmb_vec3 face, uin
     memcpy(l->corner, corner, sizeof l->corner);
     l->face = face;
     l->id = id;
+    l->number = (uint32_t)c->count;
     return 1;
 }
 
@@ -150,26 +153,98 @@ static int put_side(colours *c, uint32_t id, uint32_t back)
     return divide(c, t->section[LMB_TRANSFER_DIVISIONS], root, is_turned ? turned : corner, face, id, is_turned);
 }
 
-/* What comes to their corners. */
-static void light_leaves(colours *c)
+/* A little inside of the leaf: its own light, not a neighbour's. */
+static light_place place_in(const leaf *l, const light_corner *at)
+{
+    const lmb_vec3 middle = mul3(add3(l->corner[0].at, add3(l->corner[1].at, l->corner[2].at)), 1.0f / 3.0f);
+    const light_place p = {add3(at->at, mul3(sub3(middle, at->at), INSIDE)), l->face, at->normal, l->id};
+    return p;
+}
+
+/* What comes to the corners of leaves from `first` on. */
+static void light_leaves(colours *c, size_t first)
 {
     light_place place[SOLVE_PLACES];
     float out[SOLVE_PLACES][3];
-    const size_t together = SOLVE_PLACES / 3;
-    for (size_t first = 0; first < c->count; first += together) {
-        const size_t some = c->count - first < together ? c->count - first : together;
+    for (; first < c->count; first += TOGETHER) {
+        const size_t some = c->count - first < TOGETHER ? c->count - first : TOGETHER;
         for (size_t i = 0; i < 3 * some; ++i) {
-            const leaf *l = &c->leaf[first + i / 3];
-            const lmb_vec3 middle = mul3(add3(l->corner[0].at, add3(l->corner[1].at, l->corner[2].at)), 1.0f / 3.0f);
-            const light_corner *own = &l->corner[i % 3];
-            const light_place p = {add3(own->at, mul3(sub3(middle, own->at), INSIDE)), l->face, own->normal, l->id};
-            place[i] = p;
+            place[i] = place_in(&c->leaf[first + i / 3], &c->leaf[first + i / 3].corner[i % 3]);
         }
         light_at(out, c->s, place, (int)(3 * some));
         for (size_t i = 0; i < 3 * some; ++i) {
             memcpy(c->leaf[first + i / 3].light[i % 3], out[i], sizeof out[i]);
         }
     }
+}
+
+static float mean_light(const colours *c)
+{
+    double sum = 0.0, area = 0.0;
+    for (size_t i = 0; i < c->count; ++i) {
+        const leaf *l = &c->leaf[i];
+        const lmb_vec3 at[3] = {l->corner[0].at, l->corner[1].at, l->corner[2].at};
+        const double own = (double)triangle_area(at);
+        area += own;
+        for (int k = 0; k < 9; ++k) {
+            sum += own * (double)l->light[k / 3][k % 3] / 9.0;
+        }
+    }
+    return area > 0.0 ? (float)(sum / area) : 0.0f;
+}
+
+/* How far light in the middle of each edge is from the mean of its ends. */
+static void bends_of(float bend[3], const leaf *l, float (*middle)[3])
+{
+    for (int k = 0; k < 3; ++k) {
+        bend[k] = 0.0f;
+        for (int i = 0; i < 3; ++i) {
+            const float d = middle[k][i] - 0.5f * (l->light[k][i] + l->light[(k + 1) % 3][i]);
+            bend[k] = maxf(bend[k], maxf(d, -d));
+        }
+    }
+}
+
+static int split(colours *c, size_t at, int k)
+{
+    leaf l = c->leaf[at], half = l;
+    const int to = (k + 1) % 3;
+    half.corner[k] = c->leaf[at].corner[to] = light_between(&l.corner[k], &l.corner[to]);
+    return put_leaf(c, half.corner, half.face, half.id);
+}
+
+/* Light by direction is that of each pixel's normal, and so not linear on what is curved: halve the edges on which it
+ * bends most. */
+static int refine(colours *c)
+{
+    const float enough = LINEAR * mean_light(c);
+    size_t past = c->count;
+    for (size_t first = 0; first < past; first += TOGETHER) {
+        const size_t some = past - first < TOGETHER ? past - first : TOGETHER;
+        light_place place[SOLVE_PLACES];
+        float middle[SOLVE_PLACES][3], bend[3];
+        for (size_t i = 0; i < 3 * some; ++i) {
+            const leaf *l = &c->leaf[first + i / 3];
+            const light_corner between = light_between(&l->corner[i % 3], &l->corner[(i + 1) % 3]);
+            place[i] = place_in(l, &between);
+        }
+        light_at(middle, c->s, place, (int)(3 * some));
+        for (size_t i = 0; i < some; ++i) {
+            bends_of(bend, &c->leaf[first + i], middle + 3 * i);
+            const int k = bend[0] >= bend[1] && bend[0] >= bend[2] ? 0 : bend[1] >= bend[2] ? 1 : 2;
+            if (bend[k] > enough && !split(c, first + i, k)) {
+                return 0;
+            }
+        }
+    }
+    light_leaves(c, 0);
+    return 1;
+}
+
+static int by_id(const void *a, const void *b)
+{
+    const leaf *x = a, *y = b;
+    return x->id != y->id ? (x->id < y->id ? -1 : 1) : (x->number < y->number ? -1 : 1);
 }
 
 /* --- triangles ---------------------------------------------------------------------------------------------------- */
@@ -251,7 +326,13 @@ int light_colours(const char *path, light_solve *s, const model *loaded, report 
         ok = put_side(&c, id, 0) && put_side(&c, id, 1);
     }
     if (ok) {
-        light_leaves(&c);
+        light_leaves(&c, 0);
+    }
+    for (int i = 0; ok && i < ROUNDS; ++i) {
+        ok = refine(&c);
+    }
+    if (ok) {
+        qsort(c.leaf, c.count, sizeof *c.leaf, by_id);
     }
     const float scale = ok ? brightest(&c) : 1.0f;
     const glb_light light = {"vertex-colours", scale, NULL};

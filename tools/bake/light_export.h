@@ -8,7 +8,7 @@
 
 enum { LIGHT_TRANSFER, LIGHT_COLOURS, LIGHT_MAP, LIGHT_PROBES };
 
-/* Triangles of an object's one side, with what is to be known of each. */
+/* A corner of a triangle in the world. */
 typedef struct light_corner {
     lmb_vec3 at, normal;
     float uv[2], colour[4];
@@ -18,8 +18,7 @@ typedef struct light_corner {
 int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, uint32_t id, uint32_t back);
 light_corner light_between(const light_corner *a, const light_corner *b);
 
-/* light_vertex: the vertex's number in the mesh, one that is the same or a new one; -1 with `r` set.
- * light_triangle: three of them. `slot` finds them: light_slots, all -1 for a mesh that begins. */
+/* A mesh that grows by corners; those with equal bytes are one vertex. light_mesh_put: 1, or 0 with `r` set. */
 enum { LIGHT_SLOTS = 1 << 16 };
 typedef struct light_mesh {
     glb_mesh mesh;
@@ -31,12 +30,22 @@ void light_mesh_end(light_mesh *m); /* all but the mesh itself */
 int light_mesh_put(light_mesh *m, const glb_vertex *v, report *r);
 void light_vertex_of(glb_vertex *out, const light_corner *c);
 
-/* light_colours, light_map: the GLB. light_probes: the JSON, and the numbers beside it. 1, or 0 with `r` set. */
+/* light_colours, light_map: the GLB. light_probes: the JSON, and the numbers beside it; then as light_check. 1, or 0 with
+ * `r` set. */
 int light_colours(const char *path, light_solve *s, const model *loaded, report *r);
 int light_map(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
-int light_probes(const char *path, light_solve *s, bake *b, float step, report *r);
+int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is_quiet, report *r);
 
-/* light_check: the file, read back and drawn, against the light it was baked from, as one view sees it. */
+/* What a form says of a place of its scene, W/m2. */
+typedef struct light_source {
+    const lmb_scene *scene;
+    void (*light)(float out[3], const void *user, uint32_t id, lmb_vec3 at, lmb_vec3 normal);
+    const void *user;
+} light_source;
+
+/* light_check: the file, read back and drawn, against the light it was baked from, as one view sees it: says the error.
+ * light_compare: the same of any form. */
 int light_check(const char *path, light_solve *s, const char *form, int is_quiet, report *r);
+int light_compare(const char *path, light_solve *s, const light_source *of, const char *form, int is_quiet, report *r);
 
 #endif
