@@ -83,8 +83,8 @@ static const option_row rows[] = {
      .times = RENDER_LIGHTS, .size = sizeof(lmb_light), .help = "with --to: in place of the scene's lights; as `render` has it"},
     {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
      .help = "with --to: how often light is reflected; what is reflected more often is estimated (default 4)"},
-    {.name = "--texels", .value = "N", .kind = OPTION_INT, AT(texels), .low = 64, .high = 8192,
-     .help = "with --to lightmap: its side, a multiple of 8 (default 1024)"},
+    {.name = "--texels", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(texels), .low = 64, .high = 8192,
+     .help = "with --to lightmap: its side, a multiple of 8 (default 2048)"},
     {.name = "--step", .value = "METRES", .kind = OPTION_ABOVE, AT(step_m), .low = 0.0, .high = 1e6,
      .help = "with --to probes: between two places of the lattice (default: a 12th of the scene's longest side)"},
     {.name = "--budget-bytes", .value = "N", .kind = OPTION_INT, AT(budget), .low = 1000, .high = 2000000000,
@@ -300,7 +300,7 @@ int verb_bake(int argc, char **argv)
     }
     const int is_demo = strcmp(o.scene, "demo") == 0;
     o.bounces = o.bounces > 0 ? o.bounces : 4;
-    o.texels = o.texels > 0 ? o.texels : 1024;
+    o.texels = o.texels > 0 ? o.texels : 2048;
     progress_begin(o.is_quiet, "bake");
     int ok = options_files(&o, &table, &r) &&
              (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) && options_files(&o, &table, &r) &&
