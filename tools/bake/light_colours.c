@@ -281,11 +281,11 @@ static int put_conform(colours *c, light_mesh *m, const leaf *l, float per, int 
 
 static float brightest(const colours *c)
 {
-    float most = 1e-20f;
+    float peak = 1e-20f;
     for (size_t i = 0; i < 9 * c->count; ++i) {
-        most = maxf(most, c->leaf[i / 9].light[i / 3 % 3][i % 3]);
+        peak = maxf(most, c->leaf[i / 9].light[i / 3 % 3][i % 3]);
     }
-    return most;
+    return peak;
 }
 
 static int put_meshes(colours *c, glb_mesh *mesh, uint32_t *count, float per)

@@ -30,10 +30,10 @@ void light_mesh_end(light_mesh *m); /* all but the mesh itself */
 int light_mesh_put(light_mesh *m, const glb_vertex *v, report *r);
 void light_vertex_of(glb_vertex *out, const light_corner *c);
 
-/* light_colours, light_map: the GLB. light_probes: the JSON, and the numbers beside it; then as light_check. 1, or 0 with
+/* light_colours, light_picture: the GLB. light_probes: the JSON, and the numbers beside it; then as light_check. 1, or 0 with
  * `r` set. */
 int light_colours(const char *path, light_solve *s, const model *loaded, report *r);
-int light_map(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
+int light_picture(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
 int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is_quiet, report *r);
 
 /* What a form says of a place of its scene, W/m2. */

@@ -200,7 +200,7 @@ static int export(const options *o, const lmb_scene *scene, const model *loaded,
     int ok = render_options_complete(&ask, r) && light_begin(&s, &ask, scene, loaded, lmt, r);
     if (ok) {
         ok = o->to == LIGHT_PROBES ? light_probes(o->out, &s, b, o->step_m, o->is_quiet, r)
-             : (o->to == LIGHT_MAP ? light_map(o->out, &s, loaded, o->texels, r) : light_colours(o->out, &s, loaded, r)) &&
+             : (o->to == LIGHT_MAP ? light_picture(o->out, &s, loaded, o->texels, r) : light_colours(o->out, &s, loaded, r)) &&
                    light_check(o->out, &s, forms[o->to], o->is_quiet, r);
     }
     light_end(&s);

@@ -148,11 +148,11 @@ static void put_material(text_buffer *p, const lmb_material *m, int is_first)
         text_buffer_add(p, m->flags & LMB_ALPHA_BLEND ? ",\"alphaMode\":\"BLEND\"" : ",\"alphaMode\":\"MASK\",\"alphaCutoff\":%.9g",
                         (double)m->alpha_cutoff);
     }
-    const float most = fmaxf(m->emission[0], fmaxf(m->emission[1], m->emission[2]));
-    if (most > 0.0f) {
+    const float peak = fmaxf(m->emission[0], fmaxf(m->emission[1], m->emission[2]));
+    if (peak > 0.0f) {
         text_buffer_add(p, ",\"emissiveFactor\":[%.9g,%.9g,%.9g],\"extensions\":{\"KHR_materials_emissive_strength\":"
-                        "{\"emissiveStrength\":%.9g}}", (double)(m->emission[0] / most), (double)(m->emission[1] / most),
-                        (double)(m->emission[2] / most), (double)most);
+                        "{\"emissiveStrength\":%.9g}}", (double)(m->emission[0] / peak), (double)(m->emission[1] / peak),
+                        (double)(m->emission[2] / peak), (double)peak);
         if (m->emission_map > 0) {
             text_buffer_add(p, ",\"emissiveTexture\":{\"index\":%u}", (unsigned)m->emission_map - 1);
         }
@@ -212,10 +212,10 @@ static void put_textures(text_buffer *p, const lmb_scene *scene, const glb_light
 static void put_light_source(text_buffer *p, const lmb_light *l, int is_first)
 {
     static const char *const kinds[] = {"point", "spot", "directional"};
-    const float most = fmaxf(fmaxf(l->intensity[0], fmaxf(l->intensity[1], l->intensity[2])), 1e-30f);
+    const float peak = fmaxf(fmaxf(l->intensity[0], fmaxf(l->intensity[1], l->intensity[2])), 1e-30f);
     text_buffer_add(p, "%s{\"type\":\"%s\",\"intensity\":%.9g,\"color\":[%.9g,%.9g,%.9g]", is_first ? "" : ",",
-                    kinds[l->kind], (double)most, (double)(l->intensity[0] / most), (double)(l->intensity[1] / most),
-                    (double)(l->intensity[2] / most));
+                    kinds[l->kind], (double)peak, (double)(l->intensity[0] / peak), (double)(l->intensity[1] / peak),
+                    (double)(l->intensity[2] / peak));
     if (l->kind == LMB_LIGHT_SPOT) {
         const double outer = acos((double)l->cos_outer), inner = acos((double)l->cos_inner);
         text_buffer_add(p, ",\"spot\":{\"innerConeAngle\":%.9g,\"outerConeAngle\":%.9g}", inner < outer ? inner : 0.999 * outer,
@@ -359,7 +359,7 @@ int glb_write(const char *path, const lmb_scene *scene, const model *loaded, con
             text_buffer_plain(&w.json, " ");
         }
         const uint64_t all = 28 + (uint64_t)w.json.size + w.bytes.size;
-        ok = all <= UINT32_MAX || report_fail(r, "%s: a GLB holds 4 GiB at most", path);
+        ok = all <= UINT32_MAX || report_fail(r, "%s: a GLB holds 4 GiB at peak", path);
         byte_put(&file, "glTF", 4);
         byte_put_int(&file, 2);
         byte_put_int(&file, (int32_t)(uint32_t)all);

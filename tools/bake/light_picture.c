@@ -1,4 +1,4 @@
-/* light_map.c: bounced light as a picture, by texture coordinates of its own: charts of triangles that face alike, laid
+/* light_picture.c: bounced light as a picture, by texture coordinates of its own: charts of triangles that face alike, laid
  * side by side.
  *
  * A chart grows from its largest triangle over shared edges, and is seen along that one's normal. Triangles that would
@@ -144,11 +144,11 @@ static float along(const chart *c, int k, lmb_vec3 p) { return dot3(c->along[k],
 static void begin_chart(chart *c, const face *f)
 {
     int longest = 0;
-    float most = -1.0f;
+    float peak = -1.0f;
     for (int k = 0; k < 3; ++k) {
         const lmb_vec3 d = sub3(f->corner[(k + 1) % 3].at, f->corner[k].at);
-        longest = dot3(d, d) > most ? k : longest;
-        most = maxf(most, dot3(d, d));
+        longest = dot3(d, d) > peak ? k : longest;
+        peak = maxf(peak, dot3(d, d));
     }
     const lmb_vec3 d = sub3(f->corner[(longest + 1) % 3].at, f->corner[longest].at);
     c->along[0] = mul3(d, 1.0f / maxf(length3(d), 1e-20f));
@@ -514,7 +514,7 @@ static int draw(map *m)
     return is_drawn || report_fail(m->r, "charts that do not overlap were not found; give another --texels");
 }
 
-int light_map(const char *path, light_solve *s, const model *loaded, int32_t side, report *r)
+int light_picture(const char *path, light_solve *s, const model *loaded, int32_t side, report *r)
 {
     map m;
     memset(&m, 0, sizeof m);
