@@ -1,7 +1,7 @@
 #!/bin/sh
-# parallel.sh: one picture, sequence, bake or sweep on many machines, by GNU parallel over ssh.
+# parallel.sh: one picture or sequence on many machines, by GNU parallel over ssh.
 #
-#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play, bake, bench: whatever has --slice
+#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play
 #
 # N: slices; two or more a machine let fast ones do more. HOSTS: as parallel's --sshlogin: host1,host2, where `:` is this
 # machine and 2/host1 runs two at once. LAMBENT: the command on all of them (default lambent). SEND: files to send there

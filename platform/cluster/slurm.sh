@@ -1,7 +1,7 @@
 #!/bin/sh
-# slurm.sh: one picture, sequence, bake or sweep as a Slurm job array, and the job that joins it.
+# slurm.sh: one picture or sequence as a Slurm job array, and the job that joins it.
 #
-#   sh slurm.sh N render SCENE -o OUT [options]     or play, bake, bench: whatever has --slice
+#   sh slurm.sh N render SCENE -o OUT [options]     or play
 #
 # N: slices, which Slurm runs as machines are free. The machines share this folder. LAMBENT: the command on all of them
 # (default lambent). SBATCH: options for each job, as "--partition=long --cpus-per-task=8". A slice that fails is

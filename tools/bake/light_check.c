@@ -17,7 +17,8 @@ typedef struct checked {
 /* Weights of a triangle's corners at a place of it. */
 static void weights_at(float w[3], const lmb_triangle *t, lmb_vec3 p)
 {
-    const lmb_vec3 a = sub3(t->corner[1], t->corner[0]), b = sub3(t->corner[2], t->corner[0]), d = sub3(p, t->corner[0]);
+    const lmb_vec3 a = sub3(t->corner[1], t->corner[0]), b = sub3(t->corner[2], t->corner[0]),
+                   d = sub3(p, t->corner[0]);
     const float aa = dot3(a, a), ab = dot3(a, b), bb = dot3(b, b), da = dot3(d, a), db = dot3(d, b);
     const float under = aa * bb - ab * ab, per = under != 0.0f ? 1.0f / under : 0.0f;
     w[1] = (bb * da - ab * db) * per;
@@ -94,8 +95,8 @@ static void light_tile(checked *p, float *out, light_solve *s, const light_sourc
         return;
     }
     if (of == NULL) {
-        lmb_transfer_tile(&light, NULL, f->kernels, &s->scratch, &s->job.render->frame.transfer_light, f->transfer, scene,
-                          &tile);
+        lmb_transfer_tile(&light, NULL, f->kernels, &s->scratch, &s->job.render->frame.transfer_light, f->transfer,
+                          scene, &tile);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
@@ -145,8 +146,8 @@ static int compare(const checked *p, const char *path, const char *form, int is_
         return 0;
     }
     if (!is_quiet) {
-        report_say("%s: %s, read back and drawn: trim %.4f, rmse %.4f, mean %.4f of the light it was baked from\n", path,
-                   form, m.trim, m.rmse, m.mean);
+        report_say("%s: %s, read back and drawn: trim %.4f, rmse %.4f, mean %.4f of the light it was baked from\n",
+                   path, form, m.trim, m.rmse, m.mean);
     }
     return 1;
 }

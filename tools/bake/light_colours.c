@@ -110,8 +110,8 @@ static int put_leaf(colours *c, const light_corner corner[3], lmb_vec3 face, uin
 }
 
 /* The triangle's corners in the file's order are halved; `turn` says which of them is which. */
-static int divide(colours *c, const uint32_t *node, uint32_t at, const light_corner corner[3], lmb_vec3 face, uint32_t id,
-                  int is_turned)
+static int divide(colours *c, const uint32_t *node, uint32_t at, const light_corner corner[3], lmb_vec3 face,
+                  uint32_t id, int is_turned)
 {
     const uint32_t word = node[at];
     if (word & LMB_TRANSFER_LEAF) {
@@ -136,13 +136,11 @@ static int divide(colours *c, const uint32_t *node, uint32_t at, const light_cor
 static int put_side(colours *c, uint32_t id, uint32_t back)
 {
     const lmb_transfer *t = &c->s->job.transfer;
-    const uint32_t root =
-        t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
+    const uint32_t root = t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
     light_corner corner[3];
     lmb_vec3 face;
     lmb_triangle own;
-    if (!light_corners(corner, &face, &c->s->job.scene, id, back) ||
-        !lmb_triangle_fetch(&own, &c->s->job.scene, id)) {
+    if (!light_corners(corner, &face, &c->s->job.scene, id, back) || !lmb_triangle_fetch(&own, &c->s->job.scene, id)) {
         return 1; /* a speck */
     }
     if (root == LMB_TRANSFER_NONE) {
@@ -283,7 +281,7 @@ static float brightest(const colours *c)
 {
     float peak = 1e-20f;
     for (size_t i = 0; i < 9 * c->count; ++i) {
-        peak = maxf(most, c->leaf[i / 9].light[i / 3 % 3][i % 3]);
+        peak = maxf(peak, c->leaf[i / 9].light[i / 3 % 3][i % 3]);
     }
     return peak;
 }

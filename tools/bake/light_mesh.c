@@ -41,7 +41,8 @@ int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, u
         c->normal = dot3(n, *face) < 0.0f ? mul3(n, -1.0f) : n;
         mesh_uv(t.mesh, t.vertex[from], c->uv);
         for (int i = 0; i < 4; ++i) {
-            c->colour[i] = t.mesh->colours != NULL ? (float)t.mesh->colours[4 * (size_t)t.vertex[from] + (size_t)i] : 255.0f;
+            c->colour[i] =
+                t.mesh->colours != NULL ? (float)t.mesh->colours[4 * (size_t)t.vertex[from] + (size_t)i] : 255.0f;
         }
     }
     return 1;

@@ -33,7 +33,7 @@ typedef struct edge {
 
 typedef struct chart {
     lmb_vec3 along[2];
-    float low[2], high[2]; /* m */
+    float low[2], high[2];       /* m */
     int32_t x, y, width, height; /* texels */
     uint32_t number;
 } chart;
@@ -75,7 +75,8 @@ static int put_faces(map *m)
     }
     for (uint32_t id = 1; id <= ids; ++id) {
         for (uint32_t back = 0; back < 2; ++back) {
-            const uint32_t root = t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
+            const uint32_t root =
+                t->section[LMB_TRANSFER_SURFACES][LMB_TRANSFER_SURFACE_WORDS * (size_t)(id - 1) + 2 + back];
             face *f = &m->face[m->faces];
             if ((back && root == LMB_TRANSFER_NONE) || !light_corners(f->corner, &f->normal, scene, id, back)) {
                 continue;
@@ -191,7 +192,8 @@ static int make_charts(map *m)
 {
     seed *order = malloc(((size_t)m->faces + 1) * sizeof *order);
     uint32_t *wave = malloc(((size_t)m->faces + 1) * sizeof *wave);
-    const int ok = (order != NULL && wave != NULL) || report_fail(m->r, "not enough memory for %u triangles", (unsigned)m->faces);
+    const int ok =
+        (order != NULL && wave != NULL) || report_fail(m->r, "not enough memory for %u triangles", (unsigned)m->faces);
     m->charts = 0;
     for (uint32_t i = 0; ok && i < m->faces; ++i) {
         order[i].area = m->face[i].area;
@@ -224,7 +226,8 @@ static int by_height(const void *a, const void *b)
     const chart *x = *(chart *const *)a, *y = *(chart *const *)b;
     return x->height != y->height ? (x->height > y->height ? -1 : 1)
            : x->width != y->width ? (x->width > y->width ? -1 : 1)
-                                  : x < y ? -1 : x > y;
+           : x < y                ? -1
+                                  : x > y;
 }
 
 /* Shelves, the highest charts first; 0 where they do not fit. */
@@ -340,7 +343,9 @@ static int draw_face(map *m, uint32_t i)
         for (int32_t x = (int32_t)low[0] - 1; x <= (int32_t)high[0] + 1; ++x) {
             float w[3];
             const float p[2] = {(float)x + 0.5f, (float)y + 0.5f}, far = nearest(w, corner, p);
-            texel *t = x >= 0 && y >= 0 && x < m->side && y < m->side ? &m->texel[(size_t)y * (size_t)m->side + (size_t)x] : NULL;
+            texel *t = x >= 0 && y >= 0 && x < m->side && y < m->side
+                           ? &m->texel[(size_t)y * (size_t)m->side + (size_t)x]
+                           : NULL;
             if (t == NULL || far > 1.5f) {
                 continue;
             }

@@ -56,15 +56,13 @@ static lmb_vec3 normal_of(int k, float *weight)
 
 /* --- the lattice -------------------------------------------------------------------------------------------------- */
 
-static size_t count_of(const lattice *l)
-{
-    return (size_t)l->count[0] * (size_t)l->count[1] * (size_t)l->count[2];
-}
+static size_t count_of(const lattice *l) { return (size_t)l->count[0] * (size_t)l->count[1] * (size_t)l->count[2]; }
 
 static int lay_out(lattice *l, const lmb_scene *scene, float step_m, report *r)
 {
     const lmb_vec3 size = sub3(scene->bounds_max, scene->bounds_min);
-    const float side[3] = {size.x, size.y, size.z}, low[3] = {scene->bounds_min.x, scene->bounds_min.y, scene->bounds_min.z};
+    const float side[3] = {size.x, size.y, size.z},
+                low[3] = {scene->bounds_min.x, scene->bounds_min.y, scene->bounds_min.z};
     const float step = step_m > 0.0f ? step_m : maxf(maxf(size.x, maxf(size.y, size.z)) / (float)ACROSS, 1e-6f);
     float first[3], each[3];
     double all = 1.0;
@@ -88,7 +86,8 @@ static lmb_vec3 place_of(const lattice *l, size_t i)
 {
     const int32_t x = (int32_t)(i % (size_t)l->count[0]), y = (int32_t)(i / (size_t)l->count[0] % (size_t)l->count[1]),
                   z = (int32_t)(i / ((size_t)l->count[0] * (size_t)l->count[1]));
-    return vec3(l->first.x + (float)x * l->step.x, l->first.y + (float)y * l->step.y, l->first.z + (float)z * l->step.z);
+    return vec3(l->first.x + (float)x * l->step.x, l->first.y + (float)y * l->step.y,
+                l->first.z + (float)z * l->step.z);
 }
 
 /* One place's harmonics, by the rows of its normals. */
@@ -202,16 +201,17 @@ static int write_both(const char *path, const lattice *l, report *r)
     name_numbers(name, path, 1);
     text_buffer_add(&t, "{\n  \"lambent\": \"probes\", \"version\": 1, \"numbers\": ");
     text_buffer_json(&t, name);
-    text_buffer_add(&t,
-                    ",\n  \"first\": [%.9g, %.9g, %.9g], \"step\": [%.9g, %.9g, %.9g], \"count\": [%d, %d, %d],\n"
-                    "  \"order\": \"x fastest, then y, then z\", \"floats\": %d,\n"
-                    "  \"layout\": \"little-endian binary32: 9 harmonics l l + l + m of radiance, R G B each, W/(sr m2); "
-                    "then the share of directions that show a lit surface, 0 .. 1: under %g the place lies in a solid and "
-                    "has its neighbours' harmonics\",\n"
-                    "  \"irradiance\": \"sum of harmonic x Y(normal) x 3.141593 for l = 0, 2.094395 for l = 1, 0.785398 for "
-                    "l = 2, at least 0; W/m2\"\n}\n",
-                    (double)l->first.x, (double)l->first.y, (double)l->first.z, (double)l->step.x, (double)l->step.y,
-                    (double)l->step.z, (int)l->count[0], (int)l->count[1], (int)l->count[2], FLOATS, (double)OPEN);
+    text_buffer_add(
+        &t,
+        ",\n  \"first\": [%.9g, %.9g, %.9g], \"step\": [%.9g, %.9g, %.9g], \"count\": [%d, %d, %d],\n"
+        "  \"order\": \"x fastest, then y, then z\", \"floats\": %d,\n"
+        "  \"layout\": \"little-endian binary32: 9 harmonics l l + l + m of radiance, R G B each, W/(sr m2); "
+        "then the share of directions that show a lit surface, 0 .. 1: under %g the place lies in a solid and "
+        "has its neighbours' harmonics\",\n"
+        "  \"irradiance\": \"sum of harmonic x Y(normal) x 3.141593 for l = 0, 2.094395 for l = 1, 0.785398 for "
+        "l = 2, at least 0; W/m2\"\n}\n",
+        (double)l->first.x, (double)l->first.y, (double)l->first.z, (double)l->step.x, (double)l->step.y,
+        (double)l->step.z, (int)l->count[0], (int)l->count[1], (int)l->count[2], FLOATS, (double)OPEN);
     name_numbers(name, path, 0);
     const int ok = (!b.is_short || report_fail(r, "%s: not enough memory", path)) &&
                    file_write(name, b.data, b.size, r) && text_buffer_write(&t, path, r);
@@ -284,8 +284,8 @@ static void light_in(float out[3], const void *user, uint32_t id, lmb_vec3 at, l
         if (!(w > 0.0f)) {
             continue;
         }
-        const size_t i = (size_t)(x + (k & 1)) +
-                         (size_t)l->count[0] * ((size_t)(v + (k >> 1 & 1)) + (size_t)l->count[1] * (size_t)(z + (k >> 2)));
+        const size_t i = (size_t)(x + (k & 1)) + (size_t)l->count[0] * ((size_t)(v + (k >> 1 & 1)) +
+                                                                        (size_t)l->count[1] * (size_t)(z + (k >> 2)));
         for (int t = 0; t < 3 * TERMS; ++t) {
             out[t % 3] += w * l->probe[i].v[t] * y[t / 3] * cosine_of(t / 3);
         }
@@ -301,8 +301,9 @@ int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is
     memset(&l, 0, sizeof l);
     memset(&back, 0, sizeof back);
     const light_source of = {&s->job.scene, light_in, &back};
-    const int ok = lay_out(&l, &s->job.scene, step_m, r) && fill(&l, s, b, r) && mend(&l, r) && write_both(path, &l, r) &&
-                   read_both(&back, path, r) && light_compare(path, s, &of, "probes", is_quiet, r);
+    const int ok = lay_out(&l, &s->job.scene, step_m, r) && fill(&l, s, b, r) && mend(&l, r) &&
+                   write_both(path, &l, r) && read_both(&back, path, r) &&
+                   light_compare(path, s, &of, "probes", is_quiet, r);
     free(l.probe);
     free(back.probe);
     return ok;

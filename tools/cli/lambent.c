@@ -32,7 +32,7 @@ static const struct verb {
     {"bake", verb_bake, "bake SCENE -o OUT.lmt", "how light goes between a scene's surfaces, for lights that move"},
     {"pack", verb_pack, "pack SCENE -o OUT.lmp|.c", "a scene as one file, or C array, that programs use in place"},
     {"play", verb_play, "play SCENE --frames N", "frames with moving light, camera or objects, and what they take"},
-    {"merge", verb_merge, "merge SLICE... -o OUT", "slices of `render`, `play`, `bake` or `bench`, made on many machines"},
+    {"merge", verb_merge, "merge SLICE... -o OUT", "slices of a picture or a sequence, made on many machines"},
     {"relight", verb_relight, "relight --world WORLD", "light at a place of a world seen from another, as a cube map"},
     {"relief", verb_relief, "relief bake|render", "a complex model as a simple one that carries its surface"},
     {"mix", verb_mix, "mix --frame PHOTO", "a virtual object in one photo with depth"},

@@ -34,7 +34,7 @@ static const option_row rows[] = {
 static const option_table table = {
     .verb = "merge",
     .usage = "merge SLICE... -o OUT",
-    .about = "Joins what `lambent render`, `play`, `bake` and `bench` made with --slice I/N, on as many machines: the "
+    .about = "Joins what `lambent render` and `play` made with --slice I/N, on as many machines: the "
              "output has the bytes that one machine would have written.\n"
              "A slice carries a hash of its inputs, options and version, and one of itself. Slices that are cut off or "
              "damaged are told of and left out; what is missing is named, and nothing is written; a slice of another "

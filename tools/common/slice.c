@@ -158,8 +158,8 @@ int slice_write(const char *path, slice s, int32_t kind, uint64_t job, const cha
     byte_put(&b, about, strlen(about));
     byte_put(&b, says->data, says->size);
     byte_put_long(&b, slice_hash(SLICE_HASH, b.data, b.size));
-    const int ok = b.is_short ? report_fail(r, "%s: not enough memory for the slice", path)
-                              : file_write(path, b.data, b.size, r);
+    const int ok =
+        b.is_short ? report_fail(r, "%s: not enough memory for the slice", path) : file_write(path, b.data, b.size, r);
     free(b.data);
     return ok;
 }
@@ -228,14 +228,17 @@ static int take(slice_set *set, const slice_file *f, const char *path, int is_qu
         set->first = path;
     }
     if (f->kind != set->kind || f->job != set->job || f->slice.count != set->count) {
-        return report_fail(r, "%s: slice %d of %d of another job (%s) than %s (%s): inputs, options and version must be "
-                           "the same; leave one of them out", path, (int)f->slice.number, (int)f->slice.count, f->about,
-                           set->first, set->about);
+        return report_fail(r,
+                           "%s: slice %d of %d of another job (%s) than %s (%s): inputs, options and version must be "
+                           "the same; leave one of them out",
+                           path, (int)f->slice.number, (int)f->slice.count, f->about, set->first, set->about);
     }
     const int32_t i = f->slice.number - 1;
     if (set->hash[i] != 0 && set->hash[i] != f->hash) {
-        return report_fail(r, "%s and %s: both slice %d of %d, and they differ: one of the machines is at fault; make "
-                           "that slice again", set->path[i], path, (int)f->slice.number, (int)set->count);
+        return report_fail(r,
+                           "%s and %s: both slice %d of %d, and they differ: one of the machines is at fault; make "
+                           "that slice again",
+                           set->path[i], path, (int)f->slice.number, (int)set->count);
     }
     report_note(is_quiet || set->hash[i] == 0, "%s: slice %d of %d once more, the same as %s", path,
                 (int)f->slice.number, (int)set->count, set->path[i]);

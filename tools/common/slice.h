@@ -13,7 +13,7 @@
 enum { SLICE_MOST = 4096, SLICE_NAME = 4096, SLICE_ABOUT = 256 };
 
 /* What is sliced. */
-enum { SLICE_RENDER = 1, SLICE_PLAY, SLICE_BAKE, SLICE_BENCH };
+enum { SLICE_RENDER = 1, SLICE_PLAY };
 
 /* Which one: number 1 .. count. count 0: the whole work in one. */
 typedef struct slice {

@@ -145,13 +145,16 @@ static void put_material(text_buffer *p, const lmb_material *m, int is_first)
     }
     text_buffer_plain(p, "}");
     if (m->flags & (LMB_ALPHA_MASK | LMB_ALPHA_BLEND)) {
-        text_buffer_add(p, m->flags & LMB_ALPHA_BLEND ? ",\"alphaMode\":\"BLEND\"" : ",\"alphaMode\":\"MASK\",\"alphaCutoff\":%.9g",
-                        (double)m->alpha_cutoff);
+        text_buffer_add(
+            p, m->flags & LMB_ALPHA_BLEND ? ",\"alphaMode\":\"BLEND\"" : ",\"alphaMode\":\"MASK\",\"alphaCutoff\":%.9g",
+            (double)m->alpha_cutoff);
     }
     const float peak = fmaxf(m->emission[0], fmaxf(m->emission[1], m->emission[2]));
     if (peak > 0.0f) {
-        text_buffer_add(p, ",\"emissiveFactor\":[%.9g,%.9g,%.9g],\"extensions\":{\"KHR_materials_emissive_strength\":"
-                        "{\"emissiveStrength\":%.9g}}", (double)(m->emission[0] / peak), (double)(m->emission[1] / peak),
+        text_buffer_add(p,
+                        ",\"emissiveFactor\":[%.9g,%.9g,%.9g],\"extensions\":{\"KHR_materials_emissive_strength\":"
+                        "{\"emissiveStrength\":%.9g}}",
+                        (double)(m->emission[0] / peak), (double)(m->emission[1] / peak),
                         (double)(m->emission[2] / peak), (double)peak);
         if (m->emission_map > 0) {
             text_buffer_add(p, ",\"emissiveTexture\":{\"index\":%u}", (unsigned)m->emission_map - 1);
@@ -198,7 +201,8 @@ static void put_textures(text_buffer *p, const lmb_scene *scene, const glb_light
     }
     const uint32_t count = scene->texture_count + (light->picture != NULL);
     if (light->picture != NULL) {
-        text_buffer_add(p, "%s{\"wrapS\":33071,\"wrapT\":33071,\"magFilter\":9729,\"minFilter\":9729}", count > 1 ? "," : "");
+        text_buffer_add(p, "%s{\"wrapS\":33071,\"wrapT\":33071,\"magFilter\":9729,\"minFilter\":9729}",
+                        count > 1 ? "," : "");
     }
     text_buffer_plain(p, "],\"textures\":[");
     for (uint32_t i = 0; i < count; ++i) {
@@ -218,8 +222,8 @@ static void put_light_source(text_buffer *p, const lmb_light *l, int is_first)
                     (double)(l->intensity[2] / peak));
     if (l->kind == LMB_LIGHT_SPOT) {
         const double outer = acos((double)l->cos_outer), inner = acos((double)l->cos_inner);
-        text_buffer_add(p, ",\"spot\":{\"innerConeAngle\":%.9g,\"outerConeAngle\":%.9g}", inner < outer ? inner : 0.999 * outer,
-                        outer);
+        text_buffer_add(p, ",\"spot\":{\"innerConeAngle\":%.9g,\"outerConeAngle\":%.9g}",
+                        inner < outer ? inner : 0.999 * outer, outer);
     }
     text_buffer_plain(p, "}");
 }
@@ -238,9 +242,11 @@ static void put_light_node(text_buffer *p, const lmb_light *l, uint32_t number)
         q[0] = 1.0;
         q[1] = q[3] = 0.0;
     }
-    text_buffer_add(p, ",{\"translation\":[%.9g,%.9g,%.9g],\"rotation\":[%.9g,%.9g,%.9g,%.9g],\"extensions\":"
-                    "{\"KHR_lights_punctual\":{\"light\":%u}}}", (double)l->position.x, (double)l->position.y,
-                    (double)l->position.z, q[0], q[1], q[2], q[3], (unsigned)number);
+    text_buffer_add(p,
+                    ",{\"translation\":[%.9g,%.9g,%.9g],\"rotation\":[%.9g,%.9g,%.9g,%.9g],\"extensions\":"
+                    "{\"KHR_lights_punctual\":{\"light\":%u}}}",
+                    (double)l->position.x, (double)l->position.y, (double)l->position.z, q[0], q[1], q[2], q[3],
+                    (unsigned)number);
 }
 
 static void put_camera(text_buffer *p, const model_camera *c, int is_first)
@@ -249,11 +255,14 @@ static void put_camera(text_buffer *p, const model_camera *c, int is_first)
     text_buffer_plain(p, is_first ? "{\"name\":" : ",{\"name\":");
     text_buffer_json(p, c->name);
     if (c->orthographic) {
-        text_buffer_add(p, ",\"type\":\"orthographic\",\"orthographic\":{\"xmag\":%.9g,\"ymag\":%.9g,\"znear\":%.9g,\"zfar\":%.9g}}",
-                        (double)c->half_width, (double)c->half_height, near_m, far_m > near_m ? far_m : 1000.0 * near_m);
+        text_buffer_add(
+            p,
+            ",\"type\":\"orthographic\",\"orthographic\":{\"xmag\":%.9g,\"ymag\":%.9g,\"znear\":%.9g,\"zfar\":%.9g}}",
+            (double)c->half_width, (double)c->half_height, near_m, far_m > near_m ? far_m : 1000.0 * near_m);
         return;
     }
-    text_buffer_add(p, ",\"type\":\"perspective\",\"perspective\":{\"yfov\":%.9g,\"znear\":%.9g", (double)c->yfov_rad, near_m);
+    text_buffer_add(p, ",\"type\":\"perspective\",\"perspective\":{\"yfov\":%.9g,\"znear\":%.9g", (double)c->yfov_rad,
+                    near_m);
     if (c->aspect > 0.0f) {
         text_buffer_add(p, ",\"aspectRatio\":%.9g", (double)c->aspect);
     }
@@ -279,7 +288,8 @@ static void put_camera_node(text_buffer *p, const model_camera *c, uint32_t numb
 static void put_nodes(text_buffer *p, const lmb_scene *scene, const model *loaded, uint32_t meshes)
 {
     const uint32_t all = 1 + meshes + scene->light_count + loaded->camera_count;
-    text_buffer_plain(p, ",\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":\"lambent bake\",\"children\":[");
+    text_buffer_plain(p,
+                      ",\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":\"lambent bake\",\"children\":[");
     for (uint32_t i = 1; i < all; ++i) {
         text_buffer_add(p, "%s%u", i > 1 ? "," : "", (unsigned)i);
     }
@@ -303,9 +313,10 @@ static int put_all(writer *w, const lmb_scene *scene, const model *loaded, const
 {
     text_buffer *p = &w->json, images;
     memset(&images, 0, sizeof images);
-    text_buffer_add(p, "{\"asset\":{\"version\":\"2.0\",\"generator\":\"lambent %d.%d.%d\",\"extras\":{\"lambent\":"
-                    "{\"light\":\"%s\",\"scale\":%.9g,\"unit\":\"W/m2\"", LMB_VERSION / 10000, LMB_VERSION / 100 % 100,
-                    LMB_VERSION % 100, light->form, (double)light->scale);
+    text_buffer_add(p,
+                    "{\"asset\":{\"version\":\"2.0\",\"generator\":\"lambent %d.%d.%d\",\"extras\":{\"lambent\":"
+                    "{\"light\":\"%s\",\"scale\":%.9g,\"unit\":\"W/m2\"",
+                    LMB_VERSION / 10000, LMB_VERSION / 100 % 100, LMB_VERSION % 100, light->form, (double)light->scale);
     if (light->picture != NULL) {
         text_buffer_add(p, ",\"texture\":%u,\"texCoord\":1", (unsigned)scene->texture_count);
     }
@@ -342,7 +353,8 @@ static int put_all(writer *w, const lmb_scene *scene, const model *loaded, const
     text_buffer_add(p, ",\"bufferViews\":[%s],\"accessors\":[%s],\"buffers\":[{\"byteLength\":%lu}]}",
                     w->views.data != NULL ? w->views.data : "", w->accessors.data != NULL ? w->accessors.data : "",
                     (unsigned long)w->bytes.size);
-    const int is_short = p->is_short || images.is_short || w->views.is_short || w->accessors.is_short || w->bytes.is_short;
+    const int is_short =
+        p->is_short || images.is_short || w->views.is_short || w->accessors.is_short || w->bytes.is_short;
     text_buffer_free(&images);
     return ok && (!is_short || report_fail(r, "not enough memory for the scene with its light"));
 }

@@ -35,7 +35,7 @@ static void put_head(byte_buffer *b, const render_finish *f)
     byte_put_int(b, v->samples);
     byte_put_int(b, v->tone);
     byte_put_int(b, (v->emitted != NULL ? HAS_EMITTED : 0) | (v->cover != NULL ? HAS_COVER : 0) |
-                         (v->own != NULL ? HAS_OWN : 0));
+                        (v->own != NULL ? HAS_OWN : 0));
 }
 
 static void put_band(byte_buffer *b, const exposure_view *v, const image *linear, int32_t band)
@@ -43,7 +43,8 @@ static void put_band(byte_buffer *b, const exposure_view *v, const image *linear
     const size_t rows = (size_t)rows_of(v, band), first = (size_t)band * LMB_TILE;
     const size_t wide = (size_t)v->width, eye = (size_t)v->eye_width;
     byte_put_floats(b, linear->pixels + 3 * wide * first, 3 * wide * rows);
-    byte_put_floats(b, v->emitted != NULL ? v->emitted + 3 * eye * first : NULL, v->emitted != NULL ? 3 * eye * rows : 0);
+    byte_put_floats(b, v->emitted != NULL ? v->emitted + 3 * eye * first : NULL,
+                    v->emitted != NULL ? 3 * eye * rows : 0);
     byte_put_floats(b, v->cover != NULL ? v->cover + wide * first : NULL, v->cover != NULL ? wide * rows : 0);
     byte_put(b, v->own != NULL ? v->own + eye * first : NULL, v->own != NULL ? eye * rows : 0);
 }
