@@ -140,7 +140,6 @@ float *gltf_floats(gltf *g, const gltf_accessor *a); /* all values in scratch me
 
 /* io_gltf_light.c: of what `lambent bake --to` wrote */
 int gltf_light_begin(gltf *g, uint32_t meshes);            /* before the meshes: is there any? */
-int gltf_light_mesh(gltf *g, const lmb_mesh *m, uint32_t attributes); /* of the next mesh */
 int gltf_light_end(gltf *g);                               /* its picture */
 
 /* io_gltf_skin.c */

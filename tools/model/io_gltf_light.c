@@ -1,4 +1,4 @@
-/* io_gltf_light.c: baked light of a file that `lambent bake --to` wrote: COLOR_1, or TEXCOORD_1 and its picture. */
+/* io_gltf_light.c: baked light of a file that `lambent bake --to` wrote: its scale, and its picture. */
 #include "io_gltf.h"
 
 /* What asset.extras say; JSON_NONE where the file is another one's. */
@@ -22,40 +22,6 @@ int gltf_light_begin(gltf *g, uint32_t meshes)
     l->colour = build_keep(g->b, meshes, sizeof *l->colour);
     l->uv = build_keep(g->b, meshes, sizeof *l->uv);
     return l->colour != NULL && l->uv != NULL;
-}
-
-/* `keeps` components a vertex, or *out NULL where there is no such attribute. */
-static int read_values(float **out, gltf *g, uint32_t reference, uint32_t keeps, uint32_t vertices)
-{
-    gltf_accessor a;
-    uint32_t index;
-    *out = NULL;
-    if (!gltf_attribute(&a, &index, g, reference, keeps, keeps == 3 ? 4 : keeps, vertices)) {
-        return 0;
-    }
-    if (index == JSON_NONE) {
-        return 1;
-    }
-    float *all = gltf_floats(g, &a);
-    *out = build_keep(g->b, (uint64_t)a.count * keeps, sizeof **out);
-    if (all == NULL || *out == NULL) {
-        return 0;
-    }
-    for (uint32_t i = 0; i < a.count; ++i) {
-        for (uint32_t c = 0; c < keeps; ++c) {
-            (*out)[keeps * (size_t)i + c] = all[a.components * (size_t)i + c];
-        }
-    }
-    return 1;
-}
-
-int gltf_light_mesh(gltf *g, const lmb_mesh *m, uint32_t attributes)
-{
-    model_light *l = &g->b->out->light;
-    const uint32_t mesh = g->b->mesh_count;
-    return !(l->scale > 0.0f) ||
-           (read_values(&l->colour[mesh], g, json_member(&g->doc, attributes, "COLOR_1"), 3, m->vertex_count) &&
-            read_values(&l->uv[mesh], g, json_member(&g->doc, attributes, "TEXCOORD_1"), 2, m->vertex_count));
 }
 
 int gltf_light_end(gltf *g)
