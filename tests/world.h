@@ -81,9 +81,9 @@ static inline void world_box(lmb_vec3 centre, float half)
     }
 }
 
-static inline lmb_vec3 on_sphere(int stack, int stacks, int slice, int slices)
+static inline lmb_vec3 on_sphere(int stack, int stacks, int column, int columns)
 {
-    double a = PI * stack / stacks, b = 2.0 * PI * slice / slices;
+    double a = PI * stack / stacks, b = 2.0 * PI * column / columns;
     return vec3((float)(sin(a) * cos(b)), (float)cos(a), (float)(sin(a) * sin(b)));
 }
 

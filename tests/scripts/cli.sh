@@ -338,7 +338,7 @@ check "-v says how long what took" grep -q '^lambent: bands .* ms$' "$dir/err.tx
 check "what is said changes no byte" sh -c 'cmp "$1" "$2" && cmp "$1" "$3"' sh "$dir/loud.png" "$dir/hushed.png" "$dir/told.png"
 status 0 compare "$dir/demo.pfm" "$dir/again.pfm" -q
 check "compare -q is its exit status" sh -c '! test -s "$1"' sh "$dir/out.txt"
-for verb in render play relight relief "relief bake" "relief render" mix pack plan compare info bench "bench raster" "bench gather" \
+for verb in render play relight relief "relief bake" "relief render" mix pack merge plan compare info bench "bench raster" "bench gather" \
     "bench threads" "bench hard" "bench --calibrate" "bench demo" "bench relight" "bench relief" "bench mix" doctor; do
     status 0 $verb -V
     check "lambent $verb -V is the version" grep -q '^lambent [0-9.]*$' "$dir/out.txt"
@@ -1065,5 +1065,6 @@ status 2 bench --calibrate demo
 . tests/scripts/cli_manners.sh
 . tests/scripts/cli_world.sh
 . tests/scripts/cli_pack.sh
+. tests/scripts/cli_slices.sh
 
 finish

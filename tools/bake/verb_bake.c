@@ -8,10 +8,12 @@
 
 #include "../../platform/host/host.h"
 #include "../../platform/host/pool.h"
+#include "../common/ending.h"
 #include "../common/options.h"
 #include "../demo/demo_scene.h"
 #include "../model/model.h"
 #include "bake.h"
+#include "light_export.h"
 
 enum { MOVING = 256 }; /* objects, at most */
 enum { EYES = 64 };    /* that are given, and cameras of the scene */
@@ -22,17 +24,29 @@ typedef struct options {
     lmb_vec3 eye[EYES];
     int32_t elements, receivers, threads, budget, is_big, eyes;
     int is_quiet, is_verbose, has_report, is_once, is_glossy;
+    int32_t to; /* LIGHT_ */
+    lmb_light lights[RENDER_LIGHTS];
+    int32_t light_count, bounces, texels;
+    float step_m;
 } options;
 
 #define AT(member) .at = offsetof(options, member)
 
 static const char *const orders[] = {"little", "big", NULL};
+static const char *const forms[] = {"transfer", "vertex-colours", "lightmap", "probes", NULL};
+static const char *const endings[] = {".lmt", ".glb", ".glb", ".json"};
 
 static const option_row rows[] = {
     {.name = "SCENE", .kind = OPTION_TEXT, .value = "", AT(scene), .file = OPTION_READS,
      .help = ".gltf .glb .obj .ply .lmp, or `demo`"},
-    {.name = "-o", .value = "OUT.lmt", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
-     .help = "for `lambent render --transfer`"},
+    {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out), .file = OPTION_WRITES,
+     .help = "a .lmt for `lambent render --transfer`; with --to a .glb or .json"},
+    {.name = "--to", .kind = OPTION_WORD, AT(to), .words = forms,
+     .help = "for other engines: the bounced light of the scene's lights as they stand, W/m2 before the albedo, in a form "
+             "that they draw:\nvertex-colours: a .glb whose triangles are divided until light is linear on each; COLOR_1, "
+             "times the scale in asset.extras.lambent;\nlightmap: a .glb with TEXCOORD_1 and a PNG;\nprobes: a .json and a "
+             ".bin: a lattice of harmonics.\nThe error of the form is measured and said (default transfer: for lights that "
+             "move)"},
     {.name = "--scene", .value = "NAME", .kind = OPTION_TEXT, AT(scene_name),
      .help = "of a file with several scenes: which, by name or number"},
     {.name = "--error", .value = "SHARE", .kind = OPTION_ABOVE, AT(error), .low = 0.0, .high = 1.0,
@@ -65,6 +79,14 @@ static const option_row rows[] = {
     {.name = "--glossy", .kind = OPTION_FLAG, AT(is_glossy),
      .help = "for `render --glossy`: glTF's metals and smooth materials keep light by direction, as those with a normal "
              "map do, in two to three times the bytes"},
+    {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(options, light_count),
+     .times = RENDER_LIGHTS, .size = sizeof(lmb_light), .help = "with --to: in place of the scene's lights; as `render` has it"},
+    {.name = "--bounces", .value = "N", .kind = OPTION_INT, AT(bounces), .low = 1, .high = 64,
+     .help = "with --to: how often light is reflected; what is reflected more often is estimated (default 4)"},
+    {.name = "--texels", .value = "N", .kind = OPTION_MULTIPLE_OF_8, AT(texels), .low = 64, .high = 8192,
+     .help = "with --to lightmap: its side, a multiple of 8 (default 2048)"},
+    {.name = "--step", .value = "METRES", .kind = OPTION_ABOVE, AT(step_m), .low = 0.0, .high = 1e6,
+     .help = "with --to probes: between two places of the lattice (default: a 12th of the scene's longest side)"},
     {.name = "--budget-bytes", .value = "N", .kind = OPTION_INT, AT(budget), .low = 1000, .high = 2000000000,
      .help = "a larger --error where the file would be larger than this; which one is said"},
     {.name = "--endian", .kind = OPTION_WORD, AT(is_big), .words = orders,
@@ -88,7 +110,8 @@ static const option_table table = {
              "clusters, and up to 100 MB beside the scene's own; by default half a gigabyte for a room.",
     .part = {rows},
     .examples = "  lambent bake demo -o demo.lmt\n"
-                "  lambent render demo --transfer demo.lmt -o demo.png\n",
+                "  lambent render demo --transfer demo.lmt -o demo.png\n"
+                "  lambent bake demo -o demo.glb --to vertex-colours --elements 1024 --receivers 2000\n",
 };
 
 /* `0,3,4`: numbers of the scene's objects, none twice. */
@@ -157,7 +180,35 @@ static int make_file(file_bytes *file, const options *o, bake *b, report *r)
                               (int)o->budget, (double)file->size));
 }
 
-static int bake_scene(const options *o, const lmb_scene *whole, const lmb_vec3 *eyes, uint32_t eye_count, report *r)
+/* The light that what was baked makes of the scene's lights, in another form. */
+static int export(const options *o, const lmb_scene *scene, const model *loaded, bake *b, file_bytes *lmt, report *r)
+{
+    static light_solve s; /* large */
+    render_options ask;
+    render_options_begin(&ask);
+    ask.scene = o->scene;
+    ask.transfer = o->out;
+    ask.show = LMB_SHOW_IRRADIANCE;
+    ask.bounces = o->bounces;
+    ask.threads = o->threads;
+    ask.view.width = 320;
+    ask.view.height = 240;
+    ask.view.is_quiet = o->is_quiet;
+    ask.samples = 1;
+    memcpy(ask.lights, o->lights, sizeof ask.lights);
+    ask.light_count = (uint32_t)o->light_count;
+    int ok = render_options_complete(&ask, r) && light_begin(&s, &ask, scene, loaded, lmt, r);
+    if (ok) {
+        ok = o->to == LIGHT_PROBES ? light_probes(o->out, &s, b, o->step_m, o->is_quiet, r)
+             : (o->to == LIGHT_MAP ? light_picture(o->out, &s, loaded, o->texels, r) : light_colours(o->out, &s, loaded, r)) &&
+                   light_check(o->out, &s, forms[o->to], o->is_quiet, r);
+    }
+    light_end(&s);
+    return ok;
+}
+
+static int bake_scene(const options *o, const lmb_scene *whole, const model *loaded, const lmb_vec3 *eyes,
+                      uint32_t eye_count, report *r)
 {
     bake b;
     bake_settings set;
@@ -178,10 +229,13 @@ static int bake_scene(const options *o, const lmb_scene *whole, const lmb_vec3 *
              (count == 0 || bake_still(&still, whole, moving, count, &b.section[LMB_TRANSFER_MOVING], r)) &&
              bake_begin(&b, &still.scene, &set, r) && bake_reach(&b, eyes, eye_count, r) && bake_receivers(&b, r) &&
              bake_clusters(&b, r) && bake_directed(&b, r) && bake_air(&b, r) && (o->is_once || bake_bounces(&b, r)) &&
-             make_file(&file, o, &b, r) && file_write(o->out, file.data, file.size, r);
-    if (ok) {
+             make_file(&file, o, &b, r);
+    if (ok && o->to != LIGHT_TRANSFER) {
+        ok = export(o, whole, loaded, &b, &file, r);
+    } else if (ok && file_write(o->out, file.data, file.size, r)) {
         tell(o, &b, file.size);
     }
+    ok = ok && r->text[0] == '\0';
     file_free(&file);
     free(still.instance);
     bake_free(&b);
@@ -198,7 +252,7 @@ static int bake_model(const options *o, const lmb_scene *scene, const model *m, 
     for (uint32_t i = 0; i < EYES && i < m->camera_count; ++i) {
         eyes[count++] = m->cameras[i].eye;
     }
-    return bake_scene(o, scene, eyes, count, r);
+    return bake_scene(o, scene, m, eyes, count, r);
 }
 
 static int is_complete(const options *o, report *r)
@@ -212,7 +266,17 @@ static int is_complete(const options *o, report *r)
     if ((o->elements & 0x55555555) == 0) {
         return report_fail(r, "--elements: `%d` is not a power of four: 64, 256, 1024, 4096, 16384", (int)o->elements);
     }
-    return file_suits(o->out, ".lmt", r);
+    if (o->to != LIGHT_TRANSFER && (o->moving != NULL || o->budget > 0)) {
+        return report_fail(r, "--to %s: light stands still in it: no --moving and no --budget-bytes go with it",
+                           forms[o->to]);
+    }
+    if (o->to == LIGHT_TRANSFER && (o->light_count > 0 || o->bounces > 0)) {
+        return report_fail(r, "--light and --bounces are for --to: a .lmt is for any lights and bounces");
+    }
+    return o->to == LIGHT_TRANSFER || has_ending(o->out, endings[o->to])
+               ? file_suits(o->out, endings[o->to], r)
+               : report_fail(r, "-o %s: --to %s writes a %s; name it *%s", o->out, forms[o->to], endings[o->to],
+                             endings[o->to]);
 }
 
 int verb_bake(int argc, char **argv)
@@ -235,6 +299,8 @@ int verb_bake(int argc, char **argv)
         return options_answer(asked, &table, &r);
     }
     const int is_demo = strcmp(o.scene, "demo") == 0;
+    o.bounces = o.bounces > 0 ? o.bounces : 4;
+    o.texels = o.texels > 0 ? o.texels : 2048;
     progress_begin(o.is_quiet, "bake");
     int ok = options_files(&o, &table, &r) &&
              (is_demo || model_load(&loaded, o.scene, o.scene_name, &notes, &r)) && options_files(&o, &table, &r) &&

@@ -37,14 +37,20 @@ static void draw_part(void *user, int part, int worker)
                  lmb_render_part(w->render, &w->workers->scratches[worker], part, w->parts, &w->counts[worker]));
 }
 
-static int band_step(const workers *c) { return c->every > 1 ? c->every : 1; }
+/* Every so many bands, or those of a slice: its kth, and how many. */
+static int32_t band_at(const workers *c, int32_t k) { return c->every > 1 ? k * c->every : slice_item(c->slice, k); }
+
+static int32_t bands_of(const workers *c, int32_t all)
+{
+    return c->every > 1 ? (all + c->every - 1) / c->every : slice_items(c->slice, all);
+}
 
 /* Bands are taken in order, so the number of one tells how far the frame is. */
 static void draw_band(void *user, int part, int worker)
 {
     stage_work *w = user;
     const lmb_frame *f = &w->render->frame;
-    const int band = part * band_step(w->workers);
+    const int32_t band = band_at(w->workers, part);
     lmb_band_scratch *scratch = &w->workers->scratches[worker];
     memset(&scratch->counts, 0, sizeof scratch->counts);
     keep_failure(w, worker, lmb_render_band(w->render, scratch, &f->eye, &f->out, band));
@@ -121,8 +127,8 @@ static lmb_status do_bands(workers *c, lmb_render *r, int32_t *stage)
 {
     const double start = now(c), cpu = host_cpu_seconds();
     *stage = LMB_STAGE_BANDS;
-    const int bands = (r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE, step = band_step(c);
-    lmb_status status = share(c, r, (bands + step - 1) / step, draw_band);
+    const int32_t bands = bands_of(c, (r->frame.view.frame_height + LMB_TILE - 1) / LMB_TILE);
+    lmb_status status = share(c, r, bands, draw_band);
     c->stage_cpu_s[LMB_STAGE_BANDS] += host_cpu_seconds() - cpu;
     c->stage_s[LMB_STAGE_BANDS] += now(c) - start;
     return status;

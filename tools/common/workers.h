@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../../platform/host/pool.h"
+#include "slice.h"
 
 /* Who draws, and who is told how far it is. */
 typedef struct workers {
@@ -14,6 +15,7 @@ typedef struct workers {
     void *user;
     double (*clock)(void);          /* s; NULL: the time that passes */
     int32_t every;                  /* one band in so many is drawn; 0, 1: all */
+    slice slice;                    /* likewise: those of a slice */
     double stage_s[LMB_STAGE_DONE]; /* of the last frame and its further views, s */
     double stage_cpu_s[LMB_STAGE_DONE]; /* the same of the processor, all threads together */
 } workers;

@@ -233,7 +233,7 @@ static int make_tables(const gltf_tree *t, gltf *g)
     g->buffer_bytes = (gltf_bytes *)build_scratch(g->b, g->buffers.count, sizeof *g->buffer_bytes);
     for (i = 0; g->mesh_first && i < g->meshes.count; ++i)
         g->mesh_first[i] = JSON_NONE;
-    return g->b->r->text[0] == '\0'; /* any that could not be had has said so */
+    return gltf_light_begin(g, (uint32_t)meshes) && g->b->r->text[0] == '\0'; /* any that could not be had has said so */
 }
 
 /* Counts as the document has them. */
@@ -255,7 +255,7 @@ static int load_document(gltf *g)
 {
     gltf_tree t;
     if (!check_version(g) || !check_extensions(g) || !gltf_lists(g) || !gltf_make_tree(&t, g) || !make_tables(&t, g) ||
-        !gltf_materials(g) || !add_instances(&t, g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
+        !gltf_materials(g) || !add_instances(&t, g) || !gltf_light_end(g) || !gltf_lights(&t, g) || !gltf_cameras(&t, g))
         return 0;
     gltf_motion(&t, g);
     tell_left_out(g);

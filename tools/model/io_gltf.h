@@ -128,6 +128,8 @@ void gltf_motion(const gltf_tree *t, gltf *g);
 int gltf_materials(gltf *g);         /* all of them, their textures, material_uv */
 void gltf_default_material(gltf *g); /* makes default_material, once */
 
+int gltf_texture(int32_t *out, gltf *g, uint32_t texture); /* place in b->textures, as a colour; -1: it cannot be had */
+
 /* io_gltf_mesh.c */
 int gltf_mesh(gltf *g, uint32_t mesh); /* fills mesh_first and mesh_size; once a mesh */
 /* An attribute's accessor: its index, opened, with `components` or `other` components and `count` elements (0: any).
@@ -135,6 +137,10 @@ int gltf_mesh(gltf *g, uint32_t mesh); /* fills mesh_first and mesh_size; once a
 int gltf_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components, uint32_t other,
                    uint32_t count);
 float *gltf_floats(gltf *g, const gltf_accessor *a); /* all values in scratch memory; NULL with the report set */
+
+/* io_gltf_light.c: of what `lambent bake --to` wrote */
+int gltf_light_begin(gltf *g, uint32_t meshes);            /* before the meshes: is there any? */
+int gltf_light_end(gltf *g);                               /* its picture */
 
 /* io_gltf_skin.c */
 /* The meshes of a skinned node, posed by its joints: `size` new ones from b->mesh_count on, in world metres. */

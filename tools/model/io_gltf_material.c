@@ -145,6 +145,8 @@ static int texture_slot(int32_t *out, gltf *g, uint32_t index, int kind)
     return 1;
 }
 
+int gltf_texture(int32_t *out, gltf *g, uint32_t texture) { return texture_slot(out, g, texture, TEXELS_COLOUR); }
+
 /* KHR_texture_transform: u' = offset + rotation * scale * u. The rotation is counter-clockwise with v downwards, as
  * in the viewers and test models that agree on it; the extension's own GLSL text turns the other way. */
 static int read_transform(gltf_uv *uv, gltf *g, uint32_t transform)

@@ -7,30 +7,6 @@
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
-int gltf_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components, uint32_t other,
-                   uint32_t count)
-{
-    if (!gltf_index(index, g, &g->accessors, reference))
-        return 0;
-    if (*index == JSON_NONE)
-        return 1;
-    if (!gltf_accessor_open(a, g, g->accessors.items[*index]))
-        return 0;
-    if ((a->components != components && a->components != other) || a->component == GLTF_U32)
-        return json_fail(&g->doc, reference, g->b->r, "accessor %u has a type that this attribute does not take",
-                         (unsigned)*index);
-    if (count && a->count != count)
-        return json_fail(&g->doc, reference, g->b->r, "%u elements, but POSITION has %u; all must have as many",
-                         (unsigned)a->count, (unsigned)count);
-    return 1;
-}
-
-float *gltf_floats(gltf *g, const gltf_accessor *a)
-{
-    float *values = (float *)build_scratch(g->b, (uint64_t)a->count * a->components, sizeof *values);
-    return values && gltf_accessor_floats(values, g, a) ? values : NULL;
-}
-
 static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
 {
     gltf_accessor a;
@@ -283,7 +259,8 @@ static int read_primitive(gltf *g, uint32_t primitive)
         !read_positions(out, g, position) || !read_normals(out, g, json_member(&g->doc, attributes, "NORMAL")) ||
         !read_uvs(out, g, attributes, material) ||
         !read_tangents(out, g, json_member(&g->doc, attributes, "TANGENT"), material) ||
-        !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) || !read_triangles(out, g, primitive, mode))
+        !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) ||
+        !gltf_light_mesh(g, out, attributes) || !read_triangles(out, g, primitive, mode))
         return 0;
     if (out->triangle_count == 0)
         return 1;

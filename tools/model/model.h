@@ -52,12 +52,21 @@ typedef struct model_lobe {
     uint32_t metal_map;
 } model_lobe;
 
+/* Baked light of a file that `lambent bake --to` wrote. */
+typedef struct model_light {
+    float scale;          /* W/m2 that a colour of 1 stands for; 0: the file has none */
+    float **colour;       /* by mesh: COLOR_1, 3 a vertex, 0 .. 1; NULL: it has none */
+    float **uv;           /* by mesh: TEXCOORD_1, 2 a vertex; NULL: it has none */
+    const lmb_texture *picture; /* by uv, sRGB-coded; NULL: none */
+} model_light;
+
 /* Owns everything `scene` points to. model_free releases it; a zeroed model is empty. */
 typedef struct model {
     lmb_scene scene; /* checked: lmb_scene_check(&scene) == LMB_OK */
     model_camera *cameras;
     uint32_t camera_count;
     model_lobe *lobes; /* by material; NULL: the format has none */
+    model_light light;
     struct model_motion *motion; /* model_motion.h; NULL: nothing of the scene moves, or `motion_problem` says why */
     report motion_problem;
     const lmb_pack *pack; /* a packed scene, in memory of the model's; NULL: it is none */

@@ -178,21 +178,26 @@ uint8_t *picture_codes(const image *p, float exposure_ev, int tone)
     return codes;
 }
 
+int picture_encode(file_bytes *out, int format, const image *p, float exposure_ev, int tone, report *r)
+{
+    memset(out, 0, sizeof *out);
+    if (picture_is_linear(format)) {
+        return format == PICTURE_PFM ? pfm_encode(out, p, r) : hdr_encode(out, p, r);
+    }
+    uint8_t *rgb = picture_codes(p, exposure_ev, tone);
+    const int ok = rgb == NULL            ? report_fail(r, "not enough memory for the picture; try a smaller --size")
+                   : format == PICTURE_PNG ? png_encode(out, rgb, p->width, p->height, r)
+                                           : ppm_encode(out, rgb, p->width, p->height, r);
+    free(rgb);
+    return ok;
+}
+
 int picture_write(const char *path, const image *p, float exposure_ev, int tone, report *r)
 {
     file_bytes file = {NULL, 0};
-    int format = picture_format(path), ok;
-    if (picture_is_linear(format)) {
-        ok = format == PICTURE_PFM ? pfm_encode(&file, p, r) : hdr_encode(&file, p, r);
-    } else {
-        uint8_t *rgb = picture_codes(p, exposure_ev, tone);
-        if (rgb == NULL) {
-            return report_fail(r, "%s: not enough memory for the picture; try a smaller --size", path);
-        }
-        ok = format == PICTURE_PNG ? png_encode(&file, rgb, p->width, p->height, r)
-                                   : ppm_encode(&file, rgb, p->width, p->height, r);
-        free(rgb);
-    }
+    report own = {""};
+    int ok = picture_encode(&file, picture_format(path), p, exposure_ev, tone, &own) ||
+             report_fail(r, "%s: %s", path, own.text);
     ok = ok && file_write(path, file.data, file.size, r);
     file_free(&file);
     return ok;

@@ -38,7 +38,9 @@ void picture_expose(image *inout, float exposure_ev, int tone);
 /* picture_write_alpha: a PNG with alpha: `alpha` 0 .. 1 for each pixel, whose light `linear` has times that. */
 int picture_write_alpha(const char *path, const image *linear, const float *alpha, float exposure_ev, int tone, report *r);
 
-/* Write, whole or not at all. Exposure and tone count for display formats. 1, or 0 with `r` set. */
+/* picture_encode: a file's bytes, of a PICTURE_ format. picture_write: the file that its name asks for, whole or not at
+ * all. Exposure and tone count for display formats. 1, or 0 with `r` set. */
+int picture_encode(file_bytes *out, int format, const image *linear, float exposure_ev, int tone, report *r);
 int picture_write(const char *path, const image *linear, float exposure_ev, int tone, report *r);
 
 #endif

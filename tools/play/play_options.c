@@ -46,6 +46,7 @@ static const option_row play_rows[] = {
      .expects = "a file name with one %0Nd, as frame_%04d.png; .png .ppm .pfm .hdr",
      .help = "a picture a frame, its number in place of %0Nd: frame_%04d.png (.png .ppm display, .pfm .hdr linear); "
              "without it, frames are drawn for their times alone"},
+    OPTION_SLICE_ROW(play_options, render.slice, "frames"),
     {.kind = OPTION_TITLE, .help = "motion"},
     {.name = "--move", .kind = OPTION_WORD, AT(move), .words = moves, .values = move_values,
      .help = "what moves (default all): by --path; else by a glTF file's animations of nodes, all of them together; "
@@ -94,7 +95,8 @@ static int check_together(const play_options *o, report *r)
     if (o->check > 0 && o->render.show == LMB_SHOW_DIRECT) {
         return report_fail(r, "--check: errors are of bounced light; --show full, indirect or irradiance");
     }
-    return 1;
+    return o->render.slice.count == 0 || o->render.out != NULL ||
+           report_fail(r, "--slice: a slice of frames is a file: add -o frame_%%04d.png");
 }
 
 int play_options_parse(play_options *o, int argc, char **argv, report *r)

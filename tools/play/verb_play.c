@@ -13,9 +13,10 @@
 #include "play_check.h"
 #include "play_motion.h"
 #include "play_options.h"
+#include "play_slice.h"
 #include "play_times.h"
 
-enum { NAME = 4096 };
+enum { NAME = SLICE_NAME };
 
 /* One run. */
 typedef struct play {
@@ -25,6 +26,7 @@ typedef struct play {
     play_times times;
     play_check check;
     text_buffer said; /* on stdout, once all is done */
+    byte_buffer made; /* frames of a slice */
     float exposure_ev;
 } play;
 
@@ -71,6 +73,10 @@ static int find_exposure(play *p, report *r)
 static int write_frame(play *p, int32_t k, report *r)
 {
     char name[NAME];
+    if (p->o.render.slice.count > 0) {
+        return play_slice_put(&p->made, k, picture_format(p->o.render.out), &p->job.linear, p->exposure_ev,
+                              p->job.o.tone, r);
+    }
     return p->o.render.out == NULL || (play_name(name, sizeof name, p->o.render.out, k, r) &&
                                        picture_write(name, &p->job.linear, p->exposure_ev, p->job.o.tone, r));
 }
@@ -93,10 +99,12 @@ static int check_frame(play *p, int32_t k, report *r)
 static int draw_all(play *p, report *r)
 {
     int ok = 1;
-    for (int32_t i = 0; ok && i < p->o.frames; ++i) {
-        const int32_t k = p->o.from + i;
+    const slice own = p->o.render.slice;
+    const int32_t frames = slice_items(own, p->o.frames);
+    for (int32_t i = 0; ok && i < frames; ++i) {
+        const int32_t k = p->o.from + slice_item(own, i);
         play_time took;
-        progress_whole("frames", (double)i / (double)p->o.frames);
+        progress_whole("frames", (double)i / (double)frames);
         ok = draw(p, k, &took, r) && write_frame(p, k, r) && check_frame(p, k, r);
         if (ok) {
             play_times_add(&p->times, &took);
@@ -149,11 +157,22 @@ static int can_write(const play *p, report *r)
 {
     char name[NAME];
     int ok = options_files(&p->o, &play_table, r);
+    if (ok && p->o.render.slice.count > 0) {
+        return slice_name(name, p->o.render.out, p->o.render.slice, r) && file_can_write(name, r);
+    }
     for (int32_t i = 0; ok && p->o.render.out != NULL && i < p->o.frames; ++i) {
         ok = play_name(name, sizeof name, p->o.render.out, p->o.from + i, r) &&
              (i == 0 ? file_can_write(name, r) : file_may_replace(name, r));
     }
     return ok;
+}
+
+static int write_slice(const play *p, report *r)
+{
+    char about[SLICE_ABOUT];
+    snprintf(about, sizeof about, "play %.100s, frames %d to %d", p->o.render.scene, (int)p->o.from,
+             (int)(p->o.from + p->o.frames - 1));
+    return play_slice_write(p->o.render.out, p->o.render.slice, p->job.o.slice_job, about, &p->made, r);
 }
 
 static int tell(play *p, report *r)
@@ -173,7 +192,7 @@ static int run(play *p, report *r)
     if (!can_write(p, r) || !play_motion_read(&p->motion, &p->o, r) || !render_job_load(&p->job, r) ||
         !can_write(p, r) ||
         !play_motion_find(&p->motion, &p->job, r) || !render_job_set(&p->job, r) || !play_motion_make(&p->motion, r) || !play_times_make(&p->times, p->o.frames, r) ||
-        !find_exposure(p, r) || !draw_all(p, r)) {
+        !find_exposure(p, r) || !draw_all(p, r) || (p->o.render.slice.count > 0 && !write_slice(p, r))) {
         return 0;
     }
     tell_frames(p);
@@ -191,7 +210,8 @@ int verb_play(int argc, char **argv)
         return options_answer(asked, &play_table, &r);
     }
     progress_begin(p.o.render.view.is_quiet, "play");
-    const int ok = run(&p, &r);
+    const int ok = render_options_job(&p.o.render, &play_table, argc, argv, &r) && run(&p, &r);
+    free(p.made.data);
     play_check_free(&p.check);
     play_times_free(&p.times);
     play_motion_free(&p.motion);

@@ -59,11 +59,11 @@ float *background_cover(const render_job *j, report *r)
     return cover;
 }
 
-void background_colour(image *inout, const render_job *j, const float *cover)
+void background_colour(image *inout, const uint8_t rgb[3], const float *cover)
 {
     const size_t pixels = (size_t)inout->width * (size_t)inout->height;
     for (int c = 0; c < 3; ++c) {
-        const float light = (float)srgb_decode(j->o.background.rgb[c]);
+        const float light = (float)srgb_decode(rgb[c]);
         for (size_t i = 0; i < pixels; ++i) {
             inout->pixels[3 * i + (size_t)c] += (1.0f - cover[i]) * light;
         }

@@ -8,7 +8,7 @@
  * free. NULL with `r` set. */
 float *background_cover(const render_job *j, report *r);
 
-/* background_colour: put o.background behind a picture that is exposed. */
-void background_colour(image *inout, const render_job *j, const float *cover);
+/* background_colour: put a display's codes behind a picture that is exposed. */
+void background_colour(image *inout, const uint8_t rgb[3], const float *cover);
 
 #endif

@@ -11,8 +11,17 @@
 #define GROUND_EV 1.25f
 #define NOTHING   1e-4f /* what is left of a glow's light counts from this share of it on: less is rounding */
 
+static int short_of_memory(report *r)
+{
+    return report_fail(r, "not enough memory to expose the picture; give --exposure");
+}
+
+/* --- what the view says ------------------------------------------------------------------------------------------- */
+
+static int is_in(const exposure_view *v, int32_t x, int32_t y) { return x < v->eye_width && y < v->height; }
+
 /* What the surfaces of a tile of the eye drawn last emit. */
-static void put_emitted(image *out, const render_job *j, int32_t x, int32_t y)
+static void put_emitted(exposure_view *v, const render_job *j, int32_t x, int32_t y)
 {
     const lmb_frame *f = &j->render->frame;
     lmb_tile *tile = &j->frame.scratch->tile;
@@ -23,40 +32,101 @@ static void put_emitted(image *out, const render_job *j, int32_t x, int32_t y)
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
         const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
-        for (int c = 0; c < 3 && px < out->width && py < out->height; ++c) {
-            out->pixels[3 * ((size_t)py * (size_t)out->width + (size_t)px) + (size_t)c] = own->rgb[c][k];
+        for (int c = 0; c < 3 && is_in(v, px, py); ++c) {
+            v->emitted[3 * ((size_t)py * (size_t)v->eye_width + (size_t)px) + (size_t)c] = own->rgb[c][k];
         }
     }
 }
 
-static float emitted_at(const image *emitted, int32_t x, int32_t y, int c)
+/* Which of them are the scene's own. */
+static void put_own(exposure_view *v, const render_job *j, int32_t x, int32_t y)
 {
-    const int is_inside = x >= 0 && y >= 0 && x < emitted->width && y < emitted->height;
-    return is_inside ? emitted->pixels[3 * ((size_t)y * (size_t)emitted->width + (size_t)x) + (size_t)c] : 0.0f;
+    const lmb_frame *f = &j->render->frame;
+    lmb_tile *tile = &j->frame.scratch->tile;
+    const int shows = lmb_resolve_albedo(tile, f->kernels, &f->view, f->scene, &f->eye, x, y) == LMB_OK;
+    for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
+        const int32_t px = x + k % LMB_TILE, py = y + k / LMB_TILE;
+        if (is_in(v, px, py)) {
+            v->own[(size_t)py * (size_t)v->eye_width + (size_t)px] =
+                shows && tile->id[k] != 0 && tile->id[k] < j->around.ground_id;
+        }
+    }
+}
+
+static void look_at_tiles(exposure_view *v, const render_job *j,
+                          void (*look)(exposure_view *v, const render_job *j, int32_t x, int32_t y))
+{
+    for (int32_t y = 0; y < v->height; y += LMB_TILE) {
+        for (int32_t x = 0; x < v->eye_width; x += LMB_TILE) {
+            look(v, j, x, y);
+        }
+    }
+}
+
+int exposure_look(exposure_view *out, const render_job *j, report *r)
+{
+    const int32_t show = j->frame.show;
+    const size_t pixels = (size_t)j->o.view.width * (size_t)j->linear.height;
+    const int glows = lmb_scene_emits(&j->scene) && (show == LMB_SHOW_FULL || show == LMB_SHOW_DIRECT);
+    memset(out, 0, sizeof *out);
+    out->width = j->linear.width;
+    out->height = j->linear.height;
+    out->eye_width = j->o.view.width;
+    out->samples = j->frame.samples;
+    out->tone = j->o.tone;
+    out->emitted = glows ? calloc(pixels, 3 * sizeof *out->emitted) : NULL;
+    out->own = j->around.has_ground ? calloc(pixels, 1) : NULL;
+    int ok = ((!glows || out->emitted != NULL) && (!j->around.has_ground || out->own != NULL)) || short_of_memory(r);
+    if (ok && glows) {
+        look_at_tiles(out, j, put_emitted);
+    }
+    ok = ok && (j->frame.background == NULL || (out->cover = background_cover(j, r)) != NULL);
+    if (ok && out->own != NULL) {
+        look_at_tiles(out, j, put_own);
+    }
+    if (!ok) {
+        exposure_view_free(out);
+    }
+    return ok;
+}
+
+void exposure_view_free(exposure_view *v)
+{
+    free(v->emitted);
+    free(v->cover);
+    free(v->own);
+    memset(v, 0, sizeof *v);
+}
+
+/* --- which light counts ------------------------------------------------------------------------------------------- */
+
+static float emitted_at(const exposure_view *v, int32_t x, int32_t y, int c)
+{
+    const int is_inside = x >= 0 && y >= 0 && x < v->eye_width && y < v->height;
+    return is_inside ? v->emitted[3 * ((size_t)y * (size_t)v->eye_width + (size_t)x) + (size_t)c] : 0.0f;
 }
 
 /* Samples of a pixel may show what emits in a pixel beside it. */
-static int is_beside_emitted(const image *emitted, int32_t x, int32_t y)
+static int is_beside_emitted(const exposure_view *v, int32_t x, int32_t y)
 {
     float brightest = 0.0f;
     for (int i = 0; i < 27; ++i) {
-        const float e = emitted_at(emitted, x + i % 3 - 1, y + i / 3 % 3 - 1, i / 9);
+        const float e = emitted_at(v, x + i % 3 - 1, y + i / 3 % 3 - 1, i / 9);
         brightest = e > brightest ? e : brightest;
     }
     return brightest > 0.0f;
 }
 
 /* The picture without what is emitted. 1 where anything is left. */
-static int put_reflected(image *out, const render_job *j, const image *emitted)
+static int put_reflected(image *out, const exposure_view *v, const image *linear)
 {
     int any = 0;
     for (int32_t y = 0; y < out->height; ++y) {
         for (int32_t x = 0; x < out->width; ++x) {
-            const size_t from = (size_t)y * (size_t)j->linear.width + (size_t)(j->linear.width - out->width + x);
-            const int mixed = j->frame.samples > 1 && is_beside_emitted(emitted, x, y);
+            const size_t from = (size_t)y * (size_t)linear->width + (size_t)(linear->width - out->width + x);
+            const int mixed = v->samples > 1 && is_beside_emitted(v, x, y);
             for (int c = 0; c < 3; ++c) {
-                const float emits = emitted_at(emitted, x, y, c);
-                const float rest = j->linear.pixels[3 * from + (size_t)c] - emits;
+                const float emits = emitted_at(v, x, y, c), rest = linear->pixels[3 * from + (size_t)c] - emits;
                 const int is_light = !mixed && rest > NOTHING * emits;
                 out->pixels[3 * ((size_t)y * (size_t)out->width + (size_t)x) + (size_t)c] = is_light ? rest : 0.0f;
                 any |= is_light;
@@ -66,120 +136,78 @@ static int put_reflected(image *out, const render_job *j, const image *emitted)
     return any;
 }
 
-static int covers_any(const float *cover, const render_job *j)
+static int covers_any(const exposure_view *v)
 {
-    const size_t pixels = (size_t)j->linear.width * (size_t)j->linear.height;
+    const size_t pixels = (size_t)v->width * (size_t)v->height;
     size_t i = 0;
-    while (i < pixels && cover[i] < 1.0f) {
+    while (i < pixels && v->cover[i] < 1.0f) {
         ++i;
     }
     return i < pixels;
 }
 
-/* The picture without the world behind its surfaces, where there are any, in `inout`'s place: of all eyes, or of the last. */
-static int leave_background(image *inout, const render_job *j, report *r)
+/* The picture without the world behind its surfaces, where there are any, in `inout`'s place: of all eyes, or of the
+ * last. */
+static void leave_background(image *inout, const exposure_view *v)
 {
-    float *cover = background_cover(j, r);
-    const size_t left = (size_t)(j->linear.width - inout->width);
-    for (int32_t y = 0; cover != NULL && covers_any(cover, j) && y < inout->height; ++y) {
+    const size_t left = (size_t)(v->width - inout->width);
+    for (int32_t y = 0; covers_any(v) && y < inout->height; ++y) {
         for (int32_t x = 0; x < inout->width; ++x) {
-            if (cover[(size_t)y * (size_t)j->linear.width + left + (size_t)x] < 1.0f) {
+            if (v->cover[(size_t)y * (size_t)v->width + left + (size_t)x] < 1.0f) {
                 memset(inout->pixels + 3 * ((size_t)y * (size_t)inout->width + (size_t)x), 0, 3 * sizeof(float));
             }
         }
     }
-    free(cover);
-    return cover != NULL;
-}
-
-/* A pixel as it is, or black. 1 where it is inside and has any light. */
-static int keep(image *inout, int32_t x, int32_t y, int is_kept)
-{
-    if (x >= inout->width || y >= inout->height) {
-        return 0;
-    }
-    float *rgb = inout->pixels + 3 * ((size_t)y * (size_t)inout->width + (size_t)x);
-    for (int c = 0; c < 3 && !is_kept; ++c) {
-        rgb[c] = 0.0f;
-    }
-    return rgb[0] + rgb[1] + rgb[2] > 0.0f;
 }
 
 /* The picture without the ground that was put below the scene, in `inout`'s place. 1 where anything is left. */
-static int leave_ground(image *inout, const render_job *j)
+static int leave_ground(image *inout, const exposure_view *v)
 {
-    const lmb_frame *f = &j->render->frame;
-    lmb_tile *tile = &j->frame.scratch->tile;
     int any = 0;
-    for (int32_t y = 0; y < inout->height; y += LMB_TILE) {
-        for (int32_t x = 0; x < inout->width; x += LMB_TILE) {
-            const int shows = lmb_resolve_albedo(tile, f->kernels, &f->view, f->scene, &f->eye, x, y) == LMB_OK;
-            for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
-                const int is_own = shows && tile->id[k] != 0 && tile->id[k] < j->around.ground_id;
-                any |= keep(inout, x + k % LMB_TILE, y + k / LMB_TILE, is_own);
+    for (int32_t y = 0; y < inout->height; ++y) {
+        for (int32_t x = 0; x < inout->width; ++x) {
+            float *rgb = inout->pixels + 3 * ((size_t)y * (size_t)inout->width + (size_t)x);
+            if (x >= v->eye_width || !v->own[(size_t)y * (size_t)v->eye_width + (size_t)x]) {
+                memset(rgb, 0, 3 * sizeof *rgb);
             }
+            any |= rgb[0] + rgb[1] + rgb[2] > 0.0f;
         }
     }
     return any;
 }
 
 /* By what stands on the ground, but with the ground at most so far over white: a black thing on snow is still dark. */
-static float exposure_with_ground(image *inout, const render_job *j)
+static float exposure_with_ground(image *inout, const exposure_view *v)
 {
-    const float all = picture_auto_exposure(inout, j->o.tone);
-    return leave_ground(inout, j) ? fminf(picture_auto_exposure(inout, j->o.tone), all + GROUND_EV) : all;
+    const float all = picture_auto_exposure(inout, v->tone);
+    return leave_ground(inout, v) ? fminf(picture_auto_exposure(inout, v->tone), all + GROUND_EV) : all;
 }
 
-static int take_copy(image *out, const image *from)
+int exposure_of(float *ev, const exposure_view *v, const image *linear, report *r)
 {
-    const size_t bytes = (size_t)from->width * (size_t)from->height * 3 * sizeof(float);
-    *out = *from;
-    out->pixels = malloc(bytes);
-    if (out->pixels != NULL) {
-        memcpy(out->pixels, from->pixels, bytes);
+    image by = {v->eye_width, v->height, 3, NULL};
+    const size_t bytes = (size_t)v->width * (size_t)v->height * 3 * sizeof(float);
+    by.pixels = malloc(bytes);
+    if (by.pixels == NULL) {
+        return short_of_memory(r);
     }
-    return out->pixels != NULL;
-}
-
-static int short_of_memory(const render_job *j, report *r)
-{
-    return report_fail(r, "%s: not enough memory to expose the picture; give --exposure", j->o.out);
-}
-
-/* What surfaces reflect and do not emit, in *out; 0 with `r` set, or with *any 0 where nothing is left. */
-static int take_reflected(image *out, int *any, const render_job *j, report *r)
-{
-    image emitted = *out;
-    const size_t pixels = (size_t)out->width * (size_t)out->height;
-    out->pixels = calloc(pixels, 3 * sizeof(float));
-    emitted.pixels = calloc(pixels, 3 * sizeof(float));
-    const int ok = out->pixels != NULL && emitted.pixels != NULL;
-    for (int32_t y = 0; ok && y < out->height; y += LMB_TILE) {
-        for (int32_t x = 0; x < out->width; x += LMB_TILE) {
-            put_emitted(&emitted, j, x, y);
-        }
+    if (v->emitted == NULL || !put_reflected(&by, v, linear)) {
+        by.width = v->width;
+        memcpy(by.pixels, linear->pixels, bytes);
     }
-    *any = ok && put_reflected(out, j, &emitted);
-    image_free(&emitted);
-    return ok || short_of_memory(j, r);
+    if (v->cover != NULL) {
+        leave_background(&by, v);
+    }
+    const float stops = v->own != NULL ? exposure_with_ground(&by, v) : picture_auto_exposure(&by, v->tone);
+    *ev = stops + 0.0f; /* no minus zero */
+    image_free(&by);
+    return 1;
 }
 
 int render_exposure(float *ev, const render_job *j, report *r)
 {
-    const int32_t show = j->frame.show;
-    const int glows = lmb_scene_emits(&j->scene) && (show == LMB_SHOW_FULL || show == LMB_SHOW_DIRECT);
-    image by = {j->o.view.width, j->linear.height, 3, NULL};
-    int any = 0;
-    int ok = !glows || take_reflected(&by, &any, j, r);
-    if (ok && !any) {
-        image_free(&by);
-        ok = take_copy(&by, &j->linear) || short_of_memory(j, r);
-    }
-    ok = ok && (j->frame.background == NULL || leave_background(&by, j, r));
-    if (ok) {
-        const float stops = j->around.has_ground ? exposure_with_ground(&by, j) : picture_auto_exposure(&by, j->o.tone);
-        *ev = stops + 0.0f; /* no minus zero */
-    }
-    image_free(&by);
+    exposure_view v;
+    const int ok = exposure_look(&v, j, r) && exposure_of(ev, &v, &j->linear, r);
+    exposure_view_free(&v);
     return ok;
 }

@@ -8,6 +8,7 @@
 
 #include "../demo/demo_scene.h"
 #include "../model/io_lmt.h"
+#include "../model/scene_hash.h"
 #include "../picture/picture.h"
 #include "own_light.h"
 #include "render_view.h"
@@ -108,6 +109,10 @@ int render_job_load(render_job *j, report *r)
 {
     if (!load_scene(j, r) || !load_transfer(j, r)) {
         return 0;
+    }
+    if (j->o.slice.count > 0) { /* with what the scene's file has beside it */
+        const uint64_t scene = scene_hash(&j->scene);
+        j->o.slice_job = slice_hash(j->o.slice_job, &scene, sizeof scene);
     }
     const uint32_t left_out = j->o.transfer != NULL ? without_direction(j) : 0;
     if (left_out > 0) {

@@ -161,6 +161,7 @@ static const option_row output_rows[] = {
     {.name = "-o", .value = "OUT", .kind = OPTION_OWN, AT(out), .file = OPTION_WRITES, .parse = picture_option,
      .expects = PICTURE_OPTION_WANTS,
      .help = "the picture: " PICTURE_OPTION_HELP},
+    OPTION_SLICE_ROW(render_options, slice, "picture's rows, eight by eight"),
     {.kind = OPTION_END},
 };
 
@@ -516,6 +517,22 @@ static int check_verb(const render_options *o, int plans, report *r)
     return o->out != NULL || plans || report_fail(r, "no output given; add -o FILE.png (or .ppm .pfm .hdr)");
 }
 
+/* Machines choose alike, so no setting may be chosen by how fast one is. */
+static int check_slice(const render_options *o, report *r)
+{
+    char name[SLICE_NAME];
+    if (o->slice.count == 0) {
+        return 1;
+    }
+    if (o->show >= SHOW_DEPTH) {
+        return report_fail(r, "--slice: only pictures of light are drawn by slices; use --show full, direct or indirect");
+    }
+    if (o->budget_ms > 0.0f && !(o->rate > 0.0f)) {
+        return report_fail(r, "--slice: --budget-ms chooses by the machine's speed; add --rate, or use --budget-work");
+    }
+    return o->out == NULL || slice_name(name, o->out, o->slice, r);
+}
+
 int render_options_parse(render_options *o, int argc, char **argv, report *r)
 {
     render_options_begin(o);
@@ -524,5 +541,14 @@ int render_options_parse(render_options *o, int argc, char **argv, report *r)
     if (asked != OPTIONS_RUN) {
         return asked;
     }
-    return check_verb(o, plans, r) && render_options_complete(o, r) ? OPTIONS_RUN : OPTIONS_BAD;
+    return check_verb(o, plans, r) && check_slice(o, r) && render_options_complete(o, r) ? OPTIONS_RUN : OPTIONS_BAD;
+}
+
+int render_options_job(render_options *inout, const option_table *t, int argc, char **argv, report *r)
+{
+    const char *world = inout->world;
+    const int is_file = world != NULL && strcmp(world, "sky") != 0 && strcmp(world, "none") != 0;
+    return inout->slice.count == 0 ||
+           (slice_job(&inout->slice_job, inout, t, argc, argv, r) &&
+            (!is_file || slice_hash_file(&inout->slice_job, world, r)));
 }

@@ -5,6 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../common/report.h"
+#include "../common/slice.h"
 #include "../common/view_options.h"
 
 #define RENDER_LIGHTS 64 /* --light given at most this often */
@@ -66,6 +67,8 @@ typedef struct render_options {
     float budget_ms;   /* 0: none */
     float rate;        /* units of work a second and thread; 0: measured where it is wanted */
     int json;          /* of `plan` */
+    slice slice;       /* of the picture's rows, or of a sequence's frames */
+    uint64_t slice_job; /* with a slice: of the command line and the files that it names */
 } render_options;
 
 extern const option_table render_table, plan_table;
@@ -81,5 +84,8 @@ int render_options_complete(render_options *inout, report *r);
 
 /* For `render`, and for `plan`, which has no output: argv[0] says which. As options_parse. */
 int render_options_parse(render_options *out, int argc, char **argv, report *r);
+
+/* render_options_job: with a slice, which job it is of: reads the files. 1, or 0 with `r` set. */
+int render_options_job(render_options *inout, const option_table *t, int argc, char **argv, report *r);
 
 #endif

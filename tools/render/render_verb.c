@@ -15,7 +15,7 @@ int render_verb(const option_table *t, int argc, char **argv, int (*run)(render_
         return options_answer(asked, t, &r);
     }
     progress_begin(j.o.view.is_quiet, t->verb);
-    const int ok = run(&j, &r);
+    const int ok = render_options_job(&j.o, t, argc, argv, &r) && run(&j, &r);
     progress_end();
     render_job_free(&j);
     return ok ? 0 : report_end(&r, t->verb, 1);

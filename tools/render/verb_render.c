@@ -9,10 +9,10 @@
 #include "../../platform/host/host.h"
 #include "../picture/grey.h"
 #include "../picture/picture.h"
-#include "background.h"
 #include "budget.h"
 #include "render_draw.h"
-#include "render_exposure.h"
+#include "render_finish.h"
+#include "render_slice.h"
 #include "render_verb.h"
 
 /* What is no light, for display formats. Reflectance, points and groups are in 0 .. 1 already. */
@@ -148,44 +148,28 @@ static int measure_share(render_job *j, report *r)
     return ok;
 }
 
-/* With what lies behind the surfaces, where that is no part of what was drawn. */
-static int write_picture(render_job *j, float ev, int tone, report *r)
+/* What is no light. */
+static int save_other(render_job *j, report *r)
 {
-    if (j->o.background.kind == BACKGROUND_WORLD) {
-        return picture_write(j->o.out, &j->linear, ev, tone, r);
+    const int linear = picture_is_linear(picture_format(j->o.out));
+    if (!linear) {
+        grey_for_display(j);
     }
-    float *cover = background_cover(j, r);
-    int ok = cover != NULL;
-    if (ok && j->o.background.kind == BACKGROUND_TRANSPARENT) {
-        ok = picture_write_alpha(j->o.out, &j->linear, cover, ev, tone, r);
-    } else if (ok) {
-        picture_expose(&j->linear, ev, tone);
-        background_colour(&j->linear, j, cover);
-        ok = picture_write(j->o.out, &j->linear, 0.0f, PICTURE_CLIPPED, r);
-    }
-    free(cover);
-    return ok;
+    return (j->linear.channels != 1 || picture_format(j->o.out) == PICTURE_PFM || image_widen(&j->linear, r)) &&
+           picture_write(j->o.out, &j->linear, 0.0f, PICTURE_CLIPPED, r);
 }
 
 static int save(render_job *j, report *r)
 {
-    float ev = j->o.exposure_ev;
-    int linear = picture_is_linear(picture_format(j->o.out));
+    render_finish f;
     if (j->o.show >= SHOW_DEPTH) {
-        ev = 0.0f;
-        if (!linear) {
-            grey_for_display(j);
-        }
-        if (j->linear.channels == 1 && picture_format(j->o.out) != PICTURE_PFM && !image_widen(&j->linear, r)) {
-            return 0;
-        }
-    } else if (j->o.exposure_auto && !linear) {
-        if (!render_exposure(&ev, j, r)) {
-            return 0;
-        }
-        report_note(j->o.view.is_quiet, "exposure %+.3g EV (auto)", (double)ev);
+        return save_other(j, r);
     }
-    return write_picture(j, ev, j->o.show < SHOW_DEPTH ? j->o.tone : PICTURE_CLIPPED, r);
+    const int ok = finish_begin(&f, j, r) && (j->o.slice.count > 0
+                                                  ? render_slice_write(j, &f, r)
+                                                  : finish_write(&f, j->o.out, &j->linear, j->o.view.is_quiet, r));
+    finish_free(&f);
+    return ok;
 }
 
 /* Strict zones: what they lost [V20]. */
@@ -227,11 +211,14 @@ static int run(render_job *j, report *r)
         return 0;
     }
     j->load_s = host_seconds() - start;
+    j->workers.slice = j->o.slice;
     budget_choice choice;
     if (!render_job_set(j, r) || (has_budget(&j->o.budget, j->o.budget_ms) && !budget_fit(&choice, j, r)) ||
         !render_draw(j, r)) {
         return 0;
     }
+    report_note(j->o.view.is_quiet || j->o.slice.count == 0 || j->frame.gather_step != LMB_GATHER_ADAPTIVE,
+                "note: --gather adaptive takes its samples from the whole picture in every slice; full or half is shared");
     tell_loss(j);
     tell_regroups(j);
     tell_full_cuts(j);
@@ -239,7 +226,8 @@ static int run(render_job *j, report *r)
         report_note(j->o.view.is_quiet, "note: %u triangles dropped: vertices not finite or over 2^20 m away",
                     (unsigned)j->stats.triangles_dropped);
     }
-    const int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL && !j->o.view.is_quiet;
+    const int demo = strcmp(j->o.scene, "demo") == 0 && j->o.show == LMB_SHOW_FULL && !j->o.view.is_quiet &&
+                     j->o.slice.count == 0;
     if (demo && !measure_share(j, r)) {
         return 0;
     }

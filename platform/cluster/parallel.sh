@@ -1,0 +1,29 @@
+#!/bin/sh
+# parallel.sh: one picture or sequence on many machines, by GNU parallel over ssh.
+#
+#   sh parallel.sh N HOSTS render SCENE -o OUT [options]     or play
+#
+# N: slices; two or more a machine let fast ones do more. HOSTS: as parallel's --sshlogin: host1,host2, where `:` is this
+# machine and 2/host1 runs two at once. LAMBENT: the command on all of them (default lambent). SEND: files to send there
+# first, by relative names: the scene and what lies beside it; without it the machines share this folder, by one path.
+# A slice that fails is tried three times, on other machines where there are any; what is there already is made again.
+set -eu
+[ $# -ge 5 ] || { sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 2; }
+count=$1 hosts=$2
+shift 2
+out= previous=
+for word in "$@"; do
+    [ "$previous" != -o ] || out=$word
+    previous=$word
+done
+[ -n "$out" ] || { echo "parallel.sh: no -o OUT" >&2; exit 2; }
+lambent=${LAMBENT:-lambent}
+there="--workdir $PWD"
+[ -z "${SEND:-}" ] || there="--workdir ... --cleanup --return $out.{}of$count"
+for file in ${SEND:-}; do
+    there="$there --basefile $file"
+done
+rm -f "$out".*of"$count"
+# shellcheck disable=SC2086 # words of `there` are words
+seq "$count" | parallel --quote --sshlogin "$hosts" --retries 3 $there "$lambent" "$@" --quiet --slice "{}/$count" || true
+exec "$lambent" merge "$out".*of"$count" -o "$out"

@@ -1,0 +1,34 @@
+#!/bin/sh
+# slurm.sh: one picture or sequence as a Slurm job array, and the job that joins it.
+#
+#   sh slurm.sh N render SCENE -o OUT [options]     or play
+#
+# N: slices, which Slurm runs as machines are free. The machines share this folder. LAMBENT: the command on all of them
+# (default lambent). SBATCH: options for each job, as "--partition=long --cpus-per-task=8". A slice that fails is
+# tried three times, one whose machine is lost is made again; the command waits for the end and has the merge's status.
+set -eu
+lambent=${LAMBENT:-lambent}
+if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then # a slice
+    count=$1
+    shift
+    for try in 1 2 3; do
+        "$lambent" "$@" --quiet --slice "$SLURM_ARRAY_TASK_ID/$count" && exit 0
+        echo "slurm.sh: slice $SLURM_ARRAY_TASK_ID/$count failed at try $try" >&2
+    done
+    exit 1
+fi
+if [ -n "${MERGE:-}" ]; then # the last job
+    exec "$lambent" merge "$2".*of"$1" -o "$2"
+fi
+[ $# -ge 4 ] || { sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 2; }
+count=$1 out= previous=
+for word in "$@"; do
+    [ "$previous" != -o ] || out=$word
+    previous=$word
+done
+[ -n "$out" ] || { echo "slurm.sh: no -o OUT" >&2; exit 2; }
+rm -f "$out".*of"$count"
+# shellcheck disable=SC2086 # words of SBATCH are words
+array=$(sbatch --parsable --requeue --array="1-$count" ${SBATCH:-} "$0" "$@")
+# shellcheck disable=SC2086
+MERGE=1 sbatch --wait --dependency="afterany:${array%%;*}" ${SBATCH:-} "$0" "$count" "$out"

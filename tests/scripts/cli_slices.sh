@@ -1,0 +1,75 @@
+# cli_slices.sh: work in slices and joined, and light for other engines. A part of cli.sh, whose functions and files it
+# uses.
+
+s=$dir/slices
+mkdir -p "$s"
+
+# Four slices have the bytes of one machine: with what the exposure looks at, of two eyes, and of frames.
+slices() { # slices NAME WORD...: NAME whole and by four slices
+    name=$1
+    shift
+    status 0 "$@" -o "$s/whole-$name"
+    for i in 3 1 4 2; do
+        status 0 "$@" --slice $i/4 -o "$s/$name"
+    done
+    status 0 merge "$s/$name".*of4 -o "$s/$name"
+}
+tiny="--size 48x77 --quality draft --shadow-map 64 --tree 64"
+for how in "" "--background transparent" "--stereo 0.1 --light point:0,1.5,0:0,-1,0:6,6,6"; do
+    slices joined.png render demo $tiny $how
+    check "four slices are one picture: $how" cmp "$s/whole-joined.png" "$s/joined.png"
+done
+slices joined.pfm render demo $tiny
+check "four slices are one picture of light" cmp "$s/whole-joined.pfm" "$s/joined.pfm"
+slices f%02d.ppm play demo $tiny --frames 5
+for i in 0 1 2 3 4; do
+    check "four slices are one sequence: frame $i" cmp "$s/whole-f0$i.ppm" "$s/f0$i.ppm"
+done
+
+# What is cut off, damaged, missing, there twice, or of another job.
+one=$s/joined.pfm
+head -c 3000 "$one.2of4" >"$s/cut"
+{ head -c 2000 "$one.2of4"; printf X; tail -c +2002 "$one.2of4"; } >"$s/damaged"
+for bad in cut damaged; do
+    rm -f "$s/bad.pfm"
+    status 1 merge -q "$one.1of4" "$s/$bad" "$one.3of4" "$one.4of4" -o "$s/bad.pfm"
+    said "of 4 slices 1 is missing: 2"
+    absent "$s/bad.pfm"
+    status 0 merge "$one.4of4" "$s/$bad" "$one.3of4" "$one.1of4" "$one.2of4" "$one.4of4" -o "$s/mended.pfm"
+    check "a slice that is $bad is told of" grep -q "$bad: .*; it is left out" "$dir/err.txt"
+    check "one that is there twice is told of" grep -q "slice 4 of 4 once more, the same as" "$dir/err.txt"
+    check "and both lose nothing" cmp "$s/mended.pfm" "$s/whole-joined.pfm"
+done
+status 1 merge -q "$one.4of4" -o "$s/bad.pfm"
+said "of 4 slices 3 are missing: 1, 2, 3"
+status 0 render demo $tiny --bounces 2 --slice 2/4 -o "$s/other.pfm"
+status 1 merge -q "$one.1of4" "$s/other.pfm.2of4" "$one.3of4" "$one.4of4" -o "$s/bad.pfm"
+said "of another job"
+status 0 render demo --shadow-map 64 --tree 64 --quality draft --size 48x77 --threads 2 --slice 2/4 -o "$s/again.pfm"
+check "the same options in any order are the same slice" cmp "$s/again.pfm.2of4" "$one.2of4"
+status 1 merge "$one".*of4 -o "$s/bad.png"
+said "the slices were made for a *.pfm"
+status 2 render demo $tiny --slice 5/4 -o "$s/bad.pfm"
+status 2 render demo $tiny --slice 1/4 --show depth -o "$s/bad.pfm"
+status 2 play demo $tiny --slice 1/4
+status 2 merge
+check "nothing bad was joined" sh -c '! ls "$1"/bad* 2>/dev/null | grep -q .' sh "$s"
+
+# Light for other engines, read back and drawn, is the light it was baked from.
+light="--elements 256 --receivers 700"
+trim() { sed -n 's/.* trim \([0-9.]*\),.*/\1/p' "$dir/out.txt"; }
+under() { awk -v is="$(trim)" -v bar="$1" 'BEGIN { exit !(is != "" && is < bar) }'; }
+status 0 bake demo $light --to vertex-colours -o "$s/colours.glb"
+check "vertex colours are that light: $(trim)" under 0.02
+status 0 bake demo $light --to lightmap --texels 1024 -o "$s/map.glb"
+check "a lightmap is that light: $(trim)" under 0.02
+status 0 bake demo $light --to probes --step 0.8 -o "$s/air.json"
+check "probes say how far they are from it: $(trim)" under 0.2
+check "they have their numbers beside them" test -s "$s/air.bin"
+for name in colours map; do
+    status 0 render "$s/$name.glb" --size 48x32 -q -o "$s/$name.png"
+done
+status 2 bake demo $light --to lightmap -o "$s/bad.png"
+said "--to lightmap writes a .glb"
+status 2 bake demo $light --bounces 2 -o "$s/bad.lmt"
+status 2 bake demo $light --to probes --moving 0 -o "$s/bad.json"

@@ -1,0 +1,51 @@
+/* light_export.h: `lambent bake --to`: bounced light in forms that other engines draw. */
+#ifndef LIGHT_EXPORT_H
+#define LIGHT_EXPORT_H
+
+#include "../model/glb_write.h"
+#include "bake.h"
+#include "light_solve.h"
+
+enum { LIGHT_TRANSFER, LIGHT_COLOURS, LIGHT_MAP, LIGHT_PROBES };
+
+/* A corner of a triangle in the world. */
+typedef struct light_corner {
+    lmb_vec3 at, normal;
+    float uv[2], colour[4];
+} light_corner;
+
+/* light_corners: of triangle `id`'s front or back, counter-clockwise from that side. */
+int light_corners(light_corner out[3], lmb_vec3 *face, const lmb_scene *scene, uint32_t id, uint32_t back);
+light_corner light_between(const light_corner *a, const light_corner *b);
+
+/* A mesh that grows by corners; those with equal bytes are one vertex. light_mesh_put: 1, or 0 with `r` set. */
+enum { LIGHT_SLOTS = 1 << 16 };
+typedef struct light_mesh {
+    glb_mesh mesh;
+    int32_t *slot, *next; /* of vertices by their bytes */
+} light_mesh;
+
+int light_mesh_begin(light_mesh *m, uint32_t material, report *r);
+void light_mesh_end(light_mesh *m); /* all but the mesh itself */
+int light_mesh_put(light_mesh *m, const glb_vertex *v, report *r);
+void light_vertex_of(glb_vertex *out, const light_corner *c);
+
+/* light_colours, light_picture: the GLB. light_probes: the JSON, and the numbers beside it; then as light_check. 1, or 0 with
+ * `r` set. */
+int light_colours(const char *path, light_solve *s, const model *loaded, report *r);
+int light_picture(const char *path, light_solve *s, const model *loaded, int32_t side, report *r);
+int light_probes(const char *path, light_solve *s, bake *b, float step_m, int is_quiet, report *r);
+
+/* What a form says of a place of its scene, W/m2. */
+typedef struct light_source {
+    const lmb_scene *scene;
+    void (*light)(float out[3], const void *user, uint32_t id, lmb_vec3 at, lmb_vec3 normal);
+    const void *user;
+} light_source;
+
+/* light_check: the file, read back and drawn, against the light it was baked from, as one view sees it: says the error.
+ * light_compare: the same of any form. */
+int light_check(const char *path, light_solve *s, const char *form, int is_quiet, report *r);
+int light_compare(const char *path, light_solve *s, const light_source *of, const char *form, int is_quiet, report *r);
+
+#endif

@@ -1,0 +1,95 @@
+/* verb_merge.c: `lambent merge`: the slices of one job, checked and joined to the bytes of one machine. */
+#include "verb_merge.h"
+
+#include <string.h>
+
+#include "../common/io_file.h"
+#include "../common/options.h"
+#include "../common/progress.h"
+#include "../common/slice.h"
+#include "../play/play_slice.h"
+#include "../render/render_slice.h"
+
+enum { FILES = 2 * SLICE_MOST };
+
+typedef struct options {
+    const char *slice[FILES], *out;
+    int32_t slices;
+    int is_quiet, is_verbose;
+} options;
+
+#define AT(member) .at = offsetof(options, member)
+
+static const option_row rows[] = {
+    {.name = "SLICE", .value = "", .kind = OPTION_TEXT, AT(slice), .counts = offsetof(options, slices), .times = FILES,
+     .size = sizeof(const char *),
+     .help = "what `--slice I/N` wrote, OUT.IofN: all N of one job, in any order; the same one may be there twice"},
+    {.name = "-o", .value = "OUT", .kind = OPTION_TEXT, AT(out),
+     .help = "what the slices are of, with the ending that they were made for; of frames the pattern, frame_%04d.png"},
+    OPTION_LOUDNESS(options, is_quiet, is_verbose, "say of what job the slices are"),
+    OPTION_ASK,
+    {.kind = OPTION_END},
+};
+
+static const option_table table = {
+    .verb = "merge",
+    .usage = "merge SLICE... -o OUT",
+    .about = "Joins what `lambent render` and `play` made with --slice I/N, on as many machines: the "
+             "output has the bytes that one machine would have written.\n"
+             "A slice carries a hash of its inputs, options and version, and one of itself. Slices that are cut off or "
+             "damaged are told of and left out; what is missing is named, and nothing is written; a slice of another "
+             "job is refused, and so are two of one number that differ. Making a slice again gives the same file.",
+    .part = {rows},
+    .examples = "  lambent render demo --size 64x48 --slice 1/2 -o joined.png\n"
+                "  lambent render demo --size 64x48 --slice 2/2 -o joined.png\n"
+                "  lambent merge joined.png.*of2 -o joined.png\n",
+};
+
+static int is_complete(const options *o, report *r)
+{
+    if (o->slices == 0) {
+        return report_fail(r, "no slices given; try: lambent merge OUT.*of4 -o OUT");
+    }
+    return o->out != NULL || report_fail(r, "no output given; add -o OUT");
+}
+
+/* A file that is read may not be written over. */
+static int keep_all(const options *o, report *r)
+{
+    for (int32_t i = 0; i < o->slices; ++i) {
+        if (!file_keep(o->slice[i], r)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static int join(const options *o, report *r)
+{
+    static slice_set set; /* large */
+    if (!keep_all(o, r) || !slice_gather(&set, o->slice, o->slices, o->is_quiet, r)) {
+        return 0;
+    }
+    report_note(!o->is_verbose, "%s: %d slices", set.about, (int)set.count);
+    switch (set.kind) {
+    case SLICE_RENDER: return file_can_write(o->out, r) && render_slice_merge(o->out, &set, o->is_quiet, r);
+    case SLICE_PLAY: return play_slice_merge(o->out, &set, r);
+    default: return report_fail(r, "%s: slices of what this version does not know", set.first);
+    }
+}
+
+int verb_merge(int argc, char **argv)
+{
+    report r = {""};
+    static options o; /* large */
+    memset(&o, 0, sizeof o);
+    int asked = options_parse(&o, &table, argc, argv, &r);
+    asked = asked == OPTIONS_RUN && !is_complete(&o, &r) ? OPTIONS_BAD : asked;
+    if (asked != OPTIONS_RUN) {
+        return options_answer(asked, &table, &r);
+    }
+    progress_begin(o.is_quiet, "merge");
+    const int ok = join(&o, &r);
+    progress_end();
+    return ok ? 0 : report_end(&r, "merge", 1);
+}
