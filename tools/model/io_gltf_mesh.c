@@ -7,6 +7,30 @@
 
 enum { MODE_TRIANGLES = 4, MODE_STRIP = 5, MODE_FAN = 6 };
 
+int gltf_attribute(gltf_accessor *a, uint32_t *index, gltf *g, uint32_t reference, uint32_t components, uint32_t other,
+                   uint32_t count)
+{
+    if (!gltf_index(index, g, &g->accessors, reference))
+        return 0;
+    if (*index == JSON_NONE)
+        return 1;
+    if (!gltf_accessor_open(a, g, g->accessors.items[*index]))
+        return 0;
+    if ((a->components != components && a->components != other) || a->component == GLTF_U32)
+        return json_fail(&g->doc, reference, g->b->r, "accessor %u has a type that this attribute does not take",
+                         (unsigned)*index);
+    if (count && a->count != count)
+        return json_fail(&g->doc, reference, g->b->r, "%u elements, but POSITION has %u; all must have as many",
+                         (unsigned)a->count, (unsigned)count);
+    return 1;
+}
+
+float *gltf_floats(gltf *g, const gltf_accessor *a)
+{
+    float *values = (float *)build_scratch(g->b, (uint64_t)a->count * a->components, sizeof *values);
+    return values && gltf_accessor_floats(values, g, a) ? values : NULL;
+}
+
 static int read_positions(lmb_mesh *out, gltf *g, uint32_t reference)
 {
     gltf_accessor a;
@@ -239,6 +263,41 @@ static int refuse_draco(gltf *g, uint32_t primitive, uint32_t position)
     return json_fail(&g->doc, draco, g->b->r, "Draco geometry without a plain copy; %s", GLTF_UNDO_DRACO);
 }
 
+/* `keeps` components a vertex, or *out NULL where there is no such attribute. */
+static int read_baked_values(float **out, gltf *g, uint32_t reference, uint32_t keeps, uint32_t vertices)
+{
+    gltf_accessor a;
+    uint32_t index;
+    *out = NULL;
+    if (!gltf_attribute(&a, &index, g, reference, keeps, keeps == 3 ? 4 : keeps, vertices)) {
+        return 0;
+    }
+    if (index == JSON_NONE) {
+        return 1;
+    }
+    float *all = gltf_floats(g, &a);
+    *out = build_keep(g->b, (uint64_t)a.count * keeps, sizeof **out);
+    if (all == NULL || *out == NULL) {
+        return 0;
+    }
+    for (uint32_t i = 0; i < a.count; ++i) {
+        for (uint32_t c = 0; c < keeps; ++c) {
+            (*out)[keeps * (size_t)i + c] = all[a.components * (size_t)i + c];
+        }
+    }
+    return 1;
+}
+
+/* Of a file that `lambent bake --to` wrote, COLOR_1 and TEXCOORD_1 of the next mesh. */
+static int read_baked(gltf *g, const lmb_mesh *m, uint32_t attributes)
+{
+    model_light *l = &g->b->out->light;
+    const uint32_t mesh = g->b->mesh_count;
+    return !(l->scale > 0.0f) ||
+           (read_baked_values(&l->colour[mesh], g, json_member(&g->doc, attributes, "COLOR_1"), 3, m->vertex_count) &&
+            read_baked_values(&l->uv[mesh], g, json_member(&g->doc, attributes, "TEXCOORD_1"), 2, m->vertex_count));
+}
+
 /* One primitive to the next free mesh; none for points, lines and what has no triangle. */
 static int read_primitive(gltf *g, uint32_t primitive)
 {
@@ -260,7 +319,7 @@ static int read_primitive(gltf *g, uint32_t primitive)
         !read_uvs(out, g, attributes, material) ||
         !read_tangents(out, g, json_member(&g->doc, attributes, "TANGENT"), material) ||
         !read_colours(out, g, json_member(&g->doc, attributes, "COLOR_0")) ||
-        !gltf_light_mesh(g, out, attributes) || !read_triangles(out, g, primitive, mode))
+        !read_baked(g, out, attributes) || !read_triangles(out, g, primitive, mode))
         return 0;
     if (out->triangle_count == 0)
         return 1;
