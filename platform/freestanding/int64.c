@@ -163,6 +163,7 @@ double __floatdidf(int64_t a);
 double __floatdidf(int64_t a)
 {
     const uint32_t low = (uint32_t)a;
-    return (double)(int32_t)(a >> 32) * 4294967296.0 + ((double)(int32_t)(low >> 1) * 2.0 + (double)(int32_t)(low & 1u));
+    const double of_low = (double)(int32_t)(low >> 1) * 2.0 + (double)(int32_t)(low & 1u);
+    return (double)(int32_t)(a >> 32) * 4294967296.0 + of_low;
 }
 #endif

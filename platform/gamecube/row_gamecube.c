@@ -4,8 +4,8 @@
  *     Cb = (-38 R -  74 G + 112 B + 128 * 256 + 128) / 256        of the mean of two pixels' R, G, B, each rounded down
  *     Cr = (112 R -  94 G -  18 B + 128 * 256 + 128) / 256        likewise
  *
- * which is ITU-R BT.601 with Y of 16 to 235. Y is made by products, of two pixels at once where a word holds both; Cb and Cr
- * come from tables, so that loads and products share the work. */
+ * which is ITU-R BT.601 with Y of 16 to 235. Y is made by products, of two pixels at once where a word holds both; Cb
+ * and Cr come from tables, so that loads and products share the work. */
 #include "port_gamecube.h"
 
 enum { LINE = 32 /* bytes of a line of the data cache */ };
