@@ -5,8 +5,8 @@ CFLAGS       ?= -O2
 include platform/freestanding/tools.mk
 
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
-# By pixel with registers of 32 bits: with those of 64 mupen64plus' recompiler reads past an array in the kernels, though
-# qemu does not. Its interpreters (ROOM_MODE=0, 1) make denormals 0, which lmb_build_check refuses.
+# By pixel with registers of 32 bits: with those of 64 mupen64plus' recompiler reads past an array in the kernels,
+# though qemu does not. Its interpreters (ROOM_MODE=0, 1) make denormals 0, which lmb_build_check refuses.
 N64_ABI      := $(if $(filter pixel,$(ROOM)),-mabi=32 -mfp32,-mabi=n32)
 PORT_CFLAGS  := -march=vr4300 $(N64_ABI) -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
