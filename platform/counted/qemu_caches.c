@@ -359,8 +359,9 @@ static void access_memory(unsigned cpu, uint32_t info, uint64_t at, void *user)
     bool lost = false;
     (void)cpu;
     if (m->kind == CLEAR_LINE || m->kind == FLUSH_LINE) {
-        if (m->kind == CLEAR_LINE)
-            touch(&data, at, true, &lost);
+        if (m->kind == CLEAR_LINE && !touch(&data, at, true, &lost))
+            now += is_screen ? 10 : 0;
+        pay(m, before);
         return;
     }
     if (is_store)

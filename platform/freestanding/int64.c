@@ -155,3 +155,15 @@ int __popcountsi2(uint32_t a)
 int __popcountdi2(uint64_t a) { return __popcountsi2((uint32_t)a) + __popcountsi2((uint32_t)(a >> 32)); }
 
 uint32_t __bswapsi2(uint32_t a) { return a << 24 | (a & 0xff00u) << 8 | (a >> 8 & 0xff00u) | a >> 24; }
+
+#if defined(__mips_hard_float)
+double __floatdidf(int64_t a);
+
+/* Both halves are exact, so that the sum alone is rounded. */
+double __floatdidf(int64_t a)
+{
+    const uint32_t low = (uint32_t)a;
+    const double of_low = (double)(int32_t)(low >> 1) * 2.0 + (double)(int32_t)(low & 1u);
+    return (double)(int32_t)(a >> 32) * 4294967296.0 + of_low;
+}
+#endif

@@ -25,7 +25,7 @@ $(B)/room: platform/gamecube/start_gamecube.S
 $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-distribute-patterns
 
 COUNTED       := GAMECUBE
-COUNTED_ROWS  ?= 8
+COUNTED_ROWS  ?= 6
 COUNTED_AT    := 0x10003100
 COUNTED_SRC   := platform/gamecube/row_gamecube.c
 COUNTED_QEMU  := qemu-ppc

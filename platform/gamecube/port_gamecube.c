@@ -9,7 +9,7 @@
 #include "../demo/room_port.h"
 #include "../port.h"
 
-enum { WIDTH = 640, HEIGHT = 480, ROWS = 8 };
+enum { WIDTH = 640, HEIGHT = 480, ROWS = 6 };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS,
               port_format = LMB_FIXED_RGB888;

@@ -4,59 +4,67 @@
  *     Cb = (-38 R -  74 G + 112 B + 128 * 256 + 128) / 256        of the mean of two pixels' R, G, B, each rounded down
  *     Cr = (112 R -  94 G -  18 B + 128 * 256 + 128) / 256        likewise
  *
- * which is ITU-R BT.601 with Y of 16 to 235. Products come from tables: the processor has one unit that multiplies. */
+ * which is ITU-R BT.601 with Y of 16 to 235. Y is made by products, of two pixels at once where a word holds both; Cb
+ * and Cr come from tables, so that loads and products share the work. */
 #include "port_gamecube.h"
 
 enum { LINE = 32 /* bytes of a line of the data cache */ };
 
 static struct {
-    uint16_t y[3][256];
     uint32_t chroma[3][256]; /* Cb * 65536 + Cr: of the sum both are positive */
     uint32_t is_made;
 } table;
 
 static void make_tables(void)
 {
-    static const int32_t y[3] = {66, 129, 25}, cb[3] = {-38, -74, 112}, cr[3] = {112, -94, -18};
+    static const int32_t cb[3] = {-38, -74, 112}, cr[3] = {112, -94, -18};
     for (int32_t i = 0; i < 3; ++i)
-        for (int32_t v = 0; v < 256; ++v) {
-            table.y[i][v] = (uint16_t)(y[i] * v + (i == 1 ? 16 * 256 + 128 : 0));
+        for (int32_t v = 0; v < 256; ++v)
             table.chroma[i][v] = (uint32_t)(cb[i] * v) * 65536u + (uint32_t)(cr[i] * v) + (i == 1 ? 0x80808080u : 0u);
-        }
     table.is_made = 1;
 }
 
-/* The tables by six addresses in registers, which the compiler would else make of one each time. */
-typedef struct bases {
-    const uint16_t *y[3];
-    const uint32_t *chroma[3];
-} bases;
+/* Addresses and masks in registers, which the compiler would else make anew each time. */
+typedef struct kept {
+    const uint32_t *red, *green, *blue;
+    uint32_t luma_half, luma_mask, chroma_mask, mean_mask;
+} kept;
 
-static inline uint32_t luma(const bases *t, uint32_t c)
+/* 256 Y of both, one in each half. Red times 66 and blue times 25 meet in a product's high half; below it there is blue
+ * times 66 alone, which carries nothing. */
+static inline uint32_t lumas(const kept *k, uint32_t a, uint32_t b)
 {
-    return (uint32_t)t->y[0][c >> 16] + t->y[1][c >> 8 & 255u] + t->y[2][c & 255u];
+    const uint32_t red_blue = 25u << 16 | 66u, green = (a << 8 & 0xff0000u) | (b >> 8 & 255u);
+    const uint32_t of_a = (a & k->chroma_mask) * red_blue, of_b = (b & k->chroma_mask) * red_blue;
+    return ((of_a & 0xffff0000u) | of_b >> 16) + green * 129u + k->luma_half;
 }
 
-static inline uint32_t two(const bases *t, uint32_t a, uint32_t b)
+static inline uint32_t chroma(const kept *k, uint32_t a, uint32_t b)
 {
-    const uint32_t mean = (a & b) + ((a ^ b) >> 1 & 0x7f7f7fu);
-    const uint32_t c = t->chroma[0][mean >> 16] + t->chroma[1][mean >> 8 & 255u] + t->chroma[2][mean & 255u];
-    return (luma(t, a) << 16 & 0xff000000u) | (c >> 8 & 0xff00ffu) | (luma(t, b) & 0xff00u);
+    const uint32_t mean = (a & b) + ((a ^ b) >> 1 & k->mean_mask);
+    return k->red[mean >> 16] + k->green[mean >> 8 & 255u] + k->blue[mean & 255u];
+}
+
+static inline uint32_t two(const kept *k, uint32_t a, uint32_t b)
+{
+    return (lumas(k, a, b) & k->luma_mask) | (chroma(k, a, b) >> 8 & k->chroma_mask);
 }
 
 void gamecube_row(uint32_t *out, const uint32_t *rgb, int32_t width)
 {
-    bases t;
+    kept k = {table.chroma[0], table.chroma[1], table.chroma[2], 0x10801080u, 0xff00ff00u, 0xff00ffu, 0x7f7f7fu};
     if (!table.is_made)
         make_tables();
-    for (int i = 0; i < 3; ++i) {
-        t.y[i] = table.y[i], t.chroma[i] = table.chroma[i];
-        __asm__("" : "+r"(t.y[i]), "+r"(t.chroma[i]));
-    }
-    for (const uint32_t *end = rgb + width; rgb < end; rgb += 16, out += LINE / 4) {
-        __asm__ volatile("dcbz 0, %0" : : "r"(out) : "memory"); /* the line is ours without being fetched */
-        for (int i = 0; i < LINE / 4; ++i)
-            out[i] = two(&t, rgb[2 * i], rgb[2 * i + 1]);
-        __asm__ volatile("dcbf 0, %0" : : "r"(out) : "memory"); /* and goes to RAM, where it is shown from */
+    __asm__("" : "+r"(k.red), "+r"(k.green), "+r"(k.blue));
+    __asm__("" : "+r"(k.luma_half), "+r"(k.luma_mask), "+r"(k.chroma_mask), "+r"(k.mean_mask));
+    for (const uint32_t *end = rgb + width; rgb < end;) {
+        uint32_t *const line = out;
+        __asm__ volatile("dcbz 0, %0" : : "r"(line) : "memory"); /* the line is ours without being fetched */
+        /* Two words at a time: while one waits for its products the other goes on. */
+        for (; out < line + LINE / 4; rgb += 4, out += 2) {
+            const uint32_t first = two(&k, rgb[0], rgb[1]), second = two(&k, rgb[2], rgb[3]);
+            out[0] = first, out[1] = second;
+        }
+        __asm__ volatile("dcbf 0, %0" : : "r"(line) : "memory"); /* and goes to RAM, where it is shown from */
     }
 }

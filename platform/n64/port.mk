@@ -5,7 +5,10 @@ CFLAGS       ?= -O2
 include platform/freestanding/tools.mk
 
 PORT_SRC     := $(addprefix platform/freestanding/,memory.c int64.c floorf.c)
-PORT_CFLAGS  := -march=vr4300 -mabi=n32 -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
+# By pixel with registers of 32 bits: with those of 64 mupen64plus' recompiler reads past an array in the kernels,
+# though qemu does not. Its interpreters (ROOM_MODE=0, 1) make denormals 0, which lmb_build_check refuses.
+N64_ABI      := $(if $(filter pixel,$(ROOM)),-mabi=32 -mfp32,-mabi=n32)
+PORT_CFLAGS  := -march=vr4300 $(N64_ABI) -mno-abicalls -fno-pic -G0 -mno-check-zero-division -ffreestanding \
                 -fbuiltin -fno-stack-protector -ffunction-sections -fdata-sections -isystem platform/freestanding
 PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
                 -Wl,--no-warn-rwx-segments -T platform/n64/n64.ld
@@ -35,5 +38,5 @@ $(B)/obj/platform/freestanding/memory.o: COMPILE += -fno-builtin -fno-tree-loop-
 COUNTED       := N64
 COUNTED_ROWS  ?= 12
 COUNTED_AT    := 0x400400
-COUNTED_QEMU  := qemu-mipsn32
+COUNTED_QEMU  := $(if $(filter pixel,$(ROOM)),qemu-mips,qemu-mipsn32)
 COUNTED_MODEL := vr4300

@@ -26,6 +26,22 @@ enum { VI_CONTROL, VI_ORIGIN, VI_WIDTH, VI_INTERRUPT, VI_LINE };
 #define SI(n) (*reg(0xa4800000u + 4 * (n)))
 enum { SI_RAM, SI_READ, SI_WRITE = 4, SI_STATUS = 6 };
 
+/* --- video interface ------------------------------------------------------------------------------------------- */
+
+static uint32_t lit; /* whether the video interface shows anything yet */
+
+/* NTSC, 320 x 240 of 16 bits: no anti-aliasing, each pixel on two dots. */
+static void light_up(void)
+{
+    static const uint32_t from_interrupt[] = {0x200,      0,       0x03e52239, 0x20d,      0xc15,
+                                              0x0c150c15, 0x6c02ec, 0x220202, 0x0e0204, 0x200, 0x400};
+    VI(VI_CONTROL) = 0x3202;
+    VI(VI_WIDTH) = WIDTH;
+    for (uint32_t i = 0; i < sizeof from_interrupt / sizeof *from_interrupt; ++i)
+        VI(VI_INTERRUPT + i) = from_interrupt[i];
+    lit = 1;
+}
+
 /* --- text and end ------------------------------------------------------------------------------------------------- */
 
 /* In lines of the cache of its own, as all of it goes past the cache. */
@@ -45,8 +61,11 @@ static void viewer_put(const char *text)
     *reg(0xb3ff0014u) = n;
 }
 
+/* Emulators look at text once a field, and there are none before the video interface is on. */
 void port_put(const char *text)
 {
+    if (!lit)
+        light_up();
     text_block_put((text_block *)((uintptr_t)&said | 0x20000000u), text);
     viewer_put(text);
 }
@@ -92,24 +111,10 @@ uint32_t port_clock(void)
 
 /* --- picture ------------------------------------------------------------------------------------------------------ */
 
-static uint32_t lit; /* whether the video interface shows anything yet */
-
 uint16_t *port_screen_rows(int32_t y)
 {
     n64_make_lines(screens[hidden][y], sizeof screens[hidden][y] * (size_t)(HEIGHT - y < ROWS ? HEIGHT - y : ROWS));
     return screens[hidden][y];
-}
-
-/* NTSC, 320 x 240 of 16 bits: no anti-aliasing, each pixel on two dots. */
-static void light_up(void)
-{
-    static const uint32_t from_interrupt[] = {0x200,      0,       0x03e52239, 0x20d,      0xc15,
-                                              0x0c150c15, 0x6c02ec, 0x220202, 0x0e0204, 0x200, 0x400};
-    VI(VI_CONTROL) = 0x3202;
-    VI(VI_WIDTH) = WIDTH;
-    for (uint32_t i = 0; i < sizeof from_interrupt / sizeof *from_interrupt; ++i)
-        VI(VI_INTERRUPT + i) = from_interrupt[i];
-    lit = 1;
 }
 
 /* The field that is under way still reads the other screen: the change is seen with the next. */

@@ -63,7 +63,11 @@
     .global start
 start:
 #include "../consoles/begin_mips.S"
-    lui   $8, 0x2400            /* Status: the FPU is on, with 32 registers of 64 bits; interrupts are off */
+#if _MIPS_SIM == _ABIO32
+    lui   $8, 0x2000            /* Status: the FPU is on, with registers in pairs; interrupts are off */
+#else
+    lui   $8, 0x2400            /* likewise, with 32 registers of 64 bits */
+#endif
     mtc0  $8, $12
     nop
     nop

@@ -14,9 +14,12 @@ RUN          := false
 
 ROOM_SRC     := platform/ps1/port_ps1.c $(addprefix platform/consoles/,ram_program.c screen_16.c) $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.exe
-ROOM_RUN      = ROOM_PICTURE=$(B)/room.ppm sh platform/ps1/run.sh $(B) $(LRHOST) $(call core_of,mednafen_psx)
+ROOM_RUN      = PRESS='$(PRESS)' ROOM_PICTURE=$(B)/room.ppm sh platform/ps1/run.sh $(B) $(LRHOST) $(call core_of,mednafen_psx)
 
 include platform/libretro/lrhost.mk
+
+# As lrhost's --press takes them.
+PRESS        ?=
 
 $(B)/room.exe: $(B)/room $(B)/bios.bin $(LRHOST)
 	@$(CROSS_PREFIX)objcopy -O binary -j .header -j .text $< $@
