@@ -113,7 +113,7 @@ static const uint32_t dithers[4][8] = {ROW(0, 8, 2, 10), ROW(12, 4, 14, 6), ROW(
 #define PACK_888(rb, g, d)  (((rb) >> 8 & 0xff00ffu) | ((g) & 0xff00u))
 #define PACK_555(rb, g, d)  (((rb) + (d)) >> 27 | (((g) + (d)) >> 6 & 0x3e0u) | (((rb) + (d)) >> 1 & 0x7c00u))
 #define PACK_5551(rb, g, d) \
-    (((rb) + (d)) >> 16 & 0xf800u) | (((g) + (d)) >> 5 & 0x7c0u) | (((rb) + (d)) >> 10 & 0x3eu) | 1u
+    ((((rb) + (d)) >> 16 & 0xf800u) | (((g) + (d)) >> 5 & 0x7c0u) | (((rb) + (d)) >> 10 & 0x3eu) | 1u)
 
 #define DEEP_PIXEL(type, pack, which)                                            \
     if (depth >> DEPTH_BITS > *to_depth) {                                       \

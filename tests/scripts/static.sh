@@ -59,6 +59,7 @@ if here clang-tidy clang-tidy; then
     clang-tidy --quiet --checks='-*,bugprone-*,-bugprone-easily-swappable-parameters,-bugprone-integer-division,-bugprone-implicit-widening-of-multiplication-result,-bugprone-misplaced-widening-cast,-bugprone-narrowing-conversions,-bugprone-suspicious-memory-comparison' \
         $(ls src/*/*.c | grep -v src/isa/) -- $flags 2>/dev/null | sed "s|$PWD/||" >"$folder/tidy.log"
     grep -v ': note:' "$folder/tidy.log" >"$folder/tidy.new" && mv "$folder/tidy.new" "$folder/tidy.log"
-    silent tidy
+    # A macro's argument that is a type: `(type) *to` would be no declaration.
+    silent tidy 'fixed_fill.c:[0-9:]* warning: macro argument should be enclosed in parentheses'
 fi
 finish
