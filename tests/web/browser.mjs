@@ -1,4 +1,4 @@
-// browser.mjs: a static server on loopback and headless Chromium for the page's tests and times.
+// browser.mjs: a static server on loopback, headless Chromium, and counted checks, for the tests of pages.
 import fs from 'fs';
 import http from 'http';
 import path from 'path';
@@ -36,4 +36,17 @@ export function browser(modules) {
         executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
         args: ['--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
                '--disable-component-update', '--disable-sync'] });
+}
+
+// Counts checks and says those that fail.
+export function counter() {
+    const count = { passed: 0, failed: 0 };
+    count.check = (what, ok, found = '') => {
+        if (ok) ++count.passed;
+        else {
+            ++count.failed;
+            console.log(`FAILED ${what} ${found}`);
+        }
+    };
+    return count;
 }

@@ -1,19 +1,11 @@
 // docs_test.mjs: the reference in headless Chromium: docs_test.mjs FOLDER MODULES SHOTS: links, widths, search.
 import fs from 'fs';
 import path from 'path';
-import { browser, serve } from './browser.mjs';
+import { browser, counter, serve } from './browser.mjs';
 
 const [folder, modules, shots] = process.argv.slice(2);
-let passed = 0, failed = 0;
+const count = counter(), check = count.check;
 fs.mkdirSync(shots, { recursive: true });
-
-function check(what, ok, found = '') {
-    if (ok) ++passed;
-    else {
-        ++failed;
-        console.log(`FAILED ${what} ${found}`);
-    }
-}
 
 const chromium = await browser(modules), server = await serve([folder], false);
 const pages = fs.readdirSync(folder).filter((f) => f.endsWith('.html'));
@@ -65,5 +57,5 @@ check('the search finds a call', /lmb_draw/.test(said), said.slice(0, 80));
 
 await chromium.close();
 server.close();
-console.log(`${passed} passed, ${failed} failed, 0 skipped`);
-process.exit(failed ? 1 : 0);
+console.log(`${count.passed} passed, ${count.failed} failed, 0 skipped`);
+process.exit(count.failed ? 1 : 0);

@@ -2,19 +2,12 @@
 import fs from 'fs';
 import path from 'path';
 import { execFileSync } from 'child_process';
-import { browser, serve } from './browser.mjs';
+import { browser, counter, serve } from './browser.mjs';
 
 const [folder, modules, hashProgram, shots] = process.argv.slice(2);
-let passed = 0, failed = 0;
+const count = counter(), check = count.check;
 fs.mkdirSync(shots, { recursive: true });
 
-function check(what, ok, found = '') {
-    if (ok) ++passed;
-    else {
-        ++failed;
-        console.log(`FAILED ${what} ${found}`);
-    }
-}
 const chromium = await browser(modules);
 const isolated = await serve([folder], true), plain = await serve([folder], false);
 
@@ -244,5 +237,5 @@ await frame(page);
 check('it opens without a network', await colours(page) > 200);
 await chromium.close();
 isolated.close();
-console.log(`${passed} passed, ${failed} failed, 0 skipped`);
-process.exit(failed > 0 ? 1 : 0);
+console.log(`${count.passed} passed, ${count.failed} failed, 0 skipped`);
+process.exit(count.failed ? 1 : 0);

@@ -1,4 +1,5 @@
-/* page_files.c: the tool's files (io_file.h) in memory: what the page hands in, and what a verb writes. */
+/* page_files.c: the tool's files (io_file.h) in memory: what the page hands in, and what a verb writes; and calls that the
+ * page leaves out. */
 #include "page_calls.h"
 
 #include <stdlib.h>
@@ -6,6 +7,7 @@
 
 #include "../../../tools/common/io_file.h"
 #include "../../../tools/picture/image.h"
+#include "../../../tools/render/render_slice.h"
 
 enum { FILES = 256, NAME_BYTES = 256 };
 
@@ -125,3 +127,20 @@ int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_
 {
     return png_encode(out, rgba, width, height, r);
 }
+
+/* --- slice.h, render_slice.h: the page draws whole pictures --------------------------------------------------------------- */
+
+int slice_option(const char *text, void *at) { return (void)text, (void)at, 0; }
+int32_t slice_items(slice s, int32_t total) { return (void)s, total; }
+int32_t slice_item(slice s, int32_t k) { return (void)s, k; }
+uint64_t slice_hash(uint64_t hash, const void *data, size_t size) { return (void)data, (void)size, hash; }
+int slice_hash_file(uint64_t *hash, const char *path, report *r) { return (void)hash, (void)path, (void)r, 0; }
+int slice_job(uint64_t *out, const void *options, const option_table *t, int argc, char **argv, report *r)
+{
+    return (void)out, (void)options, (void)t, (void)argc, (void)argv, (void)r, 0;
+}
+int slice_name(char out[SLICE_NAME], const char *path, slice s, report *r)
+{
+    return (void)out, (void)path, (void)s, (void)r, 0;
+}
+int render_slice_write(const render_job *j, const render_finish *f, report *r) { return (void)j, (void)f, (void)r, 0; }
