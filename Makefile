@@ -67,7 +67,7 @@ TEST_OBJ   := $(call object,tests/unit/main.c $(TEST_SRC) $(SCENES_SRC) tests/tr
 GOLDEN_SRC := $(filter-out tests/golden/main_%,$(sort $(wildcard tests/golden/*.c)))
 GOLDEN_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_golden.c tools/demo/demo_scene.c $(PORT_SRC)) $(LIB_OBJ)
 ORDERS_OBJ := $(call object,$(GOLDEN_SRC) tests/golden/main_orders.c tools/demo/demo_scene.c tools/common/workers.c \
-              platform/host/host.c platform/host/pool.c) $(LIB_OBJ)
+              tools/common/slice_items.c platform/host/host.c platform/host/pool.c) $(LIB_OBJ)
 FUZZ_SRC   := $(filter-out tests/fuzz/main_%,$(wildcard tests/fuzz/*.c))
 REPLAY_OBJ := $(call object,tests/fuzz/main_replay.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))
 HOSTILE_OBJ := $(call object,tests/fuzz/main_hostile.c $(FUZZ_SRC)) $(filter-out %/lambent.o,$(TOOL_OBJ))

@@ -1,4 +1,4 @@
-/* slice.c: which items a slice has, and its file. */
+/* slice.c: the option of a slice, and its file. */
 #include "slice.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@
 enum { HEADER = 48, TAIL = 8, VERSION = 1 };
 static const char magic[9] = "LMBSLICE";
 
-/* --- items -------------------------------------------------------------------------------------------------------- */
+/* --- the option --------------------------------------------------------------------------------------------------- */
 
 int slice_option(const char *text, void *at)
 {
@@ -30,19 +30,6 @@ int slice_option(const char *text, void *at)
     memcpy(at, &s, sizeof s);
     return 1;
 }
-
-int32_t slice_item(slice s, int32_t k)
-{
-    return s.count == 0 ? k : k * s.count + (k % 2 == 0 ? s.number - 1 : s.count - s.number);
-}
-
-int32_t slice_items(slice s, int32_t total)
-{
-    const int32_t rounds = s.count == 0 ? total : total / s.count;
-    return s.count == 0 ? total : rounds + (slice_item(s, rounds) < total);
-}
-
-int slice_has(slice s, int32_t item) { return s.count == 0 || slice_item(s, item / s.count) == item; }
 
 /* --- the job ------------------------------------------------------------------------------------------------------ */
 

@@ -9,16 +9,12 @@
 #include "byte_buffer.h"
 #include "io_file.h"
 #include "options.h"
+#include "slice_items.h"
 
 enum { SLICE_MOST = 4096, SLICE_NAME = 4096, SLICE_ABOUT = 256 };
 
 /* What is sliced. */
 enum { SLICE_RENDER = 1, SLICE_PLAY };
-
-/* Which one: number 1 .. count. count 0: the whole work in one. */
-typedef struct slice {
-    int32_t number, count;
-} slice;
 
 /* A row of an option table: I/N. */
 int slice_option(const char *text, void *at);
@@ -27,12 +23,6 @@ int slice_option(const char *text, void *at);
      .expects = "I/N, the Ith of N slices: 1/4 .. 4/4",                                                        \
      .help = "the Ith of N slices of the " what ", for a machine of its own: written to OUT.IofN. `lambent merge` " \
              "joins all N to the bytes of one machine"}
-
-/* Items 0 .. total - 1 go to the slices to and fro: 1 .. N, N .. 1, 1 .. N, so that each has as many, of all parts of
- * the work, and none always the first of its neighbours. slice_items: how many a slice has. slice_item: its kth. */
-int32_t slice_items(slice s, int32_t total);
-int32_t slice_item(slice s, int32_t k);
-int slice_has(slice s, int32_t item);
 
 /* slice_job: one number for what a command line makes, in any order of its options: all of them but those that change
  * no byte, the contents of the files that its table reads, and the version. slice_hash_file: another file's contents,

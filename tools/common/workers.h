@@ -5,7 +5,7 @@
 #include <lambent/lambent.h>
 
 #include "../../platform/host/pool.h"
-#include "slice.h"
+#include "slice_items.h"
 
 /* Who draws, and who is told how far it is. */
 typedef struct workers {
