@@ -152,8 +152,93 @@ static void nothing_changes(void)
     mix_job_free(j);
 }
 
+/* A sun behind the viewer, or overhead, is moved so that the shadow falls beside the object. */
+static void sun_is_from_a_side(void)
+{
+    static const float bright[4][2] = {{0.0f, 1.0f}, {0.3f, 1.0f}, {0.0f, 0.05f}, {-1.0f, 0.2f}}; /* x, z; y is 0.7 */
+    for (int i = 0; i < 4; ++i) {
+        char *object[] = {"--object", square, "--quiet"};
+        mix_job *j = begin(object, 3);
+        report r = {""};
+        lmb_light sun;
+        set_depth(j, 2.5f, 1);
+        CHECK(place(j) && mix_light(j, &r));
+        for (int32_t t = 0; t < 6 * 64 * 64; ++t) {
+            const int32_t face = t / 4096, x = t % 64, y = t / 64 % 64;
+            const float s = ((float)x + 0.5f) / 32.0f - 1.0f, u = ((float)y + 0.5f) / 32.0f - 1.0f;
+            const float d[6][3] = {{1, -u, -s}, {-1, -u, s}, {s, 1, u}, {s, -1, -u}, {s, -u, 1}, {-s, -u, -1}};
+            const float *e = d[face], near = e[0] * bright[i][0] + e[1] * 0.7f + e[2] * bright[i][1];
+            const float v = near / sqrtf(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) >
+                                    0.97f * hypotf(hypotf(bright[i][0], bright[i][1]), 0.7f) ? 20.0f : 0.1f;
+            const float rgb[3] = {v, v, v};
+            lmb_env_set(&j->env[0], face, x, y, rgb);
+        }
+        lmb_env_mips(&j->env[0]);
+        mix_guess_sun(&sun, j);
+        const lmb_vec3 from = {-sun.direction.x, -sun.direction.y, -sun.direction.z};
+        const float flat = hypotf(from.x, from.z);
+        CHECK_MSG(fabsf(from.x) >= 0.85f * flat && from.y >= 0.49f && from.y <= 0.77f, "%d: %g %g %g", i,
+                  (double)from.x, (double)from.y, (double)from.z);
+        mix_job_free(j);
+    }
+}
+
+/* Half of the floor has `dark` of the light of the other half, in a pattern of so many pixels. */
+static float share_of(float dark, int pattern)
+{
+    char *object[] = {"--object", square};
+    mix_job *j = begin(object, 2);
+    test_rng rng = {3};
+    set_depth(j, 2.5f, 1);
+    CHECK(place(j));
+    for (int i = 0; i < 3 * PIXELS; ++i) {
+        const int is_dark = (i / 3 % WIDTH / pattern + i / 3 / WIDTH / pattern) % 2;
+        j->frame.light.pixels[i] = GREY * (is_dark ? dark : 1.0f) * test_uniform(&rng, 0.98f, 1.02f);
+    }
+    const float share = mix_sun_share(j->frame.light.pixels, &j->planes, &camera, j->floor);
+    mix_job_free(j);
+    return share;
+}
+
+/* The guessed sun is as strong as the photo's shadows are dark, but no fine pattern and no poster is a shadow. */
+static void sun_is_as_strong_as_shadows(void)
+{
+    CHECK_MSG(fabsf(share_of(0.5f, 48) - 1.0f) < 0.1f, "%g", (double)share_of(0.5f, 48));
+    CHECK_MSG(fabsf(share_of(0.6f, 48) - 0.667f) < 0.08f, "%g", (double)share_of(0.6f, 48));
+    CHECK(share_of(1.0f, 48) == 0.3f && share_of(0.5f, 1) == 0.3f && share_of(0.05f, 48) == 0.3f);
+}
+
+/* A sun of 16 degrees lights the floor beside the shadow's middle in part, and one without a size does not. */
+static void size_softens(void)
+{
+    static const char *const lights[2] = {"sun:0,0,0:1,-1,0:2,2,2", "sun:0,0,0:1,-1,0:2,2,2:16"};
+    int part[2] = {0}, full[2] = {0};
+    for (int i = 0; i < 2; ++i) {
+        char light[40];
+        char *more[] = {"--object", square, "--at", "40,66", "--scale", "0.2", "--turn", "90", "--show", "delta",
+                        "--light", light};
+        report r = {""};
+        strcpy(light, lights[i]);
+        mix_job *j = begin(more, 12);
+        set_depth(j, 2.5f, 1);
+        CHECK_MSG(place(j) && mix_light(j, &r) && mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+        CHECK(j->light_count == (i == 0 ? 1 : MIX_LIGHT_SAMPLES));
+        for (int k = 0; k < PIXELS; ++k) {
+            const float share = -j->picture.pixels[3 * k] / GREY;
+            part[i] += share > 0.2f && share < 0.45f;
+            full[i] += share >= 0.45f;
+        }
+        mix_job_free(j);
+    }
+    CHECK_MSG(part[1] > part[0] + 20 && full[1] > 20 && full[1] < full[0], "%d %d, %d %d", part[0], part[1], full[0],
+              full[1]);
+}
+
 void test_mix(void)
 {
+    sun_is_from_a_side();
+    sun_is_as_strong_as_shadows();
+    size_softens();
     stands_on_floor();
     gap_is_seen();
     size_is_kept();

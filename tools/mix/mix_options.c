@@ -76,10 +76,10 @@ static const option_row object_rows[] = {
 static const option_row light_rows[] = {
     {.kind = OPTION_TITLE, .help = "light"},
     {.name = "--light", .kind = OPTION_LIGHT, AT(lights), .counts = offsetof(mix_options, light_count),
-     .times = MIX_LIGHTS, .size = sizeof(lmb_light),
-     .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; in the "
-             "frame's world, or without a pose the camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 "
-             "sr). Default: a sun is guessed"},
+     .times = MIX_LIGHTS, .size = sizeof(lmb_light), .sizes = offsetof(mix_options, light_size),
+     .help = "KIND is spot, point or sun: place, direction it goes, W/sr or W/m2, degrees of a spot's cones; SIZE: how "
+             "wide it is, m, of a sun degrees: its shadow is soft then; in the frame's world, or without a pose the "
+             "camera's (x right, y up, -z ahead). A photo's white is 1 W/(m2 sr). Default: a sun is guessed"},
     {.name = "--world", .value = "FILE", .kind = OPTION_TEXT, AT(world), .file = OPTION_READS,
      .help = "what is around, a panorama or cube (default: folded from the photo)"},
     {.name = "--roughness", .value = "R[,F]", .kind = OPTION_OWN, .parse = parse_roughness,

@@ -21,6 +21,7 @@ typedef struct mix_options {
     int32_t at;
     float at_px[2];
     lmb_light lights[MIX_LIGHTS];
+    float light_size[MIX_LIGHTS]; /* m, of a sun degrees; 0: none */
     int32_t light_count;
     int32_t show, shadow_map, depth; /* depth: of the voxels */
     int32_t cones;    /* 7, 19 or 37 */

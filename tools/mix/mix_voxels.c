@@ -148,6 +148,14 @@ typedef struct points {
     double real_flux[3], far_flux[3]; /* W: of all real surfaces that are seen; of those outside the cube */
 } points;
 
+/* As many texels for the many lights that make one shadow together as for one. */
+static int32_t tree_side(const mix_job *j, int32_t map)
+{
+    const int32_t cap = j->light_count < MIX_LIGHT_SAMPLES ? TREE_SIZE : TREE_SIZE / 4;
+    const int32_t low = map / 8 > cap ? map / 8 : cap;
+    return map < cap ? map : low;
+}
+
 static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
 {
     const lmb_shadow_map *map = &j->maps[light][with];
@@ -334,7 +342,7 @@ static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uin
 
 static int light_voxels(mix_job *j, report *r)
 {
-    const int32_t map = j->o.shadow_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
+    const int32_t map = j->light_count > 0 ? j->maps[0][0].size : j->o.shadow_map, size = tree_side(j, map);
     const size_t bytes = lmb_tree_bytes(1, size);
     double object_flux[3] = {0, 0, 0}, near_flux[3] = {0, 0, 0};
     lmb_vec3 low, high;
