@@ -899,8 +899,19 @@ status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --shadow-map 64
 # A wall alone: the object stands on it, and that is said.
 status 0 mix $seen --object "$dir/tent.obj" --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that no plane faces up is said" grep -q "no plane faces up" "$dir/err.txt"
-status 0 mix $seen --object "$dir/tent.obj" --scale 1.5 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+status 0 mix $seen --object "$dir/tent.obj" --scale 0.5 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that the object is off the picture is said" grep -q "part of the object is off the picture" "$dir/err.txt"
+# A size is the file's own metres, and is said where that is absurd.
+status 0 mix $seen --object "$dir/tent.obj" --scale 300 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "an object that fills the picture is said" grep -q "m long and fills the picture; --fit chooses its size" "$dir/err.txt"
+status 0 mix $seen --object "$dir/tent.obj" --scale 0.0001 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "an object that vanishes is said" grep -q "m long and vanishes in the picture" "$dir/err.txt"
+status 0 mix $seen --object "$dir/tent.obj" --fit --on wall --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
+check "what fits is neither" sh -c '! grep -q "m long and" "$1"' sh "$dir/err.txt"
+status 1 mix $seen --object "$dir/tent.obj" --on floor -o "$dir/bad.png"
+said "--on floor: no plane faces up"
+status 2 mix $seen --object "$dir/tent.obj" --fit --scale 2 -o "$dir/bad.png"
+status 2 mix $seen --object "$dir/tent.obj" --on wall --at 3,4 -o "$dir/bad.png"
 # Surroundings that shine in one colour light the object in that colour alone.
 { printf 'PF\n1 6\n-1.0\n'; i=0; while [ $i -lt 6 ]; do printf "$one\000\000\000\000\000\000\000\000"; i=$((i + 1)); done; } > "$dir/red.pfm"
 status 0 mix $seen $tent --world "$dir/red.pfm" --show object -o "$dir/mixed.pfm"

@@ -58,8 +58,8 @@ static int place(mix_job *j)
 
 static void stands_on_floor(void)
 {
-    char *object[] = {"--object", square};
-    mix_job *j = begin(object, 2);
+    char *object[] = {"--object", square, "--fit"};
+    mix_job *j = begin(object, 3);
     set_depth(j, 2.5f, 1);
     CHECK(place(j) && j->faces_up && j->inside && j->floor >= 0);
     CHECK_MSG(fabsf(j->anchor.y + 0.5f) < 1e-3f && fabsf(j->gap_m) < 1e-3f, "%g %g", (double)j->anchor.y,
@@ -93,6 +93,107 @@ static void size_is_kept(void)
     set_depth(j, 2.5f, 1);
     CHECK(place(j) && j->scale == 1.5f && !j->inside);
     mix_job_free(j);
+}
+
+/* A room: a floor, a table on it, a wall behind; its camera looks down a little. */
+typedef struct room {
+    float height, pitch, table, wall; /* m, m, m: of the camera, of the table's top; along the floor */
+    float low[2], high[2];            /* of the table: to the right, and away */
+} room;
+
+static room random_room(test_rng *rng)
+{
+    const float wall = test_uniform(rng, 2.5f, 4.0f), left = test_uniform(rng, -1.0f, 0.0f);
+    const room r = {test_uniform(rng, 1.2f, 1.7f), test_uniform(rng, 0.35f, 0.6f), test_uniform(rng, 0.5f, 0.8f), wall,
+                    {left, 1.2f}, {left + test_uniform(rng, 0.9f, 1.2f), 1.2f + test_uniform(rng, 0.6f, 0.8f)}};
+    return r;
+}
+
+/* A ray of the room: down by the pitch. Its floor is y = -height. */
+static lmb_vec3 room_ray(const room *r, lmb_vec3 ray)
+{
+    const float c = cosf(r->pitch), s = sinf(r->pitch);
+    const lmb_vec3 out = {ray.x, c * ray.y + s * ray.z, c * ray.z - s * ray.y};
+    return out;
+}
+
+static void set_room(mix_job *j, const room *r)
+{
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = room_ray(r, lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH)));
+        float far = r->wall / -ray.z;
+        const float floor = ray.y < 0.0f ? -r->height / ray.y : 1e9f,
+                    table = ray.y < 0.0f ? (r->table - r->height) / ray.y : 1e9f;
+        const float x = ray.x * table, z = -ray.z * table;
+        far = floor < far ? floor : far;
+        far = table < far && x > r->low[0] && x < r->high[0] && z > r->low[1] && z < r->high[1] ? table : far;
+        j->frame.depth[i] = far;
+    }
+}
+
+/* How high over the floor the object stands, and how far before the wall. */
+static void stands_at(float *high, float *before, const mix_job *j, const room *r)
+{
+    const lmb_vec3 at = room_ray(r, j->anchor);
+    *high = at.y + r->height;
+    *before = r->wall + at.z;
+}
+
+/* In rooms of their own: seeds under 100 are what the code was written with, the others are not. */
+static void stands_on_what_is_asked(void)
+{
+    static const char *const ons[] = {"floor", "table", "wall"};
+    for (int seed = 0; seed < 124; seed += seed == 11 ? 89 : 1) {
+        test_rng rng = {(uint32_t)seed + 1};
+        const room rm = random_room(&rng);
+        for (int k = 0; k < 3; ++k) {
+            char on[8];
+            char *more[] = {"--object", square, "--on", on, "--fit", "--quiet"};
+            float high, before;
+            strcpy(on, ons[k]);
+            mix_job *j = begin(more, 6);
+            set_room(j, &rm);
+            CHECK_MSG(place(j), "%d %s", seed, on);
+            stands_at(&high, &before, j, &rm);
+            CHECK_MSG(k == 2 ? fabsf(before) < 0.02f : fabsf(high - (k == 0 ? 0.0f : rm.table)) < 0.02f,
+                      "seed %d, %s: %g over the floor, %g before the wall", seed, on, (double)high, (double)before);
+            CHECK_MSG(j->inside && j->hangs == (k == 2), "seed %d, %s", seed, on);
+            mix_job_free(j);
+        }
+    }
+}
+
+/* There is nothing of that kind: it is said which. */
+static void asked_for_nothing(void)
+{
+    char *table[] = {"--object", square, "--on", "table"};
+    report r = {""};
+    mix_job *j = begin(table, 4);
+    set_depth(j, 2.5f, 1);
+    CHECK(mix_find_planes(j, &r) && !mix_place(j, &r) && strstr(r.text, "--on table: no plane") != NULL);
+    mix_job_free(j);
+}
+
+/* Without --fit and --scale a unit is a metre, also where that is absurd; where the object may be seen as a whole, it
+ * is. */
+static void metres_are_its_own(void)
+{
+    static const struct size {
+        const char *scale;
+        float want;
+        int inside;
+    } sizes[] = {{NULL, 1.0f, 1}, {"0.25", 0.25f, 1}, {"0.5", 0.5f, 1}, {"100", 100.0f, 0}, {"1e-4", 1e-4f, 1}};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
+        char scale[8];
+        char *more[] = {"--object", square, "--scale", scale};
+        strcpy(scale, sizes[i].scale != NULL ? sizes[i].scale : "");
+        mix_job *j = begin(more, sizes[i].scale != NULL ? 4 : 2);
+        set_depth(j, 2.5f, 1);
+        CHECK(place(j) && j->scale == sizes[i].want);
+        CHECK_MSG(j->inside == sizes[i].inside, "%zu", i);
+        CHECK(i < 3 || (i == 3 ? j->seen_px > 200.0f : j->seen_px < 0.1f));
+        mix_job_free(j);
+    }
 }
 
 /* One wall, no floor: on the wall, and it is known to be none that faces up. */
@@ -243,6 +344,9 @@ void test_mix(void)
     gap_is_seen();
     size_is_kept();
     no_floor();
+    stands_on_what_is_asked();
+    asked_for_nothing();
+    metres_are_its_own();
     albedo_is_told();
     nothing_changes();
 }

@@ -145,7 +145,7 @@ static int seen_steps(const mix_job *j, lmb_vec3 from, float height)
     const lmb_pinhole *c = &j->frame.camera;
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
     int seen = 0;
-    for (int i = 1; i <= STEPS && j->floor >= 0; ++i) {
+    for (int i = 1; i <= STEPS && j->floor >= 0 && !j->hangs; ++i) {
         const float far = height / from.y * (float)i / STEPS;
         const lmb_vec3 p = {foot.x - from.x * far, foot.y, foot.z - from.z * far};
         const float ahead = -along(j->axes.back, p);

@@ -109,7 +109,7 @@ static int build(mix_job *j, report *r)
     const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), half = 0.5f * ROOM * size;
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
     lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
-    if (j->floor >= 0) {
+    if (j->floor >= 0 && !j->hangs) {
         middle.y = foot.y + half - leaf_under(half - (middle.y - foot.y), 2.0f * half / (float)(1 << j->o.depth));
     }
     const lmb_vec3 from = {middle.x - half, middle.y - half, middle.z - half},
