@@ -112,7 +112,7 @@ static int build(mix_job *j, report *r)
     const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), half = 0.5f * ROOM * size;
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
     lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
-    if (j->floor >= 0) {
+    if (j->floor >= 0 && !j->hangs) {
         middle.y = foot.y + half - leaf_under(half - (middle.y - foot.y), 2.0f * half / (float)(1 << j->o.depth));
     }
     const lmb_vec3 from = {middle.x - half, middle.y - half, middle.z - half},
@@ -155,6 +155,14 @@ static int map_texels(mix_job *j, points *p, int32_t light, const lmb_shadow_map
 {
     return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, face, 0, 0,
                            map->size / LMB_TILE) == LMB_OK;
+}
+
+/* As many texels for the many lights that make one shadow together as for one. */
+static int32_t tree_side(const mix_job *j, int32_t map)
+{
+    const int32_t cap = j->light_count < MIX_LIGHT_SAMPLES ? TREE_SIZE : TREE_SIZE / 4;
+    const int32_t low = map / 8 > cap ? map / 8 : cap;
+    return map < cap ? map : low;
 }
 
 static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
@@ -375,7 +383,7 @@ static lmb_texel *take_points(size_t *count, mix_job *j, uint32_t first_id, uint
 
 static int light_voxels(mix_job *j, report *r)
 {
-    const int32_t map = j->o.shadow_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
+    const int32_t map = j->light_count > 0 ? j->maps[0][0].size : j->o.shadow_map, size = tree_side(j, map);
     const size_t bytes = lmb_tree_bytes(1, size);
     lmb_vec3 low, high;
     points p;
