@@ -55,7 +55,7 @@ object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c),$(wildcard tools/*/*.c))) \
             platform/host/host.c platform/host/pool.c \
-            platform/host/process.c platform/host/count.c
+            platform/host/process.c platform/host/programs.c platform/host/count.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
