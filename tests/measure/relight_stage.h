@@ -73,7 +73,7 @@ typedef struct relight_sky {
     float *face[6];
 } relight_sky;
 
-enum { SKIES = 3 };
+enum { SKIES = 5, TUNED = 3 }; /* the last ones are held out */
 extern const char *const sky_names[SKIES];
 
 int relight_sky_load(relight_sky *out, int sky); /* 0 where it is missing */

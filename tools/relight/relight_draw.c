@@ -236,14 +236,17 @@ static int draw_along(stage *s, report *r)
 static int take_cache(stage *s, report *r)
 {
     const relight_options *o = s->o;
-    const figures *f = &s->figures;
-    if (f->owners + (uint32_t)o->keep_count > LMB_MAX_PROBES ||
+    const figures *f = &s->figures; /* before any stands */
+    const uint32_t kept = (uint32_t)o->keep_count * figures_owners_each(f);
+    if (f->owners + kept > LMB_MAX_PROBES ||
         lmb_probe_cache_init(&s->cache, LMB_MAX_PROBES, &o->policy) != LMB_OK) {
-        return report_fail(r, "%u objects or parts and %d --keep are over the %d places this build keeps",
-                           (unsigned)f->owners, (int)o->keep_count, LMB_MAX_PROBES);
+        return report_fail(r, "%u objects or parts and %u of --keep are over the %d places this build keeps",
+                           (unsigned)f->owners, (unsigned)kept, LMB_MAX_PROBES);
     }
-    for (int32_t i = 0; i < o->keep_count; ++i) {
-        if (lmb_probe_cache_name(&s->cache, o->keep[i]) < 0) {
+    /* A place is where the object stands; its light, and its parts', is that of their middles. */
+    for (uint32_t i = 0; i < kept; ++i) {
+        const uint32_t each = figures_owners_each(f);
+        if (lmb_probe_cache_name(&s->cache, figures_middle_at(&s->figures, i % each, o->keep[i / each])) < 0) {
             return report_fail(r, "--keep: numbers over 1,000,000 m, or too many");
         }
     }
