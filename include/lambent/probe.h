@@ -175,7 +175,8 @@ extern "C" {
 #endif
 
 /* lmb_world_bytes: memory of such a world; 0 for sizes out of range: faces 1 .. 4096 texels a side, ground 0 or
- * 1 .. 8192. 5/3 of the faces' texels, 4/3 of the ground's. */
+ * 1 .. 8192. 5/3 of the faces' texels (4/3 of faces under 32), 4/3 of the
+ * ground's. */
 size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format);
 
 /* lmb_world_init: the pictures and their levels into `memory`, coded.

@@ -8,7 +8,7 @@
 #include "../base/poly.h"
 #include "../map/cube.h"
 
-enum { WIDE = 4, NARROW = 32, TURNS = 3 };
+enum { WIDE = 4, NARROW = LMB_WORLD_NARROW, TURNS = 3 };
 
 static const float stands_out = 4.0f;  /* times the mean around */
 static const float least_part = 1e-4f; /* of all light: what shines less is no peak */

@@ -50,13 +50,14 @@ static int32_t set_ground(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, co
 /* The calm levels: the first is the cube's own. */
 static void set_calm(lmb_world_level out[LMB_WORLD_LEVELS], size_t *end, const lmb_world_pictures *p)
 {
-    const int32_t count = set_cube(out, end, p);
     const size_t whole = 6 * (size_t)(p->face_size + 2) * (size_t)(p->face_size + 2);
+    size_t next = *end;
+    const int32_t count = set_cube(out, &next, p);
     for (int32_t i = 1; i < count; ++i) {
         out[i].at -= (uint32_t)whole;
     }
     out[0].at = 0;
-    *end -= whole;
+    *end = p->face_size < LMB_WORLD_NARROW ? *end : next - whole;
 }
 
 size_t lmb_world_bytes(const lmb_world_pictures *pictures, int32_t format)

@@ -22,6 +22,8 @@ void lmb_world_calm_texel(float out[4], const lmb_world *world, int32_t face, in
 /* The first texel of a peak's 32nd by 32nd, and the first past it, by column and row. */
 void lmb_world_peak_texels(int32_t from[2], int32_t to[2], const lmb_world *world, const lmb_world_peak *peak);
 
+enum { LMB_WORLD_NARROW = 32 /* parts of a face each way; smaller faces have no peaks */ };
+
 enum { LMB_WORLD_ALL = 0, LMB_WORLD_CALM = 1 };
 
 /* What kernels ask of the world, or of its calm levels, for rays so wide, rad. */
