@@ -103,11 +103,12 @@ PROGRAMS := tests golden golden-orders reference hard replay hostile audit-golde
 
 LIB  := $(B)/liblambent.a
 TOOL := $(if $(filter default,$(CONFIG)),$(BUILD),$(B))/lambent
+PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-config-version.cmake)
 
 # --- what people want ------------------------------------------------------------------------------------------------
 
 ##@ Build
-.PHONY: all lib demo man docs docs-check help clean
+.PHONY: all lib demo man install uninstall docs docs-check help clean
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
@@ -116,6 +117,23 @@ demo: $(TOOL) ## render the built-in scene to build/demo.png
 
 man: $(TOOL) ## the man page, build/lambent.1, from the verbs' tables
 	@$(TOOL) help --man > $(BUILD)/lambent.1
+
+install: lib $(if $(filter host,$(PORT)),$(TOOL) man) $(PACKAGE_FILES) ## library, headers, tool, man page, for pkg-config and CMake (PREFIX=/usr/local DESTDIR=)
+	@echo "INSTALL $(DESTDIR)$(PREFIX)"
+	@mkdir -p '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/pkgconfig' '$(AT_LIB)/cmake/lambent'
+	@install -m 644 $(HEADERS) '$(DESTDIR)$(PREFIX)/include/lambent'
+	@install -m 644 $(LIB) '$(AT_LIB)'
+	@install -m 644 $(B)/lambent.pc '$(AT_LIB)/pkgconfig'
+	@install -m 644 $(filter %.cmake,$(PACKAGE_FILES)) '$(AT_LIB)/cmake/lambent'
+ifeq ($(PORT),host)
+	@mkdir -p '$(DESTDIR)$(PREFIX)/bin' '$(AT_MAN)'
+	@install -m 755 $(TOOL) '$(DESTDIR)$(PREFIX)/bin'
+	@install -m 644 $(BUILD)/lambent.1 '$(AT_MAN)'
+endif
+
+uninstall: ## removes what install put there
+	@rm -f '$(DESTDIR)$(PREFIX)/bin/lambent' '$(AT_MAN)/lambent.1' '$(AT_LIB)/liblambent.a' '$(AT_LIB)/pkgconfig/lambent.pc'
+	@rm -rf '$(DESTDIR)$(PREFIX)/include/lambent' '$(AT_LIB)/cmake/lambent'
 
 docs: ## the reference, build/docs/html/index.html: headers, documents, the systems (needs doxygen)
 	@mkdir -p $(BUILD)/docs
@@ -201,6 +219,23 @@ $(B)/calls.inc: $(HEADERS) tests/scripts/prototypes.awk tests/scripts/zeros.awk
 $(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: $(B)/calls.inc
 $(B)/obj/tests/unit/test_zeros.o $(B)/obj/tests/fuzz/fuzz_calls.o: COMPILE += -I$(B)
 
+# What tells pkg-config and CMake where `make install` puts the library, and with which switches it was built.
+PREFIX ?= /usr/local
+LIBDIR ?= lib
+AT_LIB  = $(DESTDIR)$(PREFIX)/$(LIBDIR)
+AT_MAN  = $(DESTDIR)$(PREFIX)/share/man/man1
+VERSION_OF = $(shell awk '$$2 == "LMB_VERSION_$(1)" { print $$3 }' include/lambent/types.h)
+VERSION    = $(call VERSION_OF,MAJOR).$(call VERSION_OF,MINOR).$(call VERSION_OF,PATCH)
+USE_FLAGS  = $(strip $(config_$(CONFIG)) $(filter -DLMB_%,$(CFLAGS)))
+none  :=
+space := $(none) $(none)
+$(PACKAGE_FILES): $(B)/%: platform/cmake/%.in include/lambent/types.h $(B)/flags FORCE
+	@sed -e 's,@PREFIX@,$(PREFIX),' -e 's,@LIBDIR@,$(LIBDIR),' -e 's,@VERSION@,$(VERSION),' \
+	    -e 's,@UP@,$(subst $(space),/,$(patsubst %,..,$(subst /, ,$(LIBDIR)) cmake lambent)),' \
+	    -e 's,@MAJOR@,$(call VERSION_OF,MAJOR),g' -e 's,@MINOR@,$(call VERSION_OF,MINOR),g' \
+	    -e 's,@USE_FLAGS@,$(if $(filter %.cmake,$@),$(subst $(space),;,$(USE_FLAGS)),$(USE_FLAGS)),' \
+	    -e 's,@USE_LIBS@,$(filter -lm,$(PORT_LDLIBS)),' -e 's/ *$$//' $< > $@
+
 # A relief's words, which tests/scripts/statue.sh puts there.
 $(B)/obj/platform/cortex-m/main_statue.o: $(wildcard $(B)/statue.inc)
 $(B)/obj/platform/cortex-m/main_statue.o: COMPILE += -I$(B)
@@ -234,7 +269,8 @@ FORCE:
 # The longest first: what runs beside them fills the second core.
 
 CHECKS ?= one-command unit tiny statue live analytic truth lanes golden golden-orders audit slivers hard replay hostile \
-          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli tool-setup
+          hostile-cli layers no-float symbols stack headers layout guard tables readme words examples examples-tiny cli package \
+          tool-setup
 NEEDS  :=
 PART    = LOGS=$(B)/check NEEDS="$(NEEDS)" sh tests/scripts/part.sh
 IN_SH   = B='$(B)' LIB='$(LIB)' TOOL='$(TOOL)' NM='$(NM)' SIZE='$(SIZE)' CC='$(CC)' FLAGS='$(FLAGS)' \
@@ -352,6 +388,9 @@ faults: $(TOOL) $(B)/faults $(B)/fault.so ## each verb with its nth allocation, 
 
 readme: $(LIB) ## the README's examples compile and run
 	@$(IN_SH) tests/scripts/readme.sh
+
+package: $(TOOL) $(LIB) man $(PACKAGE_FILES) ## a program outside the tree, by pkg-config, CMake's find_package and add_subdirectory
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' $(IN_SH) tests/scripts/package.sh
 
 examples: $(LIB) ## the programs of tests/examples compile, run and print what they should
 	@$(IN_SH) tests/scripts/examples.sh

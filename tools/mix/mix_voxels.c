@@ -109,7 +109,7 @@ static int build(mix_job *j, report *r)
     const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), half = 0.5f * ROOM * size;
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
     lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
-    if (j->floor >= 0) {
+    if (j->floor >= 0 && !j->hangs) {
         middle.y = foot.y + half - leaf_under(half - (middle.y - foot.y), 2.0f * half / (float)(1 << j->o.depth));
     }
     const lmb_vec3 from = {middle.x - half, middle.y - half, middle.z - half},
@@ -147,6 +147,14 @@ typedef struct points {
     lmb_vec3 about; /* the object's middle */
     double real_flux[3], far_flux[3]; /* W: of all real surfaces that are seen; of those outside the cube */
 } points;
+
+/* As many texels for the many lights that make one shadow together as for one. */
+static int32_t tree_side(const mix_job *j, int32_t map)
+{
+    const int32_t cap = j->light_count < MIX_LIGHT_SAMPLES ? TREE_SIZE : TREE_SIZE / 4;
+    const int32_t low = map / 8 > cap ? map / 8 : cap;
+    return map < cap ? map : low;
+}
 
 static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
 {
@@ -334,7 +342,7 @@ static lmb_texel *take_points(size_t *count, double all_flux[3], mix_job *j, uin
 
 static int light_voxels(mix_job *j, report *r)
 {
-    const int32_t map = j->o.shadow_map, size = map < TREE_SIZE ? map : map / 8 > TREE_SIZE ? map / 8 : TREE_SIZE;
+    const int32_t map = j->light_count > 0 ? j->maps[0][0].size : j->o.shadow_map, size = tree_side(j, map);
     const size_t bytes = lmb_tree_bytes(1, size);
     double object_flux[3] = {0, 0, 0}, near_flux[3] = {0, 0, 0};
     lmb_vec3 low, high;
