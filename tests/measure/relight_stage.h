@@ -65,6 +65,7 @@ void relight_tell_filters(relight_stage *s, const char *counts);
 void relight_tell_raster(relight_stage *s);
 void relight_tell_maps(relight_stage *s);
 void relight_tell_glossy(relight_stage *s);
+void relight_tell_frames(relight_stage *s);
 
 /* A map of ../shared/data/env as it is, and as a world's faces. */
 typedef struct relight_sky {

@@ -477,6 +477,11 @@ for parts in "" --per-part; do
     status 0 $field --path "$dir/path.txt" --keep 2,0,1 $parts -o "$dir/walk.ppm"
     check "a named place is where an object stands $parts" sh -c 'test "$(grep -c "  kept$" "$1")" = 1' sh "$dir/out.txt"
 done
+status 0 $field --path "$dir/path.txt" -o "$dir/walk.ppm"
+status 0 $field --path "$dir/path.txt" -o "$dir/step_%03d.ppm"
+check "a walk's pictures are numbered by the pattern" cmp "$dir/step_002.ppm" "$dir/walk-0002.ppm"
+status 2 $field -o "$dir/bad_%04d.ppm"
+check "a pattern wants a path" grep -q 'numbers pictures of a --path' "$dir/err.txt"
 printf '0,0,0\n1,2\n' >"$dir/path.txt"
 status 1 $field --path "$dir/path.txt" -o "$dir/bad.ppm"
 check "a path's error names its line" grep -q 'path.txt:2: `1,2` is not X,Y,Z' "$dir/err.txt"

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "../../platform/host/pool.h"
+#include "../common/frame_name.h"
 #include "../common/progress.h"
 #include "../common/view_frame.h"
 #include "../picture/picture.h"
@@ -205,9 +206,12 @@ static int write(stage *s, const char *path, report *r)
     return picture_write(path, &s->picture, s->o->exposure_ev, s->o->tone, r);
 }
 
-/* OUT.png -> OUT-0007.png */
+/* By a pattern's %0Nd; else OUT.png -> OUT-0007.png */
 static int numbered(char *out, size_t size, const char *path, int32_t i, report *r)
 {
+    if (frame_digits(path) > 0) {
+        return frame_name(out, size, path, i, r);
+    }
     const char *dot = strrchr(path, '.');
     const int n = snprintf(out, size, "%.*s-%04d%s", (int)(dot - path), path, (int)i, dot);
     return (n > 0 && (size_t)n < size) || report_fail(r, "%s: the name is too long", path);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../common/frame_name.h"
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../demo/demo_field.h"
@@ -133,7 +134,8 @@ static const option_row object_rows[] = {
     {.name = "--show", .kind = OPTION_WORD, AT(show), .words = shows,
      .help = "all light, that by normals alone, or what is mirrored alone (default both)"},
     {.name = "--path", .value = "FILE", .kind = OPTION_TEXT, AT(path), .file = OPTION_READS,
-     .help = "places of the object, X,Y,Z a line: a picture each, OUT with -0000, -0001, ..."},
+     .help = "places of the object, X,Y,Z a line: a picture each, its number in place of OUT's %0Nd, as frame_%04d.png, or "
+             "else as -0000, -0001, ..."},
     {.name = "--reuse", .value = "M", .kind = OPTION_NUMBER, AT(policy.radius_m), .low = 0, .high = 1e5,
      .help = "an object keeps its light until it is M metres from where it was computed (default 0.15; 0: until it "
              "rests)"},
@@ -193,6 +195,9 @@ static int check_together(const relight_options *o, report *r)
     }
     if (o->path != NULL && o->out != NULL && file_is_stdout(o->out)) {
         return report_fail(r, "--path draws a picture a place: give -o a file name");
+    }
+    if (o->path == NULL && o->out != NULL && frame_digits(o->out) > 0) {
+        return report_fail(r, "%s: numbers pictures of a --path, and none is given", o->out);
     }
     if (o->path != NULL && (o->object == NULL || o->at_count > 0)) {
         return report_fail(r, "--path moves one --object; leave --at out");
