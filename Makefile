@@ -55,7 +55,7 @@ object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c),$(wildcard tools/*/*.c))) \
             platform/host/host.c platform/host/pool.c \
-            platform/host/process.c platform/host/count.c
+            platform/host/process.c platform/host/programs.c platform/host/count.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
@@ -588,9 +588,12 @@ statue: $(TOOL) ## a relief in 512 KiB of ROM on a Cortex-M7 (qemu); the same pi
 live: $(TOOL) ## light that moves in 160 KiB on a Cortex-M4F (qemu): pictures as here, instructions a frame
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' TOOL='$(TOOL)' sh tests/scripts/live.sh
 
-.PHONY: ports console-abis
+.PHONY: ports screens console-abis
 ports: ## the room on every port, in its emulator, against this machine's: one table (PORTS="gba nds", ROOM=pixel)
 	+@MAKE='$(MAKE)' BUILD='$(BUILD)' PORTS='$(PORTS)' ROOM='$(ROOM)' sh tests/scripts/ports.sh
+
+screens: ## consoles' screens after the path and as buttons steer, against this machine's pictures (PORTS="gba nds")
+	+@MAKE='$(MAKE)' BUILD='$(BUILD)' PORTS='$(PORTS)' sh tests/scripts/screens.sh
 
 console-abis: ## the library for Microsoft's and System V's x86-64 with AVX2 and for AArch64, from C and from C++
 	@$(IN_SH) tests/scripts/console_abis.sh

@@ -472,12 +472,26 @@ status 0 $field --path "$dir/path.txt" --reuse 0 -o "$dir/walk.ppm"
 check "a walk without reuse is computed until it rests" grep -q '^light computed 3 times, kept 1 times$' "$dir/out.txt"
 status 0 $field --path "$dir/path.txt" --reuse 5 --keep 0,0.9,0 -o "$dir/walk.ppm"
 check "a named place serves the whole walk" grep -q '^light computed 1 times, kept 3 times$' "$dir/out.txt"
+printf '2,0,1\n2.2,0,1\n2,0,1\n' >"$dir/path.txt"
+for parts in "" --per-part; do
+    status 0 $field --path "$dir/path.txt" --keep 2,0,1 $parts -o "$dir/walk.ppm"
+    check "a named place is where an object stands $parts" sh -c 'test "$(grep -c "  kept$" "$1")" = 1' sh "$dir/out.txt"
+done
+status 0 $field --path "$dir/path.txt" -o "$dir/walk.ppm"
+status 0 $field --path "$dir/path.txt" -o "$dir/step_%03d.ppm"
+check "a walk's pictures are numbered by the pattern" cmp "$dir/step_002.ppm" "$dir/walk-0002.ppm"
+status 2 $field -o "$dir/bad_%04d.ppm"
+check "a pattern wants a path" grep -q 'numbers pictures of a --path' "$dir/err.txt"
 printf '0,0,0\n1,2\n' >"$dir/path.txt"
 status 1 $field --path "$dir/path.txt" -o "$dir/bad.ppm"
 check "a path's error names its line" grep -q 'path.txt:2: `1,2` is not X,Y,Z' "$dir/err.txt"
 status 1 $field --path "$dir/nowhere" -o "$dir/bad.ppm"
 status 1 relight --world demo --object "$dir/nowhere.glb" -o "$dir/bad.ppm"
 status 2 $field --path "$dir/path.txt" --at 0,0,0 -o "$dir/bad.ppm"
+for option in "--world-sphere 0,0,0,5" "--world-centre 0,1,0" "--ground-size 5,5" "--ground-height 1"; do
+    status 2 $field $option -o "$dir/bad.ppm"
+    check "the built-in world says that it lies where it lies: $option" grep -q 'lies where it lies' "$dir/err.txt"
+done
 status 2 relight --world demo --object demo
 status 2 $field --eye 0,1,2 -o "$dir/bad.ppm"
 status 2 $field --roughness 2 -o "$dir/bad.ppm"
@@ -950,6 +964,34 @@ mkdir -p "$dir/flat" # one vertex at 0 and no triangle
 printf '\001\000\000\000' >"$dir/flat/bunny.mesh"
 head -c 36 /dev/zero >>"$dir/flat/bunny.mesh"
 status 1 bench raster bunny-depth-1024 --data "$dir/flat" --seconds 0.01
+# Other rasterizers' programs, which are scripts here.
+peer() {
+    mkdir -p "$dir/peers_$1"
+    printf '#!/bin/sh\n%s\n' "$2" >"$dir/peers_$1/$1"
+    chmod +x "$dir/peers_$1/$1"
+}
+quad="bench raster fill-depth-pass --seconds 0.01"
+peer good 'echo "#cov 1"; echo "x,$1-cull,cpu_min_ms=9"; echo "x,$1,tris=64,cpu_min_ms=1e3,n=8"; echo "$BENCH_SEC" >"$0.txt"'
+status 0 $quad --peers "$dir/peers_good"
+check "bench raster --peers prints theirs beside ours" sh -c 'sed 1d "$1" | grep -qx "good,fill-depth-pass-1024,cpu_min_ms=1000.0000,times=[1-9][0-9.]*"' sh "$dir/out.txt"
+check "it tells them how long to measure" grep -qx 0.01 "$dir/peers_good/good.txt"
+status 0 $quad --json --peers "$dir/peers_good"
+check "bench raster --peers prints JSON" grep -q '^{"peer":"good","case":"fill-depth-pass-1024","cpu_min_ms":1000.0000,"times":[1-9][0-9.]*}$' "$dir/out.txt"
+peer crash 'kill -SEGV $$'
+peer fails 'echo "x,$1,cpu_min_ms=1"; exit 3'
+peer rubbish 'head -c 100000 /dev/urandom; echo; echo "x,$1,cpu_min_ms=fast"'
+peer missing "" && printf '#!%s/nowhere\n' "$dir" >"$dir/peers_missing/missing"
+for case in "crash: ended by signal 11 at" "fails: exit status 3 at" "rubbish: printed no line" "missing: it cannot be run"; do
+    "$TOOL" $quad --peers "$dir/peers_${case%%:*}" >"$dir/out.txt" 2>"$dir/err.txt"
+    check "bench raster --peers refuses one: $case" test $? -eq 1
+    check "and says so in a line" sh -c 'test "$(grep -c . "$1")" -eq 1 && grep -q "$2" "$1"' sh "$dir/err.txt" "$case"
+done
+status 1 $quad --peers "$dir/nowhere"
+mkdir -p "$dir/peers_none"
+echo "no program" >"$dir/peers_none/readme.txt"
+status 1 $quad --peers "$dir/peers_none"
+status 1 $quad --peers "$dir/peers_good/good"
+status 2 $quad --peers
 # Threads beside processes: wants more than one, and sponza.
 status 2 bench threads --threads 1
 status 2 bench threads gather
