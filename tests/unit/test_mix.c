@@ -389,7 +389,7 @@ static void size_softens(void)
               full[1]);
 }
 
-/* --- what shines -------------------------------------------------------------------------------------------------- */
+/* --- metals and lamps -------------------------------------------------------------------------------------------------- */
 
 /* A photo of the corner, lit by a lamp, with an object of one material. */
 static mix_job *draw_with(const lmb_material *look)
@@ -419,7 +419,7 @@ static float mean_of(const mix_job *j, int x0, int y0, int x1, int y1)
 
 /* A metal shows the grey that is around it, a lamp what it emits; and it lights the floor before it. Neither was so: a
  * metal has no albedo. */
-static void objects_shine(void)
+static void objects_show_light(void)
 {
     lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.4f, .flags = LMB_DOUBLE_SIDED};
     mix_job *j = draw_with(&look);
@@ -457,7 +457,7 @@ static void place_is_named(void)
 
 void test_mix(void)
 {
-    objects_shine();
+    objects_show_light();
     place_is_named();
     maps_count_whole();
     around_darkens();

@@ -1,5 +1,5 @@
 /* mix_light.c: the light around a photo: folded or a panorama's, lights given or guessed, and their maps. */
-#include "mix_shine.h"
+#include "mix_lobes.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -184,7 +184,7 @@ int mix_light(mix_job *j, report *r)
         mix_guess_sun(&j->lights[0], j);
         j->light_count = 1;
     }
-    j->lamp_count = mix_shine_lamps(j->lights + j->light_count, j, r);
+    j->lamp_count = mix_lobes_lamps(j->lights + j->light_count, j, r);
     if (j->lamp_count < 0) {
         return 0;
     }

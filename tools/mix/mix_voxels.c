@@ -1,5 +1,5 @@
 /* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
-#include "mix_shine.h"
+#include "mix_lobes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -89,14 +89,6 @@ static int colour_real(mix_job *j, report *r)
 }
 
 /* --- voxels ------------------------------------------------------------------------------------------------------- */
-
-void mix_object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j)
-{
-    lmb_scene object = j->scene;
-    object.instances = j->scene.instances + 1;
-    object.instance_count = j->scene.instance_count - 1;
-    lmb_scene_bounds(low, high, &object);
-}
 
 /* The floor near the upper side of its leaves: so much of the height under it that what stands on it starts another
  * leaf, and shares none with the floor's light. */
@@ -417,7 +409,7 @@ int mix_voxels(mix_job *j, report *r)
     if (j->object_triangles == 0) {
         return 1;
     }
-    if (!colour_real(j, r) || !mix_shine_bounces(j, r)) {
+    if (!colour_real(j, r) || !mix_lobes_bounces(j, r)) {
         return 0;
     }
     const double from = host_seconds();

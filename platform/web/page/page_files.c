@@ -8,7 +8,7 @@
 #include "../../../tools/common/area_light.h"
 #include "../../../tools/common/io_file.h"
 #include "../../../tools/mix/mix_front.h"
-#include "../../../tools/mix/mix_shine.h"
+#include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/render/render_slice.h"
 
@@ -152,12 +152,12 @@ void mix_front_tile(lmb_tile *out, const lmb_tile *real, const lmb_tile *object,
 }
 void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
-/* --- mix_shine.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
+/* --- mix_lobes.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
 
-void mix_shine_read(mix_job *j) { (void)j; }
-int32_t mix_shine_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
-int mix_shine_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
-void mix_shine_lights(mix_shine *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
+void mix_lobes_read(mix_job *j) { (void)j; }
+int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
+int mix_lobes_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
+void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
                       const lmb_tile *object)
 {
     (void)out;
@@ -165,7 +165,7 @@ void mix_shine_lights(mix_shine *out, lmb_irradiance *inout, const mix_job *j, c
         lmb_direct_tile(inout, j->o.kernels, object, view, &j->scene, &j->lights[i], &j->maps[i][1]);
     }
 }
-void mix_shine_finish(lmb_radiance *inout, mix_shine *s, const mix_job *j, const lmb_view *view, const lmb_tile *object)
+void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object)
 {
     (void)inout, (void)s, (void)j, (void)view, (void)object;
 }

@@ -1,6 +1,6 @@
-/* mix_shine.c: objects that reflect as metals do, by a narrow cone along the mirror direction in the field with them;
+/* mix_lobes.c: objects that reflect as metals do, by a narrow cone along the mirror direction in the field with them;
  * and objects that emit light, by lights at their surface. [M20 M25] */
-#include "mix_shine.h"
+#include "mix_lobes.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,7 +11,7 @@
 /* --- metals ------------------------------------------------------------------------------------------------------- */
 
 /* Of what is no metal the weak lobe stays out, as in `render` without --glossy: mix has one way to draw it. */
-void mix_shine_read(mix_job *j)
+void mix_lobes_read(mix_job *j)
 {
     lmb_material *m = (lmb_material *)(uintptr_t)j->object.scene.materials;
     (void)model_make_glossy(&j->object);
@@ -36,7 +36,7 @@ static lmb_scene *copy_scene(lmb_material **materials, mix_job *j, report *r)
     return out;
 }
 
-int mix_shine_bounces(mix_job *j, report *r)
+int mix_lobes_bounces(mix_job *j, report *r)
 {
     lmb_material *m;
     lmb_scene *scene;
@@ -54,7 +54,7 @@ int mix_shine_bounces(mix_job *j, report *r)
     return scene != NULL;
 }
 
-void mix_shine_lights(mix_shine *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
+void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
                       const lmb_tile *object)
 {
     const int is_glossy = lmb_glossy_tile(&out->lobes, object, view, &j->scene);
@@ -81,7 +81,7 @@ static float reflected(const lmb_glossy *lobes, int c, int k)
 }
 
 /* The lobes of one roughness after the other, of those in `left`: most tiles have one. */
-static uint64_t see_one(mix_shine *s, const mix_job *j, const lmb_view *view, const lmb_tile *object, uint64_t left)
+static uint64_t see_one(mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object, uint64_t left)
 {
     const lmb_cone_trace trace = {j->o.kernels, &j->voxels, LMB_VOXEL_WITH, LMB_VOXEL_WITH, &j->env[1], j->scratch, 1};
     int first = 0;
@@ -104,7 +104,7 @@ static uint64_t see_one(mix_shine *s, const mix_job *j, const lmb_view *view, co
     return left;
 }
 
-void mix_shine_finish(lmb_radiance *inout, mix_shine *s, const mix_job *j, const lmb_view *view, const lmb_tile *object)
+void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object)
 {
     for (uint64_t left = s->lobes.pixels; left != 0;) {
         left = see_one(s, j, view, object, left);
@@ -217,7 +217,7 @@ static void set_light(lmb_light *out, const lamp *l, float peak)
     }
 }
 
-int32_t mix_shine_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r)
+int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r)
 {
     lamp all[MIX_LAMPS];
     size_t count = 0;
