@@ -5,7 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../../../tools/common/area_light.h"
 #include "../../../tools/common/io_file.h"
+#include "../../../tools/mix/mix_job.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/render/render_slice.h"
 
@@ -127,6 +129,17 @@ int png_encode_alpha(file_bytes *out, const uint8_t *rgba, int32_t width, int32_
 {
     return png_encode(out, rgba, width, height, r);
 }
+
+/* --- area_light.h, mix_job.h: the page's lights have no size, and it names them --------------------------------------- */
+
+void area_light(lmb_light *out, int32_t count, const lmb_light *from, float size)
+{
+    (void)size;
+    for (int32_t i = 0; i < count; ++i) {
+        out[i] = *from;
+    }
+}
+void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
 /* --- slice.h, render_slice.h: the page draws whole pictures --------------------------------------------------------------- */
 
