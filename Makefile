@@ -112,7 +112,7 @@ PACKAGE_FILES := $(addprefix $(B)/,lambent.pc lambent-config.cmake lambent-confi
 
 ##@ Build
 AMALGAM := $(BUILD)/amalgam/lambent.h $(BUILD)/amalgam/lambent.c
-.PHONY: all lib demo man amalgam install uninstall docs docs-check help clean
+.PHONY: all lib demo man amalgam dist install uninstall docs docs-check help clean
 all: lib $(if $(filter host,$(PORT)),$(TOOL)) ## the library (liblambent.a) and, on a host, the tool (build/lambent)
 lib: $(LIB)
 
@@ -126,6 +126,10 @@ amalgam: $(AMALGAM) ## the library as two files: build/amalgam/lambent.h and lam
 $(AMALGAM): $(BUILD)/amalgam/lambent.%: platform/amalgam/amalgam.awk LICENSE $(LIB_SRC) $(LIB_PARTS) $(HEADERS)
 	@mkdir -p $(@D)
 	@awk -v PART=$* -v VERSION=$(VERSION) -f platform/amalgam/amalgam.awk $(LIB_SRC) > $@
+
+dist: ## the last commit as build/lambent-VERSION.tar.gz, the same bytes each time
+	@mkdir -p $(BUILD)
+	@git archive --format=tar --prefix=lambent-$(VERSION)/ HEAD | gzip -n -9 > $(BUILD)/lambent-$(VERSION).tar.gz
 
 install: lib $(if $(filter host,$(PORT)),$(TOOL) man) $(PACKAGE_FILES) ## library, headers, tool, man page, for pkg-config and CMake (PREFIX=/usr/local DESTDIR=)
 	@echo "INSTALL $(DESTDIR)$(PREFIX)"
