@@ -3,6 +3,8 @@
 # environment. Each way builds and runs the same two programs of tests/examples.
 . tests/scripts/checks.sh
 
+# A make that found these in its environment would build all anew, with libraries twice.
+unset LDLIBS FLAGS LIB TOOL
 top=$PWD
 dir=$(mktemp -d "${TMPDIR:-/tmp}/lambent-package.XXXXXX") || exit 1
 trap 'rm -rf "$dir"' EXIT

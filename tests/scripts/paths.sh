@@ -32,5 +32,5 @@ for block in "$dir"/*.sh; do
         skip "$what: $missing"
     fi
 done
-check "eight users' blocks" test "$(ls "$dir"/*.sh | wc -l)" -eq 8
+check "nine users' blocks" test "$(ls "$dir"/*.sh | wc -l)" -eq 9
 finish
