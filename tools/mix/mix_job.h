@@ -16,6 +16,7 @@ typedef struct mix_job {
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh real;
+    float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */
     model object;
