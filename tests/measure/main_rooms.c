@@ -40,10 +40,10 @@ static int get_picture(room_picture *p, stage *s, const char *folder, const char
 }
 
 /* As a camera has it: white is 1. */
-static void clip(room_picture *p)
+static void clip(float *rgb)
 {
     for (int i = 0; i < 3 * ROOM_PIXELS; ++i) {
-        p->rgb[i] = fminf(p->rgb[i], 1.0f);
+        rgb[i] = fminf(rgb[i], 1.0f);
     }
 }
 
@@ -227,9 +227,10 @@ static void measure(stage *s, const room_kind *kind, const char *folder)
         free(j);
         return;
     }
-    clip(&s->without);
-    clip(&s->with);
+    clip(s->without.rgb);
+    clip(s->with.rgb);
     if (mix_room(j, s, object, &r)) {
+        clip(j->picture.pixels);
         judge(s, j->picture.pixels, kind->name);
         show(folder, kind->name, "photo", s->without.rgb);
         show(folder, kind->name, "truth", s->with.rgb);

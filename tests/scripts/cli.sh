@@ -913,6 +913,9 @@ status 0 mix $dot --object "$dir/tent.obj" --at 0,0 --scale 0.01 --shadow-map 64
 # A wall alone: the object stands on it, and that is said.
 status 0 mix $seen --object "$dir/tent.obj" --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that no plane faces up is said" grep -q "no plane faces up" "$dir/err.txt"
+# Of planes that are shown nothing is said about a place where the object was not put.
+status 0 mix $seen --object "$dir/tent.obj" --show planes -o "$dir/planes.png"
+check "--show planes puts no object anywhere" sh -c '! grep -q "stands on\|no plane faces up" "$1"' sh "$dir/err.txt"
 status 0 mix $seen --object "$dir/tent.obj" --scale 0.5 --shadow-map 64 --voxels 4 -o "$dir/mixed.pfm"
 check "that the object is off the picture is said" grep -q "part of the object is off the picture" "$dir/err.txt"
 # A size is the file's own metres, and is said where that is absurd.

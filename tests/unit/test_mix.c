@@ -69,8 +69,9 @@ static void stands_on_floor(void)
     mix_job_free(j);
 }
 
-/* The measured floor is 4 mm lower than the plane is by then: the gap says so. */
-static void gap_is_seen(void)
+/* The measured floor is so much lower than the plane is by then: the object goes there, with its plane; a step of more
+ * than sensors bend a plane by stays, and is said. */
+static void touches(float step, int goes)
 {
     char *object[] = {"--object", square};
     mix_job *j = begin(object, 2);
@@ -78,10 +79,16 @@ static void gap_is_seen(void)
     set_depth(j, 2.5f, 1);
     CHECK(mix_find_planes(j, &r));
     for (int i = 0; i < PIXELS; ++i) {
-        j->frame.depth[i] += 0.004f;
+        j->frame.depth[i] += step;
     }
     CHECK(mix_place(j, &r));
-    CHECK_MSG(fabsf(j->gap_m - 0.004f) < 5e-4f, "%g", (double)j->gap_m);
+    CHECK_MSG(fabsf(j->gap_m - (goes ? 0.0f : step)) < 5e-4f, "%g", (double)j->gap_m);
+    const lmb_flat *p = &j->planes.plane[j->floor];
+    CHECK_MSG(fabsf(p->normal.x * j->anchor.x + p->normal.y * j->anchor.y + p->normal.z * j->anchor.z + p->distance) <
+                  1e-5f && p->normal.y > 0.999f, "%g", (double)p->distance);
+    const lmb_vec3 seen = lmb_cloud_point(&j->cloud, 48, 68);
+    CHECK_MSG(fabsf(p->normal.x * seen.x + p->normal.y * seen.y + p->normal.z * seen.z + p->distance) < 1e-5f, "%g",
+              (double)seen.y);
     mix_job_free(j);
 }
 
@@ -382,15 +389,85 @@ static void size_softens(void)
               full[1]);
 }
 
+/* --- metals and lamps -------------------------------------------------------------------------------------------------- */
+
+/* A photo of the corner, lit by a lamp, with an object of one material. */
+static mix_job *draw_with(const lmb_material *look)
+{
+    char *more[] = {"--object", square, "--at", "48,60", "--scale", "0.3", "--light", "point:0,1,-1:0,-1,0:5,5,5"};
+    report r = {""};
+    mix_job *j = begin(more, 8);
+    set_depth(j, 2.5f, 1);
+    CHECK_MSG(place(j), "%s", r.text);
+    for (uint32_t i = 1; i < j->scene.material_count; ++i) {
+        ((lmb_material *)(uintptr_t)j->scene.materials)[i] = *look;
+    }
+    CHECK_MSG(mix_light(j, &r) && mix_voxels(j, &r) && mix_draw(j, &r), "%s", r.text);
+    return j;
+}
+
+static float mean_of(const mix_job *j, int x0, int y0, int x1, int y1)
+{
+    float sum = 0.0f;
+    for (int y = y0; y < y1; ++y) {
+        for (int x = x0; x < x1; ++x) {
+            sum += j->picture.pixels[3 * (y * WIDTH + x) + 1] / (float)((x1 - x0) * (y1 - y0));
+        }
+    }
+    return sum;
+}
+
+/* A metal shows the grey that is around it, a lamp what it emits; and it lights the floor before it. Neither was so: a
+ * metal has no albedo. */
+static void objects_show_light(void)
+{
+    lmb_material look = {.alpha = 1.0f, .texture = -1, .roughness = 0.4f, .flags = LMB_DOUBLE_SIDED};
+    mix_job *j = draw_with(&look);
+    const float black = mean_of(j, 46, 50, 50, 56), floor = mean_of(j, 40, 64, 56, 70);
+    mix_job_free(j);
+    look.specular[0] = look.specular[1] = look.specular[2] = 0.9f;
+    j = draw_with(&look);
+    const float metal = mean_of(j, 46, 50, 50, 56);
+    mix_job_free(j);
+    memset(look.specular, 0, sizeof look.specular);
+    look.emission[0] = look.emission[1] = look.emission[2] = 2.0f;
+    j = draw_with(&look);
+    const float lamp = mean_of(j, 46, 50, 50, 56), lit = mean_of(j, 40, 64, 56, 70);
+    CHECK_MSG(black < 0.01f && metal > 0.1f && metal < 0.6f && fabsf(lamp - 2.0f) < 0.02f && lit > 1.1f * floor,
+              "black %g, metal %g, lamp %g; the floor %g, by the lamp %g", (double)black, (double)metal, (double)lamp,
+              (double)floor, (double)lit);
+    CHECK_MSG(j->lamp_count > 0 && j->lamp_count <= 2, "%d lamps of a square", (int)j->lamp_count);
+    mix_job_free(j);
+}
+
+/* Beside what stands on the floor the nearest of the floor's pixels is named. */
+static void place_is_named(void)
+{
+    char *object[] = {"--object", square, "--at", "10,5"};
+    int32_t at[2] = {0, 0};
+    mix_job *j = begin(object, 4);
+    report r = {""};
+    set_depth(j, 2.5f, 1);
+    CHECK(mix_find_planes(j, &r));
+    CHECK_MSG(mix_plane_near(at, j) && at[0] == 10 && at[1] > 45 && at[1] < 60, "%d, %d", (int)at[0], (int)at[1]);
+    memset(j->planes.label, 0, PIXELS);
+    CHECK(!mix_plane_near(at, j));
+    mix_job_free(j);
+}
+
 void test_mix(void)
 {
+    objects_show_light();
+    place_is_named();
     maps_count_whole();
     around_darkens();
     sun_is_from_a_side();
     sun_is_as_strong_as_shadows();
     size_softens();
     stands_on_floor();
-    gap_is_seen();
+    touches(0.004f, 1);
+    touches(0.019f, 1);
+    touches(0.2f, 0);
     size_is_kept();
     no_floor();
     stands_on_what_is_asked();

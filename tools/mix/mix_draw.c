@@ -1,6 +1,7 @@
 /* mix_draw.c: the photo's answer and the object over it, tile by tile. */
 #include "mix_cones.h"
 #include "mix_front.h"
+#include "mix_lobes.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -20,6 +21,7 @@ typedef struct drawing {
     mix_batch batch;
     lmb_tile object, before; /* before: what real things hide of it */
     lmb_irradiance lit;
+    mix_lobes lobes;
     lmb_radiance light, photo;
     lmb_radiance bare; /* the photo before the object */
     lmb_cone_seen seen[2];
@@ -83,7 +85,7 @@ static int draw_object(drawing *d, mix_job *j, report *r)
 
 static void add_lights(lmb_irradiance *inout, const mix_job *j, const lmb_view *view, const lmb_tile *tile, int with)
 {
-    for (int32_t i = 0; i < j->light_count; ++i) {
+    for (int32_t i = 0; i < j->light_count - (with ? 0 : j->lamp_count); ++i) {
         lmb_direct_tile(inout, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][with]);
     }
 }
@@ -115,8 +117,9 @@ static void light_object(drawing *d, const mix_job *j, const lmb_view *view)
 {
     memset(&d->lit, 0, sizeof d->lit);
     mix_cones_tile(&d->lit, j, &d->object);
-    add_lights(&d->lit, j, view, &d->object, 1);
+    mix_lobes_lights(&d->lobes, &d->lit, j, view, &d->object);
     lmb_compose_tile(&d->light, j->o.kernels, &d->object, &d->lit, NULL);
+    mix_lobes_finish(&d->light, &d->lobes, j, view, &d->object);
 }
 
 /* What is asked for instead of the whole: differences of real pixels, or the object's own. */

@@ -24,6 +24,14 @@ void mix_job_free(mix_job *j)
     free(j);
 }
 
+void mix_object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j)
+{
+    lmb_scene object = j->scene;
+    object.instances = j->scene.instances + 1;
+    object.instance_count = j->scene.instance_count - 1;
+    lmb_scene_bounds(low, high, &object);
+}
+
 static int find_cloud(mix_job *j, report *r)
 {
     const lmb_pinhole *c = &j->frame.camera;

@@ -34,7 +34,8 @@ typedef struct mix_job {
     lmb_env env[2];      /* around the scene without and with the object */
     lmb_light *lights;         /* those with a size are MIX_LIGHT_SAMPLES */
     lmb_shadow_map (*maps)[2]; /* of each: without, with */
-    int32_t light_count;
+    int32_t light_count, lamp_count; /* the last ones are the object's own: they are there only with it */
+    const lmb_scene *bounces;  /* the scene, and its lobes as if they were matt */
     lmb_voxels voxels;   /* about the object; count 0: there is none */
     lmb_cones cones;
     lmb_cone_width glossy;
@@ -69,6 +70,16 @@ typedef struct mix_extent {
     float radius, height, longest;
 } mix_extent;
 mix_extent mix_extent_of(const mix_job *j);
+
+/* mix_touch: move the plane that the object stands on, and the object, onto what was measured at its foot, gap_m farther
+ * along the camera's axis. What is more than a sensor bends a plane by stays. */
+void mix_touch(mix_job *j, float gap_m);
+
+/* mix_plane_near: the pixel nearest to --at whose plane faces up; 0 where there is none. */
+int mix_plane_near(int32_t at[2], const mix_job *j);
+
+/* mix_object_box: the object's, where it stands. */
+void mix_object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j);
 
 /* mix_maps_bytes: of the shadow maps. */
 size_t mix_maps_bytes(const mix_job *j);

@@ -1,5 +1,5 @@
 /* mix_light.c: the light around a photo: folded or a panorama's, lights given or guessed, and their maps. */
-#include "mix_job.h"
+#include "mix_lobes.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -123,15 +123,19 @@ static int take_lights(mix_job *j, report *r)
     for (int32_t i = 0; i < j->o.light_count; ++i) {
         count += j->o.light_size[i] > 0.0f ? MIX_LIGHT_SAMPLES : 1;
     }
+    count += MIX_LAMPS;
     j->lights = mix_take(j, count * sizeof *j->lights, r);
     j->maps = mix_take(j, count * sizeof *j->maps, r);
     return j->lights != NULL && j->maps != NULL;
 }
 
-/* Of many lights that make one shadow together, half a side is enough. */
-static int32_t map_side(const mix_job *j)
+/* Of many lights that make one shadow together, half a side is enough; of lamps, which see all ways and have soft shadows,
+ * an eighth, but all texels of the voxels' first points. */
+static int32_t map_side(const mix_job *j, int32_t light)
 {
-    return j->light_count < MIX_LIGHT_SAMPLES || j->o.shadow_map < 16 ? j->o.shadow_map : j->o.shadow_map / 2;
+    const int32_t given = j->o.shadow_map,
+                  side = j->light_count - j->lamp_count < MIX_LIGHT_SAMPLES || given < 16 ? given : given / 2;
+    return light < j->light_count - j->lamp_count || side <= 256 ? side : side / 8 > 256 ? side / 8 : 256;
 }
 
 static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t count)
@@ -142,7 +146,7 @@ static int draw_map(const mix_job *j, const lmb_shadow_map *map, uint32_t count)
 
 static size_t map_bytes(const mix_job *j, int32_t light)
 {
-    return 2 * lmb_shadow_map_bytes(lmb_shadow_map_faces(&j->lights[light], &j->scene), map_side(j), LMB_ID32);
+    return 2 * lmb_shadow_map_bytes(lmb_shadow_map_faces(&j->lights[light], &j->scene), map_side(j, light), LMB_ID32);
 }
 
 size_t mix_maps_bytes(const mix_job *j)
@@ -159,7 +163,7 @@ static int draw_maps(mix_job *j, report *r)
     char *memory = mix_take(j, mix_maps_bytes(j), r);
     for (int32_t i = 0; memory != NULL && i < j->light_count; ++i) {
         const size_t bytes = map_bytes(j, i);
-        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j), memory, bytes) != LMB_OK ||
+        if (lmb_two_maps(j->maps[i], &j->lights[i], &j->scene, map_side(j, i), memory, bytes) != LMB_OK ||
             !draw_map(j, &j->maps[i][0], j->real_triangles) ||
             !draw_map(j, &j->maps[i][1], j->real_triangles + j->object_triangles)) {
             return report_fail(r, "--light: a shadow map cannot be drawn");
@@ -180,6 +184,11 @@ int mix_light(mix_job *j, report *r)
         mix_guess_sun(&j->lights[0], j);
         j->light_count = 1;
     }
+    j->lamp_count = mix_lobes_lamps(j->lights + j->light_count, j, r);
+    if (j->lamp_count < 0) {
+        return 0;
+    }
+    j->light_count += j->lamp_count;
     j->scene.lights = j->lights;
     j->scene.light_count = (uint32_t)j->light_count;
     return lmb_scene_check(&j->scene) == LMB_OK ? draw_maps(j, r)

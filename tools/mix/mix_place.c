@@ -1,5 +1,5 @@
 /* mix_place.c: where the virtual object stands, and the scene of it and the real surfaces. */
-#include "mix_job.h"
+#include "mix_lobes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -251,6 +251,10 @@ int mix_place(mix_job *j, report *r)
     if (!model_load(&j->object, j->o.object, NULL, &j->notes, r) ||
         !mix_stand(j, r)) {
         return 0;
+    }
+    mix_lobes_read(j);
+    for (int i = 0; i < 3 && j->floor >= 0; ++i) { /* most of the foot's pixels are nearer than its middle */
+        mix_touch(j, gap(j, r));
     }
     turn_scene(j);
     j->gap_m = j->o.at == MIX_AT_WORLD ? NAN : gap(j, r);

@@ -1,5 +1,5 @@
 /* mix_voxels.c: the light that real surfaces and the object throw about, as voxels around the object. */
-#include "mix_job.h"
+#include "mix_lobes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +31,7 @@ typedef struct colour {
 static void light_tile(lmb_irradiance *out, mix_job *j, const lmb_tile *tile, const lmb_view *view)
 {
     memset(out, 0, sizeof *out);
-    for (int32_t i = 0; i < j->light_count; ++i) {
+    for (int32_t i = 0; i < j->light_count - j->lamp_count; ++i) {
         lmb_direct_tile(out, j->o.kernels, tile, view, &j->scene, &j->lights[i], &j->maps[i][0]);
     }
     for (int k = 0; k < LMB_TILE_PIXELS; ++k) {
@@ -90,14 +90,6 @@ static int colour_real(mix_job *j, report *r)
 
 /* --- voxels ------------------------------------------------------------------------------------------------------- */
 
-static void object_box(lmb_vec3 *low, lmb_vec3 *high, const mix_job *j)
-{
-    lmb_scene object = j->scene;
-    object.instances = j->scene.instances + 1;
-    object.instance_count = j->scene.instance_count - 1;
-    lmb_scene_bounds(low, high, &object);
-}
-
 /* The floor near the upper side of its leaves: so much of the height under it that what stands on it starts another
  * leaf, and shares none with the floor's light. */
 static float leaf_under(float height, float leaf)
@@ -108,7 +100,7 @@ static float leaf_under(float height, float leaf)
 static int build(mix_job *j, report *r)
 {
     lmb_vec3 low, high;
-    object_box(&low, &high, j);
+    mix_object_box(&low, &high, j);
     const float size = fmaxf(fmaxf(high.x - low.x, high.y - low.y), high.z - low.z), half = 0.5f * ROOM * size;
     const lmb_vec3 foot = lmb_axes_turn(&j->axes, j->anchor);
     lmb_vec3 middle = {0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
@@ -153,14 +145,14 @@ typedef struct points {
 /* All of a face's first points, in p->tree. */
 static int map_texels(mix_job *j, points *p, int32_t light, const lmb_shadow_map *map, int32_t face)
 {
-    return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, &j->scene, &j->lights[light], map, face, 0, 0,
+    return lmb_tree_texels(&p->tree, j->o.kernels, p->scratch, j->bounces, &j->lights[light], map, face, 0, 0,
                            map->size / LMB_TILE) == LMB_OK;
 }
 
 /* As many texels for the many lights that make one shadow together as for one. */
 static int32_t tree_side(const mix_job *j, int32_t map)
 {
-    const int32_t cap = j->light_count < MIX_LIGHT_SAMPLES ? TREE_SIZE : TREE_SIZE / 4;
+    const int32_t cap = j->light_count < MIX_LIGHT_SAMPLES && j->lamp_count == 0 ? TREE_SIZE : TREE_SIZE / 4;
     const int32_t low = map / 8 > cap ? map / 8 : cap;
     return map < cap ? map : low;
 }
@@ -182,7 +174,7 @@ static int inject_map(mix_job *j, points *p, int32_t light, int32_t with)
 
 static int inject_maps(mix_job *j, points *p, int32_t with)
 {
-    for (int32_t i = 0; i < j->light_count; ++i) {
+    for (int32_t i = 0; i < j->light_count - (with ? 0 : j->lamp_count); ++i) {
         if (!inject_map(j, p, i, with)) {
             return 0;
         }
@@ -217,9 +209,10 @@ static void add_texels(first_light *sum, const points *p, const lmb_light *light
 
 static int add_first_light(first_light *sum, mix_job *j, points *p, int32_t light)
 {
+    const int is_lamp = light >= j->light_count - j->lamp_count; /* of the object: not there without it */
     for (int32_t i = 0; i < 2 * j->maps[light][0].faces; ++i) {
         const lmb_shadow_map *map = &j->maps[light][i % 2];
-        if ((map->drawn >> i / 2 & 1u) == 0) {
+        if ((map->drawn >> i / 2 & 1u) == 0 || (is_lamp && i % 2 == 0)) {
             continue;
         }
         if (!map_texels(j, p, light, map, i / 2)) {
@@ -372,10 +365,10 @@ static int sort_points(mix_job *j, lmb_texel *all, size_t count, report *r)
 static lmb_texel *take_points(size_t *count, mix_job *j, uint32_t first_id, uint32_t triangles, report *r)
 {
     const float leaf = 0.5f * j->voxels.leaf; /* so that leaves get about even shares */
-    const size_t cap = lmb_around_points(NULL, 0, &j->scene, first_id, triangles, leaf, &j->env[0]);
+    const size_t cap = lmb_around_points(NULL, 0, j->bounces, first_id, triangles, leaf, &j->env[0]);
     lmb_texel *out = mix_take(j, cap * sizeof *out, r);
     if (out != NULL) {
-        lmb_around_points(out, cap, &j->scene, first_id, triangles, leaf, &j->env[0]);
+        lmb_around_points(out, cap, j->bounces, first_id, triangles, leaf, &j->env[0]);
         *count = inside(out, cap, &j->voxels);
     }
     return out;
@@ -406,7 +399,7 @@ static int light_voxels(mix_job *j, report *r)
         return report_fail(r, "--shadow-map: a power of two, not %d", (int)map);
     }
     p.tree.faces = 1;
-    object_box(&low, &high, j);
+    mix_object_box(&low, &high, j);
     p.about = (lmb_vec3){0.5f * (low.x + high.x), 0.5f * (low.y + high.y), 0.5f * (low.z + high.z)};
     return inject_all(j, &p, r);
 }
@@ -416,7 +409,7 @@ int mix_voxels(mix_job *j, report *r)
     if (j->object_triangles == 0) {
         return 1;
     }
-    if (!colour_real(j, r)) {
+    if (!colour_real(j, r) || !mix_lobes_bounces(j, r)) {
         return 0;
     }
     const double from = host_seconds();

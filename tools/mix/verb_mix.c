@@ -19,7 +19,11 @@ static void tell_place(const mix_job *j)
         snprintf(gap, sizeof gap, "within %.1f mm of the measured depth", 1000.0 * fabs((double)j->gap_m));
     }
     if (j->floor < 0) {
+        int32_t at[2] = {0, 0};
+        const int is_near = mix_plane_near(at, j);
         report_note(j->o.is_quiet, "the object stands on no plane, %.2f m away, %s", near, gap);
+        report_note(j->o.is_quiet || !is_near, "the nearest pixel of a plane that faces up is --at %d,%d", (int)at[0],
+                    (int)at[1]);
         return;
     }
     const lmb_flat *p = &j->planes.plane[j->floor];
@@ -50,10 +54,12 @@ static void tell_size(const mix_job *j)
 
 static void tell(const mix_job *j)
 {
-    for (uint32_t i = 0; i < j->notes.count; ++i) {
-        report_note(j->o.is_quiet, "note: %s", j->notes.line[i]);
+    for (uint32_t i = 0; i < j->notes.count; ++i) { /* those of options that only `render` has are none of ours */
+        report_note(j->o.is_quiet || strstr(j->notes.line[i], "--glossy") != NULL ||
+                        strstr(j->notes.line[i], "--grouping") != NULL,
+                    "note: %s", j->notes.line[i]);
     }
-    if (j->o.object == NULL || j->o.at == MIX_AT_WORLD) {
+    if (j->o.object == NULL || j->o.at == MIX_AT_WORLD || j->o.show == MIX_PLANES) { /* it was not put anywhere */
         return;
     }
     tell_place(j);

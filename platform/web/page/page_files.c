@@ -8,7 +8,7 @@
 #include "../../../tools/common/area_light.h"
 #include "../../../tools/common/io_file.h"
 #include "../../../tools/mix/mix_front.h"
-#include "../../../tools/mix/mix_job.h"
+#include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
 #include "../../../tools/render/render_slice.h"
 
@@ -151,6 +151,26 @@ void mix_front_tile(lmb_tile *out, const lmb_tile *real, const lmb_tile *object,
     *out = *real;
 }
 void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
+
+/* --- mix_lobes.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */
+
+void mix_lobes_read(mix_job *j) { (void)j; }
+int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r) { return (void)out, (void)j, (void)r, 0; }
+int mix_lobes_bounces(mix_job *j, report *r) { return (void)r, j->bounces = &j->scene, 1; }
+void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
+                      const lmb_tile *object)
+{
+    (void)out;
+    for (int32_t i = 0; i < j->light_count; ++i) {
+        lmb_direct_tile(inout, j->o.kernels, object, view, &j->scene, &j->lights[i], &j->maps[i][1]);
+    }
+}
+void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const lmb_view *view, const lmb_tile *object)
+{
+    (void)inout, (void)s, (void)j, (void)view, (void)object;
+}
+void mix_touch(mix_job *j, float gap_m) { (void)j, (void)gap_m; }
+int mix_plane_near(int32_t at[2], const mix_job *j) { return (void)at, (void)j, 0; }
 
 /* --- slice.h, render_slice.h: the page draws whole pictures --------------------------------------------------------------- */
 

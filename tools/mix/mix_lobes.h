@@ -1,0 +1,36 @@
+/* mix_lobes.h: objects that reflect as metals do, and objects that emit light. [M20 M25] */
+#ifndef MIX_LOBES_H
+#define MIX_LOBES_H
+
+#include "mix_job.h"
+
+enum { MIX_LAMPS = 6 /* lights that stand for all that an object emits, one for each way that it faces */ };
+
+/* What one tile's lobes are made in. */
+typedef struct mix_lobes {
+    lmb_glossy lobes;
+    lmb_cone_seen seen;
+    lmb_cone_width width;
+    lmb_irradiance one; /* of one light */
+} mix_lobes;
+
+/* mix_lobes_read: the object's materials as its file has them, metals with their lobes. */
+void mix_lobes_read(mix_job *j);
+
+/* mix_lobes_lamps: lights that send what the object emits. Returns how many of MIX_LAMPS there are, or -1 with `r`
+ * set. */
+int32_t mix_lobes_lamps(lmb_light out[MIX_LAMPS], mix_job *j, report *r);
+
+/* mix_lobes_bounces: set j->bounces, the scene whose surfaces throw light about. Lobes throw as much as their metal
+ * reflects, but to all sides. */
+int mix_lobes_bounces(mix_job *j, report *r);
+
+/* mix_lobes_lights: add what lights bring to a tile of the object, and to its lobes.
+ * mix_lobes_finish: of its radiance, what lobes leave of it, what they see by narrow cones in the field with the object,
+ * and what its surfaces emit. */
+void mix_lobes_lights(mix_lobes *out, lmb_irradiance *inout, const mix_job *j, const lmb_view *view,
+                      const lmb_tile *object);
+void mix_lobes_finish(lmb_radiance *inout, mix_lobes *s, const mix_job *j, const lmb_view *view,
+                      const lmb_tile *object);
+
+#endif
