@@ -368,6 +368,9 @@ BEGIN {
     print "#include \"lambent.h\"\n"
     print "#if defined(__clang__)\n#pragma clang diagnostic ignored \"-Wunused-function\" /* verbs that some kernels lack */\n#endif"
     print "#include <float.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <string.h>"
+    # As C++: names as in C; what has templates stands before that.
+    print "#ifdef __cplusplus\n#if defined(__SSE2__)\n#include <cpuid.h>\n#include <immintrin.h>"
+    print "#elif defined(__ARM_NEON)\n#include <arm_neon.h>\n#endif\nextern \"C\" {\n#endif"
     for (h = 1; h <= headers; ++h) print_header(header_order[h])
     for (a = 1; a < ARGC; ++a) {
         unit = ARGV[a]
@@ -376,5 +379,6 @@ BEGIN {
         gather(unit)
         print_unit()
     }
+    print "\n#ifdef __cplusplus\n}\n#endif"
     exit failed
 }
