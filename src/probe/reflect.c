@@ -15,7 +15,8 @@
 enum { RINGS = 8, AROUND = 8, CALM_AROUND = 5, RAYS = RINGS * AROUND };
 enum { FINE = 6 }; /* rays of a mirror's texel each way: its value is the mean over the texel, as in pictures */
 
-/* Without peaks a world is smooth, and fewer rays do. Lobes narrower than this would see a peak, which is light of a 32nd of a face, as a speck. */
+/* Without peaks a world is smooth, and fewer rays do. Lobes narrower than this would see a peak, which is light of a
+ * 32nd of a face, as a speck. */
 static const float least_calm = 0.03f;
 
 /* A ray about +z: one of AROUND in its ring. */
