@@ -261,12 +261,12 @@ lmb_status lmb_probe_map_cube(float *cube, int32_t n, const float *map, const lm
 /* lmb_probe_reflect: the radiance that a surface mirrors, by the direction in which a mirror would look.     [S16 S22]
  *
  *   cube       3 planes of 6 n x n texels; n: 1 .. 256. lmb_probe_glossy_side gives the n that shows a roughness: 64
- *              from 0.1 on, 16 from 0.3, 8 from 0.6; 0 under 0.1, where pixels look at the world itself. Off by 4 to
- *              5 % rmse from 0.2 on, by 12 % at 0.1, in a world of small lights.
+ *              from 0.1 on, 16 from 0.3, 8 from 0.6; 0 under 0.1, where pixels look at the world itself. Off by 2 to
+ *              4 % rmse from 0.2 on, by 12 % at 0.1, in a world of small lights.
  *   roughness  0 .. 1; alpha = roughness^2, under LMB_MIN_ALPHA: a mirror's.
- * The lobe is that of lmb_glossy seen from straight above, by 64 rays down to its horizon; a mirror's texels are
- * means of 36 rays: against path-traced truth of a world with small lights 1 % rmse away from silhouettes. LMB_OK or
- * LMB_ERR_ARG. Cost: about 25 cycles a ray by AVX2. */
+ * The lobe is that of lmb_glossy seen from straight above, by 64 rays down to its horizon, or from roughness 0.2 on by
+ * the world's peaks and 40 rays; a mirror's texels are means of 36 rays: against path-traced truth of a world with small
+ * lights 1 % rmse away from silhouettes. LMB_OK or LMB_ERR_ARG. Cost: about 25 cycles a ray by AVX2. */
 int32_t lmb_probe_glossy_side(float roughness);
 lmb_status lmb_probe_reflect(float *cube, int32_t n, lmb_probe_rays *scratch, const lmb_kernels *kernels,
                              const lmb_world_query *query, lmb_vec3 at, float roughness);

@@ -12,10 +12,11 @@
 
 #if LMB_PROBES
 
-enum { RINGS = 8, AROUND = 8, RAYS = RINGS * AROUND };
+enum { RINGS = 8, AROUND = 8, CALM_AROUND = 5, RAYS = RINGS * AROUND };
 enum { FINE = 6 }; /* rays of a mirror's texel each way: its value is the mean over the texel, as in pictures */
 
-/* Lobes narrower than this would see a peak, which is light of a 32nd of a face, as a speck. */
+/* Without peaks a world is smooth, and fewer rays do. Lobes narrower than this would see a peak, which is light of a
+ * 32nd of a face, as a speck. */
 static const float least_calm = 0.03f;
 
 /* A ray about +z: one of AROUND in its ring. */
@@ -30,20 +31,20 @@ static const float share_read = 0.7f;
 
 /* Ring i stands for the i-th 1 / RINGS of D down to the horizon, and lies at its middle: tan^2 of the half vector's
  * angle is a2 u / (1 - u), and 1 at the horizon. Its rays lie half a step round from the next ring's. */
-static float set_rays(lobe_ray out[RAYS], float alpha)
+static float set_rays(lobe_ray out[RAYS], float alpha, int around)
 {
     const float a2 = alpha * alpha, horizon = 1.0f / (1.0f + a2);
     float sum = 0.0f;
-    for (int i = 0; i < RAYS; ++i) {
-        const int ring = i / AROUND;
+    for (int i = 0; i < RINGS * around; ++i) {
+        const int ring = i / around;
         const float u = horizon * (((float)ring + 0.5f) / (float)RINGS), tan2 = a2 * u / (1.0f - u),
                     cos2 = 1.0f / (1.0f + tan2);
         const float z = 2.0f * cos2 - 1.0f, round = sqrtf(maxf(1.0f - z * z, 0.0f));
-        const float angle = 2.0f * LMB_PI * (((float)(i % AROUND) + 0.5f * (float)(ring % 2)) / (float)AROUND);
+        const float angle = 2.0f * LMB_PI * (((float)(i % around) + 0.5f * (float)(ring % 2)) / (float)around);
         const float t = cos2 * (a2 - 1.0f) + 1.0f, d = a2 / (LMB_PI * (t * t));
         out[i].to = vec3(round * lmb_cos(angle), round * lmb_sin(angle), z);
         out[i].weight = 2.0f * z / (z + sqrtf(a2 + (1.0f - a2) * (z * z)));
-        out[i].width = share_read * sqrtf(4.0f * horizon / (d * (float)RAYS));
+        out[i].width = share_read * sqrtf(4.0f * horizon / (d * (float)(RINGS * around)));
         sum += out[i].weight;
     }
     return sum;
@@ -158,18 +159,19 @@ static void blur(float *cube, int32_t n, lmb_probe_rays *t, const lmb_kernels *k
                  lmb_vec3 at, float alpha)
 {
     lobe_ray rays[RAYS];
-    const float weights = set_rays(rays, alpha), share = 1.0f / ((1.0f + alpha * alpha) * (float)RAYS);
-    const int32_t of = alpha < least_calm ? LMB_WORLD_ALL : LMB_WORLD_CALM;
+    const int32_t of = alpha < least_calm || query->world->peaks == 0 ? LMB_WORLD_ALL : LMB_WORLD_CALM;
+    const int around = of == LMB_WORLD_CALM ? CALM_AROUND : AROUND;
+    const float weights = set_rays(rays, alpha, around), lobe = (1.0f + alpha * alpha) * (float)(RINGS * around);
     lmb_world_job job;
     for (int32_t first = 0; first < 6 * n * n; first += LMB_TILE_PIXELS) {
         set_tile(t, first, n, at);
-        for (int i = 0; i < RAYS; ++i) {
+        for (int i = 0; i < RINGS * around; ++i) {
             lmb_world_ask(&job, query->world, of, rays[i].width, query->blend);
             point_ray(t, &rays[i]);
             add_seen(t, rays[i].weight, kernels, &job);
         }
         if (of == LMB_WORLD_CALM) {
-            add_peaks(t, &job, query->world, at, alpha, 1.0f / share);
+            add_peaks(t, &job, query->world, at, alpha, lobe);
         }
         store(cube, t, first, 6 * n * n, 1.0f / weights);
     }
