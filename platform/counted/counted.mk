@@ -11,7 +11,7 @@ $(B)/obj/platform/counted/port_counted.o: COMPILE += -fno-builtin -fno-tree-loop
 $(B)/counted: $(COUNTED_OBJ)
 	@echo "LD $@"
 	@$(CC) $(FLAGS) -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
-	    -Wl,--no-warn-rwx-segments -Wl,-Ttext=$(COUNTED_AT) -Wl,-e,_start -o $@ $^ $(PORT_LDLIBS)
+	    -Wl,--no-warn-rwx-segments -Wl,-Ttext=$(COUNTED_AT) -Wl,-e,_start $(LDFLAGS) -o $@ $^ $(PORT_LDLIBS)
 
 $(B)/qemu_caches.so: platform/counted/qemu_caches.c platform/freestanding/qemu_interface.h
 	@mkdir -p $(@D)

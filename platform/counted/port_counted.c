@@ -135,6 +135,11 @@ __attribute__((noinline)) uint32_t counted_products(uint32_t n)
 
 __attribute__((noinline)) void counted_end(void) { __asm__ volatile(""); }
 
+#if defined(COUNTED_PS1)
+/* Where the console has it: see scratchpad_ps1.c. */
+uint8_t counted_scratchpad[1024] __attribute__((section(".scratchpad,\"aw\",@nobits#"), used));
+#endif
+
 /* The stack ends where 64 KiB do, as on the console: so its lines of the cache do not hang on the system's environment. */
 uint8_t counted_stack[65536] __attribute__((aligned(65536)));
 

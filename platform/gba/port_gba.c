@@ -7,7 +7,7 @@
 #include "../port_say.h"
 #include "gba.h"
 
-enum { WIDTH = 240, HEIGHT = 160, ROWS = 20 };
+enum { WIDTH = 240, HEIGHT = 160, ROWS = 27 };
 
 const int32_t port_width = WIDTH, port_height = HEIGHT, port_rows = ROWS,
               port_format = LMB_FIXED_BGR555;

@@ -10,11 +10,15 @@ PORT_CFLAGS  := -march=r3000 -mabi=32 -msoft-float -mno-abicalls -fno-pic -G0 -m
 PORT_LDFLAGS  = -nostdlib -static -Wl,--build-id=none -Wl,--gc-sections -Wl,-z,noexecstack \
                 -Wl,--no-warn-rwx-segments -T platform/ps1/ps1.ld
 PORT_LDLIBS  :=
+# Calls whose stack scratchpad_ps1.c has elsewhere.
+ON_SCRATCHPAD := $(foreach f,band prepare transform,-Wl,--wrap=lmb_fixed_$(f))
 RUN          := false
 
-ROOM_SRC     := platform/ps1/port_ps1.c $(addprefix platform/consoles/,ram_program.c screen_16.c) $(PORT_SRC)
+ROOM_SRC     := $(addprefix platform/ps1/,port_ps1.c scratchpad_ps1.c) $(addprefix platform/consoles/,ram_program.c screen_16.c) $(PORT_SRC)
 ROOM_IMAGE    = $(B)/room.exe
 ROOM_RUN      = PRESS='$(PRESS)' ROOM_PICTURE=$(B)/room.ppm sh platform/ps1/run.sh $(B) $(LRHOST) $(call core_of,mednafen_psx)
+
+$(B)/room: LDFLAGS += $(ON_SCRATCHPAD)
 
 include platform/libretro/lrhost.mk
 
@@ -41,3 +45,6 @@ COUNTED_ROWS  ?= 240
 COUNTED_AT    := 0x410000
 COUNTED_QEMU  := qemu-mipsel
 COUNTED_MODEL := r3000
+COUNTED_SRC   := platform/ps1/scratchpad_ps1.c
+$(B)/counted: LDFLAGS += $(ON_SCRATCHPAD) -Wl,-u,counted_scratchpad,--section-start=.scratchpad=0x1f800000 \
+    -Wl,-T,platform/ps1/counted_ps1.ld
