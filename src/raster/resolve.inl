@@ -40,6 +40,27 @@ LANE_INLINE uint64_t resolve_own(const lmb_resolve_batch *b, const uint32_t *id,
     return left & own;
 }
 
+/* The id of pixel `at` gets a slot; returns its pixels, which lie from pixel `from` to `to`. */
+LANE_INLINE uint64_t resolve_id(lmb_resolve_batch *out, const uint32_t *id, int at, int from, int to)
+{
+    const lanei wanted = lanei_splat((int32_t)id[at]), number = lanei_splat(out->count);
+    uint64_t mine = 0;
+    const int begin = LANES > LMB_TILE ? 0 : from & ~(LANES - 1), past = LANES > LMB_TILE ? LMB_TILE_PIXELS : to + 1;
+    for (int k = begin; k < past; k += LANES) {
+        mine |= (uint64_t)resolve_take(out->slot, id, k, wanted, number) << k;
+    }
+    out->id[out->count++] = id[at];
+    return mine;
+}
+
+/* Whether ids are taken from both ends of what is left: a search waits for what the one before it leaves, and two
+ * wait side by side. Plain C is busy meanwhile. */
+#if defined(LANE_PLAIN)
+enum { RESOLVE_BOTH = 0 };
+#else
+enum { RESOLVE_BOTH = 1 };
+#endif
+
 /* `left` has all pixels of an id or none, so the search could start at the first of them. Comparing all four wide
  * vectors is faster than finding where to start. */
 static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[LMB_TILE_PIXELS], uint64_t left)
@@ -51,14 +72,11 @@ static uint64_t KERNEL(resolve_slots)(lmb_resolve_batch *out, const uint32_t id[
     }
     out->count = 0;
     while (left != 0 && out->count < LMB_SLOTS) {
-        const int first = lowest_bit_64(left);
-        const uint32_t next = id[first];
-        const lanei wanted = lanei_splat((int32_t)next), number = lanei_splat(out->count);
-        uint64_t mine = 0;
-        for (int k = LANES > LMB_TILE ? 0 : first & ~(LANES - 1); k < LMB_TILE_PIXELS; k += LANES) {
-            mine |= (uint64_t)resolve_take(out->slot, id, k, wanted, number) << k;
+        const int first = lowest_bit_64(left), last = RESOLVE_BOTH ? highest_bit_64(left) : LMB_TILE_PIXELS - 1;
+        uint64_t mine = resolve_id(out, id, first, first, last);
+        if (RESOLVE_BOTH && id[last] != id[first] && out->count < LMB_SLOTS) {
+            mine |= resolve_id(out, id, last, first, last);
         }
-        out->id[out->count++] = next;
         taken |= mine;
         left &= ~mine;
     }
@@ -174,14 +192,20 @@ LANE_INLINE void resolve_normals(lmb_resolve_batch *b, const lmb_vec3 column[3],
     }
 }
 
+/* Of a code 0 .. 255, as a 255th: for all of them the sum rounds to what a division gives, which takes longer. */
+LANE_INLINE lane resolve_share(lanei code)
+{
+    const lane c = lane_from_int(code);
+    return lane_add(lane_mul(c, lane_splat(1.0f / 256.0f)), lane_mul(c, lane_splat((float)(1.0 / 65280.0))));
+}
+
 LANE_INLINE void resolve_albedo(lmb_resolve_batch *b, int k)
 {
     for (int c = 0; c < 3; ++c) {
         lane v[3];
         for (int i = 0; i < 3; ++i) {
             const lanei code = lanei_load((const int32_t *)b->colour[i] + k);
-            const lane colour =
-                lane_div(lane_from_int(lanei_and(lanei_shift(code, 8 * c), lanei_splat(255))), lane_splat(255.0f));
+            const lane colour = resolve_share(lanei_and(lanei_shift(code, 8 * c), lanei_splat(255)));
             v[i] = lane_mul(lane_splat(b->material->albedo[c]), colour);
             lane_store(b->albedo[i][c] + k, i == 0 ? v[0] : lane_sub(v[i], v[0]));
         }

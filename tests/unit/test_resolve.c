@@ -240,6 +240,30 @@ static void test_colours(const lmb_kernels *k, test_rng *r)
     CHECK(on_edge > 100);
 }
 
+/* Three corners of one code give a quotient by 255, rounded once, whatever it is computed by. */
+static void test_codes(const lmb_kernels *k, test_rng *r)
+{
+    int seen = 0, wrong = 0;
+    make_world(r);
+    for (int m = 0; m < MESHES; ++m) {
+        w.material[m].texture = -1;
+        w.material[m].albedo[0] = 1.0f;
+    }
+    for (int code = 0; code < 256; ++code) {
+        memset(w.colours, code, sizeof w.colours);
+        resolve_whole(k);
+        for (int i = 0; i < PIXELS; ++i) {
+            const lmb_tile *tile = &whole[i / LMB_TILE_PIXELS];
+            const uint32_t id = tile->id[i % LMB_TILE_PIXELS];
+            if (id != 0 && w.mesh[(id - 1) / TRIANGLES].colours != NULL) {
+                wrong += tile->albedo[0][i % LMB_TILE_PIXELS] != (float)code / 255.0f;
+                ++seen;
+            }
+        }
+    }
+    CHECK(seen > 256 && wrong == 0);
+}
+
 void test_resolve(void)
 {
     const lmb_kernels *k;
@@ -251,5 +275,6 @@ void test_resolve(void)
         make_world(&r);
         test_wild_coordinates(k);
         test_colours(k, &r);
+        test_codes(k, &r);
     }
 }
