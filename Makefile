@@ -55,7 +55,7 @@ object    = $(patsubst %.c,$(B)/obj/%.o,$(1))
 LIB_SRC  := $(sort $(wildcard src/*/*.c))
 TOOL_SRC := $(sort $(filter-out $(wildcard tools/*/gen_*.c),$(wildcard tools/*/*.c))) \
             platform/host/host.c platform/host/pool.c \
-            platform/host/process.c platform/host/count.c
+            platform/host/process.c platform/host/programs.c platform/host/count.c
 TEST_SRC := $(sort $(wildcard $(foreach d,unit analytic truth lanes,tests/$(d)/test_*.c)))
 
 SCENES_SRC := $(filter-out tests/scenes/main_%,$(sort $(wildcard tests/scenes/*.c)))
@@ -78,6 +78,7 @@ HARD_OBJ   := $(call object,$(sort $(wildcard tests/hard/*.c))) $(filter-out %/l
 SCENES_OBJ := $(call object,tests/scenes/main_scenes.c $(SCENES_SRC))
 PATH_OBJ   := $(call object,tests/truth/main_path.c tests/truth/path.c $(SCENES_SRC))
 measure_fixed := platform/demo/room.c
+measure_rooms := tests/truth/path.c $(SCENES_SRC)
 # tests/measure/main_NAME.c and what is named NAME_*.c beside it: the program measure-NAME.
 MEASURES   := $(patsubst tests/measure/main_%.c,%,$(sort $(wildcard tests/measure/main_*.c)))
 measure_of  = $(call object,$(wildcard tests/measure/main_$(1).c tests/measure/$(1)_*.c) $(measure_$(1))) \
@@ -412,7 +413,7 @@ WITHOUT = -DLMB_TREES=0 -DLMB_PROBES=0 -DLMB_RELIEF=0 -DLMB_MIXED=0 -DLMB_VOXELS
 .PHONY: faults paths size module-sizes rom asan msan fuzz mutants cov static prove decodes reference measure-moving \
     measure-steady measure-pack measure-baked measure-lights measure-crate measure-front scenes small-truth \
     measure-truth measure-own measure-defaults measure-turned measure-full measure-times measure-direct report measure-cuts \
-    measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed \
+    measure-simplify measure-relight measure-relief measure-plan plan-model measure-planes measure-mixed measure-rooms \
     measure-voxels measure-fixed large tiny run-demo run-statue $(LIVE:%=run-%) cross check-tools
 ##@ Size, sanitizers, fuzzing, proofs
 ifeq ($(PORT),host)
@@ -547,6 +548,9 @@ measure-planes: $(B)/measure-planes ## planes found in noisy depth against known
 
 measure-mixed: $(B)/measure-mixed ## a virtual object in a photo of which all is known, against truth
 	@$(RUN) $(B)/measure-mixed
+
+measure-rooms: $(B)/measure-rooms ## objects put into rooms of our own, against path-traced pictures (ROOMS="window ...")
+	@mkdir -p $(B)/rooms && $(RUN) $(B)/measure-rooms $(B)/rooms $(ROOMS)
 
 measure-voxels: $(B)/measure-voxels ## one bounce by cones through voxels: errors, time, memory (SCENES)
 	@$(RUN) $(B)/measure-voxels $(SCENES)

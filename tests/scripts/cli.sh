@@ -980,6 +980,34 @@ mkdir -p "$dir/flat" # one vertex at 0 and no triangle
 printf '\001\000\000\000' >"$dir/flat/bunny.mesh"
 head -c 36 /dev/zero >>"$dir/flat/bunny.mesh"
 status 1 bench raster bunny-depth-1024 --data "$dir/flat" --seconds 0.01
+# Other rasterizers' programs, which are scripts here.
+peer() {
+    mkdir -p "$dir/peers_$1"
+    printf '#!/bin/sh\n%s\n' "$2" >"$dir/peers_$1/$1"
+    chmod +x "$dir/peers_$1/$1"
+}
+quad="bench raster fill-depth-pass --seconds 0.01"
+peer good 'echo "#cov 1"; echo "x,$1-cull,cpu_min_ms=9"; echo "x,$1,tris=64,cpu_min_ms=1e3,n=8"; echo "$BENCH_SEC" >"$0.txt"'
+status 0 $quad --peers "$dir/peers_good"
+check "bench raster --peers prints theirs beside ours" sh -c 'sed 1d "$1" | grep -qx "good,fill-depth-pass-1024,cpu_min_ms=1000.0000,times=[1-9][0-9.]*"' sh "$dir/out.txt"
+check "it tells them how long to measure" grep -qx 0.01 "$dir/peers_good/good.txt"
+status 0 $quad --json --peers "$dir/peers_good"
+check "bench raster --peers prints JSON" grep -q '^{"peer":"good","case":"fill-depth-pass-1024","cpu_min_ms":1000.0000,"times":[1-9][0-9.]*}$' "$dir/out.txt"
+peer crash 'kill -SEGV $$'
+peer fails 'echo "x,$1,cpu_min_ms=1"; exit 3'
+peer rubbish 'head -c 100000 /dev/urandom; echo; echo "x,$1,cpu_min_ms=fast"'
+peer missing "" && printf '#!%s/nowhere\n' "$dir" >"$dir/peers_missing/missing"
+for case in "crash: ended by signal 11 at" "fails: exit status 3 at" "rubbish: printed no line" "missing: it cannot be run"; do
+    "$TOOL" $quad --peers "$dir/peers_${case%%:*}" >"$dir/out.txt" 2>"$dir/err.txt"
+    check "bench raster --peers refuses one: $case" test $? -eq 1
+    check "and says so in a line" sh -c 'test "$(grep -c . "$1")" -eq 1 && grep -q "$2" "$1"' sh "$dir/err.txt" "$case"
+done
+status 1 $quad --peers "$dir/nowhere"
+mkdir -p "$dir/peers_none"
+echo "no program" >"$dir/peers_none/readme.txt"
+status 1 $quad --peers "$dir/peers_none"
+status 1 $quad --peers "$dir/peers_good/good"
+status 2 $quad --peers
 # Threads beside processes: wants more than one, and sponza.
 status 2 bench threads --threads 1
 status 2 bench threads gather

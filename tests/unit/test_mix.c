@@ -253,6 +253,53 @@ static void nothing_changes(void)
     mix_job_free(j);
 }
 
+/* --- what lamps send ---------------------------------------------------------------------------------------------- */
+
+/* W that voxels without the object hold of a spot over the floor, by maps of that many texels a side; *around: of what
+ * is around, the share that is left with the object. */
+static double lamp_flux(float *around, int32_t texels, const char *light, char *scale)
+{
+    char spot[100];
+    char *more[] = {"--object", square, "--at", "48,60", "--scale", scale, "--light", spot};
+    report r = {""};
+    float rgb[2][3];
+    snprintf(spot, sizeof spot, "%s", light);
+    mix_job *j = begin(more, 8);
+    j->o.shadow_map = texels;
+    set_depth(j, 2.5f, 1);
+    CHECK_MSG(place(j) && mix_light(j, &r) && mix_voxels(j, &r), "%s", r.text);
+    for (int i = 0; i < 2; ++i) {
+        lmb_env_irradiance(rgb[i], &j->env[i], (lmb_vec3){0, 1, 0});
+    }
+    *around = rgb[1][1] / rgb[0][1];
+    const double flux = j->voxels.flux[0] + j->voxels.lost[0];
+    mix_job_free(j);
+    return flux;
+}
+
+/* All of a light's map counts, also where several of its texels are one first point. */
+static void maps_count_whole(void)
+{
+    static const char spot[] = "spot:0,1,-1.6:0,-1,0:9,9,9:30,40";
+    float around;
+    const double fine = lamp_flux(&around, 1024, spot, "0.2"), coarse = lamp_flux(&around, 512, spot, "0.2");
+    CHECK_MSG(fabs(fine - coarse) < 0.02 * coarse, "%g W, %g W", fine, coarse);
+}
+
+/* What is around darkens by what the object takes of a lamp's light: nothing where it stands beside that, the more the
+ * larger it is, and of a sun nothing. */
+static void around_darkens(void)
+{
+    float small, large, beside, sunny;
+    lamp_flux(&small, 128, "spot:0,1,-1.1:0,-1,0:9,9,9:30,40", "0.05");
+    lamp_flux(&large, 128, "spot:0,1,-1.1:0,-1,0:9,9,9:30,40", "0.3");
+    lamp_flux(&beside, 128, "spot:0,1,-2.2:0,-1,0:9,9,9:10,15", "0.05");
+    lamp_flux(&sunny, 128, "sun:0,0,0:0.1,-1,-0.1:2,2,2", "0.3");
+    CHECK_MSG(beside == 1.0f && sunny == 1.0f && fabsf(small - 1.0f) < 0.01f && fabsf(large - 1.0f) > fabsf(small - 1.0f),
+              "beside %g, small %g, large %g, under a sun %g", (double)beside, (double)small, (double)large,
+              (double)sunny);
+}
+
 /* A sun behind the viewer, or overhead, is moved so that the shadow falls beside the object. */
 static void sun_is_from_a_side(void)
 {
@@ -337,6 +384,8 @@ static void size_softens(void)
 
 void test_mix(void)
 {
+    maps_count_whole();
+    around_darkens();
     sun_is_from_a_side();
     sun_is_as_strong_as_shadows();
     size_softens();
