@@ -221,7 +221,7 @@ static int mix_frames(const mix_options *o, report *r)
         const int ok = mix_one(j, &kept, &list.entry[i], i, &one);
         done += ok;
         if (!ok) {
-            report_note(0, "frame %d is left out: %s", (int)i, one.text);
+            report_note(o->is_quiet, "frame %d is left out: %s", (int)i, one.text);
         }
         mix_job_free(j);
         progress_tell("frames", (double)(i + 1) / (double)list.count);
