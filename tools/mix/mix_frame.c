@@ -1,6 +1,7 @@
 /* mix_frame.c: a photo with its depth and its camera, read from files. */
 #include "mix_frame.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -116,6 +117,26 @@ static int read_depth(mix_frame *f, const char *path, float scale, report *r)
 
 /* --- camera ------------------------------------------------------------------------------------------------------- */
 
+int mix_is_pose(const double pose[16])
+{
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const double d = pose[4 * i] * pose[4 * k] + pose[4 * i + 1] * pose[4 * k + 1] +
+                             pose[4 * i + 2] * pose[4 * k + 2];
+            if (!(fabs(d - (i == k)) < 1e-3)) {
+                return 0;
+            }
+        }
+        if (!(fabs(pose[4 * i + 3]) < 1e4)) {
+            return 0;
+        }
+    }
+    const double turn = pose[0] * (pose[5] * pose[10] - pose[6] * pose[9]) -
+                        pose[1] * (pose[4] * pose[10] - pose[6] * pose[8]) +
+                        pose[2] * (pose[4] * pose[9] - pose[5] * pose[8]);
+    return turn > 0.0;
+}
+
 static int read_pose(mix_frame *f, const json *doc, report *r)
 {
     const uint32_t rows = json_member(doc, 0, "camera_to_world");
@@ -131,7 +152,8 @@ static int read_pose(mix_frame *f, const json *doc, report *r)
             return 0;
         }
     }
-    return f->has_pose = 1;
+    f->has_pose = mix_is_pose(f->pose);
+    return f->has_pose || json_fail(doc, rows, r, "is no rotation and place");
 }
 
 static int read_numbers(mix_frame *f, mix_source *s, const json *doc, report *r)

@@ -28,4 +28,7 @@ typedef struct mix_frame {
 int mix_frame_read(mix_frame *out, const mix_source *from, report *r);
 void mix_frame_free(mix_frame *f);
 
+/* mix_is_pose: a rotation and a place, all finite. */
+int mix_is_pose(const double pose[16]);
+
 #endif

@@ -1,5 +1,5 @@
 /* mix_job.c: the memory of one run of `lambent mix`, and the planes of its photo. */
-#include "mix_job.h"
+#include "mix_frames.h"
 
 #include <stdlib.h>
 
@@ -16,7 +16,9 @@ void *mix_take(mix_job *j, size_t bytes, report *r)
 void mix_job_free(mix_job *j)
 {
     mix_frame_free(&j->frame);
-    model_free(&j->object);
+    if (j->kept == NULL || j->kept->frames == 0) { /* else it is the sequence's */
+        model_free(&j->object);
+    }
     image_free(&j->picture);
     for (int i = 0; i < j->block_count; ++i) {
         free(j->blocks[i]);

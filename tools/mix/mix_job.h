@@ -9,16 +9,20 @@
 
 enum { MIX_BLOCKS = 64, MIX_LIGHT_SAMPLES = 32 /* of a light with a size */ };
 
+struct mix_kept;
+
 /* mix_job_free releases what it points to. */
 typedef struct mix_job {
     mix_options o;
     mix_frame frame;
+    const struct mix_kept *kept; /* of a sequence: its object is placed, and lit, by frames before; or NULL */
     lmb_cloud cloud;
     lmb_planes planes;
     lmb_real_mesh real;
     float *front;        /* 1/m, by pixel: what may hide the object; mix_front.h */
     lmb_axes axes;       /* of the camera in the scene's space: its floor is level */
     lmb_mat4 from_world; /* to the scene's space */
+    lmb_mat4 placed;     /* the object's place in it */
     model object;
     model_notes notes;
     lmb_scene scene;     /* the real mesh is instance 0, the object's instances come after it */

@@ -1,7 +1,9 @@
 /* mix_light.c: the light around a photo: folded or a panorama's, lights given or guessed, and their maps. */
+#include "mix_frames.h"
 #include "mix_lobes.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "../common/area_light.h"
@@ -76,6 +78,46 @@ static int read_world(mix_job *j, report *r)
     return ok;
 }
 
+/* The same surroundings with other axes: `to_from` turns directions of `out` to those of `from`. */
+static void turn_env(const lmb_env *out, const lmb_env *from, const lmb_mat4 *to_from)
+{
+    for (int32_t i = 0; i < 6 * ENV_SIZE * ENV_SIZE; ++i) {
+        const int32_t face = i / (ENV_SIZE * ENV_SIZE), x = i % ENV_SIZE, y = i / ENV_SIZE % ENV_SIZE;
+        const float s = (2.0f * (float)x + 1.0f) / ENV_SIZE - 1.0f, t = (2.0f * (float)y + 1.0f) / ENV_SIZE - 1.0f;
+        float rgb[3];
+        lmb_env_sample(rgb, from, turned(to_from, direction_of(face, s, t)), 0.0f);
+        lmb_env_set(out, face, x, y, rgb);
+    }
+    lmb_env_mips(out);
+}
+
+static lmb_mat4 turned_back(const lmb_mat4 *t)
+{
+    lmb_mat4 out = *t;
+    for (int i = 0; i < 9; ++i) {
+        out.m[i / 3 * 4 + i % 3] = t->m[i % 3 * 4 + i / 3];
+    }
+    return out;
+}
+
+/* Of a guessed sun the direction is the scene's, and becomes the world's. */
+int mix_keep_light(mix_kept *k, const mix_job *j, report *r)
+{
+    const size_t bytes = lmb_env_bytes(ENV_SIZE);
+    const lmb_mat4 back = turned_back(&j->from_world);
+    k->env_memory = malloc(bytes);
+    if (k->env_memory == NULL || lmb_env_init(&k->env, ENV_SIZE, k->env_memory, bytes) != LMB_OK) {
+        return report_fail(r, "out of memory");
+    }
+    turn_env(&k->env, &j->env[0], &j->from_world);
+    k->has_sun = j->o.light_count == 0 && j->light_count - j->lamp_count == 1;
+    if (k->has_sun) {
+        k->sun = j->lights[0];
+        k->sun.direction = turned(&back, k->sun.direction);
+    }
+    return 1;
+}
+
 static int make_env(mix_job *j, report *r)
 {
     const size_t bytes = lmb_env_bytes(ENV_SIZE);
@@ -84,6 +126,11 @@ static int make_env(mix_job *j, report *r)
         if (memory == NULL || lmb_env_init(&j->env[i], ENV_SIZE, memory, bytes) != LMB_OK) {
             return 0;
         }
+    }
+    if (j->kept != NULL && j->kept->frames > 0) {
+        const lmb_mat4 back = turned_back(&j->from_world);
+        turn_env(&j->env[0], &j->kept->env, &back);
+        return 1;
     }
     return j->o.world != NULL ? read_world(j, r)
                               : lmb_env_fold(&j->env[0], j->frame.light.pixels, j->frame.light.width,
@@ -180,6 +227,9 @@ int mix_light(mix_job *j, report *r)
     }
     if (j->o.light_count > 0) {
         place_lights(j);
+    } else if (j->kept != NULL && j->kept->frames > 0 && j->kept->has_sun) {
+        j->lights[0] = placed(j, &j->kept->sun);
+        j->light_count = 1;
     } else if (j->object_triangles > 0) {
         mix_guess_sun(&j->lights[0], j);
         j->light_count = 1;

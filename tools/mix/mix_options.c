@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../common/frame_name.h"
 #include "../common/option_value.h"
 #include "../common/options.h"
 #include "../picture/picture.h"
@@ -49,6 +50,11 @@ static const option_row photo_rows[] = {
     {.name = "--frame", .value = "PREFIX", .kind = OPTION_TEXT, AT(source.frame),
      .help = "PREFIX.color.(png|jpg|pfm), PREFIX.depth.(png|pfm) and PREFIX.json: fx fy cx cy, depth_unit_mm, and "
              "camera_to_world (4 x 4, rows) where it is known"},
+    {.name = "--frames", .value = "DIR|LIST", .kind = OPTION_TEXT, AT(frames),
+     .help = "many, in order: LIST, or DIR/frames.txt, has a PREFIX a line, beside it; a DIR of TUM's has rgb.txt, "
+             "depth.txt and groundtruth.txt (with --intrinsics; --depth-scale is 0.0002 then). The object stays where "
+             "it stands in the first; -o is a pattern, as frame_%04d.png; a frame that cannot be used is said and left "
+             "out"},
     {.name = "--photo", .value = "FILE", .kind = OPTION_TEXT, AT(source.photo), .file = OPTION_READS,
      .help = ".png .jpg .pfm"},
     {.name = "--depth", .value = "FILE", .kind = OPTION_TEXT, AT(source.depth), .file = OPTION_READS,
@@ -129,7 +135,8 @@ static const option_row output_rows[] = {
 const option_table mix_table = {
     .verb = "mix",
     .usage = "mix --frame PREFIX --object MESH -o OUT [options]\n"
-             "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]",
+             "mix --photo P --depth D --intrinsics FX,FY,CX,CY --object MESH -o OUT [options]\n"
+             "mix --frames DIR|LIST --object MESH -o frame_%04d.png [options]",
     .about =
         "Puts a virtual object into one photo with depth: finds the planes, stands it on one, lights it by what is "
         "around, and lets the photo answer with its shadow, its colour and its mirror image. Metres.",
@@ -146,8 +153,24 @@ const option_table mix_table = {
               "for two purposes",
 };
 
+static int complete_frames(const mix_options *o, report *r)
+{
+    if (o->source.frame != NULL || o->source.photo != NULL || o->source.depth != NULL) {
+        return report_fail(r, "--frames names all photos; leave --frame, --photo and --depth out");
+    }
+    if (o->out == NULL || frame_digits(o->out) == 0) {
+        return report_fail(r, "--frames: -o is a name with one %%0Nd, as frame_%%04d.png");
+    }
+    return o->show != MIX_PLANES && o->show != MIX_ENV && o->show != MIX_VOXELS
+               ? 1
+               : report_fail(r, "--frames: --show planes, voxels and env are of one photo");
+}
+
 static int complete(const mix_options *o, report *r)
 {
+    if (o->frames != NULL) {
+        return complete_frames(o, r);
+    }
     if (o->source.frame == NULL && o->source.photo == NULL) {
         return report_fail(r, "no photo given; add --frame PREFIX, or --photo, --depth and --intrinsics");
     }

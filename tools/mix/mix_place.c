@@ -1,4 +1,5 @@
 /* mix_place.c: where the virtual object stands, and the scene of it and the real surfaces. */
+#include "mix_frames.h"
 #include "mix_lobes.h"
 
 #include <math.h>
@@ -240,8 +241,92 @@ static void set_up(mix_job *j)
     j->up = floor >= 0 ? j->planes.plane[floor].normal : lmb_planes_up(&j->planes);
 }
 
+/* --- in a sequence ------------------------------------------------------------------------------------------------ */
+
+static lmb_vec3 turned(const lmb_mat4 *t, lmb_vec3 d)
+{
+    const float *m = t->m;
+    const lmb_vec3 out = {m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
+                          m[2] * d.x + m[6] * d.y + m[10] * d.z};
+    return out;
+}
+
+static lmb_vec3 moved(const lmb_mat4 *t, lmb_vec3 p)
+{
+    const lmb_vec3 d = turned(t, p), out = {d.x + t->m[12], d.y + t->m[13], d.z + t->m[14]};
+    return out;
+}
+
+/* Of a turn and a shift. */
+static lmb_mat4 inverse(const lmb_mat4 *t)
+{
+    lmb_mat4 out = identity;
+    for (int i = 0; i < 9; ++i) {
+        out.m[i / 3 * 4 + i % 3] = t->m[i % 3 * 4 + i / 3];
+    }
+    const lmb_vec3 at = {-t->m[12], -t->m[13], -t->m[14]}, back = turned(&out, at);
+    out.m[12] = back.x;
+    out.m[13] = back.y;
+    out.m[14] = back.z;
+    return out;
+}
+
+static lmb_mat4 camera_of(const mix_job *j)
+{
+    return j->frame.has_pose ? world_to_camera(j->frame.pose) : identity;
+}
+
+void mix_keep_place(mix_kept *k, const mix_job *j)
+{
+    const lmb_mat4 camera = camera_of(j), world = inverse(&camera), from = inverse(&j->from_world);
+    k->to_world = multiply(&from, &j->placed);
+    k->anchor = moved(&world, j->anchor);
+    k->up = turned(&world, j->up);
+    k->scale = j->scale;
+    k->hangs = j->hangs;
+}
+
+/* The plane of this frame that the object stands on: within ten degrees and 50 mm of where it stood; or -1. */
+static int32_t plane_below(const mix_job *j, lmb_vec3 normal)
+{
+    int32_t best = -1;
+    float near = 0.05f;
+    for (int32_t i = 0; i < j->planes.count; ++i) {
+        const lmb_flat *p = &j->planes.plane[i];
+        const float off = fabsf(dot(p->normal, j->anchor) + p->distance);
+        if (off < near && dot(p->normal, normal) > 0.985f) {
+            near = off;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static int place_again(mix_job *j, report *r)
+{
+    const mix_kept *k = j->kept;
+    const lmb_mat4 camera = camera_of(j);
+    j->object = k->object;
+    j->anchor = moved(&camera, k->anchor);
+    j->up = turned(&camera, k->up);
+    j->scale = k->scale;
+    j->floor = k->hangs ? -1 : plane_below(j, j->up);
+    j->faces_up = 1;
+    turn_scene(j);
+    j->gap_m = NAN;
+    j->placed = multiply(&j->from_world, &k->to_world);
+    if (!join_scene(j, &j->placed, r)) {
+        return 0;
+    }
+    look(j);
+    return 1;
+}
+
 int mix_place(mix_job *j, report *r)
 {
+    if (j->kept != NULL && j->kept->frames > 0 && j->o.object != NULL) {
+        return place_again(j, r);
+    }
     j->floor = -1;
     set_up(j);
     if (j->o.object == NULL) {
@@ -258,8 +343,8 @@ int mix_place(mix_job *j, report *r)
     }
     turn_scene(j);
     j->gap_m = j->o.at == MIX_AT_WORLD ? NAN : gap(j, r);
-    const lmb_mat4 place = object_to_scene(j);
-    if (!join_scene(j, &place, r)) {
+    j->placed = object_to_scene(j);
+    if (!join_scene(j, &j->placed, r)) {
         return 0;
     }
     look(j);

@@ -9,7 +9,8 @@
 #include "../../platform/host/host.h"
 #include "../common/progress.h"
 #include "../picture/picture.h"
-#include "mix_job.h"
+#include "../common/frame_name.h"
+#include "mix_frames.h"
 
 static void tell_place(const mix_job *j)
 {
@@ -151,6 +152,91 @@ static int mix(mix_job *j, report *r)
     return picture_write(j->o.out, &j->picture, exposure(j), PICTURE_CLIPPED, r) && (j->o.stats == NULL || write_stats(j, r));
 }
 
+/* --- sequences ---------------------------------------------------------------------------------------------------- */
+
+static int read_entry(mix_job *j, const mix_entry *e, report *r)
+{
+    mix_source *s = &j->o.source;
+    if (e->prefix[0] != '\0') {
+        s->frame = e->prefix;
+        return mix_frame_read(&j->frame, s, r);
+    }
+    s->photo = e->photo;
+    s->depth = e->depth;
+    s->depth_scale = s->depth_scale > 0.0f ? s->depth_scale : 0.0002f;
+    if (!s->has_intrinsics) {
+        return report_fail(r, "no camera given; add --intrinsics FX,FY,CX,CY");
+    }
+    if (!e->has_pose || !mix_is_pose(e->pose)) {
+        return report_fail(r, "has no pose");
+    }
+    if (!mix_frame_read(&j->frame, s, r)) {
+        return 0;
+    }
+    j->frame.has_pose = 1;
+    memcpy(j->frame.pose, e->pose, sizeof j->frame.pose);
+    return 1;
+}
+
+/* One frame: its picture is written, and what later frames need is kept. */
+static int mix_one(mix_job *j, mix_kept *k, const mix_entry *e, int32_t number, report *r)
+{
+    char name[4200];
+    double from = host_seconds();
+    j->kept = k;
+    if (!read_entry(j, e, r)) {
+        return 0;
+    }
+    if (k->frames > 0 && k->has_pose != j->frame.has_pose) {
+        return report_fail(r, j->frame.has_pose ? "has a pose, and those before it have none" : "has no pose");
+    }
+    j->read_s = lap(&from);
+    lmb_pinhole_round(&j->frame.camera);
+    if (!mix_keep_depth(k, &j->frame, r) || !mix_find_planes(j, r)) {
+        return 0;
+    }
+    j->planes_s = lap(&from);
+    if (!make_picture(j, &from, r) || !frame_name(name, sizeof name, j->o.out, number, r) ||
+        !picture_write(name, &j->picture, exposure(j), PICTURE_CLIPPED, r)) {
+        return 0;
+    }
+    if (k->frames == 0) {
+        tell(j);
+    }
+    tell_times(j);
+    return j->o.object == NULL || mix_keep(k, j, r);
+}
+
+/* A frame that cannot be used is said and left out; the others go on as if it had not been listed. */
+static int mix_frames(const mix_options *o, report *r)
+{
+    mix_list list;
+    mix_kept kept;
+    int32_t done = 0;
+    memset(&kept, 0, sizeof kept);
+    if (!mix_list_read(&list, o->frames, r)) {
+        return 0;
+    }
+    for (int32_t i = 0; i < list.count; ++i) {
+        report one = {""};
+        mix_job *j = calloc(1, sizeof *j);
+        if (j == NULL) {
+            break;
+        }
+        j->o = *o;
+        const int ok = mix_one(j, &kept, &list.entry[i], i, &one);
+        done += ok;
+        if (!ok) {
+            report_note(o->is_quiet, "frame %d is left out: %s", (int)i, one.text);
+        }
+        mix_job_free(j);
+        progress_tell("frames", (double)(i + 1) / (double)list.count);
+    }
+    mix_kept_free(&kept);
+    mix_list_free(&list);
+    return done > 0 || report_fail(r, "%s: no frame could be used", o->frames);
+}
+
 int verb_mix(int argc, char **argv)
 {
     report r = {""};
@@ -165,7 +251,7 @@ int verb_mix(int argc, char **argv)
         return options_answer(asked, &mix_table, &r);
     }
     progress_begin(j->o.is_quiet, "mix");
-    const int ok = mix(j, &r);
+    const int ok = j->o.frames != NULL ? mix_frames(&j->o, &r) : mix(j, &r);
     progress_end();
     mix_job_free(j);
     return ok ? 0 : report_end(&r, "mix", 1);

@@ -7,6 +7,7 @@
 
 #include "../../../tools/common/area_light.h"
 #include "../../../tools/common/io_file.h"
+#include "../../../tools/mix/mix_frames.h"
 #include "../../../tools/mix/mix_front.h"
 #include "../../../tools/mix/mix_lobes.h"
 #include "../../../tools/picture/image.h"
@@ -150,6 +151,14 @@ void mix_front_tile(lmb_tile *out, const lmb_tile *real, const lmb_tile *object,
     (void)object, (void)front, (void)cloud, (void)x, (void)y;
     *out = *real;
 }
+int mix_list_read(mix_list *out, const char *path, report *r)
+{
+    return (void)out, report_fail(r, "%s: the page mixes one photo", path);
+}
+void mix_list_free(mix_list *l) { (void)l; }
+int mix_keep_depth(mix_kept *k, mix_frame *f, report *r) { return (void)k, (void)f, (void)r, 0; }
+int mix_keep(mix_kept *k, mix_job *j, report *r) { return (void)k, (void)j, (void)r, 0; }
+void mix_kept_free(mix_kept *k) { (void)k; }
 void mix_guess_sun(lmb_light *out, const mix_job *j) { *out = j->o.lights[0]; }
 
 /* --- mix_lobes.h, mix_job.h: its objects are matt, and stand on planes as they were found ------------------------------ */

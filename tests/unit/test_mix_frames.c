@@ -1,0 +1,157 @@
+/* test_mix_frames.c: sequences: what is kept of depth, which poses are any, and that the object stays where it stands. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../../tools/mix/mix_frames.h"
+#include "../test.h"
+
+void test_mix_frames(void);
+
+enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
+
+static const lmb_pinhole camera = {WIDTH, HEIGHT, 80.0f, 80.0f, 47.5f, 35.5f};
+static const double still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+static mix_frame frame_at(double x)
+{
+    mix_frame f;
+    memset(&f, 0, sizeof f);
+    f.camera = camera;
+    f.has_pose = 1;
+    memcpy(f.pose, still, sizeof still);
+    f.pose[3] = x;
+    f.depth = malloc(PIXELS * sizeof(float));
+    f.light.width = WIDTH;
+    f.light.height = HEIGHT;
+    f.light.channels = 3;
+    f.light.pixels = malloc(3 * PIXELS * sizeof(float));
+    for (int i = 0; i < 3 * PIXELS; ++i) {
+        f.light.pixels[i] = 0.3f;
+    }
+    return f;
+}
+
+static void fill(mix_frame *f, float depth)
+{
+    for (int i = 0; i < PIXELS; ++i) {
+        f->depth[i] = depth;
+    }
+}
+
+/* A static camera: noise changes nothing, a hole is filled by what was measured before, and what differs is believed the
+ * second time. */
+static void depth_stays(void)
+{
+    mix_kept k;
+    report r = {""};
+    mix_frame f = frame_at(0.0);
+    memset(&k, 0, sizeof k);
+    fill(&f, 2.0f);
+    f.depth[5] = 0.0f;
+    f.depth[9] = NAN;
+    CHECK(mix_keep_depth(&k, &f, &r) && f.depth[5] == 0.0f && f.depth[9] == 0.0f && f.depth[6] == 2.0f);
+    fill(&f, 2.01f);
+    f.depth[6] = 0.0f;
+    f.depth[7] = 1.0f;
+    f.depth[8] = INFINITY;
+    CHECK(mix_keep_depth(&k, &f, &r));
+    CHECK(f.depth[4] == 2.0f && f.depth[6] == 2.0f && f.depth[7] == 2.0f && f.depth[8] == 2.0f);
+    CHECK(fabsf(f.depth[5] - 2.01f) < 1e-5f);
+    fill(&f, 2.01f);
+    f.depth[7] = 1.0f;
+    CHECK(mix_keep_depth(&k, &f, &r) && f.depth[7] == 1.0f && f.depth[4] == 2.0f);
+    mix_frame_free(&f);
+    mix_kept_free(&k);
+}
+
+/* A camera that moves to the right by eight pixels of a wall: what it does not measure now is what was seen there, and
+ * beyond its old picture it knows nothing. Another size begins anew. */
+static void depth_moves(void)
+{
+    mix_kept k;
+    report r = {""};
+    mix_frame f = frame_at(0.0);
+    memset(&k, 0, sizeof k);
+    for (int i = 0; i < PIXELS; ++i) {
+        f.depth[i] = i % WIDTH < 40 ? 2.0f : 2.5f;
+    }
+    CHECK(mix_keep_depth(&k, &f, &r));
+    fill(&f, 0.0f);
+    f.pose[3] = 8.0 * 2.0 / 80.0;
+    CHECK(mix_keep_depth(&k, &f, &r));
+    CHECK(f.depth[20 * WIDTH + 31] == 2.0f && fabsf(f.depth[20 * WIDTH + 60] - 2.5f) < 1e-5f);
+    CHECK(f.depth[20 * WIDTH + 95] == 0.0f);
+    f.camera.width = WIDTH / 2;
+    fill(&f, 3.0f);
+    CHECK(mix_keep_depth(&k, &f, &r) && fabsf(f.depth[0] - 3.0f) < 1e-5f && k.camera.width == WIDTH / 2);
+    mix_frame_free(&f);
+    mix_kept_free(&k);
+}
+
+static void poses(void)
+{
+    double p[16];
+    memcpy(p, still, sizeof p);
+    CHECK(mix_is_pose(p));
+    p[0] = -1.0; /* mirrored */
+    CHECK(!mix_is_pose(p));
+    p[5] = -1.0; /* half a turn */
+    CHECK(mix_is_pose(p));
+    p[10] = 2.0;
+    CHECK(!mix_is_pose(p));
+    p[10] = 1.0;
+    p[3] = NAN;
+    CHECK(!mix_is_pose(p));
+    memset(p, 0, sizeof p);
+    CHECK(!mix_is_pose(p));
+}
+
+static mix_job *job_at(double x, const mix_kept *k)
+{
+    static char square[] = "tests/fuzz/corpus/obj/quads.obj";
+    char *argv[] = {"mix", "--frame", "known", "--object", square, "--fit", "--voxels", "4", "--shadow-map", "64", "-q",
+                    "-o", "known.pfm", NULL};
+    report r = {""};
+    mix_job *j = calloc(1, sizeof *j);
+    if (j == NULL) {
+        abort();
+    }
+    CHECK_MSG(mix_options_parse(&j->o, 13, argv, &r), "%s", r.text);
+    j->kept = k;
+    j->frame = frame_at(x);
+    for (int i = 0; i < PIXELS; ++i) {
+        const lmb_vec3 ray = lmb_cloud_ray(&camera, (float)(i % WIDTH), (float)(i / WIDTH));
+        const float floor = ray.y < -0.01f ? -0.5f / ray.y : 1e9f;
+        j->frame.depth[i] = floor < 2.5f ? floor : 2.5f;
+    }
+    return j;
+}
+
+/* The camera moves 0.1 m to the right, and the object 0.1 m to the left in its space; plane and sun stay. */
+static void object_stays(void)
+{
+    mix_kept k;
+    report r = {""};
+    memset(&k, 0, sizeof k);
+    mix_job *a = job_at(0.0, &k);
+    CHECK(mix_find_planes(a, &r) && mix_place(a, &r) && mix_light(a, &r) && mix_keep(&k, a, &r));
+    mix_job *b = job_at(0.1, &k);
+    CHECK_MSG(mix_find_planes(b, &r) && mix_place(b, &r) && mix_light(b, &r), "%s", r.text);
+    CHECK(fabsf(b->anchor.x - a->anchor.x + 0.1f) < 1e-5f && fabsf(b->anchor.y - a->anchor.y) < 1e-5f);
+    CHECK(b->floor >= 0 && b->scale == a->scale && a->object_triangles == b->object_triangles);
+    CHECK(fabsf(b->placed.m[12] - a->placed.m[12] + 0.1f) < 1e-3f && fabsf(b->placed.m[14] - a->placed.m[14]) < 1e-3f);
+    CHECK(fabsf(b->lights[0].direction.x - a->lights[0].direction.x) < 1e-3f &&
+          b->lights[0].intensity[0] == a->lights[0].intensity[0]);
+    mix_job_free(a);
+    mix_job_free(b);
+    mix_kept_free(&k);
+}
+
+void test_mix_frames(void)
+{
+    depth_stays();
+    depth_moves();
+    poses();
+    object_stays();
+}

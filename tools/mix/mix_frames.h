@@ -1,0 +1,58 @@
+/* mix_frames.h: a sequence of photos with depth and pose: what is kept from frame to frame. */
+#ifndef MIX_FRAMES_H
+#define MIX_FRAMES_H
+
+#include "mix_job.h"
+
+/* What frames before have left, in the world of their poses. */
+typedef struct mix_kept {
+    int32_t frames;         /* that were mixed */
+    model object;
+    model_notes notes;
+    lmb_mat4 to_world;      /* of the object */
+    lmb_vec3 anchor, up;
+    float scale;
+    int hangs;
+    int has_sun;
+    lmb_light sun;          /* guessed at the first frame */
+    lmb_env env;            /* around the first frame */
+    void *env_memory;
+    lmb_pinhole camera;     /* that `inverse` is seen by */
+    int has_pose;
+    double pose[16];
+    float *inverse;         /* 1/m, by pixel: 0 where nothing was ever measured */
+    uint8_t *differs;       /* how many frames running measured something else */
+} mix_kept;
+
+/* One frame of a list. */
+typedef struct mix_entry {
+    char prefix[512];               /* as --frame; or, empty, by these: */
+    char photo[512], depth[512];
+    int has_pose;
+    double pose[16];
+} mix_entry;
+
+typedef struct mix_list {
+    mix_entry *entry;
+    int32_t count, cap;
+} mix_list;
+
+/* mix_list_read: of a folder with TUM's rgb.txt, depth.txt and groundtruth.txt or with frames.txt, or of a file with a
+ * PREFIX a line. 1, or 0 with `r` set. */
+int mix_list_read(mix_list *out, const char *path, report *r);
+void mix_list_free(mix_list *l);
+
+/* mix_keep_depth: what was measured agrees with what is known, and that stays; or it is new, or it differs twice, and
+ * replaces it. frame->depth becomes what is known now, as the frame's camera sees it. 1, or 0 with `r` set. */
+int mix_keep_depth(mix_kept *k, mix_frame *frame, report *r);
+
+/* Parts of mix_keep. */
+void mix_keep_place(mix_kept *k, const mix_job *j);
+int mix_keep_light(mix_kept *k, const mix_job *j, report *r);
+
+/* mix_keep: after the first frame: where its object stands, and its light. */
+int mix_keep(mix_kept *k, mix_job *j, report *r);
+
+void mix_kept_free(mix_kept *k);
+
+#endif
