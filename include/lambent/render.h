@@ -246,10 +246,9 @@ extern "C" {
 /* lmb_frame_bytes: all the memory of a frame by these settings but the scene, many_lights, a picture of the caller's
  * and lmb_render. 0 for settings that lmb_frame_init refuses, and for sizes that this target cannot address.
  *
- * With zeros a room with one spot at 640x480 takes 15 MiB and 116 bytes a triangle: 6 MiB the shadow map, 5 the tree,
- * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 82; LMB_GATHER_ADAPTIVE 15
- * MiB more. At 160x120 in the
- * tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
+ * With zeros a room with one spot at 640x480 takes 16 MiB and 116 bytes a triangle: 6 MiB the shadow map, 5 the tree,
+ * 3 the viewer's depth and ids and the picture, 2 a thread; LMB_QUALITY_DRAFT 12 MiB, _BEST 86; LMB_GATHER_ADAPTIVE 14
+ * MiB more. At 160x120 in the tiny configuration, with 16-bit pixels by bands, a map of 128 x 128 and 400 points, LMB_QUALITY_FIXED takes 215 KiB.
  * Cost: a pass over the lights. */
 size_t lmb_frame_bytes(const lmb_frame_settings *settings);
 
